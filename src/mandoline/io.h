@@ -1,0 +1,30 @@
+// Files: triangle meshes in, cut-meshes out. Not part of the WebAssembly build.
+#pragma once
+
+#include <iosfwd>
+#include <stdexcept>
+
+#include "mandoline/mandoline.h"
+#include "mandoline/validate.h"
+
+namespace mandoline {
+
+/// A file that can't be used; what() names the file and the line or element.
+struct FileError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Reads OBJ, STL, PLY or OFF (STL and PLY in text or binary), by content and extension, each also gzipped. Polygons are fanned from
+/// their first vertex; triangles are numbered in file order. Doubles are kept. Throws FileError.
+Mesh readMesh(const std::string& path);
+
+/// The complete dump as JSON; doubles read back identically.
+void writeJson(std::ostream& out, const CutMesh& cutMesh);
+/// VTK XML unstructured grid of polyhedra with cell arrays grid_cell, region, winding, volume. Faces with holes are split alike on both sides.
+void writeVtu(std::ostream& out, const MeshView& mesh, const CutMesh& cutMesh);
+/// The cut surface as polygons, one group per region.
+void writeObj(std::ostream& out, const CutMesh& cutMesh);
+/// Writes by extension: .json, .vtu or .obj. Throws FileError.
+void writeCutMesh(const std::string& path, const MeshView& mesh, const CutMesh& cutMesh);
+
+}  // namespace mandoline

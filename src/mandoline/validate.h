@@ -1,0 +1,27 @@
+// Checks of a cut-mesh against its input, worked out from its arrays alone: nothing that the cutter knew is trusted.
+#pragma once
+
+#include "mandoline/mandoline.h"
+
+namespace mandoline {
+
+struct Check {
+  std::string name;         ///< e.g. "surfaceArea"
+  bool pass = true;
+  bool skipped = false;     ///< does not apply to this input, e.g. winding numbers of an open mesh
+  double worst = 0;         ///< largest deviation found, in `unit`
+  double tolerance = 0;     ///< what it may be; 0 for combinatorial checks, whose worst is a number of violations
+  std::string elementKind;  ///< "cell", "face", "triangle", ... of the worst deviation; empty if none
+  int64_t element = -1;
+  std::string message;      ///< why it fails, or what was left out; may be empty
+};
+
+struct Validation {
+  bool pass = true;
+  std::vector<Check> checks;
+};
+
+/// The paper's four checks (5.6) and the invariants of a cut-mesh. `mesh` is the input, `snapTolerance` that of the cut.
+Validation validate(const MeshView& mesh, const CutMesh& cutMesh, double snapTolerance = 0);
+
+}  // namespace mandoline
