@@ -1,0 +1,117 @@
+// Grids, and small parts of the public structs.
+#include "mandoline/mandoline.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mandoline {
+namespace {
+
+constexpr int64_t kMostCells = int64_t(1) << 24;
+
+/// Cell counts that make no sense leave the axis without planes or with too many, which cut() reports.
+template <class PlaneAt>
+std::vector<double> makePlanes(int64_t cells, const PlaneAt& planeAt) {
+  std::vector<double> planes;
+  if (cells < 1) return planes;
+  if (cells > kMostCells) cells = kMostCells + 1;
+  planes.resize(size_t(cells) + 1);
+  for (int64_t c = 0; c <= cells; ++c) planes[size_t(c)] = planeAt(c);
+  return planes;
+}
+
+}  // namespace
+
+Grid Grid::box(const std::array<double, 3>& lo, const std::array<double, 3>& hi, const std::array<int64_t, 3>& cells) {
+  Grid grid;
+  grid.uniform = true;
+  grid.origin = lo;
+  for (int d = 0; d < 3; ++d) {
+    const double n = double(cells[d]);
+    grid.spacing[d] = (hi[d] - lo[d]) / n;
+    grid.planes[d] = makePlanes(cells[d], [&](int64_t c) { return c == cells[d] ? hi[d] : lo[d] + (hi[d] - lo[d]) * double(c) / n; });
+  }
+  return grid;
+}
+
+Grid Grid::regular(const std::array<double, 3>& origin, const std::array<double, 3>& spacing, const std::array<int64_t, 3>& cells) {
+  Grid grid;
+  grid.uniform = true;
+  grid.origin = origin;
+  grid.spacing = spacing;
+  for (int d = 0; d < 3; ++d) grid.planes[d] = makePlanes(cells[d], [&](int64_t c) { return origin[d] + spacing[d] * double(c); });
+  return grid;
+}
+
+Grid Grid::rectilinear(std::array<std::vector<double>, 3> planes) {
+  Grid grid;
+  grid.planes = std::move(planes);
+  for (int d = 0; d < 3; ++d) grid.origin[d] = grid.planes[d].empty() ? 0 : grid.planes[d][0];
+  return grid;
+}
+
+Grid Grid::around(const MeshView& mesh, int64_t n) {
+  std::array<double, 3> low, high;
+  low.fill(INFINITY);
+  high.fill(-INFINITY);
+  for (const uint32_t v : mesh.triangles) {
+    for (int d = 0; d < 3 && v < mesh.vertexCount(); ++d) {
+      const double x = mesh.positions[3 * size_t(v) + d];
+      if (!std::isfinite(x)) continue;
+      low[d] = std::min(low[d], x);
+      high[d] = std::max(high[d], x);
+    }
+  }
+  double longest = 0;
+  for (int d = 0; d < 3; ++d) longest = std::max(longest, high[d] - low[d]);
+  if (!(longest > 0)) longest = 1;  // a point, or nothing
+  const double margin = 0.05 * longest, spacing = 1.1 * longest / double(n);
+  std::array<double, 3> boxLow, boxHigh;
+  std::array<int64_t, 3> cells;
+  for (int d = 0; d < 3; ++d) {
+    if (!(low[d] <= high[d])) low[d] = high[d] = 0;
+    const double span = high[d] - low[d] + 2 * margin, middle = 0.5 * low[d] + 0.5 * high[d];
+    // Rounding must not turn a side of just n cells into n + 1.
+    cells[d] = n < 1 ? n : std::clamp(int64_t(std::ceil(span / spacing * (1 - 1e-12))), int64_t(1), std::max<int64_t>(n, 1));
+    boxLow[d] = middle - 0.5 * spacing * double(cells[d]);
+    boxHigh[d] = middle + 0.5 * spacing * double(cells[d]);
+  }
+  return box(boxLow, boxHigh, cells);
+}
+
+size_t CutMesh::untouchedCellCount() const {
+  size_t count = 0;
+  for (size_t r = 0; r < runBegin.size(); ++r) count += size_t(runEnd[r] - runBegin[r]);
+  return count;
+}
+
+std::vector<int32_t> CutMesh::gridCellRegion() const {
+  std::vector<int32_t> dense(size_t(grid.cells(0)) * size_t(grid.cells(1)) * size_t(grid.cells(2)), -1);
+  for (size_t row = 0; row + 1 < rowRunOffsets.size(); ++row) {
+    for (uint32_t r = rowRunOffsets[row]; r < rowRunOffsets[row + 1]; ++r) {
+      const auto first = dense.begin() + std::ptrdiff_t(row * size_t(grid.cells(0)));
+      std::fill(first + runBegin[r], first + runEnd[r], int32_t(runRegion[r]));
+    }
+  }
+  return dense;
+}
+
+const char* name(Status status) {
+  switch (status) {
+    case Status::ok: return "ok";
+    case Status::cancelled: return "cancelled";
+    case Status::emptyMesh: return "emptyMesh";
+    case Status::badArrays: return "badArrays";
+    case Status::badIndex: return "badIndex";
+    case Status::nonFiniteCoordinate: return "nonFiniteCoordinate";
+    case Status::badGrid: return "badGrid";
+    case Status::gridTooLarge: return "gridTooLarge";
+    case Status::badOption: return "badOption";
+    case Status::selfIntersection: return "selfIntersection";
+    case Status::meshTooLarge: return "meshTooLarge";
+    case Status::outOfMemory: return "outOfMemory";
+  }
+  return "unknown";
+}
+
+}  // namespace mandoline
