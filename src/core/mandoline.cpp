@@ -4,10 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/exact.h"
+
 namespace mandoline {
 namespace {
 
+using detail::Expansion;
+
 constexpr int64_t kMostCells = int64_t(1) << 24;
+
+// Planes are rounded once, from exact sums: then a symmetric box has symmetric planes, and what is symmetric or flat in a mesh lies on
+// them or clear of them rather than off by one rounding. Sizes near the ends of the doubles' range do without.
+bool safeToMultiply(double x) { return x == 0 || (std::fabs(x) < 0x1p900 && std::fabs(x) > 0x1p-900); }
 
 /// Cell counts that make no sense leave the axis without planes or with too many, which cut() reports.
 template <class PlaneAt>
@@ -29,7 +37,11 @@ Grid Grid::box(const std::array<double, 3>& lo, const std::array<double, 3>& hi,
   for (int d = 0; d < 3; ++d) {
     const double n = double(cells[d]);
     grid.spacing[d] = (hi[d] - lo[d]) / n;
-    grid.planes[d] = makePlanes(cells[d], [&](int64_t c) { return c == cells[d] ? hi[d] : lo[d] + (hi[d] - lo[d]) * double(c) / n; });
+    grid.planes[d] = makePlanes(cells[d], [&](int64_t c) {
+      if (c == 0 || c == cells[d]) return c == 0 ? lo[d] : hi[d];
+      if (!safeToMultiply(lo[d]) || !safeToMultiply(hi[d])) return lo[d] + (hi[d] - lo[d]) * (double(c) / n);
+      return Expansion::quotient(Expansion(lo[d]) * Expansion(n - double(c)) + Expansion(hi[d]) * Expansion(double(c)), Expansion(n));
+    });
   }
   return grid;
 }
@@ -65,18 +77,23 @@ Grid Grid::around(const MeshView& mesh, int64_t n) {
   double longest = 0;
   for (int d = 0; d < 3; ++d) longest = std::max(longest, high[d] - low[d]);
   if (!(longest > 0)) longest = 1;  // a point, or nothing
+  Grid grid;
+  grid.uniform = true;
   const double margin = 0.05 * longest, spacing = 1.1 * longest / double(n);
-  std::array<double, 3> boxLow, boxHigh;
-  std::array<int64_t, 3> cells;
   for (int d = 0; d < 3; ++d) {
     if (!(low[d] <= high[d])) low[d] = high[d] = 0;
     const double span = high[d] - low[d] + 2 * margin, middle = 0.5 * low[d] + 0.5 * high[d];
     // Rounding must not turn a side of just n cells into n + 1.
-    cells[d] = n < 1 ? n : std::clamp(int64_t(std::ceil(span / spacing * (1 - 1e-12))), int64_t(1), std::max<int64_t>(n, 1));
-    boxLow[d] = middle - 0.5 * spacing * double(cells[d]);
-    boxHigh[d] = middle + 0.5 * spacing * double(cells[d]);
+    const int64_t cells = n < 1 ? n : std::clamp(int64_t(std::ceil(span / spacing * (1 - 1e-12))), int64_t(1), n);
+    grid.planes[d] = makePlanes(cells, [&](int64_t c) {
+      const double halves = double(2 * c - cells);
+      if (!safeToMultiply(spacing)) return middle + 0.5 * spacing * halves;
+      return (Expansion(middle) + Expansion(0.5 * spacing) * Expansion(halves)).estimate();
+    });
+    grid.spacing[d] = spacing;
+    if (!grid.planes[d].empty()) grid.origin[d] = grid.planes[d][0];
   }
-  return box(boxLow, boxHigh, cells);
+  return grid;
 }
 
 size_t CutMesh::untouchedCellCount() const {

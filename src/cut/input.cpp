@@ -206,7 +206,10 @@ std::vector<Stitch> findStitches(const Input& input, const std::vector<uint32_t>
   std::vector<Use> uses;
   for (const uint32_t t : flat) {
     const auto& v = input.triangles[t];
-    for (int i = 0; i < 3; ++i) uses.push_back({std::min(v[i], v[(i + 1) % 3]), std::max(v[i], v[(i + 1) % 3]), t});
+    for (int i = 0; i < 3; ++i) {
+      const uint32_t a = v[i], b = v[(i + 1) % 3];
+      if (a != b) uses.push_back({std::min(a, b), std::max(a, b), t});  // a point is on many lines
+    }
   }
   std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.key() != b.key() ? a.key() < b.key() : a.triangle < b.triangle; });
   const auto indexOf = [&](uint32_t t) { return uint32_t(std::lower_bound(flat.begin(), flat.end(), t) - flat.begin()); };
@@ -227,7 +230,7 @@ std::vector<Stitch> findStitches(const Input& input, const std::vector<uint32_t>
   std::vector<Stitch> stitches;
   for (size_t i = 0; i < uses.size(); ++i) {
     const auto [low, high, triangle] = uses[i];
-    if (low == high || (i > 0 && uses[i].key() == uses[i - 1].key())) continue;
+    if (i > 0 && uses[i].key() == uses[i - 1].key()) continue;
     const auto& line = verticesOf[lines.find(indexOf(triangle))];
     const bool ascending = before(low, high);
     const auto first = std::upper_bound(line.begin(), line.end(), ascending ? low : high, before);

@@ -1,5 +1,8 @@
 #include "cut/output.h"
 
+#include <cmath>
+#include <cstring>
+
 namespace mandoline::detail {
 namespace {
 
@@ -82,6 +85,47 @@ void writeVertices(const MeshView& mesh, const Grid& grid, const Input& input, c
   for (const Predicates& p : chunks) stats.exactFallbacks += p.fallbacks;
 }
 
+/// Moves made vertices that rounding put onto another one by a few units in the last place, so that no two have the same position.
+/// Vertices on different grid elements never need it: see CutVertices::position.
+void separate(CutMesh& out) {
+  const size_t n = out.vertexMask.size();
+  size_t size = 16;
+  while (size < 2 * n) size *= 2;
+  std::vector<uint32_t> table(size, kUnused);
+  const auto find = [&](const double* p) -> uint32_t& {  // the slot that has a vertex at p, or is free for one
+    uint64_t bits[3];
+    for (int d = 0; d < 3; ++d) {
+      const double x = p[d] + 0.0;
+      std::memcpy(&bits[d], &x, sizeof x);
+    }
+    uint64_t hash = (bits[0] * 0x9e3779b97f4a7c15u) ^ (bits[1] * 0xbf58476d1ce4e5b9u) ^ (bits[2] * 0x94d049bb133111ebu);
+    hash ^= hash >> 32;
+    for (size_t slot = hash & (size - 1);; slot = (slot + 1) & (size - 1)) {
+      const uint32_t v = table[slot];
+      if (v == kUnused || std::equal(p, p + 3, &out.positions[3 * size_t(v)])) return table[slot];
+    }
+  };
+  for (uint32_t v = 0; v < n; ++v) {
+    double* p = &out.positions[3 * size_t(v)];
+    uint32_t* slot = &find(p);
+    const Point original = {p[0], p[1], p[2]};
+    for (int steps = 1; *slot != kUnused && steps < 64; ++steps) {
+      for (int way = 0; way < 6 && *slot != kUnused; ++way) {
+        const int d = way >> 1, c = out.vertexCell[3 * size_t(v) + d];
+        if (out.vertexMask[v] >> d & 1 || out.vertexTriVertex[v] >= 0) continue;
+        const double toward = out.grid.planes[d][size_t(c) + (way & 1)];
+        double x = original[d];
+        for (int i = 0; i < steps; ++i) x = std::nextafter(x, toward);
+        if (x == toward) continue;
+        std::copy(original.begin(), original.end(), p);
+        p[d] = x;
+        slot = &find(p);
+      }
+    }
+    if (*slot == kUnused) *slot = v;
+  }
+}
+
 /// Triangles without a face: those dropped before, and those outside of the grid.
 void listDropped(const Input& input, CutMesh& out, CutStats& stats) {
   std::vector<uint8_t> has(input.triangles.size(), 0);
@@ -105,6 +149,7 @@ CutMesh makeOutput(const MeshView& mesh, const Grid& grid, const Input& input, c
   const std::vector<uint32_t> ids = numberVertices(vertices.size(), out);
   for (uint32_t& v : out.loopVertices) v = ids[v];
   writeVertices(mesh, grid, input, vertices, ids, out, stats, monitor);
+  separate(out);
 
   out.cellHalfFaceOffsets = std::move(cells.halfFaces.offsets);
   out.cellHalfFaces = std::move(cells.halfFaces.items);
