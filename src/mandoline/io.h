@@ -24,7 +24,9 @@ void writeJson(std::ostream& out, const CutMesh& cutMesh);
 void writeVtu(std::ostream& out, const MeshView& mesh, const CutMesh& cutMesh);
 /// The cut surface as polygons, one group per region.
 void writeObj(std::ostream& out, const CutMesh& cutMesh);
-/// Writes by extension: .json, .vtu or .obj. Throws FileError.
+/// Writes by extension: .json, .vtu or .obj. The file appears when it is complete. Throws FileError.
 void writeCutMesh(const std::string& path, const MeshView& mesh, const CutMesh& cutMesh);
+/// Throws the FileError that writeCutMesh would meet at once, before there is anything to write: an unknown extension, no such folder.
+void checkOutput(const std::string& path);
 
 }  // namespace mandoline

@@ -1,0 +1,204 @@
+#include "cli/inspect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+#include "cli/json.h"
+#include "core/exact.h"
+#include "core/union_find.h"
+
+namespace mandoline::cli {
+namespace {
+
+using Corners = std::array<uint32_t, 3>;
+
+bool isFinite(const MeshView& mesh, size_t v) {
+  return std::isfinite(mesh.positions[3 * v]) && std::isfinite(mesh.positions[3 * v + 1]) && std::isfinite(mesh.positions[3 * v + 2]);
+}
+
+/// Per vertex the lowest one at its position.
+std::vector<uint32_t> weld(const MeshView& mesh) {
+  std::vector<uint32_t> lowest(mesh.vertexCount()), order;
+  for (uint32_t v = 0; v < lowest.size(); ++v) {
+    lowest[v] = v;
+    if (isFinite(mesh, v)) order.push_back(v);
+  }
+  const auto position = [&](uint32_t v) { return mesh.positions.data() + 3 * size_t(v); };
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    const double *p = position(a), *q = position(b);
+    for (int d = 0; d < 3; ++d) {
+      if (p[d] != q[d]) return p[d] < q[d];
+    }
+    return a < b;
+  });
+  for (size_t i = 1; i < order.size(); ++i) {
+    const double* p = position(order[i]);
+    if (std::equal(p, p + 3, position(order[i - 1]))) lowest[order[i]] = lowest[order[i - 1]];
+  }
+  return lowest;
+}
+
+bool hasThreeVertices(const Corners& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; }
+
+void countEdges(const std::vector<Corners>& triangles, MeshInfo& info) {
+  struct Use {
+    uint32_t low, high;
+    bool upwards;
+  };
+  std::vector<Use> uses;
+  for (const Corners& t : triangles) {
+    if (!hasThreeVertices(t)) continue;
+    for (int i = 0; i < 3; ++i) {
+      const uint32_t a = t[i], b = t[(i + 1) % 3];
+      uses.push_back({std::min(a, b), std::max(a, b), a < b});
+    }
+  }
+  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
+  info.closed = info.oriented = !uses.empty();
+  for (size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
+    size_t upwards = 0;
+    for (; end < uses.size() && uses[end].low == uses[begin].low && uses[end].high == uses[begin].high; ++end) upwards += uses[end].upwards;
+    const size_t count = end - begin;
+    info.openEdges += count == 1;
+    info.nonManifoldEdges += count > 2;
+    info.inconsistentEdges += count == 2 && upwards != 1;
+    if (count % 2 != 0) info.closed = false;
+    if (2 * upwards != count) info.oriented = false;
+  }
+}
+
+size_t countComponents(const std::vector<Corners>& triangles, size_t vertexCount) {
+  detail::UnionFind sets(vertexCount);
+  for (const Corners& t : triangles) {
+    sets.unite(t[0], t[1]);
+    sets.unite(t[0], t[2]);
+  }
+  std::vector<uint8_t> seen(vertexCount, 0);
+  for (const Corners& t : triangles) seen[sets.find(t[0])] = 1;
+  return size_t(std::count(seen.begin(), seen.end(), 1));
+}
+
+size_t countDuplicates(std::vector<Corners> triangles) {
+  for (Corners& t : triangles) std::sort(t.begin(), t.end());
+  std::sort(triangles.begin(), triangles.end());
+  size_t count = 0;
+  for (size_t t = 1; t < triangles.size(); ++t) count += hasThreeVertices(triangles[t]) && triangles[t] == triangles[t - 1];
+  return count;
+}
+
+size_t countZeroArea(const MeshView& mesh, const std::vector<Corners>& triangles) {
+  double largest = 0;
+  for (const double x : mesh.positions) {
+    if (std::isfinite(x)) largest = std::max(largest, std::fabs(x));
+  }
+  // A power of two, so that no product of coordinates overflows or underflows.
+  const int shift = largest > 0 ? 120 - std::ilogb(largest) : 0;
+  const auto coordinate = [&](uint32_t v, int d) { return std::ldexp(mesh.positions[3 * size_t(v) + size_t(d)], shift); };
+  detail::Predicates predicates;
+  const auto isFlat = [&](const Corners& t) {
+    for (int d = 0; d < 3; ++d) {
+      const int p = (d + 1) % 3, q = (d + 2) % 3;
+      if (predicates.orient2d(coordinate(t[0], p), coordinate(t[0], q), coordinate(t[1], p), coordinate(t[1], q), coordinate(t[2], p),
+                              coordinate(t[2], q)) != 0) {
+        return false;
+      }
+    }
+    return true;
+  };
+  size_t count = 0;
+  for (const Corners& t : triangles) {
+    const bool finite = isFinite(mesh, t[0]) && isFinite(mesh, t[1]) && isFinite(mesh, t[2]);
+    count += finite && (!hasThreeVertices(t) || isFlat(t));
+  }
+  return count;
+}
+
+std::string vectorText(const std::array<double, 3>& v) {
+  std::ostringstream out;
+  out << '(' << v[0] << ", " << v[1] << ", " << v[2] << ')';
+  return out.str();
+}
+
+}  // namespace
+
+Box boundingBox(const MeshView& mesh) {
+  Box box;
+  box.low.fill(INFINITY);
+  box.high.fill(-INFINITY);
+  for (const uint32_t v : mesh.triangles) {
+    for (size_t d = 0; d < 3; ++d) {
+      const double x = mesh.positions[3 * size_t(v) + d];
+      if (!std::isfinite(x)) continue;
+      box.low[d] = std::min(box.low[d], x);
+      box.high[d] = std::max(box.high[d], x);
+    }
+  }
+  for (size_t d = 0; d < 3; ++d) {
+    if (!(box.low[d] <= box.high[d])) box.low[d] = box.high[d] = 0;
+  }
+  return box;
+}
+
+MeshInfo inspect(const MeshView& mesh) {
+  MeshInfo info;
+  info.vertices = mesh.vertexCount();
+  info.triangles = mesh.triangleCount();
+  info.box = boundingBox(mesh);
+  const std::vector<uint32_t> lowest = weld(mesh);
+  std::vector<uint8_t> referenced(info.vertices, 0);
+  for (const uint32_t v : mesh.triangles) referenced[v] = 1;
+  for (uint32_t v = 0; v < info.vertices; ++v) {
+    info.weldedVertices += lowest[v] != v;
+    info.unreferencedVertices += referenced[v] == 0;
+    info.nonFiniteVertices += !isFinite(mesh, v);
+  }
+  std::vector<Corners> triangles(info.triangles);
+  for (size_t t = 0; t < info.triangles; ++t) {
+    for (size_t i = 0; i < 3; ++i) triangles[t][i] = lowest[mesh.triangles[3 * t + i]];
+  }
+  countEdges(triangles, info);
+  info.components = countComponents(triangles, info.vertices);
+  info.zeroAreaTriangles = countZeroArea(mesh, triangles);
+  info.duplicateTriangles = countDuplicates(std::move(triangles));
+  return info;
+}
+
+std::string infoJson(const std::string& path, const MeshInfo& info) {
+  Json json;
+  json.open('{').member("mesh", path).member("vertices", info.vertices).member("triangles", info.triangles);
+  json.key("box").open('{').key("low").values(info.box.low).key("high").values(info.box.high).close('}');
+  json.member("closed", info.closed).member("oriented", info.oriented);
+  json.member("openEdges", info.openEdges)
+      .member("nonManifoldEdges", info.nonManifoldEdges)
+      .member("inconsistentEdges", info.inconsistentEdges);
+  json.member("components", info.components);
+  json.member("zeroAreaTriangles", info.zeroAreaTriangles).member("duplicateTriangles", info.duplicateTriangles);
+  json.member("weldedVertices", info.weldedVertices).member("unreferencedVertices", info.unreferencedVertices);
+  json.member("nonFiniteVertices", info.nonFiniteVertices).close('}');
+  return json.text();
+}
+
+std::string infoText(const std::string& path, const MeshInfo& info) {
+  std::ostringstream out;
+  out << path << ": " << info.vertices << " vertices, " << info.triangles << " triangles\n"
+      << "  box                   " << vectorText(info.box.low) << " to " << vectorText(info.box.high) << "\n"
+      << "  closed                "
+      << (!info.closed    ? "no"
+          : info.oriented ? "yes, consistently oriented"
+                          : "yes, but not consistently oriented")
+      << "\n"
+      << "  open edges            " << info.openEdges << "\n"
+      << "  non-manifold edges    " << info.nonManifoldEdges << "\n"
+      << "  inconsistent edges    " << info.inconsistentEdges << "\n"
+      << "  components            " << info.components << "\n"
+      << "  zero-area triangles   " << info.zeroAreaTriangles << "\n"
+      << "  duplicate triangles   " << info.duplicateTriangles << "\n"
+      << "  welded vertices       " << info.weldedVertices << "\n"
+      << "  unreferenced vertices " << info.unreferencedVertices << "\n";
+  if (info.nonFiniteVertices > 0) out << "  non-finite vertices   " << info.nonFiniteVertices << "\n";
+  return out.str();
+}
+
+}  // namespace mandoline::cli

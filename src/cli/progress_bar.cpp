@@ -1,0 +1,53 @@
+#include "cli/progress_bar.h"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <string>
+
+namespace mandoline::cli {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;  // signal handlers see globals only
+
+void onInterrupt(int signal) {
+  interrupted = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+constexpr auto kInterval = std::chrono::milliseconds(100);
+
+}  // namespace
+
+ProgressBar::ProgressBar() : visible_(isatty(STDERR_FILENO) != 0), next_(std::chrono::steady_clock::now() + kInterval) {
+  interrupted = 0;
+  std::signal(SIGINT, onInterrupt);
+}
+
+ProgressBar::~ProgressBar() {
+  std::signal(SIGINT, SIG_DFL);
+  if (drawn_) std::fputs("\r\x1b[K", stderr);
+}
+
+bool ProgressBar::update(const Progress& progress) {
+  const auto now = std::chrono::steady_clock::now();
+  if (visible_ && now >= next_) {
+    draw(progress);
+    next_ = now + kInterval;
+  }
+  return interrupted == 0;
+}
+
+void ProgressBar::draw(const Progress& progress) {
+  constexpr int kWidth = 40;
+  const double stageDone = progress.total > 0 ? double(progress.done) / double(progress.total) : 0;
+  const double done = (progress.stageIndex + stageDone) / progress.stageCount;
+  std::string bar(kWidth, ' ');
+  bar.replace(0, size_t(done * kWidth), std::string(size_t(done * kWidth), '='));
+  std::fprintf(stderr, "\r[%s] %3d %% %s\x1b[K", bar.c_str(), int(100 * done), progress.stage);
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+}  // namespace mandoline::cli

@@ -1,0 +1,206 @@
+#include "cli/report.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+
+#include "cli/json.h"
+
+namespace mandoline::cli {
+namespace {
+
+struct Count {
+  const char* key;
+  const char* label;
+  uint64_t value;
+};
+
+std::vector<Count> cutMeshCounts(const CutMesh& m) {
+  return {{"cutCells", "cut-cells", m.cellCount()},
+          {"untouchedCells", "untouched grid cells", m.untouchedCellCount()},
+          {"cells", "cells in total", m.cellCount() + m.untouchedCellCount()},
+          {"regions", "regions", m.regionCount},
+          {"vertices", "cut-vertices", m.vertexCount()},
+          {"faces", "cut-faces", m.faceCount()},
+          {"loops", "loops of cut-faces", m.loopCount()}};
+}
+
+/// What was unusual about the input.
+std::vector<Count> inputCounts(const CutResult& result) {
+  const CutStats& s = result.stats;
+  return {{"droppedTriangles", "dropped triangles", result.mesh.droppedTriangles.size()},
+          {"zeroAreaTriangles", "  of zero area", s.zeroAreaTriangles},
+          {"duplicateTriangles", "  duplicates", s.duplicateTriangles},
+          {"outsideTriangles", "  outside of the grid", s.outsideTriangles},
+          {"weldedVertices", "welded vertices", s.weldedVertices},
+          {"snappedVertices", "snapped vertices", s.snappedVertices},
+          {"flushedCoordinates", "coordinates taken as 0", s.flushedCoordinates}};
+}
+
+std::array<int64_t, 3> cellsOf(const Grid& grid) { return {grid.cells(0), grid.cells(1), grid.cells(2)}; }
+
+void addElement(Json& json, const char* key, int64_t element) {
+  json.key(key);
+  if (element < 0) {
+    json.null();
+  } else {
+    json.value(element);
+  }
+}
+
+void addRegions(Json& json, const Report& report) {
+  const CutMesh& m = report.result.mesh;
+  json.key("regions").open('[');
+  for (uint32_t r = 0; r < m.regionCount; ++r) {
+    json.open('{').member("id", r).key("winding");
+    if (m.hasWinding) {
+      json.value(m.regionWinding[r]);
+    } else {
+      json.null();
+    }
+    json.member("volume", report.regionVolumes[r]).close('}');
+  }
+  json.close(']');
+}
+
+void addValidation(Json& json, const std::optional<Validation>& validation) {
+  json.key("validation");
+  if (!validation) {
+    json.null();
+    return;
+  }
+  json.open('[');
+  for (const Check& check : validation->checks) {
+    json.open('{').member("name", check.name).member("pass", check.pass).member("skipped", check.skipped).member("worst", check.worst);
+    json.member("tolerance", check.tolerance).member("elementKind", check.elementKind);
+    addElement(json, "element", check.element);
+    json.member("message", check.message).close('}');
+  }
+  json.close(']');
+}
+
+/// Text in columns.
+class TextReport {
+ public:
+  explicit TextReport(const Report& report) : report_(report), mesh_(report.result.mesh) {}
+
+  std::string text() {
+    addHead();
+    if (report_.result) {
+      addCounts();
+      addRegions();
+    }
+    addTimings();
+    if (report_.validation) addValidation(*report_.validation);
+    return out_.str();
+  }
+
+ private:
+  static constexpr int kLabelWidth = 26, kNumberWidth = 12;
+  static constexpr uint32_t kMostRegions = 20;
+
+  void addHead() {
+    const Grid& g = report_.grid;
+    out_ << report_.arguments.mesh << ": " << report_.mesh.vertexCount() << " vertices, " << report_.mesh.triangleCount() << " triangles\n"
+         << "Grid of " << g.cells(0) << " x " << g.cells(1) << " x " << g.cells(2) << " cells, " << triple(g.spacing, " x ")
+         << " each, from (" << triple(g.origin, ", ") << ")\n";
+    if (report_.result) return;
+    out_ << "\nNot cut: " << name(report_.result.error.status) << "\n  " << report_.result.error.message << "\n";
+  }
+
+  void addCounts() {
+    out_ << "\nCounts\n";
+    for (const Count& count : cutMeshCounts(mesh_)) addCount(count);
+    const std::vector<Count> unusual = inputCounts(report_.result);
+    for (const Count& count : unusual) {
+      if (count.value > 0) addCount(count);
+    }
+    if (report_.result.stats.snappedVertices > 0)
+      label("farthest snap (cells)") << std::setw(kNumberWidth) << report_.result.stats.largestSnap << "\n";
+  }
+
+  void addRegions() {
+    out_ << "\nRegions\n  " << std::setw(8) << "id" << std::setw(10) << "winding" << std::setw(16) << "volume"
+         << "\n";
+    const uint32_t shown = std::min(mesh_.regionCount, kMostRegions);
+    for (uint32_t r = 0; r < shown; ++r) {
+      out_ << "  " << std::setw(8) << r << std::setw(10) << (mesh_.hasWinding ? std::to_string(mesh_.regionWinding[r]) : "-")
+           << std::setw(16) << report_.regionVolumes[r] << "\n";
+    }
+    if (shown < mesh_.regionCount) out_ << "  and " << mesh_.regionCount - shown << " more\n";
+  }
+
+  void addTimings() {
+    out_ << "\nTimings (ms)\n" << std::fixed << std::setprecision(2);
+    for (const StageTime& stage : report_.result.stats.stages) label(stage.stage) << std::setw(kNumberWidth) << stage.ms << "\n";
+    label("total") << std::setw(kNumberWidth) << report_.result.stats.totalMs << "\n\n";
+    label("Peak memory (MB)") << std::setw(kNumberWidth) << double(report_.peakMemoryBytes) / 1e6 << "\n";
+    label("Exact fallbacks") << std::setw(kNumberWidth) << report_.result.stats.exactFallbacks << "\n";
+    out_ << std::defaultfloat << std::setprecision(6);
+  }
+
+  void addValidation(const Validation& validation) {
+    out_ << "\nValidation: " << (validation.pass ? "pass" : "FAIL") << "\n  " << std::left << std::setw(28) << "check" << std::setw(9)
+         << "verdict" << std::setw(14) << "worst" << std::setw(14) << "tolerance"
+         << "element\n";
+    for (const Check& check : validation.checks) {
+      out_ << "  " << std::setw(28) << check.name << std::setw(9) << (check.skipped ? "skipped" : check.pass ? "pass" : "FAIL");
+      if (!check.skipped) out_ << std::setw(14) << check.worst << std::setw(14) << check.tolerance << element(check);
+      out_ << "\n";
+      if (!check.message.empty()) out_ << "    " << check.message << "\n";
+    }
+    out_ << std::right;
+  }
+
+  static std::string element(const Check& check) {
+    return check.elementKind.empty() ? "-" : check.elementKind + " " + std::to_string(check.element);
+  }
+  static std::string triple(const std::array<double, 3>& v, const char* separator) {
+    std::ostringstream out;
+    out << v[0] << separator << v[1] << separator << v[2];
+    return out.str();
+  }
+  std::ostream& label(const char* text) { return out_ << "  " << std::left << std::setw(kLabelWidth) << text << std::right; }
+  void addCount(const Count& count) { label(count.label) << std::setw(kNumberWidth) << count.value << "\n"; }
+
+  const Report& report_;
+  const CutMesh& mesh_;
+  std::ostringstream out_;
+};
+
+}  // namespace
+
+std::string reportJson(const Report& report) {
+  const auto& [status, element, element2, message] = report.result.error;
+  const CutStats& stats = report.result.stats;
+  Json json;
+  json.open('{').member("status", name(status)).member("message", message);
+  addElement(json, "element", element);
+  addElement(json, "element2", element2);
+  json.key("mesh").open('{').member("path", report.arguments.mesh).member("vertices", report.mesh.vertexCount());
+  json.member("triangles", report.mesh.triangleCount()).close('}');
+  json.key("grid").open('{').key("origin").values(report.grid.origin).key("spacing").values(report.grid.spacing);
+  json.key("cells").values(cellsOf(report.grid)).close('}');
+  json.key("counts").open('{');
+  for (const Count& count : cutMeshCounts(report.result.mesh)) json.member(count.key, count.value);
+  for (const Count& count : inputCounts(report.result)) json.member(count.key, count.value);
+  json.close('}').member("largestSnap", stats.largestSnap);
+  addRegions(json, report);
+  json.key("timings").open('{').member("total", stats.totalMs);
+  for (const StageTime& stage : stats.stages) json.member(stage.stage, stage.ms);
+  json.close('}').member("exactFallbacks", stats.exactFallbacks).member("peakMemoryBytes", report.peakMemoryBytes);
+  addValidation(json, report.validation);
+  json.close('}');
+  return json.text();
+}
+
+std::string reportText(const Report& report) { return TextReport(report).text(); }
+
+std::string describeFailure(const Check& check) {
+  std::string text = check.name;
+  if (!check.elementKind.empty()) text += " at " + check.elementKind + " " + std::to_string(check.element);
+  if (!check.message.empty()) text += ": " + check.message;
+  return text;
+}
+
+}  // namespace mandoline::cli

@@ -1,0 +1,30 @@
+// The report of a cut, as JSON for programs and as text for people.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cli/arguments.h"
+#include "mandoline/mandoline.h"
+#include "mandoline/validate.h"
+
+namespace mandoline::cli {
+
+/// Everything there is to tell; both forms tell the same.
+struct Report {
+  const Arguments& arguments;
+  const Mesh& mesh;
+  const Grid& grid;
+  const CutResult& result;
+  size_t peakMemoryBytes = 0;
+  std::vector<double> regionVolumes;     ///< per region
+  std::optional<Validation> validation;  ///< if it was asked for and the cut is ok
+};
+
+std::string reportJson(const Report& report);
+std::string reportText(const Report& report);
+
+/// One line about a check that does not pass: its name, the offending element and why.
+std::string describeFailure(const Check& check);
+
+}  // namespace mandoline::cli

@@ -1,0 +1,48 @@
+// The readers behind readMesh(), one per format. Each takes the unpacked bytes of a file and throws FileError.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "mandoline/io.h"
+
+namespace mandoline::detail {
+
+/// What every reader gets to see: the path is for messages only.
+struct FileBytes {
+  std::string path;
+  std::string_view bytes;
+};
+
+Mesh readObj(const FileBytes& file);
+Mesh readOff(const FileBytes& file);
+Mesh readPly(const FileBytes& file);
+Mesh readStl(const FileBytes& file);
+
+bool looksLikeObj(std::string_view bytes);
+bool looksLikeOff(std::string_view bytes);
+bool looksLikePly(std::string_view bytes);
+bool looksLikeStl(std::string_view bytes);
+
+/// The bytes of a file, unpacked if they are gzipped.
+std::string loadFile(const std::string& path);
+
+/// Fans a polygon into triangles from its first vertex, as its vertices arrive.
+class Fan {
+ public:
+  explicit Fan(std::vector<uint32_t>& triangles) : triangles_(triangles) {}
+  void add(uint32_t vertex) {
+    if (count_ == 0) first_ = vertex;
+    if (count_ >= 2) triangles_.insert(triangles_.end(), {first_, previous_, vertex});
+    previous_ = vertex;
+    ++count_;
+  }
+  size_t count() const { return count_; }
+
+ private:
+  std::vector<uint32_t>& triangles_;
+  uint32_t first_ = 0, previous_ = 0;
+  size_t count_ = 0;
+};
+
+}  // namespace mandoline::detail
