@@ -1,0 +1,83 @@
+// Cuts and validates every mesh of a collection of real ones, if it lies beside the project: a folder with a manifest.csv whose columns
+// `file` and `self_intersects` are read. Meshes without self-intersections have to pass, the others may be refused by name.
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "catch.h"
+#include "mandoline/io.h"
+#include "mandoline/validate.h"
+
+using namespace mandoline;
+
+namespace {
+
+struct Row {
+  std::string file;
+  bool intersects;
+};
+
+std::vector<std::string> fieldsOf(const std::string& line) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (char c : line) {
+    if (c == '"') quoted = !quoted;
+    else if (c == ',' && !quoted) fields.emplace_back();
+    else fields.back() += c;
+  }
+  return fields;
+}
+
+std::vector<Row> manifest() {
+  std::ifstream in(std::filesystem::path(MANDOLINE_DATA) / "manifest.csv");
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> header = fieldsOf(line);
+  const auto column = [&](const char* title) { return size_t(std::find(header.begin(), header.end(), title) - header.begin()); };
+  std::vector<Row> rows;
+  while (std::getline(in, line)) {
+    const std::vector<std::string> fields = fieldsOf(line);
+    rows.push_back({fields.at(column("file")), fields.at(column("self_intersects")) != "0"});
+  }
+  return rows;
+}
+
+void cutAll(int64_t n) {
+  const std::vector<Row> rows = manifest();
+  if (rows.empty()) {
+    WARN("skipped: no collection of meshes in " MANDOLINE_DATA);
+    return;
+  }
+  size_t clean = 0, refused = 0;
+  for (const Row& row : rows) {
+    INFO(row.file << " at N = " << n);
+    const Mesh mesh = readMesh((std::filesystem::path(MANDOLINE_DATA) / row.file).string());
+    const auto start = std::chrono::steady_clock::now();
+    const CutResult result = cut(mesh, Grid::around(mesh, n));
+    INFO(name(result.error.status) << " " << result.error.message);
+    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(60));
+    clean += !row.intersects;
+    if (!result) {
+      CHECK(row.intersects);
+      CHECK(std::string(name(result.error.status)) == "selfIntersection");
+      ++refused;
+      continue;
+    }
+    const Validation validation = validate(mesh, result.mesh);
+    std::string failures;
+    for (const Check& check : validation.checks)
+      if (!check.pass) failures += check.name + " at " + check.elementKind + " " + std::to_string(check.element) + "; ";
+    INFO(failures);
+    CHECK(validation.pass);
+  }
+  WARN("N = " << n << ": " << clean << " meshes without self-intersections, " << rows.size() - clean << " with, of which " << refused << " refused");
+}
+
+}  // namespace
+
+TEST_CASE("real meshes at N = 5", "[corpus5]") { cutAll(5); }
+TEST_CASE("real meshes at N = 13", "[corpus13]") { cutAll(13); }
+TEST_CASE("real meshes at N = 32", "[corpus32]") { cutAll(32); }
+TEST_CASE("real meshes at N = 64", "[.][corpus64]") { cutAll(64); }  // takes long: run it by its tag

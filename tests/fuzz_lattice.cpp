@@ -1,0 +1,14 @@
+// libFuzzer target: any bytes are a mesh on a coarse lattice and a small grid. Finds go to fuzz_corpus/, where fuzz_corpus_test.cpp replays them.
+#include <cstdio>
+#include <cstdlib>
+
+#include "lattice.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
+  const std::string broken = brokenPromise(decodeLattice(bytes, size));
+  if (!broken.empty()) {
+    std::fprintf(stderr, "%s\n", broken.c_str());
+    std::abort();
+  }
+  return 0;
+}
