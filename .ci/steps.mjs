@@ -1,0 +1,58 @@
+// Steps that npm start, npm test and the continuous integration have in common.
+import { spawnSync } from 'node:child_process';
+import { existsSync } from 'node:fs';
+import { availableParallelism } from 'node:os';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+export const root = dirname(dirname(fileURLToPath(import.meta.url)));
+export const jobs = String(availableParallelism());
+
+/** Runs a command in the project's folder, its output going to the terminal; ends the program if it fails. */
+export function run(command, ...args) {
+  console.log(`\n> ${[command, ...args].join(' ')}`);
+  const { status, error } = spawnSync(command, args, { cwd: root, stdio: 'inherit' });
+  if (error) fail(`can't run ${command}: ${error.message}`);
+  if (status !== 0) process.exit(status ?? 1);
+}
+
+export function fail(message) {
+  console.error(message);
+  process.exit(1);
+}
+
+const works = (command, ...args) => spawnSync(command, args, { stdio: 'ignore' }).status === 0;
+const hasHeader = (header) =>
+  spawnSync(process.env.CXX ?? 'c++', ['-x', 'c++', '-fsyntax-only', '-'], { input: `#if !__has_include(<${header}>)\n#error\n#endif\n` }).status === 0;
+
+const tools = {
+  'a C++20 compiler': { has: () => works(process.env.CXX ?? 'c++', '--version'), packages: ['g++'] },
+  CMake: { has: () => works('cmake', '--version'), packages: ['cmake'] },
+  make: { has: () => works('make', '--version') || works('ninja', '--version'), packages: ['make'] },
+  Catch2: { has: () => hasHeader('catch2/catch.hpp') || hasHeader('catch2/catch_all.hpp'), packages: ['catch2'] },
+  zlib: { has: () => hasHeader('zlib.h'), packages: ['zlib1g-dev'] },
+  'clang with libFuzzer': { has: () => works('sh', '-c', 'command -v clang++ && ls "$(clang++ -print-resource-dir)"/lib/*/libclang_rt.fuzzer*'), packages: ['clang'] },
+};
+
+/** Makes sure of the tools named, which are keys of `tools`: installs what is missing on Debian and its kin, else says what to install. */
+export function setUp(...names) {
+  const missing = () => names.filter((name) => !tools[name].has());
+  const wanted = missing();
+  if (wanted.length === 0) return;
+  console.log(`Missing: ${wanted.join(', ')}`);
+  const sudo = process.getuid?.() === 0 ? [] : ['sudo'];
+  if (!existsSync('/usr/bin/apt-get') || (sudo.length && !works('sudo', '-V')))
+    fail(`Please install ${wanted.join(', ')} and try again. (On Debian, as root: apt-get install ${wanted.flatMap((name) => tools[name].packages).join(' ')})`);
+  run(...sudo, 'apt-get', 'update');
+  run(...sudo, 'apt-get', 'install', '-y', '--no-install-recommends', ...wanted.flatMap((name) => tools[name].packages));
+  const still = missing();
+  if (still.length) fail(`apt-get has run, but these are still missing: ${still.join(', ')}`);
+}
+
+/** Configures and builds in the folder; further arguments go to CMake. */
+export function build(folder, ...options) {
+  run('cmake', '-S', '.', '-B', folder, ...options);
+  run('cmake', '--build', folder, '--parallel', jobs);
+}
+
+export const path = (...parts) => join(root, ...parts);
