@@ -72,7 +72,7 @@ Homogeneous<Number> CutVertices::point(uint32_t v, const Point& reference, Predi
   } else if (planeCount(slabs[v]) == 3) {
     for (int d = 0; d < 3; ++d) h.x[d] = diff(planeOf(d), reference[d]);
   } else if (isOnEdge(v)) {
-    auto [low, high] = (*triEdges)[parent(v)];
+    uint32_t low = (*triEdges)[parent(v)][0], high = (*triEdges)[parent(v)][1];
     int across = -1;  // the axis whose plane cuts the edge at the widest angle
     for (int d = 0; d < 3; ++d) {
       const auto extent = [&](int e) { return std::fabs(input->points[high][e] - input->points[low][e]); };
