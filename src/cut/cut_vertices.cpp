@@ -59,22 +59,22 @@ Point CutVertices::position(uint32_t v, Predicates& predicates) const {
   Point p;
   for (int d = 0; d < 3; ++d) p[d] = input->planes[d][std::max(slabs[v][d] >> 1, 0)];
   if (planeCount(slabs[v]) == 3) return p;
+  const Point r = reference(v);
+  const auto h = point<Bounded>(v, r, predicates);
   for (int d = 0; d < 3; ++d) {
     if (onPlane(slabs[v][d])) continue;
-    const Point r = reference(v);
-    const auto fast = point<Bounded>(v, r, predicates);
-    const double quotient = fast.x[d].value / fast.w.value;
-    // Relative to r, the error of the quotient; exact evaluation where it would show.
-    const double error = (fast.x[d].error + std::fabs(quotient) * fast.w.error) / (fast.w.value - fast.w.error);
+    const double quotient = h.x[d].value / h.w.value;
+    const double error = (h.x[d].error + std::fabs(quotient) * h.w.error) / (h.w.value - h.w.error);
     double x = r[d] + quotient;
-    if (!(fast.w.value > 2 * fast.w.error) || error > 8 * kRoundoff * std::max(std::fabs(r[d]), std::fabs(x))) {
+    if (!(h.w.value > 2 * h.w.error) || error > 8 * kRoundoff * std::max(std::fabs(r[d]), std::fabs(x))) {  // it would show
       const auto exact = point<Expansion>(v, r, predicates);
       x = r[d] + Expansion::quotient(exact.x[d], exact.w);
     }
     // Strictly inside of the slab, so that vertices on different grid elements have different positions.
     const int32_t c = slabs[v][d] >> 1;
     const double low = input->planes[d][c], high = input->planes[d][c + 1];
-    p[d] = std::clamp(x, std::min(std::nextafter(low, high), high), std::max(std::nextafter(high, low), low));
+    if (!(x > low && x < high)) x = x <= low ? std::min(std::nextafter(low, high), high) : std::max(std::nextafter(high, low), low);
+    p[d] = x;
   }
   return p;
 }

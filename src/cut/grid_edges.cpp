@@ -25,6 +25,7 @@ void collect(const Stencil& stencil, const TriFaces& triFaces, const CutVertices
   };
   for (size_t c = 0; c < stencil.cells.size(); ++c) {
     for (const uint32_t f : stencil.triFacesInCell[c]) {
+      if (!triFaces.touchesLine[f]) continue;
       for (const uint32_t v : triFaces.loop(f)) place(stencil.cells[c], v);
     }
   }

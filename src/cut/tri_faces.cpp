@@ -39,7 +39,7 @@ class Dicer {
     if (oneCell) {
       if (!input_.inGrid(element)) return;
       chunk_.faces.loopVertices.insert(chunk_.faces.loopVertices.end(), t.begin(), t.end());
-      return addFace(element);
+      return addFace(element, planeCount(a) > 1 || planeCount(b) > 1 || planeCount(c) > 1);
     }
     outline(t);
     split(0, chunk_.whole);
@@ -181,15 +181,20 @@ class Dicer {
       const auto [least, greatest] = extent(polygon, d);
       element[d] = slabBetween(least, greatest);
     }
-    for (const Corner& c : polygon) chunk_.faces.loopVertices.push_back(c.id);
-    addFace(element);
+    bool touchesLine = false;
+    for (const Corner& c : polygon) {
+      chunk_.faces.loopVertices.push_back(c.id);
+      touchesLine |= planeCount(c.slab) > 1;
+    }
+    addFace(element, touchesLine);
   }
 
-  void addFace(const Slab& element) {
+  void addFace(const Slab& element, bool touchesLine) {
     TriFaces& faces = chunk_.faces;
     faces.loopOffsets.push_back(uint32_t(faces.loopVertices.size()));
     faces.triangles.push_back(triangle_);
     faces.elements.push_back(element);
+    faces.touchesLine.push_back(touchesLine);
   }
 
   const Input& input_;
@@ -207,6 +212,7 @@ void append(TriFaces& a, const TriFaces& b, uint32_t firstInTriangle, uint32_t s
   for (const uint32_t v : b.loopVertices) a.loopVertices.push_back(shifted(v));
   a.triangles.insert(a.triangles.end(), b.triangles.begin(), b.triangles.end());
   a.elements.insert(a.elements.end(), b.elements.begin(), b.elements.end());
+  a.touchesLine.insert(a.touchesLine.end(), b.touchesLine.begin(), b.touchesLine.end());
   for (const FaceEdge& e : b.hybridEdges) a.hybridEdges.push_back({e.element, shifted(e.from), shifted(e.to)});
 }
 

@@ -16,6 +16,7 @@ struct TriFaces {
   std::vector<uint32_t> loopOffsets{0}, loopVertices;  ///< one loop per face
   std::vector<uint32_t> triangles;                     ///< per face
   std::vector<Slab> elements;                          ///< per face: the grid cell, or the grid-face, whose even entry is then its plane
+  std::vector<uint8_t> touchesLine;                    ///< per face: whether a vertex of it lies on a grid line
   std::vector<FaceEdge> hybridEdges;                   ///< cut hybrid edges that lie in a grid-face (not on a grid line)
 
   size_t size() const { return triangles.size(); }
