@@ -1,6 +1,7 @@
 #include "cut/cut_cells.h"
 
 #include "cut/floating_shells.h"
+#include "cut/radial_order.h"
 
 namespace mandoline::detail {
 namespace {
@@ -193,48 +194,25 @@ class CellMaker {
   void sortAround(const EdgeTable::Edge& edge, bool open) {
     auto& around = chunk_.around;
     std::sort(around.begin(), around.end(), [](const auto& a, const auto& b) { return a.local < b.local; });
-    struct Flap {
-      EdgeTable::Use use;
-      const Point* tip;  // the triangle's corner off the edge
-      int quarter;       // 0: like the first one, 1: up to half a turn on, 2: opposite, 3: beyond
-    };
+    const auto triangleOf = [&](const EdgeTable::Use& use) { return triFaces_.triangles[chunk_.halves.triFaces[use.local]]; };
     std::vector<Flap> flaps;
     const Point *a = nullptr, *b = nullptr;  // ends of the tri-edge, in the edge's direction
-    for (const EdgeTable::Use& use : around) {
-      const uint32_t triangle = triFaces_.triangles[chunk_.halves.triFaces[use.local]];
+    for (uint32_t i = 0; i < around.size(); ++i) {
+      const uint32_t triangle = triangleOf(around[i]);
       const auto& t = input_.triangles[triangle];
       const int side = sideThrough(triangle, edge.low, edge.high);
       if (side < 0) failAt(edge);
       if (!a) {
         a = &input_.points[t[side]];
         b = &input_.points[t[(side + 1) % 3]];
-        if (!use.ascending) std::swap(a, b);
+        if (!around[i].ascending) std::swap(a, b);
       }
-      flaps.push_back({use, &input_.points[t[(side + 2) % 3]], 0});
+      flaps.push_back({&input_.points[t[(side + 2) % 3]], i});
     }
-    const auto turn = [&](const Flap& f, const Flap& g) { return chunk_.predicates.orient3d(a->data(), b->data(), f.tip->data(), g.tip->data()); };
-    for (size_t i = 1; i < flaps.size() && !open; ++i) {
-      const int side = turn(flaps[0], flaps[i]);
-      flaps[i].quarter = side > 0 ? 1 : side < 0 ? 3 : sameHalfPlane(*a, *b, *flaps[0].tip, *flaps[i].tip) ? 0 : 2;
-    }
-    std::sort(flaps.begin(), flaps.end(), [&](const Flap& f, const Flap& g) { return f.quarter != g.quarter ? f.quarter < g.quarter : turn(f, g) > 0; });
-    for (size_t i = 0; i < flaps.size(); ++i) {
-      around[i] = flaps[i].use;
-      if (i > 0 && flaps[i].quarter == flaps[i - 1].quarter && turn(flaps[i - 1], flaps[i]) == 0) {
-        vertices_.failSelfIntersection(triFaces_.triangles[chunk_.halves.triFaces[flaps[i - 1].use.local]],
-                                       triFaces_.triangles[chunk_.halves.triFaces[flaps[i].use.local]]);
-      }
-    }
-  }
-
-  /// Whether two points in one plane with the line a b lie on the same side of it.
-  bool sameHalfPlane(const Point& a, const Point& b, const Point& c, const Point& d) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const int p = (axis + 1) % 3, q = (axis + 2) % 3;
-      const int side = chunk_.predicates.orient2d(a[p], a[q], b[p], b[q], c[p], c[q]);
-      if (side != 0) return side == chunk_.predicates.orient2d(a[p], a[q], b[p], b[q], d[p], d[q]);
-    }
-    return true;
+    const size_t equal = sortRadially(*a, *b, open, flaps, chunk_.predicates);
+    if (equal > 0) vertices_.failSelfIntersection(triangleOf(around[flaps[equal - 1].item]), triangleOf(around[flaps[equal].item]));
+    const std::vector<EdgeTable::Use> unsorted = around;
+    for (size_t i = 0; i < flaps.size(); ++i) around[i] = unsorted[flaps[i].item];
   }
 
   /// The side of a triangle that holds both vertices, or -1.
