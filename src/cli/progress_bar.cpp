@@ -22,11 +22,11 @@ constexpr auto kInterval = std::chrono::milliseconds(100);
 
 ProgressBar::ProgressBar() : visible_(isatty(STDERR_FILENO) != 0), next_(std::chrono::steady_clock::now() + kInterval) {
   interrupted = 0;
-  std::signal(SIGINT, onInterrupt);
+  if (std::signal(SIGINT, onInterrupt) == SIG_IGN) std::signal(SIGINT, SIG_IGN);  // as for jobs in the background
 }
 
 ProgressBar::~ProgressBar() {
-  std::signal(SIGINT, SIG_DFL);
+  if (std::signal(SIGINT, SIG_DFL) == SIG_IGN) std::signal(SIGINT, SIG_IGN);
   if (drawn_) std::fputs("\r\x1b[K", stderr);
 }
 

@@ -47,7 +47,7 @@ class ObjReader {
   uint32_t readCorner() {
     const int64_t index = cursor_.leadingInteger();
     for (int i = 0; i < 2 && cursor_.skip('/'); ++i) {
-      if (!cursor_.atWordEnd() && !cursor_.skip('/')) cursor_.leadingInteger();
+      if (!cursor_.atWordEnd() && !cursor_.at('/')) cursor_.leadingInteger();
     }
     cursor_.requireWordEnd("a vertex such as 1, 1/2, 1//3 or 1/2/3");
     if (index == 0 || index < -vertexCount()) failIndex(cursor_.line(), index);

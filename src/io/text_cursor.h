@@ -27,9 +27,11 @@ class TextCursor {
   int64_t integer();
   /// An integer that need not end the word.
   int64_t leadingInteger();
+  /// Whether the character is the very next.
+  bool at(char c) const { return position_ != end_ && *position_ == c; }
   /// Goes past the character if it is the very next.
   bool skip(char c) {
-    if (position_ == end_ || *position_ != c) return false;
+    if (!at(c)) return false;
     ++position_;
     return true;
   }
