@@ -1,4 +1,4 @@
-// Cut-edges: in each cell they cancel, around each of them the faces leave no cell out (paper, 3.5 and 4.4), and none has a vertex inside.
+// Cut-edges: in each cell they cancel, and around each of them the faces leave no cell out (paper, 3.5 and 4.4).
 #include <algorithm>
 
 #include "operators/validate_parts.h"
@@ -19,17 +19,18 @@ double pseudoAngle(double x, double y) {
 }  // namespace
 
 void EdgeCheck::run(const GridCell& cell, Sets& shells) {
-  uses_.clear();
+  uses_.clear(), edges_.clear();
   for (uint32_t f = 0; f < cell.faces.size(); ++f) {
     for (uint32_t i = cell.faces[f].firstCorner; i < cell.faces[f].lastCorner; ++i) {
       const uint32_t u = cell.cornerVertex[i], v = cell.cornerVertex[cell.cornerNext[i]];
-      uses_.push_back({uint64_t(std::min(u, v)) << 32 | std::max(u, v), f, u < v});
+      uses_.push_back({{std::min(u, v), std::max(u, v)}, f, u < v});
     }
   }
   std::sort(uses_.begin(), uses_.end(), [](const Use& a, const Use& b) { return a.edge != b.edge ? a.edge < b.edge : a.face != b.face ? a.face < b.face : a.forward < b.forward; });
   for (size_t begin = 0, end = 0; begin < uses_.size(); begin = end) {
     while (end < uses_.size() && uses_[end].edge == uses_[begin].edge) ++end;
     const std::span<Use> uses(uses_.data() + begin, end - begin);
+    edges_.push_back(uses[0].edge);
     checkCancel(cell, uses);
     if (uses.size() < 3 || sortByAngle(cell, uses)) {
       for (size_t i = 0; i < uses.size(); ++i) join(cell, uses[i], uses[(i + 1) % uses.size()], shells);
@@ -37,7 +38,6 @@ void EdgeCheck::run(const GridCell& cell, Sets& shells) {
       joinLoosely(cell, uses, shells);
     }
   }
-  checkGridLines(cell);
 }
 
 void EdgeCheck::checkCancel(const GridCell& cell, std::span<const Use> uses) {
@@ -61,7 +61,7 @@ void EdgeCheck::join(const GridCell& cell, const Use& use, const Use& next, Sets
   const int after = sideAfter(use.forward), before = sideBefore(next.forward);
   const int32_t here = cell.faces[use.face].owner[after], there = cell.faces[next.face].owner[before];
   if (here != there) {
-    wedges_.violate("face", cell.faces[next.face].id, "belongs to another cut-cell than the face that it faces at one of its edges");
+    facing_.violate("face", cell.faces[next.face].id, "belongs to another cut-cell than the face that it faces at one of its edges");
   } else if (here >= 0) {
     shells.unite(2 * use.face + after, 2 * next.face + before);
   }
@@ -71,7 +71,7 @@ void EdgeCheck::join(const GridCell& cell, const Use& use, const Use& next, Sets
 /// that run backward reversed), and may be seen along the axis that is closest to the edge.
 bool EdgeCheck::sortByAngle(const GridCell& cell, std::span<Use> uses) {
   const Context& x = cell.context;
-  const Vec3 from = x.vertex(uint32_t(uses[0].edge >> 32)), to = x.vertex(uint32_t(uses[0].edge)), along = to - from;
+  const Vec3 from = x.vertex(uses[0].edge[0]), to = x.vertex(uses[0].edge[1]), along = to - from;
   constexpr double kLongEnough = 16 * kTolerance;  // in roundings: then the direction is known well enough to choose the axis by
   if (length(x.inRoundings(to, from)) < kLongEnough) return ++unjudged_, false;
   const int axis = dominantAxis(along), e = (axis + 1) % 3, f = (axis + 2) % 3;
@@ -112,42 +112,9 @@ void EdgeCheck::joinLoosely(const GridCell& cell, std::span<const Use> uses, Set
   }
 }
 
-/// No vertex inside of an edge along a grid line. (On other edges rounded positions can't tell "on" from "beside"; checkSurface looks
-/// for tri-vertices on tri-edges.)
-void EdgeCheck::checkGridLines(const GridCell& cell) {
-  const Context& x = cell.context;
-  const auto twoBits = [](int mask) { return mask == 7 || mask == 6 || mask == 5 || mask == 3; };
-  gridEdges_.clear(), onGrid_.clear();
-  for (size_t i = 0; i < uses_.size(); ++i) {
-    if (i > 0 && uses_[i].edge == uses_[i - 1].edge) continue;
-    const uint32_t u = uint32_t(uses_[i].edge >> 32), v = uint32_t(uses_[i].edge);
-    for (const uint32_t w : {u, v}) {
-      if (twoBits(x.cut.vertexMask[w])) onGrid_.push_back(w);
-    }
-    if (twoBits(x.cut.vertexMask[u] & x.cut.vertexMask[v])) gridEdges_.push_back({u, v});
-  }
-  for (int line = 0; line < 12; ++line) {
-    const int axis = line / 4, e = (axis + 1) % 3, f = (axis + 2) % 3;
-    const int32_t pe = cell.index[e] + line % 2, pf = cell.index[f] + line / 2 % 2;
-    const auto onLine = [&](uint32_t v) { return x.onPlane(v, e) && x.onPlane(v, f) && x.cellAt(v)[e] == pe && x.cellAt(v)[f] == pf; };
-    onLine_.clear();
-    for (const uint32_t v : onGrid_) {
-      if (onLine(v)) onLine_.push_back({x.vertex(v)[axis], v});
-    }
-    std::sort(onLine_.begin(), onLine_.end());
-    const double beside = kTolerance * x.rounding[axis];
-    for (const auto& [u, v] : gridEdges_) {
-      if (!onLine(u) || !onLine(v)) continue;
-      const double low = std::min(x.vertex(u)[axis], x.vertex(v)[axis]) + beside, high = std::max(x.vertex(u)[axis], x.vertex(v)[axis]) - beside;
-      const auto inside = std::upper_bound(onLine_.begin(), onLine_.end(), std::pair<double, uint32_t>{low, UINT32_MAX});
-      if (inside != onLine_.end() && inside->first < high) conforming_.violate("vertex", inside->second, "lies inside of an edge of a cell that it belongs to");
-    }
-  }
-}
-
 void EdgeCheck::finish(std::vector<Check>& checks) {
-  if (unjudged_ > 0) wedges_.note(std::to_string(unjudged_) + " edges are too short, or their faces too close, to tell the faces' order");
-  for (Tally* tally : {&closed_, &wedges_, &conforming_}) checks.push_back(tally->finish());
+  if (unjudged_ > 0) facing_.note(std::to_string(unjudged_) + " edges are too short, or their faces too close, to tell the faces' order");
+  for (Tally* tally : {&closed_, &facing_}) checks.push_back(tally->finish());
 }
 
 }  // namespace mandoline::validation

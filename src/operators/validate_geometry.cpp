@@ -6,9 +6,8 @@
 namespace mandoline::validation {
 namespace {
 
-/// A double and what rounding took from it.
 struct Pair {
-  double high, low;
+  double value, lost;  // what rounding took from it
 };
 
 Pair exactSum(double a, double b) {
@@ -23,51 +22,51 @@ Pair exactProduct(double a, double b) {
   };
   const double p = a * b;
   const Pair x = split(a), y = split(b);
-  return {p, x.low * y.low - (((p - x.high * y.high) - x.low * y.high) - x.high * y.low)};
+  return {p, x.lost * y.lost - (((p - x.value * y.value) - x.lost * y.value) - x.value * y.lost)};
 }
 
-/// A sum of doubles kept exactly, as parts of ascending size that do not overlap (Shewchuk 1997).
-class Expansion {
- public:
-  void add(double x) {
-    for (int i = 0; i < size_; ++i) {
-      const Pair s = exactSum(x, part_[i]);
-      x = s.high;
-      part_[i] = s.low;
-    }
-    part_[size_++] = x;
-  }
-  void addProduct(const Pair& a, const Pair& b, double sign) {
-    for (const double x : {a.low, a.high}) {
-      for (const double y : {b.low, b.high}) {
-        const Pair p = exactProduct(x, y);
-        add(sign * p.low);
-        add(sign * p.high);
-      }
-    }
-  }
-  int sign() const {
-    for (int i = size_ - 1; i >= 0; --i) {
-      if (part_[i] != 0) return part_[i] > 0 ? 1 : -1;
-    }
-    return 0;
-  }
-
- private:
-  double part_[16];
-  int size_ = 0;
-};
-
 }  // namespace
+
+void Exact::add(double x) {
+  size_t kept = 0;
+  for (const double part : parts_) {
+    const Pair s = exactSum(x, part);
+    x = s.value;
+    if (s.lost != 0) parts_[kept++] = s.lost;
+  }
+  parts_.resize(kept);
+  if (x != 0) parts_.push_back(x);
+}
+
+Exact Exact::operator+(const Exact& other) const {
+  Exact result = *this;
+  for (const double part : other.parts_) result.add(part);
+  return result;
+}
+
+Exact Exact::operator-(const Exact& other) const {
+  Exact result = *this;
+  for (const double part : other.parts_) result.add(-part);
+  return result;
+}
+
+Exact Exact::operator*(const Exact& other) const {
+  Exact result;
+  for (const double a : parts_) {
+    for (const double b : other.parts_) {
+      const Pair p = exactProduct(a, b);
+      result.add(p.lost);
+      result.add(p.value);
+    }
+  }
+  return result;
+}
 
 int differenceSign(double a, double b, double c, double d, double e, double f, double g, double h) {
   const double left = (a - b) * (c - d), right = (e - f) * (g - h), difference = left - right;
   // Three roundings in each product and one in their difference.
   if (std::fabs(difference) > 8 * kRounding * (std::fabs(left) + std::fabs(right))) return difference > 0 ? 1 : -1;
-  Expansion sum;
-  sum.addProduct(exactSum(a, -b), exactSum(c, -d), 1);
-  sum.addProduct(exactSum(e, -f), exactSum(g, -h), -1);
-  return sum.sign();
+  return ((Exact(a) - b) * (Exact(c) - d) - (Exact(e) - f) * (Exact(g) - h)).sign();
 }
 
 int turn(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
@@ -77,6 +76,20 @@ int turn(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
 
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
   return turn(a, b, c, 0) == 0 && turn(a, b, c, 1) == 0 && turn(a, b, c, 2) == 0;
+}
+
+bool coplanar(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Normal normal = normalOf(a, b, c);
+  const Vec3 ad = d - a;
+  double doubt = 0;
+  for (int i = 0; i < 3; ++i) doubt += std::fabs(ad[i]) * (2 * normal.error[i] + 4 * kRounding * std::fabs(normal.n[i]));
+  if (std::fabs(dot(ad, normal.n)) > doubt) return false;
+  Exact volume;
+  for (int i = 0; i < 3; ++i) {
+    const int e = (i + 1) % 3, f = (i + 2) % 3;
+    volume = volume + (Exact(d[i]) - a[i]) * ((Exact(b[e]) - a[e]) * (Exact(c[f]) - a[f]) - (Exact(b[f]) - a[f]) * (Exact(c[e]) - a[e]));
+  }
+  return volume.sign() == 0;
 }
 
 double distanceToSegment(const Vec3& p, const Vec3& a, const Vec3& b) {

@@ -63,16 +63,22 @@ void checkGridCells(const Context& context, std::vector<Check>& checks, std::vec
   GridCell cell(context);
   Sets shells;
   EdgeCheck edgeCheck;
+  ConformingCheck conformingCheck;
+  CrossingCheck crossingCheck;
   ShellCheck shellCheck;
   LineCheck lineCheck(context);
   for (size_t group = 0; group < context.groupCount(); ++group) {
     cell.gather(group);
     shells.reset(2 * cell.faces.size());
     edgeCheck.run(cell, shells);
+    conformingCheck.run(cell, edgeCheck.edges());
+    crossingCheck.run(cell, edgeCheck.edges());
     shellCheck.run(cell, shells, cellVolumes);
     lineCheck.run(cell, samples);
   }
   edgeCheck.finish(checks);
+  conformingCheck.finish(checks);
+  crossingCheck.finish(checks);
   shellCheck.finish(checks);
   lineCheck.finish(checks);
 }

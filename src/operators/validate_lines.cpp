@@ -6,6 +6,19 @@
 #include "operators/validate_parts.h"
 
 namespace mandoline::validation {
+namespace {
+
+/// Exact: whether both are parts of triangles in one plane.
+bool inOnePlane(const Context& x, const GridCell::Face& face, const GridCell::Face& other) {
+  const int32_t s = x.cut.faceTriangle[face.id], t = x.cut.faceTriangle[other.id];
+  if (s < 0 || t < 0) return false;
+  for (int i = 0; i < 3; ++i) {
+    if (!coplanar(x.corner(s, 0), x.corner(s, 1), x.corner(s, 2), x.corner(t, i))) return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 LineCheck::LineCheck(const Context& context) {
   constexpr uint64_t kSamples = 400;
@@ -15,7 +28,7 @@ LineCheck::LineCheck(const Context& context) {
 void LineCheck::run(const GridCell& cell, std::vector<Sample>& samples) {
   for (int axis = 0; axis < 3; ++axis) {
     work_ = 0;
-    bin(cell, axis);
+    bins_.build(cell, axis);
     tryLine(cell, axis, nullptr, samples);
     for (const GridCell::Face& face : cell.faces) {
       if (face.side >= 0 || dominantAxis(face.area) != axis) continue;
@@ -55,54 +68,29 @@ Vec3 LineCheck::pointOn(const GridCell& cell, const GridCell::Face& face, int ax
   return a + v * ab + w * ac;
 }
 
-void LineCheck::bin(const GridCell& cell, int axis) {
-  const int e = (axis + 1) % 3, f = (axis + 2) % 3;
-  bins_ = std::clamp(int(std::sqrt(double(cell.faces.size()) / 8)), 1, 256);
-  binOffsets_.assign(size_t(bins_) * bins_ + 2, 0);  // counted two places on, so that filling leaves begins one place on
-  const auto forBins = [&](const GridCell::Face& face, auto&& use) {
-    if (face.side >= 0 && face.side / 2 != axis) return;  // parallel to the line, which is strictly inside
-    const double me = kTolerance * cell.noise[e], mf = kTolerance * cell.noise[f];
-    for (size_t j = binOf(face.low[f] - mf); j <= binOf(face.high[f] + mf); ++j) {
-      for (size_t i = binOf(face.low[e] - me); i <= binOf(face.high[e] + me); ++i) use(j * size_t(bins_) + i);
-    }
-  };
-  for (const GridCell::Face& face : cell.faces) forBins(face, [&](size_t b) { ++binOffsets_[b + 2]; });
-  for (size_t b = 2; b < binOffsets_.size(); ++b) binOffsets_[b] += binOffsets_[b - 1];
-  binFaces_.resize(binOffsets_.back());
-  for (uint32_t i = 0; i < cell.faces.size(); ++i) forBins(cell.faces[i], [&](size_t b) { binFaces_[binOffsets_[b + 1]++] = i; });
-}
-
 LineCheck::Verdict LineCheck::shoot(const GridCell& cell, int axis, const Vec3& point) {
   hits_.clear();
   for (const int d : {(axis + 1) % 3, (axis + 2) % 3}) {
     if (!(point[d] > kTolerance * cell.noise[d] && point[d] < 1 - kTolerance * cell.noise[d])) return Verdict::unjudged;
   }
-  const size_t b = binOf(point[(axis + 2) % 3]) * size_t(bins_) + binOf(point[(axis + 1) % 3]);
-  for (uint32_t i = binOffsets_[b]; i < binOffsets_[b + 1]; ++i) {
-    if (!addHit(cell, axis, point, cell.faces[binFaces_[i]])) return Verdict::unjudged;
-  }
+  bool certain = true;
+  bins_.forFaces(point, point, [&](uint32_t f) { certain = certain && addHit(cell, axis, point, cell.faces[f]); });
+  if (!certain) return Verdict::unjudged;
   return follow(cell, axis);
 }
 
 /// Adds the face if the line through the point hits it; false if rounding leaves that open.
 bool LineCheck::addHit(const GridCell& cell, int axis, const Vec3& point, const GridCell::Face& face) {
   const int e = (axis + 1) % 3, f = (axis + 2) % 3;
-  const double pe = point[e], pf = point[f], ne = cell.noise[e], nf = cell.noise[f], me = kTolerance * ne, mf = kTolerance * nf;
-  if (pe < face.low[e] - me || pe > face.high[e] + me || pf < face.low[f] - mf || pf > face.high[f] + mf) return true;
-  work_ += face.lastCorner - face.firstCorner;
-  bool inside = false;
-  for (uint32_t i = face.firstCorner; i < face.lastCorner; ++i) {
-    const Vec3 &a = cell.corners[i], &b = cell.corners[cell.cornerNext[i]];
-    if ((a[f] < pf - mf && b[f] < pf - mf) || (a[f] > pf + mf && b[f] > pf + mf) || (a[e] < pe - me && b[e] < pe - me)) continue;
-    const double de = b[e] - a[e], df = b[f] - a[f], left = de * (pf - a[f]) - df * (pe - a[e]);
-    const double doubt = kTolerance * (nf * (std::fabs(de) + std::fabs(pe - a[e])) + ne * (std::fabs(df) + std::fabs(pf - a[f])));
-    const bool ahead = pe < std::min(a[e], b[e]) - me;
-    if (!ahead && std::fabs(left) <= doubt) return false;
-    if ((a[f] > pf) != (b[f] > pf) && (ahead || (df > 0) == (left > 0))) inside = !inside;
+  for (const int d : {e, f}) {
+    const double margin = kTolerance * cell.noise[d];
+    if (point[d] < face.low[d] - margin || point[d] > face.high[d] + margin) return true;
   }
-  if (!inside) return true;
+  work_ += face.lastCorner - face.firstCorner;
+  const Place place = placeOn(cell, face, axis, point, kTolerance * cell.noise);
+  if (place != Place::inside) return place == Place::outside;
 
-  Hit hit{0, 0, face.owner[0], face.owner[1], face.side};
+  Hit hit{0, 0, face.owner[0], face.owner[1], &face};
   bool up = true;
   if (face.side >= 0) {
     hit.low = hit.high = face.side % 2;
@@ -115,7 +103,7 @@ bool LineCheck::addHit(const GridCell& cell, int axis, const Vec3& point, const 
     const Vec3 delta = point - cell.corners[face.firstCorner];
     const double rise = -(normal.n[e] * delta[e] + normal.n[f] * delta[f]) / normal.n[axis];
     const double tilted = (normal.error[e] * std::fabs(delta[e]) + normal.error[f] * std::fabs(delta[f]) + normal.error[axis] * std::fabs(rise)) / steep;
-    const double error = tilted + kTolerance * (cell.noise[axis] + (std::fabs(normal.n[e]) * ne + std::fabs(normal.n[f]) * nf) / steep);
+    const double error = tilted + kTolerance * (cell.noise[axis] + (std::fabs(normal.n[e]) * cell.noise[e] + std::fabs(normal.n[f]) * cell.noise[f]) / steep);
     const double depth = cell.corners[face.firstCorner][axis] + rise, margin = kTolerance * cell.noise[axis];
     hit.low = std::max(depth - error, face.low[axis] - margin);
     hit.high = std::min(depth + error, face.high[axis] + margin);
@@ -130,9 +118,12 @@ bool LineCheck::addHit(const GridCell& cell, int axis, const Vec3& point, const 
 LineCheck::Verdict LineCheck::follow(const GridCell& cell, int axis) {
   std::sort(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
   for (size_t i = 1; i < hits_.size(); ++i) {
-    if (hits_[i - 1].high >= hits_[i].low) return Verdict::unjudged;
+    if (hits_[i - 1].high < hits_[i].low) continue;
+    if (!inOnePlane(cell.context, *hits_[i - 1].face, *hits_[i].face)) return Verdict::unjudged;
+    partition_.violate("face", hits_[i].face->id, "lies partly on another one");
+    return Verdict::broken;
   }
-  if (hits_.size() < 2 || hits_.front().side != 2 * axis || hits_.back().side != 2 * axis + 1) {
+  if (hits_.size() < 2 || hits_.front().face->side != 2 * axis || hits_.back().face->side != 2 * axis + 1) {
     partition_.violate("cell", cell.cells[0], "and the others of its grid cell do not reach from side to side of that");
     return Verdict::broken;
   }

@@ -117,11 +117,27 @@ class Tally {
   std::string note_;
 };
 
-/// Exact sign of (a - b) (c - d) - (e - f) (g - h), barring overflow and underflow.
+/// A number kept exactly, barring overflow and underflow, as a sum of doubles that do not overlap, of ascending size (Shewchuk 1997).
+class Exact {
+ public:
+  Exact() = default;
+  Exact(double x) { add(x); }
+  Exact operator+(const Exact& other) const;
+  Exact operator-(const Exact& other) const;
+  Exact operator*(const Exact& other) const;
+  int sign() const { return parts_.empty() ? 0 : parts_.back() > 0 ? 1 : -1; }
+
+ private:
+  void add(double x);
+  std::vector<double> parts_;
+};
+
+/// Exact sign of (a - b) (c - d) - (e - f) (g - h).
 int differenceSign(double a, double b, double c, double d, double e, double f, double g, double h);
 /// Exact: 1 if a, b, c turn counter-clockwise about +axis.
 int turn(const Vec3& a, const Vec3& b, const Vec3& c, int axis);
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
+bool coplanar(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 /// Distance of p from a segment or triangle, at most a few roundings too large however thin the triangle is, if coordinates are in roundings.
 double distanceToSegment(const Vec3& p, const Vec3& a, const Vec3& b);
 double distanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
@@ -226,16 +242,21 @@ struct GridCell {
   std::vector<int32_t> local_;  ///< per face of the cut-mesh: its place in faces or -1
 };
 
-/// Around each cut-edge, faces that follow one another face the same cut-cell; edges cancel; nothing lies inside of an edge.
+/// An edge by its vertices, the lower one first.
+using Edge = std::array<uint32_t, 2>;
+
+/// Around each cut-edge, faces that follow one another face the same cut-cell; edges cancel.
 class EdgeCheck {
  public:
   /// Unites in `shells` the half-faces (2 * face + side, by place in cell.faces) that bound the same shell.
   void run(const GridCell& cell, Sets& shells);
   void finish(std::vector<Check>& checks);
+  /// Of the grid cell that was last run.
+  const std::vector<Edge>& edges() const { return edges_; }
 
  private:
   struct Use {
-    uint64_t edge;  ///< lower vertex in the high half
+    Edge edge;
     uint32_t face;
     bool forward;   ///< whether the face runs from the lower vertex to the higher one
   };
@@ -243,16 +264,32 @@ class EdgeCheck {
   void join(const GridCell& cell, const Use& use, const Use& next, Sets& shells);
   bool sortByAngle(const GridCell& cell, std::span<Use> uses);
   void joinLoosely(const GridCell& cell, std::span<const Use> uses, Sets& shells);
-  void checkGridLines(const GridCell& cell);
 
   std::vector<Use> uses_;
+  std::vector<Edge> edges_;
   std::vector<std::pair<int32_t, int32_t>> directions_;
   std::vector<std::pair<double, Use>> angles_;
-  std::vector<std::pair<uint32_t, uint32_t>> gridEdges_;
-  std::vector<uint32_t> onGrid_;
-  std::vector<std::pair<double, uint32_t>> onLine_;
   uint64_t unjudged_ = 0;
-  Tally closed_{"closedCells"}, wedges_{"facingFaces"}, conforming_{"conforming"};
+  Tally closed_{"closedCells"}, facing_{"facingFaces"};
+};
+
+/// No vertex lies inside of an edge of the same grid cell.
+class ConformingCheck {
+ public:
+  void run(const GridCell& cell, const std::vector<Edge>& edges);
+  void finish(std::vector<Check>& checks) { checks.push_back(conforming_.finish()); }
+
+ private:
+  struct Vertex {
+    uint32_t id;
+    Vec3 position;
+  };
+  void gatherVertices(const GridCell& cell, const std::vector<Edge>& edges);
+  void checkVertex(const GridCell& cell, const Edge& edge, uint32_t vertex);
+
+  std::vector<uint32_t> ids_;
+  std::vector<Vertex> sorted_[3];  // vertices of the grid cell, along each axis
+  Tally conforming_{"conforming"};
 };
 
 /// Shells and volumes of the cut-cells of a grid cell.
@@ -279,6 +316,46 @@ class ShellCheck {
   Tally cellVolume_{"cellVolume", kTolerance}, gridCellVolume_{"gridCellVolume", kTolerance}, gridFaceArea_{"gridFaceArea", kTolerance};
 };
 
+/// The faces of a grid cell in square bins, seen along an axis; without those that lie in its boundary parallel to that.
+class FaceBins {
+ public:
+  void build(const GridCell& cell, int axis);
+  /// f(face) for the faces in the bins of a box, some of them repeatedly.
+  template <class F>
+  void forFaces(const Vec3& low, const Vec3& high, F&& f) const {
+    const int d = (axis_ + 1) % 3, e = (axis_ + 2) % 3;
+    for (size_t j = binOf(low[e]); j <= binOf(high[e]); ++j) {
+      for (size_t b = j * size_t(bins_) + binOf(low[d]); b <= j * size_t(bins_) + binOf(high[d]); ++b) {
+        for (uint32_t i = offsets_[b]; i < offsets_[b + 1]; ++i) f(faces_[i]);
+      }
+    }
+  }
+
+ private:
+  size_t binOf(double x) const { return size_t(std::clamp(x * bins_, 0.0, bins_ - 1.0)); }
+
+  int axis_ = 0, bins_ = 1;
+  std::vector<uint32_t> offsets_, faces_;
+};
+
+/// A face seen along an axis.
+enum class Place { outside, inside, open };
+/// Where a point is on it; open if nearer to its edges than the margin.
+Place placeOn(const GridCell& cell, const GridCell::Face& face, int axis, const Vec3& point, const Vec3& margin);
+
+/// No edge crosses a tri-face.
+class CrossingCheck {
+ public:
+  void run(const GridCell& cell, const std::vector<Edge>& edges);
+  void finish(std::vector<Check>& checks) { checks.push_back(crossings_.finish()); }
+
+ private:
+  void checkEdge(const GridCell& cell, const Vec3& from, const Vec3& to, uint32_t face);
+
+  FaceBins bins_;
+  Tally crossings_{"crossings"};
+};
+
 /// A point known to lie in a region, for comparison with the input's own winding number.
 struct Sample {
   Vec3 position;
@@ -298,12 +375,10 @@ class LineCheck {
   struct Hit {
     double low, high;  ///< where on the line it is
     int32_t below, above;  ///< the cut-cells before and after it, -1 outside of the grid cell
-    int side;              ///< of the grid cell, as in GridCell::Face
+    const GridCell::Face* face;
   };
   enum class Verdict { fine, unjudged, broken };
   Vec3 pointOn(const GridCell& cell, const GridCell::Face& face, int axis);
-  void bin(const GridCell& cell, int axis);
-  size_t binOf(double x) const { return size_t(std::clamp(x * bins_, 0.0, bins_ - 1.0)); }
   void tryLine(const GridCell& cell, int axis, const GridCell::Face* through, std::vector<Sample>& samples);
   Verdict shoot(const GridCell& cell, int axis, const Vec3& point);
   bool addHit(const GridCell& cell, int axis, const Vec3& point, const GridCell::Face& face);
@@ -313,8 +388,7 @@ class LineCheck {
   Random random_{1};
   uint64_t work_ = 0;  // edges compared with lines, in this grid cell
   uint64_t lines_ = 0, unjudged_ = 0, skipped_ = 0, stride_ = 1;
-  int bins_ = 1;       // per side
-  std::vector<uint32_t> binOffsets_, binFaces_;
+  FaceBins bins_;
   std::vector<Hit> hits_;
   Tally partition_{"partition"};
 };
@@ -354,7 +428,7 @@ void checkVertices(const Context& context, std::vector<Check>& checks);
 void checkFaces(const Context& context, std::vector<Check>& checks);
 /// Marks triangles that overlap others in one plane.
 void checkSurface(const Context& context, const TriangleBins& bins, std::vector<Check>& checks, std::vector<uint8_t>& overlapping);
-/// Runs the three checks above on every grid cell that has cut-cells.
+/// Runs the checks by grid cell above on every grid cell that has cut-cells.
 void checkGridCells(const Context& context, std::vector<Check>& checks, std::vector<double>& cellVolumes, std::vector<Sample>& samples);
 void checkRegions(const Context& context, std::vector<Check>& checks);
 void checkWinding(const Context& context, const TriangleBins& bins, const std::vector<double>& cellVolumes, const std::vector<uint8_t>& overlapping,

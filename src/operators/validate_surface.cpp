@@ -1,4 +1,4 @@
-// The surface is all there: area of each triangle's faces (paper, 5.6), reasons of dropped triangles, tri-vertices on tri-edges.
+// The surface is all there: area of each triangle's faces (paper, 5.6), reasons of dropped triangles.
 #include <algorithm>
 
 #include "operators/validate_parts.h"
@@ -31,10 +31,7 @@ class SurfaceCheck {
         checkArea(t);
       }
     }
-    for (const uint32_t v : x_.mesh.triangles) {
-      if (x_.weld[v] == v && x_.inBox(x_.triVertex(v))) checkTriEdgesAt(v);
-    }
-    for (Tally* tally : {&area_, &droppedTriangles_, &triEdges_}) checks.push_back(tally->finish());
+    for (Tally* tally : {&area_, &droppedTriangles_}) checks.push_back(tally->finish());
   }
 
  private:
@@ -173,43 +170,12 @@ class SurfaceCheck {
     }
   }
 
-  /// A vertex exactly on the inside of a tri-edge divides it (paper, Appendix A, "stitch").
-  void checkTriEdgesAt(uint32_t v) {
-    const Vec3 p = x_.triVertex(v);
-    bins_.forTriangles(p, p, [&](uint32_t t) {
-      for (int i = 0; i < 3 && !x_.dropped[t]; ++i) {
-        const Vec3 a = x_.corner(t, i), b = x_.corner(t, (i + 1) % 3);
-        bool between = false;
-        for (int d = 0; d < 3; ++d) {
-          if (p[d] < std::min(a[d], b[d]) || p[d] > std::max(a[d], b[d])) return between = false, void();
-          between |= p[d] != a[d] && p[d] != b[d];
-        }
-        if (between && collinear(a, b, p)) checkDivided(t, a, b, v);
-      }
-    });
-  }
-  void checkDivided(uint32_t t, const Vec3& a, const Vec3& b, uint32_t triVertex) {
-    const Vec3 p = x_.triVertex(triVertex), pa = x_.inRoundings(a, p), pb = x_.inRoundings(b, p);
-    const int axis = dominantAxis(pb - pa);
-    for (uint32_t i = faceOffsets_[t]; i < faceOffsets_[t + 1]; ++i) {
-      x_.forLoops(faces_[i], [&](std::span<const uint32_t> loop) {
-        for (size_t k = 0; k < loop.size(); ++k) {
-          const Vec3 u = x_.inRoundings(x_.vertex(loop[k]), p), w = x_.inRoundings(x_.vertex(loop[(k + 1) % loop.size()]), p);
-          const bool around = std::min(u[axis], w[axis]) < -kTolerance && std::max(u[axis], w[axis]) > kTolerance;
-          if (around && distanceToSegment(u, pa, pb) <= kTolerance && distanceToSegment(w, pa, pb) <= kTolerance) {
-            triEdges_.violate("tri-vertex", triVertex, "lies inside of a tri-edge that it does not divide");
-          }
-        }
-      });
-    }
-  }
-
   const Context& x_;
   const TriangleBins& bins_;
   std::vector<uint8_t>& overlapping_;
   std::vector<uint32_t> faceOffsets_, faces_;  // per triangle
   std::vector<uint32_t> seenBy_;               // per triangle: the last one that it was compared with
-  Tally area_{"surfaceArea", kTolerance}, droppedTriangles_{"droppedTriangles"}, triEdges_{"triEdges"};
+  Tally area_{"surfaceArea", kTolerance}, droppedTriangles_{"droppedTriangles"};
 };
 
 }  // namespace
