@@ -129,7 +129,9 @@ class CellMaker {
     }
     for (const uint32_t g : stencil_.cells[stencilCell].faces) most += 2 * gridFaces_.slits[g].size();
     chunk_.table.clear(most);
+    touchesLine_ = false;
     for (uint32_t i = 0; i < cell.triFaces.size(); ++i) {
+      touchesLine_ |= triFaces_.touchesLine[cell.triFaces[i]] != 0;
       const auto loop = triFaces_.loop(cell.triFaces[i]);
       for (size_t k = 0; k < loop.size(); ++k) chunk_.table.add(loop[k], loop[k + 1 < loop.size() ? k + 1 : 0], i, true);
     }
@@ -171,7 +173,7 @@ class CellMaker {
     }
     const bool open = first != EdgeTable::kEnd && last != EdgeTable::kEnd;
     if (gridUses != (open ? 2 : 0)) failAt(edge);
-    if (!open && onGridElement(edge)) failAt(edge);
+    if (!open && touchesLine_ && onGridElement(edge)) failAt(edge);
     if (around.size() > (open ? 1 : 2)) sortAround(edge, open);
     const auto before = [](const EdgeTable::Use& use) { return 2 * use.local + (use.ascending ? 0 : 1); };  // the half-face towards smaller angles
     const auto after = [](const EdgeTable::Use& use) { return 2 * use.local + (use.ascending ? 1 : 0); };
@@ -301,6 +303,7 @@ class CellMaker {
   const GridFaces& gridFaces_;
   const CutVertices& vertices_;
   Chunk& chunk_;
+  bool touchesLine_ = false;  ///< whether a tri-cut-face of the cell has a vertex on a grid line
 };
 
 }  // namespace
