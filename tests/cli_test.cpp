@@ -204,7 +204,7 @@ TEST_CASE("Command line: reports and files that can't be written exit with 2", "
 TEST_CASE("Command line: Ctrl-C cancels the cut and still reports", "[cli]") {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("cube.obj", kCube);
-  const Outcome o = run(folder, {"cut", mesh, "--cells", "1000", "--report", "-", "-o", folder.path("a.json")}, 300);
+  const Outcome o = run(folder, {"cut", mesh, "--cells", "300", "--report", "-", "-o", folder.path("a.json")}, 100);
   REQUIRE(o.exitCode == 1);
   REQUIRE(contains(o.out, "\"status\": \"cancelled\""));
   REQUIRE_FALSE(std::filesystem::exists(folder.path("a.json")));
