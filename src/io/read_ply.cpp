@@ -1,7 +1,5 @@
 // PLY, in text or binary of either byte order: x, y, z of the element "vertex" and vertex_indices of the element "face". Other
 // elements and properties are skipped.
-#include <cmath>
-#include <limits>
 
 #include "io/readers.h"
 #include "io/scalar.h"

@@ -1,6 +1,4 @@
 // STL, in text or binary. Every triangle has its own three vertices, as in the file; cut() welds them.
-#include <cstring>
-
 #include "io/readers.h"
 #include "io/scalar.h"
 #include "io/text_cursor.h"
