@@ -38,7 +38,7 @@ class Monitor {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (cancelled_ || !callback_({stage_, index_, stageCount_, done, total})) {
       cancelled_ = true;
-      throw Failure{{Status::cancelled, -1, -1, "The cut was cancelled by its progress callback."}};
+      throw Failure{{Status::cancelled, -1, -1, "The cut was cancelled."}};
     }
   }
   unsigned threads() const { return threads_; }

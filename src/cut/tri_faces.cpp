@@ -19,10 +19,16 @@ struct Chunk {
   Polygon rest[3], low[3], high[3];  // per axis
 };
 
+constexpr size_t kMost = size_t(1) << 31;  // loop entries, vertices
+
+[[noreturn]] void failTooLarge(int64_t triangle) {
+  throw Failure{{Status::meshTooLarge, triangle, -1, "The cut-mesh would have more than 2^31 loop entries or vertices."}};
+}
+
 class Dicer {
  public:
-  Dicer(const Input& input, const TriEdges& edges, const CutVertices& vertices, Chunk& chunk)
-      : input_(input), edges_(edges), vertices_(vertices), chunk_(chunk) {}
+  Dicer(const Input& input, const TriEdges& edges, const CutVertices& vertices, Monitor& monitor, Chunk& chunk)
+      : input_(input), edges_(edges), vertices_(vertices), monitor_(monitor), chunk_(chunk) {}
 
   void cut(uint32_t triangle) {
     triangle_ = triangle;
@@ -195,11 +201,15 @@ class Dicer {
     faces.triangles.push_back(triangle_);
     faces.elements.push_back(element);
     faces.touchesLine.push_back(touchesLine);
+    if (faces.size() % 4096 != 0) return;  // one triangle may have millions
+    if (faces.loopVertices.size() > kMost || vertices_.size() + chunk_.slabs.size() > kMost) failTooLarge(triangle_);
+    monitor_.report(triangle_, input_.triangles.size());
   }
 
   const Input& input_;
   const TriEdges& edges_;
   const CutVertices& vertices_;
+  Monitor& monitor_;
   Chunk& chunk_;
   uint32_t triangle_ = 0;
 };
@@ -219,14 +229,10 @@ void append(TriFaces& a, const TriFaces& b, uint32_t firstInTriangle, uint32_t s
 }  // namespace
 
 TriFaces cutTriangles(const Input& input, const TriEdges& edges, CutVertices& vertices, CutStats& stats, Monitor& monitor) {
-  constexpr size_t kMost = size_t(1) << 31;
   auto chunks = forChunks<Chunk>(input.triangles.size(), monitor, [&](Chunk& chunk, size_t begin, size_t end) {
-    Dicer dicer(input, edges, vertices, chunk);
+    Dicer dicer(input, edges, vertices, monitor, chunk);
     for (size_t t = begin; t < end; ++t) {
       if (input.kept(t)) dicer.cut(uint32_t(t));
-      if (chunk.faces.loopVertices.size() > kMost || vertices.size() + chunk.slabs.size() > kMost) {
-        throw Failure{{Status::meshTooLarge, int64_t(t), -1, "The cut-mesh would have more than 2^31 loop entries or vertices."}};
-      }
     }
   });
   size_t entries = 0, made = vertices.size();
@@ -235,7 +241,7 @@ TriFaces cutTriangles(const Input& input, const TriEdges& edges, CutVertices& ve
     made += c.slabs.size();
     stats.exactFallbacks += c.predicates.fallbacks;
   }
-  if (entries > kMost || made > kMost) throw Failure{{Status::meshTooLarge, -1, -1, "The cut-mesh would have more than 2^31 loop entries or vertices."}};
+  if (entries > kMost || made > kMost) failTooLarge(-1);
   TriFaces faces = std::move(chunks[0].faces);
   uint32_t shift = 0;
   for (size_t c = 0; c < chunks.size(); ++c) {
