@@ -1,5 +1,6 @@
 // Cuts and validates every mesh of a collection of real ones, if it lies beside the project: a folder with a manifest.csv whose columns
-// `file` and `self_intersects` are read. Meshes without self-intersections have to pass, the others may be refused by name.
+// `file` and `self_intersects` are read. Meshes without self-intersections have to pass. The others may be refused by the names of two
+// triangles or, as not every crossing inside of a grid cell is looked for, by a validation that names what is wrong.
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -50,7 +51,7 @@ void cutAll(int64_t n) {
     WARN("skipped: no collection of meshes in " MANDOLINE_DATA);
     return;
   }
-  size_t clean = 0, refused = 0;
+  size_t clean = 0, refused = 0, invalid = 0;
   for (const Row& row : rows) {
     INFO(row.file << " at N = " << n);
     const Mesh mesh = readMesh((std::filesystem::path(MANDOLINE_DATA) / row.file).string());
@@ -62,17 +63,26 @@ void cutAll(int64_t n) {
     if (!result) {
       CHECK(row.intersects);
       CHECK(std::string(name(result.error.status)) == "selfIntersection");
+      CHECK(std::min(result.error.element, result.error.element2) >= 0);
+      CHECK(result.error.element != result.error.element2);
       ++refused;
       continue;
     }
     const Validation validation = validate(mesh, result.mesh);
     std::string failures;
-    for (const Check& check : validation.checks)
-      if (!check.pass) failures += check.name + " at " + check.elementKind + " " + std::to_string(check.element) + "; ";
+    bool named = true;
+    for (const Check& check : validation.checks) {
+      if (check.pass) continue;
+      failures += check.name + " at " + check.elementKind + " " + std::to_string(check.element) + "; ";
+      named = named && check.element >= 0;
+    }
     INFO(failures);
-    CHECK(validation.pass);
+    CHECK((validation.pass || row.intersects));
+    CHECK(named);
+    invalid += !validation.pass;
   }
-  WARN("N = " << n << ": " << clean << " meshes without self-intersections, " << rows.size() - clean << " with, of which " << refused << " refused");
+  WARN("N = " << n << ": " << clean << " meshes without self-intersections, " << rows.size() - clean << " with; " << refused << " refused, "
+              << invalid << " not valid");
 }
 
 }  // namespace
@@ -80,4 +90,4 @@ void cutAll(int64_t n) {
 TEST_CASE("real meshes at N = 5", "[corpus5]") { cutAll(5); }
 TEST_CASE("real meshes at N = 13", "[corpus13]") { cutAll(13); }
 TEST_CASE("real meshes at N = 32", "[corpus32]") { cutAll(32); }
-TEST_CASE("real meshes at N = 64", "[.][corpus64]") { cutAll(64); }  // takes long: run it by its tag
+TEST_CASE("real meshes at N = 64", "[corpus64]") { cutAll(64); }
