@@ -1,0 +1,675 @@
+// Every predicate P1 to P7 against a direct evaluation of its definition in rational arithmetic: on random input, on input rounded onto
+// grid lines, planes and each other, and on lattices, where ties are exact and common.
+#include <memory>
+
+#include "catch.h"
+#include "cut/inner_point.h"
+#include "cut/radial_order.h"
+#include "cut/tri_faces.h"
+#include "rational.h"
+#include "samples.h"
+
+using namespace mandoline;
+using namespace mandoline::detail;
+
+namespace {
+
+using Vector = std::array<Rational, 3>;
+
+Vector exact(const Point& p) { return {Rational(p[0]), Rational(p[1]), Rational(p[2])}; }
+Vector operator+(const Vector& a, const Vector& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+Vector operator-(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vector operator*(const Rational& s, const Vector& a) { return {s * a[0], s * a[1], s * a[2]}; }
+Vector cross(const Vector& a, const Vector& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+
+/// Twice the signed area of a, b, c, seen along an axis.
+Rational area(const Vector& a, const Vector& b, const Vector& c, int axis) {
+  const int p = (axis + 1) % 3, q = (axis + 2) % 3;
+  return (b[p] - a[p]) * (c[q] - a[q]) - (b[q] - a[q]) * (c[p] - a[p]);
+}
+
+// ---- P1 to P5: cut-vertices -------------------------------------------------------------------------------------------------------
+
+struct Soup {
+  Mesh mesh;
+  Grid grid;
+
+  void add(const Point& p) { mesh.positions.insert(mesh.positions.end(), p.begin(), p.end()); }
+  void finish() {
+    for (uint32_t v = 0; v < mesh.vertexCount(); ++v) mesh.triangles.push_back(v);
+  }
+};
+
+/// Triangles with coordinates 0..9 and a grid at some of these, or at fractions between.
+Soup latticeSoup(uint64_t seed) {
+  Sampler sampler(Kind::lattice, seed);
+  Soup soup;
+  for (int i = 0; i < 3 * 8; ++i) soup.add(sampler.point());
+  soup.finish();
+  std::array<std::vector<double>, 3> planes;
+  const double step = sampler.oneIn(3) ? 0.25 : 1;
+  for (auto& p : planes) {
+    for (double x = double(sampler.below(3)); x <= 9; x += step * double(1 + sampler.below(3))) p.push_back(x);
+  }
+  soup.grid = Grid::rectilinear(planes);
+  return soup;
+}
+
+/// Random triangles in a uniform grid whose planes are rounded; many pass close to grid vertices and grid lines, by a side or inside.
+Soup roundedSoup(uint64_t seed) {
+  Sampler sampler(Kind::random, seed);
+  Soup soup;
+  soup.grid = Grid::box({-1.1, -1.1, -1.3}, {1.7, 1.3, 1.1}, {7, 6, 5});
+  const auto gridVertex = [&] {
+    Point p;
+    for (int d = 0; d < 3; ++d) p[d] = soup.grid.planes[d][sampler.below(soup.grid.planes[d].size())];
+    return p;
+  };
+  for (int i = 0; i < 12; ++i) {
+    const Point g = gridVertex(), a = sampler.point();
+    Point b = sampler.point();
+    const int aim = int(sampler.below(4));  // at nothing, at a grid vertex by a side or by the inside, at a grid line by a side
+    if (aim == 1) b = sampler.nudged(Sampler::combined(g, a, a, -0.5 - sampler.unit(), 0));
+    if (aim == 3) b[0] = Sampler::combined(g, a, a, -1, 0)[0], b[1] = Sampler::combined(g, a, a, -1, 0)[1];
+    soup.add(a);
+    soup.add(b);
+    soup.add(aim == 2 ? sampler.nudged(Sampler::combined(g, a, b, -0.5 - sampler.unit(), -0.5 - sampler.unit())) : sampler.point());
+  }
+  soup.finish();
+  return soup;
+}
+
+/// Coordinates and planes of all magnitudes down to where input is flushed to 0.
+Soup wideSoup(uint64_t seed) {
+  Sampler sampler(Kind::wide, seed);
+  Soup soup;
+  std::array<std::vector<double>, 3> planes;
+  for (auto& p : planes) {
+    p = {-Sampler::kLimit / 2, 0, Sampler::kLimit / 2};
+    for (int i = 0; i < 4; ++i) p.push_back(sampler.coordinate());
+    std::sort(p.begin(), p.end());
+    p.erase(std::unique(p.begin(), p.end()), p.end());
+  }
+  soup.grid = Grid::rectilinear(planes);
+  for (int i = 0; i < 8; ++i) {
+    const Point a = sampler.point(), b = sampler.point();
+    soup.add(a);
+    soup.add(b);
+    soup.add(sampler.oneIn(2) ? sampler.point() : sampler.nudged(sampler.onLine(a, b)));
+  }
+  soup.finish();
+  return soup;
+}
+
+/// A soup after stages 1 to 3, with some grid vertices, and where its vertices truly lie.
+struct Cut {
+  CutOptions options;
+  CutStats stats;
+  Monitor monitor{options, 1};
+  Input input;
+  TriEdges edges;
+  CutVertices vertices;
+  TriFaces faces;
+  std::vector<uint32_t> used;   // ids of vertices that there are
+  std::vector<Vector> points;   // per id
+
+  explicit Cut(const Soup& soup) {
+    input = prepareInput(soup.mesh, soup.grid, 0, stats, monitor);
+    cutTriEdges(input, edges, vertices, stats, monitor);
+    faces = cutTriangles(input, edges, vertices, stats, monitor);
+    for (int32_t k = 0; k <= input.cells(2); k += 2) {
+      for (int32_t j = 0; j <= input.cells(1); j += 2) {
+        for (int32_t i = 0; i <= input.cells(0); i += 2) vertices.append({2 * i, 2 * j, 2 * k});
+      }
+    }
+    points.resize(vertices.size());
+    for (uint32_t v = 0; v < vertices.size(); ++v) {
+      if (vertices.slabs[v][0] == CutVertices::kUnused) continue;
+      used.push_back(v);
+      points[v] = pointOf(v);
+    }
+  }
+
+  Rational plane(int axis, int32_t index) const { return Rational(input.planes[axis][size_t(index)]); }
+  Vector triVertex(uint32_t v) const { return exact(input.points[v]); }
+  bool inGrid(uint32_t v) const { return input.inGrid(vertices.slabs[v]); }
+
+  Slab slabOf(const Vector& p) const {
+    Slab slab;
+    for (int d = 0; d < 3; ++d) {
+      slab[d] = -1;
+      for (int32_t k = 0; k <= input.cells(d); ++k) slab[d] = plane(d, k) < p[d] ? 2 * k + 1 : plane(d, k) == p[d] ? 2 * k : slab[d];
+    }
+    return slab;
+  }
+
+  /// Where plane `index` crosses a tri-edge: 0 at its lower end, 1 at its higher.
+  Rational parameter(uint32_t edge, int axis, int32_t index) const {
+    const Vector a = triVertex(edges.ends[edge][0]), b = triVertex(edges.ends[edge][1]);
+    return (plane(axis, index) - a[axis]) / (b[axis] - a[axis]);
+  }
+  Vector onEdge(uint32_t edge, const Rational& t) const {
+    const Vector a = triVertex(edges.ends[edge][0]);
+    return a + t * (triVertex(edges.ends[edge][1]) - a);
+  }
+
+  std::array<Vector, 3> corners(uint32_t triangle) const {
+    const auto& t = input.triangles[triangle];
+    return {triVertex(t[0]), triVertex(t[1]), triVertex(t[2])};
+  }
+  /// Where a grid line along g crosses the plane of a triangle; p has its other two coordinates. False if it is parallel.
+  static bool meetLine(const std::array<Vector, 3>& t, int g, Vector& p) {
+    const Vector normal = cross(t[1] - t[0], t[2] - t[0]);
+    if (normal[g].sign() == 0) return false;
+    const int e = (g + 1) % 3, f = (g + 2) % 3;
+    p[g] = t[0][g] - (normal[e] * (p[e] - t[0][e]) + normal[f] * (p[f] - t[0][f])) / normal[g];
+    return true;
+  }
+  static bool isInside(const std::array<Vector, 3>& t, int g, const Vector& p) {
+    const int side = area(t[0], t[1], p, g).sign();
+    return side != 0 && side == area(t[1], t[2], p, g).sign() && side == area(t[2], t[0], p, g).sign();
+  }
+
+ private:
+  /// By the vertex's origin and one (on a tri-edge) or two (in a triangle) of the planes it claims to be on.
+  Vector pointOf(uint32_t v) const {
+    if (vertices.isTriVertex(v)) return triVertex(v);
+    const Slab& slab = vertices.slabs[v];
+    Vector p;
+    if (vertices.isOnEdge(v)) {
+      const auto& ends = edges.ends[vertices.parent(v)];
+      for (int d = 0; d < 3; ++d) {
+        if (onPlane(slab[d]) && input.points[ends[0]][d] != input.points[ends[1]][d]) return onEdge(vertices.parent(v), parameter(vertices.parent(v), d, slab[d] / 2));
+      }
+      FAIL("a crossing without a plane");
+    }
+    for (int d = 0; d < 3; ++d) p[d] = onPlane(slab[d]) ? plane(d, slab[d] / 2) : Rational(0);
+    if (!vertices.isInTriangle(v)) return p;
+    for (int g = 0; g < 3; ++g) {
+      if (onPlane(slab[(g + 1) % 3]) && onPlane(slab[(g + 2) % 3]) && meetLine(corners(vertices.parent(v)), g, p)) return p;
+    }
+    FAIL("a vertex in a triangle without a grid line");
+    return p;
+  }
+};
+
+/// Runs `test` with cuts of all kinds of soup.
+template <class Test>
+void forCuts(int seeds, const Test& test) {
+  for (int seed = 1; seed <= seeds; ++seed) {
+    for (const auto make : {latticeSoup, roundedSoup, wideSoup}) {
+      const Cut cut(make(uint64_t(seed)));
+      test(cut);
+    }
+  }
+}
+
+/// Groups of vertices that may well tie: on one tri-edge, or in one triangle on one plane.
+std::vector<std::vector<uint32_t>> alignedVertices(const Cut& cut) {
+  std::vector<std::vector<uint32_t>> groups;
+  for (size_t f = 0; f < cut.faces.size(); ++f) groups.push_back({cut.faces.loop(f).begin(), cut.faces.loop(f).end()});
+  for (uint32_t e = 0; e < cut.edges.ends.size(); ++e) {
+    groups.push_back({cut.edges.ends[e].begin(), cut.edges.ends[e].end()});
+    for (uint32_t v = cut.edges.crossingOffsets[e]; v < cut.edges.crossingOffsets[e + 1]; ++v) {
+      if (cut.vertices.slabs[v][0] != CutVertices::kUnused) groups.back().push_back(v);
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const FaceEdge& first : cut.faces.hybridEdges) {
+      if (!onPlane(first.element[axis])) continue;
+      groups.emplace_back();
+      for (const FaceEdge& e : cut.faces.hybridEdges) {
+        if (e.element == first.element) groups.back().insert(groups.back().end(), {e.from, e.to});
+      }
+    }
+  }
+  return groups;
+}
+
+}  // namespace
+
+TEST_CASE("P1: the crossings of a tri-edge, their order and their slabs", "[predicates]") {
+  size_t crossings = 0, ties = 0;
+  forCuts(12, [&](const Cut& cut) {
+    for (uint32_t e = 0; e < cut.edges.ends.size(); ++e) {
+      const Point &a = cut.input.points[cut.edges.ends[e][0]], &b = cut.input.points[cut.edges.ends[e][1]];
+      std::vector<Rational> expected;  // all crossings inside of the edge
+      for (int d = 0; d < 3; ++d) {
+        for (int32_t k = 0; k <= cut.input.cells(d) && a[d] != b[d]; ++k) {
+          const Rational t = cut.parameter(e, d, k);
+          if (t > Rational(0) && t < Rational(1)) expected.push_back(t);
+        }
+      }
+      std::sort(expected.begin(), expected.end());
+      const size_t all = expected.size();
+      expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+      const uint32_t first = cut.edges.crossingOffsets[e];
+      REQUIRE(cut.edges.crossingOffsets[e + 1] - first == all);
+      for (uint32_t i = 0; i < all; ++i) {
+        const Slab& slab = cut.vertices.slabs[first + i];
+        REQUIRE((slab[0] == CutVertices::kUnused) == (i >= expected.size()));
+        if (i < expected.size()) REQUIRE(slab == cut.slabOf(cut.onEdge(e, expected[i])));
+      }
+      crossings += expected.size();
+      ties += all - expected.size();
+    }
+  });
+  CHECK(crossings > 3000);
+  CHECK(ties > 200);
+}
+
+TEST_CASE("P2: the grid lines that cross a triangle, and where", "[predicates]") {
+  size_t crossings = 0, ties = 0;
+  forCuts(12, [&](const Cut& cut) {
+    for (uint32_t v = cut.vertices.firstInTriangle; v < cut.vertices.firstOnGrid; ++v) REQUIRE(cut.vertices.slabs[v] == cut.slabOf(cut.points[v]));
+    for (uint32_t t = 0; t < cut.input.triangles.size(); ++t) {
+      if (!cut.input.kept(t)) continue;
+      const auto corners = cut.corners(t);
+      std::vector<Slab> expected, found;
+      for (int g = 0; g < 3; ++g) {
+        const int e = (g + 1) % 3, f = (g + 2) % 3;
+        for (int32_t i = 0; i <= cut.input.cells(e); ++i) {
+          for (int32_t j = 0; j <= cut.input.cells(f); ++j) {
+            Vector p;
+            p[e] = cut.plane(e, i);
+            p[f] = cut.plane(f, j);
+            if (!Cut::meetLine(corners, g, p) || !Cut::isInside(corners, g, p)) continue;
+            const Slab slab = cut.slabOf(p);
+            if (cut.input.inGrid(slab)) expected.push_back(slab);
+          }
+        }
+      }
+      const size_t all = expected.size();
+      std::sort(expected.begin(), expected.end());
+      expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+      for (uint32_t v = cut.vertices.firstInTriangle; v < cut.vertices.firstOnGrid; ++v) {
+        if (cut.vertices.parent(v) != t) continue;
+        int g = 0;
+        while (area(corners[0], corners[1], corners[2], g).sign() == 0) ++g;
+        REQUIRE(Cut::isInside(corners, g, cut.points[v]));
+        if (cut.inGrid(v)) found.push_back(cut.vertices.slabs[v]);
+      }
+      std::sort(found.begin(), found.end());
+      REQUIRE(found == expected);
+      crossings += expected.size();
+      ties += all - expected.size();
+    }
+  });
+  CHECK(crossings > 1000);
+  CHECK(ties > 100);
+}
+
+TEST_CASE("P3: the order of cut-vertices along an axis", "[predicates]") {
+  size_t close = 0, ties = 0;
+  Predicates predicates;
+  forCuts(10, [&](const Cut& cut) {
+    Sampler sampler(Kind::lattice);
+    const auto compare = [&](uint32_t u, uint32_t v) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const int expected = order(cut.points[u][axis], cut.points[v][axis]);
+        REQUIRE(cut.vertices.compare(u, v, axis, predicates) == expected);
+        if (cut.vertices.slabs[u][axis] != cut.vertices.slabs[v][axis] || onPlane(cut.vertices.slabs[u][axis])) continue;
+        ++close;
+        ties += u != v && expected == 0;
+      }
+    };
+    for (int i = 0; i < 500; ++i) compare(cut.used[sampler.below(cut.used.size())], cut.used[sampler.below(cut.used.size())]);
+    for (const auto& group : alignedVertices(cut)) {
+      for (size_t i = 1; i < group.size(); ++i) compare(group[i - 1], group[i]);
+    }
+  });
+  CHECK(close > 2000);
+  CHECK(ties > 200);
+  CHECK(predicates.fallbacks > 100);
+}
+
+TEST_CASE("P4, P5: the turn that cut-vertices take", "[predicates]") {
+  int counts[3] = {};
+  Predicates predicates;
+  forCuts(10, [&](const Cut& cut) {
+    Sampler sampler(Kind::lattice);
+    const auto orient = [&](uint32_t u, uint32_t v, uint32_t w) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const int expected = area(cut.points[u], cut.points[v], cut.points[w], axis).sign();
+        REQUIRE(cut.vertices.orient(u, v, w, axis, predicates) == expected);
+        counts[expected + 1] += u != v && v != w && u != w;
+      }
+    };
+    const auto any = [&](const std::vector<uint32_t>& ids) { return ids[sampler.below(ids.size())]; };
+    for (int i = 0; i < 200; ++i) orient(any(cut.used), any(cut.used), any(cut.used));
+    for (const auto& group : alignedVertices(cut)) {
+      if (sampler.oneIn(4)) orient(any(group), any(group), any(group));
+    }
+  });
+  for (const int count : counts) CHECK(count > 1000);
+  CHECK(predicates.fallbacks > 100);
+}
+
+TEST_CASE("Proven ranges of cut-vertices hold, and are narrow", "[predicates]") {
+  Predicates predicates;
+  forCuts(10, [&](const Cut& cut) {
+    for (const uint32_t v : cut.used) {
+      if (!cut.inGrid(v)) continue;
+      for (int d = 0; d < 3; ++d) {
+        const CutVertices::Range range = cut.vertices.range(v, d, predicates);
+        REQUIRE(Rational(range.low) <= cut.points[v][d]);
+        REQUIRE(Rational(range.high) >= cut.points[v][d]);
+        if (cut.vertices.isTriVertex(v) || onPlane(cut.vertices.slabs[v][d])) REQUIRE(range.low == range.high);
+      }
+    }
+  });
+  const Cut easy(roundedSoup(1));
+  double widest = 0;
+  for (const uint32_t v : easy.used) {
+    if (!easy.inGrid(v) || !easy.vertices.isOnEdge(v)) continue;
+    const CutVertices::Range range = easy.vertices.range(v, 0, predicates);
+    widest = std::max(widest, range.high - range.low);
+  }
+  CHECK(widest < 1e-12 * easy.input.planes[0].back());
+}
+
+TEST_CASE("Positions of cut-vertices are rounded by little and never out of their slabs", "[predicates]") {
+  // Output only. Relative to a corner of the parent triangle: 8 roundings allowed to the offset, 2 of the quotient, 1 of the sum.
+  constexpr double kAllowed = 11 * kRoundoff;
+  size_t clamped = 0;
+  Predicates predicates;
+  forCuts(10, [&](const Cut& cut) {
+    for (const uint32_t v : cut.used) {
+      if (!cut.inGrid(v)) continue;
+      const Point p = cut.vertices.position(v, predicates), r = cut.vertices.reference(v);
+      for (int d = 0; d < 3; ++d) {
+        const Rational& truth = cut.points[v][d];
+        const int32_t slab = cut.vertices.slabs[v][d];
+        if (cut.vertices.isTriVertex(v) || onPlane(slab)) {
+          REQUIRE(Rational(p[d]) == truth);
+          continue;
+        }
+        const double low = cut.input.planes[d][slab / 2], high = cut.input.planes[d][slab / 2 + 1];
+        const double first = std::nextafter(low, high), last = std::nextafter(high, low);
+        if (first < high) REQUIRE((first <= p[d] && p[d] <= last));
+        const bool isClamped = (p[d] <= first && truth < Rational(p[d])) || (p[d] >= last && truth > Rational(p[d]));
+        clamped += isClamped;
+        if (!isClamped) REQUIRE(abs(Rational(p[d]) - truth) <= Rational(kAllowed) * Rational(std::max(std::fabs(p[d]), std::fabs(r[d]))));
+      }
+    }
+  });
+  CHECK(clamped > 50);
+}
+
+// ---- P6: triangles around a tri-edge ------------------------------------------------------------------------------------------------
+
+namespace {
+
+/// Angles about a -> b, counted from the half-plane of one tip, by half turn and cross product.
+struct Angles {
+  struct Direction {
+    Rational x, y;
+    bool isSecondHalf() const { return y.sign() < 0 || (y.sign() == 0 && x.sign() < 0); }
+  };
+  Vector origin, xAxis, yAxis;
+
+  Angles(const Point& a, const Point& b, const Point& tip) : origin(exact(a)) {
+    const Vector along = exact(b) - origin;
+    yAxis = cross(along, exact(tip) - origin);
+    xAxis = cross(yAxis, along);
+  }
+  Direction of(const Point& tip) const {
+    const Vector t = exact(tip) - origin;
+    return {t[0] * xAxis[0] + t[1] * xAxis[1] + t[2] * xAxis[2], t[0] * yAxis[0] + t[1] * yAxis[1] + t[2] * yAxis[2]};
+  }
+  static int compare(const Direction& s, const Direction& t) {
+    if (s.isSecondHalf() != t.isSecondHalf()) return s.isSecondHalf() ? 1 : -1;
+    return -(s.x * t.y - s.y * t.x).sign();
+  }
+};
+
+bool areOnLine(const Point& a, const Point& b, const Point& c) {
+  const Vector n = cross(exact(b) - exact(a), exact(c) - exact(a));
+  return n[0].sign() == 0 && n[1].sign() == 0 && n[2].sign() == 0;
+}
+
+}  // namespace
+
+TEST_CASE("P6: the radial order of triangles around a tri-edge", "[predicates]") {
+  for (const Kind kind : kKinds) {
+    Sampler sampler(kind);
+    Predicates predicates;
+    size_t equal = 0, opposite = 0;
+    for (int repeat = 0; repeat < 400; ++repeat) {
+      const Point a = sampler.point();
+      Point b = sampler.point();
+      const int flat = int(sampler.below(6));  // below 3: the edge and many triangles lie in a plane across this axis
+      if (flat < 3) b[flat] = a[flat];
+      std::vector<Point> tips;
+      const bool ties = sampler.oneIn(2);
+      const size_t wanted = 2 + sampler.below(6);
+      for (int attempt = 0; attempt < 30 && tips.size() < wanted; ++attempt) {
+        Point tip = tips.empty() || sampler.oneIn(2) ? sampler.point() : sampler.nudged(sampler.onPlane(a, b, tips[sampler.below(tips.size())]));
+        if (flat < 3 && sampler.oneIn(2)) tip[flat] = a[flat];
+        if (areOnLine(a, b, tip)) continue;
+        bool tied = false;
+        for (const Point& t : tips) tied |= Angles::compare(Angles(a, b, t).of(tip), Angles(a, b, t).of(t)) == 0;
+        if (ties || !tied) tips.push_back(tip);
+      }
+      if (tips.size() < 2) continue;
+      const bool open = sampler.oneIn(3);
+      const Angles angles(a, b, tips[0]);
+      if (open) {  // those less than half a turn on, in any order
+        tips.erase(std::remove_if(tips.begin(), tips.end(), [&](const Point& t) {
+          const auto direction = angles.of(t);
+          return direction.isSecondHalf() || (direction.y.sign() == 0 && direction.x.sign() < 0);
+        }), tips.end());
+        std::swap(tips[0], tips[sampler.below(tips.size())]);
+      }
+      std::vector<Flap> flaps;
+      for (uint32_t i = 0; i < tips.size(); ++i) flaps.push_back({&tips[i], i});
+      const size_t found = sortRadially(a, b, open, flaps, predicates);
+
+      std::vector<uint8_t> seen(tips.size(), 0);
+      size_t expected = 0;
+      for (size_t i = 0; i < flaps.size(); ++i) {
+        REQUIRE(flaps[i].tip == &tips[flaps[i].item]);
+        REQUIRE(!seen[flaps[i].item]++);
+        const auto direction = angles.of(*flaps[i].tip);
+        opposite += direction.y.sign() == 0 && direction.x.sign() < 0;
+        if (i == 0) continue;
+        const int order = Angles::compare(angles.of(*flaps[i - 1].tip), direction);
+        REQUIRE(order <= 0);
+        if (order == 0 && expected == 0) expected = i;
+      }
+      REQUIRE(found == expected);
+      equal += found > 0;
+    }
+    CHECK(equal > 20);
+    CHECK(opposite > 5);
+    CHECK(predicates.fallbacks > 100);
+  }
+}
+
+// ---- P7: nesting --------------------------------------------------------------------------------------------------------------------
+
+namespace {
+
+/// A triangle and a point inside of it, with what the tests need to aim others at that point.
+struct Shot {
+  std::array<Point, 3> corners;
+  InnerPoint point;
+  Vector truth;
+  Point near;  // the point, rounded
+
+  Shot(Sampler& sampler, const std::array<Point, 3>& corners_) : corners(corners_) {
+    point.corners = {&corners[0], &corners[1], &corners[2]};
+    const uint64_t attempt = sampler.oneIn(2) ? 0 : sampler.below(64);
+    point.weights = attempt == 0 ? std::array<double, 3>{1, 1, 2} : std::array<double, 3>{1.0 + double(attempt * 7 % 11), 1.0 + double(attempt * 5 % 13), 1.0 + double(attempt * 3 % 17)};
+    const double sum = point.weights[0] + point.weights[1] + point.weights[2];
+    for (int d = 0; d < 3; ++d) {
+      near[d] = 0;
+      for (int i = 0; i < 3; ++i) {
+        truth[d] = truth[d] + Rational(point.weights[i]) * Rational(corners[i][d]);
+        near[d] += point.weights[i] / sum * corners[i][d];
+      }
+      truth[d] = truth[d] / Rational(sum);
+      near[d] = Sampler::allowed(near[d]);
+    }
+  }
+  Shot(const Shot&) = delete;
+};
+
+std::array<Point, 3> randomTriangle(Sampler& sampler) { return {sampler.point(), sampler.point(), sampler.point()}; }
+
+/// A triangle that a line along the axis through the point `near` meets: near another point on that line, in its inside or close to a side.
+std::array<Point, 3> triangleThrough(Sampler& sampler, Point near, int axis, bool exactlyThere) {
+  if (!exactlyThere) near[axis] = sampler.coordinate();
+  const Point a = sampler.point(), b = sampler.point();
+  const auto share = [&] { return sampler.oneIn(3) ? -sampler.unit() : sampler.oneIn(3) ? 0 : -double(sampler.below(9)) / 8; };
+  const double s = share(), t = share();
+  return {a, b, sampler.nudged(Sampler::combined(near, a, b, s, t))};
+}
+
+Corners cornersOf(const std::array<Point, 3>& t) { return {&t[0], &t[1], &t[2]}; }
+std::array<Vector, 3> exact(const std::array<Point, 3>& t) { return {exact(t[0]), exact(t[1]), exact(t[2])}; }
+
+/// Calls test(shot, triangle, axis, predicates) with triangles at random and aimed at the point.
+template <class Test>
+void forShots(const Test& test) {
+  for (const Kind kind : kKinds) {
+    Sampler sampler(kind);
+    Predicates predicates;
+    for (int repeat = 0; repeat < 1500; ++repeat) {
+      const Shot shot(sampler, randomTriangle(sampler));
+      const int axis = int(sampler.below(3));
+      const std::array<Point, 3> t = sampler.oneIn(4) ? randomTriangle(sampler) : triangleThrough(sampler, shot.near, axis, sampler.oneIn(2));
+      test(sampler, shot, t, axis, predicates);
+    }
+    CHECK(predicates.fallbacks > 5);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("P7: whether a ray passes a triangle inside or on its outline", "[predicates]") {
+  int counts[3] = {};
+  forShots([&](Sampler&, const Shot& shot, const std::array<Point, 3>& t, int axis, Predicates& predicates) {
+    const auto corners = exact(t);
+    const int normal = area(corners[0], corners[1], corners[2], axis).sign();
+    REQUIRE(normalSign(cornersOf(t), axis, predicates) == normal);
+    int least = 1, greatest = -1;
+    for (int i = 0; i < 3; ++i) {
+      const int side = area(corners[i], corners[(i + 1) % 3], shot.truth, axis).sign();
+      least = std::min(least, side);
+      greatest = std::max(greatest, side);
+    }
+    const int expected = least < 0 && greatest > 0 ? -1 : least == 0 || greatest == 0 ? 0 : 1;
+    REQUIRE(insideOf(cornersOf(t), shot.point, axis, predicates) == expected);
+    ++counts[expected + 1];
+  });
+  for (const int count : counts) CHECK(count > 100);
+}
+
+TEST_CASE("P7: the side of a triangle's plane that a point lies on", "[predicates]") {
+  int counts[3] = {}, movedCounts[3] = {};
+  forShots([&](Sampler& sampler, const Shot& shot, const std::array<Point, 3>& t, int axis, Predicates& predicates) {
+    const auto corners = exact(t);
+    const Vector normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const auto side = [&](const Vector& p) {
+      const Vector x = p - corners[0];
+      return (normal[0] * x[0] + normal[1] * x[1] + normal[2] * x[2]).sign();
+    };
+    REQUIRE(sideOfPlane(cornersOf(t), shot.point, predicates) == side(shot.truth));
+    ++counts[side(shot.truth) + 1];
+    Vector moved = shot.truth;
+    double height = sampler.coordinate();
+    if (normal[axis].sign() != 0 && sampler.oneIn(2)) height = sampler.nudged(sampler.oneIn(2) ? shot.near[axis] : t[0][axis]);
+    moved[axis] = Rational(height);
+    REQUIRE(sideOfPlane(cornersOf(t), shot.point, axis, height, predicates) == side(moved));
+    ++movedCounts[side(moved) + 1];
+  });
+  for (const int count : counts) CHECK(count > 100);
+  for (const int count : movedCounts) CHECK(count > 50);
+}
+
+TEST_CASE("P7: the order in which a ray meets two triangles", "[predicates]") {
+  int counts[3] = {};
+  forShots([&](Sampler& sampler, const Shot& shot, const std::array<Point, 3>& t, int axis, Predicates& predicates) {
+    const auto corners = exact(t);
+    Vector meet = shot.truth, other = shot.truth;
+    if (!Cut::meetLine(corners, axis, meet)) return;
+    std::array<Point, 3> u = randomTriangle(sampler);
+    if (!sampler.oneIn(4)) {  // through the place where the first one is met
+      const Point &a = t[0], &b = t[1], &c = t[2];
+      const double x = b[(axis + 1) % 3] - a[(axis + 1) % 3], y = b[(axis + 2) % 3] - a[(axis + 2) % 3];
+      u = sampler.oneIn(2) ? triangleThrough(sampler, shot.near, axis, true)
+                           : std::array<Point, 3>{sampler.nudged(Sampler::combined(a, b, c, 0.25, 0.25)), b, x * y == 0 ? c : sampler.nudged(sampler.onPlane(a, b, c))};
+    }
+    if (!Cut::meetLine(exact(u), axis, other)) return;
+    const int expected = order(meet[axis], other[axis]);
+    REQUIRE(compareHeights(cornersOf(t), cornersOf(u), shot.point, axis, predicates) == expected);
+    REQUIRE(compareHeights(cornersOf(u), cornersOf(t), shot.point, axis, predicates) == -expected);
+    ++counts[expected + 1];
+  });
+  for (const int count : counts) CHECK(count > 100);
+}
+
+TEST_CASE("P7: the sign of a closed surface's volume", "[predicates]") {
+  for (const Kind kind : kKinds) {
+    Sampler sampler(kind);
+    Predicates predicates;
+    int counts[3] = {};
+    for (int repeat = 0; repeat < 500; ++repeat) {
+      const Point a = sampler.point(), b = sampler.point(), c = sampler.point();
+      Point d = sampler.oneIn(4) ? sampler.point() : sampler.nudged(sampler.onPlane(a, b, c)), e = sampler.nudged(sampler.onPlane(b, c, d));
+      if (sampler.oneIn(5)) d = e = a;
+      // Two tetrahedra with a common triangle, which is left out.
+      const std::vector<Corners> triangles = {{&a, &c, &b}, {&a, &b, &d}, {&a, &d, &c}, {&e, &b, &c}, {&e, &c, &d}, {&e, &d, &b}};
+      Rational volume;
+      for (const Corners& t : triangles) {
+        const Vector x = exact(*t[0]), n = cross(exact(*t[1]), exact(*t[2]));
+        volume = volume + x[0] * n[0] + x[1] * n[1] + x[2] * n[2];
+      }
+      REQUIRE(volumeSign(triangles, predicates) == volume.sign());
+      ++counts[volume.sign() + 1];
+    }
+    for (const int count : counts) CHECK(count > 20);
+    CHECK(predicates.fallbacks > 20);
+  }
+  Predicates predicates;
+  CHECK(volumeSign({}, predicates) == 0);
+}
+
+TEST_CASE("P7: where a point lies beside the vertices and edges of a grid-face", "[predicates]") {
+  int aboveCounts[3] = {}, sideCounts[3] = {};
+  Predicates predicates;
+  forCuts(10, [&](const Cut& cut) {
+    Sampler sampler(Kind::lattice);
+    std::vector<uint32_t> ids;
+    std::vector<Point> positions(cut.points.size());
+    for (const uint32_t v : cut.used) {
+      if (!cut.inGrid(v)) continue;
+      ids.push_back(v);
+      positions[v] = cut.vertices.position(v, predicates);
+      for (double& x : positions[v]) x = Sampler::allowed(x);  // beside a plane at 0 it may be denormal
+    }
+    const auto any = [&](const std::vector<uint32_t>& of) { return of[sampler.below(of.size())]; };
+    const auto groups = alignedVertices(cut);
+    for (int i = 0; i < 300 && !ids.empty(); ++i) {
+      const auto& group = groups[sampler.below(groups.size())];
+      uint32_t u = any(ids), v = any(ids);
+      if (sampler.oneIn(2)) u = any(group), v = any(group);
+      if (!cut.inGrid(u) || !cut.inGrid(v)) continue;
+      // Around a point near the line u v: the mean of corners by the weights 1, 1 and 2.
+      const Point middle = sampler.onLine(positions[u], positions[v]), a = positions[any(ids)], b = positions[any(ids)];
+      const Shot shot(sampler, {a, b, sampler.nudged(Sampler::combined(middle, a, b, -0.5, -0.5))});
+      for (int axis = 0; axis < 3; ++axis) {
+        const int q = (axis + 2) % 3, above = order(cut.points[v][q], shot.truth[q]);
+        REQUIRE(isAbove(cut.vertices, v, shot.point, axis, predicates) == (above > 0));
+        ++aboveCounts[above + 1];
+        const int side = area(cut.points[u], cut.points[v], shot.truth, axis).sign();
+        REQUIRE(sideOfLine(cut.vertices, u, v, shot.point, axis, predicates) == side);
+        sideCounts[side + 1] += u != v;
+      }
+    }
+  });
+  for (const int count : aboveCounts) CHECK(count > 100);
+  for (const int count : sideCounts) CHECK(count > 100);
+  CHECK(predicates.fallbacks > 100);
+}
