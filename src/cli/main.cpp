@@ -1,5 +1,6 @@
 // The command line: reads, cuts, reports, writes. What the words mean is in arguments.cpp.
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -32,6 +33,19 @@ size_t peakMemoryBytes() {
   return size_t(usage.ru_maxrss);
 #else
   return size_t(usage.ru_maxrss) * 1024;
+#endif
+}
+
+/// Lets allocations beyond the machine's memory fail, so that a cut too large for it ends with a status rather than by the system's hand.
+void limitMemory() {
+#if !defined(__SANITIZE_ADDRESS__) && defined(_SC_PHYS_PAGES)
+  const long pages = sysconf(_SC_PHYS_PAGES), pageSize = sysconf(_SC_PAGESIZE);
+  rlimit limit{};
+  if (pages <= 0 || pageSize <= 0 || getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  const rlim_t most = rlim_t(pages) / 10 * 9 * rlim_t(pageSize);
+  if (limit.rlim_cur != RLIM_INFINITY && limit.rlim_cur <= most) return;
+  limit.rlim_cur = most;
+  setrlimit(RLIMIT_DATA, &limit);
 #endif
 }
 
@@ -144,6 +158,7 @@ int run(const std::vector<std::string>& words) {
 
 int main(int argc, char** argv) {
   using namespace mandoline::cli;
+  limitMemory();
   try {
     return run(std::vector<std::string>(argv + 1, argv + argc));
   } catch (const UsageError& error) {
