@@ -1,6 +1,6 @@
 // Checks of a cut-mesh (paper, 5.6). The total volume needs no check of its own: the stencil makes each grid cell either cut or untouched,
 // and the cut-cells of a grid cell fill it.
-#include "operators/validate_parts.h"
+#include "operators/validate_bins.h"
 
 namespace mandoline {
 

@@ -1,7 +1,7 @@
 // Finds the input's triangles near a point or above it.
-#include <algorithm>
+#include "operators/validate_bins.h"
 
-#include "operators/validate_parts.h"
+#include <algorithm>
 
 namespace mandoline::validation {
 

@@ -1,7 +1,7 @@
 // No vertex lies inside of an edge of the same grid cell. Positions find the candidates; the vertices' parents and planes decide exactly.
 #include <algorithm>
 
-#include "operators/validate_parts.h"
+#include "operators/validate_grid_cells.h"
 
 namespace mandoline::validation {
 namespace {
@@ -15,7 +15,7 @@ ExactPoint exactPoint(const Context& context, uint32_t v) {
   const CutMesh& cut = context.cut;
   ExactPoint p;
   p.w = 1;
-  const auto planeOf = [&](int d) { return context.plane(d, context.cellAt(v)[d]); };
+  const auto planeOf = [&](int d) { return context.planes[d][context.cellAt(v)[d]]; };
   if (cut.vertexTriVertex[v] >= 0) {
     for (int d = 0; d < 3; ++d) p.x[d] = context.triVertex(uint32_t(cut.vertexTriVertex[v]))[d];
     return p;
@@ -37,7 +37,9 @@ ExactPoint exactPoint(const Context& context, uint32_t v) {
     while (g < 2 && context.onPlane(v, g)) ++g;
     const int e = (g + 1) % 3, f = (g + 2) % 3;
     const Vec3 a = context.corner(parent, 0), b = context.corner(parent, 1), c = context.corner(parent, 2);
-    const auto normal = [&](int i, int j) { return (Exact(b[i]) - a[i]) * (Exact(c[j]) - a[j]) - (Exact(b[j]) - a[j]) * (Exact(c[i]) - a[i]); };
+    const auto normal = [&](int i, int j) {
+      return (Exact(b[i]) - a[i]) * (Exact(c[j]) - a[j]) - (Exact(b[j]) - a[j]) * (Exact(c[i]) - a[i]);
+    };
     p.w = normal(e, f);
     p.x[g] = p.w * a[g] - normal(f, g) * (Exact(planeOf(e)) - a[e]) - normal(g, e) * (Exact(planeOf(f)) - a[f]);
     for (const int d : {e, f}) p.x[d] = p.w * planeOf(d);
@@ -51,9 +53,12 @@ bool liesInside(const Context& context, uint32_t u, uint32_t v, uint32_t w) {
   bool inside = false;
   for (int d = 0; d < 3; ++d) {
     const int e = (d + 1) % 3, f = (d + 2) % 3;
-    const Exact determinant = a.w * (b.x[e] * c.x[f] - b.x[f] * c.x[e]) - b.w * (a.x[e] * c.x[f] - a.x[f] * c.x[e]) + c.w * (a.x[e] * b.x[f] - a.x[f] * b.x[e]);
+    const Exact determinant =
+        a.w * (b.x[e] * c.x[f] - b.x[f] * c.x[e]) - b.w * (a.x[e] * c.x[f] - a.x[f] * c.x[e]) + c.w * (a.x[e] * b.x[f] - a.x[f] * b.x[e]);
     if (determinant.sign() != 0) return false;
-    const auto order = [d](const ExactPoint& p, const ExactPoint& q) { return (q.x[d] * p.w - p.x[d] * q.w).sign() * p.w.sign() * q.w.sign(); };
+    const auto order = [d](const ExactPoint& p, const ExactPoint& q) {
+      return (q.x[d] * p.w - p.x[d] * q.w).sign() * p.w.sign() * q.w.sign();
+    };
     inside |= order(a, c) * order(c, b) > 0;
   }
   return inside;
@@ -69,7 +74,8 @@ void ConformingCheck::gatherVertices(const GridCell& cell, const std::vector<Edg
   for (int axis = 0; axis < 3; ++axis) {
     sorted_[axis].clear();
     for (const uint32_t v : ids_) sorted_[axis].push_back({v, cell.local(cell.context.vertex(v))});
-    std::sort(sorted_[axis].begin(), sorted_[axis].end(), [&](const Vertex& a, const Vertex& b) { return a.position[axis] < b.position[axis]; });
+    std::sort(sorted_[axis].begin(), sorted_[axis].end(),
+              [&](const Vertex& a, const Vertex& b) { return a.position[axis] < b.position[axis]; });
   }
 }
 
@@ -96,12 +102,15 @@ void ConformingCheck::run(const GridCell& cell, const std::vector<Edge>& edges) 
 
 void ConformingCheck::checkVertex(const GridCell& cell, const Edge& edge, uint32_t vertex) {
   const Context& x = cell.context;
-  const auto sharePlane = [&](uint32_t u, uint32_t v, int d) { return x.onPlane(u, d) && x.onPlane(v, d) && x.cellAt(u)[d] == x.cellAt(v)[d]; };
+  const auto sharePlane = [&](uint32_t u, uint32_t v, int d) {
+    return x.onPlane(u, d) && x.onPlane(v, d) && x.cellAt(u)[d] == x.cellAt(v)[d];
+  };
   for (int d = 0; d < 3; ++d) {
     if (sharePlane(edge[0], edge[1], d) && !sharePlane(edge[0], vertex, d)) return;
   }
   const Vec3 p = x.vertex(vertex), a = x.inRoundings(x.vertex(edge[0]), p), b = x.inRoundings(x.vertex(edge[1]), p);
-  if (distanceToSegment({}, a, b) <= kTolerance && liesInside(x, edge[0], edge[1], vertex)) conforming_.violate("vertex", vertex, "lies inside of an edge of its grid cell");
+  if (distanceToSegment({}, a, b) <= kTolerance && liesInside(x, edge[0], edge[1], vertex))
+    conforming_.violate("vertex", vertex, "lies inside of an edge of its grid cell");
 }
 
 }  // namespace mandoline::validation

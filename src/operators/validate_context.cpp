@@ -1,8 +1,8 @@
-// What validate() works out from the arrays before it checks: the input as it was moved and welded, owners of half-faces, grid cells.
+// What validate() works out from the arrays before it checks: the input as it was snapped and welded, owners of half-faces, grid cells.
+#include "operators/validate_context.h"
+
 #include <algorithm>
 #include <cstring>
-
-#include "operators/validate_parts.h"
 
 namespace mandoline::validation {
 namespace {
@@ -24,7 +24,9 @@ std::vector<uint32_t> lowestAtPosition(const MeshView& mesh, const std::vector<d
       hash = Random::mix(hash + bits + 0x9e3779b97f4a7c15u);
     }
     size_t slot = hash & (slots - 1);
-    const auto same = [&](uint32_t w) { return std::equal(&positions[3 * size_t(v)], &positions[3 * size_t(v)] + 3, &positions[3 * size_t(w)]); };
+    const auto same = [&](uint32_t w) {
+      return std::equal(&positions[3 * size_t(v)], &positions[3 * size_t(v)] + 3, &positions[3 * size_t(w)]);
+    };
     while (table[slot] != kNone && !same(table[slot])) slot = (slot + 1) & (slots - 1);
     if (table[slot] == kNone) table[slot] = v;
     lowest[v] = table[slot];
@@ -42,10 +44,39 @@ double snapped(const std::vector<double>& planes, double x, double tolerance) {
 
 }  // namespace
 
-Context::Context(const MeshView& mesh_, const CutMesh& cutMesh, double snapTolerance_) : mesh(mesh_), cut(cutMesh), snapTolerance(snapTolerance_) {
+Check Tally::finish() {
+  check_.pass = check_.skipped || check_.worst <= check_.tolerance;
+  if (check_.elementKind.empty()) {
+    if (!check_.skipped) check_.message = note_;
+    return check_;
+  }
+  if (!check_.pass) {
+    check_.message = check_.elementKind + " " + std::to_string(check_.element) + " " + text_;
+    if (check_.tolerance > 0) {
+      check_.message += ": " + std::to_string(check_.worst) + " roundings, " + std::to_string(int(check_.tolerance)) + " are allowed";
+    } else if (check_.worst > 1) {
+      check_.message += "; " + std::to_string(int64_t(check_.worst)) + " violations in all";
+    }
+  } else {
+    check_.message = note_;
+  }
+  return check_;
+}
+
+int scaleOf(const MeshView& mesh, const Grid& grid) {
+  double largest = 0;
+  for (const auto& planes : grid.planes) largest = std::max({largest, std::fabs(planes.front()), std::fabs(planes.back())});
+  for (const uint32_t v : mesh.triangles) {
+    for (int d = 0; d < 3; ++d) largest = std::max(largest, std::fabs(mesh.positions[3 * size_t(v) + d]));
+  }
+  return kLargestExponent - std::ilogb(largest);
+}
+
+Context::Context(const MeshView& mesh_, const CutMesh& cutMesh, double snapTolerance) : mesh(mesh_), cut(cutMesh) {
   dropped.assign(mesh.triangleCount(), 0);
   for (const uint32_t t : cut.droppedTriangles) dropped[t] = 1;
-  moveInput();
+  scale(snapTolerance);
+  weld = lowestAtPosition(mesh, triPositions);
   setRounding();
   setOwners();
   locateFaces();
@@ -54,27 +85,28 @@ Context::Context(const MeshView& mesh_, const CutMesh& cutMesh, double snapToler
   setClosed();
 }
 
-void Context::moveInput() {
-  positions.assign(mesh.positions.begin(), mesh.positions.end());
-  double largest = 0;
-  for (const auto& planes : cut.grid.planes) largest = std::max({largest, std::fabs(planes.front()), std::fabs(planes.back())});
-  for (const uint32_t v : mesh.triangles) {
-    for (int d = 0; d < 3; ++d) largest = std::max(largest, std::fabs(positions[3 * size_t(v) + d]));
+void Context::scale(double snapTolerance) {
+  const int exponent = scaleOf(mesh, cut.grid);
+  const auto scaled = [&](const auto& from, std::vector<double>& to) {
+    to.resize(from.size());
+    for (size_t i = 0; i < to.size(); ++i) {
+      to[i] = std::ldexp(from[i], exponent);
+      if (std::fabs(to[i]) < std::ldexp(1.0, kNegligibleExponent)) to[i] = 0;
+    }
+  };
+  for (int d = 0; d < 3; ++d) scaled(cut.grid.planes[d], planes[d]);
+  scaled(cut.positions, positions);
+  scaled(mesh.positions, triPositions);
+  for (size_t i = 0; i < triPositions.size() && snapTolerance > 0; ++i) {
+    if (std::isfinite(triPositions[i])) triPositions[i] = snapped(planes[i % 3], triPositions[i], snapTolerance);
   }
-  negligible = std::ldexp(1.0, std::ilogb(largest) - 200);
-  for (size_t i = 0; i < positions.size(); ++i) {
-    if (std::fabs(positions[i]) < negligible) positions[i] = 0;
-    if (snapTolerance > 0 && std::isfinite(positions[i])) positions[i] = snapped(cut.grid.planes[i % 3], positions[i], snapTolerance);
-  }
-  weld = lowestAtPosition(mesh, positions);
 }
 
 void Context::setRounding() {
   for (int d = 0; d < 3; ++d) {
-    const std::vector<double>& planes = cut.grid.planes[d];
-    double largest = std::max(std::fabs(planes.front()), std::fabs(planes.back()));
+    double largest = std::max(std::fabs(planes[d].front()), std::fabs(planes[d].back()));
     for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-      if (!dropped[i / 3]) largest = std::max(largest, std::fabs(positions[3 * size_t(mesh.triangles[i]) + d]));
+      if (!dropped[i / 3]) largest = std::max(largest, std::fabs(triPositions[3 * size_t(mesh.triangles[i]) + d]));
     }
     rounding[d] = kRounding * largest;
   }
@@ -137,7 +169,8 @@ void Context::setDuplicates() {
     };
     order(0, 1), order(1, 2), order(0, 1);
   }
-  std::sort(triples.begin(), triples.end(), [](const Triple& a, const Triple& b) { return a.v != b.v ? a.v < b.v : a.triangle < b.triangle; });
+  std::sort(triples.begin(), triples.end(),
+            [](const Triple& a, const Triple& b) { return a.v != b.v ? a.v < b.v : a.triangle < b.triangle; });
   multiplicity.assign(triples.size(), 1);
   duplicate.assign(triples.size(), 0);
   for (size_t begin = 0, end = 0; begin < triples.size(); begin = end) {
@@ -181,7 +214,7 @@ void Context::setClosed() {
 
 bool Context::inBox(const Vec3& p) const {
   for (int d = 0; d < 3; ++d) {
-    if (p[d] < cut.grid.planes[d].front() || p[d] > cut.grid.planes[d].back()) return false;
+    if (p[d] < planes[d].front() || p[d] > planes[d].back()) return false;
   }
   return true;
 }

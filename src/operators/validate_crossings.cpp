@@ -1,7 +1,7 @@
 // Where triangles intersect inside of a grid cell, the cut-mesh may be fine combinatorially; but then an edge of one face crosses another.
 #include <algorithm>
 
-#include "operators/validate_parts.h"
+#include "operators/validate_grid_cells.h"
 
 namespace mandoline::validation {
 
@@ -72,7 +72,8 @@ void CrossingCheck::checkEdge(const GridCell& cell, const Vec3& from, const Vec3
   const Vec3 along = to - from, point = from + h / (h - k) * along;
   Vec3 margin;
   for (int d = 0; d < 3; ++d) margin[d] = kTolerance * cell.noise[d] + 2 * doubt / std::fabs(h - k) * std::fabs(along[d]);
-  if (placeOn(cell, face, dominantAxis(normal.n), point, margin) == Place::inside) crossings_.violate("face", face.id, "is crossed by an edge");
+  if (placeOn(cell, face, dominantAxis(normal.n), point, margin) == Place::inside)
+    crossings_.violate("face", face.id, "is crossed by an edge");
 }
 
 }  // namespace mandoline::validation

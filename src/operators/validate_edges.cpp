@@ -1,7 +1,7 @@
 // Cut-edges: in each cell they cancel, and around each of them the faces leave no cell out (paper, 3.5 and 4.4).
 #include <algorithm>
 
-#include "operators/validate_parts.h"
+#include "operators/validate_grid_cells.h"
 
 namespace mandoline::validation {
 namespace {
@@ -26,7 +26,9 @@ void EdgeCheck::run(const GridCell& cell, Sets& shells) {
       uses_.push_back({{std::min(u, v), std::max(u, v)}, f, u < v});
     }
   }
-  std::sort(uses_.begin(), uses_.end(), [](const Use& a, const Use& b) { return a.edge != b.edge ? a.edge < b.edge : a.face != b.face ? a.face < b.face : a.forward < b.forward; });
+  std::sort(uses_.begin(), uses_.end(), [](const Use& a, const Use& b) {
+    return a.edge != b.edge ? a.edge < b.edge : a.face != b.face ? a.face < b.face : a.forward < b.forward;
+  });
   for (size_t begin = 0, end = 0; begin < uses_.size(); begin = end) {
     while (end < uses_.size() && uses_[end].edge == uses_[begin].edge) ++end;
     const std::span<Use> uses(uses_.data() + begin, end - begin);
@@ -53,7 +55,9 @@ void EdgeCheck::checkCancel(const GridCell& cell, std::span<const Use> uses) {
   for (size_t begin = 0, end = 0; begin < directions_.size(); begin = end) {
     int32_t sum = 0;
     for (; end < directions_.size() && directions_[end].first == directions_[begin].first; ++end) sum += directions_[end].second;
-    if (sum != 0) closed_.violate("cell", directions_[begin].first, "has an edge that its half-faces do not run through equally often in both directions");
+    if (sum != 0)
+      closed_.violate("cell", directions_[begin].first,
+                      "has an edge that its half-faces do not run through equally often in both directions");
   }
 }
 
@@ -87,6 +91,7 @@ bool EdgeCheck::sortByAngle(const GridCell& cell, std::span<Use> uses) {
       normal = x.triangleNormal(size_t(x.cut.faceTriangle[id]));
     }
     const double sign = use.forward ? 1 : -1, size = std::fabs(normal.n[e]) + std::fabs(normal.n[f]);
+    if (!(size > 0)) return ++unjudged_, false;
     noise = std::max(noise, (normal.error[e] + normal.error[f]) / size + 4 * kRounding);
     angles_.push_back({pseudoAngle(sign * normal.n[e], (along[axis] > 0 ? sign : -sign) * normal.n[f]), use});
   }

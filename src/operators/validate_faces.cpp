@@ -1,7 +1,7 @@
 // Cut-faces (paper, 3.4) and their two sides: planes, loops, and who owns which half-face; grid cell isolation (5.6).
 #include <algorithm>
 
-#include "operators/validate_parts.h"
+#include "operators/validate_context.h"
 
 namespace mandoline::validation {
 namespace {
@@ -29,24 +29,23 @@ class FaceCheck {
   void checkPlane(size_t f) {
     const int axis = x_.cut.faceAxis[f];
     const int32_t t = x_.cut.faceTriangle[f], plane = x_.cut.facePlane[f];
-    if (axis < 0 && t < 0) return faces_.violate("face", int64_t(f), "is no part of a triangle and lies in no axial plane");
     if (t >= 0 && x_.dropped[t]) faces_.violate("face", int64_t(f), "names a dropped triangle");
     for (int d = 0; d < 3; ++d) {
-      if (x_.faceGridCell[3 * f + d] < 0) return isolation_.violate("face", int64_t(f), "lies in several grid cells, or in an axial plane that it does not name");
+      if (x_.faceGridCell[3 * f + d] < 0)
+        return isolation_.violate("face", int64_t(f), "lies in several grid cells, or in an axial plane that it does not name");
     }
     bool inPlane = true;
     if (axis >= 0) {
       x_.forLoops(f, [&](std::span<const uint32_t> loop) {
         for (const uint32_t v : loop) inPlane &= x_.onPlane(v, axis) && x_.cellAt(v)[axis] == plane;
       });
-      for (int i = 0; t >= 0 && i < 3; ++i) inPlane &= x_.corner(t, i)[axis] == x_.plane(axis, plane);
+      for (int i = 0; t >= 0 && i < 3; ++i) inPlane &= x_.corner(t, i)[axis] == x_.planes[axis][plane];
     }
     if (!inPlane) faces_.violate("face", int64_t(f), "is not in the axial plane that it names");
   }
 
   void checkLoops(size_t f) {
     const int32_t t = x_.cut.faceTriangle[f];
-    if (t < 0 && x_.cut.faceAxis[f] < 0) return;
     const Vec3 origin = x_.vertex(x_.cut.loop(x_.cut.faceLoopOffsets[f])[0]);
     Vec3 a, b, c;
     int axis = x_.cut.faceAxis[f], sign = 1;
@@ -57,7 +56,7 @@ class FaceCheck {
     }
     bool outer = true;
     x_.forLoops(f, [&](std::span<const uint32_t> loop) {
-      double area = 0, boundary = 0;  // projected along the axis
+      double area = 0, boundary = 1;  // projected along the axis
       Vec3 from = x_.inRoundings(x_.vertex(loop.back()), origin);
       const Vec3 first = from;
       for (const uint32_t v : loop) {
@@ -68,14 +67,17 @@ class FaceCheck {
         from = to;
       }
       const double wrong = outer ? -sign * area : sign * area;
-      if (wrong > 0) orientation_.measure(wrong / boundary, "face", int64_t(f), outer ? "has a clockwise outer loop" : "has a hole that is not clockwise");
+      if (wrong > 0)
+        orientation_.measure(wrong / boundary, "face", int64_t(f),
+                             outer ? "has a clockwise outer loop" : "has a hole that is not clockwise");
       outer = false;
     });
   }
 
   /// A tri-face inside of a grid cell: both sides belong to cut-cells.
   void checkInnerSides(size_t f) {
-    if (x_.owner[2 * f] < 0 || x_.owner[2 * f + 1] < 0) halfFaces_.violate("face", int64_t(f), "lies inside of a grid cell, but a side of it belongs to no cut-cell");
+    if (x_.owner[2 * f] < 0 || x_.owner[2 * f + 1] < 0)
+      halfFaces_.violate("face", int64_t(f), "lies inside of a grid cell, but a side of it belongs to no cut-cell");
   }
 
   void checkAxialSides(size_t f) {
@@ -87,7 +89,8 @@ class FaceCheck {
       beyond[axis] = x_.cut.facePlane[f] - ((side == 0) == (up > 0) ? 1 : 0);
       const int32_t c = x_.owner[2 * f + side];
       if (c >= 0) {
-        if (x_.gridCellOf(c)[axis] != beyond[axis]) halfFaces_.violate("face", int64_t(f), "has a side that belongs to a cut-cell on the other side of its plane");
+        if (x_.gridCellOf(c)[axis] != beyond[axis])
+          halfFaces_.violate("face", int64_t(f), "has a side that belongs to a cut-cell on the other side of its plane");
       } else if (beyond[axis] >= 0 && beyond[axis] < x_.cut.grid.cells(axis)) {
         if (x_.runAt(beyond[0], beyond[1], beyond[2]) < 0) {
           halfFaces_.violate("face", int64_t(f), "has a side that belongs to no cut-cell and faces no untouched grid cell");
@@ -117,7 +120,8 @@ class FaceCheck {
     if (start == loop.end()) return false;
     int side = 0;
     for (size_t i = 1; i <= loop.size(); ++i) {
-      const uint32_t u = loop[size_t(start - loop.begin() + int64_t(i) - 1) % loop.size()], v = loop[size_t(start - loop.begin() + int64_t(i)) % loop.size()];
+      const uint32_t u = loop[size_t(start - loop.begin() + int64_t(i) - 1) % loop.size()],
+                     v = loop[size_t(start - loop.begin() + int64_t(i)) % loop.size()];
       if (!onSide(v, side)) return false;
       const int axis = side % 2 == 0 ? e : g, sign = side < 2 ? 1 : -1;
       if ((x_.vertex(v)[axis] - x_.vertex(u)[axis]) * sign < -kTolerance * x_.rounding[axis]) return false;

@@ -1,7 +1,7 @@
 // Geometry of validate(): exact signs where the input's doubles decide, and distances that stay accurate for thin triangles.
-#include <algorithm>
+#include "operators/validate_geometry.h"
 
-#include "operators/validate_parts.h"
+#include <algorithm>
 
 namespace mandoline::validation {
 namespace {
@@ -126,25 +126,6 @@ Normal normalOf(const Vec3& a, const Vec3& b, const Vec3& c) {
     result.error[d] = 5 * kRounding * (std::fabs(ab[e] * ac[f]) + std::fabs(ab[f] * ac[e]));
   }
   return result;
-}
-
-Check Tally::finish() {
-  check_.pass = check_.skipped || check_.worst <= check_.tolerance;
-  if (check_.elementKind.empty()) {
-    if (!check_.skipped) check_.message = note_;
-    return check_;
-  }
-  if (!check_.pass) {
-    check_.message = check_.elementKind + " " + std::to_string(check_.element) + " " + text_;
-    if (check_.tolerance > 0) {
-      check_.message += ": " + std::to_string(check_.worst) + " roundings, " + std::to_string(int(check_.tolerance)) + " are allowed";
-    } else if (check_.worst > 1) {
-      check_.message += "; " + std::to_string(int64_t(check_.worst)) + " violations in all";
-    }
-  } else {
-    check_.message = note_;
-  }
-  return check_;
 }
 
 }  // namespace mandoline::validation

@@ -1,7 +1,7 @@
 // Gathers the cut-cells of each grid cell, with their faces in its own coordinates, for the checks that work by grid cell.
-#include <algorithm>
+#include "operators/validate_grid_cells.h"
 
-#include "operators/validate_parts.h"
+#include <algorithm>
 
 namespace mandoline::validation {
 
@@ -11,8 +11,8 @@ void GridCell::gather(size_t group) {
   cells = {context.cellOrder.data() + context.groupOffsets[group], context.groupOffsets[group + 1] - context.groupOffsets[group]};
   for (int d = 0; d < 3; ++d) {
     index[d] = context.gridCellOf(cells[0])[d];
-    low[d] = context.cut.grid.planes[d][index[d]];
-    size[d] = context.cut.grid.planes[d][index[d] + 1] - low[d];
+    low[d] = context.planes[d][index[d]];
+    size[d] = context.planes[d][index[d] + 1] - low[d];
     noise[d] = std::max(context.rounding[d] / size[d], kRounding);
   }
   for (const uint32_t c : cells) {
@@ -26,7 +26,8 @@ void GridCell::gather(size_t group) {
 GridCell::Face& GridCell::addFace(uint32_t id) {
   local_[id] = int32_t(faces.size());
   const uint32_t firstCorner = uint32_t(corners.size());
-  faces.push_back({id, {-1, -1}, firstCorner, firstCorner, -1, {{INFINITY, INFINITY, INFINITY}}, {{-INFINITY, -INFINITY, -INFINITY}}, 0, 0, {}, {}});
+  faces.push_back(
+      {id, {-1, -1}, firstCorner, firstCorner, -1, {{INFINITY, INFINITY, INFINITY}}, {{-INFINITY, -INFINITY, -INFINITY}}, 0, 0, {}, {}});
   Face& face = faces.back();
   const int axis = context.cut.faceAxis[id];
   if (axis >= 0) face.side = 2 * axis + (context.cut.facePlane[id] == index[axis] ? 0 : 1);
@@ -52,8 +53,9 @@ void GridCell::addLoop(Face& face, std::span<const uint32_t> loop) {
     face.volume += dot(a, twice) / 6;
     for (int d = 0; d < 3; ++d) {
       const int e = (d + 1) % 3, f = (d + 2) % 3;
-      face.volumeNoise += noise[d] * std::fabs(twice[d]) / 2;
-      face.areaNoise[d] += noise[e] * std::fabs(c[f] - b[f]) + noise[f] * std::fabs(c[e] - b[e]);
+      const double areaNoise = noise[e] * std::fabs(c[f] - b[f]) + noise[f] * std::fabs(c[e] - b[e]) + noise[e] * noise[f];
+      face.areaNoise[d] += areaNoise;
+      face.volumeNoise += noise[d] * (std::fabs(twice[d]) / 2 + areaNoise);
     }
   }
 }

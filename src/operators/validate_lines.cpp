@@ -3,7 +3,7 @@
 // intersect inside of a grid cell, and shells in the wrong cell.
 #include <algorithm>
 
-#include "operators/validate_parts.h"
+#include "operators/validate_grid_cells.h"
 
 namespace mandoline::validation {
 namespace {
@@ -44,7 +44,8 @@ void LineCheck::run(const GridCell& cell, std::vector<Sample>& samples) {
 
 void LineCheck::tryLine(const GridCell& cell, int axis, const GridCell::Face* through, std::vector<Sample>& samples) {
   for (int attempt = 0; attempt < 3; ++attempt) {
-    const Vec3 point = through ? pointOn(cell, *through, axis) : Vec3{{random_.between(0, 1), random_.between(0, 1), random_.between(0, 1)}};
+    const Vec3 point =
+        through ? pointOn(cell, *through, axis) : Vec3{{random_.between(0, 1), random_.between(0, 1), random_.between(0, 1)}};
     const Verdict verdict = shoot(cell, axis, point);
     if (verdict == Verdict::unjudged) continue;
     if (verdict == Verdict::fine && lines_ % stride_ == 0) sample(cell, axis, point, samples);
@@ -102,8 +103,10 @@ bool LineCheck::addHit(const GridCell& cell, int axis, const Vec3& point, const 
     if (!(steep > 0)) return false;
     const Vec3 delta = point - cell.corners[face.firstCorner];
     const double rise = -(normal.n[e] * delta[e] + normal.n[f] * delta[f]) / normal.n[axis];
-    const double tilted = (normal.error[e] * std::fabs(delta[e]) + normal.error[f] * std::fabs(delta[f]) + normal.error[axis] * std::fabs(rise)) / steep;
-    const double error = tilted + kTolerance * (cell.noise[axis] + (std::fabs(normal.n[e]) * cell.noise[e] + std::fabs(normal.n[f]) * cell.noise[f]) / steep);
+    const double tilted =
+        (normal.error[e] * std::fabs(delta[e]) + normal.error[f] * std::fabs(delta[f]) + normal.error[axis] * std::fabs(rise)) / steep;
+    const double error = tilted + kTolerance * (cell.noise[axis] +
+                                                (std::fabs(normal.n[e]) * cell.noise[e] + std::fabs(normal.n[f]) * cell.noise[f]) / steep);
     const double depth = cell.corners[face.firstCorner][axis] + rise, margin = kTolerance * cell.noise[axis];
     hit.low = std::max(depth - error, face.low[axis] - margin);
     hit.high = std::min(depth + error, face.high[axis] + margin);
@@ -147,8 +150,8 @@ void LineCheck::sample(const GridCell& cell, int axis, Vec3 point, std::vector<S
 
 void LineCheck::finish(std::vector<Check>& checks) {
   if (unjudged_ + skipped_ > 0) {
-    partition_.note("of " + std::to_string(lines_ + unjudged_ + skipped_) + " lines " + std::to_string(unjudged_) + " were too close to an edge to judge and " +
-                    std::to_string(skipped_) + " left out to save time");
+    partition_.note("of " + std::to_string(lines_ + unjudged_ + skipped_) + " lines " + std::to_string(unjudged_) +
+                    " were too close to an edge to judge and " + std::to_string(skipped_) + " left out to save time");
   }
   checks.push_back(partition_.finish());
 }

@@ -1,7 +1,8 @@
 // The stencil (paper, 4.3.1) and the regions: components of cut-cells and untouched grid cells.
 #include <algorithm>
 
-#include "operators/validate_parts.h"
+#include "operators/validate_context.h"
+#include "operators/validate_sets.h"
 
 namespace mandoline::validation {
 namespace {
@@ -41,27 +42,21 @@ class RegionCheck {
 
   /// Cut-cells only where a vertex of the surface lies in the closed grid cell.
   void checkTouched() {
-    std::vector<uint8_t> onSurface(x_.cut.vertexCount(), 0);
-    for (size_t f = 0; f < x_.cut.faceCount(); ++f) {
-      if (x_.cut.faceTriangle[f] < 0) continue;
-      x_.forLoops(f, [&](std::span<const uint32_t> loop) {
-        for (const uint32_t v : loop) onSurface[v] = 1;
-      });
-    }
+    const auto onSurface = [&](uint32_t v) { return x_.cut.vertexParents[2 * size_t(v)] >= 0; };
     std::vector<std::pair<Key, uint32_t>> open;  // grid cells with cut-cells, none of whose own vertices is on the surface
     for (size_t g = 0; g < x_.groupCount(); ++g) {
       bool touched = false;
       for (uint32_t i = x_.groupOffsets[g]; i < x_.groupOffsets[g + 1] && !touched; ++i) {
         for (const uint32_t h : x_.cut.cell(x_.cellOrder[i])) {
-          x_.forLoops(h / 2, [&](std::span<const uint32_t> loop) { touched |= std::any_of(loop.begin(), loop.end(), [&](uint32_t v) { return onSurface[v] != 0; }); });
+          x_.forLoops(h / 2, [&](std::span<const uint32_t> loop) { touched |= std::any_of(loop.begin(), loop.end(), onSurface); });
         }
       }
       if (!touched) open.push_back({keyOf(g), firstCell(g)});
     }
     if (open.empty()) return;
     std::vector<Key> around;  // grid cells that a surface vertex on axial planes touches
-    for (uint32_t v = 0; v < onSurface.size(); ++v) {
-      for (int corner = 0; corner < 8 && onSurface[v]; ++corner) {
+    for (uint32_t v = 0; v < x_.cut.vertexCount(); ++v) {
+      for (int corner = 0; corner < 8 && onSurface(v); ++corner) {
         if (corner & ~x_.cut.vertexMask[v]) continue;
         Key k;
         for (int d = 0; d < 3; ++d) k[d] = x_.cellAt(v)[d] - (corner >> d & 1);
@@ -70,7 +65,8 @@ class RegionCheck {
     }
     std::sort(around.begin(), around.end());
     for (const auto& [key, cell] : open) {
-      if (!std::binary_search(around.begin(), around.end(), key)) stencil_.violate("cell", cell, "lies in a grid cell that the surface does not touch");
+      if (!std::binary_search(around.begin(), around.end(), key))
+        stencil_.violate("cell", cell, "lies in a grid cell that the surface does not touch");
     }
   }
 
@@ -109,8 +105,8 @@ class RegionCheck {
         const int32_t cell = below >= 0 ? below : above;
         const int32_t* g = x_.gridCellOf(cell);
         std::array<int64_t, 3> next{g[0], g[1], g[2]};
-        next[axis < 0 ? 0 : axis] += below >= 0 ? 1 : -1;
-        if (axis < 0 || next[axis] < 0 || next[axis] >= x_.cut.grid.cells(axis)) continue;
+        next[axis] += below >= 0 ? 1 : -1;
+        if (next[axis] < 0 || next[axis] >= x_.cut.grid.cells(axis)) continue;
         const int64_t run = x_.runAt(next[0], next[1], next[2]);
         if (run >= 0) parts_.unite(uint32_t(cell), cells + uint32_t(run));
       }
@@ -133,7 +129,8 @@ class RegionCheck {
   void joinRows(uint32_t cells, int64_t row, int64_t other) {
     uint32_t r = x_.cut.rowRunOffsets[row], s = x_.cut.rowRunOffsets[other];
     while (r < x_.cut.rowRunOffsets[row + 1] && s < x_.cut.rowRunOffsets[other + 1]) {
-      if (std::max(x_.cut.runBegin[r], x_.cut.runBegin[s]) < std::min(x_.cut.runEnd[r], x_.cut.runEnd[s])) parts_.unite(cells + r, cells + s);
+      if (std::max(x_.cut.runBegin[r], x_.cut.runBegin[s]) < std::min(x_.cut.runEnd[r], x_.cut.runEnd[s]))
+        parts_.unite(cells + r, cells + s);
       ++(x_.cut.runEnd[r] < x_.cut.runEnd[s] ? r : s);
     }
   }

@@ -1,7 +1,7 @@
 // Shells of cut-cells (paper, 3.5): each cell has one of positive volume; the cells of a grid cell fill it, their faces its sides.
 #include <algorithm>
 
-#include "operators/validate_parts.h"
+#include "operators/validate_grid_cells.h"
 
 namespace mandoline::validation {
 

@@ -1,7 +1,7 @@
 // The surface is all there: area of each triangle's faces (paper, 5.6), reasons of dropped triangles.
 #include <algorithm>
 
-#include "operators/validate_parts.h"
+#include "operators/validate_bins.h"
 
 namespace mandoline::validation {
 namespace {
@@ -9,7 +9,11 @@ namespace {
 class SurfaceCheck {
  public:
   SurfaceCheck(const Context& context, const TriangleBins& bins, std::vector<uint8_t>& overlapping)
-      : x_(context), bins_(bins), overlapping_(overlapping), faceOffsets_(context.mesh.triangleCount() + 2, 0), seenBy_(context.mesh.triangleCount(), UINT32_MAX) {
+      : x_(context),
+        bins_(bins),
+        overlapping_(overlapping),
+        faceOffsets_(context.mesh.triangleCount() + 2, 0),
+        seenBy_(context.mesh.triangleCount(), UINT32_MAX) {
     overlapping_.assign(x_.mesh.triangleCount(), 0);
     // Counted two places on, so that filling leaves begins one place on.
     for (const int32_t t : x_.cut.faceTriangle) {
@@ -62,7 +66,7 @@ class SurfaceCheck {
     for (size_t i = 0; i < polygon.size(); ++i) {
       const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
       area.value += view.sign * cross(a - polygon[0], b - polygon[0])[view.axis] / 2;
-      area.noise += std::fabs(b[e] - a[e]) + std::fabs(b[f] - a[f]);
+      area.noise += std::fabs(b[e] - a[e]) + std::fabs(b[f] - a[f]) + 1;
     }
     return area;
   }
@@ -83,7 +87,7 @@ class SurfaceCheck {
   Area areaInBox(uint32_t t, const View& view) const {
     Polygon polygon(view.corners, view.corners + 3);
     Vec3 low, high;
-    for (int d = 0; d < 3; ++d) low[d] = x_.cut.grid.planes[d].front(), high[d] = x_.cut.grid.planes[d].back();
+    for (int d = 0; d < 3; ++d) low[d] = x_.planes[d].front(), high[d] = x_.planes[d].back();
     if (!(x_.inBox(x_.corner(t, 0)) && x_.inBox(x_.corner(t, 1)) && x_.inBox(x_.corner(t, 2)))) {
       low = x_.inRoundings(low, view.origin), high = x_.inRoundings(high, view.origin);
       for (int d = 0; d < 3; ++d) {

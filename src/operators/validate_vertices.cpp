@@ -1,7 +1,7 @@
 // Cut-vertices (paper, 3.2): their cells and masks against their positions and the planes, tri-vertices against the input.
 #include <algorithm>
 
-#include "operators/validate_parts.h"
+#include "operators/validate_context.h"
 
 namespace mandoline::validation {
 namespace {
@@ -30,9 +30,9 @@ class VertexCheck {
     present_[t] = 1;
     const Vec3 p = x_.vertex(v), input = x_.triVertex(t);
     for (int d = 0; d < 3; ++d) {
-      if (std::fabs(p[d] - input[d]) > x_.negligible) return vertices_.violate("vertex", v, "is not at its tri-vertex's position");
+      if (p[d] != input[d]) return vertices_.violate("vertex", v, "is not at its tri-vertex's position");
       const int32_t c = x_.cellAt(v)[d];
-      const bool fits = x_.onPlane(v, d) ? input[d] == x_.plane(d, c) : input[d] > x_.plane(d, c) && input[d] < x_.plane(d, c + 1);
+      const bool fits = x_.onPlane(v, d) ? input[d] == x_.planes[d][c] : input[d] > x_.planes[d][c] && input[d] < x_.planes[d][c + 1];
       if (!fits) return vertices_.violate("vertex", v, "is a tri-vertex in another slab than its cell and mask say");
     }
   }
@@ -41,8 +41,9 @@ class VertexCheck {
     for (int d = 0; d < 3; ++d) {
       const double p = x_.vertex(v)[d];
       const int32_t c = x_.cellAt(v)[d];
-      const double low = x_.cut.grid.planes[d][c], high = x_.onPlane(v, d) ? low : x_.cut.grid.planes[d][c + 1];
-      positions_.measure(std::max(low - p, p - high) / x_.rounding[d], "vertex", v, "lies outside of the slab or off the plane that its cell and mask name");
+      const double low = x_.planes[d][c], high = x_.onPlane(v, d) ? low : x_.planes[d][c + 1];
+      positions_.measure(std::max(low - p, p - high) / x_.rounding[d], "vertex", v,
+                         "lies outside of the slab or off the plane that its cell and mask name");
     }
   }
 
@@ -50,14 +51,18 @@ class VertexCheck {
     const int32_t a = x_.cut.vertexParents[2 * size_t(v)], b = x_.cut.vertexParents[2 * size_t(v) + 1], t = x_.cut.vertexTriVertex[v];
     const Vec3 p = x_.vertex(v);
     const auto local = [&](const Vec3& q) { return x_.inRoundings(q, p); };
-    if ((t >= 0) != (a >= 0 && a == b) || (t >= 0 && a != t)) return vertices_.violate("vertex", v, "has parents that do not fit its tri-vertex");
+    if ((t >= 0) != (a >= 0 && a == b) || (t >= 0 && a != t))
+      return vertices_.violate("vertex", v, "has parents that do not fit its tri-vertex");
     if (t >= 0) return;
-    if (a < 0) {
-      if (x_.cut.vertexMask[v] != 7) vertices_.violate("vertex", v, "has no parents but is not on three planes");
-    } else if (b >= 0) {
-      positions_.measure(distanceToSegment({}, local(x_.triVertex(uint32_t(a))), local(x_.triVertex(uint32_t(b)))), "vertex", v, "is off its tri-edge");
+    const int planes = x_.onPlane(v, 0) + x_.onPlane(v, 1) + x_.onPlane(v, 2);
+    if (planes < (a < 0 ? 3 : b < 0 ? 2 : 1)) return vertices_.violate("vertex", v, "is on too few planes for its parents");
+    if (a < 0) return;
+    if (b >= 0) {
+      positions_.measure(distanceToSegment({}, local(x_.triVertex(uint32_t(a))), local(x_.triVertex(uint32_t(b)))), "vertex", v,
+                         "is off its tri-edge");
     } else {
-      positions_.measure(distanceToTriangle({}, local(x_.corner(a, 0)), local(x_.corner(a, 1)), local(x_.corner(a, 2))), "vertex", v, "is off its triangle");
+      positions_.measure(distanceToTriangle({}, local(x_.corner(a, 0)), local(x_.corner(a, 1)), local(x_.corner(a, 2))), "vertex", v,
+                         "is off its triangle");
     }
   }
 

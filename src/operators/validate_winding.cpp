@@ -1,15 +1,15 @@
 // Piecewise-constant winding number and input volume (paper, 5.6), where the input has winding numbers.
 #include <algorithm>
 
-#include "operators/validate_parts.h"
+#include "operators/validate_bins.h"
 
 namespace mandoline::validation {
 namespace {
 
 class WindingCheck {
  public:
-  WindingCheck(const Context& context, const TriangleBins& bins, const std::vector<double>& cellVolumes, const std::vector<uint8_t>& overlapping,
-               std::vector<Sample> samples)
+  WindingCheck(const Context& context, const TriangleBins& bins, const std::vector<double>& cellVolumes,
+               const std::vector<uint8_t>& overlapping, std::vector<Sample> samples)
       : x_(context), bins_(bins), cellVolumes_(cellVolumes), overlapping_(overlapping), samples_(std::move(samples)) {}
 
   void run(std::vector<Check>& checks) {
@@ -70,9 +70,11 @@ class WindingCheck {
     const int64_t ny = x_.cut.grid.cells(1);
     for (size_t i = 0; i < kSamples && !x_.cut.runBegin.empty(); ++i) {
       const size_t run = size_t(random.next() % x_.cut.runBegin.size());
-      const int64_t row = std::upper_bound(x_.cut.rowRunOffsets.begin(), x_.cut.rowRunOffsets.end(), uint32_t(run)) - x_.cut.rowRunOffsets.begin() - 1;
-      const auto inSlab = [&](int axis, int64_t c, int64_t end) { return random.between(x_.cut.grid.planes[axis][c], x_.cut.grid.planes[axis][end]); };
-      const Vec3 p{{inSlab(0, x_.cut.runBegin[run], x_.cut.runEnd[run]), inSlab(1, row % ny, row % ny + 1), inSlab(2, row / ny, row / ny + 1)}};
+      const int64_t row =
+          std::upper_bound(x_.cut.rowRunOffsets.begin(), x_.cut.rowRunOffsets.end(), uint32_t(run)) - x_.cut.rowRunOffsets.begin() - 1;
+      const auto inSlab = [&](int axis, int64_t c, int64_t end) { return random.between(x_.planes[axis][c], x_.planes[axis][end]); };
+      const Vec3 p{
+          {inSlab(0, x_.cut.runBegin[run], x_.cut.runEnd[run]), inSlab(1, row % ny, row % ny + 1), inSlab(2, row / ny, row / ny + 1)}};
       samples_.push_back({p, x_.cut.runRegion[run], "run", int64_t(run)});
     }
   }
@@ -86,7 +88,8 @@ class WindingCheck {
       return tally.finish();
     }
     double noise = 0;
-    const double found = regionVolume(noise), all = inputVolume(true, noise), distinct = x_.duplicate.empty() ? all : inputVolume(false, noise);
+    const double found = regionVolume(noise), all = inputVolume(true, noise),
+                 distinct = x_.duplicate.empty() ? all : inputVolume(false, noise);
     const double deviation = std::min(std::fabs(found - all), std::fabs(found - distinct));
     tally.measure(deviation / noise, "mesh", 0, "has another volume than the regions, times their winding numbers");
     return tally.finish();
@@ -100,7 +103,7 @@ class WindingCheck {
       noise += kRounding * std::fabs(volume * x_.cut.regionWinding[region]);
     };
     for (size_t c = 0; c < cellVolumes_.size(); ++c) add(cellVolumes_[c], x_.cut.cellRegion[c]);
-    const auto& planes = x_.cut.grid.planes;
+    const auto& planes = x_.planes;
     const size_t ny = size_t(x_.cut.grid.cells(1));
     for (size_t row = 0; row + 1 < x_.cut.rowRunOffsets.size(); ++row) {
       const double section = (planes[1][row % ny + 1] - planes[1][row % ny]) * (planes[2][row / ny + 1] - planes[2][row / ny]);
@@ -113,7 +116,7 @@ class WindingCheck {
 
   double inputVolume(bool withDuplicates, double& noise) const {
     Vec3 centre;
-    for (int d = 0; d < 3; ++d) centre[d] = (x_.cut.grid.planes[d].front() + x_.cut.grid.planes[d].back()) / 2;
+    for (int d = 0; d < 3; ++d) centre[d] = (x_.planes[d].front() + x_.planes[d].back()) / 2;
     Sum sum;
     for (size_t t = 0; t < x_.mesh.triangleCount(); ++t) {
       if (!withDuplicates && x_.isDuplicate(t)) continue;
@@ -133,8 +136,8 @@ class WindingCheck {
 
 }  // namespace
 
-void checkWinding(const Context& context, const TriangleBins& bins, const std::vector<double>& cellVolumes, const std::vector<uint8_t>& overlapping,
-                  std::vector<Sample> samples, std::vector<Check>& checks) {
+void checkWinding(const Context& context, const TriangleBins& bins, const std::vector<double>& cellVolumes,
+                  const std::vector<uint8_t>& overlapping, std::vector<Sample> samples, std::vector<Check>& checks) {
   WindingCheck(context, bins, cellVolumes, overlapping, std::move(samples)).run(checks);
 }
 

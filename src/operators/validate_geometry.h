@@ -1,0 +1,92 @@
+// Geometry of validate(), its own: a validator that shares code with the cutter would share its mistakes.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace mandoline::validation {
+
+struct Vec3 {
+  double v[3] = {0, 0, 0};
+  double& operator[](int d) { return v[d]; }
+  double operator[](int d) const { return v[d]; }
+};
+inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {{a[0] + b[0], a[1] + b[1], a[2] + b[2]}}; }
+inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}}; }
+inline Vec3 operator*(double s, const Vec3& a) { return {{s * a[0], s * a[1], s * a[2]}}; }
+inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+}
+inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
+inline int dominantAxis(const Vec3& a) {
+  const int d = std::fabs(a[1]) > std::fabs(a[0]) ? 1 : 0;
+  return std::fabs(a[2]) > std::fabs(a[d]) ? 2 : d;
+}
+
+/// What rounding to a double changes at most, relative to its size.
+constexpr double kRounding = 0x1p-53;
+
+/// Sum of doubles that loses nothing to cancellation (Neumaier).
+class Sum {
+ public:
+  void add(double x) {
+    const double t = sum_ + x;
+    lost_ += std::fabs(sum_) >= std::fabs(x) ? (sum_ - t) + x : (x - t) + sum_;
+    sum_ = t;
+  }
+  double value() const { return sum_ + lost_; }
+
+ private:
+  double sum_ = 0, lost_ = 0;
+};
+
+/// Pseudo-random numbers, the same on every platform (splitmix64).
+class Random {
+ public:
+  explicit Random(uint64_t seed) : state_(seed) {}
+  uint64_t next() { return mix(state_ += 0x9e3779b97f4a7c15u); }
+  double between(double low, double high) { return low + (high - low) * double(next() >> 11) * 0x1p-53; }
+  static uint64_t mix(uint64_t x) {
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return x ^ (x >> 31);
+  }
+
+ private:
+  uint64_t state_;
+};
+
+/// A number kept exactly, barring overflow and underflow, as a sum of doubles that do not overlap, of ascending size (Shewchuk 1997).
+class Exact {
+ public:
+  Exact() = default;
+  Exact(double x) { add(x); }
+  Exact operator+(const Exact& other) const;
+  Exact operator-(const Exact& other) const;
+  Exact operator*(const Exact& other) const;
+  int sign() const { return parts_.empty() ? 0 : parts_.back() > 0 ? 1 : -1; }
+
+ private:
+  void add(double x);
+  std::vector<double> parts_;
+};
+
+/// Exact sign of (a - b) (c - d) - (e - f) (g - h).
+int differenceSign(double a, double b, double c, double d, double e, double f, double g, double h);
+/// Exact: 1 if a, b, c turn counter-clockwise about +axis.
+int turn(const Vec3& a, const Vec3& b, const Vec3& c, int axis);
+bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
+bool coplanar(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+/// Distance of p from a segment or triangle, at most a few roundings too large however thin the triangle is, if coordinates are in
+/// roundings.
+double distanceToSegment(const Vec3& p, const Vec3& a, const Vec3& b);
+double distanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+/// Triangle normal (b - a) x (c - a) and a bound of the error of each of its components.
+struct Normal {
+  Vec3 n, error;
+};
+Normal normalOf(const Vec3& a, const Vec3& b, const Vec3& c);
+
+}  // namespace mandoline::validation
