@@ -127,6 +127,7 @@ const char* name(Status status) {
     case Status::selfIntersection: return "selfIntersection";
     case Status::meshTooLarge: return "meshTooLarge";
     case Status::outOfMemory: return "outOfMemory";
+    case Status::internalError: return "internalError";
   }
   return "unknown";
 }

@@ -3,6 +3,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "cut/intersections.h"
 #include "cut/output.h"
 
 namespace mandoline {
@@ -37,13 +38,7 @@ class Clock {
   double start_, last_;
 };
 
-CutMesh cutMesh(const MeshView& mesh, const Grid& grid, const CutOptions& options, CutStats& stats) {
-  Monitor monitor(options, Clock::kStages);
-  Clock clock(stats, monitor);
-
-  clock.begin("input");
-  Input input = prepareInput(mesh, grid, options.snapTolerance, stats, monitor);
-
+CutMesh cutInput(const MeshView& mesh, const Grid& grid, Input& input, CutStats& stats, Clock& clock, Monitor& monitor) {
   clock.begin("triEdges");
   TriEdges edges;
   CutVertices vertices;
@@ -72,6 +67,20 @@ CutMesh cutMesh(const MeshView& mesh, const Grid& grid, const CutOptions& option
       makeOutput(mesh, grid, input, stencil, std::move(triFaces), std::move(gridFaces), std::move(cells), std::move(regions), vertices, stats, monitor);
   clock.end();
   return result;
+}
+
+CutMesh cutMesh(const MeshView& mesh, const Grid& grid, const CutOptions& options, CutStats& stats) {
+  Monitor monitor(options, Clock::kStages);
+  Clock clock(stats, monitor);
+
+  clock.begin("input");
+  Input input = prepareInput(mesh, grid, options.snapTolerance, stats, monitor);
+  try {
+    return cutInput(mesh, grid, input, stats, clock, monitor);
+  } catch (const Failure& failure) {
+    if (failure.error.status != Status::selfIntersection) throw;
+    throw Failure{explainContradiction(input, failure.error.element, failure.error.element2, stats)};
+  }
 }
 
 }  // namespace

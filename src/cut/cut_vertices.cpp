@@ -1,7 +1,6 @@
 #include "cut/cut_vertices.h"
 
 #include <cmath>
-#include <string>
 
 namespace mandoline::detail {
 
@@ -95,8 +94,7 @@ int64_t CutVertices::triangleAt(uint32_t v) const {
 }
 
 void CutVertices::failSelfIntersection(int64_t triangle, int64_t other) const {
-  throw Failure{{Status::selfIntersection, triangle, other,
-                 "Triangles " + std::to_string(triangle) + " and " + std::to_string(other) + " meet other than in a shared vertex or edge."}};
+  throw Failure{{Status::selfIntersection, triangle, other, {}}};
 }
 
 }  // namespace mandoline::detail

@@ -54,9 +54,10 @@ struct CutVertices {
   /// The coordinates as doubles, rounded but within the vertex's slabs.
   Point position(uint32_t v, Predicates& predicates) const;
 
-  /// Some triangle that the vertex lies on, for messages.
+  /// Some triangle that the vertex lies on, to blame.
   int64_t triangleAt(uint32_t v) const;
-  /// Reports that two vertices or edges meet where the input promised that they do not.
+  /// Ends the cut because two vertices or edges meet where the input promised that they do not, blaming triangles (or -1) that may be the
+  /// wrong ones: explainContradiction() finds out.
   [[noreturn]] void failSelfIntersection(int64_t triangle, int64_t other) const;
   [[noreturn]] void failSelfIntersectionAt(uint32_t u, uint32_t v) const { failSelfIntersection(triangleAt(u), triangleAt(v)); }
 };

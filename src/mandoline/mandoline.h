@@ -77,6 +77,7 @@ enum class Status : uint8_t {
   selfIntersection,     ///< element, element2: two triangles that meet other than in a shared vertex or edge
   meshTooLarge,         ///< more than 2^32 elements in the result
   outOfMemory,
+  internalError,        ///< a fault of this library
 };
 
 /// The status as the word above, e.g. "selfIntersection".
