@@ -13,6 +13,7 @@
 
 #include "cli/arguments.h"
 #include "cli/inspect.h"
+#include "cli/peak_memory.h"
 #include "cli/progress_bar.h"
 #include "cli/report.h"
 #include "mandoline/io.h"
@@ -24,17 +25,6 @@ namespace {
 enum ExitCode { kFine = 0, kNotCut = 1, kBadUsageOrFile = 2 };
 
 void complain(const std::string& message) { std::cerr << "mandoline: " << message << "\n"; }
-
-/// The most memory that this process has had so far.
-size_t peakMemoryBytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-#ifdef __APPLE__
-  return size_t(usage.ru_maxrss);
-#else
-  return size_t(usage.ru_maxrss) * 1024;
-#endif
-}
 
 /// Lets allocations beyond the machine's memory fail, so that a cut too large for it ends with a status rather than by the system's hand.
 void limitMemory() {
