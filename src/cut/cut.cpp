@@ -17,20 +17,21 @@ class Clock {
   static constexpr int kStages = 9;
 
   Clock(CutStats& stats, Monitor& monitor) : stats_(stats), monitor_(monitor), start_(now()), last_(start_) {}
+  ~Clock() { end(); }  // also of a cut that failed
 
   void begin(const char* stage) {
     end();
     stats_.stages.push_back({stage, 0});
     monitor_.beginStage(stage, int(stats_.stages.size()) - 1);
   }
+
+ private:
   void end() {
     const double t = now();
     if (!stats_.stages.empty()) stats_.stages.back().ms = t - last_;
     stats_.totalMs = t - start_;
     last_ = t;
   }
-
- private:
   static double now() { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
   CutStats& stats_;
@@ -63,10 +64,7 @@ CutMesh cutInput(const MeshView& mesh, const Grid& grid, Input& input, CutStats&
   Regions regions = findRegions(input, edges, stencil, triFaces, gridFaces, cells, vertices, stats, monitor);
 
   clock.begin("output");
-  CutMesh result =
-      makeOutput(mesh, grid, input, stencil, std::move(triFaces), std::move(gridFaces), std::move(cells), std::move(regions), vertices, stats, monitor);
-  clock.end();
-  return result;
+  return makeOutput(mesh, grid, input, stencil, std::move(triFaces), std::move(gridFaces), std::move(cells), std::move(regions), vertices, stats, monitor);
 }
 
 CutMesh cutMesh(const MeshView& mesh, const Grid& grid, const CutOptions& options, CutStats& stats) {
