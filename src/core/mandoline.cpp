@@ -22,8 +22,8 @@ template <class PlaneAt>
 std::vector<double> makePlanes(int64_t cells, const PlaneAt& planeAt) {
   std::vector<double> planes;
   if (cells < 1) return planes;
-  if (cells > kMostCells) cells = kMostCells + 1;
-  planes.resize(size_t(cells) + 1);
+  planes.resize(size_t(std::min(cells, kMostCells + 1)) + 1);
+  if (cells > kMostCells) return planes;
   for (int64_t c = 0; c <= cells; ++c) planes[size_t(c)] = planeAt(c);
   return planes;
 }
