@@ -638,6 +638,17 @@ TEST_CASE("validate: winding numbers") {
     h.cut.regionWinding = {0, -1};
     requireFailure(h.validated(), "windingNumber", "mesh", 0);
   }
+  SECTION("a triangle without area makes the input neither surely open nor surely closed") {
+    Bubbles b = bubble();
+    b.mesh.positions.insert(b.mesh.positions.end(), {5, 5, 5, 6, 6, 6, 7, 7, 7});
+    b.mesh.triangles.insert(b.mesh.triangles.end(), {4, 5, 6});
+    b.cut.triangleCount++;
+    b.cut.droppedTriangles = {4};
+    requirePass(b.validated());
+    b.cut.hasWinding = false;
+    b.cut.regionWinding.clear();
+    requirePass(b.validated());
+  }
   SECTION("duplicates counted or not, but everywhere alike") {
     Bubbles b = bubble();
     const std::vector<uint32_t> once = b.mesh.triangles;
@@ -700,6 +711,12 @@ TEST_CASE("validate: right results on inputs that strain rounding") {
   SECTION("vertices snapped onto planes") {
     requireCut(moved(0.001, 1), Grid::box({-1, -1, -1}, {1, 1, 1}, {20, 20, 20}), 0.05);
     requireCut(moved(0.001, 1.11), Grid::rectilinear({{{-1, -0.5, 0, 1}, {-2, -1, 0.1, 1, 2}, {-1, -0.95, 0, 0.9, 1}}}), 0.2);
+  }
+  SECTION("nothing but a triangle without area") {
+    requireCut(Mesh{{0, 0, 0, 1, 1, 0, 3, 3, 0}, {0, 1, 2}}, Grid::box({0, 0, -1}, {3, 3, 2}, {3, 3, 3}));
+  }
+  SECTION("a surface that touches the box from outside") {
+    requireCut(Mesh{{1, 0.2, 0.5, 1, 0.7, 0.5, 2, 0.5, 0.5}, {0, 1, 2}}, Grid::box({0, 0, 0}, {1, 1, 1}, {3, 3, 3}));
   }
   SECTION("a dropped triangle without area in a crack") {
     requireCut(Mesh{{0, 0, 0.5, 1, 0, 0.5, 0.5, 0, 0.5, 0.5, 0.9, 0.3, 0.5, -0.9, 0.3}, {0, 1, 3, 2, 0, 4, 1, 2, 4, 0, 2, 1}},

@@ -18,7 +18,7 @@ Validation validate(const MeshView& mesh, const CutMesh& cutMesh, double snapTol
     checkFaces(context, result.checks);
     checkGridCells(context, result.checks, cellVolumes, samples);
     checkSurface(context, bins, result.checks, overlapping);
-    checkRegions(context, result.checks);
+    checkRegions(context, bins, result.checks);
     checkWinding(context, bins, cellVolumes, overlapping, std::move(samples), result.checks);
   } else {
     result.checks[0].message += "; all other checks are left out";

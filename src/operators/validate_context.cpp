@@ -191,24 +191,37 @@ void Context::setDuplicates() {
 void Context::setClosed() {
   struct Use {
     uint64_t edge;
-    int32_t all, distinct;
+    uint32_t triangle;
+    int32_t direction;
   };
+  std::vector<uint8_t> hasAreaOf(mesh.triangleCount()),
+      onFlat(mesh.vertexCount(), 0);  // onFlat: corners of triangles that only their positions flatten
   std::vector<Use> uses;
   uses.reserve(mesh.triangles.size());
-  for (size_t t = 0; t < mesh.triangleCount(); ++t) {
+  for (uint32_t t = 0; t < mesh.triangleCount(); ++t) {
+    hasAreaOf[t] = hasArea(t);
+    const auto cornerOf = [&](int i) { return weld[mesh.triangles[3 * size_t(t) + i % 3]]; };
+    const bool flat = !hasAreaOf[t] && cornerOf(0) != cornerOf(1) && cornerOf(1) != cornerOf(2) && cornerOf(2) != cornerOf(0);
     for (int i = 0; i < 3; ++i) {
-      const uint32_t a = weld[mesh.triangles[3 * t + i]], b = weld[mesh.triangles[3 * t + (i + 1) % 3]];
-      const int32_t direction = a < b ? 1 : -1;
-      if (a != b) uses.push_back({uint64_t(std::min(a, b)) << 32 | std::max(a, b), direction, isDuplicate(t) ? 0 : direction});
+      const uint32_t a = cornerOf(i), b = cornerOf(i + 1);
+      if (flat) onFlat[a] = 1;
+      if (a != b) uses.push_back({uint64_t(std::min(a, b)) << 32 | std::max(a, b), t, a < b ? 1 : -1});
     }
   }
   std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.edge < b.edge; });
-  closed = closedWithoutDuplicates = true;
   for (size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
-    int32_t all = 0, distinct = 0;
-    for (; end < uses.size() && uses[end].edge == uses[begin].edge; ++end) all += uses[end].all, distinct += uses[end].distinct;
-    closed &= all == 0;
-    closedWithoutDuplicates &= distinct == 0;
+    int32_t sum[2] = {0, 0}, withArea[2] = {0, 0};  // without and with duplicates
+    for (; end < uses.size() && uses[end].edge == uses[begin].edge; ++end) {
+      for (int h = isDuplicate(uses[end].triangle) ? 1 : 0; h < 2; ++h) {
+        sum[h] += uses[end].direction;
+        withArea[h] += hasAreaOf[uses[end].triangle] ? uses[end].direction : 0;
+      }
+    }
+    const bool flat = onFlat[uses[begin].edge >> 32] && onFlat[uint32_t(uses[begin].edge)];
+    for (int h = 0; h < 2; ++h) {
+      mayBeOpen[h] |= sum[h] != 0 || withArea[h] != 0;
+      mayBeClosed[h] &= sum[h] == 0 || flat;
+    }
   }
 }
 

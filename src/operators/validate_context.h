@@ -69,8 +69,9 @@ struct Context {
   std::vector<int32_t> faceGridCell;   ///< 3 per face: the grid cell it lies in, on its axis the one above it; -1 if it is in no single one
   std::vector<uint32_t> cellOrder;     ///< cut-cells by grid cell, ordered z, y, x
   std::vector<uint32_t> groupOffsets;  ///< into cellOrder: one group per grid cell
-  bool closed = false;                 ///< whether every edge is run through equally often in both directions
-  bool closedWithoutDuplicates = false;  ///< the same without triangles dropped as duplicates
+  /// Whether the input may be called closed (every edge is run through equally often in both directions), and open. Both where triangles
+  /// without area are all that makes the difference. By whether triangles dropped as duplicates count.
+  bool mayBeClosed[2] = {true, true}, mayBeOpen[2] = {false, false};
   std::vector<int32_t> multiplicity;  ///< per triangle: sum of orientations of all with its vertices, relative to its own; empty if all 1
   std::vector<uint8_t> duplicate;     ///< per triangle: dropped, with another of its vertices that is kept or comes before; empty if none
 
@@ -131,7 +132,7 @@ void checkFaces(const Context& context, std::vector<Check>& checks);
 void checkSurface(const Context& context, const TriangleBins& bins, std::vector<Check>& checks, std::vector<uint8_t>& overlapping);
 /// Works by grid cell. Fills in the volume of each cut-cell, and points that are known to lie in a region.
 void checkGridCells(const Context& context, std::vector<Check>& checks, std::vector<double>& cellVolumes, std::vector<Sample>& samples);
-void checkRegions(const Context& context, std::vector<Check>& checks);
+void checkRegions(const Context& context, const TriangleBins& bins, std::vector<Check>& checks);
 void checkWinding(const Context& context, const TriangleBins& bins, const std::vector<double>& cellVolumes,
                   const std::vector<uint8_t>& overlapping, std::vector<Sample> samples, std::vector<Check>& checks);
 

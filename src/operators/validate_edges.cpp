@@ -26,11 +26,12 @@ void EdgeCheck::run(const GridCell& cell, Sets& shells) {
       uses_.push_back({{std::min(u, v), std::max(u, v)}, f, u < v});
     }
   }
-  std::sort(uses_.begin(), uses_.end(), [](const Use& a, const Use& b) {
-    return a.edge != b.edge ? a.edge < b.edge : a.face != b.face ? a.face < b.face : a.forward < b.forward;
+  const auto key = [](const Use& use) { return uint64_t(use.edge[0]) << 32 | use.edge[1]; };
+  std::sort(uses_.begin(), uses_.end(), [&](const Use& a, const Use& b) {
+    return key(a) != key(b) ? key(a) < key(b) : a.face != b.face ? a.face < b.face : a.forward < b.forward;
   });
   for (size_t begin = 0, end = 0; begin < uses_.size(); begin = end) {
-    while (end < uses_.size() && uses_[end].edge == uses_[begin].edge) ++end;
+    while (end < uses_.size() && key(uses_[end]) == key(uses_[begin])) ++end;
     const std::span<Use> uses(uses_.data() + begin, end - begin);
     edges_.push_back(uses[0].edge);
     checkCancel(cell, uses);

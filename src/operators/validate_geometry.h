@@ -89,4 +89,25 @@ struct Normal {
 };
 Normal normalOf(const Vec3& a, const Vec3& b, const Vec3& c);
 
+using Polygon = std::vector<Vec3>;
+/// The part of a polygon where side(p) >= 0, for a side that is linear in p.
+template <class Side>
+void clip(Polygon& polygon, Side&& side) {
+  Polygon kept;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double sa = side(a), sb = side(b);
+    if (sa >= 0) kept.push_back(a);
+    if ((sa > 0 && sb < 0) || (sa < 0 && sb > 0)) kept.push_back(a + sa / (sa - sb) * (b - a));
+  }
+  polygon.swap(kept);
+}
+
+inline void clipToBox(Polygon& polygon, const Vec3& low, const Vec3& high) {
+  for (int d = 0; d < 3; ++d) {
+    clip(polygon, [&](const Vec3& p) { return p[d] - low[d]; });
+    clip(polygon, [&](const Vec3& p) { return high[d] - p[d]; });
+  }
+}
+
 }  // namespace mandoline::validation

@@ -1,7 +1,7 @@
 // The stencil (paper, 4.3.1) and the regions: components of cut-cells and untouched grid cells.
 #include <algorithm>
 
-#include "operators/validate_context.h"
+#include "operators/validate_bins.h"
 #include "operators/validate_sets.h"
 
 namespace mandoline::validation {
@@ -9,7 +9,7 @@ namespace {
 
 class RegionCheck {
  public:
-  explicit RegionCheck(const Context& context) : x_(context) {}
+  RegionCheck(const Context& context, const TriangleBins& bins) : x_(context), bins_(bins) {}
 
   void run(std::vector<Check>& checks) {
     checkStencil();
@@ -40,34 +40,36 @@ class RegionCheck {
     }
   }
 
-  /// Cut-cells only where a vertex of the surface lies in the closed grid cell.
+  /// Cut-cells only where the input touches the closed grid cell.
   void checkTouched() {
-    const auto onSurface = [&](uint32_t v) { return x_.cut.vertexParents[2 * size_t(v)] >= 0; };
-    std::vector<std::pair<Key, uint32_t>> open;  // grid cells with cut-cells, none of whose own vertices is on the surface
     for (size_t g = 0; g < x_.groupCount(); ++g) {
-      bool touched = false;
-      for (uint32_t i = x_.groupOffsets[g]; i < x_.groupOffsets[g + 1] && !touched; ++i) {
-        for (const uint32_t h : x_.cut.cell(x_.cellOrder[i])) {
-          x_.forLoops(h / 2, [&](std::span<const uint32_t> loop) { touched |= std::any_of(loop.begin(), loop.end(), onSurface); });
-        }
-      }
-      if (!touched) open.push_back({keyOf(g), firstCell(g)});
+      if (!hasSurfaceVertex(g) && !isTouched(keyOf(g)))
+        stencil_.violate("cell", firstCell(g), "lies in a grid cell that the surface does not touch");
     }
-    if (open.empty()) return;
-    std::vector<Key> around;  // grid cells that a surface vertex on axial planes touches
-    for (uint32_t v = 0; v < x_.cut.vertexCount(); ++v) {
-      for (int corner = 0; corner < 8 && onSurface(v); ++corner) {
-        if (corner & ~x_.cut.vertexMask[v]) continue;
-        Key k;
-        for (int d = 0; d < 3; ++d) k[d] = x_.cellAt(v)[d] - (corner >> d & 1);
-        around.push_back(k);
+  }
+  bool hasSurfaceVertex(size_t group) const {
+    const auto onSurface = [&](uint32_t v) { return x_.cut.vertexParents[2 * size_t(v)] >= 0; };
+    bool found = false;
+    for (uint32_t i = x_.groupOffsets[group]; i < x_.groupOffsets[group + 1] && !found; ++i) {
+      for (const uint32_t h : x_.cut.cell(x_.cellOrder[i])) {
+        x_.forLoops(h / 2, [&](std::span<const uint32_t> loop) { found |= std::any_of(loop.begin(), loop.end(), onSurface); });
       }
     }
-    std::sort(around.begin(), around.end());
-    for (const auto& [key, cell] : open) {
-      if (!std::binary_search(around.begin(), around.end(), key))
-        stencil_.violate("cell", cell, "lies in a grid cell that the surface does not touch");
-    }
+    return found;
+  }
+  bool isTouched(const Key& gridCell) const {
+    Vec3 low, high;
+    for (int d = 0; d < 3; ++d) low[d] = x_.planes[d][gridCell[d]], high[d] = x_.planes[d][gridCell[d] + 1];
+    const Vec3 size = x_.inRoundings(high, low), margin{{kTolerance, kTolerance, kTolerance}};
+    bool touched = false;
+    bins_.forTriangles(low, high, [&](uint32_t t) {
+      if (touched) return;
+      Polygon polygon;
+      for (int i = 0; i < 3; ++i) polygon.push_back(x_.inRoundings(x_.corner(t, i), low));
+      clipToBox(polygon, -1 * margin, size + margin);
+      touched = !polygon.empty();
+    });
+    return touched;
   }
 
   void checkComponents() {
@@ -136,12 +138,13 @@ class RegionCheck {
   }
 
   const Context& x_;
+  const TriangleBins& bins_;
   Sets parts_;  // cut-cells, then runs
   Tally stencil_{"stencil"}, regions_{"regions"};
 };
 
 }  // namespace
 
-void checkRegions(const Context& context, std::vector<Check>& checks) { RegionCheck(context).run(checks); }
+void checkRegions(const Context& context, const TriangleBins& bins, std::vector<Check>& checks) { RegionCheck(context, bins).run(checks); }
 
 }  // namespace mandoline::validation

@@ -49,8 +49,6 @@ class SurfaceCheck {
     double value = 0, noise = 0;
     void add(const Area& other) { value += other.value, noise += other.noise; }
   };
-  using Polygon = std::vector<Vec3>;
-
   View look(uint32_t t) const {
     View view;
     view.origin = x_.corner(t, 0);
@@ -71,29 +69,12 @@ class SurfaceCheck {
     return area;
   }
 
-  /// The part of a polygon where side(p) >= 0, for a side that is linear in p.
-  template <class Side>
-  static void clip(Polygon& polygon, Side&& side) {
-    Polygon kept;
-    for (size_t i = 0; i < polygon.size(); ++i) {
-      const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-      const double sa = side(a), sb = side(b);
-      if (sa >= 0) kept.push_back(a);
-      if ((sa > 0 && sb < 0) || (sa < 0 && sb > 0)) kept.push_back(a + sa / (sa - sb) * (b - a));
-    }
-    polygon.swap(kept);
-  }
-
   Area areaInBox(uint32_t t, const View& view) const {
     Polygon polygon(view.corners, view.corners + 3);
     Vec3 low, high;
     for (int d = 0; d < 3; ++d) low[d] = x_.planes[d].front(), high[d] = x_.planes[d].back();
     if (!(x_.inBox(x_.corner(t, 0)) && x_.inBox(x_.corner(t, 1)) && x_.inBox(x_.corner(t, 2)))) {
-      low = x_.inRoundings(low, view.origin), high = x_.inRoundings(high, view.origin);
-      for (int d = 0; d < 3; ++d) {
-        clip(polygon, [&](const Vec3& p) { return p[d] - low[d]; });
-        clip(polygon, [&](const Vec3& p) { return high[d] - p[d]; });
-      }
+      clipToBox(polygon, x_.inRoundings(low, view.origin), x_.inRoundings(high, view.origin));
     }
     return areaOf(polygon, view);
   }

@@ -29,16 +29,15 @@ class WindingCheck {
 
   Check checkNumbers(bool withDuplicates) const {
     Tally tally("windingNumber");
-    const bool closed = withDuplicates ? x_.closed : x_.closedWithoutDuplicates;
     if (!x_.cut.hasWinding) {
-      if (closed) {
+      if (!x_.mayBeOpen[withDuplicates]) {
         tally.violate("mesh", 0, "is closed and consistently oriented, but the result has no winding numbers");
       } else {
         tally.skip("the input is open or inconsistently oriented");
       }
       return tally.finish();
     }
-    if (!closed) tally.violate("mesh", 0, "is open or inconsistently oriented, but the result has winding numbers");
+    if (!x_.mayBeClosed[withDuplicates]) tally.violate("mesh", 0, "is open or inconsistently oriented, but the result has winding numbers");
     checkSteps(withDuplicates, tally);
     checkSamples(withDuplicates, tally);
     return tally.finish();
@@ -91,7 +90,7 @@ class WindingCheck {
     const double found = regionVolume(noise), all = inputVolume(true, noise),
                  distinct = x_.duplicate.empty() ? all : inputVolume(false, noise);
     const double deviation = std::min(std::fabs(found - all), std::fabs(found - distinct));
-    tally.measure(deviation / noise, "mesh", 0, "has another volume than the regions, times their winding numbers");
+    tally.measure(deviation > 0 ? deviation / noise : 0, "mesh", 0, "has another volume than the regions, times their winding numbers");
     return tally.finish();
   }
 
