@@ -9,8 +9,8 @@ struct Check {
   std::string name;         ///< e.g. "surfaceArea"
   bool pass = true;
   bool skipped = false;     ///< does not apply to this input, e.g. winding numbers of an open mesh
-  double worst = 0;         ///< largest deviation found, in `unit`
-  double tolerance = 0;     ///< what it may be; 0 for combinatorial checks, whose worst is a number of violations
+  double worst = 0;         ///< largest deviation found: in roundings (half units in the last place of the largest coordinate), or a number of violations
+  double tolerance = 0;     ///< what it may be
   std::string elementKind;  ///< "cell", "face", "triangle", ... of the worst deviation; empty if none
   int64_t element = -1;
   std::string message;      ///< why it fails, or what was left out; may be empty
