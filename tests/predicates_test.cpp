@@ -4,6 +4,7 @@
 
 #include "catch.h"
 #include "cut/inner_point.h"
+#include "cut/planar_graph.h"
 #include "cut/radial_order.h"
 #include "cut/tri_faces.h"
 #include "rational.h"
@@ -27,6 +28,28 @@ Rational area(const Vector& a, const Vector& b, const Vector& c, int axis) {
   const int p = (axis + 1) % 3, q = (axis + 2) % 3;
   return (b[p] - a[p]) * (c[q] - a[q]) - (b[q] - a[q]) * (c[p] - a[p]);
 }
+
+/// Angles about a -> b, counted from the half-plane of one tip, by half turn and cross product: positively scaled along each of its axes.
+struct Angles {
+  struct Direction {
+    Rational x, y;
+    bool isSecondHalf() const { return y.sign() < 0 || (y.sign() == 0 && x.sign() < 0); }
+  };
+  Vector origin, xAxis, yAxis;
+
+  Angles(const Vector& a, const Vector& b, const Vector& tip) : origin(a) {
+    yAxis = cross(b - a, tip - a);
+    xAxis = cross(yAxis, b - a);
+  }
+  Direction of(const Vector& tip) const {
+    const Vector t = tip - origin;
+    return {t[0] * xAxis[0] + t[1] * xAxis[1] + t[2] * xAxis[2], t[0] * yAxis[0] + t[1] * yAxis[1] + t[2] * yAxis[2]};
+  }
+  static int compare(const Direction& s, const Direction& t) {
+    if (s.isSecondHalf() != t.isSecondHalf()) return s.isSecondHalf() ? 1 : -1;
+    return -(s.x * t.y - s.y * t.x).sign();
+  }
+};
 
 // ---- P1 to P5: cut-vertices -------------------------------------------------------------------------------------------------------
 
@@ -345,6 +368,118 @@ TEST_CASE("P4, P5: the turn that cut-vertices take", "[predicates]") {
   CHECK(predicates.fallbacks > 100);
 }
 
+namespace {
+
+/// Points close to the plane z = 0: a centre, tips around it, and others between. Each is a tri-vertex or a crossing of a tri-edge.
+struct WheelSoup : Soup {
+  std::vector<bool> isCrossing;
+
+  explicit WheelSoup(Sampler& sampler, bool onLattice) {
+    grid = Grid::rectilinear({{{-64, 64}, {-64, 64}, {-64, 0, 64}}});
+    std::vector<Point> points = {sampler.point()};
+    const Point centre = points[0];
+    const auto any = [&] { return points[sampler.below(points.size())]; };
+    for (const size_t tips = 3 + sampler.below(5); points.size() <= tips;) points.push_back(sampler.oneIn(2) ? sampler.point() : sampler.nudged(sampler.onLine(centre, any())));
+    for (int i = 0; i < 12; ++i) points.push_back(sampler.nudged(Sampler::combined(centre, any(), any(), sampler.unit(), sampler.oneIn(3) ? 0 : sampler.unit() / 2)));
+    for (const Point& p : points) {
+      isCrossing.push_back(sampler.oneIn(2));
+      const double dx = double(sampler.below(9)) - 4, dy = double(sampler.below(9)) - 4;
+      const double below = onLattice ? 1 : 1 + sampler.unit(), above = !isCrossing.back() ? 0 : onLattice ? 1 : 1 + sampler.unit();
+      add({p[0] + above * dx, p[1] + above * dy, above});
+      add({p[0] - below * dx, p[1] - below * dy, -below});
+      add({p[0] + 31, p[1] + 20, -20});  // never in line with the other two
+    }
+    finish();
+  }
+};
+
+/// A planar graph of such points, and how they truly lie.
+struct Wheel {
+  Cut cut;
+  PlanarGraph graph;
+  std::vector<uint32_t> ids;    // per point of the soup
+  std::vector<uint32_t> tips;   // points, counter-clockwise
+  bool tied = false;            // whether two tips lie in one direction
+  std::vector<uint32_t> inner;  // two points in the wedge from a tip to the next, or less
+  size_t wedge = 0;             // that tip
+
+  Wheel(const WheelSoup& soup, size_t tipCount, Sampler& sampler) : cut(soup) {
+    for (uint32_t i = 0; i < soup.isCrossing.size(); ++i) {
+      const uint32_t a = cut.input.triangles[i][0], b = cut.input.triangles[i][1];
+      const std::array<uint32_t, 2> ends = {std::min(a, b), std::max(a, b)};
+      const auto edge = std::find(cut.edges.ends.begin(), cut.edges.ends.end(), ends);
+      REQUIRE(edge != cut.edges.ends.end());
+      ids.push_back(soup.isCrossing[i] ? cut.edges.crossingOffsets[size_t(edge - cut.edges.ends.begin())] : a);
+    }
+    for (uint32_t i = 1; i <= tipCount; ++i) tips.push_back(i);
+    const Angles angles(point(0), point(0) + Vector{Rational(0), Rational(0), Rational(1)}, point(1));
+    const auto isBefore = [&](uint32_t i, uint32_t j) { return Angles::compare(angles.of(point(i)), angles.of(point(j))) < 0; };
+    std::sort(tips.begin(), tips.end(), isBefore);
+    for (size_t i = 1; i < tips.size(); ++i) tied |= !isBefore(tips[i - 1], tips[i]);
+    wedge = sampler.below(tips.size());
+    for (uint32_t i = uint32_t(tipCount) + 1; i < ids.size() && inner.size() < 2; ++i) {
+      if (turn(0, tips[wedge], i) > 0 && turn(tips[wedge], next(wedge), i) > 0 && turn(next(wedge), 0, i) > 0) {
+        if (inner.empty() || !(point(i) - point(inner[0]) == Vector())) inner.push_back(i);
+      }
+    }
+    const uint32_t corner = uint32_t(cut.vertices.size());
+    for (const Slab& slab : {Slab{0, 0, 2}, Slab{2, 0, 2}, Slab{2, 2, 2}, Slab{0, 2, 2}}) cut.vertices.append(slab);
+    graph.begin(cut.vertices, 2);
+    graph.setOutline({corner, corner + 1, corner + 2, corner + 3});
+    for (size_t i = 0; i < tips.size(); ++i) {
+      graph.addEdge(ids[0], ids[tips[i]]);
+      if (isConvex(i)) graph.addEdge(ids[tips[i]], ids[next(i)]);
+    }
+    if (inner.size() == 2) graph.addEdge(ids[inner[0]], ids[inner[1]]);
+  }
+
+  const Vector& point(uint32_t i) const { return cut.points[ids[i]]; }
+  int turn(uint32_t i, uint32_t j, uint32_t k) const { return area(point(i), point(j), point(k), 2).sign(); }
+  uint32_t next(size_t tip) const { return tips[tip + 1 < tips.size() ? tip + 1 : 0]; }
+  /// Whether the wedge from a tip to the next is less than half a turn, so that a triangle fits in.
+  bool isConvex(size_t tip) const { return turn(0, tips[tip], next(tip)) > 0; }
+  uint32_t find(uint32_t from, uint32_t to) const { return graph.find(ids[from], ids[to]); }
+};
+
+}  // namespace
+
+TEST_CASE("P4, P5: edges around a vertex of a grid-face, and what lies in the faces between them", "[predicates]") {
+  size_t wedges = 0, failures = 0, nested = 0;
+  Predicates predicates;
+  for (const Kind kind : {Kind::lattice, Kind::random, Kind::sparse}) {
+    Sampler sampler(kind);
+    for (int repeat = 0; repeat < 300; ++repeat) {
+      const WheelSoup soup(sampler, kind == Kind::lattice);
+      Wheel wheel(soup, soup.isCrossing.size() - 13, sampler);
+      const auto isCentre = [&](uint32_t tip) { return (wheel.point(tip) - wheel.point(0)) == Vector(); };
+      if (std::any_of(wheel.tips.begin(), wheel.tips.end(), isCentre)) continue;
+      if (wheel.tied) {
+        CHECK_THROWS_AS(wheel.graph.build(predicates), Failure);
+        ++failures;
+        continue;
+      }
+      const PlanarGraph& graph = wheel.graph;
+      wheel.graph.build(predicates);
+      for (size_t i = 0; i < wheel.tips.size(); ++i) {
+        if (!wheel.isConvex(i)) continue;
+        const uint32_t out = wheel.find(0, wheel.tips[i]), along = graph.next(out), back = graph.next(along);
+        REQUIRE(along == wheel.find(wheel.tips[i], wheel.next(i)));
+        REQUIRE(back == wheel.find(wheel.next(i), 0));
+        REQUIRE(graph.next(back) == out);
+        REQUIRE(graph.face(along ^ 1) == graph.face(0));
+        ++wedges;
+      }
+      if (wheel.inner.size() < 2) continue;
+      REQUIRE(graph.face(wheel.find(wheel.inner[0], wheel.inner[1])) == graph.face(wheel.find(0, wheel.tips[wheel.wedge])));
+      ++nested;
+    }
+  }
+  CHECK(wedges > 1000);
+  CHECK(failures > 100);
+  CHECK(nested > 100);
+  CHECK(predicates.fallbacks > 100);
+}
+
 TEST_CASE("Proven ranges of cut-vertices hold, and are narrow", "[predicates]") {
   Predicates predicates;
   forCuts(10, [&](const Cut& cut) {
@@ -400,29 +535,6 @@ TEST_CASE("Positions of cut-vertices are rounded by little and never out of thei
 
 namespace {
 
-/// Angles about a -> b, counted from the half-plane of one tip, by half turn and cross product.
-struct Angles {
-  struct Direction {
-    Rational x, y;
-    bool isSecondHalf() const { return y.sign() < 0 || (y.sign() == 0 && x.sign() < 0); }
-  };
-  Vector origin, xAxis, yAxis;
-
-  Angles(const Point& a, const Point& b, const Point& tip) : origin(exact(a)) {
-    const Vector along = exact(b) - origin;
-    yAxis = cross(along, exact(tip) - origin);
-    xAxis = cross(yAxis, along);
-  }
-  Direction of(const Point& tip) const {
-    const Vector t = exact(tip) - origin;
-    return {t[0] * xAxis[0] + t[1] * xAxis[1] + t[2] * xAxis[2], t[0] * yAxis[0] + t[1] * yAxis[1] + t[2] * yAxis[2]};
-  }
-  static int compare(const Direction& s, const Direction& t) {
-    if (s.isSecondHalf() != t.isSecondHalf()) return s.isSecondHalf() ? 1 : -1;
-    return -(s.x * t.y - s.y * t.x).sign();
-  }
-};
-
 bool areOnLine(const Point& a, const Point& b, const Point& c) {
   const Vector n = cross(exact(b) - exact(a), exact(c) - exact(a));
   return n[0].sign() == 0 && n[1].sign() == 0 && n[2].sign() == 0;
@@ -442,21 +554,25 @@ TEST_CASE("P6: the radial order of triangles around a tri-edge", "[predicates]")
       if (flat < 3) b[flat] = a[flat];
       std::vector<Point> tips;
       const bool ties = sampler.oneIn(2);
+      const auto isTied = [&](const Point& s, const Point& t) {
+        const Angles angles(exact(a), exact(b), exact(s));
+        return Angles::compare(angles.of(exact(t)), angles.of(exact(s))) == 0;
+      };
       const size_t wanted = 2 + sampler.below(6);
       for (int attempt = 0; attempt < 30 && tips.size() < wanted; ++attempt) {
         Point tip = tips.empty() || sampler.oneIn(2) ? sampler.point() : sampler.nudged(sampler.onPlane(a, b, tips[sampler.below(tips.size())]));
         if (flat < 3 && sampler.oneIn(2)) tip[flat] = a[flat];
         if (areOnLine(a, b, tip)) continue;
         bool tied = false;
-        for (const Point& t : tips) tied |= Angles::compare(Angles(a, b, t).of(tip), Angles(a, b, t).of(t)) == 0;
+        for (const Point& t : tips) tied |= isTied(t, tip);
         if (ties || !tied) tips.push_back(tip);
       }
       if (tips.size() < 2) continue;
       const bool open = sampler.oneIn(3);
-      const Angles angles(a, b, tips[0]);
+      const Angles angles(exact(a), exact(b), exact(tips[0]));
       if (open) {  // those less than half a turn on, in any order
         tips.erase(std::remove_if(tips.begin(), tips.end(), [&](const Point& t) {
-          const auto direction = angles.of(t);
+          const auto direction = angles.of(exact(t));
           return direction.isSecondHalf() || (direction.y.sign() == 0 && direction.x.sign() < 0);
         }), tips.end());
         std::swap(tips[0], tips[sampler.below(tips.size())]);
@@ -470,10 +586,10 @@ TEST_CASE("P6: the radial order of triangles around a tri-edge", "[predicates]")
       for (size_t i = 0; i < flaps.size(); ++i) {
         REQUIRE(flaps[i].tip == &tips[flaps[i].item]);
         REQUIRE(!seen[flaps[i].item]++);
-        const auto direction = angles.of(*flaps[i].tip);
+        const auto direction = angles.of(exact(*flaps[i].tip));
         opposite += direction.y.sign() == 0 && direction.x.sign() < 0;
         if (i == 0) continue;
-        const int order = Angles::compare(angles.of(*flaps[i - 1].tip), direction);
+        const int order = Angles::compare(angles.of(exact(*flaps[i - 1].tip)), direction);
         REQUIRE(order <= 0);
         if (order == 0 && expected == 0) expected = i;
       }

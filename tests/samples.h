@@ -8,8 +8,9 @@
 
 #include "cut/slab.h"
 
-enum class Kind { lattice, largeLattice, smallLattice, random, large, small, wide };
-inline constexpr Kind kKinds[] = {Kind::lattice, Kind::largeLattice, Kind::smallLattice, Kind::random, Kind::large, Kind::small, Kind::wide};
+enum class Kind { lattice, largeLattice, smallLattice, random, sparse, large, small, wide };
+inline constexpr Kind kKinds[] = {Kind::lattice, Kind::largeLattice, Kind::smallLattice, Kind::random,
+                                  Kind::sparse,  Kind::large,        Kind::small,        Kind::wide};
 
 class Sampler {
  public:
@@ -29,6 +30,7 @@ class Sampler {
       case Kind::largeLattice: return double(below(10)) * 0x1p117;
       case Kind::smallLattice: return double(below(10)) * kFlushBelow;
       case Kind::random: return x;
+      case Kind::sparse: return 1 + std::ldexp(1, -1 - int(below(52))) - std::ldexp(1, -1 - int(below(52)));  // expansions of neighbouring powers of two
       case Kind::large: return x * 0x1p120;
       case Kind::small: return x * kFlushBelow;
       case Kind::wide: break;

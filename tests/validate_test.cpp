@@ -211,7 +211,7 @@ void requirePass(const Validation& validation) {
   CHECK(validation.pass);
 }
 
-const Check& checkNamed(const Validation& validation, const std::string& name) {
+Check checkNamed(const Validation& validation, const std::string& name) {
   const auto found = std::find_if(validation.checks.begin(), validation.checks.end(), [&](const Check& c) { return c.name == name; });
   REQUIRE(found != validation.checks.end());
   return *found;
@@ -221,7 +221,7 @@ const Check& checkNamed(const Validation& validation, const std::string& name) {
 void requireFailure(const Validation& validation, const std::string& name, const std::string& kind, int64_t element) {
   INFO(name);
   CHECK_FALSE(validation.pass);
-  const Check& check = checkNamed(validation, name);
+  const Check check = checkNamed(validation, name);
   INFO(check.message);
   CHECK_FALSE(check.pass);
   CHECK(check.elementKind == kind);
@@ -485,7 +485,7 @@ TEST_CASE("validate: shells") {
     Halves h;
     const uint32_t v = h.vertex({1, 0, 0.5});
     h.cut.positions[3 * v + 2] = 0.5 + 1e-9;
-    const Check& check = checkNamed(h.validated(), "gridFaceArea");
+    const Check check = checkNamed(h.validated(), "gridFaceArea");
     CHECK(check.pass);  // both pieces moved alike
     Shelf s(false);
     s.cut.positions[3 * s.vertex({0, 1, 0}) + 1] = 1 - 1e-9;
