@@ -1,0 +1,341 @@
+/**
+ * Mandoline: cuts a triangle mesh with a Cartesian grid into polyhedral cut-cells.
+ *
+ * ```js
+ * import { init } from 'mandoline-wasm';
+ * const { cut } = await init();
+ * const cutMesh = cut({ positions, triangles }, { cells: 32 });
+ * ```
+ *
+ * All arrays are flat, all ids count from 0, and every offsets array starts with 0 and has one more entry than there are items. Lengths are in
+ * world units unless "cells" is said. Results are plain objects of typed arrays that own their memory: keep, clone or transfer them, there is
+ * nothing to delete. The names are those of the C++ library and of its JSON dump.
+ */
+
+/** A triangle mesh. The normal of triangle (a, b, c) is (b - a) x (c - a). It may be open, non-manifold, inconsistently oriented, unwelded. */
+export interface Mesh {
+  /** 3 per tri-vertex: x, y, z. */
+  positions: Float64Array | Float32Array | readonly number[];
+  /** 3 per triangle: tri-vertex ids. */
+  triangles: Uint32Array | Uint16Array | Int32Array | readonly number[];
+}
+
+export type Vector3 = readonly [number, number, number];
+
+/** A grid around the mesh: cubic cells of size 1.1 x longest side of its bounding box / `cells`, as many per axis as cover the box with that margin, centred. */
+export interface GridAround {
+  cells: number;
+}
+/** The box from `min` to `max` in `cells[d]` cells per axis: plane c lies at min + (max - min) * c / n. */
+export interface GridBox {
+  min: Vector3;
+  max: Vector3;
+  cells: Vector3;
+}
+/** Plane c lies at origin + spacing * c. */
+export interface GridRegular {
+  origin: Vector3;
+  spacing: Vector3;
+  cells: Vector3;
+}
+/** Any ascending plane coordinates per axis, for graded grids. */
+export interface GridRectilinear {
+  planes: readonly [ArrayLike<number>, ArrayLike<number>, ArrayLike<number>];
+}
+/** Which grid to cut with. The `grid` of a result is one, too, and means exactly its planes. */
+export type GridInput = GridAround | GridBox | GridRegular | GridRectilinear | Grid;
+
+/** The grid of a result: grid cell (i, j, k) spans planes[0][i] .. planes[0][i + 1] and so on. */
+export interface Grid {
+  origin: [number, number, number];
+  /** Size of a cell per axis, or null if the grid is not uniform. */
+  spacing: [number, number, number] | null;
+  /** Number of cells per axis. */
+  cells: [number, number, number];
+  /** Per axis the cells + 1 plane coordinates that every decision was made with. */
+  planes: [Float64Array, Float64Array, Float64Array];
+}
+
+export type Stage = 'input' | 'triEdges' | 'triFaces' | 'stencil' | 'gridEdges' | 'gridFaces' | 'cutCells' | 'regions' | 'output';
+
+/** How far a cut has come: `done` of `total` items of the stage, and the stage's place among all. */
+export interface Progress {
+  stage: Stage;
+  stageIndex: number;
+  stageCount: number;
+  done: number;
+  total: number;
+}
+
+export interface CutOptions {
+  /** Tri-vertices within this distance of an axial plane (in cells, below 0.5) are moved onto it before cutting. Default 0. */
+  snapTolerance?: number;
+  /** Called now and then; returning false cancels the cut, which then throws a MandolineError with code "cancelled". */
+  progress?: (progress: Progress) => boolean | void;
+  /** Whether the result has `gridCellRegion`, which takes 4 bytes per grid cell; the runs say the same in less. Default true. */
+  gridCellRegion?: boolean;
+}
+
+/** The cut-mesh. Half-face = 2 * face + side; side 0: the face's normal points out of the cell, side 1: into it. */
+export interface CutMesh {
+  grid: Grid;
+
+  /** 3 per vertex. Output only: no decision reads them. */
+  positions: Float64Array;
+  /** 3 per vertex: the slab it lies in per axis, exact: 0..n-1, or n on the last plane. */
+  vertexCell: Int32Array;
+  /** Per vertex: bit d is set when it lies exactly on plane vertexCell[d] of axis d. */
+  vertexMask: Uint8Array;
+  /** Per vertex: the tri-vertex (lowest id at its position), or -1. */
+  vertexTriVertex: Int32Array;
+  /** 2 per vertex: tri-vertex (v, v); on a tri-edge its ends (a, b); in a triangle (t, -1); grid vertex (-1, -1). */
+  vertexParents: Int32Array;
+
+  /** Into loopVertices. */
+  loopOffsets: Uint32Array;
+  /** Vertex ids. */
+  loopVertices: Uint32Array;
+  /** Into loops, per face: the first is the outer loop, counter-clockwise about the face's normal; the others are holes, clockwise. */
+  faceLoopOffsets: Uint32Array;
+  /** Per face: the input triangle (its normal is the face's), or -1 for a piece of a grid-face. */
+  faceTriangle: Int32Array;
+  /** Per face: 0..2 if it lies in an axial plane, else -1. A grid-face's normal is +axis. */
+  faceAxis: Int8Array;
+  /** Per face: index of that plane, else 0. */
+  facePlane: Int32Array;
+
+  /** Into cellHalfFaces, per cut-cell. */
+  cellHalfFaceOffsets: Uint32Array;
+  /** Half-faces: the outer shell's and those of cavities and floating sheets. */
+  cellHalfFaces: Uint32Array;
+  /** 3 per cut-cell: the grid cell it lies in. */
+  cellGridCell: Int32Array;
+  /** Per cut-cell. */
+  cellRegion: Uint32Array;
+
+  /** Region of each grid cell, x fastest; -1 where cut-cells replace it. Absent if the options said so. */
+  gridCellRegion?: Int32Array;
+  /** The same as runs of untouched grid cells along x. Row r = k * ny + j has runs rowRunOffsets[r] .. rowRunOffsets[r + 1] - 1. */
+  rowRunOffsets: Uint32Array;
+  /** Per run: its first grid cell along x. */
+  runBegin: Int32Array;
+  /** Per run: one past the last. */
+  runEnd: Int32Array;
+  /** Per run. */
+  runRegion: Uint32Array;
+
+  /** Regions: connected components of cut-cells and untouched grid cells, joined through faces that are not pieces of triangles. */
+  regionCount: number;
+  /** Per region: +1 inside an outward oriented closed surface; null where the input is open or inconsistently oriented. */
+  regionWinding: Int32Array | null;
+
+  /** Of the input. */
+  triangleCount: number;
+  /** Ascending ids of triangles without a face: zero area, duplicate, outside the grid. */
+  droppedTriangles: Uint32Array;
+
+  stats: CutStats;
+}
+
+export interface CutStats {
+  /** Milliseconds per stage, in order. */
+  stages: { stage: Stage; ms: number }[];
+  totalMs: number;
+  /** Signs that needed exact arithmetic. */
+  exactFallbacks: number;
+  /** Tri-vertices that share their position with a lower one. */
+  weldedVertices: number;
+  zeroAreaTriangles: number;
+  duplicateTriangles: number;
+  outsideTriangles: number;
+  /** Moved onto a plane by snapTolerance. */
+  snappedVertices: number;
+  /** Farthest such move, in cells. */
+  largestSnap: number;
+  /** Coordinates below 2^-200 of the largest, taken as 0. */
+  flushedCoordinates: number;
+}
+
+export interface Measures {
+  /** Per face. */
+  faceArea: Float64Array;
+  /** 3 per face, unit. */
+  faceNormal: Float64Array;
+  /** 3 per face. */
+  faceCentroid: Float64Array;
+  /** Per cut-cell. */
+  cellVolume: Float64Array;
+  /** 3 per cut-cell. */
+  cellCentroid: Float64Array;
+  /** Per region: its cut-cells and untouched grid cells together. */
+  regionVolume: Float64Array;
+}
+
+/** Unique undirected cut-edges, lower vertex id first, ascending. */
+export interface CutEdges {
+  /** 2 per edge. */
+  edgeVertices: Uint32Array;
+  /** Per edge. */
+  edgeLength: Float64Array;
+}
+
+export interface Adjacency {
+  /** 2 per face: the cut-cell of side 0 and of side 1, or -1. */
+  faceCells: Int32Array;
+  /** 2 per face: where faceCells is -1, the untouched grid cell i + nx (j + ny k), or -1 where the grid ends. */
+  faceGridCells: Float64Array;
+  /** Into cellCells, per cut-cell. */
+  cellCellOffsets: Uint32Array;
+  /** Neighbouring cut-cells of each cut-cell across any face, ascending, without repeats. */
+  cellCells: Uint32Array;
+}
+
+/** Triangles of every face. No vertices are added, and both cells of a face use the same triangles, so neighbours match. */
+export interface FaceTriangles {
+  /** Into triangles (counted in triangles), per face. */
+  faceTriangleOffsets: Uint32Array;
+  /** 3 vertex ids per triangle, counter-clockwise about the face's normal. */
+  triangles: Uint32Array;
+}
+
+export interface Check {
+  /** For example "surfaceArea". */
+  name: string;
+  pass: boolean;
+  /** Does not apply to this input, as winding numbers to an open mesh. */
+  skipped: boolean;
+  /** Largest deviation found: in roundings (half units in the last place of the largest coordinate), or a number of violations. */
+  worst: number;
+  /** What it may be. */
+  tolerance: number;
+  /** "cell", "face", "triangle", ... of the worst deviation; empty if none. */
+  elementKind: string;
+  element: number;
+  /** Why it fails, or what was left out; may be empty. */
+  message: string;
+}
+
+export interface Validation {
+  pass: boolean;
+  checks: Check[];
+}
+
+/** Where points lie, per point. */
+export interface Locations {
+  /** The cut-cell that holds the point, or -1 in an untouched grid cell, or outside the grid. */
+  cell: Int32Array;
+  /** 3 per point: the grid cell, or -1, -1, -1 outside the grid. */
+  gridCell: Int32Array;
+  /** The region, or -1 outside the grid. */
+  region: Int32Array;
+}
+
+export interface Location {
+  cell: number;
+  gridCell: [number, number, number];
+  region: number;
+}
+
+/** The plane normal . x = offset. The normal may have any length. */
+export interface Plane {
+  normal: Vector3;
+  offset: number;
+}
+
+/** A filled cross-section of the cut-mesh: the polygons in which a plane cuts the cells. */
+export interface Slice {
+  /** 3 per point, on the plane. */
+  positions: Float64Array;
+  /** Into loopPoints. */
+  loopOffsets: Uint32Array;
+  /** Points of the loops. */
+  loopPoints: Uint32Array;
+  /** Into loops, per polygon: the first is the outer loop, counter-clockwise about the plane's normal; the others are holes, clockwise. */
+  polygonLoopOffsets: Uint32Array;
+  /** Per polygon: the cut-cell that it is a cut of, or -1 for an untouched grid cell. */
+  polygonCell: Int32Array;
+  /** 3 per polygon: the grid cell. */
+  polygonGridCell: Int32Array;
+  /** Per polygon. */
+  polygonRegion: Uint32Array;
+  /** Into triangles (counted in triangles), per polygon. */
+  polygonTriangleOffsets: Uint32Array;
+  /** 3 points per triangle, counter-clockwise about the plane's normal. */
+  triangles: Uint32Array;
+}
+
+export interface SliceOptions {
+  /** Whether untouched grid cells are cut, too. Default true. */
+  untouched?: boolean;
+}
+
+/** Everything that works on meshes and cut-meshes; `init()` gives it. No call keeps or changes its arguments; errors are MandolineErrors. */
+export interface Mandoline {
+  /** Version of the library. */
+  readonly version: string;
+  /** Cuts the mesh with the grid (the paper's Algorithm 1). */
+  cut(mesh: Mesh, grid: GridInput, options?: CutOptions): CutMesh;
+  /** The paper's four checks (5.6) and the invariants of a cut-mesh, worked out from its arrays alone. `mesh` is the input, `snapTolerance` that of the cut. */
+  validate(mesh: Mesh, cutMesh: CutMesh, options?: { snapTolerance?: number }): Validation;
+  /** Areas, normals, centroids and volumes. `mesh` is the input of the cut. */
+  measure(mesh: Mesh, cutMesh: CutMesh): Measures;
+  /** The cut-edges with their lengths. */
+  cutEdges(mesh: Mesh, cutMesh: CutMesh): CutEdges;
+  /** Who lies beside whom. */
+  adjacency(cutMesh: CutMesh): Adjacency;
+  /** Triangles of all faces. */
+  triangulate(cutMesh: CutMesh): FaceTriangles;
+  /** The closed surface of one cut-cell, oriented outward; or the pieces of triangles that bound a region, oriented out of it. 3 vertex ids per triangle. */
+  triangulate(cutMesh: CutMesh, of: { cell: number } | { region: number }): Uint32Array;
+  /** Which cell holds this point; null outside the grid. A point on a face counts to one of the cells beside it. */
+  cellAt(cutMesh: CutMesh, point: Vector3): Location | null;
+  /** Which cell holds each point (3 coordinates per point): one call for many points is far faster than many calls. */
+  cellsAt(cutMesh: CutMesh, points: Float64Array | Float32Array | readonly number[]): Locations;
+  /** The polygons in which a plane cuts the cells. */
+  slice(cutMesh: CutMesh, plane: Plane, options?: SliceOptions): Slice;
+  /** A file: "json" is the dump of all arrays, "vtu" polyhedra for VTK and ParaView, "obj" the cut surface by region. */
+  write(mesh: Mesh, cutMesh: CutMesh, format: 'json' | 'vtu' | 'obj'): Uint8Array;
+}
+
+export interface InitOptions {
+  /** The module: where to load it from, its bytes, or the compiled module. By default it is loaded from beside the package's code. */
+  wasm?: URL | string | BufferSource | WebAssembly.Module;
+}
+
+/** Loads the WebAssembly module, once: every call gives the same promise, whatever its options. After a failure the next call tries again. */
+export function init(options?: InitOptions): Promise<Mandoline>;
+
+/** The compiled module that init() used, to hand to the init() of a worker. */
+export function compiledModule(): Promise<WebAssembly.Module>;
+
+export type ErrorCode =
+  | 'cancelled'
+  | 'emptyMesh'
+  | 'badArrays'
+  | 'badIndex'
+  | 'nonFiniteCoordinate'
+  | 'badGrid'
+  | 'gridTooLarge'
+  | 'badOption'
+  | 'selfIntersection'
+  | 'meshTooLarge'
+  | 'outOfMemory'
+  | 'internalError'
+  /** An argument is not of the kind that the call takes: the message names it. */
+  | 'badArgument'
+  /** The WebAssembly module could not be loaded. */
+  | 'loadFailed';
+
+export class MandolineError extends Error {
+  name: 'MandolineError';
+  code: ErrorCode;
+  /** The stage of the cut that failed, or the call if it was another. */
+  stage: string;
+  /** The offending element; what it is depends on the code: a triangle, a tri-vertex, an axis. -1 for none. */
+  element: number;
+  /** The other triangle of a selfIntersection, else -1. */
+  element2: number;
+}
+
+/** What went wrong, where, and what to do about it, in a few sentences for people. Takes whatever was caught. */
+export function describe(error: unknown): string;

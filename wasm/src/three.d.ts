@@ -1,0 +1,53 @@
+/**
+ * From three.js to Mandoline and back. three is an optional peer dependency: only functions that return a BufferGeometry need it. Those that end in
+ * "Arrays" make the plain arrays and also run in a worker.
+ */
+import type { BufferGeometry, Matrix4 } from 'three';
+import type { CutEdges, CutMesh, FaceTriangles, Measures, Mesh, Slice, Vector3 } from './index.js';
+
+/** The triangles of an indexed or unindexed BufferGeometry (its draw range and groups aside), moved by the matrix if there is one. */
+export function meshFromGeometry(geometry: BufferGeometry, matrix?: Matrix4): Mesh;
+
+export interface CellArraysOptions {
+  /** Cut-cells to take. Default: all. */
+  cells?: ArrayLike<number>;
+  /** Faces to take: pieces of triangles, pieces of grid-faces, or both. Default: "all". */
+  faces?: 'all' | 'surface' | 'grid';
+  /** Subtracted from all positions before they are rounded to 32 bits. Default: 0, 0, 0. */
+  origin?: Vector3;
+}
+
+/** Triangles of cut-cells with flat normals; shared vertices are split, and a face between two cut-cells appears once for each, seen from outside of it. */
+export interface CellArrays {
+  /** 3 per vertex, 3 vertices per triangle. */
+  position: Float32Array;
+  /** 3 per vertex: out of the cell. */
+  normal: Float32Array;
+  /** Per vertex: the cut-cell. */
+  cell: Uint32Array;
+  /** Per vertex: the face. */
+  face: Uint32Array;
+}
+export function cellArrays(cutMesh: CutMesh, faceTriangles: FaceTriangles, options?: CellArraysOptions): CellArrays;
+
+export type ColorBy = 'region' | 'winding' | 'cell' | 'volume';
+
+export interface CellGeometryOptions extends CellArraysOptions {
+  /** What vertex colours tell. Default: "region". */
+  colorBy?: ColorBy;
+  /** Needed for colours by volume and to explode. */
+  measures?: Measures;
+  /** Moves every cell away from the centre of the grid: by this times the way from there to the cell's centroid. Default 0. */
+  explode?: number;
+}
+/** A geometry with attributes position, normal, color, cell and face. */
+export function cellGeometry(cutMesh: CutMesh, faceTriangles: FaceTriangles, options?: CellGeometryOptions): BufferGeometry;
+
+/** 3 per cut-cell: linear RGB, 0 to 1. */
+export function cellColors(cutMesh: CutMesh, colorBy: ColorBy, measures?: Measures): Float32Array;
+
+/** Cut-edges as a geometry for LineSegments. */
+export function edgeGeometry(cutMesh: CutMesh, cutEdges: CutEdges, origin?: Vector3): BufferGeometry;
+
+/** A filled slice with attributes position, normal, color, cell (-1 for untouched grid cells). */
+export function sliceGeometry(cutMesh: CutMesh, slice: Slice, options?: { colorBy?: ColorBy; measures?: Measures; origin?: Vector3 }): BufferGeometry;

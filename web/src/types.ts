@@ -1,0 +1,188 @@
+// What the parts of the page say to each other.
+import type { CellArrays } from 'mandoline-wasm/three';
+import type { CutStats, Grid, Slice, Validation, Vector3 } from 'mandoline-wasm';
+
+/** Where a mesh comes from. A file's bytes are kept by the worker; a link can't restore it. */
+export type Source = { kind: 'gallery'; name: string } | { kind: 'url'; url: string } | { kind: 'file'; name: string };
+
+/** Cubic cells around the mesh, `cells` along its longest side; or a box with its own counts. */
+export type GridSettings = { cells: number } | { min: Vector3; max: Vector3; cells: Vector3 };
+
+export type Axis = 'x' | 'y' | 'z';
+export type SliceName = Axis | 'free';
+
+/** A slice plane. Cells on the side that its normal points to are hidden. */
+export interface SliceSettings {
+  on: boolean;
+  /** 0 to 1 along the diagonal of the grid's box in the direction of the normal: 0 hides all, 1 nothing. */
+  position: number;
+  /** Unit; for x, y and z the axis or, flipped, its opposite. */
+  normal: Vector3;
+}
+
+export type ColorBy = 'region' | 'winding' | 'cell' | 'volume' | 'kind';
+
+/** All that a link restores. Plain data. */
+export interface Settings {
+  source: Source;
+  grid: GridSettings;
+  snapTolerance: number;
+  slices: Record<SliceName, SliceSettings>;
+  /** Cells are shown whole or cut flat with filled caps. */
+  sliceMode: 'whole' | 'flat';
+  /** 0 to 1. */
+  explode: { cells: number; regions: number };
+  colorBy: ColorBy;
+  show: {
+    /** Pieces of triangles. */
+    surface: boolean;
+    /** Pieces of grid-faces. */
+    gridFaces: boolean;
+    edges: boolean;
+    untouched: boolean;
+    cutCells: boolean;
+    /** Cells of the region that reaches the grid's corner. */
+    outside: boolean;
+    /** Only this region, or null for all. */
+    region: number | null;
+  };
+  camera: { position: Vector3; target: Vector3 } | null;
+}
+
+export interface RegionInfo {
+  id: number;
+  winding: number | null;
+  volume: number;
+  cutCells: number;
+  untouchedCells: number;
+}
+
+/** Per cut-cell. */
+export interface CellInfo {
+  region: Uint32Array;
+  volume: Float64Array;
+  /** 3 per cell, less the model's origin. */
+  centroid: Float32Array;
+  gridCell: Int32Array;
+}
+
+/** A cut-mesh made ready to be drawn. Positions in Float32Arrays are less `origin`, the centre of the grid's box. */
+export interface Model {
+  /** Counts up with every cut. */
+  id: number;
+  name: string;
+  grid: Grid;
+  origin: Vector3;
+  /** Of the grid's box. */
+  diagonal: number;
+  /** Bounding box of the mesh. */
+  meshMin: Vector3;
+  meshMax: Vector3;
+  triangleCount: number;
+  droppedTriangles: number;
+  counts: { cutCells: number; untouchedCells: number; faces: number; vertices: number; edges: number; regions: number };
+  stats: CutStats;
+  regions: RegionInfo[];
+  /** The region that reaches the grid's corner, if no cut-cell lies there; it counts as the outside. */
+  outsideRegion: number | null;
+  cells: CellInfo;
+  /** Triangles of all cut-cells, both sides of every face. */
+  triangles: CellArrays & {
+    /** Per vertex: 1 on a piece of a triangle, 0 on a piece of a grid-face. */
+    surface: Uint8Array;
+  };
+  /** Edges of all cut-cells: 2 points per edge, an edge once for each of its cells. */
+  edges: { position: Float32Array; cell: Uint32Array };
+  gridCellRegion: Int32Array;
+}
+
+/** What the card of a pinned cell shows. `neighbours` are cut-cells; `cavities` counts shells beyond the outer one. */
+export interface CellCard {
+  cell: number;
+  gridCell: Vector3;
+  region: number;
+  winding: number | null;
+  volume: number;
+  centroid: Vector3;
+  faces: number;
+  surfaceFaces: number;
+  vertices: number;
+  neighbours: number[];
+  untouchedNeighbours: number;
+  cavities: number;
+  /** The cell alone, less the model's origin. */
+  triangles: { position: Float32Array; normal: Float32Array; surface: Uint8Array };
+  edges: Float32Array;
+}
+
+/** The steps of the algorithm, shown on the current mesh. */
+export type StepKind = 'triEdges' | 'hybridEdges' | 'triangleFaces' | 'axialPlane' | 'gridCell';
+
+/** Which item of a step: a triangle, a plane of an axis, a grid cell. */
+export interface StepRequest {
+  kind: StepKind;
+  triangle?: number;
+  axis?: 0 | 1 | 2;
+  plane?: number;
+  gridCell?: Vector3;
+}
+
+/** A picture of a step, less the model's origin; colours are linear RGB per vertex. `text` says in one or two sentences what is seen, with counts. */
+export interface StepPicture {
+  kind: StepKind;
+  text: string;
+  /** 2 points per line. */
+  lines: { position: Float32Array; color: Float32Array };
+  /** 3 points per triangle. */
+  faces: { position: Float32Array; color: Float32Array };
+  points: { position: Float32Array; color: Float32Array };
+  /** What to look at. */
+  center: Vector3;
+  radius: number;
+  /** What a request may ask for: how many items there are and which one this is. */
+  choices: { triangles: number; planes: Vector3; request: StepRequest };
+}
+
+/** An error to show: what is wrong and where. */
+export interface PageError {
+  title: string;
+  detail: string;
+}
+
+/** The worker's side of the page. Of several cuts under way the newest wins: the others reject with an AbortError. */
+export interface Engine {
+  /** Loads the mesh of a source (bytes with a file) and keeps it. Rejects with a PageError. */
+  load(source: Source, bytes?: ArrayBuffer): Promise<{ name: string; vertices: number; triangles: number }>;
+  cut(grid: GridSettings, snapTolerance: number): Promise<Model>;
+  /** Ends the cut under way. */
+  cancel(): void;
+  onProgress: (progress: { stage: string; fraction: number } | null) => void;
+  /** Caps of the planes through the current cut-mesh; planes in world units. */
+  slice(planes: { normal: Vector3; offset: number }[], untouched: boolean): Promise<Slice[]>;
+  validate(): Promise<Validation>;
+  card(cell: number): Promise<CellCard>;
+  step(request: StepRequest): Promise<StepPicture>;
+  write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array>;
+}
+
+/** What is drawn. Owns the canvas; knows nothing of panels. */
+export interface View {
+  /** Draws this model in place of the last one; keeps the camera unless told to frame it. */
+  setModel(model: Model, frame: boolean): void;
+  /** Applies slices, explosion, colours and visibility. */
+  setLook(settings: Settings): void;
+  /** Draws a step instead of the model, or the model again. */
+  setStep(picture: StepPicture | null): void;
+  setPinned(cell: number | null): void;
+  onHover: (cell: number | null) => void;
+  onPick: (cell: number | null) => void;
+  /** The camera was moved, by the person. */
+  onCamera: (camera: NonNullable<Settings['camera']>) => void;
+  /** The free plane was moved with its gizmo. */
+  onFreePlane: (slice: SliceSettings) => void;
+  setScheme(dark: boolean): void;
+  /** Everything that is seen, at the current explosion, as a file. */
+  png(): Promise<Blob>;
+  glb(): Promise<Blob>;
+  frame(): void;
+}
