@@ -1,10 +1,22 @@
-// What the continuous integration does beyond npm test: the suite under sanitizers and a fuzz run.
-import { mkdirSync } from 'node:fs';
-import { build, jobs, path, run, setUp } from './steps.mjs';
+// What the continuous integration does beyond npm test: the same bits from another compiler, a fuzz run, the suite under sanitizers.
+import { existsSync, mkdirSync, readFileSync } from 'node:fs';
+import { build, fail, jobs, path, run, setUp } from './steps.mjs';
+import { writeTorusKnot } from './torus_knot.mjs';
 
 const debug = ['-DCMAKE_BUILD_TYPE=Debug', '-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1']; // with assertions, yet fast enough for real meshes
 
 setUp('clang with libFuzzer');
+
+build('build-clang', '-DCMAKE_CXX_COMPILER=clang++', '-DCMAKE_BUILD_TYPE=Debug', '-DMANDOLINE_BUILD_TESTS=OFF');
+const scans = ['common_spot', 'common_fandisk', 'codim_feline'].map((name) => `../shared/data/${name}.obj.gz`);
+for (const mesh of [writeTorusKnot('build'), ...scans.filter((scan) => existsSync(path(scan)))]) {
+  const dumps = [['build', '1'], ['build', '3'], ['build-clang', '1']].map(([folder, threads]) => {
+    run(`${folder}/mandoline`, 'cut', mesh, '--cells', '13', '--threads', threads, '-o', `${folder}/dump.json`);
+    return readFileSync(path(folder, 'dump.json'));
+  });
+  if (!dumps.every((dump) => dump.equals(dumps[0]))) fail(`${mesh} is not cut alike by another number of threads or another compiler.`);
+}
+
 build('build-fuzz', '-DCMAKE_CXX_COMPILER=clang++', '-DMANDOLINE_BUILD_FUZZ=ON', '-DMANDOLINE_BUILD_TESTS=OFF', '-DMANDOLINE_BUILD_CLI=OFF', ...debug);
 mkdirSync(path('build-fuzz', 'corpus'), { recursive: true });
 run('build-fuzz/mandoline-fuzz', '-max_total_time=90', '-max_len=256', '-timeout=20', '-print_final_stats=1', 'build-fuzz/corpus', 'tests/fuzz_corpus');
