@@ -1,0 +1,144 @@
+import {
+  bad, readCutMesh, readElement, readFlag, readFunction, readGrid, readMesh, readOptions, readSnapTolerance,
+} from './arguments.js';
+import { MandolineError } from './errors.js';
+import { compile, instantiate } from './load.js';
+
+export { MandolineError, describe } from './errors.js';
+
+/** Keeps an instance of the module, and takes a new one after a failure that may have left it broken or with a memory that never shrinks. */
+class Host {
+  #module;
+  #bindings;
+
+  constructor(module) {
+    this.#module = module;
+    this.#bindings = instantiate(module);
+  }
+
+  /** The value of a binding's call; its error, and whatever the instance dies of, is thrown as a MandolineError. */
+  run(f) {
+    try {
+      this.#bindings ??= instantiate(this.#module);
+      const { value, error } = f(this.#bindings);
+      if (error) throw new MandolineError(error.code, error.message, error);
+      return value;
+    } catch (error) {
+      if (!(error instanceof MandolineError) || error.code === 'outOfMemory') this.#bindings = undefined;
+      throw error instanceof MandolineError ? error : fatal(error);
+    }
+  }
+}
+
+/** What the engine throws, as opposed to C++: traps, exhausted stacks, arrays and memories that can't be allocated. */
+function fatal(cause) {
+  const memory = cause instanceof RangeError && !/stack/.test(cause.message);
+  if (memory) return new MandolineError('outOfMemory', 'There is not enough memory for this call.', { cause });
+  return new MandolineError('internalError', `The WebAssembly module failed: ${cause?.message ?? cause}.`, { cause });
+}
+
+/** Makes the errors of f name the call, unless they name the stage of a cut. */
+function named(stage, f) {
+  return (...parameters) => {
+    try {
+      return f(...parameters);
+    } catch (error) {
+      if (error instanceof MandolineError && !error.stage) error.stage = stage;
+      throw error;
+    }
+  };
+}
+
+function makeCut(host) {
+  return (mesh, grid, options) => {
+    const { progress, ...given } = readOptions(options);
+    readFunction(progress, 'options.progress');
+    let thrown;
+    const report = (state) => {
+      try {
+        return progress(state) !== false;
+      } catch (error) {
+        thrown = { error };
+        return false;
+      }
+    };
+    const input = [readMesh(mesh), readGrid(grid), {
+      snapTolerance: readSnapTolerance(given),
+      gridCellRegion: readFlag(given.gridCellRegion, true, 'options.gridCellRegion'),
+      progress: progress && report,
+    }];
+    try {
+      return host.run((bindings) => bindings.cut(...input));
+    } catch (error) {
+      throw thrown ? thrown.error : error;
+    }
+  };
+}
+
+function makeTriangulate(host) {
+  return (cutMesh, of) => {
+    const input = readCutMesh(cutMesh);
+    if (of === undefined) return host.run((bindings) => bindings.triangulate(input));
+    if (typeof of !== 'object' || of === null || ('cell' in of) === ('region' in of)) throw bad('The second argument must be { cell } or { region }.');
+    const cell = readElement(of.cell, 'cell', input.cellRegion.length);
+    return host.run((bindings) => bindings.triangulateCell(input, cell));
+  };
+}
+
+function makeApi(host) {
+  const calls = {
+    validate: (mesh, cutMesh, options) => {
+      const input = [readMesh(mesh), readCutMesh(cutMesh), readSnapTolerance(readOptions(options))];
+      return host.run((bindings) => bindings.validate(...input));
+    },
+    measure: (mesh, cutMesh) => {
+      const input = [readMesh(mesh), readCutMesh(cutMesh)];
+      return host.run((bindings) => bindings.measure(...input));
+    },
+    cutEdges: (mesh, cutMesh) => {
+      const input = [readMesh(mesh), readCutMesh(cutMesh)];
+      return host.run((bindings) => bindings.cutEdges(...input));
+    },
+    adjacency: (cutMesh) => {
+      const input = readCutMesh(cutMesh);
+      return host.run((bindings) => bindings.adjacency(input));
+    },
+    triangulate: makeTriangulate(host),
+  };
+  const version = host.run((bindings) => ({ value: bindings.version() }));
+  return {
+    version,
+    cut: named('input', makeCut(host)),
+    ...Object.fromEntries(Object.entries(calls).map(([name, call]) => [name, named(name, call)])),
+  };
+}
+
+let started;
+
+async function start({ wasm } = {}) {
+  const module = await compile(wasm);
+  try {
+    return { module, api: makeApi(new Host(module)) };
+  } catch (cause) {
+    throw new MandolineError('loadFailed', `The WebAssembly module could not be started: ${cause?.message ?? cause}.`, { stage: 'init', cause });
+  }
+}
+
+function begin(options) {
+  if (!started) {
+    const attempt = start(options);
+    started = { attempt, api: attempt.then(({ api }) => api) };
+    attempt.catch(() => { started = undefined; });
+  }
+  return started;
+}
+
+/** Loads the WebAssembly module, once: every call gives the same promise, whatever its options. After a failure the next call tries again. */
+export function init(options) {
+  return begin(options).api;
+}
+
+/** The compiled module that init() used, to hand to the init() of a worker. */
+export async function compiledModule() {
+  return (await begin().attempt).module;
+}
