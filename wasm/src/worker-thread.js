@@ -1,0 +1,47 @@
+// The worker's side of worker.js: loads the module, then answers one job after another. In browsers it is a module worker, in Node a worker thread.
+import { buffersOf } from './buffers.js';
+import { MandolineError, compiledModule, init } from './index.js';
+
+/** An error as plain data, since a clone of a MandolineError would lose all but its message. */
+function plainError(error, call) {
+  if (!(error instanceof MandolineError)) return { code: 'internalError', message: String(error?.message ?? error), stage: call };
+  const { code, message, stage, element, element2 } = error;
+  return { code, message, stage, element, element2 };
+}
+
+/** Answers a job through `post`. */
+function answering(post) {
+  let mandoline;
+
+  const start = async ({ wasm }) => {
+    mandoline = await init(wasm === undefined ? {} : { wasm });
+    post({ type: 'result', value: await compiledModule() });
+  };
+
+  const call = ({ call: name, args, options, progress }) => {
+    if (progress) options.progress = (value) => post({ type: 'progress', value });
+    const value = mandoline[name](...args, options);
+    post({ type: 'result', value }, buffersOf(value));
+  };
+
+  return async (job) => {
+    try {
+      await (job.call === 'init' ? start(job) : call(job));
+    } catch (error) {
+      post({ type: 'error', error: plainError(error, job.call) });
+    }
+  };
+}
+
+async function serve() {
+  if (typeof postMessage === 'function') {
+    const answer = answering((message, transfer = []) => postMessage(message, transfer));
+    addEventListener('message', ({ data }) => answer(data));
+  } else {
+    const threads = 'node:worker_threads'; // not a literal, since bundlers for browsers would look for it
+    const { parentPort } = await import(/* @vite-ignore */ /* webpackIgnore: true */ threads);
+    parentPort.on('message', answering((message, transfer = []) => parentPort.postMessage(message, transfer)));
+  }
+}
+
+serve();

@@ -1,0 +1,69 @@
+import { buffersOf } from './buffers.js';
+import { MandolineError } from './errors.js';
+import { JobQueue } from './jobs.js';
+import { threadStarter } from './thread.js';
+
+export { MandolineError, describe } from './errors.js';
+
+/** The calls with their numbers of arguments before the options. */
+const calls = { cut: 2, validate: 2, measure: 2, cutEdges: 2, adjacency: 1, triangulate: 2, cellAt: 2, cellsAt: 2, slice: 2, write: 3 };
+
+const isObject = (value) => typeof value === 'object' && value !== null;
+
+/** The options of the call itself, and those that stay here. */
+function splitOptions(options = {}) {
+  if (!isObject(options)) return { options }; // the call says what it is not
+  const { signal, transfer = [], ...own } = options;
+  if (typeof own.progress !== 'function') return { signal, transfer, options: own };
+  const { progress, ...rest } = own;
+  return { signal, transfer, onProgress: progress, options: rest };
+}
+
+/** A message with a copy of the arguments as they are now, so that neither the queue nor the worker sees later changes. */
+function makeMessage(call, args, { options, onProgress, signal, transfer }) {
+  if (signal !== undefined && !(signal instanceof AbortSignal)) throw new MandolineError('badArgument', 'options.signal must be an AbortSignal.', { stage: call });
+  try {
+    return structuredClone({ call, args, options, progress: onProgress !== undefined }, { transfer });
+  } catch (cause) {
+    throw new MandolineError('badArgument', `The arguments can't be given to the worker: ${cause.message}`, { stage: call, cause });
+  }
+}
+
+function perform(queue, call, args, given) {
+  return new Promise((resolve, reject) => {
+    const split = splitOptions(given);
+    const { signal, onProgress } = split;
+    const cancellation = () => new MandolineError('cancelled', 'The call was cancelled.', { stage: call, cause: signal.reason });
+    if (signal?.aborted) throw cancellation();
+    const message = makeMessage(call, args, split);
+    const abort = () => queue.stop(job, cancellation());
+    const settled = (settle) => (value) => {
+      signal?.removeEventListener('abort', abort);
+      settle(value);
+    };
+    const transfer = buffersOf(message.args); // of the copies: they go on to the worker
+    const job = { message, transfer, onProgress, resolve: settled(resolve), reject: settled(reject) };
+    signal?.addEventListener('abort', abort);
+    queue.add(job);
+  });
+}
+
+/** What init() in the worker is to load; relative addresses are relative to this page, as they are for init() here. */
+function absolute(wasm) {
+  if (typeof wasm !== 'string' && !(wasm instanceof URL)) return wasm;
+  try {
+    return new URL(wasm, globalThis.location?.href).href;
+  } catch (cause) {
+    throw new MandolineError('loadFailed', `The WebAssembly module ${wasm} could not be loaded: ${cause.message}.`, { stage: 'init', cause });
+  }
+}
+
+/** Starts a worker that has loaded the module. */
+export async function createWorker({ wasm } = {}) {
+  const queue = new JobQueue(await threadStarter(), absolute(wasm));
+  await queue.open();
+  const methods = Object.entries(calls).map(([call, count]) => [
+    call, (...given) => perform(queue, call, Array.from({ length: count }, (_, i) => given[i]), given[count]),
+  ]);
+  return { ...Object.fromEntries(methods), terminate: () => queue.close() };
+}
