@@ -1,0 +1,201 @@
+// The state of the page as plain data, and as the hash of a link.
+import type { Axis, ColorBy, GridSettings, Settings, SliceName, SliceSettings, Source } from './types';
+import type { Vector3 } from 'mandoline-wasm';
+
+export const axes: readonly Axis[] = ['x', 'y', 'z'];
+export const sliceNames: readonly SliceName[] = [...axes, 'free'];
+export const colorings: readonly ColorBy[] = ['region', 'winding', 'cell', 'volume', 'kind'];
+export const layers = ['surface', 'gridFaces', 'edges', 'untouched', 'cutCells', 'outside'] as const;
+export const defaultSource: Source = { kind: 'gallery', name: 'bunny' };
+
+export function defaultSettings(): Settings {
+  return {
+    source: defaultSource,
+    grid: { cells: 20 },
+    snapTolerance: 0,
+    slices: {
+      x: { on: false, position: 0.5, normal: [1, 0, 0] },
+      y: { on: false, position: 0.5, normal: [0, 1, 0] },
+      z: { on: true, position: 0.5, normal: [0, 0, 1] },
+      free: { on: false, position: 0.5, normal: [Math.SQRT1_2, 0, Math.SQRT1_2] },
+    },
+    sliceMode: 'whole',
+    explode: { cells: 0.2, regions: 0 },
+    colorBy: 'region',
+    show: { surface: true, gridFaces: true, edges: true, untouched: true, cutCells: true, outside: false, region: null },
+    camera: null,
+  };
+}
+
+/** Leaves out what is as by default, so that links stay short. */
+export function toHash(settings: Settings): string {
+  const fallback = entries(defaultSettings());
+  return entries(settings)
+    .filter(([key, value]) => !fallback.some(([otherKey, other]) => otherKey === key && other === value))
+    .map(([key, value]) => `${key}=${encodeURIComponent(value).replaceAll('%2C', ',')}`)
+    .join('&');
+}
+
+function entries(settings: Settings): [string, string][] {
+  const { source, grid, slices, explode, show, camera } = settings;
+  const list: [string, string][] = [source.kind === 'url' ? ['url', source.url] : [source.kind === 'file' ? 'file' : 'mesh', source.name]];
+  if ('min' in grid) list.push(['n', grid.cells.join()], ['box', [...grid.min, ...grid.max].join()]);
+  else list.push(['n', String(grid.cells)]);
+  list.push(['snap', String(settings.snapTolerance)]);
+  for (const name of sliceNames) list.push([name, sliceText(name, slices[name])]);
+  list.push(['slice', settings.sliceMode], ['explode', short([explode.cells, explode.regions])], ['color', settings.colorBy]);
+  list.push(['show', layers.filter((layer) => show[layer]).join()]);
+  if (show.region !== null) list.push(['region', String(show.region)]);
+  if (camera) list.push(['camera', short([...camera.position, ...camera.target])]);
+  return list;
+}
+
+function sliceText(name: SliceName, slice: SliceSettings): string {
+  if (!slice.on) return 'off';
+  if (name === 'free') return short([slice.position, ...slice.normal]);
+  return short([slice.position, slice.normal[axes.indexOf(name)]]);
+}
+
+function short(numbers: readonly number[]): string {
+  return numbers.map((x) => Number(x.toPrecision(5))).join();
+}
+
+/** What a hash says; a key that can't be understood keeps its default and is named in `problems`. */
+export function fromHash(hash: string): { settings: Settings; problems: string[] } {
+  const settings = defaultSettings();
+  const problems: string[] = [];
+  const parameters = new URLSearchParams(hash.replace(/^#/, '').replaceAll('+', '%2B'));
+  for (const [key, text] of parameters) {
+    const read = Object.hasOwn(readers, key) ? readers[key] : undefined;
+    if (!read?.(settings, text, parameters)) problems.push(key);
+  }
+  return { settings, problems };
+}
+
+type Reader = (settings: Settings, text: string, all: URLSearchParams) => boolean;
+
+const readers: Record<string, Reader> = {
+  mesh: (settings, name) => readSource(settings, { kind: 'gallery', name }, name),
+  url: (settings, url) => readSource(settings, { kind: 'url', url }, url),
+  file: (settings, name) => readSource(settings, { kind: 'file', name }, name),
+  n: readGrid,
+  box: (_settings, _text, all) => numbers(all.get('n') ?? '', 3) !== null,
+  snap: (settings, text) => {
+    const [value] = numbers(text, 1) ?? [-1];
+    if (value < 0 || value >= 0.5) return false;
+    settings.snapTolerance = value;
+    return true;
+  },
+  x: (settings, text) => readAxisSlice(settings, 'x', text),
+  y: (settings, text) => readAxisSlice(settings, 'y', text),
+  z: (settings, text) => readAxisSlice(settings, 'z', text),
+  free: readFreeSlice,
+  slice: (settings, text) => {
+    if (text !== 'whole' && text !== 'flat') return false;
+    settings.sliceMode = text;
+    return true;
+  },
+  explode: (settings, text) => {
+    const values = numbers(text, 2);
+    if (!values?.every(isFraction)) return false;
+    settings.explode = { cells: values[0], regions: values[1] };
+    return true;
+  },
+  color: (settings, text) => {
+    const coloring = colorings.find((name) => name === text);
+    if (coloring) settings.colorBy = coloring;
+    return coloring !== undefined;
+  },
+  show: (settings, text) => {
+    const shown = text === '' ? [] : text.split(',');
+    if (!shown.every((name) => layers.some((layer) => layer === name))) return false;
+    for (const layer of layers) settings.show[layer] = shown.includes(layer);
+    return true;
+  },
+  region: (settings, text) => {
+    const region = count(text, 0);
+    if (region !== null) settings.show.region = region;
+    return region !== null;
+  },
+  camera: (settings, text) => {
+    const values = numbers(text, 6);
+    if (!values || same(values.slice(0, 3), values.slice(3))) return false;
+    settings.camera = { position: vector(values), target: vector(values.slice(3)) };
+    return true;
+  },
+};
+
+function readSource(settings: Settings, source: Source, text: string): boolean {
+  if (text !== '') settings.source = source;
+  return text !== '';
+}
+
+function readGrid(settings: Settings, text: string, all: URLSearchParams): boolean {
+  const grid = text.includes(',') ? ownGrid(text, all.get('box') ?? '') : cubicGrid(text);
+  if (grid) settings.grid = grid;
+  return grid !== null;
+}
+
+function cubicGrid(text: string): GridSettings | null {
+  const cells = count(text, 1);
+  return cells === null ? null : { cells };
+}
+
+function ownGrid(text: string, box: string): GridSettings | null {
+  const cells = numbers(text, 3);
+  const ends = numbers(box, 6);
+  if (!cells?.every((n) => Number.isInteger(n) && n > 0) || !ends) return null;
+  if (![0, 1, 2].every((d) => ends[d] < ends[d + 3])) return null;
+  return { min: vector(ends), max: vector(ends.slice(3)), cells: vector(cells) };
+}
+
+function readAxisSlice(settings: Settings, axis: Axis, text: string): boolean {
+  const slice = settings.slices[axis];
+  if (text === 'off') {
+    slice.on = false;
+    return true;
+  }
+  const values = numbers(text, 2);
+  if (!values || !isFraction(values[0]) || Math.abs(values[1]) !== 1) return false;
+  settings.slices[axis] = { on: true, position: values[0], normal: axisNormal(axis, values[1]) };
+  return true;
+}
+
+function readFreeSlice(settings: Settings, text: string): boolean {
+  if (text === 'off') {
+    settings.slices.free.on = false;
+    return true;
+  }
+  const values = numbers(text, 4);
+  if (!values || !isFraction(values[0])) return false;
+  const length = Math.hypot(values[1], values[2], values[3]);
+  if (!(length > 0)) return false;
+  settings.slices.free = { on: true, position: values[0], normal: [values[1] / length, values[2] / length, values[3] / length] };
+  return true;
+}
+
+export function axisNormal(axis: Axis, sign: number): Vector3 {
+  return [axis === 'x' ? sign : 0, axis === 'y' ? sign : 0, axis === 'z' ? sign : 0];
+}
+
+function numbers(text: string, length: number): number[] | null {
+  const values = text.split(',').map((part) => (part.trim() === '' ? NaN : Number(part)));
+  return values.length === length && values.every(Number.isFinite) ? values : null;
+}
+
+function count(text: string, least: number): number | null {
+  const [value] = numbers(text, 1) ?? [NaN];
+  return Number.isInteger(value) && value >= least ? value : null;
+}
+
+function isFraction(x: number): boolean {
+  return x >= 0 && x <= 1;
+}
+
+function vector(values: readonly number[]): Vector3 {
+  return [values[0], values[1], values[2]];
+}
+
+function same(a: readonly number[], b: readonly number[]): boolean {
+  return a.every((x, d) => x === b[d]);
+}

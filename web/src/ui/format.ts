@@ -1,0 +1,29 @@
+// Numbers and names as the page writes them.
+const whole = new Intl.NumberFormat('en');
+
+export function integer(n: number): string {
+  return whole.format(n);
+}
+
+/** Four digits, without the noise of trailing zeros. */
+export function real(x: number): string {
+  return String(Number(x.toPrecision(4)));
+}
+
+export function milliseconds(ms: number): string {
+  return ms < 1000 ? `${ms < 10 ? ms.toFixed(1) : Math.round(ms)} ms` : `${(ms / 1000).toFixed(ms < 10000 ? 2 : 1)} s`;
+}
+
+export function plural(n: number, one: string, many = `${one}s`): string {
+  return `${integer(n)} ${n === 1 ? one : many}`;
+}
+
+export function winding(value: number | null): string {
+  return value === null ? 'none' : value < 0 ? `−${-value}` : String(value);
+}
+
+/** surfaceArea: Surface area. */
+export function words(camelCase: string): string {
+  const text = camelCase.replace(/([A-Z])/g, (letter) => ` ${letter.toLowerCase()}`);
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}

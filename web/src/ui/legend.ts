@@ -1,0 +1,25 @@
+import type { App } from '../app';
+import { el } from './dom';
+import { legendOf } from '../view/legend';
+
+/** What the colours mean, over the picture. */
+export function legend(app: App): HTMLElement {
+  const box = el('div', { class: 'legend', id: 'legend', role: 'group', 'aria-label': 'Colours' });
+  const show = () => {
+    const entries = app.model ? legendOf(app.model, app.settings.colorBy) : [];
+    box.hidden = entries.length === 0 || box.dataset.step === 'true';
+    box.replaceChildren(...entries.map(({ color, label }) => entry(color, label)));
+  };
+  app.events.on('settings', show);
+  app.events.on('step', (picture) => {
+    box.dataset.step = String(picture !== null);
+    show();
+  });
+  return box;
+}
+
+function entry(color: string, label: string): HTMLElement {
+  const swatch = el('span', { class: 'swatch' });
+  swatch.style.background = color;
+  return el('span', { class: 'entry' }, swatch, label);
+}
