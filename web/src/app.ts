@@ -26,9 +26,6 @@ export interface AppEvents {
   step: StepPicture | null;
 }
 
-/** A cut that took longer is given up for a newer one; a shorter one is drawn first, so that dragging shows pictures all along. */
-const patience = 400;
-
 export class App {
   readonly events = new Events<AppEvents>();
   settings = defaultSettings();
@@ -38,9 +35,12 @@ export class App {
   private pinned = false;
   private steps = 0;
   private stepKind: StepRequest['kind'] | null = null;
-  private cutAsked: { frame: boolean } | null = null;
-  private cutStarted = 0;
-  private cutRuns = false;
+  private work = 0;
+  private cuts = 0;
+  private failed = false;
+  private frameNext = false;
+  /** What the model was cut with. */
+  private shown: Pick<Settings, 'source' | 'grid' | 'snapTolerance'> = this.settings;
 
   constructor(
     private readonly engine: Engine,
@@ -53,50 +53,48 @@ export class App {
     view.onFreePlane = (slice) => this.change({ slices: { ...this.settings.slices, free: slice } }, false);
   }
 
-  /** Loads a mesh and cuts it, into `cells` along its longest side if that is given. Resolves to whether the mesh could be loaded; if not, the page goes on with the former one. */
-  async open(source: Source, { bytes, cells }: { bytes?: ArrayBuffer; cells?: number } = {}): Promise<boolean> {
-    const load = ++this.loads;
-    this.events.tell('state', 'busy');
-    this.engine.cancel();
-    try {
-      const mesh = await this.engine.load(source, bytes);
-      if (load !== this.loads) return true;
-      this.events.tell('mesh', mesh);
-    } catch (error) {
-      if (load === this.loads && !isAbort(error)) {
-        this.events.tell('alert', pageError(error));
-        this.events.tell('state', 'error');
-      }
-      return false;
-    }
-    const { grid, show } = this.settings;
-    const former = 'min' in grid ? Math.max(...grid.cells) : grid.cells;
-    this.change({ source, grid: { cells: cells ?? former }, show: { ...show, region: null }, camera: null }, false);
-    await this.recut(true);
-    return true;
+  /** Loads a mesh and cuts it, into `cells` along its longest side if that is given. If it can't be loaded the page goes on with the former one. */
+  async open(source: Source, { bytes, cells }: { bytes?: ArrayBuffer; cells?: number } = {}): Promise<void> {
+    await this.during(async () => {
+      if ((await this.load(source, bytes)) !== 'loaded') return;
+      const { grid, show } = this.settings;
+      const former = 'min' in grid ? Math.max(...grid.cells) : grid.cells;
+      this.change({ source, grid: { cells: cells ?? former }, show: { ...show, region: null }, camera: null }, false);
+      await this.recut(true);
+    });
   }
 
-  /** Takes over all settings, as a link gives them. A mesh that can't be had is replaced by the default one. */
+  /** Takes over all settings, as a link gives them. A mesh that can't be had is replaced by the former or the default one. */
   async restore(settings: Settings): Promise<void> {
-    const wanted = settings.source.kind === 'file' ? defaultSource : settings.source;
-    this.settings = { ...settings, source: wanted };
-    this.events.tell('state', 'busy');
-    const loaded = await this.loadOrDefault(wanted);
-    if (loaded) this.events.tell('mesh', loaded);
-    this.events.tell('settings', this.settings);
-    if (loaded) await this.recut(settings.camera === null);
-    else this.events.tell('state', 'error');
+    await this.during(async () => {
+      let source = settings.source.kind === 'file' ? defaultSource : settings.source;
+      let outcome = await this.load(source);
+      if (outcome === 'failed') {
+        source = this.model ? this.settings.source : defaultSource;
+        outcome = this.model ? 'loaded' : await this.load(source);
+      }
+      if (outcome !== 'loaded') return;
+      this.change({ ...settings, source }, false);
+      await this.recut(settings.camera === null);
+    });
   }
 
-  private async loadOrDefault(source: Source): Promise<LoadedMesh | null> {
-    try {
-      return await this.engine.load(source);
-    } catch (error) {
-      this.events.tell('alert', pageError(error));
-      if (this.model || source === defaultSource) return null;
-      this.settings = { ...this.settings, source: defaultSource };
-      return this.loadOrDefault(defaultSource);
-    }
+  /** A failure is told in an alert; the outcome is "superseded" if a newer mesh was asked for meanwhile. */
+  private async load(source: Source, bytes?: ArrayBuffer): Promise<'loaded' | 'failed' | 'superseded'> {
+    const load = ++this.loads;
+    const mesh = await this.ask(this.engine.load(source, bytes));
+    if (load !== this.loads) return 'superseded';
+    this.failed = mesh === null;
+    if (mesh) this.events.tell('mesh', mesh);
+    return mesh ? 'loaded' : 'failed';
+  }
+
+  /** The page is busy until this and all else is done. */
+  private async during(task: () => Promise<void>): Promise<void> {
+    if (this.work++ === 0) this.events.tell('state', 'busy');
+    this.failed = false;
+    await task();
+    if (--this.work === 0) this.events.tell('state', this.failed ? 'error' : 'ready');
   }
 
   /** Changes how the model is shown. */
@@ -137,62 +135,44 @@ export class App {
     void this.recut(false);
   }
 
-  /** Cuts with the newest settings: at once, or after the cut under way. */
-  async recut(frame: boolean): Promise<void> {
-    this.cutAsked = { frame: frame || (this.cutAsked?.frame ?? false) };
-    if (this.cutRuns) {
-      this.giveUpLater();
-      return;
-    }
-    this.cutRuns = true;
-    this.events.tell('cutting', true);
-    while (this.cutAsked) {
-      const asked: { frame: boolean } = this.cutAsked;
-      this.cutAsked = null;
-      await this.cutOnce(asked.frame);
-    }
-    this.cutRuns = false;
-    this.events.tell('cutting', false);
+  /** Cuts with the settings of now. The engine sees to it that the newest cut wins. */
+  private async recut(frame: boolean): Promise<void> {
+    this.frameNext ||= frame;
+    const { source, grid, snapTolerance } = this.settings;
+    if (this.cuts++ === 0) this.events.tell('cutting', true);
+    await this.during(async () => {
+      try {
+        this.takeModel(await this.engine.cut(grid, snapTolerance));
+        this.failed = false;
+        this.shown = { source, grid, snapTolerance };
+        this.events.tell('cutError', null);
+      } catch (error) {
+        if (isAbort(error)) return;
+        this.failed = true;
+        this.events.tell('cutError', pageError(error));
+      }
+    });
+    this.events.tell('cutting', --this.cuts > 0);
   }
 
-  private giveUpLater(): void {
-    const started = this.cutStarted;
-    const stillInTheWay = () => this.cutAsked && this.cutRuns && this.cutStarted === started;
-    setTimeout(() => stillInTheWay() && this.engine.cancel(), started + patience - performance.now());
-  }
-
-  private async cutOnce(frame: boolean): Promise<void> {
-    const load = this.loads;
-    this.cutStarted = performance.now();
-    this.events.tell('state', 'busy');
-    try {
-      const model = await this.engine.cut(this.settings.grid, this.settings.snapTolerance);
-      if (load !== this.loads) return;
-      this.takeModel(model, frame);
-      this.events.tell('cutError', null);
-      this.events.tell('state', 'ready');
-    } catch (error) {
-      if (load !== this.loads) return;
-      if (!isAbort(error)) this.events.tell('cutError', pageError(error));
-      this.events.tell('state', isAbort(error) ? 'ready' : 'error');
-    }
-  }
-
-  private takeModel(model: Model, frame: boolean): void {
+  private takeModel(model: Model): void {
     this.model = model;
     void this.pin(null);
     const { region } = this.settings.show;
     if (region !== null && region >= model.counts.regions) this.settings = { ...this.settings, show: { ...this.settings.show, region: null } };
-    this.view.setModel(model, frame);
+    this.view.setModel(model, this.frameNext);
+    this.frameNext = false;
     this.view.setLook(this.settings);
     this.events.tell('model', model);
     this.events.tell('settings', this.settings);
     if (this.stepKind) void this.step({ kind: this.stepKind });
   }
 
+  /** Ends the cut under way; the settings are again those of the picture. */
   cancel(): void {
-    this.cutAsked = null;
     this.engine.cancel();
+    const { source, grid, snapTolerance } = this.shown;
+    if (this.model && source === this.settings.source) this.change({ grid, snapTolerance }, false);
   }
 
   /** Pins a cell and gets its card, or lets go of it. */

@@ -1,13 +1,13 @@
 import type { App } from '../app';
 import type { Model } from '../types';
-import { button, el, numberField, slider, terms } from './dom';
+import { el, numberField, slider, terms } from './dom';
 import { integer, milliseconds, plural, real, words } from './format';
 import { ownGrid } from './own_grid';
-import { section } from './section';
+import { openSection, section } from './section';
 
 /** With which grid the mesh is cut, and what came of it. */
 export function cutPanel(app: App): HTMLElement {
-  return section('cut', 'Cut', true, resolution(app), progressRow(app), errorBox(app), counts(app), finePrint(app));
+  return section('cut', 'Cut', true, resolution(app), errorBox(app), counts(app), finePrint(app));
 }
 
 function resolution(app: App): HTMLElement {
@@ -23,30 +23,12 @@ function resolution(app: App): HTMLElement {
   return el('div', { class: 'with-number' }, range.element, number.element);
 }
 
-/** Seen only while a cut takes long. */
-function progressRow(app: App): HTMLElement {
-  const bar = el('progress', { max: 1, value: 0, 'aria-label': 'Progress of the cut' });
-  const stage = el('span', { class: 'hint' });
-  const row = el('div', { class: 'row progress', id: 'progress' }, bar, stage, button('Cancel', () => app.cancel(), { id: 'cancel', class: 'quiet' }));
-  let timer = 0;
-  const show = (visible: boolean) => row.classList.toggle('visible', visible);
-  app.events.on('cutting', (cutting) => {
-    clearTimeout(timer);
-    if (cutting) timer = window.setTimeout(() => show(true), 150);
-    else show(false);
-  });
-  app.events.on('progress', (progress) => {
-    bar.value = progress?.fraction ?? 0;
-    stage.textContent = progress ? words(progress.stage) : '';
-  });
-  return row;
-}
-
 function errorBox(app: App): HTMLElement {
   const box = el('div', { class: 'alert inline', id: 'cut-error', role: 'alert', hidden: true });
   app.events.on('cutError', (error) => {
     box.hidden = error === null;
     if (!error) return box.replaceChildren();
+    openSection('cut');
     const former = app.model ? el('p', { class: 'hint' }, `The picture still shows ${app.model.name}.`) : null;
     box.replaceChildren(...[el('strong', {}, error.title), el('p', {}, error.detail), former].filter((node) => node !== null));
   });
