@@ -5,10 +5,13 @@
 #include <emscripten/val.h>
 
 #include <new>
+#include <optional>
 #include <stdexcept>
-#include <type_traits>
 
+#include "mandoline/io.h"
+#include "mandoline/locate.h"
 #include "mandoline/measure.h"
+#include "mandoline/slice.h"
 #include "mandoline/triangulate.h"
 #include "mandoline/validate.h"
 
@@ -59,11 +62,19 @@ val failure(const char* code, const std::string& message, const val& stage = val
   return result;
 }
 
+val failure(const Error& error, const val& stage = val::undefined()) {
+  return failure(name(error.status), error.message, stage, error.element, error.element2);
+}
+
 val success(const val& value) {
   val result = val::object();
   result.set("value", value);
   return result;
 }
+
+struct BadArgument : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// What f() gives, or the error for what it throws.
 template <class F>
@@ -72,6 +83,8 @@ val guarded(const F& f) {
     return f();
   } catch (const std::bad_alloc&) {
   } catch (const std::length_error&) {
+  } catch (const BadArgument& exception) {
+    return failure("badArgument", exception.what());
   } catch (const std::exception& exception) {
     return failure(name(Status::internalError), exception.what());
   }
@@ -91,7 +104,7 @@ Grid readPlanes(const val& grid) {
   std::array<std::vector<double>, 3> planes;
   for (int d = 0; d < 3; ++d) read(grid["planes"][d], planes[d]);
   Grid result = Grid::rectilinear(std::move(planes));
-  if (grid["spacing"].isTrue()) {
+  if (!grid["spacing"].isNull()) {
     result.uniform = true;
     result.origin = readTriple<double>(grid["origin"]);
     result.spacing = readTriple<double>(grid["spacing"]);
@@ -144,7 +157,7 @@ void forEachArray(Mesh& mesh, const F& f) {
   f("droppedTriangles", mesh.droppedTriangles);
 }
 
-CutMesh readCutMesh(const val& object) {
+CutMesh readUnchecked(const val& object) {
   CutMesh result;
   result.grid = readPlanes(object["grid"]);
   forEachArray(result, [&](const char* key, auto& array) { read(object[key], array); });
@@ -152,6 +165,15 @@ CutMesh readCutMesh(const val& object) {
   result.hasWinding = !object["regionWinding"].isNull();
   if (result.hasWinding) read(object["regionWinding"], result.regionWinding);
   result.triangleCount = object["triangleCount"].as<uint32_t>();
+  return result;
+}
+
+/// A cut-mesh that no function can stumble over.
+CutMesh readCutMesh(const val& object, const Mesh* mesh = nullptr) {
+  CutMesh result = readUnchecked(object);
+  const std::optional<MeshView> view = mesh ? std::optional<MeshView>(*mesh) : std::nullopt;
+  const Check check = checkArrays(result, view ? &*view : nullptr);
+  if (!check.pass) throw BadArgument("The arrays of cutMesh don't fit together: " + check.message + ".");
   return result;
 }
 
@@ -208,7 +230,7 @@ val cutWith(const Mesh& mesh, const Grid& grid, const val& options) {
   const CutResult result = cut(mesh, grid, cutOptions);
   if (result) return success(toObject(result.mesh, result.stats, options["gridCellRegion"].as<bool>()));
   const std::string stage = result.stats.stages.empty() ? "input" : result.stats.stages.back().stage;
-  return failure(name(result.error.status), result.error.message, val(stage), result.error.element, result.error.element2);
+  return failure(result.error, val(stage));
 }
 
 val cutMesh(const val& mesh, const val& grid, const val& options) {
@@ -239,13 +261,14 @@ val toObject(const Validation& validation) {
 }
 
 val validateCutMesh(const val& mesh, const val& cutMesh, double snapTolerance) {
-  return guarded([&] { return success(toObject(validate(readMesh(mesh), readCutMesh(cutMesh), snapTolerance))); });
+  return guarded([&] { return success(toObject(validate(readMesh(mesh), readUnchecked(cutMesh), snapTolerance))); });
 }
 
 val measureCutMesh(const val& mesh, const val& object) {
   return guarded([&] {
-    const CutMesh cutMesh = readCutMesh(object);
-    const Measures measures = measure(readMesh(mesh), cutMesh);
+    const Mesh input = readMesh(mesh);
+    const CutMesh cutMesh = readCutMesh(object, &input);
+    const Measures measures = measure(input, cutMesh);
     val result = val::object();
     result.set("faceArea", toArray(measures.faceArea));
     result.set("faceNormal", toArray(measures.faceNormal));
@@ -259,7 +282,8 @@ val measureCutMesh(const val& mesh, const val& object) {
 
 val edgesOf(const val& mesh, const val& cutMesh) {
   return guarded([&] {
-    const CutEdges edges = cutEdges(readMesh(mesh), readCutMesh(cutMesh));
+    const Mesh input = readMesh(mesh);
+    const CutEdges edges = cutEdges(input, readCutMesh(cutMesh, &input));
     val result = val::object();
     result.set("edgeVertices", toArray(edges.edgeVertices));
     result.set("edgeLength", toArray(edges.edgeLength));
@@ -296,6 +320,61 @@ val triangulateOne(const val& object, uint32_t cell) {
   });
 }
 
+val triangulateRegionOf(const val& object, uint32_t region) {
+  return guarded([&] {
+    const CutMesh cutMesh = readCutMesh(object);
+    return success(toArray(triangulateRegion(cutMesh, triangulateFaces(cutMesh), region)));
+  });
+}
+
+val locatePoints(const val& cutMesh, const val& points) {
+  return guarded([&] {
+    std::vector<double> coordinates;
+    read(points, coordinates);
+    const Locations locations = locate(readCutMesh(cutMesh), coordinates);
+    val result = val::object();
+    result.set("cell", toArray(locations.cell));
+    result.set("gridCell", toArray(locations.gridCell));
+    result.set("region", toArray(locations.region));
+    return success(result);
+  });
+}
+
+val toObject(const Slice& slice) {
+  val result = val::object();
+  result.set("positions", toArray(slice.positions));
+  result.set("loopOffsets", toArray(slice.loopOffsets));
+  result.set("loopPoints", toArray(slice.loopPoints));
+  result.set("polygonLoopOffsets", toArray(slice.polygonLoopOffsets));
+  result.set("polygonCell", toArray(slice.polygonCell));
+  result.set("polygonGridCell", toArray(slice.polygonGridCell));
+  result.set("polygonRegion", toArray(slice.polygonRegion));
+  result.set("polygonTriangleOffsets", toArray(slice.polygonTriangleOffsets));
+  result.set("triangles", toArray(slice.triangles));
+  return result;
+}
+
+val sliceCutMesh(const val& cutMesh, const val& plane, bool untouched) {
+  return guarded([&] {
+    const Plane cutPlane = {readTriple<double>(plane["normal"]), plane["offset"].as<double>()};
+    const SliceResult result = slice(readCutMesh(cutMesh), cutPlane, {untouched});
+    return result ? success(toObject(result.slice)) : failure(result.error);
+  });
+}
+
+val writeFile(const val& mesh, const val& object, const std::string& format) {
+  return guarded([&] {
+    const Mesh input = readMesh(mesh);
+    const CutMesh cutMesh = readCutMesh(object, &input);
+    std::vector<uint8_t> bytes;
+    const Sink sink = [&](std::string_view piece) { bytes.insert(bytes.end(), piece.begin(), piece.end()); };
+    if (format == "json") writeJson(sink, cutMesh);
+    if (format == "vtu") writeVtu(sink, input, cutMesh);
+    if (format == "obj") writeObj(sink, cutMesh);
+    return success(toArray(bytes));
+  });
+}
+
 std::string version() { return MANDOLINE_VERSION; }
 
 }  // namespace
@@ -309,4 +388,8 @@ EMSCRIPTEN_BINDINGS(mandoline) {
   emscripten::function("adjacency", &adjacencyOf);
   emscripten::function("triangulate", &triangulateAll);
   emscripten::function("triangulateCell", &triangulateOne);
+  emscripten::function("triangulateRegion", &triangulateRegionOf);
+  emscripten::function("locate", &locatePoints);
+  emscripten::function("slice", &sliceCutMesh);
+  emscripten::function("write", &writeFile);
 }

@@ -1,4 +1,5 @@
 // Builds the package into dist/: compiles the C++ core to WebAssembly and puts the JavaScript and the types beside it.
+// With --tests also builds the C++ tests for Node, for `ctest --test-dir build-wasm`.
 // Takes the Emscripten of an activated emsdk if there is one, else that of Debian.
 import { execFileSync } from 'node:child_process';
 import { cpSync, existsSync, mkdirSync, readdirSync, realpathSync, rmSync } from 'node:fs';
@@ -44,5 +45,5 @@ function assemble() {
   for (const file of readdirSync(dist)) if (!kept.has(file)) rmSync(join(dist, file), { recursive: true });
 }
 
-compile(['mandoline-wasm']);
+compile(['mandoline-wasm', ...(process.argv.includes('--tests') ? ['mandoline-tests'] : [])]);
 assemble();

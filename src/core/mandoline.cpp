@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <new>
 
 #include "core/exact.h"
 
@@ -103,7 +105,9 @@ size_t CutMesh::untouchedCellCount() const {
 }
 
 std::vector<int32_t> CutMesh::gridCellRegion() const {
-  std::vector<int32_t> dense(size_t(grid.cells(0)) * size_t(grid.cells(1)) * size_t(grid.cells(2)), -1);
+  const double count = double(grid.cells(0)) * double(grid.cells(1)) * double(grid.cells(2));
+  if (count > double(PTRDIFF_MAX)) throw std::bad_alloc();
+  std::vector<int32_t> dense(size_t(count), -1);
   for (size_t row = 0; row + 1 < rowRunOffsets.size(); ++row) {
     for (uint32_t r = rowRunOffsets[row]; r < rowRunOffsets[row + 1]; ++r) {
       const auto first = dense.begin() + std::ptrdiff_t(row * size_t(grid.cells(0)));

@@ -1,12 +1,27 @@
 #include "io/text_cursor.h"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <system_error>
 
 namespace mandoline::detail {
 namespace {
 
+#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 200000  // where std::from_chars lacks doubles
+std::from_chars_result parse(const char* first, const char* last, double& value) {
+  const auto belongs = [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '-' || c == '.'; };
+  const std::string text(first, std::find_if_not(first, last, belongs));  // strtod looks for its end, and takes more
+  const bool number = text.find_first_of("0123456789.in") == (text[0] == '-') && text.find_first_of("xX") == std::string::npos;
+  char* end = nullptr;
+  const double parsed = number ? std::strtod(text.c_str(), &end) : 0;
+  if (!number || end == text.c_str()) return {first, std::errc::invalid_argument};
+  value = parsed;
+  return {first + (end - text.c_str()), std::errc()};
+}
+#else
 /// A number that no double holds: nearly 0, or infinite.
 double outOfRange(const char* first, const char* last) {
   long double value = 0;
@@ -17,6 +32,14 @@ double outOfRange(const char* first, const char* last) {
   const double magnitude = tiny ? 0.0 : HUGE_VAL;
   return digits[0] == '-' ? -magnitude : magnitude;
 }
+
+std::from_chars_result parse(const char* first, const char* last, double& value) {
+  const std::from_chars_result result = std::from_chars(first, last, value);
+  if (result.ec != std::errc::result_out_of_range) return result;
+  value = outOfRange(first, result.ptr);
+  return {result.ptr, std::errc()};
+}
+#endif
 
 }  // namespace
 
@@ -72,9 +95,8 @@ double TextCursor::number() {
   const char* begin = position_;
   if (*begin == '+' && begin + 1 != end_ && begin[1] != '-') ++begin;
   double value = 0;
-  const auto [last, error] = std::from_chars(begin, end_, value);
-  if (error == std::errc::invalid_argument || !isWordEnd(last)) failExpected("a number", position_);
-  if (error == std::errc::result_out_of_range) value = outOfRange(begin, last);
+  const auto [last, error] = parse(begin, end_, value);
+  if (error != std::errc() || !isWordEnd(last)) failExpected("a number", position_);
   position_ = last;
   return value;
 }

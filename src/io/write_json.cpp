@@ -1,5 +1,4 @@
 #include "io/output_buffer.h"
-#include "mandoline/io.h"
 
 namespace mandoline {
 namespace detail {
@@ -58,9 +57,9 @@ void writeWinding(OutputBuffer& out, const CutMesh& cutMesh) {
 }  // namespace
 }  // namespace detail
 
-void writeJson(std::ostream& stream, const CutMesh& cutMesh) {
+void writeJson(const Sink& sink, const CutMesh& cutMesh) {
   using detail::writeMember;
-  detail::OutputBuffer out(stream);
+  detail::OutputBuffer out(sink);
   out.text("{\"format\":\"mandoline-cut-mesh\",\n\"version\":1");
   detail::writeGrid(out, cutMesh.grid);
   writeMember(out, "positions", cutMesh.positions);

@@ -1,6 +1,5 @@
 #include "io/output_buffer.h"
 #include "io/polygons.h"
-#include "mandoline/io.h"
 
 namespace mandoline {
 namespace detail {
@@ -38,8 +37,8 @@ Groups groupFaces(const CutMesh& cutMesh) {
 
 class ObjWriter {
  public:
-  ObjWriter(std::ostream& stream, const CutMesh& cutMesh)
-      : out_(stream), cutMesh_(cutMesh), polygons_(cutMesh), number_(cutMesh.vertexCount()) {}
+  ObjWriter(const Sink& sink, const CutMesh& cutMesh)
+      : out_(sink), cutMesh_(cutMesh), polygons_(cutMesh), number_(cutMesh.vertexCount()) {}
 
   void write() {
     const Groups groups = groupFaces(cutMesh_);
@@ -89,6 +88,6 @@ class ObjWriter {
 }  // namespace
 }  // namespace detail
 
-void writeObj(std::ostream& out, const CutMesh& cutMesh) { detail::ObjWriter(out, cutMesh).write(); }
+void writeObj(const Sink& sink, const CutMesh& cutMesh) { detail::ObjWriter(sink, cutMesh).write(); }
 
 }  // namespace mandoline

@@ -6,7 +6,6 @@
 #include "io/output_buffer.h"
 #include "io/polygons.h"
 #include "io/scalar.h"
-#include "mandoline/io.h"
 #include "mandoline/measure.h"
 
 namespace mandoline {
@@ -150,7 +149,7 @@ class VtuBuilder {
 
 class VtuWriter {
  public:
-  explicit VtuWriter(std::ostream& stream) : stream_(stream), out_(stream) {}
+  explicit VtuWriter(const Sink& sink) : sink_(sink), out_(sink) {}
 
   void write(const UnstructuredGrid& grid, const std::vector<double>& positions, bool hasWinding) {
     out_.text("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"");
@@ -177,15 +176,15 @@ class VtuWriter {
     out_.text("</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
     out_.flush();
     for (const Appended& appended : appended_) {
-      stream_.write(reinterpret_cast<const char*>(&appended.size), sizeof appended.size);
-      stream_.write(appended.data, std::streamsize(appended.size));
+      sink_({reinterpret_cast<const char*>(&appended.size), sizeof appended.size});
+      sink_(appended.bytes);
     }
-    stream_ << "\n</AppendedData>\n</VTKFile>\n";
+    sink_("\n</AppendedData>\n</VTKFile>\n");
   }
 
  private:
   struct Appended {
-    const char* data;
+    std::string_view bytes;
     uint64_t size;
   };
 
@@ -200,11 +199,12 @@ class VtuWriter {
     out_.text("\" format=\"appended\" offset=\"");
     out_.number(offset_);
     out_.text("\"/>\n");
-    appended_.push_back({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Scalar)});
+    const size_t size = values.size() * sizeof(Scalar);
+    appended_.push_back({{reinterpret_cast<const char*>(values.data()), size}, size});
     offset_ += sizeof(uint64_t) + appended_.back().size;
   }
 
-  std::ostream& stream_;
+  const Sink& sink_;
   OutputBuffer out_;
   std::vector<Appended> appended_;
   uint64_t offset_ = 0;
@@ -213,11 +213,11 @@ class VtuWriter {
 }  // namespace
 }  // namespace detail
 
-void writeVtu(std::ostream& out, const MeshView& mesh, const CutMesh& cutMesh) {
+void writeVtu(const Sink& sink, const MeshView& mesh, const CutMesh& cutMesh) {
   detail::VtuBuilder builder(cutMesh);
   builder.addCutCells(mesh);
   builder.addUntouchedCells();
-  detail::VtuWriter(out).write(builder.result(), builder.positions(), cutMesh.hasWinding);
+  detail::VtuWriter(sink).write(builder.result(), builder.positions(), cutMesh.hasWinding);
 }
 
 }  // namespace mandoline

@@ -1,8 +1,10 @@
-// Files: triangle meshes in, cut-meshes out. Not part of the WebAssembly build.
+// Files: triangle meshes in, cut-meshes out. The WebAssembly package has the writers.
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <stdexcept>
+#include <string_view>
 
 #include "mandoline/mandoline.h"
 #include "mandoline/validate.h"
@@ -18,11 +20,18 @@ struct FileError : std::runtime_error {
 /// their first vertex; triangles are numbered in file order. Doubles are kept. Throws FileError.
 Mesh readMesh(const std::string& path);
 
+/// Takes the bytes of a file, piece after piece.
+using Sink = std::function<void(std::string_view)>;
+
 /// The complete dump as JSON; doubles read back identically.
-void writeJson(std::ostream& out, const CutMesh& cutMesh);
+void writeJson(const Sink& sink, const CutMesh& cutMesh);
 /// VTK XML unstructured grid of polyhedra with cell arrays grid_cell, region, winding, volume. Faces with holes are split alike on both sides.
-void writeVtu(std::ostream& out, const MeshView& mesh, const CutMesh& cutMesh);
+void writeVtu(const Sink& sink, const MeshView& mesh, const CutMesh& cutMesh);
 /// The cut surface as polygons, one group per region.
+void writeObj(const Sink& sink, const CutMesh& cutMesh);
+/// The same to streams, whose state tells of errors.
+void writeJson(std::ostream& out, const CutMesh& cutMesh);
+void writeVtu(std::ostream& out, const MeshView& mesh, const CutMesh& cutMesh);
 void writeObj(std::ostream& out, const CutMesh& cutMesh);
 /// Writes by extension: .json, .vtu or .obj. The file appears when it is complete. Throws FileError.
 void writeCutMesh(const std::string& path, const MeshView& mesh, const CutMesh& cutMesh);

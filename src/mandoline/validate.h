@@ -21,6 +21,10 @@ struct Validation {
   std::vector<Check> checks;
 };
 
+/// The first check of validate(): lengths, offsets and id ranges. All functions that take a cut-mesh need one that passes, as those of cut()
+/// do; one that comes from elsewhere may not. Without its input mesh, tri-vertex ids can't be held against it.
+Check checkArrays(const CutMesh& cutMesh, const MeshView* mesh = nullptr);
+
 /// The paper's four checks (5.6) and the invariants of a cut-mesh. `mesh` is the input, `snapTolerance` that of the cut.
 Validation validate(const MeshView& mesh, const CutMesh& cutMesh, double snapTolerance = 0);
 

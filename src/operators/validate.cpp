@@ -7,7 +7,7 @@ namespace mandoline {
 Validation validate(const MeshView& mesh, const CutMesh& cutMesh, double snapTolerance) {
   using namespace validation;
   Validation result;
-  result.checks.push_back(checkArrays(mesh, cutMesh));
+  result.checks.push_back(checkArrays(cutMesh, &mesh));
   if (result.checks[0].pass) {
     const Context context(mesh, cutMesh, snapTolerance);
     const TriangleBins bins(context);

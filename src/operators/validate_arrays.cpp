@@ -9,7 +9,7 @@ namespace {
 
 class ArrayCheck {
  public:
-  ArrayCheck(const MeshView& mesh, const CutMesh& cut) : mesh_(mesh), cut_(cut) {}
+  ArrayCheck(const CutMesh& cut, const MeshView* mesh) : cut_(cut), mesh_(mesh) {}
 
   Check run() {
     // Later steps index with what earlier ones have checked.
@@ -39,16 +39,21 @@ class ArrayCheck {
     return true;
   }
 
+  int64_t lastTriVertex() const { return mesh_ ? int64_t(mesh_->vertexCount()) - 1 : INT32_MAX; }
+
   bool checkInput() {
-    if (!expect(mesh_.positions.size() % 3 == 0 && mesh_.triangles.size() % 3 == 0, "array", 0,
+    if (!mesh_) return true;
+    if (!expect(cut_.triangleCount == mesh_->triangleCount(), "array", 0, "of the triangles has another length than triangleCount says"))
+      return false;
+    if (!expect(mesh_->positions.size() % 3 == 0 && mesh_->triangles.size() % 3 == 0, "array", 0,
                 "of the input has no multiple of 3 entries"))
       return false;
-    if (!expectRange(mesh_.triangles, 0, int64_t(mesh_.vertexCount()) - 1, "triangle", 3,
+    if (!expectRange(mesh_->triangles, 0, int64_t(mesh_->vertexCount()) - 1, "triangle", 3,
                      "of the input names a tri-vertex that does not exist"))
       return false;
-    for (size_t i = 0; i < mesh_.triangles.size(); ++i) {
+    for (size_t i = 0; i < mesh_->triangles.size(); ++i) {
       for (int d = 0; d < 3; ++d) {
-        if (!std::isfinite(mesh_.positions[3 * size_t(mesh_.triangles[i]) + d]))
+        if (!std::isfinite(mesh_->positions[3 * size_t(mesh_->triangles[i]) + d]))
           return expect(false, "triangle", int64_t(i / 3), "of the input is not finite");
       }
     }
@@ -64,7 +69,7 @@ class ArrayCheck {
         if (!expect(fine, "axis", d, "has planes that are not finite or do not ascend")) return false;
       }
     }
-    const double negligible = std::ldexp(1.0, kNegligibleExponent - scaleOf(mesh_, cut_.grid));
+    const double negligible = std::ldexp(1.0, kNegligibleExponent - scaleOf(mesh_ ? *mesh_ : MeshView({}, {}), cut_.grid));
     for (int d = 0; d < 3; ++d) {
       for (size_t i = 1; i < cut_.grid.planes[d].size(); ++i) {
         const bool fine = std::max(std::fabs(cut_.grid.planes[d][i - 1]), std::fabs(cut_.grid.planes[d][i])) >= negligible;
@@ -88,15 +93,15 @@ class ArrayCheck {
           return false;
       }
     }
-    return expectRange(cut_.vertexTriVertex, -1, int64_t(mesh_.vertexCount()) - 1, "vertex", 1, "names a tri-vertex that does not exist") &&
+    return expectRange(cut_.vertexTriVertex, -1, lastTriVertex(), "vertex", 1, "names a tri-vertex that does not exist") &&
            checkParents();
   }
 
   bool checkParents() {
-    const int64_t triVertices = int64_t(mesh_.vertexCount()), triangles = int64_t(mesh_.triangleCount());
+    const int64_t last = lastTriVertex(), triangles = cut_.triangleCount;
     for (size_t v = 0; v < cut_.vertexCount(); ++v) {
       const int64_t a = cut_.vertexParents[2 * v], b = cut_.vertexParents[2 * v + 1];
-      const bool fine = b >= 0 ? a >= 0 && a < triVertices && b < triVertices : b == -1 && a >= -1 && a < triangles;
+      const bool fine = b >= 0 ? a >= 0 && a <= last && b <= last : b == -1 && a >= -1 && a < triangles;
       if (!expect(fine, "vertex", int64_t(v), "has parents that do not exist")) return false;
     }
     return true;
@@ -110,7 +115,7 @@ class ArrayCheck {
     if (!expectOffsets(cut_.loopOffsets, loops, cut_.loopVertices.size(), "loop", "has wrong offsets")) return false;
     if (!expectOffsets(cut_.faceLoopOffsets, faces, loops, "face", "has wrong offsets")) return false;
     if (!expectRange(cut_.loopVertices, 0, int64_t(cut_.vertexCount()) - 1, "loop vertex", 1, "does not exist")) return false;
-    if (!expectRange(cut_.faceTriangle, -1, int64_t(mesh_.triangleCount()) - 1, "face", 1, "names a triangle that does not exist"))
+    if (!expectRange(cut_.faceTriangle, -1, int64_t(cut_.triangleCount) - 1, "face", 1, "names a triangle that does not exist"))
       return false;
     if (!expectRange(cut_.faceAxis, -1, 2, "face", 1, "has a wrong axis")) return false;
     for (size_t f = 0; f < faces; ++f) {
@@ -142,6 +147,9 @@ class ArrayCheck {
     if (!expectOffsets(cut_.cellHalfFaceOffsets, cells, cut_.cellHalfFaces.size(), "cell", "has wrong offsets")) return false;
     if (!expectRange(cut_.cellHalfFaces, 0, 2 * int64_t(cut_.faceCount()) - 1, "entry of cellHalfFaces", 1, "does not exist")) return false;
     if (!expectRange(cut_.cellRegion, 0, int64_t(cut_.regionCount) - 1, "cell", 1, "names a region that does not exist")) return false;
+    for (size_t c = 0; c < cells; ++c) {
+      if (!expect(!cut_.cell(c).empty(), "cell", int64_t(c), "has no faces")) return false;
+    }
     for (size_t i = 0; i < 3 * cells; ++i) {
       const int32_t c = cut_.cellGridCell[i];
       if (!expect(c >= 0 && c < cut_.grid.cells(int(i % 3)), "cell", int64_t(i / 3), "lies in no grid cell")) return false;
@@ -166,26 +174,23 @@ class ArrayCheck {
   }
 
   bool checkRest() {
-    if (!expect(cut_.triangleCount == mesh_.triangleCount(), "array", 0, "of the triangles has another length than triangleCount says"))
-      return false;
     if (!expect(cut_.regionWinding.size() == (cut_.hasWinding ? cut_.regionCount : 0), "array", 0,
                 "of the regions' winding numbers has a wrong length"))
       return false;
     const std::vector<uint32_t>& dropped = cut_.droppedTriangles;
     for (size_t i = 0; i < dropped.size(); ++i) {
-      const bool fine = dropped[i] < mesh_.triangleCount() && (i == 0 || dropped[i - 1] < dropped[i]);
+      const bool fine = dropped[i] < cut_.triangleCount && (i == 0 || dropped[i - 1] < dropped[i]);
       if (!expect(fine, "triangle", dropped[i], "is dropped but does not exist or is out of order")) return false;
     }
     return true;
   }
 
-  const MeshView& mesh_;
   const CutMesh& cut_;
+  const MeshView* mesh_;  // may be null
   Tally tally_{"arrays"};
 };
 
 }  // namespace
-
-Check checkArrays(const MeshView& mesh, const CutMesh& cutMesh) { return ArrayCheck(mesh, cutMesh).run(); }
-
 }  // namespace mandoline::validation
+
+mandoline::Check mandoline::checkArrays(const CutMesh& cutMesh, const MeshView* mesh) { return validation::ArrayCheck(cutMesh, mesh).run(); }

@@ -125,7 +125,6 @@ struct Sample {
 class TriangleBins;  // validate_bins.h
 
 // The checks. Each adds its results in the order in which they appear in Validation.
-Check checkArrays(const MeshView& mesh, const CutMesh& cutMesh);
 void checkVertices(const Context& context, std::vector<Check>& checks);
 void checkFaces(const Context& context, std::vector<Check>& checks);
 /// Marks triangles that overlap others in one plane.

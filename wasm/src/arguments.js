@@ -92,15 +92,9 @@ export function readMesh(mesh) {
   return { positions: readNumbers(mesh.positions, 'mesh.positions'), triangles: readTriangles(mesh.triangles) };
 }
 
-function readTriple(value, name, read = expectNumber) {
+export function readVector(value, name, read = expectNumber) {
   if (!(Array.isArray(value) || ArrayBuffer.isView(value)) || value.length !== 3) throw bad(`${name} must have three numbers, not ${kindOf(value)}.`);
   return [0, 1, 2].map((d) => read(value[d], `${name}[${d}]`));
-}
-
-export function readVector(value, name) {
-  const vector = readTriple(value, name);
-  if (!vector.every(Number.isFinite)) throw bad(`${name} must be finite.`);
-  return vector;
 }
 
 /** The grid of a cut-mesh, or another one given by its planes. */
@@ -111,18 +105,18 @@ function readPlanes(grid, name) {
   return {
     kind: 'planes',
     planes,
-    origin: uniform ? readTriple(grid.origin, `${name}.origin`) : null,
-    spacing: uniform ? readTriple(grid.spacing, `${name}.spacing`) : null,
+    origin: uniform ? readVector(grid.origin, `${name}.origin`) : null,
+    spacing: uniform ? readVector(grid.spacing, `${name}.spacing`) : null,
   };
 }
 
 export function readGrid(grid) {
   expectObject(grid, 'grid');
   if ('planes' in grid) return readPlanes(grid, 'grid');
-  const cells = () => readTriple(grid.cells, 'grid.cells', readCount);
-  if ('min' in grid || 'max' in grid) return { kind: 'box', min: readTriple(grid.min, 'grid.min'), max: readTriple(grid.max, 'grid.max'), cells: cells() };
+  const cells = () => readVector(grid.cells, 'grid.cells', readCount);
+  if ('min' in grid || 'max' in grid) return { kind: 'box', min: readVector(grid.min, 'grid.min'), max: readVector(grid.max, 'grid.max'), cells: cells() };
   if ('spacing' in grid || 'origin' in grid) {
-    return { kind: 'regular', origin: readTriple(grid.origin, 'grid.origin'), spacing: readTriple(grid.spacing, 'grid.spacing'), cells: cells() };
+    return { kind: 'regular', origin: readVector(grid.origin, 'grid.origin'), spacing: readVector(grid.spacing, 'grid.spacing'), cells: cells() };
   }
   return { kind: 'around', cells: readCount(grid.cells, 'grid.cells') };
 }
@@ -204,8 +198,5 @@ export function readPoints(points) {
 
 export function readPlane(plane) {
   expectObject(plane, 'plane');
-  const normal = readVector(plane.normal, 'plane.normal');
-  if (normal.every((x) => x === 0)) throw bad('plane.normal must not be zero.');
-  if (!Number.isFinite(plane.offset)) throw bad(`plane.offset must be a finite number, not ${kindOf(plane.offset)}.`);
-  return { normal, offset: plane.offset };
+  return { normal: readVector(plane.normal, 'plane.normal'), offset: expectNumber(plane.offset, 'plane.offset') };
 }

@@ -18,7 +18,7 @@ const advice = {
   nonFiniteCoordinate: 'A coordinate is infinite or not a number. Repair or leave out that vertex and its triangles.',
   badGrid: 'The grid needs at least one cell along each axis, and finite planes in ascending order.',
   gridTooLarge: 'Use fewer cells: at most 2^24 along an axis and 2^28 rows of cells.',
-  badOption: 'snapTolerance is a distance in cells, from 0 to below 0.5.',
+  badOption: 'Choose a value in the range that the message names.',
   selfIntersection:
     'Triangles may meet in shared vertices and edges only. Repair these two, for example by resolving the intersections in a mesh editor, and cut again.',
   meshTooLarge: 'The result would have too many elements. Use fewer cells, or cut the mesh in parts.',

@@ -1,5 +1,5 @@
 import {
-  bad, readCutMesh, readElement, readFlag, readFunction, readGrid, readMesh, readOptions, readSnapTolerance,
+  bad, readCutMesh, readElement, readFlag, readFunction, readGrid, readMesh, readOptions, readPlane, readPoints, readSnapTolerance, readVector,
 } from './arguments.js';
 import { MandolineError } from './errors.js';
 import { compile, instantiate } from './load.js';
@@ -80,6 +80,10 @@ function makeTriangulate(host) {
     const input = readCutMesh(cutMesh);
     if (of === undefined) return host.run((bindings) => bindings.triangulate(input));
     if (typeof of !== 'object' || of === null || ('cell' in of) === ('region' in of)) throw bad('The second argument must be { cell } or { region }.');
+    if ('region' in of) {
+      const region = readElement(of.region, 'region', input.regionCount);
+      return host.run((bindings) => bindings.triangulateRegion(input, region));
+    }
     const cell = readElement(of.cell, 'cell', input.cellRegion.length);
     return host.run((bindings) => bindings.triangulateCell(input, cell));
   };
@@ -104,6 +108,24 @@ function makeApi(host) {
       return host.run((bindings) => bindings.adjacency(input));
     },
     triangulate: makeTriangulate(host),
+    cellAt: (cutMesh, point) => {
+      const input = [readCutMesh(cutMesh), readVector(point, 'point')];
+      const { cell, gridCell, region } = host.run((bindings) => bindings.locate(...input));
+      return region[0] < 0 ? null : { cell: cell[0], gridCell: [...gridCell], region: region[0] };
+    },
+    cellsAt: (cutMesh, points) => {
+      const input = [readCutMesh(cutMesh), readPoints(points)];
+      return host.run((bindings) => bindings.locate(...input));
+    },
+    slice: (cutMesh, plane, options) => {
+      const input = [readCutMesh(cutMesh), readPlane(plane), readFlag(readOptions(options).untouched, true, 'options.untouched')];
+      return host.run((bindings) => bindings.slice(...input));
+    },
+    write: (mesh, cutMesh, format) => {
+      if (!['json', 'vtu', 'obj'].includes(format)) throw bad('format must be "json", "vtu" or "obj".');
+      const input = [readMesh(mesh), readCutMesh(cutMesh), format];
+      return host.run((bindings) => bindings.write(...input));
+    },
   };
   const version = host.run((bindings) => ({ value: bindings.version() }));
   return {

@@ -1,0 +1,18 @@
+#include <ostream>
+
+#include "mandoline/io.h"
+
+namespace mandoline {
+namespace {
+
+Sink into(std::ostream& out) {
+  return [&out](std::string_view bytes) { out.write(bytes.data(), std::streamsize(bytes.size())); };
+}
+
+}  // namespace
+
+void writeJson(std::ostream& out, const CutMesh& cutMesh) { writeJson(into(out), cutMesh); }
+void writeVtu(std::ostream& out, const MeshView& mesh, const CutMesh& cutMesh) { writeVtu(into(out), mesh, cutMesh); }
+void writeObj(std::ostream& out, const CutMesh& cutMesh) { writeObj(into(out), cutMesh); }
+
+}  // namespace mandoline
