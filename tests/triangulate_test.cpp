@@ -451,3 +451,27 @@ TEST_CASE("triangulate: the triangles of every cell of a cut close it and have i
   CHECK(open == 0);
   CHECK(worst < 1e-13);
 }
+
+TEST_CASE("a region's surface is closed around it", "[triangulate]") {
+  const Mesh mesh = shapes::icosphere({1.5, 1.5, 1.5}, 1.25, 2);
+  const CheckedCut cut = checkedCut(mesh, unitGrid(3));
+  const FaceTriangles faces = triangulateFaces(cut.mesh);
+  REQUIRE(cut.mesh.regionCount == 2);
+  for (uint32_t region = 0; region < 2; ++region) {
+    const int inside = cut.mesh.regionWinding[region];
+    Mesh surface = {cut.mesh.positions, triangulateRegion(cut.mesh, faces, region)};
+    CHECK(uncancelled(edgesOf(surface.triangles)).empty());
+    CHECK(shapes::signedVolume(surface) == Approx((inside == 1 ? 1 : -1) * shapes::signedVolume(mesh)).epsilon(1e-12));
+    CHECK(shapes::area(surface) == Approx(shapes::area(mesh)).epsilon(1e-12));
+  }
+  CHECK(triangulateRegion(cut.mesh, faces, 2).empty());
+}
+
+TEST_CASE("a region has both sides of a sheet that ends within it", "[triangulate]") {
+  const Mesh mesh = shapes::quad({0.25, 0.5, 0.25}, {1.75, 0.5, 0.25}, {1.75, 0.5, 1.5}, {0.25, 0.5, 1.5});
+  const CheckedCut cut = checkedCut(mesh, unitGrid(2));
+  REQUIRE(cut.mesh.regionCount == 1);
+  const Mesh surface = {cut.mesh.positions, triangulateRegion(cut.mesh, triangulateFaces(cut.mesh), 0)};
+  CHECK(uncancelled(edgesOf(surface.triangles)).empty());
+  CHECK(shapes::area(surface) == Approx(2 * shapes::area(mesh)).epsilon(1e-12));
+}
