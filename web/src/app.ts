@@ -75,8 +75,18 @@ export class App {
       }
       if (outcome !== 'loaded') return;
       this.change({ ...settings, source }, false);
-      await this.recut(settings.camera === null);
+      const error = await this.recut(settings.camera === null);
+      if (error && !this.model) await this.fallBack(error);
     });
+  }
+
+  /** A page without a picture would be of no use. */
+  private async fallBack(error: PageError): Promise<void> {
+    this.events.tell('alert', error);
+    if ((await this.load(defaultSource)) !== 'loaded') return;
+    const { source, grid, snapTolerance } = defaultSettings();
+    this.change({ source, grid, snapTolerance, camera: null }, false);
+    await this.recut(true);
   }
 
   /** A failure is told in an alert; the outcome is "superseded" if a newer mesh was asked for meanwhile. */
@@ -135,8 +145,9 @@ export class App {
     void this.recut(false);
   }
 
-  /** Cuts with the settings of now. The engine sees to it that the newest cut wins. */
-  private async recut(frame: boolean): Promise<void> {
+  /** Cuts with the settings of now. The engine sees to it that the newest cut wins. The answer is what went wrong, if anything did. */
+  private async recut(frame: boolean): Promise<PageError | null> {
+    let problem: PageError | null = null;
     this.frameNext ||= frame;
     const { source, grid, snapTolerance } = this.settings;
     if (this.cuts++ === 0) this.events.tell('cutting', true);
@@ -149,10 +160,12 @@ export class App {
       } catch (error) {
         if (isAbort(error)) return;
         this.failed = true;
-        this.events.tell('cutError', pageError(error));
+        problem = pageError(error);
+        this.events.tell('cutError', problem);
       }
     });
     this.events.tell('cutting', --this.cuts > 0);
+    return problem;
   }
 
   private takeModel(model: Model): void {

@@ -6,7 +6,7 @@ import { integer, real, winding } from './format';
 
 /** The card of the pinned cell: what is known of it, and it alone from all sides. */
 export function cellCard(app: App): HTMLElement {
-  const title = el('h2', { id: 'card-title' });
+  const title = el('h2', { id: 'card-title', tabindex: '-1' });
   const canvas = el('canvas', { class: 'cell-canvas', tabindex: '0', role: 'img' });
   const facts = el('div', { class: 'facts' });
   const close = button('Unpin', () => void app.pin(null), { id: 'unpin', class: 'quiet' });
@@ -16,12 +16,15 @@ export function cellCard(app: App): HTMLElement {
   let viewer: CellViewer | null = null;
   canvas.addEventListener('keydown', (event) => viewer && turnByKey(viewer, event));
   app.events.on('pinned', (pinned) => {
+    if (!pinned && card.contains(document.activeElement)) document.getElementById('canvas')?.focus();
     card.hidden = pinned === null;
     card.dataset.cell = pinned ? String(pinned.cell) : '';
     if (!pinned) return;
     title.textContent = `Cell ${pinned.cell}`;
     canvas.setAttribute('aria-label', `Cell ${pinned.cell} alone; drag or use the arrow keys to turn it`);
+    const focused = facts.contains(document.activeElement);
     facts.replaceChildren(factList(pinned, app), ...neighbours(pinned, app));
+    if (focused) title.focus();
     viewer ??= new CellViewer(canvas);
     viewer.show(pinned);
   });
