@@ -69,11 +69,11 @@ export class JobQueue {
         onMessage: (message) => isCurrent() && this.#receive(message),
         onDeath: (reason) => isCurrent() && this.#mourn(reason),
       });
+      this.#thread = thread;
+      this.#perform(job);
     } catch (cause) {
-      return job.reject(loadFailure(cause.message, cause));
+      job.reject(loadFailure(cause.message, cause));
     }
-    this.#thread = thread;
-    this.#perform(job);
   }
 
   #next() {
@@ -86,11 +86,7 @@ export class JobQueue {
   #perform(job) {
     this.#running = job;
     this.#thread.hold(true);
-    try {
-      this.#thread.post(job.message, job.transfer);
-    } catch (cause) {
-      this.#settle((failed) => failed.reject(new MandolineError('badArgument', `The worker can't be given this: ${cause.message}`, { stage: job.message.call, cause })));
-    }
+    this.#thread.post(job.message, job.transfer);
   }
 
   #receive({ type, value, error }) {

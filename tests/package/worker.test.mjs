@@ -1,0 +1,251 @@
+import assert from 'node:assert/strict';
+import { execFile } from 'node:child_process';
+import { test } from 'node:test';
+import { promisify } from 'node:util';
+import { MandolineError as CoreError, compiledModule, init } from 'mandoline-wasm';
+import { MandolineError, createWorker, describe } from 'mandoline-wasm/worker';
+import { box, sphere } from './shapes.mjs';
+
+const cube = box([0, 0, 0], [1, 1, 1]);
+const ball = sphere(100);
+const root = new URL('../..', import.meta.url);
+
+/** Runs f with a worker that is terminated afterwards. */
+async function withWorker(f, options) {
+  const worker = await createWorker(options);
+  try {
+    return await f(worker);
+  } finally {
+    worker.terminate();
+  }
+}
+
+/** The MandolineError that a promise is rejected with. */
+async function rejection(promise) {
+  const error = await promise.then(() => assert.fail('should have been rejected'), (reason) => reason);
+  assert.ok(error instanceof MandolineError, `${error?.stack}`);
+  return error;
+}
+
+/** Times and counters aside. */
+const withoutStats = ({ stats, ...rest }) => rest;
+
+/** Resolves once the cut has begun; `promise` is that of the cut. */
+function begun(worker, mesh, cells, options = {}) {
+  let promise;
+  const running = new Promise((resolve) => {
+    promise = worker.cut(mesh, { cells }, { ...options, progress: resolve });
+  });
+  return { promise, running };
+}
+
+test('every call gives what it gives without a worker', () => withWorker(async (worker) => {
+  const here = await init();
+  const cutMesh = await worker.cut(cube, { cells: 7 });
+  const expected = here.cut(cube, { cells: 7 });
+  assert.deepEqual(withoutStats(cutMesh), withoutStats(expected));
+  const plane = { normal: [1, 2, 3], offset: 2.9 };
+  const points = [0.5, 0.5, 0.5, 9, 9, 9];
+  assert.deepEqual(await worker.validate(cube, cutMesh), here.validate(cube, expected));
+  assert.deepEqual(await worker.measure(cube, cutMesh), here.measure(cube, expected));
+  assert.deepEqual(await worker.cutEdges(cube, cutMesh), here.cutEdges(cube, expected));
+  assert.deepEqual(await worker.adjacency(cutMesh), here.adjacency(expected));
+  assert.deepEqual(await worker.triangulate(cutMesh), here.triangulate(expected));
+  assert.deepEqual(await worker.triangulate(cutMesh, { cell: 3 }), here.triangulate(expected, { cell: 3 }));
+  assert.deepEqual(await worker.triangulate(cutMesh, { region: 1 }), here.triangulate(expected, { region: 1 }));
+  assert.deepEqual(await worker.cellAt(cutMesh, [0.01, 0.5, 0.5]), here.cellAt(expected, [0.01, 0.5, 0.5]));
+  assert.deepEqual(await worker.cellsAt(cutMesh, points), here.cellsAt(expected, points));
+  assert.deepEqual(await worker.slice(cutMesh, plane, { untouched: false }), here.slice(expected, plane, { untouched: false }));
+  assert.deepEqual(await worker.write(cube, cutMesh, 'json'), here.write(cube, expected, 'json'));
+  const calls = Object.keys(here).filter((key) => typeof here[key] === 'function');
+  assert.deepEqual(Object.keys(worker).sort(), [...calls, 'terminate'].sort());
+}));
+
+test('options reach the call', () => withWorker(async (worker) => {
+  const cutMesh = await worker.cut(cube, { cells: 4 }, { gridCellRegion: false });
+  assert.equal('gridCellRegion' in cutMesh, false);
+  assert.equal((await rejection(worker.cut(cube, { cells: 4 }, { snapTolerance: 2 }))).code, 'badOption');
+}));
+
+test('calls run in the order they were made', () => withWorker(async (worker) => {
+  const order = [];
+  await Promise.all([24, 4, 16, 2].map((cells) => worker.cut(cube, { cells }).then(() => order.push(cells))));
+  assert.deepEqual(order, [24, 4, 16, 2]);
+}));
+
+test('arguments are taken as they are at the call', () => withWorker(async (worker) => {
+  const mesh = { positions: cube.positions.slice(), triangles: cube.triangles.slice() };
+  const blocking = worker.cut(ball, { cells: 8 });
+  const cutMesh = worker.cut(mesh, { min: [-1, -1, -1], max: [2, 2, 2], cells: [5, 5, 5] });
+  mesh.positions.fill(NaN);
+  await blocking;
+  assert.equal((await cutMesh).regionCount, 2);
+}));
+
+test('buffers of arguments are handed over on request, and only then', () => withWorker(async (worker) => {
+  const mesh = { positions: cube.positions.slice(), triangles: cube.triangles.slice() };
+  await worker.cut(mesh, { cells: 4 });
+  assert.equal(mesh.positions.length, 24);
+  const cutMesh = await worker.cut(mesh, { cells: 4 }, { transfer: [mesh.positions.buffer] });
+  assert.equal(cutMesh.regionCount, 2);
+  assert.equal(mesh.positions.buffer.byteLength, 0);
+  assert.equal(mesh.triangles.length, 36);
+  const error = await rejection(worker.cut(mesh, { cells: 4 }));
+  assert.equal(error.code, 'badArgument');
+}));
+
+test('progress is told, in order', () => withWorker(async (worker) => {
+  const stages = [];
+  await worker.cut(ball, { cells: 16 }, { progress: ({ stageIndex, stageCount, done, total }) => {
+    assert.ok(stageIndex >= 0 && stageIndex < stageCount && done <= total);
+    stages.push(stageIndex);
+  } });
+  assert.ok(stages.length > 3);
+  assert.deepEqual(stages, [...stages].sort((a, b) => a - b));
+}));
+
+test('progress that returns false cancels the cut; what it throws is what the cut rejects with', () => withWorker(async (worker) => {
+  assert.equal((await rejection(worker.cut(ball, { cells: 32 }, { progress: () => false }))).code, 'cancelled');
+  const thrown = new Error('from the callback');
+  await assert.rejects(worker.cut(ball, { cells: 32 }, { progress: () => { throw thrown; } }), thrown);
+  assert.equal((await worker.cut(cube, { cells: 4 })).regionCount, 2);
+}));
+
+test('errors keep their class, code, place and message', () => withWorker(async (worker) => {
+  assert.equal(MandolineError, CoreError);
+  const bad = { positions: cube.positions, triangles: [0, 1, 2, 0, 1, 99] };
+  const { cut } = await init();
+  let expected;
+  assert.throws(() => cut(bad, { cells: 4 }), (error) => (expected = error) instanceof MandolineError);
+  const error = await rejection(worker.cut(bad, { cells: 4 }));
+  for (const key of ['name', 'code', 'message', 'stage', 'element', 'element2']) assert.equal(error[key], expected[key], key);
+  assert.equal(error.code, 'badIndex');
+  assert.equal(error.element, 1);
+  assert.equal(describe(error), describe(expected));
+}));
+
+test('two crossing triangles are both named', () => withWorker(async (worker) => {
+  const positions = [0, 0, 0, 2, 0, 0, 0, 2, 0, 0.5, 0.5, -1, 0.5, 0.5, 1, 3, 3, 0];
+  const error = await rejection(worker.cut({ positions, triangles: [0, 1, 2, 3, 4, 5] }, { cells: 3 }));
+  assert.equal(error.code, 'selfIntersection');
+  assert.deepEqual([error.element, error.element2].sort(), [0, 1]);
+}));
+
+test('what a worker cannot be given is a badArgument', () => withWorker(async (worker) => {
+  assert.equal((await rejection(worker.cut(cube, { cells: () => 4 }))).code, 'badArgument');
+  assert.equal((await rejection(worker.cut(cube, { cells: 4 }, { signal: 'no' }))).code, 'badArgument');
+  assert.equal((await rejection(worker.cut(cube, { cells: 4 }, { transfer: [cube] }))).code, 'badArgument');
+  assert.equal((await rejection(worker.cut(cube, { cells: 4 }, null))).code, 'badArgument');
+  assert.equal((await rejection(worker.cut())).code, 'badArgument');
+  assert.equal((await worker.cut(cube, { cells: 4 })).regionCount, 2);
+}));
+
+test('a call that waits leaves the queue when aborted', () => withWorker(async (worker) => {
+  const controller = new AbortController();
+  const { promise, running } = begun(worker, ball, 32);
+  const waiting = worker.cut(ball, { cells: 128 }, { signal: controller.signal });
+  const last = worker.cut(cube, { cells: 4 });
+  await running;
+  controller.abort();
+  assert.equal((await rejection(waiting)).code, 'cancelled');
+  assert.equal((await promise).regionCount, 2);
+  assert.equal((await last).regionCount, 2);
+}));
+
+test('a call that runs is stopped when aborted, and the queue goes on', () => withWorker(async (worker) => {
+  const controller = new AbortController();
+  const whole = performance.now();
+  await worker.cut(ball, { cells: 128 });
+  const wholeTime = performance.now() - whole;
+  const { promise, running } = begun(worker, ball, 128, { signal: controller.signal });
+  const next = worker.cut(cube, { cells: 4 });
+  await running;
+  const aborted = performance.now();
+  controller.abort(new Error('why'));
+  const error = await rejection(promise);
+  assert.equal(error.code, 'cancelled');
+  assert.equal(error.cause.message, 'why');
+  assert.equal((await next).regionCount, 2);
+  assert.ok(performance.now() - aborted < wholeTime, 'the aborted cut was waited for');
+}));
+
+test('an aborted signal keeps a call from being made; aborting later does nothing', () => withWorker(async (worker) => {
+  assert.equal((await rejection(worker.cut(cube, { cells: 4 }, { signal: AbortSignal.abort() }))).code, 'cancelled');
+  const controller = new AbortController();
+  await worker.cut(cube, { cells: 4 }, { signal: controller.signal });
+  const other = worker.cut(ball, { cells: 16 });
+  controller.abort();
+  assert.equal((await other).regionCount, 2);
+}));
+
+test('two workers work at the same time, each on its own', () => withWorker((one) => withWorker(async (two) => {
+  const { promise, running } = begun(one, ball, 128);
+  await running;
+  assert.equal((await Promise.race([promise.then(() => 'one'), two.cut(cube, { cells: 4 }).then(() => 'two')])), 'two');
+  one.terminate();
+  assert.equal((await rejection(promise)).code, 'cancelled');
+  assert.equal((await two.cut(cube, { cells: 4 })).regionCount, 2);
+})));
+
+test('terminating rejects what runs, what waits and what comes', async () => {
+  const worker = await createWorker();
+  const { promise, running } = begun(worker, ball, 64);
+  const waiting = worker.cut(cube, { cells: 4 });
+  await running;
+  worker.terminate();
+  worker.terminate();
+  for (const call of [promise, waiting, worker.cut(cube, { cells: 4 })]) assert.equal((await rejection(call)).code, 'cancelled');
+});
+
+test('a worker starts from a compiled module', async () => {
+  const wasm = await compiledModule();
+  assert.equal(await withWorker(async (worker) => (await worker.cut(cube, { cells: 4 })).regionCount, { wasm }), 2);
+});
+
+test('a worker that cannot load the module rejects', async () => {
+  for (const wasm of [new URL('missing.wasm', import.meta.url), 'not an address', new Uint8Array([1, 2, 3]), () => {}]) {
+    const error = await rejection(createWorker({ wasm }));
+    assert.equal(error.code, 'loadFailed');
+    assert.match(describe(error), /could not be|can't be/);
+  }
+});
+
+/** Runs a script of its own; resolves to what it printed when its process ended. */
+async function runScript(script) {
+  const { stdout } = await promisify(execFile)(process.execPath, ['--input-type=module', '-e', script], { cwd: root, timeout: 20_000 });
+  return stdout.trim();
+}
+
+const preamble = `
+  import { createWorker } from 'mandoline-wasm/worker';
+  const cube = { positions: [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], triangles: [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3] };
+  const worker = await createWorker();`;
+
+test('an idle worker does not keep the process alive', async () => {
+  assert.equal(await runScript(`${preamble} console.log('idle');`), 'idle');
+});
+
+test('the process waits for calls under way', async () => {
+  assert.equal(await runScript(`${preamble} worker.cut(cube, { cells: 20 }).then((r) => console.log(r.regionCount));`), '2');
+});
+
+test('after an abort the process still ends', async () => {
+  const script = `${preamble}
+    const controller = new AbortController();
+    worker.cut(cube, { cells: 200 }, { signal: controller.signal, progress: () => controller.abort() }).catch((error) => console.log(error.code));`;
+  assert.equal(await runScript(script), 'cancelled');
+});
+
+test('a worker that dies rejects its call, and the next call works', async () => {
+  const script = `
+    import threads from 'node:worker_threads';
+    import { syncBuiltinESMExports } from 'node:module';
+    const made = [];
+    threads.Worker = class extends threads.Worker { constructor(...given) { super(...given); made.push(this); } };
+    syncBuiltinESMExports();
+    ${preamble}
+    const call = worker.cut(cube, { cells: 200 }, { progress: () => made.at(-1).terminate() });
+    const next = worker.cut(cube, { cells: 4 });
+    console.log((await call.catch((error) => error)).code, (await next).regionCount, made.length);`;
+  assert.equal(await runScript(script), 'internalError 2 2');
+});
