@@ -1,0 +1,299 @@
+// The calls of the package against results worked out by hand.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { compiledModule, describe, init, MandolineError } from 'mandoline-wasm';
+import { box, join, sheet, torus } from './meshes.mjs';
+
+const mandoline = await init();
+
+/** A cube around the middle vertex of a grid of 2 x 2 x 2 cells: every grid cell has a corner of it and the rest. */
+const cube = box([0.5, 0.5, 0.5], [1.5, 1.5, 1.5]);
+const grid = { min: [0, 0, 0], max: [2, 2, 2], cells: [2, 2, 2] };
+
+function areaOf(positions, triangles) {
+  let area = 0;
+  for (let i = 0; i < triangles.length; i += 3) {
+    const [a, b, c] = [0, 1, 2].map((j) => positions.subarray(3 * triangles[i + j], 3 * triangles[i + j] + 3));
+    const u = b.map((x, d) => x - a[d]);
+    const v = c.map((x, d) => x - a[d]);
+    area += Math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2;
+  }
+  return area;
+}
+
+function assertClosed(triangles) {
+  const open = new Map();
+  for (let i = 0; i < triangles.length; i += 3) {
+    for (let j = 0; j < 3; ++j) {
+      const [a, b] = [triangles[i + j], triangles[i + ((j + 1) % 3)]];
+      const key = `${Math.min(a, b)} ${Math.max(a, b)}`;
+      open.set(key, (open.get(key) ?? 0) + (a < b ? 1 : -1));
+    }
+  }
+  assert.ok([...open.values()].every((sum) => sum === 0));
+}
+
+test('init gives the same promise every time', async () => {
+  assert.equal(init(), init({ wasm: 'elsewhere' }));
+  assert.ok((await compiledModule()) instanceof WebAssembly.Module);
+  assert.match(mandoline.version, /^\d+\.\d+\.\d+$/);
+});
+
+test('a cube across eight grid cells', () => {
+  const cut = mandoline.cut(cube, grid);
+  assert.equal(cut.cellRegion.length, 16);
+  assert.equal(cut.faceTriangle.length, 36 + 24 + 24); // a side's two triangles fall into six pieces; inner grid-faces into two
+  assert.equal(cut.faceTriangle.filter((t) => t >= 0).length, 36);
+  assert.deepEqual([...cut.regionWinding].sort(), [0, 1]);
+  assert.deepEqual([...cut.gridCellRegion], Array(8).fill(-1));
+  assert.equal(cut.triangleCount, 12);
+  assert.equal(cut.droppedTriangles.length, 0);
+
+  const inside = cut.regionWinding.indexOf(1);
+  const measures = mandoline.measure(cube, cut);
+  cut.cellRegion.forEach((region, cell) => assert.equal(measures.cellVolume[cell], region === inside ? 0.125 : 0.875));
+  assert.equal(measures.regionVolume[inside], 1);
+  assert.equal(measures.regionVolume[1 - inside], 7);
+  assert.equal(measures.faceArea.reduce((sum, area) => sum + area), 6 + 12 + 24);
+
+  const { cellCells, cellCellOffsets, faceCells, faceGridCells } = mandoline.adjacency(cut);
+  for (let cell = 0; cell < 16; ++cell) assert.equal(cellCellOffsets[cell + 1] - cellCellOffsets[cell], 4); // three of its kind, and the rest
+  assert.equal(cellCells.length, 64);
+  assert.equal(faceCells.filter((cell) => cell < 0).length, 24);
+  assert.ok(faceGridCells.every((cell) => cell === -1));
+
+  const edges = mandoline.cutEdges(cube, cut);
+  assert.equal(edges.edgeVertices.length, 2 * edges.edgeLength.length);
+  // Grid-edges, the cube's edges, its diagonals, and where it crosses the three inner planes.
+  const length = 54 * 1 + 12 + 6 * Math.SQRT2 + 3 * 4;
+  assert.ok(Math.abs(edges.edgeLength.reduce((sum, x) => sum + x) - length) < 1e-12);
+
+  const validation = mandoline.validate(cube, cut);
+  assert.equal(validation.pass, true);
+  assert.ok(validation.checks.length > 5);
+
+  const { triangles, faceTriangleOffsets } = mandoline.triangulate(cut);
+  assert.equal(faceTriangleOffsets.length, cut.faceTriangle.length + 1);
+  assert.equal(faceTriangleOffsets.at(-1) * 3, triangles.length);
+  const cell = cut.cellRegion.indexOf(inside);
+  const surfaceOfCell = mandoline.triangulate(cut, { cell });
+  assertClosed(surfaceOfCell);
+  assert.equal(areaOf(cut.positions, surfaceOfCell), 1.5);
+  const surface = mandoline.triangulate(cut, { region: inside });
+  assertClosed(surface);
+  assert.ok(Math.abs(areaOf(cut.positions, surface) - 6) < 1e-12);
+});
+
+test('points are found in their cells', () => {
+  const cut = mandoline.cut(cube, grid);
+  const inside = cut.regionWinding.indexOf(1);
+  const place = mandoline.cellAt(cut, [0.75, 1.25, 0.75]);
+  assert.deepEqual(place.gridCell, [0, 1, 0]);
+  assert.equal(place.region, inside);
+  assert.equal(cut.cellRegion[place.cell], inside);
+  assert.deepEqual([...cut.cellGridCell.slice(3 * place.cell, 3 * place.cell + 3)], [0, 1, 0]);
+  assert.equal(mandoline.cellAt(cut, [3, 0, 0]), null);
+  const many = mandoline.cellsAt(cut, [0.75, 1.25, 0.75, 0.1, 0.1, 0.1, 3, 0, 0]);
+  assert.equal(many.cell[0], place.cell);
+  assert.deepEqual([...many.region], [inside, 1 - inside, -1]);
+  assert.deepEqual([...many.gridCell], [0, 1, 0, 0, 0, 0, -1, -1, -1]);
+});
+
+test('a slice has the polygons of all cells', () => {
+  const cut = mandoline.cut(cube, { min: [0, 0, 0], max: [4, 2, 2], cells: [4, 2, 2] });
+  const inside = cut.regionWinding.indexOf(1);
+  const areas = (slice) => {
+    const sums = [0, 0];
+    slice.polygonRegion.forEach((region, p) => {
+      sums[region] += areaOf(slice.positions, slice.triangles.subarray(3 * slice.polygonTriangleOffsets[p], 3 * slice.polygonTriangleOffsets[p + 1]));
+    });
+    return [sums[inside], sums[1 - inside]];
+  };
+  const slice = mandoline.slice(cut, { normal: [0, 0, 2], offset: 2.5 });
+  assert.deepEqual(areas(slice), [1, 7]);
+  assert.deepEqual([...slice.polygonCell].filter((cell) => cell < 0).length, 4);
+  assert.ok(slice.positions.every((x, i) => i % 3 < 2 || x === 1.25));
+  assert.deepEqual(areas(mandoline.slice(cut, { normal: [0, 0, 2], offset: 2.5 }, { untouched: false })), [1, 3]);
+});
+
+test('a cube that is a grid cell', () => {
+  const aligned = box([1, 1, 1], [2, 2, 2]);
+  const cut = mandoline.cut(aligned, { origin: [0, 0, 0], spacing: [1, 1, 1], cells: [3, 3, 3] });
+  const inside = cut.regionWinding.indexOf(1);
+  const { regionVolume } = mandoline.measure(aligned, cut);
+  assert.deepEqual([regionVolume[inside], regionVolume[1 - inside]], [1, 26]);
+  assert.ok(cut.faceTriangle.every((t, f) => t < 0 || cut.faceAxis[f] >= 0));
+  assert.equal(mandoline.validate(aligned, cut).pass, true);
+});
+
+test('an open sheet has no winding numbers', () => {
+  const mesh = sheet([-1, -1], [2, 2], 0.5);
+  const cut = mandoline.cut(mesh, { min: [0, 0, 0], max: [1, 1, 1], cells: [1, 1, 1] });
+  assert.equal(cut.regionWinding, null);
+  assert.equal(cut.regionCount, 2);
+  assert.deepEqual([...mandoline.measure(mesh, cut).cellVolume], [0.5, 0.5]);
+  assert.equal(mandoline.validate(mesh, cut).pass, true);
+});
+
+test('a sheet that ends within a cell cuts it partly', () => {
+  const mesh = sheet([-1, -1], [0.5, 2], 0.5);
+  const cut = mandoline.cut(mesh, { min: [0, 0, 0], max: [1, 1, 1], cells: [1, 1, 1] });
+  assert.equal(cut.regionCount, 1);
+  assert.deepEqual([...mandoline.measure(mesh, cut).cellVolume], [1]);
+  assert.equal(mandoline.validate(mesh, cut).pass, true);
+});
+
+test('all kinds of grids and arrays give the same cut', () => {
+  const planes = [[0, 1, 2], new Float64Array([0, 1, 2]), new Float32Array([0, 1, 2])];
+  const expected = mandoline.cut(cube, grid);
+  const plain = { positions: [...cube.positions], triangles: [...cube.triangles] };
+  const others = [
+    mandoline.cut(plain, grid),
+    mandoline.cut({ positions: new Float32Array(cube.positions), triangles: new Uint16Array(cube.triangles) }, grid),
+    mandoline.cut({ positions: cube.positions, triangles: new Int32Array(cube.triangles) }, { origin: [0, 0, 0], spacing: [1, 1, 1], cells: [2, 2, 2] }),
+    mandoline.cut(cube, { planes }),
+    mandoline.cut(cube, expected.grid),
+  ];
+  for (const other of others) {
+    assert.deepEqual({ ...other, grid: other.grid.planes, stats: 0 }, { ...expected, grid: expected.grid.planes, stats: 0 });
+  }
+  assert.deepEqual(others[4].grid, expected.grid);
+  assert.equal(others[3].grid.spacing, null);
+});
+
+test('a grid around the mesh has a margin and cubic cells', () => {
+  const { grid: around } = mandoline.cut(box([0, 0, 0], [1, 0.5, 0.25]), { cells: 11 });
+  around.spacing.forEach((spacing) => assert.ok(Math.abs(spacing - 0.1) < 1e-15));
+  assert.deepEqual(around.cells, [11, 6, 4]);
+});
+
+test('gridCellRegion may be left out', () => {
+  const cut = mandoline.cut(cube, grid, { gridCellRegion: false });
+  assert.equal('gridCellRegion' in cut, false);
+  assert.equal(mandoline.validate(cube, cut).pass, true);
+});
+
+test('the same input gives the same bits, whatever was cut before', () => {
+  const mesh = torus(60, 30);
+  const { stats: _, ...first } = mandoline.cut(mesh, { cells: 17 });
+  mandoline.cut(cube, { cells: 40 });
+  const { stats: __, ...second } = mandoline.cut(mesh, { cells: 17 });
+  assert.deepEqual(second, first);
+});
+
+test('results can be cloned and transferred, and arguments stay as they are', () => {
+  const mesh = torus(20, 10);
+  const before = structuredClone(mesh);
+  const cut = mandoline.cut(mesh, { cells: 8 });
+  const copy = structuredClone(cut);
+  mandoline.validate(mesh, cut);
+  mandoline.measure(mesh, cut);
+  mandoline.write(mesh, cut, 'vtu');
+  mandoline.slice(cut, { normal: [0, 0, 1], offset: 0 });
+  assert.deepEqual(mesh, before);
+  assert.deepEqual(cut, copy);
+  const buffers = Object.values(cut).filter((value) => ArrayBuffer.isView(value)).map((array) => array.buffer);
+  assert.equal(new Set(buffers).size, buffers.length);
+  const moved = structuredClone(cut, { transfer: buffers });
+  assert.deepEqual(moved, copy);
+  assert.equal(cut.positions.length, 0);
+});
+
+test('snapping moves vertices onto planes', () => {
+  const nearly = box([0.5, 0.5, 1.01], [1.5, 1.5, 1.5]);
+  const cut = mandoline.cut(nearly, grid, { snapTolerance: 0.05 });
+  assert.equal(cut.stats.snappedVertices, 4);
+  assert.ok(Math.abs(cut.stats.largestSnap - 0.01) < 1e-12);
+  assert.equal(mandoline.validate(nearly, cut, { snapTolerance: 0.05 }).pass, true);
+  assert.equal(mandoline.validate(nearly, cut).pass, false);
+});
+
+test('files', () => {
+  const cut = mandoline.cut(cube, grid);
+  const text = (format) => new TextDecoder().decode(mandoline.write(cube, cut, format));
+  const dump = JSON.parse(text('json'));
+  assert.equal(dump.format, 'mandoline-cut-mesh');
+  for (const [key, value] of Object.entries(dump)) {
+    if (Array.isArray(value)) assert.deepEqual(value, [...cut[key]], key);
+  }
+  assert.match(text('vtu'), /^<\?xml[^]*NumberOfCells="16"/);
+  const obj = text('obj');
+  assert.match(obj, /^g region_/);
+  assert.equal(obj.match(/^f /gm).length, 36);
+});
+
+test('doubles in files read back identically', () => {
+  const tiny = 1e-300;
+  const mesh = box([0.1 * tiny, 1e-7 * tiny, 0], [tiny / 3, tiny, 1e21 * tiny]);
+  const cut = mandoline.cut(mesh, { cells: 2 });
+  assert.deepEqual(JSON.parse(new TextDecoder().decode(mandoline.write(mesh, cut, 'json'))).positions, [...cut.positions]);
+});
+
+test('progress runs through all stages', () => {
+  const seen = [];
+  const cut = mandoline.cut(torus(100, 50), { cells: 20 }, { progress: (state) => { seen.push(state); } });
+  const stages = [...new Set(seen.map(({ stage }) => stage))];
+  assert.deepEqual(stages, cut.stats.stages.map(({ stage }) => stage));
+  for (const { stage, stageIndex, stageCount, done, total } of seen) {
+    assert.equal(stages[stageIndex], stage);
+    assert.equal(stageCount, stages.length);
+    assert.ok(done >= 0 && done <= total);
+  }
+});
+
+test('returning false cancels; what a callback throws reaches the caller; both leave the module usable', () => {
+  const mesh = torus(40, 20);
+  let calls = 0;
+  const cancelled = () => mandoline.cut(mesh, { cells: 10 }, { progress: ({ stage }) => { ++calls; return stage !== 'stencil'; } });
+  assert.throws(cancelled, { name: 'MandolineError', code: 'cancelled', stage: 'stencil' });
+  const after = calls;
+  const own = new Error('mine');
+  assert.throws(() => mandoline.cut(mesh, { cells: 10 }, { progress() { throw own; } }), (error) => error === own);
+  assert.equal(calls, after);
+  assert.equal(mandoline.validate(mesh, mandoline.cut(mesh, { cells: 10 })).pass, true);
+});
+
+test('a callback may cut, too', () => {
+  let inner;
+  const outer = mandoline.cut(cube, grid, { progress: () => { inner ??= mandoline.cut(cube, grid); } });
+  assert.deepEqual(inner.positions, outer.positions);
+});
+
+test('failures are named', () => {
+  const finite = box([0, 0, 0], [1, 1, 1]);
+  const broken = { ...finite, positions: finite.positions.slice() };
+  broken.positions[7] = NaN;
+  const crossing = join(sheet([0, 0], [1, 1], 0.5), { positions: [0.5, 0.5, 0, 0.6, 0.5, 1, 0.5, 0.6, 1], triangles: [0, 1, 2] });
+  const cases = [
+    [() => mandoline.cut({ positions: [], triangles: [] }, { cells: 3 }), { code: 'emptyMesh', stage: 'input' }],
+    [() => mandoline.cut({ positions: [0, 0], triangles: [0, 0, 0] }, { cells: 3 }), { code: 'badArrays' }],
+    [() => mandoline.cut({ ...finite, triangles: [0, 1, 2, 0, 1, 8] }, { cells: 3 }), { code: 'badIndex', element: 1 }],
+    [() => mandoline.cut({ ...finite, triangles: [0, 1, -1] }, { cells: 3 }), { code: 'badIndex', element: 0 }],
+    [() => mandoline.cut({ ...finite, triangles: [0, 1, 2 ** 32] }, { cells: 3 }), { code: 'badIndex', element: 0 }],
+    [() => mandoline.cut(broken, { cells: 3 }), { code: 'nonFiniteCoordinate', element: 2 }],
+    [() => mandoline.cut(finite, { cells: 0 }), { code: 'badGrid', stage: 'input' }],
+    [() => mandoline.cut(finite, { cells: -(2 ** 70) }), { code: 'badGrid' }],
+    [() => mandoline.cut(finite, { planes: [[0, 1], [0, 0], [0, 1]] }), { code: 'badGrid', element: 1 }],
+    [() => mandoline.cut(finite, { planes: [[0, 1], [0, 1], [0, NaN]] }), { code: 'badGrid', element: 2 }],
+    [() => mandoline.cut(finite, { cells: 2 ** 70 }), { code: 'gridTooLarge' }],
+    [() => mandoline.cut(finite, { cells: 3 }, { snapTolerance: 0.5 }), { code: 'badOption' }],
+    [() => mandoline.cut(finite, { cells: 3 }, { snapTolerance: NaN }), { code: 'badOption' }],
+    [() => mandoline.cut(crossing, { cells: 16 }), { code: 'selfIntersection', element2: 2 }],
+  ];
+  for (const [call, expected] of cases) {
+    assert.throws(call, (error) => {
+      assert.ok(error instanceof MandolineError && error instanceof Error);
+      for (const [key, value] of Object.entries(expected)) assert.equal(error[key], value, `${error.code}: ${error.message}`);
+      assert.ok(describe(error).startsWith(error.message));
+      assert.ok(describe(error).length > error.message.length + 20);
+      return true;
+    });
+  }
+});
+
+test('describe takes whatever was caught', () => {
+  assert.equal(describe(new TypeError('no')), 'TypeError: no');
+  assert.equal(describe('text'), 'text');
+  assert.equal(describe(undefined), 'undefined');
+  assert.match(describe({ code: 'badGrid', message: 'No cells.', stage: 'input', element: 1, element2: -1 }), /^No cells\. \(stage input, axis y\) /);
+});
