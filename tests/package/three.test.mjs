@@ -1,0 +1,218 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { init } from 'mandoline-wasm';
+import { cellArrays, cellColors, cellGeometry, edgeGeometry, meshFromGeometry, sliceGeometry } from 'mandoline-wasm/three';
+import { BoxGeometry, BufferAttribute, BufferGeometry, InterleavedBuffer, InterleavedBufferAttribute, Matrix4, SphereGeometry } from 'three';
+import { box, sphere } from './shapes.mjs';
+
+const mandoline = await init();
+const mesh = sphere(12);
+const cutMesh = mandoline.cut(mesh, { cells: 7 });
+const faceTriangles = mandoline.triangulate(cutMesh);
+const measures = mandoline.measure(mesh, cutMesh);
+const cellCount = cutMesh.cellRegion.length;
+
+const corner = (array, i) => [array[3 * i], array[3 * i + 1], array[3 * i + 2]];
+const minus = (a, b) => a.map((x, d) => x - b[d]);
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+
+/** By the divergence theorem, per cell. */
+function volumes({ position, cell }) {
+  const result = new Float64Array(cellCount);
+  for (let i = 0; i < cell.length; i += 3) result[cell[i]] += dot(corner(position, i), cross(corner(position, i + 1), corner(position, i + 2))) / 6;
+  return result;
+}
+
+function assertClose(actual, expected, tolerance, what) {
+  assert.equal(actual.length, expected.length, what);
+  for (let i = 0; i < actual.length; ++i) {
+    if (!(Math.abs(actual[i] - expected[i]) <= tolerance)) assert.fail(`${what}[${i}]: ${actual[i]} instead of ${expected[i]}`);
+  }
+}
+
+test('the triangles of every cell enclose its volume, seen from outside', () => {
+  const arrays = cellArrays(cutMesh, faceTriangles);
+  assertClose(volumes(arrays), measures.cellVolume, 1e-6, 'volume');
+  for (let i = 0; i < arrays.cell.length; i += 3) {
+    const [a, b, c] = [0, 1, 2].map((k) => corner(arrays.position, i + k));
+    const normal = cross(minus(b, a), minus(c, a));
+    assert.ok(Math.abs(Math.hypot(...corner(arrays.normal, i)) - 1) < 1e-6);
+    const area = Math.hypot(...normal);
+    if (area > 1e-4) assert.ok(dot(normal, corner(arrays.normal, i)) > 0.999 * area);
+    for (const key of ['cell', 'face']) assert.ok(arrays[key][i] === arrays[key][i + 1] && arrays[key][i] === arrays[key][i + 2]);
+    const { cellHalfFaceOffsets: offsets, cellHalfFaces } = cutMesh;
+    const own = cellHalfFaces.subarray(offsets[arrays.cell[i]], offsets[arrays.cell[i] + 1]);
+    assert.ok(own.some((halfFace) => halfFace >> 1 === arrays.face[i]));
+  }
+});
+
+test('both sides of a face between two cut-cells are there', () => {
+  const { faceCells } = mandoline.adjacency(cutMesh);
+  const { face, cell } = cellArrays(cutMesh, faceTriangles);
+  const owners = Array.from(cutMesh.faceTriangle, () => new Set());
+  for (let i = 0; i < face.length; i += 3) owners[face[i]].add(cell[i]);
+  owners.forEach((found, f) => assert.deepEqual([...found].sort(), [...new Set([faceCells[2 * f], faceCells[2 * f + 1]])].filter((c) => c >= 0).sort()));
+});
+
+test('pieces of triangles and pieces of grid-faces together are all', () => {
+  const [all, surface, grid] = ['all', 'surface', 'grid'].map((faces) => cellArrays(cutMesh, faceTriangles, { faces }));
+  assert.equal(surface.cell.length + grid.cell.length, all.cell.length);
+  assert.ok(surface.face.every((face) => cutMesh.faceTriangle[face] >= 0));
+  assert.ok(grid.face.every((face) => cutMesh.faceTriangle[face] < 0));
+  assert.ok(surface.cell.length > 0 && grid.cell.length > 0);
+});
+
+test('chosen cells come alone, in that order', () => {
+  const { cell } = cellArrays(cutMesh, faceTriangles, { cells: [5, 2] });
+  assert.deepEqual(cell.filter((id, i) => id !== cell[i - 1]), Uint32Array.of(5, 2));
+  assert.equal(cellArrays(cutMesh, faceTriangles, { cells: [] }).position.length, 0);
+  for (const bad of [-1, cellCount, 0.5, NaN]) {
+    assert.throws(() => cellArrays(cutMesh, faceTriangles, { cells: [0, bad] }), { code: 'badArgument', element: 1 });
+  }
+  assert.throws(() => cellArrays(cutMesh, faceTriangles, { faces: 'some' }), { code: 'badArgument' });
+});
+
+test('the origin is subtracted before rounding', () => {
+  const far = 2 ** 26;
+  const cube = box([far, 0, 0], [far + 1, 1, 1]);
+  const cut = mandoline.cut(cube, { min: [far - 0.5, -0.5, -0.5], max: [far + 1.75, 1.75, 1.75], cells: [3, 3, 3] });
+  const { position } = cellArrays(cut, mandoline.triangulate(cut), { origin: [far, 0, 0] });
+  const found = new Set(position.filter((_, i) => i % 3 === 0));
+  assert.deepEqual([...found].sort((a, b) => a - b), [-0.5, 0, 0.25, 1, 1.75]);
+});
+
+test('a geometry has colours, and explodes cell by cell', () => {
+  const still = cellGeometry(cutMesh, faceTriangles);
+  assert.ok(still instanceof BufferGeometry);
+  assert.deepEqual(Object.keys(still.attributes).sort(), ['cell', 'color', 'face', 'normal', 'position']);
+  const arrays = cellArrays(cutMesh, faceTriangles);
+  for (const key of Object.keys(arrays)) assert.deepEqual(still.getAttribute(key).array, arrays[key]);
+  const moved = cellGeometry(cutMesh, faceTriangles, { measures, explode: 0.5 });
+  const center = cutMesh.grid.planes.map((axis) => (axis[0] + axis.at(-1)) / 2);
+  const { cell } = arrays;
+  const expected = arrays.position.map((x, i) => x + 0.5 * (measures.cellCentroid[3 * cell[Math.floor(i / 3)] + (i % 3)] - center[i % 3]));
+  assertClose(moved.getAttribute('position').array, expected, 1e-6, 'position');
+  assert.throws(() => cellGeometry(cutMesh, faceTriangles, { explode: 0.5 }), { code: 'badArgument' });
+  const cellColor = cellColors(cutMesh, 'region');
+  const vertex = cell.length - 1;
+  assert.deepEqual(corner(still.getAttribute('color').array, vertex), corner(cellColor, cell[vertex]));
+});
+
+test('colours tell what they are asked for', () => {
+  for (const colorBy of ['region', 'winding', 'cell', 'volume']) {
+    const colors = cellColors(cutMesh, colorBy, measures);
+    assert.equal(colors.length, 3 * cellCount);
+    assert.ok(colors.every((value) => value >= 0 && value <= 1));
+    assert.deepEqual(colors, cellColors(cutMesh, colorBy, measures));
+  }
+  const { cellRegion } = cutMesh;
+  const regionColors = cellColors(cutMesh, 'region');
+  for (let cell = 0; cell < cellCount; ++cell) {
+    const same = String(corner(regionColors, cell)) === String(corner(regionColors, 0));
+    assert.equal(same, cellRegion[cell] === cellRegion[0]);
+  }
+  const luminance = (colors, cell) => dot(corner(colors, cell), [0.2126, 0.7152, 0.0722]);
+  const byVolume = cellColors(cutMesh, 'volume', measures);
+  const order = [...cellRegion.keys()].sort((a, b) => measures.cellVolume[a] - measures.cellVolume[b]);
+  order.slice(1).forEach((cell, i) => assert.ok(luminance(byVolume, cell) >= luminance(byVolume, order[i]) - 1e-6));
+  assert.ok(luminance(byVolume, order.at(-1)) > 4 * luminance(byVolume, order[0]));
+  const byCell = cellColors(cutMesh, 'cell');
+  assert.ok(new Set(Array.from(cellRegion, (_, cell) => String(corner(byCell, cell)))).size > 0.9 * cellCount);
+  assert.throws(() => cellColors(cutMesh, 'volume'), { code: 'badArgument' });
+  assert.throws(() => cellColors(cutMesh, 'taste'), { code: 'badArgument' });
+});
+
+test('winding numbers of either sign differ from none and from each other', () => {
+  const regionWinding = Int32Array.of(-1, 0, 1, 2);
+  const made = { cellRegion: Uint32Array.of(0, 1, 2, 3), regionWinding };
+  const colors = cellColors(made, 'winding');
+  assert.equal(new Set([0, 1, 2, 3].map((cell) => String(corner(colors, cell)))).size, 4);
+  const open = cellColors({ ...made, regionWinding: null }, 'winding');
+  assert.deepEqual(corner(open, 0), corner(open, 3));
+});
+
+test('the first regions differ for people without red or green cones', () => {
+  const colors = cellColors({ cellRegion: Uint32Array.of(0, 1, 2, 3, 4, 5, 6) }, 'region');
+  // Viénot, Brettel, Mollon 1999, on linear RGB.
+  const sights = [
+    [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    [[0.11238, 0.88762, 0], [0.11238, 0.88762, 0], [0.00401, -0.00401, 1]],
+    [[0.29275, 0.70725, 0], [0.29275, 0.70725, 0], [-0.02234, 0.02234, 1]],
+  ];
+  for (const sight of sights) {
+    const seen = (cell) => sight.map((row) => Math.cbrt(dot(row, corner(colors, cell))));
+    for (let a = 0; a < 7; ++a) for (let b = 0; b < a; ++b) assert.ok(Math.hypot(...minus(seen(a), seen(b))) > 0.08, `regions ${a} and ${b}`);
+  }
+});
+
+test('edges are lines between vertices of the cut-mesh', () => {
+  const cutEdges = mandoline.cutEdges(mesh, cutMesh);
+  const origin = [1, 2, 3];
+  const geometry = edgeGeometry(cutMesh, cutEdges, origin);
+  assert.deepEqual(geometry.index.array, cutEdges.edgeVertices);
+  const position = geometry.getAttribute('position');
+  for (let edge = 0; edge < cutEdges.edgeLength.length; ++edge) {
+    const [a, b] = [0, 1].map((end) => geometry.index.getX(2 * edge + end));
+    const length = Math.hypot(position.getX(a) - position.getX(b), position.getY(a) - position.getY(b), position.getZ(a) - position.getZ(b));
+    assert.ok(Math.abs(length - cutEdges.edgeLength[edge]) < 1e-5);
+  }
+  assertClose(corner(position.array, 7), minus(corner(cutMesh.positions, 7), origin), 1e-6, 'position');
+});
+
+test('a slice is filled, in its plane, in the colours of its cells', () => {
+  const plane = { normal: [1, 2, 2], offset: 0.3 };
+  const slice = mandoline.slice(cutMesh, plane);
+  const origin = [0.25, -0.5, 1];
+  const geometry = sliceGeometry(cutMesh, slice, { colorBy: 'volume', measures, origin });
+  const { position, normal, color, cell } = Object.fromEntries(Object.entries(geometry.attributes).map(([name, { array }]) => [name, array]));
+  assert.equal(cell.length, slice.triangles.length);
+  let area = 0;
+  for (let i = 0; i < cell.length; ++i) {
+    assert.ok(Math.abs(dot(plane.normal, corner(position, i)) + dot(plane.normal, origin) - plane.offset) < 1e-5);
+    assertClose(corner(normal, i), [1 / 3, 2 / 3, 2 / 3], 1e-6, 'normal');
+    if (i % 3) continue;
+    const [a, b, c] = [0, 1, 2].map((k) => corner(position, i + k));
+    area += dot(cross(minus(b, a), minus(c, a)), [1 / 3, 2 / 3, 2 / 3]) / 2;
+  }
+  assert.ok(area > Math.PI * 0.9, 'the cross-section reaches through the sphere');
+  const colors = cellColors(cutMesh, 'volume', measures);
+  const cut = cell.findIndex((id) => id >= 0), untouched = cell.indexOf(-1);
+  assert.deepEqual(corner(color, cut), corner(colors, cell[cut]));
+  assert.ok(untouched >= 0);
+  for (const colorBy of ['region', 'winding', 'cell']) assert.ok(sliceGeometry(cutMesh, slice, { colorBy }).getAttribute('color').array.every((x) => x >= 0 && x <= 1));
+});
+
+/** Signed volume of a mesh. */
+function volume({ positions, triangles }) {
+  let sum = 0;
+  for (let t = 0; t < triangles.length; t += 3) {
+    const [a, b, c] = [0, 1, 2].map((k) => corner(positions, triangles[t + k]));
+    sum += dot(a, cross(b, c)) / 6;
+  }
+  return sum;
+}
+
+test('meshes come from indexed, unindexed and interleaved geometries', () => {
+  const geometry = new BoxGeometry(1, 2, 3);
+  const indexed = meshFromGeometry(geometry);
+  const unindexed = meshFromGeometry(geometry.toNonIndexed());
+  assert.equal(unindexed.positions.length, 108);
+  for (const made of [indexed, unindexed]) assert.ok(Math.abs(volume(made) - 6) < 1e-12);
+  assert.equal(mandoline.cut(unindexed, { cells: 6 }).regionCount, 2);
+  const buffer = new InterleavedBuffer(Float32Array.of(0, 0, 0, 9, 1, 0, 0, 9, 0, 1, 0, 9), 4);
+  const interleaved = new BufferGeometry().setAttribute('position', new InterleavedBufferAttribute(buffer, 3, 0));
+  assert.deepEqual(meshFromGeometry(interleaved), { positions: Float64Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0), triangles: Uint32Array.of(0, 1, 2) });
+  const bytes = new BufferGeometry().setAttribute('position', new BufferAttribute(Uint8Array.of(0, 0, 0, 255, 0, 0, 0, 255, 0), 3, true));
+  assert.deepEqual(meshFromGeometry(bytes).positions, Float64Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0));
+  assert.throws(() => meshFromGeometry(new BufferGeometry()), { code: 'badArgument' });
+});
+
+test('a matrix moves the mesh; one that mirrors leaves it outward', () => {
+  const geometry = new SphereGeometry(1, 16, 12);
+  const whole = volume(meshFromGeometry(geometry));
+  const moved = meshFromGeometry(geometry, new Matrix4().makeTranslation(5, 6, 7).multiply(new Matrix4().makeScale(2, 1, 1)));
+  assert.ok(Math.abs(volume(moved) - 2 * whole) < 1e-6);
+  assertClose(corner(moved.positions, 0), [5, 7, 7], 1e-6, 'position');
+  assert.ok(Math.abs(volume(meshFromGeometry(geometry, new Matrix4().makeScale(-1, 1, 1))) - whole) < 1e-6);
+});
