@@ -1,0 +1,93 @@
+// The camera, moved by mouse, touch and keys. In scene units: the grid's box has a diagonal of 2 and lies around 0.
+import { PerspectiveCamera, Vector3 } from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+
+const firstDirection = new Vector3(0.42, 0.36, 1).normalize();
+const turn = Math.PI / 24;
+const restTime = 200;
+
+export class Camera {
+  readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
+  readonly controls: OrbitControls;
+  /** The camera is different from before. */
+  onChange = () => {};
+  /** The person has moved it. */
+  onMoved = () => {};
+  private isPersons = false;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(canvas: HTMLCanvasElement, reducedMotion: MediaQueryList) {
+    this.camera.position.copy(firstDirection).multiplyScalar(5);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.dampingFactor = 0.15;
+    this.controls.minDistance = 0.02;
+    this.controls.maxDistance = 60;
+    const damp = () => (this.controls.enableDamping = !reducedMotion.matches);
+    damp();
+    reducedMotion.addEventListener('change', damp);
+    this.controls.addEventListener('start', () => (this.isPersons = true));
+    this.controls.addEventListener('change', () => this.changed());
+    canvas.addEventListener('keydown', (event) => this.key(event));
+  }
+
+  private changed(): void {
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    this.camera.near = distance / 200;
+    this.camera.far = distance + 30;
+    this.camera.updateProjectionMatrix();
+    this.onChange();
+    if (!this.isPersons) return;
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.onMoved(), restTime);
+  }
+
+  /** Arrows turn, with shift they shift; + and - come nearer and go away. */
+  private key(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const step = keySteps[event.key];
+    if (!step) return;
+    event.preventDefault();
+    this.isPersons = true;
+    const [x, y, nearer] = step;
+    if (nearer !== 0) this.controls.dollyIn(nearer > 0 ? 1 / 0.9 : 0.9);
+    else if (event.shiftKey) this.controls.pan(-40 * x, 40 * y);
+    else {
+      if (x) this.controls.rotateLeft(x * turn);
+      if (y) this.controls.rotateUp(y * turn);
+    }
+    this.controls.update();
+  }
+
+  /** Looks at all of a ball. */
+  frame(center: Vector3, radius: number, keepDirection: boolean): void {
+    const direction = keepDirection ? this.camera.position.clone().sub(this.controls.target).normalize() : firstDirection;
+    const half = (this.camera.fov * Math.PI) / 360;
+    const narrow = Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect));
+    this.place(center.clone().addScaledVector(direction, radius / Math.sin(narrow)), center);
+  }
+
+  place(position: Vector3, target: Vector3): void {
+    this.isPersons = false;
+    clearTimeout(this.timer);
+    this.camera.position.copy(position);
+    this.controls.target.copy(target);
+    this.controls.update();
+    this.changed();
+  }
+
+  resize(width: number, height: number): void {
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+  }
+}
+
+/** Right, up, nearer. */
+const keySteps: Record<string, [number, number, number]> = {
+  ArrowLeft: [-1, 0, 0],
+  ArrowRight: [1, 0, 0],
+  ArrowUp: [0, 1, 0],
+  ArrowDown: [0, -1, 0],
+  '+': [0, 0, 1],
+  '=': [0, 0, 1],
+  '-': [0, 0, -1],
+};

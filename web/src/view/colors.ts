@@ -1,0 +1,106 @@
+// What colours mean. Colours are sRGB bytes; the shaders make them linear.
+import type { ColorBy, Model } from '../types';
+
+export type Rgb = readonly [number, number, number];
+
+const palette = ['#e9a23b', '#4f9fdc', '#6dbb5c', '#dc6a6f', '#9c84d6', '#43b7ad', '#d982b5', '#b8a44c'].map(fromHex);
+const outsideColor = fromHex('#8ea2b6');
+const windings: readonly { winding: number; color: Rgb }[] = [
+  { winding: -1, color: fromHex('#7d73d3') },
+  { winding: 0, color: fromHex('#98a7b5') },
+  { winding: 1, color: fromHex('#e9a23b') },
+  { winding: 2, color: fromHex('#dc6a6f') },
+  { winding: 3, color: fromHex('#a4487c') },
+];
+const noWinding = fromHex('#b3aea4');
+const volumeRamp = ['#34308a', '#2b7fa3', '#4fb980', '#f2d551'].map(fromHex);
+export const surfaceColor = fromHex('#e9a23b');
+export const gridFaceColor = fromHex('#6fa3cf');
+const untouchedKindColor = fromHex('#a9b4bf');
+
+function fromHex(hex: string): Rgb {
+  return [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16)) as unknown as Rgb;
+}
+
+function toCss(color: Rgb): string {
+  return `rgb(${color.map(Math.round).join(' ')})`;
+}
+
+/** Whether a region lies outside of the surface, as far as is known. */
+export function isOutside(model: Model, region: number): boolean {
+  return region === model.outsideRegion || model.regions[region].winding === 0;
+}
+
+/** Neighbouring ids get colours that are told apart easily; the outside has its own. */
+export function regionColor(model: Model, region: number): Rgb {
+  if (isOutside(model, region)) return outsideColor;
+  const rank = model.outsideRegion !== null && region > model.outsideRegion ? region - 1 : region;
+  return rank < palette.length ? palette[rank] : hueColor(rank);
+}
+
+/** Steps of the golden angle never come back near to a former hue soon. */
+function hueColor(id: number): Rgb {
+  const hue = (id * 0.618034) % 1;
+  const value = 0.62 + 0.16 * ((id * 0.414214) % 1);
+  return [0, 2, 4].map((shift) => 255 * value * (1 - 0.55 * Math.max(0, Math.min(1, 2 - Math.abs(((6 * hue + shift) % 6) - 3))))) as unknown as Rgb;
+}
+
+function windingColor(winding: number | null): Rgb {
+  if (winding === null) return noWinding;
+  return windings[Math.max(0, Math.min(windings.length - 1, winding + 1))].color;
+}
+
+/** The root spreads out the small cells, of which there are most. */
+function volumeColor(fraction: number): Rgb {
+  const at = Math.sqrt(Math.max(0, Math.min(1, fraction))) * (volumeRamp.length - 1);
+  const from = Math.min(Math.floor(at), volumeRamp.length - 2);
+  return [0, 1, 2].map((c) => volumeRamp[from][c] + (at - from) * (volumeRamp[from + 1][c] - volumeRamp[from][c])) as unknown as Rgb;
+}
+
+function gridCellVolume(model: Model, i: number, j: number, k: number): number {
+  return [i, j, k].reduce((volume, c, d) => volume * (model.grid.planes[d][c + 1] - model.grid.planes[d][c]), 1);
+}
+
+function byRegion(model: Model, colorBy: ColorBy): Rgb[] {
+  return model.regions.map(({ id, winding }) => (colorBy === 'winding' ? windingColor(winding) : regionColor(model, id)));
+}
+
+/** 4 bytes per cut-cell, the last one free. */
+export function cutCellColors(model: Model, colorBy: ColorBy): Uint8Array {
+  const { region, volume, gridCell } = model.cells;
+  const regions = byRegion(model, colorBy);
+  const colors = new Uint8Array(4 * region.length);
+  for (let cell = 0; cell < region.length; cell++) {
+    let color: Rgb;
+    if (colorBy === 'cell') color = hueColor(cell);
+    else if (colorBy === 'kind') color = surfaceColor;
+    else if (colorBy === 'volume') color = volumeColor(volume[cell] / gridCellVolume(model, gridCell[3 * cell], gridCell[3 * cell + 1], gridCell[3 * cell + 2]));
+    else color = regions[region[cell]];
+    colors.set(color, 4 * cell);
+  }
+  return colors;
+}
+
+/** Colour of an untouched grid cell by its number and region. */
+export function untouchedColors(model: Model, colorBy: ColorBy): (gridCell: number, region: number) => Rgb {
+  if (colorBy === 'cell') return (gridCell) => hueColor(gridCell);
+  if (colorBy === 'kind') return () => untouchedKindColor;
+  if (colorBy === 'volume') return () => volumeColor(1);
+  const regions = byRegion(model, colorBy);
+  return (_gridCell, region) => regions[region];
+}
+
+/** What the colours mean, as CSS colours, for at most `most` regions. */
+export function legend(model: Model, colorBy: ColorBy, most = 12): { label: string; color: string }[] {
+  const entry = (label: string, color: Rgb) => ({ label, color: toCss(color) });
+  if (colorBy === 'cell') return [];
+  if (colorBy === 'kind') {
+    return [entry('pieces of triangles', surfaceColor), entry('pieces of grid-faces', gridFaceColor), entry('untouched grid cells', untouchedKindColor)];
+  }
+  if (colorBy === 'volume') return [0, 0.25, 0.5, 1].map((fraction) => entry(`${100 * fraction} % of a grid cell`, volumeColor(fraction)));
+  if (colorBy === 'winding') {
+    const present = [...new Set(model.regions.map(({ winding }) => winding))].sort((a, b) => (a ?? 0) - (b ?? 0));
+    return present.slice(0, most).map((winding) => entry(winding === null ? 'no winding number' : `winding number ${winding}`, windingColor(winding)));
+  }
+  return model.regions.slice(0, most).map(({ id }) => entry(`region ${id}${isOutside(model, id) ? ', outside' : ''}`, regionColor(model, id)));
+}

@@ -1,0 +1,229 @@
+// One shader draws all cells. It looks up per cell what is the same for all of a cell's vertices, so that exploding, colouring and slicing
+// only change uniforms and a small texture, never the vertices.
+import { BackSide, Color, DataTexture, DoubleSide, FloatType, FrontSide, ShaderMaterial, Vector3, Vector4, type IUniform, type Side } from 'three';
+import { gridFaceColor } from './colors';
+
+/** Texels per row of the textures that are looked up by id. */
+const tableWidth = 1024;
+
+/** RGBA per id, looked up in shaders by `texelFetch(table, place(id), 0)`. The data is padded to whole rows. */
+export function makeTable<T extends Uint8Array | Float32Array>(count: number, create: (length: number) => T): { texture: DataTexture; data: T } {
+  const height = Math.max(1, Math.ceil(count / tableWidth));
+  const data = create(4 * tableWidth * height);
+  const texture = new DataTexture(data as Uint8Array<ArrayBuffer>, tableWidth, height);
+  if (data instanceof Float32Array) texture.type = FloatType;
+  texture.needsUpdate = true;
+  return { texture, data };
+}
+
+export type Uniforms = ReturnType<typeof makeUniforms>;
+
+/** Shared by all materials of a view. */
+export function makeUniforms() {
+  return {
+    cellCenters: { value: null as DataTexture | null },
+    cellLooks: { value: null as DataTexture | null },
+    regionShifts: { value: null as DataTexture | null },
+    explodeCells: { value: 0 },
+    explodeRegions: { value: 0 },
+    planes: { value: [0, 1, 2, 3].map(() => new Vector4()) },
+    planeCount: { value: 0 },
+    flatCut: { value: false },
+    showSurface: { value: true },
+    showGridFaces: { value: true },
+    byKind: { value: false },
+    gridFaceColor: { value: new Vector3(...gridFaceColor).divideScalar(255) },
+    hovered: { value: -1 },
+    pinned: { value: -1 },
+    accent: { value: new Color() },
+    lineColor: { value: new Color() },
+    lineOpacity: { value: 0.35 },
+  };
+}
+
+export type Geometry = 'CELLS' | 'BOXES' | 'CAPS';
+export type Purpose = 'FACES' | 'BACKS' | 'LINES' | 'PICK' | 'GHOST';
+
+const sides: Record<Purpose, Side> = { FACES: FrontSide, BACKS: BackSide, LINES: FrontSide, PICK: DoubleSide, GHOST: DoubleSide };
+
+export function makeMaterial(geometry: Geometry, purpose: Purpose, shared: Uniforms, own: Record<string, IUniform> = {}): ShaderMaterial {
+  const isTransparent = purpose === 'LINES' || purpose === 'GHOST';
+  const material = new ShaderMaterial({
+    uniforms: { ...shared, ...own },
+    defines: { [geometry]: 1, [purpose]: 1, TABLE_WIDTH: tableWidth },
+    vertexShader,
+    fragmentShader,
+    side: geometry === 'CAPS' ? DoubleSide : sides[purpose],
+    transparent: isTransparent,
+    depthWrite: !isTransparent,
+  });
+  // Lines lie in front of the faces that they bound, caps in front of faces in their plane, and the front of a face before its neighbour's back.
+  const depth = { FACES: geometry === 'CAPS' ? 1 : 2, BACKS: 3, LINES: 0, PICK: geometry === 'CAPS' ? 1 : 2, GHOST: 2 }[purpose];
+  material.polygonOffset = depth > 0;
+  material.polygonOffsetFactor = depth / 2;
+  material.polygonOffsetUnits = depth;
+  return material;
+}
+
+const vertexShader = /* glsl */ `
+uniform highp sampler2D regionShifts;
+uniform float explodeCells;
+uniform float explodeRegions;
+uniform vec4 planes[4];
+uniform int planeCount;
+uniform bool flatCut;
+uniform int hovered;
+uniform int pinned;
+varying vec3 vRest;
+varying vec3 vView;
+varying vec3 vNormal;
+varying vec3 vColor;
+varying float vHighlight;
+flat varying int vCell;
+
+#ifdef CELLS
+  uniform highp sampler2D cellCenters;
+  uniform highp sampler2D cellLooks;
+  uniform bool showSurface;
+  uniform bool showGridFaces;
+  uniform bool byKind;
+  uniform vec3 gridFaceColor;
+  attribute uint cell;
+  attribute float surface;
+#endif
+#ifdef BOXES
+  attribute vec3 low;
+  attribute vec3 size;
+  attribute float region;
+  attribute vec4 tint;
+#endif
+#ifdef CAPS
+  uniform vec3 capNormal;
+  attribute vec3 center;
+  attribute float region;
+  attribute vec4 tint;
+  attribute float owner;
+#endif
+
+ivec2 place(int id) {
+  return ivec2(id % TABLE_WIDTH, id / TABLE_WIDTH);
+}
+
+void main() {
+  vCell = -1;
+  bool shown = true;
+  vec3 middle;
+  float regionId;
+  vRest = position;
+  vNormal = vec3(0.0);
+  #ifdef CELLS
+    vCell = int(cell);
+    vec4 centerAndRegion = texelFetch(cellCenters, place(vCell), 0);
+    vec4 look = texelFetch(cellLooks, place(vCell), 0);
+    middle = centerAndRegion.xyz;
+    regionId = centerAndRegion.w;
+    vColor = look.rgb;
+    #ifdef GHOST
+      shown = surface > 0.5;
+    #else
+      shown = look.a > 0.5;
+    #endif
+    #ifndef LINES
+      vNormal = normal;
+      #ifndef GHOST
+        shown = shown && (surface > 0.5 ? showSurface : showGridFaces);
+      #endif
+      // Pieces of grid-faces are paler, so that they are told from the surface by any colours.
+      if (surface < 0.5) vColor = byKind ? gridFaceColor : mix(vColor, vec3(0.88), 0.22);
+    #endif
+  #endif
+  #ifdef BOXES
+    vRest = low + size * position;
+    middle = low + 0.5 * size;
+    regionId = region;
+    vColor = mix(tint.rgb, vec3(0.88), 0.22);
+    #ifndef LINES
+      vNormal = normal;
+    #endif
+  #endif
+  #ifdef CAPS
+    vCell = int(owner);
+    middle = center;
+    regionId = region;
+    vColor = tint.rgb;
+    vNormal = capNormal;
+  #endif
+  vHighlight = vCell < 0 ? 0.0 : vCell == pinned ? 0.7 : vCell == hovered ? 0.4 : 0.0;
+  vec3 moved = vRest;
+  #ifndef GHOST
+    if (!flatCut) {
+      for (int p = 0; p < planeCount; p++) shown = shown && dot(planes[p].xyz, middle) <= planes[p].w;
+    }
+    moved += explodeCells * middle + explodeRegions * texelFetch(regionShifts, place(int(regionId)), 0).xyz;
+  #endif
+  vec4 seen = modelViewMatrix * vec4(moved, 1.0);
+  vView = seen.xyz;
+  vNormal = mat3(viewMatrix) * vNormal;
+  // Beyond the far plane, nothing of the triangle is drawn.
+  gl_Position = shown ? projectionMatrix * seen : vec4(0.0, 0.0, 2.0, 1.0);
+}
+`;
+
+const fragmentShader = /* glsl */ `
+uniform vec4 planes[4];
+uniform int planeCount;
+uniform bool flatCut;
+uniform vec3 accent;
+uniform vec3 lineColor;
+uniform float lineOpacity;
+varying vec3 vRest;
+varying vec3 vView;
+varying vec3 vNormal;
+varying vec3 vColor;
+varying float vHighlight;
+flat varying int vCell;
+#ifdef CAPS
+  uniform int ownPlane;
+#endif
+
+vec3 linear(vec3 color) {
+  return pow(color, vec3(2.2));
+}
+
+/** A key light from above left of the eye, a weak one from the other side, and light from everywhere, more from above. */
+float light(vec3 normal) {
+  vec3 n = normalize(normal);
+  if (dot(n, vView) > 0.0) n = -n;
+  float key = max(0.0, dot(n, normalize(vec3(-0.35, 0.65, 0.7))));
+  float fill = max(0.0, dot(n, normalize(vec3(0.8, -0.1, 0.4))));
+  return 0.26 + 0.72 * key + 0.2 * fill + 0.1 * n.y;
+}
+
+void main() {
+  #ifndef GHOST
+    if (flatCut) {
+      for (int p = 0; p < planeCount; p++) {
+        #ifdef CAPS
+          if (p == ownPlane) continue;
+        #endif
+        if (dot(planes[p].xyz, vRest) > planes[p].w) discard;
+      }
+    }
+  #endif
+  #ifdef PICK
+    int id = vCell + 1;
+    gl_FragColor = vec4(float(id & 255), float((id >> 8) & 255), float((id >> 16) & 255), 255.0) / 255.0;
+  #else
+    #ifdef LINES
+      gl_FragColor = vec4(mix(lineColor, accent, step(0.01, vHighlight)), max(lineOpacity, step(0.01, vHighlight)));
+    #else
+      vec3 color = mix(linear(vColor), accent, vHighlight);
+      gl_FragColor = vec4(color * light(vNormal), 1.0);
+      #ifdef GHOST
+        gl_FragColor.a = 0.1;
+      #endif
+    #endif
+    #include <colorspace_fragment>
+  #endif
+}
+`;
