@@ -1,0 +1,27 @@
+// Linear RGB. Middle tones, to be seen on light and dark grounds.
+export type Color = readonly [number, number, number];
+
+function linear(hex: string): Color {
+  const channel = (at: number) => (parseInt(hex.slice(at, at + 2), 16) / 255) ** 2.2;
+  return [channel(1), channel(3), channel(5)];
+}
+
+export const triEdgeColor = linear('#8794a1');
+export const triVertexColor = linear('#8794a1');
+/** Of a crossing, by the number of axial planes that meet there. */
+export const crossingColors: readonly Color[] = ['#8794a1', '#e0822b', '#c23fa6', '#d3202f'].map(linear);
+/** Of what lies in planes across an axis. */
+export const axisColors: readonly Color[] = ['#d9534f', '#3f9d4c', '#3f78d9'].map(linear);
+export const outlineColor = linear('#5b6773');
+export const gridColor = linear('#9aa6b2');
+export const coplanarColor = linear('#f0b429');
+
+const pieces: readonly Color[] = ['#4f9fdc', '#6dbb5c', '#dc6a6f', '#9c84d6', '#43b7ad', '#d982b5', '#a9843f', '#5f79c9'].map(linear);
+
+export function pieceColor(piece: number): Color {
+  return pieces[piece % pieces.length];
+}
+
+export function shaded(color: Color, shade: number): Color {
+  return [color[0] * shade, color[1] * shade, color[2] * shade];
+}
