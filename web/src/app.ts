@@ -2,6 +2,7 @@
 import type { Validation } from 'mandoline-wasm';
 import { Events } from './events';
 import { defaultSettings, defaultSource } from './settings';
+import { isOutside } from './view/colors';
 import type { CellCard, Engine, GridSettings, Model, PageError, Settings, SliceName, SliceSettings, Source, StepPicture, StepRequest, View } from './types';
 
 export interface LoadedMesh {
@@ -60,7 +61,7 @@ export class App {
       const { grid, show } = this.settings;
       const former = 'min' in grid ? Math.max(...grid.cells) : grid.cells;
       this.change({ source, grid: { cells: cells ?? former }, show: { ...show, region: null }, camera: null }, false);
-      await this.recut(true);
+      if (!(await this.recut(true))) this.changeShow({ outside: this.hasOnlyOutside() });
     });
   }
 
@@ -77,7 +78,14 @@ export class App {
       this.change({ ...settings, source }, false);
       const error = await this.recut(settings.camera === null);
       if (error && !this.model) await this.fallBack(error);
+      else if (!error && this.hasOnlyOutside()) this.changeShow({ outside: true });
     });
+  }
+
+  /** An open sheet has no inside: without the outside, nothing would be seen. */
+  private hasOnlyOutside(): boolean {
+    const { model } = this;
+    return model !== null && model.regions.every(({ id }) => isOutside(model, id));
   }
 
   /** A page without a picture would be of no use. */
@@ -241,7 +249,7 @@ function isAbort(error: unknown): boolean {
   return error instanceof Error && error.name === 'AbortError';
 }
 
-function pageError(error: unknown): PageError {
+export function pageError(error: unknown): PageError {
   if (typeof error === 'object' && error !== null && 'title' in error && 'detail' in error) return { title: String(error.title), detail: String(error.detail) };
   return { title: 'Something went wrong', detail: error instanceof Error ? error.message : String(error) };
 }

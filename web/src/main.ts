@@ -1,4 +1,4 @@
-import { App } from './app';
+import { App, pageError } from './app';
 import { createEngine } from './engine/engine';
 import { followLink } from './link';
 import { alerts } from './ui/alerts';
@@ -14,19 +14,28 @@ import { schemeToggle } from './ui/scheme';
 import { seePanel } from './ui/see_panel';
 import { shortcuts } from './ui/shortcuts';
 import { stepsPanel } from './ui/steps_panel';
-import { CellView } from './view/index';
+import { createView } from './view/view';
 
 const element = (id: string) => document.getElementById(id) as HTMLElement;
 
-const engine = createEngine();
-const view = new CellView(element('canvas') as HTMLCanvasElement, { slice: (planes, untouched) => engine.slice(planes, untouched) });
-const app = new App(engine, view);
 const { alert, notice } = alerts(element('alerts'));
 
-app.events.on('alert', alert);
-app.events.on('state', (state) => (document.body.dataset.state = state));
-element('tools').append(schemeToggle((dark) => view.setScheme(dark)), shortcuts(app));
-element('stage').append(legend(app), hoverLine(app), progressLine(app), cellCard(app));
-element('panels').append(meshPanel(app), cutPanel(app), seePanel(app), stepsPanel(app), checksPanel(app), savePanel(app));
-acceptDrops(app);
-void followLink(app, notice);
+try {
+  start();
+} catch (error) {
+  alert(pageError(error));
+  document.body.dataset.state = 'error';
+}
+
+function start(): void {
+  const engine = createEngine();
+  const view = createView(element('canvas') as HTMLCanvasElement, { slice: (planes, untouched) => engine.slice(planes, untouched), onError: alert });
+  const app = new App(engine, view);
+  app.events.on('alert', alert);
+  app.events.on('state', (state) => (document.body.dataset.state = state));
+  element('tools').append(schemeToggle((dark) => view.setScheme(dark)), shortcuts(app));
+  element('stage').append(legend(app), hoverLine(app), progressLine(app), cellCard(app));
+  element('panels').append(meshPanel(app), cutPanel(app), seePanel(app), stepsPanel(app), checksPanel(app), savePanel(app));
+  acceptDrops(app);
+  void followLink(app, notice);
+}

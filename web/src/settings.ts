@@ -11,17 +11,17 @@ export const defaultSource: Source = { kind: 'gallery', name: 'bunny' };
 export function defaultSettings(): Settings {
   return {
     source: defaultSource,
-    grid: { cells: 20 },
+    grid: { cells: 16 },
     snapTolerance: 0,
     slices: {
       x: { on: false, position: 0.5, normal: [1, 0, 0] },
       y: { on: false, position: 0.5, normal: [0, 1, 0] },
-      z: { on: true, position: 0.5, normal: [0, 0, 1] },
-      free: { on: false, position: 0.5, normal: [Math.SQRT1_2, 0, Math.SQRT1_2] },
+      z: { on: false, position: 0.5, normal: [0, 0, 1] },
+      free: { on: true, position: 0.52, normal: unit([0.75, 0.1, 0.65]) },
     },
     sliceMode: 'whole',
     explode: { cells: 0.2, regions: 0 },
-    colorBy: 'region',
+    colorBy: 'kind',
     show: { surface: true, gridFaces: true, edges: true, untouched: true, cutCells: true, outside: false, region: null },
     camera: null,
   };
@@ -168,10 +168,16 @@ function readFreeSlice(settings: Settings, text: string): boolean {
   }
   const values = numbers(text, 4);
   if (!values || !isFraction(values[0])) return false;
-  const length = Math.hypot(values[1], values[2], values[3]);
-  if (!(length > 0)) return false;
-  settings.slices.free = { on: true, position: values[0], normal: [values[1] / length, values[2] / length, values[3] / length] };
+  const normal = values.slice(1);
+  if (!normal.some((x) => x !== 0)) return false;
+  settings.slices.free = { on: true, position: values[0], normal: unit(normal) };
   return true;
+}
+
+function unit(values: readonly number[]): Vector3 {
+  const largest = Math.max(...values.map(Math.abs));
+  const length = Math.hypot(...values.map((x) => x / largest));
+  return vector(values.map((x) => x / largest / length));
 }
 
 export function axisNormal(axis: Axis, sign: number): Vector3 {

@@ -1,13 +1,15 @@
 // One cell alone, to be turned around. Draws only when something changed.
 import {
   BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial,
-  PerspectiveCamera, Scene, WebGLRenderer,
+  PerspectiveCamera, Scene, SRGBColorSpace, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { CellCard } from '../types';
+import { gridFaceColor, surfaceColor, type Rgb } from '../view/colors';
 
-const surfaceColor = new Color('#d9805f');
-const gridColor = new Color('#c9c4bb');
+const linear = ([red, green, blue]: Rgb) => new Color().setRGB(red / 255, green / 255, blue / 255, SRGBColorSpace);
+const surfaceKind = linear(surfaceColor);
+const gridFaceKind = linear(gridFaceColor);
 
 export class CellViewer {
   private readonly renderer: WebGLRenderer;
@@ -95,6 +97,6 @@ function moved(position: Float32Array, center: number[], radius: number): Float3
 
 function colors(surface: Uint8Array): Float32Array {
   const result = new Float32Array(3 * surface.length);
-  surface.forEach((isSurface, i) => (isSurface ? surfaceColor : gridColor).toArray(result, 3 * i));
+  surface.forEach((isSurface, i) => (isSurface ? surfaceKind : gridFaceKind).toArray(result, 3 * i));
   return result;
 }

@@ -1,12 +1,12 @@
 import type { App } from '../app';
+import { legend as entriesOf } from '../view/colors';
 import { el } from './dom';
-import { legendOf } from '../view/legend';
 
 /** What the colours mean, over the picture. */
 export function legend(app: App): HTMLElement {
   const box = el('div', { class: 'legend', id: 'legend', role: 'group', 'aria-label': 'Colours' });
   const show = () => {
-    const entries = app.model ? legendOf(app.model, app.settings.colorBy) : [];
+    const entries = app.model ? entriesOf(app.model, app.settings.colorBy) : [];
     box.hidden = entries.length === 0 || box.dataset.step === 'true';
     box.replaceChildren(...entries.map(({ color, label }) => entry(color, label)));
   };
