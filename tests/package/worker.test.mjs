@@ -4,10 +4,10 @@ import { test } from 'node:test';
 import { promisify } from 'node:util';
 import { MandolineError as CoreError, compiledModule, init } from 'mandoline-wasm';
 import { MandolineError, createWorker, describe } from 'mandoline-wasm/worker';
-import { box, sphere } from './shapes.mjs';
+import { box, torus } from './meshes.mjs';
 
 const cube = box([0, 0, 0], [1, 1, 1]);
-const ball = sphere(100);
+const ring = torus(200, 200);
 const root = new URL('../..', import.meta.url);
 
 /** Runs f with a worker that is terminated afterwards. */
@@ -75,7 +75,7 @@ test('calls run in the order they were made', () => withWorker(async (worker) =>
 
 test('arguments are taken as they are at the call', () => withWorker(async (worker) => {
   const mesh = { positions: cube.positions.slice(), triangles: cube.triangles.slice() };
-  const blocking = worker.cut(ball, { cells: 8 });
+  const blocking = worker.cut(ring, { cells: 8 });
   const cutMesh = worker.cut(mesh, { min: [-1, -1, -1], max: [2, 2, 2], cells: [5, 5, 5] });
   mesh.positions.fill(NaN);
   await blocking;
@@ -96,7 +96,7 @@ test('buffers of arguments are handed over on request, and only then', () => wit
 
 test('progress is told, in order', () => withWorker(async (worker) => {
   const stages = [];
-  await worker.cut(ball, { cells: 16 }, { progress: ({ stageIndex, stageCount, done, total }) => {
+  await worker.cut(ring, { cells: 16 }, { progress: ({ stageIndex, stageCount, done, total }) => {
     assert.ok(stageIndex >= 0 && stageIndex < stageCount && done <= total);
     stages.push(stageIndex);
   } });
@@ -105,9 +105,9 @@ test('progress is told, in order', () => withWorker(async (worker) => {
 }));
 
 test('progress that returns false cancels the cut; what it throws is what the cut rejects with', () => withWorker(async (worker) => {
-  assert.equal((await rejection(worker.cut(ball, { cells: 32 }, { progress: () => false }))).code, 'cancelled');
+  assert.equal((await rejection(worker.cut(ring, { cells: 32 }, { progress: () => false }))).code, 'cancelled');
   const thrown = new Error('from the callback');
-  await assert.rejects(worker.cut(ball, { cells: 32 }, { progress: () => { throw thrown; } }), thrown);
+  await assert.rejects(worker.cut(ring, { cells: 32 }, { progress: () => { throw thrown; } }), thrown);
   assert.equal((await worker.cut(cube, { cells: 4 })).regionCount, 2);
 }));
 
@@ -142,8 +142,8 @@ test('what a worker cannot be given is a badArgument', () => withWorker(async (w
 
 test('a call that waits leaves the queue when aborted', () => withWorker(async (worker) => {
   const controller = new AbortController();
-  const { promise, running } = begun(worker, ball, 32);
-  const waiting = worker.cut(ball, { cells: 128 }, { signal: controller.signal });
+  const { promise, running } = begun(worker, ring, 32);
+  const waiting = worker.cut(ring, { cells: 128 }, { signal: controller.signal });
   const last = worker.cut(cube, { cells: 4 });
   await running;
   controller.abort();
@@ -155,9 +155,9 @@ test('a call that waits leaves the queue when aborted', () => withWorker(async (
 test('a call that runs is stopped when aborted, and the queue goes on', () => withWorker(async (worker) => {
   const controller = new AbortController();
   const whole = performance.now();
-  await worker.cut(ball, { cells: 128 });
+  await worker.cut(ring, { cells: 128 });
   const wholeTime = performance.now() - whole;
-  const { promise, running } = begun(worker, ball, 128, { signal: controller.signal });
+  const { promise, running } = begun(worker, ring, 128, { signal: controller.signal });
   const next = worker.cut(cube, { cells: 4 });
   await running;
   const aborted = performance.now();
@@ -173,13 +173,13 @@ test('an aborted signal keeps a call from being made; aborting later does nothin
   assert.equal((await rejection(worker.cut(cube, { cells: 4 }, { signal: AbortSignal.abort() }))).code, 'cancelled');
   const controller = new AbortController();
   await worker.cut(cube, { cells: 4 }, { signal: controller.signal });
-  const other = worker.cut(ball, { cells: 16 });
+  const other = worker.cut(ring, { cells: 16 });
   controller.abort();
   assert.equal((await other).regionCount, 2);
 }));
 
 test('two workers work at the same time, each on its own', () => withWorker((one) => withWorker(async (two) => {
-  const { promise, running } = begun(one, ball, 128);
+  const { promise, running } = begun(one, ring, 128);
   await running;
   assert.equal((await Promise.race([promise.then(() => 'one'), two.cut(cube, { cells: 4 }).then(() => 'two')])), 'two');
   one.terminate();
@@ -189,7 +189,7 @@ test('two workers work at the same time, each on its own', () => withWorker((one
 
 test('terminating rejects what runs, what waits and what comes', async () => {
   const worker = await createWorker();
-  const { promise, running } = begun(worker, ball, 64);
+  const { promise, running } = begun(worker, ring, 64);
   const waiting = worker.cut(cube, { cells: 4 });
   await running;
   worker.terminate();
