@@ -1,6 +1,6 @@
 // Steps that npm start, npm test and the continuous integration have in common.
 import { spawnSync } from 'node:child_process';
-import { existsSync } from 'node:fs';
+import { existsSync, statSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -31,6 +31,8 @@ const tools = {
   make: { has: () => works('make', '--version') || works('ninja', '--version'), packages: ['make'] },
   Catch2: { has: () => hasHeader('catch2/catch.hpp') || hasHeader('catch2/catch_all.hpp'), packages: ['catch2'] },
   zlib: { has: () => hasHeader('zlib.h'), packages: ['zlib1g-dev'] },
+  Emscripten: { has: () => works('emcc', '--version'), packages: ['emscripten'] },
+  Chromium: { has: () => works('/usr/bin/chromium', '--version'), packages: ['chromium'] },
   'clang with libFuzzer': { has: () => works('sh', '-c', 'command -v clang++ && ls "$(clang++ -print-resource-dir)"/lib/*/libclang_rt.fuzzer*'), packages: ['clang'] },
 };
 
@@ -47,6 +49,12 @@ export function setUp(...names) {
   run(...sudo, 'apt-get', 'install', '-y', '--no-install-recommends', ...wanted.flatMap((name) => tools[name].packages));
   const still = missing();
   if (still.length) fail(`apt-get has run, but these are still missing: ${still.join(', ')}`);
+}
+
+/** Installs the npm packages that the lock file names, unless they are there. */
+export function installPackages() {
+  const installed = path('node_modules', '.package-lock.json');
+  if (!existsSync(installed) || statSync(installed).mtimeMs < statSync(path('package-lock.json')).mtimeMs) run('npm', 'ci');
 }
 
 /** Configures and builds in the folder; further arguments go to CMake. */
