@@ -35,18 +35,19 @@ export function chosenPlane(cutMesh: CutMesh, { axis, plane }: StepRequest): { a
   return best.reduce((a, b) => (scores[b.axis][b.plane] > scores[a.axis][a.plane] ? b : a));
 }
 
-/** The grid cell with most cut-cells. */
+/** The grid cell with most cut-cells, then most half-faces. */
 export function chosenGridCell(cutMesh: CutMesh, { gridCell }: StepRequest): Vector3 {
-  const { grid, cellGridCell } = cutMesh;
+  const { grid, cellGridCell, cellRegion, cellHalfFaceOffsets, cellHalfFaces } = cutMesh;
   if (gridCell?.length === 3 && gridCell.every((index, d) => isIndex(index, grid.cells[d]))) return gridCell;
-  const cells = new Map<string, number>();
+  const scores = new Map<string, number>();
   let best: Vector3 = [0, 0, 0];
-  let most = 0;
-  for (let c = 0; c < cellGridCell.length; c += 3) {
-    const at: Vector3 = [cellGridCell[c], cellGridCell[c + 1], cellGridCell[c + 2]];
-    const count = (cells.get(at.join()) ?? 0) + 1;
-    cells.set(at.join(), count);
-    if (count > most) [most, best] = [count, at];
+  let highest = 0;
+  for (let cell = 0; cell < cellRegion.length; ++cell) {
+    const at: Vector3 = [cellGridCell[3 * cell], cellGridCell[3 * cell + 1], cellGridCell[3 * cell + 2]];
+    const halfFaces = cellHalfFaceOffsets[cell + 1] - cellHalfFaceOffsets[cell];
+    const score = (scores.get(at.join()) ?? 0) + cellHalfFaces.length + halfFaces;
+    scores.set(at.join(), score);
+    if (score > highest) [highest, best] = [score, at];
   }
   return best;
 }

@@ -75,18 +75,21 @@ export function triEdges(subject: Subject, request: StepRequest): StepPicture {
   const drawing = new Drawing(subject.origin);
   const edges = drawTriEdges(drawing, subject, shown);
   const crossings = [0, 0, 0, 0];
+  let triVerticesOnPlanes = 0;
   const vertices = new Set<number>();
   forEachEdge(subject, facesOfTriangles(subject, shown), (u, v) => vertices.add(u).add(v));
   for (const vertex of vertices) {
     const planes = (vertexMask[vertex] & 1) + ((vertexMask[vertex] >> 1) & 1) + (vertexMask[vertex] >> 2);
     if (isOnTriEdge(subject, vertex)) ++crossings[planes];
     else if (!isTriVertex(subject, vertex)) continue;
+    else if (planes > 0) ++triVerticesOnPlanes;
     drawing.point(pointOf(positions, vertex), planes > 0 ? crossingColors[planes] : triVertexColor);
   }
   const several = crossings[2] + crossings[3];
   const text = `${counted(edges, 'tri-edge')}${where(triangle)} ${edges === 1 ? 'crosses' : 'cross'} the axial planes in ${counted(crossings[1] + several, 'point')}`
     + ` (orange${several ? `; ${several.toLocaleString('en')} of them where two planes meet, magenta, or three, red` : ''}).`
-    + ' Each is a vertex of the cut-mesh, kept with exact signs of where it lies (Section 4.1.1).';
+    + `${triVerticesOnPlanes ? ` ${counted(triVerticesOnPlanes, 'tri-vertex lies', 'tri-vertices lie')} on a plane exactly.` : ''}`
+    + ' All of these become vertices of the cut-mesh (Section 4.1.1).';
   return drawing.finish(text, { kind: 'triEdges', triangle }, subject);
 }
 
@@ -103,7 +106,10 @@ export function hybridEdges(subject: Subject, request: StepRequest): StepPicture
     drawing.line(pointOf(subject.cutMesh.positions, u), pointOf(subject.cutMesh.positions, v), planes & (planes - 1) ? outlineColor : axisColors[axis]);
   });
   const total = perAxis[0] + perAxis[1] + perAxis[2];
-  const text = `Hybrid edges: where the triangles${where(triangle)} meet axial planes across x (red), y (green) and z (blue).`
-    + ` Where they cross each other they are divided, which makes ${counted(total, 'cut-edge')} (Section 4.1.2).`;
+  if (total === 0 && triangle === undefined) drawTriEdges(drawing, subject, shown);
+  const text = total > 0
+    ? `Hybrid edges: where the triangles${where(triangle)} meet axial planes across x (red), y (green) and z (blue).`
+      + ` Where they cross each other they are divided, which makes ${counted(total, 'cut-edge')} (Section 4.1.2).`
+    : `There are no hybrid edges: no plane cuts through the inside of ${triangle === undefined ? 'a triangle' : 'these triangles'} (Section 4.1.2).`;
   return drawing.finish(text, { kind: 'hybridEdges', triangle }, subject);
 }

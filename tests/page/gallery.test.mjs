@@ -1,0 +1,133 @@
+import assert from 'node:assert/strict';
+import { before, describe, test } from 'node:test';
+import { init } from 'mandoline-wasm';
+import { importBundled } from './bundled.mjs';
+
+const { gallery, galleryMesh } = await importBundled('gallery/index.ts');
+const resolutions = [8, 16, 32, 50];
+
+/** What has to come out: regions at a resolution of 32, and whether they have winding numbers. */
+const expected = {
+  bunny: { windings: [0, 1] },
+  hilbert: { windings: [0, 1, 0] },
+  'wavy-plane': { windings: null },
+  'wavy-slab': { windings: [0, 1] },
+  wedge: { windings: [0, 1] },
+  'empty-cone': { windings: [0, 1, 1] },
+  claw: { windings: [0, 1] },
+  oscillator: { windings: [0, 1] },
+  'nested-spheres': { windings: [0, 1, 0, 1, 0, 1] },
+  'thin-bowl': { windings: [0, 1] },
+  'double-bubble': { windings: null, regions: 3 },
+  'moebius-strip': { windings: null },
+  'torus-knot': { windings: [0, 1] },
+  chain: { windings: [0, 1, 1, 1] },
+  'noisy-sphere': { windings: [0, 1] },
+  gears: { windings: [0, 1, 1] },
+  'aligned-steps': { windings: [0, 1] },
+  trumpet: { windings: null },
+  pages: { windings: null },
+  crate: { windings: null },
+};
+
+const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+
+/** Six times the volume of a tetrahedron. */
+const volume = (a, b, c, d) => dot(cross(minus(b, a), minus(c, a)), minus(d, a));
+
+/** Whether a segment runs through the inside of a triangle. */
+function pierces(p, q, [a, b, c]) {
+  const [above, below] = [volume(a, b, c, p), volume(a, b, c, q)];
+  if (!(above > 0 && below < 0) && !(above < 0 && below > 0)) return false;
+  const sides = [volume(p, q, a, b), volume(p, q, b, c), volume(p, q, c, a)];
+  return sides.every((side) => side > 0) || sides.every((side) => side < 0);
+}
+
+/** Two triangles that share no vertex, one of which has an edge that runs through the other; null if there are none. */
+function findIntersection({ positions, triangles }) {
+  const corner = (k) => Array.from(positions.subarray(3 * triangles[k], 3 * triangles[k] + 3));
+  const items = Array.from({ length: triangles.length / 3 }, (_, t) => {
+    const corners = [0, 1, 2].map((k) => corner(3 * t + k));
+    const low = [0, 1, 2].map((d) => Math.min(...corners.map((p) => p[d])));
+    const high = [0, 1, 2].map((d) => Math.max(...corners.map((p) => p[d])));
+    return { t, corners, low, high, places: corners.map(String) };
+  }).sort((a, b) => a.low[0] - b.low[0]);
+  const edges = [[0, 1], [1, 2], [2, 0]];
+  const meets = (a, b) => edges.some(([i, j]) => pierces(a.corners[i], a.corners[j], b.corners));
+  for (let i = 0; i < items.length; ++i) {
+    const a = items[i];
+    for (let j = i + 1; j < items.length && items[j].low[0] <= a.high[0]; ++j) {
+      const b = items[j];
+      if (b.low[1] > a.high[1] || b.high[1] < a.low[1] || b.low[2] > a.high[2] || b.high[2] < a.low[2]) continue;
+      if (a.places.some((place) => b.places.includes(place))) continue;
+      if (meets(a, b) || meets(b, a)) return [a.t, b.t];
+    }
+  }
+  return null;
+}
+
+test('an intersection is found', () => {
+  const crossing = { positions: new Float64Array([0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, -1, 1, 1, 1, 9, 9, 9]), triangles: [0, 1, 2, 3, 4, 5] };
+  assert.deepEqual(findIntersection(crossing), [0, 1]);
+});
+
+test('entries are complete and their names differ', () => {
+  assert.deepEqual(gallery.map(({ name }) => name).sort(), Object.keys(expected).sort());
+  for (const { name, title, line, cells } of gallery) {
+    assert.match(name, /^[a-z-]+$/);
+    assert.ok(title.length > 3 && line.endsWith('.') && line.length < 170, name);
+    assert.ok(Number.isInteger(cells) && cells >= 2 && cells <= 32, name);
+  }
+});
+
+test('an unknown name is refused', async () => {
+  await assert.rejects(galleryMesh('teapot'), /no "teapot" in the gallery/);
+  await assert.rejects(galleryMesh('constructor'), /no "constructor"/);
+});
+
+for (const { name, cells } of gallery) {
+  describe(name, () => {
+    let mandoline;
+    let mesh;
+    before(async () => {
+      mandoline = await init();
+      mesh = await galleryMesh(name);
+    });
+
+    test('does not intersect itself', () => assert.equal(findIntersection(mesh), null));
+
+    test('is the same every time', async () => assert.deepEqual(await galleryMesh(name), mesh));
+
+    for (const resolution of new Set([...resolutions, cells])) {
+      test(`is cut and valid at ${resolution} cells`, () => {
+        const cutMesh = mandoline.cut(mesh, { cells: resolution });
+        const { pass, checks } = mandoline.validate(mesh, cutMesh);
+        assert.ok(pass, JSON.stringify(checks.filter((check) => !check.pass)));
+        assert.equal(cutMesh.droppedTriangles.length, 0);
+        if (resolution !== 32) return;
+        const { windings, regions = windings?.length ?? 1 } = expected[name];
+        assert.equal(cutMesh.regionCount, regions);
+        assert.deepEqual(cutMesh.regionWinding && Array.from(cutMesh.regionWinding).sort(), windings && [...windings].sort());
+      });
+    }
+  });
+}
+
+/** Faces of the axial plane y = 0, which halves these meshes, at two cells along y. */
+async function middleFaces(name) {
+  const mandoline = await init();
+  const cutMesh = mandoline.cut(await galleryMesh(name), { cells: 2 });
+  const faces = [...cutMesh.faceAxis.keys()].filter((face) => cutMesh.faceAxis[face] === 1 && cutMesh.facePlane[face] === 1);
+  assert.equal(cutMesh.grid.cells[1], 2);
+  assert.equal(cutMesh.grid.planes[1][1], 0);
+  return { holes: faces.map((face) => cutMesh.faceLoopOffsets[face + 1] - cutMesh.faceLoopOffsets[face] - 1).sort(), cells: cutMesh.cellRegion.length };
+}
+
+test('the difficult cases lie on the plane between two layers of grid cells', async () => {
+  assert.deepEqual(await middleFaces('wedge'), { holes: [0, 1], cells: 4 });
+  assert.deepEqual(await middleFaces('empty-cone'), { holes: [0, 0, 1, 1], cells: 8 });
+  assert.deepEqual((await middleFaces('claw')).holes, [0, 0, 0, 3]);
+  assert.deepEqual((await middleFaces('oscillator')).holes, [0, 1, 1, 1, 1]);
+});
