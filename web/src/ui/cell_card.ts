@@ -45,7 +45,8 @@ function factList(card: CellCard, app: App): HTMLElement {
       ['grid cell', card.gridCell.join(', ')],
       ['region', integer(card.region)],
       ['winding number', winding(card.winding)],
-      ['volume', `${real(card.volume)}, ${share(card, app)}`],
+      ['volume', real(card.volume)],
+      ['share of the grid cell', share(card, app)],
       ['faces', `${integer(card.faces)}, of these ${integer(card.surfaceFaces)} of the surface`],
       ['vertices', integer(card.vertices)],
       ['cavities', integer(card.cavities)],
@@ -54,12 +55,11 @@ function factList(card: CellCard, app: App): HTMLElement {
   );
 }
 
-/** Of its grid cell. */
 function share(card: CellCard, app: App): string {
   const planes = app.model?.grid.planes;
   if (!planes) return '';
   const whole = card.gridCell.reduce((product, c, d) => product * (planes[d][c + 1] - planes[d][c]), 1);
-  return `${real((100 * card.volume) / whole)} % of its grid cell`;
+  return `${real((100 * card.volume) / whole)} %`;
 }
 
 const shownNeighbours = 60;

@@ -37,7 +37,7 @@ export class CellViewer {
     const { center, radius } = enclosing(triangles.position);
     replace(this.faces, { position: moved(triangles.position, center, radius), normal: triangles.normal, color: colors(triangles.surface) });
     replace(this.edges, { position: moved(edges, center, radius) });
-    this.camera.position.set(1.9, 1.5, 2.9);
+    this.camera.position.set(1.65, 1.3, 2.5);
     this.controls.target.set(0, 0, 0);
     this.controls.update();
     this.draw();

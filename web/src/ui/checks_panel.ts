@@ -30,8 +30,8 @@ function show(result: HTMLElement, { pass, checks }: Validation, app: App): void
   const skipped = checks.filter((check) => check.skipped).length;
   const passed = checks.length - failed - skipped;
   Object.assign(result.dataset, { pass, passed, failed, skipped });
-  const verdict = pass ? `All ${passed} checks that apply pass.` : `${plural(failed, 'check')} of ${checks.length} failed.`;
-  const notApplied = skipped > 0 ? ` ${integer(skipped)} skipped: they do not apply to this mesh.` : '';
+  const verdict = pass ? `All ${passed} checks pass.` : `${plural(failed, 'check')} of ${checks.length} failed.`;
+  const notApplied = skipped > 0 ? ` ${integer(skipped)} skipped: not for a mesh like this.` : '';
   const head = el('p', { class: pass ? 'verdict good' : 'verdict bad' }, verdict + notApplied);
   result.replaceChildren(head, el('ul', { class: 'check-list' }, ...checks.map((check) => item(check, app))));
 }
