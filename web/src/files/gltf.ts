@@ -21,9 +21,9 @@ interface Gltf {
   asset?: { version?: string };
   scene?: number;
   scenes?: { nodes?: number[] }[];
-  nodes?: { children?: number[]; extensions?: Record<string, unknown>; [key: string]: unknown }[];
+  nodes?: { children?: number[]; mesh?: number; extensions?: Record<string, unknown>; [key: string]: unknown }[];
   meshes?: { name?: string; primitives?: { attributes?: { POSITION?: number }; indices?: number; mode?: number }[] }[];
-  accessors?: { count?: number }[];
+  accessors?: { count?: number; type?: string; componentType?: number }[];
   bufferViews?: { buffer?: number; byteOffset?: number; extensions?: unknown }[];
   buffers?: { uri?: string; byteLength?: number }[];
   extensionsUsed?: string[];
@@ -111,14 +111,30 @@ function sceneRoots(gltf: Gltf): number[] {
   return roots;
 }
 
+const componentTypes = [5120, 5121, 5122, 5123, 5125, 5126];
+
+function checkAccessor(gltf: Gltf, index: number | undefined, type: string, mesh: number): void {
+  const accessor = gltf.accessors?.[index ?? -1];
+  if (!accessor) throw new Flaw(`Mesh ${mesh} is read from accessor ${index}, which does not exist.`);
+  if (accessor.type !== type) throw new Flaw(`Mesh ${mesh} is read from accessor ${index}, which should be of type ${type}.`);
+}
+
 function check(gltf: Gltf, dataBytes: number): void {
-  const version = gltf.asset?.version ?? '';
+  const version = String(gltf.asset?.version);
   if (!version.startsWith('2')) throw new Flaw(`It is glTF version "${version}"; version 2 is read.`);
   for (const extension of gltf.extensionsRequired ?? []) {
     if (compressions[extension]) throw new Flaw(`It is compressed with ${compressions[extension]}, which is not read. Save it without compression.`);
   }
-  gltf.accessors?.forEach(({ count = 0 }, index) => {
+  gltf.accessors?.forEach(({ count = 0, componentType = 0 }, index) => {
+    if (!componentTypes.includes(componentType)) throw new Flaw(`Accessor ${index} has the component type ${componentType}, which does not exist.`);
     if (!(count <= dataBytes)) throw new Flaw(`Accessor ${index} promises ${count} items, but there are only ${dataBytes} bytes of data.`);
+  });
+  gltf.meshes?.forEach(({ primitives }, mesh) => primitives?.forEach(({ attributes, indices }) => {
+    checkAccessor(gltf, attributes?.POSITION, 'VEC3', mesh);
+    if (indices !== undefined) checkAccessor(gltf, indices, 'SCALAR', mesh);
+  }));
+  gltf.nodes?.forEach(({ mesh }, node) => {
+    if (mesh !== undefined && !gltf.meshes?.[mesh]) throw new Flaw(`Node ${node} shows mesh ${mesh}, which does not exist.`);
   });
 }
 

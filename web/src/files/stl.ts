@@ -26,9 +26,17 @@ function isText(bytes: Uint8Array): boolean {
 function checkBinary(bytes: Uint8Array): void {
   if (bytes.length < headerBytes) throw new Flaw(`A binary STL file starts with a header of ${headerBytes} bytes; this file has ${bytes.length}.`);
   const promised = promisedBytes(bytes);
-  if (bytes.length >= promised) return;
   const triangles = (promised - headerBytes) / triangleBytes;
-  throw new Flaw(`Byte 80: the header promises ${triangles} triangles, which take ${promised} bytes, but the file ends after ${bytes.length}.`);
+  if (bytes.length < promised) {
+    throw new Flaw(`Byte 80: the header promises ${triangles} triangles, which take ${promised} bytes, but the file ends after ${bytes.length}.`);
+  }
+  const view = new DataView(bytes.buffer, bytes.byteOffset);
+  for (let t = 0; t < triangles; ++t) {
+    const corners = headerBytes + triangleBytes * t + 12;
+    for (let at = corners; at < corners + 36; at += 4) {
+      if (!Number.isFinite(view.getFloat32(at, true))) throw new Flaw(`Byte ${at}: triangle ${t} has a coordinate that is not a finite number.`);
+    }
+  }
 }
 
 function checkText(text: string): void {
