@@ -4,7 +4,8 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
 const firstDirection = new Vector3(0.42, 0.36, 1).normalize();
 const turn = Math.PI / 24;
-const restTime = 200;
+/** The camera's place is told at most so often, in ms. */
+const tellTime = 200;
 
 export class Camera {
   readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
@@ -36,9 +37,12 @@ export class Camera {
     this.camera.far = distance + 30;
     this.camera.updateProjectionMatrix();
     this.onChange();
-    if (!this.isPersons) return;
-    clearTimeout(this.timer);
-    this.timer = setTimeout(() => this.onMoved(), restTime);
+    if (this.isPersons) this.timer ??= setTimeout(() => this.tell(), tellTime);
+  }
+
+  private tell(): void {
+    this.timer = undefined;
+    this.onMoved();
   }
 
   /** Arrows turn, with shift they shift; + and - come nearer and go away. */
@@ -69,6 +73,7 @@ export class Camera {
   place(position: Vector3, target: Vector3): void {
     this.isPersons = false;
     clearTimeout(this.timer);
+    this.timer = undefined;
     this.camera.position.copy(position);
     this.controls.target.copy(target);
     this.controls.update();

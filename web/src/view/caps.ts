@@ -1,17 +1,16 @@
 // The filled polygons where slice planes cut cells flat.
-import { BufferAttribute, BufferGeometry, Group, LineSegments, Mesh, Vector3 } from 'three';
+import { BufferAttribute, BufferGeometry, Group, LineSegments, Mesh } from 'three';
 import type { Slice } from 'mandoline-wasm';
 import type { Model, Settings } from '../types';
-import { untouchedColors } from './colors';
+import { insideColor, untouchedColors, type Rgb } from './colors';
 import type { CutCells } from './cut_cells';
 import { makeMaterial, type Uniforms } from './material';
-import type { ViewPlane } from './planes';
+import type { Piece } from './piece';
 
 interface Cap {
   faces: Mesh;
   pick: Mesh;
   lines: LineSegments;
-  normal: Vector3;
 }
 
 export class Caps {
@@ -26,8 +25,7 @@ export class Caps {
   }
 
   private makeCap(uniforms: Uniforms, ownPlane: number): Cap {
-    const normal = new Vector3();
-    const own = { ownPlane: { value: ownPlane }, capNormal: { value: normal } };
+    const own = { ownPlane: { value: ownPlane } };
     const faces = new Mesh(new BufferGeometry(), makeMaterial('CAPS', 'FACES', uniforms, own));
     const pick = new Mesh(faces.geometry, makeMaterial('CAPS', 'PICK', uniforms, own));
     const lines = new LineSegments(new BufferGeometry(), makeMaterial('CAPS', 'LINES', uniforms, own));
@@ -35,11 +33,11 @@ export class Caps {
     for (const object of [faces, pick, lines]) object.frustumCulled = false;
     this.group.add(faces, lines);
     this.pick.add(pick);
-    return { faces, pick, lines, normal };
+    return { faces, pick, lines };
   }
 
-  /** Takes the slices by the planes, of which those of shown cells are drawn. */
-  set(model: Model, settings: Settings, regions: Uint8Array, cells: CutCells, planes: readonly ViewPlane[], slices: readonly Slice[]): void {
+  /** Takes the slices by the planes in their order, of which the polygons of shown cells are drawn. */
+  set(model: Model, settings: Settings, regions: Uint8Array, cells: CutCells, slices: readonly Slice[]): void {
     const isShown = (cell: number, region: number) => (cell >= 0 ? cells.isShown(cell) : settings.show.untouched && regions[region] > 0);
     this.count = 0;
     this.caps.forEach((cap, p) => {
@@ -47,13 +45,28 @@ export class Caps {
       cap.faces.visible = cap.pick.visible = slice !== undefined;
       cap.lines.visible = slice !== undefined && settings.show.edges;
       if (!slice) return;
-      cap.normal.set(...planes[p].normal);
       const polygons = Array.from(slice.polygonCell.keys()).filter((polygon) => isShown(slice.polygonCell[polygon], slice.polygonRegion[polygon]));
       this.count += polygons.length;
       const about = polygonAttributes(model, settings, cells, slice);
       replace(cap.faces, capGeometry(model, slice, about, polygons, trianglePoints));
       cap.pick.geometry = cap.faces.geometry;
       replace(cap.lines, capGeometry(model, slice, about, polygons, outlinePoints));
+    });
+  }
+
+  forEachPiece(take: (piece: Piece) => void): void {
+    this.caps.forEach(({ faces }, ownPlane) => {
+      if (!faces.visible) return;
+      const { position, center, region, tint } = faces.geometry.attributes;
+      for (let vertex = 0; vertex < region.count; vertex += 3) {
+        take({
+          corners: Array.from(position.array.subarray(3 * vertex, 3 * vertex + 9)),
+          middle: center.array.subarray(3 * vertex, 3 * vertex + 3),
+          region: region.array[vertex],
+          color: tint.array.subarray(4 * vertex, 4 * vertex + 3) as unknown as Rgb,
+          ownPlane,
+        });
+      }
     });
   }
 }
@@ -82,7 +95,7 @@ function polygonAttributes(model: Model, settings: Settings, cells: CutCells, sl
     },
     tint: (polygon) => {
       const cell = slice.polygonCell[polygon];
-      if (cell >= 0) return cells.looks.subarray(4 * cell, 4 * cell + 3);
+      if (cell >= 0) return settings.colorBy === 'kind' ? insideColor : cells.looks.subarray(4 * cell, 4 * cell + 3);
       const [i, j, k] = gridCell(polygon);
       return colorOf(i + nx * (j + ny * k), slice.polygonRegion[polygon]);
     },

@@ -16,6 +16,8 @@ const noWinding = fromHex('#b3aea4');
 const volumeRamp = ['#34308a', '#2b7fa3', '#4fb980', '#f2d551'].map(fromHex);
 export const surfaceColor = fromHex('#e9a23b');
 export const gridFaceColor = fromHex('#6fa3cf');
+/** The inside of cut-cells, seen in flat cuts. */
+export const insideColor = fromHex('#e6d3ae');
 const untouchedKindColor = fromHex('#a9b4bf');
 
 function fromHex(hex: string): Rgb {

@@ -1,20 +1,23 @@
 // The cut-cells: one draw call for all faces, one for all edges.
 import { BufferAttribute, BufferGeometry, Float32BufferAttribute, Group, LineSegments, Mesh, type DataTexture } from 'three';
 import type { Model, Settings } from '../types';
-import { cutCellColors } from './colors';
+import { cutCellColors, gridFaceColor, type Rgb } from './colors';
 import { regionShifts } from './look';
 import { makeMaterial, makeTable, type Uniforms } from './material';
+import { paler, type Piece } from './piece';
 import { isBeyond, isBoxBeyond, type ViewPlane } from './planes';
 
 export class CutCells {
   readonly group = new Group();
   readonly pick: Mesh;
   readonly ghost: Mesh;
-  /** RGB and whether it is shown, per cell. */
+  /** RGB, and whether it is shown, per cell. */
   looks = new Uint8Array(0);
   private readonly faces: Mesh;
   private readonly backs: Mesh;
   private readonly lines: LineSegments;
+  /** 3 per region: how it moves in an explosion by region. */
+  shifts: Float32Array = new Float32Array(0);
   private tables: DataTexture[] = [];
   private looksTexture: DataTexture | null = null;
 
@@ -36,7 +39,6 @@ export class CutCells {
     this.lines.geometry.dispose();
     const faces = new BufferGeometry();
     faces.setAttribute('position', new BufferAttribute(triangles.position, 3));
-    faces.setAttribute('normal', new BufferAttribute(triangles.normal, 3));
     faces.setAttribute('cell', new BufferAttribute(triangles.cell, 1));
     faces.setAttribute('surface', new BufferAttribute(triangles.surface, 1));
     for (const mesh of [this.faces, this.backs, this.pick, this.ghost]) mesh.geometry = faces;
@@ -57,7 +59,8 @@ export class CutCells {
     }
     const looks = makeTable(region.length, (length) => new Uint8Array(length));
     const shifts = makeTable(model.regions.length, (length) => new Float32Array(length));
-    regionShifts(model).forEach((x, at) => (shifts.data[4 * Math.floor(at / 3) + (at % 3)] = x));
+    this.shifts = regionShifts(model);
+    this.shifts.forEach((x, at) => (shifts.data[4 * Math.floor(at / 3) + (at % 3)] = x));
     this.tables = [centers.texture, looks.texture, shifts.texture];
     this.looks = looks.data;
     this.looksTexture = looks.texture;
@@ -77,6 +80,24 @@ export class CutCells {
     this.backs.visible = !(show.surface && show.gridFaces);
     this.faces.visible = show.surface || show.gridFaces;
     this.lines.visible = show.edges;
+  }
+
+  forEachPiece(model: Model, { show, colorBy }: Settings, take: (piece: Piece) => void): void {
+    const { position, cell: cells, surface } = model.triangles;
+    for (let vertex = 0; vertex < cells.length; vertex += 3) {
+      const cell = cells[vertex];
+      const isSurface = surface[vertex] === 1;
+      if (!this.isShown(cell) || !(isSurface ? show.surface : show.gridFaces)) continue;
+      const own = this.looks.subarray(4 * cell, 4 * cell + 3) as unknown as Rgb;
+      const ofGrid = colorBy === 'kind' ? gridFaceColor : paler(own);
+      take({
+        corners: Array.from(position.subarray(3 * vertex, 3 * vertex + 9)),
+        middle: model.cells.centroid.subarray(3 * cell, 3 * cell + 3),
+        region: model.cells.region[cell],
+        color: isSurface ? own : ofGrid,
+        ownPlane: -1,
+      });
+    }
   }
 
   isShown(cell: number): boolean {

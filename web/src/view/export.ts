@@ -1,23 +1,75 @@
 // What is shown, as a GLB file.
-import { BufferGeometry, Float32BufferAttribute, Group, Mesh, MeshStandardMaterial, type Object3D } from 'three';
+import { BufferGeometry, Color, Float32BufferAttribute, Mesh, MeshStandardMaterial } from 'three';
 import { GLTFExporter } from 'three/examples/jsm/exporters/GLTFExporter.js';
 import type { Model, Settings } from '../types';
-import type { CutCells } from './cut_cells';
-import type { ViewPlane } from './planes';
+import type { Piece } from './piece';
+import { isBeyond, type ViewPlane } from './planes';
 
 export interface Shown {
   model: Model;
   settings: Settings;
   planes: readonly ViewPlane[];
-  cells: CutCells;
-  parts: Object3D[];
+  /** 3 per region: how it moves in an explosion by region. */
+  shifts: Float32Array;
+  /** Whatever draws triangles. */
+  parts: readonly { forEachPiece(take: (piece: Piece) => void): void }[];
 }
 
 export async function exportGlb(shown: Shown): Promise<Blob> {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new Float32BufferAttribute([], 3));
-  const scene = new Group();
-  scene.add(new Mesh(geometry, new MeshStandardMaterial({ vertexColors: true })));
-  const bytes = await new GLTFExporter().parseAsync(scene, { binary: true });
+  const mesh = new Mesh(shownTriangles(shown), new MeshStandardMaterial({ vertexColors: true, roughness: 0.8 }));
+  mesh.position.set(...shown.model.origin);
+  mesh.name = shown.model.name;
+  const bytes = await new GLTFExporter().parseAsync(mesh, { binary: true });
   return new Blob([bytes as ArrayBuffer], { type: 'model/gltf-binary' });
+}
+
+/** The triangles that the planes leave, moved by the explosions, with flat normals and linear colours. */
+function shownTriangles({ settings, planes, shifts, parts }: Shown): BufferGeometry {
+  const isFlat = settings.sliceMode === 'flat';
+  const position: number[] = [];
+  const color: number[] = [];
+  const linear = new Color();
+  const put = (piece: Piece) => {
+    if (!isFlat && isBeyond(planes, piece.middle[0], piece.middle[1], piece.middle[2])) return;
+    const polygon = isFlat ? clipped(piece, planes) : piece.corners;
+    linear.setRGB(piece.color[0] / 255, piece.color[1] / 255, piece.color[2] / 255, 'srgb');
+    for (let last = 6; last < polygon.length; last += 3) {
+      for (const corner of [0, last - 3, last]) {
+        for (let d = 0; d < 3; d++) {
+          const shift = settings.explode.cells * piece.middle[d] + settings.explode.regions * shifts[3 * piece.region + d];
+          position.push(polygon[corner + d] + shift);
+        }
+        color.push(linear.r, linear.g, linear.b);
+      }
+    }
+  };
+  for (const part of parts) part.forEachPiece(put);
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new Float32BufferAttribute(position, 3));
+  geometry.setAttribute('color', new Float32BufferAttribute(color, 3));
+  geometry.computeVertexNormals();
+  return geometry;
+}
+
+/** What all planes but its own leave of a triangle: a convex polygon, maybe empty. */
+function clipped({ corners, ownPlane }: Piece, planes: readonly ViewPlane[]): readonly number[] {
+  let polygon = corners;
+  planes.forEach((plane, p) => {
+    if (p !== ownPlane) polygon = clip(polygon, plane);
+  });
+  return polygon;
+}
+
+function clip(polygon: readonly number[], { normal, offset }: ViewPlane): readonly number[] {
+  const height = (at: number) => normal[0] * polygon[at] + normal[1] * polygon[at + 1] + normal[2] * polygon[at + 2] - offset;
+  const kept: number[] = [];
+  for (let from = 0; from < polygon.length; from += 3) {
+    const to = (from + 3) % polygon.length;
+    const [a, b] = [height(from), height(to)];
+    if (a <= 0) kept.push(polygon[from], polygon[from + 1], polygon[from + 2]);
+    if ((a < 0 && b > 0) || (a > 0 && b < 0)) {
+      for (let d = 0; d < 3; d++) kept.push(polygon[from + d] + (a / (a - b)) * (polygon[to + d] - polygon[from + d]));
+    }
+  }
+  return kept;
 }

@@ -28,7 +28,7 @@ export class Gizmo {
     const controls = new TransformControls(camera, canvas);
     controls.mode = mode;
     controls.space = 'local';
-    controls.size = mode === 'rotate' ? 0.55 : 0.7;
+    controls.size = mode === 'rotate' ? 0.65 : 0.85;
     controls.addEventListener('change', () => this.onChange());
     controls.addEventListener('objectChange', () => this.onMoved(up.clone().applyQuaternion(this.handle.quaternion), this.handle.position.clone()));
     controls.addEventListener('dragging-changed', ({ value }) => {

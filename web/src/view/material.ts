@@ -76,7 +76,6 @@ uniform int hovered;
 uniform int pinned;
 varying vec3 vRest;
 varying vec3 vView;
-varying vec3 vNormal;
 varying vec3 vColor;
 varying float vHighlight;
 flat varying int vCell;
@@ -98,7 +97,6 @@ flat varying int vCell;
   attribute vec4 tint;
 #endif
 #ifdef CAPS
-  uniform vec3 capNormal;
   attribute vec3 center;
   attribute float region;
   attribute vec4 tint;
@@ -115,7 +113,6 @@ void main() {
   vec3 middle;
   float regionId;
   vRest = position;
-  vNormal = vec3(0.0);
   #ifdef CELLS
     vCell = int(cell);
     vec4 centerAndRegion = texelFetch(cellCenters, place(vCell), 0);
@@ -129,7 +126,6 @@ void main() {
       shown = look.a > 0.5;
     #endif
     #ifndef LINES
-      vNormal = normal;
       #ifndef GHOST
         shown = shown && (surface > 0.5 ? showSurface : showGridFaces);
       #endif
@@ -142,16 +138,12 @@ void main() {
     middle = low + 0.5 * size;
     regionId = region;
     vColor = mix(tint.rgb, vec3(0.88), 0.22);
-    #ifndef LINES
-      vNormal = normal;
-    #endif
   #endif
   #ifdef CAPS
     vCell = int(owner);
     middle = center;
     regionId = region;
     vColor = tint.rgb;
-    vNormal = capNormal;
   #endif
   vHighlight = vCell < 0 ? 0.0 : vCell == pinned ? 0.7 : vCell == hovered ? 0.4 : 0.0;
   vec3 moved = vRest;
@@ -163,7 +155,6 @@ void main() {
   #endif
   vec4 seen = modelViewMatrix * vec4(moved, 1.0);
   vView = seen.xyz;
-  vNormal = mat3(viewMatrix) * vNormal;
   // Beyond the far plane, nothing of the triangle is drawn.
   gl_Position = shown ? projectionMatrix * seen : vec4(0.0, 0.0, 2.0, 1.0);
 }
@@ -178,7 +169,6 @@ uniform vec3 lineColor;
 uniform float lineOpacity;
 varying vec3 vRest;
 varying vec3 vView;
-varying vec3 vNormal;
 varying vec3 vColor;
 varying float vHighlight;
 flat varying int vCell;
@@ -191,12 +181,13 @@ vec3 linear(vec3 color) {
 }
 
 /** A key light from above left of the eye, a weak one from the other side, and light from everywhere, more from above. */
-float light(vec3 normal) {
-  vec3 n = normalize(normal);
+float light() {
+  // The facet's normal from its slope on the screen: vertices need none.
+  vec3 n = normalize(cross(dFdx(vView), dFdy(vView)));
   if (dot(n, vView) > 0.0) n = -n;
-  float key = max(0.0, dot(n, normalize(vec3(-0.35, 0.65, 0.7))));
+  float key = max(0.0, dot(n, normalize(vec3(-0.3, 0.5, 0.81))));
   float fill = max(0.0, dot(n, normalize(vec3(0.8, -0.1, 0.4))));
-  return 0.26 + 0.72 * key + 0.2 * fill + 0.1 * n.y;
+  return 0.3 + 0.72 * key + 0.2 * fill + 0.1 * n.y;
 }
 
 void main() {
@@ -218,7 +209,7 @@ void main() {
       gl_FragColor = vec4(mix(lineColor, accent, step(0.01, vHighlight)), max(lineOpacity, step(0.01, vHighlight)));
     #else
       vec3 color = mix(linear(vColor), accent, vHighlight);
-      gl_FragColor = vec4(color * light(vNormal), 1.0);
+      gl_FragColor = vec4(color * light(), 1.0);
       #ifdef GHOST
         gl_FragColor.a = 0.1;
       #endif

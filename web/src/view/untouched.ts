@@ -1,8 +1,9 @@
 // The untouched grid cells as instanced boxes.
-import { BoxGeometry, BufferAttribute, EdgesGeometry, Group, InstancedBufferAttribute, InstancedBufferGeometry, LineSegments, Mesh } from 'three';
+import { BoxGeometry, EdgesGeometry, Group, InstancedBufferAttribute, InstancedBufferGeometry, LineSegments, Mesh } from 'three';
 import type { Model, Settings } from '../types';
-import { untouchedColors } from './colors';
+import { untouchedColors, type Rgb } from './colors';
 import { makeMaterial, type Uniforms } from './material';
+import { paler, type Piece } from './piece';
 import type { ViewPlane } from './planes';
 
 /**
@@ -31,14 +32,29 @@ export class Untouched {
   }
 
   setLook(model: Model, settings: Settings, regions: Uint8Array, planes: readonly ViewPlane[]): void {
-    const { show, explode, sliceMode, colorBy } = settings;
+    const { show, explode, sliceMode } = settings;
     const wanted = show.untouched && (show.gridFaces || show.edges);
     const boxes = wanted ? seenBoxes(model, regions, planes, sliceMode === 'flat', explode.cells > 0) : new Uint32Array(0);
     this.count = boxes.length;
     this.group.visible = this.pick.visible = this.count > 0;
     this.faces.visible = show.gridFaces;
     this.lines.visible = show.edges;
-    this.setBoxes(model, boxes, untouchedColors(model, colorBy));
+    this.setBoxes(model, boxes, untouchedColors(model, settings.colorBy));
+  }
+
+  forEachPiece(take: (piece: Piece) => void): void {
+    if (!this.group.visible || !this.faces.visible) return;
+    const { low, size, region, tint } = this.faces.geometry.attributes;
+    const { array } = this.box.getAttribute('position');
+    const corners = Array.from(this.box.getIndex()?.array ?? [], (vertex) => array.slice(3 * vertex, 3 * vertex + 3));
+    for (let box = 0; box < this.count; box++) {
+      const at = (unit: ArrayLike<number>) => [0, 1, 2].map((d) => low.array[3 * box + d] + unit[d] * size.array[3 * box + d]);
+      const color = paler(tint.array.subarray(4 * box, 4 * box + 3) as unknown as Rgb);
+      const middle = at([0.5, 0.5, 0.5]);
+      for (let corner = 0; corner < corners.length; corner += 3) {
+        take({ corners: corners.slice(corner, corner + 3).flatMap(at), middle, region: region.array[box], color, ownPlane: -1 });
+      }
+    }
   }
 
   private setBoxes(model: Model, boxes: Uint32Array, colorOf: ReturnType<typeof untouchedColors>): void {
@@ -73,9 +89,7 @@ export class Untouched {
 function instanced(base: BoxGeometry | EdgesGeometry, attributes: Record<string, InstancedBufferAttribute>, count: number): InstancedBufferGeometry {
   const geometry = new InstancedBufferGeometry();
   geometry.index = base.index;
-  for (const name of ['position', 'normal']) {
-    if (base.hasAttribute(name)) geometry.setAttribute(name, base.getAttribute(name) as BufferAttribute);
-  }
+  geometry.setAttribute('position', base.getAttribute('position'));
   for (const [name, attribute] of Object.entries(attributes)) geometry.setAttribute(name, attribute);
   geometry.instanceCount = count;
   return geometry;

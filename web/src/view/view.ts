@@ -8,8 +8,10 @@ import { CutCells } from './cut_cells';
 import { exportGlb } from './export';
 import { Frames } from './frames';
 import { Gizmo } from './gizmo';
+import { GpuPace } from './gpu_pace';
 import { shownRegions } from './look';
 import { makeUniforms } from './material';
+import type { Piece } from './piece';
 import { Picker } from './picking';
 import { activePlanes, planeOf, reach, type ViewPlane } from './planes';
 import { Pointer } from './pointer';
@@ -39,6 +41,7 @@ class ThreeView implements View {
   onCamera: View['onCamera'] = () => {};
   onFreePlane: View['onFreePlane'] = () => {};
   private readonly renderer: WebGLRenderer;
+  private readonly pace: GpuPace;
   private readonly scene = new Scene();
   /** From the model's units to scene units. */
   private readonly root = new Group();
@@ -63,6 +66,7 @@ class ThreeView implements View {
   private cameraKnown = '';
   private cameraBeforeStep: { position: Vector3; target: Vector3 } | null = null;
   private isFramed = false;
+  private hoverAt: { x: number; y: number } | null = null;
   private isLookStale = true;
   private frameAsked = 0;
   private framesDrawn = 0;
@@ -72,6 +76,7 @@ class ThreeView implements View {
     private readonly options: ViewOptions,
   ) {
     this.renderer = makeRenderer(canvas);
+    this.pace = new GpuPace(this.renderer.getContext() as WebGL2RenderingContext);
     this.camera = new Camera(canvas, matchMedia('(prefers-reduced-motion: reduce)'));
     this.gizmo = new Gizmo(this.camera.camera, canvas);
     this.picker = new Picker(this.renderer, [this.cells.pick, this.untouched.pick, this.caps.pick]);
@@ -82,6 +87,8 @@ class ThreeView implements View {
     this.setScheme(matchMedia('(prefers-color-scheme: dark)').matches);
     this.listen();
     this.resize();
+    // The shaders are made while the first mesh is being cut.
+    this.renderer.compile(this.scene, this.camera.camera);
   }
 
   private listen(): void {
@@ -175,11 +182,8 @@ class ThreeView implements View {
   frame(): void {
     if (!this.model) return;
     this.isFramed = true;
-    const { meshMin, meshMax, origin } = this.model;
-    const center = new Vector3(...meshMin).add(new Vector3(...meshMax)).divideScalar(2).sub(new Vector3(...origin));
-    const radius = new Vector3(...meshMax).distanceTo(new Vector3(...meshMin)) / 2;
-    const scale = this.root.scale.x;
-    this.camera.frame(center.multiplyScalar(scale), radius * scale * (1 + (this.settings?.explode.cells ?? 0)) * 1.02, false);
+    const { center, radius } = shownBall(this.model, this.settings);
+    this.camera.frame(this.fromModel(center), radius * this.root.scale.x, false);
   }
 
   async png(): Promise<Blob> {
@@ -193,10 +197,12 @@ class ThreeView implements View {
     throw pictureError('The canvas gives no picture, perhaps because it is too large for the memory there is.');
   }
 
-  glb(): Promise<Blob> {
-    const { model, settings } = this;
+  async glb(): Promise<Blob> {
+    const { model, settings, cells } = this;
     if (!model || !settings) throw pictureError('Nothing is shown yet.');
-    return exportGlb({ model, settings, planes: this.planes, cells: this.cells, parts: [this.caps.group, this.untouched.group] });
+    this.updateLook();
+    const cutCells = { forEachPiece: (take: (piece: Piece) => void) => cells.forEachPiece(model, settings, take) };
+    return exportGlb({ model, settings, planes: this.planes, shifts: cells.shifts, parts: [cutCells, this.untouched, this.caps] });
   }
 
   private fromModel(point: readonly number[]): Vector3 {
@@ -231,7 +237,11 @@ class ThreeView implements View {
   }
 
   private hover(at: { x: number; y: number } | null): void {
+    this.hoverAt = at;
     if (!at) return this.setHovered(null);
+    // A GPU that is behind is asked when it has drawn.
+    if (this.pace.isBehind) return this.invalidate();
+    this.hoverAt = null;
     void this.cellAt(at).then((cell) => this.setHovered(cell));
   }
 
@@ -249,7 +259,14 @@ class ThreeView implements View {
   }
 
   private invalidate(): void {
-    if (this.frameAsked === 0) this.frameAsked = requestAnimationFrame(() => this.draw());
+    if (this.frameAsked === 0) this.frameAsked = requestAnimationFrame(() => this.drawInTime());
+  }
+
+  private drawInTime(): void {
+    this.frameAsked = 0;
+    if (this.pace.isBehind) this.invalidate();
+    else if (this.hoverAt) this.hover(this.hoverAt);
+    else this.draw();
   }
 
   private resize(): void {
@@ -269,6 +286,7 @@ class ThreeView implements View {
     this.updateLook();
     this.camera.controls.update();
     this.renderer.render(this.scene, this.camera.camera);
+    this.pace.mark();
     this.canvas.dataset.frames = String(++this.framesDrawn);
   }
 
@@ -298,7 +316,7 @@ class ThreeView implements View {
     if (isFlat && wanted.length > 0 && !(made && samePlanes(made.planes, wanted))) void this.requestSlices();
     this.planes = isFlat && wanted.length > 0 && made ? made.planes : wanted;
     const hasCaps = isFlat && wanted.length > 0 && made !== null;
-    this.caps.set(model, settings, this.regions, this.cells, this.planes, hasCaps ? made.slices : []);
+    this.caps.set(model, settings, this.regions, this.cells, hasCaps ? made.slices : []);
   }
 
   /** One request at a time: when its answer comes, the planes wanted by then are asked for. */
@@ -352,6 +370,15 @@ class ThreeView implements View {
   }
 }
 
+/** What holds the model: the mesh, or the grid if the outside is shown, exploded; less the model's origin. */
+function shownBall(model: Model, settings: Settings | null): { center: number[]; radius: number } {
+  const explode = 1 + (settings?.explode.cells ?? 0);
+  if (settings?.show.outside && (settings.show.untouched || settings.show.cutCells)) return { center: [0, 0, 0], radius: (model.diagonal / 2) * explode };
+  const { meshMin, meshMax, origin } = model;
+  const center = meshMin.map((x, d) => ((x + meshMax[d]) / 2 - origin[d]) * explode);
+  return { center, radius: 0.51 * Math.hypot(...meshMax.map((x, d) => x - meshMin[d])) * explode };
+}
+
 function samePlanes(a: readonly ViewPlane[], b: readonly ViewPlane[]): boolean {
   return JSON.stringify(a) === JSON.stringify(b);
 }
@@ -362,7 +389,10 @@ function pictureError(detail: string): PageError {
 
 function makeRenderer(canvas: HTMLCanvasElement): WebGLRenderer {
   try {
-    return new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
+    const renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
+    // Asking for errors waits for the compiler.
+    renderer.debug.checkShaderErrors = import.meta.env.DEV;
+    return renderer;
   } catch {
     const detail = 'This page draws with WebGL 2, which this browser lacks or has switched off. Another browser, or hardware acceleration switched on in its settings, will do.';
     const error: PageError = { title: 'Nothing can be drawn here', detail };

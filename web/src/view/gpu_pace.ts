@@ -1,0 +1,24 @@
+/**
+ * Tells when the GPU has drawn what it was given. Uploads wait inside of the browser for a GPU that is behind, and block the page meanwhile:
+ * so nothing new is given to it before.
+ */
+export class GpuPace {
+  private fence: WebGLSync | null = null;
+
+  constructor(private readonly gl: WebGL2RenderingContext) {}
+
+  /** After drawing. */
+  mark(): void {
+    if (this.fence) this.gl.deleteSync(this.fence);
+    this.fence = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    this.gl.flush();
+  }
+
+  get isBehind(): boolean {
+    if (!this.fence) return false;
+    if (this.gl.clientWaitSync(this.fence, 0, 0) === this.gl.TIMEOUT_EXPIRED) return true;
+    this.gl.deleteSync(this.fence);
+    this.fence = null;
+    return false;
+  }
+}

@@ -1,0 +1,18 @@
+import type { Rgb } from './colors';
+
+/** A triangle as it is drawn, for files: before it is moved, and with what moves it. */
+export interface Piece {
+  /** Its corners at rest: 9 numbers. */
+  corners: readonly number[];
+  /** Centre and region of its cell. */
+  middle: ArrayLike<number>;
+  region: number;
+  color: Rgb;
+  /** The plane that it fills a cut of, which does not cut it; -1 for none. */
+  ownPlane: number;
+}
+
+/** Grid-faces are paler than the surface, as the shader draws them. */
+export function paler(color: Rgb): Rgb {
+  return [0, 1, 2].map((c) => 0.78 * color[c] + 0.22 * 224) as unknown as Rgb;
+}
