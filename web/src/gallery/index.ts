@@ -5,108 +5,23 @@ import { crate, doubleBubble, moebiusStrip, pages, thinBowl, trumpet, wavyPlane,
 import { alignedSteps, gears, nestedSpheres, noisySphere } from './solids';
 import { chain, hollowHilbertCurve, torusKnot } from './tubes';
 
-export interface GalleryEntry {
-  /** Stands in links, so it stays. */
-  name: string;
-  title: string;
-  /** What to look at. */
-  line: string;
-  /** A good resolution to start with: grid cells along the longest side. */
-  cells: number;
-}
+export { gallery, type GalleryEntry } from './list';
 
 async function bunny(): Promise<MeshArrays> {
   const { positions, cells } = (await import('bunny')).default;
   return { positions: new Float64Array(positions.flat()), triangles: new Uint32Array(cells.flat()) };
 }
 
-const entries: (GalleryEntry & { make: () => MeshArrays | Promise<MeshArrays> })[] = [
-  {
-    name: 'bunny', title: 'Stanford bunny', cells: 16, make: bunny,
-    line: 'A scan: slice it and see that every cut-cell follows the fur exactly, on both sides of the surface.',
-  },
-  {
-    name: 'hilbert', title: 'Hollow Hilbert curve', cells: 4, make: hollowHilbertCurve,
-    line: 'A tube inside a tube: on a coarse grid each cut-cell is pierced by several tunnels (Figure 18, Section 5.1).',
-  },
-  {
-    name: 'wavy-plane', title: 'Wavy plane', cells: 10, make: wavyPlane,
-    line: 'An open sheet: inside, it splits grid cells in two; at its rim it only cuts into them, and the cells stay whole (Figure 20, Section 5.4).',
-  },
-  {
-    name: 'wavy-slab', title: 'Wavy slab', cells: 10, make: wavySlab,
-    line: 'A layer thinner than a grid cell: cells are split into several pieces, some of them very thin (Figure 18, Section 5.1).',
-  },
-  {
-    name: 'wedge', title: 'Wedge', cells: 2, make: wedge,
-    line: 'A tetrahedral notch in each of two grid cells, through the face between them, which keeps a triangular piece of its own (Figure 21a, Section 5.5).',
-  },
-  {
-    name: 'empty-cone', title: 'Empty cones', cells: 2, make: emptyCones,
-    line: 'Hollow cones whose mouths lie exactly in an axial plane: their inside and outside meet there in a face of the grid alone (Figure 21b, Section 5.5).',
-  },
-  {
-    name: 'claw', title: 'Claw', cells: 2, make: claw,
-    line: 'One curve runs around three prongs and over the webs between them: in the middle plane it becomes three faces (Figures 17 and 21c, Section 5.5).',
-  },
-  {
-    name: 'oscillator', title: 'Oscillator', cells: 2, make: oscillator,
-    line: 'The top swings through the middle plane several times: the plane\'s faces are rings within rings (Figure 21d, Section 5.5).',
-  },
-  {
-    name: 'nested-spheres', title: 'Nested spheres', cells: 10, make: nestedSpheres,
-    line: 'Spheres in spheres, solid and hollow by turns: five surfaces make six regions, the smallest floating inside a single grid cell.',
-  },
-  {
-    name: 'thin-bowl', title: 'Thin bowl', cells: 12, make: thinBowl,
-    line: 'A wall far thinner than a grid cell: it still has an inside of its own, and the air on its two sides is never joined through it.',
-  },
-  {
-    name: 'double-bubble', title: 'Double bubble', cells: 12, make: doubleBubble,
-    line: 'Three sheets meet along the rim of the wall: it is no manifold and has no winding numbers, but three regions.',
-  },
-  {
-    name: 'moebius-strip', title: 'Möbius strip', cells: 12, make: moebiusStrip,
-    line: 'A sheet with one side and one edge: there is no inside, and all cells around it belong to one region.',
-  },
-  {
-    name: 'torus-knot', title: 'Torus knot', cells: 14, make: torusKnot,
-    line: 'A knotted tube: strands that pass through one grid cell become pieces of their own.',
-  },
-  {
-    name: 'chain', title: 'Chain', cells: 14, make: chain,
-    line: 'Three linked rings that do not touch: three regions inside, one around them.',
-  },
-  {
-    name: 'noisy-sphere', title: 'Noisy sphere', cells: 8, make: noisySphere,
-    line: 'Spikes everywhere: the coarser the grid, the more of the surface each cut-cell keeps, and none is lost (Figure 19, Section 5.2).',
-  },
-  {
-    name: 'gears', title: 'Gears', cells: 20, make: gears,
-    line: 'Sharp edges, flat sides and narrow gaps between teeth that do not touch: two regions that the grid keeps apart.',
-  },
-  {
-    name: 'aligned-steps', title: 'Aligned steps', cells: 22, make: alignedSteps,
-    line: 'Every face lies exactly in an axial plane: the surface\'s pieces take the place of grid-faces, and no sliver appears.',
-  },
-  {
-    name: 'trumpet', title: 'Trumpet', cells: 12, make: trumpet,
-    line: 'Open at both ends and without a wall: the space inside and around it is one region, yet cells are cut along it.',
-  },
-  {
-    name: 'pages', title: 'Three pages', cells: 8, make: pages,
-    line: 'Three sheets on one edge: cells at the spine are cut into three, and cells at the rims only partly.',
-  },
-  {
-    name: 'crate', title: 'Crate', cells: 9, make: crate,
-    line: 'Walls that cross on shared edges: four sheets on an edge, and open at top and bottom.',
-  },
-];
-
-export const gallery: readonly GalleryEntry[] = entries.map(({ name, title, line, cells }) => ({ name, title, line, cells }));
+const makers = new Map<string, () => MeshArrays | Promise<MeshArrays>>([
+  ['bunny', bunny], ['hilbert', hollowHilbertCurve], ['wavy-plane', wavyPlane], ['wavy-slab', wavySlab], ['wedge', wedge],
+  ['empty-cone', emptyCones], ['claw', claw], ['oscillator', oscillator], ['nested-spheres', nestedSpheres], ['thin-bowl', thinBowl],
+  ['double-bubble', doubleBubble], ['moebius-strip', moebiusStrip], ['torus-knot', torusKnot], ['chain', chain],
+  ['noisy-sphere', noisySphere], ['gears', gears], ['aligned-steps', alignedSteps], ['trumpet', trumpet], ['pages', pages],
+  ['crate', crate],
+]);
 
 export async function galleryMesh(name: string): Promise<MeshArrays> {
-  const entry = entries.find((candidate) => candidate.name === name);
-  if (!entry) throw new Error(`There is no "${name}" in the gallery.`);
-  return entry.make();
+  const make = makers.get(name);
+  if (!make) throw new Error(`There is no "${name}" in the gallery.`);
+  return make();
 }

@@ -1,0 +1,93 @@
+// What the gallery offers. Apart from the generators, so that the page can list it without them.
+export interface GalleryEntry {
+  /** Stands in links, so it stays. */
+  name: string;
+  title: string;
+  /** What to look at. */
+  line: string;
+  /** A good resolution to start with: grid cells along the longest side. */
+  cells: number;
+}
+
+export const gallery: readonly GalleryEntry[] = [
+  {
+    name: 'bunny', title: 'Stanford bunny', cells: 16,
+    line: 'A scan: slice it and see that every cut-cell follows the fur exactly, on both sides of the surface.',
+  },
+  {
+    name: 'hilbert', title: 'Hollow Hilbert curve', cells: 4,
+    line: 'A tube inside a tube: on a coarse grid each cut-cell is pierced by several tunnels (Figure 18, Section 5.1).',
+  },
+  {
+    name: 'wavy-plane', title: 'Wavy plane', cells: 10,
+    line: 'An open sheet: inside, it splits grid cells in two; at its rim it only cuts into them, and the cells stay whole (Figure 20, Section 5.4).',
+  },
+  {
+    name: 'wavy-slab', title: 'Wavy slab', cells: 10,
+    line: 'A layer thinner than a grid cell: cells are split into several pieces, some of them very thin (Figure 18, Section 5.1).',
+  },
+  {
+    name: 'wedge', title: 'Wedge', cells: 2,
+    line: 'A tetrahedral notch in each of two grid cells, through the face between them, which keeps a triangular piece of its own (Figure 21a, Section 5.5).',
+  },
+  {
+    name: 'empty-cone', title: 'Empty cones', cells: 2,
+    line: 'Hollow cones whose mouths lie exactly in an axial plane: their inside and outside meet there in a face of the grid alone (Figure 21b, Section 5.5).',
+  },
+  {
+    name: 'claw', title: 'Claw', cells: 2,
+    line: 'One curve runs around three prongs and over the webs between them: in the middle plane it becomes three faces (Figures 17 and 21c, Section 5.5).',
+  },
+  {
+    name: 'oscillator', title: 'Oscillator', cells: 2,
+    line: 'The top swings through the middle plane several times: the plane\'s faces are rings within rings (Figure 21d, Section 5.5).',
+  },
+  {
+    name: 'nested-spheres', title: 'Nested spheres', cells: 10,
+    line: 'Spheres in spheres, solid and hollow by turns: five surfaces make six regions, the smallest floating inside a single grid cell.',
+  },
+  {
+    name: 'thin-bowl', title: 'Thin bowl', cells: 12,
+    line: 'A wall far thinner than a grid cell: it still has an inside of its own, and the air on its two sides is never joined through it.',
+  },
+  {
+    name: 'double-bubble', title: 'Double bubble', cells: 12,
+    line: 'Three sheets meet along the rim of the wall: it is no manifold and has no winding numbers, but three regions.',
+  },
+  {
+    name: 'moebius-strip', title: 'Möbius strip', cells: 12,
+    line: 'A sheet with one side and one edge: there is no inside, and all cells around it belong to one region.',
+  },
+  {
+    name: 'torus-knot', title: 'Torus knot', cells: 14,
+    line: 'A knotted tube: strands that pass through one grid cell become pieces of their own.',
+  },
+  {
+    name: 'chain', title: 'Chain', cells: 14,
+    line: 'Three linked rings that do not touch: three regions inside, one around them.',
+  },
+  {
+    name: 'noisy-sphere', title: 'Noisy sphere', cells: 8,
+    line: 'Spikes everywhere: the coarser the grid, the more of the surface each cut-cell keeps, and none is lost (Figure 19, Section 5.2).',
+  },
+  {
+    name: 'gears', title: 'Gears', cells: 20,
+    line: 'Sharp edges, flat sides and narrow gaps between teeth that do not touch: two regions that the grid keeps apart.',
+  },
+  {
+    name: 'aligned-steps', title: 'Aligned steps', cells: 22,
+    line: 'Every face lies exactly in an axial plane: the surface\'s pieces take the place of grid-faces, and no sliver appears.',
+  },
+  {
+    name: 'trumpet', title: 'Trumpet', cells: 12,
+    line: 'Open at both ends and without a wall: the space inside and around it is one region, yet cells are cut along it.',
+  },
+  {
+    name: 'pages', title: 'Three pages', cells: 8,
+    line: 'Three sheets on one edge: cells at the spine are cut into three, and cells at the rims only partly.',
+  },
+  {
+    name: 'crate', title: 'Crate', cells: 9,
+    line: 'Walls that cross on shared edges: four sheets on an edge, and open at top and bottom.',
+  },
+];
