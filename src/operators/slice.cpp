@@ -8,6 +8,7 @@
 #include "operators/slice_loops.h"
 #include "operators/slice_nesting.h"
 #include "operators/slice_segments.h"
+#include "operators/slice_slits.h"
 
 namespace mandoline {
 namespace operators {
@@ -29,10 +30,13 @@ class Writer {
   const std::vector<PlanePoint>& at() const { return at_; }
 
   void addLoop(std::span<const uint32_t> points) {
-    triangulator_.startLoop();
-    for (const uint32_t p : points) triangulator_.addCorner(p, at_[p]);
     slice_.loopPoints.insert(slice_.loopPoints.end(), points.begin(), points.end());
     slice_.loopOffsets.push_back(uint32_t(slice_.loopPoints.size()));
+  }
+  /// Adds a loop of what is to be filled, the outline first.
+  void addFillLoop(std::span<const uint32_t> points) {
+    triangulator_.startLoop();
+    for (const uint32_t p : points) triangulator_.addCorner(p, at_[p]);
   }
   /// Ends a polygon of the loops that came since the last one.
   void endPolygon(int32_t cell, const GridCell& gridCell, uint32_t region) {
@@ -54,69 +58,46 @@ class Writer {
 
 constexpr uint32_t kNone = ~0u;
 
-/// Appends a loop's point, unless it is the last one again.
-void append(uint32_t point, std::vector<uint32_t>& loop, size_t begin) {
-  if (loop.size() == begin || loop.back() != point) loop.push_back(point);
-}
-/// Ends a loop that began there; a loop of one point is none.
-void close(std::vector<uint32_t>& loop, size_t begin) {
-  while (loop.size() > begin + 1 && loop.back() == loop[begin]) loop.pop_back();
-  if (loop.size() == begin + 1) loop.pop_back();
+/// Adds the points of the slice on edges; those at vertices are one for all edges there. Renames the ends of the segments to them.
+void addPoints(const CutMesh& cutMesh, const ScaledSpace& space, const CuttingPlane& plane, SliceSegments& segments, Writer& writer) {
+  std::vector<uint32_t> pointOfVertex(cutMesh.vertexCount(), kNone), pointOfEdge;
+  const auto position = [&](uint32_t v) { return space.scaled(&cutMesh.positions[3 * size_t(v)]); };
+  for (const auto& edge : segments.pointEdges) {
+    const auto [at, end] = plane.crossing(position(edge[0]), position(edge[1]));
+    if (end < 0) {
+      pointOfEdge.push_back(writer.addPoint(at));
+    } else {
+      uint32_t& point = pointOfVertex[edge[size_t(end)]];
+      if (point == kNone) point = writer.addPoint(at);
+      pointOfEdge.push_back(point);
+    }
+  }
+  for (SliceSegment& segment : segments.segments) segment = {pointOfEdge[segment[0]], pointOfEdge[segment[1]]};
 }
 
-class CutCellSlicer {
- public:
-  CutCellSlicer(const CutMesh& cutMesh, const ScaledSpace& space, const CuttingPlane& plane, Writer& writer)
-      : cutMesh_(cutMesh), writer_(writer), segments_(makeSliceSegments(cutMesh, space, plane)), loops_(cutMesh, space, segments_) {
-    // One point for all edges that the plane crosses at their common vertex.
-    std::vector<uint32_t> pointOfVertex(cutMesh.vertexCount(), kNone);
-    const auto position = [&](uint32_t v) { return space.scaled(&cutMesh.positions[3 * size_t(v)]); };
-    for (const auto& edge : segments_.pointEdges) {
-      const auto [at, end] = plane.crossing(position(edge[0]), position(edge[1]));
-      if (end < 0) {
-        points_.push_back(writer.addPoint(at));
+void sliceCutCells(const CutMesh& cutMesh, const ScaledSpace& space, const CuttingPlane& plane, Writer& writer) {
+  SliceSegments segments = makeSliceSegments(cutMesh, space, plane);
+  addPoints(cutMesh, space, plane, segments, writer);
+  SliceLoops cellLoops(cutMesh, segments, writer.at());
+  SliceNesting nesting;
+  SliceSlits slits;
+  for (size_t c = 0; c < cutMesh.cellCount(); ++c) {
+    const detail::Csr<uint32_t>& loops = cellLoops.run(c);
+    if (loops.size() == 0) continue;
+    const detail::Csr<uint32_t>& polygons = nesting.run(loops, writer.at());
+    for (size_t p = 0; p < polygons.size(); ++p) {
+      for (const uint32_t l : polygons[p]) writer.addLoop(loops[l]);
+      if (cellLoops.hasSlits()) {
+        const detail::Csr<uint32_t>& fill = slits.remove(loops, polygons[p], writer.at());
+        for (size_t l = 0; l < fill.size(); ++l) writer.addFillLoop(fill[l]);
       } else {
-        uint32_t& point = pointOfVertex[edge[size_t(end)]];
-        if (point == kNone) point = writer.addPoint(at);
-        points_.push_back(point);
+        for (const uint32_t l : polygons[p]) writer.addFillLoop(loops[l]);
       }
+      const int32_t* gridCell = &cutMesh.cellGridCell[3 * c];
+      writer.endPolygon(int32_t(c), {gridCell[0], gridCell[1], gridCell[2]}, cutMesh.cellRegion[c]);
     }
   }
-
-  void run() {
-    for (size_t c = 0; c < cutMesh_.cellCount(); ++c) {
-      traceCell(c);
-      if (outlines_.size() == 0) continue;
-      const int32_t* gridCell = &cutMesh_.cellGridCell[3 * c];
-      const detail::Csr<uint32_t>& polygons = nesting_.run(outlines_, writer_.at());
-      for (size_t p = 0; p < polygons.size(); ++p) {
-        for (const uint32_t l : polygons[p]) writer_.addLoop(outlines_[l]);
-        writer_.endPolygon(int32_t(c), {gridCell[0], gridCell[1], gridCell[2]}, cutMesh_.cellRegion[c]);
-      }
-    }
-  }
-
- private:
-  void traceCell(size_t cell) {
-    outlines_.offsets.assign(1, 0);
-    outlines_.items.clear();
-    const detail::Csr<uint32_t>& loops = loops_.run(cell);
-    for (size_t l = 0; l < loops.size(); ++l) {
-      const size_t begin = outlines_.items.size();
-      for (const uint32_t p : loops[l]) append(points_[p], outlines_.items, begin);
-      close(outlines_.items, begin);
-      if (outlines_.items.size() > begin) outlines_.offsets.push_back(uint32_t(outlines_.items.size()));
-    }
-  }
-
-  const CutMesh& cutMesh_;
-  Writer& writer_;
-  const SliceSegments segments_;
-  SliceLoops loops_;
-  SliceNesting nesting_;
-  std::vector<uint32_t> points_;     // of the slice, per point of the segments
-  detail::Csr<uint32_t> outlines_;   // of a cell
-};
+}
 
 /// Cuts grid cells as the boxes that they are.
 class BoxSlicer {
@@ -193,13 +174,14 @@ class BoxSlicer {
       } else {
         uint32_t& point = pointOfCorner[ends[size_t(end)]];
         if (point == kNone) point = writer_.addPoint(at);
-        append(point, loop_, 0);
+        if (loop_.empty() || loop_.back() != point) loop_.push_back(point);
       }
       edge = next[edge];
     } while (edge != start);
-    close(loop_, 0);
-    if (loop_.size() < 3) return;
+    while (loop_.size() > 1 && loop_.back() == loop_.front()) loop_.pop_back();
+    if (loop_.size() < 3) return;  // an edge or a corner
     writer_.addLoop(loop_);
+    writer_.addFillLoop(loop_);
     writer_.endPolygon(-1, gridCell, region);
   }
 
@@ -234,7 +216,7 @@ SliceResult slice(const CutMesh& cutMesh, const Plane& plane, const SliceOptions
   const std::optional<CuttingPlane> cutting = CuttingPlane::make(plane, cutMesh.grid, space);
   if (!cutting) return result;
   Writer writer(space, *cutting, slice);
-  CutCellSlicer(cutMesh, space, *cutting, writer).run();
+  sliceCutCells(cutMesh, space, *cutting, writer);
   if (options.untouched) BoxSlicer(cutMesh, space, *cutting, writer).run();
   return result;
 }

@@ -39,18 +39,13 @@ class Maker {
   }
 
   void addTriangle(const uint32_t* v) {
-    SliceSegment segment;
     const uint32_t id = uint32_t(result_.segments.size());
-    bool cut = false;
     for (int i = 0; i < 3; ++i) {
       const uint32_t a = v[i], b = v[(i + 1) % 3];
       if (above_[a] == above_[b]) continue;
-      cut = true;
-      const uint32_t end = above_[a] ? 0 : 1;
-      segment.tips[end] = v[(i + 2) % 3];
-      ends_.push_back({uint64_t(std::min(a, b)) * above_.size() + std::max(a, b), 2 * id + end});
+      ends_.push_back({uint64_t(std::min(a, b)) * above_.size() + std::max(a, b), 2 * id + (above_[a] ? 0 : 1)});
     }
-    if (cut) result_.segments.push_back(segment);
+    if (!ends_.empty() && ends_.back().item / 2 == id) result_.segments.emplace_back();
   }
 
   /// One point per edge, in the order of the edges' vertices.
@@ -58,10 +53,9 @@ class Maker {
     detail::sortByKey(ends_, uint64_t(above_.size()) * above_.size());
     for (size_t i = 0; i < ends_.size(); ++i) {
       if (i == 0 || ends_[i].key != ends_[i - 1].key) {
-        const uint32_t a = uint32_t(ends_[i].key / above_.size()), b = uint32_t(ends_[i].key % above_.size());
-        result_.pointEdges.push_back({above_[a] ? a : b, above_[a] ? b : a});
+        result_.pointEdges.push_back({uint32_t(ends_[i].key / above_.size()), uint32_t(ends_[i].key % above_.size())});
       }
-      result_.segments[ends_[i].item / 2].points[ends_[i].item % 2] = uint32_t(result_.pointEdges.size() - 1);
+      result_.segments[ends_[i].item / 2][ends_[i].item % 2] = uint32_t(result_.pointEdges.size() - 1);
     }
   }
 
