@@ -28,10 +28,10 @@ function run(command, ...args) {
   execFileSync(command, args, { stdio: 'inherit', env: { ...process.env, ...(nodePath && { NODE_PATH: nodePath }) } });
 }
 
-function compile(targets) {
+function compile(tests) {
   run('cmake', '-S', root, '-B', build, `-DCMAKE_TOOLCHAIN_FILE=${toolchainFile()}`, `-DCMAKE_CROSSCOMPILING_EMULATOR=${process.execPath}`,
-    '-DCMAKE_BUILD_TYPE=Release');
-  run('cmake', '--build', build, '--parallel', String(availableParallelism()), '--target', ...targets);
+    '-DCMAKE_BUILD_TYPE=Release', `-DMANDOLINE_BUILD_TESTS=${tests ? 'ON' : 'OFF'}`);
+  run('cmake', '--build', build, '--parallel', String(availableParallelism()), '--target', 'mandoline-wasm', ...(tests ? ['mandoline-tests'] : []));
 }
 
 /** Files are replaced one by one, so that whoever uses the package meanwhile always finds it. */
@@ -45,5 +45,5 @@ function assemble() {
   for (const file of readdirSync(dist)) if (!kept.has(file)) rmSync(join(dist, file), { recursive: true });
 }
 
-compile(['mandoline-wasm', ...(process.argv.includes('--tests') ? ['mandoline-tests'] : [])]);
+compile(process.argv.includes('--tests'));
 assemble();

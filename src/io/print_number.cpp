@@ -4,7 +4,7 @@
 #include <emscripten/emscripten.h>
 
 EM_JS(int, mandolinePrintDouble, (double n, char* to), {
-  const text = String(n);
+  const text = Object.is(n, -0) ? '-0' : String(n);
   for (let i = 0; i < text.length; ++i) HEAP8[to + i] = text.charCodeAt(i);
   return text.length;
 });

@@ -224,9 +224,10 @@ test('files', () => {
 
 test('doubles in files read back identically', () => {
   const tiny = 1e-300;
-  const mesh = box([0.1 * tiny, 1e-7 * tiny, 0], [tiny / 3, tiny, 1e21 * tiny]);
+  const mesh = box([0.1 * tiny, -tiny, -0], [tiny / 3, 1e-7 * tiny, 1e21 * tiny]);
   const cut = mandoline.cut(mesh, { cells: 2 });
   assert.deepEqual(JSON.parse(new TextDecoder().decode(mandoline.write(mesh, cut, 'json'))).positions, [...cut.positions]);
+  assert.ok(cut.positions.some((x) => Object.is(x, -0)) && cut.positions.some((x) => x !== 0 && Math.abs(x) < 1e-300));
 });
 
 test('progress runs through all stages', () => {

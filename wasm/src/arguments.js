@@ -128,7 +128,9 @@ export function readOptions(options) {
 }
 
 export function readSnapTolerance({ snapTolerance = 0 }) {
-  return expectNumber(snapTolerance, 'options.snapTolerance');
+  expectNumber(snapTolerance, 'options.snapTolerance');
+  if (!(snapTolerance >= 0 && snapTolerance < 0.5)) throw bad('options.snapTolerance must be at least 0 and below 0.5.', 'badOption');
+  return snapTolerance;
 }
 
 export function readFlag(value, fallback, name) {

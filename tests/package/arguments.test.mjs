@@ -1,0 +1,206 @@
+// Wrong arguments end in a named error that says which one, and nothing else happens.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { init, MandolineError } from 'mandoline-wasm';
+import { box, torus } from './meshes.mjs';
+
+const mandoline = await init();
+const mesh = box([0.5, 0.5, 0.5], [1.5, 1.5, 1.5]);
+const grid = { min: [0, 0, 0], max: [2, 2, 2], cells: [2, 2, 2] };
+const cutMesh = mandoline.cut(mesh, grid);
+
+function detached(array) {
+  const copy = array.slice();
+  structuredClone(copy, { transfer: [copy.buffer] });
+  return copy;
+}
+
+function assertBad(call, pattern) {
+  assert.throws(call, (error) => {
+    assert.ok(error instanceof MandolineError, `${error.stack}`);
+    assert.equal(error.code, 'badArgument', error.message);
+    assert.match(error.message, pattern);
+    assert.notEqual(error.stage, '');
+    return true;
+  });
+}
+
+test('meshes', () => {
+  const cases = [
+    [undefined, /^mesh must be an object, not undefined/],
+    [null, /^mesh must be an object, not null/],
+    [{}, /^mesh\.positions must be an array of numbers, not undefined/],
+    [{ ...mesh, positions: 'text' }, /^mesh\.positions .* not string/],
+    [{ ...mesh, positions: new BigInt64Array(3) }, /^mesh\.positions/],
+    [{ ...mesh, positions: [0, '1', 2] }, /^mesh\.positions\[1\] must be a number, not string/],
+    [{ ...mesh, positions: [0, , 2] }, /^mesh\.positions\[1\]/], // eslint-disable-line no-sparse-arrays
+    [{ ...mesh, positions: detached(mesh.positions) }, /^mesh\.positions is detached/],
+    [{ ...mesh, triangles: detached(mesh.triangles) }, /^mesh\.triangles is detached/],
+    [{ ...mesh, triangles: new Float32Array(3) }, /^mesh\.triangles must be an array of tri-vertex ids, not Float32Array/],
+    [{ ...mesh, triangles: new ArrayBuffer(12) }, /^mesh\.triangles/],
+    [{ ...mesh, triangles: new DataView(new ArrayBuffer(12)) }, /^mesh\.triangles/],
+    [{ ...mesh, triangles: [0, 1, 1.5] }, /^mesh\.triangles\[2\] must be a whole number, not 1\.5/],
+    [{ ...mesh, triangles: [0, 1, NaN] }, /^mesh\.triangles\[2\]/],
+    [{ ...mesh, triangles: [0, 1, '2'] }, /^mesh\.triangles\[2\]/],
+    [{ ...mesh, triangles: [[0, 1, 2]] }, /^mesh\.triangles\[0\] must be a whole number, not an array/],
+  ];
+  for (const [wrong, pattern] of cases) {
+    assertBad(() => mandoline.cut(wrong, grid), pattern);
+    assertBad(() => mandoline.measure(wrong, cutMesh), pattern);
+    assertBad(() => mandoline.validate(wrong, cutMesh), pattern);
+  }
+});
+
+test('grids', () => {
+  const cases = [
+    [undefined, /^grid must be an object/],
+    [32, /^grid must be an object, not 32/],
+    [{}, /^grid\.cells must be a whole number, not undefined/],
+    [{ cells: '32' }, /^grid\.cells must be a whole number, not string/],
+    [{ cells: 1.5 }, /^grid\.cells .* not 1\.5/],
+    [{ cells: NaN }, /^grid\.cells/],
+    [{ cells: [2, 2, 2] }, /^grid\.cells must be a whole number, not an array/],
+    [{ ...grid, cells: 4 }, /^grid\.cells must have three numbers/],
+    [{ ...grid, cells: [2, 2, 2.5] }, /^grid\.cells\[2\]/],
+    [{ ...grid, min: [0, 0] }, /^grid\.min must have three numbers/],
+    [{ ...grid, max: undefined }, /^grid\.max/],
+    [{ ...grid, max: [1, 2, null] }, /^grid\.max\[2\] must be a number, not null/],
+    [{ spacing: [1, 1, 1], cells: [1, 1, 1] }, /^grid\.origin/],
+    [{ planes: [[0, 1], [0, 1]] }, /^grid\.planes must have the planes of three axes/],
+    [{ planes: [[0, 1], [0, 1], [0, '1']] }, /^grid\.planes\[2\]\[1\]/],
+    [{ planes: [[0, 1], [0, 1], 7] }, /^grid\.planes\[2\]/],
+    [{ planes: [[0, 1], [0, 1], { length: -1 }] }, /^grid\.planes\[2\]/],
+  ];
+  for (const [wrong, pattern] of cases) assertBad(() => mandoline.cut(mesh, wrong), pattern);
+});
+
+test('options', () => {
+  const cases = [
+    [null, /^options must be an object/],
+    [3, /^options must be an object/],
+    [{ snapTolerance: '0' }, /^options\.snapTolerance must be a number, not string/],
+    [{ progress: {} }, /^options\.progress must be a function/],
+    [{ gridCellRegion: 1 }, /^options\.gridCellRegion must be true or false/],
+  ];
+  for (const [wrong, pattern] of cases) assertBad(() => mandoline.cut(mesh, grid, wrong), pattern);
+  assertBad(() => mandoline.validate(mesh, cutMesh, { snapTolerance: null }), /^options\.snapTolerance/);
+  for (const snapTolerance of [-1, 0.5, NaN, Infinity]) {
+    assert.throws(() => mandoline.validate(mesh, cutMesh, { snapTolerance }), { code: 'badOption', stage: 'validate' });
+  }
+});
+
+const calls = {
+  validate: (wrong) => mandoline.validate(mesh, wrong),
+  measure: (wrong) => mandoline.measure(mesh, wrong),
+  cutEdges: (wrong) => mandoline.cutEdges(mesh, wrong),
+  adjacency: (wrong) => mandoline.adjacency(wrong),
+  triangulate: (wrong) => mandoline.triangulate(wrong),
+  'triangulate one cell': (wrong) => mandoline.triangulate(wrong, { cell: 0 }),
+  'triangulate one region': (wrong) => mandoline.triangulate(wrong, { region: 0 }),
+  cellAt: (wrong) => mandoline.cellAt(wrong, [0.6, 0.6, 0.6]),
+  cellsAt: (wrong) => mandoline.cellsAt(wrong, [0.6, 0.6, 0.6]),
+  slice: (wrong) => mandoline.slice(wrong, { normal: [1, 1, 1], offset: 2 }),
+  'write json': (wrong) => mandoline.write(mesh, wrong, 'json'),
+  'write vtu': (wrong) => mandoline.write(mesh, wrong, 'vtu'),
+  'write obj': (wrong) => mandoline.write(mesh, wrong, 'obj'),
+};
+const takesMesh = (name) => /validate|measure|cutEdges|write/.test(name);
+const arrays = Object.keys(cutMesh).filter((key) => ArrayBuffer.isView(cutMesh[key]) && key !== 'gridCellRegion');
+
+for (const [name, call] of Object.entries(calls)) {
+  test(`${name} of what is no cut-mesh`, () => {
+    assertBad(() => call(undefined), /^cutMesh must be an object/);
+    assertBad(() => call({}), /^cutMesh\.grid must be an object/);
+    assertBad(() => call({ ...cutMesh, grid: {} }), /^cutMesh\.grid\.planes/);
+    assertBad(() => call({ ...cutMesh, regionCount: -1 }), /^cutMesh\.regionCount/);
+    assertBad(() => call({ ...cutMesh, regionCount: '2' }), /^cutMesh\.regionCount/);
+    assertBad(() => call({ ...cutMesh, triangleCount: undefined }), /^cutMesh\.triangleCount/);
+    assertBad(() => call({ ...cutMesh, regionWinding: undefined }), /^cutMesh\.regionWinding/);
+    for (const key of arrays) {
+      assertBad(() => call({ ...cutMesh, [key]: undefined }), new RegExp(`^cutMesh\\.${key} must be a \\w+Array, not undefined`));
+      assertBad(() => call({ ...cutMesh, [key]: [...cutMesh[key]] }), new RegExp(`^cutMesh\\.${key} must be a`));
+      if (cutMesh[key].length > 0) assertBad(() => call({ ...cutMesh, [key]: detached(cutMesh[key]) }), new RegExp(`^cutMesh\\.${key} is detached`));
+    }
+  });
+
+  test(`${name} of arrays of wrong lengths or with ids out of range`, () => {
+    const damages = [];
+    for (const key of arrays) {
+      const array = cutMesh[key];
+      if (array.length === 0) continue;
+      damages.push([key, array.slice(1)], [key, array.slice(0, 0)], [key, Object.getPrototypeOf(array).constructor.of(...array, 1)]);
+      const anything = ['positions', 'regionWinding', 'faceAxis', ...(takesMesh(name) ? [] : ['vertexTriVertex', 'vertexParents'])];
+      if (!anything.includes(key)) damages.push([key, array.map(() => 0x7fffffff)]);
+    }
+    damages.push(['positions', cutMesh.positions.map(() => NaN)], ['faceAxis', cutMesh.faceAxis.map(() => 3)]);
+    damages.push(['cellHalfFaceOffsets', cutMesh.cellHalfFaceOffsets.map((x, i) => (i % 2 ? 0 : x))]);
+    damages.push(['grid', { ...cutMesh.grid, planes: [[0, 1, 2], [0, 1, 2], [0]] }], ['grid', { ...cutMesh.grid, planes: [[0, 1, 2], [0, 1, 2], [2, 1, 0]] }]);
+    for (const [key, value] of damages) {
+      const damaged = { ...cutMesh, [key]: value };
+      if (name === 'validate') {
+        assert.equal(call(damaged).pass, false, key);
+      } else {
+        assertBad(() => call(damaged), /don't fit together|there are only/);
+      }
+    }
+    assert.ok(call(cutMesh)); // the instance lives
+  });
+}
+
+test('damaged entries are judged, never followed', () => {
+  const large = torus(24, 12);
+  const cut = mandoline.cut(large, { cells: 6 });
+  let state = 1;
+  const random = (n) => {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    return Math.floor((state / 2 ** 32) * n);
+  };
+  for (let round = 0; round < 400; ++round) {
+    const key = arrays[random(arrays.length)];
+    const value = cut[key].slice();
+    if (value.length === 0) continue;
+    for (let i = 0; i < 3; ++i) value[random(value.length)] = [0, 1, -1, 7, 1000, 2 ** 31 - 1, 2 ** 32 - 1, value[random(value.length)]][random(8)];
+    const damaged = { ...cut, [key]: value };
+    for (const [name, call] of Object.entries({ ...calls, measure: () => mandoline.measure(large, damaged), validate: () => mandoline.validate(large, damaged) })) {
+      try {
+        call(damaged);
+      } catch (error) {
+        assert.equal(error.code, 'badArgument', `${name}, ${key}: ${error.stack}`);
+      }
+    }
+  }
+  assert.equal(mandoline.validate(large, cut).pass, true);
+});
+
+test('what is asked of a cut-mesh', () => {
+  const cases = [
+    [() => mandoline.triangulate(cutMesh, { cell: 16 }), /^cell is 16, but there are only 16/],
+    [() => mandoline.triangulate(cutMesh, { cell: -1 }), /^cell/],
+    [() => mandoline.triangulate(cutMesh, { cell: 0.5 }), /^cell/],
+    [() => mandoline.triangulate(cutMesh, { region: 2 }), /^region is 2, but there are only 2/],
+    [() => mandoline.triangulate(cutMesh, { cell: 0, region: 0 }), /\{ cell \} or \{ region \}/],
+    [() => mandoline.triangulate(cutMesh, {}), /\{ cell \} or \{ region \}/],
+    [() => mandoline.triangulate(cutMesh, null), /\{ cell \} or \{ region \}/],
+    [() => mandoline.cellAt(cutMesh, [0, 0]), /^point must have three numbers/],
+    [() => mandoline.cellAt(cutMesh, undefined), /^point must have three numbers/],
+    [() => mandoline.cellsAt(cutMesh, [0, 0]), /^points must have three numbers per point/],
+    [() => mandoline.cellsAt(cutMesh, null), /^points must be an array of numbers, not null/],
+    [() => mandoline.slice(cutMesh, null), /^plane must be an object/],
+    [() => mandoline.slice(cutMesh, { normal: [0, 0, 1] }), /^plane\.offset must be a number/],
+    [() => mandoline.slice(cutMesh, { normal: 1, offset: 0 }), /^plane\.normal must have three numbers/],
+    [() => mandoline.slice(cutMesh, { normal: [0, 0, 1], offset: 0 }, { untouched: 0 }), /^options\.untouched/],
+    [() => mandoline.write(mesh, cutMesh, 'stl'), /^format/],
+    [() => mandoline.write(mesh, cutMesh), /^format/],
+  ];
+  for (const [call, pattern] of cases) assertBad(call, pattern);
+  for (const plane of [{ normal: [0, 0, 0], offset: 1 }, { normal: [0, NaN, 1], offset: 1 }, { normal: [0, 0, 1], offset: Infinity }]) {
+    assert.throws(() => mandoline.slice(cutMesh, plane), { code: 'badOption', stage: 'slice' });
+  }
+});
+
+test('a mesh that is not the one that was cut', () => {
+  for (const call of [mandoline.measure, mandoline.cutEdges, (other, cut) => mandoline.write(other, cut, 'vtu')]) {
+    assertBad(() => call(torus(8, 8), cutMesh), /triangleCount/);
+  }
+  assert.equal(mandoline.validate(torus(8, 8), cutMesh).pass, false);
+});
