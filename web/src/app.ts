@@ -27,6 +27,9 @@ export interface AppEvents {
   step: StepPicture | null;
 }
 
+/** So few cut-cells are better seen without a slice. */
+const fewCells = 60;
+
 export class App {
   readonly events = new Events<AppEvents>();
   settings = defaultSettings();
@@ -61,7 +64,7 @@ export class App {
       const { grid, show } = this.settings;
       const former = 'min' in grid ? Math.max(...grid.cells) : grid.cells;
       this.change({ source, grid: { cells: cells ?? former }, show: { ...show, region: null }, camera: null }, false);
-      if (!(await this.recut(true))) this.changeShow({ outside: this.hasOnlyOutside() });
+      if (!(await this.recut(true))) this.fitLook();
     });
   }
 
@@ -82,10 +85,20 @@ export class App {
     });
   }
 
-  /** An open sheet has no inside: without the outside, nothing would be seen. */
+  /** Whether nothing is seen without the outside, as with an open sheet. */
   private hasOnlyOutside(): boolean {
     const { model } = this;
     return model !== null && model.regions.every(({ id }) => isOutside(model, id));
+  }
+
+  /** What a mesh is best first seen with: a sheet without the untouched cells around it, and few cells all of them unless the plane was moved. */
+  private fitLook(): void {
+    const { slices, show } = this.settings;
+    const outside = this.hasOnlyOutside();
+    const { free } = defaultSettings().slices;
+    const isMoved = slices.free.position !== free.position || slices.free.normal.some((x, d) => x !== free.normal[d]);
+    const on = isMoved ? slices.free.on : (this.model?.counts.cutCells ?? 0) >= fewCells;
+    this.change({ slices: { ...slices, free: { ...slices.free, on } }, show: { ...show, outside, untouched: !outside } });
   }
 
   /** A page without a picture would be of no use. */

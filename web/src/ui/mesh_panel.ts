@@ -15,7 +15,8 @@ function meshLine(app: App): HTMLElement {
   const line = el('p', { class: 'line', id: 'mesh-line', 'aria-live': 'polite' });
   app.events.on('mesh', ({ name, vertices, triangles }) => {
     Object.assign(line.dataset, { name, vertices, triangles });
-    line.replaceChildren(el('strong', {}, name), ` ${plural(triangles, 'triangle')}, ${integer(vertices)} vertices`);
+    const title = gallery.find((entry) => entry.name === name)?.title ?? name;
+    line.replaceChildren(el('strong', {}, title), ` ${plural(triangles, 'triangle')}, ${integer(vertices)} vertices`);
   });
   return line;
 }
