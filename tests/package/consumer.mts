@@ -1,0 +1,66 @@
+// A program that only has to compile: what users write, and mistakes that the types must catch.
+import { MandolineError, compiledModule, describe, init } from 'mandoline-wasm';
+import type { CutMesh, GridInput, Location, Mandoline, Mesh, Progress } from 'mandoline-wasm';
+import { cellArrays, cellColors, cellGeometry, edgeGeometry, meshFromGeometry, sliceGeometry } from 'mandoline-wasm/three';
+import { MandolineError as WorkerError, createWorker } from 'mandoline-wasm/worker';
+import { BoxGeometry, BufferGeometry, Matrix4 } from 'three';
+
+const mesh: Mesh = { positions: [0, 0, 0, 1, 0, 0, 0, 1, 0], triangles: new Uint16Array([0, 1, 2]) };
+const grids: GridInput[] = [
+  { cells: 8 },
+  { min: [0, 0, 0], max: [1, 1, 1], cells: [2, 2, 2] },
+  { origin: [0, 0, 0], spacing: [1, 1, 1], cells: [2, 2, 2] },
+  { planes: [[0, 1], [0, 1, 3], new Float64Array(2)] },
+];
+
+async function core(): Promise<void> {
+  const mandoline: Mandoline = await init({ wasm: await compiledModule() });
+  const cutMesh: CutMesh = mandoline.cut(mesh, grids[0]!, { snapTolerance: 0.01, progress: ({ done, total }: Progress) => done < total });
+  mandoline.cut(mesh, cutMesh.grid);
+  const all: Uint32Array = mandoline.triangulate(cutMesh).triangles;
+  const one: Uint32Array = mandoline.triangulate(cutMesh, { cell: 0 });
+  const where: Location | null = mandoline.cellAt(cutMesh, [0, 0, 0]);
+  const bytes: Uint8Array = mandoline.write(mesh, cutMesh, 'vtu');
+  const checks = mandoline.validate(mesh, cutMesh).checks.filter(({ pass }) => !pass);
+  console.log(all, one, where?.cell, bytes, checks, mandoline.slice(cutMesh, { normal: [0, 0, 1], offset: 0 }).polygonCell);
+  // @ts-expect-error There is no such grid.
+  mandoline.cut(mesh, { count: 8 });
+  // @ts-expect-error There is no such format.
+  mandoline.write(mesh, cutMesh, 'stl');
+  // @ts-expect-error Open meshes have no winding numbers.
+  cutMesh.regionWinding.length;
+}
+
+async function inWorker(): Promise<void> {
+  const worker = await createWorker();
+  const { signal } = new AbortController();
+  const cutMesh: CutMesh = await worker.cut(mesh, { cells: 8 }, { signal, transfer: [new ArrayBuffer(8)], snapTolerance: 0 });
+  const all: Uint32Array = (await worker.triangulate(cutMesh, undefined, { signal })).triangles;
+  const one: Uint32Array = await worker.triangulate(cutMesh, { region: 0 });
+  // @ts-expect-error It is a promise.
+  worker.measure(mesh, cutMesh).faceArea;
+  console.log(all, one);
+  worker.terminate();
+}
+
+async function drawn(): Promise<void> {
+  const { cut, cutEdges, measure, slice, triangulate } = await init();
+  const input = meshFromGeometry(new BoxGeometry(), new Matrix4());
+  const cutMesh = cut(input, { cells: 8 });
+  const geometries: BufferGeometry[] = [
+    cellGeometry(cutMesh, triangulate(cutMesh), { colorBy: 'volume', measures: measure(input, cutMesh), explode: 0.2, faces: 'surface', cells: [0] }),
+    edgeGeometry(cutMesh, cutEdges(input, cutMesh), [0, 0, 0]),
+    sliceGeometry(cutMesh, slice(cutMesh, { normal: [0, 0, 1], offset: 0 }), { colorBy: 'winding' }),
+  ];
+  const colors: Float32Array = cellColors(cutMesh, 'cell');
+  // @ts-expect-error There are no such colours.
+  cellColors(cutMesh, 'kind');
+  console.log(geometries, colors, cellArrays(cutMesh, triangulate(cutMesh)).normal);
+}
+
+try {
+  await Promise.all([core(), inWorker(), drawn()]);
+} catch (error) {
+  if (error instanceof MandolineError && error instanceof WorkerError && error.code === 'selfIntersection') console.log(error.element, error.element2);
+  console.log(describe(error));
+}
