@@ -12,7 +12,7 @@ export interface GalleryEntry {
 export const gallery: readonly GalleryEntry[] = [
   {
     name: 'bunny', title: 'Stanford bunny', cells: 16,
-    line: 'A scan: slice it and see that every cut-cell follows the fur exactly, on both sides of the surface.',
+    line: 'A scan: slice it and see cut-cells on both sides of the surface, each of which follows it exactly.',
   },
   {
     name: 'hilbert', title: 'Hollow Hilbert curve', cells: 4,

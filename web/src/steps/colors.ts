@@ -7,9 +7,8 @@ function linear(hex: string): Color {
 }
 
 export const triEdgeColor = linear('#8794a1');
-export const triVertexColor = linear('#8794a1');
-/** Of a crossing, by the number of axial planes that meet there. */
-export const crossingColors: readonly Color[] = ['#8794a1', '#e0822b', '#c23fa6', '#d3202f'].map(linear);
+/** Of a crossing of one, two or three axial planes. */
+export const crossingColors: readonly Color[] = ['#e0822b', '#c23fa6', '#d3202f'].map(linear);
 /** Of what lies in planes across an axis. */
 export const axisColors: readonly Color[] = ['#d9534f', '#3f9d4c', '#3f78d9'].map(linear);
 export const outlineColor = linear('#5b6773');

@@ -1,18 +1,18 @@
 // The first two steps: tri-edges with their crossings, and hybrid edges.
 import type { StepPicture, StepRequest } from '../types';
-import { axisColors, crossingColors, outlineColor, triEdgeColor, triVertexColor } from './colors';
+import { axisColors, crossingColors, outlineColor, triEdgeColor } from './colors';
 import { chosenTriangle } from './choose';
 import { commonPlanes, forEachEdge } from './faces';
 import { counted, Drawing, pointOf, type Subject } from './picture';
 
-/** Of meshes with more triangles, one triangle and its neighbours are shown. */
-const mostTriangles = 20000;
+/** Of meshes with more triangles, one triangle and its neighbours are shown: the points would cover each other. */
+const mostTriangles = { triEdges: 800, hybridEdges: 20000 };
 
 /** The triangles to show: all, or one and those that touch it. Vertices at one place are one vertex, welded or not. */
-function chosenTriangles({ mesh, cutMesh }: Subject, request: StepRequest): { triangle?: number; shown: Set<number> } {
+function chosenTriangles({ mesh, cutMesh }: Subject, request: StepRequest, most: number): { triangle?: number; shown: Set<number> } {
   const { positions, triangles } = mesh;
   const all = Array.from({ length: triangles.length / 3 }, (_, t) => t);
-  if (request.triangle === undefined && all.length <= mostTriangles) return { shown: new Set(all) };
+  if (request.triangle === undefined && all.length <= most) return { shown: new Set(all) };
   const triangle = chosenTriangle(cutMesh, request);
   const at = (corner: number) => pointOf(positions, triangles[corner]);
   const corners = [at(3 * triangle), at(3 * triangle + 1), at(3 * triangle + 2)];
@@ -71,7 +71,7 @@ function where(triangle: number | undefined): string {
 
 export function triEdges(subject: Subject, request: StepRequest): StepPicture {
   const { positions, vertexMask } = subject.cutMesh;
-  const { triangle, shown } = chosenTriangles(subject, request);
+  const { triangle, shown } = chosenTriangles(subject, request, mostTriangles.triEdges);
   const drawing = new Drawing(subject.origin);
   const edges = drawTriEdges(drawing, subject, shown);
   const crossings = [0, 0, 0, 0];
@@ -80,10 +80,11 @@ export function triEdges(subject: Subject, request: StepRequest): StepPicture {
   forEachEdge(subject, facesOfTriangles(subject, shown), (u, v) => vertices.add(u).add(v));
   for (const vertex of vertices) {
     const planes = (vertexMask[vertex] & 1) + ((vertexMask[vertex] >> 1) & 1) + (vertexMask[vertex] >> 2);
+    if (planes === 0) continue;
     if (isOnTriEdge(subject, vertex)) ++crossings[planes];
-    else if (!isTriVertex(subject, vertex)) continue;
-    else if (planes > 0) ++triVerticesOnPlanes;
-    drawing.point(pointOf(positions, vertex), planes > 0 ? crossingColors[planes] : triVertexColor);
+    else if (isTriVertex(subject, vertex)) ++triVerticesOnPlanes;
+    else continue;
+    drawing.point(pointOf(positions, vertex), crossingColors[planes - 1]);
   }
   const several = crossings[2] + crossings[3];
   const text = `${counted(edges, 'tri-edge')}${where(triangle)} ${edges === 1 ? 'crosses' : 'cross'} the axial planes in ${counted(crossings[1] + several, 'point')}`
@@ -94,7 +95,7 @@ export function triEdges(subject: Subject, request: StepRequest): StepPicture {
 }
 
 export function hybridEdges(subject: Subject, request: StepRequest): StepPicture {
-  const { triangle, shown } = chosenTriangles(subject, request);
+  const { triangle, shown } = chosenTriangles(subject, request, mostTriangles.hybridEdges);
   const drawing = new Drawing(subject.origin);
   if (triangle !== undefined) drawTriEdges(drawing, subject, shown);
   const perAxis = [0, 0, 0];

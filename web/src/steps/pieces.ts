@@ -81,14 +81,35 @@ function pieceOf(subject: Subject, cell: number): Piece {
   return { cell, low, high, middle: middleOf([low, high]) };
 }
 
-/** Where pieces go: away from the middle of the grid cell; one inside another is taken out of it, along x. */
+function volumeOf(low: Vector3, high: Vector3): number {
+  return [0, 1, 2].reduce((volume, d) => volume * Math.max(0, high[d] - low[d]), 1);
+}
+
+/** The share of one piece's box that another's covers. */
+function coveredShare(a: Piece, b: Piece): number {
+  const low = a.low.map((x, d) => Math.max(x, b.low[d])) as unknown as Vector3;
+  const high = a.high.map((x, d) => Math.min(x, b.high[d])) as unknown as Vector3;
+  return volumeOf(low, high) / volumeOf(a.low, a.high);
+}
+
+/** Whether a piece lies in or around a larger one. */
+function isHidden(piece: Piece, pieces: readonly Piece[]): boolean {
+  const size = ({ low, high }: Piece) => volumeOf(low, high);
+  const isBefore = (other: Piece) => size(other) > size(piece) || (size(other) === size(piece) && other.cell < piece.cell);
+  return pieces.some((other) => other !== piece && isBefore(other) && coveredShare(piece, other) > 0.8);
+}
+
+/** Where pieces go: away from the middle of the grid cell; hidden ones are set in a row beside the others, along x. */
 function movesApart(pieces: readonly Piece[], low: Vector3, high: Vector3): Vector3[] {
   const center = middleOf([low, high]);
-  const within = (a: Piece, b: Piece) => [0, 1, 2].every((d) => a.low[d] > b.low[d] && a.high[d] < b.high[d]);
-  let taken = 0;
-  return pieces.map((piece): Vector3 => {
-    if (pieces.some((other) => within(piece, other))) return [1.3 * (high[0] - low[0]) * ++taken, 0, 0];
-    return [0, 1, 2].map((d) => 0.9 * (piece.middle[d] - center[d])) as unknown as Vector3;
+  const hidden = pieces.map((piece) => isHidden(piece, pieces));
+  const apart = pieces.map(({ middle }): Vector3 => [0.9 * (middle[0] - center[0]), 0.9 * (middle[1] - center[1]), 0.9 * (middle[2] - center[2])]);
+  let end = pieces.reduce((x, piece, k) => (hidden[k] ? x : Math.max(x, piece.high[0] + apart[k][0])), high[0]);
+  return pieces.map((piece, k): Vector3 => {
+    if (!hidden[k]) return apart[k];
+    const start = end + 0.2 * (high[0] - low[0]);
+    end = start + piece.high[0] - piece.low[0];
+    return [start - piece.low[0], 0, 0];
   });
 }
 
