@@ -73,14 +73,14 @@ export function idColor(id) {
   return fromOklab([lightness, 0.11 * Math.cos(angle), 0.11 * Math.sin(angle)]);
 }
 
-/** The colour of a volume on a logarithmic scale from the smallest of `cellVolume`, or a millionth of the largest if that is more, to the largest. */
+/** The colour of a volume on a logarithmic scale from the smallest of `cellVolume`, or a thousandth of the largest if that is more, to the largest. */
 export function volumeScale(cellVolume) {
   let smallest = Infinity, largest = 0;
   for (const volume of cellVolume) {
     if (volume > 0) smallest = Math.min(smallest, volume);
     largest = Math.max(largest, volume);
   }
-  const low = Math.log(Math.max(smallest, 1e-6 * largest)), range = Math.log(largest) - low;
+  const low = Math.log(Math.max(smallest, 1e-3 * largest)), range = Math.log(largest) - low;
   return (volume) => ramp(volumes, range > 0 ? (Math.log(volume) - low) / range : 1);
 }
 

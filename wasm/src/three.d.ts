@@ -1,11 +1,11 @@
 /**
- * From three.js to Mandoline and back. three is an optional peer dependency: only functions that return a BufferGeometry need it. Those that end in
- * "Arrays" make the plain arrays and also run in a worker.
+ * From three.js to Mandoline and back. Importing this needs three, an optional peer dependency. cellArrays, cellColors and meshFromGeometry handle plain
+ * data and also run in a worker, from whose bundle three then drops out.
  */
 import type { BufferGeometry, Matrix4 } from 'three';
 import type { CutEdges, CutMesh, FaceTriangles, Measures, Mesh, Slice, Vector3 } from './index.js';
 
-/** The triangles of an indexed or unindexed BufferGeometry (its draw range and groups aside), moved by the matrix if there is one. */
+/** The triangles of an indexed or unindexed BufferGeometry (its draw range and groups aside), moved by the matrix if there is one: outward stays outward. */
 export function meshFromGeometry(geometry: BufferGeometry, matrix?: Matrix4): Mesh;
 
 export interface CellArraysOptions {
@@ -43,7 +43,7 @@ export interface CellGeometryOptions extends CellArraysOptions {
 /** A geometry with attributes position, normal, color, cell and face. */
 export function cellGeometry(cutMesh: CutMesh, faceTriangles: FaceTriangles, options?: CellGeometryOptions): BufferGeometry;
 
-/** 3 per cut-cell: linear RGB, 0 to 1. */
+/** 3 per cut-cell: linear RGB, 0 to 1. Volumes are told on a logarithmic scale over at most three decades below the largest. */
 export function cellColors(cutMesh: CutMesh, colorBy: ColorBy, measures?: Measures): Float32Array;
 
 /** Cut-edges as a geometry for LineSegments. */
