@@ -1,0 +1,131 @@
+import assert from 'node:assert/strict';
+import { describe, test } from 'node:test';
+import { init } from 'mandoline-wasm';
+import { importBundled } from './bundled.mjs';
+
+const { stepPicture } = await importBundled('steps/index.ts');
+const { galleryMesh } = await importBundled('gallery/index.ts');
+const mandoline = await init();
+const kinds = ['triEdges', 'hybridEdges', 'triangleFaces', 'axialPlane', 'gridCell'];
+
+async function subject(name, cells) {
+  const mesh = await galleryMesh(name);
+  const cutMesh = mandoline.cut(mesh, { cells });
+  const faceTriangles = mandoline.triangulate(cutMesh);
+  return { mesh, cutMesh, picture: (request, origin = [0, 0, 0]) => stepPicture(mesh, cutMesh, faceTriangles, request, origin) };
+}
+
+const minus = (a, b) => a.map((x, d) => x - b[d]);
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const dot = (a, b) => a.reduce((sum, x, d) => sum + x * b[d], 0);
+
+function groups(position, size) {
+  return Array.from({ length: position.length / (3 * size) }, (_, k) =>
+    Array.from({ length: size }, (_, i) => Array.from(position.subarray(3 * (size * k + i), 3 * (size * k + i + 1)))));
+}
+
+const area = (position) => groups(position, 3).reduce((sum, [a, b, c]) => sum + Math.hypot(...cross(minus(b, a), minus(c, a))) / 2, 0);
+const volume = (position) => groups(position, 3).reduce((sum, [a, b, c]) => sum + dot(a, cross(b, c)) / 6, 0);
+const about = (actual, expected) => assert.ok(Math.abs(actual - expected) < 1e-5 * Math.abs(expected), `${actual} is not ${expected}`);
+
+for (const [name, cells] of [['bunny', 16], ['bunny', 1], ['claw', 2], ['wavy-plane', 10], ['aligned-steps', 22], ['moebius-strip', 12]]) {
+  describe(`${name} at ${cells}`, async () => {
+    const { cutMesh, picture } = await subject(name, cells);
+    for (const kind of kinds) {
+      test(kind, () => {
+        const made = picture({ kind });
+        assert.equal(made.kind, kind);
+        assert.equal(made.choices.request.kind, kind);
+        assert.deepEqual(made.choices.planes, cutMesh.grid.cells.map((n) => n + 1));
+        assert.ok(made.radius > 0 && made.center.every(Number.isFinite));
+        for (const { position, color } of [made.lines, made.faces, made.points]) {
+          assert.equal(position.length, color.length);
+          assert.ok(position.every(Number.isFinite) && color.every((c) => c >= 0 && c <= 1.2));
+        }
+        assert.equal(made.lines.position.length % 6, 0);
+        assert.equal(made.faces.position.length % 9, 0);
+        assert.ok(made.lines.position.length > 0);
+        assert.deepEqual(picture(made.choices.request), made);
+      });
+    }
+  });
+}
+
+describe('what is drawn', () => {
+  test('cut-faces cover their triangle', async () => {
+    const { mesh, picture } = await subject('bunny', 32);
+    const { faces, choices } = picture({ kind: 'triangleFaces' });
+    const [a, b, c] = [0, 1, 2].map((k) => Array.from(mesh.positions.subarray(3 * mesh.triangles[3 * choices.request.triangle + k]).subarray(0, 3)));
+    // Each is drawn at 0.9 of its size.
+    about(area(faces.position), (0.81 * Math.hypot(...cross(minus(b, a), minus(c, a)))) / 2);
+  });
+
+  test('cut-cells fill their grid cell', async () => {
+    for (const [name, cells] of [['bunny', 16], ['oscillator', 2], ['nested-spheres', 10], ['pages', 8]]) {
+      const { cutMesh, picture } = await subject(name, cells);
+      about(volume(picture({ kind: 'gridCell' }).faces.position), cutMesh.grid.spacing.reduce((product, h) => product * h));
+    }
+  });
+
+  test('faces cover an axial plane that the surface meets everywhere', async () => {
+    const { cutMesh, picture } = await subject('oscillator', 2);
+    const { faces, choices, text } = picture({ kind: 'axialPlane' });
+    assert.deepEqual(choices.request, { kind: 'axialPlane', axis: 1, plane: 1 });
+    about(area(faces.position), cutMesh.grid.spacing[0] * cutMesh.grid.spacing[2]);
+    assert.match(text, /5 faces, 4 of them with holes/);
+  });
+
+  test('triangles in an axial plane are marked', async () => {
+    const { picture } = await subject('aligned-steps', 22);
+    assert.match(picture({ kind: 'axialPlane', axis: 2, plane: 1 }).text, /pieces of triangles that lie in the plane/);
+    assert.doesNotMatch(picture({ kind: 'axialPlane', axis: 2, plane: 2 }).text, /that lie in the plane/);
+  });
+
+  test('hybrid edges and crossings lie in axial planes', async () => {
+    const { cutMesh, picture } = await subject('torus-knot', 8);
+    const { planes } = cutMesh.grid;
+    const near = (x, d) => planes[d].some((plane) => Math.abs(plane - x) < 1e-5);
+    for (const [p, q] of groups(picture({ kind: 'hybridEdges' }).lines.position, 2)) {
+      assert.ok([0, 1, 2].some((d) => near(p[d], d) && Math.abs(p[d] - q[d]) < 1e-5));
+    }
+    for (const [p] of groups(picture({ kind: 'triEdges' }).points.position, 1)) assert.ok([0, 1, 2].some((d) => near(p[d], d)));
+  });
+
+  test('the crossings of a small mesh are counted', async () => {
+    // Each of the six slanted edges ends in the plane, and no edge but the three in it meets it.
+    const wedge = (await subject('wedge', 2)).picture({ kind: 'triEdges' });
+    assert.match(wedge.text, /^9 tri-edges cross the axial planes in 0 points.* 3 tri-vertices lie on a plane/);
+    assert.equal(wedge.points.position.length, 9);
+    assert.match((await subject('wedge', 2)).picture({ kind: 'hybridEdges' }).text, /no hybrid edges/);
+  });
+
+  test('all is less the origin', async () => {
+    const { picture } = await subject('wedge', 8);
+    for (const kind of kinds) {
+      const [here, there] = [picture({ kind }), picture({ kind }, [1, 2, 3])];
+      minus(here.center, there.center).forEach((x, d) => about(x, d + 1));
+      about(here.lines.position[1] - there.lines.position[1], 2);
+    }
+  });
+});
+
+describe('requests', () => {
+  test('of what does not exist get something else', async () => {
+    const { picture, cutMesh } = await subject('wedge', 4);
+    const triangle = picture({ kind: 'triangleFaces', triangle: 6 }).choices.request.triangle;
+    assert.ok(triangle >= 0 && triangle < 6);
+    assert.ok(picture({ kind: 'triEdges', triangle: 0.5 }).choices.request.triangle < 6);
+    const { axis, plane } = picture({ kind: 'axialPlane', axis: 2, plane: 99 }).choices.request;
+    assert.ok(axis === 2 && plane <= cutMesh.grid.cells[2]);
+    assert.ok(picture({ kind: 'gridCell', gridCell: [-1, 0, 0] }).choices.request.gridCell[0] >= 0);
+  });
+
+  test('of what was not cut say so', async () => {
+    const { picture } = await subject('bunny', 16);
+    assert.match(picture({ kind: 'gridCell', gridCell: [0, 0, 0] }).text, /\(0, 0, 0\) is untouched/);
+    const mesh = { positions: new Float64Array([0, 0, 0, 1, 0, 0, 0, 1, 0]), triangles: new Uint32Array([0, 1, 2, 0, 1, 1]) };
+    const cutMesh = mandoline.cut(mesh, { cells: 4 });
+    const picked = stepPicture(mesh, cutMesh, mandoline.triangulate(cutMesh), { kind: 'triangleFaces', triangle: 1 }, [0, 0, 0]);
+    assert.match(picked.text, /Triangle 1 has no cut-face/);
+  });
+});
