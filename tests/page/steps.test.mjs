@@ -99,6 +99,19 @@ describe('what is drawn', () => {
     assert.match((await subject('wedge', 2)).picture({ kind: 'hybridEdges' }).text, /no hybrid edges/);
   });
 
+  test('an unwelded mesh gives the same', async () => {
+    for (const [name, cells] of [['torus-knot', 8], ['wedge', 2], ['wedge', 7]]) {
+      const { mesh, picture } = await subject(name, cells);
+      const soup = {
+        positions: new Float64Array(Array.from(mesh.triangles).flatMap((v) => Array.from(mesh.positions.subarray(3 * v, 3 * v + 3)))),
+        triangles: mesh.triangles.map((_, k) => k),
+      };
+      const cutMesh = mandoline.cut(soup, { cells });
+      const faceTriangles = mandoline.triangulate(cutMesh);
+      for (const kind of kinds) assert.equal(stepPicture(soup, cutMesh, faceTriangles, { kind }, [0, 0, 0]).text, picture({ kind }).text);
+    }
+  });
+
   test('all is less the origin', async () => {
     const { picture } = await subject('wedge', 8);
     for (const kind of kinds) {

@@ -50,17 +50,18 @@ function facesOfTriangles({ cutMesh }: Subject, triangles: ReadonlySet<number>):
   return faces;
 }
 
+/** Returns their number: what lies at one place is one vertex, so an edge of an unwelded mesh counts once. */
 function drawTriEdges(drawing: Drawing, { mesh }: Subject, triangles: Iterable<number>): number {
-  const seen = new Set<number>();
-  const vertexCount = mesh.positions.length / 3;
+  const seen = new Set<string>();
   for (const t of triangles) {
-    for (let k = 0; k < 3; ++k) {
-      const [a, b] = [mesh.triangles[3 * t + k], mesh.triangles[3 * t + ((k + 1) % 3)]];
-      const key = Math.min(a, b) * vertexCount + Math.max(a, b);
-      if (seen.has(key)) continue;
+    const corners = [0, 1, 2].map((k) => pointOf(mesh.positions, mesh.triangles[3 * t + k]));
+    corners.forEach((a, k) => {
+      const b = corners[(k + 1) % 3];
+      const key = [a.join(), b.join()].sort().join(' ');
+      if (seen.has(key)) return;
       seen.add(key);
-      drawing.line(pointOf(mesh.positions, a), pointOf(mesh.positions, b), triEdgeColor);
-    }
+      drawing.line(a, b, triEdgeColor);
+    });
   }
   return seen.size;
 }
