@@ -48,7 +48,8 @@ async function drawn(): Promise<void> {
   const input = meshFromGeometry(new BoxGeometry(), new Matrix4());
   const cutMesh = cut(input, { cells: 8 });
   const geometries: BufferGeometry[] = [
-    cellGeometry(cutMesh, triangulate(cutMesh), { colorBy: 'volume', measures: measure(input, cutMesh), explode: 0.2, faces: 'surface', cells: [0] }),
+    cellGeometry(cutMesh, triangulate(cutMesh), { colorBy: 'volume', measures: measure(input, cutMesh), explode: 0.2 }),
+    cellGeometry(cutMesh, triangulate(cutMesh), { faces: 'surface', cells: [0], origin: [1, 2, 3] }),
     edgeGeometry(cutMesh, cutEdges(input, cutMesh), [0, 0, 0]),
     sliceGeometry(cutMesh, slice(cutMesh, { normal: [0, 0, 1], offset: 0 }), { colorBy: 'winding' }),
   ];
@@ -61,6 +62,7 @@ async function drawn(): Promise<void> {
 try {
   await Promise.all([core(), inWorker(), drawn()]);
 } catch (error) {
-  if (error instanceof MandolineError && error instanceof WorkerError && error.code === 'selfIntersection') console.log(error.element, error.element2);
+  const known = error instanceof MandolineError && error instanceof WorkerError;
+  if (known && error.code === 'selfIntersection') console.log(error.element, error.element2);
   console.log(describe(error));
 }

@@ -13,7 +13,8 @@ const base = mkdtempSync(join(tmpdir(), 'mandoline-'));
 
 /** Packs the package once. Returns the tarball's path, its size and the names of its files. */
 export function pack() {
-  const [{ filename, files }] = JSON.parse(execFileSync('npm', ['pack', '--json', '--pack-destination', base], { cwd: packageFolder, stdio: 'pipe' }));
+  const output = execFileSync('npm', ['pack', '--json', '--pack-destination', base], { cwd: packageFolder, stdio: 'pipe' });
+  const [{ filename, files }] = JSON.parse(output);
   const tarball = join(base, filename);
   return { tarball, size: statSync(tarball).size, files: files.map(({ path }) => path) };
 }
@@ -60,26 +61,28 @@ export async function freePort() {
 export function launchChromium() {
   return chromium.launch({
     executablePath: '/usr/bin/chromium',
-    args: ['--headless', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run', '--disable-background-networking',
-      '--disable-component-update', '--disable-sync'],
+    args: ['--headless', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run',
+      '--disable-background-networking', '--disable-component-update', '--disable-sync'],
   });
 }
 
 /**
- * Opens the page and resolves to what its script assigns to `globalThis.outcome`. Whatever the page complains about is thrown, unless it is expected.
- * With a path for a screenshot one is taken.
+ * Opens the page and resolves to what its script assigns to `globalThis.outcome`. Whatever the page complains about is thrown, unless it is
+ * expected. `look` gets the page at the end.
  */
-export async function openPage(browser, url, { expected = /^$/, screenshot } = {}) {
+export async function openPage(browser, url, { expected = /^$/, look = () => {} } = {}) {
   const page = await browser.newPage();
   const complaints = [];
   const complain = (text) => expected.test(text) || complaints.push(text);
   page.on('pageerror', (error) => complain(String(error)));
-  page.on('console', (message) => ['error', 'warning'].includes(message.type()) && complain(`${message.text()} (${message.location().url})`));
+  page.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type())) complain(`${message.text()} (${message.location().url})`);
+  });
   try {
     await page.goto(url);
     await page.waitForFunction(() => 'outcome' in globalThis, null, { timeout: 20_000 });
     const outcome = await page.evaluate(() => globalThis.outcome);
-    if (screenshot) await page.screenshot({ path: screenshot });
+    await look(page);
     if (complaints.length > 0) throw new Error('The page complains.');
     return outcome;
   } catch (error) {

@@ -5,12 +5,13 @@ import { readFileSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
-import { build, createServer } from 'vite';
+import { build, createLogger, createServer } from 'vite';
 import { freePort, launchChromium, makeFolder, openPage, pack, readmeExample, removeFolders, root, runNode } from './environments.mjs';
 import { serveFolder } from './static_server.mjs';
 
 const strict = { 'Content-Security-Policy': "script-src 'self' 'wasm-unsafe-eval'" };
-const page = '<!doctype html><html lang="en"><meta charset="utf-8"><title>Test</title><link rel="icon" href="data:,"><body><script type="module" src="./main.js"></script>';
+const page = `<!doctype html><html lang="en"><meta charset="utf-8"><title>Test</title><link rel="icon" href="data:,">
+  <body><script type="module" src="./main.js"></script>`;
 const core = readmeExample('Node');
 const worker = readmeExample('Worker');
 const three = readmeExample('three.js');
@@ -39,7 +40,9 @@ function assertCut({ regions, cells }) {
 }
 
 test('the tarball has the package, and is small', () => {
-  for (const name of ['index', 'worker', 'three']) for (const end of ['js', 'd.ts']) assert.ok(packed.files.includes(`dist/${name}.${end}`));
+  for (const name of ['index', 'worker', 'three']) {
+    for (const end of ['js', 'd.ts']) assert.ok(packed.files.includes(`dist/${name}.${end}`));
+  }
   for (const file of packed.files) assert.match(file, /^(dist\/.*|package\.json|README\.md|LICENSE)$/);
   const wasm = readFileSync(join(install(), 'node_modules', 'mandoline-wasm', 'dist', 'mandoline.wasm'));
   assert.ok(gzipSync(wasm, { level: 9 }).length <= 300_000);
@@ -85,9 +88,9 @@ const pages = { core, worker, three };
 /** What Vite warns of, and its options for a folder: no configuration but where things are. */
 function viteOptions(folder, base) {
   const warnings = [];
-  const note = (message) => warnings.push(message);
-  const customLogger = { info() {}, warn: note, warnOnce: note, error: note, clearScreen() {}, hasErrorLogged: () => false, hasWarned: false };
-  return { warnings, options: { root: folder, base, configFile: false, customLogger, clearScreen: false } };
+  const customLogger = createLogger('warn');
+  for (const level of ['warn', 'warnOnce', 'error']) customLogger[level] = (message) => warnings.push(message);
+  return { warnings, options: { root: folder, base, configFile: false, customLogger } };
 }
 
 for (const [name, example] of Object.entries(pages)) {
@@ -174,8 +177,8 @@ for (const options of [['--module', 'nodenext'], ['--module', 'esnext', '--modul
   test(`TypeScript, ${options.at(-1)}`, () => {
     const folder = install({ 'consumer.mts': readFileSync(new URL('consumer.mts', import.meta.url), 'utf8') }, ['@types/three']);
     const compiler = join(root, 'node_modules', 'typescript', 'bin', 'tsc');
-    const { status, stdout } = spawnSync(process.execPath,
-      [compiler, '--noEmit', '--strict', '--target', 'es2022', '--lib', 'es2022,dom', ...options, 'consumer.mts'], { cwd: folder, encoding: 'utf8' });
+    const command = [compiler, '--noEmit', '--strict', '--target', 'es2022', '--lib', 'es2022,dom', ...options, 'consumer.mts'];
+    const { status, stdout } = spawnSync(process.execPath, command, { cwd: folder, encoding: 'utf8' });
     assert.equal(stdout, '');
     assert.equal(status, 0);
   });

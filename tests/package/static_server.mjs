@@ -24,8 +24,8 @@ function fileAt(folder, path) {
 }
 
 /**
- * Starts the server on a free port. Returns { url, requests, close }: `url` ends with the sub-path and a slash, `requests` lists the paths asked for
- * with their status.
+ * Starts the server on a free port. Returns { url, requests, close }: `url` ends with the sub-path and a slash, `requests` lists the paths
+ * asked for with their status.
  */
 export async function serveFolder({ folder, subPath = '/', headers = {} }) {
   const root = resolve(folder);

@@ -232,7 +232,8 @@ test('the process waits for calls under way', async () => {
 test('after an abort the process still ends', async () => {
   const script = `${preamble}
     const controller = new AbortController();
-    worker.cut(cube, { cells: 200 }, { signal: controller.signal, progress: () => controller.abort() }).catch((error) => console.log(error.code));`;
+    worker.cut(cube, { cells: 200 }, { signal: controller.signal, progress: () => controller.abort() })
+      .catch((error) => console.log(error.code));`;
   assert.equal(await runScript(script), 'cancelled');
 });
 

@@ -3,7 +3,8 @@ import { MandolineError } from './errors.js';
 function checkCells(cells, count) {
   for (let i = 0; i < cells.length; ++i) {
     if (Number.isInteger(cells[i]) && cells[i] >= 0 && cells[i] < count) continue;
-    throw new MandolineError('badArgument', `options.cells[${i}] is ${cells[i]}, but there are ${count} cut-cells.`, { stage: 'cellArrays', element: i });
+    const message = `options.cells[${i}] is ${cells[i]}, but there are ${count} cut-cells.`;
+    throw new MandolineError('badArgument', message, { stage: 'cellArrays', element: i });
   }
 }
 
@@ -12,8 +13,9 @@ function facesToTake({ faceTriangle }, faces = 'all') {
   if (!['all', 'surface', 'grid'].includes(faces)) {
     throw new MandolineError('badArgument', `options.faces must be "all", "surface" or "grid", not ${faces}.`, { stage: 'cellArrays' });
   }
+  const [surface, grid] = [faces !== 'grid', faces !== 'surface'].map(Number);
   const taken = new Uint8Array(faceTriangle.length);
-  for (let face = 0; face < taken.length; ++face) taken[face] = faces === 'all' || (faceTriangle[face] >= 0) === (faces === 'surface') ? 1 : 0;
+  for (let face = 0; face < taken.length; ++face) taken[face] = faceTriangle[face] >= 0 ? surface : grid;
   return taken;
 }
 

@@ -57,7 +57,8 @@ function hash(value) {
 export function regionColor(region) {
   const [lightness, a, b] = regionColors[region % regionColors.length];
   const round = Math.floor(region / regionColors.length) % 3;
-  return fromOklab([[lightness, 0.5 + 0.5 * lightness, 0.6 * lightness][round], [a, 0.7 * a, 0.8 * a][round], [b, 0.7 * b, 0.8 * b][round]]);
+  const strength = [1, 0.7, 0.8][round];
+  return fromOklab([[lightness, 0.5 + 0.5 * lightness, 0.6 * lightness][round], strength * a, strength * b]);
 }
 
 /** From neutral at 0 to the deepest colour at 3 windings and more. */
@@ -73,7 +74,7 @@ export function idColor(id) {
   return fromOklab([lightness, 0.11 * Math.cos(angle), 0.11 * Math.sin(angle)]);
 }
 
-/** The colour of a volume on a logarithmic scale from the smallest of `cellVolume`, or a thousandth of the largest if that is more, to the largest. */
+/** Gives colours of volumes on a logarithmic scale from the smallest of `cellVolume`, but at least a 1000th of the largest, to that. */
 export function volumeScale(cellVolume) {
   let smallest = Infinity, largest = 0;
   for (const volume of cellVolume) {

@@ -98,7 +98,8 @@ export class JobQueue {
   #progress(value) {
     const job = this.#running;
     try {
-      if (job.onProgress(value) === false) this.stop(job, new MandolineError('cancelled', 'The cut was cancelled.', { stage: value.stage }));
+      if (job.onProgress(value) !== false) return;
+      this.stop(job, new MandolineError('cancelled', 'The cut was cancelled.', { stage: value.stage }));
     } catch (error) {
       this.stop(job, error);
     }

@@ -1,11 +1,14 @@
 /**
- * From three.js to Mandoline and back. Importing this needs three, an optional peer dependency. cellArrays, cellColors and meshFromGeometry handle plain
- * data and also run in a worker, from whose bundle three then drops out.
+ * From three.js to Mandoline and back. Importing this needs three, an optional peer dependency. cellArrays, cellColors and meshFromGeometry
+ * handle plain data and also run in a worker, from whose bundle three then drops out.
  */
 import type { BufferGeometry, Matrix4 } from 'three';
 import type { CutEdges, CutMesh, FaceTriangles, Measures, Mesh, Slice, Vector3 } from './index.js';
 
-/** The triangles of an indexed or unindexed BufferGeometry (its draw range and groups aside), moved by the matrix if there is one: outward stays outward. */
+/**
+ * The triangles of an indexed or unindexed BufferGeometry (its draw range and groups aside), moved by the matrix if there is one; with one
+ * that mirrors, outward stays outward.
+ */
 export function meshFromGeometry(geometry: BufferGeometry, matrix?: Matrix4): Mesh;
 
 export interface CellArraysOptions {
@@ -17,7 +20,10 @@ export interface CellArraysOptions {
   origin?: Vector3;
 }
 
-/** Triangles of cut-cells with flat normals; shared vertices are split, and a face between two cut-cells appears once for each, seen from outside of it. */
+/**
+ * Triangles of cut-cells with flat normals; shared vertices are split, and a face between two cut-cells appears once for each, seen from
+ * outside of it.
+ */
 export interface CellArrays {
   /** 3 per vertex, 3 vertices per triangle. */
   position: Float32Array;
@@ -50,4 +56,6 @@ export function cellColors(cutMesh: CutMesh, colorBy: ColorBy, measures?: Measur
 export function edgeGeometry(cutMesh: CutMesh, cutEdges: CutEdges, origin?: Vector3): BufferGeometry;
 
 /** A filled slice with attributes position, normal, color, cell (-1 for untouched grid cells). */
-export function sliceGeometry(cutMesh: CutMesh, slice: Slice, options?: { colorBy?: ColorBy; measures?: Measures; origin?: Vector3 }): BufferGeometry;
+export function sliceGeometry(
+  cutMesh: CutMesh, slice: Slice, options?: { colorBy?: ColorBy; measures?: Measures; origin?: Vector3 },
+): BufferGeometry;

@@ -19,7 +19,7 @@ function geometryOf(attributes) {
 
 /** 3 per cut-cell: away from the centre of the grid, and to the origin. */
 function cellShifts({ cellRegion, grid }, { origin = noShift, explode = 0, measures }) {
-  if (explode !== 0 && !measures) throw new MandolineError('badArgument', 'To explode, the measures are needed.', { stage: 'cellGeometry' });
+  if (explode !== 0 && !measures) throw new MandolineError('badArgument', 'Exploding needs the measures.', { stage: 'cellGeometry' });
   const center = grid.planes.map((planes) => 0.5 * (planes[0] + planes[planes.length - 1]));
   const shifts = new Float64Array(3 * cellRegion.length);
   for (let i = 0; i < shifts.length; ++i) {
@@ -88,18 +88,19 @@ function sliceNormal({ positions, triangles }) {
 export function sliceGeometry(cutMesh, slice, { colorBy = 'region', measures, origin = noShift } = {}) {
   const { triangles, positions, polygonTriangleOffsets: offsets } = slice;
   const count = triangles.length;
-  const arrays = { position: new Float32Array(3 * count), normal: new Float32Array(3 * count), color: new Float32Array(3 * count), cell: new Int32Array(count) };
-  const normal = sliceNormal(slice);
+  const [position, normal, color] = [0, 1, 2].map(() => new Float32Array(3 * count));
+  const cell = new Int32Array(count);
+  const planeNormal = sliceNormal(slice);
   const colors = polygonColors(cutMesh, slice, colorBy, measures);
   for (let polygon = 0; polygon < slice.polygonCell.length; ++polygon) {
     for (let corner = 3 * offsets[polygon]; corner < 3 * offsets[polygon + 1]; ++corner) {
       for (let d = 0; d < 3; ++d) {
-        arrays.position[3 * corner + d] = positions[3 * triangles[corner] + d] - origin[d];
-        arrays.normal[3 * corner + d] = normal[d];
-        arrays.color[3 * corner + d] = colors[3 * polygon + d];
+        position[3 * corner + d] = positions[3 * triangles[corner] + d] - origin[d];
+        normal[3 * corner + d] = planeNormal[d];
+        color[3 * corner + d] = colors[3 * polygon + d];
       }
     }
-    arrays.cell.fill(slice.polygonCell[polygon], 3 * offsets[polygon], 3 * offsets[polygon + 1]);
+    cell.fill(slice.polygonCell[polygon], 3 * offsets[polygon], 3 * offsets[polygon + 1]);
   }
-  return geometryOf(arrays);
+  return geometryOf({ position, normal, color, cell });
 }

@@ -1,4 +1,4 @@
-// The worker's side of worker.js: loads the module, then answers one job after another. In browsers it is a module worker, in Node a worker thread.
+// The worker's side of worker.js: loads the module, then answers one job after another. In Node it is a worker thread.
 import { buffersOf } from './buffers.js';
 import { MandolineError, compiledModule, init } from './index.js';
 

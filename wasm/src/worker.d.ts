@@ -1,7 +1,7 @@
 /** The same calls as promises, in a module worker: the page stays responsive. Browsers and Node. */
 import type {
-  Adjacency, CutEdges, CutMesh, CutOptions, FaceTriangles, GridInput, InitOptions, Location, Locations, Mandoline, Measures, Mesh, Plane, Slice, SliceOptions,
-  Validation, Vector3,
+  Adjacency, CutEdges, CutMesh, CutOptions, FaceTriangles, GridInput, InitOptions, Location, Locations, Mandoline, Measures, Mesh, Plane,
+  Slice, SliceOptions, Validation, Vector3,
 } from './index.js';
 
 export { MandolineError, describe } from './index.js';

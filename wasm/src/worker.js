@@ -21,7 +21,9 @@ function splitOptions(options = {}) {
 
 /** A message with a copy of the arguments as they are now, so that neither the queue nor the worker sees later changes. */
 function makeMessage(call, args, { options, onProgress, signal, transfer }) {
-  if (signal !== undefined && !(signal instanceof AbortSignal)) throw new MandolineError('badArgument', 'options.signal must be an AbortSignal.', { stage: call });
+  if (signal !== undefined && !(signal instanceof AbortSignal)) {
+    throw new MandolineError('badArgument', 'options.signal must be an AbortSignal.', { stage: call });
+  }
   try {
     return structuredClone({ call, args, options, progress: onProgress !== undefined }, { transfer });
   } catch (cause) {
@@ -54,7 +56,8 @@ function absolute(wasm) {
   try {
     return new URL(wasm, globalThis.location?.href).href;
   } catch (cause) {
-    throw new MandolineError('loadFailed', `The WebAssembly module ${wasm} could not be loaded: ${cause.message}.`, { stage: 'init', cause });
+    const message = `The WebAssembly module ${wasm} could not be loaded: ${cause.message}.`;
+    throw new MandolineError('loadFailed', message, { stage: 'init', cause });
   }
 }
 
