@@ -58,7 +58,10 @@ function stepper(app: App): HTMLElement {
 /** Which triangle, plane or grid cell is shown: only what the step asks for. */
 function choices(app: App): HTMLElement {
   let request: StepRequest = { kind: 'triEdges' };
-  const ask = (part: Partial<StepRequest>) => void app.step({ ...request, ...part });
+  const ask = (part: Partial<StepRequest>) => {
+    request = { ...request, ...part }; // The next choice may come before this one's picture.
+    void app.step(request);
+  };
   const triangle = numberSlider('step-triangle', 'Triangle', (value) => ask({ triangle: value }));
   const axis = choice('step-axis', 'Axis', [['0', 'x'], ['1', 'y'], ['2', 'z']], (value) => ask({ axis: Number(value) as 0 | 1 | 2, plane: undefined }));
   const plane = numberSlider('step-plane', 'Plane', (value) => ask({ plane: value }));
