@@ -14,7 +14,7 @@ namespace {
 std::from_chars_result parse(const char* first, const char* last, double& value) {
   const auto belongs = [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '-' || c == '.'; };
   const std::string text(first, std::find_if_not(first, last, belongs));  // strtod looks for its end, and takes more
-  const bool number = text.find_first_of("0123456789.in") == (text[0] == '-') && text.find_first_of("xX") == std::string::npos;
+  const bool number = text.find_first_of("0123456789.inIN") == (text[0] == '-') && text.find_first_of("xX") == std::string::npos;
   char* end = nullptr;
   const double parsed = number ? std::strtod(text.c_str(), &end) : 0;
   if (!number || end == text.c_str()) return {first, std::errc::invalid_argument};
