@@ -1,0 +1,134 @@
+// The hand-written types against the module: real results, written as literals, must fit their declarations with no key missing or left over.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { dirname, join as path } from 'node:path';
+import { after, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import * as index from 'mandoline-wasm';
+import { box, join, sheet } from './meshes.mjs';
+
+const root = path(dirname(fileURLToPath(import.meta.url)), '..', '..');
+const folder = mkdtempSync(path(root, 'node_modules', '.mandoline-types-')); // where imports by name are found
+after(() => rmSync(folder, { recursive: true }));
+
+function compile(source) {
+  writeFileSync(path(folder, 'check.ts'), source);
+  writeFileSync(path(folder, 'tsconfig.json'), JSON.stringify({
+    compilerOptions: {
+      strict: true, noEmit: true, exactOptionalPropertyTypes: true, target: 'es2022', lib: ['es2022', 'dom'], module: 'nodenext', skipLibCheck: false, types: [],
+    },
+    files: ['check.ts'],
+  }));
+  execFileSync(process.execPath, [path(root, 'node_modules', 'typescript', 'bin', 'tsc'), '-p', folder], { encoding: 'utf8' });
+}
+
+function assertCompiles(source) {
+  try {
+    compile(source);
+  } catch (error) {
+    assert.fail(error.stdout || error.message);
+  }
+}
+
+/** A value as an expression that shows its shape and its kinds of numbers; arrays are left empty. */
+function literal(value) {
+  if (ArrayBuffer.isView(value)) return `new ${value[Symbol.toStringTag]}()`;
+  if (Array.isArray(value)) return `[${value.map(literal).join(', ')}]`;
+  if (typeof value === 'object' && value !== null) return `{ ${Object.entries(value).map(([key, item]) => `${key}: ${literal(item)}`).join(', ')} }`;
+  return JSON.stringify(value);
+}
+
+/** The kind of each key. */
+const kinds = (object) => JSON.stringify(Object.fromEntries(Object.entries(object).map(([key, value]) => [key, typeof value])));
+
+const mandoline = await index.init();
+const mesh = box([0.5, 0.5, 0.5], [1.5, 1.5, 1.5]);
+const states = [];
+const cutMesh = mandoline.cut(mesh, { cells: 3 }, { progress: (state) => { states.push(state); } });
+const open = mandoline.cut(sheet([0, 0], [1, 1], 0.5), { planes: [[0, 1], [0, 1], [0, 1]] }, { gridCellRegion: false });
+
+test('results', () => {
+  const results = [
+    ['CutMesh', cutMesh],
+    ['CutMesh', open],
+    ['Progress', states[0]],
+    ['Progress', states.at(-1)],
+    ['Measures', mandoline.measure(mesh, cutMesh)],
+    ['CutEdges', mandoline.cutEdges(mesh, cutMesh)],
+    ['Adjacency', mandoline.adjacency(cutMesh)],
+    ['FaceTriangles', mandoline.triangulate(cutMesh)],
+    ['Uint32Array', mandoline.triangulate(cutMesh, { cell: 0 })],
+    ['Uint32Array', mandoline.triangulate(cutMesh, { region: 0 })],
+    ['Validation', mandoline.validate(mesh, cutMesh)],
+    ['Locations', mandoline.cellsAt(cutMesh, [1, 1, 1])],
+    ['Location | null', mandoline.cellAt(cutMesh, [1, 1, 1])],
+    ['Slice', mandoline.slice(cutMesh, { normal: [0, 0, 1], offset: 1 })],
+    ['Uint8Array', mandoline.write(mesh, cutMesh, 'obj')],
+  ];
+  const types = 'CutMesh, Progress, Measures, CutEdges, Adjacency, FaceTriangles, Validation, Locations, Location, Slice';
+  const checks = results.map(([type, value], i) => `export const result${i}: ${type} = ${literal(value)};`);
+  assertCompiles([`import type { ${types} } from 'mandoline-wasm';`, ...checks].join('\n'));
+  assert.throws(() => compile(`import type { CutEdges } from 'mandoline-wasm';\nexport const wrong: CutEdges = ${literal({ edgeVertices: new Uint32Array() })};`));
+});
+
+test('the calls and the exports of every entry', async () => {
+  const [worker, three] = await Promise.all([import('mandoline-wasm/worker'), import('mandoline-wasm/three')]);
+  assertCompiles(`
+    import type { Mandoline } from 'mandoline-wasm';
+    import type * as index from 'mandoline-wasm';
+    import type * as worker from 'mandoline-wasm/worker';
+    import type * as three from 'mandoline-wasm/three';
+    type Kinds<T> = { [Key in keyof T]: T[Key] extends string ? 'string' : 'function' };
+    export const calls: Kinds<Mandoline> = ${kinds(mandoline)};
+    export const indexKinds: Kinds<typeof index> = ${kinds({ ...index })};
+    export const workerKinds: Kinds<typeof worker> = ${kinds({ ...worker })};
+    export const threeKinds: Kinds<typeof three> = ${kinds({ ...three })};
+  `);
+});
+
+test('errors', () => {
+  let error;
+  try {
+    mandoline.cut(join(mesh, box([0.4, 0.6, 0.6], [1.6, 1.4, 1.4])), { cells: 9 });
+  } catch (caught) {
+    error = caught;
+  }
+  const { message, name, stack, code, stage, element, element2, ...rest } = error;
+  assert.deepEqual(rest, {});
+  assertCompiles(`import type { MandolineError } from 'mandoline-wasm';
+    export const error: MandolineError = ${literal({ name, message, code, stage, element, element2 })};`);
+});
+
+test('every code of the core and of the types has advice', () => {
+  const words = (text) => [...text.replace(/\/\*\*[^]*?\*\//g, '').matchAll(/'(\w+)'/g)].map(([, word]) => word);
+  const codes = words(readFileSync(path(root, 'wasm', 'src', 'index.d.ts'), 'utf8').match(/type ErrorCode =([^;]*);/)[1]);
+  const core = readFileSync(path(root, 'src', 'mandoline', 'mandoline.h'), 'utf8').match(/enum class Status[^{]*\{([^}]*)\}/)[1];
+  const statuses = [...core.matchAll(/^\s*(\w+),/gm)].map(([, word]) => word);
+  assert.ok(statuses.length > 10);
+  for (const status of statuses) assert.ok(status === 'ok' || codes.includes(status), status);
+  for (const code of codes) {
+    const error = new index.MandolineError(code, 'What.');
+    assert.match(index.describe(error), /^What\. \w.{20}/, code);
+  }
+});
+
+test('uses as in the documentation', () => {
+  assertCompiles(`
+    import { init, MandolineError, describe, type CutMesh, type Mesh } from 'mandoline-wasm';
+    const mandoline = await init();
+    const mesh: Mesh = { positions: [0, 0, 0], triangles: new Uint16Array(3) };
+    const cutMesh: CutMesh = mandoline.cut(mesh, { cells: 32 }, { progress: ({ done, total }) => done < total });
+    mandoline.cut(mesh, cutMesh.grid);
+    mandoline.cut(mesh, { min: [0, 0, 0], max: [1, 1, 1], cells: [4, 4, 4] });
+    mandoline.cut(mesh, { origin: [0, 0, 0], spacing: [1, 1, 1], cells: [4, 4, 4] });
+    mandoline.cut(mesh, { planes: [[0, 1], [0, 1], new Float64Array(2)] });
+    const triangles: Uint32Array = mandoline.triangulate(cutMesh, { cell: 3 });
+    const offsets: Uint32Array = mandoline.triangulate(cutMesh).faceTriangleOffsets;
+    try { console.log(triangles, offsets); } catch (error) { if (error instanceof MandolineError) console.log(error.code === 'badGrid', describe(error)); }
+    // @ts-expect-error: no such format
+    mandoline.write(mesh, cutMesh, 'stl');
+    // @ts-expect-error: a grid needs cells
+    mandoline.cut(mesh, { min: [0, 0, 0], max: [1, 1, 1] });
+  `);
+});
