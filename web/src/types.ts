@@ -1,5 +1,4 @@
 // What the parts of the page say to each other.
-import type { CellArrays } from 'mandoline-wasm/three';
 import type { CutStats, Grid, Slice, Validation, Vector3 } from 'mandoline-wasm';
 
 /** Where a mesh comes from. A file's bytes are kept by the worker; a link can't restore it. */
@@ -86,13 +85,19 @@ export interface Model {
   /** The region that reaches the grid's corner, if no cut-cell lies there; it counts as the outside. */
   outsideRegion: number | null;
   cells: CellInfo;
-  /** Triangles of all cut-cells, both sides of every face. */
-  triangles: CellArrays & {
-    /** Per vertex: 1 on a piece of a triangle, 0 on a piece of a grid-face. */
+  /** Triangles of all cut-cells, both sides of every face: a face between two cut-cells appears once for each, seen from outside of it. */
+  triangles: {
+    /** 3 per vertex. A vertex belongs to one cut-cell; its position may appear many times. */
+    position: Float32Array;
+    /** Per vertex: the cut-cell. */
+    cell: Uint32Array;
+    /** Per vertex: 1 on pieces of triangles, 0 on pieces of grid-faces. */
     surface: Uint8Array;
+    /** 3 vertices per triangle. */
+    index: Uint32Array;
   };
-  /** Edges of all cut-cells: 2 points per edge, an edge once for each of its cells. */
-  edges: { position: Float32Array; cell: Uint32Array };
+  /** Edges of all cut-cells, once for each of their cells: 2 vertices of `triangles` per edge. */
+  edges: { index: Uint32Array };
   gridCellRegion: Int32Array;
 }
 

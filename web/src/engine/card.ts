@@ -2,7 +2,7 @@ import type { Adjacency, CutMesh } from 'mandoline-wasm';
 import { cellArrays } from 'mandoline-wasm/three';
 import type { CellCard } from '../types';
 import { cellEdges, forEachCellEdge } from './edges';
-import { surfaceOf, type Derived } from './model';
+import type { Derived } from './model';
 import { buffersOf, type Answered } from './protocol';
 
 export function cellCard(cutMesh: CutMesh, derived: Derived, adjacency: Adjacency, cell: number): Answered<CellCard> {
@@ -10,8 +10,8 @@ export function cellCard(cutMesh: CutMesh, derived: Derived, adjacency: Adjacenc
   const region = cutMesh.cellRegion[cell];
   const faces = facesOf(cutMesh, cell);
   const arrays = cellArrays(cutMesh, derived.faceTriangles, { cells: [cell], origin });
-  const triangles = { position: arrays.position, normal: arrays.normal, surface: surfaceOf(cutMesh, arrays.face) };
-  const edges = cellEdges(cutMesh, [cell], origin).position;
+  const triangles = { position: arrays.position, normal: arrays.normal, surface: Uint8Array.from(arrays.face, (face) => (cutMesh.faceTriangle[face] >= 0 ? 1 : 0)) };
+  const edges = cellEdges(cutMesh, cell, origin);
   const card: CellCard = {
     cell,
     gridCell: [cutMesh.cellGridCell[3 * cell], cutMesh.cellGridCell[3 * cell + 1], cutMesh.cellGridCell[3 * cell + 2]],

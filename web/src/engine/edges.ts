@@ -18,26 +18,13 @@ export function forEachCellEdge(cutMesh: CutMesh, cell: number, edge: (from: num
   }
 }
 
-/** Edges of cut-cells, 2 points per edge, less the origin; an edge once for each of its cells. */
-export function cellEdges(cutMesh: CutMesh, cells: ArrayLike<number> | null, origin: readonly number[]): { position: Float32Array; cell: Uint32Array } {
-  const cellCount = cells?.length ?? cutMesh.cellRegion.length;
-  const cellAt = (index: number) => (cells ? cells[index] : index);
-  let count = 0;
-  for (let index = 0; index < cellCount; index++) forEachCellEdge(cutMesh, cellAt(index), () => count++);
-  const position = new Float32Array(6 * count);
-  const cell = new Uint32Array(2 * count);
-  const { positions } = cutMesh;
-  let point = 0;
-  const put = (vertex: number, owner: number) => {
-    for (let d = 0; d < 3; d++) position[3 * point + d] = positions[3 * vertex + d] - origin[d];
-    cell[point++] = owner;
-  };
-  for (let index = 0; index < cellCount; index++) {
-    const owner = cellAt(index);
-    forEachCellEdge(cutMesh, owner, (from, to) => {
-      put(from, owner);
-      put(to, owner);
-    });
-  }
-  return { position, cell };
+/** Edges of a cut-cell, 2 points per edge, less the origin. */
+export function cellEdges(cutMesh: CutMesh, cell: number, origin: readonly number[]): Float32Array {
+  const points: number[] = [];
+  const put = (vertex: number) => origin.forEach((x, d) => points.push(cutMesh.positions[3 * vertex + d] - x));
+  forEachCellEdge(cutMesh, cell, (from, to) => {
+    put(from);
+    put(to);
+  });
+  return new Float32Array(points);
 }

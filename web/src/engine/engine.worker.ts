@@ -99,7 +99,13 @@ function nameOf(source: Source): string {
 }
 
 function fileName(url: string): string {
-  return decodeURIComponent(new URL(url, self.location.href).pathname.split('/').pop() ?? '') || url;
+  if (!URL.canParse(url, self.location.href)) throw pageError("The address can't be read", `"${url}" is not the address of a file.`);
+  const name = new URL(url, self.location.href).pathname.split('/').pop() ?? '';
+  try {
+    return decodeURIComponent(name) || url;
+  } catch {
+    return name; // A stray % that encodes nothing.
+  }
 }
 
 async function meshOf(source: Source, bytes?: ArrayBuffer): Promise<{ positions: Float64Array; triangles: Uint32Array }> {

@@ -1,4 +1,4 @@
-import { describe } from 'mandoline-wasm';
+import { describe, MandolineError } from 'mandoline-wasm';
 import type { PageError } from '../types';
 import type { CallName } from './protocol';
 
@@ -23,9 +23,10 @@ function isPageError(error: unknown): error is PageError {
 /** What went wrong in a call, as the page shows it. */
 export function toPageError(error: unknown, call: CallName): PageError {
   if (isPageError(error)) return pageError(error.title, error.detail);
-  return pageError(titles[call], describe(error));
+  if (error instanceof MandolineError) return pageError(titles[call], describe(error));
+  return pageError(titles[call], error instanceof Error ? error.message : String(error));
 }
 
 export function abortError(): DOMException {
-  return new DOMException('A newer call took its place.', 'AbortError');
+  return new DOMException('Cancelled, or a newer call took its place.', 'AbortError');
 }

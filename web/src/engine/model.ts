@@ -1,7 +1,6 @@
 import type { CutMesh, FaceTriangles, Mandoline, Measures, Mesh, Vector3 } from 'mandoline-wasm';
-import { cellArrays } from 'mandoline-wasm/three';
 import type { CellInfo, Model, RegionInfo } from '../types';
-import { cellEdges } from './edges';
+import { cellBuffers } from './cell_buffers';
 import { buffersOf, type Answered } from './protocol';
 
 /** What the worker keeps of a cut besides the cut-mesh. */
@@ -25,9 +24,7 @@ function gridBox({ grid }: CutMesh): { low: number[]; high: number[] } {
 export function makeModel(id: number, name: string, mandoline: Mandoline, mesh: Mesh, cutMesh: CutMesh, derived: Derived): Answered<Model> {
   const { origin, measures, faceTriangles } = derived;
   const { low, high } = gridBox(cutMesh);
-  const arrays = cellArrays(cutMesh, faceTriangles, { origin });
-  const triangles = { ...arrays, surface: surfaceOf(cutMesh, arrays.face) };
-  const edges = cellEdges(cutMesh, null, origin);
+  const { triangles, edges } = cellBuffers(cutMesh, faceTriangles, origin);
   const cells = cellInfo(cutMesh, derived);
   const gridCellRegion = (cutMesh.gridCellRegion as Int32Array).slice();
   const regions = regionInfo(cutMesh, measures);
@@ -56,12 +53,7 @@ export function makeModel(id: number, name: string, mandoline: Mandoline, mesh: 
     edges,
     gridCellRegion,
   };
-  return { answer: model, transfer: buffersOf(...Object.values(triangles), ...Object.values(edges), ...Object.values(cells), gridCellRegion) };
-}
-
-/** Per vertex of drawn triangles: whether its face is a piece of a triangle. */
-export function surfaceOf(cutMesh: CutMesh, face: Uint32Array): Uint8Array {
-  return Uint8Array.from(face, (f) => (cutMesh.faceTriangle[f] >= 0 ? 1 : 0));
+  return { answer: model, transfer: buffersOf(...Object.values(triangles), edges.index, ...Object.values(cells), gridCellRegion) };
 }
 
 function cellInfo(cutMesh: CutMesh, { origin, measures }: Derived): CellInfo {

@@ -47,10 +47,10 @@ export class Caps {
       if (!slice) return;
       const polygons = Array.from(slice.polygonCell.keys()).filter((polygon) => isShown(slice.polygonCell[polygon], slice.polygonRegion[polygon]));
       this.count += polygons.length;
-      const about = polygonAttributes(model, settings, cells, slice);
-      replace(cap.faces, capGeometry(model, slice, about, polygons, trianglePoints));
+      const table = polygonTable(model, settings, cells, slice);
+      replace(cap.faces, capGeometry(model, slice, table, trianglePoints(slice, polygons)));
       cap.pick.geometry = cap.faces.geometry;
-      replace(cap.lines, capGeometry(model, slice, about, polygons, outlinePoints));
+      replace(cap.lines, capGeometry(model, slice, table, outlinePoints(slice, polygons)));
     });
   }
 
@@ -77,73 +77,92 @@ function replace(object: Mesh | LineSegments, geometry: BufferGeometry): void {
 }
 
 /** What all points of a polygon share. */
-interface PolygonAttributes {
-  center: (polygon: number) => ArrayLike<number>;
-  tint: (polygon: number) => ArrayLike<number>;
+interface PolygonTable {
+  /** 3 per polygon: the centre of its cell. */
+  center: Float32Array;
+  /** 4 per polygon. */
+  tint: Uint8Array;
 }
 
-function polygonAttributes(model: Model, settings: Settings, cells: CutCells, slice: Slice): PolygonAttributes {
+function polygonTable(model: Model, settings: Settings, cells: CutCells, slice: Slice): PolygonTable {
   const { grid, origin } = model;
   const [nx, ny] = grid.cells;
   const colorOf = untouchedColors(model, settings.colorBy);
-  const gridCell = (polygon: number) => slice.polygonGridCell.subarray(3 * polygon, 3 * polygon + 3);
-  return {
-    center: (polygon) => {
-      const cell = slice.polygonCell[polygon];
-      if (cell >= 0) return model.cells.centroid.subarray(3 * cell, 3 * cell + 3);
-      return Array.from(gridCell(polygon), (c, d) => (grid.planes[d][c] + grid.planes[d][c + 1]) / 2 - origin[d]);
-    },
-    tint: (polygon) => {
-      const cell = slice.polygonCell[polygon];
-      if (cell >= 0) return settings.colorBy === 'kind' ? insideColor : cells.looks.subarray(4 * cell, 4 * cell + 3);
-      const [i, j, k] = gridCell(polygon);
-      return colorOf(i + nx * (j + ny * k), slice.polygonRegion[polygon]);
-    },
-  };
-}
-
-function* trianglePoints(slice: Slice, polygon: number): Generator<number> {
-  for (let at = 3 * slice.polygonTriangleOffsets[polygon]; at < 3 * slice.polygonTriangleOffsets[polygon + 1]; at++) yield slice.triangles[at];
-}
-
-function* outlinePoints(slice: Slice, polygon: number): Generator<number> {
-  for (let loop = slice.polygonLoopOffsets[polygon]; loop < slice.polygonLoopOffsets[polygon + 1]; loop++) {
-    const points = slice.loopPoints.subarray(slice.loopOffsets[loop], slice.loopOffsets[loop + 1]);
-    for (let at = 0; at < points.length; at++) {
-      yield points[at];
-      yield points[(at + 1) % points.length];
+  const { polygonCell, polygonGridCell, polygonRegion } = slice;
+  const center = new Float32Array(3 * polygonCell.length);
+  const tint = new Uint8Array(4 * polygonCell.length).fill(255);
+  polygonCell.forEach((cell, polygon) => {
+    if (cell >= 0) {
+      center.set(model.cells.centroid.subarray(3 * cell, 3 * cell + 3), 3 * polygon);
+      tint.set(settings.colorBy === 'kind' ? insideColor : cells.looks.subarray(4 * cell, 4 * cell + 3), 4 * polygon);
+      return;
     }
-  }
+    const [i, j, k] = polygonGridCell.subarray(3 * polygon, 3 * polygon + 3);
+    [i, j, k].forEach((c, d) => (center[3 * polygon + d] = (grid.planes[d][c] + grid.planes[d][c + 1]) / 2 - origin[d]));
+    tint.set(colorOf(i + nx * (j + ny * k), polygonRegion[polygon]), 4 * polygon);
+  });
+  return { center, tint };
 }
 
-function capGeometry(
-  model: Model,
-  slice: Slice,
-  about: PolygonAttributes,
-  polygons: readonly number[],
-  pointsOf: (slice: Slice, polygon: number) => Iterable<number>,
-): BufferGeometry {
-  const position: number[] = [];
-  const center: number[] = [];
-  const region: number[] = [];
-  const tint: number[] = [];
-  const owner: number[] = [];
+/** Points to draw, and the polygon that each belongs to. */
+interface Points {
+  point: Uint32Array;
+  polygon: Uint32Array;
+}
+
+function trianglePoints(slice: Slice, polygons: readonly number[]): Points {
+  const { polygonTriangleOffsets: offsets, triangles } = slice;
+  const count = 3 * polygons.reduce((sum, polygon) => sum + offsets[polygon + 1] - offsets[polygon], 0);
+  const points: Points = { point: new Uint32Array(count), polygon: new Uint32Array(count) };
+  let at = 0;
   for (const polygon of polygons) {
-    const c = about.center(polygon);
-    const t = about.tint(polygon);
-    for (const point of pointsOf(slice, polygon)) {
-      for (let d = 0; d < 3; d++) position.push(slice.positions[3 * point + d] - model.origin[d]);
-      center.push(c[0], c[1], c[2]);
-      tint.push(t[0], t[1], t[2], 255);
-      region.push(slice.polygonRegion[polygon]);
-      owner.push(slice.polygonCell[polygon]);
+    const own = triangles.subarray(3 * offsets[polygon], 3 * offsets[polygon + 1]);
+    points.point.set(own, at);
+    points.polygon.fill(polygon, at, (at += own.length));
+  }
+  return points;
+}
+
+function outlinePoints(slice: Slice, polygons: readonly number[]): Points {
+  const { polygonLoopOffsets, loopOffsets, loopPoints } = slice;
+  const beginOf = (polygon: number) => loopOffsets[polygonLoopOffsets[polygon]];
+  const count = 2 * polygons.reduce((sum, polygon) => sum + beginOf(polygon + 1) - beginOf(polygon), 0);
+  const points: Points = { point: new Uint32Array(count), polygon: new Uint32Array(count) };
+  let at = 0;
+  for (const polygon of polygons) {
+    const begin = at;
+    for (let loop = polygonLoopOffsets[polygon]; loop < polygonLoopOffsets[polygon + 1]; loop++) {
+      let from = loopPoints[loopOffsets[loop + 1] - 1];
+      for (let corner = loopOffsets[loop]; corner < loopOffsets[loop + 1]; corner++) {
+        points.point[at++] = from;
+        points.point[at++] = from = loopPoints[corner];
+      }
     }
+    points.polygon.fill(polygon, begin, at);
+  }
+  return points;
+}
+
+function capGeometry(model: Model, slice: Slice, table: PolygonTable, { point, polygon }: Points): BufferGeometry {
+  const position = new Float32Array(3 * point.length);
+  const center = new Float32Array(3 * point.length);
+  const tint = new Uint8Array(4 * point.length);
+  const region = new Float32Array(point.length);
+  const owner = new Float32Array(point.length);
+  for (let at = 0; at < point.length; at++) {
+    for (let d = 0; d < 3; d++) {
+      position[3 * at + d] = slice.positions[3 * point[at] + d] - model.origin[d];
+      center[3 * at + d] = table.center[3 * polygon[at] + d];
+      tint[4 * at + d] = table.tint[4 * polygon[at] + d];
+    }
+    region[at] = slice.polygonRegion[polygon[at]];
+    owner[at] = slice.polygonCell[polygon[at]];
   }
   const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new BufferAttribute(new Float32Array(position), 3));
-  geometry.setAttribute('center', new BufferAttribute(new Float32Array(center), 3));
-  geometry.setAttribute('region', new BufferAttribute(new Float32Array(region), 1));
-  geometry.setAttribute('tint', new BufferAttribute(new Uint8Array(tint), 4, true));
-  geometry.setAttribute('owner', new BufferAttribute(new Float32Array(owner), 1));
+  geometry.setAttribute('position', new BufferAttribute(position, 3));
+  geometry.setAttribute('center', new BufferAttribute(center, 3));
+  geometry.setAttribute('region', new BufferAttribute(region, 1));
+  geometry.setAttribute('tint', new BufferAttribute(tint, 4, true));
+  geometry.setAttribute('owner', new BufferAttribute(owner, 1));
   return geometry;
 }

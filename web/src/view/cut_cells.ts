@@ -41,10 +41,11 @@ export class CutCells {
     faces.setAttribute('position', new BufferAttribute(triangles.position, 3));
     faces.setAttribute('cell', new BufferAttribute(triangles.cell, 1));
     faces.setAttribute('surface', new BufferAttribute(triangles.surface, 1));
+    faces.setIndex(new BufferAttribute(triangles.index, 1));
     for (const mesh of [this.faces, this.backs, this.pick, this.ghost]) mesh.geometry = faces;
     const lines = new BufferGeometry();
-    lines.setAttribute('position', new BufferAttribute(edges.position, 3));
-    lines.setAttribute('cell', new BufferAttribute(edges.cell, 1));
+    for (const name of ['position', 'cell']) lines.setAttribute(name, faces.getAttribute(name));
+    lines.setIndex(new BufferAttribute(edges.index, 1));
     this.lines.geometry = lines;
     this.makeTables(model);
   }
@@ -83,15 +84,15 @@ export class CutCells {
   }
 
   forEachPiece(model: Model, { show, colorBy }: Settings, take: (piece: Piece) => void): void {
-    const { position, cell: cells, surface } = model.triangles;
-    for (let vertex = 0; vertex < cells.length; vertex += 3) {
-      const cell = cells[vertex];
-      const isSurface = surface[vertex] === 1;
+    const { position, cell: cells, surface, index } = model.triangles;
+    for (let at = 0; at < index.length; at += 3) {
+      const cell = cells[index[at]];
+      const isSurface = surface[index[at]] === 1;
       if (!this.isShown(cell) || !(isSurface ? show.surface : show.gridFaces)) continue;
       const own = this.looks.subarray(4 * cell, 4 * cell + 3) as unknown as Rgb;
       const ofGrid = colorBy === 'kind' ? gridFaceColor : paler(own);
       take({
-        corners: Array.from(position.subarray(3 * vertex, 3 * vertex + 9)),
+        corners: Array.from(index.subarray(at, at + 3)).flatMap((vertex) => Array.from(position.subarray(3 * vertex, 3 * vertex + 3))),
         middle: model.cells.centroid.subarray(3 * cell, 3 * cell + 3),
         region: model.cells.region[cell],
         color: isSurface ? own : ofGrid,

@@ -1,5 +1,5 @@
 // What is shown, as a GLB file.
-import { BufferGeometry, Color, Float32BufferAttribute, Mesh, MeshStandardMaterial } from 'three';
+import { BufferGeometry, Color, Float32BufferAttribute, Mesh, MeshStandardMaterial, Triangle, Vector3 } from 'three';
 import { GLTFExporter } from 'three/examples/jsm/exporters/GLTFExporter.js';
 import type { Model, Settings } from '../types';
 import type { Piece } from './piece';
@@ -27,18 +27,24 @@ export async function exportGlb(shown: Shown): Promise<Blob> {
 function shownTriangles({ settings, planes, shifts, parts }: Shown): BufferGeometry {
   const isFlat = settings.sliceMode === 'flat';
   const position: number[] = [];
+  const normal: number[] = [];
   const color: number[] = [];
   const linear = new Color();
+  const triangle = new Triangle();
+  const facing = new Vector3();
   const put = (piece: Piece) => {
     if (!isFlat && isBeyond(planes, piece.middle[0], piece.middle[1], piece.middle[2])) return;
     const polygon = isFlat ? clipped(piece, planes) : piece.corners;
     linear.setRGB(piece.color[0] / 255, piece.color[1] / 255, piece.color[2] / 255, 'srgb');
-    for (let last = 6; last < polygon.length; last += 3) {
-      for (const corner of [0, last - 3, last]) {
-        for (let d = 0; d < 3; d++) {
-          const shift = settings.explode.cells * piece.middle[d] + settings.explode.regions * shifts[3 * piece.region + d];
-          position.push(polygon[corner + d] + shift);
-        }
+    const shift = [0, 1, 2].map((d) => settings.explode.cells * piece.middle[d] + settings.explode.regions * shifts[3 * piece.region + d]);
+    const moved = Float32Array.from(polygon, (x, at) => x + shift[at % 3]);
+    for (let last = 6; last < moved.length; last += 3) {
+      triangle.set(triangle.a.fromArray(moved), triangle.b.fromArray(moved, last - 3), triangle.c.fromArray(moved, last));
+      // One that 32 bits have made a line has no normal, and isn't seen.
+      if (triangle.getNormal(facing).lengthSq() === 0) continue;
+      for (const corner of [triangle.a, triangle.b, triangle.c]) {
+        position.push(corner.x, corner.y, corner.z);
+        normal.push(facing.x, facing.y, facing.z);
         color.push(linear.r, linear.g, linear.b);
       }
     }
@@ -46,8 +52,8 @@ function shownTriangles({ settings, planes, shifts, parts }: Shown): BufferGeome
   for (const part of parts) part.forEachPiece(put);
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new Float32BufferAttribute(position, 3));
+  geometry.setAttribute('normal', new Float32BufferAttribute(normal, 3));
   geometry.setAttribute('color', new Float32BufferAttribute(color, 3));
-  geometry.computeVertexNormals();
   return geometry;
 }
 

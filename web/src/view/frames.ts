@@ -8,19 +8,23 @@ const colors: Record<SliceName, number> = { x: 0xd9534f, y: 0x4fae5a, z: 0x3f83d
 /** Outlines of the slice planes where they cut the grid's box. */
 export class Frames {
   readonly group = new Group();
+  private readonly lines = { x: makeLines('x'), y: makeLines('y'), z: makeLines('z'), free: makeLines('free') };
 
   set(model: Model, planes: readonly ViewPlane[]): void {
-    for (const child of this.group.children) {
-      (child as LineSegments).geometry.dispose();
-      ((child as LineSegments).material as LineBasicMaterial).dispose();
-    }
     this.group.clear();
     for (const plane of planes) {
-      const lines = new LineSegments(lineGeometry(outline(model, plane)), new LineBasicMaterial({ color: colors[plane.name], transparent: true, opacity: 0.7 }));
-      lines.frustumCulled = false;
+      const lines = this.lines[plane.name];
+      lines.geometry.dispose();
+      lines.geometry = lineGeometry(outline(model, plane));
       this.group.add(lines);
     }
   }
+}
+
+function makeLines(name: SliceName): LineSegments {
+  const lines = new LineSegments(lineGeometry([]), new LineBasicMaterial({ color: colors[name], transparent: true, opacity: 0.7 }));
+  lines.frustumCulled = false;
+  return lines;
 }
 
 /** The segments in which a plane cuts the sides of the box: each side is cut where two of its edges are. */

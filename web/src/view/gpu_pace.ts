@@ -14,6 +14,11 @@ export class GpuPace {
     this.gl.flush();
   }
 
+  /** With a new context nothing is left to wait for. */
+  reset(): void {
+    this.fence = null;
+  }
+
   get isBehind(): boolean {
     if (!this.fence) return false;
     if (this.gl.clientWaitSync(this.fence, 0, 0) === this.gl.TIMEOUT_EXPIRED) return true;

@@ -91,10 +91,7 @@ flat varying int vCell;
   attribute float surface;
 #endif
 #ifdef BOXES
-  attribute vec3 low;
-  attribute vec3 size;
-  attribute float region;
-  attribute vec4 tint;
+  uniform highp sampler2D boxes;
 #endif
 #ifdef CAPS
   attribute vec3 center;
@@ -112,7 +109,9 @@ void main() {
   bool shown = true;
   vec3 middle;
   float regionId;
-  vRest = position;
+  #ifndef BOXES
+    vRest = position;
+  #endif
   #ifdef CELLS
     vCell = int(cell);
     vec4 centerAndRegion = texelFetch(cellCenters, place(vCell), 0);
@@ -134,10 +133,14 @@ void main() {
     #endif
   #endif
   #ifdef BOXES
-    vRest = low + size * position;
-    middle = low + 0.5 * size;
-    regionId = region;
-    vColor = mix(tint.rgb, vec3(0.88), 0.22);
+    int box = gl_VertexID / 8;
+    vec4 lowAndRegion = texelFetch(boxes, place(2 * box), 0);
+    vec4 sizeAndColor = texelFetch(boxes, place(2 * box + 1), 0);
+    vRest = lowAndRegion.xyz + sizeAndColor.xyz * vec3(gl_VertexID & 1, (gl_VertexID >> 1) & 1, (gl_VertexID >> 2) & 1);
+    middle = lowAndRegion.xyz + 0.5 * sizeAndColor.xyz;
+    regionId = lowAndRegion.w;
+    int packed = int(sizeAndColor.w);
+    vColor = mix(vec3(packed & 255, (packed >> 8) & 255, packed >> 16) / 255.0, vec3(0.88), 0.22);
   #endif
   #ifdef CAPS
     vCell = int(owner);
@@ -211,7 +214,7 @@ void main() {
       vec3 color = mix(linear(vColor), accent, vHighlight);
       gl_FragColor = vec4(color * light(), 1.0);
       #ifdef GHOST
-        gl_FragColor.a = 0.1;
+        gl_FragColor.a = 0.06;
       #endif
     #endif
     #include <colorspace_fragment>

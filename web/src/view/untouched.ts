@@ -1,8 +1,9 @@
-// The untouched grid cells as instanced boxes.
-import { BoxGeometry, EdgesGeometry, Group, InstancedBufferAttribute, InstancedBufferGeometry, LineSegments, Mesh } from 'three';
+// The untouched grid cells as boxes. Their corners are worked out in the shader from a table of boxes; the buffers only say which corners make
+// triangles and lines, and are the same for all models. (Instances of a mesh as small as a box are slow.)
+import { BufferAttribute, BufferGeometry, Group, LineSegments, Mesh, type DataTexture } from 'three';
 import type { Model, Settings } from '../types';
 import { untouchedColors, type Rgb } from './colors';
-import { makeMaterial, type Uniforms } from './material';
+import { makeMaterial, makeTable, type Uniforms } from './material';
 import { paler, type Piece } from './piece';
 import type { ViewPlane } from './planes';
 
@@ -13,19 +14,28 @@ import type { ViewPlane } from './planes';
  */
 const mostBoxes = 150_000;
 
+/** Corners are numbered by bits: bit d is set on the far side of axis d. */
+const triangleCorners = [0, 1, 2].flatMap((d) => {
+  const [u, v, far] = [1 << ((d + 1) % 3), 1 << ((d + 2) % 3), 1 << d];
+  return [0, v, u | v, 0, u | v, u, far, far | u, 7, far, 7, far | v];
+});
+const lineCorners = [0, 1, 2].flatMap((d) => [0, 1, 2, 3, 4, 5, 6, 7].filter((corner) => !(corner & (1 << d))).flatMap((corner) => [corner, corner | (1 << d)]));
+
 export class Untouched {
   readonly group = new Group();
   readonly pick: Mesh;
   count = 0;
   private readonly faces: Mesh;
   private readonly lines: LineSegments;
-  private readonly box = new BoxGeometry().translate(0.5, 0.5, 0.5);
-  private readonly frame = new EdgesGeometry(this.box);
+  private readonly table = { value: null as DataTexture | null };
+  /** 8 numbers per box: its low corner, region, size, and its colour as one number. */
+  private boxes: Float32Array = new Float32Array(0);
 
   constructor(uniforms: Uniforms) {
-    this.faces = new Mesh(new InstancedBufferGeometry(), makeMaterial('BOXES', 'FACES', uniforms));
-    this.pick = new Mesh(this.faces.geometry, makeMaterial('BOXES', 'PICK', uniforms));
-    this.lines = new LineSegments(new InstancedBufferGeometry(), makeMaterial('BOXES', 'LINES', uniforms));
+    const own = { boxes: this.table };
+    this.faces = new Mesh(new BufferGeometry(), makeMaterial('BOXES', 'FACES', uniforms, own));
+    this.pick = new Mesh(this.faces.geometry, makeMaterial('BOXES', 'PICK', uniforms, own));
+    this.lines = new LineSegments(new BufferGeometry(), makeMaterial('BOXES', 'LINES', uniforms, own));
     this.lines.renderOrder = 1;
     for (const object of [this.faces, this.pick, this.lines]) object.frustumCulled = false;
     this.group.add(this.faces, this.lines);
@@ -34,71 +44,71 @@ export class Untouched {
   setLook(model: Model, settings: Settings, regions: Uint8Array, planes: readonly ViewPlane[]): void {
     const { show, explode, sliceMode } = settings;
     const wanted = show.untouched && (show.gridFaces || show.edges);
-    const boxes = wanted ? seenBoxes(model, regions, planes, sliceMode === 'flat', explode.cells > 0) : new Uint32Array(0);
-    this.count = boxes.length;
+    const gridCells = wanted ? seenBoxes(model, regions, planes, sliceMode === 'flat', explode.cells > 0) : new Uint32Array(0);
+    this.count = gridCells.length;
     this.group.visible = this.pick.visible = this.count > 0;
     this.faces.visible = show.gridFaces;
     this.lines.visible = show.edges;
-    this.setBoxes(model, boxes, untouchedColors(model, settings.colorBy));
+    this.setBoxes(model, gridCells, untouchedColors(model, settings.colorBy));
+    setRange(this.faces.geometry, triangleCorners, this.count);
+    setRange(this.lines.geometry, lineCorners, this.count);
+  }
+
+  private setBoxes(model: Model, gridCells: Uint32Array, colorOf: ReturnType<typeof untouchedColors>): void {
+    const { grid, origin, gridCellRegion } = model;
+    const { texture, data } = makeTable(2 * gridCells.length, (length) => new Float32Array(length));
+    for (let box = 0; box < gridCells.length; box++) {
+      const gridCell = gridCells[box];
+      let rest = gridCell;
+      for (let d = 0; d < 3; d++) {
+        const c = rest % grid.cells[d];
+        rest = (rest - c) / grid.cells[d];
+        const planes = grid.planes[d];
+        data[8 * box + d] = planes[c] - origin[d];
+        data[8 * box + 4 + d] = planes[c + 1] - planes[c];
+      }
+      const region = gridCellRegion[gridCell];
+      const [red, green, blue] = colorOf(gridCell, region);
+      data[8 * box + 3] = region;
+      data[8 * box + 7] = Math.round(red) + 256 * Math.round(green) + 65536 * Math.round(blue);
+    }
+    this.table.value?.dispose();
+    this.table.value = texture;
+    this.boxes = data;
   }
 
   forEachPiece(take: (piece: Piece) => void): void {
     if (!this.group.visible || !this.faces.visible) return;
-    const { low, size, region, tint } = this.faces.geometry.attributes;
-    const { array } = this.box.getAttribute('position');
-    const corners = Array.from(this.box.getIndex()?.array ?? [], (vertex) => array.slice(3 * vertex, 3 * vertex + 3));
     for (let box = 0; box < this.count; box++) {
-      const at = (unit: ArrayLike<number>) => [0, 1, 2].map((d) => low.array[3 * box + d] + unit[d] * size.array[3 * box + d]);
-      const color = paler(tint.array.subarray(4 * box, 4 * box + 3) as unknown as Rgb);
-      const middle = at([0.5, 0.5, 0.5]);
-      for (let corner = 0; corner < corners.length; corner += 3) {
-        take({ corners: corners.slice(corner, corner + 3).flatMap(at), middle, region: region.array[box], color, ownPlane: -1 });
+      const [x, y, z, region, dx, dy, dz, packed] = this.boxes.subarray(8 * box, 8 * box + 8);
+      const corner = (bits: number) => [x + (bits & 1) * dx, y + ((bits >> 1) & 1) * dy, z + (bits >> 2) * dz];
+      const color = paler([packed & 255, (packed >> 8) & 255, packed >> 16] as Rgb);
+      const middle = [x + dx / 2, y + dy / 2, z + dz / 2];
+      for (let at = 0; at < triangleCorners.length; at += 3) {
+        take({ corners: triangleCorners.slice(at, at + 3).flatMap(corner), middle, region, color, ownPlane: -1 });
       }
     }
   }
-
-  private setBoxes(model: Model, boxes: Uint32Array, colorOf: ReturnType<typeof untouchedColors>): void {
-    const low = new Float32Array(3 * boxes.length);
-    const size = new Float32Array(3 * boxes.length);
-    const region = new Float32Array(boxes.length);
-    const tint = new Uint8Array(4 * boxes.length);
-    const { grid, origin, gridCellRegion } = model;
-    const [nx, ny] = grid.cells;
-    boxes.forEach((gridCell, box) => {
-      const at = [gridCell % nx, Math.floor(gridCell / nx) % ny, Math.floor(gridCell / (nx * ny))];
-      for (let d = 0; d < 3; d++) {
-        low[3 * box + d] = grid.planes[d][at[d]] - origin[d];
-        size[3 * box + d] = grid.planes[d][at[d] + 1] - grid.planes[d][at[d]];
-      }
-      region[box] = gridCellRegion[gridCell];
-      tint.set(colorOf(gridCell, region[box]), 4 * box);
-    });
-    const attributes = {
-      low: new InstancedBufferAttribute(low, 3),
-      size: new InstancedBufferAttribute(size, 3),
-      region: new InstancedBufferAttribute(region, 1),
-      tint: new InstancedBufferAttribute(tint, 4, true),
-    };
-    this.faces.geometry.dispose();
-    this.lines.geometry.dispose();
-    this.faces.geometry = this.pick.geometry = instanced(this.box, attributes, boxes.length);
-    this.lines.geometry = instanced(this.frame, attributes, boxes.length);
-  }
 }
 
-function instanced(base: BoxGeometry | EdgesGeometry, attributes: Record<string, InstancedBufferAttribute>, count: number): InstancedBufferGeometry {
-  const geometry = new InstancedBufferGeometry();
-  geometry.index = base.index;
-  geometry.setAttribute('position', base.getAttribute('position'));
-  for (const [name, attribute] of Object.entries(attributes)) geometry.setAttribute(name, attribute);
-  geometry.instanceCount = count;
-  return geometry;
+/** Lets a geometry draw so many boxes. */
+function setRange(geometry: BufferGeometry, corners: readonly number[], boxes: number): void {
+  const length = corners.length;
+  const room = (geometry.index?.count ?? 0) / length;
+  if (boxes > room) {
+    const index = new Uint32Array(length * Math.max(boxes, 2 * room));
+    for (let at = 0; at < index.length; at++) index[at] = 8 * Math.floor(at / length) + corners[at % length];
+    geometry.dispose();
+    geometry.setIndex(new BufferAttribute(index, 1));
+  }
+  geometry.setDrawRange(0, length * boxes);
 }
 
 /** Untouched grid cells that are shown and not hidden behind six others. */
 function seenBoxes(model: Model, regions: Uint8Array, planes: readonly ViewPlane[], flat: boolean, pulledApart: boolean): Uint32Array {
   const solid = solidCells(model, regions, planes, flat);
-  const shown = solid.reduce((sum, x) => sum + x, 0);
+  let shown = 0;
+  for (let at = 0; at < solid.length; at++) shown += solid[at];
   const drawAll = pulledApart && shown <= mostBoxes;
   const boxes = new Uint32Array(shown);
   const [nx, ny, nz] = model.grid.cells;

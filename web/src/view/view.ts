@@ -25,6 +25,19 @@ export interface ViewOptions {
   onError?: (error: PageError) => void;
 }
 
+/** The answer to a request for slices. */
+interface Slices {
+  count: number;
+  model: number;
+  planes: ViewPlane[];
+  slices: Slice[];
+}
+
+const noSlices: Slices = { count: 0, model: 0, planes: [], slices: [] };
+
+/** In ms. */
+const longestWait = 400;
+
 const schemes = {
   light: { background: '#f3f1ec', line: '#1c2430', accent: '#e0218a' },
   dark: { background: '#14181e', line: '#05070a', accent: '#ff4fa8' },
@@ -61,7 +74,10 @@ class ThreeView implements View {
   private regions: Uint8Array = new Uint8Array(0);
   /** The planes that cut what is drawn. A flat cut keeps the former ones until the caps of new ones have come, so that no picture lacks them. */
   private planes: ViewPlane[] = [];
-  private slices: { model: number; planes: ViewPlane[]; slices: Slice[] } | null = null;
+  private slices: Slices | null = null;
+  private slicesMade = 0;
+  private modelSince = 0;
+  private readonly keys = new Map<string, string>();
   private isSlicing = false;
   private cameraKnown = '';
   private cameraBeforeStep: { position: Vector3; target: Vector3 } | null = null;
@@ -109,6 +125,7 @@ class ThreeView implements View {
   }
 
   private tellContextLost(): void {
+    this.pace.reset();
     const detail = 'The browser took the graphics context away, perhaps because memory ran short. If the picture does not come back, reload the page.';
     this.options.onError?.({ title: 'The picture is gone for now', detail });
   }
@@ -122,6 +139,9 @@ class ThreeView implements View {
     this.cells.setModel(model);
     this.uniforms.hovered.value = this.uniforms.pinned.value = -1;
     this.lookChanged();
+    this.modelSince = performance.now();
+    // At once, so that it comes before the next cut.
+    if (this.settings?.sliceMode === 'flat' && activePlanes(model, this.settings).length > 0) void this.requestSlices();
     if (frame || !this.isFramed) this.frame();
   }
 
@@ -269,6 +289,11 @@ class ThreeView implements View {
     else this.draw();
   }
 
+  /** The former picture stays while the caps of a new model are on their way, but not for long. */
+  private get lacksCaps(): boolean {
+    return this.isSlicing && this.slices?.model !== this.model?.id && performance.now() - this.modelSince < longestWait;
+  }
+
   private resize(): void {
     const { clientWidth, clientHeight } = this.canvas;
     if (clientWidth === 0 || clientHeight === 0) return;
@@ -284,6 +309,7 @@ class ThreeView implements View {
     cancelAnimationFrame(this.frameAsked);
     this.frameAsked = 0;
     this.updateLook();
+    if (this.lacksCaps) return this.invalidate();
     this.camera.controls.update();
     this.renderer.render(this.scene, this.camera.camera);
     this.pace.mark();
@@ -296,10 +322,15 @@ class ThreeView implements View {
     if (!model || !settings || !this.isLookStale) return;
     this.isLookStale = false;
     this.regions = shownRegions(model, settings);
-    this.cells.setLook(model, settings, this.regions);
-    this.choosePlanes(model, settings);
-    const isFlat = settings.sliceMode === 'flat';
-    this.untouched.setLook(model, settings, this.regions, this.planes);
+    const { show, colorBy, sliceMode } = settings;
+    const isFlat = sliceMode === 'flat';
+    // Explosions and slices of whole cells change uniforms alone; the rest is worked out again only if something that it depends on has changed.
+    if (this.hasChanged('cells', [model.id, show, colorBy])) this.cells.setLook(model, settings, this.regions);
+    const slices = this.choosePlanes(model, settings);
+    if (this.hasChanged('caps', [model.id, show, colorBy, slices.count])) this.caps.set(model, settings, this.regions, this.cells, slices.slices);
+    if (this.hasChanged('untouched', [model.id, show, colorBy, isFlat, this.planes, settings.explode.cells > 0])) {
+      this.untouched.setLook(model, settings, this.regions, this.planes);
+    }
     this.setUniforms(model, settings);
     this.modelGroup.visible = this.step === null;
     this.cells.ghost.visible = this.stepPicture.group.visible = this.step !== null;
@@ -309,14 +340,22 @@ class ThreeView implements View {
     this.tellTests(model, isFlat);
   }
 
-  private choosePlanes(model: Model, settings: Settings): void {
+  /** Sets the planes, and gives the slices to draw as caps. */
+  private choosePlanes(model: Model, settings: Settings): Slices {
     const wanted = activePlanes(model, settings);
     const isFlat = settings.sliceMode === 'flat';
     const made = this.slices?.model === model.id ? this.slices : null;
     if (isFlat && wanted.length > 0 && !(made && samePlanes(made.planes, wanted))) void this.requestSlices();
     this.planes = isFlat && wanted.length > 0 && made ? made.planes : wanted;
-    const hasCaps = isFlat && wanted.length > 0 && made !== null;
-    this.caps.set(model, settings, this.regions, this.cells, hasCaps ? made.slices : []);
+    return isFlat && wanted.length > 0 && made ? made : noSlices;
+  }
+
+  /** Whether what a part depends on is different from the last time. */
+  private hasChanged(part: string, dependsOn: unknown[]): boolean {
+    const key = JSON.stringify(dependsOn);
+    const isNew = this.keys.get(part) !== key;
+    this.keys.set(part, key);
+    return isNew;
   }
 
   /** One request at a time: when its answer comes, the planes wanted by then are asked for. */
@@ -328,10 +367,10 @@ class ThreeView implements View {
     const inWorld = planes.map(({ normal, offset }) => ({ normal, offset: normal.reduce((sum, n, d) => sum + n * model.origin[d], offset) }));
     try {
       const slices = await this.options.slice(inWorld, true);
-      this.slices = { model: model.id, planes, slices };
+      this.slices = { count: ++this.slicesMade, model: model.id, planes, slices };
     } catch (error) {
       // Without caps the cells are seen cut open. It isn't asked again for the same planes, or failing would go on for ever.
-      this.slices = { model: model.id, planes, slices: [] };
+      this.slices = { count: ++this.slicesMade, model: model.id, planes, slices: [] };
       if (!(error instanceof DOMException)) this.options.onError?.(error as PageError);
     }
     this.isSlicing = false;
