@@ -16,7 +16,12 @@ export async function importBundled(path) {
     configFile: false,
     logLevel: 'error',
     ssr: { noExternal: true },
-    build: { ssr: join(web, 'src', path), outDir: folder, minify: false, rolldownOptions: { output: { entryFileNames: '[name].mjs', chunkFileNames: '[name].mjs' } } },
+    build: {
+      ssr: join(web, 'src', path),
+      outDir: folder,
+      minify: false,
+      rolldownOptions: { output: { entryFileNames: '[name].mjs', chunkFileNames: '[name].mjs' } },
+    },
   });
   return import(pathToFileURL(join(folder, `${basename(path, '.ts')}.mjs`)));
 }

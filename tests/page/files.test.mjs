@@ -39,11 +39,17 @@ const points = [[0, 0, 0], [1.5, 0, 0], [0, 2.25, 0], [0, 0, -3.125]];
 const faces = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]];
 const expectedCorners = faces.flat().map((v) => points[v]);
 
-const obj = `# made by hand\n${points.map((p) => `v ${p.join(' ')}`).join('\n')}\n${faces.map((f) => `f ${f.map((v) => v + 1).join(' ')}`).join('\n')}\n`;
+const pointLines = points.map((p) => `${p.join(' ')}\n`);
+const obj = `# made by hand\n${pointLines.map((p) => `v ${p}`).join('')}${faces.map((f) => `f ${f.map((v) => v + 1).join(' ')}\n`).join('')}`;
 const off = `OFF\n4 4 0\n${points.map((p) => p.join(' ')).join('\n')}\n${faces.map((f) => `3 ${f.join(' ')}`).join('\n')}\n`;
-const stl = `solid tetrahedron\n${faces.map((f) => `facet normal 0 0 0\nouter loop\n${f.map((v) => `vertex ${points[v].join(' ')}\n`).join('')}endloop\nendfacet\n`).join('')}endsolid\n`;
+const facets = faces.map((f) => `facet normal 0 0 0\nouter loop\n${f.map((v) => `vertex ${pointLines[v]}`).join('')}endloop\nendfacet\n`);
+const stl = `solid tetrahedron\n${facets.join('')}endsolid\n`;
 const plyHeader = (format, number = 'float') =>
-  `ply\nformat ${format} 1.0\ncomment made by hand\nelement vertex 4\n${['x', 'y', 'z'].map((d) => `property ${number} ${d}\n`).join('')}element face 4\nproperty list uchar int vertex_indices\nend_header\n`;
+  [
+    'ply', `format ${format} 1.0`, 'comment made by hand',
+    'element vertex 4', `property ${number} x`, `property ${number} y`, `property ${number} z`,
+    'element face 4', 'property list uchar int vertex_indices', 'end_header', '',
+  ].join('\n');
 const ply = `${plyHeader('ascii')}${points.map((p) => `${p.join(' ')}\n`).join('')}${faces.map((f) => `3 ${f.join(' ')}\n`).join('')}`;
 
 function binaryPly(littleEndian, number = 'float') {
@@ -69,7 +75,8 @@ function binaryPly(littleEndian, number = 'float') {
 function binaryStl() {
   const view = new DataView(new ArrayBuffer(84 + 50 * faces.length));
   view.setUint32(80, faces.length, true);
-  faces.forEach((face, t) => face.forEach((v, k) => points[v].forEach((x, d) => view.setFloat32(84 + 50 * t + 12 * (k + 1) + 4 * d, x, true))));
+  const put = (t, k, point) => point.forEach((x, d) => view.setFloat32(84 + 50 * t + 12 * (k + 1) + 4 * d, x, true));
+  faces.forEach((face, t) => face.forEach((v, k) => put(t, k, points[v])));
   return Buffer.from(view.buffer);
 }
 
@@ -88,14 +95,15 @@ const gltf = (extra = {}) => ({
   ...extra,
 });
 const gltfData = Buffer.concat([Buffer.from(new Float32Array(points.flat()).buffer), Buffer.from(new Uint16Array(faces.flat()).buffer)]);
-const embedded = (extra = {}) =>
-  JSON.stringify(gltf({ buffers: [{ byteLength: 72, uri: `data:application/octet-stream;base64,${gltfData.toString('base64')}` }], ...extra }));
+const dataUri = `data:application/octet-stream;base64,${gltfData.toString('base64')}`;
+const embedded = (extra = {}) => JSON.stringify(gltf({ buffers: [{ byteLength: 72, uri: dataUri }], ...extra }));
 
 function glb(json, data = gltfData) {
   let text = JSON.stringify(json);
   text += ' '.repeat((4 - (text.length % 4)) % 4);
   const bytes = Buffer.alloc(28 + text.length + data.length);
-  const words = [[0, 0x46546c67], [4, 2], [8, bytes.length], [12, text.length], [16, 0x4e4f534a], [20 + text.length, data.length], [24 + text.length, 0x004e4942]];
+  const end = 20 + text.length;
+  const words = [[0, 0x46546c67], [4, 2], [8, bytes.length], [12, text.length], [16, 0x4e4f534a], [end, data.length], [end + 4, 0x004e4942]];
   for (const [at, word] of words) bytes.writeUInt32LE(word, at);
   bytes.write(text, 20);
   data.copy(bytes, 28 + text.length);
@@ -104,11 +112,13 @@ function glb(json, data = gltfData) {
 
 describe('formats', () => {
   const files = {
-    'a.obj': obj, 'a.off': off, 'a.stl': stl, 'binary.stl': binaryStl(), 'a.ply': ply, 'little.ply': binaryPly(true), 'big.ply': binaryPly(false),
-    'double.ply': binaryPly(true, 'double'), 'a.gltf': embedded(), 'a.glb': glb(gltf()), 'A.OBJ': obj, 'windows.obj': obj.replaceAll('\n', '\r\n'),
-    'windows.ply': ply.replaceAll('\n', '\r\n'), 'windows.off': off.replaceAll('\n', '\r\n'), 'upper.stl': stl.toUpperCase(), 'a.obj.gz': gzipSync(obj),
-    'packed.glb.gz': gzipSync(glb(gltf())), 'wrongly-named.obj': binaryPly(true), 'also.stl': glb(gltf()), noextension: obj, 'off.txt': off, 'stl.dat': binaryStl(),
-    'query.obj?download=1': obj,
+    'a.obj': obj, 'A.OBJ': obj, noextension: obj, 'query.obj?download=1': obj, 'windows.obj': obj.replaceAll('\n', '\r\n'),
+    'a.off': off, 'off.txt': off, 'windows.off': off.replaceAll('\n', '\r\n'),
+    'a.stl': stl, 'upper.stl': stl.toUpperCase(), 'binary.stl': binaryStl(), 'stl.dat': binaryStl(),
+    'a.ply': ply, 'windows.ply': ply.replaceAll('\n', '\r\n'), 'little.ply': binaryPly(true), 'big.ply': binaryPly(false),
+    'double.ply': binaryPly(true, 'double'), 'wrongly-named.obj': binaryPly(true),
+    'a.gltf': embedded(), 'a.glb': glb(gltf()), 'also.stl': glb(gltf()),
+    'a.obj.gz': gzipSync(obj), 'packed.glb.gz': gzipSync(glb(gltf())),
   };
   for (const [name, content] of Object.entries(files)) {
     test(name, async () => {
@@ -118,7 +128,9 @@ describe('formats', () => {
     });
   }
 
-  test('extensions for file pickers', () => assert.ok(['.obj', '.stl', '.ply', '.off', '.glb', '.gltf', '.obj.gz'].every((name) => fileExtensions.includes(name))));
+  test('extensions for file pickers', () => {
+    for (const name of ['.obj', '.stl', '.ply', '.off', '.glb', '.gltf', '.obj.gz']) assert.ok(fileExtensions.includes(name), name);
+  });
 });
 
 describe('what the formats allow', () => {
@@ -138,12 +150,17 @@ g lines\nl 1 2 3\np 1\nusemtl red\ns off\nf -4/1/1 -3//1 \\\n 3/1 4 # a square\n
     assert.equal((await parse('a.obj', Buffer.from(`o M\xf6bius\n${obj}`, 'latin1'))).triangles.length, 12);
   });
   test('OFF: counts beside the keyword, comments, colours, polygons', async () => {
-    const text = `COFF 5 1 0 # counts\n\n# points\n${pentagon.map((p) => `${p.join(' ')} 255 0 0 255`).join('\n')}\n5 0 1 2 3 4 0.5 0.5 0.5\n`;
+    const colored = pentagon.map((p) => `${p.join(' ')} 255 0 0 255\n`).join('');
+    const text = `COFF 5 1 0 # counts\n\n# points\n${colored}5 0 1 2 3 4 0.5 0.5 0.5\n`;
     assert.deepEqual(corners(await parse('a.off', text)), pentagonFan);
   });
   test('PLY: polygons, further properties and elements, doubles', async () => {
-    const text = `ply\nformat ascii 1.0\nelement camera 1\nproperty float fov\nelement vertex 5\nproperty double x\nproperty double y\nproperty double z\nproperty uchar red
-element face 1\nproperty uchar flags\nproperty list uchar uint vertex_index\nelement edge 1\nproperty int a\nend_header\n60\n${pentagon.map((p) => `${p.join(' ')} 7`).join('\n')}\n1 5 0 1 2 3 4\n0\n`;
+    const text = [
+      'ply', 'format ascii 1.0', 'element camera 1', 'property float fov',
+      'element vertex 5', 'property double x', 'property double y', 'property double z', 'property uchar red',
+      'element face 1', 'property uchar flags', 'property list uchar uint vertex_index', 'element edge 1', 'property int a', 'end_header',
+      '60', ...pentagon.map((p) => `${p.join(' ')} 7`), '1 5 0 1 2 3 4', '0',
+    ].join('\n');
     assert.deepEqual(corners(await parse('a.ply', text)), pentagonFan);
   });
   test('OFF and PLY keep double precision', async () => {
@@ -156,10 +173,15 @@ element face 1\nproperty uchar flags\nproperty list uchar uint vertex_index\nele
   test('STL: several solids', async () => assert.equal((await parse('a.stl', stl + stl)).triangles.length, 24));
   test('glTF: transforms, mirrored and nested, all meshes merged; images and materials are never loaded', async () => {
     const nodes = [{ children: [1, 2], translation: [10, 0, 0] }, { mesh: 0, scale: [-2, 2, 2] }, { mesh: 0 }];
-    const extra = { nodes, images: [{ uri: 'http://localhost:1/missing.png' }], textures: [{ source: 0 }], materials: [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }] };
-    const json = gltf(extra);
+    const json = gltf({
+      nodes,
+      images: [{ uri: 'http://localhost:1/missing.png' }],
+      textures: [{ source: 0 }],
+      materials: [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }],
+    });
     json.meshes[0].primitives[0].material = 0;
-    const [mirrored, plain] = [corners(await parse('a.glb', glb(json))).slice(0, 12), corners(await parse('a.glb', glb(json))).slice(12)];
+    const found = corners(await parse('a.glb', glb(json)));
+    const [mirrored, plain] = [found.slice(0, 12), found.slice(12)];
     assert.deepEqual(plain, expectedCorners.map(([x, y, z]) => [x + 10, y, z]));
     const swapped = [0, 1, 2, 3].flatMap((t) => [0, 2, 1].map((k) => expectedCorners[3 * t + k]));
     assert.deepEqual(mirrored, swapped.map(([x, y, z]) => [10 - 2 * x, 2 * y, 2 * z]));
@@ -173,7 +195,8 @@ element face 1\nproperty uchar flags\nproperty list uchar uint vertex_index\nele
     });
     json.bufferViews.push({ buffer: 0, byteOffset: 72, byteLength: 24 });
     json.accessors.push({ bufferView: 2, componentType: 5126, count: 2, type: 'VEC3' });
-    assert.deepEqual(corners(await parse('a.glb', glb(json, data))), [...expectedCorners, ...expectedCorners.map(([x, y, z]) => [x + 5, y, z])]);
+    const second = expectedCorners.map(([x, y, z]) => [x + 5, y, z]);
+    assert.deepEqual(corners(await parse('a.glb', glb(json, data))), [...expectedCorners, ...second]);
   });
   test('glTF: several buffers', async () => {
     const uri = (data) => `data:;base64,${data.toString('base64')}`;
@@ -293,8 +316,14 @@ describe('bad files', () => {
     ['old.gltf', embedded({ asset: { version: '1.0' } }), /version "1\.0"; version 2 is read/],
     ['outside.gltf', JSON.stringify(gltf({ buffers: [{ byteLength: 72, uri: 'data.bin' }] })), /another file, "data\.bin"/],
     ['base64.gltf', JSON.stringify(gltf({ buffers: [{ byteLength: 72, uri: 'data:;base64,@@' }] })), /base64/],
-    ['short.gltf', embedded().replace(';base64,', ';base64,AAAA').replace(gltfData.toString('base64'), ''), /should have 72 bytes and has only 3/],
-    ['draco.glb', glb(gltf({ extensionsUsed: ['KHR_draco_mesh_compression'], extensionsRequired: ['KHR_draco_mesh_compression'] })), /compressed with Draco/],
+    [
+      'short.gltf', embedded().replace(';base64,', ';base64,AAAA').replace(gltfData.toString('base64'), ''),
+      /should have 72 bytes and has only 3/,
+    ],
+    [
+      'draco.glb', glb(gltf({ extensionsUsed: ['KHR_draco_mesh_compression'], extensionsRequired: ['KHR_draco_mesh_compression'] })),
+      /compressed with Draco/,
+    ],
     ['cut.glb', glb(gltf()).subarray(0, -10), /^Byte 8: the header promises/],
     ['header.glb', glb(gltf()).subarray(0, 10), /header of 20 bytes; this file has 10/],
     ['cycle.glb', deepGlb, /Node 0 is a root of the scene and below another node/],
@@ -303,21 +332,41 @@ describe('bad files', () => {
     ['mesh.glb', glb(gltf({ nodes: [{ mesh: 9 }] })), /Node 0 shows mesh 9/],
     ['nothing.glb', glb(gltf({ nodes: [{}] })), /no triangles/],
     ['strange.glb', glb(gltf({ nodes: 7, meshes: {}, accessors: 'x' })), /./],
-    ['many.glb', glb(gltf({ accessors: [{ bufferView: 0, componentType: 5126, count: 4e9, type: 'VEC3' }, gltf().accessors[1]] })), /Accessor 0 promises 4000000000 items/],
-    ['type.glb', glb(gltf({ accessors: [{ ...gltf().accessors[0], type: 'VEC2' }, gltf().accessors[1]] })), /accessor 0, which should be of type VEC3/],
+    [
+      'many.glb', glb(gltf({ accessors: [{ bufferView: 0, componentType: 5126, count: 4e9, type: 'VEC3' }, gltf().accessors[1]] })),
+      /Accessor 0 promises 4000000000 items/,
+    ],
+    [
+      'type.glb', glb(gltf({ accessors: [{ ...gltf().accessors[0], type: 'VEC2' }, gltf().accessors[1]] })),
+      /accessor 0, which should be of type VEC3/,
+    ],
     ['component.glb', glb(gltf({ accessors: [{ ...gltf().accessors[0], componentType: 1 }, gltf().accessors[1]] })), /component type 1/],
     ['accessor.glb', glb(gltf({ meshes: [{ primitives: [{ attributes: { POSITION: 5 } }] }] })), /accessor 5, which does not exist/],
-    ['beyond.glb', glb(gltf({ accessors: [{ bufferView: 0, componentType: 5126, count: 20, type: 'VEC3' }, gltf().accessors[1]] })), /The loader gave up on it: .*typed array/],
-    ['index.glb', glb(gltf(), Buffer.concat([gltfData.subarray(0, 48), Buffer.from(new Uint16Array([0, 1, 9, ...faces.flat().slice(3)]).buffer)])), /names point 9, but there are 4 points/],
-    ['nan.glb', glb(gltf(), Buffer.concat([Buffer.from(new Float32Array([NaN]).buffer), gltfData.subarray(4)])), /point 0 has a coordinate that is not a finite/],
+    [
+      'beyond.glb', glb(gltf({ accessors: [{ bufferView: 0, componentType: 5126, count: 20, type: 'VEC3' }, gltf().accessors[1]] })),
+      /The loader gave up on it: .*typed array/,
+    ],
+    [
+      'index.glb',
+      glb(gltf(), Buffer.concat([gltfData.subarray(0, 48), Buffer.from(new Uint16Array([0, 1, 9, ...faces.flat().slice(3)]).buffer)])),
+      /names point 9, but there are 4 points/,
+    ],
+    [
+      'nan.glb', glb(gltf(), Buffer.concat([Buffer.from(new Float32Array([NaN]).buffer), gltfData.subarray(4)])),
+      /point 0 has a coordinate that is not a finite/,
+    ],
   ];
   for (const [name, content, detail] of bad) test(name, { timeout: 5000 }, () => refuses(name, content, detail));
 
-  test('a file that unpacks without end', { timeout: 60000 }, () => refuses('bomb.obj.gz', gzipSync(Buffer.alloc(1100000000), { level: 1 }), /more than a gigabyte/));
+  test('a file that unpacks without end', { timeout: 60000 }, () =>
+    refuses('bomb.obj.gz', gzipSync(Buffer.alloc(1100000000), { level: 1 }), /more than a gigabyte/));
 });
 
 describe('any file cut off anywhere gives a mesh or an error, soon', () => {
-  const files = { 'a.obj': obj, 'a.off': off, 'a.stl': stl, 'b.stl': binaryStl(), 'a.ply': ply, 'b.ply': binaryPly(true), 'a.glb': glb(gltf()), 'a.gltf': embedded(), 'a.obj.gz': gzipSync(obj) };
+  const files = {
+    'a.obj': obj, 'a.off': off, 'a.stl': stl, 'b.stl': binaryStl(), 'a.ply': ply, 'b.ply': binaryPly(true),
+    'a.glb': glb(gltf()), 'a.gltf': embedded(), 'a.obj.gz': gzipSync(obj),
+  };
   const settle = (name, bytes) =>
     parse(name, bytes).then(
       ({ positions, triangles }) => assert.ok(positions.every(Number.isFinite) && triangles.every((v) => 3 * v < positions.length), name),

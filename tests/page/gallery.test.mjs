@@ -122,7 +122,8 @@ async function middleFaces(name) {
   const faces = [...cutMesh.faceAxis.keys()].filter((face) => cutMesh.faceAxis[face] === 1 && cutMesh.facePlane[face] === 1);
   assert.equal(cutMesh.grid.cells[1], 2);
   assert.equal(cutMesh.grid.planes[1][1], 0);
-  return { holes: faces.map((face) => cutMesh.faceLoopOffsets[face + 1] - cutMesh.faceLoopOffsets[face] - 1).sort(), cells: cutMesh.cellRegion.length };
+  const holes = faces.map((face) => cutMesh.faceLoopOffsets[face + 1] - cutMesh.faceLoopOffsets[face] - 1).sort();
+  return { holes, cells: cutMesh.cellRegion.length };
 }
 
 test('the difficult cases lie on the plane between two layers of grid cells', async () => {

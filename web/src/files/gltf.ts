@@ -69,7 +69,10 @@ function bufferBytes(uri: string | undefined, index: number, bin: Uint8Array | n
     throw new Flaw(`Buffer ${index} has no data.`);
   }
   const data = /^data:[^,]*;base64,/.exec(uri);
-  if (!data) throw new Flaw(`Buffer ${index} lies in another file, "${uri.slice(0, 60)}". Save the model as one file (GLB, or glTF with embedded buffers).`);
+  if (!data) {
+    const advice = 'Save the model as one file (GLB, or glTF with embedded buffers).';
+    throw new Flaw(`Buffer ${index} lies in another file, "${uri.slice(0, 60)}". ${advice}`);
+  }
   try {
     return Uint8Array.from(atob(uri.slice(data[0].length)), (c) => c.charCodeAt(0));
   } catch {
@@ -123,10 +126,14 @@ function check(gltf: Gltf, dataBytes: number): void {
   const version = String(gltf.asset?.version);
   if (!version.startsWith('2')) throw new Flaw(`It is glTF version "${version}"; version 2 is read.`);
   for (const extension of gltf.extensionsRequired ?? []) {
-    if (compressions[extension]) throw new Flaw(`It is compressed with ${compressions[extension]}, which is not read. Save it without compression.`);
+    if (compressions[extension]) {
+      throw new Flaw(`It is compressed with ${compressions[extension]}, which is not read. Save it without compression.`);
+    }
   }
   gltf.accessors?.forEach(({ count = 0, componentType = 0 }, index) => {
-    if (!componentTypes.includes(componentType)) throw new Flaw(`Accessor ${index} has the component type ${componentType}, which does not exist.`);
+    if (!componentTypes.includes(componentType)) {
+      throw new Flaw(`Accessor ${index} has the component type ${componentType}, which does not exist.`);
+    }
     if (!(count <= dataBytes)) throw new Flaw(`Accessor ${index} promises ${count} items, but there are only ${dataBytes} bytes of data.`);
   });
   gltf.meshes?.forEach(({ primitives }, mesh) => primitives?.forEach(({ attributes, indices }) => {

@@ -1,5 +1,5 @@
-// Mesh files: OBJ, STL, PLY, OFF, GLB and glTF with embedded buffers, each also gzipped. Runs in the page's worker: no DOM. Nothing is welded
-// here: the cutter does that.
+// Mesh files: OBJ, STL, PLY, OFF, GLB and glTF with embedded buffers, each also gzipped. Runs in the page's worker: no DOM. Nothing is
+// welded here: the cutter does that.
 import type { MeshArrays } from '../gallery/mesh';
 import { FileError, Flaw } from './flaw';
 import { isGlb, parseGltf } from './gltf';
@@ -45,7 +45,8 @@ function formatOf(name: string, bytes: Uint8Array): Format {
   const text = start(bytes);
   if (text.startsWith('PK\x03\x04')) throw new Flaw('It is a ZIP archive. Unpack it first.');
   if (/^<(!doctype|html)/i.test(text)) throw new Flaw('It is a web page, not a mesh.');
-  throw new Flaw(`${named ? `".${named}" is not a kind of file` : 'It is no kind of file'} that is read here: OBJ, STL, PLY, OFF, GLB and glTF are.`);
+  const kind = named ? `".${named}" is not a kind of file` : 'It is no kind of file';
+  throw new Flaw(`${kind} that is read here: OBJ, STL, PLY, OFF, GLB and glTF are.`);
 }
 
 async function read(name: string, bytes: ArrayBuffer): Promise<MeshArrays> {

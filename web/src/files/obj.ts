@@ -19,7 +19,8 @@ function corner(word: string, face: Face, pointCount: number): number {
   const id = Number(number);
   const point = id < 0 ? face.pointsBefore + id + 1 : id;
   if (point >= 1 && point <= pointCount) return point;
-  throw new Flaw(`Line ${face.line}: a face names point ${id}, but ${pointCount ? `points are numbered from 1 to ${pointCount}` : 'there are no points'}.`);
+  const points = pointCount > 0 ? `points are numbered from 1 to ${pointCount}` : 'there are no points';
+  throw new Flaw(`Line ${face.line}: a face names point ${id}, but ${points}.`);
 }
 
 /** The points and faces alone: lines, loose points and materials would make the loader split or mix up its meshes. */
@@ -35,7 +36,9 @@ function checkedText(text: string): string {
   const faceLines = faces.map((face) => {
     const comment = face.words.findIndex((word) => word.startsWith('#'));
     const words = comment < 0 ? face.words : face.words.slice(0, comment);
-    if (words.length < 3) throw new Flaw(`Line ${face.line}: a face needs three corners, and this one has ${words.filter(Boolean).length}.`);
+    if (words.length < 3) {
+      throw new Flaw(`Line ${face.line}: a face needs three corners, and this one has ${words.filter(Boolean).length}.`);
+    }
     return `f ${words.map((word) => corner(word, face, points.length)).join(' ')}`;
   });
   return [...points, ...faceLines].join('\n');

@@ -28,7 +28,9 @@ function wholeNumber(word: string | undefined, line: number, what: string): numb
 export function parseOff(bytes: Uint8Array): MeshArrays {
   const lines = contentOf(decodeText(bytes));
   let line = next(lines, null, 'its header');
-  if (/^(ST)?C?N?(4n?|n)OFF\b|^\w*OFF\s+BINARY/.test(line.text)) throw new Flaw(`Line ${line.number}: ${quoted(line.text)} is a kind of OFF file that is not read; OFF in text with three coordinates is.`);
+  if (/^(ST)?C?N?(4n?|n)OFF\b|^\w*OFF\s+BINARY/.test(line.text)) {
+    throw new Flaw(`Line ${line.number}: ${quoted(line.text)} is a kind of OFF file that is not read; text with three coordinates is.`);
+  }
   if (offHeader.test(line.text)) {
     const counts = line.text.replace(offHeader, '').trim();
     line = counts ? { text: counts, number: line.number } : next(lines, line, 'its counts');

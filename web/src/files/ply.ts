@@ -65,15 +65,17 @@ function parseHeader(bytes: Uint8Array): Header {
     if (key === 'format') format = words[0];
     if (key === 'element') {
       const count = Number(words[1]);
-      if (!/^\d+$/.test(words[1] ?? '')) throw new Flaw(`Line ${line}: the number of elements, ${quoted(words[1] ?? '')}, is not a whole number.`);
+      if (!/^\d+$/.test(words[1] ?? '')) {
+        throw new Flaw(`Line ${line}: the number of elements, ${quoted(words[1] ?? '')}, is not a whole number.`);
+      }
       elements.push({ name: words[0], count, properties: [] });
     }
     if (key !== 'property') return;
     const element = elements.at(-1);
     if (!element) throw new Flaw(`Line ${line}: a property before any element.`);
-    const isList = words[0] === 'list';
-    const [length, type, name] = isList ? [typeNamed(words[1], line), typeNamed(words[2], line), words[3]] : [null, typeNamed(words[0], line), words[1]];
-    element.properties.push({ name, type, length });
+    element.properties.push(words[0] === 'list'
+      ? { name: words[3], type: typeNamed(words[2], line), length: typeNamed(words[1], line) }
+      : { name: words[1], type: typeNamed(words[0], line), length: null });
   });
   if (format !== 'ascii' && format !== 'binary_little_endian' && format !== 'binary_big_endian') {
     throw new Flaw(`The header names the format ${quoted(format ?? '')}; ascii, binary_little_endian and binary_big_endian are known.`);
@@ -149,7 +151,9 @@ function pointReader(element: Element, polygons: Polygons, numbers: Numbers): (v
   if (at.includes(-1)) throw new Flaw('The header gives points no properties x, y and z.');
   return (values) => {
     const [x, y, z] = at.map((index) => Number(values[index]));
-    if (![x, y, z].every(Number.isFinite)) throw new Flaw(`${numbers.where()}: point ${polygons.pointCount} has a coordinate that is not a finite number.`);
+    if (![x, y, z].every(Number.isFinite)) {
+      throw new Flaw(`${numbers.where()}: point ${polygons.pointCount} has a coordinate that is not a finite number.`);
+    }
     polygons.addPoint(x, y, z);
   };
 }

@@ -1,5 +1,5 @@
 import { InstancedMesh, Matrix4, Mesh, type BufferGeometry, type Object3D } from 'three';
-import { merged, type MeshArrays } from '../gallery/mesh';
+import { flipped, merged, type MeshArrays } from '../gallery/mesh';
 import { Flaw } from './flaw';
 
 /** Triangles of a geometry moved by a matrix; those of a mirrored one are turned, so that their outer side stays outside. */
@@ -20,10 +20,10 @@ function moved(geometry: BufferGeometry, matrix: Matrix4, name: string): MeshArr
   const triangles = Uint32Array.from({ length: count }, (_, k) => (corners ? corners.getX(k) : k));
   const wrong = triangles.findIndex((v) => v >= source.count);
   if (wrong >= 0) {
-    throw new Flaw(`${name}: triangle ${Math.floor(wrong / 3)} names point ${triangles[wrong]}, but there are ${source.count} points, numbered from 0.`);
+    const triangle = Math.floor(wrong / 3);
+    throw new Flaw(`${name}: triangle ${triangle} names point ${triangles[wrong]}, but there are ${source.count} points, numbered from 0.`);
   }
-  if (matrix.determinant() < 0) for (let t = 0; t < count; t += 3) [triangles[t + 1], triangles[t + 2]] = [triangles[t + 2], triangles[t + 1]];
-  return { positions, triangles };
+  return matrix.determinant() < 0 ? flipped({ positions, triangles }) : { positions, triangles };
 }
 
 /** All triangles of what one of three's loaders made, each mesh at its place. Points and lines are left out. */

@@ -24,17 +24,22 @@ function isText(bytes: Uint8Array): boolean {
 }
 
 function checkBinary(bytes: Uint8Array): void {
-  if (bytes.length < headerBytes) throw new Flaw(`A binary STL file starts with a header of ${headerBytes} bytes; this file has ${bytes.length}.`);
+  if (bytes.length < headerBytes) {
+    throw new Flaw(`A binary STL file starts with a header of ${headerBytes} bytes; this file has ${bytes.length}.`);
+  }
   const promised = promisedBytes(bytes);
   const triangles = (promised - headerBytes) / triangleBytes;
   if (bytes.length < promised) {
-    throw new Flaw(`Byte 80: the header promises ${triangles} triangles, which take ${promised} bytes, but the file ends after ${bytes.length}.`);
+    const promise = `${triangles} triangles, which take ${promised} bytes`;
+    throw new Flaw(`Byte 80: the header promises ${promise}, but the file ends after ${bytes.length}.`);
   }
   const view = new DataView(bytes.buffer, bytes.byteOffset);
   for (let t = 0; t < triangles; ++t) {
     const corners = headerBytes + triangleBytes * t + 12;
     for (let at = corners; at < corners + 36; at += 4) {
-      if (!Number.isFinite(view.getFloat32(at, true))) throw new Flaw(`Byte ${at}: triangle ${t} has a coordinate that is not a finite number.`);
+      if (!Number.isFinite(view.getFloat32(at, true))) {
+        throw new Flaw(`Byte ${at}: triangle ${t} has a coordinate that is not a finite number.`);
+      }
     }
   }
 }
@@ -57,7 +62,9 @@ function checkText(text: string): void {
       facet = 0;
     } else if (words[0] === 'solid') open = true;
     else if (words[0] === 'endsolid') open = false;
-    else if (line && words[0] !== 'outer' && words[0] !== 'endloop') throw new Flaw(`Line ${number}: ${quoted(line)} does not belong into an STL file.`);
+    else if (line && words[0] !== 'outer' && words[0] !== 'endloop') {
+      throw new Flaw(`Line ${number}: ${quoted(line)} does not belong into an STL file.`);
+    }
   }
   if (facet || open) throw new Flaw(`Line ${last}: the file ends before its "${facet ? 'endfacet' : 'endsolid'}".`);
 }

@@ -1,5 +1,5 @@
-// The paper's difficult cases (5.5). Their axial plane of interest is y = 0, which halves their bounding box, so that it is a plane of every
-// grid around them with an even number of cells along y.
+// The paper's difficult cases (5.5). Their axial plane of interest is y = 0, which halves their bounding box, so that it is a plane of
+// every grid around them with an even number of cells along y.
 import { fromPoints, merged, moved, revolved, type MeshArrays, type Point } from './mesh';
 
 /** Two tetrahedra base to base: one tetrahedral notch in each of two grid cells, through the face between them. */
@@ -16,8 +16,8 @@ export function emptyCones(): MeshArrays {
 }
 
 /**
- * Three prongs above the plane on one keel below it. Between the prongs the keel reaches up to the plane as webs without width: its outline there
- * is one closed curve around all prongs that runs through the webs twice.
+ * Three prongs above the plane on one keel below it. Between the prongs the keel reaches up to the plane as webs without width: its outline
+ * there is one closed curve around all prongs that runs through the webs twice.
  */
 export function claw(): MeshArrays {
   const points: Point[] = [[0, -0.75, 0.32], [0, -0.75, -0.32]];

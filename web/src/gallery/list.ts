@@ -20,7 +20,7 @@ export const gallery: readonly GalleryEntry[] = [
   },
   {
     name: 'wavy-plane', title: 'Wavy plane', cells: 10,
-    line: 'An open sheet: inside, it splits grid cells in two; at its rim it only cuts into them, and the cells stay whole (Figure 20, Section 5.4).',
+    line: 'An open sheet: it splits grid cells in two, but at its rim it only cuts into them (Figure 20, Section 5.4).',
   },
   {
     name: 'wavy-slab', title: 'Wavy slab', cells: 10,
@@ -28,15 +28,15 @@ export const gallery: readonly GalleryEntry[] = [
   },
   {
     name: 'wedge', title: 'Wedge', cells: 2,
-    line: 'A tetrahedral notch in each of two grid cells, through the face between them, which keeps a triangular piece of its own (Figure 21a, Section 5.5).',
+    line: 'A tetrahedral notch in each of two grid cells, through the face between them (Figure 21a, Section 5.5).',
   },
   {
     name: 'empty-cone', title: 'Empty cones', cells: 2,
-    line: 'Hollow cones whose mouths lie exactly in an axial plane: their inside and outside meet there in a face of the grid alone (Figure 21b, Section 5.5).',
+    line: 'Hollow cones whose mouths, open to the outside, lie exactly in an axial plane (Figure 21b, Section 5.5).',
   },
   {
     name: 'claw', title: 'Claw', cells: 2,
-    line: 'One curve runs around three prongs and over the webs between them: in the middle plane it becomes three faces (Figures 17 and 21c, Section 5.5).',
+    line: 'One curve around three prongs and along the webs between them becomes three faces (Figures 17 and 21c, Section 5.5).',
   },
   {
     name: 'oscillator', title: 'Oscillator', cells: 2,
@@ -48,7 +48,7 @@ export const gallery: readonly GalleryEntry[] = [
   },
   {
     name: 'thin-bowl', title: 'Thin bowl', cells: 12,
-    line: 'A wall far thinner than a grid cell: it still has an inside of its own, and the air on its two sides is never joined through it.',
+    line: 'A wall far thinner than a grid cell: it keeps an inside of its own, and no cut-cell reaches through it.',
   },
   {
     name: 'double-bubble', title: 'Double bubble', cells: 12,
@@ -68,7 +68,7 @@ export const gallery: readonly GalleryEntry[] = [
   },
   {
     name: 'noisy-sphere', title: 'Noisy sphere', cells: 8,
-    line: 'Spikes everywhere: the coarser the grid, the more of the surface each cut-cell keeps, and none is lost (Figure 19, Section 5.2).',
+    line: 'Spikes everywhere: the coarser the grid, the more of them each cut-cell keeps (Figure 19, Section 5.2).',
   },
   {
     name: 'gears', title: 'Gears', cells: 20,

@@ -1,4 +1,5 @@
-// Meshes as the worker keeps them, and what all generators are made of. Vertices are not shared between parts: the cutter welds by position.
+// Meshes as the worker keeps them, and what all generators are made of. Vertices are not shared between parts: the cutter welds by
+// position.
 export interface MeshArrays {
   positions: Float64Array;
   triangles: Uint32Array;
@@ -77,7 +78,10 @@ export function circle(radius: number, y: number, slices: number): Point[] {
   });
 }
 
-/** Surface of revolution about the y axis of a profile (radius, y); it is outward if the profile goes up on the outside. Radius 0 is a pole. */
+/**
+ * Surface of revolution about the y axis of a profile (radius, y); it is outward if the profile goes up on the outside. Radius 0 is a
+ * pole.
+ */
 export function revolved(profile: readonly (readonly [number, number])[], slices: number): MeshArrays {
   return loft(profile.map(([radius, y]) => (radius === 0 ? [[0, y, 0]] : circle(radius, y, slices))), { around: true });
 }

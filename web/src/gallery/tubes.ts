@@ -24,8 +24,8 @@ function mitredTube(path: readonly Point[], radius: number, n: number): MeshArra
 }
 
 /**
- * The Hilbert curve through the 8^order points of a cubic lattice, from the cube's corner at the origin to the one on the x axis: eight smaller
- * curves, one per octant, each turned and mirrored so that it starts beside the end of the one before.
+ * The Hilbert curve through the 8^order points of a cubic lattice, from the cube's corner at the origin to the one on the x axis: eight
+ * smaller curves, one per octant, each turned and mirrored so that it starts beside the end of the one before.
  */
 function hilbertCurve(order: number): Point[] {
   if (order === 0) return [[0, 0, 0]];

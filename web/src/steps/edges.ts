@@ -88,7 +88,7 @@ export function triEdges(subject: Subject, request: StepRequest): StepPicture {
     drawing.point(pointOf(positions, vertex), crossingColors[planes - 1]);
   }
   const several = crossings[2] + crossings[3];
-  const text = `${counted(edges, 'tri-edge')}${where(triangle)} ${edges === 1 ? 'crosses' : 'cross'} the axial planes in ${counted(crossings[1] + several, 'point')}`
+  const text = `${counted(edges, 'tri-edge')}${where(triangle)} cross the axial planes in ${counted(crossings[1] + several, 'point')}`
     + ` (orange${several ? `; ${several.toLocaleString('en')} of them where two planes meet, magenta, or three, red` : ''}).`
     + `${triVerticesOnPlanes ? ` ${counted(triVerticesOnPlanes, 'tri-vertex lies', 'tri-vertices lie')} on a plane exactly.` : ''}`
     + ' All of these become vertices of the cut-mesh (Section 4.1.1).';
@@ -105,13 +105,14 @@ export function hybridEdges(subject: Subject, request: StepRequest): StepPicture
     if (planes === 0 || isAlongTriEdge(subject, u, v)) return;
     const axis = planes & 1 ? 0 : planes & 2 ? 1 : 2;
     ++perAxis[axis];
-    drawing.line(pointOf(subject.cutMesh.positions, u), pointOf(subject.cutMesh.positions, v), planes & (planes - 1) ? outlineColor : axisColors[axis]);
+    const color = planes & (planes - 1) ? outlineColor : axisColors[axis];
+    drawing.line(pointOf(subject.cutMesh.positions, u), pointOf(subject.cutMesh.positions, v), color);
   });
   const total = perAxis[0] + perAxis[1] + perAxis[2];
   if (total === 0 && triangle === undefined) drawTriEdges(drawing, subject, shown);
   const text = total > 0
     ? `Hybrid edges: where the triangles${where(triangle)} meet axial planes across x (red), y (green) and z (blue).`
       + ` Where they cross each other they are divided, which makes ${counted(total, 'cut-edge')} (Section 4.1.2).`
-    : `There are no hybrid edges: no plane cuts through the inside of ${triangle === undefined ? 'a triangle' : 'these triangles'} (Section 4.1.2).`;
+    : `There are no hybrid edges${where(triangle)}: no axial plane cuts through the inside of a triangle (Section 4.1.2).`;
   return drawing.finish(text, { kind: 'hybridEdges', triangle }, subject);
 }

@@ -2,8 +2,8 @@
 //
 // The engine calls
 //   stepPicture(mesh, cutMesh, faceTriangles, request, origin)
-// with the mesh that was cut, mandoline.triangulate(cutMesh), and the model's origin. A request without an item picks an interesting one, and
-// the picture's `choices.request` names it. A request for an item that does not exist (any more) picks one, too.
+// with the mesh that was cut, mandoline.triangulate(cutMesh), and the model's origin. A request without an item picks an interesting one,
+// and the picture's `choices.request` names it. A request for an item that does not exist (any more) picks one, too.
 import type { CutMesh, FaceTriangles, Vector3 } from 'mandoline-wasm';
 import type { MeshArrays } from '../gallery/mesh';
 import type { StepKind, StepPicture, StepRequest } from '../types';
@@ -15,6 +15,8 @@ const steps: Record<StepKind, (subject: Subject, request: StepRequest) => StepPi
   triEdges, hybridEdges, triangleFaces, axialPlane, gridCell,
 };
 
-export function stepPicture(mesh: MeshArrays, cutMesh: CutMesh, faceTriangles: FaceTriangles, request: StepRequest, origin: Vector3): StepPicture {
+export function stepPicture(
+  mesh: MeshArrays, cutMesh: CutMesh, faceTriangles: FaceTriangles, request: StepRequest, origin: Vector3,
+): StepPicture {
   return steps[request.kind]({ mesh, cutMesh, faceTriangles, origin }, request);
 }

@@ -31,7 +31,8 @@ export function triangleFaces(subject: Subject, request: StepRequest): StepPictu
   const faces = facesWhere(subject, (face) => cutMesh.faceTriangle[face] === triangle);
   faces.forEach((face, k) => drawFace(drawing, subject, face, 0.9, pieceColor(k)));
   const text = faces.length > 0
-    ? `The axial planes cut triangle ${triangle} into ${counted(faces.length, 'cut-face')}, drawn a little apart. Together they cover the triangle exactly, and each lies in one grid cell (Section 4.3).`
+    ? `The axial planes cut triangle ${triangle} into ${counted(faces.length, 'cut-face')}, drawn a little apart.`
+      + ' Together they cover the triangle exactly, and each lies in one grid cell (Section 4.3).'
     : `Triangle ${triangle} has no cut-face: it has no area, another triangle covers it, or it lies outside of the grid.`;
   return drawing.finish(text, { kind: 'triangleFaces', triangle }, subject);
 }
@@ -58,9 +59,10 @@ export function axialPlane(subject: Subject, request: StepRequest): StepPicture 
   faces.forEach((face, k) => drawFace(drawing, subject, face, 1, faceTriangle[face] >= 0 ? coplanarColor : pieceColor(k)));
   const punctured = faces.filter((face) => faceLoopOffsets[face + 1] - faceLoopOffsets[face] > 1).length;
   const coplanar = faces.filter((face) => faceTriangle[face] >= 0).length;
-  const text = `In the axial plane ${plane} across ${axisNames[axis]} the surface's outline divides the grid-faces into ${counted(faces.length, 'face')}`
+  const text = `In the axial plane ${plane} across ${axisNames[axis]} the surface's outline divides the grid-faces`
+    + ` into ${counted(faces.length, 'face')}`
     + `${punctured ? `, ${punctured.toLocaleString('en')} of them with holes` : ''} (Sections 4.3 and 4.5).`
-    + `${coplanar ? ` ${counted(coplanar, 'piece')} of triangles that lie in the plane ${coplanar === 1 ? 'takes' : 'take'} the place of grid-faces (yellow).` : ''}`;
+    + (coplanar > 0 ? ` Pieces of triangles in the plane (${coplanar.toLocaleString('en')}, yellow) take the place of grid-faces.` : '');
   return drawing.finish(text, { kind: 'axialPlane', axis, plane }, subject);
 }
 
@@ -103,7 +105,7 @@ function isHidden(piece: Piece, pieces: readonly Piece[]): boolean {
 function movesApart(pieces: readonly Piece[], low: Vector3, high: Vector3): Vector3[] {
   const center = middleOf([low, high]);
   const hidden = pieces.map((piece) => isHidden(piece, pieces));
-  const apart = pieces.map(({ middle }): Vector3 => [0.9 * (middle[0] - center[0]), 0.9 * (middle[1] - center[1]), 0.9 * (middle[2] - center[2])]);
+  const apart = pieces.map(({ middle }) => middle.map((x, d) => 0.9 * (x - center[d])) as unknown as Vector3);
   let end = pieces.reduce((x, piece, k) => (hidden[k] ? x : Math.max(x, piece.high[0] + apart[k][0])), high[0]);
   return pieces.map((piece, k): Vector3 => {
     if (!hidden[k]) return apart[k];
@@ -150,7 +152,8 @@ export function gridCell(subject: Subject, request: StepRequest): StepPicture {
   const regions = new Set(pieces.map(({ cell }) => cellRegion[cell])).size;
   const name = `Grid cell (${at.join(', ')})`;
   const text = pieces.length > 0
-    ? `${name} holds ${counted(pieces.length, 'cut-cell')} of ${counted(regions, 'region')}, pulled apart: each is a closed set of half-faces, joined over their edges (Section 4.4).`
+    ? `${name} holds ${counted(pieces.length, 'cut-cell')} of ${counted(regions, 'region')}, pulled apart:`
+      + ' each is a closed set of half-faces, joined over their edges (Section 4.4).'
     : `${name} is untouched: the surface does not reach it, and it stays one whole cube.`;
   return drawing.finish(text, { kind: 'gridCell', gridCell: at }, subject);
 }
