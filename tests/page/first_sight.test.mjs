@@ -1,0 +1,70 @@
+import assert from 'node:assert/strict';
+import { after, test } from 'node:test';
+import { dataOf, eventually, isReady, shows, startSite, textOf } from './page_helpers.mjs';
+import { covered, isBlue, isOrange, looksLike, pixelsOf, share } from './pictures.mjs';
+import { cutOf, galleryMesh } from './reference.mjs';
+
+const site = await startSite();
+after(() => site.close());
+
+test('the first sight is the bunny, cut, sliced and exploded', async (t) => {
+  const page = await site.newPage(t);
+  const began = performance.now();
+  await page.goto(site.url);
+  await page.waitForFunction(() => document.getElementById('canvas').dataset.model === '1');
+  t.diagnostic(`first picture after ${Math.round(performance.now() - began)} ms`);
+  assert.equal(await isReady(page), 'ready');
+
+  const { cutMesh } = await cutOf(await galleryMesh('bunny'), { cells: 16 });
+  await shows(page, '#counts', { cutCells: cutMesh.cellRegion.length, regions: cutMesh.regionCount, grid: cutMesh.grid.cells.join('x') });
+  const inside = cutMesh.cellRegion.filter((region) => cutMesh.regionWinding[region] === 1).length;
+  const { cells, untouched } = await dataOf(page, '#canvas');
+  assert.ok(Number(cells) > 0 && Number(cells) < inside, 'sliced: some of the inner cut-cells are seen, not all');
+  assert.ok(Number(untouched) > 0, 'the slice shows untouched cells');
+  assert.match(await textOf(page, 'body > header'), /Any triangle mesh, cut by a grid into exact polyhedral cells/);
+
+  await eventually(async () => {
+    const picture = await pixelsOf(page);
+    const seen = covered(picture);
+    assert.ok(seen > 0.15 && seen < 0.6, `${seen} of the picture is drawn on`);
+    assert.ok(share(picture, isOrange) > 0.05, 'the surface is seen');
+    assert.ok(share(picture, isBlue) > 0.01, 'grid-faces are seen');
+  });
+  await looksLike(page, 'first sight');
+});
+
+test('all that is asked for is there, comes from the same folder, and comes while the page loads', async (t) => {
+  const requests = [];
+  const failed = [];
+  const before = site.host.requests.length;
+  const page = await site.open(t, '', {
+    onNewPage: async (made) => {
+      made.on('request', (request) => requests.push(request.url()));
+      made.on('requestfailed', (request) => failed.push(request.url()));
+    },
+  });
+  assert.deepEqual(failed, []);
+  assert.deepEqual(site.host.requests.slice(before).filter(({ status }) => status !== 200), []);
+  assert.deepEqual(requests.filter((url) => !url.startsWith(site.url) && !/^(data|blob):/.test(url)), []);
+  const loaded = site.host.requests.length;
+  await page.locator('#gallery [data-name="wedge"]').click();
+  await shows(page, '#mesh-line', { name: 'wedge' });
+  assert.equal(await isReady(page), 'ready');
+  assert.deepEqual(site.host.requests.slice(loaded), []);
+});
+
+for (const colorScheme of ['light', 'dark']) {
+  test(`the ${colorScheme} scheme is the system's, and can be switched`, async (t) => {
+    const page = await site.open(t, 'mesh=wedge&n=2', { colorScheme });
+    const isDark = async () => {
+      const { rgba } = await pixelsOf(page);
+      const text = await page.evaluate(() => getComputedStyle(document.body).color);
+      const [r, g, b] = text.match(/[\d.]+/g).map(Number);
+      assert.equal(rgba[0] < 128, r + g + b > 384, 'the picture and the text go together');
+      return rgba[0] < 128;
+    };
+    assert.equal(await isDark(), colorScheme === 'dark');
+    await page.locator('#scheme').click();
+    await eventually(async () => assert.equal(await isDark(), colorScheme !== 'dark'));
+  });
+}

@@ -1,0 +1,131 @@
+import assert from 'node:assert/strict';
+import { after, test } from 'node:test';
+import { writeObj } from '../package/meshes.mjs';
+import { badFiles, crossing, octahedron, octahedronFiles } from './mesh_files.mjs';
+import { dataOf, eventually, isReady, shows, startSite, textOf } from './page_helpers.mjs';
+import { looksLike } from './pictures.mjs';
+import { cutOf, galleryMesh } from './reference.mjs';
+
+const site = await startSite({ files: { ...octahedronFiles, 'bad.obj': 'v 0 0 0\nf 1 2 3\n' } });
+after(() => site.close());
+const start = 'mesh=wedge&n=4';
+
+/** The page shows this mesh, cut by as many cells as it was cut with before. */
+async function showsMesh(page, name, mesh, cells) {
+  await shows(page, '#mesh-line', { name, triangles: mesh.triangles.length / 3 });
+  const { cutMesh } = await cutOf(mesh, { cells });
+  await shows(page, '#counts', { cutCells: cutMesh.cellRegion.length, vertices: cutMesh.positions.length / 3, grid: cutMesh.grid.cells.join('x') });
+  assert.equal(await isReady(page), 'ready');
+}
+
+async function pick(page, name, content) {
+  await page.locator('#file').setInputFiles({ name, mimeType: 'application/octet-stream', buffer: Buffer.from(content) });
+}
+
+/** As if the file were dropped on the picture. */
+async function drop(page, name, content) {
+  await page.evaluate(([fileName, base64]) => {
+    const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File([bytes], fileName));
+    const target = document.getElementById('canvas');
+    for (const kind of ['dragover', 'drop']) target.dispatchEvent(new DragEvent(kind, { dataTransfer, bubbles: true, cancelable: true }));
+  }, [name, Buffer.from(content).toString('base64')]);
+}
+
+test('from the gallery', async (t) => {
+  const page = await site.open(t, start);
+  await page.locator('#gallery [data-name="oscillator"]').click();
+  await showsMesh(page, 'oscillator', await galleryMesh('oscillator'), 2);
+  assert.equal(await page.locator('#gallery [data-name="oscillator"]').getAttribute('aria-pressed'), 'true');
+  assert.equal(await page.locator('#gallery [data-name="wedge"]').getAttribute('aria-pressed'), 'false');
+});
+
+test('files of every format, chosen', async (t) => {
+  const page = await site.open(t, start);
+  for (const [name, content] of Object.entries(octahedronFiles)) {
+    const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.locator('#open-file').click()]);
+    await chooser.setFiles({ name, mimeType: 'application/octet-stream', buffer: Buffer.from(content) });
+    await shows(page, '#mesh-line', { name, triangles: 8 });
+    await eventually(async () => assert.equal(await isReady(page), 'ready'));
+    const { cutMesh } = await cutOf(octahedron, { cells: 4 });
+    await shows(page, '#counts', { cutCells: cutMesh.cellRegion.length, grid: cutMesh.grid.cells.join('x') });
+  }
+  await looksLike(page, 'octahedron');
+});
+
+test('dropped files', async (t) => {
+  const page = await site.open(t, start);
+  await drop(page, 'octahedron.off', octahedronFiles['octahedron.off']);
+  await showsMesh(page, 'octahedron.off', octahedron, 4);
+  assert.equal(await page.locator('.drop-veil').isVisible(), false);
+  await drop(page, 'octahedron.stl', octahedronFiles['octahedron.stl']);
+  await shows(page, '#mesh-line', { name: 'octahedron.stl' });
+});
+
+test('an address', async (t) => {
+  const page = await site.open(t, start);
+  await page.locator('#url').fill(site.meshUrl('octahedron.obj'));
+  await page.locator('#url').press('Enter');
+  await showsMesh(page, 'octahedron.obj', octahedron, 4);
+});
+
+test('bad addresses are told and the page goes on', async (t) => {
+  const page = await site.open(t, start, { expectedProblem: /Failed to load resource/ });
+  for (const [url, says] of [
+    [site.meshUrl('missing.obj'), /missing\.obj answers with 404/],
+    ['http://127.0.0.1:1/mesh.obj', /Nothing came from http:\/\/127\.0\.0\.1:1\/mesh\.obj/],
+    [site.meshUrl('bad.obj'), /line 2/i],
+  ]) {
+    await page.locator('#url').fill(url);
+    await page.locator('#open-url').click();
+    await eventually(async () => assert.match(await textOf(page, '[data-test=alert] >> nth=0'), says));
+    await shows(page, '#mesh-line', { name: 'wedge' });
+  }
+  await page.locator('#url').fill(site.meshUrl('octahedron.ply'));
+  await page.locator('#open-url').click();
+  await showsMesh(page, 'octahedron.ply', octahedron, 4);
+});
+
+test('bad files are told, with what is wrong and where, and the page goes on', async (t) => {
+  const page = await site.open(t, start);
+  const { model } = await dataOf(page, '#counts');
+  for (const { name, content, says } of badFiles) {
+    await pick(page, name, content);
+    await eventually(async () => {
+      const alert = await textOf(page, '[data-test=alert] >> nth=0');
+      assert.ok(alert.startsWith(`${name} can't be read`), alert);
+      assert.match(alert, says);
+    });
+    await shows(page, '#mesh-line', { name: 'wedge' });
+    await shows(page, '#counts', { model });
+  }
+  await page.locator('[data-test=alert] >> nth=0').getByRole('button', { name: 'Dismiss' }).click();
+  await pick(page, 'octahedron.obj', octahedronFiles['octahedron.obj']);
+  await showsMesh(page, 'octahedron.obj', octahedron, 4);
+});
+
+test('a mesh that intersects itself is refused by the names of two triangles; the former picture stays', async (t) => {
+  const page = await site.open(t, start);
+  const former = await dataOf(page, '#counts');
+  await pick(page, 'crossing.obj', writeObj(crossing));
+  await page.locator('#cut-error').waitFor();
+  const text = await textOf(page, '#cut-error');
+  const [, first, second] = text.match(/triangles? (\d+) and (?:triangle )?(\d+)/i) ?? assert.fail(`${text} names two triangles`);
+  const [low, high] = [Number(first), Number(second)].sort((a, b) => a - b);
+  assert.ok(low < 8 && high >= 8 && high < 16, `triangles ${low} and ${high} are of the two solids`);
+  assert.equal(await isReady(page), 'error');
+  assert.deepEqual(await dataOf(page, '#counts'), former);
+  await shows(page, '#canvas', { model: former.model });
+  await page.locator('#gallery [data-name="claw"]').click();
+  await showsMesh(page, 'claw', await galleryMesh('claw'), 2);
+  assert.equal(await page.locator('#cut-error').isVisible(), false);
+});
+
+test('two meshes asked for at once: the last one is shown', async (t) => {
+  const page = await site.open(t, start);
+  await page.evaluate(() => {
+    for (const name of ['bunny', 'claw', 'torus-knot', 'oscillator']) document.querySelector(`#gallery [data-name="${name}"]`).click();
+  });
+  await showsMesh(page, 'oscillator', await galleryMesh('oscillator'), 2);
+});

@@ -1,0 +1,264 @@
+import assert from 'node:assert/strict';
+import { after, describe, test } from 'node:test';
+import { torus, writeObj } from '../package/meshes.mjs';
+import { inSinglePrecision } from './mesh_files.mjs';
+import { dataOf, eventually, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
+import { covered, difference, isBlue, isDrawn, isOrange, looksLike, pixelsOf, share, tiles } from './pictures.mjs';
+import { cutOf, galleryMesh, keptCells, mandoline } from './reference.mjs';
+
+const mesh = inSinglePrecision(torus(24, 12));
+const reference = await cutOf(mesh, { cells: 8 });
+const site = await startSite({ files: { 'torus.obj': writeObj(mesh) } });
+after(() => site.close());
+
+/** The torus as one solid, whole, unless the rest says otherwise. */
+const link = (rest = '') => {
+  const parts = { url: encodeURIComponent(site.meshUrl('torus.obj')), n: 8, free: 'off', explode: '0,0', ...Object.fromEntries(new URLSearchParams(rest)) };
+  return Object.entries(parts).map(([key, value]) => `${key}=${value}`).join('&');
+};
+const axes = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
+const negated = (vector) => vector.map((x) => -x);
+const allInside = keptCells(reference, []).length;
+
+/** Waits until the canvas looks unlike the picture. */
+async function looksUnlike(page, former, least = 4) {
+  await eventually(async () => assert.ok(difference(tiles(await pixelsOf(page)), tiles(former)) > least));
+}
+
+/** Polygons of a slice that belong to shown cells: all but those outside. */
+function capsOf({ cutMesh }, normal, position) {
+  const { planes } = cutMesh.grid;
+  const [low, high] = [0, 1].map((end) => normal.reduce((sum, n, d) => sum + n * planes[d].at((n > 0) === (end === 1) ? -1 : 0), 0));
+  const slice = mandoline.slice(cutMesh, { normal, offset: low + (high - low) * position });
+  return slice.polygonRegion.filter((region) => cutMesh.regionWinding[region] !== 0).length;
+}
+
+describe('slices', () => {
+  for (const [axis, normal] of Object.entries(axes)) {
+    test(`along ${axis}, moved, flipped and off`, async (t) => {
+      const page = await site.open(t, link());
+      await shows(page, '#canvas', { cells: allInside });
+      await page.locator(`#slice-${axis}`).check();
+      await shows(page, '#canvas', { cells: keptCells(reference, [{ normal, position: 0.5 }]).length });
+      await slideTo(page, `#slice-${axis}-position`, 0.402);
+      await shows(page, '#canvas', { cells: keptCells(reference, [{ normal, position: 0.402 }]).length });
+      await looksLike(page, `torus sliced along ${axis}`);
+      await page.locator(`#slice-${axis}-flip`).click();
+      await shows(page, '#canvas', { cells: keptCells(reference, [{ normal: negated(normal), position: 0.598 }]).length });
+      await slideTo(page, `#slice-${axis}-position`, 0);
+      await shows(page, '#canvas', { cells: 0, untouched: 0 });
+      await page.locator(`#slice-${axis}`).uncheck();
+      await shows(page, '#canvas', { cells: allInside });
+    });
+  }
+
+  test('several planes together, by key', async (t) => {
+    const page = await site.open(t, link());
+    await page.locator('#canvas').focus();
+    await page.keyboard.press('x');
+    await page.keyboard.press('z');
+    await shows(page, '#canvas', { cells: keptCells(reference, [{ normal: axes.x, position: 0.5 }, { normal: axes.z, position: 0.5 }]).length });
+    await page.keyboard.press('x');
+    await shows(page, '#canvas', { cells: keptCells(reference, [{ normal: axes.z, position: 0.5 }]).length });
+  });
+
+  test('cells cut flat have filled caps', async (t) => {
+    const page = await site.open(t, link('x=0.44,1&camera=6,1.5,2,0,0,0'));
+    await shows(page, '#canvas', { caps: 0 });
+    const whole = await pixelsOf(page);
+    await page.locator('#slice-mode-flat').check();
+    await shows(page, '#canvas', { caps: capsOf(reference, axes.x, 0.44) });
+    await looksUnlike(page, whole);
+    await looksLike(page, 'torus cut flat');
+    await page.locator('#slice-mode-whole').check();
+    await shows(page, '#canvas', { caps: 0 });
+    await eventually(async () => assert.equal(difference(tiles(await pixelsOf(page)), tiles(whole)), 0));
+  });
+
+  test('a flat cut has no gaps: two discs of one colour', async (t) => {
+    const page = await site.open(t, link('x=0.5,1&slice=flat&camera=8,0,0,0,0,0&show=surface,gridFaces,untouched,cutCells'));
+    await shows(page, '#canvas', { caps: capsOf(reference, axes.x, 0.5) });
+    // Seen from x = 8 with 35 degrees, the caps are discs of radius 0.4 about (y, z) = (±1, 0).
+    const picture = await pixelsOf(page);
+    const scale = picture.height / 2 / Math.tan((35 * Math.PI) / 360) / 8;
+    const colorAt = (y, z) => {
+      const pixel = 4 * (Math.round(picture.width / 2 - scale * z) + picture.width * Math.round(picture.height / 2 - scale * y));
+      return picture.rgba.subarray(pixel, pixel + 3);
+    };
+    assert.equal(isDrawn(picture)(...colorAt(1, 0.8)), false, 'nothing beside the discs');
+    const middle = colorAt(1, 0);
+    assert.ok(isDrawn(picture)(...middle), 'a cap in the middle of a disc');
+    for (const y of [-1, 1]) {
+      for (let angle = 0; angle < 24; ++angle) {
+        for (const radius of [0.05, 0.2, 0.33]) {
+          const color = colorAt(y + radius * Math.cos(angle), radius * Math.sin(angle));
+          assert.ok(color.every((value, c) => Math.abs(value - middle[c]) < 12), `filled at ${y}, ${radius}, ${angle}: ${color.join()} like ${middle.join()}`);
+        }
+      }
+    }
+  });
+
+  test('the free plane, moved and flipped', async (t) => {
+    const normal = [0.6, 0.48, 0.64];
+    const page = await site.open(t, link(`free=0.45,${normal}`));
+    await shows(page, '#canvas', { cells: keptCells(reference, [{ normal, position: 0.45 }]).length });
+    await slideTo(page, '#slice-free-position', 0.7);
+    await shows(page, '#canvas', { cells: keptCells(reference, [{ normal, position: 0.7 }]).length });
+    await page.locator('#slice-free-flip').click();
+    await shows(page, '#canvas', { cells: keptCells(reference, [{ normal: negated(normal), position: 0.3 }]).length });
+  });
+
+  test('the gizmo moves the free plane', async (t) => {
+    // Seen from +z, a plane across x has its handle's arrow along the picture's horizontal.
+    const page = await site.open(t, link('free=0.5,1,0,0&camera=0,0,7,0,0,0'));
+    const box = await page.locator('#canvas').boundingBox();
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    const position = async () => Number(await page.locator('#slice-free-position').inputValue());
+    const moved = async () => {
+      for (let reach = 20; reach <= 90; reach += 10) {
+        await page.mouse.move(x + reach, y);
+        await page.mouse.down();
+        await page.mouse.move(x + reach + 20, y, { steps: 4 });
+        await page.mouse.move(x + reach + 50, y, { steps: 4 });
+        await page.mouse.up();
+        if ((await position()) > 0.52) return;
+      }
+      assert.fail('no handle moved the plane');
+    };
+    await moved();
+    await eventually(async () => {
+      const kept = keptCells(reference, [{ normal: axes.x, position: await position() }]).length;
+      assert.ok(Math.abs(Number((await dataOf(page, '#canvas')).cells) - kept) <= 8);
+    });
+  });
+});
+
+describe('explosions', () => {
+  test('by cell', async (t) => {
+    const page = await site.open(t, link('mesh=torus'));
+    const whole = await pixelsOf(page);
+    await slideTo(page, '#explode-cells', 0.6);
+    await looksUnlike(page, whole, 8);
+    await looksLike(page, 'torus exploded');
+    assert.equal(await page.locator('#explode-cells').getAttribute('aria-valuetext'), '60 %');
+    await slideTo(page, '#explode-cells', 0);
+    await eventually(async () => assert.equal(difference(tiles(await pixelsOf(page)), tiles(whole)), 0));
+  });
+
+  test('by region', async (t) => {
+    const page = await site.open(t, 'mesh=nested-spheres&n=6&free=off&explode=0,0&color=region&show=surface,gridFaces,untouched,cutCells,outside,edges');
+    const whole = await pixelsOf(page);
+    await slideTo(page, '#explode-regions', 0.8);
+    await looksUnlike(page, whole, 8);
+    await looksLike(page, 'nested spheres side by side');
+  });
+});
+
+describe('colours', () => {
+  const legends = {
+    region: ['region 0, outside', 'region 1', 'region 2, outside', 'region 3', 'region 4, outside', 'region 5'],
+    winding: ['winding number 0', 'winding number 1'],
+    volume: ['0 % of a grid cell', '25 % of a grid cell', '50 % of a grid cell', '100 % of a grid cell'],
+    kind: ['pieces of triangles', 'pieces of grid-faces', 'untouched grid cells'],
+    cell: [],
+  };
+  test('by region, winding number, volume, kind and cell, each with its legend', async (t) => {
+    const page = await site.open(t, 'mesh=nested-spheres&n=6&free=off&explode=0,0&z=0.55,1&show=surface,gridFaces,untouched,cutCells,outside&camera=1,1,5,0,0,0');
+    const pictures = [];
+    for (const [colorBy, expected] of Object.entries(legends)) {
+      await page.locator('#color-by').selectOption(colorBy);
+      await eventually(async () => assert.deepEqual(await page.locator('#legend .entry').allInnerTexts(), expected));
+      await looksLike(page, `nested spheres by ${colorBy}`);
+      const picture = tiles(await pixelsOf(page));
+      for (const former of pictures) assert.ok(difference(former, picture) > 3, `colours by ${colorBy} are unlike the others`);
+      pictures.push(picture);
+      const swatches = await page.locator('#legend .swatch').evaluateAll((all) => all.map((swatch) => getComputedStyle(swatch).backgroundColor));
+      if (colorBy !== 'region' && colorBy !== 'winding') assert.equal(new Set(swatches).size, expected.length);
+    }
+  });
+});
+
+describe('show', () => {
+  test('surface and grid-faces', async (t) => {
+    const page = await site.open(t, link('explode=0.4,0'));
+    await eventually(async () => {
+      const picture = await pixelsOf(page);
+      assert.ok(share(picture, isOrange) > 0.02 && share(picture, isBlue) > 0.02);
+    });
+    await page.locator('#show-surface').uncheck();
+    await eventually(async () => assert.ok(share(await pixelsOf(page), isOrange) < 0.001));
+    await page.locator('#show-surface').check();
+    await page.locator('#show-gridFaces').uncheck();
+    await eventually(async () => {
+      const picture = await pixelsOf(page);
+      assert.ok(share(picture, isBlue) < 0.001);
+      assert.ok(share(picture, isOrange) > 0.02);
+    });
+  });
+
+  test('edges', async (t) => {
+    const page = await site.open(t, link('show=surface,gridFaces,cutCells'));
+    const isLine = (r, g, b) => r + g + b < 200;
+    await eventually(async () => assert.ok(share(await pixelsOf(page), isLine) < 0.01));
+    await page.locator('#show-edges').check();
+    await eventually(async () => assert.ok(share(await pixelsOf(page), isLine) > 0.01));
+  });
+
+  test('untouched cells, cut-cells and the outside', async (t) => {
+    const page = await site.open(t, link('n=14'));
+    const finer = await cutOf(mesh, { cells: 14 });
+    const { cutMesh } = finer;
+    const inside = keptCells(finer, []).length;
+    assert.ok(cutMesh.gridCellRegion.some((region) => cutMesh.regionWinding[region] === 1), 'there are untouched cells inside');
+    const untouched = async () => Number((await dataOf(page, '#canvas')).untouched);
+    await shows(page, '#canvas', { cells: inside });
+    await eventually(async () => assert.ok((await untouched()) > 0));
+    await page.locator('#show-untouched').uncheck();
+    await shows(page, '#canvas', { cells: inside, untouched: 0 });
+    await page.locator('#show-cutCells').uncheck();
+    await shows(page, '#canvas', { cells: 0, untouched: 0 });
+    await eventually(async () => assert.ok(covered(await pixelsOf(page)) < 0.01));
+    await page.locator('#show-untouched').check();
+    await eventually(async () => assert.ok(covered(await pixelsOf(page)) > 0.02));
+    await page.locator('#show-cutCells').check();
+    await page.locator('#show-outside').check();
+    await shows(page, '#canvas', { cells: cutMesh.cellRegion.length });
+    await looksLike(page, 'torus with the outside');
+  });
+
+  test('one region', async (t) => {
+    const page = await site.open(t, 'mesh=nested-spheres&n=6&free=off&explode=0,0');
+    const { cutMesh } = await cutOf(await galleryMesh('nested-spheres'), { cells: 6 });
+    const options = await page.locator('#region option').allTextContents();
+    assert.equal(options.length, cutMesh.regionCount + 1);
+    for (let region = 0; region < cutMesh.regionCount; ++region) {
+      const cells = cutMesh.cellRegion.filter((id) => id === region).length;
+      assert.match(options[region + 1], new RegExp(`^${region}\\b.*winding ${cutMesh.regionWinding[region]}.*· ${cells} cut-cells?$`));
+      await page.locator('#region').selectOption(String(region));
+      await shows(page, '#canvas', { cells });
+    }
+    await page.locator('#region').selectOption('');
+    await shows(page, '#canvas', { cells: cutMesh.cellRegion.filter((region) => cutMesh.regionWinding[region] !== 0).length });
+  });
+
+  test('an open sheet has no inside: all around it is shown', async (t) => {
+    const page = await site.open(t, link());
+    await page.locator('#gallery [data-name="wavy-plane"]').click();
+    const { cutMesh } = await cutOf(await galleryMesh('wavy-plane'), { cells: 10 });
+    assert.equal(cutMesh.regionWinding, null);
+    await shows(page, '#canvas', { cells: cutMesh.cellRegion.length });
+    assert.equal(await page.locator('#show-outside').isChecked(), true);
+  });
+});
+
+test('reset and frame', async (t) => {
+  const page = await site.open(t, link('x=0.4,1&explode=0.5,0.5&color=cell&show=surface&camera=9,9,9,0,0,0'));
+  await page.locator('#reset-look').click();
+  await eventually(async () => {
+    assert.equal(await page.locator('#slice-x').isChecked(), false);
+    assert.equal(await page.locator('#slice-free').isChecked(), true);
+    assert.equal(await page.locator('#color-by').inputValue(), 'kind');
+  });
+  await eventually(async () => assert.ok(covered(await pixelsOf(page)) > 0.1));
+  assert.match(await textOf(page, '#hover-line'), /torus\.obj/);
+});

@@ -1,0 +1,108 @@
+import assert from 'node:assert/strict';
+import { after, describe, test } from 'node:test';
+import { dataOf, enter, eventually, openPanel, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
+import { covered, difference, looksLike, pixelsOf, tiles } from './pictures.mjs';
+import { cutOf, galleryMesh, mandoline } from './reference.mjs';
+
+const site = await startSite();
+after(() => site.close());
+const link = 'mesh=torus-knot&n=6&free=off&explode=0,0';
+const reference = await cutOf(await galleryMesh('torus-knot'), { cells: 6 });
+const { cutMesh } = reference;
+
+describe('steps', () => {
+  test('one after the other, each with its picture and text', async (t) => {
+    const page = await site.open(t, link);
+    const model = tiles(await pixelsOf(page));
+    await openPanel(page, 'steps');
+    const pictures = [model];
+    for (const step of ['triEdges', 'hybridEdges', 'triangleFaces', 'axialPlane', 'gridCell']) {
+      await page.locator('#step-next').click();
+      await shows(page, '#canvas', { step });
+      assert.equal(await page.locator(`#step-${step}`).getAttribute('aria-current'), 'step');
+      assert.ok((await textOf(page, '#step-text')).length > 40);
+      await looksLike(page, `step ${step}`);
+      const picture = await pixelsOf(page);
+      assert.ok(covered(picture) > 0.01);
+      for (const former of pictures) assert.ok(difference(former, tiles(picture)) > 2, `${step} looks unlike the others`);
+      pictures.push(tiles(picture));
+    }
+    assert.equal(await page.locator('#step-next').isDisabled(), true);
+    await page.locator('#step-gridCell').press('ArrowLeft');
+    await shows(page, '#canvas', { step: 'axialPlane' });
+    await page.locator('#step-leave').click();
+    await shows(page, '#canvas', { step: '' });
+    await eventually(async () => assert.ok(difference(model, tiles(await pixelsOf(page))) < 1, 'the model again, seen as before'));
+  });
+
+  test('the cut-faces of any triangle', async (t) => {
+    const page = await site.open(t, link);
+    await openPanel(page, 'steps');
+    await page.locator('#step-triangleFaces').click();
+    await shows(page, '#canvas', { step: 'triangleFaces' });
+    assert.equal(await page.locator('#step-triangle').getAttribute('max'), String(cutMesh.triangleCount - 1));
+    for (const triangle of [0, 17, cutMesh.triangleCount - 1]) {
+      await enter(page, '#step-triangle-number', triangle);
+      const faces = cutMesh.faceTriangle.filter((id) => id === triangle).length;
+      await eventually(async () => assert.match(await textOf(page, '#step-text'), new RegExp(`triangle ${triangle} into ${faces} cut-face`)));
+      assert.equal(await page.locator('#step-triangle').inputValue(), String(triangle));
+    }
+  });
+
+  test('any axial plane', async (t) => {
+    const page = await site.open(t, link);
+    await openPanel(page, 'steps');
+    await page.locator('#step-axialPlane').click();
+    await shows(page, '#canvas', { step: 'axialPlane' });
+    for (const [axis, plane] of [[1, 2], [2, 1]]) {
+      await page.locator(`#step-axis-${axis}`).check();
+      await slideTo(page, '#step-plane', plane);
+      const faces = cutMesh.faceAxis.filter((at, face) => at === axis && cutMesh.facePlane[face] === plane).length;
+      await eventually(async () => assert.match(await textOf(page, '#step-text'), new RegExp(`axial plane ${plane} across ${'xyz'[axis]} .* into ${faces} faces?\\b`)));
+    }
+  });
+
+  test('any grid cell', async (t) => {
+    const page = await site.open(t, link);
+    await openPanel(page, 'steps');
+    await page.locator('#step-gridCell').click();
+    await shows(page, '#canvas', { step: 'gridCell' });
+    const wanted = [3, 1, 2];
+    for (const [d, axis] of ['x', 'y', 'z'].entries()) await slideTo(page, `#step-cell-${axis}`, wanted[d]);
+    const cells = Array.from(cutMesh.cellRegion.keys()).filter((cell) => wanted.every((c, d) => cutMesh.cellGridCell[3 * cell + d] === c)).length;
+    assert.ok(cells > 1);
+    await eventually(async () => assert.match(await textOf(page, '#step-text'), new RegExp(`^Grid cell \\(${wanted.join(', ')}\\) holds ${cells} cut-cells `)));
+    await page.locator('#canvas').press('Escape');
+    await shows(page, '#canvas', { step: '' });
+  });
+});
+
+describe('checks', () => {
+  test('all pass for the bunny, each with its worst value', async (t) => {
+    const page = await site.open(t, 'mesh=bunny&n=8&free=off');
+    const { mesh, cutMesh: bunny } = await cutOf(await galleryMesh('bunny'), { cells: 8 });
+    const { checks } = mandoline.validate(mesh, bunny);
+    await openPanel(page, 'checks');
+    await page.locator('#validate').click();
+    await shows(page, '#validation', { pass: true, failed: 0, skipped: 0, passed: checks.length });
+    const states = await page.locator('#validation [data-check]').evaluateAll((all) => all.map(({ dataset }) => [dataset.check, dataset.state]));
+    assert.deepEqual(states, checks.map(({ name }) => [name, 'pass']));
+    for (const { name, worst, tolerance } of checks) {
+      const text = await textOf(page, `[data-check="${name}"]`);
+      assert.ok(text.includes(tolerance === 0 ? 'no violation' : `worst ${Number(worst.toPrecision(4))} of`), `${name}: ${text}`);
+    }
+    await slideTo(page, '#cells', 7);
+    await eventually(async () => assert.equal((await dataOf(page, '#validation')).pass, undefined, 'of another cut nothing is said'));
+  });
+
+  test('of an open mesh those that do not apply are skipped', async (t) => {
+    const page = await site.open(t, 'mesh=wavy-plane&n=6&free=off');
+    const { mesh, cutMesh: open } = await cutOf(await galleryMesh('wavy-plane'), { cells: 6 });
+    const skipped = mandoline.validate(mesh, open).checks.filter((check) => check.skipped).map(({ name }) => name);
+    assert.ok(skipped.length > 0);
+    await openPanel(page, 'checks');
+    await page.locator('#validate').click();
+    await shows(page, '#validation', { pass: true, failed: 0, skipped: skipped.length });
+    assert.deepEqual(await page.locator('#validation [data-state="skipped"]').evaluateAll((all) => all.map(({ dataset }) => dataset.check)), skipped);
+  });
+});
