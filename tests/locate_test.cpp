@@ -41,7 +41,8 @@ double windingNumber(const CutMesh& mesh, const std::vector<uint32_t>& triangles
     const auto dot = [&](int i, int j) { return r[i][0] * r[j][0] + r[i][1] * r[j][1] + r[i][2] * r[j][2]; };
     const double volume = r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) - r[0][1] * (r[1][0] * r[2][2] - r[1][2] * r[2][0]) +
                           r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0]);
-    sum += 2 * std::atan2(volume, length[0] * length[1] * length[2] + dot(0, 1) * length[2] + dot(1, 2) * length[0] + dot(2, 0) * length[1]);
+    sum +=
+        2 * std::atan2(volume, length[0] * length[1] * length[2] + dot(0, 1) * length[2] + dot(1, 2) * length[0] + dot(2, 0) * length[1]);
   }
   return sum / (4 * std::numbers::pi);
 }
@@ -54,14 +55,16 @@ void requireComplete(const CutMesh& mesh, const std::vector<double>& points, con
     const int32_t* g = &locations.gridCell[3 * i];
     for (int d = 0; d < 3; ++d) {
       const auto& planes = mesh.grid.planes[d];
-      inBox = inBox && g[d] >= 0 && g[d] < mesh.grid.cells(d) && planes[size_t(g[d])] <= points[3 * i + d] && points[3 * i + d] <= planes[size_t(g[d]) + 1];
+      inBox = inBox && g[d] >= 0 && g[d] < mesh.grid.cells(d) && planes[size_t(g[d])] <= points[3 * i + d] &&
+              points[3 * i + d] <= planes[size_t(g[d]) + 1];
     }
     REQUIRE(inBox);
     const int32_t region = untouched[size_t(g[0] + mesh.grid.cells(0) * (g[1] + mesh.grid.cells(1) * g[2]))];
     const int32_t cell = locations.cell[i];
     found &= (cell >= 0) == (region < 0);
     consistent &= cell < 0 ? locations.region[i] == region
-                           : locations.region[i] == int32_t(mesh.cellRegion[size_t(cell)]) && std::equal(g, g + 3, &mesh.cellGridCell[3 * size_t(cell)]);
+                           : locations.region[i] == int32_t(mesh.cellRegion[size_t(cell)]) &&
+                                 std::equal(g, g + 3, &mesh.cellGridCell[3 * size_t(cell)]);
   }
   REQUIRE(found);
   REQUIRE(consistent);
@@ -84,7 +87,8 @@ std::vector<double> pointsOnFaces(const CutMesh& mesh) {
   for (size_t l = 0; l < mesh.loopCount(); ++l) {
     const auto loop = mesh.loop(l);
     for (size_t i = 0; i < loop.size(); ++i) {
-      for (int d = 0; d < 3; ++d) points.push_back(0.5 * mesh.positions[3 * loop[i] + d] + 0.5 * mesh.positions[3 * loop[(i + 1) % loop.size()] + d]);
+      for (int d = 0; d < 3; ++d)
+        points.push_back(0.5 * mesh.positions[3 * loop[i] + d] + 0.5 * mesh.positions[3 * loop[(i + 1) % loop.size()] + d]);
     }
   }
   return points;
@@ -92,9 +96,10 @@ std::vector<double> pointsOnFaces(const CutMesh& mesh) {
 
 const Mesh& knottedShapes() {
   using namespace shapes;
-  static const Mesh mesh = merged({icosphere({1.3, 1.2, 1.4}, 0.9, 2), flipped(icosphere({1.3, 1.2, 1.4}, 0.5, 1)), torus({3.1, 3.2, 2.7}, 0.7, 0.2, 12, 6),
-                                   fan({0.7, 3.3, 0.4}, 2.5, {{0.3, 0.2}, {-0.3, 0.2}, {0, -0.4}}), moebius({3.2, 1, 3.3}, 0.4, 0.3, 12),
-                                   octahedron({2.5, 2.5, 0.5}, 0.25), quad({2.2, 3.2, 0.3}, {2.8, 3.2, 0.3}, {2.8, 3.8, 0.4}, {2.2, 3.8, 0.4})});
+  static const Mesh mesh =
+      merged({icosphere({1.3, 1.2, 1.4}, 0.9, 2), flipped(icosphere({1.3, 1.2, 1.4}, 0.5, 1)), torus({3.1, 3.2, 2.7}, 0.7, 0.2, 12, 6),
+              fan({0.7, 3.3, 0.4}, 2.5, {{0.3, 0.2}, {-0.3, 0.2}, {0, -0.4}}), moebius({3.2, 1, 3.3}, 0.4, 0.3, 12),
+              octahedron({2.5, 2.5, 0.5}, 0.25), quad({2.2, 3.2, 0.3}, {2.8, 3.2, 0.3}, {2.8, 3.8, 0.4}, {2.2, 3.8, 0.4})});
   return mesh;
 }
 
@@ -156,7 +161,8 @@ TEST_CASE("a point on a face counts to a cell beside it", "[locate]") {
   for (size_t i = 0; i < points.size() / 3; ++i) {
     bool found = false;
     for (size_t n = i * kNearby; n < (i + 1) * kNearby; ++n) {
-      found |= around.cell[n] == locations.cell[i] && std::equal(&around.gridCell[3 * n], &around.gridCell[3 * n] + 3, &locations.gridCell[3 * i]);
+      found |= around.cell[n] == locations.cell[i] &&
+               std::equal(&around.gridCell[3 * n], &around.gridCell[3 * n] + 3, &locations.gridCell[3 * i]);
     }
     beside += found;
   }

@@ -26,7 +26,9 @@ Point unit(const Point& a) {
   const double length = std::sqrt(dot(a, a));
   return {a[0] / length, a[1] / length, a[2] / length};
 }
-double areaAbout(const Point& normal, const Point& a, const Point& b, const Point& c) { return 0.5 * dot(unit(normal), cross(b - a, c - a)); }
+double areaAbout(const Point& normal, const Point& a, const Point& b, const Point& c) {
+  return 0.5 * dot(unit(normal), cross(b - a, c - a));
+}
 
 Point pointOf(const Slice& slice, uint32_t p) { return {slice.positions[3 * p], slice.positions[3 * p + 1], slice.positions[3 * p + 2]}; }
 std::span<const uint32_t> loopOf(const Slice& slice, size_t l) {
@@ -36,7 +38,8 @@ std::span<const uint32_t> loopOf(const Slice& slice, size_t l) {
 double loopArea(const Slice& slice, const Point& normal, size_t l) {
   const auto loop = loopOf(slice, l);
   double sum = 0;
-  for (size_t i = 0; i < loop.size(); ++i) sum += areaAbout(normal, pointOf(slice, loop[0]), pointOf(slice, loop[i]), pointOf(slice, loop[(i + 1) % loop.size()]));
+  for (size_t i = 0; i < loop.size(); ++i)
+    sum += areaAbout(normal, pointOf(slice, loop[0]), pointOf(slice, loop[i]), pointOf(slice, loop[(i + 1) % loop.size()]));
   return sum;
 }
 double polygonArea(const Slice& slice, const Point& normal, size_t polygon) {
@@ -102,7 +105,8 @@ double meshArea(const Mesh& mesh, const Plane& plane) {
       const int j = (i + 1) % 3;
       if ((height[i] >= 0) == (height[j] >= 0)) continue;
       ++crossings;
-      for (int d = 0; d < 3; ++d) (height[i] >= 0 ? start : end)[d] = corner[i][d] + height[i] / (height[i] - height[j]) * (corner[j][d] - corner[i][d]);
+      for (int d = 0; d < 3; ++d)
+        (height[i] >= 0 ? start : end)[d] = corner[i][d] + height[i] / (height[i] - height[j]) * (corner[j][d] - corner[i][d]);
     }
     if (crossings == 0) continue;
     if (!hasOrigin) origin = start;
@@ -130,7 +134,8 @@ Slice checkedSlice(const CutMesh& mesh, const Plane& plane) {
   const Slice& s = result.slice;
   const double length = std::sqrt(dot(plane.normal, plane.normal));
   double farthest = 0;
-  for (uint32_t p = 0; p < s.positions.size() / 3; ++p) farthest = std::max(farthest, std::fabs(dot(plane.normal, pointOf(s, p)) - plane.offset) / length);
+  for (uint32_t p = 0; p < s.positions.size() / 3; ++p)
+    farthest = std::max(farthest, std::fabs(dot(plane.normal, pointOf(s, p)) - plane.offset) / length);
   CHECK(farthest < kTolerance);
 
   double total = 0, worstCover = 0, leastTriangle = 0, leastOutline = 0, largestHole = 0;
@@ -140,7 +145,8 @@ Slice checkedSlice(const CutMesh& mesh, const Plane& plane) {
     total += area;
     double covered = 0;
     for (uint32_t t = s.polygonTriangleOffsets[p]; t < s.polygonTriangleOffsets[p + 1]; ++t) {
-      const double triangle = areaAbout(plane.normal, pointOf(s, s.triangles[3 * t]), pointOf(s, s.triangles[3 * t + 1]), pointOf(s, s.triangles[3 * t + 2]));
+      const double triangle =
+          areaAbout(plane.normal, pointOf(s, s.triangles[3 * t]), pointOf(s, s.triangles[3 * t + 1]), pointOf(s, s.triangles[3 * t + 2]));
       covered += triangle;
       leastTriangle = std::min(leastTriangle, triangle);
     }
@@ -156,7 +162,8 @@ Slice checkedSlice(const CutMesh& mesh, const Plane& plane) {
     }
     for (size_t i = 0; i < edges.size() && edges.size() < 400; ++i) {
       for (size_t j = 0; j < i; ++j) {
-        crosses |= cross2(plane.normal, pointOf(s, edges[i][0]), pointOf(s, edges[i][1]), pointOf(s, edges[j][0]), pointOf(s, edges[j][1]), kTolerance);
+        crosses |= cross2(plane.normal, pointOf(s, edges[i][0]), pointOf(s, edges[i][1]), pointOf(s, edges[j][0]), pointOf(s, edges[j][1]),
+                          kTolerance);
       }
       for (int d = 0; d < 3; ++d) {
         const int32_t g = s.polygonGridCell[3 * p + d];
@@ -166,7 +173,8 @@ Slice checkedSlice(const CutMesh& mesh, const Plane& plane) {
     }
     if (s.polygonCell[p] >= 0) {
       const size_t c = size_t(s.polygonCell[p]);
-      regions &= s.polygonRegion[p] == mesh.cellRegion[c] && std::equal(&s.polygonGridCell[3 * p], &s.polygonGridCell[3 * p] + 3, &mesh.cellGridCell[3 * c]);
+      regions &= s.polygonRegion[p] == mesh.cellRegion[c] &&
+                 std::equal(&s.polygonGridCell[3 * p], &s.polygonGridCell[3 * p] + 3, &mesh.cellGridCell[3 * c]);
     }
   }
   CHECK(total == Approx(boxArea(mesh.grid, plane)).margin(1e-11));
@@ -194,7 +202,8 @@ void requireLocated(const CutMesh& mesh, const Slice& s, const Plane& plane) {
   }
   const Locations locations = locate(mesh, points);
   size_t wrong = 0;
-  for (size_t i = 0; i < polygons.size(); ++i) wrong += locations.cell[i] != s.polygonCell[polygons[i]] || locations.region[i] != int32_t(s.polygonRegion[polygons[i]]);
+  for (size_t i = 0; i < polygons.size(); ++i)
+    wrong += locations.cell[i] != s.polygonCell[polygons[i]] || locations.region[i] != int32_t(s.polygonRegion[polygons[i]]);
   CHECK(polygons.size() > 0);
   CHECK(wrong == 0);
 }
@@ -204,7 +213,8 @@ std::vector<Plane> randomPlanes(const Point& centre, double spread, int count, u
   const auto number = [&] { return 2 * (double(random()) * 0x1p-32) - 1; };
   std::vector<Plane> planes;
   for (int i = 0; i < count; ++i) {
-    const Point normal = {number(), number(), number()}, through = {centre[0] + spread * number(), centre[1] + spread * number(), centre[2] + spread * number()};
+    const Point normal = {number(), number(), number()},
+                through = {centre[0] + spread * number(), centre[1] + spread * number(), centre[2] + spread * number()};
     planes.push_back({normal, dot(normal, through)});
   }
   return planes;
@@ -212,16 +222,18 @@ std::vector<Plane> randomPlanes(const Point& centre, double spread, int count, u
 
 const Mesh& closedShapes() {
   using namespace shapes;
-  static const Mesh mesh = merged({icosphere({1.3, 1.2, 1.4}, 0.9, 2), flipped(icosphere({1.3, 1.2, 1.4}, 0.5, 1)), torus({3.05, 3.05, 2.7}, 0.7, 0.2, 12, 6),
-                                   octahedron({2.5, 2.5, 0.5}, 0.25), cube(3.25, 3.75), noisySphere({0.9, 3.1, 3.0}, 0.6, 0.3, 2)});
+  static const Mesh mesh =
+      merged({icosphere({1.3, 1.2, 1.4}, 0.9, 2), flipped(icosphere({1.3, 1.2, 1.4}, 0.5, 1)), torus({3.05, 3.05, 2.7}, 0.7, 0.2, 12, 6),
+              octahedron({2.5, 2.5, 0.5}, 0.25), cube(3.25, 3.75), noisySphere({0.9, 3.1, 3.0}, 0.6, 0.3, 2)});
   return mesh;
 }
 
 const Mesh& openShapes() {
   using namespace shapes;
-  static const Mesh mesh = merged({fan({0.7, 3.3, 0.4}, 2.5, {{0.3, 0.2}, {-0.3, 0.2}, {0, -0.4}}), moebius({3.2, 1, 3.3}, 0.4, 0.3, 12),
-                                   quad({2.2, 3.2, 0.3}, {2.8, 3.2, 0.3}, {2.8, 3.8, 0.4}, {2.2, 3.8, 0.4}), tube({1.5, 1.4, 0.3}, 0.6, 1.2, 9, false),
-                                   quad({0.2, 0.2, 2.5}, {3.8, 0.3, 2.6}, {3.7, 2.2, 2.7}, {0.4, 2.4, 2.6})});
+  static const Mesh mesh =
+      merged({fan({0.7, 3.3, 0.4}, 2.5, {{0.3, 0.2}, {-0.3, 0.2}, {0, -0.4}}), moebius({3.2, 1, 3.3}, 0.4, 0.3, 12),
+              quad({2.2, 3.2, 0.3}, {2.8, 3.2, 0.3}, {2.8, 3.8, 0.4}, {2.2, 3.8, 0.4}), tube({1.5, 1.4, 0.3}, 0.6, 1.2, 9, false),
+              quad({0.2, 0.2, 2.5}, {3.8, 0.3, 2.6}, {3.7, 2.2, 2.7}, {0.4, 2.4, 2.6})});
   return mesh;
 }
 
@@ -400,6 +412,20 @@ TEST_CASE("a plane without a direction is an error, one beside the grid cuts not
   CHECK(slice(CutMesh(), {{1, 0, 0}, 0}).slice.polygonCount() == 0);
 }
 
+TEST_CASE("a cut-mesh whose cells are not closed is cut somehow", "[slice][locate]") {
+  CutMesh mesh = checkedCut(openShapes(), unitGrid(3)).mesh;
+  for (size_t c = 0; c < mesh.cellCount(); ++c) {
+    uint32_t* halfFaces = &mesh.cellHalfFaces[mesh.cellHalfFaceOffsets[c]];
+    halfFaces[0] = halfFaces[1];
+  }
+  for (const Plane& plane : randomPlanes({1.5, 1.5, 1.5}, 1.5, 20, 9)) {
+    const SliceResult result = slice(mesh, plane);
+    CHECK(result);
+    for (const uint32_t p : result.slice.triangles) REQUIRE(3 * size_t(p) < result.slice.positions.size());
+    CHECK(locate(mesh, result.slice.positions).cell.size() == result.slice.positions.size() / 3);
+  }
+}
+
 TEST_CASE("neither the normal's length nor the scale matters", "[slice]") {
   const CheckedCut cut = checkedCut(closedShapes(), unitGrid(4));
   const Plane plane = {{0.25, -0.5, 0.75}, 1};
@@ -410,7 +436,8 @@ TEST_CASE("neither the normal's length nor the scale matters", "[slice]") {
     CHECK(again.triangles == once.triangles);
   }
   for (const double scale : {0x1p-900, 0x1p900}) {
-    const CutResult scaled = mandoline::cut(shapes::scaled(closedShapes(), {scale, scale, scale}), Grid::box({0, 0, 0}, {4 * scale, 4 * scale, 4 * scale}, {4, 4, 4}));
+    const CutResult scaled = mandoline::cut(shapes::scaled(closedShapes(), {scale, scale, scale}),
+                                            Grid::box({0, 0, 0}, {4 * scale, 4 * scale, 4 * scale}, {4, 4, 4}));
     REQUIRE(scaled);
     Slice again = slice(scaled.mesh, {plane.normal, scale}).slice;
     for (double& x : again.positions) x /= scale;

@@ -17,15 +17,17 @@ struct SliceOptions {
 
 /// The polygons in which a plane cuts the cells: those of the cut-cells in ascending order, then those of the untouched grid cells. A cell
 /// may have several. A slit (the cut of a sheet that ends within the cell) is run through forth and back within a loop, or is a loop of its
-/// own. Points are shared by the polygons of neighbouring cut-cells; each polygon of an untouched grid cell has its own.
+/// own; triangles take no notice of slits. Points are shared by the polygons of neighbouring cut-cells; each polygon of an untouched grid
+/// cell has its own. Where triangles of the input cross within a grid cell, so may a polygon's loops.
 struct Slice {
-  std::vector<double> positions;                 ///< 3 per point, on the plane, world units
-  std::vector<uint32_t> loopOffsets;             ///< into loopPoints
-  std::vector<uint32_t> loopPoints;              ///< points of the loops
-  std::vector<uint32_t> polygonLoopOffsets;      ///< into loops. The first is the outer one, counter-clockwise about the normal; others are holes
-  std::vector<int32_t> polygonCell;              ///< per polygon: the cut-cell that it is a cut of, or -1 for an untouched grid cell
-  std::vector<int32_t> polygonGridCell;          ///< 3 per polygon: the grid cell
-  std::vector<uint32_t> polygonRegion;           ///< per polygon: region
+  std::vector<double> positions;      ///< 3 per point, on the plane, world units
+  std::vector<uint32_t> loopOffsets;  ///< into loopPoints
+  std::vector<uint32_t> loopPoints;   ///< points of the loops
+  std::vector<uint32_t>
+      polygonLoopOffsets;                ///< into loops, per polygon: first the outer loop, counter-clockwise about the normal; then holes
+  std::vector<int32_t> polygonCell;      ///< per polygon: the cut-cell that it is a cut of, or -1 for an untouched grid cell
+  std::vector<int32_t> polygonGridCell;  ///< 3 per polygon: the grid cell
+  std::vector<uint32_t> polygonRegion;   ///< per polygon: region
   std::vector<uint32_t> polygonTriangleOffsets;  ///< into triangles (in triangles, not entries), per polygon
   std::vector<uint32_t> triangles;               ///< 3 points per triangle, counter-clockwise about the normal
 
@@ -41,6 +43,7 @@ struct SliceResult {
 
 /// Which vertices lie on which side is decided exactly and once for all cells. Those on the plane count as above it (below it if nothing
 /// else is): the result is that of a plane moved by less than anything, so a plane through vertices, edges or faces cuts every place once.
+/// Polygons that have no width on the plane itself may be left out.
 SliceResult slice(const CutMesh& cutMesh, const Plane& plane, const SliceOptions& options = {});
 
 }  // namespace mandoline

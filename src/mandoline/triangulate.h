@@ -15,8 +15,8 @@ FaceTriangles triangulateFaces(const CutMesh& cutMesh);
 /// The closed triangle surface of one cut-cell, oriented outward: 3 vertex ids per triangle.
 std::vector<uint32_t> triangulateCell(const CutMesh& cutMesh, const FaceTriangles& faces, size_t cell);
 
-/// The pieces of triangles that bound a region, seen from its cut-cells and oriented out of it: 3 vertex ids per triangle. Where a sheet ends
-/// within the region, both of its sides.
+/// The pieces of triangles that bound a region, seen from its cut-cells and oriented out of it: 3 vertex ids per triangle. Where a sheet
+/// ends within the region, both of its sides.
 std::vector<uint32_t> triangulateRegion(const CutMesh& cutMesh, const FaceTriangles& faces, uint32_t region);
 
 }  // namespace mandoline

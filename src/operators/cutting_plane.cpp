@@ -52,7 +52,8 @@ int CuttingPlane::signAt(const ScaledPoint& p) const {
 /// In units of the normal's length; 0 where rounding a coordinate could bring the point onto the plane.
 double CuttingPlane::distanceAt(const ScaledPoint& p) const {
   constexpr double kRoundings = 64;
-  const double height = double(twoProduct(normal_[0], p[0]) + twoProduct(normal_[1], p[1]) + twoProduct(normal_[2], p[2]) - DoubleDouble(offset_));
+  const double height =
+      double(twoProduct(normal_[0], p[0]) + twoProduct(normal_[1], p[1]) + twoProduct(normal_[2], p[2]) - DoubleDouble(offset_));
   return std::fabs(height) > kRoundings * detail::kRoundoff * sizeAt(p) ? std::fabs(height) : 0;
 }
 

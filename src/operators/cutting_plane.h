@@ -20,8 +20,8 @@ class CuttingPlane {
     const int sign = signAt(p);
     return sign > 0 || (sign == 0 && onIsAbove_);
   }
-  /// Where the edge of two points on different sides crosses the plane. `end` is 0 or 1 if that is the edge's end a or b, else -1: an end that
-  /// rounding can't tell from the plane is the place, so that all edges that meet there cross at one place.
+  /// Where the edge of two points on different sides crosses the plane. `end` is 0 or 1 if that is the edge's end a or b, else -1: an end
+  /// that rounding can't tell from the plane is the place, so that all edges that meet there cross at one place.
   struct Crossing {
     ScaledPoint at;
     int end;

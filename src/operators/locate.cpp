@@ -1,10 +1,10 @@
-// A point's cut-cell is the one whose closed triangle surface winds around it: a ray runs upwards from the point, and every triangle that it
-// meets adds to the winding number of the cell below and takes from that of the cell above.
+// A point's cut-cell is the one whose closed triangle surface winds around it: a ray runs upwards from the point, and every triangle that
+// it meets adds to the winding number of the cell below and takes from that of the cell above.
 //
-// The point is moved by less than anything, first along z, then far less along x, then far less along y (simulation of simplicity), into the
-// grid cell where it lies on the grid cell's border. So the ray meets no edge and the point lies on no triangle. Together, the surfaces of a
-// grid cell's cut-cells are the surface of its box, so the winding numbers add up to 1: some cell has a positive one, even where rounded
-// positions let cells overlap.
+// The point is moved by less than anything, first along z, then far less along x, then far less along y (simulation of simplicity), into
+// the grid cell where it lies on the grid cell's border. So the ray meets no edge and the point lies on no triangle. Together, the surfaces
+// of a grid cell's cut-cells are the surface of its box, so the winding numbers add up to 1: some cell has a positive one, even where
+// rounded positions let cells overlap.
 #include "mandoline/locate.h"
 
 #include <algorithm>
@@ -169,8 +169,9 @@ class Walls {
     for (uint32_t w = 0; w < walls_.size(); ++w) {
       forBins(walls_[w], [&](size_t bin) { entries.push_back({bin, w}); });
     }
-    bins_ = detail::groupBy<uint32_t>(size_t(binCount_) * binCount_, entries.size(), [&](size_t i) { return size_t(entries[i].key); },
-                                      [&](size_t i) { return entries[i].item; });
+    bins_ = detail::groupBy<uint32_t>(
+        size_t(binCount_) * binCount_, entries.size(), [&](size_t i) { return size_t(entries[i].key); },
+        [&](size_t i) { return entries[i].item; });
   }
 
   const CutMesh& cutMesh_;
@@ -225,8 +226,10 @@ size_t firstCellFrom(const CutMesh& cutMesh, const int32_t* gridCell) {
 }
 
 /// Fills in the cut-cells of points of one grid cell.
-void locateInCutCells(const CutMesh& cutMesh, std::span<const double> points, std::span<const uint32_t> group, Walls& walls, Locations& result) {
-  const GridCell gridCell = {result.gridCell[3 * size_t(group[0])], result.gridCell[3 * size_t(group[0]) + 1], result.gridCell[3 * size_t(group[0]) + 2]};
+void locateInCutCells(const CutMesh& cutMesh, std::span<const double> points, std::span<const uint32_t> group, Walls& walls,
+                      Locations& result) {
+  const GridCell gridCell = {result.gridCell[3 * size_t(group[0])], result.gridCell[3 * size_t(group[0]) + 1],
+                             result.gridCell[3 * size_t(group[0]) + 2]};
   const size_t first = firstCellFrom(cutMesh, gridCell.data());
   size_t last = first;
   while (last < cutMesh.cellCount() && std::equal(gridCell.begin(), gridCell.end(), &cutMesh.cellGridCell[3 * last])) ++last;

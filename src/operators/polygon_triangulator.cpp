@@ -1,7 +1,7 @@
 // Triangulation (paper, 4.7) by ear clipping, for convex tri-faces and for grid-faces with holes alike.
 //
-// A polygon's loops are joined into one cyclic chain of corners: loops that share a vertex are spliced there, the others are joined by bridges
-// (edges run through in both directions). Then ears are clipped off: a chain of n corners gives n - 2 triangles. So whatever the
+// A polygon's loops are joined into one cyclic chain of corners: loops that share a vertex are spliced there, the others are joined by
+// bridges (edges run through in both directions). Then ears are clipped off: a chain of n corners gives n - 2 triangles. So whatever the
 // coordinates are, the triangles use the directed edges of the loops once and every other edge once in each direction: geometry only
 // chooses. It chooses by exact signs of the rounded positions: a face whose rounded loops don't cross gets triangles of positive area.
 // Where rounding has made a face overlap itself or vanish, the least bad ear is clipped; where that would be a triangle with a vertex

@@ -126,14 +126,16 @@ class BoxSlicer {
   }
 
  private:
-  /// The range of grid cells of a row that have corners on both sides of the plane. Along a grid line the side changes once at most; a row's
-  /// four grid lines change sides in the same sense.
+  /// The range of grid cells of a row that have corners on both sides of the plane. Along a grid line the side changes once at most; a
+  /// row's four grid lines change sides in the same sense.
   std::pair<int32_t, int32_t> cellsThatMeet(int32_t j, int32_t k) const {
     const bool sense = plane_.normal()[0] >= 0;
     int32_t least = INT32_MAX, most = 0;
     for (int32_t line = 0; line < 4; ++line) {
       const double y = planes_[1][size_t(j + line % 2)], z = planes_[2][size_t(k + line / 2)];
-      const auto change = std::partition_point(planes_[0].begin(), planes_[0].end(), [&](double x) { return plane_.isAbove({x, y, z}) != sense; });
+      const auto change = std::partition_point(planes_[0].begin(), planes_[0].end(), [&](double x) {
+        return plane_.isAbove({x, y, z}) != sense;
+      });
       least = std::min(least, int32_t(change - planes_[0].begin()));
       most = std::max(most, int32_t(change - planes_[0].begin()));
     }

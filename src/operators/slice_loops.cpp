@@ -1,5 +1,6 @@
 #include "operators/slice_loops.h"
 
+#include <algorithm>
 #include <tuple>
 #include <utility>
 
@@ -61,6 +62,7 @@ void SliceLoops::join(uint32_t point) {
     }
   }
   for (const uint32_t arc : starting_) {
+    if (ended_.empty()) return;  // not a closed surface: the cut-mesh is not valid
     arcs_[ended_.back()].next = arc;
     ended_.pop_back();
   }

@@ -31,9 +31,9 @@ class SliceLoops {
   /// The start or end of an arc, as it leaves a point.
   struct Ray {
     uint32_t arc;
-    bool starts;        // else the arc ends here
-    uint32_t next;      // ray of the same point
-    int half = 0;       // scratch of sorting: of the directions
+    bool starts;    // else the arc ends here
+    uint32_t next;  // ray of the same point
+    int half = 0;   // scratch of sorting: of the directions
   };
 
   void gather(size_t cell);
@@ -50,7 +50,7 @@ class SliceLoops {
   Predicates predicates_;
   std::vector<Arc> arcs_;
   std::vector<Ray> rays_;
-  std::vector<uint8_t> uses_;       // per segment: how many sides of it the cell has
+  std::vector<uint8_t> uses_;  // per segment: how many sides of it the cell has
   bool hasSlits_ = false;
   std::vector<uint32_t> firstRay_;  // per point
   std::vector<Ray> around_;         // rays of one point

@@ -25,7 +25,8 @@ class Maker {
 
  private:
   bool isCut(size_t face) const {
-    const uint32_t begin = cutMesh_.loopOffsets[cutMesh_.faceLoopOffsets[face]], end = cutMesh_.loopOffsets[cutMesh_.faceLoopOffsets[face + 1]];
+    const uint32_t begin = cutMesh_.loopOffsets[cutMesh_.faceLoopOffsets[face]],
+                   end = cutMesh_.loopOffsets[cutMesh_.faceLoopOffsets[face + 1]];
     for (uint32_t i = begin; i < end; ++i) {
       if (above_[cutMesh_.loopVertices[i]] != above_[cutMesh_.loopVertices[begin]]) return true;
     }

@@ -6,8 +6,8 @@
 
 namespace mandoline::operators {
 
-/// Where the plane cuts a triangle: from one point to another. Seen from the triangle's side 0 and with the plane's normal up, what is above
-/// lies to the left; seen from side 1, to the left of the way back.
+/// Where the plane cuts a triangle: from one point to another. Seen from the triangle's side 0 and with the plane's normal up, what is
+/// above lies to the left; seen from side 1, to the left of the way back.
 using SliceSegment = std::array<uint32_t, 2>;
 
 struct SliceSegments {

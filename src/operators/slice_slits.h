@@ -10,7 +10,8 @@ namespace mandoline::operators {
 class SliceSlits {
  public:
   /// The polygon's loops less what they run through forth and back, the outline first. The result holds until the next call.
-  const detail::Csr<uint32_t>& remove(const detail::Csr<uint32_t>& loops, std::span<const uint32_t> polygon, const std::vector<PlanePoint>& at);
+  const detail::Csr<uint32_t>& remove(const detail::Csr<uint32_t>& loops, std::span<const uint32_t> polygon,
+                                      const std::vector<PlanePoint>& at);
 
  private:
   struct Arc {
