@@ -20,14 +20,13 @@ struct SliceOptions {
 /// own; triangles take no notice of slits. Points are shared by the polygons of neighbouring cut-cells; each polygon of an untouched grid
 /// cell has its own. Where triangles of the input cross within a grid cell, so may a polygon's loops.
 struct Slice {
-  std::vector<double> positions;      ///< 3 per point, on the plane, world units
-  std::vector<uint32_t> loopOffsets;  ///< into loopPoints
-  std::vector<uint32_t> loopPoints;   ///< points of the loops
-  std::vector<uint32_t>
-      polygonLoopOffsets;                ///< into loops, per polygon: first the outer loop, counter-clockwise about the normal; then holes
-  std::vector<int32_t> polygonCell;      ///< per polygon: the cut-cell that it is a cut of, or -1 for an untouched grid cell
-  std::vector<int32_t> polygonGridCell;  ///< 3 per polygon: the grid cell
-  std::vector<uint32_t> polygonRegion;   ///< per polygon: region
+  std::vector<double> positions;                 ///< 3 per point, on the plane, world units
+  std::vector<uint32_t> loopOffsets;             ///< into loopPoints
+  std::vector<uint32_t> loopPoints;              ///< points of the loops
+  std::vector<uint32_t> polygonLoopOffsets;      ///< into loops, per polygon: an outer one, counter-clockwise about the normal, then holes
+  std::vector<int32_t> polygonCell;              ///< per polygon: the cut-cell that it is a cut of, or -1 for an untouched grid cell
+  std::vector<int32_t> polygonGridCell;          ///< 3 per polygon: the grid cell
+  std::vector<uint32_t> polygonRegion;           ///< per polygon: region
   std::vector<uint32_t> polygonTriangleOffsets;  ///< into triangles (in triangles, not entries), per polygon
   std::vector<uint32_t> triangles;               ///< 3 points per triangle, counter-clockwise about the normal
 
