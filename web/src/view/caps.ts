@@ -29,7 +29,6 @@ export class Caps {
     const faces = new Mesh(new BufferGeometry(), makeMaterial('CAPS', 'FACES', uniforms, own));
     const pick = new Mesh(faces.geometry, makeMaterial('CAPS', 'PICK', uniforms, own));
     const lines = new LineSegments(new BufferGeometry(), makeMaterial('CAPS', 'LINES', uniforms, own));
-    lines.renderOrder = 1;
     for (const object of [faces, pick, lines]) object.frustumCulled = false;
     this.group.add(faces, lines);
     this.pick.add(pick);

@@ -28,7 +28,6 @@ export class CutCells {
     this.pick = new Mesh(empty, makeMaterial('CELLS', 'PICK', uniforms));
     this.ghost = new Mesh(empty, makeMaterial('CELLS', 'GHOST', uniforms));
     this.lines = new LineSegments(new BufferGeometry(), makeMaterial('CELLS', 'LINES', uniforms));
-    this.lines.renderOrder = 1;
     this.group.add(this.faces, this.backs, this.lines);
     for (const object of [this.faces, this.backs, this.pick, this.ghost, this.lines]) object.frustumCulled = false;
   }

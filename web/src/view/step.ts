@@ -13,7 +13,6 @@ export class Step {
 
   constructor() {
     for (const object of [this.faces, this.lines, this.points]) object.frustumCulled = false;
-    this.points.renderOrder = 1;
     this.group.add(this.faces, this.lines, this.points);
   }
 

@@ -36,7 +36,6 @@ export class Untouched {
     this.faces = new Mesh(new BufferGeometry(), makeMaterial('BOXES', 'FACES', uniforms, own));
     this.pick = new Mesh(this.faces.geometry, makeMaterial('BOXES', 'PICK', uniforms, own));
     this.lines = new LineSegments(new BufferGeometry(), makeMaterial('BOXES', 'LINES', uniforms, own));
-    this.lines.renderOrder = 1;
     for (const object of [this.faces, this.pick, this.lines]) object.frustumCulled = false;
     this.group.add(this.faces, this.lines);
   }

@@ -37,6 +37,7 @@ const noSlices: Slices = { count: 0, model: 0, planes: [], slices: [] };
 
 /** In ms. */
 const longestWait = 400;
+const compileTime = 100;
 
 const schemes = {
   light: { background: '#f3f1ec', line: '#1c2430', accent: '#e0218a' },
@@ -103,8 +104,22 @@ class ThreeView implements View {
     this.setScheme(matchMedia('(prefers-color-scheme: dark)').matches);
     this.listen();
     this.resize();
-    // The shaders are made while the first mesh is being cut.
+    this.warmUp();
+  }
+
+  /** Makes all shaders while the first mesh is being cut: the compiler works beside the page, and when it's done, one draw of nothing takes them over. */
+  private warmUp(): void {
     this.renderer.compile(this.scene, this.camera.camera);
+    const takeOver = () => {
+      if (this.model) return;
+      const hidden = [this.modelGroup, this.cells.ghost, this.stepPicture.group];
+      for (const object of hidden) object.visible = true;
+      this.renderer.render(this.scene, this.camera.camera);
+      for (const object of hidden) object.visible = false;
+      void this.picker.pick(this.camera.camera, 0, 0);
+      this.invalidate();
+    };
+    setTimeout(takeOver, compileTime);
   }
 
   private listen(): void {
@@ -178,7 +193,7 @@ class ThreeView implements View {
       this.stepPicture.set(picture);
       const { camera, controls } = this.camera;
       this.cameraBeforeStep ??= { position: camera.position.clone(), target: controls.target.clone() };
-      if (isNew) this.camera.frame(this.fromModel(picture.center), picture.radius * this.root.scale.x * 1.5, true);
+      if (isNew) this.camera.frame(this.fromModel(picture.center), picture.radius * this.root.scale.x * 1.2, true);
     } else if (this.cameraBeforeStep) {
       this.camera.place(this.cameraBeforeStep.position, this.cameraBeforeStep.target);
       this.cameraBeforeStep = null;
@@ -431,6 +446,8 @@ function makeRenderer(canvas: HTMLCanvasElement): WebGLRenderer {
     const renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
     // Asking for errors waits for the compiler.
     renderer.debug.checkShaderErrors = import.meta.env.DEV;
+    // What is transparent is drawn last anyway, and to sort it three.js would visit all vertices for their centre.
+    renderer.sortObjects = false;
     return renderer;
   } catch {
     const detail = 'This page draws with WebGL 2, which this browser lacks or has switched off. Another browser, or hardware acceleration switched on in its settings, will do.';
