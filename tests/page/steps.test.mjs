@@ -29,8 +29,8 @@ const volume = (position) => groups(position, 3).reduce((sum, [a, b, c]) => sum 
 const about = (actual, expected) => assert.ok(Math.abs(actual - expected) < 1e-5 * Math.abs(expected), `${actual} is not ${expected}`);
 
 for (const [name, cells] of [['bunny', 16], ['bunny', 1], ['claw', 2], ['wavy-plane', 10], ['aligned-steps', 22], ['moebius-strip', 12]]) {
-  describe(`${name} at ${cells}`, async () => {
-    const { cutMesh, picture } = await subject(name, cells);
+  const { cutMesh, picture } = await subject(name, cells);
+  describe(`${name} at ${cells}`, () => {
     for (const kind of kinds) {
       test(kind, () => {
         const made = picture({ kind });
