@@ -16,7 +16,10 @@ const detail::Csr<uint32_t>& SliceLoops::run(size_t cell) {
   for (uint32_t first = 0; first < arcs_.size(); ++first) {
     if (arcs_[first].next != kNone) trace(first);
   }
-  for (const Arc& arc : arcs_) uses_[arc.segment] = 0;
+  for (const Arc& arc : arcs_) {
+    uses_[arc.segment] = 0;
+    firstRay_[arc.end] = kNone;  // where nothing starts: the cell is not closed
+  }
   return loops_;
 }
 
