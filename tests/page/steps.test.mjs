@@ -28,8 +28,12 @@ const area = (position) => groups(position, 3).reduce((sum, [a, b, c]) => sum + 
 const volume = (position) => groups(position, 3).reduce((sum, [a, b, c]) => sum + dot(a, cross(b, c)) / 6, 0);
 const about = (actual, expected) => assert.ok(Math.abs(actual - expected) < 1e-5 * Math.abs(expected), `${actual} is not ${expected}`);
 
-for (const [name, cells] of [['bunny', 16], ['bunny', 1], ['claw', 2], ['wavy-plane', 10], ['aligned-steps', 22], ['moebius-strip', 12]]) {
-  const { cutMesh, picture } = await subject(name, cells);
+// All made before the first suite: a runner may take a file for finished while it waits between suites.
+const examples = [['bunny', 16], ['bunny', 1], ['claw', 2], ['wavy-plane', 10], ['aligned-steps', 22], ['moebius-strip', 12]];
+const subjects = await Promise.all(examples.map(([name, cells]) => subject(name, cells)));
+
+for (const [k, [name, cells]] of examples.entries()) {
+  const { cutMesh, picture } = subjects[k];
   describe(`${name} at ${cells}`, () => {
     for (const kind of kinds) {
       test(kind, () => {
