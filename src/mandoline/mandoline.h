@@ -124,7 +124,8 @@ struct CutMesh {
   std::vector<int8_t> faceAxis;           ///< per face: 0..2 if it lies in an axial plane, else -1. A grid-face's normal is +axis
   std::vector<int32_t> facePlane;         ///< per face: index of that plane, else 0
 
-  // Cut-cells. Half-face = 2 * face + side; side 0: the face's normal points out of the cell, side 1: into it.
+  // Cut-cells, in ascending order of grid cells, x fastest. Half-face = 2 * face + side; side 0: the face's normal points out of the
+  // cell, side 1: into it.
   std::vector<uint32_t> cellHalfFaceOffsets;  ///< into cellHalfFaces
   std::vector<uint32_t> cellHalfFaces;        ///< half-faces; the outer shell's and those of cavities and floating sheets
   std::vector<int32_t> cellGridCell;          ///< 3 per cut-cell: the grid cell it lies in

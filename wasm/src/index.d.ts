@@ -108,7 +108,7 @@ export interface CutMesh {
   cellHalfFaceOffsets: Uint32Array;
   /** Half-faces: the outer shell's and those of cavities and floating sheets. */
   cellHalfFaces: Uint32Array;
-  /** 3 per cut-cell: the grid cell it lies in. */
+  /** 3 per cut-cell: the grid cell it lies in. Cut-cells are in ascending order of grid cells, x fastest. */
   cellGridCell: Int32Array;
   /** Per cut-cell. */
   cellRegion: Uint32Array;
