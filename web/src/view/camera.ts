@@ -15,6 +15,8 @@ export class Camera {
   /** The person has moved it. */
   onMoved = () => {};
   private isPersons = false;
+  /** What was framed last, to be framed again in a window of another shape until the person moves the camera. */
+  private framed: { center: Vector3; radius: number } | null = null;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(canvas: HTMLCanvasElement, reducedMotion: MediaQueryList) {
@@ -37,7 +39,9 @@ export class Camera {
     this.camera.far = distance + 30;
     this.camera.updateProjectionMatrix();
     this.onChange();
-    if (this.isPersons) this.timer ??= setTimeout(() => this.tell(), tellTime);
+    if (!this.isPersons) return;
+    this.framed = null;
+    this.timer ??= setTimeout(() => this.tell(), tellTime);
   }
 
   private tell(): void {
@@ -68,10 +72,12 @@ export class Camera {
     const half = (this.camera.fov * Math.PI) / 360;
     const narrow = Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect));
     this.place(center.clone().addScaledVector(direction, radius / Math.sin(narrow)), center);
+    this.framed = { center: center.clone(), radius };
   }
 
   place(position: Vector3, target: Vector3): void {
     this.isPersons = false;
+    this.framed = null;
     clearTimeout(this.timer);
     this.timer = undefined;
     this.camera.position.copy(position);
@@ -80,9 +86,18 @@ export class Camera {
     this.changed();
   }
 
+  /** Follows a scene that was moved and scaled. */
+  transform(move: (point: Vector3) => Vector3, scale: number): void {
+    const { isPersons, framed } = this;
+    this.place(move(this.camera.position), move(this.controls.target));
+    this.isPersons = isPersons;
+    this.framed = framed && { center: move(framed.center), radius: framed.radius * scale };
+  }
+
   resize(width: number, height: number): void {
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    if (this.framed) this.frame(this.framed.center, this.framed.radius, true);
   }
 }
 

@@ -85,6 +85,8 @@ class ThreeView implements View {
   private isFramed = false;
   private hoverAt: { x: number; y: number } | null = null;
   private isLookStale = true;
+  /** Whether the look was brought up to date and waits to be drawn. */
+  private isLookNew = false;
   private frameAsked = 0;
   private framesDrawn = 0;
 
@@ -155,6 +157,7 @@ class ThreeView implements View {
     this.uniforms.hovered.value = this.uniforms.pinned.value = -1;
     this.lookChanged();
     this.modelSince = performance.now();
+    this.isLookNew = false; // The former model's look would hide this one.
     // At once, so that it comes before the next cut.
     if (this.settings?.sliceMode === 'flat' && activePlanes(model, this.settings).length > 0) void this.requestSlices();
     if (frame || !this.isFramed) this.frame();
@@ -167,7 +170,7 @@ class ThreeView implements View {
       return world.add(new Vector3(...from.origin)).sub(new Vector3(...to.origin)).multiplyScalar(2 / to.diagonal);
     };
     const isSame = from.diagonal === to.diagonal && from.origin.every((x, d) => x === to.origin[d]);
-    if (!isSame) this.camera.place(move(this.camera.camera.position), move(this.camera.controls.target));
+    if (!isSame) this.camera.transform(move, from.diagonal / to.diagonal);
   }
 
   setLook(settings: Settings): void {
@@ -300,8 +303,19 @@ class ThreeView implements View {
   private drawInTime(): void {
     this.frameAsked = 0;
     if (this.pace.isBehind) this.invalidate();
-    else if (this.hoverAt) this.hover(this.hoverAt);
-    else this.draw();
+    else if (this.hoverAt) {
+      this.hover(this.hoverAt);
+      this.invalidate();
+    } else if (this.isLookStale && !this.isLookNew) this.prepare();
+    else if (this.lacksCaps) this.invalidate();
+    else this.render();
+  }
+
+  /** Working out what to draw and giving it to the GPU are tasks of their own, so that neither keeps the page waiting for both. */
+  private prepare(): void {
+    this.updateLook();
+    this.isLookNew = true;
+    this.invalidate();
   }
 
   /** The former picture stays while the caps of a new model are on their way, but not for long. */
@@ -317,6 +331,7 @@ class ThreeView implements View {
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.resize(clientWidth, clientHeight);
     this.stepPicture.setPixelRatio(ratio);
+    this.isLookStale = true;
     this.draw();
   }
 
@@ -324,11 +339,16 @@ class ThreeView implements View {
     cancelAnimationFrame(this.frameAsked);
     this.frameAsked = 0;
     this.updateLook();
-    if (this.lacksCaps) return this.invalidate();
+    this.render();
+  }
+
+  private render(): void {
+    this.isLookNew = false;
     this.camera.controls.update();
     this.renderer.render(this.scene, this.camera.camera);
     this.pace.mark();
     this.canvas.dataset.frames = String(++this.framesDrawn);
+    if (this.isLookStale) this.invalidate();
   }
 
   /** Brings what is drawn up to date with the settings. */
@@ -403,7 +423,8 @@ class ThreeView implements View {
     uniforms.showGridFaces.value = settings.show.gridFaces;
     uniforms.byKind.value = settings.colorBy === 'kind';
     // So many lines that they fill the picture would only darken it.
-    uniforms.lineOpacity.value = 0.5 * Math.min(1, Math.max(0.3, Math.sqrt(30_000 / model.counts.edges)));
+    const pixelsPerEdge = (this.canvas.clientWidth * this.canvas.clientHeight) / model.counts.edges;
+    uniforms.lineOpacity.value = 0.5 * Math.min(1, Math.max(0.3, Math.sqrt(pixelsPerEdge / 20)));
   }
 
   private placeGizmo(model: Model, settings: Settings): void {
