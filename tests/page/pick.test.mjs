@@ -1,14 +1,17 @@
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
+import { writeObj } from '../package/meshes.mjs';
 import { dataOf, enter, eventually, shows, startSite, textOf } from './page_helpers.mjs';
 import { covered, isBlue, isOrange, pixelsOf, share } from './pictures.mjs';
-import { cutOf, galleryMesh, mandoline } from './reference.mjs';
+import { cutOf, filedMesh, mandoline } from './reference.mjs';
 
-const site = await startSite();
+const knot = await filedMesh('torus-knot');
+const spheres = await filedMesh('nested-spheres');
+const site = await startSite({ files: { 'knot.obj': writeObj(knot), 'spheres.obj': writeObj(spheres) } });
 after(() => site.close());
 const camera = { position: [0, 0, 14], fieldOfView: 35 };
-const link = 'mesh=torus-knot&n=8&free=off&explode=0,0&camera=0,0,14,0,0,0';
-const reference = await cutOf(await galleryMesh('torus-knot'), { cells: 8 });
+const link = `url=${site.meshUrl('knot.obj')}&n=8&free=off&explode=0,0&camera=0,0,14,0,0,0`;
+const reference = await cutOf(knot, { cells: 8 });
 const { cutMesh, measures } = reference;
 const adjacency = mandoline.adjacency(cutMesh);
 const real = (x) => String(Number(x.toPrecision(4)));
@@ -86,7 +89,7 @@ test('hovering tells the cell under the pointer and lights it up', async (t) => 
   await eventually(async () => assert.notDeepEqual((await pixelsOf(page)).rgba, before.rgba));
   await page.mouse.move(box.x + 5, box.y + box.height / 2);
   await shows(page, '#hover-line', { cell: '' });
-  assert.match(await textOf(page, '#hover-line'), new RegExp(`torus-knot · ${cutMesh.grid.cells.join(' × ')} grid · ${cutMesh.cellRegion.length} cut-cells`));
+  assert.match(await textOf(page, '#hover-line'), new RegExp(`knot\\.obj · ${cutMesh.grid.cells.join(' × ')} grid · ${cutMesh.cellRegion.length} cut-cells`));
 });
 
 test('a click pins a cell; its card, its neighbours, Escape', async (t) => {
@@ -122,8 +125,8 @@ test('a cell by its number, drawn alone and turned by keys', async (t) => {
 });
 
 test('a cavity is counted', async (t) => {
-  const page = await site.open(t, 'mesh=nested-spheres&n=6&free=off');
-  const { cutMesh: nested } = await cutOf(await galleryMesh('nested-spheres'), { cells: 6 });
+  const page = await site.open(t, `url=${site.meshUrl('spheres.obj')}&n=6&free=off`);
+  const { cutMesh: nested } = await cutOf(spheres, { cells: 6 });
   // The smallest sphere floats inside of one grid cell, so the cell around it has the sphere's region as its only neighbour beyond its grid-faces.
   const smallest = Array.from(nested.cellRegion.keys()).filter((cell) => nested.cellRegion[cell] === nested.regionCount - 1);
   const cells = smallest.length === 1 ? smallest : [];

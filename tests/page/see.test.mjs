@@ -4,17 +4,19 @@ import { torus, writeObj } from '../package/meshes.mjs';
 import { inSinglePrecision } from './mesh_files.mjs';
 import { dataOf, eventually, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
 import { covered, difference, isBlue, isDrawn, isOrange, looksLike, pixelsOf, share, tiles } from './pictures.mjs';
-import { cutOf, galleryMesh, keptCells, mandoline } from './reference.mjs';
+import { cutOf, filedMesh, keptCells, mandoline } from './reference.mjs';
 
 const mesh = inSinglePrecision(torus(24, 12));
 const reference = await cutOf(mesh, { cells: 8 });
-const site = await startSite({ files: { 'torus.obj': writeObj(mesh) } });
+const spheres = await filedMesh('nested-spheres');
+const sheet = await filedMesh('wavy-plane');
+const site = await startSite({ files: { 'torus.obj': writeObj(mesh), 'spheres.obj': writeObj(spheres), 'sheet.obj': writeObj(sheet) } });
 after(() => site.close());
 
 /** The torus as one solid, whole, unless the rest says otherwise. */
 const link = (rest = '') => {
-  const parts = { url: encodeURIComponent(site.meshUrl('torus.obj')), n: 8, free: 'off', explode: '0,0', ...Object.fromEntries(new URLSearchParams(rest)) };
-  return Object.entries(parts).map(([key, value]) => `${key}=${value}`).join('&');
+  const parts = { url: site.meshUrl('torus.obj'), n: 8, free: 'off', explode: '0,0', ...Object.fromEntries(new URLSearchParams(rest)) };
+  return Object.entries(parts).map(([key, value]) => `${key}=${key === 'url' ? encodeURIComponent(value) : value}`).join('&');
 };
 const axes = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
 const negated = (vector) => vector.map((x) => -x);
@@ -76,7 +78,7 @@ describe('slices', () => {
   });
 
   test('a flat cut has no gaps: two discs of one colour', async (t) => {
-    const page = await site.open(t, link('x=0.5,1&slice=flat&camera=8,0,0,0,0,0&show=surface,gridFaces,untouched,cutCells'));
+    const page = await site.open(t, link('x=0.5,1&slice=flat&camera=8,0,0,0,0,0&color=region&show=surface,gridFaces,untouched,cutCells'));
     await shows(page, '#canvas', { caps: capsOf(reference, axes.x, 0.5) });
     // Seen from x = 8 with 35 degrees, the caps are discs of radius 0.4 about (y, z) = (±1, 0).
     const picture = await pixelsOf(page);
@@ -135,7 +137,7 @@ describe('slices', () => {
 
 describe('explosions', () => {
   test('by cell', async (t) => {
-    const page = await site.open(t, link('mesh=torus'));
+    const page = await site.open(t, link());
     const whole = await pixelsOf(page);
     await slideTo(page, '#explode-cells', 0.6);
     await looksUnlike(page, whole, 8);
@@ -146,7 +148,7 @@ describe('explosions', () => {
   });
 
   test('by region', async (t) => {
-    const page = await site.open(t, 'mesh=nested-spheres&n=6&free=off&explode=0,0&color=region&show=surface,gridFaces,untouched,cutCells,outside,edges');
+    const page = await site.open(t, 'mesh=nested-spheres&n=6&free=off&explode=0,0&color=region&camera=0,2,16,0,0,0');
     const whole = await pixelsOf(page);
     await slideTo(page, '#explode-regions', 0.8);
     await looksUnlike(page, whole, 8);
@@ -198,10 +200,16 @@ describe('show', () => {
 
   test('edges', async (t) => {
     const page = await site.open(t, link('show=surface,gridFaces,cutCells'));
-    const isLine = (r, g, b) => r + g + b < 200;
-    await eventually(async () => assert.ok(share(await pixelsOf(page), isLine) < 0.01));
+    const bare = await eventually(async () => {
+      const picture = await pixelsOf(page);
+      assert.ok(covered(picture) > 0.1);
+      return picture;
+    });
+    const isDark = (r, g, b) => r + g + b < 240;
     await page.locator('#show-edges').check();
-    await eventually(async () => assert.ok(share(await pixelsOf(page), isLine) > 0.01));
+    await eventually(async () => assert.ok(share(await pixelsOf(page), isDark) > share(bare, isDark) + 0.005));
+    await page.locator('#show-edges').uncheck();
+    await eventually(async () => assert.equal(difference(tiles(await pixelsOf(page)), tiles(bare)), 0));
   });
 
   test('untouched cells, cut-cells and the outside', async (t) => {
@@ -227,8 +235,8 @@ describe('show', () => {
   });
 
   test('one region', async (t) => {
-    const page = await site.open(t, 'mesh=nested-spheres&n=6&free=off&explode=0,0');
-    const { cutMesh } = await cutOf(await galleryMesh('nested-spheres'), { cells: 6 });
+    const page = await site.open(t, link(`url=${encodeURIComponent(site.meshUrl('spheres.obj'))}&n=6`));
+    const { cutMesh } = await cutOf(spheres, { cells: 6 });
     const options = await page.locator('#region option').allTextContents();
     assert.equal(options.length, cutMesh.regionCount + 1);
     for (let region = 0; region < cutMesh.regionCount; ++region) {
@@ -241,11 +249,14 @@ describe('show', () => {
     await shows(page, '#canvas', { cells: cutMesh.cellRegion.filter((region) => cutMesh.regionWinding[region] !== 0).length });
   });
 
-  test('an open sheet has no inside: all around it is shown', async (t) => {
-    const page = await site.open(t, link());
-    await page.locator('#gallery [data-name="wavy-plane"]').click();
-    const { cutMesh } = await cutOf(await galleryMesh('wavy-plane'), { cells: 10 });
+  test('an open sheet has no inside: the cells around it are shown', async (t) => {
+    const page = await site.open(t);
+    await page.locator('#url').fill(site.meshUrl('sheet.obj'));
+    await page.locator('#open-url').click();
+    const { cutMesh } = await cutOf(sheet, { cells: 16 });
     assert.equal(cutMesh.regionWinding, null);
+    await shows(page, '#counts', { cutCells: cutMesh.cellRegion.length });
+    await page.locator('#slice-free').uncheck();
     await shows(page, '#canvas', { cells: cutMesh.cellRegion.length });
     assert.equal(await page.locator('#show-outside').isChecked(), true);
   });

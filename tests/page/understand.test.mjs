@@ -1,13 +1,16 @@
 import assert from 'node:assert/strict';
 import { after, describe, test } from 'node:test';
+import { writeObj } from '../package/meshes.mjs';
 import { dataOf, enter, eventually, openPanel, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
 import { covered, difference, looksLike, pixelsOf, tiles } from './pictures.mjs';
-import { cutOf, galleryMesh, mandoline } from './reference.mjs';
+import { cutOf, filedMesh, galleryMesh, mandoline } from './reference.mjs';
 
-const site = await startSite();
+const knot = await filedMesh('torus-knot');
+const sheet = await filedMesh('wavy-plane');
+const site = await startSite({ files: { 'knot.obj': writeObj(knot), 'sheet.obj': writeObj(sheet) } });
 after(() => site.close());
-const link = 'mesh=torus-knot&n=6&free=off&explode=0,0';
-const reference = await cutOf(await galleryMesh('torus-knot'), { cells: 6 });
+const link = `url=${site.meshUrl('knot.obj')}&n=6&free=off&explode=0,0`;
+const reference = await cutOf(knot, { cells: 6 });
 const { cutMesh } = reference;
 
 describe('steps', () => {
@@ -96,8 +99,8 @@ describe('checks', () => {
   });
 
   test('of an open mesh those that do not apply are skipped', async (t) => {
-    const page = await site.open(t, 'mesh=wavy-plane&n=6&free=off');
-    const { mesh, cutMesh: open } = await cutOf(await galleryMesh('wavy-plane'), { cells: 6 });
+    const page = await site.open(t, `url=${site.meshUrl('sheet.obj')}&n=6&free=off`);
+    const { mesh, cutMesh: open } = await cutOf(sheet, { cells: 6 });
     const skipped = mandoline.validate(mesh, open).checks.filter((check) => check.skipped).map(({ name }) => name);
     assert.ok(skipped.length > 0);
     await openPanel(page, 'checks');

@@ -1,0 +1,165 @@
+import assert from 'node:assert/strict';
+import { after, describe, test } from 'node:test';
+import { dataOf, enter, eventually, isReady, openPanel, shows, startSite, textOf } from './page_helpers.mjs';
+import { covered, pixelsOf } from './pictures.mjs';
+
+const site = await startSite();
+after(() => site.close());
+const link = 'mesh=wedge&n=2&free=off';
+const panels = ['mesh', 'cut', 'see', 'steps', 'checks', 'save'];
+const controls = 'a[href], button, input, select, textarea, summary, [tabindex]';
+
+/** Opens all that can be opened, and pins a cell. */
+async function openAll(page) {
+  for (const id of panels) await openPanel(page, id);
+  await page.locator('#own-grid summary').click();
+  await page.getByText('Times and details').click();
+  await page.locator('#step-next').click();
+  await shows(page, '#canvas', { step: 'triEdges' });
+  await enter(page, '#pin-number', 0);
+  await shows(page, '#cell-card', { cell: 0 });
+}
+
+test('every control has a name', async (t) => {
+  const page = await site.open(t, link);
+  await openAll(page);
+  const session = await page.context().newCDPSession(page);
+  const { nodes } = await session.send('Accessibility.getFullAXTree');
+  const roles = ['button', 'checkbox', 'radio', 'slider', 'spinbutton', 'textbox', 'combobox', 'link', 'img', 'progressbar', 'DisclosureTriangle', 'Canvas'];
+  const found = nodes.filter(({ ignored, role }) => !ignored && roles.includes(role?.value));
+  assert.ok(found.length > 60, `${found.length} controls`);
+  assert.deepEqual(found.filter(({ name }) => !name?.value?.trim()).map(({ role, properties }) => [role.value, JSON.stringify(properties)]), []);
+  const names = found.filter(({ role }) => ['slider', 'spinbutton', 'checkbox', 'combobox', 'textbox'].includes(role.value)).map(({ role, name }) => `${role.value} ${name.value}`);
+  assert.deepEqual(names.filter((name, at) => names.indexOf(name) !== at), [], 'no two controls have the same name');
+});
+
+test('Tab reaches every control, in turn, and says where it is', async (t) => {
+  const page = await site.open(t, link);
+  await openAll(page);
+  const expected = await page.evaluate((selector) => {
+    const seen = new Set();
+    return [...document.querySelectorAll(selector)].filter((element) => {
+      if (element.tabIndex < 0 || element.disabled || !element.checkVisibility({ visibilityProperty: true })) return false;
+      if (element.type !== 'radio') return true;
+      return !seen.has(element.name) && seen.add(element.name); // A group is one stop.
+    }).length;
+  }, controls);
+  assert.ok(expected > 60, `${expected} controls`);
+  await page.evaluate(() => {
+    document.body.tabIndex = -1;
+    document.body.focus();
+  });
+  const unmarked = [];
+  const reached = new Set();
+  for (let press = 0; press < expected + 5; ++press) {
+    await page.keyboard.press('Tab');
+    const { key, isMarked } = await page.evaluate(() => {
+      const element = document.activeElement;
+      const marked = [element, element.nextElementSibling, element.parentElement].some((item) => {
+        const { outlineStyle, outlineWidth, boxShadow } = item ? getComputedStyle(item) : {};
+        return (outlineStyle && outlineStyle !== 'none' && outlineWidth !== '0px') || (boxShadow && boxShadow !== 'none');
+      });
+      window.stops ??= new Map();
+      if (!window.stops.has(element)) window.stops.set(element, window.stops.size);
+      return { key: element === document.body ? null : `${window.stops.get(element)} ${element.id || element.textContent.slice(0, 30)}`, isMarked: marked };
+    });
+    if (key === null || reached.has(key)) continue;
+    reached.add(key);
+    if (!isMarked) unmarked.push(key);
+  }
+  assert.equal(reached.size, expected);
+  assert.deepEqual(unmarked, [], 'what has the focus shows it');
+});
+
+test('the keys of the picture', async (t) => {
+  const page = await site.open(t, link);
+  await page.locator('#canvas').focus();
+  const before = await pixelsOf(page);
+  for (let press = 0; press < 3; ++press) await page.keyboard.press('ArrowLeft');
+  await eventually(async () => assert.notDeepEqual((await pixelsOf(page)).rgba, before.rgba));
+  await eventually(async () => assert.match(page.url(), /camera=/));
+  await page.keyboard.press('f');
+  await eventually(async () => assert.doesNotMatch(page.url(), /camera=/));
+  await page.keyboard.press('?');
+  await page.locator('#shortcuts').waitFor();
+  assert.match(await textOf(page, '#shortcuts'), /Esc/);
+  await page.keyboard.press('Escape');
+  await eventually(async () => assert.equal(await page.locator('#shortcuts').isVisible(), false));
+});
+
+test('what happens is announced', async (t) => {
+  const page = await site.open(t, link);
+  for (const selector of ['#counts', '#mesh-line', '#step-text', '#validation', '#link-status']) {
+    assert.equal(await page.locator(selector).getAttribute('aria-live'), 'polite', selector);
+  }
+  await page.locator('#file').setInputFiles({ name: 'empty.obj', mimeType: 'text/plain', buffer: Buffer.alloc(0) });
+  await page.getByRole('alert').filter({ hasText: 'empty.obj' }).waitFor();
+});
+
+describe('on a screen 360 pixels wide', () => {
+  const phone = { viewport: { width: 360, height: 640 }, hasTouch: true, isMobile: true };
+  const overflow = (page) => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+
+  test('the picture is seen, and nothing runs over the side', async (t) => {
+    const page = await site.open(t, '', phone);
+    assert.ok((await overflow(page)) <= 0);
+    const { width, height } = await page.locator('#canvas').boundingBox();
+    assert.ok(width >= 320 && height >= 200, `the picture has ${width} x ${height}`);
+    await eventually(async () => assert.ok(covered(await pixelsOf(page)) > 0.08));
+  });
+
+  test('every control can be reached with a finger', async (t) => {
+    const page = await site.open(t, link, phone);
+    for (const id of panels) {
+      await page.locator(`#${id}-toggle`).tap();
+      await eventually(async () => assert.equal(await page.locator(`#${id}-toggle`).getAttribute('aria-expanded'), 'true'));
+      if (id === 'cut') await page.locator('#own-grid summary').tap();
+      assert.ok((await overflow(page)) <= 0, `${id} fits`);
+      const hidden = await page.locator(`#${id}`).locator(controls).evaluateAll((all) => all.filter((element) => element.tabIndex >= 0 && element.checkVisibility()).filter((element) => {
+        element.scrollIntoView({ block: 'center' });
+        const target = element.closest('label') ?? element;
+        const { left, right, top, bottom } = target.getBoundingClientRect();
+        const hit = document.elementFromPoint((left + right) / 2, (top + bottom) / 2);
+        return left < 0 || right > innerWidth + 0.5 || !target.contains(hit);
+      }).map((element) => element.id || element.textContent));
+      assert.deepEqual(hidden, [], `all of ${id} can be touched`);
+    }
+  });
+
+  test('the card of a cell leaves room for the picture', async (t) => {
+    const page = await site.open(t, link, phone);
+    await page.locator('#see-toggle').tap();
+    await enter(page, '#pin-number', 0);
+    await shows(page, '#cell-card', { cell: 0 });
+    const { x, width } = await page.locator('#cell-card').boundingBox();
+    assert.ok(x >= 0 && x + width <= 360);
+    await page.locator('#unpin').tap();
+    await eventually(async () => assert.equal(await page.locator('#cell-card').isVisible(), false));
+  });
+});
+
+test('where motion is unwanted nothing moves by itself', async (t) => {
+  const page = await site.open(t, link, { reducedMotion: 'reduce' });
+  const moving = await page.evaluate(() => [...document.querySelectorAll('*')].filter((element) => {
+    const { transitionDuration, animationName, animationDuration } = getComputedStyle(element);
+    const seconds = (text) => Math.max(...text.split(',').map(parseFloat));
+    return seconds(transitionDuration) > 0.01 || (animationName !== 'none' && seconds(animationDuration) > 0.01);
+  }).map((element) => element.outerHTML.slice(0, 80)));
+  assert.deepEqual(moving, []);
+  const { x, y, width, height } = await page.locator('#canvas').boundingBox();
+  await page.mouse.move(x + width / 4, y + height / 4);
+  await page.mouse.down();
+  await page.mouse.move(x + width / 2, y + height / 3, { steps: 4 });
+  await page.mouse.up();
+  await eventually(async () => assert.match(page.url(), /camera=/));
+  const place = page.url();
+  const { frames } = await dataOf(page, '#canvas');
+  await page.evaluate(() => new Promise((done) => {
+    let left = 20;
+    const next = () => (--left > 0 ? requestAnimationFrame(next) : done());
+    next();
+  }));
+  assert.ok(Number((await dataOf(page, '#canvas')).frames) - Number(frames) <= 2, 'the picture is at rest');
+  assert.equal(page.url(), place);
+  assert.equal(await isReady(page), 'ready');
+});

@@ -1,0 +1,43 @@
+// How long the page is blocked. Numbers are printed, for they tell of the machine, too; what is asserted can't depend on it.
+import assert from 'node:assert/strict';
+import { after, test } from 'node:test';
+import { dataOf, eventually, isReady, shows, startSite } from './page_helpers.mjs';
+import { cutOf, galleryMesh } from './reference.mjs';
+
+const site = await startSite();
+after(() => site.close());
+
+test('the bunny at 50 cells is cut and drawn while the slider moves', async (t) => {
+  const page = await site.open(t, 'mesh=bunny&n=44', {
+    onNewPage: (made) => made.addInitScript(() => {
+      window.longTasks = [];
+      new PerformanceObserver((list) => window.longTasks.push(...list.getEntries().map(({ startTime, duration }) => [startTime, duration])))
+        .observe({ type: 'longtask', buffered: true });
+    }),
+  });
+  const longest = async () => {
+    const durations = await page.evaluate(() => window.longTasks.splice(0).map(([, duration]) => duration));
+    return `${durations.length} tasks of the main thread took over 50 ms, the longest ${Math.round(Math.max(0, ...durations))} ms`;
+  };
+  t.diagnostic(`while the page loads: ${await longest()}`);
+  const slider = page.locator('#cells');
+  await slider.scrollIntoViewIfNeeded();
+  const { x, y, width, height } = await slider.boundingBox();
+  const at = (cells) => x + 8 + ((width - 16) * (cells - 1)) / 127;
+  const first = Number((await dataOf(page, '#canvas')).model);
+  await page.mouse.move(at(44), y + height / 2);
+  await page.mouse.down();
+  for (const cells of [45, 46, 47, 48, 49, 50, 51, 52, 53, 54]) {
+    await page.mouse.move(at(cells), y + height / 2);
+    const frames = Number((await dataOf(page, '#canvas')).frames);
+    await eventually(async () => assert.ok(Number((await dataOf(page, '#canvas')).frames) > frames, 'a picture comes while the button is down'));
+  }
+  for (const cells of [53, 52, 51, 50]) await page.mouse.move(at(cells), y + height / 2);
+  await page.mouse.up();
+  assert.equal(await isReady(page), 'ready');
+  const drawn = Number((await dataOf(page, '#canvas')).model);
+  assert.ok(drawn > first);
+  t.diagnostic(`while the slider moves from 44 to 54 and back to 50: ${await longest()}`);
+  const cells = Number(await slider.inputValue());
+  await shows(page, '#counts', { grid: (await cutOf(await galleryMesh('bunny'), { cells })).cutMesh.grid.cells.join('x') });
+});
