@@ -10,7 +10,8 @@ export function cellCard(cutMesh: CutMesh, derived: Derived, adjacency: Adjacenc
   const region = cutMesh.cellRegion[cell];
   const faces = facesOf(cutMesh, cell);
   const arrays = cellArrays(cutMesh, derived.faceTriangles, { cells: [cell], origin });
-  const triangles = { position: arrays.position, normal: arrays.normal, surface: Uint8Array.from(arrays.face, (face) => (cutMesh.faceTriangle[face] >= 0 ? 1 : 0)) };
+  const surface = Uint8Array.from(arrays.face, (face) => (cutMesh.faceTriangle[face] >= 0 ? 1 : 0));
+  const triangles = { position: arrays.position, normal: arrays.normal, surface };
   const edges = cellEdges(cutMesh, cell, origin);
   const card: CellCard = {
     cell,

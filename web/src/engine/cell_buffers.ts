@@ -3,7 +3,7 @@ import type { Model } from '../types';
 
 type Buffers = Pick<Model, 'triangles' | 'edges'>;
 
-/** Triangles and edges of all cut-cells. The faces of a cell share their vertices, but pieces of triangles and of grid-faces have their own. */
+/** Triangles and edges of all cut-cells. The faces of a cell share their vertices; pieces of triangles and of grid-faces have their own. */
 export function cellBuffers(cutMesh: CutMesh, faceTriangles: FaceTriangles, origin: readonly number[]): Buffers {
   const { vertices, triangles, edges } = countBuffers(cutMesh, faceTriangles);
   const position = new Float32Array(3 * vertices);
@@ -28,7 +28,10 @@ export function cellBuffers(cutMesh: CutMesh, faceTriangles: FaceTriangles, orig
     halfFace: (face, side, isSurface) => {
       for (let t = faceTriangles.faceTriangleOffsets[face]; t < faceTriangles.faceTriangleOffsets[face + 1]; t++) {
         // Side 1 sees the face from behind.
-        for (let k = 0; k < 3; k++) triangleIndex[triangleEnd++] = idOf[2 * faceTriangles.triangles[3 * t + (side === 0 ? k : 2 - k)] + isSurface];
+        for (let k = 0; k < 3; k++) {
+          const vertex = faceTriangles.triangles[3 * t + (side === 0 ? k : 2 - k)];
+          triangleIndex[triangleEnd++] = idOf[2 * vertex + isSurface];
+        }
       }
     },
   });

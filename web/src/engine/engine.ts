@@ -119,7 +119,8 @@ export class WorkerEngine implements Engine {
 
   /** The worker is gone: nobody waits for it any longer, and the next call starts another. */
   private fail(message: string): void {
-    const detail = `The part of the page that works in the background has failed${message ? `: ${message}` : ''}. Try again, or reload the page.`;
+    const why = `The part of the page that works in the background has failed${message ? `: ${message}` : ''}.`;
+    const detail = `${why} Try again, or reload the page.`;
     const error: PageError = { title: 'The page lost its worker', detail };
     this.worker?.terminate();
     this.worker = null;

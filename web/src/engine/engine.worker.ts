@@ -7,7 +7,8 @@ import type { GridSettings, PageError, Source } from '../types';
 import { cellCard } from './card';
 import { pageError, toPageError } from './failure';
 import { derive, makeModel, type Derived } from './model';
-import { buffersOf, type Answered, type Call, type CallName, type Calls, type CutRecipe, type EngineMesh, type FromWorker, type ToWorker } from './protocol';
+import { buffersOf, type Answered, type Call, type CallName, type Calls } from './protocol';
+import type { CutRecipe, EngineMesh, FromWorker, ToWorker } from './protocol';
 
 /** The newest cut, whose Model the page shows. */
 interface Held {
@@ -153,7 +154,8 @@ function cutBy(api: Mandoline, recipe: CutRecipe): Held {
 function checkSize(grid: GridSettings): void {
   const cells = 'min' in grid ? grid.cells[0] * grid.cells[1] * grid.cells[2] : 0;
   if (cells <= mostGridCells) return;
-  const detail = `It has ${cells.toLocaleString('en')} cells; this page draws up to ${mostGridCells.toLocaleString('en')}. The library has no such limit.`;
+  const most = mostGridCells.toLocaleString('en');
+  const detail = `It has ${cells.toLocaleString('en')} cells; this page draws up to ${most}. The library has no such limit.`;
   throw pageError('The grid is too fine', detail);
 }
 

@@ -44,7 +44,9 @@ export class Caps {
       cap.faces.visible = cap.pick.visible = slice !== undefined;
       cap.lines.visible = slice !== undefined && settings.show.edges;
       if (!slice) return;
-      const polygons = Array.from(slice.polygonCell.keys()).filter((polygon) => isShown(slice.polygonCell[polygon], slice.polygonRegion[polygon]));
+      const polygons = Array.from(slice.polygonCell.keys()).filter((polygon) => {
+        return isShown(slice.polygonCell[polygon], slice.polygonRegion[polygon]);
+      });
       this.count += polygons.length;
       const table = polygonTable(model, settings, cells, slice);
       replace(cap.faces, capGeometry(model, slice, table, trianglePoints(slice, polygons)));

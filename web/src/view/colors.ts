@@ -44,7 +44,8 @@ export function regionColor(model: Model, region: number): Rgb {
 function hueColor(id: number): Rgb {
   const hue = (id * 0.618034) % 1;
   const value = 0.62 + 0.16 * ((id * 0.414214) % 1);
-  return [0, 2, 4].map((shift) => 255 * value * (1 - 0.55 * Math.max(0, Math.min(1, 2 - Math.abs(((6 * hue + shift) % 6) - 3))))) as unknown as Rgb;
+  const pull = (shift: number) => Math.max(0, Math.min(1, 2 - Math.abs(((6 * hue + shift) % 6) - 3)));
+  return [0, 2, 4].map((shift) => 255 * value * (1 - 0.55 * pull(shift))) as unknown as Rgb;
 }
 
 function windingColor(winding: number | null): Rgb {
@@ -59,8 +60,8 @@ function volumeColor(fraction: number): Rgb {
   return [0, 1, 2].map((c) => volumeRamp[from][c] + (at - from) * (volumeRamp[from + 1][c] - volumeRamp[from][c])) as unknown as Rgb;
 }
 
-function gridCellVolume(model: Model, i: number, j: number, k: number): number {
-  return [i, j, k].reduce((volume, c, d) => volume * (model.grid.planes[d][c + 1] - model.grid.planes[d][c]), 1);
+function gridCellVolume(model: Model, gridCell: Int32Array): number {
+  return gridCell.reduce((volume, c, d) => volume * (model.grid.planes[d][c + 1] - model.grid.planes[d][c]), 1);
 }
 
 function byRegion(model: Model, colorBy: ColorBy): Rgb[] {
@@ -76,7 +77,7 @@ export function cutCellColors(model: Model, colorBy: ColorBy): Uint8Array {
     let color: Rgb;
     if (colorBy === 'cell') color = hueColor(cell);
     else if (colorBy === 'kind') color = surfaceColor;
-    else if (colorBy === 'volume') color = volumeColor(volume[cell] / gridCellVolume(model, gridCell[3 * cell], gridCell[3 * cell + 1], gridCell[3 * cell + 2]));
+    else if (colorBy === 'volume') color = volumeColor(volume[cell] / gridCellVolume(model, gridCell.subarray(3 * cell, 3 * cell + 3)));
     else color = regions[region[cell]];
     colors.set(color, 4 * cell);
   }
@@ -97,12 +98,18 @@ export function legend(model: Model, colorBy: ColorBy, most = 12): { label: stri
   const entry = (label: string, color: Rgb) => ({ label, color: toCss(color) });
   if (colorBy === 'cell') return [];
   if (colorBy === 'kind') {
-    return [entry('pieces of triangles', surfaceColor), entry('pieces of grid-faces', gridFaceColor), entry('untouched grid cells', untouchedKindColor)];
+    return [
+      entry('pieces of triangles', surfaceColor),
+      entry('pieces of grid-faces', gridFaceColor),
+      entry('untouched grid cells', untouchedKindColor),
+    ];
   }
   if (colorBy === 'volume') return [0, 0.25, 0.5, 1].map((fraction) => entry(`${100 * fraction} % of a grid cell`, volumeColor(fraction)));
   if (colorBy === 'winding') {
     const present = [...new Set(model.regions.map(({ winding }) => winding))].sort((a, b) => (a ?? 0) - (b ?? 0));
-    return present.slice(0, most).map((winding) => entry(winding === null ? 'no winding number' : `winding number ${winding}`, windingColor(winding)));
+    const label = (winding: number | null) => (winding === null ? 'no winding number' : `winding number ${winding}`);
+    return present.slice(0, most).map((winding) => entry(label(winding), windingColor(winding)));
   }
-  return model.regions.slice(0, most).map(({ id }) => entry(`region ${id}${isOutside(model, id) ? ', outside' : ''}`, regionColor(model, id)));
+  const label = (id: number) => `region ${id}${isOutside(model, id) ? ', outside' : ''}`;
+  return model.regions.slice(0, most).map(({ id }) => entry(label(id), regionColor(model, id)));
 }

@@ -30,7 +30,9 @@ export class Gizmo {
     controls.space = 'local';
     controls.size = mode === 'rotate' ? 0.65 : 0.85;
     controls.addEventListener('change', () => this.onChange());
-    controls.addEventListener('objectChange', () => this.onMoved(up.clone().applyQuaternion(this.handle.quaternion), this.handle.position.clone()));
+    controls.addEventListener('objectChange', () => {
+      this.onMoved(up.clone().applyQuaternion(this.handle.quaternion), this.handle.position.clone());
+    });
     controls.addEventListener('dragging-changed', ({ value }) => {
       this.isDragging = value === true;
       for (const other of this.controls) other.enabled = other === controls || !this.isDragging;

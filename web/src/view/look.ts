@@ -4,7 +4,8 @@ import { isOutside } from './colors';
 
 /** Per region: 1 if it is shown. One region asked for is shown even if it is the outside. */
 export function shownRegions(model: Model, { show }: Settings): Uint8Array {
-  return Uint8Array.from(model.regions, ({ id }) => Number(show.region !== null ? id === show.region : show.outside || !isOutside(model, id)));
+  const isShown = (id: number) => (show.region !== null ? id === show.region : show.outside || !isOutside(model, id));
+  return Uint8Array.from(model.regions, ({ id }) => Number(isShown(id)));
 }
 
 /** Per region: how it moves in an explosion by region, 3 numbers. */

@@ -1,13 +1,17 @@
 // One shader draws all cells. It looks up per cell what is the same for all of a cell's vertices, so that exploding, colouring and slicing
 // only change uniforms and a small texture, never the vertices.
-import { BackSide, Color, DataTexture, DoubleSide, FloatType, FrontSide, ShaderMaterial, Vector3, Vector4, type IUniform, type Side } from 'three';
+import { BackSide, Color, DataTexture, DoubleSide, FloatType, FrontSide, ShaderMaterial, Vector3, Vector4 } from 'three';
+import type { IUniform, Side } from 'three';
 import { gridFaceColor } from './colors';
 
 /** Texels per row of the textures that are looked up by id. */
 const tableWidth = 1024;
 
 /** RGBA per id, looked up in shaders by `texelFetch(table, place(id), 0)`. The data is padded to whole rows. */
-export function makeTable<T extends Uint8Array | Float32Array>(count: number, create: (length: number) => T): { texture: DataTexture; data: T } {
+export function makeTable<T extends Uint8Array | Float32Array>(
+  count: number,
+  create: (length: number) => T,
+): { texture: DataTexture; data: T } {
   const height = Math.max(1, Math.ceil(count / tableWidth));
   const data = create(4 * tableWidth * height);
   const texture = new DataTexture(data as Uint8Array<ArrayBuffer>, tableWidth, height);
@@ -57,7 +61,7 @@ export function makeMaterial(geometry: Geometry, purpose: Purpose, shared: Unifo
     transparent: isTransparent,
     depthWrite: !isTransparent,
   });
-  // Lines lie in front of the faces that they bound, caps in front of faces in their plane, and the front of a face before its neighbour's back.
+  // Lines lie in front of the faces that they bound, caps before faces in their plane, the front of a face before its neighbour's back.
   const depth = { FACES: geometry === 'CAPS' ? 1 : 2, BACKS: 3, LINES: 0, PICK: geometry === 'CAPS' ? 1 : 2, GHOST: 2 }[purpose];
   material.polygonOffset = depth > 0;
   material.polygonOffsetFactor = depth / 2;

@@ -21,7 +21,8 @@ export function planeOf(model: Model, settings: Settings, name: SliceName): View
 
 /** The planes that are on and hide something. */
 export function activePlanes(model: Model, settings: Settings): ViewPlane[] {
-  return sliceOrder.filter((name) => settings.slices[name].on && settings.slices[name].position < 1).map((name) => planeOf(model, settings, name));
+  const active = sliceOrder.filter((name) => settings.slices[name].on && settings.slices[name].position < 1);
+  return active.map((name) => planeOf(model, settings, name));
 }
 
 export function isBeyond(planes: readonly ViewPlane[], x: number, y: number, z: number): boolean {

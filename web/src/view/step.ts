@@ -1,5 +1,6 @@
 // The picture of a step of the algorithm, over a faint surface.
-import { BufferAttribute, BufferGeometry, DoubleSide, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, Points, PointsMaterial } from 'three';
+import { BufferAttribute, BufferGeometry, DoubleSide, Group } from 'three';
+import { LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, Points, PointsMaterial } from 'three';
 import type { StepPicture } from '../types';
 
 export class Step {

@@ -1,5 +1,5 @@
-// The untouched grid cells as boxes. Their corners are worked out in the shader from a table of boxes; the buffers only say which corners make
-// triangles and lines, and are the same for all models. (Instances of a mesh as small as a box are slow.)
+// The untouched grid cells as boxes. Their corners are worked out in the shader from a table of boxes; the buffers only say which corners
+// make triangles and lines, and are the same for all models. (Instances of a mesh as small as a box are slow.)
 import { BufferAttribute, BufferGeometry, Group, LineSegments, Mesh, type DataTexture } from 'three';
 import type { Model, Settings } from '../types';
 import { untouchedColors, type Rgb } from './colors';
@@ -8,9 +8,9 @@ import { paler, type Piece } from './piece';
 import type { ViewPlane } from './planes';
 
 /**
- * Boxes drawn at most when cells are pulled apart and any box might be seen through the gaps: all of a 50^3 grid, 1.8 million triangles. Of a larger
- * grid only boxes that also are seen when nothing is pulled apart are drawn: their number grows with the surface, about 10^5 for 128^3, and
- * what is missing lies behind them.
+ * Boxes drawn at most when cells are pulled apart and any box might be seen through the gaps: all of a 50^3 grid, 1.8 million triangles.
+ * Of a larger grid only boxes that also are seen when nothing is pulled apart are drawn: their number grows with the surface, about 10^5
+ * for 128^3, and what is missing lies behind them.
  */
 const mostBoxes = 150_000;
 
@@ -19,7 +19,10 @@ const triangleCorners = [0, 1, 2].flatMap((d) => {
   const [u, v, far] = [1 << ((d + 1) % 3), 1 << ((d + 2) % 3), 1 << d];
   return [0, v, u | v, 0, u | v, u, far, far | u, 7, far, 7, far | v];
 });
-const lineCorners = [0, 1, 2].flatMap((d) => [0, 1, 2, 3, 4, 5, 6, 7].filter((corner) => !(corner & (1 << d))).flatMap((corner) => [corner, corner | (1 << d)]));
+const lineCorners = [1, 2, 4].flatMap((far) => {
+  const near = [0, 1, 2, 3, 4, 5, 6, 7].filter((corner) => !(corner & far));
+  return near.flatMap((corner) => [corner, corner | far]);
+});
 
 export class Untouched {
   readonly group = new Group();
@@ -117,9 +120,9 @@ function seenBoxes(model: Model, regions: Uint8Array, planes: readonly ViewPlane
       const isRim = j === 0 || j === ny - 1 || k === 0 || k === nz - 1;
       for (let i = 0; i < nx; i++, at++) {
         if (!solid[at]) continue;
-        const isHidden =
-          !drawAll && !isRim && i > 0 && i < nx - 1 && solid[at - 1] && solid[at + 1] && solid[at - nx] && solid[at + nx] && solid[at - nx * ny] && solid[at + nx * ny];
-        if (!isHidden) boxes[count++] = at;
+        const isInner = !drawAll && !isRim && i > 0 && i < nx - 1;
+        const beside = () => solid[at - 1] & solid[at + 1] & solid[at - nx] & solid[at + nx] & solid[at - nx * ny] & solid[at + nx * ny];
+        if (!isInner || !beside()) boxes[count++] = at;
       }
     }
   }
@@ -132,7 +135,10 @@ function solidCells(model: Model, regions: Uint8Array, planes: readonly ViewPlan
   const [nx, ny, nz] = grid.cells;
   const solid = new Uint8Array(gridCellRegion.length);
   // normal . x is a sum of one term per axis.
-  const terms = planes.map(({ normal }) => normal.map((n, d) => Float64Array.from({ length: grid.cells[d] }, (_, c) => n * (pointOf(grid.planes[d], c, n) - origin[d]))));
+  const termsOf = (n: number, d: number) => {
+    return Float64Array.from({ length: grid.cells[d] }, (_, c) => n * (pointOf(grid.planes[d], c, n) - origin[d]));
+  };
+  const terms = planes.map(({ normal }) => normal.map(termsOf));
   function pointOf(axis: Float64Array, c: number, n: number): number {
     if (!flat) return (axis[c] + axis[c + 1]) / 2;
     return n > 0 ? axis[c] : axis[c + 1];

@@ -73,7 +73,7 @@ class ThreeView implements View {
   private settings: Settings | null = null;
   private step: StepPicture | null = null;
   private regions: Uint8Array = new Uint8Array(0);
-  /** The planes that cut what is drawn. A flat cut keeps the former ones until the caps of new ones have come, so that no picture lacks them. */
+  /** The planes that cut what is drawn. A flat cut keeps the former ones until the caps of new ones have come: no picture lacks them. */
   private planes: ViewPlane[] = [];
   private slices: Slices | null = null;
   private slicesMade = 0;
@@ -109,7 +109,7 @@ class ThreeView implements View {
     this.warmUp();
   }
 
-  /** Makes all shaders while the first mesh is being cut: the compiler works beside the page, and when it's done, one draw of nothing takes them over. */
+  /** Makes all shaders while the first mesh is being cut: the compiler works beside the page; then one draw of nothing takes them over. */
   private warmUp(): void {
     this.renderer.compile(this.scene, this.camera.camera);
     const takeOver = () => {
@@ -143,7 +143,8 @@ class ThreeView implements View {
 
   private tellContextLost(): void {
     this.pace.reset();
-    const detail = 'The browser took the graphics context away, perhaps because memory ran short. If the picture does not come back, reload the page.';
+    const why = 'The browser took the graphics context away, perhaps because memory ran short.';
+    const detail = `${why} If the picture does not come back, reload the page.`;
     this.options.onError?.({ title: 'The picture is gone for now', detail });
   }
 
@@ -190,7 +191,7 @@ class ThreeView implements View {
   }
 
   setStep(picture: StepPicture | null): void {
-    const isNew = picture !== null && (this.step === null || JSON.stringify(picture.choices.request) !== JSON.stringify(this.step.choices.request));
+    const isNew = JSON.stringify(picture?.choices.request) !== JSON.stringify(this.step?.choices.request);
     this.step = picture;
     if (picture) {
       this.stepPicture.set(picture);
@@ -359,10 +360,12 @@ class ThreeView implements View {
     this.regions = shownRegions(model, settings);
     const { show, colorBy, sliceMode } = settings;
     const isFlat = sliceMode === 'flat';
-    // Explosions and slices of whole cells change uniforms alone; the rest is worked out again only if something that it depends on has changed.
+    // Explosions and slices of whole cells change uniforms alone; the rest is worked out again only if what it depends on has changed.
     if (this.hasChanged('cells', [model.id, show, colorBy])) this.cells.setLook(model, settings, this.regions);
     const slices = this.choosePlanes(model, settings);
-    if (this.hasChanged('caps', [model.id, show, colorBy, slices.count])) this.caps.set(model, settings, this.regions, this.cells, slices.slices);
+    if (this.hasChanged('caps', [model.id, show, colorBy, slices.count])) {
+      this.caps.set(model, settings, this.regions, this.cells, slices.slices);
+    }
     if (this.hasChanged('untouched', [model.id, show, colorBy, isFlat, this.planes, settings.explode.cells > 0])) {
       this.untouched.setLook(model, settings, this.regions, this.planes);
     }
@@ -399,7 +402,8 @@ class ThreeView implements View {
     if (this.isSlicing || !model || !settings) return;
     this.isSlicing = true;
     const planes = activePlanes(model, settings);
-    const inWorld = planes.map(({ normal, offset }) => ({ normal, offset: normal.reduce((sum, n, d) => sum + n * model.origin[d], offset) }));
+    const toWorld = ({ normal, offset }: ViewPlane) => normal.reduce((sum, n, d) => sum + n * model.origin[d], offset);
+    const inWorld = planes.map((plane) => ({ normal: plane.normal, offset: toWorld(plane) }));
     try {
       const slices = await this.options.slice(inWorld, true);
       this.slices = { count: ++this.slicesMade, model: model.id, planes, slices };
@@ -448,7 +452,8 @@ class ThreeView implements View {
 /** What holds the model: the mesh, or the grid if the outside is shown, exploded; less the model's origin. */
 function shownBall(model: Model, settings: Settings | null): { center: number[]; radius: number } {
   const explode = 1 + (settings?.explode.cells ?? 0);
-  if (settings?.show.outside && (settings.show.untouched || settings.show.cutCells)) return { center: [0, 0, 0], radius: (model.diagonal / 2) * explode };
+  const { outside, untouched, cutCells } = settings?.show ?? {};
+  if (outside && (untouched || cutCells)) return { center: [0, 0, 0], radius: (model.diagonal / 2) * explode };
   const { meshMin, meshMax, origin } = model;
   const center = meshMin.map((x, d) => ((x + meshMax[d]) / 2 - origin[d]) * explode);
   return { center, radius: 0.51 * Math.hypot(...meshMax.map((x, d) => x - meshMin[d])) * explode };
@@ -471,7 +476,8 @@ function makeRenderer(canvas: HTMLCanvasElement): WebGLRenderer {
     renderer.sortObjects = false;
     return renderer;
   } catch {
-    const detail = 'This page draws with WebGL 2, which this browser lacks or has switched off. Another browser, or hardware acceleration switched on in its settings, will do.';
+    const why = 'This page draws with WebGL 2, which this browser lacks or has switched off.';
+    const detail = `${why} Another browser, or hardware acceleration switched on in its settings, will do.`;
     const error: PageError = { title: 'Nothing can be drawn here', detail };
     throw error;
   }
