@@ -1,0 +1,28 @@
+// Makes the README's pictures from the built page: node .ci/pictures.mjs
+import { mkdirSync, writeFileSync } from 'node:fs';
+import { startSite, isReady } from '../tests/page/page_helpers.mjs';
+import { path } from './steps.mjs';
+
+const pictures = {
+  slice: 'n=24&free=off&x=0.56,1&slice=flat&explode=0.12,0&camera=19,11,7,-0.6,4.4,0',
+  tunnels: 'mesh=hilbert&n=6&free=off&z=0.6,1',
+  sheet: 'mesh=wavy-plane&n=10&free=off&show=surface,edges,cutCells,outside&explode=0.2,0&color=cell',
+  explode: 'mesh=torus-knot&n=14&free=off&explode=0.5,0&color=cell',
+};
+
+const cleanUp = [];
+const site = await startSite();
+mkdirSync(path('web', 'pictures'), { recursive: true });
+for (const [name, hash] of Object.entries(pictures)) {
+  const page = await site.open({ after: (f) => cleanUp.push(f) }, hash, { viewport: { width: 1240, height: 700 } });
+  await isReady(page);
+  await page.waitForTimeout(2000);
+  await page.locator('#canvas').evaluate((canvas) => {
+    for (const other of canvas.parentElement.children) if (other !== canvas) other.style.visibility = 'hidden';
+  });
+  const { x, y, width, height } = await page.locator('canvas').first().boundingBox();
+  const side = Math.min(width, height * 1.3);
+  writeFileSync(path('web', 'pictures', `${name}.png`), await page.screenshot({ clip: { x: x + (width - side) / 2, y, width: side, height } }));
+}
+for (const f of cleanUp) await f();
+await site.close();
