@@ -449,12 +449,13 @@ class ThreeView implements View {
   }
 }
 
-/** What holds the model: the mesh, or the grid if the outside is shown, exploded; less the model's origin. */
+/** What holds the model: the mesh, or the grid if the outside is shown or nothing else is in it, exploded; less the model's origin. */
 function shownBall(model: Model, settings: Settings | null): { center: number[]; radius: number } {
   const explode = 1 + (settings?.explode.cells ?? 0);
   const { outside, untouched, cutCells } = settings?.show ?? {};
-  if (outside && (untouched || cutCells)) return { center: [0, 0, 0], radius: (model.diagonal / 2) * explode };
-  const { meshMin, meshMax, origin } = model;
+  const { meshMin, meshMax, origin, grid } = model;
+  const isBesideGrid = grid.planes.some((planes, d) => meshMax[d] < planes[0] || meshMin[d] > planes[planes.length - 1]);
+  if (isBesideGrid || (outside && (untouched || cutCells))) return { center: [0, 0, 0], radius: (model.diagonal / 2) * explode };
   const center = meshMin.map((x, d) => ((x + meshMax[d]) / 2 - origin[d]) * explode);
   return { center, radius: 0.51 * Math.hypot(...meshMax.map((x, d) => x - meshMin[d])) * explode };
 }
