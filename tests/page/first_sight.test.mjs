@@ -37,7 +37,7 @@ test('all that is asked for is there, comes from the same folder, and comes whil
   const requests = [];
   const failed = [];
   const before = site.host.requests.length;
-  const page = await site.open(t, '', {
+  const page = await site.open(t, 'mesh=claw&n=2', {
     onNewPage: async (made) => {
       made.on('request', (request) => requests.push(request.url()));
       made.on('requestfailed', (request) => failed.push(request.url()));
@@ -47,9 +47,11 @@ test('all that is asked for is there, comes from the same folder, and comes whil
   assert.deepEqual(site.host.requests.slice(before).filter(({ status }) => status !== 200), []);
   assert.deepEqual(requests.filter((url) => !url.startsWith(site.url) && !/^(data|blob):/.test(url)), []);
   const loaded = site.host.requests.length;
-  await page.locator('#gallery [data-name="wedge"]').click();
-  await shows(page, '#mesh-line', { name: 'wedge' });
-  assert.equal(await isReady(page), 'ready');
+  for (const name of ['wedge', 'bunny']) {
+    await page.locator(`#gallery [data-name="${name}"]`).click();
+    await shows(page, '#mesh-line', { name });
+    assert.equal(await isReady(page), 'ready');
+  }
   assert.deepEqual(site.host.requests.slice(loaded), []);
 });
 

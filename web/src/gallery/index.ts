@@ -1,4 +1,5 @@
 // The meshes that the page brings along: the paper's cases and a scan. They are y-up, and none intersects itself.
+import bunnyScan from 'bunny';
 import { claw, emptyCones, oscillator, wedge } from './difficult';
 import type { MeshArrays } from './mesh';
 import { crate, doubleBubble, moebiusStrip, pages, thinBowl, trumpet, wavyPlane, wavySlab } from './sheets';
@@ -7,8 +8,8 @@ import { chain, hollowHilbertCurve, torusKnot } from './tubes';
 
 export { gallery, type GalleryEntry } from './list';
 
-async function bunny(): Promise<MeshArrays> {
-  const { positions, cells } = (await import('bunny')).default;
+function bunny(): MeshArrays {
+  const { positions, cells } = bunnyScan;
   return { positions: new Float64Array(positions.flat()), triangles: new Uint32Array(cells.flat()) };
 }
 

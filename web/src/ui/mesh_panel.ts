@@ -1,5 +1,5 @@
 import type { App } from '../app';
-import { gallery } from '../gallery/index';
+import { gallery } from '../gallery/list';
 import { button, el } from './dom';
 import { integer, plural } from './format';
 import { section } from './section';
