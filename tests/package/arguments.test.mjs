@@ -62,10 +62,11 @@ test('grids', () => {
     [{ cells: [2, 2, 2] }, /^grid\.cells must be a whole number, not an array/],
     [{ ...grid, cells: 4 }, /^grid\.cells must have three numbers/],
     [{ ...grid, cells: [2, 2, 2.5] }, /^grid\.cells\[2\]/],
-    [{ ...grid, min: [0, 0] }, /^grid\.min must have three numbers/],
+    [{ ...grid, min: [0, 0] }, /^grid\.min must have three numbers, not 2/],
     [{ ...grid, max: undefined }, /^grid\.max/],
     [{ ...grid, max: [1, 2, null] }, /^grid\.max\[2\] must be a number, not null/],
     [{ spacing: [1, 1, 1], cells: [1, 1, 1] }, /^grid\.origin/],
+    [{ planes: [[0, 1], , [0, 1]] }, /^grid\.planes\[1\] must be an array of numbers, not undefined/], // eslint-disable-line no-sparse-arrays
     [{ planes: [[0, 1], [0, 1]] }, /^grid\.planes must have the planes of three axes/],
     [{ planes: [[0, 1], [0, 1], [0, '1']] }, /^grid\.planes\[2\]\[1\]/],
     [{ planes: [[0, 1], [0, 1], 7] }, /^grid\.planes\[2\]/],

@@ -81,7 +81,7 @@ function readTriangles(value) {
   for (let i = 0; i < ids.length; ++i) {
     const id = expectInteger(value[i], `${name}[${i}]`);
     const triangle = Math.floor(i / 3);
-    if (id < 0 || id >= 2 ** 32) throw bad(`Triangle ${triangle} names tri-vertex ${id}, which does not exist.`, 'badIndex', triangle);
+    if (id < 0 || id >= 2 ** 32) throw bad(`Triangle ${triangle} refers to vertex ${id}, which does not exist.`, 'badIndex', triangle);
     ids[i] = id;
   }
   return ids;
@@ -93,14 +93,15 @@ export function readMesh(mesh) {
 }
 
 export function readVector(value, name, read = expectNumber) {
-  if (!(Array.isArray(value) || ArrayBuffer.isView(value)) || value.length !== 3) throw bad(`${name} must have three numbers, not ${kindOf(value)}.`);
+  const count = Array.isArray(value) || ArrayBuffer.isView(value) ? value.length : undefined;
+  if (count !== 3) throw bad(`${name} must have three numbers, not ${count ?? kindOf(value)}.`);
   return [0, 1, 2].map((d) => read(value[d], `${name}[${d}]`));
 }
 
 /** The grid of a cut-mesh, or another one given by its planes. */
 function readPlanes(grid, name) {
   if (!Array.isArray(grid.planes) || grid.planes.length !== 3) throw bad(`${name}.planes must have the planes of three axes, not ${kindOf(grid.planes)}.`);
-  const planes = grid.planes.map((axis, d) => readNumbers(axis, `${name}.planes[${d}]`));
+  const planes = [0, 1, 2].map((d) => readNumbers(grid.planes[d], `${name}.planes[${d}]`));
   const uniform = grid.spacing !== null && grid.spacing !== undefined;
   return {
     kind: 'planes',
