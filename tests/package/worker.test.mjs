@@ -94,6 +94,12 @@ test('buffers of arguments are handed over on request, and only then', () => wit
   assert.equal(error.code, 'badArgument');
 }));
 
+test('what no call reads is not sent', () => withWorker(async (worker) => {
+  const cutMesh = await worker.cut(cube, { cells: 4 });
+  structuredClone(cutMesh.gridCellRegion, { transfer: [cutMesh.gridCellRegion.buffer] });
+  assert.equal((await worker.validate(cube, cutMesh)).pass, true);
+}));
+
 test('progress is told, in order', () => withWorker(async (worker) => {
   const stages = [];
   await worker.cut(ring, { cells: 16 }, { progress: ({ stageIndex, stageCount, done, total }) => {
@@ -200,6 +206,14 @@ test('terminating rejects what runs, what waits and what comes', async () => {
 test('a worker starts from a compiled module', async () => {
   const wasm = await compiledModule();
   assert.equal(await withWorker(async (worker) => (await worker.cut(cube, { cells: 4 })).regionCount, { wasm }), 2);
+});
+
+test('options that are none are a badArgument', async () => {
+  for (const options of [null, 'mandoline.wasm']) {
+    const error = await rejection(createWorker(options));
+    assert.equal(error.code, 'badArgument');
+    assert.equal(error.stage, 'init');
+  }
 });
 
 test('a worker that cannot load the module rejects', async () => {

@@ -10,6 +10,18 @@ export class MandolineError extends Error {
   }
 }
 
+/** Makes the errors of f name the call, unless they name the stage of a cut. */
+export function named(stage, f) {
+  return (...parameters) => {
+    try {
+      return f(...parameters);
+    } catch (error) {
+      if (error instanceof MandolineError && !error.stage) error.stage = stage;
+      throw error;
+    }
+  };
+}
+
 const advice = {
   cancelled: 'Nothing is wrong: the cut was stopped on request.',
   emptyMesh: 'The mesh needs at least one triangle: check that the file was read as a surface, not as points or lines.',

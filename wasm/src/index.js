@@ -1,7 +1,7 @@
 import {
   bad, readCutMesh, readElement, readFlag, readFunction, readGrid, readMesh, readOptions, readPlane, readPoints, readSnapTolerance, readVector,
 } from './arguments.js';
-import { MandolineError } from './errors.js';
+import { MandolineError, named } from './errors.js';
 import { compile, instantiate } from './load.js';
 
 export { MandolineError, describe } from './errors.js';
@@ -35,18 +35,6 @@ function fatal(cause) {
   const memory = cause instanceof RangeError && !/stack/.test(cause.message);
   if (memory) return new MandolineError('outOfMemory', 'There is not enough memory for this call.', { cause });
   return new MandolineError('internalError', `The WebAssembly module failed: ${cause?.message ?? cause}.`, { cause });
-}
-
-/** Makes the errors of f name the call, unless they name the stage of a cut. */
-function named(stage, f) {
-  return (...parameters) => {
-    try {
-      return f(...parameters);
-    } catch (error) {
-      if (error instanceof MandolineError && !error.stage) error.stage = stage;
-      throw error;
-    }
-  };
 }
 
 function makeCut(host) {
@@ -137,7 +125,8 @@ function makeApi(host) {
 
 let started;
 
-async function start({ wasm } = {}) {
+async function start(options) {
+  const { wasm } = named('init', readOptions)(options);
   const module = await compile(wasm);
   try {
     return { module, api: makeApi(new Host(module)) };
@@ -160,7 +149,7 @@ export function init(options) {
   return begin(options).api;
 }
 
-/** The compiled module that init() used, to hand to the init() of a worker. */
+/** The compiled module that init() used, to hand to init() in a worker of your own, or to createWorker(). */
 export async function compiledModule() {
   return (await begin().attempt).module;
 }

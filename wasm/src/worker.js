@@ -1,5 +1,6 @@
+import { readOptions } from './arguments.js';
 import { buffersOf } from './buffers.js';
-import { MandolineError } from './errors.js';
+import { MandolineError, named } from './errors.js';
 import { JobQueue } from './jobs.js';
 import { threadStarter } from './thread.js';
 
@@ -19,13 +20,20 @@ function splitOptions(options = {}) {
   return { signal, transfer, onProgress: progress, options: rest };
 }
 
+/** A cut-mesh without gridCellRegion, which no call reads and which may be large. */
+function lean(argument) {
+  if (!isObject(argument) || !('gridCellRegion' in argument)) return argument;
+  const { gridCellRegion, ...rest } = argument;
+  return rest;
+}
+
 /** A message with a copy of the arguments as they are now, so that neither the queue nor the worker sees later changes. */
 function makeMessage(call, args, { options, onProgress, signal, transfer }) {
   if (signal !== undefined && !(signal instanceof AbortSignal)) {
     throw new MandolineError('badArgument', 'options.signal must be an AbortSignal.', { stage: call });
   }
   try {
-    return structuredClone({ call, args, options, progress: onProgress !== undefined }, { transfer });
+    return structuredClone({ call, args: args.map(lean), options, progress: onProgress !== undefined }, { transfer });
   } catch (cause) {
     throw new MandolineError('badArgument', `The arguments can't be given to the worker: ${cause.message}`, { stage: call, cause });
   }
@@ -62,7 +70,8 @@ function absolute(wasm) {
 }
 
 /** Starts a worker that has loaded the module. */
-export async function createWorker({ wasm } = {}) {
+export async function createWorker(options) {
+  const { wasm } = named('init', readOptions)(options);
   const queue = new JobQueue(await threadStarter(), absolute(wasm));
   await queue.open();
   const methods = Object.entries(calls).map(([call, count]) => [
