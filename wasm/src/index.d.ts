@@ -242,7 +242,10 @@ export interface Plane {
   offset: number;
 }
 
-/** A filled cross-section of the cut-mesh: the polygons in which a plane cuts the cells. */
+/**
+ * A filled cross-section of the cut-mesh: the polygons in which a plane cuts the cells, those of the cut-cells first. A cell may have several.
+ * Where a sheet ends within a cell, a loop runs along it forth and back. Points are shared by the polygons of neighbouring cut-cells.
+ */
 export interface Slice {
   /** 3 per point, on the plane. */
   positions: Float64Array;
@@ -285,7 +288,10 @@ export interface Mandoline {
   adjacency(cutMesh: CutMesh): Adjacency;
   /** Triangles of all faces. */
   triangulate(cutMesh: CutMesh): FaceTriangles;
-  /** The closed surface of one cut-cell, oriented outward; or the pieces of triangles that bound a region, oriented out of it. 3 vertex ids per triangle. */
+  /**
+   * The closed surface of one cut-cell, oriented outward; or the pieces of triangles that bound a region, oriented out of it, both
+   * sides of those where a sheet ends within the region. 3 vertex ids per triangle.
+   */
   triangulate(cutMesh: CutMesh, of: { cell: number } | { region: number }): Uint32Array;
   /** Which cell holds this point; null outside the grid. A point on a face counts to one of the cells beside it. */
   cellAt(cutMesh: CutMesh, point: Vector3): Location | null;
@@ -305,7 +311,7 @@ export interface InitOptions {
 /** Loads the WebAssembly module, once: every call gives the same promise, whatever its options. After a failure the next call tries again. */
 export function init(options?: InitOptions): Promise<Mandoline>;
 
-/** The compiled module that init() used, to hand to the init() of a worker. */
+/** The compiled module that init() used, to hand to init() in a worker of your own, or to createWorker(). */
 export function compiledModule(): Promise<WebAssembly.Module>;
 
 export type ErrorCode =
