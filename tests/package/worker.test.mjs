@@ -235,6 +235,14 @@ const preamble = `
   const cube = { positions: [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], triangles: [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3] };
   const worker = await createWorker();`;
 
+test('a compiled module that cannot be had is a rejection to whoever asks, and to nobody else', async () => {
+  const script = `
+    WebAssembly.compile = async () => { throw new Error('no'); };
+    const { compiledModule } = await import('mandoline-wasm');
+    console.log((await compiledModule().catch((error) => error)).code);`;
+  assert.equal(await runScript(script), 'loadFailed');
+});
+
 test('an idle worker does not keep the process alive', async () => {
   assert.equal(await runScript(`${preamble} console.log('idle');`), 'idle');
 });

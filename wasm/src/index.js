@@ -139,7 +139,7 @@ function begin(options) {
   if (!started) {
     const attempt = start(options);
     started = { attempt, api: attempt.then(({ api }) => api) };
-    attempt.catch(() => { started = undefined; });
+    started.api.catch(() => { started = undefined; });
   }
   return started;
 }
