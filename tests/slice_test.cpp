@@ -356,6 +356,37 @@ TEST_CASE("a sheet that ends within a cell is a slit, forth and back", "[slice]"
   CHECK(slit == Approx(2 * 0.5));
 }
 
+TEST_CASE("a sheet that closes upon itself within a cell is a hole and an outline", "[slice]") {
+  for (const int slices : {3, 5, 8, 9, 17}) {
+    const CheckedCut cut = checkedCut(shapes::tube({0.5, 0.5, 0.2}, 0.3, 0.6, slices, false), unitGrid(1));
+    REQUIRE(cut.mesh.cellCount() == 1);
+    const double inside = 0.5 * slices * 0.3 * 0.3 * std::sin(2 * std::numbers::pi / slices);
+    const Plane plane = {{0, 0, 1}, 0.5};
+    const Slice s = checkedSlice(cut.mesh, plane);
+    REQUIRE(s.polygonCount() == 2);
+    std::vector<double> areas = {polygonArea(s, plane.normal, 0), polygonArea(s, plane.normal, 1)};
+    std::sort(areas.begin(), areas.end());
+    CHECK(areas[0] == Approx(inside));
+    CHECK(areas[1] == Approx(1 - inside));
+  }
+}
+
+TEST_CASE("a plane along a sheet within a cell that rounding has roughened", "[slice]") {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    std::mt19937 random(seed);
+    const auto noise = [&] { return 0.2 * (double(random()) * 0x1p-32 - 0.5); };
+    const auto height = [&] { return random() % 4 == 0 ? (random() % 2 == 0 ? 1.3 : 1.9) : 1.6 + (int(random() % 5) - 2) * 0x1p-52; };
+    const Mesh mesh = shapes::sheet(6, 6, [&](int i, int j) {
+      const double x = 0.2 + 0.6 * i + noise(), y = 0.2 + 0.6 * j + noise();
+      return Point{x, y, height()};
+    });
+    const CutResult cut = mandoline::cut(mesh, Grid::box({0, 0, 0}, {4, 4, 4}, {1, 1, 1}));
+    REQUIRE(cut);
+    const Slice s = checkedSlice(cut.mesh, {{0, 0, 1}, 1.6});
+    for (size_t p = 0; p < s.polygonCount(); ++p) CHECK(polygonArea(s, {0, 0, 1}, p) > -1e-12);
+  }
+}
+
 TEST_CASE("polygons of neighbouring cut-cells share their points", "[slice]") {
   const CheckedCut cut = checkedCut(openShapes(), unitGrid(4));
   const Slice s = checkedSlice(cut.mesh, {{0.3, 0.5, 1}, 3});

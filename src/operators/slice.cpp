@@ -87,12 +87,8 @@ void sliceCutCells(const CutMesh& cutMesh, const ScaledSpace& space, const Cutti
     const detail::Csr<uint32_t>& polygons = nesting.run(loops, writer.at());
     for (size_t p = 0; p < polygons.size(); ++p) {
       for (const uint32_t l : polygons[p]) writer.addLoop(loops[l]);
-      if (cellLoops.hasSlits()) {
-        const detail::Csr<uint32_t>& fill = slits.remove(loops, polygons[p], writer.at());
-        for (size_t l = 0; l < fill.size(); ++l) writer.addFillLoop(fill[l]);
-      } else {
-        for (const uint32_t l : polygons[p]) writer.addFillLoop(loops[l]);
-      }
+      const detail::Csr<uint32_t>& fill = slits.remove(loops, polygons[p], writer.at());
+      for (size_t l = 0; l < fill.size(); ++l) writer.addFillLoop(fill[l]);
       const int32_t* gridCell = &cutMesh.cellGridCell[3 * c];
       writer.endPolygon(int32_t(c), {gridCell[0], gridCell[1], gridCell[2]}, cutMesh.cellRegion[c]);
     }

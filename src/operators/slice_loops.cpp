@@ -26,7 +26,6 @@ const detail::Csr<uint32_t>& SliceLoops::run(size_t cell) {
 void SliceLoops::gather(size_t cell) {
   arcs_.clear();
   rays_.clear();
-  hasSlits_ = false;
   for (const uint32_t h : cutMesh_.cell(cell)) {
     for (uint32_t s = segments_.faceOffsets[h / 2]; s < segments_.faceOffsets[h / 2 + 1]; ++s) {
       const SliceSegment& segment = segments_.segments[s];
@@ -35,7 +34,7 @@ void SliceLoops::gather(size_t cell) {
       arcs_.push_back({s, segment[h % 2], segment[1 - h % 2]});
       addRay(arcs_[arc].start, arc, true);
       addRay(arcs_[arc].end, arc, false);
-      if (++uses_[s] == 2) hasSlits_ = true;
+      ++uses_[s];
     }
   }
 }

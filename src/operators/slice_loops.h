@@ -18,8 +18,6 @@ class SliceLoops {
 
   /// The loops of a cut-cell, as points. The result holds until the next call.
   const detail::Csr<uint32_t>& run(size_t cell);
-  /// Whether that cell lies on both sides of a segment.
-  bool hasSlits() const { return hasSlits_; }
 
  private:
   static constexpr uint32_t kNone = ~0u;
@@ -51,7 +49,6 @@ class SliceLoops {
   std::vector<Arc> arcs_;
   std::vector<Ray> rays_;
   std::vector<uint8_t> uses_;  // per segment: how many sides of it the cell has
-  bool hasSlits_ = false;
   std::vector<uint32_t> firstRay_;  // per point
   std::vector<Ray> around_;         // rays of one point
   std::vector<uint32_t> ended_, starting_;

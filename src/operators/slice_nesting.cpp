@@ -31,16 +31,18 @@ const detail::Csr<uint32_t>& SliceNesting::run(const detail::Csr<uint32_t>& loop
 }
 
 SliceNesting::Loop SliceNesting::measure(std::span<const uint32_t> points) const {
-  Loop loop = {Kind::unclear, 0, {}, kNone};
+  Loop loop = {Kind::unclear, 0, {}, {}, kNone};
   const PlanePoint& origin = (*at_)[points[0]];
   double perimeter = 0, longest = -1;
   for (size_t i = 0; i < points.size(); ++i) {
-    const PlanePoint &a = (*at_)[points[i]], &b = (*at_)[points[i + 1 < points.size() ? i + 1 : 0]];
+    const std::array<uint32_t, 2> segment = {points[i], points[i + 1 < points.size() ? i + 1 : 0]};
+    const PlanePoint &a = (*at_)[segment[0]], &b = (*at_)[segment[1]];
     loop.area += 0.5 * ((a.x - origin.x) * (b.y - origin.y) - (a.y - origin.y) * (b.x - origin.x));
     const double length = std::fabs(b.x - a.x) + std::fabs(b.y - a.y);
     perimeter += length;
     if (length > longest) {
       longest = length;
+      loop.longest = segment;
       loop.sample = {0.5 * a.x + 0.5 * b.x, 0.5 * a.y + 0.5 * b.y};
     }
   }
@@ -73,7 +75,8 @@ void SliceNesting::decideUnclear() {
   for (size_t l = 0; l < loops_.size(); ++l) loops_[l].kind = kinds[l];
 }
 
-/// The smallest outline around a hole; if rounding has left none, the largest of all.
+/// The smallest outline around a hole; if rounding has left none, the largest of all. One that runs along the hole backwards lies within it:
+/// both sides of a closed slit.
 uint32_t SliceNesting::outlineOf(uint32_t hole) {
   uint32_t around = kNone, largest = kNone;
   const auto isSmaller = [&](uint32_t a, uint32_t b) { return loops_[a].area < loops_[b].area; };
@@ -86,9 +89,17 @@ uint32_t SliceNesting::outlineOf(uint32_t hole) {
   if (outlines <= 1) return largest;
   for (uint32_t l = 0; l < loops_.size(); ++l) {
     if (loops_[l].kind != Kind::outline || (around != kNone && !isSmaller(l, around))) continue;
-    if (winding(l, loops_[hole].sample) > 0) around = l;
+    if (winding(l, loops_[hole].sample) > 0 && !runsAlong(l, loops_[hole].longest[1], loops_[hole].longest[0])) around = l;
   }
   return around != kNone ? around : largest;
+}
+
+bool SliceNesting::runsAlong(uint32_t loop, uint32_t from, uint32_t to) const {
+  const auto points = (*points_)[loop];
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (points[i] == from && points[i + 1 < points.size() ? i + 1 : 0] == to) return true;
+  }
+  return false;
 }
 
 /// How often a loop winds around a place.

@@ -1,6 +1,8 @@
 // Which loops of a cell's cut are outlines of polygons, and which are holes in which of them.
 #pragma once
 
+#include <array>
+
 #include "core/csr.h"
 #include "core/exact.h"
 #include "operators/polygon_triangulator.h"
@@ -18,13 +20,15 @@ class SliceNesting {
   struct Loop {
     Kind kind;
     double area;
-    PlanePoint sample;  // the middle of its longest segment
-    uint32_t outline;   // of holes
+    std::array<uint32_t, 2> longest;  // segment
+    PlanePoint sample;                // its middle
+    uint32_t outline;                 // of holes
   };
 
   Loop measure(std::span<const uint32_t> points) const;
   void decideUnclear();
   uint32_t outlineOf(uint32_t hole);
+  bool runsAlong(uint32_t loop, uint32_t from, uint32_t to) const;
   int winding(uint32_t loop, const PlanePoint& p);
 
   const detail::Csr<uint32_t>* points_ = nullptr;
