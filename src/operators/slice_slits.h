@@ -1,4 +1,5 @@
 // Polygons without their slits, to be filled: a slit may touch an outline between its points, where rounding puts it on either side.
+// Rounding also makes slits of its own, where a cell has next to no width.
 #pragma once
 
 #include "core/csr.h"
