@@ -3,8 +3,10 @@ import { test } from 'node:test';
 import { init } from 'mandoline-wasm';
 import { cellArrays, cellColors, cellGeometry, edgeGeometry, meshFromGeometry, sliceGeometry } from 'mandoline-wasm/three';
 import {
-  BoxGeometry, BufferAttribute, BufferGeometry, InterleavedBuffer, InterleavedBufferAttribute, Matrix4, SphereGeometry,
+  BoxGeometry, BufferAttribute, BufferGeometry, CylinderGeometry, InterleavedBuffer, InterleavedBufferAttribute, Matrix4, SphereGeometry,
+  TorusGeometry,
 } from 'three';
+import { mergeVertices } from 'three/addons/utils/BufferGeometryUtils.js';
 import { box, torus } from './meshes.mjs';
 
 const mandoline = await init();
@@ -225,6 +227,15 @@ test('meshes come from indexed, unindexed and interleaved geometries', () => {
   const bytes = new BufferGeometry().setAttribute('position', new BufferAttribute(Uint8Array.of(0, 0, 0, 255, 0, 0, 0, 255, 0), 3, true));
   assert.deepEqual(meshFromGeometry(bytes).positions, Float64Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0));
   assert.throws(() => meshFromGeometry(new BufferGeometry()), { code: 'badArgument' });
+});
+
+test('seams that miss themselves by a rounding close when their vertices are merged', () => {
+  const geometries = [new SphereGeometry(1, 16, 12), new TorusGeometry(1, 0.4, 12, 24), new CylinderGeometry(1, 1, 2, 16)];
+  for (const geometry of geometries) {
+    assert.equal(mandoline.cut(meshFromGeometry(geometry), { cells: 6 }).regionWinding, null);
+    const mesh = meshFromGeometry(mergeVertices(geometry.deleteAttribute('normal').deleteAttribute('uv')));
+    assert.deepEqual([...mandoline.cut(mesh, { cells: 6 }).regionWinding].sort(), [0, 1]);
+  }
 });
 
 test('a matrix moves the mesh; one that mirrors leaves it outward', () => {
