@@ -75,8 +75,8 @@ void SliceNesting::decideUnclear() {
   for (size_t l = 0; l < loops_.size(); ++l) loops_[l].kind = kinds[l];
 }
 
-/// The smallest outline around a hole; if rounding has left none, the largest of all. One that runs along the hole backwards lies within it:
-/// both sides of a closed slit.
+/// The smallest outline around a hole; if rounding has left none, the largest of all. One that runs along the hole backwards lies within
+/// it: both sides of a closed slit.
 uint32_t SliceNesting::outlineOf(uint32_t hole) {
   uint32_t around = kNone, largest = kNone;
   const auto isSmaller = [&](uint32_t a, uint32_t b) { return loops_[a].area < loops_[b].area; };

@@ -7,8 +7,8 @@ import type { CutEdges, CutMesh, FaceTriangles, Measures, Mesh, Slice, Vector3 }
 
 /**
  * The triangles of an indexed or unindexed BufferGeometry (its draw range and groups aside), moved by the matrix if there is one; with one
- * that mirrors, outward stays outward. Seams that miss themselves by a rounding, as that of SphereGeometry, leave the mesh open: merge their
- * vertices first.
+ * that mirrors, outward stays outward. Seams that miss themselves by a rounding, as that of SphereGeometry, leave the mesh open: merge
+ * their vertices first.
  */
 export function meshFromGeometry(geometry: BufferGeometry, matrix?: Matrix4): Mesh;
 
