@@ -40,7 +40,7 @@ export interface Settings {
     edges: boolean;
     untouched: boolean;
     cutCells: boolean;
-    /** Cells of the region that reaches the grid's corner. */
+    /** Cells of regions outside of the surface. */
     outside: boolean;
     /** Only this region, or null for all. */
     region: number | null;
@@ -82,7 +82,7 @@ export interface Model {
   counts: { cutCells: number; untouchedCells: number; faces: number; vertices: number; edges: number; regions: number };
   stats: CutStats;
   regions: RegionInfo[];
-  /** The region that reaches the grid's corner, if no cut-cell lies there; it counts as the outside. */
+  /** The region in the grid's lowest corner. It counts as the outside if there are no winding numbers. */
   outsideRegion: number | null;
   cells: CellInfo;
   /** Triangles of all cut-cells, both sides of every face: a face between two cut-cells appears once for each, seen from outside of it. */
@@ -172,7 +172,7 @@ export interface Engine {
 
 /** What is drawn. Owns the canvas; knows nothing of panels. */
 export interface View {
-  /** Draws this model in place of the last one; keeps the camera unless told to frame it. */
+  /** Draws this model in place of the last one, with the look that is set next; keeps the camera unless told to frame it. */
   setModel(model: Model, frame: boolean): void;
   /** Applies slices, explosion, colours and visibility. */
   setLook(settings: Settings): void;

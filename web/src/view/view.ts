@@ -161,7 +161,7 @@ class ThreeView implements View {
     this.isLookNew = false; // The former model's look would hide this one.
     // At once, so that it comes before the next cut.
     if (this.settings?.sliceMode === 'flat' && activePlanes(model, this.settings).length > 0) void this.requestSlices();
-    if (frame || !this.isFramed) this.frame();
+    if (frame) this.isFramed = false;
   }
 
   /** Another grid has another centre and size; what is looked at stays. */
@@ -182,6 +182,7 @@ class ThreeView implements View {
       this.isFramed = true;
       this.camera.place(this.toScene(camera.position), this.toScene(camera.target));
     }
+    if (!this.isFramed) this.frame();
     this.lookChanged();
   }
 
@@ -221,6 +222,7 @@ class ThreeView implements View {
   frame(): void {
     if (!this.model) return;
     this.isFramed = true;
+    this.cameraKnown = '';
     const { center, radius } = shownBall(this.model, this.settings);
     this.camera.frame(this.fromModel(center), radius * this.root.scale.x, false);
   }
@@ -457,7 +459,10 @@ function shownBall(model: Model, settings: Settings | null): { center: number[];
   const isBesideGrid = grid.planes.some((planes, d) => meshMax[d] < planes[0] || meshMin[d] > planes[planes.length - 1]);
   if (isBesideGrid || (outside && (untouched || cutCells))) return { center: [0, 0, 0], radius: (model.diagonal / 2) * explode };
   const center = meshMin.map((x, d) => ((x + meshMax[d]) / 2 - origin[d]) * explode);
-  return { center, radius: 0.51 * Math.hypot(...meshMax.map((x, d) => x - meshMin[d])) * explode };
+  const sides = meshMax.map((x, d) => x - meshMin[d]);
+  const diagonal = Math.hypot(...sides);
+  // A slight explosion finds room in the corners of the box, unless it is long.
+  return { center, radius: Math.max(0.51 * diagonal, Math.max(0.53 * Math.max(...sides), 0.42 * diagonal) * explode) };
 }
 
 function samePlanes(a: readonly ViewPlane[], b: readonly ViewPlane[]): boolean {
