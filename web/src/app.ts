@@ -1,8 +1,10 @@
 // The state of the page and what can be done to it. Panels call the methods and listen to the events.
 import type { Validation } from 'mandoline-wasm';
 import { Events } from './events';
-import { defaultSettings, defaultSource } from './settings';
+import { gallery } from './gallery/list';
+import { defaultCells, defaultSettings, defaultSource } from './settings';
 import { isOutside } from './view/colors';
+import { isSheet } from './view/look';
 import type { CellCard, Engine, GridSettings, Model, PageError, Settings, SliceName, SliceSettings, Source, StepPicture, StepRequest, View } from './types';
 
 export interface LoadedMesh {
@@ -29,6 +31,8 @@ export interface AppEvents {
 
 /** So few cut-cells are better seen without a slice. */
 const fewCells = 60;
+/** The pieces of a sheet are told apart. */
+const sheetColoring = 'cell';
 
 export class App {
   readonly events = new Events<AppEvents>();
@@ -61,11 +65,18 @@ export class App {
   async open(source: Source, { bytes, cells }: { bytes?: ArrayBuffer; cells?: number } = {}): Promise<void> {
     await this.during(async () => {
       if ((await this.load(source, bytes)) !== 'loaded') return;
-      const { grid, show } = this.settings;
-      const former = 'min' in grid ? Math.max(...grid.cells) : grid.cells;
-      this.change({ source, grid: { cells: cells ?? former }, show: { ...show, region: null }, camera: null }, false);
-      if (!(await this.recut(true))) this.fitLook();
+      const wasSheet = this.model !== null && isSheet(this.model);
+      this.change({ source, grid: { cells: cells ?? this.cellsToKeep() }, show: { ...this.settings.show, region: null }, camera: null }, false);
+      if (!(await this.recut(true))) this.fitLook(wasSheet);
     });
+  }
+
+  /** The resolution for a mesh that comes without one: that of now, unless it only suited a mesh of the gallery. */
+  private cellsToKeep(): number {
+    const { source, grid } = this.settings;
+    const cells = 'min' in grid ? Math.max(...grid.cells) : grid.cells;
+    const isGallerys = source.kind === 'gallery' && gallery.some((entry) => entry.name === source.name && entry.cells === cells);
+    return isGallerys ? defaultCells : cells;
   }
 
   /** Takes over all settings, as a link gives them. A mesh that can't be had is replaced by the former or the default one. */
@@ -81,24 +92,44 @@ export class App {
       this.change({ ...settings, source }, false);
       const error = await this.recut(settings.camera === null);
       if (error && !this.model) await this.fallBack(error);
-      else if (!error && this.hasOnlyOutside()) this.changeShow({ outside: true });
+      else if (!error) this.showSomething();
     });
   }
 
-  /** Whether nothing is seen without the outside, as with an open sheet. */
-  private hasOnlyOutside(): boolean {
-    const { model } = this;
-    return model !== null && model.regions.every(({ id }) => isOutside(model, id));
+  /** Links leave out what is as by default, which would hide a sheet, and all of a model that has nothing but an outside. */
+  private showSomething(): void {
+    const { model, settings } = this;
+    if (!model || settings.show.outside) return;
+    if (isSheet(model) && JSON.stringify(settings.show) === JSON.stringify(defaultSettings().show)) this.fitLook(false);
+    else if (model.regions.every(({ id }) => isOutside(model, id))) this.changeShow({ outside: true });
   }
 
-  /** What a mesh is best first seen with: a sheet without the untouched cells around it, and few cells all of them unless the plane was moved. */
-  private fitLook(): void {
-    const { slices, show } = this.settings;
-    const outside = this.hasOnlyOutside();
-    const { free } = defaultSettings().slices;
+  /**
+   * What a mesh is best first seen with: a sheet with the edges of the cells around it but without their grid-faces, which would hide it; few
+   * cells all of them. A plane that was moved and chosen colours stay.
+   */
+  private fitLook(wasSheet: boolean): void {
+    const { model } = this;
+    if (!model) return;
+    const sheet = isSheet(model);
+    const { slices, show, colorBy } = this.settings;
+    const { slices: { free }, colorBy: usual } = defaultSettings();
     const isMoved = slices.free.position !== free.position || slices.free.normal.some((x, d) => x !== free.normal[d]);
-    const on = isMoved ? slices.free.on : (this.model?.counts.cutCells ?? 0) >= fewCells;
-    this.change({ slices: { ...slices, free: { ...slices.free, on } }, show: { ...show, outside, untouched: !outside } });
+    const on = isMoved ? slices.free.on : !sheet && model.counts.cutCells >= fewCells;
+    const isChosen = colorBy !== (wasSheet ? sheetColoring : usual);
+    this.change({
+      slices: { ...slices, free: { ...slices.free, on } },
+      show: { ...show, gridFaces: !sheet, untouched: !sheet, outside: sheet },
+      colorBy: isChosen ? colorBy : sheet ? sheetColoring : usual,
+    });
+    if (!this.settings.camera) this.view.frame();
+  }
+
+  /** The look that this mesh is first seen with. */
+  resetLook(): void {
+    const { slices, sliceMode, explode, colorBy, show } = defaultSettings();
+    this.change({ slices, sliceMode, explode, colorBy, show, camera: null }, false);
+    this.fitLook(false);
   }
 
   /** A page without a picture would be of no use. */

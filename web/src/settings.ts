@@ -6,12 +6,13 @@ export const axes: readonly Axis[] = ['x', 'y', 'z'];
 export const sliceNames: readonly SliceName[] = [...axes, 'free'];
 export const colorings: readonly ColorBy[] = ['region', 'winding', 'cell', 'volume', 'kind'];
 export const layers = ['surface', 'gridFaces', 'edges', 'untouched', 'cutCells', 'outside'] as const;
+export const defaultCells = 16;
 export const defaultSource: Source = { kind: 'gallery', name: 'bunny' };
 
 export function defaultSettings(): Settings {
   return {
     source: defaultSource,
-    grid: { cells: 16 },
+    grid: { cells: defaultCells },
     snapTolerance: 0,
     slices: {
       x: { on: false, position: 0.5, normal: [1, 0, 0] },

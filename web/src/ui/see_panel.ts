@@ -1,7 +1,8 @@
 import type { App } from '../app';
-import { colorings, defaultSettings, layers, sliceNames } from '../settings';
-import type { ColorBy, Model, Settings, SliceName } from '../types';
+import { colorings, layers, sliceNames } from '../settings';
+import type { ColorBy, Model, SliceName } from '../types';
 import { button, checkbox, choice, el, numberField, select, slider } from './dom';
+import { isOutside } from '../view/colors';
 import { plural, real, winding } from './format';
 import { section } from './section';
 
@@ -80,9 +81,10 @@ function oneRegion(app: App): HTMLElement {
   return control.element;
 }
 
-function regionOptions({ regions, outsideRegion }: Model): HTMLElement[] {
+function regionOptions(model: Model): HTMLElement[] {
+  const { regions } = model;
   const options = regions.slice(0, 500).map(({ id, winding: number, volume, cutCells }) => {
-    const name = id === outsideRegion ? `${id} (the outside)` : String(id);
+    const name = isOutside(model, id) ? `${id}, outside` : String(id);
     return el('option', { value: id }, `${name} · winding ${winding(number)} · volume ${real(volume)} · ${plural(cutCells, 'cut-cell')}`);
   });
   return [el('option', { value: '' }, `all ${regions.length}`), ...options];
@@ -97,11 +99,5 @@ function pinByNumber(app: App): HTMLElement {
 }
 
 function resets(app: App): HTMLElement {
-  return el('div', { class: 'row' }, button('Frame', () => app.frame(), { id: 'frame' }), button('Reset', () => reset(app), { id: 'reset-look' }));
-}
-
-function reset(app: App): void {
-  const { slices: planes, sliceMode, explode, colorBy, show }: Settings = defaultSettings();
-  app.change({ slices: planes, sliceMode, explode, colorBy, show });
-  app.frame();
+  return el('div', { class: 'row' }, button('Frame', () => app.frame(), { id: 'frame' }), button('Reset', () => app.resetLook(), { id: 'reset-look' }));
 }

@@ -8,6 +8,22 @@ export function shownRegions(model: Model, { show }: Settings): Uint8Array {
   return Uint8Array.from(model.regions, ({ id }) => Number(isShown(id)));
 }
 
+/** Whether most of the surface has the outside on both of its sides, so that it is hidden with the outside: an open sheet, a mesh with holes. */
+export function isSheet(model: Model): boolean {
+  const { cell, surface, index } = model.triangles;
+  const isOuter = model.regions.map(({ id }) => isOutside(model, id));
+  // A piece with the outside on both sides counts twice, one between the outside and an inside once for each.
+  let outer = 0;
+  let inner = 0;
+  for (let at = 0; at < index.length; at += 3) {
+    const vertex = index[at];
+    if (surface[vertex] === 0) continue;
+    if (isOuter[model.cells.region[cell[vertex]]]) outer++;
+    else inner++;
+  }
+  return outer > 3 * inner;
+}
+
 /** Per region: how it moves in an explosion by region, 3 numbers. */
 export function regionShifts(model: Model): Float32Array {
   const { region, centroid, volume } = model.cells;
