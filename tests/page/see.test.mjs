@@ -1,8 +1,8 @@
 import assert from 'node:assert/strict';
 import { after, describe, test } from 'node:test';
 import { torus, writeObj } from '../package/meshes.mjs';
-import { inSinglePrecision } from './mesh_files.mjs';
-import { dataOf, eventually, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
+import { inSinglePrecision, octahedron } from './mesh_files.mjs';
+import { dataOf, eventually, isReady, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
 import { covered, difference, isBlue, isDrawn, isOrange, looksLike, pixelsOf, share, tiles } from './pictures.mjs';
 import { cutOf, filedMesh, keptCells, mandoline } from './reference.mjs';
 
@@ -10,7 +10,9 @@ const mesh = inSinglePrecision(torus(24, 12));
 const reference = await cutOf(mesh, { cells: 8 });
 const spheres = await filedMesh('nested-spheres');
 const sheet = await filedMesh('wavy-plane');
-const site = await startSite({ files: { 'torus.obj': writeObj(mesh), 'spheres.obj': writeObj(spheres), 'sheet.obj': writeObj(sheet) } });
+const pocket = withPocket(sheet);
+const files = { 'torus.obj': mesh, 'spheres.obj': spheres, 'sheet.obj': sheet, 'pocket.obj': pocket };
+const site = await startSite({ files: Object.fromEntries(Object.entries(files).map(([name, file]) => [name, writeObj(file)])) });
 after(() => site.close());
 
 /** The torus as one solid, whole, unless the rest says otherwise. */
@@ -18,6 +20,15 @@ const link = (rest = '') => {
   const parts = { url: site.meshUrl('torus.obj'), n: 8, free: 'off', explode: '0,0', ...Object.fromEntries(new URLSearchParams(rest)) };
   return Object.entries(parts).map(([key, value]) => `${key}=${key === 'url' ? encodeURIComponent(value) : value}`).join('&');
 };
+/** The sheet and, high above it, a closed octahedron. */
+function withPocket({ positions, triangles }) {
+  const top = octahedron.positions.map((x, at) => 0.1 * x + (at % 3 === 1 ? 1 : 0));
+  return {
+    positions: new Float64Array([...positions, ...top]),
+    triangles: new Uint32Array([...triangles, ...Array.from(octahedron.triangles, (v) => v + positions.length / 3)]),
+  };
+}
+
 const axes = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
 const negated = (vector) => vector.map((x) => -x);
 const allInside = keptCells(reference, []).length;
@@ -161,7 +172,7 @@ describe('colours', () => {
     region: ['region 0, outside', 'region 1', 'region 2, outside', 'region 3', 'region 4, outside', 'region 5'],
     winding: ['winding number 0', 'winding number 1'],
     volume: ['0 % of a grid cell', '25 % of a grid cell', '50 % of a grid cell', '100 % of a grid cell'],
-    kind: ['pieces of triangles', 'pieces of grid-faces', 'untouched grid cells'],
+    kind: ['pieces of triangles', 'pieces of grid-faces', 'untouched cells'],
     cell: [],
   };
   test('by region, winding number, volume, kind and cell, each with its legend', async (t) => {
@@ -256,9 +267,50 @@ describe('show', () => {
     const { cutMesh } = await cutOf(sheet, { cells: 16 });
     assert.equal(cutMesh.regionWinding, null);
     await shows(page, '#counts', { cutCells: cutMesh.cellRegion.length });
-    await page.locator('#slice-free').uncheck();
     await shows(page, '#canvas', { cells: cutMesh.cellRegion.length });
-    assert.equal(await page.locator('#show-outside').isChecked(), true);
+    const hasSheetLook = async () => {
+      assert.equal(await page.locator('#show-outside').isChecked(), true);
+      assert.equal(await page.locator('#show-gridFaces').isChecked(), false, 'what would hide the sheet is left out');
+      assert.equal(await page.locator('#color-by').inputValue(), 'cell');
+    };
+    await hasSheetLook();
+    await page.locator('#show-outside').uncheck();
+    await shows(page, '#canvas', { cells: 0 });
+    await page.locator('#reset-look').click();
+    await shows(page, '#canvas', { cells: cutMesh.cellRegion.length });
+    await hasSheetLook();
+
+    await page.locator('#gallery [data-name="torus-knot"]').click();
+    await shows(page, '#mesh-line', { name: 'torus-knot' });
+    await isReady(page);
+    assert.equal(await page.locator('#show-gridFaces').isChecked(), true);
+    assert.equal(await page.locator('#color-by').inputValue(), 'kind');
+  });
+
+  test('a sheet with a closed pocket is shown, and a link to a sheet too', async (t) => {
+    for (const name of ['pocket.obj', 'sheet.obj']) {
+      const page = await site.open(t, `n=12&url=${encodeURIComponent(site.meshUrl(name))}`);
+      const { cutMesh } = await cutOf(name === 'sheet.obj' ? sheet : pocket, { cells: 12 });
+      assert.equal(cutMesh.regionCount, name === 'sheet.obj' ? 1 : 2);
+      await shows(page, '#canvas', { cells: cutMesh.cellRegion.length });
+      assert.equal(await page.locator('#show-gridFaces').isChecked(), false);
+    }
+  });
+
+  test('without winding numbers the outside is the region in the corner, also where the corner is cut', async (t) => {
+    const page = await site.open(t, `n=3&url=${encodeURIComponent(site.meshUrl('sheet.obj'))}`);
+    const { cutMesh } = await cutOf(sheet, { cells: 2 });
+    assert.ok(cutMesh.gridCellRegion.every((region) => region < 0), 'all grid cells are cut');
+    await page.locator('#cells-number').fill('2');
+    await page.locator('#cells-number').press('Enter');
+    await eventually(async () => assert.match((await page.locator('#region option').allTextContents())[1], /^0, outside/));
+  });
+
+  test('a grid within the mesh has an inside alone, which is shown', async (t) => {
+    const page = await site.open(t, `n=2,2,2&box=-0.1,-0.1,-0.1,0.1,0.1,0.1&free=off&url=${encodeURIComponent(site.meshUrl('spheres.obj'))}`);
+    const options = await page.locator('#region option').allTextContents();
+    assert.match(options[1], /^0 · winding 1/);
+    assert.ok(Number((await dataOf(page, '#canvas')).untouched) > 0);
   });
 });
 

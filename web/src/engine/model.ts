@@ -47,7 +47,7 @@ export function makeModel(id: number, name: string, mandoline: Mandoline, mesh: 
     },
     stats: cutMesh.stats,
     regions,
-    outsideRegion: gridCellRegion[0] >= 0 ? gridCellRegion[0] : null,
+    outsideRegion: mandoline.cellAt(cutMesh, [low[0], low[1], low[2]])?.region ?? null,
     cells,
     triangles,
     edges,

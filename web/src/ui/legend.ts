@@ -6,7 +6,7 @@ import { el } from './dom';
 export function legend(app: App): HTMLElement {
   const box = el('div', { class: 'legend', id: 'legend', role: 'group', 'aria-label': 'Colours' });
   const show = () => {
-    const entries = app.model ? entriesOf(app.model, app.settings.colorBy) : [];
+    const entries = app.model ? entriesOf(app.model, app.settings) : [];
     box.hidden = entries.length === 0 || box.dataset.step === 'true';
     box.replaceChildren(...entries.map(({ color, label }) => entry(color, label)));
   };

@@ -1,5 +1,5 @@
 // What colours mean. Colours are sRGB bytes; the shaders make them linear.
-import type { ColorBy, Model } from '../types';
+import type { ColorBy, Model, Settings } from '../types';
 
 export type Rgb = readonly [number, number, number];
 
@@ -30,7 +30,8 @@ function toCss(color: Rgb): string {
 
 /** Whether a region lies outside of the surface, as far as is known. */
 export function isOutside(model: Model, region: number): boolean {
-  return region === model.outsideRegion || model.regions[region].winding === 0;
+  const { winding } = model.regions[region];
+  return winding === null ? region === model.outsideRegion : winding === 0;
 }
 
 /** Neighbouring ids get colours that are told apart easily; the outside has its own. */
@@ -94,14 +95,16 @@ export function untouchedColors(model: Model, colorBy: ColorBy): (gridCell: numb
 }
 
 /** What the colours mean, as CSS colours, for at most `most` regions. */
-export function legend(model: Model, colorBy: ColorBy, most = 12): { label: string; color: string }[] {
+export function legend(model: Model, { colorBy, sliceMode, slices }: Settings, most = 12): { label: string; color: string }[] {
   const entry = (label: string, color: Rgb) => ({ label, color: toCss(color) });
   if (colorBy === 'cell') return [];
   if (colorBy === 'kind') {
+    const isCutOpen = sliceMode === 'flat' && Object.values(slices).some(({ on }) => on);
     return [
       entry('pieces of triangles', surfaceColor),
       entry('pieces of grid-faces', gridFaceColor),
-      entry('untouched grid cells', untouchedKindColor),
+      ...(isCutOpen ? [entry('the inside of cut-cells', insideColor)] : []),
+      entry('untouched cells', untouchedKindColor),
     ];
   }
   if (colorBy === 'volume') return [0, 0.25, 0.5, 1].map((fraction) => entry(`${100 * fraction} % of a grid cell`, volumeColor(fraction)));
