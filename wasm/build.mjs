@@ -39,9 +39,10 @@ function assemble() {
   mkdirSync(dist, { recursive: true });
   const source = join(packageFolder, 'src');
   const compiled = ['mandoline.js', 'mandoline.wasm'].map((file) => join(build, 'wasm', file));
-  const files = [...readdirSync(source).map((file) => join(source, file)), ...compiled, join(root, 'LICENSE')];
+  const files = [...readdirSync(source).map((file) => join(source, file)), ...compiled];
   for (const file of files) cpSync(file, join(dist, basename(file)));
   const kept = new Set(files.map((file) => basename(file)));
+  cpSync(join(root, 'LICENSE'), join(packageFolder, 'LICENSE'));
   for (const file of readdirSync(dist)) if (!kept.has(file)) rmSync(join(dist, file), { recursive: true });
 }
 
