@@ -54,6 +54,12 @@ test('files of every format, chosen', async (t) => {
   await looksLike(page, 'octahedron');
 });
 
+test('a file opened after a mesh of the gallery is not cut as coarsely as that', async (t) => {
+  const page = await site.open(t, 'mesh=wedge&n=2');
+  await drop(page, 'octahedron.obj', octahedronFiles['octahedron.obj']);
+  await showsMesh(page, 'octahedron.obj', octahedron, 16);
+});
+
 test('dropped files', async (t) => {
   const page = await site.open(t, start);
   await drop(page, 'octahedron.off', octahedronFiles['octahedron.off']);

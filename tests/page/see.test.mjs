@@ -314,6 +314,17 @@ describe('show', () => {
   });
 });
 
+test('a link to an exploded view shows all of it', async (t) => {
+  const page = await site.open(t, link('explode=1,0'));
+  const linked = await eventually(async () => {
+    const picture = await pixelsOf(page);
+    assert.ok(covered(picture) > 0.05);
+    return picture;
+  });
+  await page.locator('#frame').click();
+  await eventually(async () => assert.ok(difference(tiles(await pixelsOf(page)), tiles(linked)) < 1));
+});
+
 test('reset and frame', async (t) => {
   const page = await site.open(t, link('x=0.4,1&explode=0.5,0.5&color=cell&show=surface&camera=9,9,9,0,0,0'));
   await page.locator('#reset-look').click();

@@ -66,7 +66,8 @@ export class App {
     await this.during(async () => {
       if ((await this.load(source, bytes)) !== 'loaded') return;
       const wasSheet = this.model !== null && isSheet(this.model);
-      this.change({ source, grid: { cells: cells ?? this.cellsToKeep() }, show: { ...this.settings.show, region: null }, camera: null }, false);
+      const grid = { cells: cells ?? this.cellsToKeep() };
+      this.change({ source, grid, show: { ...this.settings.show, region: null }, camera: null }, false);
       if (!(await this.recut(true))) this.fitLook(wasSheet);
     });
   }
@@ -105,8 +106,8 @@ export class App {
   }
 
   /**
-   * What a mesh is best first seen with: a sheet with the edges of the cells around it but without their grid-faces, which would hide it; few
-   * cells all of them. A plane that was moved and chosen colours stay.
+   * What a mesh is best first seen with: a sheet with the edges of the cells around it but without their grid-faces, which would hide it;
+   * few cells all of them. A plane that was moved and chosen colours stay.
    */
   private fitLook(wasSheet: boolean): void {
     const { model } = this;

@@ -99,5 +99,6 @@ function pinByNumber(app: App): HTMLElement {
 }
 
 function resets(app: App): HTMLElement {
-  return el('div', { class: 'row' }, button('Frame', () => app.frame(), { id: 'frame' }), button('Reset', () => app.resetLook(), { id: 'reset-look' }));
+  const reset = button('Reset', () => app.resetLook(), { id: 'reset-look' });
+  return el('div', { class: 'row' }, button('Frame', () => app.frame(), { id: 'frame' }), reset);
 }

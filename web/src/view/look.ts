@@ -8,7 +8,7 @@ export function shownRegions(model: Model, { show }: Settings): Uint8Array {
   return Uint8Array.from(model.regions, ({ id }) => Number(isShown(id)));
 }
 
-/** Whether most of the surface has the outside on both of its sides, so that it is hidden with the outside: an open sheet, a mesh with holes. */
+/** Whether most of the surface has the outside on both sides, and is hidden with it: an open sheet, a mesh with holes. */
 export function isSheet(model: Model): boolean {
   const { cell, surface, index } = model.triangles;
   const isOuter = model.regions.map(({ id }) => isOutside(model, id));
