@@ -9,7 +9,6 @@ import type { CellCard, Engine, GridSettings, Model, PageError, Settings, SliceN
 
 export interface LoadedMesh {
   name: string;
-  vertices: number;
   triangles: number;
 }
 

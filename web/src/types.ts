@@ -157,7 +157,7 @@ export interface PageError {
 /** The worker's side of the page. Of several cuts under way the newest wins: the others reject with an AbortError. */
 export interface Engine {
   /** Loads the mesh of a source (bytes with a file) and keeps it. Rejects with a PageError. */
-  load(source: Source, bytes?: ArrayBuffer): Promise<{ name: string; vertices: number; triangles: number }>;
+  load(source: Source, bytes?: ArrayBuffer): Promise<{ name: string; triangles: number }>;
   cut(grid: GridSettings, snapTolerance: number): Promise<Model>;
   /** Ends the cut under way. */
   cancel(): void;

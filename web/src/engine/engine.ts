@@ -30,12 +30,12 @@ export class WorkerEngine implements Engine {
     this.startWorker();
   }
 
-  async load(source: Source, bytes?: ArrayBuffer): Promise<{ name: string; vertices: number; triangles: number }> {
+  async load(source: Source, bytes?: ArrayBuffer): Promise<{ name: string; triangles: number }> {
     this.abort('cut');
     this.abort('load');
     const mesh = await this.call('load', { source, bytes }, bytes ? [bytes] : []);
     this.mesh = mesh;
-    return { name: mesh.name, vertices: mesh.positions.length / 3, triangles: mesh.triangles.length / 3 };
+    return { name: mesh.name, triangles: mesh.triangles.length / 3 };
   }
 
   async cut(grid: GridSettings, snapTolerance: number): Promise<Model> {

@@ -22,8 +22,9 @@ export function winding(value: number | null): string {
   return value === null ? 'none' : value < 0 ? `−${-value}` : String(value);
 }
 
-/** surfaceArea: Surface area. */
+/** surfaceArea: Surface area; the field's terms with their hyphens: Grid-face area. */
 export function words(camelCase: string): string {
-  const text = camelCase.replace(/([A-Z])/g, (letter) => ` ${letter.toLowerCase()}`);
+  const spaced = camelCase.replace(/([A-Z])/g, (letter) => ` ${letter.toLowerCase()}`);
+  const text = spaced.replace(/\b(tri|cut|half|grid) (edge|face)/, '$1-$2').replace(/\bcut cell/, 'cut-cell');
   return text.charAt(0).toUpperCase() + text.slice(1);
 }

@@ -1,7 +1,7 @@
 import type { App } from '../app';
 import { gallery } from '../gallery/list';
 import { button, el } from './dom';
-import { integer, plural } from './format';
+import { plural } from './format';
 import { section } from './section';
 
 export const fileTypes = '.obj,.stl,.ply,.off,.glb,.gltf,.gz';
@@ -13,10 +13,10 @@ export function meshPanel(app: App): HTMLElement {
 
 function meshLine(app: App): HTMLElement {
   const line = el('p', { class: 'line', id: 'mesh-line', 'aria-live': 'polite' });
-  app.events.on('mesh', ({ name, vertices, triangles }) => {
-    Object.assign(line.dataset, { name, vertices, triangles });
+  app.events.on('mesh', ({ name, triangles }) => {
+    Object.assign(line.dataset, { name, triangles });
     const title = gallery.find((entry) => entry.name === name)?.title ?? name;
-    line.replaceChildren(el('strong', {}, title), ` ${plural(triangles, 'triangle')}, ${integer(vertices)} vertices`);
+    line.replaceChildren(el('strong', {}, title), ` ${plural(triangles, 'triangle')}`);
   });
   return line;
 }
