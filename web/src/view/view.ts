@@ -41,7 +41,7 @@ const compileTime = 100;
 
 const schemes = {
   light: { background: '#f3f1ec', line: '#1c2430', accent: '#e0218a' },
-  dark: { background: '#14181e', line: '#05070a', accent: '#ff4fa8' },
+  dark: { background: '#14181e', line: '#5b6675', accent: '#ff4fa8' },
 };
 
 /** Draws into the canvas, which fills its parent by CSS. Throws a PageError where there is no WebGL 2. */
