@@ -85,6 +85,27 @@ test('a grid of one\'s own', async (t) => {
   assert.equal(await page.locator('#grid-cubic').isDisabled(), true);
 });
 
+test('a number entered while an earlier grid is being cut stays', async (t) => {
+  const page = await site.open(t, link('n=8'));
+  await page.locator('#own-grid summary').click();
+  await page.evaluate(() => {
+    const set = (field, value) => {
+      const input = document.querySelector(`#grid-${field}`);
+      input.value = String(value);
+      input.dispatchEvent(new Event('change'));
+    };
+    const nextModel = () => new Promise((resolve) => new MutationObserver(resolve).observe(document.querySelector('#counts'), { childList: true }));
+    const cut = nextModel();
+    set('min-x', -2);
+    set('max-x', 2.5);
+    return cut.then(() => set('cells-x', 9));
+  });
+  await shows(page, '#counts', { grid: '9x8x3' });
+  assert.equal(await isReady(page), 'ready');
+  assert.equal(await page.locator('#grid-min-x').inputValue(), '-2');
+  assert.equal(await page.locator('#grid-max-x').inputValue(), '2.5');
+});
+
 test('a box turned inside out, and a grid too fine, are refused', async (t) => {
   const page = await site.open(t, link('n=8'));
   const former = await dataOf(page, '#counts');

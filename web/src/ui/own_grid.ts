@@ -1,9 +1,10 @@
-import type { Vector3 } from 'mandoline-wasm';
+import type { Grid, Vector3 } from 'mandoline-wasm';
 import type { App } from '../app';
 import { axes } from '../settings';
-import type { Grid } from 'mandoline-wasm';
+import type { GridSettings } from '../types';
 import { button, el, numberField, type NumberInput } from './dom';
 
+type OwnGrid = Extract<GridSettings, { min: Vector3 }>;
 type Rows = Record<'cells' | 'min' | 'max', NumberInput[]>;
 
 const rowLabels = { cells: 'cells', min: 'from (origin)', max: 'to' } as const;
@@ -24,9 +25,14 @@ export function ownGrid(app: App): HTMLElement {
       table.append(field.element);
     }
   }
-  app.events.on('model', ({ grid }) => fill(rows, grid));
   const cubic = button('Back to cubic cells', () => app.setGrid({ cells: Math.max(...read(rows.cells)) }), { id: 'grid-cubic' });
-  app.events.on('settings', ({ grid }) => (cubic.disabled = !('min' in grid)));
+  app.events.on('settings', ({ grid }) => {
+    const own = 'min' in grid ? grid : null;
+    cubic.disabled = own === null;
+    // An own grid comes from the settings: the model may still be one of an earlier grid.
+    if (own) fill(rows, own);
+    else if (app.model) fill(rows, boxOf(app.model.grid));
+  });
   return el('div', {}, table, el('div', { class: 'row' }, cubic), snapField(app));
 }
 
@@ -34,12 +40,13 @@ function read(row: NumberInput[]): Vector3 {
   return [row[0].input.valueAsNumber, row[1].input.valueAsNumber, row[2].input.valueAsNumber];
 }
 
-function fill(rows: Rows, { cells, planes }: Grid): void {
-  for (const d of [0, 1, 2] as const) {
-    rows.cells[d].set(cells[d]);
-    rows.min[d].set(planes[d][0]);
-    rows.max[d].set(planes[d][cells[d]]);
-  }
+function fill(rows: Rows, grid: OwnGrid): void {
+  for (const key of ['cells', 'min', 'max'] as const) rows[key].forEach((field, d) => field.set(grid[key][d]));
+}
+
+function boxOf({ cells, planes }: Grid): OwnGrid {
+  const [x, y, z] = planes;
+  return { cells, min: [x[0], y[0], z[0]], max: [x[cells[0]], y[cells[1]], z[cells[2]]] };
 }
 
 function snapField(app: App): HTMLElement {
