@@ -85,6 +85,10 @@ TEST_CASE("Command line: wrong usage exits with 2", "[cli]") {
       {{"cut", mesh, ""}, "unknown option ''"},
       {{"info", mesh, "--cells", "3"}, "unknown option '--cells'"},
       {{"cut", mesh, "--cells"}, "--cells needs a value"},
+      {{"cut", mesh, "--cells="}, "--cells needs a value"},
+      {{"cut", mesh, "--cells=3x"}, "--cells needs N or NX,NY,NZ, not '3x'"},
+      {{"cut", mesh, "--colour=red"}, "unknown option '--colour'"},
+      {{"cut", mesh, "--validate=yes"}, "--validate takes no value"},
       {{"cut", mesh, "--cells", "3x"}, "--cells needs N or NX,NY,NZ, not '3x'"},
       {{"cut", mesh, "--cells", " 3"}, "--cells needs N or NX,NY,NZ, not ' 3'"},
       {{"cut", mesh, "--cells", "3.5"}, "--cells needs"},
@@ -130,6 +134,15 @@ TEST_CASE("Command line: unreadable files exit with 2 and are named with the lin
     REQUIRE(run(folder, {command, bad}).exitCode == 2);
     REQUIRE(run(folder, {command, bad}).err == "mandoline: " + bad + ": line 2: expected a number, found 'zero'\n");
   }
+}
+
+TEST_CASE("Command line: values after an equals sign", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", kCube), json = folder.path("cut.json");
+  REQUIRE(run(folder, {"cut", mesh, "--cells", "4", "--box", "-1,0,0,4,4,4", "-o", json}).exitCode == 0);
+  const std::string apart = folder.read("cut.json");
+  REQUIRE(run(folder, {"cut", "--box=-1,0,0,4,4,4", "--cells=4", mesh, "-o", json}).exitCode == 0);
+  REQUIRE(folder.read("cut.json") == apart);
 }
 
 TEST_CASE("Command line: a cut writes its report and every file", "[cli]") {

@@ -14,7 +14,7 @@ const char* const kHelp =
 
 MESH is an OBJ, STL, PLY or OFF file, in text or binary, and may be gzipped.
 
-Options of cut
+Options of cut (a value may also be given as in --cells=32)
   --cells N              cubic cells of size 1.1 x longest side of the mesh / N, as many
                          along each axis as cover it with that margin (default: 32);
                          with --box, N cells along each axis
@@ -89,7 +89,11 @@ class Parser {
   }
 
  private:
-  void parseWord(const std::string& word) {
+  /// An option's value is the next word, or comes after a '=' as in --cells=32.
+  void parseWord(const std::string& whole) {
+    const size_t equals = whole.starts_with("--") ? whole.find('=') : std::string::npos;
+    const std::string word = whole.substr(0, equals);
+    if (equals != std::string::npos) attached_ = whole.substr(equals + 1);
     const bool cuts = arguments_.command == Command::cut;
     if (word == "--report") {
       arguments_.report = value(word);
@@ -113,11 +117,19 @@ class Parser {
     } else {
       arguments_.mesh = word;
     }
+    if (attached_) throw UsageError(word + " takes no value");
   }
 
-  const std::string& value(const std::string& option) {
-    if (next_ == words_.size() || words_[next_].empty()) throw UsageError(option + " needs a value");
-    return words_[next_++];
+  std::string value(const std::string& option) {
+    std::string value;
+    if (attached_) {
+      value.swap(*attached_);
+      attached_.reset();
+    } else if (next_ < words_.size()) {
+      value = words_[next_++];
+    }
+    if (value.empty()) throw UsageError(option + " needs a value");
+    return value;
   }
 
   void parseCells(const std::string& word) {
@@ -155,6 +167,7 @@ class Parser {
 
   const std::vector<std::string>& words_;
   size_t next_ = 0;
+  std::optional<std::string> attached_;  ///< value of the option being parsed
   Arguments arguments_;
 };
 
