@@ -175,19 +175,15 @@ class VtuWriter {
     array("Float64", "volume", grid.volume);
     out_.text("</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
     out_.flush();
-    for (const Appended& appended : appended_) {
-      sink_({reinterpret_cast<const char*>(&appended.size), sizeof appended.size});
-      sink_(appended.bytes);
+    for (const std::string_view bytes : appended_) {
+      const uint64_t size = bytes.size();
+      sink_({reinterpret_cast<const char*>(&size), sizeof size});
+      sink_(bytes);
     }
     sink_("\n</AppendedData>\n</VTKFile>\n");
   }
 
  private:
-  struct Appended {
-    std::string_view bytes;
-    uint64_t size;
-  };
-
   template <class Scalar>
   void array(const char* type, const char* name, const std::vector<Scalar>& values, int components = 1) {
     out_.text("<DataArray type=\"");
@@ -199,14 +195,13 @@ class VtuWriter {
     out_.text("\" format=\"appended\" offset=\"");
     out_.number(offset_);
     out_.text("\"/>\n");
-    const size_t size = values.size() * sizeof(Scalar);
-    appended_.push_back({{reinterpret_cast<const char*>(values.data()), size}, size});
-    offset_ += sizeof(uint64_t) + appended_.back().size;
+    appended_.push_back({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Scalar)});
+    offset_ += sizeof(uint64_t) + appended_.back().size();
   }
 
   const Sink& sink_;
   OutputBuffer out_;
-  std::vector<Appended> appended_;
+  std::vector<std::string_view> appended_;
   uint64_t offset_ = 0;
 };
 
