@@ -3,14 +3,14 @@
  * handle plain data and also run in a worker, from whose bundle three then drops out.
  */
 import type { BufferGeometry, Matrix4 } from 'three';
-import type { CutEdges, CutMesh, FaceTriangles, Measures, Mesh, Slice, Vector3 } from './index.js';
+import type { CutEdges, CutMesh, FaceTriangles, Measures, Slice, Vector3 } from './index.js';
 
 /**
  * The triangles of an indexed or unindexed BufferGeometry (its draw range and groups aside), moved by the matrix if there is one; with one
  * that mirrors, outward stays outward. Seams that miss themselves by a rounding, as that of SphereGeometry, leave the mesh open: merge
  * their vertices first.
  */
-export function meshFromGeometry(geometry: BufferGeometry, matrix?: Matrix4): Mesh;
+export function meshFromGeometry(geometry: BufferGeometry, matrix?: Matrix4): { positions: Float64Array; triangles: Uint32Array };
 
 export interface CellArraysOptions {
   /** Cut-cells to take. Default: all. */

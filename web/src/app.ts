@@ -1,5 +1,6 @@
 // The state of the page and what can be done to it. Panels call the methods and listen to the events.
 import type { Validation } from 'mandoline-wasm';
+import { isPageError } from './engine/failure';
 import { Events } from './events';
 import { gallery } from './gallery/list';
 import { defaultCells, defaultSettings, defaultSource } from './settings';
@@ -294,6 +295,6 @@ function isAbort(error: unknown): boolean {
 }
 
 export function pageError(error: unknown): PageError {
-  if (typeof error === 'object' && error !== null && 'title' in error && 'detail' in error) return { title: String(error.title), detail: String(error.detail) };
+  if (isPageError(error)) return error;
   return { title: 'Something went wrong', detail: error instanceof Error ? error.message : String(error) };
 }

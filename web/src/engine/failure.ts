@@ -16,7 +16,7 @@ export function pageError(title: string, detail: string): PageError {
   return { title, detail };
 }
 
-function isPageError(error: unknown): error is PageError {
+export function isPageError(error: unknown): error is PageError {
   return typeof error === 'object' && error !== null && 'title' in error && 'detail' in error;
 }
 

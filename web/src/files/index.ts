@@ -2,6 +2,7 @@
 // welded here: the cutter does that.
 import type { MeshArrays } from '../gallery/mesh';
 import { FileError, Flaw } from './flaw';
+import type { Format } from './formats';
 import { isGlb, parseGltf } from './gltf';
 import { gunzip, isGzipped } from './gunzip';
 import { parseObj } from './obj';
@@ -9,11 +10,11 @@ import { offHeader, parseOff } from './off';
 import { parsePly } from './ply';
 import { isBinaryStl, parseStl } from './stl';
 
-const readers = { obj: parseObj, stl: parseStl, ply: parsePly, off: parseOff, glb: parseGltf, gltf: parseGltf };
-type Format = keyof typeof readers;
+export { fileExtensions } from './formats';
 
-/** For file pickers. */
-export const fileExtensions: readonly string[] = Object.keys(readers).flatMap((format) => [`.${format}`, `.${format}.gz`]);
+const readers: Record<Format, (bytes: Uint8Array) => MeshArrays | Promise<MeshArrays>> = {
+  obj: parseObj, stl: parseStl, ply: parsePly, off: parseOff, glb: parseGltf, gltf: parseGltf,
+};
 
 function extension(name: string): string {
   const path = name.replace(/[?#].*$/, '').replace(/\.gz$/i, '');

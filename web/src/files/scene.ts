@@ -1,29 +1,21 @@
+import { meshFromGeometry } from 'mandoline-wasm/three';
 import { InstancedMesh, Matrix4, Mesh, type BufferGeometry, type Object3D } from 'three';
-import { flipped, merged, type MeshArrays } from '../gallery/mesh';
+import { merged, type MeshArrays } from '../gallery/mesh';
 import { Flaw } from './flaw';
 
-/** Triangles of a geometry moved by a matrix; those of a mirrored one are turned, so that their outer side stays outside. */
+/** Triangles of a geometry moved by a matrix, without an incomplete last one. */
 function moved(geometry: BufferGeometry, matrix: Matrix4, name: string): MeshArrays {
-  const source = geometry.getAttribute('position');
-  const m = matrix.elements;
-  const positions = new Float64Array(3 * source.count);
-  for (let v = 0; v < source.count; ++v) {
-    const [x, y, z] = [source.getX(v), source.getY(v), source.getZ(v)];
-    for (let d = 0; d < 3; ++d) {
-      const value = m[d] * x + m[4 + d] * y + m[8 + d] * z + m[12 + d];
-      if (!Number.isFinite(value)) throw new Flaw(`${name}: point ${v} has a coordinate that is not a finite number.`);
-      positions[3 * v + d] = value;
-    }
-  }
-  const corners = geometry.index ?? null;
-  const count = Math.floor((corners ? corners.count : source.count) / 3) * 3;
-  const triangles = Uint32Array.from({ length: count }, (_, k) => (corners ? corners.getX(k) : k));
-  const wrong = triangles.findIndex((v) => v >= source.count);
+  const { positions, triangles } = meshFromGeometry(geometry, matrix);
+  const infinite = positions.findIndex((x) => !Number.isFinite(x));
+  if (infinite >= 0) throw new Flaw(`${name}: point ${Math.floor(infinite / 3)} has a coordinate that is not a finite number.`);
+  const whole = triangles.subarray(0, triangles.length - (triangles.length % 3));
+  const points = positions.length / 3;
+  const wrong = whole.findIndex((v) => v >= points);
   if (wrong >= 0) {
     const triangle = Math.floor(wrong / 3);
-    throw new Flaw(`${name}: triangle ${triangle} names point ${triangles[wrong]}, but there are ${source.count} points, numbered from 0.`);
+    throw new Flaw(`${name}: triangle ${triangle} names point ${whole[wrong]}, but there are ${points} points, numbered from 0.`);
   }
-  return matrix.determinant() < 0 ? flipped({ positions, triangles }) : { positions, triangles };
+  return { positions, triangles: whole };
 }
 
 /** All triangles of what one of three's loaders made, each mesh at its place. Points and lines are left out. */

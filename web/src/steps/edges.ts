@@ -1,9 +1,10 @@
 // The first two steps: tri-edges with their crossings, and hybrid edges.
 import type { StepPicture, StepRequest } from '../types';
+import { plural } from '../ui/format';
 import { axisColors, crossingColors, outlineColor, triEdgeColor } from './colors';
 import { chosenTriangle } from './choose';
-import { commonPlanes, forEachEdge } from './faces';
-import { counted, Drawing, pointOf, type Subject } from './picture';
+import { commonPlanes, facesWhere, forEachEdge } from './faces';
+import { Drawing, pointOf, type Subject } from './picture';
 
 /** Of meshes with more triangles, one triangle and its neighbours are shown: the points would cover each other. */
 const mostTriangles = { triEdges: 800, hybridEdges: 20000 };
@@ -42,12 +43,8 @@ function isAlongTriEdge(subject: Subject, u: number, v: number): boolean {
   return ends.length === 4 && new Set(ends).size <= 2;
 }
 
-function facesOfTriangles({ cutMesh }: Subject, triangles: ReadonlySet<number>): number[] {
-  const faces: number[] = [];
-  cutMesh.faceTriangle.forEach((t, face) => {
-    if (triangles.has(t)) faces.push(face);
-  });
-  return faces;
+function facesOfTriangles(subject: Subject, triangles: ReadonlySet<number>): number[] {
+  return facesWhere(subject, (face) => triangles.has(subject.cutMesh.faceTriangle[face]));
 }
 
 /** Returns their number: what lies at one place is one vertex, so an edge of an unwelded mesh counts once. */
@@ -88,9 +85,9 @@ export function triEdges(subject: Subject, request: StepRequest): StepPicture {
     drawing.point(pointOf(positions, vertex), crossingColors[planes - 1]);
   }
   const several = crossings[2] + crossings[3];
-  const text = `${counted(edges, 'tri-edge')}${where(triangle)} cross the axial planes in ${counted(crossings[1] + several, 'point')}`
+  const text = `${plural(edges, 'tri-edge')}${where(triangle)} cross the axial planes in ${plural(crossings[1] + several, 'point')}`
     + ` (orange${several ? `; ${several.toLocaleString('en')} of them where two planes meet, magenta, or three, red` : ''}).`
-    + `${triVerticesOnPlanes ? ` ${counted(triVerticesOnPlanes, 'tri-vertex lies', 'tri-vertices lie')} on a plane exactly.` : ''}`
+    + `${triVerticesOnPlanes ? ` ${plural(triVerticesOnPlanes, 'tri-vertex lies', 'tri-vertices lie')} on a plane exactly.` : ''}`
     + ' All of these become vertices of the cut-mesh (Section 4.1.1).';
   return drawing.finish(text, { kind: 'triEdges', triangle }, subject);
 }
@@ -112,7 +109,7 @@ export function hybridEdges(subject: Subject, request: StepRequest): StepPicture
   if (total === 0 && triangle === undefined) drawTriEdges(drawing, subject, shown);
   const text = total > 0
     ? `Hybrid edges: where the triangles${where(triangle)} meet axial planes across x (red), y (green) and z (blue).`
-      + ` Where they cross each other they are divided, which makes ${counted(total, 'cut-edge')} (Section 4.1.2).`
+      + ` Where they cross each other they are divided, which makes ${plural(total, 'cut-edge')} (Section 4.1.2).`
     : `There are no hybrid edges${where(triangle)}: no axial plane cuts through the inside of a triangle (Section 4.1.2).`;
   return drawing.finish(text, { kind: 'hybridEdges', triangle }, subject);
 }

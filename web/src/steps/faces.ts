@@ -2,6 +2,12 @@
 import type { Vector3 } from 'mandoline-wasm';
 import { pointOf, type Subject } from './picture';
 
+export function facesWhere({ cutMesh }: Subject, holds: (face: number) => boolean): number[] {
+  const faces: number[] = [];
+  for (let face = 0; face < cutMesh.faceTriangle.length; ++face) if (holds(face)) faces.push(face);
+  return faces;
+}
+
 /** Vertices of each loop of a face, the outer one first. */
 export function loopsOf({ cutMesh }: Subject, face: number): number[][] {
   const { faceLoopOffsets, loopOffsets, loopVertices } = cutMesh;

@@ -92,8 +92,3 @@ export class Drawing {
     this.#parts[part].add(moved, color);
   }
 }
-
-/** 1 triangle, 2 triangles. */
-export function counted(n: number, one: string, many = `${one}s`): string {
-  return `${n.toLocaleString('en')} ${n === 1 ? one : many}`;
-}

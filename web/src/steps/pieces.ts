@@ -1,18 +1,12 @@
 // The last three steps: cut-faces of a triangle, faces of an axial plane, cut-cells of a grid cell.
 import type { Vector3 } from 'mandoline-wasm';
+import { axes } from '../settings';
 import type { StepPicture, StepRequest } from '../types';
+import { plural } from '../ui/format';
 import { chosenGridCell, chosenPlane, chosenTriangle } from './choose';
 import { coplanarColor, gridColor, outlineColor, pieceColor, shaded, type Color } from './colors';
-import { loopPoints, middleOf, moved, trianglesOf } from './faces';
-import { counted, Drawing, pointOf, type Subject } from './picture';
-
-const axisNames = ['x', 'y', 'z'];
-
-function facesWhere({ cutMesh }: Subject, holds: (face: number) => boolean): number[] {
-  const faces: number[] = [];
-  for (let face = 0; face < cutMesh.faceTriangle.length; ++face) if (holds(face)) faces.push(face);
-  return faces;
-}
+import { facesWhere, loopPoints, middleOf, moved, trianglesOf } from './faces';
+import { Drawing, pointOf, type Subject } from './picture';
 
 /** A face drawn at some share of its size. */
 function drawFace(drawing: Drawing, subject: Subject, face: number, size: number, color: Color): void {
@@ -31,7 +25,7 @@ export function triangleFaces(subject: Subject, request: StepRequest): StepPictu
   const faces = facesWhere(subject, (face) => cutMesh.faceTriangle[face] === triangle);
   faces.forEach((face, k) => drawFace(drawing, subject, face, 0.9, pieceColor(k)));
   const text = faces.length > 0
-    ? `The axial planes cut triangle ${triangle} into ${counted(faces.length, 'cut-face')}, drawn a little apart.`
+    ? `The axial planes cut triangle ${triangle} into ${plural(faces.length, 'cut-face')}, drawn a little apart.`
       + ' Together they cover the triangle exactly, and each lies in one grid cell (Section 4.3).'
     : `Triangle ${triangle} has no cut-face: it has no area, another triangle covers it, or it lies outside of the grid.`;
   return drawing.finish(text, { kind: 'triangleFaces', triangle }, subject);
@@ -59,8 +53,8 @@ export function axialPlane(subject: Subject, request: StepRequest): StepPicture 
   faces.forEach((face, k) => drawFace(drawing, subject, face, 1, faceTriangle[face] >= 0 ? coplanarColor : pieceColor(k)));
   const punctured = faces.filter((face) => faceLoopOffsets[face + 1] - faceLoopOffsets[face] > 1).length;
   const coplanar = faces.filter((face) => faceTriangle[face] >= 0).length;
-  const text = `In the axial plane ${plane} across ${axisNames[axis]} the surface's outline divides the grid-faces`
-    + ` into ${counted(faces.length, 'face')}`
+  const text = `In the axial plane ${plane} across ${axes[axis]} the surface's outline divides the grid-faces`
+    + ` into ${plural(faces.length, 'face')}`
     + `${punctured ? `, ${punctured.toLocaleString('en')} of them with holes` : ''} (Sections 4.3 and 4.5).`
     + (coplanar > 0 ? ` Pieces of triangles in the plane (${coplanar.toLocaleString('en')}, yellow) take the place of grid-faces.` : '');
   return drawing.finish(text, { kind: 'axialPlane', axis, plane }, subject);
@@ -152,7 +146,7 @@ export function gridCell(subject: Subject, request: StepRequest): StepPicture {
   const regions = new Set(pieces.map(({ cell }) => cellRegion[cell])).size;
   const name = `Grid cell (${at.join(', ')})`;
   const text = pieces.length > 0
-    ? `${name} holds ${counted(pieces.length, 'cut-cell')} of ${counted(regions, 'region')}, pulled apart:`
+    ? `${name} holds ${plural(pieces.length, 'cut-cell')} of ${plural(regions, 'region')}, pulled apart:`
       + ' each is a closed set of half-faces, joined over their edges (Section 4.4).'
     : `${name} is untouched: the surface does not reach it, and it stays one whole cube.`;
   return drawing.finish(text, { kind: 'gridCell', gridCell: at }, subject);

@@ -1,5 +1,6 @@
 import type { App } from '../app';
 import type { CellCard } from '../types';
+import { gridCellVolume } from '../view/colors';
 import { CellViewer } from './cell_viewer';
 import { button, el, terms } from './dom';
 import { integer, real, winding } from './format';
@@ -56,10 +57,8 @@ function factList(card: CellCard, app: App): HTMLElement {
 }
 
 function share(card: CellCard, app: App): string {
-  const planes = app.model?.grid.planes;
-  if (!planes) return '';
-  const whole = card.gridCell.reduce((product, c, d) => product * (planes[d][c + 1] - planes[d][c]), 1);
-  return `${real((100 * card.volume) / whole)} %`;
+  if (!app.model) return '';
+  return `${real((100 * card.volume) / gridCellVolume(app.model, card.gridCell))} %`;
 }
 
 const shownNeighbours = 60;

@@ -13,8 +13,7 @@ export function cutPanel(app: App): HTMLElement {
 function resolution(app: App): HTMLElement {
   const label = 'Cells along the longest side';
   const range = slider({ id: 'cells', label, min: 1, max: 128, step: 1, onInput: (cells) => app.setGrid({ cells }) });
-  const number = numberField({ id: 'cells-number', label: 'Number of cells', min: 1, max: 512, onChange: (cells) => app.setGrid({ cells }) });
-  number.element.firstElementChild?.classList.add('visually-hidden');
+  const number = numberField({ id: 'cells-number', label: 'Number of cells', hideLabel: true, min: 1, max: 512, onChange: (cells) => app.setGrid({ cells }) });
   app.events.on('settings', ({ grid }) => {
     const cells = 'min' in grid ? Math.max(...grid.cells) : grid.cells;
     range.set(cells);

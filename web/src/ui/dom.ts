@@ -27,6 +27,8 @@ export interface NumberInput {
 interface NumberOptions {
   id: string;
   label: string;
+  /** For those who hear the page only. */
+  hideLabel?: boolean;
   min?: number;
   max?: number;
   step?: number | 'any';
@@ -35,7 +37,7 @@ interface NumberOptions {
 }
 
 /** A number field that speaks up when its content is not a number in range; `element` includes its label. */
-export function numberField({ id, label, min, max, step = 1, onChange }: NumberOptions): NumberInput {
+export function numberField({ id, label, hideLabel = false, min, max, step = 1, onChange }: NumberOptions): NumberInput {
   const input = el('input', { id, type: 'number', step, inputmode: 'decimal', change: changed });
   if (min !== undefined) input.min = String(min);
   if (max !== undefined) input.max = String(max);
@@ -43,7 +45,12 @@ export function numberField({ id, label, min, max, step = 1, onChange }: NumberO
   function changed(): void {
     if (input.reportValidity()) onChange(input.valueAsNumber);
   }
-  return { element: el('label', { class: 'field' }, el('span', {}, label), input), input, set: (value) => setUnlessTyping(input, value) };
+  const element = el('label', { class: 'field' }, el('span', labelClass(hideLabel), label), input);
+  return { element, input, set: (value) => setUnlessTyping(input, value) };
+}
+
+function labelClass(isHidden: boolean): Record<string, string> {
+  return isHidden ? { class: 'visually-hidden' } : {};
 }
 
 function setUnlessTyping(input: HTMLInputElement, value: number): void {
@@ -59,6 +66,8 @@ export interface Slider {
 interface SliderOptions {
   id: string;
   label: string;
+  /** For those who hear the page only. */
+  hideLabel?: boolean;
   min: number;
   max: number;
   step: number | 'any';
@@ -67,7 +76,7 @@ interface SliderOptions {
 }
 
 /** A slider with its label and, if there is a format, its value in words. */
-export function slider({ id, label, min, max, step, format, onInput }: SliderOptions): Slider {
+export function slider({ id, label, hideLabel = false, min, max, step, format, onInput }: SliderOptions): Slider {
   const input = el('input', { id, type: 'range', min, max, step });
   const output = el('output', { for: id });
   const show = () => {
@@ -80,7 +89,7 @@ export function slider({ id, label, min, max, step, format, onInput }: SliderOpt
     onInput(input.valueAsNumber);
   });
   show();
-  const element = el('div', { class: 'slider' }, el('label', { for: id }, label), format ? output : null, input);
+  const element = el('div', { class: 'slider' }, el('label', { for: id, ...labelClass(hideLabel) }, label), format ? output : null, input);
   const set = (value: number) => {
     input.value = String(value);
     show();

@@ -1,10 +1,12 @@
 import type { App } from '../app';
+import { fileExtensions } from '../files/formats';
 import { gallery } from '../gallery/list';
 import { button, el } from './dom';
 import { plural } from './format';
 import { section } from './section';
 
-export const fileTypes = '.obj,.stl,.ply,.off,.glb,.gltf,.gz';
+/** Pickers look at the last part of a name alone. */
+const fileTypes = [...fileExtensions, '.gz'].join();
 
 /** Which mesh is cut: from the gallery, a file or a URL. */
 export function meshPanel(app: App): HTMLElement {

@@ -19,8 +19,7 @@ export function ownGrid(app: App): HTMLElement {
     table.append(el('span', { class: 'hint', 'aria-hidden': 'true' }, rowLabels[key]));
     for (const axis of axes) {
       const limits = key === 'cells' ? { min: 1, max: 4096, step: 1 } : { step: 'any' as const };
-      const field = numberField({ id: `grid-${key}-${axis}`, label: `${rowLabels[key]}, ${axis}`, ...limits, onChange: apply });
-      field.element.firstElementChild?.classList.add('visually-hidden');
+      const field = numberField({ id: `grid-${key}-${axis}`, label: `${rowLabels[key]}, ${axis}`, hideLabel: true, ...limits, onChange: apply });
       rows[key].push(field);
       table.append(field.element);
     }

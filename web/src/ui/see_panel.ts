@@ -31,10 +31,9 @@ function sliceRow(app: App, name: SliceName): HTMLElement {
   const label = name === 'free' ? 'free' : name;
   const on = checkbox(`slice-${name}`, label, (checked) => app.changeSlice(name, { on: checked }));
   const position = slider({
-    id: `slice-${name}-position`, label: `Position of the ${label} plane`, min: 0, max: 1, step: 0.002,
+    id: `slice-${name}-position`, label: `Position of the ${label} plane`, hideLabel: true, min: 0, max: 1, step: 0.002,
     onInput: (value) => app.changeSlice(name, { position: value, on: true }),
   });
-  position.element.firstElementChild?.classList.add('visually-hidden');
   const flip = button('flip', () => app.flip(name), { id: `slice-${name}-flip`, class: 'quiet', 'aria-label': `Flip the ${label} plane` });
   app.events.on('settings', ({ slices: all }) => {
     on.input.checked = all[name].on;

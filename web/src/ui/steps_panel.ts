@@ -91,8 +91,7 @@ function choices(app: App): HTMLElement {
 /** A slider from 0 with a number field beside it. */
 function numberSlider(id: string, label: string, onInput: (value: number) => void) {
   const range = slider({ id, label, min: 0, max: 1, step: 1, onInput });
-  const number = numberField({ id: `${id}-number`, label: `Number: ${label}`, min: 0, onChange: onInput });
-  number.element.firstElementChild?.classList.add('visually-hidden');
+  const number = numberField({ id: `${id}-number`, label: `Number: ${label}`, hideLabel: true, min: 0, onChange: onInput });
   const set = (value: number, last: number) => {
     range.input.max = number.input.max = String(last);
     range.set(value);

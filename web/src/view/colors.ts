@@ -61,8 +61,8 @@ function volumeColor(fraction: number): Rgb {
   return [0, 1, 2].map((c) => volumeRamp[from][c] + (at - from) * (volumeRamp[from + 1][c] - volumeRamp[from][c])) as unknown as Rgb;
 }
 
-function gridCellVolume(model: Model, gridCell: Int32Array): number {
-  return gridCell.reduce((volume, c, d) => volume * (model.grid.planes[d][c + 1] - model.grid.planes[d][c]), 1);
+export function gridCellVolume({ grid }: Model, gridCell: ArrayLike<number>): number {
+  return grid.planes.reduce((volume, planes, d) => volume * (planes[gridCell[d] + 1] - planes[gridCell[d]]), 1);
 }
 
 function byRegion(model: Model, colorBy: ColorBy): Rgb[] {
