@@ -1,5 +1,6 @@
 import type { CutMesh, FaceTriangles } from 'mandoline-wasm';
 import type { Model } from '../types';
+import { forEachCellEdge } from './edges';
 
 type Buffers = Pick<Model, 'triangles' | 'edges'>;
 
@@ -39,11 +40,15 @@ export function cellBuffers(cutMesh: CutMesh, faceTriangles: FaceTriangles, orig
 }
 
 function countBuffers(cutMesh: CutMesh, { faceTriangleOffsets }: FaceTriangles): { vertices: number; triangles: number; edges: number } {
+  const { faceLoopOffsets, loopOffsets } = cutMesh;
   const counts = { vertices: 0, triangles: 0, edges: 0 };
   walk(cutMesh, {
     vertex: () => counts.vertices++,
-    edge: () => counts.edges++,
-    halfFace: (face) => (counts.triangles += faceTriangleOffsets[face + 1] - faceTriangleOffsets[face]),
+    halfFace: (face) => {
+      counts.triangles += faceTriangleOffsets[face + 1] - faceTriangleOffsets[face];
+      // Every edge of a cell is met twice.
+      counts.edges += (loopOffsets[faceLoopOffsets[face + 1]] - loopOffsets[faceLoopOffsets[face]]) / 2;
+    },
   });
   return counts;
 }
@@ -51,20 +56,22 @@ function countBuffers(cutMesh: CutMesh, { faceTriangleOffsets }: FaceTriangles):
 interface Visitor {
   /** A vertex that the faces of this kind have not had in this cell. */
   vertex(vertex: number, isSurface: 0 | 1, cell: number): void;
-  /** The half-faces of a cell run through an edge equally often forth and back, so one direction finds it once. */
-  edge(from: number, to: number, isSurface: 0 | 1): void;
-  /** After its vertices and edges. */
+  /** After its vertices. */
   halfFace(face: number, side: number, isSurface: 0 | 1): void;
+  /** After its vertices; of a kind of faces that has both ends. */
+  edge?(from: number, to: number, isSurface: 0 | 1): void;
 }
 
 function walk(cutMesh: CutMesh, visitor: Visitor): void {
   const { cellHalfFaceOffsets, cellHalfFaces, faceLoopOffsets, loopOffsets, loopVertices, faceTriangle } = cutMesh;
+  const isPieceOfTriangle = (face: number) => (faceTriangle[face] >= 0 ? 1 : 0);
+  const visitEdge = (from: number, to: number, face: number) => visitor.edge?.(from, to, isPieceOfTriangle(face));
   const lastCell = new Int32Array(2 * (cutMesh.positions.length / 3)).fill(-1);
   for (let cell = 0; cell + 1 < cellHalfFaceOffsets.length; cell++) {
     for (let h = cellHalfFaceOffsets[cell]; h < cellHalfFaceOffsets[cell + 1]; h++) {
       const face = cellHalfFaces[h] >> 1;
       const side = cellHalfFaces[h] & 1;
-      const isSurface = faceTriangle[face] >= 0 ? 1 : 0;
+      const isSurface = isPieceOfTriangle(face);
       for (let loop = faceLoopOffsets[face]; loop < faceLoopOffsets[face + 1]; loop++) {
         for (let at = loopOffsets[loop]; at < loopOffsets[loop + 1]; at++) {
           const vertex = loopVertices[at];
@@ -72,14 +79,9 @@ function walk(cutMesh: CutMesh, visitor: Visitor): void {
           lastCell[2 * vertex + isSurface] = cell;
           visitor.vertex(vertex, isSurface, cell);
         }
-        let from = loopVertices[loopOffsets[loop + 1] - 1];
-        for (let at = loopOffsets[loop]; at < loopOffsets[loop + 1]; at++) {
-          const to = loopVertices[at];
-          if (side === 0 ? from < to : from > to) visitor.edge(from, to, isSurface);
-          from = to;
-        }
       }
       visitor.halfFace(face, side, isSurface);
     }
+    if (visitor.edge) forEachCellEdge(cutMesh, cell, visitEdge);
   }
 }

@@ -1,7 +1,10 @@
 import type { CutMesh } from 'mandoline-wasm';
 
-/** Calls back with each edge of a cut-cell. Its half-faces run through an edge equally often forth and back, so one direction finds it. */
-export function forEachCellEdge(cutMesh: CutMesh, cell: number, edge: (from: number, to: number) => void): void {
+/**
+ * Calls back with each edge of a cut-cell and the face that it was found at. The half-faces run through an edge equally often forth and
+ * back, so one direction finds it.
+ */
+export function forEachCellEdge(cutMesh: CutMesh, cell: number, edge: (from: number, to: number, face: number) => void): void {
   const { cellHalfFaceOffsets, cellHalfFaces, faceLoopOffsets, loopOffsets, loopVertices } = cutMesh;
   for (let h = cellHalfFaceOffsets[cell]; h < cellHalfFaceOffsets[cell + 1]; h++) {
     const face = cellHalfFaces[h] >> 1;
@@ -11,7 +14,7 @@ export function forEachCellEdge(cutMesh: CutMesh, cell: number, edge: (from: num
       let from = loopVertices[end - 1];
       for (let at = loopOffsets[loop]; at < end; at++) {
         const to = loopVertices[at];
-        if (from < to !== reversed) edge(from, to);
+        if (from < to !== reversed) edge(from, to, face);
         from = to;
       }
     }
