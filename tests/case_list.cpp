@@ -10,7 +10,9 @@ using namespace shapes;
 
 std::vector<NamedCase> caseList() {
   const Point c = {1.5, 1.5, 1.5};
-  const auto wave = [](int i, int j) { return Point{0.375 + 0.3125 * i, 0.25 + 0.28125 * j, 2 + 0.7 * std::sin(0.9 * i) * std::cos(0.7 * j)}; };
+  const auto wave = [](int i, int j) {
+    return Point{0.375 + 0.3125 * i, 0.25 + 0.28125 * j, 2 + 0.7 * std::sin(0.9 * i) * std::cos(0.7 * j)};
+  };
   Mesh flippedInPart = cube(0.5, 2.5);
   std::swap(flippedInPart.triangles[0], flippedInPart.triangles[1]);
   const Grid graded = Grid::rectilinear({{{0, 0.5, 2, 2.25, 4}, {0, 1, 1.125, 3, 4}, {0, 2, 2.5, 4}}});

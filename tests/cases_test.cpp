@@ -211,7 +211,8 @@ TEST_CASE("non-manifold: bow-tie vertices", "[cases]") {
   }
   SECTION("open fans that meet in one vertex") {
     const Mesh mesh = merged({triangle({1.5, 1.5, 1.5}, {1.75, 1.5, 1.25}, {1.75, 1.75, 1.5}),
-                              triangle({1.5, 1.5, 1.5}, {1.25, 1.5, 1.75}, {1.25, 1.25, 1.25}), triangle({1.5, 1.5, 1.5}, {1.5, 1.75, 2.5}, {1.5, 1.5, 2.5})});
+                              triangle({1.5, 1.5, 1.5}, {1.25, 1.5, 1.75}, {1.25, 1.25, 1.25}),
+                              triangle({1.5, 1.5, 1.5}, {1.5, 1.75, 2.5}, {1.5, 1.5, 2.5})});
     atBothOrientations(mesh, unitGrid(3), [](const CheckedCut& cut, int) { CHECK(cut.cells() == 27); });
   }
 }
@@ -292,7 +293,8 @@ TEST_CASE("tunnels: loops nested three deep", "[cases]") {
 
 TEST_CASE("tunnels: two nests beside each other in one grid-face", "[cases]") {
   const auto smallPost = [](double x, double w) { return box({x - w, 1.5 - w, 0.5 - w}, {x + w, 1.5 + w, 1.5 + w}); };
-  const Mesh mesh = merged({smallPost(1.25, 0.1875), flipped(smallPost(1.25, 0.125)), smallPost(1.75, 0.1875), flipped(smallPost(1.75, 0.125))});
+  const Mesh mesh =
+      merged({smallPost(1.25, 0.1875), flipped(smallPost(1.25, 0.125)), smallPost(1.75, 0.1875), flipped(smallPost(1.75, 0.125))});
   atBothOrientations(mesh, unitGrid(3), [](const CheckedCut& cut, int) {
     CHECK(cut.mesh.regionCount == 5);
     CHECK(cut.cells() == 27 + 8);
@@ -333,7 +335,8 @@ TEST_CASE("tunnels: closed and open tubes", "[cases]") {
     });
   }
   SECTION("open, ending inside one cell") {
-    atBothOrientations(tube({1.5, 1.5, 1.25}, 0.25, 0.5, slices, false), unitGrid(3), [&](const CheckedCut& cut, int) { CHECK(cut.cells() == 27); });
+    atBothOrientations(tube({1.5, 1.5, 1.25}, 0.25, 0.5, slices, false), unitGrid(3),
+                       [&](const CheckedCut& cut, int) { CHECK(cut.cells() == 27); });
   }
 }
 
@@ -468,7 +471,8 @@ TEST_CASE("coplanar triangles on axial planes with normals of both signs", "[cas
     });
   }
   SECTION("on the boundary of the grid") {
-    for (double z : {0., 4.}) atBothOrientations(horizontalQuad(0.5, 2.5, z), unitGrid(4), [](const CheckedCut& cut, int) { CHECK(cut.cells() == 64); });
+    for (double z : {0., 4.})
+      atBothOrientations(horizontalQuad(0.5, 2.5, z), unitGrid(4), [](const CheckedCut& cut, int) { CHECK(cut.cells() == 64); });
   }
   SECTION("of both signs side by side") {
     const Mesh mesh = merged({quad({0.5, 0.5, 2}, {1.5, 0.5, 2}, {1.5, 1.5, 2}, {0.5, 1.5, 2}),
@@ -614,7 +618,9 @@ TEST_CASE("triangles spanning many cells", "[cases]") {
   SECTION("a needle") {
     const Mesh mesh = tetrahedron({0.25, 0.3, 0.35}, {0.26, 0.3, 0.35}, {0.25, 0.31, 0.35}, {9.5, 9.25, 9.75});
     const double volume = signedVolume(mesh);
-    atBothOrientations(mesh, unitGrid(10), [&](const CheckedCut& cut, int) { CHECK(near(cut.regionVolumes(), {volume, 1000 - volume}, 1e-9)); });
+    atBothOrientations(mesh, unitGrid(10), [&](const CheckedCut& cut, int) {
+      CHECK(near(cut.regionVolumes(), {volume, 1000 - volume}, 1e-9));
+    });
   }
 }
 
@@ -696,7 +702,9 @@ TEST_CASE("1x1x1 grid", "[cases]") {
   });
   atBothOrientations(icosphere({0.5, 0.5, 0.5}, 0.4, 3), unitGrid(1), [](const CheckedCut& cut, int) { CHECK(cut.cells() == 2); });
   atBothOrientations(cube(0, 1), unitGrid(1), [](const CheckedCut& cut, int) { CHECK(cut.cells() == 1); });
-  atBothOrientations(horizontalQuad(-1, 2, 0.5), unitGrid(1), [](const CheckedCut& cut, int) { CHECK(near(cut.regionVolumes(), {0.5, 0.5})); });
+  atBothOrientations(horizontalQuad(-1, 2, 0.5), unitGrid(1), [](const CheckedCut& cut, int) {
+    CHECK(near(cut.regionVolumes(), {0.5, 0.5}));
+  });
 }
 
 TEST_CASE("spacing that differs by axis", "[cases]") {
@@ -805,9 +813,9 @@ TEST_CASE("zero-area triangles are dropped and reported", "[cases]") {
   SECTION("beside a good mesh") {
     Mesh mesh = cube(0.5, 2.5);
     const uint32_t first = uint32_t(mesh.triangleCount());
-    mesh.triangles.insert(mesh.triangles.end(), {0, 0, 1, 5, 5, 5});                            // repeated vertices
-    mesh = merged({mesh, triangle({1, 1, 1}, {2, 2, 2}, {1.5, 1.5, 1.5})});                     // collinear
-    mesh = merged({mesh, triangle({1, 1, 1}, {2, 2, 2}, {1, 1, 1})});                           // two at one position
+    mesh.triangles.insert(mesh.triangles.end(), {0, 0, 1, 5, 5, 5});         // repeated vertices
+    mesh = merged({mesh, triangle({1, 1, 1}, {2, 2, 2}, {1.5, 1.5, 1.5})});  // collinear
+    mesh = merged({mesh, triangle({1, 1, 1}, {2, 2, 2}, {1, 1, 1})});        // two at one position
     atBothOrientations(mesh, unitGrid(4), [&](const CheckedCut& cut, int) {
       CHECK(near(cut.regionVolumes(), {8, 56}));
       CHECK(cut.mesh.droppedTriangles == std::vector<uint32_t>{first, first + 1, first + 2, first + 3});
@@ -818,12 +826,12 @@ TEST_CASE("zero-area triangles are dropped and reported", "[cases]") {
     // One edge of the box has a middle vertex on one of its two sides only; a triangle without area joins the sides.
     for (double lo : {0.5, 1.}) {
       Mesh mesh = cube(lo, lo + 2);
-      const size_t t = 8;                                                                       // 0 2 3: split its edge 2 3
+      const size_t t = 8;  // 0 2 3: split its edge 2 3
       REQUIRE(mesh.triangles[3 * t + 1] == 2);
       REQUIRE(mesh.triangles[3 * t + 2] == 3);
       const uint32_t middle = uint32_t(mesh.vertexCount());
       mesh.positions.insert(mesh.positions.end(), {lo + 1, lo + 2, lo});
-      mesh.triangles[3 * t + 2] = middle;                                                       // 0 2 m
+      mesh.triangles[3 * t + 2] = middle;  // 0 2 m
       mesh.triangles.insert(mesh.triangles.end(), {0, middle, 3, 2, 3, middle});
       atBothOrientations(mesh, unitGrid(4), [&](const CheckedCut& cut, int orientation) {
         CHECK(near(cut.regionVolumes(), {8, 56}));
@@ -926,7 +934,8 @@ TEST_CASE("statuses name what is wrong with the mesh", "[cases]") {
   fails(mesh, grid, Status::badIndex, 7);
   mesh.triangles[3 * 7 + 2] = 0xffffffffu;
   fails(mesh, grid, Status::badIndex, 7);
-  for (double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
+  for (double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
     mesh = cube(1, 3);
     mesh.positions[3 * 5 + 1] = bad;
     fails(mesh, grid, Status::nonFiniteCoordinate, 5);
@@ -971,7 +980,8 @@ TEST_CASE("statuses name a wrong option", "[cases]") {
 
 TEST_CASE("an input that intersects itself on a grid line is refused by its two triangles", "[cases]") {
   // An edge of the second triangle crosses the grid line x = y = 1 in the point where that line pierces the first.
-  const Mesh mesh = merged({triangle({0.25, 0.25, 1.5}, {2.75, 0.25, 1.5}, {1, 2.75, 1.5}), triangle({0.25, 0.5, 0.5}, {1.75, 1.5, 2.5}, {1, 2, 1.5})});
+  const Mesh mesh =
+      merged({triangle({0.25, 0.25, 1.5}, {2.75, 0.25, 1.5}, {1, 2.75, 1.5}), triangle({0.25, 0.5, 0.5}, {1.75, 1.5, 2.5}, {1, 2, 1.5})});
   const CutResult result = cut(mesh, Grid::box({0, 0, 0}, {3, 3, 3}, {3, 3, 3}));
   INFO(result.error.message);
   REQUIRE(std::string(name(result.error.status)) == "selfIntersection");
@@ -984,10 +994,11 @@ TEST_CASE("an input that intersects itself never gives a result that is wrong", 
   std::vector<Mesh> meshes;
   for (double shift : {0.25, 0.5, 1., 1.25}) {
     meshes.push_back(merged({cube(0.5, 2.5), translated(cube(0.5, 2.5), {shift, shift, shift})}));
-    meshes.push_back(merged({cube(0.5, 2.5), translated(cube(0.5, 2.5), {shift, 0, 0})}));                   // coplanar overlaps
-    meshes.push_back(merged({cube(1, 3), translated(cube(1, 3), {shift, 0, 0})}));                           // in axial planes
+    meshes.push_back(merged({cube(0.5, 2.5), translated(cube(0.5, 2.5), {shift, 0, 0})}));  // coplanar overlaps
+    meshes.push_back(merged({cube(1, 3), translated(cube(1, 3), {shift, 0, 0})}));          // in axial planes
     meshes.push_back(merged({icosphere({1.5, 1.5, 1.5}, 1, 2), translated(octahedron({1.5, 1.5, 1.5}, 1), {shift, 0, 0})}));
-    meshes.push_back(merged({horizontalQuad(0.5, 3.5, 1.5), translated(quad({1, 0.5, 0.5}, {1, 3.5, 0.5}, {1, 3.5, 3.5}, {1, 0.5, 3.5}), {shift, 0, 0})}));
+    meshes.push_back(merged(
+        {horizontalQuad(0.5, 3.5, 1.5), translated(quad({1, 0.5, 0.5}, {1, 3.5, 0.5}, {1, 3.5, 3.5}, {1, 0.5, 3.5}), {shift, 0, 0})}));
   }
   for (const Mesh& mesh : meshes)
     for (int64_t n : {1, 2, 4, 9}) {
@@ -1016,7 +1027,8 @@ TEST_CASE("progress is told in order and can cancel anywhere", "[cases]") {
   CutOptions options;
   options.progress = [&](const Progress& progress) {
     ++calls;
-    inOrder = inOrder && progress.stage && progress.stageIndex >= lastStage && progress.stageIndex < progress.stageCount && progress.done <= progress.total;
+    inOrder = inOrder && progress.stage && progress.stageIndex >= lastStage && progress.stageIndex < progress.stageCount &&
+              progress.done <= progress.total;
     lastStage = progress.stageIndex;
     return true;
   };

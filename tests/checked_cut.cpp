@@ -53,7 +53,8 @@ size_t CheckedCut::facesWithHoles() const {
 
 size_t CheckedCut::facesIn(int axis, int plane, size_t holes) const {
   size_t count = 0;
-  for (size_t f = 0; f < mesh.faceCount(); ++f) count += mesh.faceAxis[f] == axis && mesh.facePlane[f] == plane && holesOf(mesh, f) >= holes;
+  for (size_t f = 0; f < mesh.faceCount(); ++f)
+    count += mesh.faceAxis[f] == axis && mesh.facePlane[f] == plane && holesOf(mesh, f) >= holes;
   return count;
 }
 
@@ -103,9 +104,7 @@ void atBothOrientations(const Mesh& mesh, const Grid& grid, const std::function<
 
 Grid unitGrid(int64_t n) { return unitGrid(n, n, n); }
 
-Grid unitGrid(int64_t nx, int64_t ny, int64_t nz) {
-  return Grid::box({0, 0, 0}, {double(nx), double(ny), double(nz)}, {nx, ny, nz});
-}
+Grid unitGrid(int64_t nx, int64_t ny, int64_t nz) { return Grid::box({0, 0, 0}, {double(nx), double(ny), double(nz)}, {nx, ny, nz}); }
 
 bool near(const std::vector<double>& a, const std::vector<double>& b, double tolerance) {
   const auto close = [&](double x, double y) { return std::abs(x - y) <= tolerance; };

@@ -14,10 +14,10 @@ struct CheckedCut {
   mandoline::Measures measures;
 
   size_t cells() const { return mesh.cellCount() + mesh.untouchedCellCount(); }
-  double volume() const;                                       ///< of all regions
-  std::vector<double> regionVolumes() const;                   ///< ascending
-  double windingVolume(int winding) const;                     ///< of the regions with this winding number
-  std::vector<double> volumesIn(int i, int j, int k) const;    ///< of the cut-cells in a grid cell, ascending
+  double volume() const;                                     ///< of all regions
+  std::vector<double> regionVolumes() const;                 ///< ascending
+  double windingVolume(int winding) const;                   ///< of the regions with this winding number
+  std::vector<double> volumesIn(int i, int j, int k) const;  ///< of the cut-cells in a grid cell, ascending
   size_t facesWithHoles() const;
   /// Faces in an axial plane: pieces of grid-faces and coplanar triangles; those with at least `holes` holes.
   size_t facesIn(int axis, int plane, size_t holes = 0) const;

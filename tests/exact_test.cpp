@@ -31,7 +31,9 @@ struct Value {
   Bounded bounded;
   int degree;
 
-  static Value difference(double a, double b) { return {Rational(a) - Rational(b), Expansion::difference(a, b), Bounded::difference(a, b), 1}; }
+  static Value difference(double a, double b) {
+    return {Rational(a) - Rational(b), Expansion::difference(a, b), Bounded::difference(a, b), 1};
+  }
   friend Value operator+(const Value& a, const Value& b) {
     return {a.exact + b.exact, a.expansion + b.expansion, a.bounded + b.bounded, std::max(a.degree, b.degree)};
   }
@@ -71,7 +73,10 @@ struct Polynomials {
     for (size_t i = 0; i < kLeaves; ++i) values.push_back(Value::difference(x[2 * i], x[2 * i + 1]));
     for (const Step& s : steps) {
       const Value &a = values[s.a], &b = values[s.b];
-      values.push_back(s.operation == 0 ? a + b : s.operation == 1 || a.degree + b.degree > kLargestDegree ? a - b : s.operation == 2 ? -a : a * b);
+      values.push_back(s.operation == 0                                           ? a + b
+                       : s.operation == 1 || a.degree + b.degree > kLargestDegree ? a - b
+                       : s.operation == 2                                         ? -a
+                                                                                  : a * b);
     }
     return values;
   }
@@ -168,7 +173,8 @@ TEST_CASE("Expansions and bounds where everything cancels", "[exact]") {
 TEST_CASE("Sums of seven factors stay in range at both ends", "[exact]") {
   for (const double largest : {std::nextafter(Sampler::kLimit, 0.0), -std::nextafter(Sampler::kLimit, 0.0)}) {
     Value product = Value::difference(largest, -largest);
-    for (int i = 1; i < kLargestDegree; ++i) product = product * Value::difference(largest, i % 2 ? -largest : std::nextafter(-largest, 0.0));
+    for (int i = 1; i < kLargestDegree; ++i)
+      product = product * Value::difference(largest, i % 2 ? -largest : std::nextafter(-largest, 0.0));
     Value sum = product;
     for (int i = 0; i < 5; ++i) sum = sum + product;  // the six terms of a determinant
     check(sum);
@@ -188,8 +194,11 @@ TEST_CASE("Quotients of expansions are within a unit in the last place", "[exact
     Sampler sampler(kind);
     for (int repeat = 0; repeat < 300; ++repeat) {
       const double x = sampler.coordinate(), y = sampler.nudged(x);
-      const auto factor = [&] { return Value::difference(sampler.oneIn(2) ? x : sampler.coordinate(), sampler.oneIn(2) ? y : sampler.coordinate()); };
-      const Value numerator = factor() * factor() * factor() - factor() * factor() * factor(), denominator = factor() * factor() - factor() * factor();
+      const auto factor = [&] {
+        return Value::difference(sampler.oneIn(2) ? x : sampler.coordinate(), sampler.oneIn(2) ? y : sampler.coordinate());
+      };
+      const Value numerator = factor() * factor() * factor() - factor() * factor() * factor(),
+                  denominator = factor() * factor() - factor() * factor();
       if (denominator.exact.sign() == 0) continue;
       const double quotient = Expansion::quotient(numerator.expansion, denominator.expansion);
       CHECK(abs(Rational(quotient) - numerator.exact / denominator.exact) <= ulp(quotient));

@@ -1,4 +1,5 @@
-// libFuzzer target: any bytes are a mesh on a coarse lattice and a small grid. Finds go to fuzz_corpus/, where fuzz_corpus_test.cpp replays them.
+// libFuzzer target: any bytes are a mesh on a coarse lattice and a small grid. Finds go to fuzz_corpus/, where fuzz_corpus_test.cpp replays
+// them.
 #include <cstdio>
 #include <cstdlib>
 

@@ -185,12 +185,12 @@ std::array<int64_t, 2> namedPair(const Input& input, int64_t blamed, int64_t als
 }  // namespace
 
 TEST_CASE("triangles apart do not meet", "[intersections]") {
-  CHECK_FALSE(meet(kBase, {{{0, 0, 1}, {4, 0, 1}, {0, 4, 1}}}));     // parallel planes
-  CHECK_FALSE(meet(kBase, {{{3, 3, 0}, {5, 3, 0}, {3, 5, 0}}}));     // in one plane, boxes overlap
-  CHECK_FALSE(meet(kBase, {{{5, 0, 0}, {6, 0, 0}, {8, 0, 1}}}));     // an edge on the other's edge line
-  CHECK_FALSE(meet(kBase, {{{3, 3, -1}, {3, 3, 1}, {1, 4, 1}}}));    // crosses the other's plane beside it
-  CHECK_FALSE(meet(kBase, {{{4, 4, -4}, {4, 4, 4}, {1, 4, 4}}}));    // each crosses the other's plane
-  CHECK_FALSE(meet(kBase, {{{2, 3, 0}, {4, 4, 1}, {4, 4, -1}}}));    // a vertex in the plane, beside
+  CHECK_FALSE(meet(kBase, {{{0, 0, 1}, {4, 0, 1}, {0, 4, 1}}}));       // parallel planes
+  CHECK_FALSE(meet(kBase, {{{3, 3, 0}, {5, 3, 0}, {3, 5, 0}}}));       // in one plane, boxes overlap
+  CHECK_FALSE(meet(kBase, {{{5, 0, 0}, {6, 0, 0}, {8, 0, 1}}}));       // an edge on the other's edge line
+  CHECK_FALSE(meet(kBase, {{{3, 3, -1}, {3, 3, 1}, {1, 4, 1}}}));      // crosses the other's plane beside it
+  CHECK_FALSE(meet(kBase, {{{4, 4, -4}, {4, 4, 4}, {1, 4, 4}}}));      // each crosses the other's plane
+  CHECK_FALSE(meet(kBase, {{{2, 3, 0}, {4, 4, 1}, {4, 4, -1}}}));      // a vertex in the plane, beside
   CHECK_FALSE(meet(kBase, {{{1, 1, 0.0625}, {2, 1, 1}, {1, 2, 1}}}));  // close above
 }
 
@@ -200,57 +200,57 @@ TEST_CASE("a shared vertex is no intersection", "[intersections]") {
   CHECK_FALSE(meet(kBase, {{{0, 0, 0}, {1, -1, 1}, {1, -1, -1}}}));  // through the plane beside
   CHECK_FALSE(meet(kBase, {{{0, 0, 0}, {-4, 0, 0}, {0, -4, 0}}}));   // in one plane, edges continue each other
   CHECK_FALSE(meet(kBase, {{{0, 0, 0}, {-1, 2, 0}, {-2, 1, 0}}}));
-  CHECK_FALSE(meet(kBase, {{{0, 0, 0}, {-4, 0, 0}, {1, 1, 1}}}));    // an edge on the same line, away
+  CHECK_FALSE(meet(kBase, {{{0, 0, 0}, {-4, 0, 0}, {1, 1, 1}}}));  // an edge on the same line, away
 }
 
 TEST_CASE("a shared edge is no intersection", "[intersections]") {
   CHECK_FALSE(meet(kBase, {{{0, 0, 0}, {4, 0, 0}, {1, 1, 1}}}));
-  CHECK_FALSE(meet(kBase, {{{0, 0, 0}, {4, 0, 0}, {1, -1, 0}}}));    // flat
+  CHECK_FALSE(meet(kBase, {{{0, 0, 0}, {4, 0, 0}, {1, -1, 0}}}));  // flat
   CHECK_FALSE(meet(kBase, {{{4, 0, 0}, {0, 4, 0}, {4, 4, 0}}}));
   CHECK_FALSE(meet(kBase, {{{0, 0, 0}, {4, 0, 0}, {1, 8, 0.0625}}}));  // nearly folded
 }
 
 TEST_CASE("crossing triangles meet", "[intersections]") {
-  CHECK(meet(kBase, {{{1, 1, -1}, {1, 1, 1}, {9, 9, 1}}}));          // an edge of one through the other
-  CHECK(meet(kBase, {{{1, 1, -1}, {2, 1, 1}, {1, 2, 1}}}));          // two edges of one
-  CHECK(meet(kBase, {{{0, 0, 0}, {1, 1, -1}, {1, 1, 1}}}));          // from a shared vertex on
-  CHECK(meet(kBase, {{{0, 0, 0}, {4, 4, -1}, {4, 4, 1}}}));          // from a shared vertex through the opposite side
+  CHECK(meet(kBase, {{{1, 1, -1}, {1, 1, 1}, {9, 9, 1}}}));             // an edge of one through the other
+  CHECK(meet(kBase, {{{1, 1, -1}, {2, 1, 1}, {1, 2, 1}}}));             // two edges of one
+  CHECK(meet(kBase, {{{0, 0, 0}, {1, 1, -1}, {1, 1, 1}}}));             // from a shared vertex on
+  CHECK(meet(kBase, {{{0, 0, 0}, {4, 4, -1}, {4, 4, 1}}}));             // from a shared vertex through the opposite side
   CHECK(meet(kBase, {{{0, 0, 0}, {-4, -4, -1}, {4, 4, 3}}}) == false);  // the line goes on, the triangle does not
 }
 
 TEST_CASE("touching triangles meet", "[intersections]") {
-  CHECK(meet(kBase, {{{1, 1, 0}, {1, 1, 3}, {2, 1, 3}}}));           // vertex on face
-  CHECK(meet(kBase, {{{2, 2, 0}, {1, 1, 3}, {2, 1, 3}}}));           // vertex on edge
-  CHECK(meet(kBase, {{{2, 2, 0}, {4, 4, 0}, {3, 4, 0}}}));           // vertex on edge, in one plane
-  CHECK(meet(kBase, {{{2, 0, -1}, {2, 0, 1}, {2, -1, 0}}}));         // edge across edge
-  CHECK(meet(kBase, {{{1, 1, 0}, {2, 1, 0}, {1, 1, 2}}}));           // edge in face
-  CHECK(meet(kBase, {{{-1, 1, 0}, {9, 1, 0}, {1, 1, 2}}}));          // edge all across the face
-  CHECK(meet(kBase, {{{0, 0, 0}, {1, 1, 0}, {1, 1, 2}}}));           // edge in face, from a shared vertex
-  CHECK(meet(kBase, {{{0, 0, 0}, {2, 2, 0}, {1, 1, 2}}}));           // up to the opposite side
-  CHECK(meet(kBase, {{{0, 0, 0}, {5, 5, 0}, {1, 1, 2}}}));           // and beyond
+  CHECK(meet(kBase, {{{1, 1, 0}, {1, 1, 3}, {2, 1, 3}}}));    // vertex on face
+  CHECK(meet(kBase, {{{2, 2, 0}, {1, 1, 3}, {2, 1, 3}}}));    // vertex on edge
+  CHECK(meet(kBase, {{{2, 2, 0}, {4, 4, 0}, {3, 4, 0}}}));    // vertex on edge, in one plane
+  CHECK(meet(kBase, {{{2, 0, -1}, {2, 0, 1}, {2, -1, 0}}}));  // edge across edge
+  CHECK(meet(kBase, {{{1, 1, 0}, {2, 1, 0}, {1, 1, 2}}}));    // edge in face
+  CHECK(meet(kBase, {{{-1, 1, 0}, {9, 1, 0}, {1, 1, 2}}}));   // edge all across the face
+  CHECK(meet(kBase, {{{0, 0, 0}, {1, 1, 0}, {1, 1, 2}}}));    // edge in face, from a shared vertex
+  CHECK(meet(kBase, {{{0, 0, 0}, {2, 2, 0}, {1, 1, 2}}}));    // up to the opposite side
+  CHECK(meet(kBase, {{{0, 0, 0}, {5, 5, 0}, {1, 1, 2}}}));    // and beyond
 }
 
 TEST_CASE("edges that overlap without being the same meet", "[intersections]") {
-  for (const double z : {0.0, 2.0}) {  // in one plane, or not
-    CHECK(meet(kBase, {{{1, 0, 0}, {2, 0, 0}, {1, -1, z}}}));        // within
-    CHECK(meet(kBase, {{{-1, 0, 0}, {2, 0, 0}, {1, -1, z}}}));       // partly
-    CHECK(meet(kBase, {{{-1, 0, 0}, {5, 0, 0}, {1, -1, z}}}));       // over it
-    CHECK(meet(kBase, {{{0, 0, 0}, {2, 0, 0}, {1, -1, z}}}));        // from a shared vertex: a T-junction
+  for (const double z : {0.0, 2.0}) {                           // in one plane, or not
+    CHECK(meet(kBase, {{{1, 0, 0}, {2, 0, 0}, {1, -1, z}}}));   // within
+    CHECK(meet(kBase, {{{-1, 0, 0}, {2, 0, 0}, {1, -1, z}}}));  // partly
+    CHECK(meet(kBase, {{{-1, 0, 0}, {5, 0, 0}, {1, -1, z}}}));  // over it
+    CHECK(meet(kBase, {{{0, 0, 0}, {2, 0, 0}, {1, -1, z}}}));   // from a shared vertex: a T-junction
     CHECK(meet(kBase, {{{0, 0, 0}, {5, 0, 0}, {1, -1, z}}}));
     CHECK(meet(kBase, {{{4, 0, 0}, {5, 0, 0}, {5, -1, z}}}) == false);  // only the end
   }
 }
 
 TEST_CASE("triangles that overlap in one plane meet", "[intersections]") {
-  CHECK(meet(kBase, {{{1, 1, 0}, {2, 1, 0}, {1, 2, 0}}}));           // one within the other
+  CHECK(meet(kBase, {{{1, 1, 0}, {2, 1, 0}, {1, 2, 0}}}));  // one within the other
   CHECK(meet(kBase, {{{-8, -8, 0}, {16, -8, 0}, {-8, 16, 0}}}));
-  CHECK(meet(kBase, {{{-1, 1, 0}, {3, 2, 0}, {3, -1, 0}}}));         // a star: sides cross
-  CHECK(meet(kBase, {{{3, 3, 0}, {1, 1, 0}, {4, 3, 0}}}));           // one vertex within
-  CHECK(meet(kBase, {{{0, 0, 0}, {1, 2, 0}, {2, 1, 0}}}));           // from a shared vertex
+  CHECK(meet(kBase, {{{-1, 1, 0}, {3, 2, 0}, {3, -1, 0}}}));  // a star: sides cross
+  CHECK(meet(kBase, {{{3, 3, 0}, {1, 1, 0}, {4, 3, 0}}}));    // one vertex within
+  CHECK(meet(kBase, {{{0, 0, 0}, {1, 2, 0}, {2, 1, 0}}}));    // from a shared vertex
   CHECK(meet(kBase, {{{0, 0, 0}, {4, 8, 0}, {8, 4, 0}}}));
-  CHECK(meet(kBase, {{{0, 0, 0}, {4, 0, 0}, {1, 1, 0}}}));           // folded along a shared edge
+  CHECK(meet(kBase, {{{0, 0, 0}, {4, 0, 0}, {1, 1, 0}}}));  // folded along a shared edge
   CHECK(meet(kBase, {{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}}}));
-  CHECK(meet(kBase, {{{0, 0, 0}, {4, 0, 0}, {0, 8, 0}}}));           // and along a part of another
+  CHECK(meet(kBase, {{{0, 0, 0}, {4, 0, 0}, {0, 8, 0}}}));  // and along a part of another
   CHECK(meet(kBase, kBase));
 }
 
@@ -284,17 +284,17 @@ TEST_CASE("neighbours along a stitched side share its edges", "[intersections]")
       CHECK_FALSE(meetStitched(side, {{p, q, below}}));
       CHECK(meet(side, {{p, q, below}}) == (p != a || q != b));  // without stitching, the side is one edge
     }
-    CHECK(meetStitched(side, {{m, b, below}}));                          // no side of the triangles without area
-    CHECK(meetStitched(side, {{Point{3, 0, 0}, b, below}}));             // no vertex of theirs
+    CHECK(meetStitched(side, {{m, b, below}}));               // no side of the triangles without area
+    CHECK(meetStitched(side, {{Point{3, 0, 0}, b, below}}));  // no vertex of theirs
     CHECK(meetStitched(side, {{Point{-1, 0, 0}, m, below}}));
-    CHECK_FALSE(meetStitched(side, {{m, Point{1, -1, z}, below}}));      // a vertex of the side alone
-    CHECK_FALSE(meetStitched({{a, n, apex}}, {{a, b, below}}));          // both sides stitched, one longer
+    CHECK_FALSE(meetStitched(side, {{m, Point{1, -1, z}, below}}));  // a vertex of the side alone
+    CHECK_FALSE(meetStitched({{a, n, apex}}, {{a, b, below}}));      // both sides stitched, one longer
     CHECK_FALSE(meetStitched({{a, n, apex}}, {{n, b, below}}));
     CHECK(meetStitched({{a, n, apex}}, {{m, b, below}}));
   }
-  CHECK(meetStitched(side, {{m, n, Point{1, 1, 0}}}));                   // folded
+  CHECK(meetStitched(side, {{m, n, Point{1, 1, 0}}}));  // folded
   CHECK(meetStitched(side, {{a, b, Point{1, 1, 0}}}));
-  CHECK(meetStitched(side, {{m, Point{1, 1, 0}, Point{2, 1, 0}}}));      // from a vertex of the side inward
+  CHECK(meetStitched(side, {{m, Point{1, 1, 0}, Point{2, 1, 0}}}));  // from a vertex of the side inward
   CHECK(meetStitched(side, {{m, Point{1, 1, -1}, Point{1, 1, 1}}}));
   CHECK(meetStitched(side, {{m, Point{0, 2, 0}, Point{0, 0, 3}}}));
   CHECK_FALSE(meetStitched(side, {{m, Point{1, -1, -1}, Point{1, -1, 1}}}));
@@ -313,13 +313,9 @@ TEST_CASE("stitched sides on one line that go different ways meet", "[intersecti
   }
 }
 
-TEST_CASE("all pairs of triangles on a lattice", "[intersections]") {
-  comparePairs(trianglesOf(latticePoints(3, 3, 2)));
-}
+TEST_CASE("all pairs of triangles on a lattice", "[intersections]") { comparePairs(trianglesOf(latticePoints(3, 3, 2))); }
 
-TEST_CASE("all pairs of triangles in one plane of a lattice", "[intersections]") {
-  comparePairs(trianglesOf(latticePoints(4, 4, 1)));
-}
+TEST_CASE("all pairs of triangles in one plane of a lattice", "[intersections]") { comparePairs(trianglesOf(latticePoints(4, 4, 1))); }
 
 TEST_CASE("random triangles on a larger lattice", "[intersections]") {
   std::mt19937 random(1);
@@ -337,13 +333,13 @@ TEST_CASE("the pair that is named meets", "[intersections]") {
   const auto post = [](double x, double z) { return Corners{Point{x + 1, 1, z - 1}, Point{x + 1, 1, z + 1}, Point{x + 1, 2, z + 1}}; };
   // 1 and 6, 2 and 5, 3 and 5 meet; 0 and 4 meet nothing.
   const Input input = inputOf({at(-20, 0), at(10, 0), at(0, 0.25), at(0, 0), at(-10, 0), post(0, 0), post(10, 0)});
-  CHECK(namedPair(input, 2, 5) == std::array<int64_t, 2>{2, 5});   // as blamed
+  CHECK(namedPair(input, 2, 5) == std::array<int64_t, 2>{2, 5});  // as blamed
   CHECK(namedPair(input, 5, 3) == std::array<int64_t, 2>{3, 5});
-  CHECK(namedPair(input, 5, 5) == std::array<int64_t, 2>{2, 5});   // blamed, with the lowest that it meets
+  CHECK(namedPair(input, 5, 5) == std::array<int64_t, 2>{2, 5});  // blamed, with the lowest that it meets
   CHECK(namedPair(input, 6, 5) == std::array<int64_t, 2>{1, 6});
   CHECK(namedPair(input, 0, 3) == std::array<int64_t, 2>{3, 5});
   CHECK(namedPair(input, -1, 3) == std::array<int64_t, 2>{3, 5});
-  CHECK(namedPair(input, 0, 4) == std::array<int64_t, 2>{1, 6});   // the lowest of all
+  CHECK(namedPair(input, 0, 4) == std::array<int64_t, 2>{1, 6});  // the lowest of all
   CHECK(namedPair(input, -1, -1) == std::array<int64_t, 2>{1, 6});
 }
 
@@ -372,7 +368,7 @@ TEST_CASE("the lowest pair of many triangles is found", "[intersections]") {
 }
 
 TEST_CASE("boxes that only touch are searched", "[intersections]") {
-  CHECK(namedPair(inputOf({kBase, {{{2, 2, 0}, {3, 4, 1}, {4, 3, 1}}}}), -1, -1) == std::array<int64_t, 2>{0, 1});  // above each other
+  CHECK(namedPair(inputOf({kBase, {{{2, 2, 0}, {3, 4, 1}, {4, 3, 1}}}}), -1, -1) == std::array<int64_t, 2>{0, 1});   // above each other
   CHECK(namedPair(inputOf({kBase, {{{4, -1, 0}, {4, 1, 0}, {5, 0, 0}}}}), -1, -1) == std::array<int64_t, 2>{0, 1});  // beside
 }
 

@@ -16,9 +16,7 @@ using Triangle = std::array<Point, 3>;
 
 Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 int64_t dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+Point cross(const Point& a, const Point& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
 int sign(int64_t x) { return (x > 0) - (x < 0); }
 
 Point normal(const Triangle& t) { return cross(t[1] - t[0], t[2] - t[0]); }
@@ -170,7 +168,8 @@ std::vector<Triangle> nextShape(Bytes& bytes, const std::vector<Triangle>& befor
       const Point centre = bytes.point();
       return octahedronShape(centre, 1 + bytes.below(4));
     }
-    case 2: return sheetShape(bytes);
+    case 2:
+      return sheetShape(bytes);
     case 3: {
       const Point a = bytes.point(), b = bytes.point(), c = bytes.point();
       Point by = {0, 0, 0};
@@ -262,13 +261,15 @@ static std::string describe(const LatticeCase& latticeCase) {
 std::string brokenPromise(const LatticeCase& latticeCase) {
   const CutResult result = cut(latticeCase.mesh, latticeCase.grid);
   const auto broken = [&](const std::string& what) { return what + '\n' + describe(latticeCase); };
-  if (latticeCase.triangles.empty()) return result.error.status == Status::emptyMesh ? "" : broken("an empty mesh is called " + std::string(name(result.error.status)));
+  if (latticeCase.triangles.empty())
+    return result.error.status == Status::emptyMesh ? "" : broken("an empty mesh is called " + std::string(name(result.error.status)));
   if (result) {
     const Validation validation = validate(latticeCase.mesh, result.mesh);
     if (validation.pass || latticeCase.intersects) return "";
     std::string what = "validation fails:";
     for (const Check& check : validation.checks)
-      if (!check.pass) what += " " + check.name + " (" + check.elementKind + " " + std::to_string(check.element) + ": " + check.message + ")";
+      if (!check.pass)
+        what += " " + check.name + " (" + check.elementKind + " " + std::to_string(check.element) + ": " + check.message + ")";
     return broken(what);
   }
   const std::string message = std::string(name(result.error.status)) + ": " + result.error.message;

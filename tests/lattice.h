@@ -18,7 +18,8 @@ struct LatticeCase {
   mandoline::Grid grid;
 };
 
-/// Makes a mesh of single triangles, sheets and closed shapes with coordinates 0..9 and a grid of up to 10 x 10 x 10 cells. Any bytes will do.
+/// Makes a mesh of single triangles, sheets and closed shapes with coordinates 0..9 and a grid of up to 10 x 10 x 10 cells. Any bytes will
+/// do.
 LatticeCase decodeLattice(const uint8_t* bytes, size_t size);
 
 /// Cuts and validates. Empty if the promises hold: an input without self-intersections is cut and the result valid, any other one is cut

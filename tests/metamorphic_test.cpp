@@ -15,11 +15,11 @@ namespace {
 
 /// How cells, faces and triangles of one cut are named in another one's terms.
 struct Relabelling {
-  std::array<int, 3> axes = {0, 1, 2};    ///< axis d of the result is axis axes[d] of what is relabelled
-  std::array<bool, 3> negate = {};        ///< whether axis d of the result is negated
-  std::array<int32_t, 3> shift = {};      ///< cells added along axis d of the result
-  std::vector<uint32_t> triangle;         ///< new id of each triangle; empty: the same
-  bool flipped = false;                   ///< whether the triangles were turned around
+  std::array<int, 3> axes = {0, 1, 2};  ///< axis d of the result is axis axes[d] of what is relabelled
+  std::array<bool, 3> negate = {};      ///< whether axis d of the result is negated
+  std::array<int32_t, 3> shift = {};    ///< cells added along axis d of the result
+  std::vector<uint32_t> triangle;       ///< new id of each triangle; empty: the same
+  bool flipped = false;                 ///< whether the triangles were turned around
 
   bool mirrors() const {
     const int swaps = (axes[0] > axes[1]) + (axes[0] > axes[2]) + (axes[1] > axes[2]);
@@ -101,11 +101,12 @@ Grid permutedGrid(const Grid& grid, const std::array<int, 3>& axes, const std::a
 bool sameTopology(const CutMesh& a, const CutMesh& b) {
   return a.vertexCell == b.vertexCell && a.vertexMask == b.vertexMask && a.vertexTriVertex == b.vertexTriVertex &&
          a.vertexParents == b.vertexParents && a.loopOffsets == b.loopOffsets && a.loopVertices == b.loopVertices &&
-         a.faceLoopOffsets == b.faceLoopOffsets && a.faceTriangle == b.faceTriangle && a.faceAxis == b.faceAxis && a.facePlane == b.facePlane &&
-         a.cellHalfFaceOffsets == b.cellHalfFaceOffsets && a.cellHalfFaces == b.cellHalfFaces && a.cellGridCell == b.cellGridCell &&
-         a.cellRegion == b.cellRegion && a.rowRunOffsets == b.rowRunOffsets && a.runBegin == b.runBegin && a.runEnd == b.runEnd &&
-         a.runRegion == b.runRegion && a.regionCount == b.regionCount && a.hasWinding == b.hasWinding && a.regionWinding == b.regionWinding &&
-         a.triangleCount == b.triangleCount && a.droppedTriangles == b.droppedTriangles;
+         a.faceLoopOffsets == b.faceLoopOffsets && a.faceTriangle == b.faceTriangle && a.faceAxis == b.faceAxis &&
+         a.facePlane == b.facePlane && a.cellHalfFaceOffsets == b.cellHalfFaceOffsets && a.cellHalfFaces == b.cellHalfFaces &&
+         a.cellGridCell == b.cellGridCell && a.cellRegion == b.cellRegion && a.rowRunOffsets == b.rowRunOffsets &&
+         a.runBegin == b.runBegin && a.runEnd == b.runEnd && a.runRegion == b.runRegion && a.regionCount == b.regionCount &&
+         a.hasWinding == b.hasWinding && a.regionWinding == b.regionWinding && a.triangleCount == b.triangleCount &&
+         a.droppedTriangles == b.droppedTriangles;
 }
 
 }  // namespace
@@ -134,7 +135,8 @@ TEST_CASE("moved by whole cells with its grid", "[metamorphic]") {
     Grid grid = named.grid;
     for (auto& planes : grid.planes)
       for (double& x : planes) x += by;
-    checkSame(checkedCut(named.mesh, named.grid), checkedCut(shapes::translated(named.mesh, {by, by, by}), Grid::rectilinear(grid.planes)), {});
+    checkSame(checkedCut(named.mesh, named.grid), checkedCut(shapes::translated(named.mesh, {by, by, by}), Grid::rectilinear(grid.planes)),
+              {});
   }
 }
 
@@ -143,12 +145,14 @@ TEST_CASE("moved by whole cells within a larger grid", "[metamorphic]") {
     INFO(named.name);
     bool inside = true;
     for (size_t k = 0; k < named.mesh.positions.size(); ++k)
-      inside = inside && named.mesh.positions[k] > named.grid.planes[k % 3].front() && named.mesh.positions[k] < named.grid.planes[k % 3].back();
+      inside =
+          inside && named.mesh.positions[k] > named.grid.planes[k % 3].front() && named.mesh.positions[k] < named.grid.planes[k % 3].back();
     if (!inside) continue;  // then the larger grid cuts more of it
     Relabelling relabelling;
     Grid larger = named.grid;
     for (int d = 0; d < 3; ++d)
-      for (; relabelling.shift[d] <= d; ++relabelling.shift[d]) larger.planes[d].insert(larger.planes[d].begin(), larger.planes[d].front() - 1);
+      for (; relabelling.shift[d] <= d; ++relabelling.shift[d])
+        larger.planes[d].insert(larger.planes[d].begin(), larger.planes[d].front() - 1);
     const CheckedCut original = checkedCut(named.mesh, named.grid), moved = checkedCut(named.mesh, Grid::rectilinear(larger.planes));
     CHECK(signature(original.mesh, relabelling) == signature(moved.mesh, {}));
     CHECK(original.mesh.positions == moved.mesh.positions);

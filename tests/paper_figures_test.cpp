@@ -119,20 +119,24 @@ TEST_CASE("hollow Hilbert curve", "[figures]") {
   }
   SECTION("its tunnels pierce faces without touching their sides") {
     // Planes half way between the points of the curve: each step from one cell to another goes through the middle of a face.
-    atBothOrientations(hollowHilbertCurve(1, wide, thin), Grid::box({-0.5, -0.5, -0.5}, {1.5, 1.5, 1.5}, {2, 2, 2}), [](const CheckedCut& cut, int) {
-      CHECK(cut.cells() == 8 * 3);
-      CHECK(cut.facesWithHoles() == 7 * 2);
-    });
-    atBothOrientations(hollowHilbertCurve(2, wide, thin), Grid::box({-0.5, -0.5, -0.5}, {3.5, 3.5, 3.5}, {2, 2, 2}), [](const CheckedCut& cut, int) {
-      CHECK(cut.cells() == 8 * 3);
-      CHECK(cut.facesWithHoles() == 7 * 2);
-    });
+    atBothOrientations(hollowHilbertCurve(1, wide, thin), Grid::box({-0.5, -0.5, -0.5}, {1.5, 1.5, 1.5}, {2, 2, 2}),
+                       [](const CheckedCut& cut, int) {
+                         CHECK(cut.cells() == 8 * 3);
+                         CHECK(cut.facesWithHoles() == 7 * 2);
+                       });
+    atBothOrientations(hollowHilbertCurve(2, wide, thin), Grid::box({-0.5, -0.5, -0.5}, {3.5, 3.5, 3.5}, {2, 2, 2}),
+                       [](const CheckedCut& cut, int) {
+                         CHECK(cut.cells() == 8 * 3);
+                         CHECK(cut.facesWithHoles() == 7 * 2);
+                       });
   }
 }
 
 TEST_CASE("wavy plane", "[figures]") {
   const auto wave = [](double amplitude, double height) {
-    return [=](int i, int j) { return Point{-0.5 + i * 0.25, -0.5 + j * 0.25, height + amplitude * std::sin(0.9 * i) * std::cos(0.7 * j)}; };
+    return [=](int i, int j) {
+      return Point{-0.5 + i * 0.25, -0.5 + j * 0.25, height + amplitude * std::sin(0.9 * i) * std::cos(0.7 * j)};
+    };
   };
   SECTION("thick and closed, leaving the grid") {
     const Mesh mesh = thickened(20, 20, wave(0.45, 2.01), {0, 0, 0.15});
@@ -149,8 +153,9 @@ TEST_CASE("wavy plane", "[figures]") {
     const Mesh mesh = thickened(12, 12, at, {0, 0, 0.03125});
     const double volume = signedVolume(mesh);
     for (int64_t n : {2, 4, 11})
-      atBothOrientations(mesh, Grid::box({0, 0, 0}, {4, 4, 4}, {n, n, n}),
-                         [&](const CheckedCut& cut, int) { CHECK(near(cut.regionVolumes(), {volume, 64 - volume}, 1e-11)); });
+      atBothOrientations(mesh, Grid::box({0, 0, 0}, {4, 4, 4}, {n, n, n}), [&](const CheckedCut& cut, int) {
+        CHECK(near(cut.regionVolumes(), {volume, 64 - volume}, 1e-11));
+      });
   }
   SECTION("open, leaving the grid") {
     const Mesh mesh = sheet(20, 20, wave(0.45, 2));
@@ -162,7 +167,8 @@ TEST_CASE("wavy plane", "[figures]") {
       return Point{p[0] + 1, p[1] + 1, p[2]};
     };
     for (int64_t n : {1, 4, 11})
-      atBothOrientations(sheet(12, 12, at), Grid::box({0, 0, 0}, {4, 4, 4}, {n, n, n}), [](const CheckedCut& cut, int) { CHECK(cut.mesh.regionCount == 1); });
+      atBothOrientations(sheet(12, 12, at), Grid::box({0, 0, 0}, {4, 4, 4}, {n, n, n}),
+                         [](const CheckedCut& cut, int) { CHECK(cut.mesh.regionCount == 1); });
     const CheckedCut cut = checkedCut(sheet(12, 12, at), unitGrid(4));
     CHECK(cut.volumesIn(0, 0, 2).size() == 1);
     CHECK(cut.volumesIn(1, 1, 2).size() == 2);

@@ -133,8 +133,8 @@ struct Cut {
   TriEdges edges;
   CutVertices vertices;
   TriFaces faces;
-  std::vector<uint32_t> used;   // ids of vertices that there are
-  std::vector<Vector> points;   // per id
+  std::vector<uint32_t> used;  // ids of vertices that there are
+  std::vector<Vector> points;  // per id
 
   explicit Cut(const Soup& soup) {
     input = prepareInput(soup.mesh, soup.grid, 0, stats, monitor);
@@ -202,7 +202,8 @@ struct Cut {
     if (vertices.isOnEdge(v)) {
       const auto& ends = edges.ends[vertices.parent(v)];
       for (int d = 0; d < 3; ++d) {
-        if (onPlane(slab[d]) && input.points[ends[0]][d] != input.points[ends[1]][d]) return onEdge(vertices.parent(v), parameter(vertices.parent(v), d, slab[d] / 2));
+        if (onPlane(slab[d]) && input.points[ends[0]][d] != input.points[ends[1]][d])
+          return onEdge(vertices.parent(v), parameter(vertices.parent(v), d, slab[d] / 2));
       }
       FAIL("a crossing without a plane");
     }
@@ -284,7 +285,8 @@ TEST_CASE("P1: the crossings of a tri-edge, their order and their slabs", "[pred
 TEST_CASE("P2: the grid lines that cross a triangle, and where", "[predicates]") {
   size_t crossings = 0, ties = 0;
   forCuts(12, [&](const Cut& cut) {
-    for (uint32_t v = cut.vertices.firstInTriangle; v < cut.vertices.firstOnGrid; ++v) REQUIRE(cut.vertices.slabs[v] == cut.slabOf(cut.points[v]));
+    for (uint32_t v = cut.vertices.firstInTriangle; v < cut.vertices.firstOnGrid; ++v)
+      REQUIRE(cut.vertices.slabs[v] == cut.slabOf(cut.points[v]));
     for (uint32_t t = 0; t < cut.input.triangles.size(); ++t) {
       if (!cut.input.kept(t)) continue;
       const auto corners = cut.corners(t);
@@ -379,8 +381,10 @@ struct WheelSoup : Soup {
     std::vector<Point> points = {sampler.point()};
     const Point centre = points[0];
     const auto any = [&] { return points[sampler.below(points.size())]; };
-    for (const size_t tips = 3 + sampler.below(5); points.size() <= tips;) points.push_back(sampler.oneIn(2) ? sampler.point() : sampler.nudged(sampler.onLine(centre, any())));
-    for (int i = 0; i < 12; ++i) points.push_back(sampler.nudged(Sampler::combined(centre, any(), any(), sampler.unit(), sampler.oneIn(3) ? 0 : sampler.unit() / 2)));
+    for (const size_t tips = 3 + sampler.below(5); points.size() <= tips;)
+      points.push_back(sampler.oneIn(2) ? sampler.point() : sampler.nudged(sampler.onLine(centre, any())));
+    for (int i = 0; i < 12; ++i)
+      points.push_back(sampler.nudged(Sampler::combined(centre, any(), any(), sampler.unit(), sampler.oneIn(3) ? 0 : sampler.unit() / 2)));
     for (const Point& p : points) {
       isCrossing.push_back(sampler.oneIn(2));
       const double dx = double(sampler.below(9)) - 4, dy = double(sampler.below(9)) - 4;
@@ -560,7 +564,8 @@ TEST_CASE("P6: the radial order of triangles around a tri-edge", "[predicates]")
       };
       const size_t wanted = 2 + sampler.below(6);
       for (int attempt = 0; attempt < 30 && tips.size() < wanted; ++attempt) {
-        Point tip = tips.empty() || sampler.oneIn(2) ? sampler.point() : sampler.nudged(sampler.onPlane(a, b, tips[sampler.below(tips.size())]));
+        Point tip =
+            tips.empty() || sampler.oneIn(2) ? sampler.point() : sampler.nudged(sampler.onPlane(a, b, tips[sampler.below(tips.size())]));
         if (flat < 3 && sampler.oneIn(2)) tip[flat] = a[flat];
         if (areOnLine(a, b, tip)) continue;
         bool tied = false;
@@ -571,10 +576,12 @@ TEST_CASE("P6: the radial order of triangles around a tri-edge", "[predicates]")
       const bool open = sampler.oneIn(3);
       const Angles angles(exact(a), exact(b), exact(tips[0]));
       if (open) {  // those less than half a turn on, in any order
-        tips.erase(std::remove_if(tips.begin(), tips.end(), [&](const Point& t) {
-          const auto direction = angles.of(exact(t));
-          return direction.isSecondHalf() || (direction.y.sign() == 0 && direction.x.sign() < 0);
-        }), tips.end());
+        tips.erase(std::remove_if(tips.begin(), tips.end(),
+                                  [&](const Point& t) {
+                                    const auto direction = angles.of(exact(t));
+                                    return direction.isSecondHalf() || (direction.y.sign() == 0 && direction.x.sign() < 0);
+                                  }),
+                   tips.end());
         std::swap(tips[0], tips[sampler.below(tips.size())]);
       }
       std::vector<Flap> flaps;
@@ -616,7 +623,9 @@ struct Shot {
   Shot(Sampler& sampler, const std::array<Point, 3>& corners_) : corners(corners_) {
     point.corners = {&corners[0], &corners[1], &corners[2]};
     const uint64_t attempt = sampler.oneIn(2) ? 0 : sampler.below(64);
-    point.weights = attempt == 0 ? std::array<double, 3>{1, 1, 2} : std::array<double, 3>{1.0 + double(attempt * 7 % 11), 1.0 + double(attempt * 5 % 13), 1.0 + double(attempt * 3 % 17)};
+    point.weights = attempt == 0 ? std::array<double, 3>{1, 1, 2}
+                                 : std::array<double, 3>{1.0 + double(attempt * 7 % 11), 1.0 + double(attempt * 5 % 13),
+                                                         1.0 + double(attempt * 3 % 17)};
     const double sum = point.weights[0] + point.weights[1] + point.weights[2];
     for (int d = 0; d < 3; ++d) {
       near[d] = 0;
@@ -654,7 +663,8 @@ void forShots(const Test& test) {
     for (int repeat = 0; repeat < 1500; ++repeat) {
       const Shot shot(sampler, randomTriangle(sampler));
       const int axis = int(sampler.below(3));
-      const std::array<Point, 3> t = sampler.oneIn(4) ? randomTriangle(sampler) : triangleThrough(sampler, shot.near, axis, sampler.oneIn(2));
+      const std::array<Point, 3> t =
+          sampler.oneIn(4) ? randomTriangle(sampler) : triangleThrough(sampler, shot.near, axis, sampler.oneIn(2));
       test(sampler, shot, t, axis, predicates);
     }
     CHECK(predicates.fallbacks > 5);
@@ -715,7 +725,8 @@ TEST_CASE("P7: the order in which a ray meets two triangles", "[predicates]") {
       const Point &a = t[0], &b = t[1], &c = t[2];
       const double x = b[(axis + 1) % 3] - a[(axis + 1) % 3], y = b[(axis + 2) % 3] - a[(axis + 2) % 3];
       u = sampler.oneIn(2) ? triangleThrough(sampler, shot.near, axis, true)
-                           : std::array<Point, 3>{sampler.nudged(Sampler::combined(a, b, c, 0.25, 0.25)), b, x * y == 0 ? c : sampler.nudged(sampler.onPlane(a, b, c))};
+                           : std::array<Point, 3>{sampler.nudged(Sampler::combined(a, b, c, 0.25, 0.25)), b,
+                                                  x * y == 0 ? c : sampler.nudged(sampler.onPlane(a, b, c))};
     }
     if (!Cut::meetLine(exact(u), axis, other)) return;
     const int expected = order(meet[axis], other[axis]);

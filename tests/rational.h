@@ -120,7 +120,9 @@ class Rational {
     return Rational(a.numerator_ * b.denominator_ + b.numerator_ * a.denominator_, a.denominator_ * b.denominator_);
   }
   friend Rational operator-(const Rational& a, const Rational& b) { return a + -b; }
-  friend Rational operator*(const Rational& a, const Rational& b) { return Rational(a.numerator_ * b.numerator_, a.denominator_ * b.denominator_); }
+  friend Rational operator*(const Rational& a, const Rational& b) {
+    return Rational(a.numerator_ * b.numerator_, a.denominator_ * b.denominator_);
+  }
   friend Rational operator/(const Rational& a, const Rational& b) {
     const Rational q(a.numerator_ * b.denominator_, a.denominator_ * b.numerator_);
     return b.sign() > 0 ? q : Rational(-q.numerator_, -q.denominator_);

@@ -26,21 +26,31 @@ class Sampler {
   double coordinate() {
     const double x = oneIn(2) ? 1 + unit() : -1 - unit();
     switch (kind_) {
-      case Kind::lattice: return double(below(10));
-      case Kind::largeLattice: return double(below(10)) * 0x1p117;
-      case Kind::smallLattice: return double(below(10)) * kFlushBelow;
-      case Kind::random: return x;
-      case Kind::sparse: return 1 + std::ldexp(1, -1 - int(below(52))) - std::ldexp(1, -1 - int(below(52)));  // expansions of neighbouring powers of two
-      case Kind::large: return x * 0x1p120;
-      case Kind::small: return x * kFlushBelow;
-      case Kind::wide: break;
+      case Kind::lattice:
+        return double(below(10));
+      case Kind::largeLattice:
+        return double(below(10)) * 0x1p117;
+      case Kind::smallLattice:
+        return double(below(10)) * kFlushBelow;
+      case Kind::random:
+        return x;
+      case Kind::sparse:
+        return 1 + std::ldexp(1, -1 - int(below(52))) - std::ldexp(1, -1 - int(below(52)));  // expansions of neighbouring powers of two
+      case Kind::large:
+        return x * 0x1p120;
+      case Kind::small:
+        return x * kFlushBelow;
+      case Kind::wide:
+        break;
     }
     return std::ldexp(x, int(below(201)) - 80);
   }
   Point point() { return {coordinate(), coordinate(), coordinate()}; }
 
   /// Into the range.
-  static double allowed(double x) { return std::fabs(x) < kFlushBelow ? 0 : std::fabs(x) < kLimit ? x : std::copysign(std::nextafter(kLimit, 0.0), x); }
+  static double allowed(double x) {
+    return std::fabs(x) < kFlushBelow ? 0 : std::fabs(x) < kLimit ? x : std::copysign(std::nextafter(kLimit, 0.0), x);
+  }
   /// Mostly itself, else a neighbour.
   double nudged(double x) { return allowed(oneIn(4) ? std::nextafter(x, oneIn(2) ? kLimit : -kLimit) : x); }
   Point nudged(const Point& p) { return {nudged(p[0]), nudged(p[1]), nudged(p[2])}; }

@@ -17,9 +17,7 @@ Point operator+(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[
 Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Point operator*(double s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+Point cross(const Point& a, const Point& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
 double length(const Point& a) { return std::sqrt(dot(a, a)); }
 
 Point corner(const Mesh& mesh, size_t t, int k) {
@@ -132,10 +130,20 @@ Mesh prism(const std::vector<std::array<double, 2>>& polygon, double zLo, double
 
 Mesh icosphere(const Point& centre, double radius, int subdivisions) {
   const double g = (1 + std::sqrt(5.)) / 2;
-  Mesh mesh = fromPoints({{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g}, {g, 0, -1},
-                          {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}},
-                         {0, 11, 5, 0, 5, 1, 0, 1, 7, 0, 7, 10, 0, 10, 11, 1, 5, 9, 5, 11, 4, 11, 10, 2, 10, 7, 6, 7, 1, 8,
-                          3, 9, 4, 3, 4, 2, 3, 2, 6, 3, 6, 8, 3, 8, 9, 4, 9, 5, 2, 4, 11, 6, 2, 10, 8, 6, 7, 9, 8, 1});
+  Mesh mesh = fromPoints({{-1, g, 0},
+                          {1, g, 0},
+                          {-1, -g, 0},
+                          {1, -g, 0},
+                          {0, -1, g},
+                          {0, 1, g},
+                          {0, -1, -g},
+                          {0, 1, -g},
+                          {g, 0, -1},
+                          {g, 0, 1},
+                          {-g, 0, -1},
+                          {-g, 0, 1}},
+                         {0, 11, 5, 0, 5, 1, 0, 1, 7, 0, 7, 10, 0, 10, 11, 1, 5, 9, 5, 11, 4,  11, 10, 2,  10, 7, 6, 7, 1, 8,
+                          3, 9,  4, 3, 4, 2, 3, 2, 6, 3, 6, 8,  3, 8,  9,  4, 9, 5, 2, 4,  11, 6,  2,  10, 8,  6, 7, 9, 8, 1});
   for (int s = 0; s < subdivisions; ++s) mesh = subdivided(mesh);
   return mapped(std::move(mesh), [&](const Point& p) { return centre + radius / length(p) * p; });
 }
@@ -337,7 +345,8 @@ Mesh claw() {
 
 Mesh oscillator(int slices) {
   // A cylinder whose top oscillates about the plane z = 1 and ends on it at the rim.
-  return revolved({0.5, 0.5, 0}, {{0, 0.25}, {0.4375, 0.25}, {0.4375, 1}, {0.3125, 0.75}, {0.1875, 1.25}, {0.09375, 0.75}, {0, 1.25}}, slices);
+  return revolved({0.5, 0.5, 0}, {{0, 0.25}, {0.4375, 0.25}, {0.4375, 1}, {0.3125, 0.75}, {0.1875, 1.25}, {0.09375, 0.75}, {0, 1.25}},
+                  slices);
 }
 
 Mesh merged(const std::vector<Mesh>& meshes) {

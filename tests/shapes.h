@@ -14,10 +14,10 @@ using Point = std::array<double, 3>;
 
 // Polyhedra.
 Mesh box(const Point& lo, const Point& hi);
-Mesh cube(double lo, double hi);                                                       ///< [lo, hi]^3
-Mesh tetrahedron(const Point& a, const Point& b, const Point& c, const Point& d);      ///< outward if (b-a) x (c-a) . (d-a) > 0
+Mesh cube(double lo, double hi);                                                   ///< [lo, hi]^3
+Mesh tetrahedron(const Point& a, const Point& b, const Point& c, const Point& d);  ///< outward if (b-a) x (c-a) . (d-a) > 0
 Mesh octahedron(const Point& centre, double radius);
-Mesh pyramid(const Point& baseLo, double baseSize, double height);                     ///< square base in the plane z = baseLo.z
+Mesh pyramid(const Point& baseLo, double baseSize, double height);  ///< square base in the plane z = baseLo.z
 /// Prism over a simple polygon (counter-clockwise seen from above) between two heights; the caps are fans from the polygon's first vertex.
 Mesh prism(const std::vector<std::array<double, 2>>& polygon, double zLo, double zHi);
 
@@ -35,7 +35,7 @@ Mesh sweptTube(const std::vector<Point>& path, double w, bool caps = true);
 std::vector<Point> hilbertCurve(int order);
 
 // Sheets.
-Mesh quad(const Point& a, const Point& b, const Point& c, const Point& d);             ///< triangles abc, acd
+Mesh quad(const Point& a, const Point& b, const Point& c, const Point& d);  ///< triangles abc, acd
 Mesh triangle(const Point& a, const Point& b, const Point& c);
 /// A rectangular sheet of nx x ny squares whose vertices lie at at(i, j).
 Mesh sheet(int nx, int ny, const std::function<Point(int, int)>& at);

@@ -50,7 +50,8 @@ val toTriple(const std::array<Number, 3>& triple) {
 
 // Results and errors.
 
-val failure(const char* code, const std::string& message, const val& stage = val::undefined(), int64_t element = -1, int64_t element2 = -1) {
+val failure(const char* code, const std::string& message, const val& stage = val::undefined(), int64_t element = -1,
+            int64_t element2 = -1) {
   val error = val::object();
   error.set("code", std::string(code));
   error.set("message", message);

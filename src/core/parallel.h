@@ -23,7 +23,9 @@ struct Failure {
 class Monitor {
  public:
   Monitor(const CutOptions& options, int stageCount)
-      : callback_(options.progress), stageCount_(stageCount), threads_(options.threads ? options.threads : std::thread::hardware_concurrency()) {
+      : callback_(options.progress),
+        stageCount_(stageCount),
+        threads_(options.threads ? options.threads : std::thread::hardware_concurrency()) {
     threads_ = std::clamp(threads_, 1u, 256u);
   }
 

@@ -1,8 +1,8 @@
 // Disjoint sets with path halving; the lowest member is the root, so roots do not depend on the order of unions.
 #pragma once
 
-#include <cstdint>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 #include <vector>

@@ -64,7 +64,8 @@ CutMesh cutInput(const MeshView& mesh, const Grid& grid, Input& input, CutStats&
   Regions regions = findRegions(input, edges, stencil, triFaces, gridFaces, cells, vertices, stats, monitor);
 
   clock.begin("output");
-  return makeOutput(mesh, grid, input, stencil, std::move(triFaces), std::move(gridFaces), std::move(cells), std::move(regions), vertices, stats, monitor);
+  return makeOutput(mesh, grid, input, stencil, std::move(triFaces), std::move(gridFaces), std::move(cells), std::move(regions), vertices,
+                    stats, monitor);
 }
 
 CutMesh cutMesh(const MeshView& mesh, const Grid& grid, const CutOptions& options, CutStats& stats) {

@@ -117,7 +117,8 @@ class CellMaker {
     if (face < triFaces_.size()) return f(triFaces_.loop(face));
     const uint32_t g = face - uint32_t(triFaces_.size());
     for (uint32_t l = gridFaces_.faceLoopOffsets[g]; l < gridFaces_.faceLoopOffsets[g + 1]; ++l) {
-      f(std::span<const uint32_t>(gridFaces_.loopVertices.data() + gridFaces_.loopOffsets[l], gridFaces_.loopOffsets[l + 1] - gridFaces_.loopOffsets[l]));
+      f(std::span<const uint32_t>(gridFaces_.loopVertices.data() + gridFaces_.loopOffsets[l],
+                                  gridFaces_.loopOffsets[l + 1] - gridFaces_.loopOffsets[l]));
     }
   }
 
@@ -146,7 +147,8 @@ class CellMaker {
     }
     for (int i = 0; i < 6; ++i) {
       for (const Slit& slit : gridFaces_.slits[stencil_.cells[stencilCell].faces[i]]) {
-        const auto at = std::find(cell.halfFaces.begin() + std::ptrdiff_t(cell.triHalves()), cell.halfFaces.end(), seenFrom(i & 1, slit.halfFace));
+        const auto at =
+            std::find(cell.halfFaces.begin() + std::ptrdiff_t(cell.triHalves()), cell.halfFaces.end(), seenFrom(i & 1, slit.halfFace));
         const uint32_t h = uint32_t(at - cell.halfFaces.begin());
         chunk_.table.add(slit.from, slit.to, h, false);
         chunk_.table.add(slit.to, slit.from, h, false);
@@ -175,7 +177,9 @@ class CellMaker {
     if (gridUses != (open ? 2 : 0)) failAt(edge);
     if (!open && touchesLine_ && onGridElement(edge)) failAt(edge);
     if (around.size() > (open ? 1 : 2)) sortAround(edge, open);
-    const auto before = [](const EdgeTable::Use& use) { return 2 * use.local + (use.ascending ? 0 : 1); };  // the half-face towards smaller angles
+    const auto before = [](const EdgeTable::Use& use) {
+      return 2 * use.local + (use.ascending ? 0 : 1);
+    };  // the half-face towards smaller angles
     const auto after = [](const EdgeTable::Use& use) { return 2 * use.local + (use.ascending ? 1 : 0); };
     uint32_t previous = open ? first : after(around.back());
     for (const EdgeTable::Use& use : around) {
@@ -223,7 +227,8 @@ class CellMaker {
       bool holdsU = false, holdsV = false;
       edges_.forSide(input_, triangle, side, [&](uint32_t edge, bool) {
         const auto on = [&](uint32_t w) {
-          return vertices_.isTriVertex(w) ? edges_.ends[edge][0] == w || edges_.ends[edge][1] == w : vertices_.isOnEdge(w) && vertices_.parent(w) == edge;
+          return vertices_.isTriVertex(w) ? edges_.ends[edge][0] == w || edges_.ends[edge][1] == w
+                                          : vertices_.isOnEdge(w) && vertices_.parent(w) == edge;
         };
         holdsU |= on(u);
         holdsV |= on(v);
@@ -308,8 +313,8 @@ class CellMaker {
 
 }  // namespace
 
-CutCells makeCutCells(const Input& input, const TriEdges& edges, const Stencil& stencil, const TriFaces& triFaces, const GridFaces& gridFaces,
-                      const CutVertices& vertices, CutStats& stats, Monitor& monitor) {
+CutCells makeCutCells(const Input& input, const TriEdges& edges, const Stencil& stencil, const TriFaces& triFaces,
+                      const GridFaces& gridFaces, const CutVertices& vertices, CutStats& stats, Monitor& monitor) {
   auto chunks = forChunks<Chunk>(stencil.cells.size(), monitor, [&](Chunk& chunk, size_t begin, size_t end) {
     CellMaker maker(input, edges, stencil, triFaces, gridFaces, vertices, chunk);
     for (size_t c = begin; c < end; ++c) maker.make(uint32_t(c));

@@ -15,7 +15,7 @@ struct CutCells {
   std::vector<uint32_t> stencilCells;  ///< per cut-cell: its grid cell, as index into Stencil::cells; ascending
 };
 
-CutCells makeCutCells(const Input& input, const TriEdges& edges, const Stencil& stencil, const TriFaces& triFaces, const GridFaces& gridFaces,
-                      const CutVertices& vertices, CutStats& stats, Monitor& monitor);
+CutCells makeCutCells(const Input& input, const TriEdges& edges, const Stencil& stencil, const TriFaces& triFaces,
+                      const GridFaces& gridFaces, const CutVertices& vertices, CutStats& stats, Monitor& monitor);
 
 }  // namespace mandoline::detail

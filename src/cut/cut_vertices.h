@@ -89,10 +89,14 @@ Homogeneous<Number> CutVertices::point(uint32_t v, const Point& reference, Predi
   } else {
     const auto& t = input->triangles[parent(v)];
     const Point &a = input->points[t[0]], &b = input->points[t[1]], &c = input->points[t[2]];
-    const int g = !onPlane(slabs[v][0]) ? 0 : !onPlane(slabs[v][1]) ? 1 : 2, e = (g + 1) % 3, f = (g + 2) % 3;  // the grid line runs along g
+    const int g = !onPlane(slabs[v][0])   ? 0
+                  : !onPlane(slabs[v][1]) ? 1
+                                          : 2,
+              e = (g + 1) % 3, f = (g + 2) % 3;  // the grid line runs along g
     const auto normal = [&](int p, int q) { return diff(b[p], a[p]) * diff(c[q], a[q]) - diff(b[q], a[q]) * diff(c[p], a[p]); };
     const bool flip = predicates.orient2d(a[e], a[f], b[e], b[f], c[e], c[f]) < 0;
-    const Number ng = flip ? -normal(e, f) : normal(e, f), ne = flip ? -normal(f, g) : normal(f, g), nf = flip ? -normal(g, e) : normal(g, e);
+    const Number ng = flip ? -normal(e, f) : normal(e, f), ne = flip ? -normal(f, g) : normal(f, g),
+                 nf = flip ? -normal(g, e) : normal(g, e);
     h.w = ng;
     h.x[e] = diff(planeOf(e), reference[e]) * ng;
     h.x[f] = diff(planeOf(f), reference[f]) * ng;

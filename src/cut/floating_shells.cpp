@@ -11,7 +11,13 @@ class Nester {
  public:
   Nester(const Input& input, const Stencil& stencil, const TriFaces& triFaces, const GridFaces& gridFaces, const CutVertices& vertices,
          const CellHalves& cell, UnionFind& shells, Predicates& predicates)
-      : input_(input), stencil_(stencil), triFaces_(triFaces), gridFaces_(gridFaces), vertices_(vertices), cell_(cell), shells_(shells),
+      : input_(input),
+        stencil_(stencil),
+        triFaces_(triFaces),
+        gridFaces_(gridFaces),
+        vertices_(vertices),
+        cell_(cell),
+        shells_(shells),
         predicates_(predicates) {}
 
   void run() {
@@ -198,8 +204,8 @@ class Nester {
 
 }  // namespace
 
-void nestFloatingShells(const Input& input, const Stencil& stencil, const TriFaces& triFaces, const GridFaces& gridFaces, const CutVertices& vertices,
-                        const CellHalves& cell, UnionFind& shells, Predicates& predicates) {
+void nestFloatingShells(const Input& input, const Stencil& stencil, const TriFaces& triFaces, const GridFaces& gridFaces,
+                        const CutVertices& vertices, const CellHalves& cell, UnionFind& shells, Predicates& predicates) {
   Nester(input, stencil, triFaces, gridFaces, vertices, cell, shells, predicates).run();
 }
 

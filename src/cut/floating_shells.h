@@ -21,7 +21,7 @@ struct CellHalves {
 };
 
 /// Unites the outer shell of each floating component with the shell of the cut-cell that holds it.
-void nestFloatingShells(const Input& input, const Stencil& stencil, const TriFaces& triFaces, const GridFaces& gridFaces, const CutVertices& vertices,
-                        const CellHalves& cell, UnionFind& shells, Predicates& predicates);
+void nestFloatingShells(const Input& input, const Stencil& stencil, const TriFaces& triFaces, const GridFaces& gridFaces,
+                        const CutVertices& vertices, const CellHalves& cell, UnionFind& shells, Predicates& predicates);
 
 }  // namespace mandoline::detail

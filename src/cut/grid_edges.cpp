@@ -8,7 +8,8 @@ struct Placed {
 };
 
 /// Finds all cut-vertices of the surface on grid-edges and grid vertices, each as often as a loop passes it.
-void collect(const Stencil& stencil, const TriFaces& triFaces, const CutVertices& vertices, std::vector<Placed>& onEdges, std::vector<Placed>& onCorners) {
+void collect(const Stencil& stencil, const TriFaces& triFaces, const CutVertices& vertices, std::vector<Placed>& onEdges,
+             std::vector<Placed>& onCorners) {
   const auto place = [&](const Stencil::Cell& cell, uint32_t v) {
     const Slab& slab = vertices.slabs[v];
     if (planeCount(slab) < 2) return;
@@ -76,7 +77,8 @@ GridEdges cutGridEdges(const Stencil& stencil, const TriFaces& triFaces, CutVert
     if (count > 1) {
       const Slab& slab = vertices.slabs[group[0]];
       const int along = !onPlane(slab[0]) ? 0 : !onPlane(slab[1]) ? 1 : 2;
-      std::sort(group.begin(), group.begin() + count, [&](uint32_t u, uint32_t v) { return vertices.compare(u, v, along, predicates) < 0; });
+      std::sort(group.begin(), group.begin() + count,
+                [&](uint32_t u, uint32_t v) { return vertices.compare(u, v, along, predicates) < 0; });
       for (size_t i = 1; i < count; ++i) {
         if (vertices.compare(group[i - 1], group[i], along, predicates) == 0) vertices.failSelfIntersectionAt(group[i - 1], group[i]);
       }

@@ -14,7 +14,8 @@ struct Chunk {
 
 class FaceCutter {
  public:
-  FaceCutter(const Input& input, const Stencil& stencil, const GridEdges& gridEdges, const TriFaces& triFaces, const CutVertices& vertices, Chunk& chunk)
+  FaceCutter(const Input& input, const Stencil& stencil, const GridEdges& gridEdges, const TriFaces& triFaces, const CutVertices& vertices,
+             Chunk& chunk)
       : input_(input), stencil_(stencil), gridEdges_(gridEdges), triFaces_(triFaces), vertices_(vertices), chunk_(chunk) {}
 
   void cut(uint32_t gridFace) {
@@ -86,7 +87,8 @@ class FaceCutter {
       const uint32_t face = graph.loopFaces[l];
       if (seen[face] != kNone) {
         if (++l < graph.loopStarts.size() && graph.loopFaces[l] == face) {  // something lies inside of the triangle
-          vertices_.failSelfIntersection(triFaces_.triangles[seen[face] / 2], vertices_.triangleAt(graph.vertexId(graph.origin(graph.loopStarts[l]))));
+          vertices_.failSelfIntersection(triFaces_.triangles[seen[face] / 2],
+                                         vertices_.triangleAt(graph.vertexId(graph.origin(graph.loopStarts[l]))));
         }
         continue;
       }
@@ -120,7 +122,8 @@ class FaceCutter {
     const uint32_t start = graph.find(loop[0], loop[1]);
     uint32_t h = start;
     for (size_t i = 0; i < loop.size(); ++i) {
-      if (h == PlanarGraph::kOutside || graph.face(h) == PlanarGraph::kOutside || graph.isSlit(h) || graph.vertexId(graph.origin(h)) != loop[i]) {
+      if (h == PlanarGraph::kOutside || graph.face(h) == PlanarGraph::kOutside || graph.isSlit(h) ||
+          graph.vertexId(graph.origin(h)) != loop[i]) {
         failAround(f, loop);
       }
       h = graph.next(h);
@@ -152,7 +155,8 @@ class FaceCutter {
       if (!graph.isSlit(h)) continue;
       const uint32_t halfFace = chunk_.faceIds[graph.face(h)];
       const Slit slit = {graph.vertexId(graph.origin(h)), graph.vertexId(graph.origin(h ^ 1)), halfFace};
-      if (halfFace / 2 < triFaces_.size()) vertices_.failSelfIntersection(triFaces_.triangles[halfFace / 2], vertices_.triangleAt(slit.from));
+      if (halfFace / 2 < triFaces_.size())
+        vertices_.failSelfIntersection(triFaces_.triangles[halfFace / 2], vertices_.triangleAt(slit.from));
       chunk_.faces.slits.items.push_back(slit);
     }
   }
@@ -193,8 +197,8 @@ void append(GridFaces& a, const GridFaces& b, uint32_t firstOwn) {
 
 }  // namespace
 
-GridFaces cutGridFaces(const Input& input, const Stencil& stencil, const GridEdges& gridEdges, const TriFaces& triFaces, const CutVertices& vertices,
-                       CutStats& stats, Monitor& monitor) {
+GridFaces cutGridFaces(const Input& input, const Stencil& stencil, const GridEdges& gridEdges, const TriFaces& triFaces,
+                       const CutVertices& vertices, CutStats& stats, Monitor& monitor) {
   auto chunks = forChunks<Chunk>(stencil.faces.size(), monitor, [&](Chunk& chunk, size_t begin, size_t end) {
     FaceCutter cutter(input, stencil, gridEdges, triFaces, vertices, chunk);
     for (size_t g = begin; g < end; ++g) cutter.cut(uint32_t(g));

@@ -17,7 +17,8 @@ int sideOfPlane(const Corners& t, const InnerPoint& point, int axis, const doubl
     const Point& a = *t[0];
     Number sum(0);
     for (int d = 0; d < 3; ++d) {
-      const Number x = d == axis && replaced ? Number::difference(*replaced, a[d]) * point.weight<Number>() : point.coordinate<Number>(d, a[d]);
+      const Number x =
+          d == axis && replaced ? Number::difference(*replaced, a[d]) * point.weight<Number>() : point.coordinate<Number>(d, a[d]);
       sum = sum + normalAlong<Number>(t, d) * x;
     }
     return sum;
@@ -57,7 +58,8 @@ int insideOf(const Corners& t, const InnerPoint& point, int axis, Predicates& pr
     const Point &a = *t[i], &b = *t[(i + 1) % 3];
     const int side = predicates.sign([&](auto number) {
       using Number = decltype(number);
-      return Number::difference(b[p], a[p]) * point.coordinate<Number>(q, a[q]) - Number::difference(b[q], a[q]) * point.coordinate<Number>(p, a[p]);
+      return Number::difference(b[p], a[p]) * point.coordinate<Number>(q, a[q]) -
+             Number::difference(b[q], a[q]) * point.coordinate<Number>(p, a[p]);
     });
     left |= side > 0;
     right |= side < 0;
@@ -82,8 +84,9 @@ int compareHeights(const Corners& t, const Corners& u, const InnerPoint& point, 
       const Corners& v = i == 0 ? t : u;
       const Point& a = *v[0];
       normal[i] = normalAlong<Number>(v, axis);
-      height[i] = Number::difference(a[axis], r) * normal[i] * point.weight<Number>() -
-                  (normalAlong<Number>(v, p) * point.coordinate<Number>(p, a[p]) + normalAlong<Number>(v, q) * point.coordinate<Number>(q, a[q]));
+      height[i] =
+          Number::difference(a[axis], r) * normal[i] * point.weight<Number>() -
+          (normalAlong<Number>(v, p) * point.coordinate<Number>(p, a[p]) + normalAlong<Number>(v, q) * point.coordinate<Number>(q, a[q]));
     }
     return height[0] * normal[1] - height[1] * normal[0];
   });

@@ -51,8 +51,9 @@ std::vector<uint8_t> referencedVertices(const MeshView& mesh) {
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {
     const uint32_t v = mesh.triangles[i];
     if (v >= referenced.size()) {
-      fail(Status::badIndex, int64_t(i / 3), "Triangle " + std::to_string(i / 3) + " refers to vertex " + std::to_string(v) + ", but there are only " +
-                                                 std::to_string(referenced.size()) + ".");
+      fail(Status::badIndex, int64_t(i / 3),
+           "Triangle " + std::to_string(i / 3) + " refers to vertex " + std::to_string(v) + ", but there are only " +
+               std::to_string(referenced.size()) + ".");
     }
     referenced[v] = 1;
   }
@@ -88,14 +89,16 @@ void scale(const MeshView& mesh, const Grid& grid, const std::vector<uint8_t>& r
     for (size_t i = 0; i < grid.planes[d].size(); ++i) {
       input.planes[d][i] = scaled(grid.planes[d][i]);
       if (i > 0 && !(input.planes[d][i - 1] < input.planes[d][i])) {
-        fail(Status::badGrid, d, std::string("The grid's ") + kAxisNames[d] + " axis has planes too close for their size (" + std::to_string(i - 1) + " and " +
-                                     std::to_string(i) + ").");
+        fail(Status::badGrid, d,
+             std::string("The grid's ") + kAxisNames[d] + " axis has planes too close for their size (" + std::to_string(i - 1) + " and " +
+                 std::to_string(i) + ").");
       }
     }
   }
   input.points.resize(referenced.size());
   for (size_t v = 0; v < referenced.size(); ++v) {
-    if (referenced[v]) input.points[v] = {scaled(mesh.positions[3 * v]), scaled(mesh.positions[3 * v + 1]), scaled(mesh.positions[3 * v + 2])};
+    if (referenced[v])
+      input.points[v] = {scaled(mesh.positions[3 * v]), scaled(mesh.positions[3 * v + 1]), scaled(mesh.positions[3 * v + 2])};
   }
 }
 
@@ -211,7 +214,8 @@ std::vector<Stitch> findStitches(const Input& input, const std::vector<uint32_t>
       if (a != b) uses.push_back({std::min(a, b), std::max(a, b), t});  // a point is on many lines
     }
   }
-  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.key() != b.key() ? a.key() < b.key() : a.triangle < b.triangle; });
+  std::sort(uses.begin(), uses.end(),
+            [](const Use& a, const Use& b) { return a.key() != b.key() ? a.key() < b.key() : a.triangle < b.triangle; });
   const auto indexOf = [&](uint32_t t) { return uint32_t(std::lower_bound(flat.begin(), flat.end(), t) - flat.begin()); };
   UnionFind lines(flat.size());
   for (size_t i = 1; i < uses.size(); ++i) {

@@ -47,8 +47,8 @@ void writeFaces(const Stencil& stencil, TriFaces& triFaces, GridFaces& gridFaces
   out.loopVertices.insert(out.loopVertices.end(), gridFaces.loopVertices.begin(), gridFaces.loopVertices.end());
 }
 
-void writeVertices(const MeshView& mesh, const Grid& grid, const Input& input, const CutVertices& vertices, const std::vector<uint32_t>& ids, CutMesh& out,
-                   CutStats& stats, Monitor& monitor) {
+void writeVertices(const MeshView& mesh, const Grid& grid, const Input& input, const CutVertices& vertices,
+                   const std::vector<uint32_t>& ids, CutMesh& out, CutStats& stats, Monitor& monitor) {
   std::vector<uint32_t> used;
   for (uint32_t v = 0; v < ids.size(); ++v) {
     if (ids[v] != kUnused) used.push_back(v);
@@ -142,7 +142,8 @@ void listDropped(const Input& input, CutMesh& out, CutStats& stats) {
 }  // namespace
 
 CutMesh makeOutput(const MeshView& mesh, const Grid& grid, const Input& input, const Stencil& stencil, TriFaces&& triFaces,
-                   GridFaces&& gridFaces, CutCells&& cells, Regions&& regions, const CutVertices& vertices, CutStats& stats, Monitor& monitor) {
+                   GridFaces&& gridFaces, CutCells&& cells, Regions&& regions, const CutVertices& vertices, CutStats& stats,
+                   Monitor& monitor) {
   CutMesh out;
   out.grid = grid;
   writeFaces(stencil, triFaces, gridFaces, out);

@@ -8,6 +8,7 @@
 namespace mandoline::detail {
 
 CutMesh makeOutput(const MeshView& mesh, const Grid& grid, const Input& input, const Stencil& stencil, TriFaces&& triFaces,
-                   GridFaces&& gridFaces, CutCells&& cells, Regions&& regions, const CutVertices& vertices, CutStats& stats, Monitor& monitor);
+                   GridFaces&& gridFaces, CutCells&& cells, Regions&& regions, const CutVertices& vertices, CutStats& stats,
+                   Monitor& monitor);
 
 }  // namespace mandoline::detail

@@ -74,7 +74,10 @@ void PlanarGraph::sortAround(uint32_t v, uint32_t* begin, uint32_t* end, bool fu
     int quarter = 0;
     if (fullCircle && h > begin) {
       const int side = turn(*begin, *h);
-      quarter = side > 0 ? 1 : side < 0 ? 3 : isBefore(head(*begin), ids_[v], predicates) != isBefore(head(*h), ids_[v], predicates) ? 2 : 0;
+      quarter = side > 0                                                                                 ? 1
+                : side < 0                                                                               ? 3
+                : isBefore(head(*begin), ids_[v], predicates) != isBefore(head(*h), ids_[v], predicates) ? 2
+                                                                                                         : 0;
     }
     byQuarter.push_back({quarter, *h});
   }

@@ -59,14 +59,14 @@ class PlanarGraph {
   const CutVertices* vertices_ = nullptr;
   int axis_ = 0;
   size_t sides_ = 0;
-  std::vector<uint32_t> ids_;            // per local vertex
-  std::vector<uint32_t> localTable_;     // sparse: vertex id to local vertex, valid where ids_ agrees
-  std::vector<uint32_t> ends_;           // per half-edge: origin
+  std::vector<uint32_t> ids_;                    // per local vertex
+  std::vector<uint32_t> localTable_;             // sparse: vertex id to local vertex, valid where ids_ agrees
+  std::vector<uint32_t> ends_;                   // per half-edge: origin
   std::vector<uint32_t> outOffsets_, out_, at_;  // outgoing half-edges of each vertex, counter-clockwise
-  std::vector<uint32_t> nextOf_;         // per half-edge, slits included
-  std::vector<uint32_t> cycleOf_;        // per half-edge
-  std::vector<uint32_t> cycleStarts_;    // a half-edge of each cycle
-  std::vector<uint32_t> faceOf_;         // per cycle
+  std::vector<uint32_t> nextOf_;                 // per half-edge, slits included
+  std::vector<uint32_t> cycleOf_;                // per half-edge
+  std::vector<uint32_t> cycleStarts_;            // a half-edge of each cycle
+  std::vector<uint32_t> faceOf_;                 // per cycle
   std::vector<uint8_t> traced_;
   UnionFind components_;
 };

@@ -22,7 +22,8 @@ size_t sortRadially(const Point& a, const Point& b, bool open, std::vector<Flap>
     const int side = open ? 0 : turn(flaps[0], flaps[i]);
     flaps[i].quarter = side > 0 ? 1 : side < 0 ? 3 : open || inOneHalfPlane(a, b, *flaps[0].tip, *flaps[i].tip, predicates) ? 0 : 2;
   }
-  std::sort(flaps.begin(), flaps.end(), [&](const Flap& f, const Flap& g) { return f.quarter != g.quarter ? f.quarter < g.quarter : turn(f, g) > 0; });
+  std::sort(flaps.begin(), flaps.end(),
+            [&](const Flap& f, const Flap& g) { return f.quarter != g.quarter ? f.quarter < g.quarter : turn(f, g) > 0; });
   for (size_t i = 1; i < flaps.size(); ++i) {
     if (flaps[i].quarter == flaps[i - 1].quarter && turn(flaps[i - 1], flaps[i]) == 0) return i;
   }

@@ -37,8 +37,10 @@ void findRuns(const Input& input, const Stencil& stencil, Regions& regions, Moni
 /// Joins runs that lie beside each other along y and z.
 void uniteRuns(const Input& input, const Regions& regions, uint32_t firstRun, UnionFind& nodes) {
   const auto uniteRows = [&](size_t r, size_t s) {
-    for (uint32_t a = regions.rowRunOffsets[r], b = regions.rowRunOffsets[s]; a < regions.rowRunOffsets[r + 1] && b < regions.rowRunOffsets[s + 1];) {
-      if (std::max(regions.runBegin[a], regions.runBegin[b]) < std::min(regions.runEnd[a], regions.runEnd[b])) nodes.unite(firstRun + a, firstRun + b);
+    for (uint32_t a = regions.rowRunOffsets[r], b = regions.rowRunOffsets[s];
+         a < regions.rowRunOffsets[r + 1] && b < regions.rowRunOffsets[s + 1];) {
+      if (std::max(regions.runBegin[a], regions.runBegin[b]) < std::min(regions.runEnd[a], regions.runEnd[b]))
+        nodes.unite(firstRun + a, firstRun + b);
       regions.runEnd[a] < regions.runEnd[b] ? ++a : ++b;
     }
   };
@@ -208,7 +210,9 @@ Regions findRegions(const Input& input, const TriEdges& edges, const Stencil& st
     uint32_t run = regions.rowRunOffsets[row];
     const uint32_t past = regions.rowRunOffsets[row + 1];
     const auto inRow = [&] {
-      return c < cellCount && size_t(stencil.cells[cells.stencilCells[c]].at(2)) * size_t(input.cells(1)) + size_t(stencil.cells[cells.stencilCells[c]].at(1)) == row;
+      return c < cellCount && size_t(stencil.cells[cells.stencilCells[c]].at(2)) * size_t(input.cells(1)) +
+                                      size_t(stencil.cells[cells.stencilCells[c]].at(1)) ==
+                                  row;
     };
     while (run < past || inRow()) {
       if (run < past && (!inRow() || regions.runBegin[run] < stencil.cells[cells.stencilCells[c]].at(0))) {

@@ -11,13 +11,13 @@
 namespace mandoline::detail {
 
 struct Regions {
-  std::vector<uint32_t> rowRunOffsets;      ///< per row of grid cells (k ny + j), and one more: into runs
-  std::vector<int32_t> runBegin, runEnd;    ///< per run of untouched grid cells: along x, half open
-  std::vector<uint32_t> runRegion;          ///< per run
-  std::vector<uint32_t> cellRegion;         ///< per cut-cell
+  std::vector<uint32_t> rowRunOffsets;    ///< per row of grid cells (k ny + j), and one more: into runs
+  std::vector<int32_t> runBegin, runEnd;  ///< per run of untouched grid cells: along x, half open
+  std::vector<uint32_t> runRegion;        ///< per run
+  std::vector<uint32_t> cellRegion;       ///< per cut-cell
   uint32_t count = 0;
-  bool hasWinding = false;                  ///< closed and consistently oriented
-  std::vector<int32_t> winding;             ///< per region, empty unless hasWinding
+  bool hasWinding = false;       ///< closed and consistently oriented
+  std::vector<int32_t> winding;  ///< per region, empty unless hasWinding
 };
 
 Regions findRegions(const Input& input, const TriEdges& edges, const Stencil& stencil, const TriFaces& triFaces, const GridFaces& gridFaces,

@@ -61,11 +61,13 @@ void numberElements(const Input& input, const std::vector<uint64_t>& keys, Stenc
       for (int d = 0; d < 3; ++d) {
         const int e = (d + 1) % 3, f = (d + 2) % 3;
         for (int side = 0; side < 2; ++side) {
-          if (shift[d] != 0 && shared(d, side) && shift[e] == 0 && shift[f] == 0) cell.faces[cellFace(d, side)] = other.faces[cellFace(d, 1 - side)];
+          if (shift[d] != 0 && shared(d, side) && shift[e] == 0 && shift[f] == 0)
+            cell.faces[cellFace(d, side)] = other.faces[cellFace(d, 1 - side)];
         }
         if (shift[d] != 0) continue;
         for (int i = 0; i < 4; ++i) {
-          if (shared(e, i & 1) && shared(f, i >> 1)) cell.edges[cellEdge(d, i & 1, i >> 1)] = other.edges[cellEdge(d, there(e, i & 1), there(f, i >> 1))];
+          if (shared(e, i & 1) && shared(f, i >> 1))
+            cell.edges[cellEdge(d, i & 1, i >> 1)] = other.edges[cellEdge(d, there(e, i & 1), there(f, i >> 1))];
         }
       }
       for (int i = 0; i < 8; ++i) {
@@ -94,7 +96,8 @@ std::array<uint32_t, 4> Stencil::cornersOf(const Face& face) const {
 std::array<uint32_t, 4> Stencil::edgesOf(const Face& face) const {
   const Cell& cell = cells[face.cell];
   const int d = face.axis(), side = face.side(), p = (d + 1) % 3, q = (d + 2) % 3;
-  return {cell.edges[cellEdge(p, 0, side)], cell.edges[cellEdge(q, side, 1)], cell.edges[cellEdge(p, 1, side)], cell.edges[cellEdge(q, side, 0)]};
+  return {cell.edges[cellEdge(p, 0, side)], cell.edges[cellEdge(q, side, 1)], cell.edges[cellEdge(p, 1, side)],
+          cell.edges[cellEdge(q, side, 0)]};
 }
 
 Stencil makeStencil(const Input& input, const TriEdges& edges, const TriFaces& triFaces, Monitor& monitor) {
@@ -134,7 +137,8 @@ Stencil makeStencil(const Input& input, const TriEdges& edges, const TriFaces& t
   stencil.cells.resize(keys.size());
   for (size_t c = 0; c < keys.size(); ++c) {
     const uint64_t nx = uint64_t(input.cells(0)), ny = uint64_t(input.cells(1));
-    stencil.cells[c].element = {int32_t(2 * (keys[c] % nx) + 1), int32_t(2 * (keys[c] / nx % ny) + 1), int32_t(2 * (keys[c] / nx / ny) + 1)};
+    stencil.cells[c].element = {int32_t(2 * (keys[c] % nx) + 1), int32_t(2 * (keys[c] / nx % ny) + 1),
+                                int32_t(2 * (keys[c] / nx / ny) + 1)};
   }
   numberElements(input, keys, stencil, monitor);
 
@@ -159,10 +163,11 @@ Stencil makeStencil(const Input& input, const TriEdges& edges, const TriFaces& t
   };
   const size_t edgeTotal = triFaces.hybridEdges.size() + edges.inPlane.size();
   const std::vector<uint32_t> faceOfEdge = onFaces(edgeTotal, [&](size_t i) -> const Slab& { return edgeAt(i).element; });
-  stencil.edgesOnFace = groupBy<FaceEdge>(stencil.faces.size(), edgeTotal, [&](size_t i) { return faceOfEdge[i]; }, edgeAt);
+  stencil.edgesOnFace = groupBy<FaceEdge>(
+      stencil.faces.size(), edgeTotal, [&](size_t i) { return faceOfEdge[i]; }, edgeAt);
   const std::vector<uint32_t> faceOfTri = onFaces(inPlane.size(), [&](size_t i) -> const Slab& { return triFaces.elements[inPlane[i]]; });
-  stencil.triFacesOnFace =
-      groupBy<uint32_t>(stencil.faces.size(), inPlane.size(), [&](size_t i) { return faceOfTri[i]; }, [&](size_t i) { return inPlane[i]; });
+  stencil.triFacesOnFace = groupBy<uint32_t>(
+      stencil.faces.size(), inPlane.size(), [&](size_t i) { return faceOfTri[i]; }, [&](size_t i) { return inPlane[i]; });
   return stencil;
 }
 

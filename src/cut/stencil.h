@@ -32,14 +32,15 @@ struct Stencil {
     int side() const { return index & 1; }
   };
 
-  std::vector<Cell> cells;        ///< ascending by z, then y, then x
+  std::vector<Cell> cells;  ///< ascending by z, then y, then x
   std::vector<Face> faces;
   uint32_t edgeCount = 0, cornerCount = 0;
-  Csr<uint32_t> triFacesInCell;   ///< ids of tri-cut-faces inside of each cell
-  Csr<uint32_t> triFacesOnFace;   ///< ids of tri-cut-faces that lie in each grid-face
-  Csr<FaceEdge> edgesOnFace;      ///< cut-edges inside of each grid-face
+  Csr<uint32_t> triFacesInCell;  ///< ids of tri-cut-faces inside of each cell
+  Csr<uint32_t> triFacesOnFace;  ///< ids of tri-cut-faces that lie in each grid-face
+  Csr<FaceEdge> edgesOnFace;     ///< cut-edges inside of each grid-face
 
-  /// The corners of a grid-face, counter-clockwise about its axis, and the grid-edge from each to the next. Edges 2 and 3 run against their axis.
+  /// The corners of a grid-face, counter-clockwise about its axis, and the grid-edge from each to the next. Edges 2 and 3 run against their
+  /// axis.
   std::array<uint32_t, 4> cornersOf(const Face& face) const;
   std::array<uint32_t, 4> edgesOf(const Face& face) const;
 };

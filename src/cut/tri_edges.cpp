@@ -5,7 +5,9 @@ namespace {
 
 const Stitch* findStitch(const Input& input, uint32_t low, uint32_t high) {
   const auto at = std::lower_bound(input.stitches.begin(), input.stitches.end(), std::array<uint32_t, 2>{low, high},
-                                   [](const Stitch& s, const auto& key) { return std::array<uint32_t, 2>{s.low, s.high} < key; });
+                                   [](const Stitch& s, const auto& key) {
+                                     return std::array<uint32_t, 2>{s.low, s.high} < key;
+                                   });
   return at != input.stitches.end() && at->low == low && at->high == high ? &*at : nullptr;
 }
 
@@ -135,7 +137,8 @@ int compareCrossings(const Point& a, const Point& b, int d, double x, int e, dou
   const double s = (x - a[d]) / (b[d] - a[d]), t = (y - a[e]) / (b[e] - a[e]);
   constexpr double bound = 10 * kRoundoff;  // each is in [0, 1] and has three roundings
   if (std::fabs(s - t) > bound) return signOf(s - t);
-  // (x - a.d) (b.e - a.e) - (y - a.e) (b.d - a.d) has the sign of (s - t) (b.d - a.d) (b.e - a.e), and is the orientation of (b, (x, y)) about a.
+  // (x - a.d) (b.e - a.e) - (y - a.e) (b.d - a.d) has the sign of (s - t) (b.d - a.d) (b.e - a.e), and is the orientation of (b, (x, y))
+  // about a.
   const int orientation = -predicates.orient2d(a[d], a[e], b[d], b[e], x, y);
   return (b[d] > a[d]) == (b[e] > a[e]) ? orientation : -orientation;
 }
@@ -198,7 +201,8 @@ void collectInPlane(const Input& input, TriEdges& edges, const CutVertices& vert
       if (planeCount(element) == 1 && input.inGrid(element)) edges.inPlane.push_back({element, from, to});
       from = to;
     };
-    for (uint32_t v = edges.crossingOffsets[e]; v < edges.crossingOffsets[e + 1] && vertices.slabs[v][0] != CutVertices::kUnused; ++v) piece(v);
+    for (uint32_t v = edges.crossingOffsets[e]; v < edges.crossingOffsets[e + 1] && vertices.slabs[v][0] != CutVertices::kUnused; ++v)
+      piece(v);
     piece(edges.ends[e][1]);
   }
 }
@@ -228,7 +232,8 @@ void cutTriEdges(Input& input, TriEdges& edges, CutVertices& vertices, CutStats&
       const uint32_t first = edges.crossingOffsets[e], past = edges.crossingOffsets[e + 1];
       if (first == past) continue;
       const auto [a, b] = edges.ends[e];
-      const size_t count = crossEdge(input, input.points[a], input.points[b], input.slabs[a], input.slabs[b], &vertices.slabs[first], predicates);
+      const size_t count =
+          crossEdge(input, input.points[a], input.points[b], input.slabs[a], input.slabs[b], &vertices.slabs[first], predicates);
       for (uint32_t v = first; v < past; ++v) {
         vertices.parents[v - vertices.firstOnEdge] = uint32_t(e);
         if (v >= first + count) vertices.slabs[v] = {CutVertices::kUnused, 1, 1};

@@ -75,7 +75,8 @@ class Dicer {
     const auto [least, greatest] = extent(polygon, axis);
     const int32_t first = firstPlaneAfter(least), last = lastPlaneBefore(greatest), end = 2 * input_.cells(axis);
     if (first > last) {
-      if (greatest >= 0 && least <= end && slabBetween(least, greatest) >= 0 && slabBetween(least, greatest) <= end) split(axis + 1, polygon);
+      if (greatest >= 0 && least <= end && slabBetween(least, greatest) >= 0 && slabBetween(least, greatest) <= end)
+        split(axis + 1, polygon);
       return;
     }
     Polygon &rest = chunk_.rest[axis], &low = chunk_.low[axis], &high = chunk_.high[axis];

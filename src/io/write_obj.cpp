@@ -37,8 +37,7 @@ Groups groupFaces(const CutMesh& cutMesh) {
 
 class ObjWriter {
  public:
-  ObjWriter(const Sink& sink, const CutMesh& cutMesh)
-      : out_(sink), cutMesh_(cutMesh), polygons_(cutMesh), number_(cutMesh.vertexCount()) {}
+  ObjWriter(const Sink& sink, const CutMesh& cutMesh) : out_(sink), cutMesh_(cutMesh), polygons_(cutMesh), number_(cutMesh.vertexCount()) {}
 
   void write() {
     const Groups groups = groupFaces(cutMesh_);

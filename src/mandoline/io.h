@@ -25,7 +25,8 @@ using Sink = std::function<void(std::string_view)>;
 
 /// The complete dump as JSON; doubles read back identically.
 void writeJson(const Sink& sink, const CutMesh& cutMesh);
-/// VTK XML unstructured grid of polyhedra with cell arrays grid_cell, region, winding, volume. Faces with holes are split alike on both sides.
+/// VTK XML unstructured grid of polyhedra with cell arrays grid_cell, region, winding, volume. Faces with holes are split alike on both
+/// sides.
 void writeVtu(const Sink& sink, const MeshView& mesh, const CutMesh& cutMesh);
 /// The cut surface as polygons, one group per region.
 void writeObj(const Sink& sink, const CutMesh& cutMesh);

@@ -77,7 +77,7 @@ enum class Status : uint8_t {
   selfIntersection,     ///< element, element2: two triangles that meet other than in a shared vertex or edge
   meshTooLarge,         ///< more than 2^32 elements in the result
   outOfMemory,
-  internalError,        ///< a fault of this library
+  internalError,  ///< a fault of this library
 };
 
 /// The status as the word above, e.g. "selfIntersection".
@@ -114,7 +114,8 @@ struct CutMesh {
   std::vector<int32_t> vertexCell;       ///< 3 per vertex: the paper's c, exact. 0..n-1, or n on the last plane
   std::vector<uint8_t> vertexMask;       ///< per vertex: the paper's b. Bit d is set when it lies exactly on plane vertexCell[d] of axis d
   std::vector<int32_t> vertexTriVertex;  ///< per vertex: the tri-vertex (lowest id at its position), or -1
-  std::vector<int32_t> vertexParents;    ///< 2 per vertex: tri-vertex (v, v); on a tri-edge its ends (a, b); in a triangle (t, -1); grid (-1, -1)
+  std::vector<int32_t>
+      vertexParents;  ///< 2 per vertex: tri-vertex (v, v); on a tri-edge its ends (a, b); in a triangle (t, -1); grid (-1, -1)
 
   // Cut-faces. The first loop of a face is its outer one, counter-clockwise about the face's normal; the others are holes, clockwise.
   std::vector<uint32_t> loopOffsets;      ///< into loopVertices
@@ -167,12 +168,12 @@ struct StageTime {
 struct CutStats {
   std::vector<StageTime> stages;  ///< in order
   double totalMs = 0;
-  uint64_t exactFallbacks = 0;       ///< signs that needed exact arithmetic
-  uint32_t weldedVertices = 0;       ///< tri-vertices that share their position with a lower one
+  uint64_t exactFallbacks = 0;  ///< signs that needed exact arithmetic
+  uint32_t weldedVertices = 0;  ///< tri-vertices that share their position with a lower one
   uint32_t zeroAreaTriangles = 0, duplicateTriangles = 0, outsideTriangles = 0;  ///< dropped
-  uint32_t snappedVertices = 0;      ///< moved onto a plane by snapTolerance
-  double largestSnap = 0;            ///< farthest such move, in cells
-  uint32_t flushedCoordinates = 0;   ///< below 2^-200 of the largest, taken as 0
+  uint32_t snappedVertices = 0;                                                  ///< moved onto a plane by snapTolerance
+  double largestSnap = 0;                                                        ///< farthest such move, in cells
+  uint32_t flushedCoordinates = 0;                                               ///< below 2^-200 of the largest, taken as 0
 };
 
 struct CutResult {

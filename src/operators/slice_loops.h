@@ -48,7 +48,7 @@ class SliceLoops {
   Predicates predicates_;
   std::vector<Arc> arcs_;
   std::vector<Ray> rays_;
-  std::vector<uint8_t> uses_;  // per segment: how many sides of it the cell has
+  std::vector<uint8_t> uses_;       // per segment: how many sides of it the cell has
   std::vector<uint32_t> firstRay_;  // per point
   std::vector<Ray> around_;         // rays of one point
   std::vector<uint32_t> ended_, starting_;

@@ -93,8 +93,7 @@ class ArrayCheck {
           return false;
       }
     }
-    return expectRange(cut_.vertexTriVertex, -1, lastTriVertex(), "vertex", 1, "names a tri-vertex that does not exist") &&
-           checkParents();
+    return expectRange(cut_.vertexTriVertex, -1, lastTriVertex(), "vertex", 1, "names a tri-vertex that does not exist") && checkParents();
   }
 
   bool checkParents() {
@@ -193,4 +192,6 @@ class ArrayCheck {
 }  // namespace
 }  // namespace mandoline::validation
 
-mandoline::Check mandoline::checkArrays(const CutMesh& cutMesh, const MeshView* mesh) { return validation::ArrayCheck(cutMesh, mesh).run(); }
+mandoline::Check mandoline::checkArrays(const CutMesh& cutMesh, const MeshView* mesh) {
+  return validation::ArrayCheck(cutMesh, mesh).run();
+}
