@@ -1,5 +1,5 @@
 // The number types that predicates are written for, and the orientation predicates, against rational arithmetic.
-#include "core/exact.h"
+#include "base/exact.h"
 
 #include "catch.h"
 #include "rational.h"

@@ -1,5 +1,5 @@
 // Which triangles meet other than in shared vertices and edges, exactly, and which pair a cut names that met a contradiction.
-#include "cut/intersections.h"
+#include "mesh/intersections.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,10 @@
 #include <memory>
 
 #include "catch.h"
-#include "cut/inner_point.h"
-#include "cut/planar_graph.h"
-#include "cut/radial_order.h"
-#include "cut/tri_faces.h"
+#include "cut/predicates/inner_point.h"
+#include "cut/predicates/radial_order.h"
+#include "cut/stages/planar_graph.h"
+#include "cut/stages/tri_faces.h"
 #include "rational.h"
 #include "samples.h"
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <random>
 
-#include "cut/slab.h"
+#include "grid/slab.h"
 
 enum class Kind { lattice, largeLattice, smallLattice, random, sparse, large, small, wide };
 inline constexpr Kind kKinds[] = {Kind::lattice, Kind::largeLattice, Kind::smallLattice, Kind::random,

@@ -5,9 +5,9 @@
 #include <numeric>
 #include <sstream>
 
+#include "base/disjoint_sets.h"
+#include "base/exact.h"
 #include "cli/json.h"
-#include "core/exact.h"
-#include "core/union_find.h"
 
 namespace mandoline::cli {
 namespace {
@@ -70,7 +70,7 @@ void countEdges(const std::vector<Corners>& triangles, MeshInfo& info) {
 }
 
 size_t countComponents(const std::vector<Corners>& triangles, size_t vertexCount) {
-  detail::UnionFind sets(vertexCount);
+  detail::DisjointSets sets(vertexCount);
   for (const Corners& t : triangles) {
     sets.unite(t[0], t[1]);
     sets.unite(t[0], t[2]);

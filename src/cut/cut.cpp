@@ -3,8 +3,8 @@
 #include <new>
 #include <stdexcept>
 
-#include "cut/intersections.h"
-#include "cut/output.h"
+#include "cut/stages/output.h"
+#include "mesh/intersections.h"
 
 namespace mandoline {
 namespace {

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/text_cursor.h"
 #include "mandoline/io.h"
+#include "mesh/read/text_cursor.h"
 
 namespace mandoline {
 namespace {

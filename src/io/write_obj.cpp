@@ -1,5 +1,5 @@
 #include "io/output_buffer.h"
-#include "io/polygons.h"
+#include "mesh/read/polygons.h"
 
 namespace mandoline {
 namespace detail {

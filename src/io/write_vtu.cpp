@@ -4,9 +4,9 @@
 // polyhedron too: its faces then have that vertex, as those of its neighbours do, so that all cells match face by face.
 #include "io/grid_vertices.h"
 #include "io/output_buffer.h"
-#include "io/polygons.h"
-#include "io/scalar.h"
 #include "mandoline/measure.h"
+#include "mesh/read/polygons.h"
+#include "mesh/read/scalar.h"
 
 namespace mandoline {
 namespace detail {

@@ -1,0 +1,34 @@
+// Disjoint sets with path halving; the lowest member is the root, so roots do not depend on the order of unions.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace mandoline::detail {
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(size_t n = 0) { reset(n); }
+  void reset(size_t n) {
+    parent_.resize(n);
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
+  uint32_t find(uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(uint32_t i, uint32_t j) {
+    i = find(i);
+    j = find(j);
+    if (i > j) std::swap(i, j);
+    parent_[j] = i;
+  }
+
+ private:
+  std::vector<uint32_t> parent_;
+};
+
+}  // namespace mandoline::detail

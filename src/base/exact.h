@@ -1,0 +1,130 @@
+// Two number types that predicates are written for once: Bounded decides nearly every sign in a few flops, Expansion decides the rest.
+//
+// Bounded carries a double and a proven bound on its error. Expansion is exact: a sum of doubles that do not overlap (Shewchuk 1997,
+// "Adaptive precision floating-point arithmetic and fast robust geometric predicates"). Input must be scaled so that no product
+// overflows or underflows (see cut/stages/input.h). Needs plain IEEE arithmetic: compile with -ffp-contract=off.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace mandoline::detail {
+
+inline constexpr double kRoundoff = 0x1p-53;
+
+struct TwoTerms {
+  double high, low;  // high + low is exact, high = round(high + low)
+};
+
+inline TwoTerms twoSum(double a, double b) {
+  const double high = a + b, bv = high - a, av = high - bv;
+  return {high, (a - av) + (b - bv)};
+}
+
+inline TwoTerms twoDiff(double a, double b) {
+  const double high = a - b, bv = a - high, av = high + bv;
+  return {high, (a - av) + (bv - b)};
+}
+
+inline TwoTerms twoProduct(double a, double b) {
+  constexpr double splitter = 0x1p27 + 1;
+  const double ca = splitter * a, ah = ca - (ca - a), al = a - ah;
+  const double cb = splitter * b, bh = cb - (cb - b), bl = b - bh;
+  const double high = a * b;
+  return {high, al * bl - (((high - ah * bh) - al * bh) - ah * bl)};
+}
+
+inline int signOf(double x) { return (x > 0) - (x < 0); }
+
+/// A double and a bound on its distance from the true value.
+struct Bounded {
+  double value = 0, error = 0;
+
+  Bounded() = default;
+  explicit Bounded(double v) : value(v) {}
+  Bounded(double v, double e) : value(v), error(e) {}
+
+  static Bounded difference(double a, double b) {
+    const TwoTerms d = twoDiff(a, b);
+    return {d.high, std::fabs(d.low)};
+  }
+  friend Bounded operator+(const Bounded& a, const Bounded& b) {
+    const double v = a.value + b.value;
+    return {v, a.error + b.error + kRoundoff * std::fabs(v)};
+  }
+  friend Bounded operator-(const Bounded& a, const Bounded& b) {
+    const double v = a.value - b.value;
+    return {v, a.error + b.error + kRoundoff * std::fabs(v)};
+  }
+  friend Bounded operator*(const Bounded& a, const Bounded& b) {
+    const double v = a.value * b.value;
+    return {v, std::fabs(a.value) * b.error + std::fabs(b.value) * a.error + a.error * b.error + kRoundoff * std::fabs(v)};
+  }
+  Bounded operator-() const { return {-value, error}; }
+
+  /// Whether sign() is proven. The errors' own roundings are some 2^-50 of them, far within the factor.
+  bool certain() const { return std::fabs(value) > error * (1 + 0x1p-30) || error == 0; }
+  int sign() const { return signOf(value); }
+};
+
+/// An exact number: a sum of non-overlapping doubles in order of growing magnitude, without zeros.
+class Expansion {
+ public:
+  Expansion() = default;
+  explicit Expansion(double v) { push(v); }
+
+  static Expansion difference(double a, double b) {
+    const TwoTerms d = twoDiff(a, b);
+    Expansion e;
+    e.push(d.low);
+    e.push(d.high);
+    return e;
+  }
+  friend Expansion operator+(const Expansion& a, const Expansion& b) { return sum(a, b, 1); }
+  friend Expansion operator-(const Expansion& a, const Expansion& b) { return sum(a, b, -1); }
+  friend Expansion operator*(const Expansion& a, const Expansion& b);
+  Expansion operator-() const {
+    Expansion e = *this;
+    for (double& t : e.terms_) t = -t;
+    return e;
+  }
+
+  bool certain() const { return true; }
+  int sign() const { return terms_.empty() ? 0 : signOf(terms_.back()); }
+  /// Nearest double, but for one rounding or two.
+  double estimate() const;
+  /// The quotient as a double, within a few units in the last place.
+  static double quotient(const Expansion& numerator, const Expansion& denominator);
+
+ private:
+  void push(double v) {
+    if (v != 0) terms_.push_back(v);
+  }
+  static Expansion sum(const Expansion& a, const Expansion& b, double signOfB);
+  static Expansion scale(const Expansion& a, double b);
+
+  std::vector<double> terms_;
+};
+
+/// Evaluates exact signs and counts how many could not be decided in plain doubles. One per thread.
+class Predicates {
+ public:
+  uint64_t fallbacks = 0;
+
+  /// Sign of (b - a) x (c - a) in the plane; positive when a, b, c turn counter-clockwise.
+  int orient2d(double ax, double ay, double bx, double by, double cx, double cy);
+  /// Sign of det(b - a, c - a, d - a): positive when d lies on the side of triangle (a, b, c) that its normal points to.
+  int orient3d(const double* a, const double* b, const double* c, const double* d);
+
+  /// Sign of a polynomial, given as a callable that works on either number type: f(Number tag) -> Number.
+  template <class Polynomial>
+  int sign(const Polynomial& f) {
+    const Bounded fast = f(Bounded());
+    if (fast.certain()) return fast.sign();
+    ++fallbacks;
+    return f(Expansion()).sign();
+  }
+};
+
+}  // namespace mandoline::detail

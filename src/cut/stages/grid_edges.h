@@ -1,0 +1,19 @@
+// Stage 5, grid lines (paper, 4.1.2): the cut-vertices on each grid-edge of the stencil in order, and the vertex at each grid vertex.
+//
+// In: Stencil, TriFaces. Out: GridEdges; CutVertices gets the grid vertices that the surface does not pass through.
+#pragma once
+
+#include <vector>
+
+#include "cut/stages/stencil.h"
+
+namespace mandoline::detail {
+
+struct GridEdges {
+  Csr<uint32_t> vertices;         ///< per grid-edge: the cut-vertices inside of it, ascending along its axis
+  std::vector<uint32_t> corners;  ///< per grid vertex: its cut-vertex
+};
+
+GridEdges cutGridEdges(const Stencil& stencil, const TriFaces& triFaces, CutVertices& vertices, CutStats& stats, Monitor& monitor);
+
+}  // namespace mandoline::detail

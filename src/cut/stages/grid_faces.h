@@ -1,0 +1,33 @@
+// Stage 6, grid-faces (paper, 3.4, 4.3, 4.5, 4.6): the pieces that the surface cuts each grid-face of the stencil into, with their holes.
+//
+// In: Stencil, GridEdges, TriFaces. Out: GridFaces. Where a triangle lies in the grid-face, its tri-cut-face takes the piece's place.
+// Ids of the faces made here follow those of TriFaces.
+#pragma once
+
+#include <vector>
+
+#include "cut/stages/grid_edges.h"
+
+namespace mandoline::detail {
+
+/// A cut-edge in a grid-face with the same face on both sides: left out of that face's loops.
+struct Slit {
+  uint32_t from, to;
+  uint32_t halfFace;  ///< of that face, seen from the cell below the plane
+};
+
+struct GridFaces {
+  std::vector<uint32_t> faceLoopOffsets{0}, loopOffsets{0},
+      loopVertices;                 ///< the outer loop first; counter-clockwise about +axis, holes clockwise
+  std::vector<uint32_t> gridFaces;  ///< per face: the grid-face it is a piece of
+  Csr<uint32_t>
+      halfFaces;    ///< per grid-face: half-faces (2 * face + side) that the cell below the plane sees; the cell above sees their twins
+  Csr<Slit> slits;  ///< per grid-face
+
+  size_t size() const { return gridFaces.size(); }
+};
+
+GridFaces cutGridFaces(const Input& input, const Stencil& stencil, const GridEdges& gridEdges, const TriFaces& triFaces,
+                       const CutVertices& vertices, CutStats& stats, Monitor& monitor);
+
+}  // namespace mandoline::detail

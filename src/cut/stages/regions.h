@@ -1,0 +1,26 @@
+// Stage 8, regions and winding numbers: connected components of cut-cells and untouched grid cells, joined through faces that are not
+// pieces of triangles; and the winding number of each, stepping by one across every tri-cut-face from an exact value in one place.
+//
+// In: all stages before. Out: Regions. Untouched grid cells are runs along x: memory by run, not by cell.
+#pragma once
+
+#include <vector>
+
+#include "cut/stages/cut_cells.h"
+
+namespace mandoline::detail {
+
+struct Regions {
+  std::vector<uint32_t> rowRunOffsets;    ///< per row of grid cells (k ny + j), and one more: into runs
+  std::vector<int32_t> runBegin, runEnd;  ///< per run of untouched grid cells: along x, half open
+  std::vector<uint32_t> runRegion;        ///< per run
+  std::vector<uint32_t> cellRegion;       ///< per cut-cell
+  uint32_t count = 0;
+  bool hasWinding = false;       ///< closed and consistently oriented
+  std::vector<int32_t> winding;  ///< per region, empty unless hasWinding
+};
+
+Regions findRegions(const Input& input, const TriEdges& edges, const Stencil& stencil, const TriFaces& triFaces, const GridFaces& gridFaces,
+                    const CutCells& cells, const CutVertices& vertices, CutStats& stats, Monitor& monitor);
+
+}  // namespace mandoline::detail

@@ -1,0 +1,174 @@
+#include "cut/stages/stencil.h"
+
+namespace mandoline::detail {
+namespace {
+
+/// Place of a grid cell in the order by z, y, x.
+uint64_t keyOf(const Input& input, const Slab& cell) {
+  return (uint64_t(cell[2] >> 1) * input.cells(1) + (cell[1] >> 1)) * input.cells(0) + (cell[0] >> 1);
+}
+
+int planeAxis(const Slab& gridFace) { return onPlane(gridFace[0]) ? 0 : onPlane(gridFace[1]) ? 1 : 2; }
+
+/// The cell that a grid-face is looked up in: above its plane, or below the last plane. Returns the grid-face's index in it.
+int owner(const Input& input, const Slab& gridFace, Slab& cell) {
+  const int axis = planeAxis(gridFace);
+  const bool last = gridFace[axis] == 2 * input.cells(axis);
+  cell = gridFace;
+  cell[axis] += last ? -1 : 1;
+  return cellFace(axis, last ? 1 : 0);
+}
+
+/// Earlier neighbours of a cell in the order by z, y, x: each is found by walking along as the cells ascend.
+class EarlierNeighbours {
+ public:
+  EarlierNeighbours(const Input& input, const std::vector<uint64_t>& keys) : input_(input), keys_(keys) {}
+
+  /// Cell at `element` + 2 * (dx, dy, dz), or -1. For each offset, calls must come with ascending cells.
+  int64_t find(const Slab& element, int dx, int dy, int dz) {
+    const Slab other = {element[0] + 2 * dx, element[1] + 2 * dy, element[2] + 2 * dz};
+    if (!input_.inGrid(other)) return -1;
+    const uint64_t key = keyOf(input_, other);
+    size_t& at = at_[(dz + 1) * 9 + (dy + 1) * 3 + dx + 1];
+    while (at < keys_.size() && keys_[at] < key) ++at;
+    return at < keys_.size() && keys_[at] == key ? int64_t(at) : -1;
+  }
+
+ private:
+  const Input& input_;
+  const std::vector<uint64_t>& keys_;
+  size_t at_[27] = {};
+};
+
+/// Ids of grid-faces, grid-edges and grid vertices: a cell takes over those that an earlier neighbour shares.
+void numberElements(const Input& input, const std::vector<uint64_t>& keys, Stencil& stencil, Monitor& monitor) {
+  EarlierNeighbours neighbours(input, keys);
+  for (uint32_t c = 0; c < stencil.cells.size(); ++c) {
+    if (c % 4096 == 0) monitor.report(c, stencil.cells.size());
+    Stencil::Cell& cell = stencil.cells[c];
+    constexpr uint32_t kNew = ~0u;
+    std::fill_n(cell.faces, 6, kNew);
+    std::fill_n(cell.edges, 12, kNew);
+    std::fill_n(cell.corners, 8, kNew);
+    for (int offset = 0; offset < 13; ++offset) {  // the 13 of 26 neighbours that come before
+      const int shift[3] = {offset % 3 - 1, offset / 3 % 3 - 1, offset / 9 - 1};
+      const int64_t n = neighbours.find(cell.element, shift[0], shift[1], shift[2]);
+      if (n < 0) continue;
+      const Stencil::Cell& other = stencil.cells[size_t(n)];
+      // A side of this cell is shared if the neighbour lies towards it or level with it; it is then the opposite or the same side there.
+      const auto shared = [&](int d, int side) { return shift[d] == 0 || (shift[d] > 0) == (side == 1); };
+      const auto there = [&](int d, int side) { return shift[d] == 0 ? side : 1 - side; };
+      for (int d = 0; d < 3; ++d) {
+        const int e = (d + 1) % 3, f = (d + 2) % 3;
+        for (int side = 0; side < 2; ++side) {
+          if (shift[d] != 0 && shared(d, side) && shift[e] == 0 && shift[f] == 0)
+            cell.faces[cellFace(d, side)] = other.faces[cellFace(d, 1 - side)];
+        }
+        if (shift[d] != 0) continue;
+        for (int i = 0; i < 4; ++i) {
+          if (shared(e, i & 1) && shared(f, i >> 1))
+            cell.edges[cellEdge(d, i & 1, i >> 1)] = other.edges[cellEdge(d, there(e, i & 1), there(f, i >> 1))];
+        }
+      }
+      for (int i = 0; i < 8; ++i) {
+        const int x = i & 1, y = i >> 1 & 1, z = i >> 2;
+        if (shared(0, x) && shared(1, y) && shared(2, z)) cell.corners[i] = other.corners[there(0, x) + 2 * there(1, y) + 4 * there(2, z)];
+      }
+    }
+    for (uint8_t i = 0; i < 6; ++i) {
+      if (cell.faces[i] != kNew) continue;
+      cell.faces[i] = uint32_t(stencil.faces.size());
+      stencil.faces.push_back({c, i});
+    }
+    for (uint32_t& edge : cell.edges) edge = edge == kNew ? stencil.edgeCount++ : edge;
+    for (uint32_t& corner : cell.corners) corner = corner == kNew ? stencil.cornerCount++ : corner;
+  }
+}
+
+}  // namespace
+
+std::array<uint32_t, 4> Stencil::cornersOf(const Face& face) const {
+  const Cell& cell = cells[face.cell];
+  const int d = face.axis(), base = face.side() << d, p = 1 << (d + 1) % 3, q = 1 << (d + 2) % 3;
+  return {cell.corners[base], cell.corners[base + p], cell.corners[base + p + q], cell.corners[base + q]};
+}
+
+std::array<uint32_t, 4> Stencil::edgesOf(const Face& face) const {
+  const Cell& cell = cells[face.cell];
+  const int d = face.axis(), side = face.side(), p = (d + 1) % 3, q = (d + 2) % 3;
+  return {cell.edges[cellEdge(p, 0, side)], cell.edges[cellEdge(q, side, 1)], cell.edges[cellEdge(p, 1, side)],
+          cell.edges[cellEdge(q, side, 0)]};
+}
+
+Stencil makeStencil(const Input& input, const TriEdges& edges, const TriFaces& triFaces, Monitor& monitor) {
+  const uint64_t largestKey = keyOf(input, {2 * input.cells(0) - 1, 2 * input.cells(1) - 1, 2 * input.cells(2) - 1});
+  std::vector<KeyedItem> inCell, touched;  // tri-cut-faces by cell; other cells that something in a grid-face touches
+  const auto touchBoth = [&](const Slab& gridFace) {
+    const int axis = planeAxis(gridFace);
+    for (int side = -1; side <= 1; side += 2) {
+      Slab cell = gridFace;
+      cell[axis] += side;
+      if (input.inGrid(cell)) touched.push_back({keyOf(input, cell), 0});
+    }
+  };
+  std::vector<uint32_t> inPlane;  // tri-cut-faces in grid-faces
+  inCell.reserve(triFaces.size());
+  for (uint32_t f = 0; f < triFaces.size(); ++f) {
+    if (planeCount(triFaces.elements[f]) == 0) {
+      inCell.push_back({keyOf(input, triFaces.elements[f]), f});
+    } else {
+      inPlane.push_back(f);
+      touchBoth(triFaces.elements[f]);
+    }
+  }
+  for (const FaceEdge& e : edges.inPlane) touchBoth(e.element);
+  sortByKey(inCell, largestKey);
+  sortByKey(touched, largestKey);
+
+  Stencil stencil;
+  std::vector<uint64_t> keys;
+  for (size_t i = 0, j = 0; i < inCell.size() || j < touched.size();) {
+    const uint64_t key = std::min(i < inCell.size() ? inCell[i].key : ~uint64_t(0), j < touched.size() ? touched[j].key : ~uint64_t(0));
+    keys.push_back(key);
+    for (; i < inCell.size() && inCell[i].key == key; ++i) stencil.triFacesInCell.items.push_back(inCell[i].item);
+    stencil.triFacesInCell.offsets.push_back(uint32_t(i));
+    while (j < touched.size() && touched[j].key == key) ++j;
+  }
+  stencil.cells.resize(keys.size());
+  for (size_t c = 0; c < keys.size(); ++c) {
+    const uint64_t nx = uint64_t(input.cells(0)), ny = uint64_t(input.cells(1));
+    stencil.cells[c].element = {int32_t(2 * (keys[c] % nx) + 1), int32_t(2 * (keys[c] / nx % ny) + 1),
+                                int32_t(2 * (keys[c] / nx / ny) + 1)};
+  }
+  numberElements(input, keys, stencil, monitor);
+
+  // Brings items that lie in grid-faces to them, by way of the cells.
+  const auto onFaces = [&](size_t n, const auto& elementOf) {
+    std::vector<KeyedItem> sorted(n);
+    Slab cell;
+    for (uint32_t i = 0; i < n; ++i) {
+      owner(input, elementOf(i), cell);
+      sorted[i] = {keyOf(input, cell), i};
+    }
+    sortByKey(sorted, largestKey);
+    std::vector<uint32_t> faceOf(n);
+    for (size_t i = 0, c = 0; i < n; ++i) {
+      while (keys[c] < sorted[i].key) ++c;
+      faceOf[sorted[i].item] = stencil.cells[c].faces[owner(input, elementOf(sorted[i].item), cell)];
+    }
+    return faceOf;
+  };
+  const auto edgeAt = [&](size_t i) -> const FaceEdge& {
+    return i < triFaces.hybridEdges.size() ? triFaces.hybridEdges[i] : edges.inPlane[i - triFaces.hybridEdges.size()];
+  };
+  const size_t edgeTotal = triFaces.hybridEdges.size() + edges.inPlane.size();
+  const std::vector<uint32_t> faceOfEdge = onFaces(edgeTotal, [&](size_t i) -> const Slab& { return edgeAt(i).element; });
+  stencil.edgesOnFace = groupBy<FaceEdge>(
+      stencil.faces.size(), edgeTotal, [&](size_t i) { return faceOfEdge[i]; }, edgeAt);
+  const std::vector<uint32_t> faceOfTri = onFaces(inPlane.size(), [&](size_t i) -> const Slab& { return triFaces.elements[inPlane[i]]; });
+  stencil.triFacesOnFace = groupBy<uint32_t>(
+      stencil.faces.size(), inPlane.size(), [&](size_t i) { return faceOfTri[i]; }, [&](size_t i) { return inPlane[i]; });
+  return stencil;
+}
+
+}  // namespace mandoline::detail

@@ -1,0 +1,50 @@
+// Stage 4, stencil (paper, 4.3.1): the grid cells that the surface touches, their grid-faces, grid-edges and grid vertices, and what of
+// the surface lies in each.
+//
+// In: TriFaces, TriEdges. Out: Stencil. A grid cell belongs to it if a tri-cut-face lies inside of it or in one of its grid-faces, or a
+// tri-edge in one of its grid-faces: so every grid-face between it and an untouched grid cell is whole.
+#pragma once
+
+#include <vector>
+
+#include "cut/stages/tri_faces.h"
+
+namespace mandoline::detail {
+
+/// Numbering inside of a cell, by bits: 1 for the upper side along an axis.
+/// Corner: bit d for axis d. Grid-face: 2 * axis + side. Grid-edge along d: 4 * d + side along d + 1, + 2 * side along d + 2 (mod 3).
+inline int cellFace(int axis, int side) { return 2 * axis + side; }
+inline int cellEdge(int axis, int side1, int side2) { return 4 * axis + side1 + 2 * side2; }
+
+struct Stencil {
+  struct Cell {
+    Slab element;  ///< all odd
+    uint32_t faces[6], edges[12], corners[8];
+
+    int32_t at(int axis) const { return element[axis] >> 1; }
+  };
+  /// A grid-face, by the first cell that has it.
+  struct Face {
+    uint32_t cell;
+    uint8_t index;  ///< in that cell
+
+    int axis() const { return index >> 1; }
+    int side() const { return index & 1; }
+  };
+
+  std::vector<Cell> cells;  ///< ascending by z, then y, then x
+  std::vector<Face> faces;
+  uint32_t edgeCount = 0, cornerCount = 0;
+  Csr<uint32_t> triFacesInCell;  ///< ids of tri-cut-faces inside of each cell
+  Csr<uint32_t> triFacesOnFace;  ///< ids of tri-cut-faces that lie in each grid-face
+  Csr<FaceEdge> edgesOnFace;     ///< cut-edges inside of each grid-face
+
+  /// The corners of a grid-face, counter-clockwise about its axis, and the grid-edge from each to the next. Edges 2 and 3 run against their
+  /// axis.
+  std::array<uint32_t, 4> cornersOf(const Face& face) const;
+  std::array<uint32_t, 4> edgesOf(const Face& face) const;
+};
+
+Stencil makeStencil(const Input& input, const TriEdges& edges, const TriFaces& triFaces, Monitor& monitor);
+
+}  // namespace mandoline::detail

@@ -1,0 +1,260 @@
+#include "cut/stages/tri_faces.h"
+
+namespace mandoline::detail {
+namespace {
+
+struct Corner {
+  uint32_t id;
+  Slab slab;
+};
+using Polygon = std::vector<Corner>;
+
+/// What one chunk of triangles makes. Ids of its own vertices count from vertices.size() on.
+struct Chunk {
+  TriFaces faces;
+  std::vector<Slab> slabs;
+  std::vector<uint32_t> parents;
+  Predicates predicates;
+  Polygon whole, chain;
+  Polygon rest[3], low[3], high[3];  // per axis
+};
+
+constexpr size_t kMost = size_t(1) << 31;  // loop entries, vertices
+
+[[noreturn]] void failTooLarge(int64_t triangle) {
+  throw Failure{{Status::meshTooLarge, triangle, -1, "The cut-mesh would have more than 2^31 loop entries or vertices."}};
+}
+
+class Dicer {
+ public:
+  Dicer(const Input& input, const TriEdges& edges, const CutVertices& vertices, Monitor& monitor, Chunk& chunk)
+      : input_(input), edges_(edges), vertices_(vertices), monitor_(monitor), chunk_(chunk) {}
+
+  void cut(uint32_t triangle) {
+    triangle_ = triangle;
+    const auto& t = input_.triangles[triangle];
+    const Slab &a = input_.slabs[t[0]], &b = input_.slabs[t[1]], &c = input_.slabs[t[2]];
+    Slab element;
+    bool oneCell = edges_.stitched.size() == 0;
+    for (int d = 0; d < 3; ++d) {
+      const int32_t least = std::min({a[d], b[d], c[d]}), greatest = std::max({a[d], b[d], c[d]});
+      if (greatest < 0 || least > 2 * input_.cells(d)) return;
+      oneCell &= inOneSlab(least, greatest);
+      element[d] = slabBetween(least, greatest);
+    }
+    if (oneCell) {
+      if (!input_.inGrid(element)) return;
+      chunk_.faces.loopVertices.insert(chunk_.faces.loopVertices.end(), t.begin(), t.end());
+      return addFace(element, planeCount(a) > 1 || planeCount(b) > 1 || planeCount(c) > 1);
+    }
+    outline(t);
+    split(0, chunk_.whole);
+  }
+
+ private:
+  /// The triangle as a polygon with all vertices on its sides.
+  void outline(const std::array<uint32_t, 3>& t) {
+    chunk_.whole.clear();
+    const auto add = [&](uint32_t v) { chunk_.whole.push_back({v, vertices_.slabs[v]}); };
+    for (int side = 0; side < 3; ++side) {
+      uint32_t from = t[side];
+      edges_.forSide(input_, triangle_, side, [&](uint32_t edge, bool forward) {
+        add(from);
+        const uint32_t first = edges_.crossingOffsets[edge];
+        uint32_t past = edges_.crossingOffsets[edge + 1];
+        while (past > first && vertices_.slabs[past - 1][0] == CutVertices::kUnused) --past;
+        for (uint32_t i = 0; i < past - first; ++i) add(forward ? first + i : past - 1 - i);
+        from = edges_.ends[edge][forward ? 1 : 0];
+      });
+    }
+  }
+
+  /// Cuts a convex polygon by the planes of `axis` and of those after it.
+  void split(int axis, const Polygon& polygon) {
+    if (axis == 3) return emit(polygon);
+    const auto [least, greatest] = extent(polygon, axis);
+    const int32_t first = firstPlaneAfter(least), last = lastPlaneBefore(greatest), end = 2 * input_.cells(axis);
+    if (first > last) {
+      if (greatest >= 0 && least <= end && slabBetween(least, greatest) >= 0 && slabBetween(least, greatest) <= end)
+        split(axis + 1, polygon);
+      return;
+    }
+    Polygon &rest = chunk_.rest[axis], &low = chunk_.low[axis], &high = chunk_.high[axis];
+    rest = polygon;
+    for (int32_t plane = first; plane <= last; ++plane) {
+      splitAt(axis, plane, rest, low, high);
+      if (plane > 0) split(axis + 1, low);
+      rest.swap(high);
+    }
+    if (last < input_.cells(axis)) split(axis + 1, rest);
+  }
+
+  static std::pair<int32_t, int32_t> extent(const Polygon& polygon, int axis) {
+    int32_t least = polygon[0].slab[axis], greatest = least;
+    for (const Corner& c : polygon) {
+      least = std::min(least, c.slab[axis]);
+      greatest = std::max(greatest, c.slab[axis]);
+    }
+    return {least, greatest};
+  }
+
+  /// The polygon has vertices on both sides of the plane, and, being convex and cut at every plane along its sides, two on it.
+  void splitAt(int axis, int32_t plane, const Polygon& polygon, Polygon& low, Polygon& high) {
+    const int32_t on = 2 * plane;
+    const size_t n = polygon.size();
+    const Corner *up = nullptr, *down = nullptr;  // where the polygon's outline leaves the low side, and where it comes back
+    for (size_t i = 0; i < n; ++i) {
+      if (polygon[i].slab[axis] != on) continue;
+      (polygon[i + 1 < n ? i + 1 : 0].slab[axis] > on ? up : down) = &polygon[i];
+    }
+    low.clear();
+    high.clear();
+    makeChain(axis, plane, *up, *down);
+    const Polygon& chain = chunk_.chain;
+    for (const Corner& c : polygon) {
+      if (c.slab[axis] <= on) low.push_back(c);
+      if (c.slab[axis] >= on) high.push_back(c);
+      if (&c == up) low.insert(low.end(), chain.begin(), chain.end());
+      if (&c == down) high.insert(high.end(), chain.rbegin(), chain.rend());
+    }
+    const Corner* from = up;
+    for (size_t i = 0; i <= chain.size(); ++i) {
+      const Corner* to = i < chain.size() ? &chain[i] : down;
+      const Slab element = elementBetween(from->slab, to->slab);
+      if (planeCount(element) == 1 && input_.inGrid(element)) chunk_.faces.hybridEdges.push_back({element, from->id, to->id});
+      from = to;
+    }
+  }
+
+  /// The vertices inside of the hybrid edge a -> b, which lies in the plane: its crossings with planes of the axes not yet cut.
+  void makeChain(int axis, int32_t plane, const Corner& a, const Corner& b) {
+    Polygon& chain = chunk_.chain;
+    chain.clear();
+    if (axis == 2) return;
+    Corner at = a;
+    if (axis == 0) {  // crossings with y-planes; where they lie along z is up to P2
+      const int step = b.slab[1] > a.slab[1] ? 1 : -1;
+      const int32_t first = step > 0 ? firstPlaneAfter(a.slab[1]) : lastPlaneBefore(a.slab[1]);
+      const int32_t past = step > 0 ? lastPlaneBefore(b.slab[1]) + 1 : firstPlaneAfter(b.slab[1]) - 1;
+      for (int32_t j = first; step > 0 ? j < past : j > past; j += step) {
+        const Slab slab = {2 * plane, 2 * j, heightOf(plane, j, step, at.slab[2], b.slab[2])};
+        crossZ(at, slab);
+        at = addVertex(slab);
+        chain.push_back(at);
+      }
+    }
+    crossZ(at, b.slab);
+  }
+
+  /// Appends the crossings with z-planes strictly between two points of a hybrid edge that has no other crossings there.
+  void crossZ(const Corner& from, const Slab& to) {
+    const int step = to[2] > from.slab[2] ? 1 : -1;
+    const int32_t first = step > 0 ? firstPlaneAfter(from.slab[2]) : lastPlaneBefore(from.slab[2]);
+    const int32_t past = step > 0 ? lastPlaneBefore(to[2]) + 1 : firstPlaneAfter(to[2]) - 1;
+    Slab slab = elementBetween(from.slab, to);
+    for (int32_t k = first; step > 0 ? k < past : k > past; k += step) {
+      slab[2] = 2 * k;
+      chunk_.chain.push_back(addVertex(slab));
+    }
+  }
+
+  /// P2: the z-slab at which the triangle meets the grid line (x = plane i, y = plane j). It lies strictly between two slabs of the
+  /// hybrid edge in the plane x = i (or all are the same); that edge runs to growing y where the triangle's normal has z > 0.
+  int32_t heightOf(int32_t i, int32_t j, int stepY, int32_t from, int32_t to) {
+    if (inOneSlab(std::min(from, to), std::max(from, to))) return slabBetween(std::min(from, to), std::max(from, to));
+    const auto& t = input_.triangles[triangle_];
+    const int step = to > from ? 1 : -1;
+    const int32_t last = step > 0 ? lastPlaneBefore(to) : firstPlaneAfter(to);
+    for (int32_t k = step > 0 ? firstPlaneAfter(from) : lastPlaneBefore(from); step > 0 ? k <= last : k >= last; k += step) {
+      const Point p = {input_.planes[0][i], input_.planes[1][j], input_.planes[2][k]};
+      const int above =  // the sign of the height less plane k
+          -stepY * chunk_.predicates.orient3d(input_.points[t[0]].data(), input_.points[t[1]].data(), input_.points[t[2]].data(), p.data());
+      if (above == 0) return 2 * k;
+      if (above != step) return 2 * k - step;
+    }
+    return 2 * last + step;
+  }
+
+  Corner addVertex(const Slab& slab) {
+    const uint32_t id = uint32_t(vertices_.size() + chunk_.slabs.size());
+    chunk_.slabs.push_back(slab);
+    chunk_.parents.push_back(triangle_);
+    return {id, slab};
+  }
+
+  void emit(const Polygon& polygon) {
+    Slab element;
+    for (int d = 0; d < 3; ++d) {
+      const auto [least, greatest] = extent(polygon, d);
+      element[d] = slabBetween(least, greatest);
+    }
+    bool touchesLine = false;
+    for (const Corner& c : polygon) {
+      chunk_.faces.loopVertices.push_back(c.id);
+      touchesLine |= planeCount(c.slab) > 1;
+    }
+    addFace(element, touchesLine);
+  }
+
+  void addFace(const Slab& element, bool touchesLine) {
+    TriFaces& faces = chunk_.faces;
+    faces.loopOffsets.push_back(uint32_t(faces.loopVertices.size()));
+    faces.triangles.push_back(triangle_);
+    faces.elements.push_back(element);
+    faces.touchesLine.push_back(touchesLine);
+    if (faces.size() % 4096 != 0) return;  // one triangle may have millions
+    if (faces.loopVertices.size() > kMost || vertices_.size() + chunk_.slabs.size() > kMost) failTooLarge(triangle_);
+    monitor_.report(triangle_, input_.triangles.size());
+  }
+
+  const Input& input_;
+  const TriEdges& edges_;
+  const CutVertices& vertices_;
+  Monitor& monitor_;
+  Chunk& chunk_;
+  uint32_t triangle_ = 0;
+};
+
+/// Appends b, whose vertices in triangles are shifted by what the chunks before it made.
+void append(TriFaces& a, const TriFaces& b, uint32_t firstInTriangle, uint32_t shift) {
+  const auto shifted = [&](uint32_t v) { return v < firstInTriangle ? v : v + shift; };
+  const uint32_t loopShift = uint32_t(a.loopVertices.size());
+  for (size_t i = 1; i < b.loopOffsets.size(); ++i) a.loopOffsets.push_back(b.loopOffsets[i] + loopShift);
+  for (const uint32_t v : b.loopVertices) a.loopVertices.push_back(shifted(v));
+  a.triangles.insert(a.triangles.end(), b.triangles.begin(), b.triangles.end());
+  a.elements.insert(a.elements.end(), b.elements.begin(), b.elements.end());
+  a.touchesLine.insert(a.touchesLine.end(), b.touchesLine.begin(), b.touchesLine.end());
+  for (const FaceEdge& e : b.hybridEdges) a.hybridEdges.push_back({e.element, shifted(e.from), shifted(e.to)});
+}
+
+}  // namespace
+
+TriFaces cutTriangles(const Input& input, const TriEdges& edges, CutVertices& vertices, CutStats& stats, Monitor& monitor) {
+  auto chunks = forChunks<Chunk>(input.triangles.size(), monitor, [&](Chunk& chunk, size_t begin, size_t end) {
+    Dicer dicer(input, edges, vertices, monitor, chunk);
+    for (size_t t = begin; t < end; ++t) {
+      if (input.kept(t)) dicer.cut(uint32_t(t));
+    }
+  });
+  size_t entries = 0, made = vertices.size();
+  for (const Chunk& c : chunks) {
+    entries += c.faces.loopVertices.size();
+    made += c.slabs.size();
+    stats.exactFallbacks += c.predicates.fallbacks;
+  }
+  if (entries > kMost || made > kMost) failTooLarge(-1);
+  TriFaces faces = std::move(chunks[0].faces);
+  uint32_t shift = 0;
+  for (size_t c = 0; c < chunks.size(); ++c) {
+    if (c > 0) append(faces, chunks[c].faces, vertices.firstInTriangle, shift);
+    shift += uint32_t(chunks[c].slabs.size());
+  }
+  for (const Chunk& c : chunks) {
+    vertices.slabs.insert(vertices.slabs.end(), c.slabs.begin(), c.slabs.end());
+    vertices.parents.insert(vertices.parents.end(), c.parents.begin(), c.parents.end());
+  }
+  vertices.firstOnGrid = uint32_t(vertices.size());
+  return faces;
+}
+
+}  // namespace mandoline::detail

@@ -1,0 +1,151 @@
+// Grids, and small parts of the public structs.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <new>
+
+#include "base/exact.h"
+#include "mandoline/mandoline.h"
+
+namespace mandoline {
+namespace {
+
+using detail::Expansion;
+
+constexpr int64_t kMostCells = int64_t(1) << 24;
+
+// Planes are rounded once, from exact sums: then a symmetric box has symmetric planes, and what is symmetric or flat in a mesh lies on
+// them or clear of them rather than off by one rounding. Sizes near the ends of the doubles' range do without.
+bool safeToMultiply(double x) { return x == 0 || (std::fabs(x) < 0x1p900 && std::fabs(x) > 0x1p-900); }
+
+/// Cell counts that make no sense leave the axis without planes or with too many, which cut() reports.
+template <class PlaneAt>
+std::vector<double> makePlanes(int64_t cells, const PlaneAt& planeAt) {
+  std::vector<double> planes;
+  if (cells < 1) return planes;
+  planes.resize(size_t(std::min(cells, kMostCells + 1)) + 1);
+  if (cells > kMostCells) return planes;
+  for (int64_t c = 0; c <= cells; ++c) planes[size_t(c)] = planeAt(c);
+  return planes;
+}
+
+}  // namespace
+
+Grid Grid::box(const std::array<double, 3>& lo, const std::array<double, 3>& hi, const std::array<int64_t, 3>& cells) {
+  Grid grid;
+  grid.uniform = true;
+  grid.origin = lo;
+  for (int d = 0; d < 3; ++d) {
+    const double n = double(cells[d]);
+    grid.spacing[d] = (hi[d] - lo[d]) / n;
+    grid.planes[d] = makePlanes(cells[d], [&](int64_t c) {
+      if (c == 0 || c == cells[d]) return c == 0 ? lo[d] : hi[d];
+      if (!safeToMultiply(lo[d]) || !safeToMultiply(hi[d])) return lo[d] + (hi[d] - lo[d]) * (double(c) / n);
+      return Expansion::quotient(Expansion(lo[d]) * Expansion(n - double(c)) + Expansion(hi[d]) * Expansion(double(c)), Expansion(n));
+    });
+  }
+  return grid;
+}
+
+Grid Grid::regular(const std::array<double, 3>& origin, const std::array<double, 3>& spacing, const std::array<int64_t, 3>& cells) {
+  Grid grid;
+  grid.uniform = true;
+  grid.origin = origin;
+  grid.spacing = spacing;
+  for (int d = 0; d < 3; ++d) grid.planes[d] = makePlanes(cells[d], [&](int64_t c) { return origin[d] + spacing[d] * double(c); });
+  return grid;
+}
+
+Grid Grid::rectilinear(std::array<std::vector<double>, 3> planes) {
+  Grid grid;
+  grid.planes = std::move(planes);
+  for (int d = 0; d < 3; ++d) grid.origin[d] = grid.planes[d].empty() ? 0 : grid.planes[d][0];
+  return grid;
+}
+
+Grid Grid::around(const MeshView& mesh, int64_t n) {
+  std::array<double, 3> low, high;
+  low.fill(INFINITY);
+  high.fill(-INFINITY);
+  for (const uint32_t v : mesh.triangles) {
+    for (int d = 0; d < 3 && v < mesh.vertexCount(); ++d) {
+      const double x = mesh.positions[3 * size_t(v) + d];
+      if (!std::isfinite(x)) continue;
+      low[d] = std::min(low[d], x);
+      high[d] = std::max(high[d], x);
+    }
+  }
+  double longest = 0;
+  for (int d = 0; d < 3; ++d) longest = std::max(longest, high[d] - low[d]);
+  if (!(longest > 0)) longest = 1;  // a point, or nothing
+  Grid grid;
+  grid.uniform = true;
+  const double margin = 0.05 * longest, spacing = 1.1 * longest / double(n);
+  for (int d = 0; d < 3; ++d) {
+    if (!(low[d] <= high[d])) low[d] = high[d] = 0;
+    const double span = high[d] - low[d] + 2 * margin, middle = 0.5 * low[d] + 0.5 * high[d];
+    // Rounding must not turn a side of just n cells into n + 1.
+    const int64_t cells = n < 1 ? n : std::clamp(int64_t(std::ceil(span / spacing * (1 - 1e-12))), int64_t(1), n);
+    grid.planes[d] = makePlanes(cells, [&](int64_t c) {
+      const double halves = double(2 * c - cells);
+      if (!safeToMultiply(spacing)) return middle + 0.5 * spacing * halves;
+      return (Expansion(middle) + Expansion(0.5 * spacing) * Expansion(halves)).estimate();
+    });
+    grid.spacing[d] = spacing;
+    if (!grid.planes[d].empty()) grid.origin[d] = grid.planes[d][0];
+  }
+  return grid;
+}
+
+size_t CutMesh::untouchedCellCount() const {
+  size_t count = 0;
+  for (size_t r = 0; r < runBegin.size(); ++r) count += size_t(runEnd[r] - runBegin[r]);
+  return count;
+}
+
+std::vector<int32_t> CutMesh::gridCellRegion() const {
+  const double count = double(grid.cells(0)) * double(grid.cells(1)) * double(grid.cells(2));
+  if (count > double(PTRDIFF_MAX)) throw std::bad_alloc();
+  std::vector<int32_t> dense(size_t(count), -1);
+  for (size_t row = 0; row + 1 < rowRunOffsets.size(); ++row) {
+    for (uint32_t r = rowRunOffsets[row]; r < rowRunOffsets[row + 1]; ++r) {
+      const auto first = dense.begin() + std::ptrdiff_t(row * size_t(grid.cells(0)));
+      std::fill(first + runBegin[r], first + runEnd[r], int32_t(runRegion[r]));
+    }
+  }
+  return dense;
+}
+
+const char* name(Status status) {
+  switch (status) {
+    case Status::ok:
+      return "ok";
+    case Status::cancelled:
+      return "cancelled";
+    case Status::emptyMesh:
+      return "emptyMesh";
+    case Status::badArrays:
+      return "badArrays";
+    case Status::badIndex:
+      return "badIndex";
+    case Status::nonFiniteCoordinate:
+      return "nonFiniteCoordinate";
+    case Status::badGrid:
+      return "badGrid";
+    case Status::gridTooLarge:
+      return "gridTooLarge";
+    case Status::badOption:
+      return "badOption";
+    case Status::selfIntersection:
+      return "selfIntersection";
+    case Status::meshTooLarge:
+      return "meshTooLarge";
+    case Status::outOfMemory:
+      return "outOfMemory";
+    case Status::internalError:
+      return "internalError";
+  }
+  return "unknown";
+}
+
+}  // namespace mandoline

@@ -1,0 +1,41 @@
+// Which loops of a cell's cut are outlines of polygons, and which are holes in which of them.
+#pragma once
+
+#include <array>
+
+#include "base/csr.h"
+#include "base/exact.h"
+#include "operators/triangulate/polygon_triangulator.h"
+
+namespace mandoline::operators {
+
+/// One cell at a time; the buffers are kept from cell to cell.
+class SliceNesting {
+ public:
+  /// Groups the loops of a cell (as points, whose places are `at`) into polygons: loops, the outline first.
+  const detail::Csr<uint32_t>& run(const detail::Csr<uint32_t>& loops, const std::vector<PlanePoint>& at);
+
+ private:
+  enum class Kind : uint8_t { outline, hole, unclear };
+  struct Loop {
+    Kind kind;
+    double area;
+    std::array<uint32_t, 2> longest;  // segment
+    PlanePoint sample;                // its middle
+    uint32_t outline;                 // of holes
+  };
+
+  Loop measure(std::span<const uint32_t> points) const;
+  void decideUnclear();
+  uint32_t outlineOf(uint32_t hole);
+  bool runsAlong(uint32_t loop, uint32_t from, uint32_t to) const;
+  int winding(uint32_t loop, const PlanePoint& p);
+
+  const detail::Csr<uint32_t>* points_ = nullptr;
+  const std::vector<PlanePoint>* at_ = nullptr;
+  detail::Predicates predicates_;
+  std::vector<Loop> loops_;
+  detail::Csr<uint32_t> polygons_;
+};
+
+}  // namespace mandoline::operators

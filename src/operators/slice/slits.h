@@ -1,0 +1,33 @@
+// Polygons without their slits, to be filled: a slit may touch an outline between its points, where rounding puts it on either side.
+// Rounding also makes slits of its own, where a cell has next to no width.
+#pragma once
+
+#include "base/csr.h"
+#include "operators/triangulate/polygon_triangulator.h"
+
+namespace mandoline::operators {
+
+/// One polygon at a time; the buffers are kept from polygon to polygon.
+class SliceSlits {
+ public:
+  /// The polygon's loops less what they run through forth and back, the outline first. The result holds until the next call.
+  const detail::Csr<uint32_t>& remove(const detail::Csr<uint32_t>& loops, std::span<const uint32_t> polygon,
+                                      const std::vector<PlanePoint>& at);
+
+ private:
+  struct Arc {
+    uint32_t start, end, previous, next;
+    bool kept = true;
+  };
+
+  void addLoop(std::span<const uint32_t> points);
+  void removePairs();
+  void remove(uint32_t a, uint32_t b);
+  void trace(const std::vector<PlanePoint>& at);
+
+  std::vector<Arc> arcs_;
+  std::vector<uint32_t> order_;
+  detail::Csr<uint32_t> loops_;
+};
+
+}  // namespace mandoline::operators

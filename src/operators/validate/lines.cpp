@@ -1,0 +1,159 @@
+// Every point lies in exactly one cut-cell: lines through each grid cell, at least one through each of its tri-faces, pass from cut-cell to
+// cut-cell only through half-faces of the one and then the other. This sees what edges can't: cells that overlap because triangles
+// intersect inside of a grid cell, and shells in the wrong cell.
+#include <algorithm>
+
+#include "operators/validate/grid_cells.h"
+
+namespace mandoline::validation {
+namespace {
+
+/// Exact: whether both are parts of triangles in one plane.
+bool inOnePlane(const Context& x, const GridCell::Face& face, const GridCell::Face& other) {
+  const int32_t s = x.cut.faceTriangle[face.id], t = x.cut.faceTriangle[other.id];
+  if (s < 0 || t < 0) return false;
+  for (int i = 0; i < 3; ++i) {
+    if (!coplanar(x.corner(s, 0), x.corner(s, 1), x.corner(s, 2), x.corner(t, i))) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+LineCheck::LineCheck(const Context& context) {
+  constexpr uint64_t kSamples = 400;
+  stride_ = 1 + (context.cut.faceCount() + 3 * context.groupCount()) / kSamples;
+}
+
+void LineCheck::run(const GridCell& cell, std::vector<Sample>& samples) {
+  for (int axis = 0; axis < 3; ++axis) {
+    work_ = 0;
+    bins_.build(cell, axis);
+    tryLine(cell, axis, nullptr, samples);
+    for (const GridCell::Face& face : cell.faces) {
+      if (face.side >= 0 || dominantAxis(face.area) != axis) continue;
+      // Keeps the time linear where many lines meet faces of many edges, and spreads those left out.
+      if (work_ > 1000 + 32 * uint64_t(face.lastCorner)) {
+        ++skipped_;
+      } else {
+        tryLine(cell, axis, &face, samples);
+      }
+    }
+  }
+}
+
+void LineCheck::tryLine(const GridCell& cell, int axis, const GridCell::Face* through, std::vector<Sample>& samples) {
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    const Vec3 point =
+        through ? pointOn(cell, *through, axis) : Vec3{{random_.between(0, 1), random_.between(0, 1), random_.between(0, 1)}};
+    const Verdict verdict = shoot(cell, axis, point);
+    if (verdict == Verdict::unjudged) continue;
+    if (verdict == Verdict::fine && lines_ % stride_ == 0) sample(cell, axis, point, samples);
+    ++lines_;
+    return;
+  }
+  ++unjudged_;
+}
+
+/// A random point of the face's widest triangle, seen along the axis.
+Vec3 LineCheck::pointOn(const GridCell& cell, const GridCell::Face& face, int axis) {
+  const Vec3& a = cell.corners[face.firstCorner];
+  double widest = -1;
+  Vec3 ab, ac;
+  for (uint32_t i = cell.cornerNext[face.firstCorner]; cell.cornerNext[i] != face.firstCorner; i = cell.cornerNext[i]) {
+    const Vec3 b = cell.corners[i] - a, c = cell.corners[cell.cornerNext[i]] - a;
+    const double area = std::fabs(cross(b, c)[axis]);
+    if (area > widest) widest = area, ab = b, ac = c;
+  }
+  const double v = random_.between(0.02, 0.96), w = random_.between(0.02, 0.98 - v);
+  return a + v * ab + w * ac;
+}
+
+LineCheck::Verdict LineCheck::shoot(const GridCell& cell, int axis, const Vec3& point) {
+  hits_.clear();
+  for (const int d : {(axis + 1) % 3, (axis + 2) % 3}) {
+    if (!(point[d] > kTolerance * cell.noise[d] && point[d] < 1 - kTolerance * cell.noise[d])) return Verdict::unjudged;
+  }
+  bool certain = true;
+  bins_.forFaces(point, point, [&](uint32_t f) { certain = certain && addHit(cell, axis, point, cell.faces[f]); });
+  if (!certain) return Verdict::unjudged;
+  return follow(cell, axis);
+}
+
+/// Adds the face if the line through the point hits it; false if rounding leaves that open.
+bool LineCheck::addHit(const GridCell& cell, int axis, const Vec3& point, const GridCell::Face& face) {
+  const int e = (axis + 1) % 3, f = (axis + 2) % 3;
+  for (const int d : {e, f}) {
+    const double margin = kTolerance * cell.noise[d];
+    if (point[d] < face.low[d] - margin || point[d] > face.high[d] + margin) return true;
+  }
+  work_ += face.lastCorner - face.firstCorner;
+  const Place place = placeOn(cell, face, axis, point, kTolerance * cell.noise);
+  if (place != Place::inside) return place == Place::outside;
+
+  Hit hit{0, 0, face.owner[0], face.owner[1], &face};
+  bool up = true;
+  if (face.side >= 0) {
+    hit.low = hit.high = face.side % 2;
+    up = cell.context.axialSide(face.id) > 0;
+  } else {
+    Normal normal = cell.context.triangleNormal(size_t(cell.context.cut.faceTriangle[face.id]));
+    for (int d = 0; d < 3; ++d) normal.n[d] *= cell.size[d], normal.error[d] *= cell.size[d];
+    const double steep = std::fabs(normal.n[axis]) - normal.error[axis];
+    if (!(steep > 0)) return false;
+    const Vec3 delta = point - cell.corners[face.firstCorner];
+    const double rise = -(normal.n[e] * delta[e] + normal.n[f] * delta[f]) / normal.n[axis];
+    const double tilted =
+        (normal.error[e] * std::fabs(delta[e]) + normal.error[f] * std::fabs(delta[f]) + normal.error[axis] * std::fabs(rise)) / steep;
+    const double error = tilted + kTolerance * (cell.noise[axis] +
+                                                (std::fabs(normal.n[e]) * cell.noise[e] + std::fabs(normal.n[f]) * cell.noise[f]) / steep);
+    const double depth = cell.corners[face.firstCorner][axis] + rise, margin = kTolerance * cell.noise[axis];
+    hit.low = std::max(depth - error, face.low[axis] - margin);
+    hit.high = std::min(depth + error, face.high[axis] + margin);
+    if (!(hit.low <= hit.high)) return false;
+    up = normal.n[axis] > 0;
+  }
+  if (!up) std::swap(hit.below, hit.above);
+  hits_.push_back(hit);
+  return true;
+}
+
+LineCheck::Verdict LineCheck::follow(const GridCell& cell, int axis) {
+  std::sort(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
+  for (size_t i = 1; i < hits_.size(); ++i) {
+    if (hits_[i - 1].high < hits_[i].low) continue;
+    if (!inOnePlane(cell.context, *hits_[i - 1].face, *hits_[i].face)) return Verdict::unjudged;
+    partition_.violate("face", hits_[i].face->id, "lies partly on another one");
+    return Verdict::broken;
+  }
+  if (hits_.size() < 2 || hits_.front().face->side != 2 * axis || hits_.back().face->side != 2 * axis + 1) {
+    partition_.violate("cell", cell.cells[0], "and the others of its grid cell do not reach from side to side of that");
+    return Verdict::broken;
+  }
+  for (size_t i = 1; i < hits_.size(); ++i) {
+    if (hits_[i - 1].above == hits_[i].below && hits_[i].below >= 0) continue;
+    partition_.violate("cell", std::max(hits_[i - 1].above, hits_[i].below), "overlaps another cell, or leaves a gap to it");
+    return Verdict::broken;
+  }
+  return Verdict::fine;
+}
+
+/// A point in the middle between two hits.
+void LineCheck::sample(const GridCell& cell, int axis, Vec3 point, std::vector<Sample>& samples) {
+  const size_t i = 1 + size_t(random_.next() % (hits_.size() - 1));
+  point[axis] = (hits_[i - 1].high + hits_[i].low) / 2;
+  Vec3 position;
+  for (int d = 0; d < 3; ++d) position[d] = cell.low[d] + cell.size[d] * point[d];
+  const int32_t owner = hits_[i].below;
+  samples.push_back({position, cell.context.cut.cellRegion[owner], "cell", owner});
+}
+
+void LineCheck::finish(std::vector<Check>& checks) {
+  if (unjudged_ + skipped_ > 0) {
+    partition_.note("of " + std::to_string(lines_ + unjudged_ + skipped_) + " lines " + std::to_string(unjudged_) +
+                    " were too close to an edge to judge and " + std::to_string(skipped_) + " left out to save time");
+  }
+  checks.push_back(partition_.finish());
+}
+
+}  // namespace mandoline::validation

@@ -1,0 +1,150 @@
+// The stencil (paper, 4.3.1) and the regions: components of cut-cells and untouched grid cells.
+#include <algorithm>
+
+#include "operators/validate/bins.h"
+#include "operators/validate/sets.h"
+
+namespace mandoline::validation {
+namespace {
+
+class RegionCheck {
+ public:
+  RegionCheck(const Context& context, const TriangleBins& bins) : x_(context), bins_(bins) {}
+
+  void run(std::vector<Check>& checks) {
+    checkStencil();
+    checkTouched();
+    checkComponents();
+    for (Tally* tally : {&stencil_, &regions_}) checks.push_back(tally->finish());
+  }
+
+ private:
+  using Key = std::array<int32_t, 3>;  // of a grid cell
+
+  uint32_t firstCell(size_t group) const { return x_.cellOrder[x_.groupOffsets[group]]; }
+  Key keyOf(size_t group) const {
+    const int32_t* g = x_.gridCellOf(firstCell(group));
+    return {g[0], g[1], g[2]};
+  }
+
+  /// Each grid cell either has cut-cells or is in a run.
+  void checkStencil() {
+    int64_t count = int64_t(x_.groupCount());
+    for (size_t r = 0; r < x_.cut.runBegin.size(); ++r) count += x_.cut.runEnd[r] - x_.cut.runBegin[r];
+    for (size_t g = 0; g < x_.groupCount(); ++g) {
+      const Key k = keyOf(g);
+      if (x_.runAt(k[0], k[1], k[2]) >= 0) stencil_.violate("cell", firstCell(g), "lies in a grid cell that is also listed as untouched");
+    }
+    if (count != x_.cut.grid.cells(0) * x_.cut.grid.cells(1) * x_.cut.grid.cells(2)) {
+      stencil_.violate("grid", 0, "has cells that are neither cut nor untouched, or both");
+    }
+  }
+
+  /// Cut-cells only where the input touches the closed grid cell.
+  void checkTouched() {
+    for (size_t g = 0; g < x_.groupCount(); ++g) {
+      if (!hasSurfaceVertex(g) && !isTouched(keyOf(g)))
+        stencil_.violate("cell", firstCell(g), "lies in a grid cell that the surface does not touch");
+    }
+  }
+  bool hasSurfaceVertex(size_t group) const {
+    const auto onSurface = [&](uint32_t v) { return x_.cut.vertexParents[2 * size_t(v)] >= 0; };
+    bool found = false;
+    for (uint32_t i = x_.groupOffsets[group]; i < x_.groupOffsets[group + 1] && !found; ++i) {
+      for (const uint32_t h : x_.cut.cell(x_.cellOrder[i])) {
+        x_.forLoops(h / 2, [&](std::span<const uint32_t> loop) { found |= std::any_of(loop.begin(), loop.end(), onSurface); });
+      }
+    }
+    return found;
+  }
+  bool isTouched(const Key& gridCell) const {
+    Vec3 low, high;
+    for (int d = 0; d < 3; ++d) low[d] = x_.planes[d][gridCell[d]], high[d] = x_.planes[d][gridCell[d] + 1];
+    const Vec3 size = x_.inRoundings(high, low), margin{{kTolerance, kTolerance, kTolerance}};
+    bool touched = false;
+    bins_.forTriangles(low, high, [&](uint32_t t) {
+      if (touched) return;
+      Polygon polygon;
+      for (int i = 0; i < 3; ++i) polygon.push_back(x_.inRoundings(x_.corner(t, i), low));
+      clipToBox(polygon, -1 * margin, size + margin);
+      touched = !polygon.empty();
+    });
+    return touched;
+  }
+
+  void checkComponents() {
+    const uint32_t cells = uint32_t(x_.cut.cellCount()), runs = uint32_t(x_.cut.runBegin.size());
+    parts_.reset(size_t(cells) + runs);
+    joinThroughFaces(cells);
+    joinRuns(cells);
+    constexpr uint32_t kNone = UINT32_MAX;
+    std::vector<uint32_t> regionOf(size_t(cells) + runs, kNone), rootOf(x_.cut.regionCount, kNone);
+    for (uint32_t i = 0; i < cells + runs; ++i) {
+      const uint32_t root = parts_.find(i), region = i < cells ? x_.cut.cellRegion[i] : x_.cut.runRegion[i - cells];
+      const char* kind = i < cells ? "cell" : "run";
+      const uint32_t element = i < cells ? i : i - cells;
+      if (regionOf[root] == kNone) regionOf[root] = region;
+      if (rootOf[region] == kNone) rootOf[region] = root;
+      if (regionOf[root] != region) {
+        regions_.violate(kind, element, "is connected to another region than its own");
+      } else if (rootOf[region] != root) {
+        regions_.violate(kind, element, "is not connected to the rest of its region");
+      }
+    }
+    for (uint32_t r = 0; r < rootOf.size(); ++r) {
+      if (rootOf[r] == kNone) regions_.violate("region", r, "is empty");
+    }
+  }
+
+  void joinThroughFaces(uint32_t cells) {
+    for (size_t f = 0; f < x_.cut.faceCount(); ++f) {
+      if (x_.cut.faceTriangle[f] >= 0) continue;
+      const int32_t below = x_.owner[2 * f], above = x_.owner[2 * f + 1];
+      if (below >= 0 && above >= 0) {
+        parts_.unite(uint32_t(below), uint32_t(above));
+      } else if (below >= 0 || above >= 0) {
+        const int axis = x_.cut.faceAxis[f];
+        const int32_t cell = below >= 0 ? below : above;
+        const int32_t* g = x_.gridCellOf(cell);
+        std::array<int64_t, 3> next{g[0], g[1], g[2]};
+        next[axis] += below >= 0 ? 1 : -1;
+        if (next[axis] < 0 || next[axis] >= x_.cut.grid.cells(axis)) continue;
+        const int64_t run = x_.runAt(next[0], next[1], next[2]);
+        if (run >= 0) parts_.unite(uint32_t(cell), cells + uint32_t(run));
+      }
+    }
+  }
+
+  void joinRuns(uint32_t cells) {
+    const int64_t ny = x_.cut.grid.cells(1), nz = x_.cut.grid.cells(2);
+    for (int64_t k = 0; k < nz; ++k) {
+      for (int64_t j = 0; j < ny; ++j) {
+        const int64_t row = k * ny + j;
+        for (uint32_t r = x_.cut.rowRunOffsets[row]; r + 1 < x_.cut.rowRunOffsets[row + 1]; ++r) {
+          if (x_.cut.runEnd[r] == x_.cut.runBegin[r + 1]) parts_.unite(cells + r, cells + r + 1);
+        }
+        if (j + 1 < ny) joinRows(cells, row, row + 1);
+        if (k + 1 < nz) joinRows(cells, row, row + ny);
+      }
+    }
+  }
+  void joinRows(uint32_t cells, int64_t row, int64_t other) {
+    uint32_t r = x_.cut.rowRunOffsets[row], s = x_.cut.rowRunOffsets[other];
+    while (r < x_.cut.rowRunOffsets[row + 1] && s < x_.cut.rowRunOffsets[other + 1]) {
+      if (std::max(x_.cut.runBegin[r], x_.cut.runBegin[s]) < std::min(x_.cut.runEnd[r], x_.cut.runEnd[s]))
+        parts_.unite(cells + r, cells + s);
+      ++(x_.cut.runEnd[r] < x_.cut.runEnd[s] ? r : s);
+    }
+  }
+
+  const Context& x_;
+  const TriangleBins& bins_;
+  Sets parts_;  // cut-cells, then runs
+  Tally stencil_{"stencil"}, regions_{"regions"};
+};
+
+}  // namespace
+
+void checkRegions(const Context& context, const TriangleBins& bins, std::vector<Check>& checks) { RegionCheck(context, bins).run(checks); }
+
+}  // namespace mandoline::validation
