@@ -22,9 +22,14 @@ namespace {
 const std::vector<double> kSquarePositions = {0, 0, 0, 1, 0, 0, 1, 0.1, 0, 0, 1, -2.5e-3};
 const std::vector<uint32_t> kSquareTriangles = {0, 1, 2, 0, 2, 3};
 
+/// Reads the file, and requires the same from its bytes.
 Mesh readText(const std::string& name, const std::string& content) {
   TemporaryFolder folder;
-  return mandoline::readMesh(folder.write(name, content));
+  const Mesh mesh = mandoline::readMesh(folder.write(name, content)), fromBytes = mandoline::readMesh(content, name);
+  REQUIRE(fromBytes.positions.size() == mesh.positions.size());
+  REQUIRE(std::memcmp(fromBytes.positions.data(), mesh.positions.data(), mesh.positions.size() * sizeof(double)) == 0);
+  REQUIRE(fromBytes.triangles == mesh.triangles);
+  return mesh;
 }
 
 void requireSquare(const Mesh& mesh) {
@@ -32,20 +37,27 @@ void requireSquare(const Mesh& mesh) {
   REQUIRE(mesh.triangles == kSquareTriangles);
 }
 
-/// Requires a FileError that names the file and says `what`.
+/// The message of the FileError that the call throws; empty if it throws none.
+template <class Call>
+std::string errorOf(const Call& call) {
+  try {
+    call();
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Requires a FileError that names the file and says `what`, and the same from the file's bytes.
 void requireError(const std::string& name, const std::string& content, const std::string& what) {
   TemporaryFolder folder;
   const std::string path = folder.write(name, content);
   CAPTURE(content.substr(0, 200), what);
-  std::string message;
-  try {
-    mandoline::readMesh(path);
-  } catch (const FileError& error) {
-    message = error.what();
-  }
+  const std::string message = errorOf([&] { mandoline::readMesh(path); });
   CAPTURE(message);
   REQUIRE(message.substr(0, path.size() + 2) == path + ": ");
   REQUIRE(message.find(what) != std::string::npos);
+  REQUIRE(errorOf([&] { mandoline::readMesh(content, name); }) == name + message.substr(path.size()));
 }
 
 template <class Scalar>

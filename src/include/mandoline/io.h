@@ -1,4 +1,4 @@
-// Files: triangle meshes in, cut-meshes out. The WebAssembly package has the writers.
+// Files: triangle meshes in, cut-meshes out.
 #pragma once
 
 #include <functional>
@@ -19,6 +19,9 @@ struct FileError : std::runtime_error {
 /// Reads OBJ, STL, PLY or OFF (STL and PLY in text or binary), by content and extension, each also gzipped. Polygons are fanned from
 /// their first vertex; triangles are numbered in file order. Doubles are kept. Throws FileError.
 Mesh readMesh(const std::string& path);
+/// The same from the bytes of a file, gzipped or not. `name` stands for the path in messages, and its extension decides where the content
+/// does not.
+Mesh readMesh(std::span<const char> bytes, const std::string& name);
 
 /// Takes the bytes of a file, piece after piece.
 using Sink = std::function<void(std::string_view)>;

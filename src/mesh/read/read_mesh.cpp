@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <limits>
 #include <new>
 
@@ -9,11 +8,12 @@ namespace mandoline {
 namespace detail {
 namespace {
 
-/// In small letters with its dot, not counting ".gz".
-std::string extensionOf(const std::string& path) {
-  std::filesystem::path name = std::filesystem::path(path).filename();
-  if (lowerCase(name.extension().string()) == ".gz") name = name.stem();
-  return lowerCase(name.extension().string());
+/// In lower case with its dot, not counting ".gz".
+std::string extensionOf(const std::string& name) {
+  std::string lower = lowerCase(name);
+  if (lower.ends_with(".gz")) lower.resize(lower.size() - 3);
+  const size_t dot = lower.find_last_of("./\\");
+  return dot == std::string::npos || lower[dot] != '.' ? "" : lower.substr(dot);
 }
 
 /// Content decides, because extensions lie; where it says nothing, the extension does.
@@ -32,14 +32,19 @@ Mesh readAny(const FileBytes& file) {
 }  // namespace
 }  // namespace detail
 
-Mesh readMesh(const std::string& path) {
+Mesh readMesh(std::span<const char> bytes, const std::string& name) {
+  const std::string_view content(bytes.data(), bytes.size());
   try {
-    const std::string bytes = detail::loadFile(path);
-    Mesh mesh = detail::readAny({path, bytes});
-    if (mesh.vertexCount() > std::numeric_limits<uint32_t>::max()) throw FileError(path + ": has more than 2^32 vertices");
+    std::string unpacked;
+    const bool gzipped = detail::isGzipped(content);
+    if (gzipped) unpacked = detail::gunzip({name, content});
+    const detail::FileBytes file{name, gzipped ? unpacked : content};
+    if (file.bytes.empty()) throw FileError(name + ": the file is empty");
+    Mesh mesh = detail::readAny(file);
+    if (mesh.vertexCount() > std::numeric_limits<uint32_t>::max()) throw FileError(name + ": has more than 2^32 vertices");
     return mesh;
   } catch (const std::bad_alloc&) {
-    throw FileError(path + ": does not fit into memory");
+    throw FileError(name + ": does not fit into memory");
   }
 }
 

@@ -24,8 +24,9 @@ bool looksLikeOff(std::string_view bytes);
 bool looksLikePly(std::string_view bytes);
 bool looksLikeStl(std::string_view bytes);
 
-/// The bytes of a file, unpacked if they are gzipped.
-std::string loadFile(const std::string& path);
+inline bool isGzipped(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
+/// What is packed in a gzipped file. Throws FileError where the library was built without zlib.
+std::string gunzip(const FileBytes& file);
 
 /// Fans a polygon into triangles from its first vertex, as its vertices arrive.
 class Fan {
