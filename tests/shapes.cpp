@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <random>
 #include <utility>
+
+#include "mandoline/shapes.h"
 
 namespace shapes {
 
@@ -54,43 +55,9 @@ Mesh mapped(Mesh mesh, Place place) {
   return mesh;
 }
 
-/// Each triangle in four, new vertices at the middle of its edges.
-Mesh subdivided(const Mesh& mesh) {
-  Mesh result;
-  result.positions = mesh.positions;
-  std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
-  const auto middle = [&](uint32_t a, uint32_t b) {
-    const auto key = std::minmax(a, b);
-    const auto found = middles.find(key);
-    if (found != middles.end()) return found->second;
-    const double *p = &mesh.positions[3 * a], *q = &mesh.positions[3 * b];
-    return middles[key] = addVertex(result, {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
-  };
-  for (size_t t = 0; t < mesh.triangleCount(); ++t) {
-    const uint32_t a = mesh.triangles[3 * t], b = mesh.triangles[3 * t + 1], c = mesh.triangles[3 * t + 2];
-    const uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-    addTriangle(result, a, ab, ca);
-    addTriangle(result, b, bc, ab);
-    addTriangle(result, c, ca, bc);
-    addTriangle(result, ab, bc, ca);
-  }
-  return result;
-}
-
 }  // namespace
 
-Mesh box(const Point& lo, const Point& hi) {
-  std::vector<Point> points;
-  for (int v = 0; v < 8; ++v) points.push_back({v & 1 ? hi[0] : lo[0], v & 2 ? hi[1] : lo[1], v & 4 ? hi[2] : lo[2]});
-  Mesh mesh = fromPoints(points, {});
-  addQuad(mesh, 0, 4, 6, 2);
-  addQuad(mesh, 1, 3, 7, 5);
-  addQuad(mesh, 0, 1, 5, 4);
-  addQuad(mesh, 2, 6, 7, 3);
-  addQuad(mesh, 0, 2, 3, 1);
-  addQuad(mesh, 4, 5, 7, 6);
-  return mesh;
-}
+Mesh box(const Point& lo, const Point& hi) { return mandoline::makeBox(lo, hi); }
 
 Mesh cube(double lo, double hi) { return box({lo, lo, lo}, {hi, hi, hi}); }
 
@@ -128,25 +95,7 @@ Mesh prism(const std::vector<std::array<double, 2>>& polygon, double zLo, double
   return mesh;
 }
 
-Mesh icosphere(const Point& centre, double radius, int subdivisions) {
-  const double g = (1 + std::sqrt(5.)) / 2;
-  Mesh mesh = fromPoints({{-1, g, 0},
-                          {1, g, 0},
-                          {-1, -g, 0},
-                          {1, -g, 0},
-                          {0, -1, g},
-                          {0, 1, g},
-                          {0, -1, -g},
-                          {0, 1, -g},
-                          {g, 0, -1},
-                          {g, 0, 1},
-                          {-g, 0, -1},
-                          {-g, 0, 1}},
-                         {0, 11, 5, 0, 5, 1, 0, 1, 7, 0, 7, 10, 0, 10, 11, 1, 5, 9, 5, 11, 4,  11, 10, 2,  10, 7, 6, 7, 1, 8,
-                          3, 9,  4, 3, 4, 2, 3, 2, 6, 3, 6, 8,  3, 8,  9,  4, 9, 5, 2, 4,  11, 6,  2,  10, 8,  6, 7, 9, 8, 1});
-  for (int s = 0; s < subdivisions; ++s) mesh = subdivided(mesh);
-  return mapped(std::move(mesh), [&](const Point& p) { return centre + radius / length(p) * p; });
-}
+Mesh icosphere(const Point& centre, double radius, int subdivisions) { return mandoline::makeSphere(centre, radius, subdivisions); }
 
 Mesh noisySphere(const Point& centre, double radius, double noise, int subdivisions) {
   std::mt19937 random(7);
@@ -155,16 +104,7 @@ Mesh noisySphere(const Point& centre, double radius, double noise, int subdivisi
 }
 
 Mesh torus(const Point& centre, double ringRadius, double tubeRadius, int ringSlices, int tubeSlices) {
-  Mesh mesh;
-  const auto id = [&](int i, int j) { return uint32_t(i % ringSlices * tubeSlices + j % tubeSlices); };
-  for (int i = 0; i < ringSlices; ++i)
-    for (int j = 0; j < tubeSlices; ++j) {
-      const double u = 2 * pi * i / ringSlices, v = 2 * pi * j / tubeSlices, r = ringRadius + tubeRadius * std::cos(v);
-      addVertex(mesh, centre + Point{r * std::cos(u), r * std::sin(u), tubeRadius * std::sin(v)});
-    }
-  for (int i = 0; i < ringSlices; ++i)
-    for (int j = 0; j < tubeSlices; ++j) addQuad(mesh, id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1));
-  return mesh;
+  return translated(mandoline::makeTorus(ringRadius, tubeRadius, ringSlices, tubeSlices), centre);
 }
 
 Mesh tube(const Point& baseCentre, double radius, double height, int slices, bool caps) {
