@@ -7,7 +7,7 @@ import { build } from 'vite';
 
 const web = fileURLToPath(new URL('../../web', import.meta.url));
 
-/** Imports a TypeScript module of web/src, for example "gallery/index.ts". */
+/** Imports a TypeScript module of web/src, for example "model/gallery/index.ts". */
 export async function importBundled(path) {
   const folder = mkdtempSync(join(tmpdir(), 'mandoline-page-'));
   process.on('exit', () => rmSync(folder, { recursive: true, force: true }));

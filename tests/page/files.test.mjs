@@ -10,7 +10,7 @@ import { PLYExporter } from 'three/examples/jsm/exporters/PLYExporter.js';
 import { STLExporter } from 'three/examples/jsm/exporters/STLExporter.js';
 import { importBundled } from './bundled.mjs';
 
-const { parseMesh, fileExtensions } = await importBundled('files/index.ts');
+const { parseMesh, fileExtensions } = await importBundled('worker/files/index.ts');
 
 function toBytes(content) {
   const bytes = typeof content === 'string' ? new TextEncoder().encode(content) : new Uint8Array(content);

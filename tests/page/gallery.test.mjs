@@ -3,7 +3,7 @@ import { before, describe, test } from 'node:test';
 import { init } from 'mandoline-wasm';
 import { importBundled } from './bundled.mjs';
 
-const { gallery, galleryMesh } = await importBundled('gallery/index.ts');
+const { gallery, galleryMesh } = await importBundled('model/gallery/index.ts');
 const resolutions = [8, 16, 32, 50];
 
 /** What has to come out: regions at a resolution of 32, and whether they have winding numbers. */

@@ -4,7 +4,7 @@ import { importBundled } from './bundled.mjs';
 import { inSinglePrecision } from './mesh_files.mjs';
 
 export const mandoline = await init();
-export const { galleryMesh } = await importBundled('gallery/index.ts');
+export const { galleryMesh } = await importBundled('model/gallery/index.ts');
 
 /** A mesh of the gallery as the page reads it from an OBJ file: the browser's own sine may differ from Node's in the last place. */
 export async function filedMesh(name) {

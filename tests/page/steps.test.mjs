@@ -3,8 +3,8 @@ import { describe, test } from 'node:test';
 import { init } from 'mandoline-wasm';
 import { importBundled } from './bundled.mjs';
 
-const { stepPicture } = await importBundled('steps/index.ts');
-const { galleryMesh } = await importBundled('gallery/index.ts');
+const { stepPicture } = await importBundled('worker/steps/index.ts');
+const { galleryMesh } = await importBundled('model/gallery/index.ts');
 const mandoline = await init();
 const kinds = ['triEdges', 'hybridEdges', 'triangleFaces', 'axialPlane', 'gridCell'];
 

@@ -1,0 +1,302 @@
+// The state of the page and what can be done to it. Panels call the methods and listen to the events.
+import type { Validation } from 'mandoline-wasm';
+import { isPageError } from '../model/failure';
+import { Events } from './events';
+import { gallery } from '../model/gallery/list';
+import { defaultCells, defaultSettings, defaultSource } from '../model/settings';
+import { isOutside } from './view/colors';
+import { isSheet } from './view/look';
+import type {
+  CellCard, Engine, GridSettings, Model, PageError, Settings, SliceName, SliceSettings, Source, StepPicture, StepRequest, View,
+} from '../model/types';
+
+export interface LoadedMesh {
+  name: string;
+  triangles: number;
+}
+
+export interface AppEvents {
+  settings: Settings;
+  /** The mesh that cuts are made of from now on. */
+  mesh: LoadedMesh;
+  model: Model;
+  state: 'busy' | 'ready' | 'error';
+  /** Whether a cut is under way. */
+  cutting: boolean;
+  progress: { stage: string; fraction: number } | null;
+  cutError: PageError | null;
+  alert: PageError;
+  hover: number | null;
+  pinned: CellCard | null;
+  step: StepPicture | null;
+}
+
+/** So few cut-cells are better seen without a slice. */
+const fewCells = 60;
+/** The pieces of a sheet are told apart. */
+const sheetColoring = 'cell';
+
+export class App {
+  readonly events = new Events<AppEvents>();
+  settings = defaultSettings();
+  model: Model | null = null;
+  private loads = 0;
+  private pins = 0;
+  private pinned = false;
+  private steps = 0;
+  private stepKind: StepRequest['kind'] | null = null;
+  private work = 0;
+  private cuts = 0;
+  private failed = false;
+  private frameNext = false;
+  /** What the model was cut with. */
+  private shown: Pick<Settings, 'source' | 'grid' | 'snapTolerance'> = this.settings;
+
+  constructor(
+    private readonly engine: Engine,
+    readonly view: View,
+  ) {
+    engine.onProgress = (progress) => this.events.tell('progress', progress);
+    view.onHover = (cell) => this.events.tell('hover', cell);
+    view.onPick = (cell) => void this.pin(cell);
+    view.onCamera = (camera) => this.change({ camera }, false);
+    view.onFreePlane = (slice) => this.change({ slices: { ...this.settings.slices, free: slice } }, false);
+  }
+
+  /** Loads a mesh and cuts it, into `cells` along its longest side if that is given. If it can't be loaded the page goes on with the former one. */
+  async open(source: Source, { bytes, cells }: { bytes?: ArrayBuffer; cells?: number } = {}): Promise<void> {
+    await this.during(async () => {
+      if ((await this.load(source, bytes)) !== 'loaded') return;
+      const wasSheet = this.model !== null && isSheet(this.model);
+      const grid = { cells: cells ?? this.cellsToKeep() };
+      this.change({ source, grid, show: { ...this.settings.show, region: null }, camera: null }, false);
+      if (!(await this.recut(true))) this.fitLook(wasSheet);
+    });
+  }
+
+  /** The resolution for a mesh that comes without one: that of now, unless it only suited a mesh of the gallery. */
+  private cellsToKeep(): number {
+    const { source, grid } = this.settings;
+    const cells = 'min' in grid ? Math.max(...grid.cells) : grid.cells;
+    const isGallerys = source.kind === 'gallery' && gallery.some((entry) => entry.name === source.name && entry.cells === cells);
+    return isGallerys ? defaultCells : cells;
+  }
+
+  /** Takes over all settings, as a link gives them. A mesh that can't be had is replaced by the former or the default one. */
+  async restore(settings: Settings): Promise<void> {
+    await this.during(async () => {
+      let source = settings.source.kind === 'file' ? defaultSource : settings.source;
+      let outcome = await this.load(source);
+      if (outcome === 'failed') {
+        source = this.model ? this.settings.source : defaultSource;
+        outcome = this.model ? 'loaded' : await this.load(source);
+      }
+      if (outcome !== 'loaded') return;
+      this.change({ ...settings, source }, false);
+      const error = await this.recut(settings.camera === null);
+      if (error && !this.model) await this.fallBack(error);
+      else if (!error) this.showSomething();
+    });
+  }
+
+  /** Links leave out what is as by default, which would hide a sheet, and all of a model that has nothing but an outside. */
+  private showSomething(): void {
+    const { model, settings } = this;
+    if (!model || settings.show.outside) return;
+    if (isSheet(model) && JSON.stringify(settings.show) === JSON.stringify(defaultSettings().show)) this.fitLook(false);
+    else if (model.regions.every(({ id }) => isOutside(model, id))) this.changeShow({ outside: true });
+  }
+
+  /**
+   * What a mesh is best first seen with: a sheet with the edges of the cells around it but without their grid-faces, which would hide it;
+   * few cells all of them. A plane that was moved and chosen colours stay.
+   */
+  private fitLook(wasSheet: boolean): void {
+    const { model } = this;
+    if (!model) return;
+    const sheet = isSheet(model);
+    const { slices, show, colorBy } = this.settings;
+    const { slices: { free }, colorBy: usual } = defaultSettings();
+    const isMoved = slices.free.position !== free.position || slices.free.normal.some((x, d) => x !== free.normal[d]);
+    const on = isMoved ? slices.free.on : !sheet && model.counts.cutCells >= fewCells;
+    const isChosen = colorBy !== (wasSheet ? sheetColoring : usual);
+    this.change({
+      slices: { ...slices, free: { ...slices.free, on } },
+      show: { ...show, gridFaces: !sheet, untouched: !sheet, outside: sheet },
+      colorBy: isChosen ? colorBy : sheet ? sheetColoring : usual,
+    });
+    if (!this.settings.camera) this.view.frame();
+  }
+
+  /** The look that this mesh is first seen with. */
+  resetLook(): void {
+    const { slices, sliceMode, explode, colorBy, show } = defaultSettings();
+    this.change({ slices, sliceMode, explode, colorBy, show, camera: null }, false);
+    this.fitLook(false);
+  }
+
+  /** A page without a picture would be of no use. */
+  private async fallBack(error: PageError): Promise<void> {
+    this.events.tell('alert', error);
+    if ((await this.load(defaultSource)) !== 'loaded') return;
+    const { source, grid, snapTolerance } = defaultSettings();
+    this.change({ source, grid, snapTolerance, camera: null }, false);
+    await this.recut(true);
+  }
+
+  /** A failure is told in an alert; the outcome is "superseded" if a newer mesh was asked for meanwhile. */
+  private async load(source: Source, bytes?: ArrayBuffer): Promise<'loaded' | 'failed' | 'superseded'> {
+    const load = ++this.loads;
+    const mesh = await this.ask(this.engine.load(source, bytes));
+    if (load !== this.loads) return 'superseded';
+    this.failed = mesh === null;
+    if (mesh) this.events.tell('mesh', mesh);
+    return mesh ? 'loaded' : 'failed';
+  }
+
+  /** The page is busy until this and all else is done. */
+  private async during(task: () => Promise<void>): Promise<void> {
+    if (this.work++ === 0) this.events.tell('state', 'busy');
+    this.failed = false;
+    await task();
+    if (--this.work === 0) this.events.tell('state', this.failed ? 'error' : 'ready');
+  }
+
+  /** Changes how the model is shown. */
+  change(part: Partial<Settings>, draw = true): void {
+    this.settings = { ...this.settings, ...part };
+    if (draw) this.view.setLook(this.settings);
+    this.events.tell('settings', this.settings);
+  }
+
+  changeSlice(name: SliceName, part: Partial<SliceSettings>): void {
+    const { slices } = this.settings;
+    this.change({ slices: { ...slices, [name]: { ...slices[name], ...part } } });
+  }
+
+  /** Turns a plane around where it is. */
+  flip(name: SliceName): void {
+    const { position, normal } = this.settings.slices[name];
+    this.changeSlice(name, { position: 1 - position, normal: [-normal[0], -normal[1], -normal[2]] });
+  }
+
+  /** Looks at all of the model. */
+  frame(): void {
+    this.view.frame();
+    this.change({ camera: null }, false);
+  }
+
+  changeShow(part: Partial<Settings['show']>): void {
+    this.change({ show: { ...this.settings.show, ...part } });
+  }
+
+  setGrid(grid: GridSettings): void {
+    this.change({ grid }, false);
+    void this.recut(false);
+  }
+
+  setSnapTolerance(snapTolerance: number): void {
+    this.change({ snapTolerance }, false);
+    void this.recut(false);
+  }
+
+  /** Cuts with the settings of now. The engine sees to it that the newest cut wins. The answer is what went wrong, if anything did. */
+  private async recut(frame: boolean): Promise<PageError | null> {
+    let problem: PageError | null = null;
+    this.frameNext ||= frame;
+    const { source, grid, snapTolerance } = this.settings;
+    if (this.cuts++ === 0) this.events.tell('cutting', true);
+    await this.during(async () => {
+      try {
+        this.takeModel(await this.engine.cut(grid, snapTolerance));
+        this.failed = false;
+        this.shown = { source, grid, snapTolerance };
+        this.events.tell('cutError', null);
+      } catch (error) {
+        if (isAbort(error)) return;
+        this.failed = true;
+        problem = pageError(error);
+        this.events.tell('cutError', problem);
+      }
+    });
+    this.events.tell('cutting', --this.cuts > 0);
+    return problem;
+  }
+
+  private takeModel(model: Model): void {
+    this.model = model;
+    void this.pin(null);
+    const { region } = this.settings.show;
+    if (region !== null && region >= model.counts.regions) this.settings = { ...this.settings, show: { ...this.settings.show, region: null } };
+    this.view.setModel(model, this.frameNext);
+    this.frameNext = false;
+    this.view.setLook(this.settings);
+    this.events.tell('model', model);
+    this.events.tell('settings', this.settings);
+    if (this.stepKind) void this.step({ kind: this.stepKind });
+  }
+
+  /** Ends the cut under way; the settings are again those of the picture. */
+  cancel(): void {
+    this.engine.cancel();
+    const { source, grid, snapTolerance } = this.shown;
+    if (this.model && source === this.settings.source) this.change({ grid, snapTolerance }, false);
+  }
+
+  /** Pins a cell and gets its card, or lets go of it. */
+  async pin(cell: number | null): Promise<void> {
+    const pin = ++this.pins;
+    this.pinned = cell !== null;
+    this.view.setPinned(cell);
+    if (cell === null) return this.events.tell('pinned', null);
+    const card = await this.ask(this.engine.card(cell));
+    if (card && pin === this.pins) this.events.tell('pinned', card);
+  }
+
+  /** Shows a step of the algorithm instead of the model, or the model again. */
+  async step(request: StepRequest | null): Promise<void> {
+    const step = ++this.steps;
+    this.stepKind = request?.kind ?? null;
+    if (!request) return this.showStep(null);
+    const picture = await this.ask(this.engine.step(request));
+    if (picture && step === this.steps) this.showStep(picture);
+  }
+
+  private showStep(picture: StepPicture | null): void {
+    this.view.setStep(picture);
+    this.events.tell('step', picture);
+  }
+
+  /** Lets go of the pinned cell, or else of the step. */
+  leave(): void {
+    if (this.pinned) void this.pin(null);
+    else if (this.stepKind) void this.step(null);
+  }
+
+  validate(): Promise<Validation | null> {
+    return this.ask(this.engine.validate());
+  }
+
+  write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array | null> {
+    return this.ask(this.engine.write(format));
+  }
+
+  /** The answer, or null after an alert. */
+  async ask<T>(answer: Promise<T>): Promise<T | null> {
+    try {
+      return await answer;
+    } catch (error) {
+      if (!isAbort(error)) this.events.tell('alert', pageError(error));
+      return null;
+    }
+  }
+}
+
+function isAbort(error: unknown): boolean {
+  return error instanceof Error && error.name === 'AbortError';
+}
+
+export function pageError(error: unknown): PageError {
+  if (isPageError(error)) return error;
+  return { title: 'Something went wrong', detail: error instanceof Error ? error.message : String(error) };
+}

@@ -1,0 +1,23 @@
+import type { App } from './app';
+import { fromHash, toHash } from '../model/settings';
+
+/** Keeps the address in step with the settings, and the settings with an address that the person changed. */
+export async function followLink(app: App, notice: (text: string) => void): Promise<void> {
+  let timer = 0;
+  const write = () => {
+    const hash = toHash(app.settings);
+    history.replaceState(null, '', hash ? `#${hash}` : location.pathname + location.search);
+  };
+  const read = () => {
+    const { settings, problems } = fromHash(location.hash);
+    if (problems.length > 0) notice(`Not everything in the link could be understood (${problems.join(', ')}); the rest is shown.`);
+    if (settings.source.kind === 'file') notice(`The link was made from the file ${settings.source.name}, which is not in it: open it to see the same.`);
+    return app.restore(settings);
+  };
+  addEventListener('hashchange', () => void read());
+  await read();
+  app.events.on('settings', () => {
+    clearTimeout(timer);
+    timer = window.setTimeout(write, 300);
+  });
+}

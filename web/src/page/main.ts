@@ -1,0 +1,41 @@
+import { App, pageError } from './app';
+import { createEngine } from './engine';
+import { followLink } from './link';
+import { alerts } from './ui/alerts';
+import { cellCard } from './ui/cell_card';
+import { checksPanel } from './ui/checks_panel';
+import { cutPanel } from './ui/cut_panel';
+import { hoverLine } from './ui/hover_line';
+import { legend } from './ui/legend';
+import { acceptDrops, meshPanel } from './ui/mesh_panel';
+import { progressLine } from './ui/progress_line';
+import { savePanel } from './ui/save_panel';
+import { schemeToggle } from './ui/scheme';
+import { seePanel } from './ui/see_panel';
+import { shortcuts } from './ui/shortcuts';
+import { stepsPanel } from './ui/steps_panel';
+import { createView } from './view/view';
+
+const element = (id: string) => document.getElementById(id) as HTMLElement;
+
+const { alert, notice } = alerts(element('alerts'));
+
+try {
+  start();
+} catch (error) {
+  alert(pageError(error));
+  document.body.dataset.state = 'error';
+}
+
+function start(): void {
+  const engine = createEngine();
+  const view = createView(element('canvas') as HTMLCanvasElement, { slice: (planes, untouched) => engine.slice(planes, untouched), onError: alert });
+  const app = new App(engine, view);
+  app.events.on('alert', alert);
+  app.events.on('state', (state) => (document.body.dataset.state = state));
+  element('tools').append(schemeToggle((dark) => view.setScheme(dark)), shortcuts(app));
+  element('stage').append(legend(app), hoverLine(app), progressLine(app), cellCard(app));
+  element('panels').append(meshPanel(app), cutPanel(app), seePanel(app), stepsPanel(app), checksPanel(app), savePanel(app));
+  acceptDrops(app);
+  void followLink(app, notice);
+}

@@ -1,0 +1,99 @@
+import type { App } from '../app';
+import type { Model } from '../../model/types';
+import { el, numberField, slider, terms } from './dom';
+import { integer, milliseconds, plural, real, words } from '../../model/format';
+import { ownGrid } from './own_grid';
+import { openSection, section } from './section';
+
+/** With which grid the mesh is cut, and what came of it. */
+export function cutPanel(app: App): HTMLElement {
+  return section('cut', 'Cut', true, resolution(app), errorBox(app), counts(app), finePrint(app));
+}
+
+function resolution(app: App): HTMLElement {
+  const label = 'Cells along the longest side';
+  const range = slider({ id: 'cells', label, min: 1, max: 128, step: 1, onInput: (cells) => app.setGrid({ cells }) });
+  const number = numberField({ id: 'cells-number', label: 'Number of cells', hideLabel: true, min: 1, max: 512, onChange: (cells) => app.setGrid({ cells }) });
+  app.events.on('settings', ({ grid }) => {
+    const cells = 'min' in grid ? Math.max(...grid.cells) : grid.cells;
+    range.set(cells);
+    number.set(cells);
+  });
+  return el('div', { class: 'with-number' }, range.element, number.element);
+}
+
+function errorBox(app: App): HTMLElement {
+  const box = el('div', { class: 'alert inline', id: 'cut-error', role: 'alert', hidden: true });
+  app.events.on('cutError', (error) => {
+    box.hidden = error === null;
+    if (!error) return box.replaceChildren();
+    openSection('cut');
+    const former = app.model ? el('p', { class: 'hint' }, `The picture still shows ${app.model.name}.`) : null;
+    box.replaceChildren(...[el('strong', {}, error.title), el('p', {}, error.detail), former].filter((node) => node !== null));
+  });
+  return box;
+}
+
+function counts(app: App): HTMLElement {
+  const box = el('div', { id: 'counts', 'aria-live': 'polite', 'aria-atomic': 'true' });
+  app.events.on('model', (model) => {
+    const { cutCells, untouchedCells, regions } = model.counts;
+    Object.assign(box.dataset, model.counts, { model: model.id, grid: model.grid.cells.join('x') });
+    box.replaceChildren(
+      terms(
+        [
+          ['grid', model.grid.cells.join(' × ')],
+          ['cut-cells', integer(cutCells)],
+          ['untouched cells', integer(untouchedCells)],
+          ['regions', integer(regions)],
+          ['time', milliseconds(model.stats.totalMs)],
+        ],
+        { class: 'counts' },
+      ),
+    );
+  });
+  return box;
+}
+
+/** What only some will want to know: own grids, stage times, what was left out. */
+function finePrint(app: App): HTMLElement {
+  const body = el('div', { id: 'cut-details' });
+  app.events.on('model', (model) => body.replaceChildren(moreCounts(model), stageTimes(model), leftOut(model)));
+  const times = el('details', {}, el('summary', {}, 'Times and details'), body);
+  return el('div', {}, el('details', { id: 'own-grid' }, el('summary', {}, 'Own grid'), ownGrid(app)), times);
+}
+
+function moreCounts({ counts: { faces, vertices, edges }, stats }: Model): HTMLElement {
+  return terms(
+    [
+      ['faces', integer(faces)],
+      ['edges', integer(edges)],
+      ['vertices', integer(vertices)],
+      ['decided by exact arithmetic', plural(stats.exactFallbacks, 'sign')],
+    ],
+    { class: 'counts' },
+  );
+}
+
+function stageTimes({ stats }: Model): HTMLElement {
+  const longest = Math.max(...stats.stages.map(({ ms }) => ms), Number.MIN_VALUE);
+  const rows = stats.stages.map(({ stage, ms }) => {
+    const bar = el('span', { class: 'bar' });
+    bar.style.width = `${(100 * ms) / longest}%`;
+    return el('tr', {}, el('th', { scope: 'row' }, words(stage)), el('td', { class: 'bar-cell' }, bar), el('td', {}, milliseconds(ms)));
+  });
+  return el('table', { class: 'times', id: 'stage-times' }, el('caption', {}, 'Time of each stage'), el('tbody', {}, ...rows));
+}
+
+function leftOut({ stats }: Model): HTMLElement {
+  const facts = [
+    stats.zeroAreaTriangles && `${plural(stats.zeroAreaTriangles, 'triangle')} without area dropped`,
+    stats.duplicateTriangles && `${plural(stats.duplicateTriangles, 'duplicate triangle')} dropped`,
+    stats.outsideTriangles && `${plural(stats.outsideTriangles, 'triangle')} outside the grid dropped`,
+    stats.weldedVertices && `${plural(stats.weldedVertices, 'vertex', 'vertices')} welded to one at the same position`,
+    stats.snappedVertices && `${plural(stats.snappedVertices, 'vertex', 'vertices')} snapped, by up to ${real(stats.largestSnap)} cells`,
+    stats.flushedCoordinates && `${plural(stats.flushedCoordinates, 'tiny coordinate')} taken as 0`,
+  ].filter((fact) => typeof fact === 'string');
+  if (facts.length === 0) return el('p', { id: 'left-out' }, 'Nothing dropped, welded or moved.');
+  return el('ul', { id: 'left-out' }, ...facts.map((fact) => el('li', {}, fact)));
+}

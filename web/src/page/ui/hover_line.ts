@@ -1,0 +1,27 @@
+import type { App } from '../app';
+import { el } from './dom';
+import { integer, milliseconds, real, winding } from '../../model/format';
+
+/** The line under the picture: the cell under the pointer, or else what is seen. */
+export function hoverLine(app: App): HTMLElement {
+  const line = el('p', { class: 'hover-line', id: 'hover-line' });
+  const show = (cell: number | null) => {
+    line.dataset.cell = cell === null ? '' : String(cell);
+    line.textContent = cell === null ? summary(app) : describeCell(app, cell);
+  };
+  app.events.on('hover', show);
+  app.events.on('model', () => show(null));
+  return line;
+}
+
+function describeCell({ model }: App, cell: number): string {
+  if (!model || cell >= model.counts.cutCells) return '';
+  const region = model.cells.region[cell];
+  const number = model.regions[region]?.winding ?? null;
+  return `Cell ${cell} · region ${region} · winding ${winding(number)} · volume ${real(model.cells.volume[cell])}`;
+}
+
+function summary({ model }: App): string {
+  if (!model) return '';
+  return `${model.name} · ${model.grid.cells.join(' × ')} grid · ${integer(model.counts.cutCells)} cut-cells in ${milliseconds(model.stats.totalMs)}`;
+}

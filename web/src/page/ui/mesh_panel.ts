@@ -1,0 +1,90 @@
+import type { App } from '../app';
+import { fileExtensions } from '../../model/formats';
+import { gallery } from '../../model/gallery/list';
+import { button, el } from './dom';
+import { plural } from '../../model/format';
+import { section } from './section';
+
+/** Pickers look at the last part of a name alone. */
+const fileTypes = [...fileExtensions, '.gz'].join();
+
+/** Which mesh is cut: from the gallery, a file or a URL. */
+export function meshPanel(app: App): HTMLElement {
+  return section('mesh', 'Mesh', true, meshLine(app), galleryList(app), fileButton(app), urlForm(app));
+}
+
+function meshLine(app: App): HTMLElement {
+  const line = el('p', { class: 'line', id: 'mesh-line', 'aria-live': 'polite' });
+  app.events.on('mesh', ({ name, triangles }) => {
+    Object.assign(line.dataset, { name, triangles });
+    const title = gallery.find((entry) => entry.name === name)?.title ?? name;
+    line.replaceChildren(el('strong', {}, title), ` ${plural(triangles, 'triangle')}`);
+  });
+  return line;
+}
+
+function galleryList(app: App): HTMLElement {
+  const list = el('ul', { class: 'gallery', id: 'gallery', 'aria-label': 'Gallery' });
+  const buttons = gallery.map(({ name, title, line, cells }) => {
+    const open = el(
+      'button',
+      { type: 'button', 'data-name': name, 'aria-pressed': 'false', click: () => void app.open({ kind: 'gallery', name }, { cells }) },
+      el('strong', {}, title),
+      el('small', {}, line),
+    );
+    list.append(el('li', {}, open));
+    return open;
+  });
+  app.events.on('settings', ({ source }) => {
+    for (const item of buttons) item.setAttribute('aria-pressed', String(source.kind === 'gallery' && source.name === item.dataset.name));
+  });
+  return list;
+}
+
+function fileButton(app: App): HTMLElement {
+  const input = el('input', { type: 'file', id: 'file', accept: fileTypes, class: 'visually-hidden', tabindex: '-1', 'aria-label': 'Mesh file' });
+  input.addEventListener('change', () => {
+    const file = input.files?.[0];
+    if (file) void openFile(app, file);
+    input.value = '';
+  });
+  const hint = el('span', { class: 'hint' }, 'or drop one anywhere: OBJ, STL, PLY, OFF, GLB');
+  return el('div', { class: 'row' }, button('Open a file…', () => input.click(), { id: 'open-file' }), input, hint);
+}
+
+async function openFile(app: App, file: File): Promise<void> {
+  const bytes = await app.ask(file.arrayBuffer());
+  if (bytes) await app.open({ kind: 'file', name: file.name }, { bytes });
+}
+
+function urlForm(app: App): HTMLElement {
+  const input = el('input', { type: 'url', id: 'url', placeholder: 'https://…/mesh.obj', required: true, autocomplete: 'off', spellcheck: 'false' });
+  const submit = (event: Event) => {
+    event.preventDefault();
+    void app.open({ kind: 'url', url: input.value });
+  };
+  const label = el('label', { for: 'url', class: 'visually-hidden' }, 'Address of a mesh');
+  return el('form', { class: 'row', id: 'url-form', submit }, label, input, el('button', { id: 'open-url' }, 'Load'));
+}
+
+/** Files dropped anywhere on the page. */
+export function acceptDrops(app: App): void {
+  const veil = el('div', { class: 'drop-veil', hidden: true }, 'Drop a mesh to cut it');
+  document.body.append(veil);
+  const hasFiles = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false;
+  addEventListener('dragover', (event) => {
+    if (!hasFiles(event)) return;
+    event.preventDefault();
+    veil.hidden = false;
+  });
+  addEventListener('dragleave', (event) => {
+    if (!event.relatedTarget) veil.hidden = true;
+  });
+  addEventListener('drop', (event) => {
+    veil.hidden = true;
+    if (!hasFiles(event)) return;
+    event.preventDefault();
+    const file = event.dataTransfer?.files[0];
+    if (file) void openFile(app, file);
+  });
+}

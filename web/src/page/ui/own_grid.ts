@@ -1,0 +1,58 @@
+import type { Grid, Vector3 } from 'mandoline-wasm';
+import type { App } from '../app';
+import { axes } from '../../model/settings';
+import type { GridSettings } from '../../model/types';
+import { button, el, numberField, type NumberInput } from './dom';
+
+type OwnGrid = Extract<GridSettings, { min: Vector3 }>;
+type Rows = Record<'cells' | 'min' | 'max', NumberInput[]>;
+
+const rowLabels = { cells: 'cells', min: 'from (origin)', max: 'to' } as const;
+
+/** Counts and box of a grid of one's own, filled in from the current one; and the snap tolerance. */
+export function ownGrid(app: App): HTMLElement {
+  const rows: Rows = { cells: [], min: [], max: [] };
+  const table = el('div', { class: 'own-grid', role: 'group', 'aria-label': 'Own grid' }, el('span'));
+  table.append(...axes.map((axis) => el('span', { class: 'axis', 'aria-hidden': 'true' }, axis)));
+  const apply = () => app.setGrid({ min: read(rows.min), max: read(rows.max), cells: read(rows.cells) });
+  for (const key of ['cells', 'min', 'max'] as const) {
+    table.append(el('span', { class: 'hint', 'aria-hidden': 'true' }, rowLabels[key]));
+    for (const axis of axes) {
+      const limits = key === 'cells' ? { min: 1, max: 4096, step: 1 } : { step: 'any' as const };
+      const field = numberField({ id: `grid-${key}-${axis}`, label: `${rowLabels[key]}, ${axis}`, hideLabel: true, ...limits, onChange: apply });
+      rows[key].push(field);
+      table.append(field.element);
+    }
+  }
+  const cubic = button('Back to cubic cells', () => app.setGrid({ cells: Math.max(...read(rows.cells)) }), { id: 'grid-cubic' });
+  app.events.on('settings', ({ grid }) => {
+    const own = 'min' in grid ? grid : null;
+    cubic.disabled = own === null;
+    // An own grid comes from the settings: the model may still be one of an earlier grid.
+    if (own) fill(rows, own);
+    else if (app.model) fill(rows, boxOf(app.model.grid));
+  });
+  return el('div', {}, table, el('div', { class: 'row' }, cubic), snapField(app));
+}
+
+function read(row: NumberInput[]): Vector3 {
+  return [row[0].input.valueAsNumber, row[1].input.valueAsNumber, row[2].input.valueAsNumber];
+}
+
+function fill(rows: Rows, grid: OwnGrid): void {
+  for (const key of ['cells', 'min', 'max'] as const) rows[key].forEach((field, d) => field.set(grid[key][d]));
+}
+
+function boxOf({ cells, planes }: Grid): OwnGrid {
+  const [x, y, z] = planes;
+  return { cells, min: [x[0], y[0], z[0]], max: [x[cells[0]], y[cells[1]], z[cells[2]]] };
+}
+
+function snapField(app: App): HTMLElement {
+  const field = numberField({
+    id: 'snap', label: 'Snap tolerance (in cells)', min: 0, max: 0.49, step: 0.01, onChange: (tolerance) => app.setSnapTolerance(tolerance),
+  });
+  field.input.step = 'any';
+  app.events.on('settings', ({ snapTolerance }) => field.set(snapTolerance));
+  return field.element;
+}

@@ -1,0 +1,63 @@
+import type { App } from '../app';
+import { toHash } from '../../model/settings';
+import { button, el } from './dom';
+import { section } from './section';
+
+const writers = [
+  ['json', 'JSON', 'all arrays', 'application/json'],
+  ['vtu', 'VTU', 'polyhedra for ParaView', 'application/xml'],
+  ['obj', 'OBJ', 'surface by region', 'text/plain'],
+] as const;
+
+/** What can be taken away: the result as files, what is seen, a link. */
+export function savePanel(app: App): HTMLElement {
+  const files = writers.map(([format, label, what, type]) =>
+    saver(app, format, label, what, async () => {
+      const bytes = await app.write(format);
+      return bytes && new Blob([bytes as Uint8Array<ArrayBuffer>], { type });
+    }),
+  );
+  const seen = [
+    saver(app, 'glb', 'GLB', 'what is shown', () => app.ask(app.view.glb())),
+    saver(app, 'png', 'PNG', 'what is seen', () => app.ask(app.view.png())),
+  ];
+  return section('save', 'Save', false, el('ul', { class: 'savers' }, ...[...files, ...seen].map((item) => el('li', {}, item))), linkRow(app));
+}
+
+function saver(app: App, format: string, label: string, what: string, make: () => Promise<Blob | null>): HTMLElement {
+  const item = el('button', { type: 'button', id: `save-${format}`, click: () => void save() }, el('strong', {}, label), el('small', {}, what));
+  async function save(): Promise<void> {
+    if (!app.model) return;
+    const name = `${app.model.name}-${app.model.grid.cells.join('x')}.${format}`.replaceAll(/[^\w.-]+/g, '-');
+    item.disabled = true;
+    const blob = await make();
+    item.disabled = false;
+    if (blob) download(blob, name);
+  }
+  return item;
+}
+
+function download(blob: Blob, name: string): void {
+  const url = URL.createObjectURL(blob);
+  el('a', { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10000);
+}
+
+function linkRow(app: App): HTMLElement {
+  const link = el('input', { id: 'link', readonly: true, hidden: true, 'aria-label': 'Link to this view' });
+  const status = el('span', { class: 'hint', 'aria-live': 'polite', id: 'link-status' });
+  async function copy(): Promise<void> {
+    const url = `${location.href.split('#')[0]}#${toHash(app.settings)}`;
+    const fileNote = app.settings.source.kind === 'file' ? ' Your file itself is not in it.' : '';
+    try {
+      await navigator.clipboard.writeText(url);
+      status.textContent = `Copied.${fileNote}`;
+    } catch {
+      link.hidden = false;
+      link.value = url;
+      link.select();
+      status.textContent = `Copy it from here.${fileNote}`;
+    }
+  }
+  return el('div', { class: 'row' }, button('Copy link', () => void copy(), { id: 'copy-link' }), status, link);
+}

@@ -1,0 +1,81 @@
+// What is shown, as a GLB file.
+import { BufferGeometry, Color, Float32BufferAttribute, Mesh, MeshStandardMaterial, Triangle, Vector3 } from 'three';
+import { GLTFExporter } from 'three/examples/jsm/exporters/GLTFExporter.js';
+import type { Model, Settings } from '../../model/types';
+import type { Piece } from './piece';
+import { isBeyond, type ViewPlane } from './planes';
+
+export interface Shown {
+  model: Model;
+  settings: Settings;
+  planes: readonly ViewPlane[];
+  /** 3 per region: how it moves in an explosion by region. */
+  shifts: Float32Array;
+  /** Whatever draws triangles. */
+  parts: readonly { forEachPiece(take: (piece: Piece) => void): void }[];
+}
+
+export async function exportGlb(shown: Shown): Promise<Blob> {
+  const mesh = new Mesh(shownTriangles(shown), new MeshStandardMaterial({ vertexColors: true, roughness: 0.8 }));
+  mesh.position.set(...shown.model.origin);
+  mesh.name = shown.model.name;
+  const bytes = await new GLTFExporter().parseAsync(mesh, { binary: true });
+  return new Blob([bytes as ArrayBuffer], { type: 'model/gltf-binary' });
+}
+
+/** The triangles that the planes leave, moved by the explosions, with flat normals and linear colours. */
+function shownTriangles({ settings, planes, shifts, parts }: Shown): BufferGeometry {
+  const isFlat = settings.sliceMode === 'flat';
+  const position: number[] = [];
+  const normal: number[] = [];
+  const color: number[] = [];
+  const linear = new Color();
+  const triangle = new Triangle();
+  const facing = new Vector3();
+  const put = (piece: Piece) => {
+    if (!isFlat && isBeyond(planes, piece.middle[0], piece.middle[1], piece.middle[2])) return;
+    const polygon = isFlat ? clipped(piece, planes) : piece.corners;
+    linear.setRGB(piece.color[0] / 255, piece.color[1] / 255, piece.color[2] / 255, 'srgb');
+    const shift = [0, 1, 2].map((d) => settings.explode.cells * piece.middle[d] + settings.explode.regions * shifts[3 * piece.region + d]);
+    const moved = Float32Array.from(polygon, (x, at) => x + shift[at % 3]);
+    for (let last = 6; last < moved.length; last += 3) {
+      triangle.set(triangle.a.fromArray(moved), triangle.b.fromArray(moved, last - 3), triangle.c.fromArray(moved, last));
+      // One that 32 bits have made a line has no normal, and isn't seen.
+      if (triangle.getNormal(facing).lengthSq() === 0) continue;
+      for (const corner of [triangle.a, triangle.b, triangle.c]) {
+        position.push(corner.x, corner.y, corner.z);
+        normal.push(facing.x, facing.y, facing.z);
+        color.push(linear.r, linear.g, linear.b);
+      }
+    }
+  };
+  for (const part of parts) part.forEachPiece(put);
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new Float32BufferAttribute(position, 3));
+  geometry.setAttribute('normal', new Float32BufferAttribute(normal, 3));
+  geometry.setAttribute('color', new Float32BufferAttribute(color, 3));
+  return geometry;
+}
+
+/** What all planes but its own leave of a triangle: a convex polygon, maybe empty. */
+function clipped({ corners, ownPlane }: Piece, planes: readonly ViewPlane[]): readonly number[] {
+  let polygon = corners;
+  planes.forEach((plane, p) => {
+    if (p !== ownPlane) polygon = clip(polygon, plane);
+  });
+  return polygon;
+}
+
+function clip(polygon: readonly number[], { normal, offset }: ViewPlane): readonly number[] {
+  const height = (at: number) => normal[0] * polygon[at] + normal[1] * polygon[at + 1] + normal[2] * polygon[at + 2] - offset;
+  const kept: number[] = [];
+  for (let from = 0; from < polygon.length; from += 3) {
+    const to = (from + 3) % polygon.length;
+    const [a, b] = [height(from), height(to)];
+    if (a <= 0) kept.push(polygon[from], polygon[from + 1], polygon[from + 2]);
+    if ((a < 0 && b > 0) || (a > 0 && b < 0)) {
+      for (let d = 0; d < 3; d++) kept.push(polygon[from + d] + (a / (a - b)) * (polygon[to + d] - polygon[from + d]));
+    }
+  }
+  return kept;
+}

@@ -1,0 +1,47 @@
+import { Group, LineBasicMaterial, LineSegments } from 'three';
+import type { Model, SliceName } from '../../model/types';
+import { lineGeometry } from './cut_cells';
+import type { ViewPlane } from './planes';
+
+const colors: Record<SliceName, number> = { x: 0xd9534f, y: 0x4fae5a, z: 0x3f83d6, free: 0xd78f1f };
+
+/** Outlines of the slice planes where they cut the grid's box. */
+export class Frames {
+  readonly group = new Group();
+  private readonly lines = { x: makeLines('x'), y: makeLines('y'), z: makeLines('z'), free: makeLines('free') };
+
+  set(model: Model, planes: readonly ViewPlane[]): void {
+    this.group.clear();
+    for (const plane of planes) {
+      const lines = this.lines[plane.name];
+      lines.geometry.dispose();
+      lines.geometry = lineGeometry(outline(model, plane));
+      this.group.add(lines);
+    }
+  }
+}
+
+function makeLines(name: SliceName): LineSegments {
+  const lines = new LineSegments(lineGeometry([]), new LineBasicMaterial({ color: colors[name], transparent: true, opacity: 0.7 }));
+  lines.frustumCulled = false;
+  return lines;
+}
+
+/** The segments in which a plane cuts the sides of the box: each side is cut where two of its edges are. */
+function outline(model: Model, { normal, offset }: ViewPlane): number[] {
+  const half = model.grid.planes.map((planes) => (1.01 * (planes[planes.length - 1] - planes[0])) / 2);
+  const corner = (bits: number) => half.map((h, d) => (bits & (1 << d) ? h : -h));
+  const height = (point: number[]) => normal.reduce((sum, n, d) => sum + n * point[d], -offset);
+  const segments: number[] = [];
+  for (const [axis, side] of [0, 1, 2].flatMap((d) => [[d, 0], [d, 1]])) {
+    const [u, v] = [1 << ((axis + 1) % 3), 1 << ((axis + 2) % 3)];
+    const corners = [0, u, u | v, v].map((bits) => corner(bits | (side << axis)));
+    const ends = corners.flatMap((from, at) => {
+      const to = corners[(at + 1) % 4];
+      const [a, b] = [height(from), height(to)];
+      return a > 0 === b > 0 ? [] : [from.map((x, d) => x + (a / (a - b)) * (to[d] - x))];
+    });
+    for (const end of ends) segments.push(...end);
+  }
+  return segments;
+}

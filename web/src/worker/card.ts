@@ -1,0 +1,63 @@
+import type { Adjacency, CutMesh } from 'mandoline-wasm';
+import { cellArrays } from 'mandoline-wasm/three';
+import type { CellCard } from '../model/types';
+import { cellEdges, forEachCellEdge } from './edges';
+import type { Derived } from './model';
+import { buffersOf, type Answered } from '../model/protocol';
+
+export function cellCard(cutMesh: CutMesh, derived: Derived, adjacency: Adjacency, cell: number): Answered<CellCard> {
+  const { measures, origin } = derived;
+  const region = cutMesh.cellRegion[cell];
+  const faces = facesOf(cutMesh, cell);
+  const arrays = cellArrays(cutMesh, derived.faceTriangles, { cells: [cell], origin });
+  const surface = Uint8Array.from(arrays.face, (face) => (cutMesh.faceTriangle[face] >= 0 ? 1 : 0));
+  const triangles = { position: arrays.position, normal: arrays.normal, surface };
+  const edges = cellEdges(cutMesh, cell, origin);
+  const card: CellCard = {
+    cell,
+    gridCell: [cutMesh.cellGridCell[3 * cell], cutMesh.cellGridCell[3 * cell + 1], cutMesh.cellGridCell[3 * cell + 2]],
+    region,
+    winding: cutMesh.regionWinding?.[region] ?? null,
+    volume: measures.cellVolume[cell],
+    centroid: [measures.cellCentroid[3 * cell], measures.cellCentroid[3 * cell + 1], measures.cellCentroid[3 * cell + 2]],
+    faces: faces.length,
+    surfaceFaces: faces.filter((face) => cutMesh.faceTriangle[face] >= 0).length,
+    ...shellsOf(cutMesh, cell),
+    neighbours: Array.from(adjacency.cellCells.subarray(adjacency.cellCellOffsets[cell], adjacency.cellCellOffsets[cell + 1])),
+    untouchedNeighbours: new Set(faces.flatMap((face) => untouchedBeside(adjacency, face))).size,
+    triangles,
+    edges,
+  };
+  return { answer: card, transfer: buffersOf(...Object.values(triangles), edges) };
+}
+
+/** Faces of a cell; one that has the cell on both sides counts twice, as it is seen. */
+function facesOf(cutMesh: CutMesh, cell: number): number[] {
+  const halfFaces = cutMesh.cellHalfFaces.subarray(cutMesh.cellHalfFaceOffsets[cell], cutMesh.cellHalfFaceOffsets[cell + 1]);
+  return Array.from(halfFaces, (halfFace) => halfFace >> 1);
+}
+
+function untouchedBeside({ faceGridCells }: Adjacency, face: number): number[] {
+  return [faceGridCells[2 * face], faceGridCells[2 * face + 1]].filter((gridCell) => gridCell >= 0);
+}
+
+/** Counts a cell's vertices and its shells: parts of its boundary that no edges connect. */
+function shellsOf(cutMesh: CutMesh, cell: number): { vertices: number; cavities: number } {
+  const leader = new Map<number, number>();
+  const find = (vertex: number): number => {
+    let at = vertex;
+    for (let up = leader.get(at); up !== undefined && up !== at; up = leader.get(at)) at = up;
+    leader.set(vertex, at);
+    return at;
+  };
+  forEachCellEdge(cutMesh, cell, (from, to) => leader.set(find(from), find(to)));
+  // The loops of a face with holes belong together, though no edge leads from one to the other.
+  for (const face of facesOf(cutMesh, cell)) {
+    const first = cutMesh.loopVertices[cutMesh.loopOffsets[cutMesh.faceLoopOffsets[face]]];
+    for (let loop = cutMesh.faceLoopOffsets[face] + 1; loop < cutMesh.faceLoopOffsets[face + 1]; loop++) {
+      leader.set(find(cutMesh.loopVertices[cutMesh.loopOffsets[loop]]), find(first));
+    }
+  }
+  const vertices = [...leader.keys()];
+  return { vertices: vertices.length, cavities: new Set(vertices.map(find)).size - 1 };
+}

@@ -1,0 +1,94 @@
+import type { CutMesh, FaceTriangles, Vector3 } from 'mandoline-wasm';
+import type { MeshArrays } from '../../model/gallery/mesh';
+import type { StepPicture, StepRequest } from '../../model/types';
+import type { Color } from './colors';
+
+/** What every step works on. */
+export interface Subject {
+  mesh: MeshArrays;
+  cutMesh: CutMesh;
+  faceTriangles: FaceTriangles;
+  origin: Vector3;
+}
+
+export function pointOf(positions: Float64Array, vertex: number): Vector3 {
+  return [positions[3 * vertex], positions[3 * vertex + 1], positions[3 * vertex + 2]];
+}
+
+class Colored {
+  readonly #position: number[] = [];
+  readonly #color: number[] = [];
+
+  add(points: readonly Vector3[], color: Color): void {
+    for (const point of points) {
+      for (let d = 0; d < 3; ++d) {
+        this.#position.push(point[d]);
+        this.#color.push(color[d]);
+      }
+    }
+  }
+
+  arrays(): { position: Float32Array; color: Float32Array } {
+    return { position: new Float32Array(this.#position), color: new Float32Array(this.#color) };
+  }
+}
+
+/** Gathers what a step draws, in world units, and takes the origin off. */
+export class Drawing {
+  readonly #origin: Vector3;
+  readonly #parts = { lines: new Colored(), faces: new Colored(), points: new Colored() };
+  readonly #low = [Infinity, Infinity, Infinity];
+  readonly #high = [-Infinity, -Infinity, -Infinity];
+
+  constructor(origin: Vector3) {
+    this.#origin = origin;
+  }
+
+  line(a: Vector3, b: Vector3, color: Color): void {
+    this.#add('lines', [a, b], color);
+  }
+
+  triangle(a: Vector3, b: Vector3, c: Vector3, color: Color): void {
+    this.#add('faces', [a, b, c], color);
+  }
+
+  point(p: Vector3, color: Color): void {
+    this.#add('points', [p], color);
+  }
+
+  polygon(points: readonly Vector3[], color: Color): void {
+    points.forEach((p, k) => this.line(p, points[(k + 1) % points.length], color));
+  }
+
+  /** The twelve edges of an axis-aligned box. */
+  box(low: Vector3, high: Vector3, color: Color): void {
+    const corner = (bits: number): Vector3 => [bits & 1 ? high[0] : low[0], bits & 2 ? high[1] : low[1], bits & 4 ? high[2] : low[2]];
+    for (let bits = 0; bits < 8; ++bits) for (const bit of [1, 2, 4]) if (!(bits & bit)) this.line(corner(bits), corner(bits | bit), color);
+  }
+
+  finish(text: string, request: StepRequest, { cutMesh }: Subject): StepPicture {
+    const { cells } = cutMesh.grid;
+    const [low, high] = this.#low[0] <= this.#high[0] ? [this.#low, this.#high] : [[0, 0, 0], [0, 0, 0]];
+    return {
+      kind: request.kind,
+      text,
+      lines: this.#parts.lines.arrays(),
+      faces: this.#parts.faces.arrays(),
+      points: this.#parts.points.arrays(),
+      center: [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2],
+      radius: Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 2,
+      choices: { triangles: cutMesh.triangleCount, planes: [cells[0] + 1, cells[1] + 1, cells[2] + 1], request },
+    };
+  }
+
+  #add(part: 'lines' | 'faces' | 'points', points: readonly Vector3[], color: Color): void {
+    const moved = points.map((p): Vector3 => [p[0] - this.#origin[0], p[1] - this.#origin[1], p[2] - this.#origin[2]]);
+    for (const p of moved) {
+      for (let d = 0; d < 3; ++d) {
+        this.#low[d] = Math.min(this.#low[d], p[d]);
+        this.#high[d] = Math.max(this.#high[d], p[d]);
+      }
+    }
+    this.#parts[part].add(moved, color);
+  }
+}
