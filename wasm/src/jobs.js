@@ -2,22 +2,22 @@ import { MandolineError } from './errors.js';
 
 /**
  * Jobs done one after another by a thread, which is replaced when it has to be stopped or dies. A job is
- * { message, transfer, onProgress, resolve, reject }; the first job of every thread is to load the module.
+ * { message, transfer, onProgress, resolve, reject }; the first job of every thread is to start the compiled module.
  */
 export class JobQueue {
   #startThread;
-  #wasm; // what a thread loads: at first as the user says, from then on the compiled module
+  #module;
   #thread = null;
   #running = null;
   #waiting = [];
   #ended = false;
 
-  constructor(startThread, wasm) {
+  constructor(startThread, module) {
     this.#startThread = startThread;
-    this.#wasm = wasm;
+    this.#module = module;
   }
 
-  /** Starts a thread; resolves when it has loaded the module. */
+  /** Starts a thread; resolves when it has started the module. */
   open() {
     return new Promise((resolve, reject) => this.#launch(resolve, reject));
   }
@@ -52,11 +52,8 @@ export class JobQueue {
   #launch(resolve = () => {}, reject = () => {}) {
     const isCurrent = () => this.#thread === thread;
     const job = {
-      message: { call: 'init', wasm: this.#wasm },
-      resolve: (module) => {
-        this.#wasm = module;
-        resolve();
-      },
+      message: { call: 'init', module: this.#module },
+      resolve,
       reject: (error) => {
         this.#dismiss();
         this.#waiting.splice(0).forEach((other) => other.reject(error));

@@ -1,5 +1,4 @@
 import { MandolineError } from './errors.js';
-import createModule from './mandoline.js';
 
 async function readBytes(url) {
   if (url.protocol === 'file:' && globalThis.process?.versions?.node) {
@@ -23,25 +22,4 @@ export async function compile(source = new URL('./mandoline.wasm', import.meta.u
   } catch (cause) {
     throw new MandolineError('loadFailed', `${what} could not be loaded: ${cause?.message ?? cause}.`, { stage: 'init', cause });
   }
-}
-
-/** A new instance of the compiled module, with a memory of its own. Throws if there is not enough memory. */
-export function instantiate(module) {
-  let failure;
-  const bindings = createModule({
-    instantiateWasm(imports, receive) {
-      try {
-        const instance = new WebAssembly.Instance(module, imports);
-        receive(instance, module);
-        return instance.exports;
-      } catch (error) {
-        failure = error;
-        throw error;
-      }
-    },
-    print() {},
-    printErr() {}, // what it says is also thrown
-  });
-  if (failure) throw failure;
-  return bindings;
 }

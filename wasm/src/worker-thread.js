@@ -1,6 +1,8 @@
-// The worker's side of worker.js: loads the module, then answers one job after another. In Node it is a worker thread.
+// The worker's side of worker.js: starts the module that the page has compiled, then answers one job after another. In Node it is a
+// worker thread.
+import { makeApi } from './api.js';
 import { buffersOf } from './buffers.js';
-import { MandolineError, compiledModule, init } from './index.js';
+import { MandolineError } from './errors.js';
 
 /** An error as plain data, since a clone of a MandolineError would lose all but its message. */
 function plainError(error, call) {
@@ -13,9 +15,9 @@ function plainError(error, call) {
 function answering(post) {
   let mandoline;
 
-  const start = async ({ wasm }) => {
-    mandoline = await init(wasm === undefined ? {} : { wasm });
-    post({ type: 'result', value: await compiledModule() });
+  const start = ({ module }) => {
+    mandoline = makeApi(module);
+    post({ type: 'result' });
   };
 
   const call = ({ call: name, args, options, progress }) => {
@@ -24,9 +26,10 @@ function answering(post) {
     post({ type: 'result', value }, buffersOf(value));
   };
 
-  return async (job) => {
+  return (job) => {
     try {
-      await (job.call === 'init' ? start(job) : call(job));
+      if (job.call === 'init') start(job);
+      else call(job);
     } catch (error) {
       post({ type: 'error', error: plainError(error, job.call) });
     }

@@ -2,6 +2,7 @@ import { readOptions } from './arguments.js';
 import { buffersOf } from './buffers.js';
 import { MandolineError, named } from './errors.js';
 import { JobQueue } from './jobs.js';
+import { compile } from './load.js';
 import { threadStarter } from './thread.js';
 
 export { MandolineError, describe } from './errors.js';
@@ -58,21 +59,10 @@ function perform(queue, call, args, given) {
   });
 }
 
-/** What init() in the worker is to load; relative addresses are relative to this page, as they are for init() here. */
-function absolute(wasm) {
-  if (typeof wasm !== 'string' && !(wasm instanceof URL)) return wasm;
-  try {
-    return new URL(wasm, globalThis.location?.href).href;
-  } catch (cause) {
-    const message = `The WebAssembly module ${wasm} could not be loaded: ${cause.message}.`;
-    throw new MandolineError('loadFailed', message, { stage: 'init', cause });
-  }
-}
-
 /** Starts a worker that has loaded the module. */
 export async function createWorker(options) {
   const { wasm } = named('init', readOptions)(options);
-  const queue = new JobQueue(await threadStarter(), absolute(wasm));
+  const queue = new JobQueue(await threadStarter(), await compile(wasm));
   await queue.open();
   const methods = Object.entries(calls).map(([call, count]) => [
     call, (...given) => perform(queue, call, Array.from({ length: count }, (_, i) => given[i]), given[count]),
