@@ -84,6 +84,8 @@ val guarded(const F& f) {
     return f();
   } catch (const std::bad_alloc&) {
   } catch (const std::length_error&) {
+  } catch (const FileError& error) {
+    return failure("badFile", error.what() + std::string("."));
   } catch (const BadArgument& exception) {
     return failure("badArgument", exception.what());
   } catch (const std::exception& exception) {
@@ -94,7 +96,7 @@ val guarded(const F& f) {
 
 // Meshes and grids.
 
-Mesh readMesh(const val& mesh) {
+Mesh readMeshArrays(const val& mesh) {
   Mesh result;
   read(mesh["positions"], result.positions);
   read(mesh["triangles"], result.triangles);
@@ -236,7 +238,7 @@ val cutWith(const Mesh& mesh, const Grid& grid, const val& options) {
 
 val cutMesh(const val& mesh, const val& grid, const val& options) {
   return guarded([&] {
-    const Mesh input = readMesh(mesh);
+    const Mesh input = readMeshArrays(mesh);
     return cutWith(input, readGrid(grid, input), options);
   });
 }
@@ -262,12 +264,12 @@ val toObject(const Validation& validation) {
 }
 
 val validateCutMesh(const val& mesh, const val& cutMesh, double snapTolerance) {
-  return guarded([&] { return success(toObject(validate(readMesh(mesh), readUnchecked(cutMesh), snapTolerance))); });
+  return guarded([&] { return success(toObject(validate(readMeshArrays(mesh), readUnchecked(cutMesh), snapTolerance))); });
 }
 
 val measureCutMesh(const val& mesh, const val& object) {
   return guarded([&] {
-    const Mesh input = readMesh(mesh);
+    const Mesh input = readMeshArrays(mesh);
     const CutMesh cutMesh = readCutMesh(object, &input);
     const Measures measures = measure(input, cutMesh);
     val result = val::object();
@@ -283,7 +285,7 @@ val measureCutMesh(const val& mesh, const val& object) {
 
 val edgesOf(const val& mesh, const val& cutMesh) {
   return guarded([&] {
-    const Mesh input = readMesh(mesh);
+    const Mesh input = readMeshArrays(mesh);
     const CutEdges edges = cutEdges(input, readCutMesh(cutMesh, &input));
     val result = val::object();
     result.set("edgeVertices", toArray(edges.edgeVertices));
@@ -365,7 +367,7 @@ val sliceCutMesh(const val& cutMesh, const val& plane, bool untouched) {
 
 val writeFile(const val& mesh, const val& object, const std::string& format) {
   return guarded([&] {
-    const Mesh input = readMesh(mesh);
+    const Mesh input = readMeshArrays(mesh);
     const CutMesh cutMesh = readCutMesh(object, &input);
     std::vector<uint8_t> bytes;
     const Sink sink = [&](std::string_view piece) { bytes.insert(bytes.end(), piece.begin(), piece.end()); };
@@ -373,6 +375,18 @@ val writeFile(const val& mesh, const val& object, const std::string& format) {
     if (format == "vtu") writeVtu(sink, input, cutMesh);
     if (format == "obj") writeObj(sink, cutMesh);
     return success(toArray(bytes));
+  });
+}
+
+val readMeshFile(const val& bytes, const std::string& name) {
+  return guarded([&] {
+    std::vector<char> content;
+    read(bytes, content);
+    const Mesh mesh = readMesh(content, name);
+    val result = val::object();
+    result.set("positions", toArray(mesh.positions));
+    result.set("triangles", toArray(mesh.triangles));
+    return success(result);
   });
 }
 
@@ -393,4 +407,5 @@ EMSCRIPTEN_BINDINGS(mandoline) {
   emscripten::function("locate", &locatePoints);
   emscripten::function("slice", &sliceCutMesh);
   emscripten::function("write", &writeFile);
+  emscripten::function("readMesh", &readMeshFile);
 }

@@ -2,6 +2,7 @@ import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
 import { test } from 'node:test';
 import { promisify } from 'node:util';
+import { Worker as NodeWorker } from 'node:worker_threads';
 import { MandolineError as CoreError, compiledModule, init } from 'mandoline-wasm';
 import { MandolineError, createWorker, describe } from 'mandoline-wasm/worker';
 import { box, torus } from './meshes.mjs';
@@ -58,7 +59,7 @@ test('every call gives what it gives without a worker', () => withWorker(async (
   assert.deepEqual(await worker.slice(cutMesh, plane, { untouched: false }), here.slice(expected, plane, { untouched: false }));
   assert.deepEqual(await worker.write(cube, cutMesh, 'json'), here.write(cube, expected, 'json'));
   const calls = Object.keys(here).filter((key) => typeof here[key] === 'function');
-  assert.deepEqual(Object.keys(worker).sort(), [...calls, 'terminate'].sort());
+  assert.deepEqual(Object.keys(worker).sort(), [...calls, 'call', 'terminate'].sort());
 }));
 
 test('options reach the call', () => withWorker(async (worker) => {
@@ -221,6 +222,73 @@ test('a worker that cannot load the module rejects', async () => {
     const error = await rejection(createWorker({ wasm }));
     assert.equal(error.code, 'loadFailed');
     assert.match(describe(error), /could not be|can't be/);
+  }
+});
+
+const extra = { thread: () => new NodeWorker(new URL('extra_thread.mjs', import.meta.url)) };
+
+test('a thread of a script of its own answers the package\'s calls and its own', () => withWorker(async (worker) => {
+  const { cut, measure } = await init();
+  assert.deepEqual(withoutStats(await worker.cut(cube, { cells: 7 })), withoutStats(cut(cube, { cells: 7 })));
+  assert.deepEqual(await worker.call('volume', [cube, 7]), measure(cube, cut(cube, { cells: 7 })).regionVolume);
+  assert.equal(await worker.call('count'), 1);
+  assert.equal(await worker.call('count'), 2);
+}, extra));
+
+test('calls of its own wait for others, tell progress and give what they promise', () => withWorker(async (worker) => {
+  const seen = [];
+  const order = [];
+  const value = { a: new Uint8Array([1, 2]) };
+  const later = worker.call('later', [value], { progress: (i) => { seen.push(i); } }).then((result) => order.push('later') && result);
+  const cut = worker.cut(cube, { cells: 4 }).then(() => order.push('cut'));
+  value.a.fill(9);
+  assert.deepEqual(await later, { value: { a: new Uint8Array([1, 2]) }, nested: [new Float32Array([1, 2])] });
+  await cut;
+  assert.deepEqual(seen, [0, 1, 2]);
+  assert.deepEqual(order, ['later', 'cut']);
+  assert.equal(value.a.length, 2);
+  await worker.call('later', [value], { transfer: [value.a.buffer] });
+  assert.equal(value.a.length, 0);
+  const cyclic = await worker.call('cyclic');
+  assert.equal(cyclic.itself, cyclic);
+}, extra));
+
+test('calls of its own are cancelled by their signal or their progress, in a new thread', () => withWorker(async (worker) => {
+  assert.equal(await worker.call('count'), 1);
+  const controller = new AbortController();
+  const aborted = worker.call('later', [0], { signal: controller.signal, progress: () => controller.abort() });
+  assert.equal((await rejection(aborted)).code, 'cancelled');
+  const cancelled = await rejection(worker.call('later', [0], { progress: (i) => i < 1 }));
+  assert.deepEqual([cancelled.code, cancelled.stage], ['cancelled', 'later']);
+  assert.equal(await worker.call('count'), 1);
+}, extra));
+
+test('what a call of its own throws arrives', () => withWorker(async (worker) => {
+  const core = await rejection(worker.call('fail', ['core']));
+  assert.deepEqual([core.code, core.message, core.stage, core.element], ['badGrid', 'No.', 'fail', 1]);
+  await assert.rejects(worker.call('fail', ['plain']), (thrown) => thrown.title === 'Mine' && thrown.detail === 7);
+  await assert.rejects(worker.call('fail', ['type']), (thrown) => thrown instanceof TypeError && thrown.message === 'mine');
+  assert.equal((await rejection(worker.call('fail', ['function']))).code, 'internalError');
+  assert.match((await rejection(worker.call('unsendable'))).message, /can't be sent/);
+  assert.equal((await rejection(worker.call('cut', [cube, { cells: 4 }]))).code, 'badArgument'); // that is a method
+  assert.equal((await rejection(worker.call('toString'))).code, 'badArgument');
+  assert.equal((await rejection(worker.call('volume', [() => {}]))).code, 'badArgument');
+  assert.equal(await worker.call('count'), 1);
+}, extra));
+
+test('a thread that cannot start is named', async () => {
+  for (const [thread, pattern] of [
+    [() => new NodeWorker(new URL('no_such_thread.mjs', import.meta.url)), /no_such_thread\.mjs/],
+    [() => { throw new Error('mine'); }, /mine/],
+  ]) {
+    const error = await rejection(createWorker({ thread }));
+    assert.deepEqual([error.code, error.stage], ['loadFailed', 'init']);
+    assert.match(error.message, pattern);
+  }
+  for (const thread of [() => 7, () => undefined, 'thread.js']) {
+    const error = await rejection(createWorker({ thread }));
+    assert.deepEqual([error.code, error.stage], ['badArgument', 'init']);
+    assert.match(error.message, /options\.thread/);
   }
 });
 

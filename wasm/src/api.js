@@ -3,6 +3,7 @@ import {
   bad, readCutMesh, readElement, readFlag, readFunction, readGrid, readMesh, readOptions, readPlane, readPoints, readSnapTolerance, readVector,
 } from './arguments.js';
 import { MandolineError, named } from './errors.js';
+import { readFile } from './files.js';
 import { instantiate } from './instance.js';
 
 /** Keeps an instance of the module, and takes a new one after a failure that may have left it broken or with a memory that never shrinks. */
@@ -112,6 +113,10 @@ function callsOf(host) {
       if (!['json', 'vtu', 'obj'].includes(format)) throw bad('format must be "json", "vtu" or "obj".');
       const input = [readMesh(mesh), readCutMesh(cutMesh), format];
       return host.run((bindings) => bindings.write(...input));
+    },
+    readMesh: async (source, options) => {
+      const { name, bytes } = await readFile(source, options);
+      return host.run((bindings) => bindings.readMesh(bytes, name));
     },
   };
   const version = host.run((bindings) => ({ value: bindings.version() }));

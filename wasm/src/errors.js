@@ -10,14 +10,18 @@ export class MandolineError extends Error {
   }
 }
 
-/** Makes the errors of f name the call, unless they name the stage of a cut. */
+/** Makes the errors of f, which may be asynchronous, name the call, unless they name the stage of a cut. */
 export function named(stage, f) {
+  const rethrow = (error) => {
+    if (error instanceof MandolineError && !error.stage) error.stage = stage;
+    throw error;
+  };
   return (...parameters) => {
     try {
-      return f(...parameters);
+      const value = f(...parameters);
+      return value instanceof Promise ? value.catch(rethrow) : value;
     } catch (error) {
-      if (error instanceof MandolineError && !error.stage) error.stage = stage;
-      throw error;
+      return rethrow(error);
     }
   };
 }
@@ -37,6 +41,7 @@ const advice = {
   outOfMemory: 'Use fewer cells, or leave out gridCellRegion. WebAssembly has at most 4 GB; the native program has no such limit.',
   internalError: 'This is a fault of the library. Please report it with the mesh and the grid; the next call works again.',
   badArgument: 'The call was given something that it does not take: compare with its documentation.',
+  badFile: 'Check that the file is an OBJ, STL, PLY or OFF file, and complete.',
   loadFailed: 'Check that mandoline.wasm is served beside the code and that the page\'s content security policy allows \'wasm-unsafe-eval\'.',
 };
 

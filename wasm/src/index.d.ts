@@ -53,7 +53,7 @@ export interface Grid {
   /** Number of cells per axis. */
   cells: [number, number, number];
   /** Per axis the cells + 1 plane coordinates that every decision was made with. */
-  planes: [Float64Array, Float64Array, Float64Array];
+  planes: [Float64Array<ArrayBuffer>, Float64Array<ArrayBuffer>, Float64Array<ArrayBuffer>];
 }
 
 export type Stage = 'input' | 'triEdges' | 'triFaces' | 'stencil' | 'gridEdges' | 'gridFaces' | 'cutCells' | 'regions' | 'output';
@@ -81,58 +81,58 @@ export interface CutMesh {
   grid: Grid;
 
   /** 3 per vertex. Output only: no decision reads them. */
-  positions: Float64Array;
+  positions: Float64Array<ArrayBuffer>;
   /** 3 per vertex: the slab it lies in per axis, exact: 0..n-1, or n on the last plane. */
-  vertexCell: Int32Array;
+  vertexCell: Int32Array<ArrayBuffer>;
   /** Per vertex: bit d is set when it lies exactly on plane vertexCell[d] of axis d. */
-  vertexMask: Uint8Array;
+  vertexMask: Uint8Array<ArrayBuffer>;
   /** Per vertex: the tri-vertex (lowest id at its position), or -1. */
-  vertexTriVertex: Int32Array;
+  vertexTriVertex: Int32Array<ArrayBuffer>;
   /** 2 per vertex: tri-vertex (v, v); on a tri-edge its ends (a, b); in a triangle (t, -1); grid vertex (-1, -1). */
-  vertexParents: Int32Array;
+  vertexParents: Int32Array<ArrayBuffer>;
 
   /** Into loopVertices. */
-  loopOffsets: Uint32Array;
+  loopOffsets: Uint32Array<ArrayBuffer>;
   /** Vertex ids. */
-  loopVertices: Uint32Array;
+  loopVertices: Uint32Array<ArrayBuffer>;
   /** Into loops, per face: the first is the outer loop, counter-clockwise about the face's normal; the others are holes, clockwise. */
-  faceLoopOffsets: Uint32Array;
+  faceLoopOffsets: Uint32Array<ArrayBuffer>;
   /** Per face: the input triangle (its normal is the face's), or -1 for a piece of a grid-face. */
-  faceTriangle: Int32Array;
+  faceTriangle: Int32Array<ArrayBuffer>;
   /** Per face: 0..2 if it lies in an axial plane, else -1. A grid-face's normal is +axis. */
-  faceAxis: Int8Array;
+  faceAxis: Int8Array<ArrayBuffer>;
   /** Per face: index of that plane, else 0. */
-  facePlane: Int32Array;
+  facePlane: Int32Array<ArrayBuffer>;
 
   /** Into cellHalfFaces, per cut-cell. */
-  cellHalfFaceOffsets: Uint32Array;
+  cellHalfFaceOffsets: Uint32Array<ArrayBuffer>;
   /** Half-faces: the outer shell's and those of cavities and floating sheets. */
-  cellHalfFaces: Uint32Array;
+  cellHalfFaces: Uint32Array<ArrayBuffer>;
   /** 3 per cut-cell: the grid cell it lies in. Cut-cells are in ascending order of grid cells, x fastest. */
-  cellGridCell: Int32Array;
+  cellGridCell: Int32Array<ArrayBuffer>;
   /** Per cut-cell. */
-  cellRegion: Uint32Array;
+  cellRegion: Uint32Array<ArrayBuffer>;
 
   /** Region of each grid cell, x fastest; -1 where cut-cells replace it. Absent if the options said so. */
-  gridCellRegion?: Int32Array;
+  gridCellRegion?: Int32Array<ArrayBuffer>;
   /** The same as runs of untouched grid cells along x. Row r = k * ny + j has runs rowRunOffsets[r] .. rowRunOffsets[r + 1] - 1. */
-  rowRunOffsets: Uint32Array;
+  rowRunOffsets: Uint32Array<ArrayBuffer>;
   /** Per run: its first grid cell along x. */
-  runBegin: Int32Array;
+  runBegin: Int32Array<ArrayBuffer>;
   /** Per run: one past the last. */
-  runEnd: Int32Array;
+  runEnd: Int32Array<ArrayBuffer>;
   /** Per run. */
-  runRegion: Uint32Array;
+  runRegion: Uint32Array<ArrayBuffer>;
 
   /** Regions: connected components of cut-cells and untouched grid cells, joined through faces that are not pieces of triangles. */
   regionCount: number;
   /** Per region: +1 inside an outward oriented closed surface; null where the input is open or inconsistently oriented. */
-  regionWinding: Int32Array | null;
+  regionWinding: Int32Array<ArrayBuffer> | null;
 
   /** Of the input. */
   triangleCount: number;
   /** Ascending ids of triangles without a face: zero area, duplicate, outside the grid. */
-  droppedTriangles: Uint32Array;
+  droppedTriangles: Uint32Array<ArrayBuffer>;
 
   stats: CutStats;
 }
@@ -158,44 +158,44 @@ export interface CutStats {
 
 export interface Measures {
   /** Per face. */
-  faceArea: Float64Array;
+  faceArea: Float64Array<ArrayBuffer>;
   /** 3 per face, unit. */
-  faceNormal: Float64Array;
+  faceNormal: Float64Array<ArrayBuffer>;
   /** 3 per face. */
-  faceCentroid: Float64Array;
+  faceCentroid: Float64Array<ArrayBuffer>;
   /** Per cut-cell. */
-  cellVolume: Float64Array;
+  cellVolume: Float64Array<ArrayBuffer>;
   /** 3 per cut-cell. */
-  cellCentroid: Float64Array;
+  cellCentroid: Float64Array<ArrayBuffer>;
   /** Per region: its cut-cells and untouched grid cells together. */
-  regionVolume: Float64Array;
+  regionVolume: Float64Array<ArrayBuffer>;
 }
 
 /** Unique undirected cut-edges, lower vertex id first, ascending. */
 export interface CutEdges {
   /** 2 per edge. */
-  edgeVertices: Uint32Array;
+  edgeVertices: Uint32Array<ArrayBuffer>;
   /** Per edge. */
-  edgeLength: Float64Array;
+  edgeLength: Float64Array<ArrayBuffer>;
 }
 
 export interface Adjacency {
   /** 2 per face: the cut-cell of side 0 and of side 1, or -1. */
-  faceCells: Int32Array;
+  faceCells: Int32Array<ArrayBuffer>;
   /** 2 per face: where faceCells is -1, the untouched grid cell i + nx (j + ny k), or -1 where the grid ends. */
-  faceGridCells: Float64Array;
+  faceGridCells: Float64Array<ArrayBuffer>;
   /** Into cellCells, per cut-cell. */
-  cellCellOffsets: Uint32Array;
+  cellCellOffsets: Uint32Array<ArrayBuffer>;
   /** Neighbouring cut-cells of each cut-cell across any face, ascending, without repeats. */
-  cellCells: Uint32Array;
+  cellCells: Uint32Array<ArrayBuffer>;
 }
 
 /** Triangles of every face. No vertices are added, and both cells of a face use the same triangles, so neighbours match. */
 export interface FaceTriangles {
   /** Into triangles (counted in triangles), per face. */
-  faceTriangleOffsets: Uint32Array;
+  faceTriangleOffsets: Uint32Array<ArrayBuffer>;
   /** 3 vertex ids per triangle, counter-clockwise about the face's normal. */
-  triangles: Uint32Array;
+  triangles: Uint32Array<ArrayBuffer>;
 }
 
 export interface Check {
@@ -223,11 +223,11 @@ export interface Validation {
 /** Where points lie, per point. */
 export interface Locations {
   /** The cut-cell that holds the point, or -1 in an untouched grid cell, or outside the grid. */
-  cell: Int32Array;
+  cell: Int32Array<ArrayBuffer>;
   /** 3 per point: the grid cell, or -1, -1, -1 outside the grid. */
-  gridCell: Int32Array;
+  gridCell: Int32Array<ArrayBuffer>;
   /** The region, or -1 outside the grid. */
-  region: Int32Array;
+  region: Int32Array<ArrayBuffer>;
 }
 
 export interface Location {
@@ -248,28 +248,39 @@ export interface Plane {
  */
 export interface Slice {
   /** 3 per point, on the plane. */
-  positions: Float64Array;
+  positions: Float64Array<ArrayBuffer>;
   /** Into loopPoints. */
-  loopOffsets: Uint32Array;
+  loopOffsets: Uint32Array<ArrayBuffer>;
   /** Points of the loops. */
-  loopPoints: Uint32Array;
+  loopPoints: Uint32Array<ArrayBuffer>;
   /** Into loops, per polygon: the first is the outer loop, counter-clockwise about the plane's normal; the others are holes, clockwise. */
-  polygonLoopOffsets: Uint32Array;
+  polygonLoopOffsets: Uint32Array<ArrayBuffer>;
   /** Per polygon: the cut-cell that it is a cut of, or -1 for an untouched grid cell. */
-  polygonCell: Int32Array;
+  polygonCell: Int32Array<ArrayBuffer>;
   /** 3 per polygon: the grid cell. */
-  polygonGridCell: Int32Array;
+  polygonGridCell: Int32Array<ArrayBuffer>;
   /** Per polygon. */
-  polygonRegion: Uint32Array;
+  polygonRegion: Uint32Array<ArrayBuffer>;
   /** Into triangles (counted in triangles), per polygon. */
-  polygonTriangleOffsets: Uint32Array;
+  polygonTriangleOffsets: Uint32Array<ArrayBuffer>;
   /** 3 points per triangle, counter-clockwise about the plane's normal. */
-  triangles: Uint32Array;
+  triangles: Uint32Array<ArrayBuffer>;
 }
 
 export interface SliceOptions {
   /** Whether untouched grid cells are cut, too. Default true. */
   untouched?: boolean;
+}
+
+export interface ReadMeshOptions {
+  /** The name of the file, for its extension and for messages. Default: that of a File. */
+  name?: string;
+}
+
+/** A mesh as it was in a file. */
+export interface FileMesh {
+  positions: Float64Array<ArrayBuffer>;
+  triangles: Uint32Array<ArrayBuffer>;
 }
 
 /** Everything that works on meshes and cut-meshes; `init()` gives it. No call keeps or changes its arguments; errors are MandolineErrors. */
@@ -292,7 +303,7 @@ export interface Mandoline {
    * The closed surface of one cut-cell, oriented outward; or the pieces of triangles that bound a region, oriented out of it, both
    * sides of those where a sheet ends within the region. 3 vertex ids per triangle.
    */
-  triangulate(cutMesh: CutMesh, of: { cell: number } | { region: number }): Uint32Array;
+  triangulate(cutMesh: CutMesh, of: { cell: number } | { region: number }): Uint32Array<ArrayBuffer>;
   /** Which cell holds this point; null outside the grid. A point on a face counts to one of the cells beside it. */
   cellAt(cutMesh: CutMesh, point: Vector3): Location | null;
   /** Which cell holds each point (3 coordinates per point): one call for many points is far faster than many calls. */
@@ -300,7 +311,13 @@ export interface Mandoline {
   /** The polygons in which a plane cuts the cells. */
   slice(cutMesh: CutMesh, plane: Plane, options?: SliceOptions): Slice;
   /** A file: "json" is the dump of all arrays, "vtu" polyhedra for VTK and ParaView, "obj" the cut surface by region. */
-  write(mesh: Mesh, cutMesh: CutMesh, format: 'json' | 'vtu' | 'obj'): Uint8Array;
+  write(mesh: Mesh, cutMesh: CutMesh, format: 'json' | 'vtu' | 'obj'): Uint8Array<ArrayBuffer>;
+  /**
+   * The mesh in a file: OBJ, STL, PLY or OFF (STL and PLY in text or binary), each also gzipped, told by content and then by the extension of
+   * the name. Polygons are fanned from their first vertex; triangles are in the order of the file. Code "badFile" if it can't be read; the
+   * message names the file and the line.
+   */
+  readMesh(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions): Promise<FileMesh>;
 }
 
 export interface InitOptions {
@@ -329,6 +346,8 @@ export type ErrorCode =
   | 'internalError'
   /** An argument is not of the kind that the call takes: the message names it. */
   | 'badArgument'
+  /** A file can't be read as a mesh: the message says why and where. */
+  | 'badFile'
   /** The WebAssembly module could not be loaded. */
   | 'loadFailed';
 

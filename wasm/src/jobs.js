@@ -69,7 +69,7 @@ export class JobQueue {
       this.#thread = thread;
       this.#perform(job);
     } catch (cause) {
-      job.reject(loadFailure(cause.message, cause));
+      job.reject(cause instanceof MandolineError ? cause : loadFailure(cause.message, cause));
     }
   }
 
@@ -89,6 +89,7 @@ export class JobQueue {
   #receive({ type, value, error }) {
     if (type === 'progress') this.#progress(value);
     else if (type === 'result') this.#settle((job) => job.resolve(value));
+    else if (type === 'thrown') this.#settle((job) => job.reject(value));
     else this.#settle((job) => job.reject(new MandolineError(error.code, error.message, error)));
   }
 
@@ -96,7 +97,7 @@ export class JobQueue {
     const job = this.#running;
     try {
       if (job.onProgress(value) !== false) return;
-      this.stop(job, new MandolineError('cancelled', 'The cut was cancelled.', { stage: value.stage }));
+      this.stop(job, new MandolineError('cancelled', 'The call was cancelled.', { stage: value?.stage ?? job.message.call }));
     } catch (error) {
       this.stop(job, error);
     }

@@ -10,7 +10,7 @@ import type { CutEdges, CutMesh, FaceTriangles, Measures, Slice, Vector3 } from 
  * that mirrors, outward stays outward. Seams that miss themselves by a rounding, as that of SphereGeometry, leave the mesh open: merge
  * their vertices first.
  */
-export function meshFromGeometry(geometry: BufferGeometry, matrix?: Matrix4): { positions: Float64Array; triangles: Uint32Array };
+export function meshFromGeometry(geometry: BufferGeometry, matrix?: Matrix4): { positions: Float64Array<ArrayBuffer>; triangles: Uint32Array<ArrayBuffer> };
 
 export interface CellArraysOptions {
   /** Cut-cells to take. Default: all. */
@@ -27,13 +27,13 @@ export interface CellArraysOptions {
  */
 export interface CellArrays {
   /** 3 per vertex, 3 vertices per triangle. */
-  position: Float32Array;
+  position: Float32Array<ArrayBuffer>;
   /** 3 per vertex: out of the cell. */
-  normal: Float32Array;
+  normal: Float32Array<ArrayBuffer>;
   /** Per vertex: the cut-cell. */
-  cell: Uint32Array;
+  cell: Uint32Array<ArrayBuffer>;
   /** Per vertex: the face. */
-  face: Uint32Array;
+  face: Uint32Array<ArrayBuffer>;
 }
 export function cellArrays(cutMesh: CutMesh, faceTriangles: FaceTriangles, options?: CellArraysOptions): CellArrays;
 
@@ -51,7 +51,7 @@ export interface CellGeometryOptions extends CellArraysOptions {
 export function cellGeometry(cutMesh: CutMesh, faceTriangles: FaceTriangles, options?: CellGeometryOptions): BufferGeometry;
 
 /** 3 per cut-cell: linear RGB, 0 to 1. Volumes are told on a logarithmic scale over at most three decades below the largest. */
-export function cellColors(cutMesh: CutMesh, colorBy: ColorBy, measures?: Measures): Float32Array;
+export function cellColors(cutMesh: CutMesh, colorBy: ColorBy, measures?: Measures): Float32Array<ArrayBuffer>;
 
 /** Cut-edges as a geometry for LineSegments. */
 export function edgeGeometry(cutMesh: CutMesh, cutEdges: CutEdges, origin?: Vector3): BufferGeometry;

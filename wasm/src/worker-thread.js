@@ -1,50 +1,87 @@
-// The worker's side of worker.js: starts the module that the page has compiled, then answers one job after another. In Node it is a
-// worker thread.
+// The worker's side of worker.js, and the script that it starts by default: starts the module that the page has compiled, then answers one
+// job after another. In Node it is a worker thread.
 import { makeApi } from './api.js';
 import { buffersOf } from './buffers.js';
 import { MandolineError } from './errors.js';
+
+const extraCalls = new Map();
+
+/**
+ * Adds calls to those that this worker answers. The worker does so from when this script is imported, in any script that
+ * createWorker({ thread }) starts.
+ */
+export function serve(calls = {}) {
+  for (const [name, call] of Object.entries(calls)) extraCalls.set(name, call);
+}
 
 /** An error as plain data, since a clone of a MandolineError would lose all but its message. */
 function plainError(error, call) {
   if (!(error instanceof MandolineError)) return { code: 'internalError', message: String(error?.message ?? error), stage: call };
   const { code, message, stage, element, element2 } = error;
-  return { code, message, stage, element, element2 };
+  return { code, message, stage: stage || call, element, element2 };
 }
 
-/** Answers a job through `post`. */
-function answering(post) {
-  let mandoline;
+/** Answers jobs through `post`. */
+class Answering {
+  #post;
+  #mandoline;
 
-  const start = ({ module }) => {
-    mandoline = makeApi(module);
-    post({ type: 'result' });
-  };
+  constructor(post) {
+    this.#post = post;
+  }
 
-  const call = ({ call: name, args, options, progress }) => {
-    if (progress) options.progress = (value) => post({ type: 'progress', value });
-    const value = mandoline[name](...args, options);
-    post({ type: 'result', value }, buffersOf(value));
-  };
-
-  return (job) => {
+  async answer(job) {
     try {
-      if (job.call === 'init') start(job);
-      else call(job);
+      await (job.call === 'init' && !job.extra ? this.#start(job) : this.#call(job));
     } catch (error) {
-      post({ type: 'error', error: plainError(error, job.call) });
+      this.#fail(error, job);
     }
-  };
-}
+  }
 
-async function serve() {
-  if (typeof postMessage === 'function') {
-    const answer = answering((message, transfer = []) => postMessage(message, transfer));
-    addEventListener('message', ({ data }) => answer(data));
-  } else {
-    const threads = 'node:worker_threads'; // not a literal, since bundlers for browsers would look for it
-    const { parentPort } = await import(/* @vite-ignore */ /* webpackIgnore: true */ threads);
-    parentPort.on('message', answering((message, transfer = []) => parentPort.postMessage(message, transfer)));
+  #start({ module }) {
+    this.#mandoline = makeApi(module);
+    this.#post({ type: 'result' });
+  }
+
+  async #call(job) {
+    const value = await (job.extra ? this.#extra(job) : this.#own(job));
+    try {
+      this.#post({ type: 'result', value }, buffersOf(value));
+    } catch (cause) {
+      throw new MandolineError('internalError', `What the call gives can't be sent: ${cause.message}`, { stage: job.call, cause });
+    }
+  }
+
+  #own({ call, args, options, progress }) {
+    if (progress) options.progress = (value) => this.#post({ type: 'progress', value });
+    return this.#mandoline[call](...args, options);
+  }
+
+  #extra({ call, args, progress }) {
+    const run = extraCalls.get(call);
+    if (!run) throw new MandolineError('badArgument', `The worker's script serves no call "${call}".`, { stage: call });
+    return run(this.#mandoline, args, { progress: (value) => progress && this.#post({ type: 'progress', value }) });
+  }
+
+  /** What the package throws stays a MandolineError; what an extra call throws arrives as a clone. */
+  #fail(error, job) {
+    try {
+      if (job.extra && !(error instanceof MandolineError)) return this.#post({ type: 'thrown', value: error });
+    } catch {} // that can't be cloned
+    this.#post({ type: 'error', error: plainError(error, job.call) });
   }
 }
 
-serve();
+async function listen() {
+  if (typeof postMessage === 'function' && typeof document === 'undefined') {
+    const answering = new Answering((message, transfer = []) => postMessage(message, transfer));
+    addEventListener('message', ({ data }) => answering.answer(data));
+  } else if (globalThis.process?.versions?.node) {
+    const threads = 'node:worker_threads'; // not a literal, since bundlers for browsers would look for it
+    const { parentPort } = await import(/* @vite-ignore */ /* webpackIgnore: true */ threads);
+    const answering = new Answering((message, transfer = []) => parentPort.postMessage(message, transfer));
+    parentPort?.on('message', (job) => answering.answer(job));
+  }
+}
+
+listen();

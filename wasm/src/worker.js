@@ -1,4 +1,4 @@
-import { readOptions } from './arguments.js';
+import { readFunction, readOptions } from './arguments.js';
 import { buffersOf } from './buffers.js';
 import { MandolineError, named } from './errors.js';
 import { JobQueue } from './jobs.js';
@@ -8,7 +8,7 @@ import { threadStarter } from './thread.js';
 export { MandolineError, describe } from './errors.js';
 
 /** The calls with their numbers of arguments before the options. */
-const calls = { cut: 2, validate: 2, measure: 2, cutEdges: 2, adjacency: 1, triangulate: 2, cellAt: 2, cellsAt: 2, slice: 2, write: 3 };
+const calls = { cut: 2, validate: 2, measure: 2, cutEdges: 2, adjacency: 1, triangulate: 2, cellAt: 2, cellsAt: 2, slice: 2, write: 3, readMesh: 1 };
 
 const isObject = (value) => typeof value === 'object' && value !== null;
 
@@ -29,24 +29,27 @@ function lean(argument) {
 }
 
 /** A message with a copy of the arguments as they are now, so that neither the queue nor the worker sees later changes. */
-function makeMessage(call, args, { options, onProgress, signal, transfer }) {
+function makeMessage({ call, args, extra }, { options, onProgress, signal, transfer }) {
   if (signal !== undefined && !(signal instanceof AbortSignal)) {
     throw new MandolineError('badArgument', 'options.signal must be an AbortSignal.', { stage: call });
   }
+  if (!Array.isArray(args)) throw new MandolineError('badArgument', 'The arguments of a call must be an array.', { stage: call });
   try {
-    return structuredClone({ call, args: args.map(lean), options, progress: onProgress !== undefined }, { transfer });
+    const sent = extra ? args : args.map(lean);
+    return structuredClone({ call, extra, args: sent, options, progress: onProgress !== undefined }, { transfer });
   } catch (cause) {
     throw new MandolineError('badArgument', `The arguments can't be given to the worker: ${cause.message}`, { stage: call, cause });
   }
 }
 
-function perform(queue, call, args, given) {
+function perform(queue, asked, given) {
+  const { call } = asked;
   return new Promise((resolve, reject) => {
     const split = splitOptions(given);
     const { signal, onProgress } = split;
     const cancellation = () => new MandolineError('cancelled', 'The call was cancelled.', { stage: call, cause: signal.reason });
     if (signal?.aborted) throw cancellation();
-    const message = makeMessage(call, args, split);
+    const message = makeMessage(asked, split);
     const abort = () => queue.stop(job, cancellation());
     const settled = (settle) => (value) => {
       signal?.removeEventListener('abort', abort);
@@ -59,13 +62,23 @@ function perform(queue, call, args, given) {
   });
 }
 
+function readWorkerOptions(given) {
+  const options = readOptions(given);
+  readFunction(options.thread, 'options.thread');
+  return options;
+}
+
 /** Starts a worker that has loaded the module. */
 export async function createWorker(options) {
-  const { wasm } = named('init', readOptions)(options);
-  const queue = new JobQueue(await threadStarter(), await compile(wasm));
+  const { wasm, thread } = named('init', readWorkerOptions)(options);
+  const queue = new JobQueue(await threadStarter(thread), await compile(wasm));
   await queue.open();
   const methods = Object.entries(calls).map(([call, count]) => [
-    call, (...given) => perform(queue, call, Array.from({ length: count }, (_, i) => given[i]), given[count]),
+    call, (...given) => perform(queue, { call, args: Array.from({ length: count }, (_, i) => given[i]) }, given[count]),
   ]);
-  return { ...Object.fromEntries(methods), terminate: () => queue.close() };
+  return {
+    ...Object.fromEntries(methods),
+    call: (name, args = [], options = undefined) => perform(queue, { call: String(name), args, extra: true }, options),
+    terminate: () => queue.close(),
+  };
 }

@@ -1,0 +1,92 @@
+// Mesh files of every kind, from bytes and Blobs, packed and damaged.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { gzipSync } from 'node:zlib';
+import { MandolineError, init } from 'mandoline-wasm';
+import { createWorker } from 'mandoline-wasm/worker';
+import { box, writeObj } from './meshes.mjs';
+
+const { readMesh } = await init();
+const cube = box([0.1, -2, 1e-300], [1 / 3, 5, 7]);
+
+function writeStl({ positions, triangles }) {
+  const bytes = new DataView(new ArrayBuffer(84 + (50 * triangles.length) / 3));
+  bytes.setUint32(80, triangles.length / 3, true);
+  triangles.forEach((v, i) => {
+    for (let d = 0; d < 3; ++d) bytes.setFloat32(84 + 50 * Math.floor(i / 3) + 12 + 12 * (i % 3) + 4 * d, positions[3 * v + d], true);
+  });
+  return new Uint8Array(bytes.buffer);
+}
+
+const triples = (array) => Array.from({ length: array.length / 3 }, (_, i) => [...array.subarray(3 * i, 3 * i + 3)].join(' ')).join('\n');
+const counts = ({ positions, triangles }) => [positions.length / 3, triangles.length / 3];
+const faces = ({ triangles }) => triples(triangles).replace(/^/gm, '3 ');
+const encode = (text) => new TextEncoder().encode(text);
+const ply = (mesh) => `ply\nformat ascii 1.0\nelement vertex ${counts(mesh)[0]}\nproperty double x\nproperty double y\nproperty double z\n` +
+  `element face ${counts(mesh)[1]}\nproperty list uchar int vertex_indices\nend_header\n${triples(mesh.positions)}\n${faces(mesh)}\n`;
+
+const files = {
+  'cube.obj': encode(writeObj(cube)),
+  'cube.off': encode(`OFF\n${counts(cube).join(' ')} 0\n${triples(cube.positions)}\n${faces(cube)}\n`),
+  'cube.ply': encode(ply(cube)),
+};
+
+for (const [name, bytes] of Object.entries(files)) {
+  test(`${name} keeps every double, as bytes of any kind, gzipped or not`, async () => {
+    const inTheMiddle = new Uint8Array(bytes.length + 7);
+    inTheMiddle.set(bytes, 5);
+    const sources = [bytes, bytes.slice().buffer, Buffer.from(bytes), inTheMiddle.subarray(5, 5 + bytes.length), new DataView(bytes.slice().buffer),
+      new Blob([bytes]), gzipSync(bytes), new Blob([gzipSync(bytes)])];
+    for (const source of sources) assert.deepEqual(await readMesh(source, { name }), cube);
+  });
+}
+
+test('a binary STL file has three vertices per triangle', async () => {
+  const mesh = await readMesh(gzipSync(writeStl(cube)), { name: 'cube.stl.gz' });
+  assert.deepEqual(counts(mesh), [36, 12]);
+  assert.deepEqual(mesh.triangles, Uint32Array.from({ length: 36 }, (_, i) => i));
+  assert.deepEqual([...mesh.positions], [...cube.triangles].flatMap((v) => [...cube.positions.subarray(3 * v, 3 * v + 3)].map(Math.fround)));
+});
+
+test('polygons are fanned, and what is told by its content needs no name', async () => {
+  const text = 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n';
+  assert.deepEqual([...(await readMesh(encode(text))).triangles], [0, 1, 2, 0, 2, 3]);
+});
+
+const failures = [
+  ['an OBJ file with a flaw', encode('v 0 0 0\nv 1 0 0\nv 0 x 0\nf 1 2 3\n'), 'bad.obj', /^bad\.obj.*line 3.*\.$/],
+  ['a packed file with a flaw', gzipSync(encode('v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n')), 'bad.obj.gz', /^bad\.obj\.gz.*line 4/],
+  ['an empty file', new Uint8Array(), 'empty.obj', /^empty\.obj.*empty/],
+  ['an empty packed file', gzipSync(''), 'empty.obj.gz', /^empty\.obj\.gz.*empty/],
+  ['a file of no known kind', encode('{"glTF": 1}'), 'scene.gltf', /^scene\.gltf/],
+  ['a packed file that was cut off', gzipSync(files['cube.obj']).subarray(0, 100), 'cube.obj.gz', /^cube\.obj\.gz: damaged gzip data.*\.$/],
+];
+
+for (const [what, bytes, name, pattern] of failures) {
+  test(`${what} is a badFile whose message names it`, async () => {
+    await assert.rejects(readMesh(bytes, { name }), (error) => {
+      assert.ok(error instanceof MandolineError, error.stack);
+      assert.deepEqual([error.code, error.stage], ['badFile', 'readMesh']);
+      assert.match(error.message, pattern);
+      return true;
+    });
+  });
+}
+
+test('what is no file is a badArgument', async () => {
+  for (const source of [undefined, null, 'cube.obj', {}, [1, 2]]) await assert.rejects(readMesh(source), { code: 'badArgument', stage: 'readMesh' });
+  for (const options of [null, 7, { name: 7 }]) await assert.rejects(readMesh(files['cube.obj'], options), { code: 'badArgument', stage: 'readMesh' });
+});
+
+test('in a worker', async () => {
+  const worker = await createWorker();
+  try {
+    assert.deepEqual(await worker.readMesh(new Blob([gzipSync(files['cube.obj'])]), { name: 'cube.obj.gz' }), cube);
+    const bytes = files['cube.ply'].slice();
+    assert.deepEqual(await worker.readMesh(bytes, { name: 'cube.ply', transfer: [bytes.buffer] }), cube);
+    assert.equal(bytes.length, 0);
+    await assert.rejects(worker.readMesh(encode('v 0 0\n'), { name: 'bad.obj' }), { code: 'badFile', message: /^bad\.obj.*line 1/ });
+  } finally {
+    worker.terminate();
+  }
+});

@@ -1,0 +1,56 @@
+// Mesh files: their bytes, unpacked. C++ reads them.
+import { MandolineError } from './errors.js';
+import { bad, readOptions } from './arguments.js';
+
+const mostBytes = 2 ** 31; // the mesh has to fit into the 4 GB of WebAssembly, too
+
+function nameOf(source, { name = source?.name ?? 'the file' }) {
+  if (typeof name !== 'string') throw bad('options.name must be a string.');
+  return name;
+}
+
+async function bytesOf(source) {
+  if (typeof Blob === 'function' && source instanceof Blob) return new Uint8Array(await source.arrayBuffer());
+  if (source instanceof ArrayBuffer) return new Uint8Array(source);
+  if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
+  throw bad('The first argument must be the bytes of a file, as a typed array or an ArrayBuffer, or a Blob.');
+}
+
+const isGzipped = (bytes) => bytes[0] === 0x1f && bytes[1] === 0x8b;
+
+/** Small files may unpack to endless ones, so there is an end. */
+async function gunzip(packed, name) {
+  const chunks = [];
+  let size = 0;
+  try {
+    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
+    for (const reader = stream.getReader(); ;) {
+      const { done, value } = await reader.read();
+      if (done) break;
+      chunks.push(value);
+      size += value.length;
+      if (size > mostBytes) throw new Error('more than 2 GB are packed in it');
+    }
+  } catch (cause) {
+    const message = `${name}: damaged gzip data, of which ${size} bytes could be unpacked (${cause?.message || cause}).`;
+    throw new MandolineError('badFile', message, { cause });
+  }
+  return joined(chunks, size);
+}
+
+function joined(chunks, size) {
+  const whole = new Uint8Array(size);
+  let end = 0;
+  for (const chunk of chunks) {
+    whole.set(chunk, end);
+    end += chunk.length;
+  }
+  return whole;
+}
+
+/** The unpacked bytes of a file and the name that messages call it by. */
+export async function readFile(source, options) {
+  const name = nameOf(source, readOptions(options));
+  const bytes = await bytesOf(source);
+  return { name, bytes: isGzipped(bytes) ? await gunzip(bytes, name) : bytes };
+}
