@@ -1,7 +1,7 @@
 // The hand-written types against the module: real results, written as literals, must fit their declarations with no key missing or left over.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join as path } from 'node:path';
 import { after, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
@@ -103,7 +103,8 @@ test('errors', () => {
 test('every code of the core and of the types has advice', () => {
   const words = (text) => [...text.replace(/\/\*\*[^]*?\*\//g, '').matchAll(/'(\w+)'/g)].map(([, word]) => word);
   const codes = words(readFileSync(path(root, 'wasm', 'src', 'index.d.ts'), 'utf8').match(/type ErrorCode =([^;]*);/)[1]);
-  const core = readFileSync(path(root, 'src', 'mandoline', 'mandoline.h'), 'utf8').match(/enum class Status[^{]*\{([^}]*)\}/)[1];
+  const headers = path(root, 'src', 'include', 'mandoline');
+  const core = readdirSync(headers).map((file) => readFileSync(path(headers, file), 'utf8')).join('').match(/enum class Status[^{]*\{([^}]*)\}/)[1];
   const statuses = [...core.matchAll(/^\s*(\w+),/gm)].map(([, word]) => word);
   assert.ok(statuses.length > 10);
   for (const status of statuses) assert.ok(status === 'ok' || codes.includes(status), status);
