@@ -138,6 +138,46 @@ describe('on a screen 360 pixels wide', () => {
   });
 });
 
+test('the skip link leads to the controls and leaves the settings alone', async (t) => {
+  const page = await site.open(t, 'mesh=claw&n=3&free=off&explode=0,0');
+  const former = await dataOf(page, '#counts');
+  await page.locator('.skip').focus();
+  await page.keyboard.press('Enter');
+  await eventually(async () => assert.equal(await page.evaluate(() => document.activeElement.id), 'panels'));
+  assert.equal(await isReady(page), 'ready');
+  assert.deepEqual(await dataOf(page, '#counts'), former);
+  assert.equal(await page.locator('[data-test=notice]').count(), 0);
+  assert.match(page.url(), /#mesh=claw&n=3/);
+});
+
+for (const viewport of [{ width: 1000, height: 600 }, { width: 360, height: 640 }]) {
+  test(`the document is no higher than a window of ${viewport.width} x ${viewport.height}`, async (t) => {
+    const page = await site.open(t, link, { viewport });
+    for (const id of panels) {
+      await openPanel(page, id);
+      for (const details of await page.locator(`#${id} summary`).all()) await details.click();
+      const beyond = await page.evaluate(() => Math.max(document.documentElement.scrollHeight, document.body.scrollHeight) - innerHeight);
+      assert.equal(beyond, 0, `with ${id} open`);
+    }
+  });
+}
+
+test('panels come back when a narrow window becomes wide', async (t) => {
+  const wide = { width: 1000, height: 600 };
+  const page = await site.open(t, link, { viewport: { width: 360, height: 640 } });
+  const isOpen = () => Promise.all(panels.map(async (id) => (await page.locator(`#${id}-toggle`).getAttribute('aria-expanded')) === 'true'));
+  const are = (expected) => eventually(async () => assert.deepEqual(await isOpen(), expected));
+  await are([false, false, false, false, false, false]);
+  await page.setViewportSize(wide);
+  await are([true, true, true, false, false, false]);
+  await page.locator('#mesh-toggle').click();
+  await page.locator('#save-toggle').click();
+  await page.setViewportSize({ width: 360, height: 640 });
+  await are([false, false, false, false, false, false]);
+  await page.setViewportSize(wide);
+  await are([false, true, true, false, false, true]);
+});
+
 test('where motion is unwanted nothing moves by itself', async (t) => {
   const page = await site.open(t, link, { reducedMotion: 'reduce' });
   const moving = await page.evaluate(() => [...document.querySelectorAll('*')].filter((element) => {

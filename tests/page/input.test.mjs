@@ -41,6 +41,27 @@ test('from the gallery', async (t) => {
   assert.equal(await page.locator('#gallery [data-name="wedge"]').getAttribute('aria-pressed'), 'false');
 });
 
+test('a linked mesh of the gallery is scrolled to', async (t) => {
+  const page = await site.open(t, 'mesh=crate&n=4');
+  const isInView = () => page.locator('#gallery [data-name="crate"]').evaluate((entry) => {
+    const { top, bottom } = entry.getBoundingClientRect();
+    const list = entry.closest('ul').getBoundingClientRect();
+    return top >= list.top - 1 && bottom <= list.bottom + 1;
+  });
+  await eventually(async () => assert.equal(await isInView(), true));
+  assert.ok((await page.locator('#gallery').evaluate((list) => list.scrollTop)) > 0);
+});
+
+test('a snap tolerance is for one mesh: the next one is cut as it is', async (t) => {
+  const page = await site.open(t, 'mesh=claw&n=3&snap=0.2');
+  await page.locator('#gallery [data-name="torus-knot"]').click();
+  await shows(page, '#mesh-line', { name: 'torus-knot' });
+  assert.equal(await isReady(page), 'ready');
+  assert.equal(await page.locator('#snap').inputValue(), '0');
+  const { cutMesh } = await cutOf(await galleryMesh('torus-knot'), { cells: 14 });
+  await shows(page, '#counts', { cutCells: cutMesh.cellRegion.length, vertices: cutMesh.positions.length / 3 });
+});
+
 test('files of every format, chosen', async (t) => {
   const page = await site.open(t, start);
   for (const [name, content] of Object.entries(octahedronFiles)) {

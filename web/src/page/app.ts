@@ -69,7 +69,7 @@ export class App {
       if ((await this.load(source, bytes)) !== 'loaded') return;
       const wasSheet = this.model !== null && isSheet(this.model);
       const grid = { cells: cells ?? this.cellsToKeep() };
-      this.change({ source, grid, show: { ...this.settings.show, region: null }, camera: null }, false);
+      this.change({ source, grid, snapTolerance: 0, show: { ...this.settings.show, region: null }, camera: null }, false);
       if (!(await this.recut(true))) this.fitLook(wasSheet);
     });
   }

@@ -27,6 +27,14 @@ try {
   document.body.dataset.state = 'error';
 }
 
+/** By hand: as a link it would change the address, which holds the settings. */
+function skipToPanels(): void {
+  element('skip').addEventListener('click', (event) => {
+    event.preventDefault();
+    element('panels').focus();
+  });
+}
+
 function start(): void {
   const engine = createEngine();
   const view = createView(element('canvas') as HTMLCanvasElement, { slice: (planes, untouched) => engine.slice(planes, untouched), onError: alert });
@@ -37,5 +45,6 @@ function start(): void {
   element('stage').append(legend(app), hoverLine(app), progressLine(app), cellCard(app));
   element('panels').append(meshPanel(app), cutPanel(app), seePanel(app), stepsPanel(app), checksPanel(app), savePanel(app));
   acceptDrops(app);
+  skipToPanels();
   void followLink(app, notice);
 }

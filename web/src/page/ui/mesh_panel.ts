@@ -35,9 +35,21 @@ function galleryList(app: App): HTMLElement {
     list.append(el('li', {}, open));
     return open;
   });
+  let chosen: HTMLElement | undefined;
+  const reveal = () => chosen?.scrollIntoView({ block: 'nearest' });
   app.events.on('settings', ({ source }) => {
-    for (const item of buttons) item.setAttribute('aria-pressed', String(source.kind === 'gallery' && source.name === item.dataset.name));
+    const former = chosen;
+    chosen = buttons.find((item) => source.kind === 'gallery' && source.name === item.dataset.name);
+    if (chosen === former) return;
+    for (const item of buttons) item.setAttribute('aria-pressed', String(item === chosen));
+    reveal();
   });
+  let isHidden = true;
+  const panelOpened = new ResizeObserver(() => {
+    if (isHidden && list.clientHeight > 0) reveal();
+    isHidden = list.clientHeight === 0;
+  });
+  panelOpened.observe(list);
   return list;
 }
 

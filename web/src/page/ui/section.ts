@@ -4,12 +4,15 @@ import { el } from './dom';
 export const narrow = matchMedia('(max-width: 760px)');
 
 const toggles: HTMLButtonElement[] = [];
+/** Those open in the window when it was wide. */
+let openWhenWide: HTMLButtonElement[] = [];
 
 /** A panel with a heading that opens and closes it. */
 export function section(id: string, title: string, open: boolean, ...children: Node[]): HTMLElement {
   const body = el('div', { class: 'body', id: `${id}-body` }, ...children);
   const toggle = el('button', { type: 'button', id: `${id}-toggle`, 'aria-controls': body.id, click: () => setOpen(toggle, !isOpen(toggle)) }, title);
   toggles.push(toggle);
+  if (open) openWhenWide.push(toggle);
   setExpanded(toggle, body, open && !narrow.matches);
   return el('section', { id, 'aria-labelledby': toggle.id }, el('h2', {}, toggle), body);
 }
@@ -37,7 +40,8 @@ function setExpanded(toggle: HTMLButtonElement, body: HTMLElement, open: boolean
   body.hidden = !open;
 }
 
-/** On a screen that becomes narrow, at most one panel stays open. */
+/** A window that becomes narrow closes its panels, and opens them again when it becomes wide. */
 narrow.addEventListener('change', () => {
-  if (narrow.matches) for (const toggle of toggles) setExpanded(toggle, bodyOf(toggle), false);
+  if (narrow.matches) openWhenWide = toggles.filter(isOpen);
+  for (const toggle of toggles) setExpanded(toggle, bodyOf(toggle), !narrow.matches && (isOpen(toggle) || openWhenWide.includes(toggle)));
 });

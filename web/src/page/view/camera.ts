@@ -4,6 +4,8 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
 const firstDirection = new Vector3(0.42, 0.36, 1).normalize();
 const turn = Math.PI / 24;
+/** What is left of a glide falls to 1 / e in so many ms. */
+const glideTime = 100;
 /** The camera's place is told at most so often, in ms. */
 const tellTime = 200;
 
@@ -18,11 +20,19 @@ export class Camera {
   /** What was framed last, to be framed again in a window of another shape until the person moves the camera. */
   private framed: { center: Vector3; radius: number } | null = null;
   private timer: ReturnType<typeof setTimeout> | undefined;
+  /** In ms: when the camera was moved last, and until when it glides. */
+  private movedAt = 0;
+  private glidesUntil = 0;
 
-  constructor(canvas: HTMLCanvasElement, reducedMotion: MediaQueryList) {
+  constructor(
+    canvas: HTMLCanvasElement,
+    reducedMotion: MediaQueryList,
+    private readonly now = () => performance.now(),
+  ) {
     this.camera.position.copy(firstDirection).multiplyScalar(5);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.dampingFactor = 0.15;
+    // Frames alone move the camera, by the time that has passed: else a glide would be as fast as frames and events are many.
+    this.controls.update = () => this.wake();
     this.controls.minDistance = 0.02;
     this.controls.maxDistance = 60;
     const damp = () => (this.controls.enableDamping = !reducedMotion.matches);
@@ -31,6 +41,29 @@ export class Camera {
     this.controls.addEventListener('start', () => (this.isPersons = true));
     this.controls.addEventListener('change', () => this.changed());
     canvas.addEventListener('keydown', (event) => this.key(event));
+  }
+
+  /** There is something to be done in the next frame. */
+  private wake(): boolean {
+    const now = this.now();
+    if (now > this.glidesUntil) this.movedAt = now;
+    if (this.controls.enableDamping) this.glidesUntil = now + 8 * glideTime;
+    this.onChange();
+    return false;
+  }
+
+  /** Before each frame. */
+  update(): void {
+    const now = this.now();
+    this.move(1 - Math.exp((this.movedAt - now) / glideTime));
+    this.movedAt = now;
+    if (now < this.glidesUntil) this.onChange();
+  }
+
+  /** Makes a share of the movement that is still to come. */
+  private move(share: number): void {
+    this.controls.dampingFactor = share;
+    OrbitControls.prototype.update.call(this.controls);
   }
 
   private changed(): void {
@@ -63,7 +96,6 @@ export class Camera {
       if (x) this.controls.rotateLeft(x * turn);
       if (y) this.controls.rotateUp(y * turn);
     }
-    this.controls.update();
   }
 
   /** Looks at all of a ball. */
@@ -80,9 +112,10 @@ export class Camera {
     this.framed = null;
     clearTimeout(this.timer);
     this.timer = undefined;
+    this.move(1); // The rest of a glide ends where it was.
     this.camera.position.copy(position);
     this.controls.target.copy(target);
-    this.controls.update();
+    this.move(1);
     this.changed();
   }
 

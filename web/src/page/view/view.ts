@@ -347,7 +347,7 @@ class ThreeView implements View {
 
   private render(): void {
     this.isLookNew = false;
-    this.camera.controls.update();
+    this.camera.update();
     this.renderer.render(this.scene, this.camera.camera);
     this.pace.mark();
     this.canvas.dataset.frames = String(++this.framesDrawn);
