@@ -162,9 +162,9 @@ Grid unitCells(int64_t n) { return Grid::regular({0, 0, 0}, {1, 1, 1}, {n, n, n}
 /// A VTU file taken apart again.
 class Vtu {
  public:
-  Vtu(const Mesh& mesh, const CutMesh& cutMesh) {
+  Vtu(const Mesh& mesh, const CutMesh& cutMesh, const mandoline::WriteOptions& options = {}) {
     std::ostringstream out;
-    mandoline::writeVtu(out, mesh, cutMesh);
+    mandoline::writeVtu(out, mesh, cutMesh, options);
     text_ = out.str();
     data_ = text_.find("<AppendedData encoding=\"raw\">\n_");
     REQUIRE(data_ != std::string::npos);
@@ -596,6 +596,51 @@ TEST_CASE("VTU cells match face by face", "[io]") {
     requireConforming(tips, unitCells(3), 6);
   }
   SECTION("nothing but untouched cells") { requireConforming(shapes::cube(7, 8), unitCells(4), 0); }
+}
+
+TEST_CASE("VTU of some cells has those, their points and nothing else", "[io]") {
+  // A bubble around a grid vertex, a tip on a grid-edge of untouched cells, and a sheet.
+  const Mesh mesh = shapes::merged({shapes::icosphere({2, 2, 2}, 1.4, 1), shapes::cube(1.75, 2.25),
+                                    shapes::tetrahedron({4.5, 4, 4}, {4.75, 4.25, 4.25}, {4.25, 4.25, 4.25}, {4.5, 4.25, 4.5})});
+  const CutMesh cutMesh = cutOrFail(mesh, unitCells(6));
+  const Vtu whole(mesh, cutMesh);
+  const auto wholeRegions = whole.array<int32_t>("region");
+  const auto wholeCells = cellFaces(whole);
+  const auto wholePositions = whole.array<double>("Points");
+  for (const bool untouchedCells : {false, true}) {
+    for (uint32_t kept = 0; kept <= cutMesh.regionCount; ++kept) {
+      mandoline::WriteOptions options;
+      options.untouchedCells = untouchedCells;
+      if (kept < cutMesh.regionCount) {
+        options.regions.assign(cutMesh.regionCount, 0);
+        options.regions[kept] = 1;
+      }
+      CAPTURE(untouchedCells, kept);
+      const Vtu some(mesh, cutMesh, options);
+      const auto cells = cellFaces(some);
+      const auto positions = some.array<double>("Points");
+      std::vector<uint8_t> used(positions.size() / 3, 0);
+      size_t next = 0;
+      for (size_t c = 0; c < wholeCells.size(); ++c) {
+        if (c >= cutMesh.cellCount() && !untouchedCells) break;
+        if (kept < cutMesh.regionCount && wholeRegions[c] != int32_t(kept)) continue;
+        REQUIRE(next < cells.size());
+        REQUIRE(cells[next].size() == wholeCells[c].size());
+        for (size_t f = 0; f < wholeCells[c].size(); ++f) {
+          const Polygon &a = wholeCells[c][f], &b = cells[next][f];
+          REQUIRE(a.size() == b.size());
+          for (size_t i = 0; i < a.size(); ++i) {
+            REQUIRE(std::equal(&wholePositions[size_t(3 * a[i])], &wholePositions[size_t(3 * a[i])] + 3, &positions[size_t(3 * b[i])]));
+            used[size_t(b[i])] = 1;
+          }
+        }
+        ++next;
+      }
+      REQUIRE(next == cells.size());
+      REQUIRE(some.array<double>("volume").size() == cells.size());
+      REQUIRE(std::count(used.begin(), used.end(), 0) == 0);
+    }
+  }
 }
 
 TEST_CASE("OBJ of the cut surface reads back as the same surface", "[io]") {

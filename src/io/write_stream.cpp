@@ -12,7 +12,9 @@ Sink into(std::ostream& out) {
 }  // namespace
 
 void writeJson(std::ostream& out, const CutMesh& cutMesh) { writeJson(into(out), cutMesh); }
-void writeVtu(std::ostream& out, const MeshView& mesh, const CutMesh& cutMesh) { writeVtu(into(out), mesh, cutMesh); }
+void writeVtu(std::ostream& out, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options) {
+  writeVtu(into(out), mesh, cutMesh, options);
+}
 void writeObj(std::ostream& out, const CutMesh& cutMesh) { writeObj(into(out), cutMesh); }
 
 }  // namespace mandoline

@@ -1,0 +1,33 @@
+// What of a cut-mesh is written.
+#pragma once
+
+#include "mandoline/io.h"
+
+namespace mandoline::detail {
+
+class Selection {
+ public:
+  Selection(const CutMesh& cutMesh, const WriteOptions& options) : cutMesh_(cutMesh), options_(options) {}
+
+  bool all() const { return options_.regions.empty() && options_.untouchedCells; }
+  bool allRegions() const { return options_.regions.empty(); }
+  bool has(uint32_t region) const { return allRegions() || options_.regions[region] != 0; }
+  bool hasCutCell(size_t cell) const { return has(cutMesh_.cellRegion[cell]); }
+
+  /// Calls visit(begin, end, region) for the runs of untouched cells to be written in a row of grid cells.
+  template <class Visit>
+  void forEachRun(size_t row, const Visit& visit) const {
+    if (!options_.untouchedCells || row + 1 >= cutMesh_.rowRunOffsets.size()) return;
+    for (uint32_t run = cutMesh_.rowRunOffsets[row]; run < cutMesh_.rowRunOffsets[row + 1]; ++run) {
+      if (has(cutMesh_.runRegion[run])) visit(cutMesh_.runBegin[run], cutMesh_.runEnd[run], cutMesh_.runRegion[run]);
+    }
+  }
+
+  const CutMesh& cutMesh() const { return cutMesh_; }
+
+ private:
+  const CutMesh& cutMesh_;
+  const WriteOptions& options_;
+};
+
+}  // namespace mandoline::detail
