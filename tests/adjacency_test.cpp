@@ -33,7 +33,7 @@ void requireConsistent(const CutMesh& mesh) {
     const int64_t gridCell = adjacent.faceGridCells[h];
     if (cell >= 0) {
       ++owned;
-      const auto halfFaces = mesh.cell(size_t(cell));
+      const auto halfFaces = mesh.halfFaces(size_t(cell));
       wrong += std::count(halfFaces.begin(), halfFaces.end(), h) != 1 || gridCell != -1;
       if (opposite >= 0 && cell != opposite) expected[cell].push_back(uint32_t(opposite));
     } else if (gridCell >= 0) {

@@ -25,7 +25,7 @@ Mesh horizontalQuad(double lo, double hi, double z) { return quad({lo, lo, z}, {
 bool holdsBothSides(const CutMesh& mesh, int32_t t) {
   for (size_t c = 0; c < mesh.cellCount(); ++c) {
     int sides[2] = {0, 0};
-    for (uint32_t h : mesh.cell(c))
+    for (uint32_t h : mesh.halfFaces(c))
       if (mesh.faceTriangle[h / 2] == t) ++sides[h % 2];
     if (sides[0] > 0 && sides[1] > 0) return true;
   }
@@ -663,7 +663,7 @@ TEST_CASE("mesh wholly outside of the grid", "[cases]") {
   for (const Mesh& mesh : {cube(5, 6), cube(-3, -1), icosphere({10, 2, 2}, 1, 2), horizontalQuad(0, 4, 7)})
     atBothOrientations(mesh, unitGrid(4), [](const CheckedCut& cut, int) {
       CHECK(cut.mesh.cellCount() == 0);
-      CHECK(cut.mesh.untouchedCellCount() == 64);
+      CHECK(UntouchedCells(cut.mesh).count() == 64);
       CHECK(cut.mesh.regionCount == 1);
       CHECK(cut.mesh.droppedTriangles.size() == cut.mesh.triangleCount);
     });
@@ -676,7 +676,7 @@ TEST_CASE("mesh wholly outside of the grid", "[cases]") {
   }
   SECTION("all around it") {
     atBothOrientations(cube(-1, 5), unitGrid(4), [](const CheckedCut& cut, int orientation) {
-      CHECK(cut.mesh.untouchedCellCount() == 64);
+      CHECK(UntouchedCells(cut.mesh).count() == 64);
       CHECK(cut.windingVolume(orientation) == 64);
     });
   }
@@ -747,7 +747,8 @@ TEST_CASE("grids have the planes they promise", "[cases]") {
   CHECK(tenths.planes[2].front() == 0);
   CHECK(tenths.planes[2].back() == 1);
   CHECK(tenths.uniform);
-  const Grid around = Grid::around(box({0, 0, 0}, {4, 2, 1}), 11);  // cells of size 0.4; the other sides are 2.2 and 1.1 with the margin
+  const Mesh slab = box({0, 0, 0}, {4, 2, 1});
+  const Grid around = Grid::around(slab, 11);  // cells of size 0.4; the other sides are 2.2 and 1.1 with the margin
   CHECK(around.cells(0) == 11);
   CHECK(around.cells(1) >= 6);
   CHECK(around.cells(1) <= 7);
@@ -853,7 +854,7 @@ TEST_CASE("zero-area triangles are dropped and reported", "[cases]") {
   SECTION("nothing else") {
     const Mesh mesh = triangle({1, 1, 1}, {1.5, 1.5, 1.5}, {2, 2, 2});
     atBothOrientations(mesh, unitGrid(3), [](const CheckedCut& cut, int) {
-      CHECK(cut.mesh.untouchedCellCount() == 27);
+      CHECK(UntouchedCells(cut.mesh).count() == 27);
       CHECK(cut.mesh.droppedTriangles == std::vector<uint32_t>{0});
     });
   }
@@ -1006,7 +1007,7 @@ TEST_CASE("an input that intersects itself never gives a result that is wrong", 
       const CutResult result = cut(mesh, grid);
       if (result) {
         // Triangles that cross within a cell need not be found, but what comes out must hold together.
-        CHECK(result.mesh.cellCount() + result.mesh.untouchedCellCount() >= size_t(n * n * n));
+        CHECK(result.mesh.cellCount() + UntouchedCells(result.mesh).count() >= size_t(n * n * n));
         continue;
       }
       INFO(result.error.message);

@@ -13,7 +13,7 @@ struct CheckedCut {
   mandoline::CutStats stats;
   mandoline::Measures measures;
 
-  size_t cells() const { return mesh.cellCount() + mesh.untouchedCellCount(); }
+  size_t cells() const { return mesh.cellCount() + mandoline::UntouchedCells(mesh).count(); }
   double volume() const;                                     ///< of all regions
   std::vector<double> regionVolumes() const;                 ///< ascending
   double windingVolume(int winding) const;                   ///< of the regions with this winding number

@@ -34,7 +34,8 @@ Input inputOf(const std::vector<Corners>& triangles, const Grid& grid = kGrid) {
   CutStats stats;
   const CutOptions options;
   Monitor monitor(options, 1);
-  return prepareInput(unwelded(triangles), grid, 0, stats, monitor);
+  const Mesh mesh = unwelded(triangles);
+  return prepareInput(mesh, grid, 0, stats, monitor);
 }
 
 /// Whether the first two triangles meet. The answer has to be the same in any order of triangles, corners and axes, and anywhere.

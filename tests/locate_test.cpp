@@ -207,7 +207,8 @@ TEST_CASE("a point's cell depends on neither the other points nor the scale", "[
   for (size_t i = 0; i < 300; ++i) REQUIRE(locate(cut.mesh, std::span(points).subspan(3 * i, 3)).cell[0] == together.cell[i]);
   for (const double scale : {0x1p-900, 0x1p900}) {
     const Grid grid = Grid::box({0, 0, 0}, {4 * scale, 4 * scale, 4 * scale}, {4, 4, 4});
-    const CutResult scaled = mandoline::cut(shapes::scaled(knottedShapes(), {scale, scale, scale}), grid);
+    const Mesh mesh = shapes::scaled(knottedShapes(), {scale, scale, scale});
+    const CutResult scaled = mandoline::cut(mesh, grid);
     REQUIRE(scaled);
     std::vector<double> scaledPoints = points;
     for (double& x : scaledPoints) x *= scale;

@@ -83,7 +83,7 @@ void requireClosed(const Measured& m) {
   double worst = 0;
   for (size_t c = 0; c < m.mesh.cellCount(); ++c) {
     double sum[3] = {0, 0, 0}, whole = 0;
-    for (const uint32_t h : m.mesh.cell(c)) {
+    for (const uint32_t h : m.mesh.halfFaces(c)) {
       const double area = m.measures.faceArea[h / 2];
       for (int d = 0; d < 3; ++d) sum[d] += (h % 2 == 0 ? area : -area) * m.measures.faceNormal[3 * (h / 2) + d];
       whole += area;
@@ -107,7 +107,7 @@ TEST_CASE("measure: a corner tetrahedron of a tenth of a billionth of a cell", "
   REQUIRE(cells.size() == 2);
   CHECK(relativeError(m.measures.cellVolume[cells[0]], s * s * s / 630) < 1e-14);
   CHECK(m.measures.cellVolume[cells[1]] == 1);
-  const auto halfFaces = m.mesh.cell(cells[0]);
+  const auto halfFaces = m.mesh.halfFaces(cells[0]);
   REQUIRE(halfFaces.size() == 4);
   const double exactArea[3] = {s * s / 70, s * s / 42, s * s / 30};
   for (const uint32_t h : halfFaces) {

@@ -36,7 +36,7 @@ std::vector<Words> signature(const CutMesh& mesh, const Relabelling& relabelling
   std::vector<Words> cells;
   for (size_t c = 0; c < mesh.cellCount(); ++c) {
     std::vector<Words> faces;
-    for (uint32_t halfFace : mesh.cell(c)) {
+    for (uint32_t halfFace : mesh.halfFaces(c)) {
       const uint32_t f = halfFace / 2;
       int64_t side = halfFace % 2, axis = -1, plane = 0;
       if (mesh.faceAxis[f] >= 0) {

@@ -467,8 +467,8 @@ TEST_CASE("neither the normal's length nor the scale matters", "[slice]") {
     CHECK(again.triangles == once.triangles);
   }
   for (const double scale : {0x1p-900, 0x1p900}) {
-    const CutResult scaled = mandoline::cut(shapes::scaled(closedShapes(), {scale, scale, scale}),
-                                            Grid::box({0, 0, 0}, {4 * scale, 4 * scale, 4 * scale}, {4, 4, 4}));
+    const Mesh mesh = shapes::scaled(closedShapes(), {scale, scale, scale});
+    const CutResult scaled = mandoline::cut(mesh, Grid::box({0, 0, 0}, {4 * scale, 4 * scale, 4 * scale}, {4, 4, 4}));
     REQUIRE(scaled);
     Slice again = slice(scaled.mesh, {plane.normal, scale}).slice;
     for (double& x : again.positions) x /= scale;

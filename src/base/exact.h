@@ -2,38 +2,18 @@
 //
 // Bounded carries a double and a proven bound on its error. Expansion is exact: a sum of doubles that do not overlap (Shewchuk 1997,
 // "Adaptive precision floating-point arithmetic and fast robust geometric predicates"). Input must be scaled so that no product
-// overflows or underflows (see cut/stages/input.h). Needs plain IEEE arithmetic: compile with -ffp-contract=off.
+// overflows or underflows. Needs plain IEEE arithmetic: compile with -ffp-contract=off.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "base/error_free.h"
+
 namespace mandoline::detail {
 
 inline constexpr double kRoundoff = 0x1p-53;
-
-struct TwoTerms {
-  double high, low;  // high + low is exact, high = round(high + low)
-};
-
-inline TwoTerms twoSum(double a, double b) {
-  const double high = a + b, bv = high - a, av = high - bv;
-  return {high, (a - av) + (b - bv)};
-}
-
-inline TwoTerms twoDiff(double a, double b) {
-  const double high = a - b, bv = a - high, av = high + bv;
-  return {high, (a - av) + (bv - b)};
-}
-
-inline TwoTerms twoProduct(double a, double b) {
-  constexpr double splitter = 0x1p27 + 1;
-  const double ca = splitter * a, ah = ca - (ca - a), al = a - ah;
-  const double cb = splitter * b, bh = cb - (cb - b), bl = b - bh;
-  const double high = a * b;
-  return {high, al * bl - (((high - ah * bh) - al * bh) - ah * bl)};
-}
 
 inline int signOf(double x) { return (x > 0) - (x < 0); }
 

@@ -5,48 +5,60 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <system_error>
 #include <thread>
 #include <vector>
 
-#include "mandoline/mandoline.h"
-
 namespace mandoline::detail {
 
-/// What ends a cut early; caught by cut() alone.
-struct Failure {
-  Error error;
+/// Thrown where the progress callback returned false.
+struct Cancelled {};
+/// Thrown where the progress callback threw; kept apart from what the library itself throws, so that it can pass through unchanged.
+struct ProgressFailed {
+  std::exception_ptr exception;
 };
 
-/// Progress, cancelling and the number of threads: what every stage gets to see of the caller's options.
+/// Progress, cancelling and the number of threads: what a stage gets to see of the caller's options.
 class Monitor {
  public:
-  Monitor(const CutOptions& options, int stageCount)
-      : callback_(options.progress),
-        stageCount_(stageCount),
-        threads_(options.threads ? options.threads : std::thread::hardware_concurrency()) {
-    threads_ = std::clamp(threads_, 1u, 256u);
+  /// `options` are RunOptions, which must outlive the monitor.
+  template <class RunOptions>
+  Monitor(const RunOptions& options, int stageCount)
+      : stageCount_(stageCount), threads_(std::clamp(options.threads ? options.threads : std::thread::hardware_concurrency(), 1u, 256u)) {
+    if (!options.progress) return;
+    callback_ = [&options, this](size_t done, size_t total) { return options.progress({stage_, index_, stageCount_, done, total}); };
   }
+  Monitor(const Monitor&) = delete;
 
   void beginStage(const char* name, int index) {
     stage_ = name;
     index_ = index;
     report(0, 1);
   }
-  /// Tells the callback (calls from several threads take turns); throws Failure if it cancels.
+  /// Tells the callback (calls from several threads take turns); throws Cancelled or ProgressFailed if it wants no more.
   void report(size_t done, size_t total) {
     if (!callback_) return;
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (cancelled_ || !callback_({stage_, index_, stageCount_, done, total})) {
+    if (cancelled_ || !goOn(done, total)) {
       cancelled_ = true;
-      throw Failure{{Status::cancelled, -1, -1, "The cut was cancelled."}};
+      throw Cancelled();
     }
   }
   unsigned threads() const { return threads_; }
 
  private:
-  const std::function<bool(const Progress&)>& callback_;
+  bool goOn(size_t done, size_t total) {
+    try {
+      return callback_(done, total);
+    } catch (...) {
+      cancelled_ = true;
+      throw ProgressFailed{std::current_exception()};
+    }
+  }
+
+  std::function<bool(size_t, size_t)> callback_;
   std::mutex mutex_;
   const char* stage_ = "";
   int index_ = 0, stageCount_;
@@ -55,7 +67,8 @@ class Monitor {
 };
 
 /// Runs f(state, begin, end) over 0..n in order of items, each State over one contiguous range, and returns the states in that order:
-/// concatenating them gives the same result for any number of threads. The first failure in item order is thrown.
+/// concatenating them gives the same result for any number of threads. Of several failures the first in item order is thrown, but
+/// ProgressFailed before any other.
 template <class State, class F>
 std::vector<State> forChunks(size_t n, Monitor& monitor, const F& f) {
   constexpr size_t kBlock = 2048;  // items between two reports
@@ -63,6 +76,7 @@ std::vector<State> forChunks(size_t n, Monitor& monitor, const F& f) {
   const size_t chunks = threads == 1 ? 1 : 8 * threads;
   std::vector<State> states(chunks);
   std::vector<std::exception_ptr> failures(chunks);
+  std::exception_ptr progressFailure;
   std::atomic<size_t> nextChunk{0}, done{0};
   std::atomic<bool> failed{false};
   const auto work = [&] {
@@ -74,6 +88,9 @@ std::vector<State> forChunks(size_t n, Monitor& monitor, const F& f) {
           monitor.report(done += stop - begin, n);
           begin = stop;
         }
+      } catch (const ProgressFailed&) {  // the callback is not called again, so there is one at most
+        progressFailure = std::current_exception();
+        failed = true;
       } catch (...) {
         failures[c] = std::current_exception();
         failed = true;
@@ -87,6 +104,7 @@ std::vector<State> forChunks(size_t n, Monitor& monitor, const F& f) {
   }
   work();
   for (std::thread& thread : pool) thread.join();
+  if (progressFailure) std::rethrow_exception(progressFailure);
   for (const std::exception_ptr& failure : failures) {
     if (failure) std::rethrow_exception(failure);
   }

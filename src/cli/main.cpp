@@ -121,7 +121,8 @@ int runCut(const Arguments& arguments) {
 }
 
 int runInfo(const Arguments& arguments) {
-  const MeshInfo info = inspect(readMesh(arguments.mesh));
+  const Mesh mesh = readMesh(arguments.mesh);
+  const MeshInfo info = inspect(mesh);
   deliver(arguments, arguments.report.empty() ? infoText(arguments.mesh, info) : infoJson(arguments.mesh, info));
   return kFine;
 }

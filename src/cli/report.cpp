@@ -17,8 +17,8 @@ struct Count {
 
 std::vector<Count> cutMeshCounts(const CutMesh& m) {
   return {{"cutCells", "cut-cells", m.cellCount()},
-          {"untouchedCells", "untouched grid cells", m.untouchedCellCount()},
-          {"cells", "cells in total", m.cellCount() + m.untouchedCellCount()},
+          {"untouchedCells", "untouched grid cells", UntouchedCells(m).count()},
+          {"cells", "cells in total", m.cellCount() + UntouchedCells(m).count()},
           {"regions", "regions", m.regionCount},
           {"vertices", "cut-vertices", m.vertexCount()},
           {"faces", "cut-faces", m.faceCount()},

@@ -90,6 +90,10 @@ CutResult cut(const MeshView& mesh, const Grid& grid, const CutOptions& options)
     result.mesh = cutMesh(mesh, grid, options, result.stats);
   } catch (const Failure& failure) {
     result.error = failure.error;
+  } catch (const Cancelled&) {
+    result.error = {Status::cancelled, -1, -1, "The cut was cancelled."};
+  } catch (const ProgressFailed& failure) {
+    std::rethrow_exception(failure.exception);
   } catch (const std::bad_alloc&) {
     result.error = {Status::outOfMemory, -1, -1, "There is not enough memory for this cut."};
   } catch (const std::length_error&) {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <new>
 
 #include "base/exact.h"
 #include "mandoline/mandoline.h"
@@ -95,57 +94,6 @@ Grid Grid::around(const MeshView& mesh, int64_t n) {
     if (!grid.planes[d].empty()) grid.origin[d] = grid.planes[d][0];
   }
   return grid;
-}
-
-size_t CutMesh::untouchedCellCount() const {
-  size_t count = 0;
-  for (size_t r = 0; r < runBegin.size(); ++r) count += size_t(runEnd[r] - runBegin[r]);
-  return count;
-}
-
-std::vector<int32_t> CutMesh::gridCellRegion() const {
-  const double count = double(grid.cells(0)) * double(grid.cells(1)) * double(grid.cells(2));
-  if (count > double(PTRDIFF_MAX)) throw std::bad_alloc();
-  std::vector<int32_t> dense(size_t(count), -1);
-  for (size_t row = 0; row + 1 < rowRunOffsets.size(); ++row) {
-    for (uint32_t r = rowRunOffsets[row]; r < rowRunOffsets[row + 1]; ++r) {
-      const auto first = dense.begin() + std::ptrdiff_t(row * size_t(grid.cells(0)));
-      std::fill(first + runBegin[r], first + runEnd[r], int32_t(runRegion[r]));
-    }
-  }
-  return dense;
-}
-
-const char* name(Status status) {
-  switch (status) {
-    case Status::ok:
-      return "ok";
-    case Status::cancelled:
-      return "cancelled";
-    case Status::emptyMesh:
-      return "emptyMesh";
-    case Status::badArrays:
-      return "badArrays";
-    case Status::badIndex:
-      return "badIndex";
-    case Status::nonFiniteCoordinate:
-      return "nonFiniteCoordinate";
-    case Status::badGrid:
-      return "badGrid";
-    case Status::gridTooLarge:
-      return "gridTooLarge";
-    case Status::badOption:
-      return "badOption";
-    case Status::selfIntersection:
-      return "selfIntersection";
-    case Status::meshTooLarge:
-      return "meshTooLarge";
-    case Status::outOfMemory:
-      return "outOfMemory";
-    case Status::internalError:
-      return "internalError";
-  }
-  return "unknown";
 }
 
 }  // namespace mandoline

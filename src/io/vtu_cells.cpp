@@ -22,7 +22,7 @@ const Polyhedron& VtuCells::polyhedron(const VtuCell& cell) {
   if (cell.cutCell < 0) {
     addGridFaces(cell.gridCell);
   } else {
-    for (const uint32_t h : cutMesh_.cell(size_t(cell.cutCell))) {
+    for (const uint32_t h : cutMesh_.halfFaces(size_t(cell.cutCell))) {
       polygons_.forEach(h / 2, [&](std::span<const uint32_t> polygon) { polyhedron_.addFace(polygon, h % 2 != 0); });
     }
   }

@@ -10,7 +10,7 @@ namespace {
 std::vector<uint32_t> listingRegions(const CutMesh& cutMesh) {
   std::vector<uint32_t> behind(cutMesh.faceCount(), cutMesh.regionCount), inFront = behind;
   for (size_t c = 0; c < cutMesh.cellCount(); ++c) {
-    for (const uint32_t h : cutMesh.cell(c)) (h % 2 == 0 ? behind : inFront)[h / 2] = cutMesh.cellRegion[c];
+    for (const uint32_t h : cutMesh.halfFaces(c)) (h % 2 == 0 ? behind : inFront)[h / 2] = cutMesh.cellRegion[c];
   }
   for (size_t f = 0; f < cutMesh.faceCount(); ++f) {
     if (behind[f] == cutMesh.regionCount) behind[f] = inFront[f];

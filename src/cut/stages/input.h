@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "cut/failure.h"
 #include "grid/slab.h"
+#include "mandoline/mandoline.h"
 
 namespace mandoline::detail {
 

@@ -115,7 +115,7 @@ class Walls {
     halfFaces_.clear();
     walls_.clear();
     for (size_t c = firstCell; c < lastCell; ++c) {
-      for (const uint32_t h : cutMesh_.cell(c)) halfFaces_.push_back({h, uint32_t(c - firstCell)});
+      for (const uint32_t h : cutMesh_.halfFaces(c)) halfFaces_.push_back({h, uint32_t(c - firstCell)});
     }
     std::sort(halfFaces_.begin(), halfFaces_.end(), [](const HalfFace& a, const HalfFace& b) { return a.halfFace < b.halfFace; });
     for (size_t i = 0; i < halfFaces_.size(); ++i) {

@@ -20,7 +20,7 @@ void findOwners(const CutMesh& cutMesh, Adjacency& result) {
   result.faceCells.assign(2 * cutMesh.faceCount(), -1);
   result.faceGridCells.assign(2 * cutMesh.faceCount(), -1);
   for (size_t c = 0; c < cutMesh.cellCount(); ++c) {
-    for (const uint32_t h : cutMesh.cell(c)) result.faceCells[h] = int32_t(c);
+    for (const uint32_t h : cutMesh.halfFaces(c)) result.faceCells[h] = int32_t(c);
   }
   for (size_t h = 0; h < result.faceCells.size(); ++h) {
     const int32_t opposite = result.faceCells[h ^ 1];
@@ -40,7 +40,7 @@ Adjacency adjacency(const CutMesh& cutMesh) {
   result.cellCells.reserve(cutMesh.cellHalfFaces.size());
   for (size_t c = 0; c < cutMesh.cellCount(); ++c) {
     const auto first = std::ptrdiff_t(result.cellCells.size());
-    for (const uint32_t h : cutMesh.cell(c)) {
+    for (const uint32_t h : cutMesh.halfFaces(c)) {
       const int32_t neighbour = result.faceCells[h ^ 1];
       if (neighbour >= 0 && size_t(neighbour) != c) result.cellCells.push_back(uint32_t(neighbour));
     }

@@ -14,8 +14,8 @@
 namespace mandoline {
 namespace {
 
-using operators::DoubleDouble;
-using operators::twoSum;
+using detail::DoubleDouble;
+using detail::twoSum;
 
 /// Sums whose terms are together this much larger than the sum are done again in double-doubles.
 constexpr double kCancellation = 32;
@@ -301,12 +301,12 @@ class Measuring {
   template <class Number>
   Pyramids<Number> pyramidsOf(size_t cell, uint32_t apex) const {
     Pyramids<Number> pyramids;
-    for (const uint32_t h : cutMesh_.cell(cell)) addPyramid(h / 2, h % 2 == 0 ? 1 : -1, apex, pyramids);
+    for (const uint32_t h : cutMesh_.halfFaces(cell)) addPyramid(h / 2, h % 2 == 0 ? 1 : -1, apex, pyramids);
     return pyramids;
   }
 
   void measureCell(size_t cell, Measures& measures) const {
-    const uint32_t apex = shapes_[cutMesh_.cell(cell)[0] / 2].first;
+    const uint32_t apex = shapes_[cutMesh_.halfFaces(cell)[0] / 2].first;
     const Pyramids<double> fast = pyramidsOf<double>(cell, apex);
     if (!fast.cancels()) {
       setVolume(cell, apex, fast, measures);

@@ -2,6 +2,9 @@
 
 namespace mandoline::operators {
 
+using detail::DoubleDouble;
+using detail::twoProduct;
+
 std::optional<CuttingPlane> CuttingPlane::make(const Plane& plane, const Grid& grid, const ScaledSpace& space) {
   for (const auto& planes : grid.planes) {
     if (planes.empty()) return std::nullopt;

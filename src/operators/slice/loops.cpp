@@ -26,7 +26,7 @@ const detail::Csr<uint32_t>& SliceLoops::run(size_t cell) {
 void SliceLoops::gather(size_t cell) {
   arcs_.clear();
   rays_.clear();
-  for (const uint32_t h : cutMesh_.cell(cell)) {
+  for (const uint32_t h : cutMesh_.halfFaces(cell)) {
     for (uint32_t s = segments_.faceOffsets[h / 2]; s < segments_.faceOffsets[h / 2 + 1]; ++s) {
       const SliceSegment& segment = segments_.segments[s];
       if (segment[0] == segment[1]) continue;

@@ -17,6 +17,9 @@
 namespace mandoline::operators {
 namespace {
 
+using detail::DoubleDouble;
+using detail::twoProduct;
+using detail::twoSum;
 using Point = PlanePoint;
 
 double squaredDistance(const Point& a, const Point& b) { return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y); }

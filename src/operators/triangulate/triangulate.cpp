@@ -98,7 +98,7 @@ FaceTriangles triangulateFaces(const CutMesh& cutMesh) {
 
 std::vector<uint32_t> triangulateCell(const CutMesh& cutMesh, const FaceTriangles& faces, size_t cell) {
   std::vector<uint32_t> triangles;
-  for (const uint32_t h : cutMesh.cell(cell)) addHalfFace(faces, h, triangles);
+  for (const uint32_t h : cutMesh.halfFaces(cell)) addHalfFace(faces, h, triangles);
   return triangles;
 }
 
@@ -106,7 +106,7 @@ std::vector<uint32_t> triangulateRegion(const CutMesh& cutMesh, const FaceTriang
   std::vector<uint32_t> triangles;
   for (size_t c = 0; c < cutMesh.cellCount(); ++c) {
     if (cutMesh.cellRegion[c] != region) continue;
-    for (const uint32_t h : cutMesh.cell(c)) {
+    for (const uint32_t h : cutMesh.halfFaces(c)) {
       if (cutMesh.faceTriangle[h / 2] >= 0) addHalfFace(faces, h, triangles);
     }
   }

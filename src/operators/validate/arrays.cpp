@@ -147,7 +147,7 @@ class ArrayCheck {
     if (!expectRange(cut_.cellHalfFaces, 0, 2 * int64_t(cut_.faceCount()) - 1, "entry of cellHalfFaces", 1, "does not exist")) return false;
     if (!expectRange(cut_.cellRegion, 0, int64_t(cut_.regionCount) - 1, "cell", 1, "names a region that does not exist")) return false;
     for (size_t c = 0; c < cells; ++c) {
-      if (!expect(!cut_.cell(c).empty(), "cell", int64_t(c), "has no faces")) return false;
+      if (!expect(!cut_.halfFaces(c).empty(), "cell", int64_t(c), "has no faces")) return false;
     }
     for (size_t i = 0; i < 3 * cells; ++i) {
       const int32_t c = cut_.cellGridCell[i];

@@ -115,7 +115,7 @@ void Context::setRounding() {
 void Context::setOwners() {
   owner.assign(2 * cut.faceCount(), -1);
   for (size_t c = 0; c < cut.cellCount(); ++c) {
-    for (const uint32_t h : cut.cell(c)) {
+    for (const uint32_t h : cut.halfFaces(c)) {
       if (owner[h] < 0) owner[h] = int32_t(c);
     }
   }

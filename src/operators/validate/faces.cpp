@@ -147,7 +147,7 @@ class FaceCheck {
   bool liesInGridCell(size_t c) const {
     const int32_t* gridCell = x_.gridCellOf(c);
     bool inside = true;
-    for (const uint32_t h : x_.cut.cell(c)) {
+    for (const uint32_t h : x_.cut.halfFaces(c)) {
       x_.forLoops(h / 2, [&](std::span<const uint32_t> loop) {
         for (const uint32_t v : loop) {
           for (int d = 0; d < 3; ++d) inside &= x_.inSlab(v, d, gridCell[d]);

@@ -16,7 +16,7 @@ void GridCell::gather(size_t group) {
     noise[d] = std::max(context.rounding[d] / size[d], kRounding);
   }
   for (const uint32_t c : cells) {
-    for (const uint32_t h : context.cut.cell(c)) {
+    for (const uint32_t h : context.cut.halfFaces(c)) {
       Face& face = local_[h / 2] >= 0 ? faces[local_[h / 2]] : addFace(h / 2);
       if (face.owner[h % 2] < 0) face.owner[h % 2] = int32_t(c);
     }

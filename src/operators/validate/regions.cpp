@@ -51,7 +51,7 @@ class RegionCheck {
     const auto onSurface = [&](uint32_t v) { return x_.cut.vertexParents[2 * size_t(v)] >= 0; };
     bool found = false;
     for (uint32_t i = x_.groupOffsets[group]; i < x_.groupOffsets[group + 1] && !found; ++i) {
-      for (const uint32_t h : x_.cut.cell(x_.cellOrder[i])) {
+      for (const uint32_t h : x_.cut.halfFaces(x_.cellOrder[i])) {
         x_.forLoops(h / 2, [&](std::span<const uint32_t> loop) { found |= std::any_of(loop.begin(), loop.end(), onSurface); });
       }
     }

@@ -1,0 +1,42 @@
+// Cutting a triangle mesh with a grid.
+#pragma once
+
+#include "mandoline/cut_mesh.h"
+#include "mandoline/status.h"
+
+namespace mandoline {
+
+struct CutOptions : RunOptions {
+  /// Tri-vertices within this distance of an axial plane (in cells, below 0.5) are moved onto it before cutting.
+  double snapTolerance = 0;
+};
+
+struct StageTime {
+  const char* stage;
+  double ms;
+};
+
+struct CutStats {
+  std::vector<StageTime> stages;  ///< in order
+  double totalMs = 0;
+  uint64_t exactFallbacks = 0;  ///< signs that needed exact arithmetic
+  uint32_t weldedVertices = 0;  ///< tri-vertices that share their position with a lower one
+  uint32_t zeroAreaTriangles = 0, duplicateTriangles = 0, outsideTriangles = 0;  ///< dropped
+  uint32_t snappedVertices = 0;                                                  ///< moved onto a plane by snapTolerance
+  double largestSnap = 0;                                                        ///< farthest such move, in cells
+  uint32_t flushedCoordinates = 0;                                               ///< below 2^-200 of the largest, taken as 0
+};
+
+struct CutResult {
+  Error error;
+  CutMesh mesh;  ///< empty unless ok
+  CutStats stats;
+
+  explicit operator bool() const { return error.status == Status::ok; }
+};
+
+/// Cuts the mesh with the grid (Algorithm 1 of the paper). Failures come back as a status with the offending elements; it throws nothing
+/// but what options.progress throws.
+CutResult cut(const MeshView& mesh, const Grid& grid, const CutOptions& options = {});
+
+}  // namespace mandoline

@@ -1,0 +1,204 @@
+// The cut-mesh: its arrays, the one description of them, and views.
+//
+// All arrays are flat, all ids count from 0, and every offsets array starts with 0 and has one more entry than there are items.
+// Half-face = 2 * face + side; side 0: the face's normal points out of the cell, side 1: into it.
+#pragma once
+
+#include <type_traits>
+
+#include "mandoline/grid.h"
+
+namespace mandoline {
+
+/// The loops of a face, a range of spans of vertex ids: the outer one first, counter-clockwise about the face's normal, then holes,
+/// clockwise.
+class Loops {
+ public:
+  class Iterator {
+   public:
+    using difference_type = std::ptrdiff_t;
+    using value_type = std::span<const uint32_t>;
+
+    Iterator() = default;
+    Iterator(const uint32_t* offset, const uint32_t* vertices) : offset_(offset), vertices_(vertices) {}
+    std::span<const uint32_t> operator*() const { return {vertices_ + offset_[0], size_t(offset_[1] - offset_[0])}; }
+    Iterator& operator++() {
+      ++offset_;
+      return *this;
+    }
+    Iterator operator++(int) { return {offset_++, vertices_}; }
+    bool operator==(const Iterator& other) const { return offset_ == other.offset_; }
+
+   private:
+    const uint32_t *offset_ = nullptr, *vertices_ = nullptr;
+  };
+
+  /// `count` loops whose vertices are vertices[offsets[i]] .. vertices[offsets[i + 1] - 1].
+  Loops(const uint32_t* offsets, size_t count, const uint32_t* vertices) : offsets_(offsets), count_(count), vertices_(vertices) {}
+  size_t size() const { return count_; }
+  std::span<const uint32_t> operator[](size_t i) const { return *Iterator(offsets_ + i, vertices_); }
+  Iterator begin() const { return {offsets_, vertices_}; }
+  Iterator end() const { return {offsets_ + count_, vertices_}; }
+
+ private:
+  const uint32_t* offsets_;
+  size_t count_;
+  const uint32_t* vertices_;
+};
+
+/// A cut-face, as a view.
+struct Face {
+  int32_t triangle;  ///< faceTriangle
+  int32_t axis;      ///< faceAxis
+  int32_t plane;     ///< facePlane
+  Loops loops;
+};
+
+/// Ids begin .. end - 1.
+struct IdRange {
+  size_t begin, end;
+
+  size_t size() const { return end - begin; }
+};
+
+/// The cut-mesh. Its arrays are those of the JSON dump and of the npm package, under the same names.
+struct CutMesh {
+  Grid grid;
+
+  // Cut-vertices (paper, 3.2), in this order: tri-vertices, crossings of tri-edges, crossings of triangles with grid lines, grid vertices.
+  std::vector<double> positions;         ///< 3 per vertex, world units. Output only: no decision reads them
+  std::vector<int32_t> vertexCell;       ///< 3 per vertex: the paper's c, exact. 0..n-1, or n on the last plane
+  std::vector<uint8_t> vertexMask;       ///< per vertex: the paper's b. Bit d is set when it lies exactly on plane vertexCell[d] of axis d
+  std::vector<int32_t> vertexTriVertex;  ///< per vertex: the tri-vertex (lowest id at its position), or -1
+  std::vector<int32_t>
+      vertexParents;  ///< 2 per vertex: tri-vertex (v, v); on a tri-edge its ends (a, b); in a triangle (t, -1); grid (-1, -1)
+
+  // Cut-faces. The first loop of a face is its outer one, counter-clockwise about the face's normal; the others are holes, clockwise.
+  std::vector<uint32_t> loopOffsets;      ///< into loopVertices
+  std::vector<uint32_t> loopVertices;     ///< vertex ids
+  std::vector<uint32_t> faceLoopOffsets;  ///< into loops: face f has loops faceLoopOffsets[f] .. faceLoopOffsets[f + 1] - 1
+  std::vector<int32_t> faceTriangle;      ///< per face: input triangle (its normal is the face's), or -1 for a piece of a grid-face
+  std::vector<int8_t> faceAxis;           ///< per face: 0..2 if it lies in an axial plane, else -1. A grid-face's normal is +axis
+  std::vector<int32_t> facePlane;         ///< per face: index of that plane, else 0
+
+  // Cut-cells, in ascending order of grid cells, x fastest.
+  std::vector<uint32_t> cellHalfFaceOffsets;  ///< into cellHalfFaces
+  std::vector<uint32_t> cellHalfFaces;        ///< half-faces; the outer shell's and those of cavities and floating sheets
+  std::vector<int32_t> cellGridCell;          ///< 3 per cut-cell: the grid cell it lies in
+  std::vector<uint32_t> cellRegion;           ///< per cut-cell: region
+
+  // Untouched grid cells, as runs along x. Row r = k * cells(1) + j has runs rowRunOffsets[r] .. rowRunOffsets[r + 1] - 1.
+  std::vector<uint32_t> rowRunOffsets;  ///< into runs
+  std::vector<int32_t> runBegin;        ///< per run: first grid cell along x
+  std::vector<int32_t> runEnd;          ///< per run: one past the last
+  std::vector<uint32_t> runRegion;      ///< per run: region
+
+  // Regions: connected components of cut-cells and untouched grid cells, joined through faces that are not pieces of triangles.
+  uint32_t regionCount = 0;
+  bool hasWinding = false;             ///< whether the input is closed and consistently oriented, so that it has winding numbers
+  std::vector<int32_t> regionWinding;  ///< per region: +1 inside an outward oriented closed surface; empty unless hasWinding
+
+  uint32_t triangleCount = 0;              ///< of the input
+  std::vector<uint32_t> droppedTriangles;  ///< ascending ids of triangles without a face: zero area, duplicate, outside the grid
+
+  size_t vertexCount() const { return vertexMask.size(); }
+  size_t loopCount() const { return loopOffsets.empty() ? 0 : loopOffsets.size() - 1; }
+  size_t faceCount() const { return faceTriangle.size(); }
+  size_t cellCount() const { return cellRegion.size(); }
+
+  std::span<const uint32_t> loop(size_t l) const { return {loopVertices.data() + loopOffsets[l], loopOffsets[l + 1] - loopOffsets[l]}; }
+  Loops loops(size_t f) const {
+    return {loopOffsets.data() + faceLoopOffsets[f], size_t(faceLoopOffsets[f + 1] - faceLoopOffsets[f]), loopVertices.data()};
+  }
+  Face face(size_t f) const { return {faceTriangle[f], faceAxis[f], facePlane[f], loops(f)}; }
+  std::span<const uint32_t> halfFaces(size_t cell) const {
+    return {cellHalfFaces.data() + cellHalfFaceOffsets[cell], cellHalfFaceOffsets[cell + 1] - cellHalfFaceOffsets[cell]};
+  }
+  /// The cut-cells in a grid cell; none if it is untouched or lies outside the grid.
+  IdRange cutCellsAt(int64_t i, int64_t j, int64_t k) const;
+  /// The dense form of the runs: region of each grid cell, x fastest; -1 where cut-cells replace it. 4 bytes per grid cell: may throw
+  /// bad_alloc.
+  std::vector<int32_t> gridCellRegion() const;
+};
+
+/// The untouched grid cells of a cut-mesh, run by run.
+class UntouchedCells {
+ public:
+  /// Grid cells (begin .. end - 1, j, k), all of one region.
+  struct Run {
+    int32_t begin, end, j, k;
+    uint32_t region;
+
+    int64_t count() const { return int64_t(end) - begin; }
+  };
+
+  explicit UntouchedCells(const CutMesh& cutMesh) : cutMesh_(cutMesh) {}
+
+  /// Number of untouched grid cells.
+  uint64_t count() const;
+  /// The run that holds a grid cell, or -1 if it is cut or lies outside the grid.
+  int64_t find(int64_t i, int64_t j, int64_t k) const;
+  /// The region of a grid cell, or -1.
+  int64_t regionAt(int64_t i, int64_t j, int64_t k) const {
+    const int64_t run = find(i, j, k);
+    return run < 0 ? -1 : int64_t(cutMesh_.runRegion[size_t(run)]);
+  }
+  /// f(run) for every run, by k, then j, then x.
+  template <class F>
+  void forEach(const F& f) const {
+    const int64_t rows = int64_t(cutMesh_.rowRunOffsets.size()) - 1, ny = cutMesh_.grid.cells(1);
+    for (int64_t row = 0; row < rows; ++row) {
+      for (uint32_t r = cutMesh_.rowRunOffsets[size_t(row)]; r < cutMesh_.rowRunOffsets[size_t(row) + 1]; ++r) {
+        f(Run{cutMesh_.runBegin[r], cutMesh_.runEnd[r], int32_t(row % ny), int32_t(row / ny), cutMesh_.runRegion[r]});
+      }
+    }
+  }
+  /// Volume of a run.
+  double volume(const Run& run) const;
+  /// Volume of all untouched grid cells.
+  double volume() const;
+
+ private:
+  const CutMesh& cutMesh_;
+};
+
+/// What an array of a cut-mesh has an entry, or several, for.
+enum class Element : uint8_t { vertex, loop, loopVertex, face, cell, cellHalfFace, row, run, region, droppedTriangle };
+
+/// One array of a cut-mesh.
+struct ArrayInfo {
+  const char* name;
+  Element per;
+  int items = 1;          ///< entries per element
+  bool offsets = false;   ///< has one more entry than there are elements
+  bool optional = false;  ///< empty where the cut-mesh has none: regionWinding
+};
+
+/// The arrays of a cut-mesh in order: f(info, vector). All that reads, writes, compares or describes cut-meshes follows from it.
+template <class AnyCutMesh, class F>
+requires std::is_same_v<std::remove_const_t<AnyCutMesh>, CutMesh>
+void forEachArray(AnyCutMesh& cutMesh, const F& f) {
+  f(ArrayInfo{"positions", Element::vertex, 3}, cutMesh.positions);
+  f(ArrayInfo{"vertexCell", Element::vertex, 3}, cutMesh.vertexCell);
+  f(ArrayInfo{"vertexMask", Element::vertex}, cutMesh.vertexMask);
+  f(ArrayInfo{"vertexTriVertex", Element::vertex}, cutMesh.vertexTriVertex);
+  f(ArrayInfo{"vertexParents", Element::vertex, 2}, cutMesh.vertexParents);
+  f(ArrayInfo{"loopOffsets", Element::loop, 1, true}, cutMesh.loopOffsets);
+  f(ArrayInfo{"loopVertices", Element::loopVertex}, cutMesh.loopVertices);
+  f(ArrayInfo{"faceLoopOffsets", Element::face, 1, true}, cutMesh.faceLoopOffsets);
+  f(ArrayInfo{"faceTriangle", Element::face}, cutMesh.faceTriangle);
+  f(ArrayInfo{"faceAxis", Element::face}, cutMesh.faceAxis);
+  f(ArrayInfo{"facePlane", Element::face}, cutMesh.facePlane);
+  f(ArrayInfo{"cellHalfFaceOffsets", Element::cell, 1, true}, cutMesh.cellHalfFaceOffsets);
+  f(ArrayInfo{"cellHalfFaces", Element::cellHalfFace}, cutMesh.cellHalfFaces);
+  f(ArrayInfo{"cellGridCell", Element::cell, 3}, cutMesh.cellGridCell);
+  f(ArrayInfo{"cellRegion", Element::cell}, cutMesh.cellRegion);
+  f(ArrayInfo{"rowRunOffsets", Element::row, 1, true}, cutMesh.rowRunOffsets);
+  f(ArrayInfo{"runBegin", Element::run}, cutMesh.runBegin);
+  f(ArrayInfo{"runEnd", Element::run}, cutMesh.runEnd);
+  f(ArrayInfo{"runRegion", Element::run}, cutMesh.runRegion);
+  f(ArrayInfo{"regionWinding", Element::region, 1, false, true}, cutMesh.regionWinding);
+  f(ArrayInfo{"droppedTriangles", Element::droppedTriangle}, cutMesh.droppedTriangles);
+}
+
+}  // namespace mandoline

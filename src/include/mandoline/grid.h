@@ -1,0 +1,32 @@
+// Rectilinear grids.
+#pragma once
+
+#include <array>
+
+#include "mandoline/mesh.h"
+
+namespace mandoline {
+
+/// A rectilinear grid: per axis d the ascending coordinates of its cells[d] + 1 axial planes (paper, 3.1). These doubles are the grid:
+/// every decision compares input doubles with them. Grid cell (i, j, k) spans planes[0][i] .. planes[0][i + 1] and so on.
+struct Grid {
+  std::array<std::vector<double>, 3> planes;
+  bool uniform = false;  ///< whether origin and spacing describe it
+
+  std::array<double, 3> origin{};   ///< its lowest corner
+  std::array<double, 3> spacing{};  ///< size of a cell per axis; zero if not uniform
+
+  /// The box from lo to hi in cells[d] cells per axis: plane c lies at lo + (hi - lo) * c / n.
+  static Grid box(const std::array<double, 3>& lo, const std::array<double, 3>& hi, const std::array<int64_t, 3>& cells);
+  /// Plane c lies at origin + spacing * c.
+  static Grid regular(const std::array<double, 3>& origin, const std::array<double, 3>& spacing, const std::array<int64_t, 3>& cells);
+  /// Any ascending planes, for graded grids.
+  static Grid rectilinear(std::array<std::vector<double>, 3> planes);
+  /// Cubic cells of size 1.1 x longest side of the bounding box / n, as many per axis as cover the box with that margin, centred.
+  static Grid around(const MeshView& mesh, int64_t n);
+
+  /// Number of grid cells along an axis (0 for a grid that could not be made, which cut() reports).
+  int64_t cells(int axis) const { return planes[axis].empty() ? 0 : int64_t(planes[axis].size()) - 1; }
+};
+
+}  // namespace mandoline
