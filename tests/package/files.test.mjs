@@ -73,6 +73,19 @@ for (const [what, bytes, name, pattern] of failures) {
   });
 }
 
+for (const [name, content] of Object.entries({ ...files, 'cube.stl': writeStl(cube) })) {
+  test(`${name}, cut off anywhere or with a wrong byte anywhere, gives a mesh or a badFile`, async () => {
+    const settle = (bytes) => readMesh(bytes, { name }).then(
+      ({ positions, triangles }) => assert.ok(triangles.every((v) => 3 * v < positions.length)),
+      (error) => assert.equal(error.code, 'badFile', error.stack),
+    );
+    for (let i = 0; i < content.length; ++i) {
+      await settle(content.subarray(0, i));
+      for (const value of [0, 0x39, 0xff]) await settle(Uint8Array.from(content, (byte, at) => (at === i ? value : byte)));
+    }
+  });
+}
+
 test('what is no file is a badArgument', async () => {
   for (const source of [undefined, null, 'cube.obj', {}, [1, 2]]) await assert.rejects(readMesh(source), { code: 'badArgument', stage: 'readMesh' });
   for (const options of [null, 7, { name: 7 }]) await assert.rejects(readMesh(files['cube.obj'], options), { code: 'badArgument', stage: 'readMesh' });

@@ -1,12 +1,11 @@
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
 import { torus, writeObj } from '../package/meshes.mjs';
-import { inSinglePrecision } from './mesh_files.mjs';
 import { dataOf, enter, eventually, isReady, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
 import { looksLike } from './pictures.mjs';
 import { cutOf, galleryMesh } from './reference.mjs';
 
-const mesh = inSinglePrecision(torus(24, 12));
+const mesh = torus(24, 12);
 const site = await startSite({ files: { 'torus.obj': writeObj(mesh) } });
 after(() => site.close());
 const link = (rest) => `url=${encodeURIComponent(site.meshUrl('torus.obj'))}&free=off&explode=0,0&${rest}`;
@@ -116,9 +115,18 @@ test('a box turned inside out, and a grid too fine, are refused', async (t) => {
   await eventually(async () => assert.equal(await page.locator('#cut-error').isVisible(), false));
   for (const axis of ['x', 'y', 'z']) await enter(page, `#grid-cells-${axis}`, 4096);
   await eventually(async () => assert.match(await textOf(page, '#cut-error'), /too fine/));
-  assert.notEqual(former.model, undefined);
-  await page.locator('#grid-cubic').click();
   await enter(page, '#cells-number', 8);
+  await shows(page, '#counts', { cutCells: former.cutCells });
+  assert.notEqual(former.model, undefined);
+});
+
+test('cubic cells have the same limit', async (t) => {
+  const page = await site.open(t, 'mesh=crate&n=9&free=off');
+  const former = await dataOf(page, '#counts');
+  await enter(page, '#cells-number', 512);
+  await eventually(async () => assert.match(await textOf(page, '#cut-error'), /too fine.*cells; this page draws up to 16,777,216/));
+  assert.equal(await isReady(page), 'error');
+  await enter(page, '#cells-number', 9);
   await shows(page, '#counts', { cutCells: former.cutCells });
 });
 

@@ -77,10 +77,5 @@ export const badFiles = [
   { name: 'not-a-number.off', content: 'OFF\n3 1 0\n0 0 0\n1 x 0\n0 1 0\n3 0 1 2\n', says: /line 4/i },
   { name: 'cut-short.stl', content: binaryStl(octahedron).subarray(0, 300), says: /8|bytes/ },
   { name: 'cut-short.glb', content: glb(octahedron).subarray(0, 200), says: /./ },
-  { name: 'letter.txt', content: 'Dear reader', says: /OBJ, STL, PLY, OFF/ },
+  { name: 'letter.txt', content: 'Dear reader', says: /OBJ, STL, PLY or OFF/ },
 ];
-
-/** Three's loaders keep 32 bits of a coordinate. */
-export function inSinglePrecision({ positions, triangles }) {
-  return { positions: Float64Array.from(positions, Math.fround), triangles };
-}

@@ -3,10 +3,10 @@ import { after, test } from 'node:test';
 import { writeObj } from '../package/meshes.mjs';
 import { dataOf, enter, eventually, shows, startSite, textOf } from './page_helpers.mjs';
 import { covered, isBlue, isOrange, pixelsOf, share } from './pictures.mjs';
-import { cutOf, filedMesh, mandoline } from './reference.mjs';
+import { cutOf, galleryMesh, mandoline } from './reference.mjs';
 
-const knot = await filedMesh('torus-knot');
-const spheres = await filedMesh('nested-spheres');
+const knot = await galleryMesh('torus-knot');
+const spheres = await galleryMesh('nested-spheres');
 const site = await startSite({ files: { 'knot.obj': writeObj(knot), 'spheres.obj': writeObj(spheres) } });
 after(() => site.close());
 const camera = { position: [0, 0, 14], fieldOfView: 35 };

@@ -1,17 +1,9 @@
 // What the page has to show: the package's own results, made in Node.
 import { init } from 'mandoline-wasm';
 import { importBundled } from './bundled.mjs';
-import { inSinglePrecision } from './mesh_files.mjs';
 
 export const mandoline = await init();
 export const { galleryMesh } = await importBundled('model/gallery/index.ts');
-
-/** A mesh of the gallery as the page reads it from an OBJ file: the browser's own sine may differ from Node's in the last place. */
-export async function filedMesh(name) {
-  const { positions, triangles } = inSinglePrecision(await galleryMesh(name));
-  const corners = Array.from(triangles, (v) => Array.from(positions.subarray(3 * v, 3 * v + 3)));
-  return { positions: new Float64Array(corners.flat()), triangles: Uint32Array.from(triangles.keys()) };
-}
 
 export async function cutOf(mesh, grid, options) {
   const cutMesh = mandoline.cut(mesh, grid, options);

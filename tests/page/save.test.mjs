@@ -5,9 +5,9 @@ import { readObj, writeObj } from '../package/meshes.mjs';
 import { octahedron, octahedronFiles } from './mesh_files.mjs';
 import { dataOf, download, enter, eventually, isReady, openPanel, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
 import { covered, difference, pixelsOf, tiles } from './pictures.mjs';
-import { cutOf, filedMesh, galleryMesh, keptCells, mandoline } from './reference.mjs';
+import { cutOf, galleryMesh, keptCells, mandoline } from './reference.mjs';
 
-const knot = await filedMesh('torus-knot');
+const knot = await galleryMesh('torus-knot');
 const site = await startSite({ files: { ...octahedronFiles, 'knot.obj': writeObj(knot) } });
 after(() => site.close());
 const source = `url=${site.meshUrl('knot.obj')}&n=6&free=off`;

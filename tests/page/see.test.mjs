@@ -1,15 +1,15 @@
 import assert from 'node:assert/strict';
 import { after, describe, test } from 'node:test';
 import { torus, writeObj } from '../package/meshes.mjs';
-import { inSinglePrecision, octahedron } from './mesh_files.mjs';
+import { octahedron } from './mesh_files.mjs';
 import { dataOf, eventually, isReady, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
 import { covered, difference, isBlue, isDrawn, isOrange, looksLike, pixelsOf, share, tiles } from './pictures.mjs';
-import { cutOf, filedMesh, keptCells, mandoline } from './reference.mjs';
+import { cutOf, galleryMesh, keptCells, mandoline } from './reference.mjs';
 
-const mesh = inSinglePrecision(torus(24, 12));
+const mesh = torus(24, 12);
 const reference = await cutOf(mesh, { cells: 8 });
-const spheres = await filedMesh('nested-spheres');
-const sheet = await filedMesh('wavy-plane');
+const spheres = await galleryMesh('nested-spheres');
+const sheet = await galleryMesh('wavy-plane');
 const pocket = withPocket(sheet);
 const files = { 'torus.obj': mesh, 'spheres.obj': spheres, 'sheet.obj': sheet, 'pocket.obj': pocket };
 const site = await startSite({ files: Object.fromEntries(Object.entries(files).map(([name, file]) => [name, writeObj(file)])) });

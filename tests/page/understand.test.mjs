@@ -3,10 +3,10 @@ import { after, describe, test } from 'node:test';
 import { writeObj } from '../package/meshes.mjs';
 import { dataOf, enter, eventually, openPanel, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
 import { covered, difference, looksLike, pixelsOf, tiles } from './pictures.mjs';
-import { cutOf, filedMesh, galleryMesh, mandoline } from './reference.mjs';
+import { cutOf, galleryMesh, mandoline } from './reference.mjs';
 
-const knot = await filedMesh('torus-knot');
-const sheet = await filedMesh('wavy-plane');
+const knot = await galleryMesh('torus-knot');
+const sheet = await galleryMesh('wavy-plane');
 const site = await startSite({ files: { 'knot.obj': writeObj(knot), 'sheet.obj': writeObj(sheet) } });
 after(() => site.close());
 const link = `url=${site.meshUrl('knot.obj')}&n=6&free=off&explode=0,0`;

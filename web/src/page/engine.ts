@@ -1,159 +1,173 @@
-// The main thread's half of the engine: hands calls to the worker one by one, and replaces a worker that is in the way of newer ones.
+// The page's half of the work: asks the package's worker, whose thread keeps meshes and cut-meshes, and gives back to a new thread what the
+// former one knew.
+import { createWorker, type MandolineWorker } from 'mandoline-wasm/worker';
 import type { Slice, Validation, Vector3 } from 'mandoline-wasm';
+import { isLack, isOutdated, type CallName, type CallProgress, type Calls, type LoadedMesh, type Recipe } from '../model/calls';
 import type { CellCard, Engine, GridSettings, Model, PageError, Source, StepPicture, StepRequest } from '../model/types';
-import { abortError } from '../model/failure';
-import type { Call, CallName, Calls, CutRecipe, EngineMesh, FromWorker, Start } from '../model/protocol';
+import { pageError } from '../model/failure';
+import { abortError, isCancellation, toPageError } from './failure';
 
-/** A cut that a newer one waits for may take so long in all, in ms: most are drawn, so that dragging shows pictures all along. */
-const patience = 500;
+interface CallOptions {
+  signal?: AbortSignal;
+  transfer?: ArrayBuffer[];
+  progress?: (progress: CallProgress) => void;
+}
 
-interface Job {
-  call: Call;
-  transfer: ArrayBuffer[];
-  resolve(answer: unknown): void;
+/** A cut that waits for the one under way. */
+interface WaitingCut {
+  grid: GridSettings;
+  snapTolerance: number;
+  resolve(model: Promise<Model>): void;
   reject(error: unknown): void;
 }
 
-export class WorkerEngine implements Engine {
+class WorkerEngine implements Engine {
   onProgress: Engine['onProgress'] = () => {};
-  private worker: Worker | null = null;
-  private wasm: WebAssembly.Module | null = null;
-  private mesh: EngineMesh | null = null;
-  private shown: CutRecipe | null = null;
-  private waiting: Job[] = [];
-  private running: Job | null = null;
-  private started = 0;
-  private ids = 0;
-  private models = 0;
+  private worker: Promise<MandolineWorker> | null = null;
+  private meshes = 0;
+  private cuts = 0;
+  /** The newest mesh, and that of the Model that is shown. */
+  private readonly kept = new Map<number, LoadedMesh>();
+  private mesh: LoadedMesh | null = null;
+  private shown: Recipe | null = null;
+  private loading: AbortController | null = null;
+  /** Settles with the newest load. */
+  private loaded: Promise<unknown> = Promise.resolve();
+  private cutting: AbortController | null = null;
+  private waiting: WaitingCut | null = null;
 
   constructor() {
-    this.startWorker();
+    void this.start().catch(() => {}); // The first call tries again and says what is wrong.
   }
 
-  async load(source: Source, bytes?: ArrayBuffer): Promise<{ name: string; triangles: number }> {
-    this.abort('cut');
-    this.abort('load');
-    const mesh = await this.call('load', { source, bytes }, bytes ? [bytes] : []);
-    this.mesh = mesh;
-    return { name: mesh.name, triangles: mesh.triangles.length / 3 };
-  }
-
-  async cut(grid: GridSettings, snapTolerance: number): Promise<Model> {
-    this.abortWaiting('cut');
-    if (this.running?.call.name === 'cut') this.stopLater(this.running);
-    const model = await this.call('cut', { model: ++this.models, grid, snapTolerance });
-    if (this.mesh) this.shown = { model: model.id, mesh: this.mesh, grid, snapTolerance };
-    return model;
-  }
-
-  cancel(): void {
-    this.abort('cut');
-  }
-
-  slice(planes: { normal: Vector3; offset: number }[], untouched: boolean): Promise<Slice[]> {
-    return this.call('slice', { planes, untouched });
-  }
-
-  validate(): Promise<Validation> {
-    return this.call('validate', null);
-  }
-
-  card(cell: number): Promise<CellCard> {
-    return this.call('card', { cell });
-  }
-
-  step(request: StepRequest): Promise<StepPicture> {
-    return this.call('step', request);
-  }
-
-  write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array> {
-    return this.call('write', format);
-  }
-
-  private call<K extends CallName>(name: K, ask: Calls[K]['ask'], transfer: ArrayBuffer[] = []): Promise<Calls[K]['answer']> {
-    return new Promise((resolve, reject) => {
-      const call = { kind: 'call', id: ++this.ids, name, ask } as Call;
-      this.waiting.push({ call, transfer, resolve: resolve as (answer: unknown) => void, reject });
-      this.next();
-    });
-  }
-
-  private next(): void {
-    if (this.running) return;
-    this.running = this.waiting.shift() ?? null;
-    if (!this.running) return;
-    const worker = this.worker ?? this.startWorker();
-    this.started = performance.now();
-    worker.postMessage(this.running.call, this.running.transfer);
-  }
-
-  private startWorker(): Worker {
-    const worker = new Worker(new URL('../worker/engine.worker.ts', import.meta.url), { type: 'module' });
-    worker.onmessage = (event: MessageEvent<FromWorker>) => this.take(event.data);
-    worker.onerror = (event) => this.fail(event.message);
-    worker.onmessageerror = () => this.fail('');
-    const start: Start = { kind: 'start', wasm: this.wasm, mesh: this.mesh, shown: this.shown };
-    worker.postMessage(start);
+  private start(): Promise<MandolineWorker> {
+    const worker = createWorker({ thread: () => new Worker(new URL('../worker/thread.ts', import.meta.url), { type: 'module' }) });
+    worker.catch(() => (this.worker = null));
     this.worker = worker;
     return worker;
   }
 
-  private take(message: FromWorker): void {
-    if (message.kind === 'ready') this.wasm = message.wasm;
-    else if (message.kind === 'progress') this.onProgress({ stage: message.stage, fraction: message.fraction });
-    else if (message.id === this.running?.call.id) {
-      const job = this.finish();
-      if (message.kind === 'answer') job?.resolve(message.answer);
-      else job?.reject(message.error);
-      // After whoever waited for this answer had its turn: a newer Model is known before the next call.
-      queueMicrotask(() => this.next());
+  load(source: Source, bytes?: ArrayBuffer): Promise<{ name: string; triangles: number }> {
+    this.cancel();
+    this.loading = new AbortController();
+    const mesh = this.loadNow({ id: ++this.meshes, source, bytes }, this.loading.signal);
+    this.loaded = mesh.catch(() => {});
+    return mesh;
+  }
+
+  private async loadNow(ask: Calls['load']['ask'], signal: AbortSignal): Promise<{ name: string; triangles: number }> {
+    const mesh = await this.call('load', ask, { signal, transfer: ask.bytes ? [ask.bytes] : [] });
+    this.mesh = mesh;
+    this.keep(mesh);
+    return { name: mesh.name, triangles: mesh.triangles.length / 3 };
+  }
+
+  private keep(mesh: LoadedMesh): void {
+    this.kept.set(mesh.id, mesh);
+    for (const id of this.kept.keys()) if (id !== this.mesh?.id && id !== this.shown?.mesh) this.kept.delete(id);
+  }
+
+  /** A cut under way is finished, so that pictures come all along while a slider moves; of those that wait, the newest is next. */
+  cut(grid: GridSettings, snapTolerance: number): Promise<Model> {
+    if (!this.cutting) return this.cutNow(grid, snapTolerance);
+    this.waiting?.reject(abortError());
+    return new Promise((resolve, reject) => (this.waiting = { grid, snapTolerance, resolve, reject }));
+  }
+
+  private async cutNow(grid: GridSettings, snapTolerance: number): Promise<Model> {
+    const cutting = (this.cutting = new AbortController());
+    try {
+      await this.loaded;
+      const { mesh } = this;
+      if (!mesh) throw noMesh();
+      const recipe: Recipe = { id: ++this.cuts, mesh: mesh.id, grid, snapTolerance };
+      const model = await this.call('cut', recipe, { signal: cutting.signal, progress: (progress) => this.onProgress(progress) });
+      this.shown = recipe;
+      this.keep(mesh);
+      return model;
+    } finally {
+      if (this.cutting === cutting) this.finishCut();
     }
   }
 
-  private finish(): Job | null {
-    const job = this.running;
-    this.running = null;
-    if (job?.call.name === 'cut') this.onProgress(null);
-    return job;
+  private finishCut(): void {
+    const { waiting } = this;
+    this.cutting = this.waiting = null;
+    this.onProgress(null);
+    waiting?.resolve(this.cutNow(waiting.grid, waiting.snapTolerance));
   }
 
-  /** The worker is gone: nobody waits for it any longer, and the next call starts another. */
-  private fail(message: string): void {
-    const why = `The part of the page that works in the background has failed${message ? `: ${message}` : ''}.`;
-    const detail = `${why} Try again, or reload the page.`;
-    const error: PageError = { title: 'The page lost its worker', detail };
-    this.worker?.terminate();
-    this.worker = null;
-    const jobs = [this.finish(), ...this.waiting];
-    this.waiting = [];
-    for (const job of jobs) job?.reject(error);
+  /** Without shared memory the thread can't be told: what is under way ends with it. */
+  cancel(): void {
+    this.loading?.abort();
+    this.waiting?.reject(abortError());
+    this.waiting = null;
+    this.cutting?.abort();
   }
 
-  private abort(name: CallName): void {
-    this.abortWaiting(name);
-    if (this.running?.call.name === name) this.stop();
+  slice(planes: readonly { normal: Vector3; offset: number }[], untouched: boolean): Promise<Slice[]> {
+    return this.aboutShown((recipe) => this.call('slice', { recipe, planes, untouched }));
   }
 
-  private abortWaiting(name: CallName): void {
-    const aborted = this.waiting.filter((job) => job.call.name === name);
-    this.waiting = this.waiting.filter((job) => job.call.name !== name);
-    for (const job of aborted) job.reject(abortError());
+  card(cell: number): Promise<CellCard> {
+    return this.aboutShown((recipe) => this.call('card', { recipe, cell }));
   }
 
-  private stopLater(job: Job): void {
-    const stop = () => {
-      if (this.running === job) this.stop();
-    };
-    setTimeout(stop, this.started + patience - performance.now());
+  validate(): Promise<Validation> {
+    return this.aboutNewest((recipe) => this.call('validate', { recipe }));
   }
 
-  /** Nothing else ends a call that runs: without shared memory the worker can't be told. */
-  private stop(): void {
-    this.worker?.terminate();
-    this.finish()?.reject(abortError());
-    this.startWorker();
-    this.next();
+  step(request: StepRequest): Promise<StepPicture> {
+    return this.aboutNewest((recipe) => this.call('step', { recipe, request }));
   }
+
+  write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array> {
+    return this.aboutNewest((recipe) => this.call('write', { recipe, format }));
+  }
+
+  /** What means nothing for any other cut than the one that is shown: planes and cells of it. */
+  private async aboutShown<T>(ask: (recipe: Recipe) => Promise<T>): Promise<T> {
+    if (!this.shown) throw noMesh();
+    try {
+      return await ask(this.shown);
+    } catch (error) {
+      throw isOutdated(error) ? abortError() : error;
+    }
+  }
+
+  /** A cut that came in between is what the call is then about. */
+  private async aboutNewest<T>(ask: (recipe: Recipe) => Promise<T>): Promise<T> {
+    for (;;) {
+      const { shown } = this;
+      if (!shown) throw noMesh();
+      try {
+        return await ask(shown);
+      } catch (error) {
+        if (!isOutdated(error)) throw error;
+        if (this.shown === shown) throw abortError();
+      }
+    }
+  }
+
+  private async call<K extends CallName>(name: K, ask: Calls[K]['ask'], options: CallOptions = {}): Promise<Calls[K]['answer']> {
+    try {
+      const worker = await (this.worker ?? this.start());
+      const run = () => worker.call<Calls[K]['answer']>(name, [ask], options);
+      return await run().catch(async (error: unknown) => {
+        const mesh = isLack(error) ? this.kept.get(error.lacksMesh) : undefined;
+        if (!mesh) throw error;
+        await worker.call('keep', [mesh]);
+        return run();
+      });
+    } catch (error) {
+      if (isCancellation(error)) throw abortError();
+      throw isOutdated(error) ? error : toPageError(error, name);
+    }
+  }
+}
+
+function noMesh(): PageError {
+  return pageError('There is no mesh', 'Choose a mesh first.');
 }
 
 export function createEngine(): Engine {

@@ -1,19 +1,18 @@
-import type { Adjacency, CutMesh } from 'mandoline-wasm';
+import type { Adjacency, CutMesh, Mandoline } from 'mandoline-wasm';
 import { cellArrays } from 'mandoline-wasm/three';
+import { pageError } from '../model/failure';
 import type { CellCard } from '../model/types';
 import { cellEdges, forEachCellEdge } from './edges';
-import type { Derived } from './model';
-import { buffersOf, type Answered } from '../model/protocol';
+import type { Cut } from './kept';
 
-export function cellCard(cutMesh: CutMesh, derived: Derived, adjacency: Adjacency, cell: number): Answered<CellCard> {
-  const { measures, origin } = derived;
+export function cellCard(mandoline: Mandoline, cut: Cut, cell: number): CellCard {
+  const { cutMesh, measures, origin } = cut;
+  checkCell(cutMesh, cell);
+  const adjacency = (cut.adjacency ??= mandoline.adjacency(cutMesh));
   const region = cutMesh.cellRegion[cell];
   const faces = facesOf(cutMesh, cell);
-  const arrays = cellArrays(cutMesh, derived.faceTriangles, { cells: [cell], origin });
-  const surface = Uint8Array.from(arrays.face, (face) => (cutMesh.faceTriangle[face] >= 0 ? 1 : 0));
-  const triangles = { position: arrays.position, normal: arrays.normal, surface };
-  const edges = cellEdges(cutMesh, cell, origin);
-  const card: CellCard = {
+  const { position, normal, face } = cellArrays(cutMesh, cut.faceTriangles, { cells: [cell], origin });
+  return {
     cell,
     gridCell: [cutMesh.cellGridCell[3 * cell], cutMesh.cellGridCell[3 * cell + 1], cutMesh.cellGridCell[3 * cell + 2]],
     region,
@@ -21,14 +20,18 @@ export function cellCard(cutMesh: CutMesh, derived: Derived, adjacency: Adjacenc
     volume: measures.cellVolume[cell],
     centroid: [measures.cellCentroid[3 * cell], measures.cellCentroid[3 * cell + 1], measures.cellCentroid[3 * cell + 2]],
     faces: faces.length,
-    surfaceFaces: faces.filter((face) => cutMesh.faceTriangle[face] >= 0).length,
+    surfaceFaces: faces.filter((own) => cutMesh.faceTriangle[own] >= 0).length,
     ...shellsOf(cutMesh, cell),
     neighbours: Array.from(adjacency.cellCells.subarray(adjacency.cellCellOffsets[cell], adjacency.cellCellOffsets[cell + 1])),
-    untouchedNeighbours: new Set(faces.flatMap((face) => untouchedBeside(adjacency, face))).size,
-    triangles,
-    edges,
+    untouchedNeighbours: new Set(faces.flatMap((own) => untouchedBeside(adjacency, own))).size,
+    triangles: { position, normal, surface: Uint8Array.from(face, (own) => (cutMesh.faceTriangle[own] >= 0 ? 1 : 0)) },
+    edges: cellEdges(cutMesh, cell, origin),
   };
-  return { answer: card, transfer: buffersOf(...Object.values(triangles), edges) };
+}
+
+function checkCell({ cellRegion }: CutMesh, cell: number): void {
+  if (Number.isInteger(cell) && cell >= 0 && cell < cellRegion.length) return;
+  throw pageError('There is no such cell', `The cut-mesh has ${cellRegion.length} cut-cells.`);
 }
 
 /** Faces of a cell; one that has the cell on both sides counts twice, as it is seen. */

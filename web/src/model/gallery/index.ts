@@ -6,6 +6,7 @@ import { crate, doubleBubble, moebiusStrip, pages, thinBowl, trumpet, wavyPlane,
 import { alignedSteps, gears, nestedSpheres, noisySphere } from './solids';
 import { chain, hollowHilbertCurve, torusKnot } from './tubes';
 
+export type { MeshArrays } from './mesh';
 export { gallery, type GalleryEntry } from './list';
 
 function bunny(): MeshArrays {

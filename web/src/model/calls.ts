@@ -1,0 +1,63 @@
+// What the page asks its worker thread, beside the package's own calls.
+import type { Slice, Validation, Vector3 } from 'mandoline-wasm';
+import type { CellCard, GridSettings, Model, Source, StepPicture, StepRequest } from './types';
+
+/** A mesh as both sides keep it. */
+export interface LoadedMesh {
+  /** Counts up with every mesh. */
+  id: number;
+  name: string;
+  positions: Float64Array;
+  triangles: Uint32Array;
+}
+
+/** How a cut is made. Cutting again gives the same ids, bit by bit. */
+export interface Recipe {
+  /** The Model's: counts up with every cut. */
+  id: number;
+  /** Id of the mesh. */
+  mesh: number;
+  grid: GridSettings;
+  snapTolerance: number;
+}
+
+/** What is asked, and what comes. */
+export interface Calls {
+  load: { ask: { id: number; source: Source; bytes?: ArrayBuffer }; answer: LoadedMesh };
+  /** Gives a mesh to a thread that took the place of another. */
+  keep: { ask: LoadedMesh; answer: void };
+  cut: { ask: Recipe; answer: Model };
+  slice: { ask: AboutCut<{ planes: readonly { normal: Vector3; offset: number }[]; untouched: boolean }>; answer: Slice[] };
+  validate: { ask: AboutCut; answer: Validation };
+  card: { ask: AboutCut<{ cell: number }>; answer: CellCard };
+  step: { ask: AboutCut<{ request: StepRequest }>; answer: StepPicture };
+  write: { ask: AboutCut<{ format: 'json' | 'vtu' | 'obj' }>; answer: Uint8Array };
+}
+export type CallName = keyof Calls;
+
+/** About the cut-mesh of this recipe, which the thread holds or makes again. */
+export type AboutCut<More = unknown> = { recipe: Recipe } & More;
+
+/** How far a call has come, 0 to 1. */
+export interface CallProgress {
+  stage: string;
+  fraction: number;
+}
+
+/** Thrown by a thread that lacks the mesh which a call is about: the answer is to give it that and to ask again. */
+export interface Lack {
+  lacksMesh: number;
+}
+
+/** Thrown by a thread that already holds a newer cut. */
+export interface Outdated {
+  outdated: true;
+}
+
+export function isLack(error: unknown): error is Lack {
+  return typeof error === 'object' && error !== null && 'lacksMesh' in error;
+}
+
+export function isOutdated(error: unknown): error is Outdated {
+  return typeof error === 'object' && error !== null && 'outdated' in error;
+}

@@ -1,0 +1,31 @@
+// What went wrong in a call of the worker, as the page shows it.
+import { describe, MandolineError } from 'mandoline-wasm/worker';
+import type { CallName } from '../model/calls';
+import { isPageError, pageError } from '../model/failure';
+import type { PageError } from '../model/types';
+
+const titles: Record<CallName, string> = {
+  load: "The mesh can't be read",
+  keep: "The mesh can't be kept",
+  cut: "The mesh can't be cut",
+  slice: "The cells can't be sliced",
+  validate: "The cut-mesh can't be validated",
+  card: "The cell can't be shown",
+  step: "The step can't be shown",
+  write: "The file can't be written",
+};
+
+export function toPageError(error: unknown, call: CallName): PageError {
+  if (isPageError(error)) return error;
+  if (!(error instanceof MandolineError)) return pageError(titles[call], error instanceof Error ? error.message : String(error));
+  return pageError(error.code === 'loadFailed' ? "The cutter can't be started" : titles[call], describe(error));
+}
+
+export function abortError(): DOMException {
+  return new DOMException('Cancelled, or a newer call took its place.', 'AbortError');
+}
+
+/** Whether a call ended because it was stopped. */
+export function isCancellation(error: unknown): boolean {
+  return error instanceof MandolineError && error.code === 'cancelled';
+}

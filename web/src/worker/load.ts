@@ -1,0 +1,76 @@
+// Where meshes come from: the gallery, an address, a file.
+import type { Mandoline } from 'mandoline-wasm';
+import type { Calls, LoadedMesh } from '../model/calls';
+import { fileError, isPageError, pageError } from '../model/failure';
+import { galleryMesh, type MeshArrays } from '../model/gallery';
+import type { Source } from '../model/types';
+
+export async function loadMesh(mandoline: Mandoline, { id, source, bytes }: Calls['load']['ask']): Promise<LoadedMesh> {
+  const mesh = source.kind === 'gallery' ? await galleryMesh(source.name) : await readFile(mandoline, source, bytes);
+  return { id, name: nameOf(source), ...mesh };
+}
+
+function nameOf(source: Source): string {
+  return source.kind === 'url' ? fileName(source.url) : source.name;
+}
+
+function fileName(url: string): string {
+  if (!URL.canParse(url, self.location.href)) throw pageError("The address can't be read", `"${url}" is not the address of a file.`);
+  const name = new URL(url, self.location.href).pathname.split('/').pop() ?? '';
+  try {
+    return decodeURIComponent(name) || url;
+  } catch {
+    return name; // A stray % that encodes nothing.
+  }
+}
+
+async function readFile(mandoline: Mandoline, source: Exclude<Source, { kind: 'gallery' }>, given?: ArrayBuffer): Promise<MeshArrays> {
+  const name = nameOf(source);
+  const bytes = source.kind === 'url' ? await fetched(source.url) : given;
+  if (!bytes) throw pageError(`${name} isn't here any more`, 'A link keeps only the name of a file. Choose the file again.');
+  return readMesh(mandoline, bytes, name);
+}
+
+async function fetched(url: string): Promise<ArrayBuffer> {
+  const title = "The address can't be read";
+  const response = await fetch(url).catch((error: unknown) => {
+    throw pageError(title, `Nothing came from ${url}: there is no such server, or it doesn't let other pages read it (${String(error)}).`);
+  });
+  if (!response.ok) throw pageError(title, `${url} answers with ${response.status} ${response.statusText}.`);
+  return response.arrayBuffer();
+}
+
+/** glTF and GLB by three's loader, which is fetched when it is needed; all else by the package. */
+export async function readMesh(mandoline: Mandoline, bytes: ArrayBuffer, name: string): Promise<MeshArrays> {
+  try {
+    const mesh = isGltf(bytes, name) ? await (await import('./gltf')).readGltf(bytes) : await mandoline.readMesh(bytes, { name });
+    if (mesh.triangles.length === 0) throw new Error('There are no triangles in it.');
+    return mesh;
+  } catch (error) {
+    throw isPageError(error) ? error : fileError(name, whatIsWrong(error, bytes, name));
+  }
+}
+
+/** By content, as far as that says it, else by name. */
+function isGltf(bytes: ArrayBuffer, name: string): boolean {
+  const start = textAt(bytes).trimStart();
+  return start.startsWith('glTF') || start.startsWith('{') || /\.(glb|gltf)(\.gz)?$/i.test(name);
+}
+
+function textAt(bytes: ArrayBuffer): string {
+  return new TextDecoder('latin1').decode(bytes.slice(0, 1000));
+}
+
+/** The package's messages start with the name, which the title says already. */
+function whatIsWrong(error: unknown, bytes: ArrayBuffer, name: string): string {
+  const text = error instanceof Error ? error.message : String(error);
+  const flaw = text.startsWith(`${name}: `) ? text.slice(name.length + 2) : text;
+  return flaw.charAt(0).toUpperCase() + flaw.slice(1) + hintAt(bytes);
+}
+
+/** What people take for meshes. */
+function hintAt(bytes: ArrayBuffer): string {
+  const start = textAt(bytes).trimStart();
+  if (start.startsWith('PK\x03\x04')) return ' It is a ZIP archive: unpack it first.';
+  return /^<(!doctype|html)/i.test(start) ? ' It is a web page.' : '';
+}

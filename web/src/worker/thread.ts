@@ -1,0 +1,65 @@
+// The page's worker thread: the package's own calls, and beside them the page's. Meshes and cut-meshes stay here; only what is drawn or told
+// goes to the page, which owns it then.
+import type { Mandoline } from 'mandoline-wasm';
+import { serve } from 'mandoline-wasm/worker-thread';
+import type { CallName, CallProgress, Calls } from '../model/calls';
+import { cellCard } from './card';
+import { cutOf, keep, makeCut, meshOf } from './kept';
+import { loadMesh } from './load';
+import { makeModel } from './make_model';
+import { stepPicture } from './steps';
+
+type Tell = (progress: CallProgress) => void;
+type Answering = {
+  [K in CallName]: (mandoline: Mandoline, ask: Calls[K]['ask'], tell: Tell) => Calls[K]['answer'] | Promise<Calls[K]['answer']>;
+};
+
+const calls: Answering = {
+  async load(mandoline, ask) {
+    const mesh = await loadMesh(mandoline, ask);
+    keep(mesh);
+    return { ...mesh, positions: mesh.positions.slice(), triangles: mesh.triangles.slice() };
+  },
+  keep: (_mandoline, mesh) => keep(mesh),
+  cut(mandoline, recipe, tell) {
+    const { mesh } = meshOf(recipe.mesh);
+    const cut = makeCut(mandoline, recipe, tell);
+    tell({ stage: 'drawing', fraction: 0.9 });
+    return makeModel(mandoline, mesh.name, cut);
+  },
+  slice(mandoline, { recipe, planes, untouched }) {
+    const { cutMesh } = cutOf(mandoline, recipe);
+    return planes.map((plane) => mandoline.slice(cutMesh, plane, { untouched }));
+  },
+  validate(mandoline, { recipe }) {
+    const { mesh, cutMesh } = cutOf(mandoline, recipe);
+    return mandoline.validate(mesh, cutMesh, { snapTolerance: recipe.snapTolerance });
+  },
+  card: (mandoline, { recipe, cell }) => cellCard(mandoline, cutOf(mandoline, recipe), cell),
+  step(mandoline, { recipe, request }) {
+    const { mesh, cutMesh, faceTriangles, origin } = cutOf(mandoline, recipe);
+    return stepPicture(mesh, cutMesh, faceTriangles, request, origin);
+  },
+  write(mandoline, { recipe, format }) {
+    const { mesh, cutMesh } = cutOf(mandoline, recipe);
+    return mandoline.write(mesh, cutMesh, format);
+  },
+};
+
+/** In ms. */
+const progressInterval = 50;
+
+/** Passes on now and then what is told. */
+function seldom(tell: (progress: CallProgress) => void): Tell {
+  let last = 0;
+  return (progress) => {
+    const now = performance.now();
+    if (now - last < progressInterval) return;
+    last = now;
+    tell(progress);
+  };
+}
+
+for (const [name, call] of Object.entries(calls) as [CallName, (mandoline: Mandoline, ask: unknown, tell: Tell) => unknown][]) {
+  serve({ [name]: (mandoline, [ask], { progress }) => call(mandoline, ask, seldom(progress)) });
+}
