@@ -1,15 +1,17 @@
 // What the continuous integration does beyond npm test: the same bits from another compiler, a fuzz run, the suite under sanitizers.
 import { existsSync, mkdirSync, readFileSync } from 'node:fs';
-import { build, fail, jobs, path, run, setUp } from './steps.mjs';
-import { writeTorusKnot } from './torus_knot.mjs';
+import { join } from 'node:path';
+import { meshFolder } from '../tests/mesh_folder.mjs';
+import { build, fail, jobs, path, run, setUp } from '../tests/steps.mjs';
+import { writeTorusKnot } from '../tests/torus_knot.mjs';
 
 const debug = ['-DCMAKE_BUILD_TYPE=Debug', '-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1']; // with assertions, yet fast enough for real meshes
 
 setUp('clang with libFuzzer');
 
 build('build-clang', '-DCMAKE_CXX_COMPILER=clang++', '-DCMAKE_BUILD_TYPE=Debug', '-DMANDOLINE_BUILD_TESTS=OFF');
-const scans = ['common_spot', 'common_fandisk', 'codim_feline'].map((name) => `../shared/data/${name}.obj.gz`);
-for (const mesh of [writeTorusKnot('build'), ...scans.filter((scan) => existsSync(path(scan)))]) {
+const scans = meshFolder ? ['common_spot', 'common_fandisk', 'codim_feline'].map((name) => join(meshFolder, `${name}.obj.gz`)) : [];
+for (const mesh of [writeTorusKnot('build'), ...scans.filter((scan) => existsSync(scan))]) {
   const dumps = [['build', '1'], ['build', '3'], ['build-clang', '1']].map(([folder, threads]) => {
     run(`${folder}/mandoline`, 'cut', mesh, '--cells', '13', '--threads', threads, '-o', `${folder}/dump.json`);
     return readFileSync(path(folder, 'dump.json'));

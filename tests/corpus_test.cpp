@@ -1,5 +1,5 @@
-// Cuts and validates every mesh of a collection of real ones, if it lies beside the project: a folder with a manifest.csv whose columns
-// `file` and `self_intersects` are read. Meshes without self-intersections have to pass. The others may be refused by the names of two
+// Cuts and validates every mesh of a collection of real ones (see mesh_folder.h), of whose manifest.csv the columns `file` and
+// `self_intersects` are read. Meshes without self-intersections have to pass. The others may be refused by the names of two
 // triangles or, as not every crossing inside of a grid cell is looked for, by a validation that names what is wrong.
 #include <algorithm>
 #include <chrono>
@@ -10,6 +10,7 @@
 #include "catch.h"
 #include "mandoline/io.h"
 #include "mandoline/validate.h"
+#include "mesh_folder.h"
 
 using namespace mandoline;
 
@@ -34,8 +35,8 @@ std::vector<std::string> fieldsOf(const std::string& line) {
   return fields;
 }
 
-std::vector<Row> manifest() {
-  std::ifstream in(std::filesystem::path(MANDOLINE_DATA) / "manifest.csv");
+std::vector<Row> manifest(const std::filesystem::path& folder) {
+  std::ifstream in(folder / "manifest.csv");
   std::string line;
   std::getline(in, line);
   const std::vector<std::string> header = fieldsOf(line);
@@ -49,15 +50,14 @@ std::vector<Row> manifest() {
 }
 
 void cutAll(int64_t n) {
-  const std::vector<Row> rows = manifest();
-  if (rows.empty()) {
-    WARN("skipped: no collection of meshes in " MANDOLINE_DATA);
-    return;
-  }
+  const std::optional<std::filesystem::path> folder = meshFolder();
+  if (!folder) return;
+  const std::vector<Row> rows = manifest(*folder);
+  REQUIRE(!rows.empty());
   size_t clean = 0, refused = 0, invalid = 0;
   for (const Row& row : rows) {
     INFO(row.file << " at N = " << n);
-    const Mesh mesh = readMesh((std::filesystem::path(MANDOLINE_DATA) / row.file).string());
+    const Mesh mesh = readMesh((*folder / row.file).string());
     const auto start = std::chrono::steady_clock::now();
     const CutResult result = cut(mesh, Grid::around(mesh, n));
     INFO(name(result.error.status) << " " << result.error.message);

@@ -1,4 +1,4 @@
-// Steps that npm start, npm test and the continuous integration have in common.
+// Steps that npm start, npm test, npm run bench and the continuous integration have in common.
 import { spawnSync } from 'node:child_process';
 import { existsSync, statSync } from 'node:fs';
 import { availableParallelism } from 'node:os';

@@ -1,6 +1,6 @@
 // npm start: cuts a torus knot, validates the result, prints the report and writes the cells for ParaView; then builds the page and opens it.
-import { build, installPackages, run, setUp } from './steps.mjs';
-import { writeTorusKnot } from './torus_knot.mjs';
+import { build, installPackages, run, setUp } from '../tests/steps.mjs';
+import { writeTorusKnot } from '../tests/torus_knot.mjs';
 
 setUp('a C++20 compiler', 'CMake', 'make', 'zlib', 'Emscripten');
 build('build', '-DMANDOLINE_BUILD_TESTS=OFF');

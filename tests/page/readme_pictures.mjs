@@ -1,7 +1,7 @@
-// Makes the README's pictures from the built page: node .ci/pictures.mjs
+// Makes the README's pictures from the built page: node tests/page/readme_pictures.mjs
 import { mkdirSync, writeFileSync } from 'node:fs';
-import { startSite, isReady } from '../tests/page/page_helpers.mjs';
-import { path } from './steps.mjs';
+import { startSite, isReady } from './page_helpers.mjs';
+import { path } from '../steps.mjs';
 
 const pictures = {
   slice: 'n=24&free=off&x=0.56,1&slice=flat&explode=0.12,0&camera=19,11,7,-0.6,4.4,0',
