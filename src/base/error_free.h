@@ -2,6 +2,8 @@
 // Needs plain IEEE arithmetic: compile with -ffp-contract=off.
 #pragma once
 
+#include "base/plain_arithmetic.h"
+
 namespace mandoline::detail {
 
 struct TwoTerms {

@@ -12,3 +12,4 @@
 #pragma once
 
 #include "mandoline/cut.h"
+#include "mandoline/version.h"

@@ -1,0 +1,172 @@
+// The benchmark: times cuts on one thread beside their lower bound.
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+
+#include "cli/bench/made_meshes.h"
+#include "cli/bench/measure.h"
+#include "cli/bench/tables.h"
+
+namespace mandoline::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kHelp =
+    R"(mandoline-bench [MESH N]... [--meshes FOLDER] [--cells N,...] [--repetitions R] [--markdown | --json]
+
+Cuts meshes with the default grid of N cells along their longest side, on one thread, and prints per mesh and N:
+  bound       ms of the lower bound: clip the triangles and sort the pieces by grid cell, in plain doubles
+  cut         ms of the cut without reading the file, all stages
+  ratio       cut / bound
+  peak        MB that the process needed, the input mesh and reading it included
+  peak/out    the same over the size of the cut-mesh's arrays
+  stages      ms of each stage
+Times are processor time, except those of the stages, which are by the clock. Each is the median of R fresh processes
+(default 5), the lower bound and the cut taking turns.
+
+  MESH N           this mesh at this N
+  --meshes FOLDER  every mesh in the folder, at each N of --cells
+  --cells N,...    default 50,100
+  --markdown       the table of the README
+  --json           all numbers
+Without MESH N also a few meshes that this program makes. A mesh that can't be cut is left out.
+)";
+
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Arguments {
+  std::vector<Job> jobs;
+  std::vector<int64_t> cells = {50, 100};
+  std::string folder;
+  int64_t repetitions = 5;
+  void (*print)(const std::vector<Row>&) = printText;
+};
+
+int64_t parseCount(const std::string& word, const char* what) {
+  int64_t n = 0;
+  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), n);
+  if (problem != std::errc() || end != word.data() + word.size() || n < 1)
+    throw UsageError(std::string(what) + " must be a whole number above 0, not " + word);
+  return n;
+}
+
+std::vector<int64_t> parseCounts(const std::string& word) {
+  std::vector<int64_t> counts;
+  for (size_t begin = 0; begin <= word.size();) {
+    const size_t end = std::min(word.find(',', begin), word.size());
+    counts.push_back(parseCount(word.substr(begin, end - begin), "N"));
+    begin = end + 1;
+  }
+  return counts;
+}
+
+/// The file's name up to its first dot.
+std::string nameOf(const fs::path& path) {
+  const std::string file = path.filename().string();
+  return file.substr(0, file.find('.'));
+}
+
+Arguments parse(const std::vector<std::string>& words) {
+  Arguments arguments;
+  for (size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (word == "--markdown" || word == "--json") {
+      arguments.print = word == "--json" ? printJson : printMarkdown;
+      continue;
+    }
+    const bool takesValue = word == "--meshes" || word == "--cells" || word == "--repetitions";
+    if (!takesValue && word.compare(0, 2, "--") == 0) throw UsageError("unknown option " + word);
+    if (i + 1 == words.size()) throw UsageError("what follows " + word + " is missing");
+    const std::string& value = words[++i];
+    if (word == "--meshes")
+      arguments.folder = value;
+    else if (word == "--cells")
+      arguments.cells = parseCounts(value);
+    else if (word == "--repetitions")
+      arguments.repetitions = parseCount(value, "R");
+    else
+      arguments.jobs.push_back({nameOf(word), word, parseCount(value, "N")});
+  }
+  return arguments;
+}
+
+bool isMesh(const fs::path& path) {
+  const fs::path file = path.extension() == ".gz" ? path.stem() : path;
+  constexpr const char* kExtensions[] = {".obj", ".stl", ".ply", ".off"};
+  return std::find(std::begin(kExtensions), std::end(kExtensions), file.extension()) != std::end(kExtensions);
+}
+
+std::vector<Job> jobsIn(const fs::path& folder, const std::vector<int64_t>& cells) {
+  std::vector<fs::path> paths;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (isMesh(entry.path())) paths.push_back(entry.path());
+  }
+  std::sort(paths.begin(), paths.end());
+  std::vector<Job> jobs;
+  for (const fs::path& path : paths) {
+    for (const int64_t n : cells) jobs.push_back({nameOf(path), path.string(), n});
+  }
+  return jobs;
+}
+
+std::vector<Job> jobsOf(const Arguments& arguments, const MadeMeshes& madeMeshes) {
+  std::vector<Job> jobs = arguments.jobs;
+  const auto add = [&](const std::vector<Job>& more) { jobs.insert(jobs.end(), more.begin(), more.end()); };
+  if (!arguments.folder.empty()) add(jobsIn(arguments.folder, arguments.cells));
+  if (arguments.jobs.empty()) add(madeMeshes.jobs(arguments.cells));
+  return jobs;
+}
+
+Programs findPrograms(const char* asCalled) {
+  std::error_code problem;
+  const fs::path linked = fs::read_symlink("/proc/self/exe", problem);
+  const fs::path self = problem ? fs::absolute(asCalled) : linked, lowerBound = self.parent_path() / "mandoline-lower-bound";
+  if (!fs::exists(lowerBound)) throw std::runtime_error("the lower bound is missing: " + lowerBound.string());
+  return {self.string(), lowerBound.string()};
+}
+
+int run(const char* asCalled, const std::vector<std::string>& words) {
+  if (words.size() == 3 && words[0] == kCutOnce) {
+    cutOnce(words[1], parseCount(words[2], "N"));
+    return 0;
+  }
+  if (std::find(words.begin(), words.end(), "--help") != words.end()) {
+    std::cout << kHelp;
+    return 0;
+  }
+  const Arguments arguments = parse(words);
+  const Programs programs = findPrograms(asCalled);
+  const MadeMeshes madeMeshes;
+  const std::vector<Job> jobs = jobsOf(arguments, madeMeshes);
+  std::vector<Row> rows;
+  for (const Job& job : jobs) {
+    try {
+      rows.push_back(measure(programs, job, arguments.repetitions));
+    } catch (const std::runtime_error& error) {
+      std::cerr << "left out: " << job.name << " at N = " << job.n << ": " << error.what() << '\n';
+    }
+  }
+  if (rows.empty()) return 1;
+  arguments.print(rows);
+  return 0;
+}
+
+}  // namespace
+}  // namespace mandoline::bench
+
+int main(int argc, char** argv) {
+  try {
+    return mandoline::bench::run(argv[0], {argv + 1, argv + argc});
+  } catch (const mandoline::bench::UsageError& error) {
+    std::cerr << "mandoline-bench: " << error.what() << "\n" << mandoline::bench::kHelp;
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "mandoline-bench: " << error.what() << "\n";
+    return 1;
+  }
+}

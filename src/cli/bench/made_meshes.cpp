@@ -1,0 +1,59 @@
+#include "cli/bench/made_meshes.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+
+#include "mandoline/shapes.h"
+
+namespace mandoline::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kNames[] = {kCube, "sphere", "torus-knot"};
+
+Mesh make(const std::string& name) {
+  if (name == kCube) return makeBox({0, 0, 0}, {1, 1, 1});
+  if (name == "sphere") return makeSphere({0, 0, 0}, 1, 6);
+  return makeTorusKnot(0.4, 960, 36);
+}
+
+fs::path fileOf(const fs::path& folder, const std::string& name) { return folder / (name + ".obj"); }
+
+void write(const fs::path& path, const Mesh& mesh) {
+  std::ofstream out(path);
+  char line[128];
+  for (size_t v = 0; v < mesh.positions.size(); v += 3) {
+    const double* p = &mesh.positions[v];
+    std::snprintf(line, sizeof line, "v %.17g %.17g %.17g\n", p[0], p[1], p[2]);
+    out << line;
+  }
+  for (size_t t = 0; t < mesh.triangles.size(); t += 3)
+    out << "f " << mesh.triangles[t] + 1 << ' ' << mesh.triangles[t + 1] + 1 << ' ' << mesh.triangles[t + 2] + 1 << '\n';
+  if (!out.flush()) throw std::runtime_error("can't write " + path.string());
+}
+
+}  // namespace
+
+MadeMeshes::MadeMeshes() : folder_(fs::temp_directory_path() / ("mandoline-bench-" + std::to_string(getpid()))) {
+  fs::create_directory(folder_);
+  for (const char* name : kNames) write(fileOf(folder_, name), make(name));
+}
+
+MadeMeshes::~MadeMeshes() {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+std::vector<Job> MadeMeshes::jobs(const std::vector<int64_t>& cells) const {
+  std::vector<Job> jobs;
+  for (const char* name : kNames) {
+    for (const int64_t n : cells) jobs.push_back({name, fileOf(folder_, name).string(), n});
+  }
+  return jobs;
+}
+
+}  // namespace mandoline::bench

@@ -1,0 +1,113 @@
+#include "cli/bench/tables.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <iomanip>
+#include <iostream>
+
+#include "cli/bench/made_meshes.h"
+#include "cli/json.h"
+
+namespace mandoline::bench {
+namespace {
+
+using cli::Json;
+
+std::string fixed(double value, int digits) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+/// Two cuts, and the time of the first over that of the second.
+struct Comparison {
+  const Row *a, *b;
+
+  bool doubled() const { return a->job.path == b->job.path && a->job.n == 2 * b->job.n; }
+  /// A mesh of few triangles beside one of many.
+  bool fewTriangles() const { return a->job.name == kCube && b->triangles > 50000 && a->job.n == b->job.n; }
+  double ratio() const { return a->cutMs / b->cutMs; }
+  std::string label() const {
+    return a->job.name + "(" + std::to_string(a->job.n) + ") / " + b->job.name + "(" + std::to_string(b->job.n) + ")";
+  }
+};
+
+std::vector<Comparison> comparisons(const std::vector<Row>& rows) {
+  std::vector<Comparison> found;
+  for (const Row& a : rows) {
+    for (const Row& b : rows) {
+      const Comparison comparison{&a, &b};
+      if (comparison.doubled() || comparison.fewTriangles()) found.push_back(comparison);
+    }
+  }
+  return found;
+}
+
+/// "1.5 to 2.0", the values' smallest and largest.
+std::string rangeOf(const std::vector<double>& values) {
+  const auto [min, max] = std::minmax_element(values.begin(), values.end());
+  return fixed(*min, 1) + " to " + fixed(*max, 1);
+}
+
+}  // namespace
+
+void printText(const std::vector<Row>& rows) {
+  const int width = 11;
+  size_t nameWidth = 4;
+  for (const Row& row : rows) nameWidth = std::max(nameWidth, row.job.name.size());
+  const auto printLine = [&](const std::string& name, const std::string& n, const std::vector<std::string>& items) {
+    std::cout << std::left << std::setw(int(nameWidth)) << name << std::right << std::setw(6) << n;
+    for (const std::string& item : items) std::cout << std::setw(width) << item;
+    std::cout << '\n';
+  };
+  printLine("mesh", "N", {"triangles", "cut-cells", "bound ms", "cut ms", "ratio", "peak MB", "peak/out"});
+  for (const Row& row : rows) {
+    printLine(row.job.name, std::to_string(row.job.n),
+              {std::to_string(row.triangles), std::to_string(row.cutCells), fixed(row.lowerBoundMs, 2), fixed(row.cutMs, 2),
+               fixed(row.ratio(), 2), fixed(row.peakBytes / 1e6, 1), fixed(row.peakBytes / row.outputBytes, 2)});
+  }
+  std::cout << "\nms of the stages\n";
+  printLine("mesh", "N", rows[0].stages);
+  for (const Row& row : rows) {
+    std::vector<std::string> times;
+    for (const double ms : row.stageMs) times.push_back(fixed(ms, 2));
+    printLine(row.job.name, std::to_string(row.job.n), times);
+  }
+  const std::vector<Comparison> found = comparisons(rows);
+  if (!found.empty()) std::cout << "\nms of one cut over another's\n";
+  for (const Comparison& c : found) std::cout << fixed(c.ratio(), 2) << "  " << c.label() << '\n';
+}
+
+void printMarkdown(const std::vector<Row>& rows) {
+  std::cout << "| mesh | N | triangles | cut-cells | lower bound, ms | cut, ms | ratio |\n|---|--:|--:|--:|--:|--:|--:|\n";
+  for (const Row& row : rows) {
+    std::cout << "| " << row.job.name << " | " << row.job.n << " | " << row.triangles << " | " << row.cutCells << " | "
+              << fixed(row.lowerBoundMs, 1) << " | " << fixed(row.cutMs, 0) << " | " << fixed(row.ratio(), 1) << " |\n";
+  }
+  std::vector<double> doubled, memory;
+  for (const Comparison& c : comparisons(rows)) {
+    if (c.doubled()) doubled.push_back(c.ratio());
+  }
+  for (const Row& row : rows) memory.push_back(row.peakBytes / row.outputBytes);
+  std::cout << '\n';
+  if (!doubled.empty()) std::cout << "Doubling N costs " << rangeOf(doubled) << " times as much. ";
+  std::cout << "Peak memory is " << rangeOf(memory) << " times the size of the result.\n";
+}
+
+void printJson(const std::vector<Row>& rows) {
+  Json json;
+  json.open('{').key("cuts").open('[');
+  for (const Row& row : rows) {
+    json.open('{').member("mesh", row.job.name).member("n", row.job.n).member("triangles", row.triangles).member("cutCells", row.cutCells);
+    json.member("lowerBoundMs", row.lowerBoundMs).member("cutMs", row.cutMs).member("ratio", row.ratio());
+    json.member("peakBytes", row.peakBytes).member("outputBytes", row.outputBytes).key("stagesMs").open('{');
+    for (size_t s = 0; s < row.stages.size(); ++s) json.member(row.stages[s], row.stageMs[s]);
+    json.close('}').close('}');
+  }
+  json.close(']').key("comparisons").open('[');
+  for (const Comparison& c : comparisons(rows)) json.open('{').member("cuts", c.label()).member("ratio", c.ratio()).close('}');
+  json.close(']').close('}');
+  std::cout << json.text();
+}
+
+}  // namespace mandoline::bench

@@ -1,0 +1,57 @@
+# What is installed, for find_package(mandoline) (targets mandoline::mandoline and mandoline::io) and for pkg-config (modules mandoline and
+# mandoline-io). Nothing in it names a place: the installed tree can be moved.
+
+# Shared libraries find each other, and the program finds them, by where they lie.
+file(RELATIVE_PATH MANDOLINE_BIN_TO_LIB ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+if(APPLE)
+  set(MANDOLINE_ORIGIN @loader_path)
+else()
+  set(MANDOLINE_ORIGIN $ORIGIN)
+endif()
+set_target_properties(mandoline mandoline_io PROPERTIES INSTALL_RPATH ${MANDOLINE_ORIGIN})
+if(TARGET mandoline-cli)
+  set_target_properties(mandoline-cli PROPERTIES INSTALL_RPATH ${MANDOLINE_ORIGIN}/${MANDOLINE_BIN_TO_LIB})
+endif()
+
+set(MANDOLINE_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/mandoline)
+install(TARGETS ${MANDOLINE_INSTALLED} EXPORT mandoline)
+install(DIRECTORY src/include/mandoline DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(EXPORT mandoline NAMESPACE mandoline:: DESTINATION ${MANDOLINE_CMAKE_DIR} FILE mandoline-targets.cmake)
+
+# Whoever links static libraries has to link what they use; shared ones see to it themselves.
+get_target_property(MANDOLINE_TYPE mandoline TYPE)
+set(MANDOLINE_CONFIG "")
+if(MANDOLINE_TYPE STREQUAL STATIC_LIBRARY)
+  set(MANDOLINE_CONFIG "include(CMakeFindDependencyMacro)\nfind_dependency(Threads)\n")
+  set(MANDOLINE_PC_LIBS ${CMAKE_THREAD_LIBS_INIT})
+  if(ZLIB_FOUND)
+    string(APPEND MANDOLINE_CONFIG "find_dependency(ZLIB)\n")
+    set(MANDOLINE_PC_IO_REQUIRES ", zlib")
+  endif()
+endif()
+file(WRITE ${PROJECT_BINARY_DIR}/mandoline-config.cmake
+  "${MANDOLINE_CONFIG}include(\"\${CMAKE_CURRENT_LIST_DIR}/mandoline-targets.cmake\")\n")
+include(CMakePackageConfigHelpers)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/mandoline-config-version.cmake VERSION ${PROJECT_VERSION}
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/mandoline-config.cmake ${PROJECT_BINARY_DIR}/mandoline-config-version.cmake
+        DESTINATION ${MANDOLINE_CMAKE_DIR})
+
+set(MANDOLINE_PC_DIR ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH MANDOLINE_PC_TO_INCLUDE ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_FULL_INCLUDEDIR})
+function(mandoline_write_pc module description requires libs)
+  file(WRITE ${PROJECT_BINARY_DIR}/${module}.pc
+"libdir=\${pcfiledir}/..
+includedir=\${pcfiledir}/${MANDOLINE_PC_TO_INCLUDE}
+
+Name: ${module}
+Description: ${description}
+Version: ${PROJECT_VERSION}
+Requires: ${requires}
+Cflags: -I\${includedir}
+Libs: -L\${libdir} ${libs}
+")
+  install(FILES ${PROJECT_BINARY_DIR}/${module}.pc DESTINATION ${MANDOLINE_PC_DIR})
+endfunction()
+mandoline_write_pc(mandoline "Cuts triangle meshes with Cartesian grids into polyhedral cut-cells" "" "-lmandoline ${MANDOLINE_PC_LIBS}")
+mandoline_write_pc(mandoline-io "Mesh files for mandoline" "mandoline = ${PROJECT_VERSION}${MANDOLINE_PC_IO_REQUIRES}" "-lmandoline_io")
