@@ -159,7 +159,7 @@ export interface Engine {
   /** Loads the mesh of a source (bytes with a file) and keeps it. Rejects with a PageError. */
   load(source: Source, bytes?: ArrayBuffer): Promise<{ name: string; triangles: number }>;
   cut(grid: GridSettings, snapTolerance: number): Promise<Model>;
-  /** Ends the cut under way. */
+  /** Ends the load or cut under way: they reject with an AbortError. */
   cancel(): void;
   onProgress: (progress: { stage: string; fraction: number } | null) => void;
   /** Caps of the planes through the current cut-mesh; planes in world units. */
@@ -174,6 +174,8 @@ export interface Engine {
 export interface View {
   /** Draws this model in place of the last one, with the look that is set next; keeps the camera unless told to frame it. */
   setModel(model: Model, frame: boolean): void;
+  /** Draws nothing until the next model. */
+  clear(): void;
   /** Applies slices, explosion, colours and visibility. */
   setLook(settings: Settings): void;
   /** Draws a step instead of the model, or the model again. */

@@ -19,13 +19,15 @@ export interface AppEvents {
   settings: Settings;
   /** The mesh that cuts are made of from now on. */
   mesh: LoadedMesh;
-  model: Model;
+  /** Null when the mesh could not be cut: the former one's picture is gone. */
+  model: Model | null;
   state: 'busy' | 'ready' | 'error';
-  /** Whether a cut is under way. */
-  cutting: boolean;
+  /** What is under way. */
+  work: 'loading' | 'cutting' | null;
   progress: { stage: string; fraction: number } | null;
   cutError: PageError | null;
-  alert: PageError;
+  /** Null when something else went well, which makes former alerts old news. */
+  alert: PageError | null;
   hover: number | null;
   pinned: CellCard | null;
   step: StepPicture | null;
@@ -40,7 +42,9 @@ export class App {
   readonly events = new Events<AppEvents>();
   settings = defaultSettings();
   model: Model | null = null;
+  private mesh: LoadedMesh | null = null;
   private loads = 0;
+  private loading = 0;
   private pins = 0;
   private pinned = false;
   private steps = 0;
@@ -48,9 +52,14 @@ export class App {
   private work = 0;
   private cuts = 0;
   private failed = false;
+  /** Told when all is done, or what the page falls back to would make them old news. */
+  private troubles: PageError[] = [];
+  /** What the first cut of a mesh is to bring with it: a camera that sees all of it, a look that suits it. */
   private frameNext = false;
-  /** What the model was cut with. */
-  private shown: Pick<Settings, 'source' | 'grid' | 'snapTolerance'> = this.settings;
+  private fitNext = false;
+  private wasSheet = false;
+  /** What the model was cut from and with. */
+  private shown: Pick<Settings, 'grid' | 'snapTolerance'> & { mesh: LoadedMesh | null } = { ...this.settings, mesh: null };
 
   constructor(
     private readonly engine: Engine,
@@ -67,10 +76,11 @@ export class App {
   async open(source: Source, { bytes, cells }: { bytes?: ArrayBuffer; cells?: number } = {}): Promise<void> {
     await this.during(async () => {
       if ((await this.load(source, bytes)) !== 'loaded') return;
-      const wasSheet = this.model !== null && isSheet(this.model);
+      if (this.model) this.wasSheet = isSheet(this.model);
       const grid = { cells: cells ?? this.cellsToKeep() };
+      this.fitNext = true;
       this.change({ source, grid, snapTolerance: 0, show: { ...this.settings.show, region: null }, camera: null }, false);
-      if (!(await this.recut(true))) this.fitLook(wasSheet);
+      await this.recut(true);
     });
   }
 
@@ -87,7 +97,7 @@ export class App {
     await this.during(async () => {
       let source = settings.source.kind === 'file' ? defaultSource : settings.source;
       let outcome = await this.load(source);
-      if (outcome === 'failed') {
+      if (outcome === 'failed' || outcome === 'cancelled') {
         source = this.model ? this.settings.source : defaultSource;
         outcome = this.model ? 'loaded' : await this.load(source);
       }
@@ -103,55 +113,74 @@ export class App {
   private showSomething(): void {
     const { model, settings } = this;
     if (!model || settings.show.outside) return;
-    if (isSheet(model) && JSON.stringify(settings.show) === JSON.stringify(defaultSettings().show)) this.fitLook(false);
+    if (isSheet(model) && JSON.stringify(settings.show) === JSON.stringify(defaultSettings().show)) this.fitLook();
     else if (model.regions.every(({ id }) => isOutside(model, id))) this.changeShow({ outside: true });
-  }
-
-  /**
-   * What a mesh is best first seen with: a sheet with the edges of the cells around it but without their grid-faces, which would hide it;
-   * few cells all of them. A plane that was moved and chosen colours stay.
-   */
-  private fitLook(wasSheet: boolean): void {
-    const { model } = this;
-    if (!model) return;
-    const sheet = isSheet(model);
-    const { slices, show, colorBy } = this.settings;
-    const { slices: { free }, colorBy: usual } = defaultSettings();
-    const isMoved = slices.free.position !== free.position || slices.free.normal.some((x, d) => x !== free.normal[d]);
-    const on = isMoved ? slices.free.on : !sheet && model.counts.cutCells >= fewCells;
-    const isChosen = colorBy !== (wasSheet ? sheetColoring : usual);
-    this.change({
-      slices: { ...slices, free: { ...slices.free, on } },
-      show: { ...show, gridFaces: !sheet, untouched: !sheet, outside: sheet },
-      colorBy: isChosen ? colorBy : sheet ? sheetColoring : usual,
-    });
-    if (!this.settings.camera) this.view.frame();
   }
 
   /** The look that this mesh is first seen with. */
   resetLook(): void {
     const { slices, sliceMode, explode, colorBy, show } = defaultSettings();
     this.change({ slices, sliceMode, explode, colorBy, show, camera: null }, false);
-    this.fitLook(false);
+    this.fitLook();
+  }
+
+  private fitLook(): void {
+    if (this.model) this.change(this.lookFor(this.model, false));
+    if (!this.settings.camera) this.view.frame();
+  }
+
+  /**
+   * What a mesh is best first seen with: a sheet with the edges of the cells around it but without their grid-faces, which would hide it;
+   * few cells all of them. A plane that was moved and chosen colours stay.
+   */
+  private lookFor(model: Model, wasSheet: boolean): Pick<Settings, 'slices' | 'show' | 'colorBy'> {
+    const sheet = isSheet(model);
+    const { slices, show, colorBy } = this.settings;
+    const { slices: { free }, colorBy: usual } = defaultSettings();
+    const isMoved = slices.free.position !== free.position || slices.free.normal.some((x, d) => x !== free.normal[d]);
+    const on = isMoved ? slices.free.on : !sheet && model.counts.cutCells >= fewCells;
+    const isChosen = colorBy !== (wasSheet ? sheetColoring : usual);
+    return {
+      slices: { ...slices, free: { ...slices.free, on } },
+      show: { ...show, gridFaces: !sheet, untouched: !sheet, outside: sheet },
+      colorBy: isChosen ? colorBy : sheet ? sheetColoring : usual,
+    };
   }
 
   /** A page without a picture would be of no use. */
   private async fallBack(error: PageError): Promise<void> {
-    this.events.tell('alert', error);
+    this.troubles.push(error);
     if ((await this.load(defaultSource)) !== 'loaded') return;
     const { source, grid, snapTolerance } = defaultSettings();
     this.change({ source, grid, snapTolerance, camera: null }, false);
     await this.recut(true);
   }
 
-  /** A failure is told in an alert; the outcome is "superseded" if a newer mesh was asked for meanwhile. */
-  private async load(source: Source, bytes?: ArrayBuffer): Promise<'loaded' | 'failed' | 'superseded'> {
+  /** A failure is told in the end; the outcome is "superseded" if a newer mesh was asked for meanwhile. */
+  private async load(source: Source, bytes?: ArrayBuffer): Promise<'loaded' | 'failed' | 'cancelled' | 'superseded'> {
     const load = ++this.loads;
-    const mesh = await this.ask(this.engine.load(source, bytes));
-    if (load !== this.loads) return 'superseded';
-    this.failed = mesh === null;
-    if (mesh) this.events.tell('mesh', mesh);
-    return mesh ? 'loaded' : 'failed';
+    this.loading++;
+    this.tellWork();
+    try {
+      const mesh = await this.engine.load(source, bytes);
+      if (load !== this.loads) return 'superseded';
+      this.mesh = mesh;
+      this.events.tell('mesh', mesh);
+      return 'loaded';
+    } catch (error) {
+      if (load !== this.loads) return 'superseded';
+      if (isAbort(error)) return 'cancelled';
+      this.failed = true;
+      this.troubles.push(pageError(error));
+      return 'failed';
+    } finally {
+      this.loading--;
+      this.tellWork();
+    }
+  }
+
+  private tellWork(): void {
+    this.events.tell('work', this.loading > 0 ? 'loading' : this.cuts > 0 ? 'cutting' : null);
   }
 
   /** The page is busy until this and all else is done. */
@@ -159,7 +188,9 @@ export class App {
     if (this.work++ === 0) this.events.tell('state', 'busy');
     this.failed = false;
     await task();
-    if (--this.work === 0) this.events.tell('state', this.failed ? 'error' : 'ready');
+    if (--this.work > 0) return;
+    for (const error of this.troubles.splice(0)) this.events.tell('alert', error);
+    this.events.tell('state', this.failed ? 'error' : 'ready');
   }
 
   /** Changes how the model is shown. */
@@ -204,22 +235,25 @@ export class App {
   private async recut(frame: boolean): Promise<PageError | null> {
     let problem: PageError | null = null;
     this.frameNext ||= frame;
-    const { source, grid, snapTolerance } = this.settings;
-    if (this.cuts++ === 0) this.events.tell('cutting', true);
+    const { grid, snapTolerance } = this.settings;
+    this.cuts++;
+    this.tellWork();
     await this.during(async () => {
       try {
         this.takeModel(await this.engine.cut(grid, snapTolerance));
         this.failed = false;
-        this.shown = { source, grid, snapTolerance };
+        this.shown = { mesh: this.mesh, grid, snapTolerance };
         this.events.tell('cutError', null);
+        this.events.tell('alert', null);
       } catch (error) {
         if (isAbort(error)) return;
         this.failed = true;
         problem = pageError(error);
-        this.events.tell('cutError', problem);
+        this.giveUp(problem);
       }
     });
-    this.events.tell('cutting', --this.cuts > 0);
+    this.cuts--;
+    this.tellWork();
     return problem;
   }
 
@@ -228,19 +262,35 @@ export class App {
     void this.pin(null);
     const { region } = this.settings.show;
     if (region !== null && region >= model.counts.regions) this.settings = { ...this.settings, show: { ...this.settings.show, region: null } };
+    if (this.fitNext) this.settings = { ...this.settings, ...this.lookFor(model, this.wasSheet) };
     this.view.setModel(model, this.frameNext);
-    this.frameNext = false;
+    this.fitNext = this.frameNext = false;
     this.view.setLook(this.settings);
     this.events.tell('model', model);
     this.events.tell('settings', this.settings);
     if (this.stepKind) void this.step({ kind: this.stepKind });
   }
 
-  /** Ends the cut under way; the settings are again those of the picture. */
+  /** No cut comes of these settings. A picture of the same mesh stays; that of another would be taken for this one's. */
+  private giveUp(problem: PageError): void {
+    if (this.model && this.shown.mesh !== this.mesh) {
+      this.wasSheet = isSheet(this.model);
+      this.model = null;
+      void this.pin(null);
+      void this.step(null);
+      this.view.clear();
+      this.events.tell('model', null);
+      this.events.tell('settings', this.settings);
+    }
+    this.events.tell('cutError', problem);
+  }
+
+  /** Ends what is under way. The settings are again those of the picture, if that is of the same mesh. */
   cancel(): void {
     this.engine.cancel();
-    const { source, grid, snapTolerance } = this.shown;
-    if (this.model && source === this.settings.source) this.change({ grid, snapTolerance }, false);
+    const { mesh, grid, snapTolerance } = this.shown;
+    if (this.mesh === mesh) this.change({ grid, snapTolerance }, false);
+    else this.giveUp({ title: 'Cancelled', detail: 'This mesh has not been cut yet. Change its grid to cut it.' });
   }
 
   /** Pins a cell and gets its card, or lets go of it. */
@@ -284,7 +334,9 @@ export class App {
   /** The answer, or null after an alert. */
   async ask<T>(answer: Promise<T>): Promise<T | null> {
     try {
-      return await answer;
+      const value = await answer;
+      this.events.tell('alert', null);
+      return value;
     } catch (error) {
       if (!isAbort(error)) this.events.tell('alert', pageError(error));
       return null;

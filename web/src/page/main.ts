@@ -13,12 +13,13 @@ import { savePanel } from './ui/save_panel';
 import { schemeToggle } from './ui/scheme';
 import { seePanel } from './ui/see_panel';
 import { shortcuts } from './ui/shortcuts';
+import { stageNote } from './ui/stage_note';
 import { stepsPanel } from './ui/steps_panel';
 import { createView } from './view/view';
 
 const element = (id: string) => document.getElementById(id) as HTMLElement;
 
-const { alert, notice } = alerts(element('alerts'));
+const { alert, clear, notice } = alerts(element('alerts'));
 
 try {
   start();
@@ -39,10 +40,10 @@ function start(): void {
   const engine = createEngine();
   const view = createView(element('canvas') as HTMLCanvasElement, { slice: (planes, untouched) => engine.slice(planes, untouched), onError: alert });
   const app = new App(engine, view);
-  app.events.on('alert', alert);
+  app.events.on('alert', (error) => (error ? alert(error) : clear()));
   app.events.on('state', (state) => (document.body.dataset.state = state));
   element('tools').append(schemeToggle((dark) => view.setScheme(dark)), shortcuts(app));
-  element('stage').append(legend(app), hoverLine(app), progressLine(app), cellCard(app));
+  element('stage').append(legend(app), hoverLine(app), stageNote(app), progressLine(app), cellCard(app));
   element('panels').append(meshPanel(app), cutPanel(app), seePanel(app), stepsPanel(app), checksPanel(app), savePanel(app));
   acceptDrops(app);
   skipToPanels();

@@ -14,11 +14,12 @@ export function checksPanel(app: App): HTMLElement {
     run.textContent = 'Validating…';
     const model = app.model;
     const validation = await app.validate();
-    run.disabled = false;
+    run.disabled = app.model === null;
     run.textContent = 'Validate';
     if (validation && model === app.model) show(result, validation, app);
   }
-  app.events.on('model', () => {
+  app.events.on('model', (model) => {
+    run.disabled = model === null;
     result.replaceChildren();
     delete result.dataset.pass;
   });

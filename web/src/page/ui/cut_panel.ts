@@ -25,11 +25,11 @@ function resolution(app: App): HTMLElement {
 function errorBox(app: App): HTMLElement {
   const box = el('div', { class: 'alert inline', id: 'cut-error', role: 'alert', hidden: true });
   app.events.on('cutError', (error) => {
-    box.hidden = error === null;
-    if (!error) return box.replaceChildren();
+    // Without a model it is told in the place of the picture.
+    box.hidden = error === null || app.model === null;
+    if (!error || box.hidden) return box.replaceChildren();
     openSection('cut');
-    const former = app.model ? el('p', { class: 'hint' }, `The picture still shows ${app.model.name}.`) : null;
-    box.replaceChildren(...[el('strong', {}, error.title), el('p', {}, error.detail), former].filter((node) => node !== null));
+    box.replaceChildren(el('strong', {}, error.title), el('p', {}, error.detail), el('p', { class: 'hint' }, 'The picture still shows the last cut.'));
   });
   return box;
 }
@@ -37,6 +37,8 @@ function errorBox(app: App): HTMLElement {
 function counts(app: App): HTMLElement {
   const box = el('div', { id: 'counts', 'aria-live': 'polite', 'aria-atomic': 'true' });
   app.events.on('model', (model) => {
+    for (const key of Object.keys(box.dataset)) delete box.dataset[key];
+    if (!model) return box.replaceChildren();
     const { cutCells, untouchedCells, regions } = model.counts;
     Object.assign(box.dataset, model.counts, { model: model.id, grid: model.grid.cells.join('x') });
     box.replaceChildren(
@@ -58,7 +60,7 @@ function counts(app: App): HTMLElement {
 /** What only some will want to know: own grids, stage times, what was left out. */
 function finePrint(app: App): HTMLElement {
   const body = el('div', { id: 'cut-details' });
-  app.events.on('model', (model) => body.replaceChildren(moreCounts(model), stageTimes(model), leftOut(model)));
+  app.events.on('model', (model) => body.replaceChildren(...(model ? [moreCounts(model), stageTimes(model), leftOut(model)] : [])));
   const times = el('details', {}, el('summary', {}, 'Times and details'), body);
   return el('div', {}, el('details', { id: 'own-grid' }, el('summary', {}, 'Own grid'), ownGrid(app)), times);
 }

@@ -31,9 +31,10 @@ function saver(app: App, format: string, label: string, what: string, make: () =
     const name = `${app.model.name}-${app.model.grid.cells.join('x')}.${format}`.replaceAll(/[^\w.-]+/g, '-');
     item.disabled = true;
     const blob = await make();
-    item.disabled = false;
+    item.disabled = app.model === null;
     if (blob) download(blob, name);
   }
+  app.events.on('model', (model) => (item.disabled = model === null));
   return item;
 }
 

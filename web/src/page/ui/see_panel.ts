@@ -75,7 +75,7 @@ function visibility(app: App): HTMLElement {
 
 function oneRegion(app: App): HTMLElement {
   const control = select('region', 'Only region', (value) => app.changeShow({ region: value === '' ? null : Number(value) }));
-  app.events.on('model', (model) => control.input.replaceChildren(...regionOptions(model)));
+  app.events.on('model', (model) => control.input.replaceChildren(...(model ? regionOptions(model) : [])));
   app.events.on('settings', ({ show }) => (control.input.value = show.region === null ? '' : String(show.region)));
   return control.element;
 }
@@ -92,7 +92,10 @@ function regionOptions(model: Model): HTMLElement[] {
 function pinByNumber(app: App): HTMLElement {
   const field = numberField({ id: 'pin-number', label: 'Pin cut-cell number', min: 0, onChange: (cell) => void app.pin(cell) });
   field.input.required = false;
-  app.events.on('model', ({ counts: { cutCells } }) => (field.input.max = String(cutCells - 1)));
+  app.events.on('model', (model) => {
+    field.input.disabled = model === null;
+    if (model) field.input.max = String(model.counts.cutCells - 1);
+  });
   app.events.on('pinned', (card) => (field.input.value = card ? String(card.cell) : ''));
   return field.element;
 }

@@ -42,15 +42,19 @@ function stepper(app: App): HTMLElement {
     event.preventDefault();
     go(current + (key === 'ArrowRight' ? 1 : -1));
   };
+  const show = () => {
+    for (const item of buttons) item.disabled = app.model === null;
+    buttons.forEach((item, i) => (i === current ? item.setAttribute('aria-current', 'step') : item.removeAttribute('aria-current')));
+    previous.disabled = app.model === null || current <= 0;
+    next.disabled = app.model === null || current === steps.length - 1;
+    next.textContent = current < 0 ? 'Start ›' : 'Next ›';
+  };
+  app.events.on('model', show);
   app.events.on('step', (picture) => {
     current = steps.findIndex(([kind]) => kind === picture?.kind);
-    buttons.forEach((item, i) => (i === current ? item.setAttribute('aria-current', 'step') : item.removeAttribute('aria-current')));
-    previous.disabled = current <= 0;
-    next.disabled = current === steps.length - 1;
-    next.textContent = current < 0 ? 'Start ›' : 'Next ›';
+    show();
   });
-  previous.disabled = true;
-  next.textContent = 'Start ›';
+  show();
   const list = el('ol', { class: 'stepper' }, ...buttons.map((item) => el('li', {}, item)));
   return el('div', { role: 'group', 'aria-label': 'Steps of the algorithm', keydown }, list, el('div', { class: 'row' }, previous, next));
 }

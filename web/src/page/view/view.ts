@@ -164,6 +164,16 @@ class ThreeView implements View {
     if (frame) this.isFramed = false;
   }
 
+  clear(): void {
+    this.model = null;
+    this.uniforms.hovered.value = this.uniforms.pinned.value = -1;
+    this.modelGroup.visible = this.cells.ghost.visible = this.stepPicture.group.visible = false;
+    this.gizmo.hide();
+    Object.assign(this.canvas.dataset, { model: '', cells: '0', untouched: '0', caps: '0' });
+    this.onHover(null);
+    this.invalidate();
+  }
+
   /** Another grid has another centre and size; what is looked at stays. */
   private keepCamera(from: Model, to: Model): void {
     const move = (point: Vector3) => {
@@ -357,8 +367,9 @@ class ThreeView implements View {
   /** Brings what is drawn up to date with the settings. */
   private updateLook(): void {
     const { model, settings } = this;
-    if (!model || !settings || !this.isLookStale) return;
+    const wasStale = this.isLookStale;
     this.isLookStale = false;
+    if (!model || !settings || !wasStale) return;
     this.regions = shownRegions(model, settings);
     const { show, colorBy, sliceMode } = settings;
     const isFlat = sliceMode === 'flat';

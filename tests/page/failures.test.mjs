@@ -1,0 +1,135 @@
+// What the page shows when a mesh can't be read or cut, or when nothing of it is left to see.
+import assert from 'node:assert/strict';
+import { createServer } from 'node:http';
+import { after, describe, test } from 'node:test';
+import { writeObj } from '../package/meshes.mjs';
+import { crossing, octahedronFiles } from './mesh_files.mjs';
+import { dataOf, enter, eventually, isReady, openPanel, shows, startSite, textOf } from './page_helpers.mjs';
+import { covered, pixelsOf } from './pictures.mjs';
+
+const needle = 'v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 1 0\nv 3 1 0\nf 1 2 3\nf 1 4 5\nf 2 2 4\n';
+const site = await startSite({ files: octahedronFiles });
+after(() => site.close());
+const start = 'mesh=wedge&n=4';
+
+async function pick(page, name, content) {
+  await page.locator('#file').setInputFiles({ name, mimeType: 'application/octet-stream', buffer: Buffer.from(content) });
+}
+
+async function openUrl(page, url) {
+  await page.locator('#url').fill(url);
+  await page.locator('#open-url').click();
+}
+
+/** A server that sends the file when it is told to. */
+async function slowHost(t, content) {
+  const waiting = [];
+  const server = createServer((_request, response) => {
+    response.writeHead(200, { 'Access-Control-Allow-Origin': '*' });
+    response.flushHeaders();
+    waiting.push(() => response.end(content));
+  });
+  await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
+  t.after(() => {
+    server.close();
+    server.closeAllConnections();
+  });
+  return { url: `http://127.0.0.1:${server.address().port}/slow.obj`, send: () => waiting.splice(0).forEach((answer) => answer()) };
+}
+
+describe('a mesh that cannot be cut', () => {
+  test('takes the place of the former one: nothing of that is shown or saved', async (t) => {
+    const page = await site.open(t, start);
+    await enter(page, '#pin-number', 0);
+    await shows(page, '#cell-card', { cell: 0 });
+    await pick(page, 'crossing.obj', writeObj(crossing));
+    await page.locator('#stage-note').waitFor();
+    assert.match(await textOf(page, '#stage-note'), /can't be cut.*triangles? \d+/i);
+    assert.equal(await isReady(page), 'error');
+    await shows(page, '#mesh-line', { name: 'crossing.obj' });
+    await eventually(async () => assert.ok(covered(await pixelsOf(page)) < 0.001, 'the former picture is gone'));
+    assert.equal((await textOf(page, '#counts')).trim(), '');
+    assert.doesNotMatch(await textOf(page, '#hover-line'), /wedge/);
+    assert.equal(await page.locator('#cell-card').isVisible(), false);
+    for (const panel of ['save', 'checks', 'steps']) await openPanel(page, panel);
+    for (const button of ['#save-json', '#save-vtu', '#save-obj', '#save-glb', '#save-png', '#validate', '#step-next']) {
+      assert.equal(await page.locator(button).isDisabled(), true, `${button} has nothing to work on`);
+    }
+    await page.locator('#gallery [data-name="wedge"]').click();
+    await shows(page, '#mesh-line', { name: 'wedge' });
+    assert.equal(await isReady(page), 'ready');
+    assert.equal(await page.locator('#stage-note').isVisible(), false);
+    assert.equal(await page.locator('#save-json').isDisabled(), false);
+    await eventually(async () => assert.ok(covered(await pixelsOf(page)) > 0.05));
+  });
+
+  test('in a grid that is too fine keeps its picture, which is of the same mesh', async (t) => {
+    const page = await site.open(t, start);
+    const { model } = await dataOf(page, '#counts');
+    await page.locator('#own-grid summary').click();
+    for (const axis of ['x', 'y', 'z']) await enter(page, `#grid-cells-${axis}`, 4096);
+    await eventually(async () => assert.match(await textOf(page, '#cut-error'), /too fine/));
+    assert.equal(await isReady(page), 'error');
+    await shows(page, '#counts', { model });
+    assert.equal(await page.locator('#stage-note').isVisible(), false);
+    assert.ok(covered(await pixelsOf(page)) > 0.05);
+  });
+});
+
+describe('while a mesh is loading', () => {
+  test('the page says so, and it can be cancelled', async (t) => {
+    const host = await slowHost(t, octahedronFiles['octahedron.obj']);
+    const page = await site.open(t, start);
+    await openUrl(page, host.url);
+    await page.locator('#progress').waitFor();
+    assert.match(await textOf(page, '#progress'), /Loading/);
+    await page.locator('#cancel').click();
+    assert.equal(await isReady(page), 'ready');
+    assert.equal(await page.locator('#progress').isVisible(), false);
+    await shows(page, '#mesh-line', { name: 'wedge' });
+    await openUrl(page, host.url);
+    await page.locator('#progress').waitFor();
+    host.send();
+    await shows(page, '#mesh-line', { name: 'slow.obj' });
+    assert.equal(await isReady(page), 'ready');
+    assert.equal(await page.locator('#progress').isVisible(), false);
+  });
+});
+
+describe('alerts', () => {
+  const alerts = '[data-test=alert]';
+
+  test('go when the next mesh is shown', async (t) => {
+    const page = await site.open(t, start);
+    await pick(page, 'empty.obj', '');
+    await page.locator(alerts).waitFor();
+    await page.locator('#gallery [data-name="claw"]').click();
+    await shows(page, '#mesh-line', { name: 'claw' });
+    await eventually(async () => assert.equal(await page.locator(alerts).count(), 0));
+  });
+
+  test('go when the next cut is shown', async (t) => {
+    const page = await site.open(t, start);
+    await pick(page, 'empty.obj', '');
+    await page.locator(alerts).waitFor();
+    await enter(page, '#cells-number', 5);
+    await eventually(async () => assert.equal(await page.locator(alerts).count(), 0));
+  });
+
+  test('stay when the page falls back to another mesh than the one asked for', async (t) => {
+    const page = await site.open(t, 'mesh=unicorn');
+    await shows(page, '#mesh-line', { name: 'bunny' });
+    assert.match(await textOf(page, alerts), /unicorn/);
+  });
+});
+
+test('a mesh of degenerate triangles alone leaves a word instead of an empty picture', async (t) => {
+  const page = await site.open(t, start);
+  await pick(page, 'needle.obj', needle);
+  await page.locator('#stage-note').waitFor();
+  assert.match(await textOf(page, '#stage-note'), /All 3 triangles are degenerate/);
+  assert.equal(await isReady(page), 'ready');
+  await page.locator('#gallery [data-name="claw"]').click();
+  await shows(page, '#mesh-line', { name: 'claw' });
+  assert.equal(await page.locator('#stage-note').isVisible(), false);
+});
