@@ -66,8 +66,7 @@ describe('a mesh that cannot be cut', () => {
   test('in a grid that is too fine keeps its picture, which is of the same mesh', async (t) => {
     const page = await site.open(t, start);
     const { model } = await dataOf(page, '#counts');
-    await page.locator('#own-grid summary').click();
-    for (const axis of ['x', 'y', 'z']) await enter(page, `#grid-cells-${axis}`, 4096);
+    await enter(page, '#cells-number', 512);
     await eventually(async () => assert.match(await textOf(page, '#cut-error'), /too fine/));
     assert.equal(await isReady(page), 'error');
     await shows(page, '#counts', { model });

@@ -1,7 +1,7 @@
 // How long the page is blocked. Numbers are printed, for they tell of the machine, too; what is asserted can't depend on it.
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
-import { dataOf, eventually, isReady, shows, startSite } from './page_helpers.mjs';
+import { dataOf, eventually, isReady, shows, slideTo, startSite } from './page_helpers.mjs';
 import { cutOf, galleryMesh } from './reference.mjs';
 
 const site = await startSite();
@@ -40,4 +40,34 @@ test('the bunny at 50 cells is cut and drawn while the slider moves', async (t) 
   t.diagnostic(`while the slider moves from 44 to 54 and back to 50: ${await longest()}`);
   const cells = Number(await slider.inputValue());
   await shows(page, '#counts', { grid: (await cutOf(await galleryMesh('bunny'), { cells })).cutMesh.grid.cells.join('x') });
+});
+
+test('on a slow machine pictures come all along a drag, from one worker', async (t) => {
+  const page = await site.open(t, 'mesh=wedge&n=4', {
+    onNewPage: (made) => made.addInitScript(() => {
+      // Each call reaches the worker late, as if the one before had taken so long.
+      window.workers = 0;
+      window.Worker = class extends Worker {
+        constructor(...given) {
+          super(...given);
+          ++window.workers;
+        }
+        postMessage(...given) {
+          setTimeout(() => super.postMessage(...given), 800);
+        }
+      };
+    }),
+  });
+  const models = () => page.evaluate(() => Number(document.getElementById('counts').dataset.model));
+  const [first, workers] = [await models(), await page.evaluate(() => window.workers)];
+  for (let step = 0; step < 40; ++step) {
+    await slideTo(page, '#cells', 5 + (step % 20));
+    await page.waitForTimeout(100);
+  }
+  const shown = (await models()) - first;
+  assert.ok(shown >= 2, `${shown} pictures came while the slider moved for 4 s`);
+  await slideTo(page, '#cells', 7);
+  assert.equal(await isReady(page), 'ready');
+  await shows(page, '#counts', { grid: (await cutOf(await galleryMesh('wedge'), { cells: 7 })).cutMesh.grid.cells.join('x') });
+  assert.equal(await page.evaluate(() => window.workers), workers, 'no worker was thrown away');
 });

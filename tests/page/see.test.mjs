@@ -167,6 +167,42 @@ describe('explosions', () => {
   });
 });
 
+describe('a whole view stays whole', () => {
+  /** The share of the pixels along the picture's rim that something is drawn on. */
+  const atRim = async (page) => {
+    const picture = await pixelsOf(page);
+    const { width, height, rgba } = picture;
+    const drawn = isDrawn(picture);
+    let count = 0;
+    for (let y = 0; y < height; ++y) {
+      for (let x = 0; x < width; ++x) {
+        if (x > 1 && y > 1 && x < width - 2 && y < height - 2) continue;
+        const at = 4 * (x + width * y);
+        if (drawn(...rgba.subarray(at, at + 3))) ++count;
+      }
+    }
+    return count;
+  };
+  for (const [name, cells] of [['nested-spheres', 6], ['chain', 8]]) {
+    for (const key of ['regions', 'cells']) {
+      test(`when ${name} explode by ${key}`, async (t) => {
+        const page = await site.open(t, `mesh=${name}&n=${cells}&free=off&explode=0,0&color=region`);
+        const whole = await pixelsOf(page);
+        for (const amount of [0.5, 1]) {
+          await slideTo(page, `#explode-${key}`, amount);
+          await looksUnlike(page, whole, 3);
+          await eventually(async () => {
+            assert.equal(await atRim(page), 0, 'nothing leaves the picture');
+            assert.ok(covered(await pixelsOf(page)) > 0.03, 'yet it is seen from near');
+          });
+        }
+        await slideTo(page, `#explode-${key}`, 0);
+        await eventually(async () => assert.ok(difference(tiles(await pixelsOf(page)), tiles(whole)) < 1, 'and comes back'));
+      });
+    }
+  }
+});
+
 describe('colours', () => {
   const legends = {
     region: ['region 0, outside', 'region 1', 'region 2, outside', 'region 3', 'region 4, outside', 'region 5'],

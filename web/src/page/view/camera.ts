@@ -127,6 +127,11 @@ export class Camera {
     this.framed = framed && { center: move(framed.center), radius: framed.radius * scale };
   }
 
+  /** Whether the camera still stands where it sees all of something. */
+  get isFramed(): boolean {
+    return this.framed !== null;
+  }
+
   resize(width: number, height: number): void {
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();

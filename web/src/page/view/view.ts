@@ -6,6 +6,7 @@ import { Camera } from './camera';
 import { Caps } from './caps';
 import { CutCells } from './cut_cells';
 import { exportGlb } from './export';
+import { shownBall } from './extent';
 import { Frames } from './frames';
 import { Gizmo } from './gizmo';
 import { GpuPace } from './gpu_pace';
@@ -81,7 +82,7 @@ class ThreeView implements View {
   private readonly keys = new Map<string, string>();
   private isSlicing = false;
   private cameraKnown = '';
-  private cameraBeforeStep: { position: Vector3; target: Vector3 } | null = null;
+  private cameraBeforeStep: { position: Vector3; target: Vector3; isFramed: boolean } | null = null;
   private isFramed = false;
   private hoverAt: { x: number; y: number } | null = null;
   private isLookStale = true;
@@ -192,7 +193,10 @@ class ThreeView implements View {
       this.isFramed = true;
       this.camera.place(this.toScene(camera.position), this.toScene(camera.target));
     }
+    const isPulled = this.hasChanged('explosion', [settings.explode, settings.explode.regions > 0 && this.model?.id]);
     if (!this.isFramed) this.frame();
+    // Until the person moves the camera, what is pulled apart stays in the picture.
+    else if (isPulled && this.camera.isFramed && !this.step) this.frameShown(true);
     this.lookChanged();
   }
 
@@ -207,10 +211,12 @@ class ThreeView implements View {
     if (picture) {
       this.stepPicture.set(picture);
       const { camera, controls } = this.camera;
-      this.cameraBeforeStep ??= { position: camera.position.clone(), target: controls.target.clone() };
+      this.cameraBeforeStep ??= { position: camera.position.clone(), target: controls.target.clone(), isFramed: this.camera.isFramed };
       if (isNew) this.camera.frame(this.fromModel(picture.center), picture.radius * this.root.scale.x * 1.2, true);
     } else if (this.cameraBeforeStep) {
-      this.camera.place(this.cameraBeforeStep.position, this.cameraBeforeStep.target);
+      const { position, target, isFramed } = this.cameraBeforeStep;
+      this.camera.place(position, target);
+      if (isFramed) this.frameShown(true);
       this.cameraBeforeStep = null;
     }
     this.lookChanged();
@@ -233,8 +239,14 @@ class ThreeView implements View {
     if (!this.model) return;
     this.isFramed = true;
     this.cameraKnown = '';
-    const { center, radius } = shownBall(this.model, this.settings);
-    this.camera.frame(this.fromModel(center), radius * this.root.scale.x, false);
+    this.frameShown(false);
+  }
+
+  private frameShown(keepDirection: boolean): void {
+    const { model, settings } = this;
+    if (!model || !settings) return;
+    const { center, radius } = shownBall(model, settings, this.cells.shifts);
+    this.camera.frame(this.fromModel(center), radius * this.root.scale.x, keepDirection);
   }
 
   async png(): Promise<Blob> {
@@ -460,20 +472,6 @@ class ThreeView implements View {
     dataset.caps = String(this.caps.count);
     dataset.step = this.step?.kind ?? '';
   }
-}
-
-/** What holds the model: the mesh, or the grid if the outside is shown or nothing else is in it, exploded; less the model's origin. */
-function shownBall(model: Model, settings: Settings | null): { center: number[]; radius: number } {
-  const explode = 1 + (settings?.explode.cells ?? 0);
-  const { outside, untouched, cutCells } = settings?.show ?? {};
-  const { meshMin, meshMax, origin, grid } = model;
-  const isBesideGrid = grid.planes.some((planes, d) => meshMax[d] < planes[0] || meshMin[d] > planes[planes.length - 1]);
-  if (isBesideGrid || (outside && (untouched || cutCells))) return { center: [0, 0, 0], radius: (model.diagonal / 2) * explode };
-  const center = meshMin.map((x, d) => ((x + meshMax[d]) / 2 - origin[d]) * explode);
-  const sides = meshMax.map((x, d) => x - meshMin[d]);
-  const diagonal = Math.hypot(...sides);
-  // A slight explosion finds room in the corners of the box, unless it is long.
-  return { center, radius: Math.max(0.51 * diagonal, Math.max(0.53 * Math.max(...sides), 0.42 * diagonal) * explode) };
 }
 
 function samePlanes(a: readonly ViewPlane[], b: readonly ViewPlane[]): boolean {
