@@ -1,11 +1,14 @@
-// Builds the package into dist/: compiles the C++ core to WebAssembly and puts the JavaScript and the types beside it.
+// Builds the package into dist/: compiles the C++ core to WebAssembly and puts the JavaScript and the types beside it. inline.js gets the
+// WebAssembly and the worker's script inside.
 // With --tests also builds the C++ tests for Node, for `ctest --test-dir build-wasm`.
 // Takes the Emscripten of an activated emsdk if there is one, else that of Debian.
 import { execFileSync } from 'node:child_process';
-import { cpSync, existsSync, mkdirSync, readdirSync, realpathSync, rmSync } from 'node:fs';
+import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, realpathSync, rmSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
-import { basename, delimiter, dirname, join } from 'node:path';
+import { delimiter, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
+import { build as rolldown } from 'rolldown';
 
 const packageFolder = dirname(fileURLToPath(import.meta.url));
 const root = dirname(packageFolder);
@@ -34,17 +37,42 @@ function compile(tests) {
   run('cmake', '--build', build, '--parallel', String(availableParallelism()), '--target', 'mandoline-wasm', ...(tests ? ['mandoline-tests'] : []));
 }
 
+/** The code of a script and of what it imports, in one file. */
+async function bundle(input, options, output) {
+  const { output: chunks } = await rolldown({ input, write: false, logLevel: 'warn', ...options, output: { codeSplitting: false, ...output } });
+  return chunks[0].code;
+}
+
+/** Puts what inline.js has inside into its text. */
+async function fillInline(folder) {
+  const wasm = gzipSync(readFileSync(join(folder, 'mandoline.wasm')), { level: 9 }).toString('base64');
+  const script = await bundle(join(folder, 'worker-thread.js'), {}, { minify: true });
+  const file = join(folder, 'inline.js');
+  const text = readFileSync(file, 'utf8');
+  writeFileSync(file, text.replace("'GZIPPED_WASM'", () => `'${wasm}'`).replace("'WORKER_SCRIPT'", () => JSON.stringify(script)));
+}
+
+/** Makes the package's files, beside each other since one has others inside. Gives their folder. */
+async function makeFiles() {
+  const folder = join(build, 'package');
+  rmSync(folder, { recursive: true, force: true });
+  cpSync(join(packageFolder, 'src'), folder, { recursive: true });
+  cpSync(join(build, 'wasm', 'mandoline.wasm'), join(folder, 'mandoline.wasm'));
+  // Emscripten's code says where the .wasm file is, too, for which bundlers would copy it once more.
+  const withoutUrl = { transform: { define: { 'import.meta.url': 'undefined' } }, treeshake: false };
+  writeFileSync(join(folder, 'mandoline.js'), await bundle(join(build, 'wasm', 'mandoline.js'), withoutUrl, { minify: true }));
+  await fillInline(folder);
+  return folder;
+}
+
 /** Files are replaced one by one, so that whoever uses the package meanwhile always finds it. */
-function assemble() {
+function assemble(folder) {
   mkdirSync(dist, { recursive: true });
-  const source = join(packageFolder, 'src');
-  const compiled = ['mandoline.js', 'mandoline.wasm'].map((file) => join(build, 'wasm', file));
-  const files = [...readdirSync(source).map((file) => join(source, file)), ...compiled];
-  for (const file of files) cpSync(file, join(dist, basename(file)));
-  const kept = new Set(files.map((file) => basename(file)));
+  const files = readdirSync(folder);
+  for (const file of files) cpSync(join(folder, file), join(dist, file));
   cpSync(join(root, 'LICENSE'), join(packageFolder, 'LICENSE'));
-  for (const file of readdirSync(dist)) if (!kept.has(file)) rmSync(join(dist, file), { recursive: true });
+  for (const file of readdirSync(dist)) if (!files.includes(file)) rmSync(join(dist, file), { recursive: true });
 }
 
 compile(process.argv.includes('--tests'));
-assemble();
+assemble(await makeFiles());

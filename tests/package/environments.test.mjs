@@ -1,7 +1,7 @@
 // The examples of the package's README, run with the packed tarball wherever it promises to work.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { readFileSync, rmSync } from 'node:fs';
+import { readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
@@ -157,20 +157,40 @@ test('without wasm-unsafe-eval a page gets a MandolineError', async () => {
   assert.match(regions[1], /wasm-unsafe-eval/);
 });
 
-test('a worker whose script is missing rejects instead of hanging', async () => {
+/** What a page gets that starts the package with a file of it missing or, with `content`, replaced. */
+async function failureWithout(file, start, content) {
   const script = `
+    import { init } from 'mandoline-wasm';
     import { createWorker } from 'mandoline-wasm/worker';
-    const error = await createWorker().catch((reason) => reason);
-    globalThis.cutMesh = { regionCount: error.code, cellRegion: [] };`;
+    const { code, message } = await ${start}.catch((reason) => reason);
+    globalThis.cutMesh = { regionCount: { code, message }, cellRegion: [] };`;
   const folder = install({ 'index.html': page, 'main.js': plain(withOutcome(script)) });
-  rmSync(join(folder, 'node_modules', 'mandoline-wasm', 'dist', 'worker-thread.js'));
+  const path = join(folder, 'node_modules', 'mandoline-wasm', 'dist', file);
+  rmSync(path);
+  if (content !== undefined) writeFileSync(path, content);
   const server = await serveFolder({ folder });
   try {
     const { regions } = await openPage(browser, server.url, { expected: /404/ });
-    assert.equal(regions, 'loadFailed');
+    assert.equal(regions.code, 'loadFailed');
+    assert.ok(regions.message.includes(`${server.url}node_modules/mandoline-wasm/dist/${file}`), regions.message);
+    return regions.message;
   } finally {
     await server.close();
   }
+}
+
+test('a worker whose script is missing rejects instead of hanging, and names the script', async () => {
+  assert.match(await failureWithout('worker-thread.js', 'createWorker()'), /worker could not be started/);
+});
+
+test('a missing mandoline.wasm is named with what the server answered', async () => {
+  assert.match(await failureWithout('mandoline.wasm', 'init()'), /answered with 404 Not Found\.$/);
+  assert.match(await failureWithout('mandoline.wasm', 'createWorker()'), /answered with 404 Not Found\.$/);
+});
+
+test('a server that answers with a page instead of mandoline.wasm is told from one that has it', async () => {
+  assert.match(await failureWithout('mandoline.wasm', 'init()', '<!doctype html>'), /answered with HTML instead of WebAssembly\.$/);
+  assert.match(await failureWithout('mandoline.wasm', 'init()', ''), /answered with something else instead of WebAssembly\.$/);
 });
 
 for (const options of [['--module', 'nodenext'], ['--module', 'esnext', '--moduleResolution', 'bundler']]) {

@@ -12,3 +12,16 @@ export function buffersOf(value) {
   visit(value);
   return [...buffers];
 }
+
+/** structuredClone(), also in Node's jsdom, which has none. */
+export function clone(value, transfer) {
+  if (typeof structuredClone === 'function') return structuredClone(value, { transfer });
+  const { MessageChannel, receiveMessageOnPort } = globalThis.process.getBuiltinModule('node:worker_threads');
+  const { port1, port2 } = new MessageChannel();
+  try {
+    port1.postMessage(value, transfer);
+    return receiveMessageOnPort(port2).message;
+  } finally {
+    port1.close();
+  }
+}

@@ -321,9 +321,13 @@ export interface Mandoline {
 }
 
 export interface InitOptions {
-  /** The module: where to load it from, its bytes, or the compiled module. By default it is loaded from beside the package's code. */
-  wasm?: URL | string | BufferSource | WebAssembly.Module;
+  /**
+   * The module: where to load it from, its bytes, or the compiled module; or what gives or promises one of these. By default it is loaded from
+   * beside the package's code.
+   */
+  wasm?: WasmSource | (() => WasmSource | Promise<WasmSource>);
 }
+export type WasmSource = URL | string | BufferSource | WebAssembly.Module;
 
 /** Loads the WebAssembly module, once: every call gives the same promise, whatever its options. After a failure the next call tries again. */
 export function init(options?: InitOptions): Promise<Mandoline>;

@@ -14,6 +14,7 @@ export function instantiate(module) {
         throw error;
       }
     },
+    locateFile: (name) => name, // not used
     print() {},
     printErr() {}, // what it says is also thrown
   });

@@ -1,25 +1,44 @@
 import { MandolineError } from './errors.js';
+import { ownFiles } from './own-files.js';
+
+/** Throws unless it is WebAssembly: many servers answer unknown addresses with a page of theirs and status 200. */
+function expectWasm(bytes, type) {
+  const start = new Uint8Array(bytes, 0, Math.min(bytes.byteLength, 4));
+  if ([0, 0x61, 0x73, 0x6d].every((byte, i) => start[i] === byte)) return bytes;
+  const isPage = start[0] === 0x3c || /html/.test(type);
+  throw new Error(`the server answered with ${isPage ? 'HTML' : 'something else'} instead of WebAssembly`);
+}
 
 async function readBytes(url) {
   if (url.protocol === 'file:' && globalThis.process?.versions?.node) {
-    const fileSystem = 'node:fs/promises'; // not a literal, since bundlers for browsers would look for it
-    const { readFile } = await import(/* @vite-ignore */ /* webpackIgnore: true */ fileSystem);
-    return readFile(url);
+    return globalThis.process.getBuiltinModule('node:fs/promises').readFile(url); // no import, which bundlers for browsers would follow
   }
   const response = await fetch(url);
-  if (!response.ok) throw new Error(`${response.status} ${response.statusText}`.trim());
-  return response.arrayBuffer();
+  if (!response.ok) throw new Error(`the server answered with ${response.status} ${response.statusText}`.trim());
+  return expectWasm(await response.arrayBuffer(), response.headers.get('content-type'));
 }
 
-/** Compiles the module: `source` is where to load it from, its bytes, or the compiled module itself. */
-export async function compile(source = new URL('./mandoline.wasm', import.meta.url)) {
-  if (source instanceof WebAssembly.Module) return source;
-  let what = 'The WebAssembly module';
+async function bytesOf(source) {
+  if (typeof source !== 'string' && !(source instanceof URL)) return source;
   try {
-    if (typeof source !== 'string' && !(source instanceof URL)) return await WebAssembly.compile(source);
-    what += ` ${source}`;
-    return await WebAssembly.compile(await readBytes(new URL(source, globalThis.location?.href)));
+    return await readBytes(new URL(source, globalThis.location?.href));
   } catch (cause) {
-    throw new MandolineError('loadFailed', `${what} could not be loaded: ${cause?.message ?? cause}.`, { stage: 'init', cause });
+    throw failureOf(` ${source}`, cause);
+  }
+}
+
+function failureOf(name, cause) {
+  if (cause instanceof MandolineError) return cause;
+  const message = `The WebAssembly module${name} could not be loaded: ${cause?.message ?? cause}.`;
+  return new MandolineError('loadFailed', message, { stage: 'init', cause });
+}
+
+/** Compiles the module: `source` is where to load it from, its bytes, the compiled module itself, or a function that gives one of these. */
+export async function compile(source = ownFiles.wasm) {
+  try {
+    const given = await (typeof source === 'function' ? source() : source);
+    return given instanceof WebAssembly.Module ? given : await WebAssembly.compile(await bytesOf(given));
+  } catch (cause) {
+    throw failureOf('', cause);
   }
 }

@@ -41,23 +41,11 @@ function noteScript(make) {
   }
 }
 
-/** What starts the package's own script. */
-async function ownWorker() {
-  if (typeof Worker === 'function') return () => new Worker(new URL('./worker-thread.js', import.meta.url), { type: 'module' });
-  const threads = 'node:worker_threads'; // not a literal, since bundlers for browsers would look for it
-  const { Worker: NodeWorker } = await import(/* @vite-ignore */ /* webpackIgnore: true */ threads);
-  const script = './worker-thread.js'; // as above: they would take it for an asset
-  return () => new NodeWorker(new URL(script, import.meta.url), { execArgv: [] }); // those of the process may be for its own script only
-}
-
-/** Resolves to the function that starts a thread, given what to do with its messages and when it dies. `make` starts a worker. */
-export async function threadStarter(make) {
-  const start = make ?? (await ownWorker());
-  return (handlers) => {
-    const made = noteScript(start);
-    const { worker } = made;
-    if (typeof worker?.on === 'function') return nodeThread(made, handlers);
-    if (typeof worker?.addEventListener === 'function') return browserThread(made, handlers);
-    throw new MandolineError('badArgument', 'options.thread must return a Worker.', { stage: 'init' });
-  };
+/** Starts a thread, given what to do with its messages and when it dies. `make` starts its worker. */
+export function startThread(make, handlers) {
+  const made = noteScript(make);
+  const { worker } = made;
+  if (typeof worker?.on === 'function') return nodeThread(made, handlers);
+  if (typeof worker?.addEventListener === 'function') return browserThread(made, handlers);
+  throw new MandolineError('badArgument', 'options.thread must return a Worker.', { stage: 'init' });
 }

@@ -72,13 +72,12 @@ class Answering {
   }
 }
 
-async function listen() {
+function listen() {
   if (typeof postMessage === 'function' && typeof document === 'undefined') {
     const answering = new Answering((message, transfer = []) => postMessage(message, transfer));
     addEventListener('message', ({ data }) => answering.answer(data));
   } else if (globalThis.process?.versions?.node) {
-    const threads = 'node:worker_threads'; // not a literal, since bundlers for browsers would look for it
-    const { parentPort } = await import(/* @vite-ignore */ /* webpackIgnore: true */ threads);
+    const { parentPort } = globalThis.process.getBuiltinModule('node:worker_threads'); // no import, which bundlers for browsers would follow
     const answering = new Answering((message, transfer = []) => parentPort.postMessage(message, transfer));
     parentPort?.on('message', (job) => answering.answer(job));
   }

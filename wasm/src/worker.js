@@ -1,9 +1,10 @@
 import { readFunction, readOptions } from './arguments.js';
-import { buffersOf } from './buffers.js';
+import { buffersOf, clone } from './buffers.js';
 import { MandolineError, named } from './errors.js';
 import { JobQueue } from './jobs.js';
 import { compile } from './load.js';
-import { threadStarter } from './thread.js';
+import { ownFiles } from './own-files.js';
+import { startThread } from './thread.js';
 
 export { MandolineError, describe } from './errors.js';
 
@@ -36,7 +37,7 @@ function makeMessage({ call, args, extra }, { options, onProgress, signal, trans
   if (!Array.isArray(args)) throw new MandolineError('badArgument', 'The arguments of a call must be an array.', { stage: call });
   try {
     const sent = extra ? args : args.map(lean);
-    return structuredClone({ call, extra, args: sent, options, progress: onProgress !== undefined }, { transfer });
+    return clone({ call, extra, args: sent, options, progress: onProgress !== undefined }, transfer);
   } catch (cause) {
     throw new MandolineError('badArgument', `The arguments can't be given to the worker: ${cause.message}`, { stage: call, cause });
   }
@@ -71,7 +72,8 @@ function readWorkerOptions(given) {
 /** Starts a worker that has loaded the module. */
 export async function createWorker(options) {
   const { wasm, thread } = named('init', readWorkerOptions)(options);
-  const queue = new JobQueue(await threadStarter(thread), await compile(wasm));
+  const make = thread ?? (await ownFiles.thread());
+  const queue = new JobQueue((handlers) => startThread(make, handlers), await compile(wasm));
   await queue.open();
   const methods = Object.entries(calls).map(([call, count]) => [
     call, (...given) => perform(queue, { call, args: Array.from({ length: count }, (_, i) => given[i]) }, given[count]),

@@ -1,0 +1,3 @@
+import './spare.js';
+
+export * from './index.js';
