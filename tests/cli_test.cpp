@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <functional>
 #include <vector>
 
 #include "catch.h"
@@ -22,27 +23,32 @@ struct Outcome {
   std::string out, err;
 };
 
-/// A child process with its outputs in files of the folder. Interrupted with Ctrl-C's signal after so many milliseconds, if any.
-Outcome run(const TemporaryFolder& folder, std::vector<std::string> words, int interruptAfterMs = 0) {
+/// A child process with its standard streams in files of the folder. Gets the signal once `ready` holds.
+struct Signal {
+  int number;
+  std::function<bool()> ready;
+};
+Outcome run(const TemporaryFolder& folder, std::vector<std::string> words, const std::string& input = "", const Signal& signal = {}) {
   words.insert(words.begin(), MANDOLINE_CLI);
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  const std::string out = folder.path("stdout"), err = folder.path("stderr");
+  const std::string in = folder.write("stdin", input), out = folder.path("stdout"), err = folder.path("stderr");
   const pid_t child = fork();
   if (child == 0) {
+    dup2(open(in.c_str(), O_RDONLY), STDIN_FILENO);
     dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
     dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
-    std::signal(SIGINT, SIG_DFL);
+    if (signal.number) std::signal(signal.number, SIG_DFL);
     execv(MANDOLINE_CLI, arguments.data());
     _exit(127);
   }
   REQUIRE(child > 0);
-  if (interruptAfterMs > 0) {
-    usleep(useconds_t(interruptAfterMs) * 1000);
-    kill(child, SIGINT);
-  }
   int status = 0;
+  if (signal.number) {
+    while (!signal.ready() && waitpid(child, &status, WNOHANG) == 0) usleep(1000);
+    kill(child, signal.number);
+  }
   waitpid(child, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), folder.read("stdout"), folder.read("stderr")};
 }
@@ -77,7 +83,12 @@ TEST_CASE("Command line: wrong usage exits with 2", "[cli]") {
   };
   const Case cases[] = {
       {{}, "a command is missing"},
-      {{"slice", mesh}, "unknown command 'slice'"},
+      {{"dice", mesh}, "unknown command 'dice'"},
+      {{"make"}, "the shape is missing"},
+      {{"make", "torus"}, "-o is missing"},
+      {{"make", "torus", "-o", folder.path("a.vtu")}, "a.vtu: a mesh is written as .obj, .stl, .ply or .off"},
+      {{"make", "pretzel", "-o", folder.path("a.obj")}, "there are the shapes box, sphere, torus and torus-knot, not 'pretzel'"},
+      {{"make", "torus", "knot", "-o", folder.path("a.obj")}, "one shape at a time"},
       {{"cut"}, "the mesh is missing"},
       {{"info"}, "the mesh is missing"},
       {{"cut", mesh, mesh}, "one mesh at a time"},
@@ -109,9 +120,33 @@ TEST_CASE("Command line: wrong usage exits with 2", "[cli]") {
       {{"cut", mesh, "--threads", "-1"}, "--threads needs"},
       {{"cut", mesh, "--threads", "two"}, "--threads needs"},
       {{"cut", mesh, "-o"}, "-o needs a value"},
-      {{"cut", mesh, "-o", folder.path("a.stl")}, "a.stl: the extension must be .json, .vtu or .obj"},
+      {{"cut", mesh, "--planes", "0,1,2/0,1/0,x"}, "the z planes must be numbers, not '0,x'"},
+      {{"cut", mesh, "--planes", "0,1,2/0,1"}, "--planes needs X0,X1,"},
+      {{"cut", mesh, "--planes", "0,1,2/0,1,1/0,1"}, "the y planes must ascend"},
+      {{"cut", mesh, "--planes", "0/0,1,1/0,1"}, "the x planes must be at least two"},
+      {{"cut", mesh, "--planes", "0,1/0,1/0,inf"}, "the z planes must be numbers"},
+      {{"cut", mesh, "--planes", "@" + folder.path("none")}, "none: can't be read"},
+      {{"cut", mesh, "--planes", "@" + folder.write("two.txt", "0,1\n0,1\n")}, "two.txt: needs three lines"},
+      {{"cut", mesh, "--planes", "0,1/0,1/0,1", "--cells", "3"}, "--planes tells the number of cells"},
+      {{"cut", mesh, "--planes", "0,1/0,1/0,1", "--box", "0,0,0,1,1,1"}, "only one of --box, --planes, and --origin"},
+      {{"cut", mesh, "--origin", "0,0,0", "--spacing", "1", "--cells", "3", "--box", "0,0,0,1,1,1"}, "only one of --box"},
+      {{"cut", mesh, "--origin", "0,0,0", "--cells", "3"}, "--origin and --spacing need each other"},
+      {{"cut", mesh, "--origin", "0,0,0", "--spacing", "1"}, "--origin and --spacing need --cells"},
+      {{"cut", mesh, "--origin", "0,0", "--spacing", "1", "--cells", "3"}, "--origin needs X,Y,Z, not '0,0'"},
+      {{"cut", mesh, "--origin", "0,0,0", "--spacing", "1,1", "--cells", "3"}, "--spacing needs S or SX,SY,SZ, not '1,1'"},
+      {{"cut", mesh, "--origin", "0,0,0", "--spacing", "1,0,1", "--cells", "3"}, "--spacing needs numbers above 0"},
+      {{"cut", mesh, "--only", "within"}, "--only needs cut, inside, outside or region=K, not 'within'"},
+      {{"cut", mesh, "--only", "region="}, "--only needs cut, inside, outside or region=K, not 'region='"},
+      {{"cut", mesh, "--only", "region=-1"}, "--only needs cut, inside, outside or region=K"},
+      {{"cut", mesh, "--only", "cut", "-o", folder.path("a.json")}, "a.json: JSON files always have everything"},
+      {{"cut", mesh, "-o", folder.path("{region}.json")}, "JSON files always have everything"},
+      {{"cut", mesh, "-o", "-"}, "-o - needs --format"},
+      {{"cut", mesh, "-o", "-", "--format", "exe"}, "--format needs an extension such as vtu, not 'exe'"},
+      {{"cut", mesh, "-o", "-", "--format", "off"}, "--format needs json, vtu, obj, stl or ply, not off"},
+      {{"cut", mesh, "-o", folder.path("a.vtu"), "--format", "vtu"}, "--format is for -o -"},
+      {{"cut", mesh, "-o", folder.path("a.off")}, "a.off: the extension must be .json, .vtu, .obj, .stl or .ply"},
       {{"cut", mesh, "-o", folder.path("none/a.obj")}, "a.obj: there is no folder"},
-      {{"cut", mesh, "-o", mesh}, "would overwrite the mesh"},
+      {{"cut", mesh, "-o", mesh}, "the mesh " + mesh + " and -o " + mesh + " are the same file"},
       {{"cut", "-o", folder.path("a.obj"), mesh}, "the mesh is missing"},
   };
   for (const Case& c : cases) {
@@ -156,13 +191,13 @@ TEST_CASE("Command line: a cut writes its report and every file", "[cli]") {
   REQUIRE(o.out.substr(0, 2) == "{\n");
   for (const std::string part :
        {"\"status\": \"ok\"", "\"cells\": [4, 4, 4]", "\"origin\": [0, 0, 0]", "\"spacing\": [1, 1, 1]", "\"cells\": 64", "\"regions\": 2",
-        "{\"id\": 0, \"winding\": 0, \"volume\": 56}", "{\"id\": 1, \"winding\": 1, \"volume\": 8}",
-        "\"total\": ", "\"exactFallbacks\": ", "\"peakMemoryBytes\": ", "\"validation\": [", "\"pass\": true"}) {
+        "{\"id\": 0, \"winding\": 0, \"volume\": 56}", "{\"id\": 1, \"winding\": 1, \"volume\": 8}", "\"total\": ", "\"exactFallbacks\": ",
+        "\"peakMemoryBytes\": ", "\"validation\": {", "\"pass\": true", "\"checks\": [", "\"closed\": true"}) {
     REQUIRE(contains(o.out, part));
   }
   REQUIRE_FALSE(contains(o.out, "\"pass\": false"));
   for (const std::string name : {"a.json", "a.vtu", "a.obj"}) REQUIRE(folder.read(name).size() > 100);
-  REQUIRE(folder.fileCount() == 6);  // the mesh, its three products, stdout and stderr
+  REQUIRE(folder.fileCount() == 7);  // the mesh, its three products and the standard streams
 }
 
 TEST_CASE("Command line: without --report the report is text", "[cli]") {
@@ -186,7 +221,6 @@ TEST_CASE("Command line: default grids", "[cli]") {
   const std::string counts = run(folder, {"cut", mesh, "--cells", "3,4,5", "--report", "-"}).out;
   REQUIRE(contains(counts, "\"cells\": [3, 4, 5]"));
   REQUIRE(contains(counts, "\"origin\": [0.9, 0.9, 0.9]"));
-  REQUIRE(contains(run(folder, {"cut", mesh, "--box", "0,0,0,4,4,8", "--cells", "2", "--report", "-"}).out, "\"spacing\": [2, 2, 4]"));
 }
 
 TEST_CASE("Command line: a mesh that can't be cut exits with 1 and reports why", "[cli]") {
@@ -213,13 +247,163 @@ TEST_CASE("Command line: reports and files that can't be written exit with 2", "
   REQUIRE(std::filesystem::exists(folder.path("a.json")));
 }
 
-TEST_CASE("Command line: Ctrl-C cancels the cut and still reports", "[cli]") {
+TEST_CASE("Command line: grids by box, origin and planes", "[cli]") {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("cube.obj", kCube);
-  const Outcome o = run(folder, {"cut", mesh, "--cells", "300", "--report", "-", "-o", folder.path("a.json")}, 100);
-  REQUIRE(o.exitCode == 1);
-  REQUIRE(contains(o.out, "\"status\": \"cancelled\""));
-  REQUIRE_FALSE(std::filesystem::exists(folder.path("a.json")));
+  const auto report = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"cut", mesh, "--report", "-"});
+    const Outcome o = run(folder, words);
+    CAPTURE(o.err);
+    REQUIRE(o.exitCode == 0);
+    return o.out;
+  };
+  const std::string oneNumber = report({"--box", "0,0,0,4,4,8", "--cells", "4"});
+  REQUIRE(contains(oneNumber, "\"cells\": [2, 2, 4]"));
+  REQUIRE(contains(oneNumber, "\"spacing\": [2, 2, 2]"));
+  REQUIRE(contains(report({"--box", "0,0,0,8,4,0.5", "--cells", "4"}), "\"cells\": [4, 2, 1]"));
+  const std::string regular = report({"--origin", "0,0,-1", "--spacing", "1,1,2", "--cells", "4,4,3"});
+  REQUIRE(contains(regular, "\"cells\": [4, 4, 3]"));
+  REQUIRE(contains(regular, "\"origin\": [0, 0, -1]"));
+  REQUIRE(contains(regular, "\"spacing\": [1, 1, 2]"));
+  REQUIRE(contains(report({"--origin=0,0,0", "--spacing=0.5", "--cells=8"}), "\"spacing\": [0.5, 0.5, 0.5]"));
+  const std::string planes = report({"--planes", "0,1.5,4/0,4/-1,0,2,9"});
+  REQUIRE(contains(planes, "\"cells\": [2, 1, 3]"));
+  REQUIRE(contains(planes, "\"spacing\": null"));
+  REQUIRE(contains(planes, "\"volume\": 8}"));
+  const std::string file = folder.write("planes.txt", "0, 1.5, 4\r\n\n0, 4\r\n-1, 0, 2, 9");
+  REQUIRE(contains(report({"--planes", "@" + file}), "\"cells\": [2, 1, 3]"));
+}
+
+TEST_CASE("Command line: only some cells are written", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", kCube), vtu = folder.path("a.vtu");
+  const auto cells = [&](const std::string& only) {
+    const Outcome o = run(folder, {"cut", mesh, "--cells", "4", "--box", "0,0,0,4,4,4", "--only", only, "-o", vtu});
+    CAPTURE(o.err);
+    REQUIRE(o.exitCode == 0);
+    const std::string text = folder.read("a.vtu");
+    return std::stoi(text.substr(text.find("NumberOfCells=\"") + 15));
+  };
+  REQUIRE(cells("inside") == 8);
+  REQUIRE(cells("outside") == 56);
+  REQUIRE(cells("region=0") == 56);
+  REQUIRE(cells("region=0,region=1") == 64);
+  REQUIRE(cells("cut") == 32);
+  REQUIRE(cells("cut,outside") == 24);
+  const Outcome none = run(folder, {"cut", mesh, "--only", "region=2", "-o", vtu});
+  REQUIRE(none.exitCode == 2);
+  REQUIRE(contains(none.err, "--only: there is no region 2; there are 2"));
+  const std::string sheet = folder.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const Outcome open = run(folder, {"cut", sheet, "--only", "inside", "-o", vtu});
+  REQUIRE(open.exitCode == 2);
+  REQUIRE(contains(open.err, "nothing is inside or outside"));
+}
+
+TEST_CASE("Command line: one file for each region", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", kCube);
+  const auto cut = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"cut", mesh, "--cells", "4", "--box", "0,0,0,4,4,4", "-o"});
+    return run(folder, words);
+  };
+  REQUIRE(cut({folder.path("part-{region}.stl")}).exitCode == 0);
+  for (const std::string part : {"part-0.stl", "part-1.stl"}) {
+    const Outcome info = run(folder, {"info", folder.path(part), "--report", "-"});
+    REQUIRE(contains(info.out, "\"oriented\": true"));
+    REQUIRE(contains(info.out, "\"max\": [3, 3, 3]"));
+  }
+  REQUIRE(cut({folder.path("only-{region}.ply"), "--only", "inside"}).exitCode == 0);
+  REQUIRE_FALSE(std::filesystem::exists(folder.path("only-0.ply")));
+  REQUIRE(contains(run(folder, {"info", folder.path("only-1.ply")}).out, "yes, consistently oriented"));
+  const Outcome clash = cut({folder.path("x-{region}.stl"), folder.path("x-1.stl")});
+  REQUIRE(clash.exitCode == 2);
+  REQUIRE(contains(clash.err, "are the same file"));
+}
+
+TEST_CASE("Command line: standard input and output", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", kCube);
+  REQUIRE(run(folder, {"cut", mesh, "--cells", "3", "-o", folder.path("a.vtu"), folder.path("a.json")}).exitCode == 0);
+  for (const std::string format : {"vtu", "json"}) {
+    const Outcome piped = run(folder, {"cut", "-", "--cells", "3", "-o", "-", "--format", format}, kCube);
+    CAPTURE(piped.err);
+    REQUIRE(piped.exitCode == 0);
+    REQUIRE(piped.out == folder.read("a." + format));
+    REQUIRE(contains(piped.err, "standard input: 8 vertices, 12 triangles"));
+  }
+  REQUIRE(contains(run(folder, {"info", "-"}, kCube).out, "standard input: 8 vertices, 12 triangles"));
+  REQUIRE(run(folder, {"info", "-"}, "v 0 zero 0\n").err == "mandoline: standard input: line 1: expected a number, found 'zero'\n");
+  REQUIRE(run(folder, {"info", "-"}).err == "mandoline: standard input: the file is empty\n");
+  const Outcome made = run(folder, {"make", "box", "-o", "-", "--format", "obj"});
+  REQUIRE(made.exitCode == 0);
+  REQUIRE(contains(run(folder, {"info", "-"}, made.out).out, "8 vertices, 12 triangles"));
+  std::string large = kCube;
+  for (int i = 0; i < 20000; ++i) large += "# a comment to fill the pipe\n";
+  REQUIRE(contains(run(folder, {"info", "-"}, large).out, "8 vertices, 12 triangles"));
+}
+
+TEST_CASE("Command line: a file named twice is an error", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", kCube), other = folder.path("./cube.obj"), linked = folder.path("link.obj");
+  std::filesystem::create_hard_link(mesh, folder.path("hard.obj"));
+  std::filesystem::create_symlink(mesh, linked);
+  std::filesystem::create_directory(folder.path("sub"));
+  const std::string vtu = folder.path("a.vtu"), sameVtu = folder.path("sub/../a.vtu");
+  const std::vector<std::string> cases[] = {{"cut", mesh, "-o", other},
+                                            {"cut", mesh, "-o", linked},
+                                            {"cut", mesh, "-o", folder.path("hard.obj")},
+                                            {"cut", mesh, "--report", other},
+                                            {"info", mesh, "--report", linked},
+                                            {"cut", mesh, "-o", vtu, vtu},
+                                            {"cut", mesh, "-o", vtu, "-o", sameVtu},
+                                            {"cut", mesh, "--report", sameVtu, "-o", vtu},
+                                            {"make", "box", "-o", folder.path("b.obj"), folder.path("sub/../b.obj")}};
+  for (const auto& words : cases) {
+    const Outcome o = run(folder, words);
+    CAPTURE(words, o.err);
+    REQUIRE(o.exitCode == 2);
+    REQUIRE(contains(o.err, "are the same file"));
+  }
+  const Outcome output = run(folder, {"cut", mesh, "--report", "-", "-o", "-", "--format", "vtu"});
+  REQUIRE(output.exitCode == 2);
+  REQUIRE(contains(output.err, "both are standard output"));
+  REQUIRE(folder.read("cube.obj") == kCube);
+  REQUIRE_FALSE(std::filesystem::exists(vtu));
+  REQUIRE(run(folder, {"cut", mesh, "-o", folder.path("sub/cube.obj")}).exitCode == 0);  // another one of that name
+}
+
+TEST_CASE("Command line: Ctrl-C while cutting leaves nothing behind", "[cli]") {
+  for (const int number : {SIGINT, SIGTERM}) {
+    const TemporaryFolder folder;
+    const std::string mesh = folder.write("cube.obj", kCube);
+    int waits = 0;
+    const Signal signal{number, [&] { return ++waits > 100; }};
+    const Outcome o = run(folder, {"cut", mesh, "--cells", "500", "--report", "-", "-o", folder.path("a.json")}, "", signal);
+    REQUIRE(o.exitCode == 128 + number);
+    REQUIRE(o.out.empty());
+    REQUIRE(folder.fileCount() == 4);  // the mesh and the standard streams
+  }
+}
+
+TEST_CASE("Command line: Ctrl-C while writing removes the unfinished file", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", kCube), part = folder.path("a.vtu.part");
+  const Signal signal{SIGINT, [&] { return std::filesystem::exists(part); }};
+  const Outcome o = run(folder, {"cut", mesh, "--cells", "150", "-o", folder.path("a.vtu")}, "", signal);
+  REQUIRE(o.exitCode == 130);
+  REQUIRE(o.err == "mandoline: interrupted\n");
+  REQUIRE(folder.fileCount() == 4);
+}
+
+TEST_CASE("Command line: made shapes are closed", "[cli]") {
+  const TemporaryFolder folder;
+  for (const std::string shape : {"box", "sphere", "torus", "torus-knot"}) {
+    for (const std::string extension : {".obj", ".stl", ".ply", ".off"}) {
+      const std::string path = folder.path(shape + extension);
+      REQUIRE(run(folder, {"make", shape, "-o", path}).exitCode == 0);
+      REQUIRE(contains(run(folder, {"info", path}).out, "yes, consistently oriented"));
+    }
+  }
 }
 
 TEST_CASE("Command line: info tells what kind of mesh it is", "[cli]") {
@@ -237,9 +421,9 @@ TEST_CASE("Command line: info tells what kind of mesh it is", "[cli]") {
   const Outcome odd = run(folder, {"info", mesh, "--report", "-"});
   REQUIRE(odd.exitCode == 0);
   for (const std::string part :
-       {"\"vertices\": 15", "\"triangles\": 8", "\"low\": [0, -1, 0]", "\"high\": [11, 1, 1]", "\"closed\": false", "\"oriented\": false",
-        "\"nonManifoldEdges\": 2", "\"inconsistentEdges\": 2", "\"components\": 3", "\"duplicateTriangles\": 1", "\"weldedVertices\": 1",
-        "\"unreferencedVertices\": 1", "\"nonFiniteVertices\": 0"}) {
+       {"\"vertices\": 15", "\"triangles\": 8", "\"status\": \"ok\"", "\"min\": [0, -1, 0]", "\"max\": [11, 1, 1]", "\"closed\": false",
+        "\"oriented\": false", "\"nonManifoldEdges\": 2", "\"inconsistentEdges\": 2", "\"components\": 3", "\"duplicateTriangles\": 1",
+        "\"weldedVertices\": 1", "\"unreferencedVertices\": 1", "\"nonFiniteVertices\": 0"}) {
     REQUIRE(contains(odd.out, part));
   }
 }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "catch.h"
+#include "mandoline/inspect.h"
 #include "mandoline/measure.h"
 #include "shapes.h"
 #include "temporary_folder.h"
@@ -673,6 +674,55 @@ TEST_CASE("OBJ lists each nested surface under the region it encloses", "[io]") 
   REQUIRE(obj.find("g region_" + std::to_string(outside) + "\n") == std::string::npos);
 }
 
+TEST_CASE("STL and PLY of the cut surface", "[io]") {
+  const Mesh mesh = shapes::merged({shapes::cube(0.5, 3.5), shapes::cube(1.25, 2.75)});
+  const CutMesh cutMesh = cutOrFail(mesh, unitCells(4));
+  const auto read = [&](mandoline::FileFormat format, const mandoline::WriteOptions& options) {
+    std::string file;
+    mandoline::writeCutMesh([&](std::string_view piece) { file += piece; }, format, mesh, cutMesh, options);
+    return mandoline::readMesh(file, "written");
+  };
+  for (const auto format : {mandoline::FileFormat::stl, mandoline::FileFormat::ply, mandoline::FileFormat::obj}) {
+    const Mesh whole = read(format, {});
+    REQUIRE(shapes::signedVolume(whole) == Approx(27 + 3.375));
+    REQUIRE(shapes::area(whole) == Approx(6 * 9 + 6 * 2.25));
+    for (uint32_t r = 0; r < 3; ++r) {
+      mandoline::WriteOptions options;
+      options.regions.assign(3, 0);
+      options.regions[r] = 1;
+      const double volumes[] = {-27, 27 - 3.375, 3.375};  // by winding number
+      REQUIRE(shapes::signedVolume(read(format, options)) == Approx(volumes[cutMesh.regionWinding[r]]));
+    }
+  }
+  std::string ply;
+  mandoline::writePly([&](std::string_view piece) { ply += piece; }, cutMesh);
+  REQUIRE(ply.find("property uint region\n") != std::string::npos);
+}
+
+TEST_CASE("Meshes are written as OBJ, STL, PLY and OFF", "[io]") {
+  TemporaryFolder folder;
+  Mesh mesh = shapes::tetrahedron({0, 0, 0}, {1, 0, 0}, {0, 1. / 3, 0}, {0, 0, 0.5});
+  for (const std::string name : {"a.obj", "a.ply", "a.OFF"}) {
+    mandoline::writeMesh(folder.path(name), mesh);
+    const Mesh again = mandoline::readMesh(folder.path(name));
+    REQUIRE(again.positions == mesh.positions);
+    REQUIRE(again.triangles == mesh.triangles);
+  }
+  mandoline::writeMesh(folder.path("a.stl"), mesh);
+  REQUIRE(folder.read("a.stl").size() == 84 + 50 * 4);
+  const Mesh soup = mandoline::readMesh(folder.path("a.stl"));
+  REQUIRE(mandoline::inspect(soup).oriented);
+  for (const std::string name : {"a.vtu", "a.json", "a", "a.ob"}) {
+    REQUIRE_THROWS_WITH(mandoline::writeMesh(folder.path(name), mesh),
+                        folder.path(name) + ": the extension must be .obj, .stl, .ply or .off");
+  }
+  mesh = {};
+  for (const std::string name : {"e.off", "e.stl", "e.ply"}) {
+    mandoline::writeMesh(folder.path(name), mesh);
+    REQUIRE(mandoline::readMesh(folder.path(name)).triangleCount() == 0);
+  }
+}
+
 TEST_CASE("writeCutMesh goes by extension and leaves no half-written file", "[io]") {
   TemporaryFolder folder;
   const Mesh cube = shapes::cube(0.75, 2.25);
@@ -684,8 +734,8 @@ TEST_CASE("writeCutMesh goes by extension and leaves no half-written file", "[io
   REQUIRE(folder.fileCount() == 3);
   const std::string noFolder = folder.path("none/a.json");
   REQUIRE_THROWS_WITH(mandoline::writeCutMesh(noFolder, cube, cutMesh), noFolder + ": there is no folder " + folder.path("none"));
-  REQUIRE_THROWS_WITH(mandoline::writeCutMesh(folder.path("a.stl"), cube, cutMesh),
-                      folder.path("a.stl") + ": the extension must be .json, .vtu or .obj");
+  REQUIRE_THROWS_WITH(mandoline::writeCutMesh(folder.path("a.off"), cube, cutMesh),
+                      folder.path("a.off") + ": the extension must be .json, .vtu, .obj, .stl or .ply");
   REQUIRE(folder.fileCount() == 3);
 }
 

@@ -1,66 +1,12 @@
 #include "cli/arguments.h"
 
-#include <charconv>
-#include <cmath>
+#include <algorithm>
+#include <iterator>
+
+#include "cli/values.h"
 
 namespace mandoline::cli {
-
-const char* const kHelp =
-    R"(mandoline cuts a triangle mesh with a Cartesian grid into polyhedral cut-cells.
-
-  mandoline cut MESH [options]    cut, and print a report
-  mandoline info MESH             tell what kind of mesh it is
-  mandoline --help, --version
-
-MESH is an OBJ, STL, PLY or OFF file, in text or binary, and may be gzipped.
-
-Options of cut (a value may also be given as in --cells=32)
-  --cells N              cubic cells of size 1.1 x longest side of the mesh / N, as many
-                         along each axis as cover it with that margin (default: 32);
-                         with --box, N cells along each axis
-  --cells NX,NY,NZ       as many cells along x, y and z in the box; without --box, in the
-                         mesh's bounding box grown by 5 % of its longest side all around
-  --box X0,Y0,Z0,X1,Y1,Z1
-                         the box that the grid fills exactly
-  --snap-tolerance T     move vertices that are within T cells of an axial plane onto it
-                         (0 <= T < 0.5; default: 0)
-  --threads T            threads to use; 0 for all cores (default: 0). The result is the
-                         same for any number
-  --validate             check the result: the paper's four checks and all invariants
-  -o FILE ...            write the cut-mesh, by extension:
-                           .json  everything
-                           .vtu   polyhedra for VTK and ParaView
-                           .obj   the cut surface, one group per region
-
-Options of cut and info
-  --report FILE          write the report as JSON instead of text; - for standard output
-
-Exit codes: 0 fine; 1 the mesh can't be cut, or validation failed; 2 wrong usage, or a
-file can't be read or written.
-)";
-
 namespace {
-
-/// The whole word as a number; false if it is none.
-template <class Number>
-bool parseNumber(std::string_view word, Number& number) {
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  return error == std::errc() && end == word.data() + word.size();
-}
-
-/// Numbers with commas between them; empty if any is none.
-template <class Number>
-std::vector<Number> parseList(std::string_view word) {
-  std::vector<Number> numbers;
-  for (size_t begin = 0;;) {
-    const size_t comma = word.find(',', begin);
-    Number number;
-    if (!parseNumber(word.substr(begin, comma - begin), number)) return {};
-    numbers.push_back(number);
-    if (comma == std::string_view::npos) return numbers;
-    begin = comma + 1;
-  }
-}
 
 class Parser {
  public:
@@ -71,53 +17,73 @@ class Parser {
     for (const std::string& word : words_) {
       if (word == "--help" || word == "-h") return arguments_;
     }
-    const std::string& command = words_[next_++];
-    if (command == "--version") {
-      arguments_.command = Command::version;
-      return arguments_;
-    }
-    if (command == "cut") {
-      arguments_.command = Command::cut;
-    } else if (command == "info") {
-      arguments_.command = Command::info;
-    } else {
-      throw UsageError("unknown command '" + command + "'");
-    }
+    parseCommand(words_[next_++]);
+    if (arguments_.command == Command::version) return arguments_;
     while (next_ < words_.size()) parseWord(words_[next_++]);
-    if (arguments_.mesh.empty()) throw UsageError("the mesh is missing");
+    check();
     return arguments_;
   }
 
  private:
+  /// Takes its value, if any, from the parser.
+  struct Option {
+    const char* name;
+    std::vector<Command> commands;
+    void (*parse)(Parser&, const std::string& name);
+  };
+
+  static const std::vector<Option>& options() {
+    using C = Command;
+    static const std::vector<Option> kOptions = {
+        {"--report", {C::cut, C::info}, [](Parser& p, const std::string& name) { p.arguments_.report = p.value(name); }},
+        {"--cells", {C::cut, C::slice}, [](Parser& p, const std::string& name) { parseCells(p.value(name), p.arguments_.grid); }},
+        {"--box", {C::cut, C::slice}, [](Parser& p, const std::string& name) { parseBox(p.value(name), p.arguments_.grid); }},
+        {"--origin", {C::cut, C::slice}, [](Parser& p, const std::string& name) { parseOrigin(p.value(name), p.arguments_.grid); }},
+        {"--spacing", {C::cut, C::slice}, [](Parser& p, const std::string& name) { parseSpacing(p.value(name), p.arguments_.grid); }},
+        {"--planes", {C::cut, C::slice}, [](Parser& p, const std::string& name) { parsePlanes(p.value(name), p.arguments_.grid); }},
+        {"--snap-tolerance", {C::cut, C::slice}, [](Parser& p, const std::string& name) { p.parseSnapTolerance(p.value(name)); }},
+        {"--threads", {C::cut, C::slice}, [](Parser& p, const std::string& name) { p.parseThreads(p.value(name)); }},
+        {"--validate", {C::cut}, [](Parser& p, const std::string&) { p.arguments_.validate = true; }},
+        {"--only", {C::cut}, [](Parser& p, const std::string& name) { parseOnly(p.value(name), p.arguments_.only); }},
+        {"--format", {C::cut, C::slice, C::make}, [](Parser& p, const std::string& name) { p.parseFormat(p.value(name)); }},
+        {"-o", {C::cut, C::slice, C::make}, [](Parser& p, const std::string& name) { p.parseOutputs(name); }},
+    };
+    return kOptions;
+  }
+
+  void parseCommand(const std::string& word) {
+    constexpr std::pair<const char*, Command> kCommands[] = {
+        {"cut", Command::cut}, {"info", Command::info}, {"make", Command::make}, {"--version", Command::version}};
+    const auto found = std::find_if(std::begin(kCommands), std::end(kCommands), [&](const auto& command) { return word == command.first; });
+    if (found == std::end(kCommands)) throw UsageError("unknown command '" + word + "'");
+    arguments_.command = found->second;
+  }
+
   /// An option's value is the next word, or comes after a '=' as in --cells=32.
   void parseWord(const std::string& whole) {
     const size_t equals = whole.starts_with("--") ? whole.find('=') : std::string::npos;
     const std::string word = whole.substr(0, equals);
     if (equals != std::string::npos) attached_ = whole.substr(equals + 1);
-    const bool cuts = arguments_.command == Command::cut;
-    if (word == "--report") {
-      arguments_.report = value(word);
-    } else if (cuts && word == "--cells") {
-      parseCells(value(word));
-    } else if (cuts && word == "--box") {
-      parseBox(value(word));
-    } else if (cuts && word == "--snap-tolerance") {
-      parseSnapTolerance(value(word));
-    } else if (cuts && word == "--threads") {
-      parseThreads(value(word));
-    } else if (cuts && word == "--validate") {
-      arguments_.validate = true;
-    } else if (cuts && word == "-o") {
-      arguments_.outputs.push_back(value(word));
-      while (next_ < words_.size() && words_[next_][0] != '-') arguments_.outputs.push_back(words_[next_++]);
-    } else if (word.empty() || word[0] == '-') {
+    const auto belongs = [&](const Option& option) {
+      return word == option.name && std::find(option.commands.begin(), option.commands.end(), arguments_.command) != option.commands.end();
+    };
+    const auto option = std::find_if(options().begin(), options().end(), belongs);
+    if (option != options().end()) {
+      option->parse(*this, word);
+    } else if (word.empty() || (word[0] == '-' && word != "-")) {
       throw UsageError("unknown option '" + word + "'");
-    } else if (!arguments_.mesh.empty()) {
-      throw UsageError("one mesh at a time: '" + arguments_.mesh + "' or '" + word + "'?");
     } else {
-      arguments_.mesh = word;
+      parseOperand(word);
     }
     if (attached_) throw UsageError(word + " takes no value");
+  }
+
+  void parseOperand(const std::string& word) {
+    const bool makes = arguments_.command == Command::make;
+    std::string& operand = makes ? arguments_.shape : arguments_.mesh;
+    if (!operand.empty())
+      throw UsageError(std::string("one ") + (makes ? "shape" : "mesh") + " at a time: '" + operand + "' or '" + word + "'?");
+    operand = word;
   }
 
   std::string value(const std::string& option) {
@@ -132,26 +98,15 @@ class Parser {
     return value;
   }
 
-  void parseCells(const std::string& word) {
-    const std::vector<int64_t> cells = parseList<int64_t>(word);
-    if (cells.size() != 1 && cells.size() != 3) throw UsageError("--cells needs N or NX,NY,NZ, not '" + word + "'");
-    for (size_t d = 0; d < 3; ++d) {
-      arguments_.cells[d] = cells[cells.size() == 3 ? d : 0];
-      if (arguments_.cells[d] < 1) throw UsageError("--cells needs numbers of at least 1, not '" + word + "'");
-    }
-    arguments_.cellsPerAxis = cells.size() == 3;
+  void parseOutputs(const std::string& option) {
+    const auto isOutput = [](const std::string& word) { return word == "-" || !word.starts_with('-'); };
+    arguments_.outputs.push_back(value(option));
+    while (next_ < words_.size() && isOutput(words_[next_])) arguments_.outputs.push_back(words_[next_++]);
   }
 
-  void parseBox(const std::string& word) {
-    const std::vector<double> box = parseList<double>(word);
-    if (box.size() != 6) throw UsageError("--box needs X0,Y0,Z0,X1,Y1,Z1, not '" + word + "'");
-    arguments_.box.emplace();
-    for (size_t d = 0; d < 3; ++d) {
-      arguments_.box->low[d] = box[d];
-      arguments_.box->high[d] = box[d + 3];
-      if (!(box[d] < box[d + 3]) || !std::isfinite(box[d + 3] - box[d]))
-        throw UsageError("--box needs a box that is not empty, not '" + word + "'");
-    }
+  void parseFormat(const std::string& word) {
+    arguments_.format = formatOf('.' + word);
+    if (!arguments_.format) throw UsageError("--format needs an extension such as vtu, not '" + word + "'");
   }
 
   void parseSnapTolerance(const std::string& word) {
@@ -163,6 +118,18 @@ class Parser {
 
   void parseThreads(const std::string& word) {
     if (!parseNumber(word, arguments_.threads)) throw UsageError("--threads needs a number of threads, not '" + word + "'");
+  }
+
+  void check() const {
+    const Arguments& a = arguments_;
+    const bool makes = a.command == Command::make;
+    if (makes && a.shape.empty()) throw UsageError("the shape is missing");
+    if (!makes && a.mesh.empty()) throw UsageError("the mesh is missing");
+    checkGrid(a.grid);
+    const bool toStandardOutput = std::find(a.outputs.begin(), a.outputs.end(), "-") != a.outputs.end();
+    if (toStandardOutput && !a.format) throw UsageError("-o - needs --format, such as --format vtu");
+    if (!toStandardOutput && a.format) throw UsageError("--format is for -o -; other files tell by their extension");
+    if ((makes || a.command == Command::slice) && a.outputs.empty()) throw UsageError("-o is missing");
   }
 
   const std::vector<std::string>& words_;

@@ -8,32 +8,50 @@
 #include <string>
 #include <vector>
 
+#include "mandoline/io.h"
+
 namespace mandoline::cli {
 
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class Command { help, version, cut, info };
+enum class Command { help, version, cut, slice, info, make };
 
-struct Box {
-  std::array<double, 3> low, high;
+/// The grid as it was asked for; which fields are set tells its kind.
+struct GridArguments {
+  using Vector = std::array<double, 3>;
+
+  std::optional<std::array<int64_t, 3>> cells;
+  bool oneNumber = false;  ///< --cells N rather than --cells NX,NY,NZ
+  std::optional<std::array<Vector, 2>> box;
+  std::optional<Vector> origin, spacing;
+  std::optional<std::array<std::vector<double>, 3>> planes;
+};
+
+/// What of the cut-mesh is written; all that is named must hold.
+struct OnlyArguments {
+  bool cut = false, inside = false, outside = false;
+  std::vector<uint32_t> regions;
+
+  bool any() const { return cut || inside || outside || !regions.empty(); }
 };
 
 struct Arguments {
   Command command = Command::help;
-  std::string mesh;
-  std::array<int64_t, 3> cells{32, 32, 32};
-  bool cellsPerAxis = false;  ///< --cells NX,NY,NZ rather than --cells N
-  std::optional<Box> box;
+  std::string mesh;   ///< path, "-" for standard input
+  std::string shape;  ///< of make
+  GridArguments grid;
   double snapTolerance = 0;
   unsigned threads = 0;
   bool validate = false;
-  std::string report;  ///< path of the JSON report, "-" for standard output; empty for text there
-  std::vector<std::string> outputs;
+  OnlyArguments only;
+  std::string report;                ///< path of the JSON report, "-" for standard output; empty for text there
+  std::vector<std::string> outputs;  ///< paths, "-" for standard output
+  std::optional<FileFormat> format;  ///< of standard output
 };
 
-/// The words after the program's name. Throws UsageError.
+/// The words after the program's name. Throws UsageError, and FileError for a file of planes.
 Arguments parseArguments(const std::vector<std::string>& words);
 
 extern const char* const kHelp;

@@ -2,31 +2,19 @@
 
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdio>
 #include <string>
 
 namespace mandoline::cli {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;  // signal handlers see globals only
-
-void onInterrupt(int signal) {
-  interrupted = 1;
-  std::signal(signal, SIG_DFL);
-}
-
 constexpr auto kInterval = std::chrono::milliseconds(100);
 
 }  // namespace
 
-ProgressBar::ProgressBar() : visible_(isatty(STDERR_FILENO) != 0), next_(std::chrono::steady_clock::now() + kInterval) {
-  interrupted = 0;
-  if (std::signal(SIGINT, onInterrupt) == SIG_IGN) std::signal(SIGINT, SIG_IGN);  // as for jobs in the background
-}
+ProgressBar::ProgressBar() : visible_(isatty(STDERR_FILENO) != 0), next_(std::chrono::steady_clock::now() + kInterval) {}
 
 ProgressBar::~ProgressBar() {
-  if (std::signal(SIGINT, SIG_DFL) == SIG_IGN) std::signal(SIGINT, SIG_IGN);
   if (drawn_) std::fputs("\r\x1b[K", stderr);
 }
 
@@ -36,7 +24,7 @@ bool ProgressBar::update(const Progress& progress) {
     draw(progress);
     next_ = now + kInterval;
   }
-  return interrupted == 0;
+  return !interrupted();
 }
 
 void ProgressBar::draw(const Progress& progress) {

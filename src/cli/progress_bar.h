@@ -1,14 +1,14 @@
-// How far a cut has come, on a terminal; and Ctrl-C, which ends it.
+// How far a cut has come, on a terminal.
 #pragma once
 
 #include <chrono>
 
+#include "cli/interrupt.h"
 #include "mandoline/mandoline.h"
 
 namespace mandoline::cli {
 
-/// While it lives, Ctrl-C cancels the cut instead of ending the program; a second one ends it. Draws on standard error if that is a
-/// terminal.
+/// Draws on standard error if that is a terminal. While it lives, Ctrl-C cancels the cut.
 class ProgressBar {
  public:
   ProgressBar();
@@ -22,6 +22,7 @@ class ProgressBar {
  private:
   void draw(const Progress& progress);
 
+  DeferInterrupts defer_;
   bool visible_, drawn_ = false;
   std::chrono::steady_clock::time_point next_;
 };

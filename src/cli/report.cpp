@@ -37,6 +37,19 @@ std::vector<Count> inputCounts(const CutResult& result) {
           {"flushedCoordinates", "coordinates taken as 0", s.flushedCoordinates}};
 }
 
+/// What kind of mesh it is, beyond its size.
+std::vector<Count> meshCounts(const MeshInfo& info) {
+  return {{"openEdges", "open edges", info.openEdges},
+          {"nonManifoldEdges", "non-manifold edges", info.nonManifoldEdges},
+          {"inconsistentEdges", "inconsistent edges", info.inconsistentEdges},
+          {"components", "components", info.components},
+          {"zeroAreaTriangles", "zero-area triangles", info.zeroAreaTriangles},
+          {"duplicateTriangles", "duplicate triangles", info.duplicateTriangles},
+          {"weldedVertices", "welded vertices", info.weldedVertices},
+          {"unreferencedVertices", "unreferenced vertices", info.unreferencedVertices},
+          {"nonFiniteVertices", "non-finite vertices", info.nonFiniteVertices}};
+}
+
 std::array<int64_t, 3> cellsOf(const Grid& grid) { return {grid.cells(0), grid.cells(1), grid.cells(2)}; }
 
 void addElement(Json& json, const char* key, int64_t element) {
@@ -46,6 +59,20 @@ void addElement(Json& json, const char* key, int64_t element) {
   } else {
     json.value(element);
   }
+}
+
+/// What cut and info report alike.
+void addHead(Json& json, const Error& error, const MeshReport& report) {
+  const auto& [status, element, element2, message] = error;
+  json.open('{').member("status", name(status)).member("message", message);
+  addElement(json, "element", element);
+  addElement(json, "element2", element2);
+  const MeshInfo& info = report.info;
+  json.key("mesh").open('{').member("path", report.name).member("vertices", info.vertices).member("triangles", info.triangles);
+  json.key("box").open('{').key("min").values(info.min).key("max").values(info.max).close('}');
+  json.member("closed", info.closed).member("oriented", info.oriented);
+  for (const Count& count : meshCounts(info)) json.member(count.key, count.value);
+  json.close('}');
 }
 
 void addRegions(Json& json, const Report& report) {
@@ -69,14 +96,24 @@ void addValidation(Json& json, const std::optional<Validation>& validation) {
     json.null();
     return;
   }
-  json.open('[');
+  json.open('{').member("pass", validation->pass).key("checks").open('[');
   for (const Check& check : validation->checks) {
     json.open('{').member("name", check.name).member("pass", check.pass).member("skipped", check.skipped).member("worst", check.worst);
     json.member("tolerance", check.tolerance).member("elementKind", check.elementKind);
     addElement(json, "element", check.element);
     json.member("message", check.message).close('}');
   }
-  json.close(']');
+  json.close(']').close('}');
+}
+
+std::string triple(const std::array<double, 3>& v, const char* separator) {
+  std::ostringstream out;
+  out << v[0] << separator << v[1] << separator << v[2];
+  return out.str();
+}
+
+std::string headline(const MeshReport& mesh) {
+  return mesh.name + ": " + std::to_string(mesh.info.vertices) + " vertices, " + std::to_string(mesh.info.triangles) + " triangles\n";
 }
 
 /// Text in columns.
@@ -101,9 +138,9 @@ class TextReport {
 
   void addHead() {
     const Grid& g = report_.grid;
-    out_ << report_.arguments.mesh << ": " << report_.mesh.vertexCount() << " vertices, " << report_.mesh.triangleCount() << " triangles\n"
-         << "Grid of " << g.cells(0) << " x " << g.cells(1) << " x " << g.cells(2) << " cells, " << triple(g.spacing, " x ")
-         << " each, from (" << triple(g.origin, ", ") << ")\n";
+    out_ << headline(report_.mesh) << "Grid of " << g.cells(0) << " x " << g.cells(1) << " x " << g.cells(2) << " cells";
+    if (g.uniform) out_ << ", " << triple(g.spacing, " x ") << " each, from (" << triple(g.origin, ", ") << ")";
+    out_ << "\n";
     if (report_.result) return;
     out_ << "\nNot cut: " << name(report_.result.error.status) << "\n  " << report_.result.error.message << "\n";
   }
@@ -155,11 +192,6 @@ class TextReport {
   static std::string element(const Check& check) {
     return check.elementKind.empty() ? "-" : check.elementKind + " " + std::to_string(check.element);
   }
-  static std::string triple(const std::array<double, 3>& v, const char* separator) {
-    std::ostringstream out;
-    out << v[0] << separator << v[1] << separator << v[2];
-    return out.str();
-  }
   std::ostream& label(const char* text) { return out_ << "  " << std::left << std::setw(kLabelWidth) << text << std::right; }
   void addCount(const Count& count) { label(count.label) << std::setw(kNumberWidth) << count.value << "\n"; }
 
@@ -171,15 +203,15 @@ class TextReport {
 }  // namespace
 
 std::string reportJson(const Report& report) {
-  const auto& [status, element, element2, message] = report.result.error;
   const CutStats& stats = report.result.stats;
   Json json;
-  json.open('{').member("status", name(status)).member("message", message);
-  addElement(json, "element", element);
-  addElement(json, "element2", element2);
-  json.key("mesh").open('{').member("path", report.arguments.mesh).member("vertices", report.mesh.vertexCount());
-  json.member("triangles", report.mesh.triangleCount()).close('}');
-  json.key("grid").open('{').key("origin").values(report.grid.origin).key("spacing").values(report.grid.spacing);
+  addHead(json, report.result.error, report.mesh);
+  json.key("grid").open('{').key("origin").values(report.grid.origin).key("spacing");
+  if (report.grid.uniform) {
+    json.values(report.grid.spacing);
+  } else {
+    json.null();
+  }
   json.key("cells").values(cellsOf(report.grid)).close('}');
   json.key("counts").open('{');
   for (const Count& count : cutMeshCounts(report.result.mesh)) json.member(count.key, count.value);
@@ -195,6 +227,25 @@ std::string reportJson(const Report& report) {
 }
 
 std::string reportText(const Report& report) { return TextReport(report).text(); }
+
+std::string infoJson(const MeshReport& mesh) {
+  Json json;
+  addHead(json, {}, mesh);
+  json.close('}');
+  return json.text();
+}
+
+std::string infoText(const MeshReport& mesh) {
+  const MeshInfo& info = mesh.info;
+  std::ostringstream out;
+  out << headline(mesh) << std::left;
+  const auto line = [&](const char* label) -> std::ostream& { return out << "  " << std::setw(22) << label; };
+  line("box") << '(' << triple(info.min, ", ") << ") to (" << triple(info.max, ", ") << ")\n";
+  const char* const oriented = info.oriented ? "yes, consistently oriented" : "yes, but not consistently oriented";
+  line("closed") << (info.closed ? oriented : "no") << "\n";
+  for (const Count& count : meshCounts(info)) line(count.label) << count.value << "\n";
+  return out.str();
+}
 
 std::string describeFailure(const Check& check) {
   std::string text = check.name;

@@ -1,19 +1,24 @@
-// The report of a cut, as JSON for programs and as text for people.
+// The reports of info and cut, as JSON for programs and as text for people.
 #pragma once
 
 #include <optional>
 #include <string>
 
-#include "cli/arguments.h"
+#include "mandoline/inspect.h"
 #include "mandoline/mandoline.h"
 #include "mandoline/validate.h"
 
 namespace mandoline::cli {
 
-/// Everything there is to tell; both forms tell the same.
+/// What info tells, and the head of what cut tells.
+struct MeshReport {
+  std::string name;  ///< path, or "standard input"
+  MeshInfo info;
+};
+
+/// Everything there is to tell of a cut; both forms tell the same.
 struct Report {
-  const Arguments& arguments;
-  const Mesh& mesh;
+  MeshReport mesh;
   const Grid& grid;
   const CutResult& result;
   size_t peakMemoryBytes = 0;
@@ -21,6 +26,8 @@ struct Report {
   std::optional<Validation> validation;  ///< if it was asked for and the cut is ok
 };
 
+std::string infoJson(const MeshReport& mesh);
+std::string infoText(const MeshReport& mesh);
 std::string reportJson(const Report& report);
 std::string reportText(const Report& report);
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "io/grid_vertices.h"
-#include "mesh/read/polygons.h"
+#include "io/polygons.h"
 
 namespace mandoline::detail {
 

@@ -47,10 +47,32 @@ void writeGrid(OutputBuffer& out, const Grid& grid) {
   out.text("]}");
 }
 
-void writeWinding(OutputBuffer& out, const CutMesh& cutMesh) {
-  if (cutMesh.hasWinding) return writeMember(out, "regionWinding", cutMesh.regionWinding);
-  out.text(",\n\"regionWinding\":[");
-  for (uint32_t r = 0; r < cutMesh.regionCount; ++r) out.text(r == 0 ? "null" : ",null");
+/// The dense form of the runs of untouched cells, without ever having it: -1 stands for cells that are cut.
+void writeGridCellRegion(OutputBuffer& out, const CutMesh& cutMesh) {
+  const Grid& grid = cutMesh.grid;
+  out.text(",\n\"gridCellRegion\":");
+  char separator = '[';
+  int64_t written = 0;
+  const auto put = [&](int64_t to, int64_t region) {
+    for (; written < to; ++written, separator = ',') {
+      out.character(separator);
+      out.number(region);
+    }
+  };
+  UntouchedCells(cutMesh).forEach([&](const UntouchedCells::Run& run) {
+    const int64_t row = grid.cells(0) * (run.j + grid.cells(1) * run.k);
+    put(row + run.begin, -1);
+    put(row + run.end, run.region);
+  });
+  put(grid.cells(0) * grid.cells(1) * grid.cells(2), -1);
+  out.text(separator == '[' ? "[]" : "]");
+}
+
+void writeNulls(OutputBuffer& out, std::string_view key, uint32_t count) {
+  out.text(",\n\"");
+  out.text(key);
+  out.text("\":[");
+  for (uint32_t i = 0; i < count; ++i) out.text(i == 0 ? "null" : ",null");
   out.character(']');
 }
 
@@ -58,27 +80,14 @@ void writeWinding(OutputBuffer& out, const CutMesh& cutMesh) {
 }  // namespace detail
 
 void writeJson(const Sink& sink, const CutMesh& cutMesh) {
-  using detail::writeMember;
   detail::OutputBuffer out(sink);
   out.text("{\"format\":\"mandoline-cut-mesh\",\n\"version\":1");
   detail::writeGrid(out, cutMesh.grid);
-  writeMember(out, "positions", cutMesh.positions);
-  writeMember(out, "vertexCell", cutMesh.vertexCell);
-  writeMember(out, "vertexMask", cutMesh.vertexMask);
-  writeMember(out, "vertexTriVertex", cutMesh.vertexTriVertex);
-  writeMember(out, "loopOffsets", cutMesh.loopOffsets);
-  writeMember(out, "loopVertices", cutMesh.loopVertices);
-  writeMember(out, "faceLoopOffsets", cutMesh.faceLoopOffsets);
-  writeMember(out, "faceTriangle", cutMesh.faceTriangle);
-  writeMember(out, "faceAxis", cutMesh.faceAxis);
-  writeMember(out, "facePlane", cutMesh.facePlane);
-  writeMember(out, "cellHalfFaceOffsets", cutMesh.cellHalfFaceOffsets);
-  writeMember(out, "cellHalfFaces", cutMesh.cellHalfFaces);
-  writeMember(out, "cellGridCell", cutMesh.cellGridCell);
-  writeMember(out, "cellRegion", cutMesh.cellRegion);
-  writeMember(out, "gridCellRegion", cutMesh.gridCellRegion());
-  detail::writeWinding(out, cutMesh);
-  writeMember(out, "droppedTriangles", cutMesh.droppedTriangles);
+  forEachArray(cutMesh, [&](const ArrayInfo& info, const auto& array) {
+    if (info.per == Element::region && !cutMesh.hasWinding) return detail::writeNulls(out, info.name, cutMesh.regionCount);
+    detail::writeMember(out, info.name, array);
+  });
+  detail::writeGridCellRegion(out, cutMesh);
   out.text(",\n\"triangleCount\":");
   out.number(cutMesh.triangleCount);
   out.text("}\n");

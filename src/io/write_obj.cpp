@@ -1,53 +1,23 @@
 #include "io/output_buffer.h"
-#include "mesh/read/polygons.h"
+#include "io/polygons.h"
+#include "io/surface.h"
 
 namespace mandoline {
 namespace detail {
 namespace {
 
-/// Per face the region that lists it: the one behind the face, which an outward oriented surface encloses, or the one in front where the
-/// grid ends behind it. regionCount for faces that are not of the surface.
-std::vector<uint32_t> listingRegions(const CutMesh& cutMesh) {
-  std::vector<uint32_t> behind(cutMesh.faceCount(), cutMesh.regionCount), inFront = behind;
-  for (size_t c = 0; c < cutMesh.cellCount(); ++c) {
-    for (const uint32_t h : cutMesh.halfFaces(c)) (h % 2 == 0 ? behind : inFront)[h / 2] = cutMesh.cellRegion[c];
-  }
-  for (size_t f = 0; f < cutMesh.faceCount(); ++f) {
-    if (behind[f] == cutMesh.regionCount) behind[f] = inFront[f];
-    if (cutMesh.faceTriangle[f] < 0) behind[f] = cutMesh.regionCount;
-  }
-  return behind;
-}
-
-/// Faces of the surface, by region.
-struct Groups {
-  std::vector<uint32_t> offsets, faces;
-};
-Groups groupFaces(const CutMesh& cutMesh) {
-  const std::vector<uint32_t> regions = listingRegions(cutMesh);
-  Groups groups;
-  groups.offsets.assign(cutMesh.regionCount + 2, 0);
-  for (const uint32_t r : regions) ++groups.offsets[r + 1];
-  for (size_t r = 0; r <= cutMesh.regionCount; ++r) groups.offsets[r + 1] += groups.offsets[r];
-  groups.faces.resize(regions.size());
-  std::vector<uint32_t> next = groups.offsets;
-  for (uint32_t f = 0; f < regions.size(); ++f) groups.faces[next[regions[f]]++] = f;
-  return groups;
-}
-
 class ObjWriter {
  public:
   ObjWriter(const Sink& sink, const CutMesh& cutMesh) : out_(sink), cutMesh_(cutMesh), polygons_(cutMesh), number_(cutMesh.vertexCount()) {}
 
-  void write() {
-    const Groups groups = groupFaces(cutMesh_);
+  void write(const Surface& surface) {
     for (uint32_t r = 0; r < cutMesh_.regionCount; ++r) {
-      if (groups.offsets[r] == groups.offsets[r + 1]) continue;
+      if (surface.of(r).empty()) continue;
       out_.text("g region_");
       out_.number(r);
       out_.character('\n');
-      for (uint32_t i = groups.offsets[r]; i < groups.offsets[r + 1]; ++i) {
-        polygons_.forEach(groups.faces[i], [&](std::span<const uint32_t> polygon) { writePolygon(polygon); });
+      for (const uint32_t h : surface.of(r)) {
+        polygons_.forEach(h / 2, [&](std::span<const uint32_t> polygon) { writePolygon(polygon, h % 2 != 0); });
       }
     }
     out_.flush();
@@ -55,14 +25,14 @@ class ObjWriter {
 
  private:
   /// Vertices are written where they are first used.
-  void writePolygon(std::span<const uint32_t> polygon) {
+  void writePolygon(std::span<const uint32_t> polygon, bool reversed) {
     for (const uint32_t v : polygon) {
       if (number_[v] == 0) writeVertex(v);
     }
     out_.character('f');
-    for (const uint32_t v : polygon) {
+    for (size_t i = 0; i < polygon.size(); ++i) {
       out_.character(' ');
-      out_.number(number_[v]);
+      out_.number(number_[polygon[reversed ? polygon.size() - 1 - i : i]]);
     }
     out_.character('\n');
   }
@@ -87,6 +57,8 @@ class ObjWriter {
 }  // namespace
 }  // namespace detail
 
-void writeObj(const Sink& sink, const CutMesh& cutMesh) { detail::ObjWriter(sink, cutMesh).write(); }
+void writeObj(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options) {
+  detail::ObjWriter(sink, cutMesh).write(detail::surfaceOf({cutMesh, options}));
+}
 
 }  // namespace mandoline

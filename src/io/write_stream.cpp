@@ -15,6 +15,6 @@ void writeJson(std::ostream& out, const CutMesh& cutMesh) { writeJson(into(out),
 void writeVtu(std::ostream& out, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options) {
   writeVtu(into(out), mesh, cutMesh, options);
 }
-void writeObj(std::ostream& out, const CutMesh& cutMesh) { writeObj(into(out), cutMesh); }
+void writeObj(std::ostream& out, const CutMesh& cutMesh, const WriteOptions& options) { writeObj(into(out), cutMesh, options); }
 
 }  // namespace mandoline

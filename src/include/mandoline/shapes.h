@@ -1,7 +1,9 @@
 // Made meshes, to try things on. All are closed and oriented outward.
 #pragma once
 
-#include "mandoline/mandoline.h"
+#include <array>
+
+#include "mandoline/mesh.h"
 
 namespace mandoline {
 

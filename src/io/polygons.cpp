@@ -1,4 +1,4 @@
-#include "mesh/read/polygons.h"
+#include "io/polygons.h"
 
 #include <algorithm>
 

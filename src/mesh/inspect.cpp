@@ -1,15 +1,12 @@
-#include "cli/inspect.h"
+#include "mandoline/inspect.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <sstream>
 
 #include "base/disjoint_sets.h"
 #include "base/exact.h"
-#include "cli/json.h"
 
-namespace mandoline::cli {
+namespace mandoline {
 namespace {
 
 using Corners = std::array<uint32_t, 3>;
@@ -115,37 +112,29 @@ size_t countZeroArea(const MeshView& mesh, const std::vector<Corners>& triangles
   return count;
 }
 
-std::string vectorText(const std::array<double, 3>& v) {
-  std::ostringstream out;
-  out << '(' << v[0] << ", " << v[1] << ", " << v[2] << ')';
-  return out.str();
-}
-
-}  // namespace
-
-Box boundingBox(const MeshView& mesh) {
-  Box box;
-  box.low.fill(INFINITY);
-  box.high.fill(-INFINITY);
+void findBox(const MeshView& mesh, MeshInfo& info) {
+  info.min.fill(INFINITY);
+  info.max.fill(-INFINITY);
   for (const uint32_t v : mesh.triangles) {
     for (size_t d = 0; d < 3; ++d) {
       const double x = mesh.positions[3 * size_t(v) + d];
       if (!std::isfinite(x)) continue;
-      box.low[d] = std::min(box.low[d], x);
-      box.high[d] = std::max(box.high[d], x);
+      info.min[d] = std::min(info.min[d], x);
+      info.max[d] = std::max(info.max[d], x);
     }
   }
   for (size_t d = 0; d < 3; ++d) {
-    if (!(box.low[d] <= box.high[d])) box.low[d] = box.high[d] = 0;
+    if (!(info.min[d] <= info.max[d])) info.min[d] = info.max[d] = 0;
   }
-  return box;
 }
+
+}  // namespace
 
 MeshInfo inspect(const MeshView& mesh) {
   MeshInfo info;
   info.vertices = mesh.vertexCount();
   info.triangles = mesh.triangleCount();
-  info.box = boundingBox(mesh);
+  findBox(mesh, info);
   const std::vector<uint32_t> lowest = weld(mesh);
   std::vector<uint8_t> referenced(info.vertices, 0);
   for (const uint32_t v : mesh.triangles) referenced[v] = 1;
@@ -165,40 +154,4 @@ MeshInfo inspect(const MeshView& mesh) {
   return info;
 }
 
-std::string infoJson(const std::string& path, const MeshInfo& info) {
-  Json json;
-  json.open('{').member("mesh", path).member("vertices", info.vertices).member("triangles", info.triangles);
-  json.key("box").open('{').key("low").values(info.box.low).key("high").values(info.box.high).close('}');
-  json.member("closed", info.closed).member("oriented", info.oriented);
-  json.member("openEdges", info.openEdges)
-      .member("nonManifoldEdges", info.nonManifoldEdges)
-      .member("inconsistentEdges", info.inconsistentEdges);
-  json.member("components", info.components);
-  json.member("zeroAreaTriangles", info.zeroAreaTriangles).member("duplicateTriangles", info.duplicateTriangles);
-  json.member("weldedVertices", info.weldedVertices).member("unreferencedVertices", info.unreferencedVertices);
-  json.member("nonFiniteVertices", info.nonFiniteVertices).close('}');
-  return json.text();
-}
-
-std::string infoText(const std::string& path, const MeshInfo& info) {
-  std::ostringstream out;
-  out << path << ": " << info.vertices << " vertices, " << info.triangles << " triangles\n"
-      << "  box                   " << vectorText(info.box.low) << " to " << vectorText(info.box.high) << "\n"
-      << "  closed                "
-      << (!info.closed    ? "no"
-          : info.oriented ? "yes, consistently oriented"
-                          : "yes, but not consistently oriented")
-      << "\n"
-      << "  open edges            " << info.openEdges << "\n"
-      << "  non-manifold edges    " << info.nonManifoldEdges << "\n"
-      << "  inconsistent edges    " << info.inconsistentEdges << "\n"
-      << "  components            " << info.components << "\n"
-      << "  zero-area triangles   " << info.zeroAreaTriangles << "\n"
-      << "  duplicate triangles   " << info.duplicateTriangles << "\n"
-      << "  welded vertices       " << info.weldedVertices << "\n"
-      << "  unreferenced vertices " << info.unreferencedVertices << "\n";
-  if (info.nonFiniteVertices > 0) out << "  non-finite vertices   " << info.nonFiniteVertices << "\n";
-  return out.str();
-}
-
-}  // namespace mandoline::cli
+}  // namespace mandoline

@@ -1,0 +1,17 @@
+// The commands. Each gives the program's exit code.
+#pragma once
+
+#include "cli/arguments.h"
+
+namespace mandoline::cli {
+
+enum ExitCode { kFine = 0, kNotCut = 1, kBadUsageOrFile = 2 };
+
+int runCut(const Arguments& arguments);
+int runInfo(const Arguments& arguments);
+int runMake(const Arguments& arguments);
+
+/// A message on standard error.
+void complain(const std::string& message);
+
+}  // namespace mandoline::cli

@@ -1,0 +1,27 @@
+// Ctrl-C and other requests to stop.
+#pragma once
+
+namespace mandoline::cli {
+
+/// A signal asked to stop; thrown by throwIfInterrupted().
+struct Interrupted {
+  int signal;
+};
+
+/// From now on SIGINT, SIGTERM and SIGHUP end the program with exit code 128 + signal, unless they are ignored already, as in background
+/// jobs.
+void handleInterrupts();
+
+/// While one lives, the first signal is only remembered, so that unfinished files can be removed. The second one ends the program.
+class DeferInterrupts {
+ public:
+  DeferInterrupts();
+  ~DeferInterrupts();
+  DeferInterrupts(const DeferInterrupts&) = delete;
+  DeferInterrupts& operator=(const DeferInterrupts&) = delete;
+};
+
+bool interrupted();
+void throwIfInterrupted();
+
+}  // namespace mandoline::cli

@@ -1,0 +1,50 @@
+#include "cli/make_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mandoline::cli {
+namespace {
+
+using Vector = GridArguments::Vector;
+
+/// n along the longest side, and as many along the others as make the cells nearly cubic.
+std::array<int64_t, 3> nearlyCubic(const std::array<Vector, 2>& box, int64_t n) {
+  Vector sides;
+  for (size_t d = 0; d < 3; ++d) sides[d] = box[1][d] - box[0][d];
+  const double longest = *std::max_element(sides.begin(), sides.end());
+  std::array<int64_t, 3> cells;
+  for (size_t d = 0; d < 3; ++d) cells[d] = std::max(int64_t(1), int64_t(std::llround(double(n) * (sides[d] / longest))));
+  return cells;
+}
+
+std::array<Vector, 2> grownBox(const MeshInfo& info) {
+  std::array<Vector, 2> box = {info.min, info.max};
+  double longest = 0;
+  for (size_t d = 0; d < 3; ++d) longest = std::max(longest, box[1][d] - box[0][d]);
+  if (!(longest > 0)) longest = 1;
+  for (size_t d = 0; d < 3; ++d) {
+    box[0][d] -= 0.05 * longest;
+    box[1][d] += 0.05 * longest;
+  }
+  return box;
+}
+
+}  // namespace
+
+Grid makeGrid(const GridArguments& arguments, const Mesh& mesh, const MeshInfo& info) {
+  constexpr int64_t kDefaultCells = 32;
+  if (arguments.planes) return Grid::rectilinear(*arguments.planes);
+  if (arguments.origin) return Grid::regular(*arguments.origin, *arguments.spacing, *arguments.cells);
+  const bool oneNumber = arguments.oneNumber || !arguments.cells;
+  const int64_t n = arguments.cells ? (*arguments.cells)[0] : kDefaultCells;
+  if (arguments.box) {
+    const auto& [low, high] = *arguments.box;
+    return Grid::box(low, high, oneNumber ? nearlyCubic(*arguments.box, n) : *arguments.cells);
+  }
+  if (oneNumber) return Grid::around(mesh, n);
+  const auto [low, high] = grownBox(info);
+  return Grid::box(low, high, *arguments.cells);
+}
+
+}  // namespace mandoline::cli

@@ -1,0 +1,46 @@
+// Values of options, from words.
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "cli/arguments.h"
+
+namespace mandoline::cli {
+
+/// The whole word as a number; false if it is none.
+template <class Number>
+bool parseNumber(std::string_view word, Number& number) {
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  return error == std::errc() && end == word.data() + word.size();
+}
+
+/// Numbers with commas between them; empty if any is none.
+template <class Number>
+std::vector<Number> parseList(std::string_view word) {
+  std::vector<Number> numbers;
+  for (size_t begin = 0;;) {
+    const size_t comma = word.find(',', begin);
+    Number number;
+    if (!parseNumber(word.substr(begin, comma - begin), number)) return {};
+    numbers.push_back(number);
+    if (comma == std::string_view::npos) return numbers;
+    begin = comma + 1;
+  }
+}
+
+// Each sets what the word says, or throws UsageError.
+void parseCells(const std::string& word, GridArguments& grid);
+void parseBox(const std::string& word, GridArguments& grid);
+void parseOrigin(const std::string& word, GridArguments& grid);
+void parseSpacing(const std::string& word, GridArguments& grid);
+/// Lists for x, y and z with a '/' between them, or '@' and a file with a list on each of three lines.
+void parsePlanes(const std::string& word, GridArguments& grid);
+void parseOnly(const std::string& word, OnlyArguments& only);
+
+/// Throws UsageError for options that don't go together.
+void checkGrid(const GridArguments& grid);
+
+}  // namespace mandoline::cli

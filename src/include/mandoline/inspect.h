@@ -1,0 +1,30 @@
+// What kind of mesh it is.
+#pragma once
+
+#include <array>
+
+#include "mandoline/mesh.h"
+
+namespace mandoline {
+
+/// Counts of a mesh whose vertices at one position are taken as one. Edges are those of triangles with three different vertices.
+struct MeshInfo {
+  size_t vertices = 0, triangles = 0;
+  std::array<double, 3> min{}, max{};  ///< bounding box of the finite coordinates in use; all zero if there are none
+  bool closed = false;                 ///< every edge has an even number of triangles
+  bool oriented = false;               ///< every edge is run through equally often both ways, so that there are winding numbers
+  size_t openEdges = 0;                ///< with one triangle
+  size_t nonManifoldEdges = 0;         ///< with more than two
+  size_t inconsistentEdges = 0;        ///< with two that run the same way along it
+  size_t components = 0;               ///< joined through vertices
+  size_t zeroAreaTriangles = 0;        ///< exactly
+  size_t duplicateTriangles = 0;       ///< same three vertices as another one before them
+  size_t weldedVertices = 0;           ///< share their position with another one
+  size_t unreferencedVertices = 0;
+  size_t nonFiniteVertices = 0;
+};
+
+/// Triangles must name vertices that exist.
+MeshInfo inspect(const MeshView& mesh);
+
+}  // namespace mandoline

@@ -1,0 +1,32 @@
+// Files that appear when they are complete.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+
+#include "mandoline/io.h"
+
+namespace mandoline::detail {
+
+/// Throws the FileError that opening the file would meet at once: no such folder, or it is a folder.
+void checkPlace(const std::string& path);
+
+/// A file that takes its place when it is committed, unless that place is a device or a pipe, which gets everything as it comes.
+class OutputFile {
+ public:
+  explicit OutputFile(const std::string& path);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  void write(std::string_view bytes);
+  void commit();
+
+ private:
+  std::string path_;
+  std::filesystem::path target_, written_;
+  bool inPlace_ = false, committed_ = false;
+  std::ofstream stream_;
+};
+
+}  // namespace mandoline::detail

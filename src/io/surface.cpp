@@ -1,0 +1,72 @@
+#include "io/surface.h"
+
+#include "mandoline/triangulate.h"
+
+namespace mandoline::detail {
+namespace {
+
+/// Calls visit(region, half-face) for every listing of a face.
+template <class Visit>
+void forEachListing(const Selection& selection, const Visit& visit) {
+  const CutMesh& m = selection.cutMesh();
+  std::vector<uint8_t> hasBehind(selection.allRegions() ? m.faceCount() : 0, 0);
+  for (const uint32_t h : m.cellHalfFaces) {
+    if (h % 2 == 0 && !hasBehind.empty()) hasBehind[h / 2] = 1;
+  }
+  for (size_t c = 0; c < m.cellCount(); ++c) {
+    if (!selection.hasCutCell(c)) continue;
+    for (const uint32_t h : m.halfFaces(c)) {
+      if (m.faceTriangle[h / 2] < 0) continue;
+      if (!selection.allRegions()) {
+        visit(m.cellRegion[c], h);
+      } else if (h % 2 == 0 || !hasBehind[h / 2]) {
+        visit(m.cellRegion[c], h - h % 2);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Surface surfaceOf(const Selection& selection) {
+  Surface surface;
+  surface.regionOffsets.assign(size_t(selection.cutMesh().regionCount) + 1, 0);
+  forEachListing(selection, [&](uint32_t region, uint32_t) { ++surface.regionOffsets[region + 1]; });
+  for (size_t r = 1; r < surface.regionOffsets.size(); ++r) surface.regionOffsets[r] += surface.regionOffsets[r - 1];
+  surface.halfFaces.resize(surface.regionOffsets.back());
+  std::vector<uint32_t> next(surface.regionOffsets.begin(), surface.regionOffsets.end() - 1);
+  forEachListing(selection, [&](uint32_t region, uint32_t halfFace) { surface.halfFaces[next[region]++] = halfFace; });
+  for (size_t r = 0; r + 1 < surface.regionOffsets.size(); ++r) {
+    std::sort(surface.halfFaces.begin() + surface.regionOffsets[r], surface.halfFaces.begin() + surface.regionOffsets[r + 1]);
+  }
+  return surface;
+}
+
+SurfaceTriangles triangulateSurface(const Selection& selection) {
+  const CutMesh& m = selection.cutMesh();
+  const Surface surface = surfaceOf(selection);
+  const FaceTriangles faces = triangulateFaces(m);
+  constexpr uint32_t kUnused = ~0u;
+  std::vector<uint32_t> number(m.vertexCount(), kUnused);
+  SurfaceTriangles result;
+  auto& [positions, triangles] = result.mesh;
+  const auto numberOf = [&](uint32_t v) {
+    if (number[v] == kUnused) {
+      number[v] = uint32_t(positions.size() / 3);
+      positions.insert(positions.end(), m.positions.begin() + 3 * std::ptrdiff_t(v), m.positions.begin() + 3 * std::ptrdiff_t(v) + 3);
+    }
+    return number[v];
+  };
+  for (uint32_t r = 0; r < m.regionCount; ++r) {
+    for (const uint32_t h : surface.of(r)) {
+      for (size_t t = faces.faceTriangleOffsets[h / 2]; t < faces.faceTriangleOffsets[h / 2 + 1]; ++t) {
+        const uint32_t* v = faces.triangles.data() + 3 * t;
+        for (const size_t i : {size_t(0), size_t(1 + h % 2), size_t(2 - h % 2)}) triangles.push_back(numberOf(v[i]));
+        result.region.push_back(r);
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace mandoline::detail

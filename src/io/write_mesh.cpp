@@ -1,0 +1,124 @@
+// Triangle meshes: OBJ and OFF as text, STL and PLY as binary. The cut surface as STL and PLY is one, too.
+#include <cmath>
+
+#include "io/output_buffer.h"
+#include "io/surface.h"
+#include "mesh/read/scalar.h"
+
+namespace mandoline {
+namespace detail {
+namespace {
+
+/// Little-endian whatever the machine is.
+template <class Scalar>
+void putScalar(OutputBuffer& out, Scalar value) {
+  char bytes[sizeof value];
+  std::memcpy(bytes, &value, sizeof value);
+  if (kNativeOrder == ByteOrder::big) std::reverse(bytes, bytes + sizeof value);
+  out.text({bytes, sizeof value});
+}
+
+template <class Number>
+void putLine(OutputBuffer& out, std::string_view keyword, std::span<const Number> numbers, Number add = 0) {
+  out.text(keyword);
+  for (const Number n : numbers) {
+    out.character(' ');
+    out.number(n + add);
+  }
+  out.character('\n');
+}
+
+void putObj(OutputBuffer& out, const MeshView& mesh) {
+  for (size_t v = 0; v < mesh.vertexCount(); ++v) putLine(out, "v", mesh.positions.subspan(3 * v, 3));
+  for (size_t t = 0; t < mesh.triangleCount(); ++t) putLine(out, "f", mesh.triangles.subspan(3 * t, 3), 1u);
+}
+
+void putOff(OutputBuffer& out, const MeshView& mesh) {
+  const std::array<size_t, 3> counts = {mesh.vertexCount(), mesh.triangleCount(), 0};
+  putLine(out, "OFF\n", std::span<const size_t>(counts));
+  for (size_t v = 0; v < mesh.vertexCount(); ++v) putLine(out, "", mesh.positions.subspan(3 * v, 3));
+  for (size_t t = 0; t < mesh.triangleCount(); ++t) putLine(out, "3", mesh.triangles.subspan(3 * t, 3));
+}
+
+std::array<float, 3> unitNormal(const std::array<const double*, 3>& corners) {
+  std::array<double, 3> a, b;
+  for (size_t d = 0; d < 3; ++d) {
+    a[d] = corners[1][d] - corners[0][d];
+    b[d] = corners[2][d] - corners[0][d];
+  }
+  const std::array<double, 3> n = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  const double length = std::hypot(n[0], n[1], n[2]);
+  if (!(length > 0)) return {0, 0, 0};
+  return {float(n[0] / length), float(n[1] / length), float(n[2] / length)};
+}
+
+void putStl(OutputBuffer& out, const MeshView& mesh) {
+  std::string header = "mandoline";
+  header.resize(80, ' ');
+  out.text(header);
+  putScalar(out, uint32_t(mesh.triangleCount()));
+  for (size_t t = 0; t < mesh.triangleCount(); ++t) {
+    std::array<const double*, 3> corners;
+    for (size_t i = 0; i < 3; ++i) corners[i] = mesh.positions.data() + 3 * size_t(mesh.triangles[3 * t + i]);
+    for (const float n : unitNormal(corners)) putScalar(out, n);
+    for (const double* corner : corners) {
+      for (size_t d = 0; d < 3; ++d) putScalar(out, float(corner[d]));
+    }
+    putScalar(out, uint16_t(0));
+  }
+}
+
+/// `regions`: per triangle, or empty.
+void putPly(OutputBuffer& out, const MeshView& mesh, std::span<const uint32_t> regions) {
+  out.text("ply\nformat binary_little_endian 1.0\nelement vertex ");
+  out.number(mesh.vertexCount());
+  out.text("\nproperty double x\nproperty double y\nproperty double z\nelement face ");
+  out.number(mesh.triangleCount());
+  out.text("\nproperty list uchar uint vertex_indices\n");
+  out.text(regions.empty() ? "" : "property uint region\n");
+  out.text("end_header\n");
+  for (const double x : mesh.positions) putScalar(out, x);
+  for (size_t t = 0; t < mesh.triangleCount(); ++t) {
+    putScalar(out, uint8_t(3));
+    for (const uint32_t v : mesh.triangles.subspan(3 * t, 3)) putScalar(out, v);
+    if (!regions.empty()) putScalar(out, regions[t]);
+  }
+}
+
+}  // namespace
+}  // namespace detail
+
+void writeMesh(const Sink& sink, FileFormat format, const MeshView& mesh) {
+  detail::OutputBuffer out(sink);
+  switch (format) {
+    case FileFormat::obj:
+      detail::putObj(out, mesh);
+      break;
+    case FileFormat::off:
+      detail::putOff(out, mesh);
+      break;
+    case FileFormat::stl:
+      detail::putStl(out, mesh);
+      break;
+    case FileFormat::ply:
+      detail::putPly(out, mesh, {});
+      break;
+    default:
+      throw FileError(std::string("meshes can't be written as .") + name(format));
+  }
+  out.flush();
+}
+
+void writeStl(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options) {
+  const Mesh surface = detail::triangulateSurface({cutMesh, options}).mesh;
+  writeMesh(sink, FileFormat::stl, surface);
+}
+
+void writePly(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options) {
+  const detail::SurfaceTriangles surface = detail::triangulateSurface({cutMesh, options});
+  detail::OutputBuffer out(sink);
+  detail::putPly(out, surface.mesh, surface.region);
+  out.flush();
+}
+
+}  // namespace mandoline
