@@ -49,7 +49,7 @@ SurfaceTriangles triangulateSurface(const Selection& selection) {
   constexpr uint32_t kUnused = ~0u;
   std::vector<uint32_t> number(m.vertexCount(), kUnused);
   SurfaceTriangles result;
-  auto& [positions, triangles] = result.mesh;
+  std::vector<double>& positions = result.mesh.positions;
   const auto numberOf = [&](uint32_t v) {
     if (number[v] == kUnused) {
       number[v] = uint32_t(positions.size() / 3);
@@ -61,7 +61,7 @@ SurfaceTriangles triangulateSurface(const Selection& selection) {
     for (const uint32_t h : surface.of(r)) {
       for (size_t t = faces.faceTriangleOffsets[h / 2]; t < faces.faceTriangleOffsets[h / 2 + 1]; ++t) {
         const uint32_t* v = faces.triangles.data() + 3 * t;
-        for (const size_t i : {size_t(0), size_t(1 + h % 2), size_t(2 - h % 2)}) triangles.push_back(numberOf(v[i]));
+        for (const size_t i : {size_t(0), size_t(1 + h % 2), size_t(2 - h % 2)}) result.mesh.triangles.push_back(numberOf(v[i]));
         result.region.push_back(r);
       }
     }

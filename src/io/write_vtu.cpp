@@ -137,28 +137,27 @@ class VtuWriter {
   /// names of points and cells are VTK's.
   template <class Visit>
   void forEachArray(const Visit& visit) {
-    visit(double(), "Points", pointCount(), 3, [this](const auto& put) { putPoints(put); });
-    visit(int64_t(), "connectivity", connectivitySize_, 1, [this](const auto& put) { putConnectivity(put); });
-    visit(int64_t(), "offsets", cellCount_, 1, [this](const auto& put) { putOffsets(put); });
+    visit(double(), "Points", pointCount(), 3, [&](const auto& put) { putPoints(put); });
+    visit(int64_t(), "connectivity", connectivitySize_, 1, [&](const auto& put) { putConnectivity(put); });
+    visit(int64_t(), "offsets", cellCount_, 1, [&](const auto& put) { putOffsets(put); });
     visit(uint8_t(), "types", cellCount_, 1,
-          [this](const auto& put) { putPerCell([&](const VtuCell&) { put(kPolyhedron); }, [&](const VtuCell&) { put(kHexahedron); }); });
+          [&](const auto& put) { putPerCell([&](const VtuCell&) { put(kPolyhedron); }, [&](const VtuCell&) { put(kHexahedron); }); });
     if (facesSize_ > 0) {
-      visit(int64_t(), "faces", facesSize_, 1, [this](const auto& put) { putFaces(put); });
-      visit(int64_t(), "faceoffsets", cellCount_, 1, [this](const auto& put) {
+      visit(int64_t(), "faces", facesSize_, 1, [&](const auto& put) { putFaces(put); });
+      visit(int64_t(), "faceoffsets", cellCount_, 1, [&](const auto& put) {
         size_t polyhedron = 0;
         int64_t offset = 0;
         putPerCell([&](const VtuCell&) { put(offset += int64_t(polyhedronSizes_[polyhedron++].faces)); }, [&](const VtuCell&) { put(-1); });
       });
     }
-    visit(int32_t(), "grid_cell", cellCount_, 3, [this](const auto& put) {
-      putAlike([&](const VtuCell& cell) { std::for_each(cell.gridCell.begin(), cell.gridCell.end(), put); });
-    });
-    visit(int32_t(), "region", cellCount_, 1, [this](const auto& put) { putAlike([&](const VtuCell& cell) { put(cell.region); }); });
+    visit(int32_t(), "grid_cell", cellCount_, 3,
+          [&](const auto& put) { putAlike([&](const VtuCell& cell) { std::for_each(cell.gridCell.begin(), cell.gridCell.end(), put); }); });
+    visit(int32_t(), "region", cellCount_, 1, [&](const auto& put) { putAlike([&](const VtuCell& cell) { put(cell.region); }); });
     if (cutMesh_.hasWinding) {
       visit(int32_t(), "winding", cellCount_, 1,
-            [this](const auto& put) { putAlike([&](const VtuCell& cell) { put(cutMesh_.regionWinding[cell.region]); }); });
+            [&](const auto& put) { putAlike([&](const VtuCell& cell) { put(cutMesh_.regionWinding[cell.region]); }); });
     }
-    visit(double(), "volume", cellCount_, 1, [this](const auto& put) { putAlike([&](const VtuCell& cell) { put(volume(cell)); }); });
+    visit(double(), "volume", cellCount_, 1, [&](const auto& put) { putAlike([&](const VtuCell& cell) { put(volume(cell)); }); });
   }
 
   template <class OnPolyhedron, class OnHexahedron>
