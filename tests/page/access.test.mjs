@@ -6,14 +6,14 @@ import { covered, pixelsOf } from './pictures.mjs';
 const site = await startSite();
 after(() => site.close());
 const link = 'mesh=wedge&n=2&free=off';
-const panels = ['mesh', 'cut', 'see', 'steps', 'checks', 'save'];
+const panels = ['mesh', 'cut', 'view', 'steps', 'checks', 'save'];
 const controls = 'a[href], button, input, select, textarea, summary, [tabindex]';
 
 /** Opens all that can be opened, and pins a cell. */
 async function openAll(page) {
   for (const id of panels) await openPanel(page, id);
-  await page.locator('#own-grid summary').click();
-  await page.getByText('Times and details').click();
+  await page.locator('#custom-grid summary').click();
+  await page.getByText('Timings and details').click();
   await page.locator('#step-next').click();
   await shows(page, '#canvas', { step: 'triEdges' });
   await enter(page, '#pin-number', 0);
@@ -113,7 +113,7 @@ describe('on a screen 360 pixels wide', () => {
     for (const id of panels) {
       await page.locator(`#${id}-toggle`).tap();
       await eventually(async () => assert.equal(await page.locator(`#${id}-toggle`).getAttribute('aria-expanded'), 'true'));
-      if (id === 'cut') await page.locator('#own-grid summary').tap();
+      if (id === 'cut') await page.locator('#custom-grid summary').tap();
       assert.ok((await overflow(page)) <= 0, `${id} fits`);
       const hidden = await page.locator(`#${id}`).locator(controls).evaluateAll((all) => all.filter((element) => element.tabIndex >= 0 && element.checkVisibility()).filter((element) => {
         element.scrollIntoView({ block: 'center' });
@@ -128,7 +128,7 @@ describe('on a screen 360 pixels wide', () => {
 
   test('the card of a cell leaves room for the picture', async (t) => {
     const page = await site.open(t, link, phone);
-    await page.locator('#see-toggle').tap();
+    await page.locator('#view-toggle').tap();
     await enter(page, '#pin-number', 0);
     await shows(page, '#cell-card', { cell: 0 });
     const { x, width } = await page.locator('#cell-card').boundingBox();

@@ -70,9 +70,9 @@ test('of many resolutions at once the newest wins', async (t) => {
   assert.equal(await page.locator('#cells-number').inputValue(), '14');
 });
 
-test('a grid of one\'s own', async (t) => {
+test('a custom grid', async (t) => {
   const page = await site.open(t, link('n=8'));
-  await page.locator('#own-grid summary').click();
+  await page.locator('#custom-grid summary').click();
   const grid = { min: [-2, -1.75, -0.5], max: [1.5, 2, 0.625], cells: [7, 5, 3] };
   for (const key of ['min', 'max', 'cells']) {
     for (const [d, axis] of ['x', 'y', 'z'].entries()) await enter(page, `#grid-${key}-${axis}`, grid[key][d]);
@@ -86,7 +86,7 @@ test('a grid of one\'s own', async (t) => {
 
 test('a number entered while an earlier grid is being cut stays', async (t) => {
   const page = await site.open(t, link('n=8'));
-  await page.locator('#own-grid summary').click();
+  await page.locator('#custom-grid summary').click();
   await page.evaluate(() => {
     const set = (field, value) => {
       const input = document.querySelector(`#grid-${field}`);
@@ -108,7 +108,7 @@ test('a number entered while an earlier grid is being cut stays', async (t) => {
 test('a box turned inside out, and a grid too fine, are refused', async (t) => {
   const page = await site.open(t, link('n=8'));
   const former = await dataOf(page, '#counts');
-  await page.locator('#own-grid summary').click();
+  await page.locator('#custom-grid summary').click();
   await enter(page, '#grid-min-x', 5);
   await eventually(async () => assert.match(await textOf(page, '#cut-error'), /grid|box/i));
   await enter(page, '#grid-min-x', -2);
@@ -132,12 +132,12 @@ test('cubic cells have the same limit', async (t) => {
 
 test('the snap tolerance', async (t) => {
   const page = await site.open(t, link('n=8'));
-  await page.locator('#own-grid summary').click();
+  await page.locator('#custom-grid summary').click();
   await enter(page, '#snap', 0.2);
   const snapped = await cutOf(mesh, { cells: 8 }, { snapTolerance: 0.2 });
   assert.notDeepEqual(countsOf(snapped), countsOf(await cutOf(mesh, { cells: 8 })));
   await shows(page, '#counts', countsOf(snapped));
-  await page.getByText('Times and details').click();
+  await page.getByText('Timings and details').click();
   assert.match(await textOf(page, '#left-out'), new RegExp(`${snapped.cutMesh.stats.snappedVertices} vertices snapped`));
 });
 
@@ -164,7 +164,7 @@ test('a long cut says how far it is, and can be cancelled', async (t) => {
 
 test('the stages and their times', async (t) => {
   const page = await site.open(t, link('n=8'));
-  await page.getByText('Times and details').click();
+  await page.getByText('Timings and details').click();
   const { cutMesh } = await cutOf(mesh, { cells: 8 });
   assert.equal(await page.locator('#stage-times tr').count(), cutMesh.stats.stages.length);
   assert.match(await textOf(page, '#cut-details'), new RegExp(`vertices ${(cutMesh.positions.length / 3).toLocaleString('en')} `));

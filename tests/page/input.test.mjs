@@ -100,7 +100,7 @@ test('an address', async (t) => {
 test('bad addresses are told and the page goes on', async (t) => {
   const page = await site.open(t, start, { expectedProblem: /Failed to load resource/ });
   for (const [url, says] of [
-    [site.meshUrl('missing.obj'), /missing\.obj answers with 404/],
+    [site.meshUrl('missing.obj'), /missing\.obj responded with 404/],
     ['http://127.0.0.1:1/mesh.obj', /Nothing came from http:\/\/127\.0\.0\.1:1\/mesh\.obj/],
     [site.meshUrl('bad.obj'), /line 2/i],
   ]) {

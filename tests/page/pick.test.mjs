@@ -60,7 +60,7 @@ function factsOf(cell) {
       `region ${region} `,
       `winding number ${cutMesh.regionWinding[region]} `,
       `volume ${real(measures.cellVolume[cell])} `,
-      `faces ${halfFaces.length}, of these ${halfFaces.filter((face) => cutMesh.faceTriangle[face] >= 0).length} of the surface`,
+      `faces ${halfFaces.length}, ${halfFaces.filter((face) => cutMesh.faceTriangle[face] >= 0).length} of them on the surface`,
       `vertices ${vertices.size} `,
     ],
     neighbours,

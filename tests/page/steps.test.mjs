@@ -99,7 +99,7 @@ describe('what is drawn', () => {
   test('the crossings of a small mesh are counted', async () => {
     // Each of the six slanted edges ends in the plane, and no edge but the three in it meets it.
     const wedge = (await subject('wedge', 2)).picture({ kind: 'triEdges' });
-    assert.match(wedge.text, /^9 tri-edges cross the axial planes in 0 points.* 3 tri-vertices lie on a plane/);
+    assert.match(wedge.text, /^The axial planes cross 9 tri-edges at 0 points.* 3 tri-vertices lie exactly on a plane/);
     assert.equal(wedge.points.position.length, 9);
     assert.match((await subject('wedge', 2)).picture({ kind: 'hybridEdges' }).text, /no hybrid edges/);
   });

@@ -7,7 +7,9 @@ import { cutOf, galleryMesh, mandoline } from './reference.mjs';
 
 const knot = await galleryMesh('torus-knot');
 const sheet = await galleryMesh('wavy-plane');
-const site = await startSite({ files: { 'knot.obj': writeObj(knot), 'sheet.obj': writeObj(sheet) } });
+/** Two triangles that cross within a grid cell. */
+const crossed = { positions: new Float64Array([4, 4, 2, 3, 1, 4, 0, 0, 0, 4, 0, 2, 3, 1, 2, 1, 4, 2]), triangles: Uint32Array.from([0, 1, 2, 3, 4, 5]) };
+const site = await startSite({ files: { 'crossed.obj': writeObj(crossed), 'knot.obj': writeObj(knot), 'sheet.obj': writeObj(sheet) } });
 after(() => site.close());
 const link = `url=${site.meshUrl('knot.obj')}&n=6&free=off&explode=0,0`;
 const reference = await cutOf(knot, { cells: 6 });
@@ -61,7 +63,7 @@ describe('steps', () => {
       await page.locator(`#step-axis-${axis}`).check();
       await slideTo(page, '#step-plane', plane);
       const faces = cutMesh.faceAxis.filter((at, face) => at === axis && cutMesh.facePlane[face] === plane).length;
-      await eventually(async () => assert.match(await textOf(page, '#step-text'), new RegExp(`axial plane ${plane} across ${'xyz'[axis]} .* into ${faces} faces?\\b`)));
+      await eventually(async () => assert.match(await textOf(page, '#step-text'), new RegExp(`axial plane ${plane} normal to ${'xyz'[axis]}, .* into ${faces} faces?\\b`)));
     }
   });
 
@@ -81,7 +83,7 @@ describe('steps', () => {
 });
 
 describe('checks', () => {
-  test('all pass for the bunny, each with its worst value', async (t) => {
+  test('all pass for the bunny; their deviations are there for those who ask', async (t) => {
     const page = await site.open(t, 'mesh=bunny&n=8&free=off');
     const { mesh, cutMesh: bunny } = await cutOf(await galleryMesh('bunny'), { cells: 8 });
     const { checks } = mandoline.validate(mesh, bunny);
@@ -90,12 +92,31 @@ describe('checks', () => {
     await shows(page, '#validation', { pass: true, failed: 0, skipped: 0, passed: checks.length });
     const states = await page.locator('#validation [data-check]').evaluateAll((all) => all.map(({ dataset }) => [dataset.check, dataset.state]));
     assert.deepEqual(states, checks.map(({ name }) => [name, 'pass']));
-    for (const { name, worst, tolerance } of checks) {
+    for (const { name, tolerance } of checks) {
       const text = await textOf(page, `[data-check="${name}"]`);
-      assert.ok(text.includes(tolerance === 0 ? 'no violation' : `worst ${Number(worst.toPrecision(4))} of`), `${name}: ${text}`);
+      assert.ok(text.endsWith(tolerance === 0 ? 'no violations' : 'exact, up to rounding'), `${name}: ${text}`);
     }
+    await page.locator('#deviations summary').click();
+    const rows = checks.filter(({ tolerance }) => tolerance > 0).map(({ worst, tolerance }) => [Number(worst.toPrecision(4)), tolerance]);
+    const shown = await page.locator('#deviations tbody tr').evaluateAll((all) => all.map((row) => [...row.cells].slice(1).map((cell) => Number(cell.innerText))));
+    assert.deepEqual(shown, rows);
     await slideTo(page, '#cells', 7);
     await eventually(async () => assert.equal((await dataOf(page, '#validation')).pass, undefined, 'of another cut nothing is said'));
+  });
+
+  test('what fails is said in sentences, without raw numbers', async (t) => {
+    const page = await site.open(t, `url=${site.meshUrl('crossed.obj')}&n=2&free=off`);
+    const { mesh, cutMesh: wrong } = await cutOf(crossed, { cells: 2 });
+    const failing = mandoline.validate(mesh, wrong).checks.filter((check) => !check.pass);
+    assert.ok(failing.some(({ tolerance }) => tolerance > 0), 'one of them measures');
+    await openPanel(page, 'checks');
+    await page.locator('#validate').click();
+    await shows(page, '#validation', { pass: false, failed: failing.length });
+    assert.match(await textOf(page, '#validation'), new RegExp(`^${failing.length} of \\d+ checks failed\\.`));
+    for (const { name } of failing) {
+      const text = await textOf(page, `[data-check="${name}"]`);
+      assert.match(text, /^fail [A-Z].+ [A-Z].+\.( Show cell \d+)?$/, text);
+    }
   });
 
   test('of an open mesh those that do not apply are skipped', async (t) => {

@@ -212,7 +212,7 @@ export class App {
   }
 
   /** Looks at all of the model. */
-  frame(): void {
+  fit(): void {
     this.view.frame();
     this.change({ camera: null }, false);
   }

@@ -10,8 +10,8 @@ export async function followLink(app: App, notice: (text: string) => void): Prom
   };
   const read = () => {
     const { settings, problems } = fromHash(location.hash);
-    if (problems.length > 0) notice(`Not everything in the link could be understood (${problems.join(', ')}); the rest is shown.`);
-    if (settings.source.kind === 'file') notice(`The link was made from the file ${settings.source.name}, which is not in it: open it to see the same.`);
+    if (problems.length > 0) notice(`Parts of the link were not understood (${problems.join(', ')}); the rest is shown.`);
+    if (settings.source.kind === 'file') notice(`The link was made from the file ${settings.source.name}, which it does not contain. Open that file to see the same view.`);
     return app.restore(settings);
   };
   addEventListener('hashchange', () => void read());

@@ -11,10 +11,10 @@ import { acceptDrops, meshPanel } from './ui/mesh_panel';
 import { progressLine } from './ui/progress_line';
 import { savePanel } from './ui/save_panel';
 import { schemeToggle } from './ui/scheme';
-import { seePanel } from './ui/see_panel';
 import { shortcuts } from './ui/shortcuts';
 import { stageNote } from './ui/stage_note';
 import { stepsPanel } from './ui/steps_panel';
+import { viewPanel } from './ui/view_panel';
 import { createView } from './view/view';
 
 const element = (id: string) => document.getElementById(id) as HTMLElement;
@@ -44,7 +44,7 @@ function start(): void {
   app.events.on('state', (state) => (document.body.dataset.state = state));
   element('tools').append(schemeToggle((dark) => view.setScheme(dark)), shortcuts(app));
   element('stage').append(legend(app), hoverLine(app), stageNote(app), progressLine(app), cellCard(app));
-  element('panels').append(meshPanel(app), cutPanel(app), seePanel(app), stepsPanel(app), checksPanel(app), savePanel(app));
+  element('panels').append(meshPanel(app), cutPanel(app), viewPanel(app), stepsPanel(app), checksPanel(app), savePanel(app));
   acceptDrops(app);
   skipToPanels();
   void followLink(app, notice);

@@ -15,7 +15,7 @@ function nameOf(source: Source): string {
 }
 
 function fileName(url: string): string {
-  if (!URL.canParse(url, self.location.href)) throw pageError("The address can't be read", `"${url}" is not the address of a file.`);
+  if (!URL.canParse(url, self.location.href)) throw pageError("The URL can't be read", `"${url}" is not a valid URL.`);
   const name = new URL(url, self.location.href).pathname.split('/').pop() ?? '';
   try {
     return decodeURIComponent(name) || url;
@@ -27,16 +27,16 @@ function fileName(url: string): string {
 async function readFile(mandoline: Mandoline, source: Exclude<Source, { kind: 'gallery' }>, given?: ArrayBuffer): Promise<MeshArrays> {
   const name = nameOf(source);
   const bytes = source.kind === 'url' ? await fetched(source.url) : given;
-  if (!bytes) throw pageError(`${name} isn't here any more`, 'A link keeps only the name of a file. Choose the file again.');
+  if (!bytes) throw pageError(`${name} is not here any more`, 'A link keeps only the name of a file. Open the file again.');
   return readMesh(mandoline, bytes, name);
 }
 
 async function fetched(url: string): Promise<ArrayBuffer> {
-  const title = "The address can't be read";
+  const title = "The URL can't be read";
   const response = await fetch(url).catch((error: unknown) => {
-    throw pageError(title, `Nothing came from ${url}: there is no such server, or it doesn't let other pages read it (${String(error)}).`);
+    throw pageError(title, `Nothing came from ${url}: the server can't be reached, or it doesn't allow other pages to read it (${String(error)}).`);
   });
-  if (!response.ok) throw pageError(title, `${url} answers with ${response.status} ${response.statusText}.`);
+  if (!response.ok) throw pageError(title, `${url} responded with ${response.status} ${response.statusText}.`);
   return response.arrayBuffer();
 }
 
@@ -44,7 +44,7 @@ async function fetched(url: string): Promise<ArrayBuffer> {
 export async function readMesh(mandoline: Mandoline, bytes: ArrayBuffer, name: string): Promise<MeshArrays> {
   try {
     const mesh = isGltf(bytes, name) ? await (await import('./gltf')).readGltf(bytes) : await mandoline.readMesh(bytes, { name });
-    if (mesh.triangles.length === 0) throw new Error('There are no triangles in it.');
+    if (mesh.triangles.length === 0) throw new Error('It has no triangles.');
     return mesh;
   } catch (error) {
     throw isPageError(error) ? error : fileError(name, whatIsWrong(error, bytes, name));

@@ -12,15 +12,15 @@ export interface GalleryEntry {
 export const gallery: readonly GalleryEntry[] = [
   {
     name: 'bunny', title: 'Stanford bunny', cells: 16,
-    line: 'A scan: slice it and see cut-cells on both sides of the surface, each of which follows it exactly.',
+    line: 'A scan. Slice it to look inside: the cut-cells follow the surface exactly.',
   },
   {
     name: 'hilbert', title: 'Hollow Hilbert curve', cells: 4,
-    line: 'A tube inside a tube: on a coarse grid each cut-cell is pierced by several tunnels (Figure 18, Section 5.1).',
+    line: 'A tube inside a tube: on a coarse grid, several tunnels pierce each cut-cell (Figure 18, Section 5.1).',
   },
   {
     name: 'wavy-plane', title: 'Wavy plane', cells: 10,
-    line: 'An open sheet: it splits grid cells in two, but at its rim it only cuts into them (Figure 20, Section 5.4).',
+    line: 'An open sheet: it splits grid cells in two, but ends inside those at its rim (Figure 20, Section 5.4).',
   },
   {
     name: 'wavy-slab', title: 'Wavy slab', cells: 10,
@@ -36,7 +36,7 @@ export const gallery: readonly GalleryEntry[] = [
   },
   {
     name: 'claw', title: 'Claw', cells: 2,
-    line: 'One curve around three prongs and along the webs between them becomes three faces (Figures 17 and 21c, Section 5.5).',
+    line: 'A single curve around three prongs and along the webs between them bounds three faces (Figures 17 and 21c, Section 5.5).',
   },
   {
     name: 'oscillator', title: 'Oscillator', cells: 2,
@@ -44,23 +44,23 @@ export const gallery: readonly GalleryEntry[] = [
   },
   {
     name: 'nested-spheres', title: 'Nested spheres', cells: 10,
-    line: 'Spheres in spheres, solid and hollow by turns: five surfaces make six regions, the smallest floating inside a single grid cell.',
+    line: 'Spheres inside spheres, alternately solid and hollow: five surfaces make six regions, the smallest within a single grid cell.',
   },
   {
     name: 'thin-bowl', title: 'Thin bowl', cells: 12,
-    line: 'A wall far thinner than a grid cell: it keeps an inside of its own, and no cut-cell reaches through it.',
+    line: 'A wall far thinner than a grid cell: it still has an inside of its own, and no cut-cell reaches through it.',
   },
   {
     name: 'double-bubble', title: 'Double bubble', cells: 12,
-    line: 'Three sheets meet along the rim of the wall: it is no manifold and has no winding numbers, but three regions.',
+    line: 'Three sheets meet along the rim of the wall: non-manifold and without winding numbers, yet with three regions.',
   },
   {
     name: 'moebius-strip', title: 'Möbius strip', cells: 12,
-    line: 'A sheet with one side and one edge: there is no inside, and all cells around it belong to one region.',
+    line: 'A sheet with one side and one edge: it has no inside, and all cells around it belong to one region.',
   },
   {
     name: 'torus-knot', title: 'Torus knot', cells: 14,
-    line: 'A knotted tube: strands that pass through one grid cell become pieces of their own.',
+    line: 'A knotted tube: strands that share a grid cell become separate cut-cells.',
   },
   {
     name: 'chain', title: 'Chain', cells: 14,
@@ -72,22 +72,22 @@ export const gallery: readonly GalleryEntry[] = [
   },
   {
     name: 'gears', title: 'Gears', cells: 20,
-    line: 'Sharp edges, flat sides and narrow gaps between teeth that do not touch: two regions that the grid keeps apart.',
+    line: 'Sharp edges, flat sides and narrow gaps: the teeth do not touch, so the two gears stay separate regions.',
   },
   {
     name: 'aligned-steps', title: 'Aligned steps', cells: 22,
-    line: 'Every face lies exactly in an axial plane: the surface\'s pieces take the place of grid-faces, and no sliver appears.',
+    line: 'Every face lies exactly in an axial plane: pieces of the surface replace grid-faces, and no slivers appear.',
   },
   {
     name: 'trumpet', title: 'Trumpet', cells: 12,
-    line: 'Open at both ends and without a wall: the space inside and around it is one region, yet cells are cut along it.',
+    line: 'Open at both ends, with a wall of no thickness: inside and outside are one region, yet cells are cut along it.',
   },
   {
     name: 'pages', title: 'Three pages', cells: 8,
-    line: 'Three sheets on one edge: cells at the spine are cut into three, and cells at the rims only partly.',
+    line: 'Three sheets that share an edge: cells at the spine are cut into three, cells at the rims only in part.',
   },
   {
     name: 'crate', title: 'Crate', cells: 9,
-    line: 'Walls that cross on shared edges: four sheets on an edge, and open at top and bottom.',
+    line: 'Walls that cross at shared edges: up to four sheets meet at an edge, and top and bottom are open.',
   },
 ];

@@ -3,7 +3,7 @@ import type { CellCard } from '../../model/types';
 import { gridCellVolume } from '../view/colors';
 import { CellViewer } from './cell_viewer';
 import { button, el, terms } from './dom';
-import { integer, real, winding } from '../../model/format';
+import { integer, plural, real, winding } from '../../model/format';
 
 /** The card of the pinned cell: what is known of it, and it alone from all sides. */
 export function cellCard(app: App): HTMLElement {
@@ -22,7 +22,7 @@ export function cellCard(app: App): HTMLElement {
     card.dataset.cell = pinned ? String(pinned.cell) : '';
     if (!pinned) return;
     title.textContent = `Cell ${pinned.cell}`;
-    canvas.setAttribute('aria-label', `Cell ${pinned.cell} alone; drag or use the arrow keys to turn it`);
+    canvas.setAttribute('aria-label', `Cell ${pinned.cell} on its own; drag or use the arrow keys to rotate it`);
     const focused = facts.contains(document.activeElement);
     facts.replaceChildren(factList(pinned, app), ...neighbours(pinned, app));
     if (focused) title.focus();
@@ -47,8 +47,8 @@ function factList(card: CellCard, app: App): HTMLElement {
       ['region', integer(card.region)],
       ['winding number', winding(card.winding)],
       ['volume', real(card.volume)],
-      ['share of the grid cell', share(card, app)],
-      ['faces', `${integer(card.faces)}, of these ${integer(card.surfaceFaces)} of the surface`],
+      ['share of its grid cell', share(card, app)],
+      ['faces', `${integer(card.faces)}, ${integer(card.surfaceFaces)} of them on the surface`],
       ['vertices', integer(card.vertices)],
       ['cavities', integer(card.cavities)],
     ],
@@ -58,7 +58,7 @@ function factList(card: CellCard, app: App): HTMLElement {
 
 function share(card: CellCard, app: App): string {
   if (!app.model) return '';
-  return `${real((100 * card.volume) / gridCellVolume(app.model, card.gridCell))} %`;
+  return `${real((100 * card.volume) / gridCellVolume(app.model, card.gridCell))}%`;
 }
 
 const shownNeighbours = 60;
@@ -70,6 +70,6 @@ function neighbours(card: CellCard, app: App): HTMLElement[] {
   }
   const more = card.neighbours.length - shownNeighbours;
   if (more > 0) list.append(el('li', {}, `and ${integer(more)} more`));
-  const untouched = card.untouchedNeighbours > 0 ? `, and ${integer(card.untouchedNeighbours)} untouched` : '';
-  return [el('h3', {}, `Neighbours: ${integer(card.neighbours.length)} cut-cells${untouched}`), list];
+  const untouched = card.untouchedNeighbours > 0 ? `, ${plural(card.untouchedNeighbours, 'untouched cell')}` : '';
+  return [el('h3', {}, `Neighbours: ${plural(card.neighbours.length, 'cut-cell')}${untouched}`), list];
 }

@@ -1,12 +1,12 @@
 import type { Check, Validation } from 'mandoline-wasm';
 import type { App } from '../app';
 import { button, el } from './dom';
-import { integer, plural, real, words } from '../../model/format';
+import { integer, real, words } from '../../model/format';
 import { section } from './section';
 
 /** Validates the cut-mesh from its arrays alone and lists every check. */
 export function checksPanel(app: App): HTMLElement {
-  const intro = el('p', { class: 'hint' }, 'Every invariant of the cut-mesh, worked out anew from the result and the input.');
+  const intro = el('p', { class: 'hint' }, 'Checks every invariant of the cut-mesh, from the result and the input alone.');
   const result = el('div', { id: 'validation', 'aria-live': 'polite' });
   const run = button('Validate', () => void validate(), { id: 'validate' });
   async function validate(): Promise<void> {
@@ -31,29 +31,37 @@ function show(result: HTMLElement, { pass, checks }: Validation, app: App): void
   const skipped = checks.filter((check) => check.skipped).length;
   const passed = checks.length - failed - skipped;
   Object.assign(result.dataset, { pass, passed, failed, skipped });
-  const verdict = pass ? `All ${passed} checks pass.` : `${plural(failed, 'check')} of ${checks.length} failed.`;
-  const notApplied = skipped > 0 ? ` ${integer(skipped)} skipped: not for a mesh like this.` : '';
+  const verdict = pass ? `All ${passed} checks pass.` : `${integer(failed)} of ${checks.length} checks failed.`;
+  const notApplied = skipped > 0 ? ` ${integer(skipped)} skipped: ${skipped === 1 ? 'it does' : 'they do'} not apply to this mesh.` : '';
   const head = el('p', { class: pass ? 'verdict good' : 'verdict bad' }, verdict + notApplied);
-  result.replaceChildren(head, el('ul', { class: 'check-list' }, ...checks.map((check) => item(check, app))));
+  const list = el('ul', { class: 'check-list' }, ...checks.map((check) => item(check, app)));
+  result.replaceChildren(head, list, deviations(checks.filter((check) => !check.skipped && check.tolerance > 0)));
 }
 
 function item(check: Check, app: App): HTMLElement {
   const state = check.skipped ? 'skipped' : check.pass ? 'pass' : 'fail';
   const line = el('li', { class: state, 'data-check': check.name, 'data-state': state });
   line.append(el('span', { class: 'mark' }, state), el('strong', {}, words(check.name)));
-  if (!check.skipped) line.append(el('span', { class: 'hint' }, worst(check)));
-  if (check.message) line.append(el('span', { class: 'message' }, check.message));
-  if (check.elementKind !== '' && check.element >= 0) line.append(element(check, app));
+  if (check.pass && !check.skipped) line.append(el('span', { class: 'hint' }, check.tolerance === 0 ? 'no violations' : 'exact, up to rounding'));
+  if (check.message) line.append(el('span', { class: 'message' }, sentence(check.message)));
+  if (!check.pass && check.elementKind === 'cell') {
+    line.append(button(`Show cell ${check.element}`, () => void app.pin(check.element), { class: 'quiet' }));
+  }
   return line;
 }
 
-/** A check with a tolerance of 0 counts violations, the others measure in roundings. */
-function worst({ worst: value, tolerance }: Check): string {
-  if (tolerance === 0) return value === 0 ? 'no violation' : plural(value, 'violation');
-  return `worst ${real(value)} of ${real(tolerance)} roundings allowed`;
+/** The library's messages are clauses, for lines of a report. */
+function sentence(text: string): string {
+  return `${text.charAt(0).toUpperCase()}${text.slice(1)}${text.endsWith('.') ? '' : '.'}`;
 }
 
-function element({ elementKind, element: id }: Check, app: App): HTMLElement {
-  const label = `at ${elementKind} ${id}`;
-  return elementKind === 'cell' ? button(label, () => void app.pin(id), { class: 'quiet' }) : el('span', { class: 'hint' }, label);
+/** The raw numbers, for those who want to know how exact "up to rounding" is. */
+function deviations(checks: readonly Check[]): HTMLElement {
+  const rows = checks.map(({ name, worst, tolerance }) => {
+    return el('tr', {}, el('th', { scope: 'row' }, words(name)), el('td', {}, real(worst)), el('td', {}, real(tolerance)));
+  });
+  const head = el('tr', {}, ...['Check', 'Largest', 'Allowed'].map((title) => el('th', { scope: 'col' }, title)));
+  const unit = el('p', { class: 'hint' }, 'In roundings: half units in the last place of the largest coordinate.');
+  const table = el('table', { class: 'deviations' }, el('thead', {}, head), el('tbody', {}, ...rows));
+  return el('details', { id: 'deviations' }, el('summary', {}, 'Deviations'), el('div', {}, unit, table));
 }

@@ -2,7 +2,7 @@ import type { App } from '../app';
 import type { Model } from '../../model/types';
 import { el, numberField, slider, terms } from './dom';
 import { integer, milliseconds, plural, real, words } from '../../model/format';
-import { ownGrid } from './own_grid';
+import { customGrid } from './custom_grid';
 import { openSection, section } from './section';
 
 /** With which grid the mesh is cut, and what came of it. */
@@ -29,7 +29,7 @@ function errorBox(app: App): HTMLElement {
     box.hidden = error === null || app.model === null;
     if (!error || box.hidden) return box.replaceChildren();
     openSection('cut');
-    box.replaceChildren(el('strong', {}, error.title), el('p', {}, error.detail), el('p', { class: 'hint' }, 'The picture still shows the last cut.'));
+    box.replaceChildren(el('strong', {}, error.title), el('p', {}, error.detail), el('p', { class: 'hint' }, 'The picture still shows the previous cut.'));
   });
   return box;
 }
@@ -57,12 +57,12 @@ function counts(app: App): HTMLElement {
   return box;
 }
 
-/** What only some will want to know: own grids, stage times, what was left out. */
+/** What only some will want to know: custom grids, stage times, what was left out. */
 function finePrint(app: App): HTMLElement {
   const body = el('div', { id: 'cut-details' });
   app.events.on('model', (model) => body.replaceChildren(...(model ? [moreCounts(model), stageTimes(model), leftOut(model)] : [])));
-  const times = el('details', {}, el('summary', {}, 'Times and details'), body);
-  return el('div', {}, el('details', { id: 'own-grid' }, el('summary', {}, 'Own grid'), ownGrid(app)), times);
+  const times = el('details', {}, el('summary', {}, 'Timings and details'), body);
+  return el('div', {}, el('details', { id: 'custom-grid' }, el('summary', {}, 'Custom grid'), customGrid(app)), times);
 }
 
 function moreCounts({ counts: { faces, vertices, edges }, stats }: Model): HTMLElement {
@@ -71,7 +71,7 @@ function moreCounts({ counts: { faces, vertices, edges }, stats }: Model): HTMLE
       ['faces', integer(faces)],
       ['edges', integer(edges)],
       ['vertices', integer(vertices)],
-      ['decided by exact arithmetic', plural(stats.exactFallbacks, 'sign')],
+      ['signs decided by exact arithmetic', integer(stats.exactFallbacks)],
     ],
     { class: 'counts' },
   );
@@ -84,17 +84,17 @@ function stageTimes({ stats }: Model): HTMLElement {
     bar.style.width = `${(100 * ms) / longest}%`;
     return el('tr', {}, el('th', { scope: 'row' }, words(stage)), el('td', { class: 'bar-cell' }, bar), el('td', {}, milliseconds(ms)));
   });
-  return el('table', { class: 'times', id: 'stage-times' }, el('caption', {}, 'Time of each stage'), el('tbody', {}, ...rows));
+  return el('table', { class: 'times', id: 'stage-times' }, el('caption', {}, 'Time per stage'), el('tbody', {}, ...rows));
 }
 
 function leftOut({ stats }: Model): HTMLElement {
   const facts = [
-    stats.zeroAreaTriangles && `${plural(stats.zeroAreaTriangles, 'triangle')} without area dropped`,
+    stats.zeroAreaTriangles && `${plural(stats.zeroAreaTriangles, 'degenerate triangle')} dropped`,
     stats.duplicateTriangles && `${plural(stats.duplicateTriangles, 'duplicate triangle')} dropped`,
     stats.outsideTriangles && `${plural(stats.outsideTriangles, 'triangle')} outside the grid dropped`,
-    stats.weldedVertices && `${plural(stats.weldedVertices, 'vertex', 'vertices')} welded to one at the same position`,
+    stats.weldedVertices && `${plural(stats.weldedVertices, 'vertex', 'vertices')} welded to another at the same position`,
     stats.snappedVertices && `${plural(stats.snappedVertices, 'vertex', 'vertices')} snapped, by up to ${real(stats.largestSnap)} cells`,
-    stats.flushedCoordinates && `${plural(stats.flushedCoordinates, 'tiny coordinate')} taken as 0`,
+    stats.flushedCoordinates && `${plural(stats.flushedCoordinates, 'tiny coordinate')} set to 0`,
   ].filter((fact) => typeof fact === 'string');
   if (facts.length === 0) return el('p', { id: 'left-out' }, 'Nothing dropped, welded or moved.');
   return el('ul', { id: 'left-out' }, ...facts.map((fact) => el('li', {}, fact)));

@@ -75,7 +75,7 @@ function urlForm(app: App): HTMLElement {
     event.preventDefault();
     void app.open({ kind: 'url', url: input.value });
   };
-  const label = el('label', { for: 'url', class: 'visually-hidden' }, 'Address of a mesh');
+  const label = el('label', { for: 'url', class: 'visually-hidden' }, 'URL of a mesh');
   return el('form', { class: 'row', id: 'url-form', submit }, label, input, el('button', { id: 'open-url' }, 'Load'));
 }
 

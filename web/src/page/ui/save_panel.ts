@@ -18,8 +18,8 @@ export function savePanel(app: App): HTMLElement {
     }),
   );
   const seen = [
-    saver(app, 'glb', 'GLB', 'what is shown', () => app.ask(app.view.glb())),
-    saver(app, 'png', 'PNG', 'what is seen', () => app.ask(app.view.png())),
+    saver(app, 'glb', 'GLB', 'visible geometry', () => app.ask(app.view.glb())),
+    saver(app, 'png', 'PNG', 'screenshot', () => app.ask(app.view.png())),
   ];
   return section('save', 'Save', false, el('ul', { class: 'savers' }, ...[...files, ...seen].map((item) => el('li', {}, item))), linkRow(app));
 }
@@ -49,7 +49,7 @@ function linkRow(app: App): HTMLElement {
   const status = el('span', { class: 'hint', 'aria-live': 'polite', id: 'link-status' });
   async function copy(): Promise<void> {
     const url = `${location.href.split('#')[0]}#${toHash(app.settings)}`;
-    const fileNote = app.settings.source.kind === 'file' ? ' Your file itself is not in it.' : '';
+    const fileNote = app.settings.source.kind === 'file' ? ' The file itself is not included.' : '';
     try {
       await navigator.clipboard.writeText(url);
       status.textContent = `Copied.${fileNote}`;
@@ -57,7 +57,7 @@ function linkRow(app: App): HTMLElement {
       link.hidden = false;
       link.value = url;
       link.select();
-      status.textContent = `Copy it from here.${fileNote}`;
+      status.textContent = `Copy it from the field below.${fileNote}`;
     }
   }
   return el('div', { class: 'row' }, button('Copy link', () => void copy(), { id: 'copy-link' }), status, link);

@@ -13,7 +13,7 @@ export function schemeToggle(onScheme: (dark: boolean) => void): HTMLButtonEleme
   }
   function show(): void {
     toggle.textContent = isDark() ? 'Light' : 'Dark';
-    toggle.setAttribute('aria-label', `Switch to the ${isDark() ? 'light' : 'dark'} scheme`);
+    toggle.setAttribute('aria-label', `Switch to ${isDark() ? 'light' : 'dark'} mode`);
     onScheme(isDark());
   }
   systemDark.addEventListener('change', show);

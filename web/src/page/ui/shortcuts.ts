@@ -3,24 +3,24 @@ import type { Axis } from '../../model/types';
 import { button, el, terms } from './dom';
 
 const help: [string, string][] = [
-  ['F', 'frame the model'],
-  ['X Y Z', 'slice along an axis, on and off'],
+  ['F', 'fit view'],
+  ['X Y Z', 'slice along an axis, on or off'],
   ['Esc', 'unpin the cell, or leave the steps'],
-  ['← →', 'previous and next step, in the steps'],
-  ['?', 'this list'],
+  ['← →', 'in the steps: previous and next'],
+  ['?', 'show this list'],
 ];
 const mouse: [string, string][] = [
-  ['drag', 'turn'],
-  ['right drag, two fingers', 'move'],
-  ['wheel, pinch', 'zoom'],
-  ['click a cell', 'pin it and see its card'],
+  ['drag, arrow keys', 'rotate'],
+  ['right drag, two fingers, Shift + arrow keys', 'pan'],
+  ['wheel, pinch, + and −', 'zoom'],
+  ['click a cell', 'pin it and show its card'],
 ];
 
 /** The shortcuts, and the button that lists them. */
 export function shortcuts(app: App): HTMLElement {
   const dialog = el('dialog', { id: 'shortcuts', 'aria-labelledby': 'shortcuts-title' });
   dialog.append(
-    el('h2', { id: 'shortcuts-title' }, 'Keyboard and pointer'),
+    el('h2', { id: 'shortcuts-title' }, 'Keyboard, mouse and touch'),
     terms([...help, ...mouse].map(([keys, what]) => [keys, what])),
     button('Close', () => dialog.close()),
   );
@@ -29,13 +29,13 @@ export function shortcuts(app: App): HTMLElement {
     if (event.ctrlKey || event.metaKey || event.altKey || dialog.open || isTyping(event.target)) return;
     act(app, dialog, event.key);
   });
-  return button('?', () => dialog.showModal(), { id: 'help', class: 'quiet', 'aria-label': 'Keyboard and pointer' });
+  return button('?', () => dialog.showModal(), { id: 'help', class: 'quiet', 'aria-label': 'Keyboard, mouse and touch' });
 }
 
 function act(app: App, dialog: HTMLDialogElement, key: string): void {
   if (key === '?') dialog.showModal();
   else if (key === 'Escape') app.leave();
-  else if (key.toLowerCase() === 'f') app.frame();
+  else if (key.toLowerCase() === 'f') app.fit();
   else if ('xyz'.includes(key.toLowerCase())) {
     const axis = key.toLowerCase() as Axis;
     app.changeSlice(axis, { on: !app.settings.slices[axis].on });

@@ -23,5 +23,5 @@ function emptiness(model: Model): PageError | null {
   const title = 'Nothing to show';
   if (stats.outsideTriangles > 0) return { title, detail: 'The mesh lies outside the grid.' };
   const which = triangleCount === 1 ? 'The only triangle is' : `All ${plural(triangleCount, 'triangle')} are`;
-  return { title, detail: `${which} degenerate: without area there is nothing to cut.` };
+  return { title, detail: `${which} degenerate (of zero area).` };
 }

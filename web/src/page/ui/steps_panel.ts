@@ -14,7 +14,7 @@ const steps: readonly [StepKind, string][] = [
 
 /** Goes through the algorithm on the current mesh. */
 export function stepsPanel(app: App): HTMLElement {
-  const intro = el('p', { class: 'hint' }, 'How the cut is made, from edges to cells, on this mesh.');
+  const intro = el('p', { class: 'hint' }, 'How the cut of this mesh is made, from edges to cells.');
   const text = el('p', { id: 'step-text', class: 'step-text', 'aria-live': 'polite' });
   const back = button('Back to the model', () => void app.step(null), { id: 'step-leave' });
   const body = el('div', { hidden: true }, text, choices(app), el('div', { class: 'row' }, back));
@@ -95,7 +95,7 @@ function choices(app: App): HTMLElement {
 /** A slider from 0 with a number field beside it. */
 function numberSlider(id: string, label: string, onInput: (value: number) => void) {
   const range = slider({ id, label, min: 0, max: 1, step: 1, onInput });
-  const number = numberField({ id: `${id}-number`, label: `Number: ${label}`, hideLabel: true, min: 0, onChange: onInput });
+  const number = numberField({ id: `${id}-number`, label: `${label}, number`, hideLabel: true, min: 0, onChange: onInput });
   const set = (value: number, last: number) => {
     range.input.max = number.input.max = String(last);
     range.set(value);

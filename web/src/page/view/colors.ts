@@ -103,11 +103,11 @@ export function legend(model: Model, { colorBy, sliceMode, slices }: Settings, m
     return [
       entry('pieces of triangles', surfaceColor),
       entry('pieces of grid-faces', gridFaceColor),
-      ...(isCutOpen ? [entry('the inside of cut-cells', insideColor)] : []),
+      ...(isCutOpen ? [entry('inside of cut-cells', insideColor)] : []),
       entry('untouched cells', untouchedKindColor),
     ];
   }
-  if (colorBy === 'volume') return [0, 0.25, 0.5, 1].map((fraction) => entry(`${100 * fraction} % of a grid cell`, volumeColor(fraction)));
+  if (colorBy === 'volume') return [0, 0.25, 0.5, 1].map((fraction) => entry(`${100 * fraction}% of a grid cell`, volumeColor(fraction)));
   if (colorBy === 'winding') {
     const present = [...new Set(model.regions.map(({ winding }) => winding))].sort((a, b) => (a ?? 0) - (b ?? 0));
     const label = (winding: number | null) => (winding === null ? 'no winding number' : `winding number ${winding}`);

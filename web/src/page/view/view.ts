@@ -144,9 +144,9 @@ class ThreeView implements View {
 
   private tellContextLost(): void {
     this.pace.reset();
-    const why = 'The browser took the graphics context away, perhaps because memory ran short.';
+    const why = 'The browser dropped the graphics context, perhaps because memory ran low.';
     const detail = `${why} If the picture does not come back, reload the page.`;
-    this.options.onError?.({ title: 'The picture is gone for now', detail });
+    this.options.onError?.({ title: 'The picture is lost for now', detail });
   }
 
   setModel(model: Model, frame: boolean): void {
@@ -257,7 +257,7 @@ class ThreeView implements View {
     this.gizmo.group.visible = hadGizmo;
     this.invalidate();
     if (blob) return blob;
-    throw pictureError('The canvas gives no picture, perhaps because it is too large for the memory there is.');
+    throw pictureError('The browser could not capture the picture, perhaps because memory ran low.');
   }
 
   async glb(): Promise<Blob> {
@@ -491,9 +491,9 @@ function makeRenderer(canvas: HTMLCanvasElement): WebGLRenderer {
     renderer.sortObjects = false;
     return renderer;
   } catch {
-    const why = 'This page draws with WebGL 2, which this browser lacks or has switched off.';
-    const detail = `${why} Another browser, or hardware acceleration switched on in its settings, will do.`;
-    const error: PageError = { title: 'Nothing can be drawn here', detail };
+    const why = 'This page draws with WebGL 2, which this browser lacks or has turned off.';
+    const detail = `${why} Try another browser, or turn on hardware acceleration in its settings.`;
+    const error: PageError = { title: 'This browser cannot draw the picture', detail };
     throw error;
   }
 }

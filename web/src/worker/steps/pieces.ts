@@ -25,9 +25,9 @@ export function triangleFaces(subject: Subject, request: StepRequest): StepPictu
   const faces = facesWhere(subject, (face) => cutMesh.faceTriangle[face] === triangle);
   faces.forEach((face, k) => drawFace(drawing, subject, face, 0.9, pieceColor(k)));
   const text = faces.length > 0
-    ? `The axial planes cut triangle ${triangle} into ${plural(faces.length, 'cut-face')}, drawn a little apart.`
+    ? `The axial planes cut triangle ${triangle} into ${plural(faces.length, 'cut-face')}, drawn slightly apart.`
       + ' Together they cover the triangle exactly, and each lies in one grid cell (Section 4.3).'
-    : `Triangle ${triangle} has no cut-face: it has no area, another triangle covers it, or it lies outside of the grid.`;
+    : `Triangle ${triangle} has no cut-face: it is degenerate, another triangle covers it, or it lies outside the grid.`;
   return drawing.finish(text, { kind: 'triangleFaces', triangle }, subject);
 }
 
@@ -53,10 +53,10 @@ export function axialPlane(subject: Subject, request: StepRequest): StepPicture 
   faces.forEach((face, k) => drawFace(drawing, subject, face, 1, faceTriangle[face] >= 0 ? coplanarColor : pieceColor(k)));
   const punctured = faces.filter((face) => faceLoopOffsets[face + 1] - faceLoopOffsets[face] > 1).length;
   const coplanar = faces.filter((face) => faceTriangle[face] >= 0).length;
-  const text = `In the axial plane ${plane} across ${axes[axis]} the surface's outline divides the grid-faces`
+  const text = `In axial plane ${plane} normal to ${axes[axis]}, the outline of the surface divides the grid-faces`
     + ` into ${plural(faces.length, 'face')}`
     + `${punctured ? `, ${punctured.toLocaleString('en')} of them with holes` : ''} (Sections 4.3 and 4.5).`
-    + (coplanar > 0 ? ` Pieces of triangles in the plane (${coplanar.toLocaleString('en')}, yellow) take the place of grid-faces.` : '');
+    + (coplanar > 0 ? ` Pieces of triangles in the plane (${coplanar.toLocaleString('en')}, yellow) replace grid-faces.` : '');
   return drawing.finish(text, { kind: 'axialPlane', axis, plane }, subject);
 }
 
@@ -147,7 +147,7 @@ export function gridCell(subject: Subject, request: StepRequest): StepPicture {
   const name = `Grid cell (${at.join(', ')})`;
   const text = pieces.length > 0
     ? `${name} holds ${plural(pieces.length, 'cut-cell')} of ${plural(regions, 'region')}, pulled apart:`
-      + ' each is a closed set of half-faces, joined over their edges (Section 4.4).'
-    : `${name} is untouched: the surface does not reach it, and it stays one whole cube.`;
+      + ' each is a closed set of half-faces, joined at their edges (Section 4.4).'
+    : `${name} is untouched: the surface does not reach it, so it stays whole.`;
   return drawing.finish(text, { kind: 'gridCell', gridCell: at }, subject);
 }

@@ -6,23 +6,23 @@ import { isOutside } from '../view/colors';
 import { plural, real, winding } from '../../model/format';
 import { section } from './section';
 
-const colorNames: Record<ColorBy, string> = { region: 'region', winding: 'winding number', cell: 'cell', volume: 'volume', kind: 'face kind' };
+const colorNames: Record<ColorBy, string> = { region: 'region', winding: 'winding number', cell: 'cell', volume: 'volume', kind: 'face type' };
 const layerNames: Record<(typeof layers)[number], string> = {
   surface: 'surface',
   gridFaces: 'grid-faces',
   edges: 'edges',
   untouched: 'untouched cells',
   cutCells: 'cut-cells',
-  outside: 'the outside',
+  outside: 'outside',
 };
 
 /** How the cut-mesh is shown. */
-export function seePanel(app: App): HTMLElement {
-  return section('see', 'See', true, slices(app), explosion(app), coloring(app), visibility(app), oneRegion(app), pinByNumber(app), resets(app));
+export function viewPanel(app: App): HTMLElement {
+  return section('view', 'View', true, slices(app), explosion(app), coloring(app), visibility(app), oneRegion(app), pinByNumber(app), resets(app));
 }
 
 function slices(app: App): HTMLElement {
-  const mode = choice('slice-mode', 'Sliced cells are', [['whole', 'whole'], ['flat', 'cut flat']], (sliceMode) => app.change({ sliceMode }));
+  const mode = choice('slice-mode', 'Sliced cells', [['whole', 'whole'], ['flat', 'cut flat']], (sliceMode) => app.change({ sliceMode }));
   app.events.on('settings', ({ sliceMode }) => mode.set(sliceMode));
   return el('fieldset', { class: 'slices' }, el('legend', {}, 'Slice'), ...sliceNames.map((name) => sliceRow(app, name)), mode.element);
 }
@@ -45,7 +45,7 @@ function sliceRow(app: App, name: SliceName): HTMLElement {
 }
 
 function explosion(app: App): HTMLElement {
-  const percent = (x: number) => `${Math.round(100 * x)} %`;
+  const percent = (x: number) => `${Math.round(100 * x)}%`;
   const make = (key: 'cells' | 'regions', label: string) => {
     const control = slider({
       id: `explode-${key}`, label, min: 0, max: 1, step: 0.01, format: percent,
@@ -74,7 +74,7 @@ function visibility(app: App): HTMLElement {
 }
 
 function oneRegion(app: App): HTMLElement {
-  const control = select('region', 'Only region', (value) => app.changeShow({ region: value === '' ? null : Number(value) }));
+  const control = select('region', 'Region', (value) => app.changeShow({ region: value === '' ? null : Number(value) }));
   app.events.on('model', (model) => control.input.replaceChildren(...(model ? regionOptions(model) : [])));
   app.events.on('settings', ({ show }) => (control.input.value = show.region === null ? '' : String(show.region)));
   return control.element;
@@ -86,11 +86,11 @@ function regionOptions(model: Model): HTMLElement[] {
     const name = isOutside(model, id) ? `${id}, outside` : String(id);
     return el('option', { value: id }, `${name} · winding ${winding(number)} · volume ${real(volume)} · ${plural(cutCells, 'cut-cell')}`);
   });
-  return [el('option', { value: '' }, `all ${regions.length}`), ...options];
+  return [el('option', { value: '' }, `all (${regions.length})`), ...options];
 }
 
 function pinByNumber(app: App): HTMLElement {
-  const field = numberField({ id: 'pin-number', label: 'Pin cut-cell number', min: 0, onChange: (cell) => void app.pin(cell) });
+  const field = numberField({ id: 'pin-number', label: 'Pin cut-cell', min: 0, onChange: (cell) => void app.pin(cell) });
   field.input.required = false;
   app.events.on('model', (model) => {
     field.input.disabled = model === null;
@@ -101,6 +101,6 @@ function pinByNumber(app: App): HTMLElement {
 }
 
 function resets(app: App): HTMLElement {
-  const reset = button('Reset', () => app.resetLook(), { id: 'reset-look' });
-  return el('div', { class: 'row' }, button('Frame', () => app.frame(), { id: 'frame' }), reset);
+  const reset = button('Reset view', () => app.resetLook(), { id: 'reset-look' });
+  return el('div', { class: 'row' }, button('Fit view', () => app.fit(), { id: 'fit' }), reset);
 }

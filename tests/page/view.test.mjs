@@ -153,7 +153,7 @@ describe('explosions', () => {
     await slideTo(page, '#explode-cells', 0.6);
     await looksUnlike(page, whole, 8);
     await looksLike(page, 'torus exploded');
-    assert.equal(await page.locator('#explode-cells').getAttribute('aria-valuetext'), '60 %');
+    assert.equal(await page.locator('#explode-cells').getAttribute('aria-valuetext'), '60%');
     await slideTo(page, '#explode-cells', 0);
     await eventually(async () => assert.equal(difference(tiles(await pixelsOf(page)), tiles(whole)), 0));
   });
@@ -207,7 +207,7 @@ describe('colours', () => {
   const legends = {
     region: ['region 0, outside', 'region 1', 'region 2, outside', 'region 3', 'region 4, outside', 'region 5'],
     winding: ['winding number 0', 'winding number 1'],
-    volume: ['0 % of a grid cell', '25 % of a grid cell', '50 % of a grid cell', '100 % of a grid cell'],
+    volume: ['0% of a grid cell', '25% of a grid cell', '50% of a grid cell', '100% of a grid cell'],
     kind: ['pieces of triangles', 'pieces of grid-faces', 'untouched cells'],
     cell: [],
   };
@@ -357,11 +357,11 @@ test('a link to an exploded view shows all of it', async (t) => {
     assert.ok(covered(picture) > 0.05);
     return picture;
   });
-  await page.locator('#frame').click();
+  await page.locator('#fit').click();
   await eventually(async () => assert.ok(difference(tiles(await pixelsOf(page)), tiles(linked)) < 1));
 });
 
-test('reset and frame', async (t) => {
+test('reset and fit', async (t) => {
   const page = await site.open(t, link('x=0.4,1&explode=0.5,0.5&color=cell&show=surface&camera=9,9,9,0,0,0'));
   await page.locator('#reset-look').click();
   await eventually(async () => {

@@ -4,15 +4,15 @@ import { axes } from '../../model/settings';
 import type { GridSettings } from '../../model/types';
 import { button, el, numberField, type NumberInput } from './dom';
 
-type OwnGrid = Extract<GridSettings, { min: Vector3 }>;
+type CustomGrid = Extract<GridSettings, { min: Vector3 }>;
 type Rows = Record<'cells' | 'min' | 'max', NumberInput[]>;
 
-const rowLabels = { cells: 'cells', min: 'from (origin)', max: 'to' } as const;
+const rowLabels = { cells: 'cells', min: 'min', max: 'max' } as const;
 
-/** Counts and box of a grid of one's own, filled in from the current one; and the snap tolerance. */
-export function ownGrid(app: App): HTMLElement {
+/** Counts and box of a grid, filled in from the current one; and the snap tolerance. */
+export function customGrid(app: App): HTMLElement {
   const rows: Rows = { cells: [], min: [], max: [] };
-  const table = el('div', { class: 'own-grid', role: 'group', 'aria-label': 'Own grid' }, el('span'));
+  const table = el('div', { class: 'custom-grid', role: 'group', 'aria-label': 'Custom grid' }, el('span'));
   table.append(...axes.map((axis) => el('span', { class: 'axis', 'aria-hidden': 'true' }, axis)));
   const apply = () => app.setGrid({ min: read(rows.min), max: read(rows.max), cells: read(rows.cells) });
   for (const key of ['cells', 'min', 'max'] as const) {
@@ -24,12 +24,12 @@ export function ownGrid(app: App): HTMLElement {
       table.append(field.element);
     }
   }
-  const cubic = button('Back to cubic cells', () => app.setGrid({ cells: Math.max(...read(rows.cells)) }), { id: 'grid-cubic' });
+  const cubic = button('Use cubic cells', () => app.setGrid({ cells: Math.max(...read(rows.cells)) }), { id: 'grid-cubic' });
   app.events.on('settings', ({ grid }) => {
-    const own = 'min' in grid ? grid : null;
-    cubic.disabled = own === null;
-    // An own grid comes from the settings: the model may still be one of an earlier grid.
-    if (own) fill(rows, own);
+    const custom = 'min' in grid ? grid : null;
+    cubic.disabled = custom === null;
+    // A custom grid comes from the settings: the model may still be one of an earlier grid.
+    if (custom) fill(rows, custom);
     else if (app.model) fill(rows, boxOf(app.model.grid));
   });
   return el('div', {}, table, el('div', { class: 'row' }, cubic), snapField(app));
@@ -39,11 +39,11 @@ function read(row: NumberInput[]): Vector3 {
   return [row[0].input.valueAsNumber, row[1].input.valueAsNumber, row[2].input.valueAsNumber];
 }
 
-function fill(rows: Rows, grid: OwnGrid): void {
+function fill(rows: Rows, grid: CustomGrid): void {
   for (const key of ['cells', 'min', 'max'] as const) rows[key].forEach((field, d) => field.set(grid[key][d]));
 }
 
-function boxOf({ cells, planes }: Grid): OwnGrid {
+function boxOf({ cells, planes }: Grid): CustomGrid {
   const [x, y, z] = planes;
   return { cells, min: [x[0], y[0], z[0]], max: [x[cells[0]], y[cells[1]], z[cells[2]]] };
 }
