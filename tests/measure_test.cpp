@@ -273,3 +273,92 @@ TEST_CASE("measure: volumes of regions count untouched cells", "[measure]") {
   CHECK(relativeError(volumes[0], 1.75 * 1.75 * 1.75) < 1e-15);
   CHECK(relativeError(volumes[1], 128 - 1.75 * 1.75 * 1.75) < 1e-15);
 }
+
+TEST_CASE("measure: the same bits for any number of threads", "[measure]") {
+  const Mesh mesh = shapes::noisySphere({0, 0, 0}, 1, 0.1, 4);
+  const CutResult result = cut(mesh, Grid::around(mesh, 32));
+  REQUIRE(result);
+  REQUIRE(result.mesh.cellCount() > 2048);
+  const auto withThreads = [](unsigned threads) {
+    RunOptions options;
+    options.threads = threads;
+    return options;
+  };
+  const Measures one = measure(mesh, result.mesh, withThreads(1));
+  const CutEdges edges = cutEdges(mesh, result.mesh, withThreads(1));
+  for (const unsigned threads : {0u, 2u, 7u}) {
+    const Measures many = measure(mesh, result.mesh, withThreads(threads));
+    CHECK(many.faceArea == one.faceArea);
+    CHECK(many.faceNormal == one.faceNormal);
+    CHECK(many.faceCentroid == one.faceCentroid);
+    CHECK(many.cellVolume == one.cellVolume);
+    CHECK(many.cellCentroid == one.cellCentroid);
+    CHECK(cutEdges(mesh, result.mesh, withThreads(threads)).edgeLength == edges.edgeLength);
+  }
+}
+
+TEST_CASE("measure: progress, cancelling, and what a callback throws", "[measure]") {
+  const Measured m = measured(shapes::noisySphere({1.5, 1.5, 1.5}, 1.2, 0.1, 4), unitGrid(3));
+  int stages = 0;
+  RunOptions options;
+  options.progress = [&](const Progress& progress) {
+    stages = std::max(stages, progress.stageIndex + 1);
+    CHECK(progress.stageCount == 3);
+    return true;
+  };
+  CHECK(measure(m.input, m.mesh, options).cellVolume == m.measures.cellVolume);
+  CHECK(stages == 3);
+  options.progress = [](const Progress& progress) { return progress.stageIndex < 2; };
+  try {
+    measure(m.input, m.mesh, options);
+    FAIL("not cancelled");
+  } catch (const CallError& error) {
+    CHECK(error.error.status == Status::cancelled);
+    CHECK(error.error.message == "The measuring was cancelled.");
+  }
+  struct OfTheCaller {};
+  options.progress = [](const Progress&) -> bool { throw OfTheCaller(); };
+  CHECK_THROWS_AS(measure(m.input, m.mesh, options), OfTheCaller);
+  CHECK_THROWS_AS(cutEdges(m.input, m.mesh, options), OfTheCaller);
+}
+
+TEST_CASE("measure: a mesh that is not the cut-mesh's is refused", "[measure]") {
+  const Measured m = measured(shapes::icosphere({1.5, 1.5, 1.5}, 1.2, 1), unitGrid(3));
+  const auto refused = [&](const Mesh& mesh) {
+    try {
+      measure(mesh, m.mesh);
+      return std::string();
+    } catch (const CallError& error) {
+      CHECK(error.error.status == Status::badArgument);
+      return error.error.message;
+    }
+  };
+  CHECK(refused(shapes::cube(1, 2)) == "The mesh is not the one that the cut-mesh was made from: it has 12 triangles, that one had 80.");
+  Mesh other = m.input;
+  other.positions.resize(9);
+  CHECK(refused(other) == "Triangle 0 of the mesh names a tri-vertex that does not exist.");
+  for (uint32_t& v : other.triangles) v %= 3;
+  CHECK(refused(other) == "The mesh is not the one that the cut-mesh was made from: it lacks a tri-vertex of vertex 3.");
+  other = m.input;
+  other.positions.push_back(0);
+  CHECK(refused(other) == "The length of an array of the mesh is not a multiple of 3.");
+  other = m.input;
+  other.positions[3 * 7 + 1] += 1e-9;
+  CHECK(refused(other) == "The mesh is not the one that the cut-mesh was made from: it has tri-vertex 7 elsewhere.");
+  other.positions[3 * 7 + 1] = std::nan("");
+  CHECK(refused(other) == "Tri-vertex 7 of the mesh is not finite.");
+  CHECK_THROWS_AS(regionVolumes(m.mesh, Measures{}), CallError);
+}
+
+TEST_CASE("measure: tri-vertices that were snapped or flushed are the mesh's own", "[measure]") {
+  SECTION("snapped, some from outside the grid") {
+    for (const double tolerance : {0.01, 0.05}) measured(shapes::noisySphere({1.5, 1.5, 1.5}, 1.7, 0.2, 2), unitGrid(3), tolerance);
+    measured(shapes::cube(0.7, 3.4), unitGrid(3), 0.49);
+  }
+  SECTION("flushed") {
+    Mesh mesh = shapes::cube(0, 1);
+    for (double& x : mesh.positions) x = x == 0 ? -1e-70 : x;
+    const Measured m = measured(mesh, Grid::box({-1, -1, -1}, {2, 2, 2}, {3, 3, 3}));
+    CHECK(m.mesh.triangleCount == 12);
+  }
+}

@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "catch.h"
+#include "mandoline/mandoline.h"
+#include "shapes.h"
 
 using namespace mandoline;
 
@@ -663,6 +665,133 @@ TEST_CASE("validate: winding numbers") {
   }
 }
 
+TEST_CASE("validate: messages are sentences without counts of roundings") {
+  SECTION("of a measure") {
+    Halves h;
+    h.mesh.triangles.insert(h.mesh.triangles.end(), {0, 2, 1});
+    h.cut.triangleCount = 3;
+    h.mesh.positions.insert(h.mesh.positions.end(), {1, 0.5, 0.75});
+    h.mesh.triangles.back() = 4;
+    const Check check = checkNamed(h.validated(), "surfaceArea");
+    CHECK(check.worst > 1e10);
+    CHECK(check.tolerance == 64);
+    CHECK(check.message == "Triangle 2 is covered by faces whose area differs from its own by 100 %.");
+  }
+  SECTION("of a small deviation") {
+    Halves h;
+    h.cut.positions[3 * h.vertex({1, 0, 0.5}) + 2] += 1e-12;
+    CHECK(checkNamed(h.validated(), "planarity").message ==
+          "Face 0 has a vertex that is off its triangle by less than 0.01 % of the largest coordinate, more than rounding explains.");
+  }
+  SECTION("of violations") {
+    Bubbles b = bubble();
+    b.cut.droppedTriangles = {0};
+    CHECK(checkNamed(b.validated(), "faces").message == "Face 6 names a dropped triangle.");
+    b.cut.droppedTriangles = {0, 1};
+    CHECK(checkNamed(b.validated(), "faces").message == "Face 6 names a dropped triangle. There are 2 violations in all.");
+  }
+  SECTION("of the grid") {
+    Bubbles b = bubble();
+    b.cut.runBegin.clear(), b.cut.runEnd.clear(), b.cut.runRegion.clear();
+    b.finishRow();
+    CHECK(checkNamed(b.validated(), "stencil").message == "The grid has cells that are neither cut nor untouched, or both.");
+  }
+  SECTION("of arrays") {
+    Bubbles b = bubble();
+    b.cut.positions.pop_back();
+    CHECK(checkNamed(b.validated(), "arrays").message == "An array of the vertices has a wrong length. All other checks are left out.");
+  }
+}
+
+TEST_CASE("validate: the same bits for any number of threads") {
+  const Mesh mesh = shapes::noisySphere({0, 0, 0}, 1, 0.1, 5);
+  const CutResult result = cut(mesh, Grid::around(mesh, 24));
+  REQUIRE(result);
+  REQUIRE(result.mesh.faceCount() > 3 * 2048);
+  CutMesh damaged = result.mesh;
+  for (size_t f = 0; f < damaged.faceCount(); f += 1000) damaged.faceTriangle[f] = 0;
+  damaged.positions[3 * damaged.loopVertices[0]] += 0.001;
+  for (const CutMesh* cutMesh : {&result.mesh, static_cast<const CutMesh*>(&damaged)}) {
+    ValidateOptions options;
+    options.threads = 1;
+    const Validation one = validate(mesh, *cutMesh, options);
+    for (const unsigned threads : {0u, 2u, 7u}) {
+      options.threads = threads;
+      const Validation many = validate(mesh, *cutMesh, options);
+      REQUIRE(many.checks.size() == one.checks.size());
+      for (size_t i = 0; i < one.checks.size(); ++i) {
+        const Check &a = one.checks[i], &b = many.checks[i];
+        INFO(a.name);
+        CHECK(a.worst == b.worst);
+        CHECK((a.element == b.element && a.elementKind == b.elementKind && a.message == b.message && a.pass == b.pass));
+      }
+    }
+  }
+}
+
+TEST_CASE("validate: progress ascends, and cancels") {
+  const Mesh mesh = shapes::noisySphere({0, 0, 0}, 1, 0.1, 4);
+  const CutResult result = cut(mesh, Grid::around(mesh, 12));
+  REQUIRE(result);
+  int calls = 0, stage = -1;
+  ValidateOptions options;
+  options.progress = [&](const Progress& progress) {
+    ++calls;
+    CHECK(progress.stageIndex >= stage);
+    CHECK(progress.stageIndex < progress.stageCount);
+    CHECK(progress.done <= progress.total);
+    stage = progress.stageIndex;
+    return true;
+  };
+  requirePass(validate(mesh, result.mesh, options));
+  CHECK(calls > 10);
+  for (int last = 0; last < calls; last += 3) {
+    int left = last;
+    options.progress = [&](const Progress&) { return left-- > 0; };
+    try {
+      validate(mesh, result.mesh, options);
+      FAIL("not cancelled");
+    } catch (const CallError& error) {
+      CHECK(error.error.status == Status::cancelled);
+      CHECK(left == -1);
+    }
+  }
+  struct OfTheCaller {};
+  options.progress = [](const Progress&) -> bool { throw OfTheCaller(); };
+  CHECK_THROWS_AS(validate(mesh, result.mesh, options), OfTheCaller);
+}
+
+TEST_CASE("validate: a mesh that is not the input fails by name") {
+  const Bubbles b = bubble();
+  const auto failing = [&](const Mesh& mesh) {
+    const Validation validation = validate(mesh, b.cut);
+    CHECK_FALSE(validation.pass);
+    const auto found = std::find_if(validation.checks.begin(), validation.checks.end(), [](const Check& c) { return !c.pass; });
+    return found == validation.checks.end() ? "" : found->name;
+  };
+  CHECK(failing(Mesh{}) == "arrays");
+  CHECK(failing(shapes::cube(0, 1)) == "arrays");
+  Mesh mesh = b.mesh;
+  mesh.positions.resize(9);
+  CHECK(failing(mesh) == "arrays");
+  mesh = b.mesh;
+  mesh.positions[0] = std::numeric_limits<double>::quiet_NaN();
+  CHECK(failing(mesh) == "arrays");
+  mesh.positions[0] = 1e300;
+  CHECK(failing(mesh) == "arrays");
+  mesh.positions[0] = 0.125;
+  CHECK(failing(mesh) == "vertices");
+}
+
+TEST_CASE("validate: a snap tolerance that cut() would not take is refused") {
+  const Bubbles b = bubble();
+  for (const double tolerance : {-0.1, 0.5, std::numeric_limits<double>::quiet_NaN()}) {
+    ValidateOptions options;
+    options.snapTolerance = tolerance;
+    CHECK_THROWS_AS(validate(b.mesh, b.cut, options), CallError);
+  }
+}
+
 TEST_CASE("validate: right results on inputs that strain rounding") {
   const auto requireCut = [](const Mesh& mesh, const Grid& grid, double snapTolerance = 0) {
     CutOptions options;
@@ -670,7 +799,9 @@ TEST_CASE("validate: right results on inputs that strain rounding") {
     const CutResult result = cut(mesh, grid, options);
     INFO(result.error.message);
     REQUIRE(result);
-    requirePass(validate(mesh, result.mesh, snapTolerance));
+    ValidateOptions validateOptions;
+    validateOptions.snapTolerance = snapTolerance;
+    requirePass(validate(mesh, result.mesh, validateOptions));
   };
   const double ulp = 0x1p-52;
   const Mesh octahedron{{0.9, 0, 0, -0.9, 0, 0, 0, 0.9, 0, 0, -0.9, 0, 0, 0, 0.9, 0, 0, -0.9},

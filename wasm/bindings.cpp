@@ -88,6 +88,8 @@ val guarded(const F& f) {
     return failure("badFile", error.what() + std::string("."));
   } catch (const BadArgument& exception) {
     return failure("badArgument", exception.what());
+  } catch (const CallError& exception) {
+    return failure(name(exception.error.status), exception.what());
   } catch (const std::exception& exception) {
     return failure(name(Status::internalError), exception.what());
   }
@@ -176,7 +178,7 @@ CutMesh readCutMesh(const val& object, const Mesh* mesh = nullptr) {
   CutMesh result = readUnchecked(object);
   const std::optional<MeshView> view = mesh ? std::optional<MeshView>(*mesh) : std::nullopt;
   const Check check = checkArrays(result, view ? &*view : nullptr);
-  if (!check.pass) throw BadArgument("The arrays of cutMesh don't fit together: " + check.message + ".");
+  if (!check.pass) throw BadArgument("The arrays of cutMesh don't fit together. " + check.message);
   return result;
 }
 
@@ -264,7 +266,7 @@ val toObject(const Validation& validation) {
 }
 
 val validateCutMesh(const val& mesh, const val& cutMesh, double snapTolerance) {
-  return guarded([&] { return success(toObject(validate(readMeshArrays(mesh), readUnchecked(cutMesh), snapTolerance))); });
+  return guarded([&] { return success(toObject(validate(readMeshArrays(mesh), readUnchecked(cutMesh), {{}, snapTolerance}))); });
 }
 
 val measureCutMesh(const val& mesh, const val& object) {

@@ -67,12 +67,12 @@ class Monitor {
 };
 
 /// Runs f(state, begin, end) over 0..n in order of items, each State over one contiguous range, and returns the states in that order:
-/// concatenating them gives the same result for any number of threads. Of several failures the first in item order is thrown, but
+/// concatenating them gives the same result for any number of threads. `block` items lie between two reports, and more are worth a thread.
+/// Of several failures the first in item order is thrown, but
 /// ProgressFailed before any other.
 template <class State, class F>
-std::vector<State> forChunks(size_t n, Monitor& monitor, const F& f) {
-  constexpr size_t kBlock = 2048;  // items between two reports
-  const unsigned threads = n < kBlock ? 1 : monitor.threads();
+std::vector<State> forChunks(size_t n, Monitor& monitor, const F& f, size_t block = 2048) {
+  const unsigned threads = n < block ? 1 : monitor.threads();
   const size_t chunks = threads == 1 ? 1 : 8 * threads;
   std::vector<State> states(chunks);
   std::vector<std::exception_ptr> failures(chunks);
@@ -83,7 +83,7 @@ std::vector<State> forChunks(size_t n, Monitor& monitor, const F& f) {
     for (size_t c; !failed && (c = nextChunk++) < chunks;) {
       try {
         for (size_t begin = n * c / chunks, end = n * (c + 1) / chunks; begin < end;) {
-          const size_t stop = std::min(end, begin + kBlock);
+          const size_t stop = std::min(end, begin + block);
           f(states[c], begin, stop);
           monitor.report(done += stop - begin, n);
           begin = stop;

@@ -145,8 +145,8 @@ int runCut(const Arguments& arguments) {
   const CutResult result = cutWithProgress(arguments, mesh, grid);
   Report report{{nameOf(arguments.mesh), info}, grid, result, peakMemoryBytes(), {}, {}};
   if (result) {
-    report.regionVolumes = regionVolumes(result.mesh, measure(mesh, result.mesh));
-    if (arguments.validate) report.validation = validate(mesh, result.mesh, arguments.snapTolerance);
+    report.regionVolumes = regionVolumes(result.mesh, measure(mesh, result.mesh, {arguments.threads, nullptr}));
+    if (arguments.validate) report.validation = validate(mesh, result.mesh, {{arguments.threads, nullptr}, arguments.snapTolerance});
   }
   int exitCode = kFine;
   complainOf(report, exitCode);

@@ -1,7 +1,8 @@
 // Lengths, areas, normals, volumes and centroids of a cut-mesh, and its adjacency.
 #pragma once
 
-#include "mandoline/mandoline.h"
+#include "mandoline/cut_mesh.h"
+#include "mandoline/status.h"
 
 namespace mandoline {
 
@@ -15,17 +16,19 @@ struct Measures {
   std::vector<double> cellCentroid;  ///< 3 per cut-cell
 };
 
-/// `mesh` is the input that `cutMesh` was made from.
-Measures measure(const MeshView& mesh, const CutMesh& cutMesh);
+/// `mesh` is the input that `cutMesh` was made from. Throws CallError if it can't be, or if cancelled.
+Measures measure(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions& options = {});
 
 /// Unique undirected cut-edges (of all loops), lower vertex id first, ascending, with their lengths.
 struct CutEdges {
   std::vector<uint32_t> edgeVertices;  ///< 2 per edge
   std::vector<double> edgeLength;      ///< per edge
 };
-CutEdges cutEdges(const MeshView& mesh, const CutMesh& cutMesh);
+/// Throws as measure() does.
+CutEdges cutEdges(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions& options = {});
 
-/// Volume of each region, cut-cells and untouched grid cells together.
+/// Volume of each region, cut-cells and untouched grid cells together. Throws CallError if the measures are of a cut-mesh with another
+/// number of cut-cells.
 std::vector<double> regionVolumes(const CutMesh& cutMesh, const Measures& measures);
 
 /// Who lies beside whom. A neighbour is a cut-cell, an untouched grid cell, or nothing (the box ends).

@@ -6,35 +6,42 @@
 namespace mandoline {
 namespace {
 
-/// Index of the grid cell across an axial face from the cut-cell on one of its sides, or -1 outside of the grid.
-int64_t gridCellAcross(const CutMesh& cutMesh, size_t face, size_t cell) {
-  const int axis = cutMesh.faceAxis[face];
+/// Index of the grid cell across an axial face from the cut-cell on one of its sides, or -1 outside the grid.
+int64_t gridCellAcross(const CutMesh& cutMesh, const Face& face, size_t cell) {
   std::array<int64_t, 3> at;
-  for (int d = 0; d < 3; ++d) at[d] = cutMesh.cellGridCell[3 * cell + d];
-  at[axis] = 2 * int64_t(cutMesh.facePlane[face]) - 1 - at[axis];  // the plane's index is that of the cell above it
-  if (at[axis] < 0 || at[axis] >= cutMesh.grid.cells(axis)) return -1;
+  for (size_t d = 0; d < 3; ++d) at[d] = cutMesh.cellGridCell[3 * cell + d];
+  int64_t& across = at[size_t(face.axis)];
+  across = 2 * int64_t(face.plane) - 1 - across;  // the plane's index is that of the cell above it
+  if (across < 0 || across >= cutMesh.grid.cells(face.axis)) return -1;
   return at[0] + cutMesh.grid.cells(0) * (at[1] + cutMesh.grid.cells(1) * at[2]);
 }
 
-void findOwners(const CutMesh& cutMesh, Adjacency& result) {
-  result.faceCells.assign(2 * cutMesh.faceCount(), -1);
-  result.faceGridCells.assign(2 * cutMesh.faceCount(), -1);
+/// Per half-face: the cut-cell, or -1.
+std::vector<int32_t> ownersOf(const CutMesh& cutMesh) {
+  std::vector<int32_t> owners(2 * cutMesh.faceCount(), -1);
   for (size_t c = 0; c < cutMesh.cellCount(); ++c) {
-    for (const uint32_t h : cutMesh.halfFaces(c)) result.faceCells[h] = int32_t(c);
+    for (const uint32_t h : cutMesh.halfFaces(c)) owners[h] = int32_t(c);
   }
-  for (size_t h = 0; h < result.faceCells.size(); ++h) {
-    const int32_t opposite = result.faceCells[h ^ 1];
-    if (result.faceCells[h] < 0 && opposite >= 0 && cutMesh.faceAxis[h / 2] >= 0) {
-      result.faceGridCells[h] = gridCellAcross(cutMesh, h / 2, size_t(opposite));
-    }
+  return owners;
+}
+
+/// Per half-face: the untouched grid cell, or -1.
+std::vector<int64_t> gridCellsBeside(const CutMesh& cutMesh, const std::vector<int32_t>& owners) {
+  std::vector<int64_t> gridCells(owners.size(), -1);
+  for (size_t h = 0; h < owners.size(); ++h) {
+    const Face face = cutMesh.face(h / 2);
+    const int32_t opposite = owners[h ^ 1];
+    if (owners[h] < 0 && opposite >= 0 && face.axis >= 0) gridCells[h] = gridCellAcross(cutMesh, face, size_t(opposite));
   }
+  return gridCells;
 }
 
 }  // namespace
 
 Adjacency adjacency(const CutMesh& cutMesh) {
   Adjacency result;
-  findOwners(cutMesh, result);
+  result.faceCells = ownersOf(cutMesh);
+  result.faceGridCells = gridCellsBeside(cutMesh, result.faceCells);
   result.cellCellOffsets.assign(1, 0);
   result.cellCellOffsets.reserve(cutMesh.cellCount() + 1);
   result.cellCells.reserve(cutMesh.cellHalfFaces.size());

@@ -1,141 +1,28 @@
 // Lengths, areas, volumes and centroids, accurate relative to the element's own size.
 //
 // A cut-vertex's rounded position is good to 1e-16 of the grid's coordinates, which is nothing beside a cell of width 1e-10. So vertices
-// are made again from their provenance (the tri-edge or triangle and the exact planes that they lie on) as double-doubles, and an element
-// is measured in coordinates relative to one of its vertices. Sums there are plain doubles where their terms don't cancel, else
+// are made again from their provenance as double-doubles (places.h), and an element is measured in coordinates relative to one of its
+// vertices. Sums there are plain doubles where their terms don't cancel, else
 // double-doubles.
 #include "mandoline/measure.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "base/double_double.h"
+#include "operators/measure/places.h"
+#include "operators/measure/require_input.h"
+#include "operators/run_call.h"
 
 namespace mandoline {
 namespace {
 
-using detail::DoubleDouble;
-using detail::twoSum;
+using measuring::cross;
+using measuring::DoubleDouble;
+using measuring::forEach;
+using measuring::largestAxis;
+using measuring::length;
+using measuring::Places;
+using measuring::Vector;
 
 /// Sums whose terms are together this much larger than the sum are done again in double-doubles.
 constexpr double kCancellation = 32;
-
-template <class Number>
-using Vector = std::array<Number, 3>;
-
-template <class Number>
-Vector<Number> cross(const Vector<Number>& a, const Vector<Number>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double length(const Vector<double>& v) {
-  const double largest = std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
-  if (largest == 0) return 0;
-  const double x = v[0] / largest, y = v[1] / largest, z = v[2] / largest;
-  return largest * std::sqrt(x * x + y * y + z * z);
-}
-
-int largestAxis(const Vector<double>& v) {
-  int axis = 0;
-  for (int d = 1; d < 3; ++d) {
-    if (std::fabs(v[d]) > std::fabs(v[axis])) axis = d;
-  }
-  return axis;
-}
-
-/// Coordinates of all vertices, as double-doubles made from their provenance.
-class Places {
- public:
-  Places(const MeshView& mesh, const CutMesh& cutMesh) : mesh_(mesh), cutMesh_(cutMesh), vertexOf_(mesh.vertexCount(), -1) {
-    const size_t n = cutMesh.vertexCount();
-    for (size_t v = 0; v < n; ++v) {
-      if (cutMesh.vertexTriVertex[v] >= 0) vertexOf_[cutMesh.vertexTriVertex[v]] = int32_t(v);
-    }
-    places_.resize(n);
-    for (size_t v = 0; v < n; ++v) places_[v] = checked(v, make(v));
-  }
-
-  const Vector<DoubleDouble>& operator[](size_t v) const { return places_[v]; }
-
-  /// b - a, rounded once per coordinate unless Number is DoubleDouble.
-  template <class Number = double>
-  Vector<Number> between(size_t a, size_t b) const {
-    const Vector<DoubleDouble>&p = places_[a], &q = places_[b];
-    return {Number(q[0] - p[0]), Number(q[1] - p[1]), Number(q[2] - p[2])};
-  }
-
-  /// Twice the vector area of a triangle of the mesh.
-  Vector<DoubleDouble> triangleNormal(size_t t) const {
-    const double *a = corner(t, 0), *b = corner(t, 1), *c = corner(t, 2);
-    return cross<DoubleDouble>({twoSum(b[0], -a[0]), twoSum(b[1], -a[1]), twoSum(b[2], -a[2])},
-                               {twoSum(c[0], -a[0]), twoSum(c[1], -a[1]), twoSum(c[2], -a[2])});
-  }
-
- private:
-  /// Where the cutter had a tri-vertex: the cut-mesh knows if it has been moved onto a plane.
-  const double* triVertex(size_t v) const {
-    return vertexOf_[v] < 0 ? &mesh_.positions[3 * v] : &cutMesh_.positions[3 * size_t(vertexOf_[v])];
-  }
-  const double* corner(size_t t, int i) const { return triVertex(mesh_.triangles[3 * t + i]); }
-
-  Vector<DoubleDouble> make(size_t v) const {
-    const int32_t p = cutMesh_.vertexParents[2 * v], q = cutMesh_.vertexParents[2 * v + 1];
-    Vector<DoubleDouble> place;
-    for (int d = 0; d < 3; ++d) place[d] = onPlane(v, d) ? plane(v, d) : cutMesh_.positions[3 * v + d];
-    if (p < 0 || cutMesh_.vertexTriVertex[v] >= 0 || cutMesh_.vertexMask[v] == 7) return place;
-    if (q < 0) {
-      placeInTriangle(v, size_t(p), place);
-    } else {
-      placeOnEdge(v, triVertex(size_t(p)), triVertex(size_t(q)), place);
-    }
-    return place;
-  }
-
-  bool onPlane(size_t v, int d) const { return (cutMesh_.vertexMask[v] >> d & 1) != 0; }
-  double plane(size_t v, int d) const { return cutMesh_.grid.planes[d][cutMesh_.vertexCell[3 * v + d]]; }
-
-  /// A crossing of the edge from a to b with the planes that the vertex lies on.
-  void placeOnEdge(size_t v, const double* a, const double* b, Vector<DoubleDouble>& place) const {
-    int across = -1;
-    for (int d = 0; d < 3; ++d) {
-      if (onPlane(v, d) && (across < 0 || std::fabs(b[d] - a[d]) > std::fabs(b[across] - a[across]))) across = d;
-    }
-    if (across < 0 || a[across] == b[across]) return;
-    const DoubleDouble share = twoSum(plane(v, across), -a[across]) / twoSum(b[across], -a[across]);
-    for (int d = 0; d < 3; ++d) {
-      if (!onPlane(v, d)) place[d] = a[d] + share * twoSum(b[d], -a[d]);
-    }
-  }
-
-  /// A crossing of a triangle's plane with a grid line.
-  void placeInTriangle(size_t v, size_t triangle, Vector<DoubleDouble>& place) const {
-    const int w = onPlane(v, 0) ? (onPlane(v, 1) ? 2 : 1) : 0, p = (w + 1) % 3, q = (w + 2) % 3;
-    const double* a = corner(triangle, 0);
-    const Vector<DoubleDouble> normal = triangleNormal(triangle);
-    if (normal[w].high == 0) return;
-    const DoubleDouble slope = normal[p] * twoSum(plane(v, p), -a[p]) + normal[q] * twoSum(plane(v, q), -a[q]);
-    place[w] = a[w] - slope / normal[w];
-  }
-
-  /// The place, unless it is off the vertex's position by more than rounding: tri-vertices that snapping moves but that are no vertices of
-  /// the cut-mesh (outside of the grid, or welded by the move) have left no trace, and what is made from their old coordinates is wrong.
-  Vector<DoubleDouble> checked(size_t v, const Vector<DoubleDouble>& place) const {
-    for (int d = 0; d < 3; ++d) {
-      const double position = cutMesh_.positions[3 * v + d];
-      const auto& planes = cutMesh_.grid.planes[d];
-      const size_t c = std::min<size_t>(size_t(cutMesh_.vertexCell[3 * v + d]), planes.size() - 2);
-      if (!(std::fabs(place[d].high - position) <= 0x1p-40 * (planes[c + 1] - planes[c]) + 0x1p-48 * std::fabs(position))) {
-        return {cutMesh_.positions[3 * v], cutMesh_.positions[3 * v + 1], cutMesh_.positions[3 * v + 2]};
-      }
-    }
-    return place;
-  }
-
-  const MeshView& mesh_;
-  const CutMesh& cutMesh_;
-  std::vector<int32_t> vertexOf_;  // per tri-vertex
-  std::vector<Vector<DoubleDouble>> places_;
-};
 
 /// Area and first moments of a face's projection along an axis, relative to the face's first vertex.
 template <class Number>
@@ -155,31 +42,27 @@ struct FaceShape {
 
 class Measuring {
  public:
-  Measuring(const MeshView& mesh, const CutMesh& cutMesh) : cutMesh_(cutMesh), places_(mesh, cutMesh) {}
+  Measuring(const CutMesh& cutMesh, const Places& places) : cutMesh_(cutMesh), places_(places) {}
 
-  Measures run() {
+  Measures run(detail::Monitor& monitor) {
     Measures measures;
     shapes_.resize(cutMesh_.faceCount());
     measures.faceArea.resize(shapes_.size());
     measures.faceNormal.resize(3 * shapes_.size());
     measures.faceCentroid.resize(3 * shapes_.size());
-    for (size_t f = 0; f < shapes_.size(); ++f) {
-      shapes_[f] = shapeOf(f);
-      measures.faceArea[f] = shapes_[f].area;
-      std::copy_n(shapes_[f].normal.data(), 3, &measures.faceNormal[3 * f]);
-      for (int d = 0; d < 3; ++d) measures.faceCentroid[3 * f + d] = double(places_[shapes_[f].first][d] + shapes_[f].centroid[d]);
-    }
+    monitor.beginStage("faces", 1);
+    forEach(shapes_.size(), monitor, [&](size_t f) { measureFace(f, measures); });
     measures.cellVolume.resize(cutMesh_.cellCount());
     measures.cellCentroid.resize(3 * cutMesh_.cellCount());
-    for (size_t c = 0; c < cutMesh_.cellCount(); ++c) measureCell(c, measures);
+    monitor.beginStage("cells", 2);
+    forEach(cutMesh_.cellCount(), monitor, [&](size_t c) { measureCell(c, measures); });
     return measures;
   }
 
  private:
   template <class F>
   void forEachEdge(size_t face, const F& f) const {
-    for (uint32_t l = cutMesh_.faceLoopOffsets[face]; l < cutMesh_.faceLoopOffsets[face + 1]; ++l) {
-      const auto loop = cutMesh_.loop(l);
+    for (const std::span<const uint32_t> loop : cutMesh_.loops(face)) {
       for (size_t i = 0; i < loop.size(); ++i) f(loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]);
     }
   }
@@ -233,6 +116,13 @@ class Measuring {
     const Vector<double> rounded = {v[0].high, v[1].high, v[2].high};
     const double size = length(rounded);
     return size == 0 ? rounded : Vector<double>{rounded[0] / size, rounded[1] / size, rounded[2] / size};
+  }
+
+  void measureFace(size_t face, Measures& measures) {
+    const FaceShape& shape = shapes_[face] = shapeOf(face);
+    measures.faceArea[face] = shape.area;
+    std::copy_n(shape.normal.data(), 3, &measures.faceNormal[3 * face]);
+    for (size_t d = 0; d < 3; ++d) measures.faceCentroid[3 * face + d] = double(places_[shape.first][d] + shape.centroid[d]);
   }
 
   FaceShape shapeOf(size_t face) {
@@ -325,62 +215,20 @@ class Measuring {
   }
 
   const CutMesh& cutMesh_;
-  Places places_;
+  const Places& places_;
   std::vector<FaceShape> shapes_;
 };
 
 }  // namespace
 
-Measures measure(const MeshView& mesh, const CutMesh& cutMesh) { return Measuring(mesh, cutMesh).run(); }
-
-CutEdges cutEdges(const MeshView& mesh, const CutMesh& cutMesh) {
-  const auto forEachEdge = [&](const auto& f) {
-    for (size_t l = 0; l < cutMesh.loopCount(); ++l) {
-      const auto loop = cutMesh.loop(l);
-      for (size_t i = 0; i < loop.size(); ++i) {
-        const uint32_t a = loop[i], b = loop[i + 1 < loop.size() ? i + 1 : 0];
-        f(std::min(a, b), std::max(a, b));
-      }
-    }
-  };
-  std::vector<uint32_t> offsets(cutMesh.vertexCount() + 1, 0);
-  forEachEdge([&](uint32_t low, uint32_t) { ++offsets[low + 1]; });
-  for (size_t v = 0; v < cutMesh.vertexCount(); ++v) offsets[v + 1] += offsets[v];
-  std::vector<uint32_t> highs(offsets.back()), at(offsets.begin(), offsets.end() - 1);
-  forEachEdge([&](uint32_t low, uint32_t high) { highs[at[low]++] = high; });
-
-  CutEdges edges;
-  edges.edgeVertices.reserve(highs.size());
-  edges.edgeLength.reserve(highs.size() / 2);
-  const Places places(mesh, cutMesh);
-  for (uint32_t low = 0; low < cutMesh.vertexCount(); ++low) {
-    const auto begin = highs.begin() + offsets[low], end = highs.begin() + offsets[low + 1];
-    std::sort(begin, end);
-    const auto uniqueEnd = std::unique(begin, end);
-    for (auto high = begin; high != uniqueEnd; ++high) {
-      edges.edgeVertices.insert(edges.edgeVertices.end(), {low, *high});
-      edges.edgeLength.push_back(length(places.between(low, *high)));
-    }
-  }
-  return edges;
-}
-
-std::vector<double> regionVolumes(const CutMesh& cutMesh, const Measures& measures) {
-  std::vector<DoubleDouble> sums(cutMesh.regionCount);
-  for (size_t c = 0; c < cutMesh.cellCount(); ++c) sums[cutMesh.cellRegion[c]] += measures.cellVolume[c];
-  const auto& planes = cutMesh.grid.planes;
-  const auto extent = [&](int d, size_t begin, size_t end) { return twoSum(planes[d][end], -planes[d][begin]); };
-  const size_t ny = size_t(cutMesh.grid.cells(1));
-  for (size_t row = 0; row + 1 < cutMesh.rowRunOffsets.size(); ++row) {
-    if (cutMesh.rowRunOffsets[row] == cutMesh.rowRunOffsets[row + 1]) continue;
-    const DoubleDouble section = extent(1, row % ny, row % ny + 1) * extent(2, row / ny, row / ny + 1);
-    for (uint32_t r = cutMesh.rowRunOffsets[row]; r < cutMesh.rowRunOffsets[row + 1]; ++r) {
-      sums[cutMesh.runRegion[r]] += section * extent(0, size_t(cutMesh.runBegin[r]), size_t(cutMesh.runEnd[r]));
-    }
-  }
-  std::vector<double> volumes(sums.size());
-  for (size_t r = 0; r < sums.size(); ++r) volumes[r] = double(sums[r]);
-  return volumes;
+Measures measure(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions& options) {
+  measuring::requireInput(mesh, cutMesh);
+  return operators::runCall("measuring", [&] {
+    detail::Monitor monitor(options, 3);
+    monitor.beginStage("vertices", 0);
+    const Places places(mesh, cutMesh, monitor);
+    return Measuring(cutMesh, places).run(monitor);
+  });
 }
 
 }  // namespace mandoline

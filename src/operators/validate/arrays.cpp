@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "operators/validate/context.h"
+#include "operators/validate/tally.h"
 
 namespace mandoline::validation {
 namespace {
@@ -43,10 +44,11 @@ class ArrayCheck {
 
   bool checkInput() {
     if (!mesh_) return true;
-    if (!expect(cut_.triangleCount == mesh_->triangleCount(), "array", 0, "of the triangles has another length than triangleCount says"))
+    if (!expect(cut_.triangleCount == mesh_->triangleCount(), "array", 0,
+                "of the input's triangles has another length than triangleCount says"))
       return false;
     if (!expect(mesh_->positions.size() % 3 == 0 && mesh_->triangles.size() % 3 == 0, "array", 0,
-                "of the input has no multiple of 3 entries"))
+                "of the input has a length that is not a multiple of 3"))
       return false;
     if (!expectRange(mesh_->triangles, 0, int64_t(mesh_->vertexCount()) - 1, "triangle", 3,
                      "of the input names a tri-vertex that does not exist"))
@@ -113,7 +115,9 @@ class ArrayCheck {
       return false;
     if (!expectOffsets(cut_.loopOffsets, loops, cut_.loopVertices.size(), "loop", "has wrong offsets")) return false;
     if (!expectOffsets(cut_.faceLoopOffsets, faces, loops, "face", "has wrong offsets")) return false;
-    if (!expectRange(cut_.loopVertices, 0, int64_t(cut_.vertexCount()) - 1, "loop vertex", 1, "does not exist")) return false;
+    if (!expectRange(cut_.loopVertices, 0, int64_t(cut_.vertexCount()) - 1, "entry", 1,
+                     "of loopVertices names a vertex that does not exist"))
+      return false;
     if (!expectRange(cut_.faceTriangle, -1, int64_t(cut_.triangleCount) - 1, "face", 1, "names a triangle that does not exist"))
       return false;
     if (!expectRange(cut_.faceAxis, -1, 2, "face", 1, "has a wrong axis")) return false;
@@ -144,7 +148,9 @@ class ArrayCheck {
     if (!expect(cut_.cellGridCell.size() == 3 * cells && cells < size_t(1) << 31, "array", 0, "of the cells has a wrong length"))
       return false;
     if (!expectOffsets(cut_.cellHalfFaceOffsets, cells, cut_.cellHalfFaces.size(), "cell", "has wrong offsets")) return false;
-    if (!expectRange(cut_.cellHalfFaces, 0, 2 * int64_t(cut_.faceCount()) - 1, "entry of cellHalfFaces", 1, "does not exist")) return false;
+    if (!expectRange(cut_.cellHalfFaces, 0, 2 * int64_t(cut_.faceCount()) - 1, "entry", 1,
+                     "of cellHalfFaces names a half-face that does not exist"))
+      return false;
     if (!expectRange(cut_.cellRegion, 0, int64_t(cut_.regionCount) - 1, "cell", 1, "names a region that does not exist")) return false;
     for (size_t c = 0; c < cells; ++c) {
       if (!expect(!cut_.halfFaces(c).empty(), "cell", int64_t(c), "has no faces")) return false;

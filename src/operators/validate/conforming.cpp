@@ -1,7 +1,7 @@
-// No vertex lies inside of an edge of the same grid cell. Positions find the candidates; the vertices' parents and planes decide exactly.
+// No vertex lies inside an edge of the same grid cell. Positions find the candidates; the vertices' parents and planes decide exactly.
 #include <algorithm>
 
-#include "operators/validate/grid_cells.h"
+#include "operators/validate/grid_cell_checks.h"
 
 namespace mandoline::validation {
 namespace {
@@ -11,38 +11,50 @@ struct ExactPoint {
   Exact x[3], w;
 };
 
+double planeOf(const Context& context, uint32_t v, int axis) { return context.planes()[size_t(axis)][size_t(context.cellAt(v)[axis])]; }
+
+/// Where a tri-edge meets a plane that the vertex lies on.
+void placeOnEdge(const Context& context, uint32_t v, const Vec3& a, const Vec3& b, ExactPoint& p) {
+  int across = 0;
+  while (across < 2 && (!context.onPlane(v, across) || a[across] == b[across])) ++across;
+  const double plane = planeOf(context, v, across);
+  const Exact toPlane = Exact(plane) - a[across], toEnd = Exact(b[across]) - plane;
+  for (int d = 0; d < 3; ++d) p.x[d] = toEnd * a[d] + toPlane * b[d];
+  p.w = toEnd + toPlane;
+}
+
+/// Where a triangle meets the grid line that the vertex lies on.
+void placeInTriangle(const Context& context, uint32_t v, size_t triangle, ExactPoint& p) {
+  int g = 0;  // the grid line's axis
+  while (g < 2 && context.onPlane(v, g)) ++g;
+  const int e = (g + 1) % 3, f = (g + 2) % 3;
+  const Vec3 a = context.corner(triangle, 0), b = context.corner(triangle, 1), c = context.corner(triangle, 2);
+  const auto normal = [&](int i, int j) {
+    return (Exact(b[i]) - a[i]) * (Exact(c[j]) - a[j]) - (Exact(b[j]) - a[j]) * (Exact(c[i]) - a[i]);
+  };
+  const double pe = planeOf(context, v, e), pf = planeOf(context, v, f);
+  p.w = normal(e, f);
+  p.x[g] = p.w * a[g] - normal(f, g) * (Exact(pe) - a[e]) - normal(g, e) * (Exact(pf) - a[f]);
+  p.x[e] = p.w * pe, p.x[f] = p.w * pf;
+}
+
 ExactPoint exactPoint(const Context& context, uint32_t v) {
   const CutMesh& cut = context.cut;
   ExactPoint p;
   p.w = 1;
-  const auto planeOf = [&](int d) { return context.planes[d][context.cellAt(v)[d]]; };
   if (cut.vertexTriVertex[v] >= 0) {
     for (int d = 0; d < 3; ++d) p.x[d] = context.triVertex(uint32_t(cut.vertexTriVertex[v]))[d];
     return p;
   }
   for (int d = 0; d < 3; ++d) {
-    if (context.onPlane(v, d)) p.x[d] = planeOf(d);
+    if (context.onPlane(v, d)) p.x[d] = planeOf(context, v, d);
   }
   const int32_t parent = cut.vertexParents[2 * size_t(v)], other = cut.vertexParents[2 * size_t(v) + 1];
   if (cut.vertexMask[v] == 7 || parent < 0) return p;
   if (other >= 0) {
-    const Vec3 a = context.triVertex(uint32_t(parent)), b = context.triVertex(uint32_t(other));
-    int across = 0;
-    while (across < 2 && (!context.onPlane(v, across) || a[across] == b[across])) ++across;
-    const Exact toPlane = Exact(planeOf(across)) - a[across], toEnd = Exact(b[across]) - planeOf(across);
-    for (int d = 0; d < 3; ++d) p.x[d] = toEnd * a[d] + toPlane * b[d];
-    p.w = toEnd + toPlane;
+    placeOnEdge(context, v, context.triVertex(uint32_t(parent)), context.triVertex(uint32_t(other)), p);
   } else {
-    int g = 0;  // the grid line's axis
-    while (g < 2 && context.onPlane(v, g)) ++g;
-    const int e = (g + 1) % 3, f = (g + 2) % 3;
-    const Vec3 a = context.corner(parent, 0), b = context.corner(parent, 1), c = context.corner(parent, 2);
-    const auto normal = [&](int i, int j) {
-      return (Exact(b[i]) - a[i]) * (Exact(c[j]) - a[j]) - (Exact(b[j]) - a[j]) * (Exact(c[i]) - a[i]);
-    };
-    p.w = normal(e, f);
-    p.x[g] = p.w * a[g] - normal(f, g) * (Exact(planeOf(e)) - a[e]) - normal(g, e) * (Exact(planeOf(f)) - a[f]);
-    for (const int d : {e, f}) p.x[d] = p.w * planeOf(d);
+    placeInTriangle(context, v, size_t(parent), p);
   }
   return p;
 }
@@ -110,7 +122,7 @@ void ConformingCheck::checkVertex(const GridCell& cell, const Edge& edge, uint32
   }
   const Vec3 p = x.vertex(vertex), a = x.inRoundings(x.vertex(edge[0]), p), b = x.inRoundings(x.vertex(edge[1]), p);
   if (distanceToSegment({}, a, b) <= kTolerance && liesInside(x, edge[0], edge[1], vertex))
-    conforming_.violate("vertex", vertex, "lies inside of an edge of its grid cell");
+    conforming_.violate("vertex", vertex, "lies inside an edge of its grid cell");
 }
 
 }  // namespace mandoline::validation

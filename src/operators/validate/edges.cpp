@@ -1,7 +1,7 @@
 // Cut-edges: in each cell they cancel, and around each of them the faces leave no cell out (paper, 3.5 and 4.4).
 #include <algorithm>
 
-#include "operators/validate/grid_cells.h"
+#include "operators/validate/grid_cell_checks.h"
 
 namespace mandoline::validation {
 namespace {
@@ -18,29 +18,37 @@ double pseudoAngle(double x, double y) {
 
 }  // namespace
 
-void EdgeCheck::run(const GridCell& cell, Sets& shells) {
-  uses_.clear(), edges_.clear();
+void EdgeCheck::collectUses(const GridCell& cell) {
+  uses_.clear();
   for (uint32_t f = 0; f < cell.faces.size(); ++f) {
     for (uint32_t i = cell.faces[f].firstCorner; i < cell.faces[f].lastCorner; ++i) {
       const uint32_t u = cell.cornerVertex[i], v = cell.cornerVertex[cell.cornerNext[i]];
       uses_.push_back({{std::min(u, v), std::max(u, v)}, f, u < v});
     }
   }
-  const auto key = [](const Use& use) { return uint64_t(use.edge[0]) << 32 | use.edge[1]; };
-  std::sort(uses_.begin(), uses_.end(), [&](const Use& a, const Use& b) {
-    return key(a) != key(b) ? key(a) < key(b) : a.face != b.face ? a.face < b.face : a.forward < b.forward;
+  std::sort(uses_.begin(), uses_.end(), [](const Use& a, const Use& b) {
+    return a.edge != b.edge ? a.edge < b.edge : a.face != b.face ? a.face < b.face : a.forward < b.forward;
   });
+}
+
+const CellEdges& EdgeCheck::run(const GridCell& cell) {
+  collectUses(cell);
+  shells_.reset(2 * cell.faces.size());
+  found_.edges.clear();
   for (size_t begin = 0, end = 0; begin < uses_.size(); begin = end) {
-    while (end < uses_.size() && key(uses_[end]) == key(uses_[begin])) ++end;
+    while (end < uses_.size() && uses_[end].edge == uses_[begin].edge) ++end;
     const std::span<Use> uses(uses_.data() + begin, end - begin);
-    edges_.push_back(uses[0].edge);
+    found_.edges.push_back(uses[0].edge);
     checkCancel(cell, uses);
     if (uses.size() < 3 || sortByAngle(cell, uses)) {
-      for (size_t i = 0; i < uses.size(); ++i) join(cell, uses[i], uses[(i + 1) % uses.size()], shells);
+      for (size_t i = 0; i < uses.size(); ++i) join(cell, uses[i], uses[(i + 1) % uses.size()]);
     } else {
-      joinLoosely(cell, uses, shells);
+      joinLoosely(cell, uses);
     }
   }
+  found_.shell.resize(2 * cell.faces.size());
+  for (uint32_t h = 0; h < found_.shell.size(); ++h) found_.shell[h] = shells_.find(h);
+  return found_;
 }
 
 void EdgeCheck::checkCancel(const GridCell& cell, std::span<const Use> uses) {
@@ -62,13 +70,13 @@ void EdgeCheck::checkCancel(const GridCell& cell, std::span<const Use> uses) {
   }
 }
 
-void EdgeCheck::join(const GridCell& cell, const Use& use, const Use& next, Sets& shells) {
+void EdgeCheck::join(const GridCell& cell, const Use& use, const Use& next) {
   const int after = sideAfter(use.forward), before = sideBefore(next.forward);
   const int32_t here = cell.faces[use.face].owner[after], there = cell.faces[next.face].owner[before];
   if (here != there) {
     facing_.violate("face", cell.faces[next.face].id, "belongs to another cut-cell than the face that it faces at one of its edges");
   } else if (here >= 0) {
-    shells.unite(2 * use.face + after, 2 * next.face + before);
+    shells_.unite(2 * use.face + after, 2 * next.face + before);
   }
 }
 
@@ -107,20 +115,28 @@ bool EdgeCheck::sortByAngle(const GridCell& cell, std::span<Use> uses) {
   return true;
 }
 
-void EdgeCheck::joinLoosely(const GridCell& cell, std::span<const Use> uses, Sets& shells) {
+void EdgeCheck::joinLoosely(const GridCell& cell, std::span<const Use> uses) {
   std::vector<std::pair<int32_t, uint32_t>> halfFaces;
   for (const Use& use : uses) {
     for (uint32_t side = 0; side < 2; ++side) halfFaces.push_back({cell.faces[use.face].owner[side], 2 * use.face + side});
   }
   std::sort(halfFaces.begin(), halfFaces.end());
   for (size_t i = 1; i < halfFaces.size(); ++i) {
-    if (halfFaces[i].first == halfFaces[i - 1].first && halfFaces[i].first >= 0) shells.unite(halfFaces[i].second, halfFaces[i - 1].second);
+    if (halfFaces[i].first == halfFaces[i - 1].first && halfFaces[i].first >= 0)
+      shells_.unite(halfFaces[i].second, halfFaces[i - 1].second);
   }
 }
 
-void EdgeCheck::finish(std::vector<Check>& checks) {
-  if (unjudged_ > 0) facing_.note(std::to_string(unjudged_) + " edges are too short, or their faces too close, to tell the faces' order");
-  for (Tally* tally : {&closed_, &facing_}) checks.push_back(tally->finish());
+void EdgeCheck::merge(const EdgeCheck& next) {
+  closed_.merge(next.closed_);
+  facing_.merge(next.facing_);
+  unjudged_ += next.unjudged_;
+}
+
+Check EdgeCheck::facingFaces() const {
+  return facing_.finish(unjudged_ == 0 ? ""
+                                       : "The order of the faces around " + counted(unjudged_, "edge") +
+                                             " was left open: too short, or the faces too close.");
 }
 
 }  // namespace mandoline::validation

@@ -1,9 +1,12 @@
-// Geometry of validate(), its own: a validator that shares code with the cutter would share its mistakes.
+// The arithmetic of validate(). It repeats, with less speed, what base and the cutter have: a validator that computed with their code would
+// not see its mistakes. Containers and loops from base are shared, for a mistake in them would not go unnoticed.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 #include <vector>
+
+#include "base/plain_arithmetic.h"
 
 namespace mandoline::validation {
 

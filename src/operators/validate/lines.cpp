@@ -1,9 +1,9 @@
 // Every point lies in exactly one cut-cell: lines through each grid cell, at least one through each of its tri-faces, pass from cut-cell to
 // cut-cell only through half-faces of the one and then the other. This sees what edges can't: cells that overlap because triangles
-// intersect inside of a grid cell, and shells in the wrong cell.
+// intersect inside a grid cell, and shells in the wrong cell.
 #include <algorithm>
 
-#include "operators/validate/grid_cells.h"
+#include "operators/validate/grid_cell_checks.h"
 
 namespace mandoline::validation {
 namespace {
@@ -22,33 +22,34 @@ bool inOnePlane(const Context& x, const GridCell::Face& face, const GridCell::Fa
 
 LineCheck::LineCheck(const Context& context) {
   constexpr uint64_t kSamples = 400;
-  stride_ = 1 + (context.cut.faceCount() + 3 * context.groupCount()) / kSamples;
+  stride_ = 1 + (context.cut.faceCount() + 3 * context.groups.count()) / kSamples;
 }
 
-void LineCheck::run(const GridCell& cell, std::vector<Sample>& samples) {
+void LineCheck::run(const GridCell& cell) {
+  random_ = Random(cell.cells[0]);
   for (int axis = 0; axis < 3; ++axis) {
     work_ = 0;
     bins_.build(cell, axis);
-    tryLine(cell, axis, nullptr, samples);
+    tryLine(cell, axis, nullptr);
     for (const GridCell::Face& face : cell.faces) {
       if (face.side >= 0 || dominantAxis(face.area) != axis) continue;
       // Keeps the time linear where many lines meet faces of many edges, and spreads those left out.
       if (work_ > 1000 + 32 * uint64_t(face.lastCorner)) {
         ++skipped_;
       } else {
-        tryLine(cell, axis, &face, samples);
+        tryLine(cell, axis, &face);
       }
     }
   }
 }
 
-void LineCheck::tryLine(const GridCell& cell, int axis, const GridCell::Face* through, std::vector<Sample>& samples) {
+void LineCheck::tryLine(const GridCell& cell, int axis, const GridCell::Face* through) {
   for (int attempt = 0; attempt < 3; ++attempt) {
     const Vec3 point =
         through ? pointOn(cell, *through, axis) : Vec3{{random_.between(0, 1), random_.between(0, 1), random_.between(0, 1)}};
     const Verdict verdict = shoot(cell, axis, point);
     if (verdict == Verdict::unjudged) continue;
-    if (verdict == Verdict::fine && lines_ % stride_ == 0) sample(cell, axis, point, samples);
+    if (verdict == Verdict::fine && random_.next() % stride_ == 0) sample(cell, axis, point);
     ++lines_;
     return;
   }
@@ -82,8 +83,7 @@ LineCheck::Verdict LineCheck::shoot(const GridCell& cell, int axis, const Vec3& 
 
 /// Adds the face if the line through the point hits it; false if rounding leaves that open.
 bool LineCheck::addHit(const GridCell& cell, int axis, const Vec3& point, const GridCell::Face& face) {
-  const int e = (axis + 1) % 3, f = (axis + 2) % 3;
-  for (const int d : {e, f}) {
+  for (const int d : {(axis + 1) % 3, (axis + 2) % 3}) {
     const double margin = kTolerance * cell.noise[d];
     if (point[d] < face.low[d] - margin || point[d] > face.high[d] + margin) return true;
   }
@@ -92,6 +92,15 @@ bool LineCheck::addHit(const GridCell& cell, int axis, const Vec3& point, const 
   if (place != Place::inside) return place == Place::outside;
 
   Hit hit{0, 0, face.owner[0], face.owner[1], &face};
+  if (!placeHit(cell, axis, point, hit)) return false;
+  hits_.push_back(hit);
+  return true;
+}
+
+/// Fills in where on the line the hit is, and turns it to the line's direction.
+bool LineCheck::placeHit(const GridCell& cell, int axis, const Vec3& point, Hit& hit) const {
+  const int e = (axis + 1) % 3, f = (axis + 2) % 3;
+  const GridCell::Face& face = *hit.face;
   bool up = true;
   if (face.side >= 0) {
     hit.low = hit.high = face.side % 2;
@@ -105,8 +114,8 @@ bool LineCheck::addHit(const GridCell& cell, int axis, const Vec3& point, const 
     const double rise = -(normal.n[e] * delta[e] + normal.n[f] * delta[f]) / normal.n[axis];
     const double tilted =
         (normal.error[e] * std::fabs(delta[e]) + normal.error[f] * std::fabs(delta[f]) + normal.error[axis] * std::fabs(rise)) / steep;
-    const double error = tilted + kTolerance * (cell.noise[axis] +
-                                                (std::fabs(normal.n[e]) * cell.noise[e] + std::fabs(normal.n[f]) * cell.noise[f]) / steep);
+    const double slope = (std::fabs(normal.n[e]) * cell.noise[e] + std::fabs(normal.n[f]) * cell.noise[f]) / steep;
+    const double error = tilted + kTolerance * (cell.noise[axis] + slope);
     const double depth = cell.corners[face.firstCorner][axis] + rise, margin = kTolerance * cell.noise[axis];
     hit.low = std::max(depth - error, face.low[axis] - margin);
     hit.high = std::min(depth + error, face.high[axis] + margin);
@@ -114,7 +123,6 @@ bool LineCheck::addHit(const GridCell& cell, int axis, const Vec3& point, const 
     up = normal.n[axis] > 0;
   }
   if (!up) std::swap(hit.below, hit.above);
-  hits_.push_back(hit);
   return true;
 }
 
@@ -127,7 +135,7 @@ LineCheck::Verdict LineCheck::follow(const GridCell& cell, int axis) {
     return Verdict::broken;
   }
   if (hits_.size() < 2 || hits_.front().face->side != 2 * axis || hits_.back().face->side != 2 * axis + 1) {
-    partition_.violate("cell", cell.cells[0], "and the others of its grid cell do not reach from side to side of that");
+    partition_.violate("cell", cell.cells[0], "and the others of its grid cell do not reach from side to side of it");
     return Verdict::broken;
   }
   for (size_t i = 1; i < hits_.size(); ++i) {
@@ -139,21 +147,27 @@ LineCheck::Verdict LineCheck::follow(const GridCell& cell, int axis) {
 }
 
 /// A point in the middle between two hits.
-void LineCheck::sample(const GridCell& cell, int axis, Vec3 point, std::vector<Sample>& samples) {
+void LineCheck::sample(const GridCell& cell, int axis, Vec3 point) {
   const size_t i = 1 + size_t(random_.next() % (hits_.size() - 1));
   point[axis] = (hits_[i - 1].high + hits_[i].low) / 2;
   Vec3 position;
   for (int d = 0; d < 3; ++d) position[d] = cell.low[d] + cell.size[d] * point[d];
   const int32_t owner = hits_[i].below;
-  samples.push_back({position, cell.context.cut.cellRegion[owner], "cell", owner});
+  samples_.push_back({position, cell.context.cut.cellRegion[owner], "cell", owner});
 }
 
-void LineCheck::finish(std::vector<Check>& checks) {
-  if (unjudged_ + skipped_ > 0) {
-    partition_.note("of " + std::to_string(lines_ + unjudged_ + skipped_) + " lines " + std::to_string(unjudged_) +
-                    " were too close to an edge to judge and " + std::to_string(skipped_) + " left out to save time");
-  }
-  checks.push_back(partition_.finish());
+void LineCheck::merge(const LineCheck& next) {
+  partition_.merge(next.partition_);
+  lines_ += next.lines_;
+  unjudged_ += next.unjudged_;
+  skipped_ += next.skipped_;
+  samples_.insert(samples_.end(), next.samples_.begin(), next.samples_.end());
+}
+
+Check LineCheck::partition() const {
+  if (unjudged_ + skipped_ == 0) return partition_.finish();
+  return partition_.finish("Of " + counted(lines_ + unjudged_ + skipped_, "line") + ", " + std::to_string(unjudged_) +
+                           " passed too close to an edge to judge and " + std::to_string(skipped_) + " were left out to save time.");
 }
 
 }  // namespace mandoline::validation

@@ -1,37 +1,39 @@
-// The stencil (paper, 4.3.1) and the regions: components of cut-cells and untouched grid cells.
+// The stencil and the regions: components of cut-cells and untouched grid cells.
+//
+// The runs of untouched grid cells are walked here as the format describes them, without the views of cut_mesh.h, which the cutter's side
+// uses: a mistake in these would hide itself.
 #include <algorithm>
 
-#include "operators/validate/bins.h"
-#include "operators/validate/sets.h"
+#include "base/disjoint_sets.h"
+#include "operators/validate/passes.h"
 
 namespace mandoline::validation {
 namespace {
 
-class RegionCheck {
+class StencilCheck {
  public:
-  RegionCheck(const Context& context, const TriangleBins& bins) : x_(context), bins_(bins) {}
+  StencilCheck(const Context& context, const TriangleBins& bins) : x_(context), bins_(bins) {}
 
-  void run(std::vector<Check>& checks) {
-    checkStencil();
+  Check run() {
+    checkPartition();
     checkTouched();
-    checkComponents();
-    for (Tally* tally : {&stencil_, &regions_}) checks.push_back(tally->finish());
+    return stencil_.finish();
   }
 
  private:
   using Key = std::array<int32_t, 3>;  // of a grid cell
 
-  uint32_t firstCell(size_t group) const { return x_.cellOrder[x_.groupOffsets[group]]; }
+  uint32_t firstCell(size_t group) const { return x_.groups[group][0]; }
   Key keyOf(size_t group) const {
     const int32_t* g = x_.gridCellOf(firstCell(group));
     return {g[0], g[1], g[2]};
   }
 
   /// Each grid cell either has cut-cells or is in a run.
-  void checkStencil() {
-    int64_t count = int64_t(x_.groupCount());
+  void checkPartition() {
+    int64_t count = int64_t(x_.groups.count());
     for (size_t r = 0; r < x_.cut.runBegin.size(); ++r) count += x_.cut.runEnd[r] - x_.cut.runBegin[r];
-    for (size_t g = 0; g < x_.groupCount(); ++g) {
+    for (size_t g = 0; g < x_.groups.count(); ++g) {
       const Key k = keyOf(g);
       if (x_.runAt(k[0], k[1], k[2]) >= 0) stencil_.violate("cell", firstCell(g), "lies in a grid cell that is also listed as untouched");
     }
@@ -42,7 +44,7 @@ class RegionCheck {
 
   /// Cut-cells only where the input touches the closed grid cell.
   void checkTouched() {
-    for (size_t g = 0; g < x_.groupCount(); ++g) {
+    for (size_t g = 0; g < x_.groups.count(); ++g) {
       if (!hasSurfaceVertex(g) && !isTouched(keyOf(g)))
         stencil_.violate("cell", firstCell(g), "lies in a grid cell that the surface does not touch");
     }
@@ -50,16 +52,17 @@ class RegionCheck {
   bool hasSurfaceVertex(size_t group) const {
     const auto onSurface = [&](uint32_t v) { return x_.cut.vertexParents[2 * size_t(v)] >= 0; };
     bool found = false;
-    for (uint32_t i = x_.groupOffsets[group]; i < x_.groupOffsets[group + 1] && !found; ++i) {
-      for (const uint32_t h : x_.cut.halfFaces(x_.cellOrder[i])) {
-        x_.forLoops(h / 2, [&](std::span<const uint32_t> loop) { found |= std::any_of(loop.begin(), loop.end(), onSurface); });
+    for (const uint32_t c : x_.groups[group]) {
+      if (found) break;
+      for (const uint32_t h : x_.cut.halfFaces(c)) {
+        for (const std::span<const uint32_t> loop : x_.cut.loops(h / 2)) found |= std::any_of(loop.begin(), loop.end(), onSurface);
       }
     }
     return found;
   }
   bool isTouched(const Key& gridCell) const {
     Vec3 low, high;
-    for (int d = 0; d < 3; ++d) low[d] = x_.planes[d][gridCell[d]], high[d] = x_.planes[d][gridCell[d] + 1];
+    for (int d = 0; d < 3; ++d) low[d] = x_.planes()[size_t(d)][gridCell[d]], high[d] = x_.planes()[size_t(d)][gridCell[d] + 1];
     const Vec3 size = x_.inRoundings(high, low), margin{{kTolerance, kTolerance, kTolerance}};
     bool touched = false;
     bins_.forTriangles(low, high, [&](uint32_t t) {
@@ -72,17 +75,79 @@ class RegionCheck {
     return touched;
   }
 
-  void checkComponents() {
-    const uint32_t cells = uint32_t(x_.cut.cellCount()), runs = uint32_t(x_.cut.runBegin.size());
-    parts_.reset(size_t(cells) + runs);
-    joinThroughFaces(cells);
-    joinRuns(cells);
+  const Context& x_;
+  const TriangleBins& bins_;
+  Tally stencil_{"stencil"};
+};
+
+/// Cut-cells, then runs, joined to components, which have to be the regions.
+class ComponentCheck {
+ public:
+  explicit ComponentCheck(const Context& context)
+      : x_(context), cells_(uint32_t(x_.cut.cellCount())), parts_(x_.cut.cellCount() + x_.cut.runBegin.size()) {}
+
+  Check run() {
+    joinThroughFaces();
+    joinRuns();
+    compare();
+    return regions_.finish();
+  }
+
+ private:
+  void joinThroughFaces() {
+    for (size_t f = 0; f < x_.cut.faceCount(); ++f) {
+      if (x_.cut.faceTriangle[f] >= 0) continue;
+      const int32_t below = x_.owner[2 * f], above = x_.owner[2 * f + 1];
+      if (below >= 0 && above >= 0) {
+        parts_.unite(uint32_t(below), uint32_t(above));
+      } else if (below >= 0) {
+        joinAcross(f, below, 1);
+      } else if (above >= 0) {
+        joinAcross(f, above, -1);
+      }
+    }
+  }
+  /// With the untouched grid cell one step along the face's axis, if there is one.
+  void joinAcross(size_t face, int32_t cell, int step) {
+    const int axis = x_.cut.faceAxis[face];
+    const int32_t* g = x_.gridCellOf(size_t(cell));
+    std::array<int64_t, 3> next{g[0], g[1], g[2]};
+    next[size_t(axis)] += step;
+    if (next[size_t(axis)] < 0 || next[size_t(axis)] >= x_.cut.grid.cells(axis)) return;
+    const int64_t run = x_.runAt(next[0], next[1], next[2]);
+    if (run >= 0) parts_.unite(uint32_t(cell), cells_ + uint32_t(run));
+  }
+
+  void joinRuns() {
+    const int64_t ny = x_.cut.grid.cells(1), nz = x_.cut.grid.cells(2);
+    for (int64_t k = 0; k < nz; ++k) {
+      for (int64_t j = 0; j < ny; ++j) {
+        const int64_t row = k * ny + j;
+        for (uint32_t r = x_.cut.rowRunOffsets[row]; r + 1 < x_.cut.rowRunOffsets[row + 1]; ++r) {
+          if (x_.cut.runEnd[r] == x_.cut.runBegin[r + 1]) parts_.unite(cells_ + r, cells_ + r + 1);
+        }
+        if (j + 1 < ny) joinRows(row, row + 1);
+        if (k + 1 < nz) joinRows(row, row + ny);
+      }
+    }
+  }
+  void joinRows(int64_t row, int64_t other) {
+    uint32_t r = x_.cut.rowRunOffsets[row], s = x_.cut.rowRunOffsets[other];
+    while (r < x_.cut.rowRunOffsets[row + 1] && s < x_.cut.rowRunOffsets[other + 1]) {
+      if (std::max(x_.cut.runBegin[r], x_.cut.runBegin[s]) < std::min(x_.cut.runEnd[r], x_.cut.runEnd[s]))
+        parts_.unite(cells_ + r, cells_ + s);
+      ++(x_.cut.runEnd[r] < x_.cut.runEnd[s] ? r : s);
+    }
+  }
+
+  void compare() {
+    const uint32_t count = cells_ + uint32_t(x_.cut.runBegin.size());
     constexpr uint32_t kNone = UINT32_MAX;
-    std::vector<uint32_t> regionOf(size_t(cells) + runs, kNone), rootOf(x_.cut.regionCount, kNone);
-    for (uint32_t i = 0; i < cells + runs; ++i) {
-      const uint32_t root = parts_.find(i), region = i < cells ? x_.cut.cellRegion[i] : x_.cut.runRegion[i - cells];
-      const char* kind = i < cells ? "cell" : "run";
-      const uint32_t element = i < cells ? i : i - cells;
+    std::vector<uint32_t> regionOf(count, kNone), rootOf(x_.cut.regionCount, kNone);
+    for (uint32_t i = 0; i < count; ++i) {
+      const uint32_t root = parts_.find(i), region = i < cells_ ? x_.cut.cellRegion[i] : x_.cut.runRegion[i - cells_];
+      const char* kind = i < cells_ ? "cell" : "run";
+      const uint32_t element = i < cells_ ? i : i - cells_;
       if (regionOf[root] == kNone) regionOf[root] = region;
       if (rootOf[region] == kNone) rootOf[region] = root;
       if (regionOf[root] != region) {
@@ -96,55 +161,16 @@ class RegionCheck {
     }
   }
 
-  void joinThroughFaces(uint32_t cells) {
-    for (size_t f = 0; f < x_.cut.faceCount(); ++f) {
-      if (x_.cut.faceTriangle[f] >= 0) continue;
-      const int32_t below = x_.owner[2 * f], above = x_.owner[2 * f + 1];
-      if (below >= 0 && above >= 0) {
-        parts_.unite(uint32_t(below), uint32_t(above));
-      } else if (below >= 0 || above >= 0) {
-        const int axis = x_.cut.faceAxis[f];
-        const int32_t cell = below >= 0 ? below : above;
-        const int32_t* g = x_.gridCellOf(cell);
-        std::array<int64_t, 3> next{g[0], g[1], g[2]};
-        next[axis] += below >= 0 ? 1 : -1;
-        if (next[axis] < 0 || next[axis] >= x_.cut.grid.cells(axis)) continue;
-        const int64_t run = x_.runAt(next[0], next[1], next[2]);
-        if (run >= 0) parts_.unite(uint32_t(cell), cells + uint32_t(run));
-      }
-    }
-  }
-
-  void joinRuns(uint32_t cells) {
-    const int64_t ny = x_.cut.grid.cells(1), nz = x_.cut.grid.cells(2);
-    for (int64_t k = 0; k < nz; ++k) {
-      for (int64_t j = 0; j < ny; ++j) {
-        const int64_t row = k * ny + j;
-        for (uint32_t r = x_.cut.rowRunOffsets[row]; r + 1 < x_.cut.rowRunOffsets[row + 1]; ++r) {
-          if (x_.cut.runEnd[r] == x_.cut.runBegin[r + 1]) parts_.unite(cells + r, cells + r + 1);
-        }
-        if (j + 1 < ny) joinRows(cells, row, row + 1);
-        if (k + 1 < nz) joinRows(cells, row, row + ny);
-      }
-    }
-  }
-  void joinRows(uint32_t cells, int64_t row, int64_t other) {
-    uint32_t r = x_.cut.rowRunOffsets[row], s = x_.cut.rowRunOffsets[other];
-    while (r < x_.cut.rowRunOffsets[row + 1] && s < x_.cut.rowRunOffsets[other + 1]) {
-      if (std::max(x_.cut.runBegin[r], x_.cut.runBegin[s]) < std::min(x_.cut.runEnd[r], x_.cut.runEnd[s]))
-        parts_.unite(cells + r, cells + s);
-      ++(x_.cut.runEnd[r] < x_.cut.runEnd[s] ? r : s);
-    }
-  }
-
   const Context& x_;
-  const TriangleBins& bins_;
-  Sets parts_;  // cut-cells, then runs
-  Tally stencil_{"stencil"}, regions_{"regions"};
+  const uint32_t cells_;
+  detail::DisjointSets parts_;
+  Tally regions_{"regions"};
 };
 
 }  // namespace
 
-void checkRegions(const Context& context, const TriangleBins& bins, std::vector<Check>& checks) { RegionCheck(context, bins).run(checks); }
+RegionChecks checkRegions(const Context& context, const TriangleBins& bins) {
+  return {StencilCheck(context, bins).run(), ComponentCheck(context).run()};
+}
 
 }  // namespace mandoline::validation

@@ -1,52 +1,71 @@
 // Shells of cut-cells (paper, 3.5): each cell has one of positive volume; the cells of a grid cell fill it, their faces its sides.
 #include <algorithm>
 
-#include "operators/validate/grid_cells.h"
+#include "operators/validate/grid_cell_checks.h"
 
 namespace mandoline::validation {
 
-void ShellCheck::run(const GridCell& cell, Sets& shells, std::vector<double>& cellVolumes) {
+std::vector<double> ShellCheck::run(const GridCell& cell, const std::vector<uint32_t>& shell) {
+  sumShells(cell, shell);
+  sumCells(cell, shell);
+  checkCells(cell);
+  checkSides(cell);
+  checkDistinct(cell);
+  std::vector<double> volumes;
+  for (const Cell& its : cells_) volumes.push_back(its.volume * cell.size[0] * cell.size[1] * cell.size[2]);
+  return volumes;
+}
+
+void ShellCheck::sumShells(const GridCell& cell, const std::vector<uint32_t>& shell) {
   shells_.assign(2 * cell.faces.size(), {});
-  cells_.assign(cell.cells.size(), {});
-  const auto cellOf = [&](int32_t id) -> Cell& {  // cells of a grid cell are in ascending order
-    return cells_[size_t(std::lower_bound(cell.cells.begin(), cell.cells.end(), uint32_t(id)) - cell.cells.begin())];
-  };
   for (uint32_t f = 0; f < cell.faces.size(); ++f) {
     const GridCell::Face& face = cell.faces[f];
-    const uint64_t hash = Random::mix(face.id + 0x9e3779b97f4a7c15u);
-    for (int side = 0; side < 2; ++side) {
-      if (face.owner[side] >= 0 && !(side == 1 && face.owner[0] == face.owner[1])) cellOf(face.owner[side]).faces += hash;
-    }
-    if (face.owner[0] == face.owner[1] && shells.find(2 * f) == shells.find(2 * f + 1)) continue;  // a sheet adds exactly nothing
+    if (face.owner[0] == face.owner[1] && shell[2 * f] == shell[2 * f + 1]) continue;  // a sheet adds exactly nothing
     for (uint32_t side = 0; side < 2; ++side) {
-      Shell& shell = shells_[shells.find(2 * f + side)];
-      shell.volume += side == 0 ? face.volume : -face.volume;
-      shell.noise += face.volumeNoise;
+      Shell& its = shells_[shell[2 * f + side]];
+      its.volume += side == 0 ? face.volume : -face.volume;
+      its.noise += face.volumeNoise;
     }
   }
+}
+
+void ShellCheck::sumCells(const GridCell& cell, const std::vector<uint32_t>& shell) {
+  cells_.assign(cell.cells.size(), {});
   for (uint32_t h = 0; h < shells_.size(); ++h) {
-    const int32_t owner = cell.faces[h / 2].owner[h % 2];
-    if (owner < 0 || shells.find(h) != h) continue;
-    const Shell& shell = shells_[h];
-    Cell& its = cellOf(owner);
-    its.volume += shell.volume;
-    its.noise += shell.noise;
-    its.positive += shell.volume > kTolerance * shell.noise;
-    its.perhapsPositive += shell.noise > 0 && shell.volume > -kTolerance * shell.noise;
+    const GridCell::Face& face = cell.faces[h / 2];
+    const int32_t owner = face.owner[h % 2];
+    if (owner < 0) continue;
+    Cell& its = cellOf(cell, owner);
+    if (h % 2 == 0 || face.owner[0] != face.owner[1]) its.faces += Random::mix(face.id + 0x9e3779b97f4a7c15u);
+    if (shell[h] != h) continue;
+    const Shell& whole = shells_[h];
+    its.volume += whole.volume;
+    its.noise += whole.noise;
+    its.positive += whole.volume > kTolerance * whole.noise;
+    its.perhapsPositive += whole.noise > 0 && whole.volume > -kTolerance * whole.noise;
   }
+}
+
+ShellCheck::Cell& ShellCheck::cellOf(const GridCell& cell, int32_t id) {
+  return cells_[size_t(std::lower_bound(cell.cells.begin(), cell.cells.end(), uint32_t(id)) - cell.cells.begin())];
+}
+
+void ShellCheck::checkCells(const GridCell& cell) {
   double sum = 0, noise = kRounding;
   for (size_t i = 0; i < cells_.size(); ++i) {
     const Cell& its = cells_[i];
-    if (its.positive > 1) connected_.violate("cell", cell.cells[i], "has several shells of positive volume");
-    if (its.perhapsPositive == 0) connected_.violate("cell", cell.cells[i], "has no shell of positive volume");
-    if (its.volume < 0) cellVolume_.measure(-its.volume / its.noise, "cell", cell.cells[i], "has a negative volume");
-    cellVolumes[cell.cells[i]] = its.volume * cell.size[0] * cell.size[1] * cell.size[2];
+    const int64_t id = cell.cells[i];
+    if (its.positive > 1) connected_.violate("cell", id, "has several shells of positive volume");
+    if (its.perhapsPositive == 0) connected_.violate("cell", id, "has no shell of positive volume");
+    if (its.volume < 0) {
+      cellVolume_.measure({-its.volume / its.noise, -its.volume}, "cell", id, "has a negative volume, {} of its grid cell's");
+    }
     sum += its.volume;
     noise += its.noise;
   }
-  gridCellVolume_.measure(std::fabs(sum - 1) / noise, "cell", cell.cells[0], "and the others of its grid cell do not fill that");
-  checkSides(cell);
-  checkDistinct(cell);
+  const double deviation = std::fabs(sum - 1);
+  gridCellVolume_.measure({deviation / noise, deviation}, "cell", cell.cells[0],
+                          "and the others of its grid cell do not fill it: their volumes together are off by {}");
 }
 
 /// Each of the six grid-faces is covered once.
@@ -60,11 +79,13 @@ void ShellCheck::checkSides(const GridCell& cell) {
     last[face.side] = face.id;
   }
   for (int side = 0; side < 6; ++side) {
-    const double deviation = std::fabs(area[side] - 1) / noise[side];
+    const double share = std::fabs(area[side] - 1);
+    const Deviation deviation{share / noise[side], share};
     if (last[side] < 0) {
-      gridFaceArea_.measure(deviation, "cell", cell.cells[0], "and the others of its grid cell leave a side of that uncovered");
+      gridFaceArea_.measure(deviation, "cell", cell.cells[0], "and the others of its grid cell leave one side of it uncovered");
     } else {
-      gridFaceArea_.measure(deviation, "face", last[side], "and the others in its grid-face do not cover that once");
+      gridFaceArea_.measure(deviation, "face", last[side],
+                            "and the others in its grid-face do not cover it exactly once: their areas together are off by {}");
     }
   }
 }
@@ -79,8 +100,12 @@ void ShellCheck::checkDistinct(const GridCell& cell) {
   }
 }
 
-void ShellCheck::finish(std::vector<Check>& checks) {
-  for (Tally* tally : {&connected_, &distinct_, &cellVolume_, &gridCellVolume_, &gridFaceArea_}) checks.push_back(tally->finish());
+void ShellCheck::merge(const ShellCheck& next) {
+  connected_.merge(next.connected_);
+  distinct_.merge(next.distinct_);
+  cellVolume_.merge(next.cellVolume_);
+  gridCellVolume_.merge(next.gridCellVolume_);
+  gridFaceArea_.merge(next.gridFaceArea_);
 }
 
 }  // namespace mandoline::validation

@@ -1,27 +1,71 @@
-// Checks of a cut-mesh (paper, 5.6). The total volume needs no check of its own: the stencil makes each grid cell either cut or untouched,
-// and the cut-cells of a grid cell fill it.
-#include "operators/validate/bins.h"
+// Checks of a cut-mesh (paper, 5.6): the passes in their order. The total volume needs no check of its own: the stencil makes each grid
+// cell either cut or untouched, and the cut-cells of a grid cell fill it.
+#include "mandoline/validate.h"
+
+#include "operators/run_call.h"
+#include "operators/validate/passes.h"
 
 namespace mandoline {
+namespace {
 
-Validation validate(const MeshView& mesh, const CutMesh& cutMesh, double snapTolerance) {
+constexpr int kStages = 6;
+
+std::vector<Check> checkAll(const MeshView& mesh, const CutMesh& cutMesh, const ValidateOptions& options, Check arrays) {
   using namespace validation;
+  detail::Monitor monitor(options, kStages);
+  monitor.beginStage("input", 0);
+  const Context context(mesh, cutMesh, options.snapTolerance);
+  const InputTopology topology = findTopology(context);
+  const TriangleBins bins(context);
+  monitor.beginStage("vertices", 1);
+  const VertexChecks vertices = checkVertices(context, monitor);
+  monitor.beginStage("faces", 2);
+  const FaceChecks faces = checkFaces(context, monitor);
+  monitor.beginStage("gridCells", 3);
+  const GridCellChecks gridCells = checkGridCells(context, monitor);
+  monitor.beginStage("surface", 4);
+  const SurfaceChecks surface = checkSurface(context, topology, bins, monitor);
+  monitor.beginStage("regions", 5);
+  const RegionChecks regions = checkRegions(context, bins);
+  const WindingChecks winding = checkWinding(context, topology, bins, gridCells, surface);
+  return {arrays,
+          vertices.vertices,
+          vertices.positions,
+          faces.faces,
+          faces.planarity,
+          faces.orientation,
+          faces.halfFaces,
+          faces.isolation,
+          gridCells.closedCells,
+          gridCells.facingFaces,
+          gridCells.conforming,
+          gridCells.crossings,
+          gridCells.connected,
+          gridCells.distinctCells,
+          gridCells.cellVolume,
+          gridCells.gridCellVolume,
+          gridCells.gridFaceArea,
+          gridCells.partition,
+          surface.area,
+          surface.droppedTriangles,
+          regions.stencil,
+          regions.regions,
+          winding.windingNumber,
+          winding.inputVolume};
+}
+
+}  // namespace
+
+Validation validate(const MeshView& mesh, const CutMesh& cutMesh, const ValidateOptions& options) {
+  if (!(options.snapTolerance >= 0 && options.snapTolerance < 0.5))
+    throw CallError({Status::badOption, -1, -1, "snapTolerance must be at least 0 and below 0.5."});
   Validation result;
-  result.checks.push_back(checkArrays(cutMesh, &mesh));
-  if (result.checks[0].pass) {
-    const Context context(mesh, cutMesh, snapTolerance);
-    const TriangleBins bins(context);
-    std::vector<double> cellVolumes;
-    std::vector<Sample> samples;
-    std::vector<uint8_t> overlapping;
-    checkVertices(context, result.checks);
-    checkFaces(context, result.checks);
-    checkGridCells(context, result.checks, cellVolumes, samples);
-    checkSurface(context, bins, result.checks, overlapping);
-    checkRegions(context, bins, result.checks);
-    checkWinding(context, bins, cellVolumes, overlapping, std::move(samples), result.checks);
+  Check arrays = checkArrays(cutMesh, &mesh);
+  if (arrays.pass) {
+    result.checks = operators::runCall("validation", [&] { return checkAll(mesh, cutMesh, options, std::move(arrays)); });
   } else {
-    result.checks[0].message += "; all other checks are left out";
+    arrays.message += " All other checks are left out.";
+    result.checks.push_back(std::move(arrays));
   }
   for (const Check& check : result.checks) result.pass &= check.pass;
   return result;

@@ -1,7 +1,10 @@
 // The input's triangles by place, to find those near a point or above it.
 #pragma once
 
+#include <optional>
+
 #include "operators/validate/context.h"
+#include "operators/validate/input_topology.h"
 
 namespace mandoline::validation {
 
@@ -21,19 +24,35 @@ class TriangleBins {
       }
     }
   }
-  /// Winding number of the input at a point, by a ray along the axis; false where rounding leaves it open.
-  bool winding(const Vec3& p, bool withDuplicates, int32_t& result) const;
+  /// Winding number of the input at a point, by a ray along the axis; none where rounding leaves it open.
+  std::optional<int32_t> winding(const Vec3& p, const InputTopology& topology, bool withDuplicates) const;
 
  private:
+  struct Box {
+    Vec3 low, high;
+  };
+
   size_t binOf(const Vec3& p, int side) const {
     const int d = (axis_ + 1 + side) % 3;
     return binIndex((p[d] - low_[d]) * scale_[d], bins_);
   }
-  void box(size_t triangle, Vec3& low, Vec3& high) const;
+  Box boxOf(size_t triangle) const;
+  /// f(bin) for the bins of a triangle.
+  template <class F>
+  void forBins(size_t triangle, F&& f) const {
+    const Box box = boxOf(triangle);
+    for (size_t j = binOf(box.low, 1); j <= binOf(box.high, 1); ++j) {
+      for (size_t i = binOf(box.low, 0); i <= binOf(box.high, 0); ++i) f(j * size_t(bins_) + i);
+    }
+  }
+  void chooseAxis();
+  void chooseBins();
+  void fill();
+  std::optional<int32_t> crossing(const Vec3& p, uint32_t triangle) const;
 
   const Context& x_;
   int axis_ = 0, bins_ = 1;
-  Vec3 low_, scale_;
+  Vec3 low_, high_, scale_;
   std::vector<uint32_t> offsets_, triangles_;
 };
 

@@ -1,0 +1,76 @@
+#include "operators/measure/places.h"
+
+namespace mandoline::measuring {
+
+using detail::twoSum;
+
+Places::Places(const MeshView& mesh, const CutMesh& cutMesh, detail::Monitor& monitor)
+    : mesh_(mesh), cutMesh_(cutMesh), vertexOf_(mesh.vertexCount(), -1), places_(cutMesh.vertexCount()) {
+  for (size_t v = 0; v < places_.size(); ++v) {
+    if (cutMesh.vertexTriVertex[v] >= 0) vertexOf_[size_t(cutMesh.vertexTriVertex[v])] = int32_t(v);
+  }
+  forEach(places_.size(), monitor, [&](size_t v) { places_[v] = checked(v, make(v)); });
+}
+
+Vector<DoubleDouble> Places::triangleNormal(size_t t) const {
+  const double *a = corner(t, 0), *b = corner(t, 1), *c = corner(t, 2);
+  return cross<DoubleDouble>({twoSum(b[0], -a[0]), twoSum(b[1], -a[1]), twoSum(b[2], -a[2])},
+                             {twoSum(c[0], -a[0]), twoSum(c[1], -a[1]), twoSum(c[2], -a[2])});
+}
+
+/// Where the cutter had a tri-vertex: the cut-mesh knows if it has been moved onto a plane.
+const double* Places::triVertex(size_t v) const {
+  return vertexOf_[v] < 0 ? &mesh_.positions[3 * v] : &cutMesh_.positions[3 * size_t(vertexOf_[v])];
+}
+
+Vector<DoubleDouble> Places::make(size_t v) const {
+  const int32_t p = cutMesh_.vertexParents[2 * v], q = cutMesh_.vertexParents[2 * v + 1];
+  Vector<DoubleDouble> place;
+  for (int d = 0; d < 3; ++d) place[d] = onPlane(v, d) ? plane(v, d) : cutMesh_.positions[3 * v + d];
+  if (p < 0 || cutMesh_.vertexTriVertex[v] >= 0 || cutMesh_.vertexMask[v] == 7) return place;
+  if (q < 0) {
+    placeInTriangle(v, size_t(p), place);
+  } else {
+    placeOnEdge(v, triVertex(size_t(p)), triVertex(size_t(q)), place);
+  }
+  return place;
+}
+
+/// A crossing of the edge from a to b with the planes that the vertex lies on.
+void Places::placeOnEdge(size_t v, const double* a, const double* b, Vector<DoubleDouble>& place) const {
+  int across = -1;
+  for (int d = 0; d < 3; ++d) {
+    if (onPlane(v, d) && (across < 0 || std::fabs(b[d] - a[d]) > std::fabs(b[across] - a[across]))) across = d;
+  }
+  if (across < 0 || a[across] == b[across]) return;
+  const DoubleDouble share = twoSum(plane(v, across), -a[across]) / twoSum(b[across], -a[across]);
+  for (int d = 0; d < 3; ++d) {
+    if (!onPlane(v, d)) place[d] = a[d] + share * twoSum(b[d], -a[d]);
+  }
+}
+
+/// A crossing of a triangle's plane with a grid line.
+void Places::placeInTriangle(size_t v, size_t triangle, Vector<DoubleDouble>& place) const {
+  const int w = onPlane(v, 0) ? (onPlane(v, 1) ? 2 : 1) : 0, p = (w + 1) % 3, q = (w + 2) % 3;
+  const double* a = corner(triangle, 0);
+  const Vector<DoubleDouble> normal = triangleNormal(triangle);
+  if (normal[w].high == 0) return;
+  const DoubleDouble slope = normal[p] * twoSum(plane(v, p), -a[p]) + normal[q] * twoSum(plane(v, q), -a[q]);
+  place[w] = a[w] - slope / normal[w];
+}
+
+/// The place, unless it is off the vertex's position by more than rounding: tri-vertices that snapping moves but that are no vertices of
+/// the cut-mesh (outside of the grid, or welded by the move) have left no trace, and what is made from their old coordinates is wrong.
+Vector<DoubleDouble> Places::checked(size_t v, const Vector<DoubleDouble>& place) const {
+  for (int d = 0; d < 3; ++d) {
+    const double position = cutMesh_.positions[3 * v + d];
+    const auto& planes = cutMesh_.grid.planes[d];
+    const size_t c = std::min<size_t>(size_t(cutMesh_.vertexCell[3 * v + d]), planes.size() - 2);
+    if (!(std::fabs(place[d].high - position) <= 0x1p-40 * (planes[c + 1] - planes[c]) + 0x1p-48 * std::fabs(position))) {
+      return {cutMesh_.positions[3 * v], cutMesh_.positions[3 * v + 1], cutMesh_.positions[3 * v + 2]};
+    }
+  }
+  return place;
+}
+
+}  // namespace mandoline::measuring

@@ -1,0 +1,28 @@
+// Volumes of regions.
+#include "base/double_double.h"
+#include "mandoline/measure.h"
+
+namespace mandoline {
+
+std::vector<double> regionVolumes(const CutMesh& cutMesh, const Measures& measures) {
+  using detail::DoubleDouble;
+  if (measures.cellVolume.size() != cutMesh.cellCount()) {
+    throw CallError({Status::badArgument, -1, -1,
+                     "The measures are not of this cut-mesh: they have the volumes of " + std::to_string(measures.cellVolume.size()) +
+                         " cut-cells, it has " + std::to_string(cutMesh.cellCount()) + "."});
+  }
+  std::vector<DoubleDouble> sums(cutMesh.regionCount);
+  for (size_t c = 0; c < cutMesh.cellCount(); ++c) sums[cutMesh.cellRegion[c]] += measures.cellVolume[c];
+  const auto extent = [&](size_t d, int32_t begin, int32_t end) {
+    const std::vector<double>& planes = cutMesh.grid.planes[d];
+    return detail::twoSum(planes[size_t(end)], -planes[size_t(begin)]);
+  };
+  UntouchedCells(cutMesh).forEach([&](const UntouchedCells::Run& run) {
+    sums[run.region] += extent(1, run.j, run.j + 1) * extent(2, run.k, run.k + 1) * extent(0, run.begin, run.end);
+  });
+  std::vector<double> volumes(sums.size());
+  for (size_t r = 0; r < sums.size(); ++r) volumes[r] = double(sums[r]);
+  return volumes;
+}
+
+}  // namespace mandoline

@@ -1,0 +1,13 @@
+// Whether a mesh can be the one that a cut-mesh was made from.
+#pragma once
+
+#include "mandoline/cut_mesh.h"
+#include "mandoline/status.h"
+
+namespace mandoline::measuring {
+
+/// Throws CallError unless the mesh has the triangles and tri-vertices that the cut-mesh names, where it has them (on planes they may have
+/// been snapped). Then nothing that looks up the cut-mesh's triangles or tri-vertices in the mesh goes astray.
+void requireInput(const MeshView& mesh, const CutMesh& cutMesh);
+
+}  // namespace mandoline::measuring

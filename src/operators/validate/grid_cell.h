@@ -1,0 +1,76 @@
+// One grid cell with its cut-cells, for the checks that work by grid cell.
+#pragma once
+
+#include "operators/validate/context.h"
+#include "operators/validate/triangle_bins.h"
+
+namespace mandoline::validation {
+
+/// The cut-cells of one grid cell, in coordinates of that cell: 0 to 1 per axis.
+struct GridCell {
+  struct Face {
+    uint32_t id;
+    int32_t owner[2];  ///< cut-cell of side 0 and 1 if it lies in this grid cell, else -1
+    uint32_t firstCorner, lastCorner;
+    int side;              ///< 2 * axis + which end, if it lies in the cell's boundary, else -1
+    Vec3 low, high;        ///< bounding box
+    double volume;         ///< of the cone from the face to the grid cell's lowest corner
+    double volumeNoise;    ///< how much of it one rounding changes
+    Vec3 area, areaNoise;  ///< vector area, and the same for its components
+  };
+
+  explicit GridCell(const Context& context_) : context(context_) {}
+  /// Becomes the grid cell of a group.
+  void gather(size_t group);
+  Vec3 local(const Vec3& p) const { return {{(p[0] - low[0]) / size[0], (p[1] - low[1]) / size[1], (p[2] - low[2]) / size[2]}}; }
+
+  const Context& context;
+  std::array<int32_t, 3> index{};
+  Vec3 low, size;
+  Vec3 noise;                          ///< one rounding
+  std::span<const uint32_t> cells;     ///< its cut-cells, ascending
+  std::vector<Face> faces;             ///< by ascending id
+  std::vector<uint32_t> cornerVertex;  ///< loops of all faces
+  std::vector<uint32_t> cornerNext;    ///< the next corner of the loop
+  std::vector<Vec3> corners;           ///< their positions
+
+ private:
+  struct Listing {
+    uint32_t halfFace;
+    int32_t cell;
+  };
+  void addFace(uint32_t id);
+  void addLoop(Face& face, std::span<const uint32_t> loop);
+  std::vector<Listing> listings_;
+};
+
+/// An edge by its vertices, the lower one first.
+using Edge = std::array<uint32_t, 2>;
+
+/// The faces of a grid cell in square bins, seen along an axis; without those that lie in its boundary parallel to that.
+class FaceBins {
+ public:
+  void build(const GridCell& cell, int axis);
+  /// f(face) for the faces in the bins of a box, some of them repeatedly.
+  template <class F>
+  void forFaces(const Vec3& low, const Vec3& high, F&& f) const {
+    const int d = (axis_ + 1) % 3, e = (axis_ + 2) % 3;
+    for (size_t j = binOf(low[e]); j <= binOf(high[e]); ++j) {
+      for (size_t b = j * size_t(bins_) + binOf(low[d]); b <= j * size_t(bins_) + binOf(high[d]); ++b) {
+        for (uint32_t i = offsets_[b]; i < offsets_[b + 1]; ++i) f(faces_[i]);
+      }
+    }
+  }
+
+ private:
+  size_t binOf(double x) const { return binIndex(x * bins_, bins_); }
+
+  int axis_ = 0, bins_ = 1;
+  std::vector<uint32_t> offsets_, faces_;
+};
+
+/// Where a point is on a face, seen along an axis; open if nearer to the face's edges than the margin.
+enum class Place { outside, inside, open };
+Place placeOn(const GridCell& cell, const GridCell::Face& face, int axis, const Vec3& point, const Vec3& margin);
+
+}  // namespace mandoline::validation

@@ -1,0 +1,147 @@
+// The checks that look at one grid cell after the other. Each keeps its tallies and its buffers.
+#pragma once
+
+#include "base/disjoint_sets.h"
+#include "operators/validate/grid_cell.h"
+#include "operators/validate/passes.h"
+
+namespace mandoline::validation {
+
+/// What the edges of a grid cell tell.
+struct CellEdges {
+  std::vector<Edge> edges;      ///< ascending, without repeats
+  std::vector<uint32_t> shell;  ///< per half-face (2 * face + side, by place in cell.faces): the lowest one that bounds the same shell
+};
+
+/// Around each cut-edge, faces that follow one another face the same cut-cell; edges cancel.
+class EdgeCheck {
+ public:
+  const CellEdges& run(const GridCell& cell);
+  void merge(const EdgeCheck& next);
+  Check closedCells() const { return closed_.finish(); }
+  Check facingFaces() const;
+
+ private:
+  struct Use {
+    Edge edge;
+    uint32_t face;
+    bool forward;  ///< whether the face runs from the lower vertex to the higher one
+  };
+  void collectUses(const GridCell& cell);
+  void checkCancel(const GridCell& cell, std::span<const Use> uses);
+  void join(const GridCell& cell, const Use& use, const Use& next);
+  bool sortByAngle(const GridCell& cell, std::span<Use> uses);
+  void joinLoosely(const GridCell& cell, std::span<const Use> uses);
+
+  std::vector<Use> uses_;
+  detail::DisjointSets shells_;
+  CellEdges found_;
+  std::vector<std::pair<int32_t, int32_t>> directions_;
+  std::vector<std::pair<double, Use>> angles_;
+  uint64_t unjudged_ = 0;
+  Tally closed_{"closedCells"}, facing_{"facingFaces"};
+};
+
+/// No vertex lies inside an edge of the same grid cell.
+class ConformingCheck {
+ public:
+  void run(const GridCell& cell, const std::vector<Edge>& edges);
+  void merge(const ConformingCheck& next) { conforming_.merge(next.conforming_); }
+  Check conforming() const { return conforming_.finish(); }
+
+ private:
+  struct Vertex {
+    uint32_t id;
+    Vec3 position;
+  };
+  void gatherVertices(const GridCell& cell, const std::vector<Edge>& edges);
+  void checkVertex(const GridCell& cell, const Edge& edge, uint32_t vertex);
+
+  std::vector<uint32_t> ids_;
+  std::vector<Vertex> sorted_[3];  // vertices of the grid cell, along each axis
+  Tally conforming_{"conforming"};
+};
+
+/// No edge crosses a tri-face.
+class CrossingCheck {
+ public:
+  void run(const GridCell& cell, const std::vector<Edge>& edges);
+  void merge(const CrossingCheck& next) { crossings_.merge(next.crossings_); }
+  Check crossings() const { return crossings_.finish(); }
+
+ private:
+  void checkEdge(const GridCell& cell, const Vec3& from, const Vec3& to, uint32_t face);
+
+  FaceBins bins_;
+  Tally crossings_{"crossings"};
+};
+
+/// Shells and volumes of the cut-cells of a grid cell.
+class ShellCheck {
+ public:
+  /// Returns the volume of each of its cut-cells.
+  std::vector<double> run(const GridCell& cell, const std::vector<uint32_t>& shell);
+  void merge(const ShellCheck& next);
+  Check connected() const { return connected_.finish(); }
+  Check distinctCells() const { return distinct_.finish(); }
+  Check cellVolume() const { return cellVolume_.finish(); }
+  Check gridCellVolume() const { return gridCellVolume_.finish(); }
+  Check gridFaceArea() const { return gridFaceArea_.finish(); }
+
+ private:
+  struct Shell {
+    double volume = 0, noise = 0;
+  };
+  struct Cell {
+    uint64_t faces = 0;  // sum of hashes: the same for cells with the same faces
+    double volume = 0, noise = 0;
+    int positive = 0, perhapsPositive = 0;  // shells
+  };
+  void sumShells(const GridCell& cell, const std::vector<uint32_t>& shell);
+  void sumCells(const GridCell& cell, const std::vector<uint32_t>& shell);
+  Cell& cellOf(const GridCell& cell, int32_t id);
+  void checkCells(const GridCell& cell);
+  void checkSides(const GridCell& cell);
+  void checkDistinct(const GridCell& cell);
+
+  std::vector<Shell> shells_;  // per half-face, in use where that stands for its shell
+  std::vector<Cell> cells_;
+  Tally connected_{"connected"}, distinct_{"distinctCells"};
+  Tally cellVolume_{"cellVolume", kTolerance}, gridCellVolume_{"gridCellVolume", kTolerance}, gridFaceArea_{"gridFaceArea", kTolerance};
+};
+
+/// Lines through a grid cell pass from cut-cell to cut-cell: each point in exactly one.
+class LineCheck {
+ public:
+  explicit LineCheck(const Context& context);
+  void run(const GridCell& cell);
+  void merge(const LineCheck& next);
+  Check partition() const;
+  /// Points found to lie in cut-cells.
+  const std::vector<Sample>& samples() const { return samples_; }
+
+ private:
+  struct Hit {
+    double low, high;      ///< where on the line it is
+    int32_t below, above;  ///< the cut-cells before and after it, -1 outside the grid cell
+    const GridCell::Face* face;
+  };
+  enum class Verdict { fine, unjudged, broken };
+  Vec3 pointOn(const GridCell& cell, const GridCell::Face& face, int axis);
+  void tryLine(const GridCell& cell, int axis, const GridCell::Face* through);
+  Verdict shoot(const GridCell& cell, int axis, const Vec3& point);
+  bool addHit(const GridCell& cell, int axis, const Vec3& point, const GridCell::Face& face);
+  bool placeHit(const GridCell& cell, int axis, const Vec3& point, Hit& hit) const;
+  Verdict follow(const GridCell& cell, int axis);
+  void sample(const GridCell& cell, int axis, Vec3 point);
+
+  Random random_{1};   // started anew in each grid cell
+  uint64_t work_ = 0;  // edges compared with lines, in this grid cell
+  uint64_t lines_ = 0, unjudged_ = 0, skipped_ = 0, stride_ = 1;
+  FaceBins bins_;
+  std::vector<Hit> hits_;
+  std::vector<Sample> samples_;
+  Tally partition_{"partition"};
+};
+
+}  // namespace mandoline::validation
