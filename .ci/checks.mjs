@@ -22,6 +22,8 @@ for (const mesh of [writeTorusKnot('build'), ...scans.filter((scan) => existsSyn
 build('build-fuzz', '-DCMAKE_CXX_COMPILER=clang++', '-DMANDOLINE_BUILD_FUZZ=ON', '-DMANDOLINE_BUILD_TESTS=OFF', '-DMANDOLINE_BUILD_CLI=OFF', ...debug);
 mkdirSync(path('build-fuzz', 'corpus'), { recursive: true });
 run('build-fuzz/mandoline-fuzz', '-max_total_time=90', '-max_len=256', '-timeout=20', '-print_final_stats=1', 'build-fuzz/corpus', 'tests/fuzz_corpus');
+mkdirSync(path('build-fuzz', 'reader-corpus'), { recursive: true });
+run('build-fuzz/mandoline-fuzz-readers', '-max_total_time=30', '-max_len=2048', '-rss_limit_mb=4096', 'build-fuzz/reader-corpus');
 
 build('build-sanitize', '-DMANDOLINE_SANITIZE=ON', ...debug);
 run('ctest', '--test-dir', 'build-sanitize', '--output-on-failure', '--parallel', jobs, '-E', 'corpus(32|64)');
