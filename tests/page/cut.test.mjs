@@ -3,7 +3,7 @@ import { after, test } from 'node:test';
 import { torus, writeObj } from '../package/meshes.mjs';
 import { dataOf, enter, eventually, isReady, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
 import { looksLike } from './pictures.mjs';
-import { cutOf, galleryMesh } from './reference.mjs';
+import { cutOf, galleryMesh, mandoline } from './reference.mjs';
 
 const mesh = torus(24, 12);
 const site = await startSite({ files: { 'torus.obj': writeObj(mesh) } });
@@ -168,4 +168,6 @@ test('the stages and their times', async (t) => {
   const { cutMesh } = await cutOf(mesh, { cells: 8 });
   assert.equal(await page.locator('#stage-times tr').count(), cutMesh.stats.stages.length);
   assert.match(await textOf(page, '#cut-details'), new RegExp(`vertices ${(cutMesh.positions.length / 3).toLocaleString('en')} `));
+  const edges = mandoline.cutEdges(mesh, cutMesh).edgeLength.length;
+  await eventually(async () => assert.equal(await textOf(page, '#cut-details .edges'), edges.toLocaleString('en')));
 });

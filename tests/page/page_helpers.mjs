@@ -8,7 +8,7 @@ import { chromium } from 'playwright-core';
 import { serveFolder } from '../package/static_server.mjs';
 
 const builtPage = process.env.MANDOLINE_PAGE ?? fileURLToPath(new URL('../../web/dist', import.meta.url));
-const browserArgs = [
+export const browserArgs = [
   '--headless', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run',
   '--disable-background-networking', '--disable-component-update', '--disable-sync',
 ];

@@ -29,6 +29,8 @@ export interface Calls {
   cut: { ask: Recipe; answer: Model };
   slice: { ask: AboutCut<{ planes: readonly { normal: Vector3; offset: number }[]; untouched: boolean }>; answer: Slice[] };
   validate: { ask: AboutCut; answer: Validation };
+  /** The number of cut-edges. */
+  edges: { ask: AboutCut; answer: number };
   card: { ask: AboutCut<{ cell: number }>; answer: CellCard };
   step: { ask: AboutCut<{ request: StepRequest }>; answer: StepPicture };
   write: { ask: AboutCut<{ format: 'json' | 'vtu' | 'obj' }>; answer: Uint8Array };

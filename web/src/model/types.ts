@@ -79,7 +79,7 @@ export interface Model {
   meshMax: Vector3;
   triangleCount: number;
   droppedTriangles: number;
-  counts: { cutCells: number; untouchedCells: number; faces: number; vertices: number; edges: number; regions: number };
+  counts: { cutCells: number; untouchedCells: number; faces: number; vertices: number; regions: number };
   stats: CutStats;
   regions: RegionInfo[];
   /** The region in the grid's lowest corner. It counts as the outside if there are no winding numbers. */
@@ -91,10 +91,10 @@ export interface Model {
     position: Float32Array;
     /** Per vertex: the cut-cell. */
     cell: Uint32Array;
-    /** Per vertex: 1 on pieces of triangles, 0 on pieces of grid-faces. */
-    surface: Uint8Array;
-    /** 3 vertices per triangle. */
+    /** 3 vertices per triangle: first those of pieces of triangles, then those of pieces of grid-faces. */
     index: Uint32Array;
+    /** Where the latter begin in `index`. */
+    surfaceEnd: number;
   };
   /** Edges of all cut-cells, once for each of their cells: 2 vertices of `triangles` per edge. */
   edges: { index: Uint32Array };
@@ -165,6 +165,8 @@ export interface Engine {
   /** Caps of the planes through the current cut-mesh; planes in world units. */
   slice(planes: { normal: Vector3; offset: number }[], untouched: boolean): Promise<Slice[]>;
   validate(): Promise<Validation>;
+  /** The number of cut-edges, which few ask for. */
+  countEdges(): Promise<number>;
   card(cell: number): Promise<CellCard>;
   step(request: StepRequest): Promise<StepPicture>;
   write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array>;

@@ -327,6 +327,10 @@ export class App {
     return this.ask(this.engine.validate());
   }
 
+  countEdges(): Promise<number | null> {
+    return this.ask(this.engine.countEdges());
+  }
+
   write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array | null> {
     return this.ask(this.engine.write(format));
   }

@@ -117,6 +117,10 @@ class WorkerEngine implements Engine {
     return this.aboutNewest((recipe) => this.call('validate', { recipe }));
   }
 
+  countEdges(): Promise<number> {
+    return this.aboutShown((recipe) => this.call('edges', { recipe }));
+  }
+
   step(request: StepRequest): Promise<StepPicture> {
     return this.aboutNewest((recipe) => this.call('step', { recipe, request }));
   }

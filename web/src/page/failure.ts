@@ -10,6 +10,7 @@ const titles: Record<CallName, string> = {
   cut: "The mesh can't be cut",
   slice: "The cells can't be sliced",
   validate: "The cut-mesh can't be validated",
+  edges: "The edges can't be counted",
   card: "The cell can't be shown",
   step: "The step can't be shown",
   write: "The file can't be written",

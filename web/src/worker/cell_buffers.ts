@@ -1,87 +1,100 @@
 import type { CutMesh, FaceTriangles } from 'mandoline-wasm';
 import type { Model } from '../model/types';
-import { forEachCellEdge } from './edges';
 
 type Buffers = Pick<Model, 'triangles' | 'edges'>;
 
-/** Triangles and edges of all cut-cells. The faces of a cell share their vertices; pieces of triangles and of grid-faces have their own. */
+/** Triangles and edges of all cut-cells. The faces of a cell share their vertices. */
 export function cellBuffers(cutMesh: CutMesh, faceTriangles: FaceTriangles, origin: readonly number[]): Buffers {
-  const { vertices, triangles, edges } = countBuffers(cutMesh, faceTriangles);
-  const position = new Float32Array(3 * vertices);
-  const cell = new Uint32Array(vertices);
-  const surface = new Uint8Array(vertices);
-  const triangleIndex = new Uint32Array(3 * triangles);
-  const edgeIndex = new Uint32Array(2 * edges);
-  const { positions } = cutMesh;
-  const idOf = new Uint32Array(2 * (positions.length / 3));
-  let [vertexEnd, triangleEnd, edgeEnd] = [0, 0, 0];
-  walk(cutMesh, {
-    vertex: (vertex, isSurface, owner) => {
-      for (let d = 0; d < 3; d++) position[3 * vertexEnd + d] = positions[3 * vertex + d] - origin[d];
-      cell[vertexEnd] = owner;
-      surface[vertexEnd] = isSurface;
-      idOf[2 * vertex + isSurface] = vertexEnd++;
+  const counts = countBuffers(cutMesh, faceTriangles);
+  const made = {
+    // Every vertex of a cell is an end of two of its edges at least.
+    position: new Float32Array(3 * counts.edges),
+    cell: new Uint32Array(counts.edges),
+    triangles: new Uint32Array(3 * (counts.surface + counts.grid)),
+    edges: new Uint32Array(2 * counts.edges),
+  };
+  const vertices = fill(made, 3 * counts.surface, cutMesh, faceTriangles, origin);
+  return {
+    triangles: {
+      position: made.position.slice(0, 3 * vertices),
+      cell: made.cell.slice(0, vertices),
+      index: made.triangles,
+      surfaceEnd: 3 * counts.surface,
     },
-    edge: (from, to, isSurface) => {
-      edgeIndex[edgeEnd++] = idOf[2 * from + isSurface];
-      edgeIndex[edgeEnd++] = idOf[2 * to + isSurface];
-    },
-    halfFace: (face, side, isSurface) => {
-      for (let t = faceTriangles.faceTriangleOffsets[face]; t < faceTriangles.faceTriangleOffsets[face + 1]; t++) {
-        // Side 1 sees the face from behind.
-        for (let k = 0; k < 3; k++) {
-          const vertex = faceTriangles.triangles[3 * t + (side === 0 ? k : 2 - k)];
-          triangleIndex[triangleEnd++] = idOf[2 * vertex + isSurface];
-        }
-      }
-    },
-  });
-  return { triangles: { position, cell, surface, index: triangleIndex }, edges: { index: edgeIndex } };
+    edges: { index: made.edges },
+  };
 }
 
-function countBuffers(cutMesh: CutMesh, { faceTriangleOffsets }: FaceTriangles): { vertices: number; triangles: number; edges: number } {
-  const { faceLoopOffsets, loopOffsets } = cutMesh;
-  const counts = { vertices: 0, triangles: 0, edges: 0 };
-  walk(cutMesh, {
-    vertex: () => counts.vertices++,
-    halfFace: (face) => {
-      counts.triangles += faceTriangleOffsets[face + 1] - faceTriangleOffsets[face];
-      // Every edge of a cell is met twice.
-      counts.edges += (loopOffsets[faceLoopOffsets[face + 1]] - loopOffsets[faceLoopOffsets[face]]) / 2;
-    },
-  });
+function countBuffers(cutMesh: CutMesh, { faceTriangleOffsets }: FaceTriangles): { surface: number; grid: number; edges: number } {
+  const { cellHalfFaces, faceLoopOffsets, loopOffsets, faceTriangle } = cutMesh;
+  const counts = { surface: 0, grid: 0, edges: 0 };
+  let corners = 0;
+  for (let h = 0; h < cellHalfFaces.length; h++) {
+    const face = cellHalfFaces[h] >> 1;
+    const triangles = faceTriangleOffsets[face + 1] - faceTriangleOffsets[face];
+    if (faceTriangle[face] >= 0) counts.surface += triangles;
+    else counts.grid += triangles;
+    corners += loopOffsets[faceLoopOffsets[face + 1]] - loopOffsets[faceLoopOffsets[face]];
+  }
+  counts.edges = corners / 2; // Every edge of a cell is met twice.
   return counts;
 }
 
-interface Visitor {
-  /** A vertex that the faces of this kind have not had in this cell. */
-  vertex(vertex: number, isSurface: 0 | 1, cell: number): void;
-  /** After its vertices. */
-  halfFace(face: number, side: number, isSurface: 0 | 1): void;
-  /** After its vertices; of a kind of faces that has both ends. */
-  edge?(from: number, to: number, isSurface: 0 | 1): void;
+interface Arrays {
+  position: Float32Array;
+  cell: Uint32Array;
+  triangles: Uint32Array;
+  edges: Uint32Array;
 }
 
-function walk(cutMesh: CutMesh, visitor: Visitor): void {
-  const { cellHalfFaceOffsets, cellHalfFaces, faceLoopOffsets, loopOffsets, loopVertices, faceTriangle } = cutMesh;
-  const isPieceOfTriangle = (face: number) => (faceTriangle[face] >= 0 ? 1 : 0);
-  const visitEdge = (from: number, to: number, face: number) => visitor.edge?.(from, to, isPieceOfTriangle(face));
-  const lastCell = new Int32Array(2 * (cutMesh.positions.length / 3)).fill(-1);
-  for (let cell = 0; cell + 1 < cellHalfFaceOffsets.length; cell++) {
-    for (let h = cellHalfFaceOffsets[cell]; h < cellHalfFaceOffsets[cell + 1]; h++) {
+/**
+ * Returns the number of vertices. A vertex has an id of the cell at hand if its last one is not below the cell's first. The half-faces of a
+ * cell run through an edge equally often forth and back, so one direction finds it.
+ */
+function fill(made: Arrays, gridBegin: number, cutMesh: CutMesh, faceTriangles: FaceTriangles, [ox, oy, oz]: readonly number[]): number {
+  const { position, cell, triangles, edges } = made;
+  const { positions, cellHalfFaceOffsets, cellHalfFaces, faceLoopOffsets, loopOffsets, loopVertices, faceTriangle } = cutMesh;
+  const { faceTriangleOffsets, triangles: corners } = faceTriangles;
+  const idOf = new Int32Array(positions.length / 3).fill(-1);
+  let vertexEnd = 0;
+  let edgeEnd = 0;
+  let surfaceEnd = 0;
+  let gridEnd = gridBegin;
+  for (let owner = 0; owner + 1 < cellHalfFaceOffsets.length; owner++) {
+    const first = vertexEnd;
+    for (let h = cellHalfFaceOffsets[owner]; h < cellHalfFaceOffsets[owner + 1]; h++) {
       const face = cellHalfFaces[h] >> 1;
-      const side = cellHalfFaces[h] & 1;
-      const isSurface = isPieceOfTriangle(face);
+      const reversed = (cellHalfFaces[h] & 1) === 1;
       for (let loop = faceLoopOffsets[face]; loop < faceLoopOffsets[face + 1]; loop++) {
-        for (let at = loopOffsets[loop]; at < loopOffsets[loop + 1]; at++) {
+        const end = loopOffsets[loop + 1];
+        for (let at = loopOffsets[loop]; at < end; at++) {
           const vertex = loopVertices[at];
-          if (lastCell[2 * vertex + isSurface] === cell) continue;
-          lastCell[2 * vertex + isSurface] = cell;
-          visitor.vertex(vertex, isSurface, cell);
+          if (idOf[vertex] >= first) continue;
+          position[3 * vertexEnd] = positions[3 * vertex] - ox;
+          position[3 * vertexEnd + 1] = positions[3 * vertex + 1] - oy;
+          position[3 * vertexEnd + 2] = positions[3 * vertex + 2] - oz;
+          cell[vertexEnd] = owner;
+          idOf[vertex] = vertexEnd++;
+        }
+        let from = loopVertices[end - 1];
+        for (let at = loopOffsets[loop]; at < end; at++) {
+          const to = loopVertices[at];
+          if (from < to !== reversed) {
+            edges[edgeEnd++] = idOf[from];
+            edges[edgeEnd++] = idOf[to];
+          }
+          from = to;
         }
       }
-      visitor.halfFace(face, side, isSurface);
+      let out = faceTriangle[face] >= 0 ? surfaceEnd : gridEnd;
+      const begin = 3 * faceTriangleOffsets[face];
+      const end = 3 * faceTriangleOffsets[face + 1];
+      // Side 1 sees the face from behind.
+      if (reversed) for (let corner = end - 1; corner >= begin; corner--) triangles[out++] = idOf[corners[corner]];
+      else for (let corner = begin; corner < end; corner++) triangles[out++] = idOf[corners[corner]];
+      if (faceTriangle[face] >= 0) surfaceEnd = out;
+      else gridEnd = out;
     }
-    if (visitor.edge) forEachCellEdge(cutMesh, cell, visitEdge);
   }
+  return vertexEnd;
 }

@@ -5,7 +5,7 @@ import { cellBuffers } from './cell_buffers';
 import type { Cut } from './kept';
 
 export function makeModel(mandoline: Mandoline, name: string, cut: Cut): Model {
-  const { recipe, mesh, bounds, cutMesh, origin } = cut;
+  const { recipe, bounds, cutMesh, origin } = cut;
   const { planes } = cutMesh.grid;
   const regions = regionInfo(cut);
   return {
@@ -23,7 +23,6 @@ export function makeModel(mandoline: Mandoline, name: string, cut: Cut): Model {
       untouchedCells: regions.reduce((sum, region) => sum + region.untouchedCells, 0),
       faces: cutMesh.faceTriangle.length,
       vertices: cutMesh.positions.length / 3,
-      edges: mandoline.cutEdges(mesh, cutMesh).edgeLength.length,
       regions: cutMesh.regionCount,
     },
     stats: cutMesh.stats,

@@ -1,5 +1,5 @@
-// The page's worker thread: the package's own calls, and beside them the page's. Meshes and cut-meshes stay here; only what is drawn or told
-// goes to the page, which owns it then.
+// The page's worker thread: the package's own calls, and beside them the page's. Meshes and cut-meshes stay here; only what is drawn or
+// told goes to the page, which owns it then.
 import type { Mandoline } from 'mandoline-wasm';
 import { serve } from 'mandoline-wasm/worker-thread';
 import type { CallName, CallProgress, Calls } from '../model/calls';
@@ -34,6 +34,10 @@ const calls: Answering = {
   validate(mandoline, { recipe }) {
     const { mesh, cutMesh } = cutOf(mandoline, recipe);
     return mandoline.validate(mesh, cutMesh, { snapTolerance: recipe.snapTolerance });
+  },
+  edges(mandoline, { recipe }) {
+    const { mesh, cutMesh } = cutOf(mandoline, recipe);
+    return mandoline.cutEdges(mesh, cutMesh).edgeLength.length;
   },
   card: (mandoline, { recipe, cell }) => cellCard(mandoline, cutOf(mandoline, recipe), cell),
   step(mandoline, { recipe, request }) {

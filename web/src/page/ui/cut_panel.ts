@@ -60,16 +60,27 @@ function counts(app: App): HTMLElement {
 /** What only some will want to know: custom grids, stage times, what was left out. */
 function finePrint(app: App): HTMLElement {
   const body = el('div', { id: 'cut-details' });
-  app.events.on('model', (model) => body.replaceChildren(...(model ? [moreCounts(model), stageTimes(model), leftOut(model)] : [])));
   const times = el('details', {}, el('summary', {}, 'Timings and details'), body);
+  const showEdges = async () => {
+    const { model } = app;
+    const edges = times.open && model ? await app.countEdges() : null;
+    const place = body.querySelector('.edges');
+    if (edges !== null && place && model === app.model) place.textContent = integer(edges);
+  };
+  times.addEventListener('toggle', () => void showEdges());
+  app.events.on('model', (model) => {
+    body.replaceChildren(...(model ? [moreCounts(model), stageTimes(model), leftOut(model)] : []));
+    void showEdges();
+  });
   return el('div', {}, el('details', { id: 'custom-grid' }, el('summary', {}, 'Custom grid'), customGrid(app)), times);
 }
 
-function moreCounts({ counts: { faces, vertices, edges }, stats }: Model): HTMLElement {
+/** The edges are counted when they are seen. */
+function moreCounts({ counts: { faces, vertices }, stats }: Model): HTMLElement {
   return terms(
     [
       ['faces', integer(faces)],
-      ['edges', integer(edges)],
+      ['edges', el('span', { class: 'edges' }, '…')],
       ['vertices', integer(vertices)],
       ['signs decided by exact arithmetic', integer(stats.exactFallbacks)],
     ],

@@ -1,20 +1,24 @@
 // The cut-cells: one draw call for all faces, one for all edges.
-import { BufferAttribute, BufferGeometry, Float32BufferAttribute, Group, LineSegments, Mesh, type DataTexture } from 'three';
+import { BufferAttribute, BufferGeometry, Float32BufferAttribute, Group, LineSegments, Mesh } from 'three';
+import type { DataTexture, ShaderMaterial } from 'three';
 import type { Model, Settings } from '../../model/types';
 import { cutCellColors, gridFaceColor, type Rgb } from './colors';
 import { regionShifts } from './look';
-import { makeMaterial, makeTable, type Uniforms } from './material';
+import { makeMaterial, makeTable, type Purpose, type Uniforms } from './material';
 import { paler, type Piece } from './piece';
 import { isBeyond, isBoxBeyond, type ViewPlane } from './planes';
 
+/** Drawn in two groups: pieces of triangles, and pieces of grid-faces. */
+type Faces = Mesh<BufferGeometry, [ShaderMaterial, ShaderMaterial]>;
+
 export class CutCells {
   readonly group = new Group();
-  readonly pick: Mesh;
-  readonly ghost: Mesh;
+  readonly pick: Faces;
+  readonly ghost: Faces;
   /** RGB, and whether it is shown, per cell. */
   looks = new Uint8Array(0);
-  private readonly faces: Mesh;
-  private readonly backs: Mesh;
+  private readonly faces: Faces;
+  private readonly backs: Faces;
   private readonly lines: LineSegments;
   /** 3 per region: how it moves in an explosion by region. */
   shifts: Float32Array = new Float32Array(0);
@@ -23,10 +27,16 @@ export class CutCells {
 
   constructor(private readonly uniforms: Uniforms) {
     const empty = new BufferGeometry();
-    this.faces = new Mesh(empty, makeMaterial('CELLS', 'FACES', uniforms));
-    this.backs = new Mesh(empty, makeMaterial('CELLS', 'BACKS', uniforms));
-    this.pick = new Mesh(empty, makeMaterial('CELLS', 'PICK', uniforms));
-    this.ghost = new Mesh(empty, makeMaterial('CELLS', 'GHOST', uniforms));
+    for (const kind of [0, 1]) empty.addGroup(0, Infinity, kind);
+    const makeFaces = (purpose: Purpose): Faces => {
+      const material = (isSurface: boolean) => makeMaterial('CELLS', purpose, uniforms, { isSurface: { value: isSurface } });
+      return new Mesh(empty, [material(true), material(false)]);
+    };
+    this.faces = makeFaces('FACES');
+    this.backs = makeFaces('BACKS');
+    this.pick = makeFaces('PICK');
+    this.ghost = makeFaces('GHOST');
+    this.ghost.material[1].visible = false;
     this.lines = new LineSegments(new BufferGeometry(), makeMaterial('CELLS', 'LINES', uniforms));
     this.group.add(this.faces, this.backs, this.lines);
     for (const object of [this.faces, this.backs, this.pick, this.ghost, this.lines]) object.frustumCulled = false;
@@ -39,8 +49,9 @@ export class CutCells {
     const faces = new BufferGeometry();
     faces.setAttribute('position', new BufferAttribute(triangles.position, 3));
     faces.setAttribute('cell', new BufferAttribute(triangles.cell, 1));
-    faces.setAttribute('surface', new BufferAttribute(triangles.surface, 1));
     faces.setIndex(new BufferAttribute(triangles.index, 1));
+    faces.addGroup(0, triangles.surfaceEnd, 0);
+    faces.addGroup(triangles.surfaceEnd, triangles.index.length - triangles.surfaceEnd, 1);
     for (const mesh of [this.faces, this.backs, this.pick, this.ghost]) mesh.geometry = faces;
     const lines = new BufferGeometry();
     for (const name of ['position', 'cell']) lines.setAttribute(name, faces.getAttribute(name));
@@ -78,15 +89,18 @@ export class CutCells {
     // Of a face between two shown cells only the front is drawn, so neighbours don't fight for its pixels; without the rest of the boundary
     // one looks into cells and sees the backs as well.
     this.backs.visible = !(show.surface && show.gridFaces);
-    this.faces.visible = show.surface || show.gridFaces;
+    for (const { material } of [this.faces, this.backs, this.pick]) {
+      material[0].visible = show.surface;
+      material[1].visible = show.gridFaces;
+    }
     this.lines.visible = show.edges;
   }
 
   forEachPiece(model: Model, { show, colorBy }: Settings, take: (piece: Piece) => void): void {
-    const { position, cell: cells, surface, index } = model.triangles;
+    const { position, cell: cells, index, surfaceEnd } = model.triangles;
     for (let at = 0; at < index.length; at += 3) {
       const cell = cells[index[at]];
-      const isSurface = surface[index[at]] === 1;
+      const isSurface = at < surfaceEnd;
       if (!this.isShown(cell) || !(isSurface ? show.surface : show.gridFaces)) continue;
       const own = this.looks.subarray(4 * cell, 4 * cell + 3) as unknown as Rgb;
       const ofGrid = colorBy === 'kind' ? gridFaceColor : paler(own);

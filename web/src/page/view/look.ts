@@ -10,15 +10,13 @@ export function shownRegions(model: Model, { show }: Settings): Uint8Array {
 
 /** Whether most of the surface has the outside on both sides, and is hidden with it: an open sheet, a mesh with holes. */
 export function isSheet(model: Model): boolean {
-  const { cell, surface, index } = model.triangles;
+  const { cell, index, surfaceEnd } = model.triangles;
   const isOuter = model.regions.map(({ id }) => isOutside(model, id));
   // A piece with the outside on both sides counts twice, one between the outside and an inside once for each.
   let outer = 0;
   let inner = 0;
-  for (let at = 0; at < index.length; at += 3) {
-    const vertex = index[at];
-    if (surface[vertex] === 0) continue;
-    if (isOuter[model.cells.region[cell[vertex]]]) outer++;
+  for (let at = 0; at < surfaceEnd; at += 3) {
+    if (isOuter[model.cells.region[cell[index[at]]]]) outer++;
     else inner++;
   }
   return outer > 3 * inner;

@@ -33,8 +33,6 @@ export function makeUniforms() {
     planes: { value: [0, 1, 2, 3].map(() => new Vector4()) },
     planeCount: { value: 0 },
     flatCut: { value: false },
-    showSurface: { value: true },
-    showGridFaces: { value: true },
     byKind: { value: false },
     gridFaceColor: { value: new Vector3(...gridFaceColor).divideScalar(255) },
     hovered: { value: -1 },
@@ -87,12 +85,10 @@ flat varying int vCell;
 #ifdef CELLS
   uniform highp sampler2D cellCenters;
   uniform highp sampler2D cellLooks;
-  uniform bool showSurface;
-  uniform bool showGridFaces;
+  uniform bool isSurface;
   uniform bool byKind;
   uniform vec3 gridFaceColor;
   attribute uint cell;
-  attribute float surface;
 #endif
 #ifdef BOXES
   uniform highp sampler2D boxes;
@@ -123,17 +119,12 @@ void main() {
     middle = centerAndRegion.xyz;
     regionId = centerAndRegion.w;
     vColor = look.rgb;
-    #ifdef GHOST
-      shown = surface > 0.5;
-    #else
+    #ifndef GHOST
       shown = look.a > 0.5;
     #endif
     #ifndef LINES
-      #ifndef GHOST
-        shown = shown && (surface > 0.5 ? showSurface : showGridFaces);
-      #endif
       // Pieces of grid-faces are paler, so that they are told from the surface by any colours.
-      if (surface < 0.5) vColor = byKind ? gridFaceColor : mix(vColor, vec3(0.88), 0.22);
+      if (!isSurface) vColor = byKind ? gridFaceColor : mix(vColor, vec3(0.88), 0.22);
     #endif
   #endif
   #ifdef BOXES

@@ -40,6 +40,9 @@ const noSlices: Slices = { count: 0, model: 0, planes: [], slices: [] };
 const longestWait = 400;
 const compileTime = 100;
 
+/** About so many cells share an edge, each of which draws it. */
+const cellsPerEdge = 2.8;
+
 const schemes = {
   light: { background: '#f3f1ec', line: '#1c2430', accent: '#e0218a' },
   dark: { background: '#14181e', line: '#5b6675', accent: '#ff4fa8' },
@@ -448,11 +451,9 @@ class ThreeView implements View {
     uniforms.planeCount.value = planes.length;
     planes.forEach(({ normal, offset }, p) => (uniforms.planes.value[p] = new Vector4(...normal, offset)));
     uniforms.flatCut.value = settings.sliceMode === 'flat';
-    uniforms.showSurface.value = settings.show.surface;
-    uniforms.showGridFaces.value = settings.show.gridFaces;
     uniforms.byKind.value = settings.colorBy === 'kind';
     // So many lines that they fill the picture would only darken it.
-    const pixelsPerEdge = (this.canvas.clientWidth * this.canvas.clientHeight) / model.counts.edges;
+    const pixelsPerEdge = (this.canvas.clientWidth * this.canvas.clientHeight * cellsPerEdge) / (model.edges.index.length / 2);
     uniforms.lineOpacity.value = 0.5 * Math.min(1, Math.max(0.3, Math.sqrt(pixelsPerEdge / 20)));
   }
 
