@@ -7,6 +7,8 @@
 #include <random>
 
 #include "catch.h"
+#include "cut/contradiction.h"
+#include "cut/stages/input.h"
 #include "lattice.h"
 
 using namespace mandoline;
@@ -34,8 +36,9 @@ Input inputOf(const std::vector<Corners>& triangles, const Grid& grid = kGrid) {
   CutStats stats;
   const CutOptions options;
   Monitor monitor(options, 1);
+  Run run{stats, monitor};
   const Mesh mesh = unwelded(triangles);
-  return prepareInput(mesh, grid, 0, stats, monitor);
+  return prepareInput(mesh, grid, 0, run);
 }
 
 /// Whether the first two triangles meet. The answer has to be the same in any order of triangles, corners and axes, and anywhere.

@@ -5,6 +5,7 @@
 #include "catch.h"
 #include "cut/predicates/inner_point.h"
 #include "cut/predicates/radial_order.h"
+#include "cut/stages/input.h"
 #include "cut/stages/planar_graph.h"
 #include "cut/stages/tri_faces.h"
 #include "rational.h"
@@ -129,17 +130,19 @@ struct Cut {
   CutOptions options;
   CutStats stats;
   Monitor monitor{options, 1};
-  Input input;
-  TriEdges edges;
-  CutVertices vertices;
+  Run run{stats, monitor};
+  Surface surface;
+  Input& input = surface.input;
+  TriEdges& edges = surface.edges;
+  CutVertices& vertices = surface.vertices;
   TriFaces faces;
   std::vector<uint32_t> used;  // ids of vertices that there are
   std::vector<Vector> points;  // per id
 
   explicit Cut(const Soup& soup) {
-    input = prepareInput(soup.mesh, soup.grid, 0, stats, monitor);
-    cutTriEdges(input, edges, vertices, stats, monitor);
-    faces = cutTriangles(input, edges, vertices, stats, monitor);
+    input = prepareInput(soup.mesh, soup.grid, 0, run);
+    cutTriEdges(surface, run);
+    faces = cutTriangles(surface, run);
     for (int32_t k = 0; k <= input.cells(2); k += 2) {
       for (int32_t j = 0; j <= input.cells(1); j += 2) {
         for (int32_t i = 0; i <= input.cells(0); i += 2) vertices.append({2 * i, 2 * j, 2 * k});
@@ -200,17 +203,17 @@ struct Cut {
     const Slab& slab = vertices.slabs[v];
     Vector p;
     if (vertices.isOnEdge(v)) {
-      const auto& ends = edges.ends[vertices.parent(v)];
+      const auto& ends = edges.ends[vertices.triEdge(v)];
       for (int d = 0; d < 3; ++d) {
         if (onPlane(slab[d]) && input.points[ends[0]][d] != input.points[ends[1]][d])
-          return onEdge(vertices.parent(v), parameter(vertices.parent(v), d, slab[d] / 2));
+          return onEdge(vertices.triEdge(v), parameter(vertices.triEdge(v), d, slab[d] / 2));
       }
       FAIL("a crossing without a plane");
     }
     for (int d = 0; d < 3; ++d) p[d] = onPlane(slab[d]) ? plane(d, slab[d] / 2) : Rational(0);
     if (!vertices.isInTriangle(v)) return p;
     for (int g = 0; g < 3; ++g) {
-      if (onPlane(slab[(g + 1) % 3]) && onPlane(slab[(g + 2) % 3]) && meetLine(corners(vertices.parent(v)), g, p)) return p;
+      if (onPlane(slab[(g + 1) % 3]) && onPlane(slab[(g + 2) % 3]) && meetLine(corners(vertices.triangle(v)), g, p)) return p;
     }
     FAIL("a vertex in a triangle without a grid line");
     return p;
@@ -308,7 +311,7 @@ TEST_CASE("P2: the grid lines that cross a triangle, and where", "[predicates]")
       std::sort(expected.begin(), expected.end());
       expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
       for (uint32_t v = cut.vertices.firstInTriangle; v < cut.vertices.firstOnGrid; ++v) {
-        if (cut.vertices.parent(v) != t) continue;
+        if (cut.vertices.triEdge(v) != t) continue;
         int g = 0;
         while (area(corners[0], corners[1], corners[2], g).sign() == 0) ++g;
         REQUIRE(Cut::isInside(corners, g, cut.points[v]));
@@ -791,7 +794,7 @@ TEST_CASE("P7: where a point lies beside the vertices and edges of a grid-face",
         REQUIRE(isAbove(cut.vertices, v, shot.point, axis, predicates) == (above > 0));
         ++aboveCounts[above + 1];
         const int side = area(cut.points[u], cut.points[v], shot.truth, axis).sign();
-        REQUIRE(sideOfLine(cut.vertices, u, v, shot.point, axis, predicates) == side);
+        REQUIRE(sideOfLine(cut.vertices, {u, v}, shot.point, axis, predicates) == side);
         sideCounts[side + 1] += u != v;
       }
     }

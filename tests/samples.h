@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <random>
 
-#include "grid/slab.h"
+#include "base/point.h"
 
 enum class Kind { lattice, largeLattice, smallLattice, random, sparse, large, small, wide };
 inline constexpr Kind kKinds[] = {Kind::lattice, Kind::largeLattice, Kind::smallLattice, Kind::random,

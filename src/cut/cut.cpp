@@ -3,8 +3,9 @@
 #include <new>
 #include <stdexcept>
 
+#include "cut/contradiction.h"
+#include "cut/stages/input.h"
 #include "cut/stages/output.h"
-#include "mesh/intersections.h"
 
 namespace mandoline {
 namespace {
@@ -39,46 +40,42 @@ class Clock {
   double start_, last_;
 };
 
-CutMesh cutInput(const MeshView& mesh, const Grid& grid, Input& input, CutStats& stats, Clock& clock, Monitor& monitor) {
-  clock.begin("triEdges");
-  TriEdges edges;
-  CutVertices vertices;
-  cutTriEdges(input, edges, vertices, stats, monitor);
-
-  clock.begin("triFaces");
-  TriFaces triFaces = cutTriangles(input, edges, vertices, stats, monitor);
-
-  clock.begin("stencil");
-  const Stencil stencil = makeStencil(input, edges, triFaces, monitor);
-
-  clock.begin("gridEdges");
-  const GridEdges gridEdges = cutGridEdges(stencil, triFaces, vertices, stats, monitor);
-
-  clock.begin("gridFaces");
-  GridFaces gridFaces = cutGridFaces(input, stencil, gridEdges, triFaces, vertices, stats, monitor);
-
-  clock.begin("cutCells");
-  CutCells cells = makeCutCells(input, edges, stencil, triFaces, gridFaces, vertices, stats, monitor);
-
-  clock.begin("regions");
-  Regions regions = findRegions(input, edges, stencil, triFaces, gridFaces, cells, vertices, stats, monitor);
-
-  clock.begin("output");
-  return makeOutput(mesh, grid, input, stencil, std::move(triFaces), std::move(gridFaces), std::move(cells), std::move(regions), vertices,
-                    stats, monitor);
-}
-
 CutMesh cutMesh(const MeshView& mesh, const Grid& grid, const CutOptions& options, CutStats& stats) {
   Monitor monitor(options, Clock::kStages);
   Clock clock(stats, monitor);
+  Run run{stats, monitor};
+  CutState state;
+  auto& [surface, stencil, faces, cells, regions] = state;
 
   clock.begin("input");
-  Input input = prepareInput(mesh, grid, options.snapTolerance, stats, monitor);
+  surface.input = prepareInput(mesh, grid, options.snapTolerance, run);
   try {
-    return cutInput(mesh, grid, input, stats, clock, monitor);
+    clock.begin("triEdges");
+    cutTriEdges(surface, run);
+
+    clock.begin("triFaces");
+    faces.tri = cutTriangles(surface, run);
+
+    clock.begin("stencil");
+    stencil = makeStencil(surface, faces.tri, run);
+
+    clock.begin("gridEdges");
+    const GridEdges gridEdges = cutGridEdges(stencil, faces.tri, surface.vertices, run);
+
+    clock.begin("gridFaces");
+    faces.grid = cutGridFaces(surface, stencil, gridEdges, faces.tri, run);
+
+    clock.begin("cutCells");
+    cells = makeCutCells(surface, stencil, faces, run);
+
+    clock.begin("regions");
+    regions = findRegions(surface, stencil, faces, cells, run);
+
+    clock.begin("output");
+    return makeOutput(mesh, grid, state, run);
   } catch (const Failure& failure) {
     if (failure.error.status != Status::selfIntersection) throw;
-    throw Failure{explainContradiction(input, failure.error.element, failure.error.element2, stats)};
+    throw Failure{explainContradiction(surface.input, failure.error.element, failure.error.element2, stats)};
   }
 }
 

@@ -9,7 +9,6 @@
 
 namespace mandoline::detail {
 
-using Point = std::array<double, 3>;
 using Slab = std::array<int32_t, 3>;
 
 inline bool onPlane(int32_t slab) { return (slab & 1) == 0; }

@@ -1,117 +1,11 @@
 #include "mesh/intersections.h"
 
-#include <string>
+#include <algorithm>
 
 namespace mandoline::detail {
-namespace {
 
-struct Box {
-  Point low, high;
-
-  bool overlaps(const Box& other) const {
-    for (int d = 0; d < 3; ++d) {
-      if (low[d] > other.high[d] || high[d] < other.low[d]) return false;
-    }
-    return true;
-  }
-  void include(const Box& other) {
-    for (int d = 0; d < 3; ++d) {
-      low[d] = std::min(low[d], other.low[d]);
-      high[d] = std::max(high[d], other.high[d]);
-    }
-  }
-};
-
-Box boxOf(const Input& input, uint32_t t) {
-  const auto& v = input.triangles[t];
-  Box box{input.points[v[0]], input.points[v[0]]};
-  for (int i = 1; i < 3; ++i) box.include({input.points[v[i]], input.points[v[i]]});
-  return box;
-}
-
-/// Triangles that have no part in the cut because the grid ends before them can't have led to a contradiction.
-bool reachesGrid(const Input& input, uint32_t t) {
-  const auto& v = input.triangles[t];
-  for (int d = 0; d < 3; ++d) {
-    const int32_t a = input.slabs[v[0]][d], b = input.slabs[v[1]][d], c = input.slabs[v[2]][d];
-    if (std::max({a, b, c}) < 0 || std::min({a, b, c}) > 2 * input.cells(d)) return false;
-  }
-  return true;
-}
-
-/// A balanced tree of the triangles' boxes: every node halves its triangles by their centres along the longest side of its box.
-class BoxTree {
- public:
-  explicit BoxTree(const Input& input) {
-    for (uint32_t t = 0; t < input.triangles.size(); ++t) {
-      if (input.kept(t) && reachesGrid(input, t)) items_.push_back({boxOf(input, t), t});
-    }
-    if (!items_.empty()) build(0, items_.size());
-  }
-
-  std::vector<uint32_t> triangles() const {
-    std::vector<uint32_t> ids;
-    for (const Item& item : items_) ids.push_back(item.triangle);
-    std::sort(ids.begin(), ids.end());
-    return ids;
-  }
-
-  /// Calls f(triangle) for those whose boxes overlap the given one.
-  template <class F>
-  void forOverlapping(const Box& box, const F& f) const {
-    for (size_t n = 0; n < nodes_.size();) {
-      const Node& node = nodes_[n];
-      const bool overlaps = node.box.overlaps(box);
-      if (overlaps && node.past == n + 1) {
-        for (size_t i = node.begin; i < node.end; ++i) {
-          if (items_[i].box.overlaps(box)) f(items_[i].triangle);
-        }
-      }
-      n = overlaps ? n + 1 : node.past;
-    }
-  }
-
- private:
-  static constexpr size_t kLeaf = 8;
-
-  struct Item {
-    Box box;
-    uint32_t triangle;
-  };
-  /// In depth-first order, so that past a node comes what is not below it; a leaf has nothing below.
-  struct Node {
-    Box box;
-    size_t begin, end, past;
-  };
-
-  void build(size_t begin, size_t end) {
-    const size_t n = nodes_.size();
-    nodes_.push_back({items_[begin].box, begin, end, 0});
-    for (size_t i = begin; i < end; ++i) nodes_[n].box.include(items_[i].box);
-    if (end - begin > kLeaf) {
-      const size_t middle = begin + (end - begin) / 2;
-      int axis = 0;
-      const auto length = [&](int d) { return nodes_[n].box.high[d] - nodes_[n].box.low[d]; };
-      for (int d = 1; d < 3; ++d) {
-        if (length(d) > length(axis)) axis = d;
-      }
-      const auto centre = [axis](const Item& item) { return item.box.low[axis] + item.box.high[axis]; };
-      std::nth_element(items_.begin() + ptrdiff_t(begin), items_.begin() + ptrdiff_t(middle), items_.begin() + ptrdiff_t(end),
-                       [&](const Item& a, const Item& b) { return centre(a) < centre(b); });
-      build(begin, middle);
-      build(middle, end);
-    }
-    nodes_[n].past = nodes_.size();
-  }
-
-  std::vector<Item> items_;
-  std::vector<Node> nodes_;
-};
-
-}  // namespace
-
-Intersections::Intersections(const Input& input) : input_(input) {
-  for (const Stitch& stitch : input.stitches) {
+Intersections::Intersections(const WeldedMesh& mesh) : mesh_(mesh) {
+  for (const Stitch& stitch : mesh.stitches) {
     auto& side = stitchedSides_.emplace_back(1, stitch.low);
     side.insert(side.end(), stitch.vertices.begin(), stitch.vertices.end());
     side.push_back(stitch.high);
@@ -119,7 +13,7 @@ Intersections::Intersections(const Input& input) : input_(input) {
 }
 
 Intersections::Outline Intersections::outline(uint32_t t) const {
-  Outline o{input_.triangles[t], {}, {}};
+  Outline o{mesh_.triangles[t], {}, {}};
   for (int i = 0; i < 3; ++i) {
     const uint32_t from = o.corners[i], to = o.corners[(i + 1) % 3];
     o.ends[i] = {std::min(from, to), std::max(from, to)};
@@ -240,19 +134,19 @@ bool Intersections::segmentMeetsInPlane(uint32_t p, uint32_t q, const Outline& t
 
 /// Whether v lies on the segment, if it lies on its line.
 bool Intersections::isBetween(uint32_t v, uint32_t p, uint32_t q) const {
-  const auto [low, high] = std::minmax(input_.points[p], input_.points[q]);  // lexicographic: the order along a line
-  return low <= input_.points[v] && input_.points[v] <= high;
+  const auto [low, high] = std::minmax(mesh_.points[p], mesh_.points[q]);  // lexicographic: the order along a line
+  return low <= mesh_.points[v] && mesh_.points[v] <= high;
 }
 
 int Intersections::orient(uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
-  const auto& points = input_.points;
+  const auto& points = mesh_.points;
   return predicates_.orient3d(points[a].data(), points[b].data(), points[c].data(), points[d].data());
 }
 
 /// Which way a, b, c turn, seen along an axis.
 int Intersections::orient(uint32_t a, uint32_t b, uint32_t c, int axis) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const Point &pa = input_.points[a], &pb = input_.points[b], &pc = input_.points[c];
+  const Point &pa = mesh_.points[a], &pb = mesh_.points[b], &pc = mesh_.points[c];
   return predicates_.orient2d(pa[u], pa[v], pb[u], pb[v], pc[u], pc[v]);
 }
 
@@ -261,39 +155,6 @@ int Intersections::axisAcross(const Outline& t) {
   int axis = 0;
   while (axis < 2 && orient(t.corners[0], t.corners[1], t.corners[2], axis) == 0) ++axis;
   return axis;
-}
-
-Error explainContradiction(const Input& input, int64_t blamed, int64_t alsoBlamed, const CutStats& stats) {
-  const auto name = [&](int64_t s, int64_t t) {
-    const int64_t low = std::min(s, t), high = std::max(s, t);
-    return Error{Status::selfIntersection, low, high,
-                 "Triangles " + std::to_string(low) + " and " + std::to_string(high) + " meet other than in a shared vertex or edge" +
-                     (stats.snappedVertices > 0 ? " after snapping." : ".")};
-  };
-  const auto isCandidate = [&](int64_t t) { return t >= 0 && input.kept(size_t(t)); };
-  Intersections intersections(input);
-  if (isCandidate(blamed) && isCandidate(alsoBlamed) && blamed != alsoBlamed &&
-      intersections.meet(uint32_t(blamed), uint32_t(alsoBlamed))) {
-    return name(blamed, alsoBlamed);
-  }
-  const BoxTree tree(input);
-  const auto lowestPartner = [&](uint32_t t, uint32_t from) {
-    int64_t lowest = -1;
-    tree.forOverlapping(boxOf(input, t), [&](uint32_t s) {
-      if (s >= from && s != t && (lowest < 0 || s < lowest) && intersections.meet(s, t)) lowest = s;
-    });
-    return lowest;
-  };
-  for (const int64_t t : {blamed, alsoBlamed}) {
-    const int64_t partner = isCandidate(t) ? lowestPartner(uint32_t(t), 0) : -1;
-    if (partner >= 0) return name(t, partner);
-  }
-  for (const uint32_t t : tree.triangles()) {
-    const int64_t partner = lowestPartner(t, t + 1);
-    if (partner >= 0) return name(t, partner);
-  }
-  return {Status::internalError, -1, -1,
-          "The cut met a contradiction although no two triangles intersect. This is a fault of the library."};
 }
 
 }  // namespace mandoline::detail

@@ -1,19 +1,20 @@
-// Self-intersections (paper, Appendix A "Bad Input Meshes"): which triangles meet other than in a shared vertex or edge, and the pair that
-// a cut names which met a contradiction.
+// Self-intersections (paper, Appendix A "Bad Input Meshes"): which triangles meet other than in a shared vertex or edge.
 //
 // All answers are signs of polynomials of the input's doubles: nothing is constructed, nothing rounded. A stitched side (see Stitch) counts
 // as the vertices and edges that it is made of, which both of its neighbours share.
 #pragma once
 
-#include "base/exact.h"
-#include "cut/stages/input.h"
+#include <array>
+#include <span>
+
+#include "mesh/welded_mesh.h"
 
 namespace mandoline::detail {
 
-/// Tests pairs of kept triangles of one Input.
+/// Tests pairs of kept triangles of one mesh.
 class Intersections {
  public:
-  explicit Intersections(const Input& input);
+  explicit Intersections(const WeldedMesh& mesh);
 
   /// Whether two triangles meet other than in shared vertices or whole shared edges: they cross, touch, overlap in one plane, are folded
   /// onto each other, or are the same.
@@ -46,15 +47,10 @@ class Intersections {
   int orient(uint32_t a, uint32_t b, uint32_t c, int axis);
   int axisAcross(const Outline& t);
 
-  const Input& input_;
+  const WeldedMesh& mesh_;
   Predicates predicates_;
   std::vector<std::vector<uint32_t>> stitchedSides_;  ///< per Stitch: its vertices with both ends
   std::vector<uint32_t> shared_;                      ///< of the two triangles at hand
 };
-
-/// The error to report where the cut met a contradiction that it blames on two triangles (or -1). If they do meet, they are named; else the
-/// first pair that does: a blamed triangle with the lowest other one, or the lowest pair of all triangles that reach the grid. The lower
-/// id comes first. If none meet, the contradiction is the cutter's own.
-Error explainContradiction(const Input& input, int64_t blamed, int64_t alsoBlamed, const CutStats& stats);
 
 }  // namespace mandoline::detail

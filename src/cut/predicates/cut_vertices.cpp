@@ -6,8 +6,8 @@ namespace mandoline::detail {
 
 Point CutVertices::reference(uint32_t v) const {
   if (isTriVertex(v)) return input->points[v];
-  if (isOnEdge(v)) return input->points[(*triEdges)[parent(v)][0]];
-  if (isInTriangle(v)) return input->points[input->triangles[parent(v)][0]];
+  if (isOnEdge(v)) return input->points[(*triEdges)[triEdge(v)][0]];
+  if (isInTriangle(v)) return input->points[input->triangles[triangle(v)][0]];
   Point p;
   for (int d = 0; d < 3; ++d) p[d] = input->planes[d][slabs[v][d] >> 1];
   return p;
@@ -79,9 +79,9 @@ Point CutVertices::position(uint32_t v, Predicates& predicates) const {
 }
 
 int64_t CutVertices::triangleAt(uint32_t v) const {
-  if (isInTriangle(v)) return parent(v);
-  const uint32_t low = isTriVertex(v) ? v : isOnEdge(v) ? (*triEdges)[parent(v)][0] : ~0u;
-  const uint32_t high = isOnEdge(v) ? (*triEdges)[parent(v)][1] : low;
+  if (isInTriangle(v)) return triangle(v);
+  const uint32_t low = isTriVertex(v) ? v : isOnEdge(v) ? (*triEdges)[triEdge(v)][0] : ~0u;
+  const uint32_t high = isOnEdge(v) ? (*triEdges)[triEdge(v)][1] : low;
   for (size_t t = 0; t < input->triangles.size(); ++t) {
     const auto& c = input->triangles[t];
     if (input->kept(t) && std::count(c.begin(), c.end(), low) && std::count(c.begin(), c.end(), high)) return int64_t(t);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/exact.h"
-#include "cut/stages/input.h"
+#include "cut/scaled_input.h"
 
 namespace mandoline::detail {
 
@@ -31,7 +31,10 @@ struct CutVertices {
   bool isTriVertex(uint32_t v) const { return v < firstOnEdge; }
   bool isOnEdge(uint32_t v) const { return v >= firstOnEdge && v < firstInTriangle; }
   bool isInTriangle(uint32_t v) const { return v >= firstInTriangle && v < firstOnGrid; }
-  uint32_t parent(uint32_t v) const { return parents[v - firstOnEdge]; }
+  /// Of a vertex on an edge.
+  uint32_t triEdge(uint32_t v) const { return parents[v - firstOnEdge]; }
+  /// Of a vertex in a triangle.
+  uint32_t triangle(uint32_t v) const { return parents[v - firstOnEdge]; }
 
   /// Adds vertices at the end of the last range.
   void append(const Slab& slab) { slabs.push_back(slab); }
@@ -73,7 +76,7 @@ Homogeneous<Number> CutVertices::point(uint32_t v, const Point& reference, Predi
   } else if (planeCount(slabs[v]) == 3) {
     for (int d = 0; d < 3; ++d) h.x[d] = diff(planeOf(d), reference[d]);
   } else if (isOnEdge(v)) {
-    uint32_t low = (*triEdges)[parent(v)][0], high = (*triEdges)[parent(v)][1];
+    uint32_t low = (*triEdges)[triEdge(v)][0], high = (*triEdges)[triEdge(v)][1];
     int across = -1;  // the axis whose plane cuts the edge at the widest angle
     for (int d = 0; d < 3; ++d) {
       const auto extent = [&](int e) { return std::fabs(input->points[high][e] - input->points[low][e]); };
@@ -87,7 +90,7 @@ Homogeneous<Number> CutVertices::point(uint32_t v, const Point& reference, Predi
       h.x[d] = onPlane(slabs[v][d]) ? diff(planeOf(d), reference[d]) * h.w : diff(a[d], reference[d]) * h.w + along * diff(b[d], a[d]);
     }
   } else {
-    const auto& t = input->triangles[parent(v)];
+    const auto& t = input->triangles[triangle(v)];
     const Point &a = input->points[t[0]], &b = input->points[t[1]], &c = input->points[t[2]];
     const int g = !onPlane(slabs[v][0])   ? 0
                   : !onPlane(slabs[v][1]) ? 1

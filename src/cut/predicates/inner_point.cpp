@@ -103,12 +103,13 @@ bool isAbove(const CutVertices& vertices, uint32_t v, const InnerPoint& point, i
   }) > 0;
 }
 
-int sideOfLine(const CutVertices& vertices, uint32_t u, uint32_t v, const InnerPoint& point, int axis, Predicates& predicates) {
+int sideOfLine(const CutVertices& vertices, const std::array<uint32_t, 2>& line, const InnerPoint& point, int axis,
+               Predicates& predicates) {
   const int p = (axis + 1) % 3, q = (axis + 2) % 3;
-  const Point r = vertices.reference(u);
+  const Point r = vertices.reference(line[0]);
   return predicates.sign([&](auto number) {
     using Number = decltype(number);
-    const auto a = vertices.point<Number>(u, r, predicates), b = vertices.point<Number>(v, r, predicates);
+    const auto a = vertices.point<Number>(line[0], r, predicates), b = vertices.point<Number>(line[1], r, predicates);
     const Number x = point.coordinate<Number>(p, r[p]), y = point.coordinate<Number>(q, r[q]), w = point.weight<Number>();
     return a.x[p] * (b.x[q] * w - y * b.w) - a.x[q] * (b.x[p] * w - x * b.w) + a.w * (b.x[p] * y - b.x[q] * x);
   });

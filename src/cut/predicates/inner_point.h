@@ -40,7 +40,7 @@ int sideOfPlane(const Corners& t, const InnerPoint& point, int axis, double coor
 int compareHeights(const Corners& t, const Corners& u, const InnerPoint& point, int axis, Predicates& predicates);
 /// Whether a cut-vertex lies above the point, seen along the axis.
 bool isAbove(const CutVertices& vertices, uint32_t v, const InnerPoint& point, int axis, Predicates& predicates);
-/// Whether the point lies left (1) of the line u -> v or right (-1) of it, seen along the axis.
-int sideOfLine(const CutVertices& vertices, uint32_t u, uint32_t v, const InnerPoint& point, int axis, Predicates& predicates);
+/// Whether the point lies left (1) of the line from one vertex to the other or right (-1) of it, seen along the axis.
+int sideOfLine(const CutVertices& vertices, const std::array<uint32_t, 2>& line, const InnerPoint& point, int axis, Predicates& predicates);
 
 }  // namespace mandoline::detail

@@ -1,5 +1,7 @@
 #include "cut/predicates/radial_order.h"
 
+#include <algorithm>
+
 namespace mandoline::detail {
 namespace {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/exact.h"
-#include "grid/slab.h"
+#include "base/point.h"
 
 namespace mandoline::detail {
 

@@ -1,71 +1,11 @@
 #include "cut/stages/cut_cells.h"
 
 #include "cut/predicates/radial_order.h"
+#include "cut/stages/edge_table.h"
 #include "cut/stages/floating_shells.h"
 
 namespace mandoline::detail {
 namespace {
-
-/// The cut-edges of one grid cell, each with its uses by half-faces: a hash table that is emptied by counting up a stamp.
-class EdgeTable {
- public:
-  struct Use {
-    uint32_t next;   ///< or kEnd
-    uint32_t local;  ///< tri-cut-face of the cell, or local half-face of a grid-face
-    bool isTri;
-    bool ascending;  ///< runs from the lower vertex id to the higher
-  };
-  struct Edge {
-    uint32_t low, high, firstUse;
-  };
-  static constexpr uint32_t kEnd = ~0u;
-
-  void clear(size_t mostUses) {
-    edges.clear();
-    uses.clear();
-    size_t size = slots_.size();
-    while (size < 2 * mostUses) size = std::max<size_t>(256, 2 * size);
-    if (size > slots_.size()) {
-      slots_.assign(size, {0, 0});
-      stamp_ = 0;
-    }
-    mask_ = 255;
-    while (mask_ + 1 < 2 * mostUses) mask_ = 2 * mask_ + 1;  // small cells stay in a small part of the table
-    if (++stamp_ == 0) {
-      std::fill(slots_.begin(), slots_.end(), Slot{0, 0});
-      stamp_ = 1;
-    }
-  }
-
-  void add(uint32_t from, uint32_t to, uint32_t local, bool isTri) {
-    const bool ascending = from < to;
-    const uint32_t low = ascending ? from : to, high = ascending ? to : from;
-    size_t at = (low * 0x9e3779b1u ^ high * 0x85ebca6bu) >> 7;
-    for (;; ++at) {
-      Slot& slot = slots_[at & mask_];
-      if (slot.stamp != stamp_) {
-        slot = {stamp_, uint32_t(edges.size())};
-        edges.push_back({low, high, kEnd});
-      }
-      Edge& edge = edges[slot.edge];
-      if (edge.low != low || edge.high != high) continue;
-      uses.push_back({edge.firstUse, local, isTri, ascending});
-      edge.firstUse = uint32_t(uses.size() - 1);
-      return;
-    }
-  }
-
-  std::vector<Edge> edges;
-  std::vector<Use> uses;
-
- private:
-  struct Slot {
-    uint32_t stamp, edge;
-  };
-  std::vector<Slot> slots_;
-  uint32_t stamp_ = 0;
-  size_t mask_ = 0;
-};
 
 struct Chunk {
   CutCells cells;
@@ -79,9 +19,8 @@ struct Chunk {
 
 class CellMaker {
  public:
-  CellMaker(const Input& input, const TriEdges& edges, const Stencil& stencil, const TriFaces& triFaces, const GridFaces& gridFaces,
-            const CutVertices& vertices, Chunk& chunk)
-      : input_(input), edges_(edges), stencil_(stencil), triFaces_(triFaces), gridFaces_(gridFaces), vertices_(vertices), chunk_(chunk) {}
+  CellMaker(const Surface& surface, const Stencil& stencil, const CutFaces& faces, Chunk& chunk)
+      : surface_(surface), vertices_(surface.vertices), stencil_(stencil), faces_(faces), chunk_(chunk) {}
 
   void make(uint32_t stencilCell) {
     collectHalves(stencilCell);
@@ -89,7 +28,7 @@ class CellMaker {
     chunk_.shells.reset(chunk_.halves.halfFaces.size());
     for (const EdgeTable::Edge& edge : chunk_.table.edges) linkAround(edge);
     if (hasFloatingShell()) {
-      nestFloatingShells(input_, stencil_, triFaces_, gridFaces_, vertices_, chunk_.halves, chunk_.shells, chunk_.predicates);
+      nestFloatingShells({surface_, stencil_, faces_, chunk_.halves}, chunk_.shells, chunk_.predicates);
     }
     emit(stencilCell);
   }
@@ -108,51 +47,57 @@ class CellMaker {
       cell.halfFaces.push_back(2 * f + 1);
     }
     for (int i = 0; i < 6; ++i) {
-      for (const uint32_t h : gridFaces_.halfFaces[stencil_.cells[stencilCell].faces[i]]) cell.halfFaces.push_back(seenFrom(i & 1, h));
-    }
-  }
-
-  template <class F>
-  void forLoops(uint32_t face, const F& f) const {
-    if (face < triFaces_.size()) return f(triFaces_.loop(face));
-    const uint32_t g = face - uint32_t(triFaces_.size());
-    for (uint32_t l = gridFaces_.faceLoopOffsets[g]; l < gridFaces_.faceLoopOffsets[g + 1]; ++l) {
-      f(std::span<const uint32_t>(gridFaces_.loopVertices.data() + gridFaces_.loopOffsets[l],
-                                  gridFaces_.loopOffsets[l + 1] - gridFaces_.loopOffsets[l]));
+      for (const uint32_t h : faces_.grid.halfFaces[stencil_.cells[stencilCell].faces[i]]) cell.halfFaces.push_back(seenFrom(i & 1, h));
     }
   }
 
   void collectUses(uint32_t stencilCell) {
+    chunk_.table.clear(countUses(stencilCell));
+    addTriFaces();
+    addGridFaces();
+    for (int i = 0; i < 6; ++i) addSlits(i, faces_.grid.slits[stencil_.cells[stencilCell].faces[i]]);
+  }
+
+  size_t countUses(uint32_t stencilCell) const {
     const CellHalves& cell = chunk_.halves;
     size_t most = 0;
     for (size_t h = 0; h < cell.halfFaces.size(); h += h < cell.triHalves() ? 2 : 1) {
-      forLoops(cell.halfFaces[h] / 2, [&](std::span<const uint32_t> loop) { most += loop.size(); });
+      for (const auto loop : faces_.loops(cell.halfFaces[h] / 2)) most += loop.size();
     }
-    for (const uint32_t g : stencil_.cells[stencilCell].faces) most += 2 * gridFaces_.slits[g].size();
-    chunk_.table.clear(most);
+    for (const uint32_t g : stencil_.cells[stencilCell].faces) most += 2 * faces_.grid.slits[g].size();
+    return most;
+  }
+
+  void addTriFaces() {
+    const CellHalves& cell = chunk_.halves;
     touchesLine_ = false;
     for (uint32_t i = 0; i < cell.triFaces.size(); ++i) {
-      touchesLine_ |= triFaces_.touchesLine[cell.triFaces[i]] != 0;
-      const auto loop = triFaces_.loop(cell.triFaces[i]);
+      touchesLine_ |= faces_.tri.touchesLine[cell.triFaces[i]] != 0;
+      const auto loop = faces_.tri.loop(cell.triFaces[i]);
       for (size_t k = 0; k < loop.size(); ++k) chunk_.table.add(loop[k], loop[k + 1 < loop.size() ? k + 1 : 0], i, true);
     }
+  }
+
+  void addGridFaces() {
+    const CellHalves& cell = chunk_.halves;
     for (uint32_t h = uint32_t(cell.triHalves()); h < cell.halfFaces.size(); ++h) {
       const bool reversed = cell.halfFaces[h] & 1;
-      forLoops(cell.halfFaces[h] / 2, [&](std::span<const uint32_t> loop) {
+      for (const auto loop : faces_.loops(cell.halfFaces[h] / 2)) {
         for (size_t k = 0; k < loop.size(); ++k) {
           const uint32_t u = loop[k], v = loop[k + 1 < loop.size() ? k + 1 : 0];
           reversed ? chunk_.table.add(v, u, h, false) : chunk_.table.add(u, v, h, false);
         }
-      });
-    }
-    for (int i = 0; i < 6; ++i) {
-      for (const Slit& slit : gridFaces_.slits[stencil_.cells[stencilCell].faces[i]]) {
-        const auto at =
-            std::find(cell.halfFaces.begin() + std::ptrdiff_t(cell.triHalves()), cell.halfFaces.end(), seenFrom(i & 1, slit.halfFace));
-        const uint32_t h = uint32_t(at - cell.halfFaces.begin());
-        chunk_.table.add(slit.from, slit.to, h, false);
-        chunk_.table.add(slit.to, slit.from, h, false);
       }
+    }
+  }
+
+  /// `side`: which of the cell's grid-faces they lie in.
+  void addSlits(int side, std::span<const Slit> slits) {
+    const CellHalves& cell = chunk_.halves;
+    for (const Slit& slit : slits) {
+      const uint32_t h = cell.localOf(seenFrom(side & 1, slit.halfFace));
+      chunk_.table.add(slit.from, slit.to, h, false);
+      chunk_.table.add(slit.to, slit.from, h, false);
     }
   }
 
@@ -200,20 +145,20 @@ class CellMaker {
   void sortAround(const EdgeTable::Edge& edge, bool open) {
     auto& around = chunk_.around;
     std::sort(around.begin(), around.end(), [](const auto& a, const auto& b) { return a.local < b.local; });
-    const auto triangleOf = [&](const EdgeTable::Use& use) { return triFaces_.triangles[chunk_.halves.triFaces[use.local]]; };
+    const auto triangleOf = [&](const EdgeTable::Use& use) { return faces_.tri.triangles[chunk_.halves.triFaces[use.local]]; };
     std::vector<Flap> flaps;
     const Point *a = nullptr, *b = nullptr;  // ends of the tri-edge, in the edge's direction
     for (uint32_t i = 0; i < around.size(); ++i) {
       const uint32_t triangle = triangleOf(around[i]);
-      const auto& t = input_.triangles[triangle];
+      const auto& t = surface_.input.triangles[triangle];
       const int side = sideThrough(triangle, edge.low, edge.high);
       if (side < 0) failAt(edge);
       if (!a) {
-        a = &input_.points[t[side]];
-        b = &input_.points[t[(side + 1) % 3]];
+        a = &surface_.input.points[t[side]];
+        b = &surface_.input.points[t[(side + 1) % 3]];
         if (!around[i].ascending) std::swap(a, b);
       }
-      flaps.push_back({&input_.points[t[(side + 2) % 3]], i});
+      flaps.push_back({&surface_.input.points[t[(side + 2) % 3]], i});
     }
     const size_t equal = sortRadially(*a, *b, open, flaps, chunk_.predicates);
     if (equal > 0) vertices_.failSelfIntersection(triangleOf(around[flaps[equal - 1].item]), triangleOf(around[flaps[equal].item]));
@@ -225,10 +170,10 @@ class CellMaker {
   int sideThrough(uint32_t triangle, uint32_t u, uint32_t v) const {
     for (int side = 0; side < 3; ++side) {
       bool holdsU = false, holdsV = false;
-      edges_.forSide(input_, triangle, side, [&](uint32_t edge, bool) {
+      surface_.edges.forSide(surface_.input, triangle, side, [&](uint32_t edge, bool) {
         const auto on = [&](uint32_t w) {
-          return vertices_.isTriVertex(w) ? edges_.ends[edge][0] == w || edges_.ends[edge][1] == w
-                                          : vertices_.isOnEdge(w) && vertices_.parent(w) == edge;
+          return vertices_.isTriVertex(w) ? surface_.edges.ends[edge][0] == w || surface_.edges.ends[edge][1] == w
+                                          : vertices_.isOnEdge(w) && vertices_.triEdge(w) == edge;
         };
         holdsU |= on(u);
         holdsV |= on(v);
@@ -248,14 +193,14 @@ class CellMaker {
     for (uint32_t u = edge.firstUse; u != EdgeTable::kEnd; u = chunk_.table.uses[u].next) {
       const EdgeTable::Use& use = chunk_.table.uses[u];
       const uint32_t face = use.isTri ? chunk_.halves.triFaces[use.local] : chunk_.halves.halfFaces[use.local] / 2;
-      if (face < triFaces_.size()) note(triFaces_.triangles[face]);
+      note(faces_.triangle(face));
     }
     note(vertices_.triangleAt(edge.low));
     note(vertices_.triangleAt(edge.high));
     for (const uint32_t f : chunk_.halves.triFaces) {  // another one that has a vertex on the same grid-edge
-      for (const uint32_t v : triFaces_.loop(f)) {
+      for (const uint32_t v : faces_.tri.loop(f)) {
         const Slab along = elementBetween(vertices_.slabs[edge.low], vertices_.slabs[edge.high]);
-        if (found[1] < 0 && vertices_.slabs[v] == along) note(triFaces_.triangles[f]);
+        if (found[1] < 0 && vertices_.slabs[v] == along) note(faces_.tri.triangles[f]);
       }
     }
     vertices_.failSelfIntersection(found[0], found[1] < 0 ? found[0] : found[1]);
@@ -301,27 +246,24 @@ class CellMaker {
     for (uint32_t h = 0; h < cell.halfFaces.size(); ++h) out.items[counts[cellOf[h]]++] = cell.halfFaces[h];
   }
 
-  const Input& input_;
-  const TriEdges& edges_;
-  const Stencil& stencil_;
-  const TriFaces& triFaces_;
-  const GridFaces& gridFaces_;
+  const Surface& surface_;
   const CutVertices& vertices_;
+  const Stencil& stencil_;
+  const CutFaces& faces_;
   Chunk& chunk_;
   bool touchesLine_ = false;  ///< whether a tri-cut-face of the cell has a vertex on a grid line
 };
 
 }  // namespace
 
-CutCells makeCutCells(const Input& input, const TriEdges& edges, const Stencil& stencil, const TriFaces& triFaces,
-                      const GridFaces& gridFaces, const CutVertices& vertices, CutStats& stats, Monitor& monitor) {
-  auto chunks = forChunks<Chunk>(stencil.cells.size(), monitor, [&](Chunk& chunk, size_t begin, size_t end) {
-    CellMaker maker(input, edges, stencil, triFaces, gridFaces, vertices, chunk);
+CutCells makeCutCells(const Surface& surface, const Stencil& stencil, const CutFaces& faces, Run& run) {
+  auto chunks = forChunks<Chunk>(stencil.cells.size(), run.monitor, [&](Chunk& chunk, size_t begin, size_t end) {
+    CellMaker maker(surface, stencil, faces, chunk);
     for (size_t c = begin; c < end; ++c) maker.make(uint32_t(c));
   });
   CutCells cells = std::move(chunks[0].cells);
   for (size_t c = 0; c < chunks.size(); ++c) {
-    stats.exactFallbacks += chunks[c].predicates.fallbacks;
+    run.count(chunks[c].predicates);
     if (c == 0) continue;
     const CutCells& more = chunks[c].cells;
     const uint32_t shift = uint32_t(cells.halfFaces.items.size());

@@ -9,14 +9,12 @@ namespace {
 
 class Nester {
  public:
-  Nester(const Input& input, const Stencil& stencil, const TriFaces& triFaces, const GridFaces& gridFaces, const CutVertices& vertices,
-         const CellHalves& cell, DisjointSets& shells, Predicates& predicates)
-      : input_(input),
-        stencil_(stencil),
-        triFaces_(triFaces),
-        gridFaces_(gridFaces),
-        vertices_(vertices),
-        cell_(cell),
+  Nester(const CellView& cell, DisjointSets& shells, Predicates& predicates)
+      : input_(cell.surface.input),
+        vertices_(cell.surface.vertices),
+        stencil_(cell.stencil),
+        faces_(cell.faces),
+        cell_(cell.halves),
         shells_(shells),
         predicates_(predicates) {}
 
@@ -38,7 +36,7 @@ class Nester {
     const auto& t = input_.triangles[triangle(local)];
     return {&input_.points[t[0]], &input_.points[t[1]], &input_.points[t[2]]};
   }
-  uint32_t triangle(uint32_t local) const { return triFaces_.triangles[cell_.triFaces[local]]; }
+  uint32_t triangle(uint32_t local) const { return faces_.tri.triangles[cell_.triFaces[local]]; }
 
   /// Components of tri-cut-faces that are joined by edges; those that no grid-face joins are floating.
   void findComponents() {
@@ -149,13 +147,12 @@ class Nester {
   /// The half-face of the lower grid-face across the axis that the ray leaves the grid cell through.
   std::optional<uint32_t> halfFaceBelow(const InnerPoint& from, int axis) {
     const uint32_t gridFace = stencil_.cells[cell_.stencilCell].faces[cellFace(axis, 0)];
-    const auto below = gridFaces_.halfFaces[gridFace];
+    const auto below = faces_.grid.halfFaces[gridFace];
     for (const uint32_t b : below) {
       const uint32_t halfFace = b ^ 1;  // seen from above
       bool grazed = false;
       if (below.size() == 1 || holds(halfFace / 2, from, axis, grazed)) {
-        const auto at = std::find(cell_.halfFaces.begin() + std::ptrdiff_t(cell_.triHalves()), cell_.halfFaces.end(), halfFace);
-        return uint32_t(at - cell_.halfFaces.begin());
+        return cell_.localOf(halfFace);
       }
       if (grazed) return {};
     }
@@ -165,35 +162,30 @@ class Nester {
   /// Whether the point, projected along the axis, lies in a face: a ray to growing p crosses its loops an odd number of times.
   bool holds(uint32_t face, const InnerPoint& from, int axis, bool& grazed) {
     bool inside = false;
-    const auto cross = [&](std::span<const uint32_t> loop) {
-      for (size_t i = 0; i < loop.size(); ++i) crossEdge(loop[i], loop[i + 1 < loop.size() ? i + 1 : 0], from, axis, inside, grazed);
-    };
-    if (face < triFaces_.size()) {
-      cross(triFaces_.loop(face));
-    } else {
-      const uint32_t g = face - uint32_t(triFaces_.size());
-      for (uint32_t l = gridFaces_.faceLoopOffsets[g]; l < gridFaces_.faceLoopOffsets[g + 1]; ++l) {
-        const uint32_t first = gridFaces_.loopOffsets[l];
-        cross({gridFaces_.loopVertices.data() + first, gridFaces_.loopOffsets[l + 1] - first});
+    for (const auto loop : faces_.loops(face)) {
+      for (size_t i = 0; i < loop.size(); ++i) {
+        const std::array<uint32_t, 2> edge = {loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]};
+        const int crossing = crossingOf(edge, from, axis);
+        grazed |= crossing == 0;
+        inside ^= crossing > 0;
       }
     }
     return inside && !grazed;
   }
 
-  void crossEdge(uint32_t u, uint32_t v, const InnerPoint& from, int axis, bool& inside, bool& grazed) {
-    const bool fromAbove = isAbove(vertices_, u, from, axis, predicates_), toAbove = isAbove(vertices_, v, from, axis, predicates_);
-    if (fromAbove == toAbove) return;
-    if (fromAbove) std::swap(u, v);
-    const int side = sideOfLine(vertices_, u, v, from, axis, predicates_);
-    grazed |= side == 0;
-    inside ^= side > 0;
+  /// 1 if the ray to growing p crosses the edge, -1 if not, 0 if that is a close call.
+  int crossingOf(std::array<uint32_t, 2> edge, const InnerPoint& from, int axis) {
+    const bool fromAbove = isAbove(vertices_, edge[0], from, axis, predicates_),
+               toAbove = isAbove(vertices_, edge[1], from, axis, predicates_);
+    if (fromAbove == toAbove) return -1;
+    if (fromAbove) std::swap(edge[0], edge[1]);
+    return sideOfLine(vertices_, edge, from, axis, predicates_);
   }
 
   const Input& input_;
-  const Stencil& stencil_;
-  const TriFaces& triFaces_;
-  const GridFaces& gridFaces_;
   const CutVertices& vertices_;
+  const Stencil& stencil_;
+  const CutFaces& faces_;
   const CellHalves& cell_;
   DisjointSets& shells_;
   Predicates& predicates_;
@@ -204,9 +196,6 @@ class Nester {
 
 }  // namespace
 
-void nestFloatingShells(const Input& input, const Stencil& stencil, const TriFaces& triFaces, const GridFaces& gridFaces,
-                        const CutVertices& vertices, const CellHalves& cell, DisjointSets& shells, Predicates& predicates) {
-  Nester(input, stencil, triFaces, gridFaces, vertices, cell, shells, predicates).run();
-}
+void nestFloatingShells(const CellView& cell, DisjointSets& shells, Predicates& predicates) { Nester(cell, shells, predicates).run(); }
 
 }  // namespace mandoline::detail

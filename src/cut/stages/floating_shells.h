@@ -4,10 +4,11 @@
 // Such a component is made of whole triangles. Its outer side is a cavity (or floating sheet) of the cut-cell around it.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "base/disjoint_sets.h"
-#include "cut/stages/grid_faces.h"
+#include "cut/stages/cut_faces.h"
 
 namespace mandoline::detail {
 
@@ -18,10 +19,21 @@ struct CellHalves {
   std::vector<uint32_t> halfFaces;     ///< per local half-face
 
   size_t triHalves() const { return 2 * triFaces.size(); }
+  /// The local half-face of a half-face of a grid-face.
+  uint32_t localOf(uint32_t halfFace) const {
+    return uint32_t(std::find(halfFaces.begin() + std::ptrdiff_t(triHalves()), halfFaces.end(), halfFace) - halfFaces.begin());
+  }
+};
+
+/// A grid cell and what its half-faces are made of.
+struct CellView {
+  const Surface& surface;
+  const Stencil& stencil;
+  const CutFaces& faces;
+  const CellHalves& halves;
 };
 
 /// Unites the outer shell of each floating component with the shell of the cut-cell that holds it.
-void nestFloatingShells(const Input& input, const Stencil& stencil, const TriFaces& triFaces, const GridFaces& gridFaces,
-                        const CutVertices& vertices, const CellHalves& cell, DisjointSets& shells, Predicates& predicates);
+void nestFloatingShells(const CellView& cell, DisjointSets& shells, Predicates& predicates);
 
 }  // namespace mandoline::detail

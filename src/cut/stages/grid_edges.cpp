@@ -44,7 +44,7 @@ void collect(const Stencil& stencil, const TriFaces& triFaces, const CutVertices
 
 }  // namespace
 
-GridEdges cutGridEdges(const Stencil& stencil, const TriFaces& triFaces, CutVertices& vertices, CutStats& stats, Monitor& monitor) {
+GridEdges cutGridEdges(const Stencil& stencil, const TriFaces& triFaces, CutVertices& vertices, Run& run) {
   constexpr uint32_t kNone = ~0u;
   std::vector<Placed> onEdges, onCorners;
   collect(stencil, triFaces, vertices, onEdges, onCorners);
@@ -70,7 +70,7 @@ GridEdges cutGridEdges(const Stencil& stencil, const TriFaces& triFaces, CutVert
   result.vertices.offsets.assign(1, 0);
   result.vertices.offsets.reserve(stencil.edgeCount + 1);
   for (uint32_t e = 0; e < stencil.edgeCount; ++e) {
-    if (e % 16384 == 0) monitor.report(e, stencil.edgeCount);
+    if (e % 16384 == 0) run.monitor.report(e, stencil.edgeCount);
     const std::span<uint32_t> group = found[e];
     std::sort(group.begin(), group.end());
     const size_t count = size_t(std::unique(group.begin(), group.end()) - group.begin());
@@ -86,7 +86,7 @@ GridEdges cutGridEdges(const Stencil& stencil, const TriFaces& triFaces, CutVert
     result.vertices.items.insert(result.vertices.items.end(), group.begin(), group.begin() + count);
     result.vertices.offsets.push_back(uint32_t(result.vertices.items.size()));
   }
-  stats.exactFallbacks += predicates.fallbacks;
+  run.count(predicates);
   return result;
 }
 

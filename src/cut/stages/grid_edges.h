@@ -14,6 +14,6 @@ struct GridEdges {
   std::vector<uint32_t> corners;  ///< per grid vertex: its cut-vertex
 };
 
-GridEdges cutGridEdges(const Stencil& stencil, const TriFaces& triFaces, CutVertices& vertices, CutStats& stats, Monitor& monitor);
+GridEdges cutGridEdges(const Stencil& stencil, const TriFaces& triFaces, CutVertices& vertices, Run& run);
 
 }  // namespace mandoline::detail

@@ -14,9 +14,8 @@ struct Chunk {
 
 class FaceCutter {
  public:
-  FaceCutter(const Input& input, const Stencil& stencil, const GridEdges& gridEdges, const TriFaces& triFaces, const CutVertices& vertices,
-             Chunk& chunk)
-      : input_(input), stencil_(stencil), gridEdges_(gridEdges), triFaces_(triFaces), vertices_(vertices), chunk_(chunk) {}
+  FaceCutter(const Surface& surface, const Stencil& stencil, const GridEdges& gridEdges, const TriFaces& triFaces, Chunk& chunk)
+      : input_(surface.input), stencil_(stencil), gridEdges_(gridEdges), triFaces_(triFaces), vertices_(surface.vertices), chunk_(chunk) {}
 
   void cut(uint32_t gridFace) {
     findOutline(stencil_.faces[gridFace]);
@@ -197,16 +196,15 @@ void append(GridFaces& a, const GridFaces& b, uint32_t firstOwn) {
 
 }  // namespace
 
-GridFaces cutGridFaces(const Input& input, const Stencil& stencil, const GridEdges& gridEdges, const TriFaces& triFaces,
-                       const CutVertices& vertices, CutStats& stats, Monitor& monitor) {
-  auto chunks = forChunks<Chunk>(stencil.faces.size(), monitor, [&](Chunk& chunk, size_t begin, size_t end) {
-    FaceCutter cutter(input, stencil, gridEdges, triFaces, vertices, chunk);
+GridFaces cutGridFaces(const Surface& surface, const Stencil& stencil, const GridEdges& gridEdges, const TriFaces& triFaces, Run& run) {
+  auto chunks = forChunks<Chunk>(stencil.faces.size(), run.monitor, [&](Chunk& chunk, size_t begin, size_t end) {
+    FaceCutter cutter(surface, stencil, gridEdges, triFaces, chunk);
     for (size_t g = begin; g < end; ++g) cutter.cut(uint32_t(g));
   });
   GridFaces faces = std::move(chunks[0].faces);
   for (size_t c = 0; c < chunks.size(); ++c) {
     if (c > 0) append(faces, chunks[c].faces, uint32_t(triFaces.size()));
-    stats.exactFallbacks += chunks[c].predicates.fallbacks;
+    run.count(chunks[c].predicates);
   }
   return faces;
 }

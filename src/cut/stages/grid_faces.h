@@ -17,17 +17,15 @@ struct Slit {
 };
 
 struct GridFaces {
-  std::vector<uint32_t> faceLoopOffsets{0}, loopOffsets{0},
-      loopVertices;                 ///< the outer loop first; counter-clockwise about +axis, holes clockwise
+  /// Per face its loops, the outer one first: counter-clockwise about +axis, holes clockwise.
+  std::vector<uint32_t> faceLoopOffsets{0}, loopOffsets{0}, loopVertices;
   std::vector<uint32_t> gridFaces;  ///< per face: the grid-face it is a piece of
-  Csr<uint32_t>
-      halfFaces;    ///< per grid-face: half-faces (2 * face + side) that the cell below the plane sees; the cell above sees their twins
-  Csr<Slit> slits;  ///< per grid-face
+  Csr<uint32_t> halfFaces;          ///< per grid-face: those that the cell below the plane sees; the cell above sees their twins
+  Csr<Slit> slits;                  ///< per grid-face
 
   size_t size() const { return gridFaces.size(); }
 };
 
-GridFaces cutGridFaces(const Input& input, const Stencil& stencil, const GridEdges& gridEdges, const TriFaces& triFaces,
-                       const CutVertices& vertices, CutStats& stats, Monitor& monitor);
+GridFaces cutGridFaces(const Surface& surface, const Stencil& stencil, const GridEdges& gridEdges, const TriFaces& triFaces, Run& run);
 
 }  // namespace mandoline::detail

@@ -1,11 +1,7 @@
 #include "cut/stages/input.h"
 
 #include <cmath>
-#include <cstring>
 #include <string>
-
-#include "base/disjoint_sets.h"
-#include "base/exact.h"
 
 namespace mandoline::detail {
 namespace {
@@ -67,14 +63,19 @@ std::vector<uint8_t> referencedVertices(const MeshView& mesh) {
   return referenced;
 }
 
-/// Copies coordinates and planes, scaled by one power of two.
-void scale(const MeshView& mesh, const Grid& grid, const std::vector<uint8_t>& referenced, Input& input, CutStats& stats) {
+/// The exponent of the power of two that brings the largest coordinate to kLargestExponent.
+int scaleOf(const MeshView& mesh, const Grid& grid, const std::vector<uint8_t>& referenced) {
   double largest = 0;
   for (size_t v = 0; v < referenced.size(); ++v) {
     for (int d = 0; d < 3 && referenced[v]; ++d) largest = std::max(largest, std::fabs(mesh.positions[3 * v + d]));
   }
   for (const auto& planes : grid.planes) largest = std::max({largest, std::fabs(planes.front()), std::fabs(planes.back())});
-  const int shift = largest > 0 ? kLargestExponent - std::ilogb(largest) : 0;
+  return largest > 0 ? kLargestExponent - std::ilogb(largest) : 0;
+}
+
+/// Copies coordinates and planes, scaled by one power of two.
+void scale(const MeshView& mesh, const Grid& grid, const std::vector<uint8_t>& referenced, Input& input, CutStats& stats) {
+  const int shift = scaleOf(mesh, grid, referenced);
   const double factor[2] = {std::ldexp(1.0, shift / 2), std::ldexp(1.0, shift - shift / 2)};  // a double can't hold 2^1194
   input.unscale[0] = 1 / factor[0];
   input.unscale[1] = 1 / factor[1];
@@ -132,7 +133,7 @@ int32_t snap(const std::vector<double>& planes, int32_t slab, double tolerance, 
   return 2 * plane;
 }
 
-void locateVertices(const std::vector<uint8_t>& referenced, double snapTolerance, Input& input, CutStats& stats, Monitor& monitor) {
+void locateVertices(const std::vector<uint8_t>& referenced, double snapTolerance, Input& input, Run& run) {
   struct Snaps {
     uint32_t count = 0;
     double largest = 0;
@@ -140,7 +141,7 @@ void locateVertices(const std::vector<uint8_t>& referenced, double snapTolerance
   double perCell[3];
   for (int d = 0; d < 3; ++d) perCell[d] = input.cells(d) / (input.planes[d].back() - input.planes[d].front());
   input.slabs.resize(referenced.size());
-  const auto snaps = forChunks<Snaps>(referenced.size(), monitor, [&](Snaps& chunk, size_t begin, size_t end) {
+  const auto snaps = forChunks<Snaps>(referenced.size(), run.monitor, [&](Snaps& chunk, size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v) {
       if (!referenced[v]) continue;
       bool moved = false;
@@ -157,120 +158,33 @@ void locateVertices(const std::vector<uint8_t>& referenced, double snapTolerance
     }
   });
   for (const Snaps& s : snaps) {
-    stats.snappedVertices += s.count;
-    stats.largestSnap = std::max(stats.largestSnap, s.largest);
+    run.stats.snappedVertices += s.count;
+    run.stats.largestSnap = std::max(run.stats.largestSnap, s.largest);
   }
-}
-
-/// For each referenced tri-vertex the lowest one at its position.
-std::vector<uint32_t> weld(const std::vector<uint8_t>& referenced, const std::vector<Point>& points, CutStats& stats) {
-  constexpr uint32_t kFree = ~0u;
-  size_t size = 16;
-  while (size < 2 * points.size()) size *= 2;
-  std::vector<uint32_t> table(size, kFree), lowest(points.size());
-  for (uint32_t v = 0; v < points.size(); ++v) {
-    lowest[v] = v;
-    if (!referenced[v]) continue;
-    uint64_t bits[3];
-    std::memcpy(bits, points[v].data(), sizeof bits);
-    uint64_t hash = bits[0] * 0x9e3779b97f4a7c15u;
-    hash = (hash ^ (hash >> 29) ^ bits[1]) * 0xbf58476d1ce4e5b9u;
-    hash = (hash ^ (hash >> 32) ^ bits[2]) * 0x94d049bb133111ebu;
-    for (size_t slot = (hash ^ (hash >> 31)) & (size - 1);; slot = (slot + 1) & (size - 1)) {
-      if (table[slot] == kFree) {
-        table[slot] = v;
-        break;
-      }
-      if (points[table[slot]] == points[v]) {
-        lowest[v] = table[slot];
-        ++stats.weldedVertices;
-        break;
-      }
-    }
-  }
-  return lowest;
-}
-
-bool hasArea(Predicates& predicates, const Point& a, const Point& b, const Point& c) {
-  for (int d = 0; d < 3; ++d) {
-    const int p = (d + 1) % 3, q = (d + 2) % 3;
-    if (predicates.orient2d(a[p], a[q], b[p], b[q], c[p], c[q]) != 0) return true;
-  }
-  return false;
-}
-
-/// Finds the vertices that triangles without area put on edges. Such triangles that share an edge lie on one line; each of their edges
-/// gets all their vertices that lie inside of it.
-std::vector<Stitch> findStitches(const Input& input, const std::vector<uint32_t>& flat) {
-  struct Use {
-    uint32_t low, high, triangle;
-    auto key() const { return std::array<uint32_t, 2>{low, high}; }
-  };
-  std::vector<Use> uses;
-  for (const uint32_t t : flat) {
-    const auto& v = input.triangles[t];
-    for (int i = 0; i < 3; ++i) {
-      const uint32_t a = v[i], b = v[(i + 1) % 3];
-      if (a != b) uses.push_back({std::min(a, b), std::max(a, b), t});  // a point is on many lines
-    }
-  }
-  std::sort(uses.begin(), uses.end(),
-            [](const Use& a, const Use& b) { return a.key() != b.key() ? a.key() < b.key() : a.triangle < b.triangle; });
-  const auto indexOf = [&](uint32_t t) { return uint32_t(std::lower_bound(flat.begin(), flat.end(), t) - flat.begin()); };
-  DisjointSets lines(flat.size());
-  for (size_t i = 1; i < uses.size(); ++i) {
-    if (uses[i].key() == uses[i - 1].key()) lines.unite(indexOf(uses[i].triangle), indexOf(uses[i - 1].triangle));
-  }
-  std::vector<std::vector<uint32_t>> verticesOf(flat.size());  // of each line, at its root
-  for (uint32_t i = 0; i < flat.size(); ++i) {
-    auto& vertices = verticesOf[lines.find(i)];
-    vertices.insert(vertices.end(), input.triangles[flat[i]].begin(), input.triangles[flat[i]].end());
-  }
-  const auto before = [&](uint32_t a, uint32_t b) { return input.points[a] < input.points[b]; };  // lexicographic: the order along a line
-  for (auto& vertices : verticesOf) {
-    std::sort(vertices.begin(), vertices.end(), before);
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  }
-  std::vector<Stitch> stitches;
-  for (size_t i = 0; i < uses.size(); ++i) {
-    const auto [low, high, triangle] = uses[i];
-    if (i > 0 && uses[i].key() == uses[i - 1].key()) continue;
-    const auto& line = verticesOf[lines.find(indexOf(triangle))];
-    const bool ascending = before(low, high);
-    const auto first = std::upper_bound(line.begin(), line.end(), ascending ? low : high, before);
-    const auto last = std::lower_bound(line.begin(), line.end(), ascending ? high : low, before);
-    if (first >= last) continue;
-    stitches.push_back({low, high, std::vector<uint32_t>(first, last)});
-    if (!ascending) std::reverse(stitches.back().vertices.begin(), stitches.back().vertices.end());
-  }
-  return stitches;
 }
 
 }  // namespace
 
-Input prepareInput(const MeshView& mesh, const Grid& grid, double snapTolerance, CutStats& stats, Monitor& monitor) {
+Input prepareInput(const MeshView& mesh, const Grid& grid, double snapTolerance, Run& run) {
   if (!(snapTolerance >= 0 && snapTolerance < 0.5)) fail(Status::badOption, -1, "snapTolerance must be at least 0 and below 0.5.");
   checkGrid(grid);
   checkArrays(mesh);
   Input input;
   const std::vector<uint8_t> referenced = referencedVertices(mesh);
-  scale(mesh, grid, referenced, input, stats);
-  locateVertices(referenced, snapTolerance, input, stats, monitor);
-  const std::vector<uint32_t> lowest = weld(referenced, input.points, stats);
+  scale(mesh, grid, referenced, input, run.stats);
+  locateVertices(referenced, snapTolerance, input, run);
+  const std::vector<uint32_t> lowest = weld(referenced, input.points);
+  for (uint32_t v = 0; v < lowest.size(); ++v) run.stats.weldedVertices += lowest[v] != v;
   input.triangles.resize(mesh.triangleCount());
   input.states.assign(mesh.triangleCount(), TriangleState::kept);
-  std::vector<uint32_t> flat;
-  Predicates predicates;
-  for (uint32_t t = 0; t < input.triangles.size(); ++t) {
-    auto& v = input.triangles[t];
-    for (int i = 0; i < 3; ++i) v[i] = lowest[mesh.triangles[3 * size_t(t) + i]];
-    if (hasArea(predicates, input.points[v[0]], input.points[v[1]], input.points[v[2]])) continue;
-    input.states[t] = TriangleState::zeroArea;
-    flat.push_back(t);
+  for (size_t t = 0; t < input.triangles.size(); ++t) {
+    for (size_t i = 0; i < 3; ++i) input.triangles[t][i] = lowest[mesh.triangles[3 * t + i]];
   }
-  stats.exactFallbacks += predicates.fallbacks;
-  stats.zeroAreaTriangles = uint32_t(flat.size());
-  if (!flat.empty()) input.stitches = findStitches(input, flat);
+  Predicates predicates;
+  const std::vector<uint32_t> zeroArea = dropZeroArea(input, predicates);
+  run.count(predicates);
+  run.stats.zeroAreaTriangles = uint32_t(zeroArea.size());
+  if (!zeroArea.empty()) input.stitches = findStitches(input, zeroArea);
   return input;
 }
 

@@ -1,7 +1,8 @@
 #include "cut/stages/output.h"
 
 #include <cmath>
-#include <cstring>
+
+#include "base/position_table.h"
 
 namespace mandoline::detail {
 namespace {
@@ -19,98 +20,111 @@ std::vector<uint32_t> numberVertices(size_t count, const CutMesh& out) {
   return ids;
 }
 
-void writeFaces(const Stencil& stencil, TriFaces& triFaces, GridFaces& gridFaces, CutMesh& out) {
-  const size_t tri = triFaces.size(), all = tri + gridFaces.size();
-  out.faceTriangle.assign(triFaces.triangles.begin(), triFaces.triangles.end());
-  out.faceTriangle.resize(all, -1);
-  out.faceAxis.assign(all, -1);
-  out.facePlane.assign(all, 0);
+void writePlaces(const Stencil& stencil, const CutFaces& faces, CutMesh& out) {
+  const size_t tri = faces.tri.size();
+  out.faceTriangle.assign(faces.tri.triangles.begin(), faces.tri.triangles.end());
+  out.faceTriangle.resize(faces.size(), -1);
+  out.faceAxis.assign(faces.size(), -1);
+  out.facePlane.assign(faces.size(), 0);
   for (size_t f = 0; f < tri; ++f) {
     for (int d = 0; d < 3; ++d) {
-      if (!onPlane(triFaces.elements[f][d])) continue;
+      if (!onPlane(faces.tri.elements[f][d])) continue;
       out.faceAxis[f] = int8_t(d);
-      out.facePlane[f] = triFaces.elements[f][d] >> 1;
+      out.facePlane[f] = faces.tri.elements[f][d] >> 1;
     }
   }
-  for (size_t g = 0; g < gridFaces.size(); ++g) {
-    const Stencil::Face& place = stencil.faces[gridFaces.gridFaces[g]];
+  for (size_t g = 0; g < faces.grid.size(); ++g) {
+    const Stencil::Face& place = stencil.faces[faces.grid.gridFaces[g]];
     out.faceAxis[tri + g] = int8_t(place.axis());
     out.facePlane[tri + g] = stencil.cells[place.cell].at(place.axis()) + place.side();
   }
-  out.faceLoopOffsets.resize(tri + 1);
-  for (uint32_t f = 0; f <= tri; ++f) out.faceLoopOffsets[f] = f;  // one loop each
-  for (size_t g = 1; g < gridFaces.faceLoopOffsets.size(); ++g) out.faceLoopOffsets.push_back(gridFaces.faceLoopOffsets[g] + uint32_t(tri));
-  const uint32_t shift = uint32_t(triFaces.loopVertices.size());
-  out.loopOffsets = std::move(triFaces.loopOffsets);
-  for (size_t l = 1; l < gridFaces.loopOffsets.size(); ++l) out.loopOffsets.push_back(gridFaces.loopOffsets[l] + shift);
-  out.loopVertices = std::move(triFaces.loopVertices);
-  out.loopVertices.insert(out.loopVertices.end(), gridFaces.loopVertices.begin(), gridFaces.loopVertices.end());
 }
 
-void writeVertices(const MeshView& mesh, const Grid& grid, const Input& input, const CutVertices& vertices,
-                   const std::vector<uint32_t>& ids, CutMesh& out, CutStats& stats, Monitor& monitor) {
+void moveLoops(CutFaces& faces, CutMesh& out) {
+  auto& [tri, grid] = faces;
+  out.faceLoopOffsets.resize(tri.size() + 1);
+  for (uint32_t f = 0; f <= tri.size(); ++f) out.faceLoopOffsets[f] = f;  // one loop each
+  for (size_t g = 1; g < grid.faceLoopOffsets.size(); ++g) out.faceLoopOffsets.push_back(grid.faceLoopOffsets[g] + uint32_t(tri.size()));
+  const uint32_t shift = uint32_t(tri.loopVertices.size());
+  out.loopOffsets = std::move(tri.loopOffsets);
+  for (size_t l = 1; l < grid.loopOffsets.size(); ++l) out.loopOffsets.push_back(grid.loopOffsets[l] + shift);
+  out.loopVertices = std::move(tri.loopVertices);
+  out.loopVertices.insert(out.loopVertices.end(), grid.loopVertices.begin(), grid.loopVertices.end());
+}
+
+/// Writes cut-vertices one by one.
+class VertexWriter {
+ public:
+  /// `mesh` and `grid` are those of the user.
+  VertexWriter(const MeshView& mesh, const Grid& grid, const Surface& surface, CutMesh& out)
+      : mesh_(mesh), grid_(grid), input_(surface.input), vertices_(surface.vertices), out_(out) {}
+
+  void resize(size_t count) {
+    out_.positions.resize(3 * count);
+    out_.vertexCell.resize(3 * count);
+    out_.vertexMask.assign(count, 0);
+    out_.vertexTriVertex.assign(count, -1);
+    out_.vertexParents.assign(2 * count, -1);
+  }
+
+  /// Vertex v becomes number i.
+  void write(uint32_t v, size_t i, Predicates& predicates) {
+    const Slab& slab = vertices_.slabs[v];
+    const Point p = vertices_.position(v, predicates);
+    for (int d = 0; d < 3; ++d) {
+      out_.vertexCell[3 * i + d] = slab[d] >> 1;
+      if (onPlane(slab[d])) out_.vertexMask[i] |= uint8_t(1 << d);
+      // Coordinates that the input has are handed back as they are, even where scaling flushed them.
+      out_.positions[3 * i + d] = onPlane(slab[d])           ? grid_.planes[d][size_t(slab[d] >> 1)]
+                                  : vertices_.isTriVertex(v) ? mesh_.positions[3 * size_t(v) + d]
+                                                             : input_.toWorld(p[d]);
+    }
+    writeParents(v, i);
+  }
+
+ private:
+  void writeParents(uint32_t v, size_t i) {
+    int32_t* parents = &out_.vertexParents[2 * i];
+    if (vertices_.isTriVertex(v)) {
+      out_.vertexTriVertex[i] = parents[0] = parents[1] = int32_t(v);
+    } else if (vertices_.isOnEdge(v)) {
+      parents[0] = int32_t((*vertices_.triEdges)[vertices_.triEdge(v)][0]);
+      parents[1] = int32_t((*vertices_.triEdges)[vertices_.triEdge(v)][1]);
+    } else if (vertices_.isInTriangle(v)) {
+      parents[0] = int32_t(vertices_.triangle(v));
+    }
+  }
+
+  const MeshView& mesh_;
+  const Grid& grid_;
+  const Input& input_;
+  const CutVertices& vertices_;
+  CutMesh& out_;
+};
+
+void writeVertices(const std::vector<uint32_t>& ids, VertexWriter& writer, Run& run) {
   std::vector<uint32_t> used;
   for (uint32_t v = 0; v < ids.size(); ++v) {
     if (ids[v] != kUnused) used.push_back(v);
   }
-  out.positions.resize(3 * used.size());
-  out.vertexCell.resize(3 * used.size());
-  out.vertexMask.assign(used.size(), 0);
-  out.vertexTriVertex.assign(used.size(), -1);
-  out.vertexParents.assign(2 * used.size(), -1);
-  const auto chunks = forChunks<Predicates>(used.size(), monitor, [&](Predicates& predicates, size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) {
-      const uint32_t v = used[i];
-      const Slab& slab = vertices.slabs[v];
-      const Point p = vertices.position(v, predicates);
-      for (int d = 0; d < 3; ++d) {
-        out.vertexCell[3 * i + d] = slab[d] >> 1;
-        if (onPlane(slab[d])) out.vertexMask[i] |= uint8_t(1 << d);
-        // Coordinates that the input has are handed back as they are, even where scaling flushed them.
-        out.positions[3 * i + d] = onPlane(slab[d])          ? grid.planes[d][size_t(slab[d] >> 1)]
-                                   : vertices.isTriVertex(v) ? mesh.positions[3 * size_t(v) + d]
-                                                             : input.toWorld(p[d]);
-      }
-      int32_t* parents = &out.vertexParents[2 * i];
-      if (vertices.isTriVertex(v)) {
-        out.vertexTriVertex[i] = parents[0] = parents[1] = int32_t(v);
-      } else if (vertices.isOnEdge(v)) {
-        parents[0] = int32_t((*vertices.triEdges)[vertices.parent(v)][0]);
-        parents[1] = int32_t((*vertices.triEdges)[vertices.parent(v)][1]);
-      } else if (vertices.isInTriangle(v)) {
-        parents[0] = int32_t(vertices.parent(v));
-      }
-    }
+  writer.resize(used.size());
+  const auto chunks = forChunks<Predicates>(used.size(), run.monitor, [&](Predicates& predicates, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) writer.write(used[i], i, predicates);
   });
-  for (const Predicates& p : chunks) stats.exactFallbacks += p.fallbacks;
+  for (const Predicates& p : chunks) run.count(p);
 }
 
 /// Moves made vertices that rounding put onto another one by a few units in the last place, so that no two have the same position.
 /// Vertices on different grid elements never need it: see CutVertices::position.
 void separate(CutMesh& out) {
-  const size_t n = out.vertexMask.size();
-  size_t size = 16;
-  while (size < 2 * n) size *= 2;
-  std::vector<uint32_t> table(size, kUnused);
-  const auto find = [&](const double* p) -> uint32_t& {  // the slot that has a vertex at p, or is free for one
-    uint64_t bits[3];
-    for (int d = 0; d < 3; ++d) {
-      const double x = p[d] + 0.0;
-      std::memcpy(&bits[d], &x, sizeof x);
-    }
-    uint64_t hash = (bits[0] * 0x9e3779b97f4a7c15u) ^ (bits[1] * 0xbf58476d1ce4e5b9u) ^ (bits[2] * 0x94d049bb133111ebu);
-    hash ^= hash >> 32;
-    for (size_t slot = hash & (size - 1);; slot = (slot + 1) & (size - 1)) {
-      const uint32_t v = table[slot];
-      if (v == kUnused || std::equal(p, p + 3, &out.positions[3 * size_t(v)])) return table[slot];
-    }
-  };
+  const uint32_t n = uint32_t(out.vertexMask.size());
+  PositionTable table(n, [&](uint32_t v) { return &out.positions[3 * size_t(v)]; });
   for (uint32_t v = 0; v < n; ++v) {
     double* p = &out.positions[3 * size_t(v)];
-    uint32_t* slot = &find(p);
+    uint32_t* slot = &table.find(p);
     const Point original = {p[0], p[1], p[2]};
-    for (int steps = 1; *slot != kUnused && steps < 64; ++steps) {
-      for (int way = 0; way < 6 && *slot != kUnused; ++way) {
+    for (int steps = 1; *slot != table.kFree && steps < 64; ++steps) {
+      for (int way = 0; way < 6 && *slot != table.kFree; ++way) {
         const int d = way >> 1, c = out.vertexCell[3 * size_t(v) + d];
         if (out.vertexMask[v] >> d & 1 || out.vertexTriVertex[v] >= 0) continue;
         const double toward = out.grid.planes[d][size_t(c) + (way & 1)];
@@ -119,10 +133,10 @@ void separate(CutMesh& out) {
         if (x == toward) continue;
         std::copy(original.begin(), original.end(), p);
         p[d] = x;
-        slot = &find(p);
+        slot = &table.find(p);
       }
     }
-    if (*slot == kUnused) *slot = v;
+    if (*slot == table.kFree) *slot = v;
   }
 }
 
@@ -141,15 +155,16 @@ void listDropped(const Input& input, CutMesh& out, CutStats& stats) {
 
 }  // namespace
 
-CutMesh makeOutput(const MeshView& mesh, const Grid& grid, const Input& input, const Stencil& stencil, TriFaces&& triFaces,
-                   GridFaces&& gridFaces, CutCells&& cells, Regions&& regions, const CutVertices& vertices, CutStats& stats,
-                   Monitor& monitor) {
+CutMesh makeOutput(const MeshView& mesh, const Grid& grid, CutState& state, Run& run) {
+  auto& [surface, stencil, faces, cells, regions] = state;
   CutMesh out;
   out.grid = grid;
-  writeFaces(stencil, triFaces, gridFaces, out);
-  const std::vector<uint32_t> ids = numberVertices(vertices.size(), out);
+  writePlaces(stencil, faces, out);
+  moveLoops(faces, out);
+  const std::vector<uint32_t> ids = numberVertices(surface.vertices.size(), out);
   for (uint32_t& v : out.loopVertices) v = ids[v];
-  writeVertices(mesh, grid, input, vertices, ids, out, stats, monitor);
+  VertexWriter writer(mesh, grid, surface, out);
+  writeVertices(ids, writer, run);
   separate(out);
 
   out.cellHalfFaceOffsets = std::move(cells.halfFaces.offsets);
@@ -165,8 +180,8 @@ CutMesh makeOutput(const MeshView& mesh, const Grid& grid, const Input& input, c
   out.regionCount = regions.count;
   out.hasWinding = regions.hasWinding;
   out.regionWinding = std::move(regions.winding);
-  out.triangleCount = uint32_t(input.triangles.size());
-  listDropped(input, out, stats);
+  out.triangleCount = uint32_t(surface.input.triangles.size());
+  listDropped(surface.input, out, run.stats);
   return out;
 }
 

@@ -1,14 +1,22 @@
 // Stage 9, output: compacts the vertices, lays the faces one after the other, and computes the coordinates.
 //
-// In: all stages before. Out: the public CutMesh (see mandoline.h for its arrays and their order).
+// In: all stages before. Out: the public CutMesh (see cut_mesh.h for its arrays and their order).
 #pragma once
 
 #include "cut/stages/regions.h"
 
 namespace mandoline::detail {
 
-CutMesh makeOutput(const MeshView& mesh, const Grid& grid, const Input& input, const Stencil& stencil, TriFaces&& triFaces,
-                   GridFaces&& gridFaces, CutCells&& cells, Regions&& regions, const CutVertices& vertices, CutStats& stats,
-                   Monitor& monitor);
+/// What the stages know of a cut, each adding its part.
+struct CutState {
+  Surface surface;
+  Stencil stencil;
+  CutFaces faces;
+  CutCells cells;
+  Regions regions;
+};
+
+/// Moves the arrays out of `state`. `mesh` and `grid` are those of the user: coordinates that they have are handed back as they are.
+CutMesh makeOutput(const MeshView& mesh, const Grid& grid, CutState& state, Run& run);
 
 }  // namespace mandoline::detail

@@ -20,7 +20,6 @@ struct Regions {
   std::vector<int32_t> winding;  ///< per region, empty unless hasWinding
 };
 
-Regions findRegions(const Input& input, const TriEdges& edges, const Stencil& stencil, const TriFaces& triFaces, const GridFaces& gridFaces,
-                    const CutCells& cells, const CutVertices& vertices, CutStats& stats, Monitor& monitor);
+Regions findRegions(const Surface& surface, const Stencil& stencil, const CutFaces& faces, const CutCells& cells, Run& run);
 
 }  // namespace mandoline::detail

@@ -85,6 +85,80 @@ void numberElements(const Input& input, const std::vector<uint64_t>& keys, Stenc
   }
 }
 
+uint64_t largestKey(const Input& input) { return keyOf(input, {2 * input.cells(0) - 1, 2 * input.cells(1) - 1, 2 * input.cells(2) - 1}); }
+
+/// The tri-cut-faces, by where they lie.
+struct PlacedFaces {
+  std::vector<KeyedItem> inCell;   // by cell
+  std::vector<uint32_t> inPlane;   // in grid-faces
+  std::vector<KeyedItem> touched;  // cells beside a grid-face that something lies in
+};
+
+PlacedFaces placeFaces(const Surface& surface, const TriFaces& triFaces) {
+  const Input& input = surface.input;
+  PlacedFaces placed;
+  const auto touchBoth = [&](const Slab& gridFace) {
+    const int axis = planeAxis(gridFace);
+    for (int side = -1; side <= 1; side += 2) {
+      Slab cell = gridFace;
+      cell[axis] += side;
+      if (input.inGrid(cell)) placed.touched.push_back({keyOf(input, cell), 0});
+    }
+  };
+  placed.inCell.reserve(triFaces.size());
+  for (uint32_t f = 0; f < triFaces.size(); ++f) {
+    if (planeCount(triFaces.elements[f]) == 0) {
+      placed.inCell.push_back({keyOf(input, triFaces.elements[f]), f});
+    } else {
+      placed.inPlane.push_back(f);
+      touchBoth(triFaces.elements[f]);
+    }
+  }
+  for (const FaceEdge& e : surface.edges.inPlane) touchBoth(e.element);
+  sortByKey(placed.inCell, largestKey(input));
+  sortByKey(placed.touched, largestKey(input));
+  return placed;
+}
+
+/// The cells, ascending, with the tri-cut-faces inside each. Returns their keys.
+std::vector<uint64_t> listCells(const Input& input, const PlacedFaces& placed, Stencil& stencil) {
+  const auto &inCell = placed.inCell, &touched = placed.touched;
+  std::vector<uint64_t> keys;
+  for (size_t i = 0, j = 0; i < inCell.size() || j < touched.size();) {
+    const uint64_t key = std::min(i < inCell.size() ? inCell[i].key : ~uint64_t(0), j < touched.size() ? touched[j].key : ~uint64_t(0));
+    keys.push_back(key);
+    for (; i < inCell.size() && inCell[i].key == key; ++i) stencil.triFacesInCell.items.push_back(inCell[i].item);
+    stencil.triFacesInCell.offsets.push_back(uint32_t(i));
+    while (j < touched.size() && touched[j].key == key) ++j;
+  }
+  stencil.cells.resize(keys.size());
+  const uint64_t nx = uint64_t(input.cells(0)), ny = uint64_t(input.cells(1));
+  for (size_t c = 0; c < keys.size(); ++c) {
+    stencil.cells[c].element = {int32_t(2 * (keys[c] % nx) + 1), int32_t(2 * (keys[c] / nx % ny) + 1),
+                                int32_t(2 * (keys[c] / nx / ny) + 1)};
+  }
+  return keys;
+}
+
+/// The grid-faces that n items lie in, found by way of the cells.
+template <class ElementOf>
+std::vector<uint32_t> findGridFaces(const Input& input, const std::vector<uint64_t>& keys, const Stencil& stencil, size_t n,
+                                    const ElementOf& elementOf) {
+  std::vector<KeyedItem> sorted(n);
+  Slab cell;
+  for (uint32_t i = 0; i < n; ++i) {
+    owner(input, elementOf(i), cell);
+    sorted[i] = {keyOf(input, cell), i};
+  }
+  sortByKey(sorted, largestKey(input));
+  std::vector<uint32_t> faceOf(n);
+  for (size_t i = 0, c = 0; i < n; ++i) {
+    while (keys[c] < sorted[i].key) ++c;
+    faceOf[sorted[i].item] = stencil.cells[c].faces[owner(input, elementOf(sorted[i].item), cell)];
+  }
+  return faceOf;
+}
+
 }  // namespace
 
 std::array<uint32_t, 4> Stencil::cornersOf(const Face& face) const {
@@ -100,74 +174,25 @@ std::array<uint32_t, 4> Stencil::edgesOf(const Face& face) const {
           cell.edges[cellEdge(q, side, 0)]};
 }
 
-Stencil makeStencil(const Input& input, const TriEdges& edges, const TriFaces& triFaces, Monitor& monitor) {
-  const uint64_t largestKey = keyOf(input, {2 * input.cells(0) - 1, 2 * input.cells(1) - 1, 2 * input.cells(2) - 1});
-  std::vector<KeyedItem> inCell, touched;  // tri-cut-faces by cell; other cells that something in a grid-face touches
-  const auto touchBoth = [&](const Slab& gridFace) {
-    const int axis = planeAxis(gridFace);
-    for (int side = -1; side <= 1; side += 2) {
-      Slab cell = gridFace;
-      cell[axis] += side;
-      if (input.inGrid(cell)) touched.push_back({keyOf(input, cell), 0});
-    }
-  };
-  std::vector<uint32_t> inPlane;  // tri-cut-faces in grid-faces
-  inCell.reserve(triFaces.size());
-  for (uint32_t f = 0; f < triFaces.size(); ++f) {
-    if (planeCount(triFaces.elements[f]) == 0) {
-      inCell.push_back({keyOf(input, triFaces.elements[f]), f});
-    } else {
-      inPlane.push_back(f);
-      touchBoth(triFaces.elements[f]);
-    }
-  }
-  for (const FaceEdge& e : edges.inPlane) touchBoth(e.element);
-  sortByKey(inCell, largestKey);
-  sortByKey(touched, largestKey);
-
+Stencil makeStencil(const Surface& surface, const TriFaces& triFaces, Run& run) {
+  const Input& input = surface.input;
+  const PlacedFaces placed = placeFaces(surface, triFaces);
   Stencil stencil;
-  std::vector<uint64_t> keys;
-  for (size_t i = 0, j = 0; i < inCell.size() || j < touched.size();) {
-    const uint64_t key = std::min(i < inCell.size() ? inCell[i].key : ~uint64_t(0), j < touched.size() ? touched[j].key : ~uint64_t(0));
-    keys.push_back(key);
-    for (; i < inCell.size() && inCell[i].key == key; ++i) stencil.triFacesInCell.items.push_back(inCell[i].item);
-    stencil.triFacesInCell.offsets.push_back(uint32_t(i));
-    while (j < touched.size() && touched[j].key == key) ++j;
-  }
-  stencil.cells.resize(keys.size());
-  for (size_t c = 0; c < keys.size(); ++c) {
-    const uint64_t nx = uint64_t(input.cells(0)), ny = uint64_t(input.cells(1));
-    stencil.cells[c].element = {int32_t(2 * (keys[c] % nx) + 1), int32_t(2 * (keys[c] / nx % ny) + 1),
-                                int32_t(2 * (keys[c] / nx / ny) + 1)};
-  }
-  numberElements(input, keys, stencil, monitor);
+  const std::vector<uint64_t> keys = listCells(input, placed, stencil);
+  numberElements(input, keys, stencil, run.monitor);
 
-  // Brings items that lie in grid-faces to them, by way of the cells.
-  const auto onFaces = [&](size_t n, const auto& elementOf) {
-    std::vector<KeyedItem> sorted(n);
-    Slab cell;
-    for (uint32_t i = 0; i < n; ++i) {
-      owner(input, elementOf(i), cell);
-      sorted[i] = {keyOf(input, cell), i};
-    }
-    sortByKey(sorted, largestKey);
-    std::vector<uint32_t> faceOf(n);
-    for (size_t i = 0, c = 0; i < n; ++i) {
-      while (keys[c] < sorted[i].key) ++c;
-      faceOf[sorted[i].item] = stencil.cells[c].faces[owner(input, elementOf(sorted[i].item), cell)];
-    }
-    return faceOf;
-  };
-  const auto edgeAt = [&](size_t i) -> const FaceEdge& {
-    return i < triFaces.hybridEdges.size() ? triFaces.hybridEdges[i] : edges.inPlane[i - triFaces.hybridEdges.size()];
-  };
-  const size_t edgeTotal = triFaces.hybridEdges.size() + edges.inPlane.size();
-  const std::vector<uint32_t> faceOfEdge = onFaces(edgeTotal, [&](size_t i) -> const Slab& { return edgeAt(i).element; });
+  const std::vector<FaceEdge>&hybrid = triFaces.hybridEdges, &inPlane = surface.edges.inPlane;
+  const auto edgeAt = [&](size_t i) -> const FaceEdge& { return i < hybrid.size() ? hybrid[i] : inPlane[i - hybrid.size()]; };
+  const size_t edgeTotal = hybrid.size() + inPlane.size();
+  const std::vector<uint32_t> faceOfEdge =
+      findGridFaces(input, keys, stencil, edgeTotal, [&](size_t i) -> const Slab& { return edgeAt(i).element; });
   stencil.edgesOnFace = groupBy<FaceEdge>(
       stencil.faces.size(), edgeTotal, [&](size_t i) { return faceOfEdge[i]; }, edgeAt);
-  const std::vector<uint32_t> faceOfTri = onFaces(inPlane.size(), [&](size_t i) -> const Slab& { return triFaces.elements[inPlane[i]]; });
+  const std::vector<uint32_t>& flat = placed.inPlane;
+  const std::vector<uint32_t> faceOfTri =
+      findGridFaces(input, keys, stencil, flat.size(), [&](size_t i) -> const Slab& { return triFaces.elements[flat[i]]; });
   stencil.triFacesOnFace = groupBy<uint32_t>(
-      stencil.faces.size(), inPlane.size(), [&](size_t i) { return faceOfTri[i]; }, [&](size_t i) { return inPlane[i]; });
+      stencil.faces.size(), flat.size(), [&](size_t i) { return faceOfTri[i]; }, [&](size_t i) { return flat[i]; });
   return stencil;
 }
 

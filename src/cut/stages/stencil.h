@@ -1,7 +1,7 @@
 // Stage 4, stencil (paper, 4.3.1): the grid cells that the surface touches, their grid-faces, grid-edges and grid vertices, and what of
 // the surface lies in each.
 //
-// In: TriFaces, TriEdges. Out: Stencil. A grid cell belongs to it if a tri-cut-face lies inside of it or in one of its grid-faces, or a
+// In: Surface, TriFaces. Out: Stencil. A grid cell belongs to it if a tri-cut-face lies inside of it or in one of its grid-faces, or a
 // tri-edge in one of its grid-faces: so every grid-face between it and an untouched grid cell is whole.
 #pragma once
 
@@ -45,6 +45,6 @@ struct Stencil {
   std::array<uint32_t, 4> edgesOf(const Face& face) const;
 };
 
-Stencil makeStencil(const Input& input, const TriEdges& edges, const TriFaces& triFaces, Monitor& monitor);
+Stencil makeStencil(const Surface& surface, const TriFaces& triFaces, Run& run);
 
 }  // namespace mandoline::detail

@@ -209,8 +209,9 @@ void collectInPlane(const Input& input, TriEdges& edges, const CutVertices& vert
 
 }  // namespace
 
-void cutTriEdges(Input& input, TriEdges& edges, CutVertices& vertices, CutStats& stats, Monitor& monitor) {
-  findUniqueEdges(input, edges, stats);
+void cutTriEdges(Surface& surface, Run& run) {
+  auto& [input, edges, vertices] = surface;
+  findUniqueEdges(input, edges, run.stats);
   const size_t edgeCount = edges.ends.size();
   vertices.input = &input;
   vertices.triEdges = &edges.ends;
@@ -227,7 +228,7 @@ void cutTriEdges(Input& input, TriEdges& edges, CutVertices& vertices, CutStats&
   vertices.slabs = input.slabs;
   vertices.slabs.resize(total);
   vertices.parents.resize(total - vertices.firstOnEdge);
-  const auto chunks = forChunks<Predicates>(edgeCount, monitor, [&](Predicates& predicates, size_t begin, size_t end) {
+  const auto chunks = forChunks<Predicates>(edgeCount, run.monitor, [&](Predicates& predicates, size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {
       const uint32_t first = edges.crossingOffsets[e], past = edges.crossingOffsets[e + 1];
       if (first == past) continue;
@@ -240,7 +241,7 @@ void cutTriEdges(Input& input, TriEdges& edges, CutVertices& vertices, CutStats&
       }
     }
   });
-  for (const Predicates& p : chunks) stats.exactFallbacks += p.fallbacks;
+  for (const Predicates& p : chunks) run.count(p);
   collectInPlane(input, edges, vertices);
 }
 

@@ -45,7 +45,17 @@ struct TriEdges {
   }
 };
 
-/// Fills `vertices` with tri-vertices and crossings. It keeps pointers to `input` and to the result's ends.
-void cutTriEdges(Input& input, TriEdges& edges, CutVertices& vertices, CutStats& stats, Monitor& monitor);
+/// The surface and the cut-vertices on it, which point into the others: so it stays where it is.
+struct Surface {
+  Input input;
+  TriEdges edges;
+  CutVertices vertices;
+
+  Surface() = default;
+  Surface(const Surface&) = delete;
+};
+
+/// From `surface.input` the rest of the surface.
+void cutTriEdges(Surface& surface, Run& run);
 
 }  // namespace mandoline::detail

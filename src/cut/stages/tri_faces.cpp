@@ -27,8 +27,8 @@ constexpr size_t kMost = size_t(1) << 31;  // loop entries, vertices
 
 class Dicer {
  public:
-  Dicer(const Input& input, const TriEdges& edges, const CutVertices& vertices, Monitor& monitor, Chunk& chunk)
-      : input_(input), edges_(edges), vertices_(vertices), monitor_(monitor), chunk_(chunk) {}
+  Dicer(const Surface& surface, Monitor& monitor, Chunk& chunk)
+      : input_(surface.input), edges_(surface.edges), vertices_(surface.vertices), monitor_(monitor), chunk_(chunk) {}
 
   void cut(uint32_t triangle) {
     triangle_ = triangle;
@@ -229,9 +229,11 @@ void append(TriFaces& a, const TriFaces& b, uint32_t firstInTriangle, uint32_t s
 
 }  // namespace
 
-TriFaces cutTriangles(const Input& input, const TriEdges& edges, CutVertices& vertices, CutStats& stats, Monitor& monitor) {
-  auto chunks = forChunks<Chunk>(input.triangles.size(), monitor, [&](Chunk& chunk, size_t begin, size_t end) {
-    Dicer dicer(input, edges, vertices, monitor, chunk);
+TriFaces cutTriangles(Surface& surface, Run& run) {
+  const Input& input = surface.input;
+  CutVertices& vertices = surface.vertices;
+  auto chunks = forChunks<Chunk>(input.triangles.size(), run.monitor, [&](Chunk& chunk, size_t begin, size_t end) {
+    Dicer dicer(surface, run.monitor, chunk);
     for (size_t t = begin; t < end; ++t) {
       if (input.kept(t)) dicer.cut(uint32_t(t));
     }
@@ -240,7 +242,7 @@ TriFaces cutTriangles(const Input& input, const TriEdges& edges, CutVertices& ve
   for (const Chunk& c : chunks) {
     entries += c.faces.loopVertices.size();
     made += c.slabs.size();
-    stats.exactFallbacks += c.predicates.fallbacks;
+    run.count(c.predicates);
   }
   if (entries > kMost || made > kMost) failTooLarge(-1);
   TriFaces faces = std::move(chunks[0].faces);

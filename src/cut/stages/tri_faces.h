@@ -1,7 +1,7 @@
 // Stage 3, triangles (paper, 4.1.2 and 4.2): dices every triangle by the axial planes that it spans into convex tri-cut-faces, each in one
 // grid cell, or in one grid-face if the triangle lies in an axial plane.
 //
-// In: Input, TriEdges. Out: TriFaces, and the range of CutVertices that lie in triangles. Pieces outside of the grid are left out.
+// In: Surface. Out: TriFaces, and the range of CutVertices that lie in triangles. Pieces outside the grid are left out.
 // After it: every hybrid edge is cut at every plane; a crossing of two hybrid edges of a triangle is one vertex; each loop runs
 // counter-clockwise about its triangle's normal and holds all vertices that lie on it.
 #pragma once
@@ -23,6 +23,6 @@ struct TriFaces {
   std::span<const uint32_t> loop(size_t f) const { return {loopVertices.data() + loopOffsets[f], loopOffsets[f + 1] - loopOffsets[f]}; }
 };
 
-TriFaces cutTriangles(const Input& input, const TriEdges& edges, CutVertices& vertices, CutStats& stats, Monitor& monitor);
+TriFaces cutTriangles(Surface& surface, Run& run);
 
 }  // namespace mandoline::detail
