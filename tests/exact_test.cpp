@@ -214,7 +214,7 @@ TEST_CASE("orient2d is exact", "[exact]") {
     for (int repeat = 0; repeat < 5000; ++repeat) {
       const Point a = sampler.point(), b = sampler.oneIn(20) ? a : sampler.point();
       const Point c = sampler.oneIn(20) ? b : sampler.oneIn(3) ? sampler.point() : sampler.nudged(sampler.onLine(a, b));
-      const int sign = predicates.orient2d(a[0], a[1], b[0], b[1], c[0], c[1]);
+      const int sign = predicates.orient2d({a[0], a[1]}, {b[0], b[1]}, {c[0], c[1]});
       REQUIRE(sign == orient2d(a, b, c, 0, 1));
       ++counts[sign + 1];
     }
@@ -246,12 +246,12 @@ TEST_CASE("Doubles decide the easy cases, and only the others are counted", "[ex
   Predicates predicates;
   for (int repeat = 0; repeat < 1000; ++repeat) {
     const Point a = sampler.point(), b = sampler.point(), c = sampler.point(), d = sampler.point();
-    predicates.orient2d(a[0], a[1], b[0], b[1], c[0], c[1]);
+    predicates.orient2d({a[0], a[1]}, {b[0], b[1]}, {c[0], c[1]});
     predicates.orient3d(a.data(), b.data(), c.data(), d.data());
     predicates.sign([&](auto number) { return decltype(number)::difference(a[0], b[0]) * decltype(number)::difference(c[0], d[0]); });
   }
   CHECK(predicates.fallbacks == 0);
-  predicates.orient2d(0.1, 0.1, 0.2, 0.2, 0.7, 0.7);
+  predicates.orient2d({0.1, 0.1}, {0.2, 0.2}, {0.7, 0.7});
   CHECK(predicates.fallbacks == 1);
   predicates.sign([](auto number) {
     using Number = decltype(number);

@@ -55,15 +55,15 @@ double Expansion::quotient(const Expansion& numerator, const Expansion& denomina
   return first + rest.estimate() / denominator.estimate();
 }
 
-int Predicates::orient2d(double ax, double ay, double bx, double by, double cx, double cy) {
+int Predicates::orient2d(const Point2& a, const Point2& b, const Point2& c) {
   // Shewchuk's static filter for differences rounded once: (3 + 16 u) u times the sum of the products' magnitudes.
   constexpr double bound = (3 + 16 * kRoundoff) * kRoundoff;
-  const double left = (ax - cx) * (by - cy), right = (ay - cy) * (bx - cx), det = left - right;
+  const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x), det = left - right;
   if (std::fabs(det) > bound * (std::fabs(left) + std::fabs(right))) return signOf(det);
   if (left == 0 && right == 0) return 0;  // no underflow: a factor is exactly 0 in each
   ++fallbacks;
   const auto d = &Expansion::difference;
-  return (d(ax, cx) * d(by, cy) - d(ay, cy) * d(bx, cx)).sign();
+  return (d(a.x, c.x) * d(b.y, c.y) - d(a.y, c.y) * d(b.x, c.x)).sign();
 }
 
 int Predicates::orient3d(const double* a, const double* b, const double* c, const double* d) {

@@ -87,13 +87,18 @@ class Expansion {
   std::vector<double> terms_;
 };
 
+/// A point in a plane.
+struct Point2 {
+  double x, y;
+};
+
 /// Evaluates exact signs and counts how many could not be decided in plain doubles. One per thread.
 class Predicates {
  public:
   uint64_t fallbacks = 0;
 
   /// Sign of (b - a) x (c - a) in the plane; positive when a, b, c turn counter-clockwise.
-  int orient2d(double ax, double ay, double bx, double by, double cx, double cy);
+  int orient2d(const Point2& a, const Point2& b, const Point2& c);
   /// Sign of det(b - a, c - a, d - a): positive when d lies on the side of triangle (a, b, c) that its normal points to.
   int orient3d(const double* a, const double* b, const double* c, const double* d);
 

@@ -97,8 +97,8 @@ size_t countZeroArea(const MeshView& mesh, const std::vector<Corners>& triangles
   const auto isFlat = [&](const Corners& t) {
     for (int d = 0; d < 3; ++d) {
       const int p = (d + 1) % 3, q = (d + 2) % 3;
-      if (predicates.orient2d(coordinate(t[0], p), coordinate(t[0], q), coordinate(t[1], p), coordinate(t[1], q), coordinate(t[2], p),
-                              coordinate(t[2], q)) != 0) {
+      if (predicates.orient2d({coordinate(t[0], p), coordinate(t[0], q)}, {coordinate(t[1], p), coordinate(t[1], q)},
+                              {coordinate(t[2], p), coordinate(t[2], q)}) != 0) {
         return false;
       }
     }

@@ -147,7 +147,7 @@ int Intersections::orient(uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
 int Intersections::orient(uint32_t a, uint32_t b, uint32_t c, int axis) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const Point &pa = mesh_.points[a], &pb = mesh_.points[b], &pc = mesh_.points[c];
-  return predicates_.orient2d(pa[u], pa[v], pb[u], pb[v], pc[u], pc[v]);
+  return predicates_.orient2d({pa[u], pa[v]}, {pb[u], pb[v]}, {pc[u], pc[v]});
 }
 
 /// An axis that the triangle's plane is not parallel to, so that orientations in the plane are those seen along it.

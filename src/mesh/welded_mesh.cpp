@@ -11,7 +11,7 @@ namespace {
 bool hasArea(Predicates& predicates, const Point& a, const Point& b, const Point& c) {
   for (int d = 0; d < 3; ++d) {
     const int p = (d + 1) % 3, q = (d + 2) % 3;
-    if (predicates.orient2d(a[p], a[q], b[p], b[q], c[p], c[q]) != 0) return true;
+    if (predicates.orient2d({a[p], a[q]}, {b[p], b[q]}, {c[p], c[q]}) != 0) return true;
   }
   return false;
 }

@@ -29,7 +29,7 @@ int CutVertices::orient(uint32_t u, uint32_t v, uint32_t w, int axis, Predicates
   const int p = (axis + 1) % 3, q = (axis + 2) % 3;
   if (isTriVertex(u) && isTriVertex(v) && isTriVertex(w)) {
     const Point &a = input->points[u], &b = input->points[v], &c = input->points[w];
-    return predicates.orient2d(a[p], a[q], b[p], b[q], c[p], c[q]);
+    return predicates.orient2d({a[p], a[q]}, {b[p], b[q]}, {c[p], c[q]});
   }
   const Point r = reference(u);
   return predicates.sign([&](auto number) {

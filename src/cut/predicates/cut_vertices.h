@@ -97,7 +97,7 @@ Homogeneous<Number> CutVertices::point(uint32_t v, const Point& reference, Predi
                                           : 2,
               e = (g + 1) % 3, f = (g + 2) % 3;  // the grid line runs along g
     const auto normal = [&](int p, int q) { return diff(b[p], a[p]) * diff(c[q], a[q]) - diff(b[q], a[q]) * diff(c[p], a[p]); };
-    const bool flip = predicates.orient2d(a[e], a[f], b[e], b[f], c[e], c[f]) < 0;
+    const bool flip = predicates.orient2d({a[e], a[f]}, {b[e], b[f]}, {c[e], c[f]}) < 0;
     const Number ng = flip ? -normal(e, f) : normal(e, f), ne = flip ? -normal(f, g) : normal(f, g),
                  nf = flip ? -normal(g, e) : normal(g, e);
     h.w = ng;

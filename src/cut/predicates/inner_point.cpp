@@ -48,7 +48,7 @@ int volumeSign(const std::vector<Corners>& triangles, Predicates& predicates) {
 int normalSign(const Corners& t, int axis, Predicates& predicates) {
   const Point &a = *t[0], &b = *t[1], &c = *t[2];
   const int p = (axis + 1) % 3, q = (axis + 2) % 3;
-  return predicates.orient2d(a[p], a[q], b[p], b[q], c[p], c[q]);
+  return predicates.orient2d({a[p], a[q]}, {b[p], b[q]}, {c[p], c[q]});
 }
 
 int insideOf(const Corners& t, const InnerPoint& point, int axis, Predicates& predicates) {

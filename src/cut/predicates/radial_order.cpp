@@ -9,8 +9,8 @@ namespace {
 bool inOneHalfPlane(const Point& a, const Point& b, const Point& c, const Point& d, Predicates& predicates) {
   for (int axis = 0; axis < 3; ++axis) {
     const int p = (axis + 1) % 3, q = (axis + 2) % 3;
-    const int side = predicates.orient2d(a[p], a[q], b[p], b[q], c[p], c[q]);
-    if (side != 0) return side == predicates.orient2d(a[p], a[q], b[p], b[q], d[p], d[q]);
+    const int side = predicates.orient2d({a[p], a[q]}, {b[p], b[q]}, {c[p], c[q]});
+    if (side != 0) return side == predicates.orient2d({a[p], a[q]}, {b[p], b[q]}, {d[p], d[q]});
   }
   return true;
 }

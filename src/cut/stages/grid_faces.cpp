@@ -164,7 +164,7 @@ class FaceCutter {
     const auto& t = input_.triangles[triangle];
     const Point &a = input_.points[t[0]], &b = input_.points[t[1]], &c = input_.points[t[2]];
     const int p = (axis + 1) % 3, q = (axis + 2) % 3;
-    return chunk_.predicates.orient2d(a[p], a[q], b[p], b[q], c[p], c[q]);
+    return chunk_.predicates.orient2d({a[p], a[q]}, {b[p], b[q]}, {c[p], c[q]});
   }
 
   const Input& input_;

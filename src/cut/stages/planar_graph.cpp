@@ -124,59 +124,79 @@ uint32_t PlanarGraph::exteriorCycle(const std::vector<uint32_t>& component, Pred
   return cycleOf_[last];
 }
 
-/// P5: gives every cycle its face. Cycles of the outline's component are faces of their own; a component that floats inside of the
+/// P5: gives every cycle its face. Cycles of the outline's component are faces of their own; a component that floats inside the
 /// square has one cycle around it, which belongs to the face that holds the component.
 void PlanarGraph::placeComponents(Predicates& predicates) {
-  constexpr uint32_t kUnset = ~0u - 1;
   faceOf_.assign(cycleStarts_.size(), kUnset);
   faceOf_[cycleOf_[1]] = kOutside;
   faceCount = 0;
+  findFloating(predicates);
+  for (uint32_t cycle = 0; cycle < faceOf_.size(); ++cycle) {
+    if (faceOf_[cycle] == kUnset && !isExterior_[cycle]) faceOf_[cycle] = faceCount++;
+  }
+  if (floating_.empty()) return;
+  findHolders(predicates);
+  // The innermost holder is the one whose component is itself held most often; the outline's is held by none.
+  const auto depthOf = [&](uint32_t cycle) {
+    const uint32_t component = componentOf_[ends_[cycleStarts_[cycle]]];
+    return component < floating_.size() ? floating_[component].holders.size() : 0;
+  };
+  for (const Floating& component : floating_) {
+    uint32_t innermost = kUnset;
+    for (const uint32_t c : component.holders) {
+      if (innermost == kUnset || depthOf(c) > depthOf(innermost)) innermost = c;
+    }
+    if (innermost == kUnset || depthOf(innermost) + 1 != component.holders.size()) {  // loops that cross
+      const uint32_t other = component.holders.empty() ? 0 : ends_[cycleStarts_[component.holders.back()]];
+      vertices_->failSelfIntersectionAt(ids_[component.members[0]], ids_[other]);
+    }
+    faceOf_[component.exterior] = faceOf_[innermost];
+  }
+}
+
+/// The components that do not reach the outline.
+void PlanarGraph::findFloating(Predicates& predicates) {
+  floating_.clear();
+  isExterior_.assign(cycleStarts_.size(), 0);
   components_.reset(ids_.size());
   for (size_t h = 0; h < ends_.size(); h += 2) components_.unite(ends_[h], ends_[h + 1]);
-  std::vector<uint32_t> roots;  // of floating components
+  std::vector<uint32_t> roots;
   for (uint32_t v = uint32_t(sides_); v < ids_.size(); ++v) {
     if (components_.find(v) == v) roots.push_back(v);
   }
-  if (roots.empty()) {
-    for (uint32_t& face : faceOf_) face = face == kUnset ? faceCount++ : face;
-    return;
-  }
-
-  const size_t n = roots.size();
-  std::vector<std::vector<uint32_t>> members(n);
-  std::vector<uint32_t> componentOf(ids_.size(), uint32_t(n));  // n: the outline's
+  if (roots.empty()) return;
+  floating_.resize(roots.size());
+  componentOf_.assign(ids_.size(), uint32_t(roots.size()));  // the outline's, unless found to float
   for (uint32_t v = uint32_t(sides_); v < ids_.size(); ++v) {
     const auto root = std::lower_bound(roots.begin(), roots.end(), components_.find(v));
     if (root == roots.end() || *root != components_.find(v)) continue;
-    componentOf[v] = uint32_t(root - roots.begin());
-    members[componentOf[v]].push_back(v);
+    componentOf_[v] = uint32_t(root - roots.begin());
+    floating_[componentOf_[v]].members.push_back(v);
   }
-  std::vector<uint32_t> exterior(n);
-  for (size_t k = 0; k < n; ++k) exterior[k] = exteriorCycle(members[k], predicates);
-  std::vector<uint8_t> isExterior(cycleStarts_.size(), 0);
-  for (const uint32_t cycle : exterior) isExterior[cycle] = 1;
-  for (size_t c = 0; c < faceOf_.size(); ++c) {
-    if (faceOf_[c] == kUnset && !isExterior[c]) faceOf_[c] = faceCount++;
+  for (Floating& component : floating_) {
+    component.exterior = exteriorCycle(component.members, predicates);
+    isExterior_[component.exterior] = 1;
   }
+}
 
-  // Which bounded cycles hold each component: those that a ray to growing p from one of its vertices leaves an odd number of times.
+/// Which bounded cycles hold each component: those that a ray to growing p from one of its vertices leaves an odd number of times.
+void PlanarGraph::findHolders(Predicates& predicates) {
   const int p = (axis_ + 1) % 3, q = (axis_ + 2) % 3;
   std::vector<CutVertices::Range> rangeP(ids_.size()), rangeQ(ids_.size());
   for (uint32_t v = 0; v < ids_.size(); ++v) {
     rangeP[v] = vertices_->range(ids_[v], p, predicates);
     rangeQ[v] = vertices_->range(ids_[v], q, predicates);
   }
-  std::vector<std::vector<uint32_t>> holders(n);  // cycles
   std::vector<uint8_t> odd(cycleStarts_.size(), 0);
-  for (size_t k = 0; k < n; ++k) {
-    const uint32_t v = members[k][0];
+  for (uint32_t k = 0; k < floating_.size(); ++k) {
+    const uint32_t v = floating_[k].members[0];
     std::fill(odd.begin(), odd.end(), uint8_t(0));
     const auto above = [&](uint32_t u) {
       return rangeQ[u].low > rangeQ[v].high || (rangeQ[u].high >= rangeQ[v].low && vertices_->compare(ids_[u], ids_[v], q, predicates) > 0);
     };
     for (uint32_t h = 0; h < ends_.size(); h += 2) {
       uint32_t low = ends_[h], high = ends_[h + 1];
-      if (componentOf[low] == k || std::max(rangeP[low].high, rangeP[high].high) < rangeP[v].low) continue;
+      if (componentOf_[low] == k || std::max(rangeP[low].high, rangeP[high].high) < rangeP[v].low) continue;
       if (above(low) == above(high)) continue;
       if (above(low)) std::swap(low, high);
       const int side = vertices_->orient(ids_[low], ids_[high], ids_[v], axis_, predicates);
@@ -186,24 +206,8 @@ void PlanarGraph::placeComponents(Predicates& predicates) {
       odd[cycleOf_[h ^ 1]] ^= 1;
     }
     for (uint32_t c = 0; c < odd.size(); ++c) {
-      if (odd[c] && faceOf_[c] != kOutside && !isExterior[c]) holders[k].push_back(c);
+      if (odd[c] && faceOf_[c] != kOutside && !isExterior_[c]) floating_[k].holders.push_back(c);
     }
-  }
-  // The innermost holder is the one whose component is itself held most often; the outline's is held by none.
-  for (size_t k = 0; k < n; ++k) {
-    const auto depthOf = [&](uint32_t cycle) {
-      const uint32_t component = componentOf[ends_[cycleStarts_[cycle]]];
-      return component < n ? holders[component].size() : 0;
-    };
-    uint32_t innermost = kUnset;
-    for (const uint32_t c : holders[k]) {
-      if (innermost == kUnset || depthOf(c) > depthOf(innermost)) innermost = c;
-    }
-    if (innermost == kUnset || depthOf(innermost) + 1 != holders[k].size()) {  // loops that cross
-      const uint32_t other = holders[k].empty() ? 0 : ends_[cycleStarts_[holders[k].back()]];
-      vertices_->failSelfIntersectionAt(ids_[members[k][0]], ids_[other]);
-    }
-    faceOf_[exterior[k]] = faceOf_[innermost];
   }
 }
 

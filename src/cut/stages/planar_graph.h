@@ -47,11 +47,22 @@ class PlanarGraph {
   uint32_t find(uint32_t fromId, uint32_t toId) const;
 
  private:
+  static constexpr uint32_t kUnset = ~0u - 1;
+
+  /// A component that does not reach the outline.
+  struct Floating {
+    std::vector<uint32_t> members;  // vertices
+    uint32_t exterior = kUnset;     // the cycle that runs around it from outside
+    std::vector<uint32_t> holders;  // cycles that run around it
+  };
+
   uint32_t localOf(uint32_t id);
   void orderOutgoing(uint32_t v, Predicates& predicates);
   void sortAround(uint32_t v, uint32_t* begin, uint32_t* end, bool fullCircle, Predicates& predicates);
   void traceCycles();
   void placeComponents(Predicates& predicates);
+  void findFloating(Predicates& predicates);
+  void findHolders(Predicates& predicates);
   uint32_t exteriorCycle(const std::vector<uint32_t>& component, Predicates& predicates);
   void traceLoops(Predicates& predicates);
   bool isBefore(uint32_t u, uint32_t v, Predicates& predicates) const;
@@ -69,6 +80,9 @@ class PlanarGraph {
   std::vector<uint32_t> faceOf_;                 // per cycle
   std::vector<uint8_t> traced_;
   DisjointSets components_;
+  std::vector<Floating> floating_;
+  std::vector<uint8_t> isExterior_;    // per cycle
+  std::vector<uint32_t> componentOf_;  // per vertex: index into floating_, or its size; only where some float
 };
 
 }  // namespace mandoline::detail

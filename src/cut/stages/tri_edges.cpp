@@ -132,19 +132,27 @@ void findUniqueEdges(Input& input, TriEdges& edges, CutStats& stats) {
   edges.stitched.items = extraEdges;
 }
 
-/// P1: order of the crossings of edge a -> b with plane x of axis d and plane y of axis e, by place along the edge.
-int compareCrossings(const Point& a, const Point& b, int d, double x, int e, double y, Predicates& predicates) {
+struct AxialPlane {
+  int axis;
+  double coordinate;
+};
+
+/// P1: order of the crossings of edge a -> b with two planes, by place along the edge.
+int compareCrossings(const Point& a, const Point& b, const AxialPlane& u, const AxialPlane& v, Predicates& predicates) {
+  const auto [d, x] = u;
+  const auto [e, y] = v;
   const double s = (x - a[d]) / (b[d] - a[d]), t = (y - a[e]) / (b[e] - a[e]);
   constexpr double bound = 10 * kRoundoff;  // each is in [0, 1] and has three roundings
   if (std::fabs(s - t) > bound) return signOf(s - t);
   // (x - a.d) (b.e - a.e) - (y - a.e) (b.d - a.d) has the sign of (s - t) (b.d - a.d) (b.e - a.e), and is the orientation of (b, (x, y))
   // about a.
-  const int orientation = -predicates.orient2d(a[d], a[e], b[d], b[e], x, y);
+  const int orientation = -predicates.orient2d({a[d], a[e]}, {b[d], b[e]}, {x, y});
   return (b[d] > a[d]) == (b[e] > a[e]) ? orientation : -orientation;
 }
 
-/// Writes the slabs of an edge's crossings, from a to b, to `out`; returns how many. Crossings at one point are one.
-size_t crossEdge(const Input& input, const Point& a, const Point& b, const Slab& from, const Slab& to, Slab* out, Predicates& predicates) {
+/// Writes the slabs of an edge's crossings, from its lower end on, to `out`; returns how many. Crossings at one point are one.
+size_t crossEdge(const Input& input, const std::array<uint32_t, 2>& ends, Slab* out, Predicates& predicates) {
+  const Slab &from = input.slabs[ends[0]], &to = input.slabs[ends[1]];
   Slab at = from;  // slabs just before the next crossing
   int step[3];
   int32_t next[3], last[3];
@@ -161,8 +169,9 @@ size_t crossEdge(const Input& input, const Point& a, const Point& b, const Slab&
     bool tied[3] = {};
     for (int d = 0; d < 3; ++d) {
       if (!pending(d)) continue;
+      const auto planeOf = [&](int axis) { return AxialPlane{axis, input.planes[axis][next[axis]]}; };
       const int order =
-          first < 0 ? -1 : compareCrossings(a, b, d, input.planes[d][next[d]], first, input.planes[first][next[first]], predicates);
+          first < 0 ? -1 : compareCrossings(input.points[ends[0]], input.points[ends[1]], planeOf(d), planeOf(first), predicates);
       if (order < 0) tied[0] = tied[1] = tied[2] = false;
       if (order <= 0) tied[d] = true;
       if (order < 0) first = d;
@@ -232,9 +241,7 @@ void cutTriEdges(Surface& surface, Run& run) {
     for (size_t e = begin; e < end; ++e) {
       const uint32_t first = edges.crossingOffsets[e], past = edges.crossingOffsets[e + 1];
       if (first == past) continue;
-      const auto [a, b] = edges.ends[e];
-      const size_t count =
-          crossEdge(input, input.points[a], input.points[b], input.slabs[a], input.slabs[b], &vertices.slabs[first], predicates);
+      const size_t count = crossEdge(input, edges.ends[e], &vertices.slabs[first], predicates);
       for (uint32_t v = first; v < past; ++v) {
         vertices.parents[v - vertices.firstOnEdge] = uint32_t(e);
         if (v >= first + count) vertices.slabs[v] = {CutVertices::kUnused, 1, 1};

@@ -27,7 +27,7 @@ int windingAtLowestCorner(const Input& input, Predicates& predicates) {
     if (std::min({sa[2], sb[2], sc[2]}) > 0 || std::max({sa[2], sb[2], sc[2]}) < 0) continue;
     const Point &a = input.points[v[0]], &b = input.points[v[1]], &c = input.points[v[2]];
     const auto sideOf = [&](const Point& p, const Point& q) {  // of the shifted point about p -> q, seen along -x
-      const int side = predicates.orient2d(p[1], p[2], q[1], q[2], o[1], o[2]);
+      const int side = predicates.orient2d({p[1], p[2]}, {q[1], q[2]}, {o[1], o[2]});
       if (side != 0) return side;
       const int byY = -signOf(q[2] - p[2]);
       return byY != 0 ? byY : signOf(q[1] - p[1]);
@@ -35,8 +35,8 @@ int windingAtLowestCorner(const Input& input, Predicates& predicates) {
     const int side = sideOf(a, b);
     if (side == 0 || side != sideOf(b, c) || side != sideOf(c, a)) continue;  // side is now the sign of the normal's x
     int above = predicates.orient3d(a.data(), b.data(), c.data(), o.data());
-    if (above == 0) above = predicates.orient2d(a[2], a[0], b[2], b[0], c[2], c[0]);
-    if (above == 0) above = predicates.orient2d(a[0], a[1], b[0], b[1], c[0], c[1]);
+    if (above == 0) above = predicates.orient2d({a[2], a[0]}, {b[2], b[0]}, {c[2], c[0]});
+    if (above == 0) above = predicates.orient2d({a[0], a[1]}, {b[0], b[1]}, {c[0], c[1]});
     if (above == 0) above = side;
     if (above == side) winding -= side;  // the point lies beyond the triangle along +x, so the ray meets it
   }

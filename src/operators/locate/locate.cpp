@@ -44,7 +44,7 @@ int windingInView(const Wall& wall, const MovedPoint& p, Predicates& predicates)
     const ScaledPoint &a = wall.corners[i], &b = wall.corners[(i + 1) % 3];
     const int direction = int(isAbove(b)) - int(isAbove(a));
     if (direction == 0) continue;
-    int side = predicates.orient2d(a[kRight], a[kUp], b[kRight], b[kUp], p.at[kRight], p.at[kUp]);
+    int side = predicates.orient2d({a[kRight], a[kUp]}, {b[kRight], b[kUp]}, {p.at[kRight], p.at[kUp]});
     if (side == 0) side = -direction * p.move[kRight];  // to the right of an edge that goes up
     if (side == direction) winding += direction;
   }

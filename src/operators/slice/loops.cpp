@@ -85,7 +85,7 @@ void SliceLoops::sortClockwise(uint32_t point) {
   std::sort(around_.begin(), around_.end(), [&](const Ray& r, const Ray& s) {
     if (r.half != s.half) return r.half < s.half;
     const PlanePoint &a = target(r), &b = target(s);
-    const int order = r.half == 0 ? 0 : predicates_.orient2d(p.x, p.y, a.x, a.y, b.x, b.y);
+    const int order = r.half == 0 ? 0 : predicates_.orient2d({p.x, p.y}, {a.x, a.y}, {b.x, b.y});
     return order != 0 ? order < 0 : rank(r) < rank(s);
   });
 }

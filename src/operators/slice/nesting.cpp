@@ -109,7 +109,7 @@ int SliceNesting::winding(uint32_t loop, const PlanePoint& p) {
   for (size_t i = 0; i < points.size(); ++i) {
     const PlanePoint &a = (*at_)[points[i]], &b = (*at_)[points[i + 1 < points.size() ? i + 1 : 0]];
     const int direction = int(b.y > p.y) - int(a.y > p.y);
-    if (direction != 0 && predicates_.orient2d(a.x, a.y, b.x, b.y, p.x, p.y) == direction) result += direction;
+    if (direction != 0 && predicates_.orient2d({a.x, a.y}, {b.x, b.y}, {p.x, p.y}) == direction) result += direction;
   }
   return result;
 }
