@@ -1,17 +1,21 @@
-// What the continuous integration does beyond npm test: the same bits from another compiler, a fuzz run, the suite under sanitizers.
+// What the continuous integration does beyond npm test: format and shape of the sources, the same bits from another compiler, a fuzz run, the
+// suite under sanitizers.
 import { existsSync, mkdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { meshFolder } from '../tests/mesh_folder.mjs';
 import { build, fail, jobs, path, run, setUp } from '../tests/steps.mjs';
-import { writeTorusKnot } from '../tests/torus_knot.mjs';
+import { checkSources } from './sources.mjs';
 
 const debug = ['-DCMAKE_BUILD_TYPE=Debug', '-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1']; // with assertions, yet fast enough for real meshes
 
-setUp('clang with libFuzzer');
+setUp('clang-format 14', 'clang-tidy', 'clang with libFuzzer');
 
-build('build-clang', '-DCMAKE_CXX_COMPILER=clang++', '-DCMAKE_BUILD_TYPE=Debug', '-DMANDOLINE_BUILD_TESTS=OFF');
+build('build-clang', '-DCMAKE_CXX_COMPILER=clang++', '-DCMAKE_BUILD_TYPE=Debug', '-DMANDOLINE_BUILD_TESTS=OFF', '-DCMAKE_EXPORT_COMPILE_COMMANDS=ON');
+checkSources('build-clang');
+
 const scans = meshFolder ? ['common_spot', 'common_fandisk', 'codim_feline'].map((name) => join(meshFolder, `${name}.obj.gz`)) : [];
-for (const mesh of [writeTorusKnot('build'), ...scans.filter((scan) => existsSync(scan))]) {
+run('build/mandoline', 'make', 'torus-knot', '-o', 'build/torus-knot.obj');
+for (const mesh of ['build/torus-knot.obj', ...scans.filter((scan) => existsSync(scan))]) {
   const dumps = [['build', '1'], ['build', '3'], ['build-clang', '1']].map(([folder, threads]) => {
     run(`${folder}/mandoline`, 'cut', mesh, '--cells', '13', '--threads', threads, '-o', `${folder}/dump.json`);
     return readFileSync(path(folder, 'dump.json'));

@@ -1,12 +1,35 @@
 // npm test: builds and runs everything: the C++ tests, natively and as WebAssembly, those of the npm package, and those of the page.
-import { build, installPackages, jobs, run, setUp } from './steps.mjs';
+// MANDOLINE_MESHES names a folder of meshes for the tests that use one (see mesh_folder.mjs).
+import { readFileSync } from 'node:fs';
+import { resolve } from 'node:path';
+import { meshFolder } from './mesh_folder.mjs';
+import { build, installPackages, jobs, path, run, setUp } from './steps.mjs';
 
-setUp('a C++20 compiler', 'CMake', 'make', 'Catch2', 'zlib', 'Emscripten', 'Chromium');
+const results = [];
+
+/** A file for the results of a group of tests, in JUnit's format. */
+function resultFile(name) {
+  const file = path('build', `${name}-tests.xml`);
+  results.push(file);
+  return file;
+}
+
+function runCtest(folder) {
+  run('ctest', '--test-dir', folder, '--output-on-failure', '--parallel', jobs, '--output-junit', resultFile(folder));
+}
+
+if (meshFolder) process.env.MANDOLINE_MESHES = resolve(meshFolder); // tests run in other folders
+setUp('a C++20 compiler', 'CMake', 'make', 'pkg-config', 'Catch2', 'zlib', 'Emscripten', 'Chromium');
 build('build', '-DMANDOLINE_BUILD_TESTS=ON');
-run('ctest', '--test-dir', 'build', '--output-on-failure', '--parallel', jobs);
+runCtest('build');
 
 installPackages();
 run('node', 'wasm/build.mjs', '--tests');
-run('ctest', '--test-dir', 'build-wasm', '--output-on-failure', '--parallel', jobs);
+runCtest('build-wasm');
 run('npm', 'run', 'build', '-w', 'web');
-run('node', '--test', 'tests/package/', 'tests/page/');
+run('node', '--test', '--test-reporter=spec', '--test-reporter-destination=stdout',
+  '--test-reporter=junit', `--test-reporter-destination=${resultFile('npm')}`, 'tests/package/', 'tests/page/');
+
+const skipped = results.reduce((sum, file) => sum + readFileSync(file, 'utf8').split('<skipped').length - 1, 0);
+console.log(`\nAll tests passed${skipped ? `, but ${skipped} were SKIPPED` : ''}.`);
+if (!meshFolder) console.log('Those of real meshes need a folder of them, named by the environment variable MANDOLINE_MESHES.');

@@ -1,20 +1,20 @@
 // Times of cuts in WebAssembly beside those of the native program on one thread, medians of alternating runs:
-//   node tests/package/speed.mjs [N] [runs] [MESH.obj.gz ...]
+//   node tests/package/speed.mjs [N] [runs] [MESH ...]
+// By default of the scans that `npm run bench` fetches.
 // Also the time of init() and the size of the module. Native runs are fresh processes that tell the time of the cut alone; WebAssembly runs are
 // calls of cut(), arrays copied in and out, in one process after a first one that the engine still compiles during.
 import { execFileSync } from 'node:child_process';
-import { readFileSync } from 'node:fs';
+import { readFileSync, readdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { gunzipSync, gzipSync } from 'node:zlib';
+import { gzipSync } from 'node:zlib';
 import { init } from 'mandoline-wasm';
-import { readObj } from './meshes.mjs';
 
 const root = join(dirname(fileURLToPath(import.meta.url)), '..', '..');
 const program = process.env.MANDOLINE_CLI ?? join(root, 'build', 'mandoline');
 const [cells = '50', runs = '9', ...given] = process.argv.slice(2);
-const collected = ['common_stanford-bunny', 'common_fandisk', 'common_spot'].map((name) => join(root, '..', 'shared', 'data', `${name}.obj.gz`));
-const files = given.length > 0 ? given : collected;
+const scans = join(root, 'build', 'scans');
+const files = given.length > 0 ? given : readdirSync(scans).map((name) => join(scans, name));
 
 const median = (times) => [...times].sort((a, b) => a - b)[times.length >> 1];
 
@@ -30,13 +30,13 @@ function nativeTime(file) {
 }
 
 const start = performance.now();
-const { cut } = await init();
+const { cut, readMesh } = await init();
 console.log(`init ${(performance.now() - start).toFixed(1)} ms`);
 const bytes = readFileSync(fileURLToPath(new URL('./mandoline.wasm', import.meta.resolve('mandoline-wasm'))));
 console.log(`mandoline.wasm ${(bytes.length / 1024).toFixed(0)} KB, gzipped ${(gzipSync(bytes, { level: 9 }).length / 1024).toFixed(0)} KB`);
 
 for (const file of files) {
-  const mesh = readObj(gunzipSync(readFileSync(file)).toString());
+  const mesh = await readMesh(readFileSync(file), { name: file });
   const once = () => cut(mesh, { cells: Number(cells) }, { gridCellRegion: false });
   const first = timed(once);
   const native = [];

@@ -2,10 +2,9 @@
 
 #include <unistd.h>
 
-#include <cstdio>
-#include <fstream>
-#include <stdexcept>
+#include <string>
 
+#include "mandoline/io.h"
 #include "mandoline/shapes.h"
 
 namespace mandoline::bench {
@@ -23,24 +22,11 @@ Mesh make(const std::string& name) {
 
 fs::path fileOf(const fs::path& folder, const std::string& name) { return folder / (name + ".obj"); }
 
-void write(const fs::path& path, const Mesh& mesh) {
-  std::ofstream out(path);
-  char line[128];
-  for (size_t v = 0; v < mesh.positions.size(); v += 3) {
-    const double* p = &mesh.positions[v];
-    std::snprintf(line, sizeof line, "v %.17g %.17g %.17g\n", p[0], p[1], p[2]);
-    out << line;
-  }
-  for (size_t t = 0; t < mesh.triangles.size(); t += 3)
-    out << "f " << mesh.triangles[t] + 1 << ' ' << mesh.triangles[t + 1] + 1 << ' ' << mesh.triangles[t + 2] + 1 << '\n';
-  if (!out.flush()) throw std::runtime_error("can't write " + path.string());
-}
-
 }  // namespace
 
 MadeMeshes::MadeMeshes() : folder_(fs::temp_directory_path() / ("mandoline-bench-" + std::to_string(getpid()))) {
   fs::create_directory(folder_);
-  for (const char* name : kNames) write(fileOf(folder_, name), make(name));
+  for (const char* name : kNames) writeMesh(fileOf(folder_, name).string(), make(name));
 }
 
 MadeMeshes::~MadeMeshes() {
