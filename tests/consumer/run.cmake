@@ -44,7 +44,7 @@ elseif(STEP STREQUAL pkg-config)
 else()
   run(${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer -B ${WORK} -D CMAKE_CXX_COMPILER=${CXX} -D WAY=${STEP} -D MANDOLINE_SOURCE=${SOURCE}
     -D CMAKE_PREFIX_PATH=${PREFIX} ${OPTIONS})
-  run(${CMAKE_COMMAND} --build ${WORK} --parallel 2)
+  run(${CMAKE_COMMAND} --build ${WORK} --parallel 2 --target consumer ${MORE_TARGETS})
   run_and_compare()
   if(STEP STREQUAL add_subdirectory) # its own installation has nothing of ours
     run(${CMAKE_COMMAND} --install ${WORK} --prefix ${WORK}/prefix)

@@ -23,7 +23,7 @@ function(add_tests_of_installed kind)
 endfunction()
 
 add_consumer_test(add_subdirectory add_subdirectory -D "OPTIONS=-DCMAKE_CXX_FLAGS=-O1 -ffast-math")
-add_consumer_test(FetchContent FetchContent
+add_consumer_test(FetchContent FetchContent -D MORE_TARGETS=mandoline-cli
   -D "OPTIONS=-DBUILD_SHARED_LIBS=ON\;-DMANDOLINE_INSTALL=ON\;-DMANDOLINE_BUILD_CLI=ON\;-DCMAKE_CXX_FLAGS=-O0")
 set_tests_properties(consumer_FetchContent PROPERTIES FIXTURES_SETUP shared)
 

@@ -1,4 +1,4 @@
-// The native program and the WebAssembly module give the same bits: every array of the dump, on made meshes and on the collection of real ones.
+// The native program and the WebAssembly module give the same bits: every array of the dump, on made meshes and on real ones.
 import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';

@@ -26,7 +26,10 @@ fs::path fileOf(const fs::path& folder, const std::string& name) { return folder
 
 MadeMeshes::MadeMeshes() : folder_(fs::temp_directory_path() / ("mandoline-bench-" + std::to_string(getpid()))) {
   fs::create_directory(folder_);
-  for (const char* name : kNames) writeMesh(fileOf(folder_, name).string(), make(name));
+  for (const char* name : kNames) {
+    const Mesh mesh = make(name);
+    writeMesh(fileOf(folder_, name).string(), mesh);
+  }
 }
 
 MadeMeshes::~MadeMeshes() {
