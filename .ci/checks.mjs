@@ -1,5 +1,5 @@
-// What the continuous integration does beyond npm test: format and shape of the sources, the same bits from another compiler, a fuzz run,
-// the suite under sanitizers.
+// What the continuous integration does beyond npm test: the package in every toolchain, format and shape of the sources, the same bits from
+// another compiler, a fuzz run, the suite under sanitizers.
 import { existsSync, mkdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { meshFolder } from '../tests/mesh_folder.mjs';
@@ -9,6 +9,8 @@ import { checkSources } from './sources.mjs';
 const debug = ['-DCMAKE_BUILD_TYPE=Debug', '-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1']; // with assertions, yet fast enough for real meshes
 
 setUp('clang-format 14', 'clang-tidy', 'clang with libFuzzer');
+
+run('node', '--test', 'tests/toolchains/');
 
 const clang = '-DCMAKE_CXX_COMPILER=clang++';
 const noTests = '-DMANDOLINE_BUILD_TESTS=OFF';

@@ -38,8 +38,8 @@ function compile(tests) {
 }
 
 /** The code of a script and of what it imports, in one file. */
-async function bundle(input, options, output) {
-  const { output: chunks } = await rolldown({ input, write: false, logLevel: 'warn', ...options, output: { codeSplitting: false, ...output } });
+async function bundle(input, options, output = {}) {
+  const { output: chunks } = await rolldown({ input, write: false, logLevel: 'warn', ...options, output });
   return chunks[0].code;
 }
 
@@ -60,7 +60,7 @@ async function makeFiles() {
   cpSync(join(build, 'wasm', 'mandoline.wasm'), join(folder, 'mandoline.wasm'));
   // Emscripten's code says where the .wasm file is, too, for which bundlers would copy it once more.
   const withoutUrl = { transform: { define: { 'import.meta.url': 'undefined' } }, treeshake: false };
-  writeFileSync(join(folder, 'mandoline.js'), await bundle(join(build, 'wasm', 'mandoline.js'), withoutUrl, { minify: true }));
+  writeFileSync(join(folder, 'mandoline.js'), await bundle(join(build, 'wasm', 'mandoline.js'), withoutUrl));
   await fillInline(folder);
   return folder;
 }

@@ -2,6 +2,7 @@
 import { MandolineError, compiledModule, describe, init } from 'mandoline-wasm';
 import type { CutMesh, GridInput, Location, Mandoline, Mesh, Progress } from 'mandoline-wasm';
 import { cellArrays, cellColors, cellGeometry, edgeGeometry, meshFromGeometry, sliceGeometry } from 'mandoline-wasm/three';
+import * as inline from 'mandoline-wasm/inline';
 import { MandolineError as WorkerError, createWorker } from 'mandoline-wasm/worker';
 import { BoxGeometry, BufferGeometry, Matrix4 } from 'three';
 
@@ -14,15 +15,17 @@ const grids: GridInput[] = [
 ];
 
 async function core(): Promise<void> {
+  const module: WebAssembly.Module = await compiledModule();
+  await init(inline);
   const mandoline: Mandoline = await init({ wasm: await compiledModule() });
   const cutMesh: CutMesh = mandoline.cut(mesh, grids[0]!, { snapTolerance: 0.01, progress: ({ done, total }: Progress) => done < total });
   mandoline.cut(mesh, cutMesh.grid);
   const all: Uint32Array = mandoline.triangulate(cutMesh).triangles;
   const one: Uint32Array = mandoline.triangulate(cutMesh, { cell: 0 });
   const where: Location | null = mandoline.cellAt(cutMesh, [0, 0, 0]);
-  const bytes: Uint8Array = mandoline.write(mesh, cutMesh, 'vtu');
+  const bytes = new Blob([mandoline.write(mesh, cutMesh, 'vtu')]);
   const checks = mandoline.validate(mesh, cutMesh).checks.filter(({ pass }) => !pass);
-  console.log(all, one, where?.cell, bytes, checks, mandoline.slice(cutMesh, { normal: [0, 0, 1], offset: 0 }).polygonCell);
+  console.log(module, all, one, where?.cell, bytes, checks, mandoline.slice(cutMesh, { normal: [0, 0, 1], offset: 0 }).polygonCell);
   // @ts-expect-error There is no such grid.
   mandoline.cut(mesh, { count: 8 });
   // @ts-expect-error There is no such format.

@@ -66,6 +66,18 @@ export function launchChromium() {
   });
 }
 
+/** Servers for development may load a page again, when they find that it needs more than they thought. */
+async function outcomeOf(page) {
+  for (;;) {
+    try {
+      await page.waitForFunction(() => 'outcome' in globalThis, null, { timeout: 60_000 });
+      return await page.evaluate(() => globalThis.outcome);
+    } catch (error) {
+      if (!/because of a navigation/.test(error.message)) throw error;
+    }
+  }
+}
+
 /**
  * Opens the page and resolves to what its script assigns to `globalThis.outcome`. Whatever the page complains about is thrown, unless it is
  * expected. `look` gets the page at the end.
@@ -80,8 +92,7 @@ export async function openPage(browser, url, { expected = /^$/, look = () => {} 
   });
   try {
     await page.goto(url);
-    await page.waitForFunction(() => 'outcome' in globalThis, null, { timeout: 20_000 });
-    const outcome = await page.evaluate(() => globalThis.outcome);
+    const outcome = await outcomeOf(page);
     await look(page);
     if (complaints.length > 0) throw new Error('The page complains.');
     return outcome;

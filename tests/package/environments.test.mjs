@@ -49,7 +49,8 @@ test('the tarball has the package, and is small', () => {
 });
 
 test('Node, ES modules', () => {
-  const folder = install({ 'core.mjs': core, 'worker.mjs': worker });
+  const folder = install({ 'core.mjs': core, 'worker.mjs': worker, 'inline.mjs': readmeExample('Toolchains') });
+  assert.equal(runNode(folder, 'inline.mjs'), '');
   assert.match(runNode(folder, 'core.mjs'), /\d/);
   assert.match(runNode(folder, 'worker.mjs'), /\d/);
 });

@@ -327,13 +327,16 @@ export interface InitOptions {
    */
   wasm?: WasmSource | (() => WasmSource | Promise<WasmSource>);
 }
-export type WasmSource = URL | string | BufferSource | WebAssembly.Module;
+export type WasmSource = URL | string | ArrayBuffer | ArrayBufferView | WasmModule;
+
+/** WebAssembly.Module, which TypeScript knows where the types of browsers are included. */
+export type WasmModule = typeof globalThis extends { WebAssembly: { Module: { prototype: infer Module } } } ? Module : object;
 
 /** Loads the WebAssembly module, once: every call gives the same promise, whatever its options. After a failure the next call tries again. */
 export function init(options?: InitOptions): Promise<Mandoline>;
 
 /** The compiled module that init() used, to hand to init() in a worker of your own, or to createWorker(). */
-export function compiledModule(): Promise<WebAssembly.Module>;
+export function compiledModule(): Promise<WasmModule>;
 
 export type ErrorCode =
   | 'cancelled'

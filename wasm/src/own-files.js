@@ -3,10 +3,14 @@
 /** A worker with the package's script. */
 function startWorker() {
   if (typeof Worker === 'function') return new Worker(new URL('./worker-thread.js', import.meta.url), { type: 'module' });
-  // Neither an import nor the address itself, since bundlers for browsers would follow both.
+  // No import, which bundlers for browsers would follow.
   const { Worker: NodeWorker } = globalThis.process.getBuiltinModule('node:worker_threads');
-  const here = import.meta.url;
-  return new NodeWorker(new URL('./worker-thread.js', here), { execArgv: [] }); // those of the process may be for its own script only
+  return new NodeWorker(fileBeside('worker-thread.js'), { execArgv: [] }); // those of the process may be for its own script only
+}
+
+/** A file beside this one, in Node; said so that bundlers don't take it for an asset of a page. */
+export function fileBeside(name) {
+  return new URL(import.meta.url.replace(/[^/]*$/, name));
 }
 
 /** Where the WebAssembly is, and what starts a worker. Either may be a promise. */

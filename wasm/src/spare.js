@@ -1,16 +1,15 @@
 // For toolchains that take the package's code along and leave the two files behind that lie beside it: bundlers for servers, and Vite
 // before version 8 in development. There the files come from inline.js.
-import { ownFiles } from './own-files.js';
+import { fileBeside, ownFiles } from './own-files.js';
 
 const { wasm, thread } = ownFiles;
 const inline = () => import('./inline.js');
-const here = import.meta.url; // said apart, since bundlers for servers would make the file an asset of the page
 const inNode = Boolean(globalThis.process?.versions?.node);
 
 /** The file in Node; undefined if it is not there. */
 function fileInNode() {
   try {
-    const file = new URL('./mandoline.wasm', here);
+    const file = fileBeside('mandoline.wasm');
     return globalThis.process.getBuiltinModule('node:fs').existsSync(file) ? file : undefined;
   } catch {
     return undefined; // code that is no module any more does not know where it is

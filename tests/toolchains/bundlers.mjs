@@ -1,0 +1,108 @@
+// Bundlers for browsers, and none. What they make has to run in Chromium.
+import assert from 'node:assert/strict';
+import { copyFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { assertChecked, checkModule, html, ownWorker, pageScript } from './example.mjs';
+import { makeProject, openFolder, openServed, run } from './projects.mjs';
+
+const asIs = { 'main.js': pageScript, 'check.js': checkModule() };
+const withOwnWorker = { 'main.js': pageScript, 'check.js': checkModule(ownWorker), ...ownWorker.files };
+const importInline = "import * as inline from 'mandoline-wasm/inline';";
+const inline = { 'main.js': pageScript, 'check.js': checkModule({ imports: importInline, options: 'inline' }) };
+
+/** The page works, with the .wasm file from the server or without. */
+function assertPage({ requests, ...result }, { wasm = true } = {}) {
+  assertChecked(result);
+  assert.equal(requests.some((path) => path.endsWith('.wasm')), wasm);
+}
+
+const assertQuiet = (output) => assert.doesNotMatch(output, /warning/i);
+
+for (const [version, vite] of [[5, 'vite5'], [6, 'vite6'], [7, 'vite7'], [8, 'vite']]) {
+  const tool = `${vite}/bin/vite.js`;
+
+  test(`Vite ${version}, development`, async () => {
+    const folder = makeProject(`${vite} dev`, { 'index.html': html('./main.js'), ...withOwnWorker });
+    assertChecked(await openServed(folder, tool, (port) => ['--host', '127.0.0.1', '--port', port, '--strictPort']));
+  });
+
+  test(`Vite ${version}, build`, async () => {
+    const folder = makeProject(`${vite} build`, { 'index.html': html('./main.js'), ...withOwnWorker });
+    assertQuiet(await run(folder, tool, 'build', '--base', './'));
+    assertPage(await openFolder(join(folder, 'dist')));
+  });
+}
+
+for (const mode of ['development', 'production']) {
+  test(`webpack 5, ${mode}, without a warning`, async () => {
+    const folder = makeProject(`webpack ${mode}`, {
+      'dist/index.html': html('./main.js', { module: false }),
+      // Any WebAssembly is larger than what webpack likes to see in production.
+      'webpack.config.js': "module.exports = { entry: './main.js', performance: { hints: false } };",
+      ...withOwnWorker,
+    });
+    assertQuiet(await run(folder, '.bin/webpack', '--mode', mode));
+    assertPage(await openFolder(join(folder, 'dist')));
+  });
+}
+
+test('Parcel', async () => {
+  const folder = makeProject('parcel', { 'index.html': html('./main.js'), ...asIs }); // it loses what two workers share
+  assertQuiet(await run(folder, '.bin/parcel', 'build', 'index.html', '--public-url', './', '--no-cache'));
+  assertPage(await openFolder(join(folder, 'dist')));
+});
+
+test('a plain page with an import map', async () => {
+  const dist = './node_modules/mandoline-wasm/dist';
+  const imports = { 'mandoline-wasm': `${dist}/index.js`, 'mandoline-wasm/worker': `${dist}/worker.js` };
+  const map = `<script type="importmap">${JSON.stringify({ imports })}</script>`;
+  assertPage(await openFolder(makeProject('import map', { 'index.html': html('./main.js', { head: map }), ...asIs })));
+});
+
+const rollup = (...args) => ['.bin/rollup', ...args, '--plugin', '@rollup/plugin-node-resolve'];
+const inlineBuilds = {
+  'Rollup, ES module': { command: rollup('main.js', '--file', 'dist/main.js') },
+  'Rollup, script': { command: rollup('main.js', '--format', 'iife', '--file', 'dist/main.js'), module: false },
+  'esbuild, ES module': { command: ['.bin/esbuild', 'main.js', '--bundle', '--minify', '--format=esm', '--outdir=dist'] },
+  'esbuild, script': { command: ['.bin/esbuild', 'main.js', '--bundle', '--outdir=dist'], module: false },
+  'bun build': { command: ['.bin/bun', 'build', './main.js', '--outdir', 'dist'] },
+};
+for (const [name, { command, module }] of Object.entries(inlineBuilds)) {
+  test(`${name}, with mandoline-wasm/inline`, async () => {
+    const folder = makeProject(`${name} inline`, { 'dist/index.html': html('./main.js', { module }), ...inline });
+    assertQuiet(await run(folder, ...command));
+    assertPage(await openFolder(join(folder, 'dist')), { wasm: false });
+  });
+}
+
+const fileBuilds = {
+  Rollup: rollup('--input', 'main.js', '--input', 'mandoline-wasm/worker-thread', '--dir', 'dist'),
+  esbuild: ['.bin/esbuild', 'main.js', 'worker-thread=mandoline-wasm/worker-thread', '--bundle', '--format=esm', '--outdir=dist'],
+};
+for (const [name, command] of Object.entries(fileBuilds)) {
+  test(`${name}, with the worker's script as an entry and mandoline.wasm beside it`, async () => {
+    const folder = makeProject(`${name} files`, { 'dist/index.html': html('./main.js'), ...asIs });
+    assertQuiet(await run(folder, ...command));
+    copyFileSync(join(folder, 'node_modules', 'mandoline-wasm', 'dist', 'mandoline.wasm'), join(folder, 'dist', 'mandoline.wasm'));
+    assertPage(await openFolder(join(folder, 'dist')));
+  });
+
+  test(`${name}, with neither, says what is missing`, async () => {
+    const folder = makeProject(`${name} neither`, { 'dist/index.html': html('./main.js'), ...asIs });
+    await run(folder, ...command);
+    const { error } = await openFolder(join(folder, 'dist'), { expected: /404/ });
+    assert.match(error, /\/some\/path\/mandoline\.wasm could not be loaded: the server answered with 404/);
+  });
+}
+
+test('esbuild, with its loader for files', async () => {
+  const check = checkModule({
+    imports: "import wasm from 'mandoline-wasm/mandoline.wasm';\nimport { thread } from 'mandoline-wasm/inline';",
+    options: '{ wasm }',
+    workerOptions: '{ wasm, thread }',
+  });
+  const folder = makeProject('esbuild loader', { 'dist/index.html': html('./main.js'), 'main.js': pageScript, 'check.js': check });
+  assertQuiet(await run(folder, '.bin/esbuild', 'main.js', '--bundle', '--format=esm', '--outdir=dist', '--loader:.wasm=file'));
+  assertPage(await openFolder(join(folder, 'dist')));
+});

@@ -1,0 +1,46 @@
+// Engines that run the package without a browser, from its files or within one.
+import assert from 'node:assert/strict';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { assertChecked, checkModule, print } from './example.mjs';
+import { makeProject, run } from './projects.mjs';
+
+const module = checkModule() + print;
+const asRequire = (text) => text.replaceAll(/^import (\{.*?\}) from (.*?);$/gm, 'const $1 = require($2);').replace('export ', '');
+const asImport = (text) => asRequire(text).replaceAll(/^const (\{.*?\}) = require\((.*?)\);\n/gm, '')
+  .replace('{ cut } = await init', "{ cut } = await (await import('mandoline-wasm')).init")
+  .replace('await createWorker', "await (await import('mandoline-wasm/worker')).createWorker");
+const scripts = {
+  'ES modules': ['main.mjs', module],
+  'CommonJS, require()': ['main.cjs', asRequire(module)],
+  'CommonJS, import()': ['main.cjs', asImport(module)],
+};
+const engines = {
+  'Node 20': ['node20/bin/node'],
+  'Node 22': ['node22/bin/node'],
+  'Node 24': ['node24/bin/node'],
+  Bun: ['.bin/bun', 'run'],
+  Deno: ['.bin/deno', 'run', '--allow-read', '--allow-env'],
+};
+
+/** What is printed last. */
+const resultOf = (output) => JSON.parse(output.trim().split('\n').at(-1));
+
+for (const [engine, command] of Object.entries(engines)) {
+  for (const [how, [file, script]] of Object.entries(scripts)) {
+    test(`${engine}, ${how}`, async () => {
+      const folder = makeProject(`${engine}, ${how}`, { [file]: script });
+      assertChecked(resultOf(await run(folder, ...command, file)));
+    });
+  }
+}
+
+for (const format of ['esm', 'cjs']) {
+  test(`a server's bundle by esbuild, ${format}, that nothing lies beside`, async () => {
+    const folder = makeProject(`server ${format}`, { 'main.js': module });
+    const file = join(folder, '..', `bundle.${format === 'esm' ? 'mjs' : 'cjs'}`);
+    const output = await run(folder, '.bin/esbuild', 'main.js', '--bundle', '--platform=node', `--format=${format}`, `--outfile=${file}`);
+    assert.doesNotMatch(output, /warn/i);
+    assertChecked(resultOf(await run(folder, 'node20/bin/node', file)));
+  });
+}
