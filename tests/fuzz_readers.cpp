@@ -1,5 +1,5 @@
-// Fuzzes the readers of mesh files from bytes (libFuzzer): whatever the bytes are, there is a mesh whose triangles name vertices that exist,
-// or a FileError that names the file.
+// Fuzzes the readers of mesh files from bytes (libFuzzer): whatever the bytes are, there is a mesh whose triangles name vertices that
+// exist, or a FileError that names the file.
 #include <cstdint>
 #include <cstdlib>
 

@@ -22,13 +22,16 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-/// A convex piece of a triangle. Each of a grid cell's planes adds a corner at most.
+/// A convex piece of a triangle: each of a grid cell's planes adds a corner at most. Rounding may bend a piece so that a plane adds more;
+/// what there is no room for is left out.
 struct Polygon {
   static constexpr int kMostCorners = 3 + 6;
   Point corners[kMostCorners];
   int size = 0;
 
-  void add(const Point& p) { corners[size++] = p; }
+  void add(const Point& p) {
+    if (size < kMostCorners) corners[size++] = p;
+  }
 };
 
 /// Piece p has corners offsets[p] .. offsets[p + 1] - 1.
