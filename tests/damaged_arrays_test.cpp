@@ -71,9 +71,9 @@ void useAll(const Mesh& mesh, const CutMesh& cutMesh) {
     writeVtu(nowhere, mesh, cutMesh);
   });
   adjacency(cutMesh);
-  const FaceTriangles faces = triangulateFaces(cutMesh);
-  for (size_t c = 0; c < cutMesh.cellCount(); ++c) triangulateCell(cutMesh, faces, c);
-  for (uint32_t r = 0; r < cutMesh.regionCount; ++r) triangulateRegion(cutMesh, faces, r);
+  triangulateFaces(cutMesh);
+  for (size_t c = 0; c < cutMesh.cellCount(); ++c) triangulateCell(cutMesh, c);
+  for (uint32_t r = 0; r < cutMesh.regionCount; ++r) triangulateRegion(cutMesh, r);
   locate(cutMesh, mesh.positions);
   slice(cutMesh, {{1, 2, 3}, 0.3});
   slice(cutMesh, {{0, 0, 1}, cutMesh.grid.planes[2][1]});

@@ -11,6 +11,7 @@
 #include "catch.h"
 #include "checked_cut.h"
 #include "mandoline/triangulate.h"
+#include "refusal.h"
 #include "shapes.h"
 
 using namespace mandoline;
@@ -73,11 +74,10 @@ void requireComplete(const CutMesh& mesh, const std::vector<double>& points, con
 void requireRight(const CutMesh& mesh, const std::vector<double>& points) {
   const Locations locations = locate(mesh, points);
   requireComplete(mesh, points, locations);
-  const FaceTriangles faces = triangulateFaces(mesh);
   for (size_t i = 0; i < points.size() / 3; ++i) {
     if (locations.cell[i] < 0) continue;
     INFO("point " << points[3 * i] << " " << points[3 * i + 1] << " " << points[3 * i + 2] << " cell " << locations.cell[i]);
-    REQUIRE(windingNumber(mesh, triangulateCell(mesh, faces, size_t(locations.cell[i])), &points[3 * i]) == Approx(1).margin(1e-6));
+    REQUIRE(windingNumber(mesh, triangulateCell(mesh, size_t(locations.cell[i])), &points[3 * i]) == Approx(1).margin(1e-6));
   }
 }
 
@@ -183,7 +183,15 @@ TEST_CASE("the grid's border belongs to it, and nothing beyond", "[locate]") {
   CHECK(locate(cut.mesh, std::vector<double>{2, 2, 2}).gridCell == std::vector<int32_t>{1, 1, 1});
   CHECK(locate(cut.mesh, std::vector<double>{1, 1, 1}).gridCell == std::vector<int32_t>{1, 1, 1});
   CHECK(locate(cut.mesh, {}).cell.empty());
-  CHECK(locate(CutMesh(), std::vector<double>{0, 0, 0}).cell == std::vector<int32_t>{-1});
+}
+
+TEST_CASE("points of two coordinates, and an empty cut-mesh, are refused", "[locate]") {
+  const CheckedCut cut = checkedCut(shapes::cube(0.5, 1.5), unitGrid(2));
+  for (const size_t count : {1, 2, 4, 3001}) {
+    CHECK(refusal([&] { locate(cut.mesh, std::vector<double>(count, 1)); }) == std::pair(Status::badArgument, int64_t(-1)));
+  }
+  CHECK(refusal([] { locate(CutMesh(), std::vector<double>{0, 0, 0}); }).first == Status::badArgument);
+  CHECK(refusal([] { locate(CutMesh(), {}); }).first == Status::badArgument);
 }
 
 TEST_CASE("one cell holds a point also where rounding has bent the cells", "[locate]") {

@@ -11,6 +11,7 @@
 #include "catch.h"
 #include "checked_cut.h"
 #include "mandoline/locate.h"
+#include "refusal.h"
 #include "shapes.h"
 
 using namespace mandoline;
@@ -129,9 +130,7 @@ bool cross2(const Point& n, const Point& a, const Point& b, const Point& c, cons
 Slice checkedSlice(const CutMesh& mesh, const Plane& plane) {
   constexpr double kTolerance = 1e-12;
   INFO("plane " << plane.normal[0] << " " << plane.normal[1] << " " << plane.normal[2] << " = " << plane.offset);
-  const SliceResult result = slice(mesh, plane);
-  REQUIRE(result);
-  const Slice& s = result.slice;
+  const Slice s = slice(mesh, plane);
   const double length = std::sqrt(dot(plane.normal, plane.normal));
   double farthest = 0;
   for (uint32_t p = 0; p < s.positions.size() / 3; ++p)
@@ -206,6 +205,12 @@ void requireLocated(const CutMesh& mesh, const Slice& s, const Plane& plane) {
     wrong += locations.cell[i] != s.polygonCell[polygons[i]] || locations.region[i] != int32_t(s.polygonRegion[polygons[i]]);
   CHECK(polygons.size() > 0);
   CHECK(wrong == 0);
+}
+
+bool isSame(const Slice& a, const Slice& b) {
+  return a.positions == b.positions && a.loopOffsets == b.loopOffsets && a.loopPoints == b.loopPoints &&
+         a.polygonLoopOffsets == b.polygonLoopOffsets && a.polygonCell == b.polygonCell && a.polygonGridCell == b.polygonGridCell &&
+         a.polygonRegion == b.polygonRegion && a.polygonTriangleOffsets == b.polygonTriangleOffsets && a.triangles == b.triangles;
 }
 
 std::vector<Plane> randomPlanes(const Point& centre, double spread, int count, unsigned seed) {
@@ -416,31 +421,56 @@ TEST_CASE("polygons of neighbouring cut-cells share their points", "[slice]") {
 TEST_CASE("untouched grid cells can be left out", "[slice]") {
   const CheckedCut cut = checkedCut(shapes::cube(1.25, 2.5), unitGrid(4));
   const Plane plane = {{1, 1, 1}, 5.5};
-  const Slice all = checkedSlice(cut.mesh, plane), some = slice(cut.mesh, plane, {.untouched = false}).slice;
+  const Slice all = checkedSlice(cut.mesh, plane), some = slice(cut.mesh, plane, {.untouched = false});
   CHECK(some.polygonCount() == size_t(std::count_if(all.polygonCell.begin(), all.polygonCell.end(), [](int32_t c) { return c >= 0; })));
   CHECK(some.polygonCount() < all.polygonCount());
   CHECK(std::all_of(some.polygonCell.begin(), some.polygonCell.end(), [](int32_t c) { return c >= 0; }));
   CHECK(std::equal(some.loopPoints.begin(), some.loopPoints.end(), all.loopPoints.begin()));
 }
 
-TEST_CASE("a plane without a direction is an error, one beside the grid cuts nothing", "[slice]") {
+TEST_CASE("a plane without a direction is refused, one beside the grid cuts nothing", "[slice]") {
   const CheckedCut cut = checkedCut(shapes::cube(1.25, 2.5), unitGrid(4));
   const double inf = INFINITY, nan = std::numeric_limits<double>::quiet_NaN();
-  const auto errorOf = [&](const Plane& plane) {
-    const SliceResult result = slice(cut.mesh, plane);
-    CHECK(result.slice.positions.empty());
-    CHECK(result.error.message.empty() == bool(result));
-    return std::pair(result.error.status, result.error.element);
-  };
-  CHECK(errorOf({{0, 0, 0}, 1}) == std::pair(Status::badOption, int64_t(-1)));
-  CHECK(errorOf({{0, nan, 0}, 1}) == std::pair(Status::badOption, int64_t(1)));
-  CHECK(errorOf({{1, 0, inf}, 1}) == std::pair(Status::badOption, int64_t(2)));
-  CHECK(errorOf({{1, 0, 0}, nan}).first == Status::badOption);
-  CHECK(errorOf({{1, 0, 0}, -inf}).first == Status::badOption);
-  CHECK(errorOf({{1, 0, 0}, 4.5}).first == Status::ok);
-  CHECK(errorOf({{1, 0, 0}, 1e300}).first == Status::ok);
-  CHECK(errorOf({{5e-324, 0, 0}, -1e300}).first == Status::ok);
-  CHECK(slice(CutMesh(), {{1, 0, 0}, 0}).slice.polygonCount() == 0);
+  const auto refused = [&](const Plane& plane) { return refusal([&] { slice(cut.mesh, plane); }); };
+  CHECK(refused({{0, 0, 0}, 1}) == std::pair(Status::badArgument, int64_t(-1)));
+  CHECK(refused({{0, nan, 0}, 1}) == std::pair(Status::badArgument, int64_t(1)));
+  CHECK(refused({{1, 0, inf}, 1}) == std::pair(Status::badArgument, int64_t(2)));
+  CHECK(refused({{1, 0, 0}, nan}) == std::pair(Status::badArgument, int64_t(0)));
+  CHECK(refused({{1, 0, 0}, -inf}) == std::pair(Status::badArgument, int64_t(0)));
+  const std::vector<double> offsets = {1, 2, nan};
+  CHECK(refusal([&] { slices(cut.mesh, {0, 0, 1}, offsets); }) == std::pair(Status::badArgument, int64_t(2)));
+  CHECK(refusal([] { slice(CutMesh(), {{1, 0, 0}, 0}); }).first == Status::badArgument);
+  CHECK(refusal([] { slices(CutMesh(), {1, 0, 0}, {}); }).first == Status::badArgument);
+  for (const Plane& plane : {Plane{{1, 0, 0}, 4.5}, {{1, 0, 0}, 1e300}, {{5e-324, 0, 0}, -1e300}, {{0, 1e300, 0}, 1e308}}) {
+    const Slice none = slice(cut.mesh, plane);
+    CHECK(none.polygonCount() == 0);
+    CHECK(none.positions.empty());
+    CHECK(none.loopOffsets == std::vector<uint32_t>{0});
+    CHECK(none.polygonLoopOffsets == std::vector<uint32_t>{0});
+    CHECK(none.polygonTriangleOffsets == std::vector<uint32_t>{0});
+  }
+}
+
+TEST_CASE("slices of parallel planes are bit for bit those of single calls, in any order of offsets", "[slice]") {
+  for (const bool closed : {true, false}) {
+    const CutResult cut = mandoline::cut(closed ? closedShapes() : openShapes(), Grid::box({0, 0, 0}, {4, 4, 4}, {4, 4, 4}));
+    REQUIRE(cut);
+    std::mt19937 random(11);
+    for (const Point& normal : std::vector<Point>{{0, 0, 1}, {0, -2, 0}, {1, 2, 3}, {-0.3, 0.1, 0.01}}) {
+      std::vector<double> offsets = {1e9, -1e9, 0, 1, 1, 1, 2};  // beside the grid, on planes, again
+      for (int i = 0; i < 40; ++i) offsets.push_back(dot(normal, {2, 2, 2}) + 2 * (double(random()) * 0x1p-31 - 1));
+      for (size_t v = 0; v < 20; ++v)
+        offsets.push_back(dot(normal, Point{cut.mesh.positions[3 * v], cut.mesh.positions[3 * v + 1], cut.mesh.positions[3 * v + 2]}));
+      for (const bool untouched : {true, false}) {
+        const std::vector<Slice> all = slices(cut.mesh, normal, offsets, {untouched});
+        REQUIRE(all.size() == offsets.size());
+        size_t different = 0;
+        for (size_t i = 0; i < offsets.size(); ++i) different += !isSame(all[i], slice(cut.mesh, {normal, offsets[i]}, {untouched}));
+        CHECK(different == 0);
+      }
+    }
+    CHECK(slices(cut.mesh, {1, 0, 0}, {}).empty());
+  }
 }
 
 TEST_CASE("a cut-mesh whose cells are not closed is cut somehow", "[slice][locate]") {
@@ -450,10 +480,9 @@ TEST_CASE("a cut-mesh whose cells are not closed is cut somehow", "[slice][locat
     halfFaces[0] = halfFaces[1];
   }
   for (const Plane& plane : randomPlanes({1.5, 1.5, 1.5}, 1.5, 20, 9)) {
-    const SliceResult result = slice(mesh, plane);
-    CHECK(result);
-    for (const uint32_t p : result.slice.triangles) REQUIRE(3 * size_t(p) < result.slice.positions.size());
-    CHECK(locate(mesh, result.slice.positions).cell.size() == result.slice.positions.size() / 3);
+    const Slice s = slice(mesh, plane);
+    for (const uint32_t p : s.triangles) REQUIRE(3 * size_t(p) < s.positions.size());
+    CHECK(locate(mesh, s.positions).cell.size() == s.positions.size() / 3);
   }
 }
 
@@ -462,7 +491,7 @@ TEST_CASE("neither the normal's length nor the scale matters", "[slice]") {
   const Plane plane = {{0.25, -0.5, 0.75}, 1};
   const Slice once = checkedSlice(cut.mesh, plane);
   for (const double factor : {0x1p-1000, 0x1p1000}) {
-    const Slice again = slice(cut.mesh, {{0.25 * factor, -0.5 * factor, 0.75 * factor}, factor}).slice;
+    const Slice again = slice(cut.mesh, {{0.25 * factor, -0.5 * factor, 0.75 * factor}, factor});
     CHECK(again.positions == once.positions);
     CHECK(again.triangles == once.triangles);
   }
@@ -470,7 +499,7 @@ TEST_CASE("neither the normal's length nor the scale matters", "[slice]") {
     const Mesh mesh = shapes::scaled(closedShapes(), {scale, scale, scale});
     const CutResult scaled = mandoline::cut(mesh, Grid::box({0, 0, 0}, {4 * scale, 4 * scale, 4 * scale}, {4, 4, 4}));
     REQUIRE(scaled);
-    Slice again = slice(scaled.mesh, {plane.normal, scale}).slice;
+    Slice again = slice(scaled.mesh, {plane.normal, scale});
     for (double& x : again.positions) x /= scale;
     CHECK(again.positions == once.positions);
     CHECK(again.triangles == once.triangles);

@@ -8,6 +8,7 @@
 
 #include "catch.h"
 #include "checked_cut.h"
+#include "refusal.h"
 #include "shapes.h"
 
 using namespace mandoline;
@@ -33,7 +34,7 @@ struct Polygon {
   CutMesh cutMesh() const {
     CutMesh result;
     for (const Point& p : points) result.positions.insert(result.positions.end(), {p[0], p[1], 0.0});
-    result.loopOffsets = {0};
+    result.rowRunOffsets = result.loopOffsets = {0};
     for (const auto& loop : loops) {
       result.loopVertices.insert(result.loopVertices.end(), loop.begin(), loop.end());
       result.loopOffsets.push_back(uint32_t(result.loopVertices.size()));
@@ -395,6 +396,7 @@ TEST_CASE("triangulate: a face with thousands of vertices and hundreds of holes"
 
 TEST_CASE("triangulate: a tri-face in space uses the vertices on its sides", "[triangulate]") {
   CutMesh cutMesh;
+  cutMesh.rowRunOffsets = {0};
   // (0, 0, 0), (4, 0, 4), (0, 4, 8), with points on the sides; the normal points down in z for the reversed loop.
   const std::vector<Point> points = {{0, 0}, {1, 0}, {2, 0}, {4, 0}, {3, 1}, {2, 2}, {0, 4}, {0, 2}};
   for (const Point& p : points) cutMesh.positions.insert(cutMesh.positions.end(), {p[0], p[1], p[0] + 2 * p[1]});
@@ -414,12 +416,12 @@ TEST_CASE("triangulate: a tri-face in space uses the vertices on its sides", "[t
     cutMesh.cellHalfFaces = {0, 2};
     cutMesh.cellHalfFaceOffsets = {0, 2};
     cutMesh.cellRegion = {0};
-    CHECK(uncancelled(edgesOf(triangulateCell(cutMesh, faces, 0))).empty());
+    CHECK(uncancelled(edgesOf(triangulateCell(cutMesh, 0))).empty());
     cutMesh.cellHalfFaces = {0, 1};
-    CHECK(uncancelled(edgesOf(triangulateCell(cutMesh, faces, 0))).empty());
+    CHECK(uncancelled(edgesOf(triangulateCell(cutMesh, 0))).empty());
     cutMesh.cellHalfFaces = {3};
     cutMesh.cellHalfFaceOffsets = {0, 1};
-    const std::vector<uint32_t> reversed = triangulateCell(cutMesh, faces, 0);
+    const std::vector<uint32_t> reversed = triangulateCell(cutMesh, 0);
     REQUIRE(reversed.size() == 18);
     for (size_t t = 0; t < 18; t += 3) CHECK(twiceArea(points[reversed[t]], points[reversed[t + 1]], points[reversed[t + 2]]) > 0);
   }
@@ -437,14 +439,13 @@ TEST_CASE("triangulate: the triangles of every cell of a cut close it and have i
   SECTION("coplanar triangles") { mesh = shapes::cube(1, 2); }
   const CutResult result = cut(mesh, unitGrid(3));
   REQUIRE(result.error.message == "");
-  const FaceTriangles faces = triangulateFaces(result.mesh);
   const Measures measures = measure(mesh, result.mesh);
   size_t open = 0;
   double worst = 0;
   for (size_t c = 0; c < result.mesh.cellCount(); ++c) {
     Mesh cell;
     cell.positions = result.mesh.positions;
-    cell.triangles = triangulateCell(result.mesh, faces, c);
+    cell.triangles = triangulateCell(result.mesh, c);
     open += !uncancelled(edgesOf(cell.triangles)).empty();
     worst = std::max(worst, std::fabs(shapes::signedVolume(cell) - measures.cellVolume[c]));
   }
@@ -455,23 +456,56 @@ TEST_CASE("triangulate: the triangles of every cell of a cut close it and have i
 TEST_CASE("a region's surface is closed around it", "[triangulate]") {
   const Mesh mesh = shapes::icosphere({1.5, 1.5, 1.5}, 1.25, 2);
   const CheckedCut cut = checkedCut(mesh, unitGrid(3));
-  const FaceTriangles faces = triangulateFaces(cut.mesh);
   REQUIRE(cut.mesh.regionCount == 2);
   for (uint32_t region = 0; region < 2; ++region) {
     const int inside = cut.mesh.regionWinding[region];
-    Mesh surface = {cut.mesh.positions, triangulateRegion(cut.mesh, faces, region)};
+    Mesh surface = {cut.mesh.positions, triangulateRegion(cut.mesh, region)};
     CHECK(uncancelled(edgesOf(surface.triangles)).empty());
     CHECK(shapes::signedVolume(surface) == Approx((inside == 1 ? 1 : -1) * shapes::signedVolume(mesh)).epsilon(1e-12));
     CHECK(shapes::area(surface) == Approx(shapes::area(mesh)).epsilon(1e-12));
   }
-  CHECK(triangulateRegion(cut.mesh, faces, 2).empty());
 }
 
 TEST_CASE("a region has both sides of a sheet that ends within it", "[triangulate]") {
   const Mesh mesh = shapes::quad({0.25, 0.5, 0.25}, {1.75, 0.5, 0.25}, {1.75, 0.5, 1.5}, {0.25, 0.5, 1.5});
   const CheckedCut cut = checkedCut(mesh, unitGrid(2));
   REQUIRE(cut.mesh.regionCount == 1);
-  const Mesh surface = {cut.mesh.positions, triangulateRegion(cut.mesh, triangulateFaces(cut.mesh), 0)};
+  const Mesh surface = {cut.mesh.positions, triangulateRegion(cut.mesh, 0)};
   CHECK(uncancelled(edgesOf(surface.triangles)).empty());
   CHECK(shapes::area(surface) == Approx(2 * shapes::area(mesh)).epsilon(1e-12));
+}
+
+TEST_CASE("the triangles of a cell and of a region are those of all faces, turned to it", "[triangulate]") {
+  const Mesh mesh = shapes::merged({shapes::torus({1.5, 1.5, 1.5}, 0.9, 0.3, 31, 17), shapes::moebius({1.5, 1.5, 1.4}, 0.3, 0.2, 12)});
+  const CheckedCut cut = checkedCut(mesh, unitGrid(3));
+  const FaceTriangles faces = triangulateFaces(cut.mesh);
+  std::vector<std::vector<uint32_t>> regions(cut.mesh.regionCount);
+  for (size_t c = 0; c < cut.mesh.cellCount(); ++c) {
+    std::vector<uint32_t> cell;
+    for (const uint32_t h : cut.mesh.halfFaces(c)) {
+      for (uint32_t t = faces.faceTriangleOffsets[h / 2]; t < faces.faceTriangleOffsets[h / 2 + 1]; ++t) {
+        std::array<uint32_t, 3> v = {faces.triangles[3 * t], faces.triangles[3 * t + 1], faces.triangles[3 * t + 2]};
+        if (h % 2 == 1) std::swap(v[1], v[2]);
+        cell.insert(cell.end(), v.begin(), v.end());
+        std::vector<uint32_t>& region = regions[cut.mesh.cellRegion[c]];
+        if (cut.mesh.faceTriangle[h / 2] >= 0) region.insert(region.end(), v.begin(), v.end());
+      }
+    }
+    REQUIRE(triangulateCell(cut.mesh, c) == cell);
+  }
+  for (uint32_t r = 0; r < cut.mesh.regionCount; ++r) CHECK(triangulateRegion(cut.mesh, r) == regions[r]);
+}
+
+TEST_CASE("cells and regions that do not exist can't be triangulated", "[triangulate]") {
+  const CheckedCut cut = checkedCut(shapes::cube(0.5, 1.5), unitGrid(2));
+  const size_t cells = cut.mesh.cellCount();
+  const auto cell = [&](size_t c) { triangulateCell(cut.mesh, c); };
+  const auto region = [&](uint32_t r) { triangulateRegion(cut.mesh, r); };
+  for (const size_t c : {cells, size_t(99999999), SIZE_MAX}) CHECK(refusal([&] { cell(c); }) == std::pair(Status::badArgument, int64_t(c)));
+  for (const uint32_t r : {2u, UINT32_MAX}) CHECK(refusal([&] { region(r); }) == std::pair(Status::badArgument, int64_t(r)));
+  CHECK_NOTHROW(cell(cells - 1));
+  CHECK_NOTHROW(region(1));
+  CHECK(refusal([] { triangulateFaces(CutMesh()); }).first == Status::badArgument);
+  CHECK(refusal([] { triangulateCell(CutMesh(), 0); }).first == Status::badArgument);
+  CHECK(refusal([] { triangulateRegion(CutMesh(), 0); }).first == Status::badArgument);
 }

@@ -89,7 +89,7 @@ val guarded(const F& f) {
   } catch (const BadArgument& exception) {
     return failure("badArgument", exception.what());
   } catch (const CallError& exception) {
-    return failure(name(exception.error.status), exception.what());
+    return failure(exception.error);
   } catch (const std::exception& exception) {
     return failure(name(Status::internalError), exception.what());
   }
@@ -321,14 +321,14 @@ val triangulateAll(const val& cutMesh) {
 val triangulateOne(const val& object, uint32_t cell) {
   return guarded([&] {
     const CutMesh cutMesh = readCutMesh(object);
-    return success(toArray(triangulateCell(cutMesh, triangulateFaces(cutMesh), cell)));
+    return success(toArray(triangulateCell(cutMesh, cell)));
   });
 }
 
 val triangulateRegionOf(const val& object, uint32_t region) {
   return guarded([&] {
     const CutMesh cutMesh = readCutMesh(object);
-    return success(toArray(triangulateRegion(cutMesh, triangulateFaces(cutMesh), region)));
+    return success(toArray(triangulateRegion(cutMesh, region)));
   });
 }
 
@@ -362,8 +362,7 @@ val toObject(const Slice& slice) {
 val sliceCutMesh(const val& cutMesh, const val& plane, bool untouched) {
   return guarded([&] {
     const Plane cutPlane = {readTriple<double>(plane["normal"]), plane["offset"].as<double>()};
-    const SliceResult result = slice(readCutMesh(cutMesh), cutPlane, {untouched});
-    return result ? success(toObject(result.slice)) : failure(result.error);
+    return success(toObject(slice(readCutMesh(cutMesh), cutPlane, {untouched})));
   });
 }
 

@@ -195,7 +195,7 @@ test('what is asked of a cut-mesh', () => {
   ];
   for (const [call, pattern] of cases) assertBad(call, pattern);
   for (const plane of [{ normal: [0, 0, 0], offset: 1 }, { normal: [0, NaN, 1], offset: 1 }, { normal: [0, 0, 1], offset: Infinity }]) {
-    assert.throws(() => mandoline.slice(cutMesh, plane), { code: 'badOption', stage: 'slice' });
+    assert.throws(() => mandoline.slice(cutMesh, plane), { code: 'badArgument', stage: 'slice' });
   }
 });
 

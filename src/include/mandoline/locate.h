@@ -1,20 +1,24 @@
 // Which cell of a cut-mesh holds a point.
 #pragma once
 
-#include "mandoline/mandoline.h"
+#include <span>
+#include <vector>
+
+#include "mandoline/cut_mesh.h"
+#include "mandoline/status.h"
 
 namespace mandoline {
 
 /// Where points lie, per point. Of a point on a face, or on a plane of the grid, one of the cells beside it, always the same.
 struct Locations {
-  std::vector<int32_t> cell;      ///< the cut-cell that holds the point, or -1 in an untouched grid cell, or outside of the grid
-  std::vector<int32_t> gridCell;  ///< 3 per point: the grid cell, or -1, -1, -1 outside of the grid
-  std::vector<int32_t> region;    ///< the region, or -1 outside of the grid
+  std::vector<int32_t> cell;      ///< the cut-cell that holds the point, or -1 in an untouched grid cell, or outside the grid
+  std::vector<int32_t> gridCell;  ///< 3 per point: the grid cell, or -1, -1, -1 outside the grid
+  std::vector<int32_t> region;    ///< the region, or -1 outside the grid
 };
 
 /// `points`: 3 per point, world units; one that is not finite lies outside. The grid's border belongs to it. Decided exactly, against
 /// the triangles of triangulateFaces(): in a cut grid cell always one cut-cell is found, whatever rounding has done to the positions.
-/// One call for many points is far faster than many calls.
+/// One call for many points is faster than many calls. Throws CallError unless the number of coordinates is a multiple of 3.
 Locations locate(const CutMesh& cutMesh, std::span<const double> points);
 
 }  // namespace mandoline

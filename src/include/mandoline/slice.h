@@ -1,7 +1,12 @@
-// The filled cross-section of a cut-mesh with a plane.
+// The filled cross-section of a cut-mesh with a plane, and the outlines of its regions.
 #pragma once
 
-#include "mandoline/mandoline.h"
+#include <array>
+#include <span>
+#include <vector>
+
+#include "mandoline/cut_mesh.h"
+#include "mandoline/status.h"
 
 namespace mandoline {
 
@@ -20,29 +25,27 @@ struct SliceOptions {
 /// own; triangles take no notice of slits. Points are shared by the polygons of neighbouring cut-cells; each polygon of an untouched grid
 /// cell has its own. Where triangles of the input cross within a grid cell, so may a polygon's loops.
 struct Slice {
-  std::vector<double> positions;                 ///< 3 per point, on the plane, world units
-  std::vector<uint32_t> loopOffsets;             ///< into loopPoints
-  std::vector<uint32_t> loopPoints;              ///< points of the loops
-  std::vector<uint32_t> polygonLoopOffsets;      ///< into loops, per polygon: an outer one, counter-clockwise about the normal, then holes
-  std::vector<int32_t> polygonCell;              ///< per polygon: the cut-cell that it is a cut of, or -1 for an untouched grid cell
-  std::vector<int32_t> polygonGridCell;          ///< 3 per polygon: the grid cell
-  std::vector<uint32_t> polygonRegion;           ///< per polygon: region
-  std::vector<uint32_t> polygonTriangleOffsets;  ///< into triangles (in triangles, not entries), per polygon
-  std::vector<uint32_t> triangles;               ///< 3 points per triangle, counter-clockwise about the normal
+  std::vector<double> positions;                    ///< 3 per point, on the plane, world units
+  std::vector<uint32_t> loopOffsets{0};             ///< into loopPoints
+  std::vector<uint32_t> loopPoints;                 ///< points of the loops
+  std::vector<uint32_t> polygonLoopOffsets{0};      ///< into loops, per polygon: an outer one, counter-clockwise about the normal, then holes
+  std::vector<int32_t> polygonCell;                 ///< per polygon: the cut-cell that it is a cut of, or -1 for an untouched grid cell
+  std::vector<int32_t> polygonGridCell;             ///< 3 per polygon: the grid cell
+  std::vector<uint32_t> polygonRegion;              ///< per polygon: region
+  std::vector<uint32_t> polygonTriangleOffsets{0};  ///< into triangles (in triangles, not entries), per polygon
+  std::vector<uint32_t> triangles;                  ///< 3 points per triangle, counter-clockwise about the normal
 
   size_t polygonCount() const { return polygonRegion.size(); }
 };
 
-struct SliceResult {
-  Error error;  ///< badOption if the normal is zero or not finite (element: the axis, -1 if zero), or the offset is not finite
-  Slice slice;  ///< empty unless ok
-
-  explicit operator bool() const { return error.status == Status::ok; }
-};
-
 /// Which vertices lie on which side is decided exactly and once for all cells. Those on the plane count as above it (below it if nothing
 /// else is): the result is that of a plane moved by less than anything, so a plane through vertices, edges or faces cuts every place once.
-/// Polygons that have no width on the plane itself may be left out.
-SliceResult slice(const CutMesh& cutMesh, const Plane& plane, const SliceOptions& options = {});
+/// Polygons that have no width on the plane itself may be left out. A plane beside the grid cuts nothing. Throws CallError for a normal
+/// that is zero or not finite (element: the axis) and an offset that is not finite (element: which).
+Slice slice(const CutMesh& cutMesh, const Plane& plane, const SliceOptions& options = {});
+
+/// The slices of parallel planes, each as slice() gives it, in the order of their offsets, for less than many calls cost.
+std::vector<Slice> slices(const CutMesh& cutMesh, const std::array<double, 3>& normal, std::span<const double> offsets,
+                          const SliceOptions& options = {});
 
 }  // namespace mandoline

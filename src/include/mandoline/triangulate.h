@@ -1,7 +1,10 @@
 // Triangles of cut-faces and cut-cells, for rendering and export (paper, 4.7).
 #pragma once
 
-#include "mandoline/mandoline.h"
+#include <vector>
+
+#include "mandoline/cut_mesh.h"
+#include "mandoline/status.h"
 
 namespace mandoline {
 
@@ -12,11 +15,12 @@ struct FaceTriangles {
 };
 FaceTriangles triangulateFaces(const CutMesh& cutMesh);
 
-/// The closed triangle surface of one cut-cell, oriented outward: 3 vertex ids per triangle.
-std::vector<uint32_t> triangulateCell(const CutMesh& cutMesh, const FaceTriangles& faces, size_t cell);
+/// The closed triangle surface of one cut-cell, oriented outward: 3 vertex ids per triangle, those of triangulateFaces(). Costs what the
+/// cell's faces cost. Throws CallError if there is no such cell (element).
+std::vector<uint32_t> triangulateCell(const CutMesh& cutMesh, size_t cell);
 
-/// The pieces of triangles that bound a region, seen from its cut-cells and oriented out of it: 3 vertex ids per triangle. Where a sheet
-/// ends within the region, both of its sides.
-std::vector<uint32_t> triangulateRegion(const CutMesh& cutMesh, const FaceTriangles& faces, uint32_t region);
+/// The pieces of triangles that bound a region, seen from its cut-cells and oriented out of it: 3 vertex ids per triangle, those of
+/// triangulateFaces(). Where a sheet ends within the region, both of its sides. Throws CallError if there is no such region (element).
+std::vector<uint32_t> triangulateRegion(const CutMesh& cutMesh, uint32_t region);
 
 }  // namespace mandoline

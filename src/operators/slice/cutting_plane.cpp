@@ -1,5 +1,7 @@
 #include "operators/slice/cutting_plane.h"
 
+#include "base/double_double.h"
+
 namespace mandoline::operators {
 
 using detail::DoubleDouble;
@@ -52,22 +54,23 @@ int CuttingPlane::signAt(const ScaledPoint& p) const {
       .sign();
 }
 
-/// In units of the normal's length; 0 where rounding a coordinate could bring the point onto the plane.
 double CuttingPlane::distanceAt(const ScaledPoint& p) const {
   constexpr double kRoundings = 64;
-  const double height =
-      double(twoProduct(normal_[0], p[0]) + twoProduct(normal_[1], p[1]) + twoProduct(normal_[2], p[2]) - DoubleDouble(offset_));
+  DoubleDouble sum;
+  for (size_t d = 0; d < 3; ++d) {
+    if (normal_[d] != 0) sum += twoProduct(normal_[d], p[d]);
+  }
+  const double height = double(sum - DoubleDouble(offset_));
   return std::fabs(height) > kRoundings * detail::kRoundoff * sizeAt(p) ? std::fabs(height) : 0;
 }
 
-CuttingPlane::Crossing CuttingPlane::crossing(const ScaledPoint& a, const ScaledPoint& b) const {
-  const double distanceA = distanceAt(a), distanceB = distanceAt(b);
-  const bool fromA = distanceA < distanceB || (distanceA == distanceB && a < b);  // from the nearer end, the same whichever comes first
-  if (std::min(distanceA, distanceB) == 0) return {fromA ? a : b, fromA ? 0 : 1};
-  const ScaledPoint &near = fromA ? a : b, &far = fromA ? b : a;
-  const double t = std::min(distanceA, distanceB) / (distanceA + distanceB);
+CuttingPlane::Crossing CuttingPlane::crossing(const End& a, const End& b) {
+  const bool fromA = a.distance < b.distance || (a.distance == b.distance && a.at < b.at);  // from the nearer end, whichever comes first
+  const End &near = fromA ? a : b, &far = fromA ? b : a;
+  if (near.distance == 0) return {near.at, fromA ? 0 : 1};
+  const double t = near.distance / (near.distance + far.distance);
   Crossing crossing = {{}, -1};
-  for (int d = 0; d < 3; ++d) crossing.at[d] = near[d] + t * (far[d] - near[d]);
+  for (int d = 0; d < 3; ++d) crossing.at[d] = near.at[d] + t * (far.at[d] - near.at[d]);
   return crossing;
 }
 

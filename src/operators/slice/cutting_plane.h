@@ -3,10 +3,9 @@
 
 #include <optional>
 
-#include "base/double_double.h"
 #include "grid/scaled_space.h"
 #include "mandoline/slice.h"
-#include "operators/triangulate/polygon_triangulator.h"
+#include "operators/triangulate/plane_point.h"
 
 namespace mandoline::operators {
 
@@ -20,13 +19,23 @@ class CuttingPlane {
     const int sign = signAt(p);
     return sign > 0 || (sign == 0 && onIsAbove_);
   }
+  /// In units of the normal's length; 0 where rounding a coordinate could bring the point onto the plane.
+  double distanceAt(const ScaledPoint& p) const;
+
+  /// An end of an edge, and its distance.
+  struct End {
+    const ScaledPoint& at;
+    double distance;
+  };
   /// Where the edge of two points on different sides crosses the plane. `end` is 0 or 1 if that is the edge's end a or b, else -1: an end
   /// that rounding can't tell from the plane is the place, so that all edges that meet there cross at one place.
   struct Crossing {
     ScaledPoint at;
     int end;
   };
-  Crossing crossing(const ScaledPoint& a, const ScaledPoint& b) const;
+  static Crossing crossing(const End& a, const End& b);
+  Crossing crossing(const ScaledPoint& a, const ScaledPoint& b) const { return crossing({a, distanceAt(a)}, {b, distanceAt(b)}); }
+
   /// Seen so that the normal points up: along the axis that it is steepest to.
   PlanePoint seen(const ScaledPoint& p) const { return {p[right_], p[up_]}; }
   const ScaledPoint& normal() const { return normal_; }
@@ -34,7 +43,6 @@ class CuttingPlane {
  private:
   int signAt(const ScaledPoint& p) const;
   double sizeAt(const ScaledPoint& p) const;
-  double distanceAt(const ScaledPoint& p) const;
 
   ScaledPoint normal_{};
   double offset_ = 0;

@@ -10,7 +10,7 @@ constexpr uint32_t kNone = ~0u;
 
 }  // namespace
 
-const detail::Csr<uint32_t>& SliceNesting::run(const detail::Csr<uint32_t>& loops, const std::vector<PlanePoint>& at) {
+const detail::Csr<uint32_t>& Nesting::run(const detail::Csr<uint32_t>& loops, const std::vector<PlanePoint>& at) {
   points_ = &loops;
   at_ = &at;
   loops_.clear();
@@ -30,7 +30,7 @@ const detail::Csr<uint32_t>& SliceNesting::run(const detail::Csr<uint32_t>& loop
   return polygons_;
 }
 
-SliceNesting::Loop SliceNesting::measure(std::span<const uint32_t> points) const {
+Nesting::Loop Nesting::measure(std::span<const uint32_t> points) const {
   Loop loop = {Kind::unclear, 0, {}, {}, kNone};
   const PlanePoint& origin = (*at_)[points[0]];
   double perimeter = 0, longest = -1;
@@ -57,7 +57,7 @@ SliceNesting::Loop SliceNesting::measure(std::span<const uint32_t> points) const
 }
 
 /// Loops so thin that the sign of their area may be rounding's are holes if they lie within the cell: slits. A cell has an outline.
-void SliceNesting::decideUnclear() {
+void Nesting::decideUnclear() {
   const auto isUnclear = [](const Loop& loop) { return loop.kind == Kind::unclear; };
   if (std::none_of(loops_.begin(), loops_.end(), isUnclear)) return;
   if (std::none_of(loops_.begin(), loops_.end(), [](const Loop& loop) { return loop.kind == Kind::outline; })) {
@@ -77,7 +77,7 @@ void SliceNesting::decideUnclear() {
 
 /// The smallest outline around a hole; if rounding has left none, the largest of all. One that runs along the hole backwards lies within
 /// it: both sides of a closed slit.
-uint32_t SliceNesting::outlineOf(uint32_t hole) {
+uint32_t Nesting::outlineOf(uint32_t hole) {
   uint32_t around = kNone, largest = kNone;
   const auto isSmaller = [&](uint32_t a, uint32_t b) { return loops_[a].area < loops_[b].area; };
   uint32_t outlines = 0;
@@ -94,7 +94,7 @@ uint32_t SliceNesting::outlineOf(uint32_t hole) {
   return around != kNone ? around : largest;
 }
 
-bool SliceNesting::runsAlong(uint32_t loop, uint32_t from, uint32_t to) const {
+bool Nesting::runsAlong(uint32_t loop, uint32_t from, uint32_t to) const {
   const auto points = (*points_)[loop];
   for (size_t i = 0; i < points.size(); ++i) {
     if (points[i] == from && points[i + 1 < points.size() ? i + 1 : 0] == to) return true;
@@ -103,7 +103,7 @@ bool SliceNesting::runsAlong(uint32_t loop, uint32_t from, uint32_t to) const {
 }
 
 /// How often a loop winds around a place.
-int SliceNesting::winding(uint32_t loop, const PlanePoint& p) {
+int Nesting::winding(uint32_t loop, const PlanePoint& p) {
   const auto points = (*points_)[loop];
   int result = 0;
   for (size_t i = 0; i < points.size(); ++i) {

@@ -5,12 +5,12 @@
 
 #include "base/csr.h"
 #include "base/exact.h"
-#include "operators/triangulate/polygon_triangulator.h"
+#include "operators/triangulate/plane_point.h"
 
 namespace mandoline::operators {
 
 /// One cell at a time; the buffers are kept from cell to cell.
-class SliceNesting {
+class Nesting {
  public:
   /// Groups the loops of a cell (as points, whose places are `at`) into polygons: loops, the outline first.
   const detail::Csr<uint32_t>& run(const detail::Csr<uint32_t>& loops, const std::vector<PlanePoint>& at);

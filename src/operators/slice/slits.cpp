@@ -2,11 +2,17 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace mandoline::operators {
 
-const detail::Csr<uint32_t>& SliceSlits::remove(const detail::Csr<uint32_t>& loops, std::span<const uint32_t> polygon,
-                                                const std::vector<PlanePoint>& at) {
+const detail::Csr<uint32_t>& Slits::remove(const detail::Csr<uint32_t>& loops, std::span<const uint32_t> polygon,
+                                           const std::vector<PlanePoint>& at) {
+  if (polygon.size() == 1 && !mayHaveAny(loops[polygon[0]])) {
+    loops_.offsets = {0, uint32_t(loops[polygon[0]].size())};
+    loops_.items.assign(loops[polygon[0]].begin(), loops[polygon[0]].end());
+    return loops_;
+  }
   arcs_.clear();
   for (const uint32_t l : polygon) addLoop(loops[l]);
   removePairs();
@@ -14,7 +20,17 @@ const detail::Csr<uint32_t>& SliceSlits::remove(const detail::Csr<uint32_t>& loo
   return loops_;
 }
 
-void SliceSlits::addLoop(std::span<const uint32_t> points) {
+/// A loop that is run through forth and back somewhere has two points, or comes to one twice.
+bool Slits::mayHaveAny(std::span<const uint32_t> loop) {
+  ++round_;
+  for (const uint32_t p : loop) {
+    if (lastRound_.size() <= p) lastRound_.resize(p + 1, 0);
+    if (std::exchange(lastRound_[p], round_) == round_) return true;
+  }
+  return loop.size() < 3;
+}
+
+void Slits::addLoop(std::span<const uint32_t> points) {
   const uint32_t first = uint32_t(arcs_.size()), count = uint32_t(points.size());
   for (uint32_t i = 0; i < count; ++i) {
     const uint32_t next = (i + 1) % count;
@@ -23,7 +39,7 @@ void SliceSlits::addLoop(std::span<const uint32_t> points) {
 }
 
 /// Finds pairs of opposite arcs: next to each other when sorted by their points.
-void SliceSlits::removePairs() {
+void Slits::removePairs() {
   order_.resize(arcs_.size());
   for (uint32_t a = 0; a < arcs_.size(); ++a) order_[a] = a;
   const auto key = [&](uint32_t a) { return std::minmax(arcs_[a].start, arcs_[a].end); };
@@ -40,7 +56,7 @@ void SliceSlits::removePairs() {
 }
 
 /// Removes two opposite arcs: the ways that lead to them go on behind the other one.
-void SliceSlits::remove(uint32_t a, uint32_t b) {
+void Slits::remove(uint32_t a, uint32_t b) {
   const auto bypass = [&](uint32_t from, uint32_t to) {
     arcs_[from].next = to;
     arcs_[to].previous = from;
@@ -51,7 +67,7 @@ void SliceSlits::remove(uint32_t a, uint32_t b) {
   arcs_[a].kept = arcs_[b].kept = false;
 }
 
-void SliceSlits::trace(const std::vector<PlanePoint>& at) {
+void Slits::trace(const std::vector<PlanePoint>& at) {
   detail::Csr<uint32_t> traced;
   std::vector<double> areas;
   for (uint32_t first = 0; first < arcs_.size(); ++first) {

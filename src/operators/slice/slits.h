@@ -3,12 +3,12 @@
 #pragma once
 
 #include "base/csr.h"
-#include "operators/triangulate/polygon_triangulator.h"
+#include "operators/triangulate/plane_point.h"
 
 namespace mandoline::operators {
 
 /// One polygon at a time; the buffers are kept from polygon to polygon.
-class SliceSlits {
+class Slits {
  public:
   /// The polygon's loops less what they run through forth and back, the outline first. The result holds until the next call.
   const detail::Csr<uint32_t>& remove(const detail::Csr<uint32_t>& loops, std::span<const uint32_t> polygon,
@@ -20,6 +20,7 @@ class SliceSlits {
     bool kept = true;
   };
 
+  bool mayHaveAny(std::span<const uint32_t> loop);
   void addLoop(std::span<const uint32_t> points);
   void removePairs();
   void remove(uint32_t a, uint32_t b);
@@ -27,6 +28,8 @@ class SliceSlits {
 
   std::vector<Arc> arcs_;
   std::vector<uint32_t> order_;
+  uint32_t round_ = 0;               // of mayHaveAny()
+  std::vector<uint32_t> lastRound_;  // per point: in which it was met
   detail::Csr<uint32_t> loops_;
 };
 

@@ -1,7 +1,7 @@
 // Triangles of single faces, for operators that need only some.
 #pragma once
 
-#include "mandoline/mandoline.h"
+#include "mandoline/cut_mesh.h"
 #include "operators/triangulate/polygon_triangulator.h"
 
 namespace mandoline::operators {

@@ -1,32 +1,37 @@
-// Triangulates polygons with holes in the plane. No vertices are added.
+// Triangulates polygons with holes in the plane (paper, 4.7) by ear clipping, for convex tri-faces and for grid-faces with holes alike. No
+// vertices are added.
+//
+// A polygon's loops are joined into one cyclic chain of corners: loops that share a vertex are spliced there, the others are joined by
+// bridges (edges run through in both directions). Then ears are clipped off: a chain of n corners gives n - 2 triangles. So whatever the
+// coordinates are, the triangles use the directed edges of the loops once and every other edge once in each direction: geometry only
+// chooses. It chooses by exact signs of the rounded positions: a face whose rounded loops don't cross gets triangles of positive area.
+// Where rounding has made a face overlap itself or vanish, the least bad ear is clipped; where that would be a triangle with a vertex
+// twice, its two other edges, which are opposite, cancel instead.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
-namespace mandoline::operators {
+#include "operators/triangulate/ear_clipper.h"
+#include "operators/triangulate/loop_joiner.h"
 
-struct PlanePoint {
-  double x, y;
-  bool operator==(const PlanePoint& other) const { return x == other.x && y == other.y; }
-};
+namespace mandoline::operators {
 
 /// Takes one polygon at a time, corner by corner: its outer loop counter-clockwise, then its holes clockwise. Corners of one vertex are at
 /// the same place. The buffers are kept from polygon to polygon.
 class PolygonTriangulator {
  public:
-  PolygonTriangulator();
-  ~PolygonTriangulator();
-
   void startLoop();
   void addCorner(uint32_t vertex, const PlanePoint& at);
   /// Appends the triangles of the polygon, 3 vertices each, counter-clockwise, and forgets it.
   void run(std::vector<uint32_t>& triangles);
 
  private:
-  class Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  void closeLoop();
+
+  Chains chains_;
+  LoopJoiner joiner_;
+  EarClipper clipper_;
 };
 
 }  // namespace mandoline::operators

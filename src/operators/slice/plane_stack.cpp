@@ -1,0 +1,84 @@
+#include "operators/slice/plane_stack.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+#include "operators/require_cut_mesh.h"
+
+namespace mandoline::operators {
+namespace {
+
+void requirePlanes(const std::array<double, 3>& normal, std::span<const double> offsets) {
+  for (int d = 0; d < 3; ++d) {
+    if (!std::isfinite(normal[size_t(d)])) refuse("The plane's normal has a component that is not finite.", d);
+  }
+  if (normal == std::array<double, 3>{}) refuse("The plane's normal is zero.");
+  for (size_t i = 0; i < offsets.size(); ++i) {
+    if (!std::isfinite(offsets[i])) refuse("Offset " + std::to_string(i) + " of the plane is not finite.", int64_t(i));
+  }
+}
+
+}  // namespace
+
+ScaledGrid::ScaledGrid(const Grid& grid, const ScaledSpace& space) {
+  for (int d = 0; d < 3; ++d) {
+    planes[d].reserve(grid.planes[d].size());
+    for (const double x : grid.planes[d]) planes[d].push_back(space.scaled(x));
+  }
+}
+
+PlaneStack::PlaneStack(const std::array<double, 3>& normal, std::span<const double> offsets, const Grid& grid, const ScaledSpace& space) {
+  requirePlanes(normal, offsets);
+  std::vector<size_t> order(offsets.size());
+  std::iota(order.begin(), order.end(), size_t(0));
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return offsets[a] < offsets[b]; });
+  for (const size_t i : order) {
+    const std::optional<CuttingPlane> plane = CuttingPlane::make({normal, offsets[i]}, grid, space);
+    if (!plane) continue;
+    planes_.push_back(*plane);
+    given_.push_back(i);
+  }
+}
+
+/// How many planes, the first ones, lie below a point.
+uint32_t PlaneStack::countBelow(const ScaledPoint& p) const {
+  const auto above = std::partition_point(planes_.begin(), planes_.end(), [&](const CuttingPlane& plane) { return plane.isAbove(p); });
+  return uint32_t(above - planes_.begin());
+}
+
+std::pair<uint32_t, uint32_t> PlaneStack::planesThrough(const Box& box) const {
+  if (planes_.empty()) return {0, 0};
+  ScaledPoint bottom, top;
+  for (size_t d = 0; d < 3; ++d) {
+    const bool up = planes_[0].normal()[d] > 0;
+    bottom[d] = box[up ? 0 : 1][d];
+    top[d] = box[up ? 1 : 0][d];
+  }
+  return {countBelow(bottom), countBelow(top)};
+}
+
+detail::Csr<uint32_t> PlaneStack::boxesOf(const std::vector<std::pair<uint32_t, uint32_t>>& planesOf) const {
+  detail::Csr<uint32_t> boxes;
+  boxes.offsets.assign(planes_.size() + 1, 0);
+  for (const auto& [first, end] : planesOf) {
+    for (uint32_t p = first; p < end; ++p) ++boxes.offsets[p + 1];
+  }
+  std::partial_sum(boxes.offsets.begin(), boxes.offsets.end(), boxes.offsets.begin());
+  boxes.items.resize(boxes.offsets.back());
+  std::vector<uint32_t> at(boxes.offsets.begin(), boxes.offsets.end() - 1);
+  for (uint32_t b = 0; b < planesOf.size(); ++b) {
+    for (uint32_t p = planesOf[b].first; p < planesOf[b].second; ++p) boxes.items[at[p]++] = b;
+  }
+  return boxes;
+}
+
+detail::Csr<uint32_t> cellsCut(const PlaneStack& planes, const ScaledGrid& grid, const CutMesh& cutMesh) {
+  return planes.boxesCut(cutMesh.cellCount(), [&](size_t c) {
+    const int32_t* at = &cutMesh.cellGridCell[3 * c];
+    const size_t i = size_t(at[0]), j = size_t(at[1]), k = size_t(at[2]);
+    return PlaneStack::Box{grid.corner(i, j, k), grid.corner(i + 1, j + 1, k + 1)};
+  });
+}
+
+}  // namespace mandoline::operators

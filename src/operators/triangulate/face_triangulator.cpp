@@ -1,0 +1,73 @@
+#include "operators/triangulate/face_triangulator.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mandoline::operators {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+/// How a face is seen: the axes that grow to the right and upwards, and a power of two that keeps products from over- and underflowing.
+struct View {
+  int right, up;
+  double factor;
+
+  PlanePoint operator()(const double* p) const { return {p[right] * factor, p[up] * factor}; }
+};
+
+double factorOf(const CutMesh& cutMesh, const Loops& loops) {
+  double largest = 0;
+  for (const std::span<const uint32_t> loop : loops) {
+    for (const uint32_t v : loop) {
+      for (size_t d = 0; d < 3; ++d) largest = std::max(largest, std::fabs(cutMesh.positions[3 * size_t(v) + d]));
+    }
+  }
+  return largest > 0 ? std::ldexp(1.0, -std::clamp(std::ilogb(largest), -1000, 1000)) : 1;
+}
+
+/// Twice the loops' area along each axis.
+Vector areaOf(const CutMesh& cutMesh, const Loops& loops, double factor) {
+  const auto position = [&](uint32_t v) { return &cutMesh.positions[3 * size_t(v)]; };
+  const double* origin = position(loops[0][0]);
+  Vector area = {};
+  for (const std::span<const uint32_t> loop : loops) {
+    for (size_t i = 0; i < loop.size(); ++i) {
+      const double *a = position(loop[i]), *b = position(loop[i + 1 < loop.size() ? i + 1 : 0]);
+      for (size_t d = 0; d < 3; ++d) {
+        const size_t u = (d + 1) % 3, v = (d + 2) % 3;
+        area[d] +=
+            (a[u] - origin[u]) * factor * ((b[v] - origin[v]) * factor) - (a[v] - origin[v]) * factor * ((b[u] - origin[u]) * factor);
+      }
+    }
+  }
+  return area;
+}
+
+/// In the axial plane that the face is steepest to, seen so that its normal points up.
+View viewOf(const CutMesh& cutMesh, const Face& face) {
+  const double factor = factorOf(cutMesh, face.loops);
+  int axis = face.axis;
+  bool up = true;
+  if (face.triangle >= 0) {
+    const Vector area = areaOf(cutMesh, face.loops, factor);
+    const auto isSmaller = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
+    if (axis < 0) axis = int(std::max_element(area.begin(), area.end(), isSmaller) - area.begin());
+    up = area[size_t(axis)] >= 0;
+  }
+  return {(axis + (up ? 1 : 2)) % 3, (axis + (up ? 2 : 1)) % 3, factor};
+}
+
+}  // namespace
+
+void FaceTriangulator::run(size_t face, std::vector<uint32_t>& triangles) {
+  const Face cutFace = cutMesh_.face(face);
+  const View view = viewOf(cutMesh_, cutFace);
+  for (const std::span<const uint32_t> loop : cutFace.loops) {
+    polygon_.startLoop();
+    for (const uint32_t v : loop) polygon_.addCorner(v, view(&cutMesh_.positions[3 * size_t(v)]));
+  }
+  polygon_.run(triangles);
+}
+
+}  // namespace mandoline::operators
