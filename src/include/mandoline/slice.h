@@ -25,13 +25,13 @@ struct SliceOptions {
 /// own; triangles take no notice of slits. Points are shared by the polygons of neighbouring cut-cells; each polygon of an untouched grid
 /// cell has its own. Where triangles of the input cross within a grid cell, so may a polygon's loops.
 struct Slice {
-  std::vector<double> positions;                    ///< 3 per point, on the plane, world units
-  std::vector<uint32_t> loopOffsets{0};             ///< into loopPoints
-  std::vector<uint32_t> loopPoints;                 ///< points of the loops
-  std::vector<uint32_t> polygonLoopOffsets{0};      ///< into loops, per polygon: an outer one, counter-clockwise about the normal, then holes
-  std::vector<int32_t> polygonCell;                 ///< per polygon: the cut-cell that it is a cut of, or -1 for an untouched grid cell
-  std::vector<int32_t> polygonGridCell;             ///< 3 per polygon: the grid cell
-  std::vector<uint32_t> polygonRegion;              ///< per polygon: region
+  std::vector<double> positions;                ///< 3 per point, on the plane, world units
+  std::vector<uint32_t> loopOffsets{0};         ///< into loopPoints
+  std::vector<uint32_t> loopPoints;             ///< points of the loops
+  std::vector<uint32_t> polygonLoopOffsets{0};  ///< into loops, per polygon: an outer one, counter-clockwise about the normal, then holes
+  std::vector<int32_t> polygonCell;             ///< per polygon: the cut-cell that it is a cut of, or -1 for an untouched grid cell
+  std::vector<int32_t> polygonGridCell;         ///< 3 per polygon: the grid cell
+  std::vector<uint32_t> polygonRegion;          ///< per polygon: region
   std::vector<uint32_t> polygonTriangleOffsets{0};  ///< into triangles (in triangles, not entries), per polygon
   std::vector<uint32_t> triangles;                  ///< 3 points per triangle, counter-clockwise about the normal
 
@@ -47,5 +47,40 @@ Slice slice(const CutMesh& cutMesh, const Plane& plane, const SliceOptions& opti
 /// The slices of parallel planes, each as slice() gives it, in the order of their offsets, for less than many calls cost.
 std::vector<Slice> slices(const CutMesh& cutMesh, const std::array<double, 3>& normal, std::span<const double> offsets,
                           const SliceOptions& options = {});
+
+/// The outlines of regions in a plane: each region's polygons of Slice as one, without the seams between cells and with untouched grid
+/// cells. What is left is where the surface is cut, and where the grid's box ends. A point lies where an edge of the input is cut, where
+/// the surface meets the box, or on an edge of the box; none where only a plane of the grid was crossed. Points are shared by the outlines
+/// of neighbouring regions.
+///
+/// Where the surface has one region on both sides (an open sheet, or a mesh with a hole in it) it is no outline but a slit: a polyline,
+/// from point to point with the triangles' normals to its right; the first point again at the end of one that is closed. Slits end where
+/// the surface ends, meets others or turns its normals around.
+struct Outlines {
+  std::vector<double> positions;                ///< 3 per point, on the plane, world units
+  std::vector<uint32_t> loopOffsets{0};         ///< into loopPoints
+  std::vector<uint32_t> loopPoints;             ///< points of the loops
+  std::vector<uint32_t> polygonLoopOffsets{0};  ///< into loops, per polygon: an outer one, counter-clockwise about the normal, then holes
+  std::vector<uint32_t> polygonRegion;          ///< per polygon: region, ascending
+  std::vector<uint32_t> slitOffsets{0};         ///< into slitPoints
+  std::vector<uint32_t> slitPoints;             ///< points of the slits
+  std::vector<uint32_t> slitRegion;             ///< per slit: region around it, ascending
+
+  size_t polygonCount() const { return polygonRegion.size(); }
+  size_t slitCount() const { return slitRegion.size(); }
+};
+
+/// With the rules and errors of slice().
+Outlines outlines(const CutMesh& cutMesh, const Plane& plane);
+/// Those of parallel planes, in the order of their offsets.
+std::vector<Outlines> outlines(const CutMesh& cutMesh, const std::array<double, 3>& normal, std::span<const double> offsets);
+
+/// Axes for drawing what lies in a plane: unit vectors along it, right x up being the normal's direction; those of the grid if the normal
+/// is one.
+struct PlaneAxes {
+  std::array<double, 3> right, up;
+};
+/// Throws CallError for a normal that is zero or not finite.
+PlaneAxes planeAxes(const std::array<double, 3>& normal);
 
 }  // namespace mandoline

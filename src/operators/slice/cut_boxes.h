@@ -6,6 +6,8 @@
 
 namespace mandoline::operators {
 
+using GridCell = std::array<int32_t, 3>;
+
 /// Grid cells begin .. end - 1 along each axis.
 struct CellRange {
   int32_t begin, end;

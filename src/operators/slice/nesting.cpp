@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace mandoline::operators {
 namespace {
@@ -16,23 +17,31 @@ const detail::Csr<uint32_t>& Nesting::run(const detail::Csr<uint32_t>& loops, co
   loops_.clear();
   for (size_t l = 0; l < loops.size(); ++l) loops_.push_back(measure(loops[l]));
   decideUnclear();
-  polygons_.offsets.assign(1, 0);
-  polygons_.items.clear();
   for (uint32_t l = 0; l < loops_.size(); ++l) loops_[l].outline = loops_[l].kind == Kind::hole ? outlineOf(l) : l;
-  for (uint32_t l = 0; l < loops_.size(); ++l) {
-    if (loops_[l].kind != Kind::outline) continue;
-    polygons_.items.push_back(l);
-    for (uint32_t hole = 0; hole < loops_.size(); ++hole) {
-      if (loops_[hole].kind == Kind::hole && loops_[hole].outline == l) polygons_.items.push_back(hole);
-    }
-    polygons_.offsets.push_back(uint32_t(polygons_.items.size()));
-  }
+  makePolygons();
   return polygons_;
 }
 
+/// In the order of their outlines, each followed by its holes.
+void Nesting::makePolygons() {
+  order_.clear();
+  for (uint32_t l = 0; l < loops_.size(); ++l) {
+    if (loops_[l].outline != kNone) order_.push_back(l);
+  }
+  const auto key = [&](uint32_t l) { return std::tuple(loops_[l].outline, loops_[l].outline != l, l); };
+  std::sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
+  polygons_.offsets.assign(1, 0);
+  polygons_.items.clear();
+  for (const uint32_t l : order_) {
+    if (loops_[l].outline == l && !polygons_.items.empty()) polygons_.offsets.push_back(uint32_t(polygons_.items.size()));
+    polygons_.items.push_back(l);
+  }
+  if (!polygons_.items.empty()) polygons_.offsets.push_back(uint32_t(polygons_.items.size()));
+}
+
 Nesting::Loop Nesting::measure(std::span<const uint32_t> points) const {
-  Loop loop = {Kind::unclear, 0, {}, {}, kNone};
   const PlanePoint& origin = (*at_)[points[0]];
+  Loop loop = {Kind::unclear, 0, {}, {}, origin, origin, kNone};
   double perimeter = 0, longest = -1;
   for (size_t i = 0; i < points.size(); ++i) {
     const std::array<uint32_t, 2> segment = {points[i], points[i + 1 < points.size() ? i + 1 : 0]};
@@ -40,6 +49,8 @@ Nesting::Loop Nesting::measure(std::span<const uint32_t> points) const {
     loop.area += 0.5 * ((a.x - origin.x) * (b.y - origin.y) - (a.y - origin.y) * (b.x - origin.x));
     const double length = std::fabs(b.x - a.x) + std::fabs(b.y - a.y);
     perimeter += length;
+    loop.low = {std::min(loop.low.x, a.x), std::min(loop.low.y, a.y)};
+    loop.high = {std::max(loop.high.x, a.x), std::max(loop.high.y, a.y)};
     if (length > longest) {
       longest = length;
       loop.longest = segment;
@@ -104,6 +115,8 @@ bool Nesting::runsAlong(uint32_t loop, uint32_t from, uint32_t to) const {
 
 /// How often a loop winds around a place.
 int Nesting::winding(uint32_t loop, const PlanePoint& p) {
+  const PlanePoint &low = loops_[loop].low, &high = loops_[loop].high;
+  if (p.x < low.x || p.y < low.y || p.x > high.x || p.y > high.y) return 0;
   const auto points = (*points_)[loop];
   int result = 0;
   for (size_t i = 0; i < points.size(); ++i) {

@@ -22,12 +22,14 @@ class Nesting {
     double area;
     std::array<uint32_t, 2> longest;  // segment
     PlanePoint sample;                // its middle
+    PlanePoint low, high;             // of all points
     uint32_t outline;                 // of holes
   };
 
   Loop measure(std::span<const uint32_t> points) const;
   void decideUnclear();
   uint32_t outlineOf(uint32_t hole);
+  void makePolygons();
   bool runsAlong(uint32_t loop, uint32_t from, uint32_t to) const;
   int winding(uint32_t loop, const PlanePoint& p);
 
@@ -35,6 +37,7 @@ class Nesting {
   const std::vector<PlanePoint>* at_ = nullptr;
   detail::Predicates predicates_;
   std::vector<Loop> loops_;
+  std::vector<uint32_t> order_;
   detail::Csr<uint32_t> polygons_;
 };
 

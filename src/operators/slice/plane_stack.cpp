@@ -7,19 +7,6 @@
 #include "operators/require_cut_mesh.h"
 
 namespace mandoline::operators {
-namespace {
-
-void requirePlanes(const std::array<double, 3>& normal, std::span<const double> offsets) {
-  for (int d = 0; d < 3; ++d) {
-    if (!std::isfinite(normal[size_t(d)])) refuse("The plane's normal has a component that is not finite.", d);
-  }
-  if (normal == std::array<double, 3>{}) refuse("The plane's normal is zero.");
-  for (size_t i = 0; i < offsets.size(); ++i) {
-    if (!std::isfinite(offsets[i])) refuse("Offset " + std::to_string(i) + " of the plane is not finite.", int64_t(i));
-  }
-}
-
-}  // namespace
 
 ScaledGrid::ScaledGrid(const Grid& grid, const ScaledSpace& space) {
   for (int d = 0; d < 3; ++d) {
@@ -28,8 +15,18 @@ ScaledGrid::ScaledGrid(const Grid& grid, const ScaledSpace& space) {
   }
 }
 
+void requireNormal(const std::array<double, 3>& normal) {
+  for (int d = 0; d < 3; ++d) {
+    if (!std::isfinite(normal[size_t(d)])) refuse("The plane's normal has a component that is not finite.", d);
+  }
+  if (normal == std::array<double, 3>{}) refuse("The plane's normal is zero.");
+}
+
 PlaneStack::PlaneStack(const std::array<double, 3>& normal, std::span<const double> offsets, const Grid& grid, const ScaledSpace& space) {
-  requirePlanes(normal, offsets);
+  requireNormal(normal);
+  for (size_t i = 0; i < offsets.size(); ++i) {
+    if (!std::isfinite(offsets[i])) refuse("Offset " + std::to_string(i) + " of the plane is not finite.", int64_t(i));
+  }
   std::vector<size_t> order(offsets.size());
   std::iota(order.begin(), order.end(), size_t(0));
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return offsets[a] < offsets[b]; });

@@ -16,7 +16,11 @@ struct ScaledGrid {
 
   ScaledGrid(const Grid& grid, const ScaledSpace& space);
   ScaledPoint corner(size_t i, size_t j, size_t k) const { return {planes[0][i], planes[1][j], planes[2][k]}; }
+  ScaledPoint corner(const std::array<int32_t, 3>& at) const { return corner(size_t(at[0]), size_t(at[1]), size_t(at[2])); }
 };
+
+/// Throws CallError unless the normal has a direction.
+void requireNormal(const std::array<double, 3>& normal);
 
 /// The planes that may meet the grid, by ascending offset. Throws CallError for a normal without a direction and offsets that are no
 /// numbers.

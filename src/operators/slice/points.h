@@ -1,9 +1,10 @@
 // The points of a plane's cut.
 #pragma once
 
+#include <unordered_map>
 #include <vector>
 
-#include "operators/slice/cutting_plane.h"
+#include "operators/slice/plane_stack.h"
 
 namespace mandoline::operators {
 
@@ -47,6 +48,29 @@ class EdgePoints {
   Points* points_ = nullptr;
   std::vector<uint32_t> pointOfVertex_;  // empty until there is one
   std::vector<uint32_t> vertices_;       // that have one
+};
+
+/// An edge of the grid, from the grid vertex `at` along an axis.
+struct GridEdge {
+  int axis;
+  std::array<int32_t, 3> at;
+};
+
+/// Makes the points on edges of the grid, one for each that is cut; those at grid vertices are one for all edges there.
+class GridPoints {
+ public:
+  GridPoints(const ScaledGrid& grid, const CuttingPlane& plane, Points& points) : grid_(grid), plane_(plane), points_(points) {}
+
+  uint32_t pointOn(const GridEdge& edge);
+
+ private:
+  /// The place of one, of the grid's edges along x, y and z and the grid's vertices (kind 3).
+  uint64_t keyOf(const std::array<int32_t, 3>& at, int kind) const;
+
+  const ScaledGrid& grid_;
+  const CuttingPlane& plane_;
+  Points& points_;
+  std::unordered_map<uint64_t, uint32_t> known_;
 };
 
 }  // namespace mandoline::operators

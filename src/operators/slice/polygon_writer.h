@@ -2,12 +2,11 @@
 #pragma once
 
 #include "mandoline/slice.h"
+#include "operators/slice/cut_boxes.h"
 #include "operators/slice/points.h"
 #include "operators/triangulate/polygon_triangulator.h"
 
 namespace mandoline::operators {
-
-using GridCell = std::array<int32_t, 3>;
 
 class PolygonWriter {
  public:
