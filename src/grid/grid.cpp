@@ -1,10 +1,10 @@
-// Grids, and small parts of the public structs.
+#include "mandoline/grid.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 #include "base/exact.h"
-#include "mandoline/mandoline.h"
 
 namespace mandoline {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/exact.h"
-#include "mandoline/mandoline.h"
+#include "mandoline/grid.h"
 
 namespace mandoline::operators {
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <new>
 
-#include "mandoline/io.h"
+#include "mandoline/mesh_files.h"
 
 namespace mandoline {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "mandoline/io.h"
+#include "mandoline/mesh_files.h"
 
 namespace mandoline::detail {
 
