@@ -40,7 +40,7 @@ export interface Settings {
     edges: boolean;
     untouched: boolean;
     cutCells: boolean;
-    /** Cells of regions outside of the surface. */
+    /** Cells of regions outside the surface. */
     outside: boolean;
     /** Only this region, or null for all. */
     region: number | null;
@@ -65,7 +65,7 @@ export interface CellInfo {
   gridCell: Int32Array;
 }
 
-/** A cut-mesh made ready to be drawn. Positions in Float32Arrays are less `origin`, the centre of the grid's box. */
+/** A cut-mesh, ready to be drawn. Positions in Float32Arrays are less `origin`, the centre of the grid's box. */
 export interface Model {
   /** Counts up with every cut. */
   id: number;
@@ -85,7 +85,7 @@ export interface Model {
   /** The region in the grid's lowest corner. It counts as the outside if there are no winding numbers. */
   outsideRegion: number | null;
   cells: CellInfo;
-  /** Triangles of all cut-cells, both sides of every face: a face between two cut-cells appears once for each, seen from outside of it. */
+  /** Triangles of all cut-cells, both sides of every face: a face between two cut-cells appears once for each, seen from outside it. */
   triangles: {
     /** 3 per vertex. A vertex belongs to one cut-cell; its position may appear many times. */
     position: Float32Array;
@@ -132,7 +132,7 @@ export interface StepRequest {
   gridCell?: Vector3;
 }
 
-/** A picture of a step, less the model's origin; colours are linear RGB per vertex. `text` says in one or two sentences what is seen, with counts. */
+/** A picture of a step, less the model's origin; colours are linear RGB per vertex. `text` says what is seen, with counts. */
 export interface StepPicture {
   kind: StepKind;
   text: string;
@@ -174,7 +174,7 @@ export interface Engine {
 
 /** What is drawn. Owns the canvas; knows nothing of panels. */
 export interface View {
-  /** Draws this model in place of the last one, with the look that is set next; keeps the camera unless told to frame it. */
+  /** Draws this model instead of the last one, with the look that is set next; keeps the camera unless it is to fit the model. */
   setModel(model: Model, frame: boolean): void;
   /** Draws nothing until the next model. */
   clear(): void;

@@ -1,4 +1,4 @@
-// The state of the page and what can be done to it. Panels call the methods and listen to the events.
+// The state of the page and the actions on it. Panels call the methods and listen to the events.
 import type { Validation } from 'mandoline-wasm';
 import { isPageError } from '../model/failure';
 import { Events } from './events';
@@ -17,25 +17,25 @@ export interface LoadedMesh {
 
 export interface AppEvents {
   settings: Settings;
-  /** The mesh that cuts are made of from now on. */
+  /** The mesh to cut from now on. */
   mesh: LoadedMesh;
-  /** Null when the mesh could not be cut: the former one's picture is gone. */
+  /** Null once a mesh could not be cut: no picture is better than that of the previous mesh. */
   model: Model | null;
   state: 'busy' | 'ready' | 'error';
   /** What is under way. */
   work: 'loading' | 'cutting' | null;
   progress: { stage: string; fraction: number } | null;
   cutError: PageError | null;
-  /** Null when something else went well, which makes former alerts old news. */
+  /** Null when something has succeeded since, so that earlier alerts are old news. */
   alert: PageError | null;
   hover: number | null;
   pinned: CellCard | null;
   step: StepPicture | null;
 }
 
-/** So few cut-cells are better seen without a slice. */
+/** Fewer cut-cells than this are best seen without a slice. */
 const fewCells = 60;
-/** The pieces of a sheet are told apart. */
+/** Tells the pieces beside a sheet apart. */
 const sheetColoring = 'cell';
 
 export class App {
@@ -52,13 +52,13 @@ export class App {
   private work = 0;
   private cuts = 0;
   private failed = false;
-  /** Told when all is done, or what the page falls back to would make them old news. */
+  /** Alerts to be shown in the end: a fallback that succeeds must not clear them. */
   private troubles: PageError[] = [];
-  /** What the first cut of a mesh is to bring with it: a camera that sees all of it, a look that suits it. */
+  /** Whether the next model needs a camera that sees all of it, or a look that suits it. */
   private frameNext = false;
   private fitNext = false;
   private wasSheet = false;
-  /** What the model was cut from and with. */
+  /** What the model was made of. */
   private shown: Pick<Settings, 'grid' | 'snapTolerance'> & { mesh: LoadedMesh | null } = { ...this.settings, mesh: null };
 
   constructor(
@@ -72,7 +72,7 @@ export class App {
     view.onFreePlane = (slice) => this.change({ slices: { ...this.settings.slices, free: slice } }, false);
   }
 
-  /** Loads a mesh and cuts it, into `cells` along its longest side if that is given. If it can't be loaded the page goes on with the former one. */
+  /** Loads a mesh and cuts it, if given into `cells` along its longest side. If it can't be loaded, the page keeps the previous one. */
   async open(source: Source, { bytes, cells }: { bytes?: ArrayBuffer; cells?: number } = {}): Promise<void> {
     await this.during(async () => {
       if ((await this.load(source, bytes)) !== 'loaded') return;
@@ -84,7 +84,7 @@ export class App {
     });
   }
 
-  /** The resolution for a mesh that comes without one: that of now, unless it only suited a mesh of the gallery. */
+  /** The resolution for a mesh that comes without one: the current one, unless it was meant for a mesh of the gallery. */
   private cellsToKeep(): number {
     const { source, grid } = this.settings;
     const cells = 'min' in grid ? Math.max(...grid.cells) : grid.cells;
@@ -92,7 +92,7 @@ export class App {
     return isGallerys ? defaultCells : cells;
   }
 
-  /** Takes over all settings, as a link gives them. A mesh that can't be had is replaced by the former or the default one. */
+  /** Applies all settings of a link. If its mesh can't be loaded, the previous or the default one takes its place. */
   async restore(settings: Settings): Promise<void> {
     await this.during(async () => {
       let source = settings.source.kind === 'file' ? defaultSource : settings.source;
@@ -109,7 +109,7 @@ export class App {
     });
   }
 
-  /** Links leave out what is as by default, which would hide a sheet, and all of a model that has nothing but an outside. */
+  /** Links leave out defaults, and these would hide a sheet, or a model that is all outside. */
   private showSomething(): void {
     const { model, settings } = this;
     if (!model || settings.show.outside) return;
@@ -117,7 +117,7 @@ export class App {
     else if (model.regions.every(({ id }) => isOutside(model, id))) this.changeShow({ outside: true });
   }
 
-  /** The look that this mesh is first seen with. */
+  /** Back to the look in which this mesh was first shown. */
   resetLook(): void {
     const { slices, sliceMode, explode, colorBy, show } = defaultSettings();
     this.change({ slices, sliceMode, explode, colorBy, show, camera: null }, false);
@@ -130,8 +130,8 @@ export class App {
   }
 
   /**
-   * What a mesh is best first seen with: a sheet with the edges of the cells around it but without their grid-faces, which would hide it;
-   * few cells all of them. A plane that was moved and chosen colours stay.
+   * The look to start with: a sheet with the edges of the cells around it, but without their grid-faces, which would hide it; few cells
+   * without a slice. Planes that were moved and colours that were chosen stay.
    */
   private lookFor(model: Model, wasSheet: boolean): Pick<Settings, 'slices' | 'show' | 'colorBy'> {
     const sheet = isSheet(model);
@@ -147,7 +147,7 @@ export class App {
     };
   }
 
-  /** A page without a picture would be of no use. */
+  /** Shows the default mesh, since a page without a picture is no use. */
   private async fallBack(error: PageError): Promise<void> {
     this.troubles.push(error);
     if ((await this.load(defaultSource)) !== 'loaded') return;
@@ -156,7 +156,7 @@ export class App {
     await this.recut(true);
   }
 
-  /** A failure is told in the end; the outcome is "superseded" if a newer mesh was asked for meanwhile. */
+  /** Failures are shown in the end; the outcome is "superseded" if a newer mesh was asked for meanwhile. */
   private async load(source: Source, bytes?: ArrayBuffer): Promise<'loaded' | 'failed' | 'cancelled' | 'superseded'> {
     const load = ++this.loads;
     this.loading++;
@@ -183,7 +183,7 @@ export class App {
     this.events.tell('work', this.loading > 0 ? 'loading' : this.cuts > 0 ? 'cutting' : null);
   }
 
-  /** The page is busy until this and all else is done. */
+  /** The page is busy until this and everything else is done. */
   private async during(task: () => Promise<void>): Promise<void> {
     if (this.work++ === 0) this.events.tell('state', 'busy');
     this.failed = false;
@@ -205,13 +205,13 @@ export class App {
     this.change({ slices: { ...slices, [name]: { ...slices[name], ...part } } });
   }
 
-  /** Turns a plane around where it is. */
+  /** Flips a plane in place. */
   flip(name: SliceName): void {
     const { position, normal } = this.settings.slices[name];
     this.changeSlice(name, { position: 1 - position, normal: [-normal[0], -normal[1], -normal[2]] });
   }
 
-  /** Looks at all of the model. */
+  /** Moves the camera so that it sees the whole model. */
   fit(): void {
     this.view.frame();
     this.change({ camera: null }, false);
@@ -231,7 +231,7 @@ export class App {
     void this.recut(false);
   }
 
-  /** Cuts with the settings of now. The engine sees to it that the newest cut wins. The answer is what went wrong, if anything did. */
+  /** Cuts with the current settings; the engine makes the newest cut win. Resolves to what went wrong, if anything did. */
   private async recut(frame: boolean): Promise<PageError | null> {
     let problem: PageError | null = null;
     this.frameNext ||= frame;
@@ -261,7 +261,9 @@ export class App {
     this.model = model;
     void this.pin(null);
     const { region } = this.settings.show;
-    if (region !== null && region >= model.counts.regions) this.settings = { ...this.settings, show: { ...this.settings.show, region: null } };
+    if (region !== null && region >= model.counts.regions) {
+      this.settings = { ...this.settings, show: { ...this.settings.show, region: null } };
+    }
     if (this.fitNext) this.settings = { ...this.settings, ...this.lookFor(model, this.wasSheet) };
     this.view.setModel(model, this.frameNext);
     this.fitNext = this.frameNext = false;
@@ -271,7 +273,7 @@ export class App {
     if (this.stepKind) void this.step({ kind: this.stepKind });
   }
 
-  /** No cut comes of these settings. A picture of the same mesh stays; that of another would be taken for this one's. */
+  /** There is no cut with these settings. A picture of the same mesh stays; one of another mesh would be mistaken for this one. */
   private giveUp(problem: PageError): void {
     if (this.model && this.shown.mesh !== this.mesh) {
       this.wasSheet = isSheet(this.model);
@@ -285,7 +287,7 @@ export class App {
     this.events.tell('cutError', problem);
   }
 
-  /** Ends what is under way. The settings are again those of the picture, if that is of the same mesh. */
+  /** Stops what is under way and goes back to the settings of the picture, if that is of the same mesh. */
   cancel(): void {
     this.engine.cancel();
     const { mesh, grid, snapTolerance } = this.shown;
@@ -293,7 +295,7 @@ export class App {
     else this.giveUp({ title: 'Cancelled', detail: 'This mesh has not been cut yet. Change its grid to cut it.' });
   }
 
-  /** Pins a cell and gets its card, or lets go of it. */
+  /** Pins a cell and fetches its card, or unpins it. */
   async pin(cell: number | null): Promise<void> {
     const pin = ++this.pins;
     this.pinned = cell !== null;
@@ -317,7 +319,7 @@ export class App {
     this.events.tell('step', picture);
   }
 
-  /** Lets go of the pinned cell, or else of the step. */
+  /** Unpins the cell, or else leaves the step. */
   leave(): void {
     if (this.pinned) void this.pin(null);
     else if (this.stepKind) void this.step(null);
@@ -335,7 +337,7 @@ export class App {
     return this.ask(this.engine.write(format));
   }
 
-  /** The answer, or null after an alert. */
+  /** Resolves to the answer, or to null after an alert. */
   async ask<T>(answer: Promise<T>): Promise<T | null> {
     try {
       const value = await answer;

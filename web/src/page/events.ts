@@ -1,4 +1,4 @@
-/** Tells whoever asked; an event that was told before is told at once to those who ask later. */
+/** Tells the listeners; a listener that comes late is told the last value at once. */
 export class Events<Types> {
   private readonly listeners = new Map<keyof Types, ((value: never) => void)[]>();
   private readonly last = new Map<keyof Types, unknown>();

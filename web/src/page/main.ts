@@ -28,7 +28,7 @@ try {
   document.body.dataset.state = 'error';
 }
 
-/** By hand: as a link it would change the address, which holds the settings. */
+/** In code, since following the link would overwrite the settings in the URL. */
 function skipToPanels(): void {
   element('skip').addEventListener('click', (event) => {
     event.preventDefault();
@@ -38,7 +38,8 @@ function skipToPanels(): void {
 
 function start(): void {
   const engine = createEngine();
-  const view = createView(element('canvas') as HTMLCanvasElement, { slice: (planes, untouched) => engine.slice(planes, untouched), onError: alert });
+  const canvas = element('canvas') as HTMLCanvasElement;
+  const view = createView(canvas, { slice: (planes, untouched) => engine.slice(planes, untouched), onError: alert });
   const app = new App(engine, view);
   app.events.on('alert', (error) => (error ? alert(error) : clear()));
   app.events.on('state', (state) => (document.body.dataset.state = state));

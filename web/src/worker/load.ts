@@ -34,7 +34,8 @@ async function readFile(mandoline: Mandoline, source: Exclude<Source, { kind: 'g
 async function fetched(url: string): Promise<ArrayBuffer> {
   const title = "The URL can't be read";
   const response = await fetch(url).catch((error: unknown) => {
-    throw pageError(title, `Nothing came from ${url}: the server can't be reached, or it doesn't allow other pages to read it (${String(error)}).`);
+    const why = "the server can't be reached, or it doesn't allow other pages to read it";
+    throw pageError(title, `Nothing came from ${url}: ${why} (${String(error)}).`);
   });
   if (!response.ok) throw pageError(title, `${url} responded with ${response.status} ${response.statusText}.`);
   return response.arrayBuffer();

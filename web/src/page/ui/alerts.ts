@@ -5,7 +5,7 @@ export interface Alerts {
   /** Stays until it is dismissed or cleared. */
   alert(error: PageError): void;
   clear(): void;
-  /** Leaves by itself. */
+  /** Goes away by itself. */
   notice(text: string): void;
 }
 

@@ -5,7 +5,7 @@ import { CellViewer } from './cell_viewer';
 import { button, el, terms } from './dom';
 import { integer, plural, real, winding } from '../../model/format';
 
-/** The card of the pinned cell: what is known of it, and it alone from all sides. */
+/** The card of the pinned cell: its properties, and a view of it on its own. */
 export function cellCard(app: App): HTMLElement {
   const title = el('h2', { id: 'card-title', tabindex: '-1' });
   const canvas = el('canvas', { class: 'cell-canvas', tabindex: '0', role: 'img' });

@@ -1,7 +1,7 @@
-// One cell alone, to be turned around. Draws only when something changed.
+// One cell on its own, which can be rotated. Draws only when something has changed.
 import {
-  BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial,
-  PerspectiveCamera, Scene, SRGBColorSpace, WebGLRenderer,
+  BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, HemisphereLight, LineBasicMaterial, LineSegments, Mesh,
+  MeshLambertMaterial, PerspectiveCamera, Scene, SRGBColorSpace, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { CellCard } from '../../model/types';
@@ -16,7 +16,10 @@ export class CellViewer {
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
   private readonly controls: OrbitControls;
-  private readonly faces = new Mesh(new BufferGeometry(), new MeshLambertMaterial({ vertexColors: true, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
+  private readonly faces = new Mesh(
+    new BufferGeometry(),
+    new MeshLambertMaterial({ vertexColors: true, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }),
+  );
   private readonly edges = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: '#2b2622' }));
   private frameAsked = false;
 
@@ -35,7 +38,8 @@ export class CellViewer {
 
   show({ triangles, edges }: CellCard): void {
     const { center, radius } = enclosing(triangles.position);
-    replace(this.faces, { position: moved(triangles.position, center, radius), normal: triangles.normal, color: colors(triangles.surface) });
+    const position = moved(triangles.position, center, radius);
+    replace(this.faces, { position, normal: triangles.normal, color: colors(triangles.surface) });
     replace(this.edges, { position: moved(edges, center, radius) });
     this.camera.position.set(1.65, 1.3, 2.5);
     this.controls.target.set(0, 0, 0);
@@ -43,7 +47,7 @@ export class CellViewer {
     this.draw();
   }
 
-  /** Turns the cell by angles in radians, for the keyboard. */
+  /** Rotates the cell by angles in radians, for the keyboard. */
   turn(around: number, over: number): void {
     const offset = this.camera.position.clone();
     const length = offset.length();
@@ -79,18 +83,18 @@ function replace(object: Mesh | LineSegments, attributes: Record<string, Float32
 }
 
 function enclosing(position: Float32Array): { center: number[]; radius: number } {
-  const low = [Infinity, Infinity, Infinity];
-  const high = [-Infinity, -Infinity, -Infinity];
+  const min = [Infinity, Infinity, Infinity];
+  const max = [-Infinity, -Infinity, -Infinity];
   position.forEach((x, i) => {
-    low[i % 3] = Math.min(low[i % 3], x);
-    high[i % 3] = Math.max(high[i % 3], x);
+    min[i % 3] = Math.min(min[i % 3], x);
+    max[i % 3] = Math.max(max[i % 3], x);
   });
-  const center = low.map((x, d) => (x + high[d]) / 2);
-  const radius = Math.hypot(...low.map((x, d) => (high[d] - x) / 2));
+  const center = min.map((x, d) => (x + max[d]) / 2);
+  const radius = Math.hypot(...min.map((x, d) => (max[d] - x) / 2));
   return { center, radius: radius > 0 ? radius : 1 };
 }
 
-/** Into the unit ball. */
+/** Moved and scaled into the unit ball. */
 function moved(position: Float32Array, center: number[], radius: number): Float32Array {
   return position.map((x, i) => (x - center[i % 3]) / radius);
 }

@@ -4,7 +4,7 @@ import { button, el } from './dom';
 import { integer, real, words } from '../../model/format';
 import { section } from './section';
 
-/** Validates the cut-mesh from its arrays alone and lists every check. */
+/** Validates the cut-mesh and lists every check. */
 export function checksPanel(app: App): HTMLElement {
   const intro = el('p', { class: 'hint' }, 'Checks every invariant of the cut-mesh, from the result and the input alone.');
   const result = el('div', { id: 'validation', 'aria-live': 'polite' });
@@ -42,7 +42,8 @@ function item(check: Check, app: App): HTMLElement {
   const state = check.skipped ? 'skipped' : check.pass ? 'pass' : 'fail';
   const line = el('li', { class: state, 'data-check': check.name, 'data-state': state });
   line.append(el('span', { class: 'mark' }, state), el('strong', {}, words(check.name)));
-  if (check.pass && !check.skipped) line.append(el('span', { class: 'hint' }, check.tolerance === 0 ? 'no violations' : 'exact, up to rounding'));
+  const verdict = check.tolerance === 0 ? 'no violations' : 'exact, up to rounding';
+  if (check.pass && !check.skipped) line.append(el('span', { class: 'hint' }, verdict));
   if (check.message) line.append(el('span', { class: 'message' }, sentence(check.message)));
   if (!check.pass && check.elementKind === 'cell') {
     line.append(button(`Show cell ${check.element}`, () => void app.pin(check.element), { class: 'quiet' }));
@@ -50,12 +51,12 @@ function item(check: Check, app: App): HTMLElement {
   return line;
 }
 
-/** The library's messages are clauses, for lines of a report. */
+/** The library's messages are clauses that fit into a report. */
 function sentence(text: string): string {
   return `${text.charAt(0).toUpperCase()}${text.slice(1)}${text.endsWith('.') ? '' : '.'}`;
 }
 
-/** The raw numbers, for those who want to know how exact "up to rounding" is. */
+/** The raw numbers behind "up to rounding". */
 function deviations(checks: readonly Check[]): HTMLElement {
   const rows = checks.map(({ name, worst, tolerance }) => {
     return el('tr', {}, el('th', { scope: 'row' }, words(name)), el('td', {}, real(worst)), el('td', {}, real(tolerance)));

@@ -9,7 +9,7 @@ type Rows = Record<'cells' | 'min' | 'max', NumberInput[]>;
 
 const rowLabels = { cells: 'cells', min: 'min', max: 'max' } as const;
 
-/** Counts and box of a grid, filled in from the current one; and the snap tolerance. */
+/** Counts and box of the grid, starting from the current one, and the snap tolerance. */
 export function customGrid(app: App): HTMLElement {
   const rows: Rows = { cells: [], min: [], max: [] };
   const table = el('div', { class: 'custom-grid', role: 'group', 'aria-label': 'Custom grid' }, el('span'));
@@ -19,7 +19,8 @@ export function customGrid(app: App): HTMLElement {
     table.append(el('span', { class: 'hint', 'aria-hidden': 'true' }, rowLabels[key]));
     for (const axis of axes) {
       const limits = key === 'cells' ? { min: 1, max: 4096, step: 1 } : { step: 'any' as const };
-      const field = numberField({ id: `grid-${key}-${axis}`, label: `${rowLabels[key]}, ${axis}`, hideLabel: true, ...limits, onChange: apply });
+      const label = `${rowLabels[key]}, ${axis}`;
+      const field = numberField({ id: `grid-${key}-${axis}`, label, hideLabel: true, ...limits, onChange: apply });
       rows[key].push(field);
       table.append(field.element);
     }

@@ -5,15 +5,16 @@ import { integer, milliseconds, plural, real, words } from '../../model/format';
 import { customGrid } from './custom_grid';
 import { openSection, section } from './section';
 
-/** With which grid the mesh is cut, and what came of it. */
+/** The grid that the mesh is cut with, and the result in numbers. */
 export function cutPanel(app: App): HTMLElement {
   return section('cut', 'Cut', true, resolution(app), errorBox(app), counts(app), finePrint(app));
 }
 
 function resolution(app: App): HTMLElement {
   const label = 'Cells along the longest side';
-  const range = slider({ id: 'cells', label, min: 1, max: 128, step: 1, onInput: (cells) => app.setGrid({ cells }) });
-  const number = numberField({ id: 'cells-number', label: 'Number of cells', hideLabel: true, min: 1, max: 512, onChange: (cells) => app.setGrid({ cells }) });
+  const set = (cells: number) => app.setGrid({ cells });
+  const range = slider({ id: 'cells', label, min: 1, max: 128, step: 1, onInput: set });
+  const number = numberField({ id: 'cells-number', label: 'Number of cells', hideLabel: true, min: 1, max: 512, onChange: set });
   app.events.on('settings', ({ grid }) => {
     const cells = 'min' in grid ? Math.max(...grid.cells) : grid.cells;
     range.set(cells);
@@ -25,11 +26,12 @@ function resolution(app: App): HTMLElement {
 function errorBox(app: App): HTMLElement {
   const box = el('div', { class: 'alert inline', id: 'cut-error', role: 'alert', hidden: true });
   app.events.on('cutError', (error) => {
-    // Without a model it is told in the place of the picture.
+    // Without a model, the stage shows it in place of the picture.
     box.hidden = error === null || app.model === null;
     if (!error || box.hidden) return box.replaceChildren();
     openSection('cut');
-    box.replaceChildren(el('strong', {}, error.title), el('p', {}, error.detail), el('p', { class: 'hint' }, 'The picture still shows the previous cut.'));
+    const hint = el('p', { class: 'hint' }, 'The picture still shows the previous cut.');
+    box.replaceChildren(el('strong', {}, error.title), el('p', {}, error.detail), hint);
   });
   return box;
 }
@@ -57,7 +59,7 @@ function counts(app: App): HTMLElement {
   return box;
 }
 
-/** What only some will want to know: custom grids, stage times, what was left out. */
+/** For the curious: custom grids, stage times, what was left out. */
 function finePrint(app: App): HTMLElement {
   const body = el('div', { id: 'cut-details' });
   const times = el('details', {}, el('summary', {}, 'Timings and details'), body);

@@ -1,4 +1,5 @@
-// Small helpers to make labelled elements. Styles are set through CSSOM only: the page's content security policy forbids style attributes.
+// Small helpers that make labelled elements. Styles are only set through CSSOM: the page's content security policy forbids style
+// attributes.
 type Value = string | number | boolean | ((event: Event) => void);
 type Child = Node | string | null;
 
@@ -20,14 +21,14 @@ export function button(label: string, onClick: () => void, attributes: Record<st
 export interface NumberInput {
   element: HTMLElement;
   input: HTMLInputElement;
-  /** Leaves alone what is being typed. */
+  /** Has no effect while the person is typing. */
   set(value: number): void;
 }
 
 interface NumberOptions {
   id: string;
   label: string;
-  /** For those who hear the page only. */
+  /** Only screen readers get the label. */
   hideLabel?: boolean;
   min?: number;
   max?: number;
@@ -36,7 +37,7 @@ interface NumberOptions {
   onChange: (value: number) => void;
 }
 
-/** A number field that speaks up when its content is not a number in range; `element` includes its label. */
+/** A number field that complains about anything but a number in range; `element` includes its label. */
 export function numberField({ id, label, hideLabel = false, min, max, step = 1, onChange }: NumberOptions): NumberInput {
   const input = el('input', { id, type: 'number', step, inputmode: 'decimal', change: changed });
   if (min !== undefined) input.min = String(min);
@@ -66,7 +67,7 @@ export interface Slider {
 interface SliderOptions {
   id: string;
   label: string;
-  /** For those who hear the page only. */
+  /** Only screen readers get the label. */
   hideLabel?: boolean;
   min: number;
   max: number;
@@ -97,7 +98,7 @@ export function slider({ id, label, hideLabel = false, min, max, step, format, o
   return { element, input, set };
 }
 
-export function checkbox(id: string, label: string, onChange: (checked: boolean) => void): { element: HTMLElement; input: HTMLInputElement } {
+export function checkbox(id: string, label: string, onChange: (checked: boolean) => void) {
   const input = el('input', { id, type: 'checkbox', change: () => onChange(input.checked) });
   return { element: el('label', { class: 'check' }, input, el('span', {}, label)), input };
 }

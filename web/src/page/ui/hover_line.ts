@@ -1,8 +1,8 @@
 import type { App } from '../app';
 import { el } from './dom';
-import { integer, milliseconds, real, winding } from '../../model/format';
+import { milliseconds, plural, real, winding } from '../../model/format';
 
-/** The line under the picture: the cell under the pointer, or else what is seen. */
+/** The line below the picture: the cell under the pointer, or else a summary of the cut. */
 export function hoverLine(app: App): HTMLElement {
   const line = el('p', { class: 'hover-line', id: 'hover-line' });
   const show = (cell: number | null) => {
@@ -23,5 +23,6 @@ function describeCell({ model }: App, cell: number): string {
 
 function summary({ model }: App): string {
   if (!model) return '';
-  return `${model.name} · ${model.grid.cells.join(' × ')} grid · ${integer(model.counts.cutCells)} cut-cells in ${milliseconds(model.stats.totalMs)}`;
+  const { name, grid, counts, stats } = model;
+  return `${name} · ${grid.cells.join(' × ')} grid · ${plural(counts.cutCells, 'cut-cell')} in ${milliseconds(stats.totalMs)}`;
 }

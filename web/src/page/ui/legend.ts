@@ -2,7 +2,7 @@ import type { App } from '../app';
 import { legend as entriesOf } from '../view/colors';
 import { el } from './dom';
 
-/** What the colours mean, over the picture. */
+/** What the colours mean, on top of the picture. */
 export function legend(app: App): HTMLElement {
   const box = el('div', { class: 'legend', id: 'legend', role: 'group', 'aria-label': 'Colours' });
   const show = () => {

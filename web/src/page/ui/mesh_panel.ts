@@ -5,7 +5,7 @@ import { button, el } from './dom';
 import { plural } from '../../model/format';
 import { section } from './section';
 
-/** Pickers look at the last part of a name alone. */
+/** Pickers only look at the last extension. */
 const fileTypes = [...fileExtensions, '.gz'].join();
 
 /** Which mesh is cut: from the gallery, a file or a URL. */
@@ -54,7 +54,8 @@ function galleryList(app: App): HTMLElement {
 }
 
 function fileButton(app: App): HTMLElement {
-  const input = el('input', { type: 'file', id: 'file', accept: fileTypes, class: 'visually-hidden', tabindex: '-1', 'aria-label': 'Mesh file' });
+  const hidden = { class: 'visually-hidden', tabindex: '-1', 'aria-label': 'Mesh file' };
+  const input = el('input', { type: 'file', id: 'file', accept: fileTypes, ...hidden });
   input.addEventListener('change', () => {
     const file = input.files?.[0];
     if (file) void openFile(app, file);
@@ -70,7 +71,8 @@ async function openFile(app: App, file: File): Promise<void> {
 }
 
 function urlForm(app: App): HTMLElement {
-  const input = el('input', { type: 'url', id: 'url', placeholder: 'https://…/mesh.obj', required: true, autocomplete: 'off', spellcheck: 'false' });
+  const plain = { autocomplete: 'off', spellcheck: 'false' };
+  const input = el('input', { type: 'url', id: 'url', placeholder: 'https://…/mesh.obj', required: true, ...plain });
   const submit = (event: Event) => {
     event.preventDefault();
     void app.open({ kind: 'url', url: input.value });

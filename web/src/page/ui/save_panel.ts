@@ -9,7 +9,7 @@ const writers = [
   ['obj', 'OBJ', 'surface by region', 'text/plain'],
 ] as const;
 
-/** What can be taken away: the result as files, what is seen, a link. */
+/** Saves the result and the view as files, or as a link. */
 export function savePanel(app: App): HTMLElement {
   const files = writers.map(([format, label, what, type]) =>
     saver(app, format, label, what, async () => {
@@ -21,11 +21,13 @@ export function savePanel(app: App): HTMLElement {
     saver(app, 'glb', 'GLB', 'visible geometry', () => app.ask(app.view.glb())),
     saver(app, 'png', 'PNG', 'screenshot', () => app.ask(app.view.png())),
   ];
-  return section('save', 'Save', false, el('ul', { class: 'savers' }, ...[...files, ...seen].map((item) => el('li', {}, item))), linkRow(app));
+  const list = el('ul', { class: 'savers' }, ...[...files, ...seen].map((item) => el('li', {}, item)));
+  return section('save', 'Save', false, list, linkRow(app));
 }
 
 function saver(app: App, format: string, label: string, what: string, make: () => Promise<Blob | null>): HTMLElement {
-  const item = el('button', { type: 'button', id: `save-${format}`, click: () => void save() }, el('strong', {}, label), el('small', {}, what));
+  const text = [el('strong', {}, label), el('small', {}, what)];
+  const item = el('button', { type: 'button', id: `save-${format}`, click: () => void save() }, ...text);
   async function save(): Promise<void> {
     if (!app.model) return;
     const name = `${app.model.name}-${app.model.grid.cells.join('x')}.${format}`.replaceAll(/[^\w.-]+/g, '-');

@@ -2,7 +2,7 @@ import { el } from './dom';
 
 const systemDark = matchMedia('(prefers-color-scheme: dark)');
 
-/** Switches between light and dark; until then the system's scheme holds. */
+/** Switches between light and dark mode; follows the system until it is used. */
 export function schemeToggle(onScheme: (dark: boolean) => void): HTMLButtonElement {
   const root = document.documentElement;
   const isDark = () => (root.dataset.scheme ? root.dataset.scheme === 'dark' : systemDark.matches);

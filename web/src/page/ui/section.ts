@@ -1,16 +1,16 @@
-import { el } from './dom';
+import { button, el } from './dom';
 
-/** Where the panels are a sheet at the bottom with one panel open at a time. */
+/** Narrow windows have the panels at the bottom, one open at a time. */
 export const narrow = matchMedia('(max-width: 760px)');
 
 const toggles: HTMLButtonElement[] = [];
-/** Those open in the window when it was wide. */
+/** Panels to open again when the window becomes wide. */
 let openWhenWide: HTMLButtonElement[] = [];
 
 /** A panel with a heading that opens and closes it. */
 export function section(id: string, title: string, open: boolean, ...children: Node[]): HTMLElement {
   const body = el('div', { class: 'body', id: `${id}-body` }, ...children);
-  const toggle = el('button', { type: 'button', id: `${id}-toggle`, 'aria-controls': body.id, click: () => setOpen(toggle, !isOpen(toggle)) }, title);
+  const toggle = button(title, () => setOpen(toggle, !isOpen(toggle)), { id: `${id}-toggle`, 'aria-controls': body.id });
   toggles.push(toggle);
   if (open) openWhenWide.push(toggle);
   setExpanded(toggle, body, open && !narrow.matches);
@@ -40,7 +40,7 @@ function setExpanded(toggle: HTMLButtonElement, body: HTMLElement, open: boolean
   body.hidden = !open;
 }
 
-/** A window that becomes narrow closes its panels, and opens them again when it becomes wide. */
+/** Panels close when the window becomes narrow and reopen when it becomes wide. */
 narrow.addEventListener('change', () => {
   if (narrow.matches) openWhenWide = toggles.filter(isOpen);
   for (const toggle of toggles) setExpanded(toggle, bodyOf(toggle), !narrow.matches && (isOpen(toggle) || openWhenWide.includes(toggle)));

@@ -4,7 +4,7 @@ import { el } from './dom';
 import { plural } from '../../model/format';
 import { isOutside } from '../view/colors';
 
-/** What stands in the place of a picture when there is nothing to see. */
+/** Says why the stage is empty. */
 export function stageNote(app: App): HTMLElement {
   const note = el('div', { class: 'stage-note', id: 'stage-note', role: 'status', hidden: true });
   const show = (what: PageError | null) => {
@@ -16,7 +16,7 @@ export function stageNote(app: App): HTMLElement {
   return note;
 }
 
-/** Why nothing of a mesh lies in the grid. */
+/** Why a cut left nothing to see, if it did. */
 function emptiness(model: Model): PageError | null {
   const { counts, regions, stats, triangleCount } = model;
   if (counts.cutCells > 0 || !regions.every(({ id }) => isOutside(model, id))) return null;

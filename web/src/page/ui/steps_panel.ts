@@ -12,7 +12,7 @@ const steps: readonly [StepKind, string][] = [
   ['gridCell', 'Grid cell'],
 ];
 
-/** Goes through the algorithm on the current mesh. */
+/** Walks through the algorithm on the current mesh. */
 export function stepsPanel(app: App): HTMLElement {
   const intro = el('p', { class: 'hint' }, 'How the cut of this mesh is made, from edges to cells.');
   const text = el('p', { id: 'step-text', class: 'step-text', 'aria-live': 'polite' });
@@ -31,9 +31,10 @@ function stepper(app: App): HTMLElement {
     const step = steps[Math.min(Math.max(index, 0), steps.length - 1)];
     void app.step({ kind: step[0] });
   };
-  const buttons = steps.map(([kind, name], i) =>
-    el('button', { type: 'button', id: `step-${kind}`, class: 'step', click: () => go(i) }, el('span', { class: 'number' }, String(i + 1)), ` ${name}`),
-  );
+  const buttons = steps.map(([kind, name], i) => {
+    const number = el('span', { class: 'number' }, String(i + 1));
+    return el('button', { type: 'button', id: `step-${kind}`, class: 'step', click: () => go(i) }, number, ` ${name}`);
+  });
   const previous = button('‹ Previous', () => go(current - 1), { id: 'step-previous' });
   const next = button('Next ›', () => go(current + 1), { id: 'step-next' });
   const keydown = (event: Event) => {
@@ -59,7 +60,7 @@ function stepper(app: App): HTMLElement {
   return el('div', { role: 'group', 'aria-label': 'Steps of the algorithm', keydown }, list, el('div', { class: 'row' }, previous, next));
 }
 
-/** Which triangle, plane or grid cell is shown: only what the step asks for. */
+/** Which triangle, plane or grid cell to show, as far as it matters to the step. */
 function choices(app: App): HTMLElement {
   let request: StepRequest = { kind: 'triEdges' };
   const ask = (part: Partial<StepRequest>) => {
@@ -67,7 +68,9 @@ function choices(app: App): HTMLElement {
     void app.step(request);
   };
   const triangle = numberSlider('step-triangle', 'Triangle', (value) => ask({ triangle: value }));
-  const axis = choice('step-axis', 'Axis', [['0', 'x'], ['1', 'y'], ['2', 'z']], (value) => ask({ axis: Number(value) as 0 | 1 | 2, plane: undefined }));
+  const axis = choice('step-axis', 'Axis', [['0', 'x'], ['1', 'y'], ['2', 'z']], (value) => {
+    ask({ axis: Number(value) as 0 | 1 | 2, plane: undefined });
+  });
   const plane = numberSlider('step-plane', 'Plane', (value) => ask({ plane: value }));
   const cell = ([0, 1, 2] as const).map((d) =>
     numberSlider(`step-cell-${axes[d]}`, `Grid cell, ${axes[d]}`, (value) => {

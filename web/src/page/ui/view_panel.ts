@@ -6,7 +6,13 @@ import { isOutside } from '../view/colors';
 import { plural, real, winding } from '../../model/format';
 import { section } from './section';
 
-const colorNames: Record<ColorBy, string> = { region: 'region', winding: 'winding number', cell: 'cell', volume: 'volume', kind: 'face type' };
+const colorNames: Record<ColorBy, string> = {
+  region: 'region',
+  winding: 'winding number',
+  cell: 'cell',
+  volume: 'volume',
+  kind: 'face type',
+};
 const layerNames: Record<(typeof layers)[number], string> = {
   surface: 'surface',
   gridFaces: 'grid-faces',
@@ -18,7 +24,8 @@ const layerNames: Record<(typeof layers)[number], string> = {
 
 /** How the cut-mesh is shown. */
 export function viewPanel(app: App): HTMLElement {
-  return section('view', 'View', true, slices(app), explosion(app), coloring(app), visibility(app), oneRegion(app), pinByNumber(app), resets(app));
+  const parts = [slices, explosion, coloring, visibility, oneRegion, pinByNumber, resets];
+  return section('view', 'View', true, ...parts.map((part) => part(app)));
 }
 
 function slices(app: App): HTMLElement {

@@ -4,23 +4,23 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
 const firstDirection = new Vector3(0.42, 0.36, 1).normalize();
 const turn = Math.PI / 24;
-/** What is left of a glide falls to 1 / e in so many ms. */
+/** Inertia: what is left of a movement falls to 1 / e in this time, in ms. */
 const glideTime = 100;
-/** The camera's place is told at most so often, in ms. */
+/** Shortest time between two reports of the camera's position, in ms. */
 const tellTime = 200;
 
 export class Camera {
   readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
   readonly controls: OrbitControls;
-  /** The camera is different from before. */
+  /** The camera has changed. */
   onChange = () => {};
   /** The person has moved it. */
   onMoved = () => {};
   private isPersons = false;
-  /** What was framed last, to be framed again in a window of another shape until the person moves the camera. */
+  /** The ball in view, kept in view when the window changes its shape until the person moves the camera. */
   private framed: { center: Vector3; radius: number } | null = null;
   private timer: ReturnType<typeof setTimeout> | undefined;
-  /** In ms: when the camera was moved last, and until when it glides. */
+  /** When the camera was last updated and until when it glides, in ms. */
   private movedAt = 0;
   private glidesUntil = 0;
 
@@ -31,7 +31,7 @@ export class Camera {
   ) {
     this.camera.position.copy(firstDirection).multiplyScalar(5);
     this.controls = new OrbitControls(this.camera, canvas);
-    // Frames alone move the camera, by the time that has passed: else a glide would be as fast as frames and events are many.
+    // Only frames move the camera, by the time that has passed: otherwise inertia would depend on the rates of frames and events.
     this.controls.update = () => this.wake();
     this.controls.minDistance = 0.02;
     this.controls.maxDistance = 60;
@@ -43,7 +43,7 @@ export class Camera {
     canvas.addEventListener('keydown', (event) => this.key(event));
   }
 
-  /** There is something to be done in the next frame. */
+  /** Asks for a frame, since there is some movement to make. */
   private wake(): boolean {
     const now = this.now();
     if (now > this.glidesUntil) this.movedAt = now;
@@ -52,7 +52,7 @@ export class Camera {
     return false;
   }
 
-  /** Before each frame. */
+  /** To be called before each frame. */
   update(): void {
     const now = this.now();
     this.move(1 - Math.exp((this.movedAt - now) / glideTime));
@@ -60,7 +60,7 @@ export class Camera {
     if (now < this.glidesUntil) this.onChange();
   }
 
-  /** Makes a share of the movement that is still to come. */
+  /** Makes this share of the movement that is left. */
   private move(share: number): void {
     this.controls.dampingFactor = share;
     OrbitControls.prototype.update.call(this.controls);
@@ -82,7 +82,7 @@ export class Camera {
     this.onMoved();
   }
 
-  /** Arrows turn, with shift they shift; + and - come nearer and go away. */
+  /** Arrow keys rotate, with Shift they pan; + and - zoom. */
   private key(event: KeyboardEvent): void {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const step = keySteps[event.key];
@@ -98,7 +98,7 @@ export class Camera {
     }
   }
 
-  /** Looks at all of a ball. */
+  /** Brings a whole ball into view. */
   frame(center: Vector3, radius: number, keepDirection: boolean): void {
     const direction = keepDirection ? this.camera.position.clone().sub(this.controls.target).normalize() : firstDirection;
     const half = (this.camera.fov * Math.PI) / 360;
@@ -112,14 +112,14 @@ export class Camera {
     this.framed = null;
     clearTimeout(this.timer);
     this.timer = undefined;
-    this.move(1); // The rest of a glide ends where it was.
+    this.move(1); // a glide ends here
     this.camera.position.copy(position);
     this.controls.target.copy(target);
     this.move(1);
     this.changed();
   }
 
-  /** Follows a scene that was moved and scaled. */
+  /** Follows a scene that has been moved and scaled. */
   transform(move: (point: Vector3) => Vector3, scale: number): void {
     const { isPersons, framed } = this;
     this.place(move(this.camera.position), move(this.controls.target));
@@ -127,7 +127,7 @@ export class Camera {
     this.framed = framed && { center: move(framed.center), radius: framed.radius * scale };
   }
 
-  /** Whether the camera still stands where it sees all of something. */
+  /** Whether a ball was brought into view and the camera has not been moved since. */
   get isFramed(): boolean {
     return this.framed !== null;
   }

@@ -28,20 +28,20 @@ function toCss(color: Rgb): string {
   return `rgb(${color.map(Math.round).join(' ')})`;
 }
 
-/** Whether a region lies outside of the surface, as far as is known. */
+/** Whether a region lies outside the surface, as far as is known. */
 export function isOutside(model: Model, region: number): boolean {
   const { winding } = model.regions[region];
   return winding === null ? region === model.outsideRegion : winding === 0;
 }
 
-/** Neighbouring ids get colours that are told apart easily; the outside has its own. */
+/** Neighbouring ids get colours that are easy to tell apart; the outside has its own. */
 export function regionColor(model: Model, region: number): Rgb {
   if (isOutside(model, region)) return outsideColor;
   const rank = model.outsideRegion !== null && region > model.outsideRegion ? region - 1 : region;
   return rank < palette.length ? palette[rank] : hueColor(rank);
 }
 
-/** Steps of the golden angle never come back near to a former hue soon. */
+/** Steps of the golden angle don't come near an earlier hue soon. */
 function hueColor(id: number): Rgb {
   const hue = (id * 0.618034) % 1;
   const value = 0.62 + 0.16 * ((id * 0.414214) % 1);
@@ -54,7 +54,7 @@ function windingColor(winding: number | null): Rgb {
   return windings[Math.max(0, Math.min(windings.length - 1, winding + 1))].color;
 }
 
-/** The root spreads out the small cells, of which there are most. */
+/** The root spreads out the small cells, which are in the majority. */
 function volumeColor(fraction: number): Rgb {
   const at = Math.sqrt(Math.max(0, Math.min(1, fraction))) * (volumeRamp.length - 1);
   const from = Math.min(Math.floor(at), volumeRamp.length - 2);

@@ -40,7 +40,7 @@ function shownTriangles({ settings, planes, shifts, parts }: Shown): BufferGeome
     const moved = Float32Array.from(polygon, (x, at) => x + shift[at % 3]);
     for (let last = 6; last < moved.length; last += 3) {
       triangle.set(triangle.a.fromArray(moved), triangle.b.fromArray(moved, last - 3), triangle.c.fromArray(moved, last));
-      // One that 32 bits have made a line has no normal, and isn't seen.
+      // A triangle that 32 bits have made degenerate has no normal, and can't be seen.
       if (triangle.getNormal(facing).lengthSq() === 0) continue;
       for (const corner of [triangle.a, triangle.b, triangle.c]) {
         position.push(corner.x, corner.y, corner.z);

@@ -7,7 +7,7 @@ interface Box {
   max: number[];
 }
 
-/** Holds the mesh, or the grid if the outside is shown or nothing else is in it, exploded; less the model's origin. */
+/** Around the exploded mesh, or the grid if the outside is shown or the mesh lies beside it; less the model's origin. */
 export function shownBall(model: Model, settings: Settings, shifts: Float32Array): { center: number[]; radius: number } {
   const explode = 1 + settings.explode.cells;
   const isGrid = showsGrid(model, settings);
@@ -16,7 +16,7 @@ export function shownBall(model: Model, settings: Settings, shifts: Float32Array
   const sides = max.map((x, d) => x - min[d]);
   const diagonal = Math.hypot(...sides);
   if (isGrid) return { center, radius: diagonal / 2 };
-  // A slight explosion finds room in the corners of the box, unless it is long.
+  // Unless the box is long, a slight explosion fits into its corners.
   return { center, radius: Math.max((0.51 * diagonal) / explode, 0.53 * Math.max(...sides), 0.42 * diagonal) };
 }
 
@@ -36,7 +36,7 @@ function meshBox({ meshMin, meshMax, origin }: Model): Box {
   return { min: meshMin.map((x, d) => x - origin[d]), max: meshMax.map((x, d) => x - origin[d]) };
 }
 
-/** A box after the explosions: by cell it grows, by region it takes in the regions where they have gone. */
+/** The box after the explosions: it grows with that by cell, and includes the regions where that by region takes them. */
 function apart(model: Model, settings: Settings, shifts: Float32Array, whole: Box): Box {
   const { cells, regions } = settings.explode;
   const box: Box = { min: whole.min.map((x) => x * (1 + cells)), max: whole.max.map((x) => x * (1 + cells)) };
@@ -53,7 +53,7 @@ function apart(model: Model, settings: Settings, shifts: Float32Array, whole: Bo
   return box;
 }
 
-/** Of the grid cells in which each region has cut-cells, as far as they are in the whole; its untouched cells lie between them. */
+/** Around the cut-cells of each region, as far as they lie in `whole`; untouched cells lie between them. */
 function regionBoxes({ cells: { region, gridCell }, grid, origin, regions }: Model, whole: Box): Box[] {
   const boxes = regions.map((): Box => ({ min: [Infinity, Infinity, Infinity], max: [-Infinity, -Infinity, -Infinity] }));
   for (let cell = 0; cell < region.length; cell++) {

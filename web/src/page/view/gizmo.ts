@@ -7,9 +7,9 @@ const up = new Vector3(0, 0, 1);
 export class Gizmo {
   readonly group = new Group();
   onChange = () => {};
-  /** The handles' plane was moved: its unit normal and a point of it, in scene units. */
+  /** The plane was moved: its unit normal and a point on it, in scene units. */
   onMoved: (normal: Vector3, point: Vector3) => void = () => {};
-  /** Whether a drag of a handle begins or ends. */
+  /** A drag of a handle begins or ends. */
   onDragging: (isDragging: boolean) => void = () => {};
   isDragging = false;
   private readonly handle = new Object3D();

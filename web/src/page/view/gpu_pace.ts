@@ -1,6 +1,6 @@
 /**
- * Tells when the GPU has drawn what it was given. Uploads wait inside of the browser for a GPU that is behind, and block the page
- * meanwhile: so nothing new is given to it before.
+ * Tells when the GPU has drawn what it was given. Uploads wait inside the browser for a GPU that is behind, and block the page
+ * meanwhile, so it is given nothing new before.
  */
 export class GpuPace {
   private fence: WebGLSync | null = null;

@@ -2,7 +2,7 @@
 import type { Model, Settings } from '../../model/types';
 import { isOutside } from './colors';
 
-/** Per region: 1 if it is shown. One region asked for is shown even if it is the outside. */
+/** Per region: 1 if it is shown. A region that is picked is shown even if it is outside. */
 export function shownRegions(model: Model, { show }: Settings): Uint8Array {
   const isShown = (id: number) => (show.region !== null ? id === show.region : show.outside || !isOutside(model, id));
   return Uint8Array.from(model.regions, ({ id }) => Number(isShown(id)));
@@ -39,7 +39,7 @@ export function regionShifts(model: Model): Float32Array {
     const center = [0, 1, 2].map((d) => centers[3 * id + d] / weights[id] - (model.meshMin[d] + model.meshMax[d]) / 2 + model.origin[d]);
     const distance = Math.hypot(...center);
     if (distance > 0.05 * size) shifts.set(center.map((x) => x * (1 + (0.3 * size) / distance)), 3 * id);
-    else shifts[3 * id] = 1.2 * size * alternating(nested++); // Regions inside of one another have one centre: they line up side by side.
+    else shifts[3 * id] = 1.2 * size * alternating(nested++); // Nested regions have one centre: they line up side by side.
   }
   return shifts;
 }

@@ -30,6 +30,6 @@ export function isBeyond(planes: readonly ViewPlane[], x: number, y: number, z: 
 }
 
 /** Whether a whole box lies beyond one of the planes. */
-export function isBoxBeyond(planes: readonly ViewPlane[], low: readonly number[], high: readonly number[]): boolean {
-  return planes.some(({ normal, offset }) => normal.reduce((sum, n, d) => sum + n * (n > 0 ? low[d] : high[d]), 0) >= offset);
+export function isBoxBeyond(planes: readonly ViewPlane[], min: readonly number[], max: readonly number[]): boolean {
+  return planes.some(({ normal, offset }) => normal.reduce((sum, n, d) => sum + n * (n > 0 ? min[d] : max[d]), 0) >= offset);
 }

@@ -5,7 +5,7 @@ interface Point {
 
 const tapDistance = 6;
 
-/** Tells taps and hovering from drags. */
+/** Tells taps and hovering apart from drags. */
 export class Pointer {
   onHover: (at: Point | null) => void = () => {};
   onTap: (at: Point) => void = () => {};

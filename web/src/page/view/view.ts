@@ -20,9 +20,9 @@ import { Step } from './step';
 import { Untouched } from './untouched';
 
 export interface ViewOptions {
-  /** Gives the caps of flat cuts. */
+  /** Makes the caps of flat cuts. */
   slice: Engine['slice'];
-  /** Told what goes wrong while drawing: the graphics context is lost, caps can't be made. */
+  /** Called when drawing fails: the graphics context is lost, or caps can't be made. */
   onError?: (error: PageError) => void;
 }
 
@@ -77,7 +77,7 @@ class ThreeView implements View {
   private settings: Settings | null = null;
   private step: StepPicture | null = null;
   private regions: Uint8Array = new Uint8Array(0);
-  /** The planes that cut what is drawn. A flat cut keeps the former ones until the caps of new ones have come: no picture lacks them. */
+  /** The planes that cut what is drawn. A flat cut keeps the previous ones until new caps arrive, so that no picture lacks them. */
   private planes: ViewPlane[] = [];
   private slices: Slices | null = null;
   private slicesMade = 0;
@@ -89,7 +89,7 @@ class ThreeView implements View {
   private isFramed = false;
   private hoverAt: { x: number; y: number } | null = null;
   private isLookStale = true;
-  /** Whether the look was brought up to date and waits to be drawn. */
+  /** Whether the look is up to date and waits to be drawn. */
   private isLookNew = false;
   private frameAsked = 0;
   private framesDrawn = 0;
@@ -113,7 +113,7 @@ class ThreeView implements View {
     this.warmUp();
   }
 
-  /** Makes all shaders while the first mesh is being cut: the compiler works beside the page; then one draw of nothing takes them over. */
+  /** Compiles all shaders while the first mesh is being cut: the compiler runs beside the page, then an empty draw picks up the results. */
   private warmUp(): void {
     this.renderer.compile(this.scene, this.camera.camera);
     const takeOver = () => {
@@ -163,7 +163,7 @@ class ThreeView implements View {
     this.lookChanged();
     this.modelSince = performance.now();
     this.isLookNew = false; // The former model's look would hide this one.
-    // At once, so that it comes before the next cut.
+    // At once, so that it runs before the next cut.
     if (this.settings?.sliceMode === 'flat' && activePlanes(model, this.settings).length > 0) void this.requestSlices();
     if (frame) this.isFramed = false;
   }
@@ -178,7 +178,7 @@ class ThreeView implements View {
     this.invalidate();
   }
 
-  /** Another grid has another centre and size; what is looked at stays. */
+  /** Another grid has another centre and size; the camera keeps looking at the same place. */
   private keepCamera(from: Model, to: Model): void {
     const move = (point: Vector3) => {
       const world = point.clone().multiplyScalar(from.diagonal / 2);
@@ -198,7 +198,7 @@ class ThreeView implements View {
     }
     const isPulled = this.hasChanged('explosion', [settings.explode, settings.explode.regions > 0 && this.model?.id]);
     if (!this.isFramed) this.frame();
-    // Until the person moves the camera, what is pulled apart stays in the picture.
+    // Until the person moves the camera, exploded parts stay in view.
     else if (isPulled && this.camera.isFramed && !this.step) this.frameShown(true);
     this.lookChanged();
   }
@@ -305,7 +305,7 @@ class ThreeView implements View {
   private hover(at: { x: number; y: number } | null): void {
     this.hoverAt = at;
     if (!at) return this.setHovered(null);
-    // A GPU that is behind is asked when it has drawn.
+    // A GPU that is behind is asked once it has caught up.
     if (this.pace.isBehind) return this.invalidate();
     this.hoverAt = null;
     void this.cellAt(at).then((cell) => this.setHovered(cell));
@@ -339,14 +339,14 @@ class ThreeView implements View {
     else this.render();
   }
 
-  /** Working out what to draw and giving it to the GPU are tasks of their own, so that neither keeps the page waiting for both. */
+  /** Preparing and drawing are separate tasks, so that the page never waits for both at once. */
   private prepare(): void {
     this.updateLook();
     this.isLookNew = true;
     this.invalidate();
   }
 
-  /** The former picture stays while the caps of a new model are on their way, but not for long. */
+  /** The previous picture stays while the caps of a new model are on their way, but not for long. */
   private get lacksCaps(): boolean {
     return this.isSlicing && this.slices?.model !== this.model?.id && performance.now() - this.modelSince < longestWait;
   }
@@ -416,7 +416,7 @@ class ThreeView implements View {
     return isFlat && wanted.length > 0 && made ? made : noSlices;
   }
 
-  /** Whether what a part depends on is different from the last time. */
+  /** Whether what a part depends on has changed since the last call. */
   private hasChanged(part: string, dependsOn: unknown[]): boolean {
     const key = JSON.stringify(dependsOn);
     const isNew = this.keys.get(part) !== key;
@@ -424,7 +424,7 @@ class ThreeView implements View {
     return isNew;
   }
 
-  /** One request at a time: when its answer comes, the planes wanted by then are asked for. */
+  /** One request at a time: after its answer, the planes wanted by then are asked for. */
   private async requestSlices(): Promise<void> {
     const { model, settings } = this;
     if (this.isSlicing || !model || !settings) return;
@@ -436,7 +436,7 @@ class ThreeView implements View {
       const slices = await this.options.slice(inWorld, true);
       this.slices = { count: ++this.slicesMade, model: model.id, planes, slices };
     } catch (error) {
-      // Without caps the cells are seen cut open. It isn't asked again for the same planes, or failing would go on for ever.
+      // Without caps, cells are seen cut open. The same planes aren't asked for again, or failures would go on for ever.
       this.slices = { count: ++this.slicesMade, model: model.id, planes, slices: [] };
       if (!(error instanceof DOMException)) this.options.onError?.(error as PageError);
     }
@@ -464,7 +464,7 @@ class ThreeView implements View {
     this.gizmo.show(direction, direction.clone().multiplyScalar(offset * this.root.scale.x * (1 + settings.explode.cells)));
   }
 
-  /** Says on the canvas what is drawn. */
+  /** Says what is drawn, in data attributes of the canvas. */
   private tellTests(model: Model, isFlat: boolean): void {
     const { dataset } = this.canvas;
     dataset.model = String(model.id);
@@ -486,9 +486,9 @@ function pictureError(detail: string): PageError {
 function makeRenderer(canvas: HTMLCanvasElement): WebGLRenderer {
   try {
     const renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
-    // Asking for errors waits for the compiler.
+    // Asking for errors would wait for the compiler.
     renderer.debug.checkShaderErrors = import.meta.env.DEV;
-    // What is transparent is drawn last anyway, and to sort it three.js would visit all vertices for their centre.
+    // Transparent objects are drawn last anyway, and to sort them three.js would visit all vertices.
     renderer.sortObjects = false;
     return renderer;
   } catch {
