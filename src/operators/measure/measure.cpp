@@ -33,9 +33,8 @@ struct Projection {
   bool cancels() const { return magnitude >= kCancellation * std::fabs(double(twiceArea)); }
 };
 
-/// One face: its normal, and what its area and centroid are relative to its first vertex.
+/// One face: its normal, area, and centroid relative to its first vertex.
 struct FaceShape {
-  uint32_t first = 0;
   Vector<double> normal{}, centroid{};
   double area = 0;
 };
@@ -45,18 +44,23 @@ class Measuring {
   Measuring(const CutMesh& cutMesh, const Places& places) : cutMesh_(cutMesh), places_(places) {}
 
   Measures run(detail::Monitor& monitor) {
-    Measures measures;
-    shapes_.resize(cutMesh_.faceCount());
-    measures.faceArea.resize(shapes_.size());
-    measures.faceNormal.resize(3 * shapes_.size());
-    measures.faceCentroid.resize(3 * shapes_.size());
+    const size_t faces = cutMesh_.faceCount();
+    measures_.faceArea.resize(faces);
+    measures_.faceNormal.resize(3 * faces);
+    measures_.faceCentroid.resize(3 * faces);
     monitor.beginStage("faces", 1);
-    forEach(shapes_.size(), monitor, [&](size_t f) { measureFace(f, measures); });
-    measures.cellVolume.resize(cutMesh_.cellCount());
-    measures.cellCentroid.resize(3 * cutMesh_.cellCount());
+    forEach(faces, monitor, [&](size_t f) { keep(f, shapeOf(f)); });
+    measures_.cellVolume.resize(cutMesh_.cellCount());
+    measures_.cellCentroid.resize(3 * cutMesh_.cellCount());
     monitor.beginStage("cells", 2);
-    forEach(cutMesh_.cellCount(), monitor, [&](size_t c) { measureCell(c, measures); });
-    return measures;
+    forEach(cutMesh_.cellCount(), monitor, [&](size_t c) { measureCell(c); });
+    for (size_t f = 0; f < faces; ++f) {
+      for (size_t d = 0; d < 3; ++d) {
+        double& centroid = measures_.faceCentroid[3 * f + d];
+        centroid = double(places_[firstVertex(f)][d] + centroid);
+      }
+    }
+    return std::move(measures_);
   }
 
  private:
@@ -70,7 +74,7 @@ class Measuring {
   template <class Number>
   Projection<Number> project(size_t face, int axis) const {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const Vector<DoubleDouble>& origin = places_[shapes_[face].first];
+    const Vector<DoubleDouble>& origin = places_[firstVertex(face)];
     Projection<Number> result;
     forEachEdge(face, [&](uint32_t from, uint32_t to) {
       const Vector<DoubleDouble>&a = places_[from], &b = places_[to];
@@ -94,7 +98,7 @@ class Measuring {
   bool lieInPlane(size_t face, const Vector<double>& normal) const {
     bool lie = true;
     forEachEdge(face, [&](uint32_t from, uint32_t) {
-      const Vector<double> d = places_.between(shapes_[face].first, from);
+      const Vector<double> d = places_.between(firstVertex(face), from);
       const double height = normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2];
       lie &= std::fabs(height) <= 1e-9 * (std::fabs(d[0]) + std::fabs(d[1]) + std::fabs(d[2]));
     });
@@ -118,16 +122,21 @@ class Measuring {
     return size == 0 ? rounded : Vector<double>{rounded[0] / size, rounded[1] / size, rounded[2] / size};
   }
 
-  void measureFace(size_t face, Measures& measures) {
-    const FaceShape& shape = shapes_[face] = shapeOf(face);
-    measures.faceArea[face] = shape.area;
-    std::copy_n(shape.normal.data(), 3, &measures.faceNormal[3 * face]);
-    for (size_t d = 0; d < 3; ++d) measures.faceCentroid[3 * face + d] = double(places_[shape.first][d] + shape.centroid[d]);
+  uint32_t firstVertex(size_t face) const { return cutMesh_.loopVertices[cutMesh_.loopOffsets[cutMesh_.faceLoopOffsets[face]]]; }
+
+  /// The measures have the shapes while cells are measured: with centroids relative to the first vertex, as accurate as tiny faces need.
+  void keep(size_t face, const FaceShape& shape) {
+    measures_.faceArea[face] = shape.area;
+    std::copy_n(shape.normal.data(), 3, &measures_.faceNormal[3 * face]);
+    std::copy_n(shape.centroid.data(), 3, &measures_.faceCentroid[3 * face]);
+  }
+  FaceShape kept(size_t face) const {
+    const double *normal = &measures_.faceNormal[3 * face], *centroid = &measures_.faceCentroid[3 * face];
+    return {{normal[0], normal[1], normal[2]}, {centroid[0], centroid[1], centroid[2]}, measures_.faceArea[face]};
   }
 
-  FaceShape shapeOf(size_t face) {
-    FaceShape& shape = shapes_[face];
-    shape.first = cutMesh_.loopVertices[cutMesh_.loopOffsets[cutMesh_.faceLoopOffsets[face]]];
+  FaceShape shapeOf(size_t face) const {
+    FaceShape shape;
     shape.normal = unit(normalOf(face));
     const int axis = largestAxis(shape.normal);
     if (shape.normal[axis] == 0) return shape;
@@ -166,8 +175,8 @@ class Measuring {
   };
 
   void addPyramid(size_t face, double sign, uint32_t apex, Pyramids<double>& pyramids) const {
-    const FaceShape& shape = shapes_[face];
-    const Vector<double> d = places_.between(apex, shape.first);
+    const FaceShape shape = kept(face);
+    const Vector<double> d = places_.between(apex, firstVertex(face));
     const double x = shape.normal[0] * d[0], y = shape.normal[1] * d[1], z = shape.normal[2] * d[2];
     pyramids.magnitude += shape.area * (std::fabs(x) + std::fabs(y) + std::fabs(z));
     pyramids.add(sign * shape.area * (x + y + z),
@@ -175,10 +184,10 @@ class Measuring {
   }
 
   void addPyramid(size_t face, double sign, uint32_t apex, Pyramids<DoubleDouble>& pyramids) const {
-    const int axis = largestAxis(shapes_[face].normal), u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const int axis = largestAxis(kept(face).normal), u = (axis + 1) % 3, v = (axis + 2) % 3;
     const Projection<DoubleDouble> projection = project<DoubleDouble>(face, axis);
     if (projection.twiceArea.high == 0) return;
-    const Vector<DoubleDouble> n = normalOf(face), d = places_.between<DoubleDouble>(apex, shapes_[face].first);
+    const Vector<DoubleDouble> n = normalOf(face), d = places_.between<DoubleDouble>(apex, firstVertex(face));
     Vector<DoubleDouble> centroid3;
     centroid3[u] = projection.moment[0] / projection.twiceArea;
     centroid3[v] = projection.moment[1] / projection.twiceArea;
@@ -195,28 +204,28 @@ class Measuring {
     return pyramids;
   }
 
-  void measureCell(size_t cell, Measures& measures) const {
-    const uint32_t apex = shapes_[cutMesh_.halfFaces(cell)[0] / 2].first;
+  void measureCell(size_t cell) {
+    const uint32_t apex = firstVertex(cutMesh_.halfFaces(cell)[0] / 2);
     const Pyramids<double> fast = pyramidsOf<double>(cell, apex);
     if (!fast.cancels()) {
-      setVolume(cell, apex, fast, measures);
+      setVolume(cell, apex, fast);
     } else {
-      setVolume(cell, apex, pyramidsOf<DoubleDouble>(cell, apex), measures);
+      setVolume(cell, apex, pyramidsOf<DoubleDouble>(cell, apex));
     }
   }
 
   template <class Number>
-  void setVolume(size_t cell, uint32_t apex, const Pyramids<Number>& pyramids, Measures& measures) const {
-    measures.cellVolume[cell] = double(pyramids.volume3) / 3;
+  void setVolume(size_t cell, uint32_t apex, const Pyramids<Number>& pyramids) {
+    measures_.cellVolume[cell] = double(pyramids.volume3) / 3;
     for (int d = 0; d < 3; ++d) {
       const double offset = double(pyramids.volume3) == 0 ? 0 : double(pyramids.moment12[d] / pyramids.volume3) / 4;
-      measures.cellCentroid[3 * cell + d] = double(places_[apex][d] + offset);
+      measures_.cellCentroid[3 * cell + d] = double(places_[apex][d] + offset);
     }
   }
 
   const CutMesh& cutMesh_;
   const Places& places_;
-  std::vector<FaceShape> shapes_;
+  Measures measures_;
 };
 
 }  // namespace
