@@ -10,7 +10,7 @@ const debug = ['-DCMAKE_BUILD_TYPE=Debug', '-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1']; /
 
 setUp('clang-format 14', 'clang-tidy', 'clang with libFuzzer');
 
-run('node', '--test', 'tests/toolchains/');
+run('node', '--test', 'tests/toolchains/toolchains.test.mjs');
 
 const clang = '-DCMAKE_CXX_COMPILER=clang++';
 const noTests = '-DMANDOLINE_BUILD_TESTS=OFF';

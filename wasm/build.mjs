@@ -17,9 +17,12 @@ const dist = join(packageFolder, 'dist');
 const debianModules = '/usr/share/nodejs'; // where Debian keeps what its emcc needs to optimise JavaScript
 
 function toolchainFile() {
-  const candidates = (process.env.PATH ?? '').split(delimiter).filter((folder) => folder && existsSync(join(folder, 'emcc')));
-  const folders = [process.env.EMSDK && join(process.env.EMSDK, 'upstream', 'emscripten'), ...candidates.map((folder) => dirname(realpathSync(join(folder, 'emcc')))),
-    '/usr/share/emscripten'];
+  const compilers = (process.env.PATH ?? '').split(delimiter).filter(Boolean).map((folder) => join(folder, 'emcc')).filter(existsSync);
+  const folders = [
+    process.env.EMSDK && join(process.env.EMSDK, 'upstream', 'emscripten'),
+    ...compilers.map((compiler) => dirname(realpathSync(compiler))),
+    '/usr/share/emscripten',
+  ];
   const files = folders.filter(Boolean).map((folder) => join(folder, 'cmake', 'Modules', 'Platform', 'Emscripten.cmake'));
   const file = files.find((candidate) => existsSync(candidate));
   if (!file) throw new Error('Emscripten not found. Install it (Debian: apt-get install emscripten) or activate an emsdk.');
@@ -34,7 +37,8 @@ function run(command, ...args) {
 function compile(tests) {
   run('cmake', '-S', root, '-B', build, `-DCMAKE_TOOLCHAIN_FILE=${toolchainFile()}`, `-DCMAKE_CROSSCOMPILING_EMULATOR=${process.execPath}`,
     '-DCMAKE_BUILD_TYPE=Release', `-DMANDOLINE_BUILD_TESTS=${tests ? 'ON' : 'OFF'}`);
-  run('cmake', '--build', build, '--parallel', String(availableParallelism()), '--target', 'mandoline-wasm', ...(tests ? ['mandoline-tests'] : []));
+  const targets = ['mandoline-wasm', ...(tests ? ['mandoline-tests'] : [])];
+  run('cmake', '--build', build, '--parallel', String(availableParallelism()), '--target', ...targets);
 }
 
 /** The code of a script and of what it imports, in one file. */

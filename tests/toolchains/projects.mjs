@@ -21,7 +21,8 @@ function installTools() {
   rmSync(base, { recursive: true, force: true });
   mkdirSync(base);
   for (const file of ['package.json', 'package-lock.json']) copyFileSync(join(here, file), join(base, file));
-  execFileSync('npm', ['ci', '--no-audit', '--no-fund', '--loglevel', 'error'], { cwd: base, stdio: 'inherit' });
+  // Not npm ci, which wants the lock file to have each tool's parts for other systems, too.
+  execFileSync('npm', ['install', '--no-audit', '--no-fund', '--loglevel', 'error'], { cwd: base, stdio: 'inherit' });
   copyFileSync(lock, installed);
 }
 
@@ -92,7 +93,7 @@ async function isServed(url, server) {
   throw new Error(ended ? 'The server has ended.' : 'The server has no page.');
 }
 
-/** What a page says that a tool serves; `args` get the port. The tool has to say nothing that is not `expected`. */
+/** What a page says that a tool serves; `args` get the port. The tool must not warn. */
 export async function openServed(folder, tool, args) {
   const port = await freePort();
   const url = `http://127.0.0.1:${port}/`;

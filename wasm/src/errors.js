@@ -42,8 +42,8 @@ const advice = {
   internalError: 'This is a fault of the library. Please report it with the mesh and the grid; the next call works again.',
   badArgument: 'The call was given something that it does not take: compare with its documentation.',
   badFile: 'Check that the file is an OBJ, STL, PLY or OFF file, and complete.',
-  loadFailed: 'Check that the package\'s files are served beside the code, or take them from mandoline-wasm/inline; and that the page\'s content '
-    + 'security policy allows \'wasm-unsafe-eval\'.',
+  loadFailed: 'Check that the package\'s files are served beside the code, or take them from mandoline-wasm/inline, '
+    + 'and that the page\'s content security policy allows \'wasm-unsafe-eval\'.',
 };
 
 function place({ code, stage, element, element2 }) {

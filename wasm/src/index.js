@@ -22,7 +22,9 @@ function begin(options) {
   return started;
 }
 
-/** Loads the WebAssembly module, once: every call gives the same promise, whatever its options. After a failure the next call tries again. */
+/**
+ * Loads the WebAssembly module, once: every call gives the same promise, whatever its options. After a failure the next call tries again.
+ */
 export function init(options) {
   return begin(options).api;
 }
