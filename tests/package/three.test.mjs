@@ -1,7 +1,10 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { init } from 'mandoline-wasm';
-import { cellArrays, cellColors, cellGeometry, edgeGeometry, meshFromGeometry, sliceGeometry } from 'mandoline-wasm/three';
+import {
+  cellArrays, cellColors, cellGeometry, edgeGeometry, idColor, kindColors, meshFromGeometry, outsideColor, regionColor, sliceGeometry,
+  volumeColor, windingColor,
+} from 'mandoline-wasm/three';
 import {
   BoxGeometry, BufferAttribute, BufferGeometry, CylinderGeometry, InterleavedBuffer, InterleavedBufferAttribute, Matrix4, SphereGeometry,
   TorusGeometry,
@@ -245,4 +248,17 @@ test('a matrix moves the mesh; one that mirrors leaves it outward', () => {
   assert.ok(Math.abs(volume(moved) - 2 * whole) < 1e-6);
   assertClose(corner(moved.positions, 0), [5, 7, 7], 1e-6, 'position');
   assert.ok(Math.abs(volume(meshFromGeometry(geometry, new Matrix4().makeScale(-1, 1, 1))) - whole) < 1e-6);
+});
+
+test('colours one by one are those of cellColors, and colours of kinds are told apart', () => {
+  const made = { cellRegion: Uint32Array.of(0, 1, 2), regionWinding: Int32Array.of(0, 1, -1) };
+  const measures = { cellVolume: Float64Array.of(1, 2, 4) };
+  const expected = {
+    region: [0, 1, 2].map(regionColor), winding: [0, 1, -1].map(windingColor), cell: [0, 1, 2].map(idColor), volume: [0, 0.5, 1].map(volumeColor),
+  };
+  for (const [colorBy, colors] of Object.entries(expected)) {
+    assert.deepEqual(cellColors(made, colorBy, measures), Float32Array.from(colors.flat()), colorBy);
+  }
+  const apart = [...Object.values(kindColors), outsideColor];
+  assert.equal(new Set(apart.map(String)).size, apart.length);
 });

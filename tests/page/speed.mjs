@@ -1,8 +1,8 @@
 // Time from a move of the resolution's slider to new buffers, medians of alternating cuts:
 //   node tests/page/speed.mjs [--mesh FILE] [--cells N] [--runs R] [PAGE ...]
 // A PAGE is the folder of a built page (by default web/dist) or an address. With several, say today's page and a former one, each cut of
-// one is followed by one of the others, so that other work on the machine slows down all alike. Without a file the mesh is a torus of
-// 69,696 triangles.
+// one is followed by one of the others, so that other work on the machine slows down all alike; the processor's time of the page's process
+// hardly depends on that. Without a file the mesh is a torus of 69,696 triangles.
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
@@ -40,10 +40,12 @@ async function isDrawn(page) {
   }, null, { timeout: 120_000 });
 }
 
-/** In ms, from the slider's event until the page has the new cut's buffers and shows its numbers. */
-async function timeOfCut(page, to) {
+/** From the slider's event until the page has the new cut's buffers and shows its numbers: { ms, cpuMs }. */
+async function timeOfCut({ page, session }, to) {
   await isDrawn(page);
-  return page.evaluate((n) => new Promise((resolve) => {
+  const cpu = async () => (await session.send('Performance.getMetrics')).metrics.find(({ name }) => name === 'ProcessTime').value;
+  const before = await cpu();
+  const ms = await page.evaluate((n) => new Promise((resolve) => {
     const start = performance.now();
     const observer = new MutationObserver(() => {
       observer.disconnect();
@@ -54,32 +56,36 @@ async function timeOfCut(page, to) {
     slider.value = String(n);
     slider.dispatchEvent(new Event('input', { bubbles: true }));
   }), to);
+  return { ms, cpuMs: 1000 * ((await cpu()) - before) };
 }
 
-const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: browserArgs });
+async function open(name) {
+  const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: browserArgs });
+  const page = await browser.newPage({ viewport: { width: 1000, height: 600 } });
+  const session = await page.context().newCDPSession(page);
+  await session.send('Performance.enable', { timeDomain: 'threadTicks' });
+  await page.goto(`${await addressOf(name)}#url=${encodeURIComponent(meshUrl)}&n=${cells - 1}`);
+  return { name, browser, page, session, times: [] };
+}
+
+const opened = [];
 try {
-  const opened = [];
-  for (const name of pages) {
-    const page = await browser.newPage({ viewport: { width: 1000, height: 600 } });
-    await page.goto(`${await addressOf(name)}#url=${encodeURIComponent(meshUrl)}&n=${cells - 1}`);
-    opened.push({ name, page, times: [] });
-    for (const n of [cells, cells - 1]) await timeOfCut(page, n); // the engine still compiles
-  }
+  for (const name of pages) opened.push(await open(name));
+  for (const tab of opened) for (const n of [cells, cells - 1, cells, cells - 1]) await timeOfCut(tab, n); // the engine still compiles
   for (let run = 0; run < Number(values.runs); ++run) {
-    for (const { page, times } of opened) {
-      await page.bringToFront();
-      times.push(await timeOfCut(page, cells));
-      await timeOfCut(page, cells - 1);
+    for (const tab of opened) {
+      tab.times.push(await timeOfCut(tab, cells));
+      await timeOfCut(tab, cells - 1);
     }
   }
-  const first = median(opened[0].times);
   console.log(`${meshName} at N = ${cells}, from slider to new buffers, medians of ${values.runs}`);
-  for (const { name, times } of opened) {
-    const share = (first / median(times)).toFixed(2);
-    console.log(`  ${name}: ${median(times).toFixed(0)} ms, least ${Math.min(...times).toFixed(0)} ms; the first page takes ${share} of the median`);
+  const of = ({ times }, key) => median(times.map((time) => time[key]));
+  for (const tab of opened) {
+    const said = ['ms', 'cpuMs'].map((key) => `${of(tab, key).toFixed(0)} ms (the first page takes ${(of(opened[0], key) / of(tab, key)).toFixed(2)} of it)`);
+    console.log(`  ${tab.name}: ${said[0]}, of the processor ${said[1]}`);
   }
 } finally {
-  await browser.close();
+  for (const { browser } of opened) await browser.close();
   for (const server of servers) await server.close();
   rmSync(folder, { recursive: true });
 }

@@ -46,6 +46,11 @@ const positiveWinding = labs('#e8e6e1', '#f0a35c', '#c85a1c', '#7a2a0a');
 const volumes = labs('#2b2d6e', '#2a6f93', '#3fa98b', '#a6cf5c', '#f6e651');
 const noWinding = fromHex('#9a9a9a');
 
+/** For faces by what they are pieces of, for the inside of cut-cells where they are cut open, and for untouched grid cells. */
+export const kindColors = { surface: fromHex('#e9a23b'), grid: fromHex('#6fa3cf'), inside: fromHex('#e6d3ae'), untouched: fromHex('#a9b4bf') };
+/** For regions outside the surface, where they are told from the others. */
+export const outsideColor = fromHex('#8ea2b6');
+
 /** Some whole number made from another, that looks random. */
 function hash(value) {
   let h = Math.imul(value ^ (value >>> 16), 0x45d9f3b);
@@ -74,6 +79,11 @@ export function idColor(id) {
   return fromOklab([lightness, 0.11 * Math.cos(angle), 0.11 * Math.sin(angle)]);
 }
 
+/** From 0 for the smallest to 1 for the largest. */
+export function volumeColor(fraction) {
+  return ramp(volumes, fraction);
+}
+
 /** Gives colours of volumes on a logarithmic scale from the smallest of `cellVolume`, but at least a 1000th of the largest, to that. */
 export function volumeScale(cellVolume) {
   let smallest = Infinity, largest = 0;
@@ -82,7 +92,7 @@ export function volumeScale(cellVolume) {
     largest = Math.max(largest, volume);
   }
   const low = Math.log(Math.max(smallest, 1e-3 * largest)), range = Math.log(largest) - low;
-  return (volume) => ramp(volumes, range > 0 ? (Math.log(volume) - low) / range : 1);
+  return (volume) => volumeColor(range > 0 ? (Math.log(volume) - low) / range : 1);
 }
 
 /** Gives the colour of a cell { region, id, volume }, where only what `colorBy` tells needs to be there. */

@@ -53,6 +53,20 @@ export function cellGeometry(cutMesh: CutMesh, faceTriangles: FaceTriangles, opt
 /** 3 per cut-cell: linear RGB, 0 to 1. Volumes are told on a logarithmic scale over at most three decades below the largest. */
 export function cellColors(cutMesh: CutMesh, colorBy: ColorBy, measures?: Measures): Float32Array<ArrayBuffer>;
 
+/** Linear RGB, 0 to 1. */
+export type LinearColor = [number, number, number];
+/** The colours that cellColors gives, one by one: for a legend, or for what else belongs to a region or cell. */
+export function regionColor(region: number): LinearColor;
+/** Null for no winding number. */
+export function windingColor(winding: number | null): LinearColor;
+export function idColor(id: number): LinearColor;
+/** From 0 for the smallest volume to 1 for the largest. */
+export function volumeColor(fraction: number): LinearColor;
+/** For faces by what they are pieces of, for the inside of cut-cells where they are cut open, and for untouched grid cells. */
+export const kindColors: Readonly<Record<'surface' | 'grid' | 'inside' | 'untouched', LinearColor>>;
+/** For regions outside the surface, where they are told from the others. */
+export const outsideColor: LinearColor;
+
 /** Cut-edges as a geometry for LineSegments. */
 export function edgeGeometry(cutMesh: CutMesh, cutEdges: CutEdges, origin?: Vector3): BufferGeometry;
 

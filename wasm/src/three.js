@@ -4,7 +4,7 @@ import { cellColorer, cellColors } from './colors.js';
 import { MandolineError } from './errors.js';
 
 export { cellArrays } from './cell-arrays.js';
-export { cellColors } from './colors.js';
+export { cellColors, idColor, kindColors, outsideColor, regionColor, volumeColor, windingColor } from './colors.js';
 export { meshFromGeometry } from './geometry-mesh.js';
 
 const noShift = [0, 0, 0];

@@ -1,31 +1,27 @@
-// What colours mean. Colours are sRGB bytes; the shaders make them linear.
+// What colours mean. The colours themselves are the package's; here they are sRGB bytes, which the shaders make linear.
+import { idColor, kindColors, outsideColor, regionColor as paletteColor, volumeColor, windingColor } from 'mandoline-wasm/three';
 import type { ColorBy, Model, Settings } from '../../model/types';
 
 export type Rgb = readonly [number, number, number];
 
-const palette = ['#e9a23b', '#4f9fdc', '#6dbb5c', '#dc6a6f', '#9c84d6', '#43b7ad', '#d982b5', '#b8a44c'].map(fromHex);
-const outsideColor = fromHex('#8ea2b6');
-const windings: readonly { winding: number; color: Rgb }[] = [
-  { winding: -1, color: fromHex('#7d73d3') },
-  { winding: 0, color: fromHex('#98a7b5') },
-  { winding: 1, color: fromHex('#e9a23b') },
-  { winding: 2, color: fromHex('#dc6a6f') },
-  { winding: 3, color: fromHex('#a4487c') },
-];
-const noWinding = fromHex('#b3aea4');
-const volumeRamp = ['#34308a', '#2b7fa3', '#4fb980', '#f2d551'].map(fromHex);
-export const surfaceColor = fromHex('#e9a23b');
-export const gridFaceColor = fromHex('#6fa3cf');
+export const surfaceColor = toRgb(kindColors.surface);
+export const gridFaceColor = toRgb(kindColors.grid);
 /** The inside of cut-cells, seen in flat cuts. */
-export const insideColor = fromHex('#e6d3ae');
-const untouchedKindColor = fromHex('#a9b4bf');
+export const insideColor = toRgb(kindColors.inside);
+const untouchedKindColor = toRgb(kindColors.untouched);
 
-function fromHex(hex: string): Rgb {
-  return [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16)) as unknown as Rgb;
+/** Colours of ids are worked out once: a prime number of them, so that those of neighbours along no axis are the same. */
+const idColors = Array.from({ length: 1021 }, (_, id) => toRgb(idColor(id)));
+const volumeSteps = 255;
+const volumeColors = Array.from({ length: volumeSteps + 1 }, (_, step) => toRgb(volumeColor(step / volumeSteps)));
+
+function toRgb(linear: readonly number[]): Rgb {
+  const byte = (x: number) => Math.round(255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055));
+  return [byte(linear[0]), byte(linear[1]), byte(linear[2])];
 }
 
 function toCss(color: Rgb): string {
-  return `rgb(${color.map(Math.round).join(' ')})`;
+  return `rgb(${color.join(' ')})`;
 }
 
 /** Whether a region lies outside the surface, as far as is known. */
@@ -34,31 +30,19 @@ export function isOutside(model: Model, region: number): boolean {
   return winding === null ? region === model.outsideRegion : winding === 0;
 }
 
-/** Neighbouring ids get colours that are easy to tell apart; the outside has its own. */
+/** The outside has a colour of its own, and takes none from the palette. */
 export function regionColor(model: Model, region: number): Rgb {
-  if (isOutside(model, region)) return outsideColor;
-  const rank = model.outsideRegion !== null && region > model.outsideRegion ? region - 1 : region;
-  return rank < palette.length ? palette[rank] : hueColor(rank);
+  if (isOutside(model, region)) return toRgb(outsideColor);
+  return toRgb(paletteColor(model.outsideRegion !== null && region > model.outsideRegion ? region - 1 : region));
 }
 
-/** Steps of the golden angle don't come near an earlier hue soon. */
-function hueColor(id: number): Rgb {
-  const hue = (id * 0.618034) % 1;
-  const value = 0.62 + 0.16 * ((id * 0.414214) % 1);
-  const pull = (shift: number) => Math.max(0, Math.min(1, 2 - Math.abs(((6 * hue + shift) % 6) - 3)));
-  return [0, 2, 4].map((shift) => 255 * value * (1 - 0.55 * pull(shift))) as unknown as Rgb;
+function colorOfId(id: number): Rgb {
+  return idColors[id % idColors.length];
 }
 
-function windingColor(winding: number | null): Rgb {
-  if (winding === null) return noWinding;
-  return windings[Math.max(0, Math.min(windings.length - 1, winding + 1))].color;
-}
-
-/** The root spreads out the small cells, which are in the majority. */
-function volumeColor(fraction: number): Rgb {
-  const at = Math.sqrt(Math.max(0, Math.min(1, fraction))) * (volumeRamp.length - 1);
-  const from = Math.min(Math.floor(at), volumeRamp.length - 2);
-  return [0, 1, 2].map((c) => volumeRamp[from][c] + (at - from) * (volumeRamp[from + 1][c] - volumeRamp[from][c])) as unknown as Rgb;
+/** By the share of a grid cell. The root spreads out the small cells, which are in the majority. */
+function shareColor(share: number): Rgb {
+  return volumeColors[Math.round(volumeSteps * Math.sqrt(Math.max(0, Math.min(1, share))))];
 }
 
 export function gridCellVolume({ grid }: Model, gridCell: ArrayLike<number>): number {
@@ -66,7 +50,7 @@ export function gridCellVolume({ grid }: Model, gridCell: ArrayLike<number>): nu
 }
 
 function byRegion(model: Model, colorBy: ColorBy): Rgb[] {
-  return model.regions.map(({ id, winding }) => (colorBy === 'winding' ? windingColor(winding) : regionColor(model, id)));
+  return model.regions.map(({ id, winding }) => (colorBy === 'winding' ? toRgb(windingColor(winding)) : regionColor(model, id)));
 }
 
 /** 4 bytes per cut-cell, the last one free. */
@@ -76,9 +60,9 @@ export function cutCellColors(model: Model, colorBy: ColorBy): Uint8Array {
   const colors = new Uint8Array(4 * region.length);
   for (let cell = 0; cell < region.length; cell++) {
     let color: Rgb;
-    if (colorBy === 'cell') color = hueColor(cell);
+    if (colorBy === 'cell') color = colorOfId(cell);
     else if (colorBy === 'kind') color = surfaceColor;
-    else if (colorBy === 'volume') color = volumeColor(volume[cell] / gridCellVolume(model, gridCell.subarray(3 * cell, 3 * cell + 3)));
+    else if (colorBy === 'volume') color = shareColor(volume[cell] / gridCellVolume(model, gridCell.subarray(3 * cell, 3 * cell + 3)));
     else color = regions[region[cell]];
     colors.set(color, 4 * cell);
   }
@@ -87,9 +71,9 @@ export function cutCellColors(model: Model, colorBy: ColorBy): Uint8Array {
 
 /** Colour of an untouched grid cell by its number and region. */
 export function untouchedColors(model: Model, colorBy: ColorBy): (gridCell: number, region: number) => Rgb {
-  if (colorBy === 'cell') return (gridCell) => hueColor(gridCell);
+  if (colorBy === 'cell') return colorOfId;
   if (colorBy === 'kind') return () => untouchedKindColor;
-  if (colorBy === 'volume') return () => volumeColor(1);
+  if (colorBy === 'volume') return () => shareColor(1);
   const regions = byRegion(model, colorBy);
   return (_gridCell, region) => regions[region];
 }
@@ -107,11 +91,11 @@ export function legend(model: Model, { colorBy, sliceMode, slices }: Settings, m
       entry('untouched cells', untouchedKindColor),
     ];
   }
-  if (colorBy === 'volume') return [0, 0.25, 0.5, 1].map((fraction) => entry(`${100 * fraction}% of a grid cell`, volumeColor(fraction)));
+  if (colorBy === 'volume') return [0, 0.25, 0.5, 1].map((fraction) => entry(`${100 * fraction}% of a grid cell`, shareColor(fraction)));
   if (colorBy === 'winding') {
     const present = [...new Set(model.regions.map(({ winding }) => winding))].sort((a, b) => (a ?? 0) - (b ?? 0));
     const label = (winding: number | null) => (winding === null ? 'no winding number' : `winding number ${winding}`);
-    return present.slice(0, most).map((winding) => entry(label(winding), windingColor(winding)));
+    return present.slice(0, most).map((winding) => entry(label(winding), toRgb(windingColor(winding))));
   }
   const label = (id: number) => `region ${id}${isOutside(model, id) ? ', outside' : ''}`;
   return model.regions.slice(0, most).map(({ id }) => entry(label(id), regionColor(model, id)));

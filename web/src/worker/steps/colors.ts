@@ -1,3 +1,5 @@
+import { regionColor } from 'mandoline-wasm/three';
+
 // Linear RGB. Middle tones, to be seen on light and dark grounds.
 export type Color = readonly [number, number, number];
 
@@ -15,10 +17,9 @@ export const outlineColor = linear('#5b6773');
 export const gridColor = linear('#9aa6b2');
 export const coplanarColor = linear('#f0b429');
 
-const pieces: readonly Color[] = ['#4f9fdc', '#6dbb5c', '#dc6a6f', '#9c84d6', '#43b7ad', '#d982b5', '#a9843f', '#5f79c9'].map(linear);
-
+/** A piece's colour is that of a region of its number. */
 export function pieceColor(piece: number): Color {
-  return pieces[piece % pieces.length];
+  return regionColor(piece);
 }
 
 export function shaded(color: Color, shade: number): Color {
