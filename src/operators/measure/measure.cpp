@@ -122,7 +122,7 @@ class Measuring {
     return size == 0 ? rounded : Vector<double>{rounded[0] / size, rounded[1] / size, rounded[2] / size};
   }
 
-  uint32_t firstVertex(size_t face) const { return cutMesh_.loopVertices[cutMesh_.loopOffsets[cutMesh_.faceLoopOffsets[face]]]; }
+  uint32_t firstVertex(size_t face) const { return cutMesh_.loops(face)[0][0]; }
 
   /// The measures have the shapes while cells are measured: with centroids relative to the first vertex, as accurate as tiny faces need.
   void keep(size_t face, const FaceShape& shape) {

@@ -31,11 +31,13 @@ class ArrayCheck {
     }
     return true;
   }
-  template <class Container, class Low, class High>
-  bool expectRange(const Container& values, Low low, High high, const char* kind, size_t perElement, const char* text) {
+  struct Range {
+    int64_t low, high;
+  };
+  template <class Container>
+  bool expectRange(const Container& values, const Range& range, const char* kind, const char* text, size_t perElement = 1) {
     for (size_t i = 0; i < values.size(); ++i) {
-      if (int64_t(values[i]) < int64_t(low) || int64_t(values[i]) > int64_t(high))
-        return expect(false, kind, int64_t(i / perElement), text);
+      if (int64_t(values[i]) < range.low || int64_t(values[i]) > range.high) return expect(false, kind, int64_t(i / perElement), text);
     }
     return true;
   }
@@ -50,8 +52,8 @@ class ArrayCheck {
     if (!expect(mesh_->positions.size() % 3 == 0 && mesh_->triangles.size() % 3 == 0, "array", 0,
                 "of the input has a length that is not a multiple of 3"))
       return false;
-    if (!expectRange(mesh_->triangles, 0, int64_t(mesh_->vertexCount()) - 1, "triangle", 3,
-                     "of the input names a tri-vertex that does not exist"))
+    if (!expectRange(mesh_->triangles, {0, int64_t(mesh_->vertexCount()) - 1}, "triangle",
+                     "of the input names a tri-vertex that does not exist", 3))
       return false;
     for (size_t i = 0; i < mesh_->triangles.size(); ++i) {
       for (int d = 0; d < 3; ++d) {
@@ -95,7 +97,7 @@ class ArrayCheck {
           return false;
       }
     }
-    return expectRange(cut_.vertexTriVertex, -1, lastTriVertex(), "vertex", 1, "names a tri-vertex that does not exist") && checkParents();
+    return expectRange(cut_.vertexTriVertex, {-1, lastTriVertex()}, "vertex", "names a tri-vertex that does not exist") && checkParents();
   }
 
   bool checkParents() {
@@ -115,12 +117,12 @@ class ArrayCheck {
       return false;
     if (!expectOffsets(cut_.loopOffsets, loops, cut_.loopVertices.size(), "loop", "has wrong offsets")) return false;
     if (!expectOffsets(cut_.faceLoopOffsets, faces, loops, "face", "has wrong offsets")) return false;
-    if (!expectRange(cut_.loopVertices, 0, int64_t(cut_.vertexCount()) - 1, "entry", 1,
+    if (!expectRange(cut_.loopVertices, {0, int64_t(cut_.vertexCount()) - 1}, "entry",
                      "of loopVertices names a vertex that does not exist"))
       return false;
-    if (!expectRange(cut_.faceTriangle, -1, int64_t(cut_.triangleCount) - 1, "face", 1, "names a triangle that does not exist"))
+    if (!expectRange(cut_.faceTriangle, {-1, int64_t(cut_.triangleCount) - 1}, "face", "names a triangle that does not exist"))
       return false;
-    if (!expectRange(cut_.faceAxis, -1, 2, "face", 1, "has a wrong axis")) return false;
+    if (!expectRange(cut_.faceAxis, {-1, 2}, "face", "has a wrong axis")) return false;
     for (size_t f = 0; f < faces; ++f) {
       const int axis = cut_.faceAxis[f];
       const bool plane = axis < 0 ? cut_.facePlane[f] == 0 : cut_.facePlane[f] >= 0 && cut_.facePlane[f] <= cut_.grid.cells(axis);
@@ -148,10 +150,10 @@ class ArrayCheck {
     if (!expect(cut_.cellGridCell.size() == 3 * cells && cells < size_t(1) << 31, "array", 0, "of the cells has a wrong length"))
       return false;
     if (!expectOffsets(cut_.cellHalfFaceOffsets, cells, cut_.cellHalfFaces.size(), "cell", "has wrong offsets")) return false;
-    if (!expectRange(cut_.cellHalfFaces, 0, 2 * int64_t(cut_.faceCount()) - 1, "entry", 1,
+    if (!expectRange(cut_.cellHalfFaces, {0, 2 * int64_t(cut_.faceCount()) - 1}, "entry",
                      "of cellHalfFaces names a half-face that does not exist"))
       return false;
-    if (!expectRange(cut_.cellRegion, 0, int64_t(cut_.regionCount) - 1, "cell", 1, "names a region that does not exist")) return false;
+    if (!expectRange(cut_.cellRegion, {0, int64_t(cut_.regionCount) - 1}, "cell", "names a region that does not exist")) return false;
     for (size_t c = 0; c < cells; ++c) {
       if (!expect(!cut_.halfFaces(c).empty(), "cell", int64_t(c), "has no faces")) return false;
     }
@@ -166,7 +168,7 @@ class ArrayCheck {
     const size_t runs = cut_.runBegin.size(), rows = size_t(cut_.grid.cells(1) * cut_.grid.cells(2));
     if (!expect(cut_.runEnd.size() == runs && cut_.runRegion.size() == runs, "array", 0, "of the runs has a wrong length")) return false;
     if (!expectOffsets(cut_.rowRunOffsets, rows, runs, "row", "has wrong offsets")) return false;
-    if (!expectRange(cut_.runRegion, 0, int64_t(cut_.regionCount) - 1, "run", 1, "names a region that does not exist")) return false;
+    if (!expectRange(cut_.runRegion, {0, int64_t(cut_.regionCount) - 1}, "run", "names a region that does not exist")) return false;
     for (size_t row = 0; row < rows; ++row) {
       int32_t end = 0;
       for (uint32_t r = cut_.rowRunOffsets[row]; r < cut_.rowRunOffsets[row + 1]; ++r) {

@@ -62,16 +62,16 @@ Exact Exact::operator*(const Exact& other) const {
   return result;
 }
 
-int differenceSign(double a, double b, double c, double d, double e, double f, double g, double h) {
-  const double left = (a - b) * (c - d), right = (e - f) * (g - h), difference = left - right;
+int differenceSign(const Product& x, const Product& y) {
+  const double left = (x.a - x.b) * (x.c - x.d), right = (y.a - y.b) * (y.c - y.d), difference = left - right;
   // Three roundings in each product and one in their difference.
   if (std::fabs(difference) > 8 * kRounding * (std::fabs(left) + std::fabs(right))) return difference > 0 ? 1 : -1;
-  return ((Exact(a) - b) * (Exact(c) - d) - (Exact(e) - f) * (Exact(g) - h)).sign();
+  return ((Exact(x.a) - x.b) * (Exact(x.c) - x.d) - (Exact(y.a) - y.b) * (Exact(y.c) - y.d)).sign();
 }
 
 int turn(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
   const int e = (axis + 1) % 3, f = (axis + 2) % 3;
-  return differenceSign(b[e], a[e], c[f], a[f], b[f], a[f], c[e], a[e]);
+  return differenceSign({b[e], a[e], c[f], a[f]}, {b[f], a[f], c[e], a[e]});
 }
 
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c) {

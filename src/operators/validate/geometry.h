@@ -76,8 +76,12 @@ class Exact {
   std::vector<double> parts_;
 };
 
-/// Exact sign of (a - b) (c - d) - (e - f) (g - h).
-int differenceSign(double a, double b, double c, double d, double e, double f, double g, double h);
+/// (a - b) (c - d).
+struct Product {
+  double a, b, c, d;
+};
+/// Exact sign of a difference.
+int differenceSign(const Product& x, const Product& y);
 /// Exact: 1 if a, b, c turn counter-clockwise about +axis.
 int turn(const Vec3& a, const Vec3& b, const Vec3& c, int axis);
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
