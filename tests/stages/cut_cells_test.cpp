@@ -50,7 +50,7 @@ TEST_CASE("Three blades on one edge make three cells", "[stages][cutCells]") {
 TEST_CASE("Every half-face of a tri-cut-face inside the grid has one cell", "[stages][cutCells]") {
   const StagedCut cut(shapes::icosphere({1.5, 1.5, 1.5}, 1.2, 2), Stage::cutCells);
   std::vector<int> owners(2 * cut.state.faces.size(), 0);
-  for (const uint32_t h : cut.state.cells.halfFaces.items) ++owners[h];
+  for (const HalfFace h : cut.state.cells.halfFaces.items) ++owners[h.number];
   for (size_t h = 0; h < 2 * cut.state.faces.tri.size(); ++h) CHECK(owners[h] == 1);
   for (const int count : owners) CHECK(count <= 1);
 }

@@ -10,7 +10,7 @@ namespace {
 /// The pieces of the one grid-face that has more than one loop or piece, as loops per piece.
 std::vector<size_t> loopsOfPieces(const StagedCut& cut, uint32_t gridFace) {
   std::vector<size_t> counts;
-  for (const uint32_t h : cut.state.faces.grid.halfFaces[gridFace]) counts.push_back(cut.state.faces.loops(h / 2).size());
+  for (const HalfFace h : cut.state.faces.grid.halfFaces[gridFace]) counts.push_back(cut.state.faces.loops(h.face()).size());
   return counts;
 }
 
@@ -30,7 +30,7 @@ TEST_CASE("Grid-faces that nothing passes stay whole", "[stages][gridFaces]") {
   CHECK(cut.state.faces.grid.size() == 6);
   for (uint32_t g = 0; g < 6; ++g) {
     CHECK(loopsOfPieces(cut, g) == std::vector<size_t>{1});
-    CHECK(cut.state.faces.loops(uint32_t(cut.state.faces.tri.size()) + g)[0].size() == 4);
+    CHECK(cut.state.faces.loops({uint32_t(cut.state.faces.tri.size()) + g})[0].size() == 4);
   }
 }
 
@@ -53,10 +53,10 @@ TEST_CASE("A triangle in a grid-face takes the place of that piece", "[stages][g
   const uint32_t face = middleFace(cut.state.stencil);
   const auto halfFaces = cut.state.faces.grid.halfFaces[face];
   REQUIRE(halfFaces.size() == 2);
-  CHECK(cut.state.faces.isTri(halfFaces[0] / 2));
-  CHECK(cut.state.faces.triangle(halfFaces[0] / 2) == 0);
-  CHECK(halfFaces[0] % 2 == 0);  // the normal is +z, out of the cell below
-  CHECK_FALSE(cut.state.faces.isTri(halfFaces[1] / 2));
-  CHECK(cut.state.faces.triangle(halfFaces[1] / 2) == -1);
-  CHECK(cut.state.faces.loops(halfFaces[1] / 2).size() == 2);
+  CHECK(cut.state.faces.isTri(halfFaces[0].face()));
+  CHECK(cut.state.faces.triangle(halfFaces[0].face()) == 0);
+  CHECK(halfFaces[0].side() == 0);  // the normal is +z, out of the cell below
+  CHECK_FALSE(cut.state.faces.isTri(halfFaces[1].face()));
+  CHECK(cut.state.faces.triangle(halfFaces[1].face()) == -1);
+  CHECK(cut.state.faces.loops(halfFaces[1].face()).size() == 2);
 }

@@ -35,7 +35,7 @@ class CellMaker {
 
  private:
   /// A half-face of a grid-face of the cell, by the one seen from below.
-  static uint32_t seenFrom(int side, uint32_t fromBelow) { return side == 1 ? fromBelow : fromBelow ^ 1; }
+  static HalfFace seenFrom(int side, HalfFace fromBelow) { return side == 1 ? fromBelow : fromBelow.twin(); }
 
   void collectHalves(uint32_t stencilCell) {
     CellHalves& cell = chunk_.halves;
@@ -43,11 +43,11 @@ class CellMaker {
     cell.triFaces = stencil_.triFacesInCell[stencilCell];
     cell.halfFaces.clear();
     for (const uint32_t f : cell.triFaces) {
-      cell.halfFaces.push_back(2 * f);
-      cell.halfFaces.push_back(2 * f + 1);
+      cell.halfFaces.push_back(HalfFace(FaceId{f}, 0));
+      cell.halfFaces.push_back(HalfFace(FaceId{f}, 1));
     }
     for (int i = 0; i < 6; ++i) {
-      for (const uint32_t h : faces_.grid.halfFaces[stencil_.cells[stencilCell].faces[i]]) cell.halfFaces.push_back(seenFrom(i & 1, h));
+      for (const HalfFace h : faces_.grid.halfFaces[stencil_.cells[stencilCell].faces[i]]) cell.halfFaces.push_back(seenFrom(i & 1, h));
     }
   }
 
@@ -62,7 +62,7 @@ class CellMaker {
     const CellHalves& cell = chunk_.halves;
     size_t most = 0;
     for (size_t h = 0; h < cell.halfFaces.size(); h += h < cell.triHalves() ? 2 : 1) {
-      for (const auto loop : faces_.loops(cell.halfFaces[h] / 2)) most += loop.size();
+      for (const auto loop : faces_.loops(cell.halfFaces[h].face())) most += loop.size();
     }
     for (const uint32_t g : stencil_.cells[stencilCell].faces) most += 2 * faces_.grid.slits[g].size();
     return most;
@@ -74,15 +74,15 @@ class CellMaker {
     for (uint32_t i = 0; i < cell.triFaces.size(); ++i) {
       touchesLine_ |= faces_.tri.touchesLine[cell.triFaces[i]] != 0;
       const auto loop = faces_.tri.loop(cell.triFaces[i]);
-      for (size_t k = 0; k < loop.size(); ++k) chunk_.table.add(loop[k], loop[k + 1 < loop.size() ? k + 1 : 0], i, true);
+      for (size_t k = 0; k < loop.size(); ++k) chunk_.table.add(loop[k], loop[k + 1 < loop.size() ? k + 1 : 0], 2 * i, true);
     }
   }
 
   void addGridFaces() {
     const CellHalves& cell = chunk_.halves;
     for (uint32_t h = uint32_t(cell.triHalves()); h < cell.halfFaces.size(); ++h) {
-      const bool reversed = cell.halfFaces[h] & 1;
-      for (const auto loop : faces_.loops(cell.halfFaces[h] / 2)) {
+      const bool reversed = cell.halfFaces[h].side() == 1;
+      for (const auto loop : faces_.loops(cell.halfFaces[h].face())) {
         for (size_t k = 0; k < loop.size(); ++k) {
           const uint32_t u = loop[k], v = loop[k + 1 < loop.size() ? k + 1 : 0];
           reversed ? chunk_.table.add(v, u, h, false) : chunk_.table.add(u, v, h, false);
@@ -123,9 +123,9 @@ class CellMaker {
     if (!open && touchesLine_ && onGridElement(edge)) failAt(edge);
     if (around.size() > (open ? 1 : 2)) sortAround(edge, open);
     const auto before = [](const EdgeTable::Use& use) {
-      return 2 * use.local + (use.ascending ? 0 : 1);
+      return use.local + (use.ascending ? 0 : 1);
     };  // the half-face towards smaller angles
-    const auto after = [](const EdgeTable::Use& use) { return 2 * use.local + (use.ascending ? 1 : 0); };
+    const auto after = [](const EdgeTable::Use& use) { return use.local + (use.ascending ? 1 : 0); };
     uint32_t previous = open ? first : after(around.back());
     for (const EdgeTable::Use& use : around) {
       chunk_.shells.unite(previous, before(use));
@@ -145,7 +145,7 @@ class CellMaker {
   void sortAround(const EdgeTable::Edge& edge, bool open) {
     auto& around = chunk_.around;
     std::sort(around.begin(), around.end(), [](const auto& a, const auto& b) { return a.local < b.local; });
-    const auto triangleOf = [&](const EdgeTable::Use& use) { return faces_.tri.triangles[chunk_.halves.triFaces[use.local]]; };
+    const auto triangleOf = [&](const EdgeTable::Use& use) { return faces_.tri.triangles[chunk_.halves.triFaces[use.local / 2]]; };
     std::vector<Flap> flaps;
     const Point *a = nullptr, *b = nullptr;  // ends of the tri-edge, in the edge's direction
     for (uint32_t i = 0; i < around.size(); ++i) {
@@ -192,8 +192,7 @@ class CellMaker {
     };
     for (uint32_t u = edge.firstUse; u != EdgeTable::kEnd; u = chunk_.table.uses[u].next) {
       const EdgeTable::Use& use = chunk_.table.uses[u];
-      const uint32_t face = use.isTri ? chunk_.halves.triFaces[use.local] : chunk_.halves.halfFaces[use.local] / 2;
-      note(faces_.triangle(face));
+      note(faces_.triangle(chunk_.halves.halfFaces[use.local].face()));
     }
     note(vertices_.triangleAt(edge.low));
     note(vertices_.triangleAt(edge.high));
@@ -234,7 +233,7 @@ class CellMaker {
       cellOf[h] = cellOf[root];
       ++counts[cellOf[h]];
     }
-    Csr<uint32_t>& out = chunk_.cells.halfFaces;
+    Csr<HalfFace>& out = chunk_.cells.halfFaces;
     uint32_t at = uint32_t(out.items.size());
     out.items.resize(at + cell.halfFaces.size());
     for (uint32_t& count : counts) {

@@ -11,7 +11,7 @@
 namespace mandoline::detail {
 
 struct CutCells {
-  Csr<uint32_t> halfFaces;             ///< per cut-cell: 2 * face + side
+  Csr<HalfFace> halfFaces;             ///< per cut-cell
   std::vector<uint32_t> stencilCells;  ///< per cut-cell: its grid cell, as index into Stencil::cells; ascending
 };
 

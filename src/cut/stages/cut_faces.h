@@ -10,12 +10,12 @@ struct CutFaces {
   GridFaces grid;
 
   size_t size() const { return tri.size() + grid.size(); }
-  bool isTri(uint32_t face) const { return face < tri.size(); }
+  bool isTri(FaceId face) const { return face.number < tri.size(); }
   /// The triangle that a face is a piece of, or -1.
-  int64_t triangle(uint32_t face) const { return isTri(face) ? int64_t(tri.triangles[face]) : -1; }
-  Loops loops(uint32_t face) const {
-    if (isTri(face)) return {tri.loopOffsets.data() + face, 1, tri.loopVertices.data()};
-    const size_t piece = face - tri.size(), first = grid.faceLoopOffsets[piece];
+  int64_t triangle(FaceId face) const { return isTri(face) ? int64_t(tri.triangles[face.number]) : -1; }
+  Loops loops(FaceId face) const {
+    if (isTri(face)) return {tri.loopOffsets.data() + face.number, 1, tri.loopVertices.data()};
+    const size_t piece = face.number - tri.size(), first = grid.faceLoopOffsets[piece];
     return {grid.loopOffsets.data() + first, grid.faceLoopOffsets[piece + 1] - first, grid.loopVertices.data()};
   }
 };

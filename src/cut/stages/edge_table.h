@@ -12,7 +12,7 @@ class EdgeTable {
  public:
   struct Use {
     uint32_t next;   ///< or kEnd
-    uint32_t local;  ///< tri-cut-face of the cell, or local half-face of a grid-face
+    uint32_t local;  ///< half-face of the cell: side 0 of a tri-cut-face, or a half-face of a grid-face
     bool isTri;
     bool ascending;  ///< runs from the lower vertex id to the higher
   };

@@ -148,10 +148,10 @@ class Nester {
   std::optional<uint32_t> halfFaceBelow(const InnerPoint& from, int axis) {
     const uint32_t gridFace = stencil_.cells[cell_.stencilCell].faces[cellFace(axis, 0)];
     const auto below = faces_.grid.halfFaces[gridFace];
-    for (const uint32_t b : below) {
-      const uint32_t halfFace = b ^ 1;  // seen from above
+    for (const HalfFace fromBelow : below) {
+      const HalfFace halfFace = fromBelow.twin();
       bool grazed = false;
-      if (below.size() == 1 || holds(halfFace / 2, from, axis, grazed)) {
+      if (below.size() == 1 || holds(halfFace.face(), from, axis, grazed)) {
         return cell_.localOf(halfFace);
       }
       if (grazed) return {};
@@ -160,7 +160,7 @@ class Nester {
   }
 
   /// Whether the point, projected along the axis, lies in a face: a ray to growing p crosses its loops an odd number of times.
-  bool holds(uint32_t face, const InnerPoint& from, int axis, bool& grazed) {
+  bool holds(FaceId face, const InnerPoint& from, int axis, bool& grazed) {
     bool inside = false;
     for (const auto loop : faces_.loops(face)) {
       for (size_t i = 0; i < loop.size(); ++i) {

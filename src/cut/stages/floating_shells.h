@@ -16,11 +16,11 @@ namespace mandoline::detail {
 struct CellHalves {
   uint32_t stencilCell;
   std::span<const uint32_t> triFaces;  ///< ids; local half-faces 2 i and 2 i + 1 are the sides of triFaces[i]
-  std::vector<uint32_t> halfFaces;     ///< per local half-face
+  std::vector<HalfFace> halfFaces;     ///< per local half-face
 
   size_t triHalves() const { return 2 * triFaces.size(); }
   /// The local half-face of a half-face of a grid-face.
-  uint32_t localOf(uint32_t halfFace) const {
+  uint32_t localOf(HalfFace halfFace) const {
     return uint32_t(std::find(halfFaces.begin() + std::ptrdiff_t(triHalves()), halfFaces.end(), halfFace) - halfFaces.begin());
   }
 };

@@ -1,5 +1,7 @@
 #include "cut/stages/grid_faces.h"
 
+#include <optional>
+
 #include "cut/stages/planar_graph.h"
 
 namespace mandoline::detail {
@@ -9,7 +11,8 @@ struct Chunk {
   GridFaces faces;  // ids count from triFaces.size() on
   Predicates predicates;
   PlanarGraph graph;
-  std::vector<uint32_t> outline, loop, faceIds;
+  std::vector<uint32_t> outline, loop;
+  std::vector<std::optional<HalfFace>> seen;  // per face of the graph: what the cell below the plane sees
 };
 
 class FaceCutter {
@@ -46,18 +49,18 @@ class FaceCutter {
     }
   }
 
-  uint32_t beginFace(uint32_t gridFace) {
+  FaceId beginFace(uint32_t gridFace) {
     chunk_.faces.gridFaces.push_back(gridFace);
-    return uint32_t(triFaces_.size() + chunk_.faces.size() - 1);
+    return {uint32_t(triFaces_.size() + chunk_.faces.size() - 1)};
   }
   void endLoop() { chunk_.faces.loopOffsets.push_back(uint32_t(chunk_.faces.loopVertices.size())); }
-  void endFace(uint32_t id) {
+  void endFace(FaceId id) {
     chunk_.faces.faceLoopOffsets.push_back(uint32_t(chunk_.faces.loopOffsets.size() - 1));
-    chunk_.faces.halfFaces.items.push_back(2 * id);
+    chunk_.faces.halfFaces.items.push_back(HalfFace(id, 0));
   }
 
   void addWhole(uint32_t gridFace) {
-    const uint32_t id = beginFace(gridFace);
+    const FaceId id = beginFace(gridFace);
     chunk_.faces.loopVertices.insert(chunk_.faces.loopVertices.end(), chunk_.outline.begin(), chunk_.outline.end());
     endLoop();
     endFace(id);
@@ -71,29 +74,26 @@ class FaceCutter {
     for (const FaceEdge& e : stencil_.edgesOnFace[gridFace]) graph.addEdge(e.from, e.to);
     graph.build(chunk_.predicates);
 
-    // Below, per face of the graph: the half-face that the cell below the plane sees.
-    constexpr uint32_t kNone = ~0u;
-    std::vector<uint32_t>& seen = chunk_.faceIds;
-    seen.assign(graph.faceCount, kNone);
+    auto& seen = chunk_.seen;
+    seen.assign(graph.faceCount, std::nullopt);
     for (const uint32_t f : stencil_.triFacesOnFace[gridFace]) {
       const bool down = normalSign(triFaces_.triangles[f], axis) < 0;
-      uint32_t& halfFace = seen[faceOfTriFace(f, down)];
-      if (halfFace != kNone) vertices_.failSelfIntersection(triFaces_.triangles[halfFace / 2], triFaces_.triangles[f]);
-      halfFace = 2 * f + (down ? 1 : 0);
-      chunk_.faces.halfFaces.items.push_back(halfFace);
+      std::optional<HalfFace>& halfFace = seen[faceOfTriFace(f, down)];
+      if (halfFace) vertices_.failSelfIntersection(triangleOf(*halfFace), triFaces_.triangles[f]);
+      halfFace = HalfFace(FaceId{f}, down ? 1 : 0);
+      chunk_.faces.halfFaces.items.push_back(*halfFace);
     }
     for (size_t l = 0; l < graph.loopStarts.size();) {
       const uint32_t face = graph.loopFaces[l];
-      if (seen[face] != kNone) {
+      if (seen[face]) {
         if (++l < graph.loopStarts.size() && graph.loopFaces[l] == face) {  // something lies inside of the triangle
-          vertices_.failSelfIntersection(triFaces_.triangles[seen[face] / 2],
-                                         vertices_.triangleAt(graph.vertexId(graph.origin(graph.loopStarts[l]))));
+          vertices_.failSelfIntersection(triangleOf(*seen[face]), vertices_.triangleAt(graph.vertexId(graph.origin(graph.loopStarts[l]))));
         }
         continue;
       }
-      const uint32_t id = beginFace(gridFace);
+      const FaceId id = beginFace(gridFace);
       for (; l < graph.loopStarts.size() && graph.loopFaces[l] == face; ++l) addLoop(graph.loopStarts[l]);
-      seen[face] = 2 * id;
+      seen[face] = HalfFace(id, 0);
       endFace(id);
     }
     addSlits();
@@ -148,14 +148,16 @@ class FaceCutter {
     vertices_.failSelfIntersection(triangle, triangle);
   }
 
+  /// The triangle that a tri-cut-face is a piece of.
+  uint32_t triangleOf(HalfFace halfFace) const { return triFaces_.triangles[halfFace.face().number]; }
+
   void addSlits() {
     const PlanarGraph& graph = chunk_.graph;
     for (uint32_t h = uint32_t(2 * graph.outlineSize()); h < 2 * graph.edgeCount(); h += 2) {
       if (!graph.isSlit(h)) continue;
-      const uint32_t halfFace = chunk_.faceIds[graph.face(h)];
+      const HalfFace halfFace = *chunk_.seen[graph.face(h)];
       const Slit slit = {graph.vertexId(graph.origin(h)), graph.vertexId(graph.origin(h ^ 1)), halfFace};
-      if (halfFace / 2 < triFaces_.size())
-        vertices_.failSelfIntersection(triFaces_.triangles[halfFace / 2], vertices_.triangleAt(slit.from));
+      if (halfFace.face().number < triFaces_.size()) vertices_.failSelfIntersection(triangleOf(halfFace), vertices_.triangleAt(slit.from));
       chunk_.faces.slits.items.push_back(slit);
     }
   }
@@ -183,13 +185,13 @@ void appendOffsets(std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {
 /// Appends b, whose own faces come after those of the chunks before it.
 void append(GridFaces& a, const GridFaces& b, uint32_t firstOwn) {
   const uint32_t shift = uint32_t(a.size());
-  const auto shifted = [&](uint32_t halfFace) { return halfFace < 2 * firstOwn ? halfFace : halfFace + 2 * shift; };
+  const auto shifted = [&](HalfFace h) { return h.face().number < firstOwn ? h : HalfFace({h.face().number + shift}, h.side()); };
   appendOffsets(a.faceLoopOffsets, b.faceLoopOffsets);
   appendOffsets(a.loopOffsets, b.loopOffsets);
   a.loopVertices.insert(a.loopVertices.end(), b.loopVertices.begin(), b.loopVertices.end());
   a.gridFaces.insert(a.gridFaces.end(), b.gridFaces.begin(), b.gridFaces.end());
   appendOffsets(a.halfFaces.offsets, b.halfFaces.offsets);
-  for (const uint32_t h : b.halfFaces.items) a.halfFaces.items.push_back(shifted(h));
+  for (const HalfFace h : b.halfFaces.items) a.halfFaces.items.push_back(shifted(h));
   appendOffsets(a.slits.offsets, b.slits.offsets);
   for (const Slit& s : b.slits.items) a.slits.items.push_back({s.from, s.to, shifted(s.halfFace)});
 }

@@ -168,7 +168,8 @@ CutMesh makeOutput(const MeshView& mesh, const Grid& grid, CutState& state, Run&
   separate(out);
 
   out.cellHalfFaceOffsets = std::move(cells.halfFaces.offsets);
-  out.cellHalfFaces = std::move(cells.halfFaces.items);
+  out.cellHalfFaces.reserve(cells.halfFaces.items.size());
+  for (const HalfFace h : cells.halfFaces.items) out.cellHalfFaces.push_back(h.number);
   for (const uint32_t c : cells.stencilCells) {
     for (int d = 0; d < 3; ++d) out.cellGridCell.push_back(stencil.cells[c].at(d));
   }

@@ -75,8 +75,8 @@ class RegionFinder {
 
   /// A piece of a grid-face joins what lies on its two sides.
   void uniteAcross(uint32_t piece) {
-    const uint32_t face = uint32_t(sides_.faces.tri.size()) + piece;
-    const uint32_t below = sides_.cell[2 * face], above = sides_.cell[2 * face + 1];
+    const FaceId face{uint32_t(sides_.faces.tri.size()) + piece};
+    const uint32_t below = sides_.cell(HalfFace(face, 0)), above = sides_.cell(HalfFace(face, 1));
     if (below != Sides::kNone && above != Sides::kNone) return nodes_.unite(below, above);
     const Stencil::Face& place = sides_.stencil.faces[sides_.faces.grid.gridFaces[piece]];
     Slab other = sides_.stencil.cells[place.cell].element;  // the first cell that has it, so the other side is the untouched one

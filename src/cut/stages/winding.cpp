@@ -48,14 +48,14 @@ uint32_t regionAtLowestCorner(const CutVertices& vertices, const Sides& sides, c
   const Stencil& stencil = sides.stencil;
   if (stencil.cells.empty() || stencil.cells[0].element != Slab{1, 1, 1}) return regions.runRegion[0];
   // Its grid-face x = x0 holds the point's shadow right beside the y-axis: in the face with the directed edge from the corner along y.
-  for (const uint32_t fromBelow : sides.faces.grid.halfFaces[stencil.cells[0].faces[cellFace(0, 0)]]) {
-    const bool reversed = fromBelow & 1;  // a triangle's face whose normal is -x
-    const auto loop = sides.faces.loops(fromBelow / 2)[0];
+  for (const HalfFace fromBelow : sides.faces.grid.halfFaces[stencil.cells[0].faces[cellFace(0, 0)]]) {
+    const bool reversed = fromBelow.side() == 1;  // a triangle's face whose normal is -x
+    const auto loop = sides.faces.loops(fromBelow.face())[0];
     for (size_t i = 0; i < loop.size(); ++i) {
       uint32_t u = loop[i], v = loop[i + 1 < loop.size() ? i + 1 : 0];
       if (reversed) std::swap(u, v);
       const bool found = vertices.slabs[u] == Slab{0, 0, 0} && vertices.slabs[v][0] == 0 && vertices.slabs[v][2] == 0;
-      if (found) return regions.cellRegion[sides.cell[fromBelow ^ 1]];
+      if (found) return regions.cellRegion[sides.cell(fromBelow.twin())];
     }
   }
   return regions.runRegion[0];
@@ -99,11 +99,11 @@ class WindingSets {
   std::vector<int32_t> toParent_;  // winding number less the parent's; 0 of a root
 };
 
-[[noreturn]] void failAt(const CutVertices& vertices, const Sides& sides, uint32_t face) {
+[[noreturn]] void failAt(const CutVertices& vertices, const Sides& sides, FaceId face) {
   const int64_t triangle = sides.faces.triangle(face);
   int64_t other = -1;  // another triangle in the same grid cell
-  for (const uint32_t h : sides.cells.halfFaces[sides.cell[2 * face]]) {
-    const int64_t found = sides.faces.triangle(h / 2);
+  for (const HalfFace h : sides.cells.halfFaces[sides.cell(HalfFace(face, 0))]) {
+    const int64_t found = sides.faces.triangle(h.face());
     if (found >= 0 && found != triangle) other = found;
   }
   vertices.failSelfIntersection(triangle, other);
@@ -116,9 +116,10 @@ void findWinding(const Surface& surface, const Sides& sides, Regions& regions, P
   if (!regions.hasWinding) return;
   WindingSets sets(regions.count);
   for (uint32_t f = 0; f < sides.faces.tri.size(); ++f) {
-    const uint32_t behind = sides.cell[2 * f], inFront = sides.cell[2 * f + 1];
+    const FaceId face{f};
+    const uint32_t behind = sides.cell(HalfFace(face, 0)), inFront = sides.cell(HalfFace(face, 1));
     if (behind == Sides::kNone || inFront == Sides::kNone) continue;  // on the boundary of the grid
-    if (!sets.setOneMore(regions.cellRegion[behind], regions.cellRegion[inFront])) failAt(surface.vertices, sides, f);
+    if (!sets.setOneMore(regions.cellRegion[behind], regions.cellRegion[inFront])) failAt(surface.vertices, sides, face);
   }
   const uint32_t anchor = regionAtLowestCorner(surface.vertices, sides, regions), root = sets.find(anchor);
   const int32_t shift = windingAtLowestCorner(surface.input, predicates) - sets.toRoot(anchor);
