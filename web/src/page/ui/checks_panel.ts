@@ -44,16 +44,11 @@ function item(check: Check, app: App): HTMLElement {
   line.append(el('span', { class: 'mark' }, state), el('strong', {}, words(check.name)));
   const verdict = check.tolerance === 0 ? 'no violations' : 'exact, up to rounding';
   if (check.pass && !check.skipped) line.append(el('span', { class: 'hint' }, verdict));
-  if (check.message) line.append(el('span', { class: 'message' }, sentence(check.message)));
+  if (check.message) line.append(el('span', { class: 'message' }, check.message));
   if (!check.pass && check.elementKind === 'cell') {
     line.append(button(`Show cell ${check.element}`, () => void app.pin(check.element), { class: 'quiet' }));
   }
   return line;
-}
-
-/** The library's messages are clauses that fit into a report. */
-function sentence(text: string): string {
-  return `${text.charAt(0).toUpperCase()}${text.slice(1)}${text.endsWith('.') ? '' : '.'}`;
 }
 
 /** The raw numbers behind "up to rounding". */
