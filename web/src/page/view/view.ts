@@ -175,7 +175,7 @@ class ThreeView implements View {
     this.gizmo.hide();
     Object.assign(this.canvas.dataset, { model: '', cells: '0', untouched: '0', caps: '0' });
     this.onHover(null);
-    this.invalidate();
+    this.draw(); // At once: nothing of the previous model may stay behind the words that take its place.
   }
 
   /** Another grid has another centre and size; the camera keeps looking at the same place. */
