@@ -70,10 +70,10 @@ export function launchChromium() {
 async function outcomeOf(page) {
   for (;;) {
     try {
-      await page.waitForFunction(() => 'outcome' in globalThis, null, { timeout: 60_000 });
-      return await page.evaluate(() => globalThis.outcome);
+      const found = await page.waitForFunction(() => 'outcome' in globalThis && { outcome: globalThis.outcome }, null, { timeout: 60_000 });
+      return (await found.jsonValue()).outcome;
     } catch (error) {
-      if (!/because of a navigation/.test(error.message)) throw error;
+      if (!/navigation|context was destroyed|JSHandle is disposed/i.test(error.message)) throw error;
     }
   }
 }
