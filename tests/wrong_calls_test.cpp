@@ -4,8 +4,11 @@
 #include <random>
 
 #include "catch.h"
+#include "mandoline/locate.h"
 #include "mandoline/mandoline.h"
 #include "mandoline/measure.h"
+#include "mandoline/slice.h"
+#include "mandoline/triangulate.h"
 #include "mandoline/validate.h"
 #include "shapes.h"
 
@@ -63,6 +66,7 @@ class Draw {
     for (double& x : result) x = number();
     return result;
   }
+  std::array<double, 3> triple() { return {number(), number(), number()}; }
   size_t id() {
     constexpr size_t kIds[] = {0, 1, 7, 100, 99999999, UINT32_MAX, SIZE_MAX};
     return kIds[below(std::size(kIds))];
@@ -92,6 +96,17 @@ const std::vector<Call> kCalls{
     {"cutEdges", [](Draw& draw) { cutEdges(draw.mesh(), draw.cutMesh()); }},
     {"regionVolumes", [](Draw& draw) { regionVolumes(draw.cutMesh(), draw.measures()); }},
     {"adjacency", [](Draw& draw) { adjacency(draw.cutMesh()); }},
+    {"triangulateFaces", [](Draw& draw) { triangulateFaces(draw.cutMesh()); }},
+    {"triangulateCell", [](Draw& draw) { triangulateCell(draw.cutMesh(), draw.id()); }},
+    {"triangulateRegion", [](Draw& draw) { triangulateRegion(draw.cutMesh(), uint32_t(draw.id())); }},
+    {"locate", [](Draw& draw) { locate(draw.cutMesh(), draw.numbers()); }},
+    {"slice",
+     [](Draw& draw) {
+       slice(draw.cutMesh(), {draw.triple(), draw.number()});
+     }},
+    {"slices", [](Draw& draw) { slices(draw.cutMesh(), draw.triple(), draw.numbers()); }},
+    {"outlines", [](Draw& draw) { outlines(draw.cutMesh(), draw.triple(), draw.numbers()); }},
+    {"planeAxes", [](Draw& draw) { planeAxes(draw.triple()); }},
     {"validate", [](Draw& draw) { validate(draw.mesh(), draw.cutMesh(), draw.validateOptions()); }},
 };
 

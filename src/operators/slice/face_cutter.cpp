@@ -50,10 +50,8 @@ void FaceCutter::gatherFaces(std::span<const uint32_t> cells) {
   }
 }
 
-bool FaceCutter::isAbove(uint32_t vertex) {
-  uint32_t& side = side_[vertex];
-  if (side / 2 != round_) side = 2 * round_ + (plane_->isAbove(space_.scaled(&cutMesh_.positions[3 * size_t(vertex)])) ? 1 : 0);
-  return side % 2 == 1;
+void FaceCutter::findSide(uint32_t vertex) {
+  side_[vertex] = 2 * round_ + (plane_->isAbove(space_.scaled(&cutMesh_.positions[3 * size_t(vertex)])) ? 1 : 0);
 }
 
 bool FaceCutter::isCut(uint32_t face) {

@@ -38,7 +38,11 @@ class FaceCutter {
   void findCutFaces(std::span<const uint32_t> cells);
   void gatherFaces(std::span<const uint32_t> cells);
   bool isCut(uint32_t face);
-  bool isAbove(uint32_t vertex);
+  bool isAbove(uint32_t vertex) {
+    if (side_[vertex] / 2 != round_) findSide(vertex);
+    return side_[vertex] % 2 == 1;
+  }
+  void findSide(uint32_t vertex);
   void cut(CutFace& face);
   void addTriangle(const uint32_t* vertices);
   void numberPoints();
