@@ -219,7 +219,9 @@ void collectInPlane(const Input& input, TriEdges& edges, const CutVertices& vert
 }  // namespace
 
 void cutTriEdges(Surface& surface, Run& run) {
-  auto& [input, edges, vertices] = surface;
+  Input& input = surface.input;
+  TriEdges& edges = surface.edges;
+  CutVertices& vertices = surface.vertices;
   findUniqueEdges(input, edges, run.stats);
   const size_t edgeCount = edges.ends.size();
   vertices.input = &input;
