@@ -84,6 +84,16 @@ TEST_CASE("Command line: wrong usage exits with 2", "[cli]") {
   const Case cases[] = {
       {{}, "a command is missing"},
       {{"dice", mesh}, "unknown command 'dice'"},
+      {{"slice", mesh, "--heights", "1"}, "-o is missing"},
+      {{"slice", mesh, "-o", folder.path("a.svg")}, "slice needs --heights or --layers"},
+      {{"slice", mesh, "--heights", "1", "--layers", "2", "-o", folder.path("a.svg")}, "slice needs --heights or --layers"},
+      {{"slice", mesh, "--heights", "1,b", "-o", folder.path("a.svg")}, "--heights needs H1,H2,..., not '1,b'"},
+      {{"slice", mesh, "--layers", "0", "-o", folder.path("a.svg")}, "--layers needs a number of layers, not '0'"},
+      {{"slice", mesh, "--axis", "w", "-o", folder.path("a.svg")}, "--axis needs x, y or z, not 'w'"},
+      {{"slice", mesh, "--normal", "0,0,0", "-o", folder.path("a.svg")}, "--normal needs a vector that is not zero"},
+      {{"slice", mesh, "--heights", "1", "--only", "cut", "-o", folder.path("a.svg")}, "--only cut: outlines have no cells"},
+      {{"slice", mesh, "--heights", "1", "-o", folder.path("a.stl")}, "a.stl: outlines are written as .svg, .dxf or .obj"},
+      {{"slice", mesh, "--heights", "1", "-o", mesh}, "are the same file"},
       {{"make"}, "the shape is missing"},
       {{"make", "torus"}, "-o is missing"},
       {{"make", "torus", "-o", folder.path("a.vtu")}, "a.vtu: a mesh is written as .obj, .stl, .ply or .off"},
@@ -393,6 +403,56 @@ TEST_CASE("Command line: Ctrl-C while writing removes the unfinished file", "[cl
   REQUIRE(o.exitCode == 130);
   REQUIRE(o.err == "mandoline: interrupted\n");
   REQUIRE(folder.fileCount() == 4);
+}
+
+TEST_CASE("Command line: outlines at heights", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", kCube);
+  const auto slice = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"slice", mesh, "-o", "-", "--format"});
+    const Outcome o = run(folder, words);
+    CAPTURE(o.err);
+    REQUIRE(o.exitCode == 0);
+    REQUIRE(o.err.empty());
+    return o.out;
+  };
+  const auto count = [](const std::string& text, const std::string& part) {
+    size_t n = 0;
+    for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+    return n;
+  };
+  // Its sides are two triangles each, so that a square has eight points.
+  const std::string svg = slice({"svg", "--heights", "1.5,2,9"});
+  REQUIRE(contains(svg, "viewBox=\"1 -3 2 2\""));
+  for (const std::string height : {"1.5", "2", "9"}) REQUIRE(contains(svg, "<g data-height=\"" + height + "\">"));
+  REQUIRE(count(svg, "<path data-region=\"1\"") == 2);
+  REQUIRE(count(svg, "L") == 14);
+  REQUIRE(count(svg, "Z\"/>") == 2);
+  const std::string dxf = slice({"dxf", "--heights", "1.5,2,9"});
+  REQUIRE(count(dxf, "0\nPOLYLINE\n8\nregion_1\n66\n1\n70\n9\n") == 2);
+  REQUIRE(count(dxf, "0\nVERTEX\n") == 16);
+  REQUIRE(contains(dxf, "\n30\n1.5\n"));
+  REQUIRE(dxf.ends_with("0\nENDSEC\n0\nEOF\n"));
+  const std::string obj = slice({"obj", "--normal", "0,0,2", "--heights", "2"});
+  REQUIRE(obj.starts_with("g height_2_region_1\nv "));
+  REQUIRE(count(obj, "\nv ") == 8);
+  REQUIRE(obj.ends_with("l 1 2 3 4 5 6 7 8 1\n"));
+  const std::string layers = slice({"svg", "--axis", "x", "--layers", "4", "--cells", "5"});
+  for (const std::string height : {"1.25", "1.75", "2.25", "2.75"}) REQUIRE(contains(layers, "data-height=\"" + height + "\""));
+  const std::string outside = slice({"svg", "--heights", "2", "--only", "outside", "--box", "0,0,0,4,4,4"});
+  REQUIRE(contains(outside, "viewBox=\"0 -4 4 4\""));
+  REQUIRE(count(outside, "<path") == 1);
+  REQUIRE(count(outside, "M") == 2);  // the box, and the hole in it
+}
+
+TEST_CASE("Command line: outlines of sheets are open lines", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string sheet = folder.write("sheet.obj", "v 0 0 0\nv 4 0 0\nv 0 0 4\nf 1 2 3\n"), obj = folder.path("a.obj");
+  const Outcome o = run(folder, {"slice", sheet, "--heights", "1", "-o", obj, folder.path("a.dxf")});
+  CAPTURE(o.err);
+  REQUIRE(o.exitCode == 0);
+  REQUIRE(contains(folder.read("a.dxf"), "\n70\n8\n"));
+  REQUIRE(folder.read("a.obj").find("l 5 6\n") != std::string::npos);  // after the four points of the box
 }
 
 TEST_CASE("Command line: made shapes are closed", "[cli]") {

@@ -44,7 +44,11 @@ class Parser {
         {"--snap-tolerance", {C::cut, C::slice}, [](Parser& p, const std::string& name) { p.parseSnapTolerance(p.value(name)); }},
         {"--threads", {C::cut, C::slice}, [](Parser& p, const std::string& name) { p.parseThreads(p.value(name)); }},
         {"--validate", {C::cut}, [](Parser& p, const std::string&) { p.arguments_.validate = true; }},
-        {"--only", {C::cut}, [](Parser& p, const std::string& name) { parseOnly(p.value(name), p.arguments_.only); }},
+        {"--axis", {C::slice}, [](Parser& p, const std::string& name) { parseAxis(p.value(name), p.arguments_.slice); }},
+        {"--normal", {C::slice}, [](Parser& p, const std::string& name) { parseNormal(p.value(name), p.arguments_.slice); }},
+        {"--heights", {C::slice}, [](Parser& p, const std::string& name) { parseHeights(p.value(name), p.arguments_.slice); }},
+        {"--layers", {C::slice}, [](Parser& p, const std::string& name) { parseLayers(p.value(name), p.arguments_.slice); }},
+        {"--only", {C::cut, C::slice}, [](Parser& p, const std::string& name) { parseOnly(p.value(name), p.arguments_.only); }},
         {"--format", {C::cut, C::slice, C::make}, [](Parser& p, const std::string& name) { p.parseFormat(p.value(name)); }},
         {"-o", {C::cut, C::slice, C::make}, [](Parser& p, const std::string& name) { p.parseOutputs(name); }},
     };
@@ -52,8 +56,11 @@ class Parser {
   }
 
   void parseCommand(const std::string& word) {
-    constexpr std::pair<const char*, Command> kCommands[] = {
-        {"cut", Command::cut}, {"info", Command::info}, {"make", Command::make}, {"--version", Command::version}};
+    constexpr std::pair<const char*, Command> kCommands[] = {{"cut", Command::cut},
+                                                             {"slice", Command::slice},
+                                                             {"info", Command::info},
+                                                             {"make", Command::make},
+                                                             {"--version", Command::version}};
     const auto found = std::find_if(std::begin(kCommands), std::end(kCommands), [&](const auto& command) { return word == command.first; });
     if (found == std::end(kCommands)) throw UsageError("unknown command '" + word + "'");
     arguments_.command = found->second;
@@ -126,6 +133,7 @@ class Parser {
     if (makes && a.shape.empty()) throw UsageError("the shape is missing");
     if (!makes && a.mesh.empty()) throw UsageError("the mesh is missing");
     checkGrid(a.grid);
+    if (a.command == Command::slice) checkSlice(a.slice, a.only);
     const bool toStandardOutput = std::find(a.outputs.begin(), a.outputs.end(), "-") != a.outputs.end();
     if (toStandardOutput && !a.format) throw UsageError("-o - needs --format, such as --format vtu");
     if (!toStandardOutput && a.format) throw UsageError("--format is for -o -; other files tell by their extension");

@@ -37,6 +37,13 @@ struct OnlyArguments {
   bool any() const { return cut || inside || outside || !regions.empty(); }
 };
 
+/// Planes of slice.
+struct SliceArguments {
+  std::array<double, 3> normal{0, 0, 1};
+  std::vector<double> heights;  ///< along the normal, from the origin
+  int64_t layers = 0;           ///< so many equal layers instead; 0 for heights
+};
+
 struct Arguments {
   Command command = Command::help;
   std::string mesh;   ///< path, "-" for standard input
@@ -46,6 +53,7 @@ struct Arguments {
   unsigned threads = 0;
   bool validate = false;
   OnlyArguments only;
+  SliceArguments slice;
   std::string report;                ///< path of the JSON report, "-" for standard output; empty for text there
   std::vector<std::string> outputs;  ///< paths, "-" for standard output
   std::optional<FileFormat> format;  ///< of standard output

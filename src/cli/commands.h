@@ -8,6 +8,7 @@ namespace mandoline::cli {
 enum ExitCode { kFine = 0, kNotCut = 1, kBadUsageOrFile = 2 };
 
 int runCut(const Arguments& arguments);
+int runSlice(const Arguments& arguments);
 int runInfo(const Arguments& arguments);
 int runMake(const Arguments& arguments);
 

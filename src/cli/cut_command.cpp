@@ -2,10 +2,10 @@
 #include <iostream>
 
 #include "cli/commands.h"
+#include "cli/cutting.h"
 #include "cli/files.h"
 #include "cli/make_grid.h"
 #include "cli/peak_memory.h"
-#include "cli/progress_bar.h"
 #include "cli/report.h"
 #include "mandoline/measure.h"
 
@@ -13,10 +13,6 @@ namespace mandoline::cli {
 namespace {
 
 constexpr std::string_view kRegionMark = "{region}";
-
-FileFormat formatFor(const Arguments& arguments, const std::string& output) {
-  return output == "-" ? *arguments.format : *formatOf(output);
-}
 
 /// What can be told before there is a mesh.
 void checkOutputs(const Arguments& arguments) {
@@ -26,46 +22,13 @@ void checkOutputs(const Arguments& arguments) {
   for (const std::string& output : arguments.outputs) {
     if (output != "-") checkOutput(output);
     const FileFormat format = formatFor(arguments, output);
-    if (format == FileFormat::off) throw UsageError("--format needs json, vtu, obj, stl or ply, not off");
+    if (!isCutMeshFormat(format)) throw UsageError(std::string("--format needs json, vtu, obj, stl or ply, not ") + name(format));
     if (format == FileFormat::json && (arguments.only.any() || output.find(kRegionMark) != std::string::npos)) {
       throw UsageError("-o " + output + ": JSON files always have everything");
     }
     files.push_back({"-o", output});
   }
   requireDifferent(files);
-}
-
-CutResult cutWithProgress(const Arguments& arguments, const Mesh& mesh, const Grid& grid) {
-  ProgressBar bar;
-  CutOptions options;
-  options.snapTolerance = arguments.snapTolerance;
-  options.threads = arguments.threads;
-  options.progress = [&](const Progress& progress) { return bar.update(progress); };
-  CutResult result = cut(mesh, grid, options);
-  throwIfInterrupted();
-  return result;
-}
-
-/// Throws UsageError for regions that the cut-mesh does not have.
-WriteOptions writeOptions(const OnlyArguments& only, const CutMesh& cutMesh) {
-  WriteOptions options;
-  options.untouchedCells = !only.cut;
-  if ((only.inside || only.outside) && !cutMesh.hasWinding) {
-    throw UsageError("--only: the mesh is open or not consistently oriented, so that nothing is inside or outside");
-  }
-  if (!only.inside && !only.outside && only.regions.empty()) return options;
-  options.regions.assign(cutMesh.regionCount, only.regions.empty() ? 1 : 0);
-  for (const uint32_t r : only.regions) {
-    if (r >= cutMesh.regionCount) {
-      throw UsageError("--only: there is no region " + std::to_string(r) + "; there are " + std::to_string(cutMesh.regionCount));
-    }
-    options.regions[r] = 1;
-  }
-  for (uint32_t r = 0; r < cutMesh.regionCount; ++r) {
-    const bool isInside = cutMesh.hasWinding && cutMesh.regionWinding[r] != 0;
-    if ((only.inside && !isInside) || (only.outside && isInside)) options.regions[r] = 0;
-  }
-  return options;
 }
 
 /// A file to write and what it gets.
@@ -125,7 +88,7 @@ void deliver(const Arguments& arguments, const Report& report) {
 
 void complainOf(const Report& report, int& exitCode) {
   if (!report.result) {
-    complain(report.mesh.name + ": " + name(report.result.error.status) + ": " + report.result.error.message);
+    complain(refusal(report.mesh.name, report.result.error));
     exitCode = kNotCut;
   }
   if (!report.validation || report.validation->pass) return;
@@ -142,11 +105,16 @@ int runCut(const Arguments& arguments) {
   const Mesh mesh = readInput(arguments.mesh);
   const MeshInfo info = inspect(mesh);
   const Grid grid = makeGrid(arguments.grid, mesh, info);
-  const CutResult result = cutWithProgress(arguments, mesh, grid);
+  const CutResult result = cutMesh(arguments, mesh, grid);
   Report report{{nameOf(arguments.mesh), info}, grid, result, peakMemoryBytes(), {}, {}};
   if (result) {
-    report.regionVolumes = regionVolumes(result.mesh, measure(mesh, result.mesh, {arguments.threads, nullptr}));
-    if (arguments.validate) report.validation = validate(mesh, result.mesh, {{arguments.threads, nullptr}, arguments.snapTolerance});
+    report.regionVolumes = withProgress(
+        arguments.threads, [&](const RunOptions& options) { return regionVolumes(result.mesh, measure(mesh, result.mesh, options)); });
+    if (arguments.validate) {
+      report.validation = withProgress(arguments.threads, [&](const RunOptions& options) {
+        return validate(mesh, result.mesh, {options, arguments.snapTolerance});
+      });
+    }
   }
   int exitCode = kFine;
   complainOf(report, exitCode);

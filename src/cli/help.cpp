@@ -6,6 +6,8 @@ const char* const kHelp =
     R"(mandoline cuts a triangle mesh with a Cartesian grid into polyhedral cut-cells.
 
   mandoline cut MESH [options]      cut, and print a report
+  mandoline slice MESH [options] -o FILE ...
+                                    write outlines at heights, as .svg, .dxf or .obj
   mandoline info MESH [--report F]  tell what kind of mesh it is
   mandoline make SHAPE -o FILE ...  write a made mesh: box, sphere, torus or torus-knot,
                                     as .obj, .stl, .ply or .off
@@ -48,6 +50,17 @@ Options of cut
                          then the whole boundary of each region, oriented out of it
   --format EXTENSION     what -o - writes to standard output; the text of the report then
                          goes to standard error
+
+Options of slice, beside those of the grid, --snap-tolerance and --threads
+  --axis x|y|z, --normal X,Y,Z
+                         what the planes are perpendicular to (default: z)
+  --heights H1,H2,...    their distances from the origin, along the normal
+  --layers N             instead of heights: the middle planes of N equal layers of the mesh
+  --only inside|outside|region=K
+                         which regions have outlines (default: inside; of meshes without
+                         winding numbers all). Sheets are open lines
+  -o FILE ...            .svg seen against the normal, .dxf and .obj lines in space; all in
+                         the units of the mesh
 
 Options of cut and info
   --report FILE          write the report as JSON instead of text; - for standard output.

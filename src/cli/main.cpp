@@ -37,7 +37,7 @@ int run(const std::vector<std::string>& words) {
     case Command::cut:
       return runCut(arguments);
     case Command::slice:
-      break;
+      return runSlice(arguments);
     case Command::info:
       return runInfo(arguments);
     case Command::make:

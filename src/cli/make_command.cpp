@@ -20,7 +20,7 @@ int runMake(const Arguments& arguments) {
   for (const std::string& output : arguments.outputs) {
     files.push_back({"-o", output});
     const std::optional<FileFormat> format = output == "-" ? arguments.format : formatOf(output);
-    if (!format || *format == FileFormat::json || *format == FileFormat::vtu) {
+    if (!format || !isMeshFormat(*format)) {
       throw UsageError(output + ": a mesh is written as .obj, .stl, .ply or .off");
     }
   }

@@ -108,6 +108,27 @@ void parseOnly(const std::string& word, OnlyArguments& only) {
   }
 }
 
+void parseAxis(const std::string& word, SliceArguments& slice) {
+  const size_t axis = std::string_view("xyz").find(word);
+  if (word.size() != 1 || axis == std::string_view::npos) throw UsageError("--axis needs x, y or z, not '" + word + "'");
+  slice.normal = {0, 0, 0};
+  slice.normal[axis] = 1;
+}
+
+void parseNormal(const std::string& word, SliceArguments& slice) {
+  slice.normal = parseVector("--normal", "X,Y,Z", word);
+  if (slice.normal == std::array<double, 3>{}) throw UsageError("--normal needs a vector that is not zero");
+}
+
+void parseHeights(const std::string& word, SliceArguments& slice) {
+  slice.heights = parseList<double>(word);
+  if (slice.heights.empty() || !areFinite(slice.heights)) throw UsageError("--heights needs H1,H2,..., not '" + word + "'");
+}
+
+void parseLayers(const std::string& word, SliceArguments& slice) {
+  if (!parseNumber(word, slice.layers) || slice.layers < 1) throw UsageError("--layers needs a number of layers, not '" + word + "'");
+}
+
 void checkGrid(const GridArguments& grid) {
   if ((grid.box.has_value() + grid.planes.has_value() + (grid.origin || grid.spacing)) > 1) {
     throw UsageError("only one of --box, --planes, and --origin with --spacing");
@@ -115,6 +136,11 @@ void checkGrid(const GridArguments& grid) {
   if (grid.planes && grid.cells) throw UsageError("--planes tells the number of cells, so there can be no --cells");
   if (grid.origin.has_value() != grid.spacing.has_value()) throw UsageError("--origin and --spacing need each other");
   if (grid.origin && !grid.cells) throw UsageError("--origin and --spacing need --cells");
+}
+
+void checkSlice(const SliceArguments& slice, const OnlyArguments& only) {
+  if (slice.heights.empty() == (slice.layers == 0)) throw UsageError("slice needs --heights or --layers");
+  if (only.cut) throw UsageError("--only cut: outlines have no cells");
 }
 
 }  // namespace mandoline::cli

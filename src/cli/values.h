@@ -39,8 +39,13 @@ void parseSpacing(const std::string& word, GridArguments& grid);
 /// Lists for x, y and z with a '/' between them, or '@' and a file with a list on each of three lines.
 void parsePlanes(const std::string& word, GridArguments& grid);
 void parseOnly(const std::string& word, OnlyArguments& only);
+void parseAxis(const std::string& word, SliceArguments& slice);
+void parseNormal(const std::string& word, SliceArguments& slice);
+void parseHeights(const std::string& word, SliceArguments& slice);
+void parseLayers(const std::string& word, SliceArguments& slice);
 
-/// Throws UsageError for options that don't go together.
+// They throw UsageError for options that don't go together.
 void checkGrid(const GridArguments& grid);
+void checkSlice(const SliceArguments& slice, const OnlyArguments& only);
 
 }  // namespace mandoline::cli

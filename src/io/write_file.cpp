@@ -14,7 +14,7 @@ void writeFile(const std::string& path, const Write& write) {
 
 void checkOutput(const std::string& path) {
   const std::optional<FileFormat> format = formatOf(path);
-  if (!format || *format == FileFormat::off) throw FileError(path + ": the extension must be .json, .vtu, .obj, .stl or .ply");
+  if (!format || !isCutMeshFormat(*format)) throw FileError(path + ": the extension must be .json, .vtu, .obj, .stl or .ply");
   detail::checkPlace(path);
 }
 
@@ -25,7 +25,7 @@ void writeCutMesh(const std::string& path, const MeshView& mesh, const CutMesh& 
 
 void writeMesh(const std::string& path, const MeshView& mesh) {
   const std::optional<FileFormat> format = formatOf(path);
-  if (!format || *format == FileFormat::json || *format == FileFormat::vtu) {
+  if (!format || !isMeshFormat(*format)) {
     throw FileError(path + ": the extension must be .obj, .stl, .ply or .off");
   }
   detail::checkPlace(path);

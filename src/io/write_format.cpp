@@ -1,27 +1,30 @@
-#include "io/output_buffer.h"
+#include <algorithm>
+#include <iterator>
+
+#include "mandoline/io.h"
 #include "mesh/read/text_cursor.h"
 
 namespace mandoline {
 namespace {
 
-constexpr FileFormat kFormats[] = {FileFormat::json, FileFormat::vtu, FileFormat::obj, FileFormat::stl, FileFormat::ply, FileFormat::off};
+constexpr const char* kNames[] = {"json", "vtu", "obj", "stl", "ply", "off", "svg", "dxf"};  // in the order of FileFormat
 
 }  // namespace
 
-const char* name(FileFormat format) {
-  constexpr const char* kNames[] = {"json", "vtu", "obj", "stl", "ply", "off"};
-  return kNames[size_t(format)];
-}
+const char* name(FileFormat format) { return kNames[size_t(format)]; }
 
 std::optional<FileFormat> formatOf(const std::string& path) {
   const size_t dot = path.find_last_of("./\\");
   if (dot == std::string::npos || path[dot] != '.') return std::nullopt;
   const std::string extension = detail::lowerCase(std::string_view(path).substr(dot + 1));
-  for (const FileFormat format : kFormats) {
-    if (extension == name(format)) return format;
-  }
-  return std::nullopt;
+  const auto found = std::find(std::begin(kNames), std::end(kNames), extension);
+  if (found == std::end(kNames)) return std::nullopt;
+  return FileFormat(found - std::begin(kNames));
 }
+
+bool isCutMeshFormat(FileFormat format) { return format <= FileFormat::ply; }
+bool isMeshFormat(FileFormat format) { return FileFormat::obj <= format && format <= FileFormat::off; }
+bool isOutlineFormat(FileFormat format) { return format == FileFormat::svg || format == FileFormat::dxf || format == FileFormat::obj; }
 
 void writeCutMesh(const Sink& sink, FileFormat format, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options) {
   switch (format) {
@@ -35,8 +38,8 @@ void writeCutMesh(const Sink& sink, FileFormat format, const MeshView& mesh, con
       return writeStl(sink, cutMesh, options);
     case FileFormat::ply:
       return writePly(sink, cutMesh, options);
-    case FileFormat::off:
-      throw FileError("cut-meshes can't be written as .off");
+    default:
+      throw FileError(std::string("cut-meshes can't be written as .") + name(format));
   }
 }
 

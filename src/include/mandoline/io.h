@@ -10,6 +10,7 @@
 
 #include "mandoline/mandoline.h"
 #include "mandoline/mesh_files.h"
+#include "mandoline/slice.h"
 
 namespace mandoline {
 
@@ -17,15 +18,21 @@ namespace mandoline {
 enum class FileFormat {
   json,  ///< every array of a cut-mesh
   vtu,   ///< polyhedra for VTK and ParaView
-  obj,   ///< a mesh, or the cut surface as polygons, one group per region
+  obj,   ///< a mesh, or the cut surface as polygons, one group per region, or outlines as lines in space
   stl,   ///< a mesh, or the cut surface; binary
   ply,   ///< a mesh, or the cut surface with the region of each triangle; binary
   off,   ///< a mesh
+  svg,   ///< outlines, seen against the normal
+  dxf,   ///< outlines as polylines in space, one layer per region
 };
 /// The extension, e.g. "json".
 const char* name(FileFormat format);
 /// The format by the extension of a path, in any case; nothing if there is none such.
 std::optional<FileFormat> formatOf(const std::string& path);
+/// What can be written so: a cut-mesh, a mesh, outlines.
+bool isCutMeshFormat(FileFormat format);
+bool isMeshFormat(FileFormat format);
+bool isOutlineFormat(FileFormat format);
 
 /// What of a cut-mesh is written.
 struct WriteOptions {
@@ -47,10 +54,19 @@ void writeVtu(const Sink& sink, const MeshView& mesh, const CutMesh& cutMesh, co
 void writeObj(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options = {});
 void writeStl(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options = {});
 void writePly(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options = {});
-/// A cut-mesh in any format but off. JSON always has everything. Throws FileError for off.
+/// A cut-mesh as json, vtu, obj, stl or ply. JSON always has everything. Throws FileError for the others.
 void writeCutMesh(const Sink& sink, FileFormat format, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options = {});
 /// A mesh as obj, stl, ply or off. Throws FileError for the others.
 void writeMesh(const Sink& sink, FileFormat format, const MeshView& mesh);
+
+/// Outlines in parallel planes.
+struct OutlineStack {
+  std::array<double, 3> normal;
+  std::vector<double> offsets;   ///< as for outlines()
+  std::vector<Outlines> layers;  ///< per offset
+};
+/// Those of the regions in svg, dxf or obj, in world units. Throws FileError for other formats.
+void writeOutlines(const Sink& sink, FileFormat format, const OutlineStack& stack, const WriteOptions& options = {});
 
 /// The same to streams, whose state tells of errors.
 void writeJson(std::ostream& out, const CutMesh& cutMesh);

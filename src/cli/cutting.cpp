@@ -1,0 +1,36 @@
+#include "cli/cutting.h"
+
+namespace mandoline::cli {
+
+CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const Grid& grid) {
+  return withProgress(arguments.threads, [&](const RunOptions& options) { return cut(mesh, grid, {options, arguments.snapTolerance}); });
+}
+
+WriteOptions writeOptions(const OnlyArguments& only, const CutMesh& cutMesh) {
+  WriteOptions options;
+  options.untouchedCells = !only.cut;
+  if ((only.inside || only.outside) && !cutMesh.hasWinding) {
+    throw UsageError("--only: the mesh is open or not consistently oriented, so that nothing is inside or outside");
+  }
+  if (!only.inside && !only.outside && only.regions.empty()) return options;
+  options.regions.assign(cutMesh.regionCount, only.regions.empty() ? 1 : 0);
+  for (const uint32_t r : only.regions) {
+    if (r >= cutMesh.regionCount) {
+      throw UsageError("--only: there is no region " + std::to_string(r) + "; there are " + std::to_string(cutMesh.regionCount));
+    }
+    options.regions[r] = 1;
+  }
+  for (uint32_t r = 0; r < cutMesh.regionCount; ++r) {
+    const bool isInside = cutMesh.hasWinding && cutMesh.regionWinding[r] != 0;
+    if ((only.inside && !isInside) || (only.outside && isInside)) options.regions[r] = 0;
+  }
+  return options;
+}
+
+FileFormat formatFor(const Arguments& arguments, const std::string& output) {
+  return output == "-" ? *arguments.format : *formatOf(output);
+}
+
+std::string refusal(const std::string& meshName, const Error& error) { return meshName + ": " + name(error.status) + ": " + error.message; }
+
+}  // namespace mandoline::cli
