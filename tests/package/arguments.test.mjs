@@ -105,7 +105,7 @@ const calls = {
   'write vtu': (wrong) => mandoline.write(mesh, wrong, 'vtu'),
   'write obj': (wrong) => mandoline.write(mesh, wrong, 'obj'),
 };
-const takesMesh = (name) => /validate|measure|cutEdges|write/.test(name);
+const takesMesh = (name) => /validate|measure|cutEdges|vtu/.test(name);
 const arrays = Object.keys(cutMesh).filter((key) => ArrayBuffer.isView(cutMesh[key]) && key !== 'gridCellRegion');
 
 for (const [name, call] of Object.entries(calls)) {

@@ -145,52 +145,29 @@ export function readFunction(value, name) {
   return value;
 }
 
-const cutMeshArrays = {
-  positions: 'Float64Array',
-  vertexCell: 'Int32Array',
-  vertexMask: 'Uint8Array',
-  vertexTriVertex: 'Int32Array',
-  vertexParents: 'Int32Array',
-  loopOffsets: 'Uint32Array',
-  loopVertices: 'Uint32Array',
-  faceLoopOffsets: 'Uint32Array',
-  faceTriangle: 'Int32Array',
-  faceAxis: 'Int8Array',
-  facePlane: 'Int32Array',
-  cellHalfFaceOffsets: 'Uint32Array',
-  cellHalfFaces: 'Uint32Array',
-  cellGridCell: 'Int32Array',
-  cellRegion: 'Uint32Array',
-  rowRunOffsets: 'Uint32Array',
-  runBegin: 'Int32Array',
-  runEnd: 'Int32Array',
-  runRegion: 'Uint32Array',
-  droppedTriangles: 'Uint32Array',
-};
-
-function readId(value, name) {
+/** An id; whether there is such an element is up to C++. */
+export function readId(value, name) {
   if (expectInteger(value, name) < 0 || value >= 2 ** 32) throw bad(`${name} is ${value}, which is out of range.`);
   return value;
 }
 
-/** The arrays with the right types; whether their lengths and ids fit together is up to C++. */
-export function readCutMesh(cutMesh) {
+/**
+ * The arrays that the module says a cut-mesh has ({ name, type, optional } each), with the right types; whether their lengths and ids fit
+ * together is up to C++.
+ */
+export function readCutMesh(cutMesh, arrays) {
   expectObject(cutMesh, 'cutMesh');
   expectObject(cutMesh.grid, 'cutMesh.grid');
   const result = {
     grid: readPlanes(cutMesh.grid, 'cutMesh.grid'),
     regionCount: readId(cutMesh.regionCount, 'cutMesh.regionCount'),
-    regionWinding: cutMesh.regionWinding === null ? null : expectTypedArray(cutMesh.regionWinding, 'Int32Array', 'cutMesh.regionWinding'),
     triangleCount: readId(cutMesh.triangleCount, 'cutMesh.triangleCount'),
   };
-  for (const [key, type] of Object.entries(cutMeshArrays)) result[key] = expectTypedArray(cutMesh[key], type, `cutMesh.${key}`);
+  for (const { name, type, optional } of arrays) {
+    const value = cutMesh[name];
+    result[name] = optional && value === null ? null : expectTypedArray(value, type, `cutMesh.${name}`);
+  }
   return result;
-}
-
-/** The id of a cut-cell or region below `count`. */
-export function readElement(value, name, count) {
-  if (readId(value, name) >= count) throw bad(`${name} is ${value}, but there are only ${count}.`, 'badArgument', value);
-  return value;
 }
 
 export function readPoints(points) {

@@ -1,6 +1,7 @@
 import { makeApi } from './api.js';
 import { readOptions } from './arguments.js';
 import { named } from './errors.js';
+import { Host } from './host.js';
 import { compile } from './load.js';
 
 export { MandolineError, describe } from './errors.js';
@@ -10,7 +11,7 @@ let started;
 async function start(options) {
   const { wasm } = named('init', readOptions)(options);
   const module = await compile(wasm);
-  return { module, api: makeApi(module) };
+  return { module, api: makeApi(new Host(module)) };
 }
 
 function begin(options) {

@@ -2,12 +2,14 @@ import { MandolineError } from './errors.js';
 
 /**
  * Jobs done one after another by a thread, which is replaced when it has to be stopped or dies. A job is
- * { message, transfer, onProgress, resolve, reject }; the first job of every thread is to start the compiled module.
+ * { call, message, pack, onProgress, resolve, reject }: pack(message, twins) gives { message, transfer } for a thread that has these twins of
+ * cut-meshes, by their ids. The first job of every thread is to start the compiled module.
  */
 export class JobQueue {
   #startThread;
   #module;
   #thread = null;
+  #twins = new Set(); // in the thread, as far as is known here
   #running = null;
   #waiting = [];
   #ended = false;
@@ -23,9 +25,17 @@ export class JobQueue {
   }
 
   add(job) {
-    if (this.#ended) return job.reject(new MandolineError('cancelled', 'The worker was terminated.', { stage: job.message.call }));
+    if (this.#ended) return job.reject(new MandolineError('cancelled', 'The worker was terminated.', { stage: job.call }));
     this.#waiting.push(job);
     this.#next();
+  }
+
+  hasTwin(id) {
+    return this.#twins.has(id);
+  }
+
+  freeTwin(id) {
+    if (this.#twins.delete(id)) this.#thread.post({ forget: id });
   }
 
   /** Rejects the job with the error: it leaves the queue or, if it runs, its thread is replaced. Nothing happens if the job is done. */
@@ -46,15 +56,18 @@ export class JobQueue {
     const jobs = [this.#running, ...this.#waiting].filter(Boolean);
     this.#dismiss();
     this.#waiting = [];
-    for (const job of jobs) job.reject(new MandolineError('cancelled', 'The worker was terminated.', { stage: job.message.call }));
+    for (const job of jobs) job.reject(new MandolineError('cancelled', 'The worker was terminated.', { stage: job.call }));
   }
 
   #launch(resolve = () => {}, reject = () => {}) {
     const isCurrent = () => this.#thread === thread;
     const job = {
-      message: { call: 'init', module: this.#module },
+      call: 'init',
+      message: { module: this.#module },
+      pack: (message) => ({ message }),
       resolve,
-      reject: (error) => {
+      reject: (cause) => {
+        const error = cause instanceof MandolineError ? cause : loadFailure(cause.message, cause);
         this.#dismiss();
         this.#waiting.splice(0).forEach((other) => other.reject(error));
         reject(error);
@@ -69,7 +82,7 @@ export class JobQueue {
       this.#thread = thread;
       this.#perform(job);
     } catch (cause) {
-      job.reject(cause instanceof MandolineError ? cause : loadFailure(cause.message, cause));
+      job.reject(cause);
     }
   }
 
@@ -83,21 +96,39 @@ export class JobQueue {
   #perform(job) {
     this.#running = job;
     this.#thread.hold(true);
-    this.#thread.post(job.message, job.transfer);
+    try {
+      const { message, transfer } = job.pack(job.message, this.#twins);
+      this.#thread.post(message, transfer);
+    } catch (error) {
+      this.#settle(() => job.reject(error));
+    }
   }
 
-  #receive({ type, value, error }) {
+  #receive({ type, value, kept, error, message }) {
     if (type === 'progress') this.#progress(value);
-    else if (type === 'result') this.#settle((job) => job.resolve(value));
+    else if (type === 'missing') this.#repeat(message);
+    else if (type === 'result') this.#settle((job) => this.#resolve(job, value, kept));
     else if (type === 'thrown') this.#settle((job) => job.reject(value));
     else this.#settle((job) => job.reject(new MandolineError(error.code, error.message, error)));
+  }
+
+  #resolve(job, value, kept) {
+    if (kept !== undefined) this.#twins.add(kept);
+    job.resolve({ value, twin: kept });
+  }
+
+  /** After the thread gave the message back, because it no longer has the twin that this names. */
+  #repeat(message) {
+    this.#twins.delete(message.cutMesh.id);
+    this.#running.message = message;
+    this.#perform(this.#running);
   }
 
   #progress(value) {
     const job = this.#running;
     try {
       if (job.onProgress(value) !== false) return;
-      this.stop(job, new MandolineError('cancelled', 'The call was cancelled.', { stage: value?.stage ?? job.message.call }));
+      this.stop(job, new MandolineError('cancelled', 'The call was cancelled.', { stage: value?.stage ?? job.call }));
     } catch (error) {
       this.stop(job, error);
     }
@@ -114,8 +145,8 @@ export class JobQueue {
   #mourn(reason) {
     const job = this.#running;
     this.#dismiss();
-    if (job?.message.call === 'init') job.reject(loadFailure(reason));
-    else job?.reject(new MandolineError('internalError', `The worker died: ${reason}.`, { stage: job.message.call }));
+    if (job?.call === 'init') job.reject(loadFailure(reason));
+    else job?.reject(new MandolineError('internalError', `The worker died: ${reason}.`, { stage: job.call }));
     this.#next();
   }
 
@@ -124,6 +155,7 @@ export class JobQueue {
     const thread = this.#thread;
     this.#thread = null;
     this.#running = null;
+    this.#twins.clear();
     thread?.terminate();
   }
 }

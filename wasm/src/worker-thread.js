@@ -3,6 +3,7 @@
 import { makeApi } from './api.js';
 import { buffersOf } from './buffers.js';
 import { MandolineError } from './errors.js';
+import { Host } from './host.js';
 
 const extraCalls = new Map();
 
@@ -14,17 +15,51 @@ export function serve(calls = {}) {
   for (const [name, call] of Object.entries(calls)) extraCalls.set(name, call);
 }
 
+/** By its name, since a script of the user's may have its class from another copy of the package. */
+const isMandolineError = (error) => error?.name === 'MandolineError' && typeof error.code === 'string';
+
 /** An error as plain data, since a clone of a MandolineError would lose all but its message. */
 function plainError(error, call) {
-  if (!(error instanceof MandolineError)) return { code: 'internalError', message: String(error?.message ?? error), stage: call };
+  if (!isMandolineError(error)) return { code: 'internalError', message: String(error?.message ?? error), stage: call };
   const { code, message, stage, element, element2 } = error;
   return { code, message, stage: stage || call, element, element2 };
+}
+
+/**
+ * The cut-meshes of the page that have twins here, by the ids that the page gives them. Their arrays are the page's: what is kept of them is
+ * the empty object that the twin is found by.
+ */
+class Shells {
+  #host;
+  #objects = new Map();
+
+  constructor(host) {
+    this.#host = host;
+  }
+
+  find(id) {
+    return this.#objects.get(id);
+  }
+
+  /** Empties the object. */
+  keep(id, object) {
+    for (const key of Object.keys(object)) delete object[key];
+    this.#objects.set(id, object);
+    for (const [other, shell] of this.#objects) if (!this.#host.hasTwin(shell)) this.#objects.delete(other);
+  }
+
+  free(id) {
+    this.#host.freeTwin(this.#objects.get(id));
+    this.#objects.delete(id);
+  }
 }
 
 /** Answers jobs through `post`. */
 class Answering {
   #post;
+  #host;
   #mandoline;
+  #shells;
 
   constructor(post) {
     this.#post = post;
@@ -32,29 +67,46 @@ class Answering {
 
   async answer(job) {
     try {
-      await (job.call === 'init' && !job.extra ? this.#start(job) : this.#call(job));
+      if (job.module) this.#start(job);
+      else if (job.forget !== undefined) this.#shells.free(job.forget);
+      else if (job.extra) this.#send(job, await this.#extra(job));
+      else await this.#own(job);
     } catch (error) {
       this.#fail(error, job);
     }
   }
 
   #start({ module }) {
-    this.#mandoline = makeApi(module);
+    this.#host = new Host(module);
+    this.#mandoline = makeApi(this.#host);
+    this.#shells = new Shells(this.#host);
     this.#post({ type: 'result' });
   }
 
-  async #call(job) {
-    const value = await (job.extra ? this.#extra(job) : this.#own(job));
+  async #own(job) {
+    const { call, args, options, progress, cutMesh } = job;
+    const { argument, inputs } = this.#inputs(job);
+    const given = progress ? { ...options, progress: (value) => this.#post({ type: 'progress', value }) } : options;
     try {
-      this.#post({ type: 'result', value }, buffersOf(value));
-    } catch (cause) {
-      throw new MandolineError('internalError', `What the call gives can't be sent: ${cause.message}`, { stage: job.call, cause });
+      const value = await this.#mandoline[call](...inputs, given);
+      const subject = argument ?? value;
+      const kept = cutMesh && this.#host.hasTwin(subject) ? cutMesh.id : undefined;
+      this.#send(job, value, kept);
+      if (kept !== undefined) this.#shells.keep(kept, subject);
+    } catch (error) {
+      const isMissing = cutMesh?.at !== undefined && !cutMesh.data && error.code === 'badArgument' && !this.#host.hasTwin(argument);
+      if (!isMissing) throw error;
+      this.#post({ type: 'missing', message: job }, buffersOf(args));
     }
   }
 
-  #own({ call, args, options, progress }) {
-    if (progress) options.progress = (value) => this.#post({ type: 'progress', value });
-    return this.#mandoline[call](...args, options);
+  /** The arguments with the cut-mesh: one that has its twin here or comes with its data, else nothing. */
+  #inputs({ args, cutMesh }) {
+    if (cutMesh?.at === undefined) return { inputs: args };
+    const shell = this.#shells.find(cutMesh.id);
+    const argument = this.#host.hasTwin(shell) ? shell : cutMesh.data;
+    if (argument && argument === cutMesh.data) this.#host.adopt(argument);
+    return { argument, inputs: args.with(cutMesh.at, argument) };
   }
 
   #extra({ call, args, progress }) {
@@ -63,10 +115,18 @@ class Answering {
     return run(this.#mandoline, args, { progress: (value) => progress && this.#post({ type: 'progress', value }) });
   }
 
+  #send({ call }, value, kept) {
+    try {
+      this.#post({ type: 'result', value, kept }, buffersOf(value));
+    } catch (cause) {
+      throw new MandolineError('internalError', `What the call gives can't be sent: ${cause.message}`, { stage: call, cause });
+    }
+  }
+
   /** What the package throws stays a MandolineError; what an extra call throws arrives as a clone. */
   #fail(error, job) {
     try {
-      if (job.extra && !(error instanceof MandolineError)) return this.#post({ type: 'thrown', value: error });
+      if (job.extra && !isMandolineError(error)) return this.#post({ type: 'thrown', value: error });
     } catch {} // that can't be cloned
     this.#post({ type: 'error', error: plainError(error, job.call) });
   }

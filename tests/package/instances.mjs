@@ -1,0 +1,28 @@
+// Instances of WebAssembly are private to the package, so they are caught where they are made; and what they import can be made to fail.
+// To be imported before the package.
+export const memories = [];
+
+let failure;
+
+/** The next import that an instance calls throws this. */
+export function failNext(error) {
+  failure = error;
+}
+
+export const memorySize = () => memories.at(-1).buffer.byteLength;
+
+const { Instance } = WebAssembly;
+
+const sabotaged = (imported) => (...values) => {
+  if (!failure) return imported(...values);
+  const error = failure;
+  failure = undefined;
+  throw error;
+};
+
+WebAssembly.Instance = function (module, imports) {
+  const wrapped = Object.entries(imports).map(([name, all]) => [name, Object.fromEntries(Object.entries(all).map(([key, f]) => [key, sabotaged(f)]))]);
+  const instance = new Instance(module, Object.fromEntries(wrapped));
+  memories.push(Object.values(instance.exports).find((value) => value instanceof WebAssembly.Memory));
+  return instance;
+};

@@ -1,0 +1,123 @@
+import { buffersOf, clone } from './buffers.js';
+import { MandolineError } from './errors.js';
+
+/** The package's calls with their numbers of arguments before the options, and which of these is the cut-mesh. */
+const calls = {
+  cut: { count: 2 },
+  validate: { count: 2, at: 1 },
+  measure: { count: 2, at: 1 },
+  cutEdges: { count: 2, at: 1 },
+  adjacency: { count: 1, at: 0 },
+  triangulate: { count: 2, at: 0 },
+  cellAt: { count: 2, at: 0 },
+  cellsAt: { count: 2, at: 0 },
+  slice: { count: 2, at: 0 },
+  write: { count: 3, at: 1 },
+  readMesh: { count: 1 },
+};
+
+export const callNames = Object.keys(calls);
+
+const isObject = (value) => typeof value === 'object' && value !== null;
+const bad = (call, message, cause) => new MandolineError('badArgument', message, { stage: call, cause });
+
+/** The options of the call itself, and those that stay here. */
+function splitOptions(call, options = {}) {
+  if (!isObject(options)) return { transfer: [], options }; // the call says what it is not
+  const { signal, transfer = [], ...own } = options;
+  if (signal !== undefined && !(signal instanceof AbortSignal)) throw bad(call, 'options.signal must be an AbortSignal.');
+  if (!Array.isArray(transfer)) throw bad(call, 'options.transfer must be an array.');
+  if (typeof own.progress !== 'function') return { signal, transfer, options: own };
+  const { progress, ...rest } = own;
+  return { signal, transfer, onProgress: progress, options: rest };
+}
+
+/** A cut-mesh without gridCellRegion, which no call reads and which may be large. */
+function lean(argument) {
+  if (!isObject(argument) || !('gridCellRegion' in argument)) return argument;
+  const { gridCellRegion, ...rest } = argument;
+  return rest;
+}
+
+/** Copies of the values as they are now, so that neither the queue nor the worker sees later changes. */
+function copied(call, values, transfer = []) {
+  try {
+    return clone(values, transfer);
+  } catch (cause) {
+    throw bad(call, `The arguments can't be given to the worker: ${cause.message}`, cause);
+  }
+}
+
+/** What the thread is sent: the cut-mesh that the message names by its id goes along unless there is a twin of it. */
+function pack(message, twins, cutMesh) {
+  const named = message.cutMesh;
+  if (named?.at !== undefined && !twins.has(named.id)) named.data ??= copied(message.call, lean(cutMesh));
+  return { message, transfer: buffersOf([message.args, named?.data]) }; // of the copies: they go on to the thread
+}
+
+/** Puts calls into a queue of jobs, and knows the results whose twins may be in its thread. */
+export class Calls {
+  #queue;
+  #ids = new WeakMap(); // of results
+  #count = 0;
+  #collected = new FinalizationRegistry((id) => this.#queue.freeTwin(id));
+
+  constructor(queue) {
+    this.#queue = queue;
+  }
+
+  /** A call of the package, with what it was given. */
+  own(call, given) {
+    const { count, at } = calls[call];
+    const args = Array.from({ length: count }, (_, i) => given[i]);
+    return this.#perform({ call, args, at }, given[count]);
+  }
+
+  /** A call that the thread's script serves. */
+  extra(call, args, options) {
+    return this.#perform({ call, args, extra: true }, options);
+  }
+
+  async #perform(asked, given) {
+    const { call, args } = asked;
+    if (!Array.isArray(args)) throw bad(call, 'The arguments of a call must be an array.');
+    const split = splitOptions(call, given);
+    const { signal, onProgress } = split;
+    const cancellation = () => new MandolineError('cancelled', 'The call was cancelled.', { stage: call, cause: signal.reason });
+    if (signal?.aborted) throw cancellation();
+    const message = this.#message(asked, split);
+    const job = { call, onProgress, message, pack: (packed, twins) => pack(packed, twins, args[asked.at]) };
+    const abort = () => this.#queue.stop(job, cancellation());
+    signal?.addEventListener('abort', abort);
+    try {
+      const { value, twin } = await new Promise((resolve, reject) => {
+        this.#queue.add(Object.assign(job, { resolve, reject }));
+      });
+      if (twin !== undefined && asked.at === undefined) this.#note(value, twin);
+      return value;
+    } finally {
+      signal?.removeEventListener('abort', abort);
+    }
+  }
+
+  /** `cutMesh` in a message: { id, at, data } of an argument that is a result of this queue, { id } of the result of a cut. */
+  #message({ call, args, extra, at }, { options, transfer, onProgress }) {
+    const message = { call, extra, args, options, progress: onProgress !== undefined };
+    const id = this.#ids.get(args[at]);
+    if (id !== undefined) {
+      const isMoved = buffersOf(args[at]).some((buffer) => transfer.includes(buffer));
+      const data = isMoved || !this.#queue.hasTwin(id) ? lean(args[at]) : undefined;
+      Object.assign(message, { args: args.with(at, undefined), cutMesh: { id, at, data } });
+    } else if (at !== undefined) {
+      message.args = args.with(at, lean(args[at]));
+    } else if (call === 'cut' && !extra) {
+      message.cutMesh = { id: ++this.#count };
+    }
+    return copied(call, message, transfer);
+  }
+
+  #note(result, id) {
+    this.#ids.set(result, id);
+    this.#collected.register(result, id);
+  }
+}

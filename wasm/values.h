@@ -1,0 +1,76 @@
+// Arrays, small values and errors between C++ and JavaScript.
+#pragma once
+
+#include <emscripten/val.h>
+
+#include <array>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "mandoline/io.h"
+
+namespace mandoline::wasm {
+
+using emscripten::val;
+
+/// The name of the typed array that holds such numbers.
+template <class Number>
+constexpr const char* arrayType() {
+  if constexpr (std::is_same_v<Number, double>) return "Float64Array";
+  if constexpr (std::is_same_v<Number, uint32_t>) return "Uint32Array";
+  if constexpr (std::is_same_v<Number, int32_t>) return "Int32Array";
+  if constexpr (std::is_same_v<Number, int8_t>) return "Int8Array";
+  if constexpr (std::is_same_v<Number, uint8_t>) return "Uint8Array";
+}
+
+/// A typed array that owns its memory: the items are copied once.
+template <class Number>
+val toArray(const std::vector<Number>& items) {
+  return val(emscripten::typed_memory_view(items.size(), items.data())).template call<val>("slice");
+}
+
+template <class Number>
+void readArray(const val& array, std::vector<Number>& items) {
+  items.resize(array["length"].as<size_t>());
+  val(emscripten::typed_memory_view(items.size(), items.data())).call<void>("set", array);
+}
+
+template <class Number>
+std::array<Number, 3> readTriple(const val& triple) {
+  std::array<Number, 3> result;
+  for (int d = 0; d < 3; ++d) result[d] = Number(triple[d].as<double>());
+  return result;
+}
+
+template <class Number>
+val toTriple(const std::array<Number, 3>& triple) {
+  val result = val::array();
+  for (int d = 0; d < 3; ++d) result.set(d, double(triple[d]));
+  return result;
+}
+
+val success(const val& value);
+val failure(const Error& error, const val& stage = val::undefined());
+val failure(const char* code, const std::string& message);
+
+/// What f() gives, or the error for what it throws.
+template <class F>
+val guarded(const F& f) {
+  try {
+    return f();
+  } catch (const std::bad_alloc&) {
+  } catch (const std::length_error&) {
+  } catch (const CallError& exception) {
+    return failure(exception.error);
+  } catch (const FileError& exception) {
+    return failure("badFile", std::string(exception.what()) + ".");
+  } catch (const std::exception& exception) {
+    return failure(name(Status::internalError), exception.what());
+  }
+  return failure(name(Status::outOfMemory), "There is not enough memory for this call.");
+}
+
+}  // namespace mandoline::wasm
