@@ -74,9 +74,22 @@ export interface CutOptions {
   progress?: (progress: Progress) => boolean | void;
   /** Whether the result has `gridCellRegion`, which takes 4 bytes per grid cell; the runs say the same in less. Default true. */
   gridCellRegion?: boolean;
+  /**
+   * Whether the module keeps a copy of the result, its twin, so that calls on the result need not read and check its arrays. Default true.
+   * See CutMesh.
+   */
+  keep?: boolean;
 }
 
-/** The cut-mesh. Half-face = 2 * face + side; side 0: the face's normal points out of the cell, side 1: into it. */
+/**
+ * The cut-mesh. Half-face = 2 * face + side; side 0: the face's normal points out of the cell, side 1: into it.
+ *
+ * The module keeps a twin of what cut() gives, and calls that are given that same object work on the twin: they don't read its arrays, so
+ * they also work when these were transferred elsewhere, and take no notice of what was written into them. A copy (`{ ...cutMesh }`, a clone,
+ * what another worker gave) is data of its own, read and checked by every call. Twins go with their results when garbage is collected;
+ * those used longest ago also when there are more than 16 of them or more than 256 MB, and all when the module runs out of memory. A
+ * result whose twin is gone is read once more and then has one again. `cut(..., { keep: false })` keeps none.
+ */
 export interface CutMesh {
   grid: Grid;
 
