@@ -141,7 +141,7 @@ for (const [name, call] of Object.entries(calls)) {
       if (name === 'validate') {
         assert.equal(call(damaged).pass, false, key);
       } else {
-        assertBad(() => call(damaged), /don't fit together|there are only/);
+        assertBad(() => call(damaged), /don't fit together|there are only|is not the one that the cut-mesh was made from/);
       }
     }
     assert.ok(call(cutMesh)); // the instance lives
@@ -201,7 +201,7 @@ test('what is asked of a cut-mesh', () => {
 
 test('a mesh that is not the one that was cut', () => {
   for (const call of [mandoline.measure, mandoline.cutEdges, (other, cut) => mandoline.write(other, cut, 'vtu')]) {
-    assertBad(() => call(torus(8, 8), cutMesh), /triangleCount/);
+    assertBad(() => call(torus(8, 8), cutMesh), /is not the one that the cut-mesh was made from/);
   }
   assert.equal(mandoline.validate(torus(8, 8), cutMesh).pass, false);
 });
