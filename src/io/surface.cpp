@@ -28,8 +28,8 @@ void forEachListing(const Selection& selection, const Visit& visit) {
 
 }  // namespace
 
-Surface surfaceOf(const Selection& selection) {
-  Surface surface;
+WrittenSurface surfaceOf(const Selection& selection) {
+  WrittenSurface surface;
   surface.regionOffsets.assign(size_t(selection.cutMesh().regionCount) + 1, 0);
   forEachListing(selection, [&](uint32_t region, uint32_t) { ++surface.regionOffsets[region + 1]; });
   for (size_t r = 1; r < surface.regionOffsets.size(); ++r) surface.regionOffsets[r] += surface.regionOffsets[r - 1];
@@ -44,7 +44,7 @@ Surface surfaceOf(const Selection& selection) {
 
 SurfaceTriangles triangulateSurface(const Selection& selection) {
   const CutMesh& m = selection.cutMesh();
-  const Surface surface = surfaceOf(selection);
+  const WrittenSurface surface = surfaceOf(selection);
   const FaceTriangles faces = triangulateFaces(m);
   constexpr uint32_t kUnused = ~0u;
   std::vector<uint32_t> number(m.vertexCount(), kUnused);

@@ -8,7 +8,7 @@ namespace mandoline::detail {
 /// Pieces of triangles by the region that lists them. Of all regions each face is listed once: by the one behind it, which an outward
 /// oriented surface encloses, or by the one in front where the grid ends behind it. Of some regions each lists its whole boundary,
 /// oriented out of it.
-struct Surface {
+struct WrittenSurface {
   std::vector<uint32_t> regionOffsets;  ///< into halfFaces
   std::vector<uint32_t> halfFaces;      ///< 2 * face + side; side 1: the face is turned around
 
@@ -16,7 +16,7 @@ struct Surface {
     return {halfFaces.data() + regionOffsets[region], regionOffsets[region + 1] - regionOffsets[region]};
   }
 };
-Surface surfaceOf(const Selection& selection);
+WrittenSurface surfaceOf(const Selection& selection);
 
 /// The surface in triangles, with those vertices only that it has.
 struct SurfaceTriangles {

@@ -10,7 +10,7 @@ class ObjWriter {
  public:
   ObjWriter(const Sink& sink, const CutMesh& cutMesh) : out_(sink), cutMesh_(cutMesh), polygons_(cutMesh), number_(cutMesh.vertexCount()) {}
 
-  void write(const Surface& surface) {
+  void write(const WrittenSurface& surface) {
     for (uint32_t r = 0; r < cutMesh_.regionCount; ++r) {
       if (surface.of(r).empty()) continue;
       out_.text("g region_");
