@@ -116,6 +116,45 @@ test('a slice has the polygons of all cells', () => {
   assert.deepEqual(areas(mandoline.slice(cut, { normal: [0, 0, 2], offset: 2.5 }, { untouched: false })), [1, 3]);
 });
 
+test('slices of parallel planes are those of single calls, in their order', () => {
+  const cut = mandoline.cut(cube, grid);
+  const offsets = [1.7, 0.6, 1, 9];
+  const slices = mandoline.slices(cut, [0, 0, 1], offsets, { untouched: false });
+  assert.deepEqual(slices, offsets.map((offset) => mandoline.slice(cut, { normal: [0, 0, 1], offset }, { untouched: false })));
+  assert.deepEqual(mandoline.slices(cut, [0, 0, 1], []), []);
+});
+
+test('an outline has no seams between cells', () => {
+  const cut = mandoline.cut(cube, grid);
+  const [outlines, beside] = mandoline.outlines(cut, [0, 0, 1], [0.7, 9]);
+  const inside = outlines.polygonRegion.indexOf(cut.regionWinding.indexOf(1));
+  const [first, last] = [outlines.polygonLoopOffsets[inside], outlines.polygonLoopOffsets[inside + 1]];
+  assert.equal(last - first, 1);
+  const loop = outlines.loopPoints.subarray(outlines.loopOffsets[first], outlines.loopOffsets[last]);
+  const at = [...loop].map((p) => [...outlines.positions.subarray(3 * p, 3 * p + 3)]);
+  for (const [x, y, z] of at) assert.ok(z === 0.7 && (x === 0.5 || x === 1.5 || y === 0.5 || y === 1.5));
+  const area = at.reduce((sum, [x, y], i) => sum + (x * at[(i + 1) % at.length][1] - at[(i + 1) % at.length][0] * y) / 2, 0);
+  assert.ok(Math.abs(area - 1) < 1e-12);
+  assert.equal(outlines.slitRegion.length, 0);
+  assert.equal(beside.polygonRegion.length, 0);
+});
+
+test('measuring and validating tell their progress and can be cancelled', () => {
+  const mesh = torus(60, 30);
+  const cut = mandoline.cut(mesh, { cells: 20 });
+  for (const name of ['measure', 'validate']) {
+    const seen = [];
+    const whole = mandoline[name](mesh, cut, { progress: (state) => { seen.push(state); } });
+    assert.deepEqual(whole, mandoline[name](mesh, cut));
+    assert.ok(seen.length > 0 && seen.every(({ done, total, stageIndex, stageCount }) => done <= total && stageIndex < stageCount), name);
+    assert.throws(() => mandoline[name](mesh, cut, { progress: () => false }), { code: 'cancelled', stage: name });
+    const own = new Error('mine');
+    assert.throws(() => mandoline[name](mesh, cut, { progress() { throw own; } }), (error) => error === own);
+    const many = () => { for (let i = 0; i < 20; ++i) mandoline.cut(cube, grid); };
+    assert.deepEqual(mandoline[name](mesh, mandoline.cut(mesh, { cells: 20 }), { progress: many }), whole); // while its twin is let go
+  }
+});
+
 test('a cube that is a grid cell', () => {
   const aligned = box([1, 1, 1], [2, 2, 2]);
   const cut = mandoline.cut(aligned, { origin: [0, 0, 0], spacing: [1, 1, 1], cells: [3, 3, 3] });

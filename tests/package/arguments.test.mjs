@@ -175,10 +175,10 @@ test('damaged entries are judged, never followed', () => {
 
 test('what is asked of a cut-mesh', () => {
   const cases = [
-    [() => mandoline.triangulate(cutMesh, { cell: 16 }), /^cell is 16, but there are only 16/],
+    [() => mandoline.triangulate(cutMesh, { cell: 16 }), /^There is no cut-cell 16: there are 16/],
     [() => mandoline.triangulate(cutMesh, { cell: -1 }), /^cell/],
     [() => mandoline.triangulate(cutMesh, { cell: 0.5 }), /^cell/],
-    [() => mandoline.triangulate(cutMesh, { region: 2 }), /^region is 2, but there are only 2/],
+    [() => mandoline.triangulate(cutMesh, { region: 2 }), /^There is no region 2/],
     [() => mandoline.triangulate(cutMesh, { cell: 0, region: 0 }), /\{ cell \} or \{ region \}/],
     [() => mandoline.triangulate(cutMesh, {}), /\{ cell \} or \{ region \}/],
     [() => mandoline.triangulate(cutMesh, null), /\{ cell \} or \{ region \}/],

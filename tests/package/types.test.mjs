@@ -64,9 +64,11 @@ test('results', () => {
     ['Locations', mandoline.cellsAt(cutMesh, [1, 1, 1])],
     ['Location | null', mandoline.cellAt(cutMesh, [1, 1, 1])],
     ['Slice', mandoline.slice(cutMesh, { normal: [0, 0, 1], offset: 1 })],
+    ['Slice[]', mandoline.slices(cutMesh, [0, 0, 1], [1])],
+    ['Outlines[]', mandoline.outlines(cutMesh, [0, 0, 1], [1])],
     ['Uint8Array', mandoline.write(mesh, cutMesh, 'obj')],
   ];
-  const types = 'CutMesh, Progress, Measures, CutEdges, Adjacency, FaceTriangles, Validation, Locations, Location, Slice';
+  const types = 'CutMesh, Progress, Measures, CutEdges, Adjacency, FaceTriangles, Validation, Locations, Location, Slice, Outlines';
   const checks = results.map(([type, value], i) => `export const result${i}: ${type} = ${literal(value)};`);
   assertCompiles([`import type { ${types} } from 'mandoline-wasm';`, ...checks].join('\n'));
   assert.throws(() => compile(`import type { CutEdges } from 'mandoline-wasm';\nexport const wrong: CutEdges = ${literal({ edgeVertices: new Uint32Array() })};`));
@@ -79,7 +81,8 @@ test('the calls and the exports of every entry', async () => {
     import type * as index from 'mandoline-wasm';
     import type * as worker from 'mandoline-wasm/worker';
     import type * as three from 'mandoline-wasm/three';
-    type Kinds<T> = { [Key in keyof T]: T[Key] extends string ? 'string' : 'function' };
+    type Callable = ((...given: never[]) => unknown) | (new (...given: never[]) => unknown);
+    type Kinds<T> = { [Key in keyof T]: T[Key] extends string ? 'string' : T[Key] extends Callable ? 'function' : 'object' };
     export const calls: Kinds<Mandoline> = ${kinds(mandoline)};
     export const indexKinds: Kinds<typeof index> = ${kinds({ ...index })};
     export const workerKinds: Kinds<typeof worker> = ${kinds({ ...worker })};

@@ -57,6 +57,8 @@ test('every call gives what it gives without a worker', () => withWorker(async (
   assert.deepEqual(await worker.cellAt(cutMesh, [0.01, 0.5, 0.5]), here.cellAt(expected, [0.01, 0.5, 0.5]));
   assert.deepEqual(await worker.cellsAt(cutMesh, points), here.cellsAt(expected, points));
   assert.deepEqual(await worker.slice(cutMesh, plane, { untouched: false }), here.slice(expected, plane, { untouched: false }));
+  assert.deepEqual(await worker.slices(cutMesh, [0, 0, 1], [0.2, 0.7]), here.slices(expected, [0, 0, 1], [0.2, 0.7]));
+  assert.deepEqual(await worker.outlines(cutMesh, [0, 0, 1], [0.2, 0.7]), here.outlines(expected, [0, 0, 1], [0.2, 0.7]));
   assert.deepEqual(await worker.write(cube, cutMesh, 'json'), here.write(cube, expected, 'json'));
   const calls = Object.keys(here).filter((key) => typeof here[key] === 'function');
   assert.deepEqual(Object.keys(worker).sort(), [...calls, 'call', 'terminate'].sort());

@@ -50,7 +50,8 @@ test('every call works on the twin, without the arrays', () => withWorker(async 
   const cutMesh = gut(await worker.cut(mesh, { cells: 9 }));
   const calls = {
     validate: [mesh, cutMesh], measure: [mesh, cutMesh], cutEdges: [mesh, cutMesh], adjacency: [cutMesh], triangulate: [cutMesh, { cell: 3 }],
-    cellAt: [cutMesh, [1, 0.01, 0.02]], cellsAt: [cutMesh, [1, 0.01, 0.02]], slice: [cutMesh, plane], write: [mesh, cutMesh, 'vtu'],
+    cellAt: [cutMesh, [1, 0.01, 0.02]], cellsAt: [cutMesh, [1, 0.01, 0.02]], slice: [cutMesh, plane],
+    slices: [cutMesh, [1, 2, 3], [0, 0.1]], outlines: [cutMesh, [0, 0, 1], [0.05]], write: [mesh, cutMesh, 'vtu'],
   };
   for (const [name, args] of Object.entries(calls)) {
     assert.deepEqual(await worker[name](...args), here[name](...args.map((arg) => (arg === cutMesh ? expected : arg))), name);

@@ -1,6 +1,6 @@
 // The calls of the package, on a module that has been started.
 import {
-  bad, readFlag, readFunction, readGrid, readId, readMesh, readOptions, readPlane, readPoints, readSnapTolerance, readVector,
+  bad, readFlag, readFunction, readGrid, readId, readMesh, readNumbers, readOptions, readPlane, readPoints, readSnapTolerance, readVector,
 } from './arguments.js';
 import { named } from './errors.js';
 import { readFile } from './files.js';
@@ -90,6 +90,14 @@ function callsOf(host) {
     slice: (cutMesh, plane, options) => {
       const input = [readPlane(plane), readFlag(readOptions(options).untouched, true, 'options.untouched')];
       return host.runOn(cutMesh, (bindings, twin) => bindings.slice(twin, ...input));
+    },
+    slices: (cutMesh, normal, offsets, options) => {
+      const input = [readVector(normal, 'normal'), readNumbers(offsets, 'offsets'), readFlag(readOptions(options).untouched, true, 'options.untouched')];
+      return host.runOn(cutMesh, (bindings, twin) => bindings.slices(twin, ...input));
+    },
+    outlines: (cutMesh, normal, offsets) => {
+      const input = [readVector(normal, 'normal'), readNumbers(offsets, 'offsets')];
+      return host.runOn(cutMesh, (bindings, twin) => bindings.outlines(twin, ...input));
     },
     write: (mesh, cutMesh, format) => {
       if (!['json', 'vtu', 'obj'].includes(format)) throw bad('format must be "json", "vtu" or "obj".');

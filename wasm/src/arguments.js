@@ -52,7 +52,7 @@ function isTypedArray(value, types) {
   return ArrayBuffer.isView(value) && types.includes(value[Symbol.toStringTag]);
 }
 
-function readNumbers(value, name) {
+export function readNumbers(value, name) {
   if (isTypedArray(value, ['Float64Array', 'Float32Array'])) {
     expectAttached(value, name);
     return value;

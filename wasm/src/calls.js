@@ -12,6 +12,8 @@ const calls = {
   cellAt: { count: 2, at: 0 },
   cellsAt: { count: 2, at: 0 },
   slice: { count: 2, at: 0 },
+  slices: { count: 3, at: 0 },
+  outlines: { count: 3, at: 0 },
   write: { count: 3, at: 1 },
   readMesh: { count: 1 },
 };

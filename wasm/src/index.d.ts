@@ -58,20 +58,29 @@ export interface Grid {
 
 export type Stage = 'input' | 'triEdges' | 'triFaces' | 'stencil' | 'gridEdges' | 'gridFaces' | 'cutCells' | 'regions' | 'output';
 
-/** How far a cut has come: `done` of `total` items of the stage, and the stage's place among all. */
+/** How far a call has come: `done` of `total` items of the stage, and the stage's place among all. */
 export interface Progress {
-  stage: Stage;
+  /** Of a cut: a Stage. */
+  stage: Stage | (string & {});
   stageIndex: number;
   stageCount: number;
   done: number;
   total: number;
 }
 
-export interface CutOptions {
+export interface RunOptions {
+  /** Called now and then; returning false cancels the call, which then throws a MandolineError with code "cancelled". */
+  progress?: (progress: Progress) => boolean | void;
+}
+
+export interface ValidateOptions extends RunOptions {
+  /** That of the cut. */
+  snapTolerance?: number;
+}
+
+export interface CutOptions extends RunOptions {
   /** Tri-vertices within this distance of an axial plane (in cells, below 0.5) are moved onto it before cutting. Default 0. */
   snapTolerance?: number;
-  /** Called now and then; returning false cancels the cut, which then throws a MandolineError with code "cancelled". */
-  progress?: (progress: Progress) => boolean | void;
   /** Whether the result has `gridCellRegion`, which takes 4 bytes per grid cell; the runs say the same in less. Default true. */
   gridCellRegion?: boolean;
   /**
@@ -280,6 +289,30 @@ export interface Slice {
   triangles: Uint32Array<ArrayBuffer>;
 }
 
+/**
+ * The outlines of regions in a plane: each region's polygons of a slice as one, without the seams between cells. Where the surface has one
+ * region on both sides (an open sheet), it is a slit: a polyline, with the triangles' normals to its right, that ends in its first point if
+ * it is closed. Points are shared by the outlines of neighbouring regions.
+ */
+export interface Outlines {
+  /** 3 per point, on the plane. */
+  positions: Float64Array<ArrayBuffer>;
+  /** Into loopPoints. */
+  loopOffsets: Uint32Array<ArrayBuffer>;
+  /** Points of the loops. */
+  loopPoints: Uint32Array<ArrayBuffer>;
+  /** Into loops, per polygon: the first is the outer loop, counter-clockwise about the plane's normal; the others are holes, clockwise. */
+  polygonLoopOffsets: Uint32Array<ArrayBuffer>;
+  /** Per polygon, ascending. */
+  polygonRegion: Uint32Array<ArrayBuffer>;
+  /** Into slitPoints. */
+  slitOffsets: Uint32Array<ArrayBuffer>;
+  /** Points of the slits. */
+  slitPoints: Uint32Array<ArrayBuffer>;
+  /** Per slit: the region around it, ascending. */
+  slitRegion: Uint32Array<ArrayBuffer>;
+}
+
 export interface SliceOptions {
   /** Whether untouched grid cells are cut, too. Default true. */
   untouched?: boolean;
@@ -303,9 +336,9 @@ export interface Mandoline {
   /** Cuts the mesh with the grid (the paper's Algorithm 1). */
   cut(mesh: Mesh, grid: GridInput, options?: CutOptions): CutMesh;
   /** The paper's four checks (5.6) and the invariants of a cut-mesh, worked out from its arrays alone. `mesh` is the input, `snapTolerance` that of the cut. */
-  validate(mesh: Mesh, cutMesh: CutMesh, options?: { snapTolerance?: number }): Validation;
+  validate(mesh: Mesh, cutMesh: CutMesh, options?: ValidateOptions): Validation;
   /** Areas, normals, centroids and volumes. `mesh` is the input of the cut. */
-  measure(mesh: Mesh, cutMesh: CutMesh): Measures;
+  measure(mesh: Mesh, cutMesh: CutMesh, options?: RunOptions): Measures;
   /** The cut-edges with their lengths. */
   cutEdges(mesh: Mesh, cutMesh: CutMesh): CutEdges;
   /** Who lies beside whom. */
@@ -323,6 +356,10 @@ export interface Mandoline {
   cellsAt(cutMesh: CutMesh, points: Float64Array | Float32Array | readonly number[]): Locations;
   /** The polygons in which a plane cuts the cells. */
   slice(cutMesh: CutMesh, plane: Plane, options?: SliceOptions): Slice;
+  /** The slices of the planes normal . x = offset, in the order of the offsets, for less than many calls of slice() cost. */
+  slices(cutMesh: CutMesh, normal: Vector3, offsets: Float64Array | Float32Array | readonly number[], options?: SliceOptions): Slice[];
+  /** The outlines of the regions in such planes, as slicers need them. */
+  outlines(cutMesh: CutMesh, normal: Vector3, offsets: Float64Array | Float32Array | readonly number[]): Outlines[];
   /** A file: "json" is the dump of all arrays, "vtu" polyhedra for VTK and ParaView, "obj" the cut surface by region. */
   write(mesh: Mesh, cutMesh: CutMesh, format: 'json' | 'vtu' | 'obj'): Uint8Array<ArrayBuffer>;
   /**

@@ -1,7 +1,7 @@
 /** The same calls as promises, in a module worker: the page stays responsive. Browsers and Node. */
 import type {
   Adjacency, CutEdges, CutMesh, CutOptions, FaceTriangles, FileMesh, GridInput, InitOptions, Location, Locations, Mandoline, Measures, Mesh,
-  Plane, ReadMeshOptions, Slice, SliceOptions, Validation, Vector3,
+  Outlines, Plane, ReadMeshOptions, RunOptions, Slice, SliceOptions, ValidateOptions, Validation, Vector3,
 } from './index.js';
 
 export { MandolineError, describe } from './index.js';
@@ -21,8 +21,8 @@ export interface ExtraCallOptions extends CallOptions {
 /** Calls run one after another, in the order they were made. Results are transferred, not copied. */
 export interface MandolineWorker {
   cut(mesh: Mesh, grid: GridInput, options?: CutOptions & CallOptions): Promise<CutMesh>;
-  validate(mesh: Mesh, cutMesh: CutMesh, options?: { snapTolerance?: number } & CallOptions): Promise<Validation>;
-  measure(mesh: Mesh, cutMesh: CutMesh, options?: CallOptions): Promise<Measures>;
+  validate(mesh: Mesh, cutMesh: CutMesh, options?: ValidateOptions & CallOptions): Promise<Validation>;
+  measure(mesh: Mesh, cutMesh: CutMesh, options?: RunOptions & CallOptions): Promise<Measures>;
   cutEdges(mesh: Mesh, cutMesh: CutMesh, options?: CallOptions): Promise<CutEdges>;
   adjacency(cutMesh: CutMesh, options?: CallOptions): Promise<Adjacency>;
   triangulate(cutMesh: CutMesh, of?: undefined, options?: CallOptions): Promise<FaceTriangles>;
@@ -30,6 +30,8 @@ export interface MandolineWorker {
   cellAt(cutMesh: CutMesh, point: Vector3, options?: CallOptions): Promise<Location | null>;
   cellsAt(cutMesh: CutMesh, points: Parameters<Mandoline['cellsAt']>[1], options?: CallOptions): Promise<Locations>;
   slice(cutMesh: CutMesh, plane: Plane, options?: SliceOptions & CallOptions): Promise<Slice>;
+  slices(cutMesh: CutMesh, normal: Vector3, offsets: Parameters<Mandoline['slices']>[2], options?: SliceOptions & CallOptions): Promise<Slice[]>;
+  outlines(cutMesh: CutMesh, normal: Vector3, offsets: Parameters<Mandoline['outlines']>[2], options?: CallOptions): Promise<Outlines[]>;
   write(mesh: Mesh, cutMesh: CutMesh, format: 'json' | 'vtu' | 'obj', options?: CallOptions): Promise<Uint8Array<ArrayBuffer>>;
   readMesh(source: Parameters<Mandoline['readMesh']>[0], options?: ReadMeshOptions & CallOptions): Promise<FileMesh>;
   /**
