@@ -19,12 +19,14 @@ export function originOf({ grid }) {
 export function keptCells({ cutMesh, measures }, planes, isShown = (region) => cutMesh.regionWinding[region] !== 0) {
   const { grid, cellRegion } = cutMesh;
   const origin = originOf(cutMesh);
+  // As the page does it, so that cells whose centroids lie in the plane are all kept.
+  const step = 2 ** (Math.floor(Math.log2(Math.max(...grid.planes.map((axis) => axis.at(-1) - axis[0])))) - 36);
   const cells = [];
   for (let cell = 0; cell < cellRegion.length; ++cell) {
     if (!isShown(cellRegion[cell])) continue;
     const isKept = planes.every(({ normal, position }) => {
       const reach = normal.reduce((sum, n, d) => sum + (Math.abs(n) * (grid.planes[d].at(-1) - grid.planes[d][0])) / 2, 0);
-      const height = normal.reduce((sum, n, d) => sum + n * Math.fround(measures.cellCentroid[3 * cell + d] - origin[d]), 0);
+      const height = normal.reduce((sum, n, d) => sum + n * Math.fround(step * Math.round((measures.cellCentroid[3 * cell + d] - origin[d]) / step)), 0);
       return height <= (2 * position - 1) * reach;
     });
     if (isKept) cells.push(cell);

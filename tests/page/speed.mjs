@@ -81,7 +81,8 @@ try {
   console.log(`${meshName} at N = ${cells}, from slider to new buffers, medians of ${values.runs}`);
   const of = ({ times }, key) => median(times.map((time) => time[key]));
   for (const tab of opened) {
-    const said = ['ms', 'cpuMs'].map((key) => `${of(tab, key).toFixed(0)} ms (the first page takes ${(of(opened[0], key) / of(tab, key)).toFixed(2)} of it)`);
+    const share = (key) => (of(opened[0], key) / of(tab, key)).toFixed(2);
+    const said = ['ms', 'cpuMs'].map((key) => `${of(tab, key).toFixed(0)} ms (the first page takes ${share(key)} of it)`);
     console.log(`  ${tab.name}: ${said[0]}, of the processor ${said[1]}`);
   }
 } finally {

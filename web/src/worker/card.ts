@@ -6,8 +6,9 @@ import { cellEdges, forEachCellEdge } from './edges';
 import type { Cut } from './kept';
 
 export function cellCard(mandoline: Mandoline, cut: Cut, cell: number): CellCard {
-  const { cutMesh, measures, origin } = cut;
+  const { cutMesh, mesh, origin } = cut;
   checkCell(cutMesh, cell);
+  const measures = (cut.measures ??= mandoline.measure(mesh, cutMesh));
   const adjacency = (cut.adjacency ??= mandoline.adjacency(cutMesh));
   const region = cutMesh.cellRegion[cell];
   const faces = facesOf(cutMesh, cell);

@@ -1,5 +1,5 @@
-// glTF and GLB, by three's loader. It is given nothing but triangles to load, all of them in the file: no images, skins, animations or other
-// files.
+// glTF and GLB, by three's loader. It is given nothing but triangles to load, all of them in the file: no images, skins, animations or
+// other files.
 import { LoadingManager, MeshBasicMaterial } from 'three';
 import { GLTFLoader, type GLTFLoaderPlugin, type GLTFParser } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import type { MeshArrays } from '../model/gallery';

@@ -17,9 +17,9 @@ export interface Cut {
   cutMesh: CutMesh;
   /** The middle of the grid's box. */
   origin: Vector3;
-  measures: Measures;
   faceTriangles: FaceTriangles;
-  /** Made when a card asks for it. */
+  /** Made when a card asks for them. */
+  measures: Measures | null;
   adjacency: Adjacency | null;
 }
 
@@ -51,11 +51,10 @@ export function makeCut(mandoline: Mandoline, recipe: Recipe, tell: (progress: C
       tell({ stage, fraction: (0.85 * (stageIndex + (total > 0 ? done / total : 1))) / stageCount });
     },
   });
-  tell({ stage: 'measures', fraction: 0.85 });
+  tell({ stage: 'triangles', fraction: 0.85 });
   const [x, y, z] = cutMesh.grid.planes.map((planes) => (planes[0] + planes[planes.length - 1]) / 2);
-  const measures = mandoline.measure(mesh, cutMesh);
   const faceTriangles = mandoline.triangulate(cutMesh);
-  newest = { recipe, mesh, bounds, cutMesh, origin: [x, y, z], measures, faceTriangles, adjacency: null };
+  newest = { recipe, mesh, bounds, cutMesh, origin: [x, y, z], faceTriangles, measures: null, adjacency: null };
   return newest;
 }
 

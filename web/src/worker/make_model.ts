@@ -1,13 +1,15 @@
 // What the page gets of a cut: ready to be drawn, in arrays of its own.
-import type { Mandoline } from 'mandoline-wasm';
+import type { CutMesh, Mandoline } from 'mandoline-wasm';
 import type { CellInfo, Model, RegionInfo } from '../model/types';
 import { cellBuffers } from './cell_buffers';
+import { cellShapes } from './cell_shapes';
 import type { Cut } from './kept';
 
 export function makeModel(mandoline: Mandoline, name: string, cut: Cut): Model {
   const { recipe, bounds, cutMesh, origin } = cut;
   const { planes } = cutMesh.grid;
-  const regions = regionInfo(cut);
+  const cells = cellInfo(cut);
+  const regions = regionInfo(cutMesh, cells);
   return {
     id: recipe.id,
     name,
@@ -28,30 +30,43 @@ export function makeModel(mandoline: Mandoline, name: string, cut: Cut): Model {
     stats: cutMesh.stats,
     regions,
     outsideRegion: mandoline.cellAt(cutMesh, [planes[0][0], planes[1][0], planes[2][0]])?.region ?? null,
-    cells: cellInfo(cut),
+    cells,
     ...cellBuffers(cutMesh, cut.faceTriangles, origin),
     gridCellRegion: (cutMesh.gridCellRegion as Int32Array).slice(),
   };
 }
 
-function cellInfo({ cutMesh, origin, measures }: Cut): CellInfo {
+function cellInfo({ cutMesh, faceTriangles, origin }: Cut): CellInfo {
   return {
     region: cutMesh.cellRegion.slice(),
-    volume: measures.cellVolume.slice(),
-    centroid: Float32Array.from(measures.cellCentroid, (x, at) => x - origin[at % 3]),
+    ...cellShapes(cutMesh, faceTriangles, origin),
     gridCell: cutMesh.cellGridCell.slice(),
   };
 }
 
-function regionInfo({ cutMesh, measures }: Cut): RegionInfo[] {
-  const regions = Array.from({ length: cutMesh.regionCount }, (_, id) => ({
-    id,
-    winding: cutMesh.regionWinding?.[id] ?? null,
-    volume: measures.regionVolume[id],
-    cutCells: 0,
-    untouchedCells: 0,
+function regionInfo(cutMesh: CutMesh, { volume }: CellInfo): RegionInfo[] {
+  const { cellRegion, regionCount, regionWinding } = cutMesh;
+  const regions = Array.from({ length: regionCount }, (_, id) => ({
+    id, winding: regionWinding?.[id] ?? null, volume: 0, cutCells: 0, untouchedCells: 0,
   }));
-  for (const region of cutMesh.cellRegion) regions[region].cutCells++;
-  cutMesh.runRegion.forEach((region, run) => (regions[region].untouchedCells += cutMesh.runEnd[run] - cutMesh.runBegin[run]));
+  cellRegion.forEach((region, cell) => {
+    regions[region].cutCells++;
+    regions[region].volume += volume[cell];
+  });
+  addUntouched(cutMesh, regions);
   return regions;
+}
+
+function addUntouched({ grid, rowRunOffsets, runBegin, runEnd, runRegion }: CutMesh, regions: RegionInfo[]): void {
+  const [xs, ys, zs] = grid.planes;
+  for (let row = 0; row + 1 < rowRunOffsets.length; row++) {
+    const j = row % grid.cells[1];
+    const k = (row - j) / grid.cells[1];
+    const area = (ys[j + 1] - ys[j]) * (zs[k + 1] - zs[k]);
+    for (let run = rowRunOffsets[row]; run < rowRunOffsets[row + 1]; run++) {
+      const region = regions[runRegion[run]];
+      region.untouchedCells += runEnd[run] - runBegin[run];
+      region.volume += area * (xs[runEnd[run]] - xs[runBegin[run]]);
+    }
+  }
 }
