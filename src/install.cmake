@@ -1,5 +1,5 @@
-# What is installed, for find_package(mandoline) (targets mandoline::mandoline and mandoline::io) and for pkg-config (modules mandoline and
-# mandoline-io). Nothing in it names a place: the installed tree can be moved.
+# What is installed, for find_package(mandoline) (targets mandoline::mandoline, mandoline::io and, where Eigen was found, mandoline::operators)
+# and for pkg-config (modules mandoline, mandoline-io and mandoline-operators). Nothing in it names a place: the installed tree can be moved.
 
 # Shared libraries find each other, and the program finds them, by where they lie.
 file(RELATIVE_PATH MANDOLINE_BIN_TO_LIB ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
@@ -8,7 +8,9 @@ if(APPLE)
 else()
   set(MANDOLINE_ORIGIN $ORIGIN)
 endif()
-set_target_properties(mandoline mandoline_io PROPERTIES INSTALL_RPATH ${MANDOLINE_ORIGIN})
+foreach(library ${MANDOLINE_INSTALLED})
+  set_target_properties(${library} PROPERTIES INSTALL_RPATH ${MANDOLINE_ORIGIN})
+endforeach()
 if(TARGET mandoline-cli)
   set_target_properties(mandoline-cli PROPERTIES INSTALL_RPATH ${MANDOLINE_ORIGIN}/${MANDOLINE_BIN_TO_LIB})
 endif()
@@ -28,6 +30,9 @@ if(MANDOLINE_TYPE STREQUAL STATIC_LIBRARY)
     string(APPEND MANDOLINE_CONFIG "find_dependency(ZLIB)\n")
     set(MANDOLINE_PC_IO_REQUIRES ", zlib")
   endif()
+endif()
+if(TARGET mandoline_operators) # those who only cut need no Eigen
+  string(APPEND MANDOLINE_CONFIG "find_package(Eigen3 3.3 CONFIG QUIET)\n")
 endif()
 file(WRITE ${PROJECT_BINARY_DIR}/mandoline-config.cmake
   "${MANDOLINE_CONFIG}include(\"\${CMAKE_CURRENT_LIST_DIR}/mandoline-targets.cmake\")\n")
@@ -55,3 +60,7 @@ Libs: -L\${libdir} ${libs}
 endfunction()
 mandoline_write_pc(mandoline "Cuts triangle meshes with Cartesian grids into polyhedral cut-cells" "" "-lmandoline ${MANDOLINE_PC_LIBS}")
 mandoline_write_pc(mandoline-io "Mesh files for mandoline" "mandoline = ${PROJECT_VERSION}${MANDOLINE_PC_IO_REQUIRES}" "-lmandoline_io")
+if(TARGET mandoline_operators)
+  mandoline_write_pc(mandoline-operators "Discrete operators on the cells of mandoline" "mandoline = ${PROJECT_VERSION}, eigen3"
+                     "-lmandoline_operators")
+endif()

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "catch.h"
+#include "mandoline/io.h"
 #include "temporary_folder.h"
 
 namespace {
@@ -135,8 +136,8 @@ TEST_CASE("Command line: wrong usage exits with 2", "[cli]") {
       {{"cut", mesh, "--planes", "0,1,2/0,1,1/0,1"}, "the y planes must ascend"},
       {{"cut", mesh, "--planes", "0/0,1,1/0,1"}, "the x planes must be at least two"},
       {{"cut", mesh, "--planes", "0,1/0,1/0,inf"}, "the z planes must be numbers"},
-      {{"cut", mesh, "--planes", "@" + folder.path("none")}, "none: can't be read"},
-      {{"cut", mesh, "--planes", "@" + folder.write("two.txt", "0,1\n0,1\n")}, "two.txt: needs three lines"},
+      {{"cut", mesh, "--planes", '@' + folder.path("none")}, "none: can't be read"},
+      {{"cut", mesh, "--planes", '@' + folder.write("two.txt", "0,1\n0,1\n")}, "two.txt: needs three lines"},
       {{"cut", mesh, "--planes", "0,1/0,1/0,1", "--cells", "3"}, "--planes tells the number of cells"},
       {{"cut", mesh, "--planes", "0,1/0,1/0,1", "--box", "0,0,0,1,1,1"}, "only one of --box, --planes, and --origin"},
       {{"cut", mesh, "--origin", "0,0,0", "--spacing", "1", "--cells", "3", "--box", "0,0,0,1,1,1"}, "only one of --box"},
@@ -148,13 +149,15 @@ TEST_CASE("Command line: wrong usage exits with 2", "[cli]") {
       {{"cut", mesh, "--only", "within"}, "--only needs cut, inside, outside or region=K, not 'within'"},
       {{"cut", mesh, "--only", "region="}, "--only needs cut, inside, outside or region=K, not 'region='"},
       {{"cut", mesh, "--only", "region=-1"}, "--only needs cut, inside, outside or region=K"},
-      {{"cut", mesh, "--only", "cut", "-o", folder.path("a.json")}, "a.json: JSON files always have everything"},
-      {{"cut", mesh, "-o", folder.path("{region}.json")}, "JSON files always have everything"},
+      {{"cut", mesh, "--only", "cut", "-o", folder.path("a.json")}, "a.json: .json files always have everything"},
+      {{"cut", mesh, "-o", folder.path("{region}.json")}, ".json files always have everything"},
+      {{"cut", mesh, "--coarsen", "x"}, "--coarsen needs a number of levels, not 'x'"},
+      {{"cut", mesh, "--coarsen", "2", "-o", folder.path("a.obj")}, "--coarsen: only .vtu files and polyMesh folders have cells"},
       {{"cut", mesh, "-o", "-"}, "-o - needs --format"},
       {{"cut", mesh, "-o", "-", "--format", "exe"}, "--format needs an extension such as vtu, not 'exe'"},
-      {{"cut", mesh, "-o", "-", "--format", "off"}, "--format needs json, vtu, obj, stl or ply, not off"},
+      {{"cut", mesh, "-o", "-", "--format", "off"}, "--format needs json, mcm, vtu, obj, stl or ply, not off"},
       {{"cut", mesh, "-o", folder.path("a.vtu"), "--format", "vtu"}, "--format is for -o -"},
-      {{"cut", mesh, "-o", folder.path("a.off")}, "a.off: the extension must be .json, .vtu, .obj, .stl or .ply"},
+      {{"cut", mesh, "-o", folder.path("a.off")}, "a.off: the extension must be .json, .mcm, .vtu, .obj, .stl or .ply"},
       {{"cut", mesh, "-o", folder.path("none/a.obj")}, "a.obj: there is no folder"},
       {{"cut", mesh, "-o", mesh}, "the mesh " + mesh + " and -o " + mesh + " are the same file"},
       {{"cut", "-o", folder.path("a.obj"), mesh}, "the mesh is missing"},
@@ -201,8 +204,9 @@ TEST_CASE("Command line: a cut writes its report and every file", "[cli]") {
   REQUIRE(o.out.substr(0, 2) == "{\n");
   for (const std::string part :
        {"\"status\": \"ok\"", "\"cells\": [4, 4, 4]", "\"origin\": [0, 0, 0]", "\"spacing\": [1, 1, 1]", "\"cells\": 64", "\"regions\": 2",
-        "{\"id\": 0, \"winding\": 0, \"volume\": 56}", "{\"id\": 1, \"winding\": 1, \"volume\": 8}", "\"total\": ", "\"exactFallbacks\": ",
-        "\"peakMemoryBytes\": ", "\"validation\": {", "\"pass\": true", "\"checks\": [", "\"closed\": true"}) {
+        "{\"id\": 0, \"winding\": 0, \"volume\": 56}", "{\"id\": 1, \"winding\": 1, \"volume\": 8}",
+        "{\"stage\": \"input\", \"ms\": ", "\"totalMs\": ", "\"exactFallbacks\": ", "\"peakMemoryBytes\": ", "\"validation\": {",
+        "\"pass\": true", "\"checks\": [", "\"closed\": true"}) {
     REQUIRE(contains(o.out, part));
   }
   REQUIRE_FALSE(contains(o.out, "\"pass\": false"));
@@ -216,7 +220,7 @@ TEST_CASE("Command line: without --report the report is text", "[cli]") {
   const Outcome o = run(folder, {"cut", mesh, "--cells", "4,4,4", "--box", "0,0,0,4,4,4", "--validate"});
   REQUIRE(o.exitCode == 0);
   REQUIRE(o.err.empty());
-  for (const std::string part : {"8 vertices, 12 triangles", "4 x 4 x 4 cells", "Regions", "56", "Timings", "Validation: pass"})
+  for (const std::string part : {"8 vertices, 12 triangles", "4 x 4 x 4 cells", "Regions", "56", "Stages", "Validation: pass"})
     REQUIRE(contains(o.out, part));
   const Outcome quiet = run(folder, {"cut", mesh, "--report", folder.path("report.json")});
   REQUIRE(quiet.exitCode == 0);
@@ -281,7 +285,7 @@ TEST_CASE("Command line: grids by box, origin and planes", "[cli]") {
   REQUIRE(contains(planes, "\"spacing\": null"));
   REQUIRE(contains(planes, "\"volume\": 8}"));
   const std::string file = folder.write("planes.txt", "0, 1.5, 4\r\n\n0, 4\r\n-1, 0, 2, 9");
-  REQUIRE(contains(report({"--planes", "@" + file}), "\"cells\": [2, 1, 3]"));
+  REQUIRE(contains(report({"--planes", '@' + file}), "\"cells\": [2, 1, 3]"));
 }
 
 TEST_CASE("Command line: only some cells are written", "[cli]") {
@@ -328,6 +332,22 @@ TEST_CASE("Command line: one file for each region", "[cli]") {
   const Outcome clash = cut({folder.path("x-{region}.stl"), folder.path("x-1.stl")});
   REQUIRE(clash.exitCode == 2);
   REQUIRE(contains(clash.err, "are the same file"));
+}
+
+TEST_CASE("Command line: octree cells, OpenFOAM and saved cut-meshes", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", kCube);
+  const std::string vtu = folder.path("a.vtu"), foam = folder.path("case/constant/polyMesh/"), saved = folder.path("a.mcm");
+  const Outcome o = run(folder, {"cut", mesh, "--cells", "12", "--coarsen", "2", "-o", vtu, foam, saved});
+  REQUIRE(o.err.empty());
+  REQUIRE(o.exitCode == 0);
+  CHECK(contains(folder.read("a.vtu"), "Name=\"level\""));
+  for (const char* name : {"points", "faces", "owner", "neighbour", "boundary", "cellZones"}) {
+    CHECK(contains(folder.read(std::string("case/constant/polyMesh/") + name), "FoamFile"));
+  }
+  CHECK(mandoline::readCutMesh(saved).regionCount == 2);
+  REQUIRE(run(folder, {"cut", mesh, "--only", "outside", "-o", foam}).exitCode == 0);
+  CHECK(!std::filesystem::exists(foam + "cellZones"));
 }
 
 TEST_CASE("Command line: standard input and output", "[cli]") {
@@ -464,6 +484,35 @@ TEST_CASE("Command line: made shapes are closed", "[cli]") {
       REQUIRE(contains(run(folder, {"info", path}).out, "yes, consistently oriented"));
     }
   }
+}
+
+TEST_CASE("Command line: crossing cubes are resolved, refused or left alone, and their pairs counted", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string cubes = kCube +
+                            "v 2 2 2\nv 4 2 2\nv 4 4 2\nv 2 4 2\nv 2 2 4\nv 4 2 4\nv 4 4 4\nv 2 4 4\n"
+                            "f 12 11 10 9\nf 13 14 15 16\nf 9 10 14 13\nf 10 11 15 14\nf 11 12 16 15\nf 12 9 13 16\n";
+  const std::string mesh = folder.write("cubes.obj", cubes);
+  const std::vector<std::string> grid = {"cut", mesh, "--cells", "5", "--box", "0,0,0,5,5,5", "--report", "-", "--intersections"};
+  const auto cutWith = [&](const std::string& what) {
+    std::vector<std::string> words = grid;
+    words.push_back(what);
+    return run(folder, words);
+  };
+  const Outcome resolved = cutWith("resolve");
+  REQUIRE(resolved.exitCode == 0);
+  for (const std::string part : {"\"winding\": 0, \"volume\": 110}", "\"winding\": 1, \"volume\": 7}", "\"winding\": 2, \"volume\": 1}",
+                                 "\"crossing\": 6", "\"touching\": 12", "\"curves\": 1", "\"madeVertices\": 6"}) {
+    REQUIRE(contains(resolved.out, part));
+  }
+  const Outcome refused = cutWith("refuse");
+  REQUIRE(refused.exitCode == 1);
+  REQUIRE(contains(refused.err, mesh + ": selfIntersection: Triangles 2 and "));
+  REQUIRE(contains(refused.err, " pairs that do."));
+  REQUIRE(contains(cutWith("assume-none").out, "\"intersections\": null"));
+  REQUIRE(contains(cutWith("never").err, "--intersections needs resolve, refuse or assume-none, not 'never'"));
+  REQUIRE(contains(run(folder, {"info", mesh}).out, " crossing, "));
+  REQUIRE(contains(run(folder, {"info", mesh, "--report", "-"}).out, "\"first\": [2, "));
+  REQUIRE(contains(run(folder, {"info", folder.write("cube.obj", kCube)}).out, "intersecting pairs    0\n"));
 }
 
 TEST_CASE("Command line: info tells what kind of mesh it is", "[cli]") {

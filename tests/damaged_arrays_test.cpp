@@ -4,33 +4,30 @@
 #include <random>
 
 #include "catch.h"
+#include "mandoline/cell_complex.h"
 #include "mandoline/io.h"
 #include "mandoline/locate.h"
 #include "mandoline/measure.h"
 #include "mandoline/slice.h"
 #include "mandoline/triangulate.h"
 #include "mandoline/validate.h"
+#include "mcm_file.h"
+#include "same_bits.h"
 #include "shapes.h"
 
 using namespace mandoline;
 
 namespace {
 
-template <class F>
-void forEachArray(CutMesh& mesh, const F& f) {
-  f(mesh.positions), f(mesh.vertexCell), f(mesh.vertexMask), f(mesh.vertexTriVertex), f(mesh.vertexParents), f(mesh.loopOffsets),
-      f(mesh.loopVertices), f(mesh.faceLoopOffsets), f(mesh.faceTriangle), f(mesh.faceAxis), f(mesh.facePlane), f(mesh.cellHalfFaceOffsets),
-      f(mesh.cellHalfFaces), f(mesh.cellGridCell), f(mesh.cellRegion), f(mesh.rowRunOffsets), f(mesh.runBegin), f(mesh.runEnd),
-      f(mesh.runRegion), f(mesh.regionWinding), f(mesh.droppedTriangles);
-}
-
 class Damage {
  public:
   explicit Damage(uint32_t seed) : random_(seed) {}
 
   CutMesh operator()(CutMesh mesh) {
-    int chosen = int(random_() % 21);
-    forEachArray(mesh, [&](auto& array) {
+    int count = 0;
+    forEachArray(mesh, [&](const ArrayInfo&, const auto&) { ++count; });
+    int chosen = int(random_() % uint32_t(count));
+    forEachArray(mesh, [&](const ArrayInfo&, auto& array) {
       if (chosen-- == 0 && !array.empty()) damage(array);
     });
     return mesh;
@@ -69,34 +66,37 @@ void useAll(const Mesh& mesh, const CutMesh& cutMesh) {
     regionVolumes(cutMesh, measure(mesh, cutMesh));
     cutEdges(mesh, cutMesh);
     writeVtu(nowhere, mesh, cutMesh);
+    cellComplex(mesh, cutMesh, coarsen(cutMesh));
   });
   adjacency(cutMesh);
   triangulateFaces(cutMesh);
   for (size_t c = 0; c < cutMesh.cellCount(); ++c) triangulateCell(cutMesh, c);
   for (uint32_t r = 0; r < cutMesh.regionCount; ++r) triangulateRegion(cutMesh, r);
-  locate(cutMesh, mesh.positions);
+  cellsAt(cutMesh, mesh.positions);
   slice(cutMesh, {{1, 2, 3}, 0.3});
   slice(cutMesh, {{0, 0, 1}, cutMesh.grid.planes[2][1]});
   writeJson(nowhere, cutMesh);
   writeObj(nowhere, cutMesh);
+  CHECK(differences(cutMesh, readMcm(mcmOf(cutMesh))).empty());
 }
 
 }  // namespace
 
 TEST_CASE("damaged cut-meshes lead no function astray") {
-  const Mesh mesh = shapes::torus({0, 0, 0}, 1, 0.4, 12, 8);
+  // The second one crosses the first, so that there are made vertices.
+  const Mesh mesh = shapes::merged({shapes::torus({0, 0, 0}, 1, 0.4, 12, 8), shapes::torus({0.9, 0.1, 0.2}, 0.4, 0.2, 6, 4)});
   const CutResult result = cut(mesh, Grid::around(mesh, 5));
   REQUIRE(result);
   const MeshView view = mesh;
   Damage damage(1);
   int harmless = 0;
-  for (int round = 0; round < 1500; ++round) {
+  for (int round = 0; round < 600; ++round) {
     const CutMesh damaged = damage(result.mesh);
     validate(mesh, damaged);
     if (!checkArrays(damaged, &view).pass) continue;
     ++harmless;
     useAll(mesh, damaged);
   }
-  CHECK(harmless > 300);
-  CHECK(harmless < 1400);
+  CHECK(harmless > 120);
+  CHECK(harmless < 560);
 }

@@ -1,6 +1,4 @@
 // Which triangles meet other than in shared vertices and edges, exactly, and which pair a cut names that met a contradiction.
-#include "mesh/intersections.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,36 +8,30 @@
 #include "cut/contradiction.h"
 #include "cut/stages/input.h"
 #include "lattice.h"
+#include "mesh/resolve/contacts.h"
+#include "stages/staged_cut.h"
+#include "vectors.h"
 
 using namespace mandoline;
 using namespace mandoline::detail;
+using namespace vectors;
 
 namespace {
 
 using Corners = std::array<Point, 3>;
 
-/// Triangles that share no vertex ids, so that welding has to find what they share.
-Mesh unwelded(const std::vector<Corners>& triangles) {
-  Mesh mesh;
-  for (const Corners& corners : triangles) {
-    for (const Point& p : corners) {
-      mesh.triangles.push_back(uint32_t(mesh.vertexCount()));
-      mesh.positions.insert(mesh.positions.end(), p.begin(), p.end());
-    }
-  }
-  return mesh;
-}
-
 const Grid kGrid = Grid::regular({-64, -64, -64}, {32, 32, 32}, {4, 4, 4});
 
-Input inputOf(const std::vector<Corners>& triangles, const Grid& grid = kGrid) {
-  CutStats stats;
-  const CutOptions options;
-  Monitor monitor(options, 1);
-  Run run{stats, monitor};
-  const Mesh mesh = unwelded(triangles);
-  return prepareInput(mesh, grid, 0, run);
-}
+using stages::unresolved;
+
+/// Triangles whose intersections nobody looked for yet.
+struct Unresolved : stages::StagedCut {
+  const Input& input = state.surface.input;
+
+  explicit Unresolved(const std::vector<Corners>& triangles, const Grid& grid = kGrid)
+      : StagedCut(shapes::soup(triangles), stages::Stage::input, unresolved(), grid) {}
+  bool meet(uint32_t s, uint32_t t) const { return PairTest(*prepared).meet(s, t); }
+};
 
 /// Whether the first two triangles meet. The answer has to be the same in any order of triangles, corners and axes, and anywhere.
 bool meet(const std::vector<Corners>& triangles) {
@@ -56,9 +48,8 @@ bool meet(const std::vector<Corners>& triangles) {
               for (int d = 0; d < 3; ++d) placed[t][i][d] = triangles[t][t < 2 ? order[3 * t + i] : i][axes[d]] + shift;
             }
           }
-          const Input input = inputOf(placed);
-          Intersections intersections(input);
-          met += intersections.meet(0, 1) + intersections.meet(1, 0);
+          const Unresolved mesh(placed);
+          met += mesh.meet(0, 1) + mesh.meet(1, 0);
           asked += 2;
         } while (std::next_permutation(order.begin(), order.begin() + 3));
       } while (std::next_permutation(order.begin() + 3, order.end()));
@@ -81,10 +72,7 @@ struct Fraction {
   int64_t w;  ///< the point is x / w
 };
 
-Whole minus(const Whole& a, const Whole& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Whole cross(const Whole& a, const Whole& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
-int64_t dot(const Whole& a, const Whole& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Whole normalOf(const WholeTriangle& t) { return cross(minus(t[1], t[0]), minus(t[2], t[0])); }
+Whole normalOf(const WholeTriangle& t) { return cross(t[1] - t[0], t[2] - t[0]); }
 bool hasArea(const WholeTriangle& t) { return normalOf(t) != Whole{0, 0, 0}; }
 
 /// What of a convex polygon lies on the side of the plane through p that its normal points to.
@@ -112,8 +100,8 @@ bool wholeMeet(const WholeTriangle& a, const WholeTriangle& b) {
   std::vector<Fraction> common;
   for (const Whole& p : a) common.push_back({p, 1});
   const Whole normal = normalOf(b);
-  common = clip(clip(common, normal, b[0]), minus({0, 0, 0}, normal), b[0]);
-  for (int i = 0; i < 3; ++i) common = clip(common, cross(normal, minus(b[(i + 1) % 3], b[i])), b[i]);
+  common = clip(clip(common, normal, b[0]), Whole{0, 0, 0} - normal, b[0]);
+  for (int i = 0; i < 3; ++i) common = clip(common, cross(normal, b[(i + 1) % 3] - b[i]), b[i]);
   std::vector<Whole> shared;
   for (const Whole& p : a) {
     if (std::find(b.begin(), b.end(), p) != b.end()) shared.push_back(p);
@@ -122,7 +110,7 @@ bool wholeMeet(const WholeTriangle& a, const WholeTriangle& b) {
   const auto isShared = [&](const Fraction& f) {  // it lies in both triangles, so on the line of their shared edge is on that edge
     if (shared.empty()) return false;
     const Whole fromFirst = {f.x[0] - shared[0][0] * f.w, f.x[1] - shared[0][1] * f.w, f.x[2] - shared[0][2] * f.w};
-    return cross(fromFirst, minus(shared.back(), shared[0])) == Whole{0, 0, 0} && (shared.size() == 2 || fromFirst == Whole{0, 0, 0});
+    return cross(fromFirst, shared.back() - shared[0]) == Whole{0, 0, 0} && (shared.size() == 2 || fromFirst == Whole{0, 0, 0});
   };
   return !std::all_of(common.begin(), common.end(), isShared);
 }
@@ -140,14 +128,14 @@ void comparePairs(const std::vector<WholeTriangle>& triangles) {
     straight.push_back(c);
     sheared.push_back(s);
   }
-  const Input input = inputOf(straight), shearedInput = inputOf(sheared);
-  Intersections intersections(input), shearedIntersections(shearedInput);
+  const Unresolved straightMesh(straight), shearedMesh(sheared);
+  PairTest pairTest(*straightMesh.prepared), shearedTest(*shearedMesh.prepared);
   size_t met = 0, wrong = 0;
   for (uint32_t s = 0; s < triangles.size(); ++s) {
     for (uint32_t t = s + 1; t < triangles.size(); ++t) {
       const bool expected = wholeMeet(triangles[s], triangles[t]);
       met += expected;
-      wrong += intersections.meet(s, t) != expected || intersections.meet(t, s) != expected || shearedIntersections.meet(s, t) != expected;
+      wrong += pairTest.meet(s, t) != expected || pairTest.meet(t, s) != expected || shearedTest.meet(s, t) != expected;
     }
   }
   const size_t pairs = triangles.size() * (triangles.size() - 1) / 2;
@@ -177,9 +165,16 @@ std::vector<Whole> latticePoints(int64_t nx, int64_t ny, int64_t nz) {
 
 const Corners kBase = {Point{0, 0, 0}, Point{4, 0, 0}, Point{0, 4, 0}};
 
+Error explained(const Unresolved& mesh, int64_t blamed, int64_t alsoBlamed, CutStats stats = {}) {
+  const RunOptions options;
+  Monitor monitor(options, 1);
+  Run run{stats, monitor};
+  return explainContradiction(mesh.input, blamed, alsoBlamed, run);
+}
+
 /// The pair that is named for a guess, as (element, element2).
-std::array<int64_t, 2> namedPair(const Input& input, int64_t blamed, int64_t alsoBlamed) {
-  const Error error = explainContradiction(input, blamed, alsoBlamed, {});
+std::array<int64_t, 2> namedPair(const Unresolved& mesh, int64_t blamed, int64_t alsoBlamed) {
+  const Error error = explained(mesh, blamed, alsoBlamed);
   CHECK(error.status == Status::selfIntersection);
   CHECK(error.message == "Triangles " + std::to_string(error.element) + " and " + std::to_string(error.element2) +
                              " meet other than in a shared vertex or edge.");
@@ -262,11 +257,8 @@ TEST_CASE("one unit in the last place decides", "[intersections]") {
   const Corners tilted = {Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}};
   const double up = std::nextafter(0.5, 1), down = std::nextafter(0.5, 0);
   const auto touching = [&](double z) { return Corners{Point{0.25, 0.25, z}, Point{1, 1, 1}, Point{1, 1, 2}}; };
-  CHECK(inputOf({tilted, touching(0.5)}).kept(1));
-  const auto meetAt = [&](double z) {
-    const Input input = inputOf({tilted, touching(z)});
-    return Intersections(input).meet(0, 1);
-  };
+  CHECK(Unresolved({tilted, touching(0.5)}).prepared->kept(size_t(1)));
+  const auto meetAt = [&](double z) { return Unresolved({tilted, touching(z)}).meet(0, 1); };
   CHECK(meetAt(0.5));
   CHECK(meetAt(down));
   CHECK_FALSE(meetAt(up));
@@ -291,8 +283,8 @@ TEST_CASE("neighbours along a stitched side share its edges", "[intersections]")
     CHECK(meetStitched(side, {{m, b, below}}));               // no side of the triangles without area
     CHECK(meetStitched(side, {{Point{3, 0, 0}, b, below}}));  // no vertex of theirs
     CHECK(meetStitched(side, {{Point{-1, 0, 0}, m, below}}));
-    CHECK_FALSE(meetStitched(side, {{m, Point{1, -1, z}, below}}));  // a vertex of the side alone
-    CHECK_FALSE(meetStitched({{a, n, apex}}, {{a, b, below}}));      // both sides stitched, one longer
+    CHECK_FALSE(meetStitched(side, {{m, Point{0.5, -1, z}, below}}));  // a vertex of the side alone
+    CHECK_FALSE(meetStitched({{a, n, apex}}, {{a, b, below}}));        // both sides stitched, one longer
     CHECK_FALSE(meetStitched({{a, n, apex}}, {{n, b, below}}));
     CHECK(meetStitched({{a, n, apex}}, {{m, b, below}}));
   }
@@ -336,15 +328,15 @@ TEST_CASE("the pair that is named meets", "[intersections]") {
   const auto at = [](double x, double z) { return Corners{Point{x, 0, z}, Point{x + 4, 0, z}, Point{x, 4, z}}; };
   const auto post = [](double x, double z) { return Corners{Point{x + 1, 1, z - 1}, Point{x + 1, 1, z + 1}, Point{x + 1, 2, z + 1}}; };
   // 1 and 6, 2 and 5, 3 and 5 meet; 0 and 4 meet nothing.
-  const Input input = inputOf({at(-20, 0), at(10, 0), at(0, 0.25), at(0, 0), at(-10, 0), post(0, 0), post(10, 0)});
-  CHECK(namedPair(input, 2, 5) == std::array<int64_t, 2>{2, 5});  // as blamed
-  CHECK(namedPair(input, 5, 3) == std::array<int64_t, 2>{3, 5});
-  CHECK(namedPair(input, 5, 5) == std::array<int64_t, 2>{2, 5});  // blamed, with the lowest that it meets
-  CHECK(namedPair(input, 6, 5) == std::array<int64_t, 2>{1, 6});
-  CHECK(namedPair(input, 0, 3) == std::array<int64_t, 2>{3, 5});
-  CHECK(namedPair(input, -1, 3) == std::array<int64_t, 2>{3, 5});
-  CHECK(namedPair(input, 0, 4) == std::array<int64_t, 2>{1, 6});  // the lowest of all
-  CHECK(namedPair(input, -1, -1) == std::array<int64_t, 2>{1, 6});
+  const Unresolved mesh({at(-20, 0), at(10, 0), at(0, 0.25), at(0, 0), at(-10, 0), post(0, 0), post(10, 0)});
+  CHECK(namedPair(mesh, 2, 5) == std::array<int64_t, 2>{2, 5});  // as blamed
+  CHECK(namedPair(mesh, 5, 3) == std::array<int64_t, 2>{3, 5});
+  CHECK(namedPair(mesh, 5, 5) == std::array<int64_t, 2>{2, 5});  // blamed, with the lowest that it meets
+  CHECK(namedPair(mesh, 6, 5) == std::array<int64_t, 2>{1, 6});
+  CHECK(namedPair(mesh, 0, 3) == std::array<int64_t, 2>{3, 5});
+  CHECK(namedPair(mesh, -1, 3) == std::array<int64_t, 2>{3, 5});
+  CHECK(namedPair(mesh, 0, 4) == std::array<int64_t, 2>{1, 6});  // the lowest of all
+  CHECK(namedPair(mesh, -1, -1) == std::array<int64_t, 2>{1, 6});
 }
 
 TEST_CASE("the lowest pair of many triangles is found", "[intersections]") {
@@ -358,22 +350,22 @@ TEST_CASE("the lowest pair of many triangles is found", "[intersections]") {
         for (int d = 0; d < 3; ++d) corner[d] = centre[d] + number(1);
       }
     }
-    const Input input = inputOf(triangles);
-    Intersections intersections(input);
+    const Unresolved mesh(triangles);
+    PairTest pairs(*mesh.prepared);
     std::array<int64_t, 2> lowest = {-1, -1};
     for (uint32_t s = 0; s < triangles.size() && lowest[0] < 0; ++s) {
       for (uint32_t t = s + 1; t < triangles.size() && lowest[0] < 0; ++t) {
-        if (intersections.meet(s, t)) lowest = {s, t};
+        if (pairs.meet(s, t)) lowest = {s, t};
       }
     }
     REQUIRE(lowest[0] >= 0);
-    CHECK(namedPair(input, -1, -1) == lowest);
+    CHECK(namedPair(mesh, -1, -1) == lowest);
   }
 }
 
 TEST_CASE("boxes that only touch are searched", "[intersections]") {
-  CHECK(namedPair(inputOf({kBase, {{{2, 2, 0}, {3, 4, 1}, {4, 3, 1}}}}), -1, -1) == std::array<int64_t, 2>{0, 1});   // above each other
-  CHECK(namedPair(inputOf({kBase, {{{4, -1, 0}, {4, 1, 0}, {5, 0, 0}}}}), -1, -1) == std::array<int64_t, 2>{0, 1});  // beside
+  CHECK(namedPair(Unresolved({kBase, {{{2, 2, 0}, {3, 4, 1}, {4, 3, 1}}}}), -1, -1) == std::array<int64_t, 2>{0, 1});   // above each other
+  CHECK(namedPair(Unresolved({kBase, {{{4, -1, 0}, {4, 1, 0}, {5, 0, 0}}}}), -1, -1) == std::array<int64_t, 2>{0, 1});  // beside
 }
 
 TEST_CASE("a pair beside the grid is not named", "[intersections]") {
@@ -381,33 +373,91 @@ TEST_CASE("a pair beside the grid is not named", "[intersections]") {
     const Corners base = {Point{aside, 0, 0}, Point{aside + 3, 0, 0}, Point{aside, 4, 0}};
     const Corners post = {Point{aside + 1, 1, -1}, Point{aside + 1, 1, 1}, Point{aside + 1, 2, 1}};
     const std::vector<Corners> triangles = {base, post, kBase, {{{1, 1, -1}, {1, 1, 1}, {1, 2, 1}}}};
-    CHECK(namedPair(inputOf(triangles, Grid::regular({0, 0, 0}, {1, 1, 1}, {8, 8, 8})), -1, -1) == std::array<int64_t, 2>{2, 3});
-    CHECK(namedPair(inputOf(triangles), -1, -1) == std::array<int64_t, 2>{0, 1});
+    CHECK(namedPair(Unresolved(triangles, Grid::regular({0, 0, 0}, {1, 1, 1}, {8, 8, 8})), -1, -1) == std::array<int64_t, 2>{2, 3});
+    CHECK(namedPair(Unresolved(triangles), -1, -1) == std::array<int64_t, 2>{0, 1});
   }
 }
 
 TEST_CASE("what meets only after snapping is called so", "[intersections]") {
   CutStats stats;
   stats.snappedVertices = 1;
-  const Input input = inputOf({kBase, kBase});
-  CHECK(explainContradiction(input, 0, 1, stats).message == "Triangles 0 and 1 meet other than in a shared vertex or edge after snapping.");
+  const Unresolved mesh({kBase, {{{1, 1, 0}, {2, 1, 0}, {1, 2, 0}}}});
+  CHECK(explained(mesh, 0, 1, stats).message == "Triangles 0 and 1 meet other than in a shared vertex or edge after snapping.");
 }
 
 TEST_CASE("no triangles are blamed for the cutter's own faults", "[intersections]") {
-  const Error error = explainContradiction(inputOf({kBase, {{{0, 0, 0}, {4, 0, 0}, {1, 1, 1}}}}), 0, 1, {});
+  const Error error = explained(Unresolved({kBase, {{{0, 0, 0}, {4, 0, 0}, {1, 1, 1}}}}), 0, 1);
   CHECK(error.status == Status::internalError);
   CHECK(error.element == -1);
   CHECK(error.element2 == -1);
 }
 
-TEST_CASE("refused meshes on a lattice name a pair that meets", "[intersections]") {
+TEST_CASE("no triangles are blamed once all intersections are resolved", "[intersections]") {
+  const stages::StagedCut resolved(shapes::soup({kBase, {{{1, 1, -1}, {1, 1, 1}, {1, 2, 1}}}}), stages::Stage::input, {}, kGrid);
+  CutStats stats;
+  const RunOptions options;
+  Monitor monitor(options, 1);
+  Run run{stats, monitor};
+  const Error error = explainContradiction(resolved.state.surface.input, 0, 1, run);
+  CHECK(error.status == Status::internalError);
+  CHECK(error.element == -1);
+  CHECK(error.message.find("resolved") != std::string::npos);
+}
+
+TEST_CASE("the search for a pair that meets shows progress and can be cancelled", "[intersections]") {
+  std::vector<Corners> apart;
+  for (int i = 0; i < 5000; ++i) apart.push_back({{{4.0 * i, 0, 0}, {4.0 * i + 1, 0, 0}, {4.0 * i, 1, 0}}});
+  const Unresolved mesh(apart, Grid::regular({-1, -1, -1}, {20002, 3, 3}, {1, 1, 1}));
+  CutStats stats;
+  int calls = 0, left = 1000;
+  double last = -1;
+  RunOptions options;
+  options.progress = [&](const Progress& progress) {
+    const double done = double(progress.done) / double(progress.total);
+    CHECK(done > last);
+    last = done;
+    ++calls;
+    return left-- > 0;
+  };
+  Monitor monitor(options, 1);
+  Run run{stats, monitor};
+  CHECK(explainContradiction(mesh.input, -1, -1, run).status == Status::internalError);
+  CHECK(calls > 3);
+  left = 2;
+  last = -1;
+  CHECK_THROWS_AS(explainContradiction(mesh.input, -1, -1, run), Cancelled);
+}
+
+TEST_CASE("an unresolved cut that met a contradiction can be cancelled", "[intersections]") {
+  std::mt19937 random(7);
+  size_t refused = 0;
+  for (int run = 0; run < 1000 && refused < 3; ++run) {
+    std::vector<uint8_t> bytes(20 + random() % 200);
+    for (uint8_t& byte : bytes) byte = uint8_t(random() >> 24);
+    const LatticeCase latticeCase = decodeLattice(bytes.data(), bytes.size());
+    CutOptions options = unresolved();
+    if (cut(latticeCase.mesh, latticeCase.grid, options).error.status != Status::selfIntersection) continue;
+    ++refused;
+    int stage = -1;
+    options.progress = [&](const Progress& progress) {
+      CHECK(progress.stageIndex >= stage);
+      CHECK(progress.stageIndex < progress.stageCount);
+      stage = progress.stageIndex;
+      return progress.stage != std::string("intersections");
+    };
+    CHECK(cut(latticeCase.mesh, latticeCase.grid, options).error.status == Status::cancelled);
+  }
+  CHECK(refused == 3);
+}
+
+TEST_CASE("unresolved meshes on a lattice that are refused name a pair that meets", "[intersections]") {
   std::mt19937 random(7);
   size_t refused = 0;
   for (int run = 0; run < 4000; ++run) {
     std::vector<uint8_t> bytes(20 + random() % 200);
     for (uint8_t& byte : bytes) byte = uint8_t(random() >> 24);
     const LatticeCase latticeCase = decodeLattice(bytes.data(), bytes.size());
-    const CutResult result = cut(latticeCase.mesh, latticeCase.grid);
+    const CutResult result = cut(latticeCase.mesh, latticeCase.grid, unresolved());
     INFO("run " << run);
     CHECK(result.error.status != Status::internalError);
     if (result.error.status != Status::selfIntersection) continue;

@@ -4,18 +4,26 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <sstream>
 
 #include "catch.h"
 #include "mandoline/inspect.h"
 #include "mandoline/measure.h"
+#include "mandoline/slice.h"
+#include "refusal.h"
 #include "shapes.h"
 #include "temporary_folder.h"
 
+using mandoline::CallError;
 using mandoline::CutMesh;
 using mandoline::FileError;
+using mandoline::FileFormat;
 using mandoline::Grid;
 using mandoline::Mesh;
+using mandoline::Progress;
+using mandoline::Status;
+using mandoline::WriteOptions;
 
 namespace {
 
@@ -163,7 +171,7 @@ Grid unitCells(int64_t n) { return Grid::regular({0, 0, 0}, {1, 1, 1}, {n, n, n}
 /// A VTU file taken apart again.
 class Vtu {
  public:
-  Vtu(const Mesh& mesh, const CutMesh& cutMesh, const mandoline::WriteOptions& options = {}) {
+  Vtu(const Mesh& mesh, const CutMesh& cutMesh, const WriteOptions& options = {}) {
     std::ostringstream out;
     mandoline::writeVtu(out, mesh, cutMesh, options);
     text_ = out.str();
@@ -608,22 +616,22 @@ TEST_CASE("VTU of some cells has those, their points and nothing else", "[io]") 
   const auto wholeRegions = whole.array<int32_t>("region");
   const auto wholeCells = cellFaces(whole);
   const auto wholePositions = whole.array<double>("Points");
-  for (const bool untouchedCells : {false, true}) {
+  for (const bool untouched : {false, true}) {
     for (uint32_t kept = 0; kept <= cutMesh.regionCount; ++kept) {
-      mandoline::WriteOptions options;
-      options.untouchedCells = untouchedCells;
+      WriteOptions options;
+      options.untouched = untouched;
       if (kept < cutMesh.regionCount) {
         options.regions.assign(cutMesh.regionCount, 0);
         options.regions[kept] = 1;
       }
-      CAPTURE(untouchedCells, kept);
+      CAPTURE(untouched, kept);
       const Vtu some(mesh, cutMesh, options);
       const auto cells = cellFaces(some);
       const auto positions = some.array<double>("Points");
       std::vector<uint8_t> used(positions.size() / 3, 0);
       size_t next = 0;
       for (size_t c = 0; c < wholeCells.size(); ++c) {
-        if (c >= cutMesh.cellCount() && !untouchedCells) break;
+        if (c >= cutMesh.cellCount() && !untouched) break;
         if (kept < cutMesh.regionCount && wholeRegions[c] != int32_t(kept)) continue;
         REQUIRE(next < cells.size());
         REQUIRE(cells[next].size() == wholeCells[c].size());
@@ -677,17 +685,17 @@ TEST_CASE("OBJ lists each nested surface under the region it encloses", "[io]") 
 TEST_CASE("STL and PLY of the cut surface", "[io]") {
   const Mesh mesh = shapes::merged({shapes::cube(0.5, 3.5), shapes::cube(1.25, 2.75)});
   const CutMesh cutMesh = cutOrFail(mesh, unitCells(4));
-  const auto read = [&](mandoline::FileFormat format, const mandoline::WriteOptions& options) {
+  const auto read = [&](FileFormat format, const WriteOptions& options) {
     std::string file;
     mandoline::writeCutMesh([&](std::string_view piece) { file += piece; }, format, mesh, cutMesh, options);
     return mandoline::readMesh(file, "written");
   };
-  for (const auto format : {mandoline::FileFormat::stl, mandoline::FileFormat::ply, mandoline::FileFormat::obj}) {
+  for (const auto format : {FileFormat::stl, FileFormat::ply, FileFormat::obj}) {
     const Mesh whole = read(format, {});
     REQUIRE(shapes::signedVolume(whole) == Approx(27 + 3.375));
     REQUIRE(shapes::area(whole) == Approx(6 * 9 + 6 * 2.25));
     for (uint32_t r = 0; r < 3; ++r) {
-      mandoline::WriteOptions options;
+      WriteOptions options;
       options.regions.assign(3, 0);
       options.regions[r] = 1;
       const double volumes[] = {-27, 27 - 3.375, 3.375};  // by winding number
@@ -735,8 +743,99 @@ TEST_CASE("writeCutMesh goes by extension and leaves no half-written file", "[io
   const std::string noFolder = folder.path("none/a.json");
   REQUIRE_THROWS_WITH(mandoline::writeCutMesh(noFolder, cube, cutMesh), noFolder + ": there is no folder " + folder.path("none"));
   REQUIRE_THROWS_WITH(mandoline::writeCutMesh(folder.path("a.off"), cube, cutMesh),
-                      folder.path("a.off") + ": the extension must be .json, .vtu, .obj, .stl or .ply");
+                      folder.path("a.off") + ": the extension must be .json, .mcm, .vtu, .obj, .stl or .ply");
   REQUIRE(folder.fileCount() == 3);
+}
+
+TEST_CASE("Writers refuse regions and meshes that don't fit", "[io]") {
+  const Mesh cube = shapes::cube(0.75, 2.25);
+  const CutMesh cutMesh = cutOrFail(cube, unitCells(3));
+  REQUIRE(cutMesh.regionCount == 2);
+  const mandoline::Sink nowhere = [](std::string_view) {};
+  const std::vector<double> offsets = {0.9, 1.5};
+  const mandoline::OutlineStack stack{{0, 0, 1}, offsets, mandoline::outlines(cutMesh, {0, 0, 1}, offsets)};
+  const auto withRegions = [&](size_t count, const auto& write) {
+    WriteOptions options;
+    options.regions.assign(count, 1);
+    return refusal([&] { write(options); });
+  };
+  using Refusal = std::pair<Status, int64_t>;
+  for (const FileFormat format : {FileFormat::vtu, FileFormat::obj, FileFormat::stl, FileFormat::ply}) {
+    CAPTURE(mandoline::name(format));
+    const auto write = [&](const auto& options) { writeCutMesh(nowhere, format, cube, cutMesh, options); };
+    for (const size_t count : {1, 3}) CHECK(withRegions(count, write) == Refusal{Status::badArgument, -1});
+    CHECK(withRegions(2, write) == Refusal{Status::ok, -1});
+    CHECK(refusal([&] { writeCutMesh(nowhere, format, cube, CutMesh{}); }) == Refusal{Status::badArgument, -1});
+  }
+  for (const FileFormat format : {FileFormat::svg, FileFormat::dxf, FileFormat::obj}) {
+    CAPTURE(mandoline::name(format));
+    const auto write = [&](const auto& options) { writeOutlines(nowhere, format, stack, options); };
+    CHECK(withRegions(1, write) == Refusal{Status::badArgument, 1});
+    CHECK(withRegions(2, write) == Refusal{Status::ok, -1});
+    CHECK(refusal([&] { writeOutlines(nowhere, format, {stack.normal, {}, stack.layers}); }) == Refusal{Status::badArgument, -1});
+    CHECK(refusal([&] { writeOutlines(nowhere, format, {{0, 0, 0}, stack.offsets, stack.layers}); }) == Refusal{Status::badArgument, -1});
+  }
+  for (const FileFormat format : {FileFormat::obj, FileFormat::stl, FileFormat::ply, FileFormat::off}) {
+    CAPTURE(mandoline::name(format));
+    const auto write = [&](const Mesh& mesh) { return refusal([&] { writeMesh(nowhere, format, mesh); }); };
+    CHECK(write({{0, 0, 0}, {0, 0, 0, 0, 0, 1}}) == Refusal{Status::badIndex, 1});
+    CHECK(write({{0, 0, 0, 1}, {}}) == Refusal{Status::badArrays, -1});
+  }
+}
+
+TEST_CASE("Writing shows progress, and cancels without leaving a file", "[io]") {
+  const Mesh mesh = shapes::icosphere({8, 8, 8}, 6.3, 5);
+  const CutMesh cutMesh = cutOrFail(mesh, unitCells(16));
+  const auto cut = [&](const std::string& path, const WriteOptions& options) { mandoline::writeCutMesh(path, mesh, cutMesh, options); };
+  const auto input = [&](const std::string& path, const WriteOptions& options) { mandoline::writeMesh(path, mesh, options); };
+  const std::vector<std::pair<std::string, std::function<void(const std::string&, const WriteOptions&)>>> writers{
+      {"a.json", cut},  {"a.vtu", cut},   {"a.obj", cut},   {"a.stl", cut},  {"a.ply", cut},
+      {"b.obj", input}, {"b.stl", input}, {"b.ply", input}, {"b.off", input}};
+  for (const auto& [name, write] : writers) {
+    CAPTURE(name);
+    const TemporaryFolder complete, cancelled;
+    int calls = 0;
+    Progress last{"", 0, 0, 0, 1};
+    WriteOptions options;
+    options.progress = [&](const Progress& now) {
+      CHECK(now.done <= now.total);
+      CHECK((now.stageIndex > last.stageIndex || (now.stageIndex == last.stageIndex && now.done >= last.done)));
+      if (calls++ > 0) CHECK(now.stageCount == last.stageCount);
+      last = now;
+      return true;
+    };
+    write(complete.path(name), options);
+    CHECK(complete.fileCount() == 1);
+    CHECK(calls > 2);
+    CHECK(last.stageIndex == last.stageCount - 1);
+    CHECK(last.done == last.total);
+    for (const int allowed : {0, 1, calls / 2, calls - 1}) {
+      int left = allowed;
+      options.progress = [&](const Progress&) { return left-- > 0; };
+      try {
+        write(cancelled.path(name), options);
+        FAIL("not cancelled");
+      } catch (const CallError& error) {
+        CHECK(error.error.status == Status::cancelled);
+        CHECK(error.error.message == "The writing was cancelled.");
+      }
+      CHECK(left == -1);
+      CHECK(cancelled.fileCount() == 0);
+    }
+    struct OfTheCaller {};
+    options.progress = [](const Progress&) -> bool { throw OfTheCaller(); };
+    CHECK_THROWS_AS(write(cancelled.path(name), options), OfTheCaller);
+    CHECK(cancelled.fileCount() == 0);
+  }
+}
+
+TEST_CASE("A mesh that can't be inspected is refused", "[inspect]") {
+  using Refusal = std::pair<Status, int64_t>;
+  const auto inspect = [](const Mesh& mesh) { return refusal([&] { mandoline::inspect(mesh); }); };
+  CHECK(inspect({{0, 0, 0}, {0, 0, 0, 0, 1, 0}}) == Refusal{Status::badIndex, 1});
+  CHECK(inspect({{0, 0}, {}}) == Refusal{Status::badArrays, -1});
+  CHECK(inspect({{0, 0, 0}, {0, 0}}) == Refusal{Status::badArrays, -1});
+  CHECK(inspect({{0, 0, 0}, {0, 0, 0}}) == Refusal{Status::ok, -1});
 }
 
 TEST_CASE("A full disk is an error", "[io]") {

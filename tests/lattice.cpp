@@ -4,8 +4,10 @@
 #include <sstream>
 
 #include "mandoline/validate.h"
+#include "vectors.h"
 
 using namespace mandoline;
+using namespace vectors;
 
 namespace {
 
@@ -14,9 +16,6 @@ using Triangle = std::array<Point, 3>;
 
 // ------------------------------------------------------------------------------------- exact intersection of integer triangles
 
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-int64_t dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
 int sign(int64_t x) { return (x > 0) - (x < 0); }
 
 Point normal(const Triangle& t) { return cross(t[1] - t[0], t[2] - t[0]); }
@@ -157,9 +156,9 @@ std::vector<Triangle> prismShape(const Point& a, const Point& b, const Point& c,
   return shape;
 }
 
-std::vector<Triangle> nextShape(Bytes& bytes, const std::vector<Triangle>& before) {
+std::vector<Triangle> nextShape(Bytes& bytes, const std::vector<Triangle>& before, bool allowIntersections) {
   const Triangle last = before.empty() ? Triangle{} : before[size_t(bytes.below(int64_t(before.size())))];
-  switch (bytes.below(8)) {
+  switch (bytes.below(allowIntersections ? 11 : 8)) {
     case 0: {
       const Point lo = bytes.point(), hi = bytes.point();
       return boxShape(lo, hi);
@@ -187,6 +186,14 @@ std::vector<Triangle> nextShape(Bytes& bytes, const std::vector<Triangle>& befor
     case 6: {
       const Point a = bytes.point(), b = bytes.point();
       return {{last[size_t(bytes.below(3))], a, b}};
+    }
+    case 8:  // copies
+      return {{last[1], last[2], last[0]}};
+    case 9:
+      return {{last[1], last[0], last[2]}, {last[2], last[1], last[0]}};
+    case 10: {  // in one plane, with a common edge line
+      const Point a = last[0], b = last[1], c = last[2];
+      return {{a, c, a + b - c}};
     }
     default: {
       const Point a = bytes.point(), b = bytes.point(), c = bytes.point();
@@ -221,7 +228,7 @@ LatticeCase decodeLattice(const uint8_t* data, size_t size) {
   // Tenths are no doubles: lattice coincidences turn into misses by a rounding, yet what did not meet still does not.
   const bool tenths = bytes.below(4) == 0, allowIntersections = bytes.below(8) == 0, allowZeroArea = !tenths && bytes.below(4) == 0;
   while (bytes.any() && result.triangles.size() < 60) {
-    std::vector<Triangle> shape = nextShape(bytes, result.triangles);
+    std::vector<Triangle> shape = nextShape(bytes, result.triangles, allowIntersections);
     if (bytes.below(4) == 0)
       for (Triangle& t : shape) std::swap(t[0], t[1]);
     if (!allowZeroArea) shape.erase(std::remove_if(shape.begin(), shape.end(), [](const Triangle& t) { return !hasArea(t); }), shape.end());
@@ -263,19 +270,11 @@ std::string brokenPromise(const LatticeCase& latticeCase) {
   const auto broken = [&](const std::string& what) { return what + '\n' + describe(latticeCase); };
   if (latticeCase.triangles.empty())
     return result.error.status == Status::emptyMesh ? "" : broken("an empty mesh is called " + std::string(name(result.error.status)));
-  if (result) {
-    const Validation validation = validate(latticeCase.mesh, result.mesh);
-    if (validation.pass || latticeCase.intersects) return "";
-    std::string what = "validation fails:";
-    for (const Check& check : validation.checks)
-      if (!check.pass)
-        what += " " + check.name + " (" + check.elementKind + " " + std::to_string(check.element) + ": " + check.message + ")";
-    return broken(what);
-  }
-  const std::string message = std::string(name(result.error.status)) + ": " + result.error.message;
-  if (!latticeCase.intersects) return broken("refused although it does not intersect itself: " + message);
-  if (result.error.status != Status::selfIntersection) return broken("refused for another reason than its self-intersection: " + message);
-  const int64_t a = result.error.element, b = result.error.element2, count = int64_t(latticeCase.triangles.size());
-  if (a < 0 || b < 0 || a >= count || b >= count || a == b) return broken("names no two triangles: " + message);
-  return "";
+  if (!result) return broken(std::string(name(result.error.status)) + ": " + result.error.message);
+  const Validation validation = validate(latticeCase.mesh, result.mesh);
+  if (validation.pass) return "";
+  std::string what = "validation fails:";
+  for (const Check& check : validation.checks)
+    if (!check.pass) what += " " + check.name + " (" + check.elementKind + " " + std::to_string(check.element) + ": " + check.message + ")";
+  return broken(what);
 }

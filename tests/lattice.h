@@ -22,6 +22,6 @@ struct LatticeCase {
 /// do.
 LatticeCase decodeLattice(const uint8_t* bytes, size_t size);
 
-/// Cuts and validates. Empty if the promises hold: an input without self-intersections is cut and the result valid, any other one is cut
-/// or refused by name. Otherwise what is wrong, followed by the mesh as OBJ and the grid's planes.
+/// Cuts and validates. Empty if the promises hold: whatever the triangles are, they are cut and the result is valid. Otherwise what is
+/// wrong, followed by the mesh as OBJ and the grid's planes.
 std::string brokenPromise(const LatticeCase& latticeCase);

@@ -72,7 +72,7 @@ void requireComplete(const CutMesh& mesh, const std::vector<double>& points, con
 }
 
 void requireRight(const CutMesh& mesh, const std::vector<double>& points) {
-  const Locations locations = locate(mesh, points);
+  const Locations locations = cellsAt(mesh, points);
   requireComplete(mesh, points, locations);
   for (size_t i = 0; i < points.size() / 3; ++i) {
     if (locations.cell[i] < 0) continue;
@@ -131,10 +131,10 @@ TEST_CASE("a point lies in the cell that winds around it", "[locate]") {
 
 TEST_CASE("points on a lattice lie inside or outside of a cube on it, whatever they touch", "[locate]") {
   const CheckedCut cut = checkedCut(shapes::cube(0.75, 2.25), unitGrid(3));
-  const auto outside = locate(cut.mesh, std::vector<double>{0.1, 0.1, 0.1}).region[0];
+  const auto outside = cellsAt(cut.mesh, std::vector<double>{0.1, 0.1, 0.1}).region[0];
   std::vector<double> points;
   for (int i = 0; i < 13 * 13 * 13; ++i) points.insert(points.end(), {0.25 * (i % 13), 0.25 * (i / 13 % 13), 0.25 * (i / 169)});
-  const Locations locations = locate(cut.mesh, points);
+  const Locations locations = cellsAt(cut.mesh, points);
   requireComplete(cut.mesh, points, locations);
   for (size_t i = 0; i < points.size() / 3; ++i) {
     double distance = 0;  // from the centre
@@ -146,7 +146,7 @@ TEST_CASE("points on a lattice lie inside or outside of a cube on it, whatever t
 TEST_CASE("a point on a face counts to a cell beside it", "[locate]") {
   const CheckedCut cut = checkedCut(knottedShapes(), unitGrid(4));
   const std::vector<double> points = pointsOnFaces(cut.mesh);
-  const Locations locations = locate(cut.mesh, points);
+  const Locations locations = cellsAt(cut.mesh, points);
   requireComplete(cut.mesh, points, locations);
   constexpr size_t kNearby = 100;
   std::mt19937 random(8);
@@ -156,7 +156,7 @@ TEST_CASE("a point on a face counts to a cell beside it", "[locate]") {
       for (int d = 0; d < 3; ++d) nearby.push_back(std::clamp(points[3 * i + d] + 1e-7 * (double(random()) * 0x1p-31 - 1), 0., 4.));
     }
   }
-  const Locations around = locate(cut.mesh, nearby);
+  const Locations around = cellsAt(cut.mesh, nearby);
   size_t beside = 0;
   for (size_t i = 0; i < points.size() / 3; ++i) {
     bool found = false;
@@ -173,25 +173,25 @@ TEST_CASE("the grid's border belongs to it, and nothing beyond", "[locate]") {
   const CheckedCut cut = checkedCut(shapes::cube(-1, 1.5), unitGrid(2));
   const double inf = INFINITY, nan = std::numeric_limits<double>::quiet_NaN(), beyond = std::nextafter(2, 3);
   const std::vector<double> outside = {beyond, 1, 1, 1, -1e-300, 1, inf, 1, 1, 1, -inf, 1, 1, 1, nan, nan, nan, nan, 1e300, 0, 0};
-  const Locations none = locate(cut.mesh, outside);
+  const Locations none = cellsAt(cut.mesh, outside);
   CHECK(std::all_of(none.cell.begin(), none.cell.end(), [](int32_t x) { return x == -1; }));
   CHECK(std::all_of(none.region.begin(), none.region.end(), [](int32_t x) { return x == -1; }));
   CHECK(std::all_of(none.gridCell.begin(), none.gridCell.end(), [](int32_t x) { return x == -1; }));
   std::vector<double> border;
   for (int i = 0; i < 125; ++i) border.insert(border.end(), {0.5 * (i % 5), 0.5 * (i / 5 % 5), 0.5 * (i / 25)});
-  requireComplete(cut.mesh, border, locate(cut.mesh, border));
-  CHECK(locate(cut.mesh, std::vector<double>{2, 2, 2}).gridCell == std::vector<int32_t>{1, 1, 1});
-  CHECK(locate(cut.mesh, std::vector<double>{1, 1, 1}).gridCell == std::vector<int32_t>{1, 1, 1});
-  CHECK(locate(cut.mesh, {}).cell.empty());
+  requireComplete(cut.mesh, border, cellsAt(cut.mesh, border));
+  CHECK(cellsAt(cut.mesh, std::vector<double>{2, 2, 2}).gridCell == std::vector<int32_t>{1, 1, 1});
+  CHECK(cellsAt(cut.mesh, std::vector<double>{1, 1, 1}).gridCell == std::vector<int32_t>{1, 1, 1});
+  CHECK(cellsAt(cut.mesh, {}).cell.empty());
 }
 
 TEST_CASE("points of two coordinates, and an empty cut-mesh, are refused", "[locate]") {
   const CheckedCut cut = checkedCut(shapes::cube(0.5, 1.5), unitGrid(2));
   for (const size_t count : {1, 2, 4, 3001}) {
-    CHECK(refusal([&] { locate(cut.mesh, std::vector<double>(count, 1)); }) == std::pair(Status::badArgument, int64_t(-1)));
+    CHECK(refusal([&] { cellsAt(cut.mesh, std::vector<double>(count, 1)); }) == std::pair(Status::badArgument, int64_t(-1)));
   }
-  CHECK(refusal([] { locate(CutMesh(), std::vector<double>{0, 0, 0}); }).first == Status::badArgument);
-  CHECK(refusal([] { locate(CutMesh(), {}); }).first == Status::badArgument);
+  CHECK(refusal([] { cellsAt(CutMesh(), std::vector<double>{0, 0, 0}); }).first == Status::badArgument);
+  CHECK(refusal([] { cellsAt(CutMesh(), {}); }).first == Status::badArgument);
 }
 
 TEST_CASE("one cell holds a point also where rounding has bent the cells", "[locate]") {
@@ -203,16 +203,16 @@ TEST_CASE("one cell holds a point also where rounding has bent the cells", "[loc
   const CutResult cut = mandoline::cut(mesh, grid);
   REQUIRE(cut);
   const std::vector<double> points = randomPoints(grid, 20000, 4);
-  requireComplete(cut.mesh, points, locate(cut.mesh, points));
+  requireComplete(cut.mesh, points, cellsAt(cut.mesh, points));
   const std::vector<double> onFaces = pointsOnFaces(cut.mesh);
-  requireComplete(cut.mesh, onFaces, locate(cut.mesh, onFaces));
+  requireComplete(cut.mesh, onFaces, cellsAt(cut.mesh, onFaces));
 }
 
 TEST_CASE("a point's cell depends on neither the other points nor the scale", "[locate]") {
   const CheckedCut cut = checkedCut(knottedShapes(), unitGrid(4));
   const std::vector<double> points = randomPoints(cut.mesh.grid, 300, 5);
-  const Locations together = locate(cut.mesh, points);
-  for (size_t i = 0; i < 300; ++i) REQUIRE(locate(cut.mesh, std::span(points).subspan(3 * i, 3)).cell[0] == together.cell[i]);
+  const Locations together = cellsAt(cut.mesh, points);
+  for (size_t i = 0; i < 300; ++i) REQUIRE(cellsAt(cut.mesh, std::span(points).subspan(3 * i, 3)).cell[0] == together.cell[i]);
   for (const double scale : {0x1p-900, 0x1p900}) {
     const Grid grid = Grid::box({0, 0, 0}, {4 * scale, 4 * scale, 4 * scale}, {4, 4, 4});
     const Mesh mesh = shapes::scaled(knottedShapes(), {scale, scale, scale});
@@ -220,7 +220,7 @@ TEST_CASE("a point's cell depends on neither the other points nor the scale", "[
     REQUIRE(scaled);
     std::vector<double> scaledPoints = points;
     for (double& x : scaledPoints) x *= scale;
-    CHECK(locate(scaled.mesh, scaledPoints).cell == together.cell);
+    CHECK(cellsAt(scaled.mesh, scaledPoints).cell == together.cell);
   }
 }
 
@@ -229,8 +229,8 @@ TEST_CASE("many points among many triangles of one grid cell", "[locate]") {
   const CutResult cut = mandoline::cut(mesh, Grid::box({-2, -2, -2}, {2, 2, 2}, {1, 1, 1}));
   REQUIRE(cut);
   const std::vector<double> points = randomPoints(cut.mesh.grid, 50000, 6);
-  const Locations locations = locate(cut.mesh, points);
-  const auto inside = locate(cut.mesh, std::vector<double>{0, 0, 0}).cell[0];
+  const Locations locations = cellsAt(cut.mesh, points);
+  const auto inside = cellsAt(cut.mesh, std::vector<double>{0, 0, 0}).cell[0];
   size_t wrong = 0;
   for (size_t i = 0; i < points.size() / 3; ++i) {
     const double radius = std::hypot(points[3 * i], points[3 * i + 1], points[3 * i + 2]);

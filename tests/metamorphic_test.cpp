@@ -7,6 +7,7 @@
 #include "case_list.h"
 #include "catch.h"
 #include "checked_cut.h"
+#include "same_bits.h"
 #include "shapes.h"
 
 using namespace mandoline;
@@ -98,16 +99,6 @@ Grid permutedGrid(const Grid& grid, const std::array<int, 3>& axes, const std::a
 }
 
 /// All arrays that no coordinate goes into.
-bool sameTopology(const CutMesh& a, const CutMesh& b) {
-  return a.vertexCell == b.vertexCell && a.vertexMask == b.vertexMask && a.vertexTriVertex == b.vertexTriVertex &&
-         a.vertexParents == b.vertexParents && a.loopOffsets == b.loopOffsets && a.loopVertices == b.loopVertices &&
-         a.faceLoopOffsets == b.faceLoopOffsets && a.faceTriangle == b.faceTriangle && a.faceAxis == b.faceAxis &&
-         a.facePlane == b.facePlane && a.cellHalfFaceOffsets == b.cellHalfFaceOffsets && a.cellHalfFaces == b.cellHalfFaces &&
-         a.cellGridCell == b.cellGridCell && a.cellRegion == b.cellRegion && a.rowRunOffsets == b.rowRunOffsets &&
-         a.runBegin == b.runBegin && a.runEnd == b.runEnd && a.runRegion == b.runRegion && a.regionCount == b.regionCount &&
-         a.hasWinding == b.hasWinding && a.regionWinding == b.regionWinding && a.triangleCount == b.triangleCount &&
-         a.droppedTriangles == b.droppedTriangles;
-}
 
 }  // namespace
 
@@ -169,7 +160,7 @@ TEST_CASE("scaled by powers of two", "[metamorphic]") {
       for (auto& planes : grid.planes)
         for (double& x : planes) x *= s;
       const CheckedCut cut = checkedCut(shapes::scaled(named.mesh, {s, s, s}), Grid::rectilinear(grid.planes));
-      CHECK(sameTopology(original.mesh, cut.mesh));
+      CHECK(differences(original.mesh, cut.mesh) == std::vector<std::string>{"positions", "grid"});
       std::vector<double> positions = original.mesh.positions;
       for (double& x : positions) x *= s;
       CHECK(positions == cut.mesh.positions);
@@ -236,8 +227,7 @@ TEST_CASE("one thread or many, once or again: the same bits", "[metamorphic]") {
       options.threads = threads;
       const CutResult again = cut(named.mesh, named.grid, options);
       REQUIRE(again);
-      CHECK(sameTopology(once.mesh, again.mesh));
-      CHECK(once.mesh.positions == again.mesh.positions);
+      CHECK(differences(once.mesh, again.mesh).empty());
     }
   }
   // Large enough for every stage to have work for all threads.
@@ -250,7 +240,34 @@ TEST_CASE("one thread or many, once or again: the same bits", "[metamorphic]") {
     options.threads = threads;
     const CutResult again = cut(mesh, grid, options);
     REQUIRE(again);
-    CHECK(sameTopology(once.mesh, again.mesh));
-    CHECK(once.mesh.positions == again.mesh.positions);
+    CHECK(differences(once.mesh, again.mesh).empty());
   }
+}
+
+TEST_CASE("a difference of one bit is seen in every array, in the grid and in the counts", "[metamorphic]") {
+  const NamedCase named = caseList()[0];
+  const CutResult result = cut(named.mesh, named.grid);
+  REQUIRE(result);
+  std::vector<std::string> names;
+  forEachArray(result.mesh, [&](const ArrayInfo& info, const auto&) { names.push_back(info.name); });
+  for (const std::string& name : names) {
+    CutMesh changed = result.mesh;
+    forEachArray(changed, [&](const ArrayInfo& info, auto& array) {
+      if (info.name != name) return;
+      if (array.empty()) array.emplace_back();
+      *reinterpret_cast<uint8_t*>(&array.back()) ^= 1;
+    });
+    CHECK(differences(result.mesh, changed) == std::vector{name});
+  }
+  CutMesh changed = result.mesh;
+  changed.positions.push_back(0.0);
+  CutMesh negative = changed;
+  negative.positions.back() = -0.0;
+  CHECK(differences(changed, negative) == std::vector<std::string>{"positions"});
+  changed = result.mesh;
+  changed.grid.planes[2].back() *= 1 + 0x1p-52;
+  ++changed.regionCount;
+  changed.hasWinding = !changed.hasWinding;
+  ++changed.triangleCount;
+  CHECK(differences(result.mesh, changed) == std::vector<std::string>{"grid", "regionCount", "hasWinding", "triangleCount"});
 }

@@ -10,38 +10,20 @@
 #include "mandoline/slice.h"
 #include "refusal.h"
 #include "shapes.h"
+#include "vectors.h"
 
 using namespace mandoline;
+using namespace vectors;
 
 namespace {
 
 using Point = shapes::Point;
 
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
-double length(const Point& a) { return std::sqrt(dot(a, a)); }
-
-Point pointOf(const std::vector<double>& positions, uint32_t p) { return {positions[3 * p], positions[3 * p + 1], positions[3 * p + 2]}; }
-
-/// Signed area of the points' polygon about the normal.
-double areaOf(const std::vector<double>& positions, std::span<const uint32_t> loop, const Point& normal) {
-  double sum = 0;
-  const Point origin = pointOf(positions, loop[0]);
-  for (size_t i = 1; i + 1 < loop.size(); ++i)
-    sum += 0.5 * dot(normal, cross(pointOf(positions, loop[i]) - origin, pointOf(positions, loop[i + 1]) - origin));
-  return sum / length(normal);
-}
-
-std::span<const uint32_t> itemsOf(const std::vector<uint32_t>& offsets, const std::vector<uint32_t>& items, size_t i) {
-  return {items.data() + offsets[i], offsets[i + 1] - offsets[i]};
-}
-
 /// Lengths of the straight pieces of a loop, or of a polyline, which is not closed.
 double lengthOf(const std::vector<double>& positions, std::span<const uint32_t> points, bool closed) {
   double sum = 0;
   for (size_t i = closed ? 0 : 1; i < points.size(); ++i)
-    sum += length(pointOf(positions, points[i]) - pointOf(positions, points[i > 0 ? i - 1 : points.size() - 1]));
+    sum += length(pointAt(positions, points[i]) - pointAt(positions, points[i > 0 ? i - 1 : points.size() - 1]));
   return sum;
 }
 
@@ -55,7 +37,7 @@ Section sectionOf(const Mesh& mesh, const Plane& plane, const Grid& grid) {
   for (size_t t = 0; t < mesh.triangleCount(); ++t) {
     std::vector<Point> ends;
     Point corner[3];
-    for (int i = 0; i < 3; ++i) corner[i] = pointOf(mesh.positions, mesh.triangles[3 * t + size_t(i)]);
+    for (int i = 0; i < 3; ++i) corner[i] = pointAt(mesh.positions, mesh.triangles[3 * t + size_t(i)]);
     for (int i = 0; i < 3; ++i) {
       const Point &a = corner[i], &b = corner[(i + 1) % 3];
       const double ha = dot(plane.normal, a) - plane.offset, hb = dot(plane.normal, b) - plane.offset;
@@ -115,7 +97,7 @@ Outlines checkedOutlines(const Mesh& mesh, const CutMesh& cut, const Plane& plan
   const double scale = length(plane.normal);
   bool onPlane = true, sharp = true;
   for (uint32_t p = 0; p < found.positions.size() / 3; ++p)
-    onPlane &= std::fabs(dot(plane.normal, pointOf(found.positions, p)) - plane.offset) / scale < 1e-12;
+    onPlane &= std::fabs(dot(plane.normal, pointAt(found.positions, p)) - plane.offset) / scale < 1e-12;
   CHECK(onPlane);
   std::vector<double> areas(cut.regionCount, 0), expected = areas;
   double total = 0;
@@ -123,7 +105,7 @@ Outlines checkedOutlines(const Mesh& mesh, const CutMesh& cut, const Plane& plan
     for (uint32_t l = found.polygonLoopOffsets[p]; l < found.polygonLoopOffsets[p + 1]; ++l) {
       const auto loop = itemsOf(found.loopOffsets, found.loopPoints, l);
       REQUIRE(loop.size() >= 3);
-      const double area = areaOf(found.positions, loop, plane.normal);
+      const double area = areaAbout(plane.normal, found.positions, loop);
       CHECK((l == found.polygonLoopOffsets[p] ? area > -1e-12 : area < 1e-12));
       areas[found.polygonRegion[p]] += area;
       total += lengthOf(found.positions, loop, true);
@@ -137,7 +119,7 @@ Outlines checkedOutlines(const Mesh& mesh, const CutMesh& cut, const Plane& plan
   for (size_t p = 0; p < polygons.polygonCount(); ++p) {
     for (uint32_t l = polygons.polygonLoopOffsets[p]; l < polygons.polygonLoopOffsets[p + 1]; ++l)
       expected[polygons.polygonRegion[p]] +=
-          areaOf(polygons.positions, itemsOf(polygons.loopOffsets, polygons.loopPoints, l), plane.normal);
+          areaAbout(plane.normal, polygons.positions, itemsOf(polygons.loopOffsets, polygons.loopPoints, l));
   }
   for (size_t r = 0; r < areas.size(); ++r) CHECK(areas[r] == Approx(expected[r]).margin(1e-10));
   CHECK(total == Approx(2 * sectionOf(mesh, plane, cut.grid).length + boxPerimeter(cut.grid, plane)).epsilon(1e-10));
@@ -181,7 +163,7 @@ TEST_CASE("a box's outline has its four corners, and two more where the diagonal
   CHECK(loopSizes(found, inside) == Sizes{8});  // four edges and four diagonals
   CHECK(loopSizes(found, outside) == Sizes{4, 8});
   CHECK(found.slitCount() == 0);
-  CHECK(areaOf(found.positions, itemsOf(found.loopOffsets, found.loopPoints, inside == 0 ? 0 : 2), {0, 0, 1}) == Approx(6.25));
+  CHECK(areaAbout({0, 0, 1}, found.positions, itemsOf(found.loopOffsets, found.loopPoints, inside == 0 ? 0 : 2)) == Approx(6.25));
 }
 
 TEST_CASE("outlines of a sphere have one point per edge that is cut, however fine the grid", "[outlines]") {
@@ -235,8 +217,8 @@ TEST_CASE("an open sheet is a slit in the outlines, from end to end", "[outlines
   REQUIRE(found.slitCount() == 1);
   REQUIRE(found.slitPoints.size() == 3);  // its ends, and the diagonal
   // The normal of the sheet, which points to -y, is to the right.
-  CHECK(pointOf(found.positions, found.slitPoints[0])[0] == 0.5);
-  CHECK(pointOf(found.positions, found.slitPoints[2])[0] == 3.5);
+  CHECK(pointAt(found.positions, found.slitPoints[0])[0] == 0.5);
+  CHECK(pointAt(found.positions, found.slitPoints[2])[0] == 3.5);
 }
 
 TEST_CASE("a mesh with a hole in it is a closed slit where the plane misses the hole", "[outlines]") {
@@ -247,7 +229,7 @@ TEST_CASE("a mesh with a hole in it is a closed slit where the plane misses the 
   REQUIRE(found.slitCount() == 1);
   CHECK(found.slitPoints.size() == 19);  // nine edges and nine diagonals, and the first again
   CHECK(found.slitPoints.front() == found.slitPoints.back());
-  CHECK(areaOf(found.positions, found.slitPoints, {0, 0, 1}) > 0);  // the normals point outward
+  CHECK(areaAbout({0, 0, 1}, found.positions, found.slitPoints) > 0);  // the normals point outward
 }
 
 TEST_CASE("sheets that meet in an edge are as many slits", "[outlines]") {
@@ -305,7 +287,7 @@ TEST_CASE("outlines in planes of the grid, through faces of the surface and alon
       const Outlines found = outlines(cut.mesh, plane);
       double total = 0;
       for (size_t l = 0; l + 1 < found.loopOffsets.size(); ++l)
-        total += areaOf(found.positions, itemsOf(found.loopOffsets, found.loopPoints, l), plane.normal);
+        total += areaAbout(plane.normal, found.positions, itemsOf(found.loopOffsets, found.loopPoints, l));
       CHECK(total == Approx(16).epsilon(1e-12));
     }
   }
@@ -324,7 +306,7 @@ TEST_CASE("outlines of boxes that touch in an edge do not cross there", "[outlin
   }
   double area = 0;
   for (size_t l = 0; l + 1 < found.loopOffsets.size(); ++l)
-    area += areaOf(found.positions, itemsOf(found.loopOffsets, found.loopPoints, l), {0, 0, 1});
+    area += areaAbout({0, 0, 1}, found.positions, itemsOf(found.loopOffsets, found.loopPoints, l));
   CHECK(area == Approx(16));
 }
 

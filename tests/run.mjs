@@ -19,7 +19,7 @@ function runCtest(folder) {
 }
 
 if (meshFolder) process.env.MANDOLINE_MESHES = resolve(meshFolder); // tests run in other folders
-setUp('a C++20 compiler', 'CMake', 'make', 'pkg-config', 'Catch2', 'zlib', 'Emscripten', 'Chromium');
+setUp('a C++20 compiler', 'CMake', 'make', 'pkg-config', 'Catch2', 'zlib', 'Eigen', 'Emscripten', 'Chromium');
 build('build', '-DMANDOLINE_BUILD_TESTS=ON');
 runCtest('build');
 

@@ -34,8 +34,10 @@ class Sampler {
         return double(below(10)) * kFlushBelow;
       case Kind::random:
         return x;
-      case Kind::sparse:
-        return 1 + std::ldexp(1, -1 - int(below(52))) - std::ldexp(1, -1 - int(below(52)));  // expansions of neighbouring powers of two
+      case Kind::sparse: {  // expansions of neighbouring powers of two
+        const double more = 1 + std::ldexp(1, -1 - int(below(52)));
+        return more - std::ldexp(1, -1 - int(below(52)));
+      }
       case Kind::large:
         return x * 0x1p120;
       case Kind::small:
@@ -58,7 +60,10 @@ class Sampler {
   /// -1 .. 2, often in eighths, which keep a lattice's points exact.
   double parameter() { return oneIn(3) ? 3 * unit() - 1 : double(below(25)) / 8 - 1; }
   Point onLine(const Point& a, const Point& b) { return combined(a, b, b, parameter(), 0); }
-  Point onPlane(const Point& a, const Point& b, const Point& c) { return combined(a, b, c, parameter(), parameter()); }
+  Point onPlane(const Point& a, const Point& b, const Point& c) {
+    const double s = parameter(), t = parameter();  // in this order with every compiler
+    return combined(a, b, c, s, t);
+  }
   /// a + s (b - a) + t (c - a), rounded.
   static Point combined(const Point& a, const Point& b, const Point& c, double s, double t) {
     Point p;

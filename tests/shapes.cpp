@@ -7,24 +7,17 @@
 #include <utility>
 
 #include "mandoline/shapes.h"
+#include "vectors.h"
 
 namespace shapes {
+
+using namespace vectors;
 
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-Point operator+(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point operator*(double s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
-double length(const Point& a) { return std::sqrt(dot(a, a)); }
-
-Point corner(const Mesh& mesh, size_t t, int k) {
-  const double* p = &mesh.positions[3 * mesh.triangles[3 * t + k]];
-  return {p[0], p[1], p[2]};
-}
+Point corner(const Mesh& mesh, size_t t, int k) { return pointAt(mesh.positions, mesh.triangles[3 * t + k]); }
 
 uint32_t addVertex(Mesh& mesh, const Point& p) {
   mesh.positions.insert(mesh.positions.end(), p.begin(), p.end());
@@ -353,6 +346,14 @@ Mesh unwelded(const Mesh& mesh) {
   Mesh result;
   for (uint32_t v : mesh.triangles)
     result.triangles.push_back(addVertex(result, {mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]}));
+  return result;
+}
+
+Mesh soup(const std::vector<std::array<Point, 3>>& triangles) {
+  Mesh result;
+  for (const auto& corners : triangles) {
+    for (const Point& p : corners) result.triangles.push_back(addVertex(result, p));
+  }
   return result;
 }
 

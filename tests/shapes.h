@@ -62,7 +62,8 @@ Mesh permuted(const Mesh& mesh, const std::array<int, 3>& axes, const std::array
 Mesh shuffled(const Mesh& mesh, unsigned seed, std::vector<uint32_t>& newTriangle);
 /// Triangle t becomes three (t and two at the end) about a point inside, exact for coordinates of few bits.
 Mesh withSplitTriangle(const Mesh& mesh, uint32_t t);
-Mesh unwelded(const Mesh& mesh);  ///< three vertices of its own for each triangle
+Mesh unwelded(const Mesh& mesh);                                ///< three vertices of its own for each triangle
+Mesh soup(const std::vector<std::array<Point, 3>>& triangles);  ///< which share no vertex ids
 
 double signedVolume(const Mesh& mesh);
 double area(const Mesh& mesh);

@@ -1,4 +1,4 @@
-// Cross-sections: they cover the grid's cross-section once, follow the surface, and agree with locate().
+// Cross-sections: they cover the grid's cross-section once, follow the surface, and agree with cellsAt().
 #include "mandoline/slice.h"
 
 #include <algorithm>
@@ -13,36 +13,23 @@
 #include "mandoline/locate.h"
 #include "refusal.h"
 #include "shapes.h"
+#include "vectors.h"
 
 using namespace mandoline;
+using namespace vectors;
 
 namespace {
 
 using Point = shapes::Point;
 
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
 Point unit(const Point& a) {
-  const double length = std::sqrt(dot(a, a));
-  return {a[0] / length, a[1] / length, a[2] / length};
-}
-double areaAbout(const Point& normal, const Point& a, const Point& b, const Point& c) {
-  return 0.5 * dot(unit(normal), cross(b - a, c - a));
+  const double scale = length(a);
+  return {a[0] / scale, a[1] / scale, a[2] / scale};
 }
 
-Point pointOf(const Slice& slice, uint32_t p) { return {slice.positions[3 * p], slice.positions[3 * p + 1], slice.positions[3 * p + 2]}; }
-std::span<const uint32_t> loopOf(const Slice& slice, size_t l) {
-  return {slice.loopPoints.data() + slice.loopOffsets[l], slice.loopOffsets[l + 1] - slice.loopOffsets[l]};
-}
-
-double loopArea(const Slice& slice, const Point& normal, size_t l) {
-  const auto loop = loopOf(slice, l);
-  double sum = 0;
-  for (size_t i = 0; i < loop.size(); ++i)
-    sum += areaAbout(normal, pointOf(slice, loop[0]), pointOf(slice, loop[i]), pointOf(slice, loop[(i + 1) % loop.size()]));
-  return sum;
-}
+Point pointOf(const Slice& slice, uint32_t p) { return pointAt(slice.positions, p); }
+std::span<const uint32_t> loopOf(const Slice& slice, size_t l) { return itemsOf(slice.loopOffsets, slice.loopPoints, l); }
+double loopArea(const Slice& slice, const Point& normal, size_t l) { return areaAbout(normal, slice.positions, loopOf(slice, l)); }
 double polygonArea(const Slice& slice, const Point& normal, size_t polygon) {
   double sum = 0;
   for (uint32_t l = slice.polygonLoopOffsets[polygon]; l < slice.polygonLoopOffsets[polygon + 1]; ++l) sum += loopArea(slice, normal, l);
@@ -199,7 +186,7 @@ void requireLocated(const CutMesh& mesh, const Slice& s, const Plane& plane) {
       polygons.push_back(p);
     }
   }
-  const Locations locations = locate(mesh, points);
+  const Locations locations = cellsAt(mesh, points);
   size_t wrong = 0;
   for (size_t i = 0; i < polygons.size(); ++i)
     wrong += locations.cell[i] != s.polygonCell[polygons[i]] || locations.region[i] != int32_t(s.polygonRegion[polygons[i]]);
@@ -482,7 +469,7 @@ TEST_CASE("a cut-mesh whose cells are not closed is cut somehow", "[slice][locat
   for (const Plane& plane : randomPlanes({1.5, 1.5, 1.5}, 1.5, 20, 9)) {
     const Slice s = slice(mesh, plane);
     for (const uint32_t p : s.triangles) REQUIRE(3 * size_t(p) < s.positions.size());
-    CHECK(locate(mesh, s.positions).cell.size() == s.positions.size() / 3);
+    CHECK(cellsAt(mesh, s.positions).cell.size() == s.positions.size() / 3);
   }
 }
 

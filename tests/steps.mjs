@@ -32,12 +32,15 @@ const tools = {
   make: { has: () => works('make', '--version') || works('ninja', '--version'), packages: ['make'] },
   Catch2: { has: () => hasHeader('catch2/catch.hpp') || hasHeader('catch2/catch_all.hpp'), packages: ['catch2'] },
   'pkg-config': { has: () => works('pkg-config', '--version'), packages: ['pkg-config'] },
+  Eigen: { has: () => existsSync('/usr/include/eigen3') || existsSync('/usr/local/include/eigen3'), packages: ['libeigen3-dev'] },
   zlib: { has: () => hasHeader('zlib.h'), packages: ['zlib1g-dev'] },
   Emscripten: { has: () => works('emcc', '--version'), packages: ['emscripten'] },
   Chromium: { has: () => works('/usr/bin/chromium', '--version'), packages: ['chromium'] },
   // The version matters: each formats a little differently.
   'clang-format 14': { has: () => works('clang-format-14', '--version'), packages: ['clang-format-14'] },
   'clang-tidy': { has: () => works('clang-tidy', '--version'), packages: ['clang-tidy'] },
+  OpenFOAM: { has: () => existsSync('/usr/bin/checkMesh') && existsSync('/usr/share/openfoam'), packages: ['openfoam'] },
+  "Debian's VTK for Python": { has: () => works('/usr/bin/python3', '-c', 'import vtk'), packages: ['python3-vtk9'] },
   'clang with libFuzzer': {
     has: () => works('sh', '-c', 'command -v clang++ && ls "$(clang++ -print-resource-dir)"/lib/*/libclang_rt.fuzzer*'),
     packages: ['clang'],

@@ -1,15 +1,13 @@
 // Calls with arguments that do not belong together: each works, or reports by a CallError; none crashes. The sanitizers look on.
+#include <algorithm>
+#include <climits>
 #include <functional>
 #include <limits>
 #include <random>
 
 #include "catch.h"
-#include "mandoline/locate.h"
+#include "mandoline/io.h"
 #include "mandoline/mandoline.h"
-#include "mandoline/measure.h"
-#include "mandoline/slice.h"
-#include "mandoline/triangulate.h"
-#include "mandoline/validate.h"
 #include "shapes.h"
 
 using namespace mandoline;
@@ -71,6 +69,81 @@ class Draw {
     constexpr size_t kIds[] = {0, 1, 7, 100, 99999999, UINT32_MAX, SIZE_MAX};
     return kIds[below(std::size(kIds))];
   }
+  FileFormat of(const std::vector<FileFormat>& formats) { return formats[below(formats.size())]; }
+  WriteOptions writeOptions() {
+    WriteOptions options;
+    options.untouched = below(2) == 0;
+    if (below(2) == 0) options.regions.assign(below(4), uint8_t(below(2)));
+    return options;
+  }
+  /// A mesh's own, or one that has lost or been given arrays.
+  ResolvedMesh resolvedMesh() {
+    ResolvedMesh result = resolve(mesh()).mesh;
+    if (below(4) == 0) result.mesh = mesh();
+    if (below(4) == 0) result.frontWinding.resize(below(20));
+    if (below(4) == 0) result.hasWinding = true;
+    return result;
+  }
+  WindingRule rule() { return WindingRule(below(3)); }
+  Intersections intersections() { return Intersections(below(3)); }
+  int64_t count() {
+    constexpr int64_t kCounts[] = {-1, 0, 1, 2, 3, 4, 5, 6, INT64_MIN, INT64_MAX};
+    return kCounts[below(std::size(kCounts))];
+  }
+  std::array<int64_t, 3> counts() {
+    const int64_t x = count(), y = count();
+    return {x, y, count()};
+  }
+  /// Often one that can be cut with.
+  Grid grid() {
+    const std::array<double, 3> min = triple(), max = triple();
+    switch (below(6)) {
+      case 0:
+        return Grid::around(mesh(), count());
+      case 1:
+        return Grid::box(min, max, counts());
+      case 2:
+        return Grid::regular(min, max, counts());
+      case 3: {
+        std::vector<double> x = numbers(), y = numbers();
+        if (below(2) == 0) std::sort(x.begin(), x.end());
+        return Grid::rectilinear({std::move(x), std::move(y), {0, 0.5, 1}});
+      }
+      default:
+        return Grid::box({-1, -1, -1}, {1, 1, 1}, {2, 3, 4});
+    }
+  }
+  CutOptions cutOptions() {
+    CutOptions options;
+    options.intersections = intersections();
+    if (below(3) == 0) options.snapTolerance = number();
+    return options;
+  }
+  CoarsenOptions coarsenOptions() {
+    constexpr int kLevels[] = {INT_MIN, -1, 0, 1, 24, 40, INT_MAX};
+    CoarsenOptions options;
+    options.maxLevel = kLevels[below(std::size(kLevels))];
+    options.fineLayers = below(2) == 0 ? 0 : kLevels[below(std::size(kLevels))];
+    options.balanceEdges = below(2) == 0;
+    return options;
+  }
+  /// A cut-mesh's own, or what has some of its arrays changed.
+  OctreeCells octreeOf(const CutMesh& cutMesh) {
+    OctreeCells result = coarsen(cutMesh);
+    if (below(8) == 0) result.cellCorner.resize(below(20));
+    if (below(8) == 0) result.cellLevel.resize(below(20), uint8_t(id()));
+    if (below(8) == 0) result.cellRegion.resize(below(20));
+    if (below(8) == 0 && !result.cellLevel.empty()) result.cellLevel[below(result.cellLevel.size())] = uint8_t(below(256));
+    if (below(8) == 0 && !result.cellCorner.empty()) result.cellCorner[below(result.cellCorner.size())] = int32_t(id());
+    if (below(8) == 0) result.gridCells[below(3)] = int32_t(count());
+    return result;
+  }
+  /// With its own or another's octree cells.
+  CellComplex cells() {
+    const Mesh& ofMesh = mesh();
+    const CutMesh& one = cutMesh();
+    return cellComplex(ofMesh, one, octreeOf(below(4) == 0 ? cutMesh() : one));
+  }
   ValidateOptions validateOptions() {
     ValidateOptions options;
     options.snapTolerance = below(2) == 0 ? 0 : number();
@@ -84,6 +157,14 @@ class Draw {
   const std::vector<Family>& families_;
   std::mt19937 random_;
 };
+
+/// Calls that give their error instead of throwing it count alike.
+template <class Result>
+void report(const Result& result) {
+  if (!result) throw CallError(result.error);
+}
+
+const Sink kNowhere = [](std::string_view) {};
 
 struct Call {
   const char* name;
@@ -99,13 +180,58 @@ const std::vector<Call> kCalls{
     {"triangulateFaces", [](Draw& draw) { triangulateFaces(draw.cutMesh()); }},
     {"triangulateCell", [](Draw& draw) { triangulateCell(draw.cutMesh(), draw.id()); }},
     {"triangulateRegion", [](Draw& draw) { triangulateRegion(draw.cutMesh(), uint32_t(draw.id())); }},
-    {"locate", [](Draw& draw) { locate(draw.cutMesh(), draw.numbers()); }},
+    {"cellsAt", [](Draw& draw) { cellsAt(draw.cutMesh(), draw.numbers()); }},
     {"slice",
      [](Draw& draw) {
        slice(draw.cutMesh(), {draw.triple(), draw.number()});
      }},
     {"slices", [](Draw& draw) { slices(draw.cutMesh(), draw.triple(), draw.numbers()); }},
     {"outlines", [](Draw& draw) { outlines(draw.cutMesh(), draw.triple(), draw.numbers()); }},
+    {"inspect", [](Draw& draw) { inspect(draw.mesh()); }},
+    {"findIntersections",
+     [](Draw& draw) {
+       findIntersections(draw.mesh(), {{}, draw.below(3)});
+     }},
+    {"prepare",
+     [](Draw& draw) {
+       report(prepare(draw.mesh(), {{}, draw.intersections()}));
+     }},
+    {"cut", [](Draw& draw) { report(cut(draw.mesh(), draw.grid(), draw.cutOptions())); }},
+    {"cut of a prepared mesh", [](Draw& draw) { report(cut(prepare(draw.mesh()).mesh, draw.grid(), draw.cutOptions())); }},
+    {"resolve", [](Draw& draw) { report(resolve(draw.mesh())); }},
+    {"coarsen", [](Draw& draw) { coarsen(draw.cutMesh(), draw.coarsenOptions()); }},
+    {"cellComplex", [](Draw& draw) { draw.cells(); }},
+    {"subComplex",
+     [](Draw& draw) {
+       const std::vector<uint32_t> ids{uint32_t(draw.id()), uint32_t(draw.below(9))};
+       subComplex(draw.cells(), ids);
+     }},
+    {"regionComplex", [](Draw& draw) { regionComplex(draw.cells(), uint32_t(draw.id())); }},
+    {"cells at a place",
+     [](Draw& draw) {
+       const CutMesh& cutMesh = draw.cutMesh();
+       const auto [i, j, k] = draw.counts();
+       cutMesh.cutCellsAt(i, j, k);
+       UntouchedCells(cutMesh).regionAt(i, j, k);
+       coarsen(cutMesh).find(i, j, k);
+     }},
+    {"boundary of a resolved mesh", [](Draw& draw) { boundary(draw.resolvedMesh(), draw.rule()); }},
+    {"boundary of a cut-mesh", [](Draw& draw) { boundary(draw.cutMesh(), draw.rule()); }},
+    {"writeMesh",
+     [](Draw& draw) {
+       writeMesh(kNowhere, draw.of({FileFormat::obj, FileFormat::stl, FileFormat::ply}), draw.mesh());
+     }},
+    {"writeCutMesh",
+     [](Draw& draw) {
+       const FileFormat format = draw.of({FileFormat::vtu, FileFormat::obj, FileFormat::stl, FileFormat::ply});
+       writeCutMesh(kNowhere, format, draw.mesh(), draw.cutMesh(), draw.writeOptions());
+     }},
+    {"writeOutlines",
+     [](Draw& draw) {
+       const std::vector<double> offsets = {0.25, 0.5};
+       OutlineStack stack{draw.triple(), draw.numbers(), outlines(draw.cutMesh(), {0, 0, 1}, offsets)};
+       writeOutlines(kNowhere, draw.of({FileFormat::svg, FileFormat::dxf, FileFormat::obj}), stack, draw.writeOptions());
+     }},
     {"planeAxes", [](Draw& draw) { planeAxes(draw.triple()); }},
     {"validate", [](Draw& draw) { validate(draw.mesh(), draw.cutMesh(), draw.validateOptions()); }},
 };

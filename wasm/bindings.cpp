@@ -4,9 +4,12 @@
 // Every call gives { value } or { error: { code, message, stage, element, element2 } }, since what C++ throws would arrive opaque.
 #include <emscripten/bind.h>
 
+#include <functional>
+
 #include "cut_meshes.h"
 #include "mandoline/locate.h"
 #include "mandoline/measure.h"
+#include "mandoline/resolve.h"
 #include "mandoline/slice.h"
 #include "mandoline/triangulate.h"
 #include "mandoline/validate.h"
@@ -17,27 +20,81 @@ namespace {
 using namespace mandoline;
 using namespace mandoline::wasm;
 
-/// Options with the JavaScript callback, if there is one.
-template <class Options = RunOptions>
-Options runOptions(const val& callback) {
-  Options options;
-  if (callback.isUndefined()) return options;
-  options.progress = [callback](const Progress& progress) { return callback(toObject(progress)).as<bool>(); };
-  return options;
+/// The JavaScript callback, if there is one.
+std::function<bool(const Progress&)> progressOf(const val& options) {
+  const val callback = options["progress"];
+  if (callback.isUndefined()) return {};
+  return [callback](const Progress& progress) { return callback(toObject(progress)).as<bool>(); };
 }
 
+RunOptions runOptions(const val& options) {
+  RunOptions result;
+  result.progress = progressOf(options);
+  return result;
+}
+
+val lastStage(const CutStats& stats) { return val(std::string(stats.stages.empty() ? "input" : stats.stages.back().stage)); }
+
+val prepareMesh(const val& mesh, const val& options) {
+  return guarded([&] {
+    PrepareOptions prepareOptions;
+    prepareOptions.progress = progressOf(options);
+    prepareOptions.intersections = Intersections(options["intersections"].as<int>());
+    const Mesh input = readMeshArrays(mesh);
+    const PrepareResult result = prepare(input, prepareOptions);
+    if (!result) return failure(result.error, lastStage(result.stats));
+    return success(val(KeptMesh(result.mesh)));
+  });
+}
+
+/// `mesh` is null where options.prepared is the handle of one.
 val cutMesh(const val& mesh, const val& grid, const val& options) {
   return guarded([&] {
-    CutOptions cutOptions = runOptions<CutOptions>(options["progress"]);
+    CutOptions cutOptions;
+    cutOptions.progress = progressOf(options);
     cutOptions.snapTolerance = options["snapTolerance"].as<double>();
-    const Mesh input = readMeshArrays(mesh);
-    CutResult result = cut(input, readGrid(grid, input), cutOptions);
-    if (!result) return failure(result.error, val(std::string(result.stats.stages.empty() ? "input" : result.stats.stages.back().stage)));
+    cutOptions.intersections = Intersections(options["intersections"].as<int>());
+    CutResult result;
+    if (mesh.isNull()) {
+      const PreparedMesh prepared = options["prepared"].as<KeptMesh>().get();
+      result = cut(prepared, readGrid(grid, prepared.mesh()), cutOptions);
+    } else {
+      const Mesh input = readMeshArrays(mesh);
+      result = cut(input, readGrid(grid, input), cutOptions);
+    }
+    if (!result) return failure(result.error, lastStage(result.stats));
     val value = val::object();
     value.set("cutMesh", toObject(result.mesh, result.stats, options["gridCellRegion"].as<bool>()));
     if (options["keep"].as<bool>()) value.set("twin", KeptCutMesh(std::move(result.mesh)));
     return success(value);
   });
+}
+
+val intersectionsOf(const val& mesh, const val& options) {
+  return guarded([&] {
+    IntersectionOptions findOptions;
+    findOptions.progress = progressOf(options);
+    findOptions.maxPairs = options["maxPairs"].as<uint32_t>();
+    const Mesh input = readMeshArrays(mesh);
+    return success(toObject(findIntersections(input, findOptions)));
+  });
+}
+
+val resolveMesh(const val& mesh, const val& options) {
+  return guarded([&] {
+    const Mesh input = readMeshArrays(mesh);
+    const ResolveResult result = resolve(input, runOptions(options));
+    if (!result) return failure(result.error, lastStage(result.stats));
+    return success(toObject(result));
+  });
+}
+
+val boundaryOfResolved(const val& resolved, int rule) {
+  return guarded([&] { return success(toObject(boundary(readResolvedMesh(resolved), WindingRule(rule)))); });
+}
+
+val boundaryOf(const KeptCutMesh& kept, int rule) {
+  return guarded([&, cutMesh = kept.get()] { return success(toObject(boundary(*cutMesh, WindingRule(rule)))); });
 }
 
 /// A handle of plain data; those that are to be validated may be damaged.
@@ -52,7 +109,8 @@ val keepCutMesh(const val& object, bool checked) {
 
 val validateCutMesh(const val& mesh, const KeptCutMesh& kept, const val& options) {
   return guarded([&, cutMesh = kept.get()] {
-    auto validateOptions = runOptions<ValidateOptions>(options["progress"]);
+    ValidateOptions validateOptions;
+    validateOptions.progress = progressOf(options);
     validateOptions.snapTolerance = options["snapTolerance"].as<double>();
     const Mesh input = readMeshArrays(mesh);
     return success(toObject(validate(input, *cutMesh, validateOptions)));
@@ -62,7 +120,7 @@ val validateCutMesh(const val& mesh, const KeptCutMesh& kept, const val& options
 val measureCutMesh(const val& mesh, const KeptCutMesh& kept, const val& options) {
   return guarded([&, cutMesh = kept.get()] {
     const Mesh input = readMeshArrays(mesh);
-    const Measures measures = measure(input, *cutMesh, runOptions(options["progress"]));
+    const Measures measures = measure(input, *cutMesh, runOptions(options));
     return success(toObject(measures, regionVolumes(*cutMesh, measures)));
   });
 }
@@ -90,11 +148,11 @@ val triangulateRegionOf(const KeptCutMesh& kept, uint32_t region) {
   return guarded([&, cutMesh = kept.get()] { return success(toArray(triangulateRegion(*cutMesh, region))); });
 }
 
-val locatePoints(const KeptCutMesh& kept, const val& points) {
+val cellsAtPoints(const KeptCutMesh& kept, const val& points) {
   return guarded([&, cutMesh = kept.get()] {
     std::vector<double> coordinates;
     readArray(points, coordinates);
-    return success(toObject(locate(*cutMesh, coordinates)));
+    return success(toObject(cellsAt(*cutMesh, coordinates)));
   });
 }
 
@@ -125,14 +183,18 @@ val outlinesOf(const KeptCutMesh& kept, const val& normal, const val& offsets) {
   return ofPlanes(kept, normal, offsets, [&](const auto&... of) { return outlines(of...); });
 }
 
-val writeFile(const val& mesh, const KeptCutMesh& kept, const std::string& format) {
+val writeFile(const val& mesh, const KeptCutMesh& kept, const std::string& format, const val& options) {
   return guarded([&, cutMesh = kept.get()] {
+    WriteOptions writeOptions;
+    writeOptions.progress = progressOf(options);
+    writeOptions.untouched = options["untouched"].as<bool>();
+    if (!options["regions"].isUndefined()) readArray(options["regions"], writeOptions.regions);
     const Mesh input = readMeshArrays(mesh);
     std::vector<uint8_t> bytes;
     const Sink sink = [&](std::string_view piece) { bytes.insert(bytes.end(), piece.begin(), piece.end()); };
-    if (format == "json") writeJson(sink, *cutMesh);
-    if (format == "vtu") writeVtu(sink, input, *cutMesh);
-    if (format == "obj") writeObj(sink, *cutMesh);
+    if (format == "json") writeJson(sink, *cutMesh, writeOptions);
+    if (format == "vtu") writeVtu(sink, input, *cutMesh, writeOptions);
+    if (format == "obj") writeObj(sink, *cutMesh, writeOptions);
     return success(toArray(bytes));
   });
 }
@@ -151,9 +213,15 @@ std::string version() { return MANDOLINE_VERSION; }
 
 EMSCRIPTEN_BINDINGS(mandoline) {
   emscripten::class_<KeptCutMesh>("KeptCutMesh").function("bytes", &KeptCutMesh::bytes);
+  emscripten::class_<KeptMesh>("KeptMesh").function("bytes", &KeptMesh::bytes);
   emscripten::function("version", &version);
   emscripten::function("cutMeshArrays", &describeArrays);
+  emscripten::function("prepare", &prepareMesh);
   emscripten::function("cut", &cutMesh);
+  emscripten::function("findIntersections", &intersectionsOf);
+  emscripten::function("resolve", &resolveMesh);
+  emscripten::function("boundaryOfResolved", &boundaryOfResolved);
+  emscripten::function("boundary", &boundaryOf);
   emscripten::function("keep", &keepCutMesh);
   emscripten::function("validate", &validateCutMesh);
   emscripten::function("measure", &measureCutMesh);
@@ -162,7 +230,7 @@ EMSCRIPTEN_BINDINGS(mandoline) {
   emscripten::function("triangulate", &triangulateAll);
   emscripten::function("triangulateCell", &triangulateOne);
   emscripten::function("triangulateRegion", &triangulateRegionOf);
-  emscripten::function("locate", &locatePoints);
+  emscripten::function("cellsAt", &cellsAtPoints);
   emscripten::function("slice", &sliceCutMesh);
   emscripten::function("slices", &sliceByPlanes);
   emscripten::function("outlines", &outlinesOf);

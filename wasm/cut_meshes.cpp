@@ -1,5 +1,7 @@
 #include "cut_meshes.h"
 
+#include "results.h"
+
 namespace mandoline::wasm {
 namespace {
 
@@ -40,6 +42,9 @@ val toObject(const CutStats& stats) {
   result.set("zeroAreaTriangles", stats.zeroAreaTriangles);
   result.set("duplicateTriangles", stats.duplicateTriangles);
   result.set("outsideTriangles", stats.outsideTriangles);
+  result.set("intersections", wasm::toObject(stats.intersections));
+  result.set("intersectionCurves", stats.intersectionCurves);
+  result.set("madeVertices", stats.madeVertices);
   result.set("snappedVertices", stats.snappedVertices);
   result.set("largestSnap", stats.largestSnap);
   result.set("flushedCoordinates", stats.flushedCoordinates);
@@ -52,6 +57,11 @@ double KeptCutMesh::bytes() const {
   double sum = 0;
   forEachArray(*cutMesh_, [&](const ArrayInfo&, const auto& array) { sum += double(array.size() * sizeof array[0]); });
   return sum;
+}
+
+double KeptMesh::bytes() const {
+  const MeshView mesh = mesh_.mesh();
+  return 3 * double(mesh.positions.size_bytes()) + 8 * double(mesh.triangles.size_bytes());
 }
 
 val describeArrays() {
@@ -74,7 +84,17 @@ Mesh readMeshArrays(const val& mesh) {
   return result;
 }
 
-Grid readGrid(const val& grid, const Mesh& mesh) {
+ResolvedMesh readResolvedMesh(const val& object) {
+  ResolvedMesh result;
+  result.mesh = readMeshArrays(object);
+  result.hasWinding = !object["frontWinding"].isNull();
+  if (!result.hasWinding) return result;
+  readArray(object["frontWinding"], result.frontWinding);
+  readArray(object["backWinding"], result.backWinding);
+  return result;
+}
+
+Grid readGrid(const val& grid, const MeshView& mesh) {
   const std::string kind = grid["kind"].as<std::string>();
   if (kind == "planes") return readPlanes(grid);
   if (kind == "around") return Grid::around(mesh, int64_t(grid["cells"].as<double>()));
@@ -107,6 +127,21 @@ val toObject(const CutMesh& mesh, const CutStats& stats, bool dense) {
   result.set("triangleCount", mesh.triangleCount);
   result.set("stats", toObject(stats));
   return result;
+}
+
+val toObject(const ResolveResult& result) {
+  const ResolvedMesh& resolved = result.mesh;
+  const auto winding = [&](const std::vector<int32_t>& array) { return resolved.hasWinding ? toArray(array) : val::null(); };
+  return object({{"positions", toArray(resolved.mesh.positions)},
+                 {"triangles", toArray(resolved.mesh.triangles)},
+                 {"vertexTriVertex", toArray(resolved.vertexTriVertex)},
+                 {"parentOffsets", toArray(resolved.parentOffsets)},
+                 {"parents", toArray(resolved.parents)},
+                 {"parentSigns", toArray(resolved.parentSigns)},
+                 {"frontWinding", winding(resolved.frontWinding)},
+                 {"backWinding", winding(resolved.backWinding)},
+                 {"remaining", wasm::toObject(result.remaining)},
+                 {"stats", toObject(result.stats)}});
 }
 
 }  // namespace mandoline::wasm

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "mandoline/cut.h"
+#include "mandoline/resolve.h"
 #include "values.h"
 
 namespace mandoline::wasm {
@@ -20,15 +20,30 @@ class KeptCutMesh {
   std::shared_ptr<const CutMesh> cutMesh_;
 };
 
+/// The same for a mesh that was prepared.
+class KeptMesh {
+ public:
+  explicit KeptMesh(PreparedMesh mesh) : mesh_(std::move(mesh)) {}
+  const PreparedMesh& get() const { return mesh_; }
+  /// About its size.
+  double bytes() const;
+
+ private:
+  PreparedMesh mesh_;
+};
+
 /// The arrays that a cut-mesh has in JavaScript: [{ name, type, optional }].
 val describeArrays();
 
 Mesh readMeshArrays(const val& mesh);
-Grid readGrid(const val& grid, const Mesh& mesh);
+/// As much of it as boundary() takes. Whether its arrays fit together is not asked.
+ResolvedMesh readResolvedMesh(const val& object);
+Grid readGrid(const val& grid, const MeshView& mesh);
 /// Whether its arrays fit together is not asked.
 CutMesh readCutMesh(const val& object);
 
 /// `dense`: with gridCellRegion.
 val toObject(const CutMesh& cutMesh, const CutStats& stats, bool dense);
+val toObject(const ResolveResult& result);
 
 }  // namespace mandoline::wasm

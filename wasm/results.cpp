@@ -2,68 +2,65 @@
 
 namespace mandoline::wasm {
 
-val toObject(const Mesh& mesh) {
-  val result = val::object();
-  result.set("positions", toArray(mesh.positions));
-  result.set("triangles", toArray(mesh.triangles));
-  return result;
+val toObject(const Mesh& mesh) { return object({{"positions", toArray(mesh.positions)}, {"triangles", toArray(mesh.triangles)}}); }
+
+val toObject(const PairCounts& counts) {
+  return object({{"crossing", val(double(counts.crossing))},
+                 {"touching", val(double(counts.touching))},
+                 {"overlapping", val(double(counts.overlapping))},
+                 {"folded", val(double(counts.folded))},
+                 {"identical", val(double(counts.identical))}});
+}
+
+val toObject(const MeshIntersections& intersections) {
+  return object({{"counts", toObject(intersections.counts)},
+                 {"pairTriangles", toArray(intersections.pairTriangles)},
+                 {"pairKinds", toArray(intersections.pairKinds)},
+                 {"pairPointOffsets", toArray(intersections.pairPointOffsets)},
+                 {"positions", toArray(intersections.positions)}});
 }
 
 val toObject(const Progress& progress) {
-  val result = val::object();
-  result.set("stage", std::string(progress.stage));
-  result.set("stageIndex", progress.stageIndex);
-  result.set("stageCount", progress.stageCount);
-  result.set("done", double(progress.done));
-  result.set("total", double(progress.total));
-  return result;
+  return object({{"stage", val(std::string(progress.stage))},
+                 {"stageIndex", val(progress.stageIndex)},
+                 {"stageCount", val(progress.stageCount)},
+                 {"done", val(double(progress.done))},
+                 {"total", val(double(progress.total))}});
 }
 
 val toObject(const Measures& measures, const std::vector<double>& regionVolume) {
-  val result = val::object();
-  result.set("faceArea", toArray(measures.faceArea));
-  result.set("faceNormal", toArray(measures.faceNormal));
-  result.set("faceCentroid", toArray(measures.faceCentroid));
-  result.set("cellVolume", toArray(measures.cellVolume));
-  result.set("cellCentroid", toArray(measures.cellCentroid));
-  result.set("regionVolume", toArray(regionVolume));
-  return result;
+  return object({{"faceArea", toArray(measures.faceArea)},
+                 {"faceNormal", toArray(measures.faceNormal)},
+                 {"faceCentroid", toArray(measures.faceCentroid)},
+                 {"cellVolume", toArray(measures.cellVolume)},
+                 {"cellCentroid", toArray(measures.cellCentroid)},
+                 {"regionVolume", toArray(regionVolume)}});
 }
 
 val toObject(const CutEdges& edges) {
-  val result = val::object();
-  result.set("edgeVertices", toArray(edges.edgeVertices));
-  result.set("edgeLength", toArray(edges.edgeLength));
-  return result;
+  return object({{"edgeVertices", toArray(edges.edgeVertices)}, {"edgeLength", toArray(edges.edgeLength)}});
 }
 
 val toObject(const Adjacency& adjacency) {
-  val result = val::object();
-  result.set("faceCells", toArray(adjacency.faceCells));
-  result.set("faceGridCells", toArray(std::vector<double>(adjacency.faceGridCells.begin(), adjacency.faceGridCells.end())));
-  result.set("cellCellOffsets", toArray(adjacency.cellCellOffsets));
-  result.set("cellCells", toArray(adjacency.cellCells));
-  return result;
+  return object({{"faceCells", toArray(adjacency.faceCells)},
+                 {"faceGridCells", toArray(std::vector<double>(adjacency.faceGridCells.begin(), adjacency.faceGridCells.end()))},
+                 {"cellCellOffsets", toArray(adjacency.cellCellOffsets)},
+                 {"cellCells", toArray(adjacency.cellCells)}});
 }
 
 val toObject(const FaceTriangles& faces) {
-  val result = val::object();
-  result.set("faceTriangleOffsets", toArray(faces.faceTriangleOffsets));
-  result.set("triangles", toArray(faces.triangles));
-  return result;
+  return object({{"faceTriangleOffsets", toArray(faces.faceTriangleOffsets)}, {"triangles", toArray(faces.triangles)}});
 }
 
 static val toObject(const Check& check) {
-  val result = val::object();
-  result.set("name", check.name);
-  result.set("pass", check.pass);
-  result.set("skipped", check.skipped);
-  result.set("worst", check.worst);
-  result.set("tolerance", check.tolerance);
-  result.set("elementKind", check.elementKind);
-  result.set("element", double(check.element));
-  result.set("message", check.message);
-  return result;
+  return object({{"name", val(check.name)},
+                 {"pass", val(check.pass)},
+                 {"skipped", val(check.skipped)},
+                 {"worst", val(check.worst)},
+                 {"tolerance", val(check.tolerance)},
+                 {"elementKind", val(check.elementKind)},
+                 {"element", val(double(check.element))},
+                 {"message", val(check.message)}});
 }
 
 val toObject(const Validation& validation) {
@@ -75,38 +72,30 @@ val toObject(const Validation& validation) {
 }
 
 val toObject(const Locations& locations) {
-  val result = val::object();
-  result.set("cell", toArray(locations.cell));
-  result.set("gridCell", toArray(locations.gridCell));
-  result.set("region", toArray(locations.region));
-  return result;
+  return object({{"cell", toArray(locations.cell)}, {"gridCell", toArray(locations.gridCell)}, {"region", toArray(locations.region)}});
 }
 
 val toObject(const Slice& slice) {
-  val result = val::object();
-  result.set("positions", toArray(slice.positions));
-  result.set("loopOffsets", toArray(slice.loopOffsets));
-  result.set("loopPoints", toArray(slice.loopPoints));
-  result.set("polygonLoopOffsets", toArray(slice.polygonLoopOffsets));
-  result.set("polygonCell", toArray(slice.polygonCell));
-  result.set("polygonGridCell", toArray(slice.polygonGridCell));
-  result.set("polygonRegion", toArray(slice.polygonRegion));
-  result.set("polygonTriangleOffsets", toArray(slice.polygonTriangleOffsets));
-  result.set("triangles", toArray(slice.triangles));
-  return result;
+  return object({{"positions", toArray(slice.positions)},
+                 {"loopOffsets", toArray(slice.loopOffsets)},
+                 {"loopPoints", toArray(slice.loopPoints)},
+                 {"polygonLoopOffsets", toArray(slice.polygonLoopOffsets)},
+                 {"polygonCell", toArray(slice.polygonCell)},
+                 {"polygonGridCell", toArray(slice.polygonGridCell)},
+                 {"polygonRegion", toArray(slice.polygonRegion)},
+                 {"polygonTriangleOffsets", toArray(slice.polygonTriangleOffsets)},
+                 {"triangles", toArray(slice.triangles)}});
 }
 
 val toObject(const Outlines& outlines) {
-  val result = val::object();
-  result.set("positions", toArray(outlines.positions));
-  result.set("loopOffsets", toArray(outlines.loopOffsets));
-  result.set("loopPoints", toArray(outlines.loopPoints));
-  result.set("polygonLoopOffsets", toArray(outlines.polygonLoopOffsets));
-  result.set("polygonRegion", toArray(outlines.polygonRegion));
-  result.set("slitOffsets", toArray(outlines.slitOffsets));
-  result.set("slitPoints", toArray(outlines.slitPoints));
-  result.set("slitRegion", toArray(outlines.slitRegion));
-  return result;
+  return object({{"positions", toArray(outlines.positions)},
+                 {"loopOffsets", toArray(outlines.loopOffsets)},
+                 {"loopPoints", toArray(outlines.loopPoints)},
+                 {"polygonLoopOffsets", toArray(outlines.polygonLoopOffsets)},
+                 {"polygonRegion", toArray(outlines.polygonRegion)},
+                 {"slitOffsets", toArray(outlines.slitOffsets)},
+                 {"slitPoints", toArray(outlines.slitPoints)},
+                 {"slitRegion", toArray(outlines.slitRegion)}});
 }
 
 }  // namespace mandoline::wasm

@@ -1,6 +1,7 @@
 // What the calls give, as plain data.
 #pragma once
 
+#include "mandoline/intersections.h"
 #include "mandoline/locate.h"
 #include "mandoline/measure.h"
 #include "mandoline/slice.h"
@@ -11,6 +12,8 @@
 namespace mandoline::wasm {
 
 val toObject(const Mesh& mesh);
+val toObject(const PairCounts& counts);
+val toObject(const MeshIntersections& intersections);
 val toObject(const Progress& progress);
 val toObject(const Measures& measures, const std::vector<double>& regionVolume);
 val toObject(const CutEdges& edges);

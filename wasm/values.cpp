@@ -1,27 +1,44 @@
 #include "values.h"
 
+#include <new>
+#include <stdexcept>
+
 namespace mandoline::wasm {
 
-val success(const val& value) {
+val object(std::initializer_list<std::pair<const char*, val>> members) {
   val result = val::object();
-  result.set("value", value);
+  for (const auto& [name, value] : members) result.set(name, value);
   return result;
 }
 
+val success(const val& value) { return object({{"value", value}}); }
+
 static val failed(const char* code, const Error& error, const val& stage) {
-  val object = val::object();
-  object.set("code", std::string(code));
-  object.set("message", error.message);
-  object.set("stage", stage);
-  object.set("element", double(error.element));
-  object.set("element2", double(error.element2));
-  val result = val::object();
-  result.set("error", object);
-  return result;
+  const val what = object({{"code", val(std::string(code))},
+                           {"message", val(error.message)},
+                           {"stage", stage},
+                           {"element", val(double(error.element))},
+                           {"element2", val(double(error.element2))}});
+  return object({{"error", what}});
 }
 
 val failure(const Error& error, const val& stage) { return failed(name(error.status), error, stage); }
 
 val failure(const char* code, const std::string& message) { return failed(code, {Status::ok, -1, -1, message}, val::undefined()); }
+
+val caughtFailure() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+  } catch (const std::length_error&) {
+  } catch (const CallError& exception) {
+    return failure(exception.error);
+  } catch (const FileError& exception) {
+    return failure("badFile", std::string(exception.what()) + ".");
+  } catch (const std::exception& exception) {
+    return failure(name(Status::internalError), exception.what());
+  }
+  return failure(name(Status::outOfMemory), "There is not enough memory for this call.");
+}
 
 }  // namespace mandoline::wasm

@@ -4,10 +4,10 @@
 #include <emscripten/val.h>
 
 #include <array>
-#include <new>
-#include <stdexcept>
+#include <initializer_list>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "mandoline/io.h"
@@ -52,25 +52,24 @@ val toTriple(const std::array<Number, 3>& triple) {
   return result;
 }
 
+/// An object of named members.
+val object(std::initializer_list<std::pair<const char*, val>> members);
+
 val success(const val& value);
 val failure(const Error& error, const val& stage = val::undefined());
 val failure(const char* code, const std::string& message);
+
+/// The error for the exception that is being handled.
+val caughtFailure();
 
 /// What f() gives, or the error for what it throws.
 template <class F>
 val guarded(const F& f) {
   try {
     return f();
-  } catch (const std::bad_alloc&) {
-  } catch (const std::length_error&) {
-  } catch (const CallError& exception) {
-    return failure(exception.error);
-  } catch (const FileError& exception) {
-    return failure("badFile", std::string(exception.what()) + ".");
-  } catch (const std::exception& exception) {
-    return failure(name(Status::internalError), exception.what());
+  } catch (...) {
+    return caughtFailure();
   }
-  return failure(name(Status::outOfMemory), "There is not enough memory for this call.");
 }
 
 }  // namespace mandoline::wasm

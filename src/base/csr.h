@@ -5,29 +5,89 @@
 #include <span>
 #include <vector>
 
+#include "base/id.h"
+#include "base/sort.h"
+
 namespace mandoline::detail {
 
-/// Groups of items: group g holds items[offsets[g]] .. items[offsets[g + 1] - 1].
+/// Appends the groups that other offsets describe: for items that are appended, too.
+inline void appendOffsets(std::vector<uint32_t>& offsets, const std::vector<uint32_t>& more) {
+  const uint32_t shift = offsets.back();
+  for (size_t i = 1; i < more.size(); ++i) offsets.push_back(more[i] + shift);
+}
+
+/// Some groups of a Csr, one after the other, as a range of spans.
 template <class Item>
+class Groups {
+ public:
+  struct Iterator {
+    const uint32_t* offset;
+    const Item* items;
+
+    std::span<const Item> operator*() const { return {items + offset[0], size_t(offset[1] - offset[0])}; }
+    Iterator& operator++() {
+      ++offset;
+      return *this;
+    }
+    bool operator==(const Iterator& other) const { return offset == other.offset; }
+  };
+
+  Groups(const uint32_t* offsets, size_t count, const Item* items) : offsets_(offsets), count_(count), items_(items) {}
+  size_t size() const { return count_; }
+  std::span<const Item> operator[](size_t i) const { return *Iterator{offsets_ + i, items_}; }
+  Iterator begin() const { return {offsets_, items_}; }
+  Iterator end() const { return {offsets_ + count_, items_}; }
+
+ private:
+  const uint32_t* offsets_;
+  size_t count_;
+  const Item* items_;
+};
+
+/// Groups of items: group g holds items[offsets[g]] .. items[offsets[g + 1] - 1]. `Group` is what they are numbered by: size_t or an Id.
+template <class Item, class Group = size_t>
 struct Csr {
   std::vector<uint32_t> offsets{0};
   std::vector<Item> items;
 
   size_t size() const { return offsets.size() - 1; }
-  std::span<const Item> operator[](size_t g) const { return {items.data() + offsets[g], offsets[g + 1] - offsets[g]}; }
-  std::span<Item> operator[](size_t g) { return {items.data() + offsets[g], offsets[g + 1] - offsets[g]}; }
+  std::span<const Item> operator[](Group group) const {
+    const size_t g = indexOf(group);
+    return {items.data() + offsets[g], offsets[g + 1] - offsets[g]};
+  }
+  std::span<Item> operator[](Group group) {
+    const size_t g = indexOf(group);
+    return {items.data() + offsets[g], offsets[g + 1] - offsets[g]};
+  }
+
+  /// Groups first .. past - 1.
+  Groups<Item> groups(size_t first, size_t past) const { return {offsets.data() + first, past - first, items.data()}; }
+
+  /// Ends a group: it holds the items that were appended since the one before it.
+  void endGroup() { offsets.push_back(uint32_t(items.size())); }
+  /// Appends the groups of another one.
+  void append(const Csr& more) {
+    appendOffsets(offsets, more.offsets);
+    items.insert(items.end(), more.items.begin(), more.items.end());
+  }
+  /// The same with changed(item) for each item.
+  template <class F>
+  void append(const Csr& more, const F& changed) {
+    appendOffsets(offsets, more.offsets);
+    for (const Item& item : more.items) items.push_back(changed(item));
+  }
 };
 
-/// Groups n items by groupOf(i); item(i) is stored. The order within a group is that of i.
-template <class Item, class GroupOf, class ItemOf>
-Csr<Item> groupBy(size_t groups, size_t n, const GroupOf& groupOf, const ItemOf& itemOf) {
-  Csr<Item> csr;
+/// Groups n items by groupOf(i); itemOf(i) is stored. The order within a group is that of i.
+template <class Item, class Group = size_t, class GroupOf, class ItemOf>
+Csr<Item, Group> groupBy(size_t groups, size_t n, const GroupOf& groupOf, const ItemOf& itemOf) {
+  Csr<Item, Group> csr;
   csr.offsets.assign(groups + 1, 0);
-  for (size_t i = 0; i < n; ++i) ++csr.offsets[groupOf(i) + 1];
+  for (size_t i = 0; i < n; ++i) ++csr.offsets[indexOf(groupOf(i)) + 1];
   for (size_t g = 0; g < groups; ++g) csr.offsets[g + 1] += csr.offsets[g];
   csr.items.resize(n);
   std::vector<uint32_t> at(csr.offsets.begin(), csr.offsets.end() - 1);
-  for (size_t i = 0; i < n; ++i) csr.items[at[groupOf(i)]++] = itemOf(i);
+  for (size_t i = 0; i < n; ++i) csr.items[at[indexOf(groupOf(i))]++] = itemOf(i);
   return csr;
 }
 
@@ -36,11 +96,14 @@ struct KeyedItem {
   uint32_t item;
 };
 
-/// Sorts by key, stably: radix sort in as many passes as the largest key needs.
-inline void sortByKey(std::vector<KeyedItem>& items, uint64_t largestKey) {
+/// Sorts by key, its lowest bits left out, stably: many items by radix, in as many passes as the largest key needs.
+inline void sortByKey(std::vector<KeyedItem>& items, uint64_t largestKey, int lowestBits = 0) {
   constexpr int kBits = 11;
+  constexpr size_t kFew = 64;
+  if (items.size() < kFew)
+    return sortItems(items, [=](const KeyedItem& a, const KeyedItem& b) { return a.key >> lowestBits < b.key >> lowestBits; });
   std::vector<KeyedItem> other(items.size());
-  for (int shift = 0; shift < 64 && (largestKey >> shift) != 0; shift += kBits) {
+  for (int shift = lowestBits; shift < 64 && (largestKey >> shift) != 0; shift += kBits) {
     uint32_t at[(1 << kBits) + 1] = {};
     const auto digit = [shift](const KeyedItem& k) { return (k.key >> shift) & ((1 << kBits) - 1); };
     for (const KeyedItem& k : items) ++at[digit(k) + 1];

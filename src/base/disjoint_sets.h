@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/id.h"
+
 namespace mandoline::detail {
 
 class DisjointSets {
@@ -29,6 +31,18 @@ class DisjointSets {
 
  private:
   std::vector<uint32_t> parent_;
+};
+
+/// The same for things of one kind.
+template <class Id>
+class IdSets {
+ public:
+  void reset(size_t n) { sets_.reset(n); }
+  Id find(Id i) { return {sets_.find(i.number)}; }
+  void unite(Id i, Id j) { sets_.unite(i.number, j.number); }
+
+ private:
+  DisjointSets sets_;
 };
 
 }  // namespace mandoline::detail

@@ -56,12 +56,15 @@ double Expansion::quotient(const Expansion& numerator, const Expansion& denomina
 }
 
 int Predicates::orient2d(const Point2& a, const Point2& b, const Point2& c) {
-  // Shewchuk's static filter for differences rounded once: (3 + 16 u) u times the sum of the products' magnitudes.
-  constexpr double bound = (3 + 16 * kRoundoff) * kRoundoff;
   const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x), det = left - right;
-  if (std::fabs(det) > bound * (std::fabs(left) + std::fabs(right))) return signOf(det);
+  if (std::fabs(det) > kTurnError * (std::fabs(left) + std::fabs(right))) return signOf(det);
   if (left == 0 && right == 0) return 0;  // no underflow: a factor is exactly 0 in each
   ++fallbacks;
+  const TwoTerms ax = twoDiff(a.x, c.x), ay = twoDiff(a.y, c.y), bx = twoDiff(b.x, c.x), by = twoDiff(b.y, c.y);
+  if (ax.low == 0 && ay.low == 0 && bx.low == 0 && by.low == 0) {  // as often on lattices
+    const TwoTerms l = twoProduct(ax.high, by.high), r = twoProduct(ay.high, bx.high);
+    return l.high != r.high ? signOf(l.high - r.high) : signOf(l.low - r.low);
+  }
   const auto d = &Expansion::difference;
   return (d(a.x, c.x) * d(b.y, c.y) - d(a.y, c.y) * d(b.x, c.x)).sign();
 }
@@ -78,6 +81,7 @@ int Predicates::orient3d(const double* a, const double* b, const double* c, cons
                            std::fabs(dx) * (std::fabs(m5) + std::fabs(m6));
   if (std::fabs(det) > bound * permanent) return signOf(det);
   if (permanent == 0) return 0;
+  if ((bx == 0 && cx == 0 && dx == 0) || (by == 0 && cy == 0 && dy == 0) || (bz == 0 && cz == 0 && dz == 0)) return 0;  // an axial plane
   ++fallbacks;
   const auto diff = &Expansion::difference;
   const Expansion Bx = diff(b[0], a[0]), By = diff(b[1], a[1]), Bz = diff(b[2], a[2]);

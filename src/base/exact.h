@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/big.h"
 #include "base/error_free.h"
 
 namespace mandoline::detail {
@@ -42,6 +43,12 @@ struct Bounded {
     return {v, std::fabs(a.value) * b.error + std::fabs(b.value) * a.error + a.error * b.error + kRoundoff * std::fabs(v)};
   }
   Bounded operator-() const { return {-value, error}; }
+  /// The error is infinite if b may be 0.
+  friend Bounded quotient(const Bounded& a, const Bounded& b) {
+    const double v = a.value / b.value, room = std::fabs(b.value) - b.error;
+    if (!(room > 0)) return {0, INFINITY};
+    return {v, ((a.error + std::fabs(v) * b.error) / room + kRoundoff * std::fabs(v)) * (1 + 0x1p-30)};
+  }
 
   /// Whether sign() is proven. The errors' own roundings are some 2^-50 of them, far within the factor.
   bool certain() const { return std::fabs(value) > error * (1 + 0x1p-30) || error == 0; }
@@ -92,6 +99,15 @@ struct Point2 {
   double x, y;
 };
 
+/// Shewchuk's static filter for turns of differences rounded once: (3 + 16 u) u times the sum of the products' magnitudes.
+inline constexpr double kTurnError = (3 + 16 * kRoundoff) * kRoundoff;
+
+/// Whether it is sure, in doubles, that a, b, c turn counter-clockwise.
+inline bool surelyTurnsLeft(const Point2& a, const Point2& b, const Point2& c) {
+  const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
+  return left - right > kTurnError * (std::fabs(left) + std::fabs(right));
+}
+
 /// Evaluates exact signs and counts how many could not be decided in plain doubles. One per thread.
 class Predicates {
  public:
@@ -108,7 +124,7 @@ class Predicates {
     const Bounded fast = f(Bounded());
     if (fast.certain()) return fast.sign();
     ++fallbacks;
-    return f(Expansion()).sign();
+    return f(Big()).sign();
   }
 };
 

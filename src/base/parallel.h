@@ -2,14 +2,14 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <functional>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
+
+#include "base/function_ref.h"
 
 namespace mandoline::detail {
 
@@ -66,48 +66,23 @@ class Monitor {
   bool cancelled_ = false;
 };
 
+/// How many ranges forChunks makes of n items.
+inline size_t chunkCount(size_t n, const Monitor& monitor, size_t block) {
+  const unsigned threads = n < block ? 1 : monitor.threads();
+  return threads == 1 ? 1 : 8 * threads;
+}
+
+/// Runs f(chunk, begin, end) for that many ranges of 0..n, as forChunks below.
+void runChunks(size_t n, size_t chunks, Monitor& monitor, FunctionRef<void(size_t, size_t, size_t)> f, size_t block);
+
 /// Runs f(state, begin, end) over 0..n in order of items, each State over one contiguous range, and returns the states in that order:
 /// concatenating them gives the same result for any number of threads. `block` items lie between two reports, and more are worth a thread.
-/// Of several failures the first in item order is thrown, but
-/// ProgressFailed before any other.
+/// Of several failures the first in item order is thrown, but ProgressFailed before any other.
 template <class State, class F>
 std::vector<State> forChunks(size_t n, Monitor& monitor, const F& f, size_t block = 2048) {
-  const unsigned threads = n < block ? 1 : monitor.threads();
-  const size_t chunks = threads == 1 ? 1 : 8 * threads;
-  std::vector<State> states(chunks);
-  std::vector<std::exception_ptr> failures(chunks);
-  std::exception_ptr progressFailure;
-  std::atomic<size_t> nextChunk{0}, done{0};
-  std::atomic<bool> failed{false};
-  const auto work = [&] {
-    for (size_t c; !failed && (c = nextChunk++) < chunks;) {
-      try {
-        for (size_t begin = n * c / chunks, end = n * (c + 1) / chunks; begin < end;) {
-          const size_t stop = std::min(end, begin + block);
-          f(states[c], begin, stop);
-          monitor.report(done += stop - begin, n);
-          begin = stop;
-        }
-      } catch (const ProgressFailed&) {  // the callback is not called again, so there is one at most
-        progressFailure = std::current_exception();
-        failed = true;
-      } catch (...) {
-        failures[c] = std::current_exception();
-        failed = true;
-      }
-    }
-  };
-  std::vector<std::thread> pool;
-  try {
-    for (unsigned i = 1; i < threads; ++i) pool.emplace_back(work);
-  } catch (const std::system_error&) {  // no more threads to be had: those there are do the work
-  }
-  work();
-  for (std::thread& thread : pool) thread.join();
-  if (progressFailure) std::rethrow_exception(progressFailure);
-  for (const std::exception_ptr& failure : failures) {
-    if (failure) std::rethrow_exception(failure);
-  }
+  std::vector<State> states(chunkCount(n, monitor, block));
+  runChunks(
+      n, states.size(), monitor, [&](size_t chunk, size_t begin, size_t end) { f(states[chunk], begin, end); }, block);
   return states;
 }
 

@@ -46,4 +46,19 @@ class PositionTable {
   std::vector<uint32_t> slots_;
 };
 
+/// Per item the lowest one at its position, among those with `takesPart(id)`; the others keep their own.
+template <class At, class TakesPart>
+std::vector<uint32_t> lowestAtPosition(size_t items, const At& at, const TakesPart& takesPart) {
+  PositionTable table(items, at);
+  std::vector<uint32_t> lowest(items);
+  for (uint32_t i = 0; i < items; ++i) {
+    lowest[i] = i;
+    if (!takesPart(i)) continue;
+    uint32_t& slot = table.find(at(i));
+    if (slot == table.kFree) slot = i;
+    lowest[i] = slot;
+  }
+  return lowest;
+}
+
 }  // namespace mandoline::detail

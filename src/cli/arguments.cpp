@@ -42,25 +42,26 @@ class Parser {
         {"--spacing", {C::cut, C::slice}, [](Parser& p, const std::string& name) { parseSpacing(p.value(name), p.arguments_.grid); }},
         {"--planes", {C::cut, C::slice}, [](Parser& p, const std::string& name) { parsePlanes(p.value(name), p.arguments_.grid); }},
         {"--snap-tolerance", {C::cut, C::slice}, [](Parser& p, const std::string& name) { p.parseSnapTolerance(p.value(name)); }},
-        {"--threads", {C::cut, C::slice}, [](Parser& p, const std::string& name) { p.parseThreads(p.value(name)); }},
+        {"--intersections", {C::cut, C::slice}, [](Parser& p, const std::string& name) { p.parseIntersections(p.value(name)); }},
+        {"--threads", {C::cut, C::slice, C::info, C::resolve}, [](Parser& p, const std::string& name) { p.parseThreads(p.value(name)); }},
         {"--validate", {C::cut}, [](Parser& p, const std::string&) { p.arguments_.validate = true; }},
+        {"--coarsen", {C::cut}, [](Parser& p, const std::string& name) { p.parseCoarsen(p.value(name)); }},
         {"--axis", {C::slice}, [](Parser& p, const std::string& name) { parseAxis(p.value(name), p.arguments_.slice); }},
         {"--normal", {C::slice}, [](Parser& p, const std::string& name) { parseNormal(p.value(name), p.arguments_.slice); }},
         {"--heights", {C::slice}, [](Parser& p, const std::string& name) { parseHeights(p.value(name), p.arguments_.slice); }},
         {"--layers", {C::slice}, [](Parser& p, const std::string& name) { parseLayers(p.value(name), p.arguments_.slice); }},
         {"--only", {C::cut, C::slice}, [](Parser& p, const std::string& name) { parseOnly(p.value(name), p.arguments_.only); }},
-        {"--format", {C::cut, C::slice, C::make}, [](Parser& p, const std::string& name) { p.parseFormat(p.value(name)); }},
-        {"-o", {C::cut, C::slice, C::make}, [](Parser& p, const std::string& name) { p.parseOutputs(name); }},
+        {"--rule", {C::resolve}, [](Parser& p, const std::string& name) { p.parseRule(p.value(name)); }},
+        {"--format", {C::cut, C::slice, C::make, C::resolve}, [](Parser& p, const std::string& name) { p.parseFormat(p.value(name)); }},
+        {"-o", {C::cut, C::slice, C::make, C::resolve}, [](Parser& p, const std::string& name) { p.parseOutputs(name); }},
     };
     return kOptions;
   }
 
   void parseCommand(const std::string& word) {
-    constexpr std::pair<const char*, Command> kCommands[] = {{"cut", Command::cut},
-                                                             {"slice", Command::slice},
-                                                             {"info", Command::info},
-                                                             {"make", Command::make},
-                                                             {"--version", Command::version}};
+    constexpr std::pair<const char*, Command> kCommands[] = {{"cut", Command::cut},         {"slice", Command::slice},
+                                                             {"info", Command::info},       {"make", Command::make},
+                                                             {"resolve", Command::resolve}, {"--version", Command::version}};
     const auto found = std::find_if(std::begin(kCommands), std::end(kCommands), [&](const auto& command) { return word == command.first; });
     if (found == std::end(kCommands)) throw UsageError("unknown command '" + word + "'");
     arguments_.command = found->second;
@@ -123,8 +124,30 @@ class Parser {
     }
   }
 
+  void parseIntersections(const std::string& word) {
+    constexpr std::pair<const char*, Intersections> kWords[] = {
+        {"resolve", Intersections::resolve}, {"refuse", Intersections::refuse}, {"assume-none", Intersections::assumeNone}};
+    const auto found = std::find_if(std::begin(kWords), std::end(kWords), [&](const auto& choice) { return word == choice.first; });
+    if (found == std::end(kWords)) throw UsageError("--intersections needs resolve, refuse or assume-none, not '" + word + "'");
+    arguments_.intersections = found->second;
+  }
+
   void parseThreads(const std::string& word) {
     if (!parseNumber(word, arguments_.threads)) throw UsageError("--threads needs a number of threads, not '" + word + "'");
+  }
+
+  void parseCoarsen(const std::string& word) {
+    int levels = 0;
+    if (!parseNumber(word, levels) || levels < 0) throw UsageError("--coarsen needs a number of levels, not '" + word + "'");
+    arguments_.coarsen = levels;
+  }
+
+  void parseRule(const std::string& word) {
+    constexpr std::pair<const char*, WindingRule> kRules[] = {
+        {"positive", WindingRule::positive}, {"non-zero", WindingRule::nonZero}, {"odd", WindingRule::odd}};
+    const auto found = std::find_if(std::begin(kRules), std::end(kRules), [&](const auto& rule) { return word == rule.first; });
+    if (found == std::end(kRules)) throw UsageError("--rule is positive, non-zero or odd, not '" + word + "'");
+    arguments_.rule = found->second;
   }
 
   void check() const {
@@ -137,7 +160,7 @@ class Parser {
     const bool toStandardOutput = std::find(a.outputs.begin(), a.outputs.end(), "-") != a.outputs.end();
     if (toStandardOutput && !a.format) throw UsageError("-o - needs --format, such as --format vtu");
     if (!toStandardOutput && a.format) throw UsageError("--format is for -o -; other files tell by their extension");
-    if ((makes || a.command == Command::slice) && a.outputs.empty()) throw UsageError("-o is missing");
+    if (a.command != Command::cut && a.command != Command::info && a.outputs.empty()) throw UsageError("-o is missing");
   }
 
   const std::vector<std::string>& words_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mandoline/io.h"
+#include "mandoline/resolve.h"
 
 namespace mandoline::cli {
 
@@ -16,7 +17,7 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class Command { help, version, cut, slice, info, make };
+enum class Command { help, version, cut, slice, info, make, resolve };
 
 /// The grid as it was asked for; which fields are set tells its kind.
 struct GridArguments {
@@ -50,10 +51,13 @@ struct Arguments {
   std::string shape;  ///< of make
   GridArguments grid;
   double snapTolerance = 0;
+  Intersections intersections = Intersections::resolve;
   unsigned threads = 0;
   bool validate = false;
+  std::optional<int> coarsen;  ///< levels of octree cells; none: untouched grid cells as they are
   OnlyArguments only;
   SliceArguments slice;
+  std::optional<WindingRule> rule;   ///< of resolve: the boundary of the solid rather than all triangles
   std::string report;                ///< path of the JSON report, "-" for standard output; empty for text there
   std::vector<std::string> outputs;  ///< paths, "-" for standard output
   std::optional<FileFormat> format;  ///< of standard output

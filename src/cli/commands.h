@@ -11,6 +11,7 @@ int runCut(const Arguments& arguments);
 int runSlice(const Arguments& arguments);
 int runInfo(const Arguments& arguments);
 int runMake(const Arguments& arguments);
+int runResolve(const Arguments& arguments);
 
 /// A message on standard error.
 void complain(const std::string& message);

@@ -4,6 +4,7 @@
 #include "cli/commands.h"
 #include "cli/cutting.h"
 #include "cli/files.h"
+#include "cli/interrupt.h"
 #include "cli/make_grid.h"
 #include "cli/peak_memory.h"
 #include "cli/report.h"
@@ -19,15 +20,24 @@ void checkOutputs(const Arguments& arguments) {
   std::vector<NamedFile> files;
   if (arguments.mesh != "-") files.push_back({"the mesh", arguments.mesh});
   if (!arguments.report.empty()) files.push_back({"--report", arguments.report});
+  bool hasCells = false;
   for (const std::string& output : arguments.outputs) {
+    if (isPolyMesh(output)) {
+      hasCells = true;
+      files.push_back({"-o", output});
+      continue;
+    }
     if (output != "-") checkOutput(output);
     const FileFormat format = formatFor(arguments, output);
-    if (!isCutMeshFormat(format)) throw UsageError(std::string("--format needs json, vtu, obj, stl or ply, not ") + name(format));
-    if (format == FileFormat::json && (arguments.only.any() || output.find(kRegionMark) != std::string::npos)) {
-      throw UsageError("-o " + output + ": JSON files always have everything");
+    if (!isCutMeshFormat(format)) throw UsageError(std::string("--format needs json, mcm, vtu, obj, stl or ply, not ") + name(format));
+    const bool hasAll = format == FileFormat::json || format == FileFormat::mcm;
+    if (hasAll && (arguments.only.any() || output.find(kRegionMark) != std::string::npos)) {
+      throw UsageError("-o " + output + ": ." + name(format) + " files always have everything");
     }
+    hasCells |= format == FileFormat::vtu;
     files.push_back({"-o", output});
   }
+  if (arguments.coarsen && !hasCells) throw UsageError("--coarsen: only .vtu files and polyMesh folders have cells away from the surface");
   requireDifferent(files);
 }
 
@@ -60,6 +70,45 @@ std::vector<Output> outputsOf(const Arguments& arguments, const CutMesh& cutMesh
   requireDifferent(files);
   return outputs;
 }
+
+/// Writes a cut-mesh, and its cell complex for those outputs that take one.
+class Writer {
+ public:
+  Writer(const Arguments& arguments, const Mesh& mesh, const CutMesh& cutMesh) : arguments_(arguments), mesh_(mesh), cutMesh_(cutMesh) {}
+
+  void write(const Output& output) {
+    const bool isFolder = isPolyMesh(output.path);
+    const bool ofComplex = isFolder || (arguments_.coarsen && formatFor(arguments_, output.path) == FileFormat::vtu);
+    if (ofComplex && !cells_) makeCells();
+    withProgress(arguments_.threads, [&](const RunOptions& run) {
+      WriteOptions options = output.options;
+      static_cast<RunOptions&>(options) = run;
+      if (isFolder) {
+        const DeferInterrupts defer;
+        return writePolyMesh(output.path, cutMesh_, *cells_, options);
+      }
+      writeOutput(output.path, [&](const Sink& sink) {
+        if (ofComplex) return writeVtu(sink, cutMesh_, *cells_, {}, options);
+        writeCutMesh(sink, formatFor(arguments_, output.path), mesh_, cutMesh_, options);
+      });
+    });
+  }
+
+ private:
+  void makeCells() {
+    CoarsenOptions coarsening;
+    coarsening.maxLevel = arguments_.coarsen.value_or(0);
+    cells_ = withProgress(arguments_.threads, [&](const RunOptions& run) {
+      static_cast<RunOptions&>(coarsening) = run;
+      return cellComplex(mesh_, cutMesh_, coarsen(cutMesh_, coarsening), run);
+    });
+  }
+
+  const Arguments& arguments_;
+  const Mesh& mesh_;
+  const CutMesh& cutMesh_;
+  std::optional<CellComplex> cells_;
+};
 
 /// Every report and cut-mesh gets its chance, even if another can't be written.
 template <class Work>
@@ -106,7 +155,8 @@ int runCut(const Arguments& arguments) {
   const MeshInfo info = inspect(mesh);
   const Grid grid = makeGrid(arguments.grid, mesh, info);
   const CutResult result = cutMesh(arguments, mesh, grid);
-  Report report{{nameOf(arguments.mesh), info}, grid, result, peakMemoryBytes(), {}, {}};
+  const bool looks = arguments.intersections != Intersections::assumeNone;
+  Report report{{nameOf(arguments.mesh), info, {}}, grid, result, looks, peakMemoryBytes(), {}, {}};
   if (result) {
     report.regionVolumes = withProgress(
         arguments.threads, [&](const RunOptions& options) { return regionVolumes(result.mesh, measure(mesh, result.mesh, options)); });
@@ -121,12 +171,8 @@ int runCut(const Arguments& arguments) {
   attempt(exitCode, [&] { deliver(arguments, report); });
   if (!result) return exitCode;
   attempt(exitCode, [&] {
-    for (const Output& output : outputsOf(arguments, result.mesh)) {
-      attempt(exitCode, [&] {
-        writeOutput(output.path,
-                    [&](const Sink& sink) { writeCutMesh(sink, formatFor(arguments, output.path), mesh, result.mesh, output.options); });
-      });
-    }
+    Writer writer(arguments, mesh, result.mesh);
+    for (const Output& output : outputsOf(arguments, result.mesh)) attempt(exitCode, [&] { writer.write(output); });
   });
   return exitCode;
 }

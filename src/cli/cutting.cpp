@@ -3,12 +3,14 @@
 namespace mandoline::cli {
 
 CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const Grid& grid) {
-  return withProgress(arguments.threads, [&](const RunOptions& options) { return cut(mesh, grid, {options, arguments.snapTolerance}); });
+  return withProgress(arguments.threads, [&](const RunOptions& options) {
+    return cut(mesh, grid, {options, arguments.snapTolerance, arguments.intersections});
+  });
 }
 
 WriteOptions writeOptions(const OnlyArguments& only, const CutMesh& cutMesh) {
   WriteOptions options;
-  options.untouchedCells = !only.cut;
+  options.untouched = !only.cut;
   if ((only.inside || only.outside) && !cutMesh.hasWinding) {
     throw UsageError("--only: the mesh is open or not consistently oriented, so that nothing is inside or outside");
   }

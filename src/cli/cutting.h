@@ -1,6 +1,8 @@
 // What the commands that cut have in common.
 #pragma once
 
+#include <type_traits>
+
 #include "cli/arguments.h"
 #include "cli/progress_bar.h"
 
@@ -10,10 +12,16 @@ namespace mandoline::cli {
 template <class Work>
 auto withProgress(unsigned threads, const Work& work) {
   ProgressBar bar;
+  const RunOptions options{threads, [&](const Progress& progress) { return bar.update(progress); }};
   try {
-    auto result = work(RunOptions{threads, [&](const Progress& progress) { return bar.update(progress); }});
-    throwIfInterrupted();
-    return result;
+    if constexpr (std::is_void_v<decltype(work(options))>) {
+      work(options);
+      throwIfInterrupted();
+    } else {
+      auto result = work(options);
+      throwIfInterrupted();
+      return result;
+    }
   } catch (const CallError&) {
     throwIfInterrupted();
     throw;

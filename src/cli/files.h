@@ -9,6 +9,9 @@ namespace mandoline::cli {
 std::string nameOf(const std::string& meshPath);
 Mesh readInput(const std::string& path);
 
+/// Whether the output is a folder for OpenFOAM: it is called polyMesh.
+bool isPolyMesh(const std::string& path);
+
 /// Calls write(sink) for a file that appears when it is complete, or for standard output. Throws FileError, and Interrupted when a signal
 /// comes, without leaving an unfinished file.
 void writeOutput(const std::string& path, const std::function<void(const Sink&)>& write);

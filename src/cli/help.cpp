@@ -9,6 +9,9 @@ const char* const kHelp =
   mandoline slice MESH [options] -o FILE ...
                                     write outlines at heights, as .svg, .dxf or .obj
   mandoline info MESH [--report F]  tell what kind of mesh it is
+  mandoline resolve MESH -o FILE ...
+                                    write the mesh without self-intersections, as .obj,
+                                    .stl, .ply or .off
   mandoline make SHAPE -o FILE ...  write a made mesh: box, sphere, torus or torus-knot,
                                     as .obj, .stl, .ply or .off
   mandoline --help, --version
@@ -22,7 +25,7 @@ The grid
                          with --box, N cells along its longest side and as many along the
                          others as make the cells nearly cubic
   --cells NX,NY,NZ       as many cells along x, y and z in the box; without --box, in the
-                         mesh's bounding box grown by 5 % of its longest side all around
+                         mesh's bounding box grown by 5% of its longest side all around
   --box X0,Y0,Z0,X1,Y1,Z1
                          the box that the grid fills exactly
   --origin X,Y,Z --spacing S|SX,SY,SZ
@@ -31,27 +34,39 @@ The grid
                          any ascending planes, or @FILE with the planes of x, y and z on
                          three lines
 
-Options of cut
+Options of cut and slice
   --snap-tolerance T     move vertices that are within T cells of an axial plane onto it
                          (0 <= T < 0.5; default: 0)
+  --intersections WHAT   what to do where triangles meet other than in shared vertices and
+                         edges: resolve cuts as if their exact arrangement had been given
+                         (default); refuse fails, names two of them and counts the pairs;
+                         assume-none does not look: quicker, but the result may be wrong
   --threads T            threads to use; 0 for all cores (default: 0). The result is the
-                         same for any number
+                         same for any number. Also of info
+
+Options of cut
   --validate             check the result: the paper's four checks and all invariants
   -o FILE ...            write the cut-mesh, by extension:
                            .json  everything
+                           .mcm   the same in a tenth of the bytes, for readCutMesh()
                            .vtu   polyhedra for VTK and ParaView
                            .obj   the cut surface as polygons, one group per region
                            .stl   the cut surface in triangles
                            .ply   the same with the region of each triangle
-                         {region} in the name: one file for each region
-  --only WHAT            write only a part of it (not of .json), all that is named with
-                         commas between: cut (no untouched grid cells), inside (winding
-                         number not 0), outside (winding number 0), region=K. A surface is
-                         then the whole boundary of each region, oriented out of it
+                         A folder called polyMesh, as in case/constant/polyMesh, gets all
+                         cells for OpenFOAM, with the patches surface, xMin ... zMax.
+                         {region} in the name: one file, or folder, for each region
+  --only WHAT            write only a part of it (not of .json and .mcm). Words with commas
+                         between must all hold: cut (no untouched grid cells), inside (winding
+                         number not 0), outside (winding number 0), region=K (of several,
+                         any). With regions left out, a surface is the whole boundary of
+                         each region written, oriented out of it
+  --coarsen LEVELS       merge untouched grid cells into octree cells, up to 2^LEVELS of
+                         them on a side, in .vtu files and polyMesh folders
   --format EXTENSION     what -o - writes to standard output; the text of the report then
                          goes to standard error
 
-Options of slice, beside those of the grid, --snap-tolerance and --threads
+Options of slice
   --axis x|y|z, --normal X,Y,Z
                          what the planes are perpendicular to (default: z)
   --heights H1,H2,...    their distances from the origin, along the normal
@@ -59,16 +74,24 @@ Options of slice, beside those of the grid, --snap-tolerance and --threads
   --only inside|outside|region=K
                          which regions have outlines (default: inside; of meshes without
                          winding numbers all). Sheets are open lines
-  -o FILE ...            .svg seen against the normal, .dxf and .obj lines in space; all in
+  -o FILE ...            .svg with the normal towards you, .dxf and .obj lines in space; in
                          the units of the mesh
+
+Options of resolve, besides --threads
+  --rule positive|non-zero|odd
+                         only the surface of the solid: of what has a winding number
+                         above 0, other than 0, or odd. Overlapping parts become one
+  -o FILE ...            all triangles, divided where they meet. Vertices are rounded; a
+                         note on standard error tells whether that has brought
+                         intersections back
 
 Options of cut and info
   --report FILE          write the report as JSON instead of text; - for standard output.
-                         Its members: status, message, element, element2 (what failed) and
-                         mesh (path, counts, box, closed, oriented ...); of a cut also
-                         grid, counts, largestSnap, regions, timings (ms),
-                         exactFallbacks, peakMemoryBytes and validation: null, or
-                         pass and checks
+                         Its members: status, message, element, element2 (what failed),
+                         mesh (path, counts, box, closed, oriented ...) and
+                         intersections (pairs, by kind ...); of a cut also grid, counts,
+                         largestSnap, regions, stages (ms), totalMs, exactFallbacks,
+                         peakMemoryBytes and validation: null, or pass and checks
 
 Exit codes: 0 fine; 1 the mesh can't be cut, or validation failed; 2 wrong usage, or a
 file can't be read or written; 130 stopped by Ctrl-C (143 by SIGTERM), which leaves no

@@ -29,8 +29,8 @@ void handleInterrupts() {
   }
 }
 
-DeferInterrupts::DeferInterrupts() { deferred = 1; }
-DeferInterrupts::~DeferInterrupts() { deferred = 0; }
+DeferInterrupts::DeferInterrupts() { deferred = deferred + 1; }
+DeferInterrupts::~DeferInterrupts() { deferred = deferred - 1; }
 
 bool interrupted() { return pending != 0; }
 

@@ -42,6 +42,8 @@ int run(const std::vector<std::string>& words) {
       return runInfo(arguments);
     case Command::make:
       return runMake(arguments);
+    case Command::resolve:
+      return runResolve(arguments);
   }
   return kBadUsageOrFile;
 }

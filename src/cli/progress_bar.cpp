@@ -33,7 +33,7 @@ void ProgressBar::draw(const Progress& progress) {
   const double done = (progress.stageIndex + stageDone) / progress.stageCount;
   std::string bar(kWidth, ' ');
   bar.replace(0, size_t(done * kWidth), std::string(size_t(done * kWidth), '='));
-  std::fprintf(stderr, "\r[%s] %3d %% %s\x1b[K", bar.c_str(), int(100 * done), progress.stage);
+  std::fprintf(stderr, "\r[%s] %3d%% %s\x1b[K", bar.c_str(), int(100 * done), progress.stage);
   std::fflush(stderr);
   drawn_ = true;
 }

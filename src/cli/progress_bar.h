@@ -1,4 +1,4 @@
-// How far a cut has come, on a terminal.
+// How far a cut, or whatever else takes long, has come, on a terminal.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,7 @@
 
 namespace mandoline::cli {
 
-/// Draws on standard error if that is a terminal. While it lives, Ctrl-C cancels the cut.
+/// Draws on standard error if that is a terminal. While it lives, Ctrl-C cancels.
 class ProgressBar {
  public:
   ProgressBar();
@@ -16,7 +16,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// For CutOptions::progress.
+  /// For RunOptions::progress.
   bool update(const Progress& progress);
 
  private:

@@ -25,13 +25,21 @@ std::vector<Count> cutMeshCounts(const CutMesh& m) {
           {"loops", "loops of cut-faces", m.loopCount()}};
 }
 
+std::vector<Count> pairCounts(const PairCounts& pairs) {
+  return {{"crossing", "crossing", pairs.crossing},
+          {"touching", "touching", pairs.touching},
+          {"overlapping", "overlapping", pairs.overlapping},
+          {"folded", "folded", pairs.folded},
+          {"identical", "identical", pairs.identical}};
+}
+
 /// What was unusual about the input.
 std::vector<Count> inputCounts(const CutResult& result) {
   const CutStats& s = result.stats;
   return {{"droppedTriangles", "dropped triangles", result.mesh.droppedTriangles.size()},
           {"zeroAreaTriangles", "  of zero area", s.zeroAreaTriangles},
-          {"duplicateTriangles", "  duplicates", s.duplicateTriangles},
-          {"outsideTriangles", "  outside of the grid", s.outsideTriangles},
+          {"outsideTriangles", "  outside the grid", s.outsideTriangles},
+          {"duplicateTriangles", "duplicate triangles", s.duplicateTriangles},
           {"weldedVertices", "welded vertices", s.weldedVertices},
           {"snappedVertices", "snapped vertices", s.snappedVertices},
           {"flushedCoordinates", "coordinates taken as 0", s.flushedCoordinates}};
@@ -61,6 +69,12 @@ void addElement(Json& json, const char* key, int64_t element) {
   }
 }
 
+/// The pairs of triangles that meet, by kind, in an object that is left open.
+void addPairs(Json& json, const PairCounts& pairs) {
+  json.key("intersections").open('{').member("pairs", pairs.total());
+  for (const Count& count : pairCounts(pairs)) json.member(count.key, count.value);
+}
+
 /// What cut and info report alike.
 void addHead(Json& json, const Error& error, const MeshReport& report) {
   const auto& [status, element, element2, message] = error;
@@ -72,6 +86,24 @@ void addHead(Json& json, const Error& error, const MeshReport& report) {
   json.key("box").open('{').key("min").values(info.min).key("max").values(info.max).close('}');
   json.member("closed", info.closed).member("oriented", info.oriented);
   for (const Count& count : meshCounts(info)) json.member(count.key, count.value);
+  json.close('}');
+}
+
+void addIntersections(Json& json, const Report& report) {
+  if (!report.looksForIntersections) {
+    json.key("intersections").null();
+    return;
+  }
+  const CutStats& stats = report.result.stats;
+  addPairs(json, stats.intersections);
+  json.member("curves", stats.intersectionCurves).member("madeVertices", stats.madeVertices).key("ms");
+  const auto isStage = [](const StageTime& time) { return std::string_view(time.stage) == "intersections"; };
+  const auto stage = std::find_if(stats.stages.begin(), stats.stages.end(), isStage);
+  if (stage == stats.stages.end()) {
+    json.null();
+  } else {
+    json.value(stage->ms);
+  }
   json.close('}');
 }
 
@@ -127,7 +159,7 @@ class TextReport {
       addCounts();
       addRegions();
     }
-    addTimings();
+    addStages();
     if (report_.validation) addValidation(*report_.validation);
     return out_.str();
   }
@@ -152,8 +184,16 @@ class TextReport {
     for (const Count& count : unusual) {
       if (count.value > 0) addCount(count);
     }
-    if (report_.result.stats.snappedVertices > 0)
-      label("farthest snap (cells)") << std::setw(kNumberWidth) << report_.result.stats.largestSnap << "\n";
+    const CutStats& stats = report_.result.stats;
+    if (stats.intersections.total() > 0) {
+      addCount({"", "intersecting pairs", stats.intersections.total()});
+      for (const Count& count : pairCounts(stats.intersections)) {
+        if (count.value > 0) label("  " + std::string(count.label)) << std::setw(kNumberWidth) << count.value << "\n";
+      }
+      addCount({"", "  curves", stats.intersectionCurves});
+      addCount({"", "  made vertices", stats.madeVertices});
+    }
+    if (stats.snappedVertices > 0) label("largest snap (cells)") << std::setw(kNumberWidth) << stats.largestSnap << "\n";
   }
 
   void addRegions() {
@@ -167,8 +207,8 @@ class TextReport {
     if (shown < mesh_.regionCount) out_ << "  and " << mesh_.regionCount - shown << " more\n";
   }
 
-  void addTimings() {
-    out_ << "\nTimings (ms)\n" << std::fixed << std::setprecision(2);
+  void addStages() {
+    out_ << "\nStages (ms)\n" << std::fixed << std::setprecision(2);
     for (const StageTime& stage : report_.result.stats.stages) label(stage.stage) << std::setw(kNumberWidth) << stage.ms << "\n";
     label("total") << std::setw(kNumberWidth) << report_.result.stats.totalMs << "\n\n";
     label("Peak memory (MB)") << std::setw(kNumberWidth) << double(report_.peakMemoryBytes) / 1e6 << "\n";
@@ -192,7 +232,7 @@ class TextReport {
   static std::string element(const Check& check) {
     return check.elementKind.empty() ? "-" : check.elementKind + " " + std::to_string(check.element);
   }
-  std::ostream& label(const char* text) { return out_ << "  " << std::left << std::setw(kLabelWidth) << text << std::right; }
+  std::ostream& label(const std::string& text) { return out_ << "  " << std::left << std::setw(kLabelWidth) << text << std::right; }
   void addCount(const Count& count) { label(count.label) << std::setw(kNumberWidth) << count.value << "\n"; }
 
   const Report& report_;
@@ -217,10 +257,12 @@ std::string reportJson(const Report& report) {
   for (const Count& count : cutMeshCounts(report.result.mesh)) json.member(count.key, count.value);
   for (const Count& count : inputCounts(report.result)) json.member(count.key, count.value);
   json.close('}').member("largestSnap", stats.largestSnap);
+  addIntersections(json, report);
   addRegions(json, report);
-  json.key("timings").open('{').member("total", stats.totalMs);
-  for (const StageTime& stage : stats.stages) json.member(stage.stage, stage.ms);
-  json.close('}').member("exactFallbacks", stats.exactFallbacks).member("peakMemoryBytes", report.peakMemoryBytes);
+  json.key("stages").open('[');
+  for (const StageTime& stage : stats.stages) json.open('{').member("stage", stage.stage).member("ms", stage.ms).close('}');
+  json.close(']').member("totalMs", stats.totalMs).member("exactFallbacks", stats.exactFallbacks);
+  json.member("peakMemoryBytes", report.peakMemoryBytes);
   addValidation(json, report.validation);
   json.close('}');
   return json.text();
@@ -231,6 +273,18 @@ std::string reportText(const Report& report) { return TextReport(report).text();
 std::string infoJson(const MeshReport& mesh) {
   Json json;
   addHead(json, {}, mesh);
+  if (mesh.intersections) {
+    addPairs(json, mesh.intersections->counts);
+    json.key("first");
+    if (mesh.intersections->pairCount() > 0) {
+      json.values(mesh.intersections->pairTriangles);
+    } else {
+      json.null();
+    }
+    json.close('}');
+  } else {
+    json.key("intersections").null();
+  }
   json.close('}');
   return json.text();
 }
@@ -244,7 +298,22 @@ std::string infoText(const MeshReport& mesh) {
   const char* const oriented = info.oriented ? "yes, consistently oriented" : "yes, but not consistently oriented";
   line("closed") << (info.closed ? oriented : "no") << "\n";
   for (const Count& count : meshCounts(info)) line(count.label) << count.value << "\n";
+  if (mesh.intersections) {
+    const auto& [counts, triangles, kinds, offsets, points] = *mesh.intersections;
+    line("intersecting pairs") << describePairs(counts);
+    if (!kinds.empty()) out << "; first: triangles " << triangles[0] << " and " << triangles[1];
+    out << "\n";
+  }
   return out.str();
+}
+
+std::string describePairs(const PairCounts& pairs) {
+  if (pairs.total() == 0) return "0";
+  std::string text;
+  for (const Count& count : pairCounts(pairs)) {
+    if (count.value > 0) text += (text.empty() ? "" : ", ") + std::to_string(count.value) + " " + count.label;
+  }
+  return text;
 }
 
 std::string describeFailure(const Check& check) {

@@ -2,15 +2,15 @@
 
 #include <string>
 
-#include "mesh/box_tree.h"
-#include "mesh/intersections.h"
+#include "base/box_tree.h"
+#include "mesh/resolve/contacts.h"
 
 namespace mandoline::detail {
 namespace {
 
 /// Triangles that have no part in the cut because the grid ends before them can't have led to a contradiction.
-bool reachesGrid(const Input& input, uint32_t t) {
-  const auto& v = input.triangles[t];
+bool reachesGrid(const Input& input, TriangleId t) {
+  const auto v = input.verticesOf(t);
   for (int d = 0; d < 3; ++d) {
     const int32_t a = input.slabs[v[0]][d], b = input.slabs[v[1]][d], c = input.slabs[v[2]][d];
     if (std::max({a, b, c}) < 0 || std::min({a, b, c}) > 2 * input.cells(d)) return false;
@@ -18,30 +18,41 @@ bool reachesGrid(const Input& input, uint32_t t) {
   return true;
 }
 
+Box boxOf(const WeldedMesh& input, uint32_t t) {
+  const auto& v = input.triangles[t];
+  Box box{input.points[v[0]], input.points[v[0]]};
+  for (int i = 1; i < 3; ++i) box.include({input.points[v[i]], input.points[v[i]]});
+  return box;
+}
+
 }  // namespace
 
-Error explainContradiction(const Input& input, int64_t blamed, int64_t alsoBlamed, const CutStats& stats) {
+Error explainContradiction(const Input& input, int64_t blamed, int64_t alsoBlamed, Run& run) {
+  if (input.mesh->arrangement) {
+    return {Status::internalError, -1, -1,
+            "The cut met a contradiction although all intersections had been resolved. This is a fault of the library."};
+  }
   const auto name = [&](int64_t s, int64_t t) {
     const int64_t low = std::min(s, t), high = std::max(s, t);
     return Error{Status::selfIntersection, low, high,
                  "Triangles " + std::to_string(low) + " and " + std::to_string(high) + " meet other than in a shared vertex or edge" +
-                     (stats.snappedVertices > 0 ? " after snapping." : ".")};
+                     (run.stats.snappedVertices > 0 ? " after snapping." : ".")};
   };
-  const auto isCandidate = [&](int64_t t) { return t >= 0 && input.kept(size_t(t)); };
-  Intersections intersections(input);
-  if (isCandidate(blamed) && isCandidate(alsoBlamed) && blamed != alsoBlamed &&
-      intersections.meet(uint32_t(blamed), uint32_t(alsoBlamed))) {
+  const auto isCandidate = [&](int64_t t) { return t >= 0 && input.mesh->kept(size_t(t)); };
+  PairTest pairs(*input.mesh);
+  if (isCandidate(blamed) && isCandidate(alsoBlamed) && blamed != alsoBlamed && pairs.meet(uint32_t(blamed), uint32_t(alsoBlamed))) {
     return name(blamed, alsoBlamed);
   }
   std::vector<uint32_t> candidates;
-  for (uint32_t t = 0; t < input.triangles.size(); ++t) {
-    if (input.kept(t) && reachesGrid(input, t)) candidates.push_back(t);
+  for (const TriangleId t : input.triangleIds()) {
+    if (input.kept(t) && reachesGrid(input, t)) candidates.push_back(t.number);
   }
-  const BoxTree tree(input, candidates);
+  BoxTree tree;
+  tree.build(candidates.size(), [&](size_t i) { return BoxTree::Item{boxOf(*input.mesh, candidates[i]), candidates[i]}; });
   const auto lowestPartner = [&](uint32_t t, uint32_t from) {
     int64_t lowest = -1;
-    tree.forOverlapping(boxOf(input, t), [&](uint32_t s) {
-      if (s >= from && s != t && (lowest < 0 || s < lowest) && intersections.meet(s, t)) lowest = s;
+    tree.forOverlapping(boxOf(*input.mesh, t), [&](uint32_t s) {
+      if (s >= from && s != t && (lowest < 0 || s < lowest) && pairs.meet(s, t)) lowest = s;
     });
     return lowest;
   };
@@ -49,9 +60,11 @@ Error explainContradiction(const Input& input, int64_t blamed, int64_t alsoBlame
     const int64_t partner = isCandidate(t) ? lowestPartner(uint32_t(t), 0) : -1;
     if (partner >= 0) return name(t, partner);
   }
-  for (const uint32_t t : candidates) {
-    const int64_t partner = lowestPartner(t, t + 1);
-    if (partner >= 0) return name(t, partner);
+  constexpr size_t kBlock = 1024;  // triangles between two reports
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    if (i % kBlock == 0) run.monitor.report(i, candidates.size());
+    const int64_t partner = lowestPartner(candidates[i], candidates[i] + 1);
+    if (partner >= 0) return name(candidates[i], partner);
   }
   return {Status::internalError, -1, -1,
           "The cut met a contradiction although no two triangles intersect. This is a fault of the library."};

@@ -4,10 +4,20 @@
 #include <stdexcept>
 
 #include "cut/contradiction.h"
+#include "cut/stages/divided_faces.h"
 #include "cut/stages/input.h"
 #include "cut/stages/output.h"
+#include "mandoline/prepare.h"
 
 namespace mandoline {
+
+/// A mesh of its own, and what was made of it.
+struct detail::PreparedMeshData {
+  Mesh mesh;
+  Intersections intersections;
+  std::unique_ptr<const Prepared> prepared;
+};
+
 namespace {
 
 using namespace detail;
@@ -15,8 +25,6 @@ using namespace detail;
 /// Names the stages for progress and takes their times.
 class Clock {
  public:
-  static constexpr int kStages = 9;
-
   Clock(CutStats& stats, Monitor& monitor) : stats_(stats), monitor_(monitor), start_(now()), last_(start_) {}
   ~Clock() { end(); }  // also of a cut that failed
 
@@ -40,21 +48,45 @@ class Clock {
   double start_, last_;
 };
 
-CutMesh cutMesh(const MeshView& mesh, const Grid& grid, const CutOptions& options, CutStats& stats) {
-  Monitor monitor(options, Clock::kStages);
-  Clock clock(stats, monitor);
-  Run run{stats, monitor};
+constexpr int kMeshStages = 2, kGridStages = 9;
+
+/// What a mesh's preparation told.
+void addCounts(const Prepared& prepared, CutStats& stats) {
+  stats.weldedVertices = prepared.counts.weldedVertices;
+  stats.zeroAreaTriangles = prepared.counts.zeroAreaTriangles;
+  stats.duplicateTriangles = uint32_t(prepared.duplicates.size());
+  stats.flushedCoordinates += prepared.counts.flushedCoordinates;
+  stats.exactFallbacks += prepared.counts.exactFallbacks;
+  if (!prepared.arrangement) return;
+  stats.intersections = prepared.arrangement->pairs;
+  if (prepared.arrangement->empty()) return;
+  stats.intersectionCurves = prepared.arrangement->curves;
+}
+
+std::unique_ptr<const Prepared> prepareFor(const MeshView& mesh, const Grid& grid, const CutOptions& options, Clock& clock, Run& run) {
+  Preparation preparation{largestCoordinate(grid), options.intersections, {}};
+  if (options.snapTolerance > 0) {
+    preparation.move = [&](std::vector<Point>& points, const Scale& scale) { snapPoints(grid, options.snapTolerance, scale, points, run); };
+  }
+  return prepareMesh(mesh, preparation, run.monitor, [&](const char* stage) { clock.begin(stage); });
+}
+
+/// `mesh` is that of the user, which was prepared.
+CutMesh cutPrepared(const Prepared& prepared, const MeshView& mesh, const Grid& grid, Clock& clock, Run& run) {
+  addCounts(prepared, run.stats);
   CutState state;
   auto& [surface, stencil, faces, cells, regions] = state;
 
-  clock.begin("input");
-  surface.input = prepareInput(mesh, grid, options.snapTolerance, run);
+  clock.begin("grid");
+  surface.input = prepareInput(prepared, grid, run);
   try {
     clock.begin("triEdges");
     cutTriEdges(surface, run);
 
     clock.begin("triFaces");
-    faces.tri = cutTriangles(surface, run);
+    UndividedFaces undivided;
+    faces.tri = cutTriangles(surface, undivided, run);
+    divideFaces(surface, undivided, faces.tri, run);
 
     clock.begin("stencil");
     stencil = makeStencil(surface, faces.tri, run);
@@ -72,19 +104,27 @@ CutMesh cutMesh(const MeshView& mesh, const Grid& grid, const CutOptions& option
     regions = findRegions(surface, stencil, faces, cells, run);
 
     clock.begin("output");
-    return makeOutput(mesh, grid, state, run);
+    CutMesh result = makeOutput(mesh, grid, state, run);
+    run.stats.madeVertices = uint32_t(result.madeVertices.size());
+    return result;
   } catch (const Failure& failure) {
     if (failure.error.status != Status::selfIntersection) throw;
-    throw Failure{explainContradiction(surface.input, failure.error.element, failure.error.element2, stats)};
+    clock.begin("intersections");
+    throw Failure{explainContradiction(surface.input, failure.error.element, failure.error.element2, run)};
   }
 }
 
-}  // namespace
+/// Whether a grid's planes are not so large that a mesh has to be scaled for them.
+bool fits(const Prepared& prepared, const Grid& grid) {
+  const double largest = largestCoordinate(grid);
+  return largest == 0 || std::ilogb(largest) + prepared.shift <= Scale::kLargestExponent + Scale::kRoom;
+}
 
-CutResult cut(const MeshView& mesh, const Grid& grid, const CutOptions& options) {
-  CutResult result;
+/// Runs `f`, whose failures become the result's error.
+template <class Result, class F>
+void catchFailures(Result& result, const F& f) {
   try {
-    result.mesh = cutMesh(mesh, grid, options, result.stats);
+    f();
   } catch (const Failure& failure) {
     result.error = failure.error;
   } catch (const Cancelled&) {
@@ -96,6 +136,57 @@ CutResult cut(const MeshView& mesh, const Grid& grid, const CutOptions& options)
   } catch (const std::length_error&) {
     result.error = {Status::outOfMemory, -1, -1, "There is not enough memory for this cut."};
   }
+}
+
+}  // namespace
+
+MeshView PreparedMesh::mesh() const { return data_ ? MeshView(data_->mesh) : MeshView({}, {}); }
+
+PrepareResult prepare(const MeshView& mesh, const PrepareOptions& options) {
+  PrepareResult result;
+  catchFailures(result, [&] {
+    Monitor monitor(options, kMeshStages);
+    Clock clock(result.stats, monitor);
+    auto data = std::make_shared<PreparedMeshData>();
+    data->mesh = {{mesh.positions.begin(), mesh.positions.end()}, {mesh.triangles.begin(), mesh.triangles.end()}};
+    data->intersections = options.intersections;
+    data->prepared = prepareMesh(data->mesh, {0, options.intersections, {}}, monitor, [&](const char* stage) { clock.begin(stage); });
+    addCounts(*data->prepared, result.stats);
+    result.mesh = PreparedMesh(std::move(data));
+  });
+  return result;
+}
+
+CutResult cut(const PreparedMesh& mesh, const Grid& grid, const CutOptions& options) {
+  const PreparedMeshData* data = mesh.data();
+  if (!data) return cut(mesh.mesh(), grid, options);
+  CutResult result;
+  catchFailures(result, [&] {
+    checkGrid(grid, options.snapTolerance);
+    if (options.snapTolerance > 0 || !fits(*data->prepared, grid)) {
+      CutOptions same = options;
+      same.intersections = data->intersections;
+      result = cut(data->mesh, grid, same);
+      return;
+    }
+    Monitor monitor(options, kGridStages);
+    Clock clock(result.stats, monitor);
+    Run run{result.stats, monitor};
+    result.mesh = cutPrepared(*data->prepared, data->mesh, grid, clock, run);
+  });
+  return result;
+}
+
+CutResult cut(const MeshView& mesh, const Grid& grid, const CutOptions& options) {
+  CutResult result;
+  catchFailures(result, [&] {
+    Monitor monitor(options, kMeshStages + kGridStages);
+    Clock clock(result.stats, monitor);
+    Run run{result.stats, monitor};
+    checkGrid(grid, options.snapTolerance);
+    const auto prepared = prepareFor(mesh, grid, options, clock, run);
+    result.mesh = cutPrepared(*prepared, mesh, grid, clock, run);
+  });
   return result;
 }
 

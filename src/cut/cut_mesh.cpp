@@ -8,6 +8,7 @@
 namespace mandoline {
 
 IdRange CutMesh::cutCellsAt(int64_t i, int64_t j, int64_t k) const {
+  if (i < 0 || i >= grid.cells(0)) return {0, 0};
   const auto firstNotBefore = [&](int64_t x) {
     size_t begin = 0, end = cellCount();
     while (begin < end) {

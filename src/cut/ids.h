@@ -1,14 +1,17 @@
-// Ids of cut-faces and half-faces, which must not be mixed up. The cut-mesh holds their bare numbers.
+// What the stages number. Kinds don't mix; the cut-mesh holds bare numbers.
 #pragma once
 
-#include <cstdint>
+#include "mesh/ids.h"
 
 namespace mandoline::detail {
 
-/// A cut-face: tri-cut-faces come first, then pieces of grid-faces.
-struct FaceId {
-  uint32_t number;
-};
+using FaceId = Id<struct CutFaceTag>;  ///< tri-cut-faces come first, then pieces of grid-faces
+using CellId = Id<struct CellTag>;
+
+using GridCellId = Id<struct GridCellTag>;  ///< grid cells, grid-faces, grid-edges and grid vertices of the stencil
+using GridFaceId = Id<struct GridFaceTag>;
+using GridEdgeId = Id<struct GridEdgeTag>;
+using GridVertexId = Id<struct GridVertexTag>;
 
 /// One side of a cut-face. Side 0: the face's normal points out of the cell, side 1: into it.
 struct HalfFace {

@@ -1,22 +1,26 @@
 // The input of a cut as all stages see it: exact doubles, scaled by one power of two.
 #pragma once
 
-#include "base/parallel.h"
-#include "cut/failure.h"
+#include "cut/ids.h"
 #include "grid/slab.h"
 #include "mandoline/cut.h"
-#include "mesh/welded_mesh.h"
+#include "mesh/prepared.h"
 
 namespace mandoline::detail {
 
-/// The welded mesh, snapped onto planes, and the grid's planes.
-struct Input : WeldedMesh {
+/// The prepared mesh, and the grid's planes.
+struct Input {
+  const Prepared* mesh = nullptr;
   std::array<std::vector<double>, 3> planes;
-  double unscale[2] = {1, 1};  ///< world = scaled * unscale[0] * unscale[1]
-  std::vector<Slab> slabs;     ///< per tri-vertex
+  IdVector<VertexId, Slab> slabs;  ///< per tri-vertex and made vertex
+
+  bool kept(TriangleId t) const { return mesh->kept(t); }
+  std::array<VertexId, 3> verticesOf(TriangleId t) const { return mesh->verticesOf(t); }
+  /// Of a tri-vertex; near a made vertex.
+  const Point& point(VertexId v) const { return mesh->point(v); }
+  Ids<TriangleId> triangleIds() const { return mesh->triangleIds(); }
 
   int32_t cells(int axis) const { return int32_t(planes[axis].size()) - 1; }
-  double toWorld(double scaled) const { return scaled * unscale[0] * unscale[1]; }
   /// Whether a grid element lies in the grid.
   bool inGrid(const Slab& element) const {
     for (int d = 0; d < 3; ++d) {

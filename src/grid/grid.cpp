@@ -30,17 +30,17 @@ std::vector<double> makePlanes(int64_t cells, const PlaneAt& planeAt) {
 
 }  // namespace
 
-Grid Grid::box(const std::array<double, 3>& lo, const std::array<double, 3>& hi, const std::array<int64_t, 3>& cells) {
+Grid Grid::box(const std::array<double, 3>& min, const std::array<double, 3>& max, const std::array<int64_t, 3>& cells) {
   Grid grid;
   grid.uniform = true;
-  grid.origin = lo;
+  grid.origin = min;
   for (int d = 0; d < 3; ++d) {
     const double n = double(cells[d]);
-    grid.spacing[d] = (hi[d] - lo[d]) / n;
+    grid.spacing[d] = (max[d] - min[d]) / n;
     grid.planes[d] = makePlanes(cells[d], [&](int64_t c) {
-      if (c == 0 || c == cells[d]) return c == 0 ? lo[d] : hi[d];
-      if (!safeToMultiply(lo[d]) || !safeToMultiply(hi[d])) return lo[d] + (hi[d] - lo[d]) * (double(c) / n);
-      return Expansion::quotient(Expansion(lo[d]) * Expansion(n - double(c)) + Expansion(hi[d]) * Expansion(double(c)), Expansion(n));
+      if (c == 0 || c == cells[d]) return c == 0 ? min[d] : max[d];
+      if (!safeToMultiply(min[d]) || !safeToMultiply(max[d])) return min[d] + (max[d] - min[d]) * (double(c) / n);
+      return Expansion::quotient(Expansion(min[d]) * Expansion(n - double(c)) + Expansion(max[d]) * Expansion(double(c)), Expansion(n));
     });
   }
   return grid;

@@ -24,6 +24,7 @@ class ScaledSpace {
     }
     shift_ = largest > 0 ? -std::ilogb(largest) : 0;
     factor_ = {std::ldexp(1.0, shift_ / 2), std::ldexp(1.0, shift_ - shift_ / 2)};  // a double can't hold 2^1074
+    inverse_ = {1 / factor_[0], 1 / factor_[1]};
   }
 
   double scaled(double x) const {
@@ -31,13 +32,13 @@ class ScaledSpace {
     return std::fabs(x) < 0x1p-200 ? 0 : x;
   }
   ScaledPoint scaled(const double* p) const { return {scaled(p[0]), scaled(p[1]), scaled(p[2])}; }
-  double world(double x) const { return x / factor_[0] / factor_[1]; }
+  double world(double x) const { return x * inverse_[0] * inverse_[1]; }
   /// As an exponent of two: scaled = world * 2^shift.
   int shift() const { return shift_; }
 
  private:
   int shift_;
-  std::array<double, 2> factor_;
+  std::array<double, 2> factor_, inverse_;
 };
 
 }  // namespace mandoline::operators

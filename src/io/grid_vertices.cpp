@@ -1,5 +1,7 @@
 #include "io/grid_vertices.h"
 
+#include "base/sort.h"
+
 namespace mandoline::detail {
 namespace {
 
@@ -41,8 +43,9 @@ void GridVertices::numberCorners(const Selection& selection) {
   forEachGridVertex([&](uint32_t v, int32_t x, size_t row) { cutCorners[next[row]++] = {x, v}; });
   rowOffsets_.assign(1, 0);
   for (size_t row = 0; row < rows; ++row) {
-    std::sort(cutCorners.begin() + std::ptrdiff_t(offsets[row]), cutCorners.begin() + std::ptrdiff_t(offsets[row + 1]));
-    addRow(selection, row, {cutCorners.data() + offsets[row], offsets[row + 1] - offsets[row]});
+    const std::span<std::pair<int32_t, uint32_t>> corners(cutCorners.data() + offsets[row], offsets[row + 1] - offsets[row]);
+    sortItems(corners);
+    addRow(selection, row, corners);
     rowOffsets_.push_back(segments_.size());
   }
 }
@@ -57,7 +60,7 @@ void GridVertices::addRow(const Selection& selection, size_t row, std::span<cons
     if (y == 0 || y > ny || z == 0 || z > nz) continue;
     selection.forEachRun((z - 1) * ny + y - 1, [&](int32_t begin, int32_t end, uint32_t) { pieces.push_back({begin, end + 1}); });
   }
-  std::sort(pieces.begin(), pieces.end());
+  sortItems(pieces);
   for (size_t p = 0; p < pieces.size();) {
     const int32_t begin = pieces[p].first;
     int32_t end = pieces[p].second;
@@ -136,7 +139,7 @@ void GridVertices::findDividedCells(const Selection& selection) {
       addIfUntouched(cell);
     }
   }
-  std::sort(dividedCells_.begin(), dividedCells_.end());
+  sortItems(dividedCells_);
   dividedCells_.erase(std::unique(dividedCells_.begin(), dividedCells_.end()), dividedCells_.end());
 }
 

@@ -1,23 +1,23 @@
-// Text for a sink, gathered in a large buffer.
+// Text for a file, gathered in a large buffer.
 #pragma once
 
 #include <string_view>
 #include <vector>
 
+#include "io/meter.h"
 #include "io/print_number.h"
-#include "mandoline/io.h"
 
 namespace mandoline::detail {
 
 /// Whoever uses it calls flush() at the end.
 class OutputBuffer {
  public:
-  explicit OutputBuffer(const Sink& out) : out_(out), buffer_(size_t(1) << 18) {}
+  explicit OutputBuffer(Meter& meter) : meter_(meter), buffer_(size_t(1) << 18) {}
 
   void text(std::string_view s) {
     if (s.size() > buffer_.size() - size_) flush();
     if (s.size() > buffer_.size()) {
-      out_(s);
+      meter_.write(s);
       return;
     }
     s.copy(buffer_.data() + size_, s.size());
@@ -30,13 +30,15 @@ class OutputBuffer {
     if (kLongest > buffer_.size() - size_) flush();
     size_ = size_t(printNumber(buffer_.data() + size_, buffer_.data() + buffer_.size(), n) - buffer_.data());
   }
+  /// Tells that items of what is to be written are done.
+  void advance(uint64_t items = 1) { meter_.advance(items); }
   void flush() {
-    out_({buffer_.data(), size_});
+    meter_.write({buffer_.data(), size_});
     size_ = 0;
   }
 
  private:
-  const Sink& out_;
+  Meter& meter_;
   std::vector<char> buffer_;
   size_t size_ = 0;
 };

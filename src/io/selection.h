@@ -7,9 +7,10 @@ namespace mandoline::detail {
 
 class Selection {
  public:
-  Selection(const CutMesh& cutMesh, const WriteOptions& options) : cutMesh_(cutMesh), options_(options) {}
+  /// Throws CallError for options that do not fit the cut-mesh.
+  Selection(const CutMesh& cutMesh, const WriteOptions& options);
 
-  bool all() const { return options_.regions.empty() && options_.untouchedCells; }
+  bool all() const { return options_.regions.empty() && options_.untouched; }
   bool allRegions() const { return options_.regions.empty(); }
   bool has(uint32_t region) const { return allRegions() || options_.regions[region] != 0; }
   bool hasCutCell(size_t cell) const { return has(cutMesh_.cellRegion[cell]); }
@@ -17,7 +18,7 @@ class Selection {
   /// Calls visit(begin, end, region) for the runs of untouched cells to be written in a row of grid cells.
   template <class Visit>
   void forEachRun(size_t row, const Visit& visit) const {
-    if (!options_.untouchedCells || row + 1 >= cutMesh_.rowRunOffsets.size()) return;
+    if (!options_.untouched || row + 1 >= cutMesh_.rowRunOffsets.size()) return;
     for (uint32_t run = cutMesh_.rowRunOffsets[row]; run < cutMesh_.rowRunOffsets[row + 1]; ++run) {
       if (has(cutMesh_.runRegion[run])) visit(cutMesh_.runBegin[run], cutMesh_.runEnd[run], cutMesh_.runRegion[run]);
     }

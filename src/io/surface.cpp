@@ -1,6 +1,8 @@
 #include "io/surface.h"
 
+#include "base/sort.h"
 #include "mandoline/triangulate.h"
+#include "operators/mesh_writer.h"
 
 namespace mandoline::detail {
 namespace {
@@ -37,7 +39,8 @@ WrittenSurface surfaceOf(const Selection& selection) {
   std::vector<uint32_t> next(surface.regionOffsets.begin(), surface.regionOffsets.end() - 1);
   forEachListing(selection, [&](uint32_t region, uint32_t halfFace) { surface.halfFaces[next[region]++] = halfFace; });
   for (size_t r = 0; r + 1 < surface.regionOffsets.size(); ++r) {
-    std::sort(surface.halfFaces.begin() + surface.regionOffsets[r], surface.halfFaces.begin() + surface.regionOffsets[r + 1]);
+    sortItems(
+        std::span<uint32_t>(surface.halfFaces.data() + surface.regionOffsets[r], surface.regionOffsets[r + 1] - surface.regionOffsets[r]));
   }
   return surface;
 }
@@ -46,22 +49,12 @@ SurfaceTriangles triangulateSurface(const Selection& selection) {
   const CutMesh& m = selection.cutMesh();
   const WrittenSurface surface = surfaceOf(selection);
   const FaceTriangles faces = triangulateFaces(m);
-  constexpr uint32_t kUnused = ~0u;
-  std::vector<uint32_t> number(m.vertexCount(), kUnused);
   SurfaceTriangles result;
-  std::vector<double>& positions = result.mesh.positions;
-  const auto numberOf = [&](uint32_t v) {
-    if (number[v] == kUnused) {
-      number[v] = uint32_t(positions.size() / 3);
-      positions.insert(positions.end(), m.positions.begin() + 3 * std::ptrdiff_t(v), m.positions.begin() + 3 * std::ptrdiff_t(v) + 3);
-    }
-    return number[v];
-  };
+  operators::MeshWriter writer(m.positions, result.mesh);
   for (uint32_t r = 0; r < m.regionCount; ++r) {
     for (const uint32_t h : surface.of(r)) {
       for (size_t t = faces.faceTriangleOffsets[h / 2]; t < faces.faceTriangleOffsets[h / 2 + 1]; ++t) {
-        const uint32_t* v = faces.triangles.data() + 3 * t;
-        for (const size_t i : {size_t(0), size_t(1 + h % 2), size_t(2 - h % 2)}) result.mesh.triangles.push_back(numberOf(v[i]));
+        writer.add(&faces.triangles[3 * t], h % 2 == 1);
         result.region.push_back(r);
       }
     }

@@ -1,5 +1,7 @@
 #include "io/vtu_cells.h"
 
+#include "base/sort.h"
+
 namespace mandoline::detail {
 
 void Polyhedron::clear() {
@@ -10,7 +12,7 @@ void Polyhedron::clear() {
 
 void Polyhedron::gatherVertices() {
   vertices = faceVertices;
-  std::sort(vertices.begin(), vertices.end());
+  sortItems(vertices);
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 }
 

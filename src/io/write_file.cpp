@@ -14,7 +14,7 @@ void writeFile(const std::string& path, const Write& write) {
 
 void checkOutput(const std::string& path) {
   const std::optional<FileFormat> format = formatOf(path);
-  if (!format || !isCutMeshFormat(*format)) throw FileError(path + ": the extension must be .json, .vtu, .obj, .stl or .ply");
+  if (!format || !isCutMeshFormat(*format)) throw FileError(path + ": the extension must be .json, .mcm, .vtu, .obj, .stl or .ply");
   detail::checkPlace(path);
 }
 
@@ -23,13 +23,13 @@ void writeCutMesh(const std::string& path, const MeshView& mesh, const CutMesh& 
   writeFile(path, [&](const Sink& sink) { writeCutMesh(sink, *formatOf(path), mesh, cutMesh, options); });
 }
 
-void writeMesh(const std::string& path, const MeshView& mesh) {
+void writeMesh(const std::string& path, const MeshView& mesh, const RunOptions& options) {
   const std::optional<FileFormat> format = formatOf(path);
   if (!format || !isMeshFormat(*format)) {
     throw FileError(path + ": the extension must be .obj, .stl, .ply or .off");
   }
   detail::checkPlace(path);
-  writeFile(path, [&](const Sink& sink) { writeMesh(sink, *format, mesh); });
+  writeFile(path, [&](const Sink& sink) { writeMesh(sink, *format, mesh, options); });
 }
 
 }  // namespace mandoline

@@ -7,7 +7,7 @@
 namespace mandoline {
 namespace {
 
-constexpr const char* kNames[] = {"json", "vtu", "obj", "stl", "ply", "off", "svg", "dxf"};  // in the order of FileFormat
+constexpr const char* kNames[] = {"json", "mcm", "vtu", "obj", "stl", "ply", "off", "svg", "dxf"};  // in the order of FileFormat
 
 }  // namespace
 
@@ -29,7 +29,9 @@ bool isOutlineFormat(FileFormat format) { return format == FileFormat::svg || fo
 void writeCutMesh(const Sink& sink, FileFormat format, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options) {
   switch (format) {
     case FileFormat::json:
-      return writeJson(sink, cutMesh);
+      return writeJson(sink, cutMesh, options);
+    case FileFormat::mcm:
+      return writeMcm(sink, cutMesh, options);
     case FileFormat::vtu:
       return writeVtu(sink, mesh, cutMesh, options);
     case FileFormat::obj:

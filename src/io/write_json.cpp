@@ -1,4 +1,5 @@
 #include "io/output_buffer.h"
+#include "mesh/run_call.h"
 
 namespace mandoline {
 namespace detail {
@@ -15,6 +16,7 @@ void writeArray(OutputBuffer& out, const Array& array) {
       out.number(item);
     }
     separator = ',';
+    out.advance();
   }
   if (separator == '[') out.character(separator);
   out.character(']');
@@ -57,6 +59,7 @@ void writeGridCellRegion(OutputBuffer& out, const CutMesh& cutMesh) {
     for (; written < to; ++written, separator = ',') {
       out.character(separator);
       out.number(region);
+      out.advance();
     }
   };
   UntouchedCells(cutMesh).forEach([&](const UntouchedCells::Run& run) {
@@ -76,22 +79,38 @@ void writeNulls(OutputBuffer& out, std::string_view key, uint32_t count) {
   out.character(']');
 }
 
-}  // namespace
-}  // namespace detail
-
-void writeJson(const Sink& sink, const CutMesh& cutMesh) {
-  detail::OutputBuffer out(sink);
-  out.text("{\"format\":\"mandoline-cut-mesh\",\n\"version\":1");
-  detail::writeGrid(out, cutMesh.grid);
+void putCutMesh(Meter& meter, const CutMesh& cutMesh) {
+  OutputBuffer out(meter);
+  out.text("{\"format\":\"mandoline-cut-mesh\",\n\"version\":2");
+  writeGrid(out, cutMesh.grid);
   forEachArray(cutMesh, [&](const ArrayInfo& info, const auto& array) {
-    if (info.per == Element::region && !cutMesh.hasWinding) return detail::writeNulls(out, info.name, cutMesh.regionCount);
-    detail::writeMember(out, info.name, array);
+    if (info.per == Element::region && !cutMesh.hasWinding) return writeNulls(out, info.name, cutMesh.regionCount);
+    writeMember(out, info.name, array);
   });
-  detail::writeGridCellRegion(out, cutMesh);
+  writeGridCellRegion(out, cutMesh);
   out.text(",\n\"triangleCount\":");
   out.number(cutMesh.triangleCount);
   out.text("}\n");
   out.flush();
+}
+
+uint64_t countNumbers(const CutMesh& cutMesh) {
+  const Grid& grid = cutMesh.grid;
+  uint64_t count = uint64_t(grid.cells(0)) * uint64_t(grid.cells(1)) * uint64_t(grid.cells(2)) + 9;  // 9: origin, spacing, cells
+  for (const std::vector<double>& planes : grid.planes) count += planes.size();
+  forEachArray(cutMesh, [&](const ArrayInfo&, const auto& array) { count += array.size(); });
+  return count;
+}
+
+}  // namespace
+}  // namespace detail
+
+void writeJson(const Sink& sink, const CutMesh& cutMesh, const RunOptions& options) {
+  detail::runCall("writing", [&] {
+    detail::Meter meter(sink, options);
+    meter.beginStage("write", 0, detail::countNumbers(cutMesh));
+    detail::putCutMesh(meter, cutMesh);
+  });
 }
 
 }  // namespace mandoline

@@ -4,6 +4,8 @@
 #include "io/output_buffer.h"
 #include "io/surface.h"
 #include "mesh/read/scalar.h"
+#include "mesh/require_arrays.h"
+#include "mesh/run_call.h"
 
 namespace mandoline {
 namespace detail {
@@ -30,14 +32,14 @@ void putLine(OutputBuffer& out, std::string_view keyword, std::span<const Number
 
 void putObj(OutputBuffer& out, const MeshView& mesh) {
   for (size_t v = 0; v < mesh.vertexCount(); ++v) putLine(out, "v", mesh.positions.subspan(3 * v, 3));
-  for (size_t t = 0; t < mesh.triangleCount(); ++t) putLine(out, "f", mesh.triangles.subspan(3 * t, 3), 1u);
+  for (size_t t = 0; t < mesh.triangleCount(); ++t) putLine(out, "f", mesh.triangles.subspan(3 * t, 3), 1u), out.advance();
 }
 
 void putOff(OutputBuffer& out, const MeshView& mesh) {
   const std::array<size_t, 3> counts = {mesh.vertexCount(), mesh.triangleCount(), 0};
   putLine(out, "OFF\n", std::span<const size_t>(counts));
   for (size_t v = 0; v < mesh.vertexCount(); ++v) putLine(out, "", mesh.positions.subspan(3 * v, 3));
-  for (size_t t = 0; t < mesh.triangleCount(); ++t) putLine(out, "3", mesh.triangles.subspan(3 * t, 3));
+  for (size_t t = 0; t < mesh.triangleCount(); ++t) putLine(out, "3", mesh.triangles.subspan(3 * t, 3)), out.advance();
 }
 
 std::array<float, 3> unitNormal(const std::array<const double*, 3>& corners) {
@@ -65,6 +67,7 @@ void putStl(OutputBuffer& out, const MeshView& mesh) {
       for (size_t d = 0; d < 3; ++d) putScalar(out, float(corner[d]));
     }
     putScalar(out, uint16_t(0));
+    out.advance();
   }
 }
 
@@ -82,43 +85,56 @@ void putPly(OutputBuffer& out, const MeshView& mesh, std::span<const uint32_t> r
     putScalar(out, uint8_t(3));
     for (const uint32_t v : mesh.triangles.subspan(3 * t, 3)) putScalar(out, v);
     if (!regions.empty()) putScalar(out, regions[t]);
+    out.advance();
   }
+}
+
+void putMesh(OutputBuffer& out, FileFormat format, const MeshView& mesh) {
+  switch (format) {
+    case FileFormat::obj:
+      return putObj(out, mesh);
+    case FileFormat::off:
+      return putOff(out, mesh);
+    case FileFormat::stl:
+      return putStl(out, mesh);
+    case FileFormat::ply:
+      return putPly(out, mesh, {});
+    default:
+      throw FileError(std::string("meshes can't be written as .") + name(format));
+  }
+}
+
+/// Calls put(OutputBuffer) for a mesh; the items of progress are its triangles.
+template <class Put>
+void writeTriangles(const Sink& sink, const RunOptions& options, const MeshView& mesh, const Put& put) {
+  Meter meter(sink, options);
+  meter.beginStage("write", 0, mesh.triangleCount());
+  OutputBuffer out(meter);
+  put(out);
+  out.flush();
 }
 
 }  // namespace
 }  // namespace detail
 
-void writeMesh(const Sink& sink, FileFormat format, const MeshView& mesh) {
-  detail::OutputBuffer out(sink);
-  switch (format) {
-    case FileFormat::obj:
-      detail::putObj(out, mesh);
-      break;
-    case FileFormat::off:
-      detail::putOff(out, mesh);
-      break;
-    case FileFormat::stl:
-      detail::putStl(out, mesh);
-      break;
-    case FileFormat::ply:
-      detail::putPly(out, mesh, {});
-      break;
-    default:
-      throw FileError(std::string("meshes can't be written as .") + name(format));
-  }
-  out.flush();
+void writeMesh(const Sink& sink, FileFormat format, const MeshView& mesh, const RunOptions& options) {
+  detail::requireArrays(mesh);
+  detail::runCall("writing", [&] {
+    detail::writeTriangles(sink, options, mesh, [&](detail::OutputBuffer& out) { detail::putMesh(out, format, mesh); });
+  });
 }
 
 void writeStl(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options) {
   const Mesh surface = detail::triangulateSurface({cutMesh, options}).mesh;
-  writeMesh(sink, FileFormat::stl, surface);
+  writeMesh(sink, FileFormat::stl, surface, options);
 }
 
 void writePly(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options) {
   const detail::SurfaceTriangles surface = detail::triangulateSurface({cutMesh, options});
-  detail::OutputBuffer out(sink);
-  detail::putPly(out, surface.mesh, surface.region);
-  out.flush();
+  detail::runCall("writing", [&] {
+    detail::writeTriangles(sink, options, surface.mesh,
+                           [&](detail::OutputBuffer& out) { detail::putPly(out, surface.mesh, surface.region); });
+  });
 }
 
 }  // namespace mandoline

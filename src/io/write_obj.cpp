@@ -1,6 +1,7 @@
 #include "io/output_buffer.h"
 #include "io/polygons.h"
 #include "io/surface.h"
+#include "mesh/run_call.h"
 
 namespace mandoline {
 namespace detail {
@@ -8,7 +9,7 @@ namespace {
 
 class ObjWriter {
  public:
-  ObjWriter(const Sink& sink, const CutMesh& cutMesh) : out_(sink), cutMesh_(cutMesh), polygons_(cutMesh), number_(cutMesh.vertexCount()) {}
+  ObjWriter(Meter& meter, const CutMesh& cutMesh) : out_(meter), cutMesh_(cutMesh), polygons_(cutMesh), number_(cutMesh.vertexCount()) {}
 
   void write(const WrittenSurface& surface) {
     for (uint32_t r = 0; r < cutMesh_.regionCount; ++r) {
@@ -18,6 +19,7 @@ class ObjWriter {
       out_.character('\n');
       for (const uint32_t h : surface.of(r)) {
         polygons_.forEach(h / 2, [&](std::span<const uint32_t> polygon) { writePolygon(polygon, h % 2 != 0); });
+        out_.advance();
       }
     }
     out_.flush();
@@ -58,7 +60,12 @@ class ObjWriter {
 }  // namespace detail
 
 void writeObj(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options) {
-  detail::ObjWriter(sink, cutMesh).write(detail::surfaceOf({cutMesh, options}));
+  detail::runCall("writing", [&] {
+    detail::Meter meter(sink, options);
+    const detail::WrittenSurface surface = detail::surfaceOf({cutMesh, options});
+    meter.beginStage("write", 0, surface.halfFaces.size());
+    detail::ObjWriter(meter, cutMesh).write(surface);
+  });
 }
 
 }  // namespace mandoline

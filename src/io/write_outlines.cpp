@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "io/output_buffer.h"
-#include "io/selection.h"
+#include "mesh/run_call.h"
+#include "operators/require_cut_mesh.h"
+#include "operators/slice/plane_stack.h"
 
 namespace mandoline {
 namespace detail {
@@ -50,7 +52,7 @@ Vector pointOf(const Outlines& layer, uint32_t point) {
 
 class OutlineWriter {
  public:
-  OutlineWriter(const Sink& sink, const OutlineStack& stack, const WriteOptions& options) : out_(sink), stack_(stack), options_(options) {}
+  OutlineWriter(Meter& meter, const OutlineStack& stack, const WriteOptions& options) : out_(meter), stack_(stack), options_(options) {}
 
   void writeSvg() {
     const PlaneAxes axes = planeAxes(stack_.normal);
@@ -91,6 +93,7 @@ class OutlineWriter {
         out_.text("\"/>\n");
       });
       out_.text("</g>\n");
+      out_.advance();
     }
     out_.text("</svg>\n");
     out_.flush();
@@ -103,6 +106,7 @@ class OutlineWriter {
       forEachShape(layer, options_, [&](const std::vector<Line>& lines) {
         for (const Line& line : lines) writeDxfLine(layer, line);
       });
+      out_.advance();
     }
     out_.text("0\nENDSEC\n0\nEOF\n");
     out_.flush();
@@ -134,6 +138,7 @@ class OutlineWriter {
           written += line.points.size();
         }
       });
+      out_.advance();
     }
     out_.flush();
   }
@@ -189,21 +194,46 @@ class OutlineWriter {
   const WriteOptions& options_;
 };
 
+void requireFitting(const OutlineStack& stack, const WriteOptions& options) {
+  operators::requireNormal(stack.normal);
+  if (stack.layers.size() != stack.offsets.size()) {
+    operators::refuse("There are " + std::to_string(stack.layers.size()) + " layers for " + std::to_string(stack.offsets.size()) +
+                      " offsets.");
+  }
+  if (options.regions.empty()) return;
+  for (const Outlines& layer : stack.layers) {
+    for (const std::vector<uint32_t>* regions : {&layer.polygonRegion, &layer.slitRegion}) {
+      for (const uint32_t region : *regions) {
+        if (region >= options.regions.size()) {
+          operators::refuse("regions must have one flag for each region, but has " + std::to_string(options.regions.size()) +
+                                " and none for region " + std::to_string(region) + ".",
+                            region);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace detail
 
 void writeOutlines(const Sink& sink, FileFormat format, const OutlineStack& stack, const WriteOptions& options) {
-  detail::OutlineWriter writer(sink, stack, options);
-  switch (format) {
-    case FileFormat::svg:
-      return writer.writeSvg();
-    case FileFormat::dxf:
-      return writer.writeDxf();
-    case FileFormat::obj:
-      return writer.writeObj();
-    default:
-      throw FileError(std::string("outlines can't be written as .") + name(format));
-  }
+  detail::requireFitting(stack, options);
+  detail::runCall("writing", [&] {
+    detail::Meter meter(sink, options);
+    meter.beginStage("write", 0, stack.layers.size());
+    detail::OutlineWriter writer(meter, stack, options);
+    switch (format) {
+      case FileFormat::svg:
+        return writer.writeSvg();
+      case FileFormat::dxf:
+        return writer.writeDxf();
+      case FileFormat::obj:
+        return writer.writeObj();
+      default:
+        throw FileError(std::string("outlines can't be written as .") + name(format));
+    }
+  });
 }
 
 }  // namespace mandoline

@@ -11,7 +11,8 @@ Sink into(std::ostream& out) {
 
 }  // namespace
 
-void writeJson(std::ostream& out, const CutMesh& cutMesh) { writeJson(into(out), cutMesh); }
+void writeJson(std::ostream& out, const CutMesh& cutMesh, const RunOptions& options) { writeJson(into(out), cutMesh, options); }
+void writeMcm(std::ostream& out, const CutMesh& cutMesh, const RunOptions& options) { writeMcm(into(out), cutMesh, options); }
 void writeVtu(std::ostream& out, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options) {
   writeVtu(into(out), mesh, cutMesh, options);
 }

@@ -1,64 +1,26 @@
-// VTK XML unstructured grids, with the arrays appended as raw bytes (which VTK, ParaView and meshio read).
-//
-// The file has one array after the other, each with its size before it: the cells are counted first, then walked through once for each
-// array, and only a buffer of it is ever kept.
-#include <optional>
-
-#include "io/output_buffer.h"
+// Cut-meshes as VTK XML unstructured grids: the cells are counted first, then walked through once for each array, and only a buffer of it
+// is ever kept.
 #include "io/vtu_cells.h"
+#include "io/vtu_file.h"
 #include "mandoline/measure.h"
-#include "mesh/read/scalar.h"
+#include "mesh/run_call.h"
 
 namespace mandoline {
 namespace detail {
 namespace {
 
-constexpr uint8_t kHexahedron = 12, kPolyhedron = 42;  // VTK's cell types
-
-/// Numbers as bytes for a sink, gathered in a buffer. Whoever uses it calls flush() at the end.
-template <class Scalar>
-class ArrayBuffer {
- public:
-  explicit ArrayBuffer(const Sink& sink) : sink_(sink) { buffer_.reserve(kCapacity); }
-
-  void put(Scalar value) {
-    buffer_.push_back(value);
-    if (buffer_.size() == kCapacity) flush();
-  }
-  void flush() {
-    sink_({reinterpret_cast<const char*>(buffer_.data()), buffer_.size() * sizeof(Scalar)});
-    buffer_.clear();
-  }
-
- private:
-  static constexpr size_t kCapacity = size_t(1) << 15;
-  const Sink& sink_;
-  std::vector<Scalar> buffer_;
-};
-
 class VtuWriter {
  public:
-  VtuWriter(const Sink& sink, const MeshView& mesh, const Selection& selection)
-      : sink_(sink),
-        out_(sink),
-        cutMesh_(selection.cutMesh()),
-        cellVolume_(measure(mesh, cutMesh_).cellVolume),
-        cells_(cutMesh_, selection) {
+  static constexpr int kStages = 3;
+
+  VtuWriter(Meter& meter, const Selection& selection, std::vector<double> cellVolume)
+      : meter_(meter), cutMesh_(selection.cutMesh()), cellVolume_(std::move(cellVolume)), cells_(cutMesh_, selection) {
+    meter_.beginStage("count", 1, cutMesh_.cellCount());
     count(selection);
   }
 
   void write() {
-    writeHead();
-    forEachArray([&](auto scalar, const char* name, uint64_t count, int components, const auto& fill) {
-      using Scalar = decltype(scalar);
-      (void)name;
-      const uint64_t size = count * uint64_t(components) * sizeof(Scalar);
-      sink_({reinterpret_cast<const char*>(&size), sizeof size});
-      ArrayBuffer<Scalar> buffer(sink_);
-      fill([&](auto value) { buffer.put(Scalar(value)); });
-      buffer.flush();
-    });
-    sink_("\n</AppendedData>\n</VTKFile>\n");
+    VtuFile(meter_, pointCount(), cellCount_, "grid_cell").write(2, [&](const auto& visit) { forEachArray(visit); });
   }
 
  private:
@@ -70,6 +32,9 @@ class VtuWriter {
     };
     cells_.forEach(
         [&](const VtuCell& cell) {
+          constexpr size_t kBlock = 1024;  // polyhedra between two reports
+          if (polyhedronSizes_.size() % kBlock == 0) meter_.report();
+          if (cell.cutCell >= 0) meter_.advance();
           const Polyhedron& polyhedron = cells_.polyhedron(cell);
           polyhedronSizes_.push_back(
               {uint32_t(polyhedron.vertices.size()), 1 + polyhedron.faceSizes.size() + polyhedron.faceVertices.size()});
@@ -99,38 +64,6 @@ class VtuWriter {
     return vertex < cutVertices ? int64_t(numbers_[size_t(vertex)]) : vertex - cutVertices + int64_t(usedCutVertices_);
   }
 
-  void writeHead() {
-    out_.text("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"");
-    out_.text(kNativeOrder == ByteOrder::little ? "LittleEndian" : "BigEndian");
-    out_.text("\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"");
-    out_.number(pointCount());
-    out_.text("\" NumberOfCells=\"");
-    out_.number(cellCount_);
-    out_.text("\">\n<Points>\n");
-    uint64_t offset = 0;
-    forEachArray([&](auto scalar, std::string_view name, uint64_t count, int components, const auto&) {
-      if (name == "connectivity") out_.text("</Points>\n<Cells>\n");
-      if (name == "grid_cell") out_.text("</Cells>\n<CellData>\n");
-      out_.text("<DataArray type=\"");
-      out_.text(typeName(scalar));
-      out_.text("\" Name=\"");
-      out_.text(name);
-      out_.text("\" NumberOfComponents=\"");
-      out_.number(components);
-      out_.text("\" format=\"appended\" offset=\"");
-      out_.number(offset);
-      out_.text("\"/>\n");
-      offset += sizeof(uint64_t) + count * uint64_t(components) * sizeof scalar;
-    });
-    out_.text("</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
-    out_.flush();
-  }
-
-  static const char* typeName(double) { return "Float64"; }
-  static const char* typeName(int64_t) { return "Int64"; }
-  static const char* typeName(int32_t) { return "Int32"; }
-  static const char* typeName(uint8_t) { return "UInt8"; }
-
   uint64_t pointCount() const { return usedCutVertices_ + uint64_t(cells_.vertices().count()) - cutMesh_.vertexCount(); }
 
   /// Calls visit(a number of the array's type, name, count, components, fill) in the order of the file; fill(put) puts the numbers. The
@@ -141,7 +74,7 @@ class VtuWriter {
     visit(int64_t(), "connectivity", connectivitySize_, 1, [&](const auto& put) { putConnectivity(put); });
     visit(int64_t(), "offsets", cellCount_, 1, [&](const auto& put) { putOffsets(put); });
     visit(uint8_t(), "types", cellCount_, 1,
-          [&](const auto& put) { putPerCell([&](const VtuCell&) { put(kPolyhedron); }, [&](const VtuCell&) { put(kHexahedron); }); });
+          [&](const auto& put) { putPerCell([&](const VtuCell&) { put(kVtkPolyhedron); }, [&](const VtuCell&) { put(kVtkHexahedron); }); });
     if (facesSize_ > 0) {
       visit(int64_t(), "faces", facesSize_, 1, [&](const auto& put) { putFaces(put); });
       visit(int64_t(), "faceoffsets", cellCount_, 1, [&](const auto& put) {
@@ -230,8 +163,7 @@ class VtuWriter {
     uint64_t faces;  // in numbers of the array "faces"
   };
 
-  const Sink& sink_;
-  OutputBuffer out_;
+  Meter& meter_;
   const CutMesh& cutMesh_;
   std::vector<double> cellVolume_;  // per cut-cell
   VtuCells cells_;
@@ -240,11 +172,28 @@ class VtuWriter {
   std::vector<uint32_t> numbers_;  // per cut-vertex, if not all are used
 };
 
+/// Measuring is one stage of writing.
+std::vector<double> cellVolumes(Meter& meter, const MeshView& mesh, const CutMesh& cutMesh, const RunOptions& options) {
+  meter.beginStage("measure", 0, 1);
+  RunOptions measuring{options.threads, {}};
+  if (options.progress) {
+    measuring.progress = [&](const Progress&) {
+      meter.report();
+      return true;
+    };
+  }
+  return measure(mesh, cutMesh, measuring).cellVolume;
+}
+
 }  // namespace
 }  // namespace detail
 
 void writeVtu(const Sink& sink, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options) {
-  detail::VtuWriter(sink, mesh, detail::Selection(cutMesh, options)).write();
+  const detail::Selection selection(cutMesh, options);
+  detail::runCall("writing", [&] {
+    detail::Meter meter(sink, options, detail::VtuWriter::kStages);
+    detail::VtuWriter(meter, selection, detail::cellVolumes(meter, mesh, cutMesh, options)).write();
+  });
 }
 
 }  // namespace mandoline

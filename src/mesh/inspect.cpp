@@ -5,6 +5,9 @@
 
 #include "base/disjoint_sets.h"
 #include "base/exact.h"
+#include "base/position_table.h"
+#include "base/sort.h"
+#include "mesh/require_arrays.h"
 
 namespace mandoline {
 namespace {
@@ -13,28 +16,6 @@ using Corners = std::array<uint32_t, 3>;
 
 bool isFinite(const MeshView& mesh, size_t v) {
   return std::isfinite(mesh.positions[3 * v]) && std::isfinite(mesh.positions[3 * v + 1]) && std::isfinite(mesh.positions[3 * v + 2]);
-}
-
-/// Per vertex the lowest one at its position.
-std::vector<uint32_t> weld(const MeshView& mesh) {
-  std::vector<uint32_t> lowest(mesh.vertexCount()), order;
-  for (uint32_t v = 0; v < lowest.size(); ++v) {
-    lowest[v] = v;
-    if (isFinite(mesh, v)) order.push_back(v);
-  }
-  const auto position = [&](uint32_t v) { return mesh.positions.data() + 3 * size_t(v); };
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    const double *p = position(a), *q = position(b);
-    for (int d = 0; d < 3; ++d) {
-      if (p[d] != q[d]) return p[d] < q[d];
-    }
-    return a < b;
-  });
-  for (size_t i = 1; i < order.size(); ++i) {
-    const double* p = position(order[i]);
-    if (std::equal(p, p + 3, position(order[i - 1]))) lowest[order[i]] = lowest[order[i - 1]];
-  }
-  return lowest;
 }
 
 bool hasThreeVertices(const Corners& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; }
@@ -52,7 +33,7 @@ void countEdges(const std::vector<Corners>& triangles, MeshInfo& info) {
       uses.push_back({std::min(a, b), std::max(a, b), a < b});
     }
   }
-  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
+  detail::sortItems(uses, [](const Use& a, const Use& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
   info.closed = info.oriented = !uses.empty();
   for (size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
     size_t upwards = 0;
@@ -78,8 +59,8 @@ size_t countComponents(const std::vector<Corners>& triangles, size_t vertexCount
 }
 
 size_t countDuplicates(std::vector<Corners> triangles) {
-  for (Corners& t : triangles) std::sort(t.begin(), t.end());
-  std::sort(triangles.begin(), triangles.end());
+  for (Corners& t : triangles) detail::sortItems(t);
+  detail::sortItems(triangles);
   size_t count = 0;
   for (size_t t = 1; t < triangles.size(); ++t) count += hasThreeVertices(triangles[t]) && triangles[t] == triangles[t - 1];
   return count;
@@ -131,11 +112,13 @@ void findBox(const MeshView& mesh, MeshInfo& info) {
 }  // namespace
 
 MeshInfo inspect(const MeshView& mesh) {
+  detail::requireArrays(mesh);
   MeshInfo info;
   info.vertices = mesh.vertexCount();
   info.triangles = mesh.triangleCount();
   findBox(mesh, info);
-  const std::vector<uint32_t> lowest = weld(mesh);
+  const std::vector<uint32_t> lowest = detail::lowestAtPosition(
+      info.vertices, [&](uint32_t v) { return mesh.positions.data() + 3 * size_t(v); }, [&](uint32_t v) { return isFinite(mesh, v); });
   std::vector<uint8_t> referenced(info.vertices, 0);
   for (const uint32_t v : mesh.triangles) referenced[v] = 1;
   for (uint32_t v = 0; v < info.vertices; ++v) {

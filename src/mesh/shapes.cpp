@@ -31,13 +31,13 @@ uint32_t addVertex(Mesh& mesh, const Vector& p) {
 
 /// Closes rings of vertices, one after the other, to a tube that bites its tail.
 template <class Place>
-Mesh ringOfRings(int slices, int corners, const Place& place) {
+Mesh ringOfRings(int rings, int corners, const Place& place) {
   Mesh mesh;
-  for (int i = 0; i < slices; ++i) {
-    for (int j = 0; j < corners; ++j) addVertex(mesh, place(2 * kPi * i / slices, 2 * kPi * j / corners));
+  for (int i = 0; i < rings; ++i) {
+    for (int j = 0; j < corners; ++j) addVertex(mesh, place(2 * kPi * i / rings, 2 * kPi * j / corners));
   }
-  const auto vertex = [&](int i, int j) { return uint32_t(i % slices) * uint32_t(corners) + uint32_t(j % corners); };
-  for (int i = 0; i < slices; ++i) {
+  const auto vertex = [&](int i, int j) { return uint32_t(i % rings) * uint32_t(corners) + uint32_t(j % corners); };
+  for (int i = 0; i < rings; ++i) {
     for (int j = 0; j < corners; ++j) {
       const uint32_t a = vertex(i, j), b = vertex(i + 1, j), c = vertex(i + 1, j + 1), d = vertex(i, j + 1);
       mesh.triangles.insert(mesh.triangles.end(), {a, b, c, a, c, d});
@@ -92,19 +92,19 @@ Mesh makeSphere(const Vector& centre, double radius, int subdivisions) {
   return mesh;
 }
 
-Mesh makeTorus(double ringRadius, double tubeRadius, int slices, int corners) {
-  return ringOfRings(slices, corners, [&](double u, double v) {
+Mesh makeTorus(double ringRadius, double tubeRadius, int rings, int corners) {
+  return ringOfRings(rings, corners, [&](double u, double v) {
     const double r = ringRadius + tubeRadius * std::cos(v);
     return Vector{r * std::cos(u), r * std::sin(u), tubeRadius * std::sin(v)};
   });
 }
 
-Mesh makeTorusKnot(double tubeRadius, int slices, int corners) {
+Mesh makeTorusKnot(double tubeRadius, int rings, int corners) {
   const auto centre = [](double u) {
     const double r = 2 + std::cos(3 * u);
     return Vector{r * std::cos(2 * u), r * std::sin(2 * u), std::sin(3 * u)};
   };
-  return ringOfRings(slices, corners, [&](double u, double v) {
+  return ringOfRings(rings, corners, [&](double u, double v) {
     const Vector p = centre(u), tangent = unit(centre(u + 1e-3) - centre(u - 1e-3));
     const Vector fromRing = p - Vector{2 * std::cos(2 * u), 2 * std::sin(2 * u), 0};
     const Vector out = unit(cross(tangent, cross(fromRing, tangent))), side = cross(out, tangent);

@@ -4,40 +4,36 @@
 
 #include "base/disjoint_sets.h"
 #include "base/position_table.h"
+#include "base/sort.h"
 
 namespace mandoline::detail {
-namespace {
 
-bool hasArea(Predicates& predicates, const Point& a, const Point& b, const Point& c) {
-  for (int d = 0; d < 3; ++d) {
-    const int p = (d + 1) % 3, q = (d + 2) % 3;
-    if (predicates.orient2d({a[p], a[q]}, {b[p], b[q]}, {c[p], c[q]}) != 0) return true;
-  }
-  return false;
+const Stitch* WeldedMesh::findStitch(uint32_t low, uint32_t high) const {
+  const auto at =
+      std::lower_bound(stitches.begin(), stitches.end(), std::array<uint32_t, 2>{low, high}, [](const Stitch& s, const auto& key) {
+        return std::array<uint32_t, 2>{s.low, s.high} < key;
+      });
+  return at != stitches.end() && at->low == low && at->high == high ? &*at : nullptr;
 }
 
-}  // namespace
+int normalSign(const WeldedMesh& mesh, TriangleId triangle, int axis, Predicates& predicates) {
+  const auto& t = mesh.triangles[triangle.number];
+  const Point &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
+  const size_t p = size_t(axis + 1) % 3, q = size_t(axis + 2) % 3;
+  return predicates.orient2d({a[p], a[q]}, {b[p], b[q]}, {c[p], c[q]});
+}
 
 std::vector<uint32_t> weld(const std::vector<uint8_t>& referenced, const std::vector<Point>& points) {
-  PositionTable table(points.size(), [&](uint32_t v) { return points[v].data(); });
-  std::vector<uint32_t> lowest(points.size());
-  for (uint32_t v = 0; v < points.size(); ++v) {
-    lowest[v] = v;
-    if (!referenced[v]) continue;
-    uint32_t& slot = table.find(points[v].data());
-    if (slot == table.kFree) slot = v;
-    lowest[v] = slot;
-  }
-  return lowest;
+  return lowestAtPosition(
+      points.size(), [&](uint32_t v) { return points[v].data(); }, [&](uint32_t v) { return referenced[v] != 0; });
 }
 
 std::vector<uint32_t> dropZeroArea(WeldedMesh& mesh, Predicates& predicates) {
   std::vector<uint32_t> dropped;
-  for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& v = mesh.triangles[t];
-    if (hasArea(predicates, mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]])) continue;
-    mesh.states[t] = TriangleState::zeroArea;
-    dropped.push_back(t);
+  for (const TriangleId t : mesh.triangleIds()) {
+    if (normalSign(mesh, t, 0, predicates) || normalSign(mesh, t, 1, predicates) || normalSign(mesh, t, 2, predicates)) continue;
+    mesh.states[t.number] = TriangleState::zeroArea;
+    dropped.push_back(t.number);
   }
   return dropped;
 }
@@ -55,8 +51,7 @@ std::vector<Stitch> findStitches(const WeldedMesh& mesh, const std::vector<uint3
       if (a != b) uses.push_back({std::min(a, b), std::max(a, b), t});  // a point is on many lines
     }
   }
-  std::sort(uses.begin(), uses.end(),
-            [](const Use& a, const Use& b) { return a.key() != b.key() ? a.key() < b.key() : a.triangle < b.triangle; });
+  sortItems(uses, [](const Use& a, const Use& b) { return a.key() != b.key() ? a.key() < b.key() : a.triangle < b.triangle; });
   const auto indexOf = [&](uint32_t t) { return uint32_t(std::lower_bound(zeroArea.begin(), zeroArea.end(), t) - zeroArea.begin()); };
   DisjointSets lines(zeroArea.size());
   for (size_t i = 1; i < uses.size(); ++i) {
@@ -69,7 +64,7 @@ std::vector<Stitch> findStitches(const WeldedMesh& mesh, const std::vector<uint3
   }
   const auto before = [&](uint32_t a, uint32_t b) { return mesh.points[a] < mesh.points[b]; };  // lexicographic: the order along a line
   for (auto& vertices : verticesOf) {
-    std::sort(vertices.begin(), vertices.end(), before);
+    sortItems(vertices, before);
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   }
   std::vector<Stitch> stitches;

@@ -2,11 +2,15 @@
 // neighbours stay connected.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <compare>
 #include <cstdint>
 #include <vector>
 
 #include "base/exact.h"
 #include "base/point.h"
+#include "mesh/ids.h"
 
 namespace mandoline::detail {
 
@@ -18,14 +22,43 @@ struct Stitch {
   std::vector<uint32_t> vertices;  ///< strictly between, in order from low to high
 };
 
+/// A triangle with the same three vertices as a lower one, which stands for it.
+struct Duplicate {
+  uint32_t original, triangle;
+  bool sameWay;  ///< whether their normals are the same
+
+  auto operator<=>(const Duplicate&) const = default;
+};
+
 struct WeldedMesh {
   std::vector<Point> points;                       ///< per tri-vertex
   std::vector<std::array<uint32_t, 3>> triangles;  ///< welded tri-vertices, per input triangle
   std::vector<TriangleState> states;               ///< per input triangle
   std::vector<Stitch> stitches;                    ///< sorted by (low, high)
+  std::vector<Duplicate> duplicates;               ///< ascending by the triangle they are copies of
+  bool closed = false;                             ///< every tri-edge is run through equally often in both directions, by duplicates, too
 
   bool kept(size_t triangle) const { return states[triangle] == TriangleState::kept; }
+  bool kept(TriangleId t) const { return kept(t.number); }
+  std::array<VertexId, 3> verticesOf(TriangleId t) const {
+    const auto& v = triangles[t.number];
+    return {VertexId{v[0]}, VertexId{v[1]}, VertexId{v[2]}};
+  }
+  /// Of a tri-vertex; near a made vertex.
+  const Point& point(VertexId v) const { return points[v.number]; }
+  /// The ends of a side, which leads from a triangle's corner to the next: the lower tri-vertex, then the higher.
+  std::array<uint32_t, 2> edgeOf(uint32_t triangle, int side) const {
+    const auto& t = triangles[triangle];
+    const auto [low, high] = std::minmax(t[size_t(side)], t[size_t(side + 1) % 3]);
+    return {low, high};
+  }
+  Ids<TriangleId> triangleIds() const { return Ids<TriangleId>(triangles.size()); }
+  /// The stitch on an edge, or null.
+  const Stitch* findStitch(uint32_t low, uint32_t high) const;
 };
+
+/// Sign of a triangle's normal along an axis.
+int normalSign(const WeldedMesh& mesh, TriangleId triangle, int axis, Predicates& predicates);
 
 /// Per tri-vertex the lowest one at its position; itself unless `referenced`.
 std::vector<uint32_t> weld(const std::vector<uint8_t>& referenced, const std::vector<Point>& points);

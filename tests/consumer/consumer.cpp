@@ -5,10 +5,9 @@
 
 #include "mandoline/io.h"
 #include "mandoline/mandoline.h"
-#include "mandoline/measure.h"
-#include "mandoline/shapes.h"
-#include "mandoline/triangulate.h"
-#include "mandoline/validate.h"
+#ifdef WITH_OPERATORS
+#include "mandoline/poisson.h"
+#endif
 
 #if MANDOLINE_VERSION_NUMBER < 100
 #error "mandoline/version.h names no version"
@@ -51,6 +50,15 @@ int main() {
   hash.add(measures.cellVolume);
   hash.add(measures.faceArea);
   hash.add(triangulateFaces(result.mesh).triangles);
+#ifdef WITH_OPERATORS
+  const mandoline::CellComplex cells = mandoline::cellComplex(mesh, result.mesh, mandoline::coarsen(result.mesh));
+  mandoline::PoissonProblem problem;
+  problem.boundary = mandoline::boundaryOf(cells);
+  setBoundary(problem.boundary, cells, mandoline::FaceTag::xMax, mandoline::Condition::dirichlet, 0.3);
+  const mandoline::PoissonSystem system = mandoline::poissonSystem(cells, problem);
+  hash.add(system.matrix.valuePtr(), size_t(system.matrix.nonZeros()) * sizeof(double));
+  hash.add(system.rhs);
+#endif
   std::printf("%zu cut-cells, hash %llx\n", result.mesh.cellCount(), hash.value());
   return validation.pass ? 0 : 1;
 }

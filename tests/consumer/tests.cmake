@@ -5,6 +5,10 @@
 #   shared, as the latter installs: find_package, pkg-config
 add_executable(mandoline-reference consumer/consumer.cpp)
 target_link_libraries(mandoline-reference PRIVATE mandoline_io)
+if(TARGET mandoline_operators)
+  target_link_libraries(mandoline-reference PRIVATE mandoline_operators)
+  target_compile_definitions(mandoline-reference PRIVATE WITH_OPERATORS)
+endif()
 find_program(MANDOLINE_PKG_CONFIG pkg-config)
 set(folder ${CMAKE_CURRENT_BINARY_DIR}/consumer)
 

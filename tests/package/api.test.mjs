@@ -2,13 +2,14 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { compiledModule, describe, init, MandolineError } from 'mandoline-wasm';
-import { box, join, sheet, torus } from './meshes.mjs';
+import { box, gut, join, sheet, torus } from './meshes.mjs';
 
 const mandoline = await init();
 
 /** A cube around the middle vertex of a grid of 2 x 2 x 2 cells: every grid cell has a corner of it and the rest. */
 const cube = box([0.5, 0.5, 0.5], [1.5, 1.5, 1.5]);
 const grid = { min: [0, 0, 0], max: [2, 2, 2], cells: [2, 2, 2] };
+const twoBoxes = join(box([1, 1, 1], [3, 3, 3]), box([2, 2, 2], [4, 4, 4]));
 
 function areaOf(positions, triangles) {
   let area = 0;
@@ -19,6 +20,16 @@ function areaOf(positions, triangles) {
     area += Math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2;
   }
   return area;
+}
+
+/** The volume that triangles enclose. */
+function volumeOf({ positions, triangles }) {
+  let volume = 0;
+  for (let i = 0; i < triangles.length; i += 3) {
+    const [a, b, c] = [0, 1, 2].map((j) => positions.subarray(3 * triangles[i + j], 3 * triangles[i + j] + 3));
+    volume += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+  }
+  return volume / 6;
 }
 
 function assertClosed(triangles) {
@@ -57,7 +68,8 @@ test('a cube across eight grid cells', () => {
   assert.equal(measures.faceArea.reduce((sum, area) => sum + area), 6 + 12 + 24);
 
   const { cellCells, cellCellOffsets, faceCells, faceGridCells } = mandoline.adjacency(cut);
-  for (let cell = 0; cell < 16; ++cell) assert.equal(cellCellOffsets[cell + 1] - cellCellOffsets[cell], 4); // three of its kind, and the rest
+  // Three of its kind, and the rest.
+  for (let cell = 0; cell < 16; ++cell) assert.equal(cellCellOffsets[cell + 1] - cellCellOffsets[cell], 4);
   assert.equal(cellCells.length, 64);
   assert.equal(faceCells.filter((cell) => cell < 0).length, 24);
   assert.ok(faceGridCells.every((cell) => cell === -1));
@@ -105,7 +117,8 @@ test('a slice has the polygons of all cells', () => {
   const areas = (slice) => {
     const sums = [0, 0];
     slice.polygonRegion.forEach((region, p) => {
-      sums[region] += areaOf(slice.positions, slice.triangles.subarray(3 * slice.polygonTriangleOffsets[p], 3 * slice.polygonTriangleOffsets[p + 1]));
+      const [begin, end] = [slice.polygonTriangleOffsets[p], slice.polygonTriangleOffsets[p + 1]];
+      sums[region] += areaOf(slice.positions, slice.triangles.subarray(3 * begin, 3 * end));
     });
     return [sums[inside], sums[1 - inside]];
   };
@@ -189,7 +202,10 @@ test('all kinds of grids and arrays give the same cut', () => {
   const others = [
     mandoline.cut(plain, grid),
     mandoline.cut({ positions: new Float32Array(cube.positions), triangles: new Uint16Array(cube.triangles) }, grid),
-    mandoline.cut({ positions: cube.positions, triangles: new Int32Array(cube.triangles) }, { origin: [0, 0, 0], spacing: [1, 1, 1], cells: [2, 2, 2] }),
+    mandoline.cut(
+      { positions: cube.positions, triangles: new Int32Array(cube.triangles) },
+      { origin: [0, 0, 0], spacing: [1, 1, 1], cells: [2, 2, 2] },
+    ),
     mandoline.cut(cube, { planes }),
     mandoline.cut(cube, expected.grid),
   ];
@@ -261,6 +277,34 @@ test('files', () => {
   assert.equal(obj.match(/^f /gm).length, 36);
 });
 
+test('files of some regions, and without untouched cells', () => {
+  const cut = mandoline.cut(cube, grid);
+  const text = (format, options) => new TextDecoder().decode(mandoline.write(cube, cut, format, options));
+  const cells = (options) => Number(/NumberOfCells="(\d+)"/.exec(text('vtu', options))[1]);
+  const inside = Array.from(cut.regionWinding, (winding) => winding === 1);
+  const all = cells();
+  assert.equal(cells({ untouched: false }), cut.cellRegion.length);
+  assert.equal(cells({ regions: inside }) + cells({ regions: Uint8Array.from(inside, (flag) => !flag) }), all);
+  assert.ok(cells({ regions: inside }) > 0 && cells({ regions: inside }) < all);
+  const region = inside.indexOf(true);
+  assert.deepEqual(text('obj', { regions: inside }).match(/^g .*$/gm), [`g region_${region}`]);
+});
+
+test('writing tells its progress and can be cancelled', () => {
+  const mesh = torus(100, 50);
+  const cut = mandoline.cut(mesh, { cells: 20 });
+  for (const format of ['json', 'vtu', 'obj']) {
+    const seen = [];
+    const whole = mandoline.write(mesh, cut, format, { progress: (state) => { seen.push(state); } });
+    assert.deepEqual(whole, mandoline.write(mesh, cut, format));
+    const { stageIndex, stageCount, done, total } = seen.at(-1);
+    assert.deepEqual([stageIndex, done], [stageCount - 1, total], format);
+    assert.throws(() => mandoline.write(mesh, cut, format, { progress: () => false }), { code: 'cancelled', stage: 'write' });
+    const own = new Error('mine');
+    assert.throws(() => mandoline.write(mesh, cut, format, { progress() { throw own; } }), (error) => error === own);
+  }
+});
+
 test('doubles in files read back identically', () => {
   const tiny = 1e-300;
   const mesh = box([0.1 * tiny, -tiny, -0], [tiny / 3, 1e-7 * tiny, 1e21 * tiny]);
@@ -299,6 +343,138 @@ test('a callback may cut, too', () => {
   assert.deepEqual(inner.positions, outer.positions);
 });
 
+test('two boxes that overlap are cut as if they had been resolved', () => {
+  const cutMesh = mandoline.cut(twoBoxes, { min: [0, 0, 0], max: [5, 5, 5], cells: [5, 5, 5] });
+  const { regionVolume } = mandoline.measure(twoBoxes, cutMesh);
+  const regions = [...cutMesh.regionWinding].map((winding, region) => `${winding}: ${regionVolume[region]}`);
+  assert.deepEqual(regions.sort(), ['0: 110', '1: 7', '1: 7', '2: 1']);
+  assert.ok(mandoline.validate(twoBoxes, cutMesh).pass);
+  const { counts, pairTriangles, pairKinds, pairPointOffsets, positions } = mandoline.findIntersections(twoBoxes);
+  assert.deepEqual(cutMesh.stats.intersections, counts);
+  assert.equal(counts.crossing + counts.touching, pairKinds.length);
+  assert.equal(pairTriangles.length, 2 * pairKinds.length);
+  assert.equal(positions.length, 3 * pairPointOffsets.at(-1));
+  assert.ok(positions.every((x) => x >= 2 && x <= 3));
+  assert.equal(cutMesh.stats.madeVertices, cutMesh.madeVertices.length);
+  assert.equal(cutMesh.madeVertexParents.length, 4 * cutMesh.madeVertexKinds.length);
+});
+
+test('a prepared mesh is cut as the mesh itself, and without its arrays', () => {
+  const prepared = gut(mandoline.prepare(twoBoxes));
+  for (const cells of [3, 8]) {
+    const [{ stats, ...expected }, { stats: fewer, ...cutMesh }] = [mandoline.cut(twoBoxes, { cells }), mandoline.cut(prepared, { cells })];
+    assert.deepEqual(cutMesh, expected);
+    assert.deepEqual(fewer.intersections, stats.intersections);
+    assert.deepEqual(fewer.stages.map(({ stage }) => stage), stats.stages.slice(2).map(({ stage }) => stage));
+  }
+  assert.deepEqual(mandoline.prepare(twoBoxes), twoBoxes);
+  assert.throws(() => mandoline.prepare(twoBoxes, { intersections: 'refuse' }), { code: 'selfIntersection', stage: 'intersections' });
+  assert.throws(() => mandoline.prepare(twoBoxes, { progress: () => false }), { code: 'cancelled' });
+});
+
+test('crossing boxes are resolved into triangles that know their parents', () => {
+  const resolved = mandoline.resolve(twoBoxes);
+  const { positions, triangles, vertexTriVertex, remaining, stats } = resolved;
+  const { parentOffsets, parents, parentSigns, frontWinding, backWinding } = resolved;
+  const n = triangles.length / 3;
+  assert.deepEqual(stats.intersections, mandoline.findIntersections(twoBoxes).counts);
+  assert.deepEqual(remaining, { crossing: 0, touching: 0, overlapping: 0, folded: 0, identical: 0 });
+  assert.deepEqual(mandoline.findIntersections(resolved).counts, remaining);
+  assert.deepEqual([parentOffsets.length, frontWinding.length, backWinding.length], [n + 1, n, n]);
+  assert.equal(parents.length, n); // no two of the boxes' triangles lie on each other
+  assert.ok(parentSigns.every((sign) => sign === 1));
+  assert.equal(volumeOf(resolved), 16); // both boxes, and what they share once more
+  const areas = new Float64Array(24);
+  for (let t = 0; t < n; ++t) areas[parents[t]] += areaOf(positions, triangles.subarray(3 * t, 3 * t + 3));
+  assert.ok(areas.every((area) => area === 2)); // half a side each
+  vertexTriVertex.forEach((v, i) => {
+    if (v >= 0) assert.deepEqual(positions.slice(3 * i, 3 * i + 3), twoBoxes.positions.slice(3 * v, 3 * v + 3));
+  });
+  assert.equal(vertexTriVertex.filter((v) => v >= 0).length, 16);
+  frontWinding.forEach((front, t) => assert.equal(backWinding[t] - front, 1));
+});
+
+test('the boundary of overlapping parts by each rule, of the resolved mesh and of a cut-mesh', () => {
+  const grids = { min: [0, 0, 0], max: [5, 5, 5], cells: [5, 5, 5] };
+  for (const [rule, volume] of [[undefined, 15], ['positive', 15], ['nonZero', 15], ['odd', 14]]) {
+    for (const mesh of [mandoline.resolve(twoBoxes), mandoline.cut(twoBoxes, grids)]) {
+      const boundary = mandoline.boundary(mesh, rule);
+      assert.equal(volumeOf(boundary), volume);
+      assertClosed(boundary.triangles);
+      assert.deepEqual(mandoline.boundary({ ...mesh }, rule), boundary);
+    }
+  }
+  const turned = { ...twoBoxes, triangles: twoBoxes.triangles.slice().reverse() };
+  assert.deepEqual(mandoline.boundary(mandoline.resolve(turned)), { positions: new Float64Array(), triangles: new Uint32Array() });
+  assert.equal(volumeOf(mandoline.boundary(mandoline.resolve(turned), 'nonZero')), 15);
+});
+
+test('the boundary of a solid that reaches the sides of the grid is closed by them', () => {
+  const cutMesh = mandoline.cut(twoBoxes, { min: [1.25, 1.5, 1], max: [3.75, 5, 2.5], cells: [5, 7, 3] });
+  for (const [rule, volume] of [['positive', 5.1875], ['odd', 4.6875]]) {
+    const boundary = mandoline.boundary(cutMesh, rule);
+    assert.equal(volumeOf(boundary), volume);
+    assertClosed(boundary.triangles);
+  }
+});
+
+test('triangles that lie on each other are one with several parents', () => {
+  const cubeTwice = join(cube, { ...cube, triangles: cube.triangles.slice().reverse() });
+  const { triangles, parentOffsets, parents, parentSigns, frontWinding, backWinding } = mandoline.resolve(cubeTwice);
+  assert.equal(triangles.length, 36);
+  assert.deepEqual([...parentOffsets], Array.from({ length: 13 }, (_, t) => 2 * t));
+  assert.ok(parentSigns.every((sign, i) => sign === (i % 2 ? -1 : 1)));
+  assert.deepEqual([...parents].sort((a, b) => a - b), Array.from({ length: 24 }, (_, t) => t));
+  assert.ok([...frontWinding, ...backWinding].every((winding) => winding === 0));
+});
+
+test('a mesh without winding numbers is resolved, and has no boundary', () => {
+  const sheets = join(sheet([0, 0], [2, 2], 0.5), sheet([1, 1], [3, 3], 0.5));
+  const resolved = mandoline.resolve(sheets);
+  assert.deepEqual([resolved.frontWinding, resolved.backWinding], [null, null]);
+  assert.equal(areaOf(resolved.positions, resolved.triangles), 7);
+  assert.equal(resolved.stats.intersections.overlapping > 0, true);
+});
+
+test('rounded vertices that meet again are counted', () => {
+  const crossing = join(torus(40, 20), torus(40, 20, 1.1, 0.3));
+  const resolved = mandoline.resolve(crossing);
+  assert.deepEqual(mandoline.findIntersections(resolved).counts, resolved.remaining);
+  assert.throws(() => mandoline.resolve(crossing, { progress: () => false }), { code: 'cancelled' });
+  assert.throws(() => mandoline.resolve({ positions: [], triangles: [] }), { code: 'emptyMesh', stage: 'input' });
+});
+
+test('sheets that overlap share faces with two parents', () => {
+  const sheets = join(sheet([0, 0], [2, 2], 0.5), sheet([1, 1], [3, 3], 0.5));
+  const cutMesh = mandoline.cut(sheets, { min: [-1, -1, 0], max: [4, 4, 1], cells: [5, 5, 1] });
+  const { faceArea } = mandoline.measure(sheets, cutMesh);
+  const { faceParentOffsets, faceParents, faceParentSigns, faceTriangle } = cutMesh;
+  let shared = 0;
+  faceTriangle.forEach((triangle, face) => {
+    const parents = faceParents.slice(faceParentOffsets[face], faceParentOffsets[face + 1]);
+    assert.equal(triangle, parents.length > 0 ? parents[0] : -1);
+    if (parents.length === 2) shared += faceArea[face];
+  });
+  assert.equal(shared, 1);
+  assert.ok(faceParentSigns.every((sign) => sign === 1));
+});
+
+test('the listed pairs have a cap, the counted ones have none', () => {
+  const twice = join(torus(12, 6), torus(12, 6));
+  const { counts, pairKinds, pairPointOffsets } = mandoline.findIntersections(twice, { maxPairs: 5 });
+  assert.equal(counts.identical, 144);
+  assert.deepEqual([pairKinds.length, pairPointOffsets.length], [5, 6]);
+  assert.deepEqual(mandoline.findIntersections(twice, { maxPairs: 0 }).counts, counts);
+});
+
+test('a cut-mesh of version 0.1.0 has its triangles as the only parents', () => {
+  const mesh = torus(24, 12);
+  const cutMesh = mandoline.cut(mesh, { cells: 6 });
+  const { faceParentOffsets, faceParents, faceParentSigns, madeVertices, madeVertexKinds, madeVertexParents, ...old } = cutMesh;
+  assert.ok(mandoline.validate(mesh, old).pass);
+  assert.deepEqual(mandoline.measure(mesh, old), mandoline.measure(mesh, cutMesh));
+});
+
 test('failures are named', () => {
   const finite = box([0, 0, 0], [1, 1, 1]);
   const broken = { ...finite, positions: finite.positions.slice() };
@@ -318,7 +494,11 @@ test('failures are named', () => {
     [() => mandoline.cut(finite, { cells: 2 ** 70 }), { code: 'gridTooLarge' }],
     [() => mandoline.cut(finite, { cells: 3 }, { snapTolerance: 0.5 }), { code: 'badOption' }],
     [() => mandoline.cut(finite, { cells: 3 }, { snapTolerance: NaN }), { code: 'badOption' }],
-    [() => mandoline.cut(crossing, { cells: 16 }), { code: 'selfIntersection', element2: 2 }],
+    [
+      () => mandoline.cut(crossing, { cells: 16 }, { intersections: 'refuse' }),
+      { code: 'selfIntersection', element2: 2, stage: 'intersections' },
+    ],
+    [() => mandoline.findIntersections(broken), { code: 'nonFiniteCoordinate', element: 2, stage: 'findIntersections' }],
   ];
   for (const [call, expected] of cases) {
     assert.throws(call, (error) => {
@@ -335,5 +515,27 @@ test('describe takes whatever was caught', () => {
   assert.equal(describe(new TypeError('no')), 'TypeError: no');
   assert.equal(describe('text'), 'text');
   assert.equal(describe(undefined), 'undefined');
-  assert.match(describe({ code: 'badGrid', message: 'No cells.', stage: 'input', element: 1, element2: -1 }), /^No cells\. \(stage input, axis y\) /);
+  const fault = { code: 'internalError', message: 'No way.', stage: 'gridFaces', element: -1, element2: -1 };
+  assert.match(describe(fault), /^No way\. It happened in gridFaces\. Please report/);
+});
+
+test('describe says nothing twice', () => {
+  const said = (call) => {
+    try {
+      call();
+    } catch (error) {
+      return describe(error);
+    }
+    return assert.fail('nothing was thrown');
+  };
+  const crossing = join(box([0, 0, 0], [1, 1, 1]), box([0.5, 0.5, 0.5], [1.5, 1.5, 1.5]));
+  const intersection = said(() => mandoline.cut(crossing, { cells: 8 }, { intersections: 'refuse' }));
+  const pattern = /^Triangles \d+ and \d+ meet other than in a shared vertex or edge, the first of \d+ pairs that do\. Cut with/;
+  assert.match(intersection, pattern);
+  assert.equal(intersection.match(/\d+/g).length, 3, 'two triangles and the number of pairs');
+  assert.doesNotMatch(intersection, /regions|may meet/);
+  const nonFinite = said(() => mandoline.cut({ positions: [0, 0, 0, 1, 0, 0, 0, 1, NaN], triangles: [0, 1, 2] }, { cells: 8 }));
+  assert.equal(nonFinite, 'Vertex 2 has a coordinate that is not finite. Repair or leave out that vertex and its triangles.');
+  const badIndex = said(() => mandoline.cut({ positions: [0, 0, 0], triangles: [0, 0, 7] }, { cells: 8 }));
+  assert.equal(badIndex.match(/vert/gi).length, 2, badIndex);
 });

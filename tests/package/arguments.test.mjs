@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { init, MandolineError } from 'mandoline-wasm';
-import { box, torus } from './meshes.mjs';
+import { box, sheet, torus } from './meshes.mjs';
 
 const mandoline = await init();
 const mesh = box([0.5, 0.5, 0.5], [1.5, 1.5, 1.5]);
@@ -33,7 +33,7 @@ test('meshes', () => {
     [{ ...mesh, positions: 'text' }, /^mesh\.positions .* not string/],
     [{ ...mesh, positions: new BigInt64Array(3) }, /^mesh\.positions/],
     [{ ...mesh, positions: [0, '1', 2] }, /^mesh\.positions\[1\] must be a number, not string/],
-    [{ ...mesh, positions: [0, , 2] }, /^mesh\.positions\[1\]/], // eslint-disable-line no-sparse-arrays
+    [{ ...mesh, positions: [0, undefined, 2] }, /^mesh\.positions\[1\]/],
     [{ ...mesh, positions: detached(mesh.positions) }, /^mesh\.positions is detached/],
     [{ ...mesh, triangles: detached(mesh.triangles) }, /^mesh\.triangles is detached/],
     [{ ...mesh, triangles: new Float32Array(3) }, /^mesh\.triangles must be an array of tri-vertex ids, not Float32Array/],
@@ -66,7 +66,7 @@ test('grids', () => {
     [{ ...grid, max: undefined }, /^grid\.max/],
     [{ ...grid, max: [1, 2, null] }, /^grid\.max\[2\] must be a number, not null/],
     [{ spacing: [1, 1, 1], cells: [1, 1, 1] }, /^grid\.origin/],
-    [{ planes: [[0, 1], , [0, 1]] }, /^grid\.planes\[1\] must be an array of numbers, not undefined/], // eslint-disable-line no-sparse-arrays
+    [{ planes: [[0, 1], undefined, [0, 1]] }, /^grid\.planes\[1\] must be an array of numbers, not undefined/],
     [{ planes: [[0, 1], [0, 1]] }, /^grid\.planes must have the planes of three axes/],
     [{ planes: [[0, 1], [0, 1], [0, '1']] }, /^grid\.planes\[2\]\[1\]/],
     [{ planes: [[0, 1], [0, 1], 7] }, /^grid\.planes\[2\]/],
@@ -82,8 +82,12 @@ test('options', () => {
     [{ snapTolerance: '0' }, /^options\.snapTolerance must be a number, not string/],
     [{ progress: {} }, /^options\.progress must be a function/],
     [{ gridCellRegion: 1 }, /^options\.gridCellRegion must be true or false/],
+    [{ intersections: 'never' }, /^options\.intersections must be "resolve", "refuse" or "assumeNone", not "never"/],
+    [{ intersections: null }, /^options\.intersections must be .*, not null/],
   ];
   for (const [wrong, pattern] of cases) assertBad(() => mandoline.cut(mesh, grid, wrong), pattern);
+  assertBad(() => mandoline.findIntersections(mesh, { maxPairs: -1 }), /^options\.maxPairs must be at least 0, not -1/);
+  assertBad(() => mandoline.findIntersections(mesh, { maxPairs: 1.5 }), /^options\.maxPairs must be a whole number/);
   assertBad(() => mandoline.validate(mesh, cutMesh, { snapTolerance: null }), /^options\.snapTolerance/);
   for (const snapTolerance of [-1, 0.5, NaN, Infinity]) {
     assert.throws(() => mandoline.validate(mesh, cutMesh, { snapTolerance }), { code: 'badOption', stage: 'validate' });
@@ -120,7 +124,8 @@ for (const [name, call] of Object.entries(calls)) {
     for (const key of arrays) {
       assertBad(() => call({ ...cutMesh, [key]: undefined }), new RegExp(`^cutMesh\\.${key} must be a \\w+Array, not undefined`));
       assertBad(() => call({ ...cutMesh, [key]: [...cutMesh[key]] }), new RegExp(`^cutMesh\\.${key} must be a`));
-      if (cutMesh[key].length > 0) assertBad(() => call({ ...cutMesh, [key]: detached(cutMesh[key]) }), new RegExp(`^cutMesh\\.${key} is detached`));
+      if (cutMesh[key].length === 0) continue;
+      assertBad(() => call({ ...cutMesh, [key]: detached(cutMesh[key]) }), new RegExp(`^cutMesh\\.${key} is detached`));
     }
   });
 
@@ -135,7 +140,7 @@ for (const [name, call] of Object.entries(calls)) {
     }
     damages.push(['positions', cutMesh.positions.map(() => NaN)], ['faceAxis', cutMesh.faceAxis.map(() => 3)]);
     damages.push(['cellHalfFaceOffsets', cutMesh.cellHalfFaceOffsets.map((x, i) => (i % 2 ? 0 : x))]);
-    damages.push(['grid', { ...cutMesh.grid, planes: [[0, 1, 2], [0, 1, 2], [0]] }], ['grid', { ...cutMesh.grid, planes: [[0, 1, 2], [0, 1, 2], [2, 1, 0]] }]);
+    for (const planes of [[0], [2, 1, 0]]) damages.push(['grid', { ...cutMesh.grid, planes: [[0, 1, 2], [0, 1, 2], planes] }]);
     for (const [key, value] of damages) {
       const damaged = { ...cutMesh, [key]: value };
       if (name === 'validate') {
@@ -147,6 +152,34 @@ for (const [name, call] of Object.entries(calls)) {
     assert.ok(call(cutMesh)); // the instance lives
   });
 }
+
+test('boundaries of what has none', () => {
+  const resolved = mandoline.resolve(mesh);
+  const cases = [
+    [undefined, /^mesh must be an object, not undefined/],
+    [{}, /^mesh\.positions must be an array of numbers/],
+    [mesh, /^mesh\.frontWinding must be a Int32Array, not undefined/],
+    [{ ...resolved, backWinding: [...resolved.backWinding] }, /^mesh\.backWinding must be a Int32Array, not an array/],
+    [{ ...resolved, frontWinding: null }, /^mesh\.frontWinding must be a Int32Array, not null/],
+    [{ ...resolved, backWinding: null }, /^mesh\.backWinding must be a Int32Array, not null/],
+    [{ ...resolved, frontWinding: detached(resolved.frontWinding) }, /^mesh\.frontWinding is detached/],
+    [{ ...resolved, frontWinding: resolved.frontWinding.slice(1) }, /don't fit together/],
+    [{ ...resolved, backWinding: new Int32Array() }, /don't fit together/],
+    [{ ...resolved, positions: resolved.positions.slice(3) }, /don't fit together/],
+    [{ ...resolved, positions: resolved.positions.slice(1) }, /don't fit together/],
+    [{ ...resolved, triangles: resolved.triangles.slice(1) }, /don't fit together/],
+    [{ ...resolved, frontWinding: null, backWinding: null }, /open or not consistently oriented/],
+    [mandoline.resolve(sheet([0, 0], [1, 1], 0)), /open or not consistently oriented/],
+    [mandoline.cut(sheet([0, 0], [1, 1], 0.5), grid), /open or not consistently oriented/],
+    [{ ...cutMesh, positions: null }, /^cutMesh\.positions must be a Float64Array/],
+    [{ ...cutMesh, cellRegion: cutMesh.cellRegion.slice(1) }, /don't fit together/],
+  ];
+  for (const [wrong, pattern] of cases) assertBad(() => mandoline.boundary(wrong), pattern);
+  for (const rule of [null, 7, 'nonzero', {}]) {
+    assertBad(() => mandoline.boundary(resolved, rule), /^rule must be "positive", "nonZero" or "odd", not/);
+    assertBad(() => mandoline.boundary(cutMesh, rule), /^rule must be "positive", "nonZero" or "odd", not/);
+  }
+});
 
 test('damaged entries are judged, never followed', () => {
   const large = torus(24, 12);
@@ -160,9 +193,13 @@ test('damaged entries are judged, never followed', () => {
     const key = arrays[random(arrays.length)];
     const value = cut[key].slice();
     if (value.length === 0) continue;
-    for (let i = 0; i < 3; ++i) value[random(value.length)] = [0, 1, -1, 7, 1000, 2 ** 31 - 1, 2 ** 32 - 1, value[random(value.length)]][random(8)];
+    for (let i = 0; i < 3; ++i) {
+      const entries = [0, 1, -1, 7, 1000, 2 ** 31 - 1, 2 ** 32 - 1, value[random(value.length)]];
+      value[random(value.length)] = entries[random(8)];
+    }
     const damaged = { ...cut, [key]: value };
-    for (const [name, call] of Object.entries({ ...calls, measure: () => mandoline.measure(large, damaged), validate: () => mandoline.validate(large, damaged) })) {
+    const ofLarge = { measure: () => mandoline.measure(large, damaged), validate: () => mandoline.validate(large, damaged) };
+    for (const [name, call] of Object.entries({ ...calls, ...ofLarge })) {
       try {
         call(damaged);
       } catch (error) {
@@ -192,6 +229,11 @@ test('what is asked of a cut-mesh', () => {
     [() => mandoline.slice(cutMesh, { normal: [0, 0, 1], offset: 0 }, { untouched: 0 }), /^options\.untouched/],
     [() => mandoline.write(mesh, cutMesh, 'stl'), /^format/],
     [() => mandoline.write(mesh, cutMesh), /^format/],
+    [() => mandoline.write(mesh, cutMesh, 'vtu', { untouched: 1 }), /^options\.untouched/],
+    [() => mandoline.write(mesh, cutMesh, 'vtu', { regions: 1 }), /^options\.regions must be a Uint8Array or an array, not 1/],
+    [() => mandoline.write(mesh, cutMesh, 'vtu', { regions: [true] }), /^regions must have one .* 2 regions, but has 1\./],
+    [() => mandoline.write(mesh, cutMesh, 'obj', { regions: new Uint8Array(3) }), /^regions must have one flag for each .*, but has 3\./],
+    [() => mandoline.write(mesh, cutMesh, 'json', { progress: 1 }), /^options\.progress/],
   ];
   for (const [call, pattern] of cases) assertBad(call, pattern);
   for (const plane of [{ normal: [0, 0, 0], offset: 1 }, { normal: [0, NaN, 1], offset: 1 }, { normal: [0, 0, 1], offset: Infinity }]) {

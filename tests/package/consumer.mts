@@ -1,7 +1,10 @@
 // A program that only has to compile: what users write, and mistakes that the types must catch.
 import { MandolineError, compiledModule, describe, init } from 'mandoline-wasm';
-import type { CutMesh, GridInput, Location, Mandoline, Mesh, Progress } from 'mandoline-wasm';
-import { cellArrays, cellColors, cellGeometry, edgeGeometry, meshFromGeometry, sliceGeometry } from 'mandoline-wasm/three';
+import type { CutMesh, GridInput, Location, Mandoline, Mesh, MeshArrays, Progress, ResolvedMesh, WindingRule } from 'mandoline-wasm';
+import {
+  cellArrays, cellColors, cellEdgeArrays, cellEdgeGeometry, cellGeometry, edgeGeometry, meshFromGeometry, sliceGeometry, untouchedCells,
+  untouchedEdgeGeometry, untouchedGeometry,
+} from 'mandoline-wasm/three';
 import * as inline from 'mandoline-wasm/inline';
 import { MandolineError as WorkerError, createWorker } from 'mandoline-wasm/worker';
 import { BoxGeometry, BufferGeometry, Matrix4 } from 'three';
@@ -20,6 +23,16 @@ async function core(): Promise<void> {
   const mandoline: Mandoline = await init({ wasm: await compiledModule() });
   const cutMesh: CutMesh = mandoline.cut(mesh, grids[0]!, { snapTolerance: 0.01, progress: ({ done, total }: Progress) => done < total });
   mandoline.cut(mesh, cutMesh.grid);
+  const prepared: MeshArrays = mandoline.prepare(mesh, { intersections: 'refuse' });
+  mandoline.cut(prepared, { cells: 3 });
+  const resolved: ResolvedMesh = mandoline.resolve(mesh, { progress: () => {} });
+  const rule: WindingRule = 'nonZero';
+  const solids: MeshArrays[] = [mandoline.boundary(resolved, rule), mandoline.boundary(cutMesh)];
+  console.log(mandoline.cut(resolved, { cells: 3 }), solids, resolved.remaining.crossing);
+  // @ts-expect-error Only what was resolved has winding numbers.
+  mandoline.boundary(mesh);
+  // @ts-expect-error Open meshes have no winding numbers.
+  resolved.frontWinding.length;
   const all: Uint32Array = mandoline.triangulate(cutMesh).triangles;
   const one: Uint32Array = mandoline.triangulate(cutMesh, { cell: 0 });
   const where: Location | null = mandoline.cellAt(cutMesh, [0, 0, 0]);
@@ -40,6 +53,10 @@ async function inWorker(): Promise<void> {
   const cutMesh: CutMesh = await worker.cut(mesh, { cells: 8 }, { signal, transfer: [new ArrayBuffer(8)], snapTolerance: 0 });
   const all: Uint32Array = (await worker.triangulate(cutMesh, undefined, { signal })).triangles;
   const one: Uint32Array = await worker.triangulate(cutMesh, { region: 0 });
+  const prepared: Mesh = await worker.prepare(mesh, { signal, intersections: 'assumeNone' });
+  const again: CutMesh = await worker.cut(prepared, { cells: 9 }, { signal });
+  const resolved: ResolvedMesh = await worker.resolve(mesh, { signal });
+  console.log(again, await worker.boundary(resolved, 'odd', { signal }), await worker.boundary(cutMesh));
   // @ts-expect-error It is a promise.
   worker.measure(mesh, cutMesh).faceArea;
   console.log(all, one);
@@ -53,12 +70,19 @@ async function drawn(): Promise<void> {
   const geometries: BufferGeometry[] = [
     cellGeometry(cutMesh, triangulate(cutMesh), { colorBy: 'volume', measures: measure(input, cutMesh), explode: 0.2 }),
     cellGeometry(cutMesh, triangulate(cutMesh), { faces: 'surface', cells: [0], origin: [1, 2, 3] }),
+    cellEdgeGeometry(cutMesh, { regions: [1], measures: measure(input, cutMesh), explode: 0.2 }),
+    untouchedGeometry(cutMesh, { regions: [0], colorBy: 'region', explode: 0.2 }),
+    untouchedEdgeGeometry(cutMesh, { origin: [1, 2, 3] }),
     edgeGeometry(cutMesh, cutEdges(input, cutMesh), [0, 0, 0]),
     sliceGeometry(cutMesh, slice(cutMesh, { normal: [0, 0, 1], offset: 0 }), { colorBy: 'winding' }),
   ];
   const colors: Float32Array = cellColors(cutMesh, 'cell');
   // @ts-expect-error There are no such colours.
   cellColors(cutMesh, 'kind');
+  const places: Int32Array = untouchedCells(cutMesh, { regions: new Uint32Array(1) }).gridCell;
+  // @ts-expect-error Untouched cells are chosen by region.
+  untouchedGeometry(cutMesh, { cells: [0] });
+  console.log(places, cellEdgeArrays(cutMesh, { cells: [0] }).vertex);
   console.log(geometries, colors, cellArrays(cutMesh, triangulate(cutMesh)).normal);
 }
 

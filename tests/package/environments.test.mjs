@@ -1,12 +1,13 @@
 // The examples of the package's README, run with the packed tarball wherever it promises to work.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import { build, createLogger, createServer } from 'vite';
 import { freePort, launchChromium, makeFolder, openPage, pack, readmeExample, removeFolders, root, runNode } from './environments.mjs';
+import { pixelsOf, share } from '../page/pictures.mjs';
 import { serveFolder } from './static_server.mjs';
 
 const strict = { 'Content-Security-Policy': "script-src 'self' 'wasm-unsafe-eval'" };
@@ -14,7 +15,7 @@ const page = `<!doctype html><html lang="en"><meta charset="utf-8"><title>Test</
   <body><script type="module" src="./main.js"></script>`;
 const core = readmeExample('Node');
 const worker = readmeExample('Worker');
-const three = readmeExample('three.js');
+const three = `${readmeExample('three.js')}\nglobalThis.renderCalls = renderer.info.render.calls;`;
 /** Tells the test that the example has come to its end, and with what. */
 const withOutcome = (example) => `${example}\nglobalThis.outcome = { regions: cutMesh.regionCount, cells: cutMesh.cellRegion.length };\n`;
 
@@ -86,6 +87,22 @@ test('Node, worker_threads', () => {
 
 const pages = { core, worker, three };
 
+/** Four things are drawn: faces of cut-cells in colours, those of whole cells in white, and black edges of both. */
+const looks = {
+  async three(page) {
+    const picture = await pixelsOf(page, await page.screenshot());
+    const shares = {
+      background: share(picture, (r, g, b) => Math.abs(r - 0x8a) + Math.abs(g - 0x8f) + Math.abs(b - 0x96) < 6),
+      colored: share(picture, (r, g, b) => g > b + 40),
+      white: share(picture, (r, g, b) => Math.min(r, g, b) > 170 && Math.max(r, g, b) - Math.min(r, g, b) < 20),
+      black: share(picture, (r, g, b) => Math.max(r, g, b) < 60),
+    };
+    const least = { background: 0.4, colored: 0.08, white: 0.005, black: 0.02 };
+    for (const [name, most] of Object.entries(least)) assert.ok(shares[name] > most, `${name}: ${shares[name]}`);
+    assert.equal(await page.evaluate('renderCalls'), 4);
+  },
+};
+
 /** What Vite warns of, and its options for a folder: no configuration but where things are. */
 function viteOptions(folder, base) {
   const warnings = [];
@@ -115,9 +132,11 @@ for (const [name, example] of Object.entries(pages)) {
     const { warnings, options } = viteOptions(folder, './');
     await build({ ...options, build: { chunkSizeWarningLimit: 2000 } }); // in kB: three is that large
     assert.deepEqual(warnings, []);
+    const workers = readdirSync(join(folder, 'dist', 'assets')).filter((file) => file.startsWith('worker-thread'));
+    assert.equal(workers.length, name === 'worker' ? 1 : 0, 'only pages that start workers have their script');
     const server = await serveFolder({ folder: join(folder, 'dist'), subPath: '/some/path', headers: strict });
     try {
-      assertCut(await openPage(browser, server.url));
+      assertCut(await openPage(browser, server.url, { look: looks[name] }));
     } finally {
       await server.close();
     }
@@ -158,8 +177,8 @@ test('without wasm-unsafe-eval a page gets a MandolineError', async () => {
   assert.match(regions[1], /wasm-unsafe-eval/);
 });
 
-/** What a page gets that starts the package with a file of it missing or, with `content`, replaced. */
-async function failureWithout(file, start, content) {
+/** What a page gets that starts the package with a file of it missing or, with `content`, replaced: it has to name `named`. */
+async function failureWithout(file, start, { content, named } = {}) {
   const script = `
     import { init } from 'mandoline-wasm';
     import { createWorker } from 'mandoline-wasm/worker';
@@ -173,7 +192,7 @@ async function failureWithout(file, start, content) {
   try {
     const { regions } = await openPage(browser, server.url, { expected: /404/ });
     assert.equal(regions.code, 'loadFailed');
-    assert.ok(regions.message.includes(`${server.url}node_modules/mandoline-wasm/dist/${file}`), regions.message);
+    assert.ok(regions.message.includes(named ?? `${server.url}node_modules/mandoline-wasm/dist/${file}`), regions.message);
     return regions.message;
   } finally {
     await server.close();
@@ -182,6 +201,8 @@ async function failureWithout(file, start, content) {
 
 test('a worker whose script is missing rejects instead of hanging, and names the script', async () => {
   assert.match(await failureWithout('worker-thread.js', 'createWorker()'), /worker could not be started/);
+  const own = "createWorker({ thread: () => new Worker('./node_modules/mandoline-wasm/dist/worker-thread.js', { type: 'module' }) })";
+  await failureWithout('worker-thread.js', own, { named: 'its script from options.thread could not be loaded' });
 });
 
 test('a missing mandoline.wasm is named with what the server answered', async () => {
@@ -190,8 +211,8 @@ test('a missing mandoline.wasm is named with what the server answered', async ()
 });
 
 test('a server that answers with a page instead of mandoline.wasm is told from one that has it', async () => {
-  assert.match(await failureWithout('mandoline.wasm', 'init()', '<!doctype html>'), /answered with HTML instead of WebAssembly\.$/);
-  assert.match(await failureWithout('mandoline.wasm', 'init()', ''), /answered with something else instead of WebAssembly\.$/);
+  assert.match(await failureWithout('mandoline.wasm', 'init()', { content: '<!doctype html>' }), /answered with HTML instead of WebAssembly\.$/);
+  assert.match(await failureWithout('mandoline.wasm', 'init()', { content: '' }), /answered with something else instead of WebAssembly\.$/);
 });
 
 for (const options of [['--module', 'nodenext'], ['--module', 'esnext', '--moduleResolution', 'bundler']]) {

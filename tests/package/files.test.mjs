@@ -22,7 +22,8 @@ const triples = (array) => Array.from({ length: array.length / 3 }, (_, i) => [.
 const counts = ({ positions, triangles }) => [positions.length / 3, triangles.length / 3];
 const faces = ({ triangles }) => triples(triangles).replace(/^/gm, '3 ');
 const encode = (text) => new TextEncoder().encode(text);
-const ply = (mesh) => `ply\nformat ascii 1.0\nelement vertex ${counts(mesh)[0]}\nproperty double x\nproperty double y\nproperty double z\n` +
+const ply = (mesh) => `ply\nformat ascii 1.0\nelement vertex ${counts(mesh)[0]}\n` +
+  'property double x\nproperty double y\nproperty double z\n' +
   `element face ${counts(mesh)[1]}\nproperty list uchar int vertex_indices\nend_header\n${triples(mesh.positions)}\n${faces(mesh)}\n`;
 
 const files = {
@@ -35,8 +36,10 @@ for (const [name, bytes] of Object.entries(files)) {
   test(`${name} keeps every double, as bytes of any kind, gzipped or not`, async () => {
     const inTheMiddle = new Uint8Array(bytes.length + 7);
     inTheMiddle.set(bytes, 5);
-    const sources = [bytes, bytes.slice().buffer, Buffer.from(bytes), inTheMiddle.subarray(5, 5 + bytes.length), new DataView(bytes.slice().buffer),
-      new Blob([bytes]), gzipSync(bytes), new Blob([gzipSync(bytes)])];
+    const sources = [
+      bytes, bytes.slice().buffer, Buffer.from(bytes), inTheMiddle.subarray(5, 5 + bytes.length),
+      new DataView(bytes.slice().buffer), new Blob([bytes]), gzipSync(bytes), new Blob([gzipSync(bytes)]),
+    ];
     for (const source of sources) assert.deepEqual(await readMesh(source, { name }), cube);
   });
 }
@@ -45,7 +48,8 @@ test('a binary STL file has three vertices per triangle', async () => {
   const mesh = await readMesh(gzipSync(writeStl(cube)), { name: 'cube.stl.gz' });
   assert.deepEqual(counts(mesh), [36, 12]);
   assert.deepEqual(mesh.triangles, Uint32Array.from({ length: 36 }, (_, i) => i));
-  assert.deepEqual([...mesh.positions], [...cube.triangles].flatMap((v) => [...cube.positions.subarray(3 * v, 3 * v + 3)].map(Math.fround)));
+  const corners = [...cube.triangles].flatMap((v) => [...cube.positions.subarray(3 * v, 3 * v + 3)]);
+  assert.deepEqual([...mesh.positions], corners.map(Math.fround));
 });
 
 test('polygons are fanned, and what is told by its content needs no name', async () => {
@@ -87,8 +91,17 @@ for (const [name, content] of Object.entries({ ...files, 'cube.stl': writeStl(cu
 }
 
 test('what is no file is a badArgument', async () => {
-  for (const source of [undefined, null, 'cube.obj', {}, [1, 2]]) await assert.rejects(readMesh(source), { code: 'badArgument', stage: 'readMesh' });
-  for (const options of [null, 7, { name: 7 }]) await assert.rejects(readMesh(files['cube.obj'], options), { code: 'badArgument', stage: 'readMesh' });
+  const refusal = { code: 'badArgument', stage: 'readMesh' };
+  for (const source of [undefined, null, 'cube.obj', {}, [1, 2]]) await assert.rejects(readMesh(source), refusal);
+  for (const options of [null, 7, { name: 7 }]) await assert.rejects(readMesh(files['cube.obj'], options), refusal);
+});
+
+test('bytes that were transferred elsewhere are called so', async () => {
+  for (const bytesOf of [(bytes) => bytes, (bytes) => bytes.buffer]) {
+    const bytes = files['cube.ply'].slice(), source = bytesOf(bytes);
+    structuredClone(null, { transfer: [bytes.buffer] });
+    await assert.rejects(readMesh(source), { code: 'badArgument', message: /^The bytes are detached/ });
+  }
 });
 
 test('in a worker', async () => {

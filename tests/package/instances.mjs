@@ -21,8 +21,8 @@ const sabotaged = (imported) => (...values) => {
 };
 
 WebAssembly.Instance = function (module, imports) {
-  const wrapped = Object.entries(imports).map(([name, all]) => [name, Object.fromEntries(Object.entries(all).map(([key, f]) => [key, sabotaged(f)]))]);
-  const instance = new Instance(module, Object.fromEntries(wrapped));
+  const mapped = (object, f) => Object.fromEntries(Object.entries(object).map(([key, value]) => [key, f(value)]));
+  const instance = new Instance(module, mapped(imports, (all) => mapped(all, sabotaged)));
   memories.push(Object.values(instance.exports).find((value) => value instanceof WebAssembly.Memory));
   return instance;
 };

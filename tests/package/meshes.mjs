@@ -1,4 +1,4 @@
-// Meshes for the tests, made by formula, and OBJ files.
+// Meshes for the tests, made by formula, and OBJ files; and results that have lost their arrays.
 
 /** An axis-aligned box with outward normals. */
 export function box([x0, y0, z0], [x1, y1, z1]) {
@@ -44,7 +44,8 @@ export function waves(n, height = 0.2) {
 /** Both meshes as one. */
 export function join(a, b) {
   const shift = a.positions.length / 3;
-  return { positions: Float64Array.of(...a.positions, ...b.positions), triangles: Uint32Array.of(...a.triangles, ...b.triangles.map((v) => v + shift)) };
+  const moved = b.triangles.map((v) => v + shift);
+  return { positions: Float64Array.of(...a.positions, ...b.positions), triangles: Uint32Array.of(...a.triangles, ...moved) };
 }
 
 export function writeObj({ positions, triangles }) {
@@ -66,4 +67,10 @@ export function readObj(text) {
     for (let i = 2; i < ids.length; ++i) triangles.push(ids[0], ids[i - 1], ids[i]);
   }
   return { positions: new Float64Array(positions), triangles: new Uint32Array(triangles) };
+}
+
+/** Leaves a result without its arrays, so that only its twin can answer for it. */
+export function gut(value) {
+  structuredClone(null, { transfer: Object.values(value).filter((part) => ArrayBuffer.isView(part)).map((array) => array.buffer) });
+  return value;
 }

@@ -1,4 +1,5 @@
-// The native program and the WebAssembly module give the same bits: every array of the dump, on made meshes and on real ones.
+// The native program, on one thread or many, and the WebAssembly module give the same bits: every array of the dump, the grid, and what is
+// counted on the way; resolved meshes and boundaries; on made meshes and on real ones.
 import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -10,27 +11,34 @@ import { promisify } from 'node:util';
 import { gunzipSync } from 'node:zlib';
 import { init } from 'mandoline-wasm';
 import { meshFolder, meshList, skipWithoutMeshes } from '../mesh_folder.mjs';
-import { box, join, readObj, torus, waves, writeObj } from './meshes.mjs';
+import { box, join, readObj, sheet, torus, waves, writeObj } from './meshes.mjs';
 
 const root = path(dirname(fileURLToPath(import.meta.url)), '..', '..');
 const program = process.env.MANDOLINE_CLI ?? path(root, 'build', 'mandoline');
 const mostTriangles = 20000; // so that the test takes a minute or two
 const skip = existsSync(program) ? false : `there is no native program ${program}`;
 
-const { cut, write } = await init();
+const { boundary, cut, resolve, write } = await init();
 const folder = mkdtempSync(path(tmpdir(), 'mandoline-'));
 after(() => rmSync(folder, { recursive: true }));
 
-/** The dump that the program writes, or what it says if it refuses the mesh. */
-async function nativeDump(file, cells) {
-  const output = path(folder, 'dump.json');
-  try {
-    await promisify(execFile)(program, ['cut', file, '--cells', String(cells), '--threads', '1', '-o', output]);
-  } catch (error) {
-    assert.equal(error.code, 1, error.message);
-    return { refusal: error.stderr };
+/** The dump and the report that the program writes, or what it says if it refuses the mesh. */
+async function nativeCut(file, cells) {
+  const dumps = [];
+  const report = path(folder, 'report.json');
+  for (const threads of ['1', '3']) {
+    dumps.push(path(folder, `dump-${threads}.json`));
+    const args = ['cut', file, '--cells', String(cells), '--threads', threads, '-o', dumps.at(-1), '--report', report];
+    try {
+      await promisify(execFile)(program, args);
+    } catch (error) {
+      assert.equal(error.code, 1, error.message);
+      return { refusal: error.stderr };
+    }
   }
-  return JSON.parse(readFileSync(output, 'utf8'));
+  const [dump, onThreads] = dumps.map((name) => readFileSync(name));
+  assert.ok(dump.equals(onThreads), `${file} at N = ${cells}: one thread and three`);
+  return { dump: JSON.parse(dump), report: JSON.parse(readFileSync(report)) };
 }
 
 const same = (a, b) => Object.is(a, b) || (Array.isArray(a) && a.length === b.length && a.every((x, i) => same(x, b[i])));
@@ -38,10 +46,12 @@ const same = (a, b) => Object.is(a, b) || (Array.isArray(a) && a.length === b.le
 /** Whether every array of the dump has the same doubles and integers (down to the sign of a zero) as the cut-mesh. */
 function assertSame(dump, cutMesh, what) {
   const { grid, format, version, triangleCount, regionWinding, ...arrays } = dump;
-  assert.deepEqual([format, version, triangleCount], ['mandoline-cut-mesh', 1, cutMesh.triangleCount]);
+  assert.equal(regionWinding.length, cutMesh.regionCount, `${what}: regionCount`);
+  assert.deepEqual([format, version, triangleCount], ['mandoline-cut-mesh', 2, cutMesh.triangleCount]);
   assert.ok(same(grid.planes, cutMesh.grid.planes.map((planes) => [...planes])), `${what}: grid`);
-  assert.ok(same([grid.origin, grid.spacing, grid.cells], [cutMesh.grid.origin, cutMesh.grid.spacing, cutMesh.grid.cells]), `${what}: grid`);
-  assert.ok(same(regionWinding, cutMesh.regionWinding ? [...cutMesh.regionWinding] : Array(cutMesh.regionCount).fill(null)), `${what}: regionWinding`);
+  for (const name of ['origin', 'spacing', 'cells']) assert.ok(same(grid[name], cutMesh.grid[name]), `${what}: grid.${name}`);
+  const winding = cutMesh.regionWinding ? [...cutMesh.regionWinding] : Array(cutMesh.regionCount).fill(null);
+  assert.ok(same(regionWinding, winding), `${what}: regionWinding`);
   const typedArrays = Object.keys(cutMesh).filter((key) => ArrayBuffer.isView(cutMesh[key]) && key !== 'regionWinding');
   assert.deepEqual(Object.keys(arrays).sort(), typedArrays.sort(), `${what}: which arrays`);
   for (const [key, values] of Object.entries(arrays)) {
@@ -51,21 +61,65 @@ function assertSame(dump, cutMesh, what) {
   }
 }
 
+/**
+ * Whether the report counts the same as the statistics of the cut-mesh. Not exactFallbacks: to sort, C++ libraries don't compare the same.
+ */
+function assertSameCounts(report, { stats, ...cutMesh }, what) {
+  const { cutCells, vertices, faces, loops, regions, droppedTriangles, untouchedCells, cells, ...counted } = report.counts;
+  for (const [name, count] of Object.entries(counted)) assert.equal(count, stats[name], `${what}: ${name}`);
+  assert.equal(report.largestSnap, stats.largestSnap, `${what}: largestSnap`);
+  const { pairs, curves, madeVertices, ms, ...kinds } = report.intersections;
+  assert.deepEqual(kinds, stats.intersections, `${what}: intersections`);
+  assert.deepEqual([curves, madeVertices], [stats.intersectionCurves, stats.madeVertices], what);
+  assert.equal(madeVertices, cutMesh.madeVertices.length, what);
+  assert.deepEqual([cutCells, vertices, faces, loops, regions, droppedTriangles], [cutMesh.cellRegion.length, cutMesh.vertexMask.length,
+    cutMesh.faceTriangle.length, cutMesh.loopOffsets.length - 1, cutMesh.regionCount, cutMesh.droppedTriangles.length], what);
+  assert.equal(untouchedCells, cutMesh.gridCellRegion.filter((region) => region >= 0).length, what);
+  assert.equal(cells, cutCells + untouchedCells, what);
+}
+
 /** Whether it could be cut. */
 async function compare(file, mesh, cells) {
   const what = `${file} at N = ${cells}`;
-  const dump = await nativeDump(file, cells);
+  const { dump, report, refusal } = await nativeCut(file, cells);
   let cutMesh;
   try {
     cutMesh = cut(mesh, { cells });
   } catch (error) {
     assert.equal(error.code, 'selfIntersection', what);
-    assert.ok(dump.refusal?.includes(error.message), `${what}: ${error.message} / ${dump.refusal}`);
+    assert.ok(refusal?.includes(error.message), `${what}: ${error.message} / ${refusal}`);
     return false;
   }
-  assert.equal(dump.refusal, undefined, what);
+  assert.equal(refusal, undefined, what);
   assertSame(dump, cutMesh, what);
+  assertSameCounts(report, cutMesh, what);
   return true;
+}
+
+const pairsInWords = (counts) => Object.entries(counts).filter(([, n]) => n > 0).map(([kind, n]) => `${n} ${kind}`).join(', ') || '0';
+
+/** Whether the program resolves a mesh to the same triangles, and finds the same boundary by each rule. */
+async function compareResolved(file, mesh) {
+  const resolved = resolve(mesh);
+  const results = [[[], resolved]];
+  for (const [word, rule] of [['positive', 'positive'], ['non-zero', 'nonZero'], ['odd', 'odd']]) {
+    if (resolved.frontWinding) results.push([['--rule', word], boundary(resolved, rule)]);
+  }
+  for (const [options, { positions, triangles }] of results) {
+    const what = `${file} resolved ${options.join(' ')}`;
+    const written = path(folder, 'resolved.obj');
+    const { stderr } = await promisify(execFile)(program, ['resolve', file, ...options, '-o', written]);
+    const native = readObj(readFileSync(written, 'utf8'));
+    assert.ok(same([...native.positions], [...positions]), `${what}: positions`);
+    assert.ok(same([...native.triangles], [...triangles]), `${what}: triangles`);
+    assert.ok(stderr.includes(`that met: ${pairsInWords(resolved.stats.intersections)}\n`), `${what}: ${stderr}`);
+    assert.ok(stderr.includes(`rounding of vertices: ${pairsInWords(resolved.remaining)}\n`), `${what}: ${stderr}`);
+  }
+}
+
+/** With a triangle once more, and one without area. */
+function withDropped({ positions, triangles }) {
+  return { positions, triangles: Uint32Array.of(...triangles, ...triangles.slice(0, 3), triangles[0], triangles[1], triangles[0]) };
 }
 
 test('made meshes', { skip }, async () => {
@@ -74,12 +128,19 @@ test('made meshes', { skip }, async () => {
     torus: torus(70, 35),
     waves: waves(40),
     nested: join(torus(40, 20, 1, 0.4), torus(40, 20, 1, 0.3)),
+    bubble: join(box([-2, -2, -1], [1, 2, 1]), torus(12, 6, 0.02, 0.01)),
+    'dropped triangles': withDropped(torus(40, 20)),
+    'crossing boxes': join(box([1, 1, 1], [3, 3, 3]), box([2, 2, 2], [4, 4, 4])),
+    'crossing tori': join(torus(40, 20), torus(40, 20, 1.1, 0.3)),
+    'overlapping sheets': join(sheet([0, 0], [2, 2], 0.5), sheet([1, 1], [3, 3], 0.5)),
+    twice: join(torus(12, 6), torus(12, 6)),
   };
   for (const [name, made] of Object.entries(meshes)) {
     const file = path(folder, `${name}.obj`);
     writeFileSync(file, writeObj(made));
     const mesh = readObj(readFileSync(file, 'utf8'));
     for (const cells of [1, 13, 32]) assert.ok(await compare(file, mesh, cells));
+    await compareResolved(file, mesh);
     const cutMesh = cut(mesh, { cells: 13 });
     assertSame(JSON.parse(new TextDecoder().decode(write(mesh, cutMesh, 'json'))), cutMesh, `${name}.json`);
   }
@@ -93,6 +154,7 @@ test('real meshes', { skip: skip || skipWithoutMeshes }, async (t) => {
     const file = path(meshFolder, name);
     const mesh = readObj(gunzipSync(readFileSync(file)).toString());
     for (const cells of [13, 32]) (await compare(file, mesh, cells)) ? ++cuts : ++refusals;
+    await compareResolved(file, mesh);
   }
   t.diagnostic(`${meshes.length} meshes: ${cuts} cuts equal, ${refusals} refused alike`);
   assert.ok(cuts > meshes.length);

@@ -10,5 +10,5 @@ test('errors', () => {
   const output = execFileSync(process.execPath, ['--input-type=module', '-e', readmeExample('Errors')], { cwd: root, encoding: 'utf8' });
   const [first, second] = output.split('\n');
   assert.equal(first, 'nonFiniteCoordinate 2');
-  assert.match(second, /vertex 2.* Repair/);
+  assert.match(second, /Vertex 2.* Repair/);
 });

@@ -1,8 +1,9 @@
 // Times of cuts in WebAssembly beside those of the native program on one thread, medians of alternating runs:
 //   node tests/package/speed.mjs [N] [runs] [MESH ...]
 // By default of the scans that `npm run bench` fetches.
-// Also the time of init() and the size of the module. Native runs are fresh processes that tell the time of the cut alone; WebAssembly runs are
-// calls of cut(), arrays copied in and out, in one process after a first one that the engine still compiles during.
+// Then, in WebAssembly alone, of calls on the cut-mesh: fifty slices, the cell at a point, the triangles of a cell, validate().
+// Also the time of init() and the size of the module. Native runs are fresh processes that tell the time of the cut alone; WebAssembly
+// runs are calls in one process, arrays copied in and out, after a first one that the engine still compiles during.
 import { execFileSync } from 'node:child_process';
 import { readFileSync, readdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -25,15 +26,38 @@ function timed(f) {
 }
 
 function nativeTime(file) {
-  const report = execFileSync(program, ['cut', file, '--cells', cells, '--threads', '1', '--report', '-'], { encoding: 'utf8', maxBuffer: 2 ** 28 });
-  return JSON.parse(report).timings.total;
+  const args = ['cut', file, '--cells', cells, '--threads', '1', '--report', '-'];
+  const report = execFileSync(program, args, { encoding: 'utf8', maxBuffer: 2 ** 28 });
+  return JSON.parse(report).totalMs;
+}
+
+/** Median times of calls on a cut-mesh, of several calls each where one is too short for the clock. */
+function reportCalls(mesh, cutMesh) {
+  const many = 100;
+  const z = cutMesh.grid.planes[2];
+  const heights = Array.from({ length: 50 }, (_, i) => z[0] + ((z.at(-1) - z[0]) * (i + 0.5)) / 50);
+  const last = cutMesh.cellRegion.length - 1;
+  const each = (f) => () => {
+    for (let i = 0; i < many; ++i) f(i);
+  };
+  const calls = [
+    ['slices() by 50 planes', 1, () => slices(cutMesh, [0, 0, 1], heights)],
+    ['cellAt()', many, each((i) => cellAt(cutMesh, cutMesh.positions.subarray(3 * i, 3 * i + 3)))],
+    ['triangulate() of a cell', many, each((i) => triangulate(cutMesh, { cell: Math.round((i * last) / many) }))],
+    ['validate()', 1, () => validate(mesh, cutMesh)],
+  ];
+  for (const [name, count, f] of calls) {
+    const times = Array.from({ length: Number(runs) }, () => timed(f) / count);
+    console.log(`  ${name}: median ${median(times).toPrecision(3)} ms, least ${Math.min(...times).toPrecision(3)} ms`);
+  }
 }
 
 const start = performance.now();
-const { cut, readMesh } = await init();
+const { cellAt, cut, readMesh, slices, triangulate, validate } = await init();
 console.log(`init ${(performance.now() - start).toFixed(1)} ms`);
 const bytes = readFileSync(fileURLToPath(new URL('./mandoline.wasm', import.meta.resolve('mandoline-wasm'))));
-console.log(`mandoline.wasm ${(bytes.length / 1024).toFixed(0)} KB, gzipped ${(gzipSync(bytes, { level: 9 }).length / 1024).toFixed(0)} KB`);
+const packed = gzipSync(bytes, { level: 9 });
+console.log(`mandoline.wasm ${(bytes.length / 1024).toFixed(0)} KB, gzipped ${(packed.length / 1024).toFixed(0)} KB`);
 
 for (const file of files) {
   const mesh = await readMesh(readFileSync(file), { name: file });
@@ -47,6 +71,8 @@ for (const file of files) {
   }
   console.log(`${file.replace(/.*\//, '')} N = ${cells}, first call ${first.toFixed(1)} ms`);
   for (const [name, of] of [['median', median], ['least', (times) => Math.min(...times)]]) { // the latter for machines with other work
-    console.log(`  ${name}: native ${of(native).toFixed(1)} ms, WebAssembly ${of(wasm).toFixed(1)} ms, ratio ${(of(wasm) / of(native)).toFixed(2)}`);
+    const ratio = (of(wasm) / of(native)).toFixed(2);
+    console.log(`  ${name}: native ${of(native).toFixed(1)} ms, WebAssembly ${of(wasm).toFixed(1)} ms, ratio ${ratio}`);
   }
+  reportCalls(mesh, once());
 }

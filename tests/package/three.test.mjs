@@ -2,15 +2,15 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { init } from 'mandoline-wasm';
 import {
-  cellArrays, cellColors, cellGeometry, edgeGeometry, idColor, kindColors, meshFromGeometry, outsideColor, regionColor, sliceGeometry,
-  volumeColor, windingColor,
+  cellArrays, cellColors, cellEdgeArrays, cellEdgeGeometry, cellGeometry, edgeGeometry, idColor, kindColors, meshFromGeometry, outsideColor,
+  regionColor, sliceGeometry, untouchedCells, untouchedEdgeGeometry, untouchedGeometry, volumeColor, windingColor,
 } from 'mandoline-wasm/three';
 import {
   BoxGeometry, BufferAttribute, BufferGeometry, CylinderGeometry, InterleavedBuffer, InterleavedBufferAttribute, Matrix4, SphereGeometry,
   TorusGeometry,
 } from 'three';
 import { mergeVertices } from 'three/addons/utils/BufferGeometryUtils.js';
-import { box, torus } from './meshes.mjs';
+import { box, sheet, torus } from './meshes.mjs';
 
 const mandoline = await init();
 const mesh = torus(24, 16);
@@ -160,6 +160,191 @@ test('the first regions differ for people without red or green cones', () => {
   }
 });
 
+/** The edges of a cut-cell, each once, as "lower higher". */
+function edgesOfCell({ cellHalfFaceOffsets, cellHalfFaces, faceLoopOffsets, loopOffsets, loopVertices }, cell) {
+  const edges = new Set();
+  for (const halfFace of cellHalfFaces.subarray(cellHalfFaceOffsets[cell], cellHalfFaceOffsets[cell + 1])) {
+    for (let loop = faceLoopOffsets[halfFace >> 1]; loop < faceLoopOffsets[(halfFace >> 1) + 1]; ++loop) {
+      const vertices = loopVertices.subarray(loopOffsets[loop], loopOffsets[loop + 1]);
+      vertices.forEach((a, i) => edges.add([a, vertices.at(i - 1)].sort((x, y) => x - y).join(' ')));
+    }
+  }
+  return edges;
+}
+
+function assertEdges(made, edges) {
+  const { vertex, cell, position } = edges;
+  const found = Array.from(made.cellRegion, () => []);
+  for (let i = 0; i < vertex.length; i += 2) {
+    assert.equal(cell[i], cell[i + 1]);
+    found[cell[i]].push([vertex[i], vertex[i + 1]].sort((x, y) => x - y).join(' '));
+  }
+  found.forEach((list, owner) => assert.deepEqual(list.sort(), [...edgesOfCell(made, owner)].sort(), `edges of cell ${owner}`));
+  vertex.forEach((id, i) => assert.deepEqual(corner(position, i), corner(made.positions, id).map(Math.fround)));
+}
+
+test('every cut-cell has each of its edges once', () => {
+  assertEdges(cutMesh, cellEdgeArrays(cutMesh));
+});
+
+test('edges of a sheet that ends within a cell come once, though it is seen from both sides', () => {
+  const inside = mandoline.cut(sheet([0.25, 0.25], [0.75, 0.75], 0.5), { planes: [[0, 1], [0, 1], [0, 1]] });
+  assert.equal(inside.cellRegion.length, 1);
+  const edges = cellEdgeArrays(inside);
+  assertEdges(inside, edges);
+  assert.equal(edges.vertex.length, 2 * (12 + 5), 'a box and two triangles');
+});
+
+/** Where vertices of a geometry are, those from `begin` to `end`. */
+function cornersOf(geometry, begin = 0, end = geometry.getAttribute('position').count) {
+  const { array } = geometry.getAttribute('position');
+  return new Set(Array.from({ length: end - begin }, (_, i) => String(corner(array, begin + i))));
+}
+
+/** The eight corners of a box, moved by `shift` and rounded. */
+function boxCorners(min, max, shift) {
+  return new Set([0, 1, 2, 3, 4, 5, 6, 7].map((bits) => {
+    return String(min.map((x, d) => Math.fround(((bits >> d) & 1 ? max[d] : x) + shift[d])));
+  }));
+}
+
+test('edges of chosen cells explode as their faces do', () => {
+  const center = cutMesh.grid.planes.map((axis) => (axis[0] + axis.at(-1)) / 2);
+  const options = { cells: [7, 3], origin: [1, 2, 3], explode: 0.5, measures };
+  const geometry = cellEdgeGeometry(cutMesh, options);
+  assert.ok(geometry instanceof BufferGeometry);
+  const { position, cell } = cellEdgeArrays(cutMesh, options);
+  assert.deepEqual(cell.filter((id, i) => id !== cell[i - 1]), Uint32Array.of(7, 3));
+  assert.deepEqual(geometry.getAttribute('cell').array, cell);
+  const expected = position.map((x, i) => x + 0.5 * (measures.cellCentroid[3 * cell[Math.floor(i / 3)] + (i % 3)] - center[i % 3]));
+  assertClose(geometry.getAttribute('position').array, expected, 1e-6, 'position');
+  assert.deepEqual(cornersOf(geometry), cornersOf(cellGeometry(cutMesh, faceTriangles, options)), 'edges and faces meet');
+});
+
+test('cells are chosen by region, too', () => {
+  const inside = cutMesh.regionWinding.indexOf(1);
+  const isInside = (cell) => cutMesh.cellRegion[cell] === inside;
+  const cells = [...cutMesh.cellRegion.keys()].filter(isInside);
+  assert.ok(cells.length > 0 && cells.length < cellCount);
+  assert.deepEqual(cellArrays(cutMesh, faceTriangles, { regions: [inside] }), cellArrays(cutMesh, faceTriangles, { cells }));
+  assert.deepEqual(cellEdgeArrays(cutMesh, { regions: [inside] }), cellEdgeArrays(cutMesh, { cells }));
+  const both = cellArrays(cutMesh, faceTriangles, { regions: [inside], cells: [...cutMesh.cellRegion.keys()].reverse() });
+  assert.deepEqual(both, cellArrays(cutMesh, faceTriangles, { cells: cells.reverse() }));
+  assert.equal(cellArrays(cutMesh, faceTriangles, { regions: [] }).cell.length, 0);
+});
+
+test('untouched cells are the grid cells that no cut-cells replace', () => {
+  const { cells: [nx, ny, nz] } = cutMesh.grid;
+  const expected = { gridCell: [], region: [] };
+  for (let at = 0; at < nx * ny * nz; ++at) {
+    if (cutMesh.gridCellRegion[at] < 0) continue;
+    expected.gridCell.push(at % nx, Math.floor(at / nx) % ny, Math.floor(at / (nx * ny)));
+    expected.region.push(cutMesh.gridCellRegion[at]);
+  }
+  const all = untouchedCells(cutMesh);
+  assert.deepEqual(all, { gridCell: Int32Array.from(expected.gridCell), region: Uint32Array.from(expected.region) });
+  const counts = [0, 1].map((region) => untouchedCells(cutMesh, { regions: [region] }).region.length);
+  assert.ok(counts.every((count) => count > 0));
+  assert.equal(counts[0] + counts[1], all.region.length);
+  for (let region = 0; region < 2; ++region) {
+    assert.ok(untouchedCells(cutMesh, { regions: [region] }).region.every((id) => id === region));
+  }
+});
+
+/** Of a grid that is graded, so that boxes differ. */
+function gradedCut() {
+  const planes = [[-1, -0.5, 0.25, 1.5, 2], [-1, 0, 0.75, 2, 3, 3.5], [-2, -0.25, 0.5, 1.5, 2]];
+  const cube = box([-0.25, 0.25, -0.5], [1.75, 2.5, 1.75]);
+  return { cube, cut: mandoline.cut(cube, { planes }), planes };
+}
+
+test('untouched cells are drawn as boxes in their places, seen from outside', () => {
+  const { cut, planes } = gradedCut();
+  const geometry = untouchedGeometry(cut);
+  const { gridCell } = untouchedCells(cut);
+  const { index, attributes: { position, normal, color } } = geometry;
+  const count = gridCell.length / 3;
+  assert.ok(count > 10);
+  assert.deepEqual([index.count, position.count, normal.count, color.count], [36 * count, 24 * count, 24 * count, 24 * count]);
+  for (let b = 0; b < count; ++b) {
+    const [min, max] = [0, 1].map((end) => corner(gridCell, b).map((c, d) => planes[d][c + end]));
+    assert.deepEqual(cornersOf(geometry, 24 * b, 24 * (b + 1)), boxCorners(min, max, [0, 0, 0]));
+    let enclosed = 0;
+    for (let t = 36 * b; t < 36 * (b + 1); t += 3) {
+      const ids = [0, 1, 2].map((k) => index.getX(t + k));
+      assert.ok(ids.every((id) => id >= 24 * b && id < 24 * (b + 1)));
+      const [p, q, r] = ids.map((id) => corner(position.array, id));
+      const area = cross(minus(q, p), minus(r, p));
+      for (const id of ids) assert.ok(Math.abs(dot(area, corner(normal.array, id)) - Math.hypot(...area)) < 1e-6);
+      enclosed += dot(p, cross(q, r)) / 6;
+    }
+    assert.ok(Math.abs(enclosed - min.reduce((product, x, d) => product * (max[d] - x), 1)) < 1e-5);
+  }
+});
+
+test('boxes explode about the centre of the grid, and their edges with them', () => {
+  const { cut, planes } = gradedCut();
+  const options = { regions: [cut.regionWinding.indexOf(0)], origin: [1, 2, 3], explode: 0.5 };
+  const { gridCell } = untouchedCells(cut, options);
+  const [faces, edges] = [untouchedGeometry(cut, options), untouchedEdgeGeometry(cut, options)];
+  const count = gridCell.length / 3;
+  assert.ok(count > 10);
+  assert.equal(edges.index.count, 24 * count);
+  for (let b = 0; b < count; ++b) {
+    const [min, max] = [0, 1].map((end) => corner(gridCell, b).map((c, d) => planes[d][c + end]));
+    const shift = min.map((x, d) => 0.5 * ((x + max[d]) / 2 - (planes[d][0] + planes[d].at(-1)) / 2) - options.origin[d]);
+    const expected = boxCorners(min, max, shift);
+    assert.deepEqual(cornersOf(faces, 24 * b, 24 * (b + 1)), expected);
+    assert.deepEqual(cornersOf(edges, 8 * b, 8 * (b + 1)), expected);
+    const lines = new Set();
+    for (let i = 24 * b; i < 24 * (b + 1); i += 2) {
+      const ends = [0, 1].map((end) => corner(edges.getAttribute('position').array, edges.index.getX(i + end)));
+      assert.equal(minus(...ends).filter((x) => x !== 0).length, 1, 'along an axis');
+      lines.add(ends.map(String).sort().join(' '));
+    }
+    assert.equal(lines.size, 12);
+  }
+});
+
+test('untouched cells have the colours of a slice through them', () => {
+  for (const colorBy of ['region', 'winding', 'cell', 'volume']) {
+    const slice = mandoline.slice(cutMesh, { normal: [1, 2, 2], offset: 0.3 });
+    const sliced = sliceGeometry(cutMesh, slice, { colorBy, measures }).getAttribute('color').array;
+    const { array } = untouchedGeometry(cutMesh, { colorBy, measures }).getAttribute('color');
+    const { gridCell } = untouchedCells(cutMesh);
+    const boxOf = new Map(Array.from({ length: gridCell.length / 3 }, (_, b) => [String(corner(gridCell, b)), b]));
+    let compared = 0;
+    slice.polygonCell.forEach((cell, polygon) => {
+      if (cell >= 0) return;
+      const b = boxOf.get(String(corner(slice.polygonGridCell, polygon)));
+      const expected = corner(sliced, 3 * slice.polygonTriangleOffsets[polygon]);
+      for (let i = 24 * b; i < 24 * (b + 1); ++i) assert.deepEqual(corner(array, i), expected);
+      ++compared;
+    });
+    assert.ok(compared > 5, `${compared} compared`);
+  }
+});
+
+test('what can\'t be drawn is refused in the name of the call', () => {
+  const calls = {
+    cellArrays: (options) => cellArrays(cutMesh, faceTriangles, options),
+    cellGeometry: (options) => cellGeometry(cutMesh, faceTriangles, options),
+    cellEdgeArrays: (options) => cellEdgeArrays(cutMesh, options),
+    cellEdgeGeometry: (options) => cellEdgeGeometry(cutMesh, options),
+    untouchedCells: (options) => untouchedCells(cutMesh, options),
+    untouchedGeometry: (options) => untouchedGeometry(cutMesh, options),
+    untouchedEdgeGeometry: (options) => untouchedEdgeGeometry(cutMesh, options),
+  };
+  for (const [stage, call] of Object.entries(calls)) {
+    assert.throws(() => call({ regions: [0, 2] }), { code: 'badArgument', stage, element: 1, message: /regions\[1\] is 2/ });
+    assert.throws(() => call({ regions: 1 }), { code: 'badArgument', stage, message: /regions must be an array/ });
+    if (stage.startsWith('untouched')) continue;
+    assert.throws(() => call({ cells: [cellCount] }), { code: 'badArgument', stage, element: 0 });
+    if (stage.endsWith('Geometry')) assert.throws(() => call({ explode: 1 }), { code: 'badArgument', stage, message: /measures/ });
+  }
+  assert.throws(() => untouchedGeometry(cutMesh, { colorBy: 'volume' }), { code: 'badArgument', stage: 'untouchedGeometry' });
+});
+
 test('edges are lines between vertices of the cut-mesh', () => {
   const cutEdges = mandoline.cutEdges(mesh, cutMesh);
   const origin = [1, 2, 3];
@@ -254,7 +439,10 @@ test('colours one by one are those of cellColors, and colours of kinds are told 
   const made = { cellRegion: Uint32Array.of(0, 1, 2), regionWinding: Int32Array.of(0, 1, -1) };
   const measures = { cellVolume: Float64Array.of(1, 2, 4) };
   const expected = {
-    region: [0, 1, 2].map(regionColor), winding: [0, 1, -1].map(windingColor), cell: [0, 1, 2].map(idColor), volume: [0, 0.5, 1].map(volumeColor),
+    region: [0, 1, 2].map(regionColor),
+    winding: [0, 1, -1].map(windingColor),
+    cell: [0, 1, 2].map(idColor),
+    volume: [0, 0.5, 1].map(volumeColor),
   };
   for (const [colorBy, colors] of Object.entries(expected)) {
     assert.deepEqual(cellColors(made, colorBy, measures), Float32Array.from(colors.flat()), colorBy);

@@ -1,10 +1,11 @@
-// Cut-meshes that stay in WebAssembly: they are found by the identity of the result, and what is not found is taken as data.
+// Cut-meshes and prepared meshes that stay in WebAssembly: they are found by the identity of the result, and what is not found is taken as
+// data.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { failNext } from './instances.mjs';
-import { box, torus } from './meshes.mjs';
+import { box, gut, torus } from './meshes.mjs';
 
-const { MandolineError, init } = await import('mandoline-wasm'); // after the instances are watched
+const { init } = await import('mandoline-wasm'); // after the instances are watched
 const mandoline = await init();
 const mesh = torus(24, 12);
 const cube = box([0.1, 0.1, 0.1], [0.9, 0.9, 0.9]);
@@ -18,6 +19,7 @@ const calls = {
   triangulate: (cutMesh) => mandoline.triangulate(cutMesh),
   'triangulate a cell': (cutMesh) => mandoline.triangulate(cutMesh, { cell: 3 }),
   'triangulate a region': (cutMesh) => mandoline.triangulate(cutMesh, { region: 1 }),
+  boundary: (cutMesh) => mandoline.boundary(cutMesh, 'odd'),
   cellAt: (cutMesh) => mandoline.cellAt(cutMesh, [1, 0.01, 0.02]),
   cellsAt: (cutMesh) => mandoline.cellsAt(cutMesh, [1, 0.01, 0.02, 0, 0, 0]),
   slice: (cutMesh) => mandoline.slice(cutMesh, plane),
@@ -30,15 +32,8 @@ const calls = {
 
 const fresh = (options) => mandoline.cut(mesh, { cells: 9 }, options);
 
-/** Leaves a result without its arrays, so that only its twin can answer for it. */
-function gut(cutMesh) {
-  const buffers = Object.values(cutMesh).filter((value) => ArrayBuffer.isView(value)).map((array) => array.buffer);
-  structuredClone(null, { transfer: buffers });
-  return cutMesh;
-}
-
 function assertNeedsData(cutMesh) {
-  assert.throws(() => mandoline.slice(cutMesh, plane), (error) => error instanceof MandolineError && error.code === 'badArgument' && /detached/.test(error.message));
+  assert.throws(() => mandoline.slice(cutMesh, plane), { name: 'MandolineError', code: 'badArgument', message: /detached/ });
 }
 
 for (const [name, call] of Object.entries(calls)) {
@@ -118,6 +113,31 @@ test('after the instance was replaced the arrays are read, once', () => {
     assert.deepEqual(mandoline.slice(kept, plane), expected);
     assert.deepEqual(mandoline.slice(gut(kept), plane), expected);
   }
+});
+
+test('prepared meshes give way to newer results, and are prepared once more', () => {
+  const prepared = mandoline.prepare(mesh);
+  const firstStage = () => mandoline.cut(prepared, { cells: 5 }).stats.stages[0].stage;
+  for (let i = 0; i < 40; ++i) {
+    fresh();
+    assert.equal(firstStage(), 'grid'); // stays
+  }
+  for (let i = 0; i < 40; ++i) fresh();
+  assert.equal(firstStage(), 'grid');
+  assert.equal(mandoline.cut({ ...prepared }, { cells: 5 }).stats.stages[0].stage, 'input');
+  failNext(new WebAssembly.RuntimeError('unreachable'));
+  assert.throws(() => fresh(), { code: 'internalError' });
+  assert.equal(firstStage(), 'grid');
+  assert.ok(mandoline.cut(gut(prepared), { cells: 5 }));
+});
+
+test('a prepared mesh is no cut-mesh', () => {
+  const prepared = mandoline.prepare(mesh);
+  for (const [name, call] of Object.entries(calls)) {
+    const message = /^cutMesh must be what cut\(\) gives, not what prepare\(\) does/;
+    assert.throws(() => call(prepared), { name: 'MandolineError', code: 'badArgument', message }, name);
+  }
+  assert.ok(mandoline.cut(gut(prepared), { cells: 5 }));
 });
 
 test('a cut within a cut, and a failed cut, keep what is kept', () => {

@@ -6,27 +6,11 @@ import { Worker as NodeWorker } from 'node:worker_threads';
 import { MandolineError as CoreError, compiledModule, init } from 'mandoline-wasm';
 import { MandolineError, createWorker, describe } from 'mandoline-wasm/worker';
 import { box, torus } from './meshes.mjs';
+import { rejection, withWorker } from './workers.mjs';
 
 const cube = box([0, 0, 0], [1, 1, 1]);
 const ring = torus(200, 200);
 const root = new URL('../..', import.meta.url);
-
-/** Runs f with a worker that is terminated afterwards. */
-async function withWorker(f, options) {
-  const worker = await createWorker(options);
-  try {
-    return await f(worker);
-  } finally {
-    worker.terminate();
-  }
-}
-
-/** The MandolineError that a promise is rejected with. */
-async function rejection(promise) {
-  const error = await promise.then(() => assert.fail('should have been rejected'), (reason) => reason);
-  assert.ok(error instanceof MandolineError, `${error?.stack}`);
-  return error;
-}
 
 /** Times and counters aside. */
 const withoutStats = ({ stats, ...rest }) => rest;
@@ -60,6 +44,10 @@ test('every call gives what it gives without a worker', () => withWorker(async (
   assert.deepEqual(await worker.slices(cutMesh, [0, 0, 1], [0.2, 0.7]), here.slices(expected, [0, 0, 1], [0.2, 0.7]));
   assert.deepEqual(await worker.outlines(cutMesh, [0, 0, 1], [0.2, 0.7]), here.outlines(expected, [0, 0, 1], [0.2, 0.7]));
   assert.deepEqual(await worker.write(cube, cutMesh, 'json'), here.write(cube, expected, 'json'));
+  assert.deepEqual(withoutStats(await worker.resolve(cube)), withoutStats(here.resolve(cube)));
+  assert.deepEqual(await worker.boundary(cutMesh, 'odd'), here.boundary(expected, 'odd'));
+  assert.deepEqual(await worker.boundary(here.resolve(cube)), here.boundary(here.resolve(cube)));
+  assert.deepEqual(await worker.prepare(cube), here.prepare(cube));
   const calls = Object.keys(here).filter((key) => typeof here[key] === 'function');
   assert.deepEqual(Object.keys(worker).sort(), [...calls, 'call', 'terminate'].sort());
 }));
@@ -135,8 +123,10 @@ test('errors keep their class, code, place and message', () => withWorker(async 
 
 test('two crossing triangles are both named', () => withWorker(async (worker) => {
   const positions = [0, 0, 0, 2, 0, 0, 0, 2, 0, 0.5, 0.5, -1, 0.5, 0.5, 1, 3, 3, 0];
-  const error = await rejection(worker.cut({ positions, triangles: [0, 1, 2, 3, 4, 5] }, { cells: 3 }));
+  const mesh = { positions, triangles: [0, 1, 2, 3, 4, 5] };
+  const error = await rejection(worker.cut(mesh, { cells: 3 }, { intersections: 'refuse' }));
   assert.equal(error.code, 'selfIntersection');
+  assert.deepEqual(await worker.findIntersections(mesh), (await init()).findIntersections(mesh));
   assert.deepEqual([error.element, error.element2].sort(), [0, 1]);
 }));
 

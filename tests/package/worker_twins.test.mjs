@@ -1,77 +1,65 @@
-// Cut-meshes that stay in the worker's thread: their arrays are the page's, and are sent back only where the twin is gone.
+// Cut-meshes and prepared meshes that stay in the worker's thread: their arrays are the page's, and are sent back only where the twin is
+// gone.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { setFlagsFromString } from 'node:v8';
+import { runInNewContext } from 'node:vm';
 import { Worker as NodeWorker } from 'node:worker_threads';
 import { init } from 'mandoline-wasm';
-import { MandolineError, createWorker } from 'mandoline-wasm/worker';
-import { box, torus } from './meshes.mjs';
+import { box, gut, join, torus } from './meshes.mjs';
+import { rejection, withWorker } from './workers.mjs';
 
 const mesh = torus(24, 12);
 const plane = { normal: [1, 2, 3], offset: 0.1 };
 const sliced = await init().then(({ cut, slice }) => slice(cut(mesh, { cells: 9 }), plane));
 
 /** Runs f with a worker and the list of the messages to its threads. */
-async function withWorker(f) {
+function withWatched(f) {
   const sent = [];
   const thread = () => {
     const worker = new NodeWorker(new URL('watched_thread.mjs', import.meta.url));
     const post = worker.postMessage.bind(worker);
     worker.postMessage = (message, transfer) => {
-      sent.push(structuredClone({ call: message.call, cutMesh: message.cutMesh, forget: message.forget }));
+      sent.push(structuredClone({ call: message.call, subject: message.subject, forget: message.forget }));
       post(message, transfer);
     };
     return worker;
   };
-  const worker = await createWorker({ thread });
-  try {
-    return await f(worker, sent);
-  } finally {
-    worker.terminate();
-  }
+  return withWorker((worker) => f(worker, sent), { thread });
 }
 
-async function rejection(promise) {
-  const error = await promise.then(() => assert.fail('should have been rejected'), (reason) => reason);
-  assert.ok(error instanceof MandolineError, `${error?.stack}`);
-  return error;
-}
+const wasSent = ({ subject }) => subject?.data !== undefined;
 
-/** Leaves a result without its arrays, so that only its twin can answer for it. */
-function gut(cutMesh) {
-  structuredClone(null, { transfer: Object.values(cutMesh).filter((value) => ArrayBuffer.isView(value)).map((array) => array.buffer) });
-  return cutMesh;
-}
-
-const wasSent = ({ cutMesh }) => cutMesh?.data !== undefined;
-
-test('every call works on the twin, without the arrays', () => withWorker(async (worker, sent) => {
+test('every call works on the twin, without the arrays', () => withWatched(async (worker, sent) => {
   const { cut, ...here } = await init();
   const expected = cut(mesh, { cells: 9 });
   const cutMesh = gut(await worker.cut(mesh, { cells: 9 }));
   const calls = {
-    validate: [mesh, cutMesh], measure: [mesh, cutMesh], cutEdges: [mesh, cutMesh], adjacency: [cutMesh], triangulate: [cutMesh, { cell: 3 }],
+    validate: [mesh, cutMesh], measure: [mesh, cutMesh], cutEdges: [mesh, cutMesh], adjacency: [cutMesh],
+    triangulate: [cutMesh, { cell: 3 }], boundary: [cutMesh, 'nonZero'],
     cellAt: [cutMesh, [1, 0.01, 0.02]], cellsAt: [cutMesh, [1, 0.01, 0.02]], slice: [cutMesh, plane],
     slices: [cutMesh, [1, 2, 3], [0, 0.1]], outlines: [cutMesh, [0, 0, 1], [0.05]], write: [mesh, cutMesh, 'vtu'],
   };
   for (const [name, args] of Object.entries(calls)) {
     assert.deepEqual(await worker[name](...args), here[name](...args.map((arg) => (arg === cutMesh ? expected : arg))), name);
   }
-  assert.deepEqual(Object.keys(here).filter((name) => !(name in calls)).sort(), ['readMesh', 'version']);
+  const withoutCutMesh = ['findIntersections', 'prepare', 'readMesh', 'resolve', 'version'];
+  assert.deepEqual(Object.keys(here).filter((name) => !(name in calls)).sort(), withoutCutMesh);
   assert.equal(sent.filter(wasSent).length, 0);
 }));
 
-test('copies, and results that were not to be kept, are sent each time', () => withWorker(async (worker, sent) => {
+test('copies, and results that were not to be kept, are sent each time', () => withWatched(async (worker, sent) => {
   const kept = await worker.cut(mesh, { cells: 9 });
   const other = await worker.cut(mesh, { cells: 9 }, { keep: false });
   const { stats: _, ...keptData } = kept;
   const { stats: __, ...otherData } = other;
   assert.deepEqual(otherData, keptData);
   for (const cutMesh of [{ ...kept }, structuredClone(kept), other, other]) assert.deepEqual(await worker.slice(cutMesh, plane), sliced);
-  assert.ok(sent.every(({ call, cutMesh }) => call === 'cut' || cutMesh === undefined));
+  assert.ok(sent.every(({ subject }) => subject === undefined));
   assert.equal((await rejection(worker.slice(gut(other), plane))).code, 'badArgument');
 }));
 
-test('after an abort the new thread is sent the arrays once', () => withWorker(async (worker, sent) => {
+test('after an abort the new thread is sent the arrays once', () => withWatched(async (worker, sent) => {
   const cutMesh = await worker.cut(mesh, { cells: 9 });
   await rejection(worker.cut(mesh, { cells: 99 }, { progress: () => false }));
   for (let i = 0; i < 3; ++i) assert.deepEqual(await worker.slice(cutMesh, plane), sliced);
@@ -82,7 +70,7 @@ test('after an abort the new thread is sent the arrays once', () => withWorker(a
   assert.equal((await worker.cut(mesh, { cells: 9 })).regionCount, 2);
 }));
 
-test('a call that waits is sent the arrays when the thread it was made for is gone', () => withWorker(async (worker, sent) => {
+test('a call that waits is sent the arrays when the thread it was made for is gone', () => withWatched(async (worker, sent) => {
   const cutMesh = await worker.cut(mesh, { cells: 9 });
   const cancelled = worker.cut(mesh, { cells: 99 }, { progress: () => false });
   const waiting = [worker.slice(cutMesh, plane), worker.measure(mesh, cutMesh), worker.slice(cutMesh, plane)];
@@ -91,7 +79,7 @@ test('a call that waits is sent the arrays when the thread it was made for is go
   assert.equal(sent.filter(wasSent).length, 1);
 }));
 
-test('those that the thread let go are sent again, with the other arguments', () => withWorker(async (worker, sent) => {
+test('those that the thread let go are sent again, with the other arguments', () => withWatched(async (worker, sent) => {
   const first = await worker.cut(mesh, { cells: 9 });
   const expected = await worker.measure(mesh, first);
   const many = [];
@@ -103,14 +91,14 @@ test('those that the thread let go are sent again, with the other arguments', ()
   assert.ok(await worker.adjacency(gut(many.at(-1))));
 }));
 
-test('arrays that are handed over with the call are sent', () => withWorker(async (worker) => {
+test('arrays that are handed over with the call are sent', () => withWatched(async (worker) => {
   const cutMesh = await worker.cut(mesh, { cells: 9 });
   assert.deepEqual(await worker.slice(cutMesh, plane, { transfer: [cutMesh.positions.buffer] }), sliced);
   assert.equal(cutMesh.positions.length, 0);
   assert.deepEqual(await worker.slice(cutMesh, plane), sliced);
 }));
 
-test('bad arguments beside a twin are told as such, and it stays', () => withWorker(async (worker, sent) => {
+test('bad arguments beside a twin are told as such, and it stays', () => withWatched(async (worker, sent) => {
   const cutMesh = gut(await worker.cut(mesh, { cells: 9 }));
   assert.match((await rejection(worker.triangulate(cutMesh, { cell: 1e6 }))).message, /cell/);
   assert.equal((await rejection(worker.measure(box([0, 0, 0], [1, 1, 1]), cutMesh))).code, 'badArgument');
@@ -119,24 +107,89 @@ test('bad arguments beside a twin are told as such, and it stays', () => withWor
   assert.deepEqual(await worker.slice(cutMesh, plane), sliced);
 }));
 
-test('a worker\'s result is data to another worker, and to the page', () => withWorker((one) => withWorker(async (two, sent) => {
+test('a prepared mesh is cut with any number of grids, without its arrays', () => withWatched(async (worker, sent) => {
+  const { cut } = await init();
+  const prepared = gut(await worker.prepare(mesh));
+  for (const cells of [4, 9]) {
+    const { stats, ...cutMesh } = await worker.cut(prepared, { cells });
+    const { stats: _, ...expected } = cut(mesh, { cells });
+    assert.deepEqual(cutMesh, expected);
+    assert.equal(stats.stages[0].stage, 'grid'); // what comes before is prepared
+  }
+  assert.deepEqual(await worker.slice(gut(await worker.cut(prepared, { cells: 9 })), plane), sliced);
+  assert.equal(sent.filter(wasSent).length, 0);
+}));
+
+test('a prepared mesh whose twin is gone is sent and prepared once more, as it was', () => withWatched(async (worker, sent) => {
+  const tip = { positions: [1, 0.5, 0.4, 2, 0, 0, 2, 1, 0, 2, 0, 1], triangles: [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3] };
+  const touching = join(box([0, 0, 0], [1, 1, 1]), tip);
+  const prepared = await worker.prepare(touching, { intersections: 'assumeNone' });
+  const { stats: _, ...expected } = await worker.cut(prepared, { cells: 4 });
+  const again = async () => {
+    const { stats, ...cutMesh } = await worker.cut(prepared, { cells: 4 });
+    assert.deepEqual(cutMesh, expected);
+    return stats;
+  };
+  await rejection(worker.cut(mesh, { cells: 99 }, { progress: () => false })); // in a new thread
+  for (let i = 0; i < 2; ++i) assert.equal((await again()).intersections.touching, 0);
+  assert.equal(sent.filter(wasSent).length, 1);
+  for (let i = 0; i < 20; ++i) await worker.cut(mesh, { cells: 3 }); // which it gives way to
+  for (let i = 0; i < 2; ++i) assert.equal((await again()).stages[0].stage, 'grid');
+  assert.equal(sent.filter(wasSent).length, 2);
+  assert.ok((await worker.cut({ ...prepared }, { cells: 4 })).stats.intersections.touching > 0); // a copy is data
+}));
+
+test('a prepared mesh is no cut-mesh, and a cut-mesh no mesh', () => withWatched(async (worker) => {
+  const [prepared, cutMesh] = [await worker.prepare(mesh), await worker.cut(mesh, { cells: 9 })];
+  assert.match((await rejection(worker.measure(mesh, prepared))).message, /what cut\(\) gives, not what prepare\(\) does/);
+  assert.equal((await rejection(worker.boundary(prepared))).code, 'badArgument');
+  assert.equal((await rejection(worker.cut(cutMesh, { cells: 9 }))).code, 'badArgument');
+  assert.deepEqual(await worker.slice(gut(cutMesh), plane), sliced);
+  assert.ok(await worker.cut(gut(prepared), { cells: 9 }));
+}));
+
+test('preparing fails and is cancelled like any call', () => withWatched(async (worker) => {
+  const crossing = join(mesh, torus(24, 12, 1.1));
+  assert.equal((await rejection(worker.prepare(crossing, { intersections: 'refuse' }))).code, 'selfIntersection');
+  assert.equal((await rejection(worker.prepare(crossing, { intersections: 'never' }))).code, 'badArgument');
+  assert.equal((await rejection(worker.prepare(crossing, { progress: () => false }))).code, 'cancelled');
+  assert.equal((await rejection(worker.prepare(crossing, { signal: AbortSignal.abort() }))).code, 'cancelled');
+}));
+
+test('twins of unreachable results are freed', () => withWatched(async (worker, sent) => {
+  setFlagsFromString('--expose-gc');
+  const collectGarbage = runInNewContext('gc');
+  const kept = await worker.prepare(mesh);
+  await worker.prepare(mesh);
+  await worker.cut(kept, { cells: 9 });
+  const isFreed = () => sent.filter(({ forget }) => forget !== undefined).length === 2;
+  for (let i = 0; i < 50 && !isFreed(); ++i) {
+    collectGarbage();
+    await new Promise((resolve) => { setTimeout(resolve, 20); });
+  }
+  assert.ok(isFreed());
+  assert.ok(await worker.cut(gut(kept), { cells: 9 }));
+}));
+
+test('a worker\'s result is data to another worker, and to the page', () => withWatched((one) => withWatched(async (two, sent) => {
   const cutMesh = await one.cut(mesh, { cells: 9 });
   assert.deepEqual(await two.slice(cutMesh, plane), sliced);
-  assert.ok(sent.every(({ cutMesh: named }) => named === undefined));
+  assert.ok(sent.every(({ subject }) => subject === undefined));
   assert.deepEqual((await init()).slice(cutMesh, plane), sliced);
 })));
 
-test('calls of the thread\'s own work on twins as long as they hold the results', () => withWorker(async (worker) => {
+test('calls of the thread\'s own work on twins as long as they hold the results', () => withWatched(async (worker) => {
   const { cutMesh, slice } = await worker.call('sliceOfOwn', [mesh, 9, plane]);
   assert.deepEqual(slice, sliced);
   assert.deepEqual(await worker.slice(cutMesh, plane), sliced); // as data
 }));
 
-test('1,000 cuts leave the memory of the thread flat', () => withWorker(async (worker) => {
+test('1,000 cuts leave the memory of the thread flat', () => withWatched(async (worker) => {
   let early;
   for (let i = 0; i < 1000; ++i) {
     const cutMesh = await worker.cut(mesh, { cells: 4 + (i % 10) });
     if (i % 10 === 0) await worker.slice(cutMesh, plane);
+    if (i % 10 === 1) await worker.cut(await worker.prepare(mesh), { cells: 4 });
     if (i === 100) early = await worker.call('memory');
   }
   assert.deepEqual(await worker.call('memory'), early);

@@ -1,8 +1,9 @@
-// 1,000 random calls, most of them wrong: each works or throws a MandolineError that says what was wrong with it, and none harms the module.
+// 1,000 random calls, most of them wrong: each works or throws a MandolineError that says what was wrong with it, and none harms the
+// module.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { MandolineError, init } from 'mandoline-wasm';
-import { box, sheet, torus } from './meshes.mjs';
+import { box, gut, join, sheet, torus } from './meshes.mjs';
 
 const mandoline = await init();
 
@@ -15,11 +16,6 @@ function random(n) {
 
 const pick = (items) => items[random(items.length)];
 
-function gut(value) {
-  structuredClone(null, { transfer: Object.values(value).filter((part) => ArrayBuffer.isView(part)).map((array) => array.buffer) });
-  return value;
-}
-
 const mesh = torus(16, 8);
 const cube = box([0.5, 0.5, 0.5], [1.5, 1.5, 1.5]);
 const open = sheet([0, 0], [2, 2], 0.5);
@@ -27,32 +23,55 @@ const grid = { min: [-1.5, -1.5, -0.5], max: [1.5, 1.5, 0.5], cells: [5, 5, 3] }
 const cutMesh = mandoline.cut(mesh, grid);
 const arrays = Object.keys(cutMesh).filter((key) => ArrayBuffer.isView(cutMesh[key]));
 
-/** A copy with some entries of an array changed, or the array replaced. */
-function damaged(original) {
-  const key = pick(arrays);
+const prepared = mandoline.prepare(mesh);
+const resolved = mandoline.resolve(join(box([1, 1, 1], [3, 3, 3]), box([2, 2, 2], [4, 4, 4])));
+const boundaryArrays = ['positions', 'triangles', 'frontWinding', 'backWinding'];
+
+/** A copy with some entries of one of these arrays changed, or the array replaced. */
+function damaged(original, keys) {
+  const key = pick(keys);
   const array = original[key].slice();
   for (let i = 0; i < 3 && array.length > 0; ++i) array[random(array.length)] = pick([0, 1, -1, 7, 1000, 2 ** 31 - 1, 2 ** 32 - 1, NaN]);
   return { ...original, [key]: pick([array, array, array, array.subarray(1), new Float32Array(array), [...array], null, undefined]) };
 }
 
 const scalars = [undefined, null, 0, -1, 0.5, NaN, Infinity, 2 ** 31, 2 ** 40, true, '', 'json', 10n, Symbol.iterator, () => 1];
-const objects = [() => ({}), () => [], () => [1, 2], () => [0, 1, 2], () => new Float64Array(3), () => gut({ array: new Float64Array(6) }).array,
-  () => new Map(), () => new Proxy({}, { get: () => 7 }), () => new Date(0), () => Object.create(null), () => new ArrayBuffer(8), () => ({ length: 2 ** 31 })];
+const objects = [
+  () => ({}), () => [], () => [1, 2], () => [0, 1, 2], () => new Float64Array(3), () => gut({ array: new Float64Array(6) }).array,
+  () => new Map(), () => new Proxy({}, { get: () => 7 }), () => new Date(0), () => Object.create(null), () => new ArrayBuffer(8),
+  () => ({ length: 2 ** 31 }),
+];
 const anything = () => (random(2) ? pick(scalars) : pick(objects)());
 
 /** Values that are right, or nearly so, for each kind of argument. */
 const kinds = {
-  mesh: () => pick([mesh, mesh, mesh, cube, open, { ...mesh, positions: mesh.positions.slice(3) }, { ...mesh, triangles: mesh.triangles.slice(0, 9) },
-    { ...mesh, positions: mesh.positions.map((x, i) => (i === random(90) ? NaN : x)) }, { positions: anything(), triangles: mesh.triangles },
-    { positions: mesh.positions, triangles: anything() }]),
-  cutMesh: () => pick([() => cutMesh, () => cutMesh, () => ({ ...cutMesh }), () => mandoline.cut(mesh, grid, { keep: false }), () => damaged(cutMesh),
-    () => damaged(cutMesh), () => gut(mandoline.cut(mesh, grid)), () => mandoline.cut(open, grid), () => ({ ...cutMesh, grid: anything() }),
-    () => ({ ...cutMesh, regionCount: anything() })])(),
-  grid: () => pick([grid, { cells: 4 }, { cells: anything() }, { ...grid, cells: anything() }, { ...grid, min: anything() }, { planes: anything() },
-    { planes: [[0, 1], [1, 0], [0, 1]] }, { origin: [0, 0, 0], spacing: [1, anything(), 1], cells: [2, 2, 2] }, cutMesh.grid]),
-  options: () => pick([undefined, {}, { snapTolerance: anything() }, { progress: anything() }, { progress: () => pick([true, false, undefined]) },
-    { keep: anything() }, { gridCellRegion: anything() }, { untouched: anything() }, { name: anything() }]),
-  of: () => pick([undefined, { cell: random(60) }, { region: random(3) }, { cell: anything() }, { region: anything() }, { cell: 1, region: 1 }]),
+  mesh: () => pick([
+    mesh, mesh, mesh, cube, open, prepared, resolved, { ...prepared }, { ...mesh, positions: mesh.positions.slice(3) },
+    { ...mesh, triangles: mesh.triangles.slice(0, 9) }, { ...mesh, positions: mesh.positions.map((x, i) => (i === random(90) ? NaN : x)) },
+    { positions: anything(), triangles: mesh.triangles }, { positions: mesh.positions, triangles: anything() },
+  ]),
+  cutMesh: () => pick([
+    () => cutMesh, () => cutMesh, () => ({ ...cutMesh }), () => mandoline.cut(mesh, grid, { keep: false }), () => damaged(cutMesh, arrays),
+    () => damaged(cutMesh, arrays), () => gut(mandoline.cut(mesh, grid)), () => mandoline.cut(open, grid), () => prepared,
+    () => ({ ...cutMesh, grid: anything() }), () => ({ ...cutMesh, regionCount: anything() }),
+  ])(),
+  solid: () => pick([
+    () => resolved, () => mandoline.resolve(open), () => damaged(resolved, boundaryArrays), () => damaged(resolved, boundaryArrays),
+    kinds.cutMesh, kinds.cutMesh, kinds.mesh,
+  ])(),
+  rule: () => pick([undefined, 'positive', 'nonZero', 'odd', 'nonzero', anything()]),
+  grid: () => pick([
+    grid, { cells: 4 }, { cells: anything() }, { ...grid, cells: anything() }, { ...grid, min: anything() }, { planes: anything() },
+    { planes: [[0, 1], [1, 0], [0, 1]] }, { origin: [0, 0, 0], spacing: [1, anything(), 1], cells: [2, 2, 2] }, cutMesh.grid,
+  ]),
+  options: () => pick([
+    undefined, {}, { snapTolerance: anything() }, { intersections: anything() }, { maxPairs: anything() }, { progress: anything() },
+    { progress: () => pick([true, false, undefined]) }, { keep: anything() }, { gridCellRegion: anything() }, { untouched: anything() },
+    { regions: anything() }, { name: anything() },
+  ]),
+  of: () => pick([
+    undefined, { cell: random(60) }, { region: random(3) }, { cell: anything() }, { region: anything() }, { cell: 1, region: 1 },
+  ]),
   point: () => pick([[0, 0, 0], [1, 0.1, 0], [1e300, 0, 0], [NaN, 0, 0], [0, anything(), 0]]),
   points: () => pick([[0, 0, 0, 1, 0, 0], new Float32Array(9), [0, 0], [Infinity, -Infinity, NaN], [anything()]]),
   plane: () => pick([{ normal: [0, 0, 1], offset: 0 }, { normal: [1, 2, 3], offset: 1e-300 }, { normal: [0, 0, 0], offset: 0 },
@@ -60,13 +79,20 @@ const kinds = {
   vector: () => pick([[0, 0, 1], [1, 2, 3], [0, 0, 0], [NaN, 0, 1], anything()]),
   offsets: () => pick([[0, 0.1], [], new Float32Array(2), [NaN], [anything()], anything()]),
   format: () => pick(['json', 'vtu', 'obj', 'stl', anything()]),
-  file: () => pick([new TextEncoder().encode('v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n'), new Blob(['OFF\n1 1 0\n']), new Uint8Array([31, 139, 8, 0, 1]), anything()]),
+  file: () => pick([
+    new TextEncoder().encode('v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n'), new Blob(['OFF\n1 1 0\n']), new Uint8Array([31, 139, 8, 0, 1]),
+    anything(),
+  ]),
 };
 
 const parameters = {
   cut: ['mesh', 'grid', 'options'],
   validate: ['mesh', 'cutMesh', 'options'],
   measure: ['mesh', 'cutMesh', 'options'],
+  prepare: ['mesh', 'options'],
+  findIntersections: ['mesh', 'options'],
+  resolve: ['mesh', 'options'],
+  boundary: ['solid', 'rule'],
   cutEdges: ['mesh', 'cutMesh'],
   adjacency: ['cutMesh'],
   triangulate: ['cutMesh', 'of'],
@@ -75,7 +101,7 @@ const parameters = {
   slice: ['cutMesh', 'plane', 'options'],
   slices: ['cutMesh', 'vector', 'offsets', 'options'],
   outlines: ['cutMesh', 'vector', 'offsets'],
-  write: ['mesh', 'cutMesh', 'format'],
+  write: ['mesh', 'cutMesh', 'format', 'options'],
   readMesh: ['file', 'options'],
 };
 

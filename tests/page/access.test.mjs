@@ -13,7 +13,7 @@ const controls = 'a[href], button, input, select, textarea, summary, [tabindex]'
 async function openAll(page) {
   for (const id of panels) await openPanel(page, id);
   await page.locator('#custom-grid summary').click();
-  await page.getByText('Timings and details').click();
+  await page.getByText('Stages and details').click();
   await page.locator('#step-next').click();
   await shows(page, '#canvas', { step: 'triEdges' });
   await enter(page, '#pin-number', 0);
@@ -25,11 +25,16 @@ test('every control has a name', async (t) => {
   await openAll(page);
   const session = await page.context().newCDPSession(page);
   const { nodes } = await session.send('Accessibility.getFullAXTree');
-  const roles = ['button', 'checkbox', 'radio', 'slider', 'spinbutton', 'textbox', 'combobox', 'link', 'img', 'progressbar', 'DisclosureTriangle', 'Canvas'];
+  const roles = [
+    'button', 'checkbox', 'radio', 'slider', 'spinbutton', 'textbox', 'combobox', 'link', 'img', 'progressbar', 'DisclosureTriangle',
+    'Canvas',
+  ];
   const found = nodes.filter(({ ignored, role }) => !ignored && roles.includes(role?.value));
   assert.ok(found.length > 60, `${found.length} controls`);
-  assert.deepEqual(found.filter(({ name }) => !name?.value?.trim()).map(({ role, properties }) => [role.value, JSON.stringify(properties)]), []);
-  const names = found.filter(({ role }) => ['slider', 'spinbutton', 'checkbox', 'combobox', 'textbox'].includes(role.value)).map(({ role, name }) => `${role.value} ${name.value}`);
+  const nameless = found.filter(({ name }) => !name?.value?.trim());
+  assert.deepEqual(nameless.map(({ role, properties }) => [role.value, JSON.stringify(properties)]), []);
+  const inputs = found.filter(({ role }) => ['slider', 'spinbutton', 'checkbox', 'combobox', 'textbox'].includes(role.value));
+  const names = inputs.map(({ role, name }) => `${role.value} ${name.value}`);
   assert.deepEqual(names.filter((name, at) => names.indexOf(name) !== at), [], 'no two controls have the same name');
 });
 
@@ -61,7 +66,8 @@ test('Tab reaches every control, in turn, and says where it is', async (t) => {
       });
       window.stops ??= new Map();
       if (!window.stops.has(element)) window.stops.set(element, window.stops.size);
-      return { key: element === document.body ? null : `${window.stops.get(element)} ${element.id || element.textContent.slice(0, 30)}`, isMarked: marked };
+      const key = element === document.body ? null : `${window.stops.get(element)} ${element.id || element.textContent.slice(0, 30)}`;
+      return { key, isMarked: marked };
     });
     if (key === null || reached.has(key)) continue;
     reached.add(key);
@@ -115,7 +121,8 @@ describe('on a screen 360 pixels wide', () => {
       await eventually(async () => assert.equal(await page.locator(`#${id}-toggle`).getAttribute('aria-expanded'), 'true'));
       if (id === 'cut') await page.locator('#custom-grid summary').tap();
       assert.ok((await overflow(page)) <= 0, `${id} fits`);
-      const hidden = await page.locator(`#${id}`).locator(controls).evaluateAll((all) => all.filter((element) => element.tabIndex >= 0 && element.checkVisibility()).filter((element) => {
+      const hidden = await page.locator(`#${id}`).locator(controls).evaluateAll((all) => all.filter((element) => {
+        if (element.tabIndex < 0 || !element.checkVisibility()) return false;
         element.scrollIntoView({ block: 'center' });
         const target = element.closest('label') ?? element;
         const { left, right, top, bottom } = target.getBoundingClientRect();
@@ -165,7 +172,8 @@ for (const viewport of [{ width: 1000, height: 600 }, { width: 360, height: 640 
 test('panels come back when a narrow window becomes wide', async (t) => {
   const wide = { width: 1000, height: 600 };
   const page = await site.open(t, link, { viewport: { width: 360, height: 640 } });
-  const isOpen = () => Promise.all(panels.map(async (id) => (await page.locator(`#${id}-toggle`).getAttribute('aria-expanded')) === 'true'));
+  const expanded = (id) => page.locator(`#${id}-toggle`).getAttribute('aria-expanded');
+  const isOpen = () => Promise.all(panels.map(async (id) => (await expanded(id)) === 'true'));
   const are = (expected) => eventually(async () => assert.deepEqual(await isOpen(), expected));
   await are([false, false, false, false, false, false]);
   await page.setViewportSize(wide);

@@ -8,7 +8,8 @@ const { Camera } = await importBundled('page/view/camera.ts');
 /** What OrbitControls needs of a canvas. */
 function canvas() {
   const element = new EventTarget();
-  return Object.assign(element, { style: {}, clientWidth: 800, clientHeight: 600, ownerDocument: new EventTarget(), getRootNode: () => new EventTarget() });
+  const [ownerDocument, rootNode] = [new EventTarget(), new EventTarget()];
+  return Object.assign(element, { style: {}, clientWidth: 800, clientHeight: 600, ownerDocument, getRootNode: () => rootNode });
 }
 
 function azimuth({ camera, controls }) {

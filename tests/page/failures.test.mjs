@@ -3,9 +3,10 @@ import assert from 'node:assert/strict';
 import { createServer } from 'node:http';
 import { after, describe, test } from 'node:test';
 import { writeObj } from '../package/meshes.mjs';
-import { crossing, octahedronFiles } from './mesh_files.mjs';
+import { crossing, notFinite, octahedronFiles } from './mesh_files.mjs';
 import { dataOf, enter, eventually, isReady, openPanel, shows, startSite, textOf } from './page_helpers.mjs';
 import { covered, pixelsOf } from './pictures.mjs';
+import { galleryMesh, mandoline } from './reference.mjs';
 
 const needle = 'v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 1 0\nv 3 1 0\nf 1 2 3\nf 1 4 5\nf 2 2 4\n';
 const site = await startSite({ files: octahedronFiles });
@@ -19,6 +20,26 @@ async function pick(page, name, content) {
 async function openUrl(page, url) {
   await page.locator('#url').fill(url);
   await page.locator('#open-url').click();
+}
+
+/** The package's grid around the box of a mesh, by a triangle without area that has this box. */
+function gridAround({ positions, triangles }, cells) {
+  const end = (best) => [0, 1, 2].map((d) => triangles.reduce((x, v) => best(x, positions[3 * v + d]), positions[3 * triangles[0] + d]));
+  const diagonal = { positions: [...end(Math.min), ...end(Math.max)], triangles: [0, 1, 1] };
+  return mandoline.cut(diagonal, { cells }, { gridCellRegion: false }).grid;
+}
+
+async function hasGridFields(page, { cells, planes }) {
+  await eventually(async () => {
+    for (const [d, axis] of ['x', 'y', 'z'].entries()) {
+      const read = async (key) => Number(await page.locator(`#grid-${key}-${axis}`).inputValue());
+      assert.equal(await read('cells'), cells[d]);
+      const size = planes[d].at(-1) - planes[d][0];
+      for (const [key, x] of [['min', planes[d][0]], ['max', planes[d].at(-1)]]) {
+        assert.ok(Math.abs((await read(key)) - x) < 1e-12 * size, `${key} along ${axis}: ${await read(key)} instead of ${x}`);
+      }
+    }
+  }, 5000);
 }
 
 /** A server that sends the file when it is told to. */
@@ -42,11 +63,11 @@ describe('a mesh that cannot be cut', () => {
     const page = await site.open(t, start);
     await enter(page, '#pin-number', 0);
     await shows(page, '#cell-card', { cell: 0 });
-    await pick(page, 'crossing.obj', writeObj(crossing));
+    await pick(page, 'not-finite.obj', writeObj(notFinite));
     await page.locator('#stage-note').waitFor();
-    assert.match(await textOf(page, '#stage-note'), /can't be cut.*triangles? \d+/i);
+    assert.match(await textOf(page, '#stage-note'), /can't be cut.*vertex \d+/i);
     assert.equal(await isReady(page), 'error');
-    await shows(page, '#mesh-line', { name: 'crossing.obj' });
+    await shows(page, '#mesh-line', { name: 'not-finite.obj' });
     await eventually(async () => assert.ok(covered(await pixelsOf(page)) < 0.001, 'the former picture is gone'));
     assert.equal((await textOf(page, '#counts')).trim(), '');
     assert.doesNotMatch(await textOf(page, '#hover-line'), /wedge/);
@@ -61,6 +82,20 @@ describe('a mesh that cannot be cut', () => {
     assert.equal(await page.locator('#stage-note').isVisible(), false);
     assert.equal(await page.locator('#save-json').isDisabled(), false);
     await eventually(async () => assert.ok(covered(await pixelsOf(page)) > 0.05));
+  });
+
+  test('has its own grid in the fields of the custom grid, also where no cut succeeds', async (t) => {
+    const page = await site.open(t, start);
+    await page.locator('#custom-grid summary').click();
+    await hasGridFields(page, gridAround(await galleryMesh('wedge'), 4));
+    await pick(page, 'crossing.obj', writeObj(crossing));
+    await shows(page, '#mesh-line', { name: 'crossing.obj' });
+    await hasGridFields(page, gridAround(crossing, 4));
+    await page.locator('#gallery [data-name="wedge"]').click();
+    await shows(page, '#mesh-line', { name: 'wedge' });
+    await enter(page, '#cells-number', 512);
+    await eventually(async () => assert.match(await textOf(page, '#cut-error'), /too fine/));
+    await hasGridFields(page, gridAround(await galleryMesh('wedge'), 512));
   });
 
   test('in a grid that is too fine keeps its picture, which is of the same mesh', async (t) => {

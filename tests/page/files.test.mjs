@@ -52,7 +52,8 @@ const faces = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]];
 const expectedCorners = faces.flat().map((v) => points[v]);
 
 const pointLines = points.map((p) => `${p.join(' ')}\n`);
-const obj = `# made by hand\n${pointLines.map((p) => `v ${p}`).join('')}${faces.map((f) => `f ${f.map((v) => v + 1).join(' ')}\n`).join('')}`;
+const faceLines = faces.map((f) => `f ${f.map((v) => v + 1).join(' ')}\n`);
+const obj = `# made by hand\n${pointLines.map((p) => `v ${p}`).join('')}${faceLines.join('')}`;
 const off = `OFF\n4 4 0\n${points.map((p) => p.join(' ')).join('\n')}\n${faces.map((f) => `3 ${f.join(' ')}`).join('\n')}\n`;
 const facets = faces.map((f) => `facet normal 0 0 0\nouter loop\n${f.map((v) => `vertex ${pointLines[v]}`).join('')}endloop\nendfacet\n`);
 const stl = `solid tetrahedron\n${facets.join('')}endsolid\n`;
@@ -115,7 +116,9 @@ function glb(json, data = gltfData) {
   text += ' '.repeat((4 - (text.length % 4)) % 4);
   const bytes = Buffer.alloc(28 + text.length + data.length);
   const end = 20 + text.length;
-  const words = [[0, 0x46546c67], [4, 2], [8, bytes.length], [12, text.length], [16, 0x4e4f534a], [end, data.length], [end + 4, 0x004e4942]];
+  const words = [
+    [0, 0x46546c67], [4, 2], [8, bytes.length], [12, text.length], [16, 0x4e4f534a], [end, data.length], [end + 4, 0x004e4942],
+  ];
   for (const [at, word] of words) bytes.writeUInt32LE(word, at);
   bytes.write(text, 20);
   data.copy(bytes, 28 + text.length);

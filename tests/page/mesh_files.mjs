@@ -19,9 +19,13 @@ function off({ positions, triangles }) {
 }
 
 function ply({ positions, triangles }) {
-  const header = ['ply', 'format ascii 1.0', `element vertex ${positions.length / 3}`, 'property float x', 'property float y', 'property float z',
-    `element face ${triangles.length / 3}`, 'property list uchar int vertex_indices', 'end_header'];
-  return [...header, ...rows(positions).map((p) => p.join(' ')), ...rows(triangles).map((corners) => `3 ${corners.join(' ')}`), ''].join('\n');
+  const header = [
+    'ply', 'format ascii 1.0',
+    `element vertex ${positions.length / 3}`, 'property float x', 'property float y', 'property float z',
+    `element face ${triangles.length / 3}`, 'property list uchar int vertex_indices', 'end_header',
+  ];
+  const faces = rows(triangles).map((corners) => `3 ${corners.join(' ')}`);
+  return [...header, ...rows(positions).map((p) => p.join(' ')), ...faces, ''].join('\n');
 }
 
 function binaryStl({ positions, triangles }) {
@@ -48,7 +52,10 @@ function glb({ positions, triangles }) {
       { bufferView: 0, componentType: 5126, count: positions.length / 3, type: 'VEC3', min: bounds(Math.min), max: bounds(Math.max) },
       { bufferView: 1, componentType: 5125, count: triangles.length, type: 'SCALAR' },
     ],
-    bufferViews: [{ buffer: 0, byteOffset: 0, byteLength: places.length }, { buffer: 0, byteOffset: places.length, byteLength: indices.length }],
+    bufferViews: [
+      { buffer: 0, byteOffset: 0, byteLength: places.length },
+      { buffer: 0, byteOffset: places.length, byteLength: indices.length },
+    ],
     buffers: [{ byteLength: places.length + indices.length }],
   });
   const text = Buffer.from(json.padEnd(4 * Math.ceil(json.length / 4)));
@@ -66,8 +73,12 @@ export const octahedronFiles = {
   'octahedron.glb': glb(octahedron),
 };
 
+const moved = octahedron.positions.map((x, at) => (at % 3 === 0 ? x + 0.5 : 0.7 * x));
 /** Triangles of the first eight meet those of the last eight. */
-export const crossing = join(octahedron, { ...octahedron, positions: octahedron.positions.map((x, at) => (at % 3 === 0 ? x + 0.5 : 0.7 * x)) });
+export const crossing = join(octahedron, { ...octahedron, positions: moved });
+
+/** It can be read, but not cut. */
+export const notFinite = { ...octahedron, positions: octahedron.positions.with(0, NaN) };
 
 /** Files that can't be read, and what has to be said about them. */
 export const badFiles = [

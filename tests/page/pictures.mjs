@@ -79,8 +79,8 @@ export function difference(a, b) {
 const likeness = 6;
 
 /**
- * Waits until the canvas looks like the expected picture of that name. With UPDATE_PICTURES=folder what is seen becomes the expected picture and
- * its PNG is put into the folder, to be looked at.
+ * Waits until the canvas looks like the expected picture of that name. With UPDATE_PICTURES=folder what is seen becomes the expected
+ * picture, and its PNG is put into the folder, to be looked at.
  */
 export async function looksLike(page, name) {
   const folder = process.env.UPDATE_PICTURES;

@@ -22,7 +22,8 @@ for (const [name, hash] of Object.entries(pictures)) {
   });
   const { x, y, width, height } = await page.locator('canvas').first().boundingBox();
   const side = Math.min(width, height * 1.3);
-  writeFileSync(path('web', 'pictures', `${name}.png`), await page.screenshot({ clip: { x: x + (width - side) / 2, y, width: side, height } }));
+  const clip = { x: x + (width - side) / 2, y, width: side, height };
+  writeFileSync(path('web', 'pictures', `${name}.png`), await page.screenshot({ clip }));
 }
 for (const f of cleanUp) await f();
 await site.close();

@@ -26,7 +26,8 @@ export function keptCells({ cutMesh, measures }, planes, isShown = (region) => c
     if (!isShown(cellRegion[cell])) continue;
     const isKept = planes.every(({ normal, position }) => {
       const reach = normal.reduce((sum, n, d) => sum + (Math.abs(n) * (grid.planes[d].at(-1) - grid.planes[d][0])) / 2, 0);
-      const height = normal.reduce((sum, n, d) => sum + n * Math.fround(step * Math.round((measures.cellCentroid[3 * cell + d] - origin[d]) / step)), 0);
+      const rounded = (d) => Math.fround(step * Math.round((measures.cellCentroid[3 * cell + d] - origin[d]) / step));
+      const height = normal.reduce((sum, n, d) => sum + n * rounded(d), 0);
       return height <= (2 * position - 1) * reach;
     });
     if (isKept) cells.push(cell);

@@ -43,7 +43,8 @@ describe('files', () => {
     const piece = await page.evaluate((text) => {
       const parsed = new DOMParser().parseFromString(text, 'application/xml');
       const found = parsed.querySelector('VTKFile[type=UnstructuredGrid] Piece');
-      return parsed.querySelector('parsererror') ? parsed.documentElement.textContent : [found.getAttribute('NumberOfPoints'), found.getAttribute('NumberOfCells')].map(Number);
+      if (parsed.querySelector('parsererror')) return parsed.documentElement.textContent;
+      return ['NumberOfPoints', 'NumberOfCells'].map((name) => Number(found.getAttribute(name)));
     }, xml);
     assert.ok(piece[0] >= cutMesh.positions.length / 3, String(piece));
     assert.equal(piece[1], cutMesh.cellRegion.length + cutMesh.gridCellRegion.filter((region) => region >= 0).length);
@@ -71,7 +72,8 @@ describe('files', () => {
       });
       return points;
     };
-    const extent = (points) => [0, 1, 2].map((d) => points.reduce((most, p) => Math.max(most, p[d]), -Infinity) - points.reduce((least, p) => Math.min(least, p[d]), Infinity));
+    const end = (points, best, d) => points.reduce((x, p) => best(x, p[d]), points[0][d]);
+    const extent = (points) => [0, 1, 2].map((d) => end(points, Math.max, d) - end(points, Math.min, d));
     const whole = extent(await positionsOf(link));
     const sizes = [0, 1, 2].map((d) => {
       const along = Array.from(mesh.positions).filter((_, at) => at % 3 === d);
@@ -131,7 +133,8 @@ describe('links', () => {
     const { cells, untouched, caps } = await dataOf(page, '#canvas');
     assert.ok(Number(caps) > 0);
     await shows(other, '#canvas', { cells, untouched, caps });
-    for (const [selector, value] of [['#color-by', 'volume'], ['#slice-y-position', '0.388'], ['#explode-cells', '0.31'], ['#cells', '7']]) {
+    const values = { '#color-by': 'volume', '#slice-y-position': '0.388', '#explode-cells': '0.31', '#cells': '7' };
+    for (const [selector, value] of Object.entries(values)) {
       assert.equal(await other.locator(selector).inputValue(), value);
     }
     assert.equal(await other.locator('#slice-y').isChecked(), true);
@@ -156,7 +159,8 @@ describe('links', () => {
 
   test('a link to a mesh at an address, with a grid of its own', async (t) => {
     const grid = { min: [-2, -2, -2], max: [3, 2, 2], cells: [5, 4, 3] };
-    const page = await site.open(t, `url=${encodeURIComponent(site.meshUrl('octahedron.ply'))}&n=5,4,3&box=-2,-2,-2,3,2,2&snap=0.1&free=off&x=0.5,-1`);
+    const url = encodeURIComponent(site.meshUrl('octahedron.ply'));
+    const page = await site.open(t, `url=${url}&n=5,4,3&box=-2,-2,-2,3,2,2&snap=0.1&free=off&x=0.5,-1`);
     const other = await cutOf(octahedron, grid, { snapTolerance: 0.1 });
     await shows(page, '#counts', { grid: '5x4x3', cutCells: other.cutMesh.cellRegion.length });
     await shows(page, '#canvas', { cells: keptCells(other, [{ normal: [-1, 0, 0], position: 0.5 }]).length });
@@ -167,7 +171,10 @@ describe('links', () => {
     ['n=0&x=2,1&y=0.5,3&free=a,b,c,d', /n, x, y, free/],
     ['box=1,2,3', /box/],
     ['n=3,4,5&box=0,0,0,-1,1,1', /n/],
-    ['snap=0.7&explode=9,9&color=plaid&show=ghosts&camera=1,1,1,1,1,1&region=-2&slice=thick', /snap, explode, color, show, camera, region, slice/],
+    [
+      'snap=0.7&explode=9,9&color=plaid&show=ghosts&camera=1,1,1,1,1,1&region=-2&slice=thick',
+      /snap, explode, color, show, camera, region, slice/,
+    ],
     ['nonsense=1&__proto__=2&constructor=3', /nonsense, __proto__, constructor/],
     ['%%%', /%%%/],
   ]) {
@@ -182,7 +189,10 @@ describe('links', () => {
     });
   }
 
-  for (const hash of ['mesh=unicorn', 'mesh=bunny&n=100000', `n=${2 ** 31},1,1&box=0,0,0,1,1,1`, 'mesh=bunny&n=2,2,2&box=50,50,50,51,51,51', 'region=7']) {
+  const hashes = [
+    'mesh=unicorn', 'mesh=bunny&n=100000', `n=${2 ** 31},1,1&box=0,0,0,1,1,1`, 'mesh=bunny&n=2,2,2&box=50,50,50,51,51,51', 'region=7',
+  ];
+  for (const hash of hashes) {
     test(`a link that asks for what isn't there, "${hash}", still shows a picture`, async (t) => {
       const page = await site.open(t, hash);
       await shows(page, '#mesh-line', { name: 'bunny' });

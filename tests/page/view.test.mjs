@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { after, describe, test } from 'node:test';
 import { torus, writeObj } from '../package/meshes.mjs';
 import { octahedron } from './mesh_files.mjs';
-import { dataOf, eventually, isReady, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
+import { dataOf, enter, eventually, isReady, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
 import { covered, difference, isBlue, isDrawn, isOrange, looksLike, pixelsOf, share, tiles } from './pictures.mjs';
 import { cutOf, galleryMesh, keptCells, mandoline } from './reference.mjs';
 
@@ -70,7 +70,8 @@ describe('slices', () => {
     await page.locator('#canvas').focus();
     await page.keyboard.press('x');
     await page.keyboard.press('z');
-    await shows(page, '#canvas', { cells: keptCells(reference, [{ normal: axes.x, position: 0.5 }, { normal: axes.z, position: 0.5 }]).length });
+    const planes = [axes.x, axes.z].map((normal) => ({ normal, position: 0.5 }));
+    await shows(page, '#canvas', { cells: keptCells(reference, planes).length });
     await page.keyboard.press('x');
     await shows(page, '#canvas', { cells: keptCells(reference, [{ normal: axes.z, position: 0.5 }]).length });
   });
@@ -105,7 +106,8 @@ describe('slices', () => {
       for (let angle = 0; angle < 24; ++angle) {
         for (const radius of [0.05, 0.2, 0.33]) {
           const color = colorAt(y + radius * Math.cos(angle), radius * Math.sin(angle));
-          assert.ok(color.every((value, c) => Math.abs(value - middle[c]) < 12), `filled at ${y}, ${radius}, ${angle}: ${color.join()} like ${middle.join()}`);
+          const isLikeMiddle = color.every((value, c) => Math.abs(value - middle[c]) < 12);
+          assert.ok(isLikeMiddle, `filled at ${y}, ${radius}, ${angle}: ${color.join()} like ${middle.join()}`);
         }
       }
     }
@@ -204,6 +206,14 @@ describe('a whole view stays whole', () => {
 });
 
 describe('colours', () => {
+  test('the legend leaves out untouched cells where there are none', async (t) => {
+    const page = await site.open(t, 'mesh=wedge&n=4&free=off');
+    await shows(page, '#counts', { untouchedCells: 0 });
+    assert.equal(await textOf(page, '#legend'), 'pieces of triangles pieces of grid-faces');
+    await enter(page, '#cells-number', 12);
+    await eventually(async () => assert.match(await textOf(page, '#legend'), /untouched cells$/));
+  });
+
   const legends = {
     region: ['region 0, outside', 'region 1', 'region 2, outside', 'region 3', 'region 4, outside', 'region 5'],
     winding: ['winding number 0', 'winding number 1'],
@@ -212,7 +222,8 @@ describe('colours', () => {
     cell: [],
   };
   test('by region, winding number, volume, kind and cell, each with its legend', async (t) => {
-    const page = await site.open(t, 'mesh=nested-spheres&n=6&free=off&explode=0,0&z=0.55,1&show=surface,gridFaces,untouched,cutCells,outside&camera=1,1,5,0,0,0');
+    const look = 'free=off&explode=0,0&z=0.55,1&show=surface,gridFaces,untouched,cutCells,outside&camera=1,1,5,0,0,0';
+    const page = await site.open(t, `mesh=nested-spheres&n=6&${look}`);
     const pictures = [];
     for (const [colorBy, expected] of Object.entries(legends)) {
       await page.locator('#color-by').selectOption(colorBy);
@@ -221,7 +232,9 @@ describe('colours', () => {
       const picture = tiles(await pixelsOf(page));
       for (const former of pictures) assert.ok(difference(former, picture) > 3, `colours by ${colorBy} are unlike the others`);
       pictures.push(picture);
-      const swatches = await page.locator('#legend .swatch').evaluateAll((all) => all.map((swatch) => getComputedStyle(swatch).backgroundColor));
+      const swatches = await page.locator('#legend .swatch').evaluateAll((all) => {
+        return all.map((swatch) => getComputedStyle(swatch).backgroundColor);
+      });
       if (colorBy !== 'region' && colorBy !== 'winding') assert.equal(new Set(swatches).size, expected.length);
     }
   });
@@ -343,7 +356,8 @@ describe('show', () => {
   });
 
   test('a grid within the mesh has an inside alone, which is shown', async (t) => {
-    const page = await site.open(t, `n=2,2,2&box=-0.1,-0.1,-0.1,0.1,0.1,0.1&free=off&url=${encodeURIComponent(site.meshUrl('spheres.obj'))}`);
+    const url = encodeURIComponent(site.meshUrl('spheres.obj'));
+    const page = await site.open(t, `n=2,2,2&box=-0.1,-0.1,-0.1,0.1,0.1,0.1&free=off&url=${url}`);
     const options = await page.locator('#region option').allTextContents();
     assert.match(options[1], /^0 · winding 1/);
     assert.ok(Number((await dataOf(page, '#canvas')).untouched) > 0);

@@ -10,8 +10,8 @@ namespace {
 /// Number of half-faces of each cut-cell in a grid cell, ascending.
 std::vector<size_t> sizesIn(const StagedCut& cut, const Slab& gridCell) {
   std::vector<size_t> sizes;
-  for (size_t c = 0; c < cut.state.cells.stencilCells.size(); ++c) {
-    if (cut.state.stencil.cells[cut.state.cells.stencilCells[c]].element == gridCell) sizes.push_back(cut.state.cells.halfFaces[c].size());
+  for (const CellId c : cut.state.cells.gridCells.ids()) {
+    if (cut.state.stencil.cells[cut.state.cells.gridCells[c]].element == gridCell) sizes.push_back(cut.state.cells.halfFaces[c].size());
   }
   std::sort(sizes.begin(), sizes.end());
   return sizes;

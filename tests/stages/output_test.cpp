@@ -61,15 +61,17 @@ TEST_CASE("Triangles without a face are listed as dropped", "[stages][output]") 
   const Mesh flat = shapes::triangle({2, 2, 2}, {2.5, 2.5, 2.5}, {2.25, 2.25, 2.25});
   const CutMesh cutMesh = cutMeshOf(shapes::merged({outside, inside, flat, inside}));
   CHECK(cutMesh.triangleCount == 4);
-  CHECK(cutMesh.droppedTriangles == std::vector<uint32_t>{0, 2, 3});
+  CHECK(cutMesh.droppedTriangles == std::vector<uint32_t>{0, 2});
 }
 
 TEST_CASE("The description covers every array with its length", "[stages][output]") {
-  const CutMesh cutMesh = cutMeshOf(shapes::cube(0.5, 2.5));
+  const CutMesh cutMesh = cutMeshOf(shapes::merged({shapes::cube(0.5, 2.5), shapes::cube(0.75, 2.75)}));
   std::map<Element, size_t> counts = {{Element::vertex, cutMesh.vertexCount()},
                                       {Element::loop, cutMesh.loopCount()},
                                       {Element::loopVertex, cutMesh.loopVertices.size()},
                                       {Element::face, cutMesh.faceCount()},
+                                      {Element::faceParent, cutMesh.faceParents.size()},
+                                      {Element::madeVertex, cutMesh.madeVertices.size()},
                                       {Element::cell, cutMesh.cellCount()},
                                       {Element::cellHalfFace, cutMesh.cellHalfFaces.size()},
                                       {Element::row, 9},
@@ -81,5 +83,6 @@ TEST_CASE("The description covers every array with its length", "[stages][output
     CHECK(array.size() == size_t(info.items) * counts.at(info.per) + (info.offsets ? 1 : 0));
     CHECK(names.insert(info.name).second);
   });
-  CHECK(names.size() == 21);
+  CHECK(names.size() == 27);
+  CHECK(cutMesh.madeVertices.size() > 5);
 }

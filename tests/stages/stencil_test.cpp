@@ -7,11 +7,11 @@ TEST_CASE("One touched grid cell has 6 grid-faces, 12 grid-edges and 8 grid vert
   const StagedCut cut(shapes::triangle({1.25, 1.25, 1.25}, {1.75, 1.25, 1.5}, {1.25, 1.75, 1.5}), Stage::stencil);
   const Stencil& stencil = cut.state.stencil;
   REQUIRE(stencil.cells.size() == 1);
-  CHECK(stencil.cells[0].element == Slab{3, 3, 3});
+  CHECK(stencil.cells[{0}].element == Slab{3, 3, 3});
   CHECK(stencil.faces.size() == 6);
   CHECK(stencil.edgeCount == 12);
   CHECK(stencil.cornerCount == 8);
-  CHECK(stencil.triFacesInCell[0].size() == 1);
+  CHECK(stencil.triFacesInCell[{0}].size() == 1);
 }
 
 TEST_CASE("Neighbours share what lies between them", "[stages][stencil]") {
@@ -22,8 +22,8 @@ TEST_CASE("Neighbours share what lies between them", "[stages][stencil]") {
   CHECK(stencil.faces.size() == 11);
   CHECK(stencil.edgeCount == 20);
   CHECK(stencil.cornerCount == 12);
-  const uint32_t shared = stencil.cells[0].faces[cellFace(2, 1)];
-  CHECK(stencil.cells[1].faces[cellFace(2, 0)] == shared);
+  const GridFaceId shared = stencil.cells[{0}].faces[cellFace(2, 1)];
+  CHECK(stencil.cells[{1}].faces[cellFace(2, 0)] == shared);
   CHECK(stencil.triFacesOnFace[shared].size() == 1);
   CHECK(stencil.edgesOnFace[shared].size() == 3);
 }
@@ -49,7 +49,7 @@ TEST_CASE("Corners of a grid-face run counter-clockwise, each edge from one to t
   const CutVertices& vertices = cut.state.surface.vertices;
   for (const Stencil::Face& face : stencil.faces) {
     const auto corners = stencil.cornersOf(face);
-    std::array<uint32_t, 4> v;
+    std::array<VertexId, 4> v;
     for (size_t i = 0; i < 4; ++i) v[i] = cut.gridEdges.corners[corners[i]];
     Predicates predicates;
     for (size_t i = 0; i < 4; ++i) CHECK(vertices.orient(v[i], v[(i + 1) % 4], v[(i + 2) % 4], face.axis(), predicates) > 0);

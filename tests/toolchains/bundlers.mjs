@@ -1,6 +1,6 @@
 // Bundlers for browsers, and none. What they make has to run in Chromium.
 import assert from 'node:assert/strict';
-import { copyFileSync } from 'node:fs';
+import { copyFileSync, readdirSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { assertChecked, checkModule, html, ownWorker, pageScript } from './example.mjs';
@@ -47,6 +47,16 @@ for (const mode of ['development', 'production']) {
   });
 }
 
+test('webpack 5, a page that starts no worker, without a script for one', async () => {
+  const script = `
+    import { init } from 'mandoline-wasm';
+    init().then(({ version }) => { globalThis.outcome = { version }; }, (error) => { globalThis.outcome = { error: error.message }; });`;
+  const folder = makeProject('webpack core', { 'dist/index.html': html('./main.js', { module: false }), 'main.js': script });
+  await run(folder, '.bin/webpack', '--mode', 'production', '--entry', './main.js');
+  assert.deepEqual(readdirSync(join(folder, 'dist')).filter((file) => file.endsWith('.js')), ['main.js']);
+  assert.equal((await openFolder(join(folder, 'dist'))).error, undefined);
+});
+
 test('Parcel', async () => {
   const folder = makeProject('parcel', { 'index.html': html('./main.js'), ...asIs }); // it loses what two workers share
   assertQuiet(await run(folder, '.bin/parcel', 'build', 'index.html', '--public-url', './', '--no-cache'));
@@ -91,8 +101,11 @@ for (const [name, command] of Object.entries(fileBuilds)) {
   test(`${name}, with neither, says what is missing`, async () => {
     const folder = makeProject(`${name} neither`, { 'dist/index.html': html('./main.js'), ...asIs });
     await run(folder, ...command);
-    const { error } = await openFolder(join(folder, 'dist'), { expected: /404/ });
-    assert.match(error, /\/some\/path\/mandoline\.wasm could not be loaded: the server answered with 404/);
+    rmSync(join(folder, 'dist', 'worker-thread.js'));
+    const missing = async () => (await openFolder(join(folder, 'dist'), { expected: /404/ })).error;
+    assert.match(await missing(), /\/some\/path\/mandoline\.wasm could not be loaded: the server answered with 404/);
+    copyFileSync(join(folder, 'node_modules', 'mandoline-wasm', 'dist', 'mandoline.wasm'), join(folder, 'dist', 'mandoline.wasm'));
+    assert.match(await missing(), /its script worker-thread\.js could not be loaded/);
   });
 }
 

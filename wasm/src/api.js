@@ -1,6 +1,7 @@
 // The calls of the package, on a module that has been started.
 import {
-  bad, readFlag, readFunction, readGrid, readId, readMesh, readNumbers, readOptions, readPlane, readPoints, readSnapTolerance, readVector,
+  bad, readFlag, readFlags, readFunction, readGrid, readId, readIntersections, readMesh, readMaxPairs, readNumbers, readOptions, readPlane,
+  readPoints, readResolved, readRule, readSnapTolerance, readVector,
 } from './arguments.js';
 import { named } from './errors.js';
 import { readFile } from './files.js';
@@ -23,25 +24,49 @@ function withProgress(progress, f) {
   }
 }
 
+function makePrepare(host) {
+  return (mesh, options) => {
+    const given = readOptions(options);
+    return withProgress(given.progress, (progress) => {
+      const input = readMesh(mesh);
+      const preparation = { intersections: readIntersections(given) };
+      return host.run((bindings, twins) => {
+        const { value: twin, error } = bindings.prepare(input, { ...preparation, progress });
+        if (error) return { error };
+        const value = { positions: new Float64Array(input.positions), triangles: new Uint32Array(input.triangles) };
+        host.adopt(value, preparation);
+        twins.keep(value, twin);
+        return { value };
+      });
+    });
+  };
+}
+
 function makeCut(host) {
   return (mesh, grid, options) => {
     const given = readOptions(options);
     return withProgress(given.progress, (progress) => {
-      const input = [readMesh(mesh), readGrid(grid), {
+      const preparation = host.preparationOf(mesh);
+      const arrays = preparation ? null : readMesh(mesh);
+      const place = readGrid(grid);
+      const what = {
         snapTolerance: readSnapTolerance(given),
+        intersections: readIntersections(given),
         gridCellRegion: readFlag(given.gridCellRegion, true, 'options.gridCellRegion'),
         keep: readFlag(given.keep, true, 'options.keep'),
         progress,
-      }];
-      return host.run((bindings, twins) => {
-        const { value, error } = bindings.cut(...input);
+      };
+      const cut = (bindings, prepared, twins) => {
+        const { value, error } = bindings.cut(arrays, place, { ...what, prepared });
         if (error) return { error };
         if (value.twin) {
           host.adopt(value.cutMesh);
           twins.keep(value.cutMesh, value.twin);
         }
         return { value: value.cutMesh };
-      });
+      };
+      if (!preparation) return host.run((bindings, twins) => cut(bindings, undefined, twins));
+      return host.runOnPrepared(mesh, (bindings) => bindings.prepare(readMesh(mesh), { ...preparation, progress }), cut);
     });
   };
 }
@@ -49,7 +74,8 @@ function makeCut(host) {
 function makeTriangulate(host) {
   return (cutMesh, of) => {
     if (of === undefined) return host.runOn(cutMesh, (bindings, twin) => bindings.triangulate(twin));
-    if (typeof of !== 'object' || of === null || ('cell' in of) === ('region' in of)) throw bad('The second argument must be { cell } or { region }.');
+    const isObject = typeof of === 'object' && of !== null;
+    if (!isObject || ('cell' in of) === ('region' in of)) throw bad('The second argument must be { cell } or { region }.');
     if ('region' in of) {
       const region = readId(of.region, 'region');
       return host.runOn(cutMesh, (bindings, twin) => bindings.triangulateRegion(twin, region));
@@ -68,6 +94,24 @@ function callsOf(host) {
         return host.runOn(cutMesh, (bindings, twin) => bindings.validate(input[0], twin, input[1]), false);
       });
     },
+    findIntersections: (mesh, options) => {
+      const given = readOptions(options);
+      return withProgress(given.progress, (progress) => {
+        const input = [readMesh(mesh), { maxPairs: readMaxPairs(given), progress }];
+        return host.run((bindings) => bindings.findIntersections(...input));
+      });
+    },
+    resolve: (mesh, options) => withProgress(readOptions(options).progress, (progress) => {
+      const input = readMesh(mesh);
+      return host.run((bindings) => bindings.resolve(input, { progress }));
+    }),
+    boundary: (mesh, rule) => {
+      const number = readRule(rule);
+      const isCutMesh = host.isResult(mesh) || mesh?.grid !== undefined;
+      if (isCutMesh) return host.runOn(mesh, (bindings, twin) => bindings.boundary(twin, number));
+      const resolved = readResolved(mesh);
+      return host.run((bindings) => bindings.boundaryOfResolved(resolved, number));
+    },
     measure: (mesh, cutMesh, options) => withProgress(readOptions(options).progress, (progress) => {
       const input = readMesh(mesh);
       return host.runOn(cutMesh, (bindings, twin) => bindings.measure(input, twin, { progress }));
@@ -80,29 +124,38 @@ function callsOf(host) {
     triangulate: makeTriangulate(host),
     cellAt: (cutMesh, point) => {
       const input = readVector(point, 'point');
-      const { cell, gridCell, region } = host.runOn(cutMesh, (bindings, twin) => bindings.locate(twin, input));
+      const { cell, gridCell, region } = host.runOn(cutMesh, (bindings, twin) => bindings.cellsAt(twin, input));
       return region[0] < 0 ? null : { cell: cell[0], gridCell: [...gridCell], region: region[0] };
     },
     cellsAt: (cutMesh, points) => {
       const input = readPoints(points);
-      return host.runOn(cutMesh, (bindings, twin) => bindings.locate(twin, input));
+      return host.runOn(cutMesh, (bindings, twin) => bindings.cellsAt(twin, input));
     },
     slice: (cutMesh, plane, options) => {
       const input = [readPlane(plane), readFlag(readOptions(options).untouched, true, 'options.untouched')];
       return host.runOn(cutMesh, (bindings, twin) => bindings.slice(twin, ...input));
     },
     slices: (cutMesh, normal, offsets, options) => {
-      const input = [readVector(normal, 'normal'), readNumbers(offsets, 'offsets'), readFlag(readOptions(options).untouched, true, 'options.untouched')];
+      const untouched = readFlag(readOptions(options).untouched, true, 'options.untouched');
+      const input = [readVector(normal, 'normal'), readNumbers(offsets, 'offsets'), untouched];
       return host.runOn(cutMesh, (bindings, twin) => bindings.slices(twin, ...input));
     },
     outlines: (cutMesh, normal, offsets) => {
       const input = [readVector(normal, 'normal'), readNumbers(offsets, 'offsets')];
       return host.runOn(cutMesh, (bindings, twin) => bindings.outlines(twin, ...input));
     },
-    write: (mesh, cutMesh, format) => {
+    write: (mesh, cutMesh, format, options) => {
       if (!['json', 'vtu', 'obj'].includes(format)) throw bad('format must be "json", "vtu" or "obj".');
-      const input = readMesh(mesh);
-      return host.runOn(cutMesh, (bindings, twin) => bindings.write(input, twin, format));
+      const given = readOptions(options);
+      return withProgress(given.progress, (progress) => {
+        const input = readMesh(mesh);
+        const what = {
+          untouched: readFlag(given.untouched, true, 'options.untouched'),
+          regions: readFlags(given.regions, 'options.regions'),
+          progress,
+        };
+        return host.runOn(cutMesh, (bindings, twin) => bindings.write(input, twin, format, what));
+      });
     },
     readMesh: async (source, options) => {
       const { name, bytes } = await readFile(source, options);
@@ -114,5 +167,10 @@ function callsOf(host) {
 /** What init() resolves to. */
 export function makeApi(host) {
   const calls = Object.entries(callsOf(host)).map(([name, call]) => [name, named(name, call)]);
-  return { version: host.run((bindings) => ({ value: bindings.version() })), cut: named('input', makeCut(host)), ...Object.fromEntries(calls) };
+  return {
+    version: host.run((bindings) => ({ value: bindings.version() })),
+    prepare: named('input', makePrepare(host)),
+    cut: named('input', makeCut(host)),
+    ...Object.fromEntries(calls),
+  };
 }

@@ -100,7 +100,8 @@ export function readVector(value, name, read = expectNumber) {
 
 /** The grid of a cut-mesh, or another one given by its planes. */
 function readPlanes(grid, name) {
-  if (!Array.isArray(grid.planes) || grid.planes.length !== 3) throw bad(`${name}.planes must have the planes of three axes, not ${kindOf(grid.planes)}.`);
+  const isTriple = Array.isArray(grid.planes) && grid.planes.length === 3;
+  if (!isTriple) throw bad(`${name}.planes must have the planes of three axes, not ${kindOf(grid.planes)}.`);
   const planes = [0, 1, 2].map((d) => readNumbers(grid.planes[d], `${name}.planes[${d}]`));
   const uniform = grid.spacing !== null && grid.spacing !== undefined;
   return {
@@ -115,9 +116,10 @@ export function readGrid(grid) {
   expectObject(grid, 'grid');
   if ('planes' in grid) return readPlanes(grid, 'grid');
   const cells = () => readVector(grid.cells, 'grid.cells', readCount);
-  if ('min' in grid || 'max' in grid) return { kind: 'box', min: readVector(grid.min, 'grid.min'), max: readVector(grid.max, 'grid.max'), cells: cells() };
+  const vector = (key) => readVector(grid[key], `grid.${key}`);
+  if ('min' in grid || 'max' in grid) return { kind: 'box', min: vector('min'), max: vector('max'), cells: cells() };
   if ('spacing' in grid || 'origin' in grid) {
-    return { kind: 'regular', origin: readVector(grid.origin, 'grid.origin'), spacing: readVector(grid.spacing, 'grid.spacing'), cells: cells() };
+    return { kind: 'regular', origin: vector('origin'), spacing: vector('spacing'), cells: cells() };
   }
   return { kind: 'around', cells: readCount(grid.cells, 'grid.cells') };
 }
@@ -134,10 +136,43 @@ export function readSnapTolerance({ snapTolerance = 0 }) {
   return snapTolerance;
 }
 
+/** The number of a word among these, in the order in which C++ numbers them. */
+function readWord(word, words, name) {
+  const number = words.indexOf(word);
+  if (number >= 0) return number;
+  const [last, ...others] = words.map((other) => `"${other}"`).reverse();
+  throw bad(`${name} must be ${others.reverse().join(', ')} or ${last}, not ${typeof word === 'string' ? `"${word}"` : kindOf(word)}.`);
+}
+
+export function readIntersections({ intersections = 'resolve' }) {
+  return readWord(intersections, ['resolve', 'refuse', 'assumeNone'], 'options.intersections');
+}
+
+export function readRule(rule = 'positive') {
+  return readWord(rule, ['positive', 'nonZero', 'odd'], 'rule');
+}
+
+/** How many pairs are to be listed. */
+export function readMaxPairs({ maxPairs = 100_000 }) {
+  if (expectInteger(maxPairs, 'options.maxPairs') < 0) throw bad(`options.maxPairs must be at least 0, not ${maxPairs}.`);
+  return Math.min(maxPairs, 2 ** 32 - 1);
+}
+
 export function readFlag(value, fallback, name) {
   if (value === undefined) return fallback;
   if (typeof value !== 'boolean') throw bad(`${name} must be true or false, not ${kindOf(value)}.`);
   return value;
+}
+
+/** Undefined, or one flag each as bytes. */
+export function readFlags(value, name) {
+  if (value === undefined) return value;
+  if (isTypedArray(value, ['Uint8Array'])) {
+    expectAttached(value, name);
+    return value;
+  }
+  if (!Array.isArray(value)) throw bad(`${name} must be a Uint8Array or an array, not ${kindOf(value)}.`);
+  return Uint8Array.from(value, Boolean);
 }
 
 export function readFunction(value, name) {
@@ -151,12 +186,35 @@ export function readId(value, name) {
   return value;
 }
 
+const parentArrays = ['faceParentOffsets', 'faceParents', 'faceParentSigns'];
+const madeArrays = ['madeVertices', 'madeVertexKinds', 'madeVertexParents'];
+
+/** Cut-meshes from before self-intersections were resolved have neither parents nor made vertices: a face's triangle is its only parent. */
+function completed(cutMesh) {
+  const { faceTriangle } = cutMesh;
+  const isComplete = [...parentArrays, ...madeArrays].some((name) => cutMesh[name] !== undefined);
+  if (isComplete || !isTypedArray(faceTriangle, ['Int32Array'])) return cutMesh;
+  const faceParents = Uint32Array.from(faceTriangle.filter((triangle) => triangle >= 0));
+  const faceParentOffsets = new Uint32Array(faceTriangle.length + 1);
+  for (let f = 0; f < faceTriangle.length; ++f) faceParentOffsets[f + 1] = faceParentOffsets[f] + (faceTriangle[f] >= 0 ? 1 : 0);
+  return {
+    ...cutMesh,
+    faceParentOffsets,
+    faceParents,
+    faceParentSigns: new Int8Array(faceParents.length).fill(1),
+    madeVertices: new Uint32Array(),
+    madeVertexKinds: new Uint8Array(),
+    madeVertexParents: new Int32Array(),
+  };
+}
+
 /**
  * The arrays that the module says a cut-mesh has ({ name, type, optional } each), with the right types; whether their lengths and ids fit
  * together is up to C++.
  */
-export function readCutMesh(cutMesh, arrays) {
-  expectObject(cutMesh, 'cutMesh');
+export function readCutMesh(given, arrays) {
+  expectObject(given, 'cutMesh');
+  const cutMesh = completed(given);
   expectObject(cutMesh.grid, 'cutMesh.grid');
   const result = {
     grid: readPlanes(cutMesh.grid, 'cutMesh.grid'),
@@ -168,6 +226,14 @@ export function readCutMesh(cutMesh, arrays) {
     result[name] = optional && value === null ? null : expectTypedArray(value, type, `cutMesh.${name}`);
   }
   return result;
+}
+
+/** As much of what resolve() gives as boundary() takes. */
+export function readResolved(mesh) {
+  const arrays = readMesh(mesh);
+  const isNull = mesh.frontWinding === null && mesh.backWinding === null;
+  const winding = (key) => (isNull ? null : expectTypedArray(mesh[key], 'Int32Array', `mesh.${key}`));
+  return { ...arrays, frontWinding: winding('frontWinding'), backWinding: winding('backWinding') };
 }
 
 export function readPoints(points) {

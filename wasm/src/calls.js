@@ -1,9 +1,17 @@
+import { readIntersections } from './arguments.js';
 import { buffersOf, clone } from './buffers.js';
 import { MandolineError } from './errors.js';
 
-/** The package's calls with their numbers of arguments before the options, and which of these is the cut-mesh. */
+/**
+ * The package's calls with their numbers of arguments before the options, which of these may have a twin, and whether what they give has
+ * one.
+ */
 const calls = {
-  cut: { count: 2 },
+  prepare: { count: 1, isKept: true },
+  cut: { count: 2, at: 0, isKept: true },
+  findIntersections: { count: 1 },
+  resolve: { count: 1 },
+  boundary: { count: 2, at: 0 },
   validate: { count: 2, at: 1 },
   measure: { count: 2, at: 1 },
   cutEdges: { count: 2, at: 1 },
@@ -50,17 +58,17 @@ function copied(call, values, transfer = []) {
   }
 }
 
-/** What the thread is sent: the cut-mesh that the message names by its id goes along unless there is a twin of it. */
-function pack(message, twins, cutMesh) {
-  const named = message.cutMesh;
-  if (named?.at !== undefined && !twins.has(named.id)) named.data ??= copied(message.call, lean(cutMesh));
-  return { message, transfer: buffersOf([message.args, named?.data]) }; // of the copies: they go on to the thread
+/** What the thread is sent: the argument that the message names by its id goes along unless there is a twin of it. */
+function pack(message, twins, argument) {
+  const { subject } = message;
+  if (subject && !twins.has(subject.id)) subject.data ??= copied(message.call, lean(argument));
+  return { message, transfer: buffersOf([message.args, subject?.data]) }; // of the copies: they go on to the thread
 }
 
 /** Puts calls into a queue of jobs, and knows the results whose twins may be in its thread. */
 export class Calls {
   #queue;
-  #ids = new WeakMap(); // of results
+  #results = new WeakMap(); // { id, preparation }: the latter has the options of those that prepare() gave
   #count = 0;
   #collected = new FinalizationRegistry((id) => this.#queue.freeTwin(id));
 
@@ -70,9 +78,9 @@ export class Calls {
 
   /** A call of the package, with what it was given. */
   own(call, given) {
-    const { count, at } = calls[call];
+    const { count, ...asked } = calls[call];
     const args = Array.from({ length: count }, (_, i) => given[i]);
-    return this.#perform({ call, args, at }, given[count]);
+    return this.#perform({ call, args, ...asked }, given[count]);
   }
 
   /** A call that the thread's script serves. */
@@ -92,34 +100,34 @@ export class Calls {
     const abort = () => this.#queue.stop(job, cancellation());
     signal?.addEventListener('abort', abort);
     try {
-      const { value, twin } = await new Promise((resolve, reject) => {
+      const { value, kept } = await new Promise((resolve, reject) => {
         this.#queue.add(Object.assign(job, { resolve, reject }));
       });
-      if (twin !== undefined && asked.at === undefined) this.#note(value, twin);
+      if (kept.includes(message.result)) this.#note(value, message);
       return value;
     } finally {
       signal?.removeEventListener('abort', abort);
     }
   }
 
-  /** `cutMesh` in a message: { id, at, data } of an argument that is a result of this queue, { id } of the result of a cut. */
-  #message({ call, args, extra, at }, { options, transfer, onProgress }) {
+  /** In it: `subject`, { id, preparation, at, data } of an argument that is a result of this queue, and `result`, the id of a new one. */
+  #message({ call, args, extra, at, isKept }, { options, transfer, onProgress }) {
     const message = { call, extra, args, options, progress: onProgress !== undefined };
-    const id = this.#ids.get(args[at]);
-    if (id !== undefined) {
+    if (isKept) message.result = ++this.#count;
+    const known = this.#results.get(args[at]);
+    if (known) {
       const isMoved = buffersOf(args[at]).some((buffer) => transfer.includes(buffer));
-      const data = isMoved || !this.#queue.hasTwin(id) ? lean(args[at]) : undefined;
-      Object.assign(message, { args: args.with(at, undefined), cutMesh: { id, at, data } });
+      const data = isMoved || !this.#queue.hasTwin(known.id) ? lean(args[at]) : undefined;
+      Object.assign(message, { args: args.with(at, undefined), subject: { ...known, at, data } });
     } else if (at !== undefined) {
       message.args = args.with(at, lean(args[at]));
-    } else if (call === 'cut' && !extra) {
-      message.cutMesh = { id: ++this.#count };
     }
     return copied(call, message, transfer);
   }
 
-  #note(result, id) {
-    this.#ids.set(result, id);
-    this.#collected.register(result, id);
+  #note(value, { call, options, result: id }) {
+    const preparation = call === 'prepare' ? { intersections: readIntersections(options) } : undefined;
+    this.#results.set(value, { id, preparation });
+    this.#collected.register(value, id);
   }
 }

@@ -1,17 +1,10 @@
-import { MandolineError } from './errors.js';
-
-function checkCells(cells, count) {
-  for (let i = 0; i < cells.length; ++i) {
-    if (Number.isInteger(cells[i]) && cells[i] >= 0 && cells[i] < count) continue;
-    const message = `options.cells[${i}] is ${cells[i]}, but there are ${count} cut-cells.`;
-    throw new MandolineError('badArgument', message, { stage: 'cellArrays', element: i });
-  }
-}
+import { MandolineError, named } from './errors.js';
+import { cellShifts, chosenCells } from './selection.js';
 
 /** Per face whether to take it. */
 function facesToTake({ faceTriangle }, faces = 'all') {
   if (!['all', 'surface', 'grid'].includes(faces)) {
-    throw new MandolineError('badArgument', `options.faces must be "all", "surface" or "grid", not ${faces}.`, { stage: 'cellArrays' });
+    throw new MandolineError('badArgument', `options.faces must be "all", "surface" or "grid", not ${faces}.`);
   }
   const [surface, grid] = [faces !== 'grid', faces !== 'surface'].map(Number);
   const taken = new Uint8Array(faceTriangle.length);
@@ -81,20 +74,17 @@ function fill({ position, normal, cell, face }, cutMesh, { faceTriangleOffsets, 
 }
 
 /** cellArrays with a shift of its own for every cut-cell (3 per cut-cell). */
-export function shiftedCellArrays(cutMesh, faceTriangles, { cells, faces }, shifts) {
-  if (cells) checkCells(cells, cutMesh.cellRegion.length);
-  const chosen = cells ?? Uint32Array.from(cutMesh.cellRegion, (_, cell) => cell);
-  const taken = facesToTake(cutMesh, faces);
-  const count = 3 * countTriangles(cutMesh, faceTriangles, chosen, taken);
+export function shiftedCellArrays(cutMesh, faceTriangles, options, shifts) {
+  const cells = chosenCells(cutMesh, options);
+  const taken = facesToTake(cutMesh, options.faces);
+  const count = 3 * countTriangles(cutMesh, faceTriangles, cells, taken);
   const result = {
     position: new Float32Array(3 * count), normal: new Float32Array(3 * count), cell: new Uint32Array(count), face: new Uint32Array(count),
   };
-  fill(result, cutMesh, faceTriangles, { cells: chosen, taken, normals: faceNormals(cutMesh, faceTriangles), shifts });
+  fill(result, cutMesh, faceTriangles, { cells, taken, normals: faceNormals(cutMesh, faceTriangles), shifts });
   return result;
 }
 
-export function cellArrays(cutMesh, faceTriangles, options = {}) {
-  const origin = options.origin ?? [0, 0, 0];
-  const shifts = new Float64Array(3 * cutMesh.cellRegion.length).map((_, i) => -origin[i % 3]);
-  return shiftedCellArrays(cutMesh, faceTriangles, options, shifts);
-}
+export const cellArrays = named('cellArrays', (cutMesh, faceTriangles, { cells, regions, faces, origin } = {}) => {
+  return shiftedCellArrays(cutMesh, faceTriangles, { cells, regions, faces }, cellShifts(cutMesh, { origin }));
+});

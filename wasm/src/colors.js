@@ -1,5 +1,5 @@
 // Colours of cells: linear RGB, 0 to 1. Mixed in Oklab (Ottosson 2020), where equal steps look equal.
-import { MandolineError } from './errors.js';
+import { MandolineError, named } from './errors.js';
 
 const toLinear = (value) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
 const clamp = (value) => Math.min(Math.max(value, 0), 1);
@@ -47,7 +47,9 @@ const volumes = labs('#2b2d6e', '#2a6f93', '#3fa98b', '#a6cf5c', '#f6e651');
 const noWinding = fromHex('#9a9a9a');
 
 /** For faces by what they are pieces of, for the inside of cut-cells where they are cut open, and for untouched grid cells. */
-export const kindColors = { surface: fromHex('#e9a23b'), grid: fromHex('#6fa3cf'), inside: fromHex('#e6d3ae'), untouched: fromHex('#a9b4bf') };
+export const kindColors = {
+  surface: fromHex('#e9a23b'), grid: fromHex('#6fa3cf'), inside: fromHex('#e6d3ae'), untouched: fromHex('#a9b4bf'),
+};
 /** For regions outside the surface, where they are told from the others. */
 export const outsideColor = fromHex('#8ea2b6');
 
@@ -91,8 +93,8 @@ export function volumeScale(cellVolume) {
     if (volume > 0) smallest = Math.min(smallest, volume);
     largest = Math.max(largest, volume);
   }
-  const low = Math.log(Math.max(smallest, 1e-3 * largest)), range = Math.log(largest) - low;
-  return (volume) => volumeColor(range > 0 ? (Math.log(volume) - low) / range : 1);
+  const min = Math.log(Math.max(smallest, 1e-3 * largest)), range = Math.log(largest) - min;
+  return (volume) => volumeColor(range > 0 ? (Math.log(volume) - min) / range : 1);
 }
 
 /** Gives the colour of a cell { region, id, volume }, where only what `colorBy` tells needs to be there. */
@@ -101,13 +103,14 @@ export function cellColorer(cutMesh, colorBy, measures) {
   if (colorBy === 'region') return ({ region }) => regionColor(region);
   if (colorBy === 'winding') return ({ region }) => windingColor(regionWinding ? regionWinding[region] : null);
   if (colorBy === 'cell') return ({ id }) => idColor(id);
-  if (colorBy !== 'volume') throw new MandolineError('badArgument', `There are no colours by ${colorBy}.`, { stage: 'cellColors' });
-  if (!measures) throw new MandolineError('badArgument', 'Colours by volume need the measures.', { stage: 'cellColors' });
+  if (colorBy !== 'volume') throw new MandolineError('badArgument', `There are no colours by ${colorBy}.`);
+  if (!measures) throw new MandolineError('badArgument', 'Colours by volume need the measures.');
   const scale = volumeScale(measures.cellVolume);
   return ({ volume }) => scale(volume);
 }
 
-export function cellColors(cutMesh, colorBy, measures) {
+/** 3 per cut-cell. */
+export function colorsOfCells(cutMesh, colorBy, measures) {
   const color = cellColorer(cutMesh, colorBy, measures);
   const colors = new Float32Array(3 * cutMesh.cellRegion.length);
   for (let id = 0; id < cutMesh.cellRegion.length; ++id) {
@@ -115,3 +118,5 @@ export function cellColors(cutMesh, colorBy, measures) {
   }
   return colors;
 }
+
+export const cellColors = named('cellColors', colorsOfCells);

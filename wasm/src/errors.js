@@ -27,40 +27,29 @@ export function named(stage, f) {
 }
 
 const advice = {
-  cancelled: 'Nothing is wrong: the cut was stopped on request.',
+  cancelled: 'Nothing is wrong: it was stopped on request.',
   emptyMesh: 'The mesh needs at least one triangle: check that the file was read as a surface, not as points or lines.',
   badArrays: 'Positions and triangles need three numbers per item. Check that polygons were split into triangles.',
-  badIndex: 'A triangle names a vertex that is not there. Vertices count from 0; many file formats count from 1.',
-  nonFiniteCoordinate: 'A coordinate is infinite or not a number. Repair or leave out that vertex and its triangles.',
+  badIndex: 'Vertices count from 0; many file formats count from 1.',
+  nonFiniteCoordinate: 'Repair or leave out that vertex and its triangles.',
   badGrid: 'The grid needs at least one cell along each axis, and finite planes in ascending order.',
   gridTooLarge: 'Use fewer cells: at most 2^24 along an axis and 2^28 rows of cells.',
   badOption: 'Choose a value in the range that the message names.',
-  selfIntersection:
-    'Triangles may meet in shared vertices and edges only. Repair these two, for example by resolving the intersections in a mesh editor, and cut again.',
+  selfIntersection: 'Cut with intersections: "resolve", as by default, or repair the mesh.',
   meshTooLarge: 'The result would have too many elements. Use fewer cells, or cut the mesh in parts.',
   outOfMemory: 'Use fewer cells, or leave out gridCellRegion. WebAssembly has at most 4 GB; the native program has no such limit.',
-  internalError: 'This is a fault of the library. Please report it with the mesh and the grid; the next call works again.',
+  internalError: 'Please report this with the mesh and the grid; the next call works again.',
   badArgument: 'The call was given something that it does not take: compare with its documentation.',
   badFile: 'Check that the file is an OBJ, STL, PLY or OFF file, and complete.',
   loadFailed: 'Check that the package\'s files are served beside the code, or take them from mandoline-wasm/inline, '
     + 'and that the page\'s content security policy allows \'wasm-unsafe-eval\'.',
 };
 
-function place({ code, stage, element, element2 }) {
-  const elements = {
-    badIndex: `triangle ${element}`,
-    nonFiniteCoordinate: `vertex ${element}`,
-    badGrid: `axis ${'xyz'[element]}`,
-    gridTooLarge: `axis ${'xyz'[element]}`,
-    selfIntersection: element2 >= 0 ? `triangles ${element} and ${element2}` : `triangle ${element}`,
-  };
-  return [stage && `stage ${stage}`, element >= 0 && elements[code]].filter(Boolean).join(', ');
-}
-
 /** What went wrong, where, and what to do about it, in a few sentences for people. Takes whatever was caught. */
 export function describe(error) {
   // Errors that came from another thread are copies without the class.
   if (!Object.hasOwn(advice, error?.code)) return error instanceof Error ? `${error.name}: ${error.message}` : String(error);
-  const where = place(error);
-  return `${error.message}${where && ` (${where})`} ${advice[error.code]}`;
+  const { code, message, stage } = error; // the message names the elements
+  const where = code === 'internalError' && stage ? `It happened in ${stage}.` : '';
+  return [message, where, advice[code]].filter(Boolean).join(' ');
 }

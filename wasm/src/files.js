@@ -11,8 +11,12 @@ function nameOf(source, { name = source?.name ?? 'the file' }) {
 
 async function bytesOf(source) {
   if (typeof Blob === 'function' && source instanceof Blob) return new Uint8Array(await source.arrayBuffer());
-  if (source instanceof ArrayBuffer) return new Uint8Array(source);
-  if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
+  try {
+    if (source instanceof ArrayBuffer) return new Uint8Array(source);
+    if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
+  } catch {
+    throw bad('The bytes are detached: their buffer was transferred elsewhere.');
+  }
   throw bad('The first argument must be the bytes of a file, as a typed array or an ArrayBuffer, or a Blob.');
 }
 

@@ -1,4 +1,4 @@
-import { readCutMesh } from './arguments.js';
+import { bad, readCutMesh } from './arguments.js';
 import { MandolineError } from './errors.js';
 import { instantiate } from './instance.js';
 import { Twins } from './twins.js';
@@ -14,14 +14,15 @@ export class Host {
   #module;
   #instance; // { bindings, twins }
   #arrays;
-  #results = new WeakSet(); // of this host's calls: they may have twins
+  #results = new WeakMap(); // of this host's calls, which may have twins: the options of prepare(), or undefined for a cut-mesh
 
   constructor(module) {
     this.#module = module;
     try {
       this.#arrays = this.#current().bindings.cutMeshArrays();
     } catch (cause) {
-      throw new MandolineError('loadFailed', `The WebAssembly module could not be started: ${cause?.message ?? cause}.`, { stage: 'init', cause });
+      const message = `The WebAssembly module could not be started: ${cause?.message ?? cause}.`;
+      throw new MandolineError('loadFailed', message, { stage: 'init', cause });
     }
   }
 
@@ -36,23 +37,33 @@ export class Host {
     }
   }
 
-  /** The same with a binding that takes a cut-mesh: the twin of the result that this is, or else its arrays, which may have to pass a check. */
+  /**
+   * The same with a binding that takes a cut-mesh: the twin of the result that this is, or else its arrays, which may have to pass a
+   * check.
+   */
   runOn(cutMesh, f, checked = true) {
-    return this.run((bindings, twins) => {
-      const twin = twins.find(cutMesh);
-      if (twin) return f(bindings, twin);
-      const { value: handle, error } = bindings.keep(readCutMesh(cutMesh, this.#arrays), checked);
-      if (error) return { error };
-      const outcome = f(bindings, handle);
-      if (checked && this.#results.has(cutMesh)) twins.keep(cutMesh, handle);
-      else handle.delete();
-      return outcome;
-    });
+    if (this.preparationOf(cutMesh)) throw bad('cutMesh must be what cut() gives, not what prepare() does.');
+    const read = (bindings) => bindings.keep(readCutMesh(cutMesh, this.#arrays), checked);
+    return this.#runWith(cutMesh, read, f, checked && this.isResult(cutMesh));
   }
 
-  /** Says that this is a result, so that it gets a twin when its arrays are read. */
-  adopt(result) {
-    this.#results.add(result);
+  /** The same with a binding that takes a mesh that prepare() gave: its twin, or else what `again` gives, which does it once more. */
+  runOnPrepared(mesh, again, f) {
+    return this.#runWith(mesh, again, f, true);
+  }
+
+  /** Says that this is a result, of prepare() with such options or of cut(), so that it gets a twin when its arrays are read. */
+  adopt(result, preparation) {
+    this.#results.set(result, preparation);
+  }
+
+  isResult(value) {
+    return this.#results.has(value);
+  }
+
+  /** The options of the prepare() that gave this mesh, if one did. */
+  preparationOf(mesh) {
+    return this.#results.get(mesh);
   }
 
   hasTwin(result) {
@@ -61,6 +72,20 @@ export class Host {
 
   freeTwin(result) {
     this.#instance?.twins.free(result);
+  }
+
+  /** `read` makes the handle of a result that has no twin. */
+  #runWith(result, read, f, isKept) {
+    return this.run((bindings, twins) => {
+      const twin = twins.find(result);
+      if (twin) return f(bindings, twin, twins);
+      const { value: handle, error } = read(bindings);
+      if (error) return { error };
+      if (isKept) twins.keep(result, handle);
+      const outcome = f(bindings, handle, twins);
+      if (!isKept) handle.delete();
+      return outcome;
+    });
   }
 
   #current() {

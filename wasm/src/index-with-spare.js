@@ -1,3 +1,3 @@
-import './spare.js';
+import './spare-wasm.js';
 
 export * from './index.js';

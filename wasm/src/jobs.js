@@ -2,8 +2,8 @@ import { MandolineError } from './errors.js';
 
 /**
  * Jobs done one after another by a thread, which is replaced when it has to be stopped or dies. A job is
- * { call, message, pack, onProgress, resolve, reject }: pack(message, twins) gives { message, transfer } for a thread that has these twins of
- * cut-meshes, by their ids. The first job of every thread is to start the compiled module.
+ * { call, message, pack, onProgress, resolve, reject }: pack(message, twins) gives { message, transfer } for a thread that has these twins
+ * of results, by their ids. The first job of every thread is to start the compiled module.
  */
 export class JobQueue {
   #startThread;
@@ -112,14 +112,14 @@ export class JobQueue {
     else this.#settle((job) => job.reject(new MandolineError(error.code, error.message, error)));
   }
 
-  #resolve(job, value, kept) {
-    if (kept !== undefined) this.#twins.add(kept);
-    job.resolve({ value, twin: kept });
+  #resolve(job, value, kept = []) {
+    for (const id of kept) this.#twins.add(id);
+    job.resolve({ value, kept });
   }
 
   /** After the thread gave the message back, because it no longer has the twin that this names. */
   #repeat(message) {
-    this.#twins.delete(message.cutMesh.id);
+    this.#twins.delete(message.subject.id);
     this.#running.message = message;
     this.#perform(this.#running);
   }

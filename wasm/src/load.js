@@ -1,5 +1,5 @@
 import { MandolineError } from './errors.js';
-import { ownFiles } from './own-files.js';
+import { ownWasm } from './own-wasm.js';
 
 /** Throws unless it is WebAssembly: many servers answer unknown addresses with a page of theirs and status 200. */
 function expectWasm(bytes, type) {
@@ -34,7 +34,7 @@ function failureOf(name, cause) {
 }
 
 /** Compiles the module: `source` is where to load it from, its bytes, the compiled module itself, or a function that gives one of these. */
-export async function compile(source = ownFiles.wasm) {
+export async function compile(source = ownWasm.source) {
   try {
     const given = await (typeof source === 'function' ? source() : source);
     return given instanceof WebAssembly.Module ? given : await WebAssembly.compile(await bytesOf(given));

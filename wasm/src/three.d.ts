@@ -1,24 +1,50 @@
 /**
- * From three.js to Mandoline and back. Importing this needs three, an optional peer dependency. cellArrays, cellColors and meshFromGeometry
- * handle plain data and also run in a worker, from whose bundle three then drops out.
+ * From three.js to Mandoline and back. Importing this needs three, an optional peer dependency. cellArrays, cellEdgeArrays, untouchedCells,
+ * cellColors and meshFromGeometry handle plain data and also run in a worker, where bundlers then leave three out.
+ *
+ * Options that are out of range throw a MandolineError with code "badArgument" and the name of the function as its stage.
  */
 import type { BufferGeometry, Matrix4 } from 'three';
 import type { CutEdges, CutMesh, FaceTriangles, Measures, Slice, Vector3 } from './index.js';
 
 /**
  * The triangles of an indexed or unindexed BufferGeometry (its draw range and groups aside), moved by the matrix if there is one; with one
- * that mirrors, outward stays outward. Seams that miss themselves by a rounding, as that of SphereGeometry, leave the mesh open: merge
- * their vertices first.
+ * that mirrors, outward stays outward. A seam whose two sides differ by a rounding, such as that of SphereGeometry, leaves the mesh open:
+ * merge its vertices first.
  */
-export function meshFromGeometry(geometry: BufferGeometry, matrix?: Matrix4): { positions: Float64Array<ArrayBuffer>; triangles: Uint32Array<ArrayBuffer> };
+export function meshFromGeometry(
+  geometry: BufferGeometry, matrix?: Matrix4,
+): { positions: Float64Array<ArrayBuffer>; triangles: Uint32Array<ArrayBuffer> };
 
-export interface CellArraysOptions {
-  /** Cut-cells to take. Default: all. */
-  cells?: ArrayLike<number>;
-  /** Faces to take: pieces of triangles, pieces of grid-faces, or both. Default: "all". */
-  faces?: 'all' | 'surface' | 'grid';
+/** Options that the functions below share. */
+export interface RegionOptions {
+  /** Regions whose cells are taken. Default: all. */
+  regions?: ArrayLike<number>;
+}
+export interface PlaceOptions {
   /** Subtracted from all positions before they are rounded to 32 bits. Default: 0, 0, 0. */
   origin?: Vector3;
+}
+export interface ExplodeOptions {
+  /** Moves every cell away from the centre of the grid: by this times the way from there to the cell's centroid. Default 0. */
+  explode?: number;
+  /** Needed for colours by volume and to explode cut-cells. */
+  measures?: Measures;
+}
+export interface ColorOptions {
+  /** What vertex colours tell. Default: "region". */
+  colorBy?: ColorBy;
+  /** Needed for colours by volume and to explode cut-cells. */
+  measures?: Measures;
+}
+
+export interface CellEdgeArraysOptions extends RegionOptions, PlaceOptions {
+  /** Cut-cells to take, in this order; those of other regions than `regions` are left out. Default: all. */
+  cells?: ArrayLike<number>;
+}
+export interface CellArraysOptions extends CellEdgeArraysOptions {
+  /** Faces to take: pieces of triangles, pieces of grid-faces, or both. Default: "all". */
+  faces?: 'all' | 'surface' | 'grid';
 }
 
 /**
@@ -37,18 +63,46 @@ export interface CellArrays {
 }
 export function cellArrays(cutMesh: CutMesh, faceTriangles: FaceTriangles, options?: CellArraysOptions): CellArrays;
 
+/** Edges of cut-cells, cell by cell: an edge appears once for each of its cells. */
+export interface CellEdgeArrays {
+  /** 3 per vertex, 2 vertices per edge. */
+  position: Float32Array<ArrayBuffer>;
+  /** Per vertex: the cut-cell. */
+  cell: Uint32Array<ArrayBuffer>;
+  /** Per vertex: that of the cut-mesh. */
+  vertex: Uint32Array<ArrayBuffer>;
+}
+export function cellEdgeArrays(cutMesh: CutMesh, options?: CellEdgeArraysOptions): CellEdgeArrays;
+
+/** Untouched grid cells in the order of the grid, x fastest. */
+export interface UntouchedCells {
+  /** 3 per untouched cell: the grid cell (i, j, k). */
+  gridCell: Int32Array<ArrayBuffer>;
+  /** Per untouched cell. */
+  region: Uint32Array<ArrayBuffer>;
+}
+export function untouchedCells(cutMesh: CutMesh, options?: RegionOptions): UntouchedCells;
+
 export type ColorBy = 'region' | 'winding' | 'cell' | 'volume';
 
-export interface CellGeometryOptions extends CellArraysOptions {
-  /** What vertex colours tell. Default: "region". */
-  colorBy?: ColorBy;
-  /** Needed for colours by volume and to explode. */
-  measures?: Measures;
-  /** Moves every cell away from the centre of the grid: by this times the way from there to the cell's centroid. Default 0. */
-  explode?: number;
-}
-/** A geometry with attributes position, normal, color, cell and face. */
+export interface CellGeometryOptions extends CellArraysOptions, ColorOptions, ExplodeOptions {}
+/** A geometry for Mesh with the attributes of CellArrays and color. */
 export function cellGeometry(cutMesh: CutMesh, faceTriangles: FaceTriangles, options?: CellGeometryOptions): BufferGeometry;
+
+export interface CellEdgeGeometryOptions extends CellEdgeArraysOptions, ExplodeOptions {}
+/** A geometry for LineSegments with the attributes of CellEdgeArrays: the edges of what cellGeometry gives with the same options. */
+export function cellEdgeGeometry(cutMesh: CutMesh, options?: CellEdgeGeometryOptions): BufferGeometry;
+
+export interface UntouchedGeometryOptions extends RegionOptions, PlaceOptions, ColorOptions, ExplodeOptions {}
+/**
+ * Untouched grid cells as boxes, in the order of untouchedCells: an indexed geometry for Mesh with attributes position, normal and color,
+ * 24 vertices and 12 triangles per box.
+ */
+export function untouchedGeometry(cutMesh: CutMesh, options?: UntouchedGeometryOptions): BufferGeometry;
+
+export interface UntouchedEdgeGeometryOptions extends RegionOptions, PlaceOptions, ExplodeOptions {}
+/** Their edges: an indexed geometry for LineSegments with the attribute position, 8 vertices and 12 edges per box. */
+export function untouchedEdgeGeometry(cutMesh: CutMesh, options?: UntouchedEdgeGeometryOptions): BufferGeometry;
 
 /** 3 per cut-cell: linear RGB, 0 to 1. Volumes are told on a logarithmic scale over at most three decades below the largest. */
 export function cellColors(cutMesh: CutMesh, colorBy: ColorBy, measures?: Measures): Float32Array<ArrayBuffer>;
@@ -67,7 +121,7 @@ export const kindColors: Readonly<Record<'surface' | 'grid' | 'inside' | 'untouc
 /** For regions outside the surface, where they are told from the others. */
 export const outsideColor: LinearColor;
 
-/** Cut-edges as a geometry for LineSegments. */
+/** The edges of all cells in their places, each once, as an indexed geometry for LineSegments. */
 export function edgeGeometry(cutMesh: CutMesh, cutEdges: CutEdges, origin?: Vector3): BufferGeometry;
 
 /** A filled slice with attributes position, normal, color, cell (-1 for untouched grid cells). */

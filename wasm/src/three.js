@@ -1,32 +1,26 @@
 import { BufferAttribute, BufferGeometry } from 'three';
 import { shiftedCellArrays } from './cell-arrays.js';
-import { cellColorer, cellColors } from './colors.js';
-import { MandolineError } from './errors.js';
+import { shiftedCellEdges } from './cell-edges.js';
+import { cellColorer, colorsOfCells } from './colors.js';
+import { named } from './errors.js';
+import { cellShifts } from './selection.js';
+import { untouchedColorer, untouchedEdges, untouchedFaces } from './untouched.js';
 
 export { cellArrays } from './cell-arrays.js';
+export { cellEdgeArrays } from './cell-edges.js';
 export { cellColors, idColor, kindColors, outsideColor, regionColor, volumeColor, windingColor } from './colors.js';
 export { meshFromGeometry } from './geometry-mesh.js';
+export { untouchedCells } from './untouched.js';
 
 const noShift = [0, 0, 0];
+const singles = ['cell', 'face', 'vertex'];
 
-function geometryOf(attributes) {
+function geometryOf({ index, ...attributes }) {
   const geometry = new BufferGeometry();
   for (const [name, array] of Object.entries(attributes)) {
-    geometry.setAttribute(name, new BufferAttribute(array, name === 'cell' || name === 'face' ? 1 : 3));
+    geometry.setAttribute(name, new BufferAttribute(array, singles.includes(name) ? 1 : 3));
   }
-  return geometry;
-}
-
-/** 3 per cut-cell: away from the centre of the grid, and to the origin. */
-function cellShifts({ cellRegion, grid }, { origin = noShift, explode = 0, measures }) {
-  if (explode !== 0 && !measures) throw new MandolineError('badArgument', 'Exploding needs the measures.', { stage: 'cellGeometry' });
-  const center = grid.planes.map((planes) => 0.5 * (planes[0] + planes[planes.length - 1]));
-  const shifts = new Float64Array(3 * cellRegion.length);
-  for (let i = 0; i < shifts.length; ++i) {
-    const way = explode === 0 ? 0 : explode * (measures.cellCentroid[i] - center[i % 3]);
-    shifts[i] = way - origin[i % 3];
-  }
-  return shifts;
+  return index ? geometry.setIndex(new BufferAttribute(index, 1)) : geometry;
 }
 
 /** The colour of each vertex's cell. */
@@ -38,35 +32,40 @@ function spread(cellColor, cells) {
   return color;
 }
 
-export function cellGeometry(cutMesh, faceTriangles, options = {}) {
+export const cellGeometry = named('cellGeometry', (cutMesh, faceTriangles, options = {}) => {
   const arrays = shiftedCellArrays(cutMesh, faceTriangles, options, cellShifts(cutMesh, options));
-  const color = spread(cellColors(cutMesh, options.colorBy ?? 'region', options.measures), arrays.cell);
+  const color = spread(colorsOfCells(cutMesh, options.colorBy ?? 'region', options.measures), arrays.cell);
   return geometryOf({ ...arrays, color });
-}
+});
+
+export const cellEdgeGeometry = named('cellEdgeGeometry', (cutMesh, options = {}) => {
+  return geometryOf(shiftedCellEdges(cutMesh, options, cellShifts(cutMesh, options)));
+});
+
+export const untouchedGeometry = named('untouchedGeometry', (cutMesh, options = {}) => {
+  return geometryOf(untouchedFaces(cutMesh, options));
+});
+
+export const untouchedEdgeGeometry = named('untouchedEdgeGeometry', (cutMesh, options = {}) => {
+  return geometryOf(untouchedEdges(cutMesh, options));
+});
 
 export function edgeGeometry(cutMesh, cutEdges, origin = noShift) {
-  const geometry = geometryOf({ position: Float32Array.from(cutMesh.positions, (x, i) => x - origin[i % 3]) });
-  return geometry.setIndex(new BufferAttribute(cutEdges.edgeVertices.slice(), 1));
+  const position = Float32Array.from(cutMesh.positions, (x, i) => x - origin[i % 3]);
+  return geometryOf({ position, index: cutEdges.edgeVertices.slice() });
 }
 
-function gridCellVolume({ planes }, cell) {
-  return planes.reduce((volume, axis, d) => volume * (axis[cell[d] + 1] - axis[cell[d]]), 1);
-}
-
-/** 3 per polygon. Untouched grid cells have no ids of their own: they take those after the cut-cells, counted through the grid. */
+/** 3 per polygon. */
 function polygonColors(cutMesh, slice, colorBy, measures) {
-  const { grid, cellRegion } = cutMesh;
   const colorOf = cellColorer(cutMesh, colorBy, measures);
+  const untouchedColorOf = untouchedColorer(cutMesh, colorBy, measures);
   const colors = new Float32Array(3 * slice.polygonCell.length);
   for (let polygon = 0; polygon < slice.polygonCell.length; ++polygon) {
-    const cell = slice.polygonCell[polygon];
-    const [i, j, k] = slice.polygonGridCell.subarray(3 * polygon, 3 * polygon + 3);
-    const untouched = cell < 0;
-    colors.set(colorOf({
-      id: untouched ? cellRegion.length + i + grid.cells[0] * (j + grid.cells[1] * k) : cell,
-      region: slice.polygonRegion[polygon],
-      volume: untouched ? gridCellVolume(grid, [i, j, k]) : measures?.cellVolume[cell],
-    }), 3 * polygon);
+    const id = slice.polygonCell[polygon], region = slice.polygonRegion[polygon];
+    const color = id >= 0
+      ? colorOf({ id, region, volume: measures?.cellVolume[id] })
+      : untouchedColorOf(slice.polygonGridCell.subarray(3 * polygon, 3 * polygon + 3), region);
+    colors.set(color, 3 * polygon);
   }
   return colors;
 }
@@ -85,7 +84,7 @@ function sliceNormal({ positions, triangles }) {
   return sum.map((x) => x / length);
 }
 
-export function sliceGeometry(cutMesh, slice, { colorBy = 'region', measures, origin = noShift } = {}) {
+export const sliceGeometry = named('sliceGeometry', (cutMesh, slice, { colorBy = 'region', measures, origin = noShift } = {}) => {
   const { triangles, positions, polygonTriangleOffsets: offsets } = slice;
   const count = triangles.length;
   const [position, normal, color] = [0, 1, 2].map(() => new Float32Array(3 * count));
@@ -103,4 +102,4 @@ export function sliceGeometry(cutMesh, slice, { colorBy = 'region', measures, or
     cell.fill(slice.polygonCell[polygon], 3 * offsets[polygon], 3 * offsets[polygon + 1]);
   }
   return geometryOf({ position, normal, color, cell });
-}
+});

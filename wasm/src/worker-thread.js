@@ -26,7 +26,7 @@ function plainError(error, call) {
 }
 
 /**
- * The cut-meshes of the page that have twins here, by the ids that the page gives them. Their arrays are the page's: what is kept of them is
+ * The results of the page's that have twins here, by the ids that the page gives them. Their arrays are the page's: what is kept of them is
  * the empty object that the twin is found by.
  */
 class Shells {
@@ -84,29 +84,28 @@ class Answering {
   }
 
   async #own(job) {
-    const { call, args, options, progress, cutMesh } = job;
+    const { call, args, options, progress, subject, result } = job;
     const { argument, inputs } = this.#inputs(job);
     const given = progress ? { ...options, progress: (value) => this.#post({ type: 'progress', value }) } : options;
     try {
       const value = await this.#mandoline[call](...inputs, given);
-      const subject = argument ?? value;
-      const kept = cutMesh && this.#host.hasTwin(subject) ? cutMesh.id : undefined;
-      this.#send(job, value, kept);
-      if (kept !== undefined) this.#shells.keep(kept, subject);
+      const kept = [[subject?.id, argument], [result, value]].filter(([id, object]) => id !== undefined && this.#host.hasTwin(object));
+      this.#send(job, value, kept.map(([id]) => id));
+      for (const [id, object] of kept) this.#shells.keep(id, object);
     } catch (error) {
-      const isMissing = cutMesh?.at !== undefined && !cutMesh.data && error.code === 'badArgument' && !this.#host.hasTwin(argument);
+      const isMissing = subject && !subject.data && error.code === 'badArgument' && !this.#host.hasTwin(argument);
       if (!isMissing) throw error;
       this.#post({ type: 'missing', message: job }, buffersOf(args));
     }
   }
 
-  /** The arguments with the cut-mesh: one that has its twin here or comes with its data, else nothing. */
-  #inputs({ args, cutMesh }) {
-    if (cutMesh?.at === undefined) return { inputs: args };
-    const shell = this.#shells.find(cutMesh.id);
-    const argument = this.#host.hasTwin(shell) ? shell : cutMesh.data;
-    if (argument && argument === cutMesh.data) this.#host.adopt(argument);
-    return { argument, inputs: args.with(cutMesh.at, argument) };
+  /** The arguments with the one that the message names by its id: if it has its twin here or comes with its data, else nothing. */
+  #inputs({ args, subject }) {
+    if (!subject) return { inputs: args };
+    const shell = this.#shells.find(subject.id);
+    const argument = this.#host.hasTwin(shell) ? shell : subject.data;
+    if (argument && argument === subject.data) this.#host.adopt(argument, subject.preparation);
+    return { argument, inputs: args.with(subject.at, argument) };
   }
 
   #extra({ call, args, progress }) {
@@ -137,7 +136,8 @@ function listen() {
     const answering = new Answering((message, transfer = []) => postMessage(message, transfer));
     addEventListener('message', ({ data }) => answering.answer(data));
   } else if (globalThis.process?.versions?.node) {
-    const { parentPort } = globalThis.process.getBuiltinModule('node:worker_threads'); // no import, which bundlers for browsers would follow
+    // No import, which bundlers for browsers would follow.
+    const { parentPort } = globalThis.process.getBuiltinModule('node:worker_threads');
     const answering = new Answering((message, transfer = []) => parentPort.postMessage(message, transfer));
     parentPort?.on('message', (job) => answering.answer(job));
   }

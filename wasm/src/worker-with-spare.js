@@ -1,3 +1,3 @@
-import './spare.js';
+import './spare-thread.js';
 
 export * from './worker.js';

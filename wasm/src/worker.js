@@ -3,7 +3,7 @@ import { Calls, callNames } from './calls.js';
 import { named } from './errors.js';
 import { JobQueue } from './jobs.js';
 import { compile } from './load.js';
-import { ownFiles } from './own-files.js';
+import { ownThread } from './own-thread.js';
 import { startThread } from './thread.js';
 
 export { MandolineError, describe } from './errors.js';
@@ -17,8 +17,8 @@ function readWorkerOptions(given) {
 /** Starts a worker that has loaded the module. */
 export async function createWorker(options) {
   const { wasm, thread } = named('init', readWorkerOptions)(options);
-  const make = thread ?? (await ownFiles.thread());
-  const queue = new JobQueue((handlers) => startThread(make, handlers), await compile(wasm));
+  const source = thread ? { start: thread, script: 'from options.thread' } : await ownThread.source();
+  const queue = new JobQueue((handlers) => startThread(source, handlers), await compile(wasm));
   await queue.open();
   const calls = new Calls(queue);
   return {

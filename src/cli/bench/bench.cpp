@@ -8,6 +8,7 @@
 #include "cli/bench/made_meshes.h"
 #include "cli/bench/measure.h"
 #include "cli/bench/tables.h"
+#include "cli/mesh_paths.h"
 
 namespace mandoline::bench {
 namespace {
@@ -95,20 +96,9 @@ Arguments parse(const std::vector<std::string>& words) {
   return arguments;
 }
 
-bool isMesh(const fs::path& path) {
-  const fs::path file = path.extension() == ".gz" ? path.stem() : path;
-  constexpr const char* kExtensions[] = {".obj", ".stl", ".ply", ".off"};
-  return std::find(std::begin(kExtensions), std::end(kExtensions), file.extension()) != std::end(kExtensions);
-}
-
 std::vector<Job> jobsIn(const fs::path& folder, const std::vector<int64_t>& cells) {
-  std::vector<fs::path> paths;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (isMesh(entry.path())) paths.push_back(entry.path());
-  }
-  std::sort(paths.begin(), paths.end());
   std::vector<Job> jobs;
-  for (const fs::path& path : paths) {
+  for (const fs::path& path : cli::meshesIn(folder)) {
     for (const int64_t n : cells) jobs.push_back({nameOf(path), path.string(), n});
   }
   return jobs;

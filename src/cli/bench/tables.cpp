@@ -100,9 +100,9 @@ void printJson(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
     json.open('{').member("mesh", row.job.name).member("n", row.job.n).member("triangles", row.triangles).member("cutCells", row.cutCells);
     json.member("lowerBoundMs", row.lowerBoundMs).member("cutMs", row.cutMs).member("ratio", row.ratio());
-    json.member("peakBytes", row.peakBytes).member("outputBytes", row.outputBytes).key("stagesMs").open('{');
-    for (size_t s = 0; s < row.stages.size(); ++s) json.member(row.stages[s], row.stageMs[s]);
-    json.close('}').close('}');
+    json.member("peakMemoryBytes", row.peakBytes).member("outputBytes", row.outputBytes).key("stages").open('[');
+    for (size_t s = 0; s < row.stages.size(); ++s) json.open('{').member("stage", row.stages[s]).member("ms", row.stageMs[s]).close('}');
+    json.close(']').close('}');
   }
   json.close(']').key("comparisons").open('[');
   for (const Comparison& c : comparisons(rows)) json.open('{').member("cuts", c.label()).member("ratio", c.ratio()).close('}');

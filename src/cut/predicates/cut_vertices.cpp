@@ -1,22 +1,24 @@
 #include "cut/predicates/cut_vertices.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mandoline::detail {
 
-Point CutVertices::reference(uint32_t v) const {
-  if (isTriVertex(v)) return input->points[v];
-  if (isOnEdge(v)) return input->points[(*triEdges)[triEdge(v)][0]];
-  if (isInTriangle(v)) return input->points[input->triangles[triangle(v)][0]];
+Point CutVertices::reference(VertexId v) const {
+  if (isTriVertex(v)) return input->point(v);
+  if (isOnEdge(v)) return input->point(edges->ends[triEdge(v)][0]);
+  if (isInTriangle(v)) return input->point(input->verticesOf(triangle(v))[0]);
   Point p;
   for (int d = 0; d < 3; ++d) p[d] = input->planes[d][slabs[v][d] >> 1];
   return p;
 }
 
-int CutVertices::compare(uint32_t u, uint32_t v, int axis, Predicates& predicates) const {
+int CutVertices::compare(VertexId u, VertexId v, int axis, Predicates& predicates) const {
   const int32_t su = slabs[u][axis], sv = slabs[v][axis];
   if (su != sv || onPlane(su)) return (su > sv) - (su < sv);
-  if (isTriVertex(u) && isTriVertex(v)) return signOf(input->points[u][axis] - input->points[v][axis]);
+  if (isTriVertex(u) && isTriVertex(v) && !input->mesh->isMade(u) && !input->mesh->isMade(v))
+    return signOf(input->point(u)[axis] - input->point(v)[axis]);
   const Point r = reference(u);
   return predicates.sign([&](auto number) {
     using Number = decltype(number);
@@ -25,22 +27,28 @@ int CutVertices::compare(uint32_t u, uint32_t v, int axis, Predicates& predicate
   });
 }
 
-int CutVertices::orient(uint32_t u, uint32_t v, uint32_t w, int axis, Predicates& predicates) const {
-  const int p = (axis + 1) % 3, q = (axis + 2) % 3;
-  if (isTriVertex(u) && isTriVertex(v) && isTriVertex(w)) {
-    const Point &a = input->points[u], &b = input->points[v], &c = input->points[w];
+int CutVertices::orient(VertexId u, VertexId v, VertexId w, int axis, Predicates& predicates) const {
+  const auto isDouble = [&](VertexId x) { return isTriVertex(x) && !input->mesh->isMade(x); };
+  if (isDouble(u) && isDouble(v) && isDouble(w)) {
+    const int p = (axis + 1) % 3, q = (axis + 2) % 3;
+    const Point &a = input->point(u), &b = input->point(v), &c = input->point(w);
     return predicates.orient2d({a[p], a[q]}, {b[p], b[q]}, {c[p], c[q]});
   }
   const Point r = reference(u);
   return predicates.sign([&](auto number) {
     using Number = decltype(number);
     const auto a = point<Number>(u, r, predicates), b = point<Number>(v, r, predicates), c = point<Number>(w, r, predicates);
-    return a.x[p] * (b.x[q] * c.w - c.x[q] * b.w) - a.x[q] * (b.x[p] * c.w - c.x[p] * b.w) + a.w * (b.x[p] * c.x[q] - b.x[q] * c.x[p]);
+    return orientation(a, b, c, axis);
   });
 }
 
-CutVertices::Range CutVertices::range(uint32_t v, int axis, Predicates& predicates) const {
-  if (isTriVertex(v)) return {input->points[v][axis], input->points[v][axis]};
+CutVertices::Range CutVertices::range(VertexId v, int axis, Predicates& predicates) const {
+  if (isTriVertex(v)) {
+    const Bounded x =
+        input->mesh->isMade(v) ? input->mesh->arrangement->points.approximate(v.number, axis) : Bounded(input->point(v)[axis]);
+    if (x.error == 0) return {x.value, x.value};
+    return {x.value - 2 * x.error, x.value + 2 * x.error};
+  }
   const auto& planes = input->planes[axis];
   const int32_t c = slabs[v][axis] >> 1;
   if (onPlane(slabs[v][axis])) return {planes[c], planes[c]};
@@ -53,8 +61,8 @@ CutVertices::Range CutVertices::range(uint32_t v, int axis, Predicates& predicat
   return {x - error, x + error};
 }
 
-Point CutVertices::position(uint32_t v, Predicates& predicates) const {
-  if (isTriVertex(v)) return input->points[v];
+Point CutVertices::position(VertexId v, Predicates& predicates) const {
+  if (isTriVertex(v) && !input->mesh->isMade(v)) return input->point(v);
   Point p;
   for (int d = 0; d < 3; ++d) p[d] = input->planes[d][std::max(slabs[v][d] >> 1, 0)];
   if (planeCount(slabs[v]) == 3) return p;
@@ -66,8 +74,13 @@ Point CutVertices::position(uint32_t v, Predicates& predicates) const {
     const double error = (h.x[d].error + std::fabs(quotient) * h.w.error) / (h.w.value - h.w.error);
     double x = r[d] + quotient;
     if (!(h.w.value > 2 * h.w.error) || error > 8 * kRoundoff * std::max(std::fabs(r[d]), std::fabs(x))) {  // it would show
-      const auto exact = point<Expansion>(v, r, predicates);
-      x = r[d] + Expansion::quotient(exact.x[d], exact.w);
+      if (isImplicit(v)) {
+        const auto exact = point<Big>(v, {0, 0, 0}, predicates);
+        x = Big::quotient(exact.x[d], exact.w);
+      } else {
+        const auto exact = point<Expansion>(v, r, predicates);
+        x = r[d] + Expansion::quotient(exact.x[d], exact.w);
+      }
     }
     // Strictly inside of the slab, so that vertices on different grid elements have different positions.
     const int32_t c = slabs[v][d] >> 1;
@@ -78,23 +91,45 @@ Point CutVertices::position(uint32_t v, Predicates& predicates) const {
   return p;
 }
 
-int64_t CutVertices::triangleAt(uint32_t v) const {
-  if (isInTriangle(v)) return triangle(v);
-  const uint32_t low = isTriVertex(v) ? v : isOnEdge(v) ? (*triEdges)[triEdge(v)][0] : ~0u;
-  const uint32_t high = isOnEdge(v) ? (*triEdges)[triEdge(v)][1] : low;
-  for (size_t t = 0; t < input->triangles.size(); ++t) {
-    const auto& c = input->triangles[t];
-    if (input->kept(t) && std::count(c.begin(), c.end(), low) && std::count(c.begin(), c.end(), high)) return int64_t(t);
+std::optional<TriEdgeId> CutVertices::triEdgeOf(const Link& link) const {
+  for (size_t i = 0; i < 2; ++i) {
+    if (!isOnEdge(link[i])) continue;
+    const TriEdgeId edge = triEdge(link[i]);
+    const VertexId other = link[1 - i];
+    const auto& ends = edges->ends[edge];
+    if (other == ends[0] || other == ends[1] || (isOnEdge(other) && triEdge(other) == edge)) return edge;
   }
-  for (size_t t = 0; t < input->triangles.size(); ++t) {  // an edge that only stitching made
-    const auto& c = input->triangles[t];
-    if (std::count(c.begin(), c.end(), low)) return int64_t(t);
-  }
-  return -1;
+  if (!isTriVertex(link[0]) || !isTriVertex(link[1])) return {};
+  const auto at = std::lower_bound(edges->ends.begin(), edges->ends.end(), link);
+  if (at == edges->ends.end() || *at != link) return {};
+  return TriEdgeId{uint32_t(at - edges->ends.begin())};
 }
 
-void CutVertices::failSelfIntersection(int64_t triangle, int64_t other) const {
-  throw Failure{{Status::selfIntersection, triangle, other, {}}};
+bool CutVertices::runsUp(TriEdgeId edge, const Link& link) const {
+  const auto rank = [&](VertexId v) -> uint64_t {  // crossings come in order from the lower end
+    return v == edges->ends[edge][0] ? 0 : v == edges->ends[edge][1] ? ~uint64_t(0) : uint64_t(v.number) + 1;
+  };
+  return rank(link[0]) < rank(link[1]);
+}
+
+std::optional<TriangleId> CutVertices::triangleAt(VertexId v) const {
+  if (isInTriangle(v)) return triangle(v);
+  if (!isTriVertex(v) && !isOnEdge(v)) return {};
+  const auto [low, high] = isTriVertex(v) ? std::array<VertexId, 2>{v, v} : edges->ends[triEdge(v)];
+  for (const TriangleId t : input->triangleIds()) {
+    const auto c = input->verticesOf(t);
+    if (input->kept(t) && std::count(c.begin(), c.end(), low) && std::count(c.begin(), c.end(), high)) return t;
+  }
+  for (const TriangleId t : input->triangleIds()) {  // an edge that only stitching made
+    const auto c = input->verticesOf(t);
+    if (std::count(c.begin(), c.end(), low)) return t;
+  }
+  return {};
+}
+
+void CutVertices::failSelfIntersection(std::optional<TriangleId> triangle, std::optional<TriangleId> other) const {
+  const auto element = [](const std::optional<TriangleId>& t) { return t ? int64_t(t->number) : -1; };
+  throw Failure{{Status::selfIntersection, element(triangle), element(other), {}}};
 }
 
 }  // namespace mandoline::detail

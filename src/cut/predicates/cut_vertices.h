@@ -1,9 +1,11 @@
 // The cut-vertices (paper, 3.2) and exact predicates on them.
 //
-// Ids are ranges: tri-vertices (by input id), crossings of tri-edges with axial planes, crossings of triangles with grid lines, grid
-// vertices. Every vertex has slabs; its coordinates are only ever known as quotients of polynomials in input and plane doubles.
+// Ids are ranges: tri-vertices (by input id; where triangles meet, made vertices follow), crossings of tri-edges with axial planes,
+// crossings of triangles with grid lines, grid vertices. Every vertex has slabs; its coordinates are only ever known as quotients of
+// polynomials in input and plane doubles.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/exact.h"
@@ -11,87 +13,137 @@
 
 namespace mandoline::detail {
 
-/// A vertex in homogeneous coordinates (x / w, y / w, z / w) relative to some double point; w > 0.
-template <class Number>
-struct Homogeneous {
-  Number x[3];
-  Number w;
-};
-
 struct CutVertices {
   static constexpr int32_t kUnused = INT32_MIN;  ///< slabs[v][0] of an id that no vertex has
 
   const Input* input = nullptr;
-  const std::vector<std::array<uint32_t, 2>>* triEdges = nullptr;  ///< ends, lower tri-vertex first
-  uint32_t firstOnEdge = 0, firstInTriangle = 0, firstOnGrid = 0;  ///< where the ranges begin
-  std::vector<Slab> slabs;
-  std::vector<uint32_t> parents;  ///< of ids firstOnEdge and up: tri-edge, then triangle; none for grid vertices
+  const MeshEdges* edges = nullptr;
+  VertexId firstOnEdge{0}, firstInTriangle{0}, firstOnGrid{0};  ///< where the ranges begin
+  IdVector<VertexId, Slab> slabs;
+  std::vector<VertexId> crossingOffsets;    ///< per tri-edge: its crossings start here, from its lower end on; unused ids end them
+  std::vector<TriEdgeId> parentEdges;       ///< of the vertices on edges
+  std::vector<TriangleId> parentTriangles;  ///< of the vertices in triangles
 
   size_t size() const { return slabs.size(); }
-  bool isTriVertex(uint32_t v) const { return v < firstOnEdge; }
-  bool isOnEdge(uint32_t v) const { return v >= firstOnEdge && v < firstInTriangle; }
-  bool isInTriangle(uint32_t v) const { return v >= firstInTriangle && v < firstOnGrid; }
+  bool isUsed(VertexId v) const { return slabs[v][0] != kUnused; }
+  bool isTriVertex(VertexId v) const { return v < firstOnEdge; }
+  bool isOnEdge(VertexId v) const { return v >= firstOnEdge && v < firstInTriangle; }
+  bool isInTriangle(VertexId v) const { return v >= firstInTriangle && v < firstOnGrid; }
+  /// The crossings of a tri-edge, then unused ids.
+  Ids<VertexId> crossings(TriEdgeId edge) const { return {crossingOffsets[edge.number], crossingOffsets[edge.number + 1]}; }
   /// Of a vertex on an edge.
-  uint32_t triEdge(uint32_t v) const { return parents[v - firstOnEdge]; }
+  TriEdgeId triEdge(VertexId v) const { return parentEdges[v.number - firstOnEdge.number]; }
   /// Of a vertex in a triangle.
-  uint32_t triangle(uint32_t v) const { return parents[v - firstOnEdge]; }
+  TriangleId triangle(VertexId v) const { return parentTriangles[v.number - firstInTriangle.number]; }
 
-  /// Adds vertices at the end of the last range.
-  void append(const Slab& slab) { slabs.push_back(slab); }
+  /// Whether its exact coordinates are polynomials of a higher degree than Expansion is for.
+  bool isImplicit(VertexId v) const { return isTriVertex(v) ? input->mesh->isMade(v) : isOnEdge(v) && edges->line(triEdge(v)).ofPlanes; }
+
+  using Link = std::array<VertexId, 2>;  ///< two vertices next to each other, the lower one first
+  /// The tri-edge that a link is a piece of, if any.
+  std::optional<TriEdgeId> triEdgeOf(const Link& link) const;
+  /// Whether a piece of a tri-edge runs along it from its lower end.
+  bool runsUp(TriEdgeId edge, const Link& link) const;
+
+  /// Adds a vertex at the end of the last range.
+  VertexId append(const Slab& slab) {
+    slabs.push_back(slab);
+    return {uint32_t(slabs.size() - 1)};
+  }
 
   /// A double point at or near the vertex, for coordinates relative to it.
-  Point reference(uint32_t v) const;
+  Point reference(VertexId v) const;
   template <class Number>
-  Homogeneous<Number> point(uint32_t v, const Point& reference, Predicates& predicates) const;
+  Homogeneous<Number> point(VertexId v, const Point& reference, Predicates& predicates) const;
 
   /// P3: order of two vertices along an axis; also the order along a grid line.
-  int compare(uint32_t u, uint32_t v, int axis, Predicates& predicates) const;
+  int compare(VertexId u, VertexId v, int axis, Predicates& predicates) const;
   /// P4, P5: whether u, v, w turn counter-clockwise (1) about +axis, seen along it.
-  int orient(uint32_t u, uint32_t v, uint32_t w, int axis, Predicates& predicates) const;
+  int orient(VertexId u, VertexId v, VertexId w, int axis, Predicates& predicates) const;
 
   /// Bounds of a coordinate, proven.
   struct Range {
     double low, high;
   };
-  Range range(uint32_t v, int axis, Predicates& predicates) const;
+  Range range(VertexId v, int axis, Predicates& predicates) const;
   /// The coordinates as doubles, rounded but within the vertex's slabs.
-  Point position(uint32_t v, Predicates& predicates) const;
+  Point position(VertexId v, Predicates& predicates) const;
 
   /// Some triangle that the vertex lies on, to blame.
-  int64_t triangleAt(uint32_t v) const;
-  /// Ends the cut because two vertices or edges meet where the input promised that they do not, blaming triangles (or -1) that may be the
+  std::optional<TriangleId> triangleAt(VertexId v) const;
+  /// Ends the cut because two vertices or edges meet where the input promised that they do not, blaming triangles, if any, that may be the
   /// wrong ones: explainContradiction() finds out.
-  [[noreturn]] void failSelfIntersection(int64_t triangle, int64_t other) const;
-  [[noreturn]] void failSelfIntersectionAt(uint32_t u, uint32_t v) const { failSelfIntersection(triangleAt(u), triangleAt(v)); }
+  [[noreturn]] void failSelfIntersection(std::optional<TriangleId> triangle, std::optional<TriangleId> other) const;
+  [[noreturn]] void failSelfIntersectionAt(VertexId u, VertexId v) const { failSelfIntersection(triangleAt(u), triangleAt(v)); }
+
+ private:
+  template <class Number>
+  Homogeneous<Number> pointOfPlanes(VertexId v, const Line& line, const Point& reference) const;
 };
 
+/// A crossing of the line that two triangles' planes have in common.
 template <class Number>
-Homogeneous<Number> CutVertices::point(uint32_t v, const Point& reference, Predicates& predicates) const {
+Homogeneous<Number> CutVertices::pointOfPlanes(VertexId v, const Line& line, const Point& reference) const {
+  const VertexId low = edges->ends[triEdge(v)][0], high = edges->ends[triEdge(v)][1];
+  int across = -1;  // an axis whose plane crosses the edge, at the widest angle so far as is known
+  const auto extent = [&](int d) { return std::fabs(input->point(high)[size_t(d)] - input->point(low)[size_t(d)]); };
+  for (int d = 0; d < 3; ++d) {
+    const bool crosses = onPlane(slabs[v][size_t(d)]) && slabs[low][size_t(d)] != slabs[high][size_t(d)];
+    if (crosses && (across < 0 || extent(d) > extent(across))) across = d;
+  }
+  const auto toPlane = [&](int d) {
+    return Number::difference(input->planes[size_t(d)][size_t(slabs[v][size_t(d)] >> 1)], reference[size_t(d)]);
+  };
+  const Plane<Number> plane{{{Number(across == 0), Number(across == 1), Number(across == 2)}}, toPlane(across)};
+  Homogeneous<Number> h =
+      meetingPoint(planeOf<Number>(*input->mesh, line.a, reference), planeOf<Number>(*input->mesh, line.b, reference), plane);
+  if constexpr (std::is_same_v<Number, Bounded>) {  // keeps later products small
+    for (Number& x : h.x) x = quotient(x, h.w);
+    h.w = Number(1);
+  } else if (h.w.sign() < 0) {
+    for (Number& x : h.x) x = -x;
+    h.w = -h.w;
+  }
+  for (int d = 0; d < 3; ++d) {
+    if (onPlane(slabs[v][size_t(d)])) h.x[d] = toPlane(d) * h.w;
+  }
+  return h;
+}
+
+template <class Number>
+Homogeneous<Number> CutVertices::point(VertexId v, const Point& reference, Predicates& predicates) const {
   const auto diff = &Number::difference;
   const auto planeOf = [&](int d) { return input->planes[d][slabs[v][d] >> 1]; };
   Homogeneous<Number> h;
   h.w = Number(1);
   if (isTriVertex(v)) {
-    for (int d = 0; d < 3; ++d) h.x[d] = diff(input->points[v][d], reference[d]);
+    if constexpr (!std::is_same_v<Number, Expansion>) {
+      if (input->mesh->isMade(v)) return input->mesh->arrangement->points.point<Number>(v.number, reference);
+    }
+    for (int d = 0; d < 3; ++d) h.x[d] = diff(input->point(v)[d], reference[d]);
   } else if (planeCount(slabs[v]) == 3) {
     for (int d = 0; d < 3; ++d) h.x[d] = diff(planeOf(d), reference[d]);
   } else if (isOnEdge(v)) {
-    uint32_t low = (*triEdges)[triEdge(v)][0], high = (*triEdges)[triEdge(v)][1];
+    const Line along = edges->line(triEdge(v));
+    if constexpr (!std::is_same_v<Number, Expansion>) {
+      if (along.ofPlanes) return pointOfPlanes<Number>(v, along, reference);
+    }
+    VertexId low{along.a}, high{along.b};
     int across = -1;  // the axis whose plane cuts the edge at the widest angle
     for (int d = 0; d < 3; ++d) {
-      const auto extent = [&](int e) { return std::fabs(input->points[high][e] - input->points[low][e]); };
+      const auto extent = [&](int e) { return std::fabs(input->point(high)[e] - input->point(low)[e]); };
       if (onPlane(slabs[v][d]) && (across < 0 || extent(d) > extent(across))) across = d;
     }
-    if (input->points[low][across] > input->points[high][across]) std::swap(low, high);
-    const Point &a = input->points[low], &b = input->points[high];
+    if (input->point(low)[across] > input->point(high)[across]) std::swap(low, high);
+    const Point &a = input->point(low), &b = input->point(high);
     h.w = diff(b[across], a[across]);
-    const Number along = diff(planeOf(across), a[across]);
+    const Number way = diff(planeOf(across), a[across]);
     for (int d = 0; d < 3; ++d) {
-      h.x[d] = onPlane(slabs[v][d]) ? diff(planeOf(d), reference[d]) * h.w : diff(a[d], reference[d]) * h.w + along * diff(b[d], a[d]);
+      h.x[d] = onPlane(slabs[v][d]) ? diff(planeOf(d), reference[d]) * h.w : diff(a[d], reference[d]) * h.w + way * diff(b[d], a[d]);
     }
   } else {
-    const auto& t = input->triangles[triangle(v)];
-    const Point &a = input->points[t[0]], &b = input->points[t[1]], &c = input->points[t[2]];
+    const auto t = input->verticesOf(triangle(v));
+    const Point &a = input->point(t[0]), &b = input->point(t[1]), &c = input->point(t[2]);
     const int g = !onPlane(slabs[v][0])   ? 0
                   : !onPlane(slabs[v][1]) ? 1
                                           : 2,

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "base/exact.h"
-#include "base/point.h"
+#include "cut/ids.h"
+#include "mesh/resolve/lines.h"
 
 namespace mandoline::detail {
 
@@ -18,5 +18,16 @@ struct Flap {
 /// Sorts flaps by angle, counter-clockwise about a -> b. If `open` they span less than half a turn, otherwise the order starts at the
 /// half-plane of flaps[0]. Returns the place of the first flap that lies in one half-plane with the flap before it, or 0 if there is none.
 size_t sortRadially(const Point& a, const Point& b, bool open, std::vector<Flap>& flaps, Predicates& predicates);
+
+/// Half of a triangle's plane, bounded by a line in it.
+struct HalfPlane {
+  TriangleId triangle;
+  bool ascending;   ///< whether it lies left of the line's direction, seen from where the triangle's normal points
+  uint32_t item;    ///< whatever the caller sorts
+  int quarter = 0;  ///< scratch
+};
+
+/// The same for half-planes about a line.
+size_t sortRadially(const WeldedMesh& mesh, const Line& line, bool open, std::vector<HalfPlane>& halfPlanes, Predicates& predicates);
 
 }  // namespace mandoline::detail

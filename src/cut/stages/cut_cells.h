@@ -11,8 +11,10 @@
 namespace mandoline::detail {
 
 struct CutCells {
-  Csr<HalfFace> halfFaces;             ///< per cut-cell
-  std::vector<uint32_t> stencilCells;  ///< per cut-cell: its grid cell, as index into Stencil::cells; ascending
+  Csr<HalfFace, CellId> halfFaces;
+  IdVector<CellId, GridCellId> gridCells;  ///< ascending
+
+  size_t size() const { return gridCells.size(); }
 };
 
 CutCells makeCutCells(const Surface& surface, const Stencil& stencil, const CutFaces& faces, Run& run);

@@ -1,6 +1,8 @@
 // All cut-faces of a cut (paper, 3.4): tri-cut-faces come first, then pieces of grid-faces. This is the one place that tells them apart.
 #pragma once
 
+#include <optional>
+
 #include "cut/stages/grid_faces.h"
 
 namespace mandoline::detail {
@@ -11,12 +13,17 @@ struct CutFaces {
 
   size_t size() const { return tri.size() + grid.size(); }
   bool isTri(FaceId face) const { return face.number < tri.size(); }
-  /// The triangle that a face is a piece of, or -1.
-  int64_t triangle(FaceId face) const { return isTri(face) ? int64_t(tri.triangles[face.number]) : -1; }
-  Loops loops(FaceId face) const {
-    if (isTri(face)) return {tri.loopOffsets.data() + face.number, 1, tri.loopVertices.data()};
-    const size_t piece = face.number - tri.size(), first = grid.faceLoopOffsets[piece];
-    return {grid.loopOffsets.data() + first, grid.faceLoopOffsets[piece + 1] - first, grid.loopVertices.data()};
+  /// The face that is a piece of a grid-face.
+  FaceId ofPiece(size_t piece) const { return {uint32_t(tri.size() + piece)}; }
+  /// The triangle that a face is a piece of, if any.
+  std::optional<TriangleId> triangle(FaceId face) const {
+    if (isTri(face)) return tri.triangles[face];
+    return {};
+  }
+  Groups<VertexId> loops(FaceId face) const {
+    if (isTri(face)) return tri.loopsOf(face);
+    const size_t piece = face.number - tri.size();
+    return grid.loops.groups(grid.faceLoopOffsets[piece], grid.faceLoopOffsets[piece + 1]);
   }
 };
 

@@ -5,19 +5,22 @@
 #include <cstdint>
 #include <vector>
 
+#include "cut/stages/cell_halves.h"
+
 namespace mandoline::detail {
 
 /// The cut-edges of one grid cell, each with its uses by half-faces: a hash table that is emptied by counting up a stamp.
 class EdgeTable {
  public:
   struct Use {
-    uint32_t next;   ///< or kEnd
-    uint32_t local;  ///< half-face of the cell: side 0 of a tri-cut-face, or a half-face of a grid-face
+    uint32_t next;    ///< or kEnd
+    LocalHalf local;  ///< side 0 of a tri-cut-face, or a half-face of a grid-face
     bool isTri;
     bool ascending;  ///< runs from the lower vertex id to the higher
   };
   struct Edge {
-    uint32_t low, high, firstUse;
+    VertexId low, high;
+    uint32_t firstUse;
   };
   static constexpr uint32_t kEnd = ~0u;
 
@@ -38,10 +41,10 @@ class EdgeTable {
     }
   }
 
-  void add(uint32_t from, uint32_t to, uint32_t local, bool isTri) {
+  void add(VertexId from, VertexId to, LocalHalf local, bool isTri) {
     const bool ascending = from < to;
-    const uint32_t low = ascending ? from : to, high = ascending ? to : from;
-    size_t at = (low * 0x9e3779b1u ^ high * 0x85ebca6bu) >> 7;
+    const VertexId low = ascending ? from : to, high = ascending ? to : from;
+    size_t at = (low.number * 0x9e3779b1u ^ high.number * 0x85ebca6bu) >> 7;
     for (;; ++at) {
       Slot& slot = slots_[at & mask_];
       if (slot.stamp != stamp_) {

@@ -1,15 +1,18 @@
 #include "cut/stages/floating_shells.h"
 
+#include <cmath>
 #include <optional>
 
+#include "base/box_tree.h"
 #include "cut/predicates/inner_point.h"
+#include "cut/stages/shared_vertices.h"
 
 namespace mandoline::detail {
 namespace {
 
 class Nester {
  public:
-  Nester(const CellView& cell, DisjointSets& shells, Predicates& predicates)
+  Nester(const CellView& cell, Shells& shells, Predicates& predicates)
       : input_(cell.surface.input),
         vertices_(cell.surface.vertices),
         stencil_(cell.stencil),
@@ -20,133 +23,231 @@ class Nester {
 
   void run() {
     findComponents();
-    std::vector<std::pair<uint32_t, uint32_t>> nested;  // outer shell, shell around it; united last, when all outer shells are known
-    for (const auto& component : floating_) nested.push_back({component.outer, holder(component)});
-    for (const auto& [outer, around] : nested) shells_.unite(outer, around);
+    if (floating_.empty()) return;
+    buildTree();
+    for (Component& component : floating_) component.outer = findOuter(component);
+    for (const Component& component : floating_) {
+      if (!tryRays(component, [&](Ray& ray) { return nest(component, ray); })) fail(component);
+    }
   }
 
  private:
   struct Component {
-    uint32_t root;
-    uint32_t outer;                ///< a local half-face of its outer shell
-    std::vector<uint32_t> locals;  ///< its tri-cut-faces
+    LocalHalf outer;  ///< a half-face of its outer shell
+    std::vector<LocalFace> faces;
   };
 
-  Corners corners(uint32_t local) const {
-    const auto& t = input_.triangles[triangle(local)];
-    return {&input_.points[t[0]], &input_.points[t[1]], &input_.points[t[2]]};
-  }
-  uint32_t triangle(uint32_t local) const { return faces_.tri.triangles[cell_.triFaces[local]]; }
+  TriangleId triangle(LocalFace face) const { return faces_.tri.triangles[cell_.triFace(face)]; }
 
   /// Components of tri-cut-faces that are joined by edges; those that no grid-face joins are floating.
   void findComponents() {
-    DisjointSets components = shells_;
-    for (uint32_t i = 0; i < cell_.triFaces.size(); ++i) components.unite(2 * i, 2 * i + 1);
-    std::vector<uint8_t> anchored(cell_.halfFaces.size(), 0);
-    for (uint32_t h = uint32_t(cell_.triHalves()); h < cell_.halfFaces.size(); ++h) anchored[components.find(h)] = 1;
-    std::vector<int32_t> indexOf(cell_.halfFaces.size(), -1);
+    Shells components = shells_;
+    for (const LocalFace f : cell_.localFaces()) components.unite(sideOf(f, 0), sideOf(f, 1));
+    IdVector<LocalHalf, uint8_t> anchored(cell_.halfFaces.size(), 0);
+    for (const LocalHalf h : cell_.gridHalves()) anchored[components.find(h)] = 1;
+    IdVector<LocalHalf, int32_t> indexOf(cell_.halfFaces.size(), -1);  // of roots: into floating_
     componentOf_.assign(cell_.triFaces.size(), -1);
-    for (uint32_t i = 0; i < cell_.triFaces.size(); ++i) {
-      const uint32_t root = components.find(2 * i);
+    for (const LocalFace f : cell_.localFaces()) {
+      const LocalHalf root = components.find(sideOf(f, 0));
       if (anchored[root]) continue;
       if (indexOf[root] < 0) {
         indexOf[root] = int32_t(floating_.size());
-        floating_.push_back({root, 0, {}});
+        floating_.push_back({});
       }
-      componentOf_[i] = indexOf[root];
-      floating_[size_t(indexOf[root])].locals.push_back(i);
+      componentOf_[f] = indexOf[root];
+      floating_[size_t(indexOf[root])].faces.push_back(f);
     }
-    for (Component& component : floating_) component.outer = findOuter(component);
   }
 
-  /// Of the shells of a component all but one bound a cell of positive volume from inside.
-  uint32_t findOuter(const Component& component) {
-    std::vector<uint32_t> roots;
-    for (const uint32_t i : component.locals) {
-      for (uint32_t h = 2 * i; h < 2 * i + 2; ++h) {
-        if (shells_.find(h) == h) roots.push_back(h);
-      }
+  /// Indexes the tri-cut-faces by the bounds of their vertices.
+  void buildTree() {
+    for (const LocalFace f : cell_.localFaces()) {
+      const auto outline = faces_.loops(cell_.triFace(f))[0];
+      Box box = boxOf(outline[0]);
+      for (const VertexId v : outline) box.include(boxOf(v));
+      boxes_.push_back(box);
     }
-    if (roots.size() == 1) return roots[0];
-    for (const uint32_t root : roots) {
-      std::vector<Corners> triangles;  // seen from outside of the shell's cell; those with both sides in it bound nothing
-      for (const uint32_t i : component.locals) {
-        const bool out = shells_.find(2 * i) == root, in = shells_.find(2 * i + 1) == root;
-        if (out == in) continue;
-        triangles.push_back(corners(i));
-        if (in) std::swap(triangles.back()[1], triangles.back()[2]);
-      }
-      if (volumeSign(triangles, predicates_) <= 0) return root;
+    tree_.build(boxes_.size(), [&](size_t f) { return BoxTree::Item{boxes_[LocalFace{uint32_t(f)}], uint32_t(f)}; });
+  }
+  Box boxOf(VertexId v) {
+    Box box;
+    for (int d = 0; d < 3; ++d) {
+      const auto [low, high] = vertices_.range(v, d, predicates_);
+      box.low[size_t(d)] = low;
+      box.high[size_t(d)] = high;
     }
-    vertices_.failSelfIntersection(triangle(component.locals[0]), triangle(component.locals.back()));
+    return box;
   }
 
-  /// A half-face of the shell around a component, by a ray against an axis from inside of one of its triangles.
-  uint32_t holder(const Component& component) {
-    const uint32_t start = component.locals[0];
-    int axis = 0;
-    while (normalSign(corners(start), axis, predicates_) == 0) ++axis;
-    for (int attempt = 0; attempt < 64; ++attempt) {
-      const InnerPoint from = {corners(start), {1.0 + attempt * 7 % 11, 1.0 + attempt * 5 % 13, 1.0 + attempt * 3 % 17}};
-      if (const auto found = shoot(component, start, from, axis)) return *found;
+  /// A line against an axis from inside of a component's first face, as far as it was followed: to below the face `last`.
+  struct Ray {
+    InnerPoint from;
+    int axis;
+    LocalFace last;
+    Box ahead;
+  };
+
+  /// Calls f(ray) for rays from a component, behind the last of its own faces, until it is true. False if all graze something.
+  bool tryRays(const Component& component, FunctionRef<bool(Ray&)> f) {
+    const LocalFace start = component.faces[0];
+    for (int attempt = 0; attempt < 96; ++attempt) {
+      Ray ray;
+      ray.axis = attempt % 3;
+      if (normalOf(start, ray.axis) == 0) continue;
+      const int n = attempt / 3;
+      ray.from = {cornerOf(cell_.triFace(start), ray.axis), {1.0 + n * 7 % 11, 1.0 + n * 5 % 13, 1.0 + n * 3 % 17}};
+      const auto point = approximate(vertices_, ray.from, predicates_);
+      for (size_t d = 0; d < 3; ++d) {
+        ray.ahead.low[d] = point[d].value - 2 * point[d].error;
+        ray.ahead.high[d] = point[d].value + 2 * point[d].error;
+      }
+      follow(ray, start);
+      if (skip(component, ray) && f(ray)) return true;
     }
-    vertices_.failSelfIntersection(triangle(start), blocker_);
+    return false;
+  }
+  [[noreturn]] void fail(const Component& component) const { vertices_.failSelfIntersection(triangle(component.faces[0]), blocker_); }
+
+  /// Moves on to below a face.
+  void follow(Ray& ray, LocalFace face) {
+    ray.last = face;
+    ray.ahead.low[size_t(ray.axis)] = -INFINITY;
+    ray.ahead.high[size_t(ray.axis)] = heightOf(face, ray).high;
+  }
+  /// Moves on to below all faces of a component. False if the ray grazes one.
+  bool skip(const Component& component, Ray& ray) {
+    for (const LocalFace f : component.faces) {
+      const Meeting meeting = meet(f, ray);
+      if (meeting == Meeting::grazing) return false;
+      if (meeting == Meeting::hit) follow(ray, f);
+    }
+    return true;
   }
 
-  /// Nothing if the ray grazes something.
-  std::optional<uint32_t> shoot(const Component& component, uint32_t start, const InnerPoint& from, int axis) {
-    std::vector<uint32_t> hits;  // tri-cut-faces in the order that the ray meets them
-    for (uint32_t i = 0; i < cell_.triFaces.size(); ++i) {
-      if (i == start) continue;
-      const auto hit = intersect(i, start, from, axis);
-      if (!hit) return {};
-      if (*hit) hits.push_back(i);
-    }
-    const auto compare = [&](uint32_t i, uint32_t j) { return compareHeights(corners(i), corners(j), from, axis, predicates_); };
-    std::sort(hits.begin(), hits.end(), [&](uint32_t i, uint32_t j) { return compare(i, j) > 0; });
-    for (size_t i = 1; i < hits.size(); ++i) {
-      if (compare(hits[i - 1], hits[i]) == 0) vertices_.failSelfIntersection(triangle(hits[i - 1]), triangle(hits[i]));
-    }
-    // Behind the last hit with a component its outer side is seen, so the ray is where it was before it met the component.
-    size_t at = 0;
-    const auto skip = [&](int32_t index) {
-      for (size_t i = at; i < hits.size(); ++i) {
-        if (componentOf_[hits[i]] == index) at = i + 1;
+  /// Of the shells of a component all but one bound a cell from inside. Behind the last of its faces that a ray meets, the outer one is
+  /// seen.
+  LocalHalf findOuter(const Component& component) {
+    std::optional<LocalHalf> outer;
+    for (const LocalFace f : component.faces) {
+      for (const LocalHalf h : {sideOf(f, 0), sideOf(f, 1)}) {
+        if (shells_.find(h) != h) continue;
+        if (outer) {
+          const auto see = [&](const Ray& ray) {
+            outer = below(ray.last, ray.axis);
+            return true;
+          };
+          if (!tryRays(component, see)) fail(component);
+          return *outer;
+        }
+        outer = h;
       }
+    }
+    return *outer;
+  }
+
+  /// Unites a component's outer shell with what is seen behind its last face, or, where that is known to be in the same place, behind the
+  /// component that is seen there: so each component adds to what is united, or reaches a shell around all of them. False if the ray grazes
+  /// something.
+  bool nest(const Component& component, Ray& ray) {
+    for (;;) {
+      std::optional<LocalFace> next;
+      if (!findNext(ray, next)) return false;
+      const std::optional<LocalHalf> seen = next ? above(*next, ray.axis) : halfFaceBelow(ray.from, ray.axis);
+      if (!seen) return false;
+      const int32_t other = next ? componentOf_[*next] : -1;
+      const LocalHalf shell = shells_.find(*seen);
+      if (other < 0 || shell != shells_.find(floating_[size_t(other)].outer) || shell != shells_.find(component.outer)) {
+        shells_.unite(component.outer, shell);
+        return true;
+      }
+      if (!skip(floating_[size_t(other)], ray)) return false;
+    }
+  }
+
+  /// Three vertices whose triangle, but for its outline, lies inside of a face: its first vertex, as the plane is seen along the axis, the
+  /// vertex before it, and the next one or, if others are in the way, the one that is seen nearest to the edge between them.
+  std::array<VertexId, 3> cornerOf(FaceId face, int axis) {
+    const auto loops = faces_.loops(face);
+    const int p = (axis + 1) % 3, q = (axis + 2) % 3;
+    const auto isBefore = [&](VertexId a, VertexId b) {
+      const int order = vertices_.compare(a, b, p, predicates_);
+      return order != 0 ? order < 0 : vertices_.compare(a, b, q, predicates_) < 0;
     };
-    skip(componentOf_[component.locals[0]]);
-    while (at < hits.size()) {
-      const uint32_t seen = 2 * hits[at] + (normalSign(corners(hits[at]), axis, predicates_) > 0 ? 1 : 0);
-      const int32_t other = componentOf_[hits[at]];
-      if (other < 0 || shells_.find(seen) != shells_.find(floating_[size_t(other)].outer)) return seen;
-      skip(other);
+    const auto turn = [&](VertexId a, VertexId b, VertexId c) { return vertices_.orient(a, b, c, axis, predicates_); };
+    const auto outer = loops[0];
+    VertexId first = outer[0];
+    for (const VertexId v : outer) {
+      if (v != first && isBefore(v, first)) first = v;
     }
-    return halfFaceBelow(from, axis);
+    const int normal = normalSign(*input_.mesh, *faces_.triangle(face), axis, predicates_);
+    VertexId before = first, after = first;
+    for (size_t i = 0; i < outer.size(); ++i) {
+      if (outer[i] != first) continue;
+      before = outer[i > 0 ? i - 1 : outer.size() - 1];
+      after = outer[i + 1 < outer.size() ? i + 1 : 0];
+      if (turn(before, first, after) == normal) break;
+    }
+    VertexId nearest = after;
+    for (const auto loop : loops) {
+      for (const VertexId v : loop) {
+        if (v == before || v == first || v == nearest) continue;
+        const bool inCorner = turn(before, first, v) == normal && turn(first, after, v) == normal && turn(after, before, v) != -normal;
+        if (inCorner && turn(before, nearest, v) == -normal) nearest = v;
+      }
+    }
+    return {before, first, nearest};
   }
 
-  /// Whether the ray hits the triangle inside of the grid cell; nothing if that is a close call.
-  std::optional<bool> intersect(uint32_t local, uint32_t start, const InnerPoint& from, int axis) {
-    const Corners t = corners(local);
-    const int inside = insideOf(t, from, axis, predicates_);
-    if (inside < 0) return false;
-    if (inside == 0) return graze(local);
-    const int normal = normalSign(t, axis, predicates_);
-    const int startSide = normal * sideOfPlane(t, from, predicates_);
-    if (startSide == 0) vertices_.failSelfIntersection(triangle(start), triangle(local));
-    const double bottom = input_.planes[axis][stencil_.cells[cell_.stencilCell].at(axis)];
-    const int bottomSide = normal * sideOfPlane(t, from, axis, bottom, predicates_);
-    if (bottomSide == 0) return graze(local);
-    return startSide > 0 && bottomSide < 0;
+  enum class Meeting { none, hit, grazing };
+
+  /// What happens at a face behind the last one.
+  Meeting meet(LocalFace face, const Ray& ray) {
+    if (face == ray.last || !boxes_[face].overlaps(ray.ahead)) return Meeting::none;
+    const bool parallel = normalOf(face, ray.axis) == 0;
+    const int order = parallel ? 0 : compare(face, ray.last, ray);
+    if (order > 0) return Meeting::none;
+    bool grazed = false;
+    const bool hit = holds(cell_.triFace(face), ray.from, ray.axis, grazed);
+    if (grazed) blocker_ = triangle(face);
+    if (grazed) return Meeting::grazing;
+    if (hit && order == 0) vertices_.failSelfIntersection(triangle(ray.last), triangle(face));
+    return hit ? Meeting::hit : Meeting::none;
   }
 
-  std::optional<bool> graze(uint32_t local) {
-    blocker_ = triangle(local);
-    return {};
+  /// Finds the first face behind the last one, if any. False if the ray grazes something.
+  bool findNext(const Ray& ray, std::optional<LocalFace>& next) {
+    Ray rest = ray;  // down to the next face so far
+    bool grazed = false;
+    tree_.forOverlappingFromAbove(rest.ahead, size_t(ray.axis), [&](uint32_t f) {
+      const Meeting meeting = meet({f}, rest);
+      grazed |= meeting == Meeting::grazing;
+      if (meeting != Meeting::hit) return;
+      const int order = next ? compare({f}, *next, ray) : 1;
+      if (order == 0) vertices_.failSelfIntersection(triangle(*next), triangle({f}));
+      if (order < 0) return;
+      next = LocalFace{f};
+      rest.ahead.low[size_t(ray.axis)] = heightOf(*next, ray).low;
+    });
+    return !grazed;
   }
+
+  /// Order along the axis of the places where a ray meets two faces' planes.
+  int compare(LocalFace f, LocalFace g, const Ray& ray) {
+    return compareHeights(vertices_, {triangle(f), triangle(g)}, ray.from, ray.axis, predicates_);
+  }
+  CutVertices::Range heightOf(LocalFace face, const Ray& ray) {
+    const Bounded height = approximateHeight(vertices_, triangle(face), ray.from, ray.axis, predicates_);
+    return {height.value - 2 * height.error, height.value + 2 * height.error};
+  }
+  int normalOf(LocalFace face, int axis) { return normalSign(*input_.mesh, triangle(face), axis, predicates_); }
+
+  /// The half-face that a ray sees on a face before it, and behind it.
+  LocalHalf above(LocalFace face, int axis) { return sideOf(face, normalOf(face, axis) > 0 ? 1 : 0); }
+  LocalHalf below(LocalFace face, int axis) { return sideOf(face, normalOf(face, axis) > 0 ? 0 : 1); }
 
   /// The half-face of the lower grid-face across the axis that the ray leaves the grid cell through.
-  std::optional<uint32_t> halfFaceBelow(const InnerPoint& from, int axis) {
-    const uint32_t gridFace = stencil_.cells[cell_.stencilCell].faces[cellFace(axis, 0)];
+  std::optional<LocalHalf> halfFaceBelow(const InnerPoint& from, int axis) {
+    const GridFaceId gridFace = stencil_.cells[cell_.gridCell].faces[cellFace(axis, 0)];
     const auto below = faces_.grid.halfFaces[gridFace];
     for (const HalfFace fromBelow : below) {
       const HalfFace halfFace = fromBelow.twin();
@@ -164,7 +265,7 @@ class Nester {
     bool inside = false;
     for (const auto loop : faces_.loops(face)) {
       for (size_t i = 0; i < loop.size(); ++i) {
-        const std::array<uint32_t, 2> edge = {loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]};
+        const std::array<VertexId, 2> edge = {loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]};
         const int crossing = crossingOf(edge, from, axis);
         grazed |= crossing == 0;
         inside ^= crossing > 0;
@@ -174,7 +275,7 @@ class Nester {
   }
 
   /// 1 if the ray to growing p crosses the edge, -1 if not, 0 if that is a close call.
-  int crossingOf(std::array<uint32_t, 2> edge, const InnerPoint& from, int axis) {
+  int crossingOf(std::array<VertexId, 2> edge, const InnerPoint& from, int axis) {
     const bool fromAbove = isAbove(vertices_, edge[0], from, axis, predicates_),
                toAbove = isAbove(vertices_, edge[1], from, axis, predicates_);
     if (fromAbove == toAbove) return -1;
@@ -187,15 +288,20 @@ class Nester {
   const Stencil& stencil_;
   const CutFaces& faces_;
   const CellHalves& cell_;
-  DisjointSets& shells_;
+  Shells& shells_;
   Predicates& predicates_;
   std::vector<Component> floating_;
-  std::vector<int32_t> componentOf_;  // per local tri-cut-face: index into floating_, or -1
-  int64_t blocker_ = -1;
+  IdVector<LocalFace, Box> boxes_;            // of tri-cut-faces
+  BoxTree tree_;                              // the same
+  IdVector<LocalFace, int32_t> componentOf_;  // index into floating_, or -1
+  std::optional<TriangleId> blocker_;
 };
 
 }  // namespace
 
-void nestFloatingShells(const CellView& cell, DisjointSets& shells, Predicates& predicates) { Nester(cell, shells, predicates).run(); }
+void nestFloatingShells(const CellView& cell, Shells& shells, Predicates& predicates) {
+  uniteAtVertices(cell, shells);
+  Nester(cell, shells, predicates).run();
+}
 
 }  // namespace mandoline::detail

@@ -10,8 +10,8 @@
 namespace mandoline::detail {
 
 struct GridEdges {
-  Csr<uint32_t> vertices;         ///< per grid-edge: the cut-vertices inside of it, ascending along its axis
-  std::vector<uint32_t> corners;  ///< per grid vertex: its cut-vertex
+  Csr<VertexId, GridEdgeId> vertices;        ///< the cut-vertices inside of each grid-edge, ascending along its axis
+  IdVector<GridVertexId, VertexId> corners;  ///< the cut-vertex of each grid vertex
 };
 
 GridEdges cutGridEdges(const Stencil& stencil, const TriFaces& triFaces, CutVertices& vertices, Run& run);

@@ -6,23 +6,22 @@
 
 #include <vector>
 
-#include "cut/ids.h"
 #include "cut/stages/grid_edges.h"
 
 namespace mandoline::detail {
 
 /// A cut-edge in a grid-face with the same face on both sides: left out of that face's loops.
 struct Slit {
-  uint32_t from, to;
+  VertexId from, to;
   HalfFace halfFace;  ///< of that face, seen from the cell below the plane
 };
 
 struct GridFaces {
-  /// Per face its loops, the outer one first: counter-clockwise about +axis, holes clockwise.
-  std::vector<uint32_t> faceLoopOffsets{0}, loopOffsets{0}, loopVertices;
-  std::vector<uint32_t> gridFaces;  ///< per face: the grid-face it is a piece of
-  Csr<HalfFace> halfFaces;          ///< per grid-face: those that the cell below the plane sees; the cell above sees their twins
-  Csr<Slit> slits;                  ///< per grid-face
+  Csr<VertexId> loops;                       ///< counter-clockwise about +axis, holes clockwise
+  std::vector<uint32_t> faceLoopOffsets{0};  ///< per piece: into loops, the outer one first
+  std::vector<GridFaceId> gridFaces;         ///< per piece: the grid-face it is a piece of
+  Csr<HalfFace, GridFaceId> halfFaces;       ///< those that the cell below the plane sees; the cell above sees their twins
+  Csr<Slit, GridFaceId> slits;
 
   size_t size() const { return gridFaces.size(); }
 };

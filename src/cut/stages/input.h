@@ -1,15 +1,20 @@
-// Stage 1, input (paper, Algorithm 1 and Appendix A "Bad Input Meshes"): checks the mesh and the grid, finds every tri-vertex's slabs,
-// welds identical positions, drops triangles without area.
+// Stage 2, the grid: checks it, scales its planes like the mesh, and finds all vertices' slabs.
 //
-// In: the user's mesh, grid and snap tolerance. Out: Input, or a Failure that names the offending element.
-// After it: all coordinates are finite and scaled by one power of two, so that polynomials of them up to degree 7 neither overflow nor
-// underflow; triangles refer to welded vertices; kept triangles have area, so far as exact arithmetic can tell.
+// In: the user's grid, and Prepared. Out: Input, or a Failure that names the offending axis. With a snap tolerance, tri-vertices are moved
+// onto planes before the mesh is prepared.
 #pragma once
 
 #include "cut/scaled_input.h"
 
 namespace mandoline::detail {
 
-Input prepareInput(const MeshView& mesh, const Grid& grid, double snapTolerance, Run& run);
+/// Ends the cut where the grid or the options are not usable.
+void checkGrid(const Grid& grid, double snapTolerance);
+/// The largest coordinate of a plane.
+double largestCoordinate(const Grid& grid);
+/// Moves coordinates onto the planes within the tolerance of them: for Preparation::move.
+void snapPoints(const Grid& grid, double tolerance, const Scale& scale, std::vector<Point>& points, Run& run);
+/// The planes must fit the mesh's scale: largestCoordinate(grid) * 2^shift < 2^(Scale::kLargestExponent + Scale::kRoom + 1).
+Input prepareInput(const Prepared& mesh, const Grid& grid, Run& run);
 
 }  // namespace mandoline::detail

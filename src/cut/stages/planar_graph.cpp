@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/sort.h"
+
 namespace mandoline::detail {
 
 void PlanarGraph::begin(const CutVertices& vertices, int axis) {
@@ -12,114 +14,117 @@ void PlanarGraph::begin(const CutVertices& vertices, int axis) {
   if (localTable_.size() < vertices.size()) localTable_.resize(vertices.size());
 }
 
-uint32_t PlanarGraph::localOf(uint32_t id) {
-  uint32_t& local = localTable_[id];
-  if (local >= ids_.size() || ids_[local] != id) {
-    local = uint32_t(ids_.size());
+PlanarGraph::LocalVertex PlanarGraph::localOf(VertexId id) {
+  LocalVertex& local = localTable_[id];
+  if (local.number >= ids_.size() || ids_[local] != id) {
+    local = {uint32_t(ids_.size())};
     ids_.push_back(id);
   }
   return local;
 }
 
-void PlanarGraph::setOutline(const std::vector<uint32_t>& vertexIds) {
-  sides_ = vertexIds.size();
-  for (const uint32_t id : vertexIds) localOf(id);
+void PlanarGraph::setOutline(const std::vector<VertexId>& outline) {
+  sides_ = outline.size();
+  for (const VertexId id : outline) localOf(id);
   for (uint32_t i = 0; i < sides_; ++i) {
-    ends_.push_back(i);
-    ends_.push_back(i + 1 < sides_ ? i + 1 : 0);
+    ends_.push_back({i});
+    ends_.push_back({i + 1 < sides_ ? i + 1 : 0});
   }
 }
 
-void PlanarGraph::addEdge(uint32_t from, uint32_t to) {
+void PlanarGraph::addEdge(VertexId from, VertexId to) {
   ends_.push_back(localOf(from));
   ends_.push_back(localOf(to));
 }
 
-void PlanarGraph::build(Predicates& predicates) {
-  const size_t n = ids_.size(), halfEdges = ends_.size();
-  outOffsets_.assign(n + 1, 0);
-  for (const uint32_t v : ends_) ++outOffsets_[v + 1];
-  for (size_t v = 0; v < n; ++v) outOffsets_[v + 1] += outOffsets_[v];
-  out_.resize(halfEdges);
-  at_.assign(outOffsets_.begin(), outOffsets_.end() - 1);
-  for (uint32_t h = 0; h < halfEdges; ++h) out_[at_[ends_[h]]++] = h;
-  nextOf_.resize(halfEdges);
-  for (uint32_t v = 0; v < n; ++v) orderOutgoing(v, predicates);
+void PlanarGraph::build(Predicates& predicates, Slits slits) {
+  slits_ = slits;
+  const size_t n = ids_.size();
+  std::vector<uint32_t>& offsets = out_.offsets;
+  offsets.assign(n + 1, 0);
+  for (const LocalVertex v : ends_) ++offsets[v.number + 1];
+  for (size_t v = 0; v < n; ++v) offsets[v + 1] += offsets[v];
+  out_.items.resize(ends_.size());
+  at_.assign(offsets.begin(), offsets.end() - 1);
+  for (const HalfEdge h : ends_.ids()) out_.items[at_[ends_[h].number]++] = h;
+  nextOf_.resize(ends_.size());
+  for (const LocalVertex v : ids_.ids()) orderOutgoing(v, predicates);
   traceCycles();
   placeComponents(predicates);
   traceLoops(predicates);
 }
 
-void PlanarGraph::orderOutgoing(uint32_t v, Predicates& predicates) {
-  uint32_t *begin = out_.data() + outOffsets_[v], *end = out_.data() + outOffsets_[v + 1];
-  if (v < sides_) {  // along the outline first, edges inside counter-clockwise, back along the outline last
-    const uint32_t forward = 2 * v, backward = 2 * uint32_t(v > 0 ? v - 1 : sides_ - 1) + 1;
-    std::iter_swap(begin, std::find(begin, end, forward));
-    std::iter_swap(end - 1, std::find(begin, end, backward));
-    sortAround(v, begin + 1, end - 1, false, predicates);
-  } else if (end - begin > 2) {
-    sortAround(v, begin, end, true, predicates);
+void PlanarGraph::orderOutgoing(LocalVertex v, Predicates& predicates) {
+  const std::span<HalfEdge> out = out_[v];
+  if (v.number < sides_) {  // along the outline first, edges inside counter-clockwise, back along the outline last
+    const uint32_t before = v.number > 0 ? v.number - 1 : uint32_t(sides_ - 1);
+    const HalfEdge forward{2 * v.number}, backward{2 * before + 1};
+    std::iter_swap(out.begin(), std::find(out.begin(), out.end(), forward));
+    std::iter_swap(out.end() - 1, std::find(out.begin(), out.end(), backward));
+    sortAround(v, out.subspan(1, out.size() - 2), false, predicates);
+  } else if (out.size() > 2) {
+    sortAround(v, out, true, predicates);
   }
   // Coming in along the twin of an outgoing half-edge, a face on the left goes on along the one clockwise of it.
-  for (const uint32_t* h = begin; h < end; ++h) nextOf_[*h ^ 1] = h > begin ? h[-1] : end[-1];
+  for (size_t i = 0; i < out.size(); ++i) nextOf_[out[i].twin()] = out[i > 0 ? i - 1 : out.size() - 1];
 }
 
 /// P4: sorts half-edges out of v by angle; those of a side's vertex span less than half a turn.
-void PlanarGraph::sortAround(uint32_t v, uint32_t* begin, uint32_t* end, bool fullCircle, Predicates& predicates) {
-  if (end - begin < 2) return;
-  const auto head = [&](uint32_t h) { return ids_[ends_[h ^ 1]]; };
-  const auto turn = [&](uint32_t g, uint32_t h) { return vertices_->orient(ids_[v], head(g), head(h), axis_, predicates); };
-  std::vector<std::pair<int, uint32_t>> byQuarter;  // 0: like the first one, 1: left of it, 2: opposite, 3: right of it
-  for (const uint32_t* h = begin; h < end; ++h) {
+void PlanarGraph::sortAround(LocalVertex v, std::span<HalfEdge> out, bool fullCircle, Predicates& predicates) {
+  if (out.size() < 2) return;
+  const auto head = [&](HalfEdge h) { return origin(h.twin()); };
+  const auto turn = [&](HalfEdge g, HalfEdge h) { return vertices_->orient(ids_[v], head(g), head(h), axis_, predicates); };
+  const auto isBehind = [&](HalfEdge h) { return isBefore(head(h), ids_[v], predicates); };
+  std::vector<std::pair<int, HalfEdge>> byQuarter;  // 0: like the first one, 1: left of it, 2: opposite, 3: right of it
+  for (size_t i = 0; i < out.size(); ++i) {
     int quarter = 0;
-    if (fullCircle && h > begin) {
-      const int side = turn(*begin, *h);
-      quarter = side > 0                                                                                 ? 1
-                : side < 0                                                                               ? 3
-                : isBefore(head(*begin), ids_[v], predicates) != isBefore(head(*h), ids_[v], predicates) ? 2
-                                                                                                         : 0;
+    if (fullCircle && i > 0) {
+      const int side = turn(out[0], out[i]);
+      quarter = side > 0 ? 1 : side < 0 ? 3 : isBehind(out[0]) != isBehind(out[i]) ? 2 : 0;
     }
-    byQuarter.push_back({quarter, *h});
+    byQuarter.push_back({quarter, out[i]});
   }
-  std::sort(byQuarter.begin(), byQuarter.end(), [&](const auto& a, const auto& b) {
+  sortItems(byQuarter, [&](const auto& a, const auto& b) {
     return a.first != b.first ? a.first < b.first : a.second != b.second && turn(a.second, b.second) > 0;
   });
   for (size_t i = 0; i < byQuarter.size(); ++i) {
-    begin[i] = byQuarter[i].second;
-    if (i > 0 && byQuarter[i].first == byQuarter[i - 1].first && turn(begin[i - 1], begin[i]) == 0) {
-      vertices_->failSelfIntersectionAt(head(begin[i - 1]), head(begin[i]));
+    out[i] = byQuarter[i].second;
+    if (i > 0 && byQuarter[i].first == byQuarter[i - 1].first && turn(out[i - 1], out[i]) == 0) {
+      vertices_->failSelfIntersectionAt(head(out[i - 1]), head(out[i]));
     }
   }
 }
 
 void PlanarGraph::traceCycles() {
-  constexpr uint32_t kNone = ~0u;
-  cycleOf_.assign(ends_.size(), kNone);
+  cycleOf_.assign(ends_.size(), kNoCycle);
   cycleStarts_.clear();
-  for (uint32_t start = 0; start < ends_.size(); ++start) {
-    if (cycleOf_[start] != kNone) continue;
-    for (uint32_t h = start; cycleOf_[h] == kNone; h = nextOf_[h]) cycleOf_[h] = uint32_t(cycleStarts_.size());
+  for (const HalfEdge start : ends_.ids()) {
+    if (cycleOf_[start] != kNoCycle) continue;
+    const Cycle cycle{uint32_t(cycleStarts_.size())};
+    for (HalfEdge h = start; cycleOf_[h] == kNoCycle; h = nextOf_[h]) cycleOf_[h] = cycle;
     cycleStarts_.push_back(start);
   }
 }
 
 /// Lexicographic order in the plane.
-bool PlanarGraph::isBefore(uint32_t u, uint32_t v, Predicates& predicates) const {
+bool PlanarGraph::isBefore(VertexId u, VertexId v, Predicates& predicates) const {
   const int first = vertices_->compare(u, v, (axis_ + 1) % 3, predicates);
   return first != 0 ? first < 0 : vertices_->compare(u, v, (axis_ + 2) % 3, predicates) < 0;
 }
 
 /// The cycle that runs around a component from outside: it passes the component's first vertex where the rest lies to the right.
-uint32_t PlanarGraph::exteriorCycle(const std::vector<uint32_t>& component, Predicates& predicates) {
-  uint32_t first = component[0];
-  for (const uint32_t v : component) {
+PlanarGraph::Cycle PlanarGraph::exteriorCycle(const std::vector<LocalVertex>& component, Predicates& predicates) {
+  LocalVertex first = component[0];
+  for (const LocalVertex v : component) {
     if (isBefore(ids_[v], ids_[first], predicates)) first = v;
   }
-  uint32_t last = out_[outOffsets_[first]];  // the half-edge farthest counter-clockwise
-  for (uint32_t i = outOffsets_[first] + 1; i < outOffsets_[first + 1]; ++i) {
-    const int turn = vertices_->orient(ids_[first], ids_[ends_[last ^ 1]], ids_[ends_[out_[i] ^ 1]], axis_, predicates);
-    if (turn == 0) vertices_->failSelfIntersectionAt(ids_[ends_[last ^ 1]], ids_[ends_[out_[i] ^ 1]]);
-    if (turn > 0) last = out_[i];
+  const std::span<const HalfEdge> out = out_[first];
+  HalfEdge last = out[0];  // the one farthest counter-clockwise
+  for (const HalfEdge h : out.subspan(1)) {
+    const VertexId from = origin(last.twin()), to = origin(h.twin());
+    const int turn = vertices_->orient(ids_[first], from, to, axis_, predicates);
+    if (turn == 0) vertices_->failSelfIntersectionAt(from, to);
+    if (turn > 0) last = h;
   }
   return cycleOf_[last];
 }
@@ -128,27 +133,27 @@ uint32_t PlanarGraph::exteriorCycle(const std::vector<uint32_t>& component, Pred
 /// square has one cycle around it, which belongs to the face that holds the component.
 void PlanarGraph::placeComponents(Predicates& predicates) {
   faceOf_.assign(cycleStarts_.size(), kUnset);
-  faceOf_[cycleOf_[1]] = kOutside;
+  faceOf_[cycleOf_[HalfEdge{1}]] = kOutside;
   faceCount = 0;
   findFloating(predicates);
-  for (uint32_t cycle = 0; cycle < faceOf_.size(); ++cycle) {
-    if (faceOf_[cycle] == kUnset && !isExterior_[cycle]) faceOf_[cycle] = faceCount++;
+  for (const Cycle c : faceOf_.ids()) {
+    if (faceOf_[c] == kUnset && !isExterior_[c]) faceOf_[c] = {faceCount++};
   }
   if (floating_.empty()) return;
   findHolders(predicates);
   // The innermost holder is the one whose component is itself held most often; the outline's is held by none.
-  const auto depthOf = [&](uint32_t cycle) {
+  const auto depthOf = [&](Cycle cycle) {
     const uint32_t component = componentOf_[ends_[cycleStarts_[cycle]]];
     return component < floating_.size() ? floating_[component].holders.size() : 0;
   };
   for (const Floating& component : floating_) {
-    uint32_t innermost = kUnset;
-    for (const uint32_t c : component.holders) {
-      if (innermost == kUnset || depthOf(c) > depthOf(innermost)) innermost = c;
+    Cycle innermost = kNoCycle;
+    for (const Cycle c : component.holders) {
+      if (innermost == kNoCycle || depthOf(c) > depthOf(innermost)) innermost = c;
     }
-    if (innermost == kUnset || depthOf(innermost) + 1 != component.holders.size()) {  // loops that cross
-      const uint32_t other = component.holders.empty() ? 0 : ends_[cycleStarts_[component.holders.back()]];
-      vertices_->failSelfIntersectionAt(ids_[component.members[0]], ids_[other]);
+    if (innermost == kNoCycle || depthOf(innermost) + 1 != component.holders.size()) {  // loops that cross
+      const VertexId other = component.holders.empty() ? ids_[LocalVertex{0}] : origin(cycleStarts_[component.holders.back()]);
+      vertices_->failSelfIntersectionAt(ids_[component.members[0]], other);
     }
     faceOf_[component.exterior] = faceOf_[innermost];
   }
@@ -159,15 +164,16 @@ void PlanarGraph::findFloating(Predicates& predicates) {
   floating_.clear();
   isExterior_.assign(cycleStarts_.size(), 0);
   components_.reset(ids_.size());
-  for (size_t h = 0; h < ends_.size(); h += 2) components_.unite(ends_[h], ends_[h + 1]);
-  std::vector<uint32_t> roots;
-  for (uint32_t v = uint32_t(sides_); v < ids_.size(); ++v) {
+  for (HalfEdge h{0}; h.number < ends_.size(); h.number += 2) components_.unite(ends_[h], ends_[h.twin()]);
+  const Ids<LocalVertex> inside(sides_, ids_.size());
+  std::vector<LocalVertex> roots;
+  for (const LocalVertex v : inside) {
     if (components_.find(v) == v) roots.push_back(v);
   }
   if (roots.empty()) return;
   floating_.resize(roots.size());
   componentOf_.assign(ids_.size(), uint32_t(roots.size()));  // the outline's, unless found to float
-  for (uint32_t v = uint32_t(sides_); v < ids_.size(); ++v) {
+  for (const LocalVertex v : inside) {
     const auto root = std::lower_bound(roots.begin(), roots.end(), components_.find(v));
     if (root == roots.end() || *root != components_.find(v)) continue;
     componentOf_[v] = uint32_t(root - roots.begin());
@@ -182,20 +188,20 @@ void PlanarGraph::findFloating(Predicates& predicates) {
 /// Which bounded cycles hold each component: those that a ray to growing p from one of its vertices leaves an odd number of times.
 void PlanarGraph::findHolders(Predicates& predicates) {
   const int p = (axis_ + 1) % 3, q = (axis_ + 2) % 3;
-  std::vector<CutVertices::Range> rangeP(ids_.size()), rangeQ(ids_.size());
-  for (uint32_t v = 0; v < ids_.size(); ++v) {
+  IdVector<LocalVertex, CutVertices::Range> rangeP(ids_.size()), rangeQ(ids_.size());
+  for (const LocalVertex v : ids_.ids()) {
     rangeP[v] = vertices_->range(ids_[v], p, predicates);
     rangeQ[v] = vertices_->range(ids_[v], q, predicates);
   }
-  std::vector<uint8_t> odd(cycleStarts_.size(), 0);
+  IdVector<Cycle, uint8_t> odd(cycleStarts_.size(), 0);
   for (uint32_t k = 0; k < floating_.size(); ++k) {
-    const uint32_t v = floating_[k].members[0];
+    const LocalVertex v = floating_[k].members[0];
     std::fill(odd.begin(), odd.end(), uint8_t(0));
-    const auto above = [&](uint32_t u) {
+    const auto above = [&](LocalVertex u) {
       return rangeQ[u].low > rangeQ[v].high || (rangeQ[u].high >= rangeQ[v].low && vertices_->compare(ids_[u], ids_[v], q, predicates) > 0);
     };
-    for (uint32_t h = 0; h < ends_.size(); h += 2) {
-      uint32_t low = ends_[h], high = ends_[h + 1];
+    for (HalfEdge h{0}; h.number < ends_.size(); h.number += 2) {
+      LocalVertex low = ends_[h], high = ends_[h.twin()];
       if (componentOf_[low] == k || std::max(rangeP[low].high, rangeP[high].high) < rangeP[v].low) continue;
       if (above(low) == above(high)) continue;
       if (above(low)) std::swap(low, high);
@@ -203,40 +209,40 @@ void PlanarGraph::findHolders(Predicates& predicates) {
       if (side == 0) vertices_->failSelfIntersectionAt(ids_[v], ids_[low]);
       if (side < 0) continue;
       odd[cycleOf_[h]] ^= 1;
-      odd[cycleOf_[h ^ 1]] ^= 1;
+      odd[cycleOf_[h.twin()]] ^= 1;
     }
-    for (uint32_t c = 0; c < odd.size(); ++c) {
+    for (const Cycle c : odd.ids()) {
       if (odd[c] && faceOf_[c] != kOutside && !isExterior_[c]) floating_[k].holders.push_back(c);
     }
   }
 }
 
-/// Traces the cycles again without slits, and puts the outer loop of each face first.
+/// Traces the cycles again, maybe without slits, and puts the outer loop of each face first.
 void PlanarGraph::traceLoops(Predicates& predicates) {
   loopStarts.clear();
   loopFaces.clear();
   traced_.assign(ends_.size(), 0);
-  for (uint32_t start = 0; start < ends_.size(); ++start) {
-    if (traced_[start] || isSlit(start) || face(start) == kOutside) continue;
-    for (uint32_t h = start; !traced_[h]; h = next(h)) traced_[h] = 1;
+  for (const HalfEdge start : ends_.ids()) {
+    if (traced_[start] || (slits_ == Slits::out && isSlit(start)) || face(start) == kOutside) continue;
+    for (HalfEdge h = start; !traced_[h]; h = next(h)) traced_[h] = 1;
     loopStarts.push_back(start);
     loopFaces.push_back(face(start));
   }
   bool inOrder = true;  // one loop for each face, as nearly always
-  for (size_t l = 0; l < loopFaces.size(); ++l) inOrder &= loopFaces[l] == l;
+  for (size_t l = 0; l < loopFaces.size(); ++l) inOrder &= loopFaces[l].number == l;
   if (inOrder) return;
   std::vector<uint32_t> order(loopStarts.size());
   for (uint32_t l = 0; l < order.size(); ++l) order[l] = l;
-  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return loopFaces[a] < loopFaces[b]; });
+  sortItems(order, [&](uint32_t a, uint32_t b) { return loopFaces[a] < loopFaces[b]; });
   for (size_t i = 0, end; i < order.size(); i = end) {
     for (end = i + 1; end < order.size() && loopFaces[order[end]] == loopFaces[order[i]];) ++end;
     if (end - i == 1) continue;
     size_t outer = i;  // the outer loop has the first vertex of all
-    uint32_t first = origin(loopStarts[order[i]]);
+    VertexId first = origin(loopStarts[order[i]]);
     for (size_t l = i; l < end; ++l) {
-      uint32_t h = loopStarts[order[l]];
+      HalfEdge h = loopStarts[order[l]];
       do {
-        if (origin(h) != first && isBefore(ids_[origin(h)], ids_[first], predicates)) {
+        if (origin(h) != first && isBefore(origin(h), first, predicates)) {
           first = origin(h);
           outer = l;
         }
@@ -245,7 +251,8 @@ void PlanarGraph::traceLoops(Predicates& predicates) {
     }
     std::rotate(order.begin() + i, order.begin() + outer, order.begin() + outer + 1);
   }
-  std::vector<uint32_t> starts, faces;
+  std::vector<HalfEdge> starts;
+  std::vector<Face> faces;
   for (const uint32_t l : order) {
     starts.push_back(loopStarts[l]);
     faces.push_back(loopFaces[l]);
@@ -254,14 +261,13 @@ void PlanarGraph::traceLoops(Predicates& predicates) {
   loopFaces.swap(faces);
 }
 
-uint32_t PlanarGraph::find(uint32_t fromId, uint32_t toId) const {
-  const auto known = [&](uint32_t id) { return localTable_[id] < ids_.size() && ids_[localTable_[id]] == id; };
-  if (!known(fromId) || !known(toId)) return kOutside;
-  const uint32_t v = localTable_[fromId];
-  for (uint32_t i = outOffsets_[v]; i < outOffsets_[v + 1]; ++i) {
-    if (ids_[ends_[out_[i] ^ 1]] == toId) return out_[i];
+std::optional<PlanarGraph::HalfEdge> PlanarGraph::find(VertexId from, VertexId to) const {
+  const auto known = [&](VertexId id) { return localTable_[id].number < ids_.size() && ids_[localTable_[id]] == id; };
+  if (!known(from) || !known(to)) return {};
+  for (const HalfEdge h : out_[localTable_[from]]) {
+    if (origin(h.twin()) == to) return h;
   }
-  return kOutside;
+  return {};
 }
 
 }  // namespace mandoline::detail

@@ -11,6 +11,7 @@ void findRuns(const Input& input, const Stencil& stencil, Regions& regions, Moni
   const size_t rows = size_t(input.cells(1)) * size_t(input.cells(2));
   regions.rowRunOffsets.assign(1, 0);
   regions.rowRunOffsets.reserve(rows + 1);
+  const std::vector<Stencil::Cell>& cells = stencil.cells;
   size_t c = 0;
   const auto addRun = [&](int32_t begin, int32_t end) {
     if (begin >= end) return;
@@ -20,9 +21,9 @@ void findRuns(const Input& input, const Stencil& stencil, Regions& regions, Moni
   for (int32_t k = 0; k < input.cells(2); ++k) {
     for (int32_t j = 0; j < input.cells(1); ++j) {
       int32_t from = 0;
-      for (; c < stencil.cells.size() && stencil.cells[c].at(1) == j && stencil.cells[c].at(2) == k; ++c) {
-        addRun(from, stencil.cells[c].at(0));
-        from = stencil.cells[c].at(0) + 1;
+      for (; c < cells.size() && cells[c].at(1) == j && cells[c].at(2) == k; ++c) {
+        addRun(from, cells[c].at(0));
+        from = cells[c].at(0) + 1;
       }
       addRun(from, input.cells(0));
       regions.rowRunOffsets.push_back(uint32_t(regions.runBegin.size()));
@@ -45,12 +46,12 @@ class RegionFinder {
       : input_(input),
         sides_(sides),
         regions_(regions),
-        firstRun_(uint32_t(sides.cells.stencilCells.size())),
+        firstRun_(uint32_t(sides.cells.size())),
         nodes_(firstRun_ + regions.runBegin.size()) {}
 
   void run() {
     uniteRuns();
-    for (uint32_t g = 0; g < sides_.faces.grid.size(); ++g) uniteAcross(g);
+    for (size_t piece = 0; piece < sides_.faces.grid.size(); ++piece) uniteAcross(piece);
     number();
   }
 
@@ -74,22 +75,22 @@ class RegionFinder {
   }
 
   /// A piece of a grid-face joins what lies on its two sides.
-  void uniteAcross(uint32_t piece) {
-    const FaceId face{uint32_t(sides_.faces.tri.size()) + piece};
-    const uint32_t below = sides_.cell(HalfFace(face, 0)), above = sides_.cell(HalfFace(face, 1));
-    if (below != Sides::kNone && above != Sides::kNone) return nodes_.unite(below, above);
+  void uniteAcross(size_t piece) {
+    const FaceId face = sides_.faces.ofPiece(piece);
+    const CellId below = sides_.cell(HalfFace(face, 0)), above = sides_.cell(HalfFace(face, 1));
+    if (below != Sides::kNone && above != Sides::kNone) return nodes_.unite(below.number, above.number);
     const Stencil::Face& place = sides_.stencil.faces[sides_.faces.grid.gridFaces[piece]];
     Slab other = sides_.stencil.cells[place.cell].element;  // the first cell that has it, so the other side is the untouched one
     other[place.axis()] += place.side() == 1 ? 2 : -2;
-    if (input_.inGrid(other)) nodes_.unite(below != Sides::kNone ? below : above, firstRun_ + runAt(input_, regions_, other));
+    if (input_.inGrid(other)) nodes_.unite((below != Sides::kNone ? below : above).number, firstRun_ + runAt(input_, regions_, other));
   }
 
   /// In the order in which their first grid cell comes.
   void number() {
-    regionOf_.assign(firstRun_ + regions_.runBegin.size(), Sides::kNone);
+    regionOf_.assign(firstRun_ + regions_.runBegin.size(), kUnset);
     regions_.cellRegion.resize(firstRun_);
     regions_.runRegion.resize(regions_.runBegin.size());
-    uint32_t cell = 0;
+    CellId cell{0};
     for (size_t row = 0; row + 1 < regions_.rowRunOffsets.size(); ++row) {
       const uint32_t past = regions_.rowRunOffsets[row + 1];
       for (uint32_t run = regions_.rowRunOffsets[row]; run < past || isInRow(cell, row);) {
@@ -97,22 +98,24 @@ class RegionFinder {
           regions_.runRegion[run] = label(firstRun_ + run);
           ++run;
         } else {
-          regions_.cellRegion[cell] = label(cell);
-          ++cell;
+          regions_.cellRegion[cell] = label(cell.number);
+          ++cell.number;
         }
       }
     }
   }
 
-  const Stencil::Cell& gridCellOf(uint32_t cell) const { return sides_.stencil.cells[sides_.cells.stencilCells[cell]]; }
-  bool isInRow(uint32_t cell, size_t row) const {
-    return cell < firstRun_ && size_t(gridCellOf(cell).at(2)) * size_t(input_.cells(1)) + size_t(gridCellOf(cell).at(1)) == row;
+  const Stencil::Cell& gridCellOf(CellId cell) const { return sides_.stencil.cells[sides_.cells.gridCells[cell]]; }
+  bool isInRow(CellId cell, size_t row) const {
+    return cell.number < firstRun_ && size_t(gridCellOf(cell).at(2)) * size_t(input_.cells(1)) + size_t(gridCellOf(cell).at(1)) == row;
   }
   uint32_t label(uint32_t node) {
     uint32_t& region = regionOf_[nodes_.find(node)];
-    if (region == Sides::kNone) region = regions_.count++;
+    if (region == kUnset) region = regions_.count++;
     return region;
   }
+
+  static constexpr uint32_t kUnset = ~0u;
 
   const Input& input_;
   const Sides& sides_;

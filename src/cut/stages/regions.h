@@ -14,7 +14,7 @@ struct Regions {
   std::vector<uint32_t> rowRunOffsets;    ///< per row of grid cells (k ny + j), and one more: into runs
   std::vector<int32_t> runBegin, runEnd;  ///< per run of untouched grid cells: along x, half open
   std::vector<uint32_t> runRegion;        ///< per run
-  std::vector<uint32_t> cellRegion;       ///< per cut-cell
+  IdVector<CellId, uint32_t> cellRegion;
   uint32_t count = 0;
   bool hasWinding = false;       ///< closed and consistently oriented
   std::vector<int32_t> winding;  ///< per region, empty unless hasWinding

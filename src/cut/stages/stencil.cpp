@@ -1,5 +1,7 @@
 #include "cut/stages/stencil.h"
 
+#include <optional>
+
 namespace mandoline::detail {
 namespace {
 
@@ -24,14 +26,15 @@ class EarlierNeighbours {
  public:
   EarlierNeighbours(const Input& input, const std::vector<uint64_t>& keys) : input_(input), keys_(keys) {}
 
-  /// Cell at `element` + 2 * (dx, dy, dz), or -1. For each offset, calls must come with ascending cells.
-  int64_t find(const Slab& element, int dx, int dy, int dz) {
+  /// Cell at `element` + 2 * (dx, dy, dz), if any. For each offset, calls must come with ascending cells.
+  std::optional<GridCellId> find(const Slab& element, int dx, int dy, int dz) {
     const Slab other = {element[0] + 2 * dx, element[1] + 2 * dy, element[2] + 2 * dz};
-    if (!input_.inGrid(other)) return -1;
+    if (!input_.inGrid(other)) return {};
     const uint64_t key = keyOf(input_, other);
     size_t& at = at_[(dz + 1) * 9 + (dy + 1) * 3 + dx + 1];
     while (at < keys_.size() && keys_[at] < key) ++at;
-    return at < keys_.size() && keys_[at] == key ? int64_t(at) : -1;
+    if (at == keys_.size() || keys_[at] != key) return {};
+    return GridCellId{uint32_t(at)};
   }
 
  private:
@@ -43,18 +46,18 @@ class EarlierNeighbours {
 /// Ids of grid-faces, grid-edges and grid vertices: a cell takes over those that an earlier neighbour shares.
 void numberElements(const Input& input, const std::vector<uint64_t>& keys, Stencil& stencil, Monitor& monitor) {
   EarlierNeighbours neighbours(input, keys);
-  for (uint32_t c = 0; c < stencil.cells.size(); ++c) {
-    if (c % 4096 == 0) monitor.report(c, stencil.cells.size());
+  for (const GridCellId c : stencil.cells.ids()) {
+    if (c.number % 4096 == 0) monitor.report(c.number, stencil.cells.size());
     Stencil::Cell& cell = stencil.cells[c];
     constexpr uint32_t kNew = ~0u;
-    std::fill_n(cell.faces, 6, kNew);
-    std::fill_n(cell.edges, 12, kNew);
-    std::fill_n(cell.corners, 8, kNew);
+    cell.faces.fill({kNew});
+    cell.edges.fill({kNew});
+    cell.corners.fill({kNew});
     for (int offset = 0; offset < 13; ++offset) {  // the 13 of 26 neighbours that come before
       const int shift[3] = {offset % 3 - 1, offset / 3 % 3 - 1, offset / 9 - 1};
-      const int64_t n = neighbours.find(cell.element, shift[0], shift[1], shift[2]);
-      if (n < 0) continue;
-      const Stencil::Cell& other = stencil.cells[size_t(n)];
+      const auto n = neighbours.find(cell.element, shift[0], shift[1], shift[2]);
+      if (!n) continue;
+      const Stencil::Cell& other = stencil.cells[*n];
       // A side of this cell is shared if the neighbour lies towards it or level with it; it is then the opposite or the same side there.
       const auto shared = [&](int d, int side) { return shift[d] == 0 || (shift[d] > 0) == (side == 1); };
       const auto there = [&](int d, int side) { return shift[d] == 0 ? side : 1 - side; };
@@ -76,12 +79,16 @@ void numberElements(const Input& input, const std::vector<uint64_t>& keys, Stenc
       }
     }
     for (uint8_t i = 0; i < 6; ++i) {
-      if (cell.faces[i] != kNew) continue;
-      cell.faces[i] = uint32_t(stencil.faces.size());
+      if (cell.faces[i].number != kNew) continue;
+      cell.faces[i] = {uint32_t(stencil.faces.size())};
       stencil.faces.push_back({c, i});
     }
-    for (uint32_t& edge : cell.edges) edge = edge == kNew ? stencil.edgeCount++ : edge;
-    for (uint32_t& corner : cell.corners) corner = corner == kNew ? stencil.cornerCount++ : corner;
+    for (GridEdgeId& edge : cell.edges) {
+      if (edge.number == kNew) edge = {stencil.edgeCount++};
+    }
+    for (GridVertexId& corner : cell.corners) {
+      if (corner.number == kNew) corner = {stencil.cornerCount++};
+    }
   }
 }
 
@@ -90,7 +97,7 @@ uint64_t largestKey(const Input& input) { return keyOf(input, {2 * input.cells(0
 /// The tri-cut-faces, by where they lie.
 struct PlacedFaces {
   std::vector<KeyedItem> inCell;   // by cell
-  std::vector<uint32_t> inPlane;   // in grid-faces
+  std::vector<FaceId> inPlane;     // in grid-faces
   std::vector<KeyedItem> touched;  // cells beside a grid-face that something lies in
 };
 
@@ -106,15 +113,15 @@ PlacedFaces placeFaces(const Surface& surface, const TriFaces& triFaces) {
     }
   };
   placed.inCell.reserve(triFaces.size());
-  for (uint32_t f = 0; f < triFaces.size(); ++f) {
+  for (const FaceId f : triFaces.ids()) {
     if (planeCount(triFaces.elements[f]) == 0) {
-      placed.inCell.push_back({keyOf(input, triFaces.elements[f]), f});
+      placed.inCell.push_back({keyOf(input, triFaces.elements[f]), f.number});
     } else {
       placed.inPlane.push_back(f);
       touchBoth(triFaces.elements[f]);
     }
   }
-  for (const FaceEdge& e : surface.edges.inPlane) touchBoth(e.element);
+  for (const FaceEdge& e : surface.edgesInPlane) touchBoth(e.element);
   sortByKey(placed.inCell, largestKey(input));
   sortByKey(placed.touched, largestKey(input));
   return placed;
@@ -127,23 +134,23 @@ std::vector<uint64_t> listCells(const Input& input, const PlacedFaces& placed, S
   for (size_t i = 0, j = 0; i < inCell.size() || j < touched.size();) {
     const uint64_t key = std::min(i < inCell.size() ? inCell[i].key : ~uint64_t(0), j < touched.size() ? touched[j].key : ~uint64_t(0));
     keys.push_back(key);
-    for (; i < inCell.size() && inCell[i].key == key; ++i) stencil.triFacesInCell.items.push_back(inCell[i].item);
-    stencil.triFacesInCell.offsets.push_back(uint32_t(i));
+    for (; i < inCell.size() && inCell[i].key == key; ++i) stencil.triFacesInCell.items.push_back({inCell[i].item});
+    stencil.triFacesInCell.endGroup();
     while (j < touched.size() && touched[j].key == key) ++j;
   }
   stencil.cells.resize(keys.size());
   const uint64_t nx = uint64_t(input.cells(0)), ny = uint64_t(input.cells(1));
-  for (size_t c = 0; c < keys.size(); ++c) {
-    stencil.cells[c].element = {int32_t(2 * (keys[c] % nx) + 1), int32_t(2 * (keys[c] / nx % ny) + 1),
-                                int32_t(2 * (keys[c] / nx / ny) + 1)};
+  for (const GridCellId c : stencil.cells.ids()) {
+    const uint64_t key = keys[c.number];
+    stencil.cells[c].element = {int32_t(2 * (key % nx) + 1), int32_t(2 * (key / nx % ny) + 1), int32_t(2 * (key / nx / ny) + 1)};
   }
   return keys;
 }
 
 /// The grid-faces that n items lie in, found by way of the cells.
 template <class ElementOf>
-std::vector<uint32_t> findGridFaces(const Input& input, const std::vector<uint64_t>& keys, const Stencil& stencil, size_t n,
-                                    const ElementOf& elementOf) {
+std::vector<GridFaceId> findGridFaces(const Input& input, const std::vector<uint64_t>& keys, const Stencil& stencil, size_t n,
+                                      const ElementOf& elementOf) {
   std::vector<KeyedItem> sorted(n);
   Slab cell;
   for (uint32_t i = 0; i < n; ++i) {
@@ -151,9 +158,10 @@ std::vector<uint32_t> findGridFaces(const Input& input, const std::vector<uint64
     sorted[i] = {keyOf(input, cell), i};
   }
   sortByKey(sorted, largestKey(input));
-  std::vector<uint32_t> faceOf(n);
-  for (size_t i = 0, c = 0; i < n; ++i) {
-    while (keys[c] < sorted[i].key) ++c;
+  std::vector<GridFaceId> faceOf(n);
+  GridCellId c{0};
+  for (size_t i = 0; i < n; ++i) {
+    while (keys[c.number] < sorted[i].key) ++c.number;
     faceOf[sorted[i].item] = stencil.cells[c].faces[owner(input, elementOf(sorted[i].item), cell)];
   }
   return faceOf;
@@ -161,13 +169,13 @@ std::vector<uint32_t> findGridFaces(const Input& input, const std::vector<uint64
 
 }  // namespace
 
-std::array<uint32_t, 4> Stencil::cornersOf(const Face& face) const {
+std::array<GridVertexId, 4> Stencil::cornersOf(const Face& face) const {
   const Cell& cell = cells[face.cell];
   const int d = face.axis(), base = face.side() << d, p = 1 << (d + 1) % 3, q = 1 << (d + 2) % 3;
   return {cell.corners[base], cell.corners[base + p], cell.corners[base + p + q], cell.corners[base + q]};
 }
 
-std::array<uint32_t, 4> Stencil::edgesOf(const Face& face) const {
+std::array<GridEdgeId, 4> Stencil::edgesOf(const Face& face) const {
   const Cell& cell = cells[face.cell];
   const int d = face.axis(), side = face.side(), p = (d + 1) % 3, q = (d + 2) % 3;
   return {cell.edges[cellEdge(p, 0, side)], cell.edges[cellEdge(q, side, 1)], cell.edges[cellEdge(p, 1, side)],
@@ -181,17 +189,17 @@ Stencil makeStencil(const Surface& surface, const TriFaces& triFaces, Run& run) 
   const std::vector<uint64_t> keys = listCells(input, placed, stencil);
   numberElements(input, keys, stencil, run.monitor);
 
-  const std::vector<FaceEdge>&hybrid = triFaces.hybridEdges, &inPlane = surface.edges.inPlane;
+  const std::vector<FaceEdge>&hybrid = triFaces.hybridEdges, &inPlane = surface.edgesInPlane;
   const auto edgeAt = [&](size_t i) -> const FaceEdge& { return i < hybrid.size() ? hybrid[i] : inPlane[i - hybrid.size()]; };
   const size_t edgeTotal = hybrid.size() + inPlane.size();
-  const std::vector<uint32_t> faceOfEdge =
+  const std::vector<GridFaceId> faceOfEdge =
       findGridFaces(input, keys, stencil, edgeTotal, [&](size_t i) -> const Slab& { return edgeAt(i).element; });
-  stencil.edgesOnFace = groupBy<FaceEdge>(
+  stencil.edgesOnFace = groupBy<FaceEdge, GridFaceId>(
       stencil.faces.size(), edgeTotal, [&](size_t i) { return faceOfEdge[i]; }, edgeAt);
-  const std::vector<uint32_t>& flat = placed.inPlane;
-  const std::vector<uint32_t> faceOfTri =
+  const std::vector<FaceId>& flat = placed.inPlane;
+  const std::vector<GridFaceId> faceOfTri =
       findGridFaces(input, keys, stencil, flat.size(), [&](size_t i) -> const Slab& { return triFaces.elements[flat[i]]; });
-  stencil.triFacesOnFace = groupBy<uint32_t>(
+  stencil.triFacesOnFace = groupBy<FaceId, GridFaceId>(
       stencil.faces.size(), flat.size(), [&](size_t i) { return faceOfTri[i]; }, [&](size_t i) { return flat[i]; });
   return stencil;
 }

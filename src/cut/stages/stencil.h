@@ -19,30 +19,32 @@ inline int cellEdge(int axis, int side1, int side2) { return 4 * axis + side1 + 
 struct Stencil {
   struct Cell {
     Slab element;  ///< all odd
-    uint32_t faces[6], edges[12], corners[8];
+    std::array<GridFaceId, 6> faces;
+    std::array<GridEdgeId, 12> edges;
+    std::array<GridVertexId, 8> corners;
 
     int32_t at(int axis) const { return element[axis] >> 1; }
   };
   /// A grid-face, by the first cell that has it.
   struct Face {
-    uint32_t cell;
+    GridCellId cell;
     uint8_t index;  ///< in that cell
 
     int axis() const { return index >> 1; }
     int side() const { return index & 1; }
   };
 
-  std::vector<Cell> cells;  ///< ascending by z, then y, then x
-  std::vector<Face> faces;
+  IdVector<GridCellId, Cell> cells;  ///< ascending by z, then y, then x
+  IdVector<GridFaceId, Face> faces;
   uint32_t edgeCount = 0, cornerCount = 0;
-  Csr<uint32_t> triFacesInCell;  ///< ids of tri-cut-faces inside of each cell
-  Csr<uint32_t> triFacesOnFace;  ///< ids of tri-cut-faces that lie in each grid-face
-  Csr<FaceEdge> edgesOnFace;     ///< cut-edges inside of each grid-face
+  Csr<FaceId, GridCellId> triFacesInCell;  ///< tri-cut-faces inside of each cell
+  Csr<FaceId, GridFaceId> triFacesOnFace;  ///< tri-cut-faces that lie in each grid-face
+  Csr<FaceEdge, GridFaceId> edgesOnFace;   ///< cut-edges inside of each grid-face
 
   /// The corners of a grid-face, counter-clockwise about its axis, and the grid-edge from each to the next. Edges 2 and 3 run against their
   /// axis.
-  std::array<uint32_t, 4> cornersOf(const Face& face) const;
-  std::array<uint32_t, 4> edgesOf(const Face& face) const;
+  std::array<GridVertexId, 4> cornersOf(const Face& face) const;
+  std::array<GridEdgeId, 4> edgesOf(const Face& face) const;
 };
 
 Stencil makeStencil(const Surface& surface, const TriFaces& triFaces, Run& run);

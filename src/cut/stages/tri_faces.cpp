@@ -1,10 +1,12 @@
 #include "cut/stages/tri_faces.h"
 
+#include "base/sort.h"
+
 namespace mandoline::detail {
 namespace {
 
 struct Corner {
-  uint32_t id;
+  VertexId id;
   Slab slab;
 };
 using Polygon = std::vector<Corner>;
@@ -12,8 +14,9 @@ using Polygon = std::vector<Corner>;
 /// What one chunk of triangles makes. Ids of its own vertices count from vertices.size() on.
 struct Chunk {
   TriFaces faces;
-  std::vector<Slab> slabs;
-  std::vector<uint32_t> parents;
+  UndividedFaces undivided;
+  std::vector<Slab> slabs;          // of those vertices
+  std::vector<TriangleId> parents;  // of those vertices
   Predicates predicates;
   Polygon whole, chain;
   Polygon rest[3], low[3], high[3];  // per axis
@@ -21,30 +24,31 @@ struct Chunk {
 
 constexpr size_t kMost = size_t(1) << 31;  // loop entries, vertices
 
-[[noreturn]] void failTooLarge(int64_t triangle) {
-  throw Failure{{Status::meshTooLarge, triangle, -1, "The cut-mesh would have more than 2^31 loop entries or vertices."}};
+[[noreturn]] void failTooLarge(int64_t element) {
+  throw Failure{{Status::meshTooLarge, element, -1, "The cut-mesh would have more than 2^31 loop entries or vertices."}};
 }
 
 class Dicer {
  public:
   Dicer(const Surface& surface, Monitor& monitor, Chunk& chunk)
-      : input_(surface.input), edges_(surface.edges), vertices_(surface.vertices), monitor_(monitor), chunk_(chunk) {}
+      : input_(surface.input), edges_(surface.edges()), vertices_(surface.vertices), monitor_(monitor), chunk_(chunk) {}
 
-  void cut(uint32_t triangle) {
+  void cut(TriangleId triangle) {
     triangle_ = triangle;
-    const auto& t = input_.triangles[triangle];
+    findInside();
+    const auto t = input_.verticesOf(triangle);
     const Slab &a = input_.slabs[t[0]], &b = input_.slabs[t[1]], &c = input_.slabs[t[2]];
     Slab element;
-    bool oneCell = edges_.stitched.size() == 0;
+    bool oneCell = !edges_.hasStitchedSide(triangle);
     for (int d = 0; d < 3; ++d) {
       const int32_t least = std::min({a[d], b[d], c[d]}), greatest = std::max({a[d], b[d], c[d]});
-      if (greatest < 0 || least > 2 * input_.cells(d)) return;
+      if (!keepOutside_ && (greatest < 0 || least > 2 * input_.cells(d))) return;
       oneCell &= inOneSlab(least, greatest);
       element[d] = slabBetween(least, greatest);
     }
     if (oneCell) {
-      if (!input_.inGrid(element)) return;
-      chunk_.faces.loopVertices.insert(chunk_.faces.loopVertices.end(), t.begin(), t.end());
+      if (!keepOutside_ && !input_.inGrid(element)) return;
+      faces_->loops.items.insert(faces_->loops.items.end(), t.begin(), t.end());
       return addFace(element, planeCount(a) > 1 || planeCount(b) > 1 || planeCount(c) > 1);
     }
     outline(t);
@@ -52,18 +56,41 @@ class Dicer {
   }
 
  private:
+  /// What other triangles leave inside of this one, which decides where its faces go.
+  void findInside() {
+    faces_ = &chunk_.faces;
+    keepOutside_ = false;
+    onLines_.clear();
+    if (!input_.mesh->hasIntersections()) return;
+    const Arrangement& arrangement = *input_.mesh->arrangement;
+    const uint32_t t = triangle_.number;
+    const auto vertices = arrangement.innerVertices[t];
+    keepOutside_ = !arrangement.overlaps[t].empty();  // whose faces are told apart by how they hang together
+    if (vertices.empty() && arrangement.innerEdges[t].empty() && !keepOutside_) return;
+    faces_ = &chunk_.undivided;
+    const auto add = [&](VertexId v) {
+      if (vertices_.isUsed(v) && planeCount(vertices_.slabs[v]) > 1) onLines_.push_back({v, vertices_.slabs[v]});
+    };
+    for (const uint32_t v : vertices) add({v});
+    for (const TriEdgeId e : edges_.innerOf(triangle_)) {
+      for (const VertexId v : vertices_.crossings(e)) add(v);
+    }
+    sortItems(onLines_, [](const Corner& a, const Corner& b) { return a.slab < b.slab; });
+  }
+
   /// The triangle as a polygon with all vertices on its sides.
-  void outline(const std::array<uint32_t, 3>& t) {
+  void outline(const std::array<VertexId, 3>& t) {
     chunk_.whole.clear();
-    const auto add = [&](uint32_t v) { chunk_.whole.push_back({v, vertices_.slabs[v]}); };
+    const auto add = [&](VertexId v) { chunk_.whole.push_back({v, vertices_.slabs[v]}); };
     for (int side = 0; side < 3; ++side) {
-      uint32_t from = t[side];
-      edges_.forSide(input_, triangle_, side, [&](uint32_t edge, bool forward) {
+      VertexId from = t[side];
+      edges_.forSide(*input_.mesh, triangle_, side, [&](TriEdgeId edge, bool forward) {
         add(from);
-        const uint32_t first = edges_.crossingOffsets[edge];
-        uint32_t past = edges_.crossingOffsets[edge + 1];
-        while (past > first && vertices_.slabs[past - 1][0] == CutVertices::kUnused) --past;
-        for (uint32_t i = 0; i < past - first; ++i) add(forward ? first + i : past - 1 - i);
+        const size_t first = chunk_.whole.size();
+        for (const VertexId v : vertices_.crossings(edge)) {
+          if (vertices_.isUsed(v)) add(v);
+        }
+        if (!forward) std::reverse(chunk_.whole.begin() + std::ptrdiff_t(first), chunk_.whole.end());
         from = edges_.ends[edge][forward ? 1 : 0];
       });
     }
@@ -75,18 +102,18 @@ class Dicer {
     const auto [least, greatest] = extent(polygon, axis);
     const int32_t first = firstPlaneAfter(least), last = lastPlaneBefore(greatest), end = 2 * input_.cells(axis);
     if (first > last) {
-      if (greatest >= 0 && least <= end && slabBetween(least, greatest) >= 0 && slabBetween(least, greatest) <= end)
-        split(axis + 1, polygon);
+      const int32_t slab = slabBetween(least, greatest);
+      if (keepOutside_ || (slab >= 0 && slab <= end)) split(axis + 1, polygon);
       return;
     }
     Polygon &rest = chunk_.rest[axis], &low = chunk_.low[axis], &high = chunk_.high[axis];
     rest = polygon;
     for (int32_t plane = first; plane <= last; ++plane) {
       splitAt(axis, plane, rest, low, high);
-      if (plane > 0) split(axis + 1, low);
+      if (keepOutside_ || plane > 0) split(axis + 1, low);
       rest.swap(high);
     }
-    if (last < input_.cells(axis)) split(axis + 1, rest);
+    if (keepOutside_ || last < input_.cells(axis)) split(axis + 1, rest);
   }
 
   static std::pair<int32_t, int32_t> extent(const Polygon& polygon, int axis) {
@@ -121,9 +148,14 @@ class Dicer {
     for (size_t i = 0; i <= chain.size(); ++i) {
       const Corner* to = i < chain.size() ? &chain[i] : down;
       const Slab element = elementBetween(from->slab, to->slab);
-      if (planeCount(element) == 1 && input_.inGrid(element)) chunk_.faces.hybridEdges.push_back({element, from->id, to->id});
+      if (planeCount(element) == 1 && (keepOutside_ || input_.inGrid(element))) addHybridEdge({element, from->id, to->id});
       from = to;
     }
+  }
+
+  void addHybridEdge(const FaceEdge& edge) {
+    faces_->hybridEdges.push_back(edge);
+    if (faces_ == &chunk_.undivided) chunk_.undivided.hybridTriangles.push_back(triangle_);
   }
 
   /// The vertices inside of the hybrid edge a -> b, which lies in the plane: its crossings with planes of the axes not yet cut.
@@ -162,13 +194,13 @@ class Dicer {
   /// hybrid edge in the plane x = i (or all are the same); that edge runs to growing y where the triangle's normal has z > 0.
   int32_t heightOf(int32_t i, int32_t j, int stepY, int32_t from, int32_t to) {
     if (inOneSlab(std::min(from, to), std::max(from, to))) return slabBetween(std::min(from, to), std::max(from, to));
-    const auto& t = input_.triangles[triangle_];
+    const auto t = input_.verticesOf(triangle_);
     const int step = to > from ? 1 : -1;
     const int32_t last = step > 0 ? lastPlaneBefore(to) : firstPlaneAfter(to);
     for (int32_t k = step > 0 ? firstPlaneAfter(from) : lastPlaneBefore(from); step > 0 ? k <= last : k >= last; k += step) {
       const Point p = {input_.planes[0][i], input_.planes[1][j], input_.planes[2][k]};
       const int above =  // the sign of the height less plane k
-          -stepY * chunk_.predicates.orient3d(input_.points[t[0]].data(), input_.points[t[1]].data(), input_.points[t[2]].data(), p.data());
+          -stepY * chunk_.predicates.orient3d(input_.point(t[0]).data(), input_.point(t[1]).data(), input_.point(t[2]).data(), p.data());
       if (above == 0) return 2 * k;
       if (above != step) return 2 * k - step;
     }
@@ -176,7 +208,9 @@ class Dicer {
   }
 
   Corner addVertex(const Slab& slab) {
-    const uint32_t id = uint32_t(vertices_.size() + chunk_.slabs.size());
+    const auto known = std::lower_bound(onLines_.begin(), onLines_.end(), slab, [](const Corner& c, const Slab& s) { return c.slab < s; });
+    if (known != onLines_.end() && known->slab == slab) return *known;
+    const VertexId id{uint32_t(vertices_.size() + chunk_.slabs.size())};
     chunk_.slabs.push_back(slab);
     chunk_.parents.push_back(triangle_);
     return {id, slab};
@@ -190,37 +224,38 @@ class Dicer {
     }
     bool touchesLine = false;
     for (const Corner& c : polygon) {
-      chunk_.faces.loopVertices.push_back(c.id);
+      faces_->loops.items.push_back(c.id);
       touchesLine |= planeCount(c.slab) > 1;
     }
     addFace(element, touchesLine);
   }
 
   void addFace(const Slab& element, bool touchesLine) {
-    TriFaces& faces = chunk_.faces;
-    faces.loopOffsets.push_back(uint32_t(faces.loopVertices.size()));
+    TriFaces& faces = *faces_;
+    faces.loops.endGroup();
     faces.triangles.push_back(triangle_);
     faces.elements.push_back(element);
     faces.touchesLine.push_back(touchesLine);
     if (faces.size() % 4096 != 0) return;  // one triangle may have millions
-    if (faces.loopVertices.size() > kMost || vertices_.size() + chunk_.slabs.size() > kMost) failTooLarge(triangle_);
-    monitor_.report(triangle_, input_.triangles.size());
+    if (faces.loops.items.size() > kMost || vertices_.size() + chunk_.slabs.size() > kMost) failTooLarge(triangle_.number);
+    monitor_.report(triangle_.number, input_.mesh->triangles.size());
   }
 
   const Input& input_;
-  const TriEdges& edges_;
+  const MeshEdges& edges_;
   const CutVertices& vertices_;
   Monitor& monitor_;
   Chunk& chunk_;
-  uint32_t triangle_ = 0;
+  TriangleId triangle_{0};
+  TriFaces* faces_ = nullptr;    // where faces go
+  bool keepOutside_ = false;     // those outside the grid as well
+  std::vector<Corner> onLines_;  // vertices of the arrangement inside of the triangle that lie on grid lines, by slab
 };
 
 /// Appends b, whose vertices in triangles are shifted by what the chunks before it made.
-void append(TriFaces& a, const TriFaces& b, uint32_t firstInTriangle, uint32_t shift) {
-  const auto shifted = [&](uint32_t v) { return v < firstInTriangle ? v : v + shift; };
-  const uint32_t loopShift = uint32_t(a.loopVertices.size());
-  for (size_t i = 1; i < b.loopOffsets.size(); ++i) a.loopOffsets.push_back(b.loopOffsets[i] + loopShift);
-  for (const uint32_t v : b.loopVertices) a.loopVertices.push_back(shifted(v));
+void append(TriFaces& a, const TriFaces& b, VertexId firstInTriangle, uint32_t shift) {
+  const auto shifted = [&](VertexId v) { return v < firstInTriangle ? v : VertexId{v.number + shift}; };
+  a.loops.append(b.loops, shifted);
   a.triangles.insert(a.triangles.end(), b.triangles.begin(), b.triangles.end());
   a.elements.insert(a.elements.end(), b.elements.begin(), b.elements.end());
   a.touchesLine.insert(a.touchesLine.end(), b.touchesLine.begin(), b.touchesLine.end());
@@ -229,18 +264,18 @@ void append(TriFaces& a, const TriFaces& b, uint32_t firstInTriangle, uint32_t s
 
 }  // namespace
 
-TriFaces cutTriangles(Surface& surface, Run& run) {
+TriFaces cutTriangles(Surface& surface, UndividedFaces& undivided, Run& run) {
   const Input& input = surface.input;
   CutVertices& vertices = surface.vertices;
-  auto chunks = forChunks<Chunk>(input.triangles.size(), run.monitor, [&](Chunk& chunk, size_t begin, size_t end) {
+  auto chunks = forChunks<Chunk>(input.mesh->triangles.size(), run.monitor, [&](Chunk& chunk, size_t begin, size_t end) {
     Dicer dicer(surface, run.monitor, chunk);
-    for (size_t t = begin; t < end; ++t) {
-      if (input.kept(t)) dicer.cut(uint32_t(t));
+    for (const TriangleId t : Ids<TriangleId>(begin, end)) {
+      if (input.kept(t)) dicer.cut(t);
     }
   });
   size_t entries = 0, made = vertices.size();
   for (const Chunk& c : chunks) {
-    entries += c.faces.loopVertices.size();
+    entries += c.faces.loops.items.size() + c.undivided.loops.items.size();
     made += c.slabs.size();
     run.count(c.predicates);
   }
@@ -249,13 +284,16 @@ TriFaces cutTriangles(Surface& surface, Run& run) {
   uint32_t shift = 0;
   for (size_t c = 0; c < chunks.size(); ++c) {
     if (c > 0) append(faces, chunks[c].faces, vertices.firstInTriangle, shift);
+    append(undivided, chunks[c].undivided, vertices.firstInTriangle, shift);
+    const std::vector<TriangleId>& triangles = chunks[c].undivided.hybridTriangles;
+    undivided.hybridTriangles.insert(undivided.hybridTriangles.end(), triangles.begin(), triangles.end());
     shift += uint32_t(chunks[c].slabs.size());
   }
   for (const Chunk& c : chunks) {
     vertices.slabs.insert(vertices.slabs.end(), c.slabs.begin(), c.slabs.end());
-    vertices.parents.insert(vertices.parents.end(), c.parents.begin(), c.parents.end());
+    vertices.parentTriangles.insert(vertices.parentTriangles.end(), c.parents.begin(), c.parents.end());
   }
-  vertices.firstOnGrid = uint32_t(vertices.size());
+  vertices.firstOnGrid = {uint32_t(vertices.size())};
   return faces;
 }
 

@@ -12,17 +12,35 @@
 
 namespace mandoline::detail {
 
-struct TriFaces {
-  std::vector<uint32_t> loopOffsets{0}, loopVertices;  ///< one loop per face
-  std::vector<uint32_t> triangles;                     ///< per face
-  std::vector<Slab> elements;                          ///< per face: the grid cell, or the grid-face, whose even entry is then its plane
-  std::vector<uint8_t> touchesLine;                    ///< per face: whether a vertex of it lies on a grid line
-  std::vector<FaceEdge> hybridEdges;                   ///< cut hybrid edges that lie in a grid-face (not on a grid line)
-
-  size_t size() const { return triangles.size(); }
-  std::span<const uint32_t> loop(size_t f) const { return {loopVertices.data() + loopOffsets[f], loopOffsets[f + 1] - loopOffsets[f]}; }
+/// Another triangle that a tri-cut-face is a piece of, in the same plane.
+struct OtherParent {
+  FaceId face;
+  TriangleId triangle;
+  bool sameWay;  ///< whether its normal is the face's
 };
 
-TriFaces cutTriangles(Surface& surface, Run& run);
+struct TriFaces {
+  Csr<VertexId> loops;
+  std::vector<uint32_t> faceLoopOffsets;   ///< per face its loops, the outer one first; empty if every face has one
+  IdVector<FaceId, TriangleId> triangles;  ///< that it is a piece of
+  IdVector<FaceId, Slab> elements;         ///< the grid cell, or the grid-face, whose even entry is then its plane
+  IdVector<FaceId, uint8_t> touchesLine;   ///< whether a vertex of it lies on a grid line
+  std::vector<FaceEdge> hybridEdges;       ///< cut hybrid edges that lie in a grid-face (not on a grid line)
+  std::vector<OtherParent> otherParents;   ///< of faces of several triangles, ascending by face
+
+  size_t size() const { return triangles.size(); }
+  Ids<FaceId> ids() const { return triangles.ids(); }
+  Groups<VertexId> loopsOf(FaceId f) const {
+    return faceLoopOffsets.empty() ? loops.groups(f.number, f.number + 1)
+                                   : loops.groups(faceLoopOffsets[f.number], faceLoopOffsets[f.number + 1]);
+  }
+};
+
+/// Faces of triangles in whose inside others leave something, as if they did not: see divideFaces().
+struct UndividedFaces : TriFaces {
+  std::vector<TriangleId> hybridTriangles;  ///< per hybrid edge
+};
+
+TriFaces cutTriangles(Surface& surface, UndividedFaces& undivided, Run& run);
 
 }  // namespace mandoline::detail

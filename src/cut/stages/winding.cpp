@@ -1,31 +1,24 @@
 #include "cut/stages/winding.h"
 
+#include "cut/stages/face_parents.h"
+
 namespace mandoline::detail {
 namespace {
-
-/// Whether every tri-edge is run through equally often in both directions.
-bool isClosed(const Input& input, const TriEdges& edges) {
-  std::vector<int32_t> net(edges.ends.size(), 0);
-  for (uint32_t t = 0; t < input.triangles.size(); ++t) {
-    if (!input.kept(t)) continue;
-    for (int side = 0; side < 3; ++side) edges.forSide(input, t, side, [&](uint32_t edge, bool forward) { net[edge] += forward ? 1 : -1; });
-  }
-  return std::all_of(net.begin(), net.end(), [](int32_t n) { return n == 0; });
-}
 
 /// Winding number of the surface about the point (x0 + e^3, y0 + e, z0 + e^2) for the grid's lowest corner (x0, y0, z0) and an e as small
 /// as need be: the sign of crossings of the ray from there to -x.
 int windingAtLowestCorner(const Input& input, Predicates& predicates) {
   const Point o = {input.planes[0][0], input.planes[1][0], input.planes[2][0]};
   int winding = 0;
-  for (uint32_t t = 0; t < input.triangles.size(); ++t) {
+  for (const TriangleId t : input.triangleIds()) {
     if (!input.kept(t)) continue;
-    const auto& v = input.triangles[t];
+    const int32_t copies = 1 + input.mesh->signSumOfDuplicates(t);
+    const auto v = input.verticesOf(t);
     const Slab &sa = input.slabs[v[0]], &sb = input.slabs[v[1]], &sc = input.slabs[v[2]];
     if (std::min({sa[0], sb[0], sc[0]}) > 0) continue;
     if (std::min({sa[1], sb[1], sc[1]}) > 0 || std::max({sa[1], sb[1], sc[1]}) <= 0) continue;
     if (std::min({sa[2], sb[2], sc[2]}) > 0 || std::max({sa[2], sb[2], sc[2]}) < 0) continue;
-    const Point &a = input.points[v[0]], &b = input.points[v[1]], &c = input.points[v[2]];
+    const Point &a = input.point(v[0]), &b = input.point(v[1]), &c = input.point(v[2]);
     const auto sideOf = [&](const Point& p, const Point& q) {  // of the shifted point about p -> q, seen along -x
       const int side = predicates.orient2d({p[1], p[2]}, {q[1], q[2]}, {o[1], o[2]});
       if (side != 0) return side;
@@ -38,7 +31,7 @@ int windingAtLowestCorner(const Input& input, Predicates& predicates) {
     if (above == 0) above = predicates.orient2d({a[2], a[0]}, {b[2], b[0]}, {c[2], c[0]});
     if (above == 0) above = predicates.orient2d({a[0], a[1]}, {b[0], b[1]}, {c[0], c[1]});
     if (above == 0) above = side;
-    if (above == side) winding -= side;  // the point lies beyond the triangle along +x, so the ray meets it
+    if (above == side) winding -= side * copies;  // the point lies beyond the triangle along +x, so the ray meets it
   }
   return winding;
 }
@@ -46,13 +39,13 @@ int windingAtLowestCorner(const Input& input, Predicates& predicates) {
 /// The region that holds the point of windingAtLowestCorner.
 uint32_t regionAtLowestCorner(const CutVertices& vertices, const Sides& sides, const Regions& regions) {
   const Stencil& stencil = sides.stencil;
-  if (stencil.cells.empty() || stencil.cells[0].element != Slab{1, 1, 1}) return regions.runRegion[0];
+  if (stencil.cells.empty() || stencil.cells.front().element != Slab{1, 1, 1}) return regions.runRegion[0];
   // Its grid-face x = x0 holds the point's shadow right beside the y-axis: in the face with the directed edge from the corner along y.
-  for (const HalfFace fromBelow : sides.faces.grid.halfFaces[stencil.cells[0].faces[cellFace(0, 0)]]) {
+  for (const HalfFace fromBelow : sides.faces.grid.halfFaces[stencil.cells.front().faces[cellFace(0, 0)]]) {
     const bool reversed = fromBelow.side() == 1;  // a triangle's face whose normal is -x
     const auto loop = sides.faces.loops(fromBelow.face())[0];
     for (size_t i = 0; i < loop.size(); ++i) {
-      uint32_t u = loop[i], v = loop[i + 1 < loop.size() ? i + 1 : 0];
+      VertexId u = loop[i], v = loop[i + 1 < loop.size() ? i + 1 : 0];
       if (reversed) std::swap(u, v);
       const bool found = vertices.slabs[u] == Slab{0, 0, 0} && vertices.slabs[v][0] == 0 && vertices.slabs[v][2] == 0;
       if (found) return regions.cellRegion[sides.cell(fromBelow.twin())];
@@ -85,11 +78,11 @@ class WindingSets {
   /// The winding number of r less that of its root; call find(r) before.
   int32_t toRoot(uint32_t r) const { return toParent_[r]; }
 
-  /// Says that r has one more than s; false if that contradicts what was said before.
-  bool setOneMore(uint32_t r, uint32_t s) {
+  /// Says that r has `step` more than s; false if that contradicts what was said before.
+  bool setMore(uint32_t r, uint32_t s, int32_t step) {
     const uint32_t rootR = find(r), rootS = find(s);
-    if (rootR == rootS) return toRoot(r) == toRoot(s) + 1;
-    toParent_[rootR] = toRoot(s) + 1 - toRoot(r);
+    if (rootR == rootS) return toRoot(r) == toRoot(s) + step;
+    toParent_[rootR] = toRoot(s) + step - toRoot(r);
     parent_[rootR] = rootS;
     return true;
   }
@@ -100,11 +93,11 @@ class WindingSets {
 };
 
 [[noreturn]] void failAt(const CutVertices& vertices, const Sides& sides, FaceId face) {
-  const int64_t triangle = sides.faces.triangle(face);
-  int64_t other = -1;  // another triangle in the same grid cell
+  const auto triangle = sides.faces.triangle(face);
+  std::optional<TriangleId> other;  // another triangle in the same grid cell
   for (const HalfFace h : sides.cells.halfFaces[sides.cell(HalfFace(face, 0))]) {
-    const int64_t found = sides.faces.triangle(h.face());
-    if (found >= 0 && found != triangle) other = found;
+    const auto found = sides.faces.triangle(h.face());
+    if (found && found != triangle) other = found;
   }
   vertices.failSelfIntersection(triangle, other);
 }
@@ -112,14 +105,16 @@ class WindingSets {
 }  // namespace
 
 void findWinding(const Surface& surface, const Sides& sides, Regions& regions, Predicates& predicates) {
-  regions.hasWinding = isClosed(surface.input, surface.edges);
+  regions.hasWinding = surface.input.mesh->closed;
   if (!regions.hasWinding) return;
   WindingSets sets(regions.count);
-  for (uint32_t f = 0; f < sides.faces.tri.size(); ++f) {
-    const FaceId face{f};
-    const uint32_t behind = sides.cell(HalfFace(face, 0)), inFront = sides.cell(HalfFace(face, 1));
+  FaceParents parents(surface.input, sides.faces.tri);
+  for (const FaceId face : sides.faces.tri.ids()) {
+    const CellId behind = sides.cell(HalfFace(face, 0)), inFront = sides.cell(HalfFace(face, 1));
     if (behind == Sides::kNone || inFront == Sides::kNone) continue;  // on the boundary of the grid
-    if (!sets.setOneMore(regions.cellRegion[behind], regions.cellRegion[inFront])) failAt(surface.vertices, sides, face);
+    int32_t step = 0;
+    parents.forEach(face, [&](TriangleId, bool sameWay) { step += sameWay ? 1 : -1; });
+    if (!sets.setMore(regions.cellRegion[behind], regions.cellRegion[inFront], step)) failAt(surface.vertices, sides, face);
   }
   const uint32_t anchor = regionAtLowestCorner(surface.vertices, sides, regions), root = sets.find(anchor);
   const int32_t shift = windingAtLowestCorner(surface.input, predicates) - sets.toRoot(anchor);

@@ -8,22 +8,22 @@ namespace mandoline::detail {
 /// What lies on the two sides of every cut-face.
 class Sides {
  public:
-  static constexpr uint32_t kNone = ~0u;
+  static constexpr CellId kNone{~0u};
 
   const Stencil& stencil;
   const CutFaces& faces;
   const CutCells& cells;
   Sides(const Stencil& stencil_, const CutFaces& faces_, const CutCells& cutCells) : stencil(stencil_), faces(faces_), cells(cutCells) {
     cells_.assign(2 * faces.size(), kNone);
-    for (uint32_t c = 0; c < cells.stencilCells.size(); ++c) {
+    for (const CellId c : cells.gridCells.ids()) {
       for (const HalfFace h : cells.halfFaces[c]) cells_[h.number] = c;
     }
   }
   /// The cut-cell of a half-face, or kNone.
-  uint32_t cell(HalfFace halfFace) const { return cells_[halfFace.number]; }
+  CellId cell(HalfFace halfFace) const { return cells_[halfFace.number]; }
 
  private:
-  std::vector<uint32_t> cells_;  // per half-face
+  std::vector<CellId> cells_;  // per half-face
 };
 
 /// Sets hasWinding and winding of `regions`, whose regions are known.

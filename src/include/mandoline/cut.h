@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mandoline/cut_mesh.h"
+#include "mandoline/intersections.h"
 #include "mandoline/status.h"
 
 namespace mandoline {
@@ -9,6 +10,7 @@ namespace mandoline {
 struct CutOptions : RunOptions {
   /// Tri-vertices within this distance of an axial plane (in cells, below 0.5) are moved onto it before cutting.
   double snapTolerance = 0;
+  Intersections intersections = Intersections::resolve;
 };
 
 struct StageTime {
@@ -19,12 +21,16 @@ struct StageTime {
 struct CutStats {
   std::vector<StageTime> stages;  ///< in order
   double totalMs = 0;
-  uint64_t exactFallbacks = 0;  ///< signs that needed exact arithmetic
-  uint32_t weldedVertices = 0;  ///< tri-vertices that share their position with a lower one
-  uint32_t zeroAreaTriangles = 0, duplicateTriangles = 0, outsideTriangles = 0;  ///< dropped
-  uint32_t snappedVertices = 0;                                                  ///< moved onto a plane by snapTolerance
-  double largestSnap = 0;                                                        ///< farthest such move, in cells
-  uint32_t flushedCoordinates = 0;                                               ///< below 2^-200 of the largest, taken as 0
+  uint64_t exactFallbacks = 0;                           ///< signs that needed exact arithmetic
+  uint32_t weldedVertices = 0;                           ///< tri-vertices that share their position with a lower one
+  uint32_t zeroAreaTriangles = 0, outsideTriangles = 0;  ///< dropped
+  uint32_t duplicateTriangles = 0;                       ///< have the same three vertices as a lower one
+  PairCounts intersections;                              ///< pairs of triangles that meet; none with Intersections::assumeNone
+  uint32_t intersectionCurves = 0;                       ///< connected curves along which others meet the insides of triangles
+  uint32_t madeVertices = 0;                             ///< of the cut-mesh
+  uint32_t snappedVertices = 0;                          ///< moved onto a plane by snapTolerance
+  double largestSnap = 0;                                ///< farthest such move, in cells
+  uint32_t flushedCoordinates = 0;                       ///< below 2^-200 of the largest, taken as 0
 };
 
 struct CutResult {

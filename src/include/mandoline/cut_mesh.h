@@ -54,6 +54,14 @@ struct Face {
   Loops loops;
 };
 
+/// What meets at a made vertex, and so what its four parents are.
+enum class MadeVertex : uint8_t {
+  edgeTriangle,   ///< a tri-edge, by its two tri-vertices, and a triangle
+  edgeEdge,       ///< two tri-edges, by their tri-vertices
+  triangles,      ///< three triangles
+  trianglesPlane  ///< two triangles, and an axial plane or several: see vertexMask
+};
+
 /// Ids begin .. end - 1.
 struct IdRange {
   size_t begin, end;
@@ -61,11 +69,13 @@ struct IdRange {
   size_t size() const { return end - begin; }
 };
 
-/// The cut-mesh. Its arrays are those of the JSON dump and of the npm package, under the same names.
+/// The cut-mesh. The JSON dump and the npm package have the same arrays under the same names, and gridCellRegion() as one more; without
+/// winding numbers regionWinding is empty here, null in the package and a null per region in JSON.
 struct CutMesh {
   Grid grid;
 
-  // Cut-vertices (paper, 3.2), in this order: tri-vertices, crossings of tri-edges, crossings of triangles with grid lines, grid vertices.
+  // Cut-vertices (paper, 3.2), in this order: tri-vertices; vertices that triangles make by meeting; crossings of axial planes with
+  // tri-edges and with the lines along which triangles meet; crossings of grid lines with triangles; grid vertices.
   std::vector<double> positions;         ///< 3 per vertex, world units. Output only: no decision reads them
   std::vector<int32_t> vertexCell;       ///< 3 per vertex: the paper's c, exact. 0..n-1, or n on the last plane
   std::vector<uint8_t> vertexMask;       ///< per vertex: the paper's b. Bit d is set when it lies exactly on plane vertexCell[d] of axis d
@@ -73,13 +83,22 @@ struct CutMesh {
   std::vector<int32_t>
       vertexParents;  ///< 2 per vertex: tri-vertex (v, v); on a tri-edge its ends (a, b); in a triangle (t, -1); grid (-1, -1)
 
+  // Made vertices: those that only exist because triangles meet other than in shared vertices and edges. Their vertexParents are (-1, -1).
+  std::vector<uint32_t> madeVertices;      ///< ascending vertex ids
+  std::vector<uint8_t> madeVertexKinds;    ///< per made vertex: MadeVertex
+  std::vector<int32_t> madeVertexParents;  ///< 4 per made vertex, as its kind says; the rest is -1
+
   // Cut-faces. The first loop of a face is its outer one, counter-clockwise about the face's normal; the others are holes, clockwise.
-  std::vector<uint32_t> loopOffsets;      ///< into loopVertices
-  std::vector<uint32_t> loopVertices;     ///< vertex ids
-  std::vector<uint32_t> faceLoopOffsets;  ///< into loops: face f has loops faceLoopOffsets[f] .. faceLoopOffsets[f + 1] - 1
-  std::vector<int32_t> faceTriangle;      ///< per face: input triangle (its normal is the face's), or -1 for a piece of a grid-face
-  std::vector<int8_t> faceAxis;           ///< per face: 0..2 if it lies in an axial plane, else -1. A grid-face's normal is +axis
-  std::vector<int32_t> facePlane;         ///< per face: index of that plane, else 0
+  std::vector<uint32_t> loopOffsets;        ///< into loopVertices
+  std::vector<uint32_t> loopVertices;       ///< vertex ids
+  std::vector<uint32_t> faceLoopOffsets;    ///< into loops: face f has loops faceLoopOffsets[f] .. faceLoopOffsets[f + 1] - 1
+  std::vector<int32_t> faceTriangle;        ///< per face: its lowest triangle, whose normal it has; or -1 for a piece of a grid-face
+  std::vector<uint32_t> faceParentOffsets;  ///< into faceParents
+  std::vector<uint32_t> faceParents;        ///< all triangles that contain the face, ascending: several where they lie on each other
+  std::vector<int8_t> faceParentSigns;      ///< per parent: 1 if its normal is the face's, -1 if the opposite; their sum is the step of the
+                                            ///< winding number from the front of the face to behind it
+  std::vector<int8_t> faceAxis;             ///< per face: 0..2 if it lies in an axial plane, else -1. A grid-face's normal is +axis
+  std::vector<int32_t> facePlane;           ///< per face: index of that plane, else 0
 
   // Cut-cells, in ascending order of grid cells, x fastest.
   std::vector<uint32_t> cellHalfFaceOffsets;  ///< into cellHalfFaces
@@ -99,7 +118,7 @@ struct CutMesh {
   std::vector<int32_t> regionWinding;  ///< per region: +1 inside an outward oriented closed surface; empty unless hasWinding
 
   uint32_t triangleCount = 0;              ///< of the input
-  std::vector<uint32_t> droppedTriangles;  ///< ascending ids of triangles without a face: zero area, duplicate, outside the grid
+  std::vector<uint32_t> droppedTriangles;  ///< ascending ids of triangles without a face: no area, or none inside the grid
 
   size_t vertexCount() const { return vertexMask.size(); }
   size_t loopCount() const { return loopOffsets.empty() ? 0 : loopOffsets.size() - 1; }
@@ -163,7 +182,20 @@ class UntouchedCells {
 };
 
 /// What an array of a cut-mesh has an entry, or several, for.
-enum class Element : uint8_t { vertex, loop, loopVertex, face, cell, cellHalfFace, row, run, region, droppedTriangle };
+enum class Element : uint8_t {
+  vertex,
+  loop,
+  loopVertex,
+  face,
+  faceParent,
+  madeVertex,
+  cell,
+  cellHalfFace,
+  row,
+  run,
+  region,
+  droppedTriangle
+};
 
 /// One array of a cut-mesh.
 struct ArrayInfo {
@@ -183,10 +215,16 @@ void forEachArray(AnyCutMesh& cutMesh, const F& f) {
   f(ArrayInfo{"vertexMask", Element::vertex}, cutMesh.vertexMask);
   f(ArrayInfo{"vertexTriVertex", Element::vertex}, cutMesh.vertexTriVertex);
   f(ArrayInfo{"vertexParents", Element::vertex, 2}, cutMesh.vertexParents);
+  f(ArrayInfo{"madeVertices", Element::madeVertex}, cutMesh.madeVertices);
+  f(ArrayInfo{"madeVertexKinds", Element::madeVertex}, cutMesh.madeVertexKinds);
+  f(ArrayInfo{"madeVertexParents", Element::madeVertex, 4}, cutMesh.madeVertexParents);
   f(ArrayInfo{"loopOffsets", Element::loop, 1, true}, cutMesh.loopOffsets);
   f(ArrayInfo{"loopVertices", Element::loopVertex}, cutMesh.loopVertices);
   f(ArrayInfo{"faceLoopOffsets", Element::face, 1, true}, cutMesh.faceLoopOffsets);
   f(ArrayInfo{"faceTriangle", Element::face}, cutMesh.faceTriangle);
+  f(ArrayInfo{"faceParentOffsets", Element::face, 1, true}, cutMesh.faceParentOffsets);
+  f(ArrayInfo{"faceParents", Element::faceParent}, cutMesh.faceParents);
+  f(ArrayInfo{"faceParentSigns", Element::faceParent}, cutMesh.faceParentSigns);
   f(ArrayInfo{"faceAxis", Element::face}, cutMesh.faceAxis);
   f(ArrayInfo{"facePlane", Element::face}, cutMesh.facePlane);
   f(ArrayInfo{"cellHalfFaceOffsets", Element::cell, 1, true}, cutMesh.cellHalfFaceOffsets);

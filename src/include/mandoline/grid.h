@@ -16,9 +16,9 @@ struct Grid {
   std::array<double, 3> origin{};   ///< its lowest corner
   std::array<double, 3> spacing{};  ///< size of a cell per axis; zero if not uniform
 
-  /// The box from lo to hi in cells[d] cells per axis: plane c lies at lo + (hi - lo) * c / n.
-  static Grid box(const std::array<double, 3>& lo, const std::array<double, 3>& hi, const std::array<int64_t, 3>& cells);
-  /// Plane c lies at origin + spacing * c.
+  /// The box from min to max in cells[d] cells per axis: per axis, plane c lies at min + (max - min) * c / cells.
+  static Grid box(const std::array<double, 3>& min, const std::array<double, 3>& max, const std::array<int64_t, 3>& cells);
+  /// Per axis, plane c lies at origin + spacing * c.
   static Grid regular(const std::array<double, 3>& origin, const std::array<double, 3>& spacing, const std::array<int64_t, 3>& cells);
   /// Any ascending planes, for graded grids.
   static Grid rectilinear(std::array<std::vector<double>, 3> planes);

@@ -1,4 +1,4 @@
-// What kind of mesh it is.
+// What kind of mesh one is: closed, oriented, manifold.
 #pragma once
 
 #include <array>
@@ -7,9 +7,10 @@
 
 namespace mandoline {
 
-/// Counts of a mesh whose vertices at one position are taken as one. Edges are those of triangles with three different vertices.
+/// What a mesh has. But for the number of vertices, those at one position count as one. Edges are those of triangles with three different
+/// vertices.
 struct MeshInfo {
-  size_t vertices = 0, triangles = 0;
+  size_t vertices = 0, triangles = 0;  ///< as they were given
   std::array<double, 3> min{}, max{};  ///< bounding box of the finite coordinates in use; all zero if there are none
   bool closed = false;                 ///< every edge has an even number of triangles
   bool oriented = false;               ///< every edge is run through equally often both ways, so that there are winding numbers
@@ -24,7 +25,8 @@ struct MeshInfo {
   size_t nonFiniteVertices = 0;
 };
 
-/// Triangles must name vertices that exist.
+/// Throws CallError if the length of an array is no multiple of 3 (badArrays), or for a triangle that names a vertex that does not exist
+/// (badIndex; element: the triangle).
 MeshInfo inspect(const MeshView& mesh);
 
 }  // namespace mandoline

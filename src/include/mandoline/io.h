@@ -1,4 +1,4 @@
-// Files: triangle meshes in, cut-meshes out.
+// Files: triangle meshes in; cut-meshes out and in; meshes and outlines out.
 #pragma once
 
 #include <functional>
@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "mandoline/cell_complex.h"
 #include "mandoline/mandoline.h"
 #include "mandoline/mesh_files.h"
 #include "mandoline/slice.h"
@@ -17,12 +18,13 @@ namespace mandoline {
 /// The kinds of files that are written, by their extensions.
 enum class FileFormat {
   json,  ///< every array of a cut-mesh
+  mcm,   ///< the same in a tenth of the bytes, to be read back
   vtu,   ///< polyhedra for VTK and ParaView
   obj,   ///< a mesh, or the cut surface as polygons, one group per region, or outlines as lines in space
   stl,   ///< a mesh, or the cut surface; binary
   ply,   ///< a mesh, or the cut surface with the region of each triangle; binary
   off,   ///< a mesh
-  svg,   ///< outlines, seen against the normal
+  svg,   ///< outlines, with the normal towards the viewer
   dxf,   ///< outlines as polylines in space, one layer per region
 };
 /// The extension, e.g. "json".
@@ -34,30 +36,51 @@ bool isCutMeshFormat(FileFormat format);
 bool isMeshFormat(FileFormat format);
 bool isOutlineFormat(FileFormat format);
 
-/// What of a cut-mesh is written.
-struct WriteOptions {
-  bool untouchedCells = true;  ///< besides the cut-cells (.vtu)
-  /// Per region 1 if it is written, else 0; empty for all. Of cells: those of the region. Of the surface: all that bounds the region,
-  /// oriented out of it, while without regions each face is written once, under the region that an outward oriented surface encloses.
+/// What of a cut-mesh is written, and how.
+struct WriteOptions : RunOptions {
+  bool untouched = true;  ///< whether untouched grid cells are written, too (.vtu, polyMesh)
+  /// Per region of the cut-mesh 1 if it is written, else 0; empty for all. Of cells: those of the region. Of the surface: all that bounds
+  /// the region, oriented out of it, while without regions each face is written once, under the region that an outward oriented surface
+  /// encloses.
   std::vector<uint8_t> regions;
 };
 
 /// Takes the bytes of a file, piece after piece. What it throws passes through.
 using Sink = std::function<void(std::string_view)>;
 
-/// The complete dump as JSON; doubles read back identically.
-void writeJson(const Sink& sink, const CutMesh& cutMesh);
+// All writers throw CallError if cancelled, and for arguments that do not fit: `regions` of a wrong length, the mesh of another cut, a
+// triangle (element) that names a vertex that does not exist.
+
+/// The complete dump as JSON: format, version, grid, the arrays of CutMesh under their names, gridCellRegion (as CutMesh::gridCellRegion())
+/// and triangleCount. Without winding numbers, regionWinding has a null for each region. Doubles read back identically.
+void writeJson(const Sink& sink, const CutMesh& cutMesh, const RunOptions& options = {});
+/// The cut-mesh as bytes that readCutMesh() takes, in Mandoline's own format: compressed, with a version and a checksum of each array. The
+/// same cut-mesh always gives the same bytes.
+void writeMcm(const Sink& sink, const CutMesh& cutMesh, const RunOptions& options = {});
 /// VTK XML unstructured grid of polyhedra with cell arrays grid_cell, region, winding, volume. Faces with holes are split alike on both
-/// sides. Takes little memory beside that of the cut-mesh.
+/// sides. Takes little memory besides that of the cut-mesh.
 void writeVtu(const Sink& sink, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options = {});
+/// Numbers to write along: 1 or 3 for each cell, or each face, of a cell complex.
+struct Field {
+  std::string name;
+  std::span<const double> values;
+};
+/// The cells of a cell complex, made from the cut-mesh, as such polyhedra, which match face by face, with cell arrays grid_cell (the lowest
+/// one), level, region, winding, volume and the fields.
+void writeVtu(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, std::span<const Field> cellFields = {},
+              const WriteOptions& options = {});
+/// Its faces, those of the cells that the options select, as polygons with cell arrays face, tag (FaceTag), triangle, cells and the fields.
+/// A face with holes or slits is several triangles, with the same numbers.
+void writeFacesVtu(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, std::span<const Field> faceFields = {},
+                   const WriteOptions& options = {});
 /// The cut surface.
 void writeObj(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options = {});
 void writeStl(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options = {});
 void writePly(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options = {});
-/// A cut-mesh as json, vtu, obj, stl or ply. JSON always has everything. Throws FileError for the others.
+/// A cut-mesh as json, mcm, vtu, obj, stl or ply. JSON and .mcm always have everything. Throws FileError for the others.
 void writeCutMesh(const Sink& sink, FileFormat format, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options = {});
 /// A mesh as obj, stl, ply or off. Throws FileError for the others.
-void writeMesh(const Sink& sink, FileFormat format, const MeshView& mesh);
+void writeMesh(const Sink& sink, FileFormat format, const MeshView& mesh, const RunOptions& options = {});
 
 /// Outlines in parallel planes.
 struct OutlineStack {
@@ -65,18 +88,33 @@ struct OutlineStack {
   std::vector<double> offsets;   ///< as for outlines()
   std::vector<Outlines> layers;  ///< per offset
 };
-/// Those of the regions in svg, dxf or obj, in world units. Throws FileError for other formats.
+/// Those of the regions in svg, dxf or obj, in world units. Throws FileError for other formats, and CallError for a region (element)
+/// without a place in options.regions.
 void writeOutlines(const Sink& sink, FileFormat format, const OutlineStack& stack, const WriteOptions& options = {});
 
 /// The same to streams, whose state tells of errors.
-void writeJson(std::ostream& out, const CutMesh& cutMesh);
+void writeJson(std::ostream& out, const CutMesh& cutMesh, const RunOptions& options = {});
+void writeMcm(std::ostream& out, const CutMesh& cutMesh, const RunOptions& options = {});
 void writeVtu(std::ostream& out, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options = {});
 void writeObj(std::ostream& out, const CutMesh& cutMesh, const WriteOptions& options = {});
 
 /// The same to files, by extension. A file appears when it is complete. Throws FileError.
 void writeCutMesh(const std::string& path, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options = {});
-void writeMesh(const std::string& path, const MeshView& mesh);
+void writeMesh(const std::string& path, const MeshView& mesh, const RunOptions& options = {});
+/// Writes all cells as an OpenFOAM polyMesh: the files points, faces, owner, neighbour, boundary and, if there are cells of several
+/// regions, cellZones (region0, ...) in the folder, which is made if need be; they appear when all are complete. `cells` is made from the
+/// cut-mesh; which of them are written is up to the options. Patches are xMin ... zMax, `surface` (a wall), which has both sides of the
+/// input's triangles, and `inner` where only one of two neighbours is written. Faces with holes or slits are divided into triangles, as
+/// those of .vtu files are. Throws FileError.
+void writePolyMesh(const std::string& folder, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options = {});
+
 /// Throws the FileError that writeCutMesh would meet at once, before there is anything to write: an unknown extension, no such folder.
 void checkOutput(const std::string& path);
+
+/// Reads a .mcm file: every array and the grid, to the bit. What it returns passes checkArrays(), so that all functions can take it; some
+/// also need its input. Throws FileError for anything else, which names the byte and the array.
+CutMesh readCutMesh(const std::string& path);
+/// The same from the bytes of a file. `name` stands for the path in messages.
+CutMesh readCutMesh(std::span<const char> bytes, const std::string& name);
 
 }  // namespace mandoline

@@ -9,16 +9,16 @@
 
 namespace mandoline {
 
-/// Where points lie, per point. Of a point on a face, or on a plane of the grid, one of the cells beside it, always the same.
+/// Where points lie. A point on a face or on a plane of the grid belongs to one of the cells beside it, always the same one.
 struct Locations {
-  std::vector<int32_t> cell;      ///< the cut-cell that holds the point, or -1 in an untouched grid cell, or outside the grid
+  std::vector<int32_t> cell;      ///< per point: the cut-cell that holds it, or -1 in an untouched grid cell, or outside the grid
   std::vector<int32_t> gridCell;  ///< 3 per point: the grid cell, or -1, -1, -1 outside the grid
-  std::vector<int32_t> region;    ///< the region, or -1 outside the grid
+  std::vector<int32_t> region;    ///< per point: the region, or -1 outside the grid
 };
 
 /// `points`: 3 per point, world units; one that is not finite lies outside. The grid's border belongs to it. Decided exactly, against
 /// the triangles of triangulateFaces(): in a cut grid cell always one cut-cell is found, whatever rounding has done to the positions.
 /// One call for many points is faster than many calls. Throws CallError unless the number of coordinates is a multiple of 3.
-Locations locate(const CutMesh& cutMesh, std::span<const double> points);
+Locations cellsAt(const CutMesh& cutMesh, std::span<const double> points);
 
 }  // namespace mandoline

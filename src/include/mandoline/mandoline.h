@@ -1,15 +1,29 @@
 // Mandoline: cuts a triangle mesh with a Cartesian grid into polyhedral cut-cells.
 //
 // After "Mandoline: Robust Cut-Cell Generation for Arbitrary Triangle Meshes" (Tao, Batty, Fiume, Levin; SIGGRAPH Asia 2019), with
-// exact predicates in place of floating-point decisions. This header is the whole interface of the cutter; measure.h, triangulate.h,
-// locate.h, slice.h, validate.h and io.h work on its results and see nothing else.
+// exact predicates in place of floating-point decisions. This header has all of the library mandoline::mandoline. grid.h, cut.h and
+// cut_mesh.h are about the cut and its result; mesh.h, prepare.h, intersections.h, resolve.h, inspect.h and shapes.h about meshes;
+// measure.h, triangulate.h, locate.h, slice.h, coarsen.h, cell_complex.h and validate.h work on cut-meshes and see nothing but these public
+// structs. Files are in io.h; operators.h and poisson.h, which need Eigen, compute on all cells.
 //
-//   mandoline::Mesh mesh = mandoline::readMesh("bunny.obj");
+//   mandoline::Mesh mesh = mandoline::readMesh("bunny.obj");  // io.h
 //   mandoline::CutResult result = mandoline::cut(mesh, mandoline::Grid::around(mesh, 32));
 //   if (!result) throw std::runtime_error(result.error.message);
 //
 // Lengths are in world units unless "cells" is said.
 #pragma once
 
+#include "mandoline/cell_complex.h"
+#include "mandoline/coarsen.h"
 #include "mandoline/cut.h"
+#include "mandoline/inspect.h"
+#include "mandoline/intersections.h"
+#include "mandoline/locate.h"
+#include "mandoline/measure.h"
+#include "mandoline/prepare.h"
+#include "mandoline/resolve.h"
+#include "mandoline/shapes.h"
+#include "mandoline/slice.h"
+#include "mandoline/triangulate.h"
+#include "mandoline/validate.h"
 #include "mandoline/version.h"

@@ -6,8 +6,8 @@
 
 namespace mandoline {
 
-/// All in world units. Computed from the made vertices' provenance in coordinates local to each cell, so that the relative error of a
-/// tiny cell is tiny too.
+/// All in world units. Computed from what each vertex comes from (vertexParents), in coordinates local to each cell, so that the relative
+/// error is small for a tiny cell, too.
 struct Measures {
   std::vector<double> faceArea;      ///< per face
   std::vector<double> faceNormal;    ///< 3 per face, unit
@@ -16,7 +16,7 @@ struct Measures {
   std::vector<double> cellCentroid;  ///< 3 per cut-cell
 };
 
-/// `mesh` is the input that `cutMesh` was made from. Throws CallError if it can't be, or if cancelled.
+/// `mesh` is the input that `cutMesh` was made from. Throws CallError if it clearly is not (badArgument), or if cancelled.
 Measures measure(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions& options = {});
 
 /// Unique undirected cut-edges (of all loops), lower vertex id first, ascending, with their lengths.
@@ -31,10 +31,10 @@ CutEdges cutEdges(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions
 /// number of cut-cells.
 std::vector<double> regionVolumes(const CutMesh& cutMesh, const Measures& measures);
 
-/// Who lies beside whom. A neighbour is a cut-cell, an untouched grid cell, or nothing (the box ends).
+/// What lies on the two sides of each face (a cut-cell, an untouched grid cell, or nothing where the grid ends), and beside each cut-cell.
 struct Adjacency {
   std::vector<int32_t> faceCells;         ///< 2 per face: the cut-cell of side 0 and of side 1, or -1
-  std::vector<int64_t> faceGridCells;     ///< 2 per face: where faceCells is -1, the untouched grid cell (i + nx (j + ny k)), or -1
+  std::vector<int64_t> faceGridCells;     ///< 2 per face, the same: the untouched grid cell i + nx (j + ny k); else -1
   std::vector<uint32_t> cellCellOffsets;  ///< into cellCells, per cut-cell
   std::vector<uint32_t> cellCells;        ///< neighbouring cut-cells of each cut-cell across any face, ascending, without repeats
 };

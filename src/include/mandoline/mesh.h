@@ -8,7 +8,8 @@
 
 namespace mandoline {
 
-/// A triangle mesh. The normal of triangle (a, b, c) is (b - a) x (c - a). It may be open, non-manifold, inconsistently oriented, unwelded.
+/// A triangle mesh. The normal of triangle (a, b, c) is (b - a) x (c - a). It may be open, non-manifold, inconsistently oriented, unwelded,
+/// and its triangles may meet anywhere.
 struct Mesh {
   std::vector<double> positions;    ///< 3 per tri-vertex: x, y, z
   std::vector<uint32_t> triangles;  ///< 3 per triangle: tri-vertex ids
@@ -17,7 +18,7 @@ struct Mesh {
   size_t triangleCount() const { return triangles.size() / 3; }
 };
 
-/// A mesh somebody else owns, in the layout of Mesh. It must outlive the view, so there is none of a temporary.
+/// A mesh that somebody else owns, in the layout of Mesh. It must outlive the view, so a view of a temporary does not compile.
 struct MeshView {
   std::span<const double> positions;
   std::span<const uint32_t> triangles;

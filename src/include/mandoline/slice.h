@@ -21,9 +21,9 @@ struct SliceOptions {
 };
 
 /// The polygons in which a plane cuts the cells: those of the cut-cells in ascending order, then those of the untouched grid cells. A cell
-/// may have several. A slit (the cut of a sheet that ends within the cell) is run through forth and back within a loop, or is a loop of its
-/// own; triangles take no notice of slits. Points are shared by the polygons of neighbouring cut-cells; each polygon of an untouched grid
-/// cell has its own. Where triangles of the input cross within a grid cell, so may a polygon's loops.
+/// may have several. A slit (the cut of a sheet that ends within the cell) is a part of a loop that runs there and back, or a loop of its
+/// own; triangles ignore slits. Points are shared by the polygons of neighbouring cut-cells; each polygon of an untouched grid
+/// cell has its own. Where triangles cross that Intersections::assumeNone did not look for, so may a polygon's loops.
 struct Slice {
   std::vector<double> positions;                ///< 3 per point, on the plane, world units
   std::vector<uint32_t> loopOffsets{0};         ///< into loopPoints
@@ -39,9 +39,9 @@ struct Slice {
 };
 
 /// Which vertices lie on which side is decided exactly and once for all cells. Those on the plane count as above it (below it if nothing
-/// else is): the result is that of a plane moved by less than anything, so a plane through vertices, edges or faces cuts every place once.
-/// Polygons that have no width on the plane itself may be left out. A plane beside the grid cuts nothing. Throws CallError for a normal
-/// that is zero or not finite (element: the axis) and an offset that is not finite (element: which).
+/// else is): the result is that of a plane moved by an infinitesimal, so a plane through vertices, edges or faces cuts every place once.
+/// Polygons that have no width on the plane itself may be left out. A plane that misses the grid cuts nothing. Throws CallError for a
+/// normal that is zero or not finite (element: the axis) and an offset that is not finite (element: which).
 Slice slice(const CutMesh& cutMesh, const Plane& plane, const SliceOptions& options = {});
 
 /// The slices of parallel planes, each as slice() gives it, in the order of their offsets, for less than many calls cost.
@@ -75,8 +75,8 @@ Outlines outlines(const CutMesh& cutMesh, const Plane& plane);
 /// Those of parallel planes, in the order of their offsets.
 std::vector<Outlines> outlines(const CutMesh& cutMesh, const std::array<double, 3>& normal, std::span<const double> offsets);
 
-/// Axes for drawing what lies in a plane: unit vectors along it, right x up being the normal's direction; those of the grid if the normal
-/// is one.
+/// Axes for drawing what lies in a plane: unit vectors along it, with right x up in the direction of the normal. If the normal is along an
+/// axis of the grid, so are they.
 struct PlaneAxes {
   std::array<double, 3> right, up;
 };

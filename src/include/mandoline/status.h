@@ -18,9 +18,9 @@ enum class Status : uint8_t {
   nonFiniteCoordinate,  ///< element: the tri-vertex
   badGrid,              ///< no cells on an axis, planes not ascending or not finite; element: the axis
   gridTooLarge,         ///< more than 2^24 cells on an axis (element), or more than 2^28 rows of cells
-  badOption,            ///< snapTolerance outside [0, 0.5)
+  badOption,            ///< out of range: a snapTolerance outside [0, 0.5), a negative maxLevel or fineLayers
   selfIntersection,     ///< element, element2: two triangles that meet other than in a shared vertex or edge
-  meshTooLarge,         ///< more than 2^32 elements in the result
+  meshTooLarge,         ///< 2^31 or more triangles, vertices or corners of faces, in the mesh or in the result
   outOfMemory,
   internalError,  ///< a fault of this library
   badArgument,    ///< an argument that the function can't take, e.g. a cell that does not exist (element) or the mesh of another cut
@@ -67,7 +67,8 @@ struct Error {
   std::string message;                  ///< a full sentence that names the elements; empty if ok
 };
 
-/// What every function but cut() throws when it can't do what it is asked to; what() is the error's message.
+/// Thrown by functions that can't do what they are asked to. cut(), prepare() and resolve() return an Error instead, and a file that can't
+/// be used is a FileError. what() is the error's message.
 struct CallError : std::runtime_error {
   explicit CallError(Error error_) : std::runtime_error(error_.message), error(std::move(error_)) {}
 

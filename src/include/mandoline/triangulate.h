@@ -13,6 +13,7 @@ struct FaceTriangles {
   std::vector<uint32_t> faceTriangleOffsets;  ///< into triangles (in triangles, not entries), per face
   std::vector<uint32_t> triangles;            ///< 3 vertex ids per triangle, counter-clockwise about the face's normal
 };
+/// Throws CallError if the cut-mesh is empty.
 FaceTriangles triangulateFaces(const CutMesh& cutMesh);
 
 /// The closed triangle surface of one cut-cell, oriented outward: 3 vertex ids per triangle, those of triangulateFaces(). Costs what the

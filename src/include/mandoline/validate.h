@@ -13,10 +13,10 @@ struct Check {
   /// What was found: the number of violations; or where tolerance is above 0 the largest deviation, in roundings (half units in the last
   /// place of the largest coordinate). NaN where it can't be computed.
   double worst = 0;
-  double tolerance = 0;     ///< what it may be
-  std::string elementKind;  ///< "cell", "face", "triangle", ... of the worst deviation; empty if none
-  int64_t element = -1;
-  std::string message;  ///< for people, in plain sentences: what is wrong, or why it was skipped, or what was left out; may be empty
+  double tolerance = 0;     ///< the largest `worst` that passes
+  std::string elementKind;  ///< what the worst was found at: "cell", "face", "triangle", ...; empty if nothing
+  int64_t element = -1;     ///< its id, or -1
+  std::string message;      ///< for people, in plain sentences: what is wrong, or why it was skipped, or what was left out; may be empty
 };
 
 struct Validation {
@@ -24,8 +24,8 @@ struct Validation {
   std::vector<Check> checks;
 };
 
-/// The first check of validate(): lengths, offsets and id ranges. All functions that take a cut-mesh need one that passes, as those of
-/// cut() do; one that comes from elsewhere may not. Without its input mesh, tri-vertex ids can't be held against it.
+/// The first check of validate(): lengths, offsets and id ranges. All other functions that take a cut-mesh rely on it. What cut() gives
+/// passes; a cut-mesh from elsewhere should be checked first. Without `mesh`, its input, tri-vertex ids are not checked against it.
 Check checkArrays(const CutMesh& cutMesh, const MeshView* mesh = nullptr);
 
 struct ValidateOptions : RunOptions {

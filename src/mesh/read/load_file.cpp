@@ -1,4 +1,5 @@
-// Mesh files by their path.
+#include "mesh/read/load_file.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -7,12 +8,9 @@
 #include <memory>
 #include <new>
 
-#include "mandoline/mesh_files.h"
-
 namespace mandoline {
-namespace {
 
-std::string loadFile(const std::string& path) {
+std::string detail::loadFile(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw FileError(path + ": is a directory");
   const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
@@ -34,11 +32,9 @@ std::string loadFile(const std::string& path) {
   return bytes;
 }
 
-}  // namespace
-
 Mesh readMesh(const std::string& path) {
   try {
-    return readMesh(loadFile(path), path);
+    return readMesh(detail::loadFile(path), path);
   } catch (const std::bad_alloc&) {
     throw FileError(path + ": does not fit into memory");
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/sort.h"
 #include "operators/locate/walls.h"
 #include "operators/require_cut_mesh.h"
 
@@ -57,7 +58,7 @@ class Locator {
       result_.region[i] = int32_t(untouched.regionAt(at[0], at[1], at[2]));
       if (result_.region[i] < 0) inCut.push_back(uint32_t(i));
     }
-    std::sort(inCut.begin(), inCut.end(), [&](uint32_t a, uint32_t b) { return gridCellOf(a) < gridCellOf(b); });
+    detail::sortItems(inCut, [&](uint32_t a, uint32_t b) { return gridCellOf(a) < gridCellOf(b); });
     return inCut;
   }
 
@@ -87,7 +88,7 @@ class Locator {
 
 }  // namespace
 
-Locations locate(const CutMesh& cutMesh, std::span<const double> points) {
+Locations cellsAt(const CutMesh& cutMesh, std::span<const double> points) {
   operators::requireCutMesh(cutMesh);
   if (points.size() % 3 != 0) operators::refuse("The points have " + std::to_string(points.size()) + " coordinates, no multiple of 3.");
   return Locator(cutMesh, points).run();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort.h"
+
 namespace mandoline::operators {
 namespace {
 
@@ -95,7 +97,7 @@ void Walls::gatherFaces(const IdRange& cells) {
       if (mayBeMet(h / 2)) halfFaces_.push_back({h, uint32_t(c - cells.begin)});
     }
   }
-  std::sort(halfFaces_.begin(), halfFaces_.end(), [](const HalfFace& a, const HalfFace& b) { return a.halfFace < b.halfFace; });
+  detail::sortItems(halfFaces_, [](const HalfFace& a, const HalfFace& b) { return a.halfFace < b.halfFace; });
   for (size_t i = 0; i < halfFaces_.size(); ++i) {
     const uint32_t face = halfFaces_[i].halfFace / 2;
     std::array<uint32_t, 2> places = {kNone, kNone};
@@ -122,7 +124,7 @@ bool Walls::mayBeMet(uint32_t face) const {
 
 void Walls::addWalls(uint32_t face, const std::array<uint32_t, 2>& places) {
   triangles_.clear();
-  triangulator_.run(face, triangles_);
+  triangulator_.run(cutMesh_.face(face), triangles_);
   for (size_t t = 0; t < triangles_.size(); t += 3) {
     Wall& wall = walls_.emplace_back();
     for (size_t i = 0; i < 3; ++i) wall.corners[i] = space_.scaled(&cutMesh_.positions[3 * size_t(triangles_[t + i])]);

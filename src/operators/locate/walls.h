@@ -26,7 +26,7 @@ class Walls {
  public:
   static constexpr uint32_t kNone = ~0u;
 
-  Walls(const CutMesh& cutMesh, const ScaledSpace& space) : cutMesh_(cutMesh), space_(space), triangulator_(cutMesh) {}
+  Walls(const CutMesh& cutMesh, const ScaledSpace& space) : cutMesh_(cutMesh), space_(space), triangulator_(cutMesh.positions) {}
 
   /// Loads what lies around the cut-cells, which are all of a grid cell, to be asked about some points of it.
   void load(const IdRange& cells, const std::vector<ScaledPoint>& points);

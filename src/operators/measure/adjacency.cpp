@@ -1,7 +1,9 @@
 // Adjacency of a cut-mesh: the two owners of each face, and the cut-cells beside each cut-cell.
 #include <algorithm>
 
+#include "base/sort.h"
 #include "mandoline/measure.h"
+#include "operators/measure/owners.h"
 
 namespace mandoline {
 namespace {
@@ -14,15 +16,6 @@ int64_t gridCellAcross(const CutMesh& cutMesh, const Face& face, size_t cell) {
   across = 2 * int64_t(face.plane) - 1 - across;  // the plane's index is that of the cell above it
   if (across < 0 || across >= cutMesh.grid.cells(face.axis)) return -1;
   return at[0] + cutMesh.grid.cells(0) * (at[1] + cutMesh.grid.cells(1) * at[2]);
-}
-
-/// Per half-face: the cut-cell, or -1.
-std::vector<int32_t> ownersOf(const CutMesh& cutMesh) {
-  std::vector<int32_t> owners(2 * cutMesh.faceCount(), -1);
-  for (size_t c = 0; c < cutMesh.cellCount(); ++c) {
-    for (const uint32_t h : cutMesh.halfFaces(c)) owners[h] = int32_t(c);
-  }
-  return owners;
 }
 
 /// Per half-face: the untouched grid cell, or -1.
@@ -38,9 +31,17 @@ std::vector<int64_t> gridCellsBeside(const CutMesh& cutMesh, const std::vector<i
 
 }  // namespace
 
+std::vector<int32_t> operators::ownersOf(const CutMesh& cutMesh) {
+  std::vector<int32_t> owners(2 * cutMesh.faceCount(), -1);
+  for (size_t c = 0; c < cutMesh.cellCount(); ++c) {
+    for (const uint32_t h : cutMesh.halfFaces(c)) owners[h] = int32_t(c);
+  }
+  return owners;
+}
+
 Adjacency adjacency(const CutMesh& cutMesh) {
   Adjacency result;
-  result.faceCells = ownersOf(cutMesh);
+  result.faceCells = operators::ownersOf(cutMesh);
   result.faceGridCells = gridCellsBeside(cutMesh, result.faceCells);
   result.cellCellOffsets.assign(1, 0);
   result.cellCellOffsets.reserve(cutMesh.cellCount() + 1);
@@ -51,7 +52,7 @@ Adjacency adjacency(const CutMesh& cutMesh) {
       const int32_t neighbour = result.faceCells[h ^ 1];
       if (neighbour >= 0 && size_t(neighbour) != c) result.cellCells.push_back(uint32_t(neighbour));
     }
-    std::sort(result.cellCells.begin() + first, result.cellCells.end());
+    detail::sortItems(std::span<uint32_t>(result.cellCells.data() + first, result.cellCells.size() - size_t(first)));
     result.cellCells.erase(std::unique(result.cellCells.begin() + first, result.cellCells.end()), result.cellCells.end());
     result.cellCellOffsets.push_back(uint32_t(result.cellCells.size()));
   }

@@ -2,10 +2,11 @@
 #include <algorithm>
 
 #include "base/csr.h"
+#include "base/sort.h"
 #include "mandoline/measure.h"
+#include "mesh/run_call.h"
 #include "operators/measure/places.h"
 #include "operators/measure/require_input.h"
-#include "operators/run_call.h"
 
 namespace mandoline {
 
@@ -36,7 +37,7 @@ detail::Csr<uint32_t> higherEnds(const CutMesh& cutMesh) {
 
 CutEdges cutEdges(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions& options) {
   measuring::requireInput(mesh, cutMesh);
-  return operators::runCall("measuring", [&] {
+  return detail::runCall("measuring", [&] {
     detail::Monitor monitor(options, 1);
     monitor.beginStage("edges", 0);
     const measuring::Places places(mesh, cutMesh, monitor);
@@ -46,7 +47,7 @@ CutEdges cutEdges(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions
     edges.edgeLength.reserve(ends.items.size() / 2);
     for (uint32_t low = 0; low < ends.size(); ++low) {
       const std::span<uint32_t> highs = ends[low];
-      std::sort(highs.begin(), highs.end());
+      detail::sortItems(highs);
       const auto end = std::unique(highs.begin(), highs.end());
       for (auto high = highs.begin(); high != end; ++high) {
         edges.edgeVertices.insert(edges.edgeVertices.end(), {low, *high});

@@ -6,9 +6,9 @@
 // double-doubles.
 #include "mandoline/measure.h"
 
+#include "mesh/run_call.h"
 #include "operators/measure/places.h"
 #include "operators/measure/require_input.h"
-#include "operators/run_call.h"
 
 namespace mandoline {
 namespace {
@@ -232,7 +232,7 @@ class Measuring {
 
 Measures measure(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions& options) {
   measuring::requireInput(mesh, cutMesh);
-  return operators::runCall("measuring", [&] {
+  return detail::runCall("measuring", [&] {
     detail::Monitor monitor(options, 3);
     monitor.beginStage("vertices", 0);
     const Places places(mesh, cutMesh, monitor);

@@ -25,7 +25,11 @@ void BoxSlicer::run(const CuttingPlane& plane, Points& points, PolygonWriter& wr
 void BoxSlicer::loadCorners(const GridCell& gridCell, size_t upper) {
   for (size_t c = upper; c < 8; c += 2) {
     const ScaledPoint at = grid_.corner(size_t(gridCell[0]) + upper, size_t(gridCell[1]) + (c >> 1 & 1), size_t(gridCell[2]) + (c >> 2));
-    corners_[c] = {at, plane_->distanceAt(at), plane_->isAbove(at)};
+    if (upper == 1 && plane_->normal()[0] == 0) {
+      corners_[c] = {at, corners_[c - 1].distance, corners_[c - 1].above};  // along the plane
+    } else {
+      corners_[c] = {at, plane_->distanceAt(at), plane_->isAbove(at)};
+    }
   }
 }
 
@@ -40,9 +44,7 @@ void BoxSlicer::cut(const GridCell& gridCell, uint32_t region) {
   }
   while (loop_.size() > 1 && loop_.back() == loop_.front()) loop_.pop_back();
   if (loop_.size() < 3) return;  // an edge or a corner
-  writer_->addLoop(loop_);
-  writer_->addFillLoop(loop_);
-  writer_->endPolygon(-1, gridCell, region);
+  writer_->addPolygon(loop_, gridCell, region);
 }
 
 uint32_t BoxSlicer::pointOn(uint8_t edge) {

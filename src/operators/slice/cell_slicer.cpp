@@ -4,12 +4,13 @@
 
 namespace mandoline::operators {
 
-void CellSlicer::run(const CuttingPlane& plane, std::span<const uint32_t> cells, Points& points, PolygonWriter& writer) {
-  CutFaces& cut = faceCutter_.run(plane, cells);
-  edgePoints_.start(plane, points);
+void CellSlicer::run(uint32_t plane, Points& points, PolygonWriter& writer) {
+  CutFaces& cut = faceCutter_.run(plane);
+  edgePoints_.start(cuts_.planes[plane], points);
   pointOfEdge_.clear();
   for (const auto& edge : cut.pointEdges) pointOfEdge_.push_back(edgePoints_.pointOn(edge));
   tracer_.start(points.seen());
+  const std::span<const uint32_t> cells = cuts_.cells[plane];
   for (size_t c = 0; c < cells.size(); ++c) {
     if (cut.cellFaces[c].empty()) continue;
     addLoopsOf(cut, c);

@@ -12,17 +12,18 @@ namespace mandoline::operators {
 /// One plane at a time; the buffers are kept from plane to plane.
 class CellSlicer {
  public:
-  CellSlicer(const CutMesh& cutMesh, const ScaledSpace& space)
-      : cutMesh_(cutMesh), faceCutter_(cutMesh, space), edgePoints_(cutMesh, space) {}
+  CellSlicer(const CutMesh& cutMesh, const PlanarCuts& cuts)
+      : cutMesh_(cutMesh), cuts_(cuts), faceCutter_(cutMesh, cuts), edgePoints_(cutMesh, cuts.space) {}
 
-  /// Adds the points and polygons of the cut-cells, which are all that the plane may meet.
-  void run(const CuttingPlane& plane, std::span<const uint32_t> cells, Points& points, PolygonWriter& writer);
+  /// Adds the points and polygons of the cut-cells.
+  void run(uint32_t plane, Points& points, PolygonWriter& writer);
 
  private:
   void addLoopsOf(const CutFaces& cut, size_t cell);
   void addPolygons(size_t cell, const Points& points, PolygonWriter& writer);
 
   const CutMesh& cutMesh_;
+  const PlanarCuts& cuts_;
   FaceCutter faceCutter_;
   EdgePoints edgePoints_;
   std::vector<uint32_t> pointOfEdge_;

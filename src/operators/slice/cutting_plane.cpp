@@ -1,6 +1,7 @@
 #include "operators/slice/cutting_plane.h"
 
 #include "base/double_double.h"
+#include "operators/triangulate/exact_sum.h"
 
 namespace mandoline::operators {
 
@@ -48,16 +49,17 @@ int CuttingPlane::signAt(const ScaledPoint& p) const {
   // Three products and three sums, each rounded once.
   const double height = normal_[0] * p[0] + normal_[1] * p[1] + normal_[2] * p[2] - offset_;
   if (std::fabs(height) > 8 * detail::kRoundoff * sizeAt(p)) return detail::signOf(height);
-  using detail::Expansion;
-  return (Expansion(normal_[0]) * Expansion(p[0]) + Expansion(normal_[1]) * Expansion(p[1]) + Expansion(normal_[2]) * Expansion(p[2]) -
-          Expansion(offset_))
-      .sign();
+  const detail::TwoTerms products[] = {
+      twoProduct(normal_[0], p[0]), twoProduct(normal_[1], p[1]), twoProduct(normal_[2], p[2]), {-offset_, 0}};
+  return detail::signOf(leadingTerm(products));
 }
 
 double CuttingPlane::distanceAt(const ScaledPoint& p) const {
   constexpr double kRoundings = 64;
-  DoubleDouble sum;
-  for (size_t d = 0; d < 3; ++d) {
+  size_t d = 0;
+  while (normal_[d] == 0) ++d;
+  DoubleDouble sum = twoProduct(normal_[d], p[d]);
+  while (++d < 3) {
     if (normal_[d] != 0) sum += twoProduct(normal_[d], p[d]);
   }
   const double height = double(sum - DoubleDouble(offset_));

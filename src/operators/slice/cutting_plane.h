@@ -39,6 +39,7 @@ class CuttingPlane {
   /// Seen so that the normal points up: along the axis that it is steepest to.
   PlanePoint seen(const ScaledPoint& p) const { return {p[right_], p[up_]}; }
   const ScaledPoint& normal() const { return normal_; }
+  double offset() const { return offset_; }
 
  private:
   int signAt(const ScaledPoint& p) const;

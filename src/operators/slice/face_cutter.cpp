@@ -4,12 +4,35 @@
 
 namespace mandoline::operators {
 
-FaceCutter::FaceCutter(const CutMesh& cutMesh, const ScaledSpace& space)
-    : cutMesh_(cutMesh), space_(space), triangulator_(cutMesh), side_(cutMesh.vertexCount(), 0) {}
+FaceCutter::FaceCutter(const CutMesh& cutMesh, const PlanarCuts& cuts)
+    : cutMesh_(cutMesh),
+      cuts_(cuts),
+      triangulator_(cutMesh.positions),
+      planesBelow_(cutMesh.vertexCount(), kUnknown),
+      cutsOf_(cutMesh.faceCount()) {
+  // If most are asked for, it costs least to go through all of them in the order of their arrays.
+  if (cuts.cells.items.size() > cutMesh.cellCount() / 2) {
+    for (uint32_t v = 0; v < planesBelow_.size(); ++v) findPlanesBelow(v);
+    for (size_t f = 0; f < cutsOf_.size(); ++f) findCuts(f);
+  }
+}
 
-CutFaces& FaceCutter::run(const CuttingPlane& plane, std::span<const uint32_t> cells) {
-  plane_ = &plane;
-  ++round_;
+void FaceCutter::findPlanesBelow(uint32_t vertex) {
+  planesBelow_[vertex] = cuts_.planes.countBelow(cuts_.space.scaled(&cutMesh_.positions[3 * size_t(vertex)]));
+}
+
+void FaceCutter::findCuts(size_t face) {
+  PlaneRange cuts = {~0u, 0};
+  for (const uint32_t v : cutMesh_.loop(cutMesh_.faceLoopOffsets[face])) {
+    const uint32_t below = planesBelow(v);
+    cuts = {std::min(cuts.first, below), std::max(cuts.end, below)};
+  }
+  cutsOf_[face] = cuts;
+}
+
+CutFaces& FaceCutter::run(uint32_t plane) {
+  plane_ = plane;
+  const std::span<const uint32_t> cells = cuts_.cells[plane];
   result_.faces.clear();
   result_.segments.clear();
   ends_.clear();
@@ -50,21 +73,16 @@ void FaceCutter::gatherFaces(std::span<const uint32_t> cells) {
   }
 }
 
-void FaceCutter::findSide(uint32_t vertex) {
-  side_[vertex] = 2 * round_ + (plane_->isAbove(space_.scaled(&cutMesh_.positions[3 * size_t(vertex)])) ? 1 : 0);
-}
-
-bool FaceCutter::isCut(uint32_t face) {
-  const std::span<const uint32_t> outline = cutMesh_.loop(cutMesh_.faceLoopOffsets[face]);
-  const bool first = isAbove(outline[0]);
-  return std::any_of(outline.begin() + 1, outline.end(), [&](uint32_t v) { return isAbove(v) != first; });
-}
-
 void FaceCutter::cut(CutFace& face) {
-  triangles_.clear();
-  triangulator_.run(face.face, triangles_);
   face.firstSegment = uint32_t(result_.segments.size());
-  for (size_t t = 0; t < triangles_.size(); t += 3) addTriangle(&triangles_[t]);
+  const Loops loops = cutMesh_.loops(face.face);
+  if (loops.size() == 1 && loops[0].size() == 3) {
+    addTriangle(loops[0].data());
+  } else {
+    triangles_.clear();
+    triangulator_.run(cutMesh_.face(face.face), triangles_);
+    for (size_t t = 0; t < triangles_.size(); t += 3) addTriangle(&triangles_[t]);
+  }
   face.endSegment = uint32_t(result_.segments.size());
 }
 
@@ -75,14 +93,14 @@ void FaceCutter::addTriangle(const uint32_t* vertices) {
   for (size_t i = 0; i < 3; ++i) {
     const uint32_t a = vertices[i], b = vertices[(i + 1) % 3];
     if (above[i] == above[(i + 1) % 3]) continue;
-    ends_.push_back({uint64_t(std::min(a, b)) * side_.size() + std::max(a, b), 2 * id + (above[i] ? 0 : 1)});
+    ends_.push_back({uint64_t(std::min(a, b)) * planesBelow_.size() + std::max(a, b), 2 * id + (above[i] ? 0 : 1)});
   }
   result_.segments.emplace_back();
 }
 
 /// One point per edge, in the order of the edges' vertices.
 void FaceCutter::numberPoints() {
-  const uint64_t vertices = side_.size();
+  const uint64_t vertices = planesBelow_.size();
   detail::sortByKey(ends_, vertices * vertices);
   result_.pointEdges.clear();
   for (size_t i = 0; i < ends_.size(); ++i) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/csr.h"
-#include "operators/slice/cutting_plane.h"
+#include "operators/slice/plane_stack.h"
 #include "operators/triangulate/face_triangulator.h"
 
 namespace mandoline::operators {
@@ -30,29 +30,41 @@ struct CutFaces {
 /// One plane at a time; the buffers are kept from plane to plane.
 class FaceCutter {
  public:
-  FaceCutter(const CutMesh& cutMesh, const ScaledSpace& space);
-  /// The faces of some cut-cells. The result holds until the next call, which may change it.
-  CutFaces& run(const CuttingPlane& plane, std::span<const uint32_t> cells);
+  FaceCutter(const CutMesh& cutMesh, const PlanarCuts& cuts);
+  /// The faces of the cut-cells that the plane may meet. The result holds until the next call, which may change it.
+  CutFaces& run(uint32_t plane);
 
  private:
   void findCutFaces(std::span<const uint32_t> cells);
   void gatherFaces(std::span<const uint32_t> cells);
-  bool isCut(uint32_t face);
-  bool isAbove(uint32_t vertex) {
-    if (side_[vertex] / 2 != round_) findSide(vertex);
-    return side_[vertex] % 2 == 1;
+  bool isCut(uint32_t face) {
+    if (cutsOf_[face].end == kUnknown) findCuts(face);
+    return cutsOf_[face].first <= plane_ && plane_ < cutsOf_[face].end;
   }
-  void findSide(uint32_t vertex);
+  void findCuts(size_t face);
+  bool isAbove(uint32_t vertex) { return planesBelow(vertex) > plane_; }
+  uint32_t planesBelow(uint32_t vertex) {
+    if (planesBelow_[vertex] == kUnknown) findPlanesBelow(vertex);
+    return planesBelow_[vertex];
+  }
+  void findPlanesBelow(uint32_t vertex);
   void cut(CutFace& face);
   void addTriangle(const uint32_t* vertices);
   void numberPoints();
 
+  static constexpr uint32_t kUnknown = ~0u;
+
+  /// Planes first .. end - 1.
+  struct PlaneRange {
+    uint32_t first = 0, end = kUnknown;
+  };
+
   const CutMesh& cutMesh_;
-  const ScaledSpace& space_;
+  const PlanarCuts& cuts_;
   FaceTriangulator triangulator_;
-  const CuttingPlane* plane_ = nullptr;
-  uint32_t round_ = 0;           // of run()
-  std::vector<uint32_t> side_;   // per vertex: 2 * the last round that asked, + 1 if it was above
+  std::vector<uint32_t> planesBelow_;  // per vertex: how many
+  std::vector<PlaneRange> cutsOf_;     // per face
+  uint32_t plane_ = 0;
   std::vector<uint32_t> cells_;  // per half-face in result_.cellFaces: its cell
   std::vector<uint32_t> triangles_;
   std::vector<detail::KeyedItem> halfFaces_;  // by face

@@ -4,6 +4,8 @@
 #include <tuple>
 #include <utility>
 
+#include "base/sort.h"
+
 namespace mandoline::operators {
 
 void LoopTracer::start(const std::vector<PlanePoint>& at) {
@@ -88,7 +90,7 @@ void LoopTracer::sortClockwise(uint32_t point) {
     const Arc& arc = arcs_[ray.arc];
     return isSlit(arc) ? std::tuple(true, arc.segment, !ray.starts) : std::tuple(false, 0u, ray.starts);
   };
-  std::sort(around_.begin(), around_.end(), [&](const Ray& r, const Ray& s) {
+  detail::sortItems(around_, [&](const Ray& r, const Ray& s) {
     if (r.half != s.half) return r.half < s.half;
     const PlanePoint &a = target(r), &b = target(s);
     const int order = r.half == 0 ? 0 : predicates_.orient2d({p.x, p.y}, {a.x, a.y}, {b.x, b.y});

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/sort.h"
+
 namespace mandoline::operators {
 namespace {
 
@@ -29,7 +31,7 @@ void Nesting::makePolygons() {
     if (loops_[l].outline != kNone) order_.push_back(l);
   }
   const auto key = [&](uint32_t l) { return std::tuple(loops_[l].outline, loops_[l].outline != l, l); };
-  std::sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
+  detail::sortItems(order_, [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
   polygons_.offsets.assign(1, 0);
   polygons_.items.clear();
   for (const uint32_t l : order_) {

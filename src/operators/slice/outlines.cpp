@@ -1,25 +1,21 @@
 #include <cmath>
 
 #include "mandoline/slice.h"
-#include "operators/require_cut_mesh.h"
 #include "operators/slice/outline_writer.h"
 
 namespace mandoline {
 
 std::vector<Outlines> outlines(const CutMesh& cutMesh, const std::array<double, 3>& normal, std::span<const double> offsets) {
   using namespace operators;
-  requireCutMesh(cutMesh);
-  const ScaledSpace space(cutMesh.grid);
-  const ScaledGrid grid(cutMesh.grid, space);
-  const PlaneStack planes(normal, offsets, cutMesh.grid, space);
-  const detail::Csr<uint32_t> cells = cellsCut(planes, grid, cutMesh);
-  RegionArcs arcs(cutMesh, space, grid);
-  OutlineWriter writer(space);
+  const PlanarCuts cuts(cutMesh, normal, offsets);
+  RegionArcs arcs(cutMesh, cuts);
+  Points points;
+  OutlineWriter writer(cuts.space);
   std::vector<Outlines> result(offsets.size());
-  for (size_t p = 0; p < planes.size(); ++p) {
-    Points points(planes[p]);
-    const std::vector<RegionArc>& cut = arcs.run(planes[p], cells[p], points);
-    writer.run(cut, points, result[planes.given(p)]);
+  for (uint32_t p = 0; p < cuts.planes.size(); ++p) {
+    points.start(cuts.planes[p]);
+    const std::vector<RegionArc>& cut = arcs.run(p, points);
+    writer.run(cut, points, result[cuts.planes.given(p)]);
   }
   return result;
 }

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <string>
 
+#include "base/sort.h"
 #include "operators/require_cut_mesh.h"
 
 namespace mandoline::operators {
@@ -29,19 +30,25 @@ PlaneStack::PlaneStack(const std::array<double, 3>& normal, std::span<const doub
   }
   std::vector<size_t> order(offsets.size());
   std::iota(order.begin(), order.end(), size_t(0));
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return offsets[a] < offsets[b]; });
+  detail::sortItems(order, [&](size_t a, size_t b) { return offsets[a] < offsets[b]; });
   for (const size_t i : order) {
     const std::optional<CuttingPlane> plane = CuttingPlane::make({normal, offsets[i]}, grid, space);
     if (!plane) continue;
     planes_.push_back(*plane);
+    offsets_.push_back(plane->offset());
     given_.push_back(i);
   }
 }
 
-/// How many planes, the first ones, lie below a point.
 uint32_t PlaneStack::countBelow(const ScaledPoint& p) const {
-  const auto above = std::partition_point(planes_.begin(), planes_.end(), [&](const CuttingPlane& plane) { return plane.isAbove(p); });
-  return uint32_t(above - planes_.begin());
+  if (planes_.empty()) return 0;
+  // The rounded height is off by some planes at most, if any.
+  const ScaledPoint& normal = planes_[0].normal();
+  const double height = normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2];
+  size_t below = size_t(std::upper_bound(offsets_.begin(), offsets_.end(), height) - offsets_.begin());
+  while (below < planes_.size() && planes_[below].isAbove(p)) ++below;
+  while (below > 0 && !planes_[below - 1].isAbove(p)) --below;
+  return uint32_t(below);
 }
 
 std::pair<uint32_t, uint32_t> PlaneStack::planesThrough(const Box& box) const {
@@ -70,6 +77,13 @@ detail::Csr<uint32_t> PlaneStack::boxesOf(const std::vector<std::pair<uint32_t, 
   return boxes;
 }
 
+namespace {
+
+const CutMesh& required(const CutMesh& cutMesh) {
+  requireCutMesh(cutMesh);
+  return cutMesh;
+}
+
 detail::Csr<uint32_t> cellsCut(const PlaneStack& planes, const ScaledGrid& grid, const CutMesh& cutMesh) {
   return planes.boxesCut(cutMesh.cellCount(), [&](size_t c) {
     const int32_t* at = &cutMesh.cellGridCell[3 * c];
@@ -77,5 +91,13 @@ detail::Csr<uint32_t> cellsCut(const PlaneStack& planes, const ScaledGrid& grid,
     return PlaneStack::Box{grid.corner(i, j, k), grid.corner(i + 1, j + 1, k + 1)};
   });
 }
+
+}  // namespace
+
+PlanarCuts::PlanarCuts(const CutMesh& cutMesh, const std::array<double, 3>& normal, std::span<const double> offsets)
+    : space(required(cutMesh).grid),
+      grid(cutMesh.grid, space),
+      planes(normal, offsets, cutMesh.grid, space),
+      cells(cellsCut(planes, grid, cutMesh)) {}
 
 }  // namespace mandoline::operators

@@ -35,6 +35,9 @@ class PlaneStack {
   /// Which of the given offsets the plane has.
   size_t given(size_t p) const { return given_[p]; }
 
+  /// How many planes, the first ones, lie below a point.
+  uint32_t countBelow(const ScaledPoint& p) const;
+
   /// Per plane, which of `count` boxes have corners on both of its sides, ascending. `boxOf(b)` is a Box.
   template <class BoxOf>
   detail::Csr<uint32_t> boxesCut(size_t count, const BoxOf& boxOf) const {
@@ -48,13 +51,21 @@ class PlaneStack {
   /// First and one past the last.
   std::pair<uint32_t, uint32_t> planesThrough(const Box& box) const;
   detail::Csr<uint32_t> boxesOf(const std::vector<std::pair<uint32_t, uint32_t>>& planesOf) const;
-  uint32_t countBelow(const ScaledPoint& p) const;
 
   std::vector<CuttingPlane> planes_;
+  std::vector<double> offsets_;  // of planes_
   std::vector<size_t> given_;
 };
 
-/// Per plane, the cut-cells in the grid cells that have corners on both of its sides, ascending.
-detail::Csr<uint32_t> cellsCut(const PlaneStack& planes, const ScaledGrid& grid, const CutMesh& cutMesh);
+/// What cutting a cut-mesh with parallel planes starts with. Throws CallError for a cut-mesh that holds nothing, and as PlaneStack does.
+struct PlanarCuts {
+  PlanarCuts(const CutMesh& cutMesh, const std::array<double, 3>& normal, std::span<const double> offsets);
+  PlanarCuts(const PlanarCuts&) = delete;
+
+  const ScaledSpace space;
+  const ScaledGrid grid;
+  const PlaneStack planes;
+  const detail::Csr<uint32_t> cells;  ///< per plane, the cut-cells in the grid cells that have corners on both of its sides, ascending
+};
 
 }  // namespace mandoline::operators

@@ -8,13 +8,17 @@
 
 namespace mandoline::operators {
 
+/// Of one plane at a time; the buffers are kept from plane to plane.
 class Points {
  public:
-  explicit Points(const CuttingPlane& plane) : plane_(plane) {}
-
+  void start(const CuttingPlane& plane) {
+    plane_ = &plane;
+    scaled_.clear();
+    seen_.clear();
+  }
   uint32_t add(const ScaledPoint& p) {
     scaled_.push_back(p);
-    seen_.push_back(plane_.seen(p));
+    seen_.push_back(plane_->seen(p));
     return uint32_t(scaled_.size()) - 1;
   }
   size_t size() const { return scaled_.size(); }
@@ -23,7 +27,7 @@ class Points {
   const std::vector<PlanePoint>& seen() const { return seen_; }
 
  private:
-  const CuttingPlane& plane_;
+  const CuttingPlane* plane_ = nullptr;
   std::vector<ScaledPoint> scaled_;
   std::vector<PlanePoint> seen_;
 };

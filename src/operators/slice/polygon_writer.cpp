@@ -26,10 +26,27 @@ void PolygonWriter::endPolygon(int32_t cell, const GridCell& gridCell, uint32_t 
   slice_->polygonRegion.push_back(region);
 }
 
+void PolygonWriter::addPolygon(std::span<const uint32_t> loop, const GridCell& gridCell, uint32_t region) {
+  addLoop(loop);
+  if (!fillFan(loop)) addFillLoop(loop);
+  endPolygon(-1, gridCell, region);
+}
+
+/// What the triangulator makes of a convex polygon, at less cost.
+bool PolygonWriter::fillFan(std::span<const uint32_t> loop) {
+  const std::vector<PlanePoint>& at = points_->seen();
+  for (size_t i = 2; i < loop.size(); ++i) {
+    if (!(orientation(at[loop[0]], at[loop[i - 1]], at[loop[i]]) > 0)) return false;
+  }
+  for (size_t i = 2; i < loop.size(); ++i) slice_->triangles.insert(slice_->triangles.end(), {loop[0], loop[i - 1], loop[i]});
+  return true;
+}
+
 void PolygonWriter::finish() {
-  slice_->positions.reserve(3 * points_->size());
+  slice_->positions.resize(3 * points_->size());
+  double* position = slice_->positions.data();
   for (size_t p = 0; p < points_->size(); ++p) {
-    for (const double x : (*points_)[p]) slice_->positions.push_back(space_.world(x));
+    for (const double x : (*points_)[p]) *position++ = space_.world(x);
   }
 }
 

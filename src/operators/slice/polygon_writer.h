@@ -20,10 +20,14 @@ class PolygonWriter {
   void addFillLoop(std::span<const uint32_t> points);
   /// Ends a polygon of the loops that came since the last one.
   void endPolygon(int32_t cell, const GridCell& gridCell, uint32_t region);
+  /// A polygon of an untouched grid cell.
+  void addPolygon(std::span<const uint32_t> loop, const GridCell& gridCell, uint32_t region);
   /// Ends the slice.
   void finish();
 
  private:
+  bool fillFan(std::span<const uint32_t> loop);
+
   const ScaledSpace& space_;
   const Points* points_ = nullptr;
   Slice* slice_ = nullptr;

@@ -5,15 +5,18 @@
 
 #include <algorithm>
 
+#include "base/csr.h"
+
 namespace mandoline::operators {
 
-RegionArcs::RegionArcs(const CutMesh& cutMesh, const ScaledSpace& space, const ScaledGrid& grid)
-    : cutMesh_(cutMesh), grid_(grid), faceCutter_(cutMesh, space), edgePoints_(cutMesh, space), boxes_(cutMesh, grid) {}
+RegionArcs::RegionArcs(const CutMesh& cutMesh, const PlanarCuts& cuts)
+    : cutMesh_(cutMesh), cuts_(cuts), faceCutter_(cutMesh, cuts), edgePoints_(cutMesh, cuts.space), boxes_(cutMesh, cuts.grid) {}
 
-const std::vector<RegionArc>& RegionArcs::run(const CuttingPlane& plane, std::span<const uint32_t> cells, Points& points) {
+const std::vector<RegionArc>& RegionArcs::run(uint32_t p, Points& points) {
   arcs_.clear();
-  const CutFaces& cut = faceCutter_.run(plane, cells);
-  GridPoints gridPoints(grid_, plane, points);
+  const CutFaces& cut = faceCutter_.run(p);
+  const CuttingPlane& plane = cuts_.planes[p];
+  GridPoints gridPoints(cuts_.grid, plane, points);
   edgePoints_.start(plane, points);
   pointOfEdge_.clear();
   for (const auto& edge : cut.pointEdges) {
@@ -22,7 +25,9 @@ const std::vector<RegionArc>& RegionArcs::run(const CuttingPlane& plane, std::sp
   }
   addFaces(cut);
   addBoxes(plane, gridPoints);
-  std::stable_sort(arcs_.begin(), arcs_.end(), [](const RegionArc& a, const RegionArc& b) { return a.region < b.region; });
+  const auto regionOf = [&](size_t i) { return size_t(arcs_[i].region); };
+  const auto arcOf = [&](size_t i) { return arcs_[i]; };
+  arcs_ = detail::groupBy<RegionArc>(cutMesh_.regionCount, arcs_.size(), regionOf, arcOf).items;
   return arcs_;
 }
 
@@ -98,7 +103,7 @@ void RegionArcs::addBox(const GridCell& gridCell, uint32_t region, const Cutting
     return gridPoints.pointOn({int((upper - lower) / 2), corner(lower)});
   };
   unsigned above = 0;
-  for (unsigned c = 0; c < 8; ++c) above |= unsigned(plane.isAbove(grid_.corner(corner(c)))) << c;
+  for (unsigned c = 0; c < 8; ++c) above |= unsigned(plane.isAbove(cuts_.grid.corner(corner(c)))) << c;
   const BoxCut& cut = boxCuts_[uint8_t(above)];
   for (int side = 0; side < 6; ++side) {
     const int axis = side / 2, upper = side % 2;

@@ -20,10 +20,10 @@ struct RegionArc {
 /// One plane at a time; the buffers are kept from plane to plane.
 class RegionArcs {
  public:
-  RegionArcs(const CutMesh& cutMesh, const ScaledSpace& space, const ScaledGrid& grid);
+  RegionArcs(const CutMesh& cutMesh, const PlanarCuts& cuts);
 
-  /// The arcs of all regions, by region, and their points. `cells` are the cut-cells that the plane may meet. Holds until the next call.
-  const std::vector<RegionArc>& run(const CuttingPlane& plane, std::span<const uint32_t> cells, Points& points);
+  /// The arcs of all regions, by region, and their points. Holds until the next call.
+  const std::vector<RegionArc>& run(uint32_t plane, Points& points);
 
  private:
   bool liesOnSide(const std::array<uint32_t, 2>& edge, GridEdge& gridEdge) const;
@@ -34,7 +34,7 @@ class RegionArcs {
   void add(const RegionArc& arc);
 
   const CutMesh& cutMesh_;
-  const ScaledGrid& grid_;
+  const PlanarCuts& cuts_;
   FaceCutter faceCutter_;
   EdgePoints edgePoints_;
   CutBoxes boxes_;

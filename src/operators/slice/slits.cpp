@@ -4,6 +4,8 @@
 #include <tuple>
 #include <utility>
 
+#include "base/sort.h"
+
 namespace mandoline::operators {
 
 const detail::Csr<uint32_t>& Slits::remove(const detail::Csr<uint32_t>& loops, std::span<const uint32_t> polygon,
@@ -43,7 +45,7 @@ void Slits::removePairs() {
   order_.resize(arcs_.size());
   for (uint32_t a = 0; a < arcs_.size(); ++a) order_[a] = a;
   const auto key = [&](uint32_t a) { return std::minmax(arcs_[a].start, arcs_[a].end); };
-  std::sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
+  detail::sortItems(order_, [&](uint32_t a, uint32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
   for (size_t begin = 0, end; begin < order_.size(); begin = end) {
     end = begin + 1;
     while (end < order_.size() && key(order_[end]) == key(order_[begin])) ++end;

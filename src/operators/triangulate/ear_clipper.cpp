@@ -1,10 +1,19 @@
 #include "operators/triangulate/ear_clipper.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace mandoline::operators {
+namespace {
+
+constexpr double kNoEar = std::numeric_limits<double>::infinity();
+
+constexpr uint64_t bit(uint32_t corner) { return uint64_t{1} << corner; }
+
+}  // namespace
 
 bool EarClipper::HeapEntry::operator<(const HeapEntry& other) const {
   return std::tie(key, corner, version) > std::tie(other.key, other.corner, other.version);
@@ -12,19 +21,24 @@ bool EarClipper::HeapEntry::operator<(const HeapEntry& other) const {
 
 void EarClipper::run(Chains& chains, std::vector<uint32_t>& triangles) {
   chains_ = &chains;
-  triangles_ = &triangles;
+  const size_t before = triangles.size();
+  triangles.resize(before + 3 * (chains.corners.size() - 2));
+  triangle_ = triangles.data() + before;
   if (!clipFan()) clipEars();
+  triangles.resize(size_t(triangle_ - triangles.data()));
 }
 
 void EarClipper::emit(uint32_t a, uint32_t b, uint32_t c) {
-  triangles_->insert(triangles_->end(), {chains_->vertex(a), chains_->vertex(b), chains_->vertex(c)});
+  triangle_[0] = chains_->vertex(a);
+  triangle_[1] = chains_->vertex(b);
+  triangle_[2] = chains_->vertex(c);
+  triangle_ += 3;
 }
 
 /// The fast path of small chains: all triangles at one corner, if all have positive area.
 bool EarClipper::clipFan() {
-  constexpr size_t kMost = 8;
   const Chains& chains = *chains_;
-  if (chains.corners.size() > kMost) return false;
+  if (!isSmall()) return false;
   for (uint32_t apex = 0; apex < chains.corners.size(); ++apex) {
     bool positive = true;
     for (uint32_t i = chains.next(apex); positive && chains.next(i) != apex; i = chains.next(i))
@@ -38,8 +52,13 @@ bool EarClipper::clipFan() {
 
 void EarClipper::clipEars() {
   remaining_ = chains_->corners.size();
-  if (!isSmall()) tree_.build(chains_->corners);
-  heap_.clear();
+  if (isSmall()) {
+    keys_.assign(remaining_, kNoEar);
+    reflex_ = 0;
+  } else {
+    tree_.build(chains_->corners);
+    heap_.clear();
+  }
   watchers_.clear();
   for (uint32_t i = 0; i < chains_->corners.size(); ++i) suggest(i);
   uint32_t some = 0;
@@ -52,30 +71,51 @@ void EarClipper::clipEars() {
 
 void EarClipper::suggest(uint32_t ear) {
   const uint32_t version = ++chains_->corners[ear].version, before = chains_->previous(ear), after = chains_->next(ear);
-  if (!(chains_->turn(before, ear, after) > 0)) return;
-  heap_.push_back({squaredDistance(chains_->at(before), chains_->at(after)), ear, version});
-  std::push_heap(heap_.begin(), heap_.end());
+  const bool isConvex = chains_->turn(before, ear, after) > 0;
+  if (!isConvex && !isSmall()) return;
+  const double key = isConvex ? squaredDistance(chains_->at(before), chains_->at(after)) : kNoEar;
+  if (isSmall()) {
+    keys_[ear] = key;
+    reflex_ = (reflex_ & ~bit(ear)) | (isConvex ? 0 : bit(ear));
+  } else {
+    heap_.push_back({key, ear, version});
+    std::push_heap(heap_.begin(), heap_.end());
+  }
 }
 
-uint32_t EarClipper::nextEar() {
+/// Takes the suggested corner with the lowest key, the lowest of these; kNone when there is none left.
+uint32_t EarClipper::takeSuggested() {
+  if (isSmall()) {  // a heap would cost more than looking at all of them
+    const auto least = std::min_element(keys_.begin(), keys_.end());
+    if (*least == kNoEar) return kNone;
+    *least = kNoEar;
+    return uint32_t(least - keys_.begin());
+  }
   while (!heap_.empty()) {
     const HeapEntry top = heap_.front();
     std::pop_heap(heap_.begin(), heap_.end());
     heap_.pop_back();
     const Corner& corner = chains_->corners[top.corner];
-    if (!corner.alive || corner.version != top.version) continue;
-    const uint32_t blocker = blockerOf(top.corner, true);
-    if (blocker == kNone) return top.corner;
-    uint32_t& first = chains_->corners[blocker].firstWatcher;
-    watchers_.push_back({top.corner, top.version, first});
-    first = uint32_t(watchers_.size()) - 1;
+    if (corner.alive && corner.version == top.version) return top.corner;
   }
   return kNone;
 }
 
+uint32_t EarClipper::nextEar() {
+  for (;;) {
+    const uint32_t ear = takeSuggested();
+    const uint32_t blocker = ear == kNone ? kNone : blockerOf(ear, true);
+    if (blocker == kNone) return ear;
+    uint32_t& first = chains_->corners[blocker].firstWatcher;
+    watchers_.push_back({ear, chains_->corners[ear].version, first});
+    first = uint32_t(watchers_.size()) - 1;
+  }
+}
+
 /// A corner because of which a convex corner is no ear, as long as it is there; kNone if it is one. Corners at the same places as the
 /// ear's do not block: where a vertex has several, the wedges of the face at them are disjoint, and if an edge there led into the ear,
-/// its other end or what is beyond would lie inside too. On the ear's border corners block if it is `closed`.
+/// its other end or what is beyond would lie inside too. On the ear's border corners block if it is `closed`. Only corners that are not
+/// convex need to be asked: of all that block, the one farthest from the edge that the ear leaves is such a corner.
 uint32_t EarClipper::blockerOf(uint32_t ear, bool closed) const {
   const PlanePoint &p = chains_->at(chains_->previous(ear)), &q = chains_->at(ear), &r = chains_->at(chains_->next(ear));
   const PlanePoint low = {std::min({p.x, q.x, r.x}), std::min({p.y, q.y, r.y})};
@@ -87,8 +127,8 @@ uint32_t EarClipper::blockerOf(uint32_t ear, bool closed) const {
     return within(orientation(p, q, x)) && within(orientation(q, r, x)) && within(orientation(r, p, x));
   };
   if (!isSmall()) return tree_.find(chains_->corners, low, high, blocks);
-  const uint32_t end = chains_->previous(ear);
-  for (uint32_t i = chains_->next(chains_->next(ear)); i != end; i = chains_->next(i)) {
+  for (uint64_t left = reflex_; left != 0; left &= left - 1) {
+    const auto i = uint32_t(std::countr_zero(left));
     const PlanePoint& x = chains_->at(i);
     if (low.x <= x.x && x.x <= high.x && low.y <= x.y && x.y <= high.y && blocks(i)) return i;
   }
@@ -142,7 +182,12 @@ uint32_t EarClipper::clip(uint32_t ear) {
 
 void EarClipper::remove(uint32_t corner) {
   chains_->corners[corner].alive = false;
-  if (!isSmall()) tree_.remove(corner);
+  if (isSmall()) {
+    keys_[corner] = kNoEar;
+    reflex_ &= ~bit(corner);
+  } else {
+    tree_.remove(corner);
+  }
   --remaining_;
 }
 

@@ -17,7 +17,7 @@ class EarClipper {
 
  private:
   static constexpr uint32_t kNone = Chains::kNone;
-  static constexpr size_t kSmall = 64;  // corners up to which it takes no tree to find one
+  static constexpr size_t kSmall = 64;  // corners up to which it tries a fan, and takes neither tree nor heap, but a bit for each
 
   struct HeapEntry {
     double key;  // squared length of the edge that the ear leaves
@@ -33,6 +33,7 @@ class EarClipper {
   void clipEars();
   void emit(uint32_t a, uint32_t b, uint32_t c);
   void suggest(uint32_t ear);
+  uint32_t takeSuggested();
   uint32_t nextEar();
   uint32_t blockerOf(uint32_t ear, bool closed) const;
   uint32_t leastBadEar(uint32_t first) const;
@@ -42,8 +43,10 @@ class EarClipper {
   void wakeWatchers(uint32_t corner);
 
   Chains* chains_ = nullptr;
-  std::vector<uint32_t>* triangles_ = nullptr;
-  CornerTree tree_;  // unless the chain is small
+  uint32_t* triangle_ = nullptr;  // where the next one goes
+  std::vector<double> keys_;      // per corner of a small chain: that of its entry, infinite without one
+  uint64_t reflex_ = 0;           // the corners of a small chain, a bit each, that are there and not convex
+  CornerTree tree_;               // of other chains
   std::vector<HeapEntry> heap_;
   std::vector<Watcher> watchers_;
   size_t remaining_ = 0;

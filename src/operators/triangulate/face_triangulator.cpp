@@ -16,19 +16,19 @@ struct View {
   PlanePoint operator()(const double* p) const { return {p[right] * factor, p[up] * factor}; }
 };
 
-double factorOf(const CutMesh& cutMesh, const Loops& loops) {
+double factorOf(const std::vector<double>& positions, const Loops& loops) {
   double largest = 0;
   for (const std::span<const uint32_t> loop : loops) {
     for (const uint32_t v : loop) {
-      for (size_t d = 0; d < 3; ++d) largest = std::max(largest, std::fabs(cutMesh.positions[3 * size_t(v) + d]));
+      for (size_t d = 0; d < 3; ++d) largest = std::max(largest, std::fabs(positions[3 * size_t(v) + d]));
     }
   }
   return largest > 0 ? std::ldexp(1.0, -std::clamp(std::ilogb(largest), -1000, 1000)) : 1;
 }
 
 /// Twice the loops' area along each axis.
-Vector areaOf(const CutMesh& cutMesh, const Loops& loops, double factor) {
-  const auto position = [&](uint32_t v) { return &cutMesh.positions[3 * size_t(v)]; };
+Vector areaOf(const std::vector<double>& positions, const Loops& loops, double factor) {
+  const auto position = [&](uint32_t v) { return &positions[3 * size_t(v)]; };
   const double* origin = position(loops[0][0]);
   Vector area = {};
   for (const std::span<const uint32_t> loop : loops) {
@@ -45,12 +45,12 @@ Vector areaOf(const CutMesh& cutMesh, const Loops& loops, double factor) {
 }
 
 /// In the axial plane that the face is steepest to, seen so that its normal points up.
-View viewOf(const CutMesh& cutMesh, const Face& face) {
-  const double factor = factorOf(cutMesh, face.loops);
+View viewOf(const std::vector<double>& positions, const Face& face) {
+  const double factor = factorOf(positions, face.loops);
   int axis = face.axis;
   bool up = true;
   if (face.triangle >= 0) {
-    const Vector area = areaOf(cutMesh, face.loops, factor);
+    const Vector area = areaOf(positions, face.loops, factor);
     const auto isSmaller = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
     if (axis < 0) axis = int(std::max_element(area.begin(), area.end(), isSmaller) - area.begin());
     up = area[size_t(axis)] >= 0;
@@ -60,14 +60,20 @@ View viewOf(const CutMesh& cutMesh, const Face& face) {
 
 }  // namespace
 
-void FaceTriangulator::run(size_t face, std::vector<uint32_t>& triangles) {
-  const Face cutFace = cutMesh_.face(face);
-  const View view = viewOf(cutMesh_, cutFace);
-  for (const std::span<const uint32_t> loop : cutFace.loops) {
+void FaceTriangulator::run(const Face& face, std::vector<uint32_t>& triangles) {
+  const View view = viewOf(positions_, face);
+  for (const std::span<const uint32_t> loop : face.loops) {
     polygon_.startLoop();
-    for (const uint32_t v : loop) polygon_.addCorner(v, view(&cutMesh_.positions[3 * size_t(v)]));
+    for (const uint32_t v : loop) polygon_.addCorner(v, view(&positions_[3 * size_t(v)]));
   }
   polygon_.run(triangles);
+}
+
+void FaceTriangulator::runOutwards(const Face& face, uint32_t side, std::vector<uint32_t>& triangles) {
+  const size_t first = triangles.size();
+  run(face, triangles);
+  if (side == 0) return;
+  for (size_t t = first; t < triangles.size(); t += 3) std::swap(triangles[t + 1], triangles[t + 2]);
 }
 
 }  // namespace mandoline::operators

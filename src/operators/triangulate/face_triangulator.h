@@ -8,12 +8,15 @@ namespace mandoline::operators {
 
 class FaceTriangulator {
  public:
-  explicit FaceTriangulator(const CutMesh& cutMesh) : cutMesh_(cutMesh) {}
+  /// `positions`: 3 per vertex, kept as a reference.
+  explicit FaceTriangulator(const std::vector<double>& positions) : positions_(positions) {}
   /// Appends the face's triangles as triangulateFaces() gives them: 3 vertex ids each.
-  void run(size_t face, std::vector<uint32_t>& triangles);
+  void run(const Face& face, std::vector<uint32_t>& triangles);
+  /// The same, oriented out of the cell on side 0 or 1 of the face.
+  void runOutwards(const Face& face, uint32_t side, std::vector<uint32_t>& triangles);
 
  private:
-  const CutMesh& cutMesh_;
+  const std::vector<double>& positions_;
   PolygonTriangulator polygon_;
 };
 

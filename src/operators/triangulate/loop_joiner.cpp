@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "base/sort.h"
+
 namespace mandoline::operators {
 
 void LoopJoiner::run(Chains& chains) {
@@ -27,7 +29,7 @@ void LoopJoiner::spliceSharedVertices() {
   const auto vertex = [&](uint32_t i) { return chains_->vertex(i); };
   shared_.clear();
   for (uint32_t i = 0; i < chains_->corners.size(); ++i) shared_.push_back(i);
-  std::sort(shared_.begin(), shared_.end(), [&](uint32_t a, uint32_t b) { return std::pair(vertex(a), a) < std::pair(vertex(b), b); });
+  detail::sortItems(shared_, [&](uint32_t a, uint32_t b) { return std::pair(vertex(a), a) < std::pair(vertex(b), b); });
   for (size_t begin = 0, end; begin < shared_.size(); begin = end) {
     end = begin + 1;
     while (end < shared_.size() && vertex(shared_[end]) == vertex(shared_[begin])) ++end;
@@ -64,7 +66,7 @@ void LoopJoiner::bridgeHoles() {
     });
     holes_.push_back(leftmost);
   }
-  std::sort(holes_.begin(), holes_.end(), [&](uint32_t a, uint32_t b) { return std::pair(place(a), a) < std::pair(place(b), b); });
+  detail::sortItems(holes_, [&](uint32_t a, uint32_t b) { return std::pair(place(a), a) < std::pair(place(b), b); });
   for (const uint32_t hole : holes_) {
     const uint32_t end = visibleFrom(hole);
     const PlanePoint towards = chains_->at(end);

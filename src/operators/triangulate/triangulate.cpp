@@ -4,17 +4,6 @@
 #include "operators/triangulate/face_triangulator.h"
 
 namespace mandoline {
-namespace {
-
-/// Appends the triangles of a half-face, oriented out of its cell.
-void addHalfFace(operators::FaceTriangulator& triangulator, uint32_t halfFace, std::vector<uint32_t>& triangles) {
-  const size_t first = triangles.size();
-  triangulator.run(halfFace / 2, triangles);
-  if (halfFace % 2 == 0) return;
-  for (size_t t = first; t < triangles.size(); t += 3) std::swap(triangles[t + 1], triangles[t + 2]);
-}
-
-}  // namespace
 
 FaceTriangles triangulateFaces(const CutMesh& cutMesh) {
   operators::requireCutMesh(cutMesh);
@@ -22,9 +11,9 @@ FaceTriangles triangulateFaces(const CutMesh& cutMesh) {
   result.faceTriangleOffsets.reserve(cutMesh.faceCount() + 1);
   result.faceTriangleOffsets.push_back(0);
   result.triangles.reserve(3 * cutMesh.loopVertices.size());
-  operators::FaceTriangulator triangulator(cutMesh);
+  operators::FaceTriangulator triangulator(cutMesh.positions);
   for (size_t f = 0; f < cutMesh.faceCount(); ++f) {
-    triangulator.run(f, result.triangles);
+    triangulator.run(cutMesh.face(f), result.triangles);
     result.faceTriangleOffsets.push_back(uint32_t(result.triangles.size() / 3));
   }
   return result;
@@ -37,8 +26,8 @@ std::vector<uint32_t> triangulateCell(const CutMesh& cutMesh, size_t cell) {
                       int64_t(cell));
   }
   std::vector<uint32_t> triangles;
-  operators::FaceTriangulator triangulator(cutMesh);
-  for (const uint32_t h : cutMesh.halfFaces(cell)) addHalfFace(triangulator, h, triangles);
+  operators::FaceTriangulator triangulator(cutMesh.positions);
+  for (const uint32_t h : cutMesh.halfFaces(cell)) triangulator.runOutwards(cutMesh.face(h / 2), h % 2, triangles);
   return triangles;
 }
 
@@ -48,11 +37,11 @@ std::vector<uint32_t> triangulateRegion(const CutMesh& cutMesh, uint32_t region)
     operators::refuse("There is no region " + std::to_string(region) + ": there are " + std::to_string(cutMesh.regionCount) + ".", region);
   }
   std::vector<uint32_t> triangles;
-  operators::FaceTriangulator triangulator(cutMesh);
+  operators::FaceTriangulator triangulator(cutMesh.positions);
   for (size_t c = 0; c < cutMesh.cellCount(); ++c) {
     if (cutMesh.cellRegion[c] != region) continue;
     for (const uint32_t h : cutMesh.halfFaces(c)) {
-      if (cutMesh.faceTriangle[h / 2] >= 0) addHalfFace(triangulator, h, triangles);
+      if (cutMesh.faceTriangle[h / 2] >= 0) triangulator.runOutwards(cutMesh.face(h / 2), h % 2, triangles);
     }
   }
   return triangles;

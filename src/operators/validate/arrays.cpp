@@ -14,7 +14,8 @@ class ArrayCheck {
 
   Check run() {
     // Later steps index with what earlier ones have checked.
-    checkInput() && checkGrid() && checkVertices() && checkFaces() && checkCells() && checkRuns() && checkRest();
+    checkInput() && checkGrid() && checkVertices() && checkMade() && checkFaces() && checkFaceParents() && checkCells() && checkRuns() &&
+        checkRest();
     return tally_.finish();
   }
 
@@ -110,6 +111,35 @@ class ArrayCheck {
     return true;
   }
 
+  bool checkMade() {
+    const size_t n = cut_.madeVertices.size();
+    if (!expect(cut_.madeVertexKinds.size() == n && cut_.madeVertexParents.size() == 4 * n, "array", 0,
+                "of the made vertices has a wrong length"))
+      return false;
+    for (size_t i = 0; i < n; ++i) {
+      const uint32_t v = cut_.madeVertices[i];
+      const bool inOrder = v < cut_.vertexCount() && (i == 0 || cut_.madeVertices[i - 1] < v);
+      if (!expect(inOrder, "vertex", v, "is listed as made but does not exist or is out of order")) return false;
+      if (!expect(cut_.vertexParents[2 * size_t(v)] == -1 && cut_.vertexTriVertex[v] == -1, "vertex", v,
+                  "is listed as made but has other parents"))
+        return false;
+      if (!expect(cut_.madeVertexKinds[i] <= uint8_t(MadeVertex::trianglesPlane), "vertex", v, "is made in no known way")) return false;
+      if (!expect(hasMadeParents(i), "vertex", v, "is made by parents that do not exist")) return false;
+    }
+    return true;
+  }
+  bool hasMadeParents(size_t made) const {
+    const MadeVertex kind = MadeVertex(cut_.madeVertexKinds[made]);
+    const int triVertices = kind == MadeVertex::edgeTriangle ? 2 : kind == MadeVertex::edgeEdge ? 4 : 0;
+    const int all = kind == MadeVertex::edgeEdge ? 4 : kind == MadeVertex::trianglesPlane ? 2 : 3;
+    for (int i = 0; i < 4; ++i) {
+      const int64_t parent = cut_.madeVertexParents[4 * made + size_t(i)];
+      const int64_t last = i < triVertices ? lastTriVertex() : int64_t(cut_.triangleCount) - 1;
+      if (i < all ? parent < 0 || parent > last : parent != -1) return false;
+    }
+    return true;
+  }
+
   bool checkFaces() {
     const size_t faces = cut_.faceCount(), loops = cut_.loopOffsets.empty() ? 0 : cut_.loopOffsets.size() - 1;
     if (!expect(cut_.faceAxis.size() == faces && cut_.facePlane.size() == faces && faces < size_t(1) << 31, "array", 0,
@@ -143,6 +173,29 @@ class ArrayCheck {
       if (loop[i] == loop[(i + 1) % loop.size()]) return false;
     }
     return !loop.empty();
+  }
+
+  bool checkFaceParents() {
+    const size_t parents = cut_.faceParents.size();
+    if (!expect(cut_.faceParentSigns.size() == parents, "array", 0, "of the faces' parents has a wrong length")) return false;
+    if (!expectOffsets(cut_.faceParentOffsets, cut_.faceCount(), parents, "face", "has wrong offsets of its parents")) return false;
+    if (!expectRange(cut_.faceParents, {0, int64_t(cut_.triangleCount) - 1}, "entry",
+                     "of faceParents names a triangle that does not exist"))
+      return false;
+    for (size_t f = 0; f < cut_.faceCount(); ++f) {
+      const uint32_t first = cut_.faceParentOffsets[f], last = cut_.faceParentOffsets[f + 1];
+      bool ascending = true, signs = true;
+      for (uint32_t i = first; i < last; ++i) {
+        ascending &= i == first || cut_.faceParents[i - 1] < cut_.faceParents[i];
+        signs &= cut_.faceParentSigns[i] == 1 || cut_.faceParentSigns[i] == -1;
+      }
+      if (!expect(ascending, "face", int64_t(f), "has parents that do not ascend")) return false;
+      if (!expect(signs, "face", int64_t(f), "has a parent whose sign is neither 1 nor -1")) return false;
+      const bool lowest = first == last ? cut_.faceTriangle[f] == -1
+                                        : cut_.faceTriangle[f] == int64_t(cut_.faceParents[first]) && cut_.faceParentSigns[first] == 1;
+      if (!expect(lowest, "face", int64_t(f), "does not name its lowest parent, with the sign 1, as its triangle")) return false;
+    }
+    return true;
   }
 
   bool checkCells() {

@@ -2,35 +2,22 @@
 #include "operators/validate/context.h"
 
 #include <algorithm>
-#include <cstring>
 #include <numeric>
+
+#include "base/position_table.h"
+#include "base/sort.h"
 
 namespace mandoline::validation {
 namespace {
 
-/// For each referenced tri-vertex the lowest one at its position.
-std::vector<uint32_t> lowestAtPosition(const MeshView& mesh, const std::vector<double>& positions) {
-  constexpr uint32_t kNone = ~0u;
-  size_t slots = 16;
-  while (slots < 2 * mesh.vertexCount()) slots *= 2;
-  std::vector<uint32_t> table(slots, kNone), lowest(mesh.vertexCount(), kNone);
-  for (const uint32_t v : mesh.triangles) lowest[v] = v;
-  for (uint32_t v = 0; v < lowest.size(); ++v) {
-    if (lowest[v] == kNone) continue;
-    uint64_t hash = 0;
-    for (int d = 0; d < 3; ++d) {
-      const double x = positions[3 * size_t(v) + d] + 0.0;  // -0 becomes 0
-      uint64_t bits;
-      std::memcpy(&bits, &x, sizeof bits);
-      hash = Random::mix(hash + bits + 0x9e3779b97f4a7c15u);
-    }
-    size_t slot = hash & (slots - 1);
-    const auto same = [&](uint32_t w) {
-      return std::equal(&positions[3 * size_t(v)], &positions[3 * size_t(v)] + 3, &positions[3 * size_t(w)]);
-    };
-    while (table[slot] != kNone && !same(table[slot])) slot = (slot + 1) & (slots - 1);
-    if (table[slot] == kNone) table[slot] = v;
-    lowest[v] = table[slot];
+/// Per tri-vertex that a triangle has, the lowest one at its position; of the others none.
+std::vector<uint32_t> welded(const MeshView& mesh, const std::vector<double>& positions) {
+  std::vector<uint8_t> referenced(mesh.vertexCount(), 0);
+  for (const uint32_t v : mesh.triangles) referenced[v] = 1;
+  std::vector<uint32_t> lowest = detail::lowestAtPosition(
+      mesh.vertexCount(), [&](uint32_t v) { return &positions[3 * size_t(v)]; }, [&](uint32_t v) { return referenced[v] != 0; });
+  for (size_t v = 0; v < lowest.size(); ++v) {
+    if (!referenced[v]) lowest[v] = UINT32_MAX;
   }
   return lowest;
 }
@@ -69,6 +56,55 @@ std::vector<int32_t> ownersOf(const CutMesh& cutMesh) {
     }
   }
   return owner;
+}
+
+/// Where a grid cell is among the groups, which are in order of grid cells; the number of groups if it is untouched.
+size_t groupAt(const CutMesh& cutMesh, const GridCellGroups& groups, const std::array<int32_t, 3>& gridCell) {
+  const auto isBefore = [&](uint32_t cell) {
+    const int32_t* g = &cutMesh.cellGridCell[3 * size_t(cell)];
+    return g[2] != gridCell[2] ? g[2] < gridCell[2] : g[1] != gridCell[1] ? g[1] < gridCell[1] : g[0] < gridCell[0];
+  };
+  size_t low = 0, high = groups.count();
+  while (low < high) {
+    const size_t middle = (low + high) / 2;
+    if (isBefore(groups[middle][0])) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  if (low == groups.count()) return low;
+  return std::equal(gridCell.begin(), gridCell.end(), &cutMesh.cellGridCell[3 * size_t(groups[low][0])]) ? low : groups.count();
+}
+
+detail::Csr<Edge> findEdgesBeyond(const CutMesh& cutMesh, const GridCellGroups& groups, const std::vector<int32_t>& owner) {
+  struct Beyond {
+    size_t group;
+    Edge edge;
+  };
+  std::vector<Beyond> found;
+  const auto isOn = [&](uint32_t v, int axis, int32_t plane) {
+    return (cutMesh.vertexMask[v] >> axis & 1) != 0 && cutMesh.vertexCell[3 * size_t(v) + size_t(axis)] == plane;
+  };
+  for (size_t f = 0; f < cutMesh.faceCount(); ++f) {
+    const int32_t cell = std::max(owner[2 * f], owner[2 * f + 1]);
+    if (cutMesh.faceAxis[f] >= 0 || cell < 0) continue;
+    const int32_t* g = &cutMesh.cellGridCell[3 * size_t(cell)];
+    for (const std::span<const uint32_t> loop : cutMesh.loops(f)) {
+      for (size_t i = 0; i < loop.size(); ++i) {
+        const uint32_t u = loop[i], v = loop[i + 1 < loop.size() ? i + 1 : 0];
+        for (int d = 0; d < 3; ++d) {
+          if (!isOn(u, d, g[d] + 1) || !isOn(v, d, g[d] + 1)) continue;
+          std::array<int32_t, 3> above{g[0], g[1], g[2]};
+          ++above[size_t(d)];
+          const size_t group = groupAt(cutMesh, groups, above);
+          if (group < groups.count()) found.push_back({group, edgeOf(u, v)});
+        }
+      }
+    }
+  }
+  return detail::groupBy<Edge>(
+      groups.count(), found.size(), [&](size_t i) { return found[i].group; }, [&](size_t i) { return found[i].edge; });
 }
 
 }  // namespace
@@ -111,7 +147,7 @@ GridCellGroups groupByGridCell(const CutMesh& cutMesh) {
     const int32_t *g = &cutMesh.cellGridCell[3 * size_t(a)], *h = &cutMesh.cellGridCell[3 * size_t(b)];
     return g[2] != h[2] ? g[2] < h[2] : g[1] != h[1] ? g[1] < h[1] : g[0] < h[0];
   };
-  std::stable_sort(groups.cells.begin(), groups.cells.end(), before);
+  detail::sortItems(groups.cells, before);
   groups.offsets = {0};
   for (size_t i = 1; i <= groups.cells.size(); ++i) {
     if (i == groups.cells.size() || before(groups.cells[i - 1], groups.cells[i])) groups.offsets.push_back(uint32_t(i));
@@ -124,10 +160,12 @@ Context::Context(const MeshView& mesh_, const CutMesh& cutMesh, double snapToler
       cut(cutMesh),
       coordinates(scaled(mesh, cut, snapTolerance)),
       dropped(isDropped(cut, mesh.triangleCount())),
-      weld(lowestAtPosition(mesh, coordinates.triPositions)),
+      weld(welded(mesh, coordinates.triPositions)),
       rounding(roundingOf(mesh, coordinates, dropped)),
       owner(ownersOf(cut)),
-      groups(groupByGridCell(cut)) {}
+      groups(groupByGridCell(cut)),
+      edgesBeyond(findEdgesBeyond(cut, groups, owner)),
+      exact(*this) {}
 
 bool Context::inBox(const Vec3& p) const {
   for (int d = 0; d < 3; ++d) {
@@ -136,9 +174,19 @@ bool Context::inBox(const Vec3& p) const {
   return true;
 }
 
+int64_t Context::madeIndex(uint32_t v) const {
+  const auto place = std::lower_bound(cut.madeVertices.begin(), cut.madeVertices.end(), v);
+  return place != cut.madeVertices.end() && *place == v ? place - cut.madeVertices.begin() : -1;
+}
+
+bool Context::haveOnePlane(size_t s, size_t t) const {
+  const ExactPlane plane = exactPlane(*this, s);
+  return plane.holds(exactPlace(corner(t, 0))) && plane.holds(exactPlace(corner(t, 1))) && plane.holds(exactPlace(corner(t, 2)));
+}
+
 int Context::axialSide(size_t face) const {
   const int32_t t = cut.faceTriangle[face];
-  return t < 0 ? 1 : turn(corner(t, 0), corner(t, 1), corner(t, 2), cut.faceAxis[face]);
+  return t < 0 ? 1 : sideOf(size_t(t), cut.faceAxis[face]);
 }
 
 int64_t Context::runAt(int64_t i, int64_t j, int64_t k) const {

@@ -1,11 +1,14 @@
 // The cut-mesh and its input as validate() sees them: scaled, snapped, welded, and grouped by grid cell.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
 
+#include "base/csr.h"
 #include "mandoline/validate.h"
+#include "operators/validate/exact_places.h"
 #include "operators/validate/geometry.h"
 
 namespace mandoline::validation {
@@ -34,6 +37,10 @@ struct GridCellGroups {
 };
 GridCellGroups groupByGridCell(const CutMesh& cutMesh);
 
+/// An edge by its vertices, the lower one first.
+using Edge = std::array<uint32_t, 2>;
+inline Edge edgeOf(uint32_t u, uint32_t v) { return {std::min(u, v), std::max(u, v)}; }
+
 /// The cut-mesh and its input, with what follows from their arrays. Needs arrays that passed checkArrays.
 struct Context {
   Context(const MeshView& mesh, const CutMesh& cutMesh, double snapTolerance);
@@ -43,10 +50,13 @@ struct Context {
 
   const Coordinates coordinates;
   const std::vector<uint8_t> dropped;  ///< per triangle
-  const std::vector<uint32_t> weld;    ///< per tri-vertex that a triangle has: the lowest one at its position
+  const std::vector<uint32_t> weld;    ///< per tri-vertex: the lowest one at its position, among those that triangles have
   const Vec3 rounding;                 ///< one rounding per axis
   const std::vector<int32_t> owner;    ///< per half-face: its cut-cell (the first that lists it), or -1
   const GridCellGroups groups;
+  /// Per group: edges in the lower sides of its grid cell that tri-faces beyond these sides have.
+  const detail::Csr<Edge> edgesBeyond;
+  const ExactPlaces exact;
 
   const std::array<std::vector<double>, 3>& planes() const { return coordinates.planes; }
   Vec3 vertex(uint32_t v) const { return at(coordinates.positions, v); }
@@ -65,12 +75,24 @@ struct Context {
   const int32_t* gridCellOf(size_t cell) const { return cut.cellGridCell.data() + 3 * cell; }
   bool inBox(const Vec3& p) const;
   bool triangleInBox(size_t t) const { return inBox(corner(t, 0)) && inBox(corner(t, 1)) && inBox(corner(t, 2)); }
+  /// The triangles that face f is a part of, and its signs of them.
+  std::span<const uint32_t> parents(size_t f) const { return {cut.faceParents.data() + cut.faceParentOffsets[f], parentCount(f)}; }
+  std::span<const int8_t> parentSigns(size_t f) const { return {cut.faceParentSigns.data() + cut.faceParentOffsets[f], parentCount(f)}; }
+  /// Where a vertex is among the made ones, or -1.
+  int64_t madeIndex(uint32_t v) const;
+  /// Exact: whether a triangle's plane holds a vertex.
+  bool inPlane(uint32_t v, const ExactPlane& plane) const { return !exact.isKnown(v) || plane.holds(exact[v]); }
+  /// Exact: whether the planes of two triangles are the same.
+  bool haveOnePlane(size_t s, size_t t) const;
+  /// Exact: sign of the axis-component of a triangle's normal.
+  int sideOf(size_t triangle, int axis) const { return turn(corner(triangle, 0), corner(triangle, 1), corner(triangle, 2), axis); }
   /// Sign of the axis-component of the normal of an axial face.
   int axialSide(size_t face) const;
   /// The runs of untouched grid cells: index of the one that holds a grid cell, or -1.
   int64_t runAt(int64_t i, int64_t j, int64_t k) const;
 
  private:
+  size_t parentCount(size_t f) const { return cut.faceParentOffsets[f + 1] - cut.faceParentOffsets[f]; }
   static Vec3 at(const std::vector<double>& coordinates, uint32_t v) {
     const double* p = &coordinates[3 * size_t(v)];
     return {{p[0], p[1], p[2]}};

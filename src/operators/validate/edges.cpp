@@ -1,6 +1,7 @@
 // Cut-edges: in each cell they cancel, and around each of them the faces leave no cell out (paper, 3.5 and 4.4).
 #include <algorithm>
 
+#include "base/sort.h"
 #include "operators/validate/grid_cell_checks.h"
 
 namespace mandoline::validation {
@@ -27,7 +28,7 @@ void EdgeCheck::collectUses(const GridCell& cell) {
     }
   }
   const auto key = [](const Use& use) { return uint64_t(use.edge[0]) << 32 | use.edge[1]; };
-  std::sort(uses_.begin(), uses_.end(), [&](const Use& a, const Use& b) {
+  detail::sortItems(uses_, [&](const Use& a, const Use& b) {
     return key(a) != key(b) ? key(a) < key(b) : a.face != b.face ? a.face < b.face : a.forward < b.forward;
   });
 }
@@ -61,7 +62,7 @@ void EdgeCheck::checkCancel(const GridCell& cell, std::span<const Use> uses) {
     if (owner[0] >= 0) directions_.push_back({owner[0], direction});
     if (owner[1] >= 0) directions_.push_back({owner[1], -direction});
   }
-  std::sort(directions_.begin(), directions_.end());
+  detail::sortItems(directions_);
   for (size_t begin = 0, end = 0; begin < directions_.size(); begin = end) {
     int32_t sum = 0;
     for (; end < directions_.size() && directions_[end].first == directions_[begin].first; ++end) sum += directions_[end].second;
@@ -105,7 +106,7 @@ bool EdgeCheck::sortByAngle(const GridCell& cell, std::span<Use> uses) {
     noise = std::max(noise, (normal.error[e] + normal.error[f]) / size + 4 * kRounding);
     angles_.push_back({pseudoAngle(sign * normal.n[e], (along[axis] > 0 ? sign : -sign) * normal.n[f]), use});
   }
-  std::sort(angles_.begin(), angles_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  detail::sortItems(angles_, [](const auto& a, const auto& b) { return a.first < b.first; });
   // The error of a normal turns its pseudo-angle by at most twice its relative size.
   const double apart = 4 * noise;
   for (size_t i = 0; i < angles_.size(); ++i) {
@@ -121,7 +122,7 @@ void EdgeCheck::joinLoosely(const GridCell& cell, std::span<const Use> uses) {
   for (const Use& use : uses) {
     for (uint32_t side = 0; side < 2; ++side) halfFaces.push_back({cell.faces[use.face].owner[side], 2 * use.face + side});
   }
-  std::sort(halfFaces.begin(), halfFaces.end());
+  detail::sortItems(halfFaces);
   for (size_t i = 1; i < halfFaces.size(); ++i) {
     if (halfFaces[i].first == halfFaces[i - 1].first && halfFaces[i].first >= 0)
       shells_.unite(halfFaces[i].second, halfFaces[i - 1].second);

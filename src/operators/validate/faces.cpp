@@ -65,6 +65,7 @@ class FaceCheck {
   void run(size_t f) {
     const Place place = placeOf(x_, f);
     checkPlane(f, place);
+    checkParents(f);
     checkLoops(f);
     if (x_.cut.faceAxis[f] < 0) {
       checkInnerSides(f);
@@ -76,8 +77,7 @@ class FaceCheck {
  private:
   void checkPlane(size_t f, const Place& place) {
     const int axis = x_.cut.faceAxis[f];
-    const int32_t t = x_.cut.faceTriangle[f], plane = x_.cut.facePlane[f];
-    if (t >= 0 && x_.dropped[size_t(t)]) found_.faces.violate("face", int64_t(f), "names a dropped triangle");
+    const int32_t plane = x_.cut.facePlane[f];
     if (*std::min_element(place.begin(), place.end()) < 0)
       return found_.isolation.violate("face", int64_t(f), "lies in several grid cells, or in an axial plane that it does not name");
     bool inPlane = true;
@@ -85,27 +85,56 @@ class FaceCheck {
       for (const std::span<const uint32_t> loop : x_.cut.loops(f)) {
         for (const uint32_t v : loop) inPlane &= x_.onPlane(v, axis) && x_.cellAt(v)[axis] == plane;
       }
-      for (int i = 0; t >= 0 && i < 3; ++i) inPlane &= x_.corner(size_t(t), i)[axis] == x_.planes()[size_t(axis)][size_t(plane)];
+      for (const uint32_t t : x_.parents(f)) {
+        for (int i = 0; i < 3; ++i) inPlane &= x_.corner(t, i)[axis] == x_.planes()[size_t(axis)][size_t(plane)];
+      }
     }
     if (!inPlane) found_.faces.violate("face", int64_t(f), "is not in the axial plane that it names");
   }
 
+  /// Each parent holds the face, exactly in its plane, and turns as its sign says.
+  void checkParents(size_t f) {
+    if (x_.parents(f).empty()) return;
+    const size_t first = size_t(x_.cut.faceTriangle[f]);
+    const int axis = seenAlong(first);
+    const int side = x_.sideOf(first, axis);
+    for (size_t i = 0; i < x_.parents(f).size(); ++i) {
+      const uint32_t t = x_.parents(f)[i];
+      if (x_.dropped[t]) found_.faces.violate("face", int64_t(f), "names a dropped triangle");
+      if (x_.sideOf(t, axis) != x_.parentSigns(f)[i] * side)
+        found_.faces.violate("face", int64_t(f), "names a triangle with the wrong sign");
+      checkInTriangle(f, t);
+    }
+  }
+
+  void checkInTriangle(size_t f, uint32_t t) {
+    const Vec3 origin = x_.corner(t, 0);
+    const Vec3 b = x_.inRoundings(x_.corner(t, 1), origin), c = x_.inRoundings(x_.corner(t, 2), origin);
+    const ExactPlane plane = exactPlane(x_, t);
+    bool inPlane = true;
+    for (const std::span<const uint32_t> loop : x_.cut.loops(f)) {
+      for (const uint32_t v : loop) {
+        const double distance = distanceToTriangle(x_.inRoundings(x_.vertex(v), origin), {}, b, c);
+        found_.planarity.measure(Deviation::ofDistance(distance), "face", int64_t(f),
+                                 "has a vertex that is off its triangle by {} of the largest coordinate");
+        inPlane &= x_.inPlane(v, plane);
+      }
+    }
+    if (!inPlane) found_.faces.violate("face", int64_t(f), "has a vertex that does not lie exactly in the plane of its triangle");
+  }
+
+  /// The axis along which a triangle looks largest.
+  int seenAlong(size_t t) const {
+    const Vec3 a = x_.corner(t, 0);
+    return dominantAxis(cross(x_.inRoundings(x_.corner(t, 1), a), x_.inRoundings(x_.corner(t, 2), a)));
+  }
+
   void checkLoops(size_t f) {
     const int32_t t = x_.cut.faceTriangle[f];
-    const Vec3 origin = x_.vertex(x_.cut.loops(f)[0][0]);
     int axis = x_.cut.faceAxis[f], sign = 1;
     if (t >= 0) {
-      Vec3 corners[3];
-      for (int i = 0; i < 3; ++i) corners[i] = x_.inRoundings(x_.corner(size_t(t), i), origin);
-      if (axis < 0) axis = dominantAxis(cross(corners[1] - corners[0], corners[2] - corners[0]));
-      sign = turn(x_.corner(size_t(t), 0), x_.corner(size_t(t), 1), x_.corner(size_t(t), 2), axis);
-      for (const std::span<const uint32_t> loop : x_.cut.loops(f)) {
-        for (const uint32_t v : loop) {
-          const double distance = distanceToTriangle(x_.inRoundings(x_.vertex(v), origin), corners[0], corners[1], corners[2]);
-          found_.planarity.measure(Deviation::ofDistance(distance), "face", int64_t(f),
-                                   "has a vertex that is off its triangle by {} of the largest coordinate");
-        }
-      }
+      if (axis < 0) axis = seenAlong(size_t(t));
+      sign = x_.sideOf(size_t(t), axis);
     }
     bool outer = true;
     for (const std::span<const uint32_t> loop : x_.cut.loops(f)) {

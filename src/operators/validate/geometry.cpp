@@ -4,62 +4,58 @@
 #include <algorithm>
 
 namespace mandoline::validation {
-namespace {
-
-struct Pair {
-  double value, lost;  // what rounding took from it
-};
-
-Pair exactSum(double a, double b) {
-  const double s = a + b, bPart = s - a, aPart = s - bPart;
-  return {s, (a - aPart) + (b - bPart)};
-}
-
-Pair exactProduct(double a, double b) {
-  const auto split = [](double x) {
-    const double c = 134217729.0 * x, high = c - (c - x);
-    return Pair{high, x - high};
-  };
-  const double p = a * b;
-  const Pair x = split(a), y = split(b);
-  return {p, x.lost * y.lost - (((p - x.value * y.value) - x.lost * y.value) - x.value * y.lost)};
-}
-
-}  // namespace
-
-void Exact::add(double x) {
-  size_t kept = 0;
-  for (const double part : parts_) {
-    const Pair s = exactSum(x, part);
-    x = s.value;
-    if (s.lost != 0) parts_[kept++] = s.lost;
+Exact::Exact(double x) {
+  if (x == 0) return;
+  int exponent = 0;
+  std::frexp(x, &exponent);
+  exponent -= 53;  // of the last bit
+  exponent_ = (exponent - (exponent < 0 ? kBits - 1 : 0)) / kBits;
+  x = std::ldexp(x, -kBits * exponent_);
+  while (x != 0) {
+    const double rest = std::trunc(std::ldexp(x, -kBits));
+    digits_.push_back(int64_t(x - std::ldexp(rest, kBits)));
+    x = rest;
   }
-  parts_.resize(kept);
-  if (x != 0) parts_.push_back(x);
+  carry();
 }
 
-Exact Exact::operator+(const Exact& other) const {
-  Exact result = *this;
-  for (const double part : other.parts_) result.add(part);
-  return result;
-}
-
-Exact Exact::operator-(const Exact& other) const {
-  Exact result = *this;
-  for (const double part : other.parts_) result.add(-part);
+Exact Exact::sum(const Exact& other, int64_t sign) const {
+  if (other.digits_.empty()) return *this;
+  Exact result;
+  result.exponent_ = digits_.empty() ? other.exponent_ : std::min(exponent_, other.exponent_);
+  const auto add = [&](const Exact& x, int64_t factor) {
+    const size_t first = size_t(x.exponent_ - result.exponent_);
+    if (!x.digits_.empty()) result.digits_.resize(std::max(result.digits_.size(), first + x.digits_.size()));
+    for (size_t i = 0; i < x.digits_.size(); ++i) result.digits_[first + i] += factor * x.digits_[i];
+  };
+  add(*this, 1);
+  add(other, sign);
+  result.carry();
   return result;
 }
 
 Exact Exact::operator*(const Exact& other) const {
   Exact result;
-  for (const double a : parts_) {
-    for (const double b : other.parts_) {
-      const Pair p = exactProduct(a, b);
-      result.add(p.lost);
-      result.add(p.value);
-    }
+  if (digits_.empty() || other.digits_.empty()) return result;
+  result.exponent_ = exponent_ + other.exponent_;
+  result.digits_.resize(digits_.size() + other.digits_.size());
+  for (size_t i = 0; i < digits_.size(); ++i) {
+    for (size_t k = 0; k < other.digits_.size(); ++k) result.digits_[i + k] += digits_[i] * other.digits_[k];
   }
+  result.carry();
   return result;
+}
+
+void Exact::carry() {
+  constexpr int64_t kHalf = int64_t(1) << (kBits - 1);
+  int64_t over = 0;
+  for (size_t i = 0; i < digits_.size() || over != 0; ++i) {
+    if (i == digits_.size()) digits_.push_back(0);
+    const int64_t digit = digits_[i] + over;
+    over = (digit + kHalf) >> kBits;
+    digits_[i] = digit - over * (2 * kHalf);
+  }
+  while (!digits_.empty() && digits_.back() == 0) digits_.pop_back();
 }
 
 int differenceSign(const Product& x, const Product& y) {
@@ -76,20 +72,6 @@ int turn(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
 
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
   return turn(a, b, c, 0) == 0 && turn(a, b, c, 1) == 0 && turn(a, b, c, 2) == 0;
-}
-
-bool coplanar(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const Normal normal = normalOf(a, b, c);
-  const Vec3 ad = d - a;
-  double doubt = 0;
-  for (int i = 0; i < 3; ++i) doubt += std::fabs(ad[i]) * (2 * normal.error[i] + 4 * kRounding * std::fabs(normal.n[i]));
-  if (std::fabs(dot(ad, normal.n)) > doubt) return false;
-  Exact volume;
-  for (int i = 0; i < 3; ++i) {
-    const int e = (i + 1) % 3, f = (i + 2) % 3;
-    volume = volume + (Exact(d[i]) - a[i]) * ((Exact(b[e]) - a[e]) * (Exact(c[f]) - a[f]) - (Exact(b[f]) - a[f]) * (Exact(c[e]) - a[e]));
-  }
-  return volume.sign() == 0;
 }
 
 double distanceToSegment(const Vec3& p, const Vec3& a, const Vec3& b) {

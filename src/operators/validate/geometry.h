@@ -61,19 +61,24 @@ class Random {
   uint64_t state_;
 };
 
-/// A number kept exactly, barring overflow and underflow, as a sum of doubles that do not overlap, of ascending size (Shewchuk 1997).
+/// An exact number of any size: digits times powers of 2^24.
 class Exact {
  public:
   Exact() = default;
-  Exact(double x) { add(x); }
-  Exact operator+(const Exact& other) const;
-  Exact operator-(const Exact& other) const;
+  Exact(double x);
+  Exact operator+(const Exact& other) const { return sum(other, 1); }
+  Exact operator-(const Exact& other) const { return sum(other, -1); }
   Exact operator*(const Exact& other) const;
-  int sign() const { return parts_.empty() ? 0 : parts_.back() > 0 ? 1 : -1; }
+  int sign() const { return digits_.empty() ? 0 : digits_.back() > 0 ? 1 : -1; }
 
  private:
-  void add(double x);
-  std::vector<double> parts_;
+  static constexpr int kBits = 24;
+  Exact sum(const Exact& other, int64_t sign) const;
+  void carry();
+
+  std::vector<int64_t>
+      digits_;        // from the lowest, at most half of 2^24 in size either way, so that the highest, which isn't 0, has the sign
+  int exponent_ = 0;  // of the lowest: its power
 };
 
 /// (a - b) (c - d).
@@ -85,7 +90,6 @@ int differenceSign(const Product& x, const Product& y);
 /// Exact: 1 if a, b, c turn counter-clockwise about +axis.
 int turn(const Vec3& a, const Vec3& b, const Vec3& c, int axis);
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
-bool coplanar(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 /// Distance of p from a segment or triangle, at most a few roundings too large however thin the triangle is, if coordinates are in
 /// roundings.
 double distanceToSegment(const Vec3& p, const Vec3& a, const Vec3& b);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/sort.h"
 #include "operators/validate/tally.h"
 
 namespace mandoline::validation {
@@ -19,14 +20,15 @@ void GridCell::gather(size_t group) {
   for (const uint32_t c : cells) {
     for (const uint32_t h : context.cut.halfFaces(c)) listings_.push_back({h, int32_t(c)});
   }
-  std::sort(listings_.begin(), listings_.end(),
-            [](const Listing& a, const Listing& b) { return a.halfFace != b.halfFace ? a.halfFace < b.halfFace : a.cell < b.cell; });
+  detail::sortItems(
+      listings_, [](const Listing& a, const Listing& b) { return a.halfFace != b.halfFace ? a.halfFace < b.halfFace : a.cell < b.cell; });
   for (const Listing& listing : listings_) {
     const uint32_t id = listing.halfFace / 2;
     if (faces.empty() || faces.back().id != id) addFace(id);
     int32_t& owner = faces.back().owner[listing.halfFace % 2];
     if (owner < 0) owner = listing.cell;
   }
+  faceTree.build(faces.size(), [&](size_t f) { return detail::BoxTree::Item{boxOf(faces[f].low, faces[f].high), uint32_t(f)}; });
 }
 
 void GridCell::addFace(uint32_t id) {
@@ -52,34 +54,18 @@ void GridCell::addLoop(Face& face, std::span<const uint32_t> loop) {
   // A fan from the loop's first corner.
   for (size_t i = first; i < corners.size(); ++i) {
     const Vec3 &a = corners[first], &b = corners[i], &c = corners[cornerNext[i]];
-    const Vec3 twice = cross(b - a, c - a);
+    const Vec3 ab = b - a, ac = c - a, twice = cross(ab, ac);
     face.area = face.area + 0.5 * twice;
     face.volume += dot(a, twice) / 6;
     for (int d = 0; d < 3; ++d) {
       const int e = (d + 1) % 3, f = (d + 2) % 3;
       const double areaNoise = noise[e] * std::fabs(c[f] - b[f]) + noise[f] * std::fabs(c[e] - b[e]) + noise[e] * noise[f];
       face.areaNoise[d] += areaNoise;
-      face.volumeNoise += noise[d] * (std::fabs(twice[d]) / 2 + areaNoise);
+      // The second term is what computing it loses, which is more where the triangle is long and thin.
+      face.volumeNoise += noise[d] * (std::fabs(twice[d]) / 2 + areaNoise) +
+                          kRounding * std::fabs(a[d]) * (std::fabs(ab[e] * ac[f]) + std::fabs(ab[f] * ac[e]));
     }
   }
-}
-
-void FaceBins::build(const GridCell& cell, int axis) {
-  axis_ = axis;
-  const int d = (axis + 1) % 3, e = (axis + 2) % 3;
-  bins_ = std::clamp(int(std::sqrt(double(cell.faces.size()) / 8)), 1, 256);
-  offsets_.assign(size_t(bins_) * bins_ + 2, 0);  // counted two places on, so that filling leaves begins one place on
-  const auto forBins = [&](const GridCell::Face& face, auto&& use) {
-    if (face.side >= 0 && face.side / 2 != axis) return;
-    const double md = kTolerance * cell.noise[d], me = kTolerance * cell.noise[e];
-    for (size_t j = binOf(face.low[e] - me); j <= binOf(face.high[e] + me); ++j) {
-      for (size_t i = binOf(face.low[d] - md); i <= binOf(face.high[d] + md); ++i) use(j * size_t(bins_) + i);
-    }
-  };
-  for (const GridCell::Face& face : cell.faces) forBins(face, [&](size_t b) { ++offsets_[b + 2]; });
-  for (size_t b = 2; b < offsets_.size(); ++b) offsets_[b] += offsets_[b - 1];
-  faces_.resize(offsets_.back());
-  for (uint32_t i = 0; i < cell.faces.size(); ++i) forBins(cell.faces[i], [&](size_t b) { faces_[offsets_[b + 1]++] = i; });
 }
 
 Place placeOn(const GridCell& cell, const GridCell::Face& face, int axis, const Vec3& point, const Vec3& margin) {

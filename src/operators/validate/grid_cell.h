@@ -1,10 +1,12 @@
 // One grid cell with its cut-cells, for the checks that work by grid cell.
 #pragma once
 
+#include "base/box_tree.h"
 #include "operators/validate/context.h"
-#include "operators/validate/triangle_bins.h"
 
 namespace mandoline::validation {
+
+inline detail::Box boxOf(const Vec3& low, const Vec3& high) { return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}; }
 
 /// The cut-cells of one grid cell, in coordinates of that cell: 0 to 1 per axis.
 struct GridCell {
@@ -23,6 +25,10 @@ struct GridCell {
   /// Becomes the grid cell of a group.
   void gather(size_t group);
   Vec3 local(const Vec3& p) const { return {{(p[0] - low[0]) / size[0], (p[1] - low[1]) / size[1], (p[2] - low[2]) / size[2]}}; }
+  /// Of the loops of faces[f].
+  std::span<const uint32_t> vertices(size_t f) const {
+    return {cornerVertex.data() + faces[f].firstCorner, faces[f].lastCorner - faces[f].firstCorner};
+  }
 
   const Context& context;
   std::array<int32_t, 3> index{};
@@ -33,6 +39,7 @@ struct GridCell {
   std::vector<uint32_t> cornerVertex;  ///< loops of all faces
   std::vector<uint32_t> cornerNext;    ///< the next corner of the loop
   std::vector<Vec3> corners;           ///< their positions
+  detail::BoxTree faceTree;            ///< faces by place
 
  private:
   struct Listing {
@@ -42,31 +49,6 @@ struct GridCell {
   void addFace(uint32_t id);
   void addLoop(Face& face, std::span<const uint32_t> loop);
   std::vector<Listing> listings_;
-};
-
-/// An edge by its vertices, the lower one first.
-using Edge = std::array<uint32_t, 2>;
-
-/// The faces of a grid cell in square bins, seen along an axis; without those that lie in its boundary parallel to that.
-class FaceBins {
- public:
-  void build(const GridCell& cell, int axis);
-  /// f(face) for the faces in the bins of a box, some of them repeatedly.
-  template <class F>
-  void forFaces(const Vec3& low, const Vec3& high, F&& f) const {
-    const int d = (axis_ + 1) % 3, e = (axis_ + 2) % 3;
-    for (size_t j = binOf(low[e]); j <= binOf(high[e]); ++j) {
-      for (size_t b = j * size_t(bins_) + binOf(low[d]); b <= j * size_t(bins_) + binOf(high[d]); ++b) {
-        for (uint32_t i = offsets_[b]; i < offsets_[b + 1]; ++i) f(faces_[i]);
-      }
-    }
-  }
-
- private:
-  size_t binOf(double x) const { return binIndex(x * bins_, bins_); }
-
-  int axis_ = 0, bins_ = 1;
-  std::vector<uint32_t> offsets_, faces_;
 };
 
 /// Where a point is on a face, seen along an axis; open if nearer to the face's edges than the margin.

@@ -3,6 +3,7 @@
 
 #include "base/disjoint_sets.h"
 #include "operators/validate/grid_cell.h"
+#include "operators/validate/hubs.h"
 #include "operators/validate/passes.h"
 
 namespace mandoline::validation {
@@ -50,19 +51,32 @@ class ConformingCheck {
   Check conforming() const { return conforming_.finish(); }
 
  private:
-  struct Vertex {
-    uint32_t id;
-    Vec3 position;
-  };
   void gatherVertices(const GridCell& cell, const std::vector<Edge>& edges);
   void checkVertex(const GridCell& cell, const Edge& edge, uint32_t vertex);
+  static bool isBetween(const Context& context, const Edge& edge, uint32_t vertex);
 
   std::vector<uint32_t> ids_;
-  std::vector<Vertex> sorted_[3];  // vertices of the grid cell, along each axis
+  detail::BoxTree vertices_;  // of the grid cell, by place
   Tally conforming_{"conforming"};
 };
 
-/// No edge crosses a tri-face.
+/// Each grid-face is divided wherever edges on its two sides divide it.
+class GridFaceCheck {
+ public:
+  void run(const GridCell& cell, const std::vector<Edge>& edges);
+  void merge(const GridFaceCheck& next) { divided_.merge(next.divided_); }
+  Check divided() const { return divided_.finish(); }
+
+ private:
+  void checkSide(const GridCell& cell, const std::vector<Edge>& edges, int side);
+
+  std::vector<Edge> edges_;  // in the grid-face
+  std::vector<uint32_t> vertices_;
+  detail::DisjointSets components_;
+  Tally divided_{"gridFaces"};
+};
+
+/// Tri-faces and edges meet only in shared vertices and edges.
 class CrossingCheck {
  public:
   void run(const GridCell& cell, const std::vector<Edge>& edges);
@@ -70,9 +84,50 @@ class CrossingCheck {
   Check crossings() const { return crossings_.finish(); }
 
  private:
-  void checkEdge(const GridCell& cell, const Vec3& from, const Vec3& to, uint32_t face);
+  /// That of a tri-face, in coordinates of the grid cell.
+  struct Plane {
+    Vec3 normal, origin;
+    double doubt = 0;       ///< of heights over it
+    uint64_t vertices = 0;  ///< sum of hashes: the same for faces with the same vertices
 
-  FaceBins bins_;
+    double height(const Vec3& p) const { return dot(p - origin, normal); }
+  };
+  struct Segment {
+    Edge ends;
+    Vec3 from, to;
+  };
+  /// A vertex that may lie in the planes of two faces.
+  struct Common {
+    uint32_t vertex;
+    Vec3 point;
+  };
+  static detail::Box boxOf(const Segment& segment, const Vec3& margin);
+  void gatherPlanes(const GridCell& cell);
+  void gatherSegments(const GridCell& cell, const std::vector<Edge>& edges);
+  void buildTrees(const GridCell& cell);
+  void checkAbout(const GridCell& cell, const Hubs::Hub& hub);
+  void checkEdgeAndFace(const GridCell& cell, const Segment& edge, uint32_t face);
+  void checkEdges(const GridCell& cell, const Segment& one, const Segment& other);
+  void checkFaces(const GridCell& cell, uint32_t f, uint32_t g);
+  bool gatherNear(const GridCell& cell, uint32_t face, uint32_t other);
+  void sortAlongLine(const GridCell& cell);
+  bool passesThrough(const GridCell& cell, const Segment& edge, double share, uint32_t face) const;
+  bool holdsMiddle(const GridCell& cell, const Segment& points, uint32_t face) const;
+  bool bounds(const GridCell& cell, const Edge& edge, const GridCell::Face& face) const;
+  bool isInside(const GridCell& cell, const GridCell::Face& face, const ExactPoint& point) const;
+  int sideOf(const GridCell& cell, uint32_t vertex, double height, uint32_t face) const;
+  static bool areKnown(const Context& context, const Edge& ends);
+  static bool crossExactly(const Context& context, const Edge& one, const Edge& other);
+  bool isIn(const GridCell& cell, uint32_t vertex, uint32_t face) const;
+  bool haveOnePlane(const GridCell& cell, uint32_t f, uint32_t g) const;
+
+  Vec3 margin_;
+  std::vector<Plane> planes_;  // per face, in use for tri-faces
+  std::vector<Segment> segments_;
+  Hubs hubs_;
+  HubTree faceTree_, segmentTree_;  // of tri-faces and of segments
+  detail::BoxTree directionTree_;   // of tri-faces, seen from a hub
+  std::vector<Common> common_;
   Tally crossings_{"crossings"};
 };
 
@@ -127,7 +182,7 @@ class LineCheck {
     const GridCell::Face* face;
   };
   enum class Verdict { fine, unjudged, broken };
-  Vec3 pointOn(const GridCell& cell, const GridCell::Face& face, int axis);
+  bool pointOn(const GridCell& cell, const GridCell::Face& face, int axis, Vec3& point);
   void tryLine(const GridCell& cell, int axis, const GridCell::Face* through);
   Verdict shoot(const GridCell& cell, int axis, const Vec3& point);
   bool addHit(const GridCell& cell, int axis, const Vec3& point, const GridCell::Face& face);
@@ -138,8 +193,8 @@ class LineCheck {
   Random random_{1};   // started anew in each grid cell
   uint64_t work_ = 0;  // edges compared with lines, in this grid cell
   uint64_t lines_ = 0, unjudged_ = 0, skipped_ = 0, stride_ = 1;
-  FaceBins bins_;
   std::vector<Hit> hits_;
+  std::vector<double> cuts_;
   std::vector<Sample> samples_;
   Tally partition_{"partition"};
 };

@@ -1,6 +1,8 @@
 // The pass that works by grid cell.
+#include <algorithm>
 #include <optional>
 
+#include "base/sort.h"
 #include "operators/validate/grid_cell_checks.h"
 
 namespace mandoline::validation {
@@ -8,13 +10,15 @@ namespace {
 
 /// All checks of a range of grid cells.
 struct Checks {
-  explicit Checks(const Context& context) : cell(context), lines(context) {}
+  explicit Checks(const Context& context_) : context(context_), cell(context), lines(context) {}
 
   void run(size_t group, std::vector<double>& cellVolumes) {
     cell.gather(group);
     const CellEdges& found = edges.run(cell);
-    conforming.run(cell, found.edges);
-    crossings.run(cell, found.edges);
+    const std::vector<Edge>& withThoseBeyond = join(found.edges, context.edgesBeyond[group]);
+    conforming.run(cell, withThoseBeyond);
+    crossings.run(cell, withThoseBeyond);
+    gridFaces.run(cell, withThoseBeyond);
     const std::vector<double> volumes = shells.run(cell, found.shell);
     for (size_t i = 0; i < volumes.size(); ++i) cellVolumes[cell.cells[i]] = volumes[i];
     lines.run(cell);
@@ -23,14 +27,27 @@ struct Checks {
     edges.merge(next.edges);
     conforming.merge(next.conforming);
     crossings.merge(next.crossings);
+    gridFaces.merge(next.gridFaces);
     shells.merge(next.shells);
     lines.merge(next.lines);
   }
 
+  /// Both, ascending and without repeats.
+  const std::vector<Edge>& join(const std::vector<Edge>& own, std::span<const Edge> beyond) {
+    joined = own;
+    joined.insert(joined.end(), beyond.begin(), beyond.end());
+    detail::sortItems(joined);
+    joined.erase(std::unique(joined.begin(), joined.end()), joined.end());
+    return joined;
+  }
+
+  const Context& context;
   GridCell cell;
+  std::vector<Edge> joined;
   EdgeCheck edges;
   ConformingCheck conforming;
   CrossingCheck crossings;
+  GridFaceCheck gridFaces;
   ShellCheck shells;
   LineCheck lines;
 };
@@ -49,9 +66,10 @@ GridCellChecks checkGridCells(const Context& context, detail::Monitor& monitor) 
   for (const std::optional<Checks>& part : parts) {
     if (part) all.merge(*part);
   }
-  return {all.edges.closedCells(),   all.edges.facingFaces(),    all.conforming.conforming(), all.crossings.crossings(),
-          all.shells.connected(),    all.shells.distinctCells(), all.shells.cellVolume(),     all.shells.gridCellVolume(),
-          all.shells.gridFaceArea(), all.lines.partition(),      std::move(cellVolumes),      all.lines.samples()};
+  return {all.edges.closedCells(),     all.edges.facingFaces(),   all.conforming.conforming(), all.crossings.crossings(),
+          all.gridFaces.divided(),     all.shells.connected(),    all.shells.distinctCells(),  all.shells.cellVolume(),
+          all.shells.gridCellVolume(), all.shells.gridFaceArea(), all.lines.partition(),       std::move(cellVolumes),
+          all.lines.samples()};
 }
 
 }  // namespace mandoline::validation

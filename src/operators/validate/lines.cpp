@@ -3,23 +3,10 @@
 // intersect inside a grid cell, and shells in the wrong cell.
 #include <algorithm>
 
+#include "base/sort.h"
 #include "operators/validate/grid_cell_checks.h"
 
 namespace mandoline::validation {
-namespace {
-
-/// Exact: whether both are parts of triangles in one plane.
-bool inOnePlane(const Context& x, const GridCell::Face& face, const GridCell::Face& other) {
-  const int32_t s = x.cut.faceTriangle[face.id], t = x.cut.faceTriangle[other.id];
-  if (s < 0 || t < 0) return false;
-  for (int i = 0; i < 3; ++i) {
-    if (!coplanar(x.corner(s, 0), x.corner(s, 1), x.corner(s, 2), x.corner(t, i))) return false;
-  }
-  return true;
-}
-
-}  // namespace
-
 LineCheck::LineCheck(const Context& context) {
   constexpr uint64_t kSamples = 400;
   stride_ = 1 + (context.cut.faceCount() + 3 * context.groups.count()) / kSamples;
@@ -29,7 +16,6 @@ void LineCheck::run(const GridCell& cell) {
   random_ = Random(cell.cells[0]);
   for (int axis = 0; axis < 3; ++axis) {
     work_ = 0;
-    bins_.build(cell, axis);
     tryLine(cell, axis, nullptr);
     for (const GridCell::Face& face : cell.faces) {
       if (face.side >= 0 || dominantAxis(face.area) != axis) continue;
@@ -45,8 +31,8 @@ void LineCheck::run(const GridCell& cell) {
 
 void LineCheck::tryLine(const GridCell& cell, int axis, const GridCell::Face* through) {
   for (int attempt = 0; attempt < 3; ++attempt) {
-    const Vec3 point =
-        through ? pointOn(cell, *through, axis) : Vec3{{random_.between(0, 1), random_.between(0, 1), random_.between(0, 1)}};
+    Vec3 point{{random_.between(0, 1), random_.between(0, 1), random_.between(0, 1)}};
+    if (through && !pointOn(cell, *through, axis, point)) continue;
     const Verdict verdict = shoot(cell, axis, point);
     if (verdict == Verdict::unjudged) continue;
     if (verdict == Verdict::fine && random_.next() % stride_ == 0) sample(cell, axis, point);
@@ -56,18 +42,22 @@ void LineCheck::tryLine(const GridCell& cell, int axis, const GridCell::Face* th
   ++unjudged_;
 }
 
-/// A random point of the face's widest triangle, seen along the axis.
-Vec3 LineCheck::pointOn(const GridCell& cell, const GridCell::Face& face, int axis) {
-  const Vec3& a = cell.corners[face.firstCorner];
-  double widest = -1;
-  Vec3 ab, ac;
-  for (uint32_t i = cell.cornerNext[face.firstCorner]; cell.cornerNext[i] != face.firstCorner; i = cell.cornerNext[i]) {
-    const Vec3 b = cell.corners[i] - a, c = cell.corners[cell.cornerNext[i]] - a;
-    const double area = std::fabs(cross(b, c)[axis]);
-    if (area > widest) widest = area, ab = b, ac = c;
+/// A point inside a face, seen along the axis: in the widest part of the face on a random line across it. False if there is none.
+bool LineCheck::pointOn(const GridCell& cell, const GridCell::Face& face, int axis, Vec3& point) {
+  const int d = (axis + 1) % 3, e = (axis + 2) % 3;
+  point[e] = random_.between(face.low[e], face.high[e]);
+  cuts_.clear();
+  for (uint32_t i = face.firstCorner; i < face.lastCorner; ++i) {
+    const Vec3 &a = cell.corners[i], &b = cell.corners[cell.cornerNext[i]];
+    if ((a[e] > point[e]) != (b[e] > point[e])) cuts_.push_back(a[d] + (point[e] - a[e]) / (b[e] - a[e]) * (b[d] - a[d]));
   }
-  const double v = random_.between(0.02, 0.96), w = random_.between(0.02, 0.98 - v);
-  return a + v * ab + w * ac;
+  detail::sortItems(cuts_);
+  double widest = 0;
+  for (size_t i = 1; i < cuts_.size(); i += 2) {
+    const double width = cuts_[i] - cuts_[i - 1];
+    if (width > widest) widest = width, point[d] = cuts_[i - 1] + random_.between(0.05, 0.95) * width;
+  }
+  return widest > 0;
 }
 
 LineCheck::Verdict LineCheck::shoot(const GridCell& cell, int axis, const Vec3& point) {
@@ -75,18 +65,18 @@ LineCheck::Verdict LineCheck::shoot(const GridCell& cell, int axis, const Vec3& 
   for (const int d : {(axis + 1) % 3, (axis + 2) % 3}) {
     if (!(point[d] > kTolerance * cell.noise[d] && point[d] < 1 - kTolerance * cell.noise[d])) return Verdict::unjudged;
   }
+  const Vec3 margin = kTolerance * cell.noise;
+  Vec3 low = point - margin, high = point + margin;
+  low[axis] = -INFINITY, high[axis] = INFINITY;
   bool certain = true;
-  bins_.forFaces(point, point, [&](uint32_t f) { certain = certain && addHit(cell, axis, point, cell.faces[f]); });
+  cell.faceTree.forOverlapping(boxOf(low, high), [&](uint32_t f) { certain = certain && addHit(cell, axis, point, cell.faces[f]); });
   if (!certain) return Verdict::unjudged;
   return follow(cell, axis);
 }
 
 /// Adds the face if the line through the point hits it; false if rounding leaves that open.
 bool LineCheck::addHit(const GridCell& cell, int axis, const Vec3& point, const GridCell::Face& face) {
-  for (const int d : {(axis + 1) % 3, (axis + 2) % 3}) {
-    const double margin = kTolerance * cell.noise[d];
-    if (point[d] < face.low[d] - margin || point[d] > face.high[d] + margin) return true;
-  }
+  if (face.side >= 0 && face.side / 2 != axis) return true;  // parallel to the line
   work_ += face.lastCorner - face.firstCorner;
   const Place place = placeOn(cell, face, axis, point, kTolerance * cell.noise);
   if (place != Place::inside) return place == Place::outside;
@@ -127,10 +117,11 @@ bool LineCheck::placeHit(const GridCell& cell, int axis, const Vec3& point, Hit&
 }
 
 LineCheck::Verdict LineCheck::follow(const GridCell& cell, int axis) {
-  std::sort(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
+  detail::sortItems(hits_, [](const Hit& a, const Hit& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
   for (size_t i = 1; i < hits_.size(); ++i) {
     if (hits_[i - 1].high < hits_[i].low) continue;
-    if (!inOnePlane(cell.context, *hits_[i - 1].face, *hits_[i].face)) return Verdict::unjudged;
+    const int32_t s = cell.context.cut.faceTriangle[hits_[i - 1].face->id], t = cell.context.cut.faceTriangle[hits_[i].face->id];
+    if (s < 0 || t < 0 || !cell.context.haveOnePlane(size_t(s), size_t(t))) return Verdict::unjudged;
     partition_.violate("face", hits_[i].face->id, "lies partly on another one");
     return Verdict::broken;
   }

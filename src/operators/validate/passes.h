@@ -31,7 +31,8 @@ struct Sample {
 
 /// What is checked within each grid cell: its cut-cells are closed, conforming, of one shell each, and fill it (paper, 3.5, 4.4 and 5.6).
 struct GridCellChecks {
-  Check closedCells, facingFaces, conforming, crossings, connected, distinctCells, cellVolume, gridCellVolume, gridFaceArea, partition;
+  Check closedCells, facingFaces, conforming, crossings, gridFaces, connected, distinctCells, cellVolume, gridCellVolume, gridFaceArea,
+      partition;
   std::vector<double> cellVolumes;  ///< per cut-cell, scaled
   std::vector<Sample> samples;      ///< in cut-cells
 };
@@ -40,9 +41,8 @@ GridCellChecks checkGridCells(const Context& context, detail::Monitor& monitor);
 /// Area of each triangle's faces (paper, 5.6), reasons of dropped triangles.
 struct SurfaceChecks {
   Check area, droppedTriangles;
-  std::vector<uint8_t> overlapping;  ///< per triangle: whether it lies partly on others in one plane
 };
-SurfaceChecks checkSurface(const Context& context, const InputTopology& topology, const TriangleBins& bins, detail::Monitor& monitor);
+SurfaceChecks checkSurface(const Context& context, detail::Monitor& monitor);
 
 /// The stencil (paper, 4.3.1) and the regions.
 struct RegionChecks {
@@ -54,7 +54,7 @@ RegionChecks checkRegions(const Context& context, const TriangleBins& bins);
 struct WindingChecks {
   Check windingNumber, inputVolume;
 };
-WindingChecks checkWinding(const Context& context, const InputTopology& topology, const TriangleBins& bins, const GridCellChecks& gridCells,
-                           const SurfaceChecks& surface);
+WindingChecks checkWinding(const Context& context, const InputTopology& topology, const TriangleBins& bins,
+                           const GridCellChecks& gridCells);
 
 }  // namespace mandoline::validation

@@ -50,7 +50,7 @@ class StencilCheck {
     }
   }
   bool hasSurfaceVertex(size_t group) const {
-    const auto onSurface = [&](uint32_t v) { return x_.cut.vertexParents[2 * size_t(v)] >= 0; };
+    const auto onSurface = [&](uint32_t v) { return x_.cut.vertexParents[2 * size_t(v)] >= 0 || x_.madeIndex(v) >= 0; };
     bool found = false;
     for (const uint32_t c : x_.groups[group]) {
       if (found) break;

@@ -1,6 +1,7 @@
 // Shells of cut-cells (paper, 3.5): each cell has one of positive volume; the cells of a grid cell fill it, their faces its sides.
 #include <algorithm>
 
+#include "base/sort.h"
 #include "operators/validate/grid_cell_checks.h"
 
 namespace mandoline::validation {
@@ -94,7 +95,7 @@ void ShellCheck::checkDistinct(const GridCell& cell) {
   if (cells_.size() < 2) return;
   std::vector<std::pair<uint64_t, uint32_t>> byFaces;
   for (size_t i = 0; i < cells_.size(); ++i) byFaces.push_back({cells_[i].faces, cell.cells[i]});
-  std::sort(byFaces.begin(), byFaces.end());
+  detail::sortItems(byFaces);
   for (size_t i = 1; i < byFaces.size(); ++i) {
     if (byFaces[i].first == byFaces[i - 1].first) distinct_.violate("cell", byFaces[i].second, "has the same faces as another");
   }

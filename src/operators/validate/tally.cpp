@@ -7,12 +7,12 @@
 namespace mandoline::validation {
 namespace {
 
-/// "0.3 %": what goes after "by".
+/// "0.3%": what goes after "by".
 std::string inWords(double share) {
   if (std::isnan(share)) return "an amount that can't be computed";
   const double percent = 100 * share;
-  if (percent > 1000) return "more than 1000 %";
-  if (percent < 0.01) return "less than 0.01 %";
+  if (percent > 1000) return "more than 1000%";
+  if (percent < 0.01) return "less than 0.01%";
   // Two digits, whatever the locale.
   int64_t unit = 1;
   while (percent * double(unit) < 10) unit *= 10;
@@ -23,7 +23,7 @@ std::string inWords(double share) {
     fraction[0] = '.';
     text += fraction;
   }
-  return text + " %";
+  return text + '%';
 }
 
 /// "Face 12"; there is one grid and one mesh, and of arrays the text says which.

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "operators/validate/context.h"
-#include "operators/validate/input_topology.h"
 
 namespace mandoline::validation {
 
@@ -25,7 +24,7 @@ class TriangleBins {
     }
   }
   /// Winding number of the input at a point, by a ray along the axis; none where rounding leaves it open.
-  std::optional<int32_t> winding(const Vec3& p, const InputTopology& topology, bool withDuplicates) const;
+  std::optional<int32_t> winding(const Vec3& p) const;
 
  private:
   struct Box {

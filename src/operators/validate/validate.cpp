@@ -2,7 +2,7 @@
 // cell either cut or untouched, and the cut-cells of a grid cell fill it.
 #include "mandoline/validate.h"
 
-#include "operators/run_call.h"
+#include "mesh/run_call.h"
 #include "operators/validate/passes.h"
 
 namespace mandoline {
@@ -24,10 +24,10 @@ std::vector<Check> checkAll(const MeshView& mesh, const CutMesh& cutMesh, const 
   monitor.beginStage("gridCells", 3);
   const GridCellChecks gridCells = checkGridCells(context, monitor);
   monitor.beginStage("surface", 4);
-  const SurfaceChecks surface = checkSurface(context, topology, bins, monitor);
+  const SurfaceChecks surface = checkSurface(context, monitor);
   monitor.beginStage("regions", 5);
   const RegionChecks regions = checkRegions(context, bins);
-  const WindingChecks winding = checkWinding(context, topology, bins, gridCells, surface);
+  const WindingChecks winding = checkWinding(context, topology, bins, gridCells);
   return {arrays,
           vertices.vertices,
           vertices.positions,
@@ -40,6 +40,7 @@ std::vector<Check> checkAll(const MeshView& mesh, const CutMesh& cutMesh, const 
           gridCells.facingFaces,
           gridCells.conforming,
           gridCells.crossings,
+          gridCells.gridFaces,
           gridCells.connected,
           gridCells.distinctCells,
           gridCells.cellVolume,
@@ -62,7 +63,7 @@ Validation validate(const MeshView& mesh, const CutMesh& cutMesh, const Validate
   Validation result;
   Check arrays = checkArrays(cutMesh, &mesh);
   if (arrays.pass) {
-    result.checks = operators::runCall("validation", [&] { return checkAll(mesh, cutMesh, options, std::move(arrays)); });
+    result.checks = detail::runCall("validation", [&] { return checkAll(mesh, cutMesh, options, std::move(arrays)); });
   } else {
     arrays.message += " All other checks are left out.";
     result.checks.push_back(std::move(arrays));

@@ -1,6 +1,7 @@
 // Cut-vertices: their cells and masks against their positions and the planes, tri-vertices against the input.
 #include <algorithm>
 
+#include "base/csr.h"
 #include "operators/validate/passes.h"
 
 namespace mandoline::validation {
@@ -59,24 +60,58 @@ class VertexCheck {
     }
   }
 
+  /// Exact: the planes of its mask hold it, and those beside its cell do not.
+  void checkMask(uint32_t v) {
+    if (!x_.exact.isKnown(v)) return vertices_.violate("vertex", v, "has parents that do not meet in one point");
+    for (int d = 0; d < 3; ++d) {
+      const auto& planes = x_.planes()[size_t(d)];
+      const size_t c = size_t(x_.cellAt(v)[d]);
+      const Residue p = x_.exact[v][size_t(d)];
+      const bool fits = x_.onPlane(v, d) ? p == planes[c] : !(p == planes[c]) && !(p == planes[c + 1]);
+      if (!fits) return vertices_.violate("vertex", v, "is on other planes than its mask says");
+    }
+  }
+
   void checkParents(uint32_t v) {
     const int32_t a = x_.cut.vertexParents[2 * size_t(v)], b = x_.cut.vertexParents[2 * size_t(v) + 1], t = x_.cut.vertexTriVertex[v];
     if ((t >= 0) != (a >= 0 && a == b) || (t >= 0 && a != t))
       return vertices_.violate("vertex", v, "has parents that do not fit its tri-vertex");
     if (t >= 0) return;
+    const int64_t made = a < 0 ? x_.madeIndex(v) : -1;
     const int planes = x_.onPlane(v, 0) + x_.onPlane(v, 1) + x_.onPlane(v, 2);
-    if (planes < (a < 0 ? 3 : b < 0 ? 2 : 1)) return vertices_.violate("vertex", v, "is on too few planes for its parents");
-    const Vec3 p = x_.vertex(v);
-    const auto local = [&](const Vec3& q) { return x_.inRoundings(q, p); };
-    if (b >= 0) {
-      const double distance = distanceToSegment({}, local(x_.triVertex(uint32_t(a))), local(x_.triVertex(uint32_t(b))));
-      positions_.measure(Deviation::ofDistance(distance), "vertex", v, "is off its tri-edge by {} of the largest coordinate");
+    if (made < 0 && planes < (a < 0 ? 3 : b < 0 ? 2 : 1)) return vertices_.violate("vertex", v, "is on too few planes for its parents");
+    checkMask(v);
+    if (made >= 0) {
+      checkMadeParents(v, size_t(made));
+    } else if (b >= 0) {
+      checkOnEdge(v, uint32_t(a), uint32_t(b));
     } else if (a >= 0) {
-      const size_t triangle = size_t(a);
-      const double distance =
-          distanceToTriangle({}, local(x_.corner(triangle, 0)), local(x_.corner(triangle, 1)), local(x_.corner(triangle, 2)));
-      positions_.measure(Deviation::ofDistance(distance), "vertex", v, "is off its triangle by {} of the largest coordinate");
+      checkInTriangle(v, size_t(a));
     }
+  }
+
+  void checkMadeParents(uint32_t v, size_t made) {
+    const int32_t* parents = &x_.cut.madeVertexParents[4 * made];
+    const MadeVertex kind = MadeVertex(x_.cut.madeVertexKinds[made]);
+    const int triVertices = kind == MadeVertex::edgeTriangle ? 2 : kind == MadeVertex::edgeEdge ? 4 : 0;
+    for (int i = 0; i < triVertices; i += 2) checkOnEdge(v, uint32_t(parents[i]), uint32_t(parents[i + 1]));
+    for (int i = triVertices; i < 4 && parents[i] >= 0; ++i) checkInTriangle(v, size_t(parents[i]));
+  }
+
+  void checkOnEdge(uint32_t v, uint32_t a, uint32_t b) {
+    const Vec3 p = x_.vertex(v), start = x_.triVertex(a), end = x_.triVertex(b);
+    const double distance = distanceToSegment({}, x_.inRoundings(start, p), x_.inRoundings(end, p));
+    positions_.measure(Deviation::ofDistance(distance), "vertex", v, "is off its tri-edge by {} of the largest coordinate");
+    if (x_.exact.isKnown(v) && !collinear(x_.exact[v], exactPlace(start), exactPlace(end)))
+      vertices_.violate("vertex", v, "does not lie on its tri-edge");
+  }
+
+  void checkInTriangle(uint32_t v, size_t triangle) {
+    const Vec3 p = x_.vertex(v);
+    const auto corner = [&](int i) { return x_.inRoundings(x_.corner(triangle, i), p); };
+    const double distance = distanceToTriangle({}, corner(0), corner(1), corner(2));
+    positions_.measure(Deviation::ofDistance(distance), "vertex", v, "is off its triangle by {} of the largest coordinate");
+    if (!x_.inPlane(v, exactPlane(x_, triangle))) vertices_.violate("vertex", v, "does not lie in the plane of its triangle");
   }
 
   const Context& x_;
@@ -84,18 +119,18 @@ class VertexCheck {
   Tally &vertices_, &positions_;
 };
 
-void checkGridVerticesDiffer(const Context& context, Tally& tally) {
-  std::vector<uint32_t> onGrid;
+/// Each point is one vertex.
+void checkDistinct(const Context& context, Tally& tally) {
+  std::vector<detail::KeyedItem> byPlace;
   for (uint32_t v = 0; v < context.cut.vertexCount(); ++v) {
-    if (context.cut.vertexMask[v] == 7) onGrid.push_back(v);
+    if (!context.exact.isKnown(v)) continue;
+    uint64_t hash = 0;
+    for (const Residue& x : context.exact[v]) hash = Random::mix(hash + 0x9e3779b97f4a7c15u + x.bits());
+    byPlace.push_back({hash, v});
   }
-  const auto place = [&](uint32_t v) {
-    const int32_t* cell = context.cellAt(v);
-    return std::array<int32_t, 3>{cell[0], cell[1], cell[2]};
-  };
-  std::sort(onGrid.begin(), onGrid.end(), [&](uint32_t a, uint32_t b) { return place(a) != place(b) ? place(a) < place(b) : a < b; });
-  for (size_t i = 1; i < onGrid.size(); ++i) {
-    if (place(onGrid[i - 1]) == place(onGrid[i])) tally.violate("vertex", onGrid[i], "is the same grid vertex as another");
+  detail::sortByKey(byPlace, ~uint64_t(0));
+  for (size_t i = 1; i < byPlace.size(); ++i) {
+    if (byPlace[i - 1].key == byPlace[i].key) tally.violate("vertex", byPlace[i].item, "is the same point as another");
   }
 }
 
@@ -124,7 +159,7 @@ VertexChecks checkVertices(const Context& context, detail::Monitor& monitor) {
     all.vertices.merge(part.vertices);
     all.positions.merge(part.positions);
   }
-  checkGridVerticesDiffer(context, all.vertices);
+  checkDistinct(context, all.vertices);
   checkInputIsThere(context, named, all.vertices);
   return {all.vertices.finish(), all.positions.finish()};
 }

@@ -33,12 +33,20 @@ class WindingCheck {
   WindingCheck(const Context& context, const InputTopology& topology, const TriangleBins& bins)
       : x_(context), topology_(topology), bins_(bins) {}
 
-  // Triangles dropped as duplicates may be counted or not, but everywhere alike: both ways are tried, and the one that fits better counts.
-  Check checkNumbers(const std::vector<Sample>& samples, const std::vector<uint8_t>& overlapping) const {
-    Check distinct = checkNumbers(samples, overlapping, false);
-    if (topology_.duplicate.empty()) return distinct;
-    Check all = checkNumbers(samples, overlapping, true);
-    return all.worst < distinct.worst ? all : distinct;
+  Check checkNumbers(const std::vector<Sample>& samples) const {
+    Tally tally("windingNumber");
+    if (!x_.cut.hasWinding) {
+      if (!topology_.mayBeOpen) {
+        tally.violate("mesh", 0, "is closed and consistently oriented, but the result has no winding numbers");
+      } else {
+        tally.skip("The input is open or inconsistently oriented.");
+      }
+      return tally.finish();
+    }
+    if (!topology_.mayBeClosed) tally.violate("mesh", 0, "is open or inconsistently oriented, but the result has winding numbers");
+    checkSteps(tally);
+    checkSamples(samples, tally);
+    return tally.finish();
   }
 
   Check checkVolume(const std::vector<double>& cellVolumes) const {
@@ -49,11 +57,9 @@ class WindingCheck {
       tally.skip(inside ? "The input has no volume." : "The input leaves the box.");
       return tally.finish();
     }
-    const Volume found = regionVolume(cellVolumes), all = inputVolume(true),
-                 distinct = topology_.duplicate.empty() ? Volume{all.value, 0} : inputVolume(false);
-    const double noise = found.noise + all.noise + distinct.noise;
-    const double deviation = std::min(std::fabs(found.value - all.value), std::fabs(found.value - distinct.value));
-    tally.measure({deviation > 0 ? deviation / noise : 0, deviation / std::fabs(all.value)}, "mesh", 0,
+    const Volume found = regionVolume(cellVolumes), expected = inputVolume();
+    const double deviation = std::fabs(found.value - expected.value), noise = found.noise + expected.noise;
+    tally.measure({deviation > 0 ? deviation / noise : 0, deviation / std::fabs(expected.value)}, "mesh", 0,
                   "has another volume than the regions times their winding numbers: they differ by {}");
     return tally.finish();
   }
@@ -64,38 +70,22 @@ class WindingCheck {
     double value, noise;
   };
 
-  Check checkNumbers(const std::vector<Sample>& samples, const std::vector<uint8_t>& overlapping, bool withDuplicates) const {
-    Tally tally("windingNumber");
-    if (!x_.cut.hasWinding) {
-      if (!topology_.mayBeOpen[withDuplicates]) {
-        tally.violate("mesh", 0, "is closed and consistently oriented, but the result has no winding numbers");
-      } else {
-        tally.skip("The input is open or inconsistently oriented.");
-      }
-      return tally.finish();
-    }
-    if (!topology_.mayBeClosed[withDuplicates])
-      tally.violate("mesh", 0, "is open or inconsistently oriented, but the result has winding numbers");
-    checkSteps(overlapping, withDuplicates, tally);
-    checkSamples(samples, withDuplicates, tally);
-    return tally.finish();
-  }
-
-  /// One more behind a triangle than in front of it. Where triangles overlap in part, only samples tell.
-  void checkSteps(const std::vector<uint8_t>& overlapping, bool withDuplicates, Tally& tally) const {
+  /// The step from the front of a face to its back is the sum of its parents' signs.
+  void checkSteps(Tally& tally) const {
     for (size_t f = 0; f < x_.cut.faceCount(); ++f) {
-      const int32_t t = x_.cut.faceTriangle[f], behind = x_.owner[2 * f], front = x_.owner[2 * f + 1];
-      if (t < 0 || behind < 0 || front < 0 || overlapping[size_t(t)]) continue;
-      const int32_t step = withDuplicates && !topology_.multiplicity.empty() ? topology_.multiplicity[t] : 1;
+      const int32_t behind = x_.owner[2 * f], front = x_.owner[2 * f + 1];
+      if (behind < 0 || front < 0) continue;
+      int32_t step = 0;
+      for (const int8_t sign : x_.parentSigns(f)) step += sign;
       if (x_.cut.regionWinding[x_.cut.cellRegion[behind]] - x_.cut.regionWinding[x_.cut.cellRegion[front]] != step) {
-        tally.violate("face", int64_t(f), "has winding numbers on its sides that do not differ as its triangle says");
+        tally.violate("face", int64_t(f), "has winding numbers on its sides that do not differ as its triangles say");
       }
     }
   }
 
-  void checkSamples(const std::vector<Sample>& samples, bool withDuplicates, Tally& tally) const {
+  void checkSamples(const std::vector<Sample>& samples, Tally& tally) const {
     for (const Sample& sample : samples) {
-      const std::optional<int32_t> winding = bins_.winding(sample.position, topology_, withDuplicates);
+      const std::optional<int32_t> winding = bins_.winding(sample.position);
       if (!winding || *winding == x_.cut.regionWinding[sample.region]) continue;
       tally.violate(sample.kind, sample.element, "has another winding number than the input there");
     }
@@ -121,13 +111,13 @@ class WindingCheck {
     return {sum.value(), noise};
   }
 
-  Volume inputVolume(bool withDuplicates) const {
+  /// Each triangle counts as often as it occurs.
+  Volume inputVolume() const {
     Vec3 centre;
     for (int d = 0; d < 3; ++d) centre[d] = (x_.planes()[size_t(d)].front() + x_.planes()[size_t(d)].back()) / 2;
     Sum sum;
     double noise = 0;
     for (size_t t = 0; t < x_.mesh.triangleCount(); ++t) {
-      if (!withDuplicates && topology_.isDuplicate(t)) continue;
       const Vec3 a = x_.corner(t, 0), twice = cross(x_.corner(t, 1) - a, x_.corner(t, 2) - a);
       sum.add(dot(a - centre, twice) / 6);
       for (int d = 0; d < 3; ++d) noise += x_.rounding[d] * std::fabs(twice[d]) / 2;
@@ -142,15 +132,15 @@ class WindingCheck {
 
 }  // namespace
 
-WindingChecks checkWinding(const Context& context, const InputTopology& topology, const TriangleBins& bins, const GridCellChecks& gridCells,
-                           const SurfaceChecks& surface) {
+WindingChecks checkWinding(const Context& context, const InputTopology& topology, const TriangleBins& bins,
+                           const GridCellChecks& gridCells) {
   std::vector<Sample> samples = gridCells.samples;
   if (context.cut.hasWinding) {
     const std::vector<Sample> untouched = sampleUntouched(context);
     samples.insert(samples.end(), untouched.begin(), untouched.end());
   }
   const WindingCheck check(context, topology, bins);
-  return {check.checkNumbers(samples, surface.overlapping), check.checkVolume(gridCells.cellVolumes)};
+  return {check.checkNumbers(samples), check.checkVolume(gridCells.cellVolumes)};
 }
 
 }  // namespace mandoline::validation

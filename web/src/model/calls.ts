@@ -1,5 +1,6 @@
 // What the page asks its worker thread, beside the package's own calls.
 import type { Slice, Validation, Vector3 } from 'mandoline-wasm';
+import type { Bounds } from './grid_around';
 import type { CellCard, GridSettings, Model, Source, StepPicture, StepRequest } from './types';
 
 /** A mesh as both sides keep it. */
@@ -9,6 +10,7 @@ export interface LoadedMesh {
   name: string;
   positions: Float64Array;
   triangles: Uint32Array;
+  bounds: Bounds;
 }
 
 /** How a cut is made. Cutting again gives the same ids, bit by bit. */

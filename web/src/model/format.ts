@@ -10,8 +10,9 @@ export function real(x: number): string {
   return String(Number(x.toPrecision(4)));
 }
 
+/** With a space that doesn't break. */
 export function milliseconds(ms: number): string {
-  return ms < 1000 ? `${ms < 10 ? ms.toFixed(1) : Math.round(ms)} ms` : `${(ms / 1000).toFixed(ms < 10000 ? 2 : 1)} s`;
+  return ms < 1000 ? `${ms < 10 ? ms.toFixed(1) : Math.round(ms)}\u00a0ms` : `${(ms / 1000).toFixed(ms < 10000 ? 2 : 1)}\u00a0s`;
 }
 
 export function plural(n: number, one: string, many = `${one}s`): string {

@@ -1,5 +1,6 @@
 // What the parts of the page say to each other.
 import type { CutStats, Grid, Slice, Validation, Vector3 } from 'mandoline-wasm';
+import type { Bounds } from './grid_around';
 
 /** Where a mesh comes from. A file's bytes are kept by the worker; a link can't restore it. */
 export type Source = { kind: 'gallery'; name: string } | { kind: 'url'; url: string } | { kind: 'file'; name: string };
@@ -154,10 +155,17 @@ export interface PageError {
   detail: string;
 }
 
+/** What the page knows of a mesh. */
+export interface MeshInfo {
+  name: string;
+  triangles: number;
+  bounds: Bounds;
+}
+
 /** The worker's side of the page. Of several cuts under way the newest wins: the others reject with an AbortError. */
 export interface Engine {
   /** Loads the mesh of a source (bytes with a file) and keeps it. Rejects with a PageError. */
-  load(source: Source, bytes?: ArrayBuffer): Promise<{ name: string; triangles: number }>;
+  load(source: Source, bytes?: ArrayBuffer): Promise<MeshInfo>;
   cut(grid: GridSettings, snapTolerance: number): Promise<Model>;
   /** Ends the load or cut under way: they reject with an AbortError. */
   cancel(): void;

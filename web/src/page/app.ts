@@ -7,18 +7,13 @@ import { defaultCells, defaultSettings, defaultSource } from '../model/settings'
 import { isOutside } from './view/colors';
 import { isSheet } from './view/look';
 import type {
-  CellCard, Engine, GridSettings, Model, PageError, Settings, SliceName, SliceSettings, Source, StepPicture, StepRequest, View,
+  CellCard, Engine, GridSettings, MeshInfo, Model, PageError, Settings, SliceName, SliceSettings, Source, StepPicture, StepRequest, View,
 } from '../model/types';
-
-export interface LoadedMesh {
-  name: string;
-  triangles: number;
-}
 
 export interface AppEvents {
   settings: Settings;
   /** The mesh to cut from now on. */
-  mesh: LoadedMesh;
+  mesh: MeshInfo;
   /** Null once a mesh could not be cut: no picture is better than that of the previous mesh. */
   model: Model | null;
   state: 'busy' | 'ready' | 'error';
@@ -42,7 +37,7 @@ export class App {
   readonly events = new Events<AppEvents>();
   settings = defaultSettings();
   model: Model | null = null;
-  private mesh: LoadedMesh | null = null;
+  mesh: MeshInfo | null = null;
   private loads = 0;
   private loading = 0;
   private pins = 0;
@@ -59,7 +54,7 @@ export class App {
   private fitNext = false;
   private wasSheet = false;
   /** What the model was made of. */
-  private shown: Pick<Settings, 'grid' | 'snapTolerance'> & { mesh: LoadedMesh | null } = { ...this.settings, mesh: null };
+  private shown: Pick<Settings, 'grid' | 'snapTolerance'> & { mesh: MeshInfo | null } = { ...this.settings, mesh: null };
 
   constructor(
     private readonly engine: Engine,

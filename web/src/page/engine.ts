@@ -3,7 +3,7 @@
 import { createWorker, type MandolineWorker } from 'mandoline-wasm/worker';
 import type { Slice, Validation, Vector3 } from 'mandoline-wasm';
 import { isLack, isOutdated, type CallName, type CallProgress, type Calls, type LoadedMesh, type Recipe } from '../model/calls';
-import type { CellCard, Engine, GridSettings, Model, PageError, Source, StepPicture, StepRequest } from '../model/types';
+import type { CellCard, Engine, GridSettings, MeshInfo, Model, PageError, Source, StepPicture, StepRequest } from '../model/types';
 import { pageError } from '../model/failure';
 import { abortError, isCancellation, toPageError } from './failure';
 
@@ -47,7 +47,7 @@ class WorkerEngine implements Engine {
     return worker;
   }
 
-  load(source: Source, bytes?: ArrayBuffer): Promise<{ name: string; triangles: number }> {
+  load(source: Source, bytes?: ArrayBuffer): Promise<MeshInfo> {
     this.cancel();
     this.loading = new AbortController();
     const mesh = this.loadNow({ id: ++this.meshes, source, bytes }, this.loading.signal);
@@ -55,11 +55,11 @@ class WorkerEngine implements Engine {
     return mesh;
   }
 
-  private async loadNow(ask: Calls['load']['ask'], signal: AbortSignal): Promise<{ name: string; triangles: number }> {
+  private async loadNow(ask: Calls['load']['ask'], signal: AbortSignal): Promise<MeshInfo> {
     const mesh = await this.call('load', ask, { signal, transfer: ask.bytes ? [ask.bytes] : [] });
     this.mesh = mesh;
     this.keep(mesh);
-    return { name: mesh.name, triangles: mesh.triangles.length / 3 };
+    return { name: mesh.name, triangles: mesh.triangles.length / 3, bounds: mesh.bounds };
   }
 
   private keep(mesh: LoadedMesh): void {

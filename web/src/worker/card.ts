@@ -1,8 +1,7 @@
 import type { Adjacency, CutMesh, Mandoline } from 'mandoline-wasm';
-import { cellArrays } from 'mandoline-wasm/three';
+import { cellArrays, cellEdgeArrays, type CellEdgeArrays } from 'mandoline-wasm/three';
 import { pageError } from '../model/failure';
 import type { CellCard } from '../model/types';
-import { cellEdges, forEachCellEdge } from './edges';
 import type { Cut } from './kept';
 
 export function cellCard(mandoline: Mandoline, cut: Cut, cell: number): CellCard {
@@ -13,6 +12,7 @@ export function cellCard(mandoline: Mandoline, cut: Cut, cell: number): CellCard
   const region = cutMesh.cellRegion[cell];
   const faces = facesOf(cutMesh, cell);
   const { position, normal, face } = cellArrays(cutMesh, cut.faceTriangles, { cells: [cell], origin });
+  const edges = cellEdgeArrays(cutMesh, { cells: [cell], origin });
   return {
     cell,
     gridCell: [cutMesh.cellGridCell[3 * cell], cutMesh.cellGridCell[3 * cell + 1], cutMesh.cellGridCell[3 * cell + 2]],
@@ -22,11 +22,11 @@ export function cellCard(mandoline: Mandoline, cut: Cut, cell: number): CellCard
     centroid: [measures.cellCentroid[3 * cell], measures.cellCentroid[3 * cell + 1], measures.cellCentroid[3 * cell + 2]],
     faces: faces.length,
     surfaceFaces: faces.filter((own) => cutMesh.faceTriangle[own] >= 0).length,
-    ...shellsOf(cutMesh, cell),
+    ...shellsOf(cutMesh, faces, edges),
     neighbours: Array.from(adjacency.cellCells.subarray(adjacency.cellCellOffsets[cell], adjacency.cellCellOffsets[cell + 1])),
     untouchedNeighbours: new Set(faces.flatMap((own) => untouchedBeside(adjacency, own))).size,
     triangles: { position, normal, surface: Uint8Array.from(face, (own) => (cutMesh.faceTriangle[own] >= 0 ? 1 : 0)) },
-    edges: cellEdges(cutMesh, cell, origin),
+    edges: edges.position,
   };
 }
 
@@ -46,7 +46,7 @@ function untouchedBeside({ faceGridCells }: Adjacency, face: number): number[] {
 }
 
 /** Counts a cell's vertices and its shells: parts of its boundary that no edges connect. */
-function shellsOf(cutMesh: CutMesh, cell: number): { vertices: number; cavities: number } {
+function shellsOf(cutMesh: CutMesh, faces: readonly number[], edges: CellEdgeArrays): { vertices: number; cavities: number } {
   const leader = new Map<number, number>();
   const find = (vertex: number): number => {
     let at = vertex;
@@ -54,9 +54,9 @@ function shellsOf(cutMesh: CutMesh, cell: number): { vertices: number; cavities:
     leader.set(vertex, at);
     return at;
   };
-  forEachCellEdge(cutMesh, cell, (from, to) => leader.set(find(from), find(to)));
+  for (let i = 0; i < edges.vertex.length; i += 2) leader.set(find(edges.vertex[i]), find(edges.vertex[i + 1]));
   // The loops of a face with holes belong together, though no edge leads from one to the other.
-  for (const face of facesOf(cutMesh, cell)) {
+  for (const face of faces) {
     const first = cutMesh.loopVertices[cutMesh.loopOffsets[cutMesh.faceLoopOffsets[face]]];
     for (let loop = cutMesh.faceLoopOffsets[face] + 1; loop < cutMesh.faceLoopOffsets[face + 1]; loop++) {
       leader.set(find(cutMesh.loopVertices[cutMesh.loopOffsets[loop]]), find(first));

@@ -49,7 +49,7 @@ interface Arrays {
 
 /**
  * Returns the number of vertices. A vertex has an id of the cell at hand if its last one is not below the cell's first. The half-faces of a
- * cell run through an edge equally often forth and back, so one direction finds it.
+ * cell run through an edge equally often in both directions, so that one direction finds it.
  */
 function fill(made: Arrays, gridBegin: number, cutMesh: CutMesh, faceTriangles: FaceTriangles, [ox, oy, oz]: readonly number[]): number {
   const { position, cell, triangles, edges } = made;

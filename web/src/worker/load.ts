@@ -2,12 +2,13 @@
 import type { Mandoline } from 'mandoline-wasm';
 import type { Calls, LoadedMesh } from '../model/calls';
 import { fileError, isPageError, pageError } from '../model/failure';
+import { boundsOf } from '../model/grid_around';
 import { galleryMesh, type MeshArrays } from '../model/gallery';
 import type { Source } from '../model/types';
 
 export async function loadMesh(mandoline: Mandoline, { id, source, bytes }: Calls['load']['ask']): Promise<LoadedMesh> {
   const mesh = source.kind === 'gallery' ? await galleryMesh(source.name) : await readFile(mandoline, source, bytes);
-  return { id, name: nameOf(source), ...mesh };
+  return { id, name: nameOf(source), ...mesh, bounds: boundsOf(mesh) };
 }
 
 function nameOf(source: Source): string {

@@ -5,19 +5,19 @@ import { cellBuffers } from './cell_buffers';
 import { cellShapes } from './cell_shapes';
 import type { Cut } from './kept';
 
-export function makeModel(mandoline: Mandoline, name: string, cut: Cut): Model {
-  const { recipe, bounds, cutMesh, origin } = cut;
+export function makeModel(mandoline: Mandoline, cut: Cut): Model {
+  const { recipe, mesh, cutMesh, origin } = cut;
   const { planes } = cutMesh.grid;
   const cells = cellInfo(cut);
   const regions = regionInfo(cutMesh, cells);
   return {
     id: recipe.id,
-    name,
+    name: mesh.name,
     grid: structuredClone(cutMesh.grid),
     origin,
     diagonal: Math.hypot(...planes.map((axis) => axis[axis.length - 1] - axis[0])),
-    meshMin: bounds.min,
-    meshMax: bounds.max,
+    meshMin: mesh.bounds.min,
+    meshMax: mesh.bounds.max,
     triangleCount: cutMesh.triangleCount,
     droppedTriangles: cutMesh.droppedTriangles.length,
     counts: {

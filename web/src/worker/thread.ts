@@ -4,7 +4,7 @@ import type { Mandoline } from 'mandoline-wasm';
 import { serve } from 'mandoline-wasm/worker-thread';
 import type { CallName, CallProgress, Calls } from '../model/calls';
 import { cellCard } from './card';
-import { cutOf, keep, makeCut, meshOf } from './kept';
+import { cutOf, keep, makeCut } from './kept';
 import { loadMesh } from './load';
 import { makeModel } from './make_model';
 import { stepPicture } from './steps';
@@ -22,10 +22,9 @@ const calls: Answering = {
   },
   keep: (_mandoline, mesh) => keep(mesh),
   cut(mandoline, recipe, tell) {
-    const { mesh } = meshOf(recipe.mesh);
     const cut = makeCut(mandoline, recipe, tell);
     tell({ stage: 'drawing', fraction: 0.9 });
-    return makeModel(mandoline, mesh.name, cut);
+    return makeModel(mandoline, cut);
   },
   slice(mandoline, { recipe, planes, untouched }) {
     const { cutMesh } = cutOf(mandoline, recipe);

@@ -1,5 +1,6 @@
-import type { Grid, Vector3 } from 'mandoline-wasm';
+import type { Vector3 } from 'mandoline-wasm';
 import type { App } from '../app';
+import { gridAround } from '../../model/grid_around';
 import { axes } from '../../model/settings';
 import type { GridSettings } from '../../model/types';
 import { button, el, numberField, type NumberInput } from './dom';
@@ -27,11 +28,11 @@ export function customGrid(app: App): HTMLElement {
   }
   const cubic = button('Use cubic cells', () => app.setGrid({ cells: Math.max(...read(rows.cells)) }), { id: 'grid-cubic' });
   app.events.on('settings', ({ grid }) => {
-    const custom = 'min' in grid ? grid : null;
-    cubic.disabled = custom === null;
-    // A custom grid comes from the settings: the model may still be one of an earlier grid.
-    if (custom) fill(rows, custom);
-    else if (app.model) fill(rows, boxOf(app.model.grid));
+    const isCustom = 'min' in grid;
+    cubic.disabled = !isCustom;
+    // Not from the model, which may still be that of an earlier grid or mesh.
+    if (isCustom) fill(rows, grid);
+    else if (app.mesh) fill(rows, gridAround(app.mesh.bounds, grid.cells));
   });
   return el('div', {}, table, el('div', { class: 'row' }, cubic), snapField(app));
 }
@@ -42,11 +43,6 @@ function read(row: NumberInput[]): Vector3 {
 
 function fill(rows: Rows, grid: CustomGrid): void {
   for (const key of ['cells', 'min', 'max'] as const) rows[key].forEach((field, d) => field.set(grid[key][d]));
-}
-
-function boxOf({ cells, planes }: Grid): CustomGrid {
-  const [x, y, z] = planes;
-  return { cells, min: [x[0], y[0], z[0]], max: [x[cells[0]], y[cells[1]], z[cells[2]]] };
 }
 
 function snapField(app: App): HTMLElement {

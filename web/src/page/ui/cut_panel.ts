@@ -62,7 +62,7 @@ function counts(app: App): HTMLElement {
 /** For the curious: custom grids, stage times, what was left out. */
 function finePrint(app: App): HTMLElement {
   const body = el('div', { id: 'cut-details' });
-  const times = el('details', {}, el('summary', {}, 'Timings and details'), body);
+  const times = el('details', {}, el('summary', {}, 'Stages and details'), body);
   const showEdges = async () => {
     const { model } = app;
     const edges = times.open && model ? await app.countEdges() : null;
@@ -100,11 +100,19 @@ function stageTimes({ stats }: Model): HTMLElement {
   return el('table', { class: 'times', id: 'stage-times' }, el('caption', {}, 'Time per stage'), el('tbody', {}, ...rows));
 }
 
+/** Pairs of triangles that meet other than in shared vertices and edges, which the cut has resolved. */
+function meetings({ intersections, intersectionCurves }: Model['stats']): string[] {
+  const { crossing, touching, overlapping, folded, identical } = intersections;
+  const kinds = { crossing, touching, overlapping, folded, identical };
+  const facts = Object.entries(kinds).flatMap(([kind, count]) => (count > 0 ? [`${plural(count, 'pair')} of triangles ${kind}`] : []));
+  return intersectionCurves > 0 ? [...facts, `${plural(intersectionCurves, 'curve')} along which triangles meet`] : facts;
+}
+
 function leftOut({ stats }: Model): HTMLElement {
   const facts = [
     stats.zeroAreaTriangles && `${plural(stats.zeroAreaTriangles, 'degenerate triangle')} dropped`,
-    stats.duplicateTriangles && `${plural(stats.duplicateTriangles, 'duplicate triangle')} dropped`,
     stats.outsideTriangles && `${plural(stats.outsideTriangles, 'triangle')} outside the grid dropped`,
+    ...meetings(stats),
     stats.weldedVertices && `${plural(stats.weldedVertices, 'vertex', 'vertices')} welded to another at the same position`,
     stats.snappedVertices && `${plural(stats.snappedVertices, 'vertex', 'vertices')} snapped, by up to ${real(stats.largestSnap)} cells`,
     stats.flushedCoordinates && `${plural(stats.flushedCoordinates, 'tiny coordinate')} set to 0`,

@@ -5,7 +5,7 @@ import { section } from './section';
 
 const writers = [
   ['json', 'JSON', 'all arrays', 'application/json'],
-  ['vtu', 'VTU', 'polyhedra for ParaView', 'application/xml'],
+  ['vtu', 'VTU', 'cells for ParaView', 'application/xml'],
   ['obj', 'OBJ', 'surface by region', 'text/plain'],
 ] as const;
 

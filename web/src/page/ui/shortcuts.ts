@@ -12,7 +12,7 @@ const help: [string, string][] = [
 const mouse: [string, string][] = [
   ['drag, arrow keys', 'rotate'],
   ['right drag, two fingers, Shift + arrow keys', 'pan'],
-  ['wheel, pinch, + and −', 'zoom'],
+  ['wheel, pinch, +\u00a0and\u00a0−', 'zoom'],
   ['click a cell', 'pin it and show its card'],
 ];
 

@@ -14,7 +14,7 @@ const steps: readonly [StepKind, string][] = [
 
 /** Walks through the algorithm on the current mesh. */
 export function stepsPanel(app: App): HTMLElement {
-  const intro = el('p', { class: 'hint' }, 'How the cut of this mesh is made, from edges to cells.');
+  const intro = el('p', { class: 'hint' }, 'How this mesh is cut, from edges to cells.');
   const text = el('p', { id: 'step-text', class: 'step-text', 'aria-live': 'polite' });
   const back = button('Back to the model', () => void app.step(null), { id: 'step-leave' });
   const body = el('div', { hidden: true }, text, choices(app), el('div', { class: 'row' }, back));

@@ -88,7 +88,7 @@ export function legend(model: Model, { colorBy, sliceMode, slices }: Settings, m
       entry('pieces of triangles', surfaceColor),
       entry('pieces of grid-faces', gridFaceColor),
       ...(isCutOpen ? [entry('inside of cut-cells', insideColor)] : []),
-      entry('untouched cells', untouchedKindColor),
+      ...(model.counts.untouchedCells > 0 ? [entry('untouched cells', untouchedKindColor)] : []),
     ];
   }
   if (colorBy === 'volume') return [0, 0.25, 0.5, 1].map((fraction) => entry(`${100 * fraction}% of a grid cell`, shareColor(fraction)));

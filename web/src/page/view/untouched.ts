@@ -31,7 +31,7 @@ export class Untouched {
   private readonly faces: Mesh;
   private readonly lines: LineSegments;
   private readonly table = { value: null as DataTexture | null };
-  /** 8 numbers per box: its low corner, region, size, and its colour as one number. */
+  /** 8 numbers per box: its min corner, region, size, and its colour as one number. */
   private boxes: Float32Array = new Float32Array(0);
 
   constructor(uniforms: Uniforms) {

@@ -37,8 +37,8 @@ class Colored {
 export class Drawing {
   readonly #origin: Vector3;
   readonly #parts = { lines: new Colored(), faces: new Colored(), points: new Colored() };
-  readonly #low = [Infinity, Infinity, Infinity];
-  readonly #high = [-Infinity, -Infinity, -Infinity];
+  readonly #min = [Infinity, Infinity, Infinity];
+  readonly #max = [-Infinity, -Infinity, -Infinity];
 
   constructor(origin: Vector3) {
     this.#origin = origin;
@@ -61,22 +61,22 @@ export class Drawing {
   }
 
   /** The twelve edges of an axis-aligned box. */
-  box(low: Vector3, high: Vector3, color: Color): void {
-    const corner = (bits: number): Vector3 => [bits & 1 ? high[0] : low[0], bits & 2 ? high[1] : low[1], bits & 4 ? high[2] : low[2]];
+  box(min: Vector3, max: Vector3, color: Color): void {
+    const corner = (bits: number): Vector3 => [bits & 1 ? max[0] : min[0], bits & 2 ? max[1] : min[1], bits & 4 ? max[2] : min[2]];
     for (let bits = 0; bits < 8; ++bits) for (const bit of [1, 2, 4]) if (!(bits & bit)) this.line(corner(bits), corner(bits | bit), color);
   }
 
   finish(text: string, request: StepRequest, { cutMesh }: Subject): StepPicture {
     const { cells } = cutMesh.grid;
-    const [low, high] = this.#low[0] <= this.#high[0] ? [this.#low, this.#high] : [[0, 0, 0], [0, 0, 0]];
+    const [min, max] = this.#min[0] <= this.#max[0] ? [this.#min, this.#max] : [[0, 0, 0], [0, 0, 0]];
     return {
       kind: request.kind,
       text,
       lines: this.#parts.lines.arrays(),
       faces: this.#parts.faces.arrays(),
       points: this.#parts.points.arrays(),
-      center: [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2],
-      radius: Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 2,
+      center: [(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2],
+      radius: Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]) / 2,
       choices: { triangles: cutMesh.triangleCount, planes: [cells[0] + 1, cells[1] + 1, cells[2] + 1], request },
     };
   }
@@ -85,8 +85,8 @@ export class Drawing {
     const moved = points.map((p): Vector3 => [p[0] - this.#origin[0], p[1] - this.#origin[1], p[2] - this.#origin[2]]);
     for (const p of moved) {
       for (let d = 0; d < 3; ++d) {
-        this.#low[d] = Math.min(this.#low[d], p[d]);
-        this.#high[d] = Math.max(this.#high[d], p[d]);
+        this.#min[d] = Math.min(this.#min[d], p[d]);
+        this.#max[d] = Math.max(this.#max[d], p[d]);
       }
     }
     this.#parts[part].add(moved, color);

@@ -62,8 +62,8 @@ export function axialPlane(subject: Subject, request: StepRequest): StepPicture 
 
 interface Piece {
   cell: number;
-  low: Vector3;
-  high: Vector3;
+  min: Vector3;
+  max: Vector3;
   middle: Vector3;
 }
 
@@ -72,40 +72,40 @@ function pieceOf(subject: Subject, cell: number): Piece {
   const halfFaces = cellHalfFaces.subarray(cellHalfFaceOffsets[cell], cellHalfFaceOffsets[cell + 1]);
   const points = Array.from(halfFaces).flatMap((halfFace) => loopPoints(subject, halfFace >> 1).flat());
   const bound = (d: number, best: (a: number, b: number) => number) => points.reduce((x, p) => best(x, p[d]), points[0][d]);
-  const low: Vector3 = [bound(0, Math.min), bound(1, Math.min), bound(2, Math.min)];
-  const high: Vector3 = [bound(0, Math.max), bound(1, Math.max), bound(2, Math.max)];
-  return { cell, low, high, middle: middleOf([low, high]) };
+  const min: Vector3 = [bound(0, Math.min), bound(1, Math.min), bound(2, Math.min)];
+  const max: Vector3 = [bound(0, Math.max), bound(1, Math.max), bound(2, Math.max)];
+  return { cell, min, max, middle: middleOf([min, max]) };
 }
 
-function volumeOf(low: Vector3, high: Vector3): number {
-  return [0, 1, 2].reduce((volume, d) => volume * Math.max(0, high[d] - low[d]), 1);
+function volumeOf(min: Vector3, max: Vector3): number {
+  return [0, 1, 2].reduce((volume, d) => volume * Math.max(0, max[d] - min[d]), 1);
 }
 
 /** The share of one piece's box that another's covers. */
 function coveredShare(a: Piece, b: Piece): number {
-  const low = a.low.map((x, d) => Math.max(x, b.low[d])) as unknown as Vector3;
-  const high = a.high.map((x, d) => Math.min(x, b.high[d])) as unknown as Vector3;
-  return volumeOf(low, high) / volumeOf(a.low, a.high);
+  const min = a.min.map((x, d) => Math.max(x, b.min[d])) as unknown as Vector3;
+  const max = a.max.map((x, d) => Math.min(x, b.max[d])) as unknown as Vector3;
+  return volumeOf(min, max) / volumeOf(a.min, a.max);
 }
 
 /** Whether a piece lies in or around a larger one. */
 function isHidden(piece: Piece, pieces: readonly Piece[]): boolean {
-  const size = ({ low, high }: Piece) => volumeOf(low, high);
+  const size = ({ min, max }: Piece) => volumeOf(min, max);
   const isBefore = (other: Piece) => size(other) > size(piece) || (size(other) === size(piece) && other.cell < piece.cell);
   return pieces.some((other) => other !== piece && isBefore(other) && coveredShare(piece, other) > 0.8);
 }
 
 /** Where pieces go: away from the middle of the grid cell; hidden ones are set in a row beside the others, along x. */
-function movesApart(pieces: readonly Piece[], low: Vector3, high: Vector3): Vector3[] {
-  const center = middleOf([low, high]);
+function movesApart(pieces: readonly Piece[], min: Vector3, max: Vector3): Vector3[] {
+  const center = middleOf([min, max]);
   const hidden = pieces.map((piece) => isHidden(piece, pieces));
   const apart = pieces.map(({ middle }) => middle.map((x, d) => 0.9 * (x - center[d])) as unknown as Vector3);
-  let end = pieces.reduce((x, piece, k) => (hidden[k] ? x : Math.max(x, piece.high[0] + apart[k][0])), high[0]);
+  let end = pieces.reduce((x, piece, k) => (hidden[k] ? x : Math.max(x, piece.max[0] + apart[k][0])), max[0]);
   return pieces.map((piece, k): Vector3 => {
     if (!hidden[k]) return apart[k];
-    const start = end + 0.2 * (high[0] - low[0]);
-    end = start + piece.high[0] - piece.low[0];
-    return [start - piece.low[0], 0, 0];
+    const start = end + 0.2 * (max[0] - min[0]);
+    end = start + piece.max[0] - piece.min[0];
+    return [start - piece.min[0], 0, 0];
   });
 }
 
@@ -133,15 +133,15 @@ function drawCell(drawing: Drawing, subject: Subject, cell: number, by: Vector3,
 export function gridCell(subject: Subject, request: StepRequest): StepPicture {
   const { grid, cellGridCell, cellRegion } = subject.cutMesh;
   const at = chosenGridCell(subject.cutMesh, request);
-  const low: Vector3 = [grid.planes[0][at[0]], grid.planes[1][at[1]], grid.planes[2][at[2]]];
-  const high: Vector3 = [grid.planes[0][at[0] + 1], grid.planes[1][at[1] + 1], grid.planes[2][at[2] + 1]];
+  const min: Vector3 = [grid.planes[0][at[0]], grid.planes[1][at[1]], grid.planes[2][at[2]]];
+  const max: Vector3 = [grid.planes[0][at[0] + 1], grid.planes[1][at[1] + 1], grid.planes[2][at[2] + 1]];
   const drawing = new Drawing(subject.origin);
-  drawing.box(low, high, gridColor);
+  drawing.box(min, max, gridColor);
   const pieces: Piece[] = [];
   for (let cell = 0; cell < cellRegion.length; ++cell) {
     if (at.every((index, d) => cellGridCell[3 * cell + d] === index)) pieces.push(pieceOf(subject, cell));
   }
-  const moves = movesApart(pieces, low, high);
+  const moves = movesApart(pieces, min, max);
   pieces.forEach(({ cell }, k) => drawCell(drawing, subject, cell, moves[k], pieceColor(k)));
   const regions = new Set(pieces.map(({ cell }) => cellRegion[cell])).size;
   const name = `Grid cell (${at.join(', ')})`;

@@ -1,0 +1,37 @@
+// Sorting, with little code for each type and the same order of equal items on every platform.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <type_traits>
+
+#include "base/function_ref.h"
+
+namespace mandoline::detail {
+
+/// Sorts items that are moved as bytes, stably.
+void sortMany(void* items, size_t count, size_t itemSize, FunctionRef<bool(const void*, const void*)> isBefore);
+
+/// Sorts a vector, array or span, stably.
+template <class Items, class IsBefore = std::less<>>
+void sortItems(Items&& items, const IsBefore& isBefore = {}) {
+  constexpr size_t kFew = 32;
+  using Item = std::remove_reference_t<decltype(*items.data())>;
+  static_assert(std::is_trivially_copy_constructible_v<Item> && std::is_trivially_destructible_v<Item>);
+  Item* const first = items.data();
+  const size_t count = items.size();
+  if (count > kFew) {
+    const auto byAddress = [&](const void* a, const void* b) {
+      return isBefore(*static_cast<const Item*>(a), *static_cast<const Item*>(b));
+    };
+    return sortMany(first, count, sizeof(Item), byAddress);
+  }
+  for (size_t i = 1; i < count; ++i) {
+    const Item item = first[i];
+    size_t j = i;
+    for (; j > 0 && isBefore(item, first[j - 1]); --j) first[j] = first[j - 1];
+    first[j] = item;
+  }
+}
+
+}  // namespace mandoline::detail

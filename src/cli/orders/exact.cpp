@@ -1,0 +1,77 @@
+#include "cli/orders/exact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mandoline::orders {
+namespace {
+
+Point at(const std::vector<double>& vectors, size_t i) { return {vectors[3 * i], vectors[3 * i + 1], vectors[3 * i + 2]}; }
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+constexpr Point kField = {0.75, -1.25, 0.5};
+double nothing(const Point&) { return 0; }
+
+double waves(const Point& p) { return std::sin(p[0]) * std::cos(p[1]) * std::exp(p[2] / 2); }
+Point wavesGradient(const Point& p) {
+  const double e = std::exp(p[2] / 2);
+  return {std::cos(p[0]) * std::cos(p[1]) * e, -std::sin(p[0]) * std::sin(p[1]) * e, waves(p) / 2};
+}
+
+// A wind of speed 1 along x about the unit sphere.
+double sphereFlow(const Point& p) { return p[0] * (1 + std::pow(dot(p, p), -1.5) / 2); }
+Point sphereFlowGradient(const Point& p) {
+  const double square = dot(p, p), cube = std::pow(square, -1.5);
+  Point u;
+  for (size_t d = 0; d < 3; ++d) u[d] = -1.5 * p[0] * p[d] / square * cube;
+  u[0] += 1 + cube / 2;
+  return u;
+}
+
+}  // namespace
+
+const Exact kLinear = {[](const Point& p) { return dot(kField, p); }, [](const Point&) { return kField; }, nothing, false, false};
+const Exact kManufactured = {waves, wavesGradient, [](const Point& p) { return -1.75 * waves(p); }, false, true};
+const Exact kSphereFlow = {sphereFlow, sphereFlowGradient, nothing, true, false};
+
+PoissonProblem problemOf(const CellComplex& cells, const Exact& exact, DualPoints points) {
+  PoissonProblem problem;
+  problem.dualPoints = points;
+  Boundary& boundary = problem.boundary;
+  boundary = boundaryOf(cells);
+  const std::vector<double> normals = outwardNormals(boundary, cells);
+  for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {
+    const size_t f = boundary.halfFaces[b] / 2;
+    const Point centroid = at(cells.faceCentroid, f);
+    const bool onSurface = cells.faceTag[f] == FaceTag::surface;
+    if (onSurface && exact.surfaceStops) continue;
+    const bool held = !onSurface && exact.sidesHeld;
+    boundary.condition[b] = held ? Condition::dirichlet : Condition::neumann;
+    boundary.value[b] = held ? exact.phi(centroid) : dot(exact.gradient(centroid), at(normals, b));
+  }
+  for (size_t c = 0; c < cells.cellCount(); ++c) problem.source.push_back(exact.laplacian(at(cells.cellCentroid, c)) * cells.cellVolume[c]);
+  return problem;
+}
+
+Errors errorsOf(const CellComplex& cells, const Exact& exact, DualPoints points, const std::vector<double>& phi) {
+  const std::vector<double>& at3 = points == DualPoints::centres ? cells.cellCentre : cells.cellCentroid;
+  const CellComponents components = cellComponents(cells);
+  std::vector<double> error(phi), sum(components.count), volume(components.count);
+  for (size_t c = 0; c < phi.size(); ++c) {
+    error[c] -= exact.phi(at(at3, c));
+    sum[components.cellComponent[c]] += error[c] * cells.cellVolume[c];
+    volume[components.cellComponent[c]] += cells.cellVolume[c];
+  }
+  Errors errors;
+  double all = 0;
+  for (size_t c = 0; c < phi.size(); ++c) {
+    const uint32_t r = components.cellComponent[c];
+    const double e = std::fabs(error[c] - (exact.sidesHeld || !(volume[r] > 0) ? 0 : sum[r] / volume[r]));
+    errors.mean += e * cells.cellVolume[c], all += cells.cellVolume[c];
+    errors.largest = std::max(errors.largest, e);
+  }
+  errors.mean /= all;
+  return errors;
+}
+
+}  // namespace mandoline::orders

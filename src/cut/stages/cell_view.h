@@ -1,0 +1,15 @@
+// A grid cell and what its half-faces are made of: a part of stage 7.
+#pragma once
+
+#include "cut/stages/cell_halves.h"
+
+namespace mandoline::detail {
+
+struct CellView {
+  const Surface& surface;
+  const Stencil& stencil;
+  const CutFaces& faces;
+  const CellHalves& halves;
+};
+
+}  // namespace mandoline::detail

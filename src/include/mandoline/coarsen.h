@@ -1,0 +1,36 @@
+// Untouched grid cells merged into octree cells, away from the surface (paper, 5.3).
+#pragma once
+
+#include "mandoline/cut_mesh.h"
+#include "mandoline/status.h"
+
+namespace mandoline {
+
+struct CoarsenOptions : RunOptions {
+  int maxLevel = 24;          ///< octree cells have at most 2^maxLevel grid cells on a side; 0 merges nothing
+  int fineLayers = 0;         ///< how many layers of grid cells around each cut one, diagonally too, are not merged
+  bool balanceEdges = false;  ///< whether cells that share only an edge also differ by at most one level
+};
+
+/// The cells that replace the untouched grid cells. One of level L is a block of 2^L grid cells on a side that begins at multiples of 2^L,
+/// or the part of it inside the grid. Cells that share a part of a face differ by at most one level, a cut grid cell counting as one
+/// of level 0; there are as few cells as that allows. In Morton order: x changes fastest, then y, then z, at each level.
+struct OctreeCells {
+  std::array<int32_t, 3> gridCells{};  ///< number of grid cells per axis
+  std::vector<int32_t> cellCorner;     ///< 3 per octree cell: its lowest grid cell
+  std::vector<uint8_t> cellLevel;      ///< per octree cell
+  std::vector<uint32_t> cellRegion;    ///< per octree cell: region of the cut-mesh
+
+  size_t cellCount() const { return cellLevel.size(); }
+  std::array<int32_t, 3> corner(size_t cell) const { return {cellCorner[3 * cell], cellCorner[3 * cell + 1], cellCorner[3 * cell + 2]}; }
+  /// One past its last grid cell, per axis.
+  std::array<int32_t, 3> end(size_t cell) const;
+  /// The octree cell that holds a grid cell, or -1 if that is cut or lies outside the grid. Takes logarithmic time.
+  int64_t find(int64_t i, int64_t j, int64_t k) const;
+};
+
+/// Takes time and memory in proportion to the numbers of cut-cells and octree cells. Throws CallError if an option is negative (badOption),
+/// or if cancelled.
+OctreeCells coarsen(const CutMesh& cutMesh, const CoarsenOptions& options = {});
+
+}  // namespace mandoline

@@ -1,0 +1,29 @@
+#include "io/vtu_file.h"
+
+namespace mandoline::detail {
+
+void VtuFile::beginHead(OutputBuffer& out) const {
+  out.text("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"");
+  out.text(kNativeOrder == ByteOrder::little ? "LittleEndian" : "BigEndian");
+  out.text("\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"");
+  out.number(points_);
+  out.text("\" NumberOfCells=\"");
+  out.number(cells_);
+  out.text("\">\n<Points>\n");
+}
+
+void VtuFile::describe(OutputBuffer& out, const ArrayHead& array) const {
+  if (array.name == "connectivity") out.text("</Points>\n<Cells>\n");
+  if (array.name == firstOfCells_) out.text("</Cells>\n<CellData>\n");
+  out.text("<DataArray type=\"");
+  out.text(array.type);
+  out.text("\" Name=\"");
+  out.text(array.name);
+  out.text("\" NumberOfComponents=\"");
+  out.number(array.components);
+  out.text("\" format=\"appended\" offset=\"");
+  out.number(array.offset);
+  out.text("\"/>\n");
+}
+
+}  // namespace mandoline::detail

@@ -1,0 +1,261 @@
+// Cell complexes as VTK XML unstructured grids: the cells as polyhedra, the faces as polygons.
+#include "base/sort.h"
+#include "io/complex_polygons.h"
+#include "io/selection.h"
+#include "io/vtu_file.h"
+#include "mesh/run_call.h"
+
+namespace mandoline {
+namespace detail {
+namespace {
+
+/// The numbers of components of fields. Throws CallError for one that does not fit.
+std::vector<int> componentsOf(std::span<const Field> fields, size_t count, const char* element) {
+  std::vector<int> components;
+  for (const Field& field : fields) {
+    const size_t each = count == 0 ? 1 : field.values.size() / count;
+    if (each * count != field.values.size() || (each != 1 && each != 3)) {
+      operators::refuse("The field " + field.name + " must have 1 or 3 numbers for each of the " + std::to_string(count) + ' ' + element +
+                        '.');
+    }
+    if (field.name.find_first_of("<>&\"") != std::string::npos) operators::refuse("A field's name must be without any of < > & \".");
+    components.push_back(int(each));
+  }
+  return components;
+}
+
+/// What both files have in common: the elements that are written, and the vertices that these use.
+class ComplexWriter {
+ public:
+  ComplexWriter(Meter& meter, const CellComplex& cells, const WriteOptions& options) : meter_(meter), cells_(cells), options_(options) {}
+
+ protected:
+  bool hasCell(int64_t c) const {
+    if (c < 0 || (!options_.untouched && c >= cells_.cutCells)) return false;
+    return options_.regions.empty() || options_.regions[cells_.cellRegion[size_t(c)]];
+  }
+  void use(uint32_t vertex) {
+    if (numbers_.empty()) numbers_.resize(cells_.vertexCount(), kUnused);
+    numbers_[vertex] = 0;
+  }
+  void numberPoints() {
+    for (uint32_t& number : numbers_) {
+      if (number != kUnused) number = uint32_t(points_++);
+    }
+  }
+  template <class Put>
+  void putPoints(const Put& put) const {
+    for (size_t v = 0; v < numbers_.size(); ++v) {
+      if (numbers_[v] == kUnused) continue;
+      for (size_t d = 0; d < 3; ++d) put(cells_.positions[3 * v + d]);
+    }
+  }
+  template <class Put>
+  static void putFields(const Field& field, int components, const std::vector<uint32_t>& elements, const Put& put) {
+    for (const uint32_t e : elements) {
+      for (size_t i = 0; i < size_t(components); ++i) put(field.values[size_t(components) * e + i]);
+    }
+  }
+
+  static constexpr uint32_t kUnused = ~0u;
+  Meter& meter_;
+  const CellComplex& cells_;
+  const WriteOptions& options_;
+  std::vector<uint32_t> numbers_;  // per vertex: that in the file
+  uint64_t points_ = 0;
+};
+
+class CellWriter : ComplexWriter {
+ public:
+  CellWriter(Meter& meter, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options)
+      : ComplexWriter(meter, cells, options), cutMesh_(cutMesh), polygons_(cutMesh, cells) {}
+
+  void write(std::span<const Field> fields) {
+    const std::vector<int> components = componentsOf(fields, cells_.cellCount(), "cells");
+    count();
+    VtuFile(meter_, points_, written_.size(), "grid_cell").write(1, [&](const auto& visit) {
+      forEachArray(visit);
+      for (size_t i = 0; i < fields.size(); ++i) {
+        visit(double(), fields[i].name, written_.size(), components[i],
+              [&](const auto& put) { putFields(fields[i], components[i], written_, put); });
+      }
+    });
+  }
+
+ private:
+  void count() {
+    meter_.beginStage("count", 0, cells_.cellCount());
+    offsets_.push_back(0);
+    faceOffsets_.push_back(0);
+    for (uint32_t c = 0; c < cells_.cellCount(); ++c) {
+      meter_.advance();
+      if (c % 4096 == 0) meter_.report();
+      if (!hasCell(c)) continue;
+      written_.push_back(c);
+      uint64_t size = 1;
+      forEachPolygon(c, [&](std::span<const uint32_t> polygon, bool) {
+        size += 1 + polygon.size();
+        for (const uint32_t v : polygon) use(v);
+      });
+      faceOffsets_.push_back(faceOffsets_.back() + size);
+      offsets_.push_back(offsets_.back() + verticesOf(c).size());
+    }
+    numberPoints();
+  }
+
+  template <class Visit>
+  void forEachPolygon(uint32_t c, const Visit& visit) const {
+    for (const uint32_t h : cells_.halfFaces(c)) {
+      polygons_.forEach(h / 2, [&](std::span<const uint32_t> polygon) { visit(polygon, h % 2 != 0); });
+    }
+  }
+
+  /// Each once, until the next call.
+  const std::vector<uint32_t>& verticesOf(uint32_t c) {
+    vertices_.clear();
+    forEachPolygon(c, [&](std::span<const uint32_t> polygon, bool) { vertices_.insert(vertices_.end(), polygon.begin(), polygon.end()); });
+    sortItems(vertices_);
+    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+    return vertices_;
+  }
+
+  template <class Visit>
+  void forEachArray(const Visit& visit) {
+    const uint64_t n = written_.size();
+    const auto perCell = [&](const auto& value) {
+      return [this, value](const auto& put) {
+        for (const uint32_t c : written_) value(c, put);
+      };
+    };
+    visit(double(), "Points", points_, 3, [&](const auto& put) { putPoints(put); });
+    visit(int64_t(), "connectivity", offsets_.back(), 1, perCell([this](uint32_t c, const auto& put) {
+            for (const uint32_t v : verticesOf(c)) put(numbers_[v]);
+          }));
+    visit(int64_t(), "offsets", n, 1, [&](const auto& put) { std::for_each(offsets_.begin() + 1, offsets_.end(), put); });
+    visit(uint8_t(), "types", n, 1, perCell([](uint32_t, const auto& put) { put(kVtkPolyhedron); }));
+    visit(int64_t(), "faces", faceOffsets_.back(), 1, perCell([this](uint32_t c, const auto& put) { this->putPolyhedron(c, put); }));
+    visit(int64_t(), "faceoffsets", n, 1, [&](const auto& put) { std::for_each(faceOffsets_.begin() + 1, faceOffsets_.end(), put); });
+    visit(int32_t(), "grid_cell", n, 3, perCell([this](uint32_t c, const auto& put) {
+            for (size_t d = 0; d < 3; ++d) put(cells_.cellCorner[3 * size_t(c) + d]);
+          }));
+    visit(int32_t(), "level", n, 1, perCell([this](uint32_t c, const auto& put) { put(cells_.cellLevel[c]); }));
+    visit(int32_t(), "region", n, 1, perCell([this](uint32_t c, const auto& put) { put(cells_.cellRegion[c]); }));
+    if (cutMesh_.hasWinding) {
+      visit(int32_t(), "winding", n, 1,
+            perCell([this](uint32_t c, const auto& put) { put(cutMesh_.regionWinding[cells_.cellRegion[c]]); }));
+    }
+    visit(double(), "volume", n, 1, perCell([this](uint32_t c, const auto& put) { put(cells_.cellVolume[c]); }));
+  }
+
+  template <class Put>
+  void putPolyhedron(uint32_t c, const Put& put) const {
+    size_t count = 0;
+    forEachPolygon(c, [&](std::span<const uint32_t>, bool) { ++count; });
+    put(count);
+    forEachPolygon(c, [&](std::span<const uint32_t> polygon, bool reversed) {
+      put(polygon.size());
+      for (size_t i = 0; i < polygon.size(); ++i) put(numbers_[polygon[reversed ? polygon.size() - 1 - i : i]]);
+    });
+  }
+
+  const CutMesh& cutMesh_;
+  ComplexPolygons polygons_;
+  std::vector<uint32_t> written_;                // cells
+  std::vector<uint64_t> offsets_, faceOffsets_;  // per cell written
+  std::vector<uint32_t> vertices_;
+};
+
+class FaceWriter : ComplexWriter {
+ public:
+  FaceWriter(Meter& meter, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options)
+      : ComplexWriter(meter, cells, options), cutMesh_(cutMesh), polygons_(cutMesh, cells) {}
+
+  void write(std::span<const Field> fields) {
+    const std::vector<int> components = componentsOf(fields, cells_.faceCount(), "faces");
+    count();
+    VtuFile(meter_, points_, written_.size(), "face").write(1, [&](const auto& visit) {
+      forEachArray(visit);
+      for (size_t i = 0; i < fields.size(); ++i) {
+        visit(double(), fields[i].name, written_.size(), components[i],
+              [&](const auto& put) { putFields(fields[i], components[i], written_, put); });
+      }
+    });
+  }
+
+ private:
+  void count() {
+    meter_.beginStage("count", 0, cells_.faceCount());
+    for (uint32_t f = 0; f < cells_.faceCount(); ++f) {
+      meter_.advance();
+      if (f % 4096 == 0) meter_.report();
+      if (!hasCell(cells_.faceCells[2 * size_t(f)]) && !hasCell(cells_.faceCells[2 * size_t(f) + 1])) continue;
+      polygons_.forEach(f, [&](std::span<const uint32_t> polygon) {
+        written_.push_back(f);
+        offsets_.push_back((offsets_.empty() ? 0 : offsets_.back()) + polygon.size());
+        for (const uint32_t v : polygon) use(v);
+      });
+    }
+    numberPoints();
+  }
+
+  template <class Visit>
+  void forEachArray(const Visit& visit) const {
+    const uint64_t n = written_.size();
+    const auto perPolygon = [&](const auto& value) {
+      return [this, value](const auto& put) {
+        for (const uint32_t f : written_) put(value(f));
+      };
+    };
+    visit(double(), "Points", points_, 3, [&](const auto& put) { putPoints(put); });
+    visit(int64_t(), "connectivity", offsets_.empty() ? 0 : offsets_.back(), 1, [&](const auto& put) { putPolygons(put); });
+    visit(int64_t(), "offsets", n, 1, [&](const auto& put) { std::for_each(offsets_.begin(), offsets_.end(), put); });
+    visit(uint8_t(), "types", n, 1, perPolygon([](uint32_t) { return kVtkPolygon; }));
+    visit(int32_t(), "face", n, 1, perPolygon([](uint32_t f) { return f; }));
+    visit(int32_t(), "tag", n, 1, perPolygon([this](uint32_t f) { return int32_t(cells_.faceTag[f]); }));
+    visit(int32_t(), "triangle", n, 1, perPolygon([this](uint32_t f) { return f < cells_.cutFaces ? cutMesh_.faceTriangle[f] : -1; }));
+    visit(int32_t(), "cells", n, 2, [&](const auto& put) {
+      for (const uint32_t f : written_) {
+        put(cells_.faceCells[2 * size_t(f)]);
+        put(cells_.faceCells[2 * size_t(f) + 1]);
+      }
+    });
+  }
+
+  template <class Put>
+  void putPolygons(const Put& put) const {
+    for (size_t i = 0; i < written_.size(); ++i) {
+      if (i > 0 && written_[i] == written_[i - 1]) continue;  // all polygons of a face at once
+      polygons_.forEach(written_[i], [&](std::span<const uint32_t> polygon) {
+        for (const uint32_t v : polygon) put(numbers_[v]);
+      });
+    }
+  }
+
+  const CutMesh& cutMesh_;
+  ComplexPolygons polygons_;
+  std::vector<uint32_t> written_;  // per polygon: its face
+  std::vector<uint64_t> offsets_;  // per polygon
+};
+
+}  // namespace
+}  // namespace detail
+
+void writeVtu(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, std::span<const Field> fields,
+              const WriteOptions& options) {
+  const detail::Selection selection(cutMesh, options);
+  detail::runCall("writing", [&] {
+    detail::Meter meter(sink, options, 2);
+    detail::CellWriter(meter, cutMesh, cells, options).write(fields);
+  });
+}
+
+void writeFacesVtu(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, std::span<const Field> fields,
+                   const WriteOptions& options) {
+  const detail::Selection selection(cutMesh, options);
+  detail::runCall("writing", [&] {
+    detail::Meter meter(sink, options, 2);
+    detail::FaceWriter(meter, cutMesh, cells, options).write(fields);
+  });
+}
+
+}  // namespace mandoline

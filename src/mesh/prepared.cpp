@@ -1,0 +1,135 @@
+#include "mesh/prepared.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "mesh/resolve/contacts.h"
+
+namespace mandoline::detail {
+namespace {
+
+[[noreturn]] void fail(Status status, int64_t element, const std::string& message) { throw Failure{{status, element, -1, message}}; }
+
+void checkArrays(const MeshView& mesh) {
+  if (mesh.positions.size() % 3 != 0) fail(Status::badArrays, -1, "The length of positions is not a multiple of 3.");
+  if (mesh.triangles.size() % 3 != 0) fail(Status::badArrays, -1, "The length of triangles is not a multiple of 3.");
+  if (mesh.triangles.empty()) fail(Status::emptyMesh, -1, "The mesh has no triangles.");
+  if (mesh.triangleCount() >= uint64_t(1) << 31 || mesh.vertexCount() >= uint64_t(1) << 31) {
+    fail(Status::meshTooLarge, -1, "The mesh has more than 2^31 triangles or vertices.");
+  }
+}
+
+/// Marks referenced tri-vertices.
+std::vector<uint8_t> referencedVertices(const MeshView& mesh) {
+  std::vector<uint8_t> referenced(mesh.vertexCount(), 0);
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const uint32_t v = mesh.triangles[i];
+    if (v >= referenced.size()) {
+      fail(Status::badIndex, int64_t(i / 3),
+           "Triangle " + std::to_string(i / 3) + " refers to vertex " + std::to_string(v) + ", but there are only " +
+               std::to_string(referenced.size()) + ".");
+    }
+    referenced[v] = 1;
+  }
+  for (size_t v = 0; v < referenced.size(); ++v) {
+    for (int d = 0; d < 3 && referenced[v]; ++d) {
+      if (!std::isfinite(mesh.positions[3 * v + d])) {
+        fail(Status::nonFiniteCoordinate, int64_t(v), "Vertex " + std::to_string(v) + " has a coordinate that is not finite.");
+      }
+    }
+  }
+  return referenced;
+}
+
+double largestCoordinate(const MeshView& mesh, const std::vector<uint8_t>& referenced) {
+  double largest = 0;
+  for (size_t v = 0; v < referenced.size(); ++v) {
+    for (int d = 0; d < 3 && referenced[v]; ++d) largest = std::max(largest, std::fabs(mesh.positions[3 * v + d]));
+  }
+  return largest;
+}
+
+/// Fails if any triangles meet: says which first, and how many pairs do.
+void refuseIntersections(const Prepared& prepared, Monitor& monitor, Predicates& predicates) {
+  const Contacts contacts = findContacts(prepared, monitor, predicates, 1);
+  const uint64_t total = contacts.counts.total();
+  if (total == 0) return;
+  std::array<uint32_t, 2> first{~0u, ~0u};
+  if (!contacts.pairs.empty()) first = contacts.pairs[0].triangles;
+  if (!prepared.duplicates.empty()) first = std::min(first, {prepared.duplicates[0].original, prepared.duplicates[0].triangle});
+  throw Failure{{Status::selfIntersection, first[0], first[1],
+                 "Triangles " + std::to_string(first[0]) + " and " + std::to_string(first[1]) +
+                     " meet other than in a shared vertex or edge, " +
+                     (total == 1 ? "the only pair that does." : "the first of " + std::to_string(total) + " pairs that do.")}};
+}
+
+/// Finds where triangles meet; if any do, the arrangement's vertices and edges take the place of the mesh's.
+void findArrangement(Prepared& prepared, Monitor& monitor, Predicates& predicates) {
+  auto arrangement = std::make_unique<Arrangement>(arrange(prepared, monitor, predicates));
+  if (!arrangement->empty()) {
+    prepared.stitches = arrangement->sides;
+    for (uint32_t v = prepared.triVertices; v < arrangement->points.size(); ++v)
+      prepared.points.push_back(arrangement->points.reference(v));
+    prepared.edges = findMeshEdges(prepared, arrangement.get());
+  }
+  prepared.arrangement = std::move(arrangement);
+}
+
+}  // namespace
+
+std::span<const Duplicate> Prepared::duplicatesOf(TriangleId t) const {
+  if (duplicates.empty()) return {};
+  const auto [first, past] = std::equal_range(duplicates.begin(), duplicates.end(), Duplicate{t.number, 0, false},
+                                              [](const Duplicate& a, const Duplicate& b) { return a.original < b.original; });
+  return {duplicates.data() + (first - duplicates.begin()), size_t(past - first)};
+}
+
+int32_t Prepared::signSumOfDuplicates(TriangleId t) const {
+  int32_t sum = 0;
+  for (const Duplicate& d : duplicatesOf(t)) sum += d.sameWay ? 1 : -1;
+  return sum;
+}
+
+std::unique_ptr<const Prepared> prepareMesh(const MeshView& mesh, const Preparation& preparation, Monitor& monitor,
+                                            const std::function<void(const char*)>& beginStage) {
+  beginStage("input");
+  checkArrays(mesh);
+  auto prepared = std::make_unique<Prepared>();
+  MeshCounts& counts = prepared->counts;
+  const std::vector<uint8_t> referenced = referencedVertices(mesh);
+  const double largest = std::max(largestCoordinate(mesh, referenced), preparation.largest);
+  prepared->shift = largest > 0 ? Scale::kLargestExponent - std::ilogb(largest) : 0;
+  const Scale scale(prepared->shift);
+  prepared->points.resize(referenced.size());
+  for (size_t v = 0; v < referenced.size(); ++v) {
+    for (int d = 0; d < 3 && referenced[v]; ++d)
+      prepared->points[v][d] = scale.scaled(mesh.positions[3 * v + d], counts.flushedCoordinates);
+  }
+  if (preparation.move) preparation.move(prepared->points, scale);
+  prepared->triVertices = uint32_t(prepared->points.size());
+  const std::vector<uint32_t> lowest = weld(referenced, prepared->points);
+  for (uint32_t v = 0; v < lowest.size(); ++v) counts.weldedVertices += lowest[v] != v;
+  prepared->triangles.resize(mesh.triangleCount());
+  prepared->states.assign(mesh.triangleCount(), TriangleState::kept);
+  for (size_t t = 0; t < prepared->triangles.size(); ++t) {
+    for (size_t i = 0; i < 3; ++i) prepared->triangles[t][i] = lowest[mesh.triangles[3 * t + i]];
+  }
+  Predicates predicates;
+  const std::vector<uint32_t> zeroArea = dropZeroArea(*prepared, predicates);
+  counts.zeroAreaTriangles = uint32_t(zeroArea.size());
+  if (!zeroArea.empty()) prepared->stitches = findStitches(*prepared, zeroArea);
+  prepared->edges = findMeshEdges(*prepared, nullptr);
+  if (preparation.intersections != Intersections::assumeNone) {
+    beginStage("intersections");
+    if (preparation.intersections == Intersections::refuse) {
+      refuseIntersections(*prepared, monitor, predicates);
+    } else {
+      findArrangement(*prepared, monitor, predicates);
+    }
+  }
+  counts.exactFallbacks = predicates.fallbacks;
+  return prepared;
+}
+
+}  // namespace mandoline::detail

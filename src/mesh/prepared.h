@@ -1,0 +1,78 @@
+// Stage 1, the mesh (paper, Algorithm 1 and Appendix A "Bad Input Meshes"): what of a cut does not depend on the grid. Checks the mesh,
+// welds identical positions, drops triangles without area and duplicates, finds the unique tri-edges and where triangles meet.
+//
+// In: the user's mesh. Out: Prepared, or a Failure that names the offending element.
+// After it: all coordinates are finite and scaled by one power of two, so that polynomials of them up to degree 7 neither overflow nor
+// underflow; triangles refer to welded vertices; kept triangles have area, exactly.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "mandoline/intersections.h"
+#include "mandoline/mesh.h"
+#include "mesh/failure.h"
+#include "mesh/mesh_edges.h"
+
+namespace mandoline::detail {
+
+struct MeshCounts {
+  uint32_t weldedVertices = 0, zeroAreaTriangles = 0;
+  uint32_t flushedCoordinates = 0;  ///< below 2^-200 of the largest, taken as 0
+  uint64_t exactFallbacks = 0;
+};
+
+struct Prepared : WeldedMesh {
+  int shift = 0;             ///< scaled = world * 2^shift
+  uint32_t triVertices = 0;  ///< made vertices follow in `points`, rounded
+  MeshEdges edges;
+  /// Where triangles meet, or null if they are assumed or required not to.
+  std::unique_ptr<const Arrangement> arrangement;
+  MeshCounts counts;
+
+  Prepared() = default;
+  Prepared(const Prepared&) = delete;  // the arrangement refers to it
+
+  bool isMade(VertexId v) const { return v.number >= triVertices; }
+  bool hasIntersections() const { return arrangement && !arrangement->empty(); }
+  /// The triangles with the same three vertices.
+  std::span<const Duplicate> duplicatesOf(TriangleId t) const;
+  /// How many of them have the same normal, less those that have the opposite one.
+  int32_t signSumOfDuplicates(TriangleId t) const;
+};
+
+/// A power of two that brings coordinates into the range of exact arithmetic.
+class Scale {
+ public:
+  explicit Scale(int shift) : factor_{std::ldexp(1.0, shift / 2), std::ldexp(1.0, shift - shift / 2)} {}  // a double can't hold 2^1194
+
+  /// Counts coordinates that are too small, and takes them as 0.
+  double scaled(double x, uint32_t& flushed) const {
+    x = x * factor_[0] * factor_[1] + 0.0;  // -0 becomes 0
+    if (std::fabs(x) >= kFlushBelow || x == 0) return x;
+    ++flushed;
+    return 0.0;
+  }
+  double world(double x) const { return x * (1 / factor_[0]) * (1 / factor_[1]); }
+
+  /// Scaled coordinates of a mesh are below 2^121 and multiples of 2^-133, or 0: degree 7 stays within 2^860 and 2^-931. Planes may be as
+  /// much as 2^kRoom larger.
+  static constexpr int kLargestExponent = 120, kRoom = 2;
+
+ private:
+  static constexpr double kFlushBelow = 0x1p-80;
+  double factor_[2];
+};
+
+struct Preparation {
+  double largest = 0;  ///< of all coordinates that are to be scaled, beside the mesh's
+  Intersections intersections = Intersections::resolve;
+  /// Moves the scaled points before they are welded, if given.
+  std::function<void(std::vector<Point>& points, const Scale& scale)> move;
+};
+
+/// `beginStage` is called with "input" and "intersections".
+std::unique_ptr<const Prepared> prepareMesh(const MeshView& mesh, const Preparation& preparation, Monitor& monitor,
+                                            const std::function<void(const char*)>& beginStage);
+
+}  // namespace mandoline::detail

@@ -1,0 +1,12 @@
+// What every function asks of a mesh whose arrays it follows.
+#pragma once
+
+#include "mandoline/mesh.h"
+
+namespace mandoline::detail {
+
+/// Throws CallError: badArrays for lengths that are no multiples of 3, badIndex for a triangle (element) that names a vertex that does not
+/// exist.
+void requireArrays(const MeshView& mesh);
+
+}  // namespace mandoline::detail

@@ -1,0 +1,122 @@
+#include "operators/cell_complex/grid_corners.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/sort.h"
+
+namespace mandoline::operators {
+namespace {
+
+/// x changes fastest.
+bool isBefore(const GridIndex& a, const GridIndex& b) { return a[2] != b[2] ? a[2] < b[2] : a[1] != b[1] ? a[1] < b[1] : a[0] < b[0]; }
+
+}  // namespace
+
+GridCorners::GridCorners(const CutMesh& cutMesh, const OctreeCells& octree) : cutMesh_(cutMesh), octree_(octree) {
+  linkCutVertices();
+  for (size_t v = 0; v < cutMesh.vertexCount(); ++v) {
+    const int32_t* at = &cutMesh.vertexCell[3 * v];
+    if (cutMesh.vertexMask[v] == 7) corners_.push_back({{at[0], at[1], at[2]}, uint32_t(v)});
+  }
+  const uint32_t firstNew = uint32_t(cutMesh.vertexCount());
+  for (size_t c = 0; c < octree.cellCount(); ++c) {
+    const GridIndex low = octree.corner(c), high = octree.end(c);
+    for (int which = 0; which < 8; ++which) {
+      corners_.push_back({{(which & 1 ? high : low)[0], (which & 2 ? high : low)[1], (which & 4 ? high : low)[2]}, firstNew});
+    }
+  }
+  detail::sortItems(corners_, [](const Corner& a, const Corner& b) { return a.at != b.at ? isBefore(a.at, b.at) : a.id < b.id; });
+  const auto end = std::unique(corners_.begin(), corners_.end(), [](const Corner& a, const Corner& b) { return a.at == b.at; });
+  corners_.erase(end, corners_.end());
+  for (Corner& corner : corners_) {
+    if (corner.id < firstNew) continue;
+    corner.id = firstNew + uint32_t(added_.size());
+    added_.push_back(corner.at);
+  }
+}
+
+const GridCorners::Corner* GridCorners::find(const GridIndex& at) const {
+  const auto corner =
+      std::lower_bound(corners_.begin(), corners_.end(), at, [](const Corner& c, const GridIndex& i) { return isBefore(c.at, i); });
+  return corner != corners_.end() && corner->at == at ? &*corner : nullptr;
+}
+
+/// A surface may touch a grid-edge, and not all four grid cells around it.
+void GridCorners::linkCutVertices() {
+  const auto onLine = [&](uint32_t v) {
+    const uint8_t mask = cutMesh_.vertexMask[v];
+    return mask == 3 || mask == 5 || mask == 6;
+  };
+  for (size_t l = 0; l < cutMesh_.loopCount(); ++l) {
+    const auto loop = cutMesh_.loop(l);
+    for (size_t i = 0; i < loop.size(); ++i) {
+      const uint32_t a = loop[i], b = loop[i + 1 < loop.size() ? i + 1 : 0];
+      if (!onLine(a) && !onLine(b)) continue;
+      const uint8_t planes = cutMesh_.vertexMask[a] & cutMesh_.vertexMask[b];
+      if (planes != 3 && planes != 5 && planes != 6) continue;
+      bool same = true;  // those of two lines share but one plane, except for parallel ones
+      for (size_t d = 0; d < 3; ++d) same &= !(planes >> d & 1) || cutMesh_.vertexCell[3 * a + d] == cutMesh_.vertexCell[3 * b + d];
+      if (same) links_.insert(links_.end(), {{a, b}, {b, a}});
+    }
+  }
+  detail::sortItems(links_);
+  links_.erase(std::unique(links_.begin(), links_.end()), links_.end());
+}
+
+/// Appends the cut-vertices inside of a grid-edge.
+void GridCorners::appendCutVertices(const GridIndex& low, size_t axis, std::vector<uint32_t>& ids) const {
+  const uint32_t corner = find(low)->id;
+  const auto isInside = [&](uint32_t v) {
+    return cutMesh_.vertexMask[v] == (7 & ~(1 << axis)) && cutMesh_.vertexCell[3 * v + axis] == low[axis];
+  };
+  for (uint32_t from = corner, at = corner;;) {
+    const auto [first, last] = std::equal_range(links_.begin(), links_.end(), std::array<uint32_t, 2>{at, 0},
+                                                [](const auto& a, const auto& b) { return a[0] < b[0]; });
+    const auto next = std::find_if(first, last, [&](const auto& link) { return link[1] != from && isInside(link[1]); });
+    if (next == last) return;
+    ids.push_back((*next)[1]);
+    from = std::exchange(at, (*next)[1]);
+  }
+}
+
+void GridCorners::appendSide(size_t cell, size_t axis, int side, std::vector<uint32_t>& ids) const {
+  const GridIndex corner = octree_.corner(cell), end = octree_.end(cell);
+  const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+  GridIndex low = corner;  // the side's lowest vertex
+  low[axis] = (side ? end : corner)[axis];
+  GridIndex right = low, up = low;
+  right[u] = end[u];
+  up[v] = end[v];
+  const int level = octree_.cellLevel[cell];
+  appendEdge(low, {u, level}, true, ids);
+  appendEdge(right, {v, level}, true, ids);
+  appendEdge(up, {u, level}, false, ids);
+  appendEdge(low, {v, level}, false, ids);
+}
+
+/// Appends the vertices of the edge that begins at `low`, but for the last. Backwards, it is run through from its upper end.
+void GridCorners::appendEdge(const GridIndex& low, const Edge& edge, bool forwards, std::vector<uint32_t>& ids) const {
+  GridIndex high = low;
+  high[edge.axis] = int32_t(std::min(int64_t(low[edge.axis]) + (int64_t(1) << edge.level), int64_t(octree_.gridCells[edge.axis])));
+  ids.push_back(find(forwards ? low : high)->id);
+  const auto first = std::ptrdiff_t(ids.size());
+  appendInside(low, edge, ids);
+  if (!forwards) std::reverse(ids.begin() + first, ids.end());
+}
+
+/// Appends the vertices strictly inside, upwards. If smaller cells have corners there, then in the middle, too: octree cells are halved.
+void GridCorners::appendInside(const GridIndex& low, const Edge& edge, std::vector<uint32_t>& ids) const {
+  if (edge.level == 0) return appendCutVertices(low, edge.axis, ids);
+  const Edge half = {edge.axis, edge.level - 1};
+  GridIndex middle = low;
+  middle[edge.axis] += int32_t(1) << half.level;
+  if (middle[edge.axis] >= octree_.gridCells[edge.axis]) return appendInside(low, half, ids);
+  const Corner* corner = find(middle);
+  if (!corner) return;
+  appendInside(low, half, ids);
+  ids.push_back(corner->id);
+  appendInside(middle, half, ids);
+}
+
+}  // namespace mandoline::operators

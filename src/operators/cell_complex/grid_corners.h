@@ -1,0 +1,45 @@
+// The vertices on grid lines in a cell complex: corners of cut grid cells and octree cells, and cut-vertices between them.
+#pragma once
+
+#include "mandoline/coarsen.h"
+
+namespace mandoline::operators {
+
+using GridIndex = std::array<int32_t, 3>;
+
+/// Keeps references to both.
+class GridCorners {
+ public:
+  GridCorners(const CutMesh& cutMesh, const OctreeCells& octree);
+
+  /// Those that are no cut-vertices: their ids are the ones that follow the cut-vertices'.
+  const std::vector<GridIndex>& added() const { return added_; }
+
+  /// Appends the loop of an octree cell's lower (0) or upper (1) side, counter-clockwise about +axis, with the vertices that other cells
+  /// have on its edges.
+  void appendSide(size_t cell, size_t axis, int side, std::vector<uint32_t>& ids) const;
+
+ private:
+  /// A grid line's piece of 2^level cells, or what of it lies inside the grid.
+  struct Edge {
+    size_t axis;
+    int level;
+  };
+  struct Corner {
+    GridIndex at;
+    uint32_t id;
+  };
+  void linkCutVertices();
+  const Corner* find(const GridIndex& at) const;
+  void appendEdge(const GridIndex& low, const Edge& edge, bool forwards, std::vector<uint32_t>& ids) const;
+  void appendCutVertices(const GridIndex& low, size_t axis, std::vector<uint32_t>& ids) const;
+  void appendInside(const GridIndex& low, const Edge& edge, std::vector<uint32_t>& ids) const;
+
+  const CutMesh& cutMesh_;
+  const OctreeCells& octree_;
+  std::vector<Corner> corners_;  // by place
+  std::vector<GridIndex> added_;
+  std::vector<std::array<uint32_t, 2>> links_;  // cut-edges on grid lines that end inside of a grid-edge, both ways, ascending
+};
+
+}  // namespace mandoline::operators

@@ -1,0 +1,182 @@
+#include "mandoline/coarsen.h"
+
+#include <algorithm>
+
+#include "base/sort.h"
+#include "mesh/run_call.h"
+#include "operators/require_cut_mesh.h"
+
+namespace mandoline {
+namespace {
+
+/// A block of grid cells of some level: its lowest grid cell, divided by the block's size.
+using Block = std::array<int32_t, 3>;
+using Blocks = std::vector<Block>;  // ascending along the Morton curve, each once
+
+/// Order along the Morton curve. Decided by the axis whose numbers differ in the highest bit; of several, the last.
+bool isBefore(const Block& a, const Block& b) {
+  size_t axis = 2;
+  uint32_t most = uint32_t(a[2] ^ b[2]);
+  for (const size_t d : {size_t(1), size_t(0)}) {
+    const uint32_t differing = uint32_t(a[d] ^ b[d]);
+    if (most < differing && most < (most ^ differing)) axis = d, most = differing;
+  }
+  return a[axis] < b[axis];
+}
+
+void sortBlocks(Blocks& blocks) {
+  detail::sortItems(blocks, isBefore);
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+}
+
+class Coarsener {
+ public:
+  Coarsener(const CutMesh& cutMesh, const CoarsenOptions& options, detail::Monitor& monitor)
+      : untouched_(cutMesh), options_(options), monitor_(monitor) {
+    for (int d = 0; d < 3; ++d) result_.gridCells[size_t(d)] = int32_t(cutMesh.grid.cells(d));
+    for (size_t c = 0; c < cutMesh.cellCount(); ++c) {
+      const int32_t* cell = &cutMesh.cellGridCell[3 * c];
+      const Block block = {cell[0], cell[1], cell[2]};
+      if (cut_.empty() || cut_.back() != block) cut_.push_back(block);
+    }
+    sortBlocks(cut_);
+  }
+
+  OctreeCells run() {
+    int top = 0;  // the level of a block that holds the grid
+    while (!holdsGrid(top)) ++top;
+    options_.maxLevel = std::min(options_.maxLevel, top);
+    monitor_.beginStage("levels", 0);
+    findDivided();
+    monitor_.beginStage("cells", 1);
+    next_.assign(size_t(options_.maxLevel) + 1, 0);
+    add({0, 0, 0}, top);
+    return std::move(result_);
+  }
+
+ private:
+  bool inGrid(const Block& block, int level) const {
+    bool inside = true;
+    for (size_t d = 0; d < 3; ++d) inside &= block[d] >= 0 && int64_t(block[d]) << level < result_.gridCells[d];
+    return inside;
+  }
+  bool holdsGrid(int level) const { return !inGrid({1, 0, 0}, level) && !inGrid({0, 1, 0}, level) && !inGrid({0, 0, 1}, level); }
+
+  /// Fills divided_: the blocks of each level that have smaller ones inside.
+  void findDivided() {
+    divided_.resize(size_t(options_.maxLevel) + 1);
+    if (options_.maxLevel == 0) return;
+    divided_[1] = blocksToDivide();
+    for (int level = 2; level <= options_.maxLevel; ++level) {
+      monitor_.report(size_t(level), size_t(options_.maxLevel));
+      for (const Block& block : divided_[size_t(level) - 1]) addParents(block, level);
+      sortBlocks(divided_[size_t(level)]);
+    }
+  }
+
+  /// Divides the parent of a divided block, and those of its neighbours, which must not be larger than it: along each axis one neighbour
+  /// has another parent.
+  void addParents(const Block& block, int level) {
+    const Block parent = {block[0] >> 1, block[1] >> 1, block[2] >> 1};
+    for (int axes = 0; axes < 7; ++axes) {  // the set of axes along which to step
+      const bool isFace = (axes & (axes - 1)) == 0;
+      if (!isFace && !options_.balanceEdges) continue;
+      Block neighbour = parent;
+      for (size_t d = 0; d < 3; ++d) {
+        if (axes >> d & 1) neighbour[d] += block[d] % 2 == 0 ? -1 : 1;
+      }
+      if (inGrid(neighbour, level)) divided_[size_t(level)].push_back(neighbour);
+    }
+  }
+
+  /// The blocks of level 1 with grid cells that are cut or in a fine layer.
+  Blocks blocksToDivide() const {
+    Blocks blocks = cut_;
+    const int32_t layers = options_.fineLayers;
+    for (size_t d = 0; d < 3; ++d) {  // numbers of grid cells become numbers of blocks, axis by axis
+      Blocks spread;
+      for (const Block& block : blocks) {
+        Block at = block;
+        const int32_t last = (block[d] + std::min(layers, result_.gridCells[d] - 1 - block[d])) >> 1;
+        for (at[d] = (block[d] - std::min(layers, block[d])) >> 1; at[d] <= last; ++at[d]) spread.push_back(at);
+      }
+      sortBlocks(spread);
+      blocks = std::move(spread);
+    }
+    return blocks;
+  }
+
+  /// Adds the cells of a block in Morton order, in which all lists of blocks are.
+  void add(const Block& block, int level) {
+    if (level <= options_.maxLevel) {
+      const Blocks& divided = level == 0 ? cut_ : divided_[size_t(level)];
+      size_t& next = next_[size_t(level)];
+      if (next == divided.size() || divided[next] != block) return addCell(block, level);
+      ++next;
+    }
+    if (level == 0) return;
+    for (int32_t child = 0; child < 8; ++child) {
+      const Block inside = {2 * block[0] + (child & 1), 2 * block[1] + (child >> 1 & 1), 2 * block[2] + (child >> 2)};
+      if (inGrid(inside, level - 1)) add(inside, level - 1);
+    }
+  }
+
+  void addCell(const Block& block, int level) {
+    if (result_.cellCount() % 4096 == 0) monitor_.report(next_[0], cut_.size());
+    const Block corner = {block[0] << level, block[1] << level, block[2] << level};
+    const int64_t region = untouched_.regionAt(corner[0], corner[1], corner[2]);
+    if (region < 0) operators::refuse("The cut-mesh is not valid: it has neither cut-cells nor a run for a grid cell.");
+    result_.cellCorner.insert(result_.cellCorner.end(), corner.begin(), corner.end());
+    result_.cellLevel.push_back(uint8_t(level));
+    result_.cellRegion.push_back(uint32_t(region));
+  }
+
+  UntouchedCells untouched_;
+  CoarsenOptions options_;
+  detail::Monitor& monitor_;
+  Blocks cut_;
+  std::vector<Blocks> divided_;  // per level
+  std::vector<size_t> next_;     // per level: the first block of divided_ (of cut_ at level 0) that add() has not come to
+  OctreeCells result_;
+};
+
+}  // namespace
+
+std::array<int32_t, 3> OctreeCells::end(size_t cell) const {
+  std::array<int32_t, 3> end = corner(cell);
+  for (size_t d = 0; d < 3; ++d) end[d] = int32_t(std::min(int64_t(end[d]) + (int64_t(1) << cellLevel[cell]), int64_t(gridCells[d])));
+  return end;
+}
+
+int64_t OctreeCells::find(int64_t i, int64_t j, int64_t k) const {
+  if (i < 0 || j < 0 || k < 0 || i >= gridCells[0] || j >= gridCells[1] || k >= gridCells[2]) return -1;
+  const Block at = {int32_t(i), int32_t(j), int32_t(k)};
+  size_t first = 0, past = cellCount();  // the cells that may be the last one not after it
+  while (first < past) {
+    const size_t middle = first + (past - first) / 2;
+    if (isBefore(at, corner(middle))) {
+      past = middle;
+    } else {
+      first = middle + 1;
+    }
+  }
+  if (first == 0) return -1;
+  const auto last = end(first - 1), begin = corner(first - 1);
+  for (size_t d = 0; d < 3; ++d) {
+    if (at[d] < begin[d] || at[d] >= last[d]) return -1;
+  }
+  return int64_t(first) - 1;
+}
+
+OctreeCells coarsen(const CutMesh& cutMesh, const CoarsenOptions& options) {
+  operators::requireCutMesh(cutMesh);
+  if (options.maxLevel < 0 || options.fineLayers < 0) {
+    throw CallError({Status::badOption, -1, -1, "maxLevel and fineLayers can't be negative."});
+  }
+  return detail::runCall("coarsening", [&] {
+    detail::Monitor monitor(options, 2);
+    return Coarsener(cutMesh, options, monitor).run();
+  });
+}
+
+}  // namespace mandoline

@@ -1,0 +1,121 @@
+#include "mandoline/resolve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <new>
+#include <stdexcept>
+
+#include "base/parallel.h"
+#include "mandoline/triangulate.h"
+#include "operators/measure/owners.h"
+#include "operators/mesh_writer.h"
+
+namespace mandoline {
+namespace {
+
+/// One cell around the mesh, which its triangles don't reach the sides of.
+Grid cellAround(const MeshView& mesh) {
+  double low[3], high[3], size = 0;
+  for (size_t d = 0; d < 3; ++d) {
+    low[d] = INFINITY;
+    high[d] = -INFINITY;
+    for (const uint32_t v : mesh.triangles) {
+      const double x = 3 * size_t(v) + d < mesh.positions.size() ? mesh.positions[3 * size_t(v) + d] : NAN;
+      if (!std::isfinite(x)) continue;
+      low[d] = std::min(low[d], x);
+      high[d] = std::max(high[d], x);
+    }
+    size = std::max({size, high[d] / 2 - low[d] / 2, std::fabs(low[d]) * 0x1p-20, std::fabs(high[d]) * 0x1p-20});
+  }
+  if (!(size > 0) || !std::isfinite(size)) size = 1;
+  Grid grid;
+  for (size_t d = 0; d < 3; ++d) {
+    if (!(low[d] <= high[d])) low[d] = high[d] = 0;
+    grid.planes[d] = {std::max(low[d] - size, -1.7e308), std::min(high[d] + size, 1.7e308)};
+  }
+  return grid;
+}
+
+ResolvedMesh resolvedOf(const CutMesh& cutMesh) {
+  ResolvedMesh result;
+  const FaceTriangles faces = triangulateFaces(cutMesh);
+  operators::MeshWriter writer(cutMesh.positions, result.mesh);
+  result.parentOffsets.push_back(0);
+  result.hasWinding = cutMesh.hasWinding;
+  const std::vector<int32_t> owners = operators::ownersOf(cutMesh);
+  const auto windingAt = [&](size_t halfFace) {  // 0 beyond the grid
+    return owners[halfFace] < 0 ? 0 : cutMesh.regionWinding[cutMesh.cellRegion[size_t(owners[halfFace])]];
+  };
+  for (size_t f = 0; f < cutMesh.faceCount(); ++f) {
+    if (cutMesh.faceTriangle[f] < 0) continue;
+    for (uint32_t t = faces.faceTriangleOffsets[f]; t < faces.faceTriangleOffsets[f + 1]; ++t) {
+      writer.add(&faces.triangles[3 * size_t(t)], false);
+      for (uint32_t p = cutMesh.faceParentOffsets[f]; p < cutMesh.faceParentOffsets[f + 1]; ++p) {
+        result.parents.push_back(cutMesh.faceParents[p]);
+        result.parentSigns.push_back(cutMesh.faceParentSigns[p]);
+      }
+      result.parentOffsets.push_back(uint32_t(result.parents.size()));
+      if (!cutMesh.hasWinding) continue;
+      result.backWinding.push_back(windingAt(2 * f));
+      result.frontWinding.push_back(windingAt(2 * f + 1));
+    }
+  }
+  for (const uint32_t v : writer.used()) result.vertexTriVertex.push_back(cutMesh.vertexTriVertex[v]);
+  return result;
+}
+
+/// The options for one of the calls that a call is made of: its stages come after `before` others and before `after`. What
+/// options.progress throws is told from what the call throws.
+RunOptions optionsWithin(const RunOptions& options, int before, int after) {
+  RunOptions within = options;
+  if (!options.progress) return within;
+  within.progress = [&options, before, after](const Progress& part) {
+    try {
+      return options.progress({part.stage, before + part.stageIndex, before + part.stageCount + after, part.done, part.total});
+    } catch (...) {
+      throw detail::ProgressFailed{std::current_exception()};
+    }
+  };
+  return within;
+}
+
+constexpr int kCountingStages = 2;  // of findIntersections()
+
+/// Cuts, and counts the pairs that rounding brings back.
+void run(const MeshView& mesh, const RunOptions& options, ResolveResult& result) {
+  CutOptions cutOptions;
+  static_cast<RunOptions&>(cutOptions) = optionsWithin(options, 0, kCountingStages);
+  CutResult cutResult = cut(mesh, cellAround(mesh), cutOptions);
+  result.error = std::move(cutResult.error);
+  result.stats = std::move(cutResult.stats);
+  if (!result) return;
+  result.mesh = resolvedOf(cutResult.mesh);
+  if (result.stats.intersections.total() == 0) return;
+  IntersectionOptions counting;
+  static_cast<RunOptions&>(counting) = optionsWithin(options, int(result.stats.stages.size()), 0);
+  counting.maxPairs = 0;
+  result.remaining = findIntersections(result.mesh.mesh, counting).counts;
+}
+
+}  // namespace
+
+ResolveResult resolve(const MeshView& mesh, const RunOptions& options) {
+  ResolveResult result;
+  try {
+    run(mesh, options, result);
+    return result;
+  } catch (const detail::ProgressFailed& failure) {
+    std::rethrow_exception(failure.exception);
+  } catch (const CallError& failure) {
+    result.error = failure.error;
+  } catch (const std::bad_alloc&) {
+    result.error = {Status::outOfMemory, -1, -1, "There is not enough memory for this mesh."};
+  } catch (const std::length_error&) {
+    result.error = {Status::outOfMemory, -1, -1, "There is not enough memory for this mesh."};
+  }
+  result.mesh = {};
+  return result;
+}
+
+}  // namespace mandoline

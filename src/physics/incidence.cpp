@@ -1,0 +1,82 @@
+#include <algorithm>
+
+#include "mandoline/operators.h"
+#include "physics/sparse.h"
+
+namespace mandoline {
+namespace {
+
+using physics::assemble;
+using physics::Triplets;
+
+/// Calls f(from, to) for each directed edge of a face.
+template <class F>
+void forEachEdge(const CellComplex& cells, size_t face, const F& f) {
+  for (const auto loop : cells.loops(face)) {
+    for (size_t i = 0; i < loop.size(); ++i) f(loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]);
+  }
+}
+
+/// The place of an edge among all; there must be one.
+size_t find(const ComplexEdges& edges, uint32_t low, uint32_t high) {
+  size_t first = 0, past = edges.count();
+  while (first < past) {
+    const size_t middle = first + (past - first) / 2;
+    const uint32_t* ends = &edges.vertices[2 * middle];
+    if (ends[0] < low || (ends[0] == low && ends[1] < high))
+      first = middle + 1;
+    else
+      past = middle;
+  }
+  return first;
+}
+
+}  // namespace
+
+ComplexEdges complexEdges(const CellComplex& cells) {
+  std::vector<uint64_t> keys;
+  keys.reserve(cells.loopVertices.size());
+  for (size_t f = 0; f < cells.faceCount(); ++f) {
+    forEachEdge(cells, f, [&](uint32_t from, uint32_t to) { keys.push_back(uint64_t(std::min(from, to)) << 32 | std::max(from, to)); });
+  }
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  ComplexEdges edges;
+  edges.vertices.reserve(2 * keys.size());
+  for (const uint64_t key : keys) edges.vertices.insert(edges.vertices.end(), {uint32_t(key >> 32), uint32_t(key)});
+  return edges;
+}
+
+SparseMatrix cellFaceIncidence(const CellComplex& cells) {
+  Triplets entries;
+  for (size_t f = 0; f < cells.faceCount(); ++f) {
+    const int32_t front = cells.faceCells[2 * f], back = cells.faceCells[2 * f + 1];
+    if (front == back) continue;
+    if (front >= 0) entries.emplace_back(front, int(f), 1);
+    if (back >= 0) entries.emplace_back(back, int(f), -1);
+  }
+  return assemble(cells.cellCount(), cells.faceCount(), entries);
+}
+
+SparseMatrix faceEdgeIncidence(const CellComplex& cells, const ComplexEdges& edges) {
+  Triplets entries;
+  for (size_t f = 0; f < cells.faceCount(); ++f) {
+    forEachEdge(cells, f, [&](uint32_t from, uint32_t to) {
+      entries.emplace_back(int(f), int(find(edges, std::min(from, to), std::max(from, to))), from < to ? 1 : -1);
+    });
+  }
+  SparseMatrix matrix = assemble(cells.faceCount(), edges.count(), entries);
+  matrix.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0; });
+  return matrix;
+}
+
+SparseMatrix edgeVertexIncidence(const CellComplex& cells, const ComplexEdges& edges) {
+  Triplets entries;
+  for (size_t e = 0; e < edges.count(); ++e) {
+    entries.emplace_back(int(e), int(edges.vertices[2 * e]), -1);
+    entries.emplace_back(int(e), int(edges.vertices[2 * e + 1]), 1);
+  }
+  return assemble(edges.count(), cells.vertexCount(), entries);
+}
+
+}  // namespace mandoline

@@ -1,0 +1,93 @@
+#include "mandoline/operators.h"
+
+#include "physics/dual_edges.h"
+#include "physics/sparse.h"
+
+namespace mandoline {
+namespace {
+
+using physics::assemble;
+using physics::DualEdge;
+using physics::DualEdges;
+using physics::dualEdges;
+using physics::Triplets;
+
+SparseMatrix diagonal(const std::vector<double>& values) {
+  SparseMatrix matrix(Eigen::Index(values.size()), Eigen::Index(values.size()));
+  matrix.reserve(Eigen::VectorXi::Constant(Eigen::Index(values.size()), 1));
+  for (size_t i = 0; i < values.size(); ++i) matrix.insert(Eigen::Index(i), Eigen::Index(i)) = values[i];
+  matrix.makeCompressed();
+  return matrix;
+}
+
+/// Per face f(area, distance of the dual points), or 0 without a dual edge.
+template <class F>
+SparseMatrix diagonalOfFaces(const CellComplex& cells, DualPoints dualPoints, const F& f) {
+  std::vector<double> values(cells.faceCount());
+  const DualEdges dual = dualEdges(cells, dualPoints);
+  for (size_t e = 0; e < dual.edges.size(); ++e) {
+    for (const uint32_t face : dual.faces[e]) values[face] = f(cells.faceArea[face], dual.edges[e].distance);
+  }
+  return diagonal(values);
+}
+
+}  // namespace
+
+void physics::addLaplacian(const CellComplex& cells, const DualEdges& dual, double factor, Triplets& entries) {
+  for (size_t e = 0; e < dual.edges.size(); ++e) {
+    const DualEdge& edge = dual.edges[e];
+    const auto faces = dual.faces[e];
+    const double all = factor * edge.area / edge.distance;
+    const auto share = [&](uint32_t f) { return faces.size() == 1 ? 1 : cells.faceArea[f] / edge.area; };
+    entries.emplace_back(int(edge.cell), int(edge.cell), -all);
+    for (const uint32_t f : faces) {
+      const int other = int(otherCell(cells, edge, f));
+      entries.emplace_back(int(edge.cell), other, share(f) * all);
+      entries.emplace_back(other, int(edge.cell), share(f) * all);
+      for (const uint32_t g : faces) entries.emplace_back(other, int(otherCell(cells, edge, g)), -share(f) * share(g) * all);
+    }
+  }
+}
+
+SparseMatrix gradient(const CellComplex& cells, DualPoints dualPoints) {
+  const DualEdges dual = dualEdges(cells, dualPoints);
+  Triplets entries;
+  for (size_t e = 0; e < dual.edges.size(); ++e) {
+    const DualEdge& edge = dual.edges[e];
+    const double perLength = edge.sign / edge.distance;
+    for (const uint32_t f : dual.faces[e]) {
+      entries.emplace_back(int(f), int(edge.cell), -perLength);
+      for (const uint32_t other : dual.faces[e]) {
+        const double share = dual.faces[e].size() == 1 ? 1 : cells.faceArea[other] / edge.area;
+        entries.emplace_back(int(f), int(otherCell(cells, edge, other)), share * perLength);
+      }
+    }
+  }
+  return assemble(cells.faceCount(), cells.cellCount(), entries);
+}
+
+SparseMatrix divergence(const CellComplex& cells) {
+  SparseMatrix matrix = cellFaceIncidence(cells);
+  for (Eigen::Index f = 0; f < matrix.outerSize(); ++f) {
+    for (SparseMatrix::InnerIterator entry(matrix, f); entry; ++entry) entry.valueRef() *= cells.faceArea[size_t(f)];
+  }
+  return matrix;
+}
+
+SparseMatrix laplacian(const CellComplex& cells, DualPoints dualPoints) {
+  Triplets entries;
+  physics::addLaplacian(cells, dualEdges(cells, dualPoints), 1, entries);
+  return assemble(cells.cellCount(), cells.cellCount(), entries);
+}
+
+SparseMatrix cellMass(const CellComplex& cells) { return diagonal(cells.cellVolume); }
+
+SparseMatrix faceStar(const CellComplex& cells, DualPoints dualPoints) {
+  return diagonalOfFaces(cells, dualPoints, [](double area, double distance) { return area / distance; });
+}
+
+SparseMatrix faceMass(const CellComplex& cells, DualPoints dualPoints) {
+  return diagonalOfFaces(cells, dualPoints, [](double area, double distance) { return area * distance; });
+}
+
+}  // namespace mandoline

@@ -1,0 +1,284 @@
+// Files of all cells, read back: OpenFOAM's polyMesh, and .vtu files of cells and of faces.
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <numeric>
+#include <sstream>
+
+#include "case_list.h"
+#include "catch.h"
+#include "mandoline/io.h"
+#include "refusal.h"
+#include "shapes.h"
+#include "temporary_folder.h"
+
+using namespace mandoline;
+
+namespace {
+
+struct Cells {
+  CutMesh cutMesh;
+  CellComplex complex;
+
+  Cells(const Mesh& mesh, const Grid& grid, int levels) {
+    CutResult result = cut(mesh, grid);
+    REQUIRE(result);
+    cutMesh = std::move(result.mesh);
+    CoarsenOptions options;
+    options.maxLevel = levels;
+    complex = cellComplex(mesh, cutMesh, coarsen(cutMesh, options));
+  }
+};
+
+struct PolyMesh {
+  struct Patch {
+    std::string name, type;
+    size_t faces, start;
+  };
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::vector<size_t>> faces;
+  std::vector<size_t> owner, neighbour;
+  std::vector<Patch> patches;
+  std::vector<std::pair<std::string, size_t>> zones;  ///< names and numbers of cells
+
+  size_t cellCount() const { return owner.empty() ? 0 : *std::max_element(owner.begin(), owner.end()) + 1; }
+  const Patch& patch(const std::string& name) const {
+    return *std::find_if(patches.begin(), patches.end(), [&](const Patch& p) { return p.name == name; });
+  }
+};
+
+/// The words of a file after its head, without brackets and semicolons; the first one is the number of entries.
+std::vector<std::string> wordsOf(const TemporaryFolder& folder, const std::string& name) {
+  std::string text = folder.read("polyMesh/" + name);
+  text = text.substr(text.find('}') + 1);
+  std::vector<std::string> words;
+  std::string word;
+  for (const char c : text + ' ') {
+    if (std::strchr(" \n(){};", c)) {
+      if (!word.empty()) words.push_back(word);
+      word.clear();
+    } else {
+      word += c;
+    }
+  }
+  return words;
+}
+
+PolyMesh readPolyMesh(const TemporaryFolder& folder) {
+  PolyMesh mesh;
+  const auto number = [](const std::string& word) { return size_t(std::stoull(word)); };
+  std::vector<std::string> words = wordsOf(folder, "points");
+  for (size_t i = 1; i < words.size(); i += 3)
+    mesh.points.push_back({std::stod(words[i]), std::stod(words[i + 1]), std::stod(words[i + 2])});
+  REQUIRE(mesh.points.size() == number(words[0]));
+  words = wordsOf(folder, "faces");
+  for (size_t i = 1; i < words.size();) {
+    const size_t size = number(words[i++]);
+    mesh.faces.emplace_back();
+    for (size_t k = 0; k < size; ++k) mesh.faces.back().push_back(number(words[i++]));
+  }
+  REQUIRE(mesh.faces.size() == number(words[0]));
+  words = wordsOf(folder, "owner");
+  for (size_t i = 1; i < words.size(); ++i) mesh.owner.push_back(number(words[i]));
+  words = wordsOf(folder, "neighbour");
+  for (size_t i = 1; i < words.size(); ++i) mesh.neighbour.push_back(number(words[i]));
+  words = wordsOf(folder, "boundary");
+  for (size_t i = 1; i + 6 < words.size(); i += 7)
+    mesh.patches.push_back({words[i], words[i + 2], number(words[i + 4]), number(words[i + 6])});
+  REQUIRE(mesh.patches.size() == number(words[0]));
+  if (!std::filesystem::exists(folder.path("polyMesh/cellZones"))) return mesh;
+  words = wordsOf(folder, "cellZones");
+  for (size_t i = 1; i < words.size(); i += 6 + mesh.zones.back().second) mesh.zones.push_back({words[i], number(words[i + 5])});
+  return mesh;
+}
+
+/// Faces in OpenFOAM's order, patches that follow each other, closed cells, and no point without a face.
+void requireSound(const PolyMesh& mesh) {
+  REQUIRE(mesh.owner.size() == mesh.faces.size());
+  for (size_t f = 0; f < mesh.neighbour.size(); ++f) {
+    REQUIRE(mesh.owner[f] < mesh.neighbour[f]);
+    if (f > 0) REQUIRE(std::pair(mesh.owner[f - 1], mesh.neighbour[f - 1]) <= std::pair(mesh.owner[f], mesh.neighbour[f]));
+  }
+  size_t next = mesh.neighbour.size();
+  for (const PolyMesh::Patch& patch : mesh.patches) {
+    REQUIRE(patch.start == next);
+    next += patch.faces;
+  }
+  REQUIRE(next == mesh.faces.size());
+
+  std::vector<bool> used(mesh.points.size());
+  std::vector<std::map<std::pair<size_t, size_t>, int>> edges(mesh.cellCount());
+  for (size_t f = 0; f < mesh.faces.size(); ++f) {
+    const std::vector<size_t>& face = mesh.faces[f];
+    std::vector<size_t> sorted = face;
+    std::sort(sorted.begin(), sorted.end());
+    REQUIRE(face.size() >= 3);
+    REQUIRE(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
+    for (size_t i = 0; i < face.size(); ++i) {
+      used.at(face[i]) = true;
+      const size_t a = face[i], b = face[(i + 1) % face.size()];
+      const std::pair<size_t, size_t> edge = std::minmax(a, b);
+      edges[mesh.owner[f]][edge] += a < b ? 1 : -1;
+      if (f < mesh.neighbour.size()) edges[mesh.neighbour[f]][edge] += a < b ? -1 : 1;
+    }
+  }
+  REQUIRE(std::find(used.begin(), used.end(), false) == used.end());
+  for (const auto& ofCell : edges) {
+    for (const auto& [edge, sum] : ofCell) REQUIRE(sum == 0);
+  }
+}
+
+std::vector<double> volumes(const PolyMesh& mesh) {
+  std::vector<double> volumes(mesh.cellCount());
+  for (size_t f = 0; f < mesh.faces.size(); ++f) {
+    double volume = 0;
+    const auto& a = mesh.points[mesh.faces[f][0]];
+    for (size_t i = 2; i < mesh.faces[f].size(); ++i) {
+      const auto &b = mesh.points[mesh.faces[f][i - 1]], &c = mesh.points[mesh.faces[f][i]];
+      volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6;
+    }
+    volumes[mesh.owner[f]] += volume;
+    if (f < mesh.neighbour.size()) volumes[mesh.neighbour[f]] -= volume;
+  }
+  return volumes;
+}
+
+PolyMesh writtenPolyMesh(const Cells& cells, const WriteOptions& options = {}) {
+  const TemporaryFolder folder;
+  writePolyMesh(folder.path("polyMesh"), cells.cutMesh, cells.complex, options);
+  PolyMesh mesh = readPolyMesh(folder);
+  requireSound(mesh);
+  return mesh;
+}
+
+/// Two spheres, one in the other, in a grid with grid-faces that have holes.
+const Mesh kShell = shapes::merged({shapes::icosphere({0, 0, 0}, 1, 2), shapes::flipped(shapes::icosphere({0, 0, 0}, 0.4, 2))});
+
+std::string vtuOf(const Cells& cells, bool faces, std::span<const Field> fields, const WriteOptions& options = {}) {
+  std::string bytes;
+  const Sink sink = [&](std::string_view piece) { bytes += piece; };
+  if (faces) {
+    writeFacesVtu(sink, cells.cutMesh, cells.complex, fields, options);
+  } else {
+    writeVtu(sink, cells.cutMesh, cells.complex, fields, options);
+  }
+  return bytes;
+}
+
+/// An array of a .vtu file by its name.
+template <class Number>
+std::vector<Number> arrayOf(const std::string& vtu, const std::string& name) {
+  const size_t at = vtu.find("offset=\"", vtu.find("Name=\"" + name + '"')) + 8;
+  const size_t begin = vtu.find("<AppendedData encoding=\"raw\">\n_") + 31 + std::stoull(vtu.substr(at));
+  uint64_t size;
+  std::memcpy(&size, vtu.data() + begin, sizeof size);
+  std::vector<Number> numbers(size / sizeof(Number));
+  std::memcpy(numbers.data(), vtu.data() + begin + sizeof size, size);
+  return numbers;
+}
+
+}  // namespace
+
+TEST_CASE("polyMesh: sound and of the right volumes on all cases", "[cellfiles]") {
+  for (const NamedCase& c : caseList()) {
+    for (const int levels : {0, 24}) {
+      INFO(c.name << " with levels " << levels);
+      const Cells cells(c.mesh, c.grid, levels);
+      const PolyMesh mesh = writtenPolyMesh(cells);
+      const std::vector<double> found = volumes(mesh);
+      REQUIRE(found.size() == cells.complex.cellCount());
+      double all = 0;
+      for (const double v : cells.complex.cellVolume) all += v;
+      for (size_t i = 0; i < found.size(); ++i) REQUIRE(std::fabs(found[i] - cells.complex.cellVolume[i]) <= 1e-9 * all);
+    }
+  }
+}
+
+TEST_CASE("polyMesh: patches of the box's sides and of both sides of the surface", "[cellfiles]") {
+  const Cells cells(shapes::quad({0.5, 0.5, 1.5}, {2.5, 0.5, 1.5}, {2.5, 2.5, 1.5}, {0.5, 2.5, 1.5}),
+                    Grid::box({0, 0, 0}, {3, 3, 3}, {3, 3, 3}), 0);
+  const PolyMesh mesh = writtenPolyMesh(cells);
+  std::vector<std::string> names;
+  for (const PolyMesh::Patch& patch : mesh.patches) names.push_back(patch.name + ' ' + patch.type);
+  CHECK(names ==
+        std::vector<std::string>{"xMin patch", "xMax patch", "yMin patch", "yMax patch", "zMin patch", "zMax patch", "surface wall"});
+  CHECK(mesh.patch("xMin").faces == 9);
+  size_t pieces = 0;
+  for (const FaceTag tag : cells.complex.faceTag) pieces += tag == FaceTag::surface;
+  CHECK(mesh.patch("surface").faces == 2 * pieces);
+  CHECK(mesh.zones.empty());
+}
+
+TEST_CASE("polyMesh: a zone per region, or the cells of some regions only", "[cellfiles]") {
+  const Cells cells(kShell, Grid::around(kShell, 6), 2);
+  REQUIRE(cells.cutMesh.regionCount == 3);
+  const PolyMesh all = writtenPolyMesh(cells);
+  REQUIRE(all.zones.size() == 3);
+  for (uint32_t r = 0; r < 3; ++r) {
+    WriteOptions options;
+    options.regions.assign(3, 0);
+    options.regions[r] = 1;
+    const PolyMesh one = writtenPolyMesh(cells, options);
+    CHECK(all.zones[r] == std::pair("region" + std::to_string(r), one.cellCount()));
+    CHECK(one.zones.empty());
+    double expected = 0;
+    for (size_t c = 0; c < cells.complex.cellCount(); ++c) expected += cells.complex.cellRegion[c] == r ? cells.complex.cellVolume[c] : 0;
+    const std::vector<double> found = volumes(one);
+    CHECK(std::accumulate(found.begin(), found.end(), 0.0) == Approx(expected));
+  }
+}
+
+TEST_CASE("polyMesh: without untouched cells there is a patch towards them", "[cellfiles]") {
+  const Cells cells(kShell, Grid::around(kShell, 12), 0);
+  WriteOptions options;
+  options.untouched = false;
+  const PolyMesh mesh = writtenPolyMesh(cells, options);
+  CHECK(mesh.cellCount() == cells.cutMesh.cellCount());
+  CHECK(mesh.patch("inner").faces > 0);
+}
+
+TEST_CASE("polyMesh: written over another one, or not at all", "[cellfiles]") {
+  const Cells cells(kShell, Grid::around(kShell, 6), 2), other(kShell, Grid::around(kShell, 5), 2);
+  const TemporaryFolder folder;
+  writePolyMesh(folder.path("polyMesh"), cells.cutMesh, cells.complex);
+  WriteOptions inside;
+  inside.regions = {1, 0, 0};
+  writePolyMesh(folder.path("polyMesh"), cells.cutMesh, cells.complex, inside);
+  CHECK(readPolyMesh(folder).zones.empty());
+  folder.write("file", "");
+  CHECK_THROWS_AS(writePolyMesh(folder.path("file"), cells.cutMesh, cells.complex), FileError);
+  CHECK(refusal([&] { writePolyMesh(folder.path("a"), cells.cutMesh, other.complex); }).first == Status::badArgument);
+  WriteOptions cancelled;
+  cancelled.progress = [](const Progress& progress) { return progress.stageIndex < 2; };
+  CHECK(refusal([&] { writePolyMesh(folder.path("b"), cells.cutMesh, cells.complex, cancelled); }).first == Status::cancelled);
+  CHECK(std::filesystem::is_empty(folder.path("b")));
+}
+
+TEST_CASE("cells and faces are written as .vtu with fields", "[cellfiles]") {
+  const Cells cells(kShell, Grid::around(kShell, 3), 2);
+  std::vector<double> perCell(cells.complex.cellCount()), perFace(3 * cells.complex.faceCount());
+  std::iota(perCell.begin(), perCell.end(), 0.0);
+  std::iota(perFace.begin(), perFace.end(), 0.0);
+  const Field ofCells[] = {{"pressure", perCell}}, ofFaces[] = {{"velocity", perFace}};
+
+  const std::string cellFile = vtuOf(cells, false, ofCells);
+  CHECK(arrayOf<double>(cellFile, "pressure") == perCell);
+  CHECK(arrayOf<double>(cellFile, "volume") == cells.complex.cellVolume);
+  CHECK(arrayOf<int32_t>(cellFile, "grid_cell") == cells.complex.cellCorner);
+  WriteOptions cutOnly;
+  cutOnly.untouched = false;
+  perCell.resize(cells.complex.cutCells);
+  CHECK(arrayOf<double>(vtuOf(cells, false, ofCells, cutOnly), "pressure") == perCell);
+
+  const std::string faceFile = vtuOf(cells, true, ofFaces);
+  const std::vector<int32_t> face = arrayOf<int32_t>(faceFile, "face");
+  const std::vector<double> velocity = arrayOf<double>(faceFile, "velocity");
+  REQUIRE(velocity.size() == 3 * face.size());
+  CHECK(face.size() > cells.complex.faceCount());  // those with holes are divided
+  for (size_t i = 0; i < velocity.size(); ++i) REQUIRE(velocity[i] == double(3 * face[i / 3]) + double(i % 3));
+  CHECK(arrayOf<int64_t>(faceFile, "connectivity").size() == size_t(arrayOf<int64_t>(faceFile, "offsets").back()));
+
+  CHECK(refusal([&] { vtuOf(cells, true, ofCells); }).first == Status::badArgument);
+  const Field odd[] = {{"a<b", perFace}};
+  CHECK(refusal([&] { vtuOf(cells, true, odd); }).first == Status::badArgument);
+}

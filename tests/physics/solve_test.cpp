@@ -1,0 +1,249 @@
+// Poisson's equation solved: against exact solutions, and what data without a solution get.
+#include <Eigen/Dense>
+
+#include "case_list.h"
+#include "checked_cut.h"
+#include "physics/complexes.h"
+#include "refusal.h"
+#include "shapes.h"
+
+using namespace mandoline;
+
+namespace {
+
+const std::array<double, 3> kField = {0.75, -1.25, 0.5};
+
+Mesh ball() { return shapes::icosphere({3.3, 3.1, 2.9}, 1.7, 2); }
+
+SolveOptions within(double tolerance) {
+  SolveOptions options;
+  options.tolerance = tolerance;
+  return options;
+}
+
+/// The conditions of a wind that blows through everything.
+PoissonProblem windThrough(const CellComplex& cells, const std::array<double, 3>& wind) {
+  PoissonProblem problem;
+  problem.boundary = boundaryOf(cells);
+  problem.boundary.value = products(wind, outwardNormals(problem.boundary, cells));
+  return problem;
+}
+
+/// Those of a wind that the surface stops.
+PoissonProblem windAround(const CellComplex& cells, const std::array<double, 3>& wind) {
+  PoissonProblem problem = windThrough(cells, wind);
+  setBoundary(problem.boundary, cells, FaceTag::surface, Condition::neumann, 0);
+  return problem;
+}
+
+/// The largest error against a linear field, up to a constant per component.
+double linearError(const CellComplex& cells, const std::vector<double>& phi, const std::array<double, 3>& field) {
+  const CellComponents components = cellComponents(cells);
+  std::vector<double> low(components.count, HUGE_VAL), high(components.count, -HUGE_VAL);
+  for (size_t c = 0; c < cells.cellCount(); ++c) {
+    const uint32_t r = components.cellComponent[c];
+    const double error = phi[c] - dot(field, cells.cellCentre, c);
+    low[r] = std::min(low[r], error), high[r] = std::max(high[r], error);
+  }
+  double largest = 0;
+  for (size_t r = 0; r < components.count; ++r) largest = std::max(largest, high[r] - low[r]);
+  return largest;
+}
+
+/// phi = sin(x) cos(y) exp(z / 2) outside of a ball: its values on the grid's sides, its normal derivative on the ball. Errors, mean and
+/// largest.
+std::array<double, 2> errorsOutsideOfBall(int64_t n, int maxLevel) {
+  const auto phi = [](const double* x) { return std::sin(x[0]) * std::cos(x[1]) * std::exp(x[2] / 2); };
+  const CellComplex all =
+      complexOf(shapes::icosphere({0.1, 0.05, -0.02}, 0.6, 5), Grid::box({-1, -1, -1}, {1, 1, 1}, {n, n, n}), maxLevel, 1);
+  const CellComplex cells = regionComplex(all, all.cellRegion.back()).cells;
+  PoissonProblem problem;
+  problem.boundary = boundaryOf(cells);
+  const std::vector<double> normals = outwardNormals(problem.boundary, cells);
+  for (size_t b = 0; b < problem.boundary.halfFaces.size(); ++b) {
+    const size_t f = problem.boundary.halfFaces[b] / 2;
+    const double* x = &cells.faceCentroid[3 * f];
+    if (cells.faceTag[f] != FaceTag::surface) {
+      problem.boundary.condition[b] = Condition::dirichlet;
+      problem.boundary.value[b] = phi(x);
+      continue;
+    }
+    const double e = std::exp(x[2] / 2);
+    problem.boundary.value[b] = dot({std::cos(x[0]) * std::cos(x[1]) * e, -std::sin(x[0]) * std::sin(x[1]) * e, phi(x) / 2}, normals, b);
+  }
+  for (size_t c = 0; c < cells.cellCount(); ++c) problem.source.push_back(-1.75 * phi(&cells.cellCentroid[3 * c]) * cells.cellVolume[c]);
+  const Solution solution = solvePoisson(cells, problem);
+  REQUIRE(solution.status == SolveStatus::converged);
+  double sum = 0, volume = 0, most = 0;
+  for (size_t c = 0; c < cells.cellCount(); ++c) {
+    const double error = std::fabs(solution.phi[c] - phi(&cells.cellCentre[3 * c]));
+    sum += error * cells.cellVolume[c], volume += cells.cellVolume[c], most = std::max(most, error);
+  }
+  return {sum / volume, most};
+}
+
+}  // namespace
+
+TEST_CASE("solve: linear fields come out in all cases, single grid cells and octree cells", "[solve]") {
+  for (const NamedCase& c : caseList()) {
+    for (const int maxLevel : {0, 24}) {
+      const CellComplex cells = complexOf(c.mesh, c.grid, maxLevel);
+      const Solution solution = solvePoisson(cells, windThrough(cells, kField), within(1e-13));
+      CAPTURE(c.name, maxLevel, solution.residuals);
+      CHECK(solution.status == SolveStatus::converged);
+      CHECK(linearError(cells, solution.phi, kField) <= 1e-10 * sizeOf(cells));
+    }
+  }
+}
+
+TEST_CASE("solve: second order outside of a ball, single grid cells and octree cells of two sizes", "[solve]") {
+  for (const int maxLevel : {0, 1}) {
+    const int64_t n = maxLevel ? 32 : 16;
+    const auto coarse = errorsOutsideOfBall(n, maxLevel), fine = errorsOutsideOfBall(2 * n, maxLevel);
+    CAPTURE(maxLevel, coarse, fine);
+    CHECK(std::log2(coarse[0] / fine[0]) >= 1.8);
+    CHECK(std::log2(coarse[1] / fine[1]) >= 1.5);
+  }
+}
+
+TEST_CASE("solve: what a direct solver finds", "[solve]") {
+  const CellComplex cells = complexOf(ball(), unitGrid(7));
+  for (const DualPoints points : {DualPoints::centres, DualPoints::centroids}) {
+    PoissonProblem problem = windAround(cells, kField);
+    problem.dualPoints = points;
+    setBoundary(problem.boundary, cells, FaceTag::surface, Condition::dirichlet, 2);
+    setBoundary(problem.boundary, cells, FaceTag::xMax, Condition::dirichlet, -1);
+    const PoissonSystem system = poissonSystem(cells, problem);
+    const Eigen::VectorXd expected = Eigen::MatrixXd(system.matrix).ldlt().solve(vectorOf(system.rhs));
+    const Solution solution = solvePoisson(cells, problem, within(1e-13));
+    CHECK(solution.status == SolveStatus::converged);
+    CHECK(largest(vectorOf(solution.phi) - expected) <= 1e-9);
+  }
+}
+
+TEST_CASE("solve: as many iterations on fine grids as on coarse ones", "[solve]") {
+  std::vector<size_t> iterations;
+  for (const int64_t n : {8, 16, 32}) {
+    const CellComplex cells = complexOf(shapes::torus({0, 0, 0}, 0.6, 0.2, 24, 12), Grid::box({-1, -1, -1}, {1, 1, 1}, {n, n, n}));
+    iterations.push_back(solvePoisson(cells, windAround(cells, {1, 0, 0})).iterations());
+  }
+  CAPTURE(iterations);
+  CHECK(iterations[2] <= iterations[0] + 6);
+  CHECK(iterations[2] <= 24);
+}
+
+TEST_CASE("solve: two halves of a long channel, joined by a slit", "[solve]") {
+  // Blocks halve along one axis only, and on each level the halves are joined as weakly as on the finest.
+  const CellComplex cells = complexOf(shapes::quad({32, -1, -1}, {32, 1.9, -1}, {32, 1.9, 3}, {32, -1, 3}), unitGrid(64, 2, 2));
+  REQUIRE(cellComponents(cells).count == 1);
+  const Solution solution = solvePoisson(cells, windThrough(cells, kField), within(1e-13));
+  CAPTURE(solution.residuals);
+  CHECK(solution.status == SolveStatus::converged);
+  CHECK(linearError(cells, solution.phi, kField) <= 1e-10 * 64);
+}
+
+TEST_CASE("solve: a plate edge-on changes nothing, broadside it blocks", "[solve]") {
+  const CellComplex cells = complexOf(shapes::quad({1.5, 1.5, 2.5}, {4.5, 1.5, 2.5}, {4.5, 4.5, 2.5}, {1.5, 4.5, 2.5}), unitGrid(6));
+  CHECK(linearError(cells, solvePoisson(cells, windAround(cells, {1, 0.5, 0}), within(1e-13)).phi, {1, 0.5, 0}) <= 1e-10);
+  const Solution broadside = solvePoisson(cells, windAround(cells, {0, 0, 1}));
+  CHECK(broadside.status == SolveStatus::converged);
+  // phi jumps at the plate: the wind is dammed on one side.
+  double before = 0, behind = 0;
+  for (size_t c = 0; c < cells.cellCount(); ++c) {
+    if (cells.cellCorner[3 * c] != 3 || cells.cellCorner[3 * c + 1] != 3 || cells.cellCorner[3 * c + 2] != 2) continue;
+    (cells.cellCentroid[3 * c + 2] < 2.5 ? before : behind) = broadside.phi[c];
+  }
+  CHECK(behind - before > 1);
+}
+
+TEST_CASE("solve: inside of a closed shell nothing flows", "[solve]") {
+  const CellComplex cells = complexOf(ball(), unitGrid(7));
+  const Solution solution = solvePoisson(cells, windAround(cells, {1, 0, 0}));
+  for (size_t c = 0; c < cells.cellCount(); ++c) {
+    if (cells.cellRegion[c] != cells.cellRegion.back()) REQUIRE(std::fabs(solution.phi[c]) <= 1e-12);
+  }
+}
+
+TEST_CASE("solve: the free constant", "[solve]") {
+  const CellComplex cells = complexOf(ball(), unitGrid(7));
+  SolveOptions options;
+  const PoissonProblem problem = windThrough(cells, kField);
+  const CellComponents components = cellComponents(cells);
+  REQUIRE(components.count == 2);
+  const std::vector<double> mean = solvePoisson(cells, problem, options).phi;
+  std::vector<double> sums(2);
+  for (size_t c = 0; c < cells.cellCount(); ++c) sums[components.cellComponent[c]] += mean[c] * cells.cellVolume[c];
+  CHECK(std::fabs(sums[0]) <= 1e-10);
+  CHECK(std::fabs(sums[1]) <= 1e-10);
+  options.freeConstant = FreeConstant::pinned;
+  const std::vector<double> pinned = solvePoisson(cells, problem, options).phi;
+  for (uint32_t r = 0; r < 2; ++r) {
+    const auto first = std::find(components.cellComponent.begin(), components.cellComponent.end(), r);
+    CHECK(pinned[size_t(first - components.cellComponent.begin())] == 0);
+  }
+  CHECK(pinned.back() - pinned[cells.cellCount() - 2] == Approx(mean.back() - mean[cells.cellCount() - 2]));
+}
+
+TEST_CASE("solve: data without a solution are incompatible, unless they are balanced", "[solve]") {
+  const CellComplex cells = complexOf(ball(), unitGrid(7));
+  PoissonProblem problem = windAround(cells, {1, 0, 0});
+  const CellComponents components = cellComponents(cells);
+  setBoundary(problem.boundary, cells, FaceTag::xMax, Condition::neumann, 3);
+  SolveOptions options;
+  const Solution refused = solvePoisson(cells, problem, options);
+  CHECK(refused.status == SolveStatus::incompatible);
+  CHECK(refused.component == int64_t(components.cellComponent.back()));
+  CHECK(refused.excess == Approx(2 * 49));
+  CHECK(refused.phi == std::vector<double>(cells.cellCount()));
+  options.balance = true;
+  CHECK(solvePoisson(cells, problem, options).status == SolveStatus::converged);
+  options.balance = false;
+  setBoundary(problem.boundary, cells, FaceTag::yMin, Condition::dirichlet, 0);
+  CHECK(solvePoisson(cells, problem, options).status == SolveStatus::converged);
+  // A sheet through the whole grid: what blows in can't get out.
+  const CellComplex halves = complexOf(shapes::quad({-1, -1, 2.5}, {9, -1, 2.5}, {9, 9, 2.5}, {-1, 9, 2.5}), unitGrid(5));
+  CHECK(solvePoisson(halves, windAround(halves, {0, 0, 1})).status == SolveStatus::incompatible);
+  CHECK(solvePoisson(halves, windAround(halves, {1, 0, 0})).status == SolveStatus::converged);
+}
+
+TEST_CASE("solve: limits, numbers that are too large, no cells at all", "[solve]") {
+  const CellComplex cells = complexOf(ball(), unitGrid(7));
+  PoissonProblem problem = windAround(cells, {1, 0, 0});
+  SolveOptions options;
+  options.maxIterations = 2;
+  const Solution few = solvePoisson(cells, problem, options);
+  CHECK(few.status == SolveStatus::iterationLimit);
+  CHECK(few.iterations() == 2);
+  CHECK(few.residuals[2] < few.residuals[0]);
+  options.maxIterations = 500;
+  problem = windAround(cells, {1e300, 0, 0});
+  CHECK(solvePoisson(cells, problem, options).status == SolveStatus::breakdown);
+  problem = windAround(cells, {0, 0, 0});
+  CHECK(solvePoisson(cells, problem, options).phi == std::vector<double>(cells.cellCount()));
+  CHECK(solvePoisson(subComplex(cells, {}).cells, PoissonProblem()).status == SolveStatus::converged);
+  options.tolerance = 0;
+  CHECK(refusal([&] { solvePoisson(cells, problem, options); }).first == Status::badOption);
+  options = {}, options.maxIterations = -1;
+  CHECK(refusal([&] { solvePoisson(cells, problem, options); }).first == Status::badOption);
+}
+
+TEST_CASE("solve: progress grows and cancels; the same bits for any number of threads", "[solve]") {
+  const CellComplex cells = complexOf(ball(), unitGrid(7));
+  const PoissonProblem problem = windAround(cells, {1, 0, 0});
+  SolveOptions options;
+  std::vector<size_t> done;
+  options.progress = [&](const Progress& p) {
+    if (p.stageIndex == 1 && p.total == 1000) done.push_back(p.done);
+    return true;
+  };
+  options.threads = 1;
+  const Solution one = solvePoisson(cells, problem, options);
+  CHECK(done.size() == one.iterations());
+  CHECK(done.back() > 500);
+  options.threads = 3;
+  const Solution three = solvePoisson(cells, problem, options);
+  CHECK(one.phi == three.phi);
+  CHECK(one.residuals == three.residuals);
+  options.progress = [&](const Progress& p) { return p.done < 300; };
+  CHECK(refusal([&] { solvePoisson(cells, problem, options); }).first == Status::cancelled);
+}
