@@ -9,12 +9,21 @@
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 
+// Sanitizers set aside more memory than a machine has. Gcc and clang say in two ways that they are there.
+#if defined(__SANITIZE_ADDRESS__)
+#define MANDOLINE_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define MANDOLINE_SANITIZED
+#endif
+#endif
+
 namespace mandoline::cli {
 namespace {
 
 /// Lets allocations beyond the machine's memory fail, so that a cut too large for it ends with a status rather than by the system's hand.
 void limitMemory() {
-#if !defined(__SANITIZE_ADDRESS__) && defined(_SC_PHYS_PAGES)
+#if !defined(MANDOLINE_SANITIZED) && defined(_SC_PHYS_PAGES)
   const long pages = sysconf(_SC_PHYS_PAGES), pageSize = sysconf(_SC_PAGESIZE);
   rlimit limit{};
   if (pages <= 0 || pageSize <= 0 || getrlimit(RLIMIT_DATA, &limit) != 0) return;
