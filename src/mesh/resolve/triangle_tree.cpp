@@ -1,18 +1,23 @@
 #include "mesh/resolve/triangle_tree.h"
 
+#include <cmath>
+
 #include "base/csr.h"
 
 namespace mandoline::detail {
 
 namespace {
 
-Box boxOf(const SortedMesh& mesh, size_t triangle) {
+/// Scaled coordinates are 0 or between 2^-80 and 2^122 (see Scale), so that single precision holds them all, rounded.
+LooseBox boxOf(const SortedMesh& mesh, size_t triangle) {
   const auto& v = mesh.triangles[triangle];
   const Point &a = mesh.points[v[0]], &b = mesh.points[v[1]], &c = mesh.points[v[2]];
-  Box box;
+  const auto room = [](float x) { return std::fabs(x) * 0x1p-23f; };  // more than x was rounded by
+  LooseBox box;
   for (size_t d = 0; d < 3; ++d) {
-    box.low[d] = std::min(std::min(a[d], b[d]), c[d]);
-    box.high[d] = std::max(std::max(a[d], b[d]), c[d]);
+    const float low = float(std::min(std::min(a[d], b[d]), c[d])), high = float(std::max(std::max(a[d], b[d]), c[d]));
+    box.low[d] = low - room(low);
+    box.high[d] = high + room(high);
   }
   return box;
 }
@@ -80,7 +85,7 @@ std::vector<TriangleTree::LeafPair> TriangleTree::overlappingLeaves() const {
   return pairs;
 }
 
-TriangleTree::Reaching TriangleTree::reaching(const Node& leaf, const Box& box) const {
+TriangleTree::Reaching TriangleTree::reaching(const Node& leaf, const LooseBox& box) const {
   Reaching found;
   for (uint32_t i = leaf.begin; i < leaf.end; ++i) {
     found.items[found.count] = &items_[i];

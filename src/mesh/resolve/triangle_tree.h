@@ -1,10 +1,31 @@
 // Pairs of triangles whose boxes overlap.
 #pragma once
 
-#include "base/box_tree.h"
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
 #include "mesh/resolve/sorted_mesh.h"
 
 namespace mandoline::detail {
+
+/// A box in single precision, which holds what it is made around: half the memory.
+struct LooseBox {
+  std::array<float, 3> low, high;
+
+  bool overlaps(const LooseBox& other) const {
+    int within = 1;  // without branches, which are hard to foretell here
+    for (size_t d = 0; d < 3; ++d) within &= int(low[d] <= other.high[d]) & int(other.low[d] <= high[d]);
+    return within != 0;
+  }
+  void include(const LooseBox& other) {
+    for (size_t d = 0; d < 3; ++d) {
+      low[d] = std::min(low[d], other.low[d]);
+      high[d] = std::max(high[d], other.high[d]);
+    }
+  }
+};
 
 /// A tree of boxes around the triangles of a sorted mesh, whose nodes part groups, and halve those in the mesh's order. Pairs in one group
 /// are of no interest.
@@ -17,7 +38,8 @@ class TriangleTree {
   using LeafPair = std::array<uint32_t, 2>;
   std::vector<LeafPair> overlappingLeaves() const;
 
-  /// Calls f(i, j) for the pairs of triangles in two leaves that are in different groups and whose boxes overlap.
+  /// Calls f(i, j) for the pairs of triangles in two leaves that are in different groups and whose boxes overlap, or would if they were a
+  /// rounding larger.
   template <class F>
   void forOverlapping(const LeafPair& leaves, const F& f) const;
 
@@ -25,12 +47,12 @@ class TriangleTree {
   static constexpr uint32_t kLeaf = 16, kMixed = ~0u;
 
   struct Item {
-    Box box;
+    LooseBox box;
     uint32_t group, triangle;
   };
   /// In depth-first order, so that past a node comes what is not below it; a leaf has nothing below.
   struct Node {
-    Box box;
+    LooseBox box;
     uint32_t begin, end, past;  ///< begin, end: into items_
     uint32_t group;             ///< of all its triangles, or kMixed
   };
@@ -44,7 +66,7 @@ class TriangleTree {
   uint32_t middleOf(uint32_t begin, uint32_t end) const;
   bool isLeaf(uint32_t node) const { return nodes_[node].past == node + 1; }
   bool inOneGroup(uint32_t a, uint32_t b) const { return nodes_[a].group == nodes_[b].group && nodes_[a].group != kMixed; }
-  Reaching reaching(const Node& leaf, const Box& box) const;
+  Reaching reaching(const Node& leaf, const LooseBox& box) const;
 
   std::vector<Item> items_;       // by group, in the mesh's order
   std::vector<uint32_t> starts_;  // per group: where its items start
