@@ -4,7 +4,7 @@
 // exact predicates in place of floating-point decisions. This header has all of the library mandoline::mandoline. grid.h, cut.h and
 // cut_mesh.h are about the cut and its result; mesh.h, prepare.h, intersections.h, resolve.h, inspect.h and shapes.h about meshes;
 // measure.h, triangulate.h, locate.h, slice.h, coarsen.h, cell_complex.h and validate.h work on cut-meshes and see nothing but these public
-// structs. Files are in io.h; operators.h and poisson.h, which need Eigen, compute on all cells.
+// structs. Files are in io.h; operators.h, poisson.h and flow.h, which need Eigen, compute on all cells.
 //
 //   mandoline::Mesh mesh = mandoline::readMesh("bunny.obj");  // io.h
 //   mandoline::CutResult result = mandoline::cut(mesh, mandoline::Grid::around(mesh, 32));
