@@ -8,6 +8,7 @@
 #include "catch.h"
 #include "mandoline/cell_complex.h"
 #include "mandoline/measure.h"
+#include "mandoline/validate.h"
 
 /// The directed edges of each cell's faces cancel: the boundary of its boundary is empty. So faces leave no gap, and edges have all
 /// vertices that lie on them.
@@ -82,6 +83,7 @@ inline mandoline::CellComplex checkedComplex(const mandoline::Mesh& mesh, const 
   const mandoline::OctreeCells octree = mandoline::coarsen(cutMesh, options);
   const mandoline::CellComplex cells = mandoline::cellComplex(mesh, cutMesh, octree);
   REQUIRE(cells.cellCount() == cutMesh.cellCount() + octree.cellCount());
+  REQUIRE(mandoline::checkArrays(cells).message.empty());
   requireClosedCells(cells);
   requireAreasAndVolumes(cells, mesh, cutMesh);
   requireBalance(cells, octree);

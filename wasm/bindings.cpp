@@ -4,8 +4,6 @@
 // Every call gives { value } or { error: { code, message, stage, element, element2 } }, since what C++ throws would arrive opaque.
 #include <emscripten/bind.h>
 
-#include <functional>
-
 #include "cut_meshes.h"
 #include "mandoline/locate.h"
 #include "mandoline/measure.h"
@@ -19,19 +17,6 @@ namespace {
 
 using namespace mandoline;
 using namespace mandoline::wasm;
-
-/// The JavaScript callback, if there is one.
-std::function<bool(const Progress&)> progressOf(const val& options) {
-  const val callback = options["progress"];
-  if (callback.isUndefined()) return {};
-  return [callback](const Progress& progress) { return callback(toObject(progress)).as<bool>(); };
-}
-
-RunOptions runOptions(const val& options) {
-  RunOptions result;
-  result.progress = progressOf(options);
-  return result;
-}
 
 val lastStage(const CutStats& stats) { return val(std::string(stats.stages.empty() ? "input" : stats.stages.back().stage)); }
 
@@ -102,7 +87,7 @@ val keepCutMesh(const val& object, bool checked) {
   return guarded([&] {
     CutMesh cutMesh = readCutMesh(object);
     const Check check = checked ? checkArrays(cutMesh) : Check();
-    if (!check.pass) return failure("badArgument", "The arrays of cutMesh don't fit together: " + check.message + ".");
+    if (!check.pass) return failure("badArgument", "The arrays of cutMesh don't fit together: " + check.message);
     return success(val(KeptCutMesh(std::move(cutMesh))));
   });
 }

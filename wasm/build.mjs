@@ -1,5 +1,5 @@
-// Builds the package into dist/: compiles the C++ core to WebAssembly and puts the JavaScript and the types beside it. inline.js gets the
-// WebAssembly and the worker's script inside.
+// Builds the package into dist/: compiles the C++ core to WebAssembly and puts the JavaScript and the types beside it. inline.js and
+// physics-inline.js get the WebAssembly and the worker's script inside.
 // With --tests also builds the C++ tests for Node, for `ctest --test-dir build-wasm`.
 // Takes the Emscripten of an activated emsdk if there is one, else that of Debian.
 import { execFileSync } from 'node:child_process';
@@ -37,7 +37,7 @@ function run(command, ...args) {
 function compile(tests) {
   run('cmake', '-S', root, '-B', build, `-DCMAKE_TOOLCHAIN_FILE=${toolchainFile()}`, `-DCMAKE_CROSSCOMPILING_EMULATOR=${process.execPath}`,
     '-DCMAKE_BUILD_TYPE=Release', `-DMANDOLINE_BUILD_TESTS=${tests ? 'ON' : 'OFF'}`);
-  const targets = ['mandoline-wasm', ...(tests ? ['mandoline-tests'] : [])];
+  const targets = ['mandoline-wasm', 'mandoline-physics', ...(tests ? ['mandoline-tests'] : [])];
   run('cmake', '--build', build, '--parallel', String(availableParallelism()), '--target', ...targets);
 }
 
@@ -47,25 +47,28 @@ async function bundle(input, options, output = {}) {
   return chunks[0].code;
 }
 
-/** Puts what inline.js has inside into its text. */
-async function fillInline(folder) {
-  const wasm = gzipSync(readFileSync(join(folder, 'mandoline.wasm')), { level: 9 }).toString('base64');
-  const script = await bundle(join(folder, 'worker-thread.js'), {}, { minify: true });
-  const file = join(folder, 'inline.js');
+/** Puts what such a module has inside into its text. */
+async function fillInline(folder, { inline, wasm, script }) {
+  const gzipped = gzipSync(readFileSync(join(folder, wasm)), { level: 9 }).toString('base64');
+  const code = await bundle(join(folder, script), {}, { minify: true });
+  const file = join(folder, inline);
   const text = readFileSync(file, 'utf8');
-  writeFileSync(file, text.replace("'GZIPPED_WASM'", () => `'${wasm}'`).replace("'WORKER_SCRIPT'", () => JSON.stringify(script)));
+  writeFileSync(file, text.replace("'GZIPPED_WASM'", () => `'${gzipped}'`).replace("'WORKER_SCRIPT'", () => JSON.stringify(code)));
 }
 
-/** Makes the package's files, beside each other since one has others inside. Gives their folder. */
+/** Makes the package's files, beside each other since some have others inside. Gives their folder. */
 async function makeFiles() {
   const folder = join(build, 'package');
   rmSync(folder, { recursive: true, force: true });
   cpSync(join(packageFolder, 'src'), folder, { recursive: true });
-  cpSync(join(build, 'wasm', 'mandoline.wasm'), join(folder, 'mandoline.wasm'));
   // Emscripten's code says where the .wasm file is, too, for which bundlers would copy it once more.
   const withoutUrl = { transform: { define: { 'import.meta.url': 'undefined' } }, treeshake: false };
-  writeFileSync(join(folder, 'mandoline.js'), await bundle(join(build, 'wasm', 'mandoline.js'), withoutUrl));
-  await fillInline(folder);
+  for (const [name, code] of [['mandoline', 'mandoline.js'], ['physics', 'physics-module.js']]) {
+    cpSync(join(build, 'wasm', `${name}.wasm`), join(folder, `${name}.wasm`));
+    writeFileSync(join(folder, code), await bundle(join(build, 'wasm', `${name}.js`), withoutUrl));
+  }
+  await fillInline(folder, { inline: 'inline.js', wasm: 'mandoline.wasm', script: 'worker-thread.js' });
+  await fillInline(folder, { inline: 'physics-inline.js', wasm: 'physics.wasm', script: 'physics-worker-thread.js' });
   return folder;
 }
 

@@ -2,6 +2,18 @@
 
 namespace mandoline::wasm {
 
+std::function<bool(const Progress&)> progressOf(const val& options) {
+  const val callback = options["progress"];
+  if (callback.isUndefined()) return {};
+  return [callback](const Progress& progress) { return callback(toObject(progress)).as<bool>(); };
+}
+
+RunOptions runOptions(const val& options) {
+  RunOptions result;
+  result.progress = progressOf(options);
+  return result;
+}
+
 val toObject(const Mesh& mesh) { return object({{"positions", toArray(mesh.positions)}, {"triangles", toArray(mesh.triangles)}}); }
 
 val toObject(const PairCounts& counts) {

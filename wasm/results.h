@@ -1,6 +1,8 @@
 // What the calls give, as plain data.
 #pragma once
 
+#include <functional>
+
 #include "mandoline/intersections.h"
 #include "mandoline/locate.h"
 #include "mandoline/measure.h"
@@ -10,6 +12,10 @@
 #include "values.h"
 
 namespace mandoline::wasm {
+
+/// The JavaScript callback, if there is one.
+std::function<bool(const Progress&)> progressOf(const val& options);
+RunOptions runOptions(const val& options);
 
 val toObject(const Mesh& mesh);
 val toObject(const PairCounts& counts);

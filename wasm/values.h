@@ -19,6 +19,7 @@ using emscripten::val;
 /// The name of the typed array that holds such numbers.
 template <class Number>
 constexpr const char* arrayType() {
+  if constexpr (std::is_enum_v<Number>) return arrayType<std::underlying_type_t<Number>>();
   if constexpr (std::is_same_v<Number, double>) return "Float64Array";
   if constexpr (std::is_same_v<Number, uint32_t>) return "Uint32Array";
   if constexpr (std::is_same_v<Number, int32_t>) return "Int32Array";
@@ -26,16 +27,26 @@ constexpr const char* arrayType() {
   if constexpr (std::is_same_v<Number, uint8_t>) return "Uint8Array";
 }
 
+/// The memory of numbers, or of enumerators as numbers, as a typed array.
+template <class Number>
+val viewOf(const std::vector<Number>& items) {
+  if constexpr (std::is_enum_v<Number>)
+    return val(emscripten::typed_memory_view(items.size(), reinterpret_cast<const std::underlying_type_t<Number>*>(items.data())));
+  else
+    return val(emscripten::typed_memory_view(items.size(), items.data()));
+}
+
 /// A typed array that owns its memory: the items are copied once.
 template <class Number>
 val toArray(const std::vector<Number>& items) {
-  return val(emscripten::typed_memory_view(items.size(), items.data())).template call<val>("slice");
+  return viewOf(items).template call<val>("slice");
 }
 
+/// Enumerators are not checked.
 template <class Number>
 void readArray(const val& array, std::vector<Number>& items) {
   items.resize(array["length"].as<size_t>());
-  val(emscripten::typed_memory_view(items.size(), items.data())).call<void>("set", array);
+  viewOf(items).template call<void>("set", array);
 }
 
 template <class Number>

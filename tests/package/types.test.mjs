@@ -7,6 +7,7 @@ import { dirname, join as path } from 'node:path';
 import { after, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import * as index from 'mandoline-wasm';
+import * as physicsEntry from 'mandoline-wasm/physics';
 import { box, join, sheet } from './meshes.mjs';
 
 const root = path(dirname(fileURLToPath(import.meta.url)), '..', '..');
@@ -50,6 +51,17 @@ const states = [];
 const cutMesh = mandoline.cut(mesh, { cells: 3 }, { progress: (state) => { states.push(state); } });
 const open = mandoline.cut(sheet([0, 0], [1, 1], 0.5), { planes: [[0, 1], [0, 1], [0, 1]] }, { gridCellRegion: false });
 
+const physics = await physicsEntry.initPhysics();
+const cells = physics.cellComplex(mesh, cutMesh);
+
+/** Declarations of values, with the types of an entry. */
+function declared(results, entry) {
+  const checks = results.map(([type, value], i) => `export const result${i}: ${type} = ${literal(value)};`);
+  const names = new Set(results.flatMap(([type]) => type.match(/\w+/g)).filter((name) => name !== 'null' && !/Array$/.test(name)));
+  const types = `import type { ${[...names].join(', ')} } from '${entry}';`;
+  return { types, text: [types, ...checks].join('\n') };
+}
+
 test('results', () => {
   const results = [
     ['CutMesh', cutMesh],
@@ -75,26 +87,67 @@ test('results', () => {
     ['Outlines[]', mandoline.outlines(cutMesh, [0, 0, 1], [1])],
     ['Uint8Array', mandoline.write(mesh, cutMesh, 'obj')],
   ];
-  const checks = results.map(([type, value], i) => `export const result${i}: ${type} = ${literal(value)};`);
-  const names = new Set(results.flatMap(([type]) => type.match(/\w+/g)).filter((name) => name !== 'null' && !/Array$/.test(name)));
-  const types = `import type { ${[...names].join(', ')} } from 'mandoline-wasm';`;
-  assertCompiles([types, ...checks].join('\n'));
+  const { types, text } = declared(results, 'mandoline-wasm');
+  assertCompiles(text);
   assert.throws(() => compile(`${types}\nexport const wrong: CutEdges = ${literal({ edgeVertices: new Uint32Array() })};`));
 });
 
+test('results of mandoline-wasm/physics', () => {
+  const boundary = physics.boundaryOf(cells, { xMin: { dirichlet: 0 } });
+  const results = [
+    ['OctreeCells', physics.coarsen(cutMesh)],
+    ['CellComplex', cells],
+    ['SubComplex', physics.regionComplex(cells, 0)],
+    ['SubComplex', physics.subComplex(cells, [0])],
+    ['ComplexEdges', physics.complexEdges(cells)],
+    ['Operators', physics.operators(cells)],
+    ['Boundary', boundary],
+    ['Float64Array', physics.outwardNormals(boundary, cells)],
+    ['CellComponents', physics.cellComponents(cells)],
+    ['PoissonSystem', physics.poissonSystem(cells, { boundary })],
+    ['Solution', physics.solvePoisson(cells, { boundary, source: cells.cellVolume })],
+  ];
+  assertCompiles(declared(results, 'mandoline-wasm/physics').text);
+  assertCompiles(`
+    import { type CellComplex, type Physics, faceTags } from 'mandoline-wasm/physics';
+    import type { PhysicsWorker } from 'mandoline-wasm/physics/worker';
+    export async function use(physics: Physics, worker: PhysicsWorker, cells: CellComplex): Promise<number | undefined> {
+      const { gradient } = physics.operators(cells, { only: ['gradient', 'laplacian'], dualPoints: 'centroids' });
+      // @ts-expect-error: was not asked for
+      physics.operators(cells, { only: ['gradient'] }).divergence;
+      const boundary = physics.boundaryOf(cells, { xMin: { dirichlet: 0 }, surface: { neumann: 1 } });
+      // @ts-expect-error: no such tag
+      physics.boundaryOf(cells, { left: { dirichlet: 0 } });
+      const { phi } = await worker.solvePoisson(cells, { boundary }, { signal: AbortSignal.timeout(9) });
+      const tag: 'surface' = faceTags[7];
+      return phi[gradient.entryColumns[0] ?? tag.length];
+    }`);
+});
+
 test('the calls and the exports of every entry', async () => {
-  const [worker, three] = await Promise.all([import('mandoline-wasm/worker'), import('mandoline-wasm/three')]);
+  const entries = ['worker', 'three', 'inline', 'physics/worker', 'physics/inline'];
+  const [worker, three, inline, physicsWorker, physicsInline] = await Promise.all(entries.map((entry) => import(`mandoline-wasm/${entry}`)));
   assertCompiles(`
     import type { Mandoline } from 'mandoline-wasm';
     import type * as index from 'mandoline-wasm';
     import type * as worker from 'mandoline-wasm/worker';
     import type * as three from 'mandoline-wasm/three';
+    import type * as inline from 'mandoline-wasm/inline';
+    import type { Physics } from 'mandoline-wasm/physics';
+    import type * as physics from 'mandoline-wasm/physics';
+    import type * as physicsWorker from 'mandoline-wasm/physics/worker';
+    import type * as physicsInline from 'mandoline-wasm/physics/inline';
     type Callable = ((...given: never[]) => unknown) | (new (...given: never[]) => unknown);
     type Kinds<T> = { [Key in keyof T]: T[Key] extends string ? 'string' : T[Key] extends Callable ? 'function' : 'object' };
     export const calls: Kinds<Mandoline> = ${kinds(mandoline)};
     export const indexKinds: Kinds<typeof index> = ${kinds({ ...index })};
     export const workerKinds: Kinds<typeof worker> = ${kinds({ ...worker })};
     export const threeKinds: Kinds<typeof three> = ${kinds({ ...three })};
+    export const inlineKinds: Kinds<typeof inline> = ${kinds({ ...inline })};
+    export const physicsCalls: Kinds<Physics> = ${kinds(physics)};
+    export const physicsKinds: Kinds<typeof physics> = ${kinds({ ...physicsEntry })};
+    export const physicsWorkerKinds: Kinds<typeof physicsWorker> = ${kinds({ ...physicsWorker })};
+    export const physicsInlineKinds: Kinds<typeof physicsInline> = ${kinds({ ...physicsInline })};
   `);
 });
 

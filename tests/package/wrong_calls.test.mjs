@@ -3,9 +3,11 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { MandolineError, init } from 'mandoline-wasm';
+import { initPhysics } from 'mandoline-wasm/physics';
 import { box, gut, join, sheet, torus } from './meshes.mjs';
 
 const mandoline = await init();
+const physics = await initPhysics();
 
 let state = 20261121;
 
@@ -21,14 +23,18 @@ const cube = box([0.5, 0.5, 0.5], [1.5, 1.5, 1.5]);
 const open = sheet([0, 0], [2, 2], 0.5);
 const grid = { min: [-1.5, -1.5, -0.5], max: [1.5, 1.5, 0.5], cells: [5, 5, 3] };
 const cutMesh = mandoline.cut(mesh, grid);
-const arrays = Object.keys(cutMesh).filter((key) => ArrayBuffer.isView(cutMesh[key]));
+const arraysOf = (object) => Object.keys(object).filter((key) => ArrayBuffer.isView(object[key]));
+
+const cells = physics.cellComplex(mesh, cutMesh);
+const octree = physics.coarsen(cutMesh);
+const boundary = physics.boundaryOf(cells, { xMin: { dirichlet: 1 } });
 
 const prepared = mandoline.prepare(mesh);
 const resolved = mandoline.resolve(join(box([1, 1, 1], [3, 3, 3]), box([2, 2, 2], [4, 4, 4])));
 const boundaryArrays = ['positions', 'triangles', 'frontWinding', 'backWinding'];
 
 /** A copy with some entries of one of these arrays changed, or the array replaced. */
-function damaged(original, keys) {
+function damaged(original, keys = arraysOf(original)) {
   const key = pick(keys);
   const array = original[key].slice();
   for (let i = 0; i < 3 && array.length > 0; ++i) array[random(array.length)] = pick([0, 1, -1, 7, 1000, 2 ** 31 - 1, 2 ** 32 - 1, NaN]);
@@ -51,8 +57,8 @@ const kinds = {
     { positions: anything(), triangles: mesh.triangles }, { positions: mesh.positions, triangles: anything() },
   ]),
   cutMesh: () => pick([
-    () => cutMesh, () => cutMesh, () => ({ ...cutMesh }), () => mandoline.cut(mesh, grid, { keep: false }), () => damaged(cutMesh, arrays),
-    () => damaged(cutMesh, arrays), () => gut(mandoline.cut(mesh, grid)), () => mandoline.cut(open, grid), () => prepared,
+    () => cutMesh, () => cutMesh, () => ({ ...cutMesh }), () => mandoline.cut(mesh, grid, { keep: false }), () => damaged(cutMesh),
+    () => damaged(cutMesh), () => gut(mandoline.cut(mesh, grid)), () => mandoline.cut(open, grid), () => prepared,
     () => ({ ...cutMesh, grid: anything() }), () => ({ ...cutMesh, regionCount: anything() }),
   ])(),
   solid: () => pick([
@@ -79,6 +85,30 @@ const kinds = {
   vector: () => pick([[0, 0, 1], [1, 2, 3], [0, 0, 0], [NaN, 0, 1], anything()]),
   offsets: () => pick([[0, 0.1], [], new Float32Array(2), [NaN], [anything()], anything()]),
   format: () => pick(['json', 'vtu', 'obj', 'stl', anything()]),
+  cells: () => pick([
+    () => cells, () => cells, () => ({ ...cells }), () => damaged(cells), () => damaged(cells),
+    () => gut(physics.cellComplex(mesh, cutMesh)), () => physics.regionComplex(cells, 0).cells,
+    () => ({ ...cells, cutFaces: anything() }), () => cutMesh, () => octree,
+  ])(),
+  octree: () => pick([() => octree, () => undefined, () => damaged(octree), () => ({ ...octree, gridCells: anything() }), anything])(),
+  coarsening: () => pick([undefined, { maxLevel: 1 }, { maxLevel: anything() }, { fineLayers: anything() }, { balanceEdges: anything() }]),
+  ids: () => pick([[], [1, 2], [2, 2], [1e5], new Uint32Array([3]), [anything()]]),
+  region: () => pick([0, 1, 99, anything()]),
+  operators: () => pick([undefined, { only: ['gradient'] }, { only: [anything()] }, { only: anything() }, { dualPoints: anything() }]),
+  conditions: () => pick([
+    undefined, {}, { xMin: { dirichlet: 1 } }, { surface: { neumann: anything() } }, { [pick(['yMax', 'left'])]: anything() }, anything(),
+  ]),
+  boundary: () => pick([
+    () => boundary, () => damaged(boundary), () => physics.boundaryOf(physics.regionComplex(cells, 0).cells), anything,
+  ])(),
+  problem: () => pick([
+    () => undefined, () => ({ boundary }), () => ({ boundary: damaged(boundary) }), () => ({ source: cells.cellVolume }),
+    () => ({ source: anything() }), () => ({ dualPoints: anything() }), () => ({ boundary: anything() }),
+  ])(),
+  solving: () => pick([
+    undefined, { balance: true }, { balance: anything() }, { tolerance: anything() }, { maxIterations: anything() },
+    { freeConstant: anything() }, { progress: () => pick([true, false]) },
+  ]),
   file: () => pick([
     new TextEncoder().encode('v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n'), new Blob(['OFF\n1 1 0\n']), new Uint8Array([31, 139, 8, 0, 1]),
     anything(),
@@ -103,26 +133,47 @@ const parameters = {
   outlines: ['cutMesh', 'vector', 'offsets'],
   write: ['mesh', 'cutMesh', 'format', 'options'],
   readMesh: ['file', 'options'],
+  coarsen: ['cutMesh', 'coarsening'],
+  cellComplex: ['mesh', 'cutMesh', 'octree', 'options'],
+  subComplex: ['cells', 'ids'],
+  regionComplex: ['cells', 'region'],
+  complexEdges: ['cells'],
+  operators: ['cells', 'operators'],
+  boundaryOf: ['cells', 'conditions'],
+  outwardNormals: ['boundary', 'cells'],
+  cellComponents: ['cells'],
+  poissonSystem: ['cells', 'problem'],
+  solvePoisson: ['cells', 'problem', 'solving'],
 };
 
-test('1,000 random calls', async (t) => {
-  const names = Object.keys(mandoline).filter((name) => typeof mandoline[name] === 'function');
+/** Calls one of these at random, a thousand times. Gives how many calls were fine, and how many had each code. */
+async function callAtRandom(calls) {
+  const names = Object.keys(calls).filter((name) => typeof calls[name] === 'function');
   for (const name of names) assert.ok(parameters[name], `${name} is not tried`);
   const counts = { fine: 0 };
   for (let i = 0; i < 1000; ++i) {
     const name = pick(names);
     const args = parameters[name].map((kind) => (random(6) ? kinds[kind]() : anything()));
     try {
-      await mandoline[name](...args);
+      await calls[name](...args);
       ++counts.fine;
     } catch (error) {
       assert.ok(error instanceof MandolineError, `call ${i}, ${name}: ${error?.stack ?? error}`);
       assert.notEqual(error.code, 'internalError', `call ${i}, ${name}: ${error.message} ${error.cause?.stack}`);
-      assert.match(error.message, /^\S.*\.$/s, `call ${i}, ${name}`);
+      assert.match(error.message, /^\S.*[^.]\.$/s, `call ${i}, ${name}`);
       counts[error.code] = (counts[error.code] ?? 0) + 1;
     }
   }
-  t.diagnostic(JSON.stringify(counts));
   assert.ok(counts.fine > 100 && counts.badArgument > 100);
+  return counts;
+}
+
+test('1,000 random calls', async (t) => {
+  t.diagnostic(JSON.stringify(await callAtRandom(mandoline)));
   assert.equal(mandoline.validate(mesh, cutMesh).pass, true);
+});
+
+test('1,000 random calls that compute', async (t) => {
+  t.diagnostic(JSON.stringify(await callAtRandom(physics)));
+  assert.equal(physics.solvePoisson(cells, { boundary, source: cells.cellVolume }, { balance: true }).status, 'converged');
 });

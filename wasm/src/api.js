@@ -1,28 +1,11 @@
 // The calls of the package, on a module that has been started.
 import {
-  bad, readFlag, readFlags, readFunction, readGrid, readId, readIntersections, readMesh, readMaxPairs, readNumbers, readOptions, readPlane,
+  bad, readFlag, readFlags, readGrid, readId, readIntersections, readMesh, readMaxPairs, readNumbers, readOptions, readPlane,
   readPoints, readResolved, readRule, readSnapTolerance, readVector,
 } from './arguments.js';
 import { named } from './errors.js';
 import { readFile } from './files.js';
-
-/** Runs f with a callback that C++ can call: what the user's throws passes by C++, and through this call. */
-function withProgress(progress, f) {
-  if (readFunction(progress, 'options.progress') === undefined) return f(undefined);
-  let thrown;
-  try {
-    return f((state) => {
-      try {
-        return progress(state) !== false;
-      } catch (error) {
-        thrown = { error };
-        return false;
-      }
-    });
-  } catch (error) {
-    throw thrown ? thrown.error : error;
-  }
-}
+import { withProgress } from './progress.js';
 
 function makePrepare(host) {
   return (mesh, options) => {

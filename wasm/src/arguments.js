@@ -5,7 +5,7 @@ export function bad(message, code = 'badArgument', element = -1) {
   return new MandolineError(code, message, { element });
 }
 
-function kindOf(value) {
+export function kindOf(value) {
   if (value === null) return 'null';
   if (ArrayBuffer.isView(value)) return value[Symbol.toStringTag] ?? 'a DataView';
   if (Array.isArray(value)) return 'an array';
@@ -13,16 +13,16 @@ function kindOf(value) {
   return typeof value === 'number' ? String(value) : typeof value;
 }
 
-function expectObject(value, name) {
+export function expectObject(value, name) {
   if (typeof value !== 'object' || value === null) throw bad(`${name} must be an object, not ${kindOf(value)}.`);
 }
 
-function expectNumber(value, name) {
+export function expectNumber(value, name) {
   if (typeof value !== 'number') throw bad(`${name} must be a number, not ${kindOf(value)}.`);
   return value;
 }
 
-function expectInteger(value, name) {
+export function expectInteger(value, name) {
   if (!Number.isInteger(value)) throw bad(`${name} must be a whole number, not ${kindOf(value)}.`);
   return value;
 }
@@ -42,7 +42,7 @@ function expectAttached(array, name) {
   }
 }
 
-function expectTypedArray(value, type, name) {
+export function expectTypedArray(value, type, name) {
   if (!ArrayBuffer.isView(value) || value[Symbol.toStringTag] !== type) throw bad(`${name} must be a ${type}, not ${kindOf(value)}.`);
   expectAttached(value, name);
   return value;
@@ -130,6 +130,13 @@ export function readOptions(options) {
   return options;
 }
 
+/** Of createWorker(). */
+export function readWorkerOptions(given) {
+  const options = readOptions(given);
+  readFunction(options.thread, 'options.thread');
+  return options;
+}
+
 export function readSnapTolerance({ snapTolerance = 0 }) {
   expectNumber(snapTolerance, 'options.snapTolerance');
   if (!(snapTolerance >= 0 && snapTolerance < 0.5)) throw bad('options.snapTolerance must be at least 0 and below 0.5.', 'badOption');
@@ -137,7 +144,7 @@ export function readSnapTolerance({ snapTolerance = 0 }) {
 }
 
 /** The number of a word among these, in the order in which C++ numbers them. */
-function readWord(word, words, name) {
+export function readWord(word, words, name) {
   const number = words.indexOf(word);
   if (number >= 0) return number;
   const [last, ...others] = words.map((other) => `"${other}"`).reverse();

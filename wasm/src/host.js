@@ -1,4 +1,3 @@
-import { bad, readCutMesh } from './arguments.js';
 import { MandolineError } from './errors.js';
 import { instantiate } from './instance.js';
 import { Twins } from './twins.js';
@@ -7,19 +6,24 @@ import { Twins } from './twins.js';
 const muchKept = 2 ** 27;
 
 /**
- * Keeps an instance of the module and the twins in it, and takes a new one, without twins, after a failure that may have left it broken or
+ * Keeps an instance of a module and the twins in it, and takes a new one, without twins, after a failure that may have left it broken or
  * with a memory that never shrinks.
  */
 export class Host {
+  #createModule;
   #module;
   #instance; // { bindings, twins }
-  #arrays;
-  #results = new WeakMap(); // of this host's calls, which may have twins: the options of prepare(), or undefined for a cut-mesh
+  #results = new WeakMap(); // of this host's calls, which may have twins: how they came about, as adopt() was told
 
-  constructor(module) {
+  constructor(createModule, module) {
+    this.#createModule = createModule;
     this.#module = module;
+  }
+
+  /** What f makes of the bindings of the first instance. */
+  start(f) {
     try {
-      this.#arrays = this.#current().bindings.cutMeshArrays();
+      return f(this.#current().bindings);
     } catch (cause) {
       const message = `The WebAssembly module could not be started: ${cause?.message ?? cause}.`;
       throw new MandolineError('loadFailed', message, { stage: 'init', cause });
@@ -38,32 +42,33 @@ export class Host {
   }
 
   /**
-   * The same with a binding that takes a cut-mesh: the twin of the result that this is, or else its arrays, which may have to pass a
-   * check.
+   * The same with a binding that takes a value that may have a twin: that one, or else the handle that `read` makes, which becomes its twin
+   * if it is to be kept.
    */
-  runOn(cutMesh, f, checked = true) {
-    if (this.preparationOf(cutMesh)) throw bad('cutMesh must be what cut() gives, not what prepare() does.');
-    const read = (bindings) => bindings.keep(readCutMesh(cutMesh, this.#arrays), checked);
-    return this.#runWith(cutMesh, read, f, checked && this.isResult(cutMesh));
+  runWith(value, read, f, isKept) {
+    return this.run((bindings, twins) => {
+      const twin = twins.find(value);
+      if (twin) return f(bindings, twin, twins);
+      const { value: handle, error } = read(bindings);
+      if (error) return { error };
+      if (isKept) twins.keep(value, handle);
+      const outcome = f(bindings, handle, twins);
+      if (!isKept) handle.delete();
+      return outcome;
+    });
   }
 
-  /** The same with a binding that takes a mesh that prepare() gave: its twin, or else what `again` gives, which does it once more. */
-  runOnPrepared(mesh, again, f) {
-    return this.#runWith(mesh, again, f, true);
-  }
-
-  /** Says that this is a result, of prepare() with such options or of cut(), so that it gets a twin when its arrays are read. */
-  adopt(result, preparation) {
-    this.#results.set(result, preparation);
+  /** Says that this is a result, and how it came about, so that it gets a twin when its arrays are read. */
+  adopt(result, origin) {
+    this.#results.set(result, origin);
   }
 
   isResult(value) {
     return this.#results.has(value);
   }
 
-  /** The options of the prepare() that gave this mesh, if one did. */
-  preparationOf(mesh) {
-    return this.#results.get(mesh);
+  originOf(value) {
+    return this.#results.get(value);
   }
 
   hasTwin(result) {
@@ -74,22 +79,8 @@ export class Host {
     this.#instance?.twins.free(result);
   }
 
-  /** `read` makes the handle of a result that has no twin. */
-  #runWith(result, read, f, isKept) {
-    return this.run((bindings, twins) => {
-      const twin = twins.find(result);
-      if (twin) return f(bindings, twin, twins);
-      const { value: handle, error } = read(bindings);
-      if (error) return { error };
-      if (isKept) twins.keep(result, handle);
-      const outcome = f(bindings, handle, twins);
-      if (!isKept) handle.delete();
-      return outcome;
-    });
-  }
-
   #current() {
-    this.#instance ??= { bindings: instantiate(this.#module), twins: new Twins() };
+    this.#instance ??= { bindings: instantiate(this.#createModule, this.#module), twins: new Twins() };
     return this.#instance;
   }
 

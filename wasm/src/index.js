@@ -1,17 +1,18 @@
 import { makeApi } from './api.js';
 import { readOptions } from './arguments.js';
+import { CutHost } from './cut-host.js';
 import { named } from './errors.js';
-import { Host } from './host.js';
 import { compile } from './load.js';
+import { ownWasm } from './own-wasm.js';
 
 export { MandolineError, describe } from './errors.js';
 
 let started;
 
 async function start(options) {
-  const { wasm } = named('init', readOptions)(options);
+  const { wasm = ownWasm.source } = named('init', readOptions)(options);
   const module = await compile(wasm);
-  return { module, api: makeApi(new Host(module)) };
+  return { module, api: makeApi(new CutHost(module)) };
 }
 
 function begin(options) {

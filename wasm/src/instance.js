@@ -1,7 +1,5 @@
-import createModule from './mandoline.js';
-
-/** A new instance of the compiled module, with a memory of its own. Throws if there is not enough memory. */
-export function instantiate(module) {
+/** A new instance of a compiled module, which its own code makes, with a memory of its own. Throws if there is not enough memory. */
+export function instantiate(createModule, module) {
   let failure;
   const bindings = createModule({
     instantiateWasm(imports, receive) {

@@ -2,8 +2,9 @@ import { MandolineError } from './errors.js';
 
 /**
  * Jobs done one after another by a thread, which is replaced when it has to be stopped or dies. A job is
- * { call, message, pack, onProgress, resolve, reject }: pack(message, twins) gives { message, transfer } for a thread that has these twins
- * of results, by their ids. The first job of every thread is to start the compiled module.
+ * { call, message, pack, onProgress, ready, resolve, reject }: pack(message, twins) gives { message, transfer } for a thread that has these
+ * twins of results, by their ids, after ready(), if it has that, has promised whatever this needs. The first job of every thread is to
+ * start the compiled module.
  */
 export class JobQueue {
   #startThread;
@@ -13,6 +14,7 @@ export class JobQueue {
   #running = null;
   #waiting = [];
   #ended = false;
+  #count = 0;
 
   constructor(startThread, module) {
     this.#startThread = startThread;
@@ -28,6 +30,11 @@ export class JobQueue {
     if (this.#ended) return job.reject(new MandolineError('cancelled', 'The worker was terminated.', { stage: job.call }));
     this.#waiting.push(job);
     this.#next();
+  }
+
+  /** Another id for a result. */
+  newId() {
+    return ++this.#count;
   }
 
   hasTwin(id) {
@@ -96,6 +103,12 @@ export class JobQueue {
   #perform(job) {
     this.#running = job;
     this.#thread.hold(true);
+    if (!job.ready) return this.#post(job);
+    const whileRunning = (f) => (value) => this.#running === job && f(value);
+    job.ready().then(whileRunning(() => this.#post(job)), whileRunning((error) => this.#settle(() => job.reject(error))));
+  }
+
+  #post(job) {
     try {
       const { message, transfer } = job.pack(job.message, this.#twins);
       this.#thread.post(message, transfer);

@@ -1,5 +1,4 @@
 import { MandolineError } from './errors.js';
-import { ownWasm } from './own-wasm.js';
 
 /** Throws unless it is WebAssembly: many servers answer unknown addresses with a page of theirs and status 200. */
 function expectWasm(bytes, type) {
@@ -33,8 +32,8 @@ function failureOf(name, cause) {
   return new MandolineError('loadFailed', message, { stage: 'init', cause });
 }
 
-/** Compiles the module: `source` is where to load it from, its bytes, the compiled module itself, or a function that gives one of these. */
-export async function compile(source = ownWasm.source) {
+/** Compiles a module: `source` is where to load it from, its bytes, the compiled module itself, or a function that gives one of these. */
+export async function compile(source) {
   try {
     const given = await (typeof source === 'function' ? source() : source);
     return given instanceof WebAssembly.Module ? given : await WebAssembly.compile(await bytesOf(given));

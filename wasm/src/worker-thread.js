@@ -2,8 +2,10 @@
 // job after another. In Node it is a worker thread.
 import { makeApi } from './api.js';
 import { buffersOf } from './buffers.js';
+import { memberOf } from './calls.js';
+import { CutHost } from './cut-host.js';
 import { MandolineError } from './errors.js';
-import { Host } from './host.js';
+import { parts } from './parts.js';
 
 const extraCalls = new Map();
 
@@ -54,12 +56,15 @@ class Shells {
   }
 }
 
+parts.set('cut', (module) => {
+  const host = new CutHost(module);
+  return { host, calls: makeApi(host) };
+});
+
 /** Answers jobs through `post`. */
 class Answering {
   #post;
-  #host;
-  #mandoline;
-  #shells;
+  #parts = new Map(); // those that have been started: { host, calls, shells }
 
   constructor(post) {
     this.#post = post;
@@ -68,7 +73,8 @@ class Answering {
   async answer(job) {
     try {
       if (job.module) this.#start(job);
-      else if (job.forget !== undefined) this.#shells.free(job.forget);
+      if (job.forget !== undefined) for (const { shells } of this.#parts.values()) shells.free(job.forget);
+      else if (job.call === undefined) this.#post({ type: 'result' });
       else if (job.extra) this.#send(job, await this.#extra(job));
       else await this.#own(job);
     } catch (error) {
@@ -76,42 +82,46 @@ class Answering {
     }
   }
 
-  #start({ module }) {
-    this.#host = new Host(module);
-    this.#mandoline = makeApi(this.#host);
-    this.#shells = new Shells(this.#host);
-    this.#post({ type: 'result' });
+  #start({ part = 'cut', module }) {
+    if (this.#parts.has(part)) return;
+    const script = `mandoline-wasm/${part}/worker-thread`;
+    if (!parts.has(part)) throw new MandolineError('badArgument', `The worker's script has to import ${script}.`);
+    const { host, calls } = parts.get(part)(module);
+    this.#parts.set(part, { host, calls, shells: new Shells(host) });
   }
 
   async #own(job) {
-    const { call, args, options, progress, subject, result } = job;
+    const { part = 'cut', call, args, options, progress, subject, result, isKept } = job;
+    const { host, calls, shells } = this.#parts.get(part);
     const { argument, inputs } = this.#inputs(job);
     const given = progress ? { ...options, progress: (value) => this.#post({ type: 'progress', value }) } : options;
     try {
-      const value = await this.#mandoline[call](...inputs, given);
-      const kept = [[subject?.id, argument], [result, value]].filter(([id, object]) => id !== undefined && this.#host.hasTwin(object));
-      this.#send(job, value, kept.map(([id]) => id));
-      for (const [id, object] of kept) this.#shells.keep(id, object);
+      const value = await calls[call](...inputs, given);
+      const made = isKept && memberOf(value, isKept);
+      const kept = [[subject?.id, argument], [result, made]].filter(([id, object]) => id !== undefined && host.hasTwin(object));
+      this.#send(job, value, [...kept.map(([id]) => id), part]);
+      for (const [id, object] of kept) shells.keep(id, object);
     } catch (error) {
-      const isMissing = subject && !subject.data && error.code === 'badArgument' && !this.#host.hasTwin(argument);
+      const isMissing = subject && !subject.data && error.code === 'badArgument' && !host.hasTwin(argument);
       if (!isMissing) throw error;
       this.#post({ type: 'missing', message: job }, buffersOf(args));
     }
   }
 
   /** The arguments with the one that the message names by its id: if it has its twin here or comes with its data, else nothing. */
-  #inputs({ args, subject }) {
+  #inputs({ part = 'cut', args, subject }) {
     if (!subject) return { inputs: args };
-    const shell = this.#shells.find(subject.id);
-    const argument = this.#host.hasTwin(shell) ? shell : subject.data;
-    if (argument && argument === subject.data) this.#host.adopt(argument, subject.preparation);
+    const { host, shells } = this.#parts.get(part);
+    const shell = shells.find(subject.id);
+    const argument = host.hasTwin(shell) ? shell : subject.data;
+    if (argument && argument === subject.data) host.adopt(argument, subject.origin);
     return { argument, inputs: args.with(subject.at, argument) };
   }
 
   #extra({ call, args, progress }) {
     const run = extraCalls.get(call);
     if (!run) throw new MandolineError('badArgument', `The worker's script serves no call "${call}".`, { stage: call });
-    return run(this.#mandoline, args, { progress: (value) => progress && this.#post({ type: 'progress', value }) });
+    return run(this.#parts.get('cut').calls, args, { progress: (value) => progress && this.#post({ type: 'progress', value }) });
   }
 
   #send({ call }, value, kept) {

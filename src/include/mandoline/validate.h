@@ -1,8 +1,7 @@
 // Checks of a cut-mesh against its input, worked out from its arrays alone: nothing that the cutter knew is trusted.
 #pragma once
 
-#include "mandoline/cut_mesh.h"
-#include "mandoline/status.h"
+#include "mandoline/cell_complex.h"
 
 namespace mandoline {
 
@@ -27,6 +26,10 @@ struct Validation {
 /// The first check of validate(): lengths, offsets and id ranges. All other functions that take a cut-mesh rely on it. What cut() gives
 /// passes; a cut-mesh from elsewhere should be checked first. Without `mesh`, its input, tri-vertex ids are not checked against it.
 Check checkArrays(const CutMesh& cutMesh, const MeshView* mesh = nullptr);
+
+/// The same for a cell complex: lengths, offsets and id ranges; faces and cells name each other; numbers are finite. What cellComplex() and
+/// subComplex() give passes.
+Check checkArrays(const CellComplex& cells);
 
 struct ValidateOptions : RunOptions {
   double snapTolerance = 0;  ///< that of the cut

@@ -1,0 +1,279 @@
+// Computing on the cells: identities of the operators, exact solutions, twins, and what wrong arguments get.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { init } from 'mandoline-wasm';
+import { MandolineError, faceTags, initPhysics } from 'mandoline-wasm/physics';
+import { box, gut, join, sheet, torus } from './meshes.mjs';
+
+const [mandoline, physics] = await Promise.all([init(), initPhysics()]);
+const { cut } = mandoline;
+
+const mesh = torus(40, 20);
+const grid = { min: [-1.7, -1.6, -0.9], max: [1.7, 1.6, 0.9], cells: [13, 12, 7] };
+const box3 = 3.4 * 3.2 * 1.8;
+const cutMesh = cut(mesh, grid);
+const cells = physics.cellComplex(mesh, cutMesh);
+const octree = physics.coarsen(cutMesh, { fineLayers: 0 });
+const coarse = physics.cellComplex(mesh, cutMesh, octree);
+const complexes = Object.entries({ 'grid cells': cells, 'octree cells': coarse });
+const field = [0.75, -1.25, 0.5];
+
+const sum = (values) => values.reduce((total, value) => total + value, 0);
+const dot = (u, vectors, i) => u[0] * vectors[3 * i] + u[1] * vectors[3 * i + 1] + u[2] * vectors[3 * i + 2];
+const products = (u, vectors) => Float64Array.from({ length: vectors.length / 3 }, (_, i) => dot(u, vectors, i));
+const faceCount = ({ faceTag }) => faceTag.length;
+const cellCount = ({ cellRegion }) => cellRegion.length;
+
+function assertNear(values, expected, tolerance) {
+  assert.equal(values.length, expected.length);
+  for (let i = 0; i < values.length; ++i) assert.ok(Math.abs(values[i] - expected[i]) <= tolerance, `[${i}]: ${values[i]}, ${expected[i]}`);
+}
+
+/** matrix * vector. */
+function times({ rows, rowOffsets, entryColumns, entryValues }, vector) {
+  return Float64Array.from({ length: rows }, (_, row) => {
+    let total = 0;
+    for (let i = rowOffsets[row]; i < rowOffsets[row + 1]; ++i) total += entryValues[i] * vector[entryColumns[i]];
+    return total;
+  });
+}
+
+/** Rows of a * b, as maps from column to value. */
+function product(a, b) {
+  return Array.from({ length: a.rows }, (_, row) => {
+    const entries = new Map();
+    for (let i = a.rowOffsets[row]; i < a.rowOffsets[row + 1]; ++i) {
+      const middle = a.entryColumns[i];
+      for (let j = b.rowOffsets[middle]; j < b.rowOffsets[middle + 1]; ++j) {
+        const column = b.entryColumns[j];
+        entries.set(column, (entries.get(column) ?? 0) + a.entryValues[i] * b.entryValues[j]);
+      }
+    }
+    return entries;
+  });
+}
+
+const isZero = (rows) => rows.every((entries) => [...entries.values()].every((value) => value === 0));
+
+test('the cells fill the box, with the regions of the cut-mesh', () => {
+  const { regionVolume } = mandoline.measure(mesh, cutMesh);
+  for (const [name, all] of complexes) {
+    assert.equal(all.cutCells, cutMesh.cellRegion.length, name);
+    assert.ok(Math.abs(sum(all.cellVolume) - box3) < 1e-12 * box3, name);
+    const volumes = new Float64Array(cutMesh.regionCount);
+    all.cellVolume.forEach((volume, cell) => { volumes[all.cellRegion[cell]] += volume; });
+    assertNear(volumes, regionVolume, 1e-12 * box3);
+  }
+  const untouched = cutMesh.gridCellRegion.filter((region) => region >= 0).length;
+  assert.equal(cellCount(cells), cells.cutCells + untouched);
+  assert.equal(cellCount(coarse), coarse.cutCells + octree.cellLevel.length);
+  assert.ok(octree.cellLevel.length < untouched && octree.cellLevel.some((level) => level > 0));
+  assert.deepEqual(octree.gridCells, [13, 12, 7]);
+});
+
+test('options of coarsen()', () => {
+  assert.equal(Math.max(...physics.coarsen(cutMesh, { maxLevel: 0 }).cellLevel), 0);
+  const { cellLevel } = physics.coarsen(cutMesh, { fineLayers: 3 });
+  assert.ok(cellLevel.length > octree.cellLevel.length);
+  assert.ok(physics.coarsen(cutMesh, { balanceEdges: true }).cellLevel.length >= octree.cellLevel.length);
+  assert.throws(() => physics.coarsen(cutMesh, { maxLevel: -1 }), { code: 'badOption', stage: 'coarsen' });
+});
+
+test('the boundary of a boundary is nothing, to the bit', () => {
+  for (const [name, all] of complexes) {
+    const { cellFaceIncidence, faceEdgeIncidence, edgeVertexIncidence, ...rest } = physics.operators(all, {
+      only: ['cellFaceIncidence', 'faceEdgeIncidence', 'edgeVertexIncidence'],
+    });
+    assert.deepEqual(rest, {});
+    const edges = physics.complexEdges(all).vertices.length / 2;
+    assert.deepEqual([cellFaceIncidence.rows, cellFaceIncidence.columns], [cellCount(all), faceCount(all)], name);
+    assert.deepEqual([faceEdgeIncidence.rows, faceEdgeIncidence.columns], [faceCount(all), edges], name);
+    assert.deepEqual([edgeVertexIncidence.rows, edgeVertexIncidence.columns], [edges, all.positions.length / 3], name);
+    assert.ok(isZero(product(cellFaceIncidence, faceEdgeIncidence)), name);
+    assert.ok(isZero(product(faceEdgeIncidence, edgeVertexIncidence)), name);
+    assert.ok(!isZero(product(edgeVertexIncidence, { ...edgeVertexIncidence, rowOffsets: faceEdgeIncidence.rowOffsets })), name);
+  }
+});
+
+test('gradient, divergence and Laplacian', () => {
+  for (const [name, all] of complexes) {
+    const { gradient, divergence, laplacian, cellMass, faceStar, faceMass } = physics.operators(all);
+    const u = products(field, all.faceNormal);
+    assertNear(times(divergence, u), new Float64Array(cellCount(all)), 1e-13);
+    const derivative = times(gradient, products(field, all.cellCentre));
+    const inner = [...derivative.keys()].filter((f) => gradient.rowOffsets[f] < gradient.rowOffsets[f + 1]);
+    assert.ok(inner.length > cellCount(all), name);
+    assertNear(inner.map((f) => derivative[f]), inner.map((f) => u[f]), 1e-9);
+    assertNear(times(laplacian, new Float64Array(cellCount(all)).fill(1)), new Float64Array(cellCount(all)), 1e-10);
+    assertNear(times(laplacian, all.cellCentroid), times(divergence, times(gradient, all.cellCentroid)), 1e-9);
+    assert.deepEqual(cellMass.entryValues, all.cellVolume, name);
+    for (const { rows, columns } of [faceStar, faceMass]) assert.deepEqual([rows, columns], [faceCount(all), faceCount(all)], name);
+  }
+  const slanted = physics.operators(cells, { only: ['gradient'], dualPoints: 'centroids' });
+  assert.notDeepEqual(slanted, physics.operators(cells, { only: ['gradient'] }));
+});
+
+test('a linear solution, its values given on two sides and its derivative elsewhere', () => {
+  for (const [name, all] of complexes) {
+    const boundary = physics.boundaryOf(all);
+    const normals = physics.outwardNormals(boundary, all);
+    for (let b = 0; b < boundary.halfFaces.length; ++b) {
+      const face = boundary.halfFaces[b] >> 1;
+      const isHeld = faceTags[all.faceTag[face]] === 'xMin';
+      boundary.condition[b] = isHeld ? 1 : 0;
+      boundary.value[b] = isHeld ? dot(field, all.faceCentroid, face) : dot(field, normals, b);
+    }
+    const { status, phi, residuals } = physics.solvePoisson(all, { boundary });
+    assert.equal(status, 'converged', name);
+    assert.ok(residuals.at(-1) <= 1e-10 && residuals.length < 60, name);
+    const outside = [...phi.keys()].filter((cell) => all.cellRegion[cell] === all.cellRegion.at(-1));
+    assertNear(outside.map((cell) => phi[cell]), outside.map((cell) => dot(field, all.cellCentre, cell)), 1e-8);
+  }
+});
+
+test('conditions by tag', () => {
+  const boundary = physics.boundaryOf(cells, { xMin: { dirichlet: 3 }, surface: { neumann: 0.5 } });
+  const tags = Array.from(boundary.halfFaces, (h) => faceTags[cells.faceTag[h >> 1]]);
+  assert.deepEqual([...boundary.value], tags.map((tag) => ({ xMin: 3, surface: 0.5 })[tag] ?? 0));
+  assert.deepEqual([...boundary.condition], tags.map((tag) => (tag === 'xMin' ? 1 : 0)));
+  assert.ok(!tags.includes('inner') && tags.includes('zMax'));
+  const all = physics.boundaryOf(cells, Object.fromEntries(faceTags.map((tag) => [tag, { dirichlet: 2 }])));
+  assertNear(physics.solvePoisson(cells, { boundary: all }).phi, new Float64Array(cellCount(cells)).fill(2), 1e-8);
+});
+
+test('the system of a problem, and its solution', () => {
+  const problem = { boundary: physics.boundaryOf(cells, { zMin: { dirichlet: 1 } }), source: cells.cellVolume };
+  const { matrix, rhs, nullSpace } = physics.poissonSystem(cells, problem);
+  const balanced = physics.solvePoisson(cells, problem, { balance: true, tolerance: 1e-12 });
+  assert.equal(balanced.status, 'converged');
+  const { cellComponent, count } = physics.cellComponents(cells);
+  assert.deepEqual([count, nullSpace.rows, nullSpace.columns], [2, cellCount(cells), 1]); // the torus is not held
+  const residual = times(matrix, balanced.phi).map((value, i) => value - rhs[i]);
+  const held = cellComponent.at(-1);
+  for (const [cell, value] of residual.entries()) assert.ok(cellComponent[cell] !== held || Math.abs(value) < 1e-10);
+  const { status, component, excess, phi } = physics.solvePoisson(cells, problem);
+  assert.deepEqual([status, component, Math.sign(excess)], ['incompatible', 1 - held, -1]);
+  assertNear(phi, new Float64Array(cellCount(cells)), 0);
+  assert.equal(physics.solvePoisson(cells, problem, { balance: true, maxIterations: 1 }).status, 'iterationLimit');
+  const pinned = physics.solvePoisson(cells, problem, { balance: true, freeConstant: 'pinned' });
+  assert.equal(pinned.phi[cellComponent.indexOf(1 - held)], 0);
+});
+
+test('parts', () => {
+  let total = 0;
+  for (let region = 0; region < cutMesh.regionCount; ++region) {
+    const part = physics.regionComplex(coarse, region);
+    total += sum(part.cells.cellVolume);
+    assert.ok(part.cells.cellRegion.every((r) => r === region));
+    assert.deepEqual(part.cells.cellVolume, Float64Array.from(part.wholeCell, (cell) => coarse.cellVolume[cell]));
+    assert.equal(physics.cellComponents(part.cells).count, 1);
+    assert.equal(physics.operators(part.cells, { only: ['divergence'] }).divergence.columns, part.wholeFace.length);
+  }
+  assert.ok(Math.abs(total - box3) < 1e-12 * box3);
+  const { cells: two, wholeCell, wholeVertex } = physics.subComplex(cells, [7, 3]);
+  assert.deepEqual([...wholeCell], [3, 7]);
+  assert.equal(two.positions.length, 3 * wholeVertex.length);
+  assert.deepEqual(physics.subComplex(cells, new Uint32Array([7, 3])).wholeCell, wholeCell);
+  assert.throws(() => physics.subComplex(cells, [1, 1]), { code: 'badArgument', element: 1, message: 'Cell 1 is named twice.' });
+  assert.throws(() => physics.subComplex(cells, [1e6]), { code: 'badArgument', element: 1e6 });
+  assert.throws(() => physics.regionComplex(cells, 9), { code: 'badArgument', element: 9, stage: 'regionComplex' });
+});
+
+test('the two sides of a sheet do not meet', () => {
+  const open = sheet([-2, -2], [2, 2], 0.05);
+  const all = physics.cellComplex(open, cut(open, { min: [-1, -1, -1], max: [1, 1, 1], cells: [4, 4, 5] }));
+  assert.equal(physics.cellComponents(all).count, 2);
+  const boundary = physics.boundaryOf(all, { zMin: { dirichlet: -1 }, zMax: { dirichlet: 1 } });
+  assertNear(physics.solvePoisson(all, { boundary }).phi, all.cellCentroid.filter((_, i) => i % 3 === 2).map(Math.sign), 1e-9);
+});
+
+const source = cells.cellCentre.filter((_, i) => i % 3 === 0);
+const inputs = { cutMesh: () => cut(mesh, grid), cells: () => physics.cellComplex(mesh, cut(mesh, grid)) };
+const calls = {
+  coarsen: ['cutMesh', (given) => physics.coarsen(given)],
+  cellComplex: ['cutMesh', (given) => physics.cellComplex(mesh, given, octree)],
+  subComplex: ['cells', (given) => physics.subComplex(given, [1, 2, 3])],
+  regionComplex: ['cells', (given) => physics.regionComplex(given, 0)],
+  complexEdges: ['cells', (given) => physics.complexEdges(given)],
+  operators: ['cells', (given) => physics.operators(given, { only: ['laplacian'] })],
+  boundaryOf: ['cells', (given) => physics.boundaryOf(given)],
+  outwardNormals: ['cells', (given) => physics.outwardNormals(physics.boundaryOf(cells), given)],
+  cellComponents: ['cells', (given) => physics.cellComponents(given)],
+  poissonSystem: ['cells', (given) => physics.poissonSystem(given)],
+  solvePoisson: ['cells', (given) => physics.solvePoisson(given, { source }, { balance: true })],
+};
+
+test('every call gives the same from the twin and from data', () => {
+  const tried = Object.keys(calls).sort();
+  assert.deepEqual(tried, Object.keys(physics).filter((name) => name !== 'version').sort());
+  for (const [name, [kind, call]] of Object.entries(calls)) {
+    const given = inputs[kind]();
+    const fromData = call(structuredClone(given));
+    assert.deepEqual(call(given), fromData, name); // a cut-mesh gets its twin here
+    assert.deepEqual(call(gut(given)), fromData, name);
+    assert.throws(() => call({ ...given }), { code: 'badArgument', message: /detached/, stage: name });
+  }
+  const { cells: part } = physics.regionComplex(cells, 0);
+  assert.equal(physics.cellComponents(gut(part)).count, 1);
+});
+
+test('wrong arguments are named', () => {
+  const boundary = physics.boundaryOf(cells);
+  const assertBad = (call, message, code = 'badArgument') => assert.throws(call, (error) => {
+    assert.ok(error instanceof MandolineError, error.stack);
+    assert.match(error.message, message);
+    return error.code === code && error.stage !== '';
+  });
+  const cases = [
+    [() => physics.coarsen(), /^cutMesh must be an object, not undefined/],
+    [() => physics.coarsen(cells), /^cutMesh must be what cut\(\) gives, not what cellComplex\(\)/],
+    [() => physics.coarsen(cutMesh, { maxLevel: 1.5 }), /^options\.maxLevel must be a whole number, not 1\.5/],
+    [() => physics.coarsen(cutMesh, { balanceEdges: 1 }), /^options\.balanceEdges must be true or false/],
+    [() => physics.cellComplex(mesh, {}), /^cutMesh\.grid must be an object/],
+    [() => physics.cellComplex(mesh, cutMesh, {}), /^octree\.gridCells must have three numbers/],
+    [() => physics.cellComplex(mesh, cutMesh, { ...octree, cellLevel: [] }), /^octree\.cellLevel must be a Uint8Array, not an array/],
+    [() => physics.cellComplex(mesh, cutMesh, { ...octree, cellLevel: new Uint8Array() }), /octree cells are not those of this cut-mesh/],
+    [() => physics.cellComplex(mesh, cutMesh, { ...octree, gridCells: [1, 2, 3] }), /octree cells are of another grid/],
+    [() => physics.cellComplex(box([0, 0, 0], [1, 1, 1]), cutMesh), /cut-mesh/],
+    [() => physics.operators(cutMesh), /^cells must be what cellComplex\(\), .* not what cut\(\) does/],
+    [() => physics.operators({ ...cells, faceArea: cells.faceArea.slice(1) }), /^The arrays of cells don't fit together: .* length\.$/],
+    [() => physics.operators({ ...cells, cutCells: -1 }), /^cells\.cutCells is -1/],
+    [() => physics.operators(cells, { only: 'gradient' }), /^options\.only must be an array of names/],
+    [() => physics.operators(cells, { only: ['curl'] }), /^options\.only\[0\] must be "cellFaceIncidence", .*, not "curl"/],
+    [() => physics.operators(cells, { dualPoints: 'corners' }), /^options\.dualPoints must be "centres" or "centroids", not "corners"/],
+    [() => physics.subComplex(cells, 7), /^cellIds must be a Uint32Array or an array, not 7/],
+    [() => physics.subComplex(cells, [0.5]), /^cellIds\[0\] must be a whole number/],
+    [() => physics.boundaryOf(cells, { left: { dirichlet: 0 } }), /^A key of conditions must be "xMin", .* not "left"/],
+    [() => physics.boundaryOf(cells, { xMin: 0 }), /^conditions\.xMin must be an object/],
+    [() => physics.boundaryOf(cells, { xMin: {} }), /^conditions\.xMin must be \{ dirichlet \} or \{ neumann \}/],
+    [() => physics.boundaryOf(cells, { xMin: { robin: 1 } }), /^The key of conditions\.xMin must be "neumann" or "dirichlet"/],
+    [() => physics.boundaryOf(cells, { xMin: { neumann: '1' } }), /^conditions\.xMin\.neumann must be a number/],
+    [() => physics.outwardNormals({ ...boundary, halfFaces: new Uint32Array([2 ** 30]) }, cells), /^There is no half-face 1073741824/],
+    [() => physics.solvePoisson(cells, { boundary: {} }), /^problem\.boundary\.halfFaces must be a Uint32Array/],
+    [() => physics.solvePoisson(cells, { boundary: physics.boundaryOf(coarse) }), /boundary/],
+    [() => physics.solvePoisson(cells, { boundary: { ...boundary, condition: new Uint8Array([2]) } }), /condition\[0\] must be 0/],
+    [() => physics.solvePoisson(cells, { source: [1] }), /source/],
+    [() => physics.solvePoisson(cells, {}, { freeConstant: 'none' }), /^options\.freeConstant must be "zeroMean" or "pinned"/],
+    [() => physics.solvePoisson(cells, {}, { tolerance: 0 }), /tolerance/, 'badOption'],
+    [() => physics.solvePoisson(cells, {}, { maxIterations: -1 }), /maxIterations|iterations/, 'badOption'],
+    [() => physics.solvePoisson(cells, {}, { progress: 1 }), /^options\.progress must be a function/],
+  ];
+  for (const [call, message, code] of cases) assertBad(call, message, code);
+});
+
+test('progress, and its end', () => {
+  const states = [];
+  physics.solvePoisson(cells, { source }, { balance: true, progress: (state) => { states.push(state); } });
+  assert.ok(states.length > 0 && states.every(({ done, total }) => done <= total));
+  assert.throws(() => physics.solvePoisson(cells, { source }, { balance: true, progress: () => false }), { code: 'cancelled' });
+  assert.throws(() => physics.cellComplex(mesh, cutMesh, octree, { progress: () => { throw new TypeError('mine'); } }), TypeError);
+  assert.equal(physics.solvePoisson(cells, { source }, { balance: true }).status, 'converged');
+});
+
+test('crossing surfaces', () => {
+  const both = join(box([0.2, 0.2, 0.2], [0.7, 0.7, 0.7]), box([0.4, 0.4, 0.4], [0.9, 0.9, 0.9]));
+  const made = cut(both, { min: [0, 0, 0], max: [1, 1, 1], cells: [9, 9, 9] });
+  const all = physics.cellComplex(both, made, physics.coarsen(made));
+  assert.equal(physics.cellComponents(all).count, made.regionCount);
+  assertNear([sum(all.cellVolume)], [1], 1e-12);
+});

@@ -1,0 +1,136 @@
+// A worker that also computes: the same results, the module loaded when it is first needed, and the twins in its thread.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { Worker as NodeWorker } from 'node:worker_threads';
+import { init } from 'mandoline-wasm';
+import { initPhysics } from 'mandoline-wasm/physics';
+import { createWorker } from 'mandoline-wasm/physics/worker';
+import { box, gut, torus } from './meshes.mjs';
+import { rejection } from './workers.mjs';
+
+const [{ cut }, physics] = await Promise.all([init(), initPhysics()]);
+const mesh = torus(24, 12);
+const grid = { cells: 9 };
+const expected = physics.cellComplex(mesh, cut(mesh, grid));
+const source = expected.cellCentre.filter((_, i) => i % 3 === 0);
+const solved = physics.solvePoisson(expected, { source }, { balance: true });
+
+/** Runs f with a worker and the list of the messages to its threads. */
+async function withWatched(f, options) {
+  const sent = [];
+  const thread = () => {
+    const worker = new NodeWorker(new URL(import.meta.resolve('mandoline-wasm/physics/worker-thread')));
+    const post = worker.postMessage.bind(worker);
+    worker.postMessage = (message, transfer) => {
+      sent.push({ call: message.call, hasModule: message.module !== undefined, hasData: message.subject?.data !== undefined });
+      post(message, transfer);
+    };
+    return worker;
+  };
+  const worker = await createWorker({ thread, ...options });
+  try {
+    return await f(worker, sent);
+  } finally {
+    worker.terminate();
+  }
+}
+
+test('the package\'s own worker', async () => {
+  const worker = await createWorker();
+  const cells = await worker.cellComplex(mesh, await worker.cut(mesh, grid));
+  assert.deepEqual(await worker.solvePoisson(cells, { source }, { balance: true }), solved);
+  worker.terminate();
+});
+
+test('every call gives the same, and arrays are sent once', () => withWatched(async (worker, sent) => {
+  const cutMesh = await worker.cut(mesh, grid);
+  const octree = await worker.coarsen(cutMesh);
+  assert.deepEqual(octree, physics.coarsen(cut(mesh, grid)));
+  const cells = await worker.cellComplex(mesh, gut(cutMesh));
+  assert.deepEqual(cells, expected);
+  gut(cells);
+  const boundary = physics.boundaryOf(expected);
+  const calls = {
+    subComplex: [cells, [1, 2, 3]], regionComplex: [cells, 0], complexEdges: [cells], operators: [cells], boundaryOf: [cells],
+    outwardNormals: [boundary, cells], cellComponents: [cells], poissonSystem: [cells, { source }],
+    solvePoisson: [cells, { source }, { balance: true }],
+  };
+  for (const [name, args] of Object.entries(calls)) {
+    assert.deepEqual(await worker[name](...args), physics[name](...args.map((arg) => (arg === cells ? expected : arg))), name);
+  }
+  assert.deepEqual(Object.keys(physics).filter((name) => !(name in calls)).sort(), ['cellComplex', 'coarsen', 'version']);
+  assert.deepEqual(sent.filter(({ hasData }) => hasData).map(({ call }) => call), ['coarsen']); // what cut() gave
+  assert.deepEqual(sent.filter(({ hasModule }) => hasModule).map(({ call }) => call), [undefined, 'coarsen']);
+}));
+
+test('twins of parts', () => withWatched(async (worker, sent) => {
+  const cells = await worker.cellComplex(mesh, await worker.cut(mesh, grid));
+  const { cells: part } = await worker.regionComplex(cells, 0);
+  assert.equal((await worker.cellComponents(gut(part))).count, 1);
+  assert.equal(sent.filter(({ hasData }) => hasData).length, 1);
+}));
+
+test('copies are data', () => withWatched(async (worker) => {
+  const cells = await worker.cellComplex(mesh, structuredClone(await worker.cut(mesh, grid)));
+  assert.deepEqual(await worker.cellComponents({ ...cells }), physics.cellComponents(expected));
+  assert.equal((await rejection(worker.cellComponents({ ...gut(cells) }))).code, 'badArgument');
+}));
+
+test('after an abort the new thread is sent module and arrays', () => withWatched(async (worker, sent) => {
+  const cells = await worker.cellComplex(mesh, await worker.cut(mesh, grid));
+  const { code } = await rejection(worker.solvePoisson(cells, { source }, { balance: true, progress: () => false }));
+  assert.equal(code, 'cancelled');
+  for (let i = 0; i < 2; ++i) assert.deepEqual(await worker.solvePoisson(cells, { source }, { balance: true }), solved);
+  assert.deepEqual(sent.slice(-2), [
+    { call: 'solvePoisson', hasModule: true, hasData: true }, { call: 'solvePoisson', hasModule: false, hasData: false },
+  ]);
+}));
+
+test('calls keep their order, though the first loads the module', () => withWatched(async (worker) => {
+  const cutMesh = await worker.cut(mesh, grid);
+  const done = [];
+  await Promise.all([
+    worker.coarsen(cutMesh).then(() => done.push('coarsen')),
+    worker.measure(mesh, cutMesh).then(() => done.push('measure')),
+    worker.coarsen(cutMesh).then(() => done.push('again')),
+  ]);
+  assert.deepEqual(done, ['coarsen', 'measure', 'again']);
+}));
+
+test('a module that can\'t be loaded fails the calls that compute, and is tried again', async () => {
+  let attempts = 0;
+  const physicsWasm = () => {
+    if (++attempts < 3) throw new TypeError('not yet');
+    return new URL(import.meta.resolve('mandoline-wasm/physics.wasm'));
+  };
+  await withWatched(async (worker) => {
+    const cutMesh = await worker.cut(mesh, grid);
+    for (let i = 0; i < 2; ++i) assert.equal((await rejection(worker.coarsen(cutMesh))).code, 'loadFailed');
+    assert.deepEqual(await worker.coarsen(cutMesh), physics.coarsen(cut(mesh, grid)));
+  }, { physicsWasm });
+});
+
+test('errors name the call', () => withWatched(async (worker) => {
+  const cells = await worker.cellComplex(mesh, await worker.cut(mesh, grid));
+  const { code, stage, element } = await rejection(worker.regionComplex(cells, 7));
+  assert.deepEqual([code, stage, element], ['badArgument', 'regionComplex', 7]);
+  const other = await rejection(worker.cellComplex(box([0, 0, 0], [1, 1, 1]), await worker.cut(mesh, grid)));
+  assert.deepEqual([other.code, other.stage], ['badArgument', 'cellComplex']);
+  const prepared = await worker.prepare(mesh);
+  assert.equal((await rejection(worker.coarsen(prepared))).code, 'badArgument');
+}));
+
+test('a script of one\'s own that does not import the part', async () => {
+  const thread = () => new NodeWorker(new URL(import.meta.resolve('mandoline-wasm/worker-thread')));
+  const worker = await createWorker({ thread });
+  const error = await rejection(worker.coarsen(await worker.cut(mesh, grid)));
+  assert.deepEqual([error.code, error.stage], ['badArgument', 'coarsen']);
+  assert.match(error.message, /import mandoline-wasm\/physics\/worker-thread/);
+  worker.terminate();
+});
+
+test('calls of one\'s own compute in the thread', async () => {
+  const worker = await createWorker({ thread: () => new NodeWorker(new URL('physics_thread.mjs', import.meta.url)) });
+  assert.deepEqual(await worker.call('potential', [mesh, grid]), solved.phi);
+  worker.terminate();
+});

@@ -1,0 +1,157 @@
+// The calls of mandoline-wasm/physics for JavaScript, as in bindings.cpp: src/physics-api.js checks the arguments, and here nothing is
+// decided. A module of its own, so that those who only cut don't load it.
+#include <emscripten/bind.h>
+
+#include "complexes.h"
+#include "cut_meshes.h"
+#include "mandoline/validate.h"
+#include "results.h"
+
+namespace {
+
+using namespace mandoline;
+using namespace mandoline::wasm;
+
+/// A handle of plain data whose arrays fit together.
+template <class Kept, class Arrays>
+val keepChecked(Arrays arrays, const std::string& name) {
+  const Check check = checkArrays(arrays);
+  if (!check.pass) return failure("badArgument", "The arrays of " + name + " don't fit together: " + check.message);
+  return success(val(Kept(std::move(arrays))));
+}
+
+val keepCutMesh(const val& cutMesh) {
+  return guarded([&] { return keepChecked<KeptCutMesh>(readCutMesh(cutMesh), "cutMesh"); });
+}
+
+val keepComplex(const val& cells) {
+  return guarded([&] { return keepChecked<KeptComplex>(readComplex(cells), "cells"); });
+}
+
+val coarsenCutMesh(const KeptCutMesh& kept, const val& options) {
+  return guarded([&, cutMesh = kept.get()] {
+    CoarsenOptions coarsenOptions;
+    coarsenOptions.progress = progressOf(options);
+    coarsenOptions.maxLevel = options["maxLevel"].as<int>();
+    coarsenOptions.fineLayers = options["fineLayers"].as<int>();
+    coarsenOptions.balanceEdges = options["balanceEdges"].as<bool>();
+    return success(toObject(coarsen(*cutMesh, coarsenOptions)));
+  });
+}
+
+/// `octree` is null for the untouched grid cells.
+val complexOf(const val& mesh, const KeptCutMesh& kept, const val& octree, const val& options) {
+  return guarded([&, cutMesh = kept.get()] {
+    const Mesh input = readMeshArrays(mesh);
+    CoarsenOptions none;
+    none.maxLevel = 0;
+    CellComplex cells = cellComplex(input, *cutMesh, octree.isNull() ? coarsen(*cutMesh, none) : readOctree(octree), runOptions(options));
+    const val value = toObject(cells);
+    return success(object({{"value", value}, {"twin", val(KeptComplex(std::move(cells)))}}));
+  });
+}
+
+val withTwin(SubComplex sub) {
+  const val value = toObject(sub);
+  return success(object({{"value", value}, {"twin", val(KeptComplex(std::move(sub.cells)))}}));
+}
+
+val partOf(const KeptComplex& kept, const val& cellIds) {
+  return guarded([&, cells = kept.get()] {
+    std::vector<uint32_t> ids;
+    readArray(cellIds, ids);
+    return withTwin(subComplex(*cells, ids));
+  });
+}
+
+val regionOf(const KeptComplex& kept, uint32_t region) {
+  return guarded([&, cells = kept.get()] { return withTwin(regionComplex(*cells, region)); });
+}
+
+val edgesOf(const KeptComplex& kept) {
+  return guarded([&, cells = kept.get()] { return success(object({{"vertices", toArray(complexEdges(*cells).vertices)}})); });
+}
+
+/// One of the operators, by the name of its function.
+SparseMatrix operatorOf(const CellComplex& cells, const std::string& name, DualPoints dualPoints) {
+  if (name == "cellFaceIncidence") return cellFaceIncidence(cells);
+  if (name == "faceEdgeIncidence") return faceEdgeIncidence(cells, complexEdges(cells));
+  if (name == "edgeVertexIncidence") return edgeVertexIncidence(cells, complexEdges(cells));
+  if (name == "gradient") return gradient(cells, dualPoints);
+  if (name == "divergence") return divergence(cells);
+  if (name == "laplacian") return laplacian(cells, dualPoints);
+  if (name == "cellMass") return cellMass(cells);
+  if (name == "faceStar") return faceStar(cells, dualPoints);
+  return faceMass(cells, dualPoints);
+}
+
+val operatorsOf(const KeptComplex& kept, const val& names, int dualPoints) {
+  return guarded([&, cells = kept.get()] {
+    val result = val::object();
+    for (const std::string& name : emscripten::vecFromJSArray<std::string>(names))
+      result.set(name, toObject(operatorOf(*cells, name, DualPoints(dualPoints))));
+    return success(result);
+  });
+}
+
+/// `conditions`: [tag, condition, value] for each tag that is set.
+val boundaryOfCells(const KeptComplex& kept, const val& conditions) {
+  return guarded([&, cells = kept.get()] {
+    Boundary boundary = boundaryOf(*cells);
+    for (const val& set : emscripten::vecFromJSArray<val>(conditions))
+      setBoundary(boundary, *cells, FaceTag(set[0].as<int>()), Condition(set[1].as<int>()), set[2].as<double>());
+    return success(toObject(boundary));
+  });
+}
+
+val normalsOf(const KeptComplex& kept, const val& boundary) {
+  return guarded([&, cells = kept.get()] { return success(toArray(outwardNormals(readBoundary(boundary, *cells), *cells))); });
+}
+
+val componentsOf(const KeptComplex& kept) {
+  return guarded([&, cells = kept.get()] { return success(toObject(cellComponents(*cells))); });
+}
+
+val systemOf(const KeptComplex& kept, const val& problem) {
+  return guarded([&, cells = kept.get()] {
+    const PoissonSystem system = poissonSystem(*cells, readProblem(problem, *cells));
+    return success(object({{"matrix", toObject(system.matrix)}, {"rhs", toArray(system.rhs)}, {"nullSpace", toObject(system.nullSpace)}}));
+  });
+}
+
+val solve(const KeptComplex& kept, const val& problem, const val& options) {
+  return guarded([&, cells = kept.get()] {
+    SolveOptions solveOptions;
+    solveOptions.progress = progressOf(options);
+    solveOptions.tolerance = options["tolerance"].as<double>();
+    solveOptions.maxIterations = options["maxIterations"].as<int>();
+    solveOptions.freeConstant = FreeConstant(options["freeConstant"].as<int>());
+    solveOptions.balance = options["balance"].as<bool>();
+    return success(toObject(solvePoisson(*cells, readProblem(problem, *cells), solveOptions)));
+  });
+}
+
+std::string version() { return MANDOLINE_VERSION; }
+
+}  // namespace
+
+EMSCRIPTEN_BINDINGS(physics) {
+  emscripten::class_<KeptCutMesh>("KeptCutMesh").function("bytes", &KeptCutMesh::bytes);
+  emscripten::class_<KeptComplex>("KeptComplex").function("bytes", &KeptComplex::bytes);
+  emscripten::function("version", &version);
+  emscripten::function("cutMeshArrays", &describeArrays);
+  emscripten::function("complexArrays", &describeComplexArrays);
+  emscripten::function("keepCutMesh", &keepCutMesh);
+  emscripten::function("keepComplex", &keepComplex);
+  emscripten::function("coarsen", &coarsenCutMesh);
+  emscripten::function("cellComplex", &complexOf);
+  emscripten::function("subComplex", &partOf);
+  emscripten::function("regionComplex", &regionOf);
+  emscripten::function("complexEdges", &edgesOf);
+  emscripten::function("operators", &operatorsOf);
+  emscripten::function("boundaryOf", &boundaryOfCells);
+  emscripten::function("outwardNormals", &normalsOf);
+  emscripten::function("cellComponents", &componentsOf);
+  emscripten::function("poissonSystem", &systemOf);
+  emscripten::function("solvePoisson", &solve);
+}

@@ -1,0 +1,101 @@
+/** As in arguments.js, of mandoline-wasm/physics. */
+import {
+  bad, expectInteger, expectNumber, expectObject, expectTypedArray, kindOf, readId, readNumbers, readVector, readWord,
+} from './arguments.js';
+
+/** What a face is part of, by CellComplex.faceTag. */
+export const faceTags = ['xMin', 'xMax', 'yMin', 'yMax', 'zMin', 'zMax', 'inner', 'surface'];
+
+const conditions = ['neumann', 'dirichlet'];
+const operatorNames = [
+  'cellFaceIncidence', 'faceEdgeIncidence', 'edgeVertexIncidence', 'gradient', 'divergence', 'laplacian', 'cellMass', 'faceStar',
+  'faceMass',
+];
+
+/** A number that C++ keeps as a 32-bit integer; those beyond are as good as the limit. */
+function readInt32(value, name) {
+  return Math.min(Math.max(expectInteger(value, name), -(2 ** 31)), 2 ** 31 - 1);
+}
+
+/** The arrays that the module says a cell complex has ({ name, type } each), with the right types; the rest is up to C++. */
+export function readComplex(cells, arrays) {
+  expectObject(cells, 'cells');
+  const result = {};
+  for (const name of ['cutVertices', 'cutFaces', 'cutCells']) result[name] = readId(cells[name], `cells.${name}`);
+  for (const { name, type } of arrays) result[name] = expectTypedArray(cells[name], type, `cells.${name}`);
+  return result;
+}
+
+export function readOctree(octree) {
+  if (octree === undefined || octree === null) return null;
+  expectObject(octree, 'octree');
+  return {
+    gridCells: readVector(octree.gridCells, 'octree.gridCells', readInt32),
+    cellCorner: expectTypedArray(octree.cellCorner, 'Int32Array', 'octree.cellCorner'),
+    cellLevel: expectTypedArray(octree.cellLevel, 'Uint8Array', 'octree.cellLevel'),
+    cellRegion: expectTypedArray(octree.cellRegion, 'Uint32Array', 'octree.cellRegion'),
+  };
+}
+
+/** Ids of cells; whether there are such is up to C++. */
+export function readCellIds(ids) {
+  if (ArrayBuffer.isView(ids)) return expectTypedArray(ids, 'Uint32Array', 'cellIds');
+  if (!Array.isArray(ids)) throw bad(`cellIds must be a Uint32Array or an array, not ${kindOf(ids)}.`);
+  return Uint32Array.from(ids, (id, i) => readId(id, `cellIds[${i}]`));
+}
+
+export function readCoarsenOptions({ maxLevel = 24, fineLayers = 0 }) {
+  return { maxLevel: readInt32(maxLevel, 'options.maxLevel'), fineLayers: readInt32(fineLayers, 'options.fineLayers') };
+}
+
+function readDualPoints({ dualPoints = 'centres' }, of) {
+  return readWord(dualPoints, ['centres', 'centroids'], `${of}.dualPoints`);
+}
+
+export function readOperatorOptions(given) {
+  const { only = operatorNames } = given;
+  if (!Array.isArray(only)) throw bad(`options.only must be an array of names of operators, not ${kindOf(only)}.`);
+  only.forEach((name, i) => readWord(name, operatorNames, `options.only[${i}]`));
+  return [[...new Set(only)], readDualPoints(given, 'options')];
+}
+
+/** { xMin: { dirichlet: 0 }, ... } as [tag, condition, value] each. */
+export function readConditions(given) {
+  if (given === undefined) return [];
+  expectObject(given, 'conditions');
+  return Object.entries(given).map(([tag, set]) => {
+    const name = `conditions.${tag}`;
+    const number = readWord(tag, faceTags, 'A key of conditions');
+    expectObject(set, name);
+    const words = Object.keys(set);
+    if (words.length !== 1) throw bad(`${name} must be { dirichlet } or { neumann }.`);
+    return [number, readWord(words[0], conditions, `The key of ${name}`), expectNumber(set[words[0]], `${name}.${words[0]}`)];
+  });
+}
+
+export function readBoundary(boundary, name = 'boundary') {
+  expectObject(boundary, name);
+  const halfFaces = expectTypedArray(boundary.halfFaces, 'Uint32Array', `${name}.halfFaces`);
+  const condition = expectTypedArray(boundary.condition, 'Uint8Array', `${name}.condition`);
+  const wrong = condition.findIndex((number) => number >= conditions.length);
+  if (wrong >= 0) throw bad(`${name}.condition[${wrong}] must be 0 (neumann) or 1 (dirichlet), not ${condition[wrong]}.`);
+  return { halfFaces, condition, value: readNumbers(boundary.value, `${name}.value`) };
+}
+
+export function readProblem(problem = {}) {
+  expectObject(problem, 'problem');
+  const { boundary, source } = problem;
+  return {
+    boundary: boundary === undefined ? undefined : readBoundary(boundary, 'problem.boundary'),
+    source: source === undefined ? undefined : readNumbers(source, 'problem.source'),
+    dualPoints: readDualPoints(problem, 'problem'),
+  };
+}
+
+export function readSolveOptions({ tolerance = 1e-10, maxIterations = 500, freeConstant = 'zeroMean' }) {
+  return {
+    tolerance: expectNumber(tolerance, 'options.tolerance'),
+    maxIterations: readInt32(maxIterations, 'options.maxIterations'),
+    freeConstant: readWord(freeConstant, ['zeroMean', 'pinned'], 'options.freeConstant'),
+  };
+}

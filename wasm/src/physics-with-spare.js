@@ -1,0 +1,3 @@
+import './spare-physics-wasm.js';
+
+export * from './physics.js';

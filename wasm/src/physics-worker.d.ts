@@ -1,0 +1,32 @@
+/** The worker of `mandoline-wasm/worker` that also computes: the calls of `mandoline-wasm/physics` as promises. Browsers and Node. */
+import type { CutMesh, Mesh, RunOptions } from './index.js';
+import type {
+  Boundary, CellComplex, CellComponents, CoarsenOptions, ComplexEdges, Conditions, OctreeCells, OperatorOptions, Operators, PhysicsOptions,
+  PoissonProblem, PoissonSystem, Solution, SolveOptions, SubComplex,
+} from './physics.js';
+import type { CallOptions, MandolineWorker, WorkerOptions } from './worker.js';
+
+export { MandolineError, describe } from './index.js';
+
+/**
+ * All calls run one after another, in the order they were made. The first one that computes loads the module for it. Results are
+ * transferred, and the twins of cell complexes, and of cut-meshes that were computed with, stay in the thread (see CutMesh).
+ */
+export interface PhysicsWorker extends MandolineWorker {
+  coarsen(cutMesh: CutMesh, options?: CoarsenOptions & CallOptions): Promise<OctreeCells>;
+  cellComplex(mesh: Mesh, cutMesh: CutMesh, octree?: OctreeCells | null, options?: RunOptions & CallOptions): Promise<CellComplex>;
+  subComplex(cells: CellComplex, cellIds: Uint32Array | readonly number[], options?: CallOptions): Promise<SubComplex>;
+  regionComplex(cells: CellComplex, region: number, options?: CallOptions): Promise<SubComplex>;
+  complexEdges(cells: CellComplex, options?: CallOptions): Promise<ComplexEdges>;
+  operators<Name extends keyof Operators = keyof Operators>(
+    cells: CellComplex, options?: OperatorOptions<Name> & CallOptions,
+  ): Promise<Pick<Operators, Name>>;
+  boundaryOf(cells: CellComplex, conditions?: Conditions, options?: CallOptions): Promise<Boundary>;
+  outwardNormals(boundary: Boundary, cells: CellComplex, options?: CallOptions): Promise<Float64Array<ArrayBuffer>>;
+  cellComponents(cells: CellComplex, options?: CallOptions): Promise<CellComponents>;
+  poissonSystem(cells: CellComplex, problem?: PoissonProblem, options?: CallOptions): Promise<PoissonSystem>;
+  solvePoisson(cells: CellComplex, problem?: PoissonProblem, options?: SolveOptions & CallOptions): Promise<Solution>;
+}
+
+/** Starts a worker that has loaded the cutter's module. Errors as those of createWorker() of `mandoline-wasm/worker`. */
+export function createWorker(options?: WorkerOptions & PhysicsOptions): Promise<PhysicsWorker>;

@@ -1,0 +1,28 @@
+import { readOptions } from './arguments.js';
+import { named } from './errors.js';
+import { compile } from './load.js';
+import { ownPhysicsWasm } from './own-physics-wasm.js';
+import { makePhysics } from './physics-api.js';
+import { PhysicsHost } from './physics-host.js';
+
+export { MandolineError, describe } from './errors.js';
+export { faceTags } from './physics-arguments.js';
+
+let started;
+
+async function start(options) {
+  const { physicsWasm = ownPhysicsWasm.source } = named('initPhysics', readOptions)(options);
+  return makePhysics(new PhysicsHost(await compile(physicsWasm)));
+}
+
+/**
+ * Loads the WebAssembly module, once: every call gives the same promise, whatever its options. After a failure the next call tries again.
+ */
+export function initPhysics(options) {
+  if (!started) {
+    const attempt = start(options);
+    attempt.catch(() => { started = undefined; });
+    started = attempt;
+  }
+  return started;
+}
