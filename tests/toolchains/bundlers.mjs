@@ -3,11 +3,12 @@ import assert from 'node:assert/strict';
 import { copyFileSync, readdirSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { assertChecked, checkModule, html, ownWorker, pageScript } from './example.mjs';
+import { assertChecked, checkModule, html, ownWorker, pageScript, physics } from './example.mjs';
 import { makeProject, openFolder, openServed, run } from './projects.mjs';
 
 const asIs = { 'main.js': pageScript, 'check.js': checkModule() };
-const withOwnWorker = { 'main.js': pageScript, 'check.js': checkModule(ownWorker), ...ownWorker.files };
+const { imports, more } = physics();
+const withAll = { 'main.js': pageScript, 'check.js': checkModule({ imports, more: ownWorker.more + more }), ...ownWorker.files };
 const importInline = "import * as inline from 'mandoline-wasm/inline';";
 const inline = { 'main.js': pageScript, 'check.js': checkModule({ imports: importInline, options: 'inline' }) };
 
@@ -23,12 +24,12 @@ for (const [version, vite] of [[5, 'vite5'], [6, 'vite6'], [7, 'vite7'], [8, 'vi
   const tool = `${vite}/bin/vite.js`;
 
   test(`Vite ${version}, development`, async () => {
-    const folder = makeProject(`${vite} dev`, { 'index.html': html('./main.js'), ...withOwnWorker });
+    const folder = makeProject(`${vite} dev`, { 'index.html': html('./main.js'), ...withAll });
     assertChecked(await openServed(folder, tool, (port) => ['--host', '127.0.0.1', '--port', port, '--strictPort']));
   });
 
   test(`Vite ${version}, build`, async () => {
-    const folder = makeProject(`${vite} build`, { 'index.html': html('./main.js'), ...withOwnWorker });
+    const folder = makeProject(`${vite} build`, { 'index.html': html('./main.js'), ...withAll });
     assertQuiet(await run(folder, tool, 'build', '--base', './'));
     assertPage(await openFolder(join(folder, 'dist')));
   });
@@ -40,20 +41,22 @@ for (const mode of ['development', 'production']) {
       'dist/index.html': html('./main.js', { module: false }),
       // Any WebAssembly is larger than what webpack likes to see in production.
       'webpack.config.js': "module.exports = { entry: './main.js', performance: { hints: false } };",
-      ...withOwnWorker,
+      ...withAll,
     });
     assertQuiet(await run(folder, '.bin/webpack', '--mode', mode));
     assertPage(await openFolder(join(folder, 'dist')));
   });
 }
 
-test('webpack 5, a page that starts no worker, without a script for one', async () => {
+test('webpack 5, a page that starts no worker, without a script for one, nor the module that computes', async () => {
   const script = `
     import { init } from 'mandoline-wasm';
     init().then(({ version }) => { globalThis.outcome = { version }; }, (error) => { globalThis.outcome = { error: error.message }; });`;
   const folder = makeProject('webpack core', { 'dist/index.html': html('./main.js', { module: false }), 'main.js': script });
   await run(folder, '.bin/webpack', '--mode', 'production', '--entry', './main.js');
-  assert.deepEqual(readdirSync(join(folder, 'dist')).filter((file) => file.endsWith('.js')), ['main.js']);
+  const built = readdirSync(join(folder, 'dist'));
+  assert.deepEqual(built.filter((file) => file.endsWith('.js')), ['main.js']);
+  assert.equal(built.filter((file) => file.endsWith('.wasm')).length, 1);
   assert.equal((await openFolder(join(folder, 'dist'))).error, undefined);
 });
 
@@ -85,6 +88,16 @@ for (const [name, { command, module }] of Object.entries(inlineBuilds)) {
     assertPage(await openFolder(join(folder, 'dist')), { wasm: false });
   });
 }
+
+test('esbuild, with mandoline-wasm/physics/inline', async () => {
+  const computing = physics('inline');
+  const check = checkModule({
+    imports: `import * as inline from 'mandoline-wasm/physics/inline';\n${computing.imports}`, options: 'inline', more: computing.more,
+  });
+  const folder = makeProject('esbuild physics', { 'dist/index.html': html('./main.js'), 'main.js': pageScript, 'check.js': check });
+  assertQuiet(await run(folder, '.bin/esbuild', 'main.js', '--bundle', '--format=esm', '--outdir=dist'));
+  assertPage(await openFolder(join(folder, 'dist')), { wasm: false });
+});
 
 const fileBuilds = {
   Rollup: rollup('--input', 'main.js', '--input', 'mandoline-wasm/worker-thread', '--dir', 'dist'),

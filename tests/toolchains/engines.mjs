@@ -2,16 +2,17 @@
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { assertChecked, checkModule, print } from './example.mjs';
+import { assertChecked, checkModule, physics, print } from './example.mjs';
 import { makeProject, run } from './projects.mjs';
 
 const module = checkModule() + print;
+const computing = checkModule(physics()) + print;
 const asRequire = (text) => text.replaceAll(/^import (\{.*?\}) from (.*?);$/gm, 'const $1 = require($2);').replace('export ', '');
 const asImport = (text) => asRequire(text).replaceAll(/^const (\{.*?\}) = require\((.*?)\);\n/gm, '')
   .replace('{ cut } = await init', "{ cut } = await (await import('mandoline-wasm')).init")
   .replace('await createWorker', "await (await import('mandoline-wasm/worker')).createWorker");
 const scripts = {
-  'ES modules': ['main.mjs', module],
+  'ES modules': ['main.mjs', computing],
   'CommonJS, require()': ['main.cjs', asRequire(module)],
   'CommonJS, import()': ['main.cjs', asImport(module)],
 };
@@ -37,7 +38,7 @@ for (const [engine, command] of Object.entries(engines)) {
 
 for (const format of ['esm', 'cjs']) {
   test(`a server's bundle by esbuild, ${format}, that nothing lies beside`, async () => {
-    const folder = makeProject(`server ${format}`, { 'main.js': module });
+    const folder = makeProject(`server ${format}`, { 'main.js': computing });
     const file = join(folder, '..', `bundle.${format === 'esm' ? 'mjs' : 'cjs'}`);
     const output = await run(folder, '.bin/esbuild', 'main.js', '--bundle', '--platform=node', `--format=${format}`, `--outfile=${file}`);
     assert.doesNotMatch(output, /warn/i);

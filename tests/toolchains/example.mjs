@@ -1,4 +1,4 @@
-// What the projects run: a cut, the same in a worker, and a call of one's own in a worker of one's own.
+// What the projects run: a cut, the same in a worker, and a call of one's own in a worker of one's own; and the cells of all, computed.
 import assert from 'node:assert/strict';
 
 const mesh = `{
@@ -42,6 +42,20 @@ serve({ countCells: (mandoline, [mesh]) => mandoline.cut(mesh, { cells: 8 }).cel
   },
 };
 
+/** All cells, here and in a worker that computes. `options` is code: the arguments of initPhysics() and createWorker(). */
+export function physics(options = '') {
+  return {
+    imports: `import { initPhysics } from 'mandoline-wasm/physics';
+import { createWorker as createPhysicsWorker } from 'mandoline-wasm/physics/worker';`,
+    more: `
+  const { cellComplex } = await initPhysics(${options});
+  const computing = await createPhysicsWorker(${options});
+  const complex = await computing.cellComplex(mesh, await computing.cut(mesh, { cells: 8 }));
+  computing.terminate();
+  result.computed = [cellComplex(mesh, here), complex].map(({ cellRegion }) => cellRegion.length).join();`,
+  };
+}
+
 /** A script that tells the page of the result. */
 export const pageScript = `
 import { check } from './check.js';
@@ -61,9 +75,11 @@ export function html(script, { head = '', module = true } = {}) {
 `;
 }
 
-export function assertChecked({ cells, same, own = cells, error }) {
+/** What has `computed` has to have computed. */
+export function assertChecked({ cells, same, own = cells, computed = '664,664', error }) {
   assert.equal(error, undefined);
   assert.equal(cells, 304);
   assert.equal(same, true);
   assert.equal(own, cells);
+  assert.equal(computed, '664,664');
 }
