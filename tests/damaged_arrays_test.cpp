@@ -82,7 +82,7 @@ void useAll(const Mesh& mesh, const CutMesh& cutMesh) {
 
 }  // namespace
 
-TEST_CASE("damaged cut-meshes lead no function astray") {
+TEST_CASE("damaged cut-meshes lead no function astray", "[validate]") {
   // The second one crosses the first, so that there are made vertices.
   const Mesh mesh = shapes::merged({shapes::torus({0, 0, 0}, 1, 0.4, 12, 8), shapes::torus({0.9, 0.1, 0.2}, 0.4, 0.2, 6, 4)});
   const CutResult result = cut(mesh, Grid::around(mesh, 5));

@@ -382,7 +382,7 @@ Mesh closedSurface(int slices, int corners, bool turned, const std::function<Poi
 
 TEST_CASE("soups: a spindle torus", "[soups]") {
   // Around the axis, the part of the tube beyond it is inside out: there the tube's two passages cancel.
-  const Mesh spindle = torus({1.53125, 1.46875, 1.5}, 0.5, 0.75, 10, 12);
+  const Mesh spindle = torus({1.53125, 1.46875, 1.5}, 0.5, 0.75, 8, 9);
   const double volume = signedVolume(spindle);
   for (const int64_t n : {1, 5}) {
     inAllOrders(spindle, Grid::box({0, 0, 0}, {3, 3, 3}, {n, n, n}), [&](const CheckedCut& cut, const Variant& variant) {

@@ -255,14 +255,14 @@ void requireOnly(const Validation& validation, const std::vector<std::string>& e
 
 }  // namespace
 
-TEST_CASE("validate: right cut-meshes pass") {
+TEST_CASE("validate: right cut-meshes pass", "[validate]") {
   requirePass(Halves().validated());
   requirePass(bubble().validated());
   requirePass(Shelf(false).validated());
   requirePass(Shelf(true).validated());
 }
 
-TEST_CASE("validate: checks that do not apply say why") {
+TEST_CASE("validate: checks that do not apply say why", "[validate]") {
   const Validation open = Halves().validated();
   for (const char* name : {"windingNumber", "inputVolume"}) {
     CHECK(checkNamed(open, name).skipped);
@@ -278,7 +278,7 @@ void makeVertex(CutMesh& cut, uint32_t v, MadeVertex kind, const std::array<int3
   cut.madeVertexParents.insert(cut.madeVertexParents.end(), parents.begin(), parents.end());
 }
 
-TEST_CASE("validate: garbage arrays are named, not followed") {
+TEST_CASE("validate: garbage arrays are named, not followed", "[validate]") {
   using Break = std::function<void(CutMesh&)>;
   const std::vector<Break> breaks{
       [](CutMesh& c) { c.positions.pop_back(); },
@@ -364,7 +364,7 @@ TEST_CASE("validate: garbage arrays are named, not followed") {
   }
 }
 
-TEST_CASE("validate: vertices") {
+TEST_CASE("validate: vertices", "[validate]") {
   SECTION("a mask without one of its planes") {
     Halves h;
     const uint32_t v = h.vertex({0, 0, 0.5});
@@ -416,7 +416,7 @@ TEST_CASE("validate: vertices") {
   }
 }
 
-TEST_CASE("validate: faces") {
+TEST_CASE("validate: faces", "[validate]") {
   SECTION("in another plane than it names") {
     Halves h;
     h.cut.facePlane[h.middleBelow] = 2;
@@ -445,7 +445,7 @@ TEST_CASE("validate: faces") {
   }
 }
 
-TEST_CASE("validate: half-faces") {
+TEST_CASE("validate: half-faces", "[validate]") {
   SECTION("cut-cell in another grid cell than its faces") {
     Halves h;
     h.cut.cellGridCell[3 * h.below[0]] = 1;
@@ -501,7 +501,7 @@ TEST_CASE("validate: half-faces") {
   }
 }
 
-TEST_CASE("validate: cells that do not fit around an edge") {
+TEST_CASE("validate: cells that do not fit around an edge", "[validate]") {
   Halves h;
   // The two lower cut-cells trade their pieces of the plane between them for the upper ones' tri-faces.
   uint32_t& lower = h.cut.cellHalfFaces[h.cut.cellHalfFaceOffsets[h.below[0]]];
@@ -514,7 +514,7 @@ TEST_CASE("validate: cells that do not fit around an edge") {
   CHECK_FALSE(checkNamed(validation, "closedCells").pass);
 }
 
-TEST_CASE("validate: a vertex inside of an edge") {
+TEST_CASE("validate: a vertex inside of an edge", "[validate]") {
   Halves h;
   // The upper piece of the plane between the grid cells goes straight past the middle vertex, whose position is exact.
   const uint32_t l = h.cut.faceLoopOffsets[h.middleAbove], v = h.vertex({1, 0.5, 0.5});
@@ -525,7 +525,7 @@ TEST_CASE("validate: a vertex inside of an edge") {
   requireFailure(h.validated(), "closedCells", "cell", h.above[0]);
 }
 
-TEST_CASE("validate: shells") {
+TEST_CASE("validate: shells", "[validate]") {
   SECTION("two cells in one") {
     Bubbles b;
     b.tetrahedron(0.25, 0.25, 0.25, 0.5);
@@ -559,7 +559,7 @@ TEST_CASE("validate: shells") {
   }
 }
 
-TEST_CASE("validate: bubbles that intersect inside of a grid cell") {
+TEST_CASE("validate: bubbles that intersect inside of a grid cell", "[validate]") {
   Bubbles b;
   b.tetrahedron(0.125, 0.125, 0.125, 0.5);
   const std::vector<uint32_t> first = b.outward;
@@ -597,7 +597,7 @@ Validation validatedCut(const Mesh& mesh, const Grid& grid, Intersections inters
   return validate(mesh, result.mesh);
 }
 
-TEST_CASE("validate: sheets that meet inside a grid cell, unresolved and resolved") {
+TEST_CASE("validate: sheets that meet inside a grid cell, unresolved and resolved", "[validate]") {
   const Grid grid = Grid::regular({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
   const auto requireFound = [&](const Mesh& mesh, size_t cells, size_t resolvedCells) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -627,7 +627,7 @@ TEST_CASE("validate: sheets that meet inside a grid cell, unresolved and resolve
   }
 }
 
-TEST_CASE("validate: sheets that meet in a grid plane, each from its own side") {
+TEST_CASE("validate: sheets that meet in a grid plane, each from its own side", "[validate]") {
   const Grid grid = Grid::regular({0, 0, 0}, {1, 1, 1}, {2, 2, 2});
   const Mesh mesh{{0, 0, 2, 0, 1, 1, 1, 1, 2, 2, 1, 1, 1, 2, 1, 0, 1, 2}, {0, 1, 2, 3, 4, 5}};  // whose edges cross at y = 1
   const Validation unresolved = validatedCut(mesh, grid, Intersections::assumeNone, 6);
@@ -636,7 +636,7 @@ TEST_CASE("validate: sheets that meet in a grid plane, each from its own side") 
   requirePass(validatedCut(mesh, grid, Intersections::resolve, 7));
 }
 
-TEST_CASE("validate: sheets a rounding apart, or crossing by as little") {
+TEST_CASE("validate: sheets a rounding apart, or crossing by as little", "[validate]") {
   std::mt19937 random(11);
   const Grid grid = Grid::regular({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
   size_t apart = 0, crossing = 0;
@@ -666,7 +666,7 @@ TEST_CASE("validate: sheets a rounding apart, or crossing by as little") {
   CHECK(crossing > 30);
 }
 
-TEST_CASE("validate: grid-faces that a sheet divides, but that are left whole") {
+TEST_CASE("validate: grid-faces that a sheet divides, but that are left whole", "[validate]") {
   Sketch s(1, 1, 1);
   const std::vector<uint32_t> sides = s.box(0);
   const double m = 0.5;
@@ -703,7 +703,7 @@ std::vector<std::array<double, 4>> cellsOf(const Mesh& mesh, const CutMesh& cutM
   return cells;
 }
 
-TEST_CASE("validate: cuts that assume no intersections pass only if they have the cells of the resolved ones") {
+TEST_CASE("validate: cuts that assume no intersections pass only if they have the cells of the resolved ones", "[validate]") {
   std::mt19937 random(3);
   size_t passed = 0, failed = 0;
   for (int soup = 0; soup < 600; ++soup) {
@@ -728,7 +728,7 @@ TEST_CASE("validate: cuts that assume no intersections pass only if they have th
   CHECK(failed > 50);
 }
 
-TEST_CASE("validate: faces of floating triangles that cross or lie on each other where no edge shows it") {
+TEST_CASE("validate: faces of floating triangles that cross or lie on each other where no edge shows it", "[validate]") {
   Sketch s(1, 1, 1);
   const std::vector<uint32_t> sides = s.box(0);
   uint32_t f = 0, g = 0;
@@ -745,7 +745,7 @@ TEST_CASE("validate: faces of floating triangles that cross or lie on each other
   requireFailure(s.validated(), "crossings", "face", g);
 }
 
-TEST_CASE("validate: soups of triangles with corners on a coarse lattice pass once resolved") {
+TEST_CASE("validate: soups of triangles with corners on a coarse lattice pass once resolved", "[validate]") {
   std::mt19937 random(7);
   for (int soup = 0; soup < 10; ++soup) {
     Mesh mesh;
@@ -762,7 +762,7 @@ TEST_CASE("validate: soups of triangles with corners on a coarse lattice pass on
   }
 }
 
-TEST_CASE("validate: made vertices") {
+TEST_CASE("validate: made vertices", "[validate]") {
   const Mesh mesh = squares({{{{0.25, 0.25, 0.25}, {0.875, 0.25, 0.75}, {0.875, 0.875, 0.75}, {0.25, 0.875, 0.375}}},
                              {{{0.125, 0.5, 0.125}, {0.75, 0.5, 0.125}, {0.75, 0.625, 0.875}, {0.125, 0.625, 0.875}}}});
   const CutResult result = cut(mesh, Grid::regular({0, 0, 0}, {1, 1, 1}, {1, 1, 1}));
@@ -789,7 +789,7 @@ TEST_CASE("validate: made vertices") {
   }
 }
 
-TEST_CASE("validate: nested bubbles") {
+TEST_CASE("validate: nested bubbles", "[validate]") {
   Bubbles b;
   b.tetrahedron(0.125, 0.125, 0.125, 0.75);
   const std::vector<uint32_t> outerInward = b.inward, outerOutward = b.outward;
@@ -813,7 +813,7 @@ TEST_CASE("validate: nested bubbles") {
   }
 }
 
-TEST_CASE("validate: surface") {
+TEST_CASE("validate: surface", "[validate]") {
   SECTION("a face that names another triangle") {
     Halves h;
     h.cut.faceTriangle[h.triFaces[3]] = 0;
@@ -859,7 +859,7 @@ TEST_CASE("validate: surface") {
   }
 }
 
-TEST_CASE("validate: stencil and regions") {
+TEST_CASE("validate: stencil and regions", "[validate]") {
   SECTION("a grid cell that is nowhere") {
     Bubbles b = bubble();
     b.cut.runBegin.clear(), b.cut.runEnd.clear(), b.cut.runRegion.clear();
@@ -903,7 +903,7 @@ TEST_CASE("validate: stencil and regions") {
   }
 }
 
-TEST_CASE("validate: winding numbers") {
+TEST_CASE("validate: winding numbers", "[validate]") {
   SECTION("a step that is wrong") {
     Bubbles b = bubble();
     b.cut.regionWinding = {0, 2};
@@ -957,7 +957,7 @@ TEST_CASE("validate: winding numbers") {
   }
 }
 
-TEST_CASE("validate: messages are sentences without counts of roundings") {
+TEST_CASE("validate: messages are sentences without counts of roundings", "[validate]") {
   SECTION("of a measure") {
     Halves h;
     h.mesh.triangles.insert(h.mesh.triangles.end(), {0, 2, 1});
@@ -995,7 +995,7 @@ TEST_CASE("validate: messages are sentences without counts of roundings") {
   }
 }
 
-TEST_CASE("validate: the same bits for any number of threads") {
+TEST_CASE("validate: the same bits for any number of threads", "[validate]") {
   const Mesh mesh = shapes::noisySphere({0, 0, 0}, 1, 0.1, 5);
   const CutResult result = cut(mesh, Grid::around(mesh, 24));
   REQUIRE(result);
@@ -1024,7 +1024,7 @@ TEST_CASE("validate: the same bits for any number of threads") {
   }
 }
 
-TEST_CASE("validate: progress ascends, and cancels") {
+TEST_CASE("validate: progress ascends, and cancels", "[validate]") {
   const Mesh mesh = shapes::noisySphere({0, 0, 0}, 1, 0.1, 4);
   const CutResult result = cut(mesh, Grid::around(mesh, 12));
   REQUIRE(result);
@@ -1056,7 +1056,7 @@ TEST_CASE("validate: progress ascends, and cancels") {
   CHECK_THROWS_AS(validate(mesh, result.mesh, options), OfTheCaller);
 }
 
-TEST_CASE("validate: small triangles crowded in a grid cell take as long as large ones that fill it") {
+TEST_CASE("validate: small triangles crowded in a grid cell take as long as large ones that fill it", "[validate]") {
   const Mesh spheres = shapes::merged({shapes::icosphere({0.3, 0.3, 0.3}, 0.25, 4), shapes::icosphere({0.3, 0.3, 0.3}, 0.125, 4),
                                        shapes::icosphere({0.7, 0.7, 0.7}, 0.25, 4)});
   const auto processorTime = [](const Mesh& mesh) {
@@ -1078,7 +1078,7 @@ TEST_CASE("validate: small triangles crowded in a grid cell take as long as larg
   CHECK(processorTime(shapes::translated(shapes::scaled(spheres, {kSmall, kSmall, kSmall}), {0.5, 0.5, 0.5})) < 5 * processorTime(spheres));
 }
 
-TEST_CASE("validate: a mesh that is not the input fails by name") {
+TEST_CASE("validate: a mesh that is not the input fails by name", "[validate]") {
   const Bubbles b = bubble();
   const auto failing = [&](const Mesh& mesh) {
     const Validation validation = validate(mesh, b.cut);
@@ -1100,7 +1100,7 @@ TEST_CASE("validate: a mesh that is not the input fails by name") {
   CHECK(failing(mesh) == "vertices");
 }
 
-TEST_CASE("validate: a snap tolerance that cut() would not take is refused") {
+TEST_CASE("validate: a snap tolerance that cut() would not take is refused", "[validate]") {
   const Bubbles b = bubble();
   for (const double tolerance : {-0.1, 0.5, std::numeric_limits<double>::quiet_NaN()}) {
     ValidateOptions options;
@@ -1109,7 +1109,7 @@ TEST_CASE("validate: a snap tolerance that cut() would not take is refused") {
   }
 }
 
-TEST_CASE("validate: right results on inputs that strain rounding") {
+TEST_CASE("validate: right results on inputs that strain rounding", "[validate]") {
   const auto requireCut = [](const Mesh& mesh, const Grid& grid, double snapTolerance = 0) {
     CutOptions options;
     options.snapTolerance = snapTolerance;
