@@ -29,9 +29,13 @@ test('TypeScript, for Node without the types of browsers', async () => {
   const script = `
 import { compiledModule, init } from 'mandoline-wasm';
 import { thread } from 'mandoline-wasm/inline';
+import { initPhysics } from 'mandoline-wasm/physics';
+import { physicsWasm } from 'mandoline-wasm/physics/inline';
+import { createWorker as createPhysicsWorker } from 'mandoline-wasm/physics/worker';
 import { createWorker } from 'mandoline-wasm/worker';
 import { serve } from 'mandoline-wasm/worker-thread';
 export const started = [init({ wasm: new Uint8Array(8) }), createWorker({ wasm: await compiledModule(), thread }), serve({})];
+export const computing = [initPhysics({ physicsWasm }), createPhysicsWorker({ physicsWasm: new URL('file:///a'), thread })];
 `;
   const options = ['--noEmit', '--strict', '--target', 'es2022', '--lib', 'es2022', '--types', 'node', '--module', 'nodenext'];
   await run(makeProject('typescript node', { 'main.mts': script }), 'typescript5/bin/tsc', ...options, 'main.mts');
@@ -43,6 +47,6 @@ test('publint', async () => {
 
 test('are the types wrong?', async () => {
   // It is about require() in versions of Node that have none for ES modules.
-  const args = [tarball, '--ignore-rules', 'cjs-resolves-to-esm', '--exclude-entrypoints', './mandoline.wasm'];
+  const args = [tarball, '--ignore-rules', 'cjs-resolves-to-esm', '--exclude-entrypoints', './mandoline.wasm', './physics.wasm'];
   await run(makeProject('attw', {}), '.bin/attw', ...args);
 });
