@@ -1,6 +1,7 @@
 #include "mesh/mesh_edges.h"
 
 #include <algorithm>
+#include <memory>
 
 #include "base/sort.h"
 
@@ -9,11 +10,11 @@ namespace {
 
 /// One use of a tri-edge by a side of a triangle, kept in the bucket of its lower end.
 struct Use {
-  VertexId high;
-  uint32_t slot;            ///< 3 * triangle + side, or beyond: see Sides
-  uint32_t oppositeAndWay;  ///< 2 * the triangle's corner that is no end of the side, + 1 if it runs through it from its lower end
+  uint32_t highAndWay;  ///< 2 * the higher end, + 1 if the triangle runs through the side from its lower end
+  uint32_t slot;        ///< 3 * triangle + side, or beyond: see Sides
 
-  bool forward() const { return oppositeAndWay % 2 != 0; }
+  VertexId high() const { return {highAndWay / 2}; }
+  bool forward() const { return highAndWay % 2 != 0; }
 };
 
 /// Sides that are stitched count as several; slots beyond the 3 T sides are theirs.
@@ -33,8 +34,8 @@ void forPlainSides(const WeldedMesh& mesh, const F& f) {
     if (!mesh.kept(t)) continue;
     const auto v = mesh.verticesOf(t);
     for (uint32_t i = 0; i < 3; ++i) {
-      const VertexId a = v[i], b = v[i == 2 ? 0 : i + 1], c = v[i == 0 ? 2 : i - 1];
-      f(std::min(a, b), Use{std::max(a, b), 3 * t.number + i, 2 * c.number + (a < b)});
+      const VertexId a = v[i], b = v[i == 2 ? 0 : i + 1];
+      f(std::min(a, b), Use{2 * std::max(a, b).number + (a < b), 3 * t.number + i});
     }
   }
 }
@@ -63,7 +64,8 @@ void dropDuplicates(WeldedMesh& mesh, std::span<const Use> users, const Sides& s
     mesh.duplicates.push_back({std::min(s, t).number, std::max(s, t).number, sameWay(mesh.verticesOf(s), mesh.verticesOf(t))});
   };
   if (users.size() == 2 && users[1].slot < 3 * mesh.triangles.size()) {
-    if (users[0].oppositeAndWay / 2 == users[1].oppositeAndWay / 2) drop(triangleOf(users[0]), triangleOf(users[1]));
+    const auto opposite = [&](const Use& use) { return mesh.triangles[use.slot / 3][(use.slot % 3 + 2) % 3]; };
+    if (opposite(users[0]) == opposite(users[1])) drop(triangleOf(users[0]), triangleOf(users[1]));
     return;
   }
   std::vector<TriangleId> triangles;
@@ -83,12 +85,12 @@ Sides findStitchedSides(const WeldedMesh& mesh, const Arrangement* arrangement, 
   Sides sides;
   if (!mesh.stitches.empty()) {
     forPlainSides(mesh, [&](VertexId low, const Use& use) {
-      const Stitch* stitch = mesh.findStitch(low.number, use.high.number);
+      const Stitch* stitch = mesh.findStitch(low.number, use.high().number);
       if (!stitch) return;
       edges.sideEdges[use.slot] = MeshEdges::kStitched + uint32_t(sides.stitchedOffsets.size() - 1);
       VertexId from = low;
       for (size_t i = 0; i <= stitch->vertices.size(); ++i) {
-        const VertexId to = i < stitch->vertices.size() ? VertexId{stitch->vertices[i]} : use.high;
+        const VertexId to = i < stitch->vertices.size() ? VertexId{stitch->vertices[i]} : use.high();
         sides.extras.push_back({std::min(from, to), std::max(from, to), TriangleId{use.slot / 3}, use.forward() == (from < to)});
         from = to;
       }
@@ -122,7 +124,7 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
     });
     for (size_t i = 0; i < sides.extras.size(); ++i) {
       const auto& [low, high, triangle, forward] = sides.extras[i];
-      f(low, Use{high, uint32_t(3 * mesh.triangles.size() + i), forward});
+      f(low, Use{2 * high.number + forward, uint32_t(3 * mesh.triangles.size() + i)});
     }
   };
 
@@ -130,26 +132,26 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
   std::vector<uint32_t> offsets(vertices + 1, 0);
   forUses([&](VertexId low, const Use&) { ++offsets[low.number + 1]; });
   for (size_t v = 0; v + 1 < offsets.size(); ++v) offsets[v + 1] += offsets[v];
-  std::vector<Use> uses(offsets.back());
+  const std::unique_ptr<Use[]> uses(new Use[offsets.back()]);
   {
     std::vector<uint32_t> at(offsets.begin(), offsets.end() - 1);
     forUses([&](VertexId low, const Use& use) { uses[at[low.number]++] = use; });
   }
   std::vector<TriEdgeId> extraEdges(sides.extras.size());
-  edges.ends.reserve(uses.size() / 2 + 16);
+  edges.ends.reserve(offsets.back() / 2 + 16);
   bool closed = true;
   for (const VertexId low : Ids<VertexId>(vertices)) {
-    const std::span<Use> bucket(uses.data() + offsets[low.number], offsets[low.number + 1] - offsets[low.number]);
-    sortItems(bucket, [](const Use& a, const Use& b) { return a.high < b.high; });  // slots ascend already
+    const std::span<Use> bucket(uses.get() + offsets[low.number], offsets[low.number + 1] - offsets[low.number]);
+    sortItems(bucket, [](const Use& a, const Use& b) { return a.high() < b.high(); });  // slots ascend already
     for (size_t i = 0, end; i < bucket.size(); i = end) {
       int net = 0;
-      for (end = i; end < bucket.size() && bucket[end].high == bucket[i].high; ++end) {
+      for (end = i; end < bucket.size() && bucket[end].high() == bucket[i].high(); ++end) {
         const size_t slot = bucket[end].slot, plain = edges.sideEdges.size();
         (slot < plain ? edges.sideEdges[slot] : extraEdges[slot - plain].number) = uint32_t(edges.ends.size());
         net += bucket[end].forward() ? 1 : -1;
       }
       closed &= net == 0;
-      edges.ends.push_back({low, bucket[i].high});
+      edges.ends.push_back({low, bucket[i].high()});
       if (end - i > 1) dropDuplicates(mesh, bucket.subspan(i, end - i), sides);
     }
   }
