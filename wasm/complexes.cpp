@@ -97,13 +97,29 @@ val toObject(const SparseMatrix& matrix) {
                  {"entryValues", toArray(values)}});
 }
 
+static val nameOf(SolveStatus status) {
+  static const char* const kNames[] = {"converged", "iterationLimit", "incompatible", "breakdown"};
+  return val(std::string(kNames[size_t(status)]));
+}
+
 val toObject(const Solution& solution) {
-  static const char* const kStatuses[] = {"converged", "iterationLimit", "incompatible", "breakdown"};
-  return object({{"status", val(std::string(kStatuses[size_t(solution.status)]))},
+  return object({{"status", nameOf(solution.status)},
                  {"phi", toArray(solution.phi)},
                  {"residuals", toArray(solution.residuals)},
                  {"component", val(double(solution.component))},
                  {"excess", val(solution.excess)}});
+}
+
+val toObject(const Flow& flow) {
+  return object({{"status", nameOf(flow.status)},
+                 {"residuals", toArray(flow.residuals)},
+                 {"wind", toTriple(flow.wind)},
+                 {"phi", toArray(flow.phi)},
+                 {"faceVelocity", toArray(flow.faceVelocity)},
+                 {"cellVelocity", toArray(flow.cellVelocity)},
+                 {"cellGradient", toArray(flow.cellGradient)},
+                 {"cellPressure", toArray(flow.cellPressure)},
+                 {"throttled", toArray(flow.throttled)}});
 }
 
 }  // namespace mandoline::wasm

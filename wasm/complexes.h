@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "mandoline/poisson.h"
+#include "mandoline/flow.h"
 #include "values.h"
 
 namespace mandoline::wasm {
@@ -62,5 +62,6 @@ val toObject(const CellComponents& components);
 /// By rows.
 val toObject(const SparseMatrix& matrix);
 val toObject(const Solution& solution);
+val toObject(const Flow& flow);
 
 }  // namespace mandoline::wasm

@@ -131,6 +131,16 @@ val solve(const KeptComplex& kept, const val& problem, const val& options) {
   });
 }
 
+val flowThrough(const KeptComplex& kept, const val& wind, const val& options) {
+  return guarded([&, cells = kept.get()] {
+    FlowOptions flowOptions;
+    flowOptions.progress = progressOf(options);
+    flowOptions.tolerance = options["tolerance"].as<double>();
+    flowOptions.maxIterations = options["maxIterations"].as<int>();
+    return success(toObject(solveFlow(*cells, readTriple<double>(wind), flowOptions)));
+  });
+}
+
 std::string version() { return MANDOLINE_VERSION; }
 
 }  // namespace
@@ -154,4 +164,5 @@ EMSCRIPTEN_BINDINGS(physics) {
   emscripten::function("cellComponents", &componentsOf);
   emscripten::function("poissonSystem", &systemOf);
   emscripten::function("solvePoisson", &solve);
+  emscripten::function("solveFlow", &flowThrough);
 }

@@ -41,11 +41,11 @@ export function runNode(folder, script) {
   return execFileSync(process.execPath, [script], { cwd: folder, encoding: 'utf8', timeout: 30_000 }).trim();
 }
 
-/** The first fenced block of code below a heading of the package's README. */
-export function readmeExample(heading) {
-  const readme = readFileSync(join(packageFolder, 'README.md'), 'utf8');
+/** The first fenced block of JavaScript, or of a page, below a heading of the package's README or of another one. */
+export function readmeExample(heading, folder = packageFolder) {
+  const readme = readFileSync(join(folder, 'README.md'), 'utf8');
   const section = readme.split(/^#+ /m).find((text) => text.split('\n', 1)[0].trim() === heading);
-  const block = section?.match(/^```\w*\n(.*?)^```/ms);
+  const block = section?.match(/^```(?:js|html)\n(.*?)^```/ms);
   if (!block) throw new Error(`README.md has no example below "${heading}".`);
   return block[1];
 }

@@ -187,6 +187,31 @@ test('the two sides of a sheet do not meet', () => {
   assertNear(physics.solvePoisson(all, { boundary }).phi, all.cellCentroid.filter((_, i) => i % 3 === 2).map(Math.sign), 1e-9);
 });
 
+test('a wind', () => {
+  const wind = [1, 0.2, 0];
+  for (const [name, all] of complexes) {
+    const flow = physics.solveFlow(all, wind);
+    assert.equal(flow.status, 'converged', name);
+    assert.deepEqual(flow.wind, wind);
+    assert.equal(flow.throttled.length, 0);
+    const { divergence } = physics.operators(all, { only: ['divergence'] });
+    assertNear(times(divergence, flow.faceVelocity), new Float64Array(cellCount(all)), 1e-8);
+    for (let face = 0; face < faceCount(all); ++face) {
+      const tag = faceTags[all.faceTag[face]];
+      if (tag === 'surface') assert.equal(flow.faceVelocity[face], 0, name);
+      else if (tag !== 'inner') assert.ok(Math.abs(flow.faceVelocity[face] - dot(wind, all.faceNormal, face)) < 1e-9, name);
+    }
+    const speeds = Array.from({ length: cellCount(all) }, (_, c) => Math.hypot(...flow.cellVelocity.subarray(3 * c, 3 * c + 3)));
+    const inside = all.cellRegion.map((region) => (cutMesh.regionWinding[region] === 1 ? 1 : 0));
+    assert.ok(Math.max(...speeds.filter((_, c) => inside[c])) < 1e-12 && Math.max(...speeds) > Math.hypot(...wind), name);
+    assertNear(flow.cellPressure, speeds.map((speed) => 1 - speed ** 2 / 1.04), 1e-12);
+  }
+  const empty = physics.cellComplex(mesh, cut(mesh, { min: [3, 3, 3], max: [4, 4, 4], cells: [3, 3, 3] }));
+  const { cellVelocity } = physics.solveFlow(empty, wind);
+  assertNear(cellVelocity, Float64Array.from(cellVelocity, (_, i) => wind[i % 3]), 1e-9);
+  assert.throws(() => physics.solveFlow(cells, [1, NaN, 0]), { code: 'badArgument', stage: 'solveFlow' });
+});
+
 const source = cells.cellCentre.filter((_, i) => i % 3 === 0);
 const inputs = { cutMesh: () => cut(mesh, grid), cells: () => physics.cellComplex(mesh, cut(mesh, grid)) };
 const calls = {
@@ -200,6 +225,7 @@ const calls = {
   outwardNormals: ['cells', (given) => physics.outwardNormals(physics.boundaryOf(cells), given)],
   cellComponents: ['cells', (given) => physics.cellComponents(given)],
   poissonSystem: ['cells', (given) => physics.poissonSystem(given)],
+  solveFlow: ['cells', (given) => physics.solveFlow(given, [1, 2, 3])],
   solvePoisson: ['cells', (given) => physics.solvePoisson(given, { source }, { balance: true })],
 };
 
@@ -256,6 +282,8 @@ test('wrong arguments are named', () => {
     [() => physics.solvePoisson(cells, {}, { freeConstant: 'none' }), /^options\.freeConstant must be "zeroMean" or "pinned"/],
     [() => physics.solvePoisson(cells, {}, { tolerance: 0 }), /tolerance/, 'badOption'],
     [() => physics.solvePoisson(cells, {}, { maxIterations: -1 }), /maxIterations|iterations/, 'badOption'],
+    [() => physics.solveFlow(cells, [1, 0]), /^wind must have three numbers, not 2/],
+    [() => physics.solveFlow(cells, [1, 0, 0], { maxIterations: 0.5 }), /^options\.maxIterations must be a whole number/],
     [() => physics.solvePoisson(cells, {}, { progress: 1 }), /^options\.progress must be a function/],
   ];
   for (const [call, message, code] of cases) assertBad(call, message, code);

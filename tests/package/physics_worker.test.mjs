@@ -53,7 +53,7 @@ test('every call gives the same, and arrays are sent once', () => withWatched(as
   const calls = {
     subComplex: [cells, [1, 2, 3]], regionComplex: [cells, 0], complexEdges: [cells], operators: [cells], boundaryOf: [cells],
     outwardNormals: [boundary, cells], cellComponents: [cells], poissonSystem: [cells, { source }],
-    solvePoisson: [cells, { source }, { balance: true }],
+    solvePoisson: [cells, { source }, { balance: true }], solveFlow: [cells, [1, 0, 0]],
   };
   for (const [name, args] of Object.entries(calls)) {
     assert.deepEqual(await worker[name](...args), physics[name](...args.map((arg) => (arg === cells ? expected : arg))), name);

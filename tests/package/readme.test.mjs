@@ -1,4 +1,4 @@
-// The README's example of errors says what it prints; those of the environments are run by environments.test.mjs.
+// The README's examples that are not of an environment print what they should; those of the environments are run by environments.test.mjs.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { after, test } from 'node:test';
@@ -6,9 +6,16 @@ import { readmeExample, removeFolders, root } from './environments.mjs';
 
 after(removeFolders);
 
+const outputOf = (example) => execFileSync(process.execPath, ['--input-type=module', '-e', example], { cwd: root, encoding: 'utf8' });
+
+test('computing', () => {
+  assert.match(outputOf(readmeExample('Compute')), /^\d{4} cells, converged, pressure coefficient at least -\d\.\d\n$/);
+  assert.match(outputOf(readmeExample('Compute on it', root)), /^\d{3,5} cells converged \d{4,6} entries\n$/);
+  assert.match(outputOf(readmeExample('From JavaScript', root)), /cut-cells/);
+});
+
 test('errors', () => {
-  const output = execFileSync(process.execPath, ['--input-type=module', '-e', readmeExample('Errors')], { cwd: root, encoding: 'utf8' });
-  const [first, second] = output.split('\n');
+  const [first, second] = outputOf(readmeExample('Errors')).split('\n');
   assert.equal(first, 'nonFiniteCoordinate 2');
   assert.match(second, /Vertex 2.* Repair/);
 });

@@ -105,6 +105,7 @@ test('results of mandoline-wasm/physics', () => {
     ['Float64Array', physics.outwardNormals(boundary, cells)],
     ['CellComponents', physics.cellComponents(cells)],
     ['PoissonSystem', physics.poissonSystem(cells, { boundary })],
+    ['Flow', physics.solveFlow(cells, [1, 0, 0])],
     ['Solution', physics.solvePoisson(cells, { boundary, source: cells.cellVolume })],
   ];
   assertCompiles(declared(results, 'mandoline-wasm/physics').text);

@@ -144,6 +144,7 @@ const parameters = {
   cellComponents: ['cells'],
   poissonSystem: ['cells', 'problem'],
   solvePoisson: ['cells', 'problem', 'solving'],
+  solveFlow: ['cells', 'vector', 'solving'],
 };
 
 /** Calls one of these at random, a thousand times. Gives how many calls were fine, and how many had each code. */

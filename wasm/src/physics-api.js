@@ -1,8 +1,8 @@
 // The calls of mandoline-wasm/physics, on a module that has been started.
-import { readFlag, readId, readMesh, readOptions } from './arguments.js';
+import { readFlag, readId, readMesh, readOptions, readVector } from './arguments.js';
 import { named } from './errors.js';
 import {
-  readBoundary, readCellIds, readCoarsenOptions, readConditions, readOctree, readOperatorOptions, readProblem, readSolveOptions,
+  readBoundary, readCellIds, readCoarsenOptions, readConditions, readFreeConstant, readLimits, readOctree, readOperatorOptions, readProblem,
 } from './physics-arguments.js';
 import { withProgress } from './progress.js';
 
@@ -60,8 +60,16 @@ function callsOf(host) {
       const given = readOptions(options);
       return withProgress(given.progress, (progress) => {
         const input = readProblem(problem);
-        const what = { ...readSolveOptions(given), balance: readFlag(given.balance, false, 'options.balance'), progress };
+        const balance = readFlag(given.balance, false, 'options.balance');
+        const what = { ...readLimits(given), freeConstant: readFreeConstant(given), balance, progress };
         return host.runOnComplex(cells, (bindings, twin) => bindings.solvePoisson(twin, input, what));
+      });
+    },
+    solveFlow: (cells, wind, options) => {
+      const given = readOptions(options);
+      return withProgress(given.progress, (progress) => {
+        const [input, what] = [readVector(wind, 'wind'), { ...readLimits(given), progress }];
+        return host.runOnComplex(cells, (bindings, twin) => bindings.solveFlow(twin, input, what));
       });
     },
   };

@@ -92,10 +92,11 @@ export function readProblem(problem = {}) {
   };
 }
 
-export function readSolveOptions({ tolerance = 1e-10, maxIterations = 500, freeConstant = 'zeroMean' }) {
-  return {
-    tolerance: expectNumber(tolerance, 'options.tolerance'),
-    maxIterations: readInt32(maxIterations, 'options.maxIterations'),
-    freeConstant: readWord(freeConstant, ['zeroMean', 'pinned'], 'options.freeConstant'),
-  };
+/** When a solver stops. */
+export function readLimits({ tolerance = 1e-10, maxIterations = 500 }) {
+  return { tolerance: expectNumber(tolerance, 'options.tolerance'), maxIterations: readInt32(maxIterations, 'options.maxIterations') };
+}
+
+export function readFreeConstant({ freeConstant = 'zeroMean' }) {
+  return readWord(freeConstant, ['zeroMean', 'pinned'], 'options.freeConstant');
 }

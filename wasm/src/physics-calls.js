@@ -14,6 +14,7 @@ const physicsCalls = {
   cellComponents: { count: 1, at: 0 },
   poissonSystem: { count: 2, at: 0 },
   solvePoisson: { count: 2, at: 0 },
+  solveFlow: { count: 2, at: 0 },
 };
 
 /** The calls of mandoline-wasm/physics in the same queue. The module is compiled when the first is made, and goes along with it. */

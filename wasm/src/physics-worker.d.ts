@@ -1,8 +1,8 @@
 /** The worker of `mandoline-wasm/worker` that also computes: the calls of `mandoline-wasm/physics` as promises. Browsers and Node. */
-import type { CutMesh, Mesh, RunOptions } from './index.js';
+import type { CutMesh, Mesh, RunOptions, Vector3 } from './index.js';
 import type {
-  Boundary, CellComplex, CellComponents, CoarsenOptions, ComplexEdges, Conditions, OctreeCells, OperatorOptions, Operators, PhysicsOptions,
-  PoissonProblem, PoissonSystem, Solution, SolveOptions, SubComplex,
+  Boundary, CellComplex, CellComponents, CoarsenOptions, ComplexEdges, Conditions, Flow, FlowOptions, OctreeCells, OperatorOptions,
+  Operators, PhysicsOptions, PoissonProblem, PoissonSystem, Solution, SolveOptions, SubComplex,
 } from './physics.js';
 import type { CallOptions, MandolineWorker, WorkerOptions } from './worker.js';
 
@@ -26,6 +26,7 @@ export interface PhysicsWorker extends MandolineWorker {
   cellComponents(cells: CellComplex, options?: CallOptions): Promise<CellComponents>;
   poissonSystem(cells: CellComplex, problem?: PoissonProblem, options?: CallOptions): Promise<PoissonSystem>;
   solvePoisson(cells: CellComplex, problem?: PoissonProblem, options?: SolveOptions & CallOptions): Promise<Solution>;
+  solveFlow(cells: CellComplex, wind: Vector3, options?: FlowOptions & CallOptions): Promise<Flow>;
 }
 
 /** Starts a worker that has loaded the cutter's module. Errors as those of createWorker() of `mandoline-wasm/worker`. */

@@ -1,6 +1,6 @@
 /**
- * Computing on the cells: octree cells away from the surface, all cells as one conforming mesh, discrete operators, Poisson's equation
- * (paper, 5.3 and appendix B). A WebAssembly module of its own, loaded by initPhysics().
+ * Computing on the cells: octree cells away from the surface, all cells as one conforming mesh, discrete operators, Poisson's equation,
+ * potential flow (paper, 5.3 and appendix B). A WebAssembly module of its own, loaded by initPhysics().
  *
  * ```js
  * import { init } from 'mandoline-wasm';
@@ -13,7 +13,7 @@
  * Arrays and calls have the names that they have in the C++ library, and like in index.d.ts all arrays are flat, all ids count from 0, and
  * every offsets array starts with 0 and has one more entry than there are items.
  */
-import type { CutMesh, Mesh, RunOptions, WasmSource } from './index.js';
+import type { CutMesh, Mesh, RunOptions, Vector3, WasmSource } from './index.js';
 
 export { MandolineError, describe } from './index.js';
 
@@ -229,11 +229,14 @@ export interface PoissonSystem {
   nullSpace: SparseMatrix;
 }
 
-export interface SolveOptions extends RunOptions {
+export interface FlowOptions extends RunOptions {
   /** Of the residual, relative to the right side, both in the Euclidean norm. Default 1e-10. */
   tolerance?: number;
   /** Default 500. */
   maxIterations?: number;
+}
+
+export interface SolveOptions extends FlowOptions {
   /**
    * What makes phi unique in a component without a Dirichlet condition. "zeroMean" (default): it has the mean zero by volume; "pinned": it
    * is zero in the component's first cell.
@@ -263,6 +266,26 @@ export interface Solution {
   component: number;
   /** In that component: what flows in, less the integral of s. */
   excess: number;
+}
+
+/** A flow without rotation or sources: its velocity is the gradient of phi. Velocities are in the unit of the wind. */
+export interface Flow {
+  status: SolveStatus;
+  /** As in Solution. */
+  residuals: Float64Array<ArrayBuffer>;
+  wind: [number, number, number];
+  /** Per cell, at its centre; in each component of cellComponents() with the mean zero by volume. */
+  phi: Float64Array<ArrayBuffer>;
+  /** Per face: the mean component along its normal; times faceArea what flows through. */
+  faceVelocity: Float64Array<ArrayBuffer>;
+  /** 3 per cell, at its centroid. */
+  cellVelocity: Float64Array<ArrayBuffer>;
+  /** 6 per cell: how the velocity changes in it, as the symmetric matrix xx, yy, zz, xy, yz, xz, whose trace is zero. */
+  cellGradient: Float64Array<ArrayBuffer>;
+  /** Per cell, at its centroid: the pressure coefficient 1 - |velocity|^2 / |wind|^2. */
+  cellPressure: Float64Array<ArrayBuffer>;
+  /** Components where the wind would bring more into the box than it takes out, or less; ascending. See solveFlow(). */
+  throttled: Uint32Array<ArrayBuffer>;
 }
 
 /** What `initPhysics()` gives. No call changes its arguments. Errors are MandolineErrors, except what a progress callback throws. */
@@ -308,6 +331,16 @@ export interface Physics {
    * tolerance that is not positive or a negative maxIterations. What can't be solved is told by the solution's status.
    */
   solvePoisson(cells: CellComplex, problem?: PoissonProblem, options?: SolveOptions): Solution;
+  /**
+   * Potential flow of a wind through the cells and about the surface (appendix B, figure 22): solves div grad phi = 0, where
+   * grad phi . N = wind . N on the sides of the box and nothing passes the surface, on either side of it, nor faces that a sub-complex was
+   * cut off at. As much flows into a cell as out of it, to the tolerance; what doesn't touch the box is at rest.
+   *
+   * Where the surface divides the box, a component may get more from the wind than it can give away, or less: then the larger of both is
+   * scaled down to the other on all its sides. A component that can only take or only give, a dead end, is at rest. Code "badArgument" if
+   * the wind is not finite, "badOption" as in solvePoisson().
+   */
+  solveFlow(cells: CellComplex, wind: Vector3, options?: FlowOptions): Flow;
 }
 
 export interface PhysicsOptions {
