@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "mandoline/poisson.h"
 
@@ -42,5 +43,53 @@ struct Flow {
 /// The result is the same to the bit for any number of threads. Throws CallError if the wind is not finite (badArgument), if an option is
 /// out of range (badOption), or if cancelled.
 Flow solveFlow(const CellComplex& cells, const std::array<double, 3>& wind, const FlowOptions& options = {});
+
+/// A flow and what it was solved on; they have to outlive it.
+struct FlowField {
+  MeshView mesh;  ///< that the cut-mesh was made from
+  const CutMesh& cutMesh;
+  const CellComplex& cells;  ///< all of the cut-mesh's
+  const Flow& flow;
+};
+
+/// 3 per point: the velocity there, linear in each cell; NaN outside the grid. `points`: 3 per point, world units. Which cell holds a
+/// point, and so which side of a sheet it is on, is decided as cellsAt() does. Throws CallError{badArgument} unless the number of
+/// coordinates is a multiple of 3 and the field's parts belong together.
+std::vector<double> velocityAt(const FlowField& field, std::span<const double> points);
+
+struct StreamlineOptions : RunOptions {
+  bool upstream = false;       ///< against the flow
+  double tolerance = 1e-3;     ///< of a step and of its chord, relative to the size of its cell
+  double maxLength = 1e300;    ///< of a line, world units
+  uint32_t maxPoints = 10000;  ///< of a line
+};
+
+/// Where a streamline ends.
+enum class StreamlineEnd : uint8_t {
+  side,       ///< on a side of the box, exactly
+  surface,    ///< at the surface: its last point is before it, by rounding
+  rest,       ///< where nothing flows
+  maxLength,  ///< its length is that
+  maxPoints,  ///< it has as many
+  outside     ///< its seed is not in the grid; it has no points
+};
+
+struct Streamlines {
+  std::vector<double> points;       ///< 3 per point
+  std::vector<double> speeds;       ///< per point
+  std::vector<uint32_t> offsets;    ///< per line, one per seed: into the points
+  std::vector<StreamlineEnd> ends;  ///< per line
+};
+
+/// Follows the flow from the seeds, 3 coordinates each: Runge-Kutta steps of third order (Bogacki, Shampine 1989) of adaptive length. Each
+/// ends in its cell at the latest. No segment of a line meets a triangle of the mesh, by exact predicates (those without area are none),
+/// and none leaves the grid. A seed on the surface has a line of one point.
+///
+/// The result is the same to the bit for any number of threads. Throws CallError as velocityAt() does, if an option is out of range
+/// (badOption), if there are 2^32 points or more (meshTooLarge), or if cancelled.
+Streamlines streamlines(const FlowField& field, std::span<const double> seeds, const StreamlineOptions& options = {});
+
+/// 3 per seed: points on the sides where the wind enters the box, evenly by what enters.
+std::vector<double> inflowSeeds(const Grid& grid, const std::array<double, 3>& wind, size_t count);
 
 }  // namespace mandoline

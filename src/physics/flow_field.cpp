@@ -1,0 +1,85 @@
+#include "physics/flow_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mandoline/locate.h"
+#include "operators/measure/require_input.h"
+#include "operators/require_cut_mesh.h"
+
+namespace mandoline {
+namespace physics {
+
+void requireField(const FlowField& field, std::span<const double> points) {
+  const auto& [mesh, cutMesh, cells, flow] = field;
+  operators::requireCutMesh(cutMesh);
+  measuring::requireInput(mesh, cutMesh);
+  const size_t n = cells.cellCount();
+  if (cells.cutCells != cutMesh.cellCount() || cells.cutFaces != cutMesh.faceCount())
+    operators::refuse("The cells are not all of this cut-mesh's.");
+  if (flow.cellVelocity.size() != 3 * n || flow.cellGradient.size() != 6 * n) operators::refuse("The flow is one of other cells.");
+  if (points.size() % 3 != 0) operators::refuse("The points have " + std::to_string(points.size()) + " coordinates, no multiple of 3.");
+}
+
+OctreeCells octreeOf(const FlowField& field) {
+  OctreeCells octree;
+  const CellComplex& cells = field.cells;
+  for (size_t d = 0; d < 3; ++d) octree.gridCells[d] = int32_t(field.cutMesh.grid.cells(int(d)));
+  octree.cellCorner.assign(cells.cellCorner.begin() + 3 * std::ptrdiff_t(cells.cutCells), cells.cellCorner.end());
+  octree.cellLevel.assign(cells.cellLevel.begin() + std::ptrdiff_t(cells.cutCells), cells.cellLevel.end());
+  octree.cellRegion.assign(cells.cellRegion.begin() + std::ptrdiff_t(cells.cutCells), cells.cellRegion.end());
+  return octree;
+}
+
+std::vector<int64_t> cellsAt(const FlowField& field, const OctreeCells& octree, std::span<const double> points) {
+  const Locations found = mandoline::cellsAt(field.cutMesh, points);
+  std::vector<int64_t> cells(found.cell.begin(), found.cell.end());
+  for (size_t i = 0; i < cells.size(); ++i) {
+    if (cells[i] >= 0 || found.gridCell[3 * i] < 0) continue;
+    const int64_t n = octree.find(found.gridCell[3 * i], found.gridCell[3 * i + 1], found.gridCell[3 * i + 2]);
+    if (n < 0) operators::refuse("The cells are not all of this cut-mesh's.");
+    cells[i] = int64_t(field.cells.cutCells) + n;
+  }
+  return cells;
+}
+
+}  // namespace physics
+
+std::vector<double> velocityAt(const FlowField& field, std::span<const double> points) {
+  physics::requireField(field, points);
+  const std::vector<int64_t> cells = physics::cellsAt(field, physics::octreeOf(field), points);
+  std::vector<double> result(points.size(), NAN);
+  for (size_t i = 0; i < cells.size(); ++i) {
+    if (cells[i] < 0) continue;
+    const auto v = physics::velocityIn(field, size_t(cells[i]), &points[3 * i]);
+    std::copy(v.begin(), v.end(), &result[3 * i]);
+  }
+  return result;
+}
+
+std::vector<double> inflowSeeds(const Grid& grid, const std::array<double, 3>& wind, size_t count) {
+  double inflow[3], all = 0;
+  for (size_t d = 0; d < 3; ++d) {
+    inflow[d] = std::fabs(wind[d]);
+    for (size_t e = 0; e < 3; ++e) inflow[d] *= e == d ? 1 : grid.planes[e].back() - grid.planes[e].front();
+    all += inflow[d];
+  }
+  std::vector<double> seeds;
+  // Points of a plane's R2 sequence (Roberts 2018), which fills it evenly; sides in turns of a sequence of its own.
+  constexpr double kSide = 0.6180339887498949, kFirst = 0.7548776662466927, kSecond = 0.5698402909980532;
+  const auto fraction = [](double x) { return x - std::floor(x); };
+  for (size_t i = 0; i < count && all > 0; ++i) {
+    double side = all * fraction(0.5 + kSide * double(i));
+    size_t axis = 0;
+    while (axis < 2 && (side >= inflow[axis] || inflow[axis] == 0)) side -= inflow[axis++];
+    if (inflow[axis] == 0) axis = inflow[0] > 0 ? 0 : 1;  // by rounding
+    const double at[2] = {fraction(0.5 + kFirst * double(i)), fraction(0.5 + kSecond * double(i))};
+    for (size_t d = 0; d < 3; ++d) {
+      const double low = grid.planes[d].front(), high = grid.planes[d].back();
+      seeds.push_back(d == axis ? (wind[d] > 0 ? low : high) : std::clamp(low + at[d == (axis + 1) % 3 ? 0 : 1] * (high - low), low, high));
+    }
+  }
+  return seeds;
+}
+
+}  // namespace mandoline

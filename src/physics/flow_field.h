@@ -1,0 +1,25 @@
+// A flow's cells: which one holds a point, and the velocity in it.
+#pragma once
+
+#include "mandoline/flow.h"
+
+namespace mandoline::physics {
+
+/// Throws CallError{badArgument} if the field's parts do not belong together, or the coordinates of points are no multiple of 3.
+void requireField(const FlowField& field, std::span<const double> points);
+
+/// The cells of a cell complex that are no cut-cells.
+OctreeCells octreeOf(const FlowField& field);
+
+/// Per point: the cell that holds it, or -1 outside the grid.
+std::vector<int64_t> cellsAt(const FlowField& field, const OctreeCells& octree, std::span<const double> points);
+
+inline std::array<double, 3> velocityIn(const FlowField& field, size_t cell, const double* point) {
+  const double *v = &field.flow.cellVelocity[3 * cell], *g = &field.flow.cellGradient[6 * cell];
+  double r[3];
+  for (size_t d = 0; d < 3; ++d) r[d] = point[d] - field.cells.cellCentroid[3 * cell + d];
+  return {v[0] + (g[0] * r[0] + g[3] * r[1] + g[5] * r[2]), v[1] + (g[3] * r[0] + g[1] * r[1] + g[4] * r[2]),
+          v[2] + (g[5] * r[0] + g[4] * r[1] + g[2] * r[2])};
+}
+
+}  // namespace mandoline::physics

@@ -1,0 +1,37 @@
+// The triangles of the mesh as obstacles of segments, decided exactly.
+#pragma once
+
+#include "base/box_tree.h"
+#include "base/exact.h"
+#include "mandoline/grid.h"
+
+namespace mandoline::physics {
+
+using detail::Point;
+
+using Triangle = std::array<Point, 3>;
+struct Segment {
+  Point from, to;
+};
+
+class Obstacles {
+ public:
+  /// Those with an area.
+  Obstacles(const MeshView& mesh, const Grid& grid);
+
+  /// Whether a segment, in world units, has no point in common with any, their borders included. Another thread needs predicates of its
+  /// own.
+  bool isFree(const Segment& segment, detail::Predicates& predicates) const;
+  /// The last point of the segment that can be reached from its start; the start itself if that lies on a triangle.
+  Point reached(const Segment& segment, detail::Predicates& predicates) const;
+
+ private:
+  double scaled(double x) const;
+  Point scaled(const Point& p) const { return {scaled(p[0]), scaled(p[1]), scaled(p[2])}; }
+
+  int shift_ = 0;
+  std::vector<Triangle> triangles_;
+  detail::BoxTree tree_;
+};
+
+}  // namespace mandoline::physics

@@ -1,0 +1,72 @@
+// Follows a flow from cell to cell.
+//
+// In a cell the velocity is linear, and a step ends where it meets a side of the cell's grid cell or octree cell: points on it have the
+// plane's coordinate exactly. Only triangles divide a grid cell, and no step meets one, so the cell stays the same until then. Where the
+// velocities of two cells both point at the side between them, the line slides along it.
+#pragma once
+
+#include "operators/locate/walls.h"
+#include "physics/flow_field.h"
+#include "physics/obstacles.h"
+
+namespace mandoline::physics {
+
+class Tracer {
+ public:
+  /// Keeps references to all.
+  Tracer(const FlowField& field, const OctreeCells& octree, const Obstacles& obstacles, const StreamlineOptions& options);
+
+  /// Appends the line from a seed, which lies in the cell.
+  void trace(const Point& seed, size_t cell, Streamlines& lines);
+
+ private:
+  using GridIndex = std::array<int32_t, 3>;
+  /// A side of the cell's box: the lower or upper one across an axis.
+  struct Side {
+    size_t axis;
+    bool upper;
+  };
+  struct Step {
+    Point to;
+    double error;  ///< of the end or of the chord, if that is larger
+  };
+
+  void enter(size_t cell);
+  bool goOn();
+  bool isOutward(size_t axis, const Point& v) const;
+  bool meetSide(size_t axis, const Point& v);
+  bool cross(const Side& side);
+  int64_t cellAcross(const Side& side, const GridIndex& at);
+  Point velocity(const Point& p) const;
+  Step stepOf(double time) const;
+  bool move(const Point& v);
+  double shareInside(const Point& to, size_t& axis) const;
+  bool advance(Point to);
+  void push(const Point& p);
+  bool end(StreamlineEnd why) {
+    end_ = why;
+    return false;
+  }
+
+  const FlowField& field_;
+  const OctreeCells& octree_;
+  const Obstacles& obstacles_;
+  const StreamlineOptions& options_;
+  operators::ScaledSpace space_;
+  operators::Walls walls_;
+  detail::Predicates predicates_;
+  double slowest_;  ///< what is at rest is slower
+
+  Streamlines* lines_ = nullptr;
+  StreamlineEnd end_{};
+  size_t cell_ = 0;
+  GridIndex corner_{}, past_{};  ///< of the cell's box
+  Point low_{}, high_{};
+  double size_ = 0;  ///< the box's longest side
+  Point at_{};
+  double time_ = 0;  ///< of the next step; 0 for none yet
+  double length_ = 0;
+  std::array<bool, 3> crossed_{}, held_{};  ///< at this point: axes whose side has been crossed, and that the line slides across
+};
+
+}  // namespace mandoline::physics
