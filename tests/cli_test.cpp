@@ -515,6 +515,28 @@ TEST_CASE("Command line: crossing cubes are resolved, refused or left alone, and
   REQUIRE(contains(run(folder, {"info", folder.write("cube.obj", kCube)}).out, "intersecting pairs    0\n"));
 }
 
+#ifdef MANDOLINE_HAVE_OPERATORS
+TEST_CASE("Command line: flow writes cells with velocities, and streamlines", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", kCube);
+  const Outcome o = run(folder, {"flow", mesh, "--wind", "1,0,0.25", "--cells", "8", "--coarsen", "1", "--streamlines", "7", "-o",
+                                 folder.path("flow.vtu"), folder.path("lines.obj")});
+  CAPTURE(o.err);
+  REQUIRE(o.exitCode == 0);
+  REQUIRE(contains(o.out, "status                converged\n"));
+  for (const std::string part : {"Name=\"phi\"", "Name=\"velocity\"", "Name=\"pressure_coefficient\""})
+    REQUIRE(contains(folder.read("flow.vtu"), part));
+  const std::string lines = folder.read("lines.obj");
+  size_t count = 0;
+  for (size_t i = lines.find("\nl "); i != std::string::npos; i = lines.find("\nl ", i + 1)) ++count;
+  REQUIRE(count == 7);
+  REQUIRE(contains(run(folder, {"flow", mesh, "-o", folder.path("flow.vtu")}).err, "flow needs --wind"));
+  REQUIRE(contains(run(folder, {"flow", mesh, "--wind", "1,0", "-o", folder.path("flow.vtu")}).err, "--wind needs X,Y,Z, not '1,0'"));
+  REQUIRE(contains(run(folder, {"flow", mesh, "--wind", "1,0,0", "-o", folder.path("flow.stl")}).err,
+                   "flow.stl: a flow is written as .vtu or .obj"));
+}
+#endif
+
 TEST_CASE("Command line: info tells what kind of mesh it is", "[cli]") {
   const TemporaryFolder folder;
   const Outcome closed = run(folder, {"info", folder.write("cube.obj", kCube)});

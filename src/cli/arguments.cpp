@@ -36,32 +36,44 @@ class Parser {
     using C = Command;
     static const std::vector<Option> kOptions = {
         {"--report", {C::cut, C::info}, [](Parser& p, const std::string& name) { p.arguments_.report = p.value(name); }},
-        {"--cells", {C::cut, C::slice}, [](Parser& p, const std::string& name) { parseCells(p.value(name), p.arguments_.grid); }},
-        {"--box", {C::cut, C::slice}, [](Parser& p, const std::string& name) { parseBox(p.value(name), p.arguments_.grid); }},
-        {"--origin", {C::cut, C::slice}, [](Parser& p, const std::string& name) { parseOrigin(p.value(name), p.arguments_.grid); }},
-        {"--spacing", {C::cut, C::slice}, [](Parser& p, const std::string& name) { parseSpacing(p.value(name), p.arguments_.grid); }},
-        {"--planes", {C::cut, C::slice}, [](Parser& p, const std::string& name) { parsePlanes(p.value(name), p.arguments_.grid); }},
-        {"--snap-tolerance", {C::cut, C::slice}, [](Parser& p, const std::string& name) { p.parseSnapTolerance(p.value(name)); }},
-        {"--intersections", {C::cut, C::slice}, [](Parser& p, const std::string& name) { p.parseIntersections(p.value(name)); }},
-        {"--threads", {C::cut, C::slice, C::info, C::resolve}, [](Parser& p, const std::string& name) { p.parseThreads(p.value(name)); }},
+        {"--cells", {C::cut, C::slice, C::flow}, [](Parser& p, const std::string& name) { parseCells(p.value(name), p.arguments_.grid); }},
+        {"--box", {C::cut, C::slice, C::flow}, [](Parser& p, const std::string& name) { parseBox(p.value(name), p.arguments_.grid); }},
+        {"--origin",
+         {C::cut, C::slice, C::flow},
+         [](Parser& p, const std::string& name) { parseOrigin(p.value(name), p.arguments_.grid); }},
+        {"--spacing",
+         {C::cut, C::slice, C::flow},
+         [](Parser& p, const std::string& name) { parseSpacing(p.value(name), p.arguments_.grid); }},
+        {"--planes",
+         {C::cut, C::slice, C::flow},
+         [](Parser& p, const std::string& name) { parsePlanes(p.value(name), p.arguments_.grid); }},
+        {"--snap-tolerance", {C::cut, C::slice, C::flow}, [](Parser& p, const std::string& name) { p.parseSnapTolerance(p.value(name)); }},
+        {"--intersections", {C::cut, C::slice, C::flow}, [](Parser& p, const std::string& name) { p.parseIntersections(p.value(name)); }},
+        {"--threads",
+         {C::cut, C::slice, C::flow, C::info, C::resolve},
+         [](Parser& p, const std::string& name) { p.parseThreads(p.value(name)); }},
         {"--validate", {C::cut}, [](Parser& p, const std::string&) { p.arguments_.validate = true; }},
-        {"--coarsen", {C::cut}, [](Parser& p, const std::string& name) { p.parseCoarsen(p.value(name)); }},
+        {"--coarsen", {C::cut, C::flow}, [](Parser& p, const std::string& name) { p.parseCoarsen(p.value(name)); }},
+        {"--wind", {C::flow}, [](Parser& p, const std::string& name) { parseWind(p.value(name), p.arguments_.flow); }},
+        {"--streamlines", {C::flow}, [](Parser& p, const std::string& name) { parseStreamlines(p.value(name), p.arguments_.flow); }},
         {"--axis", {C::slice}, [](Parser& p, const std::string& name) { parseAxis(p.value(name), p.arguments_.slice); }},
         {"--normal", {C::slice}, [](Parser& p, const std::string& name) { parseNormal(p.value(name), p.arguments_.slice); }},
         {"--heights", {C::slice}, [](Parser& p, const std::string& name) { parseHeights(p.value(name), p.arguments_.slice); }},
         {"--layers", {C::slice}, [](Parser& p, const std::string& name) { parseLayers(p.value(name), p.arguments_.slice); }},
-        {"--only", {C::cut, C::slice}, [](Parser& p, const std::string& name) { parseOnly(p.value(name), p.arguments_.only); }},
+        {"--only", {C::cut, C::slice, C::flow}, [](Parser& p, const std::string& name) { parseOnly(p.value(name), p.arguments_.only); }},
         {"--rule", {C::resolve}, [](Parser& p, const std::string& name) { p.parseRule(p.value(name)); }},
-        {"--format", {C::cut, C::slice, C::make, C::resolve}, [](Parser& p, const std::string& name) { p.parseFormat(p.value(name)); }},
-        {"-o", {C::cut, C::slice, C::make, C::resolve}, [](Parser& p, const std::string& name) { p.parseOutputs(name); }},
+        {"--format",
+         {C::cut, C::slice, C::flow, C::make, C::resolve},
+         [](Parser& p, const std::string& name) { p.parseFormat(p.value(name)); }},
+        {"-o", {C::cut, C::slice, C::flow, C::make, C::resolve}, [](Parser& p, const std::string& name) { p.parseOutputs(name); }},
     };
     return kOptions;
   }
 
   void parseCommand(const std::string& word) {
-    constexpr std::pair<const char*, Command> kCommands[] = {{"cut", Command::cut},         {"slice", Command::slice},
-                                                             {"info", Command::info},       {"make", Command::make},
-                                                             {"resolve", Command::resolve}, {"--version", Command::version}};
+    constexpr std::pair<const char*, Command> kCommands[] = {
+        {"cut", Command::cut},   {"slice", Command::slice},     {"flow", Command::flow},        {"info", Command::info},
+        {"make", Command::make}, {"resolve", Command::resolve}, {"--version", Command::version}};
     const auto found = std::find_if(std::begin(kCommands), std::end(kCommands), [&](const auto& command) { return word == command.first; });
     if (found == std::end(kCommands)) throw UsageError("unknown command '" + word + "'");
     arguments_.command = found->second;
@@ -157,6 +169,7 @@ class Parser {
     if (!makes && a.mesh.empty()) throw UsageError("the mesh is missing");
     checkGrid(a.grid);
     if (a.command == Command::slice) checkSlice(a.slice, a.only);
+    if (a.command == Command::flow && !a.flow.wind) throw UsageError("flow needs --wind");
     const bool toStandardOutput = std::find(a.outputs.begin(), a.outputs.end(), "-") != a.outputs.end();
     if (toStandardOutput && !a.format) throw UsageError("-o - needs --format, such as --format vtu");
     if (!toStandardOutput && a.format) throw UsageError("--format is for -o -; other files tell by their extension");

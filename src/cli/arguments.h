@@ -17,7 +17,7 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class Command { help, version, cut, slice, info, make, resolve };
+enum class Command { help, version, cut, slice, flow, info, make, resolve };
 
 /// The grid as it was asked for; which fields are set tells its kind.
 struct GridArguments {
@@ -45,6 +45,12 @@ struct SliceArguments {
   int64_t layers = 0;           ///< so many equal layers instead; 0 for heights
 };
 
+/// Of flow.
+struct FlowArguments {
+  std::optional<std::array<double, 3>> wind;
+  uint32_t streamlines = 100;
+};
+
 struct Arguments {
   Command command = Command::help;
   std::string mesh;   ///< path, "-" for standard input
@@ -57,6 +63,7 @@ struct Arguments {
   std::optional<int> coarsen;  ///< levels of octree cells; none: untouched grid cells as they are
   OnlyArguments only;
   SliceArguments slice;
+  FlowArguments flow;
   std::optional<WindingRule> rule;   ///< of resolve: the boundary of the solid rather than all triangles
   std::string report;                ///< path of the JSON report, "-" for standard output; empty for text there
   std::vector<std::string> outputs;  ///< paths, "-" for standard output

@@ -8,6 +8,8 @@ const char* const kHelp =
   mandoline cut MESH [options]      cut, and print a report
   mandoline slice MESH [options] -o FILE ...
                                     write outlines at heights, as .svg, .dxf or .obj
+  mandoline flow MESH --wind X,Y,Z [options] -o FILE ...
+                                    write the potential flow of a wind about the mesh
   mandoline info MESH [--report F]  tell what kind of mesh it is
   mandoline resolve MESH -o FILE ...
                                     write the mesh without self-intersections, as .obj,
@@ -34,7 +36,7 @@ The grid
                          any ascending planes, or @FILE with the planes of x, y and z on
                          three lines
 
-Options of cut and slice
+Options of cut, slice and flow
   --snap-tolerance T     move vertices that are within T cells of an axial plane onto it
                          (0 <= T < 0.5; default: 0)
   --intersections WHAT   what to do where triangles meet other than in shared vertices and
@@ -76,6 +78,15 @@ Options of slice
                          winding numbers all). Sheets are open lines
   -o FILE ...            .svg with the normal towards you, .dxf and .obj lines in space; in
                          the units of the mesh
+
+Options of flow
+  --wind X,Y,Z           the wind's velocity: it blows on the sides of the grid, and nothing
+                         passes the mesh, nor either side of a sheet
+  --coarsen LEVELS, --only WHAT
+                         as of cut
+  --streamlines N        how many lines (default: 100), from where the wind enters
+  -o FILE ...            .vtu all cells with phi, velocity and pressure_coefficient;
+                         .obj streamlines, none of which passes a triangle
 
 Options of resolve, besides --threads
   --rule positive|non-zero|odd

@@ -129,6 +129,12 @@ void parseLayers(const std::string& word, SliceArguments& slice) {
   if (!parseNumber(word, slice.layers) || slice.layers < 1) throw UsageError("--layers needs a number of layers, not '" + word + "'");
 }
 
+void parseWind(const std::string& word, FlowArguments& flow) { flow.wind = parseVector("--wind", "X,Y,Z", word); }
+
+void parseStreamlines(const std::string& word, FlowArguments& flow) {
+  if (!parseNumber(word, flow.streamlines)) throw UsageError("--streamlines needs a number of lines, not '" + word + "'");
+}
+
 void checkGrid(const GridArguments& grid) {
   if ((grid.box.has_value() + grid.planes.has_value() + (grid.origin || grid.spacing)) > 1) {
     throw UsageError("only one of --box, --planes, and --origin with --spacing");

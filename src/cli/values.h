@@ -43,6 +43,8 @@ void parseAxis(const std::string& word, SliceArguments& slice);
 void parseNormal(const std::string& word, SliceArguments& slice);
 void parseHeights(const std::string& word, SliceArguments& slice);
 void parseLayers(const std::string& word, SliceArguments& slice);
+void parseWind(const std::string& word, FlowArguments& flow);
+void parseStreamlines(const std::string& word, FlowArguments& flow);
 
 // They throw UsageError for options that don't go together.
 void checkGrid(const GridArguments& grid);

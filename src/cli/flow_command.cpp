@@ -1,0 +1,120 @@
+#include "cli/commands.h"
+
+#ifdef MANDOLINE_HAVE_OPERATORS
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include "cli/cutting.h"
+#include "cli/files.h"
+#include "cli/make_grid.h"
+#include "mandoline/flow.h"
+
+namespace mandoline::cli {
+namespace {
+
+void checkOutputs(const Arguments& arguments) {
+  std::vector<NamedFile> files{{"the mesh", arguments.mesh}};
+  for (const std::string& output : arguments.outputs) {
+    const std::optional<FileFormat> format = output == "-" ? arguments.format : formatOf(output);
+    if (format != FileFormat::vtu && format != FileFormat::obj) throw UsageError(output + ": a flow is written as .vtu or .obj");
+    files.push_back({"-o", output});
+  }
+  requireDifferent(files);
+}
+
+const char* nameOf(SolveStatus status) {
+  constexpr const char* kNames[] = {"converged", "iterationLimit", "incompatible", "breakdown"};
+  return kNames[size_t(status)];
+}
+
+/// Polylines of OBJ.
+void writeLines(const Sink& sink, const Streamlines& lines) {
+  char text[128];
+  const auto put = [&](int size) { sink({text, size_t(size)}); };
+  for (size_t i = 0; i < lines.points.size(); i += 3) {
+    put(std::snprintf(text, sizeof text, "v %.17g %.17g %.17g\n", lines.points[i], lines.points[i + 1], lines.points[i + 2]));
+  }
+  for (size_t l = 0; l < lines.ends.size(); ++l) {
+    if (lines.offsets[l + 1] - lines.offsets[l] < 2) continue;
+    sink("l");
+    for (uint32_t i = lines.offsets[l]; i < lines.offsets[l + 1]; ++i) put(std::snprintf(text, sizeof text, " %u", i + 1));
+    sink("\n");
+  }
+}
+
+void writeCells(const Sink& sink, const FlowField& field, const WriteOptions& options) {
+  const Flow& flow = field.flow;
+  const Field fields[] = {{"phi", flow.phi}, {"velocity", flow.cellVelocity}, {"pressure_coefficient", flow.cellPressure}};
+  writeVtu(sink, field.cutMesh, field.cells, fields, options);
+}
+
+std::string reportOf(const FlowField& field) {
+  const Flow& flow = field.flow;
+  double largest = 0;
+  for (size_t c = 0; c < field.cells.cellCount(); ++c) {
+    const double* v = &flow.cellVelocity[3 * c];
+    largest = std::max(largest, std::hypot(v[0], v[1], v[2]));
+  }
+  char text[400];
+  std::snprintf(text, sizeof text,
+                "cells                 %zu\nstatus                %s\niterations            %zu\nresidual              %.2g\n"
+                "largest speed         %.6g\nthrottled components  %zu\n",
+                field.cells.cellCount(), nameOf(flow.status), flow.residuals.empty() ? 0 : flow.residuals.size() - 1,
+                flow.residuals.empty() ? 0 : flow.residuals.back(), largest, flow.throttled.size());
+  return text;
+}
+
+}  // namespace
+
+int runFlow(const Arguments& arguments) {
+  checkOutputs(arguments);
+  const Mesh mesh = readInput(arguments.mesh);
+  const CutResult result = cutMesh(arguments, mesh, makeGrid(arguments.grid, mesh, inspect(mesh)));
+  if (!result) {
+    complain(refusal(nameOf(arguments.mesh), result.error));
+    return kNotCut;
+  }
+  WriteOptions options = writeOptions(arguments.only, result.mesh);
+  const CellComplex cells = withProgress(arguments.threads, [&](const RunOptions& run) {
+    CoarsenOptions coarsening{run};
+    coarsening.maxLevel = arguments.coarsen.value_or(0);
+    return cellComplex(mesh, result.mesh, coarsen(result.mesh, coarsening), run);
+  });
+  const Flow flow =
+      withProgress(arguments.threads, [&](const RunOptions& run) { return solveFlow(cells, *arguments.flow.wind, FlowOptions{run}); });
+  const FlowField field{mesh, result.mesh, cells, flow};
+  const bool outputTaken = std::find(arguments.outputs.begin(), arguments.outputs.end(), "-") != arguments.outputs.end();
+  (outputTaken ? std::cerr : std::cout) << reportOf(field) << std::flush;
+  for (const std::string& output : arguments.outputs) {
+    withProgress(arguments.threads, [&](const RunOptions& run) {
+      if (formatFor(arguments, output) == FileFormat::vtu) {
+        static_cast<RunOptions&>(options) = run;
+        return writeOutput(output, [&](const Sink& sink) { writeCells(sink, field, options); });
+      }
+      const std::vector<double> seeds = inflowSeeds(result.mesh.grid, *arguments.flow.wind, arguments.flow.streamlines);
+      const Streamlines lines = streamlines(field, seeds, StreamlineOptions{run});
+      writeOutput(output, [&](const Sink& sink) { writeLines(sink, lines); });
+    });
+  }
+  if (flow.status == SolveStatus::converged) return kFine;
+  complain(nameOf(arguments.mesh) + ": the flow was not solved: " + nameOf(flow.status));
+  return kNotCut;
+}
+
+}  // namespace mandoline::cli
+
+#else
+
+namespace mandoline::cli {
+
+int runFlow(const Arguments&) {
+  complain("this program was built without Eigen, which flow needs");
+  return kBadUsageOrFile;
+}
+
+}  // namespace mandoline::cli
+
+#endif
