@@ -75,9 +75,16 @@ class Solver {
         return false;
       }
     }
+    Vector before(n), after(n);  // squares
     for (size_t c = 0; c < cells_.cellCount(); ++c) {
-      if (excess[component(c)] != 0 && volume[component(c)] > 0)
-        system_.rhs[c] -= excess[component(c)] * (cells_.cellVolume[c] / volume[component(c)]);
+      const uint32_t r = component(c);
+      double& value = system_.rhs[c];
+      before[r] += value * value;
+      if (excess[r] != 0 && volume[r] > 0) value -= excess[r] * (cells_.cellVolume[c] / volume[r]);
+      after[r] += value * value;
+    }
+    for (size_t c = 0; c < cells_.cellCount(); ++c) {  // of what was in excess all but for rounding, nothing is left to solve
+      if (after[component(c)] < 1e-24 * before[component(c)]) system_.rhs[c] = 0;
     }
     return true;
   }

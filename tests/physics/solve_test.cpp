@@ -206,6 +206,17 @@ TEST_CASE("solve: data without a solution are incompatible, unless they are bala
   CHECK(solvePoisson(halves, windAround(halves, {1, 0, 0})).status == SolveStatus::converged);
 }
 
+TEST_CASE("solve: sources of which nothing is left once they are balanced leave phi at zero", "[solve]") {
+  const CellComplex cells = complexOf(ball(), unitGrid(7));
+  PoissonProblem problem = windAround(cells, {0, 0, 0});
+  for (const double volume : cells.cellVolume) problem.source.push_back(3.7 * volume);
+  SolveOptions options;
+  options.balance = true;
+  const Solution solution = solvePoisson(cells, problem, options);
+  CHECK(solution.status == SolveStatus::converged);
+  CHECK(solution.phi == std::vector<double>(cells.cellCount()));
+}
+
 TEST_CASE("solve: limits, numbers that are too large, no cells at all", "[solve]") {
   const CellComplex cells = complexOf(ball(), unitGrid(7));
   PoissonProblem problem = windAround(cells, {1, 0, 0});
