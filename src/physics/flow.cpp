@@ -7,6 +7,7 @@
 #include "operators/require_cut_mesh.h"
 #include "physics/dual_edges.h"
 #include "physics/flow_data.h"
+#include "physics/length.h"
 
 namespace mandoline {
 namespace {
@@ -70,7 +71,7 @@ class FlowSolver {
   Flow run(const std::array<double, 3>& wind) {
     Flow flow;
     flow.wind = wind;
-    const double length = std::hypot(wind[0], wind[1], wind[2]);
+    const double length = physics::lengthOf(wind);
     std::array<double, 3> unit{};
     for (size_t d = 0; d < 3 && length > 0; ++d) unit[d] = wind[d] / length;
     PoissonProblem problem;
@@ -117,7 +118,7 @@ class FlowSolver {
 }  // namespace
 
 Flow solveFlow(const CellComplex& cells, const std::array<double, 3>& wind, const FlowOptions& options) {
-  if (!std::isfinite(std::hypot(wind[0], wind[1], wind[2]))) operators::refuse("The wind is not finite.");
+  if (!std::isfinite(physics::lengthOf(wind))) operators::refuse("The wind is not finite.");
   return detail::runCall("flow", [&] { return FlowSolver(cells, options).run(wind); });
 }
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/length.h"
+
 namespace mandoline::physics {
 namespace {
 
 constexpr double kRest = 1e-9;  // relative to the wind
-
-double lengthOf(const Point& v) { return std::hypot(v[0], v[1], v[2]); }
 
 Point combined(const Point& p, double s, const Point& v) { return {p[0] + s * v[0], p[1] + s * v[1], p[2] + s * v[2]}; }
 Point difference(const Point& p, const Point& q) { return combined(p, -1, q); }
