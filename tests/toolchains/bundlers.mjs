@@ -8,7 +8,8 @@ import { makeProject, openFolder, openServed, run } from './projects.mjs';
 
 const asIs = { 'main.js': pageScript, 'check.js': checkModule() };
 const { imports, more } = physics();
-const withAll = { 'main.js': pageScript, 'check.js': checkModule({ imports, more: ownWorker.more + more }), ...ownWorker.files };
+// One's own worker comes last: Vite, once it finds what that imports, begins the page anew and fails what is still being loaded.
+const withAll = { 'main.js': pageScript, 'check.js': checkModule({ imports, more: more + ownWorker.more }), ...ownWorker.files };
 const importInline = "import * as inline from 'mandoline-wasm/inline';";
 const inline = { 'main.js': pageScript, 'check.js': checkModule({ imports: importInline, options: 'inline' }) };
 
