@@ -364,6 +364,10 @@ TEST_CASE("Command line: standard input and output", "[cli]") {
   REQUIRE(contains(run(folder, {"info", "-"}, kCube).out, "standard input: 8 vertices, 12 triangles"));
   REQUIRE(run(folder, {"info", "-"}, "v 0 zero 0\n").err == "mandoline: standard input: line 1: expected a number, found 'zero'\n");
   REQUIRE(run(folder, {"info", "-"}).err == "mandoline: standard input: the file is empty\n");
+  const Outcome resolved = run(folder, {"resolve", "-", "-o", "-", "--format", "obj"}, kCube);
+  CAPTURE(resolved.err);
+  REQUIRE(resolved.exitCode == 0);
+  REQUIRE(contains(run(folder, {"info", "-"}, resolved.out).out, "8 vertices, 12 triangles"));
   const Outcome made = run(folder, {"make", "box", "-o", "-", "--format", "obj"});
   REQUIRE(made.exitCode == 0);
   REQUIRE(contains(run(folder, {"info", "-"}, made.out).out, "8 vertices, 12 triangles"));
@@ -530,6 +534,11 @@ TEST_CASE("Command line: flow writes cells with velocities, and streamlines", "[
   size_t count = 0;
   for (size_t i = lines.find("\nl "); i != std::string::npos; i = lines.find("\nl ", i + 1)) ++count;
   REQUIRE(count == 7);
+  const Outcome piped =
+      run(folder, {"flow", "-", "--wind", "1,0,0.25", "--cells", "8", "--coarsen", "1", "-o", "-", "--format", "vtu"}, kCube);
+  CAPTURE(piped.err);
+  REQUIRE(piped.exitCode == 0);
+  REQUIRE(piped.out == folder.read("flow.vtu"));
   REQUIRE(contains(run(folder, {"flow", mesh, "-o", folder.path("flow.vtu")}).err, "flow needs --wind"));
   REQUIRE(contains(run(folder, {"flow", mesh, "--wind", "1,0", "-o", folder.path("flow.vtu")}).err, "--wind needs X,Y,Z, not '1,0'"));
   REQUIRE(contains(run(folder, {"flow", mesh, "--wind", "1,0,0", "-o", folder.path("flow.stl")}).err,

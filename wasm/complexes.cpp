@@ -97,13 +97,8 @@ val toObject(const SparseMatrix& matrix) {
                  {"entryValues", toArray(values)}});
 }
 
-static val nameOf(SolveStatus status) {
-  static const char* const kNames[] = {"converged", "iterationLimit", "incompatible", "breakdown"};
-  return val(std::string(kNames[size_t(status)]));
-}
-
 val toObject(const Solution& solution) {
-  return object({{"status", nameOf(solution.status)},
+  return object({{"status", val(std::string(name(solution.status)))},
                  {"phi", toArray(solution.phi)},
                  {"residuals", toArray(solution.residuals)},
                  {"component", val(double(solution.component))},
@@ -111,7 +106,7 @@ val toObject(const Solution& solution) {
 }
 
 val toObject(const Flow& flow) {
-  return object({{"status", nameOf(flow.status)},
+  return object({{"status", val(std::string(name(flow.status)))},
                  {"residuals", toArray(flow.residuals)},
                  {"wind", toTriple(flow.wind)},
                  {"phi", toArray(flow.phi)},

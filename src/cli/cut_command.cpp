@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <iostream>
 
 #include "cli/commands.h"
@@ -79,7 +78,7 @@ class Writer {
   void write(const Output& output) {
     const bool isFolder = isPolyMesh(output.path);
     const bool ofComplex = isFolder || (arguments_.coarsen && formatFor(arguments_, output.path) == FileFormat::vtu);
-    if (ofComplex && !cells_) makeCells();
+    if (ofComplex && !cells_) cells_ = makeCells(arguments_, mesh_, cutMesh_);
     withProgress(arguments_.threads, [&](const RunOptions& run) {
       WriteOptions options = output.options;
       static_cast<RunOptions&>(options) = run;
@@ -95,15 +94,6 @@ class Writer {
   }
 
  private:
-  void makeCells() {
-    CoarsenOptions coarsening;
-    coarsening.maxLevel = arguments_.coarsen.value_or(0);
-    cells_ = withProgress(arguments_.threads, [&](const RunOptions& run) {
-      static_cast<RunOptions&>(coarsening) = run;
-      return cellComplex(mesh_, cutMesh_, coarsen(cutMesh_, coarsening), run);
-    });
-  }
-
   const Arguments& arguments_;
   const Mesh& mesh_;
   const CutMesh& cutMesh_;
@@ -125,10 +115,9 @@ void attempt(int& exitCode, const Work& work) {
 }
 
 void deliver(const Arguments& arguments, const Report& report) {
-  const bool outputTaken = std::find(arguments.outputs.begin(), arguments.outputs.end(), "-") != arguments.outputs.end();
   if (!arguments.report.empty()) {
     writeOutput(arguments.report, [&](const Sink& sink) { sink(reportJson(report)); });
-  } else if (outputTaken) {
+  } else if (takesStandardOutput(arguments)) {
     std::cerr << reportText(report);
   } else {
     writeOutput("-", [&](const Sink& sink) { sink(reportText(report)); });

@@ -1,10 +1,46 @@
 #include "cli/cutting.h"
 
+#include <algorithm>
+
+#include "cli/commands.h"
+#include "cli/files.h"
+#include "cli/make_grid.h"
+
 namespace mandoline::cli {
+
+void checkOutputs(const Arguments& arguments, bool (*isAllowed)(FileFormat), const std::string& rule) {
+  std::vector<NamedFile> files;
+  if (!arguments.mesh.empty() && arguments.mesh != "-") files.push_back({"the mesh", arguments.mesh});
+  for (const std::string& output : arguments.outputs) {
+    const std::optional<FileFormat> format = output == "-" ? arguments.format : formatOf(output);
+    if (!format || !isAllowed(*format)) throw UsageError(output + ": " + rule);
+    files.push_back({"-o", output});
+  }
+  requireDifferent(files);
+}
+
+bool takesStandardOutput(const Arguments& arguments) {
+  return std::find(arguments.outputs.begin(), arguments.outputs.end(), "-") != arguments.outputs.end();
+}
 
 CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const Grid& grid) {
   return withProgress(arguments.threads, [&](const RunOptions& options) {
     return cut(mesh, grid, {options, arguments.snapTolerance, arguments.intersections});
+  });
+}
+
+std::optional<CutMesh> cutOrComplain(const Arguments& arguments, const Mesh& mesh) {
+  CutResult result = cutMesh(arguments, mesh, makeGrid(arguments.grid, mesh, inspect(mesh)));
+  if (result) return std::move(result.mesh);
+  complain(refusal(nameOf(arguments.mesh), result.error));
+  return std::nullopt;
+}
+
+CellComplex makeCells(const Arguments& arguments, const Mesh& mesh, const CutMesh& cutMesh) {
+  return withProgress(arguments.threads, [&](const RunOptions& run) {
+    CoarsenOptions coarsening{run};
+    coarsening.maxLevel = arguments.coarsen.value_or(0);
+    return cellComplex(mesh, cutMesh, coarsen(cutMesh, coarsening), run);
   });
 }
 

@@ -1,6 +1,7 @@
 // What the commands that cut have in common.
 #pragma once
 
+#include <optional>
 #include <type_traits>
 
 #include "cli/arguments.h"
@@ -28,8 +29,20 @@ auto withProgress(unsigned threads, const Work& work) {
   }
 }
 
+/// Throws UsageError for an output of a format that is not allowed, `rule` saying which are, and if two of the files are the same.
+void checkOutputs(const Arguments& arguments, bool (*isAllowed)(FileFormat), const std::string& rule);
+
+/// Whether one of the outputs is standard output.
+bool takesStandardOutput(const Arguments& arguments);
+
 /// With progress.
 CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const Grid& grid);
+
+/// The same with the grid that was asked for; if it fails, says why and gives nothing.
+std::optional<CutMesh> cutOrComplain(const Arguments& arguments, const Mesh& mesh);
+
+/// All cells, merged as far as --coarsen says. With progress.
+CellComplex makeCells(const Arguments& arguments, const Mesh& mesh, const CutMesh& cutMesh);
 
 /// Throws UsageError for regions that the cut-mesh does not have.
 WriteOptions writeOptions(const OnlyArguments& only, const CutMesh& cutMesh);

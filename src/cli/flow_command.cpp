@@ -3,32 +3,18 @@
 #ifdef MANDOLINE_HAVE_OPERATORS
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <iostream>
 
 #include "cli/cutting.h"
 #include "cli/files.h"
-#include "cli/make_grid.h"
 #include "mandoline/flow.h"
+#include "operators/measure/vector.h"
 
 namespace mandoline::cli {
 namespace {
 
-void checkOutputs(const Arguments& arguments) {
-  std::vector<NamedFile> files{{"the mesh", arguments.mesh}};
-  for (const std::string& output : arguments.outputs) {
-    const std::optional<FileFormat> format = output == "-" ? arguments.format : formatOf(output);
-    if (format != FileFormat::vtu && format != FileFormat::obj) throw UsageError(output + ": a flow is written as .vtu or .obj");
-    files.push_back({"-o", output});
-  }
-  requireDifferent(files);
-}
-
-const char* nameOf(SolveStatus status) {
-  constexpr const char* kNames[] = {"converged", "iterationLimit", "incompatible", "breakdown"};
-  return kNames[size_t(status)];
-}
+bool isFlowFormat(FileFormat format) { return format == FileFormat::vtu || format == FileFormat::obj; }
 
 /// Polylines of OBJ.
 void writeLines(const Sink& sink, const Streamlines& lines) {
@@ -56,13 +42,13 @@ std::string reportOf(const FlowField& field) {
   double largest = 0;
   for (size_t c = 0; c < field.cells.cellCount(); ++c) {
     const double* v = &flow.cellVelocity[3 * c];
-    largest = std::max(largest, std::hypot(v[0], v[1], v[2]));
+    largest = std::max(largest, measuring::length({v[0], v[1], v[2]}));
   }
   char text[400];
   std::snprintf(text, sizeof text,
                 "cells                 %zu\nstatus                %s\niterations            %zu\nresidual              %.2g\n"
                 "largest speed         %.6g\nthrottled components  %zu\n",
-                field.cells.cellCount(), nameOf(flow.status), flow.residuals.empty() ? 0 : flow.residuals.size() - 1,
+                field.cells.cellCount(), name(flow.status), flow.residuals.empty() ? 0 : flow.residuals.size() - 1,
                 flow.residuals.empty() ? 0 : flow.residuals.back(), largest, flow.throttled.size());
   return text;
 }
@@ -70,37 +56,29 @@ std::string reportOf(const FlowField& field) {
 }  // namespace
 
 int runFlow(const Arguments& arguments) {
-  checkOutputs(arguments);
+  checkOutputs(arguments, isFlowFormat, "a flow is written as .vtu or .obj");
   const Mesh mesh = readInput(arguments.mesh);
-  const CutResult result = cutMesh(arguments, mesh, makeGrid(arguments.grid, mesh, inspect(mesh)));
-  if (!result) {
-    complain(refusal(nameOf(arguments.mesh), result.error));
-    return kNotCut;
-  }
-  WriteOptions options = writeOptions(arguments.only, result.mesh);
-  const CellComplex cells = withProgress(arguments.threads, [&](const RunOptions& run) {
-    CoarsenOptions coarsening{run};
-    coarsening.maxLevel = arguments.coarsen.value_or(0);
-    return cellComplex(mesh, result.mesh, coarsen(result.mesh, coarsening), run);
-  });
+  const std::optional<CutMesh> cutMesh = cutOrComplain(arguments, mesh);
+  if (!cutMesh) return kNotCut;
+  WriteOptions options = writeOptions(arguments.only, *cutMesh);
+  const CellComplex cells = makeCells(arguments, mesh, *cutMesh);
   const Flow flow =
       withProgress(arguments.threads, [&](const RunOptions& run) { return solveFlow(cells, *arguments.flow.wind, FlowOptions{run}); });
-  const FlowField field{mesh, result.mesh, cells, flow};
-  const bool outputTaken = std::find(arguments.outputs.begin(), arguments.outputs.end(), "-") != arguments.outputs.end();
-  (outputTaken ? std::cerr : std::cout) << reportOf(field) << std::flush;
+  const FlowField field{mesh, *cutMesh, cells, flow};
+  (takesStandardOutput(arguments) ? std::cerr : std::cout) << reportOf(field) << std::flush;
   for (const std::string& output : arguments.outputs) {
     withProgress(arguments.threads, [&](const RunOptions& run) {
       if (formatFor(arguments, output) == FileFormat::vtu) {
         static_cast<RunOptions&>(options) = run;
         return writeOutput(output, [&](const Sink& sink) { writeCells(sink, field, options); });
       }
-      const std::vector<double> seeds = inflowSeeds(result.mesh.grid, *arguments.flow.wind, arguments.flow.streamlines);
+      const std::vector<double> seeds = inflowSeeds(cutMesh->grid, *arguments.flow.wind, arguments.flow.streamlines);
       const Streamlines lines = streamlines(field, seeds, StreamlineOptions{run});
       writeOutput(output, [&](const Sink& sink) { writeLines(sink, lines); });
     });
   }
   if (flow.status == SolveStatus::converged) return kFine;
-  complain(nameOf(arguments.mesh) + ": the flow was not solved: " + nameOf(flow.status));
+  complain(nameOf(arguments.mesh) + ": the flow was not solved: " + name(flow.status));
   return kNotCut;
 }
 

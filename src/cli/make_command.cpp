@@ -1,4 +1,5 @@
 #include "cli/commands.h"
+#include "cli/cutting.h"
 #include "cli/files.h"
 #include "mandoline/shapes.h"
 
@@ -16,18 +17,10 @@ Mesh makeShape(const std::string& shape) {
 }  // namespace
 
 int runMake(const Arguments& arguments) {
-  std::vector<NamedFile> files;
-  for (const std::string& output : arguments.outputs) {
-    files.push_back({"-o", output});
-    const std::optional<FileFormat> format = output == "-" ? arguments.format : formatOf(output);
-    if (!format || !isMeshFormat(*format)) {
-      throw UsageError(output + ": a mesh is written as .obj, .stl, .ply or .off");
-    }
-  }
-  requireDifferent(files);
+  checkOutputs(arguments, isMeshFormat, "a mesh is written as .obj, .stl, .ply or .off");
   const Mesh mesh = makeShape(arguments.shape);
   for (const std::string& output : arguments.outputs) {
-    writeOutput(output, [&](const Sink& sink) { writeMesh(sink, output == "-" ? *arguments.format : *formatOf(output), mesh); });
+    writeOutput(output, [&](const Sink& sink) { writeMesh(sink, formatFor(arguments, output), mesh); });
   }
   return kFine;
 }

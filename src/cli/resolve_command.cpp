@@ -8,13 +8,7 @@
 
 namespace mandoline::cli {
 int runResolve(const Arguments& arguments) {
-  std::vector<NamedFile> files{{"the mesh", arguments.mesh}};
-  for (const std::string& output : arguments.outputs) {
-    files.push_back({"-o", output});
-    const std::optional<FileFormat> format = output == "-" ? arguments.format : formatOf(output);
-    if (!format || !isMeshFormat(*format)) throw UsageError(output + ": a mesh is written as .obj, .stl, .ply or .off");
-  }
-  requireDifferent(files);
+  checkOutputs(arguments, isMeshFormat, "a mesh is written as .obj, .stl, .ply or .off");
   const Mesh mesh = readInput(arguments.mesh);
   const ResolveResult result = withProgress(arguments.threads, [&](const RunOptions& options) { return resolve(mesh, options); });
   if (!result) {
@@ -27,7 +21,7 @@ int runResolve(const Arguments& arguments) {
   }
   const Mesh written = arguments.rule ? boundary(result.mesh, *arguments.rule) : result.mesh.mesh;
   for (const std::string& output : arguments.outputs) {
-    writeOutput(output, [&](const Sink& sink) { writeMesh(sink, output == "-" ? *arguments.format : *formatOf(output), written); });
+    writeOutput(output, [&](const Sink& sink) { writeMesh(sink, formatFor(arguments, output), written); });
   }
   const PairCounts &met = result.stats.intersections, &left = result.remaining;
   std::cerr << "Pairs of triangles that met: " << describePairs(met) << "\n"

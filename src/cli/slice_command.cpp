@@ -4,23 +4,9 @@
 #include "cli/commands.h"
 #include "cli/cutting.h"
 #include "cli/files.h"
-#include "cli/make_grid.h"
 
 namespace mandoline::cli {
 namespace {
-
-void checkOutputs(const Arguments& arguments) {
-  std::vector<NamedFile> files;
-  if (arguments.mesh != "-") files.push_back({"the mesh", arguments.mesh});
-  for (const std::string& output : arguments.outputs) {
-    const std::optional<FileFormat> format = output == "-" ? arguments.format : formatOf(output);
-    if (!format || !isOutlineFormat(*format)) {
-      throw UsageError(output + ": outlines are written as .svg, .dxf or .obj");
-    }
-    files.push_back({"-o", output});
-  }
-  requireDifferent(files);
-}
 
 /// The heights that were asked for, or those in the middle of as many equal layers of the mesh.
 std::vector<double> heightsOf(const SliceArguments& slice, double length, const Mesh& mesh) {
@@ -49,17 +35,14 @@ OutlineStack outlineStack(const SliceArguments& slice, const Mesh& mesh, const C
 }  // namespace
 
 int runSlice(const Arguments& arguments) {
-  checkOutputs(arguments);
+  checkOutputs(arguments, isOutlineFormat, "outlines are written as .svg, .dxf or .obj");
   const Mesh mesh = readInput(arguments.mesh);
-  const CutResult result = cutMesh(arguments, mesh, makeGrid(arguments.grid, mesh, inspect(mesh)));
-  if (!result) {
-    complain(refusal(nameOf(arguments.mesh), result.error));
-    return kNotCut;
-  }
+  const std::optional<CutMesh> cutMesh = cutOrComplain(arguments, mesh);
+  if (!cutMesh) return kNotCut;
   OnlyArguments only = arguments.only;
-  if (!only.any() && result.mesh.hasWinding) only.inside = true;
-  const WriteOptions options = writeOptions(only, result.mesh);
-  const OutlineStack stack = outlineStack(arguments.slice, mesh, result.mesh);
+  if (!only.any() && cutMesh->hasWinding) only.inside = true;
+  const WriteOptions options = writeOptions(only, *cutMesh);
+  const OutlineStack stack = outlineStack(arguments.slice, mesh, *cutMesh);
   for (const std::string& output : arguments.outputs) {
     writeOutput(output, [&](const Sink& sink) { writeOutlines(sink, formatFor(arguments, output), stack, options); });
   }

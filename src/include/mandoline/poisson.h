@@ -79,6 +79,12 @@ enum class SolveStatus : uint8_t {
   breakdown        ///< the numbers are too large or too small for doubles; phi is the best so far
 };
 
+/// The status as the word above.
+inline const char* name(SolveStatus status) {
+  constexpr const char* kNames[] = {"converged", "iterationLimit", "incompatible", "breakdown"};
+  return kNames[size_t(status)];
+}
+
 struct Solution {
   SolveStatus status = SolveStatus::converged;
   std::vector<double> phi;        ///< per cell, at its dual point
