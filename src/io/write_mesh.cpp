@@ -6,6 +6,7 @@
 #include "mesh/read/scalar.h"
 #include "mesh/require_arrays.h"
 #include "mesh/run_call.h"
+#include "operators/measure/vector.h"
 
 namespace mandoline {
 namespace detail {
@@ -43,13 +44,13 @@ void putOff(OutputBuffer& out, const MeshView& mesh) {
 }
 
 std::array<float, 3> unitNormal(const std::array<const double*, 3>& corners) {
-  std::array<double, 3> a, b;
+  measuring::Vector<double> a, b;
   for (size_t d = 0; d < 3; ++d) {
     a[d] = corners[1][d] - corners[0][d];
     b[d] = corners[2][d] - corners[0][d];
   }
-  const std::array<double, 3> n = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  const double length = std::hypot(n[0], n[1], n[2]);
+  const auto n = measuring::cross(a, b);
+  const double length = measuring::length(n);
   if (!(length > 0)) return {0, 0, 0};
   return {float(n[0] / length), float(n[1] / length), float(n[2] / length)};
 }

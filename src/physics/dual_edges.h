@@ -29,6 +29,12 @@ inline const std::vector<double>& pointsOf(const CellComplex& cells, DualPoints 
   return dualPoints == DualPoints::centres ? cells.cellCentre : cells.cellCentroid;
 }
 
+/// The part of a dual edge's area that one of its faces has.
+inline double shareOf(const CellComplex& cells, const DualEdge& edge, std::span<const uint32_t> faces, size_t f) {
+  if (faces.size() == 1) return 1;
+  return edge.area > 0 ? cells.faceArea[f] / edge.area : 1 / double(faces.size());
+}
+
 /// The cell on the other side of a face of a dual edge.
 inline uint32_t otherCell(const CellComplex& cells, const DualEdge& edge, size_t f) {
   return uint32_t(cells.faceCells[2 * f + (edge.sign > 0 ? 1 : 0)]);

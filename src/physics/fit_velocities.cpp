@@ -73,8 +73,7 @@ void fitVelocities(const CellComplex& cells, const FlowData& data, detail::Monit
       if (!(size > 0)) continue;
       ids.assign(data.cellData[c].begin(), data.cellData[c].end());
       for (const uint32_t n : data.cellNeighbors[c]) ids.insert(ids.end(), data.cellData[n].begin(), data.cellData[n].end());
-      detail::sortItems(ids);
-      ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+      detail::sortUnique(ids);
       Fit fit;
       for (const uint32_t d : ids) addDatum(data.data[d], &cells.cellCentroid[3 * c], size, fit);
       const Row x = fit.solve();

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "mesh/run_call.h"
+#include "operators/measure/vector.h"
 #include "operators/require_cut_mesh.h"
 #include "physics/dual_edges.h"
 #include "physics/flow_data.h"
-#include "physics/length.h"
 
 namespace mandoline {
 namespace {
@@ -50,8 +50,7 @@ void fillFaceVelocities(const CellComplex& cells, const Boundary& boundary, cons
     const DualEdge& edge = dual.edges[e];
     double other = 0;
     for (const uint32_t f : dual.faces[e]) {
-      const double share = dual.faces[e].size() == 1 ? 1 : cells.faceArea[f] / edge.area;
-      other += share * flow.phi[physics::otherCell(cells, edge, f)];
+      other += physics::shareOf(cells, edge, dual.faces[e], f) * flow.phi[physics::otherCell(cells, edge, f)];
     }
     for (const uint32_t f : dual.faces[e]) flow.faceVelocity[f] = edge.sign * (other - flow.phi[edge.cell]) / edge.distance;
   }
@@ -71,7 +70,7 @@ class FlowSolver {
   Flow run(const std::array<double, 3>& wind) {
     Flow flow;
     flow.wind = wind;
-    const double length = physics::lengthOf(wind);
+    const double length = measuring::length(wind);
     std::array<double, 3> unit{};
     for (size_t d = 0; d < 3 && length > 0; ++d) unit[d] = wind[d] / length;
     PoissonProblem problem;
@@ -118,7 +117,8 @@ class FlowSolver {
 }  // namespace
 
 Flow solveFlow(const CellComplex& cells, const std::array<double, 3>& wind, const FlowOptions& options) {
-  if (!std::isfinite(physics::lengthOf(wind))) operators::refuse("The wind is not finite.");
+  const bool isFinite = std::isfinite(wind[0]) && std::isfinite(wind[1]) && std::isfinite(wind[2]);
+  if (!isFinite || !std::isfinite(measuring::length(wind))) operators::refuse("The wind is not finite.");
   return detail::runCall("flow", [&] { return FlowSolver(cells, options).run(wind); });
 }
 

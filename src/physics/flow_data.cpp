@@ -16,7 +16,7 @@ FlowDatum datumOf(const CellComplex& cells, const DualEdge& edge, std::span<cons
   FlowDatum datum{pointAt(cells.cellCentre, edge.cell), pointAt(cells.faceNormal, faces[0]), flow.faceVelocity[faces[0]], edge.area};
   for (double& x : datum.point) x /= 2;
   for (const uint32_t f : faces) {
-    const double share = faces.size() == 1 ? 1 : edge.area > 0 ? cells.faceArea[f] / edge.area : 1 / double(faces.size());
+    const double share = shareOf(cells, edge, faces, f);
     const size_t other = otherCell(cells, edge, f);
     for (size_t d = 0; d < 3; ++d) datum.point[d] += share * cells.cellCentre[3 * other + d] / 2;
   }
@@ -35,14 +35,12 @@ std::vector<char> cellsAroundRims(const CellComplex& cells) {
 
 struct Pair {
   uint32_t cell, item;
+  auto operator<=>(const Pair&) const = default;
 };
 
 /// Items of cells, ascending and each once.
 detail::Csr<uint32_t> grouped(size_t cellCount, std::vector<Pair>& pairs) {
-  const auto isBefore = [](const Pair& a, const Pair& b) { return a.cell != b.cell ? a.cell < b.cell : a.item < b.item; };
-  detail::sortItems(pairs, isBefore);
-  const auto isSame = [](const Pair& a, const Pair& b) { return a.cell == b.cell && a.item == b.item; };
-  pairs.erase(std::unique(pairs.begin(), pairs.end(), isSame), pairs.end());
+  detail::sortUnique(pairs);
   return detail::groupBy<uint32_t>(
       cellCount, pairs.size(), [&](size_t i) { return size_t(pairs[i].cell); }, [&](size_t i) { return pairs[i].item; });
 }

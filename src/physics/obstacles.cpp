@@ -67,15 +67,19 @@ bool meets(const Segment& segment, const Triangle& triangle, Predicates& predica
   return low >= 0 || high <= 0;
 }
 
-}  // namespace
-
-Obstacles::Obstacles(const MeshView& mesh, const Grid& grid) {
+/// That brings the coordinates of both into the range of exact arithmetic.
+detail::Scale scaleOf(const MeshView& mesh, const Grid& grid) {
   double largest = 0;
   for (const auto& planes : grid.planes) largest = std::max({largest, std::fabs(planes.front()), std::fabs(planes.back())});
   for (const uint32_t v : mesh.triangles) {
     for (size_t d = 0; d < 3; ++d) largest = std::max(largest, std::fabs(mesh.positions[3 * size_t(v) + d]));
   }
-  shift_ = largest > 0 ? -std::ilogb(largest) : 0;
+  return detail::Scale(largest > 0 ? detail::Scale::kLargestExponent - std::ilogb(largest) : 0);
+}
+
+}  // namespace
+
+Obstacles::Obstacles(const MeshView& mesh, const Grid& grid) : scale_(scaleOf(mesh, grid)) {
   Predicates predicates;
   for (size_t t = 0; t < mesh.triangleCount(); ++t) {
     Triangle triangle;
@@ -88,9 +92,9 @@ Obstacles::Obstacles(const MeshView& mesh, const Grid& grid) {
   tree_.build(triangles_.size(), [&](size_t t) { return detail::BoxTree::Item{boxOf(triangles_[t]), uint32_t(t)}; });
 }
 
-double Obstacles::scaled(double x) const {
-  x = std::ldexp(std::ldexp(x, shift_ / 2), shift_ - shift_ / 2);
-  return std::fabs(x) < 0x1p-200 ? 0 : x;  // so that no product underflows
+Point Obstacles::scaled(const Point& p) const {
+  uint32_t flushed = 0;
+  return {scale_.scaled(p[0], flushed), scale_.scaled(p[1], flushed), scale_.scaled(p[2], flushed)};
 }
 
 bool Obstacles::isFree(const Segment& segment, Predicates& predicates) const {

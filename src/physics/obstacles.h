@@ -4,6 +4,7 @@
 #include "base/box_tree.h"
 #include "base/exact.h"
 #include "mandoline/grid.h"
+#include "mesh/prepared.h"
 
 namespace mandoline::physics {
 
@@ -26,10 +27,9 @@ class Obstacles {
   Point reached(const Segment& segment, detail::Predicates& predicates) const;
 
  private:
-  double scaled(double x) const;
-  Point scaled(const Point& p) const { return {scaled(p[0]), scaled(p[1]), scaled(p[2])}; }
+  Point scaled(const Point& p) const;
 
-  int shift_ = 0;
+  detail::Scale scale_;
   std::vector<Triangle> triangles_;
   detail::BoxTree tree_;
 };

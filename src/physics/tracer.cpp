@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/length.h"
+#include "operators/measure/vector.h"
 
 namespace mandoline::physics {
 namespace {
+
+using measuring::length;
 
 constexpr double kRest = 1e-9;  // relative to the wind
 
@@ -22,7 +24,7 @@ Tracer::Tracer(const FlowField& field, const OctreeCells& octree, const Obstacle
       options_(options),
       space_(field.cutMesh.grid),
       walls_(field.cutMesh, space_),
-      slowest_(kRest * lengthOf(field.flow.wind)) {}
+      slowest_(kRest * length(field.flow.wind)) {}
 
 void Tracer::trace(const Point& seed, size_t cell, Streamlines& lines) {
   lines_ = &lines;
@@ -53,7 +55,7 @@ void Tracer::enter(size_t cell) {
 
 void Tracer::push(const Point& p) {
   lines_->points.insert(lines_->points.end(), p.begin(), p.end());
-  lines_->speeds.push_back(lengthOf(velocityIn(field_, cell_, p.data())));
+  lines_->speeds.push_back(length(velocityIn(field_, cell_, p.data())));
 }
 
 /// Without the components across sides that the line slides along.
@@ -66,7 +68,7 @@ Point Tracer::velocity(const Point& p) const {
 /// Crosses a side or makes a step; false at the line's end.
 bool Tracer::goOn() {
   const Point v = velocity(at_);
-  if (!(lengthOf(v) > slowest_)) return end(StreamlineEnd::rest);
+  if (!(length(v) > slowest_)) return end(StreamlineEnd::rest);
   for (size_t d = 0; d < 3; ++d) {
     if (isOutward(d, v)) return meetSide(d, v);
   }
@@ -134,12 +136,12 @@ Tracer::Step Tracer::stepOf(double time) const {
   for (size_t d = 0; d < 3; ++d) to[d] = at_[d] + time * (2 * k1[d] + 3 * k2[d] + 4 * k3[d]) / 9;
   const Point k4 = velocity(to);
   for (size_t d = 0; d < 3; ++d) error[d] = time * (-5 * k1[d] / 72 + k2[d] / 12 + k3[d] / 9 - k4[d] / 8);
-  return {to, std::max(lengthOf(error), time * lengthOf(difference(k4, k1)) / 8)};
+  return {to, std::max(length(error), time * length(difference(k4, k1)) / 8)};
 }
 
 /// Makes a step, to a side of the box at most.
 bool Tracer::move(const Point& v) {
-  const double longest = size_ / lengthOf(v), allowed = options_.tolerance * size_;
+  const double longest = size_ / length(v), allowed = options_.tolerance * size_;
   if (time_ == 0) time_ = longest / 4;
   time_ = std::min(time_, longest);
   Step step = stepOf(time_);
@@ -184,10 +186,10 @@ double Tracer::shareInside(const Point& to, size_t& axis) const {
 
 /// Moves to a point of the box, or to where the surface or the length ends the line.
 bool Tracer::advance(Point to) {
-  const double length = lengthOf(difference(to, at_));
-  const bool isLast = length_ + length >= options_.maxLength;
+  const double way = length(difference(to, at_));
+  const bool isLast = length_ + way >= options_.maxLength;
   if (isLast) {
-    to = combined(at_, (options_.maxLength - length_) / length, difference(to, at_));
+    to = combined(at_, (options_.maxLength - length_) / way, difference(to, at_));
     for (size_t d = 0; d < 3; ++d) to[d] = std::clamp(to[d], low_[d], high_[d]);
   }
   const Segment segment{at_, to};
@@ -197,7 +199,7 @@ bool Tracer::advance(Point to) {
   if (!isFree) return end(StreamlineEnd::surface);
   if (isLast) return end(StreamlineEnd::maxLength);
   at_ = to;
-  length_ += length;
+  length_ += way;
   crossed_ = held_ = {};
   return true;
 }

@@ -170,6 +170,8 @@ TEST_CASE("flow: the same bits for any number of threads; progress, cancelling a
   CHECK(refusal([&] { solveFlow(cells, kWind, options); }).first == Status::cancelled);
   options = {};
   CHECK(refusal([&] { solveFlow(cells, {NAN, 0, 0}, options); }).first == Status::badArgument);
+  CHECK(refusal([&] { solveFlow(cells, {0, NAN, 0}, options); }).first == Status::badArgument);
+  CHECK(refusal([&] { solveFlow(cells, {0, 0, INFINITY}, options); }).first == Status::badArgument);
   options.tolerance = 0;
   CHECK(refusal([&] { solveFlow(cells, kWind, options); }).first == Status::badOption);
   options.tolerance = 1e-10, options.maxIterations = 1;
