@@ -11,21 +11,23 @@
 
 namespace mandoline::detail {
 
-struct Box {
-  Point low, high;
+template <class Number>
+struct BoxOf {
+  std::array<Number, 3> low, high;
 
-  bool overlaps(const Box& other) const {
+  bool overlaps(const BoxOf& other) const {
     int within = 1;  // without branches, which are hard to foretell here
     for (size_t d = 0; d < 3; ++d) within &= int(low[d] <= other.high[d]) & int(other.low[d] <= high[d]);
     return within != 0;
   }
-  void include(const Box& other) {
-    for (int d = 0; d < 3; ++d) {
+  void include(const BoxOf& other) {
+    for (size_t d = 0; d < 3; ++d) {
       low[d] = std::min(low[d], other.low[d]);
       high[d] = std::max(high[d], other.high[d]);
     }
   }
 };
+using Box = BoxOf<double>;
 
 /// A balanced tree of boxes, whose nodes halve their items in the order of a space-filling curve through the centres.
 class BoxTree {

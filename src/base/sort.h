@@ -1,9 +1,11 @@
 // Sorting, with little code for each type and the same order of equal items on every platform.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <type_traits>
+#include <vector>
 
 #include "base/function_ref.h"
 
@@ -32,6 +34,13 @@ void sortItems(Items&& items, const IsBefore& isBefore = {}) {
     for (; j > 0 && isBefore(item, first[j - 1]); --j) first[j] = first[j - 1];
     first[j] = item;
   }
+}
+
+/// Sorts a vector and keeps each of equal items once.
+template <class Item, class IsBefore = std::less<>>
+void sortUnique(std::vector<Item>& items, const IsBefore& isBefore = {}) {
+  sortItems(items, isBefore);
+  items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
 }  // namespace mandoline::detail

@@ -139,8 +139,7 @@ void GridVertices::findDividedCells(const Selection& selection) {
       addIfUntouched(cell);
     }
   }
-  sortItems(dividedCells_);
-  dividedCells_.erase(std::unique(dividedCells_.begin(), dividedCells_.end()), dividedCells_.end());
+  sortUnique(dividedCells_);
 }
 
 void GridVertices::appendEdge(const Index& from, int axis, bool upwards, std::vector<int64_t>& vertices) const {

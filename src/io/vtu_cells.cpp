@@ -12,8 +12,7 @@ void Polyhedron::clear() {
 
 void Polyhedron::gatherVertices() {
   vertices = faceVertices;
-  sortItems(vertices);
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sortUnique(vertices);
 }
 
 VtuCells::VtuCells(const CutMesh& cutMesh, const Selection& selection)

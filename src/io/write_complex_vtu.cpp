@@ -27,7 +27,8 @@ std::vector<int> componentsOf(std::span<const Field> fields, size_t count, const
 /// What both files have in common: the elements that are written, and the vertices that these use.
 class ComplexWriter {
  public:
-  ComplexWriter(Meter& meter, const CellComplex& cells, const WriteOptions& options) : meter_(meter), cells_(cells), options_(options) {}
+  ComplexWriter(Meter& meter, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options)
+      : meter_(meter), cutMesh_(cutMesh), cells_(cells), options_(options), polygons_(cutMesh, cells) {}
 
  protected:
   bool hasCell(int64_t c) const {
@@ -50,35 +51,39 @@ class ComplexWriter {
       for (size_t d = 0; d < 3; ++d) put(cells_.positions[3 * v + d]);
     }
   }
-  template <class Put>
-  static void putFields(const Field& field, int components, const std::vector<uint32_t>& elements, const Put& put) {
-    for (const uint32_t e : elements) {
-      for (size_t i = 0; i < size_t(components); ++i) put(field.values[size_t(components) * e + i]);
+  template <class Visit>
+  void forEachField(std::span<const Field> fields, const std::vector<int>& components, const Visit& visit) const {
+    for (size_t i = 0; i < fields.size(); ++i) {
+      const size_t each = size_t(components[i]);
+      visit(double(), fields[i].name, written_.size(), components[i], [&](const auto& put) {
+        for (const uint32_t e : written_) {
+          for (size_t k = 0; k < each; ++k) put(fields[i].values[each * e + k]);
+        }
+      });
     }
   }
 
   static constexpr uint32_t kUnused = ~0u;
   Meter& meter_;
+  const CutMesh& cutMesh_;
   const CellComplex& cells_;
   const WriteOptions& options_;
+  ComplexPolygons polygons_;
+  std::vector<uint32_t> written_;  // cells; or per polygon, its face
   std::vector<uint32_t> numbers_;  // per vertex: that in the file
   uint64_t points_ = 0;
 };
 
 class CellWriter : ComplexWriter {
  public:
-  CellWriter(Meter& meter, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options)
-      : ComplexWriter(meter, cells, options), cutMesh_(cutMesh), polygons_(cutMesh, cells) {}
+  using ComplexWriter::ComplexWriter;
 
   void write(std::span<const Field> fields) {
     const std::vector<int> components = componentsOf(fields, cells_.cellCount(), "cells");
     count();
     VtuFile(meter_, points_, written_.size(), "grid_cell").write(1, [&](const auto& visit) {
       forEachArray(visit);
-      for (size_t i = 0; i < fields.size(); ++i) {
-        visit(double(), fields[i].name, written_.size(), components[i],
-              [&](const auto& put) { putFields(fields[i], components[i], written_, put); });
-      }
+      forEachField(fields, components, visit);
     });
   }
 
@@ -114,8 +119,7 @@ class CellWriter : ComplexWriter {
   const std::vector<uint32_t>& verticesOf(uint32_t c) {
     vertices_.clear();
     forEachPolygon(c, [&](std::span<const uint32_t> polygon, bool) { vertices_.insert(vertices_.end(), polygon.begin(), polygon.end()); });
-    sortItems(vertices_);
-    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+    sortUnique(vertices_);
     return vertices_;
   }
 
@@ -158,27 +162,20 @@ class CellWriter : ComplexWriter {
     });
   }
 
-  const CutMesh& cutMesh_;
-  ComplexPolygons polygons_;
-  std::vector<uint32_t> written_;                // cells
   std::vector<uint64_t> offsets_, faceOffsets_;  // per cell written
   std::vector<uint32_t> vertices_;
 };
 
 class FaceWriter : ComplexWriter {
  public:
-  FaceWriter(Meter& meter, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options)
-      : ComplexWriter(meter, cells, options), cutMesh_(cutMesh), polygons_(cutMesh, cells) {}
+  using ComplexWriter::ComplexWriter;
 
   void write(std::span<const Field> fields) {
     const std::vector<int> components = componentsOf(fields, cells_.faceCount(), "faces");
     count();
     VtuFile(meter_, points_, written_.size(), "face").write(1, [&](const auto& visit) {
       forEachArray(visit);
-      for (size_t i = 0; i < fields.size(); ++i) {
-        visit(double(), fields[i].name, written_.size(), components[i],
-              [&](const auto& put) { putFields(fields[i], components[i], written_, put); });
-      }
+      forEachField(fields, components, visit);
     });
   }
 
@@ -231,9 +228,6 @@ class FaceWriter : ComplexWriter {
     }
   }
 
-  const CutMesh& cutMesh_;
-  ComplexPolygons polygons_;
-  std::vector<uint32_t> written_;  // per polygon: its face
   std::vector<uint64_t> offsets_;  // per polygon
 };
 

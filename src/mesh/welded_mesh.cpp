@@ -63,10 +63,7 @@ std::vector<Stitch> findStitches(const WeldedMesh& mesh, const std::vector<uint3
     vertices.insert(vertices.end(), mesh.triangles[zeroArea[i]].begin(), mesh.triangles[zeroArea[i]].end());
   }
   const auto before = [&](uint32_t a, uint32_t b) { return mesh.points[a] < mesh.points[b]; };  // lexicographic: the order along a line
-  for (auto& vertices : verticesOf) {
-    sortItems(vertices, before);
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  }
+  for (auto& vertices : verticesOf) sortUnique(vertices, before);
   std::vector<Stitch> stitches;
   for (size_t i = 0; i < uses.size(); ++i) {
     const auto [low, high, triangle] = uses[i];

@@ -24,12 +24,6 @@ struct OfEdge {
   bool operator<(const OfEdge& other) const { return edge != other.edge ? edge < other.edge : point < other.point; }
 };
 
-template <class T>
-void sortUnique(std::vector<T>& items) {
-  sortItems(items);
-  items.erase(std::unique(items.begin(), items.end()), items.end());
-}
-
 Csr<uint32_t> groupByTriangle(size_t triangles, std::vector<OfTriangle> items) {
   sortUnique(items);
   return groupBy<uint32_t>(
@@ -209,8 +203,7 @@ class Arranger {
   /// Sorts points of a line along it from u to v, and drops those that are at one place.
   void sortAlong(uint32_t u, uint32_t v, int axis, std::vector<uint32_t>& chain) {
     for (uint32_t& p : chain) p = placeOf_[p];
-    sortItems(chain);
-    chain.erase(std::unique(chain.begin(), chain.end()), chain.end());
+    sortUnique(chain);
     const int way = result_.points.compare(u, v, axis, predicates_);
     ExactPoints exact(result_.points, chain, predicates_);
     std::vector<uint32_t> sorted;

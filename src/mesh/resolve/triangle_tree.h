@@ -1,31 +1,13 @@
 // Pairs of triangles whose boxes overlap.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <vector>
-
+#include "base/box_tree.h"
 #include "mesh/resolve/sorted_mesh.h"
 
 namespace mandoline::detail {
 
 /// A box in single precision, which holds what it is made around: half the memory.
-struct LooseBox {
-  std::array<float, 3> low, high;
-
-  bool overlaps(const LooseBox& other) const {
-    int within = 1;  // without branches, which are hard to foretell here
-    for (size_t d = 0; d < 3; ++d) within &= int(low[d] <= other.high[d]) & int(other.low[d] <= high[d]);
-    return within != 0;
-  }
-  void include(const LooseBox& other) {
-    for (size_t d = 0; d < 3; ++d) {
-      low[d] = std::min(low[d], other.low[d]);
-      high[d] = std::max(high[d], other.high[d]);
-    }
-  }
-};
+using LooseBox = BoxOf<float>;
 
 /// A tree of boxes around the triangles of a sorted mesh, whose nodes part groups, and halve those in the mesh's order. Pairs in one group
 /// are of no interest.

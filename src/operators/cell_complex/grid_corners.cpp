@@ -60,8 +60,7 @@ void GridCorners::linkCutVertices() {
       if (same) links_.insert(links_.end(), {{a, b}, {b, a}});
     }
   }
-  detail::sortItems(links_);
-  links_.erase(std::unique(links_.begin(), links_.end()), links_.end());
+  detail::sortUnique(links_);
 }
 
 /// Appends the cut-vertices inside of a grid-edge.

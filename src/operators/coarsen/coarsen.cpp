@@ -24,11 +24,6 @@ bool isBefore(const Block& a, const Block& b) {
   return a[axis] < b[axis];
 }
 
-void sortBlocks(Blocks& blocks) {
-  detail::sortItems(blocks, isBefore);
-  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-}
-
 class Coarsener {
  public:
   Coarsener(const CutMesh& cutMesh, const CoarsenOptions& options, detail::Monitor& monitor)
@@ -39,7 +34,7 @@ class Coarsener {
       const Block block = {cell[0], cell[1], cell[2]};
       if (cut_.empty() || cut_.back() != block) cut_.push_back(block);
     }
-    sortBlocks(cut_);
+    detail::sortUnique(cut_, isBefore);
   }
 
   OctreeCells run() {
@@ -70,7 +65,7 @@ class Coarsener {
     for (int level = 2; level <= options_.maxLevel; ++level) {
       monitor_.report(size_t(level), size_t(options_.maxLevel));
       for (const Block& block : divided_[size_t(level) - 1]) addParents(block, level);
-      sortBlocks(divided_[size_t(level)]);
+      detail::sortUnique(divided_[size_t(level)], isBefore);
     }
   }
 
@@ -100,7 +95,7 @@ class Coarsener {
         const int32_t last = (block[d] + std::min(layers, result_.gridCells[d] - 1 - block[d])) >> 1;
         for (at[d] = (block[d] - std::min(layers, block[d])) >> 1; at[d] <= last; ++at[d]) spread.push_back(at);
       }
-      sortBlocks(spread);
+      detail::sortUnique(spread, isBefore);
       blocks = std::move(spread);
     }
     return blocks;

@@ -9,8 +9,7 @@ namespace mandoline::validation {
 void ConformingCheck::gatherVertices(const GridCell& cell, const std::vector<Edge>& edges) {
   ids_.clear();
   for (const Edge& edge : edges) ids_.insert(ids_.end(), edge.begin(), edge.end());
-  detail::sortItems(ids_);
-  ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
+  detail::sortUnique(ids_);
   vertices_.build(ids_.size(), [&](size_t i) {
     const Vec3 p = cell.local(cell.context.vertex(ids_[i]));
     return detail::BoxTree::Item{boxOf(p, p), ids_[i]};

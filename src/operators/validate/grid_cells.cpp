@@ -36,8 +36,7 @@ struct Checks {
   const std::vector<Edge>& join(const std::vector<Edge>& own, std::span<const Edge> beyond) {
     joined = own;
     joined.insert(joined.end(), beyond.begin(), beyond.end());
-    detail::sortItems(joined);
-    joined.erase(std::unique(joined.begin(), joined.end()), joined.end());
+    detail::sortUnique(joined);
     return joined;
   }
 

@@ -28,8 +28,7 @@ void GridFaceCheck::checkSide(const GridCell& cell, const std::vector<Edge>& edg
     edges_.push_back(edge);
     vertices_.insert(vertices_.end(), edge.begin(), edge.end());
   }
-  detail::sortItems(vertices_);
-  vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+  detail::sortUnique(vertices_);
   const auto indexOf = [&](uint32_t v) { return uint32_t(std::lower_bound(vertices_.begin(), vertices_.end(), v) - vertices_.begin()); };
   components_.reset(vertices_.size());
   size_t bounded = edges_.size() - vertices_.size(), faces = 0;

@@ -9,11 +9,6 @@ namespace {
 
 constexpr size_t kMany = 32;
 
-void sortOut(std::vector<Hubs::At>& items) {
-  detail::sortItems(items);
-  items.erase(std::unique(items.begin(), items.end()), items.end());
-}
-
 size_t endAt(const std::vector<Hubs::At>& items, size_t begin) {
   size_t end = begin;
   while (end < items.size() && items[end].vertex == items[begin].vertex) ++end;
@@ -29,7 +24,7 @@ void Hubs::find(const GridCell& cell, const std::vector<Edge>& edges) {
     for (const uint32_t v : cell.vertices(f)) faces_.push_back({v, f});
   }
   if (faces_.size() < 3 * kMany) return;
-  sortOut(faces_);
+  detail::sortUnique(faces_);
   for (size_t begin = 0, end = 0; begin < faces_.size(); begin = end) {
     end = endAt(faces_, begin);
     if (end - begin >= kMany) hubs_.push_back({faces_[begin].vertex, {faces_.data() + begin, end - begin}, {}});
@@ -39,7 +34,7 @@ void Hubs::find(const GridCell& cell, const std::vector<Edge>& edges) {
       if (at(v)) edges_.push_back({v, e});
     }
   }
-  sortOut(edges_);
+  detail::sortUnique(edges_);
   size_t begin = 0;
   for (Hub& hub : hubs_) {  // each has edges
     const size_t end = endAt(edges_, begin);
