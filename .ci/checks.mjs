@@ -4,6 +4,7 @@ import { existsSync, mkdirSync, readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { meshFolder } from '../tests/mesh_folder.mjs';
 import { build, fail, jobs, path, run, setUp } from '../tests/steps.mjs';
+import { checkPotentialFoam } from './potential_foam.mjs';
 import { checkPolyMeshes, checkVtuFiles } from './readers.mjs';
 import { checkFunctions } from './sources.mjs';
 
@@ -33,6 +34,7 @@ const made = ['box', 'sphere', 'torus', 'torus-knot'].map((shape) => {
 const all = meshFolder ? readdirSync(meshFolder).filter((name) => name.endsWith('.obj.gz')).sort() : [];
 checkPolyMeshes([...made, ...all.filter((_, i) => i % 9 === 0).map((name) => join(meshFolder, name))]);
 checkVtuFiles([...made, ...scans]);
+await checkPotentialFoam(['build/sphere.obj', 'build/torus-knot.obj', ...scans]);
 
 mkdirSync(path('build-clang', 'corpus'), { recursive: true });
 run('build-clang/mandoline-fuzz', '-max_total_time=90', '-max_len=256', '-timeout=20', '-print_final_stats=1',
