@@ -760,6 +760,8 @@ TEST_CASE("grids have the planes they promise", "[cases]") {
   const Mesh slab = box({0, 0, 0}, {4, 2, 1});
   const Grid around = Grid::around(slab, 11);  // cells of size 0.4; the other sides are 2.2 and 1.1 with the margin
   CHECK(around.cells(0) == 11);
+  const Grid wide = Grid::around(slab, 20, 2);  // 5 times as long as the slab, cells of size 1
+  CHECK(std::array{wide.cells(0), wide.cells(1), wide.cells(2)} == std::array<int64_t, 3>{20, 18, 17});
   CHECK(around.cells(1) >= 6);
   CHECK(around.cells(1) <= 7);
   for (int axis = 0; axis < 3; ++axis) {

@@ -139,6 +139,9 @@ TEST_CASE("Command line: wrong usage exits with 2", "[cli]") {
       {{"cut", mesh, "--planes", '@' + folder.path("none")}, "none: can't be read"},
       {{"cut", mesh, "--planes", '@' + folder.write("two.txt", "0,1\n0,1\n")}, "two.txt: needs three lines"},
       {{"cut", mesh, "--planes", "0,1/0,1/0,1", "--cells", "3"}, "--planes tells the number of cells"},
+      {{"cut", mesh, "--margin", "-1"}, "--margin needs a number from 0 to 1e6, not '-1'"},
+      {{"cut", mesh, "--margin", "nan"}, "--margin needs a number from 0 to 1e6, not 'nan'"},
+      {{"slice", mesh, "--margin", "1", "--box", "0,0,0,1,1,1"}, "--margin is for grids around the mesh"},
       {{"cut", mesh, "--planes", "0,1/0,1/0,1", "--box", "0,0,0,1,1,1"}, "only one of --box, --planes, and --origin"},
       {{"cut", mesh, "--origin", "0,0,0", "--spacing", "1", "--cells", "3", "--box", "0,0,0,1,1,1"}, "only one of --box"},
       {{"cut", mesh, "--origin", "0,0,0", "--cells", "3"}, "--origin and --spacing need each other"},
@@ -539,6 +542,15 @@ TEST_CASE("Command line: flow writes cells with velocities, and streamlines", "[
   CAPTURE(piped.err);
   REQUIRE(piped.exitCode == 0);
   REQUIRE(piped.out == folder.read("flow.vtu"));
+  const Outcome reported = run(folder, {"flow", mesh, "--wind", "2,0,0", "--report", folder.path("r.json"), "-o", folder.path("flow.vtu")});
+  REQUIRE(reported.exitCode == 0);
+  REQUIRE(reported.out.empty());
+  const std::string wide = folder.path("wide.vtu");
+  REQUIRE(run(folder, {"flow", mesh, "--wind", "2,0,0", "--margin", "0.5", "-o", wide}).exitCode == 0);
+  REQUIRE(folder.read("wide.vtu") == folder.read("flow.vtu"));
+  for (const std::string part :
+       {"\"status\": \"converged\",", "\"wind\": [\n    2,\n    0,", "\"residuals\": [\n    1,", "\"throttled\": []\n"})
+    REQUIRE(contains(folder.read("r.json"), part));
   REQUIRE(contains(run(folder, {"flow", mesh, "-o", folder.path("flow.vtu")}).err, "flow needs --wind"));
   REQUIRE(contains(run(folder, {"flow", mesh, "--wind", "1,0", "-o", folder.path("flow.vtu")}).err, "--wind needs X,Y,Z, not '1,0'"));
   REQUIRE(contains(run(folder, {"flow", mesh, "--wind", "1,0,0", "-o", folder.path("flow.stl")}).err,

@@ -35,8 +35,11 @@ class Parser {
   static const std::vector<Option>& options() {
     using C = Command;
     static const std::vector<Option> kOptions = {
-        {"--report", {C::cut, C::info}, [](Parser& p, const std::string& name) { p.arguments_.report = p.value(name); }},
+        {"--report", {C::cut, C::info, C::flow}, [](Parser& p, const std::string& name) { p.arguments_.report = p.value(name); }},
         {"--cells", {C::cut, C::slice, C::flow}, [](Parser& p, const std::string& name) { parseCells(p.value(name), p.arguments_.grid); }},
+        {"--margin",
+         {C::cut, C::slice, C::flow},
+         [](Parser& p, const std::string& name) { parseMargin(p.value(name), p.arguments_.grid); }},
         {"--box", {C::cut, C::slice, C::flow}, [](Parser& p, const std::string& name) { parseBox(p.value(name), p.arguments_.grid); }},
         {"--origin",
          {C::cut, C::slice, C::flow},

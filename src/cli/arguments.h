@@ -24,7 +24,8 @@ struct GridArguments {
   using Vector = std::array<double, 3>;
 
   std::optional<std::array<int64_t, 3>> cells;
-  bool oneNumber = false;  ///< --cells N rather than --cells NX,NY,NZ
+  bool oneNumber = false;        ///< --cells N rather than --cells NX,NY,NZ
+  std::optional<double> margin;  ///< in longest sides of the mesh
   std::optional<std::array<Vector, 2>> box;
   std::optional<Vector> origin, spacing;
   std::optional<std::array<std::vector<double>, 3>> planes;

@@ -11,6 +11,7 @@ namespace mandoline::cli {
 void checkOutputs(const Arguments& arguments, bool (*isAllowed)(FileFormat), const std::string& rule) {
   std::vector<NamedFile> files;
   if (!arguments.mesh.empty() && arguments.mesh != "-") files.push_back({"the mesh", arguments.mesh});
+  if (!arguments.report.empty()) files.push_back({"--report", arguments.report});
   for (const std::string& output : arguments.outputs) {
     const std::optional<FileFormat> format = output == "-" ? arguments.format : formatOf(output);
     if (!format || !isAllowed(*format)) throw UsageError(output + ": " + rule);
@@ -29,8 +30,8 @@ CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const Grid& grid
   });
 }
 
-std::optional<CutMesh> cutOrComplain(const Arguments& arguments, const Mesh& mesh) {
-  CutResult result = cutMesh(arguments, mesh, makeGrid(arguments.grid, mesh, inspect(mesh)));
+std::optional<CutMesh> cutOrComplain(const Arguments& arguments, const Mesh& mesh, const GridArguments& grid) {
+  CutResult result = cutMesh(arguments, mesh, makeGrid(grid, mesh, inspect(mesh)));
   if (result) return std::move(result.mesh);
   complain(refusal(nameOf(arguments.mesh), result.error));
   return std::nullopt;

@@ -38,8 +38,8 @@ bool takesStandardOutput(const Arguments& arguments);
 /// With progress.
 CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const Grid& grid);
 
-/// The same with the grid that was asked for; if it fails, says why and gives nothing.
-std::optional<CutMesh> cutOrComplain(const Arguments& arguments, const Mesh& mesh);
+/// The same with the grid that is asked for; if it fails, says why and gives nothing.
+std::optional<CutMesh> cutOrComplain(const Arguments& arguments, const Mesh& mesh, const GridArguments& grid);
 
 /// All cells, merged as far as --coarsen says. With progress.
 CellComplex makeCells(const Arguments& arguments, const Mesh& mesh, const CutMesh& cutMesh);

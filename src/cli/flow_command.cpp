@@ -8,6 +8,7 @@
 
 #include "cli/cutting.h"
 #include "cli/files.h"
+#include "cli/json.h"
 #include "mandoline/flow.h"
 #include "operators/measure/vector.h"
 
@@ -37,35 +38,71 @@ void writeCells(const Sink& sink, const FlowField& field, const WriteOptions& op
   writeVtu(sink, field.cutMesh, field.cells, fields, options);
 }
 
-std::string reportOf(const FlowField& field) {
-  const Flow& flow = field.flow;
-  double largest = 0;
-  for (size_t c = 0; c < field.cells.cellCount(); ++c) {
-    const double* v = &flow.cellVelocity[3 * c];
-    largest = std::max(largest, measuring::length({v[0], v[1], v[2]}));
+/// What there is to tell of a flow.
+struct FlowReport {
+  const Arguments& arguments;
+  const FlowField& field;
+
+  size_t iterations() const { return flow().residuals.empty() ? 0 : flow().residuals.size() - 1; }
+  double residual() const { return flow().residuals.empty() ? 0 : flow().residuals.back(); }
+  double largestSpeed() const {
+    double largest = 0;
+    for (size_t c = 0; c < field.cells.cellCount(); ++c) {
+      const double* v = &flow().cellVelocity[3 * c];
+      largest = std::max(largest, measuring::length({v[0], v[1], v[2]}));
+    }
+    return largest;
   }
-  char text[400];
-  std::snprintf(text, sizeof text,
-                "cells                 %zu\nstatus                %s\niterations            %zu\nresidual              %.2g\n"
-                "largest speed         %.6g\nthrottled components  %zu\n",
-                field.cells.cellCount(), name(flow.status), flow.residuals.empty() ? 0 : flow.residuals.size() - 1,
-                flow.residuals.empty() ? 0 : flow.residuals.back(), largest, flow.throttled.size());
-  return text;
+
+  std::string text() const {
+    char text[400];
+    std::snprintf(text, sizeof text,
+                  "cells                 %zu\nstatus                %s\niterations            %zu\nresidual              %.2g\n"
+                  "largest speed         %.6g\nthrottled components  %zu\n",
+                  field.cells.cellCount(), name(flow().status), iterations(), residual(), largestSpeed(), flow().throttled.size());
+    return text;
+  }
+
+  std::string json() const {
+    Json json;
+    json.open('{').member("status", name(flow().status)).member("path", nameOf(arguments.mesh));
+    json.key("wind").values(flow().wind).member("cutCells", field.cells.cutCells).member("cells", field.cells.cellCount());
+    json.member("faces", field.cells.faceCount()).member("iterations", iterations()).key("residuals").values(flow().residuals);
+    json.member("largestSpeed", largestSpeed()).key("throttled").values(flow().throttled);
+    return json.close('}').text();
+  }
+
+ private:
+  const Flow& flow() const { return field.flow; }
+};
+
+void deliver(const FlowReport& report) {
+  const Arguments& arguments = report.arguments;
+  if (!arguments.report.empty()) {
+    writeOutput(arguments.report, [&](const Sink& sink) { sink(report.json()); });
+  } else {
+    (takesStandardOutput(arguments) ? std::cerr : std::cout) << report.text() << std::flush;
+  }
 }
+
+/// Of the wind tunnel, in longest sides of the mesh.
+constexpr double kMargin = 0.5;
 
 }  // namespace
 
 int runFlow(const Arguments& arguments) {
   checkOutputs(arguments, isFlowFormat, "a flow is written as .vtu or .obj");
   const Mesh mesh = readInput(arguments.mesh);
-  const std::optional<CutMesh> cutMesh = cutOrComplain(arguments, mesh);
+  GridArguments grid = arguments.grid;
+  if (!grid.margin) grid.margin = kMargin;
+  const std::optional<CutMesh> cutMesh = cutOrComplain(arguments, mesh, grid);
   if (!cutMesh) return kNotCut;
   WriteOptions options = writeOptions(arguments.only, *cutMesh);
   const CellComplex cells = makeCells(arguments, mesh, *cutMesh);
   const Flow flow =
       withProgress(arguments.threads, [&](const RunOptions& run) { return solveFlow(cells, *arguments.flow.wind, FlowOptions{run}); });
   const FlowField field{mesh, *cutMesh, cells, flow};
-  (takesStandardOutput(arguments) ? std::cerr : std::cout) << reportOf(field) << std::flush;
+  deliver({arguments, field});
   for (const std::string& output : arguments.outputs) {
     withProgress(arguments.threads, [&](const RunOptions& run) {
       if (formatFor(arguments, output) == FileFormat::vtu) {

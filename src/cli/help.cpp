@@ -22,12 +22,13 @@ MESH is an OBJ, STL, PLY or OFF file, in text or binary, and may be gzipped; - i
 standard input. A value may also be given as in --cells=32.
 
 The grid
-  --cells N              cubic cells of size 1.1 x longest side of the mesh / N, as many
-                         along each axis as cover it with that margin (default: 32);
-                         with --box, N cells along its longest side and as many along the
+  --cells N              cubic cells, N along the longest side of the mesh with its margin
+                         and as many along the others as cover it (default: 32); with
+                         --box, N cells along its longest side and as many along the
                          others as make the cells nearly cubic
-  --cells NX,NY,NZ       as many cells along x, y and z in the box; without --box, in the
-                         mesh's bounding box grown by 5% of its longest side all around
+  --cells NX,NY,NZ       as many cells along x, y and z
+  --margin M             how far the grid reaches beyond the mesh, all around, in longest
+                         sides of its bounding box (default: 0.05; of flow 0.5)
   --box X0,Y0,Z0,X1,Y1,Z1
                          the box that the grid fills exactly
   --origin X,Y,Z --spacing S|SX,SY,SZ
@@ -96,13 +97,15 @@ Options of resolve, besides --threads
                          note on standard error tells whether that has brought
                          intersections back
 
-Options of cut and info
+Options of cut, info and flow
   --report FILE          write the report as JSON instead of text; - for standard output.
                          Its members: status, message, element, element2 (what failed),
                          mesh (path, counts, box, closed, oriented ...) and
                          intersections (pairs, by kind ...); of a cut also grid, counts,
                          largestSnap, regions, stages (ms), totalMs, exactFallbacks,
-                         peakMemoryBytes and validation: null, or pass and checks
+                         peakMemoryBytes and validation: null, or pass and checks. Of a
+                         flow: status, path, wind, cutCells, cells, faces, iterations,
+                         residuals, largestSpeed and throttled (components)
 
 Exit codes: 0 fine; 1 the mesh can't be cut, or validation failed; 2 wrong usage, or a
 file can't be read or written; 130 stopped by Ctrl-C (143 by SIGTERM), which leaves no

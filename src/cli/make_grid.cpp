@@ -18,14 +18,14 @@ std::array<int64_t, 3> nearlyCubic(const std::array<Vector, 2>& box, int64_t n) 
   return cells;
 }
 
-std::array<Vector, 2> grownBox(const MeshInfo& info) {
+std::array<Vector, 2> grownBox(const MeshInfo& info, double margin) {
   std::array<Vector, 2> box = {info.min, info.max};
   double longest = 0;
   for (size_t d = 0; d < 3; ++d) longest = std::max(longest, box[1][d] - box[0][d]);
   if (!(longest > 0)) longest = 1;
   for (size_t d = 0; d < 3; ++d) {
-    box[0][d] -= 0.05 * longest;
-    box[1][d] += 0.05 * longest;
+    box[0][d] -= margin * longest;
+    box[1][d] += margin * longest;
   }
   return box;
 }
@@ -42,8 +42,9 @@ Grid makeGrid(const GridArguments& arguments, const Mesh& mesh, const MeshInfo& 
     const auto& [low, high] = *arguments.box;
     return Grid::box(low, high, oneNumber ? nearlyCubic(*arguments.box, n) : *arguments.cells);
   }
-  if (oneNumber) return Grid::around(mesh, n);
-  const auto [low, high] = grownBox(info);
+  const double margin = arguments.margin.value_or(0.05);
+  if (oneNumber) return Grid::around(mesh, n, margin);
+  const auto [low, high] = grownBox(info, margin);
   return Grid::box(low, high, *arguments.cells);
 }
 

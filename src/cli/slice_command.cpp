@@ -37,7 +37,7 @@ OutlineStack outlineStack(const SliceArguments& slice, const Mesh& mesh, const C
 int runSlice(const Arguments& arguments) {
   checkOutputs(arguments, isOutlineFormat, "outlines are written as .svg, .dxf or .obj");
   const Mesh mesh = readInput(arguments.mesh);
-  const std::optional<CutMesh> cutMesh = cutOrComplain(arguments, mesh);
+  const std::optional<CutMesh> cutMesh = cutOrComplain(arguments, mesh, arguments.grid);
   if (!cutMesh) return kNotCut;
   OnlyArguments only = arguments.only;
   if (!only.any() && cutMesh->hasWinding) only.inside = true;

@@ -54,6 +54,14 @@ void parseCells(const std::string& word, GridArguments& grid) {
   for (size_t d = 0; d < 3; ++d) (*grid.cells)[d] = cells[grid.oneNumber ? 0 : d];
 }
 
+void parseMargin(const std::string& word, GridArguments& grid) {
+  double margin = 0;
+  if (!parseNumber(word, margin) || !(margin >= 0 && margin <= 1e6)) {
+    throw UsageError("--margin needs a number from 0 to 1e6, not '" + word + "'");
+  }
+  grid.margin = margin;
+}
+
 void parseBox(const std::string& word, GridArguments& grid) {
   const std::vector<double> box = parseList<double>(word);
   if (box.size() != 6) throw UsageError("--box needs X0,Y0,Z0,X1,Y1,Z1, not '" + word + "'");
@@ -138,6 +146,9 @@ void parseStreamlines(const std::string& word, FlowArguments& flow) {
 void checkGrid(const GridArguments& grid) {
   if ((grid.box.has_value() + grid.planes.has_value() + (grid.origin || grid.spacing)) > 1) {
     throw UsageError("only one of --box, --planes, and --origin with --spacing");
+  }
+  if (grid.margin && (grid.box || grid.planes || grid.origin)) {
+    throw UsageError("--margin is for grids around the mesh, without --box, --planes or --origin");
   }
   if (grid.planes && grid.cells) throw UsageError("--planes tells the number of cells, so there can be no --cells");
   if (grid.origin.has_value() != grid.spacing.has_value()) throw UsageError("--origin and --spacing need each other");

@@ -33,6 +33,7 @@ std::vector<Number> parseList(std::string_view word) {
 
 // Each sets what the word says, or throws UsageError.
 void parseCells(const std::string& word, GridArguments& grid);
+void parseMargin(const std::string& word, GridArguments& grid);
 void parseBox(const std::string& word, GridArguments& grid);
 void parseOrigin(const std::string& word, GridArguments& grid);
 void parseSpacing(const std::string& word, GridArguments& grid);

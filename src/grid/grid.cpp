@@ -62,7 +62,7 @@ Grid Grid::rectilinear(std::array<std::vector<double>, 3> planes) {
   return grid;
 }
 
-Grid Grid::around(const MeshView& mesh, int64_t n) {
+Grid Grid::around(const MeshView& mesh, int64_t n, double margin) {
   std::array<double, 3> low, high;
   low.fill(INFINITY);
   high.fill(-INFINITY);
@@ -79,10 +79,10 @@ Grid Grid::around(const MeshView& mesh, int64_t n) {
   if (!(longest > 0)) longest = 1;  // a point, or nothing
   Grid grid;
   grid.uniform = true;
-  const double margin = 0.05 * longest, spacing = 1.1 * longest / double(n);
+  const double spacing = (1 + 2 * margin) * longest / double(n);
   for (int d = 0; d < 3; ++d) {
     if (!(low[d] <= high[d])) low[d] = high[d] = 0;
-    const double span = high[d] - low[d] + 2 * margin, middle = 0.5 * low[d] + 0.5 * high[d];
+    const double span = high[d] - low[d] + 2 * (margin * longest), middle = 0.5 * low[d] + 0.5 * high[d];
     // Rounding must not turn a side of just n cells into n + 1.
     const int64_t cells = n < 1 ? n : std::clamp(int64_t(std::ceil(span / spacing * (1 - 1e-12))), int64_t(1), n);
     grid.planes[d] = makePlanes(cells, [&](int64_t c) {

@@ -22,8 +22,9 @@ struct Grid {
   static Grid regular(const std::array<double, 3>& origin, const std::array<double, 3>& spacing, const std::array<int64_t, 3>& cells);
   /// Any ascending planes, for graded grids.
   static Grid rectilinear(std::array<std::vector<double>, 3> planes);
-  /// Cubic cells of size 1.1 x longest side of the bounding box / n, as many per axis as cover the box with that margin, centred.
-  static Grid around(const MeshView& mesh, int64_t n);
+  /// Cubic cells around the mesh's bounding box and a margin all around it, in longest sides of the box: n along the longest side, as many
+  /// along the others as cover it, centred. With the default margin their size is 1.1 x longest side / n.
+  static Grid around(const MeshView& mesh, int64_t n, double margin = 0.05);
 
   /// Number of grid cells along an axis (0 for a grid that could not be made, which cut() reports).
   int64_t cells(int axis) const { return planes[axis].empty() ? 0 : int64_t(planes[axis].size()) - 1; }
