@@ -12,9 +12,6 @@
 namespace mandoline {
 namespace {
 
-using physics::DualEdge;
-using physics::DualEdges;
-
 /// The boundary of a wind, one of length 1, that blows through the sides of the box; as much in as out of each component.
 Boundary windBoundary(const CellComplex& cells, const std::array<double, 3>& wind, std::vector<uint32_t>& throttled) {
   Boundary boundary = boundaryOf(cells);
@@ -39,23 +36,6 @@ Boundary windBoundary(const CellComplex& cells, const std::array<double, 3>& win
   return boundary;
 }
 
-/// On the sides of the box from the boundary, elsewhere from phi; 0 on the surface.
-void fillFaceVelocities(const CellComplex& cells, const Boundary& boundary, const DualEdges& dual, Flow& flow) {
-  flow.faceVelocity.assign(cells.faceCount(), 0);
-  for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {
-    const uint32_t h = boundary.halfFaces[b];
-    if (boundary.value[b] != 0) flow.faceVelocity[h / 2] = h % 2 == 0 ? boundary.value[b] : -boundary.value[b];
-  }
-  for (size_t e = 0; e < dual.edges.size(); ++e) {
-    const DualEdge& edge = dual.edges[e];
-    double other = 0;
-    for (const uint32_t f : dual.faces[e]) {
-      other += physics::shareOf(cells, edge, dual.faces[e], f) * flow.phi[physics::otherCell(cells, edge, f)];
-    }
-    for (const uint32_t f : dual.faces[e]) flow.faceVelocity[f] = edge.sign * (other - flow.phi[edge.cell]) / edge.distance;
-  }
-}
-
 /// From that of a wind of length 1.
 void scale(Flow& flow, double length) {
   for (std::vector<double>* values : {&flow.phi, &flow.faceVelocity, &flow.cellVelocity, &flow.cellGradient}) {
@@ -76,11 +56,11 @@ class FlowSolver {
     PoissonProblem problem;
     problem.boundary = windBoundary(cells_, unit, flow.throttled);
     solve(problem, flow);
-    const DualEdges dual = physics::dualEdges(cells_, problem.dualPoints);
-    fillFaceVelocities(cells_, problem.boundary, dual, flow);
+    const physics::DualEdges dual = physics::dualEdges(cells_, problem.dualPoints);
+    physics::fillFaceVelocities(cells_, problem.boundary, dual, flow);
     detail::Monitor monitor(options_, kStages);
     monitor.beginStage("velocities", kStages - 1);
-    fitVelocities(cells_, flowData(cells_, dual, flow), monitor, flow);
+    fitVelocities(cells_, physics::flowData(cells_, dual, flow), monitor, flow);
     for (size_t c = 0; c < cells_.cellCount(); ++c) {
       double square = 0;
       for (size_t d = 0; d < 3; ++d) square += flow.cellVelocity[3 * c + d] * flow.cellVelocity[3 * c + d];

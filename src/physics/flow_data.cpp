@@ -47,6 +47,22 @@ detail::Csr<uint32_t> grouped(size_t cellCount, std::vector<Pair>& pairs) {
 
 }  // namespace
 
+void fillFaceVelocities(const CellComplex& cells, const Boundary& boundary, const DualEdges& dual, Flow& flow) {
+  flow.faceVelocity.assign(cells.faceCount(), 0);
+  for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {
+    const uint32_t h = boundary.halfFaces[b];
+    if (boundary.value[b] != 0) flow.faceVelocity[h / 2] = h % 2 == 0 ? boundary.value[b] : -boundary.value[b];
+  }
+  for (size_t e = 0; e < dual.edges.size(); ++e) {
+    const DualEdge& edge = dual.edges[e];
+    double other = 0;
+    for (const uint32_t f : dual.faces[e]) {
+      other += shareOf(cells, edge, dual.faces[e], f) * flow.phi[otherCell(cells, edge, f)];
+    }
+    for (const uint32_t f : dual.faces[e]) flow.faceVelocity[f] = edge.sign * (other - flow.phi[edge.cell]) / edge.distance;
+  }
+}
+
 FlowData flowData(const CellComplex& cells, const DualEdges& dual, const Flow& flow) {
   FlowData result;
   std::vector<Pair> ofCells, neighbors;

@@ -21,6 +21,9 @@ struct FlowData {
   std::vector<double> cellSize;         ///< per cell: of the distance between dual points
 };
 
+/// Fills in the flow's velocities of faces: on the boundary those given there, elsewhere those from phi.
+void fillFaceVelocities(const CellComplex& cells, const Boundary& boundary, const DualEdges& dual, Flow& flow);
+
 /// `flow` has the faces' velocities.
 FlowData flowData(const CellComplex& cells, const DualEdges& dual, const Flow& flow);
 

@@ -51,7 +51,7 @@ std::vector<double> velocityAt(const FlowField& field, std::span<const double> p
   std::vector<double> result(points.size(), NAN);
   for (size_t i = 0; i < cells.size(); ++i) {
     if (cells[i] < 0) continue;
-    const auto v = physics::velocityIn(field, size_t(cells[i]), &points[3 * i]);
+    const auto v = physics::velocityIn(field.cells, field.flow, size_t(cells[i]), &points[3 * i]);
     std::copy(v.begin(), v.end(), &result[3 * i]);
   }
   return result;

@@ -14,10 +14,10 @@ OctreeCells octreeOf(const FlowField& field);
 /// Per point: the cell that holds it, or -1 outside the grid.
 std::vector<int64_t> cellsAt(const FlowField& field, const OctreeCells& octree, std::span<const double> points);
 
-inline std::array<double, 3> velocityIn(const FlowField& field, size_t cell, const double* point) {
-  const double *v = &field.flow.cellVelocity[3 * cell], *g = &field.flow.cellGradient[6 * cell];
+inline std::array<double, 3> velocityIn(const CellComplex& cells, const Flow& flow, size_t cell, const double* point) {
+  const double *v = &flow.cellVelocity[3 * cell], *g = &flow.cellGradient[6 * cell];
   double r[3];
-  for (size_t d = 0; d < 3; ++d) r[d] = point[d] - field.cells.cellCentroid[3 * cell + d];
+  for (size_t d = 0; d < 3; ++d) r[d] = point[d] - cells.cellCentroid[3 * cell + d];
   return {v[0] + (g[0] * r[0] + g[3] * r[1] + g[5] * r[2]), v[1] + (g[3] * r[0] + g[1] * r[1] + g[4] * r[2]),
           v[2] + (g[5] * r[0] + g[4] * r[1] + g[2] * r[2])};
 }

@@ -55,12 +55,12 @@ void Tracer::enter(size_t cell) {
 
 void Tracer::push(const Point& p) {
   lines_->points.insert(lines_->points.end(), p.begin(), p.end());
-  lines_->speeds.push_back(length(velocityIn(field_, cell_, p.data())));
+  lines_->speeds.push_back(length(velocityIn(field_.cells, field_.flow, cell_, p.data())));
 }
 
 /// Without the components across sides that the line slides along.
 Point Tracer::velocity(const Point& p) const {
-  Point v = velocityIn(field_, cell_, p.data());
+  Point v = velocityIn(field_.cells, field_.flow, cell_, p.data());
   for (size_t d = 0; d < 3; ++d) v[d] = held_[d] ? 0 : options_.upstream ? -v[d] : v[d];
   return v;
 }

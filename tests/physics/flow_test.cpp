@@ -4,6 +4,7 @@
 #include "case_list.h"
 #include "checked_cut.h"
 #include "physics/complexes.h"
+#include "physics/flow_field.h"
 #include "refusal.h"
 #include "shapes.h"
 #include "vectors.h"
@@ -47,14 +48,8 @@ std::array<double, 2> largestSpeeds() {
     result[0] = std::max(result[0], vectors::length(vectors::pointAt(flow.cellVelocity, uint32_t(c))));
   for (size_t h = 0; h < cells.faceCells.size(); ++h) {
     if (cells.faceTag[h / 2] != FaceTag::surface || cells.faceCells[h] < 0) continue;
-    const size_t c = size_t(cells.faceCells[h]);
-    const double* g = &flow.cellGradient[6 * c];
-    const auto r =
-        vectors::operator-(vectors::pointAt(cells.faceCentroid, uint32_t(h / 2)), vectors::pointAt(cells.cellCentroid, uint32_t(c)));
-    const double* v = &flow.cellVelocity[3 * c];
-    result[1] =
-        std::max(result[1], vectors::length({v[0] + g[0] * r[0] + g[3] * r[1] + g[5] * r[2], v[1] + g[3] * r[0] + g[1] * r[1] + g[4] * r[2],
-                                             v[2] + g[5] * r[0] + g[4] * r[1] + g[2] * r[2]}));
+    const auto v = physics::velocityIn(cells, flow, size_t(cells.faceCells[h]), &cells.faceCentroid[3 * (h / 2)]);
+    result[1] = std::max(result[1], vectors::length(v));
   }
   return result;
 }

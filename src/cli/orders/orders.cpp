@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "cli/mesh_paths.h"
-#include "cli/orders/exact.h"
+#include "cli/orders/speeds.h"
 #include "mandoline/io.h"
 #include "mandoline/mandoline.h"
 #include "mandoline/shapes.h"
@@ -21,6 +21,7 @@ constexpr const char* kHelp =
 
 Solves Poisson's equation on cells and prints as tables of Markdown:
   errors against exact solutions outside of a ball at each N of --cells (default 16,32,64), and the orders that follow
+  errors of velocities about a ball, and the largest speed on it
   a linear field on every mesh of FOLDER: its largest error, relative to the field's range
   unknowns, iterations and processor time of the flow about MESH (default: a torus knot), outside of it
 )";
@@ -114,6 +115,24 @@ void printBalls(const std::vector<int64_t>& cells) {
   }
 }
 
+void printSpeeds(const std::vector<int64_t>& cells) {
+  std::printf("\n| velocities of the potential flow | N | mean error | order | largest speed on the surface (exact: 1.5) |\n");
+  std::printf("|---|---|---|---|---|\n");
+  const Mesh mesh = makeSphere({0, 0, 0}, 1, 7);
+  for (const Discretisation& d : kDiscretisations) {
+    if (d.points != DualPoints::centres) continue;
+    double before = 0, nBefore = 0;
+    for (const int64_t n : cells) {
+      const CellComplex mine = outside(allCells(mesh, Grid::box({-2, -2, -2}, {2, 2, 2}, {n, n, n}), d.maxLevel, d.fineLayers));
+      const Speeds speeds = speedsOf(mine, kSphereFlow);
+      std::printf("| %s | %lld | %.2e | ", d.name, (long long)n, speeds.meanError);
+      if (nBefore > 0) std::printf("%.2f ", std::log(before / speeds.meanError) / std::log(double(n) / nBefore));
+      std::printf("| %.3f |\n", speeds.largestOnSurface);
+      before = speeds.meanError, nBefore = double(n);
+    }
+  }
+}
+
 /// The largest error of a linear field in all regions, relative to its range.
 double linearError(const Mesh& mesh, const Grid& grid, int maxLevel) {
   const CellComplex cells = allCells(mesh, grid, maxLevel);
@@ -175,6 +194,7 @@ int main(int argc, char** argv) {
   try {
     const Arguments arguments = parse({argv + 1, argv + argc});
     printBalls(arguments.cells);
+    printSpeeds(arguments.cells);
     if (!arguments.folder.empty()) printLinear(arguments.folder, arguments.cells.front());
     printSolver(arguments.mesh, arguments.cells);
     return 0;
