@@ -1,6 +1,6 @@
 // What the continuous integration does beyond npm test: the package in every toolchain, short functions, the same bits from another
 // compiler, what OpenFOAM and VTK say of the files, fuzz runs, the suite under sanitizers.
-import { existsSync, mkdirSync, readdirSync, readFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { meshFolder } from '../tests/mesh_folder.mjs';
 import { build, fail, jobs, path, run, setUp } from '../tests/steps.mjs';
@@ -31,8 +31,13 @@ const made = ['box', 'sphere', 'torus', 'torus-knot'].map((shape) => {
   run('build/mandoline', 'make', shape, '-o', `build/${shape}.obj`);
   return `build/${shape}.obj`;
 });
+// A box and a ball that cross, as groups under names that OpenFOAM does not take.
+const [box, ball] = ['box', 'sphere'].map((shape) => readFileSync(path('build', `${shape}.obj`), 'utf8'));
+const corners = box.match(/^v/gm).length;
+const shifted = ball.replace(/^f .*/gm, (face) => face.replace(/\d+/g, (v) => Number(v) + corners));
+writeFileSync(path('build', 'groups.obj'), `g xMin\n${box}g 2{ball}\n${shifted}`);
 const all = meshFolder ? readdirSync(meshFolder).filter((name) => name.endsWith('.obj.gz')).sort() : [];
-checkPolyMeshes([...made, ...all.filter((_, i) => i % 9 === 0).map((name) => join(meshFolder, name))]);
+checkPolyMeshes([...made, 'build/groups.obj', ...all.filter((_, i) => i % 9 === 0).map((name) => join(meshFolder, name))]);
 checkVtuFiles([...made, ...scans]);
 await checkPotentialFoam(['build/sphere.obj', 'build/torus-knot.obj', ...scans]);
 

@@ -34,6 +34,7 @@ struct PolyMesh {
   struct Patch {
     std::string name, type;
     size_t faces, start;
+    std::string group;
   };
   std::vector<std::array<double, 3>> points;
   std::vector<std::vector<size_t>> faces;
@@ -83,8 +84,12 @@ PolyMesh readPolyMesh(const TemporaryFolder& folder) {
   words = wordsOf(folder, "neighbour");
   for (size_t i = 1; i < words.size(); ++i) mesh.neighbour.push_back(number(words[i]));
   words = wordsOf(folder, "boundary");
-  for (size_t i = 1; i + 6 < words.size(); i += 7)
-    mesh.patches.push_back({words[i], words[i + 2], number(words[i + 4]), number(words[i + 6])});
+  for (size_t i = 1; i + 6 < words.size(); i += 7) {
+    mesh.patches.push_back({words[i], words[i + 2], number(words[i + 4]), number(words[i + 6]), {}});
+    if (i + 9 >= words.size() || words[i + 7] != "inGroups") continue;
+    mesh.patches.back().group = words[i + 9];
+    i += 3;
+  }
   REQUIRE(mesh.patches.size() == number(words[0]));
   if (!std::filesystem::exists(folder.path("polyMesh/cellZones"))) return mesh;
   words = wordsOf(folder, "cellZones");
@@ -209,6 +214,78 @@ TEST_CASE("polyMesh: patches of the box's sides and of both sides of the surface
   CHECK(mesh.zones.empty());
 }
 
+TEST_CASE("polyMesh: a patch for each group, with both sides of its pieces", "[cellfiles]") {
+  const Mesh sheet = shapes::quad({0.5, 0.5, 1.5}, {2.5, 0.5, 1.5}, {2.5, 2.5, 1.5}, {0.5, 2.5, 1.5});
+  const Mesh mesh = shapes::merged({shapes::cube(0.25, 2), sheet, shapes::cube(1, 2.75)});  // which cross
+  TriangleGroups groups{{"first", "sheet", "second", "nothing"}, std::vector<uint32_t>(12, 0)};
+  groups.triangleGroup.resize(14, 1);
+  groups.triangleGroup.resize(26, 2);
+  const Cells cells(mesh, Grid::box({0, 0, 0}, {3, 3, 3}, {3, 3, 3}), 0);
+  WriteOptions options;
+  options.groups = &groups;
+  const PolyMesh grouped = writtenPolyMesh(cells, options), plain = writtenPolyMesh(cells);
+  CHECK(grouped.patches.size() == 10);
+  const size_t all = plain.patch("surface").faces;
+  CHECK(grouped.patch("first").faces + grouped.patch("sheet").faces + grouped.patch("second").faces == all);
+  CHECK(grouped.patch("nothing").faces == 0);
+  std::map<std::string, size_t> expected;
+  for (const int32_t group : arrayOf<int32_t>(vtuOf(cells, true, {}, options), "group")) {
+    if (group >= 0) expected[groups.names[size_t(group)]] += 2;
+  }
+  CHECK(expected.size() == 3);
+  for (const auto& [name, faces] : expected) {
+    CHECK(grouped.patch(name).faces == faces);
+    CHECK(grouped.patch(name).type == "wall");
+    CHECK(grouped.patch(name).group == "surface");
+  }
+  CHECK(grouped.faces.size() == plain.faces.size());
+  CHECK(plain.patch("surface").group.empty());
+}
+
+TEST_CASE("polyMesh: a face that several groups have is in that of the lowest triangle", "[cellfiles]") {
+  const Mesh cube = shapes::cube(0.5, 1.5);
+  const Mesh mesh = shapes::merged({cube, shapes::flipped(cube), Mesh{{0.5, 0.5, 0.5, 1, 1, 1, 1.5, 1.5, 1.5}, {0, 1, 2}}});
+  TriangleGroups groups{{"cube", "twin", "no area"}, std::vector<uint32_t>(12, 0)};
+  groups.triangleGroup.resize(24, 1);
+  groups.triangleGroup.push_back(2);
+  const Cells cells(mesh, Grid::box({0, 0, 0}, {2, 2, 2}, {2, 2, 2}), 0);
+  WriteOptions options;
+  options.groups = &groups;
+  const PolyMesh polyMesh = writtenPolyMesh(cells, options);
+  CHECK(polyMesh.patch("cube").faces == writtenPolyMesh(cells).patch("surface").faces);
+  CHECK(polyMesh.patch("twin").faces == 0);
+  CHECK(polyMesh.patch("no_area").faces == 0);
+}
+
+TEST_CASE("polyMesh: names of groups become words of their own", "[cellfiles]") {
+  const Mesh mesh = shapes::cube(0.5, 1.5);
+  TriangleGroups groups{{"a b", "a_b", "a/{\"\";}b", "xMin", "inner", "2nd", "frt-fairing:001%1", "T\xc3\xbcr", "a_b_2", "", "surface"},
+                        {}};
+  for (uint32_t t = 0; t < mesh.triangleCount(); ++t) groups.triangleGroup.push_back(t % uint32_t(groups.names.size()));
+  WriteOptions options;
+  options.groups = &groups;
+  const PolyMesh polyMesh = writtenPolyMesh(Cells(mesh, Grid::box({0, 0, 0}, {2, 2, 2}, {2, 2, 2}), 0), options);
+  std::vector<std::string> names;
+  for (size_t i = 6; i < polyMesh.patches.size(); ++i) {
+    names.push_back(polyMesh.patches[i].name);
+    CHECK(polyMesh.patches[i].group.empty());  // one of them is called surface
+  }
+  CHECK(names == std::vector<std::string>{"a_b_3", "a_b", "a_b_4", "xMin_2", "inner_2", "_2nd", "frt-fairing:001%1", "T_r", "a_b_2", "_",
+                                          "surface"});
+}
+
+TEST_CASE("polyMesh: groups of another mesh are refused", "[cellfiles]") {
+  const Cells cells(kShell, Grid::around(kShell, 5), 2);
+  const TemporaryFolder folder;
+  const TriangleGroups few{{"a"}, {0, 0}}, unknown{{"a"}, std::vector<uint32_t>(kShell.triangleCount(), 1)};
+  for (const TriangleGroups* groups : {&few, &unknown}) {
+    WriteOptions options;
+    options.groups = groups;
+    CHECK(refusal([&] { writePolyMesh(folder.path("a"), cells.cutMesh, cells.complex, options); }).first == Status::badArgument);
+    CHECK(refusal([&] { vtuOf(cells, true, {}, options); }).first == Status::badArgument);
+  }
+}
+
 TEST_CASE("polyMesh: a zone per region, or the cells of some regions only", "[cellfiles]") {
   const Cells cells(kShell, Grid::around(kShell, 6), 2);
   REQUIRE(cells.cutMesh.regionCount == 3);
@@ -277,6 +354,19 @@ TEST_CASE("cells and faces are written as .vtu with fields", "[cellfiles]") {
   CHECK(face.size() > cells.complex.faceCount());  // those with holes are divided
   for (size_t i = 0; i < velocity.size(); ++i) REQUIRE(velocity[i] == double(3 * face[i / 3]) + double(i % 3));
   CHECK(arrayOf<int64_t>(faceFile, "connectivity").size() == size_t(arrayOf<int64_t>(faceFile, "offsets").back()));
+
+  TriangleGroups groups{{"outer", "a<b"}, std::vector<uint32_t>(kShell.triangleCount() / 2, 0)};
+  groups.triangleGroup.resize(kShell.triangleCount(), 1);
+  WriteOptions grouped;
+  grouped.groups = &groups;
+  const std::string groupFile = vtuOf(cells, true, ofFaces, grouped);
+  const std::vector<int32_t> group = arrayOf<int32_t>(groupFile, "group"), triangle = arrayOf<int32_t>(faceFile, "triangle");
+  REQUIRE(group.size() == triangle.size());
+  for (size_t i = 0; i < group.size(); ++i) REQUIRE(group[i] == groups.of(triangle[i]));
+  CHECK(arrayOf<double>(groupFile, "velocity") == velocity);
+  CHECK(groupFile.find("Name=\"group_names\" NumberOfTuples=\"2\" format=\"ascii\">\n111 117 116 101 114 0\n97 60 98 0\n") !=
+        std::string::npos);
+  CHECK(faceFile.find("group_names") == std::string::npos);
 
   CHECK(refusal([&] { vtuOf(cells, true, ofCells); }).first == Status::badArgument);
   const Field odd[] = {{"a<b", perFace}};

@@ -1,5 +1,6 @@
 // Fuzzes the readers of mesh files from bytes (libFuzzer): whatever the bytes are, there is a mesh whose triangles name vertices that
-// exist, or a FileError that names the file.
+// exist and whose groups are each of some triangle's, or a FileError that names the file.
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 
@@ -10,11 +11,15 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size == 0) return 0;
   const std::string& name = kNames[data[0] % std::size(kNames)];
   try {
-    const mandoline::Mesh mesh = mandoline::readMesh({reinterpret_cast<const char*>(data) + 1, size - 1}, name);
+    const auto [mesh, groups] = mandoline::readGroupedMesh({reinterpret_cast<const char*>(data) + 1, size - 1}, name);
     if (mesh.positions.size() % 3 != 0 || mesh.triangles.size() % 3 != 0) std::abort();
     for (const uint32_t v : mesh.triangles) {
       if (v >= mesh.vertexCount()) std::abort();
     }
+    if (groups.triangleGroup.size() != (groups.empty() ? 0 : mesh.triangleCount())) std::abort();
+    std::vector<bool> used(groups.names.size());
+    for (const uint32_t group : groups.triangleGroup) used.at(group) = true;
+    if (std::find(used.begin(), used.end(), false) != used.end()) std::abort();
   } catch (const mandoline::FileError& error) {
     if (std::string(error.what()).find(name + ": ") != 0) std::abort();
   }

@@ -73,7 +73,8 @@ std::vector<Output> outputsOf(const Arguments& arguments, const CutMesh& cutMesh
 /// Writes a cut-mesh, and its cell complex for those outputs that take one.
 class Writer {
  public:
-  Writer(const Arguments& arguments, const Mesh& mesh, const CutMesh& cutMesh) : arguments_(arguments), mesh_(mesh), cutMesh_(cutMesh) {}
+  Writer(const Arguments& arguments, const GroupedMesh& input, const CutMesh& cutMesh)
+      : arguments_(arguments), mesh_(input.mesh), groups_(input.groups), cutMesh_(cutMesh) {}
 
   void write(const Output& output) {
     const bool isFolder = isPolyMesh(output.path);
@@ -82,6 +83,7 @@ class Writer {
     withProgress(arguments_.threads, [&](const RunOptions& run) {
       WriteOptions options = output.options;
       static_cast<RunOptions&>(options) = run;
+      options.groups = &groups_;
       if (isFolder) {
         const DeferInterrupts defer;
         return writePolyMesh(output.path, cutMesh_, *cells_, options);
@@ -96,6 +98,7 @@ class Writer {
  private:
   const Arguments& arguments_;
   const Mesh& mesh_;
+  const TriangleGroups& groups_;
   const CutMesh& cutMesh_;
   std::optional<CellComplex> cells_;
 };
@@ -140,7 +143,8 @@ void complainOf(const Report& report, int& exitCode) {
 
 int runCut(const Arguments& arguments) {
   checkOutputs(arguments);
-  const Mesh mesh = readInput(arguments.mesh);
+  const GroupedMesh input = readGroupedInput(arguments.mesh);
+  const Mesh& mesh = input.mesh;
   const MeshInfo info = inspect(mesh);
   const Grid grid = makeGrid(arguments.grid, mesh, info);
   const CutResult result = cutMesh(arguments, mesh, grid);
@@ -160,7 +164,7 @@ int runCut(const Arguments& arguments) {
   attempt(exitCode, [&] { deliver(arguments, report); });
   if (!result) return exitCode;
   attempt(exitCode, [&] {
-    Writer writer(arguments, mesh, result.mesh);
+    Writer writer(arguments, input, result.mesh);
     for (const Output& output : outputsOf(arguments, result.mesh)) attempt(exitCode, [&] { writer.write(output); });
   });
   return exitCode;

@@ -46,6 +46,10 @@ std::string nameOf(const std::string& meshPath) { return meshPath == "-" ? "stan
 
 Mesh readInput(const std::string& path) { return path == "-" ? readMesh(readStandardInput(), nameOf(path)) : readMesh(path); }
 
+GroupedMesh readGroupedInput(const std::string& path) {
+  return path == "-" ? readGroupedMesh(readStandardInput(), nameOf(path)) : readGroupedMesh(path);
+}
+
 bool isPolyMesh(const std::string& path) {
   const fs::path place = fs::path(path).lexically_normal();
   return (place.has_filename() ? place : place.parent_path()).filename() == "polyMesh";

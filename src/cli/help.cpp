@@ -57,7 +57,9 @@ Options of cut
                            .stl   the cut surface in triangles
                            .ply   the same with the region of each triangle
                          A folder called polyMesh, as in case/constant/polyMesh, gets all
-                         cells for OpenFOAM, with the patches surface, xMin ... zMax.
+                         cells for OpenFOAM, with the patches xMin ... zMax and surface,
+                         or one for each group of an OBJ file (g, else usemtl) or solid
+                         of an STL file.
                          {region} in the name: one file, or folder, for each region
   --only WHAT            write only a part of it (not of .json and .mcm). Words with commas
                          between must all hold: cut (no untouched grid cells), inside (winding

@@ -2,10 +2,22 @@
 
 namespace mandoline::detail {
 
+std::string vtkStrings(std::string_view name, std::span<const std::string> strings) {
+  std::string xml = "<FieldData>\n<Array type=\"String\" Name=\"" + std::string(name) + "\" NumberOfTuples=\"" +
+                    std::to_string(strings.size()) + "\" format=\"ascii\">\n";
+  for (const std::string& string : strings) {
+    for (const char c : string) xml += std::to_string(int(static_cast<unsigned char>(c))) + ' ';
+    xml += "0\n";  // ends each
+  }
+  return xml + "</Array>\n</FieldData>\n";
+}
+
 void VtuFile::beginHead(OutputBuffer& out) const {
   out.text("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"");
   out.text(kNativeOrder == ByteOrder::little ? "LittleEndian" : "BigEndian");
-  out.text("\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"");
+  out.text("\" header_type=\"UInt64\">\n<UnstructuredGrid>\n");
+  out.text(fieldData_);
+  out.text("<Piece NumberOfPoints=\"");
   out.number(points_);
   out.text("\" NumberOfCells=\"");
   out.number(cells_);

@@ -36,14 +36,17 @@ inline const char* vtkTypeName(int64_t) { return "Int64"; }
 inline const char* vtkTypeName(int32_t) { return "Int32"; }
 inline const char* vtkTypeName(uint8_t) { return "UInt8"; }
 
+/// An array of strings about the whole, as XML.
+std::string vtkStrings(std::string_view name, std::span<const std::string> strings);
+
 /// Writes the file. `forEachArray(visit)` calls visit(a number of the array's type, name, count, components, fill) for the arrays, whose
 /// names are VTK's: Points; connectivity, offsets, types and perhaps faces and faceoffsets; then those of the cells. fill(put) puts the
 /// numbers. Every array is walked through twice, once for nothing but its size.
 class VtuFile {
  public:
-  /// `firstOfCells` is the name of the first array of the cells.
-  VtuFile(Meter& meter, uint64_t points, uint64_t cells, std::string_view firstOfCells)
-      : meter_(meter), points_(points), cells_(cells), firstOfCells_(firstOfCells) {}
+  /// `firstOfCells` is the name of the first array of the cells; `fieldData` comes from vtkStrings().
+  VtuFile(Meter& meter, uint64_t points, uint64_t cells, std::string_view firstOfCells, std::string_view fieldData = {})
+      : meter_(meter), points_(points), cells_(cells), firstOfCells_(firstOfCells), fieldData_(fieldData) {}
 
   template <class ForEachArray>
   void write(int stage, const ForEachArray& forEachArray) {
@@ -88,7 +91,7 @@ class VtuFile {
 
   Meter& meter_;
   uint64_t points_, cells_;
-  std::string_view firstOfCells_;
+  std::string_view firstOfCells_, fieldData_;
 };
 
 }  // namespace mandoline::detail

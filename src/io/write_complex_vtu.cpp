@@ -1,6 +1,7 @@
 // Cell complexes as VTK XML unstructured grids: the cells as polyhedra, the faces as polygons.
 #include "base/sort.h"
 #include "io/complex_polygons.h"
+#include "io/groups.h"
 #include "io/selection.h"
 #include "io/vtu_file.h"
 #include "mesh/run_call.h"
@@ -172,9 +173,12 @@ class FaceWriter : ComplexWriter {
 
   void write(std::span<const Field> fields) {
     const std::vector<int> components = componentsOf(fields, cells_.faceCount(), "faces");
+    const TriangleGroups* groups = checkedGroups(options_.groups, cutMesh_.triangleCount);
+    const std::string names = groups ? vtkStrings("group_names", groups->names) : "";
     count();
-    VtuFile(meter_, points_, written_.size(), "face").write(1, [&](const auto& visit) {
+    VtuFile(meter_, points_, written_.size(), "face", names).write(1, [&](const auto& visit) {
       forEachArray(visit);
+      if (groups) visit(int32_t(), "group", written_.size(), 1, perPolygon([&](uint32_t f) { return groups->of(triangleOf(f)); }));
       forEachField(fields, components, visit);
     });
   }
@@ -195,21 +199,26 @@ class FaceWriter : ComplexWriter {
     numberPoints();
   }
 
+  int32_t triangleOf(uint32_t face) const { return face < cells_.cutFaces ? cutMesh_.faceTriangle[face] : -1; }
+
+  /// Fills an array with a value for each polygon, from its face.
+  template <class Value>
+  auto perPolygon(const Value& value) const {
+    return [this, value](const auto& put) {
+      for (const uint32_t f : written_) put(value(f));
+    };
+  }
+
   template <class Visit>
   void forEachArray(const Visit& visit) const {
     const uint64_t n = written_.size();
-    const auto perPolygon = [&](const auto& value) {
-      return [this, value](const auto& put) {
-        for (const uint32_t f : written_) put(value(f));
-      };
-    };
     visit(double(), "Points", points_, 3, [&](const auto& put) { putPoints(put); });
     visit(int64_t(), "connectivity", offsets_.empty() ? 0 : offsets_.back(), 1, [&](const auto& put) { putPolygons(put); });
     visit(int64_t(), "offsets", n, 1, [&](const auto& put) { std::for_each(offsets_.begin(), offsets_.end(), put); });
     visit(uint8_t(), "types", n, 1, perPolygon([](uint32_t) { return kVtkPolygon; }));
     visit(int32_t(), "face", n, 1, perPolygon([](uint32_t f) { return f; }));
     visit(int32_t(), "tag", n, 1, perPolygon([this](uint32_t f) { return int32_t(cells_.faceTag[f]); }));
-    visit(int32_t(), "triangle", n, 1, perPolygon([this](uint32_t f) { return f < cells_.cutFaces ? cutMesh_.faceTriangle[f] : -1; }));
+    visit(int32_t(), "triangle", n, 1, perPolygon([this](uint32_t f) { return triangleOf(f); }));
     visit(int32_t(), "cells", n, 2, [&](const auto& put) {
       for (const uint32_t f : written_) {
         put(cells_.faceCells[2 * size_t(f)]);

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "io/complex_polygons.h"
+#include "io/groups.h"
 #include "io/output_buffer.h"
 #include "io/output_file.h"
 #include "io/selection.h"
@@ -25,7 +26,8 @@ struct Side {
 };
 
 struct Patch {
-  const char *name, *type;
+  std::string name;
+  const char* type;
   std::vector<Side> sides;
 };
 
@@ -43,15 +45,22 @@ struct Sides {
   }
 };
 
-/// What the faces of a tag belong to, in the order of FaceTag; inner ones if only one of their cells is written.
-std::vector<Patch> emptyPatches() {
-  return {{"xMin", "patch", {}}, {"xMax", "patch", {}}, {"yMin", "patch", {}},  {"yMax", "patch", {}},
-          {"zMin", "patch", {}}, {"zMax", "patch", {}}, {"inner", "patch", {}}, {"surface", "wall", {}}};
+constexpr const char* kBoxPatches[] = {"xMin", "xMax", "yMin", "yMax", "zMin", "zMax", "inner"};  // in the order of FaceTag
+constexpr const char* kSurface = "surface";
+
+/// What the faces of a tag belong to, in the order of FaceTag; inner ones if only one of their cells is written. From FaceTag::surface on
+/// there is one for each group.
+std::vector<Patch> emptyPatches(const TriangleGroups* groups) {
+  std::vector<Patch> patches;
+  for (const char* const name : kBoxPatches) patches.push_back({name, "patch", {}});
+  const std::vector<std::string> walls = groups ? patchNames(groups->names, kBoxPatches) : std::vector<std::string>{kSurface};
+  for (const std::string& name : walls) patches.push_back({name, "wall", {}});
+  return patches;
 }
 
-Sides sort(const CellComplex& cells, const std::vector<int32_t>& numbers) {
+Sides sort(const CutMesh& cutMesh, const CellComplex& cells, const std::vector<int32_t>& numbers, const TriangleGroups* groups) {
   Sides sides;
-  sides.patches = emptyPatches();
+  sides.patches = emptyPatches(groups);
   for (size_t f = 0; f < cells.faceCount(); ++f) {
     std::array<int32_t, 2> at{};
     for (size_t side = 0; side < 2; ++side) {
@@ -64,24 +73,30 @@ Sides sort(const CellComplex& cells, const std::vector<int32_t>& numbers) {
       sides.inner.push_back({at[owner], at[1 - owner], uint32_t(2 * f + owner)});
       continue;
     }
+    const size_t patch = size_t(cells.faceTag[f]) + (separates && groups ? size_t(groups->of(cutMesh.faceTriangle[f])) : 0);
     for (size_t side = 0; side < 2; ++side) {
-      if (at[side] != kLeftOut) sides.patches[size_t(cells.faceTag[f])].sides.push_back({at[side], kLeftOut, uint32_t(2 * f + side)});
+      if (at[side] != kLeftOut) sides.patches[patch].sides.push_back({at[side], kLeftOut, uint32_t(2 * f + side)});
     }
   }
   std::stable_sort(sides.inner.begin(), sides.inner.end(),
                    [](const Side& a, const Side& b) { return a.owner != b.owner ? a.owner < b.owner : a.neighbour < b.neighbour; });
-  std::erase_if(sides.patches, [](const Patch& patch) { return std::string_view(patch.name) == "inner" && patch.sides.empty(); });
+  std::erase_if(sides.patches, [](const Patch& patch) { return patch.name == kBoxPatches[size_t(FaceTag::inner)] && patch.sides.empty(); });
   return sides;
 }
 
 class PolyMeshWriter {
  public:
   PolyMeshWriter(const std::string& folder, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options)
-      : folder_(folder), cells_(cells), options_(options), polygons_(cutMesh, cells) {}
+      : folder_(folder),
+        cutMesh_(cutMesh),
+        cells_(cells),
+        options_(options),
+        groups_(checkedGroups(options.groups, cutMesh.triangleCount)),
+        polygons_(cutMesh, cells) {}
 
   void write() {
     numberCells();
-    sides_ = sort(cells_, cellNumbers_);
+    sides_ = sort(cutMesh_, cells_, cellNumbers_, groups_);
     countFaces();
     std::filesystem::create_directories(folder_);
     writeFile("points", "vectorField", points_, [&](OutputBuffer& out) { putPoints(out); });
@@ -198,6 +213,12 @@ class PolyMeshWriter {
     });
   }
 
+  /// Patches of groups are one group of OpenFOAM's, so that `surface` means all of them there; not if one has that name itself.
+  bool isOfGroup(const Patch& patch) const {
+    const auto isSurface = [](const Patch& other) { return other.name == kSurface; };
+    return std::string_view(patch.type) == "wall" && std::none_of(sides_.patches.begin(), sides_.patches.end(), isSurface);
+  }
+
   void putPatches(OutputBuffer& out) const {
     uint64_t start = innerFaces_;
     for (const Patch& patch : sides_.patches) {
@@ -210,7 +231,7 @@ class PolyMeshWriter {
       out.number(count);
       out.text(";\n    startFace ");
       out.number(start);
-      out.text(";\n}\n");
+      out.text(isOfGroup(patch) ? ";\n    inGroups 1(surface);\n}\n" : ";\n}\n");
       start += count;
     }
   }
@@ -236,8 +257,10 @@ class PolyMeshWriter {
   };
   static constexpr int kFiles = 6;
   const std::string& folder_;
+  const CutMesh& cutMesh_;
   const CellComplex& cells_;
   const WriteOptions& options_;
+  const TriangleGroups* groups_;  // null if there are none
   ComplexPolygons polygons_;
   std::vector<int32_t> cellNumbers_;    // per cell: that in the polyMesh, or kLeftOut
   std::vector<uint32_t> pointNumbers_;  // per vertex

@@ -43,13 +43,16 @@ struct WriteOptions : RunOptions {
   /// the region, oriented out of it, while without regions each face is written once, under the region that an outward oriented surface
   /// encloses.
   std::vector<uint8_t> regions;
+  /// Groups of the input's triangles, for those files that have them; none if null. A face that several triangles contain is in the group
+  /// of its faceTriangle.
+  const TriangleGroups* groups = nullptr;
 };
 
 /// Takes the bytes of a file, piece after piece. What it throws passes through.
 using Sink = std::function<void(std::string_view)>;
 
 // All writers throw CallError if cancelled, and for arguments that do not fit: `regions` of a wrong length, the mesh of another cut, a
-// triangle (element) that names a vertex that does not exist.
+// triangle (element) that names a vertex that does not exist, groups of other triangles.
 
 /// The complete dump as JSON: format, version, grid, the arrays of CutMesh under their names, gridCellRegion (as CutMesh::gridCellRegion())
 /// and triangleCount. Without winding numbers, regionWinding has a null for each region. Doubles read back identically.
@@ -69,8 +72,9 @@ struct Field {
 /// one), level, region, winding, volume and the fields.
 void writeVtu(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, std::span<const Field> cellFields = {},
               const WriteOptions& options = {});
-/// Its faces, those of the cells that the options select, as polygons with cell arrays face, tag (FaceTag), triangle, cells and the fields.
-/// A face with holes or slits is several triangles, with the same numbers.
+/// Its faces, those of the cells that the options select, as polygons with cell arrays face, tag (FaceTag), triangle, cells and the fields;
+/// with groups also group (-1 for none), and their names as the field data group_names. A face with holes or slits is several triangles,
+/// with the same numbers.
 void writeFacesVtu(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, std::span<const Field> faceFields = {},
                    const WriteOptions& options = {});
 /// The cut surface.
@@ -104,7 +108,9 @@ void writeMesh(const std::string& path, const MeshView& mesh, const RunOptions& 
 /// Writes all cells as an OpenFOAM polyMesh: the files points, faces, owner, neighbour, boundary and, if there are cells of several
 /// regions, cellZones (region0, ...) in the folder, which is made if need be; they appear when all are complete. `cells` is made from the
 /// cut-mesh; which of them are written is up to the options. Patches are xMin ... zMax, `surface` (a wall), which has both sides of the
-/// input's triangles, and `inner` where only one of two neighbours is written. Faces with holes or slits are divided into triangles, as
+/// input's triangles, and `inner` where only one of two neighbours is written. With groups there is a wall for each of them, in the patch
+/// group `surface`, under its name: characters other than letters, digits and -.:%+ become '_', and where two would be alike, or like
+/// another patch, "_2" is added. Faces with holes or slits are divided into triangles, as
 /// those of .vtu files are. Throws FileError.
 void writePolyMesh(const std::string& folder, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options = {});
 

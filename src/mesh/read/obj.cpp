@@ -43,13 +43,8 @@ class ObjReader {
     if (fan.count() < 3) cursor_.fail("a face needs at least three vertices, found " + std::to_string(fan.count()));
   }
 
-  /// v, v/vt, v//vn or v/vt/vn.
   uint32_t readCorner() {
-    const int64_t index = cursor_.leadingInteger();
-    for (int i = 0; i < 2 && cursor_.skip('/'); ++i) {
-      if (!cursor_.atWordEnd() && !cursor_.at('/')) cursor_.leadingInteger();
-    }
-    cursor_.requireWordEnd("a vertex such as 1, 1/2, 1//3 or 1/2/3");
+    const int64_t index = objCorner(cursor_);
     if (index == 0 || index < -vertexCount()) failIndex(cursor_.line(), index);
     if (index < 0) return uint32_t(vertexCount() + index);
     if (index > vertexCount()) forwardReferences_.push_back({index, cursor_.line()});
@@ -67,6 +62,15 @@ class ObjReader {
 };
 
 }  // namespace
+
+int64_t objCorner(TextCursor& cursor) {
+  const int64_t index = cursor.leadingInteger();
+  for (int i = 0; i < 2 && cursor.skip('/'); ++i) {
+    if (!cursor.atWordEnd() && !cursor.at('/')) cursor.leadingInteger();
+  }
+  cursor.requireWordEnd("a vertex such as 1, 1/2, 1//3 or 1/2/3");
+  return index;
+}
 
 bool looksLikeObj(std::string_view bytes) {
   static constexpr std::array<std::string_view, 14> keywords = {"v", "vt", "vn", "vp", "f",   "o",      "g",

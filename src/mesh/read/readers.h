@@ -1,6 +1,7 @@
 // The readers behind readMesh(), one per format. Each takes the unpacked bytes of a file and throws FileError.
 #pragma once
 
+#include <new>
 #include <string>
 #include <string_view>
 
@@ -24,9 +25,35 @@ bool looksLikeOff(std::string_view bytes);
 bool looksLikePly(std::string_view bytes);
 bool looksLikeStl(std::string_view bytes);
 
+/// Whether an STL file is text, which has names.
+bool isTextStl(std::string_view bytes);
+
+enum class MeshFormat { obj, stl, ply, off };
+/// Content decides, because extensions lie; where it says nothing, the extension does. Throws FileError.
+MeshFormat meshFormatOf(const FileBytes& file);
+/// Reads a file of any format.
+Mesh readUnpacked(const FileBytes& file);
+
+/// Takes a corner of an OBJ file's polygon, v, v/vt, v//vn or v/vt/vn, and gives v.
+int64_t objCorner(class TextCursor& cursor);
+
 inline bool isGzipped(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 /// What is packed in a gzipped file. Throws FileError where the library was built without zlib.
 std::string gunzip(const FileBytes& file);
+
+/// Gives read(file), of a file that is unpacked if need be.
+template <class Read>
+auto readWith(const Read& read, std::span<const char> bytes, const std::string& name) {
+  const std::string_view content(bytes.data(), bytes.size());
+  try {
+    std::string unpacked;
+    const bool gzipped = isGzipped(content);
+    if (gzipped) unpacked = gunzip({name, content});
+    return read(FileBytes{name, gzipped ? unpacked : content});
+  } catch (const std::bad_alloc&) {
+    throw FileError(name + ": does not fit into memory");
+  }
+}
 
 /// Fans a polygon into triangles from its first vertex, as its vertices arrive.
 class Fan {

@@ -96,8 +96,10 @@ Mesh readBinary(const FileBytes& file) {
 
 bool looksLikeStl(std::string_view bytes) { return isBinaryBySize(bytes) || isText(bytes); }
 
+bool isTextStl(std::string_view bytes) { return !isBinaryBySize(bytes) && isText(bytes); }
+
 Mesh readStl(const FileBytes& file) {
-  if (!isBinaryBySize(file.bytes) && isText(file.bytes)) return TextStlReader(file).read();
+  if (isTextStl(file.bytes)) return TextStlReader(file).read();
   return readBinary(file);
 }
 

@@ -131,6 +131,16 @@ void TextCursor::requireLineEnd() {
   if (moreOnLine()) failExpected("the end of the line", position_);
 }
 
+std::string_view TextCursor::restOfLine() {
+  const char* begin = position_;
+  while (position_ != end_ && *position_ != '\n' && *position_ != '\r') ++position_;
+  const auto isBlank = [](char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; };
+  const char* last = position_;
+  while (begin != last && isBlank(*begin)) ++begin;
+  while (last != begin && isBlank(last[-1])) --last;
+  return {begin, size_t(last - begin)};
+}
+
 void TextCursor::requireWord(const char* expected) {
   if (!moreOnLine()) failExpected(expected, position_);
 }

@@ -38,6 +38,8 @@ class TextCursor {
   bool atWordEnd() const { return isWordEnd(position_); }
   void requireWordEnd(const char* expected);
   void requireLineEnd();
+  /// The rest of the line without the blanks around it; '#' is a character of it like others.
+  std::string_view restOfLine();
 
   size_t line() const { return line_; }
   size_t remaining() const { return size_t(end_ - position_); }

@@ -1,0 +1,114 @@
+// Groups of triangles, in a second walk through the text of a file, so that those who need none read without them.
+#include <map>
+
+#include "mesh/read/load_file.h"
+#include "mesh/read/readers.h"
+#include "mesh/read/text_cursor.h"
+
+namespace mandoline {
+namespace detail {
+namespace {
+
+/// Gives names to triangles as they come.
+class Labels {
+ public:
+  /// Names the triangles that follow.
+  void begin(std::string_view name) {
+    name_ = name.empty() ? kDefault : name;
+    group_ = kUnknown;
+    begun_ = true;
+  }
+  void add(size_t triangles) {
+    if (triangles == 0) return;
+    if (group_ == kUnknown) {
+      const auto [known, isNew] = ids_.try_emplace(name_, uint32_t(groups_.names.size()));
+      if (isNew) groups_.names.push_back(name_);
+      group_ = known->second;
+    }
+    groups_.triangleGroup.resize(groups_.triangleGroup.size() + triangles, group_);
+    hasNamed_ |= begun_;
+  }
+  /// Whether triangles came after a name.
+  bool hasNamed() const { return hasNamed_; }
+  TriangleGroups take() { return std::move(groups_); }
+
+ private:
+  static constexpr uint32_t kUnknown = ~0u;
+  static constexpr std::string_view kDefault = "default";  // what OBJ calls a group without a name
+  TriangleGroups groups_;
+  std::map<std::string, uint32_t> ids_;
+  std::string name_{kDefault};
+  uint32_t group_ = kUnknown;  // of name_, once it has a triangle
+  bool begun_ = false, hasNamed_ = false;
+};
+
+std::string_view firstWord(std::string_view names) { return names.substr(0, names.find_first_of(" \t\v\f")); }
+
+// The files have been read, so that all of their polygons and solids are as they should be.
+
+TriangleGroups readObjGroups(const FileBytes& file) {
+  Labels groups, materials;
+  for (TextCursor cursor(file.path, file.bytes); cursor.more(); cursor.nextLine()) {
+    const std::string_view keyword = cursor.word("a keyword");
+    if (keyword == "g") groups.begin(firstWord(cursor.restOfLine()));
+    if (keyword == "usemtl") materials.begin(cursor.restOfLine());
+    if (keyword != "f") continue;
+    size_t corners = 0;
+    for (; cursor.moreOnLine(); ++corners) objCorner(cursor);
+    groups.add(corners - 2);
+    materials.add(corners - 2);
+  }
+  if (groups.hasNamed()) return groups.take();
+  return materials.hasNamed() ? materials.take() : TriangleGroups();
+}
+
+TriangleGroups readStlGroups(const FileBytes& file) {
+  if (!isTextStl(file.bytes)) return {};
+  constexpr int kWordsOfFacet = 20;  // after "facet": normal and 3 numbers, outer loop, 3 times vertex and 3 numbers, endloop endfacet
+  TextCursor cursor(file.path, file.bytes);
+  Labels labels;
+  size_t solids = 0;
+  bool named = false;
+  const auto skipWord = [&] {
+    cursor.more();
+    return cursor.word("a word");
+  };
+  for (; cursor.more(); ++solids, cursor.nextLine()) {
+    skipWord();
+    const std::string_view name = cursor.restOfLine();
+    labels.begin(name.empty() ? "solid" + std::to_string(solids) : std::string(name));
+    size_t triangles = 0;
+    for (cursor.nextLine(); lowerCase(skipWord()) == "facet"; ++triangles) {
+      for (int i = 0; i < kWordsOfFacet; ++i) skipWord();
+    }
+    labels.add(triangles);
+    named |= triangles > 0 && !name.empty();
+  }
+  TriangleGroups groups = labels.take();
+  return named || groups.names.size() > 1 ? groups : TriangleGroups();
+}
+
+}  // namespace
+}  // namespace detail
+
+GroupedMesh readGroupedMesh(std::span<const char> bytes, const std::string& name) {
+  using namespace detail;
+  const auto read = [](const FileBytes& file) {
+    GroupedMesh result{readUnpacked(file), {}};
+    const MeshFormat format = meshFormatOf(file);
+    if (format == MeshFormat::obj) result.groups = readObjGroups(file);
+    if (format == MeshFormat::stl) result.groups = readStlGroups(file);
+    return result;
+  };
+  return readWith(read, bytes, name);
+}
+
+GroupedMesh readGroupedMesh(const std::string& path) {
+  try {
+    return readGroupedMesh(detail::loadFile(path), path);
+  } catch (const std::bad_alloc&) {
+    throw FileError(path + ": does not fit into memory");
+  }
+}
+
+}  // namespace mandoline
