@@ -36,6 +36,7 @@ Level finestLevel(const CellComplex& cells, const DualEdges& dual, std::vector<d
     for (const uint32_t f : dual.faces[e]) pairs.push_back({edge.cell, otherCell(cells, edge, f), cells.faceArea[f] / edge.distance});
   }
   setCouplings(level, pairs);
+  level.strength = level.diagonal;
   return level;
 }
 
@@ -70,15 +71,34 @@ uint32_t joinNodes(Level& level, int shift) {
 /// would add up from level to level.
 double farther(const Level& fine, double fineSize, double size) { return fine.twice ? std::max(fineSize / size, 0.5) : 1; }
 
+/// What comes to a node through couplings that are together so much weaker than those joined in it is little but rounding, which would be
+/// taken for a large step. Such nodes stay where they are, and their neighbours are held by them.
+void holdStill(Level& level, std::vector<Pair>& pairs) {
+  constexpr double kWeakest = 1e-8;
+  std::vector<double> total = level.held;
+  for (const auto& [a, b, w] : pairs) total[a] += w, total[b] += w;
+  const auto isStill = [&](uint32_t a) { return total[a] < kWeakest * level.strength[a]; };
+  for (const auto& [a, b, w] : pairs) {
+    if (isStill(a)) level.held[b] += w;
+    if (isStill(b)) level.held[a] += w;
+  }
+  for (uint32_t a = 0; a < level.held.size(); ++a) {
+    if (isStill(a)) level.held[a] = 0;
+  }
+  std::erase_if(pairs, [&](const Pair& pair) { return isStill(pair.a) || isStill(pair.b); });
+}
+
 Level coarserLevel(const Level& fine, uint32_t count, int shift) {
   Level level;
   level.held.resize(count);
+  level.strength.resize(count);
   level.corner.resize(3 * size_t(count));
   level.size.assign(count, double(uint64_t(1) << shift));
   for (size_t i = 0; i < fine.count(); ++i) {
     const uint32_t a = fine.coarse[i];
     if (a == Level::none) continue;
     level.size[a] = std::max(level.size[a], fine.size[i]);
+    level.strength[a] = std::max(level.strength[a], fine.strength[i]);
     level.held[a] += fine.held[i] * farther(fine, fine.size[i], level.size[a]);
     for (size_t d = 0; d < 3; ++d) level.corner[3 * a + d] = fine.corner[3 * i + d] >> shift << shift;
   }
@@ -97,6 +117,7 @@ Level coarserLevel(const Level& fine, uint32_t count, int shift) {
       }
     }
   }
+  holdStill(level, pairs);
   setCouplings(level, pairs);
   return level;
 }

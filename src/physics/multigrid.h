@@ -18,6 +18,7 @@ struct Level {
   std::vector<double> held;      ///< by Dirichlet conditions
   std::vector<int32_t> corner;   ///< 3 per node: lowest grid cell of its block
   std::vector<double> size;      ///< of its block, in grid cells
+  std::vector<double> strength;  ///< the largest diagonal of the nodes that it is made of
   std::vector<uint32_t> coarse;  ///< per node: that of the next level, or none for one without couplings
   bool twice = false;            ///< whether the next level, of at most half as many nodes, is visited twice
 

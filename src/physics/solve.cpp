@@ -17,16 +17,43 @@ double dot(const Vector& a, const Vector& b) {
   return sum;
 }
 
-/// Symmetric, so that columns are rows.
-void multiply(const SparseMatrix& matrix, const Vector& x, Vector& result) {
-  const int *offsets = matrix.outerIndexPtr(), *columns = matrix.innerIndexPtr();
-  const double* values = matrix.valuePtr();
-  for (size_t i = 0; i < x.size(); ++i) {
-    double sum = 0;
-    for (int e = offsets[i]; e < offsets[i + 1]; ++e) sum += values[e] * x[size_t(columns[e])];
-    result[i] = sum;
+/// The system's matrix, less the part of its diagonal that Dirichlet conditions give, in differences: its rows have the sum zero. Then what
+/// is constant does not round away what is not.
+class Operator {
+ public:
+  Operator(const SparseMatrix& matrix, const Vector& held) : matrix_(matrix), held_(held) {}
+
+  double row(const Vector& x, size_t i) const {
+    double sum = held_[i] * x[i];
+    forEachOther(i, [&](size_t j, double value) { sum += value * (x[j] - x[i]); });
+    return sum;
   }
-}
+  void multiply(const Vector& x, Vector& result) const {
+    for (size_t i = 0; i < x.size(); ++i) result[i] = row(x, i);
+  }
+  /// Gauss-Seidel there and back. The smallest cells add next to nothing to a residual: this brings them to where their neighbours are.
+  void sweep(const Vector& rhs, Vector& x) const {
+    for (size_t k = 0; k < 2 * x.size(); ++k) {
+      const size_t i = k < x.size() ? k : 2 * x.size() - 1 - k;
+      double diagonal = held_[i];
+      forEachOther(i, [&](size_t, double value) { diagonal -= value; });
+      if (diagonal > 0) x[i] += (rhs[i] - row(x, i)) / diagonal;
+    }
+  }
+
+ private:
+  /// Symmetric, so that columns are rows.
+  template <class F>
+  void forEachOther(size_t i, const F& f) const {
+    const int *offsets = matrix_.outerIndexPtr(), *columns = matrix_.innerIndexPtr();
+    for (int e = offsets[i]; e < offsets[i + 1]; ++e) {
+      if (size_t(columns[e]) != i) f(size_t(columns[e]), matrix_.valuePtr()[e]);
+    }
+  }
+
+  const SparseMatrix& matrix_;
+  const Vector& held_;
+};
 
 class Solver {
  public:
@@ -42,9 +69,11 @@ class Solver {
     Vector held(cells_.cellCount());
     const Vector coefficients = physics::dirichletCoefficients(cells_, problem_);
     for (size_t b = 0; b < coefficients.size(); ++b) held[size_t(cells_.faceCells[problem_.boundary.halfFaces[b]])] += coefficients[b];
-    physics::Multigrid multigrid(cells_, physics::dualEdges(cells_, problem_.dualPoints), std::move(held));
+    physics::Multigrid multigrid(cells_, physics::dualEdges(cells_, problem_.dualPoints), held);
+    const Operator matrix(system_.matrix, held);
     monitor_.beginStage("iterations", 1);
-    iterate(multigrid);
+    iterate(matrix, multigrid);
+    matrix.sweep(system_.rhs, result_.phi);
     fixConstants();
     return std::move(result_);
   }
@@ -52,46 +81,73 @@ class Solver {
  private:
   /// Takes what is in excess out of the right side; false if that is too much.
   bool balance() {
+    const Vector given = absolutes();
     const size_t n = components_.count;
-    Vector excess(n), absolute(n), volume(n);
+    Vector excess = excesses(), absolute(n);
     double all = 0;
-    const auto component = [&](size_t c) { return components_.cellComponent[c]; };
-    const auto add = [&](size_t r, double value) { absolute[r] += std::fabs(value), all += std::fabs(value); };
-    for (size_t c = 0; c < cells_.cellCount(); ++c) {
-      excess[component(c)] += system_.rhs[c];
-      volume[component(c)] += cells_.cellVolume[c];
-      if (!problem_.source.empty()) add(component(c), problem_.source[c]);
-    }
-    for (size_t b = 0; b < problem_.boundary.halfFaces.size(); ++b) {
-      const uint32_t h = problem_.boundary.halfFaces[b];
-      add(component(size_t(cells_.faceCells[h])), problem_.boundary.value[b] * cells_.faceArea[h / 2]);
-    }
+    for (size_t c = 0; c < given.size(); ++c) absolute[component(c)] += given[c], all += given[c];
     for (size_t r = 0; r < n; ++r) {
-      if (held_[r]) {
-        excess[r] = 0;
-      } else if (!options_.balance && !(std::fabs(excess[r]) <= 1e-9 * absolute[r] + 1e-15 * all)) {
-        result_.status = SolveStatus::incompatible;
-        result_.component = int64_t(r), result_.excess = excess[r];
-        return false;
-      }
+      if (held_[r] || options_.balance || std::fabs(excess[r]) <= 1e-9 * absolute[r] + 1e-15 * all) continue;
+      result_.status = SolveStatus::incompatible;
+      result_.component = int64_t(r), result_.excess = excess[r];
+      return false;
     }
-    Vector before(n), after(n);  // squares
-    for (size_t c = 0; c < cells_.cellCount(); ++c) {
-      const uint32_t r = component(c);
-      double& value = system_.rhs[c];
-      before[r] += value * value;
-      if (excess[r] != 0 && volume[r] > 0) value -= excess[r] * (cells_.cellVolume[c] / volume[r]);
-      after[r] += value * value;
+    // Rounding that is left would make waves in cells that only the tiniest faces connect.
+    for (size_t c = 0; c < given.size(); ++c) {
+      if (std::fabs(system_.rhs[c]) <= kRounding * given[c]) system_.rhs[c] = 0;
     }
-    for (size_t c = 0; c < cells_.cellCount(); ++c) {  // of what was in excess all but for rounding, nothing is left to solve
+    const Vector before = squares();
+    constexpr int kPasses = 3;  // each leaves a rounding error of what it takes away
+    for (int pass = 0; pass < kPasses; ++pass) takeAway(excesses());
+    const Vector after = squares();
+    for (size_t c = 0; c < given.size(); ++c) {  // of what was in excess all but for rounding, nothing is left to solve
       if (after[component(c)] < 1e-24 * before[component(c)]) system_.rhs[c] = 0;
     }
     return true;
   }
 
-  void iterate(physics::Multigrid& multigrid) {
+  /// Per cell: the sum of all that flows in or out by the data, each without its sign.
+  Vector absolutes() const {
+    Vector sums(cells_.cellCount());
+    for (size_t c = 0; c < problem_.source.size(); ++c) sums[c] = std::fabs(problem_.source[c]);
+    for (size_t b = 0; b < problem_.boundary.halfFaces.size(); ++b) {
+      const uint32_t h = problem_.boundary.halfFaces[b];
+      sums[size_t(cells_.faceCells[h])] += std::fabs(problem_.boundary.value[b] * cells_.faceArea[h / 2]);
+    }
+    return sums;
+  }
+
+  /// Per component without a Dirichlet condition the sum of the right side; 0 for others.
+  Vector excesses() const {
+    Vector sums(components_.count);
+    for (size_t c = 0; c < cells_.cellCount(); ++c) {
+      if (!held_[component(c)]) sums[component(c)] += system_.rhs[c];
+    }
+    return sums;
+  }
+
+  /// Evenly by volume.
+  void takeAway(const Vector& excess) {
+    Vector volume(components_.count);
+    for (size_t c = 0; c < cells_.cellCount(); ++c) volume[component(c)] += cells_.cellVolume[c];
+    for (size_t c = 0; c < cells_.cellCount(); ++c) {
+      const uint32_t r = component(c);
+      if (excess[r] != 0 && volume[r] > 0) system_.rhs[c] -= excess[r] * (cells_.cellVolume[c] / volume[r]);
+    }
+  }
+
+  /// Per component, of the right side.
+  Vector squares() const {
+    Vector sums(components_.count);
+    for (size_t c = 0; c < cells_.cellCount(); ++c) sums[component(c)] += system_.rhs[c] * system_.rhs[c];
+    return sums;
+  }
+
+  uint32_t component(size_t c) const { return components_.cellComponent[c]; }
+
+  void iterate(const Operator& matrix, physics::Multigrid& multigrid) {
     const size_t n = cells_.cellCount();
-    Vector r = std::move(system_.rhs), z(n), p(n), ap(n);
+    Vector r = system_.rhs, z(n), p(n), ap(n);
     const double norm = std::sqrt(dot(r, r));
     result_.residuals = {norm > 0 ? 1.0 : 0.0};
     double rz = 1;
@@ -102,10 +158,11 @@ class Solver {
       }
       monitor_.report(progress(), 1000);
       multigrid.apply(r, z);
+      takeMeansOut(z);
       const double newRz = dot(r, z), beta = result_.iterations() == 0 ? 0 : newRz / rz;
       rz = newRz;
       for (size_t i = 0; i < n; ++i) p[i] = z[i] + beta * p[i];
-      multiply(system_.matrix, p, ap);
+      matrix.multiply(p, ap);
       const double alpha = rz / dot(p, ap);
       if (!(alpha > 0 && std::isfinite(alpha))) {
         result_.status = SolveStatus::breakdown;
@@ -113,6 +170,15 @@ class Solver {
       }
       for (size_t i = 0; i < n; ++i) result_.phi[i] += alpha * p[i], r[i] -= alpha * ap[i];
       result_.residuals.push_back(std::sqrt(dot(r, r)) / norm);
+    }
+  }
+
+  /// Constants are no steps; where they add up, they drown in their rounding what is.
+  void takeMeansOut(Vector& z) const {
+    Vector sum(components_.count), count(components_.count);
+    for (size_t c = 0; c < z.size(); ++c) sum[component(c)] += z[c], ++count[component(c)];
+    for (size_t c = 0; c < z.size(); ++c) {
+      if (!held_[component(c)]) z[c] -= sum[component(c)] / count[component(c)];
     }
   }
 
@@ -136,6 +202,8 @@ class Solver {
     }
   }
 
+  /// Relative to what it is a sum of, what is below is rounding.
+  static constexpr double kRounding = 1e-15;
   const CellComplex& cells_;
   const PoissonProblem& problem_;
   const SolveOptions& options_;

@@ -142,6 +142,21 @@ TEST_CASE("solve: two halves of a long channel, joined by a slit", "[solve]") {
   CHECK(linearError(cells, solution.phi, kField) <= 1e-10 * 64);
 }
 
+TEST_CASE("solve: cells that only the tiniest faces connect", "[solve]") {
+  // Balls that touch planes of the grid, but for 1e-14: what is beyond has faces of 1e-14 or 1e-28.
+  for (const double beyond : {1e-7, 1e-10, 1e-14}) {
+    const Mesh mesh = shapes::merged({shapes::icosphere({2.5 + beyond, 2.5 - beyond, 2.5}, 0.5, 2),
+                                      shapes::icosphere({5.5, 4 + beyond, 4 - beyond}, 1, 2), shapes::cube(1 - beyond, 2 + beyond)});
+    const CellComplex cells = complexOf(mesh, unitGrid(7));
+    for (const double tolerance : {1e-10, 1e-13}) {
+      const Solution solution = solvePoisson(cells, windThrough(cells, kField), within(tolerance));
+      CAPTURE(beyond, tolerance, solution.residuals);
+      CHECK(solution.status == SolveStatus::converged);
+      CHECK(linearError(cells, solution.phi, kField) <= 100 * tolerance);
+    }
+  }
+}
+
 TEST_CASE("solve: a plate edge-on changes nothing, broadside it blocks", "[solve]") {
   const CellComplex cells = complexOf(shapes::quad({1.5, 1.5, 2.5}, {4.5, 1.5, 2.5}, {4.5, 4.5, 2.5}, {1.5, 4.5, 2.5}), unitGrid(6));
   CHECK(linearError(cells, solvePoisson(cells, windAround(cells, {1, 0.5, 0}), within(1e-13)).phi, {1, 0.5, 0}) <= 1e-10);
