@@ -17,8 +17,8 @@ double dot(const Vector& a, const Vector& b) {
   return sum;
 }
 
-/// The system's matrix, less the part of its diagonal that Dirichlet conditions give, in differences: its rows have the sum zero. Then what
-/// is constant does not round away what is not.
+/// The system's matrix, multiplied in differences: but for what Dirichlet conditions add, its rows have the sum zero. So a large constant
+/// in x does not drown the rest in its rounding.
 class Operator {
  public:
   Operator(const SparseMatrix& matrix, const Vector& held) : matrix_(matrix), held_(held) {}
