@@ -1,9 +1,9 @@
 // Builds the package into dist/: compiles the C++ core to WebAssembly and puts the JavaScript and the types beside it. inline.js and
-// physics-inline.js get the WebAssembly and the worker's script inside.
+// physics/inline.js get the WebAssembly and the worker's script inside.
 // With --tests also builds the C++ tests for Node, for `ctest --test-dir build-wasm`.
 // Takes the Emscripten of an activated emsdk if there is one, else that of Debian.
 import { execFileSync } from 'node:child_process';
-import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, realpathSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, existsSync, readFileSync, readdirSync, realpathSync, rmSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
 import { delimiter, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -47,11 +47,11 @@ async function bundle(input, options, output = {}) {
   return chunks[0].code;
 }
 
-/** Puts what such a module has inside into its text. */
-async function fillInline(folder, { inline, wasm, script }) {
+/** Puts the WebAssembly and the worker's script into the text of inline.js beside them. */
+async function fillInline(folder, wasm) {
   const gzipped = gzipSync(readFileSync(join(folder, wasm)), { level: 9 }).toString('base64');
-  const code = await bundle(join(folder, script), {}, { minify: true });
-  const file = join(folder, inline);
+  const code = await bundle(join(folder, 'worker-thread.js'), {}, { minify: true });
+  const file = join(folder, 'inline.js');
   const text = readFileSync(file, 'utf8');
   writeFileSync(file, text.replace("'GZIPPED_WASM'", () => `'${gzipped}'`).replace("'WORKER_SCRIPT'", () => JSON.stringify(code)));
 }
@@ -63,22 +63,22 @@ async function makeFiles() {
   cpSync(join(packageFolder, 'src'), folder, { recursive: true });
   // Emscripten's code says where the .wasm file is, too, for which bundlers would copy it once more.
   const withoutUrl = { transform: { define: { 'import.meta.url': 'undefined' } }, treeshake: false };
-  for (const [name, code] of [['mandoline', 'mandoline.js'], ['physics', 'physics-module.js']]) {
-    cpSync(join(build, 'wasm', `${name}.wasm`), join(folder, `${name}.wasm`));
-    writeFileSync(join(folder, code), await bundle(join(build, 'wasm', `${name}.js`), withoutUrl));
+  for (const [name, place, code] of [['mandoline', folder, 'mandoline.js'], ['physics', join(folder, 'physics'), 'module.js']]) {
+    cpSync(join(build, 'wasm', `${name}.wasm`), join(place, `${name}.wasm`));
+    writeFileSync(join(place, code), await bundle(join(build, 'wasm', `${name}.js`), withoutUrl));
+    await fillInline(place, `${name}.wasm`);
   }
-  await fillInline(folder, { inline: 'inline.js', wasm: 'mandoline.wasm', script: 'worker-thread.js' });
-  await fillInline(folder, { inline: 'physics-inline.js', wasm: 'physics.wasm', script: 'physics-worker-thread.js' });
   return folder;
 }
 
 /** Files are replaced one by one, so that whoever uses the package meanwhile always finds it. */
 function assemble(folder) {
-  mkdirSync(dist, { recursive: true });
-  const files = readdirSync(folder);
-  for (const file of files) cpSync(join(folder, file), join(dist, file));
+  cpSync(folder, dist, { recursive: true });
   cpSync(join(root, 'LICENSE'), join(packageFolder, 'LICENSE'));
-  for (const file of readdirSync(dist)) if (!files.includes(file)) rmSync(join(dist, file), { recursive: true });
+  const files = readdirSync(folder, { recursive: true });
+  for (const file of readdirSync(dist, { recursive: true })) {
+    if (!files.includes(file)) rmSync(join(dist, file), { recursive: true, force: true });
+  }
 }
 
 compile(process.argv.includes('--tests'));

@@ -1,4 +1,4 @@
-// The calls of mandoline-wasm/physics for JavaScript, as in bindings.cpp: src/physics-api.js checks the arguments, and here nothing is
+// The calls of mandoline-wasm/physics for JavaScript, as in bindings.cpp: src/physics/api.js checks the arguments, and here nothing is
 // decided. A module of its own, so that those who only cut don't load it.
 #include <emscripten/bind.h>
 

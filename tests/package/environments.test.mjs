@@ -41,14 +41,14 @@ function assertCut({ regions, cells }) {
 }
 
 test('the tarball has the package, and is small', () => {
-  for (const name of ['index', 'worker', 'three', 'physics', 'physics-worker']) {
+  for (const name of ['index', 'worker', 'three', 'physics/index', 'physics/worker']) {
     for (const end of ['js', 'd.ts']) assert.ok(packed.files.includes(`dist/${name}.${end}`));
   }
   for (const file of packed.files) assert.match(file, /^(dist\/.*|package\.json|README\.md|LICENSE)$/);
   const dist = join(install(), 'node_modules', 'mandoline-wasm', 'dist');
   const gzipped = (name) => gzipSync(readFileSync(join(dist, name)), { level: 9 }).length;
   assert.ok(gzipped('mandoline.wasm') <= 300_000);
-  assert.ok(gzipped('physics.wasm') <= 400_000);
+  assert.ok(gzipped('physics/physics.wasm') <= 400_000);
 });
 
 test('Node, ES modules', () => {

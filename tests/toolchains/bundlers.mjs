@@ -1,7 +1,7 @@
 // Bundlers for browsers, and none. What they make has to run in Chromium.
 import assert from 'node:assert/strict';
 import { copyFileSync, readdirSync, rmSync } from 'node:fs';
-import { join } from 'node:path';
+import { basename, join } from 'node:path';
 import { test } from 'node:test';
 import { assertChecked, checkModule, html, ownWorker, pageScript, physics } from './example.mjs';
 import { makeProject, openFolder, openServed, run } from './projects.mjs';
@@ -122,6 +122,17 @@ for (const [name, command] of Object.entries(fileBuilds)) {
     assert.match(await missing(), /its script worker-thread\.js could not be loaded/);
   });
 }
+
+test('esbuild, that computes, with the one script for workers as an entry and both modules beside it', async () => {
+  const files = { 'main.js': pageScript, 'check.js': checkModule({ imports, more }) };
+  const folder = makeProject('esbuild physics files', { 'dist/index.html': html('./main.js'), ...files });
+  const entries = ['main.js', 'worker-thread=mandoline-wasm/physics/worker-thread'];
+  assertQuiet(await run(folder, '.bin/esbuild', ...entries, '--bundle', '--format=esm', '--outdir=dist'));
+  for (const file of ['mandoline.wasm', 'physics/physics.wasm']) {
+    copyFileSync(join(folder, 'node_modules', 'mandoline-wasm', 'dist', file), join(folder, 'dist', basename(file)));
+  }
+  assertPage(await openFolder(join(folder, 'dist')));
+});
 
 test('esbuild, with its loader for files', async () => {
   const check = checkModule({

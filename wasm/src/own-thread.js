@@ -5,7 +5,7 @@ const name = 'worker-thread.js';
 
 function start() {
   if (typeof Worker === 'function') return new Worker(new URL('./worker-thread.js', import.meta.url), { type: 'module' });
-  return nodeThreadBeside(name);
+  return nodeThreadBeside(name, import.meta.url);
 }
 
 /** Gives { start, script }, or a promise of it: what starts a worker, and what messages call its script. */

@@ -6,6 +6,6 @@ import { ownWasm } from './own-wasm.js';
 const { source } = ownWasm;
 
 /** Where mandoline.wasm is; undefined if it is not beside the code. */
-export const address = () => addressOf('mandoline.wasm', source);
+export const address = () => addressOf('mandoline.wasm', source, import.meta.url);
 
 ownWasm.source = async () => address() ?? (await import('./inline.js')).wasm();

@@ -13,9 +13,9 @@
  * Arrays and calls have the names that they have in the C++ library, and like in index.d.ts all arrays are flat, all ids count from 0, and
  * every offsets array starts with 0 and has one more entry than there are items.
  */
-import type { CutMesh, Mesh, RunOptions, Vector3, WasmSource } from './index.js';
+import type { CutMesh, Mesh, RunOptions, Vector3, WasmSource } from '../index.js';
 
-export { MandolineError, describe } from './index.js';
+export { MandolineError, describe } from '../index.js';
 
 /** What a face is part of, by its `faceTag`: faceTags[cells.faceTag[f]]. */
 export const faceTags: readonly ['xMin', 'xMax', 'yMin', 'yMax', 'zMin', 'zMax', 'inner', 'surface'];

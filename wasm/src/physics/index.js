@@ -1,12 +1,12 @@
-import { readOptions } from './arguments.js';
-import { named } from './errors.js';
-import { compile } from './load.js';
-import { ownPhysicsWasm } from './own-physics-wasm.js';
-import { makePhysics } from './physics-api.js';
-import { PhysicsHost } from './physics-host.js';
+import { readOptions } from '../arguments.js';
+import { named } from '../errors.js';
+import { compile } from '../load.js';
+import { makePhysics } from './api.js';
+import { PhysicsHost } from './host.js';
+import { ownPhysicsWasm } from './own-wasm.js';
 
-export { MandolineError, describe } from './errors.js';
-export { faceTags } from './physics-arguments.js';
+export { MandolineError, describe } from '../errors.js';
+export { faceTags } from './arguments.js';
 
 let started;
 

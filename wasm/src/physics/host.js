@@ -1,8 +1,8 @@
-import { bad, readCutMesh } from './arguments.js';
-import { Host } from './host.js';
-import { readComplex } from './physics-arguments.js';
-import createModule from './physics-module.js';
-import { cutMeshes } from './results.js';
+import { bad, readCutMesh } from '../arguments.js';
+import { Host } from '../host.js';
+import { cutMeshes } from '../results.js';
+import { readComplex } from './arguments.js';
+import createModule from './module.js';
 
 const calls = { cutMesh: 'cut()', cells: 'cellComplex(), subComplex() or regionComplex()' };
 

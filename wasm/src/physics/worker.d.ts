@@ -1,12 +1,12 @@
 /** The worker of `mandoline-wasm/worker` that also computes: the calls of `mandoline-wasm/physics` as promises. Browsers and Node. */
-import type { CutMesh, Mesh, RunOptions, Vector3 } from './index.js';
+import type { CutMesh, Mesh, RunOptions, Vector3 } from '../index.js';
+import type { CallOptions, MandolineWorker, WorkerOptions } from '../worker.js';
 import type {
   Boundary, CellComplex, CellComponents, CoarsenOptions, ComplexEdges, Conditions, Flow, FlowOptions, OctreeCells, OperatorOptions,
   Operators, PhysicsOptions, PoissonProblem, PoissonSystem, Solution, SolveOptions, SubComplex,
-} from './physics.js';
-import type { CallOptions, MandolineWorker, WorkerOptions } from './worker.js';
+} from './index.js';
 
-export { MandolineError, describe } from './index.js';
+export { MandolineError, describe } from '../index.js';
 
 /**
  * All calls run one after another, in the order they were made. The first one that computes loads the module for it. Results are

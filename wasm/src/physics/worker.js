@@ -1,12 +1,12 @@
-import { readWorkerOptions } from './arguments.js';
-import { named } from './errors.js';
-import { openWorker } from './open-worker.js';
-import { ownPhysicsThread } from './own-physics-thread.js';
-import { ownPhysicsWasm } from './own-physics-wasm.js';
-import { ownWasm } from './own-wasm.js';
-import { PhysicsCalls } from './physics-calls.js';
+import { readWorkerOptions } from '../arguments.js';
+import { named } from '../errors.js';
+import { openWorker } from '../open-worker.js';
+import { ownWasm } from '../own-wasm.js';
+import { PhysicsCalls } from './calls.js';
+import { ownPhysicsThread } from './own-thread.js';
+import { ownPhysicsWasm } from './own-wasm.js';
 
-export { MandolineError, describe } from './errors.js';
+export { MandolineError, describe } from '../errors.js';
 
 /** Starts a worker that has loaded the cutter's module, and loads that of physics when it is first asked to compute. */
 export async function createWorker(options) {

@@ -1,10 +1,10 @@
 // The calls of mandoline-wasm/physics, on a module that has been started.
-import { readFlag, readId, readMesh, readOptions, readVector } from './arguments.js';
-import { named } from './errors.js';
+import { readFlag, readId, readMesh, readOptions, readVector } from '../arguments.js';
+import { named } from '../errors.js';
+import { withProgress } from '../progress.js';
 import {
   readBoundary, readCellIds, readCoarsenOptions, readConditions, readFreeConstant, readLimits, readOctree, readOperatorOptions, readProblem,
-} from './physics-arguments.js';
-import { withProgress } from './progress.js';
+} from './arguments.js';
 
 function callsOf(host) {
   /** The value of a binding that also gives a twin, which is that of what `keptOf` finds in the value. */

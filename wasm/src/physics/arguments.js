@@ -1,7 +1,7 @@
-/** As in arguments.js, of mandoline-wasm/physics. */
+/** As in ../arguments.js, of mandoline-wasm/physics. */
 import {
   bad, expectInteger, expectNumber, expectObject, expectTypedArray, kindOf, readId, readNumbers, readVector, readWord,
-} from './arguments.js';
+} from '../arguments.js';
 
 /** What a face is part of, by CellComplex.faceTag. */
 export const faceTags = ['xMin', 'xMax', 'yMin', 'yMax', 'zMin', 'zMax', 'inner', 'surface'];

@@ -1,7 +1,7 @@
-import { Calls } from './calls.js';
-import { compile } from './load.js';
+import { Calls } from '../calls.js';
+import { compile } from '../load.js';
 
-/** As in calls.js. */
+/** As in ../calls.js. */
 const physicsCalls = {
   coarsen: { count: 1, at: 0 },
   cellComplex: { count: 3, at: 1, isKept: true },

@@ -2,9 +2,9 @@
  * As `mandoline-wasm/inline`, for `initPhysics(inline)` and for createWorker() of `mandoline-wasm/physics/worker`; `init(inline)` takes it,
  * too.
  */
-import type { Thread } from './worker.js';
+import type { Thread } from '../worker.js';
 
-export { wasm } from './inline.js';
+export { wasm } from '../inline.js';
 
 /** The bytes of physics.wasm. */
 export function physicsWasm(): Promise<ArrayBuffer>;

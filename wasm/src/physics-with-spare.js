@@ -1,3 +1,0 @@
-import './spare-physics-wasm.js';
-
-export * from './physics.js';

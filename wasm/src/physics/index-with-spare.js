@@ -1,0 +1,3 @@
+import './spare-wasm.js';
+
+export * from './index.js';

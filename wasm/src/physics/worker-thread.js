@@ -1,0 +1,11 @@
+// The script of the workers of worker.js: ../worker-thread.js, which also answers the calls of mandoline-wasm/physics.
+import { parts } from '../parts.js';
+import { makePhysics } from './api.js';
+import { PhysicsHost } from './host.js';
+
+export { serve } from '../worker-thread.js';
+
+parts.set('physics', (module) => {
+  const host = new PhysicsHost(module);
+  return { host, calls: makePhysics(host) };
+});

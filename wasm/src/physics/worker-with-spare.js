@@ -1,0 +1,4 @@
+import './spare-thread.js';
+import './spare-wasm.js';
+
+export * from './worker.js';
