@@ -55,6 +55,14 @@ PoissonProblem readProblem(const val& object, const CellComplex& cells) {
   return result;
 }
 
+Flow readFlow(const val& object) {
+  Flow result;
+  result.wind = readTriple<double>(object["wind"]);
+  readArray(object["cellVelocity"], result.cellVelocity);
+  readArray(object["cellGradient"], result.cellGradient);
+  return result;
+}
+
 val toObject(const OctreeCells& octree) {
   return object({{"gridCells", toTriple(octree.gridCells)},
                  {"cellCorner", toArray(octree.cellCorner)},
@@ -115,6 +123,13 @@ val toObject(const Flow& flow) {
                  {"cellGradient", toArray(flow.cellGradient)},
                  {"cellPressure", toArray(flow.cellPressure)},
                  {"throttled", toArray(flow.throttled)}});
+}
+
+val toObject(const Streamlines& lines) {
+  return object({{"points", toArray(lines.points)},
+                 {"speeds", toArray(lines.speeds)},
+                 {"offsets", toArray(lines.offsets)},
+                 {"ends", toArray(lines.ends)}});
 }
 
 }  // namespace mandoline::wasm

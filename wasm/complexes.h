@@ -53,6 +53,8 @@ OctreeCells readOctree(const val& object);
 Boundary readBoundary(const val& object, const CellComplex& cells);
 /// Where it says nothing, nothing passes the boundary.
 PoissonProblem readProblem(const val& object, const CellComplex& cells);
+/// As much of it as a FlowField needs: its wind, velocities and their gradients.
+Flow readFlow(const val& object);
 
 val toObject(const OctreeCells& octree);
 val toObject(const CellComplex& cells);
@@ -63,5 +65,6 @@ val toObject(const CellComponents& components);
 val toObject(const SparseMatrix& matrix);
 val toObject(const Solution& solution);
 val toObject(const Flow& flow);
+val toObject(const Streamlines& lines);
 
 }  // namespace mandoline::wasm

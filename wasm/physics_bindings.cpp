@@ -141,6 +141,43 @@ val flowThrough(const KeptComplex& kept, const val& wind, const val& options) {
   });
 }
 
+/// What call(field, points) gives. `given`: { mesh, flow, points }.
+template <class Call>
+val onField(const KeptCutMesh& keptCutMesh, const KeptComplex& keptCells, const val& given, const Call& call) {
+  return guarded([&, cutMesh = keptCutMesh.get(), cells = keptCells.get()] {
+    const Mesh mesh = readMeshArrays(given["mesh"]);
+    const Flow flow = readFlow(given["flow"]);
+    std::vector<double> points;
+    readArray(given["points"], points);
+    return success(call(FlowField{mesh, *cutMesh, *cells, flow}, points));
+  });
+}
+
+val velocitiesAt(const KeptCutMesh& cutMesh, const KeptComplex& cells, const val& given) {
+  return onField(cutMesh, cells, given,
+                 [](const FlowField& field, const std::vector<double>& points) { return toArray(velocityAt(field, points)); });
+}
+
+val streamlinesFrom(const KeptCutMesh& cutMesh, const KeptComplex& cells, const val& given, const val& options) {
+  return onField(cutMesh, cells, given, [&](const FlowField& field, const std::vector<double>& seeds) {
+    StreamlineOptions streamlineOptions;
+    streamlineOptions.progress = progressOf(options);
+    streamlineOptions.upstream = options["upstream"].as<bool>();
+    streamlineOptions.tolerance = options["tolerance"].as<double>();
+    streamlineOptions.maxLength = options["maxLength"].as<double>();
+    streamlineOptions.maxPoints = options["maxPoints"].as<uint32_t>();
+    return toObject(streamlines(field, seeds, streamlineOptions));
+  });
+}
+
+/// The grid is none around a mesh.
+val seedsOf(const val& grid, const val& wind, uint32_t count) {
+  return guarded([&] {
+    const Mesh none;
+    return success(toArray(inflowSeeds(readGrid(grid, none), readTriple<double>(wind), count)));
+  });
+}
+
 std::string version() { return MANDOLINE_VERSION; }
 
 }  // namespace
@@ -165,4 +202,7 @@ EMSCRIPTEN_BINDINGS(physics) {
   emscripten::function("poissonSystem", &systemOf);
   emscripten::function("solvePoisson", &solve);
   emscripten::function("solveFlow", &flowThrough);
+  emscripten::function("velocityAt", &velocitiesAt);
+  emscripten::function("streamlines", &streamlinesFrom);
+  emscripten::function("inflowSeeds", &seedsOf);
 }

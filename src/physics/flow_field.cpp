@@ -10,14 +10,22 @@
 namespace mandoline {
 namespace physics {
 
+[[noreturn]] static void refuseCells() { operators::refuse("The cells are not all of this cut-mesh's."); }
+
 void requireField(const FlowField& field, std::span<const double> points) {
   const auto& [mesh, cutMesh, cells, flow] = field;
   operators::requireCutMesh(cutMesh);
   measuring::requireInput(mesh, cutMesh);
   const size_t n = cells.cellCount();
-  if (cells.cutCells != cutMesh.cellCount() || cells.cutFaces != cutMesh.faceCount())
-    operators::refuse("The cells are not all of this cut-mesh's.");
+  if (cells.cutCells != cutMesh.cellCount() || cells.cutFaces != cutMesh.faceCount()) refuseCells();
+  for (size_t i = 0; i < 3 * n; ++i) {
+    if (cells.cellCorner[i] < 0 || cells.cellCorner[i] >= cutMesh.grid.cells(int(i % 3))) refuseCells();
+  }
   if (flow.cellVelocity.size() != 3 * n || flow.cellGradient.size() != 6 * n) operators::refuse("The flow is one of other cells.");
+  const auto isFinite = [](double number) { return std::isfinite(number); };
+  const bool isFlow = std::all_of(flow.cellVelocity.begin(), flow.cellVelocity.end(), isFinite) &&
+                      std::all_of(flow.cellGradient.begin(), flow.cellGradient.end(), isFinite);
+  if (!isFlow) operators::refuse("The flow has a number that is not finite.");
   if (points.size() % 3 != 0) operators::refuse("The points have " + std::to_string(points.size()) + " coordinates, no multiple of 3.");
 }
 
@@ -37,7 +45,7 @@ std::vector<int64_t> cellsAt(const FlowField& field, const OctreeCells& octree, 
   for (size_t i = 0; i < cells.size(); ++i) {
     if (cells[i] >= 0 || found.gridCell[3 * i] < 0) continue;
     const int64_t n = octree.find(found.gridCell[3 * i], found.gridCell[3 * i + 1], found.gridCell[3 * i + 2]);
-    if (n < 0) operators::refuse("The cells are not all of this cut-mesh's.");
+    if (n < 0) refuseCells();
     cells[i] = int64_t(field.cells.cutCells) + n;
   }
   return cells;
@@ -60,11 +68,18 @@ std::vector<double> velocityAt(const FlowField& field, std::span<const double> p
 std::vector<double> inflowSeeds(const Grid& grid, const std::array<double, 3>& wind, size_t count) {
   double inflow[3], all = 0;
   for (size_t d = 0; d < 3; ++d) {
+    const std::vector<double>& planes = grid.planes[d];
+    if (!std::isfinite(wind[d])) operators::refuse("The wind is not finite.");
+    if (planes.size() < 2 || !(planes.back() - planes.front() > 0 && std::isfinite(planes.back() - planes.front())))
+      throw CallError({Status::badGrid, int64_t(d), -1, std::string("The grid has no cells along ") + "xyz"[d] + "."});
+  }
+  for (size_t d = 0; d < 3; ++d) {
     inflow[d] = std::fabs(wind[d]);
     for (size_t e = 0; e < 3; ++e) inflow[d] *= e == d ? 1 : grid.planes[e].back() - grid.planes[e].front();
     all += inflow[d];
   }
   std::vector<double> seeds;
+  if (all > 0) seeds.reserve(3 * count);
   // Points of a plane's R2 sequence (Roberts 2018), which fills it evenly; sides in turns of a sequence of its own.
   constexpr double kSide = 0.6180339887498949, kFirst = 0.7548776662466927, kSecond = 0.5698402909980532;
   const auto fraction = [](double x) { return x - std::floor(x); };

@@ -168,6 +168,7 @@ bool Tracer::move(const Point& v) {
     to[axis] = step.to[axis] > at_[axis] ? high_[axis] : low_[axis];
   }
   for (size_t d = 0; d < 3; ++d) to[d] = std::clamp(to[d], low_[d], high_[d]);
+  if (!(std::isfinite(to[0]) && std::isfinite(to[1]) && std::isfinite(to[2]))) return end(StreamlineEnd::rest);
   if (to != at_) return advance(to);
   return share < 1 ? meetSide(axis, difference(step.to, at_)) : end(StreamlineEnd::rest);
 }

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { init } from 'mandoline-wasm';
-import { MandolineError, faceTags, initPhysics } from 'mandoline-wasm/physics';
+import { MandolineError, faceTags, initPhysics, streamlineEnds } from 'mandoline-wasm/physics';
 import { box, gut, join, sheet, torus } from './meshes.mjs';
 
 const [mandoline, physics] = await Promise.all([init(), initPhysics()]);
@@ -212,8 +212,71 @@ test('a wind', () => {
   assert.throws(() => physics.solveFlow(cells, [1, NaN, 0]), { code: 'badArgument', stage: 'solveFlow' });
 });
 
+test('velocities at points', () => {
+  const wind = [0.75, -1.25, 0.5];
+  const outside = cut(mesh, { min: [3, 3, 3], max: [4, 4, 4], cells: [3, 3, 3] });
+  const calm = physics.cellComplex(mesh, outside);
+  const steady = { mesh, cutMesh: outside, cells: calm, flow: physics.solveFlow(calm, wind) };
+  assertNear(physics.velocityAt(steady, [3, 3, 3, 3.3, 3.5, 3.9]), [...wind, ...wind], 1e-9);
+  for (const [name, all] of complexes) {
+    const flow = physics.solveFlow(all, wind);
+    const at = physics.velocityAt({ mesh, cutMesh, cells: all, flow }, [1.65, 0, 0, 0.05, 0.05, 0, 1, 0, 0, 9, 0, 0]);
+    assert.ok(Math.hypot(...at.subarray(0, 6)) > 1, name);
+    assert.ok(Math.hypot(...at.subarray(6, 9)) < 1e-9, name); // within the tube
+    assert.deepEqual([...at.subarray(9)], [NaN, NaN, NaN], name);
+  }
+});
+
+test('streamlines round a torus, none into it', () => {
+  const wind = [0.3, 0.1, 1];
+  const seeds = physics.inflowSeeds(cutMesh.grid, wind, 60);
+  assert.equal(seeds.length, 180);
+  for (let i = 0; i < 180; i += 3) assert.ok(seeds[i] === -1.7 || seeds[i + 1] === -1.6 || seeds[i + 2] === -0.9);
+  assert.deepEqual(physics.inflowSeeds(grid, wind, 60), seeds);
+  for (const [name, all] of complexes) {
+    const flowField = { mesh, cutMesh, cells: all, flow: physics.solveFlow(all, wind) };
+    const { points, speeds, offsets, ends } = physics.streamlines(flowField, seeds);
+    assert.deepEqual([ends.length, offsets.length, offsets.at(-1), points.length], [60, 61, speeds.length, 3 * speeds.length], name);
+    const words = Array.from(ends, (end) => streamlineEnds[end]);
+    assert.ok(words.every((word) => word === 'side' || word === 'surface') && words.filter((word) => word === 'side').length > 40, name);
+    assert.ok(mandoline.cellsAt(cutMesh, points).region.every((region) => cutMesh.regionWinding[region] === 0), name);
+    const velocities = physics.velocityAt(flowField, points);
+    const onPlane = (i) => [0, 1, 2].some((d) => cutMesh.grid.planes[d].includes(points[3 * i + d])); // may be either cell's
+    const within = [...speeds.keys()].filter((i) => !onPlane(i));
+    assert.ok(within.length > 500, name);
+    assertNear(within.map((i) => speeds[i]), within.map((i) => Math.hypot(...velocities.subarray(3 * i, 3 * i + 3))), 1e-12);
+  }
+});
+
+test('options of streamlines()', () => {
+  const flowField = { mesh, cutMesh, cells, flow: physics.solveFlow(cells, [0, 0, 1]) };
+  const seeds = [1.4, 1.3, 0, 1, 0, 0, 1, 0, 0.4000001, 5, 5, 5];
+  const wordsOf = ({ ends }) => Array.from(ends, (end) => streamlineEnds[end]);
+  const lines = physics.streamlines(flowField, seeds);
+  assert.deepEqual(wordsOf(lines).filter((_, i) => i !== 2), ['side', 'rest', 'outside']);
+  assert.deepEqual([lines.points[3 * lines.offsets[1] - 1], lines.offsets[4]], [0.9, lines.offsets[3]]);
+  const upstream = physics.streamlines(flowField, new Float32Array(seeds), { upstream: true });
+  assert.equal(upstream.points[3 * upstream.offsets[1] - 1], -0.9);
+  assert.equal(wordsOf(physics.streamlines(flowField, seeds, { maxLength: 0.25 }))[0], 'maxLength');
+  const few = physics.streamlines(flowField, seeds, { maxPoints: 2 });
+  assert.deepEqual([wordsOf(few)[0], few.offsets[1]], ['maxPoints', 2]);
+  assert.ok(physics.streamlines(flowField, seeds, { tolerance: 1e-7 }).offsets[1] > lines.offsets[1]);
+  assert.deepEqual(physics.streamlines(flowField, []).offsets, new Uint32Array(1));
+});
+
 const source = cells.cellCentre.filter((_, i) => i % 3 === 0);
-const inputs = { cutMesh: () => cut(mesh, grid), cells: () => physics.cellComplex(mesh, cut(mesh, grid)) };
+const flow = physics.solveFlow(cells, [1, 2, 3]);
+const inputs = {
+  cutMesh: () => cut(mesh, grid),
+  cells: () => physics.cellComplex(mesh, cut(mesh, grid)),
+  field: () => {
+    const made = cut(mesh, grid);
+    return { mesh, cutMesh: made, cells: physics.cellComplex(mesh, made), flow };
+  },
+};
+/** Of a field, what has twins. */
+const gutInput = (given) => (given.flow ? { ...given, cutMesh: gut(given.cutMesh), cells: gut(given.cells) } : gut(given));
+const copyInput = (given) => (given.flow ? { ...given, cells: { ...given.cells } } : { ...given });
 const calls = {
   coarsen: ['cutMesh', (given) => physics.coarsen(given)],
   cellComplex: ['cutMesh', (given) => physics.cellComplex(mesh, given, octree)],
@@ -227,17 +290,19 @@ const calls = {
   poissonSystem: ['cells', (given) => physics.poissonSystem(given)],
   solveFlow: ['cells', (given) => physics.solveFlow(given, [1, 2, 3])],
   solvePoisson: ['cells', (given) => physics.solvePoisson(given, { source }, { balance: true })],
+  velocityAt: ['field', (given) => physics.velocityAt(given, cells.cellCentre)],
+  streamlines: ['field', (given) => physics.streamlines(given, physics.inflowSeeds(cutMesh.grid, [1, 2, 3], 50))],
 };
 
 test('every call gives the same from the twin and from data', () => {
   const tried = Object.keys(calls).sort();
-  assert.deepEqual(tried, Object.keys(physics).filter((name) => name !== 'version').sort());
+  assert.deepEqual(tried, Object.keys(physics).filter((name) => !['version', 'inflowSeeds'].includes(name)).sort());
   for (const [name, [kind, call]] of Object.entries(calls)) {
     const given = inputs[kind]();
     const fromData = call(structuredClone(given));
     assert.deepEqual(call(given), fromData, name); // a cut-mesh gets its twin here
-    assert.deepEqual(call(gut(given)), fromData, name);
-    assert.throws(() => call({ ...given }), { code: 'badArgument', message: /detached/, stage: name });
+    assert.deepEqual(call(gutInput(given)), fromData, name);
+    assert.throws(() => call(copyInput(given)), { code: 'badArgument', message: /detached/, stage: name });
   }
   const { cells: part } = physics.regionComplex(cells, 0);
   assert.equal(physics.cellComponents(gut(part)).count, 1);
@@ -245,6 +310,10 @@ test('every call gives the same from the twin and from data', () => {
 
 test('wrong arguments are named', () => {
   const boundary = physics.boundaryOf(cells);
+  const flowField = { mesh, cutMesh, cells, flow };
+  const lost = flow.cellVelocity.map((component, i) => (i === 7 ? NaN : component));
+  const shifted = cells.cellCorner.map((corner, i) => (i === 4 ? 12 : corner));
+  const { cells: part } = physics.regionComplex(cells, 0);
   const assertBad = (call, message, code = 'badArgument') => assert.throws(call, (error) => {
     assert.ok(error instanceof MandolineError, error.stack);
     assert.match(error.message, message);
@@ -285,6 +354,31 @@ test('wrong arguments are named', () => {
     [() => physics.solveFlow(cells, [1, 0]), /^wind must have three numbers, not 2/],
     [() => physics.solveFlow(cells, [1, 0, 0], { maxIterations: 0.5 }), /^options\.maxIterations must be a whole number/],
     [() => physics.solvePoisson(cells, {}, { progress: 1 }), /^options\.progress must be a function/],
+    [() => physics.velocityAt(), /^field must be an object, not undefined/],
+    [() => physics.velocityAt({}, []), /^flow must be an object, not undefined/],
+    [() => physics.velocityAt({ flow }, []), /^mesh must be an object, not undefined/],
+    [() => physics.velocityAt({ mesh, flow }, []), /^cutMesh must be an object, not undefined/],
+    [() => physics.velocityAt({ mesh, cutMesh, flow }, []), /^cells must be an object, not undefined/],
+    [() => physics.velocityAt({ ...flowField, flow: { ...flow, wind: 1 } }, []), /^flow\.wind must have three numbers/],
+    [() => physics.velocityAt({ ...flowField, flow: { ...flow, cellGradient: null } }, []), /^flow\.cellGradient must be a Float64Array/],
+    [() => physics.velocityAt({ ...flowField, flow: physics.solveFlow(coarse, [1, 0, 0]) }, []), /^The flow is one of other cells/],
+    [() => physics.velocityAt({ ...flowField, flow: { ...flow, cellVelocity: lost } }, []), /^The flow has a number that is not finite/],
+    [() => physics.velocityAt({ ...flowField, cutMesh: cells }, []), /^cutMesh must be what cut\(\) gives, not what cellComplex\(\)/],
+    [() => physics.velocityAt({ ...flowField, cells: cutMesh }, []), /^cells must be what cellComplex\(\), .* not what cut\(\) does/],
+    [() => physics.velocityAt({ ...flowField, cells: part }, []), /^The cells are not all of this cut-mesh's/],
+    [() => physics.velocityAt({ ...flowField, cells: { ...cells, cellCorner: shifted } }, []), /^The cells are not all of this cut-mesh's/],
+    [() => physics.velocityAt({ ...flowField, mesh: box([0, 0, 0], [1, 1, 1]) }, []), /^The mesh is not the one/],
+    [() => physics.velocityAt(flowField, [1, 2]), /^points must have three numbers per point/],
+    [() => physics.streamlines(flowField, 7), /^seeds must be an array of numbers, not 7/],
+    [() => physics.streamlines(flowField, [], { upstream: 1 }), /^options\.upstream must be true or false/],
+    [() => physics.streamlines(flowField, [], { tolerance: 0 }), /tolerance has to be positive/, 'badOption'],
+    [() => physics.streamlines(flowField, [], { maxLength: -1 }), /length can't be negative/, 'badOption'],
+    [() => physics.streamlines(flowField, [], { maxPoints: 1.5 }), /^options\.maxPoints must be a whole number/],
+    [() => physics.streamlines(flowField, [], { maxPoints: -1 }), /^options\.maxPoints must be at least 0/, 'badOption'],
+    [() => physics.inflowSeeds({ cells: 8 }, [1, 0, 0], 1), /^grid must be that of a cut-mesh, or have min and max/],
+    [() => physics.inflowSeeds({ planes: [[], [0, 1], [0, 1]] }, [1, 0, 0], 1), /^The grid has no cells along x/, 'badGrid'],
+    [() => physics.inflowSeeds(grid, [1, 0, NaN], 1), /^The wind is not finite/],
+    [() => physics.inflowSeeds(grid, [1, 0, 0], -1), /^count is -1, which is out of range/],
   ];
   for (const [call, message, code] of cases) assertBad(call, message, code);
 });
@@ -296,6 +390,12 @@ test('progress, and its end', () => {
   assert.throws(() => physics.solvePoisson(cells, { source }, { balance: true, progress: () => false }), { code: 'cancelled' });
   assert.throws(() => physics.cellComplex(mesh, cutMesh, octree, { progress: () => { throw new TypeError('mine'); } }), TypeError);
   assert.equal(physics.solvePoisson(cells, { source }, { balance: true }).status, 'converged');
+  const seeds = physics.inflowSeeds(cutMesh.grid, [1, 2, 3], 100);
+  const stages = new Set();
+  physics.streamlines({ mesh, cutMesh, cells, flow }, seeds, { progress: ({ stage }) => { stages.add(stage); } });
+  assert.deepEqual([...stages], ['seeds', 'streamlines']);
+  const call = () => physics.streamlines({ mesh, cutMesh, cells, flow }, seeds, { progress: ({ stage }) => stage === 'seeds' });
+  assert.throws(call, { code: 'cancelled', stage: 'streamlines' });
 });
 
 test('crossing surfaces', () => {

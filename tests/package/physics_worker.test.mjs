@@ -14,6 +14,9 @@ const grid = { cells: 9 };
 const expected = physics.cellComplex(mesh, cut(mesh, grid));
 const source = expected.cellCentre.filter((_, i) => i % 3 === 0);
 const solved = physics.solvePoisson(expected, { source }, { balance: true });
+const flow = physics.solveFlow(expected, [1, 0, 0]);
+const seeds = physics.inflowSeeds(cut(mesh, grid).grid, [1, 0, 0], 30);
+const followed = physics.streamlines({ mesh, cutMesh: cut(mesh, grid), cells: expected, flow }, seeds);
 
 /** Runs f with a worker and the list of the messages to its threads. */
 async function withWatched(f, options) {
@@ -22,7 +25,8 @@ async function withWatched(f, options) {
     const worker = new NodeWorker(new URL(import.meta.resolve('mandoline-wasm/physics/worker-thread')));
     const post = worker.postMessage.bind(worker);
     worker.postMessage = (message, transfer) => {
-      sent.push({ call: message.call, hasModule: message.module !== undefined, hasData: message.subject?.data !== undefined });
+      const data = (message.subjects ?? []).filter((subject) => subject.data !== undefined).map(({ origin }) => origin);
+      sent.push({ call: message.call, hasModule: message.module !== undefined, data });
       post(message, transfer);
     };
     return worker;
@@ -50,16 +54,19 @@ test('every call gives the same, and arrays are sent once', () => withWatched(as
   assert.deepEqual(cells, expected);
   gut(cells);
   const boundary = physics.boundaryOf(expected);
+  const field = { mesh, cutMesh, cells, flow };
   const calls = {
     subComplex: [cells, [1, 2, 3]], regionComplex: [cells, 0], complexEdges: [cells], operators: [cells], boundaryOf: [cells],
     outwardNormals: [boundary, cells], cellComponents: [cells], poissonSystem: [cells, { source }],
-    solvePoisson: [cells, { source }, { balance: true }], solveFlow: [cells, [1, 0, 0]],
+    solvePoisson: [cells, { source }, { balance: true }], solveFlow: [cells, [1, 0, 0]], velocityAt: [field, source.subarray(0, 60)],
+    streamlines: [field, seeds], inflowSeeds: [cutMesh.grid, [1, 0, 0], 20],
   };
+  const replaced = new Map([[cells, expected], [field, { mesh, cutMesh: cut(mesh, grid), cells: expected, flow }]]);
   for (const [name, args] of Object.entries(calls)) {
-    assert.deepEqual(await worker[name](...args), physics[name](...args.map((arg) => (arg === cells ? expected : arg))), name);
+    assert.deepEqual(await worker[name](...args), physics[name](...args.map((arg) => replaced.get(arg) ?? arg)), name);
   }
   assert.deepEqual(Object.keys(physics).filter((name) => !(name in calls)).sort(), ['cellComplex', 'coarsen', 'version']);
-  assert.deepEqual(sent.filter(({ hasData }) => hasData).map(({ call }) => call), ['coarsen']); // what cut() gave
+  assert.deepEqual(sent.filter(({ data }) => data.length > 0).map(({ call }) => call), ['coarsen']); // what cut() gave
   assert.deepEqual(sent.filter(({ hasModule }) => hasModule).map(({ call }) => call), [undefined, 'coarsen']);
 }));
 
@@ -67,7 +74,7 @@ test('twins of parts', () => withWatched(async (worker, sent) => {
   const cells = await worker.cellComplex(mesh, await worker.cut(mesh, grid));
   const { cells: part } = await worker.regionComplex(cells, 0);
   assert.equal((await worker.cellComponents(gut(part))).count, 1);
-  assert.equal(sent.filter(({ hasData }) => hasData).length, 1);
+  assert.equal(sent.filter(({ data }) => data.length > 0).length, 1);
 }));
 
 test('copies are data', () => withWatched(async (worker) => {
@@ -82,8 +89,61 @@ test('after an abort the new thread is sent module and arrays', () => withWatche
   assert.equal(code, 'cancelled');
   for (let i = 0; i < 2; ++i) assert.deepEqual(await worker.solvePoisson(cells, { source }, { balance: true }), solved);
   assert.deepEqual(sent.slice(-2), [
-    { call: 'solvePoisson', hasModule: true, hasData: true }, { call: 'solvePoisson', hasModule: false, hasData: false },
+    { call: 'solvePoisson', hasModule: true, data: ['cells'] }, { call: 'solvePoisson', hasModule: false, data: [] },
   ]);
+}));
+
+test('of a flow\'s two twins, those that the thread let go are sent again, and no others', () => withWatched(async (worker, sent) => {
+  const cutMesh = await worker.cut(mesh, grid);
+  const field = { mesh, cutMesh, cells: await worker.cellComplex(mesh, cutMesh), flow };
+  const follow = async (...data) => {
+    assert.deepEqual(await worker.streamlines(field, seeds), followed);
+    assert.deepEqual(sent.filter(({ call }) => call === 'streamlines').at(-1).data, data);
+    sent.length = 0;
+  };
+  /** Leaves so many others in the thread that they take the place of all but those that `use` is called with. */
+  const crowd = async (use) => {
+    for (let i = 0; i < 20; ++i) {
+      await worker.subComplex(field.cells, [i]);
+      await use();
+    }
+  };
+  await follow();
+  await crowd(() => {}); // each takes the cells
+  await follow('cutMesh');
+  await crowd(() => worker.coarsen(cutMesh));
+  await follow();
+  const { cells } = await worker.subComplex(field.cells, [0]);
+  for (let i = 0; i < 20; ++i) await worker.subComplex(cells, [0]);
+  await follow('cutMesh', 'cells');
+  for (let i = 0; i < 20; ++i) await worker.subComplex(cells, [0]);
+  gut(field.cells);
+  const error = await rejection(worker.streamlines(field, seeds));
+  assert.deepEqual([error.code, error.stage], ['badArgument', 'streamlines']);
+  assert.match(error.message, /detached/);
+}));
+
+test('a waiting call has the flow as it was', () => withWatched(async (worker) => {
+  const cutMesh = await worker.cut(mesh, grid);
+  const field = { mesh, cutMesh, cells: await worker.cellComplex(mesh, cutMesh), flow };
+  const cancelled = rejection(worker.cut(mesh, { cells: 99 }, { progress: () => false }));
+  const waiting = worker.streamlines(field, seeds);
+  field.cells = null;
+  field.flow = null;
+  await cancelled; // and the thread with the twins is gone
+  assert.deepEqual(await waiting, followed);
+}));
+
+test('following streamlines is told of and cancelled like any call', () => withWatched(async (worker) => {
+  const cutMesh = await worker.cut(mesh, grid);
+  const field = { mesh, cutMesh, cells: await worker.cellComplex(mesh, cutMesh), flow };
+  const stages = new Set();
+  assert.deepEqual(await worker.streamlines(field, seeds, { progress: ({ stage }) => { stages.add(stage); } }), followed);
+  assert.ok(stages.has('streamlines'));
+  assert.equal((await rejection(worker.streamlines(field, seeds, { progress: () => false }))).code, 'cancelled');
+  assert.equal((await rejection(worker.streamlines(field, seeds, { signal: AbortSignal.abort() }))).code, 'cancelled');
+  assert.equal((await rejection(worker.velocityAt(null, seeds))).message, 'field must be an object, not null.');
+  assert.equal((await rejection(worker.velocityAt({ ...field, cells: cutMesh }, seeds))).code, 'badArgument');
 }));
 
 test('calls keep their order, though the first loads the module', () => withWatched(async (worker) => {

@@ -94,6 +94,7 @@ test('results', () => {
 
 test('results of mandoline-wasm/physics', () => {
   const boundary = physics.boundaryOf(cells, { xMin: { dirichlet: 0 } });
+  const flow = physics.solveFlow(cells, [1, 0, 0]);
   const results = [
     ['OctreeCells', physics.coarsen(cutMesh)],
     ['CellComplex', cells],
@@ -105,12 +106,15 @@ test('results of mandoline-wasm/physics', () => {
     ['Float64Array', physics.outwardNormals(boundary, cells)],
     ['CellComponents', physics.cellComponents(cells)],
     ['PoissonSystem', physics.poissonSystem(cells, { boundary })],
-    ['Flow', physics.solveFlow(cells, [1, 0, 0])],
+    ['Flow', flow],
+    ['Float64Array', physics.velocityAt({ mesh, cutMesh, cells, flow }, [1, 1, 1])],
+    ['Streamlines', physics.streamlines({ mesh, cutMesh, cells, flow }, [1, 1, 1])],
+    ['Float64Array', physics.inflowSeeds(cutMesh.grid, [1, 0, 0], 3)],
     ['Solution', physics.solvePoisson(cells, { boundary, source: cells.cellVolume })],
   ];
   assertCompiles(declared(results, 'mandoline-wasm/physics').text);
   assertCompiles(`
-    import { type CellComplex, type Physics, faceTags } from 'mandoline-wasm/physics';
+    import { type CellComplex, type FlowField, type Physics, faceTags, streamlineEnds } from 'mandoline-wasm/physics';
     import type { PhysicsWorker } from 'mandoline-wasm/physics/worker';
     export async function use(physics: Physics, worker: PhysicsWorker, cells: CellComplex): Promise<number | undefined> {
       const { gradient } = physics.operators(cells, { only: ['gradient', 'laplacian'], dualPoints: 'centroids' });
@@ -121,6 +125,11 @@ test('results of mandoline-wasm/physics', () => {
       physics.boundaryOf(cells, { left: { dirichlet: 0 } });
       const { phi } = await worker.solvePoisson(cells, { boundary }, { signal: AbortSignal.timeout(9) });
       const tag: 'surface' = faceTags[7];
+      const follow = (field: FlowField) => physics.streamlines(field, physics.inflowSeeds(field.cutMesh.grid, [1, 0, 0], 9), { maxLength: 3 });
+      const end: 'rest' = streamlineEnds[2];
+      // @ts-expect-error: around what?
+      physics.inflowSeeds({ cells: 9 }, [1, 0, 0], 9);
+      console.log(follow, end);
       return phi[gradient.entryColumns[0] ?? tag.length];
     }`);
 });

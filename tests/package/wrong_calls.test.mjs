@@ -28,6 +28,9 @@ const arraysOf = (object) => Object.keys(object).filter((key) => ArrayBuffer.isV
 const cells = physics.cellComplex(mesh, cutMesh);
 const octree = physics.coarsen(cutMesh);
 const boundary = physics.boundaryOf(cells, { xMin: { dirichlet: 1 } });
+const flow = physics.solveFlow(cells, [1, 2, 3]);
+const flowField = { mesh, cutMesh, cells, flow };
+const seeds = physics.inflowSeeds(grid, [1, 2, 3], 20);
 
 const prepared = mandoline.prepare(mesh);
 const resolved = mandoline.resolve(join(box([1, 1, 1], [3, 3, 3]), box([2, 2, 2], [4, 4, 4])));
@@ -109,6 +112,17 @@ const kinds = {
     undefined, { balance: true }, { balance: anything() }, { tolerance: anything() }, { maxIterations: anything() },
     { freeConstant: anything() }, { progress: () => pick([true, false]) },
   ]),
+  field: () => pick([
+    () => flowField, () => flowField, () => ({ ...flowField, mesh: kinds.mesh() }), () => ({ ...flowField, cutMesh: kinds.cutMesh() }),
+    () => ({ ...flowField, cells: kinds.cells() }), () => ({ ...flowField, cells: damaged(cells, ['cellCorner', 'cellLevel', 'faceCells']) }),
+    () => ({ ...flowField, flow: damaged(flow) }), () => ({ ...flowField, [pick(['mesh', 'cutMesh', 'cells', 'flow'])]: anything() }),
+  ])(),
+  seeds: () => pick([seeds, seeds, [0, 0, 0, 9, 9, 9], [0, NaN, Infinity], [], [1, 2], anything()]),
+  following: () => pick([
+    undefined, { upstream: true }, { upstream: anything() }, { tolerance: anything() }, { maxLength: anything() }, { maxPoints: anything() },
+    { progress: () => pick([true, false]) },
+  ]),
+  count: () => pick([0, 1, 20, anything()]),
   file: () => pick([
     new TextEncoder().encode('v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n'), new Blob(['OFF\n1 1 0\n']), new Uint8Array([31, 139, 8, 0, 1]),
     anything(),
@@ -145,6 +159,9 @@ const parameters = {
   poissonSystem: ['cells', 'problem'],
   solvePoisson: ['cells', 'problem', 'solving'],
   solveFlow: ['cells', 'vector', 'solving'],
+  velocityAt: ['field', 'seeds'],
+  streamlines: ['field', 'seeds', 'following'],
+  inflowSeeds: ['grid', 'vector', 'count'],
 };
 
 /** Calls one of these at random, a thousand times. Gives how many calls were fine, and how many had each code. */

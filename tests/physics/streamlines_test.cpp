@@ -1,5 +1,7 @@
 // Streamlines: none meets a triangle, none leaves the grid but through its sides; velocities at points.
 #include <algorithm>
+#include <random>
+#include <utility>
 
 #include "base/exact.h"
 #include "case_list.h"
@@ -214,6 +216,47 @@ TEST_CASE("streamlines: seeds on the sides that the wind enters by", "[streamlin
   }
   CHECK(std::abs(int(onX) - 60) <= 3);  // 42 : 28
   CHECK(inflowSeeds(grid, {0, 0, 0}, 3).empty());
+  CHECK(refusal([&] { inflowSeeds(grid, {1, NAN, 0}, 3); }).first == Status::badArgument);
+  CHECK(refusal([&] { inflowSeeds(Grid::box({0, 0, 0}, {1, 1, 1}, {1, 1, 0}), {1, 0, 0}, 3); }).first == Status::badGrid);
+}
+
+TEST_CASE("streamlines: cells of elsewhere and flows that are not finite are refused; those beyond doubles end lines", "[streamlines]") {
+  Tunnel t = tunnel(shapes::icosphere({3.3, 3.1, 2.9}, 1.7, 1), unitGrid(7), {0.2, 0, 1}, 24);
+  const std::vector<double> seeds = seedsIn(0.5, 8, 7);
+  const auto status = [&] { return refusal([&] { streamlines(t.field(), seeds); }).first; };
+  for (const int32_t corner : {-1, 7}) {
+    const int32_t old = std::exchange(t.cells.cellCorner[4], corner);
+    CHECK(status() == Status::badArgument);
+    t.cells.cellCorner[4] = old;
+  }
+  const Flow flow = t.flow;
+  t.flow.cellVelocity[5] = INFINITY;
+  CHECK(status() == Status::badArgument);
+  t.flow = flow;
+  t.flow.cellGradient.back() = NAN;
+  CHECK(status() == Status::badArgument);
+  t.flow = flow;
+  for (size_t i = 0; i < t.flow.cellGradient.size(); i += 7) t.flow.cellGradient[i] = i % 2 ? 1e308 : -1.7e308;
+  checkLines(t, streamlines(t.field(), seeds), 64);
+}
+
+TEST_CASE("streamlines: damaged cells lead no line astray", "[streamlines]") {
+  const Tunnel t = tunnel(shapes::icosphere({3.3, 3.1, 2.9}, 1.7, 1), unitGrid(7), {0.2, 0, 1}, 24);
+  const std::vector<double> seeds = seedsIn(0.5, 5, 7);
+  std::mt19937 random(1);
+  const auto damage = [&](auto& array) {
+    for (int i = 0; i < 20; ++i) array[random() % array.size()] = array[random() % array.size()];
+  };
+  int harmless = 0;
+  for (int round = 0; round < 60; ++round) {
+    Tunnel damaged = t;
+    if (round % 3 == 0) damage(damaged.cells.cellCorner);
+    if (round % 3 == 1) damage(damaged.cells.cellLevel);
+    if (round % 3 == 2) damage(damaged.cells.faceTag);
+    const auto [found, message] = refusal([&] { checkLines(damaged, streamlines(damaged.field(), seeds), 25); });
+    if (found == Status::ok) ++harmless;
+  }
+  CHECK(harmless > 30);
 }
 
 TEST_CASE("streamlines: the same bits for any number of threads; cancelling and wrong calls", "[streamlines]") {

@@ -49,7 +49,7 @@ function makeCut(host) {
         return { value: value.cutMesh };
       };
       if (!preparation) return host.run((bindings, twins) => cut(bindings, undefined, twins));
-      return host.runOnPrepared(mesh, (bindings) => bindings.prepare(readMesh(mesh), { ...preparation, progress }), cut);
+      return host.runOnPrepared(mesh, (bindings, input) => bindings.prepare(input, { ...preparation, progress }), cut);
     });
   };
 }

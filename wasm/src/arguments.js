@@ -243,9 +243,9 @@ export function readResolved(mesh) {
   return { ...arrays, frontWinding: winding('frontWinding'), backWinding: winding('backWinding') };
 }
 
-export function readPoints(points) {
-  const numbers = readNumbers(points, 'points');
-  if (numbers.length % 3 !== 0) throw bad('points must have three numbers per point.');
+export function readPoints(points, name = 'points') {
+  const numbers = readNumbers(points, name);
+  if (numbers.length % 3 !== 0) throw bad(`${name} must have three numbers per point.`);
   return numbers;
 }
 

@@ -1,28 +1,31 @@
 import { readIntersections } from './arguments.js';
 import { buffersOf, clone } from './buffers.js';
 import { MandolineError } from './errors.js';
+import { valueAt, withValueAt } from './places.js';
+
+const [first, second] = [[[0]], [[1]]];
 
 /**
- * The calls of the main entry with their numbers of arguments before the options, which of these may have a twin, and whether what they
- * give, or a member of it that isKept names, has one.
+ * The calls of the main entry with their numbers of arguments before the options, the places in these of what may have a twin, and whether
+ * what they give, or a member of it that isKept names, has one.
  */
 const cutCalls = {
   prepare: { count: 1, isKept: true },
-  cut: { count: 2, at: 0, isKept: true },
+  cut: { count: 2, at: first, isKept: true },
   findIntersections: { count: 1 },
   resolve: { count: 1 },
-  boundary: { count: 2, at: 0 },
-  validate: { count: 2, at: 1 },
-  measure: { count: 2, at: 1 },
-  cutEdges: { count: 2, at: 1 },
-  adjacency: { count: 1, at: 0 },
-  triangulate: { count: 2, at: 0 },
-  cellAt: { count: 2, at: 0 },
-  cellsAt: { count: 2, at: 0 },
-  slice: { count: 2, at: 0 },
-  slices: { count: 3, at: 0 },
-  outlines: { count: 3, at: 0 },
-  write: { count: 3, at: 1 },
+  boundary: { count: 2, at: first },
+  validate: { count: 2, at: second },
+  measure: { count: 2, at: second },
+  cutEdges: { count: 2, at: second },
+  adjacency: { count: 1, at: first },
+  triangulate: { count: 2, at: first },
+  cellAt: { count: 2, at: first },
+  cellsAt: { count: 2, at: first },
+  slice: { count: 2, at: first },
+  slices: { count: 3, at: first },
+  outlines: { count: 3, at: first },
+  write: { count: 3, at: second },
   readMesh: { count: 1 },
 };
 
@@ -101,11 +104,12 @@ export class Calls {
     return known;
   }
 
-  /** What the thread is sent: the argument that the message names by its id goes along unless there is a twin of it. */
-  pack(message, twins, argument) {
-    const { subject } = message;
-    if (subject && !twins.has(subject.id)) subject.data ??= copied(message.call, lean(argument));
-    return { message, transfer: buffersOf([message.args, subject?.data]) }; // of the copies: they go on to the thread
+  /** What the thread is sent: each value that the message names by its id goes along unless there is a twin of it. */
+  pack(message, twins, values) {
+    for (const [i, subject] of message.subjects.entries()) {
+      if (!twins.has(subject.id)) subject.data ??= copied(message.call, lean(values[i]));
+    }
+    return { message, transfer: buffersOf([message.args, message.subjects]) }; // of the copies: they go on to the thread
   }
 
   #own(call, given) {
@@ -126,8 +130,8 @@ export class Calls {
     const { signal, onProgress } = split;
     const cancellation = () => new MandolineError('cancelled', 'The call was cancelled.', { stage: call, cause: signal.reason });
     if (signal?.aborted) throw cancellation();
-    const message = this.#message(asked, split);
-    const job = { call, onProgress, message, ready: this.ready, pack: (packed, twins) => this.pack(packed, twins, args[asked.at]) };
+    const { message, values } = this.#message(asked, split);
+    const job = { call, onProgress, message, ready: this.ready, pack: (packed, twins) => this.pack(packed, twins, values) };
     const abort = () => this.#queue.stop(job, cancellation());
     signal?.addEventListener('abort', abort);
     try {
@@ -141,18 +145,24 @@ export class Calls {
     }
   }
 
-  /** In it: `subject`, { id, origin, at, data } of an argument that is a result of this queue, and `result`, the id of a new one. */
-  #message({ call, args, extra, at, isKept }, { options, transfer, onProgress }) {
-    const message = { call, extra, args, options, progress: onProgress !== undefined };
+  /**
+   * In it: `subjects`, { id, origin, at, data } of each result of this queue that lies at one of these places in the arguments, and
+   * `result`, the id of a new one. Beside it: the results themselves.
+   */
+  #message({ call, args, extra, at = [], isKept }, { options, transfer, onProgress }) {
+    const message = { call, extra, args, subjects: [], options, progress: onProgress !== undefined };
+    const values = [];
     if (isKept) Object.assign(message, { isKept, result: this.#queue.newId() });
-    const known = this.find(args[at]);
-    if (known) {
-      const isMoved = buffersOf(args[at]).some((buffer) => transfer.includes(buffer));
-      const data = isMoved || !this.#queue.hasTwin(known.id) ? lean(args[at]) : undefined;
-      Object.assign(message, { args: args.with(at, undefined), subject: { ...known, at, data } });
-    } else if (at !== undefined) {
-      message.args = args.with(at, lean(args[at]));
+    for (const place of at) {
+      const value = valueAt(args, place);
+      if (!isObject(value)) continue;
+      const known = this.find(value);
+      message.args = withValueAt(message.args, place, known ? undefined : lean(value));
+      if (!known) continue;
+      const isMoved = buffersOf(value).some((buffer) => transfer.includes(buffer));
+      message.subjects.push({ ...known, at: place, data: isMoved || !this.#queue.hasTwin(known.id) ? lean(value) : undefined });
+      values.push(value);
     }
-    return copied(call, message, transfer);
+    return { message: copied(call, message, transfer), values };
   }
 }

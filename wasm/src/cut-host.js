@@ -1,4 +1,4 @@
-import { bad, readCutMesh } from './arguments.js';
+import { bad, readCutMesh, readMesh } from './arguments.js';
 import { Host } from './host.js';
 import createModule from './mandoline.js';
 import { cutMeshes } from './results.js';
@@ -15,13 +15,19 @@ export class CutHost extends Host {
   /** run() with a binding that takes a cut-mesh: the twin of this result, or else its arrays, which may have to pass a check. */
   runOn(cutMesh, f, checked = true) {
     if (this.preparationOf(cutMesh)) throw bad('cutMesh must be what cut() gives, not what prepare() does.');
-    const read = (bindings) => bindings.keep(readCutMesh(cutMesh, this.#arrays), checked);
-    return this.runWith(cutMesh, read, f, checked && this.isResult(cutMesh));
+    const input = {
+      value: cutMesh,
+      read: () => readCutMesh(cutMesh, this.#arrays),
+      make: (bindings, arrays) => bindings.keep(arrays, checked),
+      isKept: checked && this.isResult(cutMesh),
+    };
+    return this.runWith([input], (bindings, [twin]) => f(bindings, twin));
   }
 
-  /** The same with a binding that takes a mesh that prepare() gave: its twin, or else what `again` gives, which does it once more. */
+  /** The same with a binding that takes a mesh that prepare() gave: its twin, or else what `again` makes, which does it once more. */
   runOnPrepared(mesh, again, f) {
-    return this.runWith(mesh, again, f, true);
+    const input = { value: mesh, read: () => readMesh(mesh), make: again, isKept: true };
+    return this.runWith([input], (bindings, [twin], twins) => f(bindings, twin, twins));
   }
 
   adopt(result, preparation) {

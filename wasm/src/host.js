@@ -42,18 +42,28 @@ export class Host {
   }
 
   /**
-   * The same with a binding that takes a value that may have a twin: that one, or else the handle that `read` makes, which becomes its twin
-   * if it is to be kept.
+   * The same with a binding that takes values that may have twins, f(bindings, handles, twins). For each, { value, read, make, isKept }:
+   * the handle is that of its twin, or else the one that `make` gives of what `read` does, which becomes the twin if it is to be kept.
    */
-  runWith(value, read, f, isKept) {
+  runWith(inputs, f) {
     return this.run((bindings, twins) => {
-      const twin = twins.find(value);
-      if (twin) return f(bindings, twin, twins);
-      const { value: handle, error } = read(bindings);
-      if (error) return { error };
-      if (isKept) twins.keep(value, handle);
-      const outcome = f(bindings, handle, twins);
-      if (!isKept) handle.delete();
+      const data = inputs.map(({ value, read }) => (twins.has(value) ? undefined : read())); // before there are handles, since it may throw
+      const handles = inputs.map(({ value }) => twins.find(value));
+      const lent = [];
+      let outcome;
+      for (const [i, { value, make, isKept }] of inputs.entries()) {
+        if (handles[i]) continue;
+        const { value: handle, error } = make(bindings, data[i]);
+        if (error) {
+          outcome = { error };
+          break;
+        }
+        handles[i] = handle;
+        if (isKept) twins.keep(value, handle, handles);
+        else lent.push(handle);
+      }
+      outcome ??= f(bindings, handles, twins);
+      for (const handle of lent) handle.delete();
       return outcome;
     });
   }

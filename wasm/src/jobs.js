@@ -117,9 +117,9 @@ export class JobQueue {
     }
   }
 
-  #receive({ type, value, kept, error, message }) {
+  #receive({ type, value, kept, error, message, ids }) {
     if (type === 'progress') this.#progress(value);
-    else if (type === 'missing') this.#repeat(message);
+    else if (type === 'missing') this.#repeat(message, ids);
     else if (type === 'result') this.#settle((job) => this.#resolve(job, value, kept));
     else if (type === 'thrown') this.#settle((job) => job.reject(value));
     else this.#settle((job) => job.reject(new MandolineError(error.code, error.message, error)));
@@ -130,9 +130,9 @@ export class JobQueue {
     job.resolve({ value, kept });
   }
 
-  /** After the thread gave the message back, because it no longer has the twin that this names. */
-  #repeat(message) {
-    this.#twins.delete(message.subject.id);
+  /** After the thread gave the message back, because it no longer has twins that this names by these ids. */
+  #repeat(message, ids) {
+    for (const id of ids) this.#twins.delete(id);
     this.#running.message = message;
     this.#perform(this.#running);
   }

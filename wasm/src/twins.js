@@ -17,15 +17,15 @@ export class Twins {
     return this.#bytes;
   }
 
-  /** From now on the handle is the result's twin. */
-  keep(result, handle) {
+  /** From now on the handle is the result's twin. Those in use, which are the ones that were found last, don't give way to it. */
+  keep(result, handle, inUse = [handle]) {
     const id = ++this.#count;
     this.#ids.set(result, id);
     this.#collected.register(result, id);
     this.#handles.set(id, handle);
     this.#bytes += handle.bytes();
-    for (const oldest of this.#handles.keys()) {
-      if (oldest === id || (this.#handles.size <= mostTwins && this.#bytes <= mostBytes)) break;
+    for (const [oldest, other] of this.#handles) {
+      if (inUse.includes(other) || (this.#handles.size <= mostTwins && this.#bytes <= mostBytes)) break;
       this.#free(oldest);
     }
   }

@@ -6,6 +6,7 @@ import { memberOf } from './calls.js';
 import { CutHost } from './cut-host.js';
 import { MandolineError } from './errors.js';
 import { parts } from './parts.js';
+import { withValueAt } from './places.js';
 
 const extraCalls = new Map();
 
@@ -91,31 +92,32 @@ class Answering {
   }
 
   async #own(job) {
-    const { part = 'cut', call, args, options, progress, subject, result, isKept } = job;
+    const { part = 'cut', call, args, options, progress, subjects, result, isKept } = job;
     const { host, calls, shells } = this.#parts.get(part);
-    const { argument, inputs } = this.#inputs(job);
+    const found = subjects.map((subject) => this.#find(subject, part));
+    const inputs = subjects.reduce((all, { at }, i) => withValueAt(all, at, found[i]), args);
     const given = progress ? { ...options, progress: (value) => this.#post({ type: 'progress', value }) } : options;
     try {
       const value = await calls[call](...inputs, given);
       const made = isKept && memberOf(value, isKept);
-      const kept = [[subject?.id, argument], [result, made]].filter(([id, object]) => id !== undefined && host.hasTwin(object));
+      const results = [...subjects.map(({ id }, i) => [id, found[i]]), [result, made]];
+      const kept = results.filter(([id, object]) => id !== undefined && host.hasTwin(object));
       this.#send(job, value, [...kept.map(([id]) => id), part]);
       for (const [id, object] of kept) shells.keep(id, object);
     } catch (error) {
-      const isMissing = subject && !subject.data && error.code === 'badArgument' && !host.hasTwin(argument);
-      if (!isMissing) throw error;
-      this.#post({ type: 'missing', message: job }, buffersOf(args));
+      const missing = subjects.filter(({ data }, i) => !data && !host.hasTwin(found[i]));
+      if (missing.length === 0 || error.code !== 'badArgument') throw error;
+      this.#post({ type: 'missing', message: job, ids: missing.map(({ id }) => id) }, buffersOf([args, subjects]));
     }
   }
 
-  /** The arguments with the one that the message names by its id: if it has its twin here or comes with its data, else nothing. */
-  #inputs({ part = 'cut', args, subject }) {
-    if (!subject) return { inputs: args };
+  /** What a message names by its id: if it has its twin here or comes with its data, else nothing. */
+  #find({ id, origin, data }, part) {
     const { host, shells } = this.#parts.get(part);
-    const shell = shells.find(subject.id);
-    const argument = host.hasTwin(shell) ? shell : subject.data;
-    if (argument && argument === subject.data) host.adopt(argument, subject.origin);
-    return { argument, inputs: args.with(subject.at, argument) };
+    const shell = shells.find(id);
+    if (host.hasTwin(shell)) return shell;
+    if (data) host.adopt(data, origin);
+    return data;
   }
 
   #extra({ call, args, progress }) {

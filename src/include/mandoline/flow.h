@@ -54,7 +54,7 @@ struct FlowField {
 
 /// 3 per point: the velocity there, linear in each cell; NaN outside the grid. `points`: 3 per point, world units. Which cell holds a
 /// point, and so which side of a sheet it is on, is decided as cellsAt() does. Throws CallError{badArgument} unless the number of
-/// coordinates is a multiple of 3 and the field's parts belong together.
+/// coordinates is a multiple of 3, the field's parts belong together and the flow is finite.
 std::vector<double> velocityAt(const FlowField& field, std::span<const double> points);
 
 struct StreamlineOptions : RunOptions {
@@ -68,7 +68,7 @@ struct StreamlineOptions : RunOptions {
 enum class StreamlineEnd : uint8_t {
   side,       ///< on a side of the box, exactly
   surface,    ///< at the surface: its last point is before it, by rounding
-  rest,       ///< where nothing flows
+  rest,       ///< where nothing flows, or faster than doubles tell
   maxLength,  ///< its length is that
   maxPoints,  ///< it has as many
   outside     ///< its seed is not in the grid; it has no points
@@ -89,7 +89,8 @@ struct Streamlines {
 /// (badOption), if there are 2^32 points or more (meshTooLarge), or if cancelled.
 Streamlines streamlines(const FlowField& field, std::span<const double> seeds, const StreamlineOptions& options = {});
 
-/// 3 per seed: points on the sides where the wind enters the box, evenly by what enters.
+/// 3 per seed: points on the sides where the wind enters the box, evenly by what enters. Throws CallError if the wind is not
+/// finite (badArgument) or the grid has no cells (badGrid).
 std::vector<double> inflowSeeds(const Grid& grid, const std::array<double, 3>& wind, size_t count);
 
 }  // namespace mandoline

@@ -1,9 +1,10 @@
 // The calls of mandoline-wasm/physics, on a module that has been started.
-import { readFlag, readId, readMesh, readOptions, readVector } from '../arguments.js';
+import { readFlag, readId, readMesh, readOptions, readPoints, readVector } from '../arguments.js';
 import { named } from '../errors.js';
 import { withProgress } from '../progress.js';
 import {
-  readBoundary, readCellIds, readCoarsenOptions, readConditions, readFreeConstant, readLimits, readOctree, readOperatorOptions, readProblem,
+  readBoundary, readCellIds, readCoarsenOptions, readConditions, readField, readFreeConstant, readLimits, readOctree, readOperatorOptions,
+  readPlacedGrid, readProblem, readStreamlineOptions,
 } from './arguments.js';
 
 function callsOf(host) {
@@ -71,6 +72,23 @@ function callsOf(host) {
         const [input, what] = [readVector(wind, 'wind'), { ...readLimits(given), progress }];
         return host.runOnComplex(cells, (bindings, twin) => bindings.solveFlow(twin, input, what));
       });
+    },
+    velocityAt: (field, points) => {
+      const input = { ...readField(field), points: readPoints(points) };
+      return host.runOnBoth(field.cutMesh, field.cells, (bindings, cutMesh, cells) => bindings.velocityAt(cutMesh, cells, input));
+    },
+    streamlines: (field, seeds, options) => {
+      const given = readOptions(options);
+      return withProgress(given.progress, (progress) => {
+        const input = { ...readField(field), points: readPoints(seeds, 'seeds') };
+        const what = { ...readStreamlineOptions(given), progress };
+        const call = (bindings, cutMesh, cells) => bindings.streamlines(cutMesh, cells, input, what);
+        return host.runOnBoth(field.cutMesh, field.cells, call);
+      });
+    },
+    inflowSeeds: (grid, wind, count) => {
+      const input = [readPlacedGrid(grid), readVector(wind, 'wind'), readId(count, 'count')];
+      return host.run((bindings) => bindings.inflowSeeds(...input));
     },
   };
 }

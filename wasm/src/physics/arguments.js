@@ -1,10 +1,14 @@
 /** As in ../arguments.js, of mandoline-wasm/physics. */
 import {
-  bad, expectInteger, expectNumber, expectObject, expectTypedArray, kindOf, readId, readNumbers, readVector, readWord,
+  bad, expectInteger, expectNumber, expectObject, expectTypedArray, kindOf, readFlag, readGrid, readId, readMesh, readNumbers, readVector,
+  readWord,
 } from '../arguments.js';
 
 /** What a face is part of, by CellComplex.faceTag. */
 export const faceTags = ['xMin', 'xMax', 'yMin', 'yMax', 'zMin', 'zMax', 'inner', 'surface'];
+
+/** Where a streamline ends, by Streamlines.ends. */
+export const streamlineEnds = ['side', 'surface', 'rest', 'maxLength', 'maxPoints', 'outside'];
 
 const conditions = ['neumann', 'dirichlet'];
 const operatorNames = [
@@ -99,4 +103,36 @@ export function readLimits({ tolerance = 1e-10, maxIterations = 500 }) {
 
 export function readFreeConstant({ freeConstant = 'zeroMean' }) {
   return readWord(freeConstant, ['zeroMean', 'pinned'], 'options.freeConstant');
+}
+
+/** As much of a flow field as is no twin. */
+export function readField(field) {
+  expectObject(field, 'field');
+  const { mesh, flow } = field;
+  expectObject(flow, 'flow');
+  return {
+    mesh: readMesh(mesh),
+    flow: {
+      wind: readVector(flow.wind, 'flow.wind'),
+      cellVelocity: expectTypedArray(flow.cellVelocity, 'Float64Array', 'flow.cellVelocity'),
+      cellGradient: expectTypedArray(flow.cellGradient, 'Float64Array', 'flow.cellGradient'),
+    },
+  };
+}
+
+export function readStreamlineOptions({ upstream, tolerance = 1e-3, maxLength = Infinity, maxPoints = 10000 }) {
+  if (expectInteger(maxPoints, 'options.maxPoints') < 0) throw bad(`options.maxPoints must be at least 0, not ${maxPoints}.`, 'badOption');
+  return {
+    upstream: readFlag(upstream, false, 'options.upstream'),
+    tolerance: expectNumber(tolerance, 'options.tolerance'),
+    maxLength: expectNumber(maxLength, 'options.maxLength'),
+    maxPoints: Math.min(maxPoints, 2 ** 32 - 1),
+  };
+}
+
+/** A grid that is none around a mesh. */
+export function readPlacedGrid(grid) {
+  const given = readGrid(grid);
+  if (given.kind === 'around') throw bad('grid must be that of a cut-mesh, or have min and max, origin and spacing, or planes.');
+  return given;
 }

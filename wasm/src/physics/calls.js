@@ -1,20 +1,26 @@
 import { Calls } from '../calls.js';
 import { compile } from '../load.js';
 
+const [first, second] = [[[0]], [[1]]];
+const field = [[0, 'cutMesh'], [0, 'cells']];
+
 /** As in ../calls.js. */
 const physicsCalls = {
-  coarsen: { count: 1, at: 0 },
-  cellComplex: { count: 3, at: 1, isKept: true },
-  subComplex: { count: 2, at: 0, isKept: 'cells' },
-  regionComplex: { count: 2, at: 0, isKept: 'cells' },
-  complexEdges: { count: 1, at: 0 },
-  operators: { count: 1, at: 0 },
-  boundaryOf: { count: 2, at: 0 },
-  outwardNormals: { count: 2, at: 1 },
-  cellComponents: { count: 1, at: 0 },
-  poissonSystem: { count: 2, at: 0 },
-  solvePoisson: { count: 2, at: 0 },
-  solveFlow: { count: 2, at: 0 },
+  coarsen: { count: 1, at: first },
+  cellComplex: { count: 3, at: second, isKept: true },
+  subComplex: { count: 2, at: first, isKept: 'cells' },
+  regionComplex: { count: 2, at: first, isKept: 'cells' },
+  complexEdges: { count: 1, at: first },
+  operators: { count: 1, at: first },
+  boundaryOf: { count: 2, at: first },
+  outwardNormals: { count: 2, at: second },
+  cellComponents: { count: 1, at: first },
+  poissonSystem: { count: 2, at: first },
+  solvePoisson: { count: 2, at: first },
+  solveFlow: { count: 2, at: first },
+  velocityAt: { count: 2, at: field },
+  streamlines: { count: 2, at: field },
+  inflowSeeds: { count: 3 },
 };
 
 /** The calls of mandoline-wasm/physics in the same queue. The module is compiled when the first is made, and goes along with it. */
@@ -46,8 +52,8 @@ export class PhysicsCalls extends Calls {
     return 'cells';
   }
 
-  pack(message, twins, argument) {
+  pack(message, twins, values) {
     const part = 'physics';
-    return super.pack(Object.assign(message, { part, module: twins.has(part) ? undefined : this.#module }), twins, argument);
+    return super.pack(Object.assign(message, { part, module: twins.has(part) ? undefined : this.#module }), twins, values);
   }
 }

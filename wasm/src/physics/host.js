@@ -22,19 +22,35 @@ export class PhysicsHost extends Host {
 
   /** run() with a binding that takes a cut-mesh. */
   runOnCutMesh(cutMesh, f) {
-    if (cutMeshes.has(cutMesh)) this.adopt(cutMesh, 'cutMesh');
-    return this.#runOn('cutMesh', cutMesh, (bindings) => bindings.keepCutMesh(readCutMesh(cutMesh, this.#cutMeshArrays)), f);
+    return this.runWith([this.#cutMeshInput(cutMesh)], (bindings, [twin], twins) => f(bindings, twin, twins));
   }
 
   /** The same with one that takes a cell complex. */
   runOnComplex(cells, f) {
-    return this.#runOn('cells', cells, (bindings) => bindings.keepComplex(readComplex(cells, this.#complexArrays)), f);
+    return this.runWith([this.#complexInput(cells)], (bindings, [twin], twins) => f(bindings, twin, twins));
   }
 
-  #runOn(kind, value, read, f) {
-    if (this.isResult(value) && this.originOf(value) !== kind) {
+  /** The same with one that takes both: f(bindings, cutMeshTwin, cellsTwin). */
+  runOnBoth(cutMesh, cells, f) {
+    return this.runWith([this.#cutMeshInput(cutMesh), this.#complexInput(cells)], (bindings, twins) => f(bindings, ...twins));
+  }
+
+  #cutMeshInput(cutMesh) {
+    if (cutMeshes.has(cutMesh)) this.adopt(cutMesh, 'cutMesh');
+    const read = () => readCutMesh(cutMesh, this.#cutMeshArrays);
+    return this.#input('cutMesh', cutMesh, read, (bindings, arrays) => bindings.keepCutMesh(arrays));
+  }
+
+  #complexInput(cells) {
+    const read = () => readComplex(cells, this.#complexArrays);
+    return this.#input('cells', cells, read, (bindings, arrays) => bindings.keepComplex(arrays));
+  }
+
+  #input(kind, value, read, make) {
+    const isKept = this.isResult(value);
+    if (isKept && this.originOf(value) !== kind) {
       throw bad(`${kind} must be what ${calls[kind]} gives, not what ${calls[this.originOf(value)]} does.`);
     }
-    return this.runWith(value, read, f, this.isResult(value));
+    return { value, read, make, isKept };
   }
 }

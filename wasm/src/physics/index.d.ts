@@ -1,6 +1,6 @@
 /**
  * Computing on the cells: octree cells away from the surface, all cells as one conforming mesh, discrete operators, Poisson's equation,
- * potential flow (paper, 5.3 and appendix B). A WebAssembly module of its own, loaded by initPhysics().
+ * potential flow and its streamlines (paper, 5.3 and appendix B). A WebAssembly module of its own, loaded by initPhysics().
  *
  * ```js
  * import { init } from 'mandoline-wasm';
@@ -13,7 +13,7 @@
  * Arrays and calls have the names that they have in the C++ library, and like in index.d.ts all arrays are flat, all ids count from 0, and
  * every offsets array starts with 0 and has one more entry than there are items.
  */
-import type { CutMesh, Mesh, RunOptions, Vector3, WasmSource } from '../index.js';
+import type { CutMesh, Grid, GridBox, GridRectilinear, GridRegular, Mesh, RunOptions, Vector3, WasmSource } from '../index.js';
 
 export { MandolineError, describe } from '../index.js';
 
@@ -288,6 +288,48 @@ export interface Flow {
   throttled: Uint32Array<ArrayBuffer>;
 }
 
+/** A flow and what it was solved on. */
+export interface FlowField {
+  /** That the cut-mesh was made from. */
+  mesh: Mesh;
+  cutMesh: CutMesh;
+  /** All of the cut-mesh's: what cellComplex() gives. */
+  cells: CellComplex;
+  /** What solveFlow() gives for these cells; its wind, cellVelocity and cellGradient are read. */
+  flow: Pick<Flow, 'wind' | 'cellVelocity' | 'cellGradient'>;
+}
+
+export interface StreamlineOptions extends RunOptions {
+  /** Against the flow. Default false. */
+  upstream?: boolean;
+  /** Of a step and of its chord, relative to the size of its cell. Default 1e-3. */
+  tolerance?: number;
+  /** Of a line, world units. Default: any. */
+  maxLength?: number;
+  /** Of a line. Default 10,000. */
+  maxPoints?: number;
+}
+
+/**
+ * Where a streamline ends, by its `ends`: streamlineEnds[lines.ends[l]]. "side": on a side of the box, exactly; "surface": at the surface,
+ * its last point is before it, by rounding; "rest": where nothing flows, or faster than doubles tell; "maxLength": its length is that;
+ * "maxPoints": it has as many; "outside": its seed is not in the grid, it has no points.
+ */
+export const streamlineEnds: readonly ['side', 'surface', 'rest', 'maxLength', 'maxPoints', 'outside'];
+export type StreamlineEnd = (typeof streamlineEnds)[number];
+
+/** One line per seed. */
+export interface Streamlines {
+  /** 3 per point, world units. */
+  points: Float64Array<ArrayBuffer>;
+  /** Per point. */
+  speeds: Float64Array<ArrayBuffer>;
+  /** Into the points, per line. */
+  offsets: Uint32Array<ArrayBuffer>;
+  /** Per line: the number of its end in `streamlineEnds`. */
+  ends: Uint8Array<ArrayBuffer>;
+}
+
 /** What `initPhysics()` gives. No call changes its arguments. Errors are MandolineErrors, except what a progress callback throws. */
 export interface Physics {
   /** Version of the library. */
@@ -341,6 +383,24 @@ export interface Physics {
    * the wind is not finite, "badOption" as in solvePoisson().
    */
   solveFlow(cells: CellComplex, wind: Vector3, options?: FlowOptions): Flow;
+  /**
+   * 3 per point: the velocity there, linear in each cell; NaN outside the grid. Which cell holds a point, and so which side of a sheet it
+   * is on, is decided as cellsAt() does. `points`: 3 per point, world units; many points in one call are far faster. Code "badArgument"
+   * unless the field's parts belong together and the flow is finite.
+   */
+  velocityAt(field: FlowField, points: Float64Array | Float32Array | readonly number[]): Float64Array<ArrayBuffer>;
+  /**
+   * Follows the flow from the seeds, 3 coordinates each: Runge-Kutta steps of third order (Bogacki, Shampine 1989) of adaptive length. Each
+   * ends in its cell at the latest. No segment of a line meets a triangle of the mesh, by exact predicates (those without area are none),
+   * and none leaves the grid. A seed on the surface has a line of one point. Errors as in velocityAt(); code "badOption" if an option is
+   * out of range.
+   */
+  streamlines(field: FlowField, seeds: Float64Array | Float32Array | readonly number[], options?: StreamlineOptions): Streamlines;
+  /**
+   * 3 per seed: `count` points on the sides where the wind enters the box of a grid, evenly by what enters. Code "badArgument" if the wind
+   * is not finite, "badGrid" if the grid has no cells.
+   */
+  inflowSeeds(grid: Grid | GridBox | GridRegular | GridRectilinear, wind: Vector3, count: number): Float64Array<ArrayBuffer>;
 }
 
 export interface PhysicsOptions {

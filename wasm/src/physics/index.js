@@ -6,7 +6,7 @@ import { PhysicsHost } from './host.js';
 import { ownPhysicsWasm } from './own-wasm.js';
 
 export { MandolineError, describe } from '../errors.js';
-export { faceTags } from './arguments.js';
+export { faceTags, streamlineEnds } from './arguments.js';
 
 let started;
 

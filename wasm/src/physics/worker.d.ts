@@ -1,9 +1,10 @@
 /** The worker of `mandoline-wasm/worker` that also computes: the calls of `mandoline-wasm/physics` as promises. Browsers and Node. */
-import type { CutMesh, Mesh, RunOptions, Vector3 } from '../index.js';
+import type { CutMesh, Grid, GridBox, GridRectilinear, GridRegular, Mesh, RunOptions, Vector3 } from '../index.js';
 import type { CallOptions, MandolineWorker, WorkerOptions } from '../worker.js';
 import type {
-  Boundary, CellComplex, CellComponents, CoarsenOptions, ComplexEdges, Conditions, Flow, FlowOptions, OctreeCells, OperatorOptions,
-  Operators, PhysicsOptions, PoissonProblem, PoissonSystem, Solution, SolveOptions, SubComplex,
+  Boundary, CellComplex, CellComponents, CoarsenOptions, ComplexEdges, Conditions, Flow, FlowField, FlowOptions, OctreeCells,
+  OperatorOptions, Operators, PhysicsOptions, PoissonProblem, PoissonSystem, Solution, SolveOptions, StreamlineOptions, Streamlines,
+  SubComplex,
 } from './index.js';
 
 export { MandolineError, describe } from '../index.js';
@@ -27,6 +28,15 @@ export interface PhysicsWorker extends MandolineWorker {
   poissonSystem(cells: CellComplex, problem?: PoissonProblem, options?: CallOptions): Promise<PoissonSystem>;
   solvePoisson(cells: CellComplex, problem?: PoissonProblem, options?: SolveOptions & CallOptions): Promise<Solution>;
   solveFlow(cells: CellComplex, wind: Vector3, options?: FlowOptions & CallOptions): Promise<Flow>;
+  velocityAt(
+    field: FlowField, points: Float64Array | Float32Array | readonly number[], options?: CallOptions,
+  ): Promise<Float64Array<ArrayBuffer>>;
+  streamlines(
+    field: FlowField, seeds: Float64Array | Float32Array | readonly number[], options?: StreamlineOptions & CallOptions,
+  ): Promise<Streamlines>;
+  inflowSeeds(
+    grid: Grid | GridBox | GridRegular | GridRectilinear, wind: Vector3, count: number, options?: CallOptions,
+  ): Promise<Float64Array<ArrayBuffer>>;
 }
 
 /** Starts a worker that has loaded the cutter's module. Errors as those of createWorker() of `mandoline-wasm/worker`. */
