@@ -31,7 +31,7 @@ const made = ['box', 'sphere', 'torus', 'torus-knot'].map((shape) => {
   run('build/mandoline', 'make', shape, '-o', `build/${shape}.obj`);
   return `build/${shape}.obj`;
 });
-// A box and a ball that cross, as groups under names that OpenFOAM does not take.
+// A box and a ball, as groups under names that OpenFOAM does not take.
 const [box, ball] = ['box', 'sphere'].map((shape) => readFileSync(path('build', `${shape}.obj`), 'utf8'));
 const corners = box.match(/^v/gm).length;
 const shifted = ball.replace(/^f .*/gm, (face) => face.replace(/\d+/g, (v) => Number(v) + corners));

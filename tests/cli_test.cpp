@@ -19,6 +19,11 @@ const std::string kCube =
     "v 1 1 1\nv 3 1 1\nv 3 3 1\nv 1 3 1\nv 1 1 3\nv 3 1 3\nv 3 3 3\nv 1 3 3\n"
     "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 
+/// To follow kCube in a file; the cubes overlap in [2, 3]^3.
+const std::string kCrossingCube =
+    "v 2 2 2\nv 4 2 2\nv 4 4 2\nv 2 4 2\nv 2 2 4\nv 4 2 4\nv 4 4 4\nv 2 4 4\n"
+    "f 12 11 10 9\nf 13 14 15 16\nf 9 10 14 13\nf 10 11 15 14\nf 11 12 16 15\nf 12 9 13 16\n";
+
 struct Outcome {
   int exitCode = -1;
   std::string out, err;
@@ -353,6 +358,40 @@ TEST_CASE("Command line: octree cells, OpenFOAM and saved cut-meshes", "[cli]") 
   CHECK(!std::filesystem::exists(foam + "cellZones"));
 }
 
+TEST_CASE("Command line: groups of the input are patches, and stay through resolve", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cubes.obj", "g left\n" + kCube + "g right side\n" + kCrossingCube);
+  const Outcome cut = run(folder, {"cut", mesh, "--cells", "5", "-o", folder.path("polyMesh"), "--report", "-"});
+  REQUIRE(cut.exitCode == 0);
+  const std::string groups = "\"groups\": [{\"name\": \"left\", \"triangles\": 12}, {\"name\": \"right\", \"triangles\": 12}]";
+  CHECK(contains(cut.out, groups));
+  CHECK(contains(run(folder, {"info", mesh, "--report", "-"}).out, groups));
+  CHECK(contains(run(folder, {"info", mesh}).out, "12  right\n"));
+  CHECK(contains(folder.read("polyMesh/boundary"), "left\n{\n    type wall;"));
+  CHECK(contains(folder.read("polyMesh/boundary"), "right\n{\n    type wall;"));
+  CHECK(folder.read("polyMesh/boundary").find("surface\n{") == std::string::npos);
+
+  REQUIRE(run(folder, {"resolve", mesh, "-o", folder.path("resolved.obj")}).exitCode == 0);
+  const auto [resolved, kept] = mandoline::readGroupedMesh(folder.path("resolved.obj"));
+  CHECK(resolved.triangleCount() > 24);
+  CHECK(kept.names == std::vector<std::string>{"left", "right"});
+  for (size_t t = 0; t < resolved.triangleCount(); ++t) {  // each on the cube of its group
+    bool lies = false;
+    for (size_t d = 0; d < 3; ++d) {
+      for (const double plane : {1.0, 3.0}) {
+        bool all = true;
+        for (size_t i = 0; i < 3; ++i) {
+          all = all && resolved.positions[3 * size_t(resolved.triangles[3 * t + i]) + d] == plane + double(kept.triangleGroup[t]);
+        }
+        lies = lies || all;
+      }
+    }
+    REQUIRE(lies);
+  }
+  REQUIRE(run(folder, {"resolve", mesh, "--rule", "positive", "-o", folder.path("solid.obj")}).exitCode == 0);
+  CHECK(mandoline::readGroupedMesh(folder.path("solid.obj")).groups.empty());
+}
+
 TEST_CASE("Command line: standard input and output", "[cli]") {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("cube.obj", kCube);
@@ -495,10 +534,7 @@ TEST_CASE("Command line: made shapes are closed", "[cli]") {
 
 TEST_CASE("Command line: crossing cubes are resolved, refused or left alone, and their pairs counted", "[cli]") {
   const TemporaryFolder folder;
-  const std::string cubes = kCube +
-                            "v 2 2 2\nv 4 2 2\nv 4 4 2\nv 2 4 2\nv 2 2 4\nv 4 2 4\nv 4 4 4\nv 2 4 4\n"
-                            "f 12 11 10 9\nf 13 14 15 16\nf 9 10 14 13\nf 10 11 15 14\nf 11 12 16 15\nf 12 9 13 16\n";
-  const std::string mesh = folder.write("cubes.obj", cubes);
+  const std::string mesh = folder.write("cubes.obj", kCube + kCrossingCube);
   const std::vector<std::string> grid = {"cut", mesh, "--cells", "5", "--box", "0,0,0,5,5,5", "--report", "-", "--intersections"};
   const auto cutWith = [&](const std::string& what) {
     std::vector<std::string> words = grid;

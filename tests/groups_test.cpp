@@ -1,8 +1,9 @@
 // Groups of triangles: read from files that have them, and written to files that take them.
-#include <sstream>
+#include <cstring>
 
 #include "catch.h"
 #include "mandoline/io.h"
+#include "refusal.h"
 #include "temporary_folder.h"
 
 using namespace mandoline;
@@ -37,6 +38,19 @@ std::string solid(const std::string& name, int triangles) {
   }
   return text + "endsolid " + name + '\n';
 }
+
+/// What write(sink) writes.
+template <class Write>
+std::string written(const Write& write) {
+  std::string bytes;
+  write([&](std::string_view piece) { bytes += piece; });
+  return bytes;
+}
+
+/// A square and two triangles above it, each a group.
+const std::string kThree =
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng square\nf 1 2 3 4\n"
+    "v 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\ng \"a\\\nf 5 6 7\ng b\nf 5 7 8\n";
 
 void requireGroups(const TriangleGroups& groups, const Names& names, const Labels& labels) {
   CHECK(groups.names == names);
@@ -99,8 +113,60 @@ TEST_CASE("STL: the words of a facet, whatever they are", "[groups]") {
 TEST_CASE("Files without groups: binary STL, PLY and OFF", "[groups]") {
   const Mesh mesh{{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2}};
   for (const FileFormat format : {FileFormat::stl, FileFormat::ply, FileFormat::off}) {
-    std::string bytes;
-    writeMesh([&](std::string_view piece) { bytes += piece; }, format, mesh);
+    const std::string bytes = written([&](const Sink& sink) { writeMesh(sink, format, mesh); });
     requireGroups(groupsOf(std::string("a.") + name(format), bytes), {}, {});
   }
+}
+
+TEST_CASE("Meshes are written as OBJ with their groups", "[groups]") {
+  const Mesh mesh{{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2}};
+  const TriangleGroups groups{{"a  b", "a_b", "#"}, {0, 1, 1, 0}};
+  const std::string obj = written([&](const Sink& sink) { writeMesh(sink, FileFormat::obj, mesh, {}, &groups); });
+  requireGroups(groupsOf("a.obj", obj), {"a_b_2", "a_b"}, {0, 1, 1, 0});
+  const TemporaryFolder folder;
+  writeMesh(folder.path("a.obj"), mesh, {}, &groups);
+  CHECK(folder.read("a.obj") == obj);
+  const auto plain = [&](FileFormat format) { return written([&](const Sink& sink) { writeMesh(sink, format, mesh); }); };
+  const auto with = [&](FileFormat format, const TriangleGroups& some) {
+    return written([&](const Sink& sink) { writeMesh(sink, format, mesh, {}, &some); });
+  };
+  CHECK(with(FileFormat::ply, groups) == plain(FileFormat::ply));
+  CHECK(with(FileFormat::obj, {}) == plain(FileFormat::obj));
+  CHECK(refusal([&] { with(FileFormat::obj, {{"a"}, {0, 0, 0}}); }).first == Status::badArgument);
+  CHECK(refusal([&] { with(FileFormat::obj, {{"a"}, {0, 0, 0, 1}}); }).first == Status::badArgument);
+}
+
+TEST_CASE("Cut-meshes are written as JSON and PLY with the groups of triangles", "[groups]") {
+  const GroupedMesh input = readGroupedMesh(kThree, "a.obj");
+  const CutMesh cutMesh = cut(input.mesh, Grid::around(input.mesh, 2)).mesh;
+  WriteOptions options;
+  options.groups = &input.groups;
+  const auto write = [&](FileFormat format) {
+    return written([&](const Sink& sink) { writeCutMesh(sink, format, input.mesh, cutMesh, options); });
+  };
+  const std::string json = write(FileFormat::json), plainJson = written([&](const Sink&sink) { writeJson(sink, cutMesh); });
+  const std::string more = ",\n\"groupNames\":[\"square\",\"\\\"a\\\\\",\"b\"],\n\"triangleGroup\":[0,0,1,2]";
+  const size_t at = json.find(more);
+  REQUIRE(at != std::string::npos);
+  CHECK(json.substr(0, at) + json.substr(at + more.size()) == plainJson);
+
+  const std::string ply = write(FileFormat::ply);
+  REQUIRE(ply.find("property uint region\nproperty uint group\nend_header\n") != std::string::npos);
+  const Mesh surface = readMesh(ply, "a.ply");
+  constexpr size_t kBytesOfTriangle = 1 + 5 * sizeof(uint32_t);
+  for (size_t t = 0; t < surface.triangleCount(); ++t) {
+    uint32_t group;
+    std::memcpy(&group, ply.data() + ply.size() - kBytesOfTriangle * (surface.triangleCount() - t) + kBytesOfTriangle - sizeof group,
+                sizeof group);
+    double z = 0, beyond = 0;  // of the square x - y is of both signs
+    for (size_t i = 0; i < 3; ++i) {
+      const double* corner = &surface.positions[3 * size_t(surface.triangles[3 * t + i])];
+      z = corner[2];
+      beyond += corner[0] - corner[1];
+    }
+    REQUIRE(group == (z < 0.5 ? 0u : beyond > 0 ? 1u : 2u));
+  }
+  options.groups = nullptr;
+  CHECK(write(FileFormat::json) == plainJson);
+  CHECK(write(FileFormat::ply).find("group") == std::string::npos);
 }

@@ -149,7 +149,7 @@ int runCut(const Arguments& arguments) {
   const Grid grid = makeGrid(arguments.grid, mesh, info);
   const CutResult result = cutMesh(arguments, mesh, grid);
   const bool looks = arguments.intersections != Intersections::assumeNone;
-  Report report{{nameOf(arguments.mesh), info, {}}, grid, result, looks, peakMemoryBytes(), {}, {}};
+  Report report{{nameOf(arguments.mesh), info, {}, input.groups}, grid, result, looks, peakMemoryBytes(), {}, {}};
   if (result) {
     report.regionVolumes = withProgress(
         arguments.threads, [&](const RunOptions& options) { return regionVolumes(result.mesh, measure(mesh, result.mesh, options)); });

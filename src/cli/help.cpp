@@ -55,7 +55,7 @@ Options of cut
                            .vtu   polyhedra for VTK and ParaView
                            .obj   the cut surface as polygons, one group per region
                            .stl   the cut surface in triangles
-                           .ply   the same with the region of each triangle
+                           .ply   the same with the region and group of each triangle
                          A folder called polyMesh, as in case/constant/polyMesh, gets all
                          cells for OpenFOAM, with the patches xMin ... zMax and surface,
                          or one for each group of an OBJ file (g, else usemtl) or solid
@@ -95,14 +95,15 @@ Options of resolve, besides --threads
   --rule positive|non-zero|odd
                          only the surface of the solid: of what has a winding number
                          above 0, other than 0, or odd. Overlapping parts become one
-  -o FILE ...            all triangles, divided where they meet. Vertices are rounded; a
+  -o FILE ...            all triangles, divided where they meet; .obj keeps the groups of
+                         OBJ and STL files, but not with --rule. Vertices are rounded; a
                          note on standard error tells whether that has brought
                          intersections back
 
 Options of cut, info and flow
   --report FILE          write the report as JSON instead of text; - for standard output.
                          Its members: status, message, element, element2 (what failed),
-                         mesh (path, counts, box, closed, oriented ...) and
+                         mesh (path, counts, box, closed, oriented, groups ...) and
                          intersections (pairs, by kind ...); of a cut also grid, counts,
                          largestSnap, regions, stages (ms), totalMs, exactFallbacks,
                          peakMemoryBytes and validation: null, or pass and checks. Of a

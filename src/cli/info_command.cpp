@@ -16,9 +16,9 @@ std::optional<MeshIntersections> intersectionsOf(const Mesh& mesh, const MeshInf
 
 int runInfo(const Arguments& arguments) {
   if (arguments.mesh != "-" && !arguments.report.empty()) requireDifferent({{"the mesh", arguments.mesh}, {"--report", arguments.report}});
-  const Mesh mesh = readInput(arguments.mesh);
-  MeshReport report{nameOf(arguments.mesh), inspect(mesh), {}};
-  report.intersections = intersectionsOf(mesh, report.info, arguments.threads);
+  GroupedMesh input = readGroupedInput(arguments.mesh);
+  MeshReport report{nameOf(arguments.mesh), inspect(input.mesh), {}, std::move(input.groups)};
+  report.intersections = intersectionsOf(input.mesh, report.info, arguments.threads);
   const bool asText = arguments.report.empty();
   writeOutput(asText ? "-" : arguments.report, [&](const Sink& sink) { sink(asText ? infoText(report) : infoJson(report)); });
   return kFine;

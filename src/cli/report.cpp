@@ -58,6 +58,14 @@ std::vector<Count> meshCounts(const MeshInfo& info) {
           {"nonFiniteVertices", "non-finite vertices", info.nonFiniteVertices}};
 }
 
+/// The groups with the numbers of their triangles.
+std::vector<std::pair<std::string, uint64_t>> groupCounts(const TriangleGroups& groups) {
+  std::vector<std::pair<std::string, uint64_t>> counts;
+  for (const std::string& name : groups.names) counts.push_back({name, 0});
+  for (const uint32_t group : groups.triangleGroup) ++counts[group].second;
+  return counts;
+}
+
 std::array<int64_t, 3> cellsOf(const Grid& grid) { return {grid.cells(0), grid.cells(1), grid.cells(2)}; }
 
 void addElement(Json& json, const char* key, int64_t element) {
@@ -86,7 +94,11 @@ void addHead(Json& json, const Error& error, const MeshReport& report) {
   json.key("box").open('{').key("min").values(info.min).key("max").values(info.max).close('}');
   json.member("closed", info.closed).member("oriented", info.oriented);
   for (const Count& count : meshCounts(info)) json.member(count.key, count.value);
-  json.close('}');
+  json.key("groups").open('[');
+  for (const auto& [groupName, triangles] : groupCounts(report.groups)) {
+    json.open('{').member("name", groupName).member("triangles", triangles).close('}');
+  }
+  json.close(']').close('}');
 }
 
 void addIntersections(Json& json, const Report& report) {
@@ -304,6 +316,8 @@ std::string infoText(const MeshReport& mesh) {
     if (!kinds.empty()) out << "; first: triangles " << triangles[0] << " and " << triangles[1];
     out << "\n";
   }
+  if (!mesh.groups.empty()) line("groups") << mesh.groups.names.size() << "\n";
+  for (const auto& [groupName, triangles] : groupCounts(mesh.groups)) line("  triangles") << triangles << "  " << groupName << "\n";
   return out.str();
 }
 

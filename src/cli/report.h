@@ -6,6 +6,7 @@
 
 #include "mandoline/inspect.h"
 #include "mandoline/mandoline.h"
+#include "mandoline/mesh_files.h"
 #include "mandoline/validate.h"
 
 namespace mandoline::cli {
@@ -16,6 +17,7 @@ struct MeshReport {
   MeshInfo info;
   /// Of info, with one pair; none for meshes that can't be searched.
   std::optional<MeshIntersections> intersections;
+  TriangleGroups groups;
 };
 
 /// Everything there is to tell of a cut; both forms tell the same.

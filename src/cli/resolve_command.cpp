@@ -7,10 +7,25 @@
 #include "mandoline/resolve.h"
 
 namespace mandoline::cli {
+namespace {
+
+/// Those of the triangles that a mesh was resolved from; none if there are none.
+TriangleGroups groupsOf(const ResolvedMesh& resolved, const TriangleGroups& groups) {
+  TriangleGroups result;
+  if (groups.empty()) return result;
+  result.names = groups.names;
+  for (size_t t = 0; t < resolved.mesh.triangleCount(); ++t) {
+    result.triangleGroup.push_back(groups.triangleGroup[resolved.parents[resolved.parentOffsets[t]]]);
+  }
+  return result;
+}
+
+}  // namespace
+
 int runResolve(const Arguments& arguments) {
   checkOutputs(arguments, isMeshFormat, "a mesh is written as .obj, .stl, .ply or .off");
-  const Mesh mesh = readInput(arguments.mesh);
-  const ResolveResult result = withProgress(arguments.threads, [&](const RunOptions& options) { return resolve(mesh, options); });
+  const GroupedMesh input = readGroupedInput(arguments.mesh);
+  const ResolveResult result = withProgress(arguments.threads, [&](const RunOptions& options) { return resolve(input.mesh, options); });
   if (!result) {
     complain(refusal(nameOf(arguments.mesh), result.error));
     return kNotCut;
@@ -20,8 +35,9 @@ int runResolve(const Arguments& arguments) {
     return kNotCut;
   }
   const Mesh written = arguments.rule ? boundary(result.mesh, *arguments.rule) : result.mesh.mesh;
+  const TriangleGroups groups = arguments.rule ? TriangleGroups() : groupsOf(result.mesh, input.groups);
   for (const std::string& output : arguments.outputs) {
-    writeOutput(output, [&](const Sink& sink) { writeMesh(sink, formatFor(arguments, output), written); });
+    writeOutput(output, [&](const Sink& sink) { writeMesh(sink, formatFor(arguments, output), written, {}, &groups); });
   }
   const PairCounts &met = result.stats.intersections, &left = result.remaining;
   std::cerr << "Pairs of triangles that met: " << describePairs(met) << "\n"

@@ -56,6 +56,7 @@ SurfaceTriangles triangulateSurface(const Selection& selection) {
       for (size_t t = faces.faceTriangleOffsets[h / 2]; t < faces.faceTriangleOffsets[h / 2 + 1]; ++t) {
         writer.add(&faces.triangles[3 * t], h % 2 == 1);
         result.region.push_back(r);
+        result.face.push_back(h / 2);
       }
     }
   }

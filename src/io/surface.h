@@ -21,7 +21,7 @@ WrittenSurface surfaceOf(const Selection& selection);
 /// The surface in triangles, with those vertices only that it has.
 struct SurfaceTriangles {
   Mesh mesh;
-  std::vector<uint32_t> region;  ///< per triangle
+  std::vector<uint32_t> region, face;  ///< per triangle
 };
 SurfaceTriangles triangulateSurface(const Selection& selection);
 

@@ -23,13 +23,13 @@ void writeCutMesh(const std::string& path, const MeshView& mesh, const CutMesh& 
   writeFile(path, [&](const Sink& sink) { writeCutMesh(sink, *formatOf(path), mesh, cutMesh, options); });
 }
 
-void writeMesh(const std::string& path, const MeshView& mesh, const RunOptions& options) {
+void writeMesh(const std::string& path, const MeshView& mesh, const RunOptions& options, const TriangleGroups* groups) {
   const std::optional<FileFormat> format = formatOf(path);
   if (!format || !isMeshFormat(*format)) {
     throw FileError(path + ": the extension must be .obj, .stl, .ply or .off");
   }
   detail::checkPlace(path);
-  writeFile(path, [&](const Sink& sink) { writeMesh(sink, *format, mesh, options); });
+  writeFile(path, [&](const Sink& sink) { writeMesh(sink, *format, mesh, options, groups); });
 }
 
 }  // namespace mandoline

@@ -29,7 +29,7 @@ bool isOutlineFormat(FileFormat format) { return format == FileFormat::svg || fo
 void writeCutMesh(const Sink& sink, FileFormat format, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options) {
   switch (format) {
     case FileFormat::json:
-      return writeJson(sink, cutMesh, options);
+      return options.groups ? writeJson(sink, cutMesh, *options.groups, options) : writeJson(sink, cutMesh, options);
     case FileFormat::mcm:
       return writeMcm(sink, cutMesh, options);
     case FileFormat::vtu:

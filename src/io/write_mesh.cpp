@@ -1,6 +1,7 @@
 // Triangle meshes: OBJ and OFF as text, STL and PLY as binary. The cut surface as STL and PLY is one, too.
 #include <cmath>
 
+#include "io/groups.h"
 #include "io/output_buffer.h"
 #include "io/surface.h"
 #include "mesh/read/scalar.h"
@@ -31,9 +32,18 @@ void putLine(OutputBuffer& out, std::string_view keyword, std::span<const Number
   out.character('\n');
 }
 
-void putObj(OutputBuffer& out, const MeshView& mesh) {
+void putObj(OutputBuffer& out, const MeshView& mesh, const TriangleGroups* groups) {
   for (size_t v = 0; v < mesh.vertexCount(); ++v) putLine(out, "v", mesh.positions.subspan(3 * v, 3));
-  for (size_t t = 0; t < mesh.triangleCount(); ++t) putLine(out, "f", mesh.triangles.subspan(3 * t, 3), 1u), out.advance();
+  const std::vector<std::string> names = groups ? objNames(groups->names) : std::vector<std::string>();
+  for (size_t t = 0; t < mesh.triangleCount(); ++t) {
+    if (groups && (t == 0 || groups->triangleGroup[t] != groups->triangleGroup[t - 1])) {
+      out.text("g ");
+      out.text(names[groups->triangleGroup[t]]);
+      out.character('\n');
+    }
+    putLine(out, "f", mesh.triangles.subspan(3 * t, 3), 1u);
+    out.advance();
+  }
 }
 
 void putOff(OutputBuffer& out, const MeshView& mesh) {
@@ -72,28 +82,37 @@ void putStl(OutputBuffer& out, const MeshView& mesh) {
   }
 }
 
-/// `regions`: per triangle, or empty.
-void putPly(OutputBuffer& out, const MeshView& mesh, std::span<const uint32_t> regions) {
+/// A number for each triangle, by a name.
+struct Property {
+  const char* name;
+  std::span<const uint32_t> values;
+};
+
+void putPly(OutputBuffer& out, const MeshView& mesh, std::span<const Property> properties) {
   out.text("ply\nformat binary_little_endian 1.0\nelement vertex ");
   out.number(mesh.vertexCount());
   out.text("\nproperty double x\nproperty double y\nproperty double z\nelement face ");
   out.number(mesh.triangleCount());
   out.text("\nproperty list uchar uint vertex_indices\n");
-  out.text(regions.empty() ? "" : "property uint region\n");
+  for (const Property& property : properties) {
+    out.text("property uint ");
+    out.text(property.name);
+    out.character('\n');
+  }
   out.text("end_header\n");
   for (const double x : mesh.positions) putScalar(out, x);
   for (size_t t = 0; t < mesh.triangleCount(); ++t) {
     putScalar(out, uint8_t(3));
     for (const uint32_t v : mesh.triangles.subspan(3 * t, 3)) putScalar(out, v);
-    if (!regions.empty()) putScalar(out, regions[t]);
+    for (const Property& property : properties) putScalar(out, property.values[t]);
     out.advance();
   }
 }
 
-void putMesh(OutputBuffer& out, FileFormat format, const MeshView& mesh) {
+void putMesh(OutputBuffer& out, FileFormat format, const MeshView& mesh, const TriangleGroups* groups) {
   switch (format) {
     case FileFormat::obj:
-      return putObj(out, mesh);
+      return putObj(out, mesh, groups);
     case FileFormat::off:
       return putOff(out, mesh);
     case FileFormat::stl:
@@ -118,10 +137,11 @@ void writeTriangles(const Sink& sink, const RunOptions& options, const MeshView&
 }  // namespace
 }  // namespace detail
 
-void writeMesh(const Sink& sink, FileFormat format, const MeshView& mesh, const RunOptions& options) {
+void writeMesh(const Sink& sink, FileFormat format, const MeshView& mesh, const RunOptions& options, const TriangleGroups* groups) {
   detail::requireArrays(mesh);
+  const TriangleGroups* const checked = detail::checkedGroups(groups, mesh.triangleCount());
   detail::runCall("writing", [&] {
-    detail::writeTriangles(sink, options, mesh, [&](detail::OutputBuffer& out) { detail::putMesh(out, format, mesh); });
+    detail::writeTriangles(sink, options, mesh, [&](detail::OutputBuffer& out) { detail::putMesh(out, format, mesh, checked); });
   });
 }
 
@@ -132,9 +152,14 @@ void writeStl(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& opti
 
 void writePly(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options) {
   const detail::SurfaceTriangles surface = detail::triangulateSurface({cutMesh, options});
+  std::vector<detail::Property> properties = {{"region", surface.region}};
+  std::vector<uint32_t> group;
+  if (const TriangleGroups* groups = detail::checkedGroups(options.groups, cutMesh.triangleCount)) {
+    for (const uint32_t f : surface.face) group.push_back(uint32_t(groups->of(cutMesh.faceTriangle[f])));
+    properties.push_back({"group", group});
+  }
   detail::runCall("writing", [&] {
-    detail::writeTriangles(sink, options, surface.mesh,
-                           [&](detail::OutputBuffer& out) { detail::putPly(out, surface.mesh, surface.region); });
+    detail::writeTriangles(sink, options, surface.mesh, [&](detail::OutputBuffer& out) { detail::putPly(out, surface.mesh, properties); });
   });
 }
 

@@ -57,6 +57,8 @@ using Sink = std::function<void(std::string_view)>;
 /// The complete dump as JSON: format, version, grid, the arrays of CutMesh under their names, gridCellRegion (as CutMesh::gridCellRegion())
 /// and triangleCount. Without winding numbers, regionWinding has a null for each region. Doubles read back identically.
 void writeJson(const Sink& sink, const CutMesh& cutMesh, const RunOptions& options = {});
+/// The same with two arrays more: groupNames, and triangleGroup per triangle of the input; with neither if there are no groups.
+void writeJson(const Sink& sink, const CutMesh& cutMesh, const TriangleGroups& groups, const RunOptions& options);
 /// The cut-mesh as bytes that readCutMesh() takes, in Mandoline's own format: compressed, with a version and a checksum of each array. The
 /// same cut-mesh always gives the same bytes.
 void writeMcm(const Sink& sink, const CutMesh& cutMesh, const RunOptions& options = {});
@@ -77,14 +79,15 @@ void writeVtu(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells
 /// with the same numbers.
 void writeFacesVtu(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, std::span<const Field> faceFields = {},
                    const WriteOptions& options = {});
-/// The cut surface.
+/// The cut surface; with groups, the triangles of .ply also have a property group.
 void writeObj(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options = {});
 void writeStl(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options = {});
 void writePly(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options = {});
 /// A cut-mesh as json, mcm, vtu, obj, stl or ply. JSON and .mcm always have everything. Throws FileError for the others.
 void writeCutMesh(const Sink& sink, FileFormat format, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options = {});
-/// A mesh as obj, stl, ply or off. Throws FileError for the others.
-void writeMesh(const Sink& sink, FileFormat format, const MeshView& mesh, const RunOptions& options = {});
+/// A mesh as obj, stl, ply or off. Throws FileError for the others. OBJ has the groups as `g` lines, with '_' for blanks in names.
+void writeMesh(const Sink& sink, FileFormat format, const MeshView& mesh, const RunOptions& options = {},
+               const TriangleGroups* groups = nullptr);
 
 /// Outlines in parallel planes.
 struct OutlineStack {
@@ -104,7 +107,7 @@ void writeObj(std::ostream& out, const CutMesh& cutMesh, const WriteOptions& opt
 
 /// The same to files, by extension. A file appears when it is complete. Throws FileError.
 void writeCutMesh(const std::string& path, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options = {});
-void writeMesh(const std::string& path, const MeshView& mesh, const RunOptions& options = {});
+void writeMesh(const std::string& path, const MeshView& mesh, const RunOptions& options = {}, const TriangleGroups* groups = nullptr);
 /// Writes all cells as an OpenFOAM polyMesh: the files points, faces, owner, neighbour, boundary and, if there are cells of several
 /// regions, cellZones (region0, ...) in the folder, which is made if need be; they appear when all are complete. `cells` is made from the
 /// cut-mesh; which of them are written is up to the options. Patches are xMin ... zMax, `surface` (a wall), which has both sides of the
