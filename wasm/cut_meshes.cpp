@@ -97,7 +97,7 @@ ResolvedMesh readResolvedMesh(const val& object) {
 Grid readGrid(const val& grid, const MeshView& mesh) {
   const std::string kind = grid["kind"].as<std::string>();
   if (kind == "planes") return readPlanes(grid);
-  if (kind == "around") return Grid::around(mesh, int64_t(grid["cells"].as<double>()));
+  if (kind == "around") return Grid::around(mesh, int64_t(grid["cells"].as<double>()), grid["margin"].as<double>());
   const auto cells = readTriple<int64_t>(grid["cells"]);
   if (kind == "box") return Grid::box(readTriple<double>(grid["min"]), readTriple<double>(grid["max"]), cells);
   return Grid::regular(readTriple<double>(grid["origin"]), readTriple<double>(grid["spacing"]), cells);

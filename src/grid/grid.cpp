@@ -84,7 +84,8 @@ Grid Grid::around(const MeshView& mesh, int64_t n, double margin) {
     if (!(low[d] <= high[d])) low[d] = high[d] = 0;
     const double span = high[d] - low[d] + 2 * (margin * longest), middle = 0.5 * low[d] + 0.5 * high[d];
     // Rounding must not turn a side of just n cells into n + 1.
-    const int64_t cells = n < 1 ? n : std::clamp(int64_t(std::ceil(span / spacing * (1 - 1e-12))), int64_t(1), n);
+    const double count = std::ceil(span / spacing * (1 - 1e-12));
+    const int64_t cells = n < 1 || !(count < double(n)) ? n : int64_t(std::max(count, 1.0));
     grid.planes[d] = makePlanes(cells, [&](int64_t c) {
       const double halves = double(2 * c - cells);
       if (!safeToMultiply(spacing)) return middle + 0.5 * spacing * halves;

@@ -220,6 +220,9 @@ test('a grid around the mesh has a margin and cubic cells', () => {
   const { grid: around } = mandoline.cut(box([0, 0, 0], [1, 0.5, 0.25]), { cells: 11 });
   around.spacing.forEach((spacing) => assert.ok(Math.abs(spacing - 0.1) < 1e-15));
   assert.deepEqual(around.cells, [11, 6, 4]);
+  const { grid: wide } = mandoline.cut(box([0, 0, 0], [1, 0.5, 0.25]), { cells: 20, margin: 2 });
+  assert.deepEqual(wide.spacing, [0.25, 0.25, 0.25]);
+  assert.deepEqual(wide.cells, [20, 18, 17]);
 });
 
 test('gridCellRegion may be left out', () => {
@@ -488,6 +491,8 @@ test('failures are named', () => {
     [() => mandoline.cut({ ...finite, triangles: [0, 1, 2 ** 32] }, { cells: 3 }), { code: 'badIndex', element: 0 }],
     [() => mandoline.cut(broken, { cells: 3 }), { code: 'nonFiniteCoordinate', element: 2 }],
     [() => mandoline.cut(finite, { cells: 0 }), { code: 'badGrid', stage: 'input' }],
+    [() => mandoline.cut(finite, { cells: 4, margin: NaN }), { code: 'badGrid', stage: 'input' }],
+    [() => mandoline.cut(finite, { cells: 4, margin: '1' }), { code: 'badArgument' }],
     [() => mandoline.cut(finite, { cells: -(2 ** 70) }), { code: 'badGrid' }],
     [() => mandoline.cut(finite, { planes: [[0, 1], [0, 0], [0, 1]] }), { code: 'badGrid', element: 1 }],
     [() => mandoline.cut(finite, { planes: [[0, 1], [0, 1], [0, NaN]] }), { code: 'badGrid', element: 2 }],

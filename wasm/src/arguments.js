@@ -121,7 +121,7 @@ export function readGrid(grid) {
   if ('spacing' in grid || 'origin' in grid) {
     return { kind: 'regular', origin: vector('origin'), spacing: vector('spacing'), cells: cells() };
   }
-  return { kind: 'around', cells: readCount(grid.cells, 'grid.cells') };
+  return { kind: 'around', cells: readCount(grid.cells, 'grid.cells'), margin: expectNumber(grid.margin ?? 0.05, 'grid.margin') };
 }
 
 export function readOptions(options) {

@@ -27,11 +27,13 @@ export interface Mesh {
 export type Vector3 = readonly [number, number, number];
 
 /**
- * A grid around the mesh: cubic cells of size 1.1 x longest side of its bounding box / `cells`, as many per axis as cover the box with that
- * margin, centred.
+ * A grid around the mesh's bounding box and a margin all around it: cubic cells, `cells` along the longest side and as many along the
+ * others as cover it, centred.
  */
 export interface GridAround {
   cells: number;
+  /** In longest sides of the bounding box. Default 0.05. */
+  margin?: number;
 }
 /** The box from `min` to `max` in `cells[d]` cells per axis: per axis, plane c lies at min + (max - min) * c / cells. */
 export interface GridBox {
