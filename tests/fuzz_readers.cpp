@@ -23,5 +23,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   } catch (const mandoline::FileError& error) {
     if (std::string(error.what()).find(name + ": ") != 0) std::abort();
   }
+  try {
+    mandoline::readGroups({reinterpret_cast<const char*>(data) + 1, size - 1}, name);
+  } catch (const mandoline::FileError&) {
+  }
   return 0;
 }

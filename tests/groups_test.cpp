@@ -23,6 +23,7 @@ TriangleGroups groupsOf(const std::string& name, const std::string& content) {
   REQUIRE(fromFile.mesh.triangles == mesh.triangles);
   REQUIRE(fromFile.groups.names == fromBytes.groups.names);
   REQUIRE(fromFile.groups.triangleGroup == fromBytes.groups.triangleGroup);
+  REQUIRE(readGroups(content, name).triangleGroup == fromBytes.groups.triangleGroup);
   REQUIRE(fromBytes.groups.triangleGroup.size() == (fromBytes.groups.empty() ? 0 : mesh.triangleCount()));
   return fromBytes.groups;
 }
@@ -108,6 +109,14 @@ TEST_CASE("STL: the words of a facet, whatever they are", "[groups]") {
   const std::string text =
       "SOLID a\nFACET normal facet endsolid solid OUTER loop vertex 0 0 0 vertex 1 0 0\nvertex 0 1 0 endloop endfacet\nENDSOLID\n";
   requireGroups(groupsOf("a.stl", text + solid("b", 1)), {"a", "b"}, {0, 1});
+}
+
+TEST_CASE("Groups of what is no mesh", "[groups]") {
+  for (const std::string content : {"", "solid a\nfacet normal 0 0", "solid a\nfacet", "solid a\nfoo\nsolid b\n", "what?"}) {
+    CHECK_THROWS_AS(readGroupedMesh(content, "a"), FileError);
+  }
+  CHECK(readGroups(std::string("f 1 2\ng a\nf\nf 1 2 3\n"), "a.obj").names == Names{"a"});
+  CHECK_THROWS_AS(readGroups(std::string("solid a\nfacet"), "a.stl"), FileError);
 }
 
 TEST_CASE("Files without groups: binary STL, PLY and OFF", "[groups]") {

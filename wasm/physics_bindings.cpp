@@ -4,6 +4,7 @@
 
 #include "complexes.h"
 #include "cut_meshes.h"
+#include "mandoline/mesh_files.h"
 #include "mandoline/validate.h"
 #include "results.h"
 
@@ -178,6 +179,16 @@ val seedsOf(const val& grid, const val& wind, uint32_t count) {
   });
 }
 
+/// The bytes are unpacked.
+val groupsOf(const val& bytes, const std::string& name) {
+  return guarded([&] {
+    std::vector<char> content;
+    readArray(bytes, content);
+    const TriangleGroups groups = readGroups(content, name);
+    return success(object({{"names", val::array(groups.names)}, {"triangleGroup", toArray(groups.triangleGroup)}}));
+  });
+}
+
 std::string version() { return MANDOLINE_VERSION; }
 
 }  // namespace
@@ -205,4 +216,5 @@ EMSCRIPTEN_BINDINGS(physics) {
   emscripten::function("velocityAt", &velocitiesAt);
   emscripten::function("streamlines", &streamlinesFrom);
   emscripten::function("inflowSeeds", &seedsOf);
+  emscripten::function("readGroups", &groupsOf);
 }

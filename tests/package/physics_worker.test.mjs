@@ -60,10 +60,11 @@ test('every call gives the same, and arrays are sent once', () => withWatched(as
     outwardNormals: [boundary, cells], cellComponents: [cells], poissonSystem: [cells, { source }],
     solvePoisson: [cells, { source }, { balance: true }], solveFlow: [cells, [1, 0, 0]], velocityAt: [field, source.subarray(0, 60)],
     streamlines: [field, seeds], inflowSeeds: [cutMesh.grid, [1, 0, 0], 20],
+    readGroups: [new TextEncoder().encode('v 0 0 0\nv 1 0 0\nv 0 1 0\ng a\nf 1 2 3\n'), { name: 'a.obj' }],
   };
   const replaced = new Map([[cells, expected], [field, { mesh, cutMesh: cut(mesh, grid), cells: expected, flow }]]);
   for (const [name, args] of Object.entries(calls)) {
-    assert.deepEqual(await worker[name](...args), physics[name](...args.map((arg) => replaced.get(arg) ?? arg)), name);
+    assert.deepEqual(await worker[name](...args), await physics[name](...args.map((arg) => replaced.get(arg) ?? arg)), name);
   }
   assert.deepEqual(Object.keys(physics).filter((name) => !(name in calls)).sort(), ['cellComplex', 'coarsen', 'version']);
   assert.deepEqual(sent.filter(({ data }) => data.length > 0).map(({ call }) => call), ['coarsen']); // what cut() gave

@@ -92,7 +92,7 @@ test('results', () => {
   assert.throws(() => compile(`${types}\nexport const wrong: CutEdges = ${literal({ edgeVertices: new Uint32Array() })};`));
 });
 
-test('results of mandoline-wasm/physics', () => {
+test('results of mandoline-wasm/physics', async () => {
   const boundary = physics.boundaryOf(cells, { xMin: { dirichlet: 0 } });
   const flow = physics.solveFlow(cells, [1, 0, 0]);
   const results = [
@@ -110,6 +110,7 @@ test('results of mandoline-wasm/physics', () => {
     ['Float64Array', physics.velocityAt({ mesh, cutMesh, cells, flow }, [1, 1, 1])],
     ['Streamlines', physics.streamlines({ mesh, cutMesh, cells, flow }, [1, 1, 1])],
     ['Float64Array', physics.inflowSeeds(cutMesh.grid, [1, 0, 0], 3)],
+    ['TriangleGroups', await physics.readGroups(new TextEncoder().encode('v 0 0 0\nv 1 0 0\nv 0 1 0\ng a\nf 1 2 3\n'))],
     ['Solution', physics.solvePoisson(cells, { boundary, source: cells.cellVolume })],
   ];
   assertCompiles(declared(results, 'mandoline-wasm/physics').text);

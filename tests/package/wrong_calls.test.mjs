@@ -162,6 +162,7 @@ const parameters = {
   velocityAt: ['field', 'seeds'],
   streamlines: ['field', 'seeds', 'following'],
   inflowSeeds: ['grid', 'vector', 'count'],
+  readGroups: ['file', 'options'],
 };
 
 /** Calls one of these at random, a thousand times. Gives how many calls were fine, and how many had each code. */

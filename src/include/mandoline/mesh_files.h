@@ -41,5 +41,7 @@ struct GroupedMesh {
 /// its solids; one of several that has no name is called solid0, by its place in the file.
 GroupedMesh readGroupedMesh(const std::string& path);
 GroupedMesh readGroupedMesh(std::span<const char> bytes, const std::string& name);
+/// Only the groups, of a file that readMesh() takes.
+TriangleGroups readGroups(std::span<const char> bytes, const std::string& name);
 
 }  // namespace mandoline

@@ -44,9 +44,11 @@ class Labels {
 
 std::string_view firstWord(std::string_view names) { return names.substr(0, names.find_first_of(" \t\v\f")); }
 
-// The files have been read, so that all of their polygons and solids are as they should be.
+// Files that readMesh() takes have polygons and solids as they should be; of others there are some groups, or a FileError.
 
 TriangleGroups readObjGroups(const FileBytes& file) {
+  const auto lacks = [&](std::string_view word) { return file.bytes.find(word) == std::string_view::npos; };
+  if (lacks("g") && lacks("usemtl")) return {};  // as most files do
   Labels groups, materials;
   for (TextCursor cursor(file.path, file.bytes); cursor.more(); cursor.nextLine()) {
     const std::string_view keyword = cursor.word("a keyword");
@@ -55,8 +57,9 @@ TriangleGroups readObjGroups(const FileBytes& file) {
     if (keyword != "f") continue;
     size_t corners = 0;
     for (; cursor.moreOnLine(); ++corners) objCorner(cursor);
-    groups.add(corners - 2);
-    materials.add(corners - 2);
+    const size_t triangles = corners < 2 ? 0 : corners - 2;
+    groups.add(triangles);
+    materials.add(triangles);
   }
   if (groups.hasNamed()) return groups.take();
   return materials.hasNamed() ? materials.take() : TriangleGroups();
@@ -88,19 +91,22 @@ TriangleGroups readStlGroups(const FileBytes& file) {
   return named || groups.names.size() > 1 ? groups : TriangleGroups();
 }
 
+TriangleGroups readUnpackedGroups(const FileBytes& file) {
+  const MeshFormat format = meshFormatOf(file);
+  if (format == MeshFormat::obj) return readObjGroups(file);
+  return format == MeshFormat::stl ? readStlGroups(file) : TriangleGroups();
+}
+
 }  // namespace
 }  // namespace detail
 
+TriangleGroups readGroups(std::span<const char> bytes, const std::string& name) {
+  return detail::readWith(detail::readUnpackedGroups, bytes, name);
+}
+
 GroupedMesh readGroupedMesh(std::span<const char> bytes, const std::string& name) {
-  using namespace detail;
-  const auto read = [](const FileBytes& file) {
-    GroupedMesh result{readUnpacked(file), {}};
-    const MeshFormat format = meshFormatOf(file);
-    if (format == MeshFormat::obj) result.groups = readObjGroups(file);
-    if (format == MeshFormat::stl) result.groups = readStlGroups(file);
-    return result;
-  };
-  return readWith(read, bytes, name);
+  const auto read = [](const detail::FileBytes& file) { return GroupedMesh{detail::readUnpacked(file), detail::readUnpackedGroups(file)}; };
+  return detail::readWith(read, bytes, name);
 }
 
 GroupedMesh readGroupedMesh(const std::string& path) {

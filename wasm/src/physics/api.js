@@ -1,6 +1,7 @@
 // The calls of mandoline-wasm/physics, on a module that has been started.
 import { readFlag, readId, readMesh, readOptions, readPoints, readVector } from '../arguments.js';
 import { named } from '../errors.js';
+import { readFile } from '../files.js';
 import { withProgress } from '../progress.js';
 import {
   readBoundary, readCellIds, readCoarsenOptions, readConditions, readField, readFreeConstant, readLimits, readOctree, readOperatorOptions,
@@ -89,6 +90,10 @@ function callsOf(host) {
     inflowSeeds: (grid, wind, count) => {
       const input = [readPlacedGrid(grid), readVector(wind, 'wind'), readId(count, 'count')];
       return host.run((bindings) => bindings.inflowSeeds(...input));
+    },
+    readGroups: async (source, options) => {
+      const { name, bytes } = await readFile(source, options);
+      return host.run((bindings) => bindings.readGroups(bytes, name));
     },
   };
 }

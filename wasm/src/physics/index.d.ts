@@ -13,7 +13,9 @@
  * Arrays and calls have the names that they have in the C++ library, and like in index.d.ts all arrays are flat, all ids count from 0, and
  * every offsets array starts with 0 and has one more entry than there are items.
  */
-import type { CutMesh, Grid, GridBox, GridRectilinear, GridRegular, Mesh, RunOptions, Vector3, WasmSource } from '../index.js';
+import type {
+  CutMesh, Grid, GridBox, GridRectilinear, GridRegular, Mesh, ReadMeshOptions, RunOptions, Vector3, WasmSource,
+} from '../index.js';
 
 export { MandolineError, describe } from '../index.js';
 
@@ -401,6 +403,20 @@ export interface Physics {
    * is not finite, "badGrid" if the grid has no cells.
    */
   inflowSeeds(grid: Grid | GridBox | GridRegular | GridRectilinear, wind: Vector3, count: number): Float64Array<ArrayBuffer>;
+  /**
+   * The groups of the triangles that readMesh() reads from a file. Of OBJ: what `g` lines name, of several names on a line the first;
+   * triangles before them are in the group "default"; where no triangle comes after a `g` line, what `usemtl` lines name. Of STL in text:
+   * its solids; one of several that has no name is called solid0, by its place in the file.
+   */
+  readGroups(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions): Promise<TriangleGroups>;
+}
+
+/** What files call groups, materials or solids: names for the triangles of a mesh. */
+export interface TriangleGroups {
+  /** Per group, in the order of first triangles: each differs, and has a triangle. */
+  names: string[];
+  /** Per triangle: its group; empty if there are no groups. That of a face of a triangle is triangleGroup[cutMesh.faceTriangle[f]]. */
+  triangleGroup: Uint32Array<ArrayBuffer>;
 }
 
 export interface PhysicsOptions {

@@ -1,10 +1,10 @@
 /** The worker of `mandoline-wasm/worker` that also computes: the calls of `mandoline-wasm/physics` as promises. Browsers and Node. */
-import type { CutMesh, Grid, GridBox, GridRectilinear, GridRegular, Mesh, RunOptions, Vector3 } from '../index.js';
+import type { CutMesh, Grid, GridBox, GridRectilinear, GridRegular, Mesh, ReadMeshOptions, RunOptions, Vector3 } from '../index.js';
 import type { CallOptions, MandolineWorker, WorkerOptions } from '../worker.js';
 import type {
   Boundary, CellComplex, CellComponents, CoarsenOptions, ComplexEdges, Conditions, Flow, FlowField, FlowOptions, OctreeCells,
   OperatorOptions, Operators, PhysicsOptions, PoissonProblem, PoissonSystem, Solution, SolveOptions, StreamlineOptions, Streamlines,
-  SubComplex,
+  SubComplex, TriangleGroups,
 } from './index.js';
 
 export { MandolineError, describe } from '../index.js';
@@ -37,6 +37,7 @@ export interface PhysicsWorker extends MandolineWorker {
   inflowSeeds(
     grid: Grid | GridBox | GridRegular | GridRectilinear, wind: Vector3, count: number, options?: CallOptions,
   ): Promise<Float64Array<ArrayBuffer>>;
+  readGroups(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions & CallOptions): Promise<TriangleGroups>;
 }
 
 /** Starts a worker that has loaded the cutter's module. Errors as those of createWorker() of `mandoline-wasm/worker`. */
