@@ -160,6 +160,7 @@ TEST_CASE("Command line: wrong usage exits with 2", "[cli]") {
       {{"cut", mesh, "--only", "cut", "-o", folder.path("a.json")}, "a.json: .json files always have everything"},
       {{"cut", mesh, "-o", folder.path("{region}.json")}, ".json files always have everything"},
       {{"cut", mesh, "--coarsen", "x"}, "--coarsen needs a number of levels, not 'x'"},
+      {{"cut", mesh, "--faces", "-o", folder.path("a.obj")}, "--faces: only .vtu files have faces instead of cells"},
       {{"cut", mesh, "--coarsen", "2", "-o", folder.path("a.obj")}, "--coarsen: only .vtu files and polyMesh folders have cells"},
       {{"cut", mesh, "-o", "-"}, "-o - needs --format"},
       {{"cut", mesh, "-o", "-", "--format", "exe"}, "--format needs an extension such as vtu, not 'exe'"},
@@ -370,6 +371,9 @@ TEST_CASE("Command line: groups of the input are patches, and stay through resol
   CHECK(contains(folder.read("polyMesh/boundary"), "left\n{\n    type wall;"));
   CHECK(contains(folder.read("polyMesh/boundary"), "right\n{\n    type wall;"));
   CHECK(folder.read("polyMesh/boundary").find("surface\n{") == std::string::npos);
+  REQUIRE(run(folder, {"cut", mesh, "--cells", "5", "--faces", "-o", folder.path("faces.vtu")}).exitCode == 0);
+  CHECK(contains(folder.read("faces.vtu"), "Name=\"group\""));
+  CHECK(contains(folder.read("faces.vtu"), "Name=\"group_names\""));
 
   REQUIRE(run(folder, {"resolve", mesh, "-o", folder.path("resolved.obj")}).exitCode == 0);
   const auto [resolved, kept] = mandoline::readGroupedMesh(folder.path("resolved.obj"));
@@ -587,6 +591,11 @@ TEST_CASE("Command line: flow writes cells with velocities, and streamlines", "[
   for (const std::string part :
        {"\"status\": \"converged\",", "\"wind\": [\n    2,\n    0,", "\"residuals\": [\n    1,", "\"throttled\": []\n"})
     REQUIRE(contains(folder.read("r.json"), part));
+  REQUIRE(run(folder, {"flow", mesh, "--wind", "2,0,0", "--cells", "4", "--faces", "-o", folder.path("faces.vtu")}).exitCode == 0);
+  for (const std::string part : {"normal_velocity", "area", "normal", "tag", "triangle", "cells"})
+    REQUIRE(contains(folder.read("faces.vtu"), "Name=\"" + part + "\""));
+  REQUIRE(
+      contains(run(folder, {"flow", mesh, "--wind", "2,0,0", "--faces", "-o", folder.path("lines.obj")}).err, "--faces: only .vtu files"));
   REQUIRE(contains(run(folder, {"flow", mesh, "-o", folder.path("flow.vtu")}).err, "flow needs --wind"));
   REQUIRE(contains(run(folder, {"flow", mesh, "--wind", "1,0", "-o", folder.path("flow.vtu")}).err, "--wind needs X,Y,Z, not '1,0'"));
   REQUIRE(contains(run(folder, {"flow", mesh, "--wind", "1,0,0", "-o", folder.path("flow.stl")}).err,

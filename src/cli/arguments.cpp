@@ -57,6 +57,7 @@ class Parser {
          [](Parser& p, const std::string& name) { p.parseThreads(p.value(name)); }},
         {"--validate", {C::cut}, [](Parser& p, const std::string&) { p.arguments_.validate = true; }},
         {"--coarsen", {C::cut, C::flow}, [](Parser& p, const std::string& name) { p.parseCoarsen(p.value(name)); }},
+        {"--faces", {C::cut, C::flow}, [](Parser& p, const std::string&) { p.arguments_.faces = true; }},
         {"--wind", {C::flow}, [](Parser& p, const std::string& name) { parseWind(p.value(name), p.arguments_.flow); }},
         {"--streamlines", {C::flow}, [](Parser& p, const std::string& name) { parseStreamlines(p.value(name), p.arguments_.flow); }},
         {"--axis", {C::slice}, [](Parser& p, const std::string& name) { parseAxis(p.value(name), p.arguments_.slice); }},

@@ -19,7 +19,7 @@ void checkOutputs(const Arguments& arguments) {
   std::vector<NamedFile> files;
   if (arguments.mesh != "-") files.push_back({"the mesh", arguments.mesh});
   if (!arguments.report.empty()) files.push_back({"--report", arguments.report});
-  bool hasCells = false;
+  bool hasCells = false, hasVtu = false;
   for (const std::string& output : arguments.outputs) {
     if (isPolyMesh(output)) {
       hasCells = true;
@@ -33,10 +33,12 @@ void checkOutputs(const Arguments& arguments) {
     if (hasAll && (arguments.only.any() || output.find(kRegionMark) != std::string::npos)) {
       throw UsageError("-o " + output + ": ." + name(format) + " files always have everything");
     }
-    hasCells |= format == FileFormat::vtu;
+    hasVtu |= format == FileFormat::vtu;
     files.push_back({"-o", output});
   }
-  if (arguments.coarsen && !hasCells) throw UsageError("--coarsen: only .vtu files and polyMesh folders have cells away from the surface");
+  if (arguments.coarsen && !hasCells && !hasVtu)
+    throw UsageError("--coarsen: only .vtu files and polyMesh folders have cells away from the surface");
+  if (arguments.faces && !hasVtu) throw UsageError("--faces: only .vtu files have faces instead of cells");
   requireDifferent(files);
 }
 
@@ -78,7 +80,7 @@ class Writer {
 
   void write(const Output& output) {
     const bool isFolder = isPolyMesh(output.path);
-    const bool ofComplex = isFolder || (arguments_.coarsen && formatFor(arguments_, output.path) == FileFormat::vtu);
+    const bool ofComplex = isFolder || ((arguments_.coarsen || arguments_.faces) && formatFor(arguments_, output.path) == FileFormat::vtu);
     if (ofComplex && !cells_) cells_ = makeCells(arguments_, mesh_, cutMesh_);
     withProgress(arguments_.threads, [&](const RunOptions& run) {
       WriteOptions options = output.options;
@@ -89,6 +91,7 @@ class Writer {
         return writePolyMesh(output.path, cutMesh_, *cells_, options);
       }
       writeOutput(output.path, [&](const Sink& sink) {
+        if (ofComplex && arguments_.faces) return writeFacesVtu(sink, cutMesh_, *cells_, {}, options);
         if (ofComplex) return writeVtu(sink, cutMesh_, *cells_, {}, options);
         writeCutMesh(sink, formatFor(arguments_, output.path), mesh_, cutMesh_, options);
       });

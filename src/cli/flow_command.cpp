@@ -32,6 +32,11 @@ void writeLines(const Sink& sink, const Streamlines& lines) {
   }
 }
 
+void writeFaces(const Sink& sink, const FlowField& field, const WriteOptions& options) {
+  const Field fields[] = {{"normal_velocity", field.flow.faceVelocity}, {"normal", field.cells.faceNormal}, {"area", field.cells.faceArea}};
+  writeFacesVtu(sink, field.cutMesh, field.cells, fields, options);
+}
+
 void writeCells(const Sink& sink, const FlowField& field, const WriteOptions& options) {
   const Flow& flow = field.flow;
   const Field fields[] = {{"phi", flow.phi}, {"velocity", flow.cellVelocity}, {"pressure_coefficient", flow.cellPressure}};
@@ -92,12 +97,17 @@ constexpr double kMargin = 0.5;
 
 int runFlow(const Arguments& arguments) {
   checkOutputs(arguments, isFlowFormat, "a flow is written as .vtu or .obj");
-  const Mesh mesh = readInput(arguments.mesh);
+  const auto isVtu = [&](const std::string& output) { return formatFor(arguments, output) == FileFormat::vtu; };
+  if (arguments.faces && std::none_of(arguments.outputs.begin(), arguments.outputs.end(), isVtu))
+    throw UsageError("--faces: only .vtu files have faces instead of cells");
+  const GroupedMesh input = readGroupedInput(arguments.mesh);
+  const Mesh& mesh = input.mesh;
   GridArguments grid = arguments.grid;
   if (!grid.margin) grid.margin = kMargin;
   const std::optional<CutMesh> cutMesh = cutOrComplain(arguments, mesh, grid);
   if (!cutMesh) return kNotCut;
   WriteOptions options = writeOptions(arguments.only, *cutMesh);
+  options.groups = &input.groups;
   const CellComplex cells = makeCells(arguments, mesh, *cutMesh);
   const Flow flow =
       withProgress(arguments.threads, [&](const RunOptions& run) { return solveFlow(cells, *arguments.flow.wind, FlowOptions{run}); });
@@ -105,9 +115,10 @@ int runFlow(const Arguments& arguments) {
   deliver({arguments, field});
   for (const std::string& output : arguments.outputs) {
     withProgress(arguments.threads, [&](const RunOptions& run) {
-      if (formatFor(arguments, output) == FileFormat::vtu) {
+      if (isVtu(output)) {
         static_cast<RunOptions&>(options) = run;
-        return writeOutput(output, [&](const Sink& sink) { writeCells(sink, field, options); });
+        const auto& write = arguments.faces ? writeFaces : writeCells;
+        return writeOutput(output, [&](const Sink& sink) { write(sink, field, options); });
       }
       const std::vector<double> seeds = inflowSeeds(cutMesh->grid, *arguments.flow.wind, arguments.flow.streamlines);
       const Streamlines lines = streamlines(field, seeds, StreamlineOptions{run});

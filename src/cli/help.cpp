@@ -68,6 +68,8 @@ Options of cut
                          each region written, oriented out of it
   --coarsen LEVELS       merge untouched grid cells into octree cells, up to 2^LEVELS of
                          them on a side, in .vtu files and polyMesh folders
+  --faces                in .vtu files, the faces of all cells as polygons, with tag,
+                         triangle, cells and group, instead of cells
   --format EXTENSION     what -o - writes to standard output; the text of the report then
                          goes to standard error
 
@@ -85,8 +87,8 @@ Options of slice
 Options of flow
   --wind X,Y,Z           the wind's velocity: it blows on the sides of the grid, and nothing
                          passes the mesh, nor either side of a sheet
-  --coarsen LEVELS, --only WHAT
-                         as of cut
+  --coarsen LEVELS, --faces, --only WHAT
+                         as of cut; faces have normal_velocity, normal and area
   --streamlines N        how many lines (default: 100), from where the wind enters
   -o FILE ...            .vtu all cells with phi, velocity and pressure_coefficient;
                          .obj streamlines, none of which passes a triangle
