@@ -31,6 +31,7 @@ void Tracer::trace(const Point& seed, size_t cell, Streamlines& lines) {
   enter(cell);
   at_ = seed;
   time_ = length_ = 0;
+  mark_ = seed, markLength_ = 0, sinceMark_ = 0;
   crossed_ = held_ = {};
   lines.offsets.push_back(uint32_t(lines.speeds.size()));
   push(seed);
@@ -202,7 +203,18 @@ bool Tracer::advance(Point to) {
   at_ = to;
   length_ += way;
   crossed_ = held_ = {};
-  return true;
+  return getsNowhere() ? end(StreamlineEnd::rest) : true;
+}
+
+/// Potential flows have no closed lines, but where the velocities of cells contradict each other beside the surface, lines may go to and
+/// fro between them.
+bool Tracer::getsNowhere() {
+  constexpr int kSteps = 64;
+  constexpr double kLeast = 0.125;  // of the way
+  if (++sinceMark_ < kSteps) return false;
+  const bool nowhere = length(difference(at_, mark_)) < kLeast * (length_ - markLength_);
+  mark_ = at_, markLength_ = length_, sinceMark_ = 0;
+  return nowhere;
 }
 
 }  // namespace mandoline::physics

@@ -42,6 +42,7 @@ class Tracer {
   bool move(const Point& v);
   double shareInside(const Point& to, size_t& axis) const;
   bool advance(Point to);
+  bool getsNowhere();
   void push(const Point& p);
   bool end(StreamlineEnd why) {
     end_ = why;
@@ -66,6 +67,9 @@ class Tracer {
   Point at_{};
   double time_ = 0;  ///< of the next step; 0 for none yet
   double length_ = 0;
+  Point mark_{};  ///< where the line was a while ago, and how long
+  double markLength_ = 0;
+  int sinceMark_ = 0;                       ///< steps
   std::array<bool, 3> crossed_{}, held_{};  ///< at this point: axes whose side has been crossed, and that the line slides across
 };
 

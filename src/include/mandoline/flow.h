@@ -68,7 +68,7 @@ struct StreamlineOptions : RunOptions {
 enum class StreamlineEnd : uint8_t {
   side,       ///< on a side of the box, exactly
   surface,    ///< at the surface: its last point is before it, by rounding
-  rest,       ///< where nothing flows, or faster than doubles tell
+  rest,       ///< where nothing flows, or faster than doubles tell; or to and fro, as it may beside the surface
   maxLength,  ///< its length is that
   maxPoints,  ///< it has as many
   outside     ///< its seed is not in the grid; it has no points

@@ -314,8 +314,8 @@ export interface StreamlineOptions extends RunOptions {
 
 /**
  * Where a streamline ends, by its `ends`: streamlineEnds[lines.ends[l]]. "side": on a side of the box, exactly; "surface": at the surface,
- * its last point is before it, by rounding; "rest": where nothing flows, or faster than doubles tell; "maxLength": its length is that;
- * "maxPoints": it has as many; "outside": its seed is not in the grid, it has no points.
+ * its last point is before it, by rounding; "rest": where nothing flows, or faster than doubles tell, or to and fro, as it may beside the
+ * surface; "maxLength": its length is that; "maxPoints": it has as many; "outside": its seed is not in the grid, it has no points.
  */
 export const streamlineEnds: readonly ['side', 'surface', 'rest', 'maxLength', 'maxPoints', 'outside'];
 export type StreamlineEnd = (typeof streamlineEnds)[number];
