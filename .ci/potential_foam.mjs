@@ -74,8 +74,8 @@ function difference(mine, expected) {
  * are off beside faces that are not convex. Prints also how far ours are with our centroids, and with the centres that solveFlow() takes.
  */
 export async function checkPotentialFoam(meshes) {
-  const { init } = await import('../wasm/dist/index.js');
-  const { initPhysics } = await import('../wasm/dist/physics.js');
+  const { init } = await import('mandoline-wasm');
+  const { initPhysics } = await import('mandoline-wasm/physics');
   const [{ cut, readMesh }, physics] = await Promise.all([init(), initPhysics()]);
   const n = 16;
   const rows = [];
