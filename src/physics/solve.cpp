@@ -65,9 +65,9 @@ class Solver {
     result_.phi.resize(cells_.cellCount());
     components_ = cellComponents(cells_);
     held_ = physics::heldComponents(cells_, problem_.boundary, components_);
-    if (!balance()) return std::move(result_);
-    Vector held(cells_.cellCount());
     const Vector coefficients = physics::dirichletCoefficients(cells_, problem_);
+    if (!balance(absolutes(coefficients))) return std::move(result_);
+    Vector held(cells_.cellCount());
     for (size_t b = 0; b < coefficients.size(); ++b) held[size_t(cells_.faceCells[problem_.boundary.halfFaces[b]])] += coefficients[b];
     physics::Multigrid multigrid(cells_, physics::dualEdges(cells_, problem_.dualPoints), held);
     const Operator matrix(system_.matrix, held);
@@ -79,9 +79,8 @@ class Solver {
   }
 
  private:
-  /// Takes what is in excess out of the right side; false if that is too much.
-  bool balance() {
-    const Vector given = absolutes();
+  /// Takes what is in excess out of the right side; false if that is too much. `given`: absolutes().
+  bool balance(const Vector& given) {
     const size_t n = components_.count;
     Vector excess = excesses(), absolute(n);
     double all = 0;
@@ -106,13 +105,15 @@ class Solver {
     return true;
   }
 
-  /// Per cell: the sum of all that flows in or out by the data, each without its sign.
-  Vector absolutes() const {
+  /// Per cell: the terms of the right side, each without its sign.
+  Vector absolutes(const Vector& dirichletCoefficients) const {
     Vector sums(cells_.cellCount());
     for (size_t c = 0; c < problem_.source.size(); ++c) sums[c] = std::fabs(problem_.source[c]);
-    for (size_t b = 0; b < problem_.boundary.halfFaces.size(); ++b) {
-      const uint32_t h = problem_.boundary.halfFaces[b];
-      sums[size_t(cells_.faceCells[h])] += std::fabs(problem_.boundary.value[b] * cells_.faceArea[h / 2]);
+    const Boundary& boundary = problem_.boundary;
+    for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {
+      const uint32_t h = boundary.halfFaces[b];
+      const bool isNeumann = boundary.condition[b] == Condition::neumann;
+      sums[size_t(cells_.faceCells[h])] += std::fabs(boundary.value[b] * (isNeumann ? cells_.faceArea[h / 2] : dirichletCoefficients[b]));
     }
     return sums;
   }

@@ -157,6 +157,23 @@ TEST_CASE("solve: cells that only the tiniest faces connect", "[solve]") {
   }
 }
 
+TEST_CASE("solve: in any unit of length", "[solve]") {
+  const auto phi = [](double unit) {
+    const Mesh mesh = shapes::icosphere({3.3 * unit, 3.1 * unit, 2.9 * unit}, 1.7 * unit, 2);
+    const CellComplex cells = complexOf(mesh, Grid::box({0, 0, 0}, {7 * unit, 7 * unit, 7 * unit}, {7, 7, 7}));
+    PoissonProblem problem;
+    problem.boundary = boundaryOf(cells);
+    setBoundary(problem.boundary, cells, FaceTag::xMin, Condition::dirichlet, 1);
+    setBoundary(problem.boundary, cells, FaceTag::zMax, Condition::dirichlet, -1);
+    const Solution solution = solvePoisson(cells, problem, within(1e-13));
+    CHECK(solution.status == SolveStatus::converged);
+    return solution.phi;
+  };
+  const std::vector<double> expected = phi(1);
+  CHECK(largest(vectorOf(expected)) > 0.8);
+  for (const double unit : {0x1p-60, 0x1p60}) CHECK(largest(vectorOf(phi(unit)) - vectorOf(expected)) <= 1e-10);
+}
+
 TEST_CASE("solve: a plate edge-on changes nothing, broadside it blocks", "[solve]") {
   const CellComplex cells = complexOf(shapes::quad({1.5, 1.5, 2.5}, {4.5, 1.5, 2.5}, {4.5, 4.5, 2.5}, {1.5, 4.5, 2.5}), unitGrid(6));
   CHECK(linearError(cells, solvePoisson(cells, windAround(cells, {1, 0.5, 0}), within(1e-13)).phi, {1, 0.5, 0}) <= 1e-10);
