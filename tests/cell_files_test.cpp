@@ -372,3 +372,25 @@ TEST_CASE("cells and faces are written as .vtu with fields", "[cellfiles]") {
   const Field odd[] = {{"a<b", perFace}};
   CHECK(refusal([&] { vtuOf(cells, true, odd); }).first == Status::badArgument);
 }
+
+TEST_CASE("Cells as JSON: with the triangles and groups of faces", "[cellfiles]") {
+  const Cells cells(shapes::cube(0.5, 1.5), Grid::box({0, 0, 0}, {2, 2, 2}, {2, 2, 2}), 1);
+  const TriangleGroups groups{{"a", "b"}, {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1}};
+  const auto jsonOf = [](const CutMesh& cutMesh, const CellComplex& complex, const WriteOptions& options = {}) {
+    std::string text;
+    writeJson([&](std::string_view piece) { text += piece; }, cutMesh, complex, options);
+    return text;
+  };
+  const std::string plain = jsonOf(cells.cutMesh, cells.complex);
+  WriteOptions options;
+  options.groups = &groups;
+  const std::string grouped = jsonOf(cells.cutMesh, cells.complex, options);
+  const std::string start = "{\"format\":\"mandoline-cell-complex\",\n\"version\":1,\n\"cutVertices\":", end = "}\n";
+  CHECK(plain.substr(0, start.size()) == start);
+  CHECK(plain.find(",\n\"faceTriangle\":[") != std::string::npos);
+  CHECK(grouped ==
+        plain.substr(0, plain.size() - end.size()) + ",\n\"groupNames\":[\"a\",\"b\"],\n\"triangleGroup\":[0,0,1,1,0,0,1,1,0,0,1,1]" + end);
+
+  const Cells others(shapes::cube(0.5, 1.5), Grid::box({0, 0, 0}, {2, 2, 2}, {3, 3, 3}), 1);
+  CHECK(refusal([&] { jsonOf(others.cutMesh, cells.complex); }).first == Status::badArgument);
+}

@@ -161,7 +161,7 @@ TEST_CASE("Command line: wrong usage exits with 2", "[cli]") {
       {{"cut", mesh, "-o", folder.path("{region}.json")}, ".json files always have everything"},
       {{"cut", mesh, "--coarsen", "x"}, "--coarsen needs a number of levels, not 'x'"},
       {{"cut", mesh, "--faces", "-o", folder.path("a.obj")}, "--faces: only .vtu files have faces instead of cells"},
-      {{"cut", mesh, "--coarsen", "2", "-o", folder.path("a.obj")}, "--coarsen: only .vtu files and polyMesh folders have cells"},
+      {{"cut", mesh, "--coarsen", "2", "-o", folder.path("a.obj")}, "--coarsen: only .vtu and .json files and polyMesh folders have cells"},
       {{"cut", mesh, "-o", "-"}, "-o - needs --format"},
       {{"cut", mesh, "-o", "-", "--format", "exe"}, "--format needs an extension such as vtu, not 'exe'"},
       {{"cut", mesh, "-o", "-", "--format", "off"}, "--format needs json, mcm, vtu, obj, stl or ply, not off"},

@@ -4,14 +4,14 @@ namespace mandoline::wasm {
 
 double KeptComplex::bytes() const {
   double sum = 0;
-  forEachComplexArray(*cells_, [&](const char*, const auto& array) { sum += double(array.size() * sizeof array[0]); });
+  forEachArray(*cells_, [&](const char*, const auto& array) { sum += double(array.size() * sizeof array[0]); });
   return sum;
 }
 
 val describeComplexArrays() {
   val result = val::array();
   const CellComplex none;
-  forEachComplexArray(none, [&]<class Number>(const char* name, const std::vector<Number>&) {
+  forEachArray(none, [&]<class Number>(const char* name, const std::vector<Number>&) {
     result.call<void>("push", object({{"name", val(std::string(name))}, {"type", val(std::string(arrayType<Number>()))}}));
   });
   return result;
@@ -22,7 +22,7 @@ CellComplex readComplex(const val& object) {
   result.cutVertices = object["cutVertices"].as<uint32_t>();
   result.cutFaces = object["cutFaces"].as<uint32_t>();
   result.cutCells = object["cutCells"].as<uint32_t>();
-  forEachComplexArray(result, [&](const char* name, auto& array) { readArray(object[name], array); });
+  forEachArray(result, [&](const char* name, auto& array) { readArray(object[name], array); });
   return result;
 }
 
@@ -72,7 +72,7 @@ val toObject(const OctreeCells& octree) {
 
 val toObject(const CellComplex& cells) {
   val result = object({{"cutVertices", val(cells.cutVertices)}, {"cutFaces", val(cells.cutFaces)}, {"cutCells", val(cells.cutCells)}});
-  forEachComplexArray(cells, [&](const char* name, const auto& array) { result.set(name, toArray(array)); });
+  forEachArray(cells, [&](const char* name, const auto& array) { result.set(name, toArray(array)); });
   return result;
 }
 

@@ -8,28 +8,6 @@
 
 namespace mandoline::wasm {
 
-/// The arrays of a cell complex in order: f(name, array).
-template <class AnyComplex, class F>
-void forEachComplexArray(AnyComplex& cells, const F& f) {
-  f("positions", cells.positions);
-  f("loopOffsets", cells.loopOffsets);
-  f("loopVertices", cells.loopVertices);
-  f("faceLoopOffsets", cells.faceLoopOffsets);
-  f("faceCells", cells.faceCells);
-  f("faceTag", cells.faceTag);
-  f("faceArea", cells.faceArea);
-  f("faceNormal", cells.faceNormal);
-  f("faceCentroid", cells.faceCentroid);
-  f("cellHalfFaceOffsets", cells.cellHalfFaceOffsets);
-  f("cellHalfFaces", cells.cellHalfFaces);
-  f("cellCorner", cells.cellCorner);
-  f("cellLevel", cells.cellLevel);
-  f("cellCentre", cells.cellCentre);
-  f("cellRegion", cells.cellRegion);
-  f("cellVolume", cells.cellVolume);
-  f("cellCentroid", cells.cellCentroid);
-}
-
 /// A cell complex that stays until JavaScript deletes its handle, and for as long as a call works on it.
 class KeptComplex {
  public:

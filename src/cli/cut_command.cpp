@@ -34,10 +34,11 @@ void checkOutputs(const Arguments& arguments) {
       throw UsageError("-o " + output + ": ." + name(format) + " files always have everything");
     }
     hasVtu |= format == FileFormat::vtu;
+    hasCells |= format == FileFormat::vtu || format == FileFormat::json;
     files.push_back({"-o", output});
   }
-  if (arguments.coarsen && !hasCells && !hasVtu)
-    throw UsageError("--coarsen: only .vtu files and polyMesh folders have cells away from the surface");
+  if (arguments.coarsen && !hasCells)
+    throw UsageError("--coarsen: only .vtu and .json files and polyMesh folders have cells away from the surface");
   if (arguments.faces && !hasVtu) throw UsageError("--faces: only .vtu files have faces instead of cells");
   requireDifferent(files);
 }
@@ -80,7 +81,9 @@ class Writer {
 
   void write(const Output& output) {
     const bool isFolder = isPolyMesh(output.path);
-    const bool ofComplex = isFolder || ((arguments_.coarsen || arguments_.faces) && formatFor(arguments_, output.path) == FileFormat::vtu);
+    const std::optional<FileFormat> format = isFolder ? std::nullopt : std::optional(formatFor(arguments_, output.path));
+    const bool isVtu = format == FileFormat::vtu, isJson = format == FileFormat::json;
+    const bool ofComplex = isFolder || (arguments_.coarsen && (isVtu || isJson)) || (arguments_.faces && isVtu);
     if (ofComplex && !cells_) cells_ = makeCells(arguments_, mesh_, cutMesh_);
     withProgress(arguments_.threads, [&](const RunOptions& run) {
       WriteOptions options = output.options;
@@ -91,9 +94,10 @@ class Writer {
         return writePolyMesh(output.path, cutMesh_, *cells_, options);
       }
       writeOutput(output.path, [&](const Sink& sink) {
-        if (ofComplex && arguments_.faces) return writeFacesVtu(sink, cutMesh_, *cells_, {}, options);
-        if (ofComplex) return writeVtu(sink, cutMesh_, *cells_, {}, options);
-        writeCutMesh(sink, formatFor(arguments_, output.path), mesh_, cutMesh_, options);
+        if (!ofComplex) return writeCutMesh(sink, *format, mesh_, cutMesh_, options);
+        if (isJson) return writeJson(sink, cutMesh_, *cells_, options);
+        if (arguments_.faces) return writeFacesVtu(sink, cutMesh_, *cells_, {}, options);
+        writeVtu(sink, cutMesh_, *cells_, {}, options);
       });
     });
   }

@@ -67,7 +67,8 @@ Options of cut
                          any). With regions left out, a surface is the whole boundary of
                          each region written, oriented out of it
   --coarsen LEVELS       merge untouched grid cells into octree cells, up to 2^LEVELS of
-                         them on a side, in .vtu files and polyMesh folders
+                         them on a side, in .vtu files and polyMesh folders; .json files
+                         get all cells as one mesh (CellComplex) instead of the cut-mesh
   --faces                in .vtu files, the faces of all cells as polygons, with tag,
                          triangle, cells and group, instead of cells
   --format EXTENSION     what -o - writes to standard output; the text of the report then

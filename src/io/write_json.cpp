@@ -1,34 +1,9 @@
-#include "io/output_buffer.h"
+#include "io/json_members.h"
 #include "mesh/run_call.h"
 
 namespace mandoline {
 namespace detail {
 namespace {
-
-template <class Array>
-void writeArray(OutputBuffer& out, const Array& array) {
-  char separator = '[';
-  for (const auto& item : array) {
-    out.character(separator);
-    if constexpr (sizeof item == 1) {
-      out.number(int(item));  // not a character
-    } else {
-      out.number(item);
-    }
-    separator = ',';
-    out.advance();
-  }
-  if (separator == '[') out.character(separator);
-  out.character(']');
-}
-
-template <class Array>
-void writeMember(OutputBuffer& out, std::string_view key, const Array& array) {
-  out.text(",\n\"");
-  out.text(key);
-  out.text("\":");
-  writeArray(out, array);
-}
 
 void writeGrid(OutputBuffer& out, const Grid& grid) {
   out.text(",\n\"grid\":{\"origin\":");

@@ -1,6 +1,6 @@
 // The JSON dump with groups: that without, whose end is held back for two arrays more.
 #include "io/groups.h"
-#include "io/output_buffer.h"
+#include "io/json_members.h"
 #include "mesh/run_call.h"
 
 namespace mandoline {
@@ -24,21 +24,18 @@ void putString(OutputBuffer& out, std::string_view string) {
   out.character('"');
 }
 
-void putGroups(OutputBuffer& out, const TriangleGroups& groups) {
+}  // namespace
+
+void writeGroups(OutputBuffer& out, const TriangleGroups& groups) {
   out.text(",\n\"groupNames\":");
   for (size_t g = 0; g < groups.names.size(); ++g) {
     out.character(g == 0 ? '[' : ',');
     putString(out, groups.names[g]);
   }
-  out.text("],\n\"triangleGroup\":");
-  for (size_t t = 0; t < groups.triangleGroup.size(); ++t) {
-    out.character(t == 0 ? '[' : ',');
-    out.number(groups.triangleGroup[t]);
-  }
-  out.text(groups.triangleGroup.empty() ? "[]" : "]");
+  out.character(']');
+  writeMember(out, "triangleGroup", groups.triangleGroup);
 }
 
-}  // namespace
 }  // namespace detail
 
 void writeJson(const Sink& sink, const CutMesh& cutMesh, const TriangleGroups& groups, const RunOptions& options) {
@@ -55,7 +52,7 @@ void writeJson(const Sink& sink, const CutMesh& cutMesh, const TriangleGroups& g
   detail::runCall("writing", [&] {
     detail::Meter meter(sink, RunOptions{});
     detail::OutputBuffer out(meter);
-    detail::putGroups(out, groups);
+    detail::writeGroups(out, groups);
     out.text(kEnd);
     out.flush();
   });

@@ -44,6 +44,14 @@ function readVtu(file) {
   }));
 }
 
+/** The cells as the program writes them, on three threads. */
+function nativeCells(file, { min, max, cells }, maxLevel) {
+  const json = path(folder, 'cells.json');
+  const grid = ['--box', [...min, ...max].join(), '--cells', cells.join(), '--coarsen', String(maxLevel)];
+  execFileSync(program, ['cut', file, ...grid, '--threads', '3', '-o', json], { stdio: 'pipe' });
+  return JSON.parse(readFileSync(json));
+}
+
 /** What the program writes, on one thread and on three: { report, arrays, lines }. */
 function nativeFlow(file, { min, max, cells }, maxLevel) {
   const [report, vtu, obj] = ['report.json', 'flow.vtu', 'lines.obj'].map((name) => path(folder, name));
@@ -94,6 +102,14 @@ function compare(file, mesh, grid, maxLevel) {
   const { report, arrays, lines } = nativeFlow(file, grid, maxLevel);
   const cutMesh = cut(mesh, grid);
   const cells = physics.cellComplex(mesh, cutMesh, physics.coarsen(cutMesh, { maxLevel }));
+  const { format, version, faceTriangle, ...written } = nativeCells(file, grid, maxLevel);
+  assert.deepEqual([format, version], ['mandoline-cell-complex', 1]);
+  assertSame(faceTriangle, cutMesh.faceTriangle, 'faceTriangle');
+  assert.deepEqual(Object.keys(written).sort(), Object.keys(cells).sort());
+  for (const [name, values] of Object.entries(cells)) {
+    if (typeof values === 'number') assert.equal(written[name], values, name);
+    else assertSame(written[name], values, name);
+  }
   const flow = physics.solveFlow(cells, wind);
   const { status, cutCells, cells: cellCount, faces, throttled, residuals } = report;
   assert.deepEqual([status, cutCells, cellCount, faces], [flow.status, cells.cutCells, cells.cellRegion.length, cells.faceTag.length]);

@@ -58,6 +58,29 @@ struct CellComplex {
   }
 };
 
+/// The arrays of a cell complex in order: f(name, vector). All that reads, writes or describes them follows from it.
+template <class AnyComplex, class F>
+requires std::is_same_v<std::remove_const_t<AnyComplex>, CellComplex>
+void forEachArray(AnyComplex& cells, const F& f) {
+  f("positions", cells.positions);
+  f("loopOffsets", cells.loopOffsets);
+  f("loopVertices", cells.loopVertices);
+  f("faceLoopOffsets", cells.faceLoopOffsets);
+  f("faceCells", cells.faceCells);
+  f("faceTag", cells.faceTag);
+  f("faceArea", cells.faceArea);
+  f("faceNormal", cells.faceNormal);
+  f("faceCentroid", cells.faceCentroid);
+  f("cellHalfFaceOffsets", cells.cellHalfFaceOffsets);
+  f("cellHalfFaces", cells.cellHalfFaces);
+  f("cellCorner", cells.cellCorner);
+  f("cellLevel", cells.cellLevel);
+  f("cellCentre", cells.cellCentre);
+  f("cellRegion", cells.cellRegion);
+  f("cellVolume", cells.cellVolume);
+  f("cellCentroid", cells.cellCentroid);
+}
+
 /// `mesh` is the input that `cutMesh` was made from, and `octree` comes from coarsen(cutMesh); with maxLevel = 0 its cells are the
 /// untouched grid cells. Throws CallError if they don't belong together, if the faces have 2^31 corners or more (meshTooLarge), or if
 /// cancelled.

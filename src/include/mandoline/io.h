@@ -59,6 +59,9 @@ using Sink = std::function<void(std::string_view)>;
 void writeJson(const Sink& sink, const CutMesh& cutMesh, const RunOptions& options = {});
 /// The same with two arrays more: groupNames, and triangleGroup per triangle of the input; with neither if there are no groups.
 void writeJson(const Sink& sink, const CutMesh& cutMesh, const TriangleGroups& groups, const RunOptions& options);
+/// A cell complex made from the cut-mesh as JSON: format, version, cutVertices, cutFaces, cutCells, the arrays of CellComplex under their
+/// names, the cut-mesh's faceTriangle for its faces, and the two arrays of groups if there are any. It always has all cells.
+void writeJson(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options);
 /// The cut-mesh as bytes that readCutMesh() takes, in Mandoline's own format: compressed, with a version and a checksum of each array. The
 /// same cut-mesh always gives the same bytes.
 void writeMcm(const Sink& sink, const CutMesh& cutMesh, const RunOptions& options = {});

@@ -1,0 +1,37 @@
+// Members of JSON objects.
+#pragma once
+
+#include "io/output_buffer.h"
+#include "mandoline/io.h"
+
+namespace mandoline::detail {
+
+template <class Array>
+void writeArray(OutputBuffer& out, const Array& array) {
+  char separator = '[';
+  for (const auto& item : array) {
+    out.character(separator);
+    if constexpr (sizeof item == 1) {
+      out.number(int(item));  // not a character
+    } else {
+      out.number(item);
+    }
+    separator = ',';
+    out.advance();
+  }
+  if (separator == '[') out.character(separator);
+  out.character(']');
+}
+
+template <class Array>
+void writeMember(OutputBuffer& out, std::string_view key, const Array& array) {
+  out.text(",\n\"");
+  out.text(key);
+  out.text("\":");
+  writeArray(out, array);
+}
+
+/// groupNames and triangleGroup.
+void writeGroups(OutputBuffer& out, const TriangleGroups& groups);
+
+}  // namespace mandoline::detail
