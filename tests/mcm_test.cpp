@@ -148,8 +148,8 @@ TEST_CASE("files that are no saved cut-meshes are refused by name") {
   CHECK(errorOf(bytes.substr(0, loops + 99)) == byte(loops + 99) + "the file ends inside of loopVertices");
   CHECK(errorOf(bytes + '\0') == byte(bytes.size()) + "goes on after its last array");
   std::string altered = bytes;
-  altered[8] = 2;
-  CHECK(errorOf(altered) == "a.mcm: has the version 2 of the format; this library reads version 1");
+  altered[8] = 1;
+  CHECK(errorOf(altered) == "a.mcm: has the version 1 of the format; this library reads version 2");
   altered = bytes;
   altered[loops + 40] ^= 1;
   CHECK(errorOf(altered) == byte(loops) + "loopVertices has been altered: its checksum is another");

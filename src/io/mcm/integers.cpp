@@ -4,6 +4,8 @@
 #include <array>
 #include <bit>
 
+#include "mesh/read/scalar.h"
+
 namespace mandoline::detail {
 namespace {
 
@@ -11,8 +13,10 @@ constexpr uint64_t kDirect = 16;  // integers below are symbols of their own
 constexpr int kDirectBits = 5;    // length of the first that is not
 constexpr size_t kSymbols = kDirect + 2 * (64 - kDirectBits + 1);
 constexpr int kScaleBits = 12;
-constexpr uint32_t kScale = 1u << kScaleBits;      // sum of the frequencies
-constexpr uint64_t kLowState = uint64_t(1) << 31;  // states are at least this, and below 2^32 times it
+constexpr uint32_t kScale = 1u << kScaleBits;  // sum of the frequencies
+constexpr uint32_t kLowState = 1u << 16;       // states are at least this, and below 2^16 times it
+constexpr size_t kStates = 4;                  // symbol i is of state i % kStates: none has to wait for the one before it
+constexpr size_t kStateBytes = 4, kWordBytes = 2;
 constexpr const char* kBadBlock = "has a block that can't be unpacked";
 
 struct Split {
@@ -57,29 +61,25 @@ Frequencies starts(const Frequencies& frequency) {
   return start;
 }
 
-uint64_t wordAt(const char* bytes, size_t count) {
-  uint64_t word = 0;
-  for (size_t i = 0; i < count; ++i) word |= uint64_t(uint8_t(bytes[i])) << 8 * i;
-  return word;
-}
-
 /// The words come in the order in which they are read: last written first.
 std::string packSymbols(const std::vector<Split>& splits, const Frequencies& frequency) {
   const Frequencies start = starts(frequency);
-  std::vector<uint32_t> words;
-  uint64_t state = kLowState;
+  std::vector<uint16_t> words;
+  std::array<uint32_t, kStates> states;
+  states.fill(kLowState);
   for (size_t i = splits.size(); i-- > 0;) {
-    const size_t s = splits[i].symbol;
-    if (frequency[s] == kScale) break;  // the only symbol leaves the state as it is
-    if (state >= (kLowState >> kScaleBits << 32) * frequency[s]) {
-      words.push_back(uint32_t(state));
-      state >>= 32;
+    const uint32_t f = frequency[splits[i].symbol];
+    if (f == kScale) break;  // the only symbol leaves the states as they are
+    uint32_t& state = states[i % kStates];
+    if (state >= uint64_t(kLowState) * f << (16 - kScaleBits)) {
+      words.push_back(uint16_t(state));
+      state >>= 16;
     }
-    state = (state / frequency[s] << kScaleBits) + state % frequency[s] + start[s];
+    state = (state / f << kScaleBits) + state % f + start[splits[i].symbol];
   }
   std::string out;
-  putWord(out, state, 8);
-  for (size_t i = words.size(); i-- > 0;) putWord(out, words[i], 4);
+  for (const uint32_t state : states) putWord(out, state, kStateBytes);
+  for (size_t i = words.size(); i-- > 0;) putWord(out, words[i], kWordBytes);
   return out;
 }
 
@@ -107,56 +107,24 @@ class BitWriter {
   int used_ = 0;
 };
 
-class BitReader {
- public:
-  explicit BitReader(std::string_view bytes) : bytes_(bytes) {}
-
-  uint64_t take(int bits) {
-    if (bits <= 32) return takePart(bits);
-    const uint64_t low = takePart(32);
-    return low | takePart(bits - 32) << 32;
-  }
-  void finish() const {
-    if (next_ != bytes_.size() || word_ != 0) throw Damaged{kBadBlock};
-  }
-
- private:
-  uint64_t takePart(int bits) {
-    if (known_ < bits) {
-      const size_t count = std::min<size_t>(4, bytes_.size() - next_);
-      word_ |= wordAt(bytes_.data() + next_, count) << known_;
-      next_ += count;
-      known_ += 8 * int(count);
-      if (known_ < bits) throw Damaged{kBadBlock};
-    }
-    const uint64_t value = word_ & ((uint64_t(1) << bits) - 1);
-    word_ >>= bits;
-    known_ -= bits;
-    return value;
-  }
-
-  std::string_view bytes_;
-  uint64_t word_ = 0;
-  size_t next_ = 0;
-  int known_ = 0;
-};
-
 /// What the lowest bits of a state tell.
 struct Slots {
+  struct Slot {
+    uint16_t frequency, rank;  ///< of the symbol; of the slot among the symbol's
+    uint8_t symbol;
+  };
   struct Symbol {
     uint64_t base;
-    uint32_t frequency, start;
     int bits;
   };
+  std::array<Slot, kScale> slots;
   std::array<Symbol, kSymbols> symbols;
-  std::array<uint8_t, kScale> symbolAt;
 
   explicit Slots(const Frequencies& frequency) {
-    uint32_t start = 0;
+    size_t at = 0;
     for (size_t s = 0; s < kSymbols; ++s) {
-      symbols[s] = {base(s), frequency[s], start, splitOf(s).bits};
-      std::fill_n(symbolAt.begin() + start, frequency[s], uint8_t(s));
-      start += frequency[s];
+      symbols[s] = {base(s), splitOf(s).bits};
+      for (uint32_t rank = 0; rank < frequency[s]; ++rank) slots[at++] = {uint16_t(frequency[s]), uint16_t(rank), uint8_t(s)};
     }
   }
 };
@@ -176,25 +144,61 @@ Frequencies takeFrequencies(std::string_view& bytes) {
   return frequency;
 }
 
-void unpack(const Slots& slots, std::string_view symbols, BitReader& bits, std::vector<uint64_t>& block) {
-  if (symbols.size() < 8 || symbols.size() % 4 != 0) throw Damaged{kBadBlock};
-  uint64_t state = wordAt(symbols.data(), 8);
-  size_t at = 8;
-  const auto symbolNow = [&]() -> const Slots::Symbol& { return slots.symbols[slots.symbolAt[state & (kScale - 1)]]; };
-  if (symbolNow().frequency == kScale && symbolNow().bits == 0) {  // the only one leaves the state as it is
-    std::fill(block.begin(), block.end(), symbolNow().base);
-  } else {
-    for (uint64_t& n : block) {
-      const Slots::Symbol& symbol = symbolNow();
-      n = symbol.bits == 0 ? symbol.base : symbol.base | bits.take(symbol.bits);
-      state = symbol.frequency * (state >> kScaleBits) + (state & (kScale - 1)) - symbol.start;
-      if (state >= kLowState) continue;
-      if (at == symbols.size()) throw Damaged{kBadBlock};
-      state = state << 32 | wordAt(symbols.data() + at, 4);
-      at += 4;
-    }
+/// Bytes with so many of any value behind them that whoever reads need not look for the end before each integer, but once at the end.
+class Padded {
+ public:
+  Padded(std::vector<char>& buffer, std::string_view bytes, size_t padding) : size_(bytes.size()) {
+    if (buffer.size() < bytes.size() + padding) buffer.resize(bytes.size() + padding);
+    std::copy(bytes.begin(), bytes.end(), buffer.begin());
+    bytes_ = buffer.data();
   }
-  if (state != kLowState || at != symbols.size()) throw Damaged{kBadBlock};
+  const char* at(size_t byte) const { return bytes_ + byte; }
+  size_t size() const { return size_; }
+
+ private:
+  const char* bytes_;
+  size_t size_;
+};
+
+/// The bits from a place on, which moves behind them.
+uint64_t takeBits(const Padded& bytes, size_t& place, int bits) {
+  constexpr int kMost = 57;  // as many as 8 bytes have from any bit of the first one on
+  if (bits > kMost) {
+    const uint64_t low = takeBits(bytes, place, 32);
+    return low | takeBits(bytes, place, bits - 32) << 32;
+  }
+  const uint64_t word = loadScalar<uint64_t>(bytes.at(place / 8), ByteOrder::little) >> place % 8;
+  place += size_t(bits);
+  return word & ((uint64_t(1) << bits) - 1);
+}
+
+void unpack(const Slots& slots, const Padded& symbols, const Padded& bits, std::vector<uint64_t>& block) {
+  if (symbols.size() < kStates * kStateBytes) throw Damaged{kBadBlock};
+  std::array<uint32_t, kStates> states;
+  for (size_t i = 0; i < kStates; ++i) states[i] = loadScalar<uint32_t>(symbols.at(kStateBytes * i), ByteOrder::little);
+  size_t at = kStates * kStateBytes, place = 0;
+  const auto next = [&](uint32_t& state) {
+    const Slots::Slot slot = slots.slots[state % kScale];
+    const Slots::Symbol& symbol = slots.symbols[slot.symbol];
+    state = slot.frequency * (state >> kScaleBits) + slot.rank;
+    const uint32_t refilled = state << 16 | loadScalar<uint16_t>(symbols.at(at), ByteOrder::little);
+    at += state < kLowState ? kWordBytes : 0;
+    state = state < kLowState ? refilled : state;
+    return symbol.base | takeBits(bits, place, symbol.bits);
+  };
+  const Slots::Slot first = slots.slots[states[0] % kScale];
+  if (first.frequency == kScale && slots.symbols[first.symbol].bits == 0) {
+    std::fill(block.begin(), block.end(), slots.symbols[first.symbol].base);
+  } else {
+    size_t i = 0;
+    for (; i + kStates <= block.size(); i += kStates) {
+      for (size_t k = 0; k < kStates; ++k) block[i + k] = next(states[k]);
+    }
+    for (size_t k = 0; i < block.size(); ++i, ++k) block[i] = next(states[k]);
+  }
+  const bool isLow = std::all_of(states.begin(), states.end(), [](uint32_t state) { return state == kLowState; });
+  const bool allBits = (place + 7) / 8 == bits.size() && (place % 8 == 0 || uint8_t(*bits.at(place / 8)) >> place % 8 == 0);
+  if (!isLow || at != symbols.size() || !allBits) throw Damaged{kBadBlock};
 }
 
 }  // namespace
@@ -257,16 +261,14 @@ void IntegerReader::readBlock() {
   const uint64_t count = takeLength(bytes_);
   if (count == 0 || count > IntegerWriter::kBlock) throw Damaged{kBadBlock};
   const Slots slots(takeFrequencies(bytes_));
-  const std::string_view symbols = takeBytes(bytes_, takeLength(bytes_));
-  BitReader bits(takeBytes(bytes_, takeLength(bytes_)));
+  const std::string_view symbols = takeBytes(bytes_, takeLength(bytes_)), bits = takeBytes(bytes_, takeLength(bytes_));
   block_.resize(size_t(count));
-  unpack(slots, symbols, bits, block_);
-  bits.finish();
+  unpack(slots, Padded(symbols_, symbols, kWordBytes * (count + 1)), Padded(bits_, bits, sizeof(uint64_t) * (count + 1)), block_);
   next_ = 0;
 }
 
 void IntegerReader::expect(uint64_t count) const {
-  constexpr uint64_t kSmallestBlock = 14;  // of one symbol: count, frequencies, 8 bytes of state and two lengths
+  constexpr uint64_t kSmallestBlock = 22;  // of one symbol: count, frequencies, states and two lengths
   const uint64_t blocks = bytes_.size() / kSmallestBlock;
   if (count > block_.size() - next_ + blocks * IntegerWriter::kBlock) throw Damaged{"is said to be longer than its bytes can be"};
 }

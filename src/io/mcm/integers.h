@@ -62,6 +62,7 @@ class IntegerReader {
   std::string_view bytes_;
   std::vector<uint64_t> block_;
   size_t next_ = 0;
+  std::vector<char> symbols_, bits_;  // room for a block's
 };
 
 /// The lowest bytes of the word, the lowest first.

@@ -9,7 +9,7 @@ namespace {
 /// The vertices that loops had beside a vertex, the last ones first.
 class Neighbours {
  public:
-  static constexpr size_t kMost = 8;
+  static constexpr size_t kMost = 4;
 
   explicit Neighbours(size_t vertices) : lists_(vertices) {
     for (auto& list : lists_) list.fill(kNone);
@@ -31,10 +31,14 @@ class Neighbours {
 
  private:
   void moveToFront(uint32_t vertex, uint32_t other) {
-    auto& list = lists_[vertex];
-    const size_t place = std::min(find(vertex, other), kMost - 1);
-    std::copy_backward(list.begin(), list.begin() + std::ptrdiff_t(place), list.begin() + std::ptrdiff_t(place) + 1);
-    list.front() = other;
+    bool found = false;  // and no branch on it: which place it is can't be foretold
+    uint32_t moved = other;
+    for (uint32_t& entry : lists_[vertex]) {
+      const uint32_t old = entry;
+      entry = found ? old : moved;
+      found |= old == other;
+      moved = old;
+    }
   }
 
   std::vector<std::array<uint32_t, kMost>> lists_;

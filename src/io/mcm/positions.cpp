@@ -55,20 +55,28 @@ int64_t digitsOf(const AnyCutMesh& cutMesh) {
   return best;
 }
 
-/// Finds the last plane of an axis at or below a coordinate; the first if there is none. Near the one found before is where it looks first.
+/// Finds the last plane of an axis at or below a coordinate; the first if there is none. It looks first where a uniform grid has it.
 class PlaneFinder {
  public:
-  int64_t operator()(const std::vector<double>& planes, double x) {
-    const auto holds = [&](size_t i) { return i < planes.size() && planes[i] <= x && (i + 1 == planes.size() || x < planes[i + 1]); };
-    if (!holds(last_)) {
-      const auto above = std::upper_bound(planes.begin(), planes.end(), x);
-      last_ = above == planes.begin() ? 0 : size_t(above - planes.begin()) - 1;
-    }
-    return int64_t(last_);
+  explicit PlaneFinder(const std::vector<double>& planes) : planes_(planes) {
+    if (!planes.empty()) perUnit_ = double(planes.size() - 1) / (planes.back() - planes.front());
+  }
+
+  /// There must be planes.
+  int64_t operator()(double x) const {
+    const size_t last = planes_.size() - 1;
+    const double guess = (x - planes_.front()) * perUnit_;
+    size_t i = size_t(guess > 0 ? std::min(guess, double(last)) : 0);  // 0 for NaN, too
+    i += i < last && planes_[i + 1] <= x;
+    i -= i > 0 && planes_[i] > x;
+    if (planes_[i] <= x && (i == last || x < planes_[i + 1])) return int64_t(i);
+    const auto above = std::upper_bound(planes_.begin(), planes_.end(), x);
+    return above == planes_.begin() ? 0 : int64_t(above - planes_.begin()) - 1;
   }
 
  private:
-  size_t last_ = 0;
+  const std::vector<double>& planes_;
+  double perUnit_ = 0;
 };
 
 /// Where an edge has the coordinate of the plane: of several planes the one it is steepest to.
@@ -132,7 +140,7 @@ class PositionCoder {
   template <class Coordinate>
   void codeOnPlane(Coordinate& x, size_t d) {
     const std::vector<double>& planes = cutMesh_.grid.planes[d];
-    plane_[d] = codeDifference(planes_, kIsRead ? 0 : finders_[d](planes, x), plane_[d]);
+    plane_[d] = codeDifference(planes_, kIsRead ? 0 : finders_[d](x), plane_[d]);
     if (plane_[d] < 0 || size_t(plane_[d]) >= planes.size()) throw Damaged{"names a plane that does not exist"};
     codeEntry(rounding_, x, toInteger(planes[size_t(plane_[d])]));
   }
@@ -181,7 +189,8 @@ class PositionCoder {
   static constexpr uint32_t kNowhere = ~0u;
   AnyCutMesh& cutMesh_;
   Stream planes_, rounding_, spellings_, values_;
-  std::array<PlaneFinder, 3> finders_;
+  std::array<PlaneFinder, 3> finders_{PlaneFinder(cutMesh_.grid.planes[0]), PlaneFinder(cutMesh_.grid.planes[1]),
+                                      PlaneFinder(cutMesh_.grid.planes[2])};
   std::array<int64_t, 3> plane_{};  // the last one written
   double power_ = 1;
   std::array<std::array<int64_t, 3>, kSpellings> last_{};
@@ -200,9 +209,10 @@ void codeVertexCells(typename Stream::Bytes& bytes, AnyCutMesh& cutMesh, uint64_
   if (length != cutMesh.positions.size()) throw Damaged{kOtherLength};
   setLength(cutMesh.vertexCell, length);
   Stream stream(bytes);
-  std::array<PlaneFinder, 3> finders;
+  const std::array<std::vector<double>, 3>& planes = cutMesh.grid.planes;
+  const std::array<PlaneFinder, 3> finders{PlaneFinder(planes[0]), PlaneFinder(planes[1]), PlaneFinder(planes[2])};
   for (size_t i = 0; i < length; ++i) {
-    codeEntry(stream, cutMesh.vertexCell[i], finders[i % 3](cutMesh.grid.planes[i % 3], cutMesh.positions[i]));
+    codeEntry(stream, cutMesh.vertexCell[i], finders[i % 3](cutMesh.positions[i]));
   }
   stream.finish();
 }
