@@ -1,6 +1,4 @@
-#include "base/disjoint_sets.h"
-#include "mandoline/poisson.h"
-#include "physics/dual_edges.h"
+#include "physics/joined_cells.h"
 
 namespace mandoline {
 
@@ -32,16 +30,7 @@ std::vector<double> outwardNormals(const Boundary& boundary, const CellComplex& 
 }
 
 CellComponents cellComponents(const CellComplex& cells) {
-  detail::DisjointSets sets(cells.cellCount());
-  for (size_t f = 0; f < cells.faceCount(); ++f) {
-    if (physics::isInner(cells, f)) sets.unite(uint32_t(cells.faceCells[2 * f]), uint32_t(cells.faceCells[2 * f + 1]));
-  }
-  CellComponents result;
-  for (uint32_t c = 0; c < cells.cellCount(); ++c) {
-    const uint32_t first = sets.find(c);
-    result.cellComponent.push_back(first == c ? result.count++ : result.cellComponent[first]);
-  }
-  return result;
+  return physics::joinedCells(cells, [](size_t) { return true; });
 }
 
 }  // namespace mandoline

@@ -10,7 +10,17 @@
 namespace mandoline {
 namespace physics {
 
+/// Centroids and normals come from products of four lengths, which have to fit into doubles.
+static void requireLengths(const CellComplex& cells) {
+  constexpr double kSmallest = 1e-70, kLargest = 1e70;
+  double size = 0;
+  for (size_t i = 3; i < cells.positions.size(); ++i) size = std::max(size, std::fabs(cells.positions[i] - cells.positions[i % 3]));
+  if (size == 0 || (size >= kSmallest && size <= kLargest)) return;
+  operators::refuse("The cells must be between 1e-70 and 1e70 in size, the range in which doubles can compute on them.");
+}
+
 void requireProblem(const CellComplex& cells, const PoissonProblem& problem) {
+  requireLengths(cells);
   const Boundary& boundary = problem.boundary;
   const size_t n = boundary.halfFaces.size();
   if (boundary.halfFaces != boundaryOf(cells).halfFaces) operators::refuse("The boundary is not that of these cells.");

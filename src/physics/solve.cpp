@@ -66,19 +66,36 @@ class Solver {
     components_ = cellComponents(cells_);
     held_ = physics::heldComponents(cells_, problem_.boundary, components_);
     const Vector coefficients = physics::dirichletCoefficients(cells_, problem_);
-    if (!balance(absolutes(coefficients))) return std::move(result_);
+    Vector given = absolutes(coefficients);
+    const int exponent = scaleDown(given);
+    if (!balance(given)) {
+      result_.excess = std::ldexp(result_.excess, exponent);
+      return std::move(result_);
+    }
     Vector held(cells_.cellCount());
     for (size_t b = 0; b < coefficients.size(); ++b) held[size_t(cells_.faceCells[problem_.boundary.halfFaces[b]])] += coefficients[b];
     physics::Multigrid multigrid(cells_, physics::dualEdges(cells_, problem_.dualPoints), held);
     const Operator matrix(system_.matrix, held);
     monitor_.beginStage("iterations", 1);
     iterate(matrix, multigrid);
-    matrix.sweep(system_.rhs, result_.phi);
     fixConstants();
+    for (double& phi : result_.phi) phi = std::ldexp(phi, exponent);
+    if (!std::all_of(result_.phi.begin(), result_.phi.end(), [](double phi) { return std::isfinite(phi); })) {
+      result_.status = SolveStatus::breakdown;
+    }
     return std::move(result_);
   }
 
  private:
+  /// Divides the right side by a power of two, so that squares of it are neither too large nor too small for doubles. Returns the exponent.
+  int scaleDown(Vector& given) {
+    int exponent = 0;
+    std::frexp(given.empty() ? 0 : *std::max_element(given.begin(), given.end()), &exponent);
+    for (double& sum : given) sum = std::ldexp(sum, -exponent);
+    for (double& value : system_.rhs) value = std::ldexp(value, -exponent);
+    return exponent;
+  }
+
   /// Takes what is in excess out of the right side; false if that is too much. `given`: absolutes().
   bool balance(const Vector& given) {
     const size_t n = components_.count;
@@ -146,40 +163,54 @@ class Solver {
 
   uint32_t component(size_t c) const { return components_.cellComponent[c]; }
 
+  /// Conjugate gradients update the residual instead of computing it, and where phi has large steps the two drift apart. So the true one
+  /// decides, and they begin anew from what they have found for as long as that helps.
   void iterate(const Operator& matrix, physics::Multigrid& multigrid) {
-    const size_t n = cells_.cellCount();
-    Vector r = system_.rhs, z(n), p(n), ap(n);
-    const double norm = std::sqrt(dot(r, r));
-    result_.residuals = {norm > 0 ? 1.0 : 0.0};
-    double rz = 1;
-    while (result_.residuals.back() > options_.tolerance) {
-      if (int64_t(result_.iterations()) >= options_.maxIterations) {
-        result_.status = SolveStatus::iterationLimit;
+    Vector r = system_.rhs;
+    norm_ = std::sqrt(dot(r, r));
+    result_.residuals = {norm_ > 0 ? 1.0 : 0.0};
+    while (!(result_.residuals.back() <= options_.tolerance)) {  // also if it is no number
+      const double before = result_.residuals.back();
+      const SolveStatus status = conjugateGradients(matrix, multigrid, r, std::min(options_.tolerance, before / 10));
+      matrix.sweep(system_.rhs, result_.phi);
+      matrix.multiply(result_.phi, r);
+      for (size_t i = 0; i < r.size(); ++i) r[i] = system_.rhs[i] - r[i];
+      const double now = result_.residuals.back() = std::sqrt(dot(r, r)) / norm_;
+      if (now <= options_.tolerance) return;
+      if (status == SolveStatus::iterationLimit || !(now < before / 2)) {
+        result_.status = status == SolveStatus::iterationLimit ? status : SolveStatus::breakdown;
         return;
       }
+    }
+  }
+
+  /// From phi with the residual r, which both change, until what they take for the residual is at most `goal`.
+  SolveStatus conjugateGradients(const Operator& matrix, physics::Multigrid& multigrid, Vector& r, double goal) {
+    const size_t n = r.size();
+    Vector z(n), p(n), ap(n);
+    for (double rz = 0; !(result_.residuals.back() <= goal);) {
+      if (int64_t(result_.iterations()) >= options_.maxIterations) return SolveStatus::iterationLimit;
       monitor_.report(progress(), 1000);
       multigrid.apply(r, z);
       takeMeansOut(z);
-      const double newRz = dot(r, z), beta = result_.iterations() == 0 ? 0 : newRz / rz;
+      const double newRz = dot(r, z), beta = rz == 0 ? 0 : newRz / rz;
       rz = newRz;
       for (size_t i = 0; i < n; ++i) p[i] = z[i] + beta * p[i];
       matrix.multiply(p, ap);
       const double alpha = rz / dot(p, ap);
-      if (!(alpha > 0 && std::isfinite(alpha))) {
-        result_.status = SolveStatus::breakdown;
-        return;
-      }
+      if (!(alpha > 0 && std::isfinite(alpha))) return SolveStatus::breakdown;
       for (size_t i = 0; i < n; ++i) result_.phi[i] += alpha * p[i], r[i] -= alpha * ap[i];
-      result_.residuals.push_back(std::sqrt(dot(r, r)) / norm);
+      result_.residuals.push_back(std::sqrt(dot(r, r)) / norm_);
     }
+    return SolveStatus::converged;
   }
 
   /// Constants are no steps; where they add up, they drown in their rounding what is.
   void takeMeansOut(Vector& z) const {
-    Vector sum(components_.count), count(components_.count);
-    for (size_t c = 0; c < z.size(); ++c) sum[component(c)] += z[c], ++count[component(c)];
+    Vector sum(components_.count), volume(components_.count);
+    for (size_t c = 0; c < z.size(); ++c) sum[component(c)] += z[c] * cells_.cellVolume[c], volume[component(c)] += cells_.cellVolume[c];
     for (size_t c = 0; c < z.size(); ++c) {
-      if (!held_[component(c)]) z[c] -= sum[component(c)] / count[component(c)];
+      if (!held_[component(c)] && volume[component(c)] > 0) z[c] -= sum[component(c)] / volume[component(c)];
     }
   }
 
@@ -212,6 +243,7 @@ class Solver {
   PoissonSystem system_;
   CellComponents components_;
   std::vector<char> held_;  // per component
+  double norm_ = 0;         // of the right side
   Solution result_;
 };
 

@@ -131,6 +131,34 @@ TEST_CASE("flow: a sheet across the box is a dead end, one with a slope throttle
   CHECK(largestDivergence(halves, oblique) <= 1e-8);
 }
 
+TEST_CASE("flow: no wind comes into slivers that it can't leave but through slits", "[flow]") {
+  // Its edges lie in the sides of its box.
+  const Mesh prism{{20, -20, 0, -20, -20, 0, 20, 20, 0, 20, -20, 10, -20, -20, 10, 20, 20, 10},
+                   {0, 1, 2, 3, 1, 0, 1, 3, 4, 5, 4, 3, 2, 3, 0, 3, 2, 5, 2, 4, 1, 4, 2, 5}};
+  const CellComplex cells = complexOf(prism, Grid::around(prism, 12, 0));
+  for (const std::array<double, 3>& wind : {std::array{1.0, 0.0, 0.0}, std::array{0.0, 1.0, 0.0}, std::array{0.0, 0.0, 1.0}}) {
+    const Flow flow = solveFlow(cells, wind);
+    CHECK(flow.status == SolveStatus::converged);
+    CHECK(largestDivergence(cells, flow) <= 1e-8);
+    for (const double u : flow.faceVelocity) REQUIRE(std::fabs(u) <= 10);
+  }
+}
+
+TEST_CASE("flow: in any unit of length that doubles can compute in; never numbers that are not finite", "[flow]") {
+  const auto flowIn = [](double unit) {
+    const Mesh mesh = shapes::icosphere({3.3 * unit, 3.1 * unit, 2.9 * unit}, 1.7 * unit, 2);
+    return solveFlow(complexOf(mesh, Grid::box({0, 0, 0}, {7 * unit, 7 * unit, 7 * unit}, {7, 7, 7})), kWind);
+  };
+  const Flow expected = flowIn(1);
+  for (const double unit : {1e-65, 1e65}) {
+    const Flow flow = flowIn(unit);
+    CHECK(flow.status == SolveStatus::converged);
+    for (size_t i = 0; i < flow.cellVelocity.size(); ++i) REQUIRE(std::fabs(flow.cellVelocity[i] - expected.cellVelocity[i]) <= 1e-8);
+  }
+  for (const double unit : {1e-150, 1e-80, 1e80, 1e150}) CHECK(refusal([&] { flowIn(unit); }).first == Status::badArgument);
+  CHECK(solveFlow(complexOf(shapes::icosphere({3.3, 3.1, 2.9}, 1.7, 2), unitGrid(7)), {1.7e308, 0, 0}).status == SolveStatus::breakdown);
+}
+
 TEST_CASE("flow: twice the wind, twice the flow; no wind, no flow; any magnitude", "[flow]") {
   const CellComplex cells = complexOf(shapes::icosphere({3.3, 3.1, 2.9}, 1.7, 2), unitGrid(7));
   const Flow once = solveFlow(cells, kWind), still = solveFlow(cells, {0, 0, 0}), storm = solveFlow(cells, {1e300, 0, 0});

@@ -171,7 +171,41 @@ TEST_CASE("solve: in any unit of length", "[solve]") {
   };
   const std::vector<double> expected = phi(1);
   CHECK(largest(vectorOf(expected)) > 0.8);
-  for (const double unit : {0x1p-60, 0x1p60}) CHECK(largest(vectorOf(phi(unit)) - vectorOf(expected)) <= 1e-10);
+  for (const double unit : {0x1p-60, 0x1p60, 1e-65, 1e65}) CHECK(largest(vectorOf(phi(unit)) - vectorOf(expected)) <= 1e-10);
+}
+
+TEST_CASE("solve: in any unit of what is solved for", "[solve]") {
+  const CellComplex cells = complexOf(ball(), unitGrid(7));
+  const Solution one = solvePoisson(cells, windAround(cells, {1, 0, 0}), within(1e-13));
+  for (const double unit : {0x1p-1000, 0x1p-500, 0x1p1000}) {
+    const Solution solution = solvePoisson(cells, windAround(cells, {unit, 0, 0}), within(1e-13));
+    CHECK(solution.status == SolveStatus::converged);
+    CHECK(solution.residuals == one.residuals);
+    for (size_t c = 0; c < cells.cellCount(); ++c) REQUIRE(solution.phi[c] == one.phi[c] * unit);
+  }
+}
+
+TEST_CASE("solve: where a dead end behind a slit of nearly no area is fed, residuals are true", "[solve]") {
+  // Each edge of the prism that lies in a side of its box leaves a sliver there, which the wind enters and can leave by rounding errors
+  // only.
+  const Mesh prism{{20, -20, 0, -20, -20, 0, 20, 20, 0, 20, -20, 10, -20, -20, 10, 20, 20, 10},
+                   {0, 1, 2, 3, 1, 0, 1, 3, 4, 5, 4, 3, 2, 3, 0, 3, 2, 5, 2, 4, 1, 4, 2, 5}};
+  const CellComplex cells = complexOf(prism, Grid::around(prism, 12, 0));
+  for (const FaceTag fed : {FaceTag::xMax, FaceTag::yMin, FaceTag::zMax}) {
+    PoissonProblem problem;
+    problem.boundary = boundaryOf(cells);
+    setBoundary(problem.boundary, cells, fed, Condition::neumann, 1);
+    setBoundary(problem.boundary, cells, FaceTag::xMin, Condition::dirichlet, 0);
+    setBoundary(problem.boundary, cells, FaceTag::zMin, Condition::dirichlet, 0);
+    const Solution solution = solvePoisson(cells, problem);
+    const PoissonSystem system = poissonSystem(cells, problem);
+    const Eigen::VectorXd residual = vectorOf(system.rhs) - system.matrix * vectorOf(solution.phi);
+    const double found = residual.norm() / vectorOf(system.rhs).norm();
+    CAPTURE(name(solution.status), solution.residuals, found);
+    REQUIRE_FALSE(solution.residuals.empty());
+    CHECK(std::fabs(found - solution.residuals.back()) <= 1e-12 + 1e-3 * found);
+    CHECK((solution.status == SolveStatus::converged) == (found <= 1e-10));
+  }
 }
 
 TEST_CASE("solve: a plate edge-on changes nothing, broadside it blocks", "[solve]") {
@@ -259,7 +293,7 @@ TEST_CASE("solve: limits, numbers that are too large, no cells at all", "[solve]
   CHECK(few.iterations() == 2);
   CHECK(few.residuals[2] < few.residuals[0]);
   options.maxIterations = 500;
-  problem = windAround(cells, {1e300, 0, 0});
+  problem = windAround(cells, {1e308, 0, 0});
   CHECK(solvePoisson(cells, problem, options).status == SolveStatus::breakdown);
   problem = windAround(cells, {0, 0, 0});
   CHECK(solvePoisson(cells, problem, options).phi == std::vector<double>(cells.cellCount()));

@@ -35,7 +35,8 @@ struct Flow {
 ///
 /// Where the surface divides the box, a component may get more from the wind than it can give away, or less: then the larger of both is
 /// scaled down to the other on all its sides, so that nowhere on them it blows faster than the wind. A component that can only take or only
-/// give, a dead end, is at rest.
+/// give, a dead end, is at rest. So is a dead end within a component that only slits lead to: faces with less than a millionth of the area
+/// of others of their cells.
 ///
 /// In a cell the velocity is the gradient of a harmonic polynomial of degree two, fitted to what flows through its faces and those of the
 /// cells beside it, but of none that has both sides of a triangle. A uniform flow is exact.

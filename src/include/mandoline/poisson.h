@@ -76,7 +76,7 @@ enum class SolveStatus : uint8_t {
   converged,
   iterationLimit,  ///< the residual is above the tolerance after maxIterations
   incompatible,    ///< sources and fluxes of `component` do not cancel, so nothing solves the system; phi is 0
-  breakdown        ///< the numbers are too large or too small for doubles; phi is the best so far
+  breakdown        ///< numbers, or the differences between them, are too large or too small for doubles; phi is what was found
 };
 
 /// The status as the word above.
@@ -88,7 +88,7 @@ inline const char* name(SolveStatus status) {
 struct Solution {
   SolveStatus status = SolveStatus::converged;
   std::vector<double> phi;        ///< per cell, at its dual point
-  std::vector<double> residuals;  ///< before each iteration and after the last, relative as in SolveOptions
+  std::vector<double> residuals;  ///< before each iteration and after the last, relative as in SolveOptions; the last one is that of phi
   int64_t component = -1;         ///< of cellComponents(), if incompatible
   double excess = 0;              ///< in that component: what flows in, less the integral of s
 
