@@ -147,6 +147,26 @@ test('following streamlines is told of and cancelled like any call', () => withW
   assert.equal((await rejection(worker.velocityAt({ ...field, cells: cutMesh }, seeds))).code, 'badArgument');
 }));
 
+test('what progress cancels names the stage of the cut or else the call, as without a worker', () => withWatched(async (worker) => {
+  const direct = { ...(await init()), ...physics };
+  const made = cut(mesh, grid);
+  const args = {
+    prepare: [mesh], cut: [mesh, grid], resolve: [mesh], findIntersections: [mesh], validate: [mesh, made], measure: [mesh, made],
+    write: [mesh, made, 'json'], coarsen: [made], cellComplex: [mesh, made, null], solvePoisson: [expected, {}],
+    solveFlow: [expected, [1, 0, 0]], streamlines: [{ mesh, cutMesh: made, cells: expected, flow }, seeds],
+  };
+  const stages = {};
+  for (const [name, given] of Object.entries(args)) {
+    const cancelled = (calls) => rejection((async () => calls[name](...given, { progress: () => false }))());
+    const [here, there] = [await cancelled(direct), await cancelled(worker)];
+    assert.deepEqual([there.code, there.stage], [here.code, here.stage], name);
+    stages[name] = there.stage;
+  }
+  const { prepare, cut: ofCut, resolve, ...others } = stages;
+  assert.deepEqual([prepare, ofCut, resolve], ['input', 'input', 'input']);
+  for (const [name, stage] of Object.entries(others)) assert.equal(stage, name);
+}));
+
 test('calls keep their order, though the first loads the module', () => withWatched(async (worker) => {
   const cutMesh = await worker.cut(mesh, grid);
   const done = [];

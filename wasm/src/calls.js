@@ -10,10 +10,10 @@ const [first, second] = [[[0]], [[1]]];
  * what they give, or a member of it that isKept names, has one.
  */
 const cutCalls = {
-  prepare: { count: 1, isKept: true },
-  cut: { count: 2, at: first, isKept: true },
+  prepare: { count: 1, isKept: true, isCut: true },
+  cut: { count: 2, at: first, isKept: true, isCut: true },
   findIntersections: { count: 1 },
-  resolve: { count: 1 },
+  resolve: { count: 1, isCut: true },
   boundary: { count: 2, at: first },
   validate: { count: 2, at: second },
   measure: { count: 2, at: second },
@@ -124,14 +124,14 @@ export class Calls {
   }
 
   async #perform(asked, given) {
-    const { call, args } = asked;
+    const { call, args, isCut } = asked;
     if (!Array.isArray(args)) throw bad(call, 'The arguments of a call must be an array.');
     const split = splitOptions(call, given);
     const { signal, onProgress } = split;
     const cancellation = () => new MandolineError('cancelled', 'The call was cancelled.', { stage: call, cause: signal.reason });
     if (signal?.aborted) throw cancellation();
     const { message, values } = this.#message(asked, split);
-    const job = { call, onProgress, message, ready: this.ready, pack: (packed, twins) => this.pack(packed, twins, values) };
+    const job = { call, isCut, onProgress, message, ready: this.ready, pack: (packed, twins) => this.pack(packed, twins, values) };
     const abort = () => this.#queue.stop(job, cancellation());
     signal?.addEventListener('abort', abort);
     try {

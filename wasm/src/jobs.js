@@ -2,9 +2,9 @@ import { MandolineError } from './errors.js';
 
 /**
  * Jobs done one after another by a thread, which is replaced when it has to be stopped or dies. A job is
- * { call, message, pack, onProgress, ready, resolve, reject }: pack(message, twins) gives { message, transfer } for a thread that has these
- * twins of results, by their ids, after ready(), if it has that, has promised whatever this needs. The first job of every thread is to
- * start the compiled module.
+ * { call, isCut, message, pack, onProgress, ready, resolve, reject }: pack(message, twins) gives { message, transfer } for a thread that
+ * has these twins of results, by their ids, after ready(), if it has that, has promised whatever this needs. The first job of every thread
+ * is to start the compiled module.
  */
 export class JobQueue {
   #startThread;
@@ -141,7 +141,7 @@ export class JobQueue {
     const job = this.#running;
     try {
       if (job.onProgress(value) !== false) return;
-      this.stop(job, new MandolineError('cancelled', 'The call was cancelled.', { stage: value?.stage ?? job.call }));
+      this.stop(job, new MandolineError('cancelled', 'The call was cancelled.', { stage: job.isCut ? value.stage : job.call }));
     } catch (error) {
       this.stop(job, error);
     }
