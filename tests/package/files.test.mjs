@@ -111,6 +111,12 @@ test('in a worker', async () => {
     const bytes = files['cube.ply'].slice();
     assert.deepEqual(await worker.readMesh(bytes, { name: 'cube.ply', transfer: [bytes.buffer] }), cube);
     assert.equal(bytes.length, 0);
+    const empty = new File([''], 'empty.obj'); // whose clone has no name in Node 20
+    for (const options of [undefined, {}, { name: undefined }]) {
+      await assert.rejects(worker.readMesh(empty, options), { code: 'badFile', message: /^empty\.obj: the file is empty/ });
+    }
+    await assert.rejects(worker.readMesh(empty, { name: 'other.off' }), { code: 'badFile', message: /^other\.off/ });
+    for (const options of [null, 7]) await assert.rejects(worker.readMesh(empty, options), { code: 'badArgument', stage: 'readMesh' });
     await assert.rejects(worker.readMesh(encode('v 0 0\n'), { name: 'bad.obj' }), { code: 'badFile', message: /^bad\.obj.*line 1/ });
   } finally {
     worker.terminate();

@@ -201,6 +201,11 @@ test('errors name the call', () => withWatched(async (worker) => {
   assert.equal((await rejection(worker.coarsen(prepared))).code, 'badArgument');
 }));
 
+test('a File keeps its name', () => withWatched(async (worker) => {
+  const empty = new File([''], 'empty.obj');
+  assert.deepEqual(await worker.readGroups(empty), await physics.readGroups(empty));
+}));
+
 test('a script of one\'s own that does not import the part', async () => {
   const thread = () => new NodeWorker(new URL(import.meta.resolve('mandoline-wasm/worker-thread')));
   const worker = await createWorker({ thread });

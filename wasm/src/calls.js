@@ -7,7 +7,8 @@ const [first, second] = [[[0]], [[1]]];
 
 /**
  * The calls of the main entry with their numbers of arguments before the options, the places in these of what may have a twin, and whether
- * what they give, or a member of it that isKept names, has one.
+ * what they give, or a member of it that isKept names, has one. Errors of those that have stages of a cut (isCut) name the stage. isFile:
+ * the argument may be a File.
  */
 const cutCalls = {
   prepare: { count: 1, isKept: true, isCut: true },
@@ -26,7 +27,7 @@ const cutCalls = {
   slices: { count: 3, at: first },
   outlines: { count: 3, at: first },
   write: { count: 3, at: second },
-  readMesh: { count: 1 },
+  readMesh: { count: 1, isFile: true },
 };
 
 const isObject = (value) => typeof value === 'object' && value !== null;
@@ -41,6 +42,12 @@ function splitOptions(call, options = {}) {
   if (typeof own.progress !== 'function') return { signal, transfer, options: own };
   const { progress, ...rest } = own;
   return { signal, transfer, onProgress: progress, options: rest };
+}
+
+/** The options with the File's name, which its clone does not have in Node 20. */
+function withFileName(options, file) {
+  const isNamed = typeof file?.name === 'string' && (options === undefined || (isObject(options) && options.name === undefined));
+  return isNamed ? { ...options, name: file.name } : options;
 }
 
 /** What has the twin: a result, or its member of that name. */
@@ -113,9 +120,9 @@ export class Calls {
   }
 
   #own(call, given) {
-    const { count, ...asked } = this.#calls[call];
+    const { count, isFile, ...asked } = this.#calls[call];
     const args = Array.from({ length: count }, (_, i) => given[i]);
-    return this.#perform({ call, args, ...asked }, given[count]);
+    return this.#perform({ call, args, ...asked }, isFile ? withFileName(given[count], args[0]) : given[count]);
   }
 
   /** A call that the thread's script serves. */

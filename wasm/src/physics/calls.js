@@ -21,7 +21,7 @@ const physicsCalls = {
   velocityAt: { count: 2, at: field },
   streamlines: { count: 2, at: field },
   inflowSeeds: { count: 3 },
-  readGroups: { count: 1 },
+  readGroups: { count: 1, isFile: true },
 };
 
 /** The calls of mandoline-wasm/physics in the same queue. The module is compiled when the first is made, and goes along with it. */
