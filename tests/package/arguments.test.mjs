@@ -15,6 +15,14 @@ function detached(array) {
   return copy;
 }
 
+/** A copy of a fixed length in a buffer that has become shorter. */
+function outOfBounds(array) {
+  const buffer = new ArrayBuffer(array.byteLength, { maxByteLength: array.byteLength });
+  const copy = new array.constructor(buffer, 0, array.length);
+  buffer.resize(1);
+  return copy;
+}
+
 function assertBad(call, pattern) {
   assert.throws(call, (error) => {
     assert.ok(error instanceof MandolineError, `${error.stack}`);
@@ -36,6 +44,8 @@ test('meshes', () => {
     [{ ...mesh, positions: [0, undefined, 2] }, /^mesh\.positions\[1\]/],
     [{ ...mesh, positions: detached(mesh.positions) }, /^mesh\.positions is detached/],
     [{ ...mesh, triangles: detached(mesh.triangles) }, /^mesh\.triangles is detached/],
+    [{ ...mesh, positions: outOfBounds(mesh.positions) }, /^mesh\.positions is detached or out of bounds/],
+    [{ ...mesh, triangles: outOfBounds(mesh.triangles) }, /^mesh\.triangles is detached or out of bounds/],
     [{ ...mesh, triangles: new Float32Array(3) }, /^mesh\.triangles must be an array of tri-vertex ids, not Float32Array/],
     [{ ...mesh, triangles: new ArrayBuffer(12) }, /^mesh\.triangles/],
     [{ ...mesh, triangles: new DataView(new ArrayBuffer(12)) }, /^mesh\.triangles/],
@@ -126,6 +136,7 @@ for (const [name, call] of Object.entries(calls)) {
       assertBad(() => call({ ...cutMesh, [key]: [...cutMesh[key]] }), new RegExp(`^cutMesh\\.${key} must be a`));
       if (cutMesh[key].length === 0) continue;
       assertBad(() => call({ ...cutMesh, [key]: detached(cutMesh[key]) }), new RegExp(`^cutMesh\\.${key} is detached`));
+      assertBad(() => call({ ...cutMesh, [key]: outOfBounds(cutMesh[key]) }), new RegExp(`^cutMesh\\.${key} is .* out of bounds`));
     }
   });
 

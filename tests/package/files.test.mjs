@@ -96,6 +96,13 @@ test('what is no file is a badArgument', async () => {
   for (const options of [null, 7, { name: 7 }]) await assert.rejects(readMesh(files['cube.obj'], options), refusal);
 });
 
+test('bytes out of their buffer\'s bounds are called so', async () => {
+  const buffer = new ArrayBuffer(24, { maxByteLength: 48 });
+  const views = [new Uint8Array(buffer, 8, 8), new DataView(buffer, 8, 8)];
+  buffer.resize(8);
+  for (const view of views) await assert.rejects(readMesh(view), { code: 'badArgument', message: /^The bytes are .* out of bounds/ });
+});
+
 test('bytes that were transferred elsewhere are called so', async () => {
   for (const bytesOf of [(bytes) => bytes, (bytes) => bytes.buffer]) {
     const bytes = files['cube.ply'].slice(), source = bytesOf(bytes);

@@ -136,6 +136,12 @@ test('what a worker cannot be given is a badArgument', () => withWorker(async (w
   assert.equal((await rejection(worker.cut(cube, { cells: 4 }, { transfer: [cube] }))).code, 'badArgument');
   assert.equal((await rejection(worker.cut(cube, { cells: 4 }, null))).code, 'badArgument');
   assert.equal((await rejection(worker.cut())).code, 'badArgument');
+  const buffer = new ArrayBuffer(24, { maxByteLength: 24 });
+  const positions = new Float64Array(buffer, 0, 3);
+  buffer.resize(8);
+  const error = await rejection(worker.cut({ ...cube, positions }, { cells: 4 }));
+  assert.equal(error.code, 'badArgument');
+  assert.match(error.message, /^args\[0\]\.positions is detached or out of bounds/);
   assert.equal((await worker.cut(cube, { cells: 4 })).regionCount, 2);
 }));
 

@@ -45,10 +45,17 @@ function damaged(original, keys = arraysOf(original)) {
 }
 
 const scalars = [undefined, null, 0, -1, 0.5, NaN, Infinity, 2 ** 31, 2 ** 40, true, '', 'json', 10n, Symbol.iterator, () => 1];
+function outOfBounds() {
+  const buffer = new ArrayBuffer(24, { maxByteLength: 24 });
+  const array = new Float64Array(buffer, 0, 3);
+  buffer.resize(8);
+  return array;
+}
+
 const objects = [
   () => ({}), () => [], () => [1, 2], () => [0, 1, 2], () => new Float64Array(3), () => gut({ array: new Float64Array(6) }).array,
   () => new Map(), () => new Proxy({}, { get: () => 7 }), () => new Date(0), () => Object.create(null), () => new ArrayBuffer(8),
-  () => ({ length: 2 ** 31 }),
+  () => ({ length: 2 ** 31 }), outOfBounds,
 ];
 const anything = () => (random(2) ? pick(scalars) : pick(objects)());
 

@@ -34,12 +34,20 @@ function readCount(value, name) {
 }
 
 function expectAttached(array, name) {
-  if (array.length > 0) return;
   try {
-    new Uint8Array(array.buffer);
+    if (array.byteLength === 0) array.at?.(0); // throws unless it is just empty
   } catch {
-    throw bad(`${name} is detached: its buffer was transferred elsewhere.`);
+    throw bad(`${name} is detached or out of bounds: its buffer was transferred elsewhere or shrunk.`);
   }
+}
+
+/** The same for all that a value holds. */
+export function expectAllAttached(value, name = '', seen = new Set()) {
+  if (ArrayBuffer.isView(value)) return expectAttached(value, name);
+  if (typeof value !== 'object' || value === null || seen.has(value)) return;
+  seen.add(value);
+  const nameOf = (key) => (Array.isArray(value) ? `${name}[${key}]` : name ? `${name}.${key}` : key);
+  for (const [key, part] of Object.entries(value)) expectAllAttached(part, nameOf(key), seen);
 }
 
 export function expectTypedArray(value, type, name) {

@@ -1,6 +1,6 @@
-import { readIntersections } from './arguments.js';
+import { expectAllAttached, readIntersections } from './arguments.js';
 import { buffersOf, clone } from './buffers.js';
-import { MandolineError } from './errors.js';
+import { MandolineError, named } from './errors.js';
 import { valueAt, withValueAt } from './places.js';
 
 const [first, second] = [[[0]], [[1]]];
@@ -67,6 +67,7 @@ function copied(call, values, transfer = []) {
   try {
     return clone(values, transfer);
   } catch (cause) {
+    named(call, expectAllAttached)(values);
     throw bad(call, `The arguments can't be given to the worker: ${cause.message}`, cause);
   }
 }

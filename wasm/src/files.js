@@ -13,9 +13,12 @@ async function bytesOf(source) {
   if (typeof Blob === 'function' && source instanceof Blob) return new Uint8Array(await source.arrayBuffer());
   try {
     if (source instanceof ArrayBuffer) return new Uint8Array(source);
-    if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
+    if (ArrayBuffer.isView(source)) {
+      source.at?.(0); // throws where the next line would see an empty array
+      return new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
+    }
   } catch {
-    throw bad('The bytes are detached: their buffer was transferred elsewhere.');
+    throw bad('The bytes are detached or out of bounds: their buffer was transferred elsewhere or shrunk.');
   }
   throw bad('The first argument must be the bytes of a file, as a typed array or an ArrayBuffer, or a Blob.');
 }
