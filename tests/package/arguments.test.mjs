@@ -252,6 +252,19 @@ test('what is asked of a cut-mesh', () => {
   }
 });
 
+test('arrays with more entries than there is memory for', () => {
+  const endless = new Array(2 ** 32 - 1);
+  const refused = (call) => assert.throws(call, (error) => {
+    assert.ok(error instanceof MandolineError, error.stack);
+    assert.match(error.code, /^(outOfMemory|badArgument)$/);
+    return true;
+  });
+  refused(() => mandoline.cellsAt(cutMesh, endless));
+  refused(() => mandoline.cut({ ...mesh, positions: endless }, grid));
+  refused(() => mandoline.cut({ ...mesh, triangles: endless }, grid));
+  refused(() => mandoline.slices(cutMesh, [0, 0, 1], { length: 2 ** 32 - 1 }));
+});
+
 test('a mesh that is not the one that was cut', () => {
   for (const call of [mandoline.measure, mandoline.cutEdges, (other, cut) => mandoline.write(other, cut, 'vtu')]) {
     assertBad(() => call(torus(8, 8), cutMesh), /is not the one that the cut-mesh was made from/);

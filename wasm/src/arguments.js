@@ -60,6 +60,18 @@ function isTypedArray(value, types) {
   return ArrayBuffer.isView(value) && types.includes(value[Symbol.toStringTag]);
 }
 
+/** A typed array of what `read` makes of each value and its place. A sparse array may have a length that there is no memory for. */
+export function collect(Type, values, name, read) {
+  let collected;
+  try {
+    collected = new Type(values.length);
+  } catch (cause) {
+    throw new MandolineError('outOfMemory', `There is not enough memory for ${name}.`, { cause });
+  }
+  for (let i = 0; i < collected.length; ++i) collected[i] = read(values[i], i);
+  return collected;
+}
+
 export function readNumbers(value, name) {
   if (isTypedArray(value, ['Float64Array', 'Float32Array'])) {
     expectAttached(value, name);
@@ -67,12 +79,10 @@ export function readNumbers(value, name) {
   }
   const length = typeof value === 'object' ? value?.length : undefined;
   if (!Number.isInteger(length) || length < 0 || length >= 2 ** 32) throw bad(`${name} must be an array of numbers, not ${kindOf(value)}.`);
-  const numbers = new Float64Array(length);
-  for (let i = 0; i < length; ++i) {
-    if (typeof value[i] !== 'number') throw bad(`${name}[${i}] must be a number, not ${kindOf(value[i])}.`);
-    numbers[i] = value[i];
-  }
-  return numbers;
+  return collect(Float64Array, value, name, (number, i) => {
+    if (typeof number !== 'number') throw bad(`${name}[${i}] must be a number, not ${kindOf(number)}.`);
+    return number;
+  });
 }
 
 function readTriangles(value) {
@@ -85,14 +95,11 @@ function readTriangles(value) {
     throw bad(`${name} must be an array of tri-vertex ids, not ${kindOf(value)}.`);
   }
   if (!Array.isArray(value)) expectAttached(value, name);
-  const ids = new Uint32Array(value.length);
-  for (let i = 0; i < ids.length; ++i) {
-    const id = expectInteger(value[i], `${name}[${i}]`);
+  return collect(Uint32Array, value, name, (id, i) => {
     const triangle = Math.floor(i / 3);
-    if (id < 0 || id >= 2 ** 32) throw bad(`Triangle ${triangle} refers to vertex ${id}, which does not exist.`, 'badIndex', triangle);
-    ids[i] = id;
-  }
-  return ids;
+    if (expectInteger(id, `${name}[${i}]`) >= 0 && id < 2 ** 32) return id;
+    throw bad(`Triangle ${triangle} refers to vertex ${id}, which does not exist.`, 'badIndex', triangle);
+  });
 }
 
 export function readMesh(mesh) {
@@ -187,7 +194,7 @@ export function readFlags(value, name) {
     return value;
   }
   if (!Array.isArray(value)) throw bad(`${name} must be a Uint8Array or an array, not ${kindOf(value)}.`);
-  return Uint8Array.from(value, Boolean);
+  return collect(Uint8Array, value, name, Boolean);
 }
 
 export function readFunction(value, name) {

@@ -1,7 +1,7 @@
 /** As in ../arguments.js, of mandoline-wasm/physics. */
 import {
-  bad, expectInteger, expectNumber, expectObject, expectTypedArray, kindOf, readFlag, readGrid, readId, readMesh, readNumbers, readVector,
-  readWord,
+  bad, collect, expectInteger, expectNumber, expectObject, expectTypedArray, kindOf, readFlag, readGrid, readId, readMesh, readNumbers,
+  readVector, readWord,
 } from '../arguments.js';
 
 /** What a face is part of, by CellComplex.faceTag. */
@@ -45,7 +45,7 @@ export function readOctree(octree) {
 export function readCellIds(ids) {
   if (ArrayBuffer.isView(ids)) return expectTypedArray(ids, 'Uint32Array', 'cellIds');
   if (!Array.isArray(ids)) throw bad(`cellIds must be a Uint32Array or an array, not ${kindOf(ids)}.`);
-  return Uint32Array.from(ids, (id, i) => readId(id, `cellIds[${i}]`));
+  return collect(Uint32Array, ids, 'cellIds', (id, i) => readId(id, `cellIds[${i}]`));
 }
 
 export function readCoarsenOptions({ maxLevel = 24, fineLayers = 0 }) {
