@@ -51,7 +51,7 @@ Streamlines traced(const FlowField& field, std::span<const double> seeds, const 
 Streamlines streamlines(const FlowField& field, std::span<const double> seeds, const StreamlineOptions& options) {
   physics::requireField(field, seeds);
   if (!(options.tolerance > 0)) throw CallError({Status::badOption, -1, -1, "The tolerance has to be positive."});
-  if (!(options.maxLength >= 0)) throw CallError({Status::badOption, -1, -1, "The largest length can't be negative."});
+  if (!(options.maxLength >= 0)) throw CallError({Status::badOption, -1, -1, "The largest length has to be 0 or more."});
   return detail::runCall("tracing of streamlines", [&] { return traced(field, seeds, options); });
 }
 
