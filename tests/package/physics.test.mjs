@@ -138,6 +138,8 @@ test('conditions by tag', () => {
   assert.deepEqual([...boundary.value], tags.map((tag) => ({ xMin: 3, surface: 0.5 })[tag] ?? 0));
   assert.deepEqual([...boundary.condition], tags.map((tag) => (tag === 'xMin' ? 1 : 0)));
   assert.ok(!tags.includes('inner') && tags.includes('zMax'));
+  const absent = { xMin: { dirichlet: 3, neumann: undefined }, yMin: undefined, surface: { neumann: 0.5 } };
+  assert.deepEqual(physics.boundaryOf(cells, absent), boundary);
   const all = physics.boundaryOf(cells, Object.fromEntries(faceTags.map((tag) => [tag, { dirichlet: 2 }])));
   assertNear(physics.solvePoisson(cells, { boundary: all }).phi, new Float64Array(cellCount(cells)).fill(2), 1e-8);
 });
@@ -342,7 +344,11 @@ test('wrong arguments are named', () => {
     [() => physics.subComplex(cells, [0.5]), /^cellIds\[0\] must be a whole number/],
     [() => physics.subComplex(cells, new Array(2 ** 32 - 1)), /^cellIds\[0\] must be a whole number|memory for cellIds/, /badArg|outOfMem/],
     [() => physics.boundaryOf(cells, { left: { dirichlet: 0 } }), /^A key of conditions must be "xMin", .* not "left"/],
+    [() => physics.boundaryOf(cells, 7), /^conditions must be an object, not 7/],
+    [() => physics.boundaryOf(cells, []), /^conditions must be an object whose keys are tags\.$/],
+    [() => physics.boundaryOf(cells, new Map([['xMin', { dirichlet: 0 }]])), /^conditions must be an object whose keys/],
     [() => physics.boundaryOf(cells, { xMin: 0 }), /^conditions\.xMin must be an object/],
+    [() => physics.boundaryOf(cells, { xMin: { dirichlet: 0, neumann: 1 } }), /^conditions\.xMin must be \{ dirichlet \} or \{ neumann \}/],
     [() => physics.boundaryOf(cells, { xMin: {} }), /^conditions\.xMin must be \{ dirichlet \} or \{ neumann \}/],
     [() => physics.boundaryOf(cells, { xMin: { robin: 1 } }), /^The key of conditions\.xMin must be "neumann" or "dirichlet"/],
     [() => physics.boundaryOf(cells, { xMin: { neumann: '1' } }), /^conditions\.xMin\.neumann must be a number/],

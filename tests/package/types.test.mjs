@@ -122,6 +122,8 @@ test('results of mandoline-wasm/physics', async () => {
       // @ts-expect-error: was not asked for
       physics.operators(cells, { only: ['gradient'] }).divergence;
       const boundary = physics.boundaryOf(cells, { xMin: { dirichlet: 0 }, surface: { neumann: 1 } });
+      // @ts-expect-error: one of both
+      physics.boundaryOf(cells, { xMin: { dirichlet: 0, neumann: 1 } });
       // @ts-expect-error: no such tag
       physics.boundaryOf(cells, { left: { dirichlet: 0 } });
       const { phi } = await worker.solvePoisson(cells, { boundary }, { signal: AbortSignal.timeout(9) });

@@ -63,17 +63,23 @@ export function readOperatorOptions(given) {
   return [[...new Set(only)], readDualPoints(given, 'options')];
 }
 
+const definedEntries = (object) => Object.entries(object).filter(([, value]) => value !== undefined);
+
+/** As arrays, Maps and the like are not. */
+const isRecord = (value) => Object.prototype.toString.call(value) === '[object Object]';
+
 /** { xMin: { dirichlet: 0 }, ... } as [tag, condition, value] each. */
 export function readConditions(given) {
   if (given === undefined) return [];
   expectObject(given, 'conditions');
-  return Object.entries(given).map(([tag, set]) => {
+  if (!isRecord(given)) throw bad('conditions must be an object whose keys are tags.');
+  return definedEntries(given).map(([tag, set]) => {
     const name = `conditions.${tag}`;
     const number = readWord(tag, faceTags, 'A key of conditions');
     expectObject(set, name);
-    const words = Object.keys(set);
-    if (words.length !== 1) throw bad(`${name} must be { dirichlet } or { neumann }.`);
-    return [number, readWord(words[0], conditions, `The key of ${name}`), expectNumber(set[words[0]], `${name}.${words[0]}`)];
+    const [[word, value] = [], ...others] = definedEntries(set);
+    if (word === undefined || others.length > 0) throw bad(`${name} must be { dirichlet } or { neumann }.`);
+    return [number, readWord(word, conditions, `The key of ${name}`), expectNumber(value, `${name}.${word}`)];
   });
 }
 

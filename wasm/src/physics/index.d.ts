@@ -201,8 +201,9 @@ export interface Boundary {
   value: Float64Array<ArrayBuffer>;
 }
 
-/** What holds on all faces of a tag. */
-export type Conditions = { readonly [Tag in FaceTag]?: { readonly dirichlet: number } | { readonly neumann: number } };
+/** What holds on all faces of a tag: one of the two. */
+export type Condition = { readonly dirichlet: number; readonly neumann?: never } | { readonly neumann: number; readonly dirichlet?: never };
+export type Conditions = { readonly [Tag in FaceTag]?: Condition };
 
 /** Which cells are connected through inner faces. For whole regions these are the regions. */
 export interface CellComponents {
