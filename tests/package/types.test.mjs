@@ -115,12 +115,17 @@ test('results of mandoline-wasm/physics', async () => {
   ];
   assertCompiles(declared(results, 'mandoline-wasm/physics').text);
   assertCompiles(`
-    import { type CellComplex, type FlowField, type Physics, faceTags, streamlineEnds } from 'mandoline-wasm/physics';
+    import { type CellComplex, type FlowField, type Operators, type Physics, faceTags, streamlineEnds } from 'mandoline-wasm/physics';
     import type { PhysicsWorker } from 'mandoline-wasm/physics/worker';
     export async function use(physics: Physics, worker: PhysicsWorker, cells: CellComplex): Promise<number | undefined> {
       const { gradient } = physics.operators(cells, { only: ['gradient', 'laplacian'], dualPoints: 'centroids' });
       // @ts-expect-error: was not asked for
       physics.operators(cells, { only: ['gradient'] }).divergence;
+      const every: Operators = physics.operators(cells, { dualPoints: 'centroids' });
+      const names = Object.keys(every) as (keyof Operators)[];
+      const some: Partial<Operators> = await worker.operators(cells, { only: names });
+      // @ts-expect-error: may not have been asked for
+      physics.operators(cells, { only: names }).gradient.rows;
       const boundary = physics.boundaryOf(cells, { xMin: { dirichlet: 0 }, surface: { neumann: 1 } });
       // @ts-expect-error: one of both
       physics.boundaryOf(cells, { xMin: { dirichlet: 0, neumann: 1 } });

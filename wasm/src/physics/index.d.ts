@@ -180,12 +180,18 @@ export interface Operators {
   faceMass: SparseMatrix;
 }
 
-export interface OperatorOptions<Name extends keyof Operators = keyof Operators> {
+export type OperatorNames = readonly (keyof Operators)[];
+
+export interface OperatorOptions<Names extends OperatorNames | undefined = OperatorNames> {
   /** Which operators to give. Default: all. */
-  only?: readonly Name[];
+  only?: Names;
   /** Of gradient, laplacian, faceStar and faceMass. Default "centres". */
   dualPoints?: DualPoints;
 }
+
+/** Those that `only` names: of an array that is not written out as a literal, any may be left out. */
+export type ChosenOperators<Names extends OperatorNames | undefined> =
+  Names extends OperatorNames ? (number extends Names['length'] ? Partial<Operators> : Pick<Operators, Names[number]>) : Operators;
 
 /**
  * The boundary of all cells: each half-face of a cell through which no flux passes to another one, that is, of a face of tag surface or of
@@ -353,9 +359,9 @@ export interface Physics {
   /** The edges that faceEdgeIncidence and edgeVertexIncidence have the ids of. */
   complexEdges(cells: CellComplex): ComplexEdges;
   /** Discrete operators as sparse matrices: all, or those that `options.only` names. */
-  operators<Name extends keyof Operators = keyof Operators>(
-    cells: CellComplex, options?: OperatorOptions<Name>,
-  ): Pick<Operators, Name>;
+  operators<const Names extends OperatorNames | undefined = undefined>(
+    cells: CellComplex, options?: OperatorOptions<Names>,
+  ): ChosenOperators<Names>;
   /** The boundary with the same condition on all faces of a tag; where none is given, nothing passes ({ neumann: 0 }). */
   boundaryOf(cells: CellComplex, conditions?: Conditions): Boundary;
   /**

@@ -2,9 +2,9 @@
 import type { CutMesh, Grid, GridBox, GridRectilinear, GridRegular, Mesh, ReadMeshOptions, RunOptions, Vector3 } from '../index.js';
 import type { CallOptions, MandolineWorker, WorkerOptions } from '../worker.js';
 import type {
-  Boundary, CellComplex, CellComponents, CoarsenOptions, ComplexEdges, Conditions, Flow, FlowField, FlowOptions, OctreeCells,
-  OperatorOptions, Operators, PhysicsOptions, PoissonProblem, PoissonSystem, Solution, SolveOptions, StreamlineOptions, Streamlines,
-  SubComplex, TriangleGroups,
+  Boundary, CellComplex, CellComponents, ChosenOperators, CoarsenOptions, ComplexEdges, Conditions, Flow, FlowField, FlowOptions,
+  OctreeCells, OperatorNames, OperatorOptions, PhysicsOptions, PoissonProblem, PoissonSystem, Solution, SolveOptions, StreamlineOptions,
+  Streamlines, SubComplex, TriangleGroups,
 } from './index.js';
 
 export { MandolineError, describe } from '../index.js';
@@ -19,9 +19,9 @@ export interface PhysicsWorker extends MandolineWorker {
   subComplex(cells: CellComplex, cellIds: Uint32Array | readonly number[], options?: CallOptions): Promise<SubComplex>;
   regionComplex(cells: CellComplex, region: number, options?: CallOptions): Promise<SubComplex>;
   complexEdges(cells: CellComplex, options?: CallOptions): Promise<ComplexEdges>;
-  operators<Name extends keyof Operators = keyof Operators>(
-    cells: CellComplex, options?: OperatorOptions<Name> & CallOptions,
-  ): Promise<Pick<Operators, Name>>;
+  operators<const Names extends OperatorNames | undefined = undefined>(
+    cells: CellComplex, options?: OperatorOptions<Names> & CallOptions,
+  ): Promise<ChosenOperators<Names>>;
   boundaryOf(cells: CellComplex, conditions?: Conditions, options?: CallOptions): Promise<Boundary>;
   outwardNormals(boundary: Boundary, cells: CellComplex, options?: CallOptions): Promise<Float64Array<ArrayBuffer>>;
   cellComponents(cells: CellComplex, options?: CallOptions): Promise<CellComponents>;
