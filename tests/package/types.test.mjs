@@ -131,6 +131,8 @@ test('results of mandoline-wasm/physics', async () => {
       physics.boundaryOf(cells, { xMin: { dirichlet: 0, neumann: 1 } });
       // @ts-expect-error: no such tag
       physics.boundaryOf(cells, { left: { dirichlet: 0 } });
+      const wind = [1, 0, 0];
+      physics.inflowSeeds({ min: wind, max: [2, 1, 1], cells: wind }, wind, 9);
       const { phi } = await worker.solvePoisson(cells, { boundary }, { signal: AbortSignal.timeout(9) });
       const tag: 'surface' = faceTags[7];
       const follow = (field: FlowField) => physics.streamlines(field, physics.inflowSeeds(field.cutMesh.grid, [1, 0, 0], 9), { maxLength: 3 });

@@ -24,7 +24,8 @@ export interface Mesh {
   triangles: Uint32Array | Uint16Array | Int32Array | readonly number[];
 }
 
-export type Vector3 = readonly [number, number, number];
+/** Three numbers. */
+export type Vector3 = readonly number[];
 
 /**
  * A grid around the mesh's bounding box and a margin all around it: cubic cells, `cells` along the longest side and as many along the

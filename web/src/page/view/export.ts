@@ -17,7 +17,7 @@ export interface Shown {
 
 export async function exportGlb(shown: Shown): Promise<Blob> {
   const mesh = new Mesh(shownTriangles(shown), new MeshStandardMaterial({ vertexColors: true, roughness: 0.8 }));
-  mesh.position.set(...shown.model.origin);
+  mesh.position.fromArray(shown.model.origin);
   mesh.name = shown.model.name;
   const bytes = await new GLTFExporter().parseAsync(mesh, { binary: true });
   return new Blob([bytes as ArrayBuffer], { type: 'model/gltf-binary' });
