@@ -236,6 +236,7 @@ test('streamlines round a torus, none into it', () => {
   assert.equal(seeds.length, 180);
   for (let i = 0; i < 180; i += 3) assert.ok(seeds[i] === -1.7 || seeds[i + 1] === -1.6 || seeds[i + 2] === -0.9);
   assert.deepEqual(physics.inflowSeeds(grid, wind, 60), seeds);
+  assert.equal(physics.inflowSeeds(grid, [0, 0, 0], 60).length, 0); // nothing enters
   for (const [name, all] of complexes) {
     const flowField = { mesh, cutMesh, cells: all, flow: physics.solveFlow(all, wind) };
     const { points, speeds, offsets, ends } = physics.streamlines(flowField, seeds);

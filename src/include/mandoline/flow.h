@@ -30,8 +30,8 @@ struct Flow {
 };
 
 /// Solves div grad phi = 0, where grad phi . N = wind . N on the sides of the box and nothing passes the surface, on either side of it, nor
-/// faces that a sub-complex was cut off at. As much flows into a cell as out of it, to the tolerance; what doesn't touch the box is at
-/// rest.
+/// faces that a sub-complex was cut off at. As much flows into a cell as out of it, within the tolerance; what doesn't touch the box is
+/// at rest.
 ///
 /// Where the surface divides the box, a component may get more from the wind than it can give away, or less: then the larger of both is
 /// scaled down to the other on all its sides, so that nowhere on them it blows faster than the wind. A component that can only take or only
@@ -69,9 +69,9 @@ struct StreamlineOptions : RunOptions {
 enum class StreamlineEnd : uint8_t {
   side,       ///< on a side of the box, exactly
   surface,    ///< at the surface: its last point is before it, by rounding
-  rest,       ///< where nothing flows, or faster than doubles tell; or to and fro, as it may beside the surface
-  maxLength,  ///< its length is that
-  maxPoints,  ///< it has as many
+  rest,       ///< where nothing flows, or faster than doubles can express; or where it goes to and fro, as it may beside the surface
+  maxLength,  ///< it has reached that length
+  maxPoints,  ///< it has that many points
   outside     ///< its seed is not in the grid; it has no points
 };
 
@@ -90,8 +90,8 @@ struct Streamlines {
 /// (badOption), if there are 2^32 points or more (meshTooLarge), or if cancelled.
 Streamlines streamlines(const FlowField& field, std::span<const double> seeds, const StreamlineOptions& options = {});
 
-/// 3 per seed: points on the sides where the wind enters the box, evenly by what enters. Throws CallError if the wind is not
-/// finite (badArgument) or the grid has no cells (badGrid).
+/// 3 per seed: `count` points on the sides where the wind enters the box, spread in proportion to the inflow; none without wind. Throws
+/// CallError if the wind is not finite (badArgument) or the grid has no cells (badGrid).
 std::vector<double> inflowSeeds(const Grid& grid, const std::array<double, 3>& wind, size_t count);
 
 }  // namespace mandoline

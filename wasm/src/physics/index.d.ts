@@ -406,8 +406,8 @@ export interface Physics {
    */
   streamlines(field: FlowField, seeds: Float64Array | Float32Array | readonly number[], options?: StreamlineOptions): Streamlines;
   /**
-   * 3 per seed: `count` points on the sides where the wind enters the box of a grid, evenly by what enters. Code "badArgument" if the wind
-   * is not finite, "badGrid" if the grid has no cells.
+   * 3 per seed: `count` points on the sides where the wind enters the box of a grid, spread in proportion to the inflow; none without wind.
+   * Code "badArgument" if the wind is not finite, "badGrid" if the grid has no cells.
    */
   inflowSeeds(grid: Grid | GridBox | GridRegular | GridRectilinear, wind: Vector3, count: number): Float64Array<ArrayBuffer>;
   /**
