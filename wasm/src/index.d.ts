@@ -129,11 +129,11 @@ export interface CutOptions extends PrepareOptions {
  *
  * The module keeps a twin of what cut() gives, and calls of Mandoline that are given that same object work on the twin: they don't read its
  * arrays, so they also work when these were transferred elsewhere, and take no notice of what was written into them. (The functions of
- * mandoline-wasm/three do read the arrays.) A copy (`{ ...cutMesh }`, a
- * clone, what another worker gave) is data of its own, read and checked by every call. Twins go with their results when garbage is
- * collected; those used longest ago also when there are more than 16 of them or more than 256 MB, and all when the module runs out of
- * memory. A result whose twin is gone is read once more and then has one again. `cut(..., { keep: false })` keeps none. In a worker, twins
- * are in its thread, and the arrays are sent back to it only where the twin is gone.
+ * mandoline-wasm/three do read the arrays.) A copy (`{ ...cutMesh }`, a clone, what another worker gave) is data of its own, read and
+ * checked by every call. Twins go with their results when garbage is collected; those used longest ago also when there are more than 16 of
+ * them or more than 256 MB, and all when the module runs out of memory. A result whose twin is gone is read once more and then has one
+ * again. `cut(..., { keep: false })` keeps none. In a worker, twins are in its thread, and the arrays are sent back to it only where the
+ * twin is gone.
  */
 export interface CutMesh {
   grid: Grid;

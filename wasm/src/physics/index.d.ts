@@ -252,8 +252,8 @@ export interface SolveOptions extends FlowOptions {
    */
   freeConstant?: 'zeroMean' | 'pinned';
   /**
-   * In a component without a Dirichlet condition sources and what flows in have to cancel. False (default): up to rounding, or the data are
-   * incompatible. True: whatever is in excess is taken away, evenly by volume.
+   * In a component without a Dirichlet condition sources and what flows in have to cancel. False (default): they have to cancel up to
+   * rounding; otherwise the data are incompatible. True: whatever is in excess is taken away, evenly by volume.
    */
   balance?: boolean;
 }
@@ -321,8 +321,9 @@ export interface StreamlineOptions extends RunOptions {
 
 /**
  * Where a streamline ends, by its `ends`: streamlineEnds[lines.ends[l]]. "side": on a side of the box, exactly; "surface": at the surface,
- * its last point is before it, by rounding; "rest": where nothing flows, or faster than doubles tell, or to and fro, as it may beside the
- * surface; "maxLength": its length is that; "maxPoints": it has as many; "outside": its seed is not in the grid, it has no points.
+ * its last point is before it, by rounding; "rest": where nothing flows, or faster than doubles can express, or where it goes to and fro,
+ * as it may beside the surface; "maxLength": it has reached that length; "maxPoints": it has that many points; "outside": its seed is not
+ * in the grid, it has no points.
  */
 export const streamlineEnds: readonly ['side', 'surface', 'rest', 'maxLength', 'maxPoints', 'outside'];
 export type StreamlineEnd = (typeof streamlineEnds)[number];
@@ -385,7 +386,7 @@ export interface Physics {
   /**
    * Potential flow of a wind through the cells and about the surface (appendix B, figure 22): solves div grad phi = 0, where
    * grad phi . N = wind . N on the sides of the box and nothing passes the surface, on either side of it, nor faces that a sub-complex was
-   * cut off at. As much flows into a cell as out of it, to the tolerance; what doesn't touch the box is at rest.
+   * cut off at. As much flows into a cell as out of it, within the tolerance; what doesn't touch the box is at rest.
    *
    * Where the surface divides the box, a component may get more from the wind than it can give away, or less: then the larger of both is
    * scaled down to the other on all its sides. A component that can only take or only give, a dead end, is at rest. Code "badArgument" if
