@@ -41,8 +41,8 @@ struct Flow {
 /// In a cell the velocity is the gradient of a harmonic polynomial of degree two, fitted to what flows through its faces and those of the
 /// cells beside it, but of none that has both sides of a triangle. A uniform flow is exact.
 ///
-/// The result is the same to the bit for any number of threads. Throws CallError if the wind is not finite (badArgument), if an option is
-/// out of range (badOption), or if cancelled.
+/// The result is the same to the bit for any number of threads. Throws CallError if the wind is not finite and as poissonSystem() does
+/// (badArgument), if an option is out of range (badOption), or if cancelled.
 Flow solveFlow(const CellComplex& cells, const std::array<double, 3>& wind, const FlowOptions& options = {});
 
 /// A flow and what it was solved on; they have to outlive it.

@@ -52,8 +52,8 @@ struct PoissonSystem {
 /// A Dirichlet condition acts over the distance along the normal between the face's centroid and the cell's dual point, or, on the surface,
 /// the cell's centroid; at least a twentieth of the distance itself. First order on the surface: with DualPoints::centres phi lies
 /// elsewhere.
-/// Throws CallError{badArgument} for a boundary that is not that of `cells`, for arrays of other lengths, and for values that are not
-/// finite.
+/// Throws CallError{badArgument} for a boundary that is not that of `cells`, for arrays of other lengths, for values that are not finite,
+/// and if the cells together are smaller than 1e-70 or larger than 1e70.
 PoissonSystem poissonSystem(const CellComplex& cells, const PoissonProblem& problem);
 
 /// What makes phi unique in a component without a Dirichlet condition.
@@ -66,9 +66,9 @@ struct SolveOptions : RunOptions {
   double tolerance = 1e-10;  ///< of the residual, relative to the right side, both in the Euclidean norm
   int maxIterations = 500;
   FreeConstant freeConstant = FreeConstant::zeroMean;
-  /// In a component without a Dirichlet condition sources and what flows in have to cancel. False: up to rounding, a billionth of their
-  /// absolute sum there and 1e-15 of that everywhere, or the data are incompatible. True: whatever is in excess is taken away, evenly by
-  /// volume.
+  /// In a component without a Dirichlet condition sources and what flows in have to cancel. False (default): they have to cancel
+  /// up to rounding, a billionth of their absolute sum there and 1e-15 of that everywhere; otherwise the data are incompatible. True:
+  /// whatever is in excess is taken away, evenly by volume.
   bool balance = false;
 };
 

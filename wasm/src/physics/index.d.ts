@@ -260,8 +260,8 @@ export interface SolveOptions extends FlowOptions {
 
 /**
  * "iterationLimit": the residual is above the tolerance after maxIterations; "incompatible": sources and fluxes of `component` do not
- * cancel, so nothing solves the system, and phi is 0; "breakdown": the numbers are too large or too small for doubles, and phi is the best
- * so far.
+ * cancel, so nothing solves the system, and phi is 0; "breakdown": numbers, or the differences between them, are too large or too small for
+ * doubles, and phi is what was found.
  */
 export type SolveStatus = 'converged' | 'iterationLimit' | 'incompatible' | 'breakdown';
 
@@ -269,7 +269,7 @@ export interface Solution {
   status: SolveStatus;
   /** Per cell, at its dual point. */
   phi: Float64Array<ArrayBuffer>;
-  /** Before each iteration and after the last, relative as in SolveOptions. */
+  /** Before each iteration and after the last, relative as in SolveOptions; the last one is that of phi. */
   residuals: Float64Array<ArrayBuffer>;
   /** Of cellComponents(), if incompatible; else -1. */
   component: number;
@@ -375,7 +375,8 @@ export interface Physics {
   /**
    * The system that solvePoisson() solves (appendix B). A Dirichlet condition acts over the distance along the normal between the face's
    * centroid and the cell's dual point, or, on the surface, the cell's centroid. Code "badArgument" for a boundary that is not that of
-   * `cells`, for arrays of other lengths, and for values that are not finite.
+   * `cells`, for arrays of other lengths, for values that are not finite, and if the cells together are smaller than 1e-70 or larger than
+   * 1e70.
    */
   poissonSystem(cells: CellComplex, problem?: PoissonProblem): PoissonSystem;
   /**
@@ -389,8 +390,9 @@ export interface Physics {
    * cut off at. As much flows into a cell as out of it, within the tolerance; what doesn't touch the box is at rest.
    *
    * Where the surface divides the box, a component may get more from the wind than it can give away, or less: then the larger of both is
-   * scaled down to the other on all its sides. A component that can only take or only give, a dead end, is at rest. Code "badArgument" if
-   * the wind is not finite, "badOption" as in solvePoisson().
+   * scaled down to the other on all its sides. A component that can only take or only give, a dead end, is at rest. So is a dead end
+   * within a component that only slits lead to: faces with less than a millionth of the area of others of their cells. Code "badArgument"
+   * if the wind is not finite and as in poissonSystem(), "badOption" as in solvePoisson().
    */
   solveFlow(cells: CellComplex, wind: Vector3, options?: FlowOptions): Flow;
   /**
