@@ -73,6 +73,26 @@ TEST_CASE("OBJ: triangles before the first g line, and after one without a name,
   requireGroups(ofObj("f 1 2 3\ng a\nf 1 2 4\ng\nf 1 3 4\ng default\nf 2 3 4\n"), {"default", "a"}, {0, 1, 0, 0});
 }
 
+TEST_CASE("Names of groups that are not UTF-8 are taken as Latin-1", "[groups]") {
+  requireGroups(ofObj("g T\xfcr\nf 1 2 3\ng T\xc3\xbcr\nf 1 2 4\n"), {"T\xc3\xbcr"}, {0, 0});
+  requireGroups(ofObj("usemtl gr\xfcn\nf 1 2 3\n"), {"gr\xc3\xbcn"}, {0});
+  requireGroups(groupsOf("a.stl", solid("caf\xe9", 2)), {"caf\xc3\xa9"}, {0, 0});
+  const std::string valid[] = {"\xc2\x80",     "\xdf\xbf",         "\xe0\xa0\x80",    "\xed\x9f\xbf",
+                               "\xee\x80\x80", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"};
+  for (const std::string& name : valid) CHECK(ofObj("g " + name + "\nf 1 2 3\n").names == Names{name});
+  // A lone byte in the middle and one at the end, overlong forms, a surrogate, beyond U+10FFFF, and characters that are cut short.
+  const std::pair<std::string, std::string> invalid[] = {{"\x80", "\xc2\x80"},
+                                                         {"\xff", "\xc3\xbf"},
+                                                         {"\xc0\xaf", "\xc3\x80\xc2\xaf"},
+                                                         {"\xe0\x9f\xbf", "\xc3\xa0\xc2\x9f\xc2\xbf"},
+                                                         {"\xf0\x8f\xbf\xbf", "\xc3\xb0\xc2\x8f\xc2\xbf\xc2\xbf"},
+                                                         {"\xed\xa0\x80", "\xc3\xad\xc2\xa0\xc2\x80"},
+                                                         {"\xf4\x90\x80\x80", "\xc3\xb4\xc2\x90\xc2\x80\xc2\x80"},
+                                                         {"\xe2\x82", "\xc3\xa2\xc2\x82"},
+                                                         {"\xe2\x82x", "\xc3\xa2\xc2\x82x"}};
+  for (const auto& [name, taken] : invalid) CHECK(ofObj("g " + name + "\nf 1 2 3\n").names == Names{taken});
+}
+
 TEST_CASE("OBJ: materials are groups where no triangle has a g line", "[groups]") {
   requireGroups(ofObj("f 1 2 3\nusemtl red\nf 1 2 4\nusemtl blue\nf 1 3 4\ng after\n"), {"default", "red", "blue"}, {0, 1, 2});
   requireGroups(ofObj("usemtl red\nf 1 2 3\ng a\nf 1 2 4\nusemtl blue\nf 1 3 4\n"), {"default", "a"}, {0, 1, 1});

@@ -38,7 +38,8 @@ struct GroupedMesh {
 
 /// The same with the groups of the triangles, if the file has any. Of OBJ: what `g` lines name, of several names on a line the first;
 /// triangles before them are in the group "default"; where no triangle comes after a `g` line, what `usemtl` lines name. Of STL in text:
-/// its solids; one of several that has no name is called solid0, by its place in the file.
+/// its solids; one of several that has no name is called solid0, by its place in the file. Names are UTF-8: one that is not is taken as
+/// Latin-1.
 GroupedMesh readGroupedMesh(const std::string& path);
 GroupedMesh readGroupedMesh(std::span<const char> bytes, const std::string& name);
 /// Only the groups, of a file that readMesh() takes.

@@ -1,4 +1,5 @@
 // Groups of triangles, in a second walk through the text of a file, so that those who need none read without them.
+#include <bit>
 #include <map>
 
 #include "mesh/read/load_file.h"
@@ -9,12 +10,46 @@ namespace mandoline {
 namespace detail {
 namespace {
 
+bool isUtf8(std::string_view text) {
+  constexpr uint32_t kFirst[] = {0, 0, 0x80, 0x800, 0x10000};  // that needs so many bytes
+  while (!text.empty()) {
+    const auto first = uint8_t(text[0]);
+    const int ones = std::countl_one(first);
+    const size_t size = ones == 0 ? 1 : size_t(ones);
+    if (ones == 1 || ones > 4 || size > text.size()) return false;
+    uint32_t code = first & (0x7fu >> ones);
+    for (const char c : text.substr(1, size - 1)) {
+      if ((uint8_t(c) & 0xc0) != 0x80) return false;
+      code = code << 6 | (uint8_t(c) & 0x3f);
+    }
+    if (code < kFirst[size] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return false;
+    text.remove_prefix(size);
+  }
+  return true;
+}
+
+/// A name in UTF-8: as it is, or from Latin-1, which older programs write.
+std::string inUtf8(std::string_view name) {
+  if (isUtf8(name)) return std::string(name);
+  std::string result;
+  for (const char c : name) {
+    const auto code = uint8_t(c);
+    if (code < 0x80) {
+      result += c;
+    } else {
+      result += char(0xc0 | code >> 6);
+      result += char(0x80 | (code & 0x3f));
+    }
+  }
+  return result;
+}
+
 /// Gives names to triangles as they come.
 class Labels {
  public:
   /// Names the triangles that follow.
   void begin(std::string_view name) {
-    name_ = name.empty() ? kDefault : name;
+    name_ = name.empty() ? std::string(kDefault) : inUtf8(name);
     group_ = kUnknown;
     begun_ = true;
   }
