@@ -68,7 +68,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 TEST_CASE("Command line: help and version", "[cli]") {
   const TemporaryFolder folder;
-  const std::vector<std::string> ways[] = {{"--help"}, {"-h"}, {"cut", "--help"}, {"info", "-h"}};
+  const std::vector<std::string> ways[] = {{"--help"}, {"-h"}, {"cut", "--help"}, {"info", "-h"}, {"help"}, {"help", "cut"}};
   for (const auto& words : ways) {
     const Outcome o = run(folder, words);
     REQUIRE(o.exitCode == 0);
@@ -100,9 +100,13 @@ TEST_CASE("Command line: wrong usage exits with 2", "[cli]") {
       {{"slice", mesh, "--heights", "1", "--only", "cut", "-o", folder.path("a.svg")}, "--only cut: outlines have no cells"},
       {{"slice", mesh, "--heights", "1", "-o", folder.path("a.stl")}, "a.stl: outlines are written as .svg, .dxf or .obj"},
       {{"slice", mesh, "--heights", "1", "-o", mesh}, "are the same file"},
+      {{"slice", mesh, "--heights", "1", "-o", folder.path("none/a.svg")}, "a.svg: there is no folder"},
+      {{"slice", mesh, "--heights", "1", "-o", folder.path("a-{region}.svg")}, "a-{region}.svg: only cut writes a file for each region"},
+      {{"resolve", mesh, "-o", folder.path("none/a.obj")}, "a.obj: there is no folder"},
       {{"make"}, "the shape is missing"},
       {{"make", "torus"}, "-o is missing"},
       {{"make", "torus", "-o", folder.path("a.vtu")}, "a.vtu: a mesh is written as .obj, .stl, .ply or .off"},
+      {{"make", "torus", "-o", folder.path("none/a.obj")}, "a.obj: there is no folder"},
       {{"make", "pretzel", "-o", folder.path("a.obj")}, "there are the shapes box, sphere, torus and torus-knot, not 'pretzel'"},
       {{"make", "torus", "knot", "-o", folder.path("a.obj")}, "one shape at a time"},
       {{"cut"}, "the mesh is missing"},
@@ -268,6 +272,24 @@ TEST_CASE("Command line: reports and files that can't be written exit with 2", "
   REQUIRE(o.exitCode == 2);
   REQUIRE(contains(o.err, "mandoline: " + report + ": can't be written: No such file or directory"));
   REQUIRE(std::filesystem::exists(folder.path("a.json")));
+}
+
+TEST_CASE("Command line: a file that can't be written does not keep others from it", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", kCube), full = folder.path("full.obj"), other = folder.path("other.obj");
+  std::filesystem::create_symlink("/dev/full", full);
+  std::vector<std::vector<std::string>> commands{{"cut", mesh}, {"slice", mesh, "--heights", "2"}, {"resolve", mesh}, {"make", "box"}};
+#ifdef MANDOLINE_HAVE_OPERATORS
+  commands.push_back({"flow", mesh, "--cells", "6", "--wind", "1,0,0"});
+#endif
+  for (std::vector<std::string>& words : commands) {
+    words.insert(words.end(), {"-o", full, other});
+    const Outcome o = run(folder, words);
+    CAPTURE(words, o.err);
+    CHECK(o.exitCode == 2);
+    CHECK(contains(o.err, "mandoline: " + full + ": can't be written"));
+    CHECK(std::filesystem::remove(other));
+  }
 }
 
 TEST_CASE("Command line: grids by box, origin and planes", "[cli]") {
@@ -600,6 +622,44 @@ TEST_CASE("Command line: flow writes cells with velocities, and streamlines", "[
   REQUIRE(contains(run(folder, {"flow", mesh, "--wind", "1,0", "-o", folder.path("flow.vtu")}).err, "--wind needs X,Y,Z, not '1,0'"));
   REQUIRE(contains(run(folder, {"flow", mesh, "--wind", "1,0,0", "-o", folder.path("flow.stl")}).err,
                    "flow.stl: a flow is written as .vtu or .obj"));
+}
+
+TEST_CASE("Command line: wrong outputs of a flow are told before it is solved", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", kCube), flow = folder.path("flow.vtu");
+  const auto message = [&](const std::vector<std::string>& outputs) {
+    std::vector<std::string> words{"flow", mesh, "--wind", "1,0,0", "--report", folder.path("r.json"), "-o"};
+    words.insert(words.end(), outputs.begin(), outputs.end());
+    const Outcome o = run(folder, words);
+    CHECK(o.exitCode == 2);
+    CHECK_FALSE(std::filesystem::exists(folder.path("r.json")));
+    return o.err;
+  };
+  CHECK(contains(message({folder.path("none/a.vtu"), flow}), "a.vtu: there is no folder"));
+  CHECK(contains(message({folder.path("a-{region}.vtu")}), "a-{region}.vtu: only cut writes a file for each region"));
+  CHECK(contains(message({folder.path("lines.obj"), "--only", "inside"}), "--only: only .vtu files have a part of the cells"));
+}
+
+TEST_CASE("Command line: flow reports a mesh that can't be cut", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("point.obj", "v 0 0 0\n"), report = folder.write("report.json", "old");
+  const Outcome o = run(folder, {"flow", mesh, "--wind", "1,0,0", "--report", report, "-o", folder.path("flow.vtu")});
+  CHECK(o.exitCode == 1);
+  CHECK(contains(o.err, "mandoline: " + mesh + ": emptyMesh: "));
+  CHECK(contains(folder.read("report.json"), "\"status\": \"emptyMesh\""));
+  CHECK_FALSE(std::filesystem::exists(folder.path("flow.vtu")));
+}
+
+TEST_CASE("Command line: a flow that doubles can't hold is written, and its report does not hide that", "[cli]") {
+  const TemporaryFolder folder;
+  std::string huge;
+  for (const char c : kCube) huge += std::string(1, c) + (c == '1' || c == '3' ? "e80" : "");
+  const std::string mesh = folder.write("cube.obj", huge.substr(0, huge.find('f')) + kCube.substr(kCube.find('f')));
+  const Outcome o = run(
+      folder, {"flow", mesh, "--wind", "1,0,0", "--cells", "6", "--report", "-", "-o", folder.path("lines.obj"), folder.path("flow.vtu")});
+  CAPTURE(o.out, o.err);
+  CHECK(o.out.find("\"largestSpeed\": 0,") == std::string::npos);
+  CHECK(std::filesystem::exists(folder.path("flow.vtu")));  // though there are no streamlines where speeds are NaN
 }
 #endif
 

@@ -18,7 +18,7 @@ class Parser {
       if (word == "--help" || word == "-h") return arguments_;
     }
     parseCommand(words_[next_++]);
-    if (arguments_.command == Command::version) return arguments_;
+    if (arguments_.command == Command::help || arguments_.command == Command::version) return arguments_;
     while (next_ < words_.size()) parseWord(words_[next_++]);
     check();
     return arguments_;
@@ -76,8 +76,8 @@ class Parser {
 
   void parseCommand(const std::string& word) {
     constexpr std::pair<const char*, Command> kCommands[] = {
-        {"cut", Command::cut},   {"slice", Command::slice},     {"flow", Command::flow},        {"info", Command::info},
-        {"make", Command::make}, {"resolve", Command::resolve}, {"--version", Command::version}};
+        {"cut", Command::cut},   {"slice", Command::slice},     {"flow", Command::flow}, {"info", Command::info},
+        {"make", Command::make}, {"resolve", Command::resolve}, {"help", Command::help}, {"--version", Command::version}};
     const auto found = std::find_if(std::begin(kCommands), std::end(kCommands), [&](const auto& command) { return word == command.first; });
     if (found == std::end(kCommands)) throw UsageError("unknown command '" + word + "'");
     arguments_.command = found->second;

@@ -5,14 +5,10 @@
 #include "cli/files.h"
 #include "cli/interrupt.h"
 #include "cli/make_grid.h"
-#include "cli/peak_memory.h"
-#include "cli/report.h"
 #include "mandoline/measure.h"
 
 namespace mandoline::cli {
 namespace {
-
-constexpr std::string_view kRegionMark = "{region}";
 
 /// What can be told before there is a mesh.
 void checkOutputs(const Arguments& arguments) {
@@ -110,20 +106,6 @@ class Writer {
   std::optional<CellComplex> cells_;
 };
 
-/// Every report and cut-mesh gets its chance, even if another can't be written.
-template <class Work>
-void attempt(int& exitCode, const Work& work) {
-  try {
-    work();
-  } catch (const FileError& error) {
-    complain(error.what());
-    exitCode = kBadUsageOrFile;
-  } catch (const UsageError& error) {
-    complain(error.what());
-    exitCode = kBadUsageOrFile;
-  }
-}
-
 void deliver(const Arguments& arguments, const Report& report) {
   if (!arguments.report.empty()) {
     writeOutput(arguments.report, [&](const Sink& sink) { sink(reportJson(report)); });
@@ -155,8 +137,7 @@ int runCut(const Arguments& arguments) {
   const MeshInfo info = inspect(mesh);
   const Grid grid = makeGrid(arguments.grid, mesh, info);
   const CutResult result = cutMesh(arguments, mesh, grid);
-  const bool looks = arguments.intersections != Intersections::assumeNone;
-  Report report{{nameOf(arguments.mesh), info, {}, input.groups}, grid, result, looks, peakMemoryBytes(), {}, {}};
+  Report report = reportOf(arguments, {nameOf(arguments.mesh), info, {}, input.groups}, grid, result);
   if (result) {
     report.regionVolumes = withProgress(
         arguments.threads, [&](const RunOptions& options) { return regionVolumes(result.mesh, measure(mesh, result.mesh, options)); });

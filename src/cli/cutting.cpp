@@ -5,6 +5,8 @@
 #include "cli/commands.h"
 #include "cli/files.h"
 #include "cli/make_grid.h"
+#include "cli/peak_memory.h"
+#include "io/output_file.h"
 
 namespace mandoline::cli {
 
@@ -15,9 +17,32 @@ void checkOutputs(const Arguments& arguments, bool (*isAllowed)(FileFormat), con
   for (const std::string& output : arguments.outputs) {
     const std::optional<FileFormat> format = output == "-" ? arguments.format : formatOf(output);
     if (!format || !isAllowed(*format)) throw UsageError(output + ": " + rule);
+    if (output.find(kRegionMark) != std::string::npos) throw UsageError(output + ": only cut writes a file for each region");
+    if (output != "-") detail::checkPlace(output);
     files.push_back({"-o", output});
   }
   requireDifferent(files);
+}
+
+void attempt(int& exitCode, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const FileError& error) {
+    complain(error.what());
+    exitCode = kBadUsageOrFile;
+  } catch (const UsageError& error) {
+    complain(error.what());
+    exitCode = kBadUsageOrFile;
+  } catch (const CallError& error) {
+    complain(error.what());
+    if (exitCode == kFine) exitCode = kNotCut;
+  }
+}
+
+int writeOutputs(const Arguments& arguments, const std::function<void(const std::string&)>& write) {
+  int exitCode = kFine;
+  for (const std::string& output : arguments.outputs) attempt(exitCode, [&] { write(output); });
+  return exitCode;
 }
 
 bool takesStandardOutput(const Arguments& arguments) {
@@ -30,10 +55,18 @@ CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const Grid& grid
   });
 }
 
-std::optional<CutMesh> cutOrComplain(const Arguments& arguments, const Mesh& mesh, const GridArguments& grid) {
-  CutResult result = cutMesh(arguments, mesh, makeGrid(grid, mesh, inspect(mesh)));
+Report reportOf(const Arguments& arguments, const MeshReport& mesh, const Grid& grid, const CutResult& result) {
+  return {mesh, grid, result, arguments.intersections != Intersections::assumeNone, peakMemoryBytes(), {}, {}};
+}
+
+std::optional<CutMesh> cutOrComplain(const Arguments& arguments, const GroupedMesh& input, const GridArguments& asked) {
+  const MeshReport mesh{nameOf(arguments.mesh), inspect(input.mesh), {}, input.groups};
+  const Grid grid = makeGrid(asked, input.mesh, mesh.info);
+  CutResult result = cutMesh(arguments, input.mesh, grid);
   if (result) return std::move(result.mesh);
-  complain(refusal(nameOf(arguments.mesh), result.error));
+  complain(refusal(mesh.name, result.error));
+  if (!arguments.report.empty())
+    writeOutput(arguments.report, [&](const Sink& sink) { sink(reportJson(reportOf(arguments, mesh, grid, result))); });
   return std::nullopt;
 }
 

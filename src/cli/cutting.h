@@ -1,11 +1,13 @@
 // What the commands that cut have in common.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <type_traits>
 
 #include "cli/arguments.h"
 #include "cli/progress_bar.h"
+#include "cli/report.h"
 
 namespace mandoline::cli {
 
@@ -29,8 +31,19 @@ auto withProgress(unsigned threads, const Work& work) {
   }
 }
 
-/// Throws UsageError for an output of a format that is not allowed, `rule` saying which are, and if two of the files are the same.
+/// In the name of an output of cut: one file for each region.
+inline constexpr std::string_view kRegionMark = "{region}";
+
+/// Throws UsageError for an output of a format that is not allowed, `rule` saying which are, for a name with {region}, and if two of the
+/// files are the same; FileError for one in a folder that does not exist.
 void checkOutputs(const Arguments& arguments, bool (*isAllowed)(FileFormat), const std::string& rule);
+
+/// Calls work(). If a file can't be written, or there is nothing to write, complains and sets the exit code, so that others get their
+/// chance.
+void attempt(int& exitCode, const std::function<void()>& work);
+
+/// Attempts write(output) for every output. Gives the exit code.
+int writeOutputs(const Arguments& arguments, const std::function<void(const std::string&)>& write);
 
 /// Whether one of the outputs is standard output.
 bool takesStandardOutput(const Arguments& arguments);
@@ -38,8 +51,11 @@ bool takesStandardOutput(const Arguments& arguments);
 /// With progress.
 CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const Grid& grid);
 
-/// The same with the grid that is asked for; if it fails, says why and gives nothing.
-std::optional<CutMesh> cutOrComplain(const Arguments& arguments, const Mesh& mesh, const GridArguments& grid);
+/// What there is to tell of it, but for the regions and the validation.
+Report reportOf(const Arguments& arguments, const MeshReport& mesh, const Grid& grid, const CutResult& result);
+
+/// The same with the grid that is asked for; if it fails, says why, in the report too if there is to be one, and gives nothing.
+std::optional<CutMesh> cutOrComplain(const Arguments& arguments, const GroupedMesh& input, const GridArguments& grid);
 
 /// All cells, merged as far as --coarsen says. With progress.
 CellComplex makeCells(const Arguments& arguments, const Mesh& mesh, const CutMesh& cutMesh);

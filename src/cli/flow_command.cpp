@@ -3,6 +3,7 @@
 #ifdef MANDOLINE_HAVE_OPERATORS
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 
@@ -50,11 +51,14 @@ struct FlowReport {
 
   size_t iterations() const { return flow().residuals.empty() ? 0 : flow().residuals.size() - 1; }
   double residual() const { return flow().residuals.empty() ? 0 : flow().residuals.back(); }
+  /// NaN if one of them is.
   double largestSpeed() const {
     double largest = 0;
     for (size_t c = 0; c < field.cells.cellCount(); ++c) {
       const double* v = &flow().cellVelocity[3 * c];
-      largest = std::max(largest, measuring::length({v[0], v[1], v[2]}));
+      const double speed = measuring::length({v[0], v[1], v[2]});
+      if (std::isnan(speed)) return speed;
+      largest = std::max(largest, speed);
     }
     return largest;
   }
@@ -90,21 +94,41 @@ void deliver(const FlowReport& report) {
   }
 }
 
+bool isVtu(const Arguments& arguments, const std::string& output) { return formatFor(arguments, output) == FileFormat::vtu; }
+
+/// What can be told before there is a mesh.
+void checkFlowOutputs(const Arguments& arguments) {
+  checkOutputs(arguments, isFlowFormat, "a flow is written as .vtu or .obj");
+  if (std::any_of(arguments.outputs.begin(), arguments.outputs.end(), [&](const auto& output) { return isVtu(arguments, output); })) return;
+  if (arguments.faces) throw UsageError("--faces: only .vtu files have faces instead of cells");
+  if (arguments.only.any()) throw UsageError("--only: only .vtu files have a part of the cells");
+}
+
+void write(const Arguments& arguments, const std::string& output, const FlowField& field, WriteOptions options) {
+  withProgress(arguments.threads, [&](const RunOptions& run) {
+    if (isVtu(arguments, output)) {
+      static_cast<RunOptions&>(options) = run;
+      const auto& writeElements = arguments.faces ? writeFaces : writeCells;
+      return writeOutput(output, [&](const Sink& sink) { writeElements(sink, field, options); });
+    }
+    const std::vector<double> seeds = inflowSeeds(field.cutMesh.grid, *arguments.flow.wind, arguments.flow.streamlines);
+    const Streamlines lines = streamlines(field, seeds, StreamlineOptions{run});
+    writeOutput(output, [&](const Sink& sink) { writeLines(sink, lines); });
+  });
+}
+
 /// Of the wind tunnel, in longest sides of the mesh.
 constexpr double kMargin = 0.5;
 
 }  // namespace
 
 int runFlow(const Arguments& arguments) {
-  checkOutputs(arguments, isFlowFormat, "a flow is written as .vtu or .obj");
-  const auto isVtu = [&](const std::string& output) { return formatFor(arguments, output) == FileFormat::vtu; };
-  if (arguments.faces && std::none_of(arguments.outputs.begin(), arguments.outputs.end(), isVtu))
-    throw UsageError("--faces: only .vtu files have faces instead of cells");
+  checkFlowOutputs(arguments);
   const GroupedMesh input = readGroupedInput(arguments.mesh);
   const Mesh& mesh = input.mesh;
   GridArguments grid = arguments.grid;
   if (!grid.margin) grid.margin = kMargin;
-  const std::optional<CutMesh> cutMesh = cutOrComplain(arguments, mesh, grid);
+  const std::optional<CutMesh> cutMesh = cutOrComplain(arguments, input, grid);
   if (!cutMesh) return kNotCut;
   WriteOptions options = writeOptions(arguments.only, *cutMesh);
   options.groups = &input.groups;
@@ -112,22 +136,14 @@ int runFlow(const Arguments& arguments) {
   const Flow flow =
       withProgress(arguments.threads, [&](const RunOptions& run) { return solveFlow(cells, *arguments.flow.wind, FlowOptions{run}); });
   const FlowField field{mesh, *cutMesh, cells, flow};
-  deliver({arguments, field});
-  for (const std::string& output : arguments.outputs) {
-    withProgress(arguments.threads, [&](const RunOptions& run) {
-      if (isVtu(output)) {
-        static_cast<RunOptions&>(options) = run;
-        const auto& write = arguments.faces ? writeFaces : writeCells;
-        return writeOutput(output, [&](const Sink& sink) { write(sink, field, options); });
-      }
-      const std::vector<double> seeds = inflowSeeds(cutMesh->grid, *arguments.flow.wind, arguments.flow.streamlines);
-      const Streamlines lines = streamlines(field, seeds, StreamlineOptions{run});
-      writeOutput(output, [&](const Sink& sink) { writeLines(sink, lines); });
-    });
+  int exitCode = kFine;
+  if (flow.status != SolveStatus::converged) {
+    complain(nameOf(arguments.mesh) + ": the flow was not solved: " + name(flow.status));
+    exitCode = kNotCut;
   }
-  if (flow.status == SolveStatus::converged) return kFine;
-  complain(nameOf(arguments.mesh) + ": the flow was not solved: " + name(flow.status));
-  return kNotCut;
+  attempt(exitCode, [&] { deliver({arguments, field}); });
+  for (const std::string& output : arguments.outputs) attempt(exitCode, [&] { write(arguments, output, field, options); });
+  return exitCode;
 }
 
 }  // namespace mandoline::cli

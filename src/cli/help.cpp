@@ -113,7 +113,8 @@ Options of cut, info and flow
                          flow: status, path, wind, cutCells, cells, faces, iterations,
                          residuals, largestSpeed and throttled (components)
 
-Exit codes: 0 fine; 1 the mesh can't be cut, or validation failed; 2 wrong usage, or a
+Exit codes: 0 fine; 1 the mesh can't be cut, validation failed, there is not enough
+memory, or the flow was not solved, which is written all the same; 2 wrong usage, or a
 file can't be read or written; 130 stopped by Ctrl-C (143 by SIGTERM), which leaves no
 unfinished files.
 )";

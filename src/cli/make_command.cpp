@@ -19,10 +19,9 @@ Mesh makeShape(const std::string& shape) {
 int runMake(const Arguments& arguments) {
   checkOutputs(arguments, isMeshFormat, "a mesh is written as .obj, .stl, .ply or .off");
   const Mesh mesh = makeShape(arguments.shape);
-  for (const std::string& output : arguments.outputs) {
+  return writeOutputs(arguments, [&](const std::string& output) {
     writeOutput(output, [&](const Sink& sink) { writeMesh(sink, formatFor(arguments, output), mesh); });
-  }
-  return kFine;
+  });
 }
 
 }  // namespace mandoline::cli

@@ -36,14 +36,14 @@ int runResolve(const Arguments& arguments) {
   }
   const Mesh written = arguments.rule ? boundary(result.mesh, *arguments.rule) : result.mesh.mesh;
   const TriangleGroups groups = arguments.rule ? TriangleGroups() : groupsOf(result.mesh, input.groups);
-  for (const std::string& output : arguments.outputs) {
+  const int exitCode = writeOutputs(arguments, [&](const std::string& output) {
     writeOutput(output, [&](const Sink& sink) { writeMesh(sink, formatFor(arguments, output), written, {}, &groups); });
-  }
+  });
   const PairCounts &met = result.stats.intersections, &left = result.remaining;
   std::cerr << "Pairs of triangles that met: " << describePairs(met) << "\n"
             << "After the rounding of vertices: " << describePairs(left) << "\n"
             << "Triangles written: " << written.triangleCount() << "\n";
-  return kFine;
+  return exitCode;
 }
 
 }  // namespace mandoline::cli

@@ -36,17 +36,16 @@ OutlineStack outlineStack(const SliceArguments& slice, const Mesh& mesh, const C
 
 int runSlice(const Arguments& arguments) {
   checkOutputs(arguments, isOutlineFormat, "outlines are written as .svg, .dxf or .obj");
-  const Mesh mesh = readInput(arguments.mesh);
-  const std::optional<CutMesh> cutMesh = cutOrComplain(arguments, mesh, arguments.grid);
+  const GroupedMesh input{readInput(arguments.mesh), {}};
+  const std::optional<CutMesh> cutMesh = cutOrComplain(arguments, input, arguments.grid);
   if (!cutMesh) return kNotCut;
   OnlyArguments only = arguments.only;
   if (!only.any() && cutMesh->hasWinding) only.inside = true;
   const WriteOptions options = writeOptions(only, *cutMesh);
-  const OutlineStack stack = outlineStack(arguments.slice, mesh, *cutMesh);
-  for (const std::string& output : arguments.outputs) {
+  const OutlineStack stack = outlineStack(arguments.slice, input.mesh, *cutMesh);
+  return writeOutputs(arguments, [&](const std::string& output) {
     writeOutput(output, [&](const Sink& sink) { writeOutlines(sink, formatFor(arguments, output), stack, options); });
-  }
-  return kFine;
+  });
 }
 
 }  // namespace mandoline::cli
