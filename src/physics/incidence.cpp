@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "mandoline/operators.h"
+#include "operators/require_cut_mesh.h"
 #include "physics/sparse.h"
 
 namespace mandoline {
@@ -31,6 +32,14 @@ size_t find(const ComplexEdges& edges, uint32_t low, uint32_t high) {
   return first;
 }
 
+void requireEdges(const CellComplex& cells, const ComplexEdges& edges) {
+  const std::vector<uint32_t> own = complexEdges(cells).vertices;
+  const auto [differing, other] = std::mismatch(own.begin(), own.end(), edges.vertices.begin(), edges.vertices.end());
+  if (differing == own.end() && other == edges.vertices.end()) return;
+  const int64_t edge = (differing - own.begin()) / 2;
+  operators::refuse("The edges are not complexEdges() of these cells: edge " + std::to_string(edge) + " differs.", edge);
+}
+
 }  // namespace
 
 ComplexEdges complexEdges(const CellComplex& cells) {
@@ -59,6 +68,7 @@ SparseMatrix cellFaceIncidence(const CellComplex& cells) {
 }
 
 SparseMatrix faceEdgeIncidence(const CellComplex& cells, const ComplexEdges& edges) {
+  requireEdges(cells, edges);
   Triplets entries;
   for (size_t f = 0; f < cells.faceCount(); ++f) {
     forEachEdge(cells, f, [&](uint32_t from, uint32_t to) {
@@ -71,6 +81,7 @@ SparseMatrix faceEdgeIncidence(const CellComplex& cells, const ComplexEdges& edg
 }
 
 SparseMatrix edgeVertexIncidence(const CellComplex& cells, const ComplexEdges& edges) {
+  requireEdges(cells, edges);
   Triplets entries;
   for (size_t e = 0; e < edges.count(); ++e) {
     entries.emplace_back(int(e), int(edges.vertices[2 * e]), -1);

@@ -4,6 +4,7 @@
 #include "case_list.h"
 #include "checked_cut.h"
 #include "physics/complexes.h"
+#include "refusal.h"
 #include "shapes.h"
 
 using namespace mandoline;
@@ -105,4 +106,26 @@ TEST_CASE("operators: the two sides of a sheet are never coupled", "[operators]"
     CHECK(matrix.coeff(int(a), int(b)) == 0);
     CHECK(cells.cellRegion[a] == cells.cellRegion[b]);
   }
+}
+
+TEST_CASE("operators: the edges of other cells are refused", "[operators]") {
+  const CellComplex cells = complexOf(shapes::icosphere({3, 3, 3}, 1.9, 1), unitGrid(6));
+  const ComplexEdges own = complexEdges(cells);
+  const auto requireRefused = [&](const ComplexEdges& edges) {
+    CHECK(refusal([&] { faceEdgeIncidence(cells, edges); }).first == Status::badArgument);
+    CHECK(refusal([&] { edgeVertexIncidence(cells, edges); }).first == Status::badArgument);
+  };
+  requireRefused({});
+  requireRefused(complexEdges(complexOf(shapes::icosphere({3.3, 3.1, 2.9}, 1.7, 1), unitGrid(6))));
+  ComplexEdges odd = own, less = own, more = own, swapped = own, beyond = own;
+  odd.vertices.push_back(0);
+  requireRefused(odd);
+  less.vertices.resize(less.vertices.size() - 2);
+  requireRefused(less);
+  more.vertices.insert(more.vertices.end(), {uint32_t(cells.vertexCount() - 1), uint32_t(cells.vertexCount())});
+  requireRefused(more);
+  std::swap(swapped.vertices[0], swapped.vertices[1]);
+  requireRefused(swapped);
+  beyond.vertices[1] = uint32_t(cells.vertexCount());
+  requireRefused(beyond);
 }

@@ -30,7 +30,8 @@ struct ComplexEdges {
 };
 ComplexEdges complexEdges(const CellComplex& cells);
 
-// Signed incidences, of entries 1 and -1. The product of one with the next is zero to the bit.
+// Signed incidences, of entries 1 and -1. The product of one with the next is zero to the bit. `edges` are complexEdges(cells); others
+// throw CallError{badArgument} with the first edge (element) that differs.
 
 /// Cells x faces: 1 if the face's normal points out of the cell, -1 if into it; none for a face with the cell on both sides.
 SparseMatrix cellFaceIncidence(const CellComplex& cells);
