@@ -369,8 +369,32 @@ TEST_CASE("cells and faces are written as .vtu with fields", "[cellfiles]") {
   CHECK(faceFile.find("group_names") == std::string::npos);
 
   CHECK(refusal([&] { vtuOf(cells, true, ofCells); }).first == Status::badArgument);
-  const Field odd[] = {{"a<b", perFace}};
-  CHECK(refusal([&] { vtuOf(cells, true, odd); }).first == Status::badArgument);
+}
+
+TEST_CASE("fields are refused without a name of their own that XML can hold", "[cellfiles]") {
+  const Cells cells(kShell, Grid::around(kShell, 3), 2);
+  const std::vector<double> perCell(cells.complex.cellCount()), perFace(cells.complex.faceCount());
+  const TriangleGroups groups{{"all"}, std::vector<uint32_t>(kShell.triangleCount())};
+  WriteOptions options;
+  options.groups = &groups;
+  const auto statusOf = [&](bool faces, const std::vector<std::string>& names) {
+    std::vector<Field> fields;
+    for (const std::string& name : names) fields.push_back({name, faces ? perFace : perCell});
+    return refusal([&] { vtuOf(cells, faces, fields, options); }).first;
+  };
+  for (const std::string name : {"a<b", "a>b", "a&b", "a\"b", "", "a\nb", "a\tb", "\x7f", "\x1f"}) {
+    CAPTURE(name);
+    CHECK(statusOf(false, {name}) == Status::badArgument);
+    CHECK(statusOf(true, {name}) == Status::badArgument);
+  }
+  CHECK(statusOf(false, {std::string("a\0b", 3)}) == Status::badArgument);
+  CHECK(statusOf(false, {"a", "b", "a"}) == Status::badArgument);
+  for (const char* name : {"grid_cell", "level", "region", "winding", "volume"}) CHECK(statusOf(false, {name}) == Status::badArgument);
+  for (const char* name : {"face", "tag", "triangle", "cells", "group"}) CHECK(statusOf(true, {name}) == Status::badArgument);
+  CHECK(statusOf(false, {"face", "a b", "p'",
+                         "gr\xc3\xb6\xc3\x9f"
+                         "e"}) == Status::ok);
+  CHECK(statusOf(true, {"volume", "region"}) == Status::ok);
 }
 
 TEST_CASE("Cells as JSON: with the triangles and groups of faces", "[cellfiles]") {

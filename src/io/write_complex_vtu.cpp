@@ -1,4 +1,7 @@
 // Cell complexes as VTK XML unstructured grids: the cells as polyhedra, the faces as polygons.
+#include <cstring>
+#include <set>
+
 #include "base/sort.h"
 #include "io/complex_polygons.h"
 #include "io/groups.h"
@@ -19,10 +22,23 @@ std::vector<int> componentsOf(std::span<const Field> fields, size_t count, const
       operators::refuse("The field " + field.name + " must have 1 or 3 numbers for each of the " + std::to_string(count) + ' ' + element +
                         '.');
     }
-    if (field.name.find_first_of("<>&\"") != std::string::npos) operators::refuse("A field's name must be without any of < > & \".");
     components.push_back(int(each));
   }
   return components;
+}
+
+/// Throws CallError for a field without a name of its own, such as XML can hold.
+template <class ForEachArray>
+void requireNames(std::span<const Field> fields, const ForEachArray& forEachArray) {
+  std::set<std::string_view> names;
+  forEachArray([&](auto, std::string_view name, uint64_t, int, const auto&) { names.insert(name); });
+  const auto isWrong = [](char c) { return (c >= 0 && c < ' ') || c == 0x7f || std::strchr("<>&\"", c); };
+  for (const Field& field : fields) {
+    if (field.name.empty()) operators::refuse("A field has no name.");
+    if (std::any_of(field.name.begin(), field.name.end(), isWrong))
+      operators::refuse("A field's name must be without control characters and any of < > & \".");
+    if (!names.insert(field.name).second) operators::refuse("There are two arrays of the name " + field.name + ".");
+  }
 }
 
 /// What both files have in common: the elements that are written, and the vertices that these use.
@@ -82,6 +98,7 @@ class CellWriter : ComplexWriter {
   void write(std::span<const Field> fields) {
     const std::vector<int> components = componentsOf(fields, cells_.cellCount(), "cells");
     count();
+    requireNames(fields, [&](const auto& visit) { forEachArray(visit); });
     VtuFile(meter_, points_, written_.size(), "grid_cell").write(1, [&](const auto& visit) {
       forEachArray(visit);
       forEachField(fields, components, visit);
@@ -173,12 +190,12 @@ class FaceWriter : ComplexWriter {
 
   void write(std::span<const Field> fields) {
     const std::vector<int> components = componentsOf(fields, cells_.faceCount(), "faces");
-    const TriangleGroups* groups = checkedGroups(options_.groups, cutMesh_.triangleCount);
-    const std::string names = groups ? vtkStrings("group_names", groups->names) : "";
+    groups_ = checkedGroups(options_.groups, cutMesh_.triangleCount);
+    const std::string names = groups_ ? vtkStrings("group_names", groups_->names) : "";
     count();
+    requireNames(fields, [&](const auto& visit) { forEachArray(visit); });
     VtuFile(meter_, points_, written_.size(), "face", names).write(1, [&](const auto& visit) {
       forEachArray(visit);
-      if (groups) visit(int32_t(), "group", written_.size(), 1, perPolygon([&](uint32_t f) { return groups->of(triangleOf(f)); }));
       forEachField(fields, components, visit);
     });
   }
@@ -225,6 +242,7 @@ class FaceWriter : ComplexWriter {
         put(cells_.faceCells[2 * size_t(f) + 1]);
       }
     });
+    if (groups_) visit(int32_t(), "group", n, 1, perPolygon([this](uint32_t f) { return groups_->of(triangleOf(f)); }));
   }
 
   template <class Put>
@@ -237,6 +255,7 @@ class FaceWriter : ComplexWriter {
     }
   }
 
+  const TriangleGroups* groups_ = nullptr;
   std::vector<uint64_t> offsets_;  // per polygon
 };
 

@@ -70,7 +70,7 @@ void writeMcm(const Sink& sink, const CutMesh& cutMesh, const RunOptions& option
 void writeVtu(const Sink& sink, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options = {});
 /// Numbers to write along: 1 or 3 for each cell, or each face, of a cell complex.
 struct Field {
-  std::string name;
+  std::string name;  ///< not empty, that of no other array in the file, and without control characters and any of < > & "; else CallError
   std::span<const double> values;
 };
 /// The cells of a cell complex, made from the cut-mesh, as such polyhedra, which match face by face, with cell arrays grid_cell (the lowest
