@@ -397,6 +397,20 @@ TEST_CASE("fields are refused without a name of their own that XML can hold", "[
   CHECK(statusOf(true, {"volume", "region"}) == Status::ok);
 }
 
+TEST_CASE("cells of another cut with equal counts are refused by all writers", "[cellfiles]") {
+  const Mesh cube = shapes::cube(0.5, 1.5);
+  const Cells here(cube, Grid::box({0, 0, 0}, {2, 2, 2}, {2, 2, 2}), 1);
+  const Cells there(shapes::translated(cube, {2, 0, 0}), Grid::box({2, 0, 0}, {4, 2, 2}, {2, 2, 2}), 1);
+  REQUIRE(here.complex.cellCount() == there.complex.cellCount());
+  const TemporaryFolder folder;
+  const Sink nowhere = [](std::string_view) {};
+  CHECK(refusal([&] { writeVtu(nowhere, here.cutMesh, there.complex, {}, {}); }).first == Status::badArgument);
+  CHECK(refusal([&] { writeFacesVtu(nowhere, here.cutMesh, there.complex, {}, {}); }).first == Status::badArgument);
+  CHECK(refusal([&] { writeJson(nowhere, here.cutMesh, there.complex, {}); }).first == Status::badArgument);
+  CHECK(refusal([&] { writePolyMesh(folder.path("polyMesh"), here.cutMesh, there.complex); }).first == Status::badArgument);
+  CHECK(folder.fileCount() == 0);
+}
+
 TEST_CASE("Cells as JSON: with the triangles and groups of faces", "[cellfiles]") {
   const Cells cells(shapes::cube(0.5, 1.5), Grid::box({0, 0, 0}, {2, 2, 2}, {2, 2, 2}), 1);
   const TriangleGroups groups{{"a", "b"}, {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1}};

@@ -7,17 +7,13 @@
 
 namespace mandoline::detail {
 
-/// Throws CallError unless the cells are made from the cut-mesh.
-inline void requireCellsOf(const CutMesh& cutMesh, const CellComplex& cells) {
-  const bool same = cells.cutCells == cutMesh.cellCount() && cells.cutFaces == cutMesh.faceCount();
-  if (!same) operators::refuse("The cell complex is that of another cut-mesh.");
-}
-
 /// As Polygons; those of octree cells are simple as they are.
 class ComplexPolygons {
  public:
   /// `cells` is made from the cut-mesh, else throws CallError; both must outlive this.
-  ComplexPolygons(const CutMesh& cutMesh, const CellComplex& cells) : cells_(cells), polygons_(cutMesh) { requireCellsOf(cutMesh, cells); }
+  ComplexPolygons(const CutMesh& cutMesh, const CellComplex& cells) : cells_(cells), polygons_(cutMesh) {
+    operators::requireCellsOf(cutMesh, cells);
+  }
 
   /// Calls visit(std::span<const uint32_t> vertices) for each polygon of a face, counter-clockwise about the face's normal.
   template <class Visit>

@@ -29,7 +29,7 @@ void putCells(OutputBuffer& out, const CutMesh& cutMesh, const CellComplex& cell
 
 void writeJson(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options) {
   detail::runCall("writing", [&] {
-    detail::requireCellsOf(cutMesh, cells);
+    operators::requireCellsOf(cutMesh, cells);
     const TriangleGroups* groups = detail::checkedGroups(options.groups, cutMesh.triangleCount);
     uint64_t numbers = cutMesh.faceTriangle.size() + (groups ? groups->triangleGroup.size() : 0);
     forEachArray(cells, [&](const char*, const auto& array) { numbers += array.size(); });

@@ -1,7 +1,7 @@
-// What every operator asks of its cut-mesh.
+// What every operator asks of its cut-mesh, and of cells made from it.
 #pragma once
 
-#include "mandoline/cut_mesh.h"
+#include "mandoline/cell_complex.h"
 #include "mandoline/status.h"
 
 namespace mandoline::operators {
@@ -11,5 +11,8 @@ namespace mandoline::operators {
 
 /// Throws CallError for a CutMesh that holds nothing, as one is that was made without cut(). The arrays of others are trusted.
 void requireCutMesh(const CutMesh& cutMesh);
+
+/// Throws CallError unless the cell complex begins with the vertices, and with as many faces and cells, of the cut-mesh.
+void requireCellsOf(const CutMesh& cutMesh, const CellComplex& cells);
 
 }  // namespace mandoline::operators

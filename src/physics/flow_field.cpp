@@ -12,15 +12,29 @@ namespace physics {
 
 [[noreturn]] static void refuseCells() { operators::refuse("The cells are not all of this cut-mesh's."); }
 
+/// How many grid cells the cells that are no cut-cells fill.
+static uint64_t filled(const Grid& grid, const CellComplex& cells) {
+  constexpr uint8_t kMostLevel = 32;  // of which one cell fills any grid
+  uint64_t all = 0;
+  for (size_t c = cells.cutCells; c < cells.cellCount(); ++c) {
+    uint64_t count = 1;
+    const int64_t size = int64_t(1) << std::min(cells.cellLevel[c], kMostLevel);
+    for (size_t d = 0; d < 3; ++d) count *= uint64_t(std::min(size, grid.cells(int(d)) - cells.cellCorner[3 * c + d]));
+    all += count;
+  }
+  return all;
+}
+
 void requireField(const FlowField& field, std::span<const double> points) {
   const auto& [mesh, cutMesh, cells, flow] = field;
   operators::requireCutMesh(cutMesh);
   measuring::requireInput(mesh, cutMesh);
   const size_t n = cells.cellCount();
-  if (cells.cutCells != cutMesh.cellCount() || cells.cutFaces != cutMesh.faceCount()) refuseCells();
+  operators::requireCellsOf(cutMesh, cells);
   for (size_t i = 0; i < 3 * n; ++i) {
     if (cells.cellCorner[i] < 0 || cells.cellCorner[i] >= cutMesh.grid.cells(int(i % 3))) refuseCells();
   }
+  if (filled(cutMesh.grid, cells) != UntouchedCells(cutMesh).count()) refuseCells();
   if (flow.cellVelocity.size() != 3 * n || flow.cellGradient.size() != 6 * n) operators::refuse("The flow is one of other cells.");
   const auto isFinite = [](double number) { return std::isfinite(number); };
   const bool isFlow = std::all_of(flow.cellVelocity.begin(), flow.cellVelocity.end(), isFinite) &&
