@@ -3,6 +3,7 @@
 #include <climits>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <random>
 
 #include "catch.h"
@@ -281,5 +282,26 @@ TEST_CASE("wrong calls: only the cut-mesh's own mesh and measures are taken", "[
         CHECK_THROWS_AS(regionVolumes(all[j].cutMesh, all[i].measures), CallError);
       }
     }
+  }
+}
+
+TEST_CASE("wrong calls: a mesh whose triangles have been reordered since is noticed", "[wrong_calls]") {
+  std::vector<Family> all = families();
+  const Mesh soup = shapes::unwelded(shapes::icosphere({0, 0, 0}, 1, 1));
+  all.push_back(Family(soup, Grid::around(soup, 4)));
+  CutOptions snapping;
+  snapping.snapTolerance = 0.3;
+  all.push_back(Family(soup));
+  all.back().cutMesh = cut(soup, Grid::around(soup, 4), snapping).mesh;
+  for (const Family& family : all) {
+    if (family.cutMesh.faceCount() == 0) continue;
+    CHECK_NOTHROW(measure(family.mesh, family.cutMesh));
+    Mesh reordered = family.mesh;
+    std::vector<size_t> order(reordered.triangleCount());
+    std::iota(order.begin(), order.end(), size_t(0));
+    std::shuffle(order.begin(), order.end(), std::mt19937(1));
+    for (size_t t = 0; t < order.size(); ++t) std::copy_n(&family.mesh.triangles[3 * order[t]], 3, &reordered.triangles[3 * t]);
+    CHECK_THROWS_AS(measure(reordered, family.cutMesh), CallError);
+    CHECK_THROWS_AS(cellComplex(reordered, family.cutMesh, coarsen(family.cutMesh)), CallError);
   }
 }

@@ -35,8 +35,7 @@ void requireIds(const MeshView& mesh, const CutMesh& cutMesh) {
   }
 }
 
-/// Coordinates up to here may be flushed to 0 before cutting.
-double negligible(const MeshView& mesh, const Grid& grid) {
+double largestCoordinate(const MeshView& mesh, const Grid& grid) {
   double largest = 0;
   for (const std::vector<double>& planes : grid.planes) {
     if (!planes.empty()) largest = std::max({largest, std::fabs(planes.front()), std::fabs(planes.back())});
@@ -44,7 +43,7 @@ double negligible(const MeshView& mesh, const Grid& grid) {
   for (const uint32_t v : mesh.triangles) {
     for (size_t d = 0; d < 3; ++d) largest = std::max(largest, std::fabs(mesh.positions[3 * size_t(v) + d]));
   }
-  return std::ldexp(largest, -199);
+  return largest;
 }
 
 /// Whether snapping can have moved x to plane c.
@@ -53,8 +52,8 @@ bool mayBeSnapped(double x, const std::vector<double>& planes, size_t c) {
   return std::fabs(x - planes[c]) <= std::max(below, above) / 2;
 }
 
-void requirePositions(const MeshView& mesh, const CutMesh& cutMesh) {
-  const double flushed = negligible(mesh, cutMesh.grid);
+void requirePositions(const MeshView& mesh, const CutMesh& cutMesh, double largest) {
+  const double flushed = std::ldexp(largest, -199);  // coordinates up to here may have been taken as 0
   for (size_t v = 0; v < cutMesh.vertexCount(); ++v) {
     const int32_t t = cutMesh.vertexTriVertex[v];
     for (size_t d = 0; t >= 0 && d < 3; ++d) {
@@ -67,12 +66,55 @@ void requirePositions(const MeshView& mesh, const CutMesh& cutMesh) {
   }
 }
 
+struct Range {
+  double low = INFINITY, high = -INFINITY;
+
+  void add(double x) { low = std::min(low, x), high = std::max(high, x); }
+  bool holds(double x, double slack) const { return x >= low - slack && x <= high + slack; }
+};
+
+Range rangeOf(const MeshView& mesh, size_t triangle, size_t d) {
+  Range range;
+  for (size_t i = 0; i < 3; ++i) range.add(mesh.positions[3 * size_t(mesh.triangles[3 * triangle + i]) + d]);
+  return range;
+}
+
+/// The same with all places that snapping can have moved corners to.
+Range snappedRangeOf(const MeshView& mesh, size_t triangle, size_t d, const std::vector<double>& planes) {
+  Range range = rangeOf(mesh, triangle, d);
+  for (size_t i = 0; i < 3; ++i) {
+    const double x = mesh.positions[3 * size_t(mesh.triangles[3 * triangle + i]) + d];
+    const size_t above = size_t(std::upper_bound(planes.begin(), planes.end(), x) - planes.begin());
+    if (above < planes.size() && mayBeSnapped(x, planes, above)) range.add(planes[above]);
+    if (above > 0 && mayBeSnapped(x, planes, above - 1)) range.add(planes[above - 1]);
+  }
+  return range;
+}
+
+/// Each face must begin in the box of its triangle: of triangles that have been reordered, some don't.
+void requireFaces(const MeshView& mesh, const CutMesh& cutMesh, double largest) {
+  const double rounding = std::ldexp(largest, -30);  // far more than the vertices' own
+  for (size_t f = 0; f < cutMesh.faceCount(); ++f) {
+    if (cutMesh.faceTriangle[f] < 0) continue;
+    const auto triangle = size_t(cutMesh.faceTriangle[f]);
+    const double* position = &cutMesh.positions[3 * size_t(cutMesh.loops(f)[0][0])];
+    for (size_t d = 0; d < 3; ++d) {
+      const double x = position[d];
+      if (rangeOf(mesh, triangle, d).holds(x, rounding)) continue;
+      if (snappedRangeOf(mesh, triangle, d, cutMesh.grid.planes[d]).holds(x, rounding)) continue;
+      refuseOther("it has triangle " + std::to_string(triangle) + " elsewhere", int64_t(triangle));
+    }
+  }
+}
+
 }  // namespace
 
 void requireInput(const MeshView& mesh, const CutMesh& cutMesh) {
   requireArrays(mesh);
   requireIds(mesh, cutMesh);
-  requirePositions(mesh, cutMesh);
+  const double largest = largestCoordinate(mesh, cutMesh.grid);
+  requirePositions(mesh, cutMesh, largest);
+  requireFaces(mesh, cutMesh, largest);
 }
 
 }  // namespace mandoline::measuring
