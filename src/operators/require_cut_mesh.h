@@ -12,7 +12,10 @@ namespace mandoline::operators {
 /// Throws CallError for a CutMesh that holds nothing, as one is that was made without cut(). The arrays of others are trusted.
 void requireCutMesh(const CutMesh& cutMesh);
 
-/// Throws CallError unless the cell complex begins with the vertices, and with as many faces and cells, of the cut-mesh.
+/// Throws CallError for cells of another cut-mesh, or that lack some.
+[[noreturn]] void refuseCells();
+
+/// Does so unless the cell complex begins with the vertices, and with as many faces and cells, of the cut-mesh.
 void requireCellsOf(const CutMesh& cutMesh, const CellComplex& cells);
 
 }  // namespace mandoline::operators

@@ -10,8 +10,6 @@
 namespace mandoline {
 namespace physics {
 
-[[noreturn]] static void refuseCells() { operators::refuse("The cells are not all of this cut-mesh's."); }
-
 /// How many grid cells the cells that are no cut-cells fill.
 static uint64_t filled(const Grid& grid, const CellComplex& cells) {
   constexpr uint8_t kMostLevel = 32;  // of which one cell fills any grid
@@ -32,9 +30,9 @@ void requireField(const FlowField& field, std::span<const double> points) {
   const size_t n = cells.cellCount();
   operators::requireCellsOf(cutMesh, cells);
   for (size_t i = 0; i < 3 * n; ++i) {
-    if (cells.cellCorner[i] < 0 || cells.cellCorner[i] >= cutMesh.grid.cells(int(i % 3))) refuseCells();
+    if (cells.cellCorner[i] < 0 || cells.cellCorner[i] >= cutMesh.grid.cells(int(i % 3))) operators::refuseCells();
   }
-  if (filled(cutMesh.grid, cells) != UntouchedCells(cutMesh).count()) refuseCells();
+  if (filled(cutMesh.grid, cells) != UntouchedCells(cutMesh).count()) operators::refuseCells();
   if (flow.cellVelocity.size() != 3 * n || flow.cellGradient.size() != 6 * n) operators::refuse("The flow is one of other cells.");
   const auto isFinite = [](double number) { return std::isfinite(number); };
   const bool isFlow = std::all_of(flow.cellVelocity.begin(), flow.cellVelocity.end(), isFinite) &&
@@ -59,7 +57,7 @@ std::vector<int64_t> cellsAt(const FlowField& field, const OctreeCells& octree, 
   for (size_t i = 0; i < cells.size(); ++i) {
     if (cells[i] >= 0 || found.gridCell[3 * i] < 0) continue;
     const int64_t n = octree.find(found.gridCell[3 * i], found.gridCell[3 * i + 1], found.gridCell[3 * i + 2]);
-    if (n < 0) refuseCells();
+    if (n < 0) operators::refuseCells();
     cells[i] = int64_t(field.cells.cutCells) + n;
   }
   return cells;
