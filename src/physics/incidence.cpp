@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 
+#include "base/csr.h"
 #include "mandoline/operators.h"
 #include "operators/require_cut_mesh.h"
 #include "physics/sparse.h"
@@ -43,16 +45,20 @@ void requireEdges(const CellComplex& cells, const ComplexEdges& edges) {
 }  // namespace
 
 ComplexEdges complexEdges(const CellComplex& cells) {
-  std::vector<uint64_t> keys;
-  keys.reserve(cells.loopVertices.size());
-  for (size_t f = 0; f < cells.faceCount(); ++f) {
-    forEachEdge(cells, f, [&](uint32_t from, uint32_t to) { keys.push_back(uint64_t(std::min(from, to)) << 32 | std::max(from, to)); });
-  }
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  std::vector<std::array<uint32_t, 2>> all;  // lower vertex first
+  all.reserve(cells.loopVertices.size());
+  for (size_t f = 0; f < cells.faceCount(); ++f)
+    forEachEdge(cells, f, [&](uint32_t from, uint32_t to) { all.push_back({std::min(from, to), std::max(from, to)}); });
+  auto higher = detail::groupBy<uint32_t>(
+      cells.vertexCount(), all.size(), [&](size_t i) { return size_t(all[i][0]); }, [&](size_t i) { return all[i][1]; });
   ComplexEdges edges;
-  edges.vertices.reserve(2 * keys.size());
-  for (const uint64_t key : keys) edges.vertices.insert(edges.vertices.end(), {uint32_t(key >> 32), uint32_t(key)});
+  for (uint32_t low = 0; low < higher.size(); ++low) {
+    const std::span<uint32_t> ends = higher[low];
+    std::sort(ends.begin(), ends.end());
+    for (size_t i = 0; i < ends.size(); ++i) {
+      if (i == 0 || ends[i] != ends[i - 1]) edges.vertices.insert(edges.vertices.end(), {low, ends[i]});
+    }
+  }
   return edges;
 }
 
