@@ -5,6 +5,7 @@
 #include "mandoline/measure.h"
 #include "mesh/run_call.h"
 #include "operators/cell_complex/grid_corners.h"
+#include "operators/measure/require_input.h"
 #include "operators/require_cut_mesh.h"
 
 namespace mandoline {
@@ -198,6 +199,7 @@ CellComplex cellComplex(const MeshView& mesh, const CutMesh& cutMesh, const Octr
   operators::requireCutMesh(cutMesh);
   requireMatch(cutMesh, octree);
   Measures measures = measure(mesh, cutMesh, options);
+  measuring::requireTriangles(mesh, cutMesh);
   return detail::runCall("assembly of the cells", [&] {
     detail::Monitor monitor(options, 2);
     return Builder(cutMesh, octree, monitor).run(std::move(measures));

@@ -52,8 +52,8 @@ bool mayBeSnapped(double x, const std::vector<double>& planes, size_t c) {
   return std::fabs(x - planes[c]) <= std::max(below, above) / 2;
 }
 
-void requirePositions(const MeshView& mesh, const CutMesh& cutMesh, double largest) {
-  const double flushed = std::ldexp(largest, -199);  // coordinates up to here may have been taken as 0
+void requirePositions(const MeshView& mesh, const CutMesh& cutMesh) {
+  const double flushed = std::ldexp(largestCoordinate(mesh, cutMesh.grid), -199);  // coordinates up to here may have been taken as 0
   for (size_t v = 0; v < cutMesh.vertexCount(); ++v) {
     const int32_t t = cutMesh.vertexTriVertex[v];
     for (size_t d = 0; t >= 0 && d < 3; ++d) {
@@ -91,9 +91,16 @@ Range snappedRangeOf(const MeshView& mesh, size_t triangle, size_t d, const std:
   return range;
 }
 
-/// Each face must begin in the box of its triangle: of triangles that have been reordered, some don't.
-void requireFaces(const MeshView& mesh, const CutMesh& cutMesh, double largest) {
-  const double rounding = std::ldexp(largest, -30);  // far more than the vertices' own
+}  // namespace
+
+void requireInput(const MeshView& mesh, const CutMesh& cutMesh) {
+  requireArrays(mesh);
+  requireIds(mesh, cutMesh);
+  requirePositions(mesh, cutMesh);
+}
+
+void requireTriangles(const MeshView& mesh, const CutMesh& cutMesh) {
+  const double rounding = std::ldexp(largestCoordinate(mesh, cutMesh.grid), -30);  // far more than the vertices' own
   for (size_t f = 0; f < cutMesh.faceCount(); ++f) {
     if (cutMesh.faceTriangle[f] < 0) continue;
     const auto triangle = size_t(cutMesh.faceTriangle[f]);
@@ -105,16 +112,6 @@ void requireFaces(const MeshView& mesh, const CutMesh& cutMesh, double largest) 
       refuseOther("it has triangle " + std::to_string(triangle) + " elsewhere", int64_t(triangle));
     }
   }
-}
-
-}  // namespace
-
-void requireInput(const MeshView& mesh, const CutMesh& cutMesh) {
-  requireArrays(mesh);
-  requireIds(mesh, cutMesh);
-  const double largest = largestCoordinate(mesh, cutMesh.grid);
-  requirePositions(mesh, cutMesh, largest);
-  requireFaces(mesh, cutMesh, largest);
 }
 
 }  // namespace mandoline::measuring

@@ -7,8 +7,10 @@
 namespace mandoline::measuring {
 
 /// Throws CallError unless the mesh has the triangles and tri-vertices that the cut-mesh names, where it has them (on planes they may have
-/// been snapped), and unless the first vertex of each face is in the box of its triangle. Then nothing that looks up the cut-mesh's
-/// triangles or tri-vertices in the mesh goes astray.
+/// been snapped). Then nothing that looks up the cut-mesh's triangles or tri-vertices in the mesh goes astray.
 void requireInput(const MeshView& mesh, const CutMesh& cutMesh);
+
+/// Of such a mesh: throws CallError unless each face begins in the box of its triangle. If triangles have been reordered, some don't.
+void requireTriangles(const MeshView& mesh, const CutMesh& cutMesh);
 
 }  // namespace mandoline::measuring
