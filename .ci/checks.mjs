@@ -13,14 +13,24 @@ setUp('clang-tidy', 'clang with libFuzzer', 'OpenFOAM', "Debian's VTK for Python
 run('node', '--test', 'tests/toolchains/toolchains.test.mjs');
 
 // One build of clang's is the other compiler, the sanitizers and the fuzzers: with assertions, yet fast enough for real meshes.
-build('build-clang', '-DCMAKE_CXX_COMPILER=clang++', '-DMANDOLINE_BUILD_FUZZ=ON', '-DCMAKE_EXPORT_COMPILE_COMMANDS=ON',
-  '-DCMAKE_BUILD_TYPE=Debug', '-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1');
+build(
+  'build-clang',
+  '-DCMAKE_CXX_COMPILER=clang++',
+  '-DMANDOLINE_BUILD_FUZZ=ON',
+  '-DCMAKE_EXPORT_COMPILE_COMMANDS=ON',
+  '-DCMAKE_BUILD_TYPE=Debug',
+  '-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1',
+);
 checkFunctions('build-clang');
 
 const scans = ['common_spot', 'common_fandisk', 'codim_feline'].map((name) => join(meshFolder ?? '', `${name}.obj.gz`)).filter(existsSync);
 run('build/mandoline', 'make', 'torus-knot', '-o', 'build/torus-knot.obj');
 for (const mesh of ['build/torus-knot.obj', ...scans]) {
-  const dumps = [['build', '1'], ['build', '3'], ['build-clang', '1']].map(([folder, threads]) => {
+  const dumps = [
+    ['build', '1'],
+    ['build', '3'],
+    ['build-clang', '1'],
+  ].map(([folder, threads]) => {
     run(`${folder}/mandoline`, 'cut', mesh, '--cells', '13', '--threads', threads, '-o', `${folder}/dump.json`);
     return readFileSync(path(folder, 'dump.json'));
   });
@@ -36,14 +46,25 @@ const [box, ball] = ['box', 'sphere'].map((shape) => readFileSync(path('build', 
 const corners = box.match(/^v/gm).length;
 const shifted = ball.replace(/^f .*/gm, (face) => face.replace(/\d+/g, (v) => Number(v) + corners));
 writeFileSync(path('build', 'groups.obj'), `g xMin\n${box}g 2{ball}\n${shifted}`);
-const all = meshFolder ? readdirSync(meshFolder).filter((name) => name.endsWith('.obj.gz')).sort() : [];
+const all = meshFolder
+  ? readdirSync(meshFolder)
+      .filter((name) => name.endsWith('.obj.gz'))
+      .sort()
+  : [];
 checkPolyMeshes([...made, 'build/groups.obj', ...all.filter((_, i) => i % 9 === 0).map((name) => join(meshFolder, name))]);
 checkVtuFiles([...made, ...scans]);
 await checkPotentialFoam(['build/sphere.obj', 'build/torus-knot.obj', ...scans]);
 
 mkdirSync(path('build-clang', 'corpus'), { recursive: true });
-run('build-clang/mandoline-fuzz', '-max_total_time=90', '-max_len=256', '-timeout=20', '-print_final_stats=1',
-  'build-clang/corpus', 'tests/fuzz_corpus');
+run(
+  'build-clang/mandoline-fuzz',
+  '-max_total_time=90',
+  '-max_len=256',
+  '-timeout=20',
+  '-print_final_stats=1',
+  'build-clang/corpus',
+  'tests/fuzz_corpus',
+);
 mkdirSync(path('build-clang', 'reader-corpus'), { recursive: true });
 run('build-clang/mandoline-fuzz-readers', '-max_total_time=30', '-max_len=2048', '-rss_limit_mb=4096', 'build-clang/reader-corpus');
 mkdirSync(path('build-clang', 'mcm-corpus'), { recursive: true });

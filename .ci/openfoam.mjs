@@ -30,7 +30,9 @@ export function makeCase({ schemes, solution, precision = 6 }) {
 /** What the program prints. Ends this one if it fails. */
 export function callFoam(folder, program, ...options) {
   const { stdout, stderr, status } = spawnSync(program, [...options, '-case', folder], {
-    encoding: 'utf8', maxBuffer: 2 ** 28, env: { ...process.env, HOME: folder, WM_PROJECT_DIR: etc },
+    encoding: 'utf8',
+    maxBuffer: 2 ** 28,
+    env: { ...process.env, HOME: folder, WM_PROJECT_DIR: etc },
   });
   if (status !== 0) fail(`${program} failed:\n${stdout}\n${stderr}`);
   return stdout;

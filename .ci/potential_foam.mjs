@@ -42,7 +42,13 @@ function theirs(mesh, n) {
   run('build/mandoline', 'cut', mesh, '--cells', String(n), '--coarsen', '0', '--report', join(folder, 'report.json'), '-o', polyMesh);
   for (const [name, [type, dimensions, inside, patches]] of Object.entries(fields)) {
     const entries = Object.entries(patches).map(([patch, what]) => `${patch} { type ${what}; }`);
-    writeInput(folder, '0', name, type, `dimensions ${dimensions};\ninternalField uniform ${inside};\nboundaryField { ${entries.join(' ')} }`);
+    writeInput(
+      folder,
+      '0',
+      name,
+      type,
+      `dimensions ${dimensions};\ninternalField uniform ${inside};\nboundaryField { ${entries.join(' ')} }`,
+    );
   }
   callFoam(folder, 'potentialFoam', '-writephi');
   callFoam(folder, 'postProcess', '-func', 'writeCellCentres');
@@ -54,17 +60,22 @@ function theirs(mesh, n) {
 function ours({ boundaryOf, operators, solvePoisson }, cells, dualPoints) {
   const { phi, status } = solvePoisson(cells, { boundary: boundaryOf(cells, conditions), dualPoints }, { tolerance: 1e-12 });
   if (status !== 'converged') fail(`Our solution: ${status}`);
-  const { gradient: { rowOffsets, entryColumns, entryValues } } = operators(cells, { only: ['gradient'], dualPoints });
-  return fluxes(Array.from(cells.faceArea, (area, f) => {
-    let derivative = 0;
-    for (let i = rowOffsets[f]; i < rowOffsets[f + 1]; ++i) derivative += entryValues[i] * phi[entryColumns[i]];
-    return [cells.faceCells[2 * f], cells.faceCells[2 * f + 1], derivative * area];
-  }).filter((_, f) => cells.faceTag[f] === 6));
+  const {
+    gradient: { rowOffsets, entryColumns, entryValues },
+  } = operators(cells, { only: ['gradient'], dualPoints });
+  return fluxes(
+    Array.from(cells.faceArea, (area, f) => {
+      let derivative = 0;
+      for (let i = rowOffsets[f]; i < rowOffsets[f + 1]; ++i) derivative += entryValues[i] * phi[entryColumns[i]];
+      return [cells.faceCells[2 * f], cells.faceCells[2 * f + 1], derivative * area];
+    }).filter((_, f) => cells.faceTag[f] === 6),
+  );
 }
 
 /** The largest difference, relative to the largest flux. */
 function difference(mine, expected) {
-  if (mine.size !== expected.size || ![...mine.keys()].every((key) => expected.has(key))) fail('Other cells are neighbours in the polyMesh.');
+  if (mine.size !== expected.size || ![...mine.keys()].every((key) => expected.has(key)))
+    fail('Other cells are neighbours in the polyMesh.');
   const largest = (values) => values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
   return largest([...mine].map(([key, flux]) => flux - expected.get(key))) / largest([...mine.values()]);
 }
@@ -85,10 +96,18 @@ export async function checkPotentialFoam(meshes) {
     const { fluxes: expected, centroids } = theirs(path, n);
     const off = (complex, dualPoints) => difference(ours(physics, complex, dualPoints), expected);
     const [itsCentroids, ...others] = [
-      off({ ...cells, cellCentroid: centroids }, 'centroids'), off(cells, 'centroids'), off(cells, 'centres'),
+      off({ ...cells, cellCentroid: centroids }, 'centroids'),
+      off(cells, 'centroids'),
+      off(cells, 'centres'),
     ].map((value) => value.toExponential(1));
     if (!(itsCentroids <= 1e-10)) fail(`${path}: potentialFoam's fluxes are others, by ${itsCentroids} of the largest.`);
-    rows.push({ mesh: basename(path), cells: cells.cellRegion.length, 'its centroids': itsCentroids, centroids: others[0], centres: others[1] });
+    rows.push({
+      mesh: basename(path),
+      cells: cells.cellRegion.length,
+      'its centroids': itsCentroids,
+      centroids: others[0],
+      centres: others[1],
+    });
   }
   console.log('Fluxes of potentialFoam and ours, largest difference of the largest flux:');
   console.table(rows);

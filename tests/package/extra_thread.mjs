@@ -10,7 +10,9 @@ serve({
   later: async (mandoline, [value], { progress }) => {
     for (let i = 0; i < 3; ++i) {
       progress(i);
-      await new Promise((resolve) => { setTimeout(resolve, 20); });
+      await new Promise((resolve) => {
+        setTimeout(resolve, 20);
+      });
     }
     return { value, nested: [new Float32Array([1, 2])] };
   },

@@ -22,7 +22,8 @@ const triples = (array) => Array.from({ length: array.length / 3 }, (_, i) => [.
 const counts = ({ positions, triangles }) => [positions.length / 3, triangles.length / 3];
 const faces = ({ triangles }) => triples(triangles).replace(/^/gm, '3 ');
 const encode = (text) => new TextEncoder().encode(text);
-const ply = (mesh) => `ply\nformat ascii 1.0\nelement vertex ${counts(mesh)[0]}\n` +
+const ply = (mesh) =>
+  `ply\nformat ascii 1.0\nelement vertex ${counts(mesh)[0]}\n` +
   'property double x\nproperty double y\nproperty double z\n' +
   `element face ${counts(mesh)[1]}\nproperty list uchar int vertex_indices\nend_header\n${triples(mesh.positions)}\n${faces(mesh)}\n`;
 
@@ -37,8 +38,14 @@ for (const [name, bytes] of Object.entries(files)) {
     const inTheMiddle = new Uint8Array(bytes.length + 7);
     inTheMiddle.set(bytes, 5);
     const sources = [
-      bytes, bytes.slice().buffer, Buffer.from(bytes), inTheMiddle.subarray(5, 5 + bytes.length),
-      new DataView(bytes.slice().buffer), new Blob([bytes]), gzipSync(bytes), new Blob([gzipSync(bytes)]),
+      bytes,
+      bytes.slice().buffer,
+      Buffer.from(bytes),
+      inTheMiddle.subarray(5, 5 + bytes.length),
+      new DataView(bytes.slice().buffer),
+      new Blob([bytes]),
+      gzipSync(bytes),
+      new Blob([gzipSync(bytes)]),
     ];
     for (const source of sources) assert.deepEqual(await readMesh(source, { name }), cube);
   });
@@ -47,7 +54,10 @@ for (const [name, bytes] of Object.entries(files)) {
 test('a binary STL file has three vertices per triangle', async () => {
   const mesh = await readMesh(gzipSync(writeStl(cube)), { name: 'cube.stl.gz' });
   assert.deepEqual(counts(mesh), [36, 12]);
-  assert.deepEqual(mesh.triangles, Uint32Array.from({ length: 36 }, (_, i) => i));
+  assert.deepEqual(
+    mesh.triangles,
+    Uint32Array.from({ length: 36 }, (_, i) => i),
+  );
   const corners = [...cube.triangles].flatMap((v) => [...cube.positions.subarray(3 * v, 3 * v + 3)]);
   assert.deepEqual([...mesh.positions], corners.map(Math.fround));
 });
@@ -79,10 +89,11 @@ for (const [what, bytes, name, pattern] of failures) {
 
 for (const [name, content] of Object.entries({ ...files, 'cube.stl': writeStl(cube) })) {
   test(`${name}, cut off anywhere or with a wrong byte anywhere, gives a mesh or a badFile`, async () => {
-    const settle = (bytes) => readMesh(bytes, { name }).then(
-      ({ positions, triangles }) => assert.ok(triangles.every((v) => 3 * v < positions.length)),
-      (error) => assert.equal(error.code, 'badFile', error.stack),
-    );
+    const settle = (bytes) =>
+      readMesh(bytes, { name }).then(
+        ({ positions, triangles }) => assert.ok(triangles.every((v) => 3 * v < positions.length)),
+        (error) => assert.equal(error.code, 'badFile', error.stack),
+      );
     for (let i = 0; i < content.length; ++i) {
       await settle(content.subarray(0, i));
       for (const value of [0, 0x39, 0xff]) await settle(Uint8Array.from(content, (byte, at) => (at === i ? value : byte)));
@@ -96,7 +107,7 @@ test('what is no file is a badArgument', async () => {
   for (const options of [null, 7, { name: 7 }]) await assert.rejects(readMesh(files['cube.obj'], options), refusal);
 });
 
-test('bytes out of their buffer\'s bounds are called so', async () => {
+test("bytes out of their buffer's bounds are called so", async () => {
   const buffer = new ArrayBuffer(24, { maxByteLength: 48 });
   const views = [new Uint8Array(buffer, 8, 8), new DataView(buffer, 8, 8)];
   buffer.resize(8);
@@ -105,7 +116,8 @@ test('bytes out of their buffer\'s bounds are called so', async () => {
 
 test('bytes that were transferred elsewhere are called so', async () => {
   for (const bytesOf of [(bytes) => bytes, (bytes) => bytes.buffer]) {
-    const bytes = files['cube.ply'].slice(), source = bytesOf(bytes);
+    const bytes = files['cube.ply'].slice(),
+      source = bytesOf(bytes);
     structuredClone(null, { transfer: [bytes.buffer] });
     await assert.rejects(readMesh(source), { code: 'badArgument', message: /^The bytes are detached/ });
   }

@@ -13,16 +13,21 @@ export const memorySize = () => memories.at(-1).buffer.byteLength;
 
 const { Instance } = WebAssembly;
 
-const sabotaged = (imported) => (...values) => {
-  if (!failure) return imported(...values);
-  const error = failure;
-  failure = undefined;
-  throw error;
-};
+const sabotaged =
+  (imported) =>
+  (...values) => {
+    if (!failure) return imported(...values);
+    const error = failure;
+    failure = undefined;
+    throw error;
+  };
 
 WebAssembly.Instance = function (module, imports) {
   const mapped = (object, f) => Object.fromEntries(Object.entries(object).map(([key, value]) => [key, f(value)]));
-  const instance = new Instance(module, mapped(imports, (all) => mapped(all, sabotaged)));
+  const instance = new Instance(
+    module,
+    mapped(imports, (all) => mapped(all, sabotaged)),
+  );
   memories.push(Object.values(instance.exports).find((value) => value instanceof WebAssembly.Memory));
   return instance;
 };

@@ -41,7 +41,9 @@ test('1,000 cuts with breaks, half of them kept, leave the memory flat', async (
   for (let i = 0; i < 1000; ++i) {
     const cutMesh = mandoline.cut(mesh, { cells: 4 + (i % 20) });
     if (i % 2) kept.push(cutMesh);
-    await new Promise((resolve) => { setImmediate(resolve); });
+    await new Promise((resolve) => {
+      setImmediate(resolve);
+    });
     if (i === 100) early = memorySize();
   }
   assert.equal(memorySize(), early);
@@ -56,9 +58,13 @@ test('twins of results that are gone are freed', async () => {
   const sizes = [];
   for (let i = 0; i < 6; ++i) {
     mandoline.cut(small, rows(2 ** 11), { gridCellRegion: false }); // 64 MB
-    await new Promise((resolve) => { setTimeout(resolve); });
+    await new Promise((resolve) => {
+      setTimeout(resolve);
+    });
     collectGarbage();
-    await new Promise((resolve) => { setTimeout(resolve, 50); });
+    await new Promise((resolve) => {
+      setTimeout(resolve, 50);
+    });
     sizes.push(memorySize());
   }
   assert.ok(sizes[5] < sizes[0] + 2 ** 26, sizes.map((size) => Math.round(size / 2 ** 20)).join(' '));

@@ -4,7 +4,14 @@
 export function box([x0, y0, z0], [x1, y1, z1]) {
   const positions = [];
   for (let i = 0; i < 8; ++i) positions.push(i & 1 ? x1 : x0, i & 2 ? y1 : y0, i & 4 ? z1 : z0);
-  const quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+  const quads = [
+    [0, 4, 6, 2],
+    [1, 3, 7, 5],
+    [0, 1, 5, 4],
+    [2, 6, 7, 3],
+    [0, 2, 3, 1],
+    [4, 5, 7, 6],
+  ];
   return { positions: new Float64Array(positions), triangles: new Uint32Array(quads.flatMap(([a, b, c, d]) => [a, b, c, a, c, d])) };
 }
 
@@ -63,7 +70,10 @@ export function readObj(text) {
     const words = line.trim().split(/\s+/);
     if (words[0] === 'v') positions.push(...words.slice(1, 4).map(Number));
     if (words[0] !== 'f') continue;
-    const ids = words.slice(1).map((word) => parseInt(word, 10)).map((id) => (id > 0 ? id - 1 : positions.length / 3 + id));
+    const ids = words
+      .slice(1)
+      .map((word) => parseInt(word, 10))
+      .map((id) => (id > 0 ? id - 1 : positions.length / 3 + id));
     for (let i = 2; i < ids.length; ++i) triangles.push(ids[0], ids[i - 1], ids[i]);
   }
   return { positions: new Float64Array(positions), triangles: new Uint32Array(triangles) };
@@ -71,6 +81,10 @@ export function readObj(text) {
 
 /** Leaves a result without its arrays, so that only its twin can answer for it. */
 export function gut(value) {
-  structuredClone(null, { transfer: Object.values(value).filter((part) => ArrayBuffer.isView(part)).map((array) => array.buffer) });
+  structuredClone(null, {
+    transfer: Object.values(value)
+      .filter((part) => ArrayBuffer.isView(part))
+      .map((array) => array.buffer),
+  });
   return value;
 }

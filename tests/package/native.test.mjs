@@ -48,7 +48,13 @@ function assertSame(dump, cutMesh, what) {
   const { grid, format, version, triangleCount, regionWinding, ...arrays } = dump;
   assert.equal(regionWinding.length, cutMesh.regionCount, `${what}: regionCount`);
   assert.deepEqual([format, version, triangleCount], ['mandoline-cut-mesh', 2, cutMesh.triangleCount]);
-  assert.ok(same(grid.planes, cutMesh.grid.planes.map((planes) => [...planes])), `${what}: grid`);
+  assert.ok(
+    same(
+      grid.planes,
+      cutMesh.grid.planes.map((planes) => [...planes]),
+    ),
+    `${what}: grid`,
+  );
   for (const name of ['origin', 'spacing', 'cells']) assert.ok(same(grid[name], cutMesh.grid[name]), `${what}: grid.${name}`);
   const winding = cutMesh.regionWinding ? [...cutMesh.regionWinding] : Array(cutMesh.regionCount).fill(null);
   assert.ok(same(regionWinding, winding), `${what}: regionWinding`);
@@ -72,8 +78,18 @@ function assertSameCounts(report, { stats, ...cutMesh }, what) {
   assert.deepEqual(kinds, stats.intersections, `${what}: intersections`);
   assert.deepEqual([curves, madeVertices], [stats.intersectionCurves, stats.madeVertices], what);
   assert.equal(madeVertices, cutMesh.madeVertices.length, what);
-  assert.deepEqual([cutCells, vertices, faces, loops, regions, droppedTriangles], [cutMesh.cellRegion.length, cutMesh.vertexMask.length,
-    cutMesh.faceTriangle.length, cutMesh.loopOffsets.length - 1, cutMesh.regionCount, cutMesh.droppedTriangles.length], what);
+  assert.deepEqual(
+    [cutCells, vertices, faces, loops, regions, droppedTriangles],
+    [
+      cutMesh.cellRegion.length,
+      cutMesh.vertexMask.length,
+      cutMesh.faceTriangle.length,
+      cutMesh.loopOffsets.length - 1,
+      cutMesh.regionCount,
+      cutMesh.droppedTriangles.length,
+    ],
+    what,
+  );
   assert.equal(untouchedCells, cutMesh.gridCellRegion.filter((region) => region >= 0).length, what);
   assert.equal(cells, cutCells + untouchedCells, what);
 }
@@ -96,13 +112,21 @@ async function compare(file, mesh, cells) {
   return true;
 }
 
-const pairsInWords = (counts) => Object.entries(counts).filter(([, n]) => n > 0).map(([kind, n]) => `${n} ${kind}`).join(', ') || '0';
+const pairsInWords = (counts) =>
+  Object.entries(counts)
+    .filter(([, n]) => n > 0)
+    .map(([kind, n]) => `${n} ${kind}`)
+    .join(', ') || '0';
 
 /** Whether the program resolves a mesh to the same triangles, and finds the same boundary by each rule. */
 async function compareResolved(file, mesh) {
   const resolved = resolve(mesh);
   const results = [[[], resolved]];
-  for (const [word, rule] of [['positive', 'positive'], ['non-zero', 'nonZero'], ['odd', 'odd']]) {
+  for (const [word, rule] of [
+    ['positive', 'positive'],
+    ['non-zero', 'nonZero'],
+    ['odd', 'odd'],
+  ]) {
     if (resolved.frontWinding) results.push([['--rule', word], boundary(resolved, rule)]);
   }
   for (const [options, { positions, triangles }] of results) {
@@ -149,7 +173,9 @@ test('made meshes', { skip }, async () => {
 test('real meshes', { skip: skip || skipWithoutMeshes }, async (t) => {
   let cuts = 0;
   let refusals = 0;
-  const meshes = meshList().filter((mesh) => Number(mesh.F) <= mostTriangles).map((mesh) => mesh.file);
+  const meshes = meshList()
+    .filter((mesh) => Number(mesh.F) <= mostTriangles)
+    .map((mesh) => mesh.file);
   for (const name of meshes) {
     const file = path(meshFolder, name);
     const mesh = readObj(gunzipSync(readFileSync(file)).toString());

@@ -36,12 +36,17 @@ function readVtu(file) {
   const bytes = readFileSync(file);
   const mark = '<AppendedData encoding="raw">\n_';
   const start = bytes.indexOf(mark) + mark.length;
-  const heads = bytes.subarray(0, start).toString().matchAll(/<DataArray type="Float64" Name="(\w+)" .* offset="(\d+)"\/>/g);
-  return Object.fromEntries(Array.from(heads, ([, name, offset]) => {
-    const at = start + Number(offset);
-    const size = Number(bytes.readBigUInt64LE(at));
-    return [name, new Float64Array(new Uint8Array(bytes.subarray(at + 8, at + 8 + size)).buffer)];
-  }));
+  const heads = bytes
+    .subarray(0, start)
+    .toString()
+    .matchAll(/<DataArray type="Float64" Name="(\w+)" .* offset="(\d+)"\/>/g);
+  return Object.fromEntries(
+    Array.from(heads, ([, name, offset]) => {
+      const at = start + Number(offset);
+      const size = Number(bytes.readBigUInt64LE(at));
+      return [name, new Float64Array(new Uint8Array(bytes.subarray(at + 8, at + 8 + size)).buffer)];
+    }),
+  );
 }
 
 /** The cells as the program writes them, on three threads. */
@@ -136,7 +141,10 @@ for (const [name, made] of Object.entries(meshes)) {
 }
 
 test('real meshes', { skip: skip || skipWithoutMeshes }, (t) => {
-  const names = meshList().filter((mesh) => Number(mesh.F) <= 10000).map((mesh) => mesh.file).filter((_, i) => i % 25 === 0);
+  const names = meshList()
+    .filter((mesh) => Number(mesh.F) <= 10000)
+    .map((mesh) => mesh.file)
+    .filter((_, i) => i % 25 === 0);
   for (const name of names) {
     const file = path(meshFolder, name);
     const mesh = readObj(gunzipSync(readFileSync(file)).toString());

@@ -62,7 +62,9 @@ test('the cells fill the box, with the regions of the cut-mesh', () => {
     assert.equal(all.cutCells, cutMesh.cellRegion.length, name);
     assert.ok(Math.abs(sum(all.cellVolume) - box3) < 1e-12 * box3, name);
     const volumes = new Float64Array(cutMesh.regionCount);
-    all.cellVolume.forEach((volume, cell) => { volumes[all.cellRegion[cell]] += volume; });
+    all.cellVolume.forEach((volume, cell) => {
+      volumes[all.cellRegion[cell]] += volume;
+    });
     assertNear(volumes, regionVolume, 1e-12 * box3);
   }
   const untouched = cutMesh.gridCellRegion.filter((region) => region >= 0).length;
@@ -104,7 +106,11 @@ test('gradient, divergence and Laplacian', () => {
     const derivative = times(gradient, products(field, all.cellCentre));
     const inner = [...derivative.keys()].filter((f) => gradient.rowOffsets[f] < gradient.rowOffsets[f + 1]);
     assert.ok(inner.length > cellCount(all), name);
-    assertNear(inner.map((f) => derivative[f]), inner.map((f) => u[f]), 1e-9);
+    assertNear(
+      inner.map((f) => derivative[f]),
+      inner.map((f) => u[f]),
+      1e-9,
+    );
     assertNear(times(laplacian, new Float64Array(cellCount(all)).fill(1)), new Float64Array(cellCount(all)), 1e-10);
     assertNear(times(laplacian, all.cellCentroid), times(divergence, times(gradient, all.cellCentroid)), 1e-9);
     assert.deepEqual(cellMass.entryValues, all.cellVolume, name);
@@ -128,15 +134,25 @@ test('a linear solution, its values given on two sides and its derivative elsewh
     assert.equal(status, 'converged', name);
     assert.ok(residuals.at(-1) <= 1e-10 && residuals.length < 60, name);
     const outside = [...phi.keys()].filter((cell) => all.cellRegion[cell] === all.cellRegion.at(-1));
-    assertNear(outside.map((cell) => phi[cell]), outside.map((cell) => dot(field, all.cellCentre, cell)), 1e-8);
+    assertNear(
+      outside.map((cell) => phi[cell]),
+      outside.map((cell) => dot(field, all.cellCentre, cell)),
+      1e-8,
+    );
   }
 });
 
 test('conditions by tag', () => {
   const boundary = physics.boundaryOf(cells, { xMin: { dirichlet: 3 }, surface: { neumann: 0.5 } });
   const tags = Array.from(boundary.halfFaces, (h) => faceTags[cells.faceTag[h >> 1]]);
-  assert.deepEqual([...boundary.value], tags.map((tag) => ({ xMin: 3, surface: 0.5 })[tag] ?? 0));
-  assert.deepEqual([...boundary.condition], tags.map((tag) => (tag === 'xMin' ? 1 : 0)));
+  assert.deepEqual(
+    [...boundary.value],
+    tags.map((tag) => ({ xMin: 3, surface: 0.5 })[tag] ?? 0),
+  );
+  assert.deepEqual(
+    [...boundary.condition],
+    tags.map((tag) => (tag === 'xMin' ? 1 : 0)),
+  );
   assert.ok(!tags.includes('inner') && tags.includes('zMax'));
   const absent = { xMin: { dirichlet: 3, neumann: undefined }, yMin: undefined, surface: { neumann: 0.5 } };
   assert.deepEqual(physics.boundaryOf(cells, absent), boundary);
@@ -168,7 +184,10 @@ test('parts', () => {
     const part = physics.regionComplex(coarse, region);
     total += sum(part.cells.cellVolume);
     assert.ok(part.cells.cellRegion.every((r) => r === region));
-    assert.deepEqual(part.cells.cellVolume, Float64Array.from(part.wholeCell, (cell) => coarse.cellVolume[cell]));
+    assert.deepEqual(
+      part.cells.cellVolume,
+      Float64Array.from(part.wholeCell, (cell) => coarse.cellVolume[cell]),
+    );
     assert.equal(physics.cellComponents(part.cells).count, 1);
     assert.equal(physics.operators(part.cells, { only: ['divergence'] }).divergence.columns, part.wholeFace.length);
   }
@@ -207,11 +226,19 @@ test('a wind', () => {
     const speeds = Array.from({ length: cellCount(all) }, (_, c) => Math.hypot(...flow.cellVelocity.subarray(3 * c, 3 * c + 3)));
     const inside = all.cellRegion.map((region) => (cutMesh.regionWinding[region] === 1 ? 1 : 0));
     assert.ok(Math.max(...speeds.filter((_, c) => inside[c])) < 1e-12 && Math.max(...speeds) > Math.hypot(...wind), name);
-    assertNear(flow.cellPressure, speeds.map((speed) => 1 - speed ** 2 / 1.04), 1e-12);
+    assertNear(
+      flow.cellPressure,
+      speeds.map((speed) => 1 - speed ** 2 / 1.04),
+      1e-12,
+    );
   }
   const empty = physics.cellComplex(mesh, cut(mesh, { min: [3, 3, 3], max: [4, 4, 4], cells: [3, 3, 3] }));
   const { cellVelocity } = physics.solveFlow(empty, wind);
-  assertNear(cellVelocity, Float64Array.from(cellVelocity, (_, i) => wind[i % 3]), 1e-9);
+  assertNear(
+    cellVelocity,
+    Float64Array.from(cellVelocity, (_, i) => wind[i % 3]),
+    1e-9,
+  );
   assert.throws(() => physics.solveFlow(cells, [1, NaN, 0]), { code: 'badArgument', stage: 'solveFlow' });
 });
 
@@ -243,12 +270,19 @@ test('streamlines round a torus, none into it', () => {
     assert.deepEqual([ends.length, offsets.length, offsets.at(-1), points.length], [60, 61, speeds.length, 3 * speeds.length], name);
     const words = Array.from(ends, (end) => streamlineEnds[end]);
     assert.ok(words.every((word) => word === 'side' || word === 'surface') && words.filter((word) => word === 'side').length > 40, name);
-    assert.ok(mandoline.cellsAt(cutMesh, points).region.every((region) => cutMesh.regionWinding[region] === 0), name);
+    assert.ok(
+      mandoline.cellsAt(cutMesh, points).region.every((region) => cutMesh.regionWinding[region] === 0),
+      name,
+    );
     const velocities = physics.velocityAt(flowField, points);
     const onPlane = (i) => [0, 1, 2].some((d) => cutMesh.grid.planes[d].includes(points[3 * i + d])); // may be either cell's
     const within = [...speeds.keys()].filter((i) => !onPlane(i));
     assert.ok(within.length > 500, name);
-    assertNear(within.map((i) => speeds[i]), within.map((i) => Math.hypot(...velocities.subarray(3 * i, 3 * i + 3))), 1e-12);
+    assertNear(
+      within.map((i) => speeds[i]),
+      within.map((i) => Math.hypot(...velocities.subarray(3 * i, 3 * i + 3))),
+      1e-12,
+    );
   }
 });
 
@@ -257,7 +291,10 @@ test('options of streamlines()', () => {
   const seeds = [1.4, 1.3, 0, 1, 0, 0, 1, 0, 0.4000001, 5, 5, 5];
   const wordsOf = ({ ends }) => Array.from(ends, (end) => streamlineEnds[end]);
   const lines = physics.streamlines(flowField, seeds);
-  assert.deepEqual(wordsOf(lines).filter((_, i) => i !== 2), ['side', 'rest', 'outside']);
+  assert.deepEqual(
+    wordsOf(lines).filter((_, i) => i !== 2),
+    ['side', 'rest', 'outside'],
+  );
   assert.deepEqual([lines.points[3 * lines.offsets[1] - 1], lines.offsets[4]], [0.9, lines.offsets[3]]);
   const upstream = physics.streamlines(flowField, new Float32Array(seeds), { upstream: true });
   assert.equal(upstream.points[3 * upstream.offsets[1] - 1], -0.9);
@@ -300,7 +337,12 @@ const calls = {
 
 test('every call gives the same from the twin and from data', () => {
   const tried = Object.keys(calls).sort();
-  assert.deepEqual(tried, Object.keys(physics).filter((name) => !['version', 'inflowSeeds', 'readGroups'].includes(name)).sort());
+  assert.deepEqual(
+    tried,
+    Object.keys(physics)
+      .filter((name) => !['version', 'inflowSeeds', 'readGroups'].includes(name))
+      .sort(),
+  );
   for (const [name, [kind, call]] of Object.entries(calls)) {
     const given = inputs[kind]();
     const fromData = call(structuredClone(given));
@@ -318,12 +360,13 @@ test('wrong arguments are named', () => {
   const lost = flow.cellVelocity.map((component, i) => (i === 7 ? NaN : component));
   const shifted = cells.cellCorner.map((corner, i) => (i === 4 ? 12 : corner));
   const { cells: part } = physics.regionComplex(cells, 0);
-  const assertBad = (call, message, code = 'badArgument') => assert.throws(call, (error) => {
-    assert.ok(error instanceof MandolineError, error.stack);
-    assert.match(error.message, message);
-    assert.match(error.code, new RegExp(code));
-    return error.stage !== '';
-  });
+  const assertBad = (call, message, code = 'badArgument') =>
+    assert.throws(call, (error) => {
+      assert.ok(error instanceof MandolineError, error.stack);
+      assert.match(error.message, message);
+      assert.match(error.code, new RegExp(code));
+      return error.stage !== '';
+    });
   const cases = [
     [() => physics.coarsen(), /^cutMesh must be an object, not undefined/],
     [() => physics.coarsen(cells), /^cutMesh must be what cut\(\) gives, not what cellComplex\(\)/],
@@ -397,14 +440,35 @@ test('wrong arguments are named', () => {
 
 test('progress, and its end', () => {
   const states = [];
-  physics.solvePoisson(cells, { source }, { balance: true, progress: (state) => { states.push(state); } });
+  physics.solvePoisson(
+    cells,
+    { source },
+    {
+      balance: true,
+      progress: (state) => {
+        states.push(state);
+      },
+    },
+  );
   assert.ok(states.length > 0 && states.every(({ done, total }) => done <= total));
   assert.throws(() => physics.solvePoisson(cells, { source }, { balance: true, progress: () => false }), { code: 'cancelled' });
-  assert.throws(() => physics.cellComplex(mesh, cutMesh, octree, { progress: () => { throw new TypeError('mine'); } }), TypeError);
+  assert.throws(
+    () =>
+      physics.cellComplex(mesh, cutMesh, octree, {
+        progress: () => {
+          throw new TypeError('mine');
+        },
+      }),
+    TypeError,
+  );
   assert.equal(physics.solvePoisson(cells, { source }, { balance: true }).status, 'converged');
   const seeds = physics.inflowSeeds(cutMesh.grid, [1, 2, 3], 100);
   const stages = new Set();
-  physics.streamlines({ mesh, cutMesh, cells, flow }, seeds, { progress: ({ stage }) => { stages.add(stage); } });
+  physics.streamlines({ mesh, cutMesh, cells, flow }, seeds, {
+    progress: ({ stage }) => {
+      stages.add(stage);
+    },
+  });
   assert.deepEqual([...stages], ['seeds', 'streamlines']);
   const call = () => physics.streamlines({ mesh, cutMesh, cells, flow }, seeds, { progress: ({ stage }) => stage === 'seeds' });
   assert.throws(call, { code: 'cancelled', stage: 'streamlines' });

@@ -9,7 +9,10 @@ after(removeFolders);
 const outputOf = (example) => execFileSync(process.execPath, ['--input-type=module', '-e', example], { cwd: root, encoding: 'utf8' });
 
 test('computing', () => {
-  assert.match(outputOf(readmeExample('Compute')), /^\d{4} cells, converged, pressure coefficient at least -\d\.\d\n9\d of 100 streamlines leave the grid, \d{4} points\n$/);
+  assert.match(
+    outputOf(readmeExample('Compute')),
+    /^\d{4} cells, converged, pressure coefficient at least -\d\.\d\n9\d of 100 streamlines leave the grid, \d{4} points\n$/,
+  );
   assert.match(outputOf(readmeExample('Compute on it', root)), /^\d{3,5} cells converged \d{4,6} points of streamlines\n$/);
   assert.match(outputOf(readmeExample('From JavaScript', root)), /cut-cells/);
 });

@@ -70,7 +70,11 @@ for (const file of files) {
     wasm.push(timed(once));
   }
   console.log(`${file.replace(/.*\//, '')} N = ${cells}, first call ${first.toFixed(1)} ms`);
-  for (const [name, of] of [['median', median], ['least', (times) => Math.min(...times)]]) { // the latter for machines with other work
+  for (const [name, of] of [
+    ['median', median],
+    ['least', (times) => Math.min(...times)],
+  ]) {
+    // the latter for machines with other work
     const ratio = (of(wasm) / of(native)).toFixed(2);
     console.log(`  ${name}: native ${of(native).toFixed(1)} ms, WebAssembly ${of(wasm).toFixed(1)} ms, ratio ${ratio}`);
   }

@@ -44,9 +44,10 @@ export async function serveFolder({ folder, subPath = '/', headers = {} }) {
   return {
     url: `http://127.0.0.1:${server.address().port}${base}`,
     requests,
-    close: () => new Promise((closed) => {
-      server.close(closed);
-      server.closeAllConnections();
-    }),
+    close: () =>
+      new Promise((closed) => {
+        server.close(closed);
+        server.closeAllConnections();
+      }),
   };
 }

@@ -2,11 +2,33 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { init } from 'mandoline-wasm';
 import {
-  cellArrays, cellColors, cellEdgeArrays, cellEdgeGeometry, cellGeometry, edgeGeometry, idColor, kindColors, meshFromGeometry, outsideColor,
-  regionColor, sliceGeometry, untouchedCells, untouchedEdgeGeometry, untouchedGeometry, volumeColor, windingColor,
+  cellArrays,
+  cellColors,
+  cellEdgeArrays,
+  cellEdgeGeometry,
+  cellGeometry,
+  edgeGeometry,
+  idColor,
+  kindColors,
+  meshFromGeometry,
+  outsideColor,
+  regionColor,
+  sliceGeometry,
+  untouchedCells,
+  untouchedEdgeGeometry,
+  untouchedGeometry,
+  volumeColor,
+  windingColor,
 } from 'mandoline-wasm/three';
 import {
-  BoxGeometry, BufferAttribute, BufferGeometry, CylinderGeometry, InterleavedBuffer, InterleavedBufferAttribute, Matrix4, SphereGeometry,
+  BoxGeometry,
+  BufferAttribute,
+  BufferGeometry,
+  CylinderGeometry,
+  InterleavedBuffer,
+  InterleavedBufferAttribute,
+  Matrix4,
+  SphereGeometry,
   TorusGeometry,
 } from 'three';
 import { mergeVertices } from 'three/addons/utils/BufferGeometryUtils.js';
@@ -77,7 +99,10 @@ test('pieces of triangles and pieces of grid-faces together are all', () => {
 
 test('chosen cells come alone, in that order', () => {
   const { cell } = cellArrays(cutMesh, faceTriangles, { cells: [5, 2] });
-  assert.deepEqual(cell.filter((id, i) => id !== cell[i - 1]), Uint32Array.of(5, 2));
+  assert.deepEqual(
+    cell.filter((id, i) => id !== cell[i - 1]),
+    Uint32Array.of(5, 2),
+  );
   assert.equal(cellArrays(cutMesh, faceTriangles, { cells: [] }).position.length, 0);
   for (const bad of [-1, cellCount, 0.5, NaN]) {
     assert.throws(() => cellArrays(cutMesh, faceTriangles, { cells: [0, bad] }), { code: 'badArgument', element: 1 });
@@ -91,7 +116,10 @@ test('the origin is subtracted before rounding', () => {
   const cut = mandoline.cut(cube, { min: [far - 0.5, -0.5, -0.5], max: [far + 1.75, 1.75, 1.75], cells: [3, 3, 3] });
   const { position } = cellArrays(cut, mandoline.triangulate(cut), { origin: [far, 0, 0] });
   const found = new Set(position.filter((_, i) => i % 3 === 0));
-  assert.deepEqual([...found].sort((a, b) => a - b), [-0.5, 0, 0.25, 1, 1.75]);
+  assert.deepEqual(
+    [...found].sort((a, b) => a - b),
+    [-0.5, 0, 0.25, 1, 1.75],
+  );
 });
 
 test('a geometry has colours, and explodes cell by cell', () => {
@@ -148,9 +176,21 @@ test('the first regions differ for people without red or green cones', () => {
   const colors = cellColors({ cellRegion: Uint32Array.of(0, 1, 2, 3, 4, 5, 6) }, 'region');
   // Viénot, Brettel, Mollon 1999, on linear RGB.
   const sights = [
-    [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
-    [[0.11238, 0.88762, 0], [0.11238, 0.88762, 0], [0.00401, -0.00401, 1]],
-    [[0.29275, 0.70725, 0], [0.29275, 0.70725, 0], [-0.02234, 0.02234, 1]],
+    [
+      [1, 0, 0],
+      [0, 1, 0],
+      [0, 0, 1],
+    ],
+    [
+      [0.11238, 0.88762, 0],
+      [0.11238, 0.88762, 0],
+      [0.00401, -0.00401, 1],
+    ],
+    [
+      [0.29275, 0.70725, 0],
+      [0.29275, 0.70725, 0],
+      [-0.02234, 0.02234, 1],
+    ],
   ];
   for (const sight of sights) {
     const seen = (cell) => sight.map((row) => Math.cbrt(dot(row, corner(colors, cell))));
@@ -188,7 +228,13 @@ test('every cut-cell has each of its edges once', () => {
 });
 
 test('edges of a sheet that ends within a cell come once, though it is seen from both sides', () => {
-  const inside = mandoline.cut(sheet([0.25, 0.25], [0.75, 0.75], 0.5), { planes: [[0, 1], [0, 1], [0, 1]] });
+  const inside = mandoline.cut(sheet([0.25, 0.25], [0.75, 0.75], 0.5), {
+    planes: [
+      [0, 1],
+      [0, 1],
+      [0, 1],
+    ],
+  });
   assert.equal(inside.cellRegion.length, 1);
   const edges = cellEdgeArrays(inside);
   assertEdges(inside, edges);
@@ -203,9 +249,11 @@ function cornersOf(geometry, begin = 0, end = geometry.getAttribute('position').
 
 /** The eight corners of a box, moved by `shift` and rounded. */
 function boxCorners(min, max, shift) {
-  return new Set([0, 1, 2, 3, 4, 5, 6, 7].map((bits) => {
-    return String(min.map((x, d) => Math.fround(((bits >> d) & 1 ? max[d] : x) + shift[d])));
-  }));
+  return new Set(
+    [0, 1, 2, 3, 4, 5, 6, 7].map((bits) => {
+      return String(min.map((x, d) => Math.fround(((bits >> d) & 1 ? max[d] : x) + shift[d])));
+    }),
+  );
 }
 
 test('edges of chosen cells explode as their faces do', () => {
@@ -214,7 +262,10 @@ test('edges of chosen cells explode as their faces do', () => {
   const geometry = cellEdgeGeometry(cutMesh, options);
   assert.ok(geometry instanceof BufferGeometry);
   const { position, cell } = cellEdgeArrays(cutMesh, options);
-  assert.deepEqual(cell.filter((id, i) => id !== cell[i - 1]), Uint32Array.of(7, 3));
+  assert.deepEqual(
+    cell.filter((id, i) => id !== cell[i - 1]),
+    Uint32Array.of(7, 3),
+  );
   assert.deepEqual(geometry.getAttribute('cell').array, cell);
   const expected = position.map((x, i) => x + 0.5 * (measures.cellCentroid[3 * cell[Math.floor(i / 3)] + (i % 3)] - center[i % 3]));
   assertClose(geometry.getAttribute('position').array, expected, 1e-6, 'position');
@@ -234,7 +285,9 @@ test('cells are chosen by region, too', () => {
 });
 
 test('untouched cells are the grid cells that no cut-cells replace', () => {
-  const { cells: [nx, ny, nz] } = cutMesh.grid;
+  const {
+    cells: [nx, ny, nz],
+  } = cutMesh.grid;
   const expected = { gridCell: [], region: [] };
   for (let at = 0; at < nx * ny * nz; ++at) {
     if (cutMesh.gridCellRegion[at] < 0) continue;
@@ -253,7 +306,11 @@ test('untouched cells are the grid cells that no cut-cells replace', () => {
 
 /** Of a grid that is graded, so that boxes differ. */
 function gradedCut() {
-  const planes = [[-1, -0.5, 0.25, 1.5, 2], [-1, 0, 0.75, 2, 3, 3.5], [-2, -0.25, 0.5, 1.5, 2]];
+  const planes = [
+    [-1, -0.5, 0.25, 1.5, 2],
+    [-1, 0, 0.75, 2, 3, 3.5],
+    [-2, -0.25, 0.5, 1.5, 2],
+  ];
   const cube = box([-0.25, 0.25, -0.5], [1.75, 2.5, 1.75]);
   return { cube, cut: mandoline.cut(cube, { planes }), planes };
 }
@@ -262,7 +319,10 @@ test('untouched cells are drawn as boxes in their places, seen from outside', ()
   const { cut, planes } = gradedCut();
   const geometry = untouchedGeometry(cut);
   const { gridCell } = untouchedCells(cut);
-  const { index, attributes: { position, normal, color } } = geometry;
+  const {
+    index,
+    attributes: { position, normal, color },
+  } = geometry;
   const count = gridCell.length / 3;
   assert.ok(count > 10);
   assert.deepEqual([index.count, position.count, normal.count, color.count], [36 * count, 24 * count, 24 * count, 24 * count]);
@@ -325,7 +385,7 @@ test('untouched cells have the colours of a slice through them', () => {
   }
 });
 
-test('what can\'t be drawn is refused in the name of the call', () => {
+test("what can't be drawn is refused in the name of the call", () => {
   const calls = {
     cellArrays: (options) => cellArrays(cutMesh, faceTriangles, options),
     cellGeometry: (options) => cellGeometry(cutMesh, faceTriangles, options),
@@ -371,11 +431,16 @@ test('a slice is filled, in its plane, in the colours of its cells', () => {
     assertClose(corner(normal, i), [1 / 3, 2 / 3, 2 / 3], 1e-6, 'normal');
   }
   const colors = cellColors(cutMesh, 'volume', measures);
-  const cut = cell.findIndex((id) => id >= 0), untouched = cell.indexOf(-1);
+  const cut = cell.findIndex((id) => id >= 0),
+    untouched = cell.indexOf(-1);
   assert.deepEqual(corner(color, cut), corner(colors, cell[cut]));
   assert.ok(untouched >= 0);
   for (const colorBy of ['region', 'winding', 'cell']) {
-    assert.ok(sliceGeometry(cutMesh, slice, { colorBy }).getAttribute('color').array.every((x) => x >= 0 && x <= 1));
+    assert.ok(
+      sliceGeometry(cutMesh, slice, { colorBy })
+        .getAttribute('color')
+        .array.every((x) => x >= 0 && x <= 1),
+    );
   }
 });
 

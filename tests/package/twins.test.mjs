@@ -143,7 +143,15 @@ test('a prepared mesh is no cut-mesh', () => {
 test('a cut within a cut, and a failed cut, keep what is kept', () => {
   const kept = gut(fresh());
   let inner;
-  const outer = mandoline.cut(mesh, { cells: 9 }, { progress: () => { inner ??= fresh(); } });
+  const outer = mandoline.cut(
+    mesh,
+    { cells: 9 },
+    {
+      progress: () => {
+        inner ??= fresh();
+      },
+    },
+  );
   assert.throws(() => mandoline.cut(mesh, { cells: 9 }, { progress: () => false }), { code: 'cancelled' });
   for (const cutMesh of [kept, gut(inner), gut(outer)]) assert.ok(mandoline.slice(cutMesh, plane));
 });

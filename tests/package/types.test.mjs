@@ -16,13 +16,22 @@ after(() => rmSync(folder, { recursive: true }));
 
 function compile(source) {
   writeFileSync(path(folder, 'check.ts'), source);
-  writeFileSync(path(folder, 'tsconfig.json'), JSON.stringify({
-    compilerOptions: {
-      strict: true, noEmit: true, exactOptionalPropertyTypes: true, skipLibCheck: false, types: [],
-      target: 'es2022', lib: ['es2022', 'dom'], module: 'nodenext',
-    },
-    files: ['check.ts'],
-  }));
+  writeFileSync(
+    path(folder, 'tsconfig.json'),
+    JSON.stringify({
+      compilerOptions: {
+        strict: true,
+        noEmit: true,
+        exactOptionalPropertyTypes: true,
+        skipLibCheck: false,
+        types: [],
+        target: 'es2022',
+        lib: ['es2022', 'dom'],
+        module: 'nodenext',
+      },
+      files: ['check.ts'],
+    }),
+  );
   execFileSync(process.execPath, [path(root, 'node_modules', 'typescript', 'bin', 'tsc'), '-p', folder], { encoding: 'utf8' });
 }
 
@@ -39,7 +48,9 @@ function literal(value) {
   if (ArrayBuffer.isView(value)) return `new ${value[Symbol.toStringTag]}()`;
   if (Array.isArray(value)) return `[${value.map(literal).join(', ')}]`;
   if (typeof value !== 'object' || value === null) return JSON.stringify(value);
-  return `{ ${Object.entries(value).map(([key, item]) => `${key}: ${literal(item)}`).join(', ')} }`;
+  return `{ ${Object.entries(value)
+    .map(([key, item]) => `${key}: ${literal(item)}`)
+    .join(', ')} }`;
 }
 
 /** The kind of each key. */
@@ -48,8 +59,26 @@ const kinds = (object) => JSON.stringify(Object.fromEntries(Object.entries(objec
 const mandoline = await index.init();
 const mesh = box([0.5, 0.5, 0.5], [1.5, 1.5, 1.5]);
 const states = [];
-const cutMesh = mandoline.cut(mesh, { cells: 3 }, { progress: (state) => { states.push(state); } });
-const open = mandoline.cut(sheet([0, 0], [1, 1], 0.5), { planes: [[0, 1], [0, 1], [0, 1]] }, { gridCellRegion: false });
+const cutMesh = mandoline.cut(
+  mesh,
+  { cells: 3 },
+  {
+    progress: (state) => {
+      states.push(state);
+    },
+  },
+);
+const open = mandoline.cut(
+  sheet([0, 0], [1, 1], 0.5),
+  {
+    planes: [
+      [0, 1],
+      [0, 1],
+      [0, 1],
+    ],
+  },
+  { gridCellRegion: false },
+);
 
 const physics = await physicsEntry.initPhysics();
 const cells = physics.cellComplex(mesh, cutMesh);
@@ -146,7 +175,9 @@ test('results of mandoline-wasm/physics', async () => {
 
 test('the calls and the exports of every entry', async () => {
   const entries = ['worker', 'three', 'inline', 'physics/worker', 'physics/inline'];
-  const [worker, three, inline, physicsWorker, physicsInline] = await Promise.all(entries.map((entry) => import(`mandoline-wasm/${entry}`)));
+  const [worker, three, inline, physicsWorker, physicsInline] = await Promise.all(
+    entries.map((entry) => import(`mandoline-wasm/${entry}`)),
+  );
   assertCompiles(`
     import type { Mandoline } from 'mandoline-wasm';
     import type * as index from 'mandoline-wasm';

@@ -14,7 +14,10 @@ export async function withWorker(f, options) {
 
 /** The MandolineError that a promise is rejected with. */
 export async function rejection(promise) {
-  const error = await promise.then(() => assert.fail('should have been rejected'), (reason) => reason);
+  const error = await promise.then(
+    () => assert.fail('should have been rejected'),
+    (reason) => reason,
+  );
   assert.ok(error instanceof MandolineError, `${error?.stack}`);
   return error;
 }

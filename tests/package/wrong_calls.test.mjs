@@ -53,87 +53,200 @@ function outOfBounds() {
 }
 
 const objects = [
-  () => ({}), () => [], () => [1, 2], () => [0, 1, 2], () => new Float64Array(3), () => gut({ array: new Float64Array(6) }).array,
-  () => new Map(), () => new Proxy({}, { get: () => 7 }), () => new Date(0), () => Object.create(null), () => new ArrayBuffer(8),
-  () => ({ length: 2 ** 31 }), outOfBounds,
+  () => ({}),
+  () => [],
+  () => [1, 2],
+  () => [0, 1, 2],
+  () => new Float64Array(3),
+  () => gut({ array: new Float64Array(6) }).array,
+  () => new Map(),
+  () => new Proxy({}, { get: () => 7 }),
+  () => new Date(0),
+  () => Object.create(null),
+  () => new ArrayBuffer(8),
+  () => ({ length: 2 ** 31 }),
+  outOfBounds,
 ];
 const anything = () => (random(2) ? pick(scalars) : pick(objects)());
 
 /** Values that are right, or nearly so, for each kind of argument. */
 const kinds = {
-  mesh: () => pick([
-    mesh, mesh, mesh, cube, open, prepared, resolved, { ...prepared }, { ...mesh, positions: mesh.positions.slice(3) },
-    { ...mesh, triangles: mesh.triangles.slice(0, 9) }, { ...mesh, positions: mesh.positions.map((x, i) => (i === random(90) ? NaN : x)) },
-    { positions: anything(), triangles: mesh.triangles }, { positions: mesh.positions, triangles: anything() },
-  ]),
-  cutMesh: () => pick([
-    () => cutMesh, () => cutMesh, () => ({ ...cutMesh }), () => mandoline.cut(mesh, grid, { keep: false }), () => damaged(cutMesh),
-    () => damaged(cutMesh), () => gut(mandoline.cut(mesh, grid)), () => mandoline.cut(open, grid), () => prepared,
-    () => ({ ...cutMesh, grid: anything() }), () => ({ ...cutMesh, regionCount: anything() }),
-  ])(),
-  solid: () => pick([
-    () => resolved, () => mandoline.resolve(open), () => damaged(resolved, boundaryArrays), () => damaged(resolved, boundaryArrays),
-    kinds.cutMesh, kinds.cutMesh, kinds.mesh,
-  ])(),
+  mesh: () =>
+    pick([
+      mesh,
+      mesh,
+      mesh,
+      cube,
+      open,
+      prepared,
+      resolved,
+      { ...prepared },
+      { ...mesh, positions: mesh.positions.slice(3) },
+      { ...mesh, triangles: mesh.triangles.slice(0, 9) },
+      { ...mesh, positions: mesh.positions.map((x, i) => (i === random(90) ? NaN : x)) },
+      { positions: anything(), triangles: mesh.triangles },
+      { positions: mesh.positions, triangles: anything() },
+    ]),
+  cutMesh: () =>
+    pick([
+      () => cutMesh,
+      () => cutMesh,
+      () => ({ ...cutMesh }),
+      () => mandoline.cut(mesh, grid, { keep: false }),
+      () => damaged(cutMesh),
+      () => damaged(cutMesh),
+      () => gut(mandoline.cut(mesh, grid)),
+      () => mandoline.cut(open, grid),
+      () => prepared,
+      () => ({ ...cutMesh, grid: anything() }),
+      () => ({ ...cutMesh, regionCount: anything() }),
+    ])(),
+  solid: () =>
+    pick([
+      () => resolved,
+      () => mandoline.resolve(open),
+      () => damaged(resolved, boundaryArrays),
+      () => damaged(resolved, boundaryArrays),
+      kinds.cutMesh,
+      kinds.cutMesh,
+      kinds.mesh,
+    ])(),
   rule: () => pick([undefined, 'positive', 'nonZero', 'odd', 'nonzero', anything()]),
-  grid: () => pick([
-    grid, { cells: 4 }, { cells: anything() }, { ...grid, cells: anything() }, { ...grid, min: anything() }, { planes: anything() },
-    { planes: [[0, 1], [1, 0], [0, 1]] }, { origin: [0, 0, 0], spacing: [1, anything(), 1], cells: [2, 2, 2] }, cutMesh.grid,
-  ]),
-  options: () => pick([
-    undefined, {}, { snapTolerance: anything() }, { intersections: anything() }, { maxPairs: anything() }, { progress: anything() },
-    { progress: () => pick([true, false, undefined]) }, { keep: anything() }, { gridCellRegion: anything() }, { untouched: anything() },
-    { regions: anything() }, { name: anything() },
-  ]),
-  of: () => pick([
-    undefined, { cell: random(60) }, { region: random(3) }, { cell: anything() }, { region: anything() }, { cell: 1, region: 1 },
-  ]),
-  point: () => pick([[0, 0, 0], [1, 0.1, 0], [1e300, 0, 0], [NaN, 0, 0], [0, anything(), 0]]),
+  grid: () =>
+    pick([
+      grid,
+      { cells: 4 },
+      { cells: anything() },
+      { ...grid, cells: anything() },
+      { ...grid, min: anything() },
+      { planes: anything() },
+      {
+        planes: [
+          [0, 1],
+          [1, 0],
+          [0, 1],
+        ],
+      },
+      { origin: [0, 0, 0], spacing: [1, anything(), 1], cells: [2, 2, 2] },
+      cutMesh.grid,
+    ]),
+  options: () =>
+    pick([
+      undefined,
+      {},
+      { snapTolerance: anything() },
+      { intersections: anything() },
+      { maxPairs: anything() },
+      { progress: anything() },
+      { progress: () => pick([true, false, undefined]) },
+      { keep: anything() },
+      { gridCellRegion: anything() },
+      { untouched: anything() },
+      { regions: anything() },
+      { name: anything() },
+    ]),
+  of: () =>
+    pick([undefined, { cell: random(60) }, { region: random(3) }, { cell: anything() }, { region: anything() }, { cell: 1, region: 1 }]),
+  point: () =>
+    pick([
+      [0, 0, 0],
+      [1, 0.1, 0],
+      [1e300, 0, 0],
+      [NaN, 0, 0],
+      [0, anything(), 0],
+    ]),
   points: () => pick([[0, 0, 0, 1, 0, 0], new Float32Array(9), [0, 0], [Infinity, -Infinity, NaN], [anything()]]),
-  plane: () => pick([{ normal: [0, 0, 1], offset: 0 }, { normal: [1, 2, 3], offset: 1e-300 }, { normal: [0, 0, 0], offset: 0 },
-    { normal: [1e300, 1e-300, 0], offset: 1e300 }, { normal: anything(), offset: 0 }, { normal: [0, 1, 0], offset: anything() }]),
+  plane: () =>
+    pick([
+      { normal: [0, 0, 1], offset: 0 },
+      { normal: [1, 2, 3], offset: 1e-300 },
+      { normal: [0, 0, 0], offset: 0 },
+      { normal: [1e300, 1e-300, 0], offset: 1e300 },
+      { normal: anything(), offset: 0 },
+      { normal: [0, 1, 0], offset: anything() },
+    ]),
   vector: () => pick([[0, 0, 1], [1, 2, 3], [0, 0, 0], [NaN, 0, 1], anything()]),
   offsets: () => pick([[0, 0.1], [], new Float32Array(2), [NaN], [anything()], anything()]),
   format: () => pick(['json', 'vtu', 'obj', 'stl', anything()]),
-  cells: () => pick([
-    () => cells, () => cells, () => ({ ...cells }), () => damaged(cells), () => damaged(cells),
-    () => gut(physics.cellComplex(mesh, cutMesh)), () => physics.regionComplex(cells, 0).cells,
-    () => ({ ...cells, cutFaces: anything() }), () => cutMesh, () => octree,
-  ])(),
+  cells: () =>
+    pick([
+      () => cells,
+      () => cells,
+      () => ({ ...cells }),
+      () => damaged(cells),
+      () => damaged(cells),
+      () => gut(physics.cellComplex(mesh, cutMesh)),
+      () => physics.regionComplex(cells, 0).cells,
+      () => ({ ...cells, cutFaces: anything() }),
+      () => cutMesh,
+      () => octree,
+    ])(),
   octree: () => pick([() => octree, () => undefined, () => damaged(octree), () => ({ ...octree, gridCells: anything() }), anything])(),
   coarsening: () => pick([undefined, { maxLevel: 1 }, { maxLevel: anything() }, { fineLayers: anything() }, { balanceEdges: anything() }]),
   ids: () => pick([[], [1, 2], [2, 2], [1e5], new Uint32Array([3]), [anything()]]),
   region: () => pick([0, 1, 99, anything()]),
   operators: () => pick([undefined, { only: ['gradient'] }, { only: [anything()] }, { only: anything() }, { dualPoints: anything() }]),
-  conditions: () => pick([
-    undefined, {}, { xMin: { dirichlet: 1 } }, { surface: { neumann: anything() } }, { [pick(['yMax', 'left'])]: anything() }, anything(),
-  ]),
-  boundary: () => pick([
-    () => boundary, () => damaged(boundary), () => physics.boundaryOf(physics.regionComplex(cells, 0).cells), anything,
-  ])(),
-  problem: () => pick([
-    () => undefined, () => ({ boundary }), () => ({ boundary: damaged(boundary) }), () => ({ source: cells.cellVolume }),
-    () => ({ source: anything() }), () => ({ dualPoints: anything() }), () => ({ boundary: anything() }),
-  ])(),
-  solving: () => pick([
-    undefined, { balance: true }, { balance: anything() }, { tolerance: anything() }, { maxIterations: anything() },
-    { freeConstant: anything() }, { progress: () => pick([true, false]) },
-  ]),
-  field: () => pick([
-    () => flowField, () => flowField, () => ({ ...flowField, mesh: kinds.mesh() }), () => ({ ...flowField, cutMesh: kinds.cutMesh() }),
-    () => ({ ...flowField, cells: kinds.cells() }), () => ({ ...flowField, cells: damaged(cells, ['cellCorner', 'cellLevel', 'faceCells']) }),
-    () => ({ ...flowField, flow: damaged(flow) }), () => ({ ...flowField, [pick(['mesh', 'cutMesh', 'cells', 'flow'])]: anything() }),
-  ])(),
+  conditions: () =>
+    pick([
+      undefined,
+      {},
+      { xMin: { dirichlet: 1 } },
+      { surface: { neumann: anything() } },
+      { [pick(['yMax', 'left'])]: anything() },
+      anything(),
+    ]),
+  boundary: () =>
+    pick([() => boundary, () => damaged(boundary), () => physics.boundaryOf(physics.regionComplex(cells, 0).cells), anything])(),
+  problem: () =>
+    pick([
+      () => undefined,
+      () => ({ boundary }),
+      () => ({ boundary: damaged(boundary) }),
+      () => ({ source: cells.cellVolume }),
+      () => ({ source: anything() }),
+      () => ({ dualPoints: anything() }),
+      () => ({ boundary: anything() }),
+    ])(),
+  solving: () =>
+    pick([
+      undefined,
+      { balance: true },
+      { balance: anything() },
+      { tolerance: anything() },
+      { maxIterations: anything() },
+      { freeConstant: anything() },
+      { progress: () => pick([true, false]) },
+    ]),
+  field: () =>
+    pick([
+      () => flowField,
+      () => flowField,
+      () => ({ ...flowField, mesh: kinds.mesh() }),
+      () => ({ ...flowField, cutMesh: kinds.cutMesh() }),
+      () => ({ ...flowField, cells: kinds.cells() }),
+      () => ({ ...flowField, cells: damaged(cells, ['cellCorner', 'cellLevel', 'faceCells']) }),
+      () => ({ ...flowField, flow: damaged(flow) }),
+      () => ({ ...flowField, [pick(['mesh', 'cutMesh', 'cells', 'flow'])]: anything() }),
+    ])(),
   seeds: () => pick([seeds, seeds, [0, 0, 0, 9, 9, 9], [0, NaN, Infinity], [], [1, 2], anything()]),
-  following: () => pick([
-    undefined, { upstream: true }, { upstream: anything() }, { tolerance: anything() }, { maxLength: anything() }, { maxPoints: anything() },
-    { progress: () => pick([true, false]) },
-  ]),
+  following: () =>
+    pick([
+      undefined,
+      { upstream: true },
+      { upstream: anything() },
+      { tolerance: anything() },
+      { maxLength: anything() },
+      { maxPoints: anything() },
+      { progress: () => pick([true, false]) },
+    ]),
   count: () => pick([0, 1, 20, anything()]),
-  file: () => pick([
-    new TextEncoder().encode('v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n'), new Blob(['OFF\n1 1 0\n']), new Uint8Array([31, 139, 8, 0, 1]),
-    anything(),
-  ]),
+  file: () =>
+    pick([
+      new TextEncoder().encode('v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n'),
+      new Blob(['OFF\n1 1 0\n']),
+      new Uint8Array([31, 139, 8, 0, 1]),
+      anything(),
+    ]),
 };
 
 const parameters = {

@@ -26,16 +26,33 @@ test('every control has a name', async (t) => {
   const session = await page.context().newCDPSession(page);
   const { nodes } = await session.send('Accessibility.getFullAXTree');
   const roles = [
-    'button', 'checkbox', 'radio', 'slider', 'spinbutton', 'textbox', 'combobox', 'link', 'img', 'progressbar', 'DisclosureTriangle',
+    'button',
+    'checkbox',
+    'radio',
+    'slider',
+    'spinbutton',
+    'textbox',
+    'combobox',
+    'link',
+    'img',
+    'progressbar',
+    'DisclosureTriangle',
     'Canvas',
   ];
   const found = nodes.filter(({ ignored, role }) => !ignored && roles.includes(role?.value));
   assert.ok(found.length > 60, `${found.length} controls`);
   const nameless = found.filter(({ name }) => !name?.value?.trim());
-  assert.deepEqual(nameless.map(({ role, properties }) => [role.value, JSON.stringify(properties)]), []);
+  assert.deepEqual(
+    nameless.map(({ role, properties }) => [role.value, JSON.stringify(properties)]),
+    [],
+  );
   const inputs = found.filter(({ role }) => ['slider', 'spinbutton', 'checkbox', 'combobox', 'textbox'].includes(role.value));
   const names = inputs.map(({ role, name }) => `${role.value} ${name.value}`);
-  assert.deepEqual(names.filter((name, at) => names.indexOf(name) !== at), [], 'no two controls have the same name');
+  assert.deepEqual(
+    names.filter((name, at) => names.indexOf(name) !== at),
+    [],
+    'no two controls have the same name',
+  );
 });
 
 test('Tab reaches every control, in turn, and says where it is', async (t) => {
@@ -121,14 +138,21 @@ describe('on a screen 360 pixels wide', () => {
       await eventually(async () => assert.equal(await page.locator(`#${id}-toggle`).getAttribute('aria-expanded'), 'true'));
       if (id === 'cut') await page.locator('#custom-grid summary').tap();
       assert.ok((await overflow(page)) <= 0, `${id} fits`);
-      const hidden = await page.locator(`#${id}`).locator(controls).evaluateAll((all) => all.filter((element) => {
-        if (element.tabIndex < 0 || !element.checkVisibility()) return false;
-        element.scrollIntoView({ block: 'center' });
-        const target = element.closest('label') ?? element;
-        const { left, right, top, bottom } = target.getBoundingClientRect();
-        const hit = document.elementFromPoint((left + right) / 2, (top + bottom) / 2);
-        return left < 0 || right > innerWidth + 0.5 || !target.contains(hit);
-      }).map((element) => element.id || element.textContent));
+      const hidden = await page
+        .locator(`#${id}`)
+        .locator(controls)
+        .evaluateAll((all) =>
+          all
+            .filter((element) => {
+              if (element.tabIndex < 0 || !element.checkVisibility()) return false;
+              element.scrollIntoView({ block: 'center' });
+              const target = element.closest('label') ?? element;
+              const { left, right, top, bottom } = target.getBoundingClientRect();
+              const hit = document.elementFromPoint((left + right) / 2, (top + bottom) / 2);
+              return left < 0 || right > innerWidth + 0.5 || !target.contains(hit);
+            })
+            .map((element) => element.id || element.textContent),
+        );
       assert.deepEqual(hidden, [], `all of ${id} can be touched`);
     }
   });
@@ -157,7 +181,10 @@ test('the skip link leads to the controls and leaves the settings alone', async 
   assert.match(page.url(), /#mesh=claw&n=3/);
 });
 
-for (const viewport of [{ width: 1000, height: 600 }, { width: 360, height: 640 }]) {
+for (const viewport of [
+  { width: 1000, height: 600 },
+  { width: 360, height: 640 },
+]) {
   test(`the document is no higher than a window of ${viewport.width} x ${viewport.height}`, async (t) => {
     const page = await site.open(t, link, { viewport });
     for (const id of panels) {
@@ -188,11 +215,15 @@ test('panels come back when a narrow window becomes wide', async (t) => {
 
 test('where motion is unwanted nothing moves by itself', async (t) => {
   const page = await site.open(t, link, { reducedMotion: 'reduce' });
-  const moving = await page.evaluate(() => [...document.querySelectorAll('*')].filter((element) => {
-    const { transitionDuration, animationName, animationDuration } = getComputedStyle(element);
-    const seconds = (text) => Math.max(...text.split(',').map(parseFloat));
-    return seconds(transitionDuration) > 0.01 || (animationName !== 'none' && seconds(animationDuration) > 0.01);
-  }).map((element) => element.outerHTML.slice(0, 80)));
+  const moving = await page.evaluate(() =>
+    [...document.querySelectorAll('*')]
+      .filter((element) => {
+        const { transitionDuration, animationName, animationDuration } = getComputedStyle(element);
+        const seconds = (text) => Math.max(...text.split(',').map(parseFloat));
+        return seconds(transitionDuration) > 0.01 || (animationName !== 'none' && seconds(animationDuration) > 0.01);
+      })
+      .map((element) => element.outerHTML.slice(0, 80)),
+  );
   assert.deepEqual(moving, []);
   const { x, y, width, height } = await page.locator('#canvas').boundingBox();
   await page.mouse.move(x + width / 4, y + height / 4);
@@ -202,11 +233,14 @@ test('where motion is unwanted nothing moves by itself', async (t) => {
   await eventually(async () => assert.match(page.url(), /camera=/));
   const place = page.url();
   const { frames } = await dataOf(page, '#canvas');
-  await page.evaluate(() => new Promise((done) => {
-    let left = 20;
-    const next = () => (--left > 0 ? requestAnimationFrame(next) : done());
-    next();
-  }));
+  await page.evaluate(
+    () =>
+      new Promise((done) => {
+        let left = 20;
+        const next = () => (--left > 0 ? requestAnimationFrame(next) : done());
+        next();
+      }),
+  );
   assert.ok(Number((await dataOf(page, '#canvas')).frames) - Number(frames) <= 2, 'the picture is at rest');
   assert.equal(page.url(), place);
   assert.equal(await isReady(page), 'ready');

@@ -93,9 +93,10 @@ test('a number entered while an earlier grid is being cut stays', async (t) => {
       input.value = String(value);
       input.dispatchEvent(new Event('change'));
     };
-    const nextModel = () => new Promise((resolve) => {
-      new MutationObserver(resolve).observe(document.querySelector('#counts'), { childList: true });
-    });
+    const nextModel = () =>
+      new Promise((resolve) => {
+        new MutationObserver(resolve).observe(document.querySelector('#counts'), { childList: true });
+      });
     const cut = nextModel();
     set('min-x', -2);
     set('max-x', 2.5);

@@ -35,7 +35,10 @@ async function hasGridFields(page, { cells, planes }) {
       const read = async (key) => Number(await page.locator(`#grid-${key}-${axis}`).inputValue());
       assert.equal(await read('cells'), cells[d]);
       const size = planes[d].at(-1) - planes[d][0];
-      for (const [key, x] of [['min', planes[d][0]], ['max', planes[d].at(-1)]]) {
+      for (const [key, x] of [
+        ['min', planes[d][0]],
+        ['max', planes[d].at(-1)],
+      ]) {
         assert.ok(Math.abs((await read(key)) - x) < 1e-12 * size, `${key} along ${axis}: ${await read(key)} instead of ${x}`);
       }
     }

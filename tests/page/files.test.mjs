@@ -47,8 +47,18 @@ async function refuses(name, content, detail) {
 }
 
 // A tetrahedron whose coordinates single precision holds.
-const points = [[0, 0, 0], [1.5, 0, 0], [0, 2.25, 0], [0, 0, -3.125]];
-const faces = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]];
+const points = [
+  [0, 0, 0],
+  [1.5, 0, 0],
+  [0, 2.25, 0],
+  [0, 0, -3.125],
+];
+const faces = [
+  [0, 1, 2],
+  [0, 3, 1],
+  [1, 3, 2],
+  [2, 3, 0],
+];
 const expectedCorners = faces.flat().map((v) => points[v]);
 
 const pointLines = points.map((p) => `${p.join(' ')}\n`);
@@ -59,9 +69,17 @@ const facets = faces.map((f) => `facet normal 0 0 0\nouter loop\n${f.map((v) => 
 const stl = `solid tetrahedron\n${facets.join('')}endsolid\n`;
 const plyHeader = (format, number = 'float') =>
   [
-    'ply', `format ${format} 1.0`, 'comment made by hand',
-    'element vertex 4', `property ${number} x`, `property ${number} y`, `property ${number} z`,
-    'element face 4', 'property list uchar int vertex_indices', 'end_header', '',
+    'ply',
+    `format ${format} 1.0`,
+    'comment made by hand',
+    'element vertex 4',
+    `property ${number} x`,
+    `property ${number} y`,
+    `property ${number} z`,
+    'element face 4',
+    'property list uchar int vertex_indices',
+    'end_header',
+    '',
   ].join('\n');
 const ply = `${plyHeader('ascii')}${points.map((p) => `${p.join(' ')}\n`).join('')}${faces.map((f) => `3 ${f.join(' ')}\n`).join('')}`;
 
@@ -103,7 +121,10 @@ const gltf = (extra = {}) => ({
     { bufferView: 0, componentType: 5126, count: 4, type: 'VEC3', min: [0, 0, -3.125], max: [1.5, 2.25, 0] },
     { bufferView: 1, componentType: 5123, count: 12, type: 'SCALAR' },
   ],
-  bufferViews: [{ buffer: 0, byteOffset: 0, byteLength: 48 }, { buffer: 0, byteOffset: 48, byteLength: 24 }],
+  bufferViews: [
+    { buffer: 0, byteOffset: 0, byteLength: 48 },
+    { buffer: 0, byteOffset: 48, byteLength: 24 },
+  ],
   buffers: [{ byteLength: 72 }],
   ...extra,
 });
@@ -117,7 +138,13 @@ function glb(json, data = gltfData) {
   const bytes = Buffer.alloc(28 + text.length + data.length);
   const end = 20 + text.length;
   const words = [
-    [0, 0x46546c67], [4, 2], [8, bytes.length], [12, text.length], [16, 0x4e4f534a], [end, data.length], [end + 4, 0x004e4942],
+    [0, 0x46546c67],
+    [4, 2],
+    [8, bytes.length],
+    [12, text.length],
+    [16, 0x4e4f534a],
+    [end, data.length],
+    [end + 4, 0x004e4942],
   ];
   for (const [at, word] of words) bytes.writeUInt32LE(word, at);
   bytes.write(text, 20);
@@ -127,13 +154,29 @@ function glb(json, data = gltfData) {
 
 describe('formats', () => {
   const files = {
-    'a.obj': obj, 'A.OBJ': obj, noextension: obj, 'query.obj?download=1': obj, 'windows.obj': obj.replaceAll('\n', '\r\n'),
-    'a.off': off, 'off.txt': off, 'windows.off': off.replaceAll('\n', '\r\n'),
-    'a.stl': stl, 'upper.stl': stl.toUpperCase(), 'binary.stl': binaryStl(), 'stl.dat': binaryStl(),
-    'a.ply': ply, 'windows.ply': ply.replaceAll('\n', '\r\n'), 'little.ply': binaryPly(true), 'big.ply': binaryPly(false),
-    'double.ply': binaryPly(true, 'double'), 'wrongly-named.obj': binaryPly(true),
-    'a.gltf': embedded(), 'a.glb': glb(gltf()), 'also.stl': glb(gltf()),
-    'a.obj.gz': gzipSync(obj), 'packed.glb.gz': gzipSync(glb(gltf())),
+    'a.obj': obj,
+    'A.OBJ': obj,
+    noextension: obj,
+    'query.obj?download=1': obj,
+    'windows.obj': obj.replaceAll('\n', '\r\n'),
+    'a.off': off,
+    'off.txt': off,
+    'windows.off': off.replaceAll('\n', '\r\n'),
+    'a.stl': stl,
+    'upper.stl': stl.toUpperCase(),
+    'binary.stl': binaryStl(),
+    'stl.dat': binaryStl(),
+    'a.ply': ply,
+    'windows.ply': ply.replaceAll('\n', '\r\n'),
+    'little.ply': binaryPly(true),
+    'big.ply': binaryPly(false),
+    'double.ply': binaryPly(true, 'double'),
+    'wrongly-named.obj': binaryPly(true),
+    'a.gltf': embedded(),
+    'a.glb': glb(gltf()),
+    'also.stl': glb(gltf()),
+    'a.obj.gz': gzipSync(obj),
+    'packed.glb.gz': gzipSync(glb(gltf())),
   };
   for (const [name, content] of Object.entries(files)) {
     test(name, async () => {
@@ -160,9 +203,15 @@ describe('what glTF allows', () => {
     json.meshes[0].primitives[0].material = 0;
     const found = corners(await parse('a.glb', glb(json)));
     const [mirrored, plain] = [found.slice(0, 12), found.slice(12)];
-    assert.deepEqual(plain, expectedCorners.map(([x, y, z]) => [x + 10, y, z]));
+    assert.deepEqual(
+      plain,
+      expectedCorners.map(([x, y, z]) => [x + 10, y, z]),
+    );
     const swapped = [0, 1, 2, 3].flatMap((t) => [0, 2, 1].map((k) => expectedCorners[3 * t + k]));
-    assert.deepEqual(mirrored, swapped.map(([x, y, z]) => [10 - 2 * x, 2 * y, 2 * z]));
+    assert.deepEqual(
+      mirrored,
+      swapped.map(([x, y, z]) => [10 - 2 * x, 2 * y, 2 * z]),
+    );
   });
   test('instances', async () => {
     const data = Buffer.concat([gltfData, Buffer.from(new Float32Array([0, 0, 0, 5, 0, 0]).buffer)]);
@@ -178,8 +227,14 @@ describe('what glTF allows', () => {
   });
   test('several buffers', async () => {
     const uri = (data) => `data:;base64,${data.toString('base64')}`;
-    const buffers = [{ byteLength: 48, uri: uri(gltfData.subarray(0, 48)) }, { byteLength: 24, uri: uri(gltfData.subarray(48)) }];
-    const bufferViews = [{ buffer: 0, byteLength: 48 }, { buffer: 1, byteLength: 24 }];
+    const buffers = [
+      { byteLength: 48, uri: uri(gltfData.subarray(0, 48)) },
+      { byteLength: 24, uri: uri(gltfData.subarray(48)) },
+    ];
+    const bufferViews = [
+      { buffer: 0, byteLength: 48 },
+      { buffer: 1, byteLength: 24 },
+    ];
     assert.deepEqual(corners(await parse('a.gltf', JSON.stringify(gltf({ buffers, bufferViews })))), expectedCorners);
   });
 });
@@ -249,7 +304,8 @@ describe('bad files', () => {
       /names point 9, but there are 4 points/,
     ],
     [
-      'nan.glb', glb(gltf(), Buffer.concat([Buffer.from(new Float32Array([NaN]).buffer), gltfData.subarray(4)])),
+      'nan.glb',
+      glb(gltf(), Buffer.concat([Buffer.from(new Float32Array([NaN]).buffer), gltfData.subarray(4)])),
       /point 0 has a coordinate that is not a finite/,
     ],
   ];

@@ -44,8 +44,14 @@ test('all that is asked for is there, comes from the same folder, and comes whil
     },
   });
   assert.deepEqual(failed, []);
-  assert.deepEqual(site.host.requests.slice(before).filter(({ status }) => status !== 200), []);
-  assert.deepEqual(requests.filter((url) => !url.startsWith(site.url) && !/^(data|blob):/.test(url)), []);
+  assert.deepEqual(
+    site.host.requests.slice(before).filter(({ status }) => status !== 200),
+    [],
+  );
+  assert.deepEqual(
+    requests.filter((url) => !url.startsWith(site.url) && !/^(data|blob):/.test(url)),
+    [],
+  );
   const loaded = site.host.requests.length;
   for (const name of ['wedge', 'bunny']) {
     await page.locator(`#gallery [data-name="${name}"]`).click();

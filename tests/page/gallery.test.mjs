@@ -54,7 +54,11 @@ function findIntersection({ positions, triangles }) {
     const high = [0, 1, 2].map((d) => Math.max(...corners.map((p) => p[d])));
     return { t, corners, low, high, places: corners.map(String) };
   }).sort((a, b) => a.low[0] - b.low[0]);
-  const edges = [[0, 1], [1, 2], [2, 0]];
+  const edges = [
+    [0, 1],
+    [1, 2],
+    [2, 0],
+  ];
   const meets = (a, b) => edges.some(([i, j]) => pierces(a.corners[i], a.corners[j], b.corners));
   for (let i = 0; i < items.length; ++i) {
     const a = items[i];

@@ -25,13 +25,16 @@ async function pick(page, name, content) {
 
 /** As if the file were dropped on the picture. */
 async function drop(page, name, content) {
-  await page.evaluate(([fileName, base64]) => {
-    const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
-    const dataTransfer = new DataTransfer();
-    dataTransfer.items.add(new File([bytes], fileName));
-    const target = document.getElementById('canvas');
-    for (const kind of ['dragover', 'drop']) target.dispatchEvent(new DragEvent(kind, { dataTransfer, bubbles: true, cancelable: true }));
-  }, [name, Buffer.from(content).toString('base64')]);
+  await page.evaluate(
+    ([fileName, base64]) => {
+      const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+      const dataTransfer = new DataTransfer();
+      dataTransfer.items.add(new File([bytes], fileName));
+      const target = document.getElementById('canvas');
+      for (const kind of ['dragover', 'drop']) target.dispatchEvent(new DragEvent(kind, { dataTransfer, bubbles: true, cancelable: true }));
+    },
+    [name, Buffer.from(content).toString('base64')],
+  );
 }
 
 test('from the gallery', async (t) => {
@@ -44,11 +47,12 @@ test('from the gallery', async (t) => {
 
 test('a linked mesh of the gallery is scrolled to', async (t) => {
   const page = await site.open(t, 'mesh=crate&n=4');
-  const isInView = () => page.locator('#gallery [data-name="crate"]').evaluate((entry) => {
-    const { top, bottom } = entry.getBoundingClientRect();
-    const list = entry.closest('ul').getBoundingClientRect();
-    return top >= list.top - 1 && bottom <= list.bottom + 1;
-  });
+  const isInView = () =>
+    page.locator('#gallery [data-name="crate"]').evaluate((entry) => {
+      const { top, bottom } = entry.getBoundingClientRect();
+      const list = entry.closest('ul').getBoundingClientRect();
+      return top >= list.top - 1 && bottom <= list.bottom + 1;
+    });
   await eventually(async () => assert.equal(await isInView(), true));
   assert.ok((await page.locator('#gallery').evaluate((list) => list.scrollTop)) > 0);
 });

@@ -20,9 +20,15 @@ function off({ positions, triangles }) {
 
 function ply({ positions, triangles }) {
   const header = [
-    'ply', 'format ascii 1.0',
-    `element vertex ${positions.length / 3}`, 'property float x', 'property float y', 'property float z',
-    `element face ${triangles.length / 3}`, 'property list uchar int vertex_indices', 'end_header',
+    'ply',
+    'format ascii 1.0',
+    `element vertex ${positions.length / 3}`,
+    'property float x',
+    'property float y',
+    'property float z',
+    `element face ${triangles.length / 3}`,
+    'property list uchar int vertex_indices',
+    'end_header',
   ];
   const faces = rows(triangles).map((corners) => `3 ${corners.join(' ')}`);
   return [...header, ...rows(positions).map((p) => p.join(' ')), ...faces, ''].join('\n');

@@ -9,11 +9,13 @@ after(() => site.close());
 
 test('the bunny at 50 cells is cut and drawn while the slider moves', async (t) => {
   const page = await site.open(t, 'mesh=bunny&n=44', {
-    onNewPage: (made) => made.addInitScript(() => {
-      window.longTasks = [];
-      new PerformanceObserver((list) => window.longTasks.push(...list.getEntries().map(({ startTime, duration }) => [startTime, duration])))
-        .observe({ type: 'longtask', buffered: true });
-    }),
+    onNewPage: (made) =>
+      made.addInitScript(() => {
+        window.longTasks = [];
+        new PerformanceObserver((list) =>
+          window.longTasks.push(...list.getEntries().map(({ startTime, duration }) => [startTime, duration])),
+        ).observe({ type: 'longtask', buffered: true });
+      }),
   });
   const longest = async () => {
     const durations = await page.evaluate(() => window.longTasks.splice(0).map(([, duration]) => duration));
@@ -46,19 +48,20 @@ test('the bunny at 50 cells is cut and drawn while the slider moves', async (t) 
 
 test('on a slow machine pictures come all along a drag, from one worker', async (t) => {
   const page = await site.open(t, 'mesh=wedge&n=4', {
-    onNewPage: (made) => made.addInitScript(() => {
-      // Each call reaches the worker late, as if the one before had taken so long.
-      window.workers = 0;
-      window.Worker = class extends Worker {
-        constructor(...given) {
-          super(...given);
-          ++window.workers;
-        }
-        postMessage(...given) {
-          setTimeout(() => super.postMessage(...given), 800);
-        }
-      };
-    }),
+    onNewPage: (made) =>
+      made.addInitScript(() => {
+        // Each call reaches the worker late, as if the one before had taken so long.
+        window.workers = 0;
+        window.Worker = class extends Worker {
+          constructor(...given) {
+            super(...given);
+            ++window.workers;
+          }
+          postMessage(...given) {
+            setTimeout(() => super.postMessage(...given), 800);
+          }
+        };
+      }),
   });
   const models = () => page.evaluate(() => Number(document.getElementById('counts').dataset.model));
   const [first, workers] = [await models(), await page.evaluate(() => window.workers)];

@@ -9,8 +9,15 @@ import { serveFolder } from '../package/static_server.mjs';
 
 const builtPage = process.env.MANDOLINE_PAGE ?? fileURLToPath(new URL('../../web/dist', import.meta.url));
 export const browserArgs = [
-  '--headless', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run',
-  '--disable-background-networking', '--disable-component-update', '--disable-sync',
+  '--headless',
+  '--no-sandbox',
+  '--use-angle=swiftshader',
+  '--enable-unsafe-swiftshader',
+  '--disable-quic',
+  '--no-first-run',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
 ];
 const patience = 30_000;
 
@@ -50,7 +57,11 @@ async function newPage(t, browser, { expectedProblem = null, onNewPage = async (
   page.on('pageerror', (error) => page.problems.push(String(error)));
   t.after(async () => {
     await context.close();
-    assert.deepEqual(page.problems.filter((problem) => !expectedProblem?.test(problem)), [], 'the console is silent');
+    assert.deepEqual(
+      page.problems.filter((problem) => !expectedProblem?.test(problem)),
+      [],
+      'the console is silent',
+    );
   });
   await onNewPage(page);
   return page;

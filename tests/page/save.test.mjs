@@ -32,7 +32,10 @@ describe('files', () => {
     assert.equal(dump.positions.length, cutMesh.positions.length);
     assert.equal(dump.cellHalfFaceOffsets.length, cutMesh.cellRegion.length + 1);
     assert.equal(dump.loopVertices.length, dump.loopOffsets.at(-1));
-    assert.equal(dump.gridCellRegion.length, cutMesh.grid.cells.reduce((product, n) => product * n));
+    assert.equal(
+      dump.gridCellRegion.length,
+      cutMesh.grid.cells.reduce((product, n) => product * n),
+    );
   });
 
   test('VTU: one polyhedron per cell', async (t) => {
@@ -190,7 +193,11 @@ describe('links', () => {
   }
 
   const hashes = [
-    'mesh=unicorn', 'mesh=bunny&n=100000', `n=${2 ** 31},1,1&box=0,0,0,1,1,1`, 'mesh=bunny&n=2,2,2&box=50,50,50,51,51,51', 'region=7',
+    'mesh=unicorn',
+    'mesh=bunny&n=100000',
+    `n=${2 ** 31},1,1&box=0,0,0,1,1,1`,
+    'mesh=bunny&n=2,2,2&box=50,50,50,51,51,51',
+    'region=7',
   ];
   for (const hash of hashes) {
     test(`a link that asks for what isn't there, "${hash}", still shows a picture`, async (t) => {

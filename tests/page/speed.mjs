@@ -34,10 +34,14 @@ async function addressOf(page) {
 }
 
 async function isDrawn(page) {
-  await page.waitForFunction(() => {
-    const model = document.getElementById('counts').dataset.model;
-    return model && document.body.dataset.state === 'ready' && document.getElementById('canvas').dataset.model === model;
-  }, null, { timeout: 120_000 });
+  await page.waitForFunction(
+    () => {
+      const model = document.getElementById('counts').dataset.model;
+      return model && document.body.dataset.state === 'ready' && document.getElementById('canvas').dataset.model === model;
+    },
+    null,
+    { timeout: 120_000 },
+  );
 }
 
 /** From the slider's event until the page has the new cut's buffers and shows its numbers: { ms, cpuMs }. */
@@ -45,17 +49,21 @@ async function timeOfCut({ page, session }, to) {
   await isDrawn(page);
   const cpu = async () => (await session.send('Performance.getMetrics')).metrics.find(({ name }) => name === 'ProcessTime').value;
   const before = await cpu();
-  const ms = await page.evaluate((n) => new Promise((resolve) => {
-    const start = performance.now();
-    const observer = new MutationObserver(() => {
-      observer.disconnect();
-      resolve(performance.now() - start);
-    });
-    observer.observe(document.getElementById('counts'), { attributes: true, attributeFilter: ['data-model'] });
-    const slider = document.getElementById('cells');
-    slider.value = String(n);
-    slider.dispatchEvent(new Event('input', { bubbles: true }));
-  }), to);
+  const ms = await page.evaluate(
+    (n) =>
+      new Promise((resolve) => {
+        const start = performance.now();
+        const observer = new MutationObserver(() => {
+          observer.disconnect();
+          resolve(performance.now() - start);
+        });
+        observer.observe(document.getElementById('counts'), { attributes: true, attributeFilter: ['data-model'] });
+        const slider = document.getElementById('cells');
+        slider.value = String(n);
+        slider.dispatchEvent(new Event('input', { bubbles: true }));
+      }),
+    to,
+  );
   return { ms, cpuMs: 1000 * ((await cpu()) - before) };
 }
 

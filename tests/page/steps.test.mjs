@@ -21,7 +21,8 @@ const dot = (a, b) => a.reduce((sum, x, d) => sum + x * b[d], 0);
 
 function groups(position, size) {
   return Array.from({ length: position.length / (3 * size) }, (_, k) =>
-    Array.from({ length: size }, (_, i) => Array.from(position.subarray(3 * (size * k + i), 3 * (size * k + i + 1)))));
+    Array.from({ length: size }, (_, i) => Array.from(position.subarray(3 * (size * k + i), 3 * (size * k + i + 1)))),
+  );
 }
 
 const area = (position) => groups(position, 3).reduce((sum, [a, b, c]) => sum + Math.hypot(...cross(minus(b, a), minus(c, a))) / 2, 0);
@@ -29,7 +30,14 @@ const volume = (position) => groups(position, 3).reduce((sum, [a, b, c]) => sum 
 const about = (actual, expected) => assert.ok(Math.abs(actual - expected) < 1e-5 * Math.abs(expected), `${actual} is not ${expected}`);
 
 // All made before the first suite: a runner may take a file for finished while it waits between suites.
-const examples = [['bunny', 16], ['bunny', 1], ['claw', 2], ['wavy-plane', 10], ['aligned-steps', 22], ['moebius-strip', 12]];
+const examples = [
+  ['bunny', 16],
+  ['bunny', 1],
+  ['claw', 2],
+  ['wavy-plane', 10],
+  ['aligned-steps', 22],
+  ['moebius-strip', 12],
+];
 const subjects = await Promise.all(examples.map(([name, cells]) => subject(name, cells)));
 
 for (const [k, [name, cells]] of examples.entries()) {
@@ -40,7 +48,10 @@ for (const [k, [name, cells]] of examples.entries()) {
         const made = picture({ kind });
         assert.equal(made.kind, kind);
         assert.equal(made.choices.request.kind, kind);
-        assert.deepEqual(made.choices.planes, cutMesh.grid.cells.map((n) => n + 1));
+        assert.deepEqual(
+          made.choices.planes,
+          cutMesh.grid.cells.map((n) => n + 1),
+        );
         assert.ok(made.radius > 0 && made.center.every(Number.isFinite));
         for (const { position, color } of [made.lines, made.faces, made.points]) {
           assert.equal(position.length, color.length);
@@ -66,9 +77,17 @@ describe('what is drawn', () => {
   });
 
   test('cut-cells fill their grid cell', async () => {
-    for (const [name, cells] of [['bunny', 16], ['oscillator', 2], ['nested-spheres', 10], ['pages', 8]]) {
+    for (const [name, cells] of [
+      ['bunny', 16],
+      ['oscillator', 2],
+      ['nested-spheres', 10],
+      ['pages', 8],
+    ]) {
       const { cutMesh, picture } = await subject(name, cells);
-      about(volume(picture({ kind: 'gridCell' }).faces.position), cutMesh.grid.spacing.reduce((product, h) => product * h));
+      about(
+        volume(picture({ kind: 'gridCell' }).faces.position),
+        cutMesh.grid.spacing.reduce((product, h) => product * h),
+      );
     }
   });
 
@@ -105,7 +124,11 @@ describe('what is drawn', () => {
   });
 
   test('an unwelded mesh gives the same', async () => {
-    for (const [name, cells] of [['torus-knot', 8], ['wedge', 2], ['wedge', 7]]) {
+    for (const [name, cells] of [
+      ['torus-knot', 8],
+      ['wedge', 2],
+      ['wedge', 7],
+    ]) {
       const { mesh, picture } = await subject(name, cells);
       const soup = {
         positions: new Float64Array(Array.from(mesh.triangles).flatMap((v) => Array.from(mesh.positions.subarray(3 * v, 3 * v + 3)))),

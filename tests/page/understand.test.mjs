@@ -66,7 +66,10 @@ describe('steps', () => {
     await openPanel(page, 'steps');
     await page.locator('#step-axialPlane').click();
     await shows(page, '#canvas', { step: 'axialPlane' });
-    for (const [axis, plane] of [[1, 2], [2, 1]]) {
+    for (const [axis, plane] of [
+      [1, 2],
+      [2, 1],
+    ]) {
       await page.locator(`#step-axis-${axis}`).check();
       await slideTo(page, '#step-plane', plane);
       const faces = cutMesh.faceAxis.filter((at, face) => at === axis && cutMesh.facePlane[face] === plane).length;
@@ -100,7 +103,10 @@ describe('checks', () => {
     await shows(page, '#validation', { pass: true, failed: 0, skipped: 0, passed: checks.length });
     const listed = page.locator('#validation [data-check]');
     const states = await listed.evaluateAll((all) => all.map(({ dataset }) => [dataset.check, dataset.state]));
-    assert.deepEqual(states, checks.map(({ name }) => [name, 'pass']));
+    assert.deepEqual(
+      states,
+      checks.map(({ name }) => [name, 'pass']),
+    );
     for (const { name, tolerance } of checks) {
       const text = await textOf(page, `[data-check="${name}"]`);
       assert.ok(text.endsWith(tolerance === 0 ? 'no violations' : 'exact, up to rounding'), `${name}: ${text}`);
@@ -130,7 +136,10 @@ describe('checks', () => {
   test('of an open mesh those that do not apply are skipped', async (t) => {
     const page = await site.open(t, `url=${site.meshUrl('sheet.obj')}&n=6&free=off`);
     const { mesh, cutMesh: open } = await cutOf(sheet, { cells: 6 });
-    const skipped = mandoline.validate(mesh, open).checks.filter((check) => check.skipped).map(({ name }) => name);
+    const skipped = mandoline
+      .validate(mesh, open)
+      .checks.filter((check) => check.skipped)
+      .map(({ name }) => name);
     assert.ok(skipped.length > 0);
     await openPanel(page, 'checks');
     await page.locator('#validate').click();

@@ -18,7 +18,9 @@ after(() => site.close());
 /** The torus as one solid, whole, unless the rest says otherwise. */
 const link = (rest = '') => {
   const parts = { url: site.meshUrl('torus.obj'), n: 8, free: 'off', explode: '0,0', ...Object.fromEntries(new URLSearchParams(rest)) };
-  return Object.entries(parts).map(([key, value]) => `${key}=${key === 'url' ? encodeURIComponent(value) : value}`).join('&');
+  return Object.entries(parts)
+    .map(([key, value]) => `${key}=${key === 'url' ? encodeURIComponent(value) : value}`)
+    .join('&');
 };
 /** The sheet and, high above it, a closed octahedron. */
 function withPocket({ positions, triangles }) {
@@ -41,7 +43,7 @@ async function looksUnlike(page, former, least = 4) {
 /** Polygons of a slice that belong to shown cells: all but those outside. */
 function capsOf({ cutMesh }, normal, position) {
   const { planes } = cutMesh.grid;
-  const [low, high] = [0, 1].map((end) => normal.reduce((sum, n, d) => sum + n * planes[d].at((n > 0) === (end === 1) ? -1 : 0), 0));
+  const [low, high] = [0, 1].map((end) => normal.reduce((sum, n, d) => sum + n * planes[d].at(n > 0 === (end === 1) ? -1 : 0), 0));
   const slice = mandoline.slice(cutMesh, { normal, offset: low + (high - low) * position });
   return slice.polygonRegion.filter((region) => cutMesh.regionWinding[region] !== 0).length;
 }
@@ -185,7 +187,10 @@ describe('a whole view stays whole', () => {
     }
     return count;
   };
-  for (const [name, cells] of [['nested-spheres', 6], ['chain', 8]]) {
+  for (const [name, cells] of [
+    ['nested-spheres', 6],
+    ['chain', 8],
+  ]) {
     for (const key of ['regions', 'cells']) {
       test(`when ${name} explode by ${key}`, async (t) => {
         const page = await site.open(t, `mesh=${name}&n=${cells}&free=off&explode=0,0&color=region`);
@@ -277,7 +282,10 @@ describe('show', () => {
     const finer = await cutOf(mesh, { cells: 14 });
     const { cutMesh } = finer;
     const inside = keptCells(finer, []).length;
-    assert.ok(cutMesh.gridCellRegion.some((region) => cutMesh.regionWinding[region] === 1), 'there are untouched cells inside');
+    assert.ok(
+      cutMesh.gridCellRegion.some((region) => cutMesh.regionWinding[region] === 1),
+      'there are untouched cells inside',
+    );
     const untouched = async () => Number((await dataOf(page, '#canvas')).untouched);
     await shows(page, '#canvas', { cells: inside });
     await eventually(async () => assert.ok((await untouched()) > 0));
@@ -349,7 +357,10 @@ describe('show', () => {
   test('without winding numbers the outside is the region in the corner, also where the corner is cut', async (t) => {
     const page = await site.open(t, `n=3&url=${encodeURIComponent(site.meshUrl('sheet.obj'))}`);
     const { cutMesh } = await cutOf(sheet, { cells: 2 });
-    assert.ok(cutMesh.gridCellRegion.every((region) => region < 0), 'all grid cells are cut');
+    assert.ok(
+      cutMesh.gridCellRegion.every((region) => region < 0),
+      'all grid cells are cut',
+    );
     await page.locator('#cells-number').fill('2');
     await page.locator('#cells-number').press('Enter');
     await eventually(async () => assert.match((await page.locator('#region option').allTextContents())[1], /^0, outside/));

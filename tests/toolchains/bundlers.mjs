@@ -16,12 +16,20 @@ const inline = { 'main.js': pageScript, 'check.js': checkModule({ imports: impor
 /** The page works, with the .wasm file from the server or without. */
 function assertPage({ requests, ...result }, { wasm = true } = {}) {
   assertChecked(result);
-  assert.equal(requests.some((path) => path.endsWith('.wasm')), wasm);
+  assert.equal(
+    requests.some((path) => path.endsWith('.wasm')),
+    wasm,
+  );
 }
 
 const assertQuiet = (output) => assert.doesNotMatch(output, /warning/i);
 
-for (const [version, vite] of [[5, 'vite5'], [6, 'vite6'], [7, 'vite7'], [8, 'vite']]) {
+for (const [version, vite] of [
+  [5, 'vite5'],
+  [6, 'vite6'],
+  [7, 'vite7'],
+  [8, 'vite'],
+]) {
   const tool = `${vite}/bin/vite.js`;
 
   test(`Vite ${version}, development`, async () => {
@@ -56,7 +64,10 @@ test('webpack 5, a page that starts no worker, without a script for one, nor the
   const folder = makeProject('webpack core', { 'dist/index.html': html('./main.js', { module: false }), 'main.js': script });
   await run(folder, '.bin/webpack', '--mode', 'production', '--entry', './main.js');
   const built = readdirSync(join(folder, 'dist'));
-  assert.deepEqual(built.filter((file) => file.endsWith('.js')), ['main.js']);
+  assert.deepEqual(
+    built.filter((file) => file.endsWith('.js')),
+    ['main.js'],
+  );
   assert.equal(built.filter((file) => file.endsWith('.wasm')).length, 1);
   assert.equal((await openFolder(join(folder, 'dist'))).error, undefined);
 });
@@ -93,7 +104,9 @@ for (const [name, { command, module }] of Object.entries(inlineBuilds)) {
 test('esbuild, with mandoline-wasm/physics/inline', async () => {
   const computing = physics('inline');
   const check = checkModule({
-    imports: `import * as inline from 'mandoline-wasm/physics/inline';\n${computing.imports}`, options: 'inline', more: computing.more,
+    imports: `import * as inline from 'mandoline-wasm/physics/inline';\n${computing.imports}`,
+    options: 'inline',
+    more: computing.more,
   });
   const folder = makeProject('esbuild physics', { 'dist/index.html': html('./main.js'), 'main.js': pageScript, 'check.js': check });
   assertQuiet(await run(folder, '.bin/esbuild', 'main.js', '--bundle', '--format=esm', '--outdir=dist'));

@@ -8,9 +8,11 @@ import { makeProject, run } from './projects.mjs';
 const module = checkModule() + print;
 const computing = checkModule(physics()) + print;
 const asRequire = (text) => text.replaceAll(/^import (\{.*?\}) from (.*?);$/gm, 'const $1 = require($2);').replace('export ', '');
-const asImport = (text) => asRequire(text).replaceAll(/^const (\{.*?\}) = require\((.*?)\);\n/gm, '')
-  .replace('{ cut } = await init', "{ cut } = await (await import('mandoline-wasm')).init")
-  .replace('await createWorker', "await (await import('mandoline-wasm/worker')).createWorker");
+const asImport = (text) =>
+  asRequire(text)
+    .replaceAll(/^const (\{.*?\}) = require\((.*?)\);\n/gm, '')
+    .replace('{ cut } = await init', "{ cut } = await (await import('mandoline-wasm')).init")
+    .replace('await createWorker', "await (await import('mandoline-wasm/worker')).createWorker");
 const scripts = {
   'ES modules': ['main.mjs', computing],
   'CommonJS, require()': ['main.cjs', asRequire(module)],

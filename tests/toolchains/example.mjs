@@ -64,7 +64,7 @@ check().then((result) => { globalThis.outcome = result; }, (error) => { globalTh
 `;
 
 /** A script that prints the result. */
-export const print = "\ncheck().then((result) => console.log(JSON.stringify(result)));\n";
+export const print = '\ncheck().then((result) => console.log(JSON.stringify(result)));\n';
 
 export function html(script, { head = '', module = true } = {}) {
   return `<!doctype html>

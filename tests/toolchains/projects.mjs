@@ -64,7 +64,10 @@ delete environment.FORCE_COLOR;
 function start(folder, tool, args) {
   const child = spawn(join(tools, tool), args, { cwd: folder, env: environment, stdio: ['ignore', 'pipe', 'pipe'], detached: true });
   let output = `${tool} ${args.join(' ')}\n`;
-  for (const stream of [child.stdout, child.stderr]) stream.setEncoding('utf8').on('data', (text) => { output += text; });
+  for (const stream of [child.stdout, child.stderr])
+    stream.setEncoding('utf8').on('data', (text) => {
+      output += text;
+    });
   const ended = new Promise((resolve) => child.on('error', (error) => resolve(error.message)).on('close', resolve));
   const stop = () => {
     try {
@@ -86,9 +89,17 @@ export async function run(folder, tool, ...args) {
 
 async function isServed(url, server) {
   let ended = false;
-  server.ended.then(() => { ended = true; });
+  server.ended.then(() => {
+    ended = true;
+  });
   for (const end = Date.now() + 120_000; Date.now() < end && !ended; await sleep(100)) {
-    if (await fetch(url).then(({ ok }) => ok, () => false)) return;
+    if (
+      await fetch(url).then(
+        ({ ok }) => ok,
+        () => false,
+      )
+    )
+      return;
   }
   throw new Error(ended ? 'The server has ended.' : 'The server has no page.');
 }

@@ -11,7 +11,7 @@ const resolutions = {
   bundler: ['--module', 'esnext', '--moduleResolution', 'bundler', 'consumer.ts'],
   node10: ['--module', 'esnext', '--moduleResolution', 'node10', 'consumer.ts'],
 };
-const versions = { '5.9': 'typescript5', '6.0': 'typescript6', '7.0': 'typescript7' };
+const versions = { 5.9: 'typescript5', '6.0': 'typescript6', '7.0': 'typescript7' };
 
 for (const [version, compiler] of Object.entries(versions)) {
   for (const [resolution, options] of Object.entries(resolutions)) {

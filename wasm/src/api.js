@@ -1,7 +1,21 @@
 // The calls of the package, on a module that has been started.
 import {
-  bad, readFlag, readFlags, readGrid, readId, readIntersections, readMesh, readMaxPairs, readNumbers, readOptions, readPlane,
-  readPoints, readResolved, readRule, readSnapTolerance, readVector,
+  bad,
+  readFlag,
+  readFlags,
+  readGrid,
+  readId,
+  readIntersections,
+  readMesh,
+  readMaxPairs,
+  readNumbers,
+  readOptions,
+  readPlane,
+  readPoints,
+  readResolved,
+  readRule,
+  readSnapTolerance,
+  readVector,
 } from './arguments.js';
 import { named } from './errors.js';
 import { readFile } from './files.js';
@@ -58,7 +72,7 @@ function makeTriangulate(host) {
   return (cutMesh, of) => {
     if (of === undefined) return host.runOn(cutMesh, (bindings, twin) => bindings.triangulate(twin));
     const isObject = typeof of === 'object' && of !== null;
-    if (!isObject || ('cell' in of) === ('region' in of)) throw bad('The second argument must be { cell } or { region }.');
+    if (!isObject || 'cell' in of === 'region' in of) throw bad('The second argument must be { cell } or { region }.');
     if ('region' in of) {
       const region = readId(of.region, 'region');
       return host.runOn(cutMesh, (bindings, twin) => bindings.triangulateRegion(twin, region));
@@ -84,10 +98,11 @@ function callsOf(host) {
         return host.run((bindings) => bindings.findIntersections(...input));
       });
     },
-    resolve: (mesh, options) => withProgress(readOptions(options).progress, (progress) => {
-      const input = readMesh(mesh);
-      return host.run((bindings) => bindings.resolve(input, { progress }));
-    }),
+    resolve: (mesh, options) =>
+      withProgress(readOptions(options).progress, (progress) => {
+        const input = readMesh(mesh);
+        return host.run((bindings) => bindings.resolve(input, { progress }));
+      }),
     boundary: (mesh, rule) => {
       const number = readRule(rule);
       const isCutMesh = host.isResult(mesh) || mesh?.grid !== undefined;
@@ -95,10 +110,11 @@ function callsOf(host) {
       const resolved = readResolved(mesh);
       return host.run((bindings) => bindings.boundaryOfResolved(resolved, number));
     },
-    measure: (mesh, cutMesh, options) => withProgress(readOptions(options).progress, (progress) => {
-      const input = readMesh(mesh);
-      return host.runOn(cutMesh, (bindings, twin) => bindings.measure(input, twin, { progress }));
-    }),
+    measure: (mesh, cutMesh, options) =>
+      withProgress(readOptions(options).progress, (progress) => {
+        const input = readMesh(mesh);
+        return host.runOn(cutMesh, (bindings, twin) => bindings.measure(input, twin, { progress }));
+      }),
     cutEdges: (mesh, cutMesh) => {
       const input = readMesh(mesh);
       return host.runOn(cutMesh, (bindings, twin) => bindings.cutEdges(input, twin));

@@ -27,12 +27,22 @@ function countTriangles({ cellHalfFaceOffsets, cellHalfFaces }, { faceTriangleOf
 function faceNormals({ positions, faceTriangle }, { faceTriangleOffsets, triangles }) {
   const normals = new Float32Array(3 * faceTriangle.length);
   for (let face = 0; face < faceTriangle.length; ++face) {
-    let x = 0, y = 0, z = 0;
+    let x = 0,
+      y = 0,
+      z = 0;
     for (let t = 3 * faceTriangleOffsets[face]; t < 3 * faceTriangleOffsets[face + 1]; t += 3) {
-      const a = 3 * triangles[t], b = 3 * triangles[t + 1], c = 3 * triangles[t + 2];
-      const ax = positions[a], ay = positions[a + 1], az = positions[a + 2];
-      const ux = positions[b] - ax, uy = positions[b + 1] - ay, uz = positions[b + 2] - az;
-      const vx = positions[c] - ax, vy = positions[c + 1] - ay, vz = positions[c + 2] - az;
+      const a = 3 * triangles[t],
+        b = 3 * triangles[t + 1],
+        c = 3 * triangles[t + 2];
+      const ax = positions[a],
+        ay = positions[a + 1],
+        az = positions[a + 2];
+      const ux = positions[b] - ax,
+        uy = positions[b + 1] - ay,
+        uz = positions[b + 2] - az;
+      const vx = positions[c] - ax,
+        vy = positions[c + 1] - ay,
+        vz = positions[c + 2] - az;
       x += uy * vz - uz * vy;
       y += uz * vx - ux * vz;
       z += ux * vy - uy * vx;
@@ -51,13 +61,19 @@ function fill({ position, normal, cell, face }, cutMesh, { faceTriangleOffsets, 
   let out = 0;
   for (let i = 0; i < cells.length; ++i) {
     const owner = cells[i];
-    const sx = shifts[3 * owner], sy = shifts[3 * owner + 1], sz = shifts[3 * owner + 2];
+    const sx = shifts[3 * owner],
+      sy = shifts[3 * owner + 1],
+      sz = shifts[3 * owner + 2];
     for (let h = cellHalfFaceOffsets[owner]; h < cellHalfFaceOffsets[owner + 1]; ++h) {
-      const f = cellHalfFaces[h] >> 1, reversed = cellHalfFaces[h] & 1;
+      const f = cellHalfFaces[h] >> 1,
+        reversed = cellHalfFaces[h] & 1;
       if (!taken[f]) continue;
       const step = reversed ? -1 : 1;
-      const nx = step * normals[3 * f], ny = step * normals[3 * f + 1], nz = step * normals[3 * f + 2];
-      const begin = 3 * faceTriangleOffsets[f], end = 3 * faceTriangleOffsets[f + 1];
+      const nx = step * normals[3 * f],
+        ny = step * normals[3 * f + 1],
+        nz = step * normals[3 * f + 2];
+      const begin = 3 * faceTriangleOffsets[f],
+        end = 3 * faceTriangleOffsets[f + 1];
       for (let corner = reversed ? end - 1 : begin; corner >= begin && corner < end; corner += step, ++out) {
         const vertex = 3 * triangles[corner];
         position[3 * out] = positions[vertex] + sx;
@@ -79,7 +95,10 @@ export function shiftedCellArrays(cutMesh, faceTriangles, options, shifts) {
   const taken = facesToTake(cutMesh, options.faces);
   const count = 3 * countTriangles(cutMesh, faceTriangles, cells, taken);
   const result = {
-    position: new Float32Array(3 * count), normal: new Float32Array(3 * count), cell: new Uint32Array(count), face: new Uint32Array(count),
+    position: new Float32Array(3 * count),
+    normal: new Float32Array(3 * count),
+    cell: new Uint32Array(count),
+    face: new Uint32Array(count),
   };
   fill(result, cutMesh, faceTriangles, { cells, taken, normals: faceNormals(cutMesh, faceTriangles), shifts });
   return result;

@@ -20,9 +20,11 @@ function fillCell(vertex, out, cutMesh, cell) {
   const { positions, cellHalfFaceOffsets, cellHalfFaces, faceLoopOffsets, loopOffsets, loopVertices } = cutMesh;
   const seen = new Set();
   for (let h = cellHalfFaceOffsets[cell]; h < cellHalfFaceOffsets[cell + 1]; ++h) {
-    const face = cellHalfFaces[h] >> 1, reversed = (cellHalfFaces[h] & 1) === 1;
+    const face = cellHalfFaces[h] >> 1,
+      reversed = (cellHalfFaces[h] & 1) === 1;
     for (let loop = faceLoopOffsets[face]; loop < faceLoopOffsets[face + 1]; ++loop) {
-      const begin = loopOffsets[loop], end = loopOffsets[loop + 1];
+      const begin = loopOffsets[loop],
+        end = loopOffsets[loop + 1];
       let from = loopVertices[end - 1];
       for (let at = begin; at < end; ++at) {
         const to = loopVertices[at];
@@ -43,7 +45,8 @@ function fillCell(vertex, out, cutMesh, cell) {
 export function shiftedCellEdges(cutMesh, options, shifts) {
   const cells = chosenCells(cutMesh, options);
   const count = countCorners(cutMesh, cells); // at least as many as ends of edges
-  const vertex = new Uint32Array(count), cell = new Uint32Array(count);
+  const vertex = new Uint32Array(count),
+    cell = new Uint32Array(count);
   let end = 0;
   for (const owner of cells) {
     const begin = end;

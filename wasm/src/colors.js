@@ -48,7 +48,10 @@ const noWinding = fromHex('#9a9a9a');
 
 /** For faces by what they are pieces of, for the inside of cut-cells where they are cut open, and for untouched grid cells. */
 export const kindColors = {
-  surface: fromHex('#e9a23b'), grid: fromHex('#6fa3cf'), inside: fromHex('#e6d3ae'), untouched: fromHex('#a9b4bf'),
+  surface: fromHex('#e9a23b'),
+  grid: fromHex('#6fa3cf'),
+  inside: fromHex('#e6d3ae'),
+  untouched: fromHex('#a9b4bf'),
 };
 /** For regions outside the surface, where they are told from the others. */
 export const outsideColor = fromHex('#8ea2b6');
@@ -88,12 +91,14 @@ export function volumeColor(fraction) {
 
 /** Gives colours of volumes on a logarithmic scale from the smallest of `cellVolume`, but at least a 1000th of the largest, to that. */
 export function volumeScale(cellVolume) {
-  let smallest = Infinity, largest = 0;
+  let smallest = Infinity,
+    largest = 0;
   for (const volume of cellVolume) {
     if (volume > 0) smallest = Math.min(smallest, volume);
     largest = Math.max(largest, volume);
   }
-  const min = Math.log(Math.max(smallest, 1e-3 * largest)), range = Math.log(largest) - min;
+  const min = Math.log(Math.max(smallest, 1e-3 * largest)),
+    range = Math.log(largest) - min;
   return (volume) => volumeColor(range > 0 ? (Math.log(volume) - min) / range : 1);
 }
 

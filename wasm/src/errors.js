@@ -41,8 +41,9 @@ const advice = {
   internalError: 'Please report this with the mesh and the grid; the next call works again.',
   badArgument: 'The call was given something that it does not take: compare with its documentation.',
   badFile: 'Check that the file is an OBJ, STL, PLY or OFF file, and complete.',
-  loadFailed: 'Check that the package\'s files are served beside the code, or take them from mandoline-wasm/inline, '
-    + 'and that the page\'s content security policy allows \'wasm-unsafe-eval\'.',
+  loadFailed:
+    "Check that the package's files are served beside the code, or take them from mandoline-wasm/inline, " +
+    "and that the page's content security policy allows 'wasm-unsafe-eval'.",
 };
 
 /** What went wrong, where, and what to do about it, in a few sentences for people. Takes whatever was caught. */

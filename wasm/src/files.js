@@ -31,7 +31,7 @@ async function gunzip(packed, name) {
   let size = 0;
   try {
     const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
-    for (const reader = stream.getReader(); ;) {
+    for (const reader = stream.getReader(); ; ) {
       const { done, value } = await reader.read();
       if (done) break;
       chunks.push(value);

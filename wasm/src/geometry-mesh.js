@@ -13,7 +13,9 @@ function readPositions(attribute) {
 /** As three applies a matrix (elements by columns), with the division by w. */
 function move(positions, m) {
   for (let i = 0; i < positions.length; i += 3) {
-    const x = positions[i], y = positions[i + 1], z = positions[i + 2];
+    const x = positions[i],
+      y = positions[i + 1],
+      z = positions[i + 2];
     const w = m[3] * x + m[7] * y + m[11] * z + m[15];
     for (let d = 0; d < 3; ++d) positions[i + d] = (m[d] * x + m[d + 4] * y + m[d + 8] * z + m[d + 12]) / w;
   }

@@ -77,7 +77,17 @@ export interface MeshArrays {
 
 /** The stages of a cut, in order; prepare() does the first two. */
 export type Stage =
-  'input' | 'intersections' | 'grid' | 'triEdges' | 'triFaces' | 'stencil' | 'gridEdges' | 'gridFaces' | 'cutCells' | 'regions' | 'output';
+  | 'input'
+  | 'intersections'
+  | 'grid'
+  | 'triEdges'
+  | 'triFaces'
+  | 'stencil'
+  | 'gridEdges'
+  | 'gridFaces'
+  | 'cutCells'
+  | 'regions'
+  | 'output';
 
 /** How far a call has come: `done` of `total` items of the stage, and the stage's place among all. */
 export interface Progress {

@@ -19,7 +19,9 @@ function begin(options) {
   if (!started) {
     const attempt = start(options);
     started = { attempt, api: attempt.then(({ api }) => api) };
-    started.api.catch(() => { started = undefined; });
+    started.api.catch(() => {
+      started = undefined;
+    });
   }
   return started;
 }

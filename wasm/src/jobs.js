@@ -105,7 +105,10 @@ export class JobQueue {
     this.#thread.hold(true);
     if (!job.ready) return this.#post(job);
     const whileRunning = (f) => (value) => this.#running === job && f(value);
-    job.ready().then(whileRunning(() => this.#post(job)), whileRunning((error) => this.#settle(() => job.reject(error))));
+    job.ready().then(
+      whileRunning(() => this.#post(job)),
+      whileRunning((error) => this.#settle(() => job.reject(error))),
+    );
   }
 
   #post(job) {

@@ -4,4 +4,5 @@ import { address } from './spare-wasm.js';
 
 const { source } = ownThread;
 
-ownThread.source = async () => (address() ? source() : { start: (await import('./inline.js')).thread, script: 'from mandoline-wasm/inline' });
+ownThread.source = async () =>
+  address() ? source() : { start: (await import('./inline.js')).thread, script: 'from mandoline-wasm/inline' };

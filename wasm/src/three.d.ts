@@ -13,7 +13,8 @@ import type { CutEdges, CutMesh, FaceTriangles, Measures, Slice, Vector3 } from 
  * merge its vertices first.
  */
 export function meshFromGeometry(
-  geometry: BufferGeometry, matrix?: Matrix4,
+  geometry: BufferGeometry,
+  matrix?: Matrix4,
 ): { positions: Float64Array<ArrayBuffer>; triangles: Uint32Array<ArrayBuffer> };
 
 /** Options that the functions below share. */
@@ -126,5 +127,7 @@ export function edgeGeometry(cutMesh: CutMesh, cutEdges: CutEdges, origin?: Vect
 
 /** A filled slice with attributes position, normal, color, cell (-1 for untouched grid cells). */
 export function sliceGeometry(
-  cutMesh: CutMesh, slice: Slice, options?: { colorBy?: ColorBy; measures?: Measures; origin?: Vector3 },
+  cutMesh: CutMesh,
+  slice: Slice,
+  options?: { colorBy?: ColorBy; measures?: Measures; origin?: Vector3 },
 ): BufferGeometry;

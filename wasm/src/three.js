@@ -61,10 +61,12 @@ function polygonColors(cutMesh, slice, colorBy, measures) {
   const untouchedColorOf = untouchedColorer(cutMesh, colorBy, measures);
   const colors = new Float32Array(3 * slice.polygonCell.length);
   for (let polygon = 0; polygon < slice.polygonCell.length; ++polygon) {
-    const id = slice.polygonCell[polygon], region = slice.polygonRegion[polygon];
-    const color = id >= 0
-      ? colorOf({ id, region, volume: measures?.cellVolume[id] })
-      : untouchedColorOf(slice.polygonGridCell.subarray(3 * polygon, 3 * polygon + 3), region);
+    const id = slice.polygonCell[polygon],
+      region = slice.polygonRegion[polygon];
+    const color =
+      id >= 0
+        ? colorOf({ id, region, volume: measures?.cellVolume[id] })
+        : untouchedColorOf(slice.polygonGridCell.subarray(3 * polygon, 3 * polygon + 3), region);
     colors.set(color, 3 * polygon);
   }
   return colors;
@@ -76,7 +78,8 @@ function sliceNormal({ positions, triangles }) {
   for (let t = 0; t < triangles.length; t += 3) {
     const [a, b, c] = [0, 1, 2].map((corner) => positions.subarray(3 * triangles[t + corner], 3 * triangles[t + corner] + 3));
     for (let d = 0; d < 3; ++d) {
-      const e = (d + 1) % 3, f = (d + 2) % 3;
+      const e = (d + 1) % 3,
+        f = (d + 2) % 3;
       sum[d] += (b[e] - a[e]) * (c[f] - a[f]) - (b[f] - a[f]) * (c[e] - a[e]);
     }
   }

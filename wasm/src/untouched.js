@@ -15,8 +15,11 @@ function forEachRun({ grid, rowRunOffsets, runBegin, runEnd, runRegion }, chosen
 export function chosenUntouched(cutMesh, regions) {
   const chosen = chosenRegions(cutMesh, regions);
   let count = 0;
-  forEachRun(cutMesh, chosen, (begin, end) => { count += end - begin; });
-  const gridCell = new Int32Array(3 * count), region = new Uint32Array(count);
+  forEachRun(cutMesh, chosen, (begin, end) => {
+    count += end - begin;
+  });
+  const gridCell = new Int32Array(3 * count),
+    region = new Uint32Array(count);
   let out = 0;
   forEachRun(cutMesh, chosen, (begin, end, j, k, id) => {
     for (let i = begin; i < end; ++i, ++out) {
@@ -31,13 +34,17 @@ export const untouchedCells = named('untouchedCells', (cutMesh, { regions } = {}
 
 /** Gives the colour of an untouched grid cell. It has no id of its own: it takes one after the cut-cells, counted through the grid. */
 export function untouchedColorer(cutMesh, colorBy, measures) {
-  const { grid: { cells, planes }, cellRegion } = cutMesh;
+  const {
+    grid: { cells, planes },
+    cellRegion,
+  } = cutMesh;
   const colorOf = cellColorer(cutMesh, colorBy, measures);
-  return ([i, j, k], region) => colorOf({
-    id: cellRegion.length + i + cells[0] * (j + cells[1] * k),
-    region,
-    volume: [i, j, k].reduce((volume, c, d) => volume * (planes[d][c + 1] - planes[d][c]), 1),
-  });
+  return ([i, j, k], region) =>
+    colorOf({
+      id: cellRegion.length + i + cells[0] * (j + cells[1] * k),
+      region,
+      volume: [i, j, k].reduce((volume, c, d) => volume * (planes[d][c + 1] - planes[d][c]), 1),
+    });
 }
 
 // Corners of a box are numbered by bits: bit d is set on the far side of axis d.
@@ -46,7 +53,10 @@ const bits = [0, 1, 2, 3, 4, 5, 6, 7];
 /** 4 per side, counter-clockwise as seen from outside; the far side of an axis after the near one. */
 const sides = [0, 1, 2].flatMap((d) => {
   const [u, v, far] = [1 << ((d + 1) % 3), 1 << ((d + 2) % 3), 1 << d];
-  return [[0, v, u | v, u], [far, far | u, 7, far | v]];
+  return [
+    [0, v, u | v, u],
+    [far, far | u, 7, far | v],
+  ];
 });
 
 const faces = {
@@ -57,9 +67,11 @@ const edges = {
   corners: bits,
   index: [1, 2, 4].flatMap((far) => bits.filter((corner) => !(corner & far)).flatMap((near) => [near, near | far])),
 };
-const boxNormals = sides.flatMap((_, side) => {
-  return Array(4).fill([0, 1, 2].map((d) => (d === side >> 1 ? 2 * (side & 1) - 1 : 0)));
-}).flat();
+const boxNormals = sides
+  .flatMap((_, side) => {
+    return Array(4).fill([0, 1, 2].map((d) => (d === side >> 1 ? 2 * (side & 1) - 1 : 0)));
+  })
+  .flat();
 
 /** What is the same for each box, for all of them: `each` moved on by `step` from box to box. */
 function repeated(array, each, step) {
@@ -74,7 +86,8 @@ function boxArrays({ grid }, gridCell, { corners, index }, options) {
     const planes = grid.planes[d];
     const shiftOf = shiftAlong(grid, d, options);
     for (let box = 0; box < count; ++box) {
-      const near = planes[gridCell[3 * box + d]], far = planes[gridCell[3 * box + d] + 1];
+      const near = planes[gridCell[3 * box + d]],
+        far = planes[gridCell[3 * box + d] + 1];
       const shift = shiftOf(0.5 * (near + far));
       for (let i = 0; i < corners.length; ++i) {
         position[3 * (corners.length * box + i) + d] = ((corners[i] >> d) & 1 ? far : near) + shift;

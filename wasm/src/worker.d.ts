@@ -1,8 +1,33 @@
 /** The same calls as promises, in a module worker: the page stays responsive. Browsers and Node. */
 import type {
-  Adjacency, CutEdges, CutMesh, CutOptions, FaceTriangles, GridInput, InitOptions, IntersectionOptions, Location, Locations, Mandoline,
-  Measures, Mesh, MeshArrays, MeshIntersections, Outlines, Plane, PrepareOptions, ReadMeshOptions, ResolvedMesh, RunOptions, Slice,
-  SliceOptions, ValidateOptions, Validation, Vector3, WindingRule, WriteOptions,
+  Adjacency,
+  CutEdges,
+  CutMesh,
+  CutOptions,
+  FaceTriangles,
+  GridInput,
+  InitOptions,
+  IntersectionOptions,
+  Location,
+  Locations,
+  Mandoline,
+  Measures,
+  Mesh,
+  MeshArrays,
+  MeshIntersections,
+  Outlines,
+  Plane,
+  PrepareOptions,
+  ReadMeshOptions,
+  ResolvedMesh,
+  RunOptions,
+  Slice,
+  SliceOptions,
+  ValidateOptions,
+  Validation,
+  Vector3,
+  WindingRule,
+  WriteOptions,
 } from './index.js';
 
 export { MandolineError, describe } from './index.js';
@@ -39,13 +64,17 @@ export interface MandolineWorker {
   cellsAt(cutMesh: CutMesh, points: Parameters<Mandoline['cellsAt']>[1], options?: CallOptions): Promise<Locations>;
   slice(cutMesh: CutMesh, plane: Plane, options?: SliceOptions & CallOptions): Promise<Slice>;
   slices(
-    cutMesh: CutMesh, normal: Vector3, offsets: Parameters<Mandoline['slices']>[2], options?: SliceOptions & CallOptions,
+    cutMesh: CutMesh,
+    normal: Vector3,
+    offsets: Parameters<Mandoline['slices']>[2],
+    options?: SliceOptions & CallOptions,
   ): Promise<Slice[]>;
-  outlines(
-    cutMesh: CutMesh, normal: Vector3, offsets: Parameters<Mandoline['outlines']>[2], options?: CallOptions,
-  ): Promise<Outlines[]>;
+  outlines(cutMesh: CutMesh, normal: Vector3, offsets: Parameters<Mandoline['outlines']>[2], options?: CallOptions): Promise<Outlines[]>;
   write(
-    mesh: Mesh, cutMesh: CutMesh, format: 'json' | 'vtu' | 'obj', options?: WriteOptions & CallOptions,
+    mesh: Mesh,
+    cutMesh: CutMesh,
+    format: 'json' | 'vtu' | 'obj',
+    options?: WriteOptions & CallOptions,
   ): Promise<Uint8Array<ArrayBuffer>>;
   readMesh(source: Parameters<Mandoline['readMesh']>[0], options?: ReadMeshOptions & CallOptions): Promise<MeshArrays>;
   /**

@@ -4,8 +4,18 @@ import { named } from '../errors.js';
 import { readFile } from '../files.js';
 import { withProgress } from '../progress.js';
 import {
-  readBoundary, readCellIds, readCoarsenOptions, readConditions, readField, readFreeConstant, readLimits, readOctree, readOperatorOptions,
-  readPlacedGrid, readProblem, readStreamlineOptions,
+  readBoundary,
+  readCellIds,
+  readCoarsenOptions,
+  readConditions,
+  readField,
+  readFreeConstant,
+  readLimits,
+  readOctree,
+  readOperatorOptions,
+  readPlacedGrid,
+  readProblem,
+  readStreamlineOptions,
 } from './arguments.js';
 
 function callsOf(host) {
@@ -27,18 +37,34 @@ function callsOf(host) {
         return host.runOnCutMesh(cutMesh, (bindings, twin) => bindings.coarsen(twin, what));
       });
     },
-    cellComplex: (mesh, cutMesh, octree, options) => withProgress(readOptions(options).progress, (progress) => {
-      const [input, cells] = [readMesh(mesh), readOctree(octree)];
-      const call = (bindings, twin) => bindings.cellComplex(input, twin, cells, { progress });
-      return host.runOnCutMesh(cutMesh, keeping((value) => value, call));
-    }),
+    cellComplex: (mesh, cutMesh, octree, options) =>
+      withProgress(readOptions(options).progress, (progress) => {
+        const [input, cells] = [readMesh(mesh), readOctree(octree)];
+        const call = (bindings, twin) => bindings.cellComplex(input, twin, cells, { progress });
+        return host.runOnCutMesh(
+          cutMesh,
+          keeping((value) => value, call),
+        );
+      }),
     subComplex: (cells, cellIds) => {
       const ids = readCellIds(cellIds);
-      return host.runOnComplex(cells, keeping((value) => value.cells, (bindings, twin) => bindings.subComplex(twin, ids)));
+      return host.runOnComplex(
+        cells,
+        keeping(
+          (value) => value.cells,
+          (bindings, twin) => bindings.subComplex(twin, ids),
+        ),
+      );
     },
     regionComplex: (cells, region) => {
       const id = readId(region, 'region');
-      return host.runOnComplex(cells, keeping((value) => value.cells, (bindings, twin) => bindings.regionComplex(twin, id)));
+      return host.runOnComplex(
+        cells,
+        keeping(
+          (value) => value.cells,
+          (bindings, twin) => bindings.regionComplex(twin, id),
+        ),
+      );
     },
     complexEdges: (cells) => host.runOnComplex(cells, (bindings, twin) => bindings.complexEdges(twin)),
     operators: (cells, options) => {

@@ -1,7 +1,19 @@
 /** As in ../arguments.js, of mandoline-wasm/physics. */
 import {
-  bad, collect, expectInteger, expectNumber, expectObject, expectTypedArray, kindOf, readFlag, readGrid, readId, readMesh, readNumbers,
-  readVector, readWord,
+  bad,
+  collect,
+  expectInteger,
+  expectNumber,
+  expectObject,
+  expectTypedArray,
+  kindOf,
+  readFlag,
+  readGrid,
+  readId,
+  readMesh,
+  readNumbers,
+  readVector,
+  readWord,
 } from '../arguments.js';
 
 /** What a face is part of, by CellComplex.faceTag. */
@@ -12,7 +24,14 @@ export const streamlineEnds = ['side', 'surface', 'rest', 'maxLength', 'maxPoint
 
 const conditions = ['neumann', 'dirichlet'];
 const operatorNames = [
-  'cellFaceIncidence', 'faceEdgeIncidence', 'edgeVertexIncidence', 'gradient', 'divergence', 'laplacian', 'cellMass', 'faceStar',
+  'cellFaceIncidence',
+  'faceEdgeIncidence',
+  'edgeVertexIncidence',
+  'gradient',
+  'divergence',
+  'laplacian',
+  'cellMass',
+  'faceStar',
   'faceMass',
 ];
 

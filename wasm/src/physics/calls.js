@@ -2,7 +2,10 @@ import { Calls } from '../calls.js';
 import { compile } from '../load.js';
 
 const [first, second] = [[[0]], [[1]]];
-const field = [[0, 'cutMesh'], [0, 'cells']];
+const field = [
+  [0, 'cutMesh'],
+  [0, 'cells'],
+];
 
 /** As in ../calls.js. */
 const physicsCalls = {

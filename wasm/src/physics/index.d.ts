@@ -14,7 +14,16 @@
  * every offsets array starts with 0 and has one more entry than there are items.
  */
 import type {
-  CutMesh, Grid, GridBox, GridRectilinear, GridRegular, Mesh, ReadMeshOptions, RunOptions, Vector3, WasmSource,
+  CutMesh,
+  Grid,
+  GridBox,
+  GridRectilinear,
+  GridRegular,
+  Mesh,
+  ReadMeshOptions,
+  RunOptions,
+  Vector3,
+  WasmSource,
 } from '../index.js';
 
 export { MandolineError, describe } from '../index.js';
@@ -190,8 +199,11 @@ export interface OperatorOptions<Names extends OperatorNames | undefined = Opera
 }
 
 /** Those that `only` names: of an array that is not written out as a literal, any may be left out. */
-export type ChosenOperators<Names extends OperatorNames | undefined> =
-  Names extends OperatorNames ? (number extends Names['length'] ? Partial<Operators> : Pick<Operators, Names[number]>) : Operators;
+export type ChosenOperators<Names extends OperatorNames | undefined> = Names extends OperatorNames
+  ? number extends Names['length']
+    ? Partial<Operators>
+    : Pick<Operators, Names[number]>
+  : Operators;
 
 /**
  * The boundary of all cells: each half-face of a cell through which no flux passes to another one, that is, of a face of tag surface or of
@@ -361,7 +373,8 @@ export interface Physics {
   complexEdges(cells: CellComplex): ComplexEdges;
   /** Discrete operators as sparse matrices: all, or those that `options.only` names. */
   operators<const Names extends OperatorNames | undefined = undefined>(
-    cells: CellComplex, options?: OperatorOptions<Names>,
+    cells: CellComplex,
+    options?: OperatorOptions<Names>,
   ): ChosenOperators<Names>;
   /** The boundary with the same condition on all faces of a tag; where none is given, nothing passes ({ neumann: 0 }). */
   boundaryOf(cells: CellComplex, conditions?: Conditions): Boundary;

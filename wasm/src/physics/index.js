@@ -21,7 +21,9 @@ async function start(options) {
 export function initPhysics(options) {
   if (!started) {
     const attempt = start(options);
-    attempt.catch(() => { started = undefined; });
+    attempt.catch(() => {
+      started = undefined;
+    });
     started = attempt;
   }
   return started;

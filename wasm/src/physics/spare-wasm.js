@@ -4,6 +4,4 @@ import { ownPhysicsWasm } from './own-wasm.js';
 
 const { source } = ownPhysicsWasm;
 
-ownPhysicsWasm.source = async () => (
-  addressOf('physics.wasm', source, import.meta.url) ?? (await import('./inline.js')).physicsWasm()
-);
+ownPhysicsWasm.source = async () => addressOf('physics.wasm', source, import.meta.url) ?? (await import('./inline.js')).physicsWasm();

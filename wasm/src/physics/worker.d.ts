@@ -2,9 +2,28 @@
 import type { CutMesh, Grid, GridBox, GridRectilinear, GridRegular, Mesh, ReadMeshOptions, RunOptions, Vector3 } from '../index.js';
 import type { CallOptions, MandolineWorker, WorkerOptions } from '../worker.js';
 import type {
-  Boundary, CellComplex, CellComponents, ChosenOperators, CoarsenOptions, ComplexEdges, Conditions, Flow, FlowField, FlowOptions,
-  OctreeCells, OperatorNames, OperatorOptions, PhysicsOptions, PoissonProblem, PoissonSystem, Solution, SolveOptions, StreamlineOptions,
-  Streamlines, SubComplex, TriangleGroups,
+  Boundary,
+  CellComplex,
+  CellComponents,
+  ChosenOperators,
+  CoarsenOptions,
+  ComplexEdges,
+  Conditions,
+  Flow,
+  FlowField,
+  FlowOptions,
+  OctreeCells,
+  OperatorNames,
+  OperatorOptions,
+  PhysicsOptions,
+  PoissonProblem,
+  PoissonSystem,
+  Solution,
+  SolveOptions,
+  StreamlineOptions,
+  Streamlines,
+  SubComplex,
+  TriangleGroups,
 } from './index.js';
 
 export { MandolineError, describe } from '../index.js';
@@ -20,7 +39,8 @@ export interface PhysicsWorker extends MandolineWorker {
   regionComplex(cells: CellComplex, region: number, options?: CallOptions): Promise<SubComplex>;
   complexEdges(cells: CellComplex, options?: CallOptions): Promise<ComplexEdges>;
   operators<const Names extends OperatorNames | undefined = undefined>(
-    cells: CellComplex, options?: OperatorOptions<Names> & CallOptions,
+    cells: CellComplex,
+    options?: OperatorOptions<Names> & CallOptions,
   ): Promise<ChosenOperators<Names>>;
   boundaryOf(cells: CellComplex, conditions?: Conditions, options?: CallOptions): Promise<Boundary>;
   outwardNormals(boundary: Boundary, cells: CellComplex, options?: CallOptions): Promise<Float64Array<ArrayBuffer>>;
@@ -29,13 +49,20 @@ export interface PhysicsWorker extends MandolineWorker {
   solvePoisson(cells: CellComplex, problem?: PoissonProblem, options?: SolveOptions & CallOptions): Promise<Solution>;
   solveFlow(cells: CellComplex, wind: Vector3, options?: FlowOptions & CallOptions): Promise<Flow>;
   velocityAt(
-    field: FlowField, points: Float64Array | Float32Array | readonly number[], options?: CallOptions,
+    field: FlowField,
+    points: Float64Array | Float32Array | readonly number[],
+    options?: CallOptions,
   ): Promise<Float64Array<ArrayBuffer>>;
   streamlines(
-    field: FlowField, seeds: Float64Array | Float32Array | readonly number[], options?: StreamlineOptions & CallOptions,
+    field: FlowField,
+    seeds: Float64Array | Float32Array | readonly number[],
+    options?: StreamlineOptions & CallOptions,
   ): Promise<Streamlines>;
   inflowSeeds(
-    grid: Grid | GridBox | GridRegular | GridRectilinear, wind: Vector3, count: number, options?: CallOptions,
+    grid: Grid | GridBox | GridRegular | GridRectilinear,
+    wind: Vector3,
+    count: number,
+    options?: CallOptions,
   ): Promise<Float64Array<ArrayBuffer>>;
   readGroups(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions & CallOptions): Promise<TriangleGroups>;
 }

@@ -7,7 +7,19 @@ import { defaultCells, defaultSettings, defaultSource } from '../model/settings'
 import { isOutside } from './view/colors';
 import { isSheet } from './view/look';
 import type {
-  CellCard, Engine, GridSettings, MeshInfo, Model, PageError, Settings, SliceName, SliceSettings, Source, StepPicture, StepRequest, View,
+  CellCard,
+  Engine,
+  GridSettings,
+  MeshInfo,
+  Model,
+  PageError,
+  Settings,
+  SliceName,
+  SliceSettings,
+  Source,
+  StepPicture,
+  StepRequest,
+  View,
 } from '../model/types';
 
 export interface AppEvents {
@@ -131,7 +143,10 @@ export class App {
   private lookFor(model: Model, wasSheet: boolean): Pick<Settings, 'slices' | 'show' | 'colorBy'> {
     const sheet = isSheet(model);
     const { slices, show, colorBy } = this.settings;
-    const { slices: { free }, colorBy: usual } = defaultSettings();
+    const {
+      slices: { free },
+      colorBy: usual,
+    } = defaultSettings();
     const isMoved = slices.free.position !== free.position || slices.free.normal.some((x, d) => x !== free.normal[d]);
     const on = isMoved ? slices.free.on : !sheet && model.counts.cutCells >= fewCells;
     const isChosen = colorBy !== (wasSheet ? sheetColoring : usual);

@@ -43,7 +43,10 @@ function start(): void {
   const app = new App(engine, view);
   app.events.on('alert', (error) => (error ? alert(error) : clear()));
   app.events.on('state', (state) => (document.body.dataset.state = state));
-  element('tools').append(schemeToggle((dark) => view.setScheme(dark)), shortcuts(app));
+  element('tools').append(
+    schemeToggle((dark) => view.setScheme(dark)),
+    shortcuts(app),
+  );
   element('stage').append(legend(app), hoverLine(app), stageNote(app), progressLine(app), cellCard(app));
   element('panels').append(meshPanel(app), cutPanel(app), viewPanel(app), stepsPanel(app), checksPanel(app), savePanel(app));
   acceptDrops(app);

@@ -22,7 +22,11 @@ export function cellShapes(cutMesh: CutMesh, faceTriangles: FaceTriangles, origi
   const volume = new Float64Array(cellRegion.length);
   const centroid = new Float32Array(3 * cellRegion.length);
   for (let cell = 0; cell < cellRegion.length; cell++) {
-    let sum = 0, x = 0, y = 0, z = 0, magnitude = 0;
+    let sum = 0,
+      x = 0,
+      y = 0,
+      z = 0,
+      magnitude = 0;
     for (let h = cellHalfFaceOffsets[cell]; h < cellHalfFaceOffsets[cell + 1]; h++) {
       const sign = cellHalfFaces[h] & 1 ? -1 : 1;
       const at = 4 * (cellHalfFaces[h] >> 1);
@@ -47,12 +51,23 @@ function faceMoments({ positions, faceTriangle }: CutMesh, faceTriangles: FaceTr
   const { faceTriangleOffsets, triangles } = faceTriangles;
   const moments = new Float64Array(4 * faceTriangle.length);
   for (let face = 0; face < faceTriangle.length; face++) {
-    let sum = 0, x = 0, y = 0, z = 0;
+    let sum = 0,
+      x = 0,
+      y = 0,
+      z = 0;
     for (let t = 3 * faceTriangleOffsets[face]; t < 3 * faceTriangleOffsets[face + 1]; t += 3) {
-      const a = 3 * triangles[t], b = 3 * triangles[t + 1], c = 3 * triangles[t + 2];
-      const ax = positions[a] - ox, ay = positions[a + 1] - oy, az = positions[a + 2] - oz;
-      const bx = positions[b] - ox, by = positions[b + 1] - oy, bz = positions[b + 2] - oz;
-      const cx = positions[c] - ox, cy = positions[c + 1] - oy, cz = positions[c + 2] - oz;
+      const a = 3 * triangles[t],
+        b = 3 * triangles[t + 1],
+        c = 3 * triangles[t + 2];
+      const ax = positions[a] - ox,
+        ay = positions[a + 1] - oy,
+        az = positions[a + 2] - oz;
+      const bx = positions[b] - ox,
+        by = positions[b + 1] - oy,
+        bz = positions[b + 2] - oz;
+      const cx = positions[c] - ox,
+        cy = positions[c + 1] - oy,
+        cz = positions[c + 2] - oz;
       const product = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
       sum += product;
       x += product * (ax + bx + cx);

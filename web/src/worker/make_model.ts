@@ -47,7 +47,11 @@ function cellInfo({ cutMesh, faceTriangles, origin }: Cut): CellInfo {
 function regionInfo(cutMesh: CutMesh, { volume }: CellInfo): RegionInfo[] {
   const { cellRegion, regionCount, regionWinding } = cutMesh;
   const regions = Array.from({ length: regionCount }, (_, id) => ({
-    id, winding: regionWinding?.[id] ?? null, volume: 0, cutCells: 0, untouchedCells: 0,
+    id,
+    winding: regionWinding?.[id] ?? null,
+    volume: 0,
+    cutCells: 0,
+    untouchedCells: 0,
   }));
   cellRegion.forEach((region, cell) => {
     regions[region].cutCells++;

@@ -4,15 +4,30 @@ import { fromPoints, merged, moved, revolved, type MeshArrays, type Point } from
 
 /** Two tetrahedra base to base: one tetrahedral notch in each of two grid cells, through the face between them. */
 export function wedge(): MeshArrays {
-  const points: Point[] = [[-0.3, 0, 0.25], [0.32, 0, 0.15], [-0.02, 0, -0.3], [0, -0.8, 0.03], [0, 0.8, 0.03]];
+  const points: Point[] = [
+    [-0.3, 0, 0.25],
+    [0.32, 0, 0.15],
+    [-0.02, 0, -0.3],
+    [0, -0.8, 0.03],
+    [0, 0.8, 0.03],
+  ];
   return fromPoints(points, [0, 1, 4, 1, 2, 4, 2, 0, 4, 1, 0, 3, 2, 1, 3, 0, 2, 3]);
 }
 
 /** Two cones side by side, one opening upward and one downward: each the difference of two tetrahedra that share the face in the plane. */
 export function emptyCones(): MeshArrays {
-  const points: Point[] = [[0.07, 0, 0.34], [0.73, 0, 0.34], [0.4, 0, -0.36], [0.4, -0.8, 0.1], [0.4, -0.45, 0.1]];
+  const points: Point[] = [
+    [0.07, 0, 0.34],
+    [0.73, 0, 0.34],
+    [0.4, 0, -0.36],
+    [0.4, -0.8, 0.1],
+    [0.4, -0.45, 0.1],
+  ];
   const cone = fromPoints(points, [1, 0, 3, 2, 1, 3, 0, 2, 3, 0, 1, 4, 1, 2, 4, 2, 0, 4]);
-  return merged(cone, moved(cone, ([x, y, z]): Point => [-x, y === 0 ? 0 : -y, z]));
+  return merged(
+    cone,
+    moved(cone, ([x, y, z]): Point => [-x, y === 0 ? 0 : -y, z]),
+  );
 }
 
 /**
@@ -20,7 +35,10 @@ export function emptyCones(): MeshArrays {
  * there is one closed curve around all prongs that runs through the webs twice.
  */
 export function claw(): MeshArrays {
-  const points: Point[] = [[0, -0.75, 0.32], [0, -0.75, -0.32]];
+  const points: Point[] = [
+    [0, -0.75, 0.32],
+    [0, -0.75, -0.32],
+  ];
   const [front, back] = [0, 1];
   const triangles: number[] = [];
   const prongs = [-0.32, -0.05, 0.22].map((x) => {
@@ -39,6 +57,11 @@ export function claw(): MeshArrays {
 
 /** A cylinder whose top swings through the plane several times from its middle outward and ends on it at the rim. */
 export function oscillator(): MeshArrays {
-  const swings: [number, number][] = [[0.255, -0.25], [0.19, 0.4], [0.13, -0.5], [0.065, 0.6]];
+  const swings: [number, number][] = [
+    [0.255, -0.25],
+    [0.19, 0.4],
+    [0.13, -0.5],
+    [0.065, 0.6],
+  ];
   return revolved([[0, -0.75], [0.32, -0.75], [0.32, 0], ...swings, [0, 0.75]], 32);
 }

@@ -15,10 +15,25 @@ function bunny(): MeshArrays {
 }
 
 const makers = new Map<string, () => MeshArrays | Promise<MeshArrays>>([
-  ['bunny', bunny], ['hilbert', hollowHilbertCurve], ['wavy-plane', wavyPlane], ['wavy-slab', wavySlab], ['wedge', wedge],
-  ['empty-cone', emptyCones], ['claw', claw], ['oscillator', oscillator], ['nested-spheres', nestedSpheres], ['thin-bowl', thinBowl],
-  ['double-bubble', doubleBubble], ['moebius-strip', moebiusStrip], ['torus-knot', torusKnot], ['chain', chain],
-  ['noisy-sphere', noisySphere], ['gears', gears], ['aligned-steps', alignedSteps], ['trumpet', trumpet], ['pages', pages],
+  ['bunny', bunny],
+  ['hilbert', hollowHilbertCurve],
+  ['wavy-plane', wavyPlane],
+  ['wavy-slab', wavySlab],
+  ['wedge', wedge],
+  ['empty-cone', emptyCones],
+  ['claw', claw],
+  ['oscillator', oscillator],
+  ['nested-spheres', nestedSpheres],
+  ['thin-bowl', thinBowl],
+  ['double-bubble', doubleBubble],
+  ['moebius-strip', moebiusStrip],
+  ['torus-knot', torusKnot],
+  ['chain', chain],
+  ['noisy-sphere', noisySphere],
+  ['gears', gears],
+  ['aligned-steps', alignedSteps],
+  ['trumpet', trumpet],
+  ['pages', pages],
   ['crate', crate],
 ]);
 

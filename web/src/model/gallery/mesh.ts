@@ -83,7 +83,10 @@ export function circle(radius: number, y: number, slices: number): Point[] {
  * pole.
  */
 export function revolved(profile: readonly (readonly [number, number])[], slices: number): MeshArrays {
-  return loft(profile.map(([radius, y]) => (radius === 0 ? [[0, y, 0]] : circle(radius, y, slices))), { around: true });
+  return loft(
+    profile.map(([radius, y]) => (radius === 0 ? [[0, y, 0]] : circle(radius, y, slices))),
+    { around: true },
+  );
 }
 
 export function range(n: number): number[] {

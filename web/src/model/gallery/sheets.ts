@@ -5,11 +5,13 @@ function wave(x: number, z: number): number {
   return 0.22 * Math.sin(5.1 * x + 0.4) * Math.cos(4.3 * z - 0.3) + 0.08 * x;
 }
 
-const waveAt = (n: number, lift: number) => (i: number, j: number): Point => {
-  const x = (2 * i) / n - 1;
-  const z = 1 - (2 * j) / n;
-  return [x, wave(x, z) + lift, z];
-};
+const waveAt =
+  (n: number, lift: number) =>
+  (i: number, j: number): Point => {
+    const x = (2 * i) / n - 1;
+    const z = 1 - (2 * j) / n;
+    return [x, wave(x, z) + lift, z];
+  };
 
 export function wavyPlane(): MeshArrays {
   return sheet(36, 36, waveAt(36, 0));
@@ -84,7 +86,10 @@ export function crate(): MeshArrays {
     const x = i - n / 2 + 0.25 * Math.sin(2.1 * i + 1.3 * j);
     const z = j - n / 2 + 0.25 * Math.cos(1.7 * i + 2.3 * j);
     const height = 0.9 + 0.35 * Math.sin(1.1 * i) * Math.cos(0.9 * j);
-    return [[x, -1, z], [x, height, z]];
+    return [
+      [x, -1, z],
+      [x, height, z],
+    ];
   };
   const wall = (a: [Point, Point], b: [Point, Point]) => fromPoints([a[0], b[0], b[1], a[1]], [0, 1, 2, 0, 2, 3]);
   const inner = range(n - 1).map((k) => k + 1);

@@ -9,16 +9,25 @@ function sphere(radius: number, subdivisions: number): MeshArrays {
   for (const a of [-1, 1]) for (const b of [-g, g]) points.push([0, a, b], [a, b, 0], [b, 0, a]);
   let corners: [Point, Point, Point][] = [];
   const near = (p: Point, q: Point) => Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) < 2.1;
-  points.forEach((a, i) => points.forEach((b, j) => points.forEach((c, k) => {
-    if (i >= j || i >= k || j === k || !near(a, b) || !near(b, c) || !near(c, a)) return;
-    const volume = a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
-    if (volume > 0) corners.push([a, b, c]);
-  })));
+  points.forEach((a, i) =>
+    points.forEach((b, j) =>
+      points.forEach((c, k) => {
+        if (i >= j || i >= k || j === k || !near(a, b) || !near(b, c) || !near(c, a)) return;
+        const volume = a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+        if (volume > 0) corners.push([a, b, c]);
+      }),
+    ),
+  );
   const middle = (p: Point, q: Point) => scale(0.5, add(p, q));
   for (let s = 0; s < subdivisions; ++s) {
     corners = corners.flatMap(([a, b, c]): [Point, Point, Point][] => {
       const [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
-      return [[a, ab, ca], [b, bc, ab], [c, ca, bc], [ab, bc, ca]];
+      return [
+        [a, ab, ca],
+        [b, bc, ab],
+        [c, ca, bc],
+        [ab, bc, ca],
+      ];
     });
   }
   return moved(fromPoints(corners.flat(), range(3 * corners.length)), (p) => scale(radius, unit(p)));
@@ -53,13 +62,23 @@ export function noisySphere(): MeshArrays {
 function gear(teeth: number, radius: number, hole: number, thickness: number, turn: number): MeshArrays {
   const pitch = (2 * Math.PI) / teeth;
   // Within a pitch: the start and end of the tooth's foot, the start and end of its top.
-  const corners: readonly [number, number][] = [[-0.3, -0.16], [-0.12, 0.14], [0.12, 0.14], [0.3, -0.16]];
+  const corners: readonly [number, number][] = [
+    [-0.3, -0.16],
+    [-0.12, 0.14],
+    [0.12, 0.14],
+    [0.3, -0.16],
+  ];
   const sections = range(teeth).flatMap((k) =>
     corners.map(([at, height]): Point[] => {
       const angle = turn + pitch * (k + at);
       const [c, s] = [Math.cos(angle), Math.sin(angle)];
       const r = radius + height;
-      return [[r * c, r * s, thickness], [r * c, r * s, -thickness], [hole * c, hole * s, -thickness], [hole * c, hole * s, thickness]];
+      return [
+        [r * c, r * s, thickness],
+        [r * c, r * s, -thickness],
+        [hole * c, hole * s, -thickness],
+        [hole * c, hole * s, thickness],
+      ];
     }),
   );
   return loft(sections, { around: true, along: true });
@@ -74,7 +93,18 @@ export function gears(): MeshArrays {
 
 /** Stairs, all of whose faces lie in axial planes of the grid of 22 cells around them. */
 export function alignedSteps(): MeshArrays {
-  const outline: [number, number][] = [[-10, -10], [10, -10], [10, -5], [5, -5], [5, 0], [0, 0], [0, 5], [-5, 5], [-5, 10], [-10, 10]];
+  const outline: [number, number][] = [
+    [-10, -10],
+    [10, -10],
+    [10, -5],
+    [5, -5],
+    [5, 0],
+    [0, 0],
+    [0, 5],
+    [-5, 5],
+    [-5, 10],
+    [-10, 10],
+  ];
   const [back, front] = [-10, 10].map((z) => outline.map(([x, y]): Point => [x, y, z]));
   const fan = range(outline.length - 2).flatMap((k) => [0, k + 1, k + 2]);
   return merged(loft([back, front], { around: true }), fromPoints(front, fan), flipped(fromPoints(back, fan)));

@@ -33,8 +33,14 @@ function hilbertCurve(order: number): Point[] {
   const half = 2 ** (order - 1);
   // Octant, axis along which the smaller curve ends, and whether it starts at the far end of the x, y and z axes.
   const parts: readonly [Point, number, Point][] = [
-    [[0, 0, 0], 2, [0, 0, 0]], [[0, 0, 1], 1, [0, 0, 0]], [[0, 1, 1], 0, [0, 0, 0]], [[0, 1, 0], 2, [1, 0, 1]],
-    [[1, 1, 0], 2, [0, 0, 0]], [[1, 1, 1], 0, [0, 0, 0]], [[1, 0, 1], 1, [1, 1, 0]], [[1, 0, 0], 2, [1, 0, 1]],
+    [[0, 0, 0], 2, [0, 0, 0]],
+    [[0, 0, 1], 1, [0, 0, 0]],
+    [[0, 1, 1], 0, [0, 0, 0]],
+    [[0, 1, 0], 2, [1, 0, 1]],
+    [[1, 1, 0], 2, [0, 0, 0]],
+    [[1, 1, 1], 0, [0, 0, 0]],
+    [[1, 0, 1], 1, [1, 1, 0]],
+    [[1, 0, 0], 2, [1, 0, 1]],
   ];
   return parts.flatMap(([octant, axis, far]) =>
     smaller.map((p): Point => {

@@ -66,7 +66,13 @@ const shownNeighbours = 60;
 function neighbours(card: CellCard, app: App): HTMLElement[] {
   const list = el('ul', { class: 'neighbours', 'aria-label': 'Neighbouring cut-cells' });
   for (const cell of card.neighbours.slice(0, shownNeighbours)) {
-    list.append(el('li', {}, button(String(cell), () => void app.pin(cell), { class: 'quiet', 'aria-label': `Pin cell ${cell}` })));
+    list.append(
+      el(
+        'li',
+        {},
+        button(String(cell), () => void app.pin(cell), { class: 'quiet', 'aria-label': `Pin cell ${cell}` }),
+      ),
+    );
   }
   const more = card.neighbours.length - shownNeighbours;
   if (more > 0) list.append(el('li', {}, `and ${integer(more)} more`));

@@ -47,7 +47,12 @@ function fill(rows: Rows, grid: CustomGrid): void {
 
 function snapField(app: App): HTMLElement {
   const field = numberField({
-    id: 'snap', label: 'Snap tolerance (in cells)', min: 0, max: 0.49, step: 0.01, onChange: (tolerance) => app.setSnapTolerance(tolerance),
+    id: 'snap',
+    label: 'Snap tolerance (in cells)',
+    min: 0,
+    max: 0.49,
+    step: 0.01,
+    onChange: (tolerance) => app.setSnapTolerance(tolerance),
   });
   field.input.step = 'any';
   app.events.on('settings', ({ snapTolerance }) => field.set(snapTolerance));

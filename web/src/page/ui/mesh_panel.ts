@@ -62,7 +62,13 @@ function fileButton(app: App): HTMLElement {
     input.value = '';
   });
   const hint = el('span', { class: 'hint' }, 'or drop one anywhere: OBJ, STL, PLY, OFF, GLB');
-  return el('div', { class: 'row' }, button('Open a file…', () => input.click(), { id: 'open-file' }), input, hint);
+  return el(
+    'div',
+    { class: 'row' },
+    button('Open a file…', () => input.click(), { id: 'open-file' }),
+    input,
+    hint,
+  );
 }
 
 async function openFile(app: App, file: File): Promise<void> {

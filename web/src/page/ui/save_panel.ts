@@ -62,5 +62,11 @@ function linkRow(app: App): HTMLElement {
       status.textContent = `Copy it from the field below.${fileNote}`;
     }
   }
-  return el('div', { class: 'row' }, button('Copy link', () => void copy(), { id: 'copy-link' }), status, link);
+  return el(
+    'div',
+    { class: 'row' },
+    button('Copy link', () => void copy(), { id: 'copy-link' }),
+    status,
+    link,
+  );
 }

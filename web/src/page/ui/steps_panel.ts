@@ -68,9 +68,18 @@ function choices(app: App): HTMLElement {
     void app.step(request);
   };
   const triangle = numberSlider('step-triangle', 'Triangle', (value) => ask({ triangle: value }));
-  const axis = choice('step-axis', 'Axis', [['0', 'x'], ['1', 'y'], ['2', 'z']], (value) => {
-    ask({ axis: Number(value) as 0 | 1 | 2, plane: undefined });
-  });
+  const axis = choice(
+    'step-axis',
+    'Axis',
+    [
+      ['0', 'x'],
+      ['1', 'y'],
+      ['2', 'z'],
+    ],
+    (value) => {
+      ask({ axis: Number(value) as 0 | 1 | 2, plane: undefined });
+    },
+  );
   const plane = numberSlider('step-plane', 'Plane', (value) => ask({ plane: value }));
   const cell = ([0, 1, 2] as const).map((d) =>
     numberSlider(`step-cell-${axes[d]}`, `Grid cell, ${axes[d]}`, (value) => {

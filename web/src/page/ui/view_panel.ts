@@ -29,7 +29,15 @@ export function viewPanel(app: App): HTMLElement {
 }
 
 function slices(app: App): HTMLElement {
-  const mode = choice('slice-mode', 'Sliced cells', [['whole', 'whole'], ['flat', 'cut flat']], (sliceMode) => app.change({ sliceMode }));
+  const mode = choice(
+    'slice-mode',
+    'Sliced cells',
+    [
+      ['whole', 'whole'],
+      ['flat', 'cut flat'],
+    ],
+    (sliceMode) => app.change({ sliceMode }),
+  );
   app.events.on('settings', ({ sliceMode }) => mode.set(sliceMode));
   return el('fieldset', { class: 'slices' }, el('legend', {}, 'Slice'), ...sliceNames.map((name) => sliceRow(app, name)), mode.element);
 }
@@ -38,7 +46,12 @@ function sliceRow(app: App, name: SliceName): HTMLElement {
   const label = name === 'free' ? 'free' : name;
   const on = checkbox(`slice-${name}`, label, (checked) => app.changeSlice(name, { on: checked }));
   const position = slider({
-    id: `slice-${name}-position`, label: `Position of the ${label} plane`, hideLabel: true, min: 0, max: 1, step: 0.002,
+    id: `slice-${name}-position`,
+    label: `Position of the ${label} plane`,
+    hideLabel: true,
+    min: 0,
+    max: 1,
+    step: 0.002,
     onInput: (value) => app.changeSlice(name, { position: value, on: true }),
   });
   const flip = button('flip', () => app.flip(name), { id: `slice-${name}-flip`, class: 'quiet', 'aria-label': `Flip the ${label} plane` });
@@ -55,7 +68,12 @@ function explosion(app: App): HTMLElement {
   const percent = (x: number) => `${Math.round(100 * x)}%`;
   const make = (key: 'cells' | 'regions', label: string) => {
     const control = slider({
-      id: `explode-${key}`, label, min: 0, max: 1, step: 0.01, format: percent,
+      id: `explode-${key}`,
+      label,
+      min: 0,
+      max: 1,
+      step: 0.01,
+      format: percent,
       onInput: (value) => app.change({ explode: { ...app.settings.explode, [key]: value } }),
     });
     app.events.on('settings', ({ explode }) => control.set(explode[key]));
@@ -109,5 +127,10 @@ function pinByNumber(app: App): HTMLElement {
 
 function resets(app: App): HTMLElement {
   const reset = button('Reset view', () => app.resetLook(), { id: 'reset-look' });
-  return el('div', { class: 'row' }, button('Fit view', () => app.fit(), { id: 'fit' }), reset);
+  return el(
+    'div',
+    { class: 'row' },
+    button('Fit view', () => app.fit(), { id: 'fit' }),
+    reset,
+  );
 }

@@ -33,7 +33,10 @@ function outline(model: Model, { normal, offset }: ViewPlane): number[] {
   const corner = (bits: number) => half.map((h, d) => (bits & (1 << d) ? h : -h));
   const height = (point: number[]) => normal.reduce((sum, n, d) => sum + n * point[d], -offset);
   const segments: number[] = [];
-  for (const [axis, side] of [0, 1, 2].flatMap((d) => [[d, 0], [d, 1]])) {
+  for (const [axis, side] of [0, 1, 2].flatMap((d) => [
+    [d, 0],
+    [d, 1],
+  ])) {
     const [u, v] = [1 << ((axis + 1) % 3), 1 << ((axis + 2) % 3)];
     const corners = [0, u, u | v, v].map((bits) => corner(bits | (side << axis)));
     const ends = corners.flatMap((from, at) => {

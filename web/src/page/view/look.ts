@@ -38,7 +38,11 @@ export function regionShifts(model: Model): Float32Array {
     if (isOutside(model, id) || weights[id] === 0) continue;
     const center = [0, 1, 2].map((d) => centers[3 * id + d] / weights[id] - (model.meshMin[d] + model.meshMax[d]) / 2 + model.origin[d]);
     const distance = Math.hypot(...center);
-    if (distance > 0.05 * size) shifts.set(center.map((x) => x * (1 + (0.3 * size) / distance)), 3 * id);
+    if (distance > 0.05 * size)
+      shifts.set(
+        center.map((x) => x * (1 + (0.3 * size) / distance)),
+        3 * id,
+      );
     else shifts[3 * id] = 1.2 * size * alternating(nested++); // Nested regions have one centre: they line up side by side.
   }
   return shifts;

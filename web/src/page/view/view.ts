@@ -182,7 +182,10 @@ class ThreeView implements View {
   private keepCamera(from: Model, to: Model): void {
     const move = (point: Vector3) => {
       const world = point.clone().multiplyScalar(from.diagonal / 2);
-      return world.add(new Vector3(...from.origin)).sub(new Vector3(...to.origin)).multiplyScalar(2 / to.diagonal);
+      return world
+        .add(new Vector3(...from.origin))
+        .sub(new Vector3(...to.origin))
+        .multiplyScalar(2 / to.diagonal);
     };
     const isSame = from.diagonal === to.diagonal && from.origin.every((x, d) => x === to.origin[d]);
     if (!isSame) this.camera.transform(move, from.diagonal / to.diagonal);

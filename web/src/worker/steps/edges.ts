@@ -85,10 +85,11 @@ export function triEdges(subject: Subject, request: StepRequest): StepPicture {
     drawing.point(pointOf(positions, vertex), crossingColors[planes - 1]);
   }
   const several = crossings[2] + crossings[3];
-  const text = `The axial planes cross ${plural(edges, 'tri-edge')}${where(triangle)} at ${plural(crossings[1] + several, 'point')}`
-    + ` (orange${several ? `; ${several.toLocaleString('en')} of them where two planes meet, magenta, or three, red` : ''}).`
-    + `${triVerticesOnPlanes ? ` ${plural(triVerticesOnPlanes, 'tri-vertex lies', 'tri-vertices lie')} exactly on a plane.` : ''}`
-    + ' All of these become vertices of the cut-mesh (Section 4.1.1).';
+  const text =
+    `The axial planes cross ${plural(edges, 'tri-edge')}${where(triangle)} at ${plural(crossings[1] + several, 'point')}` +
+    ` (orange${several ? `; ${several.toLocaleString('en')} of them where two planes meet, magenta, or three, red` : ''}).` +
+    `${triVerticesOnPlanes ? ` ${plural(triVerticesOnPlanes, 'tri-vertex lies', 'tri-vertices lie')} exactly on a plane.` : ''}` +
+    ' All of these become vertices of the cut-mesh (Section 4.1.1).';
   return drawing.finish(text, { kind: 'triEdges', triangle }, subject);
 }
 
@@ -107,9 +108,10 @@ export function hybridEdges(subject: Subject, request: StepRequest): StepPicture
   });
   const total = perAxis[0] + perAxis[1] + perAxis[2];
   if (total === 0 && triangle === undefined) drawTriEdges(drawing, subject, shown);
-  const text = total > 0
-    ? `Hybrid edges are where the triangles${where(triangle)} meet the axial planes normal to x (red), y (green) and z (blue).`
-      + ` They are split where they cross each other, which makes ${plural(total, 'cut-edge')} (Section 4.1.2).`
-    : `There are no hybrid edges${where(triangle)}: no axial plane passes through the inside of a triangle (Section 4.1.2).`;
+  const text =
+    total > 0
+      ? `Hybrid edges are where the triangles${where(triangle)} meet the axial planes normal to x (red), y (green) and z (blue).` +
+        ` They are split where they cross each other, which makes ${plural(total, 'cut-edge')} (Section 4.1.2).`
+      : `There are no hybrid edges${where(triangle)}: no axial plane passes through the inside of a triangle (Section 4.1.2).`;
   return drawing.finish(text, { kind: 'hybridEdges', triangle }, subject);
 }

@@ -12,11 +12,19 @@ import { hybridEdges, triEdges } from './edges';
 import type { Subject } from './picture';
 
 const steps: Record<StepKind, (subject: Subject, request: StepRequest) => StepPicture> = {
-  triEdges, hybridEdges, triangleFaces, axialPlane, gridCell,
+  triEdges,
+  hybridEdges,
+  triangleFaces,
+  axialPlane,
+  gridCell,
 };
 
 export function stepPicture(
-  mesh: MeshArrays, cutMesh: CutMesh, faceTriangles: FaceTriangles, request: StepRequest, origin: Vector3,
+  mesh: MeshArrays,
+  cutMesh: CutMesh,
+  faceTriangles: FaceTriangles,
+  request: StepRequest,
+  origin: Vector3,
 ): StepPicture {
   return steps[request.kind]({ mesh, cutMesh, faceTriangles, origin }, request);
 }

@@ -68,7 +68,13 @@ export class Drawing {
 
   finish(text: string, request: StepRequest, { cutMesh }: Subject): StepPicture {
     const { cells } = cutMesh.grid;
-    const [min, max] = this.#min[0] <= this.#max[0] ? [this.#min, this.#max] : [[0, 0, 0], [0, 0, 0]];
+    const [min, max] =
+      this.#min[0] <= this.#max[0]
+        ? [this.#min, this.#max]
+        : [
+            [0, 0, 0],
+            [0, 0, 0],
+          ];
     return {
       kind: request.kind,
       text,

@@ -21,13 +21,17 @@ export function triangleFaces(subject: Subject, request: StepRequest): StepPictu
   const { mesh, cutMesh } = subject;
   const triangle = chosenTriangle(cutMesh, request);
   const drawing = new Drawing(subject.origin);
-  drawing.polygon([0, 1, 2].map((k) => pointOf(mesh.positions, mesh.triangles[3 * triangle + k])), gridColor);
+  drawing.polygon(
+    [0, 1, 2].map((k) => pointOf(mesh.positions, mesh.triangles[3 * triangle + k])),
+    gridColor,
+  );
   const faces = facesWhere(subject, (face) => cutMesh.faceTriangle[face] === triangle);
   faces.forEach((face, k) => drawFace(drawing, subject, face, 0.9, pieceColor(k)));
-  const text = faces.length > 0
-    ? `The axial planes cut triangle ${triangle} into ${plural(faces.length, 'cut-face')}, drawn slightly apart.`
-      + ' Together they cover the triangle exactly, and each lies in one grid cell (Section 4.3).'
-    : `Triangle ${triangle} has no cut-face: it is degenerate, another triangle covers it, or it lies outside the grid.`;
+  const text =
+    faces.length > 0
+      ? `The axial planes cut triangle ${triangle} into ${plural(faces.length, 'cut-face')}, drawn slightly apart.` +
+        ' Together they cover the triangle exactly, and each lies in one grid cell (Section 4.3).'
+      : `Triangle ${triangle} has no cut-face: it is degenerate, another triangle covers it, or it lies outside the grid.`;
   return drawing.finish(text, { kind: 'triangleFaces', triangle }, subject);
 }
 
@@ -35,7 +39,12 @@ export function triangleFaces(subject: Subject, request: StepRequest): StepPictu
 function planeOutline({ cutMesh }: Subject, axis: number, plane: number): Vector3[] {
   const { planes } = cutMesh.grid;
   const [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
-  return [[0, 0], [1, 0], [1, 1], [0, 1]].map(([i, j]) => {
+  return [
+    [0, 0],
+    [1, 0],
+    [1, 1],
+    [0, 1],
+  ].map(([i, j]) => {
     const corner = [0, 0, 0];
     corner[axis] = planes[axis][plane];
     corner[u] = planes[u][i * (planes[u].length - 1)];
@@ -53,10 +62,11 @@ export function axialPlane(subject: Subject, request: StepRequest): StepPicture 
   faces.forEach((face, k) => drawFace(drawing, subject, face, 1, faceTriangle[face] >= 0 ? coplanarColor : pieceColor(k)));
   const punctured = faces.filter((face) => faceLoopOffsets[face + 1] - faceLoopOffsets[face] > 1).length;
   const coplanar = faces.filter((face) => faceTriangle[face] >= 0).length;
-  const text = `In axial plane ${plane} normal to ${axes[axis]}, the outline of the surface divides the grid-faces`
-    + ` into ${plural(faces.length, 'face')}`
-    + `${punctured ? `, ${punctured.toLocaleString('en')} of them with holes` : ''} (Sections 4.3 and 4.5).`
-    + (coplanar > 0 ? ` Pieces of triangles in the plane (${coplanar.toLocaleString('en')}, yellow) replace grid-faces.` : '');
+  const text =
+    `In axial plane ${plane} normal to ${axes[axis]}, the outline of the surface divides the grid-faces` +
+    ` into ${plural(faces.length, 'face')}` +
+    `${punctured ? `, ${punctured.toLocaleString('en')} of them with holes` : ''} (Sections 4.3 and 4.5).` +
+    (coplanar > 0 ? ` Pieces of triangles in the plane (${coplanar.toLocaleString('en')}, yellow) replace grid-faces.` : '');
   return drawing.finish(text, { kind: 'axialPlane', axis, plane }, subject);
 }
 
@@ -126,7 +136,11 @@ function drawCell(drawing: Drawing, subject: Subject, cell: number, by: Vector3,
       const [p, q, r] = halfFace & 1 ? [a, c, b] : [a, b, c];
       drawing.triangle(moved(p, by), moved(q, by), moved(r, by), shaded(color, shadeOf(p, q, r)));
     }
-    for (const loop of loopPoints(subject, halfFace >> 1)) drawing.polygon(loop.map((p) => moved(p, by)), outlineColor);
+    for (const loop of loopPoints(subject, halfFace >> 1))
+      drawing.polygon(
+        loop.map((p) => moved(p, by)),
+        outlineColor,
+      );
   }
 }
 
@@ -145,9 +159,10 @@ export function gridCell(subject: Subject, request: StepRequest): StepPicture {
   pieces.forEach(({ cell }, k) => drawCell(drawing, subject, cell, moves[k], pieceColor(k)));
   const regions = new Set(pieces.map(({ cell }) => cellRegion[cell])).size;
   const name = `Grid cell (${at.join(', ')})`;
-  const text = pieces.length > 0
-    ? `${name} holds ${plural(pieces.length, 'cut-cell')} of ${plural(regions, 'region')}, pulled apart:`
-      + ' each is a closed set of half-faces, joined at their edges (Section 4.4).'
-    : `${name} is untouched: the surface does not reach it, so it stays whole.`;
+  const text =
+    pieces.length > 0
+      ? `${name} holds ${plural(pieces.length, 'cut-cell')} of ${plural(regions, 'region')}, pulled apart:` +
+        ' each is a closed set of half-faces, joined at their edges (Section 4.4).'
+      : `${name} is untouched: the surface does not reach it, so it stays whole.`;
   return drawing.finish(text, { kind: 'gridCell', gridCell: at }, subject);
 }
