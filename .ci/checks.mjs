@@ -63,7 +63,7 @@ run(
   '-timeout=20',
   '-print_final_stats=1',
   'build-clang/corpus',
-  'tests/fuzz_corpus',
+  'tests/fuzz/corpus',
 );
 mkdirSync(path('build-clang', 'reader-corpus'), { recursive: true });
 run('build-clang/mandoline-fuzz-readers', '-max_total_time=30', '-max_len=2048', '-rss_limit_mb=4096', 'build-clang/reader-corpus');

@@ -4,8 +4,8 @@
 #include <limits>
 #include <random>
 
+#include "complexes.h"
 #include "mandoline/validate.h"
-#include "physics/complexes.h"
 #include "shapes.h"
 
 using namespace mandoline;

@@ -3,7 +3,7 @@
 
 #include "case_list.h"
 #include "checked_cut.h"
-#include "physics/complexes.h"
+#include "complexes.h"
 #include "refusal.h"
 #include "shapes.h"
 

@@ -1,8 +1,8 @@
 // Poisson's equation as a system: boundary conditions, null spaces, and linear fields, which it has to hold for exactly.
 #include "case_list.h"
 #include "checked_cut.h"
+#include "complexes.h"
 #include "mandoline/poisson.h"
-#include "physics/complexes.h"
 #include "refusal.h"
 #include "shapes.h"
 

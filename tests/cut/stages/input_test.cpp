@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "catch.h"
-#include "stages/staged_cut.h"
+#include "staged_cut.h"
 
 using namespace stages;
 

@@ -9,7 +9,7 @@
 #include "rational.h"
 #include "samples.h"
 #include "shapes.h"
-#include "stages/staged_cut.h"
+#include "staged_cut.h"
 #include "vectors.h"
 
 using namespace mandoline;

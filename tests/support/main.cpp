@@ -1,4 +1,4 @@
-// Runs all tests of this folder.
+// Runs all tests in C++.
 #define CATCH_CONFIG_RUNNER
 #include "catch.h"
 

@@ -8,7 +8,7 @@
 #include "cut/stages/planar_graph.h"
 #include "rational.h"
 #include "samples.h"
-#include "stages/staged_cut.h"
+#include "staged_cut.h"
 #include "vectors.h"
 
 using namespace mandoline;

@@ -1,9 +1,8 @@
-// libFuzzer target: any bytes are a mesh on a coarse lattice and a small grid. Finds go to fuzz_corpus/, where fuzz_corpus_test.cpp replays
-// them.
+// libFuzzer target: any bytes are a mesh on a coarse lattice and a small grid. Finds go to corpus/, which replay_test.cpp replays.
+#include "lattice.h"
+
 #include <cstdio>
 #include <cstdlib>
-
-#include "lattice.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
   const std::string broken = brokenPromise(decodeLattice(bytes, size));

@@ -2,7 +2,7 @@
 #include <set>
 
 #include "catch.h"
-#include "stages/staged_cut.h"
+#include "staged_cut.h"
 
 using namespace stages;
 

@@ -12,7 +12,7 @@
 #include "mesh/resolve/contacts.h"
 #include "mesh/resolve/triangle_tree.h"
 #include "shapes.h"
-#include "stages/staged_cut.h"
+#include "staged_cut.h"
 
 using namespace mandoline;
 using namespace mandoline::detail;

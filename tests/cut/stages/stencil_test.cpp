@@ -1,5 +1,5 @@
 #include "catch.h"
-#include "stages/staged_cut.h"
+#include "staged_cut.h"
 
 using namespace stages;
 

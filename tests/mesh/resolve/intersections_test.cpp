@@ -9,7 +9,7 @@
 #include "cut/stages/input.h"
 #include "lattice.h"
 #include "mesh/resolve/contacts.h"
-#include "stages/staged_cut.h"
+#include "staged_cut.h"
 #include "vectors.h"
 
 using namespace mandoline;

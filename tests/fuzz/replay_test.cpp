@@ -1,4 +1,4 @@
-// Replays what fuzz_lattice.cpp once found, and runs a few thousand inputs of its kind that are the same every time.
+// Replays what the fuzzer in lattice.cpp once found, and runs a few thousand inputs of its kind that are the same every time.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
