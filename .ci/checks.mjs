@@ -3,24 +3,24 @@
 import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { meshFolder } from '../tests/mesh_folder.mjs';
-import { build, fail, jobs, path, run, setUp } from '../tests/steps.mjs';
+import { setUp } from '../tests/set_up.mjs';
+import { build, fail, jobs, path, run } from '../tests/steps.mjs';
 import { checkPotentialFoam } from './potential_foam.mjs';
 import { checkPolyMeshes, checkVtuFiles } from './readers.mjs';
 import { checkFunctions } from './sources.mjs';
 
-setUp('clang-tidy', 'clang with libFuzzer', 'OpenFOAM', "Debian's VTK for Python");
+setUp('checks');
 
 run('node', '--test', 'tests/toolchains/toolchains.test.mjs');
 
 // One build of clang's is the other compiler, the sanitizers and the fuzzers: with assertions, yet fast enough for real meshes.
-build(
-  'build-clang',
+build('build-clang', [
   '-DCMAKE_CXX_COMPILER=clang++',
   '-DMANDOLINE_BUILD_FUZZ=ON',
   '-DCMAKE_EXPORT_COMPILE_COMMANDS=ON',
   '-DCMAKE_BUILD_TYPE=Debug',
   '-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1',
-);
+]);
 checkFunctions('build-clang');
 
 const scans = ['common_spot', 'common_fandisk', 'codim_feline'].map((name) => join(meshFolder ?? '', `${name}.obj.gz`)).filter(existsSync);

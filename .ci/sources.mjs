@@ -3,7 +3,8 @@
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
-import { fail, installPackages, jobs, path, run, setUp } from '../tests/steps.mjs';
+import { setUp } from '../tests/set_up.mjs';
+import { fail, jobs, path, run } from '../tests/steps.mjs';
 
 // Of src. Each sees itself, those before it and the public headers, which base alone does without.
 const rooms = ['base', 'mesh', 'grid', 'cut', 'operators', 'physics', 'io', 'cli'];
@@ -40,9 +41,8 @@ function headersLeftOut() {
 
 /** Ends the program if a file is not formatted, too long, or includes what it should not see. */
 function checkFiles() {
-  installPackages();
+  setUp('sources');
   run('npx', 'biome', 'format');
-  setUp('clang-format 14');
   run('clang-format-14', '--dry-run', '-Werror', ...files);
   const lineCount = (file) => readFileSync(path(file), 'utf8').split('\n').length - 1;
   const long = sources.filter((file) => lineCount(file) > mostLines).map((file) => `${file} has more than ${mostLines} lines`);

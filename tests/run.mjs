@@ -3,7 +3,8 @@
 import { readFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 import { meshFolder } from './mesh_folder.mjs';
-import { build, installPackages, jobs, path, run, setUp } from './steps.mjs';
+import { setUp } from './set_up.mjs';
+import { build, jobs, path, run } from './steps.mjs';
 
 const results = [];
 
@@ -19,11 +20,10 @@ function runCtest(folder) {
 }
 
 if (meshFolder) process.env.MANDOLINE_MESHES = resolve(meshFolder); // tests run in other folders
-setUp('a C++20 compiler', 'CMake', 'make', 'pkg-config', 'Catch2', 'zlib', 'Eigen', 'Emscripten', 'Chromium');
-build('build', '-DMANDOLINE_BUILD_TESTS=ON');
+setUp('test');
+build('build', ['-DMANDOLINE_BUILD_TESTS=ON']);
 runCtest('build');
 
-installPackages();
 run('node', 'wasm/build.mjs', '--tests');
 runCtest('build-wasm');
 run('npm', 'run', 'build', '-w', 'web');
