@@ -34,6 +34,7 @@ run(
   '--test-reporter-destination=stdout',
   '--test-reporter=junit',
   `--test-reporter-destination=${resultFile('npm')}`,
+  'tests/set_up.test.mjs',
   'tests/package/',
   'tests/page/',
 );
