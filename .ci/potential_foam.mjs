@@ -21,7 +21,7 @@ const conditions = { xMin: { neumann: -1 }, xMax: { dirichlet: 0 } };
 /** The first list of a file of OpenFOAM, all its numbers. */
 function listIn(...parts) {
   const text = readFileSync(join(...parts), 'utf8');
-  const [list] = /^\d+\s*\n\(\n[^]*?\n\)/m.exec(text);
+  const [list] = /^\d+\s*\n\(\n[\s\S]*?\n\)/m.exec(text);
   return Float64Array.from(list.replace(/^\d+/, '').replace(/[()]/g, ' ').trim().split(/\s+/), Number);
 }
 

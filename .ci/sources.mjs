@@ -42,7 +42,7 @@ function headersLeftOut() {
 /** Ends the program if a file is not formatted, too long, or includes what it should not see. */
 function checkFiles() {
   setUp('sources');
-  run('npx', 'biome', 'format');
+  run('npx', 'biome', 'check', '--error-on-warnings');
   run('clang-format-14', '--dry-run', '-Werror', ...files);
   const lineCount = (file) => readFileSync(path(file), 'utf8').split('\n').length - 1;
   const long = sources.filter((file) => lineCount(file) > mostLines).map((file) => `${file} has more than ${mostLines} lines`);

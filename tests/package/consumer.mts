@@ -16,11 +16,11 @@ import {
 } from 'mandoline-wasm/three';
 import * as inline from 'mandoline-wasm/inline';
 import { MandolineError as WorkerError, createWorker } from 'mandoline-wasm/worker';
-import { BoxGeometry, BufferGeometry, Matrix4 } from 'three';
+import { BoxGeometry, type BufferGeometry, Matrix4 } from 'three';
 
 const mesh: Mesh = { positions: [0, 0, 0, 1, 0, 0, 0, 1, 0], triangles: new Uint16Array([0, 1, 2]) };
+const byCells: GridInput = { cells: 8 };
 const grids: GridInput[] = [
-  { cells: 8 },
   { min: [0, 0, 0], max: [1, 1, 1], cells: [2, 2, 2] },
   { origin: [0, 0, 0], spacing: [1, 1, 1], cells: [2, 2, 2] },
   { planes: [[0, 1], [0, 1, 3], new Float64Array(2)] },
@@ -30,8 +30,8 @@ async function core(): Promise<void> {
   const module: WebAssembly.Module = await compiledModule();
   await init(inline);
   const mandoline: Mandoline = await init({ wasm: await compiledModule() });
-  const cutMesh: CutMesh = mandoline.cut(mesh, grids[0]!, { snapTolerance: 0.01, progress: ({ done, total }: Progress) => done < total });
-  mandoline.cut(mesh, cutMesh.grid);
+  const cutMesh: CutMesh = mandoline.cut(mesh, byCells, { snapTolerance: 0.01, progress: ({ done, total }: Progress) => done < total });
+  for (const grid of [cutMesh.grid, ...grids]) mandoline.cut(mesh, grid);
   const prepared: MeshArrays = mandoline.prepare(mesh, { intersections: 'refuse' });
   mandoline.cut(prepared, { cells: 3 });
   const resolved: ResolvedMesh = mandoline.resolve(mesh, { progress: () => {} });

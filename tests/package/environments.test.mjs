@@ -95,7 +95,7 @@ const looks = {
     const picture = await pixelsOf(page, await page.screenshot());
     const shares = {
       background: share(picture, (r, g, b) => Math.abs(r - 0x8a) + Math.abs(g - 0x8f) + Math.abs(b - 0x96) < 6),
-      colored: share(picture, (r, g, b) => g > b + 40),
+      colored: share(picture, (_, g, b) => g > b + 40),
       white: share(picture, (r, g, b) => Math.min(r, g, b) > 170 && Math.max(r, g, b) - Math.min(r, g, b) < 20),
       black: share(picture, (r, g, b) => Math.max(r, g, b) < 60),
     };

@@ -7,7 +7,7 @@ let kept = 0;
 serve({
   volume: (mandoline, [mesh, cells]) => mandoline.measure(mesh, mandoline.cut(mesh, { cells })).regionVolume,
   count: () => ++kept,
-  later: async (mandoline, [value], { progress }) => {
+  later: async (_, [value], { progress }) => {
     for (let i = 0; i < 3; ++i) {
       progress(i);
       await new Promise((resolve) => {
@@ -18,7 +18,7 @@ serve({
   },
 });
 serve({
-  fail: (mandoline, [kind]) => {
+  fail: (_, [kind]) => {
     if (kind === 'core') throw new MandolineError('badGrid', 'No.', { element: 1 });
     if (kind === 'plain') throw { title: 'Mine', detail: 7 };
     if (kind === 'type') throw new TypeError('mine');

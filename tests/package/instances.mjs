@@ -22,6 +22,7 @@ const sabotaged =
     throw error;
   };
 
+// biome-ignore lint/complexity/useArrowFunction: called with new
 WebAssembly.Instance = function (module, imports) {
   const mapped = (object, f) => Object.fromEntries(Object.entries(object).map(([key, value]) => [key, f(value)]));
   const instance = new Instance(

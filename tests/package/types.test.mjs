@@ -216,7 +216,7 @@ test('errors', () => {
 });
 
 test('every code of the core and of the types has advice', () => {
-  const types = readFileSync(path(root, 'wasm', 'src', 'index.d.ts'), 'utf8').replace(/\/\*\*[^]*?\*\//g, '');
+  const types = readFileSync(path(root, 'wasm', 'src', 'index.d.ts'), 'utf8').replace(/\/\*\*.*?\*\//gs, '');
   const codes = [...types.match(/type ErrorCode =([^;]*);/)[1].matchAll(/'(\w+)'/g)].map(([, word]) => word);
   const headers = path(root, 'src', 'include', 'mandoline');
   const core = readFileSync(path(headers, 'status.h'), 'utf8').match(/enum class Status[^{]*\{([^}]*)\}/)[1];

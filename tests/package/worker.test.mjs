@@ -144,7 +144,10 @@ test('errors keep their class, code, place and message', () =>
     let expected;
     assert.throws(
       () => cut(bad, { cells: 4 }),
-      (error) => (expected = error) instanceof MandolineError,
+      (error) => {
+        expected = error;
+        return error instanceof MandolineError;
+      },
     );
     const error = await rejection(worker.cut(bad, { cells: 4 }));
     for (const key of ['name', 'code', 'message', 'stage', 'element', 'element2']) assert.equal(error[key], expected[key], key);

@@ -1,2 +1,2 @@
 // Emscripten before 3.1.30 asks fetch() for files, which Node's own does not read.
-var fetch = undefined;
+globalThis.fetch = undefined;

@@ -75,7 +75,8 @@ class WorkerEngine implements Engine {
   }
 
   private async cutNow(grid: GridSettings, snapTolerance: number): Promise<Model> {
-    const cutting = (this.cutting = new AbortController());
+    const cutting = new AbortController();
+    this.cutting = cutting;
     try {
       await this.loaded;
       const { mesh } = this;

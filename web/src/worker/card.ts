@@ -7,8 +7,9 @@ import type { Cut } from './kept';
 export function cellCard(mandoline: Mandoline, cut: Cut, cell: number): CellCard {
   const { cutMesh, mesh, origin } = cut;
   checkCell(cutMesh, cell);
-  const measures = (cut.measures ??= mandoline.measure(mesh, cutMesh));
-  const adjacency = (cut.adjacency ??= mandoline.adjacency(cutMesh));
+  cut.measures ??= mandoline.measure(mesh, cutMesh);
+  cut.adjacency ??= mandoline.adjacency(cutMesh);
+  const { measures, adjacency } = cut;
   const region = cutMesh.cellRegion[cell];
   const faces = facesOf(cutMesh, cell);
   const { position, normal, face } = cellArrays(cutMesh, cut.faceTriangles, { cells: [cell], origin });

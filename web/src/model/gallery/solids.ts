@@ -49,7 +49,10 @@ export function nestedSpheres(): MeshArrays {
 export function noisySphere(): MeshArrays {
   const moves = new Map<string, number>();
   let state = 7;
-  const random = () => (state = (1664525 * state + 1013904223) % 2 ** 32) / 2 ** 32;
+  const random = () => {
+    state = (1664525 * state + 1013904223) % 2 ** 32;
+    return state / 2 ** 32;
+  };
   return moved(sphere(1, 4), (p) => {
     const key = p.join();
     const move = moves.get(key) ?? 1 + 0.24 * (random() - 0.5);

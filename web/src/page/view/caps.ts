@@ -119,7 +119,8 @@ function trianglePoints(slice: Slice, polygons: readonly number[]): Points {
   for (const polygon of polygons) {
     const own = triangles.subarray(3 * offsets[polygon], 3 * offsets[polygon + 1]);
     points.point.set(own, at);
-    points.polygon.fill(polygon, at, (at += own.length));
+    points.polygon.fill(polygon, at, at + own.length);
+    at += own.length;
   }
   return points;
 }
