@@ -25,7 +25,7 @@ async function withWatched(f, options) {
     const worker = new NodeWorker(new URL(import.meta.resolve('mandoline-wasm/physics/worker-thread')));
     const post = worker.postMessage.bind(worker);
     worker.postMessage = (message, transfer) => {
-      const data = (message.subjects ?? []).filter((subject) => subject.data !== undefined).map(({ origin }) => origin);
+      const data = (message.subjects ?? []).filter((subject) => subject.data !== undefined).map(({ origin }) => origin.kind);
       sent.push({ call: message.call, hasModule: message.module !== undefined, data });
       post(message, transfer);
     };

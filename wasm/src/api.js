@@ -1,175 +1,66 @@
-// The calls of the package, on a module that has been started.
-import {
-  bad,
-  readFlag,
-  readFlags,
-  readGrid,
-  readId,
-  readIntersections,
-  readMesh,
-  readMaxPairs,
-  readNumbers,
-  readOptions,
-  readPlane,
-  readPoints,
-  readResolved,
-  readRule,
-  readSnapTolerance,
-  readVector,
-} from './arguments.js';
+// The calls of a table (see calls.js), on a module that has been started.
+import { readMembers, readOptions } from './arguments.js';
 import { named } from './errors.js';
-import { readFile } from './files.js';
 import { withProgress } from './progress.js';
 
-function makePrepare(host) {
-  return (mesh, options) => {
-    const given = readOptions(options);
-    return withProgress(given.progress, (progress) => {
-      const input = readMesh(mesh);
-      const preparation = { intersections: readIntersections(given) };
-      return host.run((bindings, twins) => {
-        const { value: twin, error } = bindings.prepare(input, { ...preparation, progress });
-        if (error) return { error };
-        const value = { positions: new Float64Array(input.positions), triangles: new Uint32Array(input.triangles) };
-        host.adopt(value, preparation);
-        twins.keep(value, twin);
-        return { value };
+/** What gives the argument when the handles of twins are there; what is to have one is added to `inputs`. */
+function readArgument(taken, value, name, asInput) {
+  if (typeof taken === 'function') {
+    const read = taken(value, name);
+    return () => read;
+  }
+  if (taken.kind) return asInput(taken, value) ?? readArgument(taken.otherwise, value, name);
+  const readers = Object.entries(taken).map(([key, member]) => [key, (inner) => readArgument(member, inner, key, asInput)]);
+  const members = Object.entries(readMembers(value, Object.fromEntries(readers), name));
+  return (handles) => Object.fromEntries(members.map(([key, give]) => [key, give(handles)]));
+}
+
+/** The outcome of a call that keeps twins, after they are kept. */
+function keepTwin({ value: given, error }, { member }, origin, host, twins) {
+  if (error) return { error };
+  const { value, twin } = given;
+  if (twin) {
+    const result = member ? value[member] : value;
+    host.adopt(result, origin);
+    twins.keep(result, twin);
+  }
+  return { value };
+}
+
+function makeCall(host, name, call) {
+  const { takes, options, keeps, run = (bindings, ...args) => bindings[name](...args) } = call;
+  const parameters = Object.entries(takes);
+  return (...given) => {
+    const { progress: told, ...what } = readOptions(given[parameters.length], options);
+    return withProgress(told, (progress) => {
+      const inputs = [];
+      const asInput = (taken, value) => {
+        if (taken.otherwise && !host.isResult(value) && !taken.fits?.(value)) return undefined;
+        const place = inputs.push(host.input(taken, value, progress)) - 1;
+        return (handles) => handles[place];
+      };
+      const readings = parameters.map(([parameter, taken], i) => readArgument(taken, given[i], parameter, asInput));
+      return host.runWith(inputs, (bindings, handles, twins) => {
+        const args = readings.map((give) => give(handles));
+        const outcome = run(bindings, ...args, ...(options ? [{ ...what, progress }] : []));
+        return keeps ? keepTwin(outcome, call, { kind: keeps, ...what }, host, twins) : outcome;
       });
     });
   };
 }
 
-function makeCut(host) {
-  return (mesh, grid, options) => {
-    const given = readOptions(options);
-    return withProgress(given.progress, (progress) => {
-      const preparation = host.preparationOf(mesh);
-      const arrays = preparation ? null : readMesh(mesh);
-      const place = readGrid(grid);
-      const what = {
-        snapTolerance: readSnapTolerance(given),
-        intersections: readIntersections(given),
-        gridCellRegion: readFlag(given.gridCellRegion, true, 'options.gridCellRegion'),
-        keep: readFlag(given.keep, true, 'options.keep'),
-        progress,
-      };
-      const cut = (bindings, prepared, twins) => {
-        const { value, error } = bindings.cut(arrays, place, { ...what, prepared });
-        if (error) return { error };
-        if (value.twin) {
-          host.adopt(value.cutMesh);
-          twins.keep(value.cutMesh, value.twin);
-        }
-        return { value: value.cutMesh };
-      };
-      if (!preparation) return host.run((bindings, twins) => cut(bindings, undefined, twins));
-      return host.runOnPrepared(mesh, (bindings, input) => bindings.prepare(input, { ...preparation, progress }), cut);
-    });
+function makeFileCall(host, name, { takes, options }) {
+  return async (source, given) => {
+    const { name: fileName, bytes } = await takes.source(source, readOptions(given, options));
+    return host.run((bindings) => bindings[name](bytes, fileName));
   };
 }
 
-function makeTriangulate(host) {
-  return (cutMesh, of) => {
-    if (of === undefined) return host.runOn(cutMesh, (bindings, twin) => bindings.triangulate(twin));
-    const isObject = typeof of === 'object' && of !== null;
-    if (!isObject || 'cell' in of === 'region' in of) throw bad('The second argument must be { cell } or { region }.');
-    if ('region' in of) {
-      const region = readId(of.region, 'region');
-      return host.runOn(cutMesh, (bindings, twin) => bindings.triangulateRegion(twin, region));
-    }
-    const cell = readId(of.cell, 'cell');
-    return host.runOn(cutMesh, (bindings, twin) => bindings.triangulateCell(twin, cell));
-  };
-}
-
-function callsOf(host) {
-  return {
-    validate: (mesh, cutMesh, options) => {
-      const given = readOptions(options);
-      return withProgress(given.progress, (progress) => {
-        const input = [readMesh(mesh), { snapTolerance: readSnapTolerance(given), progress }];
-        return host.runOn(cutMesh, (bindings, twin) => bindings.validate(input[0], twin, input[1]), false);
-      });
-    },
-    findIntersections: (mesh, options) => {
-      const given = readOptions(options);
-      return withProgress(given.progress, (progress) => {
-        const input = [readMesh(mesh), { maxPairs: readMaxPairs(given), progress }];
-        return host.run((bindings) => bindings.findIntersections(...input));
-      });
-    },
-    resolve: (mesh, options) =>
-      withProgress(readOptions(options).progress, (progress) => {
-        const input = readMesh(mesh);
-        return host.run((bindings) => bindings.resolve(input, { progress }));
-      }),
-    boundary: (mesh, rule) => {
-      const number = readRule(rule);
-      const isCutMesh = host.isResult(mesh) || mesh?.grid !== undefined;
-      if (isCutMesh) return host.runOn(mesh, (bindings, twin) => bindings.boundary(twin, number));
-      const resolved = readResolved(mesh);
-      return host.run((bindings) => bindings.boundaryOfResolved(resolved, number));
-    },
-    measure: (mesh, cutMesh, options) =>
-      withProgress(readOptions(options).progress, (progress) => {
-        const input = readMesh(mesh);
-        return host.runOn(cutMesh, (bindings, twin) => bindings.measure(input, twin, { progress }));
-      }),
-    cutEdges: (mesh, cutMesh) => {
-      const input = readMesh(mesh);
-      return host.runOn(cutMesh, (bindings, twin) => bindings.cutEdges(input, twin));
-    },
-    adjacency: (cutMesh) => host.runOn(cutMesh, (bindings, twin) => bindings.adjacency(twin)),
-    triangulate: makeTriangulate(host),
-    cellAt: (cutMesh, point) => {
-      const input = readVector(point, 'point');
-      const { cell, gridCell, region } = host.runOn(cutMesh, (bindings, twin) => bindings.cellsAt(twin, input));
-      return region[0] < 0 ? null : { cell: cell[0], gridCell: [...gridCell], region: region[0] };
-    },
-    cellsAt: (cutMesh, points) => {
-      const input = readPoints(points);
-      return host.runOn(cutMesh, (bindings, twin) => bindings.cellsAt(twin, input));
-    },
-    slice: (cutMesh, plane, options) => {
-      const input = [readPlane(plane), readFlag(readOptions(options).untouched, true, 'options.untouched')];
-      return host.runOn(cutMesh, (bindings, twin) => bindings.slice(twin, ...input));
-    },
-    slices: (cutMesh, normal, offsets, options) => {
-      const untouched = readFlag(readOptions(options).untouched, true, 'options.untouched');
-      const input = [readVector(normal, 'normal'), readNumbers(offsets, 'offsets'), untouched];
-      return host.runOn(cutMesh, (bindings, twin) => bindings.slices(twin, ...input));
-    },
-    outlines: (cutMesh, normal, offsets) => {
-      const input = [readVector(normal, 'normal'), readNumbers(offsets, 'offsets')];
-      return host.runOn(cutMesh, (bindings, twin) => bindings.outlines(twin, ...input));
-    },
-    write: (mesh, cutMesh, format, options) => {
-      if (!['json', 'vtu', 'obj'].includes(format)) throw bad('format must be "json", "vtu" or "obj".');
-      const given = readOptions(options);
-      return withProgress(given.progress, (progress) => {
-        const input = readMesh(mesh);
-        const what = {
-          untouched: readFlag(given.untouched, true, 'options.untouched'),
-          regions: readFlags(given.regions, 'options.regions'),
-          progress,
-        };
-        return host.runOn(cutMesh, (bindings, twin) => bindings.write(input, twin, format, what));
-      });
-    },
-    readMesh: async (source, options) => {
-      const { name, bytes } = await readFile(source, options);
-      return host.run((bindings) => bindings.readMesh(bytes, name));
-    },
-  };
-}
-
-/** What init() resolves to. */
-export function makeApi(host) {
-  const calls = Object.entries(callsOf(host)).map(([name, call]) => [name, named(name, call)]);
-  return {
-    version: host.run((bindings) => ({ value: bindings.version() })),
-    prepare: named('input', makePrepare(host)),
-    cut: named('input', makeCut(host)),
-    ...Object.fromEntries(calls),
-  };
+/** What init() and initPhysics() resolve to. */
+export function makeApi(host, table) {
+  const calls = Object.entries(table).map(([name, call]) => {
+    const make = call.isFile ? makeFileCall : makeCall;
+    return [name, named(call.isCut ? 'input' : name, make(host, name, call))];
+  });
+  return { version: host.run((bindings) => ({ value: bindings.version() })), ...Object.fromEntries(calls) };
 }

@@ -1,21 +1,61 @@
-/** Checks of arguments before they go to C++, which judges their values: here only kinds, and what C++ could not read. */
+/**
+ * Checks of arguments before they go to C++, which judges their values: here only kinds, and what C++ could not read. A reader makes of
+ * (value, name) what C++ takes; messages call the value by the name.
+ */
 import { MandolineError } from './errors.js';
+import { suggestion } from './names.js';
 
 export function bad(message, code = 'badArgument', element = -1) {
   return new MandolineError(code, message, { element });
 }
 
+/** For example "Map"; "Object" for plain ones. */
+const tagOf = (value) => Object.prototype.toString.call(value).slice(8, -1);
+
 export function kindOf(value) {
   if (value === null) return 'null';
   if (ArrayBuffer.isView(value)) return value[Symbol.toStringTag] ?? 'a DataView';
   if (Array.isArray(value)) return 'an array';
-  if (typeof value === 'object') return 'an object';
+  if (typeof value === 'object') return `a ${tagOf(value)}`.replace(/^a (?=[AEIO])/, 'an ').replace('Object', 'object');
   return typeof value === 'number' ? String(value) : typeof value;
 }
 
 export function expectObject(value, name) {
   if (typeof value !== 'object' || value === null) throw bad(`${name} must be an object, not ${kindOf(value)}.`);
 }
+
+/** Throws if the object has a key that is none of these names. */
+function expectNames(object, names, name) {
+  const unknown = Object.keys(object).find((key) => !names.includes(key));
+  if (unknown !== undefined) throw bad(`${name} has no ${unknown}${suggestion(unknown, names, 'the call takes none')}`);
+}
+
+/** What these readers make of the members of an object that has no others. It may be an imported module. */
+export function readMembers(value, readers, name) {
+  expectObject(value, name);
+  if (!['Object', 'Module'].includes(tagOf(value))) throw bad(`${name} must be a plain object, not ${kindOf(value)}.`);
+  expectNames(value, Object.keys(readers), name);
+  return Object.fromEntries(Object.entries(readers).map(([key, read]) => [key, read(value[key], `${name}.${key}`)]));
+}
+
+export function readOptions(options = {}, readers = {}) {
+  return readMembers(options, readers, 'options');
+}
+
+/**
+ * The options that start a module or a worker: `own` has to be there if any of the others is. The inline entries have all of them, and
+ * some bundlers add "default" to a module.
+ */
+export function readStart(options, own) {
+  const asIs = (value) => value;
+  const read = readOptions(options, { wasm: asIs, physicsWasm: asIs, thread: readFunction, default: asIs });
+  const other = ['wasm', 'physicsWasm'].find((name) => name !== own && read[name] !== undefined);
+  if (own && other && read[own] === undefined) throw bad(`options.${other} is not for this: did you mean ${own}?`);
+  return read;
+}
+
+/** A reader that leaves undefined values as they are. */
+export const optional = (read) => (value, name) => (value === undefined ? value : read(value, name));
 
 export function expectNumber(value, name) {
   if (typeof value !== 'number') throw bad(`${name} must be a number, not ${kindOf(value)}.`);
@@ -127,68 +167,78 @@ function readPlanes(grid, name) {
   };
 }
 
+const gridKinds = {
+  planes: ['planes', 'origin', 'spacing', 'cells'],
+  box: ['min', 'max', 'cells'],
+  regular: ['origin', 'spacing', 'cells'],
+  around: ['cells', 'margin'],
+};
+
+/** Told by the first name of the kind that the grid has. */
+function kindOfGrid(grid) {
+  const has = (name) => grid[name] !== undefined;
+  if (has('planes')) return 'planes';
+  if (has('min') || has('max')) return 'box';
+  return has('origin') || has('spacing') ? 'regular' : 'around';
+}
+
 export function readGrid(grid) {
   expectObject(grid, 'grid');
-  if ('planes' in grid) return readPlanes(grid, 'grid');
-  const cells = () => readVector(grid.cells, 'grid.cells', readCount);
-  const vector = (key) => readVector(grid[key], `grid.${key}`);
-  if ('min' in grid || 'max' in grid) return { kind: 'box', min: vector('min'), max: vector('max'), cells: cells() };
-  if ('spacing' in grid || 'origin' in grid) {
-    return { kind: 'regular', origin: vector('origin'), spacing: vector('spacing'), cells: cells() };
+  expectNames(grid, [...new Set(Object.values(gridKinds).flat())], 'grid');
+  const kind = kindOfGrid(grid);
+  const names = gridKinds[kind];
+  const unused = Object.keys(grid).find((key) => grid[key] !== undefined && !names.includes(key));
+  if (unused !== undefined) throw bad(`grid.${unused} is not used by a grid that has ${names[0]}.`);
+  if (kind === 'planes') return readPlanes(grid, 'grid');
+  if (kind === 'around') {
+    const { cells, margin = 0.05 } = grid;
+    return { kind, cells: readCount(cells, 'grid.cells'), margin: expectNumber(margin, 'grid.margin') };
   }
-  return { kind: 'around', cells: readCount(grid.cells, 'grid.cells'), margin: expectNumber(grid.margin ?? 0.05, 'grid.margin') };
+  const [first, second] = names;
+  return {
+    kind,
+    [first]: readVector(grid[first], `grid.${first}`),
+    [second]: readVector(grid[second], `grid.${second}`),
+    cells: readVector(grid.cells, 'grid.cells', readCount),
+  };
 }
 
-export function readOptions(options) {
-  if (options === undefined) return {};
-  expectObject(options, 'options');
-  return options;
-}
-
-/** Of createWorker(). */
-export function readWorkerOptions(given) {
-  const options = readOptions(given);
-  readFunction(options.thread, 'options.thread');
-  return options;
-}
-
-export function readSnapTolerance({ snapTolerance = 0 }) {
-  expectNumber(snapTolerance, 'options.snapTolerance');
-  if (!(snapTolerance >= 0 && snapTolerance < 0.5)) throw bad('options.snapTolerance must be at least 0 and below 0.5.', 'badOption');
+export function readSnapTolerance(snapTolerance = 0, name) {
+  expectNumber(snapTolerance, name);
+  if (!(snapTolerance >= 0 && snapTolerance < 0.5)) throw bad(`${name} must be at least 0 and below 0.5.`, 'badOption');
   return snapTolerance;
 }
 
-/** The number of a word among these, in the order in which C++ numbers them. */
-export function readWord(word, words, name) {
-  const number = words.indexOf(word);
-  if (number >= 0) return number;
+function expectWord(word, words, name) {
+  if (words.includes(word)) return word;
   const [last, ...others] = words.map((other) => `"${other}"`).reverse();
   throw bad(`${name} must be ${others.reverse().join(', ')} or ${last}, not ${typeof word === 'string' ? `"${word}"` : kindOf(word)}.`);
 }
 
-export function readIntersections({ intersections = 'resolve' }) {
-  return readWord(intersections, ['resolve', 'refuse', 'assumeNone'], 'options.intersections');
-}
+export const word = (words) => (value, name) => expectWord(value, words, name);
 
-export function readRule(rule = 'positive') {
-  return readWord(rule, ['positive', 'nonZero', 'odd'], 'rule');
-}
+/** A reader of a word as its number among these, which are in the order in which C++ numbers them. The first is the default. */
+export const numbered =
+  (words) =>
+  (value = words[0], name) =>
+    words.indexOf(expectWord(value, words, name));
 
 /** How many pairs are to be listed. */
-export function readMaxPairs({ maxPairs = 100_000 }) {
-  if (expectInteger(maxPairs, 'options.maxPairs') < 0) throw bad(`options.maxPairs must be at least 0, not ${maxPairs}.`);
+export function readMaxPairs(maxPairs = 100_000, name) {
+  if (expectInteger(maxPairs, name) < 0) throw bad(`${name} must be at least 0, not ${maxPairs}.`);
   return Math.min(maxPairs, 2 ** 32 - 1);
 }
 
-export function readFlag(value, fallback, name) {
-  if (value === undefined) return fallback;
-  if (typeof value !== 'boolean') throw bad(`${name} must be true or false, not ${kindOf(value)}.`);
-  return value;
-}
+/** A reader of true or false, where one of these is the default. */
+export const flag =
+  (fallback) =>
+  (value = fallback, name) => {
+    if (typeof value !== 'boolean') throw bad(`${name} must be true or false, not ${kindOf(value)}.`);
+    return value;
+  };
 
-/** Undefined, or one flag each as bytes. */
+/** One flag each as bytes. */
 export function readFlags(value, name) {
-  if (value === undefined) return value;
   if (isTypedArray(value, ['Uint8Array'])) {
     expectAttached(value, name);
     return value;
@@ -197,10 +247,10 @@ export function readFlags(value, name) {
   return collect(Uint8Array, value, name, Boolean);
 }
 
-export function readFunction(value, name) {
-  if (value !== undefined && typeof value !== 'function') throw bad(`${name} must be a function, not ${kindOf(value)}.`);
+export const readFunction = optional((value, name) => {
+  if (typeof value !== 'function') throw bad(`${name} must be a function, not ${kindOf(value)}.`);
   return value;
-}
+});
 
 /** An id; whether there is such an element is up to C++. */
 export function readId(value, name) {
@@ -265,6 +315,13 @@ export function readPoints(points, name = 'points') {
 }
 
 export function readPlane(plane) {
-  expectObject(plane, 'plane');
-  return { normal: readVector(plane.normal, 'plane.normal'), offset: expectNumber(plane.offset, 'plane.offset') };
+  return readMembers(plane, { normal: readVector, offset: expectNumber }, 'plane');
+}
+
+/** Undefined, { cell } or { region }. */
+export function readPart(of, name) {
+  if (of === undefined) return of;
+  const { cell, region } = readMembers(of, { cell: optional(readId), region: optional(readId) }, name);
+  if ((cell === undefined) === (region === undefined)) throw bad(`${name} must be { cell } or { region }.`);
+  return { cell, region };
 }

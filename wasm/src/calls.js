@@ -1,176 +1,204 @@
-import { expectAllAttached, readIntersections } from './arguments.js';
-import { buffersOf, clone } from './buffers.js';
-import { MandolineError, named } from './errors.js';
-import { valueAt, withValueAt } from './places.js';
+// The table of the calls of mandoline-wasm: api.js makes those of init() from it, worker-calls.js those of a worker, wasm/signatures.mjs
+// their types, of which the last lines of each comment are the signatures. wasm/README.md has the same names.
+//
+// takes: the arguments by their names, in order. Each is a reader (see arguments.js); or { kind }, what may have a twin; or both of its
+//   members. What is no result is read by `otherwise`, if there is that, unless `fits` says that it is of the kind, too.
+// options: their readers.
+// run(bindings, ...arguments, options): calls C++, with the handle of what may have a twin; by default the binding with the call's name.
+// keeps: the kind of what has a twin of what it gives, `member` if only that has; run() then gives { value, twin }.
+// isCut: it goes through stages of a cut, which errors name.
+// isFile: its only argument is a file, whose bytes and name C++ gets; its reader is given the options.
+import {
+  flag,
+  numbered,
+  optional,
+  readFlags,
+  readFunction,
+  readGrid,
+  readMaxPairs,
+  readMesh,
+  readNumbers,
+  readPart,
+  readPlane,
+  readPoints,
+  readResolved,
+  readSnapTolerance,
+  readVector,
+  word,
+} from './arguments.js';
+import { readFile, readName } from './files.js';
 
-const [first, second] = [[[0]], [[1]]];
+const cutMesh = { kind: 'cutMesh' };
 
-/**
- * The calls of the main entry with their numbers of arguments before the options, the places in these of what may have a twin, and whether
- * what they give, or a member of it that isKept names, has one. Errors of those that have stages of a cut (isCut) name the stage. isFile:
- * the argument may be a File.
- */
-const cutCalls = {
-  prepare: { count: 1, isKept: true, isCut: true },
-  cut: { count: 2, at: first, isKept: true, isCut: true },
-  findIntersections: { count: 1 },
-  resolve: { count: 1, isCut: true },
-  boundary: { count: 2, at: first },
-  validate: { count: 2, at: second },
-  measure: { count: 2, at: second },
-  cutEdges: { count: 2, at: second },
-  adjacency: { count: 1, at: first },
-  triangulate: { count: 2, at: first },
-  cellAt: { count: 2, at: first },
-  cellsAt: { count: 2, at: first },
-  slice: { count: 2, at: first },
-  slices: { count: 3, at: first },
-  outlines: { count: 3, at: first },
-  write: { count: 3, at: second },
-  readMesh: { count: 1, isFile: true },
-};
+const progress = readFunction;
+const intersections = numbered(['resolve', 'refuse', 'assumeNone']);
 
-const isObject = (value) => typeof value === 'object' && value !== null;
-const bad = (call, message, cause) => new MandolineError('badArgument', message, { stage: call, cause });
+const mapped = ({ value, error }, f) => (error ? { error } : { value: f(value) });
 
-/** The options of the call itself, and those that stay here. */
-function splitOptions(call, options = {}) {
-  if (!isObject(options)) return { transfer: [], options }; // the call says what it is not
-  const { signal, transfer = [], ...own } = options;
-  if (signal !== undefined && !(signal instanceof AbortSignal)) throw bad(call, 'options.signal must be an AbortSignal.');
-  if (!Array.isArray(transfer)) throw bad(call, 'options.transfer must be an array.');
-  if (typeof own.progress !== 'function') return { signal, transfer, options: own };
-  const { progress, ...rest } = own;
-  return { signal, transfer, onProgress: progress, options: rest };
-}
-
-/** The options with the File's name, which its clone does not have in Node 20. */
-function withFileName(options, file) {
-  const isNamed = typeof file?.name === 'string' && (options === undefined || (isObject(options) && options.name === undefined));
-  return isNamed ? { ...options, name: file.name } : options;
-}
-
-/** What has the twin: a result, or its member of that name. */
-export function memberOf(value, isKept) {
-  return isKept === true ? value : value[isKept];
-}
-
-/** A cut-mesh without gridCellRegion, which no call reads and which may be large. */
-function lean(argument) {
-  if (!isObject(argument) || !('gridCellRegion' in argument)) return argument;
-  const { gridCellRegion, ...rest } = argument;
-  return rest;
-}
-
-/** Copies of the values as they are now, so that neither the queue nor the worker sees later changes. */
-function copied(call, values, transfer = []) {
-  try {
-    return clone(values, transfer);
-  } catch (cause) {
-    named(call, expectAllAttached)(values);
-    throw bad(call, `The arguments can't be given to the worker: ${cause.message}`, cause);
-  }
-}
-
-/** Puts calls into a queue of jobs, and knows the results whose twins may be in its thread. */
-export class Calls {
-  #queue;
-  #calls;
-  #results = new WeakMap(); // { id, origin }: the latter is for the thread's host, see originOf()
-  #collected = new FinalizationRegistry((id) => this.#queue.freeTwin(id));
-
-  /** `calls`: as in cutCalls. */
-  constructor(queue, calls = cutCalls) {
-    this.#queue = queue;
-    this.#calls = calls;
-  }
-
-  /** The package's calls by their names. */
-  all() {
-    return Object.fromEntries(Object.keys(this.#calls).map((name) => [name, (...given) => this.#own(name, given)]));
-  }
-
-  isResult(value) {
-    return this.#results.has(value);
-  }
-
-  /** What Host.adopt() is to be told of a result: the options of those that prepare() gave. */
-  originOf(call, options) {
-    return call === 'prepare' ? { intersections: readIntersections(options) } : undefined;
-  }
-
-  /** The id and the origin of an argument that may have a twin. */
-  find(argument) {
-    return this.#results.get(argument);
-  }
-
-  /** From now on this is a result. */
-  note(value, id, origin) {
-    const known = { id, origin };
-    this.#results.set(value, known);
-    this.#collected.register(value, id);
-    return known;
-  }
-
-  /** What the thread is sent: each value that the message names by its id goes along unless there is a twin of it. */
-  pack(message, twins, values) {
-    for (const [i, subject] of message.subjects.entries()) {
-      if (!twins.has(subject.id)) subject.data ??= copied(message.call, lean(values[i]));
-    }
-    return { message, transfer: buffersOf([message.args, message.subjects]) }; // of the copies: they go on to the thread
-  }
-
-  #own(call, given) {
-    const { count, isFile, ...asked } = this.#calls[call];
-    const args = Array.from({ length: count }, (_, i) => given[i]);
-    return this.#perform({ call, args, ...asked }, isFile ? withFileName(given[count], args[0]) : given[count]);
-  }
-
-  /** A call that the thread's script serves. */
-  extra(call, args, options) {
-    return this.#perform({ call, args, extra: true }, options);
-  }
-
-  async #perform(asked, given) {
-    const { call, args, isCut } = asked;
-    if (!Array.isArray(args)) throw bad(call, 'The arguments of a call must be an array.');
-    const split = splitOptions(call, given);
-    const { signal, onProgress } = split;
-    const cancellation = () => new MandolineError('cancelled', 'The call was cancelled.', { stage: call, cause: signal.reason });
-    if (signal?.aborted) throw cancellation();
-    const { message, values } = this.#message(asked, split);
-    const job = { call, isCut, onProgress, message, ready: this.ready, pack: (packed, twins) => this.pack(packed, twins, values) };
-    const abort = () => this.#queue.stop(job, cancellation());
-    signal?.addEventListener('abort', abort);
-    try {
-      const { value, kept } = await new Promise((resolve, reject) => {
-        this.#queue.add(Object.assign(job, { resolve, reject }));
-      });
-      if (kept.includes(message.result)) this.note(memberOf(value, asked.isKept), message.result, this.originOf(call, message.options));
-      return value;
-    } finally {
-      signal?.removeEventListener('abort', abort);
-    }
-  }
-
+export const cutCalls = {
   /**
-   * In it: `subjects`, { id, origin, at, data } of each result of this queue that lies at one of these places in the arguments, and
-   * `result`, the id of a new one. Beside it: the results themselves.
+   * A copy of the mesh that cut() takes with any number of grids, and does not check, weld and resolve anew (A, Bad input meshes): the
+   * module has done so and keeps it as the twin of this very object, like those of cut-meshes (see CutMesh). Where the twin is gone, the
+   * next cut prepares the mesh once more; one with a snapTolerance does so in any case.
+   *
+   * prepare(mesh: Mesh, options?: PrepareOptions): MeshArrays
    */
-  #message({ call, args, extra, at = [], isKept }, { options, transfer, onProgress }) {
-    const message = { call, extra, args, subjects: [], options, progress: onProgress !== undefined };
-    const values = [];
-    if (isKept) Object.assign(message, { isKept, result: this.#queue.newId() });
-    for (const place of at) {
-      const value = valueAt(args, place);
-      if (!isObject(value)) continue;
-      const known = this.find(value);
-      message.args = withValueAt(message.args, place, known ? undefined : lean(value));
-      if (!known) continue;
-      const isMoved = buffersOf(value).some((buffer) => transfer.includes(buffer));
-      message.subjects.push({ ...known, at: place, data: isMoved || !this.#queue.hasTwin(known.id) ? lean(value) : undefined });
-      values.push(value);
-    }
-    return { message: copied(call, message, transfer), values };
-  }
-}
+  prepare: {
+    takes: { mesh: readMesh },
+    options: { intersections, progress },
+    keeps: 'prepared',
+    isCut: true,
+    run: (bindings, mesh, options) =>
+      mapped(bindings.prepare(mesh, options), (twin) => ({
+        value: { positions: new Float64Array(mesh.positions), triangles: new Uint32Array(mesh.triangles) },
+        twin,
+      })),
+  },
+  /**
+   * Cuts the mesh with the grid (the paper's Algorithm 1).
+   *
+   * cut(mesh: Mesh, grid: GridInput, options?: CutOptions): CutMesh
+   */
+  cut: {
+    takes: { mesh: { kind: 'prepared', otherwise: readMesh }, grid: readGrid },
+    options: { snapTolerance: readSnapTolerance, intersections, gridCellRegion: flag(true), keep: flag(true), progress },
+    keeps: 'cutMesh',
+    isCut: true,
+    run: (bindings, mesh, grid, options) => {
+      const isPrepared = mesh instanceof bindings.KeptMesh;
+      const outcome = isPrepared ? bindings.cut(null, grid, { ...options, prepared: mesh }) : bindings.cut(mesh, grid, options);
+      return mapped(outcome, ({ cutMesh: value, twin }) => ({ value, twin }));
+    },
+  },
+  /**
+   * Which triangles meet other than in shared vertices and whole shared edges, and where; what cut() resolves (A, Bad input meshes).
+   *
+   * findIntersections(mesh: Mesh, options?: IntersectionOptions): MeshIntersections
+   */
+  findIntersections: { takes: { mesh: readMesh }, options: { maxPairs: readMaxPairs, progress } },
+  /**
+   * The mesh without self-intersections, for those who want it without a grid.
+   *
+   * resolve(mesh: Mesh, options?: RunOptions): ResolvedMesh
+   */
+  resolve: { takes: { mesh: readMesh }, options: { progress }, isCut: true },
+  /**
+   * The surface of the solid, oriented outwards: of what resolve() gave, or of a cut-mesh, in pieces cut by the grid. Every edge has an
+   * even number of triangles: where the solid reaches the grid's sides, sides of its cut-cells and of the cells of coarsen() close the part
+   * inside. Code "badArgument" for a mesh that is open or inconsistently oriented, and so bounds no solid. Default rule: "positive".
+   *
+   * boundary(mesh: ResolvedMesh | CutMesh, rule?: WindingRule): MeshArrays
+   */
+  boundary: {
+    takes: {
+      mesh: { kind: 'cutMesh', fits: (value) => value?.grid !== undefined, otherwise: readResolved },
+      rule: numbered(['positive', 'nonZero', 'odd']),
+    },
+    run: (bindings, mesh, rule) => {
+      return mesh instanceof bindings.KeptCutMesh ? bindings.boundary(mesh, rule) : bindings.boundaryOfResolved(mesh, rule);
+    },
+  },
+  /**
+   * The paper's four checks (5.6) and the invariants of a cut-mesh, worked out from its arrays alone. `mesh` is the input, `snapTolerance`
+   * that of the cut.
+   *
+   * validate(mesh: Mesh, cutMesh: CutMesh, options?: ValidateOptions): Validation
+   */
+  validate: {
+    takes: { mesh: readMesh, cutMesh: { ...cutMesh, isChecked: false } },
+    options: { snapTolerance: readSnapTolerance, progress },
+  },
+  /**
+   * Areas, normals, centroids and volumes. `mesh` is the input of the cut.
+   *
+   * measure(mesh: Mesh, cutMesh: CutMesh, options?: RunOptions): Measures
+   */
+  measure: { takes: { mesh: readMesh, cutMesh }, options: { progress } },
+  /**
+   * The cut-edges with their lengths.
+   *
+   * cutEdges(mesh: Mesh, cutMesh: CutMesh): CutEdges
+   */
+  cutEdges: { takes: { mesh: readMesh, cutMesh } },
+  /**
+   * What lies on the two sides of each face, and which cut-cells are neighbours.
+   *
+   * adjacency(cutMesh: CutMesh): Adjacency
+   */
+  adjacency: { takes: { cutMesh } },
+  /**
+   * Triangles of all faces; or, with `of`, 3 vertex ids per triangle: the closed surface of one cut-cell, oriented outward, or the pieces
+   * of triangles that bound a region, oriented out of it, both sides of those where a sheet ends within the region.
+   *
+   * triangulate(cutMesh: CutMesh, of?: undefined): FaceTriangles
+   * triangulate(cutMesh: CutMesh, of: { cell: number } | { region: number }): Uint32Array<ArrayBuffer>
+   */
+  triangulate: {
+    takes: { cutMesh, of: readPart },
+    run: (bindings, handle, { cell, region } = {}) => {
+      if (cell !== undefined) return bindings.triangulateCell(handle, cell);
+      return region === undefined ? bindings.triangulate(handle) : bindings.triangulateRegion(handle, region);
+    },
+  },
+  /**
+   * Which cell holds this point; null outside the grid. A point on a face counts to one of the cells beside it.
+   *
+   * cellAt(cutMesh: CutMesh, point: Vector3): Location | null
+   */
+  cellAt: {
+    takes: { cutMesh, point: readVector },
+    run: (bindings, ...given) =>
+      mapped(bindings.cellsAt(...given), ({ cell, gridCell, region }) =>
+        region[0] < 0 ? null : { cell: cell[0], gridCell: [...gridCell], region: region[0] },
+      ),
+  },
+  /**
+   * Which cell holds each point (3 coordinates per point): one call for many points is far faster than many calls.
+   *
+   * cellsAt(cutMesh: CutMesh, points: Float64Array | Float32Array | readonly number[]): Locations
+   */
+  cellsAt: { takes: { cutMesh, points: readPoints } },
+  /**
+   * The polygons in which a plane cuts the cells.
+   *
+   * slice(cutMesh: CutMesh, plane: Plane, options?: SliceOptions): Slice
+   */
+  slice: {
+    takes: { cutMesh, plane: readPlane },
+    options: { untouched: flag(true) },
+    run: (bindings, handle, plane, { untouched }) => bindings.slice(handle, plane, untouched),
+  },
+  /**
+   * The slices of the planes normal . x = offset, in the order of the offsets, for less than many calls of slice() cost.
+   *
+   * slices(cutMesh: CutMesh, normal: Vector3, offsets: Float64Array | Float32Array | readonly number[], options?: SliceOptions): Slice[]
+   */
+  slices: {
+    takes: { cutMesh, normal: readVector, offsets: readNumbers },
+    options: { untouched: flag(true) },
+    run: (bindings, handle, normal, offsets, { untouched }) => bindings.slices(handle, normal, offsets, untouched),
+  },
+  /**
+   * The outlines of the regions in such planes, as slicers need them.
+   *
+   * outlines(cutMesh: CutMesh, normal: Vector3, offsets: Float64Array | Float32Array | readonly number[]): Outlines[]
+   */
+  outlines: { takes: { cutMesh, normal: readVector, offsets: readNumbers } },
+  /**
+   * A file: "json" is the dump of all arrays, "vtu" polyhedra for VTK and ParaView, "obj" the cut surface by region.
+   *
+   * write(mesh: Mesh, cutMesh: CutMesh, format: 'json' | 'vtu' | 'obj', options?: WriteOptions): Uint8Array<ArrayBuffer>
+   */
+  write: {
+    takes: { mesh: readMesh, cutMesh, format: word(['json', 'vtu', 'obj']) },
+    options: { untouched: flag(true), regions: optional(readFlags), progress },
+  },
+  /**
+   * The mesh in a file: OBJ, STL, PLY or OFF (STL and PLY in text or binary), each also gzipped, told by content and then by the extension
+   * of the name. Polygons are fanned from their first vertex; triangles are in the order of the file. Code "badFile" if it can't be read;
+   * the message names the file and the line.
+   *
+   * readMesh(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions): Promise<MeshArrays>
+   */
+  readMesh: { takes: { source: readFile }, options: { name: readName }, isFile: true },
+};

@@ -1,4 +1,4 @@
-import { bad, readCutMesh, readMesh } from './arguments.js';
+import { readCutMesh, readMesh } from './arguments.js';
 import { Host } from './host.js';
 import createModule from './mandoline.js';
 import { cutMeshes } from './results.js';
@@ -12,31 +12,20 @@ export class CutHost extends Host {
     this.#arrays = this.start((bindings) => bindings.cutMeshArrays());
   }
 
-  /** run() with a binding that takes a cut-mesh: the twin of this result, or else its arrays, which may have to pass a check. */
-  runOn(cutMesh, f, checked = true) {
-    if (this.preparationOf(cutMesh)) throw bad('cutMesh must be what cut() gives, not what prepare() does.');
-    const input = {
-      value: cutMesh,
-      read: () => readCutMesh(cutMesh, this.#arrays),
-      make: (bindings, arrays) => bindings.keep(arrays, checked),
-      isKept: checked && this.isResult(cutMesh),
-    };
-    return this.runWith([input], (bindings, [twin]) => f(bindings, twin));
+  input({ kind, isChecked = true }, value, progress) {
+    this.expectKind(kind, value);
+    const isKept = this.isResult(value);
+    if (kind === 'prepared') {
+      const { intersections } = this.originOf(value);
+      const again = (bindings, mesh) => bindings.prepare(mesh, { intersections, progress });
+      return { value, read: () => readMesh(value), make: again, isKept };
+    }
+    const make = (bindings, arrays) => bindings.keep(arrays, isChecked); // those that are to be validated may be damaged
+    return { value, read: () => readCutMesh(value, this.#arrays), make, isKept: isChecked && isKept };
   }
 
-  /** The same with a binding that takes a mesh that prepare() gave: its twin, or else what `again` makes, which does it once more. */
-  runOnPrepared(mesh, again, f) {
-    const input = { value: mesh, read: () => readMesh(mesh), make: again, isKept: true };
-    return this.runWith([input], (bindings, [twin], twins) => f(bindings, twin, twins));
-  }
-
-  adopt(result, preparation) {
-    super.adopt(result, preparation);
-    if (!preparation) cutMeshes.add(result);
-  }
-
-  /** The options of the prepare() that gave this mesh, if one did. */
-  preparationOf(mesh) {
-    return this.originOf(mesh);
+  adopt(result, origin) {
+    super.adopt(result, origin);
+    if (origin.kind === 'cutMesh') cutMeshes.add(result);
   }
 }

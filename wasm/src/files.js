@@ -1,13 +1,13 @@
 // Mesh files: their bytes, unpacked. C++ reads them.
 import { MandolineError } from './errors.js';
-import { bad, readOptions } from './arguments.js';
+import { bad, kindOf, optional } from './arguments.js';
 
 const mostBytes = 2 ** 31; // the mesh has to fit into the 4 GB of WebAssembly, too
 
-function nameOf(source, { name = source?.name ?? 'the file' }) {
-  if (typeof name !== 'string') throw bad('options.name must be a string.');
-  return name;
-}
+export const readName = optional((value, name) => {
+  if (typeof value !== 'string') throw bad(`${name} must be a string.`);
+  return value;
+});
 
 async function bytesOf(source) {
   if (typeof Blob === 'function' && source instanceof Blob) return new Uint8Array(await source.arrayBuffer());
@@ -20,7 +20,8 @@ async function bytesOf(source) {
   } catch {
     throw bad('The bytes are detached or out of bounds: their buffer was transferred elsewhere or shrunk.');
   }
-  throw bad('The first argument must be the bytes of a file, as a typed array or an ArrayBuffer, or a Blob.');
+  const how = 'a file as a Blob, or its bytes: await (await fetch(address)).arrayBuffer() or, in Node, await readFile(path)';
+  throw bad(`The first argument must be ${how}, not ${kindOf(source)}.`);
 }
 
 const isGzipped = (bytes) => bytes[0] === 0x1f && bytes[1] === 0x8b;
@@ -56,8 +57,7 @@ function joined(chunks, size) {
 }
 
 /** The unpacked bytes of a file and the name that messages call it by. */
-export async function readFile(source, options) {
-  const name = nameOf(source, readOptions(options));
+export async function readFile(source, { name = readName(source?.name, 'options.name') ?? 'the file' }) {
   const bytes = await bytesOf(source);
   return { name, bytes: isGzipped(bytes) ? await gunzip(bytes, name) : bytes };
 }

@@ -1,6 +1,10 @@
+import { bad } from './arguments.js';
 import { MandolineError } from './errors.js';
 import { instantiate } from './instance.js';
 import { Twins } from './twins.js';
+
+/** What gives the kinds of results that may have twins. */
+const makers = { prepared: 'prepare()', cutMesh: 'cut()', cells: 'cellComplex(), subComplex() or regionComplex()' };
 
 /** With less kept, a new instance has no more memory to give than the one that ran out of it. */
 const muchKept = 2 ** 27;
@@ -42,8 +46,9 @@ export class Host {
   }
 
   /**
-   * The same with a binding that takes values that may have twins, f(bindings, handles, twins). For each, { value, read, make, isKept }:
-   * the handle is that of its twin, or else the one that `make` gives of what `read` does, which becomes the twin if it is to be kept.
+   * The same with a binding that takes values that may have twins, f(bindings, handles, twins). For each, { value, read, make, isKept }, as
+   * input() of the kinds of hosts gives it: the handle is that of its twin, or else the one that `make` gives of what `read` does, which
+   * becomes the twin if it is to be kept.
    */
   runWith(inputs, f) {
     return this.run((bindings, twins) => {
@@ -68,7 +73,7 @@ export class Host {
     });
   }
 
-  /** Says that this is a result, and how it came about, so that it gets a twin when its arrays are read. */
+  /** Says that this is a result, and how it came about ({ kind, ...options }), so that it gets a twin when its arrays are read. */
   adopt(result, origin) {
     this.#results.set(result, origin);
   }
@@ -79,6 +84,13 @@ export class Host {
 
   originOf(value) {
     return this.#results.get(value);
+  }
+
+  /** Throws if this is a result of another kind. */
+  expectKind(kind, value) {
+    const found = this.originOf(value)?.kind ?? kind;
+    const name = kind === 'prepared' ? 'mesh' : kind;
+    if (found !== kind) throw bad(`${name} must be what ${makers[kind]} gives, not what ${makers[found]} does.`);
   }
 
   hasTwin(result) {

@@ -1,5 +1,6 @@
 import { makeApi } from './api.js';
-import { readOptions } from './arguments.js';
+import { readStart } from './arguments.js';
+import { cutCalls } from './calls.js';
 import { CutHost } from './cut-host.js';
 import { named } from './errors.js';
 import { compile } from './load.js';
@@ -10,9 +11,9 @@ export { MandolineError, describe } from './errors.js';
 let started;
 
 async function start(options) {
-  const { wasm = ownWasm.source } = named('init', readOptions)(options);
+  const { wasm = ownWasm.source } = named('init', readStart)(options, 'wasm');
   const module = await compile(wasm);
-  return { module, api: makeApi(new CutHost(module)) };
+  return { module, api: makeApi(new CutHost(module), cutCalls) };
 }
 
 function begin(options) {

@@ -1,14 +1,15 @@
-import { Calls } from './calls.js';
+import { cutCalls } from './calls.js';
 import { JobQueue } from './jobs.js';
 import { compile } from './load.js';
 import { startThread } from './thread.js';
+import { Calls } from './worker-calls.js';
 
 /** Starts a worker that has loaded the module, by `thread` or else as `own` says. moreCalls(queue, calls) gives calls beside those. */
 export async function openWorker({ wasm, thread }, own, moreCalls = () => ({})) {
   const source = thread ? { start: thread, script: 'from options.thread' } : await own.source();
   const queue = new JobQueue((handlers) => startThread(source, handlers), await compile(wasm));
   await queue.open();
-  const calls = new Calls(queue);
+  const calls = new Calls(queue, cutCalls);
   return {
     ...calls.all(),
     ...moreCalls(queue, calls),

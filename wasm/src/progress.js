@@ -1,8 +1,6 @@
-import { readFunction } from './arguments.js';
-
 /** Runs f with a callback that C++ can call: what the user's throws passes by C++, and through this call. */
 export function withProgress(progress, f) {
-  if (readFunction(progress, 'options.progress') === undefined) return f(undefined);
+  if (progress === undefined) return f(undefined);
   let thrown;
   try {
     return f((state) => {

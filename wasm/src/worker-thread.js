@@ -2,11 +2,13 @@
 // job after another. In Node it is a worker thread.
 import { makeApi } from './api.js';
 import { buffersOf } from './buffers.js';
-import { memberOf } from './calls.js';
+import { cutCalls } from './calls.js';
 import { CutHost } from './cut-host.js';
 import { MandolineError } from './errors.js';
+import { suggestion } from './names.js';
 import { parts } from './parts.js';
 import { withValueAt } from './places.js';
+import { memberOf } from './worker-calls.js';
 
 const extraCalls = new Map();
 
@@ -59,7 +61,7 @@ class Shells {
 
 parts.set('cut', (module) => {
   const host = new CutHost(module);
-  return { host, calls: makeApi(host) };
+  return { host, calls: makeApi(host, cutCalls) };
 });
 
 /** Answers jobs through `post`. */
@@ -76,7 +78,7 @@ class Answering {
       if (job.module) this.#start(job);
       if (job.forget !== undefined) for (const { shells } of this.#parts.values()) shells.free(job.forget);
       else if (job.call === undefined) this.#post({ type: 'result' });
-      else if (job.extra) this.#send(job, await this.#extra(job));
+      else if (job.isExtra) this.#send(job, await this.#extra(job));
       else await this.#own(job);
     } catch (error) {
       this.#fail(error, job);
@@ -92,14 +94,14 @@ class Answering {
   }
 
   async #own(job) {
-    const { part = 'cut', call, args, options, progress, subjects, result, isKept } = job;
+    const { part = 'cut', call, args, options, progress, subjects, result, member } = job;
     const { host, calls, shells } = this.#parts.get(part);
     const found = subjects.map((subject) => this.#find(subject, part));
     const inputs = subjects.reduce((all, { at }, i) => withValueAt(all, at, found[i]), args);
     const given = progress ? { ...options, progress: (value) => this.#post({ type: 'progress', value }) } : options;
     try {
       const value = await calls[call](...inputs, given);
-      const made = isKept && memberOf(value, isKept);
+      const made = result === undefined ? undefined : memberOf(value, member);
       const results = [...subjects.map(({ id }, i) => [id, found[i]]), [result, made]];
       const kept = results.filter(([id, object]) => id !== undefined && host.hasTwin(object));
       this.#send(job, value, [...kept.map(([id]) => id), part]);
@@ -122,7 +124,10 @@ class Answering {
 
   #extra({ call, args, progress }) {
     const run = extraCalls.get(call);
-    if (!run) throw new MandolineError('badArgument', `The worker's script serves no call "${call}".`, { stage: call });
+    if (!run) {
+      const says = suggestion(call, [...extraCalls.keys()], 'it serves none');
+      throw new MandolineError('badArgument', `The worker's script serves no call ${call}${says}`, { stage: call });
+    }
     return run(this.#parts.get('cut').calls, args, { progress: (value) => progress && this.#post({ type: 'progress', value }) });
   }
 
@@ -137,7 +142,7 @@ class Answering {
   /** What the package throws stays a MandolineError; what an extra call throws arrives as a clone. */
   #fail(error, job) {
     try {
-      if (job.extra && !isMandolineError(error)) return this.#post({ type: 'thrown', value: error });
+      if (job.isExtra && !isMandolineError(error)) return this.#post({ type: 'thrown', value: error });
     } catch {} // that can't be cloned
     this.#post({ type: 'error', error: plainError(error, job.call) });
   }

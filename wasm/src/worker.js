@@ -1,13 +1,24 @@
-import { readWorkerOptions } from './arguments.js';
-import { named } from './errors.js';
+import { readStart } from './arguments.js';
+import { MandolineError, named } from './errors.js';
 import { openWorker } from './open-worker.js';
 import { ownThread } from './own-thread.js';
 import { ownWasm } from './own-wasm.js';
+import { physicsCalls } from './physics/calls.js';
 
 export { MandolineError, describe } from './errors.js';
 
+/** The calls of mandoline-wasm/physics, which the worker's script can't answer. */
+const physics = Object.fromEntries(
+  Object.keys(physicsCalls).map((stage) => [
+    stage,
+    async () => {
+      throw new MandolineError('badArgument', 'This worker only cuts: that of mandoline-wasm/physics/worker also computes.', { stage });
+    },
+  ]),
+);
+
 /** Starts a worker that has loaded the module. */
 export async function createWorker(options) {
-  const { wasm = ownWasm.source, thread } = named('init', readWorkerOptions)(options);
-  return openWorker({ wasm, thread }, ownThread);
+  const { wasm = ownWasm.source, thread } = named('init', readStart)(options, 'wasm');
+  return Object.setPrototypeOf(await openWorker({ wasm, thread }, ownThread), physics);
 }

@@ -7,13 +7,14 @@ import {
   expectObject,
   expectTypedArray,
   kindOf,
-  readFlag,
+  numbered,
+  optional,
   readGrid,
   readId,
-  readMesh,
+  readMembers,
   readNumbers,
   readVector,
-  readWord,
+  word,
 } from '../arguments.js';
 
 /** What a face is part of, by CellComplex.faceTag. */
@@ -22,7 +23,7 @@ export const faceTags = ['xMin', 'xMax', 'yMin', 'yMax', 'zMin', 'zMax', 'inner'
 /** Where a streamline ends, by Streamlines.ends. */
 export const streamlineEnds = ['side', 'surface', 'rest', 'maxLength', 'maxPoints', 'outside'];
 
-const conditions = ['neumann', 'dirichlet'];
+const conditions = ['neumann', 'dirichlet']; // in the order in which C++ numbers them
 const operatorNames = [
   'cellFaceIncidence',
   'faceEdgeIncidence',
@@ -39,6 +40,18 @@ const operatorNames = [
 function readInt32(value, name) {
   return Math.min(Math.max(expectInteger(value, name), -(2 ** 31)), 2 ** 31 - 1);
 }
+
+/** Readers of numbers that may be left out. */
+export const number =
+  (fallback) =>
+  (value = fallback, name) =>
+    expectNumber(value, name);
+export const int32 =
+  (fallback) =>
+  (value = fallback, name) =>
+    readInt32(value, name);
+
+export const dualPoints = numbered(['centres', 'centroids']);
 
 /** The arrays that the module says a cell complex has ({ name, type } each), with the right types; the rest is up to C++. */
 export function readComplex(cells, arrays) {
@@ -67,42 +80,28 @@ export function readCellIds(ids) {
   return collect(Uint32Array, ids, 'cellIds', (id, i) => readId(id, `cellIds[${i}]`));
 }
 
-export function readCoarsenOptions({ maxLevel = 24, fineLayers = 0 }) {
-  return { maxLevel: readInt32(maxLevel, 'options.maxLevel'), fineLayers: readInt32(fineLayers, 'options.fineLayers') };
-}
-
-function readDualPoints({ dualPoints = 'centres' }, of) {
-  return readWord(dualPoints, ['centres', 'centroids'], `${of}.dualPoints`);
-}
-
-export function readOperatorOptions(given) {
-  const { only = operatorNames } = given;
-  if (!Array.isArray(only)) throw bad(`options.only must be an array of names of operators, not ${kindOf(only)}.`);
-  only.forEach((name, i) => readWord(name, operatorNames, `options.only[${i}]`));
-  return [[...new Set(only)], readDualPoints(given, 'options')];
+export function readOperatorNames(names = operatorNames, name) {
+  if (!Array.isArray(names)) throw bad(`${name} must be an array of names of operators, not ${kindOf(names)}.`);
+  return [...new Set(names.map((operator, i) => word(operatorNames)(operator, `${name}[${i}]`)))];
 }
 
 const definedEntries = (object) => Object.entries(object).filter(([, value]) => value !== undefined);
 
-/** As arrays, Maps and the like are not. */
-const isRecord = (value) => Object.prototype.toString.call(value) === '[object Object]';
-
-/** { xMin: { dirichlet: 0 }, ... } as [tag, condition, value] each. */
-export function readConditions(given) {
-  if (given === undefined) return [];
-  expectObject(given, 'conditions');
-  if (!isRecord(given)) throw bad('conditions must be an object whose keys are tags.');
-  return definedEntries(given).map(([tag, set]) => {
-    const name = `conditions.${tag}`;
-    const number = readWord(tag, faceTags, 'A key of conditions');
-    expectObject(set, name);
-    const [[word, value] = [], ...others] = definedEntries(set);
-    if (word === undefined || others.length > 0) throw bad(`${name} must be { dirichlet } or { neumann }.`);
-    return [number, readWord(word, conditions, `The key of ${name}`), expectNumber(value, `${name}.${word}`)];
-  });
+/** { dirichlet } or { neumann } as [condition, value]. */
+function readCondition(given, name) {
+  const members = readMembers(given, Object.fromEntries(conditions.map((condition) => [condition, optional(expectNumber)])), name);
+  const [[condition, value] = [], ...others] = definedEntries(members);
+  if (condition === undefined || others.length > 0) throw bad(`${name} must be { dirichlet } or { neumann }.`);
+  return [conditions.indexOf(condition), value];
 }
 
-export function readBoundary(boundary, name = 'boundary') {
+/** { xMin: { dirichlet: 0 }, ... } as [tag, condition, value] each. */
+export function readConditions(given = {}, name) {
+  const members = readMembers(given, Object.fromEntries(faceTags.map((tag) => [tag, optional(readCondition)])), name);
+  return definedEntries(members).map(([tag, condition]) => [faceTags.indexOf(tag), ...condition]);
+}
+
+export function readBoundary(boundary, name) {
   expectObject(boundary, name);
   const halfFaces = expectTypedArray(boundary.halfFaces, 'Uint32Array', `${name}.halfFaces`);
   const condition = expectTypedArray(boundary.condition, 'Uint8Array', `${name}.condition`);
@@ -111,48 +110,23 @@ export function readBoundary(boundary, name = 'boundary') {
   return { halfFaces, condition, value: readNumbers(boundary.value, `${name}.value`) };
 }
 
-export function readProblem(problem = {}) {
-  expectObject(problem, 'problem');
-  const { boundary, source } = problem;
-  return {
-    boundary: boundary === undefined ? undefined : readBoundary(boundary, 'problem.boundary'),
-    source: source === undefined ? undefined : readNumbers(source, 'problem.source'),
-    dualPoints: readDualPoints(problem, 'problem'),
-  };
+export function readProblem(problem = {}, name) {
+  return readMembers(problem, { boundary: optional(readBoundary), source: optional(readNumbers), dualPoints }, name);
 }
 
-/** When a solver stops. */
-export function readLimits({ tolerance = 1e-10, maxIterations = 500 }) {
-  return { tolerance: expectNumber(tolerance, 'options.tolerance'), maxIterations: readInt32(maxIterations, 'options.maxIterations') };
-}
-
-export function readFreeConstant({ freeConstant = 'zeroMean' }) {
-  return readWord(freeConstant, ['zeroMean', 'pinned'], 'options.freeConstant');
-}
-
-/** As much of a flow field as is no twin. */
-export function readField(field) {
-  expectObject(field, 'field');
-  const { mesh, flow } = field;
+/** As much of a flow as is read again. */
+export function readFlow(flow) {
   expectObject(flow, 'flow');
   return {
-    mesh: readMesh(mesh),
-    flow: {
-      wind: readVector(flow.wind, 'flow.wind'),
-      cellVelocity: expectTypedArray(flow.cellVelocity, 'Float64Array', 'flow.cellVelocity'),
-      cellGradient: expectTypedArray(flow.cellGradient, 'Float64Array', 'flow.cellGradient'),
-    },
+    wind: readVector(flow.wind, 'flow.wind'),
+    cellVelocity: expectTypedArray(flow.cellVelocity, 'Float64Array', 'flow.cellVelocity'),
+    cellGradient: expectTypedArray(flow.cellGradient, 'Float64Array', 'flow.cellGradient'),
   };
 }
 
-export function readStreamlineOptions({ upstream, tolerance = 1e-3, maxLength = Infinity, maxPoints = 10000 }) {
-  if (expectInteger(maxPoints, 'options.maxPoints') < 0) throw bad(`options.maxPoints must be at least 0, not ${maxPoints}.`, 'badOption');
-  return {
-    upstream: readFlag(upstream, false, 'options.upstream'),
-    tolerance: expectNumber(tolerance, 'options.tolerance'),
-    maxLength: expectNumber(maxLength, 'options.maxLength'),
-    maxPoints: Math.min(maxPoints, 2 ** 32 - 1),
-  };
+export function readMaxPoints(maxPoints = 10000, name) {
+  if (expectInteger(maxPoints, name) < 0) throw bad(`${name} must be at least 0, not ${maxPoints}.`, 'badOption');
+  return Math.min(maxPoints, 2 ** 32 - 1);
 }
 
 /** A grid that is none around a mesh. */

@@ -1,63 +1,172 @@
-import { Calls } from '../calls.js';
-import { compile } from '../load.js';
+// The table of the calls of mandoline-wasm/physics, as in ../calls.js.
+import { flag, numbered, readFunction, readId, readMesh, readPoints, readVector } from '../arguments.js';
+import { readFile, readName } from '../files.js';
+import {
+  dualPoints,
+  int32,
+  number,
+  readBoundary,
+  readCellIds,
+  readConditions,
+  readFlow,
+  readMaxPoints,
+  readOctree,
+  readOperatorNames,
+  readPlacedGrid,
+  readProblem,
+} from './arguments.js';
 
-const [first, second] = [[[0]], [[1]]];
-const field = [
-  [0, 'cutMesh'],
-  [0, 'cells'],
-];
+const cutMesh = { kind: 'cutMesh' };
+const cells = { kind: 'cells' };
+const field = { mesh: readMesh, cutMesh, cells, flow: readFlow };
 
-/** As in ../calls.js. */
-const physicsCalls = {
-  coarsen: { count: 1, at: first },
-  cellComplex: { count: 3, at: second, isKept: true },
-  subComplex: { count: 2, at: first, isKept: 'cells' },
-  regionComplex: { count: 2, at: first, isKept: 'cells' },
-  complexEdges: { count: 1, at: first },
-  operators: { count: 1, at: first },
-  boundaryOf: { count: 2, at: first },
-  outwardNormals: { count: 2, at: second },
-  cellComponents: { count: 1, at: first },
-  poissonSystem: { count: 2, at: first },
-  solvePoisson: { count: 2, at: first },
-  solveFlow: { count: 2, at: first },
-  velocityAt: { count: 2, at: field },
-  streamlines: { count: 2, at: field },
-  inflowSeeds: { count: 3 },
-  readGroups: { count: 1, isFile: true },
+const progress = readFunction;
+
+/** When a solver stops. */
+const limits = { tolerance: number(1e-10), maxIterations: int32(500) };
+
+export const physicsCalls = {
+  /**
+   * Untouched grid cells merged into octree cells, away from the surface (5.3). Code "badOption" if an option is negative.
+   *
+   * coarsen(cutMesh: CutMesh, options?: CoarsenOptions): OctreeCells
+   */
+  coarsen: {
+    takes: { cutMesh },
+    options: { maxLevel: int32(24), fineLayers: int32(0), balanceEdges: flag(false), progress },
+  },
+  /**
+   * One conforming mesh of all cells. `mesh` is the input that `cutMesh` was made from, and `octree` comes from coarsen(cutMesh); without
+   * it, the untouched grid cells are cells. Code "badArgument" if these don't belong together.
+   *
+   * cellComplex(mesh: Mesh, cutMesh: CutMesh, octree?: OctreeCells | null, options?: RunOptions): CellComplex
+   */
+  cellComplex: {
+    takes: { mesh: readMesh, cutMesh, octree: readOctree },
+    options: { progress },
+    keeps: 'cells',
+  },
+  /**
+   * The cells that `cellIds` name, in any order. Code "badArgument" with the element if one does not exist or is named twice.
+   *
+   * subComplex(cells: CellComplex, cellIds: Uint32Array | readonly number[]): SubComplex
+   */
+  subComplex: { takes: { cells, cellIds: readCellIds }, keeps: 'cells', member: 'cells' },
+  /**
+   * The cells of a region of the cut-mesh. Code "badArgument" if there is none.
+   *
+   * regionComplex(cells: CellComplex, region: number): SubComplex
+   */
+  regionComplex: { takes: { cells, region: readId }, keeps: 'cells', member: 'cells' },
+  /**
+   * The edges that faceEdgeIncidence and edgeVertexIncidence have the ids of.
+   *
+   * complexEdges(cells: CellComplex): ComplexEdges
+   */
+  complexEdges: { takes: { cells } },
+  /**
+   * Discrete operators as sparse matrices: all, or those that `options.only` names.
+   *
+   * operators<const Names extends OperatorNames | undefined = undefined>(cells: CellComplex, options?: OperatorOptions<Names>): ChosenOperators<Names>
+   */
+  operators: {
+    takes: { cells },
+    options: { only: readOperatorNames, dualPoints },
+    run: (bindings, handle, options) => bindings.operators(handle, options.only, options.dualPoints),
+  },
+  /**
+   * The boundary with the same condition on all faces of a tag; where none is given, nothing passes ({ neumann: 0 }).
+   *
+   * boundaryOf(cells: CellComplex, conditions?: Conditions): Boundary
+   */
+  boundaryOf: { takes: { cells, conditions: readConditions } },
+  /**
+   * 3 per half-face of the boundary: the unit normal that points out of the cell. The Neumann values of phi = U . x, or of a wind U that
+   * blows through, are its products with U.
+   *
+   * outwardNormals(boundary: Boundary, cells: CellComplex): Float64Array<ArrayBuffer>
+   */
+  outwardNormals: {
+    takes: { boundary: readBoundary, cells },
+    run: (bindings, boundary, handle) => bindings.outwardNormals(handle, boundary),
+  },
+  /**
+   * Which cells are connected through inner faces.
+   *
+   * cellComponents(cells: CellComplex): CellComponents
+   */
+  cellComponents: { takes: { cells } },
+  /**
+   * The system that solvePoisson() solves (appendix B). A Dirichlet condition acts over the distance along the normal between the face's
+   * centroid and the cell's dual point, or, on the surface, the cell's centroid. Code "badArgument" for a boundary that is not that of
+   * `cells`, for arrays of other lengths, for values that are not finite, and if the cells together are smaller than 1e-70 or larger than
+   * 1e70.
+   *
+   * poissonSystem(cells: CellComplex, problem?: PoissonProblem): PoissonSystem
+   */
+  poissonSystem: { takes: { cells, problem: readProblem } },
+  /**
+   * Solves the problem's system by conjugate gradients, preconditioned by a multigrid. Errors as in poissonSystem(); code "badOption" for a
+   * tolerance that is not positive or a negative maxIterations. What can't be solved is told by the solution's status.
+   *
+   * solvePoisson(cells: CellComplex, problem?: PoissonProblem, options?: SolveOptions): Solution
+   */
+  solvePoisson: {
+    takes: { cells, problem: readProblem },
+    options: { ...limits, freeConstant: numbered(['zeroMean', 'pinned']), balance: flag(false), progress },
+  },
+  /**
+   * Potential flow of a wind through the cells and about the surface (appendix B, figure 22): solves div grad phi = 0, where
+   * grad phi . N = wind . N on the sides of the box and nothing passes the surface, on either side of it, nor faces that a sub-complex was
+   * cut off at. As much flows into a cell as out of it, within the tolerance; what doesn't touch the box is at rest.
+   *
+   * Where the surface divides the box, a component may get more from the wind than it can give away, or less: then the larger of both is
+   * scaled down to the other on all its sides. A component that can only take or only give, a dead end, is at rest. So is a dead end
+   * within a component that only slits lead to: faces with less than a millionth of the area of others of their cells. Code "badArgument"
+   * if the wind is not finite and as in poissonSystem(), "badOption" as in solvePoisson().
+   *
+   * solveFlow(cells: CellComplex, wind: Vector3, options?: FlowOptions): Flow
+   */
+  solveFlow: { takes: { cells, wind: readVector }, options: { ...limits, progress } },
+  /**
+   * 3 per point: the velocity there, linear in each cell; NaN outside the grid. Which cell holds a point, and so which side of a sheet it
+   * is on, is decided as cellsAt() does. `points`: 3 per point, world units; many points in one call are far faster. Code "badArgument"
+   * unless the field's parts belong together and the flow is finite.
+   *
+   * velocityAt(field: FlowField, points: Float64Array | Float32Array | readonly number[]): Float64Array<ArrayBuffer>
+   */
+  velocityAt: {
+    takes: { field, points: readPoints },
+    run: (bindings, { mesh, cutMesh, cells, flow }, points) => bindings.velocityAt(cutMesh, cells, { mesh, flow, points }),
+  },
+  /**
+   * Follows the flow from the seeds, 3 coordinates each: Runge-Kutta steps of third order (Bogacki, Shampine 1989) of adaptive length. Each
+   * ends in its cell at the latest. No segment of a line meets a triangle of the mesh, by exact predicates (those without area are none),
+   * and none leaves the grid. A seed on the surface has a line of one point. Errors as in velocityAt(); code "badOption" if an option is
+   * out of range.
+   *
+   * streamlines(field: FlowField, seeds: Float64Array | Float32Array | readonly number[], options?: StreamlineOptions): Streamlines
+   */
+  streamlines: {
+    takes: { field, seeds: readPoints },
+    options: { upstream: flag(false), tolerance: number(1e-3), maxLength: number(Infinity), maxPoints: readMaxPoints, progress },
+    run: (bindings, { mesh, cutMesh, cells, flow }, points, options) => {
+      return bindings.streamlines(cutMesh, cells, { mesh, flow, points }, options);
+    },
+  },
+  /**
+   * 3 per seed: `count` points on the sides where the wind enters the box of a grid, spread in proportion to the inflow; none without wind.
+   * Code "badArgument" if the wind is not finite, "badGrid" if the grid has no cells.
+   *
+   * inflowSeeds(grid: Grid | GridBox | GridRegular | GridRectilinear, wind: Vector3, count: number): Float64Array<ArrayBuffer>
+   */
+  inflowSeeds: { takes: { grid: readPlacedGrid, wind: readVector, count: readId } },
+  /**
+   * The groups of the triangles that readMesh() reads from a file. Of OBJ: what `g` lines name, of several names on a line the first;
+   * triangles before them are in the group "default"; where no triangle comes after a `g` line, what `usemtl` lines name. Of STL in text:
+   * its solids; one of several that has no name is called solid0, by its place in the file.
+   *
+   * readGroups(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions): Promise<TriangleGroups>
+   */
+  readGroups: { takes: { source: readFile }, options: { name: readName }, isFile: true },
 };
-
-/** The calls of mandoline-wasm/physics in the same queue. The module is compiled when the first is made, and goes along with it. */
-export class PhysicsCalls extends Calls {
-  #queue;
-  #cutting;
-  #source;
-  #module;
-
-  /** `cutting`: the calls of the main entry, whose cut-meshes get twins in the physics module, too. */
-  constructor(queue, cutting, source) {
-    super(queue, physicsCalls);
-    this.#queue = queue;
-    this.#cutting = cutting;
-    this.#source = source;
-  }
-
-  ready = async () => {
-    this.#module ??= await compile(this.#source);
-  };
-
-  find(argument) {
-    const made = this.#cutting.find(argument);
-    const isNew = made && !made.origin && !this.isResult(argument);
-    return isNew ? this.note(argument, this.#queue.newId(), 'cutMesh') : super.find(argument);
-  }
-
-  originOf() {
-    return 'cells';
-  }
-
-  pack(message, twins, values) {
-    const part = 'physics';
-    return super.pack(Object.assign(message, { part, module: twins.has(part) ? undefined : this.#module }), twins, values);
-  }
-}

@@ -1,7 +1,8 @@
-import { readOptions } from '../arguments.js';
+import { makeApi } from '../api.js';
+import { readStart } from '../arguments.js';
 import { named } from '../errors.js';
 import { compile } from '../load.js';
-import { makePhysics } from './api.js';
+import { physicsCalls } from './calls.js';
 import { PhysicsHost } from './host.js';
 import { ownPhysicsWasm } from './own-wasm.js';
 
@@ -11,8 +12,8 @@ export { faceTags, streamlineEnds } from './arguments.js';
 let started;
 
 async function start(options) {
-  const { physicsWasm = ownPhysicsWasm.source } = named('initPhysics', readOptions)(options);
-  return makePhysics(new PhysicsHost(await compile(physicsWasm)));
+  const { physicsWasm = ownPhysicsWasm.source } = named('initPhysics', readStart)(options, 'physicsWasm');
+  return makeApi(new PhysicsHost(await compile(physicsWasm)), physicsCalls);
 }
 
 /**

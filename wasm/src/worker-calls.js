@@ -1,0 +1,163 @@
+// The calls of a table (see calls.js), on a worker.
+import { bad, expectAllAttached, readFunction, readOptions } from './arguments.js';
+import { buffersOf, clone } from './buffers.js';
+import { MandolineError, named } from './errors.js';
+import { valueAt, withValueAt } from './places.js';
+
+const isObject = (value) => typeof value === 'object' && value !== null;
+
+/** What every call of a worker takes beside its own options. */
+const callOptions = {
+  signal: (value, name) => {
+    if (value !== undefined && !(value instanceof AbortSignal)) throw bad(`${name} must be an AbortSignal.`);
+    return value;
+  },
+  transfer: (value = [], name) => {
+    if (!Array.isArray(value)) throw bad(`${name} must be an array.`);
+    return value;
+  },
+};
+
+/** What a call that the thread's script serves takes. */
+const extra = { options: { progress: readFunction }, isExtra: true };
+
+/** `what` the options of the call itself say; as they are given, if there are any; and those that stay here. */
+function splitOptions(given, readers) {
+  const { signal, transfer, progress, ...what } = readOptions(given, { ...readers, ...callOptions });
+  if (given === undefined) return { what, transfer };
+  const { signal: _, transfer: __, progress: ___, ...options } = given;
+  return { what, options, signal, transfer, onProgress: progress };
+}
+
+/** The places of arguments that may have twins. */
+function placesIn(takes) {
+  const membersOf = (taken) => (typeof taken === 'object' ? Object.keys(taken).filter((key) => taken[key].kind) : []);
+  return Object.values(takes).flatMap((taken, i) => (taken.kind ? [[i]] : membersOf(taken).map((key) => [i, key])));
+}
+
+/** The options with the File's name, which its clone does not have in Node 20. */
+function withFileName(options, file) {
+  const isNamed = typeof file?.name === 'string' && options?.name === undefined;
+  return isNamed ? { ...options, name: file.name } : options;
+}
+
+/** What has the twin: a result, or its member of that name. */
+export function memberOf(value, member) {
+  return member === undefined ? value : value[member];
+}
+
+/** A cut-mesh without gridCellRegion, which no call reads and which may be large. */
+function lean(argument) {
+  if (!isObject(argument) || !('gridCellRegion' in argument)) return argument;
+  const { gridCellRegion, ...rest } = argument;
+  return rest;
+}
+
+/** Copies of the values as they are now, so that neither the queue nor the worker sees later changes. */
+function copied(call, values, transfer = []) {
+  try {
+    return clone(values, transfer);
+  } catch (cause) {
+    named(call, expectAllAttached)(values);
+    throw new MandolineError('badArgument', `The arguments can't be given to the worker: ${cause.message}`, { stage: call, cause });
+  }
+}
+
+/** Puts calls into a queue of jobs, and knows the results whose twins may be in its thread. */
+export class Calls {
+  #queue;
+  #table;
+  #results = new WeakMap(); // { id, origin }: the latter is for the thread's host, see Host.adopt()
+  #collected = new FinalizationRegistry((id) => this.#queue.freeTwin(id));
+
+  constructor(queue, table) {
+    this.#queue = queue;
+    this.#table = table;
+  }
+
+  /** The package's calls by their names. */
+  all() {
+    return Object.fromEntries(Object.entries(this.#table).map(([name, call]) => [name, (...given) => this.#own(name, call, given)]));
+  }
+
+  isResult(value) {
+    return this.#results.has(value);
+  }
+
+  /** The id and the origin of an argument that may have a twin. */
+  find(argument) {
+    return this.#results.get(argument);
+  }
+
+  /** From now on this is a result. */
+  note(value, id, origin) {
+    const known = { id, origin };
+    this.#results.set(value, known);
+    this.#collected.register(value, id);
+    return known;
+  }
+
+  /** What the thread is sent: each value that the message names by its id goes along unless there is a twin of it. */
+  pack(message, twins, values) {
+    for (const [i, subject] of message.subjects.entries()) {
+      if (!twins.has(subject.id)) subject.data ??= copied(message.call, lean(values[i]));
+    }
+    return { message, transfer: buffersOf([message.args, message.subjects]) }; // of the copies: they go on to the thread
+  }
+
+  #own(name, call, given) {
+    const count = Object.keys(call.takes).length;
+    const args = Array.from({ length: count }, (_, i) => given[i]);
+    return this.#perform(name, { ...call, at: placesIn(call.takes) }, args, given[count]);
+  }
+
+  /** A call that the thread's script serves. */
+  extra(name, args, options) {
+    return this.#perform(name, extra, args, options);
+  }
+
+  async #perform(name, call, args, given) {
+    const { isCut, isFile, keeps, member } = call;
+    if (!Array.isArray(args)) throw new MandolineError('badArgument', 'The arguments of a call must be an array.', { stage: name });
+    const split = named(isCut ? 'input' : name, splitOptions)(given, call.options);
+    if (isFile) split.options = withFileName(split.options, args[0]);
+    const { signal, onProgress } = split;
+    const cancellation = () => new MandolineError('cancelled', 'The call was cancelled.', { stage: name, cause: signal.reason });
+    if (signal?.aborted) throw cancellation();
+    const { message, values } = this.#message(name, call, args, split);
+    const pack = (packed, twins) => this.pack(packed, twins, values);
+    const job = { call: name, isCut, onProgress, message, ready: this.ready, pack };
+    const abort = () => this.#queue.stop(job, cancellation());
+    signal?.addEventListener('abort', abort);
+    try {
+      const { value, kept } = await new Promise((resolve, reject) => {
+        this.#queue.add(Object.assign(job, { resolve, reject }));
+      });
+      if (kept.includes(message.result)) this.note(memberOf(value, member), message.result, { kind: keeps, ...split.what });
+      return value;
+    } finally {
+      signal?.removeEventListener('abort', abort);
+    }
+  }
+
+  /**
+   * In it: `subjects`, { id, origin, at, data } of each result of this queue that lies at one of these places in the arguments, and
+   * `result`, the id of a new one. Beside it: the results themselves.
+   */
+  #message(name, { isExtra, at = [], keeps, member }, args, { options, transfer, onProgress }) {
+    const message = { call: name, isExtra, args, subjects: [], options, progress: onProgress !== undefined };
+    const values = [];
+    if (keeps) Object.assign(message, { member, result: this.#queue.newId() });
+    for (const place of at) {
+      const value = valueAt(args, place);
+      if (!isObject(value)) continue;
+      const known = this.find(value);
+      message.args = withValueAt(message.args, place, known ? undefined : lean(value));
+      if (!known) continue;
+      const isMoved = buffersOf(value).some((buffer) => transfer.includes(buffer));
+      message.subjects.push({ ...known, at: place, data: isMoved || !this.#queue.hasTwin(known.id) ? lean(value) : undefined });
+      values.push(value);
+    }
+    return { message: copied(name, message, transfer), values };
+  }
+}
