@@ -1,5 +1,5 @@
 // The calls of a table (see calls.js), on a worker.
-import { bad, expectAllAttached, readFunction, readOptions } from './arguments.js';
+import { bad, expectAllAttached, kindOf, readFunction, readOptions } from './arguments.js';
 import { buffersOf, clone } from './buffers.js';
 import { MandolineError, named } from './errors.js';
 import { valueAt, withValueAt } from './places.js';
@@ -9,11 +9,11 @@ const isObject = (value) => typeof value === 'object' && value !== null;
 /** What every call of a worker takes beside its own options. */
 const callOptions = {
   signal: (value, name) => {
-    if (value !== undefined && !(value instanceof AbortSignal)) throw bad(`${name} must be an AbortSignal.`);
+    if (value !== undefined && !(value instanceof AbortSignal)) throw bad(`${name} must be an AbortSignal, not ${kindOf(value)}.`);
     return value;
   },
   transfer: (value = [], name) => {
-    if (!Array.isArray(value)) throw bad(`${name} must be an array.`);
+    if (!Array.isArray(value)) throw bad(`${name} must be an array, not ${kindOf(value)}.`);
     return value;
   },
 };
