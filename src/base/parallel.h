@@ -48,6 +48,22 @@ class Monitor {
   }
   unsigned threads() const { return threads_; }
 
+  /// The options for one of the calls that this call is made of, which must not outlive the monitor. The stages of that call come after
+  /// `before` others and before `after`.
+  template <class Options>
+  Options part(int before, int after) {
+    Options options;
+    options.threads = threads_;
+    if (!callback_) return options;
+    options.progress = [this, before, after](const auto& progress) {
+      stage_ = progress.stage;
+      index_ = before + progress.stageIndex;
+      stageCount_ = before + progress.stageCount + after;
+      return goOn(progress.done, progress.total);
+    };
+    return options;
+  }
+
  private:
   bool goOn(size_t done, size_t total) {
     try {

@@ -1,13 +1,12 @@
 // The driver: Algorithm 1 of the paper, bottom-up. Each stage has its own header, which is its contract.
 #include <chrono>
-#include <new>
-#include <stdexcept>
 
 #include "cut/contradiction.h"
 #include "cut/stages/divided_faces.h"
 #include "cut/stages/input.h"
 #include "cut/stages/output.h"
 #include "mandoline/prepare.h"
+#include "mesh/run_call.h"
 
 namespace mandoline {
 
@@ -120,31 +119,13 @@ bool fits(const Prepared& prepared, const Grid& grid) {
   return largest == 0 || std::ilogb(largest) + prepared.shift <= Scale::kLargestExponent + Scale::kRoom;
 }
 
-/// Runs `f`, whose failures become the result's error.
-template <class Result, class F>
-void catchFailures(Result& result, const F& f) {
-  try {
-    f();
-  } catch (const Failure& failure) {
-    result.error = failure.error;
-  } catch (const Cancelled&) {
-    result.error = {Status::cancelled, -1, -1, "The cut was cancelled."};
-  } catch (const ProgressFailed& failure) {
-    std::rethrow_exception(failure.exception);
-  } catch (const std::bad_alloc&) {
-    result.error = {Status::outOfMemory, -1, -1, "There is not enough memory for this cut."};
-  } catch (const std::length_error&) {
-    result.error = {Status::outOfMemory, -1, -1, "There is not enough memory for this cut."};
-  }
-}
-
 }  // namespace
 
 MeshView PreparedMesh::mesh() const { return data_ ? MeshView(data_->mesh) : MeshView({}, {}); }
 
 PrepareResult prepare(const MeshView& mesh, const PrepareOptions& options) {
   PrepareResult result;
-  catchFailures(result, [&] {
+  catchErrors(result.error, "preparation", [&] {
     Monitor monitor(options, kMeshStages);
     Clock clock(result.stats, monitor);
     auto data = std::make_shared<PreparedMeshData>();
@@ -161,7 +142,7 @@ CutResult cut(const PreparedMesh& mesh, const Grid& grid, const CutOptions& opti
   const PreparedMeshData* data = mesh.data();
   if (!data) return cut(mesh.mesh(), grid, options);
   CutResult result;
-  catchFailures(result, [&] {
+  catchErrors(result.error, "cut", [&] {
     checkGrid(grid, options.snapTolerance);
     if (options.snapTolerance > 0 || !fits(*data->prepared, grid)) {
       CutOptions same = options;
@@ -179,7 +160,7 @@ CutResult cut(const PreparedMesh& mesh, const Grid& grid, const CutOptions& opti
 
 CutResult cut(const MeshView& mesh, const Grid& grid, const CutOptions& options) {
   CutResult result;
-  catchFailures(result, [&] {
+  catchErrors(result.error, "cut", [&] {
     Monitor monitor(options, kMeshStages + kGridStages);
     Clock clock(result.stats, monitor);
     Run run{result.stats, monitor};

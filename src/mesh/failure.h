@@ -5,7 +5,7 @@
 
 namespace mandoline::detail {
 
-/// Thrown by the stages, caught by the functions of the public headers.
+/// Thrown inside the library, caught where a call of a public header ends (mesh/run_call.h).
 struct Failure {
   Error error;
 };

@@ -102,22 +102,18 @@ class Lister {
 }  // namespace
 
 MeshIntersections findIntersections(const MeshView& mesh, const IntersectionOptions& options) {
-  try {
-    return runCall("search for intersections", [&] {
-      Monitor monitor(options, 2);
-      const auto prepared =
-          prepareMesh(mesh, {0, Intersections::assumeNone, {}}, monitor, [&](const char* stage) { monitor.beginStage(stage, 0); });
-      monitor.beginStage("intersections", 1);
-      Predicates predicates;
-      const Contacts contacts = findContacts(*prepared, monitor, predicates, options.maxPairs);
-      MeshIntersections result;
-      result.counts = contacts.counts;
-      Lister(mesh, *prepared, options.maxPairs).list(contacts.pairs, result);
-      return result;
-    });
-  } catch (const Failure& failure) {
-    throw CallError(failure.error);
-  }
+  return runCall("search for intersections", [&] {
+    Monitor monitor(options, 2);
+    const auto prepared =
+        prepareMesh(mesh, {0, Intersections::assumeNone, {}}, monitor, [&](const char* stage) { monitor.beginStage(stage, 0); });
+    monitor.beginStage("intersections", 1);
+    Predicates predicates;
+    const Contacts contacts = findContacts(*prepared, monitor, predicates, options.maxPairs);
+    MeshIntersections result;
+    result.counts = contacts.counts;
+    Lister(mesh, *prepared, options.maxPairs).list(contacts.pairs, result);
+    return result;
+  });
 }
 
 }  // namespace mandoline

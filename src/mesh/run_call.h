@@ -1,24 +1,26 @@
-// What calls that may take long have in common.
+// Where failures inside a call become the error that its caller sees.
 #pragma once
-
-#include <exception>
-#include <string>
 
 #include "base/parallel.h"
 #include "mandoline/status.h"
 
 namespace mandoline::detail {
 
-/// Returns what body() returns. If options.progress cancels, throws CallError; what it throws passes through unchanged.
+/// The error for the exception that is being handled, if that is a Failure or Cancelled. Anything else is thrown on, and what
+/// options.progress threw as it was. `noun` names the call: "cut".
+Error caughtFailure(const char* noun);
+
+/// Returns what body() returns. Throws CallError if it fails.
 template <class Body>
 auto runCall(const char* noun, const Body& body) {
   try {
     return body();
-  } catch (const Cancelled&) {
-    throw CallError({Status::cancelled, -1, -1, std::string("The ") + noun + " was cancelled."});
-  } catch (const ProgressFailed& failure) {
-    std::rethrow_exception(failure.exception);
+  } catch (...) {
+    throw CallError(caughtFailure(noun));
   }
 }
+
+/// Runs body(). If it fails or memory runs out, `error` says so. Throws nothing but what options.progress throws.
+void catchErrors(Error& error, const char* noun, FunctionRef<void()> body);
 
 }  // namespace mandoline::detail

@@ -81,10 +81,10 @@ class FlowSolver {
     for (size_t d = 0; d < 3 && length > 0; ++d) unit[d] = wind[d] / length;
     PoissonProblem problem;
     problem.boundary = windBoundary(cells_, unit, flow.throttled);
-    solve(problem, flow);
+    detail::Monitor monitor(options_, kStages);
+    solve(problem, monitor, flow);
     const physics::DualEdges dual = physics::dualEdges(cells_, problem.dualPoints);
     physics::fillFaceVelocities(cells_, problem.boundary, dual, flow);
-    detail::Monitor monitor(options_, kStages);
     monitor.beginStage("velocities", kStages - 1);
     fitVelocities(cells_, physics::flowData(cells_, dual, flow), monitor, flow);
     for (size_t c = 0; c < cells_.cellCount(); ++c) {
@@ -100,17 +100,10 @@ class FlowSolver {
  private:
   static constexpr int kStages = 3;  // the solver's two and the velocities
 
-  void solve(const PoissonProblem& problem, Flow& flow) const {
-    SolveOptions options;
-    static_cast<RunOptions&>(options) = options_;
+  void solve(const PoissonProblem& problem, detail::Monitor& monitor, Flow& flow) const {
+    auto options = monitor.part<SolveOptions>(0, 1);
     options.tolerance = options_.tolerance;
     options.maxIterations = options_.maxIterations;
-    if (options_.progress) {
-      options.progress = [&](Progress progress) {
-        progress.stageCount = kStages;
-        return options_.progress(progress);
-      };
-    }
     Solution solution = solvePoisson(cells_, problem, options);
     flow.status = solution.status;
     flow.phi = std::move(solution.phi);

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <new>
-#include <stdexcept>
 
 #include "base/parallel.h"
 #include "mandoline/triangulate.h"
+#include "mesh/run_call.h"
 #include "operators/measure/owners.h"
 #include "operators/mesh_writer.h"
 
@@ -65,35 +63,18 @@ ResolvedMesh resolvedOf(const CutMesh& cutMesh) {
   return result;
 }
 
-/// The options for one of the calls that a call is made of: its stages come after `before` others and before `after`. What
-/// options.progress throws is told from what the call throws.
-RunOptions optionsWithin(const RunOptions& options, int before, int after) {
-  RunOptions within = options;
-  if (!options.progress) return within;
-  within.progress = [&options, before, after](const Progress& part) {
-    try {
-      return options.progress({part.stage, before + part.stageIndex, before + part.stageCount + after, part.done, part.total});
-    } catch (...) {
-      throw detail::ProgressFailed{std::current_exception()};
-    }
-  };
-  return within;
-}
-
 constexpr int kCountingStages = 2;  // of findIntersections()
 
 /// Cuts, and counts the pairs that rounding brings back.
 void run(const MeshView& mesh, const RunOptions& options, ResolveResult& result) {
-  CutOptions cutOptions;
-  static_cast<RunOptions&>(cutOptions) = optionsWithin(options, 0, kCountingStages);
-  CutResult cutResult = cut(mesh, cellAround(mesh), cutOptions);
+  detail::Monitor monitor(options, kCountingStages);
+  CutResult cutResult = cut(mesh, cellAround(mesh), monitor.part<CutOptions>(0, kCountingStages));
   result.error = std::move(cutResult.error);
   result.stats = std::move(cutResult.stats);
   if (!result) return;
   result.mesh = resolvedOf(cutResult.mesh);
   if (result.stats.intersections.total() == 0) return;
-  IntersectionOptions counting;
-  static_cast<RunOptions&>(counting) = optionsWithin(options, int(result.stats.stages.size()), 0);
+  auto counting = monitor.part<IntersectionOptions>(int(result.stats.stages.size()), 0);
   counting.maxPairs = 0;
   result.remaining = findIntersections(result.mesh.mesh, counting).counts;
 }
@@ -102,19 +83,8 @@ void run(const MeshView& mesh, const RunOptions& options, ResolveResult& result)
 
 ResolveResult resolve(const MeshView& mesh, const RunOptions& options) {
   ResolveResult result;
-  try {
-    run(mesh, options, result);
-    return result;
-  } catch (const detail::ProgressFailed& failure) {
-    std::rethrow_exception(failure.exception);
-  } catch (const CallError& failure) {
-    result.error = failure.error;
-  } catch (const std::bad_alloc&) {
-    result.error = {Status::outOfMemory, -1, -1, "There is not enough memory for this mesh."};
-  } catch (const std::length_error&) {
-    result.error = {Status::outOfMemory, -1, -1, "There is not enough memory for this mesh."};
-  }
-  result.mesh = {};
+  detail::catchErrors(result.error, "resolution", [&] { run(mesh, options, result); });
+  if (!result) result.mesh = {};
   return result;
 }
 
