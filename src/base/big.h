@@ -8,8 +8,8 @@
 
 namespace mandoline::detail {
 
-/// No operation throws: where memory runs out the result is a number without a sign, and so is whatever comes of it. So polynomials need no
-/// code for exceptions, which would be most of what they are compiled to.
+/// No operation throws: if memory runs out, the result is a number without a sign, and so is everything computed from it. So polynomials
+/// need no code for exceptions, which would be most of their machine code.
 class Big {
  public:
   Big() noexcept = default;

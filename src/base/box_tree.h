@@ -16,7 +16,7 @@ struct BoxOf {
   std::array<Number, 3> low, high;
 
   bool overlaps(const BoxOf& other) const {
-    int within = 1;  // without branches, which are hard to foretell here
+    int within = 1;  // without branches, which are hard to predict here
     for (size_t d = 0; d < 3; ++d) within &= int(low[d] <= other.high[d]) & int(other.low[d] <= high[d]);
     return within != 0;
   }
@@ -37,12 +37,12 @@ class BoxTree {
     uint32_t id;
   };
 
-  /// Holds itemOf(0) .. itemOf(count - 1) and nothing of before.
+  /// Holds itemOf(0) .. itemOf(count - 1) from now on, instead of what it held.
   void build(size_t count, FunctionRef<Item(size_t)> itemOf);
 
   /// Calls f(id) for the items whose boxes overlap the given one, in an order that the items alone decide.
   void forOverlapping(const Box& box, FunctionRef<void(uint32_t)> f) const;
-  /// The same, those that reach farther along the axis mostly first: f may lower the box meanwhile.
+  /// The same, mostly starting with items that reach farther along the axis; f may lower the box meanwhile.
   void forOverlappingFromAbove(const Box& box, size_t axis, FunctionRef<void(uint32_t)> f) const {
     if (!nodes_.empty()) visitFromAbove(0, box, axis, f);
   }

@@ -10,7 +10,7 @@
 
 namespace mandoline::detail {
 
-/// Appends the groups that other offsets describe: for items that are appended, too.
+/// Appends the groups that other offsets describe, so that they start after the last one here.
 inline void appendOffsets(std::vector<uint32_t>& offsets, const std::vector<uint32_t>& more) {
   const uint32_t shift = offsets.back();
   for (size_t i = 1; i < more.size(); ++i) offsets.push_back(more[i] + shift);

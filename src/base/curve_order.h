@@ -10,8 +10,8 @@
 
 namespace mandoline::detail {
 
-/// The order of points along a space-filling curve (Morton 1966): sorted by the bits of their coordinates in turns, as parts of the box
-/// around them. Of those that are the same the one with the lower idOf(i) comes first. Coordinates that are not finite are taken as 0.
+/// The order of points along a space-filling curve (Morton 1966): sorted by the interleaved bits of their coordinates, relative to the
+/// box around them. Of equal points, the one with the lower idOf(i) comes first. Coordinates that are not finite are taken as 0.
 std::vector<KeyedItem> orderAlongCurve(std::span<const Point> points, FunctionRef<uint32_t(size_t)> idOf);
 
 }  // namespace mandoline::detail

@@ -50,7 +50,7 @@ struct Bounded {
     return {v, ((a.error + std::fabs(v) * b.error) / room + kRoundoff * std::fabs(v)) * (1 + 0x1p-30)};
   }
 
-  /// Whether sign() is proven. The errors' own roundings are some 2^-50 of them, far within the factor.
+  /// Whether sign() is proven. Rounding the errors themselves changes them by some 2^-50, far less than the factor allows.
   bool certain() const { return std::fabs(value) > error * (1 + 0x1p-30) || error == 0; }
   int sign() const { return signOf(value); }
 };
@@ -79,7 +79,7 @@ class Expansion {
 
   bool certain() const { return true; }
   int sign() const { return terms_.empty() ? 0 : signOf(terms_.back()); }
-  /// Nearest double, but for one rounding or two.
+  /// The nearest double, up to one or two roundings.
   double estimate() const;
   /// The quotient as a double, within a few units in the last place.
   static double quotient(const Expansion& numerator, const Expansion& denominator);

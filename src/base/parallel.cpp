@@ -31,7 +31,7 @@ void runChunks(size_t n, size_t chunks, Monitor& monitor, FunctionRef<void(size_
   std::vector<std::thread> pool;
   try {
     for (unsigned i = 1; chunks > 1 && i < monitor.threads(); ++i) pool.emplace_back(work);
-  } catch (const std::system_error&) {  // no more threads to be had: those there are do the work
+  } catch (const std::system_error&) {  // no more threads available: the existing ones do the work
   }
   work();
   for (std::thread& thread : pool) thread.join();

@@ -20,7 +20,7 @@ struct ProgressFailed {
   std::exception_ptr exception;
 };
 
-/// Progress, cancelling and the number of threads: what a stage gets to see of the caller's options.
+/// Progress, cancelling and the number of threads: all that the work itself sees of the caller's options.
 class Monitor {
  public:
   /// `options` are RunOptions, which must outlive the monitor.
@@ -92,8 +92,8 @@ inline size_t chunkCount(size_t n, const Monitor& monitor, size_t block) {
 void runChunks(size_t n, size_t chunks, Monitor& monitor, FunctionRef<void(size_t, size_t, size_t)> f, size_t block);
 
 /// Runs f(state, begin, end) over 0..n in order of items, each State over one contiguous range, and returns the states in that order:
-/// concatenating them gives the same result for any number of threads. `block` items lie between two reports, and more are worth a thread.
-/// Of several failures the first in item order is thrown, but ProgressFailed before any other.
+/// concatenating them gives the same result for any number of threads. Progress is reported every `block` items, and fewer items are not
+/// worth a thread. Of several failures the first in item order is thrown, but ProgressFailed before any other.
 template <class State, class F>
 std::vector<State> forChunks(size_t n, Monitor& monitor, const F& f, size_t block = 2048) {
   std::vector<State> states(chunkCount(n, monitor, block));

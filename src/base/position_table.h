@@ -1,4 +1,4 @@
-// Which item lies at a position: the one place where positions are compared for being the same. 0 and -0 are one.
+// Which item lies at a position: the only place where positions are compared for equality. 0 equals -0.
 #pragma once
 
 #include <cstddef>
@@ -46,7 +46,7 @@ class PositionTable {
   std::vector<uint32_t> slots_;
 };
 
-/// Per item the lowest one at its position, among those with `takesPart(id)`; the others keep their own.
+/// Per item with `takesPart(id)`, the lowest such item at its position; for other items, themselves.
 template <class At, class TakesPart>
 std::vector<uint32_t> lowestAtPosition(size_t items, const At& at, const TakesPart& takesPart) {
   PositionTable table(items, at);

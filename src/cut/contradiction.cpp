@@ -8,7 +8,7 @@
 namespace mandoline::detail {
 namespace {
 
-/// Triangles that have no part in the cut because the grid ends before them can't have led to a contradiction.
+/// Triangles outside the grid have no part in the cut, so they can't have led to a contradiction.
 bool reachesGrid(const Input& input, TriangleId t) {
   const auto v = input.verticesOf(t);
   for (int d = 0; d < 3; ++d) {

@@ -10,7 +10,7 @@
 
 namespace mandoline {
 
-/// A mesh of its own, and what was made of it.
+/// A copy of a mesh, and the result of preparing it.
 struct detail::PreparedMeshData {
   Mesh mesh;
   Intersections intersections;
@@ -49,7 +49,7 @@ class Clock {
 
 constexpr int kMeshStages = 2, kGridStages = 9;
 
-/// What a mesh's preparation told.
+/// Adds the counts of a mesh's preparation.
 void addCounts(const Prepared& prepared, CutStats& stats) {
   stats.weldedVertices = prepared.counts.weldedVertices;
   stats.zeroAreaTriangles = prepared.counts.zeroAreaTriangles;

@@ -30,7 +30,7 @@ struct Input {
   }
 };
 
-/// What a stage tells about itself while it works.
+/// Where a stage reports its counts and its progress.
 struct Run {
   CutStats& stats;
   Monitor& monitor;

@@ -13,8 +13,8 @@ using detail::Expansion;
 
 constexpr int64_t kMostCells = int64_t(1) << 24;
 
-// Planes are rounded once, from exact sums: then a symmetric box has symmetric planes, and what is symmetric or flat in a mesh lies on
-// them or clear of them rather than off by one rounding. Sizes near the ends of the doubles' range do without.
+// Planes are rounded once, from exact sums: then a symmetric box has symmetric planes, and symmetric or flat parts of a mesh lie on
+// them or clear of them rather than off by one rounding. Sizes near the limits of doubles are rounded as they come.
 bool safeToMultiply(double x) { return x == 0 || (std::fabs(x) < 0x1p900 && std::fabs(x) > 0x1p-900); }
 
 /// Cell counts that make no sense leave the axis without planes or with too many, which cut() reports.

@@ -14,7 +14,7 @@ using detail::Predicates;
 using ScaledPoint = std::array<double, 3>;
 
 /// Scaled coordinates of what lies in the grid are below 2 and multiples of 2^-252, as smaller ones than 2^-200 become 0 (the cutter's
-/// smallest, too): a product of four stays within range. The map is monotone, and it keeps the planes of a grid that was cut apart.
+/// smallest, too): a product of four stays within range. The map is monotone, and the planes of a grid that was cut stay distinct.
 class ScaledSpace {
  public:
   explicit ScaledSpace(const Grid& grid) {

@@ -12,7 +12,7 @@ bool isLetter(char c) { return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') 
 bool isInPatchName(char c) { return isLetter(c) || ('0' <= c && c <= '9') || std::string_view("-.:%+").find(c) != std::string_view::npos; }
 bool isInObjName(char c) { return std::string_view(" \t\v\f\r\n").find(c) == std::string_view::npos; }
 
-/// The name with '_' for each run of characters that are none of a word's; one that can't begin a word gets a '_' before it.
+/// The name with '_' for each run of characters that a word can't have; if it can't begin a word, it gets a '_' in front.
 std::string wordOf(const std::string& name, bool (*isInWord)(char), bool (*beginsWord)(char)) {
   std::string word;
   bool replaced = false;

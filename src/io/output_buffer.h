@@ -9,7 +9,7 @@
 
 namespace mandoline::detail {
 
-/// Whoever uses it calls flush() at the end.
+/// flush() has to be called at the end.
 class OutputBuffer {
  public:
   explicit OutputBuffer(Meter& meter) : meter_(meter), buffer_(size_t(1) << 18) {}
@@ -30,7 +30,7 @@ class OutputBuffer {
     if (kLongest > buffer_.size() - size_) flush();
     size_ = size_t(printNumber(buffer_.data() + size_, buffer_.data() + buffer_.size(), n) - buffer_.data());
   }
-  /// Tells that items of what is to be written are done.
+  /// Reports that items of the work are done.
   void advance(uint64_t items = 1) { meter_.advance(items); }
   void flush() {
     meter_.write({buffer_.data(), size_});

@@ -1,4 +1,4 @@
-// What of a cut-mesh is written.
+// Which parts of a cut-mesh are written.
 #pragma once
 
 #include "mandoline/io.h"

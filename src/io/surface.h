@@ -18,7 +18,7 @@ struct WrittenSurface {
 };
 WrittenSurface surfaceOf(const Selection& selection);
 
-/// The surface in triangles, with those vertices only that it has.
+/// The surface in triangles, with only the vertices that they use.
 struct SurfaceTriangles {
   Mesh mesh;
   std::vector<uint32_t> region, face;  ///< per triangle

@@ -9,7 +9,7 @@ namespace mandoline::detail {
 
 inline constexpr uint8_t kVtkPolygon = 7, kVtkHexahedron = 12, kVtkPolyhedron = 42;  // VTK's cell types
 
-/// Numbers as bytes for a file, gathered in a buffer. Whoever uses it calls flush() at the end.
+/// Numbers as bytes for a file, gathered in a buffer. flush() has to be called at the end.
 template <class Scalar>
 class ArrayBuffer {
  public:

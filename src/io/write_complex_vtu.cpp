@@ -27,7 +27,7 @@ std::vector<int> componentsOf(std::span<const Field> fields, size_t count, const
   return components;
 }
 
-/// Throws CallError for a field without a name of its own, such as XML can hold.
+/// Throws CallError for a field whose name is missing, taken or not possible in XML.
 template <class ForEachArray>
 void requireNames(std::span<const Field> fields, const ForEachArray& forEachArray) {
   std::set<std::string_view> names;

@@ -1,4 +1,4 @@
-// The JSON dump with groups: that without, whose end is held back for two arrays more.
+// The JSON dump with groups: the dump without them, whose end is held back until two more arrays are written.
 #include "io/groups.h"
 #include "io/json_members.h"
 #include "mesh/run_call.h"

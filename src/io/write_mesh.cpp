@@ -13,7 +13,7 @@ namespace mandoline {
 namespace detail {
 namespace {
 
-/// Little-endian whatever the machine is.
+/// Little-endian on every machine.
 template <class Scalar>
 void putScalar(OutputBuffer& out, Scalar value) {
   char bytes[sizeof value];

@@ -57,7 +57,7 @@ class VtuWriter {
     }
   }
 
-  /// The vertex's number in the file, which has those only that are used.
+  /// The vertex's number in the file, which has only vertices that are used.
   int64_t number(int64_t vertex) const {
     const int64_t cutVertices = int64_t(cutMesh_.vertexCount());
     if (numbers_.empty()) return vertex;

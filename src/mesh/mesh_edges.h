@@ -25,7 +25,7 @@ struct MeshEdges {
     const auto* side = &sideEdges[3 * size_t(triangle.number)];
     return stitched.size() > 0 && (side[0] >= kStitched || side[1] >= kStitched || side[2] >= kStitched);
   }
-  /// Calls f(tri-edge, whether it is run through from its lower end) for the tri-edges of a side, in the triangle's direction.
+  /// Calls f(tri-edge, whether it is traversed from its lower end) for the tri-edges of a side, in the triangle's direction.
   template <class F>
   void forSide(const WeldedMesh& mesh, TriangleId triangle, int side, const F& f) const {
     const auto v = mesh.verticesOf(triangle);

@@ -1,4 +1,4 @@
-// Stage 1, the mesh (paper, Algorithm 1 and Appendix A "Bad Input Meshes"): what of a cut does not depend on the grid. Checks the mesh,
+// The mesh (paper, Algorithm 1 and Appendix A "Bad Input Meshes"): the part of a cut that does not depend on the grid. Checks the mesh,
 // welds identical positions, drops triangles without area and duplicates, finds the unique tri-edges and where triangles meet.
 //
 // In: the user's mesh. Out: Prepared, or a Failure that names the offending element.
@@ -37,7 +37,7 @@ struct Prepared : WeldedMesh {
   bool hasIntersections() const { return arrangement && !arrangement->empty(); }
   /// The triangles with the same three vertices.
   std::span<const Duplicate> duplicatesOf(TriangleId t) const;
-  /// How many of them have the same normal, less those that have the opposite one.
+  /// How many of them have the same normal, minus how many have the opposite one.
   int32_t signSumOfDuplicates(TriangleId t) const;
 };
 

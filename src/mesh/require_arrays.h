@@ -5,7 +5,7 @@
 
 namespace mandoline::detail {
 
-/// Throws CallError: badArrays for lengths that are no multiples of 3, badIndex for a triangle (element) that names a vertex that does not
+/// Throws CallError: badArrays for lengths that are not multiples of 3, badIndex for a triangle (element) that names a vertex that does not
 /// exist.
 void requireArrays(const MeshView& mesh);
 

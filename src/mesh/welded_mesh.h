@@ -36,7 +36,7 @@ struct WeldedMesh {
   std::vector<TriangleState> states;               ///< per input triangle
   std::vector<Stitch> stitches;                    ///< sorted by (low, high)
   std::vector<Duplicate> duplicates;               ///< ascending by the triangle they are copies of
-  bool closed = false;                             ///< every tri-edge is run through equally often in both directions, by duplicates, too
+  bool closed = false;                             ///< every tri-edge is traversed equally often in both directions, counting duplicates
 
   bool kept(size_t triangle) const { return states[triangle] == TriangleState::kept; }
   bool kept(TriangleId t) const { return kept(t.number); }

@@ -1,11 +1,11 @@
-// Meshes of some of an array's vertices.
+// Meshes that use some of the vertices of an array.
 #pragma once
 
 #include "mandoline/mesh.h"
 
 namespace mandoline::operators {
 
-/// Gathers triangles in a mesh, and vertices of an array as the triangles come to use them.
+/// Gathers triangles in a mesh, and adds the vertices of an array when a triangle first uses them.
 class MeshWriter {
  public:
   /// Keeps references to both. `positions`: 3 per vertex.

@@ -9,13 +9,13 @@ namespace mandoline::operators {
 /// Throws CallError{badArgument}.
 [[noreturn]] void refuse(const std::string& message, int64_t element = -1);
 
-/// Throws CallError for a CutMesh that holds nothing, as one is that was made without cut(). The arrays of others are trusted.
+/// Throws CallError for an empty CutMesh, one that did not come from cut(). The arrays of others are trusted.
 void requireCutMesh(const CutMesh& cutMesh);
 
-/// Throws CallError for cells of another cut-mesh, or that lack some.
+/// Throws CallError for cells of another cut-mesh, or if some are missing.
 [[noreturn]] void refuseCells();
 
-/// Does so unless the cell complex begins with the vertices, and with as many faces and cells, of the cut-mesh.
+/// Throws CallError unless the cell complex begins with the vertices, and with as many faces and cells, of the cut-mesh.
 void requireCellsOf(const CutMesh& cutMesh, const CellComplex& cells);
 
 }  // namespace mandoline::operators

@@ -13,8 +13,8 @@
 namespace mandoline {
 namespace {
 
-/// The components, divided where cells hang together by slits alone: faces with less than a millionth of the area that other faces of both
-/// have. A wind that had to come through those would be absurdly fast.
+/// The components, divided where cells are connected by slits alone: faces with less than a millionth of the area of other faces of both
+/// cells. A wind that had to pass through those would be absurdly fast.
 CellComponents partsBetweenSlits(const CellComplex& cells) {
   constexpr double kSlit = 1e-6;
   std::vector<double> largest(cells.cellCount());
@@ -27,7 +27,7 @@ CellComponents partsBetweenSlits(const CellComplex& cells) {
   });
 }
 
-/// The boundary of a wind, one of length 1, that blows through the sides of the box; as much in as out of each part.
+/// The boundary for a wind of length 1 that blows through the sides of the box, as much into each part as out of it.
 Boundary windBoundary(const CellComplex& cells, const std::array<double, 3>& wind, std::vector<uint32_t>& throttled) {
   Boundary boundary = boundaryOf(cells);
   const CellComponents parts = partsBetweenSlits(cells), components = cellComponents(cells);
@@ -55,7 +55,7 @@ Boundary windBoundary(const CellComplex& cells, const std::array<double, 3>& win
   return boundary;
 }
 
-/// From that of a wind of length 1.
+/// Turns the flow of a wind of length 1 into that of a wind of the given length.
 void scale(Flow& flow, double length) {
   for (std::vector<double>* values : {&flow.phi, &flow.faceVelocity, &flow.cellVelocity, &flow.cellGradient}) {
     for (double& value : *values) value *= length;

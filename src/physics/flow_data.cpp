@@ -6,7 +6,7 @@
 namespace mandoline::physics {
 namespace {
 
-/// What is given on the boundary holds better than differences of phi: so the flow keeps to the surface.
+/// Values given on the boundary weigh more than differences of phi, so that the flow stays along the surface.
 constexpr double kBoundaryWeight = 4;
 
 std::array<double, 3> pointAt(const std::vector<double>& points, size_t i) { return {points[3 * i], points[3 * i + 1], points[3 * i + 2]}; }

@@ -10,7 +10,7 @@
 namespace mandoline {
 namespace physics {
 
-/// How many grid cells the cells that are no cut-cells fill.
+/// How many grid cells are filled by cells that are not cut-cells.
 static uint64_t filled(const Grid& grid, const CellComplex& cells) {
   constexpr uint8_t kMostLevel = 32;  // of which one cell fills any grid
   uint64_t all = 0;

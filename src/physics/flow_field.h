@@ -5,10 +5,10 @@
 
 namespace mandoline::physics {
 
-/// Throws CallError{badArgument} if the field's parts do not belong together, or the coordinates of points are no multiple of 3.
+/// Throws CallError{badArgument} if the field's parts do not belong together, or the number of coordinates is not a multiple of 3.
 void requireField(const FlowField& field, std::span<const double> points);
 
-/// The cells of a cell complex that are no cut-cells.
+/// The cells of a cell complex that are not cut-cells.
 OctreeCells octreeOf(const FlowField& field);
 
 /// Per point: the cell that holds it, or -1 outside the grid.

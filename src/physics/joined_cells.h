@@ -1,4 +1,4 @@
-// Which cells hang together.
+// Which cells are connected.
 #pragma once
 
 #include "base/disjoint_sets.h"
@@ -7,7 +7,7 @@
 
 namespace mandoline::physics {
 
-/// The cells that those of the faces between them join that isOpen(face), by the lowest of their cells.
+/// The components of cells joined through inner faces with isOpen(face), in the order of their first cells.
 template <class IsOpen>
 CellComponents joinedCells(const CellComplex& cells, const IsOpen& isOpen) {
   detail::DisjointSets sets(cells.cellCount());

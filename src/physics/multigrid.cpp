@@ -66,13 +66,13 @@ uint32_t joinNodes(Level& level, int shift) {
   return count;
 }
 
-/// What a sum of couplings over the distance of fine blocks is over that of larger ones. Never below a half, as smaller couplings make the
-/// coarse level correct by more than twice what is right; and only for levels that are visited twice, which undoes such excess. Once it
-/// would add up from level to level.
+/// The factor from a sum of couplings over the distance of fine blocks to that over the distance of larger ones. Never below a half, since
+/// with smaller couplings the coarse level corrects by more than twice what is right; and only for levels that are visited twice, which
+/// undoes such excess. On levels visited once it would add up from level to level.
 double farther(const Level& fine, double fineSize, double size) { return fine.twice ? std::max(fineSize / size, 0.5) : 1; }
 
-/// What comes to a node through couplings that are together so much weaker than those joined in it is little but rounding, which would be
-/// taken for a large step. Such nodes stay where they are, and their neighbours are held by them.
+/// If a node's couplings are together this much weaker than those joined inside it, what comes through them is mostly rounding, which would
+/// be taken for a large step. Such nodes keep their values, and hold their neighbours.
 void holdStill(Level& level, std::vector<Pair>& pairs) {
   constexpr double kWeakest = 1e-8;
   std::vector<double> total = level.held;

@@ -17,7 +17,7 @@ Box boxOf(std::span<const Point> points) {
   return box;
 }
 
-/// Without one axis.
+/// The point without one of its coordinates.
 Point2 flat(const Point& p, size_t axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
 
 /// An axis that the triangle is seen along with an area; 3 if it has none.
@@ -67,7 +67,7 @@ bool meets(const Segment& segment, const Triangle& triangle, Predicates& predica
   return low >= 0 || high <= 0;
 }
 
-/// That brings the coordinates of both into the range of exact arithmetic.
+/// The power of two that brings the coordinates of both into the range of exact arithmetic.
 detail::Scale scaleOf(const MeshView& mesh, const Grid& grid) {
   double largest = 0;
   for (const auto& planes : grid.planes) largest = std::max({largest, std::fabs(planes.front()), std::fabs(planes.back())});

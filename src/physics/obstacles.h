@@ -20,8 +20,8 @@ class Obstacles {
   /// Those with an area.
   Obstacles(const MeshView& mesh, const Grid& grid);
 
-  /// Whether a segment, in world units, has no point in common with any, their borders included. Another thread needs predicates of its
-  /// own.
+  /// Whether a segment, in world units, has no point in common with any triangle, borders included. Each thread needs its own
+  /// predicates.
   bool isFree(const Segment& segment, detail::Predicates& predicates) const;
   /// The last point of the segment that can be reached from its start; the start itself if that lies on a triangle.
   Point reached(const Segment& segment, detail::Predicates& predicates) const;

@@ -17,8 +17,8 @@ double dot(const Vector& a, const Vector& b) {
   return sum;
 }
 
-/// The system's matrix, multiplied in differences: but for what Dirichlet conditions add, its rows have the sum zero. So a large constant
-/// in x does not drown the rest in its rounding.
+/// The system's matrix, multiplied by differences of x: except for what Dirichlet conditions add, each row sums to zero. So rounding of a
+/// large constant in x does not drown the rest.
 class Operator {
  public:
   Operator(const SparseMatrix& matrix, const Vector& held) : matrix_(matrix), held_(held) {}
@@ -31,7 +31,7 @@ class Operator {
   void multiply(const Vector& x, Vector& result) const {
     for (size_t i = 0; i < x.size(); ++i) result[i] = row(x, i);
   }
-  /// Gauss-Seidel there and back. The smallest cells add next to nothing to a residual: this brings them to where their neighbours are.
+  /// Gauss-Seidel, forwards and backwards. The smallest cells hardly show in a residual; this adjusts them to their neighbours.
   void sweep(const Vector& rhs, Vector& x) const {
     for (size_t k = 0; k < 2 * x.size(); ++k) {
       const size_t i = k < x.size() ? k : 2 * x.size() - 1 - k;
@@ -96,7 +96,7 @@ class Solver {
     return exponent;
   }
 
-  /// Takes what is in excess out of the right side; false if that is too much. `given`: absolutes().
+  /// Subtracts the excess from the right side; false if it is too large. `given`: absolutes().
   bool balance(const Vector& given) {
     const size_t n = components_.count;
     Vector excess = excesses(), absolute(n);
@@ -108,15 +108,15 @@ class Solver {
       result_.component = int64_t(r), result_.excess = excess[r];
       return false;
     }
-    // Rounding that is left would make waves in cells that only the tiniest faces connect.
+    // A rounding error left in the sum would make waves in cells that only the tiniest faces connect.
     for (size_t c = 0; c < given.size(); ++c) {
       if (std::fabs(system_.rhs[c]) <= kRounding * given[c]) system_.rhs[c] = 0;
     }
     const Vector before = squares();
-    constexpr int kPasses = 3;  // each leaves a rounding error of what it takes away
+    constexpr int kPasses = 3;  // each leaves a rounding error of the excess that it subtracts
     for (int pass = 0; pass < kPasses; ++pass) takeAway(excesses());
     const Vector after = squares();
-    for (size_t c = 0; c < given.size(); ++c) {  // of what was in excess all but for rounding, nothing is left to solve
+    for (size_t c = 0; c < given.size(); ++c) {  // where all but rounding was excess, nothing is left to solve
       if (after[component(c)] < 1e-24 * before[component(c)]) system_.rhs[c] = 0;
     }
     return true;
@@ -184,7 +184,7 @@ class Solver {
     }
   }
 
-  /// From phi with the residual r, which both change, until what they take for the residual is at most `goal`.
+  /// Starts from phi with the residual r and changes both, until the residual as updated is at most `goal`.
   SolveStatus conjugateGradients(const Operator& matrix, physics::Multigrid& multigrid, Vector& r, double goal) {
     const size_t n = r.size();
     Vector z(n), p(n), ap(n);
@@ -205,7 +205,7 @@ class Solver {
     return SolveStatus::converged;
   }
 
-  /// Constants are no steps; where they add up, they drown in their rounding what is.
+  /// Removes the constants from x: they are no progress, and the rounding of large ones would drown it.
   void takeMeansOut(Vector& z) const {
     Vector sum(components_.count), volume(components_.count);
     for (size_t c = 0; c < z.size(); ++c) sum[component(c)] += z[c] * cells_.cellVolume[c], volume[component(c)] += cells_.cellVolume[c];
@@ -234,7 +234,7 @@ class Solver {
     }
   }
 
-  /// Relative to what it is a sum of, what is below is rounding.
+  /// A sum smaller than this, relative to the sum of the magnitudes of its terms, is rounding.
   static constexpr double kRounding = 1e-15;
   const CellComplex& cells_;
   const PoissonProblem& problem_;

@@ -1,5 +1,5 @@
-// How matrices are made: Eigen stores them and adds what falls in one place, all other arithmetic is here, so that flags of a program that
-// uses the same templates of Eigen can't change it.
+// How matrices are made: Eigen stores them and adds entries at one place. All other arithmetic is here, so that a program that compiles the
+// same templates of Eigen with other flags can't change it.
 #pragma once
 
 #include <vector>

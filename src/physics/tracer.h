@@ -56,7 +56,7 @@ class Tracer {
   operators::ScaledSpace space_;
   operators::Walls walls_;
   detail::Predicates predicates_;
-  double slowest_;  ///< what is at rest is slower
+  double slowest_;  ///< anything slower counts as at rest
 
   Streamlines* lines_ = nullptr;
   StreamlineEnd end_{};

@@ -71,8 +71,8 @@ struct CutVertices {
 
   /// Some triangle that the vertex lies on, to blame.
   std::optional<TriangleId> triangleAt(VertexId v) const;
-  /// Ends the cut because two vertices or edges meet where the input promised that they do not, blaming triangles, if any, that may be the
-  /// wrong ones: explainContradiction() finds out.
+  /// Ends the cut because two vertices or edges meet although the input promised that none do. The triangles that it blames, if any, may be
+  /// the wrong ones: explainContradiction() finds out.
   [[noreturn]] void failSelfIntersection(std::optional<TriangleId> triangle, std::optional<TriangleId> other) const;
   [[noreturn]] void failSelfIntersectionAt(VertexId u, VertexId v) const { failSelfIntersection(triangleAt(u), triangleAt(v)); }
 

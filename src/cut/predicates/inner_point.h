@@ -6,7 +6,7 @@
 
 namespace mandoline::detail {
 
-/// The mean of three cut-vertices by positive whole-number weights, so that another can be tried if one lies unluckily.
+/// The mean of three cut-vertices by positive whole-number weights, so that another can be tried if a ray from one grazes something.
 struct InnerPoint {
   std::array<VertexId, 3> corners;
   std::array<double, 3> weights;

@@ -11,7 +11,7 @@ namespace mandoline::detail {
 /// One of the triangles that share a tri-edge.
 struct Flap {
   const Point* tip;  ///< its corner off the edge
-  uint32_t item;     ///< whatever the caller sorts
+  uint32_t item;     ///< what the caller sorts
   int quarter = 0;   ///< scratch
 };
 
@@ -23,7 +23,7 @@ size_t sortRadially(const Point& a, const Point& b, bool open, std::vector<Flap>
 struct HalfPlane {
   TriangleId triangle;
   bool ascending;   ///< whether it lies left of the line's direction, seen from where the triangle's normal points
-  uint32_t item;    ///< whatever the caller sorts
+  uint32_t item;    ///< what the caller sorts
   int quarter = 0;  ///< scratch
 };
 

@@ -1,4 +1,4 @@
-// The half-faces of one grid cell, numbered for themselves while it is made into cut-cells: a part of stage 7.
+// The half-faces of one grid cell, numbered on their own while it is made into cut-cells (cut_cells.h).
 #pragma once
 
 #include <algorithm>

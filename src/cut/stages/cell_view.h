@@ -1,4 +1,4 @@
-// A grid cell and what its half-faces are made of: a part of stage 7.
+// A grid cell and what its half-faces are made of, for cut_cells.h.
 #pragma once
 
 #include "cut/stages/cell_halves.h"

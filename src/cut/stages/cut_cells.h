@@ -1,4 +1,4 @@
-// Stage 7, cut-cells (paper, 3.5 and 4.4): joins the half-faces of each grid cell of the stencil into cut-cells.
+// Cut-cells (paper, 3.5 and 4.4): joins the half-faces of each grid cell of the stencil into cut-cells.
 //
 // In: Surface, Stencil, CutFaces. Out: CutCells. After it every half-face inside the grid that faces a grid cell of the stencil
 // belongs to exactly one cut-cell; a cut-cell has one outer shell, and the cavities and floating sheets inside of that.

@@ -198,7 +198,7 @@ class Divider {
     sortItems(uses, [](const Use& a, const Use& b) { return a.link != b.link ? a.link < b.link : a.face < b.face; });
     DisjointSets sets(local_.size());
     std::vector<std::pair<TriEdgeId, bool>> borders(local_.size(),
-                                                    {{~0u}, false});  // of each face: a tri-edge, and which way it is run through
+                                                    {{~0u}, false});  // of each face: a tri-edge, and in which direction the face has it
     for (size_t i = 0; i < uses.size(); ++i) {
       const auto& [link, face, forward] = uses[i];
       if (const auto edge = vertices_.triEdgeOf(link)) {
@@ -228,7 +228,7 @@ class Divider {
     });
   }
 
-  /// Whether a triangle in the plane covers what lies left of a tri-edge of this one, which is run through forward or not.
+  /// Whether a triangle in the plane covers the area left of a tri-edge of this one, which is traversed forward or not.
   bool covers(TriangleId other, TriEdgeId edge, bool forward) {
     const auto inner = edges_.innerOf(other);
     if (std::find(inner.begin(), inner.end(), edge) != inner.end()) return true;

@@ -124,8 +124,8 @@ class Nester {
     return true;
   }
 
-  /// Of the shells of a component all but one bound a cell from inside. Behind the last of its faces that a ray meets, the outer one is
-  /// seen.
+  /// All shells of a component but one bound a cell from inside. Behind the last of its faces that a ray meets, the ray sees the outer
+  /// one.
   LocalHalf findOuter(const Component& component) {
     std::optional<LocalHalf> outer;
     for (const LocalFace f : component.faces) {
@@ -145,9 +145,9 @@ class Nester {
     return *outer;
   }
 
-  /// Unites a component's outer shell with what is seen behind its last face, or, where that is known to be in the same place, behind the
-  /// component that is seen there: so each component adds to what is united, or reaches a shell around all of them. False if the ray grazes
-  /// something.
+  /// Unites a component's outer shell with the shell that is seen behind its last face. If both are known to be in the same place already,
+  /// looks behind that component, too: so each component either unites two shells or reaches a shell around all of them. False if the ray
+  /// grazes something.
   bool nest(const Component& component, Ray& ray) {
     for (;;) {
       std::optional<LocalFace> next;
@@ -164,7 +164,7 @@ class Nester {
     }
   }
 
-  /// Three vertices whose triangle, but for its outline, lies inside of a face: its first vertex, as the plane is seen along the axis, the
+  /// Three vertices whose triangle, except its outline, lies inside of a face: its first vertex, as the plane is seen along the axis, the
   /// vertex before it, and the next one or, if others are in the way, the one that is seen nearest to the edge between them.
   std::array<VertexId, 3> cornerOf(FaceId face, int axis) {
     const auto loops = faces_.loops(face);

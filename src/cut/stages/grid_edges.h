@@ -1,4 +1,4 @@
-// Stage 5, grid lines (paper, 4.1.2): the cut-vertices on each grid-edge of the stencil in order, and the vertex at each grid vertex.
+// Grid lines (paper, 4.1.2): the cut-vertices on each grid-edge of the stencil in order, and the vertex at each grid vertex.
 //
 // In: Stencil, TriFaces. Out: GridEdges; CutVertices gets the grid vertices that the surface does not pass through.
 #pragma once

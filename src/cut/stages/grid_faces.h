@@ -1,4 +1,4 @@
-// Stage 6, grid-faces (paper, 3.4, 4.3, 4.5, 4.6): the pieces that the surface cuts each grid-face of the stencil into, with their holes.
+// Grid-faces (paper, 3.4, 4.3, 4.5, 4.6): the pieces that the surface cuts each grid-face of the stencil into, with their holes.
 //
 // In: Stencil, GridEdges, TriFaces. Out: GridFaces. Where a triangle lies in the grid-face, its tri-cut-face takes the piece's place.
 // Ids of the faces made here follow those of TriFaces.

@@ -1,4 +1,4 @@
-// Stage 2, the grid: checks it, scales its planes like the mesh, and finds all vertices' slabs.
+// The grid: checks it, scales its planes like the mesh, and finds all vertices' slabs.
 //
 // In: the user's grid, and Prepared. Out: Input, or a Failure that names the offending axis. With a snap tolerance, tri-vertices are moved
 // onto planes before the mesh is prepared.

@@ -1,4 +1,4 @@
-// Stage 9, output: compacts the vertices, lays the faces one after the other, and computes the coordinates.
+// Output: compacts the vertices, lays the faces one after the other, and computes the coordinates.
 //
 // In: all stages before. Out: the public CutMesh (see cut_mesh.h for its arrays and their order).
 #pragma once
@@ -7,7 +7,7 @@
 
 namespace mandoline::detail {
 
-/// What the stages know of a cut, each adding its part.
+/// What the stages have made so far; each adds its part.
 struct CutState {
   Surface surface;
   Stencil stencil;

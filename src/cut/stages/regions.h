@@ -1,5 +1,5 @@
-// Stage 8, regions and winding numbers: connected components of cut-cells and untouched grid cells, joined through faces that are not
-// pieces of triangles; and the winding number of each, stepping by one across every tri-cut-face from an exact value in one place.
+// Regions and winding numbers (not in the paper): connected components of cut-cells and untouched grid cells, joined through faces that are
+// not pieces of triangles; and the winding number of each, stepping by one across every tri-cut-face from an exact value in one place.
 //
 // In: all stages before. Out: Regions. Untouched grid cells are runs along x: memory by run, not by cell.
 #pragma once

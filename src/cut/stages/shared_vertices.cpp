@@ -49,7 +49,7 @@ class VertexLinks {
 
   bool isTri(const Corner& corner) const { return corner.half.number < 2 * cell_.triFaces.size(); }
 
-  /// Whether the arcs of the tri-cut-faces about a vertex form no ring, be it through the boundary of the grid cell, which is one node.
+  /// Whether the arcs of the tri-cut-faces about a vertex form no ring; a ring may pass the boundary of the grid cell, which is one node.
   bool isForest(std::span<const Corner> corners) {
     edges_.clear();
     for (const Corner& c : corners) edges_.insert(edges_.end(), {c.before, c.after});

@@ -1,4 +1,4 @@
-// What vertices that half-faces share tell about the nesting inside of one grid cell, without a ray: a part of stage 7.
+// What vertices that half-faces share tell about the nesting inside of one grid cell, without a ray. Part of cut_cells.h.
 #pragma once
 
 #include "cut/stages/cell_view.h"

@@ -1,5 +1,5 @@
-// Stage 4, stencil (paper, 4.3.1): the grid cells that the surface touches, their grid-faces, grid-edges and grid vertices, and what of
-// the surface lies in each.
+// The stencil (paper, 4.3.1): the grid cells that the surface touches, their grid-faces, grid-edges and grid vertices, and the parts of
+// the surface in each.
 //
 // In: Surface, TriFaces. Out: Stencil. A grid cell belongs to it if a tri-cut-face lies inside of it or in one of its grid-faces, or a
 // tri-edge in one of its grid-faces: so every grid-face between it and an untouched grid cell is whole.

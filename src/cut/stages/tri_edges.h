@@ -1,6 +1,6 @@
-// Stage 3, tri-edges (paper, 3.3 and 4.1.1): their crossings with the axial planes, in order.
+// Tri-edges (paper, 3.3 and 4.1.1): their crossings with the axial planes, in order.
 //
-// In: Input. Out: the first two ranges of CutVertices, and what of the tri-edges lies in grid-faces.
+// In: Input. Out: the first two ranges of CutVertices, and the pieces of tri-edges that lie in grid-faces.
 // After it: crossings of several planes at one point are one vertex; the slabs of every crossing are complete and exact.
 #pragma once
 
@@ -17,7 +17,7 @@ struct FaceEdge {
   VertexId from, to;
 };
 
-/// The surface and the cut-vertices on it, which point into the others: so it stays where it is.
+/// The surface and the cut-vertices on it. They refer to its other members, so it can't be moved or copied.
 struct Surface {
   Input input;
   CutVertices vertices;
@@ -29,7 +29,7 @@ struct Surface {
   const MeshEdges& edges() const { return input.mesh->edges; }
 };
 
-/// From `surface.input` the rest of the surface.
+/// Fills in the rest of the surface from `surface.input`.
 void cutTriEdges(Surface& surface, Run& run);
 
 }  // namespace mandoline::detail

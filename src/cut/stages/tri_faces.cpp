@@ -56,7 +56,7 @@ class Dicer {
   }
 
  private:
-  /// What other triangles leave inside of this one, which decides where its faces go.
+  /// The vertices and edges of other triangles inside this one, which decide where its faces go.
   void findInside() {
     faces_ = &chunk_.faces;
     keepOutside_ = false;
@@ -65,7 +65,7 @@ class Dicer {
     const Arrangement& arrangement = *input_.mesh->arrangement;
     const uint32_t t = triangle_.number;
     const auto vertices = arrangement.innerVertices[t];
-    keepOutside_ = !arrangement.overlaps[t].empty();  // whose faces are told apart by how they hang together
+    keepOutside_ = !arrangement.overlaps[t].empty();  // whose faces are told apart by how they are connected
     if (vertices.empty() && arrangement.innerEdges[t].empty() && !keepOutside_) return;
     faces_ = &chunk_.undivided;
     const auto add = [&](VertexId v) {
@@ -252,7 +252,7 @@ class Dicer {
   std::vector<Corner> onLines_;  // vertices of the arrangement inside of the triangle that lie on grid lines, by slab
 };
 
-/// Appends b, whose vertices in triangles are shifted by what the chunks before it made.
+/// Appends b, whose vertices in triangles are shifted by the number that the chunks before it made.
 void append(TriFaces& a, const TriFaces& b, VertexId firstInTriangle, uint32_t shift) {
   const auto shifted = [&](VertexId v) { return v < firstInTriangle ? v : VertexId{v.number + shift}; };
   a.loops.append(b.loops, shifted);

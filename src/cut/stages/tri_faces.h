@@ -1,4 +1,4 @@
-// Stage 3, triangles (paper, 4.1.2 and 4.2): dices every triangle by the axial planes that it spans into convex tri-cut-faces, each in one
+// Triangles (paper, 4.1.2 and 4.2): the axial planes that a triangle spans dice it into convex tri-cut-faces, each in one
 // grid cell, or in one grid-face if the triangle lies in an axial plane.
 //
 // In: Surface. Out: TriFaces, and the range of CutVertices that lie in triangles. Pieces outside the grid are left out.
@@ -36,7 +36,7 @@ struct TriFaces {
   }
 };
 
-/// Faces of triangles in whose inside others leave something, as if they did not: see divideFaces().
+/// Faces of triangles whose inside others reach into, not yet divided by those: see divideFaces().
 struct UndividedFaces : TriFaces {
   std::vector<TriangleId> hybridTriangles;  ///< per hybrid edge
 };

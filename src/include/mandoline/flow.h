@@ -19,27 +19,27 @@ struct Flow {
   SolveStatus status = SolveStatus::converged;
   std::vector<double> residuals;  ///< as in Solution
   std::array<double, 3> wind{};
-  std::vector<double> phi;           ///< per cell, at its centre; in each component of cellComponents() with the mean zero by volume
-  std::vector<double> faceVelocity;  ///< per face: the mean component along its normal; times faceArea what flows through
+  std::vector<double> phi;           ///< per cell, at its centre; its mean by volume is zero in each component of cellComponents()
+  std::vector<double> faceVelocity;  ///< per face: the mean component along its normal; times faceArea it is the flow through it
   std::vector<double> cellVelocity;  ///< 3 per cell, at its centroid
   /// 6 per cell: how the velocity changes in it, as the symmetric matrix xx, yy, zz, xy, yz, xz, whose trace is zero
   std::vector<double> cellGradient;
   std::vector<double> cellPressure;  ///< per cell, at its centroid: the pressure coefficient 1 - |velocity|^2 / |wind|^2
-  /// Components where the wind would bring more into the box than it takes out, or less; ascending. See solveFlow().
+  /// Components into which the wind would blow more than it takes out, or less; ascending. See solveFlow().
   std::vector<uint32_t> throttled;
 };
 
-/// Solves div grad phi = 0, where grad phi . N = wind . N on the sides of the box and nothing passes the surface, on either side of it, nor
-/// faces that a sub-complex was cut off at. As much flows into a cell as out of it, within the tolerance; what doesn't touch the box is
+/// Solves div grad phi = 0, where grad phi . N = wind . N on the sides of the box. Nothing flows through the surface, or through faces
+/// where a sub-complex was cut off. Within the tolerance, as much flows into a cell as out of it. Components that don't touch the box are
 /// at rest.
 ///
-/// Where the surface divides the box, a component may get more from the wind than it can give away, or less: then the larger of both is
-/// scaled down to the other on all its sides, so that nowhere on them it blows faster than the wind. A component that can only take or only
-/// give, a dead end, is at rest. So is a dead end within a component that only slits lead to: faces with less than a millionth of the area
-/// of others of their cells.
+/// Where the surface divides the box, the wind may bring more into a component than it takes out, or less. Then the larger of the two flows
+/// is scaled down to the smaller one, so that it is nowhere faster than the wind on the sides of the box. A component with only an inflow
+/// or only an outflow, a dead end, is at rest. So is a dead end within a component that only slits lead to: faces with less than a
+/// millionth of the area of other faces of their cells.
 ///
-/// In a cell the velocity is the gradient of a harmonic polynomial of degree two, fitted to what flows through its faces and those of the
-/// cells beside it, but of none that has both sides of a triangle. A uniform flow is exact.
+/// In a cell the velocity is the gradient of a harmonic polynomial of degree two, fitted to the flow through its faces and those of the
+/// cells beside it, except cells that have both sides of a triangle. A uniform flow is exact.
 ///
 /// The result is the same to the bit for any number of threads. Throws CallError if the wind is not finite and as poissonSystem() does
 /// (badArgument), if an option is out of range (badOption), or if cancelled.

@@ -14,7 +14,7 @@ namespace mandoline {
 enum class Intersections : uint8_t {
   resolve,    ///< cut as if the exact arrangement of the triangles had been given
   refuse,     ///< fail with selfIntersection, naming the first pair and the number of all
-  assumeNone  ///< don't look: quicker, but the result may be wrong where triangles do meet so
+  assumeNone  ///< don't look: quicker, but the result may be wrong where triangles do meet
 };
 
 /// How two triangles meet.
@@ -41,7 +41,7 @@ struct PairCounts {
   uint64_t total() const { return crossing + touching + overlapping + folded + identical; }
 };
 
-/// All pairs of triangles that meet, exactly. Triangles without area have no part; the vertices that they put on the edges of their
+/// All pairs of triangles that meet, exactly. Triangles without area are left out; the vertices that they put on the edges of their
 /// neighbours count as shared.
 struct MeshIntersections {
   PairCounts counts;  ///< of all pairs

@@ -29,14 +29,14 @@ enum class FileFormat {
 };
 /// The extension, e.g. "json".
 const char* name(FileFormat format);
-/// The format by the extension of a path, in any case; nothing if there is none such.
+/// The format for the extension of a path, in upper or lower case; nothing if there is no such format.
 std::optional<FileFormat> formatOf(const std::string& path);
-/// What can be written so: a cut-mesh, a mesh, outlines.
+/// What a format can hold: a cut-mesh, a mesh, outlines.
 bool isCutMeshFormat(FileFormat format);
 bool isMeshFormat(FileFormat format);
 bool isOutlineFormat(FileFormat format);
 
-/// What of a cut-mesh is written, and how.
+/// Which parts of a cut-mesh are written, and how.
 struct WriteOptions : RunOptions {
   bool untouched = true;  ///< whether untouched grid cells are written, too (.vtu, polyMesh)
   /// Per region of the cut-mesh 1 if it is written, else 0; empty for all. Of cells: those of the region. Of the surface: all that bounds
@@ -68,9 +68,9 @@ void writeMcm(const Sink& sink, const CutMesh& cutMesh, const RunOptions& option
 /// VTK XML unstructured grid of polyhedra with cell arrays grid_cell, region, winding, volume. Faces with holes are split alike on both
 /// sides. Takes little memory besides that of the cut-mesh.
 void writeVtu(const Sink& sink, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options = {});
-/// Numbers to write along: 1 or 3 for each cell, or each face, of a cell complex.
+/// Numbers to write beside the rest: 1 or 3 for each cell, or each face, of a cell complex.
 struct Field {
-  std::string name;  ///< not empty, that of no other array in the file, and without control characters and any of < > & "; else CallError
+  std::string name;  ///< not empty, unique in the file, without control characters and < > & "; else CallError
   std::span<const double> values;
 };
 /// The cells of a cell complex, made from the cut-mesh, as such polyhedra, which match face by face, with cell arrays grid_cell (the lowest

@@ -46,7 +46,7 @@ SparseMatrix edgeVertexIncidence(const CellComplex& cells, const ComplexEdges& e
 /// so that linear fields are exact there, too. (Beside a sliver this is of first order only: keep a fine layer, see CoarsenOptions.) Rows
 /// of other faces, the boundary's, are empty.
 SparseMatrix gradient(const CellComplex& cells, DualPoints dualPoints = DualPoints::centres);
-/// Cells x faces: u to what flows out of the cell, the integral of its divergence: incidence times area. Zero to rounding for a constant
+/// Cells x faces: u to the outflow of the cell, the integral of its divergence: incidence times area. Zero up to rounding for a constant
 /// field, u = U . faceNormal.
 SparseMatrix divergence(const CellComplex& cells);
 /// Cells x cells: divergence * gradient; symmetric, rows have the sum zero: the integral over the cell of phi's Laplacian if nothing flows

@@ -66,9 +66,9 @@ struct SolveOptions : RunOptions {
   double tolerance = 1e-10;  ///< of the residual, relative to the right side, both in the Euclidean norm
   int maxIterations = 500;
   FreeConstant freeConstant = FreeConstant::zeroMean;
-  /// In a component without a Dirichlet condition sources and what flows in have to cancel. False (default): they have to cancel
-  /// up to rounding, a billionth of their absolute sum there and 1e-15 of that everywhere; otherwise the data are incompatible. True:
-  /// whatever is in excess is taken away, evenly by volume.
+  /// In a component without a Dirichlet condition, sources and inflow have to cancel. False (default): they have to cancel
+  /// up to rounding: 1e-9 of the sum of their absolute values there plus 1e-15 of that everywhere; else the data are incompatible. True:
+  /// the excess is subtracted, evenly by volume.
   bool balance = false;
 };
 
@@ -90,7 +90,7 @@ struct Solution {
   std::vector<double> phi;        ///< per cell, at its dual point
   std::vector<double> residuals;  ///< before each iteration and after the last, relative as in SolveOptions; the last one is that of phi
   int64_t component = -1;         ///< of cellComponents(), if incompatible
-  double excess = 0;              ///< in that component: what flows in, less the integral of s
+  double excess = 0;              ///< in that component: the inflow minus the integral of s
 
   size_t iterations() const { return residuals.empty() ? 0 : residuals.size() - 1; }
 };

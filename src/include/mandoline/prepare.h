@@ -11,7 +11,7 @@ namespace detail {
 struct PreparedMeshData;
 }
 
-/// What of a cut does not depend on the grid: the checked and welded mesh, its unique edges, and where its triangles meet. Copies share it.
+/// The part of a cut that does not depend on the grid: the checked and welded mesh, its edges, where its triangles meet. Copies share it.
 class PreparedMesh {
  public:
   /// Empty: cutting it fails with emptyMesh.

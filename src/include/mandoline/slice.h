@@ -39,9 +39,9 @@ struct Slice {
 };
 
 /// Which vertices lie on which side is decided exactly and once for all cells. Those on the plane count as above it (below it if nothing
-/// else is): the result is that of a plane moved by an infinitesimal, so a plane through vertices, edges or faces cuts every place once.
-/// Polygons that have no width on the plane itself may be left out. A plane that misses the grid cuts nothing. Throws CallError for a
-/// normal that is zero or not finite (element: the axis) and an offset that is not finite (element: which).
+/// else is): the result is that of a plane moved by an infinitesimal, so a plane through vertices, edges or faces still cuts everything
+/// exactly once. Polygons that have no width on the plane itself may be left out. A plane that misses the grid cuts nothing. Throws
+/// CallError for a normal that is zero or not finite (element: the axis) and an offset that is not finite (element: which).
 Slice slice(const CutMesh& cutMesh, const Plane& plane, const SliceOptions& options = {});
 
 /// The slices of parallel planes, each as slice() gives it, in the order of their offsets, for less than many calls cost.

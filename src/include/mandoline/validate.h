@@ -36,8 +36,8 @@ struct ValidateOptions : RunOptions {
 };
 
 /// The paper's four checks (5.6) and the invariants of a cut-mesh. `mesh` is the input. Any arrays may be passed: if they don't fit
-/// together, or not to the mesh, the first check says so and is the only one. Throws CallError if cancelled, or if the
-/// snap tolerance is none that cut() takes.
+/// together or don't fit the mesh, the first check says so and is the only one. Throws CallError if cancelled, or if cut() would not take
+/// the snap tolerance.
 Validation validate(const MeshView& mesh, const CutMesh& cutMesh, const ValidateOptions& options = {});
 
 }  // namespace mandoline

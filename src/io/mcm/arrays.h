@@ -1,4 +1,4 @@
-// The arrays of a cut-mesh as bytes. Each entry is predicted by what comes before it, and what it differs by takes few bits. Where they are
+// The arrays of a cut-mesh as bytes. Each entry is predicted from those before it, and the difference takes few bits. Where they are
 // read, `length` is the length that the array gets; where they are written, the one that it has.
 #pragma once
 

@@ -7,7 +7,7 @@ namespace {
 
 constexpr int64_t kNoCell = -1;
 
-/// Per half-face its cell, or kNoCell. Of several, any; they come out of the differences then.
+/// Per half-face its cell, or kNoCell; if it has several, any of them: the differences then record the others.
 std::vector<int64_t> cellsOf(const CutMesh& cutMesh) {
   std::vector<int64_t> cells(2 * cutMesh.faceTriangle.size(), kNoCell);
   for (size_t c = 0; c + 1 < cutMesh.cellHalfFaceOffsets.size(); ++c) {

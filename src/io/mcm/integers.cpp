@@ -46,7 +46,7 @@ Frequencies frequencies(const std::vector<Split>& splits) {
     if (counts[s] > 0) scaled[s] = std::max(1u, uint32_t(uint64_t(counts[s]) * kScale / splits.size()));
     sum += scaled[s];
   }
-  while (sum != kScale) {  // rounding is at the cost of the largest, or to its gain
+  while (sum != kScale) {  // the largest makes up for the rounding
     uint32_t& largest = *std::max_element(scaled.begin(), scaled.end());
     const uint32_t changed = sum < kScale ? largest + (kScale - sum) : largest - std::min(sum - kScale, largest / 2);
     sum += changed - largest;
@@ -144,7 +144,7 @@ Frequencies takeFrequencies(std::string_view& bytes) {
   return frequency;
 }
 
-/// Bytes with so many of any value behind them that whoever reads need not look for the end before each integer, but once at the end.
+/// Bytes followed by enough padding that a reader need not look for the end before each integer, but only once at the end.
 class Padded {
  public:
   Padded(std::vector<char>& buffer, std::string_view bytes, size_t padding) : size_(bytes.size()) {
@@ -160,7 +160,7 @@ class Padded {
   size_t size_;
 };
 
-/// The bits from a place on, which moves behind them.
+/// The bits from a place on; moves the place past them.
 uint64_t takeBits(const Padded& bytes, size_t& place, int bits) {
   constexpr int kMost = 57;  // as many as 8 bytes have from any bit of the first one on
   if (bits > kMost) {

@@ -20,7 +20,7 @@ struct Damaged {
 inline uint64_t fromSigned(int64_t n) { return uint64_t(n) << 1 ^ uint64_t(n >> 63); }
 inline int64_t toSigned(uint64_t n) { return int64_t(n >> 1) ^ -int64_t(n & 1); }
 
-/// Whoever uses it calls finish() at the end.
+/// finish() has to be called at the end.
 class IntegerWriter {
  public:
   void put(uint64_t n) {

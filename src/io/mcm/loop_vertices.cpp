@@ -31,7 +31,7 @@ class Neighbours {
 
  private:
   void moveToFront(uint32_t vertex, uint32_t other) {
-    bool found = false;  // and no branch on it: which place it is can't be foretold
+    bool found = false;  // no branch on it, since the place can't be predicted
     uint32_t moved = other;
     for (uint32_t& entry : lists_[vertex]) {
       const uint32_t old = entry;

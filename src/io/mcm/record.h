@@ -24,7 +24,7 @@ struct RecordHead {
   uint64_t expectedChecksum(std::string_view payloadBytes) const;
 };
 
-/// The grid and what else is no array.
+/// The grid and everything else that is not an array.
 template <class Stream, class AnyCutMesh>
 void codeHead(typename Stream::Bytes& bytes, AnyCutMesh& cutMesh);
 inline constexpr std::string_view kHeadName = "grid";

@@ -1,4 +1,4 @@
-// Groups of triangles, in a second walk through the text of a file, so that those who need none read without them.
+// Groups of triangles, read in a second pass through the text of a file, so that callers who need none don't pay for them.
 #include <bit>
 #include <map>
 
@@ -79,7 +79,7 @@ class Labels {
 
 std::string_view firstWord(std::string_view names) { return names.substr(0, names.find_first_of(" \t\v\f")); }
 
-// Files that readMesh() takes have polygons and solids as they should be; of others there are some groups, or a FileError.
+// The polygons and solids of files that readMesh() takes are well-formed; for other files, some groups or a FileError may come out.
 
 TriangleGroups readObjGroups(const FileBytes& file) {
   const auto lacks = [&](std::string_view word) { return file.bytes.find(word) == std::string_view::npos; };

@@ -21,7 +21,7 @@ class TextCursor {
   /// Goes to the beginning of the next line.
   void nextLine();
 
-  // These take the next word of this line and fail if there is none, or none such.
+  // These take the next word of this line and fail if there is none or it is of another kind.
   std::string_view word(const char* expected);
   double number();
   int64_t integer();

@@ -7,7 +7,7 @@
 namespace mandoline::detail {
 namespace {
 
-/// The place of a point in a triangle by the signs of its turns about the sides, of which a side's own is 0; false if it lies outside.
+/// The place of a point in a triangle by the signs of its turns about the sides, 0 on a side; false if it lies outside.
 bool placeBySigns(const std::array<int, 3>& signs, Place& place) {
   const auto [least, greatest] = std::minmax({signs[0], signs[1], signs[2]});
   if (least < 0 && greatest > 0) return false;
@@ -152,7 +152,7 @@ bool ContactFinder::locate(const Corners& t, uint32_t v, Place& place) {
   return placeBySigns({orient(t[0], t[1], v, axis), orient(t[1], t[2], v, axis), orient(t[2], t[0], v, axis)}, place);
 }
 
-/// Where a segment that crosses the plane of a triangle does so; false if outside.
+/// Where a segment crosses the plane of a triangle, which it is known to do; false if outside the triangle.
 bool ContactFinder::locateCrossing(uint32_t p, uint32_t q, const Corners& t, Place& place) {
   return placeBySigns({orient(p, q, t[0], t[1]), orient(p, q, t[1], t[2]), orient(p, q, t[2], t[0])}, place);
 }

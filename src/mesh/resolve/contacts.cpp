@@ -10,7 +10,7 @@
 namespace mandoline::detail {
 namespace {
 
-/// The tri-vertices on a side of a triangle from one to another, which are shared or made shared by stitching; empty if either is not.
+/// The tri-vertices on a side of a triangle from one to another, both corners or stitched into the side; empty if either is neither.
 std::vector<uint32_t> chainBetween(const WeldedMesh& mesh, uint32_t triangle, int side, uint32_t from, uint32_t to) {
   const auto& t = mesh.triangles[triangle];
   const auto [low, high] = std::minmax(t[size_t(side)], t[size_t(side + 1) % 3]);
@@ -27,7 +27,7 @@ std::vector<uint32_t> chainBetween(const WeldedMesh& mesh, uint32_t triangle, in
   return {first, last + 1};
 }
 
-/// Whether all that two triangles have in common are vertices and edges on one side of each, which stitching makes shared ones.
+/// Whether two triangles have only vertices and edges on one side of each in common, which stitching makes shared ones.
 bool isStitched(const WeldedMesh& mesh, const PairContact& pair) {
   if (mesh.stitches.empty() || pair.contact.hasArea()) return false;
   std::vector<uint32_t> chains[2];
@@ -41,7 +41,7 @@ bool isStitched(const WeldedMesh& mesh, const PairContact& pair) {
   return !chains[0].empty() && chains[0] == chains[1];
 }
 
-/// A triangle that others are told apart from in doubles: quickly, but not all that are.
+/// Tells in doubles that others lie apart from a triangle: quickly, but without finding all that do.
 class Quick {
  public:
   explicit Quick(const SortedMesh& mesh) : mesh_(mesh) {}
@@ -68,7 +68,7 @@ class Quick {
  private:
   using Corners = std::array<uint32_t, 3>;
 
-  /// Whether all corners of the other but shared ones lie on one side of this triangle's plane.
+  /// Whether all corners of the other, except shared ones, lie on one side of this triangle's plane.
   bool isBeside(const Corners& other) const {
     const Corners& mine = mesh_.triangles[triangle_];
     bool above = false, below = false;

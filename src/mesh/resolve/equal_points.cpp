@@ -33,7 +33,7 @@ void addEntries(const MeshPoints& points, uint32_t v, double size, std::vector<E
   }
 }
 
-/// Calls f(u, v) for points at one place among some near each other, so that it connects all there.
+/// Calls f(u, v) for pairs of points at one place, among points near each other, so that the pairs connect all points there.
 template <class F>
 void forEqual(const MeshPoints& points, std::span<const uint32_t> group, Predicates& predicates, const F& f) {
   ExactPoints exact(points, group, predicates);

@@ -5,7 +5,7 @@
 
 namespace mandoline::detail {
 
-/// Per point the lowest one at its place, among the made points and the given tri-vertices; the others keep their own.
+/// For each made point and given tri-vertex, the lowest of them at its place; for other points, themselves.
 std::vector<uint32_t> findEqualPoints(const MeshPoints& points, const std::vector<uint32_t>& triVertices, Predicates& predicates);
 
 }  // namespace mandoline::detail

@@ -11,7 +11,7 @@
 
 namespace mandoline::detail {
 
-/// Some points, each of which is made exact at most once, however often it is compared.
+/// Some points. The exact coordinates of each are computed once at most, however often it is compared.
 class ExactPoints {
  public:
   ExactPoints(const MeshPoints& points, std::span<const uint32_t> ids, Predicates& predicates)

@@ -59,7 +59,7 @@ Plane<Number> planeOf(const WeldedMesh& mesh, uint32_t triangle, const Point& re
   return {normal, dot(normal, difference<Number>(a, reference))};
 }
 
-/// The point where three planes meet; the sign of its w is to be mended.
+/// The point where three planes meet; its w may still be negative.
 template <class Number>
 Homogeneous<Number> meetingPoint(const Plane<Number>& p, const Plane<Number>& q, const Plane<Number>& r) {
   const Vector3<Number> qr = cross(q.normal, r.normal), rp = cross(r.normal, p.normal), pq = cross(p.normal, q.normal);

@@ -59,7 +59,7 @@ int MeshPoints::orient(uint32_t u, uint32_t v, uint32_t w, int axis, Predicates&
   });
 }
 
-/// Whether a point lies on a triangle's plane because of what it is.
+/// Whether a point lies on a triangle's plane because of what made it.
 bool MeshPoints::liesOn(const PointKey& key, uint32_t triangle) const {
   const auto& t = mesh_->triangles[triangle];
   const auto isCorner = [&](uint32_t v) { return std::find(t.begin(), t.end(), v) != t.end(); };

@@ -13,7 +13,7 @@ class MeshPoints {
  public:
   explicit MeshPoints(const WeldedMesh& mesh) : mesh_(&mesh), firstMade_(uint32_t(mesh.points.size())) {}
 
-  /// Adds the point of a key that is no tri-vertex; place(id) is to be called for it.
+  /// Adds the point of a key that is not a tri-vertex; place(id) has to follow.
   uint32_t add(const PointKey& key) {
     made_.push_back({key, {}});
     return firstMade_ + uint32_t(made_.size()) - 1;

@@ -7,8 +7,8 @@ namespace {
 
 constexpr uint32_t kNone = ~0u;
 
-/// Per side, 3 per triangle, one that runs between the same ends in the opposite direction, which has that one for its twin. A few at
-/// crowded vertices may go without.
+/// Per side, 3 per triangle, its twin: a side that runs between the same ends in the opposite direction and has this side as its twin. A
+/// few at crowded vertices may have none.
 std::vector<uint32_t> findTwins(const SortedMesh& mesh) {
   constexpr int kMostLooks = 32;
   const uint32_t sides = uint32_t(3 * mesh.triangles.size());
@@ -44,7 +44,7 @@ class PatchGrower {
   explicit PatchGrower(const SortedMesh& mesh) : mesh_(mesh), twins_(findTwins(mesh)), patches_(mesh.triangles.size(), kNone) {}
 
   Patches run() {
-    constexpr uint32_t kApart = 256;  // the first seeds: patches that start beside each other get in each other's way
+    constexpr uint32_t kApart = 256;  // the first seeds: patches that start beside each other hinder each other
     for (uint32_t first = 0; first < kApart; ++first) {
       for (uint32_t t = first; t < patches_.size(); t += kApart) {
         if (patches_[t] == kNone) grow(t);

@@ -1,7 +1,7 @@
 // Parts of a mesh that can't meet themselves, found without comparing triangles.
 //
 // A patch is a set of triangles that an axial projection lays out side by side. Each triangle keeps its orientation. The outline, which is
-// all sides but those that two triangles of the patch run through in opposite directions, goes once around a centre, and each of its sides
+// all sides but those that two triangles of the patch traverse in opposite directions, goes once around a centre, and each of its sides
 // goes counter-clockwise. So every ray from the centre meets the outline once: it does not touch itself, and its winding number about any
 // other point, which is how many triangles cover that, is 1 or 0. (Volino and Magnenat-Thalmann 1994, "Efficient self-collision detection
 // on smoothly discretized surface animations using geometrical shape regularity", look for such parts, too.)

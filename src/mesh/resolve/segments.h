@@ -1,11 +1,11 @@
-// What other triangles leave in one triangle, and where those segments meet each other.
+// The segments that a triangle shares with others, and where they meet each other.
 #pragma once
 
 #include "mesh/resolve/mesh_points.h"
 
 namespace mandoline::detail {
 
-/// A segment that another triangle leaves in a triangle, not along one of its sides.
+/// The segment that a triangle shares with another one, unless it runs along a side.
 struct Segment {
   uint32_t triangle;
   std::array<uint32_t, 2> ends;  ///< points
@@ -57,7 +57,7 @@ class SegmentCrosser {
   std::vector<Extent> extents_;
 };
 
-/// An axis along which two different points differ, the one where they do so most if that can be told.
+/// An axis along which two different points differ; if it can be told, the one along which they differ most.
 int axisAlong(const MeshPoints& points, uint32_t u, uint32_t v, Predicates& predicates);
 
 }  // namespace mandoline::detail

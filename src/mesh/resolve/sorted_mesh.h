@@ -1,4 +1,4 @@
-// The kept triangles of a mesh in an order in which neighbours are mostly near in memory, whatever the order in which they were given.
+// The kept triangles of a mesh, reordered so that neighbours are mostly near each other in memory.
 #pragma once
 
 #include "mesh/welded_mesh.h"

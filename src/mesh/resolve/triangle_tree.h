@@ -6,11 +6,11 @@
 
 namespace mandoline::detail {
 
-/// A box in single precision, which holds what it is made around: half the memory.
+/// A box in single precision, rounded outwards: half the memory.
 using LooseBox = BoxOf<float>;
 
-/// A tree of boxes around the triangles of a sorted mesh, whose nodes part groups, and halve those in the mesh's order. Pairs in one group
-/// are of no interest.
+/// A tree of boxes around the triangles of a sorted mesh. Its upper nodes separate groups, its lower ones halve a group in the mesh's
+/// order. Pairs within a group are of no interest.
 class TriangleTree {
  public:
   /// `groupOf` each triangle is from 0 to groups - 1.

@@ -12,7 +12,7 @@ class GridCorners {
  public:
   GridCorners(const CutMesh& cutMesh, const OctreeCells& octree);
 
-  /// Those that are no cut-vertices: their ids are the ones that follow the cut-vertices'.
+  /// Those that are not cut-vertices: their ids follow those of the cut-vertices.
   const std::vector<GridIndex>& added() const { return added_; }
 
   /// Appends the loop of an octree cell's lower (0) or upper (1) side, counter-clockwise about +axis, with the vertices that other cells
@@ -20,7 +20,7 @@ class GridCorners {
   void appendSide(size_t cell, size_t axis, int side, std::vector<uint32_t>& ids) const;
 
  private:
-  /// A grid line's piece of 2^level cells, or what of it lies inside the grid.
+  /// A piece of a grid line, 2^level cells long, or the part of that inside the grid.
   struct Edge {
     size_t axis;
     int level;

@@ -1,6 +1,6 @@
 // Lengths, areas, volumes and centroids, accurate relative to the element's own size.
 //
-// A cut-vertex's rounded position is good to 1e-16 of the grid's coordinates, which is nothing beside a cell of width 1e-10. So vertices
+// A cut-vertex's rounded position is good to 1e-16 of the grid's coordinates, which is useless in a cell of width 1e-10. So vertices
 // are made again from their provenance as double-doubles (places.h), and an element is measured in coordinates relative to one of its
 // vertices. Sums there are plain doubles where their terms don't cancel, else
 // double-doubles.

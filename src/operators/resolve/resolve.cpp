@@ -12,7 +12,7 @@
 namespace mandoline {
 namespace {
 
-/// One cell around the mesh, which its triangles don't reach the sides of.
+/// One cell around the mesh, so large that no triangle reaches its sides.
 Grid cellAround(const MeshView& mesh) {
   double low[3], high[3], size = 0;
   for (size_t d = 0; d < 3; ++d) {

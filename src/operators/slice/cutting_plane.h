@@ -14,7 +14,7 @@ class CuttingPlane {
   /// Nothing for a plane that misses the grid. The plane's numbers must be finite, and its normal not zero.
   static std::optional<CuttingPlane> make(const Plane& plane, const Grid& grid, const ScaledSpace& space);
 
-  /// The rule for points on the plane makes no difference between them: all above, or all below where nothing else is.
+  /// All points on the plane count as above it, or as below if nothing else is below.
   bool isAbove(const ScaledPoint& p) const {
     const int sign = signAt(p);
     return sign > 0 || (sign == 0 && onIsAbove_);

@@ -1,4 +1,4 @@
-// What a plane cuts out of faces: points on edges of their triangles, and segments between them.
+// Where a plane cuts faces: points on edges of their triangles, and segments between them.
 #pragma once
 
 #include "base/csr.h"
@@ -19,7 +19,7 @@ struct CutFace {
   std::array<uint32_t, 2> cells;  ///< the cut-cell on each side, or kNone
 };
 
-/// What a plane cuts out of the faces of some cut-cells.
+/// Where a plane cuts the faces of some cut-cells.
 struct CutFaces {
   std::vector<CutFace> faces;                       ///< ascending
   std::vector<Segment> segments;                    ///< as points

@@ -84,8 +84,8 @@ void LoopTracer::sortClockwise(uint32_t point) {
     const PlanePoint& q = target(ray);
     ray.half = q == p ? 0 : q.y > p.y || (q.y == p.y && q.x > p.x) ? 1 : 2;
   }
-  // In one direction, wedges without width are closed at once: they would not touch the rest. Slits have the same thing on both sides: what
-  // is before them is closed, then what is behind them opened.
+  // In one direction, wedges without width are closed at once: they would not touch the rest. Slits have the inside on both sides: the
+  // wedge before them is closed, then the one behind them opened.
   const auto rank = [&](const Ray& ray) {
     const Arc& arc = arcs_[ray.arc];
     return isSlit(arc) ? std::tuple(true, arc.segment, !ray.starts) : std::tuple(false, 0u, ray.starts);

@@ -1,4 +1,4 @@
-// Chains arcs into loops, with what they go around to their left.
+// Chains arcs into loops that have the inside to their left.
 #pragma once
 
 #include "base/csr.h"
@@ -9,8 +9,8 @@ namespace mandoline::operators {
 
 /// One set of arcs at a time: add() them, then run(). The buffers are kept from set to set.
 ///
-/// The arcs go around the cut of something closed, so as many end in a point as start there. Where there are several, the way goes on
-/// along the other side of the wedge of that thing, so that loops that touch do not cross. What rounding has left no width is left out.
+/// The arcs go around the cut of something closed, so as many end in a point as start there. Where there are several, a loop continues
+/// along the other side of its wedge of the inside, so that loops that touch do not cross. What rounding has left no width is left out.
 class LoopTracer {
  public:
   /// From now on points are at `at`, seen so that the plane's normal points up.

@@ -1,4 +1,4 @@
-// Which loops of a cell's cut are outlines of polygons, and which are holes in which of them.
+// Which loops of a cell's cut are outlines of polygons, and which polygon each hole is in.
 #pragma once
 
 #include <array>

@@ -37,7 +37,7 @@ void OutlineWriter::addPolygons(std::span<const RegionArc> arcs) {
   const detail::Csr<uint32_t>& polygons = nesting_.run(loops, points_->seen());
   findCorners(arcs);
   for (size_t p = 0; p < polygons.size(); ++p) {
-    if (corners_[polygons[p][0]].size() < 3) continue;  // forth and back along one line
+    if (corners_[polygons[p][0]].size() < 3) continue;  // there and back along one line
     for (const uint32_t l : polygons[p]) {
       if (corners_[l].size() < 3) continue;
       for (const uint32_t point : corners_[l]) outlines_->loopPoints.push_back(outputPoint(point));

@@ -16,9 +16,9 @@ class PolygonWriter {
   void start(const Points& points, Slice& slice);
 
   void addLoop(std::span<const uint32_t> points);
-  /// Adds a loop of what is to be filled, the outline first.
+  /// Adds a loop of the polygon to be filled, the outline first.
   void addFillLoop(std::span<const uint32_t> points);
-  /// Ends a polygon of the loops that came since the last one.
+  /// Ends a polygon: it has the loops added since the last one.
   void endPolygon(int32_t cell, const GridCell& gridCell, uint32_t region);
   /// A polygon of an untouched grid cell.
   void addPolygon(std::span<const uint32_t> loop, const GridCell& gridCell, uint32_t region);

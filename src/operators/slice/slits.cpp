@@ -22,7 +22,7 @@ const detail::Csr<uint32_t>& Slits::remove(const detail::Csr<uint32_t>& loops, s
   return loops_;
 }
 
-/// A loop that is run through forth and back somewhere has two points, or comes to one twice.
+/// A loop with edges in both directions has only two points, or comes to a point twice.
 bool Slits::mayHaveAny(std::span<const uint32_t> loop) {
   ++round_;
   for (const uint32_t p : loop) {
@@ -57,7 +57,7 @@ void Slits::removePairs() {
   }
 }
 
-/// Removes two opposite arcs: the ways that lead to them go on behind the other one.
+/// Removes two opposite arcs: the arc before each is joined to the arc after the other.
 void Slits::remove(uint32_t a, uint32_t b) {
   const auto bypass = [&](uint32_t from, uint32_t to) {
     arcs_[from].next = to;

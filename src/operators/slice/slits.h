@@ -1,5 +1,5 @@
 // Polygons without their slits, to be filled: a slit may touch an outline between its points, where rounding puts it on either side.
-// Rounding also makes slits of its own, where a cell has next to no width.
+// Rounding makes more slits where a cell has almost no width.
 #pragma once
 
 #include "base/csr.h"
@@ -10,7 +10,7 @@ namespace mandoline::operators {
 /// One polygon at a time; the buffers are kept from polygon to polygon.
 class Slits {
  public:
-  /// The polygon's loops less what they run through forth and back, the outline first. The result holds until the next call.
+  /// The polygon's loops without the edges that they traverse in both directions, the outline first. The result holds until the next call.
   const detail::Csr<uint32_t>& remove(const detail::Csr<uint32_t>& loops, std::span<const uint32_t> polygon,
                                       const std::vector<PlanePoint>& at);
 

@@ -83,7 +83,7 @@ void EarClipper::suggest(uint32_t ear) {
   }
 }
 
-/// Takes the suggested corner with the lowest key, the lowest of these; kNone when there is none left.
+/// Takes the suggested corner with the lowest key, and of equal keys the lowest corner; kNone when none is left.
 uint32_t EarClipper::takeSuggested() {
   if (isSmall()) {  // a heap would cost more than looking at all of them
     const auto least = std::min_element(keys_.begin(), keys_.end());
@@ -112,10 +112,10 @@ uint32_t EarClipper::nextEar() {
   }
 }
 
-/// A corner because of which a convex corner is no ear, as long as it is there; kNone if it is one. Corners at the same places as the
-/// ear's do not block: where a vertex has several, the wedges of the face at them are disjoint, and if an edge there led into the ear,
-/// its other end or what is beyond would lie inside too. On the ear's border corners block if it is `closed`. Only corners that are not
-/// convex need to be asked: of all that block, the one farthest from the edge that the ear leaves is such a corner.
+/// A corner that keeps a convex corner from being an ear as long as it is there; kNone if the corner is an ear. Corners at the same places
+/// as the ear's do not block: where a vertex has several, the wedges of the face at them are disjoint, and if an edge there led into the
+/// ear, its other end or what is beyond would lie inside too. On the ear's border corners block if it is `closed`. Only corners that are
+/// not convex need to be asked: of all that block, the one farthest from the edge that the ear leaves is such a corner.
 uint32_t EarClipper::blockerOf(uint32_t ear, bool closed) const {
   const PlanePoint &p = chains_->at(chains_->previous(ear)), &q = chains_->at(ear), &r = chains_->at(chains_->next(ear));
   const PlanePoint low = {std::min({p.x, q.x, r.x}), std::min({p.y, q.y, r.y})};
@@ -148,8 +148,8 @@ uint32_t EarClipper::leastBadEar(uint32_t first) const {
   return best;
 }
 
-/// Where there is no ear: a slit that ends here, else what touches others only in its border, else the smallest area, but triangles flat
-/// along a side last.
+/// The rank of a corner where there is no ear: slits that end here first, then triangles that touch others only in their border, then the
+/// smallest area; triangles flat along a side last.
 std::pair<int, double> EarClipper::badness(uint32_t ear) const {
   const uint32_t before = chains_->previous(ear), after = chains_->next(ear);
   const PlanePoint &a = chains_->at(before), &b = chains_->at(ear), &c = chains_->at(after);

@@ -54,7 +54,7 @@ void LoopJoiner::splice(size_t begin, size_t end, bool open) {
   }
 }
 
-/// Holes from left to right, so that each finds all to its left in one chain with the outer loop.
+/// Holes from left to right, so that everything to the left of each is already in one chain with the outer loop.
 void LoopJoiner::bridgeHoles() {
   const auto place = [&](uint32_t i) { return std::pair(chains_->at(i).x, chains_->at(i).y); };
   holes_.clear();

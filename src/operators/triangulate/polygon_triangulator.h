@@ -2,8 +2,8 @@
 // vertices are added.
 //
 // A polygon's loops are joined into one cyclic chain of corners: loops that share a vertex are spliced there, the others are joined by
-// bridges (edges run through in both directions). Then ears are clipped off: a chain of n corners gives n - 2 triangles. So whatever the
-// coordinates are, the triangles use the directed edges of the loops once and every other edge once in each direction: geometry only
+// bridges (edges traversed in both directions). Then ears are clipped off: a chain of n corners gives n - 2 triangles. So for any
+// coordinates, the triangles use the directed edges of the loops once and every other edge once in each direction: geometry only
 // chooses. It chooses by exact signs of the rounded positions: a face whose rounded loops don't cross gets triangles of positive area.
 // Where rounding has made a face overlap itself or vanish, the least bad ear is clipped; where that would be a triangle with a vertex
 // twice, its two other edges, which are opposite, cancel instead.

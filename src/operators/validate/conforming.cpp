@@ -50,7 +50,7 @@ void ConformingCheck::checkVertex(const GridCell& cell, const Edge& edge, uint32
 /// Exact: whether a vertex on the line of an edge lies inside of that.
 bool ConformingCheck::isBetween(const Context& x, const Edge& edge, uint32_t vertex) {
   for (const uint32_t v : {edge[0], edge[1], vertex}) {
-    if (!x.exact.isKnown(v)) return false;  // said elsewhere
+    if (!x.exact.isKnown(v)) return false;  // reported elsewhere
   }
   const ExactPoint from = exactPoint(x, edge[0]), to = exactPoint(x, edge[1]), point = exactPoint(x, vertex);
   for (int d = 0; d < 3; ++d) {

@@ -10,7 +10,7 @@
 namespace mandoline::validation {
 namespace {
 
-/// Per tri-vertex that a triangle has, the lowest one at its position; of the others none.
+/// Per tri-vertex that a triangle has, the lowest such one at its position; none for other tri-vertices.
 std::vector<uint32_t> welded(const MeshView& mesh, const std::vector<double>& positions) {
   std::vector<uint8_t> referenced(mesh.vertexCount(), 0);
   for (const uint32_t v : mesh.triangles) referenced[v] = 1;

@@ -5,7 +5,7 @@
 // - an edge lies in a face that it does not bound,
 // - two faces have a segment in common whose ends are vertices of one in the plane of the other,
 // - two faces have the same outline.
-// Rounded places find what may meet; where they leave open on which side of something a point lies, its exact place tells.
+// Rounded places find what may meet; where they leave open on which side of something a point lies, its exact place decides.
 #include <algorithm>
 
 #include "base/sort.h"
@@ -67,7 +67,7 @@ void CrossingCheck::buildTrees(const GridCell& cell) {
   segmentTree_.build(hubs_, [&](uint32_t e) { return std::span<const uint32_t>(segments_[e].ends); });
 }
 
-/// Edges and faces that share a hub. Triangles meet elsewhere, too, only where their edges tell, or if they are the same.
+/// Edges and faces that share a hub. Triangles that also meet elsewhere are found by their edges, unless they are the same.
 void CrossingCheck::checkAbout(const GridCell& cell, const Hubs::Hub& hub) {
   const Vec3 from = cell.local(cell.context.vertex(hub.vertex));
   const auto directionsOfFace = [&](uint32_t f) {
@@ -190,7 +190,7 @@ bool CrossingCheck::isInside(const GridCell& cell, const GridCell::Face& face, c
   return inside;
 }
 
-/// The side of a face's plane that a vertex lies on, of which the height over it is known.
+/// The side of a face's plane that a vertex lies on, given its height above it.
 int CrossingCheck::sideOf(const GridCell& cell, uint32_t v, double height, uint32_t f) const {
   if (std::fabs(height) > planes_[f].doubt) return height > 0 ? 1 : -1;
   const auto corners = cell.cornerVertex.begin(), last = corners + cell.faces[f].lastCorner;
@@ -215,7 +215,7 @@ void CrossingCheck::checkEdges(const GridCell& cell, const Segment& one, const S
   if (sides[0] * sides[1] > 0 || sides[2] * sides[3] > 0) return;
   const Context& x = cell.context;
   const Residues &p = x.exact[one.ends[0]], &q = x.exact[other.ends[0]];
-  if (!areKnown(x, one.ends) || !areKnown(x, other.ends)) return;  // said elsewhere
+  if (!areKnown(x, one.ends) || !areKnown(x, other.ends)) return;  // reported elsewhere
   const Residues along = x.exact[one.ends[1]] - p, across = cross(along, x.exact[other.ends[1]] - q);
   if (isZero(across) || !dot(across, q - p).isZero()) return;  // parallel or skew
   const bool certain = sides[0] * sides[1] * sides[2] * sides[3] != 0;
@@ -270,7 +270,7 @@ bool CrossingCheck::isIn(const GridCell& cell, uint32_t v, uint32_t f) const {
   return cell.context.inPlane(v, exactPlane(cell.context, size_t(cell.context.cut.faceTriangle[cell.faces[f].id])));
 }
 
-/// Adds the vertices of a face that may lie in the plane of another one; whether all do.
+/// Adds the vertices of a face that may lie in the plane of another one. Returns whether all may.
 bool CrossingCheck::gatherNear(const GridCell& cell, uint32_t face, uint32_t other) {
   const Plane& plane = planes_[other];
   bool all = true;

@@ -80,7 +80,7 @@ class Finder {
     while (along < 2 && x_.onPlane(v, along)) ++along;
     return meet(axialPlane(v, (along + 1) % 3), axialPlane(v, (along + 2) % 3), planeOf(triangle));
   }
-  /// Where two triangles meet the first plane of the vertex that does it.
+  /// Where two triangles meet the first plane of the vertex for which that is a point.
   Quotient placeInTwoTriangles(uint32_t v, const Plane& s, const Plane& t) const {
     for (int axis = 0; axis < 3; ++axis) {
       if (!x_.onPlane(v, axis)) continue;
@@ -108,14 +108,14 @@ class Finder {
   const Context& x_;
 };
 
-/// What dot(normal, p) - offset is at a point, times its w.
+/// dot(normal, p) - offset at a point, times its w.
 Exact heightOf(const ExactPoint& p, const PlaneOf<Exact>& plane) { return dot(plane.normal, p.x) - plane.offset * p.w; }
 
 }  // namespace
 
 ExactPlane exactPlane(const Context& context, size_t triangle) { return Finder<Residue>(context).planeOf(triangle); }
 
-/// One inverse does for all: that of the product of all divisors.
+/// One inverse is enough: that of the product of all divisors.
 ExactPlaces::ExactPlaces(const Context& context) {
   const Finder<Residue> finder(context);
   const uint32_t count = uint32_t(context.cut.vertexCount());

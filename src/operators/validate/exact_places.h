@@ -1,5 +1,5 @@
-// Where the vertices of a cut-mesh lie exactly, as their cells, masks and parents say: for all questions of what lies on what, by residues,
-// and on which side of it, by exact numbers.
+// The exact places of the vertices of a cut-mesh, as their cells, masks and parents give them. Whether one thing lies on another is decided
+// by residues, on which side of it by exact numbers.
 #pragma once
 
 #include <array>
@@ -73,7 +73,7 @@ struct ExactPoint {
 };
 /// A vertex whose place is known.
 ExactPoint exactPoint(const Context& context, uint32_t v);
-/// Half of the way between two points.
+/// The point halfway between two points.
 ExactPoint middle(const ExactPoint& a, const ExactPoint& b);
 /// Where the line through two points on different sides of a triangle's plane meets it.
 ExactPoint meet(const Context& context, const ExactPoint& a, const ExactPoint& b, size_t triangle);

@@ -8,7 +8,7 @@
 
 namespace mandoline::validation {
 
-/// Of the two grid cells at a grid-face the upper one checks it, or the only one at the upper end of the grid.
+/// A grid-face is checked by the upper one of its two grid cells; at the upper end of the grid, by the only one.
 void GridFaceCheck::run(const GridCell& cell, const std::vector<Edge>& edges) {
   for (int d = 0; d < 3; ++d) {
     checkSide(cell, edges, 2 * d);

@@ -92,7 +92,7 @@ detail::Box directionsOf(const Vec3& from, std::span<const Vec3> points, const V
     least = std::min(least, size);
     for (int d = 0; d < 3; ++d) low[d] = std::min(low[d], to[d] / size), high[d] = std::max(high[d], to[d] / size);
   }
-  // Between them directions are less than 1 long before they are divided; how much less, an axis bounds along which all lie on one side.
+  // Directions between them are less than 1 long before they are divided. An axis along which all lie on one side bounds how much less.
   for (int d = 0; d < 3; ++d) nearest = std::max({nearest, low[d], -high[d]});
   if (nearest == 0 || least == INFINITY) return boxOf({{-INFINITY, -INFINITY, -INFINITY}}, {{INFINITY, INFINITY, INFINITY}});
   for (int d = 0; d < 3; ++d) {

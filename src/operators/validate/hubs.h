@@ -1,5 +1,5 @@
-// Where thousands of faces share a vertex, all their boxes overlap. So those that share it are compared by their directions from there, and
-// with others by place.
+// Where thousands of faces share a vertex, all their boxes overlap. So faces that share it are compared by their directions from it, and
+// with all other faces by place.
 #pragma once
 
 #include "base/function_ref.h"

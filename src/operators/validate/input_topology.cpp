@@ -7,7 +7,7 @@
 namespace mandoline::validation {
 namespace {
 
-/// How a triangle runs through an edge of the input.
+/// In which direction a triangle has an edge of the input.
 struct EdgeUse {
   uint64_t edge;  // both welded vertices, the lower one above
   int32_t direction;

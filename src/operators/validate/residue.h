@@ -1,4 +1,4 @@
-// Exact incidences at little cost: whether a polynomial of doubles is 0, whatever its degree and their range.
+// Exact incidences at little cost: whether a polynomial of doubles is 0, for any degree and any range of doubles.
 #pragma once
 
 #include <array>
@@ -32,8 +32,8 @@ constexpr uint64_t inverseOfPrime() {
 
 /// An integer modulo a prime. Each double has a residue (2 has an inverse), sums, differences and products of residues are those of the
 /// exact numbers, and so are quotients unless the divisor's residue is 0. What is 0 has the residue 0; anything else has it by an accident
-/// that is to be expected once in 10^18 comparisons: the prime was drawn at random, so that it has nothing to do with the differences of
-/// powers of two that doubles are apt to have. There are no signs.
+/// that is to be expected once in 10^18 comparisons: the prime was drawn at random, so that it is unrelated to differences of powers of
+/// two, which doubles often have. There are no signs.
 class Residue {
  public:
   Residue() = default;

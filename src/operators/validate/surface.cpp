@@ -22,7 +22,7 @@ View look(const Context& context, uint32_t t) {
   return view;
 }
 
-/// An area, and what a move of its boundary by one rounding changes of it.
+/// An area, and how much of it changes when its boundary moves by one rounding.
 struct Area {
   double value = 0, noise = 0;
   void add(const Area& other) { value += other.value, noise += other.noise; }
@@ -56,7 +56,7 @@ PartsOfTriangles partsOfTriangles(const Context& context) {
       context.mesh.triangleCount(), parts.size(), [&](size_t i) { return size_t(cut.faceParents[i]); }, [&](size_t i) { return parts[i]; });
 }
 
-/// What a part of the triangles has shown.
+/// The findings for a part of the triangles.
 struct Findings {
   Tally area{"surfaceArea", kTolerance}, droppedTriangles{"droppedTriangles"};
 };

@@ -1,4 +1,4 @@
-// The sentences in which checks tell people what is wrong.
+// The sentences in which checks say what is wrong.
 #include "operators/validate/tally.h"
 
 #include <cctype>
@@ -13,7 +13,7 @@ std::string inWords(double share) {
   const double percent = 100 * share;
   if (percent > 1000) return "more than 1000%";
   if (percent < 0.01) return "less than 0.01%";
-  // Two digits, whatever the locale.
+  // Two digits, in any locale.
   int64_t unit = 1;
   while (percent * double(unit) < 10) unit *= 10;
   const int64_t units = std::llround(percent * double(unit));
@@ -26,7 +26,7 @@ std::string inWords(double share) {
   return text + '%';
 }
 
-/// "Face 12"; there is one grid and one mesh, and of arrays the text says which.
+/// "Face 12". There is only one grid and one mesh, and for arrays the text says which.
 std::string subject(const std::string& kind, int64_t element) {
   if (kind == "grid" || kind == "mesh") return "The " + kind;
   if (kind == "array") return "An array";

@@ -1,7 +1,7 @@
 // How checks are counted and reported.
 //
 // Measured checks are in roundings. One rounding along axis d is half an ulp of the largest coordinate there, the most that storing a
-// position can move it. The deviation of a length, area or volume is divided by what it changes when all its boundary moves by one
+// position can move it. The deviation of a length, area or volume is divided by how much it changes when its whole boundary moves by one
 // rounding, so one tolerance fits slivers, thin slabs and huge grids alike.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace mandoline::validation {
 /// values up to twice the largest coordinate.
 constexpr double kTolerance = 64;
 
-/// How far something is off: in roundings, to judge it by, and as a share of what the text names, to tell people.
+/// How far something is off: in roundings, by which it is judged, and as a share of the quantity that the message names.
 struct Deviation {
   double roundings = 0, share = 0;
 
@@ -25,7 +25,7 @@ struct Deviation {
   static Deviation ofDistance(double roundings) { return {roundings, roundings * kRounding}; }
 };
 
-/// Collects one check: the number of violations, or the largest deviation. Those of parts of the work, merged in order, are that of the
+/// Collects one check: the number of violations, or the largest deviation. Tallies of parts of the work, merged in order, give that of the
 /// whole.
 class Tally {
  public:

@@ -56,7 +56,7 @@ TriangleBins::Box TriangleBins::boxOf(size_t triangle) const {
   return box;
 }
 
-/// What the ray from p through a triangle adds to the winding number; none where rounding leaves it open.
+/// How much the triangle adds to the winding number at p, if the ray meets it; nothing where rounding leaves that open.
 std::optional<int32_t> TriangleBins::crossing(const Vec3& p, uint32_t triangle) const {
   const Vec3 a = x_.corner(triangle, 0), b = x_.corner(triangle, 1), c = x_.corner(triangle, 2);
   const int ab = turn(a, b, p, axis_), bc = turn(b, c, p, axis_), ca = turn(c, a, p, axis_);

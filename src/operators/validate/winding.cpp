@@ -65,7 +65,7 @@ class WindingCheck {
   }
 
  private:
-  /// A volume, and what one rounding of its boundary changes of it.
+  /// A volume, and how much of it changes when its boundary moves by one rounding.
   struct Volume {
     double value, noise;
   };
