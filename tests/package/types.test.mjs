@@ -1,47 +1,17 @@
 // The hand-written types against the module: real results, written as literals, must fit their declarations with no key missing or left
 // over.
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { dirname, join as path } from 'node:path';
+import { readFileSync } from 'node:fs';
+import { join as path } from 'node:path';
 import { after, test } from 'node:test';
-import { fileURLToPath } from 'node:url';
 import * as index from 'mandoline-wasm';
 import * as physicsEntry from 'mandoline-wasm/physics';
+import { root } from './environments.mjs';
 import { box, join, sheet } from './meshes.mjs';
+import { compiler } from './types.mjs';
 
-const root = path(dirname(fileURLToPath(import.meta.url)), '..', '..');
-const folder = mkdtempSync(path(root, 'node_modules', '.mandoline-types-')); // where imports by name are found
-after(() => rmSync(folder, { recursive: true }));
-
-function compile(source) {
-  writeFileSync(path(folder, 'check.ts'), source);
-  writeFileSync(
-    path(folder, 'tsconfig.json'),
-    JSON.stringify({
-      compilerOptions: {
-        strict: true,
-        noEmit: true,
-        exactOptionalPropertyTypes: true,
-        skipLibCheck: false,
-        types: [],
-        target: 'es2022',
-        lib: ['es2022', 'dom'],
-        module: 'nodenext',
-      },
-      files: ['check.ts'],
-    }),
-  );
-  execFileSync(process.execPath, [path(root, 'node_modules', 'typescript', 'bin', 'tsc'), '-p', folder], { encoding: 'utf8' });
-}
-
-function assertCompiles(source) {
-  try {
-    compile(source);
-  } catch (error) {
-    assert.fail(error.stdout || error.message);
-  }
-}
+const { compile, assertCompiles, remove } = compiler();
+after(remove);
 
 /** A value as an expression that shows its shape and its kinds of numbers; arrays are left empty. */
 function literal(value) {

@@ -112,13 +112,18 @@ export function collect(Type, values, name, read) {
   return collected;
 }
 
+/** Of an array, a typed array or what is like them; undefined if it is none. */
+function lengthOf(value) {
+  const length = typeof value === 'object' ? value?.length : undefined;
+  return Number.isInteger(length) && length >= 0 && length < 2 ** 32 ? length : undefined;
+}
+
 export function readNumbers(value, name) {
   if (isTypedArray(value, ['Float64Array', 'Float32Array'])) {
     expectAttached(value, name);
     return value;
   }
-  const length = typeof value === 'object' ? value?.length : undefined;
-  if (!Number.isInteger(length) || length < 0 || length >= 2 ** 32) throw bad(`${name} must be an array of numbers, not ${kindOf(value)}.`);
+  if (lengthOf(value) === undefined) throw bad(`${name} must be an array of numbers, not ${kindOf(value)}.`);
   return collect(Float64Array, value, name, (number, i) => {
     if (typeof number !== 'number') throw bad(`${name}[${i}] must be a number, not ${kindOf(number)}.`);
     return number;
@@ -148,7 +153,7 @@ export function readMesh(mesh) {
 }
 
 export function readVector(value, name, read = expectNumber) {
-  const count = Array.isArray(value) || ArrayBuffer.isView(value) ? value.length : undefined;
+  const count = lengthOf(value);
   if (count !== 3) throw bad(`${name} must have three numbers, not ${count ?? kindOf(value)}.`);
   return [0, 1, 2].map((d) => read(value[d], `${name}[${d}]`));
 }

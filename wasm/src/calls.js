@@ -155,7 +155,7 @@ export const cutCalls = {
   /**
    * Which cell holds each point (3 coordinates per point): one call for many points is far faster than many calls.
    *
-   * cellsAt(cutMesh: CutMesh, points: Float64Array | Float32Array | readonly number[]): Locations
+   * cellsAt(cutMesh: CutMesh, points: ArrayLike<number>): Locations
    */
   cellsAt: { takes: { cutMesh, points: readPoints } },
   /**
@@ -171,7 +171,7 @@ export const cutCalls = {
   /**
    * The slices of the planes normal . x = offset, in the order of the offsets, for less than many calls of slice() cost.
    *
-   * slices(cutMesh: CutMesh, normal: Vector3, offsets: Float64Array | Float32Array | readonly number[], options?: SliceOptions): Slice[]
+   * slices(cutMesh: CutMesh, normal: Vector3, offsets: ArrayLike<number>, options?: SliceOptions): Slice[]
    */
   slices: {
     takes: { cutMesh, normal: readVector, offsets: readNumbers },
@@ -181,7 +181,7 @@ export const cutCalls = {
   /**
    * The outlines of the regions in such planes, as slicers need them.
    *
-   * outlines(cutMesh: CutMesh, normal: Vector3, offsets: Float64Array | Float32Array | readonly number[]): Outlines[]
+   * outlines(cutMesh: CutMesh, normal: Vector3, offsets: ArrayLike<number>): Outlines[]
    */
   outlines: { takes: { cutMesh, normal: readVector, offsets: readNumbers } },
   /**

@@ -1,34 +1,6 @@
 /** The same calls as promises, in a module worker: the page stays responsive. Browsers and Node. */
-import type {
-  Adjacency,
-  CutEdges,
-  CutMesh,
-  CutOptions,
-  FaceTriangles,
-  GridInput,
-  InitOptions,
-  IntersectionOptions,
-  Location,
-  Locations,
-  Mandoline,
-  Measures,
-  Mesh,
-  MeshArrays,
-  MeshIntersections,
-  Outlines,
-  Plane,
-  PrepareOptions,
-  ReadMeshOptions,
-  ResolvedMesh,
-  RunOptions,
-  Slice,
-  SliceOptions,
-  ValidateOptions,
-  Validation,
-  Vector3,
-  WindingRule,
-  WriteOptions,
-} from './index.js';
+import type { InitOptions } from './index.js';
+import type { WorkerCalls } from './signatures.js';
 
 export { MandolineError, describe } from './index.js';
 
@@ -48,35 +20,7 @@ export interface ExtraCallOptions extends CallOptions {
  * Calls run one after another, in the order they were made. Results are transferred, not copied; the twins of those of cut() and prepare()
  * stay in the thread (see CutMesh).
  */
-export interface MandolineWorker {
-  prepare(mesh: Mesh, options?: PrepareOptions & CallOptions): Promise<MeshArrays>;
-  cut(mesh: Mesh, grid: GridInput, options?: CutOptions & CallOptions): Promise<CutMesh>;
-  findIntersections(mesh: Mesh, options?: IntersectionOptions & CallOptions): Promise<MeshIntersections>;
-  resolve(mesh: Mesh, options?: RunOptions & CallOptions): Promise<ResolvedMesh>;
-  boundary(mesh: ResolvedMesh | CutMesh, rule?: WindingRule, options?: CallOptions): Promise<MeshArrays>;
-  validate(mesh: Mesh, cutMesh: CutMesh, options?: ValidateOptions & CallOptions): Promise<Validation>;
-  measure(mesh: Mesh, cutMesh: CutMesh, options?: RunOptions & CallOptions): Promise<Measures>;
-  cutEdges(mesh: Mesh, cutMesh: CutMesh, options?: CallOptions): Promise<CutEdges>;
-  adjacency(cutMesh: CutMesh, options?: CallOptions): Promise<Adjacency>;
-  triangulate(cutMesh: CutMesh, of?: undefined, options?: CallOptions): Promise<FaceTriangles>;
-  triangulate(cutMesh: CutMesh, of: { cell: number } | { region: number }, options?: CallOptions): Promise<Uint32Array<ArrayBuffer>>;
-  cellAt(cutMesh: CutMesh, point: Vector3, options?: CallOptions): Promise<Location | null>;
-  cellsAt(cutMesh: CutMesh, points: Parameters<Mandoline['cellsAt']>[1], options?: CallOptions): Promise<Locations>;
-  slice(cutMesh: CutMesh, plane: Plane, options?: SliceOptions & CallOptions): Promise<Slice>;
-  slices(
-    cutMesh: CutMesh,
-    normal: Vector3,
-    offsets: Parameters<Mandoline['slices']>[2],
-    options?: SliceOptions & CallOptions,
-  ): Promise<Slice[]>;
-  outlines(cutMesh: CutMesh, normal: Vector3, offsets: Parameters<Mandoline['outlines']>[2], options?: CallOptions): Promise<Outlines[]>;
-  write(
-    mesh: Mesh,
-    cutMesh: CutMesh,
-    format: 'json' | 'vtu' | 'obj',
-    options?: WriteOptions & CallOptions,
-  ): Promise<Uint8Array<ArrayBuffer>>;
-  readMesh(source: Parameters<Mandoline['readMesh']>[0], options?: ReadMeshOptions & CallOptions): Promise<MeshArrays>;
+export interface MandolineWorker extends WorkerCalls {
   /**
    * Runs a call that the thread's own script serves (see `serve` of `mandoline-wasm/worker-thread`) with a copy of the arguments, in the
    * same queue as the others. What it throws is what the promise is rejected with, as a clone.

@@ -133,7 +133,7 @@ export const physicsCalls = {
    * is on, is decided as cellsAt() does. `points`: 3 per point, world units; many points in one call are far faster. Code "badArgument"
    * unless the field's parts belong together and the flow is finite.
    *
-   * velocityAt(field: FlowField, points: Float64Array | Float32Array | readonly number[]): Float64Array<ArrayBuffer>
+   * velocityAt(field: FlowField, points: ArrayLike<number>): Float64Array<ArrayBuffer>
    */
   velocityAt: {
     takes: { field, points: readPoints },
@@ -145,7 +145,7 @@ export const physicsCalls = {
    * and none leaves the grid. A seed on the surface has a line of one point. Errors as in velocityAt(); code "badOption" if an option is
    * out of range.
    *
-   * streamlines(field: FlowField, seeds: Float64Array | Float32Array | readonly number[], options?: StreamlineOptions): Streamlines
+   * streamlines(field: FlowField, seeds: ArrayLike<number>, options?: StreamlineOptions): Streamlines
    */
   streamlines: {
     takes: { field, seeds: readPoints },

@@ -1,5 +1,6 @@
 // What the page asks its worker thread, beside the package's own calls.
-import type { Slice, Validation, Vector3 } from 'mandoline-wasm';
+import type { Slice, Validation } from 'mandoline-wasm';
+import type { Vector3 } from './vector';
 import type { Bounds } from './grid_around';
 import type { CellCard, GridSettings, Model, Source, StepPicture, StepRequest } from './types';
 

@@ -1,4 +1,5 @@
-import type { Mesh, Vector3 } from 'mandoline-wasm';
+import type { Mesh } from 'mandoline-wasm';
+import type { Vector3 } from './vector';
 
 export interface Bounds {
   min: Vector3;

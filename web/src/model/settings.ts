@@ -1,6 +1,6 @@
 // The state of the page as plain data, and as the hash of a link.
 import type { Axis, ColorBy, GridSettings, Settings, SliceName, SliceSettings, Source } from './types';
-import type { Vector3 } from 'mandoline-wasm';
+import type { Vector3 } from './vector';
 
 export const axes: readonly Axis[] = ['x', 'y', 'z'];
 export const sliceNames: readonly SliceName[] = [...axes, 'free'];

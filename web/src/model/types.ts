@@ -1,5 +1,6 @@
 // What the parts of the page say to each other.
-import type { CutStats, Grid, Slice, Validation, Vector3 } from 'mandoline-wasm';
+import type { CutStats, Grid, Slice, Validation } from 'mandoline-wasm';
+import type { Vector3 } from './vector';
 import type { Bounds } from './grid_around';
 
 /** Where a mesh comes from. A file's bytes are kept by the worker; a link can't restore it. */

@@ -1,7 +1,8 @@
 // The page's half of the work: asks the package's worker, whose thread keeps meshes and cut-meshes, and gives back to a new thread what the
 // former one knew.
 import { createWorker, type MandolineWorker } from 'mandoline-wasm/worker';
-import type { Slice, Validation, Vector3 } from 'mandoline-wasm';
+import type { Slice, Validation } from 'mandoline-wasm';
+import type { Vector3 } from '../model/vector';
 import { isLack, isOutdated, type CallName, type CallProgress, type Calls, type LoadedMesh, type Recipe } from '../model/calls';
 import type { CellCard, Engine, GridSettings, MeshInfo, Model, PageError, Source, StepPicture, StepRequest } from '../model/types';
 import { pageError } from '../model/failure';

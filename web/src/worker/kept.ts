@@ -1,5 +1,6 @@
 // What the thread keeps between calls: the meshes that the page may ask for, and the newest cut.
-import type { Adjacency, CutMesh, FaceTriangles, GridInput, Mandoline, Measures, Mesh, Vector3 } from 'mandoline-wasm';
+import type { Adjacency, CutMesh, FaceTriangles, GridInput, Mandoline, Measures, Mesh } from 'mandoline-wasm';
+import type { Vector3 } from '../model/vector';
 import type { CallProgress, Lack, LoadedMesh, Outdated, Recipe } from '../model/calls';
 import { pageError } from '../model/failure';
 import { gridAround, type Bounds } from '../model/grid_around';

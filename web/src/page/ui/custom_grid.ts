@@ -1,4 +1,4 @@
-import type { Vector3 } from 'mandoline-wasm';
+import type { Vector3 } from '../../model/vector';
 import type { App } from '../app';
 import { gridAround } from '../../model/grid_around';
 import { axes } from '../../model/settings';

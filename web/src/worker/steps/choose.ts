@@ -1,5 +1,6 @@
 // Which item a step shows: the one asked for, or one on which much can be seen.
-import type { CutMesh, Vector3 } from 'mandoline-wasm';
+import type { CutMesh } from 'mandoline-wasm';
+import type { Vector3 } from '../../model/vector';
 import type { StepRequest } from '../../model/types';
 
 function isIndex(value: number | undefined, count: number): value is number {

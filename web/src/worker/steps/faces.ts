@@ -1,5 +1,5 @@
 // Ways through the faces of a cut-mesh.
-import type { Vector3 } from 'mandoline-wasm';
+import type { Vector3 } from '../../model/vector';
 import { pointOf, type Subject } from './picture';
 
 export function facesWhere({ cutMesh }: Subject, holds: (face: number) => boolean): number[] {

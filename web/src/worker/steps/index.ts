@@ -4,7 +4,8 @@
 //   stepPicture(mesh, cutMesh, faceTriangles, request, origin)
 // with the mesh that was cut, mandoline.triangulate(cutMesh), and the model's origin. A request without an item picks an interesting one,
 // and the picture's `choices.request` names it. A request for an item that does not exist (any more) picks one, too.
-import type { CutMesh, FaceTriangles, Vector3 } from 'mandoline-wasm';
+import type { CutMesh, FaceTriangles } from 'mandoline-wasm';
+import type { Vector3 } from '../../model/vector';
 import type { MeshArrays } from '../../model/gallery/mesh';
 import type { StepKind, StepPicture, StepRequest } from '../../model/types';
 import { axialPlane, gridCell, triangleFaces } from './pieces';

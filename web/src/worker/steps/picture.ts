@@ -1,4 +1,5 @@
-import type { CutMesh, FaceTriangles, Vector3 } from 'mandoline-wasm';
+import type { CutMesh, FaceTriangles } from 'mandoline-wasm';
+import type { Vector3 } from '../../model/vector';
 import type { MeshArrays } from '../../model/gallery/mesh';
 import type { StepPicture, StepRequest } from '../../model/types';
 import type { Color } from './colors';

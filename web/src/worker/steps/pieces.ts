@@ -1,5 +1,5 @@
 // The last three steps: cut-faces of a triangle, faces of an axial plane, cut-cells of a grid cell.
-import type { Vector3 } from 'mandoline-wasm';
+import type { Vector3 } from '../../model/vector';
 import { axes } from '../../model/settings';
 import type { StepPicture, StepRequest } from '../../model/types';
 import { plural } from '../../model/format';

@@ -1,0 +1,76 @@
+// The types of the calls, as their tables have them: src/signatures.d.ts from src/calls.js, src/physics/signatures.d.ts from
+// src/physics/calls.js. The last lines of a call's comment are its signatures. Those of a worker's calls are the same as promises, with the
+// options of every call of a worker. Writes the files into src/; with --check only looks whether these are as they would be written.
+import { execFileSync } from 'node:child_process';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+
+const path = (name) => fileURLToPath(new URL(`src/${name}`, import.meta.url));
+const textOf = (name) => (existsSync(path(name)) ? readFileSync(path(name), 'utf8') : '');
+
+/** What the comment of each call says, as lines, and its signatures. */
+function callsIn(table) {
+  return [...table.matchAll(/^ {2}\/\*\*\n((?: {3}\*.*\n)+?) {3}\*\/\n {2}\w+: \{/gm)].map(([, comment]) => {
+    const lines = comment.trimEnd().split('\n');
+    const empty = lines.lastIndexOf('   *');
+    return { says: lines.slice(0, empty), signatures: lines.slice(empty + 1).map((line) => line.slice('   * '.length)) };
+  });
+}
+
+function ofWorker(signature) {
+  const [, given, result] = signature.match(/^(.*)\): (.*)$/);
+  const all = /options\?: \S+$/.test(given) ? `${given} & CallOptions` : `${given}, options?: CallOptions`;
+  return `${all}): ${result.startsWith('Promise<') ? result : `Promise<${result}>`}`;
+}
+
+function formatted(text) {
+  const biome = ['biome', 'format', '--log-level=error', '--stdin-file-path=signatures.d.ts'];
+  return execFileSync('npx', ['--no-install', ...biome], { input: text, encoding: 'utf8', stdio: ['pipe', 'pipe', 'inherit'] });
+}
+
+const builtIn = /^(\w+Array|Array\w+|Blob|Promise|Names)$/;
+
+/** Imports of the types that these calls use: from `main` those that its files declare, and the others from `own`. */
+function imports(calls, main, own) {
+  const used = new Set(calls.flatMap(({ signatures }) => signatures.join(' ').match(/\b[A-Z]\w*/g)).filter((name) => !builtIn.test(name)));
+  const declared = `${textOf('index.d.ts')}${textOf('results.d.ts')}`;
+  const isMain = (name) => main === own || new RegExp(`^export (interface|type) ${name}\\b`, 'm').test(declared);
+  return [...new Set([main, own])].map((from) => {
+    const names = [...used].filter((name) => isMain(name) === (from === main)).sort();
+    return `import type { ${names.join(', ')} } from '${from}';`;
+  });
+}
+
+function fileOf(table, main, worker) {
+  const calls = callsIn(textOf(table));
+  const comment = (says) => (says.length === 1 ? [`  /**${says[0].slice('   *'.length)} */`] : ['  /**', ...says, '   */']);
+  const direct = ({ says, signatures }) => [...comment(says), ...signatures.map((signature) => `  ${signature};`)];
+  const promised = ({ signatures }) => signatures.map((signature) => `  ${ofWorker(signature)};`);
+  const lines = [
+    `// Written by wasm/signatures.mjs from ${table}: change that.`,
+    ...imports(calls, main, './index.js'),
+    `import type { CallOptions } from '${worker}';`,
+    '',
+    'export interface Calls {',
+    ...calls.flatMap(direct),
+    '}',
+    '',
+    '/** The same in a worker. */',
+    'export interface WorkerCalls {',
+    ...calls.flatMap(promised),
+    '}',
+    '',
+  ];
+  return formatted(lines.join('\n'));
+}
+
+const files = {
+  'signatures.d.ts': fileOf('calls.js', './index.js', './worker.js'),
+  'physics/signatures.d.ts': fileOf('physics/calls.js', '../index.js', '../worker.js'),
+};
+const changed = Object.keys(files).filter((name) => textOf(name) !== files[name]);
+if (process.argv.includes('--check') && changed.length) {
+  console.error(`Not as the tables of calls have it: ${changed.join(', ')}. Run node wasm/signatures.mjs.`);
+  process.exit(1);
+}
+for (const name of changed) writeFileSync(path(name), files[name]);

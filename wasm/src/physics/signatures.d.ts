@@ -1,0 +1,131 @@
+// Written by wasm/signatures.mjs from physics/calls.js: change that.
+import type { CutMesh, Grid, GridBox, GridRectilinear, GridRegular, Mesh, ReadMeshOptions, RunOptions, Vector3 } from '../index.js';
+import type {
+  Boundary,
+  CellComplex,
+  CellComponents,
+  ChosenOperators,
+  CoarsenOptions,
+  ComplexEdges,
+  Conditions,
+  Flow,
+  FlowField,
+  FlowOptions,
+  OctreeCells,
+  OperatorNames,
+  OperatorOptions,
+  PoissonProblem,
+  PoissonSystem,
+  Solution,
+  SolveOptions,
+  StreamlineOptions,
+  Streamlines,
+  SubComplex,
+  TriangleGroups,
+} from './index.js';
+import type { CallOptions } from '../worker.js';
+
+export interface Calls {
+  /** Untouched grid cells merged into octree cells, away from the surface (5.3). Code "badOption" if an option is negative. */
+  coarsen(cutMesh: CutMesh, options?: CoarsenOptions): OctreeCells;
+  /**
+   * One conforming mesh of all cells. `mesh` is the input that `cutMesh` was made from, and `octree` comes from coarsen(cutMesh); without
+   * it, the untouched grid cells are cells. Code "badArgument" if these don't belong together.
+   */
+  cellComplex(mesh: Mesh, cutMesh: CutMesh, octree?: OctreeCells | null, options?: RunOptions): CellComplex;
+  /** The cells that `cellIds` name, in any order. Code "badArgument" with the element if one does not exist or is named twice. */
+  subComplex(cells: CellComplex, cellIds: Uint32Array | readonly number[]): SubComplex;
+  /** The cells of a region of the cut-mesh. Code "badArgument" if there is none. */
+  regionComplex(cells: CellComplex, region: number): SubComplex;
+  /** The edges that faceEdgeIncidence and edgeVertexIncidence have the ids of. */
+  complexEdges(cells: CellComplex): ComplexEdges;
+  /** Discrete operators as sparse matrices: all, or those that `options.only` names. */
+  operators<const Names extends OperatorNames | undefined = undefined>(
+    cells: CellComplex,
+    options?: OperatorOptions<Names>,
+  ): ChosenOperators<Names>;
+  /** The boundary with the same condition on all faces of a tag; where none is given, nothing passes ({ neumann: 0 }). */
+  boundaryOf(cells: CellComplex, conditions?: Conditions): Boundary;
+  /**
+   * 3 per half-face of the boundary: the unit normal that points out of the cell. The Neumann values of phi = U . x, or of a wind U that
+   * blows through, are its products with U.
+   */
+  outwardNormals(boundary: Boundary, cells: CellComplex): Float64Array<ArrayBuffer>;
+  /** Which cells are connected through inner faces. */
+  cellComponents(cells: CellComplex): CellComponents;
+  /**
+   * The system that solvePoisson() solves (appendix B). A Dirichlet condition acts over the distance along the normal between the face's
+   * centroid and the cell's dual point, or, on the surface, the cell's centroid. Code "badArgument" for a boundary that is not that of
+   * `cells`, for arrays of other lengths, for values that are not finite, and if the cells together are smaller than 1e-70 or larger than
+   * 1e70.
+   */
+  poissonSystem(cells: CellComplex, problem?: PoissonProblem): PoissonSystem;
+  /**
+   * Solves the problem's system by conjugate gradients, preconditioned by a multigrid. Errors as in poissonSystem(); code "badOption" for a
+   * tolerance that is not positive or a negative maxIterations. What can't be solved is told by the solution's status.
+   */
+  solvePoisson(cells: CellComplex, problem?: PoissonProblem, options?: SolveOptions): Solution;
+  /**
+   * Potential flow of a wind through the cells and about the surface (appendix B, figure 22): solves div grad phi = 0, where
+   * grad phi . N = wind . N on the sides of the box and nothing passes the surface, on either side of it, nor faces that a sub-complex was
+   * cut off at. As much flows into a cell as out of it, within the tolerance; what doesn't touch the box is at rest.
+   *
+   * Where the surface divides the box, a component may get more from the wind than it can give away, or less: then the larger of both is
+   * scaled down to the other on all its sides. A component that can only take or only give, a dead end, is at rest. So is a dead end
+   * within a component that only slits lead to: faces with less than a millionth of the area of others of their cells. Code "badArgument"
+   * if the wind is not finite and as in poissonSystem(), "badOption" as in solvePoisson().
+   */
+  solveFlow(cells: CellComplex, wind: Vector3, options?: FlowOptions): Flow;
+  /**
+   * 3 per point: the velocity there, linear in each cell; NaN outside the grid. Which cell holds a point, and so which side of a sheet it
+   * is on, is decided as cellsAt() does. `points`: 3 per point, world units; many points in one call are far faster. Code "badArgument"
+   * unless the field's parts belong together and the flow is finite.
+   */
+  velocityAt(field: FlowField, points: ArrayLike<number>): Float64Array<ArrayBuffer>;
+  /**
+   * Follows the flow from the seeds, 3 coordinates each: Runge-Kutta steps of third order (Bogacki, Shampine 1989) of adaptive length. Each
+   * ends in its cell at the latest. No segment of a line meets a triangle of the mesh, by exact predicates (those without area are none),
+   * and none leaves the grid. A seed on the surface has a line of one point. Errors as in velocityAt(); code "badOption" if an option is
+   * out of range.
+   */
+  streamlines(field: FlowField, seeds: ArrayLike<number>, options?: StreamlineOptions): Streamlines;
+  /**
+   * 3 per seed: `count` points on the sides where the wind enters the box of a grid, spread in proportion to the inflow; none without wind.
+   * Code "badArgument" if the wind is not finite, "badGrid" if the grid has no cells.
+   */
+  inflowSeeds(grid: Grid | GridBox | GridRegular | GridRectilinear, wind: Vector3, count: number): Float64Array<ArrayBuffer>;
+  /**
+   * The groups of the triangles that readMesh() reads from a file. Of OBJ: what `g` lines name, of several names on a line the first;
+   * triangles before them are in the group "default"; where no triangle comes after a `g` line, what `usemtl` lines name. Of STL in text:
+   * its solids; one of several that has no name is called solid0, by its place in the file.
+   */
+  readGroups(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions): Promise<TriangleGroups>;
+}
+
+/** The same in a worker. */
+export interface WorkerCalls {
+  coarsen(cutMesh: CutMesh, options?: CoarsenOptions & CallOptions): Promise<OctreeCells>;
+  cellComplex(mesh: Mesh, cutMesh: CutMesh, octree?: OctreeCells | null, options?: RunOptions & CallOptions): Promise<CellComplex>;
+  subComplex(cells: CellComplex, cellIds: Uint32Array | readonly number[], options?: CallOptions): Promise<SubComplex>;
+  regionComplex(cells: CellComplex, region: number, options?: CallOptions): Promise<SubComplex>;
+  complexEdges(cells: CellComplex, options?: CallOptions): Promise<ComplexEdges>;
+  operators<const Names extends OperatorNames | undefined = undefined>(
+    cells: CellComplex,
+    options?: OperatorOptions<Names> & CallOptions,
+  ): Promise<ChosenOperators<Names>>;
+  boundaryOf(cells: CellComplex, conditions?: Conditions, options?: CallOptions): Promise<Boundary>;
+  outwardNormals(boundary: Boundary, cells: CellComplex, options?: CallOptions): Promise<Float64Array<ArrayBuffer>>;
+  cellComponents(cells: CellComplex, options?: CallOptions): Promise<CellComponents>;
+  poissonSystem(cells: CellComplex, problem?: PoissonProblem, options?: CallOptions): Promise<PoissonSystem>;
+  solvePoisson(cells: CellComplex, problem?: PoissonProblem, options?: SolveOptions & CallOptions): Promise<Solution>;
+  solveFlow(cells: CellComplex, wind: Vector3, options?: FlowOptions & CallOptions): Promise<Flow>;
+  velocityAt(field: FlowField, points: ArrayLike<number>, options?: CallOptions): Promise<Float64Array<ArrayBuffer>>;
+  streamlines(field: FlowField, seeds: ArrayLike<number>, options?: StreamlineOptions & CallOptions): Promise<Streamlines>;
+  inflowSeeds(
+    grid: Grid | GridBox | GridRegular | GridRectilinear,
+    wind: Vector3,
+    count: number,
+    options?: CallOptions,
+  ): Promise<Float64Array<ArrayBuffer>>;
+  readGroups(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions & CallOptions): Promise<TriangleGroups>;
+}

@@ -1,0 +1,113 @@
+// Written by wasm/signatures.mjs from calls.js: change that.
+import type {
+  Adjacency,
+  CutEdges,
+  CutMesh,
+  CutOptions,
+  FaceTriangles,
+  GridInput,
+  IntersectionOptions,
+  Location,
+  Locations,
+  Measures,
+  Mesh,
+  MeshArrays,
+  MeshIntersections,
+  Outlines,
+  Plane,
+  PrepareOptions,
+  ReadMeshOptions,
+  ResolvedMesh,
+  RunOptions,
+  Slice,
+  SliceOptions,
+  ValidateOptions,
+  Validation,
+  Vector3,
+  WindingRule,
+  WriteOptions,
+} from './index.js';
+import type { CallOptions } from './worker.js';
+
+export interface Calls {
+  /**
+   * A copy of the mesh that cut() takes with any number of grids, and does not check, weld and resolve anew (A, Bad input meshes): the
+   * module has done so and keeps it as the twin of this very object, like those of cut-meshes (see CutMesh). Where the twin is gone, the
+   * next cut prepares the mesh once more; one with a snapTolerance does so in any case.
+   */
+  prepare(mesh: Mesh, options?: PrepareOptions): MeshArrays;
+  /** Cuts the mesh with the grid (the paper's Algorithm 1). */
+  cut(mesh: Mesh, grid: GridInput, options?: CutOptions): CutMesh;
+  /** Which triangles meet other than in shared vertices and whole shared edges, and where; what cut() resolves (A, Bad input meshes). */
+  findIntersections(mesh: Mesh, options?: IntersectionOptions): MeshIntersections;
+  /** The mesh without self-intersections, for those who want it without a grid. */
+  resolve(mesh: Mesh, options?: RunOptions): ResolvedMesh;
+  /**
+   * The surface of the solid, oriented outwards: of what resolve() gave, or of a cut-mesh, in pieces cut by the grid. Every edge has an
+   * even number of triangles: where the solid reaches the grid's sides, sides of its cut-cells and of the cells of coarsen() close the part
+   * inside. Code "badArgument" for a mesh that is open or inconsistently oriented, and so bounds no solid. Default rule: "positive".
+   */
+  boundary(mesh: ResolvedMesh | CutMesh, rule?: WindingRule): MeshArrays;
+  /**
+   * The paper's four checks (5.6) and the invariants of a cut-mesh, worked out from its arrays alone. `mesh` is the input, `snapTolerance`
+   * that of the cut.
+   */
+  validate(mesh: Mesh, cutMesh: CutMesh, options?: ValidateOptions): Validation;
+  /** Areas, normals, centroids and volumes. `mesh` is the input of the cut. */
+  measure(mesh: Mesh, cutMesh: CutMesh, options?: RunOptions): Measures;
+  /** The cut-edges with their lengths. */
+  cutEdges(mesh: Mesh, cutMesh: CutMesh): CutEdges;
+  /** What lies on the two sides of each face, and which cut-cells are neighbours. */
+  adjacency(cutMesh: CutMesh): Adjacency;
+  /**
+   * Triangles of all faces; or, with `of`, 3 vertex ids per triangle: the closed surface of one cut-cell, oriented outward, or the pieces
+   * of triangles that bound a region, oriented out of it, both sides of those where a sheet ends within the region.
+   */
+  triangulate(cutMesh: CutMesh, of?: undefined): FaceTriangles;
+  triangulate(cutMesh: CutMesh, of: { cell: number } | { region: number }): Uint32Array<ArrayBuffer>;
+  /** Which cell holds this point; null outside the grid. A point on a face counts to one of the cells beside it. */
+  cellAt(cutMesh: CutMesh, point: Vector3): Location | null;
+  /** Which cell holds each point (3 coordinates per point): one call for many points is far faster than many calls. */
+  cellsAt(cutMesh: CutMesh, points: ArrayLike<number>): Locations;
+  /** The polygons in which a plane cuts the cells. */
+  slice(cutMesh: CutMesh, plane: Plane, options?: SliceOptions): Slice;
+  /** The slices of the planes normal . x = offset, in the order of the offsets, for less than many calls of slice() cost. */
+  slices(cutMesh: CutMesh, normal: Vector3, offsets: ArrayLike<number>, options?: SliceOptions): Slice[];
+  /** The outlines of the regions in such planes, as slicers need them. */
+  outlines(cutMesh: CutMesh, normal: Vector3, offsets: ArrayLike<number>): Outlines[];
+  /** A file: "json" is the dump of all arrays, "vtu" polyhedra for VTK and ParaView, "obj" the cut surface by region. */
+  write(mesh: Mesh, cutMesh: CutMesh, format: 'json' | 'vtu' | 'obj', options?: WriteOptions): Uint8Array<ArrayBuffer>;
+  /**
+   * The mesh in a file: OBJ, STL, PLY or OFF (STL and PLY in text or binary), each also gzipped, told by content and then by the extension
+   * of the name. Polygons are fanned from their first vertex; triangles are in the order of the file. Code "badFile" if it can't be read;
+   * the message names the file and the line.
+   */
+  readMesh(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions): Promise<MeshArrays>;
+}
+
+/** The same in a worker. */
+export interface WorkerCalls {
+  prepare(mesh: Mesh, options?: PrepareOptions & CallOptions): Promise<MeshArrays>;
+  cut(mesh: Mesh, grid: GridInput, options?: CutOptions & CallOptions): Promise<CutMesh>;
+  findIntersections(mesh: Mesh, options?: IntersectionOptions & CallOptions): Promise<MeshIntersections>;
+  resolve(mesh: Mesh, options?: RunOptions & CallOptions): Promise<ResolvedMesh>;
+  boundary(mesh: ResolvedMesh | CutMesh, rule?: WindingRule, options?: CallOptions): Promise<MeshArrays>;
+  validate(mesh: Mesh, cutMesh: CutMesh, options?: ValidateOptions & CallOptions): Promise<Validation>;
+  measure(mesh: Mesh, cutMesh: CutMesh, options?: RunOptions & CallOptions): Promise<Measures>;
+  cutEdges(mesh: Mesh, cutMesh: CutMesh, options?: CallOptions): Promise<CutEdges>;
+  adjacency(cutMesh: CutMesh, options?: CallOptions): Promise<Adjacency>;
+  triangulate(cutMesh: CutMesh, of?: undefined, options?: CallOptions): Promise<FaceTriangles>;
+  triangulate(cutMesh: CutMesh, of: { cell: number } | { region: number }, options?: CallOptions): Promise<Uint32Array<ArrayBuffer>>;
+  cellAt(cutMesh: CutMesh, point: Vector3, options?: CallOptions): Promise<Location | null>;
+  cellsAt(cutMesh: CutMesh, points: ArrayLike<number>, options?: CallOptions): Promise<Locations>;
+  slice(cutMesh: CutMesh, plane: Plane, options?: SliceOptions & CallOptions): Promise<Slice>;
+  slices(cutMesh: CutMesh, normal: Vector3, offsets: ArrayLike<number>, options?: SliceOptions & CallOptions): Promise<Slice[]>;
+  outlines(cutMesh: CutMesh, normal: Vector3, offsets: ArrayLike<number>, options?: CallOptions): Promise<Outlines[]>;
+  write(
+    mesh: Mesh,
+    cutMesh: CutMesh,
+    format: 'json' | 'vtu' | 'obj',
+    options?: WriteOptions & CallOptions,
+  ): Promise<Uint8Array<ArrayBuffer>>;
+  readMesh(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions & CallOptions): Promise<MeshArrays>;
+}

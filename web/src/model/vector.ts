@@ -1,0 +1,2 @@
+/** Three numbers. */
+export type Vector3 = readonly number[];
