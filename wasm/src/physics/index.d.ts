@@ -13,7 +13,7 @@
  * Arrays and calls have the names that they have in the C++ library, and like in index.d.ts all arrays are flat, all ids count from 0, and
  * every offsets array starts with 0 and has one more entry than there are items.
  */
-import type { CutMesh, Mesh, RunOptions, Vector3, WasmSource } from '../index.js';
+import type { CutMesh, Mesh, RunOptions, WasmSource } from '../index.js';
 import type { Calls } from './signatures.js';
 
 export { MandolineError, describe } from '../index.js';
