@@ -54,7 +54,7 @@ function compile(tests) {
   run('cmake', '--build', build, '--parallel', String(availableParallelism()));
 }
 
-/** The code of a script and of what it imports, in one file. */
+/** The code of a script and of everything that it imports, in one file. */
 async function bundle(input, options, output = {}) {
   const { output: chunks } = await rolldown({ input, write: false, logLevel: 'warn', ...options, output });
   return chunks[0].code;

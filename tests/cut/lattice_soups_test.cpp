@@ -1,6 +1,6 @@
 // Random triangles with corners on a lattice of 4 x 4 x 4 points, where everything is degenerate, against their arrangement found by brute
 // force: the box is divided by the whole planes of all triangles and of the grid, each plane by the whole lines of its triangles' sides,
-// all in whole numbers, and then what no triangle and no grid plane separates is put together again and counted.
+// all in whole numbers; then the pieces that no triangle and no grid plane separates are put together again and counted.
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -308,7 +308,7 @@ class Arrangement {
 
   /// Whether an edge between facets belongs to the arrangement: not in the midst of one face.
   bool isReal(const std::vector<uint32_t>& around) const {
-    std::vector<uint32_t> solid;  // facets that separate
+    std::vector<uint32_t> solid;  // facets that separate cells
     for (const uint32_t f : around) {
       if (isAxial_[facets_[f].plane] || !facets_[f].parents.empty()) solid.push_back(f);
     }

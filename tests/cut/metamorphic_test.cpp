@@ -1,4 +1,4 @@
-// The same input in another form has the same cells: relabelled by what was done to it, and to the bit where nothing was rounded anew.
+// The same input in another form has the same cells, up to a known relabelling, and the same bits where nothing is rounded anew.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 /// How cells, faces and triangles of one cut are named in another one's terms.
 struct Relabelling {
-  std::array<int, 3> axes = {0, 1, 2};  ///< axis d of the result is axis axes[d] of what is relabelled
+  std::array<int, 3> axes = {0, 1, 2};  ///< axis d of the result is axis axes[d] before relabelling
   std::array<bool, 3> negate = {};      ///< whether axis d of the result is negated
   std::array<int32_t, 3> shift = {};    ///< cells added along axis d of the result
   std::vector<uint32_t> triangle;       ///< new id of each triangle; empty: the same

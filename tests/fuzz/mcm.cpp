@@ -1,5 +1,5 @@
-// Fuzzes the reader of saved cut-meshes from bytes, with right checksums (libFuzzer): whatever they are, there is a cut-mesh whose arrays
-// are sound and that is saved and loaded to the bit, or a FileError that names the file.
+// Fuzzes the reader of saved cut-meshes (libFuzzer): any bytes, with the checksums corrected, give a cut-mesh whose arrays are sound and
+// that is the same to the bit when saved and loaded again, or a FileError that names the file.
 #include <cstdint>
 #include <cstdlib>
 

@@ -1,5 +1,5 @@
-// Fuzzes the readers of mesh files from bytes (libFuzzer): whatever the bytes are, there is a mesh whose triangles name vertices that
-// exist and whose groups are each of some triangle's, or a FileError that names the file.
+// Fuzzes the readers of mesh files (libFuzzer): any bytes give a mesh whose triangles name vertices that exist and whose groups each have
+// a triangle, or a FileError that names the file.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>

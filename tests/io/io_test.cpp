@@ -264,7 +264,7 @@ double signedVolume(const std::vector<Polygon>& faces, const std::vector<double>
   return volume;
 }
 
-/// Cells are closed, have the volume that the file tells, and match face by face: whatever has no other side lies on the box.
+/// Cells are closed, have the volume that the file says, and match face by face: faces with one side only lie on the box.
 void requireConforming(const Mesh& mesh, const Grid& grid, size_t polyhedra) {
   const CutMesh cutMesh = cutOrFail(mesh, grid);
   const Vtu vtu(mesh, cutMesh);

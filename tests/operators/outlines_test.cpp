@@ -46,7 +46,7 @@ Section sectionOf(const Mesh& mesh, const Plane& plane, const Grid& grid) {
       for (size_t d = 0; d < 3; ++d) ends.back()[d] = a[d] + ha / (ha - hb) * (b[d] - a[d]);
     }
     if (ends.empty()) continue;
-    double from = 0, to = 1;  // what of it lies in the box
+    double from = 0, to = 1;  // the part of it in the box
     for (size_t d = 0; d < 3; ++d) {
       const double a = ends[0][d], b = ends[1][d], low = grid.planes[d].front(), high = grid.planes[d].back();
       if (a != b) {

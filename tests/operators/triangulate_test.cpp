@@ -1,4 +1,4 @@
-// Triangulation of faces: what holds for any face whatever its coordinates, and what holds for faces that rounding has left intact.
+// Triangulation of faces: what holds for a face with any coordinates, and what holds for faces that rounding has left intact.
 #include "mandoline/triangulate.h"
 
 #include <algorithm>
@@ -106,7 +106,7 @@ size_t components(const Polygon& polygon) {
   return count;
 }
 
-/// What holds whatever the coordinates are.
+/// What holds for any coordinates.
 void requireWatertight(const Polygon& polygon, const std::vector<uint32_t>& triangles) {
   bool distinct = true;
   for (size_t t = 0; t < triangles.size(); t += 3) {

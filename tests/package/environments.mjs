@@ -88,7 +88,7 @@ async function outcomeOf(page) {
 }
 
 /**
- * Opens the page and resolves to what its script assigns to `globalThis.outcome`. Whatever the page complains about is thrown, unless it is
+ * Opens the page and resolves to what its script assigns to `globalThis.outcome`. All complaints of the page are thrown, unless it is
  * expected. `look` gets the page at the end.
  */
 export async function openPage(browser, url, { expected = /^$/, look = () => {} } = {}) {

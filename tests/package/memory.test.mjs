@@ -1,4 +1,4 @@
-// Memory of the instance: flat over many calls, at its limit a named error, and after whatever kills an instance the next call works.
+// Memory of the instance: constant over many calls, a named error at its limit, and when an instance has died the next call works.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { setFlagsFromString } from 'node:v8';

@@ -32,7 +32,7 @@ export async function startSite({ files = {} } = {}) {
     url: host.url,
     host,
     meshUrl: (name) => meshes.url + name,
-    /** Opens the page with a link's hash and waits for its first cut. Whatever it complains of fails the test, if it isn't expected. */
+    /** Opens the page with a link's hash and waits for its first cut. A complaint that isn't expected fails the test. */
     async open(t, hash = '', options = {}) {
       const page = await newPage(t, browser, options);
       await page.goto(host.url + (hash ? `#${hash}` : ''));

@@ -22,6 +22,6 @@ struct LatticeCase {
 /// do.
 LatticeCase decodeLattice(const uint8_t* bytes, size_t size);
 
-/// Cuts and validates. Empty if the promises hold: whatever the triangles are, they are cut and the result is valid. Otherwise what is
+/// Cuts and validates. Empty if the promises hold: any triangles are cut, and the result is valid. Otherwise what is
 /// wrong, followed by the mesh as OBJ and the grid's planes.
 std::string brokenPromise(const LatticeCase& latticeCase);

@@ -78,7 +78,7 @@ function start(folder, tool, args) {
   return { output: () => output, ended, stop };
 }
 
-/** Runs a tool to its end, which has to be a good one. Gives what it says. */
+/** Runs a tool, which has to succeed. Returns what it prints. */
 export async function run(folder, tool, ...args) {
   const program = start(folder, tool, args);
   const code = await Promise.race([program.ended, sleep(300_000, 'no end', { ref: false })]);

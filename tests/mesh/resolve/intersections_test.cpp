@@ -75,7 +75,7 @@ struct Fraction {
 Whole normalOf(const WholeTriangle& t) { return cross(t[1] - t[0], t[2] - t[0]); }
 bool hasArea(const WholeTriangle& t) { return normalOf(t) != Whole{0, 0, 0}; }
 
-/// What of a convex polygon lies on the side of the plane through p that its normal points to.
+/// The part of a convex polygon on the side of the plane through p that its normal points to.
 std::vector<Fraction> clip(const std::vector<Fraction>& polygon, const Whole& normal, const Whole& p) {
   std::vector<Fraction> kept;
   const auto height = [&](const Fraction& f) { return dot(normal, f.x) - dot(normal, p) * f.w; };

@@ -20,7 +20,7 @@ export function boundsOf({ positions, triangles }: Mesh): Bounds {
   return min[0] <= max[0] ? { min, max } : { min: [0, 0, 0], max: [0, 0, 0] };
 }
 
-/** The box and the counts of the package's grid of `cells` cubic cells along the longest side of the mesh, but for roundings. */
+/** The box and the counts of the package's grid of `cells` cubic cells along the longest side of the mesh, up to rounding. */
 export function gridAround({ min, max }: Bounds, cells: number): { min: Vector3; max: Vector3; cells: Vector3 } {
   const longest = Math.max(...max.map((x, d) => x - min[d])) || 1;
   const size = (1.1 * longest) / cells;

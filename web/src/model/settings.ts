@@ -28,7 +28,7 @@ export function defaultSettings(): Settings {
   };
 }
 
-/** Leaves out what is as by default, so that links stay short. */
+/** Leaves out settings with their default values, so that links stay short. */
 export function toHash(settings: Settings): string {
   const fallback = entries(defaultSettings());
   return entries(settings)

@@ -29,7 +29,7 @@ export interface AppEvents {
   /** Null once a mesh could not be cut: no picture is better than that of the previous mesh. */
   model: Model | null;
   state: 'busy' | 'ready' | 'error';
-  /** What is under way. */
+  /** What the page is doing. */
   work: 'loading' | 'cutting' | null;
   progress: { stage: string; fraction: number } | null;
   cutError: PageError | null;

@@ -1,5 +1,5 @@
-// The page's half of the work: asks the package's worker, whose thread keeps meshes and cut-meshes, and gives back to a new thread what the
-// former one knew.
+// The page's half of the work: asks the package's worker, whose thread keeps meshes and cut-meshes. A new thread gets back what the former
+// one had.
 import { createWorker, type MandolineWorker } from 'mandoline-wasm/worker';
 import type { Slice, Validation } from 'mandoline-wasm';
 import type { Vector3 } from '../model/vector';
@@ -68,7 +68,7 @@ class WorkerEngine implements Engine {
     for (const id of this.kept.keys()) if (id !== this.mesh?.id && id !== this.shown?.mesh) this.kept.delete(id);
   }
 
-  /** A cut under way is finished, so that pictures come all along while a slider moves; of those that wait, the newest is next. */
+  /** A running cut is finished, so that the picture keeps changing while a slider moves; then comes the newest of those that wait. */
   cut(grid: GridSettings, snapTolerance: number): Promise<Model> {
     if (!this.cutting) return this.cutNow(grid, snapTolerance);
     this.waiting?.reject(abortError());
@@ -99,7 +99,7 @@ class WorkerEngine implements Engine {
     waiting?.resolve(this.cutNow(waiting.grid, waiting.snapTolerance));
   }
 
-  /** Without shared memory the thread can't be told: what is under way ends with it. */
+  /** Without shared memory the thread can't be told to stop, so it is ended with its call. */
   cancel(): void {
     this.loading?.abort();
     this.waiting?.reject(abortError());
@@ -131,7 +131,7 @@ class WorkerEngine implements Engine {
     return this.aboutNewest((recipe) => this.call('write', { recipe, format }));
   }
 
-  /** What means nothing for any other cut than the one that is shown: planes and cells of it. */
+  /** Calls about planes or cells of the cut that is shown, which mean nothing for another cut. */
   private async aboutShown<T>(ask: (recipe: Recipe) => Promise<T>): Promise<T> {
     if (!this.shown) throw noMesh();
     try {
@@ -141,7 +141,7 @@ class WorkerEngine implements Engine {
     }
   }
 
-  /** A cut that came in between is what the call is then about. */
+  /** If another cut came in between, the call is about that one. */
   private async aboutNewest<T>(ask: (recipe: Recipe) => Promise<T>): Promise<T> {
     for (;;) {
       const { shown } = this;

@@ -48,8 +48,8 @@ interface Arrays {
 }
 
 /**
- * Returns the number of vertices. A vertex has an id of the cell at hand if its last one is not below the cell's first. The half-faces of a
- * cell run through an edge equally often in both directions, so that one direction finds it.
+ * Returns the number of vertices. A vertex has an id in the current cell if its last id is not below the cell's first. The half-faces of a
+ * cell traverse an edge equally often in both directions, so that one direction is enough to find it.
  */
 function fill(made: Arrays, gridBegin: number, cutMesh: CutMesh, faceTriangles: FaceTriangles, [ox, oy, oz]: readonly number[]): number {
   const { position, cell, triangles, edges } = made;

@@ -18,14 +18,14 @@ export interface Cut {
   adjacency: Adjacency | null;
 }
 
-/** More untouched grid cells than this fill memory with what can't be told apart on a screen. */
+/** More untouched grid cells than this can't be told apart on a screen, and fill memory. */
 const mostGridCells = 2 ** 24;
 
 const meshes = new Map<number, LoadedMesh>();
 const prepared = new WeakMap<LoadedMesh, Mesh>();
 let newest: Cut | null = null;
 
-/** Keeps a mesh, and lets go of those that are neither it nor the one that is shown. */
+/** Keeps a mesh, and drops all others except the one that is shown. */
 export function keep(mesh: LoadedMesh): void {
   for (const id of meshes.keys()) if (id !== newest?.recipe.mesh) meshes.delete(id);
   meshes.set(mesh.id, mesh);

@@ -53,7 +53,7 @@ export async function readMesh(mandoline: Mandoline, bytes: ArrayBuffer, name: s
   }
 }
 
-/** By content, as far as that says it, else by name. */
+/** By content if that is enough, else by name. */
 function isGltf(bytes: ArrayBuffer, name: string): boolean {
   const start = textAt(bytes).trimStart();
   return start.startsWith('glTF') || start.startsWith('{') || /\.(glb|gltf)(\.gz)?$/i.test(name);

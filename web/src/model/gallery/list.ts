@@ -68,7 +68,7 @@ export const gallery: readonly GalleryEntry[] = [
     name: 'thin-bowl',
     title: 'Thin bowl',
     cells: 12,
-    line: 'A wall far thinner than a grid cell: it still has an inside of its own, and no cut-cell reaches through it.',
+    line: 'A wall far thinner than a grid cell: it still has its own inside, and no cut-cell reaches through it.',
   },
   {
     name: 'double-bubble',

@@ -35,7 +35,7 @@ export class Caps {
     return { faces, pick, lines };
   }
 
-  /** Takes the slices by the planes in their order, of which the polygons of shown cells are drawn. */
+  /** Takes the slices by the planes, in their order, and draws the polygons of cells that are shown. */
   set(model: Model, settings: Settings, regions: Uint8Array, cells: CutCells, slices: readonly Slice[]): void {
     const isShown = (cell: number, region: number) => (cell >= 0 ? cells.isShown(cell) : settings.show.untouched && regions[region] > 0);
     this.count = 0;

@@ -10,7 +10,7 @@ export const gridFaceColor = toRgb(kindColors.grid);
 export const insideColor = toRgb(kindColors.inside);
 const untouchedKindColor = toRgb(kindColors.untouched);
 
-/** Colours of ids are worked out once: a prime number of them, so that those of neighbours along no axis are the same. */
+/** Colours of ids are computed once: a prime number of them, so that neighbours along an axis never have the same one. */
 const idColors = Array.from({ length: 1021 }, (_, id) => toRgb(idColor(id)));
 const volumeSteps = 255;
 const volumeColors = Array.from({ length: volumeSteps + 1 }, (_, step) => toRgb(volumeColor(step / volumeSteps)));

@@ -118,7 +118,7 @@ export class CutCells {
     return this.looks[4 * cell + 3] > 0;
   }
 
-  /** Whether something of the cell is left by the planes. */
+  /** Whether the planes leave a part of the cell. */
   isKept(model: Model, planes: readonly ViewPlane[], flat: boolean, cell: number): boolean {
     const { centroid, gridCell } = model.cells;
     if (!flat) return !isBeyond(planes, centroid[3 * cell], centroid[3 * cell + 1], centroid[3 * cell + 2]);

@@ -11,7 +11,7 @@ export interface Shown {
   planes: readonly ViewPlane[];
   /** 3 per region: how it moves in an explosion by region. */
   shifts: Float32Array;
-  /** Whatever draws triangles. */
+  /** The parts that draw triangles. */
   parts: readonly { forEachPiece(take: (piece: Piece) => void): void }[];
 }
 
@@ -57,7 +57,7 @@ function shownTriangles({ settings, planes, shifts, parts }: Shown): BufferGeome
   return geometry;
 }
 
-/** What all planes but its own leave of a triangle: a convex polygon, maybe empty. */
+/** The part of a triangle that all planes but its own leave: a convex polygon, maybe empty. */
 function clipped({ corners, ownPlane }: Piece, planes: readonly ViewPlane[]): readonly number[] {
   let polygon = corners;
   planes.forEach((plane, p) => {

@@ -36,7 +36,7 @@ function meshBox({ meshMin, meshMax, origin }: Model): Box {
   return { min: meshMin.map((x, d) => x - origin[d]), max: meshMax.map((x, d) => x - origin[d]) };
 }
 
-/** The box after the explosions: it grows with that by cell, and includes the regions where that by region takes them. */
+/** The box after the explosions: the one by cell makes it grow, and it includes the regions where the one by region takes them. */
 function apart(model: Model, settings: Settings, shifts: Float32Array, whole: Box): Box {
   const { cells, regions } = settings.explode;
   const box: Box = { min: whole.min.map((x) => x * (1 + cells)), max: whole.max.map((x) => x * (1 + cells)) };

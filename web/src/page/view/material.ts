@@ -123,7 +123,7 @@ void main() {
       shown = look.a > 0.5;
     #endif
     #ifndef LINES
-      // Pieces of grid-faces are paler, so that they are told from the surface by any colours.
+      // Pieces of grid-faces are paler, so that they differ from the surface in all colours.
       if (!isSurface) vColor = byKind ? gridFaceColor : mix(vColor, vec3(0.88), 0.22);
     #endif
   #endif

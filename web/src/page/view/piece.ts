@@ -1,6 +1,6 @@
 import type { Rgb } from './colors';
 
-/** A triangle as it is drawn, for files: before it is moved, and with what moves it. */
+/** A drawn triangle, for files: where it is before it is moved, and what moves it. */
 export interface Piece {
   /** Its corners at rest: 9 numbers. */
   corners: readonly number[];
@@ -8,7 +8,7 @@ export interface Piece {
   middle: ArrayLike<number>;
   region: number;
   color: Rgb;
-  /** The plane that it fills a cut of, which does not cut it; -1 for none. */
+  /** The plane whose cut it fills, which therefore does not cut it; -1 for none. */
   ownPlane: number;
 }
 

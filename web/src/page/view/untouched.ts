@@ -9,8 +9,8 @@ import type { ViewPlane } from './planes';
 
 /**
  * Boxes drawn at most when cells are pulled apart and any box might be seen through the gaps: all of a 50^3 grid, 1.8 million triangles.
- * Of a larger grid only boxes that also are seen when nothing is pulled apart are drawn: their number grows with the surface, about 10^5
- * for 128^3, and what is missing lies behind them.
+ * Of a larger grid only boxes that would also be seen with nothing pulled apart are drawn: their number grows with the surface, about 10^5
+ * for 128^3, and the missing ones lie behind them.
  */
 const mostBoxes = 150_000;
 

@@ -175,7 +175,7 @@ class ThreeView implements View {
     this.gizmo.hide();
     Object.assign(this.canvas.dataset, { model: '', cells: '0', untouched: '0', caps: '0' });
     this.onHover(null);
-    this.draw(); // At once: nothing of the previous model may stay behind the words that take its place.
+    this.draw(); // At once: the previous model must not stay behind the words that replace it.
   }
 
   /** Another grid has another centre and size; the camera keeps looking at the same place. */
@@ -391,7 +391,7 @@ class ThreeView implements View {
     this.regions = shownRegions(model, settings);
     const { show, colorBy, sliceMode } = settings;
     const isFlat = sliceMode === 'flat';
-    // Explosions and slices of whole cells change uniforms alone; the rest is worked out again only if what it depends on has changed.
+    // Explosions and slices of whole cells only change uniforms; other parts are computed again if something they depend on has changed.
     if (this.hasChanged('cells', [model.id, show, colorBy])) this.cells.setLook(model, settings, this.regions);
     const slices = this.choosePlanes(model, settings);
     if (this.hasChanged('caps', [model.id, show, colorBy, slices.count])) {
@@ -419,7 +419,7 @@ class ThreeView implements View {
     return isFlat && wanted.length > 0 && made ? made : noSlices;
   }
 
-  /** Whether what a part depends on has changed since the last call. */
+  /** Whether something that a part depends on has changed since the last call. */
   private hasChanged(part: string, dependsOn: unknown[]): boolean {
     const key = JSON.stringify(dependsOn);
     const isNew = this.keys.get(part) !== key;

@@ -11,13 +11,13 @@ function linear(hex: string): Color {
 export const triEdgeColor = linear('#8794a1');
 /** Of a crossing of one, two or three axial planes. */
 export const crossingColors: readonly Color[] = ['#e0822b', '#c23fa6', '#d3202f'].map(linear);
-/** Of what lies in planes across an axis. */
+/** Of points and lines in planes across an axis. */
 export const axisColors: readonly Color[] = ['#d9534f', '#3f9d4c', '#3f78d9'].map(linear);
 export const outlineColor = linear('#5b6773');
 export const gridColor = linear('#9aa6b2');
 export const coplanarColor = linear('#f0b429');
 
-/** A piece's colour is that of a region of its number. */
+/** A piece has the colour of the region with the same number. */
 export function pieceColor(piece: number): Color {
   return regionColor(piece);
 }

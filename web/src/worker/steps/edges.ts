@@ -47,7 +47,7 @@ function facesOfTriangles(subject: Subject, triangles: ReadonlySet<number>): num
   return facesWhere(subject, (face) => triangles.has(subject.cutMesh.faceTriangle[face]));
 }
 
-/** Returns their number: what lies at one place is one vertex, so an edge of an unwelded mesh counts once. */
+/** Returns their number. Vertices at one place are one vertex, so an edge of an unwelded mesh counts once. */
 function drawTriEdges(drawing: Drawing, { mesh }: Subject, triangles: Iterable<number>): number {
   const seen = new Set<string>();
   for (const t of triangles) {
