@@ -7,8 +7,8 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { fail, path, run } from './steps.mjs';
 
-const native = ['a C++20 compiler', 'CMake', 'make', 'zlib'];
-const webAssembly = ['CMake', 'make', 'Emscripten', 'Eigen', 'the npm packages'];
+const native = ['a C++20 compiler', 'CMake', 'make', 'zlib', 'fast_float'];
+const webAssembly = ['CMake', 'make', 'Emscripten', 'Eigen', 'fast_float', 'the npm packages'];
 const needs = {
   start: [...native, ...webAssembly],
   build: webAssembly,
@@ -52,6 +52,7 @@ const tools = {
   Catch2: { has: () => hasHeader('catch2/catch.hpp') || hasHeader('catch2/catch_all.hpp'), packages: ['catch2'] },
   'pkg-config': { has: () => works('pkg-config', '--version'), packages: ['pkg-config'] },
   Eigen: { has: () => isFound('Eigen3'), packages: ['libeigen3-dev'] },
+  fast_float: { has: () => isFound('FastFloat'), packages: ['libfast-float-dev'] },
   zlib: { has: () => hasHeader('zlib.h'), packages: ['zlib1g-dev'] },
   Emscripten: { has: () => works('emcc', '--version'), packages: ['emscripten'] },
   Chromium: { has: () => works('/usr/bin/chromium', '--version'), packages: ['chromium'] },

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <charconv>
+#include <version>
 
 namespace mandoline::detail {
 
@@ -11,11 +12,16 @@ char* printNumber(char* begin, char* end, Integer n) {
   return std::to_chars(begin, end, n).ptr;
 }
 
-#ifdef __EMSCRIPTEN__  // its library may lack doubles, and JavaScript knows how to print them
-char* printNumber(char* begin, char* end, double n);
-#else
+/// What std::to_chars writes for a double, in a few kilobytes and from the standard library's integers alone.
+char* printShortest(char* begin, char* end, double n);
+
 /// Doubles read back identically, from as few digits as possible.
-inline char* printNumber(char* begin, char* end, double n) { return std::to_chars(begin, end, n).ptr; }
+inline char* printNumber(char* begin, char* end, double n) {
+#if defined(__cpp_lib_to_chars) && !defined(__EMSCRIPTEN__)
+  return std::to_chars(begin, end, n).ptr;
+#else
+  return printShortest(begin, end, n);
 #endif
+}
 
 }  // namespace mandoline::detail

@@ -1,5 +1,5 @@
-// Uses the public headers as a stranger would: cuts a torus knot, validates, measures, triangulates and writes the result. Prints a hash of
-// all that, which must not depend on how the library was built and taken.
+// Uses the public headers as a stranger would: cuts a torus knot, validates, measures, triangulates, writes the result and reads it. Prints
+// a hash of all that, which must not depend on how the library was built and taken.
 #include <cstdio>
 #include <sstream>
 
@@ -43,10 +43,13 @@ int main() {
   const mandoline::Measures measures = measure(mesh, result.mesh);
   std::ostringstream json;
   mandoline::writeJson(json, result.mesh);
+  std::ostringstream obj;
+  mandoline::writeObj(obj, result.mesh);
 
   Hash hash;
   hash.add(mesh.positions);
   hash.add(json.str().data(), json.str().size());
+  hash.add(mandoline::readMesh(obj.str(), "surface.obj").positions);
   hash.add(measures.cellVolume);
   hash.add(measures.faceArea);
   hash.add(triangulateFaces(result.mesh).triangles);

@@ -1,7 +1,7 @@
 # A project that uses the library, in each of the ways there are. All have to get the bits that this build's own library gives.
 #   static, as this build made it:  find_package, pkg-config
 #   from source:                    add_subdirectory, in a project that is compiled with -ffast-math
-#                                   FetchContent, without optimisation, as shared libraries
+#                                   FetchContent, without optimisation and fast_float, as shared libraries
 #   shared, as the latter installs: find_package, pkg-config
 add_executable(mandoline-reference consumer/consumer.cpp)
 target_link_libraries(mandoline-reference PRIVATE mandoline_io)
@@ -27,8 +27,9 @@ function(add_tests_of_installed kind)
 endfunction()
 
 add_consumer_test(add_subdirectory add_subdirectory -D "OPTIONS=-DCMAKE_CXX_FLAGS=-O1 -ffast-math")
-add_consumer_test(FetchContent FetchContent -D MORE_TARGETS=mandoline-cli
-  -D "OPTIONS=-DBUILD_SHARED_LIBS=ON\;-DMANDOLINE_INSTALL=ON\;-DMANDOLINE_BUILD_CLI=ON\;-DCMAKE_CXX_FLAGS=-O0")
+string(JOIN "\\;" fetch_options -DBUILD_SHARED_LIBS=ON -DMANDOLINE_INSTALL=ON -DMANDOLINE_BUILD_CLI=ON
+  -DCMAKE_DISABLE_FIND_PACKAGE_FastFloat=ON -DCMAKE_CXX_FLAGS=-O0)
+add_consumer_test(FetchContent FetchContent -D MORE_TARGETS=mandoline-cli -D "OPTIONS=${fetch_options}")
 set_tests_properties(consumer_FetchContent PROPERTIES FIXTURES_SETUP shared)
 
 add_consumer_test(prefix_static install -D FROM=${PROJECT_BINARY_DIR})

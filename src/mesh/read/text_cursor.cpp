@@ -1,47 +1,11 @@
 #include "mesh/read/text_cursor.h"
 
-#include <algorithm>
-#include <cctype>
 #include <charconv>
-#include <cmath>
-#include <cstdlib>
 #include <system_error>
 
+#include "mesh/read/parse_number.h"
+
 namespace mandoline::detail {
-namespace {
-
-#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 200000  // where std::from_chars lacks doubles
-std::from_chars_result parse(const char* first, const char* last, double& value) {
-  const auto belongs = [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '-' || c == '.'; };
-  const std::string text(first, std::find_if_not(first, last, belongs));  // strtod looks for its end, and takes more
-  const bool number = text.find_first_of("0123456789.inIN") == (text[0] == '-') && text.find_first_of("xX") == std::string::npos;
-  char* end = nullptr;
-  const double parsed = number ? std::strtod(text.c_str(), &end) : 0;
-  if (!number || end == text.c_str()) return {first, std::errc::invalid_argument};
-  value = parsed;
-  return {first + (end - text.c_str()), std::errc()};
-}
-#else
-/// A number that no double holds: nearly 0, or infinite.
-double outOfRange(const char* first, const char* last) {
-  long double value = 0;
-  if (std::from_chars(first, last, value).ec == std::errc()) return double(value);
-  const std::string_view digits(first, size_t(last - first));
-  const size_t exponent = digits.find_first_of("eE");
-  const bool tiny = exponent != std::string_view::npos && digits.substr(exponent + 1, 1) == "-";
-  const double magnitude = tiny ? 0.0 : HUGE_VAL;
-  return digits[0] == '-' ? -magnitude : magnitude;
-}
-
-std::from_chars_result parse(const char* first, const char* last, double& value) {
-  const std::from_chars_result result = std::from_chars(first, last, value);
-  if (result.ec != std::errc::result_out_of_range) return result;
-  value = outOfRange(first, result.ptr);
-  return {result.ptr, std::errc()};
-}
-#endif
-
-}  // namespace
 
 TextCursor::TextCursor(std::string path, std::string_view text)
     : path_(std::move(path)), position_(text.data()), end_(text.data() + text.size()) {
@@ -95,8 +59,8 @@ double TextCursor::number() {
   const char* begin = position_;
   if (*begin == '+' && begin + 1 != end_ && begin[1] != '-') ++begin;
   double value = 0;
-  const auto [last, error] = parse(begin, end_, value);
-  if (error != std::errc() || !isWordEnd(last)) failExpected("a number", position_);
+  const char* last = parseNumber(begin, end_, value);
+  if (last == begin || !isWordEnd(last)) failExpected("a number", position_);
   position_ = last;
   return value;
 }
