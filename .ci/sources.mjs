@@ -39,6 +39,13 @@ function headersLeftOut() {
   return headers.filter((file) => !seen.has(file) && !ofOthers.includes(file)).map((file) => `mandoline.h does not include ${file}`);
 }
 
+/** Public headers whose functions shared libraries would not export, as messages. */
+function hiddenHeaders() {
+  const headers = sources.filter((file) => file.startsWith('src/include/'));
+  const isHidden = (file) => /^namespace mandoline\b/m.test(readFileSync(path(file), 'utf8'));
+  return headers.filter(isHidden).map((file) => `${file}: "namespace MANDOLINE_API mandoline", or shared libraries export nothing of it`);
+}
+
 /** Ends the program if a file is not formatted, too long, or includes what it should not see. */
 function checkFiles() {
   setUp('sources');
@@ -46,7 +53,7 @@ function checkFiles() {
   run('clang-format-14', '--dry-run', '-Werror', ...files);
   const lineCount = (file) => readFileSync(path(file), 'utf8').split('\n').length - 1;
   const long = sources.filter((file) => lineCount(file) > mostLines).map((file) => `${file} has more than ${mostLines} lines`);
-  const problems = [...long, ...sources.flatMap(wrongIncludes), ...headersLeftOut()];
+  const problems = [...long, ...sources.flatMap(wrongIncludes), ...headersLeftOut(), ...hiddenHeaders()];
   if (problems.length) fail(problems.join('\n'));
 }
 

@@ -17,18 +17,16 @@ endif()
 
 set(MANDOLINE_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/mandoline)
 install(TARGETS ${MANDOLINE_INSTALLED} EXPORT mandoline)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY src/include/mandoline DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(EXPORT mandoline NAMESPACE mandoline:: DESTINATION ${MANDOLINE_CMAKE_DIR} FILE mandoline-targets.cmake)
 
 # Whoever links static libraries has to link what they use; shared ones see to it themselves.
-get_target_property(MANDOLINE_TYPE mandoline TYPE)
 set(MANDOLINE_CONFIG "")
-if(MANDOLINE_TYPE STREQUAL STATIC_LIBRARY)
+if(MANDOLINE_STATIC)
   set(MANDOLINE_CONFIG "include(CMakeFindDependencyMacro)\nfind_dependency(Threads)\n")
-  set(MANDOLINE_PC_LIBS ${CMAKE_THREAD_LIBS_INIT})
   if(ZLIB_FOUND)
     string(APPEND MANDOLINE_CONFIG "find_dependency(ZLIB)\n")
-    set(MANDOLINE_PC_IO_REQUIRES ", zlib")
   endif()
 endif()
 if(TARGET mandoline_operators) # those who only cut need no Eigen
@@ -44,7 +42,16 @@ install(FILES ${PROJECT_BINARY_DIR}/mandoline-config.cmake ${PROJECT_BINARY_DIR}
 
 set(MANDOLINE_PC_DIR ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH MANDOLINE_PC_TO_INCLUDE ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_FULL_INCLUDEDIR})
-function(mandoline_write_pc module description requires libs)
+# `uses` is what the library itself uses: static ones have nothing else to be linked with than `pkg-config --libs` says; of shared ones
+# `pkg-config --static --libs` says it.
+function(mandoline_write_pc module description requires uses)
+  string(REPLACE - _ library ${module})
+  set(libs "-L\${libdir} -l${library}")
+  set(libs_private ${uses})
+  if(MANDOLINE_STATIC)
+    string(APPEND libs " ${uses}")
+    set(libs_private "")
+  endif()
   file(WRITE ${PROJECT_BINARY_DIR}/${module}.pc
 "libdir=\${pcfiledir}/..
 includedir=\${pcfiledir}/${MANDOLINE_PC_TO_INCLUDE}
@@ -54,13 +61,16 @@ Description: ${description}
 Version: ${PROJECT_VERSION}
 Requires: ${requires}
 Cflags: -I\${includedir}
-Libs: -L\${libdir} ${libs}
+Libs: ${libs}
+Libs.private: ${libs_private}
 ")
   install(FILES ${PROJECT_BINARY_DIR}/${module}.pc DESTINATION ${MANDOLINE_PC_DIR})
 endfunction()
-mandoline_write_pc(mandoline "Cuts triangle meshes with Cartesian grids into polyhedral cut-cells" "" "-lmandoline ${MANDOLINE_PC_LIBS}")
-mandoline_write_pc(mandoline-io "Mesh files for mandoline" "mandoline = ${PROJECT_VERSION}${MANDOLINE_PC_IO_REQUIRES}" "-lmandoline_io")
+mandoline_write_pc(mandoline "Cuts triangle meshes with Cartesian grids into polyhedral cut-cells" "" "${CMAKE_THREAD_LIBS_INIT}")
+if(ZLIB_FOUND)
+  set(MANDOLINE_PC_ZLIB -lz)
+endif()
+mandoline_write_pc(mandoline-io "Mesh files for mandoline" "mandoline = ${PROJECT_VERSION}" "${MANDOLINE_PC_ZLIB}")
 if(TARGET mandoline_operators)
-  mandoline_write_pc(mandoline-operators "Discrete operators on the cells of mandoline" "mandoline = ${PROJECT_VERSION}, eigen3"
-                     "-lmandoline_operators")
+  mandoline_write_pc(mandoline-operators "Discrete operators on the cells of mandoline" "mandoline = ${PROJECT_VERSION}, eigen3" "")
 endif()

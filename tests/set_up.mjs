@@ -12,7 +12,7 @@ const webAssembly = ['CMake', 'make', 'Emscripten', 'Eigen', 'fast_float', 'the 
 const needs = {
   start: [...native, ...webAssembly],
   build: webAssembly,
-  test: [...native, ...webAssembly, 'pkg-config', 'Catch2', 'Chromium'],
+  test: [...native, ...webAssembly, 'pkg-config', 'Catch2', 'pybind11', 'Chromium'],
   bench: [...native, 'the npm packages'],
   orders: [...native, 'Eigen'],
   // Of the continuous integration.
@@ -53,6 +53,10 @@ const tools = {
   'pkg-config': { has: () => works('pkg-config', '--version'), packages: ['pkg-config'] },
   Eigen: { has: () => isFound('Eigen3'), packages: ['libeigen3-dev'] },
   fast_float: { has: () => isFound('FastFloat'), packages: ['libfast-float-dev'] },
+  pybind11: {
+    has: () => hasHeader('pybind11/pybind11.h') && works('python3-config', '--includes'),
+    packages: ['pybind11-dev', 'python3-dev'],
+  },
   zlib: { has: () => hasHeader('zlib.h'), packages: ['zlib1g-dev'] },
   Emscripten: { has: () => works('emcc', '--version'), packages: ['emscripten'] },
   Chromium: { has: () => works('/usr/bin/chromium', '--version'), packages: ['chromium'] },

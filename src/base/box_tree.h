@@ -8,6 +8,7 @@
 
 #include "base/function_ref.h"
 #include "base/point.h"
+#include "base/shared.h"
 
 namespace mandoline::detail {
 
@@ -38,10 +39,10 @@ class BoxTree {
   };
 
   /// Holds itemOf(0) .. itemOf(count - 1) from now on, instead of what it held.
-  void build(size_t count, FunctionRef<Item(size_t)> itemOf);
+  MANDOLINE_SHARED void build(size_t count, FunctionRef<Item(size_t)> itemOf);
 
   /// Calls f(id) for the items whose boxes overlap the given one, in an order that the items alone decide.
-  void forOverlapping(const Box& box, FunctionRef<void(uint32_t)> f) const;
+  MANDOLINE_SHARED void forOverlapping(const Box& box, FunctionRef<void(uint32_t)> f) const;
   /// The same, mostly starting with items that reach farther along the axis; f may lower the box meanwhile.
   void forOverlappingFromAbove(const Box& box, size_t axis, FunctionRef<void(uint32_t)> f) const {
     if (!nodes_.empty()) visitFromAbove(0, box, axis, f);

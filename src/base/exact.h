@@ -11,6 +11,7 @@
 
 #include "base/big.h"
 #include "base/error_free.h"
+#include "base/shared.h"
 
 namespace mandoline::detail {
 
@@ -114,9 +115,9 @@ class Predicates {
   uint64_t fallbacks = 0;
 
   /// Sign of (b - a) x (c - a) in the plane; positive when a, b, c turn counter-clockwise.
-  int orient2d(const Point2& a, const Point2& b, const Point2& c);
+  MANDOLINE_SHARED int orient2d(const Point2& a, const Point2& b, const Point2& c);
   /// Sign of det(b - a, c - a, d - a): positive when d lies on the side of triangle (a, b, c) that its normal points to.
-  int orient3d(const double* a, const double* b, const double* c, const double* d);
+  MANDOLINE_SHARED int orient3d(const double* a, const double* b, const double* c, const double* d);
 
   /// Sign of a polynomial, given as a callable that works on either number type: f(Number tag) -> Number.
   template <class Polynomial>

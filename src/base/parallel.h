@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "base/function_ref.h"
+#include "base/shared.h"
 
 namespace mandoline::detail {
 
 /// Thrown where the progress callback returned false.
-struct Cancelled {};
+struct MANDOLINE_SHARED Cancelled {};
 /// Thrown where the progress callback threw; kept apart from what the library itself throws, so that it can pass through unchanged.
-struct ProgressFailed {
+struct MANDOLINE_SHARED ProgressFailed {
   std::exception_ptr exception;
 };
 
@@ -89,7 +90,7 @@ inline size_t chunkCount(size_t n, const Monitor& monitor, size_t block) {
 }
 
 /// Runs f(chunk, begin, end) for that many ranges of 0..n, as forChunks below.
-void runChunks(size_t n, size_t chunks, Monitor& monitor, FunctionRef<void(size_t, size_t, size_t)> f, size_t block);
+MANDOLINE_SHARED void runChunks(size_t n, size_t chunks, Monitor& monitor, FunctionRef<void(size_t, size_t, size_t)> f, size_t block);
 
 /// Runs f(state, begin, end) over 0..n in order of items, each State over one contiguous range, and returns the states in that order:
 /// concatenating them gives the same result for any number of threads. Progress is reported every `block` items, and fewer items are not

@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "base/function_ref.h"
+#include "base/shared.h"
 
 namespace mandoline::detail {
 
 /// Sorts items that are moved as bytes, stably.
-void sortMany(void* items, size_t count, size_t itemSize, FunctionRef<bool(const void*, const void*)> isBefore);
+MANDOLINE_SHARED void sortMany(void* items, size_t count, size_t itemSize, FunctionRef<bool(const void*, const void*)> isBefore);
 
 /// Sorts a vector, array or span, stably.
 template <class Items, class IsBefore = std::less<>>

@@ -4,23 +4,24 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/shared.h"
 #include "mandoline/io.h"
 
 namespace mandoline::detail {
 
 /// Throws the FileError that opening the file would meet at once: no such folder, or it is a folder.
-void checkPlace(const std::string& path);
+MANDOLINE_SHARED void checkPlace(const std::string& path);
 
 /// A file that takes its place when it is committed, unless that place is a device or a pipe, which gets everything as it comes.
 class OutputFile {
  public:
-  explicit OutputFile(const std::string& path);
-  ~OutputFile();
+  MANDOLINE_SHARED explicit OutputFile(const std::string& path);
+  MANDOLINE_SHARED ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  void write(std::string_view bytes);
-  void commit();
+  MANDOLINE_SHARED void write(std::string_view bytes);
+  MANDOLINE_SHARED void commit();
 
  private:
   std::string path_;

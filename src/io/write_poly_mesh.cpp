@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 
+#include "base/sort.h"
 #include "io/complex_polygons.h"
 #include "io/groups.h"
 #include "io/output_buffer.h"
@@ -78,8 +79,8 @@ Sides sort(const CutMesh& cutMesh, const CellComplex& cells, const std::vector<i
       if (at[side] != kLeftOut) sides.patches[patch].sides.push_back({at[side], kLeftOut, uint32_t(2 * f + side)});
     }
   }
-  std::stable_sort(sides.inner.begin(), sides.inner.end(),
-                   [](const Side& a, const Side& b) { return a.owner != b.owner ? a.owner < b.owner : a.neighbour < b.neighbour; });
+  detail::sortItems(sides.inner,
+                    [](const Side& a, const Side& b) { return a.owner != b.owner ? a.owner < b.owner : a.neighbour < b.neighbour; });
   std::erase_if(sides.patches, [](const Patch& patch) { return patch.name == kBoxPatches[size_t(FaceTag::inner)] && patch.sides.empty(); });
   return sides;
 }

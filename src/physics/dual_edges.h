@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/csr.h"
+#include "base/shared.h"
 #include "mandoline/operators.h"
 
 namespace mandoline::physics {
@@ -20,7 +21,7 @@ struct DualEdges {
 };
 
 /// In the order of their first faces.
-DualEdges dualEdges(const CellComplex& cells, DualPoints dualPoints);
+MANDOLINE_SHARED DualEdges dualEdges(const CellComplex& cells, DualPoints dualPoints);
 
 inline bool isInner(const CellComplex& cells, size_t f) {
   return cells.faceTag[f] == FaceTag::inner && cells.faceCells[2 * f] >= 0 && cells.faceCells[2 * f + 1] >= 0;

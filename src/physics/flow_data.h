@@ -22,12 +22,12 @@ struct FlowData {
 };
 
 /// Fills in the flow's velocities of faces: on the boundary those given there, elsewhere those from phi.
-void fillFaceVelocities(const CellComplex& cells, const Boundary& boundary, const DualEdges& dual, Flow& flow);
+MANDOLINE_SHARED void fillFaceVelocities(const CellComplex& cells, const Boundary& boundary, const DualEdges& dual, Flow& flow);
 
 /// `flow` has the faces' velocities.
-FlowData flowData(const CellComplex& cells, const DualEdges& dual, const Flow& flow);
+MANDOLINE_SHARED FlowData flowData(const CellComplex& cells, const DualEdges& dual, const Flow& flow);
 
 /// Fills in the flow's velocities and gradients in cells.
-void fitVelocities(const CellComplex& cells, const FlowData& data, detail::Monitor& monitor, Flow& flow);
+MANDOLINE_SHARED void fitVelocities(const CellComplex& cells, const FlowData& data, detail::Monitor& monitor, Flow& flow);
 
 }  // namespace mandoline::physics

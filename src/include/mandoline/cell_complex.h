@@ -4,7 +4,7 @@
 #include "mandoline/coarsen.h"
 #include "mandoline/mesh.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 /// What a face of a cell complex is part of: a side of the grid, or:
 enum class FaceTag : uint8_t {

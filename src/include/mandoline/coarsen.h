@@ -4,7 +4,7 @@
 #include "mandoline/cut_mesh.h"
 #include "mandoline/status.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 struct CoarsenOptions : RunOptions {
   int maxLevel = 24;          ///< octree cells have at most 2^maxLevel grid cells on a side; 0 merges nothing

@@ -5,7 +5,7 @@
 #include "mandoline/intersections.h"
 #include "mandoline/status.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 struct CutOptions : RunOptions {
   /// Tri-vertices within this distance of an axial plane (in cells, below 0.5) are moved onto it before cutting.

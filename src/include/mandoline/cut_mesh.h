@@ -8,7 +8,7 @@
 
 #include "mandoline/grid.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 /// The loops of a face, a range of spans of vertex ids: the outer one first, counter-clockwise about the face's normal, then holes,
 /// clockwise.

@@ -7,7 +7,7 @@
 
 #include "mandoline/poisson.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 struct FlowOptions : RunOptions {
   double tolerance = 1e-10;  ///< as in SolveOptions

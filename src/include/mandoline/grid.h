@@ -5,7 +5,7 @@
 
 #include "mandoline/mesh.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 /// A rectilinear grid: per axis d the ascending coordinates of its cells[d] + 1 axial planes (paper, 3.1). These doubles are the grid:
 /// every decision compares input doubles with them. Grid cell (i, j, k) spans planes[0][i] .. planes[0][i + 1] and so on.

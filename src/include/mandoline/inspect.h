@@ -5,7 +5,7 @@
 
 #include "mandoline/mesh.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 /// What a mesh has. Vertices at one position count as one, except in the number of vertices. Edges are those of triangles with three
 /// different vertices.

@@ -8,7 +8,7 @@
 #include "mandoline/mesh.h"
 #include "mandoline/status.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 /// What to do about them.
 enum class Intersections : uint8_t {

@@ -13,7 +13,7 @@
 #include "mandoline/mesh_files.h"
 #include "mandoline/slice.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 /// The kinds of files that are written, by their extensions.
 enum class FileFormat {

@@ -7,7 +7,7 @@
 #include "mandoline/cut_mesh.h"
 #include "mandoline/status.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 /// Where points lie. A point on a face or on a plane of the grid belongs to one of the cells beside it, always the same one.
 struct Locations {

@@ -4,7 +4,7 @@
 #include "mandoline/cut_mesh.h"
 #include "mandoline/status.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 /// All in world units. Computed from what each vertex comes from (vertexParents), in coordinates local to each cell, so that the relative
 /// error is small for a tiny cell, too.

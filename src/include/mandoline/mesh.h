@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
-namespace mandoline {
+#include "mandoline/api.h"
+
+namespace MANDOLINE_API mandoline {
 
 /// A triangle mesh. The normal of triangle (a, b, c) is (b - a) x (c - a). It may be open, non-manifold, inconsistently oriented, unwelded,
 /// and its triangles may meet anywhere.

@@ -7,7 +7,7 @@
 
 #include "mandoline/mesh.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 /// A file that can't be used; what() names the file and the line or element.
 struct FileError : std::runtime_error {

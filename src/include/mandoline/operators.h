@@ -9,7 +9,7 @@
 
 #include "mandoline/cell_complex.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 

@@ -4,7 +4,7 @@
 #include "mandoline/operators.h"
 #include "mandoline/status.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 enum class Condition : uint8_t {
   neumann,   ///< the derivative of phi along the normal that points out of the cell is given

@@ -5,7 +5,7 @@
 
 #include "mandoline/cut.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 namespace detail {
 struct PreparedMeshData;

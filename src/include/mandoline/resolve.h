@@ -3,7 +3,7 @@
 
 #include "mandoline/prepare.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 /// The arrangement of a mesh's triangles: two triangles meet in shared vertices and edges alone, up to the rounding of vertices.
 struct ResolvedMesh {

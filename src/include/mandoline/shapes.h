@@ -5,7 +5,7 @@
 
 #include "mandoline/mesh.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 /// 12 triangles.
 Mesh makeBox(const std::array<double, 3>& min, const std::array<double, 3>& max);

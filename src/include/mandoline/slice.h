@@ -8,7 +8,7 @@
 #include "mandoline/cut_mesh.h"
 #include "mandoline/status.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 /// The points x with normal . x = offset. The normal may have any length.
 struct Plane {

@@ -7,7 +7,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace mandoline {
+#include "mandoline/api.h"
+
+namespace MANDOLINE_API mandoline {
 
 enum class Status : uint8_t {
   ok,

@@ -6,7 +6,7 @@
 #include "mandoline/cut_mesh.h"
 #include "mandoline/status.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 /// Triangles of every face. No vertices are added and a face has one triangulation, used by the cells on both sides, so neighbours match.
 struct FaceTriangles {

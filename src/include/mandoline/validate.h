@@ -3,7 +3,7 @@
 
 #include "mandoline/cell_complex.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 struct Check {
   std::string name;      ///< e.g. "surfaceArea"

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "base/csr.h"
+#include "base/shared.h"
 #include "grid/scaled_space.h"
 #include "operators/triangulate/face_triangulator.h"
 
@@ -29,9 +30,9 @@ class Walls {
   Walls(const CutMesh& cutMesh, const ScaledSpace& space) : cutMesh_(cutMesh), space_(space), triangulator_(cutMesh.positions) {}
 
   /// Loads what lies around the cut-cells, which are all of a grid cell, to be asked about some points of it.
-  void load(const IdRange& cells, const std::vector<ScaledPoint>& points);
+  MANDOLINE_SHARED void load(const IdRange& cells, const std::vector<ScaledPoint>& points);
   /// The place of the cut-cell that holds one of the points; kNone only if the cut-mesh is not valid.
-  uint32_t cellAt(const ScaledPoint& point);
+  MANDOLINE_SHARED uint32_t cellAt(const ScaledPoint& point);
 
  private:
   struct HalfFace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/csr.h"
+#include "base/shared.h"
 #include "operators/slice/cutting_plane.h"
 
 namespace mandoline::operators {
@@ -20,7 +21,7 @@ struct ScaledGrid {
 };
 
 /// Throws CallError unless the normal has a direction.
-void requireNormal(const std::array<double, 3>& normal);
+MANDOLINE_SHARED void requireNormal(const std::array<double, 3>& normal);
 
 /// The planes that may meet the grid, by ascending offset. Throws CallError for a normal without a direction and offsets that are no
 /// numbers.
