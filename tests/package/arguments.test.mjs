@@ -102,6 +102,26 @@ test('grids', () => {
   for (const [wrong, pattern] of cases) assertBad(() => mandoline.cut(mesh, wrong), pattern);
 });
 
+test('a margin is not negative, as on the command line', () => {
+  for (const margin of [-0.1, -0.6, NaN, Infinity, 1e7]) {
+    assert.throws(() => mandoline.cut(mesh, { cells: 4, margin }), {
+      code: 'badOption',
+      stage: 'input',
+      message: /^grid\.margin must be from 0/,
+    });
+  }
+  assert.equal(mandoline.cut(mesh, { cells: 4, margin: 0 }).grid.planes[0][0], 0.5);
+});
+
+test('a grid that is too large is told', () => {
+  const cases = [
+    [{ cells: 2 ** 25 }, /^The grid's x axis has .* Asked for were 33554432 cells along the longest side of the mesh\.$/],
+    [{ ...grid, cells: [1, 2 ** 25, 3] }, /^The grid's y axis has .* Asked for were 1 x 33554432 x 3 cells\.$/],
+    [{ ...grid, cells: [1, 2 ** 15, 2 ** 14] }, /rows of cells\. Asked for were 1 x 32768 x 16384 cells\.$/],
+  ];
+  for (const [wrong, message] of cases) assert.throws(() => mandoline.cut(mesh, wrong), { code: 'gridTooLarge', stage: 'input', message });
+});
+
 test('options', () => {
   const cases = [
     [null, /^options must be an object/],

@@ -104,6 +104,7 @@ for (const [name, content] of Object.entries({ ...files, 'cube.stl': writeStl(cu
 test('what is no file is a badArgument', async () => {
   const refusal = { code: 'badArgument', stage: 'readMesh' };
   for (const source of [undefined, null, 'cube.obj', {}, [1, 2]]) await assert.rejects(readMesh(source), refusal);
+  await assert.rejects(readMesh('cube.obj'), { message: /fetch\(address\).*readFile\(path\), not string\.$/ });
   for (const options of [null, 7, { name: 7 }]) await assert.rejects(readMesh(files['cube.obj'], options), refusal);
 });
 

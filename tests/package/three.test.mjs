@@ -34,6 +34,7 @@ import {
 import { mergeVertices } from 'three/addons/utils/BufferGeometryUtils.js';
 import { box, sheet, torus } from './meshes.mjs';
 
+const three = await import('mandoline-wasm/three');
 const mandoline = await init();
 const mesh = torus(24, 16);
 const cutMesh = mandoline.cut(mesh, { cells: 7 });
@@ -403,6 +404,46 @@ test("what can't be drawn is refused in the name of the call", () => {
     if (stage.endsWith('Geometry')) assert.throws(() => call({ explode: 1 }), { code: 'badArgument', stage, message: /measures/ });
   }
   assert.throws(() => untouchedGeometry(cutMesh, { colorBy: 'volume' }), { code: 'badArgument', stage: 'untouchedGeometry' });
+});
+
+test('wrong arguments are named', () => {
+  const detached = structuredClone(cutMesh.positions);
+  structuredClone(detached, { transfer: [detached.buffer] });
+  const other = mandoline.cut(mesh, { cells: 5 });
+  const slice = mandoline.slice(cutMesh, { normal: [0, 0, 1], offset: 0 });
+  const cases = {
+    cellGeometry: [
+      [[], /^cutMesh must be an object, not undefined/],
+      [[{ ...cutMesh, positions: detached }, faceTriangles], /^cutMesh\.positions is detached/],
+      [[{ ...cutMesh, cellRegion: [0] }, faceTriangles], /^cutMesh\.cellRegion must be a Uint32Array, not an array/],
+      [[{ ...cutMesh, grid: undefined }, faceTriangles], /^cutMesh\.grid must be an object/],
+      [[cutMesh], /^faceTriangles must be an object, not undefined/],
+      [[cutMesh, mandoline.triangulate(other)], /^faceTriangles is of another cut-mesh: it has \d+ faces, not \d+\.$/],
+      [[cutMesh, faceTriangles, 7], /^options must be an object, not 7/],
+      [[cutMesh, faceTriangles, { explode: '1' }], /^options\.explode must be a number, not string/],
+      [[cutMesh, faceTriangles, { origin: [0, 0] }], /^options\.origin must have three numbers, not 2/],
+      [[cutMesh, faceTriangles, { colorBy: 'taste' }], /^options\.colorBy must be "region", .* not "taste"/],
+      [[cutMesh, faceTriangles, { measures: mandoline.measure(mesh, other) }], /^options\.measures is of another cut-mesh/],
+    ],
+    cellEdgeArrays: [[[null], /^cutMesh must be an object, not null/]],
+    cellColors: [[[cutMesh], /^colorBy must be "region", .* not undefined/]],
+    untouchedGeometry: [[[{ ...cutMesh, runBegin: undefined }], /^cutMesh\.runBegin must be a Int32Array/]],
+    edgeGeometry: [[[cutMesh, cutMesh], /^cutEdges\.edgeVertices must be a Uint32Array, not undefined/]],
+    sliceGeometry: [
+      [[cutMesh], /^slice must be an object/],
+      [[cutMesh, { ...slice, polygonCell: null }], /^slice\.polygonCell must be a Int32Array, not null/],
+    ],
+    meshFromGeometry: [
+      [[], /^geometry must be a BufferGeometry, not undefined/],
+      [[new BufferGeometry().setAttribute('normal', new BufferAttribute(new Float32Array(3), 3))], /^The geometry has no positions/],
+      [[new BoxGeometry(), [1, 0, 0]], /^matrix must be a Matrix4, not an array/],
+    ],
+  };
+  for (const [stage, calls] of Object.entries(cases)) {
+    for (const [given, message] of calls) {
+      assert.throws(() => three[stage](...given), { name: 'MandolineError', code: 'badArgument', stage, message });
+    }
+  }
 });
 
 test('edges are lines between vertices of the cut-mesh', () => {

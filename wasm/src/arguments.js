@@ -30,16 +30,16 @@ function expectNames(object, names, name) {
   if (unknown !== undefined) throw bad(`${name} has no ${unknown}${suggestion(unknown, names, 'the call takes none')}`);
 }
 
-/** What these readers make of the members of an object that has no others. It may be an imported module. */
-export function readMembers(value, readers, name) {
+/** What these readers make, in a context, of the members of an object that has no others. It may be an imported module. */
+export function readMembers(value, readers, name, ...context) {
   expectObject(value, name);
   if (!['Object', 'Module'].includes(tagOf(value))) throw bad(`${name} must be a plain object, not ${kindOf(value)}.`);
   expectNames(value, Object.keys(readers), name);
-  return Object.fromEntries(Object.entries(readers).map(([key, read]) => [key, read(value[key], `${name}.${key}`)]));
+  return Object.fromEntries(Object.entries(readers).map(([key, read]) => [key, read(value[key], `${name}.${key}`, ...context)]));
 }
 
-export function readOptions(options = {}, readers = {}) {
-  return readMembers(options, readers, 'options');
+export function readOptions(options = {}, readers = {}, ...context) {
+  return readMembers(options, readers, 'options', ...context);
 }
 
 /**
@@ -55,7 +55,10 @@ export function readStart(options, own) {
 }
 
 /** A reader that leaves undefined values as they are. */
-export const optional = (read) => (value, name) => (value === undefined ? value : read(value, name));
+export const optional =
+  (read) =>
+  (value, name, ...context) =>
+    value === undefined ? value : read(value, name, ...context);
 
 export function expectNumber(value, name) {
   if (typeof value !== 'number') throw bad(`${name} must be a number, not ${kindOf(value)}.`);
@@ -197,7 +200,9 @@ export function readGrid(grid) {
   if (kind === 'planes') return readPlanes(grid, 'grid');
   if (kind === 'around') {
     const { cells, margin = 0.05 } = grid;
-    return { kind, cells: readCount(cells, 'grid.cells'), margin: expectNumber(margin, 'grid.margin') };
+    expectNumber(margin, 'grid.margin');
+    if (!(margin >= 0 && margin <= 1e6)) throw bad(`grid.margin must be from 0 to 1e6, not ${margin}.`, 'badOption');
+    return { kind, cells: readCount(cells, 'grid.cells'), margin };
   }
   const [first, second] = names;
   return {

@@ -33,6 +33,14 @@ const cutMesh = { kind: 'cutMesh' };
 const progress = readFunction;
 const intersections = numbered(['resolve', 'refuse', 'assumeNone']);
 
+/** An outcome, where what is too large is told. */
+function withSize({ value, error }, { kind, cells, planes }) {
+  if (error?.code !== 'gridTooLarge') return { value, error };
+  const counts = kind === 'planes' ? planes.map(({ length }) => length - 1) : cells;
+  const size = kind === 'around' ? `${cells} cells along the longest side of the mesh` : `${counts.join(' x ')} cells`;
+  return { error: { ...error, message: `${error.message} Asked for were ${size}.` } };
+}
+
 const mapped = ({ value, error }, f) => (error ? { error } : { value: f(value) });
 
 export const cutCalls = {
@@ -67,7 +75,7 @@ export const cutCalls = {
     run: (bindings, mesh, grid, options) => {
       const isPrepared = mesh instanceof bindings.KeptMesh;
       const outcome = isPrepared ? bindings.cut(null, grid, { ...options, prepared: mesh }) : bindings.cut(mesh, grid, options);
-      return mapped(outcome, ({ cutMesh: value, twin }) => ({ value, twin }));
+      return mapped(withSize(outcome, grid), ({ cutMesh: value, twin }) => ({ value, twin }));
     },
   },
   /**

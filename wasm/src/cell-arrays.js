@@ -1,11 +1,8 @@
-import { MandolineError, named } from './errors.js';
+import { drawing } from './drawing.js';
 import { cellShifts, chosenCells } from './selection.js';
 
 /** Per face whether to take it. */
-function facesToTake({ faceTriangle }, faces = 'all') {
-  if (!['all', 'surface', 'grid'].includes(faces)) {
-    throw new MandolineError('badArgument', `options.faces must be "all", "surface" or "grid", not ${faces}.`);
-  }
+function facesToTake({ faceTriangle }, faces) {
   const [surface, grid] = [faces !== 'grid', faces !== 'surface'].map(Number);
   const taken = new Uint8Array(faceTriangle.length);
   for (let face = 0; face < taken.length; ++face) taken[face] = faceTriangle[face] >= 0 ? surface : grid;
@@ -104,6 +101,6 @@ export function shiftedCellArrays(cutMesh, faceTriangles, options, shifts) {
   return result;
 }
 
-export const cellArrays = named('cellArrays', (cutMesh, faceTriangles, { cells, regions, faces, origin } = {}) => {
-  return shiftedCellArrays(cutMesh, faceTriangles, { cells, regions, faces }, cellShifts(cutMesh, { origin }));
+export const cellArrays = drawing('cellArrays', ['faceTriangles'], (cutMesh, faceTriangles, options) => {
+  return shiftedCellArrays(cutMesh, faceTriangles, options, cellShifts(cutMesh, { origin: options.origin }));
 });

@@ -1,4 +1,4 @@
-import { named } from './errors.js';
+import { drawing } from './drawing.js';
 import { cellShifts, chosenCells } from './selection.js';
 
 function countCorners({ cellHalfFaceOffsets, cellHalfFaces, faceLoopOffsets, loopOffsets }, cells) {
@@ -60,6 +60,6 @@ export function shiftedCellEdges(cutMesh, options, shifts) {
   return { position, cell: cell.slice(0, end), vertex: vertex.slice(0, end) };
 }
 
-export const cellEdgeArrays = named('cellEdgeArrays', (cutMesh, { cells, regions, origin } = {}) => {
-  return shiftedCellEdges(cutMesh, { cells, regions }, cellShifts(cutMesh, { origin }));
+export const cellEdgeArrays = drawing('cellEdgeArrays', [], (cutMesh, options) => {
+  return shiftedCellEdges(cutMesh, options, cellShifts(cutMesh, { origin: options.origin }));
 });

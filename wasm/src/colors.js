@@ -1,5 +1,6 @@
 // Colours of cells: linear RGB, 0 to 1. Mixed in Oklab (Ottosson 2020), where equal steps look equal.
-import { MandolineError, named } from './errors.js';
+import { bad } from './arguments.js';
+import { drawing, readColored } from './drawing.js';
 
 const toLinear = (value) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
 const clamp = (value) => Math.min(Math.max(value, 0), 1);
@@ -108,8 +109,7 @@ export function cellColorer(cutMesh, colorBy, measures) {
   if (colorBy === 'region') return ({ region }) => regionColor(region);
   if (colorBy === 'winding') return ({ region }) => windingColor(regionWinding ? regionWinding[region] : null);
   if (colorBy === 'cell') return ({ id }) => idColor(id);
-  if (colorBy !== 'volume') throw new MandolineError('badArgument', `There are no colours by ${colorBy}.`);
-  if (!measures) throw new MandolineError('badArgument', 'Colours by volume need the measures.');
+  if (!measures) throw bad('Colours by volume need the measures.');
   const scale = volumeScale(measures.cellVolume);
   return ({ volume }) => scale(volume);
 }
@@ -124,4 +124,4 @@ export function colorsOfCells(cutMesh, colorBy, measures) {
   return colors;
 }
 
-export const cellColors = named('cellColors', colorsOfCells);
+export const cellColors = drawing('cellColors', ['colorBy', 'measures'], colorsOfCells, readColored);

@@ -1,4 +1,5 @@
-import { MandolineError } from './errors.js';
+import { bad, kindOf } from './arguments.js';
+import { named } from './errors.js';
 
 function readPositions(attribute) {
   const positions = new Float64Array(3 * attribute.count);
@@ -32,13 +33,16 @@ function turn(triangles) {
 }
 
 /** A matrix that mirrors also turns the triangles, as three draws them: outward stays outward. */
-export function meshFromGeometry(geometry, matrix) {
-  const position = geometry?.attributes?.position;
-  if (!position) throw new MandolineError('badArgument', 'The geometry has no positions.', { stage: 'meshFromGeometry' });
+export const meshFromGeometry = named('meshFromGeometry', (geometry, matrix) => {
+  if (geometry?.attributes === undefined) throw bad(`geometry must be a BufferGeometry, not ${kindOf(geometry)}.`);
+  const { position } = geometry.attributes;
+  if (typeof position?.getX !== 'function') throw bad('The geometry has no positions.');
+  const isMatrix = matrix === undefined || matrix === null || (matrix.elements?.length === 16 && typeof matrix.determinant === 'function');
+  if (!isMatrix) throw bad(`matrix must be a Matrix4, not ${kindOf(matrix)}.`);
   const mesh = { positions: readPositions(position), triangles: readTriangles(geometry.index, position.count) };
   if (matrix) {
     move(mesh.positions, matrix.elements);
     if (matrix.determinant() < 0) turn(mesh.triangles);
   }
   return mesh;
-}
+});

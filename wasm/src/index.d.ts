@@ -34,7 +34,7 @@ export type Vector3 = ArrayLike<number>;
  */
 export interface GridAround {
   cells: number;
-  /** In longest sides of the bounding box. Default 0.05. */
+  /** In longest sides of the bounding box, from 0 to 1e6. Default 0.05. */
   margin?: number;
 }
 /** The box from `min` to `max` in `cells[d]` cells per axis: per axis, plane c lies at min + (max - min) * c / cells. */
@@ -526,7 +526,7 @@ export type ErrorCode =
   | 'badGrid'
   /** More than 2^24 cells on an axis (`element`), or more than 2^28 rows of cells. */
   | 'gridTooLarge'
-  /** snapTolerance is outside [0, 0.5). */
+  /** A number is out of range: the message names it. */
   | 'badOption'
   /** `element`, `element2`: two triangles that meet other than in shared vertices and whole shared edges. */
   | 'selfIntersection'

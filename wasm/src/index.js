@@ -10,13 +10,13 @@ export { MandolineError, describe } from './errors.js';
 
 let started;
 
-async function start(options) {
-  const { wasm = ownWasm.source } = named('init', readStart)(options, 'wasm');
+async function start({ wasm = ownWasm.source }) {
   const module = await compile(wasm);
   return { module, api: makeApi(new CutHost(module), cutCalls) };
 }
 
-function begin(options) {
+function begin(given) {
+  const options = named('init', readStart)(given, 'wasm');
   if (!started) {
     const attempt = start(options);
     started = { attempt, api: attempt.then(({ api }) => api) };
@@ -31,7 +31,11 @@ function begin(options) {
  * Loads the WebAssembly module, once: every call gives the same promise, whatever its options. After a failure the next call tries again.
  */
 export function init(options) {
-  return begin(options).api;
+  try {
+    return begin(options).api;
+  } catch (error) {
+    return Promise.reject(error);
+  }
 }
 
 /** The compiled module that init() used, to hand to init() in a worker of your own, or to createWorker(). */

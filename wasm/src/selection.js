@@ -1,21 +1,10 @@
 // Which cells to draw, and where: the options that the functions of three.js share.
-import { MandolineError } from './errors.js';
-
-const noShift = [0, 0, 0];
-
-function checkIds(ids, name, count, things) {
-  if (typeof ids?.length !== 'number') throw new MandolineError('badArgument', `options.${name} must be an array of ids.`);
-  for (let i = 0; i < ids.length; ++i) {
-    if (Number.isInteger(ids[i]) && ids[i] >= 0 && ids[i] < count) continue;
-    throw new MandolineError('badArgument', `options.${name}[${i}] is ${ids[i]}, but there are ${count} ${things}.`, { element: i });
-  }
-}
+import { bad } from './arguments.js';
 
 /** Per region whether it is to be drawn. */
 export function chosenRegions({ regionCount }, regions) {
   const chosen = new Uint8Array(regionCount);
   if (regions === undefined) return chosen.fill(1);
-  checkIds(regions, 'regions', regionCount, 'regions');
   for (let i = 0; i < regions.length; ++i) chosen[regions[i]] = 1;
   return chosen;
 }
@@ -23,7 +12,6 @@ export function chosenRegions({ regionCount }, regions) {
 /** The cut-cells to draw, in order. */
 export function chosenCells(cutMesh, { cells, regions }) {
   const { cellRegion } = cutMesh;
-  if (cells !== undefined) checkIds(cells, 'cells', cellRegion.length, 'cut-cells');
   const given = cells === undefined ? Uint32Array.from(cellRegion, (_, cell) => cell) : Uint32Array.from(cells);
   if (regions === undefined) return given;
   const chosen = chosenRegions(cutMesh, regions);
@@ -31,7 +19,7 @@ export function chosenCells(cutMesh, { cells, regions }) {
 }
 
 /** How far along an axis what is centred at `x` is moved: away from the centre of the grid, and to the origin. */
-export function shiftAlong({ planes }, axis, { origin = noShift, explode = 0 }) {
+export function shiftAlong({ planes }, axis, { origin, explode = 0 }) {
   const ends = planes[axis];
   const center = 0.5 * (ends[0] + ends[ends.length - 1]);
   return (x) => (explode === 0 ? 0 : explode * (x - center)) - origin[axis];
@@ -40,7 +28,7 @@ export function shiftAlong({ planes }, axis, { origin = noShift, explode = 0 }) 
 /** 3 per cut-cell. */
 export function cellShifts({ cellRegion, grid }, options) {
   const { explode = 0, measures } = options;
-  if (explode !== 0 && !measures) throw new MandolineError('badArgument', 'Exploding cut-cells needs the measures.');
+  if (explode !== 0 && !measures?.cellCentroid) throw bad('Exploding cut-cells needs the measures.');
   const shiftOf = [0, 1, 2].map((axis) => shiftAlong(grid, axis, options));
   const shifts = new Float64Array(3 * cellRegion.length);
   for (let i = 0; i < shifts.length; ++i) shifts[i] = shiftOf[i % 3](explode === 0 ? 0 : measures.cellCentroid[i]);

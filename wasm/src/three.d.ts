@@ -2,7 +2,7 @@
  * From three.js to Mandoline and back. Importing this needs three, an optional peer dependency. cellArrays, cellEdgeArrays, untouchedCells,
  * cellColors and meshFromGeometry handle plain data and also run in a worker, where bundlers then leave three out.
  *
- * Options that are out of range throw a MandolineError with code "badArgument" and the name of the function as its stage.
+ * Wrong arguments throw a MandolineError with code "badArgument" and the name of the function as its stage.
  */
 import type { BufferGeometry, Matrix4 } from 'three';
 import type { CutEdges, CutMesh, FaceTriangles, Measures, Slice, Vector3 } from './index.js';
@@ -17,35 +17,22 @@ export function meshFromGeometry(
   matrix?: Matrix4,
 ): { positions: Float64Array<ArrayBuffer>; triangles: Uint32Array<ArrayBuffer> };
 
-/** Options that the functions below share. */
-export interface RegionOptions {
+/** Of all functions below, so that they take the same object: what does not concern one of them it does not look at. */
+export interface DrawOptions {
+  /** Cut-cells to take, in this order; those of other regions than `regions` are left out. Default: all. */
+  cells?: ArrayLike<number>;
   /** Regions whose cells are taken. Default: all. */
   regions?: ArrayLike<number>;
-}
-export interface PlaceOptions {
+  /** Faces to take: pieces of triangles, pieces of grid-faces, or both. Default: "all". */
+  faces?: 'all' | 'surface' | 'grid';
   /** Subtracted from all positions before they are rounded to 32 bits. Default: 0, 0, 0. */
   origin?: Vector3;
-}
-export interface ExplodeOptions {
-  /** Moves every cell away from the centre of the grid: by this times the way from there to the cell's centroid. Default 0. */
+  /** Geometries: moves every cell away from the centre of the grid, by this times the way from there to its centroid. Default 0. */
   explode?: number;
-  /** Needed for colours by volume and to explode cut-cells. */
-  measures?: Measures;
-}
-export interface ColorOptions {
   /** What vertex colours tell. Default: "region". */
   colorBy?: ColorBy;
   /** Needed for colours by volume and to explode cut-cells. */
   measures?: Measures;
-}
-
-export interface CellEdgeArraysOptions extends RegionOptions, PlaceOptions {
-  /** Cut-cells to take, in this order; those of other regions than `regions` are left out. Default: all. */
-  cells?: ArrayLike<number>;
-}
-export interface CellArraysOptions extends CellEdgeArraysOptions {
-  /** Faces to take: pieces of triangles, pieces of grid-faces, or both. Default: "all". */
-  faces?: 'all' | 'surface' | 'grid';
 }
 
 /**
@@ -62,7 +49,7 @@ export interface CellArrays {
   /** Per vertex: the face. */
   face: Uint32Array<ArrayBuffer>;
 }
-export function cellArrays(cutMesh: CutMesh, faceTriangles: FaceTriangles, options?: CellArraysOptions): CellArrays;
+export function cellArrays(cutMesh: CutMesh, faceTriangles: FaceTriangles, options?: DrawOptions): CellArrays;
 
 /** Edges of cut-cells, cell by cell: an edge appears once for each of its cells. */
 export interface CellEdgeArrays {
@@ -73,7 +60,7 @@ export interface CellEdgeArrays {
   /** Per vertex: that of the cut-mesh. */
   vertex: Uint32Array<ArrayBuffer>;
 }
-export function cellEdgeArrays(cutMesh: CutMesh, options?: CellEdgeArraysOptions): CellEdgeArrays;
+export function cellEdgeArrays(cutMesh: CutMesh, options?: DrawOptions): CellEdgeArrays;
 
 /** Untouched grid cells in the order of the grid, x fastest. */
 export interface UntouchedCells {
@@ -82,28 +69,24 @@ export interface UntouchedCells {
   /** Per untouched cell. */
   region: Uint32Array<ArrayBuffer>;
 }
-export function untouchedCells(cutMesh: CutMesh, options?: RegionOptions): UntouchedCells;
+export function untouchedCells(cutMesh: CutMesh, options?: DrawOptions): UntouchedCells;
 
 export type ColorBy = 'region' | 'winding' | 'cell' | 'volume';
 
-export interface CellGeometryOptions extends CellArraysOptions, ColorOptions, ExplodeOptions {}
 /** A geometry for Mesh with the attributes of CellArrays and color. */
-export function cellGeometry(cutMesh: CutMesh, faceTriangles: FaceTriangles, options?: CellGeometryOptions): BufferGeometry;
+export function cellGeometry(cutMesh: CutMesh, faceTriangles: FaceTriangles, options?: DrawOptions): BufferGeometry;
 
-export interface CellEdgeGeometryOptions extends CellEdgeArraysOptions, ExplodeOptions {}
 /** A geometry for LineSegments with the attributes of CellEdgeArrays: the edges of what cellGeometry gives with the same options. */
-export function cellEdgeGeometry(cutMesh: CutMesh, options?: CellEdgeGeometryOptions): BufferGeometry;
+export function cellEdgeGeometry(cutMesh: CutMesh, options?: DrawOptions): BufferGeometry;
 
-export interface UntouchedGeometryOptions extends RegionOptions, PlaceOptions, ColorOptions, ExplodeOptions {}
 /**
  * Untouched grid cells as boxes, in the order of untouchedCells: an indexed geometry for Mesh with attributes position, normal and color,
  * 24 vertices and 12 triangles per box.
  */
-export function untouchedGeometry(cutMesh: CutMesh, options?: UntouchedGeometryOptions): BufferGeometry;
+export function untouchedGeometry(cutMesh: CutMesh, options?: DrawOptions): BufferGeometry;
 
-export interface UntouchedEdgeGeometryOptions extends RegionOptions, PlaceOptions, ExplodeOptions {}
 /** Their edges: an indexed geometry for LineSegments with the attribute position, 8 vertices and 12 edges per box. */
-export function untouchedEdgeGeometry(cutMesh: CutMesh, options?: UntouchedEdgeGeometryOptions): BufferGeometry;
+export function untouchedEdgeGeometry(cutMesh: CutMesh, options?: DrawOptions): BufferGeometry;
 
 /** 3 per cut-cell: linear RGB, 0 to 1. Volumes are told on a logarithmic scale over at most three decades below the largest. */
 export function cellColors(cutMesh: CutMesh, colorBy: ColorBy, measures?: Measures): Float32Array<ArrayBuffer>;
@@ -126,8 +109,4 @@ export const outsideColor: LinearColor;
 export function edgeGeometry(cutMesh: CutMesh, cutEdges: CutEdges, origin?: Vector3): BufferGeometry;
 
 /** A filled slice with attributes position, normal, color, cell (-1 for untouched grid cells). */
-export function sliceGeometry(
-  cutMesh: CutMesh,
-  slice: Slice,
-  options?: { colorBy?: ColorBy; measures?: Measures; origin?: Vector3 },
-): BufferGeometry;
+export function sliceGeometry(cutMesh: CutMesh, slice: Slice, options?: DrawOptions): BufferGeometry;

@@ -2,7 +2,7 @@ import { BufferAttribute, BufferGeometry } from 'three';
 import { shiftedCellArrays } from './cell-arrays.js';
 import { shiftedCellEdges } from './cell-edges.js';
 import { cellColorer, colorsOfCells } from './colors.js';
-import { named } from './errors.js';
+import { drawing } from './drawing.js';
 import { cellShifts } from './selection.js';
 import { untouchedColorer, untouchedEdges, untouchedFaces } from './untouched.js';
 
@@ -12,7 +12,6 @@ export { cellColors, idColor, kindColors, outsideColor, regionColor, volumeColor
 export { meshFromGeometry } from './geometry-mesh.js';
 export { untouchedCells } from './untouched.js';
 
-const noShift = [0, 0, 0];
 const singles = ['cell', 'face', 'vertex'];
 
 function geometryOf({ index, ...attributes }) {
@@ -32,28 +31,28 @@ function spread(cellColor, cells) {
   return color;
 }
 
-export const cellGeometry = named('cellGeometry', (cutMesh, faceTriangles, options = {}) => {
+export const cellGeometry = drawing('cellGeometry', ['faceTriangles'], (cutMesh, faceTriangles, options) => {
   const arrays = shiftedCellArrays(cutMesh, faceTriangles, options, cellShifts(cutMesh, options));
-  const color = spread(colorsOfCells(cutMesh, options.colorBy ?? 'region', options.measures), arrays.cell);
+  const color = spread(colorsOfCells(cutMesh, options.colorBy, options.measures), arrays.cell);
   return geometryOf({ ...arrays, color });
 });
 
-export const cellEdgeGeometry = named('cellEdgeGeometry', (cutMesh, options = {}) => {
+export const cellEdgeGeometry = drawing('cellEdgeGeometry', [], (cutMesh, options) => {
   return geometryOf(shiftedCellEdges(cutMesh, options, cellShifts(cutMesh, options)));
 });
 
-export const untouchedGeometry = named('untouchedGeometry', (cutMesh, options = {}) => {
+export const untouchedGeometry = drawing('untouchedGeometry', [], (cutMesh, options) => {
   return geometryOf(untouchedFaces(cutMesh, options));
 });
 
-export const untouchedEdgeGeometry = named('untouchedEdgeGeometry', (cutMesh, options = {}) => {
+export const untouchedEdgeGeometry = drawing('untouchedEdgeGeometry', [], (cutMesh, options) => {
   return geometryOf(untouchedEdges(cutMesh, options));
 });
 
-export function edgeGeometry(cutMesh, cutEdges, origin = noShift) {
+export const edgeGeometry = drawing('edgeGeometry', ['cutEdges', 'origin'], (cutMesh, cutEdges, origin) => {
   const position = Float32Array.from(cutMesh.positions, (x, i) => x - origin[i % 3]);
   return geometryOf({ position, index: cutEdges.edgeVertices.slice() });
-}
+});
 
 /** 3 per polygon. */
 function polygonColors(cutMesh, slice, colorBy, measures) {
@@ -87,7 +86,7 @@ function sliceNormal({ positions, triangles }) {
   return sum.map((x) => x / length);
 }
 
-export const sliceGeometry = named('sliceGeometry', (cutMesh, slice, { colorBy = 'region', measures, origin = noShift } = {}) => {
+export const sliceGeometry = drawing('sliceGeometry', ['slice'], (cutMesh, slice, { colorBy, measures, origin }) => {
   const { triangles, positions, polygonTriangleOffsets: offsets } = slice;
   const count = triangles.length;
   const [position, normal, color] = [0, 1, 2].map(() => new Float32Array(3 * count));

@@ -1,5 +1,5 @@
-import { named } from './errors.js';
 import { cellColorer } from './colors.js';
+import { drawing } from './drawing.js';
 import { chosenRegions, shiftAlong } from './selection.js';
 
 /** Calls back with the chosen runs of untouched grid cells along x. */
@@ -30,7 +30,9 @@ export function chosenUntouched(cutMesh, regions) {
   return { gridCell, region };
 }
 
-export const untouchedCells = named('untouchedCells', (cutMesh, { regions } = {}) => chosenUntouched(cutMesh, regions));
+export const untouchedCells = drawing('untouchedCells', [], (cutMesh, { regions }) => {
+  return chosenUntouched(cutMesh, regions);
+});
 
 /** Gives the colour of an untouched grid cell. It has no id of its own: it takes one after the cut-cells, counted through the grid. */
 export function untouchedColorer(cutMesh, colorBy, measures) {
@@ -100,7 +102,7 @@ function boxArrays({ grid }, gridCell, { corners, index }, options) {
 /** Boxes with a colour each: { position, normal, color, index }. */
 export function untouchedFaces(cutMesh, options) {
   const { gridCell, region } = chosenUntouched(cutMesh, options.regions);
-  const colorOf = untouchedColorer(cutMesh, options.colorBy ?? 'region', options.measures);
+  const colorOf = untouchedColorer(cutMesh, options.colorBy, options.measures);
   const { position, index } = boxArrays(cutMesh, gridCell, faces, options);
   const color = new Float32Array(position.length);
   for (let box = 0; box < region.length; ++box) {

@@ -11,21 +11,23 @@ export { faceTags, streamlineEnds } from './arguments.js';
 
 let started;
 
-async function start(options) {
-  const { physicsWasm = ownPhysicsWasm.source } = named('initPhysics', readStart)(options, 'physicsWasm');
+async function start({ physicsWasm = ownPhysicsWasm.source }) {
   return makeApi(new PhysicsHost(await compile(physicsWasm)), physicsCalls);
 }
 
 /**
  * Loads the WebAssembly module, once: every call gives the same promise, whatever its options. After a failure the next call tries again.
  */
-export function initPhysics(options) {
-  if (!started) {
-    const attempt = start(options);
-    attempt.catch(() => {
+export function initPhysics(given) {
+  try {
+    const options = named('initPhysics', readStart)(given, 'physicsWasm');
+    if (started) return started;
+    started = start(options);
+    started.catch(() => {
       started = undefined;
     });
-    started = attempt;
+    return started;
+  } catch (error) {
+    return Promise.reject(error);
   }
-  return started;
 }
