@@ -201,7 +201,7 @@ export function readGrid(grid) {
   if (kind === 'around') {
     const { cells, margin = 0.05 } = grid;
     expectNumber(margin, 'grid.margin');
-    if (!(margin >= 0 && margin <= 1e6)) throw bad(`grid.margin must be from 0 to 1e6, not ${margin}.`, 'badOption');
+    if (!(margin >= 0 && margin <= 1e6)) throw bad(`grid.margin must be from 0 to 1e6, not ${margin}.`, 'badGrid');
     return { kind, cells: readCount(cells, 'grid.cells'), margin };
   }
   const [first, second] = names;
