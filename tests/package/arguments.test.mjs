@@ -105,7 +105,7 @@ test('grids', () => {
 test('a margin is not negative, as on the command line', () => {
   for (const margin of [-0.1, -0.6, NaN, Infinity, 1e7]) {
     assert.throws(() => mandoline.cut(mesh, { cells: 4, margin }), {
-      code: 'badOption',
+      code: 'badGrid',
       stage: 'input',
       message: /^grid\.margin must be from 0/,
     });

@@ -522,7 +522,7 @@ export type ErrorCode =
   | 'badIndex'
   /** `element`: the tri-vertex. */
   | 'nonFiniteCoordinate'
-  /** No cells on an axis, or planes that do not ascend or are not finite; `element`: the axis. */
+  /** No cells on an axis, or planes that do not ascend or are not finite (`element`: the axis), or a margin out of range. */
   | 'badGrid'
   /** More than 2^24 cells on an axis (`element`), or more than 2^28 rows of cells. */
   | 'gridTooLarge'
