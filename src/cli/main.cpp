@@ -1,4 +1,4 @@
-// The command line: reads, cuts, reports, writes. What the words mean is in arguments.cpp.
+// The command line: reads, cuts, reports, writes. arguments.cpp parses the options.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -9,7 +9,7 @@
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 
-// Sanitizers set aside more memory than a machine has. Gcc and clang say in two ways that they are there.
+// Sanitizers reserve more memory than a machine has. GCC and clang have different macros for them.
 #if defined(__SANITIZE_ADDRESS__)
 #define MANDOLINE_SANITIZED
 #elif defined(__has_feature)
@@ -21,7 +21,7 @@
 namespace mandoline::cli {
 namespace {
 
-/// Lets allocations beyond the machine's memory fail, so that a cut too large for it ends with a status rather than by the system's hand.
+/// Lets allocations beyond the machine's memory fail, so that a cut that is too large ends with a status instead of being killed.
 void limitMemory() {
 #if !defined(MANDOLINE_SANITIZED) && defined(_SC_PHYS_PAGES)
   const long pages = sysconf(_SC_PHYS_PAGES), pageSize = sysconf(_SC_PAGESIZE);

@@ -10,14 +10,14 @@
 
 namespace mandoline::cli {
 
-/// The whole word as a number; false if it is none.
+/// The whole word as a number; false if it is not a number.
 template <class Number>
 bool parseNumber(std::string_view word, Number& number) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
   return error == std::errc() && end == word.data() + word.size();
 }
 
-/// Numbers with commas between them; empty if any is none.
+/// Numbers with commas between them; empty if one of them is not a number.
 template <class Number>
 std::vector<Number> parseList(std::string_view word) {
   std::vector<Number> numbers;
@@ -31,7 +31,7 @@ std::vector<Number> parseList(std::string_view word) {
   }
 }
 
-// Each sets what the word says, or throws UsageError.
+// Each sets the value that the word says, or throws UsageError.
 void parseCells(const std::string& word, GridArguments& grid);
 void parseMargin(const std::string& word, GridArguments& grid);
 void parseBox(const std::string& word, GridArguments& grid);

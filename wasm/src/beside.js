@@ -1,6 +1,6 @@
 // Files that lie beside a script, which is at `url`: its import.meta.url.
 
-/** In Node; said so that bundlers don't take it for an asset of a page. */
+/** In Node; written so that bundlers don't take it for an asset of a page. */
 function fileBeside(name, url) {
   return new URL(url.replace(/[^/]*$/, name));
 }
@@ -11,7 +11,7 @@ function fileInNode(name, url) {
     const file = fileBeside(name, url);
     return globalThis.process.getBuiltinModule('node:fs').existsSync(file) ? file : undefined;
   } catch {
-    return undefined; // code that is no module any more does not know where it is
+    return undefined; // code that is no longer a module does not know where it is
   }
 }
 

@@ -1,5 +1,10 @@
 /** What went wrong in a call: `code` says what kind of failure, `stage` where, `element` and `element2` which elements. */
 export class MandolineError extends Error {
+  /**
+   * @param {string} code
+   * @param {string} message
+   * @param {{ stage?: string, element?: number, element2?: number, cause?: unknown }} [details]
+   */
   constructor(code, message, { stage = '', element = -1, element2 = -1, cause } = {}) {
     super(message, cause === undefined ? undefined : { cause });
     this.name = 'MandolineError';

@@ -9,6 +9,7 @@ export const readName = optional((value, name) => {
   return value;
 });
 
+/** @param {Blob | ArrayBuffer | Uint8Array} source */
 async function bytesOf(source) {
   if (typeof Blob === 'function' && source instanceof Blob) return new Uint8Array(await source.arrayBuffer());
   try {

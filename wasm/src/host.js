@@ -6,7 +6,7 @@ import { Twins } from './twins.js';
 /** What gives the kinds of results that may have twins. */
 const makers = { prepared: 'prepare()', cutMesh: 'cut()', cells: 'cellComplex(), subComplex() or regionComplex()' };
 
-/** With less kept, a new instance has no more memory to give than the one that ran out of it. */
+/** If less than this is kept, a new instance has no more free memory than the one that ran out of it. */
 const muchKept = 2 ** 27;
 
 /**
@@ -17,14 +17,14 @@ export class Host {
   #createModule;
   #module;
   #instance; // { bindings, twins }
-  #results = new WeakMap(); // of this host's calls, which may have twins: how they came about, as adopt() was told
+  #results = new WeakMap(); // of this host's calls, which may have twins: their origins, as given to adopt()
 
   constructor(createModule, module) {
     this.#createModule = createModule;
     this.#module = module;
   }
 
-  /** What f makes of the bindings of the first instance. */
+  /** f(bindings) of the first instance. */
   start(f) {
     try {
       return f(this.#current().bindings);
@@ -34,7 +34,7 @@ export class Host {
     }
   }
 
-  /** The value of a binding's call; its error, and whatever the instance dies of, is thrown as a MandolineError. */
+  /** The value of a binding's call. Its error is thrown as a MandolineError, and so is a trap that ends the instance. */
   run(f) {
     const kept = this.#instance?.twins.bytes ?? 0;
     try {
@@ -46,8 +46,8 @@ export class Host {
   }
 
   /**
-   * The same with a binding that takes values that may have twins, f(bindings, handles, twins). For each, { value, read, make, isKept }, as
-   * input() of the kinds of hosts gives it: the handle is that of its twin, or else the one that `make` gives of what `read` does, which
+   * The same with a binding that takes values that may have twins, f(bindings, handles, twins). An input is { value, read, make, isKept },
+   * as input() of the host gives it. Its handle is that of its twin; if it has none, make() makes one of what read() returns, and that
    * becomes the twin if it is to be kept.
    */
   runWith(inputs, f) {
@@ -73,7 +73,7 @@ export class Host {
     });
   }
 
-  /** Says that this is a result, and how it came about ({ kind, ...options }), so that it gets a twin when its arrays are read. */
+  /** Marks a value as a result, with its origin ({ kind, ...options }), so that it gets a twin when its arrays are read. */
   adopt(result, origin) {
     this.#results.set(result, origin);
   }
@@ -119,7 +119,7 @@ export class Host {
   }
 }
 
-/** What the engine throws, as opposed to C++: traps, exhausted stacks, arrays and memories that can't be allocated. */
+/** Errors that the engine throws, not C++: traps, exhausted stacks, arrays and memories that can't be allocated. */
 function fatal(cause) {
   const memory = cause instanceof RangeError && !/stack/.test(cause.message);
   if (memory) return new MandolineError('outOfMemory', 'There is not enough memory for this call.', { cause });

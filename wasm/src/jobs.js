@@ -3,8 +3,8 @@ import { MandolineError } from './errors.js';
 /**
  * Jobs done one after another by a thread, which is replaced when it has to be stopped or dies. A job is
  * { call, isCut, message, pack, onProgress, ready, resolve, reject }: pack(message, twins) gives { message, transfer } for a thread that
- * has these twins of results, by their ids, after ready(), if it has that, has promised whatever this needs. The first job of every thread
- * is to start the compiled module.
+ * has these twins of results, by their ids. If there is ready(), its promise is awaited before pack() is called. The first job of every
+ * thread is to start the compiled module.
  */
 export class JobQueue {
   #startThread;
@@ -32,7 +32,7 @@ export class JobQueue {
     this.#next();
   }
 
-  /** Another id for a result. */
+  /** A new id for a result. */
   newId() {
     return ++this.#count;
   }
@@ -66,6 +66,10 @@ export class JobQueue {
     for (const job of jobs) job.reject(new MandolineError('cancelled', 'The worker was terminated.', { stage: job.call }));
   }
 
+  /**
+   * @param {(outcome?: unknown) => void} [resolve]
+   * @param {(error: unknown) => void} [reject]
+   */
   #launch(resolve = () => {}, reject = () => {}) {
     const isCurrent = () => this.#thread === thread;
     const job = {
@@ -166,7 +170,7 @@ export class JobQueue {
     this.#next();
   }
 
-  /** Lets go of the thread and of what it does. */
+  /** Drops the thread and its job. */
   #dismiss() {
     const thread = this.#thread;
     this.#thread = null;

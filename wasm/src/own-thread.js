@@ -8,5 +8,9 @@ function start() {
   return nodeThreadBeside(name, import.meta.url);
 }
 
-/** Gives { start, script }, or a promise of it: what starts a worker, and what messages call its script. */
+/**
+ * Gives { start, script }, or a promise of it: what starts a worker, and what messages call its script.
+ *
+ * @type {{ source: () => any }}
+ */
 export const ownThread = { source: () => ({ start, script: scriptBeside(name, 'own-thread', import.meta.url) }) };

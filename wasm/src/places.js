@@ -7,7 +7,13 @@ export function valueAt(args, place) {
   return place.reduce((value, key) => (isObject(value) ? value[key] : undefined), args);
 }
 
-/** The arguments with another value at a place where something lies. */
+/**
+ * The arguments with another value at a place where something lies.
+ *
+ * @param {any} args
+ * @param {(string | number)[]} place
+ * @param {unknown} value
+ */
 export function withValueAt(args, [key, ...rest], value) {
   const inner = rest.length > 0 ? withValueAt(args[key], rest, value) : value;
   return typeof key === 'number' ? args.with(key, inner) : { ...args, [key]: inner };

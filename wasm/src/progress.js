@@ -1,4 +1,4 @@
-/** Runs f with a callback that C++ can call: what the user's throws passes by C++, and through this call. */
+/** Runs f with a callback that C++ can call. An error that the user's callback throws bypasses C++ and is thrown by this call. */
 export function withProgress(progress, f) {
   if (progress === undefined) return f(undefined);
   let thrown;

@@ -1,4 +1,4 @@
-// The same for the worker's script.
+// As spare-wasm.js, for the worker's script.
 import { ownThread } from './own-thread.js';
 import { address } from './spare-wasm.js';
 

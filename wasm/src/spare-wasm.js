@@ -1,5 +1,5 @@
-// For toolchains that take the package's code along and leave the files behind that lie beside it: bundlers for servers, and Vite before
-// version 8 in development. There the WebAssembly comes from inline.js.
+// For toolchains that move the package's code but leave behind the files beside it: bundlers for servers, and Vite before version 8 in
+// development. There the WebAssembly comes from inline.js.
 import { addressOf } from './beside.js';
 import { ownWasm } from './own-wasm.js';
 

@@ -23,7 +23,7 @@ function nodeThread(worker, { onMessage, onDeath }) {
   };
 }
 
-/** Starts a thread, given what to do with its messages and when it dies. `start` gives its worker; messages call its script `script`. */
+/** Starts a thread, with callbacks for its messages and its death. `start` gives its worker; error messages call its script `script`. */
 export function startThread({ start, script }, handlers) {
   const worker = start();
   if (typeof worker?.on === 'function') return nodeThread(worker, handlers);

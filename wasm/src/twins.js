@@ -17,7 +17,7 @@ export class Twins {
     return this.#bytes;
   }
 
-  /** From now on the handle is the result's twin. Those in use, which are the ones that were found last, don't give way to it. */
+  /** From now on the handle is the result's twin. Twins in use, which are those found last, don't give way to it. */
   keep(result, handle, inUse = [handle]) {
     const id = ++this.#count;
     this.#ids.set(result, id);

@@ -1,4 +1,4 @@
-// What the inline entries have in them, gzipped and as text, for use.
+// Unpacks what the inline entries hold as text: gzipped WebAssembly and a script.
 
 export async function unpack(gzipped) {
   const packed = Uint8Array.from(atob(gzipped), (character) => character.charCodeAt(0));

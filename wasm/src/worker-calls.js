@@ -21,7 +21,7 @@ const callOptions = {
 /** What a call that the thread's script serves takes. */
 const extra = { options: { progress: readFunction }, isExtra: true };
 
-/** `what` the options of the call itself say; as they are given, if there are any; and those that stay here. */
+/** The options of the call itself, read (`what`) and as they were given, if there are any; and those that stay here. */
 function splitOptions(given, readers) {
   const { signal, transfer, progress, ...what } = readOptions(given, { ...readers, ...callOptions });
   if (given === undefined) return { what, transfer };
@@ -41,7 +41,7 @@ function withFileName(options, file) {
   return isNamed ? { ...options, name: file.name } : options;
 }
 
-/** What has the twin: a result, or its member of that name. */
+/** The value that has the twin: a result, or its member of that name. */
 export function memberOf(value, member) {
   return member === undefined ? value : value[member];
 }
@@ -70,6 +70,13 @@ export class Calls {
   #results = new WeakMap(); // { id, origin }: the latter is for the thread's host, see Host.adopt()
   #collected = new FinalizationRegistry((id) => this.#queue.freeTwin(id));
 
+  /**
+   * What calls wait for before they are sent, if for anything.
+   *
+   * @type {undefined | (() => Promise<void>)}
+   */
+  ready;
+
   constructor(queue, table) {
     this.#queue = queue;
     this.#table = table;
@@ -89,7 +96,7 @@ export class Calls {
     return this.#results.get(argument);
   }
 
-  /** From now on this is a result. */
+  /** Marks a value as a result. */
   note(value, id, origin) {
     const known = { id, origin };
     this.#results.set(value, known);
@@ -97,7 +104,7 @@ export class Calls {
     return known;
   }
 
-  /** What the thread is sent: each value that the message names by its id goes along unless there is a twin of it. */
+  /** The message for the thread: values that it names by id are included unless the thread has their twins. */
   pack(message, twins, values) {
     for (const [i, subject] of message.subjects.entries()) {
       if (!twins.has(subject.id)) subject.data ??= copied(message.call, lean(values[i]));

@@ -13,7 +13,7 @@ import { memberOf } from './worker-calls.js';
 const extraCalls = new Map();
 
 /**
- * Adds calls to those that this worker answers. The worker does so from when this script is imported, in any script that
+ * Adds calls to those that this worker answers. It answers from the moment this script is imported, in any script that
  * createWorker({ thread }) starts.
  */
 export function serve(calls = {}) {
@@ -31,8 +31,8 @@ function plainError(error, call) {
 }
 
 /**
- * The results of the page's that have twins here, by the ids that the page gives them. Their arrays are the page's: what is kept of them is
- * the empty object that the twin is found by.
+ * The page's results that have twins here, by the ids that the page gives them. The page has their arrays; here each is an empty object, by
+ * which the twin is found.
  */
 class Shells {
   #host;
@@ -113,7 +113,7 @@ class Answering {
     }
   }
 
-  /** What a message names by its id: if it has its twin here or comes with its data, else nothing. */
+  /** The result that a message names by its id, if its twin is here or its data come with the message; else nothing. */
   #find({ id, origin, data }, part) {
     const { host, shells } = this.#parts.get(part);
     const shell = shells.find(id);
@@ -150,7 +150,8 @@ class Answering {
 
 function listen() {
   if (typeof postMessage === 'function' && typeof document === 'undefined') {
-    const answering = new Answering((message, transfer = []) => postMessage(message, transfer));
+    const post = /** @type {any} */ (postMessage); // that of a worker
+    const answering = new Answering((message, transfer = []) => post(message, transfer));
     addEventListener('message', ({ data }) => answering.answer(data));
   } else if (globalThis.process?.versions?.node) {
     // No import, which bundlers for browsers would follow.

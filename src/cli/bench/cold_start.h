@@ -1,4 +1,4 @@
-// What a benchmarked process measures with: its processor time, on memory that nothing has warmed.
+// How a benchmarked process measures: its processor time, in memory that has not been used before.
 #pragma once
 
 #include <cstdlib>
@@ -15,7 +15,7 @@ inline double processorMs() {
   return double(t.tv_sec) * 1e3 + double(t.tv_nsec) * 1e-6;
 }
 
-/// Gives the pages back to the system that reading a file has left free, where that can be done.
+/// Returns to the system the pages that reading a file has left free, where that is possible.
 inline void returnFreePages() {
 #ifdef __GLIBC__
   malloc_trim(0);

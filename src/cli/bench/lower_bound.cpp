@@ -3,8 +3,8 @@
 //
 //   mandoline-lower-bound MESH N
 //
-// does so once, on one thread, and prints the processor time in ms (page faults included, reading the file not), then the numbers of pieces
-// and of grid cells that hold some. The grid cells are those of mandoline's default, in a cube of N per axis.
+// clips once, on one thread, and prints the processor time in ms (with page faults, without reading the file), then the numbers of pieces
+// and of grid cells that hold any. The grid cells are those of mandoline's default, in a cube of N per axis.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -23,7 +23,7 @@ namespace {
 using Point = std::array<double, 3>;
 
 /// A convex piece of a triangle: each of a grid cell's planes adds a corner at most. Rounding may bend a piece so that a plane adds more;
-/// what there is no room for is left out.
+/// corners beyond the room for them are left out.
 struct Polygon {
   static constexpr int kMostCorners = 3 + 6;
   Point corners[kMostCorners];

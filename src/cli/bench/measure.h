@@ -1,5 +1,5 @@
-// What the benchmark measures: fresh processes that cut once each, in turns with fresh processes of the lower bound, so that page faults
-// count and both see the same machine.
+// What the benchmark measures: fresh processes that cut once each, alternating with fresh processes of the lower bound, so that page
+// faults count and both see the same machine.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct Job {
   int64_t n;
 };
 
-/// What is measured of one job: medians over the repetitions.
+/// The measurements of one job: medians over the repetitions.
 struct Row {
   Job job;
   size_t triangles = 0, cutCells = 0;
@@ -36,7 +36,7 @@ struct Programs {
   std::string bench, lowerBound;
 };
 
-/// Throws, with what the programs said on standard error, if one fails.
+/// Throws if a program fails, with its messages on standard error.
 Row measure(const Programs& programs, const Job& job, int64_t repetitions);
 
 }  // namespace mandoline::bench

@@ -12,7 +12,7 @@ struct Exact {
   double (*phi)(const Point&);
   Point (*gradient)(const Point&);
   double (*laplacian)(const Point&);
-  bool surfaceStops;  ///< the surface is meant to be where the normal derivative is 0, and triangles are only near it
+  bool surfaceStops;  ///< the exact surface has the normal derivative 0, and the triangles are only near it
   bool sidesHeld;     ///< phi is given on the sides of the grid, not its derivative
 };
 

@@ -85,7 +85,7 @@ class RegionFinder {
     if (input_.inGrid(other)) nodes_.unite((below != Sides::kNone ? below : above).number, firstRun_ + runAt(input_, regions_, other));
   }
 
-  /// In the order in which their first grid cell comes.
+  /// In the order of their first grid cells.
   void number() {
     regionOf_.assign(firstRun_ + regions_.runBegin.size(), kUnset);
     regions_.cellRegion.resize(firstRun_);

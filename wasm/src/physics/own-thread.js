@@ -8,5 +8,9 @@ function start() {
   return nodeThreadBeside(name, import.meta.url);
 }
 
-/** As ownThread. */
+/**
+ * As ownThread.
+ *
+ * @type {{ source: () => any }}
+ */
 export const ownPhysicsThread = { source: () => ({ start, script: scriptBeside(name, 'own-thread', import.meta.url) }) };
