@@ -1,6 +1,7 @@
 // The types of the calls, as their tables have them: src/signatures.d.ts from src/calls.js, src/physics/signatures.d.ts from
 // src/physics/calls.js. The last lines of a call's comment are its signatures. Those of a worker's calls are the same as promises, with the
-// options of every call of a worker. Writes the files into src/; with --check only looks whether these are as they would be written.
+// options of every call of a worker. And src/physics-names.js, the names of the calls of mandoline-wasm/physics, for the worker that has
+// none of them. Writes the files into src/; with --check only looks whether these are as they would be written.
 import { execFileSync } from 'node:child_process';
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
@@ -24,8 +25,8 @@ function ofWorker(signature) {
 }
 
 function formatted(text) {
-  const biome = ['biome', 'format', '--log-level=error', '--stdin-file-path=signatures.d.ts'];
-  return execFileSync('npx', ['--no-install', ...biome], { input: text, encoding: 'utf8', stdio: ['pipe', 'pipe', 'inherit'] });
+  const biome = fileURLToPath(new URL('../node_modules/@biomejs/biome/bin/biome', import.meta.url));
+  return execFileSync(process.execPath, [biome, 'format', '--stdin-file-path=any.ts'], { input: text, encoding: 'utf8' });
 }
 
 const builtIn = /^(\w+Array|Array\w+|Blob|Promise|Names)$/;
@@ -41,13 +42,15 @@ function imports(calls, main, own) {
   });
 }
 
-function fileOf(table, main, worker) {
+const note = (table) => `// Written by wasm/signatures.mjs from ${table}: change that.`;
+
+function typesOf(table, main, worker) {
   const calls = callsIn(textOf(table));
   const comment = (says) => (says.length === 1 ? [`  /**${says[0].slice('   *'.length)} */`] : ['  /**', ...says, '   */']);
   const direct = ({ says, signatures }) => [...comment(says), ...signatures.map((signature) => `  ${signature};`)];
   const promised = ({ signatures }) => signatures.map((signature) => `  ${ofWorker(signature)};`);
   const lines = [
-    `// Written by wasm/signatures.mjs from ${table}: change that.`,
+    note(table),
     ...imports(calls, main, './index.js'),
     `import type { CallOptions } from '${worker}';`,
     '',
@@ -64,9 +67,15 @@ function fileOf(table, main, worker) {
   return formatted(lines.join('\n'));
 }
 
+function namesOf(table) {
+  const names = callsIn(textOf(table)).map(({ signatures }) => `'${signatures[0].match(/^\w+/)[0]}'`);
+  return formatted(`${note(table)}\n\nexport const physicsNames = [${names.join(', ')}];\n`);
+}
+
 const files = {
-  'signatures.d.ts': fileOf('calls.js', './index.js', './worker.js'),
-  'physics/signatures.d.ts': fileOf('physics/calls.js', '../index.js', '../worker.js'),
+  'signatures.d.ts': typesOf('calls.js', './index.js', './worker.js'),
+  'physics/signatures.d.ts': typesOf('physics/calls.js', '../index.js', '../worker.js'),
+  'physics-names.js': namesOf('physics/calls.js'),
 };
 const changed = Object.keys(files).filter((name) => textOf(name) !== files[name]);
 if (process.argv.includes('--check') && changed.length) {

@@ -3,13 +3,13 @@ import { MandolineError, named } from './errors.js';
 import { openWorker } from './open-worker.js';
 import { ownThread } from './own-thread.js';
 import { ownWasm } from './own-wasm.js';
-import { physicsCalls } from './physics/calls.js';
+import { physicsNames } from './physics-names.js';
 
 export { MandolineError, describe } from './errors.js';
 
 /** The calls of mandoline-wasm/physics, which the worker's script can't answer. */
 const physics = Object.fromEntries(
-  Object.keys(physicsCalls).map((stage) => [
+  physicsNames.map((stage) => [
     stage,
     async () => {
       throw new MandolineError('badArgument', 'This worker only cuts: that of mandoline-wasm/physics/worker also computes.', { stage });

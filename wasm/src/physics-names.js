@@ -1,0 +1,20 @@
+// Written by wasm/signatures.mjs from physics/calls.js: change that.
+
+export const physicsNames = [
+  'coarsen',
+  'cellComplex',
+  'subComplex',
+  'regionComplex',
+  'complexEdges',
+  'operators',
+  'boundaryOf',
+  'outwardNormals',
+  'cellComponents',
+  'poissonSystem',
+  'solvePoisson',
+  'solveFlow',
+  'velocityAt',
+  'streamlines',
+  'inflowSeeds',
+  'readGroups',
+];
