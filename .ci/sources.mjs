@@ -1,5 +1,5 @@
-// What the sources look like: formatted, short files and functions of C++, and rooms that see only those before them. Run by itself, it
-// checks what needs no build.
+// What the sources look like: formatted and linted, JavaScript's types, short files and functions of C++, and rooms that see only those
+// before them. Run by itself, it checks what needs no build.
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
@@ -50,6 +50,7 @@ function hiddenHeaders() {
 function checkFiles() {
   setUp('sources');
   run('npx', 'biome', 'check', '--error-on-warnings');
+  run('npx', 'tsc', '-p', 'wasm');
   run('clang-format-14', '--dry-run', '-Werror', ...files);
   const lineCount = (file) => readFileSync(path(file), 'utf8').split('\n').length - 1;
   const long = sources.filter((file) => lineCount(file) > mostLines).map((file) => `${file} has more than ${mostLines} lines`);

@@ -93,6 +93,7 @@ export function expectAllAttached(value, name = '', seen = new Set()) {
   for (const [key, part] of Object.entries(value)) expectAllAttached(part, nameOf(key), seen);
 }
 
+/** @returns {any} */
 export function expectTypedArray(value, type, name) {
   if (!ArrayBuffer.isView(value) || value[Symbol.toStringTag] !== type) throw bad(`${name} must be a ${type}, not ${kindOf(value)}.`);
   expectAttached(value, name);

@@ -33,7 +33,11 @@ const cutMesh = { kind: 'cutMesh' };
 const progress = readFunction;
 const intersections = numbered(['resolve', 'refuse', 'assumeNone']);
 
-/** An outcome, where what is too large is told. */
+/**
+ * An outcome, where what is too large is told.
+ *
+ * @returns {{ value?: any, error?: any }}
+ */
 function withSize({ value, error }, { kind, cells, planes }) {
   if (error?.code !== 'gridTooLarge') return { value, error };
   const counts = kind === 'planes' ? planes.map(({ length }) => length - 1) : cells;
@@ -41,6 +45,7 @@ function withSize({ value, error }, { kind, cells, planes }) {
   return { error: { ...error, message: `${error.message} Asked for were ${size}.` } };
 }
 
+/** @param {{ value?: any, error?: any }} outcome */
 const mapped = ({ value, error }, f) => (error ? { error } : { value: f(value) });
 
 export const cutCalls = {
@@ -143,7 +148,7 @@ export const cutCalls = {
    */
   triangulate: {
     takes: { cutMesh, of: readPart },
-    run: (bindings, handle, { cell, region } = {}) => {
+    run: (bindings, handle, { cell = undefined, region = undefined } = {}) => {
       if (cell !== undefined) return bindings.triangulateCell(handle, cell);
       return region === undefined ? bindings.triangulate(handle) : bindings.triangulateRegion(handle, region);
     },

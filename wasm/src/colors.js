@@ -9,7 +9,8 @@ function fromHex(hex) {
   return [1, 3, 5].map((i) => toLinear(parseInt(hex.slice(i, i + 2), 16) / 255));
 }
 
-function toOklab([r, g, b]) {
+function toOklab(color) {
+  const [r, g, b] = color;
   const l = Math.cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
   const m = Math.cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
   const s = Math.cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
@@ -20,7 +21,8 @@ function toOklab([r, g, b]) {
   ];
 }
 
-function fromOklab([lightness, a, b]) {
+function fromOklab(color) {
+  const [lightness, a, b] = color;
   const l = (lightness + 0.3963377774 * a + 0.2158037573 * b) ** 3;
   const m = (lightness - 0.1055613458 * a - 0.0638541728 * b) ** 3;
   const s = (lightness - 0.0894841775 * a - 1.291485548 * b) ** 3;

@@ -18,7 +18,7 @@ export function chosenCells(cutMesh, { cells, regions }) {
   return given.filter((cell) => chosen[cellRegion[cell]]);
 }
 
-/** How far along an axis what is centred at `x` is moved: away from the centre of the grid, and to the origin. */
+/** How far something centred at `x` is moved along an axis: away from the centre of the grid, and to the origin. */
 export function shiftAlong({ planes }, axis, { origin, explode = 0 }) {
   const ends = planes[axis];
   const center = 0.5 * (ends[0] + ends[ends.length - 1]);

@@ -14,6 +14,8 @@ export { untouchedCells } from './untouched.js';
 
 const singles = ['cell', 'face', 'vertex'];
 
+/** @param {{ index?: Uint32Array, [name: string]: any }} arrays */
+/** @param {{ index?: Uint32Array, [name: string]: any }} arrays */
 function geometryOf({ index, ...attributes }) {
   const geometry = new BufferGeometry();
   for (const [name, array] of Object.entries(attributes)) {

@@ -41,12 +41,14 @@ export function untouchedColorer(cutMesh, colorBy, measures) {
     cellRegion,
   } = cutMesh;
   const colorOf = cellColorer(cutMesh, colorBy, measures);
-  return ([i, j, k], region) =>
-    colorOf({
+  return (gridCell, region) => {
+    const [i, j, k] = gridCell;
+    return colorOf({
       id: cellRegion.length + i + cells[0] * (j + cells[1] * k),
       region,
       volume: [i, j, k].reduce((volume, c, d) => volume * (planes[d][c + 1] - planes[d][c]), 1),
     });
+  };
 }
 
 // Corners of a box are numbered by bits: bit d is set on the far side of axis d.
@@ -75,7 +77,7 @@ const boxNormals = sides
   })
   .flat();
 
-/** What is the same for each box, for all of them: `each` moved on by `step` from box to box. */
+/** Repeats the numbers of one box, `each`, for all boxes, adding `step` from box to box. */
 function repeated(array, each, step) {
   for (let i = 0; i < array.length; ++i) array[i] = each[i % each.length] + step * Math.floor(i / each.length);
   return array;
