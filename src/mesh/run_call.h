@@ -2,13 +2,14 @@
 #pragma once
 
 #include "base/parallel.h"
+#include "base/shared.h"
 #include "mandoline/status.h"
 
 namespace mandoline::detail {
 
 /// The error for the exception that is being handled, if that is a Failure or Cancelled. Anything else is thrown on, and what
 /// options.progress threw as it was. `noun` names the call: "cut".
-Error caughtFailure(const char* noun);
+MANDOLINE_SHARED Error caughtFailure(const char* noun);
 
 /// Returns what body() returns. Throws CallError if it fails.
 template <class Body>
