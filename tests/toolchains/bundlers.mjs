@@ -72,11 +72,20 @@ test('webpack 5, a page that starts no worker, without a script for one, nor the
   assert.equal((await openFolder(join(folder, 'dist'))).error, undefined);
 });
 
-test('Parcel', async () => {
-  const folder = makeProject('parcel', { 'index.html': html('./main.js'), ...asIs }); // it loses what two workers share
-  assertQuiet(await run(folder, '.bin/parcel', 'build', 'index.html', '--public-url', './', '--no-cache'));
-  assertPage(await openFolder(join(folder, 'dist')));
-});
+for (const [name, files] of Object.entries({
+  'one worker': asIs,
+  'three workers, without shared bundles': {
+    ...withAll,
+    'package.json': JSON.stringify({ private: true, '@parcel/bundler-default': { disableSharedBundles: true } }),
+    'package-lock.json': '{}', // what Parcel knows a project's folder by, and so its package.json
+  },
+})) {
+  test(`Parcel, ${name}`, async () => {
+    const folder = makeProject(`parcel ${name}`, { 'index.html': html('./main.js'), ...files });
+    assertQuiet(await run(folder, '.bin/parcel', 'build', 'index.html', '--public-url', './', '--no-cache'));
+    assertPage(await openFolder(join(folder, 'dist')));
+  });
+}
 
 test('a plain page with an import map', async () => {
   const dist = './node_modules/mandoline-wasm/dist';

@@ -42,14 +42,14 @@ serve({ countCells: (mandoline, [mesh]) => mandoline.cut(mesh, { cells: 8 }).cel
   },
 };
 
-/** All cells, here and in a worker that computes. `options` is code: the arguments of initPhysics() and createWorker(). */
-export function physics(options = '') {
+/** All cells, here and in a worker that computes. `options` and `workerOptions` are code: the arguments of initPhysics() and createWorker(). */
+export function physics(options = '', workerOptions = options) {
   return {
     imports: `import { initPhysics } from 'mandoline-wasm/physics';
 import { createWorker as createPhysicsWorker } from 'mandoline-wasm/physics/worker';`,
     more: `
   const { cellComplex } = await initPhysics(${options});
-  const computing = await createPhysicsWorker(${options});
+  const computing = await createPhysicsWorker(${workerOptions});
   const complex = await computing.cellComplex(mesh, await computing.cut(mesh, { cells: 8 }));
   computing.terminate();
   result.computed = [cellComplex(mesh, here), complex].map(({ cellRegion }) => cellRegion.length).join();`,
