@@ -50,7 +50,7 @@ TEST_CASE("box tree: finds what a search through all boxes finds", "[box_tree]")
   }
 }
 
-TEST_CASE("box tree: the order of what is found does not depend on the order of the items", "[box_tree]") {
+TEST_CASE("box tree: the order of the results does not depend on the order of the items", "[box_tree]") {
   std::vector<BoxTree::Item> items = latticeBoxes(500);
   BoxTree tree, shuffled;
   tree.build(items.size(), [&](size_t i) { return items[i]; });

@@ -65,7 +65,7 @@ TEST_CASE("OBJ: groups by g lines, in the order of their first triangles", "[gro
   requireGroups(ofObj("g one\nf 1 2 3\n"), {"one"}, {0});
 }
 
-TEST_CASE("OBJ: a group named twice is one, and one without triangles is none", "[groups]") {
+TEST_CASE("OBJ: a group named twice is one group, and a group without triangles is left out", "[groups]") {
   requireGroups(ofObj("g a\nf 1 2 3\ng empty\ng b\nf 1 2 4\ng a\nf 1 3 4\ng last\n"), {"a", "b"}, {0, 1, 0});
 }
 
@@ -125,13 +125,13 @@ TEST_CASE("STL: solids without names", "[groups]") {
   requireGroups(groupsOf("a.stl", solid("", 2) + solid("named", 0)), {}, {});
 }
 
-TEST_CASE("STL: the words of a facet, whatever they are", "[groups]") {
+TEST_CASE("STL: any words in a facet", "[groups]") {
   const std::string text =
       "SOLID a\nFACET normal facet endsolid solid OUTER loop vertex 0 0 0 vertex 1 0 0\nvertex 0 1 0 endloop endfacet\nENDSOLID\n";
   requireGroups(groupsOf("a.stl", text + solid("b", 1)), {"a", "b"}, {0, 1});
 }
 
-TEST_CASE("Groups of what is no mesh", "[groups]") {
+TEST_CASE("Groups of a file that is not a mesh", "[groups]") {
   for (const std::string content : {"", "solid a\nfacet normal 0 0", "solid a\nfacet", "solid a\nfoo\nsolid b\n", "what?"}) {
     CHECK_THROWS_AS(readGroupedMesh(content, "a"), FileError);
   }

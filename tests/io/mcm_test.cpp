@@ -136,7 +136,7 @@ TEST_CASE("saving can be cancelled, and an empty cut-mesh can't be saved") {
   CHECK(refusal([&] { writeMcm(nowhere, CutMesh()); }).first == Status::badArgument);
 }
 
-TEST_CASE("files that are no saved cut-meshes are refused by name") {
+TEST_CASE("files that are not saved cut-meshes are refused by name") {
   const std::string bytes = mcmOf(crossing());
   const size_t positions = bytes.find("\tpositions"), loops = bytes.find("\floopVertices");
   const auto byte = [](size_t at) { return "a.mcm: byte " + std::to_string(at) + ": "; };

@@ -66,7 +66,7 @@ TEST_CASE("found pairs: a fold over a shared edge, and the same triangle again",
   requireOne(withGround({{4, 0, 0}, {0, 0, 0}, {0, 4, 0}}), IntersectionKind::identical, 3);
 }
 
-TEST_CASE("found pairs: neighbours that share a vertex or an edge are none", "[findIntersections]") {
+TEST_CASE("found pairs: neighbours that share a vertex or an edge are not listed", "[findIntersections]") {
   const Mesh mesh = shapes::torus({0, 0, 0}, 1, 0.4, 12, 8);
   REQUIRE(findIntersections(mesh).counts.total() == 0);
 }

@@ -129,7 +129,7 @@ TEST_CASE("a point lies in the cell that winds around it", "[locate]") {
   }
 }
 
-TEST_CASE("points on a lattice lie inside or outside of a cube on it, whatever they touch", "[locate]") {
+TEST_CASE("points on a lattice lie inside or outside of a cube on it, even where they touch it", "[locate]") {
   const CheckedCut cut = checkedCut(shapes::cube(0.75, 2.25), unitGrid(3));
   const auto outside = cellsAt(cut.mesh, std::vector<double>{0.1, 0.1, 0.1}).region[0];
   std::vector<double> points;

@@ -250,7 +250,7 @@ TEST_CASE("a sheet from side to side divides the outlines, which end at the box"
   CHECK(found.positions.size() == 3 * 7);
 }
 
-TEST_CASE("outlines of what reaches out of the box end at its sides", "[outlines]") {
+TEST_CASE("outlines of a mesh that reaches out of the box end at its sides", "[outlines]") {
   using namespace shapes;
   const Mesh mesh = merged({icosphere({0, 0, 0}, 1.7, 2), icosphere({4, 2, 2}, 1.3, 2), box({1.25, 3.25, 3.25}, {2.25, 5, 5})});
   const CutResult cut = mandoline::cut(mesh, Grid::box({0, 0, 0}, {4, 4, 4}, {5, 3, 4}));

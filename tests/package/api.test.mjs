@@ -251,7 +251,7 @@ test('gridCellRegion may be left out', () => {
   assert.equal(mandoline.validate(cube, cut).pass, true);
 });
 
-test('the same input gives the same bits, whatever was cut before', () => {
+test('the same input gives the same bits after any other cuts', () => {
   const mesh = torus(60, 30);
   const { stats: _, ...first } = mandoline.cut(mesh, { cells: 17 });
   mandoline.cut(cube, { cells: 40 });
@@ -624,7 +624,7 @@ test('failures are named', () => {
   }
 });
 
-test('describe takes whatever was caught', () => {
+test('describe takes any value that was caught', () => {
   assert.equal(describe(new TypeError('no')), 'TypeError: no');
   assert.equal(describe('text'), 'text');
   assert.equal(describe(undefined), 'undefined');

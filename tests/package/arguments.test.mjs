@@ -160,7 +160,7 @@ const takesMesh = (name) => /validate|measure|cutEdges|vtu/.test(name);
 const arrays = Object.keys(cutMesh).filter((key) => ArrayBuffer.isView(cutMesh[key]) && key !== 'gridCellRegion');
 
 for (const [name, call] of Object.entries(calls)) {
-  test(`${name} of what is no cut-mesh`, () => {
+  test(`${name} of a value that is not a cut-mesh`, () => {
     assertBad(() => call(undefined), /^cutMesh must be an object/);
     assertBad(() => call({}), /^cutMesh\.grid must be an object/);
     assertBad(() => call({ ...cutMesh, grid: {} }), /^cutMesh\.grid\.planes/);
@@ -201,7 +201,7 @@ for (const [name, call] of Object.entries(calls)) {
   });
 }
 
-test('boundaries of what has none', () => {
+test('boundary() of meshes that it does not take', () => {
   const resolved = mandoline.resolve(mesh);
   const cases = [
     [undefined, /^mesh must be an object, not undefined/],
@@ -258,7 +258,7 @@ test('damaged entries are judged, never followed', () => {
   assert.equal(mandoline.validate(large, cut).pass, true);
 });
 
-test('what is asked of a cut-mesh', () => {
+test('questions about a cut-mesh', () => {
   const cases = [
     [() => mandoline.triangulate(cutMesh, { cell: 16 }), /^There is no cut-cell 16: there are 16/],
     [() => mandoline.triangulate(cutMesh, { cell: -1 }), /^of\.cell is -1/],

@@ -101,7 +101,7 @@ for (const [name, content] of Object.entries({ ...files, 'cube.stl': writeStl(cu
   });
 }
 
-test('what is no file is a badArgument', async () => {
+test('a value that is not a file is a badArgument', async () => {
   const refusal = { code: 'badArgument', stage: 'readMesh' };
   for (const source of [undefined, null, 'cube.obj', {}, [1, 2]]) await assert.rejects(readMesh(source), refusal);
   await assert.rejects(readMesh('cube.obj'), { message: /fetch\(address\).*readFile\(path\), not string\.$/ });

@@ -250,7 +250,7 @@ test('a worker starts from a compiled module', async () => {
   assert.equal(await withWorker(async (worker) => (await worker.cut(cube, { cells: 4 })).regionCount, { wasm }), 2);
 });
 
-test('options that are none are a badArgument', async () => {
+test('options that are not an object are a badArgument', async () => {
   for (const options of [null, 'mandoline.wasm']) {
     const error = await rejection(createWorker(options));
     assert.equal(error.code, 'badArgument');

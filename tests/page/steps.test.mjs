@@ -151,7 +151,7 @@ describe('what is drawn', () => {
 });
 
 describe('requests', () => {
-  test('of what does not exist get something else', async () => {
+  test('for items that do not exist show another one', async () => {
     const { picture, cutMesh } = await subject('wedge', 4);
     const triangle = picture({ kind: 'triangleFaces', triangle: 6 }).choices.request.triangle;
     assert.ok(triangle >= 0 && triangle < 6);
@@ -161,7 +161,7 @@ describe('requests', () => {
     assert.ok(picture({ kind: 'gridCell', gridCell: [-1, 0, 0] }).choices.request.gridCell[0] >= 0);
   });
 
-  test('of what was not cut say so', async () => {
+  test('for grid cells and triangles without cut-faces say so', async () => {
     const { picture } = await subject('bunny', 16);
     assert.match(picture({ kind: 'gridCell', gridCell: [0, 0, 0] }).text, /\(0, 0, 0\) is untouched/);
     const mesh = { positions: new Float64Array([0, 0, 0, 1, 0, 0, 0, 1, 0]), triangles: new Uint32Array([0, 1, 2, 0, 1, 1]) };

@@ -174,7 +174,7 @@ TEST_CASE("solve: in any unit of length", "[solve]") {
   for (const double unit : {0x1p-60, 0x1p60, 1e-65, 1e65}) CHECK(largest(vectorOf(phi(unit)) - vectorOf(expected)) <= 1e-10);
 }
 
-TEST_CASE("solve: in any unit of what is solved for", "[solve]") {
+TEST_CASE("solve: phi in any unit", "[solve]") {
   const CellComplex cells = complexOf(ball(), unitGrid(7));
   const Solution one = solvePoisson(cells, windAround(cells, {1, 0, 0}), within(1e-13));
   for (const double unit : {0x1p-1000, 0x1p-500, 0x1p1000}) {
@@ -272,7 +272,7 @@ TEST_CASE("solve: data without a solution are incompatible, unless they are bala
   CHECK(solvePoisson(halves, windAround(halves, {1, 0, 0})).status == SolveStatus::converged);
 }
 
-TEST_CASE("solve: sources of which nothing is left once they are balanced leave phi at zero", "[solve]") {
+TEST_CASE("solve: sources that balancing cancels entirely leave phi at zero", "[solve]") {
   const CellComplex cells = complexOf(ball(), unitGrid(7));
   PoissonProblem problem = windAround(cells, {0, 0, 0});
   for (const double volume : cells.cellVolume) problem.source.push_back(3.7 * volume);

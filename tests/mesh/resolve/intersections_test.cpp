@@ -378,7 +378,7 @@ TEST_CASE("a pair beside the grid is not named", "[intersections]") {
   }
 }
 
-TEST_CASE("what meets only after snapping is called so", "[intersections]") {
+TEST_CASE("triangles that meet only after snapping are reported as such", "[intersections]") {
   CutStats stats;
   stats.snappedVertices = 1;
   const Unresolved mesh({kBase, {{{1, 1, 0}, {2, 1, 0}, {1, 2, 0}}}});

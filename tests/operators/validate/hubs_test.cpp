@@ -67,7 +67,7 @@ TEST_CASE("hubs: vertices that many faces share, with all that is there", "[vali
   CHECK(Looked(cone(20)).hubs.all().empty());
 }
 
-TEST_CASE("hubs: a tree finds what overlaps, but nothing of a hub that is shared", "[validate]") {
+TEST_CASE("hubs: a tree finds boxes that overlap, except those that share a hub", "[validate]") {
   const Looked looked(cone(40));
   const GridCell& cell = *looked.cell;
   HubTree tree;
@@ -137,7 +137,7 @@ TEST_CASE("hubs: the directions of points hold those of all between them", "[val
   CHECK(directionsOf(from, {&from, 1}, {}).high[0] == INFINITY);
 }
 
-TEST_CASE("hubs: what crosses or lies on something at a hub is found", "[validate]") {
+TEST_CASE("hubs: faces that cross or lie on others at a hub are found", "[validate]") {
   const auto crossings = [](const Mesh& mesh) {
     const Looked looked(mesh, Intersections::assumeNone);
     CrossingCheck check;
