@@ -5,13 +5,13 @@
 #include <emscripten/bind.h>
 
 #include "cut_meshes.h"
+#include "mandoline/io.h"
 #include "mandoline/locate.h"
 #include "mandoline/measure.h"
 #include "mandoline/resolve.h"
 #include "mandoline/slice.h"
 #include "mandoline/triangulate.h"
 #include "mandoline/validate.h"
-#include "results.h"
 
 namespace {
 
@@ -25,7 +25,7 @@ val prepareMesh(const val& mesh, const val& options) {
     PrepareOptions prepareOptions;
     prepareOptions.progress = progressOf(options);
     prepareOptions.intersections = Intersections(options["intersections"].as<int>());
-    const Mesh input = readMeshArrays(mesh);
+    const Mesh input = fromObject<Mesh>(mesh);
     const PrepareResult result = prepare(input, prepareOptions);
     if (!result) return failure(result.error, lastStage(result.stats));
     return success(val(KeptMesh(result.mesh)));
@@ -44,12 +44,14 @@ val cutMesh(const val& mesh, const val& grid, const val& options) {
       const PreparedMesh prepared = options["prepared"].as<KeptMesh>().get();
       result = cut(prepared, readGrid(grid, prepared.mesh()), cutOptions);
     } else {
-      const Mesh input = readMeshArrays(mesh);
+      const Mesh input = fromObject<Mesh>(mesh);
       result = cut(input, readGrid(grid, input), cutOptions);
     }
     if (!result) return failure(result.error, lastStage(result.stats));
-    val value = val::object();
-    value.set("cutMesh", toObject(result.mesh, result.stats, options["gridCellRegion"].as<bool>()));
+    val value = val::object(), plain = toObject(result.mesh);
+    if (options["gridCellRegion"].as<bool>()) plain.set("gridCellRegion", toArray(result.mesh.gridCellRegion()));
+    plain.set("stats", toObject(result.stats));
+    value.set("cutMesh", plain);
     if (options["keep"].as<bool>()) value.set("twin", KeptCutMesh(std::move(result.mesh)));
     return success(value);
   });
@@ -60,22 +62,25 @@ val intersectionsOf(const val& mesh, const val& options) {
     IntersectionOptions findOptions;
     findOptions.progress = progressOf(options);
     findOptions.maxPairs = options["maxPairs"].as<uint32_t>();
-    const Mesh input = readMeshArrays(mesh);
+    const Mesh input = fromObject<Mesh>(mesh);
     return success(toObject(findIntersections(input, findOptions)));
   });
 }
 
 val resolveMesh(const val& mesh, const val& options) {
   return guarded([&] {
-    const Mesh input = readMeshArrays(mesh);
+    const Mesh input = fromObject<Mesh>(mesh);
     const ResolveResult result = resolve(input, runOptions(options));
     if (!result) return failure(result.error, lastStage(result.stats));
-    return success(toObject(result));
+    val value = toObject(result.mesh);
+    value.set("remaining", toObject(result.remaining));
+    value.set("stats", toObject(result.stats));
+    return success(value);
   });
 }
 
 val boundaryOfResolved(const val& resolved, int rule) {
-  return guarded([&] { return success(toObject(boundary(readResolvedMesh(resolved), WindingRule(rule)))); });
+  return guarded([&] { return success(toObject(boundary(fromObject<ResolvedMesh>(resolved), WindingRule(rule)))); });
 }
 
 val boundaryOf(const KeptCutMesh& kept, int rule) {
@@ -85,10 +90,8 @@ val boundaryOf(const KeptCutMesh& kept, int rule) {
 /// A handle of plain data; those that are to be validated may be damaged.
 val keepCutMesh(const val& object, bool checked) {
   return guarded([&] {
-    CutMesh cutMesh = readCutMesh(object);
-    const Check check = checked ? checkArrays(cutMesh) : Check();
-    if (!check.pass) return failure("badArgument", "The arrays of cutMesh don't fit together: " + check.message);
-    return success(val(KeptCutMesh(std::move(cutMesh))));
+    if (checked) return keepChecked<CutMesh>(object, "cutMesh");
+    return success(val(KeptCutMesh(fromObject<CutMesh>(object))));
   });
 }
 
@@ -97,22 +100,24 @@ val validateCutMesh(const val& mesh, const KeptCutMesh& kept, const val& options
     ValidateOptions validateOptions;
     validateOptions.progress = progressOf(options);
     validateOptions.snapTolerance = options["snapTolerance"].as<double>();
-    const Mesh input = readMeshArrays(mesh);
+    const Mesh input = fromObject<Mesh>(mesh);
     return success(toObject(validate(input, *cutMesh, validateOptions)));
   });
 }
 
 val measureCutMesh(const val& mesh, const KeptCutMesh& kept, const val& options) {
   return guarded([&, cutMesh = kept.get()] {
-    const Mesh input = readMeshArrays(mesh);
+    const Mesh input = fromObject<Mesh>(mesh);
     const Measures measures = measure(input, *cutMesh, runOptions(options));
-    return success(toObject(measures, regionVolumes(*cutMesh, measures)));
+    val value = toObject(measures);
+    value.set("regionVolume", toArray(regionVolumes(*cutMesh, measures)));
+    return success(value);
   });
 }
 
 val edgesOf(const val& mesh, const KeptCutMesh& kept) {
   return guarded([&, cutMesh = kept.get()] {
-    const Mesh input = readMeshArrays(mesh);
+    const Mesh input = fromObject<Mesh>(mesh);
     return success(toObject(cutEdges(input, *cutMesh)));
   });
 }
@@ -174,7 +179,7 @@ val writeFile(const val& mesh, const KeptCutMesh& kept, const std::string& forma
     writeOptions.progress = progressOf(options);
     writeOptions.untouched = options["untouched"].as<bool>();
     if (!options["regions"].isUndefined()) readArray(options["regions"], writeOptions.regions);
-    const Mesh input = readMeshArrays(mesh);
+    const Mesh input = fromObject<Mesh>(mesh);
     std::vector<uint8_t> bytes;
     const Sink sink = [&](std::string_view piece) { bytes.insert(bytes.end(), piece.begin(), piece.end()); };
     if (format == "json") writeJson(sink, *cutMesh, writeOptions);
@@ -200,7 +205,6 @@ EMSCRIPTEN_BINDINGS(mandoline) {
   emscripten::class_<KeptCutMesh>("KeptCutMesh").function("bytes", &KeptCutMesh::bytes);
   emscripten::class_<KeptMesh>("KeptMesh").function("bytes", &KeptMesh::bytes);
   emscripten::function("version", &version);
-  emscripten::function("cutMeshArrays", &describeArrays);
   emscripten::function("prepare", &prepareMesh);
   emscripten::function("cut", &cutMesh);
   emscripten::function("findIntersections", &intersectionsOf);

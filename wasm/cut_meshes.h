@@ -1,24 +1,27 @@
-// Cut-meshes on both sides: as plain data, and as those that stay here.
+// Cut-meshes and prepared meshes that stay here, and what calls on them take and give.
 #pragma once
 
 #include <memory>
 
 #include "mandoline/resolve.h"
-#include "values.h"
+#include "mandoline/validate.h"
+#include "results.h"
 
 namespace mandoline::wasm {
 
-/// A cut-mesh that stays until JavaScript deletes its handle, and for as long as a call works on it.
-class KeptCutMesh {
+/// A value that stays until JavaScript deletes its handle, and for as long as a call works on it.
+template <class Value>
+class Kept {
  public:
-  explicit KeptCutMesh(CutMesh cutMesh) : cutMesh_(std::make_shared<const CutMesh>(std::move(cutMesh))) {}
-  std::shared_ptr<const CutMesh> get() const { return cutMesh_; }
+  explicit Kept(Value value) : value_(std::make_shared<const Value>(std::move(value))) {}
+  std::shared_ptr<const Value> get() const { return value_; }
   /// Size of its arrays.
-  double bytes() const;
+  double bytes() const { return bytesOf(*value_); }
 
  private:
-  std::shared_ptr<const CutMesh> cutMesh_;
+  std::shared_ptr<const Value> value_;
 };
+using KeptCutMesh = Kept<CutMesh>;
 
 /// The same for a mesh that was prepared.
 class KeptMesh {
@@ -32,18 +35,16 @@ class KeptMesh {
   PreparedMesh mesh_;
 };
 
-/// The arrays that a cut-mesh has in JavaScript: [{ name, type, optional }].
-val describeArrays();
+/// A handle of plain data whose arrays fit together.
+template <class Value>
+val keepChecked(const val& given, const char* name) {
+  Value value = fromObject<Value>(given);
+  const Check check = checkArrays(value);
+  if (!check.pass) return failure("badArgument", "The arrays of " + std::string(name) + " don't fit together: " + check.message);
+  return success(val(Kept<Value>(std::move(value))));
+}
 
-Mesh readMeshArrays(const val& mesh);
-/// As much of it as boundary() takes. Whether its arrays fit together is not asked.
-ResolvedMesh readResolvedMesh(const val& object);
+/// A grid of any kind.
 Grid readGrid(const val& grid, const MeshView& mesh);
-/// Whether its arrays fit together is not asked.
-CutMesh readCutMesh(const val& object);
-
-/// `dense`: with gridCellRegion.
-val toObject(const CutMesh& cutMesh, const CutStats& stats, bool dense);
-val toObject(const ResolveResult& result);
 
 }  // namespace mandoline::wasm

@@ -3,30 +3,20 @@
 #include <emscripten/bind.h>
 
 #include "complexes.h"
-#include "cut_meshes.h"
 #include "mandoline/mesh_files.h"
 #include "mandoline/validate.h"
-#include "results.h"
 
 namespace {
 
 using namespace mandoline;
 using namespace mandoline::wasm;
 
-/// A handle of plain data whose arrays fit together.
-template <class Kept, class Arrays>
-val keepChecked(Arrays arrays, const std::string& name) {
-  const Check check = checkArrays(arrays);
-  if (!check.pass) return failure("badArgument", "The arrays of " + name + " don't fit together: " + check.message);
-  return success(val(Kept(std::move(arrays))));
-}
-
 val keepCutMesh(const val& cutMesh) {
-  return guarded([&] { return keepChecked<KeptCutMesh>(readCutMesh(cutMesh), "cutMesh"); });
+  return guarded([&] { return keepChecked<CutMesh>(cutMesh, "cutMesh"); });
 }
 
 val keepComplex(const val& cells) {
-  return guarded([&] { return keepChecked<KeptComplex>(readComplex(cells), "cells"); });
+  return guarded([&] { return keepChecked<CellComplex>(cells, "cells"); });
 }
 
 val coarsenCutMesh(const KeptCutMesh& kept, const val& options) {
@@ -43,10 +33,11 @@ val coarsenCutMesh(const KeptCutMesh& kept, const val& options) {
 /// `octree` is null for the untouched grid cells.
 val complexOf(const val& mesh, const KeptCutMesh& kept, const val& octree, const val& options) {
   return guarded([&, cutMesh = kept.get()] {
-    const Mesh input = readMeshArrays(mesh);
+    const Mesh input = fromObject<Mesh>(mesh);
     CoarsenOptions none;
     none.maxLevel = 0;
-    CellComplex cells = cellComplex(input, *cutMesh, octree.isNull() ? coarsen(*cutMesh, none) : readOctree(octree), runOptions(options));
+    CellComplex cells =
+        cellComplex(input, *cutMesh, octree.isNull() ? coarsen(*cutMesh, none) : fromObject<OctreeCells>(octree), runOptions(options));
     const val value = toObject(cells);
     return success(object({{"value", value}, {"twin", val(KeptComplex(std::move(cells)))}}));
   });
@@ -70,7 +61,7 @@ val regionOf(const KeptComplex& kept, uint32_t region) {
 }
 
 val edgesOf(const KeptComplex& kept) {
-  return guarded([&, cells = kept.get()] { return success(object({{"vertices", toArray(complexEdges(*cells).vertices)}})); });
+  return guarded([&, cells = kept.get()] { return success(toObject(complexEdges(*cells))); });
 }
 
 /// One of the operators, by the name of its function.
@@ -114,10 +105,7 @@ val componentsOf(const KeptComplex& kept) {
 }
 
 val systemOf(const KeptComplex& kept, const val& problem) {
-  return guarded([&, cells = kept.get()] {
-    const PoissonSystem system = poissonSystem(*cells, readProblem(problem, *cells));
-    return success(object({{"matrix", toObject(system.matrix)}, {"rhs", toArray(system.rhs)}, {"nullSpace", toObject(system.nullSpace)}}));
-  });
+  return guarded([&, cells = kept.get()] { return success(toObject(poissonSystem(*cells, readProblem(problem, *cells)))); });
 }
 
 val solve(const KeptComplex& kept, const val& problem, const val& options) {
@@ -146,8 +134,8 @@ val flowThrough(const KeptComplex& kept, const val& wind, const val& options) {
 template <class Call>
 val onField(const KeptCutMesh& keptCutMesh, const KeptComplex& keptCells, const val& given, const Call& call) {
   return guarded([&, cutMesh = keptCutMesh.get(), cells = keptCells.get()] {
-    const Mesh mesh = readMeshArrays(given["mesh"]);
-    const Flow flow = readFlow(given["flow"]);
+    const Mesh mesh = fromObject<Mesh>(given["mesh"]);
+    const Flow flow = fromObject<Flow>(given["flow"]);
     std::vector<double> points;
     readArray(given["points"], points);
     return success(call(FlowField{mesh, *cutMesh, *cells, flow}, points));
@@ -184,8 +172,7 @@ val groupsOf(const val& bytes, const std::string& name) {
   return guarded([&] {
     std::vector<char> content;
     readArray(bytes, content);
-    const TriangleGroups groups = readGroups(content, name);
-    return success(object({{"names", val::array(groups.names)}, {"triangleGroup", toArray(groups.triangleGroup)}}));
+    return success(toObject(readGroups(content, name)));
   });
 }
 
@@ -197,8 +184,6 @@ EMSCRIPTEN_BINDINGS(physics) {
   emscripten::class_<KeptCutMesh>("KeptCutMesh").function("bytes", &KeptCutMesh::bytes);
   emscripten::class_<KeptComplex>("KeptComplex").function("bytes", &KeptComplex::bytes);
   emscripten::function("version", &version);
-  emscripten::function("cutMeshArrays", &describeArrays);
-  emscripten::function("complexArrays", &describeComplexArrays);
   emscripten::function("keepCutMesh", &keepCutMesh);
   emscripten::function("keepComplex", &keepComplex);
   emscripten::function("coarsen", &coarsenCutMesh);

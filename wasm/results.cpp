@@ -14,100 +14,35 @@ RunOptions runOptions(const val& options) {
   return result;
 }
 
-val toObject(const Mesh& mesh) { return object({{"positions", toArray(mesh.positions)}, {"triangles", toArray(mesh.triangles)}}); }
+void ObjectWriter::set(const char* key, const val& value) const { object_.set(key, value); }
 
-val toObject(const PairCounts& counts) {
-  return object({{"crossing", val(double(counts.crossing))},
-                 {"touching", val(double(counts.touching))},
-                 {"overlapping", val(double(counts.overlapping))},
-                 {"folded", val(double(counts.folded))},
-                 {"identical", val(double(counts.identical))}});
+void ObjectWriter::setNumber(const char* key, double value) const { set(key, val(value)); }
+
+void ObjectWriter::setText(const char* key, const std::string& value) const { set(key, val(value)); }
+
+void ObjectWriter::setArray(const char* key, const char* type, const void* numbers, size_t count) const {
+  set(key, toArray(type, numbers, count));
 }
 
-val toObject(const MeshIntersections& intersections) {
-  return object({{"counts", toObject(intersections.counts)},
-                 {"pairTriangles", toArray(intersections.pairTriangles)},
-                 {"pairKinds", toArray(intersections.pairKinds)},
-                 {"pairPointOffsets", toArray(intersections.pairPointOffsets)},
-                 {"positions", toArray(intersections.positions)}});
+template <>
+val toObject(const Grid& grid) {
+  val planes = val::array();
+  for (int d = 0; d < 3; ++d) planes.set(d, toArray(grid.planes[d]));
+  return object({{"origin", toTriple(grid.origin)},
+                 {"spacing", grid.uniform ? toTriple(grid.spacing) : val::null()},
+                 {"cells", toTriple(std::array<int64_t, 3>{grid.cells(0), grid.cells(1), grid.cells(2)})},
+                 {"planes", planes}});
 }
 
-val toObject(const Progress& progress) {
-  return object({{"stage", val(std::string(progress.stage))},
-                 {"stageIndex", val(progress.stageIndex)},
-                 {"stageCount", val(progress.stageCount)},
-                 {"done", val(double(progress.done))},
-                 {"total", val(double(progress.total))}});
-}
-
-val toObject(const Measures& measures, const std::vector<double>& regionVolume) {
-  return object({{"faceArea", toArray(measures.faceArea)},
-                 {"faceNormal", toArray(measures.faceNormal)},
-                 {"faceCentroid", toArray(measures.faceCentroid)},
-                 {"cellVolume", toArray(measures.cellVolume)},
-                 {"cellCentroid", toArray(measures.cellCentroid)},
-                 {"regionVolume", toArray(regionVolume)}});
-}
-
-val toObject(const CutEdges& edges) {
-  return object({{"edgeVertices", toArray(edges.edgeVertices)}, {"edgeLength", toArray(edges.edgeLength)}});
-}
-
-val toObject(const Adjacency& adjacency) {
-  return object({{"faceCells", toArray(adjacency.faceCells)},
-                 {"faceGridCells", toArray(std::vector<double>(adjacency.faceGridCells.begin(), adjacency.faceGridCells.end()))},
-                 {"cellCellOffsets", toArray(adjacency.cellCellOffsets)},
-                 {"cellCells", toArray(adjacency.cellCells)}});
-}
-
-val toObject(const FaceTriangles& faces) {
-  return object({{"faceTriangleOffsets", toArray(faces.faceTriangleOffsets)}, {"triangles", toArray(faces.triangles)}});
-}
-
-static val toObject(const Check& check) {
-  return object({{"name", val(check.name)},
-                 {"pass", val(check.pass)},
-                 {"skipped", val(check.skipped)},
-                 {"worst", val(check.worst)},
-                 {"tolerance", val(check.tolerance)},
-                 {"elementKind", val(check.elementKind)},
-                 {"element", val(double(check.element))},
-                 {"message", val(check.message)}});
-}
-
-val toObject(const Validation& validation) {
-  val result = val::object(), checks = val::array();
-  for (size_t i = 0; i < validation.checks.size(); ++i) checks.set(i, toObject(validation.checks[i]));
-  result.set("pass", validation.pass);
-  result.set("checks", checks);
-  return result;
-}
-
-val toObject(const Locations& locations) {
-  return object({{"cell", toArray(locations.cell)}, {"gridCell", toArray(locations.gridCell)}, {"region", toArray(locations.region)}});
-}
-
-val toObject(const Slice& slice) {
-  return object({{"positions", toArray(slice.positions)},
-                 {"loopOffsets", toArray(slice.loopOffsets)},
-                 {"loopPoints", toArray(slice.loopPoints)},
-                 {"polygonLoopOffsets", toArray(slice.polygonLoopOffsets)},
-                 {"polygonCell", toArray(slice.polygonCell)},
-                 {"polygonGridCell", toArray(slice.polygonGridCell)},
-                 {"polygonRegion", toArray(slice.polygonRegion)},
-                 {"polygonTriangleOffsets", toArray(slice.polygonTriangleOffsets)},
-                 {"triangles", toArray(slice.triangles)}});
-}
-
-val toObject(const Outlines& outlines) {
-  return object({{"positions", toArray(outlines.positions)},
-                 {"loopOffsets", toArray(outlines.loopOffsets)},
-                 {"loopPoints", toArray(outlines.loopPoints)},
-                 {"polygonLoopOffsets", toArray(outlines.polygonLoopOffsets)},
-                 {"polygonRegion", toArray(outlines.polygonRegion)},
-                 {"slitOffsets", toArray(outlines.slitOffsets)},
-                 {"slitPoints", toArray(outlines.slitPoints)},
-                 {"slitRegion", toArray(outlines.slitRegion)}});
+template <>
+void read(const val& object, Grid& grid) {
+  std::array<std::vector<double>, 3> planes;
+  for (int d = 0; d < 3; ++d) readArray(object["planes"][d], planes[d]);
+  grid = Grid::rectilinear(std::move(planes));
+  if (object["spacing"].isNull()) return;
+  grid.uniform = true;
+  grid.origin = readTriple<double>(object["origin"]);
+  grid.spacing = readTriple<double>(object["spacing"]);
 }
 
 }  // namespace mandoline::wasm

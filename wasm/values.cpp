@@ -5,6 +5,16 @@
 
 namespace mandoline::wasm {
 
+/// Numbers in memory as a typed array, valid until memory grows.
+static val viewOf(const char* type, const void* numbers, size_t count) {
+  const val buffer = val(emscripten::typed_memory_view(0, static_cast<const uint8_t*>(nullptr)))["buffer"];
+  return val::global(type).new_(buffer, reinterpret_cast<uintptr_t>(numbers), count);
+}
+
+val toArray(const char* type, const void* numbers, size_t count) { return viewOf(type, numbers, count).call<val>("slice"); }
+
+void copyArray(const val& array, const char* type, void* numbers, size_t count) { viewOf(type, numbers, count).call<void>("set", array); }
+
 val object(std::initializer_list<std::pair<const char*, val>> members) {
   val result = val::object();
   for (const auto& [name, value] : members) result.set(name, value);

@@ -10,7 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "mandoline/io.h"
+#include "mandoline/mesh_files.h"
+#include "mandoline/status.h"
 
 namespace mandoline::wasm {
 
@@ -24,29 +25,23 @@ constexpr const char* arrayType() {
   if constexpr (std::is_same_v<Number, uint32_t>) return "Uint32Array";
   if constexpr (std::is_same_v<Number, int32_t>) return "Int32Array";
   if constexpr (std::is_same_v<Number, int8_t>) return "Int8Array";
-  if constexpr (std::is_same_v<Number, uint8_t>) return "Uint8Array";
+  if constexpr (std::is_same_v<Number, uint8_t> || std::is_same_v<Number, char>) return "Uint8Array";
 }
 
-/// The memory of numbers, or of enumerators as numbers, as a typed array.
-template <class Number>
-val viewOf(const std::vector<Number>& items) {
-  if constexpr (std::is_enum_v<Number>)
-    return val(emscripten::typed_memory_view(items.size(), reinterpret_cast<const std::underlying_type_t<Number>*>(items.data())));
-  else
-    return val(emscripten::typed_memory_view(items.size(), items.data()));
-}
-
-/// A typed array that owns its memory: the items are copied once.
+/// A typed array that owns its memory: `count` numbers are copied once.
+val toArray(const char* type, const void* numbers, size_t count);
 template <class Number>
 val toArray(const std::vector<Number>& items) {
-  return viewOf(items).template call<val>("slice");
+  return toArray(arrayType<Number>(), items.data(), items.size());
 }
 
+/// The other way: copies an array's numbers, of whatever type, to memory.
+void copyArray(const val& array, const char* type, void* numbers, size_t count);
 /// Enumerators are not checked.
 template <class Number>
 void readArray(const val& array, std::vector<Number>& items) {
   items.resize(array["length"].as<size_t>());
-  viewOf(items).template call<void>("set", array);
+  copyArray(array, arrayType<Number>(), items.data(), items.size());
 }
 
 template <class Number>

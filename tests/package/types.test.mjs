@@ -1,6 +1,7 @@
-// The hand-written types against the module: real results, written as literals, must fit their declarations with no key missing or left
+// The types against the module: real results, written as literals, must fit their declarations with no key missing or left
 // over.
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join as path } from 'node:path';
 import { after, test } from 'node:test';
@@ -60,6 +61,10 @@ function declared(results, entry) {
   const types = `import type { ${[...names].join(', ')} } from '${entry}';`;
   return { types, text: [types, ...checks].join('\n') };
 }
+
+test('interfaces of results are as the C++ headers have them', () => {
+  execFileSync(process.execPath, [path(root, 'wasm', 'results.mjs'), '--check']);
+});
 
 test('results', () => {
   const results = [

@@ -62,5 +62,5 @@ export function makeApi(host, table) {
     const make = call.isFile ? makeFileCall : makeCall;
     return [name, named(call.isCut ? 'input' : name, make(host, name, call))];
   });
-  return { version: host.run((bindings) => ({ value: bindings.version() })), ...Object.fromEntries(calls) };
+  return { version: host.start((bindings) => bindings.version()), ...Object.fromEntries(calls) };
 }

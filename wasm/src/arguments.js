@@ -3,6 +3,7 @@
  * (value, name) what C++ takes; messages call the value by the name.
  */
 import { MandolineError } from './errors.js';
+import { CutMesh, ResolvedMesh } from './fields.js';
 import { suggestion } from './names.js';
 
 export function bad(message, code = 'badArgument', element = -1) {
@@ -291,32 +292,41 @@ function completed(cutMesh) {
   };
 }
 
-/**
- * The arrays that the module says a cut-mesh has ({ name, type, optional } each), with the right types; whether their lengths and ids fit
- * together is up to C++.
- */
-export function readCutMesh(given, arrays) {
-  expectObject(given, 'cutMesh');
-  const cutMesh = completed(given);
-  expectObject(cutMesh.grid, 'cutMesh.grid');
-  const result = {
-    grid: readPlanes(cutMesh.grid, 'cutMesh.grid'),
-    regionCount: readId(cutMesh.regionCount, 'cutMesh.regionCount'),
-    triangleCount: readId(cutMesh.triangleCount, 'cutMesh.triangleCount'),
+/** A number that C++ keeps as a 32-bit integer; those beyond are as good as the limit. */
+export function readInt32(value, name) {
+  return Math.min(Math.max(expectInteger(value, name), -(2 ** 31)), 2 ** 31 - 1);
+}
+
+function readGridOf(grid, name) {
+  expectObject(grid, name);
+  return readPlanes(grid, name);
+}
+
+/** Readers of members by their kinds in fields.js, but for typed arrays. */
+const kinds = { Grid: readGridOf, integer: readId, 'integer[3]': (...given) => readVector(...given, readInt32), 'number[3]': readVector };
+
+/** The members that a struct of C++ has, by its kinds in fields.js. Whether lengths and ids fit together is up to C++. */
+export function readFields(value, fields, name) {
+  expectObject(value, name);
+  const read = ([key, kind]) => {
+    const [type, orNull] = kind.split(' | ');
+    if (orNull && value[key] === null) return [key, null];
+    return [key, (kinds[type] ?? ((array, of) => expectTypedArray(array, type, of)))(value[key], `${name}.${key}`)];
   };
-  for (const { name, type, optional } of arrays) {
-    const value = cutMesh[name];
-    result[name] = optional && value === null ? null : expectTypedArray(value, type, `cutMesh.${name}`);
-  }
-  return result;
+  return Object.fromEntries(Object.entries(fields).map(read));
+}
+
+export function readCutMesh(cutMesh) {
+  expectObject(cutMesh, 'cutMesh');
+  return readFields(completed(cutMesh), CutMesh, 'cutMesh');
 }
 
 /** As much of what resolve() gives as boundary() takes. */
 export function readResolved(mesh) {
   const arrays = readMesh(mesh);
   const isNull = mesh.frontWinding === null && mesh.backWinding === null;
-  const winding = (key) => (isNull ? null : expectTypedArray(mesh[key], 'Int32Array', `mesh.${key}`));
-  return { ...arrays, frontWinding: winding('frontWinding'), backWinding: winding('backWinding') };
+  const kind = isNull ? ResolvedMesh.frontWinding : 'Int32Array'; // one without the other is none
+  return { ...arrays, ...readFields(mesh, { frontWinding: kind, backWinding: kind }, 'mesh') };
 }
 
 export function readPoints(points, name = 'points') {

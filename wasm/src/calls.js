@@ -26,12 +26,13 @@ import {
   readVector,
   word,
 } from './arguments.js';
+import { Intersections, WindingRule } from './fields.js';
 import { readFile, readName } from './files.js';
 
 const cutMesh = { kind: 'cutMesh' };
 
 const progress = readFunction;
-const intersections = numbered(['resolve', 'refuse', 'assumeNone']);
+const intersections = numbered(Intersections);
 
 /**
  * An outcome, where what is too large is told.
@@ -105,7 +106,7 @@ export const cutCalls = {
   boundary: {
     takes: {
       mesh: { kind: 'cutMesh', fits: (value) => value?.grid !== undefined, otherwise: readResolved },
-      rule: numbered(['positive', 'nonZero', 'odd']),
+      rule: numbered(WindingRule),
     },
     run: (bindings, mesh, rule) => {
       return mesh instanceof bindings.KeptCutMesh ? bindings.boundary(mesh, rule) : bindings.boundaryOfResolved(mesh, rule);

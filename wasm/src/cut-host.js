@@ -1,15 +1,12 @@
 import { readCutMesh, readMesh } from './arguments.js';
 import { Host } from './host.js';
 import createModule from './mandoline.js';
-import { cutMeshes } from './results.js';
+import { cutMeshes } from './cut-meshes.js';
 
 /** The host of what the package's main entry calls. Its results are cut-meshes, and meshes that prepare() gave, with its options. */
 export class CutHost extends Host {
-  #arrays;
-
   constructor(module) {
     super(createModule, module);
-    this.#arrays = this.start((bindings) => bindings.cutMeshArrays());
   }
 
   input({ kind, isChecked = true }, value, progress) {
@@ -21,7 +18,7 @@ export class CutHost extends Host {
       return { value, read: () => readMesh(value), make: again, isKept };
     }
     const make = (bindings, arrays) => bindings.keep(arrays, isChecked); // those that are to be validated may be damaged
-    return { value, read: () => readCutMesh(value, this.#arrays), make, isKept: isChecked && isKept };
+    return { value, read: () => readCutMesh(value), make, isKept: isChecked && isKept };
   }
 
   adopt(result, origin) {

@@ -12,7 +12,10 @@
  * there is nothing to delete. Arrays have the names that they have in the C++ library and its JSON dump. Numbers of sections and appendices
  * are the paper's.
  */
+import type { CutMeshArrays, CutStats, MeasureArrays, PairCounts, Progress, ResolvedMeshArrays } from './results.js';
 import type { Calls } from './signatures.js';
+
+export * from './results.js';
 
 /**
  * A triangle mesh. The normal of triangle (a, b, c) is (b - a) x (c - a). It may be open, non-manifold, inconsistently oriented, unwelded,
@@ -68,14 +71,6 @@ export interface Grid {
   planes: [Float64Array<ArrayBuffer>, Float64Array<ArrayBuffer>, Float64Array<ArrayBuffer>];
 }
 
-/** A mesh that a call gives: a copy, one of a file, a new one. It is a Mesh, too. */
-export interface MeshArrays {
-  /** 3 per vertex: x, y, z. */
-  positions: Float64Array<ArrayBuffer>;
-  /** 3 per triangle: vertex ids. */
-  triangles: Uint32Array<ArrayBuffer>;
-}
-
 /** The stages of a cut, in order; prepare() does the first two. */
 export type Stage =
   | 'input'
@@ -89,16 +84,6 @@ export type Stage =
   | 'cutCells'
   | 'regions'
   | 'output';
-
-/** How far a call has come: `done` of `total` items of the stage, and the stage's place among all. */
-export interface Progress {
-  /** Of a cut: a Stage. */
-  stage: Stage | (string & {});
-  stageIndex: number;
-  stageCount: number;
-  done: number;
-  total: number;
-}
 
 export interface RunOptions {
   /**
@@ -146,125 +131,10 @@ export interface CutOptions extends PrepareOptions {
  * again. `cut(..., { keep: false })` keeps none. In a worker, twins are in its thread, and the arrays are sent back to it only where the
  * twin is gone.
  */
-export interface CutMesh {
-  grid: Grid;
-
-  /** 3 per vertex. Output only: no decision reads them. */
-  positions: Float64Array<ArrayBuffer>;
-  /** 3 per vertex: the slab it lies in per axis, exact: 0..n-1, or n on the last plane. */
-  vertexCell: Int32Array<ArrayBuffer>;
-  /** Per vertex: bit d is set when it lies exactly on plane vertexCell[d] of axis d. */
-  vertexMask: Uint8Array<ArrayBuffer>;
-  /** Per vertex: the tri-vertex (lowest id at its position), or -1. */
-  vertexTriVertex: Int32Array<ArrayBuffer>;
-  /** 2 per vertex: tri-vertex (v, v); on a tri-edge its ends (a, b); in a triangle (t, -1); grid vertex (-1, -1). */
-  vertexParents: Int32Array<ArrayBuffer>;
-
-  /**
-   * Made vertices, ascending: those that only exist because triangles meet other than in shared vertices and edges. Their vertexParents are
-   * (-1, -1).
-   */
-  madeVertices: Uint32Array<ArrayBuffer>;
-  /**
-   * Per made vertex what meets there. 0: a tri-edge and a triangle; 1: two tri-edges; 2: three triangles; 3: two triangles and an axial
-   * plane or several.
-   */
-  madeVertexKinds: Uint8Array<ArrayBuffer>;
-  /** 4 per made vertex: these tri-edges, by their two tri-vertices, then triangles; the rest is -1. */
-  madeVertexParents: Int32Array<ArrayBuffer>;
-
-  /** Into loopVertices. */
-  loopOffsets: Uint32Array<ArrayBuffer>;
-  /** Vertex ids. */
-  loopVertices: Uint32Array<ArrayBuffer>;
-  /** Into loops, per face: the first is the outer loop, counter-clockwise about the face's normal; the others are holes, clockwise. */
-  faceLoopOffsets: Uint32Array<ArrayBuffer>;
-  /** Per face: the input triangle (its normal is the face's; the lowest, if there are several), or -1 for a piece of a grid-face. */
-  faceTriangle: Int32Array<ArrayBuffer>;
-  /** Into faceParents, per face. */
-  faceParentOffsets: Uint32Array<ArrayBuffer>;
-  /** All triangles that contain the face, ascending: several where they lie on each other. */
-  faceParents: Uint32Array<ArrayBuffer>;
-  /** Per parent: 1 if its normal is the face's, -1 if the opposite. Behind the face the winding number is higher by the face's sum. */
-  faceParentSigns: Int8Array<ArrayBuffer>;
-  /** Per face: 0..2 if it lies in an axial plane, else -1. A grid-face's normal is +axis. */
-  faceAxis: Int8Array<ArrayBuffer>;
-  /** Per face: index of that plane, else 0. */
-  facePlane: Int32Array<ArrayBuffer>;
-
-  /** Into cellHalfFaces, per cut-cell. */
-  cellHalfFaceOffsets: Uint32Array<ArrayBuffer>;
-  /** Half-faces: the outer shell's and those of cavities and floating sheets. */
-  cellHalfFaces: Uint32Array<ArrayBuffer>;
-  /** 3 per cut-cell: the grid cell it lies in. Cut-cells are in ascending order of grid cells, x fastest. */
-  cellGridCell: Int32Array<ArrayBuffer>;
-  /** Per cut-cell. */
-  cellRegion: Uint32Array<ArrayBuffer>;
-
-  /** Region of each grid cell, x fastest; -1 where cut-cells replace it. Absent if the options said so. */
+export interface CutMesh extends CutMeshArrays {
+  /** Region of each grid cell, x fastest; -1 where cut-cells replace it: what the runs say, in a dense form. Absent if the options said so. */
   gridCellRegion?: Int32Array<ArrayBuffer>;
-  /** The same as runs of untouched grid cells along x. Row r = k * ny + j has runs rowRunOffsets[r] .. rowRunOffsets[r + 1] - 1. */
-  rowRunOffsets: Uint32Array<ArrayBuffer>;
-  /** Per run: its first grid cell along x. */
-  runBegin: Int32Array<ArrayBuffer>;
-  /** Per run: one past the last. */
-  runEnd: Int32Array<ArrayBuffer>;
-  /** Per run. */
-  runRegion: Uint32Array<ArrayBuffer>;
-
-  /** Regions: connected components of cut-cells and untouched grid cells, joined through faces that are not pieces of triangles. */
-  regionCount: number;
-  /** Per region: +1 inside an outward oriented closed surface; null where the input is open or inconsistently oriented. */
-  regionWinding: Int32Array<ArrayBuffer> | null;
-
-  /** Of the input. */
-  triangleCount: number;
-  /** Ascending ids of triangles without a face: zero area, outside the grid. */
-  droppedTriangles: Uint32Array<ArrayBuffer>;
-
   stats: CutStats;
-}
-
-export interface CutStats {
-  /** Milliseconds per stage, in order. */
-  stages: { stage: Stage; ms: number }[];
-  totalMs: number;
-  /** Signs that needed exact arithmetic. */
-  exactFallbacks: number;
-  /** Tri-vertices that share their position with a lower one. */
-  weldedVertices: number;
-  /** Dropped. */
-  zeroAreaTriangles: number;
-  /** Dropped. */
-  outsideTriangles: number;
-  /** With the same three vertices as a lower one. */
-  duplicateTriangles: number;
-  /** None with "assumeNone". */
-  intersections: PairCounts;
-  /** Connected curves along which others meet the insides of triangles. */
-  intersectionCurves: number;
-  /** See CutMesh. */
-  madeVertices: number;
-  /** Moved onto a plane by snapTolerance. */
-  snappedVertices: number;
-  /** Farthest such move, in cells. */
-  largestSnap: number;
-  /** Coordinates below 2^-200 of the largest, taken as 0. */
-  flushedCoordinates: number;
-}
-
-/** How many pairs of triangles meet other than in shared vertices and whole shared edges, by how they do. */
-export interface PairCounts {
-  /** Along a segment that runs through both. */
-  crossing: number;
-  /** In a point, or along a segment on the outline of one. */
-  touching: number;
-  /** They lie in one plane and have an area in common. */
-  overlapping: number;
-  /** Overlapping, of triangles that share an edge. */
-  folded: number;
-  /** They have the same three vertices. CutStats.duplicateTriangles counts such triangles rather than pairs. */
-  identical: number;
 }
 
 export interface IntersectionOptions extends RunOptions {
@@ -272,44 +142,11 @@ export interface IntersectionOptions extends RunOptions {
   maxPairs?: number;
 }
 
-/** The pairs of triangles that meet, exactly: the lowest ones, ascending, as many as were asked for. */
-export interface MeshIntersections {
-  /** Of all pairs. */
-  counts: PairCounts;
-  /** 2 per pair: the lower triangle first. */
-  pairTriangles: Uint32Array<ArrayBuffer>;
-  /** Per pair. 0: crossing, 1: touching, 2: overlapping, 3: folded, 4: identical; see PairCounts. */
-  pairKinds: Uint8Array<ArrayBuffer>;
-  /** Into positions (counted in points), per pair. */
-  pairPointOffsets: Uint32Array<ArrayBuffer>;
-  /**
-   * 3 per point, rounded. What the two have in common: a point, the ends of a segment, or the corners of a convex polygon,
-   * counter-clockwise about the normal of the first.
-   */
-  positions: Float64Array<ArrayBuffer>;
-}
-
 /**
  * The exact arrangement of a mesh's triangles as triangles again: two of them meet in shared vertices and edges alone, up to the rounding
  * of vertices. It is a Mesh, too.
  */
-export interface ResolvedMesh extends MeshArrays {
-  /**
-   * Per vertex: the tri-vertex of the input (lowest id at its position), which is not moved; or -1 for a made one, which is rounded once.
-   */
-  vertexTriVertex: Int32Array<ArrayBuffer>;
-  /** Into parents, per triangle. */
-  parentOffsets: Uint32Array<ArrayBuffer>;
-  /**
-   * The triangles of the input that contain the triangle, ascending: several where they lie on each other. Its normal is that of the first.
-   */
-  parents: Uint32Array<ArrayBuffer>;
-  /** Per parent: 1 if its normal is the triangle's, -1 if it is the opposite. */
-  parentSigns: Int8Array<ArrayBuffer>;
-  /** Per triangle: the winding number on the side of its normal; null where the input is open or inconsistently oriented. */
-  frontWinding: Int32Array<ArrayBuffer> | null;
-  /** The same behind it. */
-  backWinding: Int32Array<ArrayBuffer> | null;
+export interface ResolvedMesh extends ResolvedMeshArrays {
   /** Pairs of these triangles that meet again because vertices were rounded, found exactly. Often there are none. */
   remaining: PairCounts;
   /** Its `intersections` are the pairs of the input. */
@@ -322,83 +159,9 @@ export interface ResolvedMesh extends MeshArrays {
  */
 export type WindingRule = 'positive' | 'nonZero' | 'odd';
 
-export interface Measures {
-  /** Per face. */
-  faceArea: Float64Array<ArrayBuffer>;
-  /** 3 per face, unit. */
-  faceNormal: Float64Array<ArrayBuffer>;
-  /** 3 per face. */
-  faceCentroid: Float64Array<ArrayBuffer>;
-  /** Per cut-cell. */
-  cellVolume: Float64Array<ArrayBuffer>;
-  /** 3 per cut-cell. */
-  cellCentroid: Float64Array<ArrayBuffer>;
+export interface Measures extends MeasureArrays {
   /** Per region: its cut-cells and untouched grid cells together. */
   regionVolume: Float64Array<ArrayBuffer>;
-}
-
-/** Unique undirected cut-edges, lower vertex id first, ascending. */
-export interface CutEdges {
-  /** 2 per edge. */
-  edgeVertices: Uint32Array<ArrayBuffer>;
-  /** Per edge. */
-  edgeLength: Float64Array<ArrayBuffer>;
-}
-
-export interface Adjacency {
-  /** 2 per face: the cut-cell of side 0 and of side 1, or -1. */
-  faceCells: Int32Array<ArrayBuffer>;
-  /** 2 per face, the same: the untouched grid cell i + nx (j + ny k); -1 for a cut-cell and where the grid ends. */
-  faceGridCells: Float64Array<ArrayBuffer>;
-  /** Into cellCells, per cut-cell. */
-  cellCellOffsets: Uint32Array<ArrayBuffer>;
-  /** Neighbouring cut-cells of each cut-cell across any face, ascending, without repeats. */
-  cellCells: Uint32Array<ArrayBuffer>;
-}
-
-/** Triangles of every face. No vertices are added, and both cells of a face use the same triangles, so neighbours match. */
-export interface FaceTriangles {
-  /** Into triangles (counted in triangles), per face. */
-  faceTriangleOffsets: Uint32Array<ArrayBuffer>;
-  /** 3 vertex ids per triangle, counter-clockwise about the face's normal. */
-  triangles: Uint32Array<ArrayBuffer>;
-}
-
-export interface Check {
-  /** For example "surfaceArea". */
-  name: string;
-  /** True also if skipped. */
-  pass: boolean;
-  /** Whether it does not apply to this input, as winding numbers do not to an open mesh. */
-  skipped: boolean;
-  /**
-   * The number of violations; or, where `tolerance` is above 0, the largest deviation in roundings (half units in the last place of the
-   * largest coordinate), NaN if it can't be computed.
-   */
-  worst: number;
-  /** The largest `worst` that passes. */
-  tolerance: number;
-  /** What the worst deviation was found at: "cell", "face", "triangle", ...; empty if nothing. */
-  elementKind: string;
-  /** Its id, or -1. */
-  element: number;
-  /** What is wrong, why it was skipped, or what was left out; may be empty. */
-  message: string;
-}
-
-export interface Validation {
-  pass: boolean;
-  checks: Check[];
-}
-
-/** Where points lie. One that is not finite lies outside the grid. */
-export interface Locations {
-  /** Per point: the cut-cell that holds it, or -1 in an untouched grid cell, or outside the grid. */
-  cell: Int32Array<ArrayBuffer>;
-  /** 3 per point: the grid cell, or -1, -1, -1 outside the grid. */
-  gridCell: Int32Array<ArrayBuffer>;
-  /** Per point: the region, or -1 outside the grid. */
-  region: Int32Array<ArrayBuffer>;
 }
 
 /** Where a point in the grid lies. */
@@ -413,56 +176,6 @@ export interface Location {
 export interface Plane {
   normal: Vector3;
   offset: number;
-}
-
-/**
- * A filled cross-section of the cut-mesh: the polygons in which a plane cuts the cells, those of the cut-cells first. A cell may have
- * several. Where a sheet ends within a cell, a loop runs along it, there and back. Points are shared by the polygons of neighbouring
- * cut-cells.
- */
-export interface Slice {
-  /** 3 per point, on the plane. */
-  positions: Float64Array<ArrayBuffer>;
-  /** Into loopPoints. */
-  loopOffsets: Uint32Array<ArrayBuffer>;
-  /** Points of the loops. */
-  loopPoints: Uint32Array<ArrayBuffer>;
-  /** Into loops, per polygon: the first is the outer loop, counter-clockwise about the plane's normal; the others are holes, clockwise. */
-  polygonLoopOffsets: Uint32Array<ArrayBuffer>;
-  /** Per polygon: the cut-cell that it is a cut of, or -1 for an untouched grid cell. */
-  polygonCell: Int32Array<ArrayBuffer>;
-  /** 3 per polygon: the grid cell. */
-  polygonGridCell: Int32Array<ArrayBuffer>;
-  /** Per polygon. */
-  polygonRegion: Uint32Array<ArrayBuffer>;
-  /** Into triangles (counted in triangles), per polygon. */
-  polygonTriangleOffsets: Uint32Array<ArrayBuffer>;
-  /** 3 points per triangle, counter-clockwise about the plane's normal. */
-  triangles: Uint32Array<ArrayBuffer>;
-}
-
-/**
- * The outlines of regions in a plane: each region's polygons of a slice as one, without the seams between cells. Where the surface has one
- * region on both sides (an open sheet), it is a slit: a polyline, with the triangles' normals to its right, that ends in its first point if
- * it is closed. Points are shared by the outlines of neighbouring regions.
- */
-export interface Outlines {
-  /** 3 per point, on the plane. */
-  positions: Float64Array<ArrayBuffer>;
-  /** Into loopPoints. */
-  loopOffsets: Uint32Array<ArrayBuffer>;
-  /** Points of the loops. */
-  loopPoints: Uint32Array<ArrayBuffer>;
-  /** Into loops, per polygon: the first is the outer loop, counter-clockwise about the plane's normal; the others are holes, clockwise. */
-  polygonLoopOffsets: Uint32Array<ArrayBuffer>;
-  /** Per polygon, ascending. */
-  polygonRegion: Uint32Array<ArrayBuffer>;
-  /** Into slitPoints. */
-  slitOffsets: Uint32Array<ArrayBuffer>;
-  /** Points of the slits. */
-  slitPoints: Uint32Array<ArrayBuffer>;
-  /** Per slit: the region around it, ascending. */
-  slitRegion: Uint32Array<ArrayBuffer>;
 }
 
 export interface SliceOptions {

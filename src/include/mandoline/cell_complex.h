@@ -6,7 +6,7 @@
 
 namespace MANDOLINE_API mandoline {
 
-/// What a face of a cell complex is part of: a side of the grid, or:
+/// What a face of a cell complex is part of: a side of the grid, or another thing.
 enum class FaceTag : uint8_t {
   xMin,
   xMax,
@@ -23,7 +23,9 @@ enum class FaceTag : uint8_t {
 /// their ids; then come those of the octree cells: cell cutCells + c is octree cell c. Half-face = 2 * face + side; side 0: the face's
 /// normal points out of the cell, side 1: into it.
 struct CellComplex {
-  uint32_t cutVertices = 0, cutFaces = 0, cutCells = 0;  ///< how many of each are the cut-mesh's
+  uint32_t cutVertices = 0;  ///< how many of the vertices are the cut-mesh's
+  uint32_t cutFaces = 0;     ///< how many of the faces
+  uint32_t cutCells = 0;     ///< how many of the cells
 
   std::vector<double> positions;  ///< 3 per vertex, world units
 
@@ -56,30 +58,30 @@ struct CellComplex {
   std::span<const uint32_t> halfFaces(size_t cell) const {
     return {cellHalfFaces.data() + cellHalfFaceOffsets[cell], cellHalfFaceOffsets[cell + 1] - cellHalfFaceOffsets[cell]};
   }
-};
 
-/// The arrays of a cell complex in order: f(name, vector). All that reads, writes or describes them follows from it.
-template <class AnyComplex, class F>
-requires std::is_same_v<std::remove_const_t<AnyComplex>, CellComplex>
-void forEachArray(AnyComplex& cells, const F& f) {
-  f("positions", cells.positions);
-  f("loopOffsets", cells.loopOffsets);
-  f("loopVertices", cells.loopVertices);
-  f("faceLoopOffsets", cells.faceLoopOffsets);
-  f("faceCells", cells.faceCells);
-  f("faceTag", cells.faceTag);
-  f("faceArea", cells.faceArea);
-  f("faceNormal", cells.faceNormal);
-  f("faceCentroid", cells.faceCentroid);
-  f("cellHalfFaceOffsets", cells.cellHalfFaceOffsets);
-  f("cellHalfFaces", cells.cellHalfFaces);
-  f("cellCorner", cells.cellCorner);
-  f("cellLevel", cells.cellLevel);
-  f("cellCentre", cells.cellCentre);
-  f("cellRegion", cells.cellRegion);
-  f("cellVolume", cells.cellVolume);
-  f("cellCentroid", cells.cellCentroid);
-}
+  static void fields(auto& self, const auto& f) {
+    f("cutVertices", self.cutVertices);
+    f("cutFaces", self.cutFaces);
+    f("cutCells", self.cutCells);
+    f("positions", self.positions);
+    f("loopOffsets", self.loopOffsets);
+    f("loopVertices", self.loopVertices);
+    f("faceLoopOffsets", self.faceLoopOffsets);
+    f("faceCells", self.faceCells);
+    f("faceTag", self.faceTag);
+    f("faceArea", self.faceArea);
+    f("faceNormal", self.faceNormal);
+    f("faceCentroid", self.faceCentroid);
+    f("cellHalfFaceOffsets", self.cellHalfFaceOffsets);
+    f("cellHalfFaces", self.cellHalfFaces);
+    f("cellCorner", self.cellCorner);
+    f("cellLevel", self.cellLevel);
+    f("cellCentre", self.cellCentre);
+    f("cellRegion", self.cellRegion);
+    f("cellVolume", self.cellVolume);
+    f("cellCentroid", self.cellCentroid);
+  }
+};
 
 /// `mesh` is the input that `cutMesh` was made from, and `octree` comes from coarsen(cutMesh); with maxLevel = 0 its cells are the
 /// untouched grid cells. Throws CallError if they don't belong together, if the faces have 2^31 corners or more (meshTooLarge), or if
@@ -90,7 +92,16 @@ CellComplex cellComplex(const MeshView& mesh, const CutMesh& cutMesh, const Octr
 /// as there is outside the grid.
 struct SubComplex {
   CellComplex cells;
-  std::vector<uint32_t> wholeVertex, wholeFace, wholeCell;  ///< per vertex, face and cell: its id in the whole
+  std::vector<uint32_t> wholeVertex;  ///< per vertex: its id in the whole
+  std::vector<uint32_t> wholeFace;    ///< per face, the same
+  std::vector<uint32_t> wholeCell;    ///< per cell, the same
+
+  static void fields(auto& self, const auto& f) {
+    f("cells", self.cells);
+    f("wholeVertex", self.wholeVertex);
+    f("wholeFace", self.wholeFace);
+    f("wholeCell", self.wholeCell);
+  }
 };
 
 /// The cells that `cellIds` name, in any order. Throws CallError{badArgument} with the element if one does not exist or is named twice.

@@ -27,6 +27,13 @@ struct OctreeCells {
   std::array<int32_t, 3> end(size_t cell) const;
   /// The octree cell that holds a grid cell, or -1 if that is cut or lies outside the grid. Takes logarithmic time.
   int64_t find(int64_t i, int64_t j, int64_t k) const;
+
+  static void fields(auto& self, const auto& f) {
+    f("gridCells", self.gridCells);
+    f("cellCorner", self.cellCorner);
+    f("cellLevel", self.cellLevel);
+    f("cellRegion", self.cellRegion);
+  }
 };
 
 /// Takes time and memory in proportion to the numbers of cut-cells and octree cells. Throws CallError if an option is negative (badOption),

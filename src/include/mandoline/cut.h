@@ -13,11 +13,18 @@ struct CutOptions : RunOptions {
   Intersections intersections = Intersections::resolve;
 };
 
+/// How long a stage took.
 struct StageTime {
   const char* stage;
-  double ms;
+  double ms;  ///< milliseconds
+
+  static void fields(auto& self, const auto& f) {
+    f("stage", self.stage);
+    f("ms", self.ms);
+  }
 };
 
+/// How a cut went.
 struct CutStats {
   std::vector<StageTime> stages;  ///< in order
   double totalMs = 0;
@@ -31,6 +38,22 @@ struct CutStats {
   uint32_t snappedVertices = 0;                          ///< moved onto a plane by snapTolerance
   double largestSnap = 0;                                ///< farthest such move, in cells
   uint32_t flushedCoordinates = 0;                       ///< below 2^-200 of the largest, taken as 0
+
+  static void fields(auto& self, const auto& f) {
+    f("stages", self.stages);
+    f("totalMs", self.totalMs);
+    f("exactFallbacks", self.exactFallbacks);
+    f("weldedVertices", self.weldedVertices);
+    f("zeroAreaTriangles", self.zeroAreaTriangles);
+    f("outsideTriangles", self.outsideTriangles);
+    f("duplicateTriangles", self.duplicateTriangles);
+    f("intersections", self.intersections);
+    f("intersectionCurves", self.intersectionCurves);
+    f("madeVertices", self.madeVertices);
+    f("snappedVertices", self.snappedVertices);
+    f("largestSnap", self.largestSnap);
+    f("flushedCoordinates", self.flushedCoordinates);
+  }
 };
 
 struct CutResult {

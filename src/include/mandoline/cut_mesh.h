@@ -4,8 +4,7 @@
 // Half-face = 2 * face + side; side 0: the face's normal points out of the cell, side 1: into it.
 #pragma once
 
-#include <type_traits>
-
+#include "mandoline/fields.h"
 #include "mandoline/grid.h"
 
 namespace MANDOLINE_API mandoline {
@@ -69,8 +68,32 @@ struct IdRange {
   size_t size() const { return end - begin; }
 };
 
-/// The cut-mesh. The JSON dump and the npm package have the same arrays under the same names, and gridCellRegion() as one more; without
-/// winding numbers regionWinding is empty here, null in the package and a null per region in JSON.
+/// What an array of a cut-mesh has an entry, or several, for.
+enum class Element : uint8_t {
+  vertex,
+  loop,
+  loopVertex,
+  face,
+  faceParent,
+  madeVertex,
+  cell,
+  cellHalfFace,
+  row,
+  run,
+  region,
+  droppedTriangle
+};
+
+/// One array of a cut-mesh.
+struct ArrayInfo {
+  const char* name;
+  Element per;
+  int items = 1;         ///< entries per element
+  bool offsets = false;  ///< has one more entry than there are elements
+};
+
+/// The cut-mesh. The JSON dump has the same arrays under the same names, and the dense form of the runs, gridCellRegion, as one more;
+/// without winding numbers it has a null per region in regionWinding.
 struct CutMesh {
   Grid grid;
 
@@ -89,25 +112,26 @@ struct CutMesh {
   std::vector<int32_t> madeVertexParents;  ///< 4 per made vertex, as its kind says; the rest is -1
 
   // Cut-faces. The first loop of a face is its outer one, counter-clockwise about the face's normal; the others are holes, clockwise.
-  std::vector<uint32_t> loopOffsets;        ///< into loopVertices
+  std::vector<uint32_t> loopOffsets;        ///< into loopVertices, per loop
   std::vector<uint32_t> loopVertices;       ///< vertex ids
   std::vector<uint32_t> faceLoopOffsets;    ///< into loops: face f has loops faceLoopOffsets[f] .. faceLoopOffsets[f + 1] - 1
   std::vector<int32_t> faceTriangle;        ///< per face: its lowest triangle, whose normal it has; or -1 for a piece of a grid-face
-  std::vector<uint32_t> faceParentOffsets;  ///< into faceParents
-  std::vector<uint32_t> faceParents;        ///< all triangles that contain the face, ascending: several where they lie on each other
+  std::vector<uint32_t> faceParentOffsets;  ///< into faceParents, per face
+  std::vector<uint32_t> faceParents;        ///< per face: all triangles that contain it, ascending: several where they lie on each other
   std::vector<int8_t> faceParentSigns;      ///< per parent: 1 if its normal is the face's, -1 if the opposite; their sum is the step of the
                                             ///< winding number from the front of the face to behind it
   std::vector<int8_t> faceAxis;             ///< per face: 0..2 if it lies in an axial plane, else -1. A grid-face's normal is +axis
   std::vector<int32_t> facePlane;           ///< per face: index of that plane, else 0
 
   // Cut-cells, in ascending order of grid cells, x fastest.
-  std::vector<uint32_t> cellHalfFaceOffsets;  ///< into cellHalfFaces
-  std::vector<uint32_t> cellHalfFaces;        ///< half-faces; the outer shell's and those of cavities and floating sheets
+  std::vector<uint32_t> cellHalfFaceOffsets;  ///< into cellHalfFaces, per cut-cell
+  std::vector<uint32_t> cellHalfFaces;        ///< half-faces: those of the outer shell, of cavities and of floating sheets
   std::vector<int32_t> cellGridCell;          ///< 3 per cut-cell: the grid cell it lies in
   std::vector<uint32_t> cellRegion;           ///< per cut-cell: region
 
-  // Untouched grid cells, as runs along x. Row r = k * cells(1) + j has runs rowRunOffsets[r] .. rowRunOffsets[r + 1] - 1.
-  std::vector<uint32_t> rowRunOffsets;  ///< into runs
+  // Untouched grid cells, as runs along x. Row r = k * ny + j (ny: number of grid cells along y) has runs rowRunOffsets[r] ..
+  // rowRunOffsets[r + 1] - 1.
+  std::vector<uint32_t> rowRunOffsets;  ///< into the runs, per row
   std::vector<int32_t> runBegin;        ///< per run: first grid cell along x
   std::vector<int32_t> runEnd;          ///< per run: one past the last
   std::vector<uint32_t> runRegion;      ///< per run: region
@@ -115,7 +139,7 @@ struct CutMesh {
   // Regions: connected components of cut-cells and untouched grid cells, joined through faces that are not pieces of triangles.
   uint32_t regionCount = 0;
   bool hasWinding = false;             ///< whether the input is closed and consistently oriented, so that it has winding numbers
-  std::vector<int32_t> regionWinding;  ///< per region: +1 inside an outward oriented closed surface; empty unless hasWinding
+  std::vector<int32_t> regionWinding;  ///< per region: 1 inside an outward oriented closed surface, 0 outside; empty unless hasWinding
 
   uint32_t triangleCount = 0;              ///< of the input
   std::vector<uint32_t> droppedTriangles;  ///< ascending ids of triangles without a face: no area, or none inside the grid
@@ -138,6 +162,39 @@ struct CutMesh {
   /// The dense form of the runs: region of each grid cell, x fastest; -1 where cut-cells replace it. 4 bytes per grid cell: may throw
   /// bad_alloc.
   std::vector<int32_t> gridCellRegion() const;
+
+  static void fields(auto& self, const auto& f) {
+    f("grid", self.grid);
+    f(ArrayInfo{"positions", Element::vertex, 3}, self.positions);
+    f(ArrayInfo{"vertexCell", Element::vertex, 3}, self.vertexCell);
+    f(ArrayInfo{"vertexMask", Element::vertex}, self.vertexMask);
+    f(ArrayInfo{"vertexTriVertex", Element::vertex}, self.vertexTriVertex);
+    f(ArrayInfo{"vertexParents", Element::vertex, 2}, self.vertexParents);
+    f(ArrayInfo{"madeVertices", Element::madeVertex}, self.madeVertices);
+    f(ArrayInfo{"madeVertexKinds", Element::madeVertex}, self.madeVertexKinds);
+    f(ArrayInfo{"madeVertexParents", Element::madeVertex, 4}, self.madeVertexParents);
+    f(ArrayInfo{"loopOffsets", Element::loop, 1, true}, self.loopOffsets);
+    f(ArrayInfo{"loopVertices", Element::loopVertex}, self.loopVertices);
+    f(ArrayInfo{"faceLoopOffsets", Element::face, 1, true}, self.faceLoopOffsets);
+    f(ArrayInfo{"faceTriangle", Element::face}, self.faceTriangle);
+    f(ArrayInfo{"faceParentOffsets", Element::face, 1, true}, self.faceParentOffsets);
+    f(ArrayInfo{"faceParents", Element::faceParent}, self.faceParents);
+    f(ArrayInfo{"faceParentSigns", Element::faceParent}, self.faceParentSigns);
+    f(ArrayInfo{"faceAxis", Element::face}, self.faceAxis);
+    f(ArrayInfo{"facePlane", Element::face}, self.facePlane);
+    f(ArrayInfo{"cellHalfFaceOffsets", Element::cell, 1, true}, self.cellHalfFaceOffsets);
+    f(ArrayInfo{"cellHalfFaces", Element::cellHalfFace}, self.cellHalfFaces);
+    f(ArrayInfo{"cellGridCell", Element::cell, 3}, self.cellGridCell);
+    f(ArrayInfo{"cellRegion", Element::cell}, self.cellRegion);
+    f(ArrayInfo{"rowRunOffsets", Element::row, 1, true}, self.rowRunOffsets);
+    f(ArrayInfo{"runBegin", Element::run}, self.runBegin);
+    f(ArrayInfo{"runEnd", Element::run}, self.runEnd);
+    f(ArrayInfo{"runRegion", Element::run}, self.runRegion);
+    f("regionCount", self.regionCount);
+    f(ArrayInfo{"regionWinding", Element::region}, Optional(self.regionWinding, &self.hasWinding));
+    f("triangleCount", self.triangleCount);
+    f(ArrayInfo{"droppedTriangles", Element::droppedTriangle}, self.droppedTriangles);
+  }
 };
 
 /// The untouched grid cells of a cut-mesh, run by run.
@@ -180,63 +237,5 @@ class UntouchedCells {
  private:
   const CutMesh& cutMesh_;
 };
-
-/// What an array of a cut-mesh has an entry, or several, for.
-enum class Element : uint8_t {
-  vertex,
-  loop,
-  loopVertex,
-  face,
-  faceParent,
-  madeVertex,
-  cell,
-  cellHalfFace,
-  row,
-  run,
-  region,
-  droppedTriangle
-};
-
-/// One array of a cut-mesh.
-struct ArrayInfo {
-  const char* name;
-  Element per;
-  int items = 1;          ///< entries per element
-  bool offsets = false;   ///< has one more entry than there are elements
-  bool optional = false;  ///< empty where the cut-mesh has none: regionWinding
-};
-
-/// The arrays of a cut-mesh in order: f(info, vector). All that reads, writes, compares or describes cut-meshes follows from it.
-template <class AnyCutMesh, class F>
-requires std::is_same_v<std::remove_const_t<AnyCutMesh>, CutMesh>
-void forEachArray(AnyCutMesh& cutMesh, const F& f) {
-  f(ArrayInfo{"positions", Element::vertex, 3}, cutMesh.positions);
-  f(ArrayInfo{"vertexCell", Element::vertex, 3}, cutMesh.vertexCell);
-  f(ArrayInfo{"vertexMask", Element::vertex}, cutMesh.vertexMask);
-  f(ArrayInfo{"vertexTriVertex", Element::vertex}, cutMesh.vertexTriVertex);
-  f(ArrayInfo{"vertexParents", Element::vertex, 2}, cutMesh.vertexParents);
-  f(ArrayInfo{"madeVertices", Element::madeVertex}, cutMesh.madeVertices);
-  f(ArrayInfo{"madeVertexKinds", Element::madeVertex}, cutMesh.madeVertexKinds);
-  f(ArrayInfo{"madeVertexParents", Element::madeVertex, 4}, cutMesh.madeVertexParents);
-  f(ArrayInfo{"loopOffsets", Element::loop, 1, true}, cutMesh.loopOffsets);
-  f(ArrayInfo{"loopVertices", Element::loopVertex}, cutMesh.loopVertices);
-  f(ArrayInfo{"faceLoopOffsets", Element::face, 1, true}, cutMesh.faceLoopOffsets);
-  f(ArrayInfo{"faceTriangle", Element::face}, cutMesh.faceTriangle);
-  f(ArrayInfo{"faceParentOffsets", Element::face, 1, true}, cutMesh.faceParentOffsets);
-  f(ArrayInfo{"faceParents", Element::faceParent}, cutMesh.faceParents);
-  f(ArrayInfo{"faceParentSigns", Element::faceParent}, cutMesh.faceParentSigns);
-  f(ArrayInfo{"faceAxis", Element::face}, cutMesh.faceAxis);
-  f(ArrayInfo{"facePlane", Element::face}, cutMesh.facePlane);
-  f(ArrayInfo{"cellHalfFaceOffsets", Element::cell, 1, true}, cutMesh.cellHalfFaceOffsets);
-  f(ArrayInfo{"cellHalfFaces", Element::cellHalfFace}, cutMesh.cellHalfFaces);
-  f(ArrayInfo{"cellGridCell", Element::cell, 3}, cutMesh.cellGridCell);
-  f(ArrayInfo{"cellRegion", Element::cell}, cutMesh.cellRegion);
-  f(ArrayInfo{"rowRunOffsets", Element::row, 1, true}, cutMesh.rowRunOffsets);
-  f(ArrayInfo{"runBegin", Element::run}, cutMesh.runBegin);
-  f(ArrayInfo{"runEnd", Element::run}, cutMesh.runEnd);
-  f(ArrayInfo{"runRegion", Element::run}, cutMesh.runRegion);
-  f(ArrayInfo{"regionWinding", Element::region, 1, false, true}, cutMesh.regionWinding);
-  f(ArrayInfo{"droppedTriangles", Element::droppedTriangle}, cutMesh.droppedTriangles);
-}
 
 }  // namespace mandoline

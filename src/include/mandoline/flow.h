@@ -27,6 +27,18 @@ struct Flow {
   std::vector<double> cellPressure;  ///< per cell, at its centroid: the pressure coefficient 1 - |velocity|^2 / |wind|^2
   /// Components into which the wind would blow more than it takes out, or less; ascending. See solveFlow().
   std::vector<uint32_t> throttled;
+
+  static void fields(auto& self, const auto& f) {
+    f("status", self.status);
+    f("residuals", self.residuals);
+    f("wind", self.wind);
+    f("phi", self.phi);
+    f("faceVelocity", self.faceVelocity);
+    f("cellVelocity", self.cellVelocity);
+    f("cellGradient", self.cellGradient);
+    f("cellPressure", self.cellPressure);
+    f("throttled", self.throttled);
+  }
 };
 
 /// Solves div grad phi = 0, where grad phi . N = wind . N on the sides of the box. Nothing flows through the surface, or through faces
@@ -75,11 +87,19 @@ enum class StreamlineEnd : uint8_t {
   outside     ///< its seed is not in the grid; it has no points
 };
 
+/// Streamlines, one per seed.
 struct Streamlines {
   std::vector<double> points;       ///< 3 per point
   std::vector<double> speeds;       ///< per point
-  std::vector<uint32_t> offsets;    ///< per line, one per seed: into the points
+  std::vector<uint32_t> offsets;    ///< into the points, per line
   std::vector<StreamlineEnd> ends;  ///< per line
+
+  static void fields(auto& self, const auto& f) {
+    f("points", self.points);
+    f("speeds", self.speeds);
+    f("offsets", self.offsets);
+    f("ends", self.ends);
+  }
 };
 
 /// Follows the flow from the seeds, 3 coordinates each: Runge-Kutta steps of third order (Bogacki, Shampine 1989) of adaptive length. Each

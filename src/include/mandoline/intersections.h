@@ -39,6 +39,14 @@ struct PairCounts {
     return *this;
   }
   uint64_t total() const { return crossing + touching + overlapping + folded + identical; }
+
+  static void fields(auto& self, const auto& f) {
+    f("crossing", self.crossing);
+    f("touching", self.touching);
+    f("overlapping", self.overlapping);
+    f("folded", self.folded);
+    f("identical", self.identical);
+  }
 };
 
 /// All pairs of triangles that meet, exactly. Triangles without area are left out; the vertices that they put on the edges of their
@@ -55,6 +63,14 @@ struct MeshIntersections {
   std::vector<double> positions;
 
   size_t pairCount() const { return pairKinds.size(); }
+
+  static void fields(auto& self, const auto& f) {
+    f("counts", self.counts);
+    f("pairTriangles", self.pairTriangles);
+    f("pairKinds", self.pairKinds);
+    f("pairPointOffsets", self.pairPointOffsets);
+    f("positions", self.positions);
+  }
 };
 
 struct IntersectionOptions : RunOptions {

@@ -14,6 +14,12 @@ struct Locations {
   std::vector<int32_t> cell;      ///< per point: the cut-cell that holds it, or -1 in an untouched grid cell, or outside the grid
   std::vector<int32_t> gridCell;  ///< 3 per point: the grid cell, or -1, -1, -1 outside the grid
   std::vector<int32_t> region;    ///< per point: the region, or -1 outside the grid
+
+  static void fields(auto& self, const auto& f) {
+    f("cell", self.cell);
+    f("gridCell", self.gridCell);
+    f("region", self.region);
+  }
 };
 
 /// `points`: 3 per point, world units; one that is not finite lies outside. The grid's border belongs to it. Decided exactly, against

@@ -14,6 +14,14 @@ struct Measures {
   std::vector<double> faceCentroid;  ///< 3 per face
   std::vector<double> cellVolume;    ///< per cut-cell
   std::vector<double> cellCentroid;  ///< 3 per cut-cell
+
+  static void fields(auto& self, const auto& f) {
+    f("faceArea", self.faceArea);
+    f("faceNormal", self.faceNormal);
+    f("faceCentroid", self.faceCentroid);
+    f("cellVolume", self.cellVolume);
+    f("cellCentroid", self.cellCentroid);
+  }
 };
 
 /// `mesh` is the input that `cutMesh` was made from. Throws CallError if it clearly is not (badArgument), or if cancelled.
@@ -23,6 +31,11 @@ Measures measure(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions&
 struct CutEdges {
   std::vector<uint32_t> edgeVertices;  ///< 2 per edge
   std::vector<double> edgeLength;      ///< per edge
+
+  static void fields(auto& self, const auto& f) {
+    f("edgeVertices", self.edgeVertices);
+    f("edgeLength", self.edgeLength);
+  }
 };
 /// Throws as measure() does.
 CutEdges cutEdges(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions& options = {});
@@ -37,6 +50,13 @@ struct Adjacency {
   std::vector<int64_t> faceGridCells;     ///< 2 per face, the same: the untouched grid cell i + nx (j + ny k); else -1
   std::vector<uint32_t> cellCellOffsets;  ///< into cellCells, per cut-cell
   std::vector<uint32_t> cellCells;        ///< neighbouring cut-cells of each cut-cell across any face, ascending, without repeats
+
+  static void fields(auto& self, const auto& f) {
+    f("faceCells", self.faceCells);
+    f("faceGridCells", self.faceGridCells);
+    f("cellCellOffsets", self.cellCellOffsets);
+    f("cellCells", self.cellCells);
+  }
 };
 Adjacency adjacency(const CutMesh& cutMesh);
 

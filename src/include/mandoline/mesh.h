@@ -14,10 +14,15 @@ namespace MANDOLINE_API mandoline {
 /// and its triangles may meet anywhere.
 struct Mesh {
   std::vector<double> positions;    ///< 3 per tri-vertex: x, y, z
-  std::vector<uint32_t> triangles;  ///< 3 per triangle: tri-vertex ids
+  std::vector<uint32_t> triangles;  ///< 3 per triangle: tri-vertex ids, from 0
 
   size_t vertexCount() const { return positions.size() / 3; }
   size_t triangleCount() const { return triangles.size() / 3; }
+
+  static void fields(auto& self, const auto& f) {
+    f("positions", self.positions);
+    f("triangles", self.triangles);
+  }
 };
 
 /// A mesh that somebody else owns, in the layout of Mesh. It must outlive the view, so a view of a temporary does not compile.

@@ -30,6 +30,11 @@ struct TriangleGroups {
   bool empty() const { return names.empty(); }
   /// The group of a triangle, such as faceTriangle of a cut-mesh has; -1 for none.
   int32_t of(int64_t triangle) const { return triangle < 0 ? -1 : int32_t(triangleGroup[size_t(triangle)]); }
+
+  static void fields(auto& self, const auto& f) {
+    f("names", self.names);
+    f("triangleGroup", self.triangleGroup);
+  }
 };
 struct GroupedMesh {
   Mesh mesh;

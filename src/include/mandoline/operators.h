@@ -27,6 +27,8 @@ struct ComplexEdges {
   std::vector<uint32_t> vertices;  ///< 2 per edge, the lower id first; edges ascend by the first, then by the second
 
   size_t count() const { return vertices.size() / 2; }
+
+  static void fields(auto& self, const auto& f) { f("vertices", self.vertices); }
 };
 ComplexEdges complexEdges(const CellComplex& cells);
 

@@ -6,17 +6,25 @@
 
 namespace MANDOLINE_API mandoline {
 
+/// What is given on a half-face of the boundary.
 enum class Condition : uint8_t {
   neumann,   ///< the derivative of phi along the normal that points out of the cell is given
   dirichlet  ///< phi is given
 };
 
 /// The boundary of all cells: each half-face of a cell through which no flux passes to another one, that is, of a face of tag surface or of
-/// one with a single cell. A face of a sheet has two, also where both belong to one cell, so that each side has a value of its own.
+/// one with a single cell. A face of a sheet has two, also where both belong to one cell, so that each side has a value of its own. Values
+/// may be set; they are read by each call.
 struct Boundary {
   std::vector<uint32_t> halfFaces;   ///< ascending
   std::vector<Condition> condition;  ///< per half-face
   std::vector<double> value;         ///< per half-face: the mean of what its condition gives on the face
+
+  static void fields(auto& self, const auto& f) {
+    f("halfFaces", self.halfFaces);
+    f("condition", self.condition);
+    f("value", self.value);
+  }
 };
 
 /// Everywhere neumann, 0: nothing passes.
@@ -32,7 +40,12 @@ std::vector<double> outwardNormals(const Boundary& boundary, const CellComplex& 
 /// Which cells are connected through inner faces. For whole regions these are the regions.
 struct CellComponents {
   std::vector<uint32_t> cellComponent;  ///< per cell; components are in the order of their first cells
-  uint32_t count = 0;
+  uint32_t count = 0;                   ///< of components
+
+  static void fields(auto& self, const auto& f) {
+    f("cellComponent", self.cellComponent);
+    f("count", self.count);
+  }
 };
 CellComponents cellComponents(const CellComplex& cells);
 
@@ -42,11 +55,17 @@ struct PoissonProblem {
   DualPoints dualPoints = DualPoints::centres;
 };
 
-/// matrix * phi = rhs; both are those of -div grad phi = -s, integrated over cells.
+/// The system matrix * phi = rhs; both are those of -div grad phi = -s, integrated over cells.
 struct PoissonSystem {
   SparseMatrix matrix;      ///< cells x cells, symmetric, positive semidefinite: -laplacian(), and more on the diagonal of Dirichlet cells
-  std::vector<double> rhs;  ///< per cell; Eigen::Map makes a vector of it
+  std::vector<double> rhs;  ///< per cell
   SparseMatrix nullSpace;   ///< cells x components without a Dirichlet condition: 1 for each cell of the component
+
+  static void fields(auto& self, const auto& f) {
+    f("matrix", self.matrix);
+    f("rhs", self.rhs);
+    f("nullSpace", self.nullSpace);
+  }
 };
 
 /// A Dirichlet condition acts over the distance along the normal between the face's centroid and the cell's dual point, or, on the surface,
@@ -72,6 +91,7 @@ struct SolveOptions : RunOptions {
   bool balance = false;
 };
 
+/// How solving ended.
 enum class SolveStatus : uint8_t {
   converged,
   iterationLimit,  ///< the residual is above the tolerance after maxIterations
@@ -85,14 +105,23 @@ inline const char* name(SolveStatus status) {
   return kNames[size_t(status)];
 }
 
+/// What solvePoisson() found.
 struct Solution {
   SolveStatus status = SolveStatus::converged;
   std::vector<double> phi;        ///< per cell, at its dual point
   std::vector<double> residuals;  ///< before each iteration and after the last, relative as in SolveOptions; the last one is that of phi
-  int64_t component = -1;         ///< of cellComponents(), if incompatible
+  int64_t component = -1;         ///< of cellComponents(), if incompatible; else -1
   double excess = 0;              ///< in that component: the inflow minus the integral of s
 
   size_t iterations() const { return residuals.empty() ? 0 : residuals.size() - 1; }
+
+  static void fields(auto& self, const auto& f) {
+    f("status", self.status);
+    f("phi", self.phi);
+    f("residuals", self.residuals);
+    f("component", self.component);
+    f("excess", self.excess);
+  }
 };
 
 /// Solves the problem's system by conjugate gradients, preconditioned by a multigrid. Runs on one thread, so the result has the same bits

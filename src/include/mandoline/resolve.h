@@ -1,6 +1,7 @@
 // A mesh without self-intersections: the exact arrangement of a mesh's triangles as triangles again, and the boundary of the solid.
 #pragma once
 
+#include "mandoline/fields.h"
 #include "mandoline/prepare.h"
 
 namespace MANDOLINE_API mandoline {
@@ -15,7 +16,17 @@ struct ResolvedMesh {
   std::vector<int8_t> parentSigns;      ///< per parent: 1 if its normal is the triangle's, -1 if it is the opposite
   bool hasWinding = false;              ///< whether the input has winding numbers: see CutMesh
   std::vector<int32_t> frontWinding;    ///< per triangle: the winding number on the side of its normal; empty unless hasWinding
-  std::vector<int32_t> backWinding;     ///< the same behind it
+  std::vector<int32_t> backWinding;     ///< the same behind it; empty unless hasWinding
+
+  static void fields(auto& self, const auto& f) {
+    Mesh::fields(self.mesh, f);
+    f("vertexTriVertex", self.vertexTriVertex);
+    f("parentOffsets", self.parentOffsets);
+    f("parents", self.parents);
+    f("parentSigns", self.parentSigns);
+    f("frontWinding", Optional(self.frontWinding, &self.hasWinding));
+    f("backWinding", Optional(self.backWinding, &self.hasWinding));
+  }
 };
 
 struct ResolveResult {

@@ -36,6 +36,18 @@ struct Slice {
   std::vector<uint32_t> triangles;                  ///< 3 points per triangle, counter-clockwise about the normal
 
   size_t polygonCount() const { return polygonRegion.size(); }
+
+  static void fields(auto& self, const auto& f) {
+    f("positions", self.positions);
+    f("loopOffsets", self.loopOffsets);
+    f("loopPoints", self.loopPoints);
+    f("polygonLoopOffsets", self.polygonLoopOffsets);
+    f("polygonCell", self.polygonCell);
+    f("polygonGridCell", self.polygonGridCell);
+    f("polygonRegion", self.polygonRegion);
+    f("polygonTriangleOffsets", self.polygonTriangleOffsets);
+    f("triangles", self.triangles);
+  }
 };
 
 /// Which vertices lie on which side is decided exactly and once for all cells. Those on the plane count as above it (below it if nothing
@@ -68,6 +80,17 @@ struct Outlines {
 
   size_t polygonCount() const { return polygonRegion.size(); }
   size_t slitCount() const { return slitRegion.size(); }
+
+  static void fields(auto& self, const auto& f) {
+    f("positions", self.positions);
+    f("loopOffsets", self.loopOffsets);
+    f("loopPoints", self.loopPoints);
+    f("polygonLoopOffsets", self.polygonLoopOffsets);
+    f("polygonRegion", self.polygonRegion);
+    f("slitOffsets", self.slitOffsets);
+    f("slitPoints", self.slitPoints);
+    f("slitRegion", self.slitRegion);
+  }
 };
 
 /// With the rules and errors of slice().

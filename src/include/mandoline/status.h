@@ -82,6 +82,14 @@ struct Progress {
   const char* stage;
   int stageIndex, stageCount;
   size_t done, total;
+
+  static void fields(auto& self, const auto& f) {
+    f("stage", self.stage);
+    f("stageIndex", self.stageIndex);
+    f("stageCount", self.stageCount);
+    f("done", self.done);
+    f("total", self.total);
+  }
 };
 
 /// How a call that may take long is run.

@@ -4,26 +4,26 @@ import {
   collect,
   expectInteger,
   expectNumber,
-  expectObject,
   expectTypedArray,
   kindOf,
   numbered,
   optional,
+  readFields,
   readGrid,
   readId,
+  readInt32,
   readMembers,
   readNumbers,
-  readVector,
   word,
 } from '../arguments.js';
+import { Boundary, CellComplex, Condition, DualPoints, FaceTag, Flow, OctreeCells, StreamlineEnd } from './fields.js';
 
 /** What a face is part of, by CellComplex.faceTag. */
-export const faceTags = ['xMin', 'xMax', 'yMin', 'yMax', 'zMin', 'zMax', 'inner', 'surface'];
+export const faceTags = FaceTag;
 
 /** Where a streamline ends, by Streamlines.ends. */
-export const streamlineEnds = ['side', 'surface', 'rest', 'maxLength', 'maxPoints', 'outside'];
+export const streamlineEnds = StreamlineEnd;
 
-const conditions = ['neumann', 'dirichlet']; // in the order in which C++ numbers them
 const operatorNames = [
   'cellFaceIncidence',
   'faceEdgeIncidence',
@@ -36,11 +36,6 @@ const operatorNames = [
   'faceMass',
 ];
 
-/** A number that C++ keeps as a 32-bit integer; those beyond are as good as the limit. */
-function readInt32(value, name) {
-  return Math.min(Math.max(expectInteger(value, name), -(2 ** 31)), 2 ** 31 - 1);
-}
-
 /** Readers of numbers that may be left out. */
 export const number =
   (fallback) =>
@@ -51,27 +46,11 @@ export const int32 =
   (value = fallback, name) =>
     readInt32(value, name);
 
-export const dualPoints = numbered(['centres', 'centroids']);
+export const dualPoints = numbered(DualPoints);
 
-/** The arrays that the module says a cell complex has ({ name, type } each), with the right types; the rest is up to C++. */
-export function readComplex(cells, arrays) {
-  expectObject(cells, 'cells');
-  const result = {};
-  for (const name of ['cutVertices', 'cutFaces', 'cutCells']) result[name] = readId(cells[name], `cells.${name}`);
-  for (const { name, type } of arrays) result[name] = expectTypedArray(cells[name], type, `cells.${name}`);
-  return result;
-}
+export const readComplex = (cells) => readFields(cells, CellComplex, 'cells');
 
-export function readOctree(octree) {
-  if (octree === undefined || octree === null) return null;
-  expectObject(octree, 'octree');
-  return {
-    gridCells: readVector(octree.gridCells, 'octree.gridCells', readInt32),
-    cellCorner: expectTypedArray(octree.cellCorner, 'Int32Array', 'octree.cellCorner'),
-    cellLevel: expectTypedArray(octree.cellLevel, 'Uint8Array', 'octree.cellLevel'),
-    cellRegion: expectTypedArray(octree.cellRegion, 'Uint32Array', 'octree.cellRegion'),
-  };
-}
+export const readOctree = (octree) => (octree === undefined || octree === null ? null : readFields(octree, OctreeCells, 'octree'));
 
 /** Ids of cells; whether there are such is up to C++. */
 export function readCellIds(ids) {
@@ -89,10 +68,10 @@ const definedEntries = (object) => Object.entries(object).filter(([, value]) => 
 
 /** { dirichlet } or { neumann } as [condition, value]. */
 function readCondition(given, name) {
-  const members = readMembers(given, Object.fromEntries(conditions.map((condition) => [condition, optional(expectNumber)])), name);
+  const members = readMembers(given, Object.fromEntries(Condition.map((condition) => [condition, optional(expectNumber)])), name);
   const [[condition, value] = [], ...others] = definedEntries(members);
   if (condition === undefined || others.length > 0) throw bad(`${name} must be { dirichlet } or { neumann }.`);
-  return [conditions.indexOf(condition), value];
+  return [Condition.indexOf(condition), value];
 }
 
 /** { xMin: { dirichlet: 0 }, ... } as [tag, condition, value] each. */
@@ -102,10 +81,8 @@ export function readConditions(given = {}, name) {
 }
 
 export function readBoundary(boundary, name) {
-  expectObject(boundary, name);
-  const halfFaces = expectTypedArray(boundary.halfFaces, 'Uint32Array', `${name}.halfFaces`);
-  const condition = expectTypedArray(boundary.condition, 'Uint8Array', `${name}.condition`);
-  const wrong = condition.findIndex((number) => number >= conditions.length);
+  const { halfFaces, condition } = readFields(boundary, { halfFaces: Boundary.halfFaces, condition: Boundary.condition }, name);
+  const wrong = condition.findIndex((number) => number >= Condition.length);
   if (wrong >= 0) throw bad(`${name}.condition[${wrong}] must be 0 (neumann) or 1 (dirichlet), not ${condition[wrong]}.`);
   return { halfFaces, condition, value: readNumbers(boundary.value, `${name}.value`) };
 }
@@ -116,12 +93,8 @@ export function readProblem(problem = {}, name) {
 
 /** As much of a flow as is read again. */
 export function readFlow(flow) {
-  expectObject(flow, 'flow');
-  return {
-    wind: readVector(flow.wind, 'flow.wind'),
-    cellVelocity: expectTypedArray(flow.cellVelocity, 'Float64Array', 'flow.cellVelocity'),
-    cellGradient: expectTypedArray(flow.cellGradient, 'Float64Array', 'flow.cellGradient'),
-  };
+  const { wind, cellVelocity, cellGradient } = Flow;
+  return readFields(flow, { wind, cellVelocity, cellGradient }, 'flow');
 }
 
 export function readMaxPoints(maxPoints = 10000, name) {

@@ -1,6 +1,7 @@
 // The table of the calls of mandoline-wasm/physics, as in ../calls.js.
 import { flag, numbered, readFunction, readId, readMesh, readPoints, readVector } from '../arguments.js';
 import { readFile, readName } from '../files.js';
+import { FreeConstant } from './fields.js';
 import {
   dualPoints,
   int32,
@@ -113,7 +114,7 @@ export const physicsCalls = {
    */
   solvePoisson: {
     takes: { cells, problem: readProblem },
-    options: { ...limits, freeConstant: numbered(['zeroMean', 'pinned']), balance: flag(false), progress },
+    options: { ...limits, freeConstant: numbered(FreeConstant), balance: flag(false), progress },
   },
   /**
    * Potential flow of a wind through the cells and about the surface (appendix B, figure 22): solves div grad phi = 0, where

@@ -1,5 +1,16 @@
 // Written by wasm/signatures.mjs from physics/calls.js: change that.
-import type { CutMesh, Grid, GridBox, GridRectilinear, GridRegular, Mesh, ReadMeshOptions, RunOptions, Vector3 } from '../index.js';
+import type {
+  CutMesh,
+  Grid,
+  GridBox,
+  GridRectilinear,
+  GridRegular,
+  Mesh,
+  ReadMeshOptions,
+  RunOptions,
+  TriangleGroups,
+  Vector3,
+} from '../index.js';
 import type {
   Boundary,
   CellComplex,
@@ -21,7 +32,6 @@ import type {
   StreamlineOptions,
   Streamlines,
   SubComplex,
-  TriangleGroups,
 } from './index.js';
 import type { CallOptions } from '../worker.js';
 

@@ -1,0 +1,234 @@
+// Written by wasm/results.mjs from the headers in src/include/mandoline: change those.
+import type { SparseMatrix } from './index.js';
+
+/**
+ * All cells, with every face between two of them or on the boundary once. Where a large cell meets smaller ones, its side is divided like
+ * theirs, and the edges of a face have all vertices that lie on them. The cut-mesh's vertices, faces and cells come first and keep their
+ * ids; then come those of the octree cells: cell cutCells + c is octree cell c. Half-face = 2 * face + side; side 0: the face's normal
+ * points out of the cell, side 1: into it.
+ */
+export interface CellComplex {
+  /** How many of the vertices are the cut-mesh's. */
+  cutVertices: number;
+  /** How many of the faces. */
+  cutFaces: number;
+  /** How many of the cells. */
+  cutCells: number;
+
+  /** 3 per vertex, world units. */
+  positions: Float64Array<ArrayBuffer>;
+
+  // As in CutMesh.
+  /** Into loopVertices. */
+  loopOffsets: Uint32Array<ArrayBuffer>;
+  /** Vertex ids. */
+  loopVertices: Uint32Array<ArrayBuffer>;
+  /** Into loops. */
+  faceLoopOffsets: Uint32Array<ArrayBuffer>;
+
+  /** 2 per face: the cell on side 0 and that on side 1; -1 outside the grid. */
+  faceCells: Int32Array<ArrayBuffer>;
+  /** Per face: FaceTag as a number (0: xMin, 1: xMax, 2: yMin, 3: yMax, 4: zMin, 5: zMax, 6: inner, 7: surface). */
+  faceTag: Uint8Array<ArrayBuffer>;
+  /** Per face. */
+  faceArea: Float64Array<ArrayBuffer>;
+  /** 3 per face, unit. */
+  faceNormal: Float64Array<ArrayBuffer>;
+  /** 3 per face. */
+  faceCentroid: Float64Array<ArrayBuffer>;
+
+  /** Into cellHalfFaces. */
+  cellHalfFaceOffsets: Uint32Array<ArrayBuffer>;
+  /** Half-faces, ascending. */
+  cellHalfFaces: Uint32Array<ArrayBuffer>;
+  /** 3 per cell: its grid cell, the lowest one of an octree cell. */
+  cellCorner: Int32Array<ArrayBuffer>;
+  /** Per cell: as in OctreeCells, 0 for a cut-cell. */
+  cellLevel: Uint8Array<ArrayBuffer>;
+  /** 3 per cell: middle of its grid cell or octree cell, which may lie outside a cut-cell. */
+  cellCentre: Float64Array<ArrayBuffer>;
+  /** Per cell: region of the cut-mesh. */
+  cellRegion: Uint32Array<ArrayBuffer>;
+  /** Per cell. */
+  cellVolume: Float64Array<ArrayBuffer>;
+  /** 3 per cell. */
+  cellCentroid: Float64Array<ArrayBuffer>;
+}
+
+/**
+ * Some cells of a cell complex, their faces and vertices, in the whole's order. Where the other cell of a face is left out there is -1, as
+ * there is outside the grid.
+ */
+export interface SubComplex {
+  /**
+   *
+   *
+   * .
+   */
+  cells: CellComplex;
+  /** Per vertex: its id in the whole. */
+  wholeVertex: Uint32Array<ArrayBuffer>;
+  /** Per face, the same. */
+  wholeFace: Uint32Array<ArrayBuffer>;
+  /** Per cell, the same. */
+  wholeCell: Uint32Array<ArrayBuffer>;
+}
+
+/**
+ * The cells that replace the untouched grid cells. One of level L is a block of 2^L grid cells on a side that begins at multiples of 2^L,
+ * or the part of it inside the grid. Cells that share a part of a face differ by at most one level, a cut grid cell counting as one of
+ * level 0; there are as few cells as that allows. In Morton order: x changes fastest, then y, then z, at each level.
+ */
+export interface OctreeCells {
+  /** Number of grid cells per axis. */
+  gridCells: [number, number, number];
+  /** 3 per octree cell: its lowest grid cell. */
+  cellCorner: Int32Array<ArrayBuffer>;
+  /** Per octree cell. */
+  cellLevel: Uint8Array<ArrayBuffer>;
+  /** Per octree cell: region of the cut-mesh. */
+  cellRegion: Uint32Array<ArrayBuffer>;
+}
+
+/** A flow without rotation or sources: its velocity is the gradient of phi. Velocities are in the unit of the wind. */
+export interface Flow {
+  /**
+   *
+   *
+   * .
+   */
+  status: SolveStatus;
+  /** As in Solution. */
+  residuals: Float64Array<ArrayBuffer>;
+  /**
+   *
+   *
+   * .
+   */
+  wind: [number, number, number];
+  /** Per cell, at its centre; its mean by volume is zero in each component of cellComponents(). */
+  phi: Float64Array<ArrayBuffer>;
+  /** Per face: the mean component along its normal; times faceArea it is the flow through it. */
+  faceVelocity: Float64Array<ArrayBuffer>;
+  /** 3 per cell, at its centroid. */
+  cellVelocity: Float64Array<ArrayBuffer>;
+  /** 6 per cell: how the velocity changes in it, as the symmetric matrix xx, yy, zz, xy, yz, xz, whose trace is zero. */
+  cellGradient: Float64Array<ArrayBuffer>;
+  /** Per cell, at its centroid: the pressure coefficient 1 - |velocity|^2 / |wind|^2. */
+  cellPressure: Float64Array<ArrayBuffer>;
+  /** Components into which the wind would blow more than it takes out, or less; ascending. See solveFlow(). */
+  throttled: Uint32Array<ArrayBuffer>;
+}
+
+/** Streamlines, one per seed. */
+export interface Streamlines {
+  /** 3 per point. */
+  points: Float64Array<ArrayBuffer>;
+  /** Per point. */
+  speeds: Float64Array<ArrayBuffer>;
+  /** Into the points, per line. */
+  offsets: Uint32Array<ArrayBuffer>;
+  /** Per line: StreamlineEnd as a number (0: side, 1: surface, 2: rest, 3: maxLength, 4: maxPoints, 5: outside). */
+  ends: Uint8Array<ArrayBuffer>;
+}
+
+/** The edges of all faces. */
+export interface ComplexEdges {
+  /** 2 per edge, the lower id first; edges ascend by the first, then by the second. */
+  vertices: Uint32Array<ArrayBuffer>;
+}
+
+/**
+ * The boundary of all cells: each half-face of a cell through which no flux passes to another one, that is, of a face of tag surface or of
+ * one with a single cell. A face of a sheet has two, also where both belong to one cell, so that each side has a value of its own. Values
+ * may be set; they are read by each call.
+ */
+export interface Boundary {
+  /** Ascending. */
+  halfFaces: Uint32Array<ArrayBuffer>;
+  /** Per half-face: ConditionKind as a number (0: neumann, 1: dirichlet). */
+  condition: Uint8Array<ArrayBuffer>;
+  /** Per half-face: the mean of what its condition gives on the face. */
+  value: Float64Array<ArrayBuffer>;
+}
+
+/** Which cells are connected through inner faces. For whole regions these are the regions. */
+export interface CellComponents {
+  /** Per cell; components are in the order of their first cells. */
+  cellComponent: Uint32Array<ArrayBuffer>;
+  /** Of components. */
+  count: number;
+}
+
+/** The system matrix * phi = rhs; both are those of -div grad phi = -s, integrated over cells. */
+export interface PoissonSystem {
+  /** Cells x cells, symmetric, positive semidefinite: -laplacian(), and more on the diagonal of Dirichlet cells. */
+  matrix: SparseMatrix;
+  /** Per cell. */
+  rhs: Float64Array<ArrayBuffer>;
+  /** Cells x components without a Dirichlet condition: 1 for each cell of the component. */
+  nullSpace: SparseMatrix;
+}
+
+/** What solvePoisson() found. */
+export interface Solution {
+  /**
+   *
+   *
+   * .
+   */
+  status: SolveStatus;
+  /** Per cell, at its dual point. */
+  phi: Float64Array<ArrayBuffer>;
+  /** Before each iteration and after the last, relative as in SolveOptions; the last one is that of phi. */
+  residuals: Float64Array<ArrayBuffer>;
+  /** Of cellComponents(), if incompatible; else -1. */
+  component: number;
+  /** In that component: the inflow minus the integral of s. */
+  excess: number;
+}
+
+/** What a face of a cell complex is part of: a side of the grid, or another thing. */
+export type FaceTag =
+  | 'xMin'
+  | 'xMax'
+  | 'yMin'
+  | 'yMax'
+  | 'zMin'
+  | 'zMax'
+  /** None of these: a face between two cells, or one that a sub-mesh was cut off at. */
+  | 'inner'
+  /** A triangle of the input, which separates two cells or two sides of one; also where it lies in a side of the grid. */
+  | 'surface';
+
+/** Where a streamline ends. */
+export type StreamlineEnd =
+  /** On a side of the box, exactly. */
+  | 'side'
+  /** At the surface: its last point is before it, by rounding. */
+  | 'surface'
+  /** Where nothing flows, or faster than doubles can express; or where it goes to and fro, as it may beside the surface. */
+  | 'rest'
+  /** It has reached that length. */
+  | 'maxLength'
+  /** It has that many points. */
+  | 'maxPoints'
+  /** Its seed is not in the grid; it has no points. */
+  | 'outside';
+
+/** What is given on a half-face of the boundary. */
+export type ConditionKind =
+  /** The derivative of phi along the normal that points out of the cell is given. */
+  | 'neumann'
+  /** Phi is given. */
+  | 'dirichlet';
+
+/** How solving ended. */
+export type SolveStatus =
+  | 'converged'
+  /** The residual is above the tolerance after maxIterations. */
+  | 'iterationLimit'
+  /** Sources and fluxes of `component` do not cancel, so nothing solves the system; phi is 0. */
+  | 'incompatible'
+  /** Numbers, or the differences between them, are too large or too small for doubles; phi is what was found. */
+  | 'breakdown';
