@@ -1,7 +1,9 @@
 // What a command does on a machine that lacks what it needs.
 import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
 import { test } from 'node:test';
 import { planInstallation, refuseNode } from './set_up.mjs';
+import { root as project } from './steps.mjs';
 
 const range = '^20.19.0 || >=22.12.0';
 const root = { isRoot: true, hasApt: true, hasSudo: false, maySudo: false };
@@ -46,4 +48,12 @@ test('without apt-get, or without sudo, the tools to install are named', () => {
       planInstallation(['Emscripten', 'the npm packages'], 'build', machine).refusal,
       /Emscripten\. .*apt-get install .*emscripten/,
     );
+});
+
+test('CMake without Catch2: ctest fails and says so', () => {
+  const call = (command, ...args) => spawnSync(command, args, { cwd: project, encoding: 'utf8' });
+  assert.match(call('cmake', '-B', 'build/no-catch2', '-DCMAKE_DISABLE_FIND_PACKAGE_Catch2=ON').stderr, /Catch2 not found/);
+  const { status, stdout } = call('ctest', '--test-dir', 'build/no-catch2');
+  assert.notEqual(status, 0);
+  assert.match(stdout, /catch2_missing .*Failed/);
 });
