@@ -10,7 +10,7 @@ const [, line] = readme.match(/^ {4}(cmake -B build .*ctest.*)$/m);
 
 if (existsSync(bare)) {
   run(bare, '--suite', 'bookworm', '--until', 'http://localhost:', path(), 'npm start');
-  run(bare, '--suite', 'trixie', path(), 'npm run build');
+  run(bare, '--suite', 'bookworm', path(), 'npm run build');
   const tests = `export CMAKE_BUILD_PARALLEL_LEVEL=${jobs}; ${line} -R "units|cases"`;
-  run(bare, '--suite', 'trixie', '--node', 'none', '--with', packages.split(' ').join(','), path(), tests);
+  run(bare, '--suite', 'bookworm', '--node', 'none', '--with', packages.split(' ').join(','), path(), tests);
 }
