@@ -1,7 +1,7 @@
 // The calls for JavaScript: src/api.js checks the arguments and turns errors into exceptions; here arrays are copied in and out, and
 // nothing is decided.
 //
-// Every call gives { value } or { error: { code, message, stage, element, element2 } }, since what C++ throws would arrive opaque.
+// Every call gives { value } or { error: { code, message, stage, element, element2 } }, since exceptions of C++ would arrive empty.
 #include <emscripten/bind.h>
 
 #include "cut_meshes.h"
@@ -153,7 +153,7 @@ val sliceCutMesh(const KeptCutMesh& kept, const val& plane, bool untouched) {
   });
 }
 
-/// What f(cutMesh, normal, offsets) gives for each plane.
+/// The results of f(cutMesh, normal, offsets), one for each plane.
 template <class F>
 val ofPlanes(const KeptCutMesh& kept, const val& normal, const val& offsets, const F& f) {
   return guarded([&, cutMesh = kept.get()] {

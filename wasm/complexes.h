@@ -8,9 +8,9 @@ namespace mandoline::wasm {
 
 using KeptComplex = Kept<CellComplex>;
 
-/// Throws CallError{badArgument} for half-faces that the cells don't have; whether they are those of their boundary is not asked.
+/// Throws CallError{badArgument} for half-faces that the cells don't have; does not check that they are those of the boundary.
 Boundary readBoundary(const val& object, const CellComplex& cells);
-/// Where it says nothing, nothing passes the boundary.
+/// If it has no boundary, nothing flows through the boundary.
 PoissonProblem readProblem(const val& object, const CellComplex& cells);
 
 /// By rows.

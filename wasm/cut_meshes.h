@@ -23,12 +23,12 @@ class Kept {
 };
 using KeptCutMesh = Kept<CutMesh>;
 
-/// The same for a mesh that was prepared.
+/// The same for a prepared mesh.
 class KeptMesh {
  public:
   explicit KeptMesh(PreparedMesh mesh) : mesh_(std::move(mesh)) {}
   const PreparedMesh& get() const { return mesh_; }
-  /// About its size.
+  /// Its approximate size.
   double bytes() const;
 
  private:

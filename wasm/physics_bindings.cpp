@@ -130,7 +130,7 @@ val flowThrough(const KeptComplex& kept, const val& wind, const val& options) {
   });
 }
 
-/// What call(field, points) gives. `given`: { mesh, flow, points }.
+/// The result of call(field, points). `given`: { mesh, flow, points }.
 template <class Call>
 val onField(const KeptCutMesh& keptCutMesh, const KeptComplex& keptCells, const val& given, const Call& call) {
   return guarded([&, cutMesh = keptCutMesh.get(), cells = keptCells.get()] {
@@ -159,7 +159,7 @@ val streamlinesFrom(const KeptCutMesh& cutMesh, const KeptComplex& cells, const 
   });
 }
 
-/// The grid is none around a mesh.
+/// The grid is not one around a mesh.
 val seedsOf(const val& grid, const val& wind, uint32_t count) {
   return guarded([&] {
     const Mesh none;

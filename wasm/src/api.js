@@ -3,7 +3,7 @@ import { readMembers, readOptions } from './arguments.js';
 import { named } from './errors.js';
 import { withProgress } from './progress.js';
 
-/** What gives the argument when the handles of twins are there; what is to have one is added to `inputs`. */
+/** Returns a function that gives the argument once the handles of twins are there. Values that need a handle are added to `inputs`. */
 function readArgument(taken, value, name, asInput) {
   if (typeof taken === 'function') {
     const read = taken(value, name);
@@ -15,7 +15,7 @@ function readArgument(taken, value, name, asInput) {
   return (handles) => Object.fromEntries(members.map(([key, give]) => [key, give(handles)]));
 }
 
-/** The outcome of a call that keeps twins, after they are kept. */
+/** Keeps the twin that a call returned, and gives the call's outcome without it. */
 function keepTwin({ value: given, error }, { member }, origin, host, twins) {
   if (error) return { error };
   const { value, twin } = given;

@@ -1,6 +1,6 @@
 /**
- * Checks of arguments before they go to C++, which judges their values: here only kinds, and what C++ could not read. A reader makes of
- * (value, name) what C++ takes; messages call the value by the name.
+ * Checks of arguments before they go to C++. C++ judges their values; here only their kinds are checked, and what C++ could not read. A
+ * reader, called with (value, name), returns what C++ takes; messages call the value by the name.
  */
 import { MandolineError } from './errors.js';
 import { CutMesh, ResolvedMesh } from './fields.js';
@@ -85,7 +85,7 @@ function expectAttached(array, name) {
   }
 }
 
-/** The same for all that a value holds. */
+/** The same for everything that a value holds. */
 export function expectAllAttached(value, name = '', seen = new Set()) {
   if (ArrayBuffer.isView(value)) return expectAttached(value, name);
   if (typeof value !== 'object' || value === null || seen.has(value)) return;
@@ -105,7 +105,7 @@ function isTypedArray(value, types) {
   return ArrayBuffer.isView(value) && types.includes(value[Symbol.toStringTag]);
 }
 
-/** A typed array of what `read` makes of each value and its place. A sparse array may have a length that there is no memory for. */
+/** A typed array of read(value, place) for each value. A sparse array may have a length that there is no memory for. */
 export function collect(Type, values, name, read) {
   let collected;
   try {
@@ -117,7 +117,7 @@ export function collect(Type, values, name, read) {
   return collected;
 }
 
-/** Of an array, a typed array or what is like them; undefined if it is none. */
+/** The length of an array, a typed array or an array-like object; undefined for others. */
 function lengthOf(value) {
   const length = typeof value === 'object' ? value?.length : undefined;
   return Number.isInteger(length) && length >= 0 && length < 2 ** 32 ? length : undefined;
@@ -184,7 +184,7 @@ const gridKinds = {
   around: ['cells', 'margin'],
 };
 
-/** Told by the first name of the kind that the grid has. */
+/** The kind follows from the first of its names that the grid has. */
 function kindOfGrid(grid) {
   const has = (name) => grid[name] !== undefined;
   if (has('planes')) return 'planes';
@@ -321,7 +321,7 @@ export function readCutMesh(cutMesh) {
   return readFields(completed(cutMesh), CutMesh, 'cutMesh');
 }
 
-/** As much of what resolve() gives as boundary() takes. */
+/** The part of the result of resolve() that boundary() takes. */
 export function readResolved(mesh) {
   const arrays = readMesh(mesh);
   const isNull = mesh.frontWinding === null && mesh.backWinding === null;

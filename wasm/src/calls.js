@@ -2,11 +2,11 @@
 // their types, of which the last lines of each comment are the signatures. wasm/README.md has the same names.
 //
 // takes: the arguments by their names, in order. Each is a reader (see arguments.js); or { kind }, what may have a twin; or both of its
-//   members. What is no result is read by `otherwise`, if there is that, unless `fits` says that it is of the kind, too.
+//   members. A value that is not a result is read by `otherwise`, if that is given, unless `fits` says that it is of the kind.
 // options: their readers.
-// run(bindings, ...arguments, options): calls C++, with the handle of what may have a twin; by default the binding with the call's name.
-// keeps: the kind of what has a twin of what it gives, `member` if only that has; run() then gives { value, twin }.
-// isCut: it goes through stages of a cut, which errors name.
+// run(bindings, ...arguments, options): calls C++, with handles for arguments that may have twins; by default the binding of that name.
+// keeps: the kind of the call's result, which gets a twin (only its `member`, if that is given); run() then returns { value, twin }.
+// isCut: it goes through the stages of a cut, and errors name the stage.
 // isFile: its only argument is a file, whose bytes and name C++ gets; its reader is given the options.
 import {
   flag,
@@ -51,9 +51,9 @@ const mapped = ({ value, error }, f) => (error ? { error } : { value: f(value) }
 
 export const cutCalls = {
   /**
-   * A copy of the mesh that cut() takes with any number of grids, and does not check, weld and resolve anew (A, Bad input meshes): the
-   * module has done so and keeps it as the twin of this very object, like those of cut-meshes (see CutMesh). Where the twin is gone, the
-   * next cut prepares the mesh once more; one with a snapTolerance does so in any case.
+   * A copy of the mesh, checked, welded and resolved once (A, Bad input meshes), which cut() takes with any number of grids. The module
+   * keeps the prepared mesh as the twin of this very object, like those of cut-meshes (see CutMesh). If the twin is gone, the next cut
+   * prepares the mesh once more; a cut with a snapTolerance always does.
    *
    * prepare(mesh: Mesh, options?: PrepareOptions): MeshArrays
    */

@@ -31,9 +31,9 @@ import type { CallOptions } from './worker.js';
 
 export interface Calls {
   /**
-   * A copy of the mesh that cut() takes with any number of grids, and does not check, weld and resolve anew (A, Bad input meshes): the
-   * module has done so and keeps it as the twin of this very object, like those of cut-meshes (see CutMesh). Where the twin is gone, the
-   * next cut prepares the mesh once more; one with a snapTolerance does so in any case.
+   * A copy of the mesh, checked, welded and resolved once (A, Bad input meshes), which cut() takes with any number of grids. The module
+   * keeps the prepared mesh as the twin of this very object, like those of cut-meshes (see CutMesh). If the twin is gone, the next cut
+   * prepares the mesh once more; a cut with a snapTolerance always does.
    */
   prepare(mesh: Mesh, options?: PrepareOptions): MeshArrays;
   /** Cuts the mesh with the grid (the paper's Algorithm 1). */

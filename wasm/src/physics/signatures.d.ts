@@ -77,13 +77,13 @@ export interface Calls {
   solvePoisson(cells: CellComplex, problem?: PoissonProblem, options?: SolveOptions): Solution;
   /**
    * Potential flow of a wind through the cells and about the surface (appendix B, figure 22): solves div grad phi = 0, where
-   * grad phi . N = wind . N on the sides of the box and nothing passes the surface, on either side of it, nor faces that a sub-complex was
-   * cut off at. As much flows into a cell as out of it, within the tolerance; what doesn't touch the box is at rest.
+   * grad phi . N = wind . N on the sides of the box. Nothing flows through the surface, or through faces where a sub-complex was cut off.
+   * Within the tolerance, as much flows into a cell as out of it. Components that don't touch the box are at rest.
    *
-   * Where the surface divides the box, a component may get more from the wind than it can give away, or less: then the larger of both is
-   * scaled down to the other on all its sides. A component that can only take or only give, a dead end, is at rest. So is a dead end
-   * within a component that only slits lead to: faces with less than a millionth of the area of others of their cells. Code "badArgument"
-   * if the wind is not finite and as in poissonSystem(), "badOption" as in solvePoisson().
+   * Where the surface divides the box, the wind may bring more into a component than it takes out, or less. Then the larger of the two
+   * flows is scaled down to the smaller one. A component with only an inflow or only an outflow, a dead end, is at rest. So is a dead end
+   * within a component that only slits lead to: faces with less than a millionth of the area of other faces of their cells. Code
+   * "badArgument" if the wind is not finite and as in poissonSystem(), "badOption" as in solvePoisson().
    */
   solveFlow(cells: CellComplex, wind: Vector3, options?: FlowOptions): Flow;
   /**
