@@ -72,6 +72,13 @@ async function fillInline(folder, wasm) {
   );
 }
 
+/** The module's bytes with its name in a custom section, which tells it from other modules of the package (src/load.js). */
+function withName(bytes, name) {
+  const text = (words) => [words.length, ...Buffer.from(words)];
+  const section = [...text('mandoline-wasm'), ...Buffer.from(name)];
+  return Buffer.concat([bytes, Buffer.from([0, section.length, ...section])]);
+}
+
 function leaveOutPhysics(folder) {
   const message = 'Eigen not found (Debian: apt-get install libeigen3-dev): the package lacks mandoline-wasm/physics.';
   if (process.argv.includes('--whole')) throw new Error(message);
@@ -90,9 +97,10 @@ async function makeFiles() {
   if (existsSync(join(build, 'wasm', 'physics.wasm'))) modules.push(['physics', join(folder, 'physics'), 'module.js']);
   else leaveOutPhysics(folder);
   for (const [name, place, code] of modules) {
-    cpSync(join(build, 'wasm', `${name}.wasm`), join(place, `${name}.wasm`));
+    const wasm = `${name}.wasm`;
+    writeFileSync(join(place, wasm), withName(readFileSync(join(build, 'wasm', wasm)), wasm));
     writeFileSync(join(place, code), await bundle(join(build, 'wasm', `${name}.js`), withoutUrl));
-    await fillInline(place, `${name}.wasm`);
+    await fillInline(place, wasm);
   }
   return folder;
 }

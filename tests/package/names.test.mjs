@@ -1,5 +1,6 @@
 // Names that a call does not have are errors, which suggest the names that it has.
 import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
 import { after, test } from 'node:test';
 import { MandolineError, init } from 'mandoline-wasm';
 import { initPhysics } from 'mandoline-wasm/physics';
@@ -208,6 +209,23 @@ test('a module of the other kind is noticed by its name', async () => {
   const { message } = await failureOf(() => initPhysics({ wasm: new Uint8Array() }));
   assert.equal(message, 'options.wasm is not for this: did you mean physicsWasm?');
   assert.match((await failureOf(() => createCutter({ physicsWasm: new Uint8Array() }))).message, /did you mean wasm\?$/);
+});
+
+test('a module of another kind, or of another package, is told from the one that is needed', async () => {
+  const bytesOf = (name) => readFile(new URL(import.meta.resolve(`mandoline-wasm/${name}`)));
+  const another = new Uint8Array([0, 0x61, 0x73, 0x6d, 1, 0, 0, 0]);
+  const cases = [
+    [{ wasm: await bytesOf('physics.wasm') }, /^The WebAssembly module could not be loaded: it is physics\.wasm, not mandoline\.wasm\.$/],
+    [{ wasm: await WebAssembly.compile(another) }, /: it is no module of mandoline-wasm, not mandoline\.wasm\.$/],
+  ];
+  for (const [options, message] of cases) {
+    const error = await failureOf(() => createCutter(options));
+    assert.deepEqual([error.code, error.stage], ['loadFailed', 'init']);
+    assert.match(error.message, message);
+  }
+  const computing = await createWorker({ physicsWasm: await bytesOf('mandoline.wasm') });
+  assert.match((await failureOf(() => computing.coarsen(cutMesh))).message, /: it is mandoline\.wasm, not physics\.wasm\.$/);
+  computing.terminate();
 });
 
 test('a worker that only cuts names the one that computes', async () => {

@@ -11,7 +11,7 @@ export { MandolineError, describe } from './errors.js';
 let started;
 
 async function start({ wasm = ownWasm.source }) {
-  const module = await compile(wasm);
+  const module = await compile(wasm, 'mandoline.wasm');
   return { module, api: makeApi(new CutHost(module), cutCalls) };
 }
 

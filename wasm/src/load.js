@@ -32,11 +32,23 @@ function failureOf(name, cause) {
   return new MandolineError('loadFailed', message, { stage: 'init', cause });
 }
 
-/** Compiles a module: `source` is where to load it from, its bytes, the compiled module itself, or a function that gives one of these. */
-export async function compile(source) {
+/** The file's name that the build has written into a module of the package; undefined of others. */
+function nameIn(module) {
+  const [name] = WebAssembly.Module.customSections(module, 'mandoline-wasm');
+  return name && new TextDecoder().decode(name);
+}
+
+/**
+ * Compiles the module of the file `name`: `source` is where to load it from, its bytes, the compiled module itself, or a function that
+ * gives one of these.
+ */
+export async function compile(source, name) {
   try {
     const given = await (typeof source === 'function' ? source() : source);
-    return given instanceof WebAssembly.Module ? given : await WebAssembly.compile(await bytesOf(given));
+    const module = given instanceof WebAssembly.Module ? given : await WebAssembly.compile(await bytesOf(given));
+    const found = nameIn(module);
+    if (found !== name) throw new Error(`it is ${found ?? 'no module of mandoline-wasm'}, not ${name}`);
+    return module;
   } catch (cause) {
     throw failureOf('', cause);
   }

@@ -13,7 +13,7 @@ import { Calls } from './worker-calls.js';
  */
 export async function openWorker({ wasm, thread }, own, moreCalls = () => ({})) {
   const source = thread ? { start: thread, script: 'from options.thread' } : await own.source();
-  const queue = new JobQueue((handlers) => startThread(source, handlers), await compile(wasm));
+  const queue = new JobQueue((handlers) => startThread(source, handlers), await compile(wasm, 'mandoline.wasm'));
   await queue.open();
   const calls = new Calls(queue, cutCalls);
   return {

@@ -12,7 +12,7 @@ export { faceTags, streamlineEnds } from './arguments.js';
 let started;
 
 async function start({ physicsWasm = ownPhysicsWasm.source }) {
-  return makeApi(new PhysicsHost(await compile(physicsWasm)), physicsCalls);
+  return makeApi(new PhysicsHost(await compile(physicsWasm, 'physics.wasm')), physicsCalls);
 }
 
 /**

@@ -18,7 +18,7 @@ export class PhysicsCalls extends Calls {
   }
 
   ready = async () => {
-    this.#module ??= await compile(this.#source);
+    this.#module ??= await compile(this.#source, 'physics.wasm');
   };
 
   find(argument) {
