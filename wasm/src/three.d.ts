@@ -17,7 +17,7 @@ export function meshFromGeometry(
   matrix?: Matrix4,
 ): { positions: Float64Array<ArrayBuffer>; triangles: Uint32Array<ArrayBuffer> };
 
-/** Of all functions below, so that they take the same object: what does not concern one of them it does not look at. */
+/** Of the functions below. One object serves all of them: each uses what concerns it, which its type names. */
 export interface DrawOptions {
   /** Cut-cells to take, in this order; those of other regions than `regions` are left out. Default: all. */
   cells?: ArrayLike<number>;
@@ -49,7 +49,11 @@ export interface CellArrays {
   /** Per vertex: the face. */
   face: Uint32Array<ArrayBuffer>;
 }
-export function cellArrays(cutMesh: CutMesh, faceTriangles: FaceTriangles, options?: DrawOptions): CellArrays;
+export function cellArrays(
+  cutMesh: CutMesh,
+  faceTriangles: FaceTriangles,
+  options?: Pick<DrawOptions, 'cells' | 'regions' | 'faces' | 'origin'>,
+): CellArrays;
 
 /** Edges of cut-cells, cell by cell: an edge appears once for each of its cells. */
 export interface CellEdgeArrays {
@@ -60,7 +64,7 @@ export interface CellEdgeArrays {
   /** Per vertex: that of the cut-mesh. */
   vertex: Uint32Array<ArrayBuffer>;
 }
-export function cellEdgeArrays(cutMesh: CutMesh, options?: DrawOptions): CellEdgeArrays;
+export function cellEdgeArrays(cutMesh: CutMesh, options?: Pick<DrawOptions, 'cells' | 'regions' | 'origin'>): CellEdgeArrays;
 
 /** Untouched grid cells in the order of the grid, x fastest. */
 export interface UntouchedCells {
@@ -69,7 +73,7 @@ export interface UntouchedCells {
   /** Per untouched cell. */
   region: Uint32Array<ArrayBuffer>;
 }
-export function untouchedCells(cutMesh: CutMesh, options?: DrawOptions): UntouchedCells;
+export function untouchedCells(cutMesh: CutMesh, options?: Pick<DrawOptions, 'regions'>): UntouchedCells;
 
 export type ColorBy = 'region' | 'winding' | 'cell' | 'volume';
 
@@ -77,16 +81,25 @@ export type ColorBy = 'region' | 'winding' | 'cell' | 'volume';
 export function cellGeometry(cutMesh: CutMesh, faceTriangles: FaceTriangles, options?: DrawOptions): BufferGeometry;
 
 /** A geometry for LineSegments with the attributes of CellEdgeArrays: the edges of what cellGeometry gives with the same options. */
-export function cellEdgeGeometry(cutMesh: CutMesh, options?: DrawOptions): BufferGeometry;
+export function cellEdgeGeometry(
+  cutMesh: CutMesh,
+  options?: Pick<DrawOptions, 'cells' | 'regions' | 'origin' | 'explode' | 'measures'>,
+): BufferGeometry;
 
 /**
  * Untouched grid cells as boxes, in the order of untouchedCells: an indexed geometry for Mesh with attributes position, normal and color,
  * 24 vertices and 12 triangles per box.
  */
-export function untouchedGeometry(cutMesh: CutMesh, options?: DrawOptions): BufferGeometry;
+export function untouchedGeometry(
+  cutMesh: CutMesh,
+  options?: Pick<DrawOptions, 'regions' | 'origin' | 'colorBy' | 'explode' | 'measures'>,
+): BufferGeometry;
 
 /** Their edges: an indexed geometry for LineSegments with the attribute position, 8 vertices and 12 edges per box. */
-export function untouchedEdgeGeometry(cutMesh: CutMesh, options?: DrawOptions): BufferGeometry;
+export function untouchedEdgeGeometry(
+  cutMesh: CutMesh,
+  options?: Pick<DrawOptions, 'regions' | 'origin' | 'explode' | 'measures'>,
+): BufferGeometry;
 
 /** 3 per cut-cell: linear RGB, 0 to 1. Volumes are told on a logarithmic scale over at most three decades below the largest. */
 export function cellColors(cutMesh: CutMesh, colorBy: ColorBy, measures?: Measures): Float32Array<ArrayBuffer>;
@@ -109,4 +122,8 @@ export const outsideColor: LinearColor;
 export function edgeGeometry(cutMesh: CutMesh, cutEdges: CutEdges, origin?: Vector3): BufferGeometry;
 
 /** A filled slice with attributes position, normal, color, cell (-1 for untouched grid cells). */
-export function sliceGeometry(cutMesh: CutMesh, slice: Slice, options?: DrawOptions): BufferGeometry;
+export function sliceGeometry(
+  cutMesh: CutMesh,
+  slice: Slice,
+  options?: Pick<DrawOptions, 'colorBy' | 'measures' | 'origin'>,
+): BufferGeometry;
