@@ -35,7 +35,7 @@ val toArray(const std::vector<Number>& items) {
   return toArray(arrayType<Number>(), items.data(), items.size());
 }
 
-/// The other way: copies an array's numbers, of whatever type, to memory.
+/// The other way: copies an array's numbers, of any type, to memory.
 void copyArray(const val& array, const char* type, void* numbers, size_t count);
 /// Enumerators are not checked.
 template <class Number>

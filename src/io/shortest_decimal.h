@@ -5,13 +5,13 @@
 
 namespace mandoline::detail {
 
-/// digits * 10^exponent. The digits end with no 0, but for 0 itself.
+/// digits * 10^exponent. The last digit is not 0, except for 0 itself.
 struct Decimal {
   uint64_t digits;
   int exponent;
 };
 
-/// Of the decimals with fewest digits between those that read back as x, the nearest to x, which is finite and not negative.
+/// Among the decimals that read back as x and have the fewest digits, the one nearest to x, which is finite and not negative.
 Decimal shortestDecimal(double x);
 
 }  // namespace mandoline::detail

@@ -302,7 +302,7 @@ function readGridOf(grid, name) {
   return readPlanes(grid, name);
 }
 
-/** Readers of members by their kinds in fields.js, but for typed arrays. */
+/** Readers of members by their kinds in fields.js, except typed arrays. */
 const kinds = { Grid: readGridOf, integer: readId, 'integer[3]': (...given) => readVector(...given, readInt32), 'number[3]': readVector };
 
 /** The members that a struct of C++ has, by its kinds in fields.js. Whether lengths and ids fit together is up to C++. */

@@ -51,7 +51,7 @@ const advice = {
     "and that the page's content security policy allows 'wasm-unsafe-eval'.",
 };
 
-/** What went wrong, where, and what to do about it, in a few sentences for people. Takes whatever was caught. */
+/** What went wrong, where, and what to do about it, in a few sentences for people. Takes any value that was caught. */
 export function describe(error) {
   // Errors that came from another thread are copies without the class.
   if (!Object.hasOwn(advice, error?.code)) return error instanceof Error ? `${error.name}: ${error.message}` : String(error);

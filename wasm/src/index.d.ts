@@ -217,7 +217,7 @@ export type WasmSource = URL | string | ArrayBuffer | ArrayBufferView | WasmModu
 export type WasmModule = typeof globalThis extends { WebAssembly: { Module: { prototype: infer Module } } } ? Module : object;
 
 /**
- * Loads the WebAssembly module, once: every call gives the same promise, whatever its options. After a failure the next call tries again.
+ * Loads the WebAssembly module, once: every call gives the same promise, for any options. After a failure the next call tries again.
  */
 export function init(options?: InitOptions): Promise<Mandoline>;
 
@@ -266,5 +266,5 @@ export class MandolineError extends Error {
   element2: number;
 }
 
-/** What went wrong, where, and what to do about it, in a few sentences for people. Takes whatever was caught. */
+/** What went wrong, where, and what to do about it, in a few sentences for people. Takes any value that was caught. */
 export function describe(error: unknown): string;

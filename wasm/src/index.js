@@ -28,7 +28,7 @@ function begin(given) {
 }
 
 /**
- * Loads the WebAssembly module, once: every call gives the same promise, whatever its options. After a failure the next call tries again.
+ * Loads the WebAssembly module, once: every call gives the same promise, for any options. After a failure the next call tries again.
  */
 export function init(options) {
   try {

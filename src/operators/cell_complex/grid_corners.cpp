@@ -94,7 +94,7 @@ void GridCorners::appendSide(size_t cell, size_t axis, int side, std::vector<uin
   appendEdge(low, {v, level}, false, ids);
 }
 
-/// Appends the vertices of the edge that begins at `low`, but for the last. Backwards: from its upper end.
+/// Appends the vertices of the edge that begins at `low`, except the last. Backwards: from its upper end.
 void GridCorners::appendEdge(const GridIndex& low, const Edge& edge, bool forwards, std::vector<uint32_t>& ids) const {
   GridIndex high = low;
   high[edge.axis] = int32_t(std::min(int64_t(low[edge.axis]) + (int64_t(1) << edge.level), int64_t(octree_.gridCells[edge.axis])));

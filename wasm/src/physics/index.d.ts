@@ -133,7 +133,7 @@ export interface SolveOptions extends FlowOptions {
   freeConstant?: 'zeroMean' | 'pinned';
   /**
    * In a component without a Dirichlet condition sources and what flows in have to cancel. False (default): they have to cancel up to
-   * rounding; otherwise the data are incompatible. True: whatever is in excess is taken away, evenly by volume.
+   * rounding; otherwise the data are incompatible. True: the excess is subtracted, evenly by volume.
    */
   balance?: boolean;
 }
@@ -175,6 +175,6 @@ export interface PhysicsOptions {
 }
 
 /**
- * Loads the WebAssembly module, once: every call gives the same promise, whatever its options. After a failure the next call tries again.
+ * Loads the WebAssembly module, once: every call gives the same promise, for any options. After a failure the next call tries again.
  */
 export function initPhysics(options?: PhysicsOptions): Promise<Physics>;

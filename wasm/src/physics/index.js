@@ -16,7 +16,7 @@ async function start({ physicsWasm = ownPhysicsWasm.source }) {
 }
 
 /**
- * Loads the WebAssembly module, once: every call gives the same promise, whatever its options. After a failure the next call tries again.
+ * Loads the WebAssembly module, once: every call gives the same promise, for any options. After a failure the next call tries again.
  */
 export function initPhysics(given) {
   try {
