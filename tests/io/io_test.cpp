@@ -406,6 +406,31 @@ TEST_CASE("Content decides before the extension", "[io]") {
   requireError("a.txt", "hello\n", "neither the content nor the name");
 }
 
+TEST_CASE("Files of formats that are not read are named, with what to do", "[io]") {
+  using namespace std::string_literals;
+  // By content, whatever the name.
+  requireError("a.obj", "glTF\x02\0\0\0"s, "a.obj: this is a glTF file, not OBJ, STL, PLY or OFF: convert it to one of them");
+  requireError("a", "\n {\"asset\":{\"version\":\"2.0\"}}", "a glTF or other JSON file");
+  requireError("a", "PK\x03\x04 archive 3D/3dmodel.model", "a 3MF file");
+  requireError("a.3mf", "PK\x03\x04 archive scene.usdc", "a USD file");
+  requireError("a.obj", "PK\x03\x04 archive", "a ZIP archive, not OBJ, STL, PLY or OFF: unpack it first");
+  requireError("a", "# vtk DataFile Version 3.0\nv 1 2 3\n", "a VTK file");
+  requireError("a", "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">", "a VTK file");
+  requireError("a", "$MeshFormat\n4.1 0 8\n", "a Gmsh file, not OBJ, STL, PLY or OFF: convert its surface");
+  requireError("a", "\xef\xbb\xbfISO-10303-21;\n", "a STEP file, not OBJ, STL, PLY or OFF: its surfaces have to be divided into triangles");
+  requireError("a", "Kaydara FBX Binary  \0"s, "an FBX file");
+  requireError("a", "BLENDER-v402", "a Blender file");
+  requireError("a", "<?xml version=\"1.0\"?><COLLADA>", "a COLLADA file");
+  requireError("a", "<?xml version=\"1.0\"?><other>", "an XML file");
+  requireError("a.stl", "<!DOCTYPE html><html>", "a web page");
+  // By name.
+  requireError("a.igs", "1\n", "an IGES file");
+  requireError("A.STEP", "1\n", "a STEP file");
+  requireError("a.vtp.gz", "1\n", "a VTK file");
+  requireError("a.zip", "1\n", "a ZIP archive");
+  requireError("a.", "1\n", "neither the content nor the name");
+}
+
 TEST_CASE("Gzipped files", "[io]") {
   try {
     readText("probe.obj.gz", gzipped(kObj));

@@ -9,6 +9,7 @@ import {
   cellGeometry,
   edgeGeometry,
   meshFromGeometry,
+  meshFromObject,
   sliceGeometry,
   untouchedCells,
   untouchedEdgeGeometry,
@@ -16,7 +17,7 @@ import {
 } from 'mandoline-wasm/three';
 import * as inline from 'mandoline-wasm/inline';
 import { MandolineError as WorkerError, createWorker } from 'mandoline-wasm/worker';
-import { BoxGeometry, type BufferGeometry, Matrix4 } from 'three';
+import { BoxGeometry, type BufferGeometry, Matrix4, Object3D } from 'three';
 
 const mesh: Mesh = { positions: [0, 0, 0, 1, 0, 0, 0, 1, 0], triangles: new Uint16Array([0, 1, 2]) };
 const byCells: GridInput = { cells: 8 };
@@ -75,6 +76,7 @@ async function inWorker(): Promise<void> {
 async function drawn(): Promise<void> {
   const { cut, cutEdges, measure, slice, triangulate } = await init();
   const input = meshFromGeometry(new BoxGeometry(), new Matrix4());
+  const merged: { positions: Float64Array; triangles: Uint32Array } = meshFromObject(new Object3D());
   const cutMesh = cut(input, { cells: 8 });
   const geometries: BufferGeometry[] = [
     cellGeometry(cutMesh, triangulate(cutMesh), { colorBy: 'volume', measures: measure(input, cutMesh), explode: 0.2 }),
@@ -91,7 +93,7 @@ async function drawn(): Promise<void> {
   const places: Int32Array = untouchedCells(cutMesh, { regions: new Uint32Array(1) }).gridCell;
   // @ts-expect-error Untouched cells are chosen by region.
   untouchedGeometry(cutMesh, { cells: [0] });
-  console.log(places, cellEdgeArrays(cutMesh, { cells: [0] }).vertex);
+  console.log(merged, places, cellEdgeArrays(cutMesh, { cells: [0] }).vertex);
   console.log(geometries, colors, cellArrays(cutMesh, triangulate(cutMesh)).normal);
 }
 

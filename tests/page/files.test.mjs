@@ -301,12 +301,12 @@ describe('bad files', () => {
     [
       'index.glb',
       glb(gltf(), Buffer.concat([gltfData.subarray(0, 48), Buffer.from(new Uint16Array([0, 1, 9, ...faces.flat().slice(3)]).buffer)])),
-      /names point 9, but there are 4 points/,
+      /refers to vertex 9, but there are 4/,
     ],
     [
       'nan.glb',
       glb(gltf(), Buffer.concat([Buffer.from(new Float32Array([NaN]).buffer), gltfData.subarray(4)])),
-      /point 0 has a coordinate that is not a finite/,
+      /vertex 0 has a coordinate that is not a finite/,
     ],
   ];
   for (const [name, content, detail] of bad) test(name, { timeout: 5000 }, () => refuses(name, content, detail));

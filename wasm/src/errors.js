@@ -45,7 +45,9 @@ const advice = {
   outOfMemory: 'Use fewer cells, or leave out gridCellRegion. WebAssembly has at most 4 GB; the native program has no such limit.',
   internalError: 'Please report this with the mesh and the grid; the next call works again.',
   badArgument: 'The call was given something that it does not take: compare with its documentation.',
-  badFile: 'Check that the file is an OBJ, STL, PLY or OFF file, and complete.',
+  badFile:
+    'Check that the file is an OBJ, STL, PLY or OFF file, and complete. Of other formats, meshFromObject of mandoline-wasm/three takes what ' +
+    "three's loaders make.",
   loadFailed:
     "Check that the package's files are served beside the code, or take them from mandoline-wasm/inline, " +
     "and that the page's content security policy allows 'wasm-unsafe-eval'.",

@@ -32,7 +32,14 @@ function turn(triangles) {
   for (let i = 0; i + 2 < triangles.length; i += 3) [triangles[i + 1], triangles[i + 2]] = [triangles[i + 2], triangles[i + 1]];
 }
 
-/** A matrix that mirrors also turns the triangles, as three draws them: outward stays outward. */
+/** Moved by a matrix. One that mirrors also turns the triangles, as three draws them: outward stays outward. */
+export function moved({ positions, triangles }, matrix) {
+  const mesh = { positions: positions.slice(), triangles: triangles.slice() };
+  move(mesh.positions, matrix.elements);
+  if (matrix.determinant() < 0) turn(mesh.triangles);
+  return mesh;
+}
+
 export const meshFromGeometry = named('meshFromGeometry', (geometry, matrix) => {
   if (geometry?.attributes === undefined) throw bad(`geometry must be a BufferGeometry, not ${kindOf(geometry)}.`);
   const { position } = geometry.attributes;
@@ -40,9 +47,5 @@ export const meshFromGeometry = named('meshFromGeometry', (geometry, matrix) => 
   const isMatrix = matrix === undefined || matrix === null || (matrix.elements?.length === 16 && typeof matrix.determinant === 'function');
   if (!isMatrix) throw bad(`matrix must be a Matrix4, not ${kindOf(matrix)}.`);
   const mesh = { positions: readPositions(position), triangles: readTriangles(geometry.index, position.count) };
-  if (matrix) {
-    move(mesh.positions, matrix.elements);
-    if (matrix.determinant() < 0) turn(mesh.triangles);
-  }
-  return mesh;
+  return matrix ? moved(mesh, matrix) : mesh;
 });

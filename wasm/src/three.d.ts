@@ -1,10 +1,10 @@
 /**
  * From three.js to Mandoline and back. Importing this needs three, an optional peer dependency. cellArrays, cellEdgeArrays, untouchedCells,
- * cellColors and meshFromGeometry handle plain data and also run in a worker, where bundlers then leave three out.
+ * cellColors, meshFromGeometry and meshFromObject handle plain data and also run in a worker, where bundlers then leave three out.
  *
  * Wrong arguments throw a MandolineError with code "badArgument" and the name of the function as its stage.
  */
-import type { BufferGeometry, Matrix4 } from 'three';
+import type { BufferGeometry, Matrix4, Object3D } from 'three';
 import type { CutEdges, CutMesh, FaceTriangles, Measures, Slice, Vector3 } from './index.js';
 
 /**
@@ -16,6 +16,17 @@ export function meshFromGeometry(
   geometry: BufferGeometry,
   matrix?: Matrix4,
 ): { positions: Float64Array<ArrayBuffer>; triangles: Uint32Array<ArrayBuffer> };
+
+/**
+ * The triangles of all meshes of an object, such as the scene that one of three's loaders makes (GLTFLoader, ThreeMFLoader, VTKLoader ...),
+ * merged into one mesh, in the order in which traverse() visits them: each at its place in the world (matrices are updated first), each
+ * instance of an InstancedMesh, and skinned or morphed ones as they stand. Mirrored ones stay outward. The object itself is taken whether
+ * it is visible or not; of what is in it, only what is visible. What is no mesh, such as points and lines, is left out.
+ *
+ * Throws a MandolineError that names the mesh: "badIndex" (element: the triangle), "nonFiniteCoordinate" (element: the vertex), and
+ * "badArgument" for a BatchedMesh or what is no Object3D.
+ */
+export function meshFromObject(object: Object3D): { positions: Float64Array<ArrayBuffer>; triangles: Uint32Array<ArrayBuffer> };
 
 /** Of the functions below. One object serves all of them: each uses what concerns it, which its type names. */
 export interface DrawOptions {

@@ -10,6 +10,7 @@ export { cellArrays } from './cell-arrays.js';
 export { cellEdgeArrays } from './cell-edges.js';
 export { cellColors, idColor, kindColors, outsideColor, regionColor, volumeColor, windingColor } from './colors.js';
 export { meshFromGeometry } from './geometry-mesh.js';
+export { meshFromObject } from './object-mesh.js';
 export { untouchedCells } from './untouched.js';
 
 const singles = ['cell', 'face', 'vertex'];

@@ -2,6 +2,7 @@
 
 #include "mesh/read/readers.h"
 #include "mesh/read/text_cursor.h"
+#include "mesh/read/unread_formats.h"
 
 namespace mandoline {
 namespace detail {
@@ -15,6 +16,11 @@ std::string extensionOf(const std::string& name) {
   return dot == std::string::npos || lower[dot] != '.' ? "" : lower.substr(dot);
 }
 
+void refuse(const FileBytes& file, const UnreadFormat* format) {
+  if (format == nullptr) return;
+  throw FileError(file.path + ": this is " + std::string(format->name) + ", not OBJ, STL, PLY or OFF: " + std::string(format->way));
+}
+
 }  // namespace
 
 MeshFormat meshFormatOf(const FileBytes& file) {
@@ -22,10 +28,12 @@ MeshFormat meshFormatOf(const FileBytes& file) {
   if (looksLikePly(file.bytes)) return MeshFormat::ply;
   if (looksLikeOff(file.bytes)) return MeshFormat::off;
   if (looksLikeStl(file.bytes)) return MeshFormat::stl;
+  refuse(file, unreadByContent(file.bytes));
   if (looksLikeObj(file.bytes) || extension == ".obj") return MeshFormat::obj;
   if (extension == ".stl") return MeshFormat::stl;
   if (extension == ".ply") return MeshFormat::ply;
   if (extension == ".off") return MeshFormat::off;
+  refuse(file, unreadByExtension(extension));
   throw FileError(file.path + ": neither the content nor the name is that of an OBJ, STL, PLY or OFF file");
 }
 

@@ -2,8 +2,8 @@
 // other files.
 import { LoadingManager, MeshBasicMaterial } from 'three';
 import { GLTFLoader, type GLTFLoaderPlugin, type GLTFParser } from 'three/examples/jsm/loaders/GLTFLoader.js';
+import { meshFromObject } from 'mandoline-wasm/three';
 import type { MeshArrays } from '../model/gallery';
-import { sceneTriangles } from './scene';
 
 const compressions: Record<string, string> = {
   KHR_draco_mesh_compression: 'Draco',
@@ -19,7 +19,7 @@ export async function readGltf(bytes: ArrayBuffer): Promise<MeshArrays> {
   });
   const loader = new GLTFLoader(manager).register(trianglesOnly);
   const { scene } = await loader.parseAsync(await unpacked(bytes), '');
-  return sceneTriangles(scene);
+  return meshFromObject(scene);
 }
 
 async function unpacked(bytes: ArrayBuffer): Promise<ArrayBuffer> {

@@ -49,7 +49,7 @@ export async function readMesh(mandoline: Mandoline, bytes: ArrayBuffer, name: s
     if (mesh.triangles.length === 0) throw new Error('It has no triangles.');
     return mesh;
   } catch (error) {
-    throw isPageError(error) ? error : fileError(name, whatIsWrong(error, bytes, name));
+    throw isPageError(error) ? error : fileError(name, whatIsWrong(error, name));
   }
 }
 
@@ -64,15 +64,8 @@ function textAt(bytes: ArrayBuffer): string {
 }
 
 /** The package's messages start with the name, which the title says already. */
-function whatIsWrong(error: unknown, bytes: ArrayBuffer, name: string): string {
+function whatIsWrong(error: unknown, name: string): string {
   const text = error instanceof Error ? error.message : String(error);
   const flaw = text.startsWith(`${name}: `) ? text.slice(name.length + 2) : text;
-  return flaw.charAt(0).toUpperCase() + flaw.slice(1) + hintAt(bytes);
-}
-
-/** What people take for meshes. */
-function hintAt(bytes: ArrayBuffer): string {
-  const start = textAt(bytes).trimStart();
-  if (start.startsWith('PK\x03\x04')) return ' It is a ZIP archive: unpack it first.';
-  return /^<(!doctype|html)/i.test(start) ? ' It is a web page.' : '';
+  return flaw.charAt(0).toUpperCase() + flaw.slice(1);
 }
