@@ -3,59 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/disjoint_sets.h"
 #include "base/exact.h"
 #include "base/position_table.h"
 #include "base/sort.h"
+#include "mesh/inspect_edges.h"
 #include "mesh/require_arrays.h"
 
 namespace mandoline {
 namespace {
 
-using Corners = std::array<uint32_t, 3>;
+using detail::Corners, detail::hasThreeVertices;
 
 bool isFinite(const MeshView& mesh, size_t v) {
   return std::isfinite(mesh.positions[3 * v]) && std::isfinite(mesh.positions[3 * v + 1]) && std::isfinite(mesh.positions[3 * v + 2]);
-}
-
-bool hasThreeVertices(const Corners& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; }
-
-void countEdges(const std::vector<Corners>& triangles, MeshInfo& info) {
-  struct Use {
-    uint32_t low, high;
-    bool upwards;
-  };
-  std::vector<Use> uses;
-  for (const Corners& t : triangles) {
-    if (!hasThreeVertices(t)) continue;
-    for (int i = 0; i < 3; ++i) {
-      const uint32_t a = t[i], b = t[(i + 1) % 3];
-      uses.push_back({std::min(a, b), std::max(a, b), a < b});
-    }
-  }
-  detail::sortItems(uses, [](const Use& a, const Use& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
-  info.closed = info.oriented = !uses.empty();
-  for (size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
-    size_t upwards = 0;
-    for (; end < uses.size() && uses[end].low == uses[begin].low && uses[end].high == uses[begin].high; ++end) upwards += uses[end].upwards;
-    const size_t count = end - begin;
-    info.openEdges += count == 1;
-    info.nonManifoldEdges += count > 2;
-    info.inconsistentEdges += count == 2 && upwards != 1;
-    if (count % 2 != 0) info.closed = false;
-    if (2 * upwards != count) info.oriented = false;
-  }
-}
-
-size_t countComponents(const std::vector<Corners>& triangles, size_t vertexCount) {
-  detail::DisjointSets sets(vertexCount);
-  for (const Corners& t : triangles) {
-    sets.unite(t[0], t[1]);
-    sets.unite(t[0], t[2]);
-  }
-  std::vector<uint8_t> seen(vertexCount, 0);
-  for (const Corners& t : triangles) seen[sets.find(t[0])] = 1;
-  return size_t(std::count(seen.begin(), seen.end(), 1));
 }
 
 size_t countDuplicates(std::vector<Corners> triangles) {
@@ -130,8 +90,7 @@ MeshInfo inspect(const MeshView& mesh) {
   for (size_t t = 0; t < info.triangles; ++t) {
     for (size_t i = 0; i < 3; ++i) triangles[t][i] = lowest[mesh.triangles[3 * t + i]];
   }
-  countEdges(triangles, info);
-  info.components = countComponents(triangles, info.vertices);
+  detail::inspectEdges(mesh, triangles, info);
   info.zeroAreaTriangles = countZeroArea(mesh, triangles);
   info.duplicateTriangles = countDuplicates(std::move(triangles));
   return info;

@@ -1,11 +1,27 @@
-// What kind of mesh one is: closed, oriented, manifold.
+// What kind of mesh one is: closed, oriented, manifold; and where it is not.
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <vector>
 
 #include "mandoline/mesh.h"
 
 namespace MANDOLINE_API mandoline {
+
+/// Why an edge does not part the front of a mesh from its back.
+enum class EdgeDefect : uint8_t {
+  open,         ///< it has one triangle
+  nonManifold,  ///< it has more than two
+  inconsistent  ///< it has two that run the same way along it
+};
+constexpr size_t kEdgeDefects = 3;
+
+/// The defect as the word above.
+inline const char* name(EdgeDefect defect) {
+  constexpr const char* kNames[kEdgeDefects] = {"open", "nonManifold", "inconsistent"};
+  return kNames[size_t(defect)];
+}
 
 /// What a mesh has. Vertices at one position count as one, except in the number of vertices. Edges are those of triangles with three
 /// different vertices.
@@ -17,12 +33,32 @@ struct MeshInfo {
   size_t openEdges = 0;                ///< with one triangle
   size_t nonManifoldEdges = 0;         ///< with more than two
   size_t inconsistentEdges = 0;        ///< with two that run the same way along it
-  size_t components = 0;               ///< joined through vertices
+  size_t components = 0;               ///< joined through edges
   size_t zeroAreaTriangles = 0;        ///< exactly
   size_t duplicateTriangles = 0;       ///< same three vertices as another one before them
   size_t weldedVertices = 0;           ///< share their position with another one
   size_t unreferencedVertices = 0;
   size_t nonFiniteVertices = 0;
+
+  // The components, in the order of their first triangles.
+  std::vector<int32_t> triangleComponent;  ///< per triangle; -1 without three different vertices
+  std::vector<uint8_t> componentClosed;    ///< per component: 1 if it is closed as above, else 0
+  std::vector<uint8_t> componentOriented;  ///< the same of oriented
+
+  // The defects: edges that are open, non-manifold or inconsistent, ascending by their vertices.
+  std::vector<uint32_t> defectVertices;  ///< 2 per defect: the edge's ends, the lower one first; the lowest ids at their positions
+  std::vector<EdgeDefect> defectKind;    ///< per defect
+  std::vector<uint32_t> defectTriangleOffsets{0};  ///< per defect, into defectTriangles
+  std::vector<uint32_t> defectTriangles;           ///< those at the edge, ascending
+  std::vector<uint32_t> defectPlace;               ///< per defect
+
+  // The places: defects of one component that hang together through vertices, such as the edges around a hole. In the order of their first
+  // defects.
+  std::vector<uint32_t> placeComponent;  ///< per place
+  std::vector<double> placeBox;          ///< 6 per place: the lowest corner of the box around its edges, then the highest
+
+  size_t defectCount() const { return defectKind.size(); }
+  size_t placeCount() const { return placeComponent.size(); }
 };
 
 /// Throws CallError if the length of an array is not a multiple of 3 (badArrays), or for a triangle that names a vertex that does not exist

@@ -92,6 +92,10 @@ void writeCutMesh(const Sink& sink, FileFormat format, const MeshView& mesh, con
 void writeMesh(const Sink& sink, FileFormat format, const MeshView& mesh, const RunOptions& options = {},
                const TriangleGroups* groups = nullptr);
 
+/// The defects that inspect() finds in a mesh, as OBJ: lines in world units, in groups named for their kinds. Throws CallError for those of
+/// another mesh.
+void writeDefects(const Sink& sink, const MeshView& mesh, const MeshInfo& info, const RunOptions& options = {});
+
 /// Outlines in parallel planes.
 struct OutlineStack {
   std::array<double, 3> normal;
