@@ -1,0 +1,44 @@
+// A mesh with its triangles turned so that they agree, and face outward.
+#pragma once
+
+#include "mandoline/mesh.h"
+#include "mandoline/status.h"
+
+namespace mandoline {
+
+/// Where the normals of a part of a mesh point to, once it is oriented.
+enum class Facing : uint8_t {
+  outward,       ///< out of what the part encloses
+  inward,        ///< into it: a cavity, since the part lies inside an odd number of other closed parts
+  unknown,       ///< open, or it encloses nothing: its triangles agree, and at most half of them were turned
+  nonOrientable  ///< as in a Moebius strip no orientation lets its triangles agree: none was turned
+};
+
+/// The facing as the word above.
+inline const char* name(Facing facing) {
+  constexpr const char* kNames[] = {"outward", "inward", "unknown", "nonOrientable"};
+  return kNames[size_t(facing)];
+}
+
+/// Parts of the mesh are triangles that hang together through edges with two triangles. Vertices at one position count as one.
+struct OrientedMesh {
+  Mesh mesh;                              ///< vertices and triangles in the order of the input; (a, b, c) turned is (a, c, b)
+  std::vector<uint32_t> turnedTriangles;  ///< ascending
+  std::vector<int32_t> trianglePart;      ///< per triangle; -1 without three different vertices. In the order of their first triangles
+  std::vector<Facing> partFacing;         ///< per part
+
+  size_t partCount() const { return partFacing.size(); }
+};
+
+/// Turns triangles so that two at an edge run along it in opposite directions, and so that
+/// - closed parts face outward, by the sign of the volume that they enclose, but inward where they lie inside an odd number of others.
+///   Parts that cross each other do not lie inside each other;
+/// - parts that only together close every edge, since more than two triangles meet at some, face away from what they enclose, from where
+///   a ray meets an odd number of them;
+/// - open parts face outward if closing their holes in any way within their bounding box would enclose a volume of the same sign, as of a
+///   scan with holes; else most of their triangles stay.
+/// All signs are exact. Throws CallError if cancelled, and for meshes that cut() refuses: emptyMesh, badArrays, badIndex,
+/// nonFiniteCoordinate, meshTooLarge.
+OrientedMesh orient(const MeshView& mesh, const RunOptions& options = {});
+
+}  // namespace mandoline
