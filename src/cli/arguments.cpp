@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 
+#include "cli/suggest.h"
 #include "cli/values.h"
 
 namespace mandoline::cli {
@@ -32,10 +34,16 @@ class Parser {
     void (*parse)(Parser&, const std::string& name);
   };
 
+  static constexpr std::pair<const char*, Command> kCommands[] = {
+      {"cut", Command::cut},   {"slice", Command::slice},     {"flow", Command::flow}, {"info", Command::info},
+      {"make", Command::make}, {"resolve", Command::resolve}, {"help", Command::help}, {"--version", Command::version}};
+
   static const std::vector<Option>& options() {
     using C = Command;
     static const std::vector<Option> kOptions = {
-        {"--report", {C::cut, C::info, C::flow}, [](Parser& p, const std::string& name) { p.arguments_.report = p.value(name); }},
+        {"--report",
+         {C::cut, C::slice, C::flow, C::info, C::resolve},
+         [](Parser& p, const std::string& name) { p.arguments_.report = p.value(name); }},
         {"--cells", {C::cut, C::slice, C::flow}, [](Parser& p, const std::string& name) { parseCells(p.value(name), p.arguments_.grid); }},
         {"--margin",
          {C::cut, C::slice, C::flow},
@@ -55,6 +63,7 @@ class Parser {
         {"--threads",
          {C::cut, C::slice, C::flow, C::info, C::resolve},
          [](Parser& p, const std::string& name) { p.parseThreads(p.value(name)); }},
+        {"--orient", {C::cut, C::slice, C::flow, C::resolve}, [](Parser& p, const std::string&) { p.arguments_.orient = true; }},
         {"--validate", {C::cut}, [](Parser& p, const std::string&) { p.arguments_.validate = true; }},
         {"--coarsen", {C::cut, C::flow}, [](Parser& p, const std::string& name) { p.parseCoarsen(p.value(name)); }},
         {"--faces", {C::cut, C::flow}, [](Parser& p, const std::string&) { p.arguments_.faces = true; }},
@@ -67,19 +76,20 @@ class Parser {
         {"--only", {C::cut, C::slice, C::flow}, [](Parser& p, const std::string& name) { parseOnly(p.value(name), p.arguments_.only); }},
         {"--rule", {C::resolve}, [](Parser& p, const std::string& name) { p.parseRule(p.value(name)); }},
         {"--format",
-         {C::cut, C::slice, C::flow, C::make, C::resolve},
+         {C::cut, C::slice, C::flow, C::info, C::make, C::resolve},
          [](Parser& p, const std::string& name) { p.parseFormat(p.value(name)); }},
-        {"-o", {C::cut, C::slice, C::flow, C::make, C::resolve}, [](Parser& p, const std::string& name) { p.parseOutputs(name); }},
+        {"-o", {C::cut, C::slice, C::flow, C::info, C::make, C::resolve}, [](Parser& p, const std::string& name) { p.parseOutputs(name); }},
     };
     return kOptions;
   }
 
   void parseCommand(const std::string& word) {
-    constexpr std::pair<const char*, Command> kCommands[] = {
-        {"cut", Command::cut},   {"slice", Command::slice},     {"flow", Command::flow}, {"info", Command::info},
-        {"make", Command::make}, {"resolve", Command::resolve}, {"help", Command::help}, {"--version", Command::version}};
     const auto found = std::find_if(std::begin(kCommands), std::end(kCommands), [&](const auto& command) { return word == command.first; });
-    if (found == std::end(kCommands)) throw UsageError("unknown command '" + word + "'");
+    if (found == std::end(kCommands)) {
+      std::vector<std::string> names;
+      for (const auto& command : kCommands) names.push_back(command.first);
+      throw UsageError("unknown command '" + word + "'" + question(nearest(word, names)));
+    }
     arguments_.command = found->second;
   }
 
@@ -88,19 +98,44 @@ class Parser {
     const size_t equals = whole.starts_with("--") ? whole.find('=') : std::string::npos;
     const std::string word = whole.substr(0, equals);
     if (equals != std::string::npos) attached_ = whole.substr(equals + 1);
-    const auto belongs = [&](const Option& option) {
-      return word == option.name && std::find(option.commands.begin(), option.commands.end(), arguments_.command) != option.commands.end();
-    };
-    const auto option = std::find_if(options().begin(), options().end(), belongs);
+    const auto option = std::find_if(options().begin(), options().end(), [&](const Option& o) { return word == o.name && belongs(o); });
     if (option != options().end()) {
+      if (!given_.insert(word).second && word != "-o") throw UsageError(word + " is given twice");
       option->parse(*this, word);
     } else if (word.empty() || (word[0] == '-' && word != "-")) {
-      throw UsageError("unknown option '" + word + "'");
+      refuseOption(word);
     } else {
       parseOperand(word);
     }
     if (attached_) throw UsageError(word + " takes no value");
   }
+
+  bool belongs(const Option& option) const {
+    return std::find(option.commands.begin(), option.commands.end(), arguments_.command) != option.commands.end();
+  }
+
+  /// Names the option that may have been meant, among those of the command, else among all.
+  [[noreturn]] void refuseOption(const std::string& word) const {
+    std::vector<std::string> own, others;
+    for (const Option& option : options()) (belongs(option) ? own : others).push_back(option.name);
+    const auto other = std::find_if(options().begin(), options().end(), [&](const Option& option) { return word == option.name; });
+    if (other != options().end()) throw UsageError(word + " is an option of " + commandsOf(*other));
+    std::string meant = nearest(word, own);
+    if (meant.empty()) meant = nearest(word, others);
+    throw UsageError("unknown option '" + word + "'" + question(meant));
+  }
+
+  static std::string commandsOf(const Option& option) {
+    std::string text;
+    for (size_t i = 0; i < option.commands.size(); ++i) {
+      const auto named = [&](const auto& command) { return command.second == option.commands[i]; };
+      if (i > 0) text += i + 1 == option.commands.size() ? " and " : ", ";
+      text += std::find_if(std::begin(kCommands), std::end(kCommands), named)->first;
+    }
+    return text;
+  }
+
+  static std::string question(const std::string& meant) { return meant.empty() ? "" : ": did you mean " + meant + "?"; }
 
   void parseOperand(const std::string& word) {
     const bool makes = arguments_.command == Command::make;
@@ -182,6 +217,7 @@ class Parser {
 
   const std::vector<std::string>& words_;
   size_t next_ = 0;
+  std::set<std::string> given_;          ///< options
   std::optional<std::string> attached_;  ///< value of the option being parsed
   Arguments arguments_;
 };

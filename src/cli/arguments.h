@@ -49,7 +49,7 @@ struct SliceArguments {
 /// Of flow.
 struct FlowArguments {
   std::optional<std::array<double, 3>> wind;
-  uint32_t streamlines = 100;
+  std::optional<uint32_t> streamlines;
 };
 
 struct Arguments {
@@ -57,6 +57,7 @@ struct Arguments {
   std::string mesh;   ///< path, "-" for standard input
   std::string shape;  ///< of make
   GridArguments grid;
+  bool orient = false;  ///< the mesh, once it is read
   double snapTolerance = 0;
   Intersections intersections = Intersections::resolve;
   unsigned threads = 0;

@@ -1,5 +1,3 @@
-#include <iostream>
-
 #include "cli/commands.h"
 #include "cli/cutting.h"
 #include "cli/files.h"
@@ -48,6 +46,7 @@ struct Output {
 /// Names with {region} stand for one file per region.
 std::vector<Output> outputsOf(const Arguments& arguments, const CutMesh& cutMesh) {
   const WriteOptions options = writeOptions(arguments.only, cutMesh);
+  if (arguments.only.any()) requireSelection(options, cutMesh);
   std::vector<Output> outputs;
   for (const std::string& output : arguments.outputs) {
     const size_t mark = output.find(kRegionMark);
@@ -72,7 +71,7 @@ std::vector<Output> outputsOf(const Arguments& arguments, const CutMesh& cutMesh
 /// Writes a cut-mesh, and its cell complex for those outputs that take one.
 class Writer {
  public:
-  Writer(const Arguments& arguments, const GroupedMesh& input, const CutMesh& cutMesh)
+  Writer(const Arguments& arguments, const Input& input, const CutMesh& cutMesh)
       : arguments_(arguments), mesh_(input.mesh), groups_(input.groups), cutMesh_(cutMesh) {}
 
   void write(const Output& output) {
@@ -106,24 +105,14 @@ class Writer {
   std::optional<CellComplex> cells_;
 };
 
-void deliver(const Arguments& arguments, const Report& report) {
-  if (!arguments.report.empty()) {
-    writeOutput(arguments.report, [&](const Sink& sink) { sink(reportJson(report)); });
-  } else if (takesStandardOutput(arguments)) {
-    std::cerr << reportText(report);
-  } else {
-    writeOutput("-", [&](const Sink& sink) { sink(reportText(report)); });
-  }
-}
-
 void complainOf(const Report& report, int& exitCode) {
   if (!report.result) {
-    complain(refusal(report.mesh.name, report.result.error));
+    complain(refusal(report.mesh.input.name, report.result.error));
     exitCode = kNotCut;
   }
   if (!report.validation || report.validation->pass) return;
   for (const Check& check : report.validation->checks) {
-    if (!check.pass) complain(report.mesh.name + ": validation failed: " + describeFailure(check));
+    if (!check.pass) complain(report.mesh.input.name + ": validation failed: " + describeFailure(check));
   }
   exitCode = kNotCut;
 }
@@ -132,12 +121,12 @@ void complainOf(const Report& report, int& exitCode) {
 
 int runCut(const Arguments& arguments) {
   checkOutputs(arguments);
-  const GroupedMesh input = readGroupedInput(arguments.mesh);
+  const Input input = readInput(arguments);
   const Mesh& mesh = input.mesh;
   const MeshInfo info = inspect(mesh);
   const Grid grid = makeGrid(arguments.grid, mesh, info);
   const CutResult result = cutMesh(arguments, mesh, grid);
-  Report report = reportOf(arguments, {nameOf(arguments.mesh), info, {}, input.groups}, grid, result);
+  Report report = reportOf({input, info, {}}, grid, result);
   if (result) {
     report.regionVolumes = withProgress(
         arguments.threads, [&](const RunOptions& options) { return regionVolumes(result.mesh, measure(mesh, result.mesh, options)); });
@@ -149,7 +138,10 @@ int runCut(const Arguments& arguments) {
   }
   int exitCode = kFine;
   complainOf(report, exitCode);
-  attempt(exitCode, [&] { deliver(arguments, report); });
+  attempt(exitCode, [&] {
+    deliver(
+        arguments, [&] { return reportText(report); }, [&] { return reportJson(report); });
+  });
   if (!result) return exitCode;
   attempt(exitCode, [&] {
     Writer writer(arguments, input, result.mesh);

@@ -1,6 +1,7 @@
 #include "cli/cutting.h"
 
 #include <algorithm>
+#include <iostream>
 
 #include "cli/commands.h"
 #include "cli/files.h"
@@ -49,24 +50,29 @@ bool takesStandardOutput(const Arguments& arguments) {
   return std::find(arguments.outputs.begin(), arguments.outputs.end(), "-") != arguments.outputs.end();
 }
 
+void deliver(const Arguments& arguments, const std::function<std::string()>& text, const std::function<std::string()>& json) {
+  if (!arguments.report.empty()) return writeOutput(arguments.report, [&](const Sink& sink) { sink(json()); });
+  if (!takesStandardOutput(arguments)) return writeOutput("-", [&](const Sink& sink) { sink(text()); });
+  std::cerr << text() << std::flush;
+}
+
 CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const Grid& grid) {
   return withProgress(arguments.threads, [&](const RunOptions& options) {
     return cut(mesh, grid, {options, arguments.snapTolerance, arguments.intersections});
   });
 }
 
-Report reportOf(const Arguments& arguments, const MeshReport& mesh, const Grid& grid, const CutResult& result) {
-  return {mesh, grid, result, arguments.intersections != Intersections::assumeNone, peakMemoryBytes(), {}, {}};
+Report reportOf(MeshReport mesh, const Grid& grid, const CutResult& result) {
+  return {std::move(mesh), grid, result, peakMemoryBytes(), {}, {}};
 }
 
-std::optional<CutMesh> cutOrComplain(const Arguments& arguments, const GroupedMesh& input, const GridArguments& asked) {
-  const MeshReport mesh{nameOf(arguments.mesh), inspect(input.mesh), {}, input.groups};
+std::optional<CutMesh> cutOrComplain(const Arguments& arguments, const Input& input, const GridArguments& asked) {
+  const MeshReport mesh{input, inspect(input.mesh), {}};
   const Grid grid = makeGrid(asked, input.mesh, mesh.info);
   CutResult result = cutMesh(arguments, input.mesh, grid);
   if (result) return std::move(result.mesh);
-  complain(refusal(mesh.name, result.error));
-  if (!arguments.report.empty())
-    writeOutput(arguments.report, [&](const Sink& sink) { sink(reportJson(reportOf(arguments, mesh, grid, result))); });
+  complain(refusal(input.name, result.error));
+  if (!arguments.report.empty()) writeOutput(arguments.report, [&](const Sink& sink) { sink(reportJson(reportOf(mesh, grid, result))); });
   return std::nullopt;
 }
 
@@ -97,6 +103,17 @@ WriteOptions writeOptions(const OnlyArguments& only, const CutMesh& cutMesh) {
     if ((only.inside && !isInside) || (only.outside && isInside)) options.regions[r] = 0;
   }
   return options;
+}
+
+void requireSelection(const WriteOptions& options, const CutMesh& cutMesh) {
+  const auto isSelected = [&](uint32_t region) { return options.regions.empty() || options.regions[region] != 0; };
+  const std::vector<uint32_t>& regions = cutMesh.cellRegion;
+  if (std::any_of(regions.begin(), regions.end(), isSelected)) return;
+  const bool hasRegion =
+      options.regions.empty() || std::any_of(options.regions.begin(), options.regions.end(), [](uint8_t r) { return r != 0; });
+  if (hasRegion && options.untouched) return;
+  throw UsageError("--only selects nothing of the " + std::to_string(cutMesh.regionCount) + " regions and " +
+                   std::to_string(cutMesh.cellCount()) + " cut-cells");
 }
 
 FileFormat formatFor(const Arguments& arguments, const std::string& output) {

@@ -3,33 +3,12 @@
 
 #include <functional>
 #include <optional>
-#include <type_traits>
 
 #include "cli/arguments.h"
 #include "cli/progress_bar.h"
 #include "cli/report.h"
 
 namespace mandoline::cli {
-
-/// Calls work(RunOptions) and shows how far it has come. Throws Interrupted.
-template <class Work>
-auto withProgress(unsigned threads, const Work& work) {
-  ProgressBar bar;
-  const RunOptions options{threads, [&](const Progress& progress) { return bar.update(progress); }};
-  try {
-    if constexpr (std::is_void_v<decltype(work(options))>) {
-      work(options);
-      throwIfInterrupted();
-    } else {
-      auto result = work(options);
-      throwIfInterrupted();
-      return result;
-    }
-  } catch (const CallError&) {
-    throwIfInterrupted();
-    throw;
-  }
-}
 
 /// In the name of an output of cut: one file for each region.
 inline constexpr std::string_view kRegionMark = "{region}";
@@ -48,20 +27,26 @@ int writeOutputs(const Arguments& arguments, const std::function<void(const std:
 /// Whether one of the outputs is standard output.
 bool takesStandardOutput(const Arguments& arguments);
 
+/// Writes the report as JSON where --report says, or as text to standard output; to standard error if one of the outputs is there.
+void deliver(const Arguments& arguments, const std::function<std::string()>& text, const std::function<std::string()>& json);
+
 /// With progress.
 CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const Grid& grid);
 
 /// What there is to tell of it, but for the regions and the validation.
-Report reportOf(const Arguments& arguments, const MeshReport& mesh, const Grid& grid, const CutResult& result);
+Report reportOf(MeshReport mesh, const Grid& grid, const CutResult& result);
 
 /// The same with the grid that is asked for; if it fails, says why, in the report too if there is to be one, and gives nothing.
-std::optional<CutMesh> cutOrComplain(const Arguments& arguments, const GroupedMesh& input, const GridArguments& grid);
+std::optional<CutMesh> cutOrComplain(const Arguments& arguments, const Input& input, const GridArguments& grid);
 
 /// All cells, merged as far as --coarsen says. With progress.
 CellComplex makeCells(const Arguments& arguments, const Mesh& mesh, const CutMesh& cutMesh);
 
 /// Throws UsageError for regions that the cut-mesh does not have.
 WriteOptions writeOptions(const OnlyArguments& only, const CutMesh& cutMesh);
+
+/// Throws UsageError if the options select no cell at all.
+void requireSelection(const WriteOptions& options, const CutMesh& cutMesh);
 
 /// Of an output whose extension or --format has been checked.
 FileFormat formatFor(const Arguments& arguments, const std::string& output);

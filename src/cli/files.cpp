@@ -13,18 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string readStandardInput() {
-  std::string bytes;
-  size_t count = 0;
-  do {
-    bytes.resize(std::max(2 * count, size_t(1) << 16));
-    count += std::fread(bytes.data() + count, 1, bytes.size() - count, stdin);
-  } while (count == bytes.size());
-  if (std::ferror(stdin)) throw FileError(std::string("standard input: ") + std::strerror(errno));
-  bytes.resize(count);
-  return bytes;
-}
-
 void writeStandardOutput(std::string_view bytes) {
   errno = 0;
   if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0) {
@@ -41,14 +29,6 @@ bool areSame(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
-
-std::string nameOf(const std::string& meshPath) { return meshPath == "-" ? "standard input" : meshPath; }
-
-Mesh readInput(const std::string& path) { return path == "-" ? readMesh(readStandardInput(), nameOf(path)) : readMesh(path); }
-
-GroupedMesh readGroupedInput(const std::string& path) {
-  return path == "-" ? readGroupedMesh(readStandardInput(), nameOf(path)) : readGroupedMesh(path);
-}
 
 bool isPolyMesh(const std::string& path) {
   const fs::path place = fs::path(path).lexically_normal();

@@ -5,11 +5,6 @@
 
 namespace mandoline::cli {
 
-/// "standard input" for "-".
-std::string nameOf(const std::string& meshPath);
-Mesh readInput(const std::string& path);
-GroupedMesh readGroupedInput(const std::string& path);
-
 /// Whether the output is a folder for OpenFOAM: it is called polyMesh.
 bool isPolyMesh(const std::string& path);
 

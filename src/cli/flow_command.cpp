@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <iostream>
 
 #include "cli/cutting.h"
 #include "cli/files.h"
-#include "cli/json.h"
+#include "cli/mesh_report.h"
 #include "mandoline/flow.h"
 #include "operators/measure/vector.h"
 
@@ -46,8 +45,14 @@ void writeCells(const Sink& sink, const FlowField& field, const WriteOptions& op
 
 /// What there is to tell of a flow.
 struct FlowReport {
-  const Arguments& arguments;
+  const MeshReport& mesh;
   const FlowField& field;
+
+  Outcome outcome() const {
+    const SolveStatus status = flow().status;
+    if (status == SolveStatus::converged) return {};
+    return {name(status), std::string("The flow was not solved: ") + name(status) + "."};
+  }
 
   size_t iterations() const { return flow().residuals.empty() ? 0 : flow().residuals.size() - 1; }
   double residual() const { return flow().residuals.empty() ? 0 : flow().residuals.back(); }
@@ -69,12 +74,12 @@ struct FlowReport {
                   "cells                 %zu\nstatus                %s\niterations            %zu\nresidual              %.2g\n"
                   "largest speed         %.6g\nthrottled components  %zu\n",
                   field.cells.cellCount(), name(flow().status), iterations(), residual(), largestSpeed(), flow().throttled.size());
-    return text;
+    return headline(mesh) + text;
   }
 
   std::string json() const {
     Json json;
-    json.open('{').member("status", name(flow().status)).member("path", nameOf(arguments.mesh));
+    addHead(json, outcome(), mesh);
     json.key("wind").values(flow().wind).member("cutCells", field.cells.cutCells).member("cells", field.cells.cellCount());
     json.member("faces", field.cells.faceCount()).member("iterations", iterations()).key("residuals").values(flow().residuals);
     json.member("largestSpeed", largestSpeed()).key("throttled").values(flow().throttled);
@@ -85,24 +90,20 @@ struct FlowReport {
   const Flow& flow() const { return field.flow; }
 };
 
-void deliver(const FlowReport& report) {
-  const Arguments& arguments = report.arguments;
-  if (!arguments.report.empty()) {
-    writeOutput(arguments.report, [&](const Sink& sink) { sink(report.json()); });
-  } else {
-    (takesStandardOutput(arguments) ? std::cerr : std::cout) << report.text() << std::flush;
-  }
-}
-
 bool isVtu(const Arguments& arguments, const std::string& output) { return formatFor(arguments, output) == FileFormat::vtu; }
 
 /// What can be told before there is a mesh.
 void checkFlowOutputs(const Arguments& arguments) {
   checkOutputs(arguments, isFlowFormat, "a flow is written as .vtu or .obj");
-  if (std::any_of(arguments.outputs.begin(), arguments.outputs.end(), [&](const auto& output) { return isVtu(arguments, output); })) return;
+  const auto writesVtu = [&](const std::string& output) { return isVtu(arguments, output); };
+  const bool hasLines = !std::all_of(arguments.outputs.begin(), arguments.outputs.end(), writesVtu);
+  if (arguments.flow.streamlines && !hasLines) throw UsageError("--streamlines: only .obj files have streamlines");
+  if (std::any_of(arguments.outputs.begin(), arguments.outputs.end(), writesVtu)) return;
   if (arguments.faces) throw UsageError("--faces: only .vtu files have faces instead of cells");
   if (arguments.only.any()) throw UsageError("--only: only .vtu files have a part of the cells");
 }
+
+constexpr uint32_t kStreamlines = 100;
 
 void write(const Arguments& arguments, const std::string& output, const FlowField& field, WriteOptions options) {
   withProgress(arguments.threads, [&](const RunOptions& run) {
@@ -111,7 +112,8 @@ void write(const Arguments& arguments, const std::string& output, const FlowFiel
       const auto& writeElements = arguments.faces ? writeFaces : writeCells;
       return writeOutput(output, [&](const Sink& sink) { writeElements(sink, field, options); });
     }
-    const std::vector<double> seeds = inflowSeeds(field.cutMesh.grid, *arguments.flow.wind, arguments.flow.streamlines);
+    const std::vector<double> seeds =
+        inflowSeeds(field.cutMesh.grid, *arguments.flow.wind, arguments.flow.streamlines.value_or(kStreamlines));
     const Streamlines lines = streamlines(field, seeds, StreamlineOptions{run});
     writeOutput(output, [&](const Sink& sink) { writeLines(sink, lines); });
   });
@@ -124,13 +126,14 @@ constexpr double kMargin = 0.5;
 
 int runFlow(const Arguments& arguments) {
   checkFlowOutputs(arguments);
-  const GroupedMesh input = readGroupedInput(arguments.mesh);
+  const Input input = readInput(arguments);
   const Mesh& mesh = input.mesh;
   GridArguments grid = arguments.grid;
   if (!grid.margin) grid.margin = kMargin;
   const std::optional<CutMesh> cutMesh = cutOrComplain(arguments, input, grid);
   if (!cutMesh) return kNotCut;
   WriteOptions options = writeOptions(arguments.only, *cutMesh);
+  if (arguments.only.any()) requireSelection(options, *cutMesh);
   options.groups = &input.groups;
   const CellComplex cells = makeCells(arguments, mesh, *cutMesh);
   const Flow flow =
@@ -138,10 +141,15 @@ int runFlow(const Arguments& arguments) {
   const FlowField field{mesh, *cutMesh, cells, flow};
   int exitCode = kFine;
   if (flow.status != SolveStatus::converged) {
-    complain(nameOf(arguments.mesh) + ": the flow was not solved: " + name(flow.status));
+    complain(input.name + ": the flow was not solved: " + name(flow.status));
     exitCode = kNotCut;
   }
-  attempt(exitCode, [&] { deliver({arguments, field}); });
+  const MeshReport meshReport{input, inspect(mesh), {}};
+  const FlowReport report{meshReport, field};
+  attempt(exitCode, [&] {
+    deliver(
+        arguments, [&] { return report.text(); }, [&] { return report.json(); });
+  });
   for (const std::string& output : arguments.outputs) attempt(exitCode, [&] { write(arguments, output, field, options); });
   return exitCode;
 }

@@ -10,7 +10,7 @@ const char* const kHelp =
                                     write outlines at heights, as .svg, .dxf or .obj
   mandoline flow MESH --wind X,Y,Z [options] -o FILE ...
                                     write the potential flow of a wind about the mesh
-  mandoline info MESH [--report F]  tell what kind of mesh it is
+  mandoline info MESH [-o FILE.obj] tell what kind of mesh it is, and where it has defects
   mandoline resolve MESH -o FILE ...
                                     write the mesh without self-intersections, as .obj,
                                     .stl, .ply or .off
@@ -45,7 +45,10 @@ Options of cut, slice and flow
                          (default); refuse fails, names two of them and counts the pairs;
                          assume-none does not look: quicker, but the result may be wrong
   --threads T            threads to use; 0 for all cores (default: 0). The result is the
-                         same for any number. Also of info
+                         same for any number. Also of info and resolve
+  --orient               first turn triangles so that they agree, and closed parts of the
+                         mesh outward, or inward where they bound a cavity; the report
+                         tells how many were turned. Also of resolve
 
 Options of cut
   --validate             check the result: the paper's four checks and all invariants
@@ -81,7 +84,8 @@ Options of slice
   --layers N             instead of heights: the middle planes of N equal layers of the mesh
   --only inside|outside|region=K
                          which regions have outlines (default: inside; of meshes without
-                         winding numbers all). Sheets are open lines
+                         winding numbers all). Sheets are open lines. Heights at which
+                         nothing is cut are told; if there are no others, no file is written
   -o FILE ...            .svg with the normal towards you, .dxf and .obj lines in space; in
                          the units of the mesh
 
@@ -94,7 +98,11 @@ Options of flow
   -o FILE ...            .vtu all cells with phi, velocity and pressure_coefficient;
                          .obj streamlines, none of which passes a triangle
 
-Options of resolve, besides --threads
+Options of info
+  -o FILE.obj            the open, non-manifold and inconsistent edges as lines, in a group
+                         for each kind
+
+Options of resolve
   --rule positive|non-zero|odd
                          only the surface of the solid: of what has a winding number
                          above 0, other than 0, or odd. Overlapping parts become one
@@ -103,15 +111,20 @@ Options of resolve, besides --threads
                          note on standard error tells whether that has brought
                          intersections back
 
-Options of cut, info and flow
+Options of all but make
   --report FILE          write the report as JSON instead of text; - for standard output.
-                         Its members: status, message, element, element2 (what failed),
-                         mesh (path, counts, box, closed, oriented, groups ...) and
-                         intersections (pairs, by kind ...); of a cut also grid, counts,
-                         largestSnap, regions, stages (ms), totalMs, exactFallbacks,
-                         peakMemoryBytes and validation: null, or pass and checks. Of a
-                         flow: status, path, wind, cutCells, cells, faces, iterations,
-                         residuals, largestSpeed and throttled (components)
+                         All begin with status, message, element, element2 (what failed),
+                         path and mesh (counts, box, closed, oriented, orientation, groups
+                         ...). Then
+                           cut      grid, counts, largestSnap, intersections (pairs, by
+                                    kind ...), regions, stages (ms), totalMs,
+                                    exactFallbacks, peakMemoryBytes and validation: null,
+                                    or pass and checks
+                           slice    layers: height, polygons, slits
+                           flow     wind, cutCells, cells, faces, iterations, residuals,
+                                    largestSpeed and throttled (components)
+                           info     intersections, components, places, defects
+                           resolve  intersections, remaining, triangles
 
 Exit codes: 0 fine; 1 the mesh can't be cut, validation failed, there is not enough
 memory, or the flow was not solved, which is written all the same; 2 wrong usage, or a

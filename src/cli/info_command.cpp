@@ -1,7 +1,7 @@
 #include "cli/commands.h"
 #include "cli/cutting.h"
 #include "cli/files.h"
-#include "cli/report.h"
+#include "cli/mesh_report.h"
 
 namespace mandoline::cli {
 namespace {
@@ -12,16 +12,20 @@ std::optional<MeshIntersections> intersectionsOf(const Mesh& mesh, const MeshInf
   return withProgress(threads, [&](const RunOptions& options) { return findIntersections(mesh, {options, 1}); });
 }
 
+bool isLineFormat(FileFormat format) { return format == FileFormat::obj; }
+
 }  // namespace
 
 int runInfo(const Arguments& arguments) {
-  if (arguments.mesh != "-" && !arguments.report.empty()) requireDifferent({{"the mesh", arguments.mesh}, {"--report", arguments.report}});
-  GroupedMesh input = readGroupedInput(arguments.mesh);
-  MeshReport report{nameOf(arguments.mesh), inspect(input.mesh), {}, std::move(input.groups)};
+  checkOutputs(arguments, isLineFormat, "defects are written as .obj");
+  const Input input = readInput(arguments);
+  MeshReport report{input, inspect(input.mesh), {}};
   report.intersections = intersectionsOf(input.mesh, report.info, arguments.threads);
-  const bool asText = arguments.report.empty();
-  writeOutput(asText ? "-" : arguments.report, [&](const Sink& sink) { sink(asText ? infoText(report) : infoJson(report)); });
-  return kFine;
+  deliver(
+      arguments, [&] { return infoText(report); }, [&] { return infoJson(report); });
+  return writeOutputs(arguments, [&](const std::string& output) {
+    writeOutput(output, [&](const Sink& sink) { writeDefects(sink, input.mesh, report.info); });
+  });
 }
 
 }  // namespace mandoline::cli

@@ -70,6 +70,8 @@ class Json {
   Json& member(std::string_view name, const Value& v) {
     return key(name).value(v);
   }
+  /// The number of an element, or null if it is negative.
+  Json& element(std::string_view name, int64_t number) { return number < 0 ? key(name).null() : member(name, number); }
   std::string text() const { return text_ + "\n"; }
 
  private:

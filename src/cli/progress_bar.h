@@ -2,9 +2,10 @@
 #pragma once
 
 #include <chrono>
+#include <type_traits>
 
 #include "cli/interrupt.h"
-#include "mandoline/mandoline.h"
+#include "mandoline/status.h"
 
 namespace mandoline::cli {
 
@@ -26,5 +27,25 @@ class ProgressBar {
   bool visible_, drawn_ = false;
   std::chrono::steady_clock::time_point next_;
 };
+
+/// Calls work(RunOptions) and shows how far it has come. Throws Interrupted.
+template <class Work>
+auto withProgress(unsigned threads, const Work& work) {
+  ProgressBar bar;
+  const RunOptions options{threads, [&](const Progress& progress) { return bar.update(progress); }};
+  try {
+    if constexpr (std::is_void_v<decltype(work(options))>) {
+      work(options);
+      throwIfInterrupted();
+    } else {
+      auto result = work(options);
+      throwIfInterrupted();
+      return result;
+    }
+  } catch (const CallError&) {
+    throwIfInterrupted();
+    throw;
+  }
+}
 
 }  // namespace mandoline::cli

@@ -9,12 +9,6 @@
 namespace mandoline::cli {
 namespace {
 
-struct Count {
-  const char* key;
-  const char* label;
-  uint64_t value;
-};
-
 std::vector<Count> cutMeshCounts(const CutMesh& m) {
   return {{"cutCells", "cut-cells", m.cellCount()},
           {"untouchedCells", "untouched grid cells", UntouchedCells(m).count()},
@@ -23,14 +17,6 @@ std::vector<Count> cutMeshCounts(const CutMesh& m) {
           {"vertices", "cut-vertices", m.vertexCount()},
           {"faces", "cut-faces", m.faceCount()},
           {"loops", "loops of cut-faces", m.loopCount()}};
-}
-
-std::vector<Count> pairCounts(const PairCounts& pairs) {
-  return {{"crossing", "crossing", pairs.crossing},
-          {"touching", "touching", pairs.touching},
-          {"overlapping", "overlapping", pairs.overlapping},
-          {"folded", "folded", pairs.folded},
-          {"identical", "identical", pairs.identical}};
 }
 
 /// What was unusual about the input.
@@ -45,78 +31,19 @@ std::vector<Count> inputCounts(const CutResult& result) {
           {"flushedCoordinates", "coordinates taken as 0", s.flushedCoordinates}};
 }
 
-/// What kind of mesh it is, beyond its size.
-std::vector<Count> meshCounts(const MeshInfo& info) {
-  return {{"openEdges", "open edges", info.openEdges},
-          {"nonManifoldEdges", "non-manifold edges", info.nonManifoldEdges},
-          {"inconsistentEdges", "inconsistent edges", info.inconsistentEdges},
-          {"components", "components", info.components},
-          {"zeroAreaTriangles", "zero-area triangles", info.zeroAreaTriangles},
-          {"duplicateTriangles", "duplicate triangles", info.duplicateTriangles},
-          {"weldedVertices", "welded vertices", info.weldedVertices},
-          {"unreferencedVertices", "unreferenced vertices", info.unreferencedVertices},
-          {"nonFiniteVertices", "non-finite vertices", info.nonFiniteVertices}};
-}
-
-/// The groups with the numbers of their triangles.
-std::vector<std::pair<std::string, uint64_t>> groupCounts(const TriangleGroups& groups) {
-  std::vector<std::pair<std::string, uint64_t>> counts;
-  for (const std::string& name : groups.names) counts.push_back({name, 0});
-  for (const uint32_t group : groups.triangleGroup) ++counts[group].second;
-  return counts;
-}
-
 std::array<int64_t, 3> cellsOf(const Grid& grid) { return {grid.cells(0), grid.cells(1), grid.cells(2)}; }
 
-void addElement(Json& json, const char* key, int64_t element) {
-  json.key(key);
-  if (element < 0) {
-    json.null();
-  } else {
-    json.value(element);
-  }
-}
-
-/// The pairs of triangles that meet, by kind, in an object that is left open.
-void addPairs(Json& json, const PairCounts& pairs) {
-  json.key("intersections").open('{').member("pairs", pairs.total());
-  for (const Count& count : pairCounts(pairs)) json.member(count.key, count.value);
-}
-
-/// What cut and info report alike.
-void addHead(Json& json, const Error& error, const MeshReport& report) {
-  const auto& [status, element, element2, message] = error;
-  json.open('{').member("status", name(status)).member("message", message);
-  addElement(json, "element", element);
-  addElement(json, "element2", element2);
-  const MeshInfo& info = report.info;
-  json.key("mesh").open('{').member("path", report.name).member("vertices", info.vertices).member("triangles", info.triangles);
-  json.key("box").open('{').key("min").values(info.min).key("max").values(info.max).close('}');
-  json.member("closed", info.closed).member("oriented", info.oriented);
-  for (const Count& count : meshCounts(info)) json.member(count.key, count.value);
-  json.key("groups").open('[');
-  for (const auto& [groupName, triangles] : groupCounts(report.groups)) {
-    json.open('{').member("name", groupName).member("triangles", triangles).close('}');
-  }
-  json.close(']').close('}');
-}
-
+/// Null where nobody has looked for them, or not to the end.
 void addIntersections(Json& json, const Report& report) {
-  if (!report.looksForIntersections) {
+  const CutStats& stats = report.result.stats;
+  const auto isStage = [](const StageTime& time) { return std::string_view(time.stage) == "intersections"; };
+  const auto stage = std::find_if(stats.stages.begin(), stats.stages.end(), isStage);
+  if (stage == stats.stages.end() || report.result.error.status == Status::selfIntersection) {
     json.key("intersections").null();
     return;
   }
-  const CutStats& stats = report.result.stats;
-  addPairs(json, stats.intersections);
-  json.member("curves", stats.intersectionCurves).member("madeVertices", stats.madeVertices).key("ms");
-  const auto isStage = [](const StageTime& time) { return std::string_view(time.stage) == "intersections"; };
-  const auto stage = std::find_if(stats.stages.begin(), stats.stages.end(), isStage);
-  if (stage == stats.stages.end()) {
-    json.null();
-  } else {
-    json.value(stage->ms);
-  }
-  json.close('}');
+  addPairs(json, "intersections", stats.intersections);
+  json.member("curves", stats.intersectionCurves).member("madeVertices", stats.madeVertices).member("ms", stage->ms).close('}');
 }
 
 void addRegions(Json& json, const Report& report) {
@@ -144,20 +71,10 @@ void addValidation(Json& json, const std::optional<Validation>& validation) {
   for (const Check& check : validation->checks) {
     json.open('{').member("name", check.name).member("pass", check.pass).member("skipped", check.skipped).member("worst", check.worst);
     json.member("tolerance", check.tolerance).member("elementKind", check.elementKind);
-    addElement(json, "element", check.element);
+    json.element("element", check.element);
     json.member("message", check.message).close('}');
   }
   json.close(']').close('}');
-}
-
-std::string triple(const std::array<double, 3>& v, const char* separator) {
-  std::ostringstream out;
-  out << v[0] << separator << v[1] << separator << v[2];
-  return out.str();
-}
-
-std::string headline(const MeshReport& mesh) {
-  return mesh.name + ": " + std::to_string(mesh.info.vertices) + " vertices, " + std::to_string(mesh.info.triangles) + " triangles\n";
 }
 
 /// Text in columns.
@@ -183,7 +100,7 @@ class TextReport {
   void addHead() {
     const Grid& g = report_.grid;
     out_ << headline(report_.mesh) << "Grid of " << g.cells(0) << " x " << g.cells(1) << " x " << g.cells(2) << " cells";
-    if (g.uniform) out_ << ", " << triple(g.spacing, " x ") << " each, from (" << triple(g.origin, ", ") << ")";
+    if (g.uniform) out_ << ", " << triple(g.spacing.data(), " x ") << " each, from (" << triple(g.origin.data(), ", ") << ")";
     out_ << "\n";
     if (report_.result) return;
     out_ << "\nNot cut: " << name(report_.result.error.status) << "\n  " << report_.result.error.message << "\n";
@@ -281,54 +198,6 @@ std::string reportJson(const Report& report) {
 }
 
 std::string reportText(const Report& report) { return TextReport(report).text(); }
-
-std::string infoJson(const MeshReport& mesh) {
-  Json json;
-  addHead(json, {}, mesh);
-  if (mesh.intersections) {
-    addPairs(json, mesh.intersections->counts);
-    json.key("first");
-    if (mesh.intersections->pairCount() > 0) {
-      json.values(mesh.intersections->pairTriangles);
-    } else {
-      json.null();
-    }
-    json.close('}');
-  } else {
-    json.key("intersections").null();
-  }
-  json.close('}');
-  return json.text();
-}
-
-std::string infoText(const MeshReport& mesh) {
-  const MeshInfo& info = mesh.info;
-  std::ostringstream out;
-  out << headline(mesh) << std::left;
-  const auto line = [&](const char* label) -> std::ostream& { return out << "  " << std::setw(22) << label; };
-  line("box") << '(' << triple(info.min, ", ") << ") to (" << triple(info.max, ", ") << ")\n";
-  const char* const oriented = info.oriented ? "yes, consistently oriented" : "yes, but not consistently oriented";
-  line("closed") << (info.closed ? oriented : "no") << "\n";
-  for (const Count& count : meshCounts(info)) line(count.label) << count.value << "\n";
-  if (mesh.intersections) {
-    const auto& [counts, triangles, kinds, offsets, points] = *mesh.intersections;
-    line("intersecting pairs") << describePairs(counts);
-    if (!kinds.empty()) out << "; first: triangles " << triangles[0] << " and " << triangles[1];
-    out << "\n";
-  }
-  if (!mesh.groups.empty()) line("groups") << mesh.groups.names.size() << "\n";
-  for (const auto& [groupName, triangles] : groupCounts(mesh.groups)) line("  triangles") << triangles << "  " << groupName << "\n";
-  return out.str();
-}
-
-std::string describePairs(const PairCounts& pairs) {
-  if (pairs.total() == 0) return "0";
-  std::string text;
-  for (const Count& count : pairCounts(pairs)) {
-    if (count.value > 0) text += (text.empty() ? "" : ", ") + std::to_string(count.value) + " " + count.label;
-  }
-  return text;
-}
 
 std::string describeFailure(const Check& check) {
   std::string text = check.name;

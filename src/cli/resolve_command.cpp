@@ -3,7 +3,7 @@
 #include "cli/commands.h"
 #include "cli/cutting.h"
 #include "cli/files.h"
-#include "cli/report.h"
+#include "cli/mesh_report.h"
 #include "mandoline/resolve.h"
 
 namespace mandoline::cli {
@@ -20,29 +20,66 @@ TriangleGroups groupsOf(const ResolvedMesh& resolved, const TriangleGroups& grou
   return result;
 }
 
+/// What there is to tell of it.
+struct ResolveReport {
+  const MeshReport& mesh;
+  const ResolveResult& result;
+  size_t triangles = 0;  ///< written
+
+  std::string text() const {
+    return headline(mesh) + "Pairs of triangles that met: " + describePairs(result.stats.intersections) +
+           "\nAfter the rounding of vertices: " + describePairs(result.remaining) + "\nTriangles written: " + std::to_string(triangles) +
+           "\n";
+  }
+  std::string json(const Outcome& outcome) const {
+    Json json;
+    addHead(json, outcome, mesh);
+    if (result) {
+      addPairs(json, "intersections", result.stats.intersections);
+      json.close('}');
+      addPairs(json, "remaining", result.remaining);
+      json.close('}');
+    } else {
+      json.key("intersections").null().key("remaining").null();
+    }
+    return json.member("triangles", triangles).close('}').text();
+  }
+};
+
+/// Says why there is nothing to write, in the report too.
+int fail(const Arguments& arguments, const ResolveReport& report, const Outcome& outcome) {
+  complain(report.mesh.input.name + ": " + outcome.status + ": " + outcome.message);
+  if (!arguments.report.empty()) writeOutput(arguments.report, [&](const Sink& sink) { sink(report.json(outcome)); });
+  return kNotCut;
+}
+
 }  // namespace
 
 int runResolve(const Arguments& arguments) {
   checkOutputs(arguments, isMeshFormat, "a mesh is written as .obj, .stl, .ply or .off");
-  const GroupedMesh input = readGroupedInput(arguments.mesh);
+  const Input input = readInput(arguments);
   const ResolveResult result = withProgress(arguments.threads, [&](const RunOptions& options) { return resolve(input.mesh, options); });
-  if (!result) {
-    complain(refusal(nameOf(arguments.mesh), result.error));
-    return kNotCut;
-  }
+  const MeshReport meshReport{input, inspect(input.mesh), {}};
+  ResolveReport report{meshReport, result};
+  if (!result) return fail(arguments, report, result.error);
   if (arguments.rule && !result.mesh.hasWinding) {
-    complain(nameOf(arguments.mesh) + ": the mesh is open or not consistently oriented, so that it bounds no solid");
-    return kNotCut;
+    return fail(arguments, report, {"badArgument", "The mesh is open or not consistently oriented, so that it bounds no solid."});
   }
   const Mesh written = arguments.rule ? boundary(result.mesh, *arguments.rule) : result.mesh.mesh;
   const TriangleGroups groups = arguments.rule ? TriangleGroups() : groupsOf(result.mesh, input.groups);
-  const int exitCode = writeOutputs(arguments, [&](const std::string& output) {
-    writeOutput(output, [&](const Sink& sink) { writeMesh(sink, formatFor(arguments, output), written, {}, &groups); });
+  report.triangles = written.triangleCount();
+  int exitCode = kFine;
+  attempt(exitCode, [&] {
+    if (!arguments.report.empty()) {
+      writeOutput(arguments.report, [&](const Sink& sink) { sink(report.json({})); });
+    } else {
+      std::cerr << report.text();
+    }
   });
-  const PairCounts &met = result.stats.intersections, &left = result.remaining;
-  std::cerr << "Pairs of triangles that met: " << describePairs(met) << "\n"
-            << "After the rounding of vertices: " << describePairs(left) << "\n"
-            << "Triangles written: " << written.triangleCount() << "\n";
+  for (const std::string& output : arguments.outputs) {
+    attempt(exitCode,
+            [&] { writeOutput(output, [&](const Sink& sink) { writeMesh(sink, formatFor(arguments, output), written, {}, &groups); }); });
+  }
   return exitCode;
 }
 

@@ -140,7 +140,9 @@ void parseLayers(const std::string& word, SliceArguments& slice) {
 void parseWind(const std::string& word, FlowArguments& flow) { flow.wind = parseVector("--wind", "X,Y,Z", word); }
 
 void parseStreamlines(const std::string& word, FlowArguments& flow) {
-  if (!parseNumber(word, flow.streamlines)) throw UsageError("--streamlines needs a number of lines, not '" + word + "'");
+  uint32_t count = 0;
+  if (!parseNumber(word, count) || count < 1) throw UsageError("--streamlines needs a number of lines of at least 1, not '" + word + "'");
+  flow.streamlines = count;
 }
 
 void checkGrid(const GridArguments& grid) {
