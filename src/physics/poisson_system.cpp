@@ -96,7 +96,7 @@ PoissonSystem poissonSystem(const CellComplex& cells, const PoissonProblem& prob
   const std::vector<double> coefficients = physics::dirichletCoefficients(cells, problem);
   PoissonSystem system;
   system.rhs.resize(cells.cellCount());
-  for (size_t c = 0; c < problem.source.size(); ++c) system.rhs[c] = -problem.source[c];
+  for (size_t c = 0; c < problem.source.size(); ++c) system.rhs[c] = -problem.source[c] * cells.cellVolume[c];
   physics::Triplets entries;
   physics::addLaplacian(cells, physics::dualEdges(cells, problem.dualPoints), -1, entries);
   for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {

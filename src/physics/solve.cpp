@@ -68,10 +68,8 @@ class Solver {
     const Vector coefficients = physics::dirichletCoefficients(cells_, problem_);
     Vector given = absolutes(coefficients);
     const int exponent = scaleDown(given);
-    if (!balance(given)) {
-      result_.excess = std::ldexp(result_.excess, exponent);
-      return std::move(result_);
-    }
+    balance(given);
+    for (double& excess : result_.excess) excess = std::ldexp(excess, exponent);
     Vector held(cells_.cellCount());
     for (size_t b = 0; b < coefficients.size(); ++b) held[size_t(cells_.faceCells[problem_.boundary.halfFaces[b]])] += coefficients[b];
     physics::Multigrid multigrid(cells_, physics::dualEdges(cells_, problem_.dualPoints), held);
@@ -83,6 +81,7 @@ class Solver {
     if (!std::all_of(result_.phi.begin(), result_.phi.end(), [](double phi) { return std::isfinite(phi); })) {
       result_.status = SolveStatus::breakdown;
     }
+    if (result_.status == SolveStatus::converged && !result_.incompatible.empty()) result_.status = SolveStatus::incompatible;
     return std::move(result_);
   }
 
@@ -96,17 +95,19 @@ class Solver {
     return exponent;
   }
 
-  /// Subtracts the excess from the right side; false if it is too large. `given`: absolutes().
-  bool balance(const Vector& given) {
+  /// Subtracts the excess from the right side; where it is too large, the component is left with nothing to solve. `given`: absolutes().
+  void balance(const Vector& given) {
     const size_t n = components_.count;
     Vector excess = excesses(), absolute(n);
     double all = 0;
     for (size_t c = 0; c < given.size(); ++c) absolute[component(c)] += given[c], all += given[c];
     for (size_t r = 0; r < n; ++r) {
       if (held_[r] || options_.balance || std::fabs(excess[r]) <= 1e-9 * absolute[r] + 1e-15 * all) continue;
-      result_.status = SolveStatus::incompatible;
-      result_.component = int64_t(r), result_.excess = excess[r];
-      return false;
+      result_.incompatible.push_back(uint32_t(r));
+      result_.excess.push_back(excess[r]);
+    }
+    for (size_t c = 0; c < given.size(); ++c) {
+      if (isIncompatible(component(c))) system_.rhs[c] = 0;
     }
     // A rounding error left in the sum would make waves in cells that only the tiniest faces connect.
     for (size_t c = 0; c < given.size(); ++c) {
@@ -119,13 +120,14 @@ class Solver {
     for (size_t c = 0; c < given.size(); ++c) {  // where all but rounding was excess, nothing is left to solve
       if (after[component(c)] < 1e-24 * before[component(c)]) system_.rhs[c] = 0;
     }
-    return true;
   }
+
+  bool isIncompatible(uint32_t r) const { return std::binary_search(result_.incompatible.begin(), result_.incompatible.end(), r); }
 
   /// Per cell: the terms of the right side, each without its sign.
   Vector absolutes(const Vector& dirichletCoefficients) const {
     Vector sums(cells_.cellCount());
-    for (size_t c = 0; c < problem_.source.size(); ++c) sums[c] = std::fabs(problem_.source[c]);
+    for (size_t c = 0; c < problem_.source.size(); ++c) sums[c] = std::fabs(problem_.source[c] * cells_.cellVolume[c]);
     const Boundary& boundary = problem_.boundary;
     for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {
       const uint32_t h = boundary.halfFaces[b];

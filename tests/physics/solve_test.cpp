@@ -71,7 +71,7 @@ std::array<double, 2> errorsOutsideOfBall(int64_t n, int maxLevel) {
     const double e = std::exp(x[2] / 2);
     problem.boundary.value[b] = dot({std::cos(x[0]) * std::cos(x[1]) * e, -std::sin(x[0]) * std::sin(x[1]) * e, phi(x) / 2}, normals, b);
   }
-  for (size_t c = 0; c < cells.cellCount(); ++c) problem.source.push_back(-1.75 * phi(&cells.cellCentroid[3 * c]) * cells.cellVolume[c]);
+  for (size_t c = 0; c < cells.cellCount(); ++c) problem.source.push_back(-1.75 * phi(&cells.cellCentroid[3 * c]));
   const Solution solution = solvePoisson(cells, problem);
   REQUIRE(solution.status == SolveStatus::converged);
   double sum = 0, volume = 0, most = 0;
@@ -258,8 +258,9 @@ TEST_CASE("solve: data without a solution are incompatible, unless they are bala
   SolveOptions options;
   const Solution refused = solvePoisson(cells, problem, options);
   CHECK(refused.status == SolveStatus::incompatible);
-  CHECK(refused.component == int64_t(components.cellComponent.back()));
-  CHECK(refused.excess == Approx(2 * 49));
+  CHECK(refused.incompatible == std::vector<uint32_t>{components.cellComponent.back()});
+  CHECK(refused.excess.size() == 1);
+  CHECK(refused.excess.at(0) == Approx(2 * 49));
   CHECK(refused.phi == std::vector<double>(cells.cellCount()));
   options.balance = true;
   CHECK(solvePoisson(cells, problem, options).status == SolveStatus::converged);
@@ -272,10 +273,38 @@ TEST_CASE("solve: data without a solution are incompatible, unless they are bala
   CHECK(solvePoisson(halves, windAround(halves, {1, 0, 0})).status == SolveStatus::converged);
 }
 
+TEST_CASE("solve: components that can be solved are, where another one is incompatible", "[solve]") {
+  const CellComplex cells = complexOf(shapes::quad({-1, -1, 2.5}, {9, -1, 2.5}, {9, 9, 2.5}, {-1, 9, 2.5}), unitGrid(5));
+  const CellComponents components = cellComponents(cells);
+  REQUIRE(components.count == 2);
+  PoissonProblem problem = windAround(cells, {1, 0, 0});
+  const Solution solved = solvePoisson(cells, problem);
+  REQUIRE(solved.status == SolveStatus::converged);
+  CHECK(solved.incompatible.empty());
+  for (const uint32_t bad : {0u, 1u}) {
+    problem.source.assign(cells.cellCount(), 0);
+    double volume = 0;
+    for (size_t c = 0; c < cells.cellCount(); ++c) {
+      if (components.cellComponent[c] != bad) continue;
+      problem.source[c] = 2;
+      volume += cells.cellVolume[c];
+    }
+    const Solution solution = solvePoisson(cells, problem);
+    CHECK(solution.status == SolveStatus::incompatible);
+    CHECK(solution.incompatible == std::vector<uint32_t>{bad});
+    CHECK(solution.excess.at(0) == Approx(-2 * volume));
+    CHECK(solution.residuals.back() <= 1e-10);
+    for (size_t c = 0; c < cells.cellCount(); ++c) {
+      const bool isBad = components.cellComponent[c] == bad;
+      REQUIRE(std::fabs(solution.phi[c] - (isBad ? 0 : solved.phi[c])) < 1e-8);
+    }
+  }
+}
+
 TEST_CASE("solve: sources that balancing cancels entirely leave phi at zero", "[solve]") {
   const CellComplex cells = complexOf(ball(), unitGrid(7));
   PoissonProblem problem = windAround(cells, {0, 0, 0});
-  for (const double volume : cells.cellVolume) problem.source.push_back(3.7 * volume);
+  problem.source.assign(cells.cellCount(), 3.7);
   SolveOptions options;
   options.balance = true;
   const Solution solution = solvePoisson(cells, problem, options);

@@ -49,7 +49,7 @@ PoissonProblem problemOf(const CellComplex& cells, const Exact& exact, DualPoint
     boundary.condition[b] = held ? Condition::dirichlet : Condition::neumann;
     boundary.value[b] = held ? exact.phi(centroid) : dot(exact.gradient(centroid), at(normals, b));
   }
-  for (size_t c = 0; c < cells.cellCount(); ++c) problem.source.push_back(exact.laplacian(at(cells.cellCentroid, c)) * cells.cellVolume[c]);
+  for (size_t c = 0; c < cells.cellCount(); ++c) problem.source.push_back(exact.laplacian(at(cells.cellCentroid, c)));
   return problem;
 }
 

@@ -4,7 +4,7 @@
 #include "mandoline/mesh.h"
 #include "mandoline/status.h"
 
-namespace mandoline {
+namespace MANDOLINE_API mandoline {
 
 /// Where the normals of a part of a mesh point to, once it is oriented.
 enum class Facing : uint8_t {

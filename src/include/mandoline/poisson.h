@@ -51,7 +51,7 @@ CellComponents cellComponents(const CellComplex& cells);
 
 struct PoissonProblem {
   Boundary boundary;
-  std::vector<double> source;  ///< per cell: the integral of s over it, e.g. s at its centroid times its volume; empty for 0
+  std::vector<double> source;  ///< per cell: the mean of s in it, e.g. s at its centroid; empty for 0
   DualPoints dualPoints = DualPoints::centres;
 };
 
@@ -95,7 +95,7 @@ struct SolveOptions : RunOptions {
 enum class SolveStatus : uint8_t {
   converged,
   iterationLimit,  ///< the residual is above the tolerance after maxIterations
-  incompatible,    ///< sources and fluxes of `component` do not cancel, so nothing solves the system; phi is 0
+  incompatible,    ///< in some components sources and fluxes do not cancel, so nothing solves the system there; elsewhere it is solved
   breakdown        ///< numbers, or the differences between them, are too large or too small for doubles; phi is what was found
 };
 
@@ -110,8 +110,10 @@ struct Solution {
   SolveStatus status = SolveStatus::converged;
   std::vector<double> phi;        ///< per cell, at its dual point
   std::vector<double> residuals;  ///< before each iteration and after the last, relative as in SolveOptions; the last one is that of phi
-  int64_t component = -1;         ///< of cellComponents(), if incompatible; else -1
-  double excess = 0;              ///< in that component: the inflow minus the integral of s
+  /// Components of cellComponents(), ascending, in which sources and fluxes do not cancel: phi is 0 there, and nothing of them is in the
+  /// residuals.
+  std::vector<uint32_t> incompatible;
+  std::vector<double> excess;  ///< per incompatible component: the inflow minus the integral of s
 
   size_t iterations() const { return residuals.empty() ? 0 : residuals.size() - 1; }
 
@@ -119,7 +121,7 @@ struct Solution {
     f("status", self.status);
     f("phi", self.phi);
     f("residuals", self.residuals);
-    f("component", self.component);
+    f("incompatible", self.incompatible);
     f("excess", self.excess);
   }
 };

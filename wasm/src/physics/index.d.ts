@@ -112,7 +112,7 @@ export type Conditions = { readonly [Tag in FaceTag]?: Condition };
 export interface PoissonProblem {
   /** Default: that of boundaryOf(cells), where nothing passes. */
   boundary?: Boundary;
-  /** Per cell: the integral of s over it, e.g. s at its centroid times its volume. Default: 0. */
+  /** Per cell: the mean of s in it, e.g. s at its centroid. Default: 0. */
   source?: ArrayLike<number>;
   /** Default "centres". */
   dualPoints?: DualPoints;
