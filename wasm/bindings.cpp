@@ -67,6 +67,20 @@ val intersectionsOf(const val& mesh, const val& options) {
   });
 }
 
+val inspectMesh(const val& mesh) {
+  return guarded([&] {
+    const Mesh input = fromObject<Mesh>(mesh);
+    return success(toObject(inspect(input)));
+  });
+}
+
+val orientMesh(const val& mesh, const val& options) {
+  return guarded([&] {
+    const Mesh input = fromObject<Mesh>(mesh);
+    return success(toObject(orient(input, runOptions(options))));
+  });
+}
+
 val resolveMesh(const val& mesh, const val& options) {
   return guarded([&] {
     const Mesh input = fromObject<Mesh>(mesh);
@@ -208,6 +222,8 @@ EMSCRIPTEN_BINDINGS(mandoline) {
   emscripten::function("prepare", &prepareMesh);
   emscripten::function("cut", &cutMesh);
   emscripten::function("findIntersections", &intersectionsOf);
+  emscripten::function("inspect", &inspectMesh);
+  emscripten::function("orient", &orientMesh);
   emscripten::function("resolve", &resolveMesh);
   emscripten::function("boundaryOfResolved", &boundaryOfResolved);
   emscripten::function("boundary", &boundaryOf);

@@ -433,6 +433,25 @@ test('two boxes that overlap are cut as if they had been resolved', () => {
   assert.equal(cutMesh.madeVertexParents.length, 4 * cutMesh.madeVertexKinds.length);
 });
 
+test('a turned triangle is found by its edges, and turned back', () => {
+  const triangles = Uint32Array.from(twoBoxes.triangles);
+  [triangles[1], triangles[2]] = [triangles[2], triangles[1]];
+  const turned = { ...twoBoxes, triangles };
+  const info = mandoline.inspect(turned);
+  assert.deepEqual([info.closed, info.oriented, info.inconsistentEdges, info.components], [true, false, 3, 2]);
+  assert.deepEqual([...info.componentOriented], [0, 1]);
+  assert.deepEqual([...info.defectKind], [2, 2, 2]);
+  assert.deepEqual([...info.defectPlace, ...info.placeComponent], [0, 0, 0, 0]);
+  assert.equal(mandoline.cut(turned, { cells: 3 }).regionWinding, null);
+  const { mesh, turnedTriangles, trianglePart, partFacing } = mandoline.orient(turned);
+  assert.deepEqual([...turnedTriangles], [0]);
+  assert.deepEqual([...partFacing], [0, 0]);
+  assert.deepEqual([trianglePart[0], trianglePart.at(-1)], [0, 1]);
+  assert.deepEqual([...mesh.triangles], [...twoBoxes.triangles]);
+  assert.ok(mandoline.inspect(mesh).oriented);
+  assert.throws(() => mandoline.orient({ positions: [], triangles: [] }), { code: 'emptyMesh' });
+});
+
 test('a prepared mesh is cut as the mesh itself, and without its arrays', () => {
   const prepared = gut(mandoline.prepare(twoBoxes));
   for (const cells of [3, 8]) {

@@ -193,6 +193,7 @@ test('what progress cancels names the stage of the cut or else the call, as with
       prepare: [mesh],
       cut: [mesh, grid],
       resolve: [mesh],
+      orient: [mesh],
       findIntersections: [mesh],
       validate: [mesh, made],
       measure: [mesh, made],

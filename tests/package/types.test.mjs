@@ -74,6 +74,8 @@ test('results', () => {
     ['Progress', states.at(-1)],
     ['MeshArrays', mandoline.prepare(mesh)],
     ['MeshIntersections', mandoline.findIntersections(mesh)],
+    ['MeshInfo', mandoline.inspect(mesh)],
+    ['OrientedMesh', mandoline.orient(mesh)],
     ['ResolvedMesh', mandoline.resolve(mesh)],
     ['ResolvedMesh', mandoline.resolve(sheet([0, 0], [1, 1], 0.5))],
     ['MeshArrays', mandoline.boundary(cutMesh)],

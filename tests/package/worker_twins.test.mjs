@@ -52,7 +52,7 @@ test('every call works on the twin, without the arrays', () =>
     for (const [name, args] of Object.entries(calls)) {
       assert.deepEqual(await worker[name](...args), here[name](...args.map((arg) => (arg === cutMesh ? expected : arg))), name);
     }
-    const withoutCutMesh = ['findIntersections', 'prepare', 'readMesh', 'resolve', 'version'];
+    const withoutCutMesh = ['findIntersections', 'inspect', 'orient', 'prepare', 'readMesh', 'resolve', 'version'];
     assert.deepEqual(
       Object.keys(here)
         .filter((name) => !(name in calls))

@@ -255,6 +255,8 @@ const parameters = {
   measure: ['mesh', 'cutMesh', 'options'],
   prepare: ['mesh', 'options'],
   findIntersections: ['mesh', 'options'],
+  inspect: ['mesh'],
+  orient: ['mesh', 'options'],
   resolve: ['mesh', 'options'],
   boundary: ['solid', 'rule'],
   cutEdges: ['mesh', 'cutMesh'],

@@ -91,6 +91,19 @@ export const cutCalls = {
    */
   findIntersections: { takes: { mesh: readMesh }, options: { maxPairs: readMaxPairs, progress } },
   /**
+   * What kind of mesh one is: closed, oriented, manifold; and where it is not: its open, non-manifold and inconsistent edges.
+   *
+   * inspect(mesh: Mesh): MeshInfo
+   */
+  inspect: { takes: { mesh: readMesh } },
+  /**
+   * The mesh with its triangles turned so that they agree: closed parts outward, or inward where they lie inside an odd number of others,
+   * all of it exactly.
+   *
+   * orient(mesh: Mesh, options?: RunOptions): OrientedMesh
+   */
+  orient: { takes: { mesh: readMesh }, options: { progress } },
+  /**
    * The mesh without self-intersections, for those who want it without a grid.
    *
    * resolve(mesh: Mesh, options?: RunOptions): ResolvedMesh

@@ -54,6 +54,34 @@ export const CutMesh = {
   droppedTriangles: 'Uint32Array',
 };
 
+export const MeshInfo = {
+  vertices: 'integer',
+  triangles: 'integer',
+  min: 'number[3]',
+  max: 'number[3]',
+  closed: 'boolean',
+  oriented: 'boolean',
+  openEdges: 'integer',
+  nonManifoldEdges: 'integer',
+  inconsistentEdges: 'integer',
+  components: 'integer',
+  zeroAreaTriangles: 'integer',
+  duplicateTriangles: 'integer',
+  weldedVertices: 'integer',
+  unreferencedVertices: 'integer',
+  nonFiniteVertices: 'integer',
+  triangleComponent: 'Int32Array',
+  componentClosed: 'Uint8Array',
+  componentOriented: 'Uint8Array',
+  defectVertices: 'Uint32Array',
+  defectKind: 'Uint8Array',
+  defectTriangleOffsets: 'Uint32Array',
+  defectTriangles: 'Uint32Array',
+  defectPlace: 'Uint32Array',
+  placeComponent: 'Uint32Array',
+  placeBox: 'Float64Array',
+};
+
 export const PairCounts = {
   crossing: 'integer',
   touching: 'integer',
@@ -104,6 +132,13 @@ export const Mesh = {
 export const TriangleGroups = {
   names: 'array',
   triangleGroup: 'Uint32Array',
+};
+
+export const OrientedMesh = {
+  mesh: 'MeshArrays',
+  turnedTriangles: 'Uint32Array',
+  trianglePart: 'Int32Array',
+  partFacing: 'Uint8Array',
 };
 
 export const ResolvedMesh = {
@@ -186,11 +221,15 @@ export const Element = [
   'droppedTriangle',
 ];
 
+export const EdgeDefect = ['open', 'nonManifold', 'inconsistent'];
+
 export const Intersections = ['resolve', 'refuse', 'assumeNone'];
 
 export const IntersectionKind = ['crossing', 'touching', 'overlapping', 'folded', 'identical'];
 
 export const FileFormat = ['json', 'mcm', 'vtu', 'obj', 'stl', 'ply', 'off', 'svg', 'dxf'];
+
+export const Facing = ['outward', 'inward', 'unknown', 'nonOrientable'];
 
 export const WindingRule = ['positive', 'nonZero', 'odd'];
 

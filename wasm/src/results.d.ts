@@ -143,6 +143,78 @@ export interface CutMeshArrays {
   droppedTriangles: Uint32Array<ArrayBuffer>;
 }
 
+/**
+ * What a mesh has. Vertices at one position count as one, except in the number of vertices. Edges are those of triangles with three
+ * different vertices.
+ */
+export interface MeshInfo {
+  /** As they were given. */
+  vertices: number;
+  /** As they were given. */
+  triangles: number;
+  /** Bounding box of the finite coordinates in use; all zero if there are none. */
+  min: [number, number, number];
+  /** Bounding box of the finite coordinates in use; all zero if there are none. */
+  max: [number, number, number];
+  /** Every edge has an even number of triangles. */
+  closed: boolean;
+  /** Every edge is traversed equally often both ways, so that there are winding numbers. */
+  oriented: boolean;
+  /** With one triangle. */
+  openEdges: number;
+  /** With more than two. */
+  nonManifoldEdges: number;
+  /** With two that run the same way along it. */
+  inconsistentEdges: number;
+  /** Joined through edges. */
+  components: number;
+  /** Exactly. */
+  zeroAreaTriangles: number;
+  /** Same three vertices as another one before them. */
+  duplicateTriangles: number;
+  /** Share their position with another one. */
+  weldedVertices: number;
+  /**
+   *
+   *
+   * .
+   */
+  unreferencedVertices: number;
+  /**
+   *
+   *
+   * .
+   */
+  nonFiniteVertices: number;
+
+  // The components, in the order of their first triangles.
+  /** Per triangle; -1 without three different vertices. */
+  triangleComponent: Int32Array<ArrayBuffer>;
+  /** Per component: 1 if it is closed as above, else 0. */
+  componentClosed: Uint8Array<ArrayBuffer>;
+  /** The same of oriented. */
+  componentOriented: Uint8Array<ArrayBuffer>;
+
+  // The defects: edges that are open, non-manifold or inconsistent, ascending by their vertices.
+  /** 2 per defect: the edge's ends, the lower one first; the lowest ids at their positions. */
+  defectVertices: Uint32Array<ArrayBuffer>;
+  /** Per defect: EdgeDefect as a number (0: open, 1: nonManifold, 2: inconsistent). */
+  defectKind: Uint8Array<ArrayBuffer>;
+  /** Per defect, into defectTriangles. */
+  defectTriangleOffsets: Uint32Array<ArrayBuffer>;
+  /** Those at the edge, ascending. */
+  defectTriangles: Uint32Array<ArrayBuffer>;
+  /** Per defect. */
+  defectPlace: Uint32Array<ArrayBuffer>;
+
+  // The places: defects of one component that hang together through vertices, such as the edges around a hole. In the order of their first
+  // defects.
+  /** Per place. */
+  placeComponent: Uint32Array<ArrayBuffer>;
+  /** 6 per place: the lowest corner of the box around its edges, then the highest. */
+  placeBox: Float64Array<ArrayBuffer>;
+}
+
 /** How many pairs of triangles meet, by how they do. */
 export interface PairCounts {
   /**
@@ -268,6 +340,18 @@ export interface TriangleGroups {
   names: string[];
   /** Per triangle: its group; empty if there are no groups. */
   triangleGroup: Uint32Array<ArrayBuffer>;
+}
+
+/** Parts of the mesh are triangles that hang together through edges with two triangles. Vertices at one position count as one. */
+export interface OrientedMesh {
+  /** Vertices and triangles in the order of the input; (a, b, c) turned is (a, c, b). */
+  mesh: MeshArrays;
+  /** Ascending. */
+  turnedTriangles: Uint32Array<ArrayBuffer>;
+  /** Per triangle; -1 without three different vertices. In the order of their first triangles. */
+  trianglePart: Int32Array<ArrayBuffer>;
+  /** Per part: Facing as a number (0: outward, 1: inward, 2: unknown, 3: nonOrientable). */
+  partFacing: Uint8Array<ArrayBuffer>;
 }
 
 /** The arrangement of a mesh's triangles: two triangles meet in shared vertices and edges alone, up to the rounding of vertices. */
@@ -433,6 +517,15 @@ export type MadeVertex =
   /** Two triangles, and an axial plane or several: see vertexMask. */
   | 'trianglesPlane';
 
+/** Why an edge does not part the front of a mesh from its back. */
+export type EdgeDefect =
+  /** It has one triangle. */
+  | 'open'
+  /** It has more than two. */
+  | 'nonManifold'
+  /** It has two that run the same way along it. */
+  | 'inconsistent';
+
 /** How two triangles meet. */
 export type IntersectionKind =
   /** Along a segment that runs through both. */
@@ -445,3 +538,14 @@ export type IntersectionKind =
   | 'folded'
   /** They have the same three vertices; CutStats.duplicateTriangles counts such triangles rather than pairs. */
   | 'identical';
+
+/** Where the normals of a part of a mesh point to, once it is oriented. */
+export type Facing =
+  /** Out of what the part encloses. */
+  | 'outward'
+  /** Into it: a cavity, since the part lies inside an odd number of other closed parts. */
+  | 'inward'
+  /** Open, or it encloses nothing: its triangles agree, and at most half of them were turned. */
+  | 'unknown'
+  /** As in a Moebius strip no orientation lets its triangles agree: none was turned. */
+  | 'nonOrientable';

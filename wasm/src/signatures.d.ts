@@ -12,7 +12,9 @@ import type {
   Measures,
   Mesh,
   MeshArrays,
+  MeshInfo,
   MeshIntersections,
+  OrientedMesh,
   Outlines,
   Plane,
   PrepareOptions,
@@ -40,6 +42,13 @@ export interface Calls {
   cut(mesh: Mesh, grid: GridInput, options?: CutOptions): CutMesh;
   /** Which triangles meet other than in shared vertices and whole shared edges, and where; what cut() resolves (A, Bad input meshes). */
   findIntersections(mesh: Mesh, options?: IntersectionOptions): MeshIntersections;
+  /** What kind of mesh one is: closed, oriented, manifold; and where it is not: its open, non-manifold and inconsistent edges. */
+  inspect(mesh: Mesh): MeshInfo;
+  /**
+   * The mesh with its triangles turned so that they agree: closed parts outward, or inward where they lie inside an odd number of others,
+   * all of it exactly.
+   */
+  orient(mesh: Mesh, options?: RunOptions): OrientedMesh;
   /** The mesh without self-intersections, for those who want it without a grid. */
   resolve(mesh: Mesh, options?: RunOptions): ResolvedMesh;
   /**
@@ -90,6 +99,8 @@ export interface WorkerCalls {
   prepare(mesh: Mesh, options?: PrepareOptions & CallOptions): Promise<MeshArrays>;
   cut(mesh: Mesh, grid: GridInput, options?: CutOptions & CallOptions): Promise<CutMesh>;
   findIntersections(mesh: Mesh, options?: IntersectionOptions & CallOptions): Promise<MeshIntersections>;
+  inspect(mesh: Mesh, options?: CallOptions): Promise<MeshInfo>;
+  orient(mesh: Mesh, options?: RunOptions & CallOptions): Promise<OrientedMesh>;
   resolve(mesh: Mesh, options?: RunOptions & CallOptions): Promise<ResolvedMesh>;
   boundary(mesh: ResolvedMesh | CutMesh, rule?: WindingRule, options?: CallOptions): Promise<MeshArrays>;
   validate(mesh: Mesh, cutMesh: CutMesh, options?: ValidateOptions & CallOptions): Promise<Validation>;

@@ -59,6 +59,34 @@ struct MeshInfo {
 
   size_t defectCount() const { return defectKind.size(); }
   size_t placeCount() const { return placeComponent.size(); }
+
+  static void fields(auto& self, const auto& f) {
+    f("vertices", self.vertices);
+    f("triangles", self.triangles);
+    f("min", self.min);
+    f("max", self.max);
+    f("closed", self.closed);
+    f("oriented", self.oriented);
+    f("openEdges", self.openEdges);
+    f("nonManifoldEdges", self.nonManifoldEdges);
+    f("inconsistentEdges", self.inconsistentEdges);
+    f("components", self.components);
+    f("zeroAreaTriangles", self.zeroAreaTriangles);
+    f("duplicateTriangles", self.duplicateTriangles);
+    f("weldedVertices", self.weldedVertices);
+    f("unreferencedVertices", self.unreferencedVertices);
+    f("nonFiniteVertices", self.nonFiniteVertices);
+    f("triangleComponent", self.triangleComponent);
+    f("componentClosed", self.componentClosed);
+    f("componentOriented", self.componentOriented);
+    f("defectVertices", self.defectVertices);
+    f("defectKind", self.defectKind);
+    f("defectTriangleOffsets", self.defectTriangleOffsets);
+    f("defectTriangles", self.defectTriangles);
+    f("defectPlace", self.defectPlace);
+    f("placeComponent", self.placeComponent);
+    f("placeBox", self.placeBox);
+  }
 };
 
 /// Throws CallError if the length of an array is not a multiple of 3 (badArrays), or for a triangle that names a vertex that does not exist

@@ -28,6 +28,13 @@ struct OrientedMesh {
   std::vector<Facing> partFacing;         ///< per part
 
   size_t partCount() const { return partFacing.size(); }
+
+  static void fields(auto& self, const auto& f) {
+    f("mesh", self.mesh);
+    f("turnedTriangles", self.turnedTriangles);
+    f("trianglePart", self.trianglePart);
+    f("partFacing", self.partFacing);
+  }
 };
 
 /// Turns triangles so that two at an edge run along it in opposite directions, and so that

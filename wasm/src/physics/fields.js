@@ -81,8 +81,8 @@ export const Solution = {
   status: 'SolveStatus',
   phi: 'Float64Array',
   residuals: 'Float64Array',
-  component: 'integer',
-  excess: 'number',
+  incompatible: 'Uint32Array',
+  excess: 'Float64Array',
 };
 
 export const FaceTag = ['xMin', 'xMax', 'yMin', 'yMax', 'zMin', 'zMax', 'inner', 'surface'];

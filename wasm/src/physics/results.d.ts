@@ -182,10 +182,13 @@ export interface Solution {
   phi: Float64Array<ArrayBuffer>;
   /** Before each iteration and after the last, relative as in SolveOptions; the last one is that of phi. */
   residuals: Float64Array<ArrayBuffer>;
-  /** Of cellComponents(), if incompatible; else -1. */
-  component: number;
-  /** In that component: the inflow minus the integral of s. */
-  excess: number;
+  /**
+   * Components of cellComponents(), ascending, in which sources and fluxes do not cancel: phi is 0 there, and nothing of them is in the
+   * residuals.
+   */
+  incompatible: Uint32Array<ArrayBuffer>;
+  /** Per incompatible component: the inflow minus the integral of s. */
+  excess: Float64Array<ArrayBuffer>;
 }
 
 /** What a face of a cell complex is part of: a side of the grid, or another thing. */
@@ -228,7 +231,7 @@ export type SolveStatus =
   | 'converged'
   /** The residual is above the tolerance after maxIterations. */
   | 'iterationLimit'
-  /** Sources and fluxes of `component` do not cancel, so nothing solves the system; phi is 0. */
+  /** In some components sources and fluxes do not cancel, so nothing solves the system there; elsewhere it is solved. */
   | 'incompatible'
   /** Numbers, or the differences between them, are too large or too small for doubles; phi is what was found. */
   | 'breakdown';
