@@ -30,7 +30,7 @@ if(MANDOLINE_STATIC)
   endif()
 endif()
 if(TARGET mandoline_operators) # those who only cut need no Eigen
-  string(APPEND MANDOLINE_CONFIG "find_package(Eigen3 3.3 CONFIG QUIET)\n")
+  string(APPEND MANDOLINE_CONFIG "find_package(Eigen3 CONFIG QUIET)\n")
 endif()
 file(WRITE ${PROJECT_BINARY_DIR}/mandoline-config.cmake
   "${MANDOLINE_CONFIG}include(\"\${CMAKE_CURRENT_LIST_DIR}/mandoline-targets.cmake\")\n")
