@@ -56,10 +56,19 @@ void deliver(const Arguments& arguments, const std::function<std::string()>& tex
   std::cerr << text() << std::flush;
 }
 
+/// How many cells were asked for, which a grid that is too large does not have.
+static std::string sizeOf(const GridArguments& asked, const Grid& grid) {
+  const std::array<int64_t, 3> cells = asked.cells.value_or(std::array<int64_t, 3>{grid.cells(0), grid.cells(1), grid.cells(2)});
+  if (asked.oneNumber) return std::to_string(cells[0]) + " cells along the longest side";
+  return std::to_string(cells[0]) + " x " + std::to_string(cells[1]) + " x " + std::to_string(cells[2]) + " cells";
+}
+
 CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const Grid& grid) {
-  return withProgress(arguments.threads, [&](const RunOptions& options) {
+  CutResult result = withProgress(arguments.threads, [&](const RunOptions& options) {
     return cut(mesh, grid, {options, arguments.snapTolerance, arguments.intersections});
   });
+  if (result.error.status == Status::gridTooLarge) result.error.message += " Asked for were " + sizeOf(arguments.grid, grid) + ".";
+  return result;
 }
 
 Report reportOf(MeshReport mesh, const Grid& grid, const CutResult& result) {

@@ -63,6 +63,8 @@ Grid Grid::rectilinear(std::array<std::vector<double>, 3> planes) {
 }
 
 Grid Grid::around(const MeshView& mesh, int64_t n, double margin) {
+  constexpr double kLargestMargin = 1e6;
+  if (!(margin >= 0 && margin <= kLargestMargin)) n = 0;
   std::array<double, 3> low, high;
   low.fill(INFINITY);
   high.fill(-INFINITY);

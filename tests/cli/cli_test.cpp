@@ -413,6 +413,20 @@ TEST_CASE("Command line: a file that can't be read is reported, too", "[cli]") {
   }
 }
 
+TEST_CASE("Command line: a grid that is too large is told as it was asked for", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", kCube);
+  const auto refused = [&](const std::string& cells) {
+    const Outcome o = run(folder, {"cut", mesh, "--cells", cells});
+    CHECK(o.exitCode == 1);
+    return o.err;
+  };
+  CHECK(contains(refused("123456789"), "gridTooLarge: "));
+  CHECK(contains(refused("123456789"), "Asked for were 123456789 cells along the longest side."));
+  CHECK(contains(refused("4,123456789,5"), "Asked for were 4 x 123456789 x 5 cells."));
+  CHECK(contains(refused("1,32768,32768"), "Asked for were 1 x 32768 x 32768 cells."));
+}
+
 TEST_CASE("Command line: all reports begin with the same members", "[cli]") {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("cube.obj", kCube), obj = folder.path("a.obj");

@@ -975,7 +975,7 @@ TEST_CASE("statuses name what is wrong with the grid", "[cases]") {
   fails(mesh, Grid::box({0, 0, 0}, {4, 4, 4}, {4, 4, -1}), Status::badGrid, 2);
   fails(mesh, Grid::box({0, 0, 0}, {4, 0, 4}, {4, 4, 4}), Status::badGrid, 1);
   fails(mesh, Grid::box({0, 0, 0}, {4, 4, nan}, {4, 4, 4}), Status::badGrid, 2);
-  for (const double margin : {-0.5, nan, double(INFINITY), -double(INFINITY)})
+  for (const double margin : {-0.1, -0.5, -0.6, 1e7, nan, infinity, -infinity})
     fails(mesh, Grid::around(mesh, 4, margin), Status::badGrid, 0);
   fails(mesh, Grid::regular({0, 0, 0}, {-1, 1, 1}, {4, 4, 4}), Status::badGrid, 0);
   fails(mesh, Grid::regular({0, 0, 0}, {1, 0, 1}, {4, 4, 4}), Status::badGrid, 1);

@@ -23,7 +23,7 @@ struct Grid {
   /// Any ascending planes, for graded grids.
   static Grid rectilinear(std::array<std::vector<double>, 3> planes);
   /// Cubic cells around the mesh's bounding box and a margin all around it, in longest sides of the box: n along the longest side, as many
-  /// along the others as cover it, centred: of size (1 + 2 margin) x longest side / n.
+  /// along the others as cover it, centred: of size (1 + 2 margin) x longest side / n. A margin below 0 or above 1e6 leaves no cells.
   static Grid around(const MeshView& mesh, int64_t n, double margin = 0.05);
 
   /// Number of grid cells along an axis (0 for a grid that could not be made, which cut() reports).
