@@ -74,6 +74,9 @@ class Parser {
         {"--heights", {C::slice}, [](Parser& p, const std::string& name) { parseHeights(p.value(name), p.arguments_.slice); }},
         {"--layers", {C::slice}, [](Parser& p, const std::string& name) { parseLayers(p.value(name), p.arguments_.slice); }},
         {"--only", {C::cut, C::slice, C::flow}, [](Parser& p, const std::string& name) { parseOnly(p.value(name), p.arguments_.only); }},
+        {"--inside-threshold",
+         {C::cut, C::slice, C::flow},
+         [](Parser& p, const std::string& name) { p.parseInsideThreshold(p.value(name)); }},
         {"--rule", {C::resolve}, [](Parser& p, const std::string& name) { p.parseRule(p.value(name)); }},
         {"--format",
          {C::cut, C::slice, C::flow, C::info, C::make, C::resolve},
@@ -166,6 +169,13 @@ class Parser {
   void parseFormat(const std::string& word) {
     arguments_.format = formatOf('.' + word);
     if (!arguments_.format) throw UsageError("--format needs an extension such as vtu, not '" + word + "'");
+  }
+
+  void parseInsideThreshold(const std::string& word) {
+    double threshold = 0;
+    if (!parseNumber(word, threshold) || !(threshold > 0 && threshold <= 1))
+      throw UsageError("--inside-threshold needs a number above 0 and at most 1, not '" + word + "'");
+    arguments_.insideThreshold = threshold;
   }
 
   void parseSnapTolerance(const std::string& word) {

@@ -65,6 +65,7 @@ struct Arguments {
   bool faces = false;          ///< in .vtu files, instead of cells
   std::optional<int> coarsen;  ///< levels of octree cells; none: untouched grid cells as they are
   OnlyArguments only;
+  std::optional<double> insideThreshold;  ///< of estimates: see InsideOptions
   SliceArguments slice;
   FlowArguments flow;
   std::optional<WindingRule> rule;   ///< of resolve: the boundary of the solid rather than all triangles

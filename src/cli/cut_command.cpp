@@ -44,8 +44,9 @@ struct Output {
 };
 
 /// Names with {region} stand for one file per region.
-std::vector<Output> outputsOf(const Arguments& arguments, const CutMesh& cutMesh) {
-  const WriteOptions options = writeOptions(arguments.only, cutMesh);
+std::vector<Output> outputsOf(const Arguments& arguments, const CutResult& cut) {
+  const CutMesh& cutMesh = cut.mesh;
+  const WriteOptions options = writeOptions(arguments, cut);
   if (arguments.only.any()) requireSelection(options, cutMesh);
   std::vector<Output> outputs;
   for (const std::string& output : arguments.outputs) {
@@ -126,7 +127,7 @@ int runCut(const Arguments& arguments) {
   const MeshInfo info = inspect(mesh);
   const Grid grid = makeGrid(arguments.grid, mesh, info);
   const CutResult result = cutMesh(arguments, mesh, grid);
-  Report report = reportOf({input, info, {}}, grid, result);
+  Report report = reportOf(arguments, {input, info, {}}, grid, result);
   if (result) {
     report.regionVolumes = withProgress(
         arguments.threads, [&](const RunOptions& options) { return regionVolumes(result.mesh, measure(mesh, result.mesh, options)); });
@@ -145,7 +146,7 @@ int runCut(const Arguments& arguments) {
   if (!result) return exitCode;
   attempt(exitCode, [&] {
     Writer writer(arguments, input, result.mesh);
-    for (const Output& output : outputsOf(arguments, result.mesh)) attempt(exitCode, [&] { writer.write(output); });
+    for (const Output& output : outputsOf(arguments, result)) attempt(exitCode, [&] { writer.write(output); });
   });
   return exitCode;
 }

@@ -5,11 +5,17 @@
 
 #include "cli/commands.h"
 #include "cli/files.h"
+#include "cli/inside.h"
 #include "cli/make_grid.h"
 #include "cli/peak_memory.h"
 #include "io/output_file.h"
 
 namespace mandoline::cli {
+namespace {
+
+constexpr double kThreshold = InsideOptions().threshold;
+
+}  // namespace
 
 void checkOutputs(const Arguments& arguments, bool (*isAllowed)(FileFormat), const std::string& rule) {
   std::vector<NamedFile> files;
@@ -63,25 +69,35 @@ static std::string sizeOf(const GridArguments& asked, const Grid& grid) {
   return std::to_string(cells[0]) + " x " + std::to_string(cells[1]) + " x " + std::to_string(cells[2]) + " cells";
 }
 
+bool needsInside(const Arguments& arguments) {
+  const OnlyArguments& only = arguments.only;
+  return only.inside || only.outside || (arguments.command == Command::slice && !only.any()) || arguments.insideThreshold;
+}
+
 CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const Grid& grid) {
   CutResult result = withProgress(arguments.threads, [&](const RunOptions& options) {
     return cut(mesh, grid, {options, arguments.snapTolerance, arguments.intersections});
   });
   if (result.error.status == Status::gridTooLarge) result.error.message += " Asked for were " + sizeOf(arguments.grid, grid) + ".";
+  if (!result || !needsInside(arguments)) return result;
+  result.mesh = withProgress(arguments.threads, [&](const RunOptions& options) {
+    return estimateInside(mesh, result.mesh, {options, arguments.insideThreshold.value_or(kThreshold)});
+  });
   return result;
 }
 
-Report reportOf(MeshReport mesh, const Grid& grid, const CutResult& result) {
-  return {std::move(mesh), grid, result, peakMemoryBytes(), {}, {}};
+Report reportOf(const Arguments& arguments, MeshReport mesh, const Grid& grid, const CutResult& result) {
+  return {std::move(mesh), grid, result, peakMemoryBytes(), {}, {}, arguments.insideThreshold.value_or(kThreshold)};
 }
 
-std::optional<CutMesh> cutOrComplain(const Arguments& arguments, const Input& input, const GridArguments& asked) {
+std::optional<CutResult> cutOrComplain(const Arguments& arguments, const Input& input, const GridArguments& asked) {
   const MeshReport mesh{input, inspect(input.mesh), {}};
   const Grid grid = makeGrid(asked, input.mesh, mesh.info);
   CutResult result = cutMesh(arguments, input.mesh, grid);
-  if (result) return std::move(result.mesh);
+  if (result) return result;
   complain(refusal(input.name, result.error));
-  if (!arguments.report.empty()) writeOutput(arguments.report, [&](const Sink& sink) { sink(reportJson(reportOf(mesh, grid, result))); });
+  if (!arguments.report.empty())
+    writeOutput(arguments.report, [&](const Sink& sink) { sink(reportJson(reportOf(arguments, mesh, grid, result))); });
   return std::nullopt;
 }
 
@@ -93,12 +109,19 @@ CellComplex makeCells(const Arguments& arguments, const Mesh& mesh, const CutMes
   });
 }
 
-WriteOptions writeOptions(const OnlyArguments& only, const CutMesh& cutMesh) {
+WriteOptions writeOptions(const Arguments& arguments, const CutResult& cut) {
+  const CutMesh& cutMesh = cut.mesh;
+  OnlyArguments only = arguments.only;
+  const bool isInsideDefault = arguments.command == Command::slice && !only.any();
+  std::optional<InsideRegions> inside;
+  if (only.inside || only.outside || isInsideDefault) inside = insideOf(cutMesh, arguments.insideThreshold.value_or(kThreshold));
+  const bool any = inside && std::count(inside->isInside.begin(), inside->isInside.end(), 1) > 0;
+  const std::string how = inside ? describeInside(inside, cut.stats.components) : "";
+  if (only.inside && !any) throw UsageError("--only inside: nothing is inside" + (how.empty() ? how : " (" + how + ")"));
+  if (!how.empty()) std::cerr << "Note: " << how << "\n";
+  if (isInsideDefault) only.inside = any;
   WriteOptions options;
   options.untouched = !only.cut;
-  if ((only.inside || only.outside) && !cutMesh.hasWinding) {
-    throw UsageError("--only: the mesh is open or not consistently oriented, so that nothing is inside or outside");
-  }
   if (!only.inside && !only.outside && only.regions.empty()) return options;
   options.regions.assign(cutMesh.regionCount, only.regions.empty() ? 1 : 0);
   for (const uint32_t r : only.regions) {
@@ -108,7 +131,7 @@ WriteOptions writeOptions(const OnlyArguments& only, const CutMesh& cutMesh) {
     options.regions[r] = 1;
   }
   for (uint32_t r = 0; r < cutMesh.regionCount; ++r) {
-    const bool isInside = cutMesh.hasWinding && cutMesh.regionWinding[r] != 0;
+    const bool isInside = inside && inside->isInside[r];
     if ((only.inside && !isInside) || (only.outside && isInside)) options.regions[r] = 0;
   }
   return options;

@@ -30,20 +30,24 @@ bool takesStandardOutput(const Arguments& arguments);
 /// Writes the report as JSON where --report says, or as text to standard output; to standard error if one of the outputs is there.
 void deliver(const Arguments& arguments, const std::function<std::string()>& text, const std::function<std::string()>& json);
 
-/// With progress.
+/// Whether what is inside decides what is written.
+bool needsInside(const Arguments& arguments);
+
+/// With estimates if what is inside is needed and components are open. With progress.
 CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const Grid& grid);
 
 /// What there is to tell of it, but for the regions and the validation.
-Report reportOf(MeshReport mesh, const Grid& grid, const CutResult& result);
+Report reportOf(const Arguments& arguments, MeshReport mesh, const Grid& grid, const CutResult& result);
 
 /// The same with the grid that is asked for; if it fails, says why, in the report too if there is to be one, and gives nothing.
-std::optional<CutMesh> cutOrComplain(const Arguments& arguments, const Input& input, const GridArguments& grid);
+std::optional<CutResult> cutOrComplain(const Arguments& arguments, const Input& input, const GridArguments& grid);
 
 /// All cells, merged as far as --coarsen says. With progress.
 CellComplex makeCells(const Arguments& arguments, const Mesh& mesh, const CutMesh& cutMesh);
 
-/// Throws UsageError for regions that the cut-mesh does not have.
-WriteOptions writeOptions(const OnlyArguments& only, const CutMesh& cutMesh);
+/// Says on standard error what tells inside from outside, unless that are winding numbers of the whole input. Throws UsageError for regions
+/// that the cut-mesh does not have, and where nothing is known to be inside.
+WriteOptions writeOptions(const Arguments& arguments, const CutResult& cut);
 
 /// Throws UsageError if the options select no cell at all.
 void requireSelection(const WriteOptions& options, const CutMesh& cutMesh);

@@ -130,15 +130,15 @@ int runFlow(const Arguments& arguments) {
   const Mesh& mesh = input.mesh;
   GridArguments grid = arguments.grid;
   if (!grid.margin) grid.margin = kMargin;
-  const std::optional<CutMesh> cutMesh = cutOrComplain(arguments, input, grid);
-  if (!cutMesh) return kNotCut;
-  WriteOptions options = writeOptions(arguments.only, *cutMesh);
-  if (arguments.only.any()) requireSelection(options, *cutMesh);
+  const std::optional<CutResult> cut = cutOrComplain(arguments, input, grid);
+  if (!cut) return kNotCut;
+  WriteOptions options = writeOptions(arguments, *cut);
+  if (arguments.only.any()) requireSelection(options, cut->mesh);
   options.groups = &input.groups;
-  const CellComplex cells = makeCells(arguments, mesh, *cutMesh);
+  const CellComplex cells = makeCells(arguments, mesh, cut->mesh);
   const Flow flow =
       withProgress(arguments.threads, [&](const RunOptions& run) { return solveFlow(cells, *arguments.flow.wind, FlowOptions{run}); });
-  const FlowField field{mesh, *cutMesh, cells, flow};
+  const FlowField field{mesh, cut->mesh, cells, flow};
   int exitCode = kFine;
   if (flow.status != SolveStatus::converged) {
     complain(input.name + ": the flow was not solved: " + name(flow.status));

@@ -66,9 +66,12 @@ Options of cut
                          {region} in the name: one file, or folder, for each region
   --only WHAT            write only a part of it (not of .json and .mcm). Words with commas
                          between must all hold: cut (no untouched grid cells), inside (winding
-                         number not 0), outside (winding number 0), region=K (of several,
-                         any). With regions left out, a surface is the whole boundary of
-                         each region written, oriented out of it
+                         number not 0, or by parity, or by an estimate where the mesh is open;
+                         a note tells which), outside (the rest), region=K (of several, any).
+                         With regions left out, a surface is the whole boundary of each region
+                         written, oriented out of it
+  --inside-threshold T   estimate what is inside of open components, which divides regions at
+                         their holes: from T on (default: 0.5) of a generalized winding number
   --coarsen LEVELS       merge untouched grid cells into octree cells, up to 2^LEVELS of
                          them on a side, in .vtu files and polyMesh folders; .json files
                          get all cells as one mesh (CellComplex) instead of the cut-mesh
@@ -83,16 +86,16 @@ Options of slice
   --heights H1,H2,...    their distances from the origin, along the normal
   --layers N             instead of heights: the middle planes of N equal layers of the mesh
   --only inside|outside|region=K
-                         which regions have outlines (default: inside; of meshes without
-                         winding numbers all). Sheets are open lines. Heights at which
-                         nothing is cut are told; if there are no others, no file is written
+                         which regions have outlines (default: inside, or all where nothing
+                         is). Sheets are open lines. Heights at which nothing is cut are
+                         told; if there are no others, no file is written
   -o FILE ...            .svg with the normal towards you, .dxf and .obj lines in space; in
                          the units of the mesh
 
 Options of flow
   --wind X,Y,Z           the wind's velocity: it blows on the sides of the grid, and nothing
                          passes the mesh, nor either side of a sheet
-  --coarsen LEVELS, --faces, --only WHAT
+  --coarsen LEVELS, --faces, --only WHAT, --inside-threshold T
                          as of cut; faces have normal_velocity, normal and area
   --streamlines N        how many lines (default: 100), from where the wind enters
   -o FILE ...            .vtu all cells with phi, velocity and pressure_coefficient;
@@ -105,7 +108,9 @@ Options of info
 Options of resolve
   --rule positive|non-zero|odd
                          only the surface of the solid: of what has a winding number
-                         above 0, other than 0, or odd. Overlapping parts become one
+                         above 0, other than 0, or odd. Overlapping parts become one. What is
+                         closed but not consistently oriented goes by parity, what is open is
+                         left out; a note tells so
   -o FILE ...            all triangles, divided where they meet; .obj keeps the groups of
                          OBJ and STL files, but not with --rule. Vertices are rounded; a
                          note on standard error tells whether that has brought

@@ -4,7 +4,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "cli/json.h"
+#include "cli/inside.h"
 
 namespace mandoline::cli {
 namespace {
@@ -44,21 +44,6 @@ void addIntersections(Json& json, const Report& report) {
   }
   addPairs(json, "intersections", stats.intersections);
   json.member("curves", stats.intersectionCurves).member("madeVertices", stats.madeVertices).member("ms", stage->ms).close('}');
-}
-
-void addRegions(Json& json, const Report& report) {
-  const CutMesh& m = report.result.mesh;
-  json.key("regions").open('[');
-  for (uint32_t r = 0; r < m.regionCount; ++r) {
-    json.open('{').member("id", r).key("winding");
-    if (m.hasWinding) {
-      json.value(m.regionWinding[r]);
-    } else {
-      json.null();
-    }
-    json.member("volume", report.regionVolumes[r]).close('}');
-  }
-  json.close(']');
 }
 
 void addValidation(Json& json, const std::optional<Validation>& validation) {
@@ -126,11 +111,18 @@ class TextReport {
   }
 
   void addRegions() {
-    out_ << "\nRegions\n  " << std::setw(8) << "id" << std::setw(10) << "winding" << std::setw(16) << "volume"
+    const std::optional<InsideRegions> inside = insideOf(mesh_, report_.insideThreshold);
+    const std::string how = describeInside(inside, report_.result.stats.components);
+    out_ << "\nRegions" << (how.empty() ? "" : " (" + how + ")") << "\n  " << std::setw(8) << "id" << std::setw(10) << "winding"
+         << std::setw(10) << "inside" << std::setw(16) << "volume"
          << "\n";
     const uint32_t shown = std::min(mesh_.regionCount, kMostRegions);
     for (uint32_t r = 0; r < shown; ++r) {
       out_ << "  " << std::setw(8) << r << std::setw(10) << (mesh_.hasWinding ? std::to_string(mesh_.regionWinding[r]) : "-")
+           << std::setw(10)
+           << (!inside               ? "-"
+               : inside->isInside[r] ? "yes"
+                                     : "no")
            << std::setw(16) << report_.regionVolumes[r] << "\n";
     }
     if (shown < mesh_.regionCount) out_ << "  and " << mesh_.regionCount - shown << " more\n";
@@ -187,7 +179,7 @@ std::string reportJson(const Report& report) {
   for (const Count& count : inputCounts(report.result)) json.member(count.key, count.value);
   json.close('}').member("largestSnap", stats.largestSnap);
   addIntersections(json, report);
-  addRegions(json, report);
+  addInside(json, report);
   json.key("stages").open('[');
   for (const StageTime& stage : stats.stages) json.open('{').member("stage", stage.stage).member("ms", stage.ms).close('}');
   json.close(']').member("totalMs", stats.totalMs).member("exactFallbacks", stats.exactFallbacks);

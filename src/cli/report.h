@@ -18,6 +18,7 @@ struct Report {
   size_t peakMemoryBytes = 0;
   std::vector<double> regionVolumes;     ///< per region
   std::optional<Validation> validation;  ///< if it was asked for and the cut is ok
+  double insideThreshold = 0.5;          ///< see InsideOptions
 };
 
 std::string reportJson(const Report& report);

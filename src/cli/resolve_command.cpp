@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/cutting.h"
 #include "cli/files.h"
+#include "cli/inside.h"
 #include "cli/mesh_report.h"
 #include "mandoline/resolve.h"
 
@@ -62,9 +63,11 @@ int runResolve(const Arguments& arguments) {
   const MeshReport meshReport{input, inspect(input.mesh), {}};
   ResolveReport report{meshReport, result};
   if (!result) return fail(arguments, report, result.error);
-  if (arguments.rule && !result.mesh.hasWinding) {
-    return fail(arguments, report, {"badArgument", "The mesh is open or not consistently oriented, so that it bounds no solid."});
+  const std::string how = arguments.rule ? describeInside(std::nullopt, result.stats.components) : "";
+  if (arguments.rule && !result.mesh.hasWinding && result.mesh.frontParity.empty()) {
+    return fail(arguments, report, {"badArgument", "No part of the mesh is closed, so that it bounds no solid: " + how + "."});
   }
+  if (!how.empty()) std::cerr << "Note: " << how << "\n";
   const Mesh written = arguments.rule ? boundary(result.mesh, *arguments.rule) : result.mesh.mesh;
   const TriangleGroups groups = arguments.rule ? TriangleGroups() : groupsOf(result.mesh, input.groups);
   report.triangles = written.triangleCount();

@@ -94,16 +94,14 @@ struct SliceReport {
 int runSlice(const Arguments& arguments) {
   checkOutputs(arguments, isOutlineFormat, "outlines are written as .svg, .dxf or .obj");
   const Input input = readInput(arguments);
-  const std::optional<CutMesh> cutMesh = cutOrComplain(arguments, input, arguments.grid);
-  if (!cutMesh) return kNotCut;
-  OnlyArguments only = arguments.only;
-  if (!only.any() && cutMesh->hasWinding) only.inside = true;
-  const WriteOptions options = writeOptions(only, *cutMesh);
-  if (arguments.only.any()) requireSelection(options, *cutMesh);
+  const std::optional<CutResult> cut = cutOrComplain(arguments, input, arguments.grid);
+  if (!cut) return kNotCut;
+  const WriteOptions options = writeOptions(arguments, *cut);
+  if (arguments.only.any()) requireSelection(options, cut->mesh);
   const MeshReport mesh{input, inspect(input.mesh), {}};
   const std::array<double, 2> reach = reachOf(arguments.slice, input.mesh);
   const std::vector<double> heights = heightsOf(arguments.slice, reach);
-  const OutlineStack stack = outlineStack(arguments.slice, heights, *cutMesh);
+  const OutlineStack stack = outlineStack(arguments.slice, heights, cut->mesh);
   SliceReport report{mesh, heights, reach, {}};
   for (const Outlines& layer : stack.layers) report.shapes.push_back(shapesOf(layer, options));
   if (!report.note().empty()) complain(input.name + ": " + report.note());

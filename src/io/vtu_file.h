@@ -3,6 +3,7 @@
 #pragma once
 
 #include "io/output_buffer.h"
+#include "mandoline/cut_mesh.h"
 #include "mesh/read/scalar.h"
 
 namespace mandoline::detail {
@@ -35,6 +36,18 @@ inline const char* vtkTypeName(double) { return "Float64"; }
 inline const char* vtkTypeName(int64_t) { return "Int64"; }
 inline const char* vtkTypeName(int32_t) { return "Int32"; }
 inline const char* vtkTypeName(uint8_t) { return "UInt8"; }
+
+/// Calls f(name, numbers) for the arrays that tell of regions what is inside, as far as there are any.
+template <class F>
+void forEachRegionArray(const CutMesh& cutMesh, const F& f) {
+  const auto visit = [&](const char* name, const auto& numbers) {
+    if (!numbers.empty()) f(name, numbers);
+  };
+  visit("winding", cutMesh.regionWinding);
+  visit("part_winding", cutMesh.regionPartWinding);
+  visit("parity", cutMesh.regionParity);
+  visit("insideness", cutMesh.regionInsideness);
+}
 
 /// An array of strings about the whole, as XML.
 std::string vtkStrings(std::string_view name, std::span<const std::string> strings);

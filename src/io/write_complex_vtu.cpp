@@ -162,10 +162,9 @@ class CellWriter : ComplexWriter {
           }));
     visit(int32_t(), "level", n, 1, perCell([this](uint32_t c, const auto& put) { put(cells_.cellLevel[c]); }));
     visit(int32_t(), "region", n, 1, perCell([this](uint32_t c, const auto& put) { put(cells_.cellRegion[c]); }));
-    if (cutMesh_.hasWinding) {
-      visit(int32_t(), "winding", n, 1,
-            perCell([this](uint32_t c, const auto& put) { put(cutMesh_.regionWinding[cells_.cellRegion[c]]); }));
-    }
+    forEachRegionArray(cutMesh_, [&]<class Number>(const char* name, const std::vector<Number>& numbers) {
+      visit(Number(), name, n, 1, perCell([&](uint32_t c, const auto& put) { put(numbers[cells_.cellRegion[c]]); }));
+    });
     visit(double(), "volume", n, 1, perCell([this](uint32_t c, const auto& put) { put(cells_.cellVolume[c]); }));
   }
 

@@ -59,7 +59,7 @@ void putCutMesh(Meter& meter, const CutMesh& cutMesh) {
   out.text("{\"format\":\"mandoline-cut-mesh\",\n\"version\":2");
   writeGrid(out, cutMesh.grid);
   forEachArray(cutMesh, [&](const ArrayInfo& info, const auto& array) {
-    if (info.per == Element::region && !cutMesh.hasWinding) return writeNulls(out, info.name, cutMesh.regionCount);
+    if (info.per == Element::region && array.empty()) return writeNulls(out, info.name, cutMesh.regionCount);
     writeMember(out, info.name, array);
   });
   writeGridCellRegion(out, cutMesh);

@@ -86,10 +86,9 @@ class VtuWriter {
     visit(int32_t(), "grid_cell", cellCount_, 3,
           [&](const auto& put) { putAlike([&](const VtuCell& cell) { std::for_each(cell.gridCell.begin(), cell.gridCell.end(), put); }); });
     visit(int32_t(), "region", cellCount_, 1, [&](const auto& put) { putAlike([&](const VtuCell& cell) { put(cell.region); }); });
-    if (cutMesh_.hasWinding) {
-      visit(int32_t(), "winding", cellCount_, 1,
-            [&](const auto& put) { putAlike([&](const VtuCell& cell) { put(cutMesh_.regionWinding[cell.region]); }); });
-    }
+    forEachRegionArray(cutMesh_, [&]<class Number>(const char* name, const std::vector<Number>& numbers) {
+      visit(Number(), name, cellCount_, 1, [&](const auto& put) { putAlike([&](const VtuCell& cell) { put(numbers[cell.region]); }); });
+    });
     visit(double(), "volume", cellCount_, 1, [&](const auto& put) { putAlike([&](const VtuCell& cell) { put(volume(cell)); }); });
   }
 

@@ -85,12 +85,6 @@ std::span<const Duplicate> Prepared::duplicatesOf(TriangleId t) const {
   return {duplicates.data() + (first - duplicates.begin()), size_t(past - first)};
 }
 
-int32_t Prepared::signSumOfDuplicates(TriangleId t) const {
-  int32_t sum = 0;
-  for (const Duplicate& d : duplicatesOf(t)) sum += d.sameWay ? 1 : -1;
-  return sum;
-}
-
 std::unique_ptr<const Prepared> prepareMesh(const MeshView& mesh, const Preparation& preparation, Monitor& monitor,
                                             const std::function<void(const char*)>& beginStage) {
   beginStage("input");
@@ -128,6 +122,7 @@ std::unique_ptr<const Prepared> prepareMesh(const MeshView& mesh, const Preparat
       findArrangement(*prepared, monitor, predicates);
     }
   }
+  if (!prepared->closed) prepared->components = findComponents(*prepared);
   counts.exactFallbacks = predicates.fallbacks;
   return prepared;
 }

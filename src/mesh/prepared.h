@@ -11,8 +11,8 @@
 
 #include "mandoline/intersections.h"
 #include "mandoline/mesh.h"
+#include "mesh/components.h"
 #include "mesh/failure.h"
-#include "mesh/mesh_edges.h"
 
 namespace mandoline::detail {
 
@@ -28,6 +28,7 @@ struct Prepared : WeldedMesh {
   MeshEdges edges;
   /// Where triangles meet, or null if they are assumed or required not to.
   std::unique_ptr<const Arrangement> arrangement;
+  Components components;
   MeshCounts counts;
 
   Prepared() = default;
@@ -37,8 +38,6 @@ struct Prepared : WeldedMesh {
   bool hasIntersections() const { return arrangement && !arrangement->empty(); }
   /// The triangles with the same three vertices.
   std::span<const Duplicate> duplicatesOf(TriangleId t) const;
-  /// How many of them have the same normal, minus how many have the opposite one.
-  int32_t signSumOfDuplicates(TriangleId t) const;
 };
 
 /// A power of two that brings coordinates into the range of exact arithmetic.

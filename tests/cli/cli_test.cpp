@@ -13,6 +13,7 @@
 
 #include "catch.h"
 #include "mandoline/io.h"
+#include "shapes.h"
 #include "temporary_folder.h"
 
 namespace {
@@ -227,7 +228,7 @@ TEST_CASE("Command line: a cut writes its report and every file", "[cli]") {
   REQUIRE(o.out.substr(0, 2) == "{\n");
   for (const std::string part :
        {"\"status\": \"ok\"", "\"cells\": [4, 4, 4]", "\"origin\": [0, 0, 0]", "\"spacing\": [1, 1, 1]", "\"cells\": 64", "\"regions\": 2",
-        "{\"id\": 0, \"winding\": 0, \"volume\": 56}", "{\"id\": 1, \"winding\": 1, \"volume\": 8}",
+        "{\"id\": 0, \"winding\": 0, \"volume\": 56,", "{\"id\": 1, \"winding\": 1, \"volume\": 8,",
         "{\"stage\": \"input\", \"ms\": ", "\"totalMs\": ", "\"exactFallbacks\": ", "\"peakMemoryBytes\": ", "\"validation\": {",
         "\"pass\": true", "\"checks\": [", "\"closed\": true"}) {
     REQUIRE(contains(o.out, part));
@@ -324,7 +325,7 @@ TEST_CASE("Command line: grids by box, origin and planes", "[cli]") {
   const std::string planes = report({"--planes", "0,1.5,4/0,4/-1,0,2,9"});
   REQUIRE(contains(planes, "\"cells\": [2, 1, 3]"));
   REQUIRE(contains(planes, "\"spacing\": null"));
-  REQUIRE(contains(planes, "\"volume\": 8}"));
+  REQUIRE(contains(planes, "\"volume\": 8,"));
   const std::string file = folder.write("planes.txt", "0, 1.5, 4\r\n\n0, 4\r\n-1, 0, 2, 9");
   REQUIRE(contains(report({"--planes", '@' + file}), "\"cells\": [2, 1, 3]"));
 }
@@ -351,7 +352,8 @@ TEST_CASE("Command line: only some cells are written", "[cli]") {
   const std::string sheet = folder.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const Outcome open = run(folder, {"cut", sheet, "--only", "inside", "-o", vtu});
   REQUIRE(open.exitCode == 2);
-  REQUIRE(contains(open.err, "nothing is inside or outside"));
+  REQUIRE(contains(open.err,
+                   "--only inside: nothing is inside (1 of 1 component open, with 3 open edges around 1 hole: inside by an estimate)"));
   const std::vector<std::string> nothing[] = {{"cut", mesh, "--only", "inside,region=0", "-o", vtu},
                                               {"cut", mesh, "--only", "cut", "--box", "7,7,7,8,8,8", "-o", vtu},
                                               {"slice", mesh, "--heights", "2", "--only", "outside,region=1", "-o", folder.path("a.svg")}};
@@ -461,6 +463,47 @@ TEST_CASE("Command line: intersections are null in the report where nobody looke
        {std::vector<std::string>{"4", "--intersections", "assume-none"}, {"4", "--intersections", "refuse"}, {"99999999"}}) {
     CHECK(contains(report(words), "\"intersections\": null"));
   }
+}
+
+TEST_CASE("Command line: what is inside of a mesh that is not closed, and by what", "[cli]") {
+  const TemporaryFolder folder;
+  using namespace shapes;
+  Mesh turned = box({5, 1, 1}, {7, 3, 3});
+  std::swap(turned.triangles[0], turned.triangles[1]);
+  Mesh open = box({9, 1, 1}, {11, 3, 3});
+  open.triangles.resize(open.triangles.size() - 3);
+  const Mesh village = merged({cube(1, 3), turned, open});
+  std::string text;
+  mandoline::writeMesh([&](std::string_view piece) { text += piece; }, mandoline::FileFormat::obj, village);
+  const std::string mesh = folder.write("village.obj", text), report = folder.path("report.json"), svg = folder.path("village.svg");
+  const std::vector<std::string> grid = {"--box", "0,0,0,12,4,4", "--cells", "12,4,4"};
+  const auto inGrid = [&](std::vector<std::string> words) {
+    words.insert(words.end(), grid.begin(), grid.end());
+    return run(folder, words);
+  };
+  const std::string note =
+      "1 of 3 components not consistently oriented: inside by parity; 1 of 3 components open, with 3 open edges around 1 hole: ";
+  const Outcome plain = inGrid({"cut", mesh, "--report", report});
+  REQUIRE(plain.exitCode == 0);
+  const std::string exact = folder.read("report.json");
+  for (const char* part : {"\"closedness\": {\"winding\": 1, \"parity\": 1, \"open\": 1, \"openEdges\": 3, \"holes\": 1}",
+                           "\"inside\": {\"by\": \"parity\", \"complete\": false}",
+                           "\"partWinding\": 1, \"parity\": 1, \"insideness\": null, \"inside\": true",
+                           "\"partWinding\": 0, \"parity\": 1, \"insideness\": null, \"inside\": true"}) {
+    CHECK(contains(exact, part));
+  }
+  const Outcome sliced = inGrid({"slice", mesh, "--heights", "2.125", "-o", svg});
+  REQUIRE(sliced.exitCode == 0);
+  CHECK(contains(sliced.err, "Note: " + note + "inside by an estimate"));
+  CHECK(contains(folder.read("village.svg"), "<path data-region="));
+  const Outcome estimated = inGrid({"cut", mesh, "--inside-threshold", "0.5", "--validate", "--report", report});
+  REQUIRE(estimated.exitCode == 0);
+  CHECK(contains(folder.read("report.json"), "\"inside\": {\"by\": \"estimate\", \"complete\": true}"));
+  CHECK(inGrid({"cut", mesh, "--inside-threshold", "0"}).exitCode == 2);
+  const Outcome resolved = run(folder, {"resolve", mesh, "--rule", "positive", "-o", folder.path("solid.obj")});
+  REQUIRE(resolved.exitCode == 0);
+  CHECK(contains(resolved.err, "Note: " + note + "left out"));
+  CHECK(contains(resolved.err, "Triangles written: 24"));
 }
 
 TEST_CASE("Command line: one file for each region", "[cli]") {
@@ -687,7 +730,7 @@ TEST_CASE("Command line: crossing cubes are resolved, refused or left alone, and
   };
   const Outcome resolved = cutWith("resolve");
   REQUIRE(resolved.exitCode == 0);
-  for (const std::string part : {"\"winding\": 0, \"volume\": 110}", "\"winding\": 1, \"volume\": 7}", "\"winding\": 2, \"volume\": 1}",
+  for (const std::string part : {"\"winding\": 0, \"volume\": 110,", "\"winding\": 1, \"volume\": 7,", "\"winding\": 2, \"volume\": 1,",
                                  "\"crossing\": 6", "\"touching\": 12", "\"curves\": 1", "\"madeVertices\": 6"}) {
     REQUIRE(contains(resolved.out, part));
   }

@@ -216,9 +216,9 @@ test('boundary() of meshes that it does not take', () => {
     [{ ...resolved, positions: resolved.positions.slice(3) }, /don't fit together/],
     [{ ...resolved, positions: resolved.positions.slice(1) }, /don't fit together/],
     [{ ...resolved, triangles: resolved.triangles.slice(1) }, /don't fit together/],
-    [{ ...resolved, frontWinding: null, backWinding: null }, /open or not consistently oriented/],
-    [mandoline.resolve(sheet([0, 0], [1, 1], 0)), /open or not consistently oriented/],
-    [mandoline.cut(sheet([0, 0], [1, 1], 0.5), grid), /open or not consistently oriented/],
+    [{ ...resolved, frontWinding: null, backWinding: null }, /^No part of the mesh is closed/],
+    [mandoline.resolve(sheet([0, 0], [1, 1], 0)), /^No part of the mesh is closed/],
+    [mandoline.cut(sheet([0, 0], [1, 1], 0.5), grid), /^No part of the mesh is closed/],
     [{ ...cutMesh, positions: null }, /^cutMesh\.positions must be a Float64Array/],
     [{ ...cutMesh, cellRegion: cutMesh.cellRegion.slice(1) }, /don't fit together/],
   ];

@@ -45,8 +45,8 @@ const same = (a, b) => Object.is(a, b) || (Array.isArray(a) && a.length === b.le
 
 /** Whether every array of the dump has the same doubles and integers (down to the sign of a zero) as the cut-mesh. */
 function assertSame(dump, cutMesh, what) {
-  const { grid, format, version, triangleCount, regionWinding, ...arrays } = dump;
-  assert.equal(regionWinding.length, cutMesh.regionCount, `${what}: regionCount`);
+  const optional = ['regionWinding', 'regionPartWinding', 'regionParity', 'regionInsideness'];
+  const { grid, format, version, triangleCount, ...arrays } = dump;
   assert.deepEqual([format, version, triangleCount], ['mandoline-cut-mesh', 2, cutMesh.triangleCount]);
   assert.ok(
     same(
@@ -56,9 +56,12 @@ function assertSame(dump, cutMesh, what) {
     `${what}: grid`,
   );
   for (const name of ['origin', 'spacing', 'cells']) assert.ok(same(grid[name], cutMesh.grid[name]), `${what}: grid.${name}`);
-  const winding = cutMesh.regionWinding ? [...cutMesh.regionWinding] : Array(cutMesh.regionCount).fill(null);
-  assert.ok(same(regionWinding, winding), `${what}: regionWinding`);
-  const typedArrays = Object.keys(cutMesh).filter((key) => ArrayBuffer.isView(cutMesh[key]) && key !== 'regionWinding');
+  for (const name of optional) {
+    const numbers = cutMesh[name] ? [...cutMesh[name]] : Array(cutMesh.regionCount).fill(null);
+    assert.ok(same(arrays[name], numbers), `${what}: ${name}`);
+    delete arrays[name];
+  }
+  const typedArrays = Object.keys(cutMesh).filter((key) => ArrayBuffer.isView(cutMesh[key]) && !optional.includes(key));
   assert.deepEqual(Object.keys(arrays).sort(), typedArrays.sort(), `${what}: which arrays`);
   for (const [key, values] of Object.entries(arrays)) {
     assert.equal(values.length, cutMesh[key].length, `${what}: ${key}`);
@@ -127,7 +130,7 @@ async function compareResolved(file, mesh) {
     ['non-zero', 'nonZero'],
     ['odd', 'odd'],
   ]) {
-    if (resolved.frontWinding) results.push([['--rule', word], boundary(resolved, rule)]);
+    if (resolved.frontWinding || resolved.frontParity) results.push([['--rule', word], boundary(resolved, rule)]);
   }
   for (const [options, { positions, triangles }] of results) {
     const what = `${file} resolved ${options.join(' ')}`;

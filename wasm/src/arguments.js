@@ -272,9 +272,17 @@ export function readId(value, name) {
 
 const parentArrays = ['faceParentOffsets', 'faceParents', 'faceParentSigns'];
 const madeArrays = ['madeVertices', 'madeVertexKinds', 'madeVertexParents'];
+const partArrays = ['regionPartWinding', 'regionParity', 'regionInsideness', 'parityTriangles', 'openTriangles'];
+
+/** Cut-meshes from before components had winding numbers of their own know nothing of these. */
+function withParts(cutMesh) {
+  if (partArrays.some((name) => cutMesh[name] !== undefined)) return cutMesh;
+  const nothing = { regionPartWinding: null, regionParity: null, regionInsideness: null };
+  return { ...cutMesh, ...nothing, parityTriangles: new Uint32Array(), openTriangles: new Uint32Array() };
+}
 
 /** Cut-meshes from before self-intersections were resolved have neither parents nor made vertices: a face's triangle is its only parent. */
-function completed(cutMesh) {
+function withParents(cutMesh) {
   const { faceTriangle } = cutMesh;
   const isComplete = [...parentArrays, ...madeArrays].some((name) => cutMesh[name] !== undefined);
   if (isComplete || !isTypedArray(faceTriangle, ['Int32Array'])) return cutMesh;
@@ -318,15 +326,19 @@ export function readFields(value, fields, name) {
 
 export function readCutMesh(cutMesh) {
   expectObject(cutMesh, 'cutMesh');
-  return readFields(completed(cutMesh), CutMesh, 'cutMesh');
+  return readFields(withParts(withParents(cutMesh)), CutMesh, 'cutMesh');
 }
 
 /** The part of the result of resolve() that boundary() takes. */
 export function readResolved(mesh) {
   const arrays = readMesh(mesh);
-  const isNull = mesh.frontWinding === null && mesh.backWinding === null;
-  const kind = isNull ? ResolvedMesh.frontWinding : 'Int32Array'; // one without the other is none
-  return { ...arrays, ...readFields(mesh, { frontWinding: kind, backWinding: kind }, 'mesh') };
+  const fields = {};
+  for (const what of ['Winding', 'PartWinding', 'Parity']) {
+    const sides = [`front${what}`, `back${what}`];
+    const isNull = sides.every((side) => mesh[side] === null);
+    for (const side of sides) fields[side] = isNull ? ResolvedMesh[side] : ResolvedMesh[side].split(' | ')[0]; // one without the other is none
+  }
+  return { ...arrays, ...readFields(mesh, fields, 'mesh') };
 }
 
 export function readPoints(points, name = 'points') {

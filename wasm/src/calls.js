@@ -112,7 +112,8 @@ export const cutCalls = {
   /**
    * The surface of the solid, oriented outwards: of what resolve() gave, or of a cut-mesh, in pieces cut by the grid. Every edge has an
    * even number of triangles: where the solid reaches the grid's sides, sides of its cut-cells and of the cells of coarsen() close the part
-   * inside. Code "badArgument" for a mesh that is open or inconsistently oriented, and so bounds no solid. Default rule: "positive".
+   * inside. Inside is by winding numbers, else by parity (see CutMesh); open components are left out. Code "badArgument" for a mesh that
+   * has no others, and so bounds no solid. Default rule: "positive".
    *
    * boundary(mesh: ResolvedMesh | CutMesh, rule?: WindingRule): MeshArrays
    */

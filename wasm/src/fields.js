@@ -5,6 +5,14 @@ export const StageTime = {
   ms: 'number',
 };
 
+export const ComponentCounts = {
+  winding: 'integer',
+  parity: 'integer',
+  open: 'integer',
+  openEdges: 'integer',
+  holes: 'integer',
+};
+
 export const CutStats = {
   stages: 'array',
   totalMs: 'number',
@@ -19,6 +27,7 @@ export const CutStats = {
   snappedVertices: 'integer',
   largestSnap: 'number',
   flushedCoordinates: 'integer',
+  components: 'ComponentCounts',
 };
 
 export const CutMesh = {
@@ -50,6 +59,11 @@ export const CutMesh = {
   runRegion: 'Uint32Array',
   regionCount: 'integer',
   regionWinding: 'Int32Array | null',
+  regionPartWinding: 'Int32Array | null',
+  regionParity: 'Uint8Array | null',
+  regionInsideness: 'Float64Array | null',
+  parityTriangles: 'Uint32Array',
+  openTriangles: 'Uint32Array',
   triangleCount: 'integer',
   droppedTriangles: 'Uint32Array',
 };
@@ -150,6 +164,10 @@ export const ResolvedMesh = {
   parentSigns: 'Int8Array',
   frontWinding: 'Int32Array | null',
   backWinding: 'Int32Array | null',
+  frontPartWinding: 'Int32Array | null',
+  backPartWinding: 'Int32Array | null',
+  frontParity: 'Uint8Array | null',
+  backParity: 'Uint8Array | null',
 };
 
 export const Slice = {
@@ -218,8 +236,14 @@ export const Element = [
   'row',
   'run',
   'region',
+  'parityTriangle',
+  'openTriangle',
   'droppedTriangle',
 ];
+
+export const WindingRule = ['positive', 'nonZero', 'odd'];
+
+export const InsideBy = ['winding', 'parity', 'estimate'];
 
 export const EdgeDefect = ['open', 'nonManifold', 'inconsistent'];
 
@@ -230,8 +254,6 @@ export const IntersectionKind = ['crossing', 'touching', 'overlapping', 'folded'
 export const FileFormat = ['json', 'mcm', 'vtu', 'obj', 'stl', 'ply', 'off', 'svg', 'dxf'];
 
 export const Facing = ['outward', 'inward', 'unknown', 'nonOrientable'];
-
-export const WindingRule = ['positive', 'nonZero', 'odd'];
 
 export const Status = [
   'ok',

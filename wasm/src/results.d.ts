@@ -13,6 +13,23 @@ export interface StageTime {
   ms: number;
 }
 
+/**
+ * The connected components of a mesh that is not closed and consistently oriented as a whole, after resolving; all 0 of one that is.
+ * Triangles are connected by edges that they need each other at: two boxes that touch along an edge are two components.
+ */
+export interface ComponentCounts {
+  /** Closed and consistently oriented, so that they have winding numbers. */
+  winding: number;
+  /** Each edge has an even number of their triangles, but they are not consistently oriented. */
+  parity: number;
+  /** The others. */
+  open: number;
+  /** Edges with an odd number of triangles of an open component. */
+  openEdges: number;
+  /** Connected sets of those. */
+  holes: number;
+}
+
 /** How a cut went. */
 export interface CutStats {
   /** In order. */
@@ -45,11 +62,13 @@ export interface CutStats {
   largestSnap: number;
   /** Below 2^-200 of the largest, taken as 0. */
   flushedCoordinates: number;
+  /** Of the input. */
+  components: ComponentCounts;
 }
 
 /**
- * The cut-mesh. The JSON dump has the same arrays under the same names, and the dense form of the runs, gridCellRegion, as one more;
- * without winding numbers it has a null per region in regionWinding.
+ * The cut-mesh. The JSON dump has the same arrays under the same names, and the dense form of the runs, gridCellRegion, as one more; of an
+ * array of regions that is not there, as regionWinding without winding numbers, it has a null per region.
  */
 export interface CutMeshArrays {
   /**
@@ -136,6 +155,22 @@ export interface CutMeshArrays {
    * it has winding numbers.
    */
   regionWinding: Int32Array<ArrayBuffer> | null;
+
+  // What is known where the input has no winding numbers as a whole: see insideRegions(), which takes the best of it. Its connected
+  // components either have winding numbers, or parity alone (each edge has an even number of their triangles), or are open.
+  /** Per region: the sum over the components that have winding numbers; null if none has. */
+  regionPartWinding: Int32Array<ArrayBuffer> | null;
+  /** Per region: how many of the components that have winding numbers or parity a path from outside crosses, modulo 2; null if none has. */
+  regionParity: Uint8Array<ArrayBuffer> | null;
+  /**
+   * Per region: an estimate of its winding number: regionPartWinding, and the generalized winding number of the open components at a point
+   * of it; null unless made by estimateInside(), which divides regions at grid-faces, too.
+   */
+  regionInsideness: Float64Array<ArrayBuffer> | null;
+  /** Ascending ids of triangles in components that have parity alone. */
+  parityTriangles: Uint32Array<ArrayBuffer>;
+  /** Ascending ids of triangles in open components. */
+  openTriangles: Uint32Array<ArrayBuffer>;
 
   /** Of the input. */
   triangleCount: number;
@@ -369,6 +404,15 @@ export interface ResolvedMeshArrays extends MeshArrays {
   frontWinding: Int32Array<ArrayBuffer> | null;
   /** The same behind it. Null unless the input has winding numbers: see CutMesh. */
   backWinding: Int32Array<ArrayBuffer> | null;
+  // The same of what CutMesh::regionPartWinding and regionParity tell where the input as a whole has no winding numbers.
+  /** Per triangle, on the side of its normal; null if no component has winding numbers. */
+  frontPartWinding: Int32Array<ArrayBuffer> | null;
+  /** Per triangle, behind it; null if no component has winding numbers. */
+  backPartWinding: Int32Array<ArrayBuffer> | null;
+  /** Per triangle, on the side of its normal; null if no component has parity. */
+  frontParity: Uint8Array<ArrayBuffer> | null;
+  /** Per triangle, behind it; null if no component has parity. */
+  backParity: Uint8Array<ArrayBuffer> | null;
 }
 
 /**

@@ -211,6 +211,14 @@ void listDropped(const Input& input, CutMesh& out, CutStats& stats) {
   }
 }
 
+/// Triangles of components without winding numbers.
+void listComponents(const Components& components, CutMesh& out) {
+  for (uint32_t t = 0; t < components.kinds.size(); ++t) {
+    if (components.kinds[t] == ComponentKind::parity) out.parityTriangles.push_back(t);
+    if (components.kinds[t] == ComponentKind::open) out.openTriangles.push_back(t);
+  }
+}
+
 }  // namespace
 
 CutMesh makeOutput(const MeshView& mesh, const Grid& grid, CutState& state, Run& run) {
@@ -239,6 +247,9 @@ CutMesh makeOutput(const MeshView& mesh, const Grid& grid, CutState& state, Run&
   out.regionCount = regions.count;
   out.hasWinding = regions.hasWinding;
   out.regionWinding = std::move(regions.winding);
+  out.regionPartWinding = std::move(regions.partWinding);
+  out.regionParity = std::move(regions.parity);
+  listComponents(surface.input.mesh->components, out);
   out.triangleCount = uint32_t(surface.input.mesh->triangles.size());
   listDropped(surface.input, out, run.stats);
   return out;

@@ -5,14 +5,36 @@
 namespace mandoline::detail {
 namespace {
 
-/// Winding number of the surface about the point (x0 + e^3, y0 + e, z0 + e^2) for the grid's lowest corner (x0, y0, z0) and an e as small
-/// as need be: the sign of crossings of the ray from there to -x.
-int windingAtLowestCorner(const Input& input, Predicates& predicates) {
+/// Which triangles count, and how: all of a mesh that has winding numbers, or those of components that have them, or that have parity.
+class Counted {
+ public:
+  explicit Counted(const Prepared& mesh) : mesh_(mesh) {}
+  /// Of components that are at most as bad; modulo 2 unless those have winding numbers.
+  Counted(const Prepared& mesh, ComponentKind worst) : mesh_(mesh), worst_(worst) {}
+
+  bool has(TriangleId t) const { return mesh_.components.kinds.empty() || mesh_.components.kinds[t.number] <= worst_; }
+  /// The sum of the signs of a kept triangle and its duplicates.
+  int32_t signSum(TriangleId t) const {
+    int32_t sum = has(t);
+    for (const Duplicate& d : mesh_.duplicatesOf(t)) sum += !has({d.triangle}) ? 0 : d.sameWay ? 1 : -1;
+    return sum;
+  }
+  bool areEqual(int32_t a, int32_t b) const { return worst_ == ComponentKind::winding ? a == b : (a - b) % 2 == 0; }
+
+ private:
+  const Prepared& mesh_;
+  ComponentKind worst_ = ComponentKind::winding;
+};
+
+/// Winding number of what counts of the surface about the point (x0 + e^3, y0 + e, z0 + e^2) for the grid's lowest corner (x0, y0, z0) and
+/// an e as small as need be: the sign of crossings of the ray from there to -x.
+int windingAtLowestCorner(const Input& input, const Counted& counted, Predicates& predicates) {
   const Point o = {input.planes[0][0], input.planes[1][0], input.planes[2][0]};
   int winding = 0;
   for (const TriangleId t : input.triangleIds()) {
     if (!input.kept(t)) continue;
-    const int32_t copies = 1 + input.mesh->signSumOfDuplicates(t);
+    const int32_t copies = counted.signSum(t);
+    if (copies == 0) continue;
     const auto v = input.verticesOf(t);
     const Slab &sa = input.slabs[v[0]], &sb = input.slabs[v[1]], &sc = input.slabs[v[2]];
     if (std::min({sa[0], sb[0], sc[0]}) > 0) continue;
@@ -79,9 +101,9 @@ class WindingSets {
   int32_t toRoot(uint32_t r) const { return toParent_[r]; }
 
   /// Says that r has `step` more than s; false if that contradicts what was said before.
-  bool setMore(uint32_t r, uint32_t s, int32_t step) {
+  bool setMore(uint32_t r, uint32_t s, int32_t step, const Counted& counted) {
     const uint32_t rootR = find(r), rootS = find(s);
-    if (rootR == rootS) return toRoot(r) == toRoot(s) + step;
+    if (rootR == rootS) return counted.areEqual(toRoot(r), toRoot(s) + step);
     toParent_[rootR] = toRoot(s) + step - toRoot(r);
     parent_[rootR] = rootS;
     return true;
@@ -102,24 +124,44 @@ class WindingSets {
   vertices.failSelfIntersection(triangle, other);
 }
 
-}  // namespace
-
-void findWinding(const Surface& surface, const Sides& sides, Regions& regions, Predicates& predicates) {
-  regions.hasWinding = surface.input.mesh->closed;
-  if (!regions.hasWinding) return;
+/// Per region the winding number of what counts.
+std::vector<int32_t> windingOf(const Surface& surface, const Sides& sides, const Regions& regions, const Counted& counted,
+                               Predicates& predicates) {
   WindingSets sets(regions.count);
   FaceParents parents(surface.input, sides.faces.tri);
   for (const FaceId face : sides.faces.tri.ids()) {
     const CellId behind = sides.cell(HalfFace(face, 0)), inFront = sides.cell(HalfFace(face, 1));
     if (behind == Sides::kNone || inFront == Sides::kNone) continue;  // on the boundary of the grid
     int32_t step = 0;
-    parents.forEach(face, [&](TriangleId, bool sameWay) { step += sameWay ? 1 : -1; });
-    if (!sets.setMore(regions.cellRegion[behind], regions.cellRegion[inFront], step)) failAt(surface.vertices, sides, face);
+    parents.forEach(face, [&](TriangleId t, bool sameWay) { step += !counted.has(t) ? 0 : sameWay ? 1 : -1; });
+    const uint32_t regionBehind = regions.cellRegion[behind], regionInFront = regions.cellRegion[inFront];
+    if (!sets.setMore(regionBehind, regionInFront, step, counted)) failAt(surface.vertices, sides, face);
   }
   const uint32_t anchor = regionAtLowestCorner(surface.vertices, sides, regions), root = sets.find(anchor);
-  const int32_t shift = windingAtLowestCorner(surface.input, predicates) - sets.toRoot(anchor);
-  regions.winding.resize(regions.count);
-  for (uint32_t r = 0; r < regions.count; ++r) regions.winding[r] = sets.find(r) == root ? shift + sets.toRoot(r) : 0;
+  const int32_t shift = windingAtLowestCorner(surface.input, counted, predicates) - sets.toRoot(anchor);
+  std::vector<int32_t> winding(regions.count);
+  for (uint32_t r = 0; r < regions.count; ++r) winding[r] = sets.find(r) == root ? shift + sets.toRoot(r) : 0;
+  return winding;
+}
+
+}  // namespace
+
+void findWinding(const Surface& surface, const Sides& sides, Regions& regions, Predicates& predicates) {
+  const Prepared& mesh = *surface.input.mesh;
+  const ComponentCounts& components = mesh.components.counts;
+  regions.hasWinding = mesh.closed;
+  if (mesh.closed) {
+    regions.winding = windingOf(surface, sides, regions, Counted(mesh), predicates);
+    return;
+  }
+  if (components.winding > 0) {
+    regions.partWinding = windingOf(surface, sides, regions, {mesh, ComponentKind::winding}, predicates);
+  }
+  if (components.winding + components.parity > 0) {
+    for (const int32_t crossings : windingOf(surface, sides, regions, {mesh, ComponentKind::parity}, predicates)) {
+      regions.parity.push_back(uint8_t(crossings & 1));
+    }
+  }
 }
 
 }  // namespace mandoline::detail

@@ -26,7 +26,7 @@ class Sides {
   std::vector<CellId> cells_;  // per half-face
 };
 
-/// Sets hasWinding and winding of `regions`, whose regions are known.
+/// Sets winding numbers and parity of `regions`, whose regions are known.
 void findWinding(const Surface& surface, const Sides& sides, Regions& regions, Predicates& predicates);
 
 }  // namespace mandoline::detail

@@ -81,6 +81,8 @@ enum class Element : uint8_t {
   row,
   run,
   region,
+  parityTriangle,
+  openTriangle,
   droppedTriangle
 };
 
@@ -93,7 +95,7 @@ struct ArrayInfo {
 };
 
 /// The cut-mesh. The JSON dump has the same arrays under the same names, and the dense form of the runs, gridCellRegion, as one more;
-/// without winding numbers it has a null per region in regionWinding.
+/// of an array of regions that is not there, as regionWinding without winding numbers, it has a null per region.
 struct CutMesh {
   Grid grid;
 
@@ -140,6 +142,17 @@ struct CutMesh {
   uint32_t regionCount = 0;
   bool hasWinding = false;             ///< whether the input is closed and consistently oriented, so that it has winding numbers
   std::vector<int32_t> regionWinding;  ///< per region: 1 inside an outward oriented closed surface, 0 outside; empty unless hasWinding
+
+  // What is known where the input has no winding numbers as a whole: see insideRegions(), which takes the best of it. Its connected
+  // components either have winding numbers, or parity alone (each edge has an even number of their triangles), or are open.
+  std::vector<int32_t> regionPartWinding;  ///< per region: the sum over the components that have winding numbers; empty if none has
+  /// Per region: how many of the components that have winding numbers or parity a path from outside crosses, modulo 2; empty if none has.
+  std::vector<uint8_t> regionParity;
+  /// Per region: an estimate of its winding number: regionPartWinding, and the generalized winding number of the open components at a point
+  /// of it; empty unless made by estimateInside(), which divides regions at grid-faces, too.
+  std::vector<double> regionInsideness;
+  std::vector<uint32_t> parityTriangles;  ///< ascending ids of triangles in components that have parity alone
+  std::vector<uint32_t> openTriangles;    ///< ascending ids of triangles in open components
 
   uint32_t triangleCount = 0;              ///< of the input
   std::vector<uint32_t> droppedTriangles;  ///< ascending ids of triangles without a face: no area, or none inside the grid
@@ -192,6 +205,11 @@ struct CutMesh {
     f(ArrayInfo{"runRegion", Element::run}, self.runRegion);
     f("regionCount", self.regionCount);
     f(ArrayInfo{"regionWinding", Element::region}, Optional(self.regionWinding, &self.hasWinding));
+    f(ArrayInfo{"regionPartWinding", Element::region}, Optional(self.regionPartWinding));
+    f(ArrayInfo{"regionParity", Element::region}, Optional(self.regionParity));
+    f(ArrayInfo{"regionInsideness", Element::region}, Optional(self.regionInsideness));
+    f(ArrayInfo{"parityTriangles", Element::parityTriangle}, self.parityTriangles);
+    f(ArrayInfo{"openTriangles", Element::openTriangle}, self.openTriangles);
     f("triangleCount", self.triangleCount);
     f(ArrayInfo{"droppedTriangles", Element::droppedTriangle}, self.droppedTriangles);
   }

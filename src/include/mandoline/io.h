@@ -55,7 +55,8 @@ using Sink = std::function<void(std::string_view)>;
 // triangle (element) that names a vertex that does not exist, groups of other triangles.
 
 /// The complete dump as JSON: format, version, grid, the arrays of CutMesh under their names, gridCellRegion (as CutMesh::gridCellRegion())
-/// and triangleCount. Without winding numbers, regionWinding has a null for each region. Doubles read back identically.
+/// and triangleCount. Arrays that are not there, as regionWinding without winding numbers, have a null for each region. Doubles read back
+/// identically.
 void writeJson(const Sink& sink, const CutMesh& cutMesh, const RunOptions& options = {});
 /// The same with two arrays more: groupNames, and triangleGroup per triangle of the input; with neither if there are no groups.
 void writeJson(const Sink& sink, const CutMesh& cutMesh, const TriangleGroups& groups, const RunOptions& options);
@@ -65,8 +66,8 @@ void writeJson(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cell
 /// The cut-mesh as bytes that readCutMesh() takes, in Mandoline's own format: compressed, with a version and a checksum of each array. The
 /// same cut-mesh always gives the same bytes.
 void writeMcm(const Sink& sink, const CutMesh& cutMesh, const RunOptions& options = {});
-/// VTK XML unstructured grid of polyhedra with cell arrays grid_cell, region, winding, volume. Faces with holes are split alike on both
-/// sides. Takes little memory besides that of the cut-mesh.
+/// VTK XML unstructured grid of polyhedra with cell arrays grid_cell, region, volume and, where they are there, winding, part_winding,
+/// parity and insideness. Faces with holes are split alike on both sides. Takes little memory besides that of the cut-mesh.
 void writeVtu(const Sink& sink, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options = {});
 /// Numbers to write beside the rest: 1 or 3 for each cell, or each face, of a cell complex.
 struct Field {
@@ -74,7 +75,7 @@ struct Field {
   std::span<const double> values;
 };
 /// The cells of a cell complex, made from the cut-mesh, as such polyhedra, which match face by face, with cell arrays grid_cell (the lowest
-/// one), level, region, winding, volume and the fields.
+/// one), level, region, volume, the same about inside, and the fields.
 void writeVtu(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, std::span<const Field> cellFields = {},
               const WriteOptions& options = {});
 /// Its faces, those of the cells that the options select, as polygons with cell arrays face, tag (FaceTag), triangle, cells and the fields;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mandoline/fields.h"
+#include "mandoline/inside.h"
 #include "mandoline/prepare.h"
 
 namespace MANDOLINE_API mandoline {
@@ -17,6 +18,11 @@ struct ResolvedMesh {
   bool hasWinding = false;              ///< whether the input has winding numbers: see CutMesh
   std::vector<int32_t> frontWinding;    ///< per triangle: the winding number on the side of its normal; empty unless hasWinding
   std::vector<int32_t> backWinding;     ///< the same behind it; empty unless hasWinding
+  // The same of what CutMesh::regionPartWinding and regionParity tell where the input as a whole has no winding numbers.
+  std::vector<int32_t> frontPartWinding;  ///< per triangle, on the side of its normal; empty if no component has winding numbers
+  std::vector<int32_t> backPartWinding;   ///< per triangle, behind it; empty if no component has winding numbers
+  std::vector<uint8_t> frontParity;       ///< per triangle, on the side of its normal; empty if no component has parity
+  std::vector<uint8_t> backParity;        ///< per triangle, behind it; empty if no component has parity
 
   static void fields(auto& self, const auto& f) {
     Mesh::fields(self.mesh, f);
@@ -26,6 +32,10 @@ struct ResolvedMesh {
     f("parentSigns", self.parentSigns);
     f("frontWinding", Optional(self.frontWinding, &self.hasWinding));
     f("backWinding", Optional(self.backWinding, &self.hasWinding));
+    f("frontPartWinding", Optional(self.frontPartWinding));
+    f("backPartWinding", Optional(self.backPartWinding));
+    f("frontParity", Optional(self.frontParity));
+    f("backParity", Optional(self.backParity));
   }
 };
 
@@ -42,18 +52,13 @@ struct ResolveResult {
 /// Failures come back as a status; it throws nothing but what options.progress throws.
 ResolveResult resolve(const MeshView& mesh, const RunOptions& options = {});
 
-/// Which winding numbers are inside of the solid.
-enum class WindingRule : uint8_t {
-  positive,  ///< above 0: parts that overlap are one, inverted ones are nothing
-  nonZero,   ///< any but 0
-  odd        ///< where two parts overlap, there is a hole
-};
-
-/// The surface of the solid, oriented outwards: every edge has an even number of triangles. Throws CallError for a mesh without winding
-/// numbers, or whose arrays don't fit together.
+/// The surface of the solid, oriented outwards: every edge has an even number of triangles. Inside is what insideRegions() says; open
+/// components are left out. Throws CallError for a mesh that has no others, or whose arrays don't fit together.
 Mesh boundary(const ResolvedMesh& mesh, WindingRule rule = WindingRule::positive);
 /// The same of a cut-mesh, in pieces cut by the grid, of the part of the solid inside the grid: where the solid reaches the grid's sides,
-/// sides of its cut-cells and of the cells of coarsen() close it. Throws CallError if the cut-mesh is empty or has no winding numbers.
+/// sides of its cut-cells and of the cells of coarsen() close it. Throws CallError as insideRegions() does.
 Mesh boundary(const CutMesh& cutMesh, WindingRule rule = WindingRule::positive);
+/// The same of any regions. `isInside`: per region. Throws CallError if the cut-mesh is empty or has another number of regions.
+Mesh boundary(const CutMesh& cutMesh, std::span<const uint8_t> isInside);
 
 }  // namespace mandoline

@@ -42,8 +42,10 @@ ResolvedMesh resolvedOf(const CutMesh& cutMesh) {
   result.parentOffsets.push_back(0);
   result.hasWinding = cutMesh.hasWinding;
   const std::vector<int32_t> owners = operators::ownersOf(cutMesh);
-  const auto windingAt = [&](size_t halfFace) {  // 0 beyond the grid
-    return owners[halfFace] < 0 ? 0 : cutMesh.regionWinding[cutMesh.cellRegion[size_t(owners[halfFace])]];
+  const auto addAt = [&](size_t halfFace, const auto& ofRegions, auto& out) {  // 0 beyond the grid
+    using Number = typename std::remove_reference_t<decltype(out)>::value_type;
+    if (ofRegions.empty()) return;
+    out.push_back(owners[halfFace] < 0 ? Number(0) : ofRegions[cutMesh.cellRegion[size_t(owners[halfFace])]]);
   };
   for (size_t f = 0; f < cutMesh.faceCount(); ++f) {
     if (cutMesh.faceTriangle[f] < 0) continue;
@@ -54,9 +56,12 @@ ResolvedMesh resolvedOf(const CutMesh& cutMesh) {
         result.parentSigns.push_back(cutMesh.faceParentSigns[p]);
       }
       result.parentOffsets.push_back(uint32_t(result.parents.size()));
-      if (!cutMesh.hasWinding) continue;
-      result.backWinding.push_back(windingAt(2 * f));
-      result.frontWinding.push_back(windingAt(2 * f + 1));
+      addAt(2 * f, cutMesh.regionWinding, result.backWinding);
+      addAt(2 * f + 1, cutMesh.regionWinding, result.frontWinding);
+      addAt(2 * f, cutMesh.regionPartWinding, result.backPartWinding);
+      addAt(2 * f + 1, cutMesh.regionPartWinding, result.frontPartWinding);
+      addAt(2 * f, cutMesh.regionParity, result.backParity);
+      addAt(2 * f + 1, cutMesh.regionParity, result.frontParity);
     }
   }
   for (const uint32_t v : writer.used()) result.vertexTriVertex.push_back(cutMesh.vertexTriVertex[v]);

@@ -1,6 +1,7 @@
 // The arcs of a region are closed because those of its cells are, and because what cells share cancels: pieces of grid-faces between two
 // cells. They are left out from the start. Along the sides of the grid's box, cut-cells and untouched grid cells have to meet in the same
-// points, so an edge of the grid there has one point, however the surface has divided it.
+// points, so an edge of the grid there has one point, however the surface has divided it. With estimates regions also end at grid-faces
+// inside, and all this holds there, too.
 #include "operators/slice/region_arcs.h"
 
 #include <algorithm>
@@ -42,7 +43,7 @@ bool RegionArcs::liesOnSide(const std::array<uint32_t, 2>& edge, GridEdge& gridE
     gridEdge.at[size_t(d)] = std::min(a[d], b[d]);
     if ((planes >> d & 1) != 0 && a[d] == b[d]) {
       ++common;
-      onSide |= a[d] == 0 || a[d] == cutMesh_.grid.cells(d);
+      onSide |= a[d] == 0 || a[d] == cutMesh_.grid.cells(d) || !cutMesh_.regionInsideness.empty();
     } else {
       gridEdge.axis = d;
     }
@@ -55,8 +56,8 @@ void RegionArcs::addFaces(const CutFaces& cut) {
     const std::array<int64_t, 2> regions = {regionBeside(face, 0), regionBeside(face, 1)};
     int32_t line = cutMesh_.faceTriangle[face.face];
     if (line < 0) {
-      if (regions[0] >= 0 && regions[1] >= 0) continue;  // a piece of a grid-face between two cells
-      line = ~(2 * int32_t(cutMesh_.faceAxis[face.face]) + (cutMesh_.facePlane[face.face] > 0 ? 1 : 0));
+      if (regions[0] == regions[1]) continue;  // a piece of a grid-face between two cells
+      line = ~(3 * cutMesh_.facePlane[face.face] + int32_t(cutMesh_.faceAxis[face.face]));
     }
     const bool isSlit = regions[0] == regions[1];
     for (size_t side = 0; side < (isSlit ? 1 : 2); ++side) {
@@ -81,11 +82,21 @@ int64_t RegionArcs::regionBeside(const CutFace& face, int side) const {
   return UntouchedCells(cutMesh_).regionAt(at[0], at[1], at[2]);
 }
 
-/// Sides of untouched grid cells on sides of the grid's box.
+/// Whether a side of an untouched grid cell is one of the grid's box, or has an untouched grid cell of another region beyond it.
+bool RegionArcs::isBorder(const GridCell& gridCell, uint32_t region, int axis, int upper) const {
+  if (gridCell[size_t(axis)] == (upper == 1 ? int32_t(cutMesh_.grid.cells(axis)) - 1 : 0)) return true;
+  if (cutMesh_.regionInsideness.empty()) return false;
+  GridCell next = gridCell;
+  next[size_t(axis)] += upper == 1 ? 1 : -1;
+  const int64_t other = UntouchedCells(cutMesh_).regionAt(next[0], next[1], next[2]);
+  return other >= 0 && other != region;
+}
+
+/// Those sides of all untouched grid cells.
 void RegionArcs::addBoxes(const CuttingPlane& plane, GridPoints& gridPoints) {
   const auto isLast = [&](int32_t i, int d) { return i == 0 || i + 1 == cutMesh_.grid.cells(d); };
   boxes_.forUntouched(plane, [&](int32_t begin, int32_t end, int32_t j, int32_t k, uint32_t region) {
-    if (isLast(j, 1) || isLast(k, 2)) {
+    if (isLast(j, 1) || isLast(k, 2) || !cutMesh_.regionInsideness.empty()) {
       for (int32_t i = begin; i < end; ++i) addBox({i, j, k}, region, plane, gridPoints);
     } else {
       if (isLast(begin, 0)) addBox({begin, j, k}, region, plane, gridPoints);
@@ -108,8 +119,9 @@ void RegionArcs::addBox(const GridCell& gridCell, uint32_t region, const Cutting
   for (int side = 0; side < 6; ++side) {
     const int axis = side / 2, upper = side % 2;
     const BoxCut::Way way = cut.wayOn(side);
-    const bool onSide = gridCell[size_t(axis)] == (upper == 1 ? int32_t(cutMesh_.grid.cells(axis)) - 1 : 0);
-    if (onSide && way.start != BoxCut::kNone) add({region, pointOn(way.start), pointOn(way.end), ~side, false});
+    if (way.start == BoxCut::kNone || !isBorder(gridCell, region, axis, upper)) continue;
+    const int32_t line = ~(3 * (gridCell[size_t(axis)] + upper) + axis);
+    add({region, pointOn(way.start), pointOn(way.end), line, false});
   }
 }
 

@@ -13,7 +13,7 @@ namespace mandoline::operators {
 struct RegionArc {
   uint32_t region;
   uint32_t start, end;
-  int32_t line;  ///< the triangle that is cut, or ~(2 * axis + (1 if upper)) for a side of the grid's box
+  int32_t line;  ///< the triangle that is cut, or ~(3 * plane + axis) for an axial plane
   bool isSlit;   ///< one for both directions: the region is on both sides
 };
 
@@ -29,6 +29,7 @@ class RegionArcs {
   bool liesOnSide(const std::array<uint32_t, 2>& edge, GridEdge& gridEdge) const;
   void addFaces(const CutFaces& cut);
   int64_t regionBeside(const CutFace& face, int side) const;
+  bool isBorder(const GridCell& gridCell, uint32_t region, int axis, int upper) const;
   void addBoxes(const CuttingPlane& plane, GridPoints& gridPoints);
   void addBox(const GridCell& gridCell, uint32_t region, const CuttingPlane& plane, GridPoints& gridPoints);
   void add(const RegionArc& arc);

@@ -1,5 +1,6 @@
 // The arrays of a cut-mesh: lengths, offsets and id ranges. Everything else in validate() relies on these.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "operators/validate/context.h"
@@ -237,10 +238,31 @@ class ArrayCheck {
     if (!expect(cut_.regionWinding.size() == (cut_.hasWinding ? cut_.regionCount : 0), "array", 0,
                 "of the regions' winding numbers has a wrong length"))
       return false;
-    const std::vector<uint32_t>& dropped = cut_.droppedTriangles;
-    for (size_t i = 0; i < dropped.size(); ++i) {
-      const bool fine = dropped[i] < cut_.triangleCount && (i == 0 || dropped[i - 1] < dropped[i]);
-      if (!expect(fine, "triangle", dropped[i], "is dropped but does not exist or is out of order")) return false;
+    return checkParts() && checkTriangles(cut_.droppedTriangles, "is dropped but does not exist or is out of order") &&
+           checkTriangles(cut_.parityTriangles, "is among those with parity but does not exist or is out of order") &&
+           checkTriangles(cut_.openTriangles, "is among the open ones but does not exist or is out of order");
+  }
+
+  /// What there is instead of winding numbers.
+  bool checkParts() {
+    const auto expectPerRegion = [&](const auto& array, const char* message) {
+      const bool mayBe = array.size() == cut_.regionCount && !cut_.hasWinding;
+      return expect(array.empty() || mayBe, "array", 0, message);
+    };
+    if (!expectPerRegion(cut_.regionPartWinding, "of the components' winding numbers has a wrong length")) return false;
+    if (!expectPerRegion(cut_.regionParity, "of the regions' parity has a wrong length")) return false;
+    if (!expectPerRegion(cut_.regionInsideness, "of the regions' insideness has a wrong length")) return false;
+    if (!expectRange(cut_.regionParity, {0, 1}, "region", "has a parity that is neither 0 nor 1")) return false;
+    for (size_t r = 0; r < cut_.regionInsideness.size(); ++r) {
+      if (!expect(std::isfinite(cut_.regionInsideness[r]), "region", int64_t(r), "has an insideness that is not finite")) return false;
+    }
+    return true;
+  }
+
+  bool checkTriangles(const std::vector<uint32_t>& triangles, const char* message) {
+    for (size_t i = 0; i < triangles.size(); ++i) {
+      const bool fine = triangles[i] < cut_.triangleCount && (i == 0 || triangles[i - 1] < triangles[i]);
+      if (!expect(fine, "triangle", triangles[i], message)) return false;
     }
     return true;
   }

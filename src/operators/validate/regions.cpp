@@ -94,12 +94,26 @@ class ComponentCheck {
   }
 
  private:
+  uint32_t regionOfPart(uint32_t part) const { return part < cells_ ? x_.cut.cellRegion[part] : x_.cut.runRegion[part - cells_]; }
+
+  /// Joins parts that meet in a face that is no piece of a triangle. Estimates may divide there, and nothing else.
+  void join(uint32_t part, uint32_t other) {
+    const uint32_t region = regionOfPart(part), beyond = regionOfPart(other);
+    if (x_.cut.regionInsideness.empty() || region == beyond) return parts_.unite(part, other);
+    const auto differ = [&](const auto& numbers) { return !numbers.empty() && numbers[region] != numbers[beyond]; };
+    if (differ(x_.cut.regionPartWinding) || differ(x_.cut.regionParity)) {
+      regions_.violate("region", region, "has another winding number or parity than one that no triangle divides it from");
+    }
+    if (!differ(x_.cut.regionInsideness))
+      regions_.violate("region", region, "has the same insideness as one that no triangle divides it from");
+  }
+
   void joinThroughFaces() {
     for (size_t f = 0; f < x_.cut.faceCount(); ++f) {
       if (x_.cut.faceTriangle[f] >= 0) continue;
       const int32_t below = x_.owner[2 * f], above = x_.owner[2 * f + 1];
       if (below >= 0 && above >= 0) {
-        parts_.unite(uint32_t(below), uint32_t(above));
+        join(uint32_t(below), uint32_t(above));
       } else if (below >= 0) {
         joinAcross(f, below, 1);
       } else if (above >= 0) {
@@ -115,7 +129,7 @@ class ComponentCheck {
     next[size_t(axis)] += step;
     if (next[size_t(axis)] < 0 || next[size_t(axis)] >= x_.cut.grid.cells(axis)) return;
     const int64_t run = x_.runAt(next[0], next[1], next[2]);
-    if (run >= 0) parts_.unite(uint32_t(cell), cells_ + uint32_t(run));
+    if (run >= 0) join(uint32_t(cell), cells_ + uint32_t(run));
   }
 
   void joinRuns() {
@@ -124,7 +138,7 @@ class ComponentCheck {
       for (int64_t j = 0; j < ny; ++j) {
         const int64_t row = k * ny + j;
         for (uint32_t r = x_.cut.rowRunOffsets[row]; r + 1 < x_.cut.rowRunOffsets[row + 1]; ++r) {
-          if (x_.cut.runEnd[r] == x_.cut.runBegin[r + 1]) parts_.unite(cells_ + r, cells_ + r + 1);
+          if (x_.cut.runEnd[r] == x_.cut.runBegin[r + 1]) join(cells_ + r, cells_ + r + 1);
         }
         if (j + 1 < ny) joinRows(row, row + 1);
         if (k + 1 < nz) joinRows(row, row + ny);
@@ -134,8 +148,7 @@ class ComponentCheck {
   void joinRows(int64_t row, int64_t other) {
     uint32_t r = x_.cut.rowRunOffsets[row], s = x_.cut.rowRunOffsets[other];
     while (r < x_.cut.rowRunOffsets[row + 1] && s < x_.cut.rowRunOffsets[other + 1]) {
-      if (std::max(x_.cut.runBegin[r], x_.cut.runBegin[s]) < std::min(x_.cut.runEnd[r], x_.cut.runEnd[s]))
-        parts_.unite(cells_ + r, cells_ + s);
+      if (std::max(x_.cut.runBegin[r], x_.cut.runBegin[s]) < std::min(x_.cut.runEnd[r], x_.cut.runEnd[s])) join(cells_ + r, cells_ + s);
       ++(x_.cut.runEnd[r] < x_.cut.runEnd[s] ? r : s);
     }
   }
@@ -145,7 +158,7 @@ class ComponentCheck {
     constexpr uint32_t kNone = UINT32_MAX;
     std::vector<uint32_t> regionOf(count, kNone), rootOf(x_.cut.regionCount, kNone);
     for (uint32_t i = 0; i < count; ++i) {
-      const uint32_t root = parts_.find(i), region = i < cells_ ? x_.cut.cellRegion[i] : x_.cut.runRegion[i - cells_];
+      const uint32_t root = parts_.find(i), region = regionOfPart(i);
       const char* kind = i < cells_ ? "cell" : "run";
       const uint32_t element = i < cells_ ? i : i - cells_;
       if (regionOf[root] == kNone) regionOf[root] = region;

@@ -72,14 +72,4 @@ std::optional<int32_t> TriangleBins::crossing(const Vec3& p, uint32_t triangle) 
   return (height > 0) != (ab > 0) ? ab : 0;  // p is below: the ray leaves through a normal that points along it
 }
 
-std::optional<int32_t> TriangleBins::winding(const Vec3& p) const {
-  std::optional<int32_t> sum = 0;
-  forTriangles(p, p, [&](uint32_t t) {
-    if (!sum) return;
-    const std::optional<int32_t> step = crossing(p, t);
-    sum = step ? std::optional(*sum + *step) : std::nullopt;
-  });
-  return sum;
-}
-
 }  // namespace mandoline::validation

@@ -23,8 +23,18 @@ class TriangleBins {
       }
     }
   }
-  /// Winding number of the input at a point, by a ray along the axis; none where rounding leaves it open.
-  std::optional<int32_t> winding(const Vec3& p) const;
+  /// Winding number of the input at a point, by a ray along the axis; none where rounding leaves it open. Of those triangles that
+  /// `counts(triangle)`.
+  template <class Counts>
+  std::optional<int32_t> winding(const Vec3& p, const Counts& counts) const {
+    std::optional<int32_t> sum = 0;
+    forTriangles(p, p, [&](uint32_t t) {
+      if (!sum || !counts(t)) return;
+      const std::optional<int32_t> step = crossing(p, t);
+      sum = step ? std::optional(*sum + *step) : std::nullopt;
+    });
+    return sum;
+  }
 
  private:
   struct Box {

@@ -1,5 +1,6 @@
 // Piecewise constant winding number and input volume, where the input has winding numbers.
 #include <algorithm>
+#include <functional>
 
 #include "operators/validate/passes.h"
 
@@ -28,6 +29,17 @@ std::vector<Sample> sampleUntouched(const Context& context) {
   return samples;
 }
 
+/// What the input's triangles add to a number of each region.
+struct Numbers {
+  std::function<int32_t(uint32_t region)> of;
+  bool modulo2;
+  const char *wrongStep, *wrongSample;  ///< what is wrong with a face, and with a cell
+  std::vector<uint8_t> isLeftOut;       ///< per triangle
+
+  bool areEqual(int32_t a, int32_t b) const { return modulo2 ? (a - b) % 2 == 0 : a == b; }
+  int32_t sign(uint32_t triangle, int8_t sign) const { return isLeftOut[triangle] ? 0 : sign; }
+};
+
 class WindingCheck {
  public:
   WindingCheck(const Context& context, const InputTopology& topology, const TriangleBins& bins)
@@ -38,14 +50,16 @@ class WindingCheck {
     if (!x_.cut.hasWinding) {
       if (!topology_.mayBeOpen) {
         tally.violate("mesh", 0, "is closed and consistently oriented, but the result has no winding numbers");
-      } else {
+      } else if (x_.cut.regionPartWinding.empty() && x_.cut.regionParity.empty()) {
         tally.skip("The input is open or inconsistently oriented.");
       }
-      return tally.finish();
+    } else if (!topology_.mayBeClosed) {
+      tally.violate("mesh", 0, "is open or inconsistently oriented, but the result has winding numbers");
     }
-    if (!topology_.mayBeClosed) tally.violate("mesh", 0, "is open or inconsistently oriented, but the result has winding numbers");
-    checkSteps(tally);
-    checkSamples(samples, tally);
+    for (const Numbers& numbers : allNumbers()) {
+      checkSteps(numbers, tally);
+      checkSamples(numbers, samples, tally);
+    }
     return tally.finish();
   }
 
@@ -70,24 +84,46 @@ class WindingCheck {
     double value, noise;
   };
 
+  std::vector<Numbers> allNumbers() const {
+    std::vector<Numbers> all;
+    const auto add = [&](const auto& numbers, std::initializer_list<const std::vector<uint32_t>*> leftOut, bool modulo2,
+                         const char* wrongStep, const char* wrongSample) {
+      if (numbers.empty()) return;
+      all.push_back({[&numbers](uint32_t region) { return int32_t(numbers[region]); }, modulo2, wrongStep, wrongSample, {}});
+      all.back().isLeftOut.assign(x_.mesh.triangleCount(), 0);
+      for (const std::vector<uint32_t>* triangles : leftOut) {
+        for (const uint32_t t : *triangles) all.back().isLeftOut[t] = 1;
+      }
+    };
+    const CutMesh& cut = x_.cut;
+    add(cut.regionWinding, {}, false, "has winding numbers on its sides that do not differ as its triangles say",
+        "has another winding number than the input there");
+    add(cut.regionPartWinding, {&cut.parityTriangles, &cut.openTriangles}, false,
+        "has winding numbers of components on its sides that do not differ as its triangles say",
+        "has another winding number of components than the input there");
+    add(cut.regionParity, {&cut.openTriangles}, true, "has parities on its sides that do not differ as its triangles say",
+        "has another parity than the input there");
+    return all;
+  }
+
   /// The step from the front of a face to its back is the sum of its parents' signs.
-  void checkSteps(Tally& tally) const {
+  void checkSteps(const Numbers& numbers, Tally& tally) const {
     for (size_t f = 0; f < x_.cut.faceCount(); ++f) {
       const int32_t behind = x_.owner[2 * f], front = x_.owner[2 * f + 1];
       if (behind < 0 || front < 0) continue;
       int32_t step = 0;
-      for (const int8_t sign : x_.parentSigns(f)) step += sign;
-      if (x_.cut.regionWinding[x_.cut.cellRegion[behind]] - x_.cut.regionWinding[x_.cut.cellRegion[front]] != step) {
-        tally.violate("face", int64_t(f), "has winding numbers on its sides that do not differ as its triangles say");
+      for (size_t i = 0; i < x_.parents(f).size(); ++i) step += numbers.sign(x_.parents(f)[i], x_.parentSigns(f)[i]);
+      if (!numbers.areEqual(numbers.of(x_.cut.cellRegion[behind]), numbers.of(x_.cut.cellRegion[front]) + step)) {
+        tally.violate("face", int64_t(f), numbers.wrongStep);
       }
     }
   }
 
-  void checkSamples(const std::vector<Sample>& samples, Tally& tally) const {
+  void checkSamples(const Numbers& numbers, const std::vector<Sample>& samples, Tally& tally) const {
     for (const Sample& sample : samples) {
-      const std::optional<int32_t> winding = bins_.winding(sample.position);
-      if (!winding || *winding == x_.cut.regionWinding[sample.region]) continue;
-      tally.violate(sample.kind, sample.element, "has another winding number than the input there");
+      const std::optional<int32_t> winding = bins_.winding(sample.position, [&](uint32_t t) { return !numbers.isLeftOut[t]; });
+      if (!winding || numbers.areEqual(*winding, numbers.of(sample.region))) continue;
+      tally.violate(sample.kind, sample.element, numbers.wrongSample);
     }
   }
 
@@ -135,7 +171,7 @@ class WindingCheck {
 WindingChecks checkWinding(const Context& context, const InputTopology& topology, const TriangleBins& bins,
                            const GridCellChecks& gridCells) {
   std::vector<Sample> samples = gridCells.samples;
-  if (context.cut.hasWinding) {
+  if (context.cut.hasWinding || !context.cut.regionParity.empty()) {
     const std::vector<Sample> untouched = sampleUntouched(context);
     samples.insert(samples.end(), untouched.begin(), untouched.end());
   }

@@ -227,7 +227,7 @@ TEST_CASE("validation passes: winding numbers of the input at points", "[validat
   const Context context = f.context();
   const TriangleBins bins(context);
   const double scale = context.planes()[0][1];
-  const auto windingAt = [&](double x, double y, double z) { return bins.winding(scale * Vec3{{x, y, z}}); };
+  const auto windingAt = [&](double x, double y, double z) { return bins.winding(scale * Vec3{{x, y, z}}, [](uint32_t) { return true; }); };
   CHECK(windingAt(0.1, 0.3, 0.2) == 0);
   CHECK(windingAt(0.7, 0.9, 0.8) == 1);
   CHECK(windingAt(1.5, 1.7, 1.6) == 2);

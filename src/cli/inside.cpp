@@ -1,0 +1,80 @@
+#include "cli/inside.h"
+
+namespace mandoline::cli {
+namespace {
+
+const char* name(InsideBy by) { return by == InsideBy::winding ? "winding" : by == InsideBy::parity ? "parity" : "estimate"; }
+
+template <class Numbers>
+void addNumber(Json& json, const char* key, const Numbers& numbers, size_t region) {
+  json.key(key);
+  if (numbers.empty()) {
+    json.null();
+  } else {
+    json.value(int64_t(numbers[region]));
+  }
+}
+
+std::string counted(uint64_t count, const std::string& noun) { return std::to_string(count) + " " + noun + (count == 1 ? "" : "s"); }
+
+std::string ofComponents(uint32_t count, const ComponentCounts& counts) {
+  return std::to_string(count) + " of " + counted(counts.winding + counts.parity + counts.open, "component");
+}
+
+}  // namespace
+
+std::optional<InsideRegions> insideOf(const CutMesh& cutMesh, double threshold) {
+  if (!cutMesh.hasWinding && cutMesh.regionParity.empty() && cutMesh.regionInsideness.empty()) return std::nullopt;
+  return insideRegions(cutMesh, {WindingRule::nonZero, threshold});
+}
+
+std::string describeInside(const std::optional<InsideRegions>& inside, const ComponentCounts& counts) {
+  std::string text;
+  const auto say = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
+  if (counts.parity > 0) say(ofComponents(counts.parity, counts) + " not consistently oriented: inside by parity");
+  if (counts.open > 0) {
+    const bool isEstimated = inside && inside->by == InsideBy::estimate;
+    say(ofComponents(counts.open, counts) + " open, with " + counted(counts.openEdges, "open edge") + " around " +
+        counted(counts.holes, "hole") + (isEstimated ? ": inside by an estimate" : ": left out"));
+  }
+  return text;
+}
+
+void addInside(Json& json, const Report& report) {
+  const CutResult& result = report.result;
+  const CutMesh& m = result.mesh;
+  const ComponentCounts& counts = result.stats.components;
+  json.key("closedness").open('{').member("winding", counts.winding).member("parity", counts.parity).member("open", counts.open);
+  json.member("openEdges", counts.openEdges).member("holes", counts.holes).close('}');
+  const std::optional<InsideRegions> inside = result ? insideOf(m, report.insideThreshold) : std::nullopt;
+  json.key("inside");
+  if (inside) {
+    json.open('{').member("by", name(inside->by)).member("complete", inside->isComplete).close('}');
+  } else {
+    json.null();
+  }
+  json.key("regions").open('[');
+  for (uint32_t r = 0; r < m.regionCount; ++r) {
+    json.open('{').member("id", r);
+    addNumber(json, "winding", m.regionWinding, r);
+    json.member("volume", report.regionVolumes[r]);
+    addNumber(json, "partWinding", m.regionPartWinding, r);
+    addNumber(json, "parity", m.regionParity, r);
+    json.key("insideness");
+    if (m.regionInsideness.empty()) {
+      json.null();
+    } else {
+      json.value(m.regionInsideness[r]);
+    }
+    json.key("inside");
+    if (inside) {
+      json.value(inside->isInside[r] != 0);
+    } else {
+      json.null();
+    }
+    json.close('}');
+  }
+  json.close(']');
+}
+
+}  // namespace mandoline::cli

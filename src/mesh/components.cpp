@@ -1,0 +1,206 @@
+#include "mesh/components.h"
+
+#include <algorithm>
+
+#include "base/disjoint_sets.h"
+#include "base/sort.h"
+#include "mesh/prepared.h"
+
+namespace mandoline::detail {
+namespace {
+
+/// One use of a tri-edge by a triangle.
+struct Use {
+  uint32_t triangleAndWay;  ///< 2 * triangle, + 1 if it runs through the edge from the lower end
+
+  uint32_t triangle() const { return triangleAndWay / 2; }
+  int32_t sign() const { return triangleAndWay % 2 != 0 ? 1 : -1; }
+};
+
+/// The uses of each tri-edge, ascending by triangle.
+Csr<Use, TriEdgeId> findUses(const Prepared& prepared) {
+  Csr<Use, TriEdgeId> uses;
+  uses.offsets.assign(prepared.edges.ends.size() + 2, 0);  // counted two places on, so that filling leaves begins one place on
+  const auto forUses = [&](const auto& f) {
+    for (const TriangleId t : prepared.triangleIds()) {
+      if (!prepared.kept(t)) continue;
+      const std::span<const Duplicate> duplicates = prepared.duplicatesOf(t);
+      for (int side = 0; side < 3; ++side) {
+        prepared.edges.forSide(prepared, t, side, [&](TriEdgeId edge, bool forward) {
+          f(edge, Use{2 * t.number + forward});
+          for (const Duplicate& d : duplicates) f(edge, Use{2 * d.triangle + (forward == d.sameWay)});
+        });
+      }
+    }
+  };
+  forUses([&](TriEdgeId edge, const Use&) { ++uses.offsets[edge.number + 2]; });
+  for (size_t e = 2; e < uses.offsets.size(); ++e) uses.offsets[e] += uses.offsets[e - 1];
+  uses.items.resize(uses.offsets.back());
+  forUses([&](TriEdgeId edge, const Use& use) { uses.items[uses.offsets[edge.number + 1]++] = use; });
+  uses.offsets.pop_back();
+  return uses;
+}
+
+/// What the triangles of one set do at an edge.
+struct Share {
+  uint32_t set;  ///< its root
+  int32_t sum;   ///< of the signs of their uses
+  uint32_t count;
+
+  bool isOdd() const { return count % 2 != 0; }
+};
+
+class ComponentFinder {
+ public:
+  explicit ComponentFinder(const Prepared& prepared)
+      : prepared_(prepared), uses_(findUses(prepared)), sets_(prepared.triangles.size()), copied_(prepared.triangles.size(), 0) {
+    for (const Duplicate& d : prepared.duplicates) copied_[d.original] = copied_[d.triangle] = 1;
+  }
+
+  Components run() {
+    joinPairs();
+    while (joinTwo() || joinMany()) {
+    }
+    return classify();
+  }
+
+ private:
+  size_t edgeCount() const { return uses_.offsets.size() - 1; }
+  std::span<const Use> usesOf(size_t edge) const {
+    return {uses_.items.data() + uses_.offsets[edge], size_t(uses_.offsets[edge + 1] - uses_.offsets[edge])};
+  }
+
+  /// The uses that may join: where they don't cancel, copies of triangles are in excess and left alone, so that a triangle that lies twice
+  /// in a closed surface does not open it.
+  void findActive(size_t edge) {
+    const std::span<const Use> uses = usesOf(edge);
+    active_.assign(uses.begin(), uses.end());
+    int32_t sum = 0;
+    for (const Use& use : uses) sum += use.sign();
+    if (sum == 0 || prepared_.duplicates.empty()) return;
+    sortItems(active_, [](const Use& a, const Use& b) { return a.triangleAndWay > b.triangleAndWay; });
+    std::erase_if(active_, [&](const Use& use) {
+      const bool isExcess = sum * use.sign() > 0 && copied_[use.triangle()];
+      if (isExcess) sum -= use.sign();
+      return isExcess;
+    });
+  }
+
+  void findShares(std::span<const Use> uses) {
+    shares_.clear();
+    for (const Use& use : uses) shares_.push_back({sets_.find(use.triangle()), use.sign(), 1});
+    sortItems(shares_, [](const Share& a, const Share& b) { return a.set < b.set; });
+    size_t kept = 0;
+    for (size_t i = 1; i < shares_.size(); ++i) {
+      if (shares_[i].set != shares_[kept].set) {
+        shares_[++kept] = shares_[i];
+      } else {
+        shares_[kept].sum += shares_[i].sum;
+        ++shares_[kept].count;
+      }
+    }
+    shares_.resize(uses.empty() ? 0 : kept + 1);
+  }
+
+  /// The sets that need each other at an edge. Where its uses cancel, those whose own don't; where their number is even at least, those
+  /// whose own is odd; elsewhere nothing can be closed.
+  void findNeedy(size_t edge) {
+    findActive(edge);
+    findShares(active_);
+    int32_t sum = 0;
+    for (const Use& use : active_) sum += use.sign();
+    const bool isEven = active_.size() % 2 == 0;
+    std::erase_if(shares_, [&](const Share& share) { return sum == 0 ? share.sum == 0 : !isEven || !share.isOdd(); });
+  }
+
+  void joinPairs() {
+    for (size_t edge = 0; edge < edgeCount(); ++edge) {
+      const std::span<const Use> uses = usesOf(edge);
+      if (uses.size() == 2) {
+        sets_.unite(uses[0].triangle(), uses[1].triangle());
+      } else if (uses.size() > 2) {
+        shared_.push_back(edge);
+      }
+    }
+  }
+
+  /// Where exactly two sets need each other there is no choice, in whichever order it is done.
+  bool joinTwo() {
+    bool any = false, again = true;
+    while (again) {
+      again = false;
+      for (const size_t edge : shared_) {
+        findNeedy(edge);
+        if (shares_.size() != 2) continue;
+        sets_.unite(shares_[0].set, shares_[1].set);
+        any = again = true;
+      }
+    }
+    return any;
+  }
+
+  /// Of several that need each other nobody can tell which: they are one component. All edges are looked at before any are joined, so
+  /// that their order does not matter.
+  bool joinMany() {
+    std::vector<std::array<uint32_t, 2>> pairs;
+    for (const size_t edge : shared_) {
+      findNeedy(edge);
+      for (size_t i = 1; i < shares_.size(); ++i) pairs.push_back({shares_[0].set, shares_[i].set});
+    }
+    for (const auto& [a, b] : pairs) sets_.unite(a, b);
+    return !pairs.empty();
+  }
+
+  Components classify() {
+    const size_t n = prepared_.triangles.size();
+    std::vector<ComponentKind> kinds(n, ComponentKind::winding);  // of roots
+    for (size_t edge = 0; edge < edgeCount(); ++edge) {
+      findShares(usesOf(edge));
+      for (const Share& share : shares_) {
+        ComponentKind& kind = kinds[share.set];
+        if (share.sum != 0) kind = std::max(kind, share.isOdd() ? ComponentKind::open : ComponentKind::parity);
+      }
+    }
+    Components result;
+    result.kinds.assign(n, ComponentKind::none);
+    for (uint32_t t = 0; t < n; ++t) {
+      if (prepared_.states[t] == TriangleState::zeroArea) continue;
+      const uint32_t root = sets_.find(t);
+      result.kinds[t] = kinds[root];
+      ComponentCounts& counts = result.counts;
+      if (root == t)
+        ++(kinds[t] == ComponentKind::winding ? counts.winding : kinds[t] == ComponentKind::parity ? counts.parity : counts.open);
+    }
+    if (result.counts.open > 0) countOpenEdges(result);
+    return result;
+  }
+
+  /// And the connected sets of them.
+  void countOpenEdges(Components& result) {
+    DisjointSets chains(prepared_.points.size());
+    std::vector<uint8_t> isEnd(prepared_.points.size(), 0);
+    for (size_t edge = 0; edge < edgeCount(); ++edge) {
+      findShares(usesOf(edge));
+      if (std::none_of(shares_.begin(), shares_.end(), [](const Share& share) { return share.isOdd(); })) continue;
+      ++result.counts.openEdges;
+      const auto& [low, high] = prepared_.edges.ends[TriEdgeId{uint32_t(edge)}];
+      isEnd[low.number] = isEnd[high.number] = 1;
+      chains.unite(low.number, high.number);
+    }
+    for (uint32_t v = 0; v < isEnd.size(); ++v) result.counts.holes += isEnd[v] && chains.find(v) == v;
+  }
+
+  const Prepared& prepared_;
+  Csr<Use, TriEdgeId> uses_;
+  DisjointSets sets_;            // of triangles
+  std::vector<uint8_t> copied_;  // per triangle: whether another has its vertices
+  std::vector<size_t> shared_;   // edges with more than two uses
+  std::vector<Use> active_;      // of the edge at hand
+  std::vector<Share> shares_;
+};
+
+}  // namespace
+
+Components findComponents(const Prepared& prepared) { return ComponentFinder(prepared).run(); }
+
+}  // namespace mandoline::detail

@@ -1,0 +1,195 @@
+#include <algorithm>
+#include <numeric>
+
+#include "mandoline/coarsen.h"
+#include "mesh/run_call.h"
+#include "operators/inside/cell_samples.h"
+#include "operators/inside/divided_regions.h"
+#include "operators/inside/inside_rule.h"
+#include "operators/inside/winding_tree.h"
+#include "operators/measure/owners.h"
+#include "operators/measure/require_input.h"
+#include "operators/require_cut_mesh.h"
+
+namespace mandoline {
+namespace {
+
+using namespace operators;
+
+constexpr int kStages = 3;
+constexpr size_t kBlock = 64;              // points between two reports
+constexpr uint32_t kSamplesOfRegion = 16;  // of one that is not divided
+
+/// The numbers of cut-cells, then octree cells.
+class Estimator {
+ public:
+  Estimator(const MeshView& mesh, const CutMesh& cutMesh, const EstimateOptions& options, detail::Monitor& monitor)
+      : mesh_(mesh), cutMesh_(cutMesh), options_(options), monitor_(monitor), owners_(ownersOf(cutMesh)) {
+    isOpen_.assign(cutMesh.triangleCount, 0);
+    for (const uint32_t t : cutMesh.openTriangles) isOpen_[t] = 1;
+  }
+
+  CutMesh run() {
+    monitor_.beginStage("octree", 0);
+    CoarsenOptions coarsening;
+    coarsening.threads = options_.threads;
+    octree_ = coarsen(cutMesh_, coarsening);
+    monitor_.beginStage("insideness", 1);
+    findDivided();
+    findSampled();
+    evaluate();
+    monitor_.beginStage("regions", 2);
+    return divided();
+  }
+
+ private:
+  uint32_t firstOctree() const { return uint32_t(cutMesh_.cellCount()); }
+  uint32_t nodeCount() const { return firstOctree() + uint32_t(octree_.cellCount()); }
+  uint32_t regionOf(uint32_t node) const {
+    return node < firstOctree() ? cutMesh_.cellRegion[node] : octree_.cellRegion[node - firstOctree()];
+  }
+
+  /// The regions on both sides of an open component: they meet through its holes, and their cells need numbers of their own.
+  void findDivided() {
+    isDivided_.assign(cutMesh_.regionCount, 0);
+    for (size_t f = 0; f < cutMesh_.faceCount(); ++f) {
+      const int32_t behind = owners_[2 * f], front = owners_[2 * f + 1];
+      if (behind < 0 || front < 0 || cutMesh_.cellRegion[size_t(behind)] != cutMesh_.cellRegion[size_t(front)]) continue;
+      for (uint32_t p = cutMesh_.faceParentOffsets[f]; p < cutMesh_.faceParentOffsets[f + 1]; ++p) {
+        if (isOpen_[cutMesh_.faceParents[p]]) isDivided_[cutMesh_.cellRegion[size_t(behind)]] = 1;
+      }
+    }
+  }
+
+  /// All cells of divided regions, some of others.
+  void findSampled() {
+    std::vector<uint32_t> count(cutMesh_.regionCount, 0), seen(cutMesh_.regionCount, 0);
+    for (uint32_t node = 0; node < nodeCount(); ++node) ++count[regionOf(node)];
+    for (uint32_t node = 0; node < nodeCount(); ++node) {
+      const uint32_t region = regionOf(node), every = 1 + (count[region] - 1) / kSamplesOfRegion;
+      if (isDivided_[region] || seen[region]++ % every == 0) sampled_.push_back(node);
+    }
+  }
+
+  void evaluate() {
+    const WindingTree tree(mesh_, cutMesh_.openTriangles);
+    insideness_.assign(sampled_.size(), 0);
+    struct Nothing {};
+    detail::forChunks<Nothing>(
+        sampled_.size(), monitor_,
+        [&](Nothing&, size_t begin, size_t end) {
+          CellSampler sampler(cutMesh_, isOpen_);
+          for (size_t i = begin; i < end; ++i) {
+            const uint32_t node = sampled_[i];
+            const CellSample sample = node < firstOctree() ? sampler.sample(node) : CellSample{centreOf(node - firstOctree()), {}, 0};
+            const uint32_t region = regionOf(node);
+            const int32_t part = cutMesh_.regionPartWinding.empty() ? 0 : cutMesh_.regionPartWinding[region];
+            insideness_[i] = part + sample.step + tree.at(sample.point, sample.leftOut);
+          }
+        },
+        kBlock);
+  }
+
+  detail::Point centreOf(size_t octreeCell) const {
+    const auto low = octree_.corner(octreeCell), high = octree_.end(octreeCell);
+    detail::Point centre;
+    for (size_t d = 0; d < 3; ++d) {
+      const std::vector<double>& planes = cutMesh_.grid.planes[d];
+      centre[d] = planes[size_t(low[d])] / 2 + planes[size_t(high[d])] / 2;
+    }
+    return centre;
+  }
+
+  CutMesh divided() {
+    std::vector<int32_t> labels(nodeCount(), 0);
+    for (size_t i = 0; i < sampled_.size(); ++i) {
+      if (isDivided_[regionOf(sampled_[i])]) labels[sampled_[i]] = roundedWinding(insideness_[i], options_.threshold);
+    }
+    DividedRegions regions = divideRegions(cutMesh_, octree_, owners_, labels);
+    const auto newRegionOf = [&](uint32_t node) {
+      return node < firstOctree() ? regions.cellRegion[node] : regions.octreeRegion[node - firstOctree()];
+    };
+    CutMesh result = cutMesh_;
+    result.regionCount = regions.count;
+    result.regionInsideness.assign(regions.count, 0);
+    std::vector<uint32_t> samples(regions.count, 0), oldRegion(regions.count, 0);
+    std::vector<double> least(regions.count, INFINITY), most(regions.count, -INFINITY);
+    for (uint32_t node = 0; node < nodeCount(); ++node) oldRegion[newRegionOf(node)] = regionOf(node);
+    for (size_t i = 0; i < sampled_.size(); ++i) {
+      const uint32_t region = newRegionOf(sampled_[i]);
+      ++samples[region];
+      result.regionInsideness[region] += insideness_[i];
+      least[region] = std::min(least[region], insideness_[i]);
+      most[region] = std::max(most[region], insideness_[i]);
+    }
+    for (uint32_t r = 0; r < regions.count; ++r) {  // the mean, which rounding must not take across the threshold
+      result.regionInsideness[r] = std::clamp(result.regionInsideness[r] / samples[r], least[r], most[r]);
+    }
+    takeOver(cutMesh_.regionPartWinding, oldRegion, result.regionPartWinding);
+    takeOver(cutMesh_.regionParity, oldRegion, result.regionParity);
+    result.cellRegion = std::move(regions.cellRegion);
+    result.rowRunOffsets = std::move(regions.rowRunOffsets);
+    result.runBegin = std::move(regions.runBegin);
+    result.runEnd = std::move(regions.runEnd);
+    result.runRegion = std::move(regions.runRegion);
+    return result;
+  }
+
+  template <class Number>
+  static void takeOver(const std::vector<Number>& numbers, const std::vector<uint32_t>& oldRegion, std::vector<Number>& out) {
+    out.clear();
+    for (const uint32_t region : oldRegion) {
+      if (!numbers.empty()) out.push_back(numbers[region]);
+    }
+  }
+
+  const MeshView& mesh_;
+  const CutMesh& cutMesh_;
+  const EstimateOptions& options_;
+  detail::Monitor& monitor_;
+  std::vector<int32_t> owners_;
+  std::vector<uint8_t> isOpen_;  // per triangle
+  OctreeCells octree_;
+  std::vector<uint8_t> isDivided_;  // per region
+  std::vector<uint32_t> sampled_;   // nodes, ascending
+  std::vector<double> insideness_;  // per sampled node
+};
+
+}  // namespace
+
+CutMesh estimateInside(const MeshView& mesh, const CutMesh& cutMesh, const EstimateOptions& options) {
+  requireCutMesh(cutMesh);
+  requireThreshold(options.threshold);
+  measuring::requireInput(mesh, cutMesh);
+  if (!cutMesh.regionInsideness.empty()) refuse("The cut-mesh has estimates already.");
+  if (cutMesh.openTriangles.empty()) return cutMesh;
+  return detail::runCall("estimate", [&] {
+    detail::Monitor monitor(options, kStages);
+    return Estimator(mesh, cutMesh, options, monitor).run();
+  });
+}
+
+std::vector<double> generalizedWindingNumbers(const MeshView& mesh, std::span<const double> points, const RunOptions& options) {
+  if (points.size() % 3 != 0) refuse("The number of coordinates is not a multiple of 3.");
+  for (const uint32_t v : mesh.triangles) {
+    if (v >= mesh.vertexCount()) refuse("A triangle refers to a vertex that does not exist.", v);
+  }
+  return detail::runCall("sum of solid angles", [&] {
+    detail::Monitor monitor(options, 1);
+    monitor.beginStage("insideness", 0);
+    std::vector<uint32_t> all(mesh.triangleCount());
+    std::iota(all.begin(), all.end(), 0u);
+    const WindingTree tree(mesh, all);
+    std::vector<double> numbers(points.size() / 3);
+    struct Nothing {};
+    detail::forChunks<Nothing>(
+        numbers.size(), monitor,
+        [&](Nothing&, size_t begin, size_t end) {
+          for (size_t i = begin; i < end; ++i) numbers[i] = tree.at({points[3 * i], points[3 * i + 1], points[3 * i + 2]});
+        },
+        kBlock);
+    return numbers;
+  });
+}
+
+}  // namespace mandoline
