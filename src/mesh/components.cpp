@@ -105,6 +105,8 @@ class ComponentFinder {
   /// The sets that need each other at an edge. Where its uses cancel, those whose own don't; where their number is even at least, those
   /// whose own is odd; elsewhere nothing can be closed.
   void findNeedy(size_t edge) {
+    shares_.clear();
+    if (usesOf(edge).size() < 3) return;
     findActive(edge);
     findShares(active_);
     int32_t sum = 0;
@@ -118,8 +120,8 @@ class ComponentFinder {
       const std::span<const Use> uses = usesOf(edge);
       if (uses.size() == 2) {
         sets_.unite(uses[0].triangle(), uses[1].triangle());
-      } else if (uses.size() > 2) {
-        shared_.push_back(edge);
+      } else {
+        others_.push_back(edge);
       }
     }
   }
@@ -129,7 +131,7 @@ class ComponentFinder {
     bool any = false, again = true;
     while (again) {
       again = false;
-      for (const size_t edge : shared_) {
+      for (const size_t edge : others_) {
         findNeedy(edge);
         if (shares_.size() != 2) continue;
         sets_.unite(shares_[0].set, shares_[1].set);
@@ -143,7 +145,7 @@ class ComponentFinder {
   /// that their order does not matter.
   bool joinMany() {
     std::vector<std::array<uint32_t, 2>> pairs;
-    for (const size_t edge : shared_) {
+    for (const size_t edge : others_) {
       findNeedy(edge);
       for (size_t i = 1; i < shares_.size(); ++i) pairs.push_back({shares_[0].set, shares_[i].set});
     }
@@ -154,11 +156,15 @@ class ComponentFinder {
   Components classify() {
     const size_t n = prepared_.triangles.size();
     std::vector<ComponentKind> kinds(n, ComponentKind::winding);  // of roots
+    const auto worsen = [&](uint32_t root, ComponentKind kind) { kinds[root] = std::max(kinds[root], kind); };
     for (size_t edge = 0; edge < edgeCount(); ++edge) {
+      const std::span<const Use> uses = usesOf(edge);
+      if (uses.size() == 2 && uses[0].sign() == uses[1].sign()) worsen(sets_.find(uses[0].triangle()), ComponentKind::parity);
+    }
+    for (const size_t edge : others_) {
       findShares(usesOf(edge));
       for (const Share& share : shares_) {
-        ComponentKind& kind = kinds[share.set];
-        if (share.sum != 0) kind = std::max(kind, share.isOdd() ? ComponentKind::open : ComponentKind::parity);
+        if (share.sum != 0) worsen(share.set, share.isOdd() ? ComponentKind::open : ComponentKind::parity);
       }
     }
     Components result;
@@ -179,7 +185,7 @@ class ComponentFinder {
   void countOpenEdges(Components& result) {
     DisjointSets chains(prepared_.points.size());
     std::vector<uint8_t> isEnd(prepared_.points.size(), 0);
-    for (size_t edge = 0; edge < edgeCount(); ++edge) {
+    for (const size_t edge : others_) {
       findShares(usesOf(edge));
       if (std::none_of(shares_.begin(), shares_.end(), [](const Share& share) { return share.isOdd(); })) continue;
       ++result.counts.openEdges;
@@ -194,7 +200,7 @@ class ComponentFinder {
   Csr<Use, TriEdgeId> uses_;
   DisjointSets sets_;            // of triangles
   std::vector<uint8_t> copied_;  // per triangle: whether another has its vertices
-  std::vector<size_t> shared_;   // edges with more than two uses
+  std::vector<size_t> others_;   // edges that have not just two uses
   std::vector<Use> active_;      // of the edge at hand
   std::vector<Share> shares_;
 };

@@ -33,6 +33,7 @@ double bruteForce(const Mesh& mesh, const Point& p) {
     const auto dot = [&](int i, int j) { return v[i][0] * v[j][0] + v[i][1] * v[j][1] + v[i][2] * v[j][2]; };
     const double volume = v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) + v[0][1] * (v[1][2] * v[2][0] - v[1][0] * v[2][2]) +
                           v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
+    if (volume == 0) continue;  // in the triangle's plane: 0, also on it, as the mean of its sides
     sum += std::atan2(volume, length[0] * length[1] * length[2] + dot(0, 1) * length[2] + dot(1, 2) * length[0] + dot(2, 0) * length[1]);
   }
   return sum / (2 * std::acos(-1.0));
