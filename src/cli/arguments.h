@@ -31,7 +31,7 @@ struct GridArguments {
   std::optional<std::array<std::vector<double>, 3>> planes;
 };
 
-/// What of the cut-mesh is written; all that is named must hold.
+/// Which part of the cut-mesh is written: what meets all of the conditions given.
 struct OnlyArguments {
   bool cut = false, inside = false, outside = false;
   std::vector<uint32_t> regions;

@@ -16,7 +16,7 @@ void writeOutput(const std::string& path, const std::function<void(const Sink&)>
 struct NamedFile {
   std::string use, path;
 };
-/// Throws UsageError if two of them are the same file, whatever their spelling. Devices and pipes may be named twice.
+/// Throws UsageError if two of them are the same file, even if they are spelt differently. Devices and pipes may be named twice.
 void requireDifferent(const std::vector<NamedFile>& files);
 
 }  // namespace mandoline::cli

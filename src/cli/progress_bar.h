@@ -1,4 +1,4 @@
-// How far a cut, or whatever else takes long, has come, on a terminal.
+// Shows on a terminal how far a cut or another long call has come.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// Winding numbers of regions, a part of stage 8.
+// Winding numbers and parity of regions: the second half of regions.h.
 #pragma once
 
 #include "cut/stages/regions.h"

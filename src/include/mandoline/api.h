@@ -6,8 +6,8 @@
 #include "(nothing more is compiled)"  // not a file: compilers go on after an #error, but stop here
 #endif
 
-/// Of the namespace in a public header: whatever it declares is exported, also in a project that is compiled with -fvisibility=hidden, and
-/// what is thrown is caught on both sides. On Windows CMake exports all symbols.
+/// Marks the namespace of a public header: all that it declares is exported, even from a project compiled with -fvisibility=hidden, and
+/// exceptions are caught on both sides of the library's border. On Windows CMake exports all symbols.
 #if defined(__GNUC__)
 #define MANDOLINE_API [[gnu::visibility("default")]]
 #else

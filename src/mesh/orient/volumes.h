@@ -6,8 +6,8 @@
 
 namespace mandoline::detail {
 
-/// Per part the sign of the volume that its triangles enclose, turned as `parts` has them; 0 where there is none to tell. Of an open part:
-/// the sign that the volume has whatever point of the part's bounding box its holes are closed to by cones.
+/// Per part the sign of the volume that its triangles enclose, turned as `parts` has them; 0 where it can't be told. Cones close the holes
+/// of an open part: its sign counts only if it is the same for every apex in the part's bounding box.
 std::vector<int> volumeSigns(const WeldedMesh& mesh, const Parts& parts, Predicates& predicates);
 
 }  // namespace mandoline::detail

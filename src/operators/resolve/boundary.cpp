@@ -94,7 +94,7 @@ class SolidBoundary {
     return has;
   }
 
-  /// The grid's sides where untouched grid cells are, in squares as large as octree cells, and what of their other sides is between
+  /// The grid's sides where untouched grid cells are, in squares as large as octree cells, and those of their other sides that lie between
   /// regions.
   void addSides() {
     const OctreeCells octree = coarsen(cutMesh_);
