@@ -101,11 +101,14 @@ std::string randomNumber(Random& random) {
   }
 }
 
+/// The C library of WebAssembly loses the sign of what it rounds to 0.
+double signedAsText(const std::string& text, double x) { return x == 0 ? std::copysign(x, text.starts_with('-') ? -1.0 : 1.0) : x; }
+
 void requireReadAsByStrtod(uint64_t count) {
   Random random(1);
   for (uint64_t i = 0; i < count; ++i) {
     const std::string text = randomNumber(random);
-    const double expected = std::strtod(text.c_str(), nullptr);
+    const double expected = signedAsText(text, std::strtod(text.c_str(), nullptr));
     double value = -1;
     const char* end = parseNumber(text.data(), text.data() + text.size(), value);
     if (end == text.data() + text.size() && bitsOf(value) == bitsOf(expected)) continue;
