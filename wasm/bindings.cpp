@@ -5,13 +5,14 @@
 #include <emscripten/bind.h>
 
 #include "cut_meshes.h"
-#include "mandoline/io.h"
+#include "mandoline/inspect.h"
 #include "mandoline/locate.h"
 #include "mandoline/measure.h"
+#include "mandoline/mesh_files.h"
+#include "mandoline/orient.h"
 #include "mandoline/resolve.h"
 #include "mandoline/slice.h"
 #include "mandoline/triangulate.h"
-#include "mandoline/validate.h"
 
 namespace {
 
@@ -101,24 +102,6 @@ val boundaryOf(const KeptCutMesh& kept, int rule) {
   return guarded([&, cutMesh = kept.get()] { return success(toObject(boundary(*cutMesh, WindingRule(rule)))); });
 }
 
-/// A handle of plain data; those that are to be validated may be damaged.
-val keepCutMesh(const val& object, bool checked) {
-  return guarded([&] {
-    if (checked) return keepChecked<CutMesh>(object, "cutMesh");
-    return success(val(KeptCutMesh(fromObject<CutMesh>(object))));
-  });
-}
-
-val validateCutMesh(const val& mesh, const KeptCutMesh& kept, const val& options) {
-  return guarded([&, cutMesh = kept.get()] {
-    ValidateOptions validateOptions;
-    validateOptions.progress = progressOf(options);
-    validateOptions.snapTolerance = options["snapTolerance"].as<double>();
-    const Mesh input = fromObject<Mesh>(mesh);
-    return success(toObject(validate(input, *cutMesh, validateOptions)));
-  });
-}
-
 val measureCutMesh(const val& mesh, const KeptCutMesh& kept, const val& options) {
   return guarded([&, cutMesh = kept.get()] {
     const Mesh input = fromObject<Mesh>(mesh);
@@ -187,22 +170,6 @@ val outlinesOf(const KeptCutMesh& kept, const val& normal, const val& offsets) {
   return ofPlanes(kept, normal, offsets, [&](const auto&... of) { return outlines(of...); });
 }
 
-val writeFile(const val& mesh, const KeptCutMesh& kept, const std::string& format, const val& options) {
-  return guarded([&, cutMesh = kept.get()] {
-    WriteOptions writeOptions;
-    writeOptions.progress = progressOf(options);
-    writeOptions.untouched = options["untouched"].as<bool>();
-    if (!options["regions"].isUndefined()) readArray(options["regions"], writeOptions.regions);
-    const Mesh input = fromObject<Mesh>(mesh);
-    std::vector<uint8_t> bytes;
-    const Sink sink = [&](std::string_view piece) { bytes.insert(bytes.end(), piece.begin(), piece.end()); };
-    if (format == "json") writeJson(sink, *cutMesh, writeOptions);
-    if (format == "vtu") writeVtu(sink, input, *cutMesh, writeOptions);
-    if (format == "obj") writeObj(sink, *cutMesh, writeOptions);
-    return success(toArray(bytes));
-  });
-}
-
 val readMeshFile(const val& bytes, const std::string& name) {
   return guarded([&] {
     std::vector<char> content;
@@ -227,8 +194,8 @@ EMSCRIPTEN_BINDINGS(mandoline) {
   emscripten::function("resolve", &resolveMesh);
   emscripten::function("boundaryOfResolved", &boundaryOfResolved);
   emscripten::function("boundary", &boundaryOf);
-  emscripten::function("keep", &keepCutMesh);
-  emscripten::function("validate", &validateCutMesh);
+  emscripten::function("keepCutMesh", &keepCutMesh);
+  emscripten::function("dataOf", &dataOf);
   emscripten::function("measure", &measureCutMesh);
   emscripten::function("cutEdges", &edgesOf);
   emscripten::function("adjacency", &adjacencyOf);
@@ -239,6 +206,5 @@ EMSCRIPTEN_BINDINGS(mandoline) {
   emscripten::function("slice", &sliceCutMesh);
   emscripten::function("slices", &sliceByPlanes);
   emscripten::function("outlines", &outlinesOf);
-  emscripten::function("write", &writeFile);
   emscripten::function("readMesh", &readMeshFile);
 }

@@ -60,16 +60,20 @@ async function bundle(input, options, output = {}) {
   return chunks[0].code;
 }
 
-/** Puts the WebAssembly and the worker's script into the text of inline.js beside them. */
-async function fillInline(folder, wasm) {
-  const gzipped = gzipSync(readFileSync(join(folder, wasm)), { level: 9 }).toString('base64');
-  const code = await bundle(join(folder, 'worker-thread.js'), {}, { minify: true });
+/** Puts the WebAssembly of the modules and the worker's script into the text of a folder's inline.js. */
+async function fillInline(folder, modules) {
   const file = join(folder, 'inline.js');
-  const text = readFileSync(file, 'utf8');
-  writeFileSync(
-    file,
-    text.replace("'GZIPPED_WASM'", () => `'${gzipped}'`).replace("'WORKER_SCRIPT'", () => JSON.stringify(code)),
-  );
+  let text = readFileSync(file, 'utf8');
+  const put = (place, content) => {
+    text = text.replace(`'${place}'`, () => content());
+  };
+  for (const [name, place] of modules) {
+    const gzipped = () => gzipSync(readFileSync(join(place, `${name}.wasm`)), { level: 9 }).toString('base64');
+    put(`GZIPPED_${name.toUpperCase()}`, () => `'${gzipped()}'`);
+  }
+  const script = await bundle(join(folder, 'worker-thread.js'), {}, { minify: true });
+  put('WORKER_SCRIPT', () => JSON.stringify(script));
+  writeFileSync(file, text);
 }
 
 /** The module's bytes with its name in a custom section, which tells it from other modules of the package (src/load.js). */
@@ -93,15 +97,18 @@ async function makeFiles() {
   cpSync(join(packageFolder, 'src'), folder, { recursive: true });
   // Emscripten's code says where the .wasm file is, too, for which bundlers would copy it once more.
   const withoutUrl = { transform: { define: { 'import.meta.url': 'undefined' } }, treeshake: false };
-  const modules = [['mandoline', folder, 'mandoline.js']];
-  if (existsSync(join(build, 'wasm', 'physics.wasm'))) modules.push(['physics', join(folder, 'physics'), 'module.js']);
+  const modules = [
+    ['mandoline', folder],
+    ['files', join(folder, 'files')],
+  ];
+  if (existsSync(join(build, 'wasm', 'physics.wasm'))) modules.push(['physics', join(folder, 'physics')]);
   else leaveOutPhysics(folder);
-  for (const [name, place, code] of modules) {
+  for (const [name, place] of modules) {
     const wasm = `${name}.wasm`;
     writeFileSync(join(place, wasm), withName(readFileSync(join(build, 'wasm', wasm)), wasm));
-    writeFileSync(join(place, code), await bundle(join(build, 'wasm', `${name}.js`), withoutUrl));
-    await fillInline(place, wasm);
+    writeFileSync(join(place, `${name}.js`), await bundle(join(build, 'wasm', `${name}.js`), withoutUrl));
   }
+  for (const place of modules.map(([, one]) => one)) if (existsSync(join(place, 'inline.js'))) await fillInline(place, modules);
   return folder;
 }
 

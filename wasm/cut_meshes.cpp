@@ -7,6 +7,17 @@ double KeptMesh::bytes() const {
   return 3 * double(mesh.positions.size_bytes()) + 8 * double(mesh.triangles.size_bytes());
 }
 
+val keepCutMesh(const val& cutMesh, bool isChecked) {
+  return guarded([&] {
+    if (isChecked) return keepChecked<CutMesh>(cutMesh, "cutMesh");
+    return success(val(KeptCutMesh(fromObject<CutMesh>(cutMesh))));
+  });
+}
+
+val dataOf(const KeptCutMesh& kept) {
+  return guarded([&, cutMesh = kept.get()] { return success(toObject(*cutMesh)); });
+}
+
 Grid readGrid(const val& grid, const MeshView& mesh) {
   const std::string kind = grid["kind"].as<std::string>();
   if (kind == "planes") return fromObject<Grid>(grid);

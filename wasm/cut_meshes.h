@@ -44,6 +44,11 @@ val keepChecked(const val& given, const char* name) {
   return success(val(Kept<Value>(std::move(value))));
 }
 
+/// The same of a cut-mesh; one that is to be validated may be damaged, and isn't checked.
+val keepCutMesh(const val& cutMesh, bool isChecked);
+/// For the other modules.
+val dataOf(const KeptCutMesh& kept);
+
 /// A grid of any kind.
 Grid readGrid(const val& grid, const MeshView& mesh);
 

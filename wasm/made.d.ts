@@ -3,7 +3,11 @@ declare module '*/mandoline.js' {
   const createModule: (options: object) => any;
   export default createModule;
 }
-declare module '*/module.js' {
+declare module '*/files.js' {
+  const createModule: (options: object) => any;
+  export default createModule;
+}
+declare module '*/physics.js' {
   const createModule: (options: object) => any;
   export default createModule;
 }

@@ -3,17 +3,11 @@
 #include <emscripten/bind.h>
 
 #include "complexes.h"
-#include "mandoline/mesh_files.h"
-#include "mandoline/validate.h"
 
 namespace {
 
 using namespace mandoline;
 using namespace mandoline::wasm;
-
-val keepCutMesh(const val& cutMesh) {
-  return guarded([&] { return keepChecked<CutMesh>(cutMesh, "cutMesh"); });
-}
 
 val keepComplex(const val& cells) {
   return guarded([&] { return keepChecked<CellComplex>(cells, "cells"); });
@@ -167,15 +161,6 @@ val seedsOf(const val& grid, const val& wind, uint32_t count) {
   });
 }
 
-/// The bytes are unpacked.
-val groupsOf(const val& bytes, const std::string& name) {
-  return guarded([&] {
-    std::vector<char> content;
-    readArray(bytes, content);
-    return success(toObject(readGroups(content, name)));
-  });
-}
-
 std::string version() { return MANDOLINE_VERSION; }
 
 }  // namespace
@@ -185,6 +170,7 @@ EMSCRIPTEN_BINDINGS(physics) {
   emscripten::class_<KeptComplex>("KeptComplex").function("bytes", &KeptComplex::bytes);
   emscripten::function("version", &version);
   emscripten::function("keepCutMesh", &keepCutMesh);
+  emscripten::function("dataOf", &dataOf);
   emscripten::function("keepComplex", &keepComplex);
   emscripten::function("coarsen", &coarsenCutMesh);
   emscripten::function("cellComplex", &complexOf);
@@ -201,5 +187,4 @@ EMSCRIPTEN_BINDINGS(physics) {
   emscripten::function("velocityAt", &velocitiesAt);
   emscripten::function("streamlines", &streamlinesFrom);
   emscripten::function("inflowSeeds", &seedsOf);
-  emscripten::function("readGroups", &groupsOf);
 }

@@ -18,7 +18,7 @@ val toObject(const Struct& value);
 template <>
 val toObject(const Grid& grid);
 
-/// Sets what there is; members that can't be read back, words and lists, are left as they are.
+/// Sets what there is; members that can't be read back, words and lists of structs, are left as they are.
 template <class Struct>
 void read(const val& object, Struct& value);
 template <>
@@ -122,7 +122,10 @@ class ObjectReader {
 
   template <class Item>
   static void readItems(const val& member, std::vector<Item>& items) {
-    if constexpr (std::is_arithmetic_v<Item> || std::is_enum_v<Item>) readArray(member, items);
+    if constexpr (std::is_arithmetic_v<Item> || std::is_enum_v<Item>)
+      readArray(member, items);
+    else if constexpr (std::is_same_v<Item, std::string>)
+      items = emscripten::vecFromJSArray<std::string>(member);
   }
 
   const val& object_;

@@ -36,9 +36,9 @@ function imports(calls, main, own) {
   const used = new Set(calls.flatMap(({ signatures }) => signatures.join(' ').match(/\b[A-Z]\w*/g)).filter((name) => !builtIn.test(name)));
   const declared = `${textOf('index.d.ts')}${textOf('results.d.ts')}`;
   const isMain = (name) => main === own || new RegExp(`^export (interface|type) ${name}\\b`, 'm').test(declared);
-  return [...new Set([main, own])].map((from) => {
+  return [...new Set([main, own])].flatMap((from) => {
     const names = [...used].filter((name) => isMain(name) === (from === main)).sort();
-    return `import type { ${names.join(', ')} } from '${from}';`;
+    return names.length ? [`import type { ${names.join(', ')} } from '${from}';`] : [];
   });
 }
 
@@ -74,6 +74,7 @@ function namesOf(table) {
 
 const files = {
   'signatures.d.ts': typesOf('calls.js', './index.js', './worker.js'),
+  'files/signatures.d.ts': typesOf('files/calls.js', '../index.js', '../worker.js'),
   'physics/signatures.d.ts': typesOf('physics/calls.js', '../index.js', '../worker.js'),
   'physics-names.js': namesOf('physics/calls.js'),
 };

@@ -5,12 +5,14 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
 import { cutCalls } from '../../wasm/src/calls.js';
+import { fileCalls } from '../../wasm/src/files/calls.js';
 import { physicsCalls } from '../../wasm/src/physics/calls.js';
 import { root } from './environments.mjs';
 import { compiler } from './types.mjs';
 
-const tables = { Mandoline: cutCalls, Physics: physicsCalls };
-const calls = Object.entries({ ...cutCalls, ...physicsCalls });
+const tables = { Mandoline: { ...cutCalls, ...fileCalls }, Physics: physicsCalls };
+const all = { ...tables.Mandoline, ...physicsCalls };
+const calls = Object.entries(all);
 const source = (name) => readFileSync(join(root, 'wasm', name), 'utf8');
 
 const { assertCompiles, remove } = compiler();
@@ -21,15 +23,15 @@ test('the types of calls are those of the tables', () => {
 });
 
 test('signatures have the names of the arguments', () => {
-  const text = source('src/signatures.d.ts') + source('src/physics/signatures.d.ts');
+  const text = ['', 'files/', 'physics/'].map((folder) => source(`src/${folder}signatures.d.ts`)).join('');
   for (const [name, { takes, options }] of calls) {
     const signatures = [...text.matchAll(new RegExp(`^  ${name}(?:<.*>)?\\(([^;]*)\\): `, 'gm'))].map(([, given]) => given);
     assert.ok(signatures.length >= 2, name);
-    const all = [...Object.keys(takes), 'options'];
+    const names = [...Object.keys(takes), 'options'];
     const named = signatures.map((given) => [...given.matchAll(/(?:^|,)\s*(\w+)\??: /g)].map(([, word]) => word));
-    for (const words of named) assert.deepEqual(words, all.slice(0, words.length), name);
+    for (const words of named) assert.deepEqual(words, names.slice(0, words.length), name);
     assert.ok(
-      named.some((words) => words.length === (options ? all.length : all.length - 1)),
+      named.some((words) => words.length === (options ? names.length : names.length - 1)),
       name,
     );
   }
@@ -56,7 +58,7 @@ test('the README lists every call with its arguments and its options', () => {
   );
   assert.deepEqual(listed.map(({ name }) => name).sort(), calls.map(([name]) => name).sort());
   for (const { name, given, row } of listed) {
-    const { takes, options } = { ...cutCalls, ...physicsCalls }[name];
+    const { takes, options } = all[name];
     assert.equal(given, [...Object.keys(takes), ...(options ? ['options'] : [])].join(', '), name);
     const [, said = ''] = row.match(/`options`:([^|]*)/) ?? [];
     const names = [...said.matchAll(/`(\w+)`/g)].map(([, word]) => word);

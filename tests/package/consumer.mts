@@ -46,13 +46,13 @@ async function core(): Promise<void> {
   const all: Uint32Array = mandoline.triangulate(cutMesh).triangles;
   const one: Uint32Array = mandoline.triangulate(cutMesh, { cell: 0 });
   const where: Location | null = mandoline.cellAt(cutMesh, [0, 0, 0]);
-  const bytes = new Blob([mandoline.write(mesh, cutMesh, 'vtu')]);
-  const checks = mandoline.validate(mesh, cutMesh).checks.filter(({ pass }) => !pass);
+  const bytes = new Blob([await mandoline.write(mesh, cutMesh, 'vtu')]);
+  const checks = (await mandoline.validate(mesh, cutMesh)).checks.filter(({ pass }) => !pass);
   console.log(module, all, one, where?.cell, bytes, checks, mandoline.slice(cutMesh, { normal: [0, 0, 1], offset: 0 }).polygonCell);
   // @ts-expect-error There is no such grid.
   mandoline.cut(mesh, { count: 8 });
   // @ts-expect-error There is no such format.
-  mandoline.write(mesh, cutMesh, 'stl');
+  await mandoline.write(mesh, cutMesh, 'off');
   // @ts-expect-error Open meshes have no winding numbers.
   cutMesh.regionWinding.length;
 }

@@ -47,7 +47,8 @@ test('the tarball has the package, and is small', () => {
   for (const file of packed.files) assert.match(file, /^(dist\/.*|package\.json|README\.md|LICENSE)$/);
   const dist = join(install(), 'node_modules', 'mandoline-wasm', 'dist');
   const gzipped = (name) => gzipSync(readFileSync(join(dist, name)), { level: 9 }).length;
-  assert.ok(gzipped('mandoline.wasm') <= 300_000);
+  assert.ok(gzipped('mandoline.wasm') <= 280_000);
+  assert.ok(gzipped('files/files.wasm') <= 250_000);
   assert.ok(gzipped('physics/physics.wasm') <= 400_000);
 });
 
@@ -58,7 +59,7 @@ test('Node, ES modules', () => {
   assert.match(runNode(folder, 'worker.mjs'), /\d/);
 });
 
-test('Node, three.js', () => {
+test('Node, three.js', async () => {
   const script = `
     import { BoxGeometry } from 'three';
     import { init } from 'mandoline-wasm';
@@ -69,7 +70,7 @@ test('Node, three.js', () => {
   assert.equal(runNode(install({ 'three.mjs': script }, ['three']), 'three.mjs'), 'true');
 });
 
-test('Node, CommonJS', () => {
+test('Node, CommonJS', async () => {
   const asImport = (example) => example.replace(/^import (\{[^}]*\}) from ('.*?');$/gm, 'const $1 = await import($2);');
   const script = (example) => `'use strict';\nrequire('node:path');\n(async () => {\n${asImport(example)}\n})();\n`;
   const folder = install({ 'core.cjs': script(core), 'worker.cjs': script(worker) });
@@ -77,7 +78,7 @@ test('Node, CommonJS', () => {
   assert.match(runNode(folder, 'worker.cjs'), /\d/);
 });
 
-test('Node, worker_threads', () => {
+test('Node, worker_threads', async () => {
   const main = `
     import { Worker } from 'node:worker_threads';
     for (const script of ['./core.mjs', './worker.mjs']) {
@@ -210,6 +211,14 @@ test('a worker whose script is missing rejects instead of hanging, and names the
 test('a missing mandoline.wasm is named with what the server answered', async () => {
   assert.match(await failureWithout('mandoline.wasm', 'init()'), /answered with 404 Not Found\.$/);
   assert.match(await failureWithout('mandoline.wasm', 'createWorker()'), /answered with 404 Not Found\.$/);
+});
+
+test('a missing files.wasm is named when it is first needed', async () => {
+  const call = 'readGroups(new Uint8Array()))';
+  for (const start of ['init', 'createWorker']) {
+    const message = await failureWithout('files/files.wasm', `${start}().then((mandoline) => mandoline.${call}`);
+    assert.match(message, /answered with 404 Not Found\.$/);
+  }
 });
 
 test('a server that answers with a page instead of mandoline.wasm is told from one that has it', async () => {

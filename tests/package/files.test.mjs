@@ -1,12 +1,12 @@
-// Mesh files of every kind, from bytes and Blobs, packed and damaged.
+// Files of every kind: meshes from bytes and Blobs, packed and damaged; what is written is read back.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import { MandolineError, init } from 'mandoline-wasm';
 import { createWorker } from 'mandoline-wasm/worker';
-import { box, writeObj } from './meshes.mjs';
+import { box, gut, writeObj } from './meshes.mjs';
 
-const { readMesh } = await init();
+const { boundary, cut, outlines, readCutMesh, readGroups, readMesh, write, writeMesh, writeOutlines } = await init();
 const cube = box([0.1, -2, 1e-300], [1 / 3, 5, 7]);
 
 function writeStl({ positions, triangles }) {
@@ -141,4 +141,66 @@ test('in a worker', async () => {
   } finally {
     worker.terminate();
   }
+});
+
+test('groups of triangles', async () => {
+  const square = 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n';
+  const file = encode(`${square}g wheel\nf 1 2 3 4\ng T\u00fcr\nf 1 2 3\n`);
+  const expected = { names: ['wheel', 'T\u00fcr'], triangleGroup: new Uint32Array([0, 0, 1]) };
+  for (const source of [file, new Blob([file]), gzipSync(file)]) {
+    assert.deepEqual(await readGroups(source, { name: 'a.obj' }), expected);
+  }
+  assert.deepEqual(await readGroups(encode(`${square}f 1 2 3\n`)), { names: [], triangleGroup: new Uint32Array() });
+  const cutOff = readGroups(encode('solid a\nfacet normal 0 0'), { name: 'bad.stl' });
+  await assert.rejects(cutOff, { code: 'badFile', stage: 'readGroups', message: /^bad\.stl.*line 2/ });
+  await assert.rejects(readGroups('bad.obj'), { code: 'badArgument', stage: 'readGroups' });
+});
+
+test('the groups of a File in a worker', async () => {
+  const file = new File(['v 0 0 0\nv 1 0 0\nv 0 1 0\ng a\nf 1 2 3\n'], 'a.obj');
+  const worker = await createWorker();
+  assert.deepEqual(await worker.readGroups(file), await readGroups(file));
+  worker.terminate();
+});
+
+test('a cut-mesh is read back as it was, and is a result like that of cut()', async () => {
+  const { stats, gridCellRegion, ...cutMesh } = cut(cube, { cells: 5 });
+  const bytes = await write(cube, cutMesh, 'mcm');
+  const read = await readCutMesh(new Blob([gzipSync(bytes)]), { name: 'cube.mcm' });
+  assert.deepEqual(read, cutMesh);
+  const expected = boundary(cutMesh);
+  assert.deepEqual(boundary(gut(read)), expected); // from the twin
+  await assert.rejects(readCutMesh(bytes.subarray(1), { name: 'cube.mcm' }), {
+    code: 'badFile',
+    stage: 'readCutMesh',
+    message: /^cube\.mcm/,
+  });
+});
+
+test('meshes are read back as they were', async () => {
+  for (const format of ['obj', 'off']) assert.deepEqual(await readMesh(await writeMesh(cube, format), { name: `cube.${format}` }), cube);
+  const single = { ...cube, positions: Float64Array.from(cube.positions, Math.fround) };
+  assert.deepEqual(await readMesh(await writeMesh(single, 'ply'), { name: 'cube.ply' }), single);
+  const corners = ({ positions, triangles }) => Array.from(triangles, (v) => [...positions.subarray(3 * v, 3 * v + 3)]);
+  assert.deepEqual(corners(await readMesh(await writeMesh(single, 'stl'), { name: 'cube.stl' })), corners(single));
+});
+
+test('groups are written as they are read', async () => {
+  const groups = { names: ['below', 'others'], triangleGroup: Uint32Array.from({ length: 12 }, (_, i) => Number(i > 1)) };
+  assert.deepEqual(await readGroups(await writeMesh(cube, 'obj', { groups }), { name: 'cube.obj' }), groups);
+  const missing = { ...groups, triangleGroup: new Uint32Array(3) };
+  await assert.rejects(writeMesh(cube, 'obj', { groups: missing }), { code: 'badArgument', stage: 'writeMesh' });
+});
+
+test('outlines', async () => {
+  const cutMesh = cut(cube, { cells: 5 });
+  const stack = { normal: [0, 0, 1], offsets: [1, 2], layers: outlines(cutMesh, [0, 0, 1], [1, 2]) };
+  const text = async (format, options) => new TextDecoder().decode(await writeOutlines(stack, format, options));
+  assert.match(await text('svg'), /<svg.*<path.*<\/svg>\s*$/s);
+  assert.match(await text('dxf'), /POLYLINE.*EOF\s*$/s);
+  assert.match(await text('obj'), /^l \d+ \d+/m);
+  const none = new Uint8Array(cutMesh.regionCount);
+  assert.doesNotMatch(await text('obj', { regions: none }), /^l /m);
+  const short = { ...stack, offsets: [1] };
+  await assert.rejects(writeOutlines(short, 'svg'), { code: 'badArgument', stage: 'writeOutlines' });
 });

@@ -7,6 +7,7 @@ import { initPhysics } from 'mandoline-wasm/physics';
 import { createWorker } from 'mandoline-wasm/physics/worker';
 import { createWorker as createCutter } from 'mandoline-wasm/worker';
 import { cutCalls } from '../../wasm/src/calls.js';
+import { fileCalls } from '../../wasm/src/files/calls.js';
 import { physicsCalls } from '../../wasm/src/physics/calls.js';
 import { box } from './meshes.mjs';
 import { compiler } from './types.mjs';
@@ -44,6 +45,7 @@ const given = {
   points: [1, 1, 1],
   seeds: [1, 1, 1],
   format: 'obj',
+  stack: { normal: [0, 0, 1], offsets: [], layers: [] },
   cellIds: [0],
   region: 0,
   count: 1,
@@ -68,14 +70,14 @@ const takers = [
     (object) => physics.boundaryOf(cells, object),
   ],
   ['boundaryOf, condition', ['dirichlet', 'neumann'], (object) => physics.boundaryOf(cells, { xMin: object })],
-  ['init', ['wasm', 'physicsWasm', 'thread', 'default'], init],
-  ['initPhysics', ['wasm', 'physicsWasm', 'thread', 'default'], initPhysics],
-  ['createWorker', ['wasm', 'physicsWasm', 'thread', 'default'], createWorker],
-  ['createWorker that only cuts', ['wasm', 'physicsWasm', 'thread', 'default'], createCutter],
+  ['init', ['wasm', 'filesWasm', 'physicsWasm', 'thread', 'default'], init],
+  ['initPhysics', ['wasm', 'filesWasm', 'physicsWasm', 'thread', 'default'], initPhysics],
+  ['createWorker', ['wasm', 'filesWasm', 'physicsWasm', 'thread', 'default'], createWorker],
+  ['createWorker that only cuts', ['wasm', 'filesWasm', 'physicsWasm', 'thread', 'default'], createCutter],
   ['call', ['signal', 'transfer', 'progress'], (object) => worker.call('any', [], object)],
 ];
 for (const [api, table] of [
-  [mandoline, cutCalls],
+  [mandoline, { ...cutCalls, ...fileCalls }],
   [physics, physicsCalls],
 ]) {
   for (const [name, { takes, options = {} }] of Object.entries(table)) {
@@ -226,6 +228,10 @@ test('a module of another kind, or of another package, is told from the one that
   const computing = await createWorker({ physicsWasm: await bytesOf('mandoline.wasm') });
   assert.match((await failureOf(() => computing.coarsen(cutMesh))).message, /: it is mandoline\.wasm, not physics\.wasm\.$/);
   computing.terminate();
+  const writing = await createCutter({ filesWasm: await bytesOf('mandoline.wasm') });
+  assert.match((await failureOf(() => writing.write(mesh, cutMesh, 'obj'))).message, /: it is mandoline\.wasm, not files\.wasm\.$/);
+  assert.equal((await writing.cut(mesh, grid)).regionCount, 2); // the rest works
+  writing.terminate();
 });
 
 test('a worker that only cuts names the one that computes', async () => {

@@ -169,7 +169,12 @@ test('made meshes', { skip }, async () => {
     for (const cells of [1, 13, 32]) assert.ok(await compare(file, mesh, cells));
     await compareResolved(file, mesh);
     const cutMesh = cut(mesh, { cells: 13 });
-    assertSame(JSON.parse(new TextDecoder().decode(write(mesh, cutMesh, 'json'))), cutMesh, `${name}.json`);
+    assertSame(JSON.parse(new TextDecoder().decode(await write(mesh, cutMesh, 'json'))), cutMesh, `${name}.json`);
+    for (const format of ['json', 'mcm', 'vtu', 'obj', 'stl', 'ply']) {
+      const written = path(folder, `cut.${format}`);
+      await promisify(execFile)(program, ['cut', file, '--cells', '13', '-o', written]);
+      assert.ok(readFileSync(written).equals(await write(mesh, cutMesh, format)), `${name}.${format}`);
+    }
   }
 });
 

@@ -1,7 +1,6 @@
 // Computing on the cells: identities of the operators, exact solutions, twins, and what wrong arguments get.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { gzipSync } from 'node:zlib';
 import { init } from 'mandoline-wasm';
 import { MandolineError, faceTags, initPhysics, streamlineEnds } from 'mandoline-wasm/physics';
 import { box, gut, join, sheet, torus } from './meshes.mjs';
@@ -341,7 +340,7 @@ test('every call gives the same from the twin and from data', () => {
   assert.deepEqual(
     tried,
     Object.keys(physics)
-      .filter((name) => !['version', 'inflowSeeds', 'readGroups'].includes(name))
+      .filter((name) => !['version', 'inflowSeeds'].includes(name))
       .sort(),
   );
   for (const [name, [kind, call]] of Object.entries(calls)) {
@@ -482,18 +481,4 @@ test('crossing surfaces', () => {
   const all = physics.cellComplex(both, made, physics.coarsen(made));
   assert.equal(physics.cellComponents(all).count, made.regionCount);
   assertNear([sum(all.cellVolume)], [1], 1e-12);
-});
-
-test('groups of triangles', async () => {
-  const bytes = (text) => new TextEncoder().encode(text);
-  const square = 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n';
-  const file = bytes(`${square}g wheel\nf 1 2 3 4\ng T\u00fcr\nf 1 2 3\n`);
-  const expected = { names: ['wheel', 'T\u00fcr'], triangleGroup: new Uint32Array([0, 0, 1]) };
-  for (const source of [file, new Blob([file]), gzipSync(file)]) {
-    assert.deepEqual(await physics.readGroups(source, { name: 'a.obj' }), expected);
-  }
-  assert.deepEqual(await physics.readGroups(bytes(`${square}f 1 2 3\n`)), { names: [], triangleGroup: new Uint32Array() });
-  const cutOff = physics.readGroups(bytes('solid a\nfacet normal 0 0'), { name: 'bad.stl' });
-  await assert.rejects(cutOff, { code: 'badFile', stage: 'readGroups', message: /^bad\.stl.*line 2/ });
-  await assert.rejects(physics.readGroups('bad.obj'), { code: 'badArgument', stage: 'readGroups' });
 });

@@ -19,9 +19,9 @@ const files = given.length > 0 ? given : readdirSync(scans).map((name) => join(s
 
 const median = (times) => [...times].sort((a, b) => a - b)[times.length >> 1];
 
-function timed(f) {
+async function timed(f) {
   const start = performance.now();
-  f();
+  await f();
   return performance.now() - start;
 }
 
@@ -32,7 +32,7 @@ function nativeTime(file) {
 }
 
 /** Median times of calls on a cut-mesh, of several calls each where one is too short for the clock. */
-function reportCalls(mesh, cutMesh) {
+async function reportCalls(mesh, cutMesh) {
   const many = 100;
   const z = cutMesh.grid.planes[2];
   const heights = Array.from({ length: 50 }, (_, i) => z[0] + ((z.at(-1) - z[0]) * (i + 0.5)) / 50);
@@ -47,7 +47,8 @@ function reportCalls(mesh, cutMesh) {
     ['validate()', 1, () => validate(mesh, cutMesh)],
   ];
   for (const [name, count, f] of calls) {
-    const times = Array.from({ length: Number(runs) }, () => timed(f) / count);
+    const times = [];
+    for (let run = 0; run < Number(runs); ++run) times.push((await timed(f)) / count);
     console.log(`  ${name}: median ${median(times).toPrecision(3)} ms, least ${Math.min(...times).toPrecision(3)} ms`);
   }
 }
@@ -62,12 +63,12 @@ console.log(`mandoline.wasm ${(bytes.length / 1024).toFixed(0)} KB, gzipped ${(p
 for (const file of files) {
   const mesh = await readMesh(readFileSync(file), { name: file });
   const once = () => cut(mesh, { cells: Number(cells) }, { gridCellRegion: false });
-  const first = timed(once);
+  const first = await timed(once);
   const native = [];
   const wasm = [];
   for (let run = 0; run < Number(runs); ++run) {
     native.push(nativeTime(file));
-    wasm.push(timed(once));
+    wasm.push(await timed(once));
   }
   console.log(`${file.replace(/.*\//, '')} N = ${cells}, first call ${first.toFixed(1)} ms`);
   for (const [name, of] of [
@@ -78,5 +79,5 @@ for (const file of files) {
     const ratio = (of(wasm) / of(native)).toFixed(2);
     console.log(`  ${name}: native ${of(native).toFixed(1)} ms, WebAssembly ${of(wasm).toFixed(1)} ms, ratio ${ratio}`);
   }
-  reportCalls(mesh, once());
+  await reportCalls(mesh, once());
 }

@@ -66,7 +66,7 @@ test('interfaces of results are as the C++ headers have them', () => {
   execFileSync(process.execPath, [path(root, 'wasm', 'results.mjs'), '--check']);
 });
 
-test('results', () => {
+test('results', async () => {
   const results = [
     ['CutMesh', cutMesh],
     ['CutMesh', open],
@@ -85,13 +85,15 @@ test('results', () => {
     ['FaceTriangles', mandoline.triangulate(cutMesh)],
     ['Uint32Array', mandoline.triangulate(cutMesh, { cell: 0 })],
     ['Uint32Array', mandoline.triangulate(cutMesh, { region: 0 })],
-    ['Validation', mandoline.validate(mesh, cutMesh)],
+    ['Validation', await mandoline.validate(mesh, cutMesh)],
     ['Locations', mandoline.cellsAt(cutMesh, [1, 1, 1])],
     ['Location | null', mandoline.cellAt(cutMesh, [1, 1, 1])],
     ['Slice', mandoline.slice(cutMesh, { normal: [0, 0, 1], offset: 1 })],
     ['Slice[]', mandoline.slices(cutMesh, [0, 0, 1], [1])],
     ['Outlines[]', mandoline.outlines(cutMesh, [0, 0, 1], [1])],
-    ['Uint8Array', mandoline.write(mesh, cutMesh, 'obj')],
+    ['Uint8Array', await mandoline.write(mesh, cutMesh, 'obj')],
+    ['CutMeshArrays', await mandoline.readCutMesh(await mandoline.write(mesh, cutMesh, 'mcm'))],
+    ['TriangleGroups', await mandoline.readGroups(new TextEncoder().encode('v 0 0 0\nv 1 0 0\nv 0 1 0\ng a\nf 1 2 3\n'))],
   ];
   const { types, text } = declared(results, 'mandoline-wasm');
   assertCompiles(text);
@@ -116,7 +118,6 @@ test('results of mandoline-wasm/physics', async () => {
     ['Float64Array', physics.velocityAt({ mesh, cutMesh, cells, flow }, [1, 1, 1])],
     ['Streamlines', physics.streamlines({ mesh, cutMesh, cells, flow }, [1, 1, 1])],
     ['Float64Array', physics.inflowSeeds(cutMesh.grid, [1, 0, 0], 3)],
-    ['TriangleGroups', await physics.readGroups(new TextEncoder().encode('v 0 0 0\nv 1 0 0\nv 0 1 0\ng a\nf 1 2 3\n'))],
     ['Solution', physics.solvePoisson(cells, { boundary, source: cells.cellVolume })],
   ];
   assertCompiles(declared(results, 'mandoline-wasm/physics').text);
@@ -206,7 +207,7 @@ test('every code of the core and of the types has advice', () => {
   }
 });
 
-test('uses as in the documentation', () => {
+test('uses as in the documentation', async () => {
   assertCompiles(`
     import { init, MandolineError, describe, type CutMesh, type Mesh } from 'mandoline-wasm';
     const mandoline = await init();
@@ -224,7 +225,7 @@ test('uses as in the documentation', () => {
       if (error instanceof MandolineError) console.log(error.code === 'badGrid', describe(error));
     }
     // @ts-expect-error: no such format
-    mandoline.write(mesh, cutMesh, 'stl');
+    mandoline.write(mesh, cutMesh, 'off');
     // @ts-expect-error: a grid needs cells
     mandoline.cut(mesh, { min: [0, 0, 0], max: [1, 1, 1] });
   `);

@@ -105,9 +105,9 @@ for (const { name, cells } of gallery) {
     test('is the same every time', async () => assert.deepEqual(await galleryMesh(name), mesh));
 
     for (const resolution of new Set([...resolutions, cells])) {
-      test(`is cut and valid at ${resolution} cells`, () => {
+      test(`is cut and valid at ${resolution} cells`, async () => {
         const cutMesh = mandoline.cut(mesh, { cells: resolution });
-        const { pass, checks } = mandoline.validate(mesh, cutMesh);
+        const { pass, checks } = await mandoline.validate(mesh, cutMesh);
         assert.ok(pass, JSON.stringify(checks.filter((check) => !check.pass)));
         assert.equal(cutMesh.droppedTriangles.length, 0);
         if (resolution !== 32) return;

@@ -28,7 +28,7 @@ describe('files', () => {
     assert.equal(name, `knot.obj-${cutMesh.grid.cells.join('x')}.json`);
     const dump = JSON.parse(bytes);
     assert.equal(dump.format, 'mandoline-cut-mesh');
-    assert.ok(bytes.equals(mandoline.write(mesh, cutMesh, 'json')), 'as the package writes it');
+    assert.ok(bytes.equals(await mandoline.write(mesh, cutMesh, 'json')), 'as the package writes it');
     assert.equal(dump.positions.length, cutMesh.positions.length);
     assert.equal(dump.cellHalfFaceOffsets.length, cutMesh.cellRegion.length + 1);
     assert.equal(dump.loopVertices.length, dump.loopOffsets.at(-1));
@@ -41,7 +41,7 @@ describe('files', () => {
   test('VTU: one polyhedron per cell', async (t) => {
     const { name, bytes, page } = await saved(t, 'vtu');
     assert.match(name, /^knot\.obj-.*\.vtu$/);
-    assert.ok(bytes.equals(mandoline.write(mesh, cutMesh, 'vtu')), 'as the package writes it');
+    assert.ok(bytes.equals(await mandoline.write(mesh, cutMesh, 'vtu')), 'as the package writes it');
     const xml = `${bytes.toString('latin1').split('<AppendedData')[0]}</VTKFile>`;
     const piece = await page.evaluate((text) => {
       const parsed = new DOMParser().parseFromString(text, 'application/xml');
@@ -56,7 +56,7 @@ describe('files', () => {
   test('OBJ: the cut surface', async (t) => {
     const { name, bytes } = await saved(t, 'obj');
     assert.match(name, /\.obj$/);
-    assert.ok(bytes.equals(mandoline.write(mesh, cutMesh, 'obj')), 'as the package writes it');
+    assert.ok(bytes.equals(await mandoline.write(mesh, cutMesh, 'obj')), 'as the package writes it');
     const { positions, triangles } = readObj(bytes.toString());
     assert.ok(positions.every(Number.isFinite));
     assert.ok(triangles.length > 0 && triangles.every((vertex) => vertex < positions.length / 3));

@@ -13,6 +13,12 @@ const withAll = { 'main.js': pageScript, 'check.js': checkModule({ imports, more
 const importInline = "import * as inline from 'mandoline-wasm/inline';";
 const inline = { 'main.js': pageScript, 'check.js': checkModule({ imports: importInline, options: 'inline' }) };
 
+/** Copies the .wasm files of these modules beside what was built. */
+function copyModules(folder, ...modules) {
+  for (const module of modules)
+    copyFileSync(join(folder, 'node_modules', 'mandoline-wasm', 'dist', module), join(folder, 'dist', basename(module)));
+}
+
 /** The page works, with the .wasm file from the server or without. */
 function assertPage({ requests, ...result }, { wasm = true } = {}) {
   assertChecked(result);
@@ -57,7 +63,7 @@ for (const mode of ['development', 'production']) {
   });
 }
 
-test('webpack 5, a page that starts no worker, without a script for one, nor the module that computes', async () => {
+test('webpack 5, a page that starts no worker, without a script for one, nor the module that computes, and with the one for files beside it', async () => {
   const script = `
     import { init } from 'mandoline-wasm';
     init().then(({ version }) => { globalThis.outcome = { version }; }, (error) => { globalThis.outcome = { error: error.message }; });`;
@@ -68,7 +74,7 @@ test('webpack 5, a page that starts no worker, without a script for one, nor the
     built.filter((file) => file.endsWith('.js')),
     ['main.js'],
   );
-  assert.equal(built.filter((file) => file.endsWith('.wasm')).length, 1);
+  assert.equal(built.filter((file) => file.endsWith('.wasm')).length, 2);
   assert.equal((await openFolder(join(folder, 'dist'))).error, undefined);
 });
 
@@ -127,10 +133,10 @@ const fileBuilds = {
   esbuild: ['.bin/esbuild', 'main.js', 'worker-thread=mandoline-wasm/worker-thread', '--bundle', '--format=esm', '--outdir=dist'],
 };
 for (const [name, command] of Object.entries(fileBuilds)) {
-  test(`${name}, with the worker's script as an entry and mandoline.wasm beside it`, async () => {
+  test(`${name}, with the worker's script as an entry and the modules beside it`, async () => {
     const folder = makeProject(`${name} files`, { 'dist/index.html': html('./main.js'), ...asIs });
     assertQuiet(await run(folder, ...command));
-    copyFileSync(join(folder, 'node_modules', 'mandoline-wasm', 'dist', 'mandoline.wasm'), join(folder, 'dist', 'mandoline.wasm'));
+    copyModules(folder, 'mandoline.wasm', 'files/files.wasm');
     assertPage(await openFolder(join(folder, 'dist')));
   });
 
@@ -140,27 +146,27 @@ for (const [name, command] of Object.entries(fileBuilds)) {
     rmSync(join(folder, 'dist', 'worker-thread.js'));
     const missing = async () => (await openFolder(join(folder, 'dist'), { expected: /404/ })).error;
     assert.match(await missing(), /\/some\/path\/mandoline\.wasm could not be loaded: the server answered with 404/);
-    copyFileSync(join(folder, 'node_modules', 'mandoline-wasm', 'dist', 'mandoline.wasm'), join(folder, 'dist', 'mandoline.wasm'));
+    copyModules(folder, 'mandoline.wasm');
     assert.match(await missing(), /its script worker-thread\.js could not be loaded/);
   });
 }
 
-test('esbuild, that computes, with the one script for workers as an entry and both modules beside it', async () => {
+test('esbuild, that computes, with the one script for workers as an entry and all modules beside it', async () => {
   const files = { 'main.js': pageScript, 'check.js': checkModule({ imports, more }) };
   const folder = makeProject('esbuild physics files', { 'dist/index.html': html('./main.js'), ...files });
   const entries = ['main.js', 'worker-thread=mandoline-wasm/physics/worker-thread'];
   assertQuiet(await run(folder, '.bin/esbuild', ...entries, '--bundle', '--format=esm', '--outdir=dist'));
-  for (const file of ['mandoline.wasm', 'physics/physics.wasm']) {
-    copyFileSync(join(folder, 'node_modules', 'mandoline-wasm', 'dist', file), join(folder, 'dist', basename(file)));
-  }
+  copyModules(folder, 'mandoline.wasm', 'files/files.wasm', 'physics/physics.wasm');
   assertPage(await openFolder(join(folder, 'dist')));
 });
 
 test('esbuild, with its loader for files', async () => {
   const check = checkModule({
-    imports: "import wasm from 'mandoline-wasm/mandoline.wasm';\nimport { thread } from 'mandoline-wasm/inline';",
-    options: '{ wasm }',
-    workerOptions: '{ wasm, thread }',
+    imports: `import wasm from 'mandoline-wasm/mandoline.wasm';
+      import filesWasm from 'mandoline-wasm/files.wasm';
+      import { thread } from 'mandoline-wasm/inline';`,
+    options: '{ wasm, filesWasm }',
+    workerOptions: '{ wasm, filesWasm, thread }',
   });
   const folder = makeProject('esbuild loader', { 'dist/index.html': html('./main.js'), 'main.js': pageScript, 'check.js': check });
   assertQuiet(await run(folder, '.bin/esbuild', 'main.js', '--bundle', '--format=esm', '--outdir=dist', '--loader:.wasm=file'));

@@ -11,7 +11,7 @@ const asRequire = (text) => text.replaceAll(/^import (\{.*?\}) from (.*?);$/gm, 
 const asImport = (text) =>
   asRequire(text)
     .replaceAll(/^const (\{.*?\}) = require\((.*?)\);\n/gm, '')
-    .replace('{ cut } = await init', "{ cut } = await (await import('mandoline-wasm')).init")
+    .replace('{ cut, validate } = await init', "{ cut, validate } = await (await import('mandoline-wasm')).init")
     .replace('await createWorker', "await (await import('mandoline-wasm/worker')).createWorker");
 const scripts = {
   'ES modules': ['main.mjs', computing],

@@ -1,4 +1,5 @@
-// What the projects run: a cut, the same in a worker, and a call of one's own in a worker of one's own; and the cells of all, computed.
+// What the projects run: a cut, validated, the same in a worker, and a call of one's own in a worker of one's own; and the cells of all,
+// computed.
 import assert from 'node:assert/strict';
 
 const mesh = `{
@@ -15,12 +16,13 @@ ${imports}
 const mesh = ${mesh};
 
 export async function check() {
-  const { cut } = await init(${options});
+  const { cut, validate } = await init(${options});
   const here = cut(mesh, { cells: 8 });
   const worker = await createWorker(${workerOptions});
   const there = await worker.cut(mesh, { cells: 8 });
+  const valid = [await validate(mesh, here), await worker.validate(mesh, there)].map(({ pass }) => pass).join();
   worker.terminate();
-  const result = { cells: here.cellRegion.length, same: String(here.positions) === String(there.positions) };
+  const result = { cells: here.cellRegion.length, same: String(here.positions) === String(there.positions), valid };
   ${more}
   return result;
 }
@@ -76,10 +78,11 @@ export function html(script, { head = '', module = true } = {}) {
 }
 
 /** What has `computed` has to have computed. */
-export function assertChecked({ cells, same, own = cells, computed = '664,664', error }) {
+export function assertChecked({ cells, same, valid, own = cells, computed = '664,664', error }) {
   assert.equal(error, undefined);
   assert.equal(cells, 304);
   assert.equal(same, true);
+  assert.equal(valid, 'true,true');
   assert.equal(own, cells);
   assert.equal(computed, '664,664');
 }

@@ -6,7 +6,7 @@ import { makeProject, run } from './projects.mjs';
 const suite = (head) => `${head}
 import { check } from './check.js';
 
-test('cut', async () => expect(await check()).toEqual({ cells: 304, same: true }));
+test('cut', async () => expect(await check()).toEqual({ cells: 304, same: true, valid: 'true,true' }));
 `;
 const esModules = JSON.stringify({ name: 'consumer', private: true, type: 'module' });
 

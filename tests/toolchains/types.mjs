@@ -47,6 +47,14 @@ test('publint', async () => {
 
 test('are the types wrong?', async () => {
   // It is about require() in versions of Node that have none for ES modules.
-  const args = [tarball, '--ignore-rules', 'cjs-resolves-to-esm', '--exclude-entrypoints', './mandoline.wasm', './physics.wasm'];
+  const args = [
+    tarball,
+    '--ignore-rules',
+    'cjs-resolves-to-esm',
+    '--exclude-entrypoints',
+    './mandoline.wasm',
+    './files.wasm',
+    './physics.wasm',
+  ];
   await run(makeProject('attw', {}), '.bin/attw', ...args);
 });

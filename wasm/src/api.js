@@ -1,6 +1,8 @@
 // The calls of a table (see calls.js), on a module that has been started.
-import { readMembers, readOptions } from './arguments.js';
+import { readMembers, readOptions, readStart } from './arguments.js';
 import { named } from './errors.js';
+import { Host, isResult } from './host.js';
+import { once } from './load.js';
 import { withProgress } from './progress.js';
 
 /** Returns a function that gives the argument once the handles of twins are there. Values that need a handle are added to `inputs`. */
@@ -35,7 +37,7 @@ function makeCall(host, name, call) {
     return withProgress(told, (progress) => {
       const inputs = [];
       const asInput = (taken, value) => {
-        if (taken.otherwise && !host.isResult(value) && !taken.fits?.(value)) return undefined;
+        if (taken.otherwise && !isResult(value) && !taken.fits?.(value)) return undefined;
         const place = inputs.push(host.input(taken, value, progress)) - 1;
         return (handles) => handles[place];
       };
@@ -49,18 +51,41 @@ function makeCall(host, name, call) {
   };
 }
 
-function makeFileCall(host, name, { takes, options }) {
+function makeFileCall(host, name, call) {
+  const { takes, options, keeps } = call;
   return async (source, given) => {
     const { name: fileName, bytes } = await takes.source(source, readOptions(given, options));
-    return host.run((bindings) => bindings[name](bytes, fileName));
+    return host.run((bindings, twins) => {
+      const outcome = bindings[name](bytes, fileName);
+      return keeps ? keepTwin(outcome, call, { kind: keeps }, host, twins) : outcome;
+    });
   };
 }
 
-/** What init() and initPhysics() resolve to. */
-export function makeApi(host, table) {
-  const calls = Object.entries(table).map(([name, call]) => {
+/** { host, calls } of a module that is compiled. `module`: as in module.js. */
+export function startModule(module, compiled) {
+  const host = new Host(module, compiled);
+  const calls = Object.entries(module.calls).map(([name, call]) => {
     const make = call.isFile ? makeFileCall : makeCall;
     return [name, named(call.isCut ? 'input' : name, make(host, name, call))];
   });
-  return { version: host.start((bindings) => bindings.version()), ...Object.fromEntries(calls) };
+  return { host, calls: { version: host.start((bindings) => bindings.version()), ...Object.fromEntries(calls) } };
+}
+
+/** The same calls of a module that is loaded when the first is made, as promises; load() promises its calls. */
+export function laterCalls(module, load) {
+  const names = Object.keys(module.calls);
+  return Object.fromEntries(names.map((name) => [name, async (...given) => (await load())[name](...given)]));
+}
+
+/** init() of a module: it checks its options, of which `own` is for the module, and gives the promise of start(options) that there is. */
+export function starter(name, own, start) {
+  const started = once(start);
+  return (given) => {
+    try {
+      return started(named(name, readStart)(given, own));
+    } catch (error) {
+      return Promise.reject(error);
+    }
+  };
 }

@@ -49,7 +49,7 @@ export function readOptions(options = {}, readers = {}, ...context) {
  */
 export function readStart(options, own) {
   const asIs = (value) => value;
-  const read = readOptions(options, { wasm: asIs, physicsWasm: asIs, thread: readFunction, default: asIs });
+  const read = readOptions(options, { wasm: asIs, filesWasm: asIs, physicsWasm: asIs, thread: readFunction, default: asIs });
   const other = ['wasm', 'physicsWasm'].find((name) => name !== own && read[name] !== undefined);
   if (own && other && read[own] === undefined) throw bad(`options.${other} is not for this: did you mean ${own}?`);
   return read;

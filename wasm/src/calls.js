@@ -11,8 +11,6 @@
 import {
   flag,
   numbered,
-  optional,
-  readFlags,
   readFunction,
   readGrid,
   readMaxPairs,
@@ -24,7 +22,6 @@ import {
   readResolved,
   readSnapTolerance,
   readVector,
-  word,
 } from './arguments.js';
 import { Intersections, WindingRule } from './fields.js';
 import { readFile, readName } from './files.js';
@@ -115,7 +112,7 @@ export const cutCalls = {
    * inside. Inside is by winding numbers, else by parity (see CutMesh); open components are left out. Code "badArgument" for a mesh that
    * has no others, and so bounds no solid. Default rule: "positive".
    *
-   * boundary(mesh: ResolvedMesh | CutMesh, rule?: WindingRule): MeshArrays
+   * boundary(mesh: ResolvedMeshArrays | CutMeshArrays, rule?: WindingRule): MeshArrays
    */
   boundary: {
     takes: {
@@ -127,39 +124,29 @@ export const cutCalls = {
     },
   },
   /**
-   * The paper's four checks (5.6) and the invariants of a cut-mesh, worked out from its arrays alone. `mesh` is the input, `snapTolerance`
-   * that of the cut.
-   *
-   * validate(mesh: Mesh, cutMesh: CutMesh, options?: ValidateOptions): Validation
-   */
-  validate: {
-    takes: { mesh: readMesh, cutMesh: { ...cutMesh, isChecked: false } },
-    options: { snapTolerance: readSnapTolerance, progress },
-  },
-  /**
    * Areas, normals, centroids and volumes. `mesh` is the input of the cut.
    *
-   * measure(mesh: Mesh, cutMesh: CutMesh, options?: RunOptions): Measures
+   * measure(mesh: Mesh, cutMesh: CutMeshArrays, options?: RunOptions): Measures
    */
   measure: { takes: { mesh: readMesh, cutMesh }, options: { progress } },
   /**
    * The cut-edges with their lengths.
    *
-   * cutEdges(mesh: Mesh, cutMesh: CutMesh): CutEdges
+   * cutEdges(mesh: Mesh, cutMesh: CutMeshArrays): CutEdges
    */
   cutEdges: { takes: { mesh: readMesh, cutMesh } },
   /**
    * What lies on the two sides of each face, and which cut-cells are neighbours.
    *
-   * adjacency(cutMesh: CutMesh): Adjacency
+   * adjacency(cutMesh: CutMeshArrays): Adjacency
    */
   adjacency: { takes: { cutMesh } },
   /**
    * Triangles of all faces; or, with `of`, 3 vertex ids per triangle: the closed surface of one cut-cell, oriented outward, or the pieces
    * of triangles that bound a region, oriented out of it, both sides of those where a sheet ends within the region.
    *
-   * triangulate(cutMesh: CutMesh, of?: undefined): FaceTriangles
-   * triangulate(cutMesh: CutMesh, of: { cell: number } | { region: number }): Uint32Array<ArrayBuffer>
+   * triangulate(cutMesh: CutMeshArrays, of?: undefined): FaceTriangles
+   * triangulate(cutMesh: CutMeshArrays, of: { cell: number } | { region: number }): Uint32Array<ArrayBuffer>
    */
   triangulate: {
     takes: { cutMesh, of: readPart },
@@ -171,7 +158,7 @@ export const cutCalls = {
   /**
    * Which cell holds this point; null outside the grid. A point on a face counts to one of the cells beside it.
    *
-   * cellAt(cutMesh: CutMesh, point: Vector3): Location | null
+   * cellAt(cutMesh: CutMeshArrays, point: Vector3): Location | null
    */
   cellAt: {
     takes: { cutMesh, point: readVector },
@@ -183,13 +170,13 @@ export const cutCalls = {
   /**
    * Which cell holds each point (3 coordinates per point): one call for many points is far faster than many calls.
    *
-   * cellsAt(cutMesh: CutMesh, points: ArrayLike<number>): Locations
+   * cellsAt(cutMesh: CutMeshArrays, points: ArrayLike<number>): Locations
    */
   cellsAt: { takes: { cutMesh, points: readPoints } },
   /**
    * The polygons in which a plane cuts the cells.
    *
-   * slice(cutMesh: CutMesh, plane: Plane, options?: SliceOptions): Slice
+   * slice(cutMesh: CutMeshArrays, plane: Plane, options?: SliceOptions): Slice
    */
   slice: {
     takes: { cutMesh, plane: readPlane },
@@ -199,7 +186,7 @@ export const cutCalls = {
   /**
    * The slices of the planes normal . x = offset, in the order of the offsets, for less than many calls of slice() cost.
    *
-   * slices(cutMesh: CutMesh, normal: Vector3, offsets: ArrayLike<number>, options?: SliceOptions): Slice[]
+   * slices(cutMesh: CutMeshArrays, normal: Vector3, offsets: ArrayLike<number>, options?: SliceOptions): Slice[]
    */
   slices: {
     takes: { cutMesh, normal: readVector, offsets: readNumbers },
@@ -209,18 +196,9 @@ export const cutCalls = {
   /**
    * The outlines of the regions in such planes, as slicers need them.
    *
-   * outlines(cutMesh: CutMesh, normal: Vector3, offsets: ArrayLike<number>): Outlines[]
+   * outlines(cutMesh: CutMeshArrays, normal: Vector3, offsets: ArrayLike<number>): Outlines[]
    */
   outlines: { takes: { cutMesh, normal: readVector, offsets: readNumbers } },
-  /**
-   * A file: "json" is the dump of all arrays, "vtu" polyhedra for VTK and ParaView, "obj" the cut surface by region.
-   *
-   * write(mesh: Mesh, cutMesh: CutMesh, format: 'json' | 'vtu' | 'obj', options?: WriteOptions): Uint8Array<ArrayBuffer>
-   */
-  write: {
-    takes: { mesh: readMesh, cutMesh, format: word(['json', 'vtu', 'obj']) },
-    options: { untouched: flag(true), regions: optional(readFlags), progress },
-  },
   /**
    * The mesh in a file: OBJ, STL, PLY or OFF (STL and PLY in text or binary), each also gzipped, told by content and then by the extension
    * of the name. Polygons are fanned from their first vertex; triangles are in the order of the file. Code "badFile" if it can't be read;

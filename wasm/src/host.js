@@ -6,6 +6,21 @@ import { Twins } from './twins.js';
 /** What gives the kinds of results that may have twins. */
 const makers = { prepared: 'prepare()', cutMesh: 'cut()', cells: 'cellComplex(), subComplex() or regionComplex()' };
 
+/** What calls of any of the package's modules gave: { host, kind }. Each module may have a twin of a cut-mesh. */
+const results = new WeakMap();
+
+export const isResult = (value) => results.has(value);
+
+/** The data of the twin in the module that gave the result, if it is there. */
+const dataOf = (result) => results.get(result)?.host.dataOf(result);
+
+/** Throws if this is a result of another kind. */
+function expectKind(kind, value) {
+  const found = results.get(value)?.kind ?? kind;
+  const name = kind === 'prepared' ? 'mesh' : kind;
+  if (found !== kind) throw bad(`${name} must be what ${makers[kind]} gives, not what ${makers[found]} does.`);
+}
+
 /** If less than this is kept, a new instance has no more free memory than the one that ran out of it. */
 const muchKept = 2 ** 27;
 
@@ -16,12 +31,18 @@ const muchKept = 2 ** 27;
 export class Host {
   #createModule;
   #module;
+  #kinds;
   #instance; // { bindings, twins }
   #results = new WeakMap(); // of this host's calls, which may have twins: their origins, as given to adopt()
 
-  constructor(createModule, module) {
+  /**
+   * `kinds`: per kind of what may have twins { read, make }. read(value) gives its data; make(bindings, data, { taken, origin, progress })
+   * gives { value: handle } or { error }, with `taken` as in calls.js and `origin` as adopt() was told.
+   */
+  constructor({ createModule, kinds }, module) {
     this.#createModule = createModule;
     this.#module = module;
+    this.#kinds = kinds;
   }
 
   /** f(bindings) of the first instance. */
@@ -47,7 +68,7 @@ export class Host {
 
   /**
    * The same with a binding that takes values that may have twins, f(bindings, handles, twins). An input is { value, read, make, isKept },
-   * as input() of the host gives it. Its handle is that of its twin; if it has none, make() makes one of what read() returns, and that
+   * as input() gives it. Its handle is that of its twin; if it has none, make() makes one of what read() returns, and that
    * becomes the twin if it is to be kept.
    */
   runWith(inputs, f) {
@@ -76,21 +97,31 @@ export class Host {
   /** Marks a value as a result, with its origin ({ kind, ...options }), so that it gets a twin when its arrays are read. */
   adopt(result, origin) {
     this.#results.set(result, origin);
+    if (!results.has(result)) results.set(result, { host: this, kind: origin.kind });
   }
 
-  isResult(value) {
-    return this.#results.has(value);
+  /** What runWith() takes for an argument, which is `taken` as in calls.js. */
+  input(taken, value, progress) {
+    const { kind, isChecked = true } = taken;
+    expectKind(kind, value);
+    if (isResult(value) && !this.#results.has(value)) this.adopt(value, { kind }); // of another module
+    const { read, make } = this.#kinds[kind];
+    const origin = this.originOf(value);
+    return {
+      value,
+      read: () => dataOf(value) ?? read(value),
+      make: (bindings, data) => make(bindings, data, { taken, origin, progress }),
+      isKept: isChecked && isResult(value),
+    };
   }
 
   originOf(value) {
     return this.#results.get(value);
   }
 
-  /** Throws if this is a result of another kind. */
-  expectKind(kind, value) {
-    const found = this.originOf(value)?.kind ?? kind;
-    const name = kind === 'prepared' ? 'mesh' : kind;
-    if (found !== kind) throw bad(`${name} must be what ${makers[kind]} gives, not what ${makers[found]} does.`);
+  /** The data of a cut-mesh's twin, if it is there. */
+  dataOf(cutMesh) {
+    return this.hasTwin(cutMesh) ? this.run((bindings, twins) => bindings.dataOf(twins.find(cutMesh))) : undefined;
   }
 
   hasTwin(result) {

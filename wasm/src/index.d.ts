@@ -12,7 +12,17 @@
  * there is nothing to delete. Arrays have the names that they have in the C++ library and its JSON dump. Numbers of sections and appendices
  * are the paper's.
  */
-import type { CutMeshArrays, CutStats, MeasureArrays, PairCounts, Progress, ResolvedMeshArrays } from './results.js';
+import type {
+  CutMeshArrays,
+  CutStats,
+  MeasureArrays,
+  Outlines,
+  PairCounts,
+  Progress,
+  ResolvedMeshArrays,
+  TriangleGroups,
+} from './results.js';
+import type { Calls as FileCalls } from './files/signatures.js';
 import type { Calls } from './signatures.js';
 
 export * from './results.js';
@@ -123,13 +133,13 @@ export interface CutOptions extends PrepareOptions {
 /**
  * The cut-mesh. Half-face = 2 * face + side; side 0: the face's normal points out of the cell, side 1: into it.
  *
- * The module keeps a twin of what cut() gives, and calls of Mandoline that are given that same object work on the twin: they don't read its
- * arrays, so they also work when these were transferred elsewhere, and take no notice of what was written into them. (The functions of
- * mandoline-wasm/three do read the arrays.) A copy (`{ ...cutMesh }`, a clone, what another worker gave) is data of its own, read and
- * checked by every call. Twins go with their results when garbage is collected; those used longest ago also when there are more than 16 of
- * them or more than 256 MB, and all when the module runs out of memory. A result whose twin is gone is read once more and then has one
- * again. `cut(..., { keep: false })` keeps none. In a worker, twins are in its thread, and the arrays are sent back to it only where the
- * twin is gone.
+ * The module keeps a twin of what cut() and readCutMesh() give, and calls of Mandoline that are given that same object work on the twin:
+ * they don't read its arrays, so they also work when these were transferred elsewhere, and take no notice of what was written into them.
+ * (The functions of mandoline-wasm/three do read the arrays.) A copy (`{ ...cutMesh }`, a clone, what another worker gave) is data of its
+ * own, read and checked by every call. Twins go with their results when garbage is collected; those used longest ago also when there are
+ * more than 16 of them or more than 256 MB, and all when the module runs out of memory. A result whose twin is gone is read once more and
+ * then has one again. `cut(..., { keep: false })` keeps none. In a worker, twins are in its thread, and the arrays are sent back to it only
+ * where the twin is gone.
  */
 export interface CutMesh extends CutMeshArrays {
   /** Region of each grid cell, x fastest; -1 where cut-cells replace it: what the runs say, in a dense form. Absent if the options said so. */
@@ -183,11 +193,26 @@ export interface SliceOptions {
   untouched?: boolean;
 }
 
-export interface WriteOptions extends RunOptions {
+export interface WriteOutlinesOptions extends RunOptions {
+  /** Per region whether it is written; default: all are. Of the surface, all that bounds the regions; "json" and "mcm" have everything. */
+  regions?: Uint8Array | readonly boolean[];
+}
+export interface WriteMeshOptions extends RunOptions {
+  /** The groups of the triangles of the input, for files that have some. */
+  groups?: TriangleGroups;
+}
+export interface WriteOptions extends WriteOutlinesOptions, WriteMeshOptions {
   /** Whether untouched grid cells are written to a "vtu". Default true. */
   untouched?: boolean;
-  /** Per region whether it is written to a "vtu" or "obj"; default: all are. An "obj" then has all that bounds the regions. */
-  regions?: Uint8Array | readonly boolean[];
+}
+
+/** Outlines in parallel planes, for writeOutlines(). */
+export interface OutlineStack {
+  /** As given to outlines(). */
+  normal: Vector3;
+  offsets: ArrayLike<number>;
+  /** What outlines() gave. */
+  layers: readonly Outlines[];
 }
 
 export interface ReadMeshOptions {
@@ -199,7 +224,7 @@ export interface ReadMeshOptions {
  * Everything that works on meshes and cut-meshes; `init()` gives it. No call changes its arguments. Errors are MandolineErrors, except what
  * a progress callback throws.
  */
-export interface Mandoline extends Calls {
+export interface Mandoline extends Calls, FileCalls {
   /** Version of the library. */
   readonly version: string;
 }
@@ -210,6 +235,8 @@ export interface InitOptions {
    * from beside the package's code.
    */
   wasm?: WasmSource | (() => WasmSource | Promise<WasmSource>);
+  /** The same of the module that has validate(), the writers and some readers: files.wasm, loaded when one of these is first called. */
+  filesWasm?: WasmSource | (() => WasmSource | Promise<WasmSource>);
 }
 export type WasmSource = URL | string | ArrayBuffer | ArrayBufferView | WasmModule;
 

@@ -1,44 +1,25 @@
-import { makeApi } from './api.js';
-import { readStart } from './arguments.js';
-import { cutCalls } from './calls.js';
-import { CutHost } from './cut-host.js';
-import { named } from './errors.js';
-import { compile } from './load.js';
+import { laterCalls, startModule, starter } from './api.js';
+import { fileModule } from './files/module.js';
+import { ownFileWasm } from './files/own-wasm.js';
+import { compile, once } from './load.js';
+import { cutModule } from './module.js';
 import { ownWasm } from './own-wasm.js';
 
 export { MandolineError, describe } from './errors.js';
 
-let started;
-
-async function start({ wasm = ownWasm.source }) {
+const start = once(async ({ wasm = ownWasm.source, filesWasm = ownFileWasm.source }) => {
   const module = await compile(wasm, 'mandoline.wasm');
-  return { module, api: makeApi(new CutHost(module), cutCalls) };
-}
-
-function begin(given) {
-  const options = named('init', readStart)(given, 'wasm');
-  if (!started) {
-    const attempt = start(options);
-    started = { attempt, api: attempt.then(({ api }) => api) };
-    started.api.catch(() => {
-      started = undefined;
-    });
-  }
-  return started;
-}
+  const loadFiles = once(async () => startModule(fileModule, await compile(filesWasm, 'files.wasm')).calls);
+  return { module, api: { ...startModule(cutModule, module).calls, ...laterCalls(fileModule, loadFiles) } };
+});
 
 /**
  * Loads the WebAssembly module, once: every call gives the same promise, for any options. After a failure the next call tries again.
  */
-export function init(options) {
-  try {
-    return begin(options).api;
-  } catch (error) {
-    return Promise.reject(error);
-  }
-}
+export const init = starter('init', 'wasm', async (options) => (await start(options)).api);
 
 /** The compiled module that init() used, to hand to init() in a worker of your own, or to createWorker(). */
 export async function compiledModule() {
-  return (await begin().attempt).module;
+  await init();
+  return (await start({})).module;
 }

@@ -1,5 +1,5 @@
 /**
- * The package's other two files within JavaScript, for `init(inline)` and `createWorker(inline)`: nothing is left to serve or to copy.
+ * The package's other files within JavaScript, for `init(inline)` and `createWorker(inline)`: nothing is left to serve or to copy.
  *
  * ```js
  * import { init } from 'mandoline-wasm';
@@ -11,6 +11,9 @@ import type { Thread } from './worker.js';
 
 /** The bytes of mandoline.wasm. */
 export function wasm(): Promise<ArrayBuffer>;
+
+/** The bytes of files.wasm. */
+export function filesWasm(): Promise<ArrayBuffer>;
 
 /** Starts the worker's script. In browsers it is a blob, which a content security policy allows by `worker-src blob:`. */
 export function thread(): Thread;

@@ -1,6 +1,8 @@
 // The WebAssembly and the worker's script within JavaScript. build.mjs puts them in.
 import { startScript, unpack } from './unpack.js';
 
-export const wasm = () => unpack('GZIPPED_WASM');
+export const wasm = () => unpack('GZIPPED_MANDOLINE');
+
+export const filesWasm = () => unpack('GZIPPED_FILES');
 
 export const thread = () => startScript('WORKER_SCRIPT');

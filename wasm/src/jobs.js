@@ -2,13 +2,13 @@ import { MandolineError } from './errors.js';
 
 /**
  * Jobs done one after another by a thread, which is replaced when it has to be stopped or dies. A job is
- * { call, isCut, message, pack, onProgress, ready, resolve, reject }: pack(message, twins) gives { message, transfer } for a thread that
- * has these twins of results, by their ids. If there is ready(), its promise is awaited before pack() is called. The first job of every
- * thread is to start the compiled module.
+ * { call, isCut, message, pack, onProgress, resolve, reject }: pack(message, twins) gives { message, transfer } for a thread that has these
+ * twins of results, by their ids. The first job of every thread is to start the compiled module; others are sent when it asks for them.
  */
 export class JobQueue {
   #startThread;
   #module;
+  #later;
   #thread = null;
   #twins = new Set(); // in the thread, as far as is known here
   #running = null;
@@ -16,9 +16,11 @@ export class JobQueue {
   #ended = false;
   #count = 0;
 
-  constructor(startThread, module) {
+  /** `later`: by name what promises another module. */
+  constructor(startThread, module, later) {
     this.#startThread = startThread;
     this.#module = module;
+    this.#later = later;
   }
 
   /** Starts a thread; resolves when it has started the module. */
@@ -107,15 +109,6 @@ export class JobQueue {
   #perform(job) {
     this.#running = job;
     this.#thread.hold(true);
-    if (!job.ready) return this.#post(job);
-    const whileRunning = (f) => (value) => this.#running === job && f(value);
-    job.ready().then(
-      whileRunning(() => this.#post(job)),
-      whileRunning((error) => this.#settle(() => job.reject(error))),
-    );
-  }
-
-  #post(job) {
     try {
       const { message, transfer } = job.pack(job.message, this.#twins);
       this.#thread.post(message, transfer);
@@ -126,10 +119,23 @@ export class JobQueue {
 
   #receive({ type, value, kept, error, message, ids }) {
     if (type === 'progress') this.#progress(value);
+    else if (type === 'wanted') this.#send(value);
     else if (type === 'missing') this.#repeat(message, ids);
     else if (type === 'result') this.#settle((job) => this.#resolve(job, value, kept));
     else if (type === 'thrown') this.#settle((job) => job.reject(value));
     else this.#settle((job) => job.reject(new MandolineError(error.code, error.message, error)));
+  }
+
+  /** Sends a module that the thread asks for, or why there is none. */
+  async #send(part) {
+    const thread = this.#thread;
+    const answer = await this.#later
+      .get(part)()
+      .then(
+        (module) => ({ part, module }),
+        ({ code, message, stage }) => ({ part, error: { code, message, stage } }),
+      );
+    if (this.#thread === thread) thread.post(answer);
   }
 
   #resolve(job, value, kept = []) {

@@ -53,3 +53,15 @@ export async function compile(source, name) {
     throw failureOf('', cause);
   }
 }
+
+/** A function that makes a promise of f() once, and again after a failure. */
+export function once(f) {
+  let made;
+  return (...given) => {
+    made ??= f(...given).catch((error) => {
+      made = undefined;
+      throw error;
+    });
+    return made;
+  };
+}

@@ -1,24 +1,27 @@
 import { cutCalls } from './calls.js';
+import { fileCalls } from './files/calls.js';
 import { JobQueue } from './jobs.js';
-import { compile } from './load.js';
+import { compile, once } from './load.js';
 import { startThread } from './thread.js';
 import { Calls } from './worker-calls.js';
 
 /**
- * Starts a worker that has loaded the module, by `thread` or else as `own` says. moreCalls() gives calls beside those.
+ * Starts a worker that has loaded the module of `wasm`, by `thread` or else as `own` says. `more`: the modules, beside that of `filesWasm`,
+ * that it loads when one of their calls is first made.
  *
- * @param {{ wasm: unknown, thread?: () => unknown }} options
+ * @param {{ wasm: unknown, filesWasm: unknown, thread?: () => unknown }} options
  * @param {{ source: () => any }} own
- * @param {(queue: JobQueue, calls: Calls) => object} [moreCalls]
+ * @param {{ name: string, calls: object, source: unknown }[]} [more]
  */
-export async function openWorker({ wasm, thread }, own, moreCalls = () => ({})) {
+export async function openWorker({ wasm, filesWasm, thread }, own, more = []) {
   const source = thread ? { start: thread, script: 'from options.thread' } : await own.source();
-  const queue = new JobQueue((handlers) => startThread(source, handlers), await compile(wasm, 'mandoline.wasm'));
+  const later = [{ name: 'files', calls: fileCalls, source: filesWasm }, ...more];
+  const modules = new Map(later.map((module) => [module.name, once(() => compile(module.source, `${module.name}.wasm`))]));
+  const queue = new JobQueue((handlers) => startThread(source, handlers), await compile(wasm, 'mandoline.wasm'), modules);
   await queue.open();
-  const calls = new Calls(queue, cutCalls);
+  const calls = new Calls(queue, [{ name: 'cut', calls: cutCalls }, ...later]);
   return {
     ...calls.all(),
-    ...moreCalls(queue, calls),
     call: (name, args = [], given = undefined) => calls.extra(String(name), args, given),
     terminate: () => queue.close(),
   };

@@ -1,2 +1,2 @@
-/** What a worker's script can start: each makes { host, calls } of its compiled module. */
+/** What a worker's script can start: modules by their names (see module.js). */
 export const parts = new Map();

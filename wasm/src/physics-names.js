@@ -16,5 +16,4 @@ export const physicsNames = [
   'velocityAt',
   'streamlines',
   'inflowSeeds',
-  'readGroups',
 ];

@@ -3,6 +3,7 @@ import type {
   Adjacency,
   CutEdges,
   CutMesh,
+  CutMeshArrays,
   CutOptions,
   FaceTriangles,
   GridInput,
@@ -20,14 +21,12 @@ import type {
   PrepareOptions,
   ReadMeshOptions,
   ResolvedMesh,
+  ResolvedMeshArrays,
   RunOptions,
   Slice,
   SliceOptions,
-  ValidateOptions,
-  Validation,
   Vector3,
   WindingRule,
-  WriteOptions,
 } from './index.js';
 import type { CallOptions } from './worker.js';
 
@@ -57,36 +56,29 @@ export interface Calls {
    * inside. Inside is by winding numbers, else by parity (see CutMesh); open components are left out. Code "badArgument" for a mesh that
    * has no others, and so bounds no solid. Default rule: "positive".
    */
-  boundary(mesh: ResolvedMesh | CutMesh, rule?: WindingRule): MeshArrays;
-  /**
-   * The paper's four checks (5.6) and the invariants of a cut-mesh, worked out from its arrays alone. `mesh` is the input, `snapTolerance`
-   * that of the cut.
-   */
-  validate(mesh: Mesh, cutMesh: CutMesh, options?: ValidateOptions): Validation;
+  boundary(mesh: ResolvedMeshArrays | CutMeshArrays, rule?: WindingRule): MeshArrays;
   /** Areas, normals, centroids and volumes. `mesh` is the input of the cut. */
-  measure(mesh: Mesh, cutMesh: CutMesh, options?: RunOptions): Measures;
+  measure(mesh: Mesh, cutMesh: CutMeshArrays, options?: RunOptions): Measures;
   /** The cut-edges with their lengths. */
-  cutEdges(mesh: Mesh, cutMesh: CutMesh): CutEdges;
+  cutEdges(mesh: Mesh, cutMesh: CutMeshArrays): CutEdges;
   /** What lies on the two sides of each face, and which cut-cells are neighbours. */
-  adjacency(cutMesh: CutMesh): Adjacency;
+  adjacency(cutMesh: CutMeshArrays): Adjacency;
   /**
    * Triangles of all faces; or, with `of`, 3 vertex ids per triangle: the closed surface of one cut-cell, oriented outward, or the pieces
    * of triangles that bound a region, oriented out of it, both sides of those where a sheet ends within the region.
    */
-  triangulate(cutMesh: CutMesh, of?: undefined): FaceTriangles;
-  triangulate(cutMesh: CutMesh, of: { cell: number } | { region: number }): Uint32Array<ArrayBuffer>;
+  triangulate(cutMesh: CutMeshArrays, of?: undefined): FaceTriangles;
+  triangulate(cutMesh: CutMeshArrays, of: { cell: number } | { region: number }): Uint32Array<ArrayBuffer>;
   /** Which cell holds this point; null outside the grid. A point on a face counts to one of the cells beside it. */
-  cellAt(cutMesh: CutMesh, point: Vector3): Location | null;
+  cellAt(cutMesh: CutMeshArrays, point: Vector3): Location | null;
   /** Which cell holds each point (3 coordinates per point): one call for many points is far faster than many calls. */
-  cellsAt(cutMesh: CutMesh, points: ArrayLike<number>): Locations;
+  cellsAt(cutMesh: CutMeshArrays, points: ArrayLike<number>): Locations;
   /** The polygons in which a plane cuts the cells. */
-  slice(cutMesh: CutMesh, plane: Plane, options?: SliceOptions): Slice;
+  slice(cutMesh: CutMeshArrays, plane: Plane, options?: SliceOptions): Slice;
   /** The slices of the planes normal . x = offset, in the order of the offsets, for less than many calls of slice() cost. */
-  slices(cutMesh: CutMesh, normal: Vector3, offsets: ArrayLike<number>, options?: SliceOptions): Slice[];
+  slices(cutMesh: CutMeshArrays, normal: Vector3, offsets: ArrayLike<number>, options?: SliceOptions): Slice[];
   /** The outlines of the regions in such planes, as slicers need them. */
-  outlines(cutMesh: CutMesh, normal: Vector3, offsets: ArrayLike<number>): Outlines[];
-  /** A file: "json" is the dump of all arrays, "vtu" polyhedra for VTK and ParaView, "obj" the cut surface by region. */
-  write(mesh: Mesh, cutMesh: CutMesh, format: 'json' | 'vtu' | 'obj', options?: WriteOptions): Uint8Array<ArrayBuffer>;
+  outlines(cutMesh: CutMeshArrays, normal: Vector3, offsets: ArrayLike<number>): Outlines[];
   /**
    * The mesh in a file: OBJ, STL, PLY or OFF (STL and PLY in text or binary), each also gzipped, told by content and then by the extension
    * of the name. Polygons are fanned from their first vertex; triangles are in the order of the file. Code "badFile" if it can't be read;
@@ -103,23 +95,16 @@ export interface WorkerCalls {
   inspect(mesh: Mesh, options?: CallOptions): Promise<MeshInfo>;
   orient(mesh: Mesh, options?: RunOptions & CallOptions): Promise<OrientedMesh>;
   resolve(mesh: Mesh, options?: RunOptions & CallOptions): Promise<ResolvedMesh>;
-  boundary(mesh: ResolvedMesh | CutMesh, rule?: WindingRule, options?: CallOptions): Promise<MeshArrays>;
-  validate(mesh: Mesh, cutMesh: CutMesh, options?: ValidateOptions & CallOptions): Promise<Validation>;
-  measure(mesh: Mesh, cutMesh: CutMesh, options?: RunOptions & CallOptions): Promise<Measures>;
-  cutEdges(mesh: Mesh, cutMesh: CutMesh, options?: CallOptions): Promise<CutEdges>;
-  adjacency(cutMesh: CutMesh, options?: CallOptions): Promise<Adjacency>;
-  triangulate(cutMesh: CutMesh, of?: undefined, options?: CallOptions): Promise<FaceTriangles>;
-  triangulate(cutMesh: CutMesh, of: { cell: number } | { region: number }, options?: CallOptions): Promise<Uint32Array<ArrayBuffer>>;
-  cellAt(cutMesh: CutMesh, point: Vector3, options?: CallOptions): Promise<Location | null>;
-  cellsAt(cutMesh: CutMesh, points: ArrayLike<number>, options?: CallOptions): Promise<Locations>;
-  slice(cutMesh: CutMesh, plane: Plane, options?: SliceOptions & CallOptions): Promise<Slice>;
-  slices(cutMesh: CutMesh, normal: Vector3, offsets: ArrayLike<number>, options?: SliceOptions & CallOptions): Promise<Slice[]>;
-  outlines(cutMesh: CutMesh, normal: Vector3, offsets: ArrayLike<number>, options?: CallOptions): Promise<Outlines[]>;
-  write(
-    mesh: Mesh,
-    cutMesh: CutMesh,
-    format: 'json' | 'vtu' | 'obj',
-    options?: WriteOptions & CallOptions,
-  ): Promise<Uint8Array<ArrayBuffer>>;
+  boundary(mesh: ResolvedMeshArrays | CutMeshArrays, rule?: WindingRule, options?: CallOptions): Promise<MeshArrays>;
+  measure(mesh: Mesh, cutMesh: CutMeshArrays, options?: RunOptions & CallOptions): Promise<Measures>;
+  cutEdges(mesh: Mesh, cutMesh: CutMeshArrays, options?: CallOptions): Promise<CutEdges>;
+  adjacency(cutMesh: CutMeshArrays, options?: CallOptions): Promise<Adjacency>;
+  triangulate(cutMesh: CutMeshArrays, of?: undefined, options?: CallOptions): Promise<FaceTriangles>;
+  triangulate(cutMesh: CutMeshArrays, of: { cell: number } | { region: number }, options?: CallOptions): Promise<Uint32Array<ArrayBuffer>>;
+  cellAt(cutMesh: CutMeshArrays, point: Vector3, options?: CallOptions): Promise<Location | null>;
+  cellsAt(cutMesh: CutMeshArrays, points: ArrayLike<number>, options?: CallOptions): Promise<Locations>;
+  slice(cutMesh: CutMeshArrays, plane: Plane, options?: SliceOptions & CallOptions): Promise<Slice>;
+  slices(cutMesh: CutMeshArrays, normal: Vector3, offsets: ArrayLike<number>, options?: SliceOptions & CallOptions): Promise<Slice[]>;
+  outlines(cutMesh: CutMeshArrays, normal: Vector3, offsets: ArrayLike<number>, options?: CallOptions): Promise<Outlines[]>;
   readMesh(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions & CallOptions): Promise<MeshArrays>;
 }

@@ -66,46 +66,32 @@ function copied(call, values, transfer = []) {
 /** Puts calls into a queue of jobs, and knows the results whose twins may be in its thread. */
 export class Calls {
   #queue;
-  #table;
+  #modules;
   #results = new WeakMap(); // { id, origin }: the latter is for the thread's host, see Host.adopt()
   #collected = new FinalizationRegistry((id) => this.#queue.freeTwin(id));
 
-  /**
-   * What calls wait for before they are sent, if for anything.
-   *
-   * @type {undefined | (() => Promise<void>)}
-   */
-  ready;
-
-  constructor(queue, table) {
+  /** `modules`: { name, calls } of each, as in module.js. */
+  constructor(queue, modules) {
     this.#queue = queue;
-    this.#table = table;
+    this.#modules = modules;
   }
 
   /** The package's calls by their names. */
   all() {
-    return Object.fromEntries(Object.entries(this.#table).map(([name, call]) => [name, (...given) => this.#own(name, call, given)]));
-  }
-
-  isResult(value) {
-    return this.#results.has(value);
-  }
-
-  /** The id and the origin of an argument that may have a twin. */
-  find(argument) {
-    return this.#results.get(argument);
+    const calls = this.#modules.flatMap((module) =>
+      Object.entries(module.calls).map(([name, call]) => [name, { ...call, part: module.name }]),
+    );
+    return Object.fromEntries(calls.map(([name, call]) => [name, (...given) => this.#own(name, call, given)]));
   }
 
   /** Marks a value as a result. */
-  note(value, id, origin) {
-    const known = { id, origin };
-    this.#results.set(value, known);
+  #note(value, id, origin) {
+    this.#results.set(value, { id, origin });
     this.#collected.register(value, id);
-    return known;
   }
 
   /** The message for the thread: values that it names by id are included unless the thread has their twins. */
-  pack(message, twins, values) {
+  #pack(message, twins, values) {
     for (const [i, subject] of message.subjects.entries()) {
       if (!twins.has(subject.id)) subject.data ??= copied(message.call, lean(values[i]));
     }
@@ -132,15 +118,15 @@ export class Calls {
     const cancellation = () => new MandolineError('cancelled', 'The call was cancelled.', { stage: name, cause: signal.reason });
     if (signal?.aborted) throw cancellation();
     const { message, values } = this.#message(name, call, args, split);
-    const pack = (packed, twins) => this.pack(packed, twins, values);
-    const job = { call: name, isCut, onProgress, message, ready: this.ready, pack };
+    const pack = (packed, twins) => this.#pack(packed, twins, values);
+    const job = { call: name, isCut, onProgress, message, pack };
     const abort = () => this.#queue.stop(job, cancellation());
     signal?.addEventListener('abort', abort);
     try {
       const { value, kept } = await new Promise((resolve, reject) => {
         this.#queue.add(Object.assign(job, { resolve, reject }));
       });
-      if (kept.includes(message.result)) this.note(memberOf(value, member), message.result, { kind: keeps, ...split.what });
+      if (kept.includes(message.result)) this.#note(memberOf(value, member), message.result, { kind: keeps, ...split.what });
       return value;
     } finally {
       signal?.removeEventListener('abort', abort);
@@ -151,14 +137,14 @@ export class Calls {
    * In it: `subjects`, { id, origin, at, data } of each result of this queue that lies at one of these places in the arguments, and
    * `result`, the id of a new one. Beside it: the results themselves.
    */
-  #message(name, { isExtra, at = [], keeps, member }, args, { options, transfer, onProgress }) {
-    const message = { call: name, isExtra, args, subjects: [], options, progress: onProgress !== undefined };
+  #message(name, { part, isExtra, at = [], keeps, member }, args, { options, transfer, onProgress }) {
+    const message = { call: name, part, isExtra, args, subjects: [], options, progress: onProgress !== undefined };
     const values = [];
     if (keeps) Object.assign(message, { member, result: this.#queue.newId() });
     for (const place of at) {
       const value = valueAt(args, place);
       if (!isObject(value)) continue;
-      const known = this.find(value);
+      const known = this.#results.get(value);
       message.args = withValueAt(message.args, place, known ? undefined : lean(value));
       if (!known) continue;
       const isMoved = buffersOf(value).some((buffer) => transfer.includes(buffer));

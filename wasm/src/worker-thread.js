@@ -1,10 +1,10 @@
 // The worker's side of worker.js, and the script that it starts by default: starts the module that the page has compiled, then answers one
 // job after another. In Node it is a worker thread.
-import { makeApi } from './api.js';
+import { laterCalls, startModule } from './api.js';
 import { buffersOf } from './buffers.js';
-import { cutCalls } from './calls.js';
-import { CutHost } from './cut-host.js';
 import { MandolineError } from './errors.js';
+import { fileModule } from './files/module.js';
+import { cutModule } from './module.js';
 import { suggestion } from './names.js';
 import { parts } from './parts.js';
 import { withValueAt } from './places.js';
@@ -59,15 +59,13 @@ class Shells {
   }
 }
 
-parts.set('cut', (module) => {
-  const host = new CutHost(module);
-  return { host, calls: makeApi(host, cutCalls) };
-});
+for (const module of [cutModule, fileModule]) parts.set(module.name, module);
 
 /** Answers jobs through `post`. */
 class Answering {
   #post;
-  #parts = new Map(); // those that have been started: { host, calls, shells }
+  #started = new Map(); // by name: { host, calls, shells } of modules
+  #awaited = new Map(); // by name: { resolve, reject } of modules that the page was asked for
 
   constructor(post) {
     this.#post = post;
@@ -75,9 +73,8 @@ class Answering {
 
   async answer(job) {
     try {
-      if (job.module) this.#start(job);
-      if (job.forget !== undefined) for (const { shells } of this.#parts.values()) shells.free(job.forget);
-      else if (job.call === undefined) this.#post({ type: 'result' });
+      if (job.forget !== undefined) for (const { shells } of this.#started.values()) shells.free(job.forget);
+      else if (job.call === undefined) this.#take(job);
       else if (job.isExtra) this.#send(job, await this.#extra(job));
       else await this.#own(job);
     } catch (error) {
@@ -85,17 +82,31 @@ class Answering {
     }
   }
 
-  #start({ part = 'cut', module }) {
-    if (this.#parts.has(part)) return;
-    const script = `mandoline-wasm/${part}/worker-thread`;
-    if (!parts.has(part)) throw new MandolineError('badArgument', `The worker's script has to import ${script}.`);
-    const { host, calls } = parts.get(part)(module);
-    this.#parts.set(part, { host, calls, shells: new Shells(host) });
+  /** A module from the page: that of cutting as the first job, others when they were asked for; or why there is none. */
+  #take({ part = 'cut', module, error }) {
+    const awaited = this.#awaited.get(part);
+    if (error) return awaited.reject(new MandolineError(error.code, error.message, error));
+    const { host, calls } = startModule(parts.get(part), module);
+    this.#started.set(part, { host, calls, shells: new Shells(host) });
+    if (awaited) awaited.resolve();
+    else this.#post({ type: 'result' });
+  }
+
+  async #module(name) {
+    if (!parts.has(name))
+      throw new MandolineError('badArgument', `The worker's script has to import mandoline-wasm/${name}/worker-thread.`);
+    if (!this.#started.has(name)) {
+      await new Promise((resolve, reject) => {
+        this.#awaited.set(name, { resolve, reject });
+        this.#post({ type: 'wanted', value: name });
+      });
+    }
+    return this.#started.get(name);
   }
 
   async #own(job) {
-    const { part = 'cut', call, args, options, progress, subjects, result, member } = job;
-    const { host, calls, shells } = this.#parts.get(part);
+    const { part, call, args, options, progress, subjects, result, member } = job;
+    const { host, calls, shells } = await this.#module(part);
     const found = subjects.map((subject) => this.#find(subject, part));
     const inputs = subjects.reduce((all, { at }, i) => withValueAt(all, at, found[i]), args);
     const given = progress ? { ...options, progress: (value) => this.#post({ type: 'progress', value }) } : options;
@@ -104,22 +115,32 @@ class Answering {
       const made = result === undefined ? undefined : memberOf(value, member);
       const results = [...subjects.map(({ id }, i) => [id, found[i]]), [result, made]];
       const kept = results.filter(([id, object]) => id !== undefined && host.hasTwin(object));
-      this.#send(job, value, [...kept.map(([id]) => id), part]);
+      this.#send(
+        job,
+        value,
+        kept.map(([id]) => id),
+      );
       for (const [id, object] of kept) shells.keep(id, object);
     } catch (error) {
-      const missing = subjects.filter(({ data }, i) => !data && !host.hasTwin(found[i]));
+      const missing = subjects.filter(({ data }, i) => !data && !this.#hasTwin(found[i]));
       if (missing.length === 0 || error.code !== 'badArgument') throw error;
       this.#post({ type: 'missing', message: job, ids: missing.map(({ id }) => id) }, buffersOf([args, subjects]));
     }
   }
 
-  /** The result that a message names by its id, if its twin is here or its data come with the message; else nothing. */
+  /** The result that a message names by its id, if a module has its twin or its data come with the message; else nothing. */
   #find({ id, origin, data }, part) {
-    const { host, shells } = this.#parts.get(part);
-    const shell = shells.find(id);
-    if (host.hasTwin(shell)) return shell;
-    if (data) host.adopt(data, origin);
+    const own = this.#started.get(part);
+    for (const { host, shells } of [own, ...this.#started.values()]) {
+      const shell = shells.find(id);
+      if (host.hasTwin(shell)) return shell;
+    }
+    if (data) own.host.adopt(data, origin);
     return data;
+  }
+
+  #hasTwin(object) {
+    return [...this.#started.values()].some(({ host }) => host.hasTwin(object));
   }
 
   #extra({ call, args, progress }) {
@@ -128,7 +149,16 @@ class Answering {
       const says = suggestion(call, [...extraCalls.keys()], 'it serves none');
       throw new MandolineError('badArgument', `The worker's script serves no call ${call}${says}`, { stage: call });
     }
-    return run(this.#parts.get('cut').calls, args, { progress: (value) => progress && this.#post({ type: 'progress', value }) });
+    return run(this.#calls(), args, { progress: (value) => progress && this.#post({ type: 'progress', value }) });
+  }
+
+  /** Those of all modules, for the extra calls; of modules that have not been started as promises. */
+  #calls() {
+    const later = (module) => laterCalls(module, async () => (await this.#module(module.name)).calls);
+    return Object.assign(
+      {},
+      ...[...parts.values()].map((module) => (module.name === 'cut' ? this.#started.get('cut').calls : later(module))),
+    );
   }
 
   #send({ call }, value, kept) {

@@ -1,6 +1,5 @@
 // The table of the calls of mandoline-wasm/physics, as in ../calls.js.
 import { flag, numbered, readFunction, readId, readMesh, readPoints, readVector } from '../arguments.js';
-import { readFile, readName } from '../files.js';
 import { FreeConstant } from './fields.js';
 import {
   dualPoints,
@@ -30,7 +29,7 @@ export const physicsCalls = {
   /**
    * Untouched grid cells merged into octree cells, away from the surface (5.3). Code "badOption" if an option is negative.
    *
-   * coarsen(cutMesh: CutMesh, options?: CoarsenOptions): OctreeCells
+   * coarsen(cutMesh: CutMeshArrays, options?: CoarsenOptions): OctreeCells
    */
   coarsen: {
     takes: { cutMesh },
@@ -40,7 +39,7 @@ export const physicsCalls = {
    * One conforming mesh of all cells. `mesh` is the input that `cutMesh` was made from, and `octree` comes from coarsen(cutMesh); without
    * it, the untouched grid cells are cells. Code "badArgument" if these don't belong together.
    *
-   * cellComplex(mesh: Mesh, cutMesh: CutMesh, octree?: OctreeCells | null, options?: RunOptions): CellComplex
+   * cellComplex(mesh: Mesh, cutMesh: CutMeshArrays, octree?: OctreeCells | null, options?: RunOptions): CellComplex
    */
   cellComplex: {
     takes: { mesh: readMesh, cutMesh, octree: readOctree },
@@ -162,12 +161,4 @@ export const physicsCalls = {
    * inflowSeeds(grid: Grid | GridBox | GridRegular | GridRectilinear, wind: Vector3, count: number): Float64Array<ArrayBuffer>
    */
   inflowSeeds: { takes: { grid: readPlacedGrid, wind: readVector, count: readId } },
-  /**
-   * The groups of the triangles that readMesh() reads from a file. Of OBJ: what `g` lines name, of several names on a line the first;
-   * triangles before them are in the group "default"; where no triangle comes after a `g` line, what `usemtl` lines name. Of STL in text:
-   * its solids; one of several that has no name is called solid0, by its place in the file.
-   *
-   * readGroups(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions): Promise<TriangleGroups>
-   */
-  readGroups: { takes: { source: readFile }, options: { name: readName }, isFile: true },
 };

@@ -1,16 +1,5 @@
 // Written by wasm/signatures.mjs from physics/calls.js: change that.
-import type {
-  CutMesh,
-  Grid,
-  GridBox,
-  GridRectilinear,
-  GridRegular,
-  Mesh,
-  ReadMeshOptions,
-  RunOptions,
-  TriangleGroups,
-  Vector3,
-} from '../index.js';
+import type { CutMeshArrays, Grid, GridBox, GridRectilinear, GridRegular, Mesh, RunOptions, Vector3 } from '../index.js';
 import type {
   Boundary,
   CellComplex,
@@ -37,12 +26,12 @@ import type { CallOptions } from '../worker.js';
 
 export interface Calls {
   /** Untouched grid cells merged into octree cells, away from the surface (5.3). Code "badOption" if an option is negative. */
-  coarsen(cutMesh: CutMesh, options?: CoarsenOptions): OctreeCells;
+  coarsen(cutMesh: CutMeshArrays, options?: CoarsenOptions): OctreeCells;
   /**
    * One conforming mesh of all cells. `mesh` is the input that `cutMesh` was made from, and `octree` comes from coarsen(cutMesh); without
    * it, the untouched grid cells are cells. Code "badArgument" if these don't belong together.
    */
-  cellComplex(mesh: Mesh, cutMesh: CutMesh, octree?: OctreeCells | null, options?: RunOptions): CellComplex;
+  cellComplex(mesh: Mesh, cutMesh: CutMeshArrays, octree?: OctreeCells | null, options?: RunOptions): CellComplex;
   /** The cells that `cellIds` name, in any order. Code "badArgument" with the element if one does not exist or is named twice. */
   subComplex(cells: CellComplex, cellIds: Uint32Array | readonly number[]): SubComplex;
   /** The cells of a region of the cut-mesh. Code "badArgument" if there is none. */
@@ -104,18 +93,12 @@ export interface Calls {
    * Code "badArgument" if the wind is not finite, "badGrid" if the grid has no cells.
    */
   inflowSeeds(grid: Grid | GridBox | GridRegular | GridRectilinear, wind: Vector3, count: number): Float64Array<ArrayBuffer>;
-  /**
-   * The groups of the triangles that readMesh() reads from a file. Of OBJ: what `g` lines name, of several names on a line the first;
-   * triangles before them are in the group "default"; where no triangle comes after a `g` line, what `usemtl` lines name. Of STL in text:
-   * its solids; one of several that has no name is called solid0, by its place in the file.
-   */
-  readGroups(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions): Promise<TriangleGroups>;
 }
 
 /** The same in a worker. */
 export interface WorkerCalls {
-  coarsen(cutMesh: CutMesh, options?: CoarsenOptions & CallOptions): Promise<OctreeCells>;
-  cellComplex(mesh: Mesh, cutMesh: CutMesh, octree?: OctreeCells | null, options?: RunOptions & CallOptions): Promise<CellComplex>;
+  coarsen(cutMesh: CutMeshArrays, options?: CoarsenOptions & CallOptions): Promise<OctreeCells>;
+  cellComplex(mesh: Mesh, cutMesh: CutMeshArrays, octree?: OctreeCells | null, options?: RunOptions & CallOptions): Promise<CellComplex>;
   subComplex(cells: CellComplex, cellIds: Uint32Array | readonly number[], options?: CallOptions): Promise<SubComplex>;
   regionComplex(cells: CellComplex, region: number, options?: CallOptions): Promise<SubComplex>;
   complexEdges(cells: CellComplex, options?: CallOptions): Promise<ComplexEdges>;
@@ -137,5 +120,4 @@ export interface WorkerCalls {
     count: number,
     options?: CallOptions,
   ): Promise<Float64Array<ArrayBuffer>>;
-  readGroups(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions & CallOptions): Promise<TriangleGroups>;
 }

@@ -1,12 +1,7 @@
 // The script of the workers of worker.js: ../worker-thread.js, which also answers the calls of mandoline-wasm/physics.
-import { makeApi } from '../api.js';
 import { parts } from '../parts.js';
-import { physicsCalls } from './calls.js';
-import { PhysicsHost } from './host.js';
+import { physicsModule } from './module.js';
 
 export { serve } from '../worker-thread.js';
 
-parts.set('physics', (module) => {
-  const host = new PhysicsHost(module);
-  return { host, calls: makeApi(host, physicsCalls) };
-});
+parts.set(physicsModule.name, physicsModule);

@@ -1,0 +1,66 @@
+// Written by wasm/signatures.mjs from files/calls.js: change that.
+import type {
+  CutMeshArrays,
+  Mesh,
+  OutlineStack,
+  ReadMeshOptions,
+  TriangleGroups,
+  ValidateOptions,
+  Validation,
+  WriteMeshOptions,
+  WriteOptions,
+  WriteOutlinesOptions,
+} from '../index.js';
+import type { CallOptions } from '../worker.js';
+
+export interface Calls {
+  /**
+   * The paper's four checks (5.6) and the invariants of a cut-mesh, worked out from its arrays alone. `mesh` is the input, `snapTolerance`
+   * that of the cut.
+   */
+  validate(mesh: Mesh, cutMesh: CutMeshArrays, options?: ValidateOptions): Promise<Validation>;
+  /**
+   * The cut-mesh as a file. "json": every array; "mcm": the same in a tenth of the bytes, for readCutMesh(); "vtu": polyhedra for VTK and
+   * ParaView; "obj", "stl" and "ply": the cut surface, by region but for "stl". `mesh` is the input of the cut.
+   */
+  write(
+    mesh: Mesh,
+    cutMesh: CutMeshArrays,
+    format: 'json' | 'mcm' | 'vtu' | 'obj' | 'stl' | 'ply',
+    options?: WriteOptions,
+  ): Promise<Uint8Array<ArrayBuffer>>;
+  /** A mesh as a file: that of a part, of resolve(), of boundary(). STL and PLY are binary. */
+  writeMesh(mesh: Mesh, format: 'obj' | 'stl' | 'ply' | 'off', options?: WriteMeshOptions): Promise<Uint8Array<ArrayBuffer>>;
+  /**
+   * What outlines() gave, with the normal and the offsets that it was given, as a file in world units: "svg" with the normal towards the
+   * viewer; "dxf", polylines in space, one layer per region; "obj", lines in space.
+   */
+  writeOutlines(stack: OutlineStack, format: 'svg' | 'dxf' | 'obj', options?: WriteOutlinesOptions): Promise<Uint8Array<ArrayBuffer>>;
+  /**
+   * The groups of the triangles that readMesh() reads from a file. Of OBJ: what `g` lines name, of several names on a line the first;
+   * triangles before them are in the group "default"; where no triangle comes after a `g` line, what `usemtl` lines name. Of STL in text:
+   * its solids; one of several that has no name is called solid0, by its place in the file.
+   */
+  readGroups(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions): Promise<TriangleGroups>;
+  /** The cut-mesh in a file that write() made as "mcm", to the bit. Code "badFile" if it can't be read. */
+  readCutMesh(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions): Promise<CutMeshArrays>;
+}
+
+/** The same in a worker. */
+export interface WorkerCalls {
+  validate(mesh: Mesh, cutMesh: CutMeshArrays, options?: ValidateOptions & CallOptions): Promise<Validation>;
+  write(
+    mesh: Mesh,
+    cutMesh: CutMeshArrays,
+    format: 'json' | 'mcm' | 'vtu' | 'obj' | 'stl' | 'ply',
+    options?: WriteOptions & CallOptions,
+  ): Promise<Uint8Array<ArrayBuffer>>;
+  writeMesh(mesh: Mesh, format: 'obj' | 'stl' | 'ply' | 'off', options?: WriteMeshOptions & CallOptions): Promise<Uint8Array<ArrayBuffer>>;
+  writeOutlines(
+    stack: OutlineStack,
+    format: 'svg' | 'dxf' | 'obj',
+    options?: WriteOutlinesOptions & CallOptions,
+  ): Promise<Uint8Array<ArrayBuffer>>;
+  readGroups(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions & CallOptions): Promise<TriangleGroups>;
+  readCutMesh(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions & CallOptions): Promise<CutMeshArrays>;
+}
