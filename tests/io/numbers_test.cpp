@@ -87,35 +87,40 @@ std::string nearHalfway(Random& random) {
 /// Negative or not; many are hard to round.
 std::string randomNumber(Random& random) {
   const std::string sign(below(random, 4) == 0, '-');
-  switch (below(random, 10)) {
+  const uint64_t way = below(random, 10);
+  const int digits = int(below(random, 30));
+  switch (way) {
     case 0:
       return sign + nearHalfway(random);
     case 1:
-      return sign + printed("%.*e", int(below(random, 30)), randomDouble(random));
+      return sign + printed("%.*e", digits, randomDouble(random));
     case 2:
       return sign + printed("%.*g", 17, randomDouble(random));
     case 3:
-      return sign + printed("%.*f", int(below(random, 20)), double(random()) / double(uint64_t(1) << below(random, 64)));
+      return sign + printed("%.*f", digits, std::ldexp(double(random()), digits - 40));
     default:
       return sign + randomDecimal(random);
   }
 }
 
-/// The C library of WebAssembly loses the sign of what it rounds to 0.
-double signedAsText(const std::string& text, double x) { return x == 0 ? std::copysign(x, text.starts_with('-') ? -1.0 : 1.0) : x; }
-
-void requireReadAsByStrtod(uint64_t count) {
+/// A hash of what was read, by which WebAssembly is held to native code: its C library rounds some of these strings wrongly.
+uint64_t requireReadAsByStrtod(uint64_t count) {
   Random random(1);
+  uint64_t hash = 0;
   for (uint64_t i = 0; i < count; ++i) {
     const std::string text = randomNumber(random);
-    const double expected = signedAsText(text, std::strtod(text.c_str(), nullptr));
     double value = -1;
     const char* end = parseNumber(text.data(), text.data() + text.size(), value);
-    if (end == text.data() + text.size() && bitsOf(value) == bitsOf(expected)) continue;
-    CAPTURE(text, value, expected);
-    REQUIRE(end == text.data() + text.size());
-    REQUIRE(bitsOf(value) == bitsOf(expected));
+    hash = (hash ^ bitsOf(value)) * 0x9e3779b97f4a7c15;
+    hash ^= hash >> 32;
+    if (end != text.data() + text.size()) FAIL(text << " is not read to its end");
+#ifndef __EMSCRIPTEN__
+    const double expected = std::strtod(text.c_str(), nullptr);
+    if (bitsOf(value) != bitsOf(expected))
+      FAIL(text << " is read as " << printed("%.*g", 17, value) << ", not " << printed("%.*g", 17, expected));
+#endif
   }
+  return hash;
 }
 
 std::string shortest(double x) {
@@ -170,7 +175,7 @@ int64_t taken(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("Random and hard decimals are read as by strtod", "[numbers]") { requireReadAsByStrtod(100'000); }
+TEST_CASE("Random and hard decimals are read as by strtod", "[numbers]") { CHECK(requireReadAsByStrtod(100'000) == 0xdd4a45d335b86831); }
 TEST_CASE("Ten million random and hard decimals are read as by strtod", "[.tenmillion]") { requireReadAsByStrtod(10'000'000); }
 
 TEST_CASE("Doubles are written as by std::to_chars, and read back", "[numbers]") { requirePrintedAsByToChars(300'000); }
