@@ -117,7 +117,8 @@ function compare(file, mesh, grid, maxLevel) {
   }
   const flow = physics.solveFlow(cells, wind);
   const { status, cutCells, cells: cellCount, faces, throttled, residuals } = report;
-  assert.deepEqual([status, cutCells, cellCount, faces], [flow.status, cells.cutCells, cells.cellRegion.length, cells.faceTag.length]);
+  assert.equal(flow.status, 'converged');
+  assert.deepEqual([status, cutCells, cellCount, faces], ['ok', cells.cutCells, cells.cellRegion.length, cells.faceTag.length]);
   assertSame(throttled, flow.throttled, 'throttled');
   assertSame(residuals, flow.residuals, 'residuals');
   assertSame(arrays.volume, cells.cellVolume, 'volume');
