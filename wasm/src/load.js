@@ -35,7 +35,7 @@ function failureOf(name, cause) {
 /** The file's name that the build has written into a module of the package; undefined of others. */
 function nameIn(module) {
   const [name] = WebAssembly.Module.customSections(module, 'mandoline-wasm');
-  return name && new TextDecoder().decode(name);
+  return name && String.fromCharCode(...new Uint8Array(name)); // where jsdom stands in for a page there is no TextDecoder
 }
 
 /**
