@@ -102,6 +102,39 @@ val boundaryOf(const KeptCutMesh& kept, int rule) {
   return guarded([&, cutMesh = kept.get()] { return success(toObject(boundary(*cutMesh, WindingRule(rule)))); });
 }
 
+val boundaryOfRegions(const KeptCutMesh& kept, const val& isInside) {
+  return guarded([&, cutMesh = kept.get()] {
+    std::vector<uint8_t> flags;
+    readArray(isInside, flags);
+    return success(toObject(boundary(*cutMesh, flags)));
+  });
+}
+
+val insideOf(const KeptCutMesh& kept, const val& options) {
+  return guarded([&, cutMesh = kept.get()] {
+    const InsideOptions insideOptions{WindingRule(options["rule"].as<int>()), options["threshold"].as<double>()};
+    return success(toObject(insideRegions(*cutMesh, insideOptions)));
+  });
+}
+
+val estimated(const val& mesh, const KeptCutMesh& kept, const val& options) {
+  return guarded([&, cutMesh = kept.get()] {
+    const Mesh input = fromObject<Mesh>(mesh);
+    CutMesh result = estimateInside(input, *cutMesh, {runOptions(options), options["threshold"].as<double>()});
+    const val value = toObject(result);
+    return success(object({{"value", value}, {"twin", val(KeptCutMesh(std::move(result)))}}));
+  });
+}
+
+val windingNumbersAt(const val& mesh, const val& points, const val& options) {
+  return guarded([&] {
+    const Mesh input = fromObject<Mesh>(mesh);
+    std::vector<double> coordinates;
+    readArray(points, coordinates);
+    return success(toArray(generalizedWindingNumbers(input, coordinates, runOptions(options))));
+  });
+}
+
 val measureCutMesh(const val& mesh, const KeptCutMesh& kept, const val& options) {
   return guarded([&, cutMesh = kept.get()] {
     const Mesh input = fromObject<Mesh>(mesh);
@@ -194,6 +227,10 @@ EMSCRIPTEN_BINDINGS(mandoline) {
   emscripten::function("resolve", &resolveMesh);
   emscripten::function("boundaryOfResolved", &boundaryOfResolved);
   emscripten::function("boundary", &boundaryOf);
+  emscripten::function("boundaryOfRegions", &boundaryOfRegions);
+  emscripten::function("insideRegions", &insideOf);
+  emscripten::function("estimateInside", &estimated);
+  emscripten::function("generalizedWindingNumbers", &windingNumbersAt);
   emscripten::function("keepCutMesh", &keepCutMesh);
   emscripten::function("dataOf", &dataOf);
   emscripten::function("measure", &measureCutMesh);

@@ -3,8 +3,6 @@
 namespace mandoline::cli {
 namespace {
 
-const char* name(InsideBy by) { return by == InsideBy::winding ? "winding" : by == InsideBy::parity ? "parity" : "estimate"; }
-
 template <class Numbers>
 void addNumber(Json& json, const char* key, const Numbers& numbers, size_t region) {
   json.key(key);

@@ -156,11 +156,13 @@ const calls = {
   cellAt: (wrong) => mandoline.cellAt(wrong, [0.6, 0.6, 0.6]),
   cellsAt: (wrong) => mandoline.cellsAt(wrong, [0.6, 0.6, 0.6]),
   slice: (wrong) => mandoline.slice(wrong, { normal: [1, 1, 1], offset: 2 }),
+  insideRegions: (wrong) => mandoline.insideRegions(wrong),
+  estimateInside: (wrong) => mandoline.estimateInside(mesh, wrong),
   'write json': (wrong) => mandoline.write(mesh, wrong, 'json'),
   'write vtu': (wrong) => mandoline.write(mesh, wrong, 'vtu'),
   'write obj': (wrong) => mandoline.write(mesh, wrong, 'obj'),
 };
-const takesMesh = (name) => /validate|measure|cutEdges|vtu/.test(name);
+const takesMesh = (name) => /validate|measure|cutEdges|estimateInside|vtu/.test(name);
 const arrays = Object.keys(cutMesh).filter((key) => ArrayBuffer.isView(cutMesh[key]) && key !== 'gridCellRegion');
 
 for (const [name, call] of Object.entries(calls)) {
@@ -227,10 +229,12 @@ test('boundary() of meshes that it does not take', async () => {
     [{ ...cutMesh, cellRegion: cutMesh.cellRegion.slice(1) }, /don't fit together/],
   ];
   for (const [wrong, pattern] of cases) await assertBad(() => mandoline.boundary(wrong), pattern);
-  for (const rule of [null, 7, 'nonzero', {}]) {
-    await assertBad(() => mandoline.boundary(resolved, rule), /^rule must be "positive", "nonZero" or "odd", not/);
-    await assertBad(() => mandoline.boundary(cutMesh, rule), /^rule must be "positive", "nonZero" or "odd", not/);
+  for (const rule of [null, 7, 'nonzero']) {
+    await assertBad(() => mandoline.boundary(resolved, rule), /^inside must be "positive", "nonZero" or "odd", not/);
+    await assertBad(() => mandoline.boundary(cutMesh, rule), /^inside must be "positive", "nonZero" or "odd", not/);
   }
+  await assertBad(() => mandoline.boundary(cutMesh, {}), /^inside must be a Uint8Array or an array, not an object/);
+  await assertBad(() => mandoline.boundary(cutMesh, detached(new Uint8Array(2))), /^inside is detached/);
 });
 
 test('damaged entries are judged, never followed', async () => {

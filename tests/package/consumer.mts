@@ -1,6 +1,17 @@
 // A program that only has to compile: what users write, and mistakes that the types must catch.
 import { MandolineError, compiledModule, describe, init } from 'mandoline-wasm';
-import type { CutMesh, GridInput, Location, Mandoline, Mesh, MeshArrays, Progress, ResolvedMesh, WindingRule } from 'mandoline-wasm';
+import type {
+  CutMesh,
+  CutMeshArrays,
+  GridInput,
+  Location,
+  Mandoline,
+  Mesh,
+  MeshArrays,
+  Progress,
+  ResolvedMesh,
+  WindingRule,
+} from 'mandoline-wasm';
 import {
   cellArrays,
   cellColors,
@@ -38,6 +49,13 @@ async function core(): Promise<void> {
   const resolved: ResolvedMesh = mandoline.resolve(mesh, { progress: () => {} });
   const rule: WindingRule = 'nonZero';
   const solids: MeshArrays[] = [mandoline.boundary(resolved, rule), mandoline.boundary(cutMesh)];
+  const estimated: CutMeshArrays = mandoline.estimateInside(mesh, cutMesh, { threshold: 0.4 });
+  const { isInside, by } = mandoline.insideRegions(estimated, { rule });
+  solids.push(mandoline.boundary(estimated, isInside), mandoline.boundary(estimated, [true]));
+  // @ts-expect-error Only a cut-mesh has regions.
+  mandoline.boundary(resolved, isInside);
+  // @ts-expect-error There is no such word.
+  console.log(by === 'guess', mandoline.generalizedWindingNumbers(mesh, [0, 0, 0])[0]);
   console.log(mandoline.cut(resolved, { cells: 3 }), solids, resolved.remaining.crossing);
   // @ts-expect-error Only what was resolved has winding numbers.
   mandoline.boundary(mesh);

@@ -46,6 +46,7 @@ const given = {
   seeds: [1, 1, 1],
   format: 'obj',
   stack: { normal: [0, 0, 1], offsets: [], layers: [] },
+  inside: 'odd',
   cellIds: [0],
   region: 0,
   count: 1,

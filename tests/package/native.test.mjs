@@ -1,5 +1,5 @@
 // The native program, on one thread or many, and the WebAssembly module give the same bits: every array of the dump, the grid, and what is
-// counted on the way; resolved meshes and boundaries; on made meshes and on real ones.
+// counted on the way; resolved meshes and boundaries; estimates of open meshes; on made meshes and on real ones.
 import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -18,17 +18,17 @@ const program = process.env.MANDOLINE_CLI ?? path(root, 'build', 'mandoline');
 const mostTriangles = 20000; // so that the test takes a minute or two
 const skip = existsSync(program) ? false : `there is no native program ${program}`;
 
-const { boundary, cut, resolve, write } = await init();
+const { boundary, cut, estimateInside, resolve, write } = await init();
 const folder = mkdtempSync(path(tmpdir(), 'mandoline-'));
 after(() => rmSync(folder, { recursive: true }));
 
 /** The dump and the report that the program writes, or what it says if it refuses the mesh. */
-async function nativeCut(file, cells) {
+async function nativeCut(file, cells, options = []) {
   const dumps = [];
   const report = path(folder, 'report.json');
   for (const threads of ['1', '3']) {
     dumps.push(path(folder, `dump-${threads}.json`));
-    const args = ['cut', file, '--cells', String(cells), '--threads', threads, '-o', dumps.at(-1), '--report', report];
+    const args = ['cut', file, '--cells', String(cells), '--threads', threads, ...options, '-o', dumps.at(-1), '--report', report];
     try {
       await promisify(execFile)(program, args);
     } catch (error) {
@@ -144,6 +144,18 @@ async function compareResolved(file, mesh) {
   }
 }
 
+/** Whether the program estimates the same insideness, and divides regions alike. */
+async function compareEstimated(file, mesh, cells) {
+  const cutMesh = cut(mesh, { cells });
+  if (cutMesh.openTriangles.length === 0) return false;
+  for (const threshold of [0.5, 0.25]) {
+    const { dump } = await nativeCut(file, cells, ['--inside-threshold', String(threshold)]);
+    const { gridCellRegion, ...arrays } = dump;
+    assertSame(arrays, estimateInside(mesh, cutMesh, { threshold }), `${file} at N = ${cells}, estimated`);
+  }
+  return true;
+}
+
 /** With a triangle once more, and one without area. */
 function withDropped({ positions, triangles }) {
   return { positions, triangles: Uint32Array.of(...triangles, ...triangles.slice(0, 3), triangles[0], triangles[1], triangles[0]) };
@@ -168,6 +180,7 @@ test('made meshes', { skip }, async () => {
     const mesh = readObj(readFileSync(file, 'utf8'));
     for (const cells of [1, 13, 32]) assert.ok(await compare(file, mesh, cells));
     await compareResolved(file, mesh);
+    assert.equal(await compareEstimated(file, mesh, 13), ['waves', 'dropped triangles', 'overlapping sheets'].includes(name), name);
     const cutMesh = cut(mesh, { cells: 13 });
     assertSame(JSON.parse(new TextDecoder().decode(await write(mesh, cutMesh, 'json'))), cutMesh, `${name}.json`);
     for (const format of ['json', 'mcm', 'vtu', 'obj', 'stl', 'ply']) {
@@ -181,6 +194,7 @@ test('made meshes', { skip }, async () => {
 test('real meshes', { skip: skip || skipWithoutMeshes }, async (t) => {
   let cuts = 0;
   let refusals = 0;
+  let estimates = 0;
   const meshes = meshList()
     .filter((mesh) => Number(mesh.F) <= mostTriangles)
     .map((mesh) => mesh.file);
@@ -189,7 +203,8 @@ test('real meshes', { skip: skip || skipWithoutMeshes }, async (t) => {
     const mesh = readObj(gunzipSync(readFileSync(file)).toString());
     for (const cells of [13, 32]) (await compare(file, mesh, cells)) ? ++cuts : ++refusals;
     await compareResolved(file, mesh);
+    if (await compareEstimated(file, mesh, 13)) ++estimates;
   }
-  t.diagnostic(`${meshes.length} meshes: ${cuts} cuts equal, ${refusals} refused alike`);
+  t.diagnostic(`${meshes.length} meshes: ${cuts} cuts equal, ${refusals} refused alike; ${estimates} open meshes estimated alike`);
   assert.ok(cuts > meshes.length);
 });

@@ -17,6 +17,10 @@ test('computing', () => {
   assert.match(outputOf(readmeExample('From JavaScript', root)), /cut-cells/);
 });
 
+test('inside', () => {
+  assert.match(outputOf(readmeExample('Inside')), /^inside by estimate: 1 of 2 regions\n\d{4} triangles close the surface\n$/);
+});
+
 test('errors', () => {
   const [first, second] = outputOf(readmeExample('Errors')).split('\n');
   assert.equal(first, 'nonFiniteCoordinate 2');

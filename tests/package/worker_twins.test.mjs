@@ -42,6 +42,8 @@ test('every call works on the twin, without the arrays', () =>
       adjacency: [cutMesh],
       triangulate: [cutMesh, { cell: 3 }],
       boundary: [cutMesh, 'nonZero'],
+      insideRegions: [cutMesh, { rule: 'odd' }],
+      estimateInside: [mesh, cutMesh],
       cellAt: [cutMesh, [1, 0.01, 0.02]],
       cellsAt: [cutMesh, [1, 0.01, 0.02]],
       slice: [cutMesh, plane],
@@ -52,8 +54,8 @@ test('every call works on the twin, without the arrays', () =>
     for (const [name, args] of Object.entries(calls)) {
       assert.deepEqual(await worker[name](...args), await here[name](...args.map((arg) => (arg === cutMesh ? expected : arg))), name);
     }
-    const withoutCutMesh = ['findIntersections', 'inspect', 'orient', 'prepare', 'readCutMesh', 'readGroups', 'readMesh', 'resolve'];
-    withoutCutMesh.push('version', 'writeMesh', 'writeOutlines');
+    const withoutCutMesh = ['findIntersections', 'generalizedWindingNumbers', 'inspect', 'orient', 'prepare', 'readCutMesh', 'readGroups'];
+    withoutCutMesh.push('readMesh', 'resolve', 'version', 'writeMesh', 'writeOutlines');
     assert.deepEqual(
       Object.keys(here)
         .filter((name) => !(name in calls))

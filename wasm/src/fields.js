@@ -68,6 +68,12 @@ export const CutMesh = {
   droppedTriangles: 'Uint32Array',
 };
 
+export const InsideRegions = {
+  isInside: 'Uint8Array',
+  by: 'InsideBy',
+  isComplete: 'boolean',
+};
+
 export const MeshInfo = {
   vertices: 'integer',
   triangles: 'integer',

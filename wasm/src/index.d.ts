@@ -169,6 +169,18 @@ export interface ResolvedMesh extends ResolvedMeshArrays {
  */
 export type WindingRule = 'positive' | 'nonZero' | 'odd';
 
+export interface InsideOptions {
+  /** Default "positive". */
+  rule?: WindingRule;
+  /** Where there are estimates: they count as the winding number n from n - 1 + threshold on. Above 0, at most 1. Default 0.5. */
+  threshold?: number;
+}
+
+export interface EstimateOptions extends RunOptions {
+  /** As of InsideOptions. */
+  threshold?: number;
+}
+
 export interface Measures extends MeasureArrays {
   /** Per region: its cut-cells and untouched grid cells together. */
   regionVolume: Float64Array<ArrayBuffer>;

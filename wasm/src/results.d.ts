@@ -178,6 +178,16 @@ export interface CutMeshArrays {
   droppedTriangles: Uint32Array<ArrayBuffer>;
 }
 
+/** What insideRegions() says. */
+export interface InsideRegions {
+  /** Per region. */
+  isInside: Uint8Array<ArrayBuffer>;
+  /** The least certain that any component of the input needs. */
+  by: InsideBy;
+  /** Whether all components count: without estimates, open ones are left out. */
+  isComplete: boolean;
+}
+
 /**
  * What a mesh has. Vertices at one position count as one, except in the number of vertices. Edges are those of triangles with three
  * different vertices.
@@ -560,6 +570,15 @@ export type MadeVertex =
   | 'triangles'
   /** Two triangles, and an axial plane or several: see vertexMask. */
   | 'trianglesPlane';
+
+/** What tells inside from outside. */
+export type InsideBy =
+  /** Winding numbers, exactly. */
+  | 'winding'
+  /** The number of crossings modulo 2, exactly: for components that are not consistently oriented. */
+  | 'parity'
+  /** Generalized winding numbers: for open components. */
+  | 'estimate';
 
 /** Why an edge does not part the front of a mesh from its back. */
 export type EdgeDefect =

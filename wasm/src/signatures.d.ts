@@ -5,8 +5,11 @@ import type {
   CutMesh,
   CutMeshArrays,
   CutOptions,
+  EstimateOptions,
   FaceTriangles,
   GridInput,
+  InsideOptions,
+  InsideRegions,
   IntersectionOptions,
   Location,
   Locations,
@@ -53,10 +56,31 @@ export interface Calls {
   /**
    * The surface of the solid, oriented outwards: of what resolve() gave, or of a cut-mesh, in pieces cut by the grid. Every edge has an
    * even number of triangles: where the solid reaches the grid's sides, sides of its cut-cells and of the cells of coarsen() close the part
-   * inside. Inside is by winding numbers, else by parity (see CutMesh); open components are left out. Code "badArgument" for a mesh that
-   * has no others, and so bounds no solid. Default rule: "positive".
+   * inside. Inside is what insideRegions() says by a rule (default "positive"): open components are left out unless estimateInside() made
+   * the cut-mesh. Or it is these regions of a cut-mesh, one flag for each. Code "badArgument" for a mesh that has open components alone and
+   * no estimates, since it bounds no solid, and for another number of flags than there are regions.
    */
-  boundary(mesh: ResolvedMeshArrays | CutMeshArrays, rule?: WindingRule): MeshArrays;
+  boundary(mesh: ResolvedMeshArrays | CutMeshArrays, inside?: WindingRule): MeshArrays;
+  boundary(mesh: CutMeshArrays, inside: Uint8Array | readonly boolean[]): MeshArrays;
+  /**
+   * Which regions are inside of the solid, by the best that there is: a region's winding number by the rule, or the sum over the components
+   * that have one, or its estimate; or it is inside of an odd number of components that have parity alone. Code "badArgument" if the
+   * cut-mesh has open components alone and no estimates; "badOption" unless the threshold is above 0 and at most 1.
+   */
+  insideRegions(cutMesh: CutMeshArrays, options?: InsideOptions): InsideRegions;
+  /**
+   * The cut-mesh with estimates where components are open: `regionInsideness`, from generalized winding numbers (Jacobson et al. 2013).
+   * Inside and outside of an open surface are one region, which meet through its holes: such regions are divided at grid-faces into
+   * connected sets of cut-cells and of cells of coarsen() on one side of the threshold, so that all that goes by regions closes the holes
+   * there. All else is as it was. Without open components, the result is a copy. `mesh` is the input of the cut. Code "badArgument" if it
+   * is not, or if there are estimates already; "badOption" unless the threshold is above 0 and at most 1.
+   */
+  estimateInside(mesh: Mesh, cutMesh: CutMeshArrays, options?: EstimateOptions): CutMeshArrays;
+  /**
+   * Per point (3 coordinates each) the sum of the signed solid angles of all triangles, in whole spheres: inside of a closed surface that
+   * is oriented outwards 1, outside 0, about open ones between. Right to some 1e-12. Triangles with the point on them count as 0.
+   */
+  generalizedWindingNumbers(mesh: Mesh, points: ArrayLike<number>, options?: RunOptions): Float64Array<ArrayBuffer>;
   /** Areas, normals, centroids and volumes. `mesh` is the input of the cut. */
   measure(mesh: Mesh, cutMesh: CutMeshArrays, options?: RunOptions): Measures;
   /** The cut-edges with their lengths. */
@@ -95,7 +119,11 @@ export interface WorkerCalls {
   inspect(mesh: Mesh, options?: CallOptions): Promise<MeshInfo>;
   orient(mesh: Mesh, options?: RunOptions & CallOptions): Promise<OrientedMesh>;
   resolve(mesh: Mesh, options?: RunOptions & CallOptions): Promise<ResolvedMesh>;
-  boundary(mesh: ResolvedMeshArrays | CutMeshArrays, rule?: WindingRule, options?: CallOptions): Promise<MeshArrays>;
+  boundary(mesh: ResolvedMeshArrays | CutMeshArrays, inside?: WindingRule, options?: CallOptions): Promise<MeshArrays>;
+  boundary(mesh: CutMeshArrays, inside: Uint8Array | readonly boolean[], options?: CallOptions): Promise<MeshArrays>;
+  insideRegions(cutMesh: CutMeshArrays, options?: InsideOptions & CallOptions): Promise<InsideRegions>;
+  estimateInside(mesh: Mesh, cutMesh: CutMeshArrays, options?: EstimateOptions & CallOptions): Promise<CutMeshArrays>;
+  generalizedWindingNumbers(mesh: Mesh, points: ArrayLike<number>, options?: RunOptions & CallOptions): Promise<Float64Array<ArrayBuffer>>;
   measure(mesh: Mesh, cutMesh: CutMeshArrays, options?: RunOptions & CallOptions): Promise<Measures>;
   cutEdges(mesh: Mesh, cutMesh: CutMeshArrays, options?: CallOptions): Promise<CutEdges>;
   adjacency(cutMesh: CutMeshArrays, options?: CallOptions): Promise<Adjacency>;

@@ -20,15 +20,28 @@ enum class InsideBy : uint8_t {
   estimate  ///< generalized winding numbers: for open components
 };
 
+/// The word above.
+inline const char* name(InsideBy by) {
+  constexpr const char* kNames[] = {"winding", "parity", "estimate"};
+  return kNames[size_t(by)];
+}
+
 struct InsideOptions {
   WindingRule rule = WindingRule::positive;
   double threshold = 0.5;  ///< where there are estimates: they count as the winding number n from n - 1 + threshold on. Above 0, at most 1
 };
 
+/// What insideRegions() says.
 struct InsideRegions {
   std::vector<uint8_t> isInside;    ///< per region
   InsideBy by = InsideBy::winding;  ///< the least certain that any component of the input needs
   bool isComplete = true;           ///< whether all components count: without estimates, open ones are left out
+
+  static void fields(auto& self, const auto& f) {
+    f("isInside", self.isInside);
+    f("by", self.by);
+    f("isComplete", self.isComplete);
+  }
 };
 
 /// A region is inside if its winding number is by the rule: the sum over the components that have one, or its estimate; or if it is inside

@@ -165,7 +165,10 @@ Mesh boundary(const CutMesh& cutMesh, WindingRule rule) { return boundary(cutMes
 
 Mesh boundary(const CutMesh& cutMesh, std::span<const uint8_t> isInside) {
   operators::requireCutMesh(cutMesh);
-  if (isInside.size() != cutMesh.regionCount) operators::refuse("isInside must have one entry for each region.");
+  if (isInside.size() != cutMesh.regionCount) {
+    operators::refuse("Which regions are inside must be told for each of the " + std::to_string(cutMesh.regionCount) + ", not for " +
+                      std::to_string(isInside.size()) + ".");
+  }
   return SolidBoundary(cutMesh, isInside).run();
 }
 
