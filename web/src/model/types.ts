@@ -1,5 +1,5 @@
 // What the parts of the page say to each other.
-import type { CutStats, Grid, Slice, Validation } from 'mandoline-wasm';
+import type { CutStats, Grid, InsideBy, Slice, Validation } from 'mandoline-wasm';
 import type { Vector3 } from './vector';
 import type { Bounds } from './grid_around';
 
@@ -52,7 +52,11 @@ export interface Settings {
 
 export interface RegionInfo {
   id: number;
+  isInside: boolean;
+  /** Null unless the whole mesh has winding numbers. */
   winding: number | null;
+  /** An estimate of the winding number where parts of the mesh are open, else null. */
+  insideness: number | null;
   volume: number;
   cutCells: number;
   untouchedCells: number;
@@ -83,8 +87,12 @@ export interface Model {
   droppedTriangles: number;
   counts: { cutCells: number; untouchedCells: number; faces: number; vertices: number; regions: number };
   stats: CutStats;
+  /** Time of the estimate of what is inside, or null if there was none to make. */
+  estimateMs: number | null;
   regions: RegionInfo[];
-  /** The region in the grid's lowest corner. It counts as the outside if there are no winding numbers. */
+  /** What tells which of them are inside. */
+  insideBy: InsideBy;
+  /** The first outside, or null if all are inside. */
   outsideRegion: number | null;
   cells: CellInfo;
   /** Triangles of all cut-cells, both sides of every face: a face between two cut-cells appears once for each, seen from outside it. */
@@ -108,7 +116,6 @@ export interface CellCard {
   cell: number;
   gridCell: Vector3;
   region: number;
-  winding: number | null;
   volume: number;
   centroid: Vector3;
   faces: number;

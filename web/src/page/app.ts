@@ -4,7 +4,7 @@ import { isPageError } from '../model/failure';
 import { Events } from './events';
 import { gallery } from '../model/gallery/list';
 import { defaultCells, defaultSettings, defaultSource } from '../model/settings';
-import { isOutside } from './view/colors';
+import { isOutside } from '../model/inside';
 import { isSheet } from './view/look';
 import type {
   CellCard,

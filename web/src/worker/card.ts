@@ -18,7 +18,6 @@ export function cellCard(mandoline: Mandoline, cut: Cut, cell: number): CellCard
     cell,
     gridCell: [cutMesh.cellGridCell[3 * cell], cutMesh.cellGridCell[3 * cell + 1], cutMesh.cellGridCell[3 * cell + 2]],
     region,
-    winding: cutMesh.regionWinding?.[region] ?? null,
     volume: measures.cellVolume[cell],
     centroid: [measures.cellCentroid[3 * cell], measures.cellCentroid[3 * cell + 1], measures.cellCentroid[3 * cell + 2]],
     faces: faces.length,

@@ -1,5 +1,5 @@
 // What the thread keeps between calls: the meshes that the page may ask for, and the newest cut.
-import type { Adjacency, CutMesh, FaceTriangles, GridInput, Mandoline, Measures, Mesh } from 'mandoline-wasm';
+import type { Adjacency, CutMesh, FaceTriangles, GridInput, Mandoline, Measures, Mesh, Progress } from 'mandoline-wasm';
 import type { Vector3 } from '../model/vector';
 import type { CallProgress, Lack, LoadedMesh, Outdated, Recipe } from '../model/calls';
 import { pageError } from '../model/failure';
@@ -9,7 +9,9 @@ import type { GridSettings } from '../model/types';
 export interface Cut {
   recipe: Recipe;
   mesh: LoadedMesh;
+  /** With estimates of what is inside where the mesh is open, but without gridCellRegion. */
   cutMesh: CutMesh;
+  estimateMs: number | null;
   /** The middle of the grid's box. */
   origin: Vector3;
   faceTriangles: FaceTriangles;
@@ -46,19 +48,34 @@ function preparedMesh(mandoline: Mandoline, mesh: LoadedMesh, snapTolerance: num
   return known;
 }
 
+/** How far a call has come, as the part of the cut from one fraction to another. */
+function telling(tell: (progress: CallProgress) => void, from: number, to: number) {
+  return ({ stage, stageIndex, stageCount, done, total }: Progress): void => {
+    tell({ stage, fraction: from + ((to - from) * (stageIndex + (total > 0 ? done / total : 1))) / stageCount });
+  };
+}
+
+/** The same with estimates, where there is something to estimate. */
+function withEstimates(mandoline: Mandoline, mesh: LoadedMesh, cutMesh: CutMesh, progress: (progress: Progress) => void): CutMesh {
+  if (cutMesh.openTriangles.length === 0) return cutMesh;
+  return Object.assign(mandoline.estimateInside(mesh, cutMesh, { progress }), { stats: cutMesh.stats });
+}
+
 export function makeCut(mandoline: Mandoline, recipe: Recipe, tell: (progress: CallProgress) => void): Cut {
   const mesh = meshOf(recipe.mesh);
   checkSize(recipe.grid, mesh.bounds);
-  const cutMesh = mandoline.cut(preparedMesh(mandoline, mesh, recipe.snapTolerance), recipe.grid as GridInput, {
+  const exact = mandoline.cut(preparedMesh(mandoline, mesh, recipe.snapTolerance), recipe.grid as GridInput, {
     snapTolerance: recipe.snapTolerance,
-    progress: ({ stage, stageIndex, stageCount, done, total }) => {
-      tell({ stage, fraction: (0.85 * (stageIndex + (total > 0 ? done / total : 1))) / stageCount });
-    },
+    gridCellRegion: false,
+    progress: telling(tell, 0, 0.5),
   });
+  const start = performance.now();
+  const cutMesh = withEstimates(mandoline, mesh, exact, telling(tell, 0.5, 0.85));
+  const estimateMs = cutMesh === exact ? null : performance.now() - start;
   tell({ stage: 'triangles', fraction: 0.85 });
   const [x, y, z] = cutMesh.grid.planes.map((planes) => (planes[0] + planes[planes.length - 1]) / 2);
   const faceTriangles = mandoline.triangulate(cutMesh);
-  newest = { recipe, mesh, cutMesh, origin: [x, y, z], faceTriangles, measures: null, adjacency: null };
+  newest = { recipe, mesh, cutMesh, estimateMs, origin: [x, y, z], faceTriangles, measures: null, adjacency: null };
   return newest;
 }
 

@@ -1,15 +1,16 @@
 // What the page gets of a cut: ready to be drawn, in arrays of its own.
-import type { CutMesh, Mandoline } from 'mandoline-wasm';
+import type { CutMesh, InsideRegions, Mandoline } from 'mandoline-wasm';
 import type { CellInfo, Model, RegionInfo } from '../model/types';
 import { cellBuffers } from './cell_buffers';
 import { cellShapes } from './cell_shapes';
 import type { Cut } from './kept';
 
 export function makeModel(mandoline: Mandoline, cut: Cut): Model {
-  const { recipe, mesh, cutMesh, origin } = cut;
+  const { recipe, mesh, cutMesh, origin, estimateMs } = cut;
   const { planes } = cutMesh.grid;
   const cells = cellInfo(cut);
-  const regions = regionInfo(cutMesh, cells);
+  const inside = mandoline.insideRegions(cutMesh, { rule: 'nonZero' });
+  const regions = regionInfo(cutMesh, inside, cells);
   return {
     id: recipe.id,
     name: mesh.name,
@@ -28,11 +29,13 @@ export function makeModel(mandoline: Mandoline, cut: Cut): Model {
       regions: cutMesh.regionCount,
     },
     stats: cutMesh.stats,
+    estimateMs,
     regions,
-    outsideRegion: mandoline.cellAt(cutMesh, [planes[0][0], planes[1][0], planes[2][0]])?.region ?? null,
+    insideBy: inside.by,
+    outsideRegion: regions.find(({ isInside }) => !isInside)?.id ?? null,
     cells,
     ...cellBuffers(cutMesh, cut.faceTriangles, origin),
-    gridCellRegion: (cutMesh.gridCellRegion as Int32Array).slice(),
+    gridCellRegion: gridCellRegion(cutMesh),
   };
 }
 
@@ -44,11 +47,13 @@ function cellInfo({ cutMesh, faceTriangles, origin }: Cut): CellInfo {
   };
 }
 
-function regionInfo(cutMesh: CutMesh, { volume }: CellInfo): RegionInfo[] {
-  const { cellRegion, regionCount, regionWinding } = cutMesh;
+function regionInfo(cutMesh: CutMesh, { isInside }: InsideRegions, { volume }: CellInfo): RegionInfo[] {
+  const { cellRegion, regionCount, regionWinding, regionInsideness } = cutMesh;
   const regions = Array.from({ length: regionCount }, (_, id) => ({
     id,
+    isInside: isInside[id] === 1,
     winding: regionWinding?.[id] ?? null,
+    insideness: regionInsideness?.[id] ?? null,
     volume: 0,
     cutCells: 0,
     untouchedCells: 0,
@@ -73,4 +78,16 @@ function addUntouched({ grid, rowRunOffsets, runBegin, runEnd, runRegion }: CutM
       region.volume += area * (xs[runEnd[run]] - xs[runBegin[run]]);
     }
   }
+}
+
+/** Region of each grid cell, x fastest; -1 where it is cut. */
+function gridCellRegion({ grid, rowRunOffsets, runBegin, runEnd, runRegion }: CutMesh): Int32Array {
+  const [nx, ny, nz] = grid.cells;
+  const regions = new Int32Array(nx * ny * nz).fill(-1);
+  for (let row = 0; row < ny * nz; row++) {
+    for (let run = rowRunOffsets[row]; run < rowRunOffsets[row + 1]; run++) {
+      regions.fill(runRegion[run], nx * row + runBegin[run], nx * row + runEnd[run]);
+    }
+  }
+  return regions;
 }

@@ -80,7 +80,7 @@ export const gallery: readonly GalleryEntry[] = [
     name: 'moebius-strip',
     title: 'Möbius strip',
     cells: 12,
-    line: 'A sheet with one side and one edge: it has no inside, and all cells around it belong to one region.',
+    line: 'A sheet with one side and one edge: the cells on its two sides are neighbours around the edge. It bounds nothing.',
   },
   {
     name: 'torus-knot',
@@ -116,7 +116,7 @@ export const gallery: readonly GalleryEntry[] = [
     name: 'trumpet',
     title: 'Trumpet',
     cells: 12,
-    line: 'Open at both ends, with a wall of no thickness: inside and outside are one region, yet cells are cut along it.',
+    line: 'Open at both ends, with a wall of no thickness: cells are cut along it, and where its inside ends is an estimate.',
   },
   {
     name: 'pages',

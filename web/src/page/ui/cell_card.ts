@@ -4,6 +4,7 @@ import { gridCellVolume } from '../view/colors';
 import { CellViewer } from './cell_viewer';
 import { button, el, terms } from './dom';
 import { integer, plural, real, winding } from '../../model/format';
+import { insideOf } from '../../model/inside';
 
 /** The card of the pinned cell: its properties, and a view of it on its own. */
 export function cellCard(app: App): HTMLElement {
@@ -45,7 +46,7 @@ function factList(card: CellCard, app: App): HTMLElement {
     [
       ['grid cell', card.gridCell.join(', ')],
       ['region', integer(card.region)],
-      ['winding number', winding(card.winding)],
+      inside(card, app),
       ['volume', real(card.volume)],
       ['share of its grid cell', share(card, app)],
       ['faces', `${integer(card.faces)}, ${integer(card.surfaceFaces)} of them on the surface`],
@@ -54,6 +55,13 @@ function factList(card: CellCard, app: App): HTMLElement {
     ],
     { class: 'counts' },
   );
+}
+
+/** The winding number, or what tells that the cell is inside. */
+function inside({ region }: CellCard, { model }: App): [string, string] {
+  const number = model?.regions[region].winding ?? null;
+  if (number !== null || !model) return ['winding number', winding(number)];
+  return ['side', insideOf(model, region)];
 }
 
 function share(card: CellCard, app: App): string {

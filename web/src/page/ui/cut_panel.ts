@@ -2,6 +2,7 @@ import type { App } from '../app';
 import type { Model } from '../../model/types';
 import { el, numberField, slider, terms } from './dom';
 import { integer, milliseconds, plural, real, words } from '../../model/format';
+import { insideWords } from '../../model/inside';
 import { customGrid } from './custom_grid';
 import { openSection, section } from './section';
 
@@ -50,7 +51,8 @@ function counts(app: App): HTMLElement {
           ['cut-cells', integer(cutCells)],
           ['untouched cells', integer(untouchedCells)],
           ['regions', integer(regions)],
-          ['time', milliseconds(model.stats.totalMs)],
+          ['inside', insideWords[model.insideBy]],
+          ['time', milliseconds(model.stats.totalMs + (model.estimateMs ?? 0))],
         ],
         { class: 'counts' },
       ),
@@ -90,9 +92,10 @@ function moreCounts({ counts: { faces, vertices }, stats }: Model): HTMLElement 
   );
 }
 
-function stageTimes({ stats }: Model): HTMLElement {
-  const longest = Math.max(...stats.stages.map(({ ms }) => ms), Number.MIN_VALUE);
-  const rows = stats.stages.map(({ stage, ms }) => {
+function stageTimes({ stats, estimateMs }: Model): HTMLElement {
+  const stages = [...stats.stages, ...(estimateMs === null ? [] : [{ stage: 'estimateOfInside', ms: estimateMs }])];
+  const longest = Math.max(...stages.map(({ ms }) => ms), Number.MIN_VALUE);
+  const rows = stages.map(({ stage, ms }) => {
     const bar = el('span', { class: 'bar' });
     bar.style.width = `${(100 * ms) / longest}%`;
     return el('tr', {}, el('th', { scope: 'row' }, words(stage)), el('td', { class: 'bar-cell' }, bar), el('td', {}, milliseconds(ms)));
@@ -108,11 +111,23 @@ function meetings({ intersections, intersectionCurves }: Model['stats']): string
   return intersectionCurves > 0 ? [...facts, `${plural(intersectionCurves, 'curve')} along which triangles meet`] : facts;
 }
 
+/** Components of the mesh that have no winding numbers, in the words of the command line. */
+function withoutWinding({ components }: Model['stats']): string[] {
+  const { winding, parity, open, openEdges, holes } = components;
+  const all = plural(winding + parity + open, 'component');
+  const edges = `${plural(openEdges, 'open edge')} around ${plural(holes, 'hole')}`;
+  return [
+    ...(parity > 0 ? [`${integer(parity)} of ${all} not consistently oriented: inside by parity`] : []),
+    ...(open > 0 ? [`${integer(open)} of ${all} open, with ${edges}: inside by an estimate`] : []),
+  ];
+}
+
 function leftOut({ stats }: Model): HTMLElement {
   const facts = [
     stats.zeroAreaTriangles && `${plural(stats.zeroAreaTriangles, 'degenerate triangle')} dropped`,
     stats.outsideTriangles && `${plural(stats.outsideTriangles, 'triangle')} outside the grid dropped`,
     ...meetings(stats),
+    ...withoutWinding(stats),
     stats.weldedVertices && `${plural(stats.weldedVertices, 'vertex', 'vertices')} welded to another at the same position`,
     stats.snappedVertices && `${plural(stats.snappedVertices, 'vertex', 'vertices')} snapped, by up to ${real(stats.largestSnap)} cells`,
     stats.flushedCoordinates && `${plural(stats.flushedCoordinates, 'tiny coordinate')} set to 0`,

@@ -1,6 +1,7 @@
 import type { App } from '../app';
 import { el } from './dom';
-import { milliseconds, plural, real, winding } from '../../model/format';
+import { milliseconds, plural, real } from '../../model/format';
+import { insideOf } from '../../model/inside';
 
 /** The line below the picture: the cell under the pointer, or else a summary of the cut. */
 export function hoverLine(app: App): HTMLElement {
@@ -17,12 +18,11 @@ export function hoverLine(app: App): HTMLElement {
 function describeCell({ model }: App, cell: number): string {
   if (!model || cell >= model.counts.cutCells) return '';
   const region = model.cells.region[cell];
-  const number = model.regions[region]?.winding ?? null;
-  return `Cell ${cell} · region ${region} · winding ${winding(number)} · volume ${real(model.cells.volume[cell])}`;
+  return `Cell ${cell} · region ${region} · ${insideOf(model, region)} · volume ${real(model.cells.volume[cell])}`;
 }
 
 function summary({ model }: App): string {
   if (!model) return '';
-  const { name, grid, counts, stats } = model;
-  return `${name} · ${grid.cells.join(' × ')} grid · ${plural(counts.cutCells, 'cut-cell')} in ${milliseconds(stats.totalMs)}`;
+  const { name, grid, counts, stats, estimateMs } = model;
+  return `${name} · ${grid.cells.join(' × ')} grid · ${plural(counts.cutCells, 'cut-cell')} in ${milliseconds(stats.totalMs + (estimateMs ?? 0))}`;
 }

@@ -1,5 +1,7 @@
 import type { App } from '../app';
 import { legend as entriesOf } from '../view/colors';
+import { insideWords } from '../../model/inside';
+import type { Model } from '../../model/types';
 import { el } from './dom';
 
 /** What the colours mean, on top of the picture. */
@@ -8,7 +10,7 @@ export function legend(app: App): HTMLElement {
   const show = () => {
     const entries = app.model ? entriesOf(app.model, app.settings) : [];
     box.hidden = entries.length === 0 || box.dataset.step === 'true';
-    box.replaceChildren(...entries.map(({ color, label }) => entry(color, label)));
+    box.replaceChildren(...entries.map(({ color, label }) => entry(color, label)), ...(app.model ? doubt(app.model) : []));
   };
   app.events.on('settings', show);
   app.events.on('step', (picture) => {
@@ -16,6 +18,11 @@ export function legend(app: App): HTMLElement {
     show();
   });
   return box;
+}
+
+/** What tells the inside from the outside, unless winding numbers do. */
+function doubt({ insideBy }: Model): HTMLElement[] {
+  return insideBy === 'winding' ? [] : [el('span', { class: 'doubt' }, `inside ${insideWords[insideBy]}`)];
 }
 
 function entry(color: string, label: string): HTMLElement {

@@ -2,7 +2,7 @@ import type { App } from '../app';
 import type { Model, PageError } from '../../model/types';
 import { el } from './dom';
 import { plural } from '../../model/format';
-import { isOutside } from '../view/colors';
+import { isOutside } from '../../model/inside';
 
 /** Says why the stage is empty. */
 export function stageNote(app: App): HTMLElement {

@@ -2,8 +2,8 @@ import type { App } from '../app';
 import { colorings, layers, sliceNames } from '../../model/settings';
 import type { ColorBy, Model, SliceName } from '../../model/types';
 import { button, checkbox, choice, el, numberField, select, slider } from './dom';
-import { isOutside } from '../view/colors';
-import { plural, real, winding } from '../../model/format';
+import { insideOf, isOutside } from '../../model/inside';
+import { plural, real } from '../../model/format';
 import { section } from './section';
 
 const colorNames: Record<ColorBy, string> = {
@@ -107,9 +107,9 @@ function oneRegion(app: App): HTMLElement {
 
 function regionOptions(model: Model): HTMLElement[] {
   const { regions } = model;
-  const options = regions.slice(0, 500).map(({ id, winding: number, volume, cutCells }) => {
-    const name = isOutside(model, id) ? `${id}, outside` : String(id);
-    return el('option', { value: id }, `${name} · winding ${winding(number)} · volume ${real(volume)} · ${plural(cutCells, 'cut-cell')}`);
+  const options = regions.slice(0, 500).map(({ id, volume, cutCells }) => {
+    const name = model.insideBy === 'winding' && isOutside(model, id) ? `${id}, outside` : String(id);
+    return el('option', { value: id }, `${name} · ${insideOf(model, id)} · volume ${real(volume)} · ${plural(cutCells, 'cut-cell')}`);
   });
   return [el('option', { value: '' }, `all (${regions.length})`), ...options];
 }

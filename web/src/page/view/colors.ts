@@ -1,5 +1,6 @@
 // What colours mean. The colours themselves are the package's; here they are sRGB bytes, which the shaders make linear.
 import { idColor, kindColors, outsideColor, regionColor as paletteColor, volumeColor, windingColor } from 'mandoline-wasm/three';
+import { insideWords, isOutside, nearestWinding } from '../../model/inside';
 import type { ColorBy, Model, Settings } from '../../model/types';
 
 export type Rgb = readonly [number, number, number];
@@ -24,12 +25,6 @@ function toCss(color: Rgb): string {
   return `rgb(${color.join(' ')})`;
 }
 
-/** Whether a region lies outside the surface, as far as is known. */
-export function isOutside(model: Model, region: number): boolean {
-  const { winding } = model.regions[region];
-  return winding === null ? region === model.outsideRegion : winding === 0;
-}
-
 /** The outside has a colour of its own, and takes none from the palette. */
 export function regionColor(model: Model, region: number): Rgb {
   if (isOutside(model, region)) return toRgb(outsideColor);
@@ -50,7 +45,24 @@ export function gridCellVolume({ grid }: Model, gridCell: ArrayLike<number>): nu
 }
 
 function byRegion(model: Model, colorBy: ColorBy): Rgb[] {
-  return model.regions.map(({ id, winding }) => (colorBy === 'winding' ? toRgb(windingColor(winding)) : regionColor(model, id)));
+  return model.regions.map(({ id }) => (colorBy === 'winding' ? colorOfWinding(model, id) : regionColor(model, id)));
+}
+
+/** Where parity alone tells what is inside, as if that had the winding number 1. */
+function colorOfWinding(model: Model, region: number): Rgb {
+  return toRgb(windingColor(nearestWinding(model, region) ?? (isOutside(model, region) ? 0 : 1)));
+}
+
+function windingLegend(model: Model): { label: string; color: Rgb }[] {
+  const entries = new Map<number, { label: string; color: Rgb }>();
+  const { insideBy } = model;
+  for (const { id, isInside } of model.regions) {
+    const winding = nearestWinding(model, id);
+    const side = `${isInside ? 'inside' : 'outside'} ${insideWords[insideBy]}`;
+    const label = winding === null ? side : `winding number ${winding}${insideBy === 'estimate' ? ', estimated' : ''}`;
+    entries.set(winding ?? Number(isInside), { label, color: colorOfWinding(model, id) });
+  }
+  return [...entries].sort(([a], [b]) => a - b).map(([, entry]) => entry);
 }
 
 /** 4 bytes per cut-cell, the last one free. */
@@ -93,9 +105,9 @@ export function legend(model: Model, { colorBy, sliceMode, slices }: Settings, m
   }
   if (colorBy === 'volume') return [0, 0.25, 0.5, 1].map((fraction) => entry(`${100 * fraction}% of a grid cell`, shareColor(fraction)));
   if (colorBy === 'winding') {
-    const present = [...new Set(model.regions.map(({ winding }) => winding))].sort((a, b) => (a ?? 0) - (b ?? 0));
-    const label = (winding: number | null) => (winding === null ? 'no winding number' : `winding number ${winding}`);
-    return present.slice(0, most).map((winding) => entry(label(winding), toRgb(windingColor(winding))));
+    return windingLegend(model)
+      .slice(0, most)
+      .map(({ label, color }) => entry(label, color));
   }
   const label = (id: number) => `region ${id}${isOutside(model, id) ? ', outside' : ''}`;
   return model.regions.slice(0, most).map(({ id }) => entry(label(id), regionColor(model, id)));

@@ -1,6 +1,6 @@
 // Which regions and cells the settings show, slices aside.
 import type { Model, Settings } from '../../model/types';
-import { isOutside } from './colors';
+import { isOutside } from '../../model/inside';
 
 /** Per region: 1 if it is shown. A region that is picked is shown even if it is outside. */
 export function shownRegions(model: Model, { show }: Settings): Uint8Array {
@@ -8,7 +8,7 @@ export function shownRegions(model: Model, { show }: Settings): Uint8Array {
   return Uint8Array.from(model.regions, ({ id }) => Number(isShown(id)));
 }
 
-/** Whether most of the surface has the outside on both sides, and is hidden with it: an open sheet, a mesh with holes. */
+/** Whether a third of the surface or more has the outside on both sides, and is hidden with it: an open sheet, walls that cross. */
 export function isSheet(model: Model): boolean {
   const { cell, index, surfaceEnd } = model.triangles;
   const isOuter = model.regions.map(({ id }) => isOutside(model, id));
@@ -19,7 +19,7 @@ export function isSheet(model: Model): boolean {
     if (isOuter[model.cells.region[cell[index[at]]]]) outer++;
     else inner++;
   }
-  return outer > 3 * inner;
+  return outer > 2 * inner;
 }
 
 /** Per region: how it moves in an explosion by region, 3 numbers. */
