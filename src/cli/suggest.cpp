@@ -1,6 +1,7 @@
 #include "cli/suggest.h"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace mandoline::cli {
 namespace {

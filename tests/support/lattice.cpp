@@ -1,8 +1,13 @@
 #include "lattice.h"
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 
+#include "mandoline/inside.h"
+#include "mandoline/inspect.h"
+#include "mandoline/orient.h"
+#include "mandoline/resolve.h"
 #include "mandoline/validate.h"
 #include "vectors.h"
 
@@ -265,16 +270,54 @@ static std::string describe(const LatticeCase& latticeCase) {
   return text.str();
 }
 
+static std::string failures(const Validation& validation) {
+  std::string text;
+  for (const Check& check : validation.checks)
+    if (!check.pass) text += " " + check.name + " (" + check.elementKind + " " + std::to_string(check.element) + ": " + check.message + ")";
+  return text;
+}
+
+/// Whether the edges of each vertex pair run as often one way as the other.
+static bool isClosed(const Mesh& mesh) {
+  std::map<std::pair<uint32_t, uint32_t>, int> balance;
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const uint32_t a = mesh.triangles[i], b = mesh.triangles[i % 3 == 2 ? i - 2 : i + 1];
+    balance[std::minmax(a, b)] += a < b ? 1 : -1;
+  }
+  return std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
+}
+
+/// Of what is told about inside and outside.
+static std::string brokenInside(const Mesh& mesh, const CutMesh& cutMesh) {
+  const CutMesh estimated = estimateInside(mesh, cutMesh);
+  const Validation validation = validate(mesh, estimated);
+  if (!validation.pass) return "with estimates, validation fails:" + failures(validation);
+  if (!insideRegions(estimated).isComplete) return "estimates leave components out";
+  if (!isClosed(boundary(estimated))) return "the boundary of what is inside is open";
+  return "";
+}
+
+static std::string brokenOrientation(const Mesh& mesh) {
+  const OrientedMesh oriented = orient(mesh);
+  if (!orient(oriented.mesh).turnedTriangles.empty()) return "to orient a mesh again turns triangles again";
+  const MeshInfo before = inspect(mesh), after = inspect(oriented.mesh);
+  if (before.openEdges != after.openEdges || before.nonManifoldEdges != after.nonManifoldEdges)
+    return "an oriented mesh has other open or non-manifold edges";
+  const auto orientable = [](Facing facing) { return facing != Facing::nonOrientable; };
+  if (std::all_of(oriented.partFacing.begin(), oriented.partFacing.end(), orientable) && after.inconsistentEdges > 0)
+    return "an oriented mesh has inconsistent edges";
+  return "";
+}
+
 std::string brokenPromise(const LatticeCase& latticeCase) {
-  const CutResult result = cut(latticeCase.mesh, latticeCase.grid);
-  const auto broken = [&](const std::string& what) { return what + '\n' + describe(latticeCase); };
+  const Mesh& mesh = latticeCase.mesh;
+  const CutResult result = cut(mesh, latticeCase.grid);
+  const auto broken = [&](const std::string& what) { return what.empty() ? what : what + '\n' + describe(latticeCase); };
   if (latticeCase.triangles.empty())
     return result.error.status == Status::emptyMesh ? "" : broken("an empty mesh is called " + std::string(name(result.error.status)));
   if (!result) return broken(std::string(name(result.error.status)) + ": " + result.error.message);
-  const Validation validation = validate(latticeCase.mesh, result.mesh);
-  if (validation.pass) return "";
-  std::string what = "validation fails:";
-  for (const Check& check : validation.checks)
-    if (!check.pass) what += " " + check.name + " (" + check.elementKind + " " + std::to_string(check.element) + ": " + check.message + ")";
-  return broken(what);
+  const Validation validation = validate(mesh, result.mesh);
+  if (!validation.pass) return broken("validation fails:" + failures(validation));
+  const std::string inside = brokenInside(mesh, result.mesh);
+  return broken(inside.empty() ? brokenOrientation(mesh) : inside);
 }

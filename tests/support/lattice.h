@@ -22,6 +22,7 @@ struct LatticeCase {
 /// do.
 LatticeCase decodeLattice(const uint8_t* bytes, size_t size);
 
-/// Cuts and validates. Empty if the promises hold: any triangles are cut, and the result is valid. Otherwise what is
-/// wrong, followed by the mesh as OBJ and the grid's planes.
+/// Cuts, validates, estimates what is inside and orients. Empty if the promises hold: any triangles are cut, the results are valid, the
+/// boundary of what is inside is closed, and oriented triangles agree. Otherwise what is wrong, followed by the mesh as OBJ and the grid's
+/// planes.
 std::string brokenPromise(const LatticeCase& latticeCase);
