@@ -26,10 +26,14 @@ val prepareMesh(const val& mesh, const val& options) {
     PrepareOptions prepareOptions;
     prepareOptions.progress = progressOf(options);
     prepareOptions.intersections = Intersections(options["intersections"].as<int>());
+    prepareOptions.orient = options["orient"].isTrue();
     const Mesh input = fromObject<Mesh>(mesh);
     const PrepareResult result = prepare(input, prepareOptions);
     if (!result) return failure(result.error, lastStage(result.stats));
-    return success(val(KeptMesh(result.mesh)));
+    const MeshView prepared = result.mesh.mesh();
+    const val value = object({{"positions", toArray("Float64Array", prepared.positions.data(), prepared.positions.size())},
+                              {"triangles", toArray("Uint32Array", prepared.triangles.data(), prepared.triangles.size())}});
+    return success(object({{"value", value}, {"twin", val(KeptMesh(result.mesh))}}));
   });
 }
 

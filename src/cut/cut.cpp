@@ -5,6 +5,7 @@
 #include "cut/stages/divided_faces.h"
 #include "cut/stages/input.h"
 #include "cut/stages/output.h"
+#include "mandoline/orient.h"
 #include "mandoline/prepare.h"
 #include "mesh/run_call.h"
 
@@ -24,13 +25,15 @@ using namespace detail;
 /// Names the stages for progress and takes their times.
 class Clock {
  public:
-  Clock(CutStats& stats, Monitor& monitor) : stats_(stats), monitor_(monitor), start_(now()), last_(start_) {}
+  /// Progress has so many stages before those of the clock.
+  Clock(CutStats& stats, Monitor& monitor, int before = 0)
+      : stats_(stats), monitor_(monitor), before_(before), start_(now()), last_(start_) {}
   ~Clock() { end(); }  // also of a cut that failed
 
   void begin(const char* stage) {
     end();
     stats_.stages.push_back({stage, 0});
-    monitor_.beginStage(stage, int(stats_.stages.size()) - 1);
+    monitor_.beginStage(stage, before_ + int(stats_.stages.size()) - 1);
   }
 
  private:
@@ -44,10 +47,11 @@ class Clock {
 
   CutStats& stats_;
   Monitor& monitor_;
+  int before_;
   double start_, last_;
 };
 
-constexpr int kMeshStages = 2, kGridStages = 9;
+constexpr int kOrientStages = 2, kMeshStages = 2, kGridStages = 9;
 
 /// Adds the counts of a mesh's preparation.
 void addCounts(const Prepared& prepared, CutStats& stats) {
@@ -127,10 +131,15 @@ MeshView PreparedMesh::mesh() const { return data_ ? MeshView(data_->mesh) : Mes
 PrepareResult prepare(const MeshView& mesh, const PrepareOptions& options) {
   PrepareResult result;
   catchErrors(result.error, "preparation", [&] {
-    Monitor monitor(options, kMeshStages);
-    Clock clock(result.stats, monitor);
+    const int before = options.orient ? kOrientStages : 0;
+    Monitor monitor(options, before + kMeshStages);
     auto data = std::make_shared<PreparedMeshData>();
-    data->mesh = {{mesh.positions.begin(), mesh.positions.end()}, {mesh.triangles.begin(), mesh.triangles.end()}};
+    if (options.orient) {
+      data->mesh = orient(mesh, monitor.part<RunOptions>(0, kMeshStages)).mesh;
+    } else {
+      data->mesh = {{mesh.positions.begin(), mesh.positions.end()}, {mesh.triangles.begin(), mesh.triangles.end()}};
+    }
+    Clock clock(result.stats, monitor, before);
     data->intersections = options.intersections;
     data->prepared = prepareMesh(data->mesh, {0, options.intersections, {}}, monitor, [&](const char* stage) { clock.begin(stage); });
     addCounts(*data->prepared, result.stats);

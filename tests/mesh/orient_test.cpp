@@ -9,6 +9,7 @@
 #include "mandoline/mandoline.h"
 #include "mesh_folder.h"
 #include "refusal.h"
+#include "same_bits.h"
 #include "shapes.h"
 
 using namespace mandoline;
@@ -236,4 +237,33 @@ TEST_CASE("Closed meshes of the collection are oriented whatever was turned, and
   }
   WARN(closed << " closed meshes, " << repaired << " of which were not oriented; " << simple << " do not meet themselves");
   CHECK(repaired > 0);
+}
+
+TEST_CASE("a mesh that is oriented as it is prepared is cut as the oriented one", "[orient]") {
+  const Mesh mesh = withRandomTurns(shapes::merged({shapes::cube(0, 3), shapes::cube(1, 2)}), 8);
+  const OrientedMesh oriented = orient(mesh);
+  PrepareOptions options;
+  options.orient = true;
+  std::vector<std::pair<int, int>> stages;
+  options.progress = [&](const Progress& progress) {
+    if (stages.empty() || stages.back().first != progress.stageIndex) stages.push_back({progress.stageIndex, progress.stageCount});
+    return true;
+  };
+  const PrepareResult prepared = prepare(mesh, options);
+  REQUIRE(prepared);
+  CHECK(stages == std::vector<std::pair<int, int>>{{0, 4}, {1, 4}, {2, 4}, {3, 4}});
+  CHECK(std::equal(oriented.mesh.triangles.begin(), oriented.mesh.triangles.end(), prepared.mesh.mesh().triangles.begin()));
+  const Grid grid = Grid::around(mesh, 5);
+  const CutResult expected = cut(oriented.mesh, grid);
+  CHECK(differences(cut(prepared.mesh, grid).mesh, expected.mesh).empty());
+  CHECK(expected.mesh.hasWinding);
+  CHECK(validate(prepared.mesh.mesh(), expected.mesh).pass);
+  CutOptions snapping;
+  snapping.snapTolerance = 0.1;  // prepares again
+  CHECK(differences(cut(prepared.mesh, grid, snapping).mesh, cut(oriented.mesh, grid, snapping).mesh).empty());
+  options.progress = [](const Progress& progress) { return progress.stageIndex < 1; };
+  CHECK(prepare(mesh, options).error.status == Status::cancelled);
+  options.progress = {};
+  const Mesh nothing;
+  CHECK(prepare(nothing, options).error.status == Status::emptyMesh);
 }

@@ -10,7 +10,12 @@
 #include "mandoline/mesh_files.h"
 #include "mandoline/slice.h"
 #include "mesh_folder.h"
+#include "operators/inside/cell_samples.h"
+#include "operators/inside/divided_regions.h"
+#include "operators/inside/inside_rule.h"
 #include "operators/inside/turn_sum.h"
+#include "operators/inside/winding_tree.h"
+#include "operators/measure/owners.h"
 #include "refusal.h"
 #include "same_bits.h"
 #include "shapes.h"
@@ -260,6 +265,60 @@ TEST_CASE("estimates are the same for triangles in any order", "[inside]") {
   CHECK(a.runBegin == b.runBegin);
   CHECK(a.runRegion == b.runRegion);
   for (uint32_t r = 0; r < a.regionCount; ++r) CHECK(a.regionInsideness[r] == Approx(b.regionInsideness[r]).margin(1e-9));
+}
+
+TEST_CASE("between two points of a box generalized winding numbers vary by no more than is said, but for a whole number", "[inside]") {
+  const Mesh mesh = withoutEvery(shapes::icosphere({0, 0, 0}, 1, 3), 40);
+  std::vector<uint32_t> all(mesh.triangleCount());
+  for (uint32_t t = 0; t < all.size(); ++t) all[t] = t;
+  const operators::WindingTree tree(mesh, all);
+  CHECK(tree.rimSize() == oddEdges(mesh));
+  std::mt19937 random(9);
+  const auto number = [&] { return 2 * (double(random()) * 0x1p-32) - 1; };
+  int finite = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Point p{1.5 * number(), 1.5 * number(), 1.5 * number()};
+    Point q;
+    for (size_t d = 0; d < 3; ++d) q[d] = p[d] + 0.1 * number();
+    detail::Box box{p, p};
+    box.include({q, q});
+    const double variation = tree.variation(box), difference = tree.at(p) - tree.at(q);
+    CHECK(std::fabs(difference - std::round(difference)) <= variation + 1e-12);
+    finite += variation < 1;
+  }
+  CHECK(finite > 1000);
+}
+
+TEST_CASE("labels that spread from some cells are those that all have", "[inside]") {
+  for (const size_t nth : {60, 500}) {
+    const Mesh mesh = withoutEvery(shapes::icosphere({2, 2, 2}, 1.6, 4), nth);
+    const CheckedCut cut = checkedCut(mesh, Grid::box({0, 0, 0}, {4, 4, 4}, {21, 20, 19}));
+    REQUIRE(cut.mesh.regionCount == 1);
+    const OctreeCells octree = coarsen(cut.mesh);
+    const std::vector<int32_t> owners = operators::ownersOf(cut.mesh);
+    const operators::WindingTree tree(mesh, cut.mesh.openTriangles);
+    REQUIRE(16 * tree.rimSize() < mesh.triangleCount());
+    const std::vector<uint8_t> isOpen(mesh.triangleCount(), 1);
+    operators::CellSampler sampler(cut.mesh, isOpen);
+    std::vector<int32_t> labels;
+    for (uint32_t c = 0; c < cut.mesh.cellCount(); ++c) {
+      const operators::CellSample sample = sampler.sample(c);
+      labels.push_back(operators::roundedWinding(sample.step + tree.at(sample.point, sample.leftOut), 0.5));
+    }
+    for (size_t c = 0; c < octree.cellCount(); ++c) {
+      Point centre;
+      for (size_t d = 0; d < 3; ++d) {
+        const std::vector<double>& planes = cut.mesh.grid.planes[d];
+        centre[d] = planes[size_t(octree.corner(c)[d])] / 2 + planes[size_t(octree.end(c)[d])] / 2;
+      }
+      labels.push_back(operators::roundedWinding(tree.at(centre), 0.5));
+    }
+    const operators::DividedRegions expected = operators::divideRegions(cut.mesh, octree, owners, labels);
+    const CutMesh estimated = estimateInside(mesh, cut.mesh);
+    CHECK(estimated.regionCount == expected.count);
+    CHECK(estimated.cellRegion == expected.cellRegion);
+    CHECK(estimated.runRegion == expected.runRegion);
+  }
 }
 
 TEST_CASE("wrong calls of estimateInside are refused, and without open components it changes nothing", "[inside]") {

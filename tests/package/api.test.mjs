@@ -453,6 +453,23 @@ test('a turned triangle is found by its edges, and turned back', () => {
   assert.throws(() => mandoline.orient({ positions: [], triangles: [] }), { code: 'emptyMesh' });
 });
 
+test('a mesh is oriented as it is prepared, and goes with its cut-meshes so', async () => {
+  const triangles = Uint32Array.from(twoBoxes.triangles);
+  [triangles[1], triangles[2]] = [triangles[2], triangles[1]];
+  const turned = { ...twoBoxes, triangles };
+  const prepared = mandoline.prepare(turned, { orient: true });
+  assert.deepEqual(prepared, twoBoxes);
+  const cutMesh = mandoline.cut(prepared, { cells: 3 });
+  const { stats: _, ...expected } = mandoline.cut(twoBoxes, { cells: 3 });
+  assert.deepEqual({ ...cutMesh, stats: undefined }, { ...expected, stats: undefined });
+  assert.ok((await mandoline.validate(prepared, cutMesh)).pass);
+  assert.equal(mandoline.cut(mandoline.prepare(turned), { cells: 3 }).regionWinding, null);
+  for (let i = 0; i < 20; ++i) mandoline.cut(cube, grid); // to which the twin gives way
+  assert.deepEqual(mandoline.cut(prepared, { cells: 3 }).regionWinding, expected.regionWinding);
+  assert.throws(() => mandoline.prepare(turned, { orient: 1 }), { code: 'badArgument', message: /^options\.orient must be true or false/ });
+  assert.throws(() => mandoline.prepare({ positions: [], triangles: [] }, { orient: true }), { code: 'emptyMesh', stage: 'input' });
+});
+
 test('a prepared mesh is cut as the mesh itself, and without its arrays', () => {
   const prepared = gut(mandoline.prepare(twoBoxes));
   for (const cells of [3, 8]) {

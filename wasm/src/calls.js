@@ -56,23 +56,14 @@ const mapped = ({ value, error }, f) => (error ? { error } : { value: f(value) }
 
 export const cutCalls = {
   /**
-   * A copy of the mesh, checked, welded and resolved once (A, Bad input meshes), which cut() takes with any number of grids. The module
-   * keeps the prepared mesh as the twin of this very object, like those of cut-meshes (see CutMesh). If the twin is gone, the next cut
-   * prepares the mesh once more; a cut with a snapTolerance always does.
+   * A copy of the mesh, checked, welded and resolved once (A, Bad input meshes), which cut() takes with any number of grids; with
+   * `orient` the mesh that orient() gives, which then goes with the cut-meshes wherever a call takes both. The module keeps the prepared
+   * mesh as the twin of this very object, like those of cut-meshes (see CutMesh). If the twin is gone, the next cut prepares the mesh once
+   * more; a cut with a snapTolerance always does.
    *
    * prepare(mesh: Mesh, options?: PrepareOptions): MeshArrays
    */
-  prepare: {
-    takes: { mesh: readMesh },
-    options: { intersections, progress },
-    keeps: 'prepared',
-    isCut: true,
-    run: (bindings, mesh, options) =>
-      mapped(bindings.prepare(mesh, options), (twin) => ({
-        value: { positions: new Float64Array(mesh.positions), triangles: new Uint32Array(mesh.triangles) },
-        twin,
-      })),
-  },
+  prepare: { takes: { mesh: readMesh }, options: { intersections, orient: flag(false), progress }, keeps: 'prepared', isCut: true },
   /**
    * Cuts the mesh with the grid (the paper's Algorithm 1).
    *

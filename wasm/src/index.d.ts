@@ -108,7 +108,7 @@ export interface ValidateOptions extends RunOptions {
   snapTolerance?: number;
 }
 
-export interface PrepareOptions extends RunOptions {
+export interface IntersectionHandling extends RunOptions {
   /**
    * What to do where triangles meet other than in shared vertices and edges: "resolve" (default) cuts as if their exact arrangement had
    * been given; "refuse" throws "selfIntersection", naming the first pair and the number of all; "assumeNone" does not look, which is
@@ -117,8 +117,16 @@ export interface PrepareOptions extends RunOptions {
   intersections?: 'resolve' | 'refuse' | 'assumeNone';
 }
 
+export interface PrepareOptions extends IntersectionHandling {
+  /**
+   * Whether triangles are first turned so that they agree: closed parts outward, or inward where they lie inside an odd number of others,
+   * as orient() does it. Default false.
+   */
+  orient?: boolean;
+}
+
 /** `intersections` is not looked at for a mesh that prepare() gave: what prepare() was told holds. */
-export interface CutOptions extends PrepareOptions {
+export interface CutOptions extends IntersectionHandling {
   /** Tri-vertices within this distance of an axial plane (in cells, below 0.5) are moved onto it before cutting. Default 0. */
   snapTolerance?: number;
   /** Whether the result has `gridCellRegion`, which takes 4 bytes per grid cell; the runs say the same in less. Default true. */

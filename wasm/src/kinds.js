@@ -8,5 +8,8 @@ export const cutMesh = {
 
 export const prepared = {
   read: readMesh,
-  make: (bindings, mesh, { origin: { intersections }, progress }) => bindings.prepare(mesh, { intersections, progress }),
+  make: (bindings, mesh, { origin: { intersections }, progress }) => {
+    const { value, error } = bindings.prepare(mesh, { intersections, progress }); // it was oriented, if it was to be
+    return error ? { error } : { value: value.twin };
+  },
 };

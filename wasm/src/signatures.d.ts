@@ -35,9 +35,10 @@ import type { CallOptions } from './worker.js';
 
 export interface Calls {
   /**
-   * A copy of the mesh, checked, welded and resolved once (A, Bad input meshes), which cut() takes with any number of grids. The module
-   * keeps the prepared mesh as the twin of this very object, like those of cut-meshes (see CutMesh). If the twin is gone, the next cut
-   * prepares the mesh once more; a cut with a snapTolerance always does.
+   * A copy of the mesh, checked, welded and resolved once (A, Bad input meshes), which cut() takes with any number of grids; with
+   * `orient` the mesh that orient() gives, which then goes with the cut-meshes wherever a call takes both. The module keeps the prepared
+   * mesh as the twin of this very object, like those of cut-meshes (see CutMesh). If the twin is gone, the next cut prepares the mesh once
+   * more; a cut with a snapTolerance always does.
    */
   prepare(mesh: Mesh, options?: PrepareOptions): MeshArrays;
   /** Cuts the mesh with the grid (the paper's Algorithm 1). */

@@ -18,7 +18,7 @@ class PreparedMesh {
   PreparedMesh() = default;
   explicit PreparedMesh(std::shared_ptr<const detail::PreparedMeshData> data) : data_(std::move(data)) {}
 
-  /// The mesh as it was given; empty if there is none.
+  /// The mesh that is cut: as it was given, or oriented; empty if there is none.
   MeshView mesh() const;
   const detail::PreparedMeshData* data() const { return data_.get(); }
 
@@ -28,6 +28,8 @@ class PreparedMesh {
 
 struct PrepareOptions : RunOptions {
   Intersections intersections = Intersections::resolve;
+  /// Takes orient(mesh).mesh instead of the mesh: PreparedMesh::mesh() is that, and what its cuts give has its triangles' normals.
+  bool orient = false;
 };
 
 struct PrepareResult {

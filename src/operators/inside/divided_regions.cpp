@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/disjoint_sets.h"
+#include "operators/inside/neighbours.h"
 
 namespace mandoline::operators {
 namespace {
@@ -21,43 +22,14 @@ class Divider {
         nodes_(labels.size()) {}
 
   DividedRegions run() {
-    for (size_t face = 0; face < cutMesh_.faceCount(); ++face) {
-      if (cutMesh_.faceTriangle[face] < 0) uniteAcross(face);
-    }
-    for (size_t c = 0; c < octree_.cellCount(); ++c) uniteBeyond(c);
+    forEachNeighbours(cutMesh_, octree_, owners_, [&](uint32_t a, uint32_t b) {
+      if (labels_[a] == labels_[b]) nodes_.unite(a, b);
+    });
     number();
     return std::move(result_);
   }
 
  private:
-  void unite(uint32_t a, uint32_t b) {
-    if (labels_[a] == labels_[b]) nodes_.unite(a, b);
-  }
-
-  void uniteAcross(size_t face) {
-    const int32_t below = owners_[2 * face], above = owners_[2 * face + 1];
-    if (below >= 0 && above >= 0) return unite(uint32_t(below), uint32_t(above));
-    const int32_t cell = std::max(below, above);
-    if (cell < 0) return;
-    GridCell at = gridCellOf(size_t(cell));
-    at[size_t(cutMesh_.faceAxis[face])] += below >= 0 ? 1 : -1;
-    const int64_t octreeCell = octree_.find(at[0], at[1], at[2]);
-    if (octreeCell >= 0) unite(uint32_t(cell), firstOctree_ + uint32_t(octreeCell));
-  }
-
-  /// With what lies beyond the octree cell's upper sides, and beyond its lower ones if that is larger.
-  void uniteBeyond(size_t cell) {
-    const GridCell corner = octree_.corner(cell), end = octree_.end(cell);
-    for (size_t d = 0; d < 3; ++d) {
-      for (const bool isUpper : {false, true}) {
-        GridCell at = corner;
-        at[d] = isUpper ? end[d] : corner[d] - 1;
-        const int64_t other = octree_.find(at[0], at[1], at[2]);  // where smaller cells lie they find this one
-        if (other >= 0) unite(firstOctree_ + uint32_t(cell), firstOctree_ + uint32_t(other));
-      }
-    }
-  }
-
   GridCell gridCellOf(size_t cell) const {
     const int32_t* at = &cutMesh_.cellGridCell[3 * cell];
     return {at[0], at[1], at[2]};

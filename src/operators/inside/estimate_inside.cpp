@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/csr.h"
 #include "mandoline/coarsen.h"
 #include "mesh/run_call.h"
 #include "operators/inside/cell_samples.h"
 #include "operators/inside/divided_regions.h"
 #include "operators/inside/inside_rule.h"
+#include "operators/inside/neighbours.h"
 #include "operators/inside/winding_tree.h"
 #include "operators/measure/owners.h"
 #include "operators/measure/require_input.h"
@@ -16,9 +18,11 @@ namespace {
 
 using namespace operators;
 
-constexpr int kStages = 3;
 constexpr size_t kBlock = 64;              // points between two reports
 constexpr uint32_t kSamplesOfRegion = 16;  // of one that is not divided
+constexpr uint32_t kStrides[] = {64, 8, 1};
+constexpr int kStages = 3 + int(std::size(kStrides));
+constexpr size_t kShortRim = 16;  // triangles per edge of the rim
 
 /// The numbers of cut-cells, then octree cells.
 class Estimator {
@@ -34,11 +38,12 @@ class Estimator {
     CoarsenOptions coarsening;
     coarsening.threads = options_.threads;
     octree_ = coarsen(cutMesh_, coarsening);
-    monitor_.beginStage("insideness", 1);
     findDivided();
-    findSampled();
-    evaluate();
-    monitor_.beginStage("regions", 2);
+    const WindingTree tree(mesh_, cutMesh_.openTriangles);
+    monitor_.beginStage("insideness", 1);
+    evaluate(tree, samplesOfOthers());
+    labelDivided(tree);
+    monitor_.beginStage("regions", kStages - 1);
     return divided();
   }
 
@@ -61,33 +66,111 @@ class Estimator {
     }
   }
 
-  /// All cells of divided regions, some of others.
-  void findSampled() {
-    std::vector<uint32_t> count(cutMesh_.regionCount, 0), seen(cutMesh_.regionCount, 0);
+  /// Some cells of each region that is not divided.
+  std::vector<uint32_t> samplesOfOthers() const {
+    std::vector<uint32_t> samples, count(cutMesh_.regionCount, 0), seen(cutMesh_.regionCount, 0);
     for (uint32_t node = 0; node < nodeCount(); ++node) ++count[regionOf(node)];
     for (uint32_t node = 0; node < nodeCount(); ++node) {
       const uint32_t region = regionOf(node), every = 1 + (count[region] - 1) / kSamplesOfRegion;
-      if (isDivided_[region] || seen[region]++ % every == 0) sampled_.push_back(node);
+      if (!isDivided_[region] && seen[region]++ % every == 0) samples.push_back(node);
     }
+    return samples;
   }
 
-  void evaluate() {
-    const WindingTree tree(mesh_, cutMesh_.openTriangles);
-    insideness_.assign(sampled_.size(), 0);
+  /// Adds the numbers of these cells.
+  void evaluate(const WindingTree& tree, const std::vector<uint32_t>& nodes) {
+    const size_t first = sampled_.size();
+    sampled_.insert(sampled_.end(), nodes.begin(), nodes.end());
+    insideness_.resize(sampled_.size());
     struct Nothing {};
     detail::forChunks<Nothing>(
-        sampled_.size(), monitor_,
+        nodes.size(), monitor_,
         [&](Nothing&, size_t begin, size_t end) {
           CellSampler sampler(cutMesh_, isOpen_);
           for (size_t i = begin; i < end; ++i) {
-            const uint32_t node = sampled_[i];
+            const uint32_t node = nodes[i];
             const CellSample sample = node < firstOctree() ? sampler.sample(node) : CellSample{centreOf(node - firstOctree()), {}, 0};
             const uint32_t region = regionOf(node);
             const int32_t part = cutMesh_.regionPartWinding.empty() ? 0 : cutMesh_.regionPartWinding[region];
-            insideness_[i] = part + sample.step + tree.at(sample.point, sample.leftOut);
+            insideness_[first + i] = part + sample.step + tree.at(sample.point, sample.leftOut);
           }
         },
         kBlock);
+  }
+
+  /// Labels the cells of divided regions by the winding number that their own counts as. Numbers change steeply near the rim alone: where
+  /// that is short, a label spreads from a cell as far as no number can have another one. Cells that none reaches have theirs evaluated.
+  void labelDivided(const WindingTree& tree) {
+    const bool spreads = kShortRim * tree.rimSize() < cutMesh_.openTriangles.size();
+    if (spreads) findNeighbours();
+    labels_.assign(nodeCount(), 0);
+    std::vector<uint8_t> isLabelled(nodeCount(), 0);
+    for (size_t round = 0; round < std::size(kStrides); ++round) {
+      if (!spreads && kStrides[round] > 1) continue;
+      monitor_.beginStage("insideness", 2 + int(round));
+      std::vector<uint32_t> seeds;
+      uint32_t seen = 0;
+      for (uint32_t node = 0; node < nodeCount(); ++node) {
+        if (isDivided_[regionOf(node)] && !isLabelled[node] && seen++ % kStrides[round] == 0) seeds.push_back(node);
+      }
+      const size_t first = sampled_.size();
+      evaluate(tree, seeds);
+      for (size_t i = first; i < sampled_.size(); ++i) {
+        labels_[sampled_[i]] = roundedWinding(insideness_[i], options_.threshold);
+        isLabelled[sampled_[i]] = 1;
+      }
+      for (size_t i = first; spreads && i < sampled_.size(); ++i) spread(tree, sampled_[i], insideness_[i], isLabelled);
+    }
+  }
+
+  void findNeighbours() {
+    std::vector<std::array<uint32_t, 2>> pairs;
+    forEachNeighbours(cutMesh_, octree_, owners_, [&](uint32_t a, uint32_t b) {
+      if (!isDivided_[regionOf(a)]) return;
+      pairs.push_back({a, b});
+      pairs.push_back({b, a});
+    });
+    neighbours_ = detail::groupBy<uint32_t>(
+        nodeCount(), pairs.size(), [&](size_t i) { return size_t(pairs[i][0]); }, [&](size_t i) { return pairs[i][1]; });
+  }
+
+  /// Breadth first from a cell with this number.
+  void spread(const WindingTree& tree, uint32_t seed, double number, std::vector<uint8_t>& isLabelled) {
+    struct Reached {
+      uint32_t node;
+      double variation;  ///< of the numbers on the way there, at most
+    };
+    std::vector<Reached> reached{{seed, 0}};
+    for (size_t i = 0; i < reached.size(); ++i) {
+      const auto [node, variation] = reached[i];
+      for (const uint32_t next : neighbours_[node]) {
+        if (isLabelled[next]) continue;
+        detail::Box box = boxOf(node);
+        box.include(boxOf(next));
+        const double further = variation + tree.variation(box);
+        if (!isSteady(number, further)) continue;
+        labels_[next] = labels_[seed];
+        isLabelled[next] = 1;
+        reached.push_back({next, further});
+      }
+    }
+  }
+
+  bool isSteady(double number, double variation) const {
+    if (!(variation < 1)) return false;
+    return roundedWinding(number - variation, options_.threshold) == roundedWinding(number + variation, options_.threshold);
+  }
+
+  /// The grid cells that hold a cell.
+  detail::Box boxOf(uint32_t node) const {
+    detail::Box box;
+    for (size_t d = 0; d < 3; ++d) {
+      const std::vector<double>& planes = cutMesh_.grid.planes[d];
+      const int32_t low = node < firstOctree() ? cutMesh_.cellGridCell[3 * size_t(node) + d] : octree_.corner(node - firstOctree())[d];
+      box.low[d] = planes[size_t(low)];
+      box.high[d] = planes[size_t(node < firstOctree() ? low + 1 : octree_.end(node - firstOctree())[d])];
+    }
+    return box;
   }
 
   detail::Point centreOf(size_t octreeCell) const {
@@ -101,11 +184,7 @@ class Estimator {
   }
 
   CutMesh divided() {
-    std::vector<int32_t> labels(nodeCount(), 0);
-    for (size_t i = 0; i < sampled_.size(); ++i) {
-      if (isDivided_[regionOf(sampled_[i])]) labels[sampled_[i]] = roundedWinding(insideness_[i], options_.threshold);
-    }
-    DividedRegions regions = divideRegions(cutMesh_, octree_, owners_, labels);
+    DividedRegions regions = divideRegions(cutMesh_, octree_, owners_, labels_);
     const auto newRegionOf = [&](uint32_t node) {
       return node < firstOctree() ? regions.cellRegion[node] : regions.octreeRegion[node - firstOctree()];
     };
@@ -151,8 +230,10 @@ class Estimator {
   std::vector<uint8_t> isOpen_;  // per triangle
   OctreeCells octree_;
   std::vector<uint8_t> isDivided_;  // per region
-  std::vector<uint32_t> sampled_;   // nodes, ascending
+  detail::Csr<uint32_t> neighbours_;
+  std::vector<uint32_t> sampled_;   // nodes whose numbers were evaluated
   std::vector<double> insideness_;  // per sampled node
+  std::vector<int32_t> labels_;     // per node; 0 in regions that are not divided
 };
 
 }  // namespace

@@ -45,7 +45,7 @@ struct HalfSolidAngle {
 
 WindingTree::WindingTree(const MeshView& mesh, std::span<const uint32_t> triangles) {
   addTriangles(mesh, triangles);
-  if (!triangles_.empty()) addNode(0, uint32_t(triangles_.size()));
+  if (!triangles_.empty()) rim_ = addNode(0, uint32_t(triangles_.size()));
 }
 
 void WindingTree::addTriangles(const MeshView& mesh, std::span<const uint32_t> triangles) {
@@ -146,6 +146,27 @@ void WindingTree::addFan(const Node& node, const Point& p, TurnSum& sum) const {
     const HalfSolidAngle angle(apex, Ray(p, points_[edge.low]), Ray(p, points_[edge.high]));
     for (int32_t i = 0; i < std::abs(edge.count); ++i) sum.add(angle.x, edge.count > 0 ? angle.y : -angle.y);
   }
+}
+
+double WindingTree::variation(const detail::Box& box) const {
+  constexpr double kWholeSphere = 12.566370614359172954;
+  double diagonal = 0, steepest = 0;
+  for (size_t d = 0; d < 3; ++d) {
+    const double side = (box.high[d] - box.low[d]) * scale_;
+    diagonal += side * side;
+  }
+  for (const Edge& edge : rim_) {  // the gradient is an integral over the rim, that of Biot and Savart: at most length / distance^2
+    const Point &a = points_[edge.low], &b = points_[edge.high];
+    double distance = 0, length = 0;
+    for (size_t d = 0; d < 3; ++d) {
+      const double gap = std::max({0.0, std::min(a[d], b[d]) - box.high[d] * scale_, box.low[d] * scale_ - std::max(a[d], b[d])});
+      distance += gap * gap;
+      length += (b[d] - a[d]) * (b[d] - a[d]);
+    }
+    steepest += std::abs(edge.count) * std::sqrt(length) / distance;
+  }
+  const double variation = steepest * std::sqrt(diagonal) / kWholeSphere;
+  return variation < INFINITY ? variation : INFINITY;
 }
 
 double WindingTree::at(const Point& given, std::span<const uint32_t> leftOut) const {

@@ -24,6 +24,12 @@ class WindingTree {
   /// A triangle with p on it counts as 0, the mean of its sides; so do those that are left out.
   double at(const detail::Point& p, std::span<const uint32_t> leftOut = {}) const;
 
+  /// How many edges bound the triangles.
+  size_t rimSize() const { return rim_.size(); }
+  /// How much at() differs at most between two points of a box, but for a whole number: that of the triangles on the line between them.
+  /// Infinite if an edge that bounds the triangles may lie in the box. Takes time in proportion to these edges.
+  double variation(const detail::Box& box) const;
+
  private:
   /// A directed edge that bounds a node's triangles so often, or against its direction if that is negative.
   struct Edge {
@@ -53,6 +59,7 @@ class WindingTree {
   std::vector<Triangle> triangles_;  // along a space-filling curve
   std::vector<Node> nodes_;
   std::vector<Edge> edges_;
+  std::vector<Edge> rim_;
 };
 
 }  // namespace mandoline::operators
