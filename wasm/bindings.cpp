@@ -207,11 +207,13 @@ val outlinesOf(const KeptCutMesh& kept, const val& normal, const val& offsets) {
   return ofPlanes(kept, normal, offsets, [&](const auto&... of) { return outlines(of...); });
 }
 
+/// Null for what the module of files reads.
 val readMeshFile(const val& bytes, const std::string& name) {
   return guarded([&] {
     std::vector<char> content;
     readArray(bytes, content);
-    return success(toObject(readMesh(content, name)));
+    const std::optional<Mesh> mesh = readObjOrStl(content, name);
+    return success(mesh ? toObject(*mesh) : val::null());
   });
 }
 

@@ -76,11 +76,35 @@ async function fillInline(folder, modules) {
   writeFileSync(file, text);
 }
 
-/** The module's bytes with its name in a custom section, which tells it from other modules of the package (src/load.js). */
+/** A number as WebAssembly has it (LEB128). */
+const leb = (number) => (number < 128 ? [number] : [(number % 128) + 128, ...leb(number >>> 7)]);
+
+/** { number, end } of such a number. */
+function readLeb(bytes, at) {
+  if (bytes[at] < 128) return { number: bytes[at], end: at + 1 };
+  const { number, end } = readLeb(bytes, at + 1);
+  return { number: number * 128 + (bytes[at] % 128), end };
+}
+
+/**
+ * The module's bytes with one export more: its memory once again, under a name that tells the module from others of the package
+ * (src/load.js). Custom sections would be lost where tools strip modules.
+ */
 function withName(bytes, name) {
-  const text = (words) => [words.length, ...Buffer.from(words)];
-  const section = [...text('mandoline-wasm'), ...Buffer.from(name)];
-  return Buffer.concat([bytes, Buffer.from([0, section.length, ...section])]);
+  const [exportSection, memory] = [7, 2];
+  for (let at = 8; at < bytes.length; ) {
+    const { number: size, end: start } = readLeb(bytes, at + 1);
+    const next = start + size;
+    if (bytes[at] === exportSection) {
+      const { number: count, end: first } = readLeb(bytes, start);
+      const text = Buffer.from(`mandoline-wasm/${name}`);
+      const more = Buffer.from([...leb(text.length), ...text, memory, 0]);
+      const content = Buffer.concat([Buffer.from(leb(count + 1)), bytes.subarray(first, next), more]);
+      return Buffer.concat([bytes.subarray(0, at), Buffer.from([exportSection, ...leb(content.length)]), content, bytes.subarray(next)]);
+    }
+    at = next;
+  }
+  throw new Error(`${name} has no exports`);
 }
 
 function leaveOutPhysics(folder) {

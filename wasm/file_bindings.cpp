@@ -3,7 +3,8 @@
 #include <emscripten/bind.h>
 
 #include "cut_meshes.h"
-#include "mandoline/io.h"
+#include "mandoline/inspect.h"
+#include "writing.h"
 
 namespace {
 
@@ -19,30 +20,6 @@ val validateCutMesh(const val& mesh, const KeptCutMesh& kept, const val& options
     return success(toObject(validate(input, *cutMesh, validateOptions)));
   });
 }
-
-/// The bytes that write(sink) gives.
-template <class Write>
-val bytesOfFile(const Write& write) {
-  std::vector<uint8_t> bytes;
-  write([&](std::string_view piece) { bytes.insert(bytes.end(), piece.begin(), piece.end()); });
-  return success(toArray(bytes));
-}
-
-/// Options of all writers, and the groups that they point to.
-struct Writing {
-  explicit Writing(const val& options) {
-    given.progress = progressOf(options);
-    given.untouched = !options["untouched"].isFalse();
-    if (!options["regions"].isUndefined()) readArray(options["regions"], given.regions);
-    if (options["groups"].isUndefined()) return;
-    groups = fromObject<TriangleGroups>(options["groups"]);
-    given.groups = &groups;
-  }
-  Writing(const Writing&) = delete;
-
-  WriteOptions given;
-  TriangleGroups groups;
-};
 
 val writeCutMeshFile(const val& mesh, const KeptCutMesh& kept, int format, const val& options) {
   return guarded([&, cutMesh = kept.get()] {
@@ -68,6 +45,24 @@ val writeOutlineFile(const val& stack, int format, const val& options) {
     readArray(stack["offsets"], outlines.offsets);
     for (const val& layer : emscripten::vecFromJSArray<val>(stack["layers"])) outlines.layers.push_back(fromObject<Outlines>(layer));
     return bytesOfFile([&](const Sink& sink) { writeOutlines(sink, FileFormat(format), outlines, writing.given); });
+  });
+}
+
+val writeDefectFile(const val& mesh, const val& info, const val& options) {
+  return guarded([&] {
+    const Mesh input = fromObject<Mesh>(mesh);
+    const MeshInfo found = fromObject<MeshInfo>(info);
+    return bytesOfFile([&](const Sink& sink) { writeDefects(sink, input, found, runOptions(options)); });
+  });
+}
+
+val writeLineFile(const val& lines, const val& options) {
+  return guarded([&] {
+    std::vector<double> points;
+    std::vector<uint32_t> offsets;
+    readArray(lines["points"], points);
+    readArray(lines["offsets"], offsets);
+    return bytesOfFile([&](const Sink& sink) { writeLines(sink, points, offsets, runOptions(options)); });
   });
 }
 
@@ -110,6 +105,8 @@ EMSCRIPTEN_BINDINGS(files) {
   emscripten::function("write", &writeCutMeshFile);
   emscripten::function("writeMesh", &writeMeshFile);
   emscripten::function("writeOutlines", &writeOutlineFile);
+  emscripten::function("writeDefects", &writeDefectFile);
+  emscripten::function("writeLines", &writeLineFile);
   emscripten::function("readMesh", &readMeshFile);
   emscripten::function("readGroups", &readGroupsFile);
   emscripten::function("readCutMesh", &readCutMeshFile);

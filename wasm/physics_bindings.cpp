@@ -2,7 +2,11 @@
 // decided. A module of its own, so that those who only cut don't load it.
 #include <emscripten/bind.h>
 
+#include <list>
+#include <map>
+
 #include "complexes.h"
+#include "writing.h"
 
 namespace {
 
@@ -161,6 +165,50 @@ val seedsOf(const val& grid, const val& wind, uint32_t count) {
   });
 }
 
+/// Numbers for cells or faces, and the fields that point to them.
+struct WrittenFields {
+  explicit WrittenFields(const val& given) {
+    for (const val& field : emscripten::vecFromJSArray<val>(given)) {
+      readArray(field[1], numbers.emplace_back());
+      fields.push_back({field[0].as<std::string>(), numbers.back()});
+    }
+  }
+  WrittenFields(const WrittenFields&) = delete;
+
+  std::list<std::vector<double>> numbers;
+  std::vector<Field> fields;
+};
+
+val writeCellFile(const KeptCutMesh& keptCutMesh, const KeptComplex& keptCells, int format, const val& options) {
+  return guarded([&, cutMesh = keptCutMesh.get(), cells = keptCells.get()] {
+    const Writing writing(options);
+    const WrittenFields written(options["fields"]);
+    return bytesOfFile([&](const Sink& sink) {
+      if (FileFormat(format) == FileFormat::json) return writeJson(sink, *cutMesh, *cells, writing.given);
+      writeVtu(sink, *cutMesh, *cells, written.fields, writing.given);
+    });
+  });
+}
+
+val writeFaceFile(const KeptCutMesh& keptCutMesh, const KeptComplex& keptCells, const val& options) {
+  return guarded([&, cutMesh = keptCutMesh.get(), cells = keptCells.get()] {
+    const Writing writing(options);
+    const WrittenFields written(options["fields"]);
+    return bytesOfFile([&](const Sink& sink) { writeFacesVtu(sink, *cutMesh, *cells, written.fields, writing.given); });
+  });
+}
+
+val writePolyMeshFiles(const KeptCutMesh& keptCutMesh, const KeptComplex& keptCells, const val& options) {
+  return guarded([&, cutMesh = keptCutMesh.get(), cells = keptCells.get()] {
+    const Writing writing(options);
+    std::map<std::string, FileBytes> files;
+    writePolyMesh([&](const std::string& file, std::string_view piece) { files[file].add(piece); }, *cutMesh, *cells, writing.given);
+    val result = val::object();
+    for (const auto& [name, bytes] : files) result.set(name, bytes.joined());
+    return success(result);
+  });
+}
+
 std::string version() { return MANDOLINE_VERSION; }
 
 }  // namespace
@@ -187,4 +235,7 @@ EMSCRIPTEN_BINDINGS(physics) {
   emscripten::function("velocityAt", &velocitiesAt);
   emscripten::function("streamlines", &streamlinesFrom);
   emscripten::function("inflowSeeds", &seedsOf);
+  emscripten::function("writeCells", &writeCellFile);
+  emscripten::function("writeFaces", &writeFaceFile);
+  emscripten::function("writePolyMesh", &writePolyMeshFiles);
 }

@@ -17,21 +17,6 @@ namespace {
 
 bool isFlowFormat(FileFormat format) { return format == FileFormat::vtu || format == FileFormat::obj; }
 
-/// Polylines of OBJ.
-void writeLines(const Sink& sink, const Streamlines& lines) {
-  char text[128];
-  const auto put = [&](int size) { sink({text, size_t(size)}); };
-  for (size_t i = 0; i < lines.points.size(); i += 3) {
-    put(std::snprintf(text, sizeof text, "v %.17g %.17g %.17g\n", lines.points[i], lines.points[i + 1], lines.points[i + 2]));
-  }
-  for (size_t l = 0; l < lines.ends.size(); ++l) {
-    if (lines.offsets[l + 1] - lines.offsets[l] < 2) continue;
-    sink("l");
-    for (uint32_t i = lines.offsets[l]; i < lines.offsets[l + 1]; ++i) put(std::snprintf(text, sizeof text, " %u", i + 1));
-    sink("\n");
-  }
-}
-
 void writeFaces(const Sink& sink, const FlowField& field, const WriteOptions& options) {
   const Field fields[] = {{"normal_velocity", field.flow.faceVelocity}, {"normal", field.cells.faceNormal}, {"area", field.cells.faceArea}};
   writeFacesVtu(sink, field.cutMesh, field.cells, fields, options);
@@ -115,7 +100,7 @@ void write(const Arguments& arguments, const std::string& output, const FlowFiel
     const std::vector<double> seeds =
         inflowSeeds(field.cutMesh.grid, *arguments.flow.wind, arguments.flow.streamlines.value_or(kStreamlines));
     const Streamlines lines = streamlines(field, seeds, StreamlineOptions{run});
-    writeOutput(output, [&](const Sink& sink) { writeLines(sink, lines); });
+    writeOutput(output, [&](const Sink& sink) { writeLines(sink, lines.points, lines.offsets, run); });
   });
 }
 

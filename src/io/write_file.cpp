@@ -1,7 +1,11 @@
+#include <list>
+
 #include "io/output_file.h"
 
 namespace mandoline {
 namespace {
+
+namespace fs = std::filesystem;
 
 template <class Write>
 void writeFile(const std::string& path, const Write& write) {
@@ -30,6 +34,25 @@ void writeMesh(const std::string& path, const MeshView& mesh, const RunOptions& 
   }
   detail::checkPlace(path);
   writeFile(path, [&](const Sink& sink) { writeMesh(sink, *format, mesh, options, groups); });
+}
+
+void writePolyMesh(const std::string& folder, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options) {
+  constexpr const char* kZones = "cellZones";  // not of every mesh
+  std::list<detail::OutputFile> files;
+  std::string last;
+  const FolderSink sink = [&](const std::string& file, std::string_view piece) {
+    if (files.empty()) fs::create_directories(folder);
+    if (file != last) files.emplace_back((fs::path(folder) / file).string());
+    last = file;
+    files.back().write(piece);
+  };
+  try {
+    writePolyMesh(sink, cutMesh, cells, options);
+    for (detail::OutputFile& file : files) file.commit();
+    if (last != kZones) fs::remove(fs::path(folder) / kZones);  // of a mesh that was here before
+  } catch (const fs::filesystem_error& error) {
+    throw FileError(folder + ": can't be written: " + error.code().message());
+  }
 }
 
 }  // namespace mandoline

@@ -4,13 +4,11 @@
 // triangular order), and those of each patch follow.
 #include <algorithm>
 #include <array>
-#include <memory>
 
 #include "base/sort.h"
 #include "io/complex_polygons.h"
 #include "io/groups.h"
 #include "io/output_buffer.h"
-#include "io/output_file.h"
 #include "io/selection.h"
 #include "mesh/run_call.h"
 
@@ -87,8 +85,8 @@ Sides sort(const CutMesh& cutMesh, const CellComplex& cells, const std::vector<i
 
 class PolyMeshWriter {
  public:
-  PolyMeshWriter(const std::string& folder, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options)
-      : folder_(folder),
+  PolyMeshWriter(const FolderSink& sink, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options)
+      : sink_(sink),
         cutMesh_(cutMesh),
         cells_(cells),
         options_(options),
@@ -99,15 +97,12 @@ class PolyMeshWriter {
     numberCells();
     sides_ = sort(cutMesh_, cells_, cellNumbers_, groups_);
     countFaces();
-    std::filesystem::create_directories(folder_);
     writeFile("points", "vectorField", points_, [&](OutputBuffer& out) { putPoints(out); });
     writeFile("faces", "faceList", faces_, [&](OutputBuffer& out) { putFaces(out); });
     writeFile("owner", "labelList", faces_, [&](OutputBuffer& out) { putLabels(out, faces_, &Side::owner); });
     writeFile("neighbour", "labelList", innerFaces_, [&](OutputBuffer& out) { putLabels(out, innerFaces_, &Side::neighbour); });
     writeFile("boundary", "polyBoundaryMesh", sides_.patches.size(), [&](OutputBuffer& out) { putPatches(out); });
     if (zones_.size() > 1) writeFile("cellZones", "regIOobject", zones_.size(), [&](OutputBuffer& out) { putZones(out); });
-    for (const std::unique_ptr<OutputFile>& file : files_) file->commit();
-    if (zones_.size() < 2) std::filesystem::remove(std::filesystem::path(folder_) / "cellZones");  // of a mesh that was here before
   }
 
  private:
@@ -144,11 +139,9 @@ class PolyMeshWriter {
 
   template <class Put>
   void writeFile(const char* name, const char* type, uint64_t count, const Put& put) {
-    files_.push_back(std::make_unique<OutputFile>((std::filesystem::path(folder_) / name).string()));
-    OutputFile& file = *files_.back();
-    const Sink sink = [&](std::string_view bytes) { file.write(bytes); };
+    const Sink sink = [&, file = std::string(name)](std::string_view piece) { sink_(file, piece); };
     Meter meter(sink, options_, kFiles);
-    meter.beginStage(name, int(files_.size()) - 1, count);
+    meter.beginStage(name, begunFiles_++, count);
     OutputBuffer out(meter);
     out.text("FoamFile\n{\n    version 2.0;\n    format ascii;\n    class ");
     out.text(type);
@@ -257,7 +250,7 @@ class PolyMeshWriter {
     std::vector<int32_t> cells;
   };
   static constexpr int kFiles = 6;
-  const std::string& folder_;
+  const FolderSink& sink_;
   const CutMesh& cutMesh_;
   const CellComplex& cells_;
   const WriteOptions& options_;
@@ -268,19 +261,15 @@ class PolyMeshWriter {
   std::vector<Zone> zones_;
   Sides sides_;
   uint64_t cellCount_ = 0, points_ = 0, faces_ = 0, innerFaces_ = 0;
-  std::vector<std::unique_ptr<OutputFile>> files_;
+  int begunFiles_ = 0;
 };
 
 }  // namespace
 }  // namespace detail
 
-void writePolyMesh(const std::string& folder, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options) {
+void writePolyMesh(const FolderSink& sink, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options) {
   const detail::Selection selection(cutMesh, options);
-  try {
-    detail::runCall("writing", [&] { detail::PolyMeshWriter(folder, cutMesh, cells, options).write(); });
-  } catch (const std::filesystem::filesystem_error& error) {
-    throw FileError(folder + ": can't be written: " + error.code().message());
-  }
+  detail::runCall("writing", [&] { detail::PolyMeshWriter(sink, cutMesh, cells, options).write(); });
 }
 
 }  // namespace mandoline

@@ -6,7 +6,8 @@ import { MandolineError, init } from 'mandoline-wasm';
 import { createWorker } from 'mandoline-wasm/worker';
 import { box, gut, writeObj } from './meshes.mjs';
 
-const { boundary, cut, outlines, readCutMesh, readGroups, readMesh, write, writeMesh, writeOutlines } = await init();
+const { boundary, cut, inspect, outlines, readCutMesh, readGroups, readMesh, write, writeDefects, writeLines, writeMesh, writeOutlines } =
+  await init();
 const cube = box([0.1, -2, 1e-300], [1 / 3, 5, 7]);
 
 function writeStl({ positions, triangles }) {
@@ -190,6 +191,33 @@ test('groups are written as they are read', async () => {
   assert.deepEqual(await readGroups(await writeMesh(cube, 'obj', { groups }), { name: 'cube.obj' }), groups);
   const missing = { ...groups, triangleGroup: new Uint32Array(3) };
   await assert.rejects(writeMesh(cube, 'obj', { groups: missing }), { code: 'badArgument', stage: 'writeMesh' });
+});
+
+test('lines and defects that are not there are refused', async () => {
+  const points = new Float64Array(9);
+  const refusal = (stage, element = -1) => ({ code: 'badArgument', stage, element });
+  for (const [offsets, element] of [
+    [[0, 2, 4], 1],
+    [[0, 2, 1], 1],
+    [[1, 2], -1],
+    [[], -1],
+  ]) {
+    await assert.rejects(writeLines({ points, offsets: new Uint32Array(offsets) }), refusal('writeLines', element));
+  }
+  await assert.rejects(writeLines({ points, offsets: [0, 3] }), refusal('writeLines'));
+  await assert.rejects(writeLines({ points: [1, 2], offsets: new Uint32Array(1) }), refusal('writeLines'));
+  const text = new TextDecoder().decode(await writeLines({ points, offsets: new Uint32Array([0, 2, 3]) }));
+  assert.equal(text, 'v 0 0 0\nv 0 0 0\nv 0 0 0\nl 1 2\n');
+  const open = { ...cube, triangles: cube.triangles.subarray(3) };
+  const small = { positions: cube.positions.subarray(0, 9), triangles: [0, 1, 2] };
+  await assert.rejects(writeDefects(small, inspect(open)), { code: 'badArgument', stage: 'writeDefects' });
+});
+
+test('the module of files is loaded for a PLY file, not for an OBJ file', async () => {
+  const without = await createWorker({ filesWasm: new Uint8Array() });
+  assert.deepEqual(await without.readMesh(files['cube.obj'], { name: 'cube.obj' }), cube);
+  await assert.rejects(without.readMesh(files['cube.ply'], { name: 'cube.ply' }), { code: 'loadFailed' });
+  without.terminate();
 });
 
 test('outlines', async () => {

@@ -235,6 +235,30 @@ test('a module of another kind, or of another package, is told from the one that
   writing.terminate();
 });
 
+/** The module without its custom sections, as some tools leave it. */
+function stripped(bytes) {
+  const sizeAt = (at) =>
+    bytes[at] < 128 ? [bytes[at], at + 1] : sizeAt(at + 1).map((n, i) => (i === 0 ? 128 * n + (bytes[at] & 127) : n));
+  const parts = [bytes.subarray(0, 8)];
+  for (let at = 8; at < bytes.length; ) {
+    const [size, start] = sizeAt(at + 1);
+    if (bytes[at] !== 0) parts.push(bytes.subarray(at, start + size));
+    at = start + size;
+  }
+  return Buffer.concat(parts);
+}
+
+test('modules that tools have stripped of custom sections work, and are told apart', async () => {
+  const bytesOf = async (name) => stripped(await readFile(new URL(import.meta.resolve(`mandoline-wasm/${name}`))));
+  const [wasm, filesWasm, physicsWasm] = await Promise.all(['mandoline.wasm', 'files.wasm', 'physics.wasm'].map(bytesOf));
+  assert.match((await failureOf(() => createCutter({ wasm: filesWasm }))).message, /: it is files\.wasm, not mandoline\.wasm\.$/);
+  const computing = await createWorker({ wasm, filesWasm, physicsWasm });
+  const made = await computing.cut(mesh, grid);
+  assert.equal((await computing.validate(mesh, made)).pass, true);
+  assert.ok((await computing.cellComplex(mesh, made)).cutCells > 0);
+  computing.terminate();
+});
+
 test('a worker that only cuts names the one that computes', async () => {
   const cutter = await createCutter();
   const error = await failureOf(() => cutter.coarsen(cutMesh));

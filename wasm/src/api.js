@@ -51,31 +51,33 @@ function makeCall(host, name, call) {
   };
 }
 
-function makeFileCall(host, name, call) {
-  const { takes, options, keeps } = call;
+function makeFileCall(host, name, call, load) {
+  const { takes, options, keeps, orIn } = call;
   return async (source, given) => {
     const { name: fileName, bytes } = await takes.source(source, readOptions(given, options));
-    return host.run((bindings, twins) => {
-      const outcome = bindings[name](bytes, fileName);
-      return keeps ? keepTwin(outcome, call, { kind: keeps }, host, twins) : outcome;
-    });
+    const callIn = (one) =>
+      one.run((bindings, twins) => {
+        const outcome = bindings[name](bytes, fileName);
+        return keeps ? keepTwin(outcome, call, { kind: keeps }, one, twins) : outcome;
+      });
+    return callIn(host) ?? callIn((await load(orIn)).host);
   };
 }
 
-/** { host, calls } of a module that is compiled. `module`: as in module.js. */
-export function startModule(module, compiled) {
+/** { host, calls } of a module that is compiled. `module`: as in module.js; load(name) promises the same of another module. */
+export function startModule(module, compiled, load = undefined) {
   const host = new Host(module, compiled);
   const calls = Object.entries(module.calls).map(([name, call]) => {
     const make = call.isFile ? makeFileCall : makeCall;
-    return [name, named(call.isCut ? 'input' : name, make(host, name, call))];
+    return [name, named(call.isCut ? 'input' : name, make(host, name, call, load))];
   });
   return { host, calls: { version: host.start((bindings) => bindings.version()), ...Object.fromEntries(calls) } };
 }
 
-/** The same calls of a module that is loaded when the first is made, as promises; load() promises its calls. */
+/** The same calls of a module that is loaded when the first is made, as promises; load() promises it as startModule() gives it. */
 export function laterCalls(module, load) {
   const names = Object.keys(module.calls);
-  return Object.fromEntries(names.map((name) => [name, async (...given) => (await load())[name](...given)]));
+  return Object.fromEntries(names.map((name) => [name, async (...given) => (await load()).calls[name](...given)]));
 }
 
 /** init() of a module: it checks its options, of which `own` is for the module, and gives the promise of start(options) that there is. */

@@ -8,6 +8,7 @@
 // keeps: the kind of the call's result, which gets a twin (only its `member`, if that is given); run() then returns { value, twin }.
 // isCut: it goes through the stages of a cut, and errors name the stage.
 // isFile: its only argument is a file, whose bytes and name C++ gets; its reader is given the options.
+// orIn: of a file, the module whose binding of the same name is called where this one gives null.
 import {
   bad,
   expectNumber,
@@ -231,9 +232,9 @@ export const cutCalls = {
   /**
    * The mesh in a file: OBJ, STL, PLY or OFF (STL and PLY in text or binary), each also gzipped, told by content and then by the extension
    * of the name. Polygons are fanned from their first vertex; triangles are in the order of the file. Code "badFile" if it can't be read;
-   * the message names the file and the line.
+   * the message names the file and the line. The first PLY or OFF file loads the module that also writes files.
    *
    * readMesh(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions): Promise<MeshArrays>
    */
-  readMesh: { takes: { source: readFile }, options: { name: readName }, isFile: true },
+  readMesh: { takes: { source: readFile }, options: { name: readName }, isFile: true, orIn: 'files' },
 };

@@ -235,6 +235,14 @@ export interface OutlineStack {
   layers: readonly Outlines[];
 }
 
+/** Lines of any number of points, for writeLines(). */
+export interface Polylines {
+  /** 3 per point. */
+  points: ArrayLike<number>;
+  /** Into the points, per line. */
+  offsets: Uint32Array;
+}
+
 export interface ReadMeshOptions {
   /** The name of the file, for its extension and for messages. Default: that of a File. */
   name?: string;

@@ -9,8 +9,8 @@ export { MandolineError, describe } from './errors.js';
 
 const start = once(async ({ wasm = ownWasm.source, filesWasm = ownFileWasm.source }) => {
   const module = await compile(wasm, 'mandoline.wasm');
-  const loadFiles = once(async () => startModule(fileModule, await compile(filesWasm, 'files.wasm')).calls);
-  return { module, api: { ...startModule(cutModule, module).calls, ...laterCalls(fileModule, loadFiles) } };
+  const loadFiles = once(async () => startModule(fileModule, await compile(filesWasm, 'files.wasm')));
+  return { module, api: { ...startModule(cutModule, module, loadFiles).calls, ...laterCalls(fileModule, loadFiles) } };
 });
 
 /**

@@ -32,10 +32,12 @@ function failureOf(name, cause) {
   return new MandolineError('loadFailed', message, { stage: 'init', cause });
 }
 
-/** The file's name that the build has written into a module of the package; undefined of others. */
+const mark = 'mandoline-wasm/';
+
+/** The file's name in a module of the package, which has an export that the build named for it; undefined of others. */
 function nameIn(module) {
-  const [name] = WebAssembly.Module.customSections(module, 'mandoline-wasm');
-  return name && String.fromCharCode(...new Uint8Array(name)); // where jsdom stands in for a page there is no TextDecoder
+  const marked = WebAssembly.Module.exports(module).find(({ name }) => name.startsWith(mark));
+  return marked?.name.slice(mark.length);
 }
 
 /**

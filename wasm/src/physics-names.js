@@ -16,4 +16,7 @@ export const physicsNames = [
   'velocityAt',
   'streamlines',
   'inflowSeeds',
+  'writeCells',
+  'writeFaces',
+  'writePolyMesh',
 ];

@@ -107,7 +107,7 @@ export interface Calls {
   /**
    * The mesh in a file: OBJ, STL, PLY or OFF (STL and PLY in text or binary), each also gzipped, told by content and then by the extension
    * of the name. Polygons are fanned from their first vertex; triangles are in the order of the file. Code "badFile" if it can't be read;
-   * the message names the file and the line.
+   * the message names the file and the line. The first PLY or OFF file loads the module that also writes files.
    */
   readMesh(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions): Promise<MeshArrays>;
 }

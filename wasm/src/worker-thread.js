@@ -86,7 +86,7 @@ class Answering {
   #take({ part = 'cut', module, error }) {
     const awaited = this.#awaited.get(part);
     if (error) return awaited.reject(new MandolineError(error.code, error.message, error));
-    const { host, calls } = startModule(parts.get(part), module);
+    const { host, calls } = startModule(parts.get(part), module, (name) => this.#module(name));
     this.#started.set(part, { host, calls, shells: new Shells(host) });
     if (awaited) awaited.resolve();
     else this.#post({ type: 'result' });
@@ -154,7 +154,7 @@ class Answering {
 
   /** Those of all modules, for the extra calls; of modules that have not been started as promises. */
   #calls() {
-    const later = (module) => laterCalls(module, async () => (await this.#module(module.name)).calls);
+    const later = (module) => laterCalls(module, () => this.#module(module.name));
     return Object.assign(
       {},
       ...[...parts.values()].map((module) => (module.name === 'cut' ? this.#started.get('cut').calls : later(module))),

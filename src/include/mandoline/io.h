@@ -97,6 +97,10 @@ void writeMesh(const Sink& sink, FileFormat format, const MeshView& mesh, const 
 /// another mesh.
 void writeDefects(const Sink& sink, const MeshView& mesh, const MeshInfo& info, const RunOptions& options = {});
 
+/// Polylines as OBJ, such as streamlines: points and offsets are theirs, 3 coordinates per point, and the first point of each line with the
+/// end of the last. Lines of fewer than two points are left out. Throws CallError for a line (element) that has points that do not exist.
+void writeLines(const Sink& sink, std::span<const double> points, std::span<const uint32_t> offsets, const RunOptions& options = {});
+
 /// Outlines in parallel planes.
 struct OutlineStack {
   std::array<double, 3> normal;
@@ -124,6 +128,11 @@ void writeMesh(const std::string& path, const MeshView& mesh, const RunOptions& 
 /// another patch, "_2" is added. Faces with holes or slits are divided into triangles, as
 /// those of .vtu files are. Throws FileError.
 void writePolyMesh(const std::string& folder, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options = {});
+/// Takes the bytes of the files of a folder, piece after piece and file after file, with the name of the file. What it throws passes
+/// through.
+using FolderSink = std::function<void(const std::string& file, std::string_view piece)>;
+/// The same to wherever the sink puts it.
+void writePolyMesh(const FolderSink& sink, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options = {});
 
 /// Throws the FileError that writeCutMesh would meet at once, before there is anything to write: an unknown extension, no such folder.
 void checkOutput(const std::string& path);

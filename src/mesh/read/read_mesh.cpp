@@ -16,6 +16,19 @@ std::string extensionOf(const std::string& name) {
   return dot == std::string::npos || lower[dot] != '.' ? "" : lower.substr(dot);
 }
 
+Mesh checked(Mesh mesh, const FileBytes& file) {
+  if (mesh.vertexCount() > std::numeric_limits<uint32_t>::max()) throw FileError(file.path + ": has more than 2^32 vertices");
+  return mesh;
+}
+
+std::optional<Mesh> readUnpackedObjOrStl(const FileBytes& file) {
+  if (file.bytes.empty()) throw FileError(file.path + ": the file is empty");
+  const MeshFormat format = meshFormatOf(file);
+  if (format == MeshFormat::obj) return checked(readObj(file), file);
+  if (format == MeshFormat::stl) return checked(readStl(file), file);
+  return std::nullopt;
+}
+
 void refuse(const FileBytes& file, const UnreadFormat* format) {
   if (format == nullptr) return;
   throw FileError(file.path + ": this is " + std::string(format->name) + ", not OBJ, STL, PLY or OFF: " + std::string(format->way));
@@ -38,18 +51,16 @@ MeshFormat meshFormatOf(const FileBytes& file) {
 }
 
 Mesh readUnpacked(const FileBytes& file) {
-  if (file.bytes.empty()) throw FileError(file.path + ": the file is empty");
-  const MeshFormat format = meshFormatOf(file);
-  Mesh mesh = format == MeshFormat::ply   ? readPly(file)
-              : format == MeshFormat::off ? readOff(file)
-              : format == MeshFormat::stl ? readStl(file)
-                                          : readObj(file);
-  if (mesh.vertexCount() > std::numeric_limits<uint32_t>::max()) throw FileError(file.path + ": has more than 2^32 vertices");
-  return mesh;
+  if (std::optional<Mesh> mesh = readUnpackedObjOrStl(file)) return std::move(*mesh);
+  return checked(meshFormatOf(file) == MeshFormat::ply ? readPly(file) : readOff(file), file);
 }
 
 }  // namespace detail
 
 Mesh readMesh(std::span<const char> bytes, const std::string& name) { return detail::readWith(detail::readUnpacked, bytes, name); }
+
+std::optional<Mesh> readObjOrStl(std::span<const char> bytes, const std::string& name) {
+  return detail::readWith(detail::readUnpackedObjOrStl, bytes, name);
+}
 
 }  // namespace mandoline

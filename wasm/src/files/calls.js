@@ -9,21 +9,13 @@ import {
   readNumbers,
   readSnapTolerance,
   readVector,
-  word,
 } from '../arguments.js';
-import { FileFormat } from '../fields.js';
 import { readFile, readName } from '../files.js';
-import { readGroups, readLayers } from './arguments.js';
+import { format, readDefects, readGroups, readLayers, readLines } from './arguments.js';
 
 const progress = readFunction;
 const regions = optional(readFlags);
 const groups = optional(readGroups);
-
-/** A reader of one of these formats, as its number. */
-const format =
-  (...words) =>
-  (value, name) =>
-    FileFormat.indexOf(word(words)(value, name));
 
 const readStack = (stack, name) => readMembers(stack, { normal: readVector, offsets: readNumbers, layers: readLayers }, name);
 
@@ -61,6 +53,20 @@ export const fileCalls = {
    * writeOutlines(stack: OutlineStack, format: 'svg' | 'dxf' | 'obj', options?: WriteOutlinesOptions): Promise<Uint8Array<ArrayBuffer>>
    */
   writeOutlines: { takes: { stack: readStack, format: format('svg', 'dxf', 'obj') }, options: { regions, progress } },
+  /**
+   * The defects that inspect() found in the mesh as "obj": lines in world units, in groups named for their kinds. Code "badArgument" for
+   * those of another mesh.
+   *
+   * writeDefects(mesh: Mesh, info: MeshInfo, options?: RunOptions): Promise<Uint8Array<ArrayBuffer>>
+   */
+  writeDefects: { takes: { mesh: readMesh, info: readDefects }, options: { progress } },
+  /**
+   * Polylines such as streamlines() gives as "obj": 3 coordinates per point, and per line where its points begin, with the end of the last.
+   * Lines of fewer than two points are left out.
+   *
+   * writeLines(lines: Polylines, options?: RunOptions): Promise<Uint8Array<ArrayBuffer>>
+   */
+  writeLines: { takes: { lines: readLines }, options: { progress } },
   /**
    * The groups of the triangles that readMesh() reads from a file. Of OBJ: what `g` lines name, of several names on a line the first;
    * triangles before them are in the group "default"; where no triangle comes after a `g` line, what `usemtl` lines name. Of STL in text:

@@ -2,8 +2,11 @@
 import type {
   CutMeshArrays,
   Mesh,
+  MeshInfo,
   OutlineStack,
+  Polylines,
   ReadMeshOptions,
+  RunOptions,
   TriangleGroups,
   ValidateOptions,
   Validation,
@@ -37,6 +40,16 @@ export interface Calls {
    */
   writeOutlines(stack: OutlineStack, format: 'svg' | 'dxf' | 'obj', options?: WriteOutlinesOptions): Promise<Uint8Array<ArrayBuffer>>;
   /**
+   * The defects that inspect() found in the mesh as "obj": lines in world units, in groups named for their kinds. Code "badArgument" for
+   * those of another mesh.
+   */
+  writeDefects(mesh: Mesh, info: MeshInfo, options?: RunOptions): Promise<Uint8Array<ArrayBuffer>>;
+  /**
+   * Polylines such as streamlines() gives as "obj": 3 coordinates per point, and per line where its points begin, with the end of the last.
+   * Lines of fewer than two points are left out.
+   */
+  writeLines(lines: Polylines, options?: RunOptions): Promise<Uint8Array<ArrayBuffer>>;
+  /**
    * The groups of the triangles that readMesh() reads from a file. Of OBJ: what `g` lines name, of several names on a line the first;
    * triangles before them are in the group "default"; where no triangle comes after a `g` line, what `usemtl` lines name. Of STL in text:
    * its solids; one of several that has no name is called solid0, by its place in the file.
@@ -61,6 +74,8 @@ export interface WorkerCalls {
     format: 'svg' | 'dxf' | 'obj',
     options?: WriteOutlinesOptions & CallOptions,
   ): Promise<Uint8Array<ArrayBuffer>>;
+  writeDefects(mesh: Mesh, info: MeshInfo, options?: RunOptions & CallOptions): Promise<Uint8Array<ArrayBuffer>>;
+  writeLines(lines: Polylines, options?: RunOptions & CallOptions): Promise<Uint8Array<ArrayBuffer>>;
   readGroups(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions & CallOptions): Promise<TriangleGroups>;
   readCutMesh(source: Blob | ArrayBuffer | ArrayBufferView, options?: ReadMeshOptions & CallOptions): Promise<CutMeshArrays>;
 }

@@ -4,6 +4,7 @@ import {
   collect,
   expectInteger,
   expectNumber,
+  expectObject,
   expectTypedArray,
   kindOf,
   numbered,
@@ -100,6 +101,12 @@ export function readFlow(flow) {
 export function readMaxPoints(maxPoints = 10000, name) {
   if (expectInteger(maxPoints, name) < 0) throw bad(`${name} must be at least 0, not ${maxPoints}.`, 'badOption');
   return Math.min(maxPoints, 2 ** 32 - 1);
+}
+
+/** { name: numbers, ... } as [name, numbers] each. */
+export function readFieldsToWrite(fields = {}, name) {
+  expectObject(fields, name);
+  return Object.entries(fields).map(([field, numbers]) => [field, readNumbers(numbers, `${name}.${field}`)]);
 }
 
 /** A grid that is none around a mesh. */

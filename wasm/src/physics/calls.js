@@ -1,5 +1,7 @@
 // The table of the calls of mandoline-wasm/physics, as in ../calls.js.
-import { flag, numbered, readFunction, readId, readMesh, readPoints, readVector } from '../arguments.js';
+import { bad, flag, numbered, optional, readFlags, readFunction, readId, readMesh, readPoints, readVector } from '../arguments.js';
+import { FileFormat } from '../fields.js';
+import { format, readGroups } from '../files/arguments.js';
 import { FreeConstant } from './fields.js';
 import {
   dualPoints,
@@ -8,6 +10,7 @@ import {
   readBoundary,
   readCellIds,
   readConditions,
+  readFieldsToWrite,
   readFlow,
   readMaxPoints,
   readOctree,
@@ -21,6 +24,9 @@ const cells = { kind: 'cells' };
 const field = { mesh: readMesh, cutMesh, cells, flow: readFlow };
 
 const progress = readFunction;
+
+/** Of writers. */
+const written = { untouched: flag(true), regions: optional(readFlags), groups: optional(readGroups), progress };
 
 /** When a solver stops. */
 const limits = { tolerance: number(1e-10), maxIterations: int32(500) };
@@ -161,4 +167,34 @@ export const physicsCalls = {
    * inflowSeeds(grid: Grid | GridBox | GridRegular | GridRectilinear, wind: Vector3, count: number): Float64Array<ArrayBuffer>
    */
   inflowSeeds: { takes: { grid: readPlacedGrid, wind: readVector, count: readId } },
+  /**
+   * The cells as a file. "vtu": polyhedra for VTK and ParaView, which match face by face, with `options.fields` beside arrays of their own;
+   * "json": every array, always of all cells, and no fields. Code "badArgument" if `cells` are not those of the cut-mesh.
+   *
+   * writeCells(cutMesh: CutMeshArrays, cells: CellComplex, format: 'json' | 'vtu', options?: WriteCellsOptions): Uint8Array<ArrayBuffer>
+   */
+  writeCells: {
+    takes: { cutMesh, cells, format: format('json', 'vtu') },
+    options: { ...written, fields: readFieldsToWrite },
+    run: (bindings, cutMeshHandle, cellsHandle, number, options) => {
+      if (FileFormat[number] === 'json' && options.fields.length)
+        throw bad('options.fields is for "vtu": "json" has the arrays of cells alone.');
+      return bindings.writeCells(cutMeshHandle, cellsHandle, number, options);
+    },
+  },
+  /**
+   * Their faces as polygons of a "vtu", with the tag, the triangle and the cells of each, its group if there are groups, and
+   * `options.fields`. Errors as in writeCells().
+   *
+   * writeFaces(cutMesh: CutMeshArrays, cells: CellComplex, options?: WriteCellsOptions): Uint8Array<ArrayBuffer>
+   */
+  writeFaces: { takes: { cutMesh, cells }, options: { ...written, fields: readFieldsToWrite } },
+  /**
+   * The cells as a polyMesh of OpenFOAM: the files of the folder constant/polyMesh by their names. Patches are xMin ... zMax, `surface` (a
+   * wall), which has both sides of the input's triangles, or with groups a wall for each of them, and `inner` where only one of two
+   * neighbours is written. Errors as in writeCells().
+   *
+   * writePolyMesh(cutMesh: CutMeshArrays, cells: CellComplex, options?: WritePolyMeshOptions): PolyMeshFiles
+   */
+  writePolyMesh: { takes: { cutMesh, cells }, options: written },
 };

@@ -16,7 +16,7 @@
  * The module keeps a twin of what cellComplex(), subComplex() and regionComplex() give, and of cut-meshes that cut() gave, as is told at
  * CutMesh: calls that are given that same object neither copy nor check its arrays, and take no notice of what was written into them.
  */
-import type { CutMesh, Mesh, RunOptions, WasmSource } from '../index.js';
+import type { CutMesh, Mesh, RunOptions, WasmSource, WriteOptions } from '../index.js';
 import type { Boundary, CellComplex, FaceTag, Flow } from './results.js';
 import type { Calls } from './signatures.js';
 
@@ -162,6 +162,24 @@ export interface StreamlineOptions extends RunOptions {
 
 /** Where a streamline ends, by its `ends`: streamlineEnds[lines.ends[l]]. */
 export const streamlineEnds: readonly ['side', 'surface', 'rest', 'maxLength', 'maxPoints', 'outside'];
+
+/** Which cells are written to a polyMesh or a "vtu", and the groups of the triangles. */
+export type WritePolyMeshOptions = WriteOptions;
+export interface WriteCellsOptions extends WritePolyMeshOptions {
+  /** Per name 1 or 3 numbers for each cell, or for each face. Names have neither control characters nor < > & ". */
+  fields?: { readonly [name: string]: ArrayLike<number> };
+}
+
+/** The files of a polyMesh by their names. */
+export interface PolyMeshFiles {
+  points: Uint8Array<ArrayBuffer>;
+  faces: Uint8Array<ArrayBuffer>;
+  owner: Uint8Array<ArrayBuffer>;
+  neighbour: Uint8Array<ArrayBuffer>;
+  boundary: Uint8Array<ArrayBuffer>;
+  /** If there are cells of several regions. */
+  cellZones?: Uint8Array<ArrayBuffer>;
+}
 
 /** What `initPhysics()` gives. No call changes its arguments. Errors are MandolineErrors, except what a progress callback throws. */
 export interface Physics extends Calls {

@@ -16,11 +16,14 @@ import type {
   OperatorOptions,
   PoissonProblem,
   PoissonSystem,
+  PolyMeshFiles,
   Solution,
   SolveOptions,
   StreamlineOptions,
   Streamlines,
   SubComplex,
+  WriteCellsOptions,
+  WritePolyMeshOptions,
 } from './index.js';
 import type { CallOptions } from '../worker.js';
 
@@ -93,6 +96,22 @@ export interface Calls {
    * Code "badArgument" if the wind is not finite, "badGrid" if the grid has no cells.
    */
   inflowSeeds(grid: Grid | GridBox | GridRegular | GridRectilinear, wind: Vector3, count: number): Float64Array<ArrayBuffer>;
+  /**
+   * The cells as a file. "vtu": polyhedra for VTK and ParaView, which match face by face, with `options.fields` beside arrays of their own;
+   * "json": every array, always of all cells, and no fields. Code "badArgument" if `cells` are not those of the cut-mesh.
+   */
+  writeCells(cutMesh: CutMeshArrays, cells: CellComplex, format: 'json' | 'vtu', options?: WriteCellsOptions): Uint8Array<ArrayBuffer>;
+  /**
+   * Their faces as polygons of a "vtu", with the tag, the triangle and the cells of each, its group if there are groups, and
+   * `options.fields`. Errors as in writeCells().
+   */
+  writeFaces(cutMesh: CutMeshArrays, cells: CellComplex, options?: WriteCellsOptions): Uint8Array<ArrayBuffer>;
+  /**
+   * The cells as a polyMesh of OpenFOAM: the files of the folder constant/polyMesh by their names. Patches are xMin ... zMax, `surface` (a
+   * wall), which has both sides of the input's triangles, or with groups a wall for each of them, and `inner` where only one of two
+   * neighbours is written. Errors as in writeCells().
+   */
+  writePolyMesh(cutMesh: CutMeshArrays, cells: CellComplex, options?: WritePolyMeshOptions): PolyMeshFiles;
 }
 
 /** The same in a worker. */
@@ -120,4 +139,12 @@ export interface WorkerCalls {
     count: number,
     options?: CallOptions,
   ): Promise<Float64Array<ArrayBuffer>>;
+  writeCells(
+    cutMesh: CutMeshArrays,
+    cells: CellComplex,
+    format: 'json' | 'vtu',
+    options?: WriteCellsOptions & CallOptions,
+  ): Promise<Uint8Array<ArrayBuffer>>;
+  writeFaces(cutMesh: CutMeshArrays, cells: CellComplex, options?: WriteCellsOptions & CallOptions): Promise<Uint8Array<ArrayBuffer>>;
+  writePolyMesh(cutMesh: CutMeshArrays, cells: CellComplex, options?: WritePolyMeshOptions & CallOptions): Promise<PolyMeshFiles>;
 }
