@@ -326,7 +326,7 @@ TEST_CASE("OFF in all its forms", "[io]") {
 }
 
 TEST_CASE("OBJ and STL alone: nothing of PLY and OFF files, and the errors of all", "[io]") {
-  const auto read = [](std::string_view text, const std::string& name) { return readObjOrStl(text, name); };
+  const auto read = [](std::string_view text, const std::string& name) { return mandoline::readObjOrStl(text, name); };
   requireSquare(read(kObj, "a.obj").value());
   CHECK(read("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n", "a.stl"));
   CHECK(!read(kAsciiPly, "a.ply"));
