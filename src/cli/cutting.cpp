@@ -116,7 +116,7 @@ WriteOptions writeOptions(const Arguments& arguments, const CutResult& cut) {
   std::optional<InsideRegions> inside;
   if (only.inside || only.outside || isInsideDefault) inside = insideOf(cutMesh, arguments.insideThreshold.value_or(kThreshold));
   const bool any = inside && std::count(inside->isInside.begin(), inside->isInside.end(), 1) > 0;
-  const std::string how = inside ? describeInside(inside, cut.stats.components) : "";
+  const std::string how = inside ? describeInside(inside, cut.stats.parts) : "";
   if (only.inside && !any) throw UsageError("--only inside: nothing is inside" + (how.empty() ? how : " (" + how + ")"));
   if (!how.empty()) std::cerr << "Note: " << how << "\n";
   if (isInsideDefault) only.inside = any;

@@ -33,7 +33,7 @@ void deliver(const Arguments& arguments, const std::function<std::string()>& tex
 /// Whether what is inside decides what is written.
 bool needsInside(const Arguments& arguments);
 
-/// With estimates if what is inside is needed and components are open. With progress.
+/// With estimates if what is inside is needed and parts are open. With progress.
 CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const Grid& grid);
 
 /// What there is to tell of it, but for the regions and the validation.

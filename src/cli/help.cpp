@@ -70,7 +70,7 @@ Options of cut
                          a note tells which), outside (the rest), region=K (of several, any).
                          With regions left out, a surface is the whole boundary of each region
                          written, oriented out of it
-  --inside-threshold T   estimate what is inside of open components, which divides regions at
+  --inside-threshold T   estimate what is inside of open parts, which divides regions at
                          their holes: from T on (default: 0.5) of a generalized winding number
   --coarsen LEVELS       merge untouched grid cells into octree cells, up to 2^LEVELS of
                          them on a side, in .vtu files and polyMesh folders; .json files

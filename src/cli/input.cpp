@@ -30,7 +30,7 @@ void orient(Input& input, unsigned threads) {
     OrientedMesh oriented = withProgress(threads, [&](const RunOptions& options) { return mandoline::orient(input.mesh, options); });
     input.mesh = std::move(oriented.mesh);
     input.orientation = Orientation{oriented.turnedTriangles.size(), {}};
-    for (const Facing facing : oriented.partFacing) ++input.orientation->parts[size_t(facing)];
+    for (const Facing facing : oriented.patchFacing) ++input.orientation->patches[size_t(facing)];
   } catch (const CallError&) {
   }
 }

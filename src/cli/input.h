@@ -12,7 +12,7 @@ namespace mandoline::cli {
 /// What --orient has done.
 struct Orientation {
   size_t turnedTriangles = 0;
-  std::array<size_t, 4> parts{};  ///< that face so, by Facing
+  std::array<size_t, 4> patches{};  ///< that face so, by Facing
 };
 
 /// As it was read, but for --orient.

@@ -15,8 +15,8 @@ void addNumber(Json& json, const char* key, const Numbers& numbers, size_t regio
 
 std::string counted(uint64_t count, const std::string& noun) { return std::to_string(count) + " " + noun + (count == 1 ? "" : "s"); }
 
-std::string ofComponents(uint32_t count, const ComponentCounts& counts) {
-  return std::to_string(count) + " of " + counted(counts.winding + counts.parity + counts.open, "component");
+std::string ofParts(uint32_t count, const PartCounts& counts) {
+  return std::to_string(count) + " of " + counted(counts.winding + counts.parity + counts.open, "part");
 }
 
 }  // namespace
@@ -26,13 +26,13 @@ std::optional<InsideRegions> insideOf(const CutMesh& cutMesh, double threshold) 
   return insideRegions(cutMesh, {WindingRule::nonZero, threshold});
 }
 
-std::string describeInside(const std::optional<InsideRegions>& inside, const ComponentCounts& counts) {
+std::string describeInside(const std::optional<InsideRegions>& inside, const PartCounts& counts) {
   std::string text;
   const auto say = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
-  if (counts.parity > 0) say(ofComponents(counts.parity, counts) + " not consistently oriented: inside by parity");
+  if (counts.parity > 0) say(ofParts(counts.parity, counts) + " not consistently oriented: inside by parity");
   if (counts.open > 0) {
     const bool isEstimated = inside && inside->by == InsideBy::estimate;
-    say(ofComponents(counts.open, counts) + " open, with " + counted(counts.openEdges, "open edge") + " around " +
+    say(ofParts(counts.open, counts) + " open, with " + counted(counts.openEdges, "open edge") + " around " +
         counted(counts.holes, "hole") + (isEstimated ? ": inside by an estimate" : ": left out"));
   }
   return text;
@@ -41,8 +41,8 @@ std::string describeInside(const std::optional<InsideRegions>& inside, const Com
 void addInside(Json& json, const Report& report) {
   const CutResult& result = report.result;
   const CutMesh& m = result.mesh;
-  const ComponentCounts& counts = result.stats.components;
-  json.key("closedness").open('{').member("winding", counts.winding).member("parity", counts.parity).member("open", counts.open);
+  const PartCounts& counts = result.stats.parts;
+  json.key("parts").open('{').member("winding", counts.winding).member("parity", counts.parity).member("open", counts.open);
   json.member("openEdges", counts.openEdges).member("holes", counts.holes).close('}');
   const std::optional<InsideRegions> inside = result ? insideOf(m, report.insideThreshold) : std::nullopt;
   json.key("inside");

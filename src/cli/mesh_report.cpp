@@ -35,7 +35,7 @@ void addOrientation(Json& json, const std::optional<Orientation>& orientation) {
     return;
   }
   json.open('{').member("turnedTriangles", orientation->turnedTriangles);
-  for (size_t f = 0; f < orientation->parts.size(); ++f) json.member(name(Facing(f)), orientation->parts[f]);
+  for (size_t f = 0; f < orientation->patches.size(); ++f) json.member(name(Facing(f)), orientation->patches[f]);
   json.close('}');
 }
 
@@ -156,8 +156,8 @@ std::string describePairs(const PairCounts& pairs) {
 
 std::string describe(const Orientation& orientation) {
   std::string text = counted(orientation.turnedTriangles, "triangle", "triangles") + " turned";
-  const size_t nonOrientable = orientation.parts[size_t(Facing::nonOrientable)];
-  if (nonOrientable > 0) text += "; " + counted(nonOrientable, "part", "parts") + " can't be oriented";
+  const size_t nonOrientable = orientation.patches[size_t(Facing::nonOrientable)];
+  if (nonOrientable > 0) text += "; " + counted(nonOrientable, "patch", "patches") + " can't be oriented";
   return text;
 }
 

@@ -112,7 +112,7 @@ class TextReport {
 
   void addRegions() {
     const std::optional<InsideRegions> inside = insideOf(mesh_, report_.insideThreshold);
-    const std::string how = describeInside(inside, report_.result.stats.components);
+    const std::string how = describeInside(inside, report_.result.stats.parts);
     out_ << "\nRegions" << (how.empty() ? "" : " (" + how + ")") << "\n  " << std::setw(8) << "id" << std::setw(10) << "winding"
          << std::setw(10) << "inside" << std::setw(16) << "volume"
          << "\n";

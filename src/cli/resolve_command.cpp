@@ -63,7 +63,7 @@ int runResolve(const Arguments& arguments) {
   const MeshReport meshReport{input, inspect(input.mesh), {}};
   ResolveReport report{meshReport, result};
   if (!result) return fail(arguments, report, result.error);
-  const std::string how = arguments.rule ? describeInside(std::nullopt, result.stats.components) : "";
+  const std::string how = arguments.rule ? describeInside(std::nullopt, result.stats.parts) : "";
   if (arguments.rule && !result.mesh.hasWinding && result.mesh.frontParity.empty()) {
     return fail(arguments, report, {"badArgument", "No part of the mesh is closed, so that it bounds no solid: " + how + "."});
   }

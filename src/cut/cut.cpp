@@ -59,7 +59,7 @@ void addCounts(const Prepared& prepared, CutStats& stats) {
   stats.zeroAreaTriangles = prepared.counts.zeroAreaTriangles;
   stats.duplicateTriangles = uint32_t(prepared.duplicates.size());
   stats.flushedCoordinates += prepared.counts.flushedCoordinates;
-  stats.components = prepared.components.counts;
+  stats.parts = prepared.parts.counts;
   stats.exactFallbacks += prepared.counts.exactFallbacks;
   if (!prepared.arrangement) return;
   stats.intersections = prepared.arrangement->pairs;

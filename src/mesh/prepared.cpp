@@ -122,7 +122,7 @@ std::unique_ptr<const Prepared> prepareMesh(const MeshView& mesh, const Preparat
       findArrangement(*prepared, monitor, predicates);
     }
   }
-  if (!prepared->closed) prepared->components = findComponents(*prepared);
+  if (!prepared->closed) prepared->parts = findParts(*prepared);
   counts.exactFallbacks = predicates.fallbacks;
   return prepared;
 }

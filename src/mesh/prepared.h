@@ -11,8 +11,8 @@
 
 #include "mandoline/intersections.h"
 #include "mandoline/mesh.h"
-#include "mesh/components.h"
 #include "mesh/failure.h"
+#include "mesh/parts.h"
 
 namespace mandoline::detail {
 
@@ -28,7 +28,7 @@ struct Prepared : WeldedMesh {
   MeshEdges edges;
   /// Where triangles meet, or null if they are assumed or required not to.
   std::unique_ptr<const Arrangement> arrangement;
-  Components components;
+  Parts parts;
   MeshCounts counts;
 
   Prepared() = default;

@@ -366,8 +366,8 @@ TEST_CASE("Command line: only some cells are written", "[cli]") {
   const std::string sheet = folder.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const Outcome open = run(folder, {"cut", sheet, "--only", "inside", "-o", vtu});
   REQUIRE(open.exitCode == 2);
-  REQUIRE(contains(open.err,
-                   "--only inside: nothing is inside (1 of 1 component open, with 3 open edges around 1 hole: inside by an estimate)"));
+  REQUIRE(
+      contains(open.err, "--only inside: nothing is inside (1 of 1 part open, with 3 open edges around 1 hole: inside by an estimate)"));
   const std::vector<std::string> nothing[] = {{"cut", mesh, "--only", "inside,region=0", "-o", vtu},
                                               {"cut", mesh, "--only", "cut", "--box", "7,7,7,8,8,8", "-o", vtu},
                                               {"slice", mesh, "--heights", "2", "--only", "outside,region=1", "-o", folder.path("a.svg")}};
@@ -495,12 +495,11 @@ TEST_CASE("Command line: what is inside of a mesh that is not closed, and by wha
     words.insert(words.end(), grid.begin(), grid.end());
     return run(folder, words);
   };
-  const std::string note =
-      "1 of 3 components not consistently oriented: inside by parity; 1 of 3 components open, with 3 open edges around 1 hole: ";
+  const std::string note = "1 of 3 parts not consistently oriented: inside by parity; 1 of 3 parts open, with 3 open edges around 1 hole: ";
   const Outcome plain = inGrid({"cut", mesh, "--report", report});
   REQUIRE(plain.exitCode == 0);
   const std::string exact = inOneLine(folder.read("report.json"));
-  for (const char* part : {"\"closedness\": {\"winding\": 1, \"parity\": 1, \"open\": 1, \"openEdges\": 3, \"holes\": 1}",
+  for (const char* part : {"\"parts\": {\"winding\": 1, \"parity\": 1, \"open\": 1, \"openEdges\": 3, \"holes\": 1}",
                            "\"inside\": {\"by\": \"parity\", \"complete\": false}",
                            "\"partWinding\": 1, \"parity\": 1, \"insideness\": null, \"inside\": true",
                            "\"partWinding\": 0, \"parity\": 1, \"insideness\": null, \"inside\": true"}) {

@@ -80,7 +80,7 @@ TEST_CASE("real meshes: parity is that of rays in rational arithmetic", "[parity
     INFO(row.file);
     const CutResult cut = mandoline::cut(mesh, Grid::around(mesh, 13));
     REQUIRE(cut);
-    CHECK(cut.stats.components.open == 0);
+    CHECK(cut.stats.parts.open == 0);
     CHECK((cut.mesh.hasWinding || cut.mesh.regionParity.size() == cut.mesh.regionCount));
     const InsideRegions inside = insideRegions(cut.mesh, {WindingRule::odd});
     CHECK(inside.isComplete);

@@ -1,4 +1,4 @@
-// orient(): triangles agree, closed parts face outward, cavities inward.
+// orient(): triangles agree, closed patches face outward, cavities inward.
 #include "mandoline/orient.h"
 
 #include <algorithm>
@@ -78,7 +78,7 @@ TEST_CASE("Closed meshes with random triangles turned come back as they were", "
       REQUIRE(directed(oriented.mesh) == directed(mesh));
       REQUIRE(oriented.mesh.positions == mesh.positions);
       REQUIRE(oriented.turnedTriangles == turned);
-      REQUIRE(oriented.partFacing == Facings{Facing::outward});
+      REQUIRE(oriented.patchFacing == Facings{Facing::outward});
     }
     CHECK(windingsOf(orientationOf(shapes::flipped(mesh)).mesh) == Windings{0, 1});
   }
@@ -87,53 +87,53 @@ TEST_CASE("Closed meshes with random triangles turned come back as they were", "
 TEST_CASE("Boxes inside each other bound solid, cavity, solid", "[orient]") {
   const Mesh mesh = shapes::merged({shapes::cube(2, 6), shapes::cube(0, 8), shapes::cube(3, 5), shapes::cube(10, 12)});
   const OrientedMesh oriented = orientationOf(withRandomTurns(mesh, 5));
-  CHECK(oriented.partFacing == Facings{Facing::inward, Facing::outward, Facing::outward, Facing::outward});
+  CHECK(oriented.patchFacing == Facings{Facing::inward, Facing::outward, Facing::outward, Facing::outward});
   CHECK(windingsOf(oriented.mesh) == Windings{0, 0, 1, 1, 1});
-  CHECK(oriented.trianglePart[11] == 0);
-  CHECK(oriented.trianglePart[12] == 1);
+  CHECK(oriented.trianglePatch[11] == 0);
+  CHECK(oriented.trianglePatch[12] == 1);
 }
 
-TEST_CASE("A part inside another may touch it", "[orient]") {
+TEST_CASE("A patch inside another may touch it", "[orient]") {
   const Mesh cube = shapes::cube(0, 2);
   SECTION("from inside, with vertices in its sides") {
     const OrientedMesh oriented = orientationOf(shapes::merged({shapes::octahedron({1, 1, 1}, 1), cube}));
-    CHECK(oriented.partFacing == Facings{Facing::inward, Facing::outward});
+    CHECK(oriented.patchFacing == Facings{Facing::inward, Facing::outward});
   }
   SECTION("from outside, side on side") {
     const OrientedMesh oriented = orientationOf(shapes::merged({shapes::box({0.5, 0.5, 2}, {1.5, 1.5, 3}), cube}));
-    CHECK(oriented.partFacing == Facings{Facing::outward, Facing::outward});
+    CHECK(oriented.patchFacing == Facings{Facing::outward, Facing::outward});
   }
   SECTION("from inside, side on side") {
     const OrientedMesh oriented = orientationOf(shapes::merged({shapes::box({0.5, 0.5, 1}, {1.5, 1.5, 2}), cube}));
-    CHECK(oriented.partFacing == Facings{Facing::inward, Facing::outward});
+    CHECK(oriented.patchFacing == Facings{Facing::inward, Facing::outward});
   }
   SECTION("being the same, in other triangles") {
     Mesh other = shapes::withSplitTriangle(cube, 0);
     for (double& x : other.positions) x += 0;
-    CHECK(orientationOf(shapes::merged({shapes::translated(other, {0, 0, 0}), shapes::cube(4, 5)})).partFacing ==
+    CHECK(orientationOf(shapes::merged({shapes::translated(other, {0, 0, 0}), shapes::cube(4, 5)})).patchFacing ==
           Facings{Facing::outward, Facing::outward});
   }
   SECTION("along an edge of four triangles") {
     const OrientedMesh oriented = orientationOf(withRandomTurns(shapes::merged({cube, shapes::box({2, 2, 0}, {4, 4, 2})}), 3));
-    CHECK(oriented.partFacing == Facings{Facing::outward, Facing::outward});
+    CHECK(oriented.patchFacing == Facings{Facing::outward, Facing::outward});
   }
 }
 
 TEST_CASE("Parts that cross do not lie inside each other, even where all vertices of one do", "[orient]") {
   const Mesh crossing = shapes::merged({shapes::cube(0, 2), shapes::cube(1, 3)});
-  CHECK(orientationOf(crossing).partFacing == Facings{Facing::outward, Facing::outward});
+  CHECK(orientationOf(crossing).patchFacing == Facings{Facing::outward, Facing::outward});
   CHECK(windingsOf(orientationOf(shapes::flipped(crossing)).mesh) == Windings{0, 1, 1, 2});
   const Mesh horseshoe = shapes::prism({{0, 0}, {6, 0}, {6, 6}, {4, 6}, {4, 2}, {2, 2}, {2, 6}, {0, 6}}, 0, 3);
   const Mesh bridge = shapes::box({1, 4, 1}, {5, 5, 2});  // from arm to arm
-  CHECK(orientationOf(shapes::merged({horseshoe, bridge})).partFacing == Facings{Facing::outward, Facing::outward});
+  CHECK(orientationOf(shapes::merged({horseshoe, bridge})).patchFacing == Facings{Facing::outward, Facing::outward});
 }
 
-TEST_CASE("Parts that only together close their edges face away from what they enclose", "[orient]") {
+TEST_CASE("Patches that only together close their edges face away from what they enclose", "[orient]") {
   const Mesh spheres = shapes::merged({shapes::icosphere({0, 0, 0}, 1, 2), shapes::icosphere({1, 0.1, 0.2}, 1, 2)});
   const ResolveResult resolved = resolve(spheres);
   REQUIRE(resolved);
   const OrientedMesh oriented = orientationOf(withRandomTurns(resolved.mesh.mesh, 7));
-  CHECK(oriented.partFacing == Facings(4, Facing::outward));
+  CHECK(oriented.patchFacing == Facings(4, Facing::outward));
   CHECK(inspect(oriented.mesh).oriented);
   CHECK(windingsOf(oriented.mesh) == Windings{0, 0, 1, 1});  // what both spheres hold is outside, as by the odd rule
 }
@@ -142,14 +142,14 @@ TEST_CASE("A Moebius strip can't be oriented: it is left as it is, and what is b
   const Mesh strip = shapes::moebius({0, 0, 0}, 3, 1, 20);
   const Mesh mesh = withRandomTurns(shapes::merged({strip, shapes::cube(10, 11)}), 2);
   const OrientedMesh oriented = orientationOf(mesh);
-  CHECK(oriented.partFacing == Facings{Facing::nonOrientable, Facing::outward});
+  CHECK(oriented.patchFacing == Facings{Facing::nonOrientable, Facing::outward});
   CHECK(std::equal(mesh.triangles.begin(), mesh.triangles.begin() + ptrdiff_t(strip.triangles.size()), oriented.mesh.triangles.begin()));
   CHECK(shapes::signedVolume(Mesh{oriented.mesh.positions,
                                   {oriented.mesh.triangles.begin() + ptrdiff_t(strip.triangles.size()), oriented.mesh.triangles.end()}}) ==
         1);
 }
 
-TEST_CASE("Open parts face outward where every way to close them tells the same, else most triangles stay", "[orient]") {
+TEST_CASE("Open patches face outward where every way to close them tells the same, else most triangles stay", "[orient]") {
   Mesh hemisphere = shapes::icosphere({0, 0, 0}, 1, 3);
   std::vector<uint32_t> upper;
   for (size_t t = 0; t < hemisphere.triangleCount(); ++t) {
@@ -159,7 +159,7 @@ TEST_CASE("Open parts face outward where every way to close them tells the same,
   }
   hemisphere.triangles = upper;
   const OrientedMesh dome = orientationOf(shapes::flipped(hemisphere));
-  CHECK(dome.partFacing == Facings{Facing::outward});
+  CHECK(dome.patchFacing == Facings{Facing::outward});
   CHECK(dome.turnedTriangles.size() == hemisphere.triangleCount());
   CHECK(directed(dome.mesh) == directed(hemisphere));
 
@@ -169,7 +169,7 @@ TEST_CASE("Open parts face outward where every way to close them tells the same,
     std::swap(mesh.triangles[4], mesh.triangles[5]);
     if (sheet.triangleCount() == 2) std::swap(mesh.triangles[4], mesh.triangles[5]);
     const OrientedMesh oriented = orientationOf(mesh);
-    CHECK(oriented.partFacing == Facings{Facing::unknown});
+    CHECK(oriented.patchFacing == Facings{Facing::unknown});
     CHECK(directed(oriented.mesh) == directed(sheet));
     CHECK(oriented.turnedTriangles == (sheet.triangleCount() == 2 ? std::vector<uint32_t>{} : std::vector<uint32_t>{1}));
   }
@@ -180,18 +180,18 @@ TEST_CASE("A closed mesh without volume has no outside: most triangles stay", "[
   Mesh plane = shapes::tetrahedron({0, 0, 0}, {3, 1, 7}, {1, 3, 2}, {4, 4, 9});
   std::swap(plane.triangles[1], plane.triangles[2]);
   const OrientedMesh oriented = orientationOf(plane);
-  CHECK(oriented.partFacing == Facings{Facing::unknown});
+  CHECK(oriented.patchFacing == Facings{Facing::unknown});
   CHECK(oriented.turnedTriangles == std::vector<uint32_t>{0});
-  CHECK(orientationOf(flat).partFacing == Facings{Facing::outward});
+  CHECK(orientationOf(flat).patchFacing == Facings{Facing::outward});
 }
 
 TEST_CASE("Triangles without three vertices or without area are no trouble, and meshes that can't be cut are refused", "[orient]") {
   Mesh mesh = shapes::cube(0, 1);
   mesh.triangles.insert(mesh.triangles.begin(), {0, 0, 1});
   const OrientedMesh oriented = orientationOf(mesh);
-  CHECK(oriented.trianglePart[0] == -1);
+  CHECK(oriented.trianglePatch[0] == -1);
   CHECK(oriented.turnedTriangles.empty());
-  CHECK(orientationOf(Mesh{{0, 0, 0, 1, 0, 0, 2, 0, 0}, {0, 1, 2}}).partFacing == Facings{Facing::unknown});
+  CHECK(orientationOf(Mesh{{0, 0, 0, 1, 0, 0, 2, 0, 0}, {0, 1, 2}}).patchFacing == Facings{Facing::unknown});
   using Refusal = std::pair<Status, int64_t>;
   const auto refused = [](const Mesh& bad) { return refusal([&] { orient(bad); }); };
   CHECK(refused({{0, 0, 0}, {0, 0, 1}}) == Refusal{Status::badIndex, 0});
@@ -203,8 +203,10 @@ TEST_CASE("Triangles without three vertices or without area are no trouble, and 
   CHECK(refusal([&] { orient(mesh, cancelled); }).first == Status::cancelled);
 }
 
-TEST_CASE("Closed meshes of the collection are oriented whatever was turned, and those that don't meet themselves wind once at most",
-          "[orient]") {
+TEST_CASE(
+    "Closed meshes of the collection are oriented, no matter which triangles were turned, and those that don't meet themselves wind once "
+    "at most",
+    "[orient]") {
   const auto folder = meshFolder();
   if (!folder) return;
   size_t closed = 0, repaired = 0, simple = 0;
@@ -215,17 +217,17 @@ TEST_CASE("Closed meshes of the collection are oriented whatever was turned, and
     if (!info.closed || info.triangles > 100000) continue;
     CAPTURE(entry.path().filename().string());
     const OrientedMesh oriented = orientationOf(mesh), again = orientationOf(withRandomTurns(mesh, 11));
-    if (std::count(oriented.partFacing.begin(), oriented.partFacing.end(), Facing::nonOrientable) > 0) continue;
+    if (std::count(oriented.patchFacing.begin(), oriented.patchFacing.end(), Facing::nonOrientable) > 0) continue;
     ++closed;
     repaired += !info.oriented;
     CHECK(inspect(oriented.mesh).oriented);
     CHECK(orientationOf(oriented.mesh).turnedTriangles.empty());
-    CHECK(oriented.partFacing == again.partFacing);
+    CHECK(oriented.patchFacing == again.patchFacing);
     const auto a = directed(oriented.mesh), b = directed(again.mesh);
     size_t different = 0;
     for (size_t t = 0; t < a.size(); ++t) {
-      const int32_t part = oriented.trianglePart[t];
-      different += part >= 0 && oriented.partFacing[size_t(part)] != Facing::unknown && a[t] != b[t];
+      const int32_t patch = oriented.trianglePatch[t];
+      different += patch >= 0 && oriented.patchFacing[size_t(patch)] != Facing::unknown && a[t] != b[t];
     }
     CHECK(different == 0);
     const CutMesh cutMesh = cutOf(oriented.mesh, 5);

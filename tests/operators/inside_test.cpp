@@ -217,7 +217,7 @@ TEST_CASE("a sphere with many holes is nearly that sphere, whichever way it is t
   const Grid grid = Grid::box({0, 0, 0}, {4, 4, 4}, {16, 15, 14});
   const double sphere = shapes::signedVolume(shapes::icosphere({2, 2, 2}, 1.6, 3));
   const CheckedCut cut = checkedCut(mesh, grid);
-  CHECK(cut.stats.components.open > 0);
+  CHECK(cut.stats.parts.open > 0);
   CHECK(checkedEstimate(mesh, cut.mesh, estimateInside(mesh, cut.mesh)) == Approx(sphere).epsilon(0.02));
   const Mesh turned = shapes::flipped(mesh);
   const CutMesh ofTurned = estimateInside(turned, checkedCut(turned, grid).mesh);
@@ -231,7 +231,7 @@ TEST_CASE("a sphere with many holes is nearly that sphere, whichever way it is t
   CHECK(nonZero == Approx(sphere).epsilon(0.02));
 }
 
-TEST_CASE("closed components stay exact beside open ones", "[inside]") {
+TEST_CASE("closed parts stay exact beside open ones", "[inside]") {
   using namespace shapes;
   const Mesh house = cube(0.5, 1.5), open = withoutEvery(icosphere({3, 3, 3}, 0.8, 2), 11);
   Mesh turned = box({0.5, 2.5, 0.5}, {1.5, 3.5, 1.5});
@@ -321,7 +321,7 @@ TEST_CASE("labels that spread from some cells are those that all have", "[inside
   }
 }
 
-TEST_CASE("wrong calls of estimateInside are refused, and without open components it changes nothing", "[inside]") {
+TEST_CASE("wrong calls of estimateInside are refused, and without open parts it changes nothing", "[inside]") {
   const Mesh cube = shapes::cube(0.5, 2.5), open = withoutEvery(cube, 12);
   const CutMesh closed = checkedCut(cube, unitGrid(3)).mesh, cutOpen = checkedCut(open, unitGrid(3)).mesh;
   CHECK(differences(estimateInside(cube, closed), closed).empty());
@@ -361,7 +361,7 @@ TEST_CASE("real open scans: closed boundaries and outlines", "[scans]") {
     const Mesh mesh = readMesh(entry.path().string());
     if (mesh.triangleCount() > 30000 || mesh.triangleCount() < 1000) continue;
     const CutResult cut = mandoline::cut(mesh, Grid::around(mesh, 20));
-    if (!cut || cut.stats.components.open == 0 || cut.stats.components.winding > 0) continue;
+    if (!cut || cut.stats.parts.open == 0 || cut.stats.parts.winding > 0) continue;
     ++scans;
     INFO(entry.path().filename().string());
     checkedEstimate(mesh, cut.mesh, estimateInside(mesh, cut.mesh));

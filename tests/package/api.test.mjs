@@ -444,10 +444,10 @@ test('a turned triangle is found by its edges, and turned back', () => {
   assert.deepEqual([...info.defectKind], [2, 2, 2]);
   assert.deepEqual([...info.defectPlace, ...info.placeComponent], [0, 0, 0, 0]);
   assert.equal(mandoline.cut(turned, { cells: 3 }).regionWinding, null);
-  const { mesh, turnedTriangles, trianglePart, partFacing } = mandoline.orient(turned);
+  const { mesh, turnedTriangles, trianglePatch, patchFacing } = mandoline.orient(turned);
   assert.deepEqual([...turnedTriangles], [0]);
-  assert.deepEqual([...partFacing], [0, 0]);
-  assert.deepEqual([trianglePart[0], trianglePart.at(-1)], [0, 1]);
+  assert.deepEqual([...patchFacing], [0, 0]);
+  assert.deepEqual([trianglePatch[0], trianglePatch.at(-1)], [0, 1]);
   assert.deepEqual([...mesh.triangles], [...twoBoxes.triangles]);
   assert.ok(mandoline.inspect(mesh).oriented);
   assert.throws(() => mandoline.orient({ positions: [], triangles: [] }), { code: 'emptyMesh' });

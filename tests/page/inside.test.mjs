@@ -43,7 +43,7 @@ test('an open mesh has an inside by an estimate, and its outside is hidden', asy
   assert.match(await textOf(page, '#legend'), / inside by an estimate$/);
   assert.match(await textOf(page, '#counts'), / inside by an estimate time /);
   await page.getByText('Stages and details').click();
-  assert.match(await textOf(page, '#left-out'), /1 of 1 component open, with \d+ open edges around 1 hole: inside by an estimate/);
+  assert.match(await textOf(page, '#left-out'), /1 of 1 part open, with \d+ open edges around 1 hole: inside by an estimate/);
   assert.match(await textOf(page, '#stage-times'), / Estimate of inside /);
   await page.locator('#color-by').selectOption('winding');
   await eventually(async () => assert.deepEqual(await entries(page), ['winding number 0, estimated', 'winding number 1, estimated']));
@@ -64,7 +64,7 @@ test('a mesh with a turned triangle has an inside by parity', async (t) => {
   assert.match(await textOf(page, '#legend'), / inside by parity$/);
   assert.match(await textOf(page, '#counts'), / inside by parity time /);
   await page.getByText('Stages and details').click();
-  assert.match(await textOf(page, '#left-out'), /1 of 1 component not consistently oriented: inside by parity/);
+  assert.match(await textOf(page, '#left-out'), /1 of 1 part not consistently oriented: inside by parity/);
   await page.locator('#color-by').selectOption('winding');
   await eventually(async () => assert.deepEqual(await entries(page), ['outside by parity', 'inside by parity']));
   await page.locator('#pin-number').fill(String(outer[0]));

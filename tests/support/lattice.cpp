@@ -292,7 +292,7 @@ static std::string brokenInside(const Mesh& mesh, const CutMesh& cutMesh) {
   const CutMesh estimated = estimateInside(mesh, cutMesh);
   const Validation validation = validate(mesh, estimated);
   if (!validation.pass) return "with estimates, validation fails:" + failures(validation);
-  if (!insideRegions(estimated).isComplete) return "estimates leave components out";
+  if (!insideRegions(estimated).isComplete) return "estimates leave parts out";
   if (!isClosed(boundary(estimated))) return "the boundary of what is inside is open";
   return "";
 }
@@ -304,7 +304,7 @@ static std::string brokenOrientation(const Mesh& mesh) {
   if (before.openEdges != after.openEdges || before.nonManifoldEdges != after.nonManifoldEdges)
     return "an oriented mesh has other open or non-manifold edges";
   const auto orientable = [](Facing facing) { return facing != Facing::nonOrientable; };
-  if (std::all_of(oriented.partFacing.begin(), oriented.partFacing.end(), orientable) && after.inconsistentEdges > 0)
+  if (std::all_of(oriented.patchFacing.begin(), oriented.patchFacing.end(), orientable) && after.inconsistentEdges > 0)
     return "an oriented mesh has inconsistent edges";
   return "";
 }

@@ -274,7 +274,7 @@ const parentArrays = ['faceParentOffsets', 'faceParents', 'faceParentSigns'];
 const madeArrays = ['madeVertices', 'madeVertexKinds', 'madeVertexParents'];
 const partArrays = ['regionPartWinding', 'regionParity', 'regionInsideness', 'parityTriangles', 'openTriangles'];
 
-/** Cut-meshes from before components had winding numbers of their own know nothing of these. */
+/** Cut-meshes from before parts of the mesh had winding numbers of their own know nothing of these. */
 function withParts(cutMesh) {
   if (partArrays.some((name) => cutMesh[name] !== undefined)) return cutMesh;
   const nothing = { regionPartWinding: null, regionParity: null, regionInsideness: null };

@@ -5,7 +5,7 @@ export const StageTime = {
   ms: 'number',
 };
 
-export const ComponentCounts = {
+export const PartCounts = {
   winding: 'integer',
   parity: 'integer',
   open: 'integer',
@@ -27,7 +27,7 @@ export const CutStats = {
   snappedVertices: 'integer',
   largestSnap: 'number',
   flushedCoordinates: 'integer',
-  components: 'ComponentCounts',
+  parts: 'PartCounts',
 };
 
 export const CutMesh = {
@@ -157,8 +157,8 @@ export const TriangleGroups = {
 export const OrientedMesh = {
   mesh: 'MeshArrays',
   turnedTriangles: 'Uint32Array',
-  trianglePart: 'Int32Array',
-  partFacing: 'Uint8Array',
+  trianglePatch: 'Int32Array',
+  patchFacing: 'Uint8Array',
 };
 
 export const ResolvedMesh = {

@@ -14,17 +14,18 @@ export interface StageTime {
 }
 
 /**
- * The connected components of a mesh that is not closed and consistently oriented as a whole, after resolving; all 0 of one that is.
- * Triangles are connected by edges that they need each other at: two boxes that touch along an edge are two components.
+ * The parts of a mesh that is not closed and consistently oriented as a whole, after resolving; all 0 of one that is. Triangles are one
+ * part where they need each other to close an edge: two boxes that touch along an edge are two parts, though they are one component to
+ * inspect().
  */
-export interface ComponentCounts {
+export interface PartCounts {
   /** Closed and consistently oriented, so that they have winding numbers. */
   winding: number;
   /** Each edge has an even number of their triangles, but they are not consistently oriented. */
   parity: number;
   /** The others. */
   open: number;
-  /** Edges with an odd number of triangles of an open component. */
+  /** Edges with an odd number of triangles of an open part. */
   openEdges: number;
   /** Connected sets of those. */
   holes: number;
@@ -63,7 +64,7 @@ export interface CutStats {
   /** Below 2^-200 of the largest, taken as 0. */
   flushedCoordinates: number;
   /** Of the input. */
-  components: ComponentCounts;
+  parts: PartCounts;
 }
 
 /**
@@ -157,19 +158,19 @@ export interface CutMeshArrays {
   regionWinding: Int32Array<ArrayBuffer> | null;
 
   // What is known where the input has no winding numbers as a whole: see insideRegions(), which takes the best of it. Its connected
-  // components either have winding numbers, or parity alone (each edge has an even number of their triangles), or are open.
-  /** Per region: the sum over the components that have winding numbers; null if none has. */
+  // parts either have winding numbers, or parity alone (each edge has an even number of their triangles), or are open.
+  /** Per region: the sum over the parts that have winding numbers; null if none has. */
   regionPartWinding: Int32Array<ArrayBuffer> | null;
-  /** Per region: how many of the components that have winding numbers or parity a path from outside crosses, modulo 2; null if none has. */
+  /** Per region: how many of the parts that have winding numbers or parity a path from outside crosses, modulo 2; null if none has. */
   regionParity: Uint8Array<ArrayBuffer> | null;
   /**
-   * Per region: an estimate of its winding number: regionPartWinding, and the generalized winding number of the open components at a point
-   * of it; null unless made by estimateInside(), which divides regions at grid-faces, too.
+   * Per region: an estimate of its winding number: regionPartWinding, and the generalized winding number of the open parts at a point of
+   * it; null unless made by estimateInside(), which divides regions at grid-faces, too.
    */
   regionInsideness: Float64Array<ArrayBuffer> | null;
-  /** Ascending ids of triangles in components that have parity alone. */
+  /** Ascending ids of triangles in parts that have parity alone. */
   parityTriangles: Uint32Array<ArrayBuffer>;
-  /** Ascending ids of triangles in open components. */
+  /** Ascending ids of triangles in open parts. */
   openTriangles: Uint32Array<ArrayBuffer>;
 
   /** Of the input. */
@@ -182,9 +183,9 @@ export interface CutMeshArrays {
 export interface InsideRegions {
   /** Per region. */
   isInside: Uint8Array<ArrayBuffer>;
-  /** The least certain that any component of the input needs. */
+  /** The least certain that any part of the input needs. */
   by: InsideBy;
-  /** Whether all components count: without estimates, open ones are left out. */
+  /** Whether all parts count: without estimates, open ones are left out. */
   isComplete: boolean;
 }
 
@@ -211,7 +212,7 @@ export interface MeshInfo {
   nonManifoldEdges: number;
   /** With two that run the same way along it. */
   inconsistentEdges: number;
-  /** Joined through edges. */
+  /** Triangles that hang together through edges. */
   components: number;
   /** Exactly. */
   zeroAreaTriangles: number;
@@ -232,7 +233,7 @@ export interface MeshInfo {
    */
   nonFiniteVertices: number;
 
-  // The components, in the order of their first triangles.
+  // The components: triangles that hang together through edges. In the order of their first triangles.
   /** Per triangle; -1 without three different vertices. */
   triangleComponent: Int32Array<ArrayBuffer>;
   /** Per component: 1 if it is closed as above, else 0. */
@@ -387,16 +388,20 @@ export interface TriangleGroups {
   triangleGroup: Uint32Array<ArrayBuffer>;
 }
 
-/** Parts of the mesh are triangles that hang together through edges with two triangles. Vertices at one position count as one. */
+/**
+ *
+ *
+ * .
+ */
 export interface OrientedMesh {
   /** Vertices and triangles in the order of the input; (a, b, c) turned is (a, c, b). */
   mesh: MeshArrays;
   /** Ascending. */
   turnedTriangles: Uint32Array<ArrayBuffer>;
   /** Per triangle; -1 without three different vertices. In the order of their first triangles. */
-  trianglePart: Int32Array<ArrayBuffer>;
-  /** Per part: Facing as a number (0: outward, 1: inward, 2: unknown, 3: nonOrientable). */
-  partFacing: Uint8Array<ArrayBuffer>;
+  trianglePatch: Int32Array<ArrayBuffer>;
+  /** Per patch: Facing as a number (0: outward, 1: inward, 2: unknown, 3: nonOrientable). */
+  patchFacing: Uint8Array<ArrayBuffer>;
 }
 
 /** The arrangement of a mesh's triangles: two triangles meet in shared vertices and edges alone, up to the rounding of vertices. */
@@ -415,13 +420,13 @@ export interface ResolvedMeshArrays extends MeshArrays {
   /** The same behind it. Null unless the input has winding numbers: see CutMesh. */
   backWinding: Int32Array<ArrayBuffer> | null;
   // The same of what CutMesh::regionPartWinding and regionParity tell where the input as a whole has no winding numbers.
-  /** Per triangle, on the side of its normal; null if no component has winding numbers. */
+  /** Per triangle, on the side of its normal; null if no part has winding numbers. */
   frontPartWinding: Int32Array<ArrayBuffer> | null;
-  /** Per triangle, behind it; null if no component has winding numbers. */
+  /** Per triangle, behind it; null if no part has winding numbers. */
   backPartWinding: Int32Array<ArrayBuffer> | null;
-  /** Per triangle, on the side of its normal; null if no component has parity. */
+  /** Per triangle, on the side of its normal; null if no part has parity. */
   frontParity: Uint8Array<ArrayBuffer> | null;
-  /** Per triangle, behind it; null if no component has parity. */
+  /** Per triangle, behind it; null if no part has parity. */
   backParity: Uint8Array<ArrayBuffer> | null;
 }
 
@@ -575,9 +580,9 @@ export type MadeVertex =
 export type InsideBy =
   /** Winding numbers, exactly. */
   | 'winding'
-  /** The number of crossings modulo 2, exactly: for components that are not consistently oriented. */
+  /** The number of crossings modulo 2, exactly: for parts that are not consistently oriented. */
   | 'parity'
-  /** Generalized winding numbers: for open components. */
+  /** Generalized winding numbers: for open parts. */
   | 'estimate';
 
 /** Why an edge does not part the front of a mesh from its back. */
@@ -602,11 +607,14 @@ export type IntersectionKind =
   /** They have the same three vertices; CutStats.duplicateTriangles counts such triangles rather than pairs. */
   | 'identical';
 
-/** Where the normals of a part of a mesh point to, once it is oriented. */
+/**
+ * Where the normals of a patch point to, once it is oriented. A patch is triangles that hang together through edges with two triangles;
+ * vertices at one position count as one.
+ */
 export type Facing =
-  /** Out of what the part encloses. */
+  /** Out of what the patch encloses. */
   | 'outward'
-  /** Into it: a cavity, since the part lies inside an odd number of other closed parts. */
+  /** Into it: a cavity, since the patch lies inside an odd number of other closed ones. */
   | 'inward'
   /** Open, or it encloses nothing: its triangles agree, and at most half of them were turned. */
   | 'unknown'

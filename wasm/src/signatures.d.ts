@@ -57,23 +57,23 @@ export interface Calls {
   /**
    * The surface of the solid, oriented outwards: of what resolve() gave, or of a cut-mesh, in pieces cut by the grid. Every edge has an
    * even number of triangles: where the solid reaches the grid's sides, sides of its cut-cells and of the cells of coarsen() close the part
-   * inside. Inside is what insideRegions() says by a rule (default "positive"): open components are left out unless estimateInside() made
-   * the cut-mesh. Or it is these regions of a cut-mesh, one flag for each. Code "badArgument" for a mesh that has open components alone and
+   * inside. Inside is what insideRegions() says by a rule (default "positive"): open parts are left out unless estimateInside() made
+   * the cut-mesh. Or it is these regions of a cut-mesh, one flag for each. Code "badArgument" for a mesh that has open parts alone and
    * no estimates, since it bounds no solid, and for another number of flags than there are regions.
    */
   boundary(mesh: ResolvedMeshArrays | CutMeshArrays, inside?: WindingRule): MeshArrays;
   boundary(mesh: CutMeshArrays, inside: Uint8Array | readonly boolean[]): MeshArrays;
   /**
-   * Which regions are inside of the solid, by the best that there is: a region's winding number by the rule, or the sum over the components
-   * that have one, or its estimate; or it is inside of an odd number of components that have parity alone. Code "badArgument" if the
-   * cut-mesh has open components alone and no estimates; "badOption" unless the threshold is above 0 and at most 1.
+   * Which regions are inside of the solid, by the best that there is: a region's winding number by the rule, or the sum over the parts
+   * that have one, or its estimate; or it is inside of an odd number of parts that have parity alone. Code "badArgument" if the
+   * cut-mesh has open parts alone and no estimates; "badOption" unless the threshold is above 0 and at most 1.
    */
   insideRegions(cutMesh: CutMeshArrays, options?: InsideOptions): InsideRegions;
   /**
-   * The cut-mesh with estimates where components are open: `regionInsideness`, from generalized winding numbers (Jacobson et al. 2013).
+   * The cut-mesh with estimates where parts are open: `regionInsideness`, from generalized winding numbers (Jacobson et al. 2013).
    * Inside and outside of an open surface are one region, which meet through its holes: such regions are divided at grid-faces into
    * connected sets of cut-cells and of cells of coarsen() on one side of the threshold, so that all that goes by regions closes the holes
-   * there. All else is as it was. Without open components, the result is a copy. `mesh` is the input of the cut. Code "badArgument" if it
+   * there. All else is as it was. Without open parts, the result is a copy. `mesh` is the input of the cut. Code "badArgument" if it
    * is not, or if there are estimates already; "badOption" unless the threshold is above 0 and at most 1.
    */
   estimateInside(mesh: Mesh, cutMesh: CutMeshArrays, options?: EstimateOptions): CutMeshArrays;

@@ -211,11 +211,11 @@ void listDropped(const Input& input, CutMesh& out, CutStats& stats) {
   }
 }
 
-/// Triangles of components without winding numbers.
-void listComponents(const Components& components, CutMesh& out) {
-  for (uint32_t t = 0; t < components.kinds.size(); ++t) {
-    if (components.kinds[t] == ComponentKind::parity) out.parityTriangles.push_back(t);
-    if (components.kinds[t] == ComponentKind::open) out.openTriangles.push_back(t);
+/// Triangles of parts without winding numbers.
+void listParts(const Parts& parts, CutMesh& out) {
+  for (uint32_t t = 0; t < parts.kinds.size(); ++t) {
+    if (parts.kinds[t] == PartKind::parity) out.parityTriangles.push_back(t);
+    if (parts.kinds[t] == PartKind::open) out.openTriangles.push_back(t);
   }
 }
 
@@ -249,7 +249,7 @@ CutMesh makeOutput(const MeshView& mesh, const Grid& grid, CutState& state, Run&
   out.regionWinding = std::move(regions.winding);
   out.regionPartWinding = std::move(regions.partWinding);
   out.regionParity = std::move(regions.parity);
-  listComponents(surface.input.mesh->components, out);
+  listParts(surface.input.mesh->parts, out);
   out.triangleCount = uint32_t(surface.input.mesh->triangles.size());
   listDropped(surface.input, out, run.stats);
   return out;

@@ -19,8 +19,8 @@ struct Regions {
   uint32_t count = 0;
   bool hasWinding = false;           ///< closed and consistently oriented
   std::vector<int32_t> winding;      ///< per region, empty unless hasWinding
-  std::vector<int32_t> partWinding;  ///< of components that have it; empty if hasWinding, or if none has
-  std::vector<uint8_t> parity;       ///< of components that have parity; likewise
+  std::vector<int32_t> partWinding;  ///< of parts that have it; empty if hasWinding, or if none has
+  std::vector<uint8_t> parity;       ///< of parts that have parity; likewise
 };
 
 Regions findRegions(const Surface& surface, const Stencil& stencil, const CutFaces& faces, const CutCells& cells, Run& run);

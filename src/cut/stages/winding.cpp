@@ -5,25 +5,25 @@
 namespace mandoline::detail {
 namespace {
 
-/// Which triangles count, and how: all of a mesh that has winding numbers, or those of components that have them, or that have parity.
+/// Which triangles count, and how: all of a mesh that has winding numbers, or those of parts that have them, or that have parity.
 class Counted {
  public:
   explicit Counted(const Prepared& mesh) : mesh_(mesh) {}
-  /// Of components that are at most as bad; modulo 2 unless those have winding numbers.
-  Counted(const Prepared& mesh, ComponentKind worst) : mesh_(mesh), worst_(worst) {}
+  /// Of parts that are at most as bad; modulo 2 unless those have winding numbers.
+  Counted(const Prepared& mesh, PartKind worst) : mesh_(mesh), worst_(worst) {}
 
-  bool has(TriangleId t) const { return mesh_.components.kinds.empty() || mesh_.components.kinds[t.number] <= worst_; }
+  bool has(TriangleId t) const { return mesh_.parts.kinds.empty() || mesh_.parts.kinds[t.number] <= worst_; }
   /// The sum of the signs of a kept triangle and its duplicates.
   int32_t signSum(TriangleId t) const {
     int32_t sum = has(t);
     for (const Duplicate& d : mesh_.duplicatesOf(t)) sum += !has({d.triangle}) ? 0 : d.sameWay ? 1 : -1;
     return sum;
   }
-  bool areEqual(int32_t a, int32_t b) const { return worst_ == ComponentKind::winding ? a == b : (a - b) % 2 == 0; }
+  bool areEqual(int32_t a, int32_t b) const { return worst_ == PartKind::winding ? a == b : (a - b) % 2 == 0; }
 
  private:
   const Prepared& mesh_;
-  ComponentKind worst_ = ComponentKind::winding;
+  PartKind worst_ = PartKind::winding;
 };
 
 /// Winding number of what counts of the surface about the point (x0 + e^3, y0 + e, z0 + e^2) for the grid's lowest corner (x0, y0, z0) and
@@ -148,17 +148,17 @@ std::vector<int32_t> windingOf(const Surface& surface, const Sides& sides, const
 
 void findWinding(const Surface& surface, const Sides& sides, Regions& regions, Predicates& predicates) {
   const Prepared& mesh = *surface.input.mesh;
-  const ComponentCounts& components = mesh.components.counts;
+  const PartCounts& parts = mesh.parts.counts;
   regions.hasWinding = mesh.closed;
   if (mesh.closed) {
     regions.winding = windingOf(surface, sides, regions, Counted(mesh), predicates);
     return;
   }
-  if (components.winding > 0) {
-    regions.partWinding = windingOf(surface, sides, regions, {mesh, ComponentKind::winding}, predicates);
+  if (parts.winding > 0) {
+    regions.partWinding = windingOf(surface, sides, regions, {mesh, PartKind::winding}, predicates);
   }
-  if (components.winding + components.parity > 0) {
-    for (const int32_t crossings : windingOf(surface, sides, regions, {mesh, ComponentKind::parity}, predicates)) {
+  if (parts.winding + parts.parity > 0) {
+    for (const int32_t crossings : windingOf(surface, sides, regions, {mesh, PartKind::parity}, predicates)) {
       regions.parity.push_back(uint8_t(crossings & 1));
     }
   }

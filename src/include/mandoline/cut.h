@@ -24,13 +24,14 @@ struct StageTime {
   }
 };
 
-/// The connected components of a mesh that is not closed and consistently oriented as a whole, after resolving; all 0 of one that is.
-/// Triangles are connected by edges that they need each other at: two boxes that touch along an edge are two components.
-struct ComponentCounts {
+/// The parts of a mesh that is not closed and consistently oriented as a whole, after resolving; all 0 of one that is.
+/// Triangles are one part where they need each other to close an edge: two boxes that touch along an edge are two parts, though they are
+/// one component to inspect().
+struct PartCounts {
   uint32_t winding = 0;    ///< closed and consistently oriented, so that they have winding numbers
   uint32_t parity = 0;     ///< each edge has an even number of their triangles, but they are not consistently oriented
   uint32_t open = 0;       ///< the others
-  uint32_t openEdges = 0;  ///< edges with an odd number of triangles of an open component
+  uint32_t openEdges = 0;  ///< edges with an odd number of triangles of an open part
   uint32_t holes = 0;      ///< connected sets of those
 
   static void fields(auto& self, const auto& f) {
@@ -56,7 +57,7 @@ struct CutStats {
   uint32_t snappedVertices = 0;                          ///< moved onto a plane by snapTolerance
   double largestSnap = 0;                                ///< farthest such move, in cells
   uint32_t flushedCoordinates = 0;                       ///< below 2^-200 of the largest, taken as 0
-  ComponentCounts components;                            ///< of the input
+  PartCounts parts;                                      ///< of the input
 
   static void fields(auto& self, const auto& f) {
     f("stages", self.stages);
@@ -72,7 +73,7 @@ struct CutStats {
     f("snappedVertices", self.snappedVertices);
     f("largestSnap", self.largestSnap);
     f("flushedCoordinates", self.flushedCoordinates);
-    f("components", self.components);
+    f("parts", self.parts);
   }
 };
 

@@ -144,15 +144,15 @@ struct CutMesh {
   std::vector<int32_t> regionWinding;  ///< per region: 1 inside an outward oriented closed surface, 0 outside; empty unless hasWinding
 
   // What is known where the input has no winding numbers as a whole: see insideRegions(), which takes the best of it. Its connected
-  // components either have winding numbers, or parity alone (each edge has an even number of their triangles), or are open.
-  std::vector<int32_t> regionPartWinding;  ///< per region: the sum over the components that have winding numbers; empty if none has
-  /// Per region: how many of the components that have winding numbers or parity a path from outside crosses, modulo 2; empty if none has.
+  // parts either have winding numbers, or parity alone (each edge has an even number of their triangles), or are open.
+  std::vector<int32_t> regionPartWinding;  ///< per region: the sum over the parts that have winding numbers; empty if none has
+  /// Per region: how many of the parts that have winding numbers or parity a path from outside crosses, modulo 2; empty if none has.
   std::vector<uint8_t> regionParity;
-  /// Per region: an estimate of its winding number: regionPartWinding, and the generalized winding number of the open components at a point
+  /// Per region: an estimate of its winding number: regionPartWinding, and the generalized winding number of the open parts at a point
   /// of it; empty unless made by estimateInside(), which divides regions at grid-faces, too.
   std::vector<double> regionInsideness;
-  std::vector<uint32_t> parityTriangles;  ///< ascending ids of triangles in components that have parity alone
-  std::vector<uint32_t> openTriangles;    ///< ascending ids of triangles in open components
+  std::vector<uint32_t> parityTriangles;  ///< ascending ids of triangles in parts that have parity alone
+  std::vector<uint32_t> openTriangles;    ///< ascending ids of triangles in open parts
 
   uint32_t triangleCount = 0;              ///< of the input
   std::vector<uint32_t> droppedTriangles;  ///< ascending ids of triangles without a face: no area, or none inside the grid

@@ -16,8 +16,8 @@ enum class WindingRule : uint8_t {
 /// What tells inside from outside.
 enum class InsideBy : uint8_t {
   winding,  ///< winding numbers, exactly
-  parity,   ///< the number of crossings modulo 2, exactly: for components that are not consistently oriented
-  estimate  ///< generalized winding numbers: for open components
+  parity,   ///< the number of crossings modulo 2, exactly: for parts that are not consistently oriented
+  estimate  ///< generalized winding numbers: for open parts
 };
 
 /// The word above.
@@ -34,8 +34,8 @@ struct InsideOptions {
 /// What insideRegions() says.
 struct InsideRegions {
   std::vector<uint8_t> isInside;    ///< per region
-  InsideBy by = InsideBy::winding;  ///< the least certain that any component of the input needs
-  bool isComplete = true;           ///< whether all components count: without estimates, open ones are left out
+  InsideBy by = InsideBy::winding;  ///< the least certain that any part of the input needs
+  bool isComplete = true;           ///< whether all parts count: without estimates, open ones are left out
 
   static void fields(auto& self, const auto& f) {
     f("isInside", self.isInside);
@@ -44,19 +44,19 @@ struct InsideRegions {
   }
 };
 
-/// A region is inside if its winding number is by the rule: the sum over the components that have one, or its estimate; or if it is inside
-/// of an odd number of components that have parity alone (by WindingRule::odd these are added). Throws CallError if the cut-mesh is empty,
-/// has open components only and no estimates, or if the threshold is not above 0 and at most 1.
+/// A region is inside if its winding number is by the rule: the sum over the parts that have one, or its estimate; or if it is inside
+/// of an odd number of parts that have parity alone (by WindingRule::odd these are added). Throws CallError if the cut-mesh is empty,
+/// has open parts only and no estimates, or if the threshold is not above 0 and at most 1.
 InsideRegions insideRegions(const CutMesh& cutMesh, const InsideOptions& options = {});
 
 struct EstimateOptions : RunOptions {
   double threshold = 0.5;  ///< as of InsideOptions
 };
 
-/// The cut-mesh with estimates where components are open: regionInsideness, from generalized winding numbers (Jacobson et al. 2013). Inside
+/// The cut-mesh with estimates where parts are open: regionInsideness, from generalized winding numbers (Jacobson et al. 2013). Inside
 /// and outside of an open surface are one region, which meet through its holes: such regions are divided at grid-faces into connected sets
 /// of cut-cells and octree cells (those of coarsen()) on one side of the threshold, so that all that goes by regions closes the holes
-/// there. Without open components, what comes back is the cut-mesh. `mesh` is its input. Throws CallError if they don't belong together, if
+/// there. Without open parts, what comes back is the cut-mesh. `mesh` is its input. Throws CallError if they don't belong together, if
 /// the cut-mesh is empty or has estimates already, if the threshold is not above 0 and at most 1, or if cancelled.
 CutMesh estimateInside(const MeshView& mesh, const CutMesh& cutMesh, const EstimateOptions& options = {});
 

@@ -33,14 +33,14 @@ struct MeshInfo {
   size_t openEdges = 0;                ///< with one triangle
   size_t nonManifoldEdges = 0;         ///< with more than two
   size_t inconsistentEdges = 0;        ///< with two that run the same way along it
-  size_t components = 0;               ///< joined through edges
+  size_t components = 0;               ///< triangles that hang together through edges
   size_t zeroAreaTriangles = 0;        ///< exactly
   size_t duplicateTriangles = 0;       ///< same three vertices as another one before them
   size_t weldedVertices = 0;           ///< share their position with another one
   size_t unreferencedVertices = 0;
   size_t nonFiniteVertices = 0;
 
-  // The components, in the order of their first triangles.
+  // The components: triangles that hang together through edges. In the order of their first triangles.
   std::vector<int32_t> triangleComponent;  ///< per triangle; -1 without three different vertices
   std::vector<uint8_t> componentClosed;    ///< per component: 1 if it is closed as above, else 0
   std::vector<uint8_t> componentOriented;  ///< the same of oriented

@@ -19,10 +19,10 @@ struct ResolvedMesh {
   std::vector<int32_t> frontWinding;    ///< per triangle: the winding number on the side of its normal; empty unless hasWinding
   std::vector<int32_t> backWinding;     ///< the same behind it; empty unless hasWinding
   // The same of what CutMesh::regionPartWinding and regionParity tell where the input as a whole has no winding numbers.
-  std::vector<int32_t> frontPartWinding;  ///< per triangle, on the side of its normal; empty if no component has winding numbers
-  std::vector<int32_t> backPartWinding;   ///< per triangle, behind it; empty if no component has winding numbers
-  std::vector<uint8_t> frontParity;       ///< per triangle, on the side of its normal; empty if no component has parity
-  std::vector<uint8_t> backParity;        ///< per triangle, behind it; empty if no component has parity
+  std::vector<int32_t> frontPartWinding;  ///< per triangle, on the side of its normal; empty if no part has winding numbers
+  std::vector<int32_t> backPartWinding;   ///< per triangle, behind it; empty if no part has winding numbers
+  std::vector<uint8_t> frontParity;       ///< per triangle, on the side of its normal; empty if no part has parity
+  std::vector<uint8_t> backParity;        ///< per triangle, behind it; empty if no part has parity
 
   static void fields(auto& self, const auto& f) {
     Mesh::fields(self.mesh, f);
@@ -53,7 +53,7 @@ struct ResolveResult {
 ResolveResult resolve(const MeshView& mesh, const RunOptions& options = {});
 
 /// The surface of the solid, oriented outwards: every edge has an even number of triangles. Inside is what insideRegions() says; open
-/// components are left out. Throws CallError for a mesh that has no others, or whose arrays don't fit together.
+/// parts are left out. Throws CallError for a mesh that has no others, or whose arrays don't fit together.
 Mesh boundary(const ResolvedMesh& mesh, WindingRule rule = WindingRule::positive);
 /// The same of a cut-mesh, in pieces cut by the grid, of the part of the solid inside the grid: where the solid reaches the grid's sides,
 /// sides of its cut-cells and of the cells of coarsen() close it. Throws CallError as insideRegions() does.

@@ -100,8 +100,8 @@ class Ray {
 
 class Nester {
  public:
-  Nester(const WeldedMesh& mesh, const Parts& parts, const Shells& shells, std::vector<ShellPair> crossing, Predicates& predicates)
-      : mesh_(mesh), parts_(parts), shells_(shells), crossing_(std::move(crossing)), predicates_(predicates) {
+  Nester(const WeldedMesh& mesh, const Patches& patches, const Shells& shells, std::vector<ShellPair> crossing, Predicates& predicates)
+      : mesh_(mesh), patches_(patches), shells_(shells), crossing_(std::move(crossing)), predicates_(predicates) {
     std::vector<uint32_t> walls;  // triangles of shells
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       if (shellOf(t) >= 0) walls.push_back(t);
@@ -109,7 +109,7 @@ class Nester {
     tree_.build(walls.size(), [&](size_t i) { return BoxTree::Item{boxOf(walls[i]), walls[i]}; });
   }
 
-  /// A part, by its first triangle on which no other one lies.
+  /// A patch, by its first triangle on which no other one lies.
   void nest(std::span<const uint32_t> triangles, uint8_t& isInside, int8_t& facing) {
     for (const uint32_t t : triangles) {
       if (mesh_.states[t] == TriangleState::zeroArea) continue;
@@ -124,7 +124,7 @@ class Nester {
         }
       });
       isInside = others % 2 != 0;
-      const bool pointsAlong = (normalSign(mesh_, TriangleId{t}, int(axis_), predicates_) > 0) != (parts_.turned[t] != 0);
+      const bool pointsAlong = (normalSign(mesh_, TriangleId{t}, int(axis_), predicates_) > 0) != (patches_.turned[t] != 0);
       if (!shells_.isSingle[size_t(shellOf(t))]) facing = own == pointsAlong ? -1 : 1;
       return;
     }
@@ -133,8 +133,8 @@ class Nester {
  private:
   /// -1 for triangles that are in none, or without area.
   int32_t shellOf(uint32_t triangle) const {
-    if (!parts_.has(triangle) || mesh_.states[triangle] == TriangleState::zeroArea) return -1;
-    return shells_.shellOf[parts_.of(triangle)];
+    if (!patches_.has(triangle) || mesh_.states[triangle] == TriangleState::zeroArea) return -1;
+    return shells_.shellOf[patches_.of(triangle)];
   }
   Box boxOf(uint32_t triangle) const {
     const auto& v = mesh_.triangles[triangle];
@@ -178,7 +178,7 @@ class Nester {
   }
 
   const WeldedMesh& mesh_;
-  const Parts& parts_;
+  const Patches& patches_;
   const Shells& shells_;
   std::vector<ShellPair> crossing_;  // ascending
   Predicates& predicates_;
@@ -188,12 +188,12 @@ class Nester {
 };
 
 /// Pairs of shells that cross, ascending.
-std::vector<ShellPair> crossingShells(const WeldedMesh& mesh, const Parts& parts, const Shells& shells, Monitor& monitor,
+std::vector<ShellPair> crossingShells(const WeldedMesh& mesh, const Patches& patches, const Shells& shells, Monitor& monitor,
                                       Predicates& predicates) {
   std::vector<ShellPair> pairs;
   if (shells.count() < 2) return pairs;
   for (const PairContact& pair : findContacts(mesh, monitor, predicates).pairs) {
-    const int32_t s = shells.shellOf[parts.of(pair.triangles[0])], t = shells.shellOf[parts.of(pair.triangles[1])];
+    const int32_t s = shells.shellOf[patches.of(pair.triangles[0])], t = shells.shellOf[patches.of(pair.triangles[1])];
     if (s >= 0 && t >= 0 && s != t && pair.kind() == IntersectionKind::crossing)
       pairs.push_back({uint32_t(std::min(s, t)), uint32_t(std::max(s, t))});
   }
@@ -203,14 +203,14 @@ std::vector<ShellPair> crossingShells(const WeldedMesh& mesh, const Parts& parts
 
 }  // namespace
 
-Nesting findNesting(const WeldedMesh& mesh, const Parts& parts, const Shells& shells, Monitor& monitor, Predicates& predicates) {
-  Nesting nesting{std::vector<uint8_t>(parts.count(), 0), std::vector<int8_t>(parts.count(), 0)};
+Nesting findNesting(const WeldedMesh& mesh, const Patches& patches, const Shells& shells, Monitor& monitor, Predicates& predicates) {
+  Nesting nesting{std::vector<uint8_t>(patches.count(), 0), std::vector<int8_t>(patches.count(), 0)};
   const bool isOne = shells.count() == 0 || (shells.count() == 1 && shells.isSingle[0]);
   if (isOne) return nesting;
-  Nester nester(mesh, parts, shells, crossingShells(mesh, parts, shells, monitor, predicates), predicates);
-  const Csr<uint32_t> triangles = trianglesOf(parts);
-  for (size_t p = 0; p < parts.count(); ++p) {
-    if (p % 256 == 0) monitor.report(p, parts.count());
+  Nester nester(mesh, patches, shells, crossingShells(mesh, patches, shells, monitor, predicates), predicates);
+  const Csr<uint32_t> triangles = trianglesOf(patches);
+  for (size_t p = 0; p < patches.count(); ++p) {
+    if (p % 256 == 0) monitor.report(p, patches.count());
     if (shells.shellOf[p] >= 0) nester.nest(triangles[p], nesting.isInside[p], nesting.facing[p]);
   }
   return nesting;

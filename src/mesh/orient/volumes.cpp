@@ -31,11 +31,11 @@ Number dot(const Vector<Number>& a, const Vector<Number>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// One part.
+/// One patch.
 class Volume {
  public:
-  Volume(const WeldedMesh& mesh, const Parts& parts, std::span<const uint32_t> triangles)
-      : mesh_(mesh), parts_(parts), triangles_(triangles), origin_(corner(triangles[0], 0)), box_{origin_, origin_} {
+  Volume(const WeldedMesh& mesh, const Patches& patches, std::span<const uint32_t> triangles)
+      : mesh_(mesh), patches_(patches), triangles_(triangles), origin_(corner(triangles[0], 0)), box_{origin_, origin_} {
     for (const uint32_t t : triangles) {
       for (size_t i = 0; i < 3; ++i) {
         const Point& p = corner(t, i);
@@ -79,7 +79,7 @@ class Volume {
   Sums<Number> sums() const {
     Sums<Number> sums;
     for (const uint32_t t : triangles_) {
-      const bool turned = parts_.turned[t] != 0;
+      const bool turned = patches_.turned[t] != 0;
       const Point &p = corner(t, 0), &q = corner(t, turned ? 2 : 1), &r = corner(t, turned ? 1 : 2);
       const Vector<Number> normal = cross(difference<Number>(q, p), difference<Number>(r, p));
       sums.volume = sums.volume + dot(difference<Number>(p, origin_), normal);
@@ -93,7 +93,7 @@ class Volume {
   }
 
   const WeldedMesh& mesh_;
-  const Parts& parts_;
+  const Patches& patches_;
   std::span<const uint32_t> triangles_;
   Point origin_;
   std::array<Point, 2> box_;
@@ -103,11 +103,11 @@ class Volume {
 
 }  // namespace
 
-std::vector<int> volumeSigns(const WeldedMesh& mesh, const Parts& parts, Predicates& predicates) {
-  const Csr<uint32_t> triangles = trianglesOf(parts);
+std::vector<int> volumeSigns(const WeldedMesh& mesh, const Patches& patches, Predicates& predicates) {
+  const Csr<uint32_t> triangles = trianglesOf(patches);
   std::vector<int> signs;
-  for (size_t p = 0; p < parts.count(); ++p) {
-    signs.push_back(parts.orientable[p] ? Volume(mesh, parts, triangles[p]).sign(predicates) : 0);
+  for (size_t p = 0; p < patches.count(); ++p) {
+    signs.push_back(patches.orientable[p] ? Volume(mesh, patches, triangles[p]).sign(predicates) : 0);
   }
   return signs;
 }

@@ -4,7 +4,7 @@
 
 #include "base/keep_lowest.h"
 #include "base/sort.h"
-#include "mesh/resolve/patches.h"
+#include "mesh/resolve/charts.h"
 #include "mesh/resolve/triangle_tree.h"
 
 namespace mandoline::detail {
@@ -178,8 +178,8 @@ bool PairTest::meet(uint32_t s, uint32_t t) {
 
 Contacts findContacts(const WeldedMesh& mesh, Monitor& monitor, Predicates& predicates, size_t most) {
   const SortedMesh sorted(mesh);
-  const Patches patches = findPatches(sorted);
-  const TriangleTree tree(sorted, patches.patchOf, patches.count);
+  const Charts charts = findCharts(sorted);
+  const TriangleTree tree(sorted, charts.chartOf, charts.count);
   const std::vector<TriangleTree::LeafPair> leaves = tree.overlappingLeaves();
   const Copies copies(mesh);
   const auto chunks = forChunks<Chunk>(

@@ -19,7 +19,7 @@ struct CellSample {
 /// triangle of its surface.
 class CellSampler {
  public:
-  /// `isOpen`: per triangle, whether it belongs to an open component. Keeps references to both.
+  /// `isOpen`: per triangle, whether it belongs to an open part. Keeps references to both.
   CellSampler(const CutMesh& cutMesh, const std::vector<uint8_t>& isOpen)
       : cutMesh_(cutMesh), isOpen_(isOpen), triangulator_(cutMesh.positions) {}
 

@@ -54,7 +54,7 @@ class Estimator {
     return node < firstOctree() ? cutMesh_.cellRegion[node] : octree_.cellRegion[node - firstOctree()];
   }
 
-  /// The regions on both sides of an open component: they meet through its holes, and their cells need numbers of their own.
+  /// The regions on both sides of an open part: they meet through its holes, and their cells need numbers of their own.
   void findDivided() {
     isDivided_.assign(cutMesh_.regionCount, 0);
     for (size_t f = 0; f < cutMesh_.faceCount(); ++f) {

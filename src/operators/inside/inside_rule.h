@@ -12,7 +12,7 @@ inline bool isInside(int32_t winding, WindingRule rule) {
   return rule == WindingRule::positive ? winding > 0 : rule == WindingRule::nonZero ? winding != 0 : winding % 2 != 0;
 }
 
-/// The same with components that have parity alone: `parity` is that of all.
+/// The same with parts that have parity alone: `parity` is that of all.
 inline bool isInside(int32_t winding, bool parity, WindingRule rule) {
   return rule == WindingRule::odd ? parity : isInside(winding, rule) || parity != (winding % 2 != 0);
 }

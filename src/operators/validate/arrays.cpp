@@ -249,7 +249,7 @@ class ArrayCheck {
       const bool mayBe = array.size() == cut_.regionCount && !cut_.hasWinding;
       return expect(array.empty() || mayBe, "array", 0, message);
     };
-    if (!expectPerRegion(cut_.regionPartWinding, "of the components' winding numbers has a wrong length")) return false;
+    if (!expectPerRegion(cut_.regionPartWinding, "of the parts' winding numbers has a wrong length")) return false;
     if (!expectPerRegion(cut_.regionParity, "of the regions' parity has a wrong length")) return false;
     if (!expectPerRegion(cut_.regionInsideness, "of the regions' insideness has a wrong length")) return false;
     if (!expectRange(cut_.regionParity, {0, 1}, "region", "has a parity that is neither 0 nor 1")) return false;

@@ -99,8 +99,8 @@ class WindingCheck {
     add(cut.regionWinding, {}, false, "has winding numbers on its sides that do not differ as its triangles say",
         "has another winding number than the input there");
     add(cut.regionPartWinding, {&cut.parityTriangles, &cut.openTriangles}, false,
-        "has winding numbers of components on its sides that do not differ as its triangles say",
-        "has another winding number of components than the input there");
+        "has winding numbers of parts on its sides that do not differ as its triangles say",
+        "has another winding number of parts than the input there");
     add(cut.regionParity, {&cut.openTriangles}, true, "has parities on its sides that do not differ as its triangles say",
         "has another parity than the input there");
     return all;

@@ -111,10 +111,10 @@ function meetings({ intersections, intersectionCurves }: Model['stats']): string
   return intersectionCurves > 0 ? [...facts, `${plural(intersectionCurves, 'curve')} along which triangles meet`] : facts;
 }
 
-/** Components of the mesh that have no winding numbers, in the words of the command line. */
-function withoutWinding({ components }: Model['stats']): string[] {
-  const { winding, parity, open, openEdges, holes } = components;
-  const all = plural(winding + parity + open, 'component');
+/** Parts of the mesh that have no winding numbers, in the words of the command line. */
+function withoutWinding({ parts }: Model['stats']): string[] {
+  const { winding, parity, open, openEdges, holes } = parts;
+  const all = plural(winding + parity + open, 'part');
   const edges = `${plural(openEdges, 'open edge')} around ${plural(holes, 'hole')}`;
   return [
     ...(parity > 0 ? [`${integer(parity)} of ${all} not consistently oriented: inside by parity`] : []),

@@ -1,4 +1,4 @@
-#include "mesh/resolve/patches.h"
+#include "mesh/resolve/charts.h"
 
 #include <utility>
 
@@ -39,34 +39,34 @@ std::vector<uint32_t> findTwins(const SortedMesh& mesh) {
   return twins;
 }
 
-class PatchGrower {
+class ChartGrower {
  public:
-  explicit PatchGrower(const SortedMesh& mesh) : mesh_(mesh), twins_(findTwins(mesh)), patches_(mesh.triangles.size(), kNone) {}
+  explicit ChartGrower(const SortedMesh& mesh) : mesh_(mesh), twins_(findTwins(mesh)), charts_(mesh.triangles.size(), kNone) {}
 
-  Patches run() {
-    constexpr uint32_t kApart = 256;  // the first seeds: patches that start beside each other hinder each other
+  Charts run() {
+    constexpr uint32_t kApart = 256;  // the first seeds: charts that start beside each other hinder each other
     for (uint32_t first = 0; first < kApart; ++first) {
-      for (uint32_t t = first; t < patches_.size(); t += kApart) {
-        if (patches_[t] == kNone) grow(t);
+      for (uint32_t t = first; t < charts_.size(); t += kApart) {
+        if (charts_[t] == kNone) grow(t);
       }
     }
     return numberInOrder();
   }
 
  private:
-  /// Numbers patches by their first triangles.
-  Patches numberInOrder() {
-    std::vector<uint32_t> numbers(patch_, kNone);
+  /// Numbers charts by their first triangles.
+  Charts numberInOrder() {
+    std::vector<uint32_t> numbers(chart_, kNone);
     uint32_t count = 0;
-    for (uint32_t& patch : patches_) {
-      if (numbers[patch] == kNone) numbers[patch] = count++;
-      patch = numbers[patch];
+    for (uint32_t& chart : charts_) {
+      if (numbers[chart] == kNone) numbers[chart] = count++;
+      chart = numbers[chart];
     }
-    return {count, std::move(patches_)};
+    return {count, std::move(charts_)};
   }
 
   void grow(uint32_t seed) {
-    patches_[seed] = patch_;
+    charts_[seed] = chart_;
     if (look(seed)) {
       grown_.assign(1, seed);
       for (size_t i = 0; i < grown_.size(); ++i) {
@@ -75,7 +75,7 @@ class PatchGrower {
         }
       }
     }
-    ++patch_;
+    ++chart_;
   }
 
   /// Chooses how to look at a triangle, and its middle for the centre; false if rounding blurs it.
@@ -99,16 +99,16 @@ class PatchGrower {
   /// Adds the triangle of a side whose twin is in the outline, if the outline stays as it has to be.
   void add(uint32_t joining) {
     const uint32_t triangle = joining / 3;
-    if (patches_[triangle] != kNone) return;
+    if (charts_[triangle] != kNone) return;
     const auto corners = cornersOf(triangle);
     if (!surelyTurnsLeft(corners[0], corners[1], corners[2])) return;
     for (size_t i = 0; i < 3; ++i) {
       if (3 * triangle + i == joining) continue;
       const uint32_t twin = twins_[3 * triangle + i];
-      const bool joins = twin != kNone && patches_[twin / 3] == patch_;
+      const bool joins = twin != kNone && charts_[twin / 3] == chart_;
       if (!joins && !surelyTurnsLeft(corners[i], corners[i == 2 ? 0 : i + 1], centre_)) return;
     }
-    patches_[triangle] = patch_;
+    charts_[triangle] = chart_;
     grown_.push_back(triangle);
   }
 
@@ -119,14 +119,14 @@ class PatchGrower {
   }
 
   const SortedMesh& mesh_;
-  std::vector<uint32_t> twins_, patches_, grown_;  // grown_: the triangles of the patch
-  uint32_t patch_ = 0;
+  std::vector<uint32_t> twins_, charts_, grown_;  // grown_: the triangles of the chart
+  uint32_t chart_ = 0;
   std::array<size_t, 2> axes_{};  // seen as x and y
   Point2 centre_{};
 };
 
 }  // namespace
 
-Patches findPatches(const SortedMesh& mesh) { return PatchGrower(mesh).run(); }
+Charts findCharts(const SortedMesh& mesh) { return ChartGrower(mesh).run(); }
 
 }  // namespace mandoline::detail

@@ -1,4 +1,4 @@
-#include "mesh/components.h"
+#include "mesh/parts.h"
 
 #include <algorithm>
 
@@ -50,14 +50,14 @@ struct Share {
   bool isOdd() const { return count % 2 != 0; }
 };
 
-class ComponentFinder {
+class PartFinder {
  public:
-  explicit ComponentFinder(const Prepared& prepared)
+  explicit PartFinder(const Prepared& prepared)
       : prepared_(prepared), uses_(findUses(prepared)), sets_(prepared.triangles.size()), copied_(prepared.triangles.size(), 0) {
     for (const Duplicate& d : prepared.duplicates) copied_[d.original] = copied_[d.triangle] = 1;
   }
 
-  Components run() {
+  Parts run() {
     joinPairs();
     while (joinTwo() || joinMany()) {
     }
@@ -141,7 +141,7 @@ class ComponentFinder {
     return any;
   }
 
-  /// Of several that need each other nobody can tell which: they are one component. All edges are looked at before any are joined, so
+  /// Of several that need each other nobody can tell which: they are one part. All edges are looked at before any are joined, so
   /// that their order does not matter.
   bool joinMany() {
     std::vector<std::array<uint32_t, 2>> pairs;
@@ -153,36 +153,35 @@ class ComponentFinder {
     return !pairs.empty();
   }
 
-  Components classify() {
+  Parts classify() {
     const size_t n = prepared_.triangles.size();
-    std::vector<ComponentKind> kinds(n, ComponentKind::winding);  // of roots
-    const auto worsen = [&](uint32_t root, ComponentKind kind) { kinds[root] = std::max(kinds[root], kind); };
+    std::vector<PartKind> kinds(n, PartKind::winding);  // of roots
+    const auto worsen = [&](uint32_t root, PartKind kind) { kinds[root] = std::max(kinds[root], kind); };
     for (size_t edge = 0; edge < edgeCount(); ++edge) {
       const std::span<const Use> uses = usesOf(edge);
-      if (uses.size() == 2 && uses[0].sign() == uses[1].sign()) worsen(sets_.find(uses[0].triangle()), ComponentKind::parity);
+      if (uses.size() == 2 && uses[0].sign() == uses[1].sign()) worsen(sets_.find(uses[0].triangle()), PartKind::parity);
     }
     for (const size_t edge : others_) {
       findShares(usesOf(edge));
       for (const Share& share : shares_) {
-        if (share.sum != 0) worsen(share.set, share.isOdd() ? ComponentKind::open : ComponentKind::parity);
+        if (share.sum != 0) worsen(share.set, share.isOdd() ? PartKind::open : PartKind::parity);
       }
     }
-    Components result;
-    result.kinds.assign(n, ComponentKind::none);
+    Parts result;
+    result.kinds.assign(n, PartKind::none);
     for (uint32_t t = 0; t < n; ++t) {
       if (prepared_.states[t] == TriangleState::zeroArea) continue;
       const uint32_t root = sets_.find(t);
       result.kinds[t] = kinds[root];
-      ComponentCounts& counts = result.counts;
-      if (root == t)
-        ++(kinds[t] == ComponentKind::winding ? counts.winding : kinds[t] == ComponentKind::parity ? counts.parity : counts.open);
+      PartCounts& counts = result.counts;
+      if (root == t) ++(kinds[t] == PartKind::winding ? counts.winding : kinds[t] == PartKind::parity ? counts.parity : counts.open);
     }
     if (result.counts.open > 0) countOpenEdges(result);
     return result;
   }
 
   /// And the connected sets of them.
-  void countOpenEdges(Components& result) {
+  void countOpenEdges(Parts& result) {
     DisjointSets chains(prepared_.points.size());
     std::vector<uint8_t> isEnd(prepared_.points.size(), 0);
     for (const size_t edge : others_) {
@@ -207,6 +206,6 @@ class ComponentFinder {
 
 }  // namespace
 
-Components findComponents(const Prepared& prepared) { return ComponentFinder(prepared).run(); }
+Parts findParts(const Prepared& prepared) { return PartFinder(prepared).run(); }
 
 }  // namespace mandoline::detail

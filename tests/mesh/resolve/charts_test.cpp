@@ -1,5 +1,5 @@
-// Which pairs of triangles need not be looked at: the patches of a mesh, and the tree that leaves out pairs within them.
-#include "mesh/resolve/patches.h"
+// Which pairs of triangles need not be looked at: the charts of a mesh, and the tree that leaves out pairs within them.
+#include "mesh/resolve/charts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ const Grid kGrid = Grid::regular({-64, -64, -64}, {32, 32, 32}, {4, 4, 4});
 struct Unresolved : stages::StagedCut {
   const Prepared& welded = *prepared;
   const SortedMesh sorted{welded};
-  const Patches patches = findPatches(sorted);
+  const Charts charts = findCharts(sorted);
 
   explicit Unresolved(const Mesh& mesh) : StagedCut(mesh, stages::Stage::input, stages::unresolved(), kGrid) {}
 };
@@ -62,7 +62,7 @@ std::array<uint32_t, 2> ascending(uint32_t s, uint32_t t) { return {std::min(s, 
 
 }  // namespace
 
-TEST_CASE("patches: triangles of one have nothing in common but shared vertices and sides", "[patches]") {
+TEST_CASE("charts: triangles of one have nothing in common but shared vertices and sides", "[charts]") {
   size_t together = 0, meeting = 0;
   for (const Mesh& mesh : tangles()) {
     const Unresolved unresolved(mesh);
@@ -71,7 +71,7 @@ TEST_CASE("patches: triangles of one have nothing in common but shared vertices 
     for (uint32_t i = 0; i < sorted.ids.size(); ++i) {
       for (uint32_t j = i + 1; j < sorted.ids.size(); ++j) {
         const bool meet = pairs.meet(sorted.ids[i], sorted.ids[j]);
-        const bool inOne = unresolved.patches.patchOf[i] == unresolved.patches.patchOf[j];
+        const bool inOne = unresolved.charts.chartOf[i] == unresolved.charts.chartOf[j];
         together += inOne;
         meeting += meet;
         REQUIRE((!inOne || !meet));
@@ -82,36 +82,36 @@ TEST_CASE("patches: triangles of one have nothing in common but shared vertices 
   CHECK(meeting > 4000);
 }
 
-TEST_CASE("patches: a smooth or flat surface has few", "[patches]") {
-  CHECK(Unresolved(shapes::icosphere({0, 0, 0}, 1, 4)).patches.count < 40);  // of 5120 triangles
-  CHECK(Unresolved(shapes::sheet(40, 40, [](int i, int j) { return shapes::Point{double(i), double(j), 0}; })).patches.count == 1);
+TEST_CASE("charts: a smooth or flat surface has few", "[charts]") {
+  CHECK(Unresolved(shapes::icosphere({0, 0, 0}, 1, 4)).charts.count < 40);  // of 5120 triangles
+  CHECK(Unresolved(shapes::sheet(40, 40, [](int i, int j) { return shapes::Point{double(i), double(j), 0}; })).charts.count == 1);
   CHECK(Unresolved(shapes::sheet(40, 40, [](int i, int j) {
           return shapes::Point{double(i), double(i + j), double(j - 2 * i)};
-        })).patches.count == 1);
+        })).charts.count == 1);
 }
 
-TEST_CASE("patches: triangles without neighbours are alone", "[patches]") {
+TEST_CASE("charts: triangles without neighbours are alone", "[charts]") {
   Mesh mesh;
   for (int i = 0; i < 30; ++i) {
     const double x = 3 * i;
     for (const double p : {x, 0.0, 0.0, x + 2, 0.0, 1.0, x + 1, 1.0, 0.0}) mesh.positions.push_back(p);
     for (const uint32_t v : {0u, 1u, 2u}) mesh.triangles.push_back(3 * uint32_t(i) + v);
   }
-  CHECK(Unresolved(mesh).patches.count == 30);
+  CHECK(Unresolved(mesh).charts.count == 30);
 }
 
-TEST_CASE("patches: a winding staircase that comes to lie above itself is several", "[patches]") {
+TEST_CASE("charts: a winding staircase that comes to lie above itself is several", "[charts]") {
   constexpr int kSteps = 96;  // six times around
   const Mesh stairs = shapes::sheet(kSteps, 2, [](int i, int j) {
     const double angle = M_PI / 8 * i;
     return shapes::Point{(3 - j) * std::cos(angle), (3 - j) * std::sin(angle), i * 0.125};
   });
   const Unresolved unresolved(stairs);
-  CHECK(unresolved.patches.count >= 6);
-  CHECK(unresolved.patches.count <= kSteps);
+  CHECK(unresolved.charts.count >= 6);
+  CHECK(unresolved.charts.count <= kSteps);
 }
 
-TEST_CASE("contacts: the pairs that are found are all that meet", "[patches]") {
+TEST_CASE("contacts: the pairs that are found are all that meet", "[charts]") {
   for (const Mesh& mesh : tangles()) {
     const Unresolved unresolved(mesh);
     const Prepared& welded = unresolved.welded;
@@ -133,8 +133,7 @@ TEST_CASE("contacts: the pairs that are found are all that meet", "[patches]") {
   }
 }
 
-TEST_CASE("triangle tree: gives all pairs of different groups whose boxes overlap, once, and no others but within a rounding",
-          "[patches]") {
+TEST_CASE("triangle tree: gives all pairs of different groups whose boxes overlap, once, and no others but within a rounding", "[charts]") {
   for (const uint32_t groups : {1u, 2u, 7u, 300u}) {
     const Unresolved unresolved(tangle(groups, 9, 60, 300));
     const SortedMesh& sorted = unresolved.sorted;
