@@ -35,35 +35,28 @@ class Parser {
   };
 
   static constexpr std::pair<const char*, Command> kCommands[] = {
-      {"cut", Command::cut},   {"slice", Command::slice},     {"flow", Command::flow}, {"info", Command::info},
-      {"make", Command::make}, {"resolve", Command::resolve}, {"help", Command::help}, {"--version", Command::version}};
+      {"cut", Command::cut},         {"slice", Command::slice}, {"boundary", Command::boundary},
+      {"flow", Command::flow},       {"info", Command::info},   {"make", Command::make},
+      {"resolve", Command::resolve}, {"help", Command::help},   {"--version", Command::version}};
 
   static const std::vector<Option>& options() {
     using C = Command;
+    static const std::vector<C> kCutting = {C::cut, C::slice, C::boundary, C::flow};
+    static const std::vector<C> kCuttingAndResolve = {C::cut, C::slice, C::boundary, C::flow, C::resolve};
+    static const std::vector<C> kAllButMake = {C::cut, C::slice, C::boundary, C::flow, C::info, C::resolve};
+    static const std::vector<C> kAll = {C::cut, C::slice, C::boundary, C::flow, C::info, C::make, C::resolve};
     static const std::vector<Option> kOptions = {
-        {"--report",
-         {C::cut, C::slice, C::flow, C::info, C::resolve},
-         [](Parser& p, const std::string& name) { p.arguments_.report = p.value(name); }},
-        {"--cells", {C::cut, C::slice, C::flow}, [](Parser& p, const std::string& name) { parseCells(p.value(name), p.arguments_.grid); }},
-        {"--margin",
-         {C::cut, C::slice, C::flow},
-         [](Parser& p, const std::string& name) { parseMargin(p.value(name), p.arguments_.grid); }},
-        {"--box", {C::cut, C::slice, C::flow}, [](Parser& p, const std::string& name) { parseBox(p.value(name), p.arguments_.grid); }},
-        {"--origin",
-         {C::cut, C::slice, C::flow},
-         [](Parser& p, const std::string& name) { parseOrigin(p.value(name), p.arguments_.grid); }},
-        {"--spacing",
-         {C::cut, C::slice, C::flow},
-         [](Parser& p, const std::string& name) { parseSpacing(p.value(name), p.arguments_.grid); }},
-        {"--planes",
-         {C::cut, C::slice, C::flow},
-         [](Parser& p, const std::string& name) { parsePlanes(p.value(name), p.arguments_.grid); }},
-        {"--snap-tolerance", {C::cut, C::slice, C::flow}, [](Parser& p, const std::string& name) { p.parseSnapTolerance(p.value(name)); }},
-        {"--intersections", {C::cut, C::slice, C::flow}, [](Parser& p, const std::string& name) { p.parseIntersections(p.value(name)); }},
-        {"--threads",
-         {C::cut, C::slice, C::flow, C::info, C::resolve},
-         [](Parser& p, const std::string& name) { p.parseThreads(p.value(name)); }},
-        {"--orient", {C::cut, C::slice, C::flow, C::resolve}, [](Parser& p, const std::string&) { p.arguments_.orient = true; }},
+        {"--report", kAllButMake, [](Parser& p, const std::string& name) { p.arguments_.report = p.value(name); }},
+        {"--cells", kCutting, [](Parser& p, const std::string& name) { parseCells(p.value(name), p.arguments_.grid); }},
+        {"--margin", kCutting, [](Parser& p, const std::string& name) { parseMargin(p.value(name), p.arguments_.grid); }},
+        {"--box", kCutting, [](Parser& p, const std::string& name) { parseBox(p.value(name), p.arguments_.grid); }},
+        {"--origin", kCutting, [](Parser& p, const std::string& name) { parseOrigin(p.value(name), p.arguments_.grid); }},
+        {"--spacing", kCutting, [](Parser& p, const std::string& name) { parseSpacing(p.value(name), p.arguments_.grid); }},
+        {"--planes", kCutting, [](Parser& p, const std::string& name) { parsePlanes(p.value(name), p.arguments_.grid); }},
+        {"--snap-tolerance", kCutting, [](Parser& p, const std::string& name) { p.parseSnapTolerance(p.value(name)); }},
+        {"--intersections", kCutting, [](Parser& p, const std::string& name) { p.parseIntersections(p.value(name)); }},
+        {"--threads", kAllButMake, [](Parser& p, const std::string& name) { p.parseThreads(p.value(name)); }},
+        {"--orient", kCuttingAndResolve, [](Parser& p, const std::string&) { p.arguments_.orient = true; }},
         {"--validate", {C::cut}, [](Parser& p, const std::string&) { p.arguments_.validate = true; }},
         {"--coarsen", {C::cut, C::flow}, [](Parser& p, const std::string& name) { p.parseCoarsen(p.value(name)); }},
         {"--faces", {C::cut, C::flow}, [](Parser& p, const std::string&) { p.arguments_.faces = true; }},
@@ -73,15 +66,11 @@ class Parser {
         {"--normal", {C::slice}, [](Parser& p, const std::string& name) { parseNormal(p.value(name), p.arguments_.slice); }},
         {"--heights", {C::slice}, [](Parser& p, const std::string& name) { parseHeights(p.value(name), p.arguments_.slice); }},
         {"--layers", {C::slice}, [](Parser& p, const std::string& name) { parseLayers(p.value(name), p.arguments_.slice); }},
-        {"--only", {C::cut, C::slice, C::flow}, [](Parser& p, const std::string& name) { parseOnly(p.value(name), p.arguments_.only); }},
-        {"--inside-threshold",
-         {C::cut, C::slice, C::flow},
-         [](Parser& p, const std::string& name) { p.parseInsideThreshold(p.value(name)); }},
+        {"--only", kCutting, [](Parser& p, const std::string& name) { parseOnly(p.value(name), p.arguments_.only); }},
+        {"--inside-threshold", kCutting, [](Parser& p, const std::string& name) { p.parseInsideThreshold(p.value(name)); }},
         {"--rule", {C::resolve}, [](Parser& p, const std::string& name) { p.parseRule(p.value(name)); }},
-        {"--format",
-         {C::cut, C::slice, C::flow, C::info, C::make, C::resolve},
-         [](Parser& p, const std::string& name) { p.parseFormat(p.value(name)); }},
-        {"-o", {C::cut, C::slice, C::flow, C::info, C::make, C::resolve}, [](Parser& p, const std::string& name) { p.parseOutputs(name); }},
+        {"--format", kAll, [](Parser& p, const std::string& name) { p.parseFormat(p.value(name)); }},
+        {"-o", kAll, [](Parser& p, const std::string& name) { p.parseOutputs(name); }},
     };
     return kOptions;
   }
@@ -218,6 +207,7 @@ class Parser {
     if (!makes && a.mesh.empty()) throw UsageError("the mesh is missing");
     checkGrid(a.grid);
     if (a.command == Command::slice) checkSlice(a.slice, a.only);
+    if (a.command == Command::boundary && a.only.cut) throw UsageError("--only cut: a boundary is that of whole regions");
     if (a.command == Command::flow && !a.flow.wind) throw UsageError("flow needs --wind");
     const bool toStandardOutput = std::find(a.outputs.begin(), a.outputs.end(), "-") != a.outputs.end();
     if (toStandardOutput && !a.format) throw UsageError("-o - needs --format, such as --format vtu");

@@ -17,7 +17,7 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class Command { help, version, cut, slice, flow, info, make, resolve };
+enum class Command { help, version, cut, slice, boundary, flow, info, make, resolve };
 
 /// The grid as it was asked for; which fields are set tells its kind.
 struct GridArguments {

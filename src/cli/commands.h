@@ -9,6 +9,7 @@ enum ExitCode { kFine = 0, kNotCut = 1, kBadUsageOrFile = 2 };
 
 int runCut(const Arguments& arguments);
 int runSlice(const Arguments& arguments);
+int runBoundary(const Arguments& arguments);
 int runFlow(const Arguments& arguments);
 int runInfo(const Arguments& arguments);
 int runMake(const Arguments& arguments);

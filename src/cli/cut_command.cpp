@@ -2,7 +2,6 @@
 #include "cli/cutting.h"
 #include "cli/files.h"
 #include "cli/interrupt.h"
-#include "cli/make_grid.h"
 #include "mandoline/measure.h"
 
 namespace mandoline::cli {
@@ -37,7 +36,7 @@ void checkOutputs(const Arguments& arguments) {
   requireDifferent(files);
 }
 
-/// A file to write and what it gets.
+/// A file, and which part of the cut-mesh is written to it.
 struct Output {
   std::string path;
   WriteOptions options;
@@ -125,7 +124,7 @@ int runCut(const Arguments& arguments) {
   const Input input = readInput(arguments);
   const Mesh& mesh = input.mesh;
   const MeshInfo info = inspect(mesh);
-  const Grid grid = makeGrid(arguments.grid, mesh, info);
+  const AskedGrid grid = makeGrid(arguments.grid, mesh, info);
   const CutResult result = cutMesh(arguments, mesh, grid);
   Report report = reportOf(arguments, {input, info, {}}, grid, result);
   if (result) {

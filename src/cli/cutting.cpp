@@ -6,7 +6,6 @@
 #include "cli/commands.h"
 #include "cli/files.h"
 #include "cli/inside.h"
-#include "cli/make_grid.h"
 #include "cli/peak_memory.h"
 #include "io/output_file.h"
 
@@ -14,6 +13,11 @@ namespace mandoline::cli {
 namespace {
 
 constexpr double kThreshold = InsideOptions().threshold;
+
+/// Whether a command works on what is inside unless --only says otherwise.
+bool isInsideDefault(const Arguments& arguments) {
+  return (arguments.command == Command::slice || arguments.command == Command::boundary) && !arguments.only.any();
+}
 
 }  // namespace
 
@@ -62,23 +66,22 @@ void deliver(const Arguments& arguments, const std::function<std::string()>& tex
   std::cerr << text() << std::flush;
 }
 
-/// How many cells were asked for, which a grid that is too large does not have.
-static std::string sizeOf(const GridArguments& asked, const Grid& grid) {
-  const std::array<int64_t, 3> cells = asked.cells.value_or(std::array<int64_t, 3>{grid.cells(0), grid.cells(1), grid.cells(2)});
-  if (asked.oneNumber) return std::to_string(cells[0]) + " cells along the longest side";
+/// How many cells were asked for.
+static std::string sizeOf(const GridArguments& asked, const std::array<int64_t, 3>& cells) {
+  if (asked.oneNumber) return std::to_string((*asked.cells)[0]) + " cells along the longest side";
   return std::to_string(cells[0]) + " x " + std::to_string(cells[1]) + " x " + std::to_string(cells[2]) + " cells";
 }
 
 bool needsInside(const Arguments& arguments) {
   const OnlyArguments& only = arguments.only;
-  return only.inside || only.outside || (arguments.command == Command::slice && !only.any()) || arguments.insideThreshold;
+  return only.inside || only.outside || isInsideDefault(arguments) || arguments.insideThreshold;
 }
 
-CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const Grid& grid) {
+CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const AskedGrid& asked) {
   CutResult result = withProgress(arguments.threads, [&](const RunOptions& options) {
-    return cut(mesh, grid, {options, arguments.snapTolerance, arguments.intersections});
+    return cut(mesh, asked.grid, {options, arguments.snapTolerance, arguments.intersections});
   });
-  if (result.error.status == Status::gridTooLarge) result.error.message += " Asked for were " + sizeOf(arguments.grid, grid) + ".";
+  if (result.error.status == Status::gridTooLarge) result.error.message += " Asked for were " + sizeOf(arguments.grid, asked.cells) + ".";
   if (!result || !needsInside(arguments)) return result;
   result.mesh = withProgress(arguments.threads, [&](const RunOptions& options) {
     return estimateInside(mesh, result.mesh, {options, arguments.insideThreshold.value_or(kThreshold)});
@@ -86,19 +89,23 @@ CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const Grid& grid
   return result;
 }
 
-Report reportOf(const Arguments& arguments, MeshReport mesh, const Grid& grid, const CutResult& result) {
+Report reportOf(const Arguments& arguments, MeshReport mesh, const AskedGrid& grid, const CutResult& result) {
   return {std::move(mesh), grid, result, peakMemoryBytes(), {}, {}, arguments.insideThreshold.value_or(kThreshold)};
 }
 
 std::optional<CutResult> cutOrComplain(const Arguments& arguments, const Input& input, const GridArguments& asked) {
   const MeshReport mesh{input, inspect(input.mesh), {}};
-  const Grid grid = makeGrid(asked, input.mesh, mesh.info);
+  const AskedGrid grid = makeGrid(asked, input.mesh, mesh.info);
   CutResult result = cutMesh(arguments, input.mesh, grid);
   if (result) return result;
   complain(refusal(input.name, result.error));
   if (!arguments.report.empty())
     writeOutput(arguments.report, [&](const Sink& sink) { sink(reportJson(reportOf(arguments, mesh, grid, result))); });
   return std::nullopt;
+}
+
+std::optional<InsideRegions> insideOf(const Arguments& arguments, const CutMesh& cutMesh) {
+  return insideOf(cutMesh, arguments.insideThreshold.value_or(kThreshold));
 }
 
 CellComplex makeCells(const Arguments& arguments, const Mesh& mesh, const CutMesh& cutMesh) {
@@ -112,14 +119,13 @@ CellComplex makeCells(const Arguments& arguments, const Mesh& mesh, const CutMes
 WriteOptions writeOptions(const Arguments& arguments, const CutResult& cut) {
   const CutMesh& cutMesh = cut.mesh;
   OnlyArguments only = arguments.only;
-  const bool isInsideDefault = arguments.command == Command::slice && !only.any();
   std::optional<InsideRegions> inside;
-  if (only.inside || only.outside || isInsideDefault) inside = insideOf(cutMesh, arguments.insideThreshold.value_or(kThreshold));
+  if (only.inside || only.outside || isInsideDefault(arguments)) inside = insideOf(arguments, cutMesh);
   const bool any = inside && std::count(inside->isInside.begin(), inside->isInside.end(), 1) > 0;
   const std::string how = inside ? describeInside(inside, cut.stats.parts) : "";
   if (only.inside && !any) throw UsageError("--only inside: nothing is inside" + (how.empty() ? how : " (" + how + ")"));
   if (!how.empty()) std::cerr << "Note: " << how << "\n";
-  if (isInsideDefault) only.inside = any;
+  if (isInsideDefault(arguments)) only.inside = any;
   WriteOptions options;
   options.untouched = !only.cut;
   if (!only.inside && !only.outside && only.regions.empty()) return options;

@@ -17,8 +17,8 @@ inline constexpr std::string_view kRegionMark = "{region}";
 /// files are the same; FileError for one in a folder that does not exist.
 void checkOutputs(const Arguments& arguments, bool (*isAllowed)(FileFormat), const std::string& rule);
 
-/// Calls work(). If a file can't be written, or there is nothing to write, complains and sets the exit code, so that others get their
-/// chance.
+/// Calls work(). If a file can't be written, or there is nothing to write, says so and sets the exit code; the caller goes on with other
+/// files.
 void attempt(int& exitCode, const std::function<void()>& work);
 
 /// Attempts write(output) for every output. Gives the exit code.
@@ -30,23 +30,26 @@ bool takesStandardOutput(const Arguments& arguments);
 /// Writes the report as JSON where --report says, or as text to standard output; to standard error if one of the outputs is there.
 void deliver(const Arguments& arguments, const std::function<std::string()>& text, const std::function<std::string()>& json);
 
-/// Whether what is inside decides what is written.
+/// Whether the command has to know which regions are inside.
 bool needsInside(const Arguments& arguments);
 
-/// With estimates if what is inside is needed and parts are open. With progress.
-CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const Grid& grid);
+/// Cuts; and where parts are open, estimates what is inside, if the command has to know. With progress.
+CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const AskedGrid& asked);
 
-/// What there is to tell of it, but for the regions and the validation.
-Report reportOf(const Arguments& arguments, MeshReport mesh, const Grid& grid, const CutResult& result);
+/// The report of a cut, without the volumes of regions and the validation.
+Report reportOf(const Arguments& arguments, MeshReport mesh, const AskedGrid& grid, const CutResult& result);
 
-/// The same with the grid that is asked for; if it fails, says why, in the report too if there is to be one, and gives nothing.
+/// Cuts with the grid that is asked for. If that fails, says why, also in the report if there is to be one, and gives nothing.
 std::optional<CutResult> cutOrComplain(const Arguments& arguments, const Input& input, const GridArguments& grid);
+
+/// The regions inside, by the threshold that was asked for; nothing if nothing is known of any.
+std::optional<InsideRegions> insideOf(const Arguments& arguments, const CutMesh& cutMesh);
 
 /// All cells, merged as far as --coarsen says. With progress.
 CellComplex makeCells(const Arguments& arguments, const Mesh& mesh, const CutMesh& cutMesh);
 
-/// Says on standard error what tells inside from outside, unless that are winding numbers of the whole input. Throws UsageError for regions
-/// that the cut-mesh does not have, and where nothing is known to be inside.
+/// What --only selects. Says on standard error what tells inside from outside, unless the whole input has winding numbers. Throws
+/// UsageError for regions that the cut-mesh does not have, and for --only inside if nothing is known to be inside.
 WriteOptions writeOptions(const Arguments& arguments, const CutResult& cut);
 
 /// Throws UsageError if the options select no cell at all.

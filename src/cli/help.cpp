@@ -8,6 +8,9 @@ const char* const kHelp =
   mandoline cut MESH [options]      cut, and print a report
   mandoline slice MESH [options] -o FILE ...
                                     write outlines at heights, as .svg, .dxf or .obj
+  mandoline boundary MESH [options] -o FILE ...
+                                    write the closed surface of what is inside, also of an
+                                    open mesh, as .obj, .stl, .ply or .off
   mandoline flow MESH --wind X,Y,Z [options] -o FILE ...
                                     write the potential flow of a wind about the mesh
   mandoline info MESH [-o FILE.obj] tell what kind of mesh it is, and where it has defects
@@ -37,7 +40,7 @@ The grid
                          any ascending planes, or @FILE with the planes of x, y and z on
                          three lines
 
-Options of cut, slice and flow
+Options of cut, slice, boundary and flow
   --snap-tolerance T     move vertices that are within T cells of an axial plane onto it
                          (0 <= T < 0.5; default: 0)
   --intersections WHAT   what to do where triangles meet other than in shared vertices and
@@ -92,6 +95,14 @@ Options of slice
   -o FILE ...            .svg with the normal towards you, .dxf and .obj lines in space; in
                          the units of the mesh
 
+Options of boundary
+  --only inside|outside|region=K
+                         which regions it bounds (default: inside)
+  --inside-threshold T   as of cut. Where parts of the mesh are open, the surface is closed by
+                         faces of the grid: finer cells follow their holes more closely
+  -o FILE ...            triangles oriented outwards, cut by the grid; each edge has an even
+                         number of them. Of closed meshes, resolve --rule writes them uncut
+
 Options of flow
   --wind X,Y,Z           the wind's velocity: it blows on the sides of the grid, and nothing
                          passes the mesh, nor either side of a sheet
@@ -122,19 +133,21 @@ Options of all but make
                          path and mesh (counts, box, closed, oriented, orientation, groups
                          ...). Then
                            cut      grid, counts, largestSnap, intersections (pairs, by
-                                    kind ...), regions, stages (ms), totalMs,
-                                    exactFallbacks, peakMemoryBytes and validation: null,
-                                    or pass and checks
+                                    kind ...), parts, inside, regions, stages (ms),
+                                    totalMs, exactFallbacks, peakMemoryBytes and
+                                    validation: null, or pass and checks
                            slice    layers: height, polygons, slits
+                           boundary parts, inside, triangles
                            flow     wind, cutCells, cells, faces, iterations, residuals,
                                     largestSpeed and throttled (components)
-                           info     intersections, components, places, defects
+                           info     intersections, placeCount, defectCount, and the first
+                                    10000 components, places and defects
                            resolve  intersections, remaining, triangles
 
-Exit codes: 0 fine; 1 the mesh can't be cut, validation failed, there is not enough
-memory, or the flow was not solved, which is written all the same; 2 wrong usage, or a
-file can't be read or written; 130 stopped by Ctrl-C (143 by SIGTERM), which leaves no
-unfinished files.
+Exit codes: 0 fine; 1 the mesh can't be cut, nothing is left to write, validation failed,
+there is not enough memory, or the flow was not solved, which is written all the same; 2
+wrong usage, or a file can't be read or written; 130 stopped by Ctrl-C (143 by SIGTERM),
+which leaves no unfinished files.
 )";
 
 }  // namespace mandoline::cli

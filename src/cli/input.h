@@ -15,7 +15,7 @@ struct Orientation {
   std::array<size_t, 4> patches{};  ///< that face so, by Facing
 };
 
-/// As it was read, but for --orient.
+/// As it was read, or turned by --orient.
 struct Input : GroupedMesh {
   std::string name;  ///< path, or "standard input"
   std::optional<Orientation> orientation;

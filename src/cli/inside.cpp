@@ -38,19 +38,19 @@ std::string describeInside(const std::optional<InsideRegions>& inside, const Par
   return text;
 }
 
-void addInside(Json& json, const Report& report) {
-  const CutResult& result = report.result;
-  const CutMesh& m = result.mesh;
-  const PartCounts& counts = result.stats.parts;
-  json.key("parts").open('{').member("winding", counts.winding).member("parity", counts.parity).member("open", counts.open);
-  json.member("openEdges", counts.openEdges).member("holes", counts.holes).close('}');
-  const std::optional<InsideRegions> inside = result ? insideOf(m, report.insideThreshold) : std::nullopt;
+void addInside(Json& json, const PartCounts& parts, const std::optional<InsideRegions>& inside) {
+  json.key("parts").open('{').member("winding", parts.winding).member("parity", parts.parity).member("open", parts.open);
+  json.member("openEdges", parts.openEdges).member("holes", parts.holes).close('}');
   json.key("inside");
   if (inside) {
     json.open('{').member("by", name(inside->by)).member("complete", inside->isComplete).close('}');
   } else {
     json.null();
   }
+}
+
+void addRegions(Json& json, const Report& report, const std::optional<InsideRegions>& inside) {
+  const CutMesh& m = report.result.mesh;
   json.key("regions").open('[');
   for (uint32_t r = 0; r < m.regionCount; ++r) {
     json.open('{').member("id", r);

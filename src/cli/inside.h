@@ -15,7 +15,10 @@ std::optional<InsideRegions> insideOf(const CutMesh& cutMesh, double threshold);
 /// whole.
 std::string describeInside(const std::optional<InsideRegions>& inside, const PartCounts& parts);
 
-/// The members parts, inside and regions.
-void addInside(Json& json, const Report& report);
+/// The members parts and inside.
+void addInside(Json& json, const PartCounts& parts, const std::optional<InsideRegions>& inside);
+
+/// The member regions.
+void addRegions(Json& json, const Report& report, const std::optional<InsideRegions>& inside);
 
 }  // namespace mandoline::cli

@@ -47,6 +47,8 @@ int run(const std::vector<std::string>& words) {
       return runCut(arguments);
     case Command::slice:
       return runSlice(arguments);
+    case Command::boundary:
+      return runBoundary(arguments);
     case Command::flow:
       return runFlow(arguments);
     case Command::info:

@@ -8,6 +8,8 @@ namespace {
 
 using Vector = GridArguments::Vector;
 
+constexpr int64_t kMostCells = int64_t(1) << 24;  // along an axis of a grid
+
 /// n along the longest side, and as many along the others as make the cells nearly cubic.
 std::array<int64_t, 3> nearlyCubic(const std::array<Vector, 2>& box, int64_t n) {
   Vector sides;
@@ -30,22 +32,35 @@ std::array<Vector, 2> grownBox(const MeshInfo& info, double margin) {
   return box;
 }
 
+AskedGrid withItsCells(Grid&& grid) {
+  const std::array<int64_t, 3> cells = {grid.cells(0), grid.cells(1), grid.cells(2)};
+  return {std::move(grid), cells};
+}
+
+AskedGrid makeAround(const Mesh& mesh, const MeshInfo& info, int64_t n, double margin) {
+  AskedGrid asked = withItsCells(Grid::around(mesh, n, margin));
+  const auto [low, high] = grownBox(info, margin);
+  for (size_t d = 0; d < 3; ++d) {
+    if (asked.cells[d] <= kMostCells) continue;
+    const double count = std::ceil((high[d] - low[d]) / asked.grid.spacing[d]);
+    asked.cells[d] = count < double(n) ? int64_t(count) : n;
+  }
+  return asked;
+}
+
 }  // namespace
 
-Grid makeGrid(const GridArguments& arguments, const Mesh& mesh, const MeshInfo& info) {
+AskedGrid makeGrid(const GridArguments& arguments, const Mesh& mesh, const MeshInfo& info) {
   constexpr int64_t kDefaultCells = 32;
-  if (arguments.planes) return Grid::rectilinear(*arguments.planes);
-  if (arguments.origin) return Grid::regular(*arguments.origin, *arguments.spacing, *arguments.cells);
+  if (arguments.planes) return withItsCells(Grid::rectilinear(*arguments.planes));
+  if (arguments.origin) return {Grid::regular(*arguments.origin, *arguments.spacing, *arguments.cells), *arguments.cells};
   const bool oneNumber = arguments.oneNumber || !arguments.cells;
   const int64_t n = arguments.cells ? (*arguments.cells)[0] : kDefaultCells;
-  if (arguments.box) {
-    const auto& [low, high] = *arguments.box;
-    return Grid::box(low, high, oneNumber ? nearlyCubic(*arguments.box, n) : *arguments.cells);
-  }
   const double margin = arguments.margin.value_or(0.05);
-  if (oneNumber) return Grid::around(mesh, n, margin);
-  const auto [low, high] = grownBox(info, margin);
-  return Grid::box(low, high, *arguments.cells);
+  if (oneNumber && !arguments.box) return makeAround(mesh, info, n, margin);
+  const auto [low, high] = arguments.box.value_or(grownBox(info, margin));
+  const std::array<int64_t, 3> cells = oneNumber ? nearlyCubic({low, high}, n) : *arguments.cells;
+  return {Grid::box(low, high, cells), cells};
 }
 
 }  // namespace mandoline::cli

@@ -6,7 +6,12 @@
 
 namespace mandoline::cli {
 
+struct AskedGrid {
+  Grid grid;
+  std::array<int64_t, 3> cells;  ///< along each axis, as they were asked for: a grid that is too large does not have them
+};
+
 /// `info` is that of the mesh.
-Grid makeGrid(const GridArguments& arguments, const Mesh& mesh, const MeshInfo& info);
+AskedGrid makeGrid(const GridArguments& arguments, const Mesh& mesh, const MeshInfo& info);
 
 }  // namespace mandoline::cli

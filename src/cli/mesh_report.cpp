@@ -48,20 +48,24 @@ std::span<const uint32_t> trianglesAt(const MeshInfo& info, size_t defect) {
   return {info.defectTriangles.data() + begin, info.defectTriangleOffsets[defect + 1] - begin};
 }
 
+/// The report of millions of loose triangles lists so many of their components, places and defects.
+constexpr size_t kMostListed = 10000;
+
 void addDefects(Json& json, const MeshReport& report) {
   const MeshInfo& info = report.info;
+  json.member("placeCount", info.placeCount()).member("defectCount", info.defectCount());
   json.key("components").open('[');
-  for (size_t c = 0; c < info.components; ++c) {
+  for (size_t c = 0; c < std::min(kMostListed, info.components); ++c) {
     json.open('{').member("closed", info.componentClosed[c] != 0).member("oriented", info.componentOriented[c] != 0).close('}');
   }
   json.close(']').key("places").open('[');
-  for (size_t p = 0; p < info.placeCount(); ++p) {
+  for (size_t p = 0; p < std::min(kMostListed, info.placeCount()); ++p) {
     const std::span<const double> box(&info.placeBox[6 * p], 6);
     json.open('{').member("component", info.placeComponent[p]);
     json.key("min").values(box.first(3)).key("max").values(box.last(3)).close('}');
   }
   json.close(']').key("defects").open('[');
-  for (size_t d = 0; d < info.defectCount(); ++d) {
+  for (size_t d = 0; d < std::min(kMostListed, info.defectCount()); ++d) {
     json.open('{').member("kind", name(info.defectKind[d])).member("place", info.defectPlace[d]);
     json.key("vertices").values(std::span(&info.defectVertices[2 * d], 2)).key("triangles").values(trianglesAt(info, d));
     json.key("from").values(std::span(end(report.input.mesh, info, d, 0), 3));
@@ -106,7 +110,7 @@ void addDefects(std::ostream& out, const MeshReport& report) {
     out << "\n";
   }
   addMore(info.defectCount());
-  out << "  -o FILE.obj writes them all as lines, --report FILE.json tells of them all\n";
+  out << "  -o FILE.obj writes them all as lines, --report FILE.json tells of the first " << kMostListed << "\n";
 }
 
 }  // namespace

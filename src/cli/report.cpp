@@ -31,8 +31,6 @@ std::vector<Count> inputCounts(const CutResult& result) {
           {"flushedCoordinates", "coordinates taken as 0", s.flushedCoordinates}};
 }
 
-std::array<int64_t, 3> cellsOf(const Grid& grid) { return {grid.cells(0), grid.cells(1), grid.cells(2)}; }
-
 /// Null where nobody has looked for them, or not to the end.
 void addIntersections(Json& json, const Report& report) {
   const CutStats& stats = report.result.stats;
@@ -83,8 +81,8 @@ class TextReport {
   static constexpr uint32_t kMostRegions = 20;
 
   void addHead() {
-    const Grid& g = report_.grid;
-    out_ << headline(report_.mesh) << "Grid of " << g.cells(0) << " x " << g.cells(1) << " x " << g.cells(2) << " cells";
+    const auto& [g, cells] = report_.grid;
+    out_ << headline(report_.mesh) << "Grid of " << cells[0] << " x " << cells[1] << " x " << cells[2] << " cells";
     if (g.uniform) out_ << ", " << triple(g.spacing.data(), " x ") << " each, from (" << triple(g.origin.data(), ", ") << ")";
     out_ << "\n";
     if (report_.result) return;
@@ -167,19 +165,21 @@ std::string reportJson(const Report& report) {
   const CutStats& stats = report.result.stats;
   Json json;
   addHead(json, report.result.error, report.mesh);
-  json.key("grid").open('{').key("origin").values(report.grid.origin).key("spacing");
-  if (report.grid.uniform) {
-    json.values(report.grid.spacing);
+  json.key("grid").open('{').key("origin").values(report.grid.grid.origin).key("spacing");
+  if (report.grid.grid.uniform) {
+    json.values(report.grid.grid.spacing);
   } else {
     json.null();
   }
-  json.key("cells").values(cellsOf(report.grid)).close('}');
+  json.key("cells").values(report.grid.cells).close('}');
   json.key("counts").open('{');
   for (const Count& count : cutMeshCounts(report.result.mesh)) json.member(count.key, count.value);
   for (const Count& count : inputCounts(report.result)) json.member(count.key, count.value);
   json.close('}').member("largestSnap", stats.largestSnap);
   addIntersections(json, report);
-  addInside(json, report);
+  const std::optional<InsideRegions> inside = report.result ? insideOf(report.result.mesh, report.insideThreshold) : std::nullopt;
+  addInside(json, stats.parts, inside);
+  addRegions(json, report, inside);
   json.key("stages").open('[');
   for (const StageTime& stage : stats.stages) json.open('{').member("stage", stage.stage).member("ms", stage.ms).close('}');
   json.close(']').member("totalMs", stats.totalMs).member("exactFallbacks", stats.exactFallbacks);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/make_grid.h"
 #include "cli/mesh_report.h"
 #include "mandoline/mandoline.h"
 #include "mandoline/validate.h"
@@ -13,7 +14,7 @@ namespace mandoline::cli {
 /// Everything there is to tell of a cut; both forms tell the same.
 struct Report {
   MeshReport mesh;
-  const Grid& grid;
+  const AskedGrid& grid;
   const CutResult& result;
   size_t peakMemoryBytes = 0;
   std::vector<double> regionVolumes;     ///< per region

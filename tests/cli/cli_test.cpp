@@ -1,20 +1,13 @@
 // The command line, run as users run it: exit codes, messages, reports and files.
 #ifdef MANDOLINE_CLI
 
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <csignal>
-#include <functional>
 #include <random>
 #include <sstream>
-#include <vector>
 
 #include "catch.h"
+#include "command_line.h"
 #include "mandoline/io.h"
 #include "shapes.h"
-#include "temporary_folder.h"
 
 namespace {
 
@@ -26,60 +19,6 @@ const std::string kCube =
 const std::string kCrossingCube =
     "v 2 2 2\nv 4 2 2\nv 4 4 2\nv 2 4 2\nv 2 2 4\nv 4 2 4\nv 4 4 4\nv 2 4 4\n"
     "f 12 11 10 9\nf 13 14 15 16\nf 9 10 14 13\nf 10 11 15 14\nf 11 12 16 15\nf 12 9 13 16\n";
-
-struct Outcome {
-  int exitCode = -1;
-  std::string out, err;
-};
-
-/// A child process with its standard streams in files of the folder. Gets the signal once `ready` holds.
-struct Signal {
-  int number;
-  std::function<bool()> ready;
-};
-Outcome run(const TemporaryFolder& folder, std::vector<std::string> words, const std::string& input = "", const Signal& signal = {}) {
-  words.insert(words.begin(), MANDOLINE_CLI);
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  const std::string in = folder.write("stdin", input), out = folder.path("stdout"), err = folder.path("stderr");
-  const pid_t child = fork();
-  if (child == 0) {
-    dup2(open(in.c_str(), O_RDONLY), STDIN_FILENO);
-    dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
-    dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
-    if (signal.number) std::signal(signal.number, SIG_DFL);
-    execv(MANDOLINE_CLI, arguments.data());
-    _exit(127);
-  }
-  REQUIRE(child > 0);
-  int status = 0;
-  if (signal.number) {
-    while (!signal.ready() && waitpid(child, &status, WNOHANG) == 0) usleep(1000);
-    kill(child, signal.number);
-  }
-  waitpid(child, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), folder.read("stdout"), folder.read("stderr")};
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  CAPTURE(text, part);
-  return text.find(part) != std::string::npos;
-}
-
-/// A report without its line breaks and their indentation, with a space after each comma.
-std::string inOneLine(const std::string& json) {
-  std::string line;
-  for (size_t i = 0; i < json.size(); ++i) {
-    if (json[i] != '\n') {
-      line += json[i];
-      continue;
-    }
-    if (line.ends_with(',')) line += ' ';
-    i = std::min(json.find_first_not_of(' ', i + 1), json.size()) - 1;
-  }
-  return line;
-}
 
 }  // namespace
 
@@ -131,9 +70,9 @@ TEST_CASE("Command line: wrong usage exits with 2", "[cli]") {
       {{"cut", mesh, mesh}, "one mesh at a time"},
       {{"cut", mesh, "--colour"}, "unknown option '--colour'"},
       {{"cut", mesh, ""}, "unknown option ''"},
-      {{"info", mesh, "--cells", "3"}, "--cells is an option of cut, slice and flow"},
+      {{"info", mesh, "--cells", "3"}, "--cells is an option of cut, slice, boundary and flow"},
       {{"cut", mesh, "--wind", "1,0,0"}, "--wind is an option of flow"},
-      {{"info", mesh, "--only"}, "--only is an option of cut, slice and flow"},
+      {{"info", mesh, "--only"}, "--only is an option of cut, slice, boundary and flow"},
       {{"cut", mesh, "--cels", "3"}, "unknown option '--cels': did you mean --cells?"},
       {{"cut", mesh, "-cells", "3"}, "unknown option '-cells': did you mean --cells?"},
       {{"info", mesh, "--widn", "3"}, "unknown option '--widn': did you mean --wind?"},
@@ -441,6 +380,17 @@ TEST_CASE("Command line: a grid that is too large is told as it was asked for", 
   CHECK(contains(refused("123456789"), "Asked for were 123456789 cells along the longest side."));
   CHECK(contains(refused("4,123456789,5"), "Asked for were 4 x 123456789 x 5 cells."));
   CHECK(contains(refused("1,32768,32768"), "Asked for were 1 x 32768 x 32768 cells."));
+  const auto reported = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"cut", mesh, "--report", "-"});
+    return run(folder, words).out;
+  };
+  CHECK(contains(reported({"--cells", "123456789"}), "\"cells\": [123456789, 123456789, 123456789]"));
+  CHECK(contains(reported({"--cells", "4,123456789,5"}), "\"cells\": [4, 123456789, 5]"));
+  CHECK(contains(reported({"--cells", "123456789", "--box", "0,0,0,4,2,1"}), "\"cells\": [123456789, 61728395, 30864197]"));
+  const std::string flat = folder.write("flat.obj", "v 0 0 0\nv 4 0 0\nv 0 1 0\nf 1 2 3\n");
+  const Outcome around = run(folder, {"cut", flat, "--cells", "123456789", "--margin", "0", "--report", "-"});
+  CHECK(contains(around.out, "\"cells\": [123456789, 30864198, 1]"));
+  CHECK(contains(run(folder, {"cut", mesh, "--cells", "4,123456789,5"}).out, "Grid of 4 x 123456789 x 5 cells"));
 }
 
 TEST_CASE("Command line: all reports begin with the same members", "[cli]") {
@@ -449,6 +399,7 @@ TEST_CASE("Command line: all reports begin with the same members", "[cli]") {
   std::vector<std::vector<std::string>> ways = {{"cut", mesh, "--cells", "4"},
                                                 {"info", mesh},
                                                 {"slice", mesh, "--heights", "2", "--cells", "4", "-o", obj},
+                                                {"boundary", mesh, "--cells", "4", "-o", obj},
                                                 {"resolve", mesh, "-o", obj}};
 #ifdef MANDOLINE_HAVE_OPERATORS
   ways.push_back({"flow", mesh, "--wind", "1,0,0", "--cells", "4", "-o", obj});
@@ -882,6 +833,28 @@ TEST_CASE("Command line: info tells where a mesh has defects, and writes them as
   CHECK(none.exitCode == 0);
   CHECK_FALSE(contains(none.out, "Defects"));
   CHECK(folder.read("none.obj").empty());
+}
+
+TEST_CASE("Command line: info lists the first 10000 of the components, places and defects, and tells how many there are", "[cli]") {
+  const TemporaryFolder folder;
+  constexpr size_t kTriangles = 10001;
+  std::string soup;
+  for (size_t t = 0; t < kTriangles; ++t) {
+    const std::string x = std::to_string(2 * t);
+    soup += "v " + x + " 0 0\nv " + x + " 1 0\nv " + x + " 0 1\nf -3 -2 -1\n";
+  }
+  const std::string mesh = folder.write("soup.obj", soup), json = run(folder, {"info", mesh, "--report", "-"}).out;
+  const auto count = [&](const std::string& part) {
+    size_t found = 0;
+    for (size_t at = json.find(part); at != std::string::npos; at = json.find(part, at + 1)) ++found;
+    return found;
+  };
+  CHECK(count("\"components\": 10001") == 1);
+  CHECK(count("\"placeCount\": 10001,\n  \"defectCount\": 30003,") == 1);
+  CHECK(count("\n    {\"closed\": ") == 10000);
+  CHECK(count("\n    {\"component\": ") == 10000);
+  CHECK(count("\n    {\"kind\": ") == 10000);
+  CHECK(contains(run(folder, {"info", mesh}).out, "--report FILE.json tells of the first 10000\n"));
 }
 
 TEST_CASE("Command line: --orient turns triangles, and the report tells how many", "[cli]") {

@@ -1,0 +1,155 @@
+// The command line writes closed surfaces of what is inside, as the library makes them, and says what tells inside from outside.
+#ifdef MANDOLINE_CLI
+
+#include <map>
+#include <optional>
+
+#include "catch.h"
+#include "command_line.h"
+#include "mandoline/io.h"
+#include "mandoline/mandoline.h"
+#include "mesh_folder.h"
+#include "shapes.h"
+
+using namespace mandoline;
+
+namespace {
+
+/// Edges at which the triangles' directed edges do not cancel.
+size_t openEdges(const Mesh& mesh) {
+  std::map<std::pair<uint32_t, uint32_t>, int> sums;
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const uint32_t a = mesh.triangles[i], b = mesh.triangles[i % 3 == 2 ? i - 2 : i + 1];
+    sums[std::minmax(a, b)] += a < b ? 1 : -1;
+  }
+  size_t open = 0;
+  for (const auto& [edge, sum] : sums) open += sum != 0;
+  return open;
+}
+
+std::string fileOf(const Mesh& mesh) {
+  std::string text;
+  writeMesh([&](std::string_view piece) { text += piece; }, FileFormat::obj, mesh);
+  return text;
+}
+
+Mesh openBox() {
+  Mesh mesh = shapes::box({9, 1, 1}, {11, 3, 3});
+  mesh.triangles.resize(mesh.triangles.size() - 3);
+  return mesh;
+}
+
+/// A closed box, one with a triangle turned, and one without a triangle.
+Mesh village() {
+  Mesh turned = shapes::box({5, 1, 1}, {7, 3, 3});
+  std::swap(turned.triangles[0], turned.triangles[1]);
+  return shapes::merged({shapes::cube(1, 3), turned, openBox()});
+}
+
+const std::vector<std::string> kGrid = {"--box", "0,0,0,12,4,4", "--cells", "12,4,4"};
+
+Outcome inGrid(const TemporaryFolder& folder, std::vector<std::string> words) {
+  words.insert(words.end(), kGrid.begin(), kGrid.end());
+  return run(folder, words);
+}
+
+}  // namespace
+
+TEST_CASE("Command line: the boundary of what is inside is closed, and the library's", "[cli]") {
+  const TemporaryFolder folder;
+  const Mesh mesh = village();
+  const std::string path = folder.write("village.obj", fileOf(mesh)), solid = folder.path("solid.obj");
+  const Grid grid = Grid::box({0, 0, 0}, {12, 4, 4}, {12, 4, 4});
+  const CutMesh estimated = estimateInside(mesh, cut(mesh, grid).mesh);
+  const auto check = [&](const std::vector<uint8_t>& isInside) {
+    const Mesh written = readMesh(solid), expected = boundary(estimated, isInside);
+    CHECK(written.positions == expected.positions);
+    CHECK(written.triangles == expected.triangles);
+    CHECK(openEdges(written) == 0);
+    return shapes::signedVolume(written);
+  };
+  const Outcome o = inGrid(folder, {"boundary", path, "-o", solid, "--report", "-"});
+  REQUIRE(o.exitCode == 0);
+  const std::vector<uint8_t> isInside = insideRegions(estimated, {WindingRule::nonZero}).isInside;
+  CHECK(check(isInside) == 24);
+  CHECK(
+      contains(o.err,
+               "Note: 1 of 3 parts not consistently oriented: inside by parity; 1 of 3 parts open, with 3 open edges around 1 hole: inside "
+               "by an estimate\n"));
+  const std::string report = inOneLine(o.out);
+  CHECK(contains(report, "\"status\": \"ok\""));
+  CHECK(contains(report, "\"parts\": {\"winding\": 1, \"parity\": 1, \"open\": 1, \"openEdges\": 3, \"holes\": 1}"));
+  CHECK(contains(report, "\"inside\": {\"by\": \"estimate\", \"complete\": true}, \"triangles\": " +
+                             std::to_string(readMesh(solid).triangleCount()) + "}"));
+
+  REQUIRE(inGrid(folder, {"boundary", path, "--only", "outside", "-o", solid}).exitCode == 0);
+  std::vector<uint8_t> isOutside;
+  for (const uint8_t is : isInside) isOutside.push_back(!is);
+  CHECK(check(isOutside) == 12 * 4 * 4 - 24);
+  const Outcome one = inGrid(folder, {"boundary", path, "--only", "region=0", "--inside-threshold", "0.5", "-o", solid});
+  REQUIRE(one.exitCode == 0);
+  std::vector<uint8_t> isFirst(estimated.regionCount, 0);
+  isFirst[0] = 1;
+  check(isFirst);
+  CHECK(contains(one.out, "Boundary of 1 of " + std::to_string(estimated.regionCount) + " regions\nTriangles written: "));
+}
+
+TEST_CASE("Command line: the boundary goes to standard output and into every format of meshes", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("open.obj", fileOf(openBox()));
+  const Outcome o = inGrid(folder, {"boundary", path, "-o", "-", "--format", "off"});
+  REQUIRE(o.exitCode == 0);
+  CHECK(contains(o.err, "Boundary of "));
+  const Mesh written = readMesh(std::span(o.out.data(), o.out.size()), "a.off");
+  CHECK(written.triangleCount() > 0);
+  CHECK(openEdges(written) == 0);
+  for (const std::string name : {"a.stl", "a.ply", "a.off"}) {
+    REQUIRE(inGrid(folder, {"boundary", path, "-o", folder.path(name)}).exitCode == 0);
+    CHECK(readMesh(folder.path(name)).triangleCount() == written.triangleCount());
+  }
+}
+
+TEST_CASE("Command line: where nothing is inside there is no boundary, and the report says why", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string sheet = folder.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), stl = folder.path("a.stl");
+  const Outcome o = run(folder, {"boundary", sheet, "-o", stl, "--report", "-"});
+  CHECK(o.exitCode == 1);
+  const std::string message =
+      "Nothing is inside: 1 of 1 part open, with 3 open edges around 1 hole: inside by an estimate. With a lower --inside-threshold more "
+      "counts as inside.";
+  CHECK(o.err == "mandoline: " + sheet + ": nothingInside: " + message + "\n");
+  CHECK(contains(o.out, "\"status\": \"nothingInside\",\n  \"message\": \"" + message + "\""));
+  CHECK(contains(o.out, "\"triangles\": 0\n}"));
+  CHECK_FALSE(std::filesystem::exists(stl));
+  const std::string cube = folder.write("cube.obj", fileOf(shapes::cube(1, 3)));
+  const Outcome apart = run(folder, {"boundary", cube, "--box", "7,7,7,8,8,8", "-o", stl});
+  CHECK(apart.exitCode == 1);
+  CHECK(contains(apart.err, "nothingInside: Nothing is inside.\n"));
+  const Outcome only = run(folder, {"boundary", cube, "--only", "cut", "-o", stl});
+  CHECK(only.exitCode == 2);
+  CHECK(contains(only.err, "--only cut: a boundary is that of whole regions"));
+}
+
+TEST_CASE("Command line: boundaries of ten open scans are closed", "[scans]") {
+  const std::optional<std::filesystem::path> meshes = meshFolder();
+  if (!meshes) return;
+  const TemporaryFolder folder;
+  const std::string solid = folder.path("solid.obj");
+  size_t scans = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(*meshes)) {
+    if (scans == 10 || entry.path().extension() != ".gz") continue;
+    const Mesh mesh = readMesh(entry.path().string());
+    if (mesh.triangleCount() > 30000 || mesh.triangleCount() < 1000 || inspect(mesh).openEdges == 0) continue;
+    const Outcome o = run(folder, {"boundary", entry.path().string(), "--cells", "20", "-o", solid, "--report", "-"});
+    if (!contains(o.out, "\"by\": \"estimate\", \"complete\": true")) continue;
+    ++scans;
+    INFO(entry.path().filename().string());
+    CHECK(o.exitCode == 0);
+    const Mesh written = readMesh(solid);
+    CHECK(written.triangleCount() > 0);
+    CHECK(openEdges(written) == 0);
+  }
+  CHECK(scans == 10);
+}
+
+#endif
