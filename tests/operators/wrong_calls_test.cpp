@@ -10,6 +10,7 @@
 #include "mandoline/io.h"
 #include "mandoline/mandoline.h"
 #include "shapes.h"
+#include "temporary_folder.h"
 
 using namespace mandoline;
 
@@ -74,7 +75,7 @@ class Draw {
   WriteOptions writeOptions() {
     WriteOptions options;
     options.untouched = below(2) == 0;
-    if (below(2) == 0) options.regions.assign(below(4), uint8_t(below(2)));
+    if (below(2) == 0) options.regions = regions();
     return options;
   }
   /// A mesh's own, or one that has lost or been given arrays.
@@ -86,6 +87,15 @@ class Draw {
     return result;
   }
   WindingRule rule() { return WindingRule(below(3)); }
+  double threshold() { return below(2) == 0 ? 0.5 : number(); }
+  /// Per region of some cut-mesh, or of none.
+  std::vector<uint8_t> regions() { return std::vector<uint8_t>(below(5), uint8_t(below(2))); }
+  TriangleGroups groups() {
+    TriangleGroups result;
+    result.names.assign(below(3), "group");
+    result.triangleGroup.assign(below(2) == 0 ? mesh().triangleCount() : below(20), uint32_t(below(3)));
+    return result;
+  }
   Intersections intersections() { return Intersections(below(3)); }
   int64_t count() {
     constexpr int64_t kCounts[] = {-1, 0, 1, 2, 3, 4, 5, 6, INT64_MIN, INT64_MAX};
@@ -140,11 +150,8 @@ class Draw {
     return result;
   }
   /// With its own or another's octree cells.
-  CellComplex cells() {
-    const Mesh& ofMesh = mesh();
-    const CutMesh& one = cutMesh();
-    return cellComplex(ofMesh, one, octreeOf(below(4) == 0 ? cutMesh() : one));
-  }
+  CellComplex cells() { return cellsOf(cutMesh()); }
+  CellComplex cellsOf(const CutMesh& one) { return cellComplex(mesh(), one, octreeOf(below(4) == 0 ? cutMesh() : one)); }
   ValidateOptions validateOptions() {
     ValidateOptions options;
     options.snapTolerance = below(2) == 0 ? 0 : number();
@@ -174,6 +181,14 @@ struct Call {
 
 /// A line for each function that takes arguments which may not fit.
 const std::vector<Call> kCalls{
+    {"made shapes",
+     [](Draw& draw) {
+       const int counts[] = {int(draw.below(6)) - 1, int(draw.below(6)) - 1};
+       makeBox(draw.triple(), draw.triple());
+       makeSphere(draw.triple(), draw.number(), counts[0]);
+       makeTorus(draw.number(), draw.number(), counts[0], counts[1]);
+       makeTorusKnot(draw.number(), counts[0], counts[1]);
+     }},
     {"measure", [](Draw& draw) { measure(draw.mesh(), draw.cutMesh()); }},
     {"cutEdges", [](Draw& draw) { cutEdges(draw.mesh(), draw.cutMesh()); }},
     {"regionVolumes", [](Draw& draw) { regionVolumes(draw.cutMesh(), draw.measures()); }},
@@ -188,7 +203,21 @@ const std::vector<Call> kCalls{
      }},
     {"slices", [](Draw& draw) { slices(draw.cutMesh(), draw.triple(), draw.numbers()); }},
     {"outlines", [](Draw& draw) { outlines(draw.cutMesh(), draw.triple(), draw.numbers()); }},
+    {"outlines in one plane",
+     [](Draw& draw) {
+       outlines(draw.cutMesh(), {draw.triple(), draw.number()});
+     }},
     {"inspect", [](Draw& draw) { inspect(draw.mesh()); }},
+    {"orient", [](Draw& draw) { orient(draw.mesh()); }},
+    {"insideRegions",
+     [](Draw& draw) {
+       insideRegions(draw.cutMesh(), {draw.rule(), draw.threshold()});
+     }},
+    {"estimateInside",
+     [](Draw& draw) {
+       estimateInside(draw.mesh(), draw.cutMesh(), {{}, draw.threshold()});
+     }},
+    {"generalizedWindingNumbers", [](Draw& draw) { generalizedWindingNumbers(draw.mesh(), draw.numbers()); }},
     {"findIntersections",
      [](Draw& draw) {
        findIntersections(draw.mesh(), {{}, draw.below(3)});
@@ -218,6 +247,7 @@ const std::vector<Call> kCalls{
      }},
     {"boundary of a resolved mesh", [](Draw& draw) { boundary(draw.resolvedMesh(), draw.rule()); }},
     {"boundary of a cut-mesh", [](Draw& draw) { boundary(draw.cutMesh(), draw.rule()); }},
+    {"boundary of regions", [](Draw& draw) { boundary(draw.cutMesh(), draw.regions()); }},
     {"writeMesh",
      [](Draw& draw) {
        writeMesh(kNowhere, draw.of({FileFormat::obj, FileFormat::stl, FileFormat::ply}), draw.mesh());
@@ -227,6 +257,30 @@ const std::vector<Call> kCalls{
        const FileFormat format = draw.of({FileFormat::vtu, FileFormat::obj, FileFormat::stl, FileFormat::ply});
        writeCutMesh(kNowhere, format, draw.mesh(), draw.cutMesh(), draw.writeOptions());
      }},
+    {"writeJson", [](Draw& draw) { writeJson(kNowhere, draw.cutMesh(), draw.groups(), {}); }},
+    {"writeJson of cells",
+     [](Draw& draw) {
+       const CutMesh& cutMesh = draw.cutMesh();
+       writeJson(kNowhere, draw.below(4) == 0 ? draw.cutMesh() : cutMesh, draw.cellsOf(cutMesh), draw.writeOptions());
+     }},
+    {"writeMcm", [](Draw& draw) { writeMcm(kNowhere, draw.cutMesh()); }},
+    {"writeVtu and writeFacesVtu of cells",
+     [](Draw& draw) {
+       const CutMesh& cutMesh = draw.cutMesh();
+       const CellComplex cells = draw.cellsOf(cutMesh);
+       const CutMesh& ofFile = draw.below(4) == 0 ? draw.cutMesh() : cutMesh;
+       const std::vector<double> values(draw.below(2) == 0 ? cells.cellCount() : draw.below(9));
+       const std::vector<Field> fields(draw.below(3), Field{draw.below(2) == 0 ? "field" : "", values});
+       if (draw.below(2) == 0) return writeVtu(kNowhere, ofFile, cells, fields, draw.writeOptions());
+       writeFacesVtu(kNowhere, ofFile, cells, fields, draw.writeOptions());
+     }},
+    {"writePolyMesh",
+     [](Draw& draw) {
+       const TemporaryFolder folder;
+       const CutMesh& cutMesh = draw.cutMesh();
+       writePolyMesh(folder.path("polyMesh"), draw.below(4) == 0 ? draw.cutMesh() : cutMesh, draw.cellsOf(cutMesh), draw.writeOptions());
+     }},
+    {"writeDefects", [](Draw& draw) { writeDefects(kNowhere, draw.mesh(), inspect(draw.mesh())); }},
     {"writeOutlines",
      [](Draw& draw) {
        const std::vector<double> offsets = {0.25, 0.5};
