@@ -37,7 +37,7 @@ inline const char* vtkTypeName(int64_t) { return "Int64"; }
 inline const char* vtkTypeName(int32_t) { return "Int32"; }
 inline const char* vtkTypeName(uint8_t) { return "UInt8"; }
 
-/// Calls f(name, numbers) for the arrays that tell of regions what is inside, as far as there are any.
+/// Calls f(name, numbers) for each array of regions about inside that the cut-mesh has.
 template <class F>
 void forEachRegionArray(const CutMesh& cutMesh, const F& f) {
   const auto visit = [&](const char* name, const auto& numbers) {

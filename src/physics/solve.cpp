@@ -117,7 +117,7 @@ class Solver {
     constexpr int kPasses = 3;  // each leaves a rounding error of the excess that it subtracts
     for (int pass = 0; pass < kPasses; ++pass) takeAway(excesses());
     const Vector after = squares();
-    for (size_t c = 0; c < given.size(); ++c) {  // where all but rounding was excess, nothing is left to solve
+    for (size_t c = 0; c < given.size(); ++c) {  // where only rounding is left beside the excess, there is nothing to solve
       if (after[component(c)] < 1e-24 * before[component(c)]) system_.rhs[c] = 0;
     }
   }
@@ -165,8 +165,8 @@ class Solver {
 
   uint32_t component(size_t c) const { return components_.cellComponent[c]; }
 
-  /// Conjugate gradients update the residual instead of computing it, and where phi has large steps the two drift apart. So the true one
-  /// decides, and they begin anew from what they have found for as long as that helps.
+  /// Conjugate gradients update the residual instead of computing it, and where phi has large steps the two drift apart. So the computed
+  /// one decides, and while that helps they are started again from the phi that they have found.
   void iterate(const Operator& matrix, physics::Multigrid& multigrid) {
     Vector r = system_.rhs;
     norm_ = std::sqrt(dot(r, r));

@@ -418,7 +418,7 @@ TEST_CASE("Content decides before the extension", "[io]") {
 
 TEST_CASE("Files of formats that are not read are named, with what to do", "[io]") {
   using namespace std::string_literals;
-  // By content, whatever the name.
+  // By content, not by the name.
   requireError("a.obj", "glTF\x02\0\0\0"s, "a.obj: this is a glTF file, not OBJ, STL, PLY or OFF: convert it to one of them");
   requireError("a", "\n {\"asset\":{\"version\":\"2.0\"}}", "a glTF or other JSON file");
   requireError("a", "PK\x03\x04 archive 3D/3dmodel.model", "a 3MF file");

@@ -157,8 +157,8 @@ export interface CutMeshArrays {
    */
   regionWinding: Int32Array<ArrayBuffer> | null;
 
-  // What is known where the input has no winding numbers as a whole: see insideRegions(), which takes the best of it. Its connected
-  // parts either have winding numbers, or parity alone (each edge has an even number of their triangles), or are open.
+  // What is known where the input has no winding numbers as a whole: see insideRegions(), which takes the best of it. The parts of
+  // the input either have winding numbers, or parity alone (each edge has an even number of their triangles), or are open.
   /** Per region: the sum over the parts that have winding numbers; null if none has. */
   regionPartWinding: Int32Array<ArrayBuffer> | null;
   /** Per region: how many of the parts that have winding numbers or parity a path from outside crosses, modulo 2; null if none has. */
@@ -419,7 +419,7 @@ export interface ResolvedMeshArrays extends MeshArrays {
   frontWinding: Int32Array<ArrayBuffer> | null;
   /** The same behind it. Null unless the input has winding numbers: see CutMesh. */
   backWinding: Int32Array<ArrayBuffer> | null;
-  // The same of what CutMesh::regionPartWinding and regionParity tell where the input as a whole has no winding numbers.
+  // The same of CutMesh::regionPartWinding and regionParity, for inputs that have no winding numbers as a whole.
   /** Per triangle, on the side of its normal; null if no part has winding numbers. */
   frontPartWinding: Int32Array<ArrayBuffer> | null;
   /** Per triangle, behind it; null if no part has winding numbers. */
@@ -585,7 +585,7 @@ export type InsideBy =
   /** Generalized winding numbers: for open parts. */
   | 'estimate';
 
-/** Why an edge does not part the front of a mesh from its back. */
+/** What is wrong with an edge. */
 export type EdgeDefect =
   /** It has one triangle. */
   | 'open'

@@ -26,8 +26,8 @@ class Counted {
   PartKind worst_ = PartKind::winding;
 };
 
-/// Winding number of what counts of the surface about the point (x0 + e^3, y0 + e, z0 + e^2) for the grid's lowest corner (x0, y0, z0) and
-/// an e as small as need be: the sign of crossings of the ray from there to -x.
+/// Winding number of the counted triangles about the point (x0 + e^3, y0 + e, z0 + e^2), where (x0, y0, z0) is the grid's lowest corner and
+/// e is arbitrarily small: the sum of the signs of the crossings of the ray from there to -x.
 int windingAtLowestCorner(const Input& input, const Counted& counted, Predicates& predicates) {
   const Point o = {input.planes[0][0], input.planes[1][0], input.planes[2][0]};
   int winding = 0;
@@ -124,7 +124,7 @@ class WindingSets {
   vertices.failSelfIntersection(triangle, other);
 }
 
-/// Per region the winding number of what counts.
+/// Per region the winding number of the counted triangles.
 std::vector<int32_t> windingOf(const Surface& surface, const Sides& sides, const Regions& regions, const Counted& counted,
                                Predicates& predicates) {
   WindingSets sets(regions.count);

@@ -143,8 +143,8 @@ struct CutMesh {
   bool hasWinding = false;             ///< whether the input is closed and consistently oriented, so that it has winding numbers
   std::vector<int32_t> regionWinding;  ///< per region: 1 inside an outward oriented closed surface, 0 outside; empty unless hasWinding
 
-  // What is known where the input has no winding numbers as a whole: see insideRegions(), which takes the best of it. Its connected
-  // parts either have winding numbers, or parity alone (each edge has an even number of their triangles), or are open.
+  // What is known where the input has no winding numbers as a whole: see insideRegions(), which takes the best of it. The parts of
+  // the input either have winding numbers, or parity alone (each edge has an even number of their triangles), or are open.
   std::vector<int32_t> regionPartWinding;  ///< per region: the sum over the parts that have winding numbers; empty if none has
   /// Per region: how many of the parts that have winding numbers or parity a path from outside crosses, modulo 2; empty if none has.
   std::vector<uint8_t> regionParity;

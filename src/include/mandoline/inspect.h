@@ -9,7 +9,7 @@
 
 namespace MANDOLINE_API mandoline {
 
-/// Why an edge does not part the front of a mesh from its back.
+/// What is wrong with an edge.
 enum class EdgeDefect : uint8_t {
   open,         ///< it has one triangle
   nonManifold,  ///< it has more than two

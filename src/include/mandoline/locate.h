@@ -22,8 +22,8 @@ struct Locations {
   }
 };
 
-/// `points`: 3 per point, world units; one that is not finite lies outside. The grid's border belongs to it. Decided exactly, against
-/// the triangles of triangulateFaces(): in a cut grid cell always one cut-cell is found, whatever rounding has done to the positions.
+/// `points`: 3 per point, world units; one that is not finite lies outside. The grid's border belongs to it. Decided exactly, by the
+/// triangles of triangulateFaces(): a point in a cut grid cell is in just one of its cut-cells, even where rounding has moved vertices.
 /// One call for many points is faster than many calls. Throws CallError unless the number of coordinates is a multiple of 3.
 Locations cellsAt(const CutMesh& cutMesh, std::span<const double> points);
 

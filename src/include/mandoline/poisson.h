@@ -96,7 +96,7 @@ enum class SolveStatus : uint8_t {
   converged,
   iterationLimit,  ///< the residual is above the tolerance after maxIterations
   incompatible,    ///< in some components sources and fluxes do not cancel, so nothing solves the system there; elsewhere it is solved
-  breakdown        ///< numbers, or the differences between them, are too large or too small for doubles; phi is what was found
+  breakdown        ///< numbers, or the differences between them, are too large or too small for doubles; phi is the last that was found
 };
 
 /// The status as the word above.
@@ -110,8 +110,8 @@ struct Solution {
   SolveStatus status = SolveStatus::converged;
   std::vector<double> phi;        ///< per cell, at its dual point
   std::vector<double> residuals;  ///< before each iteration and after the last, relative as in SolveOptions; the last one is that of phi
-  /// Components of cellComponents(), ascending, in which sources and fluxes do not cancel: phi is 0 there, and nothing of them is in the
-  /// residuals.
+  /// Components of cellComponents(), ascending, in which sources and fluxes do not cancel: phi is 0 there, and the residuals leave them
+  /// out.
   std::vector<uint32_t> incompatible;
   std::vector<double> excess;  ///< per incompatible component: the inflow minus the integral of s
 

@@ -18,7 +18,7 @@ struct ResolvedMesh {
   bool hasWinding = false;              ///< whether the input has winding numbers: see CutMesh
   std::vector<int32_t> frontWinding;    ///< per triangle: the winding number on the side of its normal; empty unless hasWinding
   std::vector<int32_t> backWinding;     ///< the same behind it; empty unless hasWinding
-  // The same of what CutMesh::regionPartWinding and regionParity tell where the input as a whole has no winding numbers.
+  // The same of CutMesh::regionPartWinding and regionParity, for inputs that have no winding numbers as a whole.
   std::vector<int32_t> frontPartWinding;  ///< per triangle, on the side of its normal; empty if no part has winding numbers
   std::vector<int32_t> backPartWinding;   ///< per triangle, behind it; empty if no part has winding numbers
   std::vector<uint8_t> frontParity;       ///< per triangle, on the side of its normal; empty if no part has parity

@@ -1,5 +1,5 @@
 // One function for both ways: code(n) writes the integer n or, where there is none yet, reads and returns it. So what is read is what was
-// written, and neither way can have a step that the other lacks.
+// written: there is no step that only one of them has.
 #pragma once
 
 #include <cstring>

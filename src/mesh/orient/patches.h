@@ -29,8 +29,8 @@ struct Shells {
   size_t count() const { return isSingle.size(); }
 };
 
-/// Of the orientable patches: those whose directed edges cancel; then, of what is left, those that hang together through edges which all
-/// have an even number of their triangles.
+/// First, each orientable patch whose directed edges cancel. Then, sets of the other orientable patches that hang together through edges,
+/// if at each edge the set has an even number of triangles.
 Shells findShells(const Patches& patches, std::span<EdgeUse> uses);
 
 }  // namespace mandoline::detail

@@ -37,7 +37,7 @@ struct Arrangement {
   PairCounts pairs;
   uint32_t curves = 0;  ///< connected ones that the edges in the insides of triangles make
 
-  /// Whether no triangles meet but duplicates.
+  /// Whether the only triangles that meet are duplicates.
   bool empty() const { return pairs.total() == pairs.identical; }
   const MadeEdge* findMade(uint32_t low, uint32_t high) const;
 };

@@ -62,7 +62,7 @@ class Quick {
     }
   }
 
-  /// Whether it is sure that another triangle has nothing in common with this one but shared vertices and whole shared sides.
+  /// True if another triangle certainly meets this one only in shared vertices and whole shared sides.
   bool isApartFrom(uint32_t other) const { return isBeside(mesh_.triangles[other]) || isBesideSide(mesh_.triangles[other]); }
 
  private:

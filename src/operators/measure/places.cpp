@@ -59,8 +59,8 @@ void Places::placeInTriangle(size_t v, size_t triangle, Vector<DoubleDouble>& pl
   place[w] = a[w] - slope / normal[w];
 }
 
-/// The place, unless it is off the vertex's position by more than rounding: tri-vertices that snapping moves but that are no vertices of
-/// the cut-mesh (outside of the grid, or welded by the move) have left no trace, and what is made from their old coordinates is wrong.
+/// The place, or the vertex's position where the two differ by more than rounding. Then snapping has moved tri-vertices that the cut-mesh
+/// does not have (outside of the grid, or welded by the move), and the place was computed from their old coordinates.
 Vector<DoubleDouble> Places::checked(size_t v, const Vector<DoubleDouble>& place) const {
   for (int d = 0; d < 3; ++d) {
     const double position = cutMesh_.positions[3 * v + d];

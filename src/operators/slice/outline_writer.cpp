@@ -72,7 +72,7 @@ void OutlineWriter::addSlits(std::span<const RegionArc> arcs) {
     end.previous = a;
     ++end.ending;
   }
-  for (const bool closed : {false, true}) {  // first those that have ends: what is left goes round, and starts in a corner
+  for (const bool closed : {false, true}) {  // first those that have ends; the others are closed, and start in a corner
     for (uint32_t a = 0; a < arcs.size(); ++a) {
       if (!arcs[a].isSlit || used_[a]) continue;
       const Joint& joint = joints_[arcs[a].start];

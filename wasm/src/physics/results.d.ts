@@ -183,8 +183,7 @@ export interface Solution {
   /** Before each iteration and after the last, relative as in SolveOptions; the last one is that of phi. */
   residuals: Float64Array<ArrayBuffer>;
   /**
-   * Components of cellComponents(), ascending, in which sources and fluxes do not cancel: phi is 0 there, and nothing of them is in the
-   * residuals.
+   * Components of cellComponents(), ascending, in which sources and fluxes do not cancel: phi is 0 there, and the residuals leave them out.
    */
   incompatible: Uint32Array<ArrayBuffer>;
   /** Per incompatible component: the inflow minus the integral of s. */
@@ -233,5 +232,5 @@ export type SolveStatus =
   | 'iterationLimit'
   /** In some components sources and fluxes do not cancel, so nothing solves the system there; elsewhere it is solved. */
   | 'incompatible'
-  /** Numbers, or the differences between them, are too large or too small for doubles; phi is what was found. */
+  /** Numbers, or the differences between them, are too large or too small for doubles; phi is the last that was found. */
   | 'breakdown';
