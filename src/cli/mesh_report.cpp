@@ -82,7 +82,7 @@ void addAdvice(std::ostream& out, const MeshInfo& info) {
   if (info.nonManifoldEdges > 0) out << "  " << counted(info.nonManifoldEdges, "edge has", "edges have") << " more than two triangles\n";
   if (info.inconsistentEdges > 0) {
     out << "  " << counted(info.inconsistentEdges, "edge is", "edges are")
-        << " run through the same way by both triangles: --orient turns one of them\n";
+        << " run through the same way by both triangles: --orient turns one of them, but for one-sided surfaces\n";
   }
 }
 
@@ -161,7 +161,7 @@ std::string describePairs(const PairCounts& pairs) {
 std::string describe(const Orientation& orientation) {
   std::string text = counted(orientation.turnedTriangles, "triangle", "triangles") + " turned";
   const size_t nonOrientable = orientation.patches[size_t(Facing::nonOrientable)];
-  if (nonOrientable > 0) text += "; " + counted(nonOrientable, "patch", "patches") + " can't be oriented";
+  if (nonOrientable > 0) text += "; " + counted(nonOrientable, "one-sided patch", "one-sided patches") + " can't be oriented";
   return text;
 }
 

@@ -124,6 +124,9 @@ class TextReport {
            << std::setw(16) << report_.regionVolumes[r] << "\n";
     }
     if (shown < mesh_.regionCount) out_ << "  and " << mesh_.regionCount - shown << " more\n";
+    if (report_.result.stats.parts.open > 0 && mesh_.regionInsideness.empty()) {
+      out_ << "  --inside-threshold " << report_.insideThreshold << " estimates what is inside of open parts\n";
+    }
   }
 
   void addStages() {

@@ -65,7 +65,9 @@ int runResolve(const Arguments& arguments) {
   if (!result) return fail(arguments, report, result.error);
   const std::string how = arguments.rule ? describeInside(std::nullopt, result.stats.parts) : "";
   if (arguments.rule && !result.mesh.hasWinding && result.mesh.frontParity.empty()) {
-    return fail(arguments, report, {"badArgument", "No part of the mesh is closed, so that it bounds no solid: " + how + "."});
+    return fail(arguments, report,
+                {"badArgument",
+                 "No part of the mesh is closed, so that it bounds no solid: " + how + ". 'mandoline boundary' closes it by an estimate."});
   }
   if (!how.empty()) std::cerr << "Note: " << how << "\n";
   const Mesh written = arguments.rule ? boundary(result.mesh, *arguments.rule) : result.mesh.mesh;

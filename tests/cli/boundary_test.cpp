@@ -130,6 +130,48 @@ TEST_CASE("Command line: where nothing is inside there is no boundary, and the r
   CHECK(contains(only.err, "--only cut: a boundary is that of whole regions"));
 }
 
+TEST_CASE("Command line: of a mesh that is open, or has one side, it is told what can be done", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string strip = folder.write("strip.obj", fileOf(shapes::moebius({0, 0, 0}, 1, 0.4, 12))), obj = folder.path("a.obj");
+  const Outcome turned = run(folder, {"cut", strip, "--cells", "6", "--orient"});
+  CHECK(turned.exitCode == 0);
+  CHECK(contains(turned.out, "Oriented: 0 triangles turned; 1 one-sided patch can't be oriented\n"));
+  CHECK(contains(turned.out, "around 1 hole: left out)\n"));
+  CHECK(contains(turned.out, "\n  --inside-threshold 0.5 estimates what is inside of open parts\n"));
+  const Outcome estimated = run(folder, {"cut", strip, "--cells", "6", "--inside-threshold", "1"});
+  CHECK(estimated.exitCode == 0);
+  CHECK_FALSE(contains(estimated.out, "--inside-threshold"));
+  CHECK(contains(run(folder, {"info", strip}).out, "--orient turns one of them, but for one-sided surfaces\n"));
+  const Outcome resolved = run(folder, {"resolve", strip, "--rule", "odd", "-o", obj});
+  CHECK(resolved.exitCode == 1);
+  CHECK(contains(resolved.err, "around 1 hole: left out. 'mandoline boundary' closes it by an estimate.\n"));
+  CHECK(run(folder, {"boundary", strip, "--cells", "6", "-o", obj}).exitCode == 0);
+  CHECK(openEdges(readMesh(obj)) == 0);
+  for (const std::string threshold : {"nan", "2", "-1", "0", "inf", "half"}) {
+    const Outcome o = run(folder, {"boundary", strip, "--inside-threshold", threshold, "-o", obj});
+    CHECK(o.exitCode == 2);
+    CHECK(contains(o.err, "--inside-threshold needs a number above 0 and at most 1, not '" + threshold + "'"));
+  }
+}
+
+TEST_CASE("Command line: a file without triangles is told by every command", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string empty = folder.write("empty.obj", ""), point = folder.write("point.obj", "v 0 0 0\n"), stl = folder.path("a.stl");
+  for (const std::string command : {"cut", "info", "boundary", "resolve"}) {
+    const std::vector<std::string> output = {"-o", command == "info" ? folder.path("a.obj") : stl};
+    const auto on = [&](const std::string& mesh) {
+      std::vector<std::string> words = {command, mesh};
+      words.insert(words.end(), output.begin(), output.end());
+      return run(folder, words);
+    };
+    const Outcome none = on(empty), without = on(point);
+    CHECK(none.exitCode == 2);
+    CHECK(contains(none.err, "empty.obj: the file is empty"));
+    CHECK(without.exitCode == (command == "info" ? 0 : 1));
+    CHECK(contains(without.err, command == "info" ? "" : "point.obj: emptyMesh: The mesh has no triangles."));
+  }
+}
+
 TEST_CASE("Command line: boundaries of ten open scans are closed", "[scans]") {
   const std::optional<std::filesystem::path> meshes = meshFolder();
   if (!meshes) return;
