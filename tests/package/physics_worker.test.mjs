@@ -70,9 +70,13 @@ test('every call gives the same, and no arrays are sent', () =>
       velocityAt: [field, source.subarray(0, 60)],
       streamlines: [field, seeds],
       inflowSeeds: [cutMesh.grid, [1, 0, 0], 20],
+      writeCells: [cutMesh, cells, 'vtu', { fields: { phi: flow.phi } }],
+      writeFaces: [cutMesh, cells],
+      writePolyMesh: [cutMesh, cells],
     };
     const replaced = new Map([
       [cells, expected],
+      [cutMesh, cut(mesh, grid)],
       [field, { mesh, cutMesh: cut(mesh, grid), cells: expected, flow }],
     ]);
     for (const [name, args] of Object.entries(calls)) {

@@ -32,6 +32,9 @@ const flow = physics.solveFlow(cells, [1, 2, 3]);
 const flowField = { mesh, cutMesh, cells, flow };
 const seeds = physics.inflowSeeds(grid, [1, 2, 3], 20);
 
+const info = mandoline.inspect(open);
+const lines = { points: new Float64Array(12), offsets: new Uint32Array([0, 2, 4]) };
+
 const prepared = mandoline.prepare(mesh);
 const layers = mandoline.outlines(cutMesh, [0, 0, 1], [0]);
 const dump = await mandoline.write(mesh, cutMesh, 'mcm');
@@ -174,6 +177,10 @@ const kinds = {
   vector: () => pick([[0, 0, 1], [1, 2, 3], [0, 0, 0], [NaN, 0, 1], anything()]),
   offsets: () => pick([[0, 0.1], [], new Float32Array(2), [NaN], [anything()], anything()]),
   format: () => pick(['json', 'mcm', 'vtu', 'obj', 'stl', 'ply', 'svg', 'off', anything()]),
+  info: () => pick([info, damaged(info), damaged(info), anything()]),
+  lines: () => pick([lines, damaged(lines), { points: [0, 0, 0], offsets: anything() }, anything()]),
+  written: () =>
+    pick([undefined, {}, { untouched: false }, { fields: { phi: flow.phi } }, { fields: { phi: anything() } }, { regions: anything() }]),
   stack: () =>
     pick([
       { normal: [0, 0, 1], offsets: [0], layers },
@@ -290,6 +297,8 @@ const parameters = {
   write: ['mesh', 'cutMesh', 'format', 'options'],
   writeMesh: ['mesh', 'format', 'options'],
   writeOutlines: ['stack', 'format', 'options'],
+  writeDefects: ['mesh', 'info', 'options'],
+  writeLines: ['lines', 'options'],
   readMesh: ['file', 'options'],
   readGroups: ['file', 'options'],
   readCutMesh: ['file', 'options'],
@@ -308,6 +317,9 @@ const parameters = {
   velocityAt: ['field', 'seeds'],
   streamlines: ['field', 'seeds', 'following'],
   inflowSeeds: ['grid', 'vector', 'count'],
+  writeCells: ['cutMesh', 'cells', 'format', 'written'],
+  writeFaces: ['cutMesh', 'cells', 'written'],
+  writePolyMesh: ['cutMesh', 'cells', 'written'],
 };
 
 /** Calls one of these at random, a thousand times. Gives how many calls were fine, and how many had each code. */
