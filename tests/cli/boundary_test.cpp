@@ -183,7 +183,8 @@ TEST_CASE("Command line: boundaries of ten open scans are closed", "[scans]") {
     const Mesh mesh = readMesh(entry.path().string());
     if (mesh.triangleCount() > 30000 || mesh.triangleCount() < 1000 || inspect(mesh).openEdges == 0) continue;
     const Outcome o = run(folder, {"boundary", entry.path().string(), "--cells", "20", "-o", solid, "--report", "-"});
-    if (!contains(o.out, "\"by\": \"estimate\", \"complete\": true")) continue;
+    if (!contains(inOneLine(o.out), "\"by\": \"estimate\", \"complete\": true")) continue;
+    if (contains(o.out, "nothingInside")) continue;  // a flat sheet
     ++scans;
     INFO(entry.path().filename().string());
     CHECK(o.exitCode == 0);
