@@ -207,7 +207,7 @@ val outlinesOf(const KeptCutMesh& kept, const val& normal, const val& offsets) {
   return ofPlanes(kept, normal, offsets, [&](const auto&... of) { return outlines(of...); });
 }
 
-/// Null for what the module of files reads.
+/// Null for what the module of files reads or refuses.
 val readMeshFile(const val& bytes, const std::string& name) {
   return guarded([&] {
     std::vector<char> content;

@@ -325,14 +325,16 @@ TEST_CASE("OFF in all its forms", "[io]") {
   requireSquare(readText("headless.off", "4 1 0\n0 0 0\n1 0 0\n1 0.1 0\n0 1 -2.5e-3\n4 0 1 2 3\n"));
 }
 
-TEST_CASE("OBJ and STL alone: nothing of PLY and OFF files, and the errors of all", "[io]") {
+TEST_CASE("OBJ and STL alone: nothing of other files, and errors", "[io]") {
   const auto read = [](std::string_view text, const std::string& name) { return mandoline::readObjOrStl(text, name); };
   requireSquare(read(kObj, "a.obj").value());
   CHECK(read("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n", "a.stl"));
   CHECK(!read(kAsciiPly, "a.ply"));
   CHECK(!read(kOff, "a.off"));
-  CHECK_THROWS_AS(read("", "a.off"), FileError);
-  CHECK_THROWS_AS(read("<html>", "a.off"), FileError);
+  CHECK(!read("", "a.obj"));
+  CHECK(!read("<html>", "a.obj"));
+  CHECK(!read("# vtk DataFile Version 3.0\no title\nASCII\nDATASET POLYDATA\n", "a.vtk"));
+  CHECK_THROWS_AS(read("v 0 0 0\nf 1 1 2\n", "a.obj"), FileError);
 }
 
 TEST_CASE("PLY in text", "[io]") {

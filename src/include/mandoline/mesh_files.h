@@ -21,7 +21,8 @@ Mesh readMesh(const std::string& path);
 /// The same from the bytes of a file, gzipped or not. `name` stands for the path in messages, and its extension decides where the content
 /// does not.
 Mesh readMesh(std::span<const char> bytes, const std::string& name);
-/// The same of OBJ and STL files; of PLY and OFF files nothing, for programs that are to do without the code of their readers.
+/// The same of files that are known as OBJ or STL by their content, and nothing of others: for programs that are to do without the rest of
+/// the code.
 std::optional<Mesh> readObjOrStl(std::span<const char> bytes, const std::string& name);
 
 /// What files call groups, materials or solids: names for the triangles of a mesh. Cut-faces name their triangles, so that their groups

@@ -22,11 +22,12 @@ Mesh checked(Mesh mesh, const FileBytes& file) {
 }
 
 std::optional<Mesh> readUnpackedObjOrStl(const FileBytes& file) {
-  if (file.bytes.empty()) throw FileError(file.path + ": the file is empty");
-  const MeshFormat format = meshFormatOf(file);
-  if (format == MeshFormat::obj) return checked(readObj(file), file);
-  if (format == MeshFormat::stl) return checked(readStl(file), file);
-  return std::nullopt;
+  if (looksLikePly(file.bytes) || looksLikeOff(file.bytes)) return std::nullopt;
+  if (looksLikeStl(file.bytes)) return checked(readStl(file), file);
+  if (!looksLikeObj(file.bytes)) return std::nullopt;
+  Mesh mesh = checked(readObj(file), file);
+  if (mesh.triangles.empty()) return std::nullopt;  // it may be of a format that is not read
+  return mesh;
 }
 
 void refuse(const FileBytes& file, const UnreadFormat* format) {
@@ -51,8 +52,13 @@ MeshFormat meshFormatOf(const FileBytes& file) {
 }
 
 Mesh readUnpacked(const FileBytes& file) {
-  if (std::optional<Mesh> mesh = readUnpackedObjOrStl(file)) return std::move(*mesh);
-  return checked(meshFormatOf(file) == MeshFormat::ply ? readPly(file) : readOff(file), file);
+  if (file.bytes.empty()) throw FileError(file.path + ": the file is empty");
+  const MeshFormat format = meshFormatOf(file);
+  return checked(format == MeshFormat::ply   ? readPly(file)
+                 : format == MeshFormat::off ? readOff(file)
+                 : format == MeshFormat::stl ? readStl(file)
+                                             : readObj(file),
+                 file);
 }
 
 }  // namespace detail
