@@ -2,18 +2,9 @@
 
 namespace mandoline::wasm {
 
-Boundary readBoundary(const val& object, const CellComplex& cells) {
-  Boundary result = fromObject<Boundary>(object);
-  for (size_t b = 0; b < result.halfFaces.size(); ++b) {
-    if (result.halfFaces[b] >= 2 * cells.faceCount())
-      throw CallError({Status::badArgument, int64_t(b), -1, "There is no half-face " + std::to_string(result.halfFaces[b]) + "."});
-  }
-  return result;
-}
-
 PoissonProblem readProblem(const val& object, const CellComplex& cells) {
   PoissonProblem result;
-  result.boundary = object["boundary"].isUndefined() ? boundaryOf(cells) : readBoundary(object["boundary"], cells);
+  result.boundary = object["boundary"].isUndefined() ? boundaryOf(cells) : fromObject<Boundary>(object["boundary"]);
   if (!object["source"].isUndefined()) readArray(object["source"], result.source);
   result.dualPoints = DualPoints(object["dualPoints"].as<int>());
   return result;

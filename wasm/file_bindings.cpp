@@ -13,11 +13,8 @@ using namespace mandoline::wasm;
 
 val validateCutMesh(const val& mesh, const KeptCutMesh& kept, const val& options) {
   return guarded([&, cutMesh = kept.get()] {
-    ValidateOptions validateOptions;
-    validateOptions.progress = progressOf(options);
-    validateOptions.snapTolerance = options["snapTolerance"].as<double>();
     const Mesh input = fromObject<Mesh>(mesh);
-    return success(toObject(validate(input, *cutMesh, validateOptions)));
+    return success(toObject(validate(input, *cutMesh, runOptions(options))));
   });
 }
 

@@ -95,7 +95,7 @@ val boundaryOfCells(const KeptComplex& kept, const val& conditions) {
 }
 
 val normalsOf(const KeptComplex& kept, const val& boundary) {
-  return guarded([&, cells = kept.get()] { return success(toArray(outwardNormals(readBoundary(boundary, *cells), *cells))); });
+  return guarded([&, cells = kept.get()] { return success(toArray(outwardNormals(fromObject<Boundary>(boundary), *cells))); });
 }
 
 val componentsOf(const KeptComplex& kept) {

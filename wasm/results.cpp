@@ -35,6 +35,16 @@ val toObject(const Grid& grid) {
 }
 
 template <>
+val toObject(const Fingerprint& fingerprint) {
+  return val(fingerprint.text());
+}
+
+template <>
+void read(const val& text, Fingerprint& fingerprint) {
+  fingerprint.value = std::stoull(text.as<std::string>(), nullptr, 16);
+}
+
+template <>
 void read(const val& object, Grid& grid) {
   std::array<std::vector<double>, 3> planes;
   for (int d = 0; d < 3; ++d) readArray(object["planes"][d], planes[d]);

@@ -17,12 +17,17 @@ template <class Struct>
 val toObject(const Struct& value);
 template <>
 val toObject(const Grid& grid);
+/// Its text.
+template <>
+val toObject(const Fingerprint& fingerprint);
 
 /// Sets what there is; members that can't be read back, words and lists of structs, are left as they are.
 template <class Struct>
 void read(const val& object, Struct& value);
 template <>
 void read(const val& object, Grid& grid);
+template <>
+void read(const val& text, Fingerprint& fingerprint);
 
 template <class Struct>
 Struct fromObject(const val& object) {

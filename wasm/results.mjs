@@ -162,6 +162,7 @@ function typeOf(struct, { name, isOptional }) {
   if (item) return { ts: `${scalars[item] ?? nameOf(item)}[]`, kind: 'array' };
   const [, number] = type.match(/^std::array<(\w+), 3>$/) ?? [];
   if (number) return { ts: '[number, number, number]', kind: integers.includes(number) ? 'integer[3]' : 'number[3]' };
+  if (type === 'Fingerprint') return { ts: type, kind: type };
   const scalar = words[`${struct.name}.${name}`] ?? scalars[type];
   return scalar ? { ts: scalar, kind: integers.includes(type) ? 'integer' : scalars[type] } : { ts: nameOf(type), kind: nameOf(type) };
 }
@@ -169,6 +170,7 @@ function typeOf(struct, { name, isOptional }) {
 /** What the comment of a member says, with the numbers of words, and when it is null instead of an empty array. */
 function docOf(struct, { name, isOptional, flag }) {
   const { type, doc } = struct.members.get(name);
+  if (type === 'Fingerprint') return { text: sentence([`${name === 'fingerprint' ? 'that' : 'the fingerprint'} ${doc.join(' ')}`]) };
   const reason =
     flag &&
     struct.members
@@ -197,7 +199,7 @@ function interfaceOf(struct) {
     const { group, isSpaced } = struct.members.get(field.name);
     const { text, named } = docOf(struct, field);
     if (isSpaced && i > 0) lines.push('');
-    lines.push(...group.map((line) => `  // ${line}`), ...comment(text, '  '), `  ${field.name}: ${ts};`);
+    lines.push(...group.map((line) => `  // ${line}`), ...comment(text, '  '), `  ${field.name}${ts === 'Fingerprint' ? '?' : ''}: ${ts};`);
     for (const [word] of ts.matchAll(/\b[A-Z]\w+/g)) used.add(word);
     if (named) used.add(nameOf(named));
   }

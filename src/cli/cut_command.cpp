@@ -131,9 +131,7 @@ int runCut(const Arguments& arguments) {
     report.regionVolumes = withProgress(
         arguments.threads, [&](const RunOptions& options) { return regionVolumes(result.mesh, measure(mesh, result.mesh, options)); });
     if (arguments.validate) {
-      report.validation = withProgress(arguments.threads, [&](const RunOptions& options) {
-        return validate(mesh, result.mesh, {options, arguments.snapTolerance});
-      });
+      report.validation = withProgress(arguments.threads, [&](const RunOptions& options) { return validate(mesh, result.mesh, options); });
     }
   }
   int exitCode = kFine;

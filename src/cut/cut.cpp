@@ -5,8 +5,10 @@
 #include "cut/stages/divided_faces.h"
 #include "cut/stages/input.h"
 #include "cut/stages/output.h"
+#include "grid/snap.h"
 #include "mandoline/orient.h"
 #include "mandoline/prepare.h"
+#include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
 
 namespace mandoline {
@@ -14,6 +16,7 @@ namespace mandoline {
 /// A copy of a mesh, and the result of preparing it.
 struct detail::PreparedMeshData {
   Mesh mesh;
+  Fingerprint fingerprint;
   Intersections intersections;
   std::unique_ptr<const Prepared> prepared;
 };
@@ -67,15 +70,18 @@ void addCounts(const Prepared& prepared, CutStats& stats) {
   stats.intersectionCurves = prepared.arrangement->curves;
 }
 
-std::unique_ptr<const Prepared> prepareFor(const MeshView& mesh, const Grid& grid, const CutOptions& options, Clock& clock, Run& run) {
-  Preparation preparation{largestCoordinate(grid), options.intersections, {}};
-  if (options.snapTolerance > 0) {
-    preparation.move = [&](std::vector<Point>& points, const Scale& scale) { snapPoints(grid, options.snapTolerance, scale, points, run); };
-  }
-  return prepareMesh(mesh, preparation, run.monitor, [&](const char* stage) { clock.begin(stage); });
+/// Notes in a cut-mesh what it was made of.
+void sign(CutMesh& cutMesh, Fingerprint mesh, const CutOptions& options) {
+  Fingerprinter fingerprinter("cut", mesh);
+  for (const std::vector<double>& planes : cutMesh.grid.planes) fingerprinter.add(planes);
+  fingerprinter.add(options.snapTolerance);
+  fingerprinter.add(uint64_t(options.intersections));
+  cutMesh.snapTolerance = options.snapTolerance;
+  cutMesh.madeFrom = mesh;
+  cutMesh.fingerprint = fingerprinter.get();
 }
 
-/// `mesh` is that of the user, which was prepared.
+/// `mesh` is the one that was prepared.
 CutMesh cutPrepared(const Prepared& prepared, const MeshView& mesh, const Grid& grid, Clock& clock, Run& run) {
   addCounts(prepared, run.stats);
   CutState state;
@@ -141,7 +147,8 @@ PrepareResult prepare(const MeshView& mesh, const PrepareOptions& options) {
     }
     Clock clock(result.stats, monitor, before);
     data->intersections = options.intersections;
-    data->prepared = prepareMesh(data->mesh, {0, options.intersections, {}}, monitor, [&](const char* stage) { clock.begin(stage); });
+    data->prepared = prepareMesh(data->mesh, {0, options.intersections}, monitor, [&](const char* stage) { clock.begin(stage); });
+    data->fingerprint = fingerprintOf(data->mesh);
     addCounts(*data->prepared, result.stats);
     result.mesh = PreparedMesh(std::move(data));
   });
@@ -154,9 +161,9 @@ CutResult cut(const PreparedMesh& mesh, const Grid& grid, const CutOptions& opti
   CutResult result;
   catchErrors(result.error, "cut", [&] {
     checkGrid(grid, options.snapTolerance);
+    CutOptions same = options;
+    same.intersections = data->intersections;
     if (options.snapTolerance > 0 || !fits(*data->prepared, grid)) {
-      CutOptions same = options;
-      same.intersections = data->intersections;
       result = cut(data->mesh, grid, same);
       return;
     }
@@ -164,6 +171,7 @@ CutResult cut(const PreparedMesh& mesh, const Grid& grid, const CutOptions& opti
     Clock clock(result.stats, monitor);
     Run run{result.stats, monitor};
     result.mesh = cutPrepared(*data->prepared, data->mesh, grid, clock, run);
+    sign(result.mesh, data->fingerprint, same);
   });
   return result;
 }
@@ -175,8 +183,17 @@ CutResult cut(const MeshView& mesh, const Grid& grid, const CutOptions& options)
     Clock clock(result.stats, monitor);
     Run run{result.stats, monitor};
     checkGrid(grid, options.snapTolerance);
-    const auto prepared = prepareFor(mesh, grid, options, clock, run);
-    result.mesh = cutPrepared(*prepared, mesh, grid, clock, run);
+    SnappedMesh moved;
+    if (options.snapTolerance > 0) {
+      moved = snapped(mesh, grid, options.snapTolerance);
+      result.stats.snappedVertices = moved.vertices;
+      result.stats.largestSnap = moved.largest;
+    }
+    const MeshView input = options.snapTolerance > 0 ? MeshView(moved.mesh) : mesh;
+    const auto prepared =
+        prepareMesh(input, {largestCoordinate(grid), options.intersections}, monitor, [&](const char* stage) { clock.begin(stage); });
+    result.mesh = cutPrepared(*prepared, input, grid, clock, run);
+    sign(result.mesh, fingerprintOf(mesh), options);
   });
   return result;
 }

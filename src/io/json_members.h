@@ -31,6 +31,12 @@ void writeMember(OutputBuffer& out, std::string_view key, const Array& array) {
   writeArray(out, array);
 }
 
+/// Of a struct: madeFrom and fingerprint.
+template <class Struct>
+void writeFingerprints(OutputBuffer& out, const Struct& value) {
+  out.text(",\n\"madeFrom\":\"" + value.madeFrom.text() + "\",\n\"fingerprint\":\"" + value.fingerprint.text() + '"');
+}
+
 /// groupNames and triangleGroup.
 void writeGroups(OutputBuffer& out, const TriangleGroups& groups);
 

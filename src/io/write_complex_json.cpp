@@ -19,6 +19,7 @@ void putCells(OutputBuffer& out, const CutMesh& cutMesh, const CellComplex& cell
   }
   forEachArray(cells, [&](const char* name, const auto& array) { writeMember(out, name, array); });
   writeMember(out, "faceTriangle", cutMesh.faceTriangle);
+  writeFingerprints(out, cells);
   if (groups) writeGroups(out, *groups);
   out.text("}\n");
   out.flush();

@@ -65,6 +65,9 @@ void putCutMesh(Meter& meter, const CutMesh& cutMesh) {
   writeGridCellRegion(out, cutMesh);
   out.text(",\n\"triangleCount\":");
   out.number(cutMesh.triangleCount);
+  out.text(",\n\"snapTolerance\":");
+  out.number(cutMesh.snapTolerance);
+  writeFingerprints(out, cutMesh);
   out.text("}\n");
   out.flush();
 }

@@ -105,7 +105,7 @@ MeshIntersections findIntersections(const MeshView& mesh, const IntersectionOpti
   return runCall("search for intersections", [&] {
     Monitor monitor(options, 2);
     const auto prepared =
-        prepareMesh(mesh, {0, Intersections::assumeNone, {}}, monitor, [&](const char* stage) { monitor.beginStage(stage, 0); });
+        prepareMesh(mesh, {0, Intersections::assumeNone}, monitor, [&](const char* stage) { monitor.beginStage(stage, 0); });
     monitor.beginStage("intersections", 1);
     Predicates predicates;
     const Contacts contacts = findContacts(*prepared, monitor, predicates, options.maxPairs);

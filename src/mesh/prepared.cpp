@@ -100,7 +100,6 @@ std::unique_ptr<const Prepared> prepareMesh(const MeshView& mesh, const Preparat
     for (int d = 0; d < 3 && referenced[v]; ++d)
       prepared->points[v][d] = scale.scaled(mesh.positions[3 * v + d], counts.flushedCoordinates);
   }
-  if (preparation.move) preparation.move(prepared->points, scale);
   prepared->triVertices = uint32_t(prepared->points.size());
   const std::vector<uint32_t> lowest = weld(referenced, prepared->points);
   for (uint32_t v = 0; v < lowest.size(); ++v) counts.weldedVertices += lowest[v] != v;

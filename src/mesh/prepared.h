@@ -66,8 +66,6 @@ class Scale {
 struct Preparation {
   double largest = 0;  ///< of all coordinates that are to be scaled, beside the mesh's
   Intersections intersections = Intersections::resolve;
-  /// Moves the scaled points before they are welded, if given.
-  std::function<void(std::vector<Point>& points, const Scale& scale)> move;
 };
 
 /// `beginStage` is called with "input" and "intersections".

@@ -1,6 +1,6 @@
 #include "operators/require_cut_mesh.h"
 
-#include <algorithm>
+#include "mesh/fingerprints.h"
 
 namespace mandoline::operators {
 
@@ -10,14 +10,16 @@ void requireCutMesh(const CutMesh& cutMesh) {
   if (cutMesh.rowRunOffsets.empty()) refuse("The cut-mesh is empty: cut() makes one.");
 }
 
+void requireMadeFrom(Fingerprint madeFrom, Fingerprint other, const char* message) {
+  if (!detail::mayBeSame(madeFrom, other)) refuse(message);
+}
+
 void refuseCells() { refuse("The cells are not all of this cut-mesh's."); }
 
 void requireCellsOf(const CutMesh& cutMesh, const CellComplex& cells) {
-  const std::vector<double>&own = cutMesh.positions, &all = cells.positions;
-  const bool same = cells.cutCells == cutMesh.cellCount() && cells.cutFaces == cutMesh.faceCount() &&
-                    cells.cutVertices == cutMesh.vertexCount() && own.size() <= all.size() &&
-                    std::equal(own.begin(), own.end(), all.begin());
-  if (!same) refuseCells();
+  const bool haveCounts =
+      cells.cutCells == cutMesh.cellCount() && cells.cutFaces == cutMesh.faceCount() && cells.cutVertices == cutMesh.vertexCount();
+  if (!haveCounts || !detail::mayBeSame(cells.madeFrom, cutMesh.fingerprint)) refuseCells();
 }
 
 }  // namespace mandoline::operators

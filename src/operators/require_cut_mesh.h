@@ -13,10 +13,13 @@ MANDOLINE_SHARED [[noreturn]] void refuse(const std::string& message, int64_t el
 /// Throws CallError for an empty CutMesh, one that did not come from cut(). The arrays of others are trusted.
 MANDOLINE_SHARED void requireCutMesh(const CutMesh& cutMesh);
 
+/// Throws CallError with the message where it is known that one thing was not made from the other.
+MANDOLINE_SHARED void requireMadeFrom(Fingerprint madeFrom, Fingerprint other, const char* message);
+
 /// Throws CallError for cells of another cut-mesh, or if some are missing.
 MANDOLINE_SHARED [[noreturn]] void refuseCells();
 
-/// Throws CallError unless the cell complex begins with the vertices, and with as many faces and cells, of the cut-mesh.
+/// Throws CallError unless the cell complex was made from the cut-mesh and begins with as many vertices, faces and cells.
 MANDOLINE_SHARED void requireCellsOf(const CutMesh& cutMesh, const CellComplex& cells);
 
 }  // namespace mandoline::operators

@@ -1,4 +1,6 @@
+#include "operators/require_cut_mesh.h"
 #include "physics/joined_cells.h"
+#include "physics/poisson_problem.h"
 
 namespace mandoline {
 
@@ -9,10 +11,26 @@ Boundary boundaryOf(const CellComplex& cells) {
   }
   boundary.condition.assign(boundary.halfFaces.size(), Condition::neumann);
   boundary.value.assign(boundary.halfFaces.size(), 0);
+  boundary.madeFrom = cells.fingerprint;
   return boundary;
 }
 
+void physics::requireBoundary(const Boundary& boundary, const CellComplex& cells) {
+  operators::requireMadeFrom(boundary.madeFrom, cells.fingerprint, "The boundary is not that of these cells.");
+  const size_t n = boundary.halfFaces.size();
+  for (size_t b = 0; b < n; ++b) {
+    const uint32_t h = boundary.halfFaces[b];
+    if (h >= 2 * cells.faceCount()) operators::refuse("There is no half-face " + std::to_string(h) + ".", int64_t(b));
+    if (cells.faceCells[h] < 0 || isInner(cells, h / 2) || (b > 0 && boundary.halfFaces[b - 1] >= h))
+      operators::refuse("The boundary has half-face " + std::to_string(h) + ", which is none of the boundary or is out of order.",
+                        int64_t(b));
+  }
+  if (boundary.condition.size() != n || boundary.value.size() != n)
+    operators::refuse("The boundary has " + std::to_string(n) + " half-faces, but other numbers of conditions or values.");
+}
+
 void setBoundary(Boundary& boundary, const CellComplex& cells, FaceTag tag, Condition condition, double value) {
+  physics::requireBoundary(boundary, cells);
   for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {
     if (cells.faceTag[boundary.halfFaces[b] / 2] != tag) continue;
     boundary.condition[b] = condition;
@@ -21,6 +39,7 @@ void setBoundary(Boundary& boundary, const CellComplex& cells, FaceTag tag, Cond
 }
 
 std::vector<double> outwardNormals(const Boundary& boundary, const CellComplex& cells) {
+  physics::requireBoundary(boundary, cells);
   std::vector<double> normals;
   normals.reserve(3 * boundary.halfFaces.size());
   for (const uint32_t h : boundary.halfFaces) {

@@ -75,6 +75,7 @@ class FlowSolver {
 
   Flow run(const std::array<double, 3>& wind) {
     Flow flow;
+    flow.madeFrom = cells_.fingerprint;
     flow.wind = wind;
     const double length = measuring::length(wind);
     std::array<double, 3> unit{};

@@ -4,41 +4,30 @@
 #include <cmath>
 
 #include "mandoline/locate.h"
-#include "operators/measure/require_input.h"
 #include "operators/require_cut_mesh.h"
 
 namespace mandoline {
 namespace physics {
 
-/// How many grid cells are filled by cells that are not cut-cells.
-static uint64_t filled(const Grid& grid, const CellComplex& cells) {
-  constexpr uint8_t kMostLevel = 32;  // of which one cell fills any grid
-  uint64_t all = 0;
-  for (size_t c = cells.cutCells; c < cells.cellCount(); ++c) {
-    uint64_t count = 1;
-    const int64_t size = int64_t(1) << std::min(cells.cellLevel[c], kMostLevel);
-    for (size_t d = 0; d < 3; ++d) count *= uint64_t(std::min(size, grid.cells(int(d)) - cells.cellCorner[3 * c + d]));
-    all += count;
-  }
-  return all;
-}
+static constexpr const char* kOtherCells = "The flow is one of other cells.";
 
-void requireField(const FlowField& field, std::span<const double> points) {
+operators::CutInput requireField(const FlowField& field, std::span<const double> points) {
   const auto& [mesh, cutMesh, cells, flow] = field;
   operators::requireCutMesh(cutMesh);
-  measuring::requireInput(mesh, cutMesh);
-  const size_t n = cells.cellCount();
+  operators::CutInput input(mesh, cutMesh);
   operators::requireCellsOf(cutMesh, cells);
+  const size_t n = cells.cellCount();
   for (size_t i = 0; i < 3 * n; ++i) {
     if (cells.cellCorner[i] < 0 || cells.cellCorner[i] >= cutMesh.grid.cells(int(i % 3))) operators::refuseCells();
   }
-  if (filled(cutMesh.grid, cells) != UntouchedCells(cutMesh).count()) operators::refuseCells();
-  if (flow.cellVelocity.size() != 3 * n || flow.cellGradient.size() != 6 * n) operators::refuse("The flow is one of other cells.");
+  operators::requireMadeFrom(flow.madeFrom, cells.fingerprint, kOtherCells);
+  if (flow.cellVelocity.size() != 3 * n || flow.cellGradient.size() != 6 * n) operators::refuse(kOtherCells);
   const auto isFinite = [](double number) { return std::isfinite(number); };
   const bool isFlow = std::all_of(flow.cellVelocity.begin(), flow.cellVelocity.end(), isFinite) &&
                       std::all_of(flow.cellGradient.begin(), flow.cellGradient.end(), isFinite);
   if (!isFlow) operators::refuse("The flow has a number that is not finite.");
   if (points.size() % 3 != 0) operators::refuse("The points have " + std::to_string(points.size()) + " coordinates, no multiple of 3.");
+  return input;
 }
 
 OctreeCells octreeOf(const FlowField& field) {

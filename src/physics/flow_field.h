@@ -2,11 +2,13 @@
 #pragma once
 
 #include "mandoline/flow.h"
+#include "operators/cut_input.h"
 
 namespace mandoline::physics {
 
-/// Throws CallError{badArgument} if the field's parts do not belong together, or the number of coordinates is not a multiple of 3.
-void requireField(const FlowField& field, std::span<const double> points);
+/// The mesh that was cut. Throws CallError{badArgument} if the field's parts do not belong together, or the number of coordinates is not a
+/// multiple of 3.
+operators::CutInput requireField(const FlowField& field, std::span<const double> points);
 
 /// The cells of a cell complex that are not cut-cells.
 OctreeCells octreeOf(const FlowField& field);

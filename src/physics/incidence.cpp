@@ -20,7 +20,7 @@ void forEachEdge(const CellComplex& cells, size_t face, const F& f) {
   }
 }
 
-/// The place of an edge among all; there must be one.
+/// The place of an edge among all.
 size_t find(const ComplexEdges& edges, uint32_t low, uint32_t high) {
   size_t first = 0, past = edges.count();
   while (first < past) {
@@ -31,15 +31,19 @@ size_t find(const ComplexEdges& edges, uint32_t low, uint32_t high) {
     else
       past = middle;
   }
+  const uint32_t ends[] = {low, high};
+  if (first == edges.count() || !std::equal(ends, ends + 2, &edges.vertices[2 * first]))
+    operators::refuse("The edges lack that from vertex " + std::to_string(low) + " to " + std::to_string(high) + ".", low);
   return first;
 }
 
 void requireEdges(const CellComplex& cells, const ComplexEdges& edges) {
-  const std::vector<uint32_t> own = complexEdges(cells).vertices;
-  const auto [differing, other] = std::mismatch(own.begin(), own.end(), edges.vertices.begin(), edges.vertices.end());
-  if (differing == own.end() && other == edges.vertices.end()) return;
-  const int64_t edge = (differing - own.begin()) / 2;
-  operators::refuse("The edges are not complexEdges() of these cells: edge " + std::to_string(edge) + " differs.", edge);
+  operators::requireMadeFrom(edges.madeFrom, cells.fingerprint, "The edges are those of other cells.");
+  if (edges.vertices.size() % 2 != 0) operators::refuse("The edges have an odd number of vertices.");
+  for (size_t i = 0; i < edges.vertices.size(); ++i) {
+    if (edges.vertices[i] < cells.vertexCount()) continue;
+    operators::refuse("Edge " + std::to_string(i / 2) + " names a vertex that does not exist.", int64_t(i / 2));
+  }
 }
 
 }  // namespace
@@ -52,6 +56,7 @@ ComplexEdges complexEdges(const CellComplex& cells) {
   auto higher = detail::groupBy<uint32_t>(
       cells.vertexCount(), all.size(), [&](size_t i) { return size_t(all[i][0]); }, [&](size_t i) { return all[i][1]; });
   ComplexEdges edges;
+  edges.madeFrom = cells.fingerprint;
   for (uint32_t low = 0; low < higher.size(); ++low) {
     const std::span<uint32_t> ends = higher[low];
     std::sort(ends.begin(), ends.end());

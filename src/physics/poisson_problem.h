@@ -5,6 +5,9 @@
 
 namespace mandoline::physics {
 
+/// Throws CallError{badArgument} for the boundary of other cells, and for half-faces (element: their place) that are none of theirs.
+void requireBoundary(const Boundary& boundary, const CellComplex& cells);
+
 /// Throws CallError{badArgument}.
 void requireProblem(const CellComplex& cells, const PoissonProblem& problem);
 

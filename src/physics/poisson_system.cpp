@@ -22,11 +22,8 @@ static void requireLengths(const CellComplex& cells) {
 void requireProblem(const CellComplex& cells, const PoissonProblem& problem) {
   requireLengths(cells);
   const Boundary& boundary = problem.boundary;
-  const size_t n = boundary.halfFaces.size();
-  if (boundary.halfFaces != boundaryOf(cells).halfFaces) operators::refuse("The boundary is not that of these cells.");
-  if (boundary.condition.size() != n || boundary.value.size() != n)
-    operators::refuse("The boundary has " + std::to_string(n) + " half-faces, but other numbers of conditions or values.");
-  for (size_t b = 0; b < n; ++b) {
+  requireBoundary(boundary, cells);
+  for (size_t b = 0; b < boundary.value.size(); ++b) {
     if (!std::isfinite(boundary.value[b]))
       operators::refuse("The value of half-face " + std::to_string(boundary.halfFaces[b]) + " is not finite.", boundary.halfFaces[b]);
   }

@@ -21,12 +21,12 @@ void append(const Streamlines& more, Streamlines& lines) {
   lines.ends.insert(lines.ends.end(), more.ends.begin(), more.ends.end());
 }
 
-Streamlines traced(const FlowField& field, std::span<const double> seeds, const StreamlineOptions& options) {
+Streamlines traced(const FlowField& field, const MeshView& mesh, std::span<const double> seeds, const StreamlineOptions& options) {
   detail::Monitor monitor(options, 2);
   monitor.beginStage("seeds", 0);
   const OctreeCells octree = physics::octreeOf(field);
   const std::vector<int64_t> cells = physics::cellsAt(field, octree, seeds);
-  const physics::Obstacles obstacles(field.mesh, field.cutMesh.grid);
+  const physics::Obstacles obstacles(mesh, field.cutMesh.grid);
   monitor.beginStage("streamlines", 1);
   const auto trace = [&](Chunk& chunk, size_t begin, size_t end) {
     if (!chunk.tracer) chunk.tracer.emplace(field, octree, obstacles, options);
@@ -49,10 +49,10 @@ Streamlines traced(const FlowField& field, std::span<const double> seeds, const 
 }  // namespace
 
 Streamlines streamlines(const FlowField& field, std::span<const double> seeds, const StreamlineOptions& options) {
-  physics::requireField(field, seeds);
+  const operators::CutInput input = physics::requireField(field, seeds);
   if (!(options.tolerance > 0)) throw CallError({Status::badOption, -1, -1, "The tolerance has to be positive."});
   if (!(options.maxLength >= 0)) throw CallError({Status::badOption, -1, -1, "The largest length has to be 0 or more."});
-  return detail::runCall("tracing of streamlines", [&] { return traced(field, seeds, options); });
+  return detail::runCall("tracing of streamlines", [&] { return traced(field, input.mesh(), seeds, options); });
 }
 
 }  // namespace mandoline

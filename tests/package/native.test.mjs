@@ -46,7 +46,8 @@ const same = (a, b) => Object.is(a, b) || (Array.isArray(a) && a.length === b.le
 /** Whether every array of the dump has the same doubles and integers (down to the sign of a zero) as the cut-mesh. */
 function assertSame(dump, cutMesh, what) {
   const optional = ['regionWinding', 'regionPartWinding', 'regionParity', 'regionInsideness'];
-  const { grid, format, version, triangleCount, ...arrays } = dump;
+  const { grid, format, version, triangleCount, snapTolerance, madeFrom, fingerprint, ...arrays } = dump;
+  assert.deepEqual([snapTolerance, madeFrom, fingerprint], [cutMesh.snapTolerance, cutMesh.madeFrom, cutMesh.fingerprint]);
   assert.deepEqual([format, version, triangleCount], ['mandoline-cut-mesh', 2, cutMesh.triangleCount]);
   assert.ok(
     same(

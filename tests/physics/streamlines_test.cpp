@@ -30,8 +30,10 @@ struct Tunnel {
   FlowField field() const { return {mesh, cutMesh, cells, flow}; }
 };
 
-Tunnel tunnel(const Mesh& mesh, const Grid& grid, const Point& wind, int maxLevel = 0) {
-  const CutResult result = cut(mesh, grid);
+Tunnel tunnel(const Mesh& mesh, const Grid& grid, const Point& wind, int maxLevel = 0, double snapTolerance = 0) {
+  CutOptions cutting;
+  cutting.snapTolerance = snapTolerance;
+  const CutResult result = cut(mesh, grid, cutting);
   REQUIRE(result);
   CoarsenOptions options;
   options.maxLevel = maxLevel;
@@ -274,6 +276,33 @@ TEST_CASE("streamlines: cells of another cut, and a part of the cells, are refus
   const CellComplex part = subComplex(here.cells, most).cells;
   REQUIRE(part.cutFaces == here.cells.cutFaces);
   requireRefused(part, solveFlow(part, {1, 0, 0}));
+}
+
+TEST_CASE("streamlines: the flow of other cells is refused", "[streamlines]") {
+  const Tunnel t = tunnel(shapes::icosphere({3.3, 3.1, 2.9}, 1.7, 1), unitGrid(7), {1, 0, 0});
+  CellComplex other = t.cells;
+  other.fingerprint.value ^= 1;
+  const Flow flow = solveFlow(other, {1, 0, 0});
+  const std::vector<double> point{0.5, 0.5, 0.5};
+  try {
+    velocityAt({t.mesh, t.cutMesh, t.cells, flow}, point);
+    FAIL("not refused");
+  } catch (const CallError& error) {
+    CHECK(error.error.message == "The flow is one of other cells.");
+  }
+}
+
+TEST_CASE("streamlines: about a snapped mesh as about one that was moved by hand", "[streamlines]") {
+  const Mesh ball = shapes::icosphere({3.3, 3.1, 2.9}, 1.7, 2);
+  const double tolerance = 0.3;
+  Mesh moved = ball;
+  for (double& x : moved.positions) x = std::fabs(x - std::round(x)) <= tolerance ? std::round(x) : x;
+  const Tunnel snapped = tunnel(ball, unitGrid(7), {0.2, 0, 1}, 0, tolerance), byHand = tunnel(moved, unitGrid(7), {0.2, 0, 1});
+  CHECK(snapped.cells.cellVolume == byHand.cells.cellVolume);
+  const std::vector<double> seeds = seedsIn(0.5, 12, 7);
+  const Streamlines lines = streamlines(snapped.field(), seeds);
+  CHECK(lines.points == streamlines(byHand.field(), seeds).points);
+  checkLines(byHand, lines, 144);
 }
 
 TEST_CASE("streamlines: damaged cells lead no line astray", "[streamlines]") {

@@ -76,7 +76,7 @@ CheckedCut checkedCut(const Mesh& mesh, const Grid& grid, const CutOptions& opti
   CutResult result = cut(mesh, grid, options);
   INFO(name(result.error.status) << " " << result.error.message);
   REQUIRE(result);
-  const Validation validation = validate(mesh, result.mesh, ValidateOptions{{options.threads, nullptr}, options.snapTolerance});
+  const Validation validation = validate(mesh, result.mesh, RunOptions{options.threads, nullptr});
   for (const Check& check : validation.checks) {
     INFO(check.name << ": worst " << check.worst << " of " << check.tolerance << " at " << check.elementKind << " " << check.element << " "
                     << check.message);

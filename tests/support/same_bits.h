@@ -22,6 +22,9 @@ inline std::vector<std::pair<std::string, std::string>> partsOf(const mandoline:
   parts.emplace_back("regionCount", std::to_string(mesh.regionCount));
   parts.emplace_back("hasWinding", std::to_string(mesh.hasWinding));
   parts.emplace_back("triangleCount", std::to_string(mesh.triangleCount));
+  parts.emplace_back("snapTolerance", std::to_string(mesh.snapTolerance));
+  parts.emplace_back("madeFrom", mesh.madeFrom.text());
+  parts.emplace_back("fingerprint", mesh.fingerprint.text());
   return parts;
 }
 

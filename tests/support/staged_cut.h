@@ -41,13 +41,8 @@ struct StagedCut {
 
  private:
   void prepareOne(const Mesh& mesh, const Grid& grid) {
-    Preparation preparation{largestCoordinate(grid), options.intersections, {}};
-    if (options.snapTolerance > 0) {
-      preparation.move = [&](std::vector<Point>& points, const Scale& scale) {
-        snapPoints(grid, options.snapTolerance, scale, points, run);
-      };
-    }
-    prepared = prepareMesh(mesh, preparation, monitor, [&](const char* stage) { monitor.beginStage(stage, 0); });
+    prepared = prepareMesh(mesh, {largestCoordinate(grid), options.intersections}, monitor,
+                           [&](const char* stage) { monitor.beginStage(stage, 0); });
   }
   void cutFaces() {
     state.faces.tri = cutTriangles(state.surface, undivided, run);

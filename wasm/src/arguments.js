@@ -310,8 +310,21 @@ function readGridOf(grid, name) {
   return readPlanes(grid, name);
 }
 
+/** What a result was made of; arrays from elsewhere have none. */
+const readFingerprint = optional((value, name) => {
+  if (typeof value === 'string' && /^[0-9a-f]{16}$/.test(value)) return value;
+  throw bad(`${name} must be 16 hexadecimal digits, not ${typeof value === 'string' ? `"${value}"` : kindOf(value)}.`);
+});
+
 /** Readers of members by their kinds in fields.js, except typed arrays. */
-const kinds = { Grid: readGridOf, integer: readId, 'integer[3]': (...given) => readVector(...given, readInt32), 'number[3]': readVector };
+const kinds = {
+  Grid: readGridOf,
+  Fingerprint: readFingerprint,
+  integer: readId,
+  number: expectNumber,
+  'integer[3]': (...given) => readVector(...given, readInt32),
+  'number[3]': readVector,
+};
 
 /** The members that a struct of C++ has, by its kinds in fields.js. Whether lengths and ids fit together is up to C++. */
 export function readFields(value, fields, name) {
@@ -326,7 +339,7 @@ export function readFields(value, fields, name) {
 
 export function readCutMesh(cutMesh) {
   expectObject(cutMesh, 'cutMesh');
-  return readFields(withParts(withParents(cutMesh)), CutMesh, 'cutMesh');
+  return readFields({ snapTolerance: 0, ...withParts(withParents(cutMesh)) }, CutMesh, 'cutMesh');
 }
 
 /** The part of the result of resolve() that boundary() takes. */

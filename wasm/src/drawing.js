@@ -43,14 +43,20 @@ function expectCount(found, expected, items, name) {
   if (found !== expected) throw bad(`${name} is of another cut-mesh: it has ${found} ${items}, not ${expected}.`);
 }
 
+function expectMadeFrom({ madeFrom }, { fingerprint }, name) {
+  if (madeFrom && fingerprint && madeFrom !== fingerprint) throw bad(`${name} is of another cut-mesh.`);
+}
+
 function readFaceTriangles(value, name, cutMesh) {
   expectArrays(value, { Uint32Array: ['faceTriangleOffsets', 'triangles'] }, name);
+  expectMadeFrom(value, cutMesh, name);
   expectCount(value.faceTriangleOffsets.length - 1, cutMesh.faceTriangle.length, 'faces', name);
   return value;
 }
 
 function readMeasures(value, name, cutMesh) {
   expectArrays(value, { Float64Array: ['cellVolume'] }, name);
+  expectMadeFrom(value, cutMesh, name);
   expectCount(value.cellVolume.length, cutMesh.cellRegion.length, 'cut-cells', name);
   if (value.cellCentroid !== undefined) expectTypedArray(value.cellCentroid, 'Float64Array', `${name}.cellCentroid`);
   return value;

@@ -66,6 +66,9 @@ export const CutMesh = {
   openTriangles: 'Uint32Array',
   triangleCount: 'integer',
   droppedTriangles: 'Uint32Array',
+  snapTolerance: 'number',
+  madeFrom: 'Fingerprint',
+  fingerprint: 'Fingerprint',
 };
 
 export const InsideRegions = {
@@ -130,6 +133,7 @@ export const Measures = {
   faceCentroid: 'Float64Array',
   cellVolume: 'Float64Array',
   cellCentroid: 'Float64Array',
+  madeFrom: 'Fingerprint',
 };
 
 export const CutEdges = {
@@ -210,6 +214,7 @@ export const Progress = {
 export const FaceTriangles = {
   faceTriangleOffsets: 'Uint32Array',
   triangles: 'Uint32Array',
+  madeFrom: 'Fingerprint',
 };
 
 export const Check = {

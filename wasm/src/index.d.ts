@@ -103,10 +103,12 @@ export interface RunOptions {
   progress?: (progress: Progress) => boolean | void;
 }
 
-export interface ValidateOptions extends RunOptions {
-  /** That of the cut. */
-  snapTolerance?: number;
-}
+/**
+ * Stands for a result and all that it was made of: the numbers of the mesh, the planes of the grid, the options; 16 hexadecimal digits, the
+ * same for the same input. Calls that take two results throw "badArgument" if these were not made from each other. Arrays from elsewhere
+ * have none and are trusted to belong together; who changes arrays of a copy leaves it out.
+ */
+export type Fingerprint = string;
 
 export interface IntersectionHandling extends RunOptions {
   /**

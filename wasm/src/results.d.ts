@@ -1,5 +1,5 @@
 // Written by wasm/results.mjs from the headers in src/include/mandoline: change those.
-import type { Grid, Stage } from './index.js';
+import type { Fingerprint, Grid, Stage } from './index.js';
 
 /** How long a stage took. */
 export interface StageTime {
@@ -177,6 +177,13 @@ export interface CutMeshArrays {
   triangleCount: number;
   /** Ascending ids of triangles without a face: no area, or none inside the grid. */
   droppedTriangles: Uint32Array<ArrayBuffer>;
+
+  /** That of the cut: functions that are given the input move its tri-vertices as the cut did. */
+  snapTolerance: number;
+  /** The fingerprint of the input. */
+  madeFrom?: Fingerprint;
+  /** That of the cut-mesh. */
+  fingerprint?: Fingerprint;
 }
 
 /** What insideRegions() says. */
@@ -342,6 +349,8 @@ export interface MeasureArrays {
   cellVolume: Float64Array<ArrayBuffer>;
   /** 3 per cut-cell. */
   cellCentroid: Float64Array<ArrayBuffer>;
+  /** The fingerprint of the cut-mesh. */
+  madeFrom?: Fingerprint;
 }
 
 /** Unique undirected cut-edges (of all loops), lower vertex id first, ascending, with their lengths. */
@@ -528,6 +537,8 @@ export interface FaceTriangles {
   faceTriangleOffsets: Uint32Array<ArrayBuffer>;
   /** 3 vertex ids per triangle, counter-clockwise about the face's normal. */
   triangles: Uint32Array<ArrayBuffer>;
+  /** The fingerprint of the cut-mesh. */
+  madeFrom?: Fingerprint;
 }
 
 /** One thing that was looked at. */

@@ -36,26 +36,6 @@ int32_t locate(const std::vector<double>& planes, double perCell, double x) {
   return 2 * c + (x == planes[c] ? 0 : 1);
 }
 
-/// Moves a coordinate onto a plane within the tolerance of it; returns its slab.
-int32_t snap(const std::vector<double>& planes, int32_t slab, double tolerance, double& x, double& largest) {
-  if (onPlane(slab)) return slab;
-  const int32_t n = int32_t(planes.size()) - 1;
-  double nearest = tolerance;
-  int32_t plane = -1;
-  for (int32_t p = std::max(0, slab >> 1); p <= std::min(n, (slab >> 1) + 1); ++p) {
-    const int32_t cell = std::clamp(slab >> 1, 0, n - 1);
-    const double distance = std::fabs(x - planes[p]) / (planes[cell + 1] - planes[cell]);
-    if (distance <= nearest) {
-      nearest = distance;
-      plane = p;
-    }
-  }
-  if (plane < 0) return slab;
-  largest = std::max(largest, nearest);
-  x = planes[plane];
-  return 2 * plane;
-}
-
 /// The slab of a made vertex, among the planes that its approximate coordinate leaves.
 int32_t locateMade(const MeshPoints& points, VertexId v, int axis, const std::vector<double>& planes, Predicates& predicates) {
   const Bounded x = points.approximate(v.number, axis);
@@ -93,30 +73,6 @@ double largestCoordinate(const Grid& grid) {
   double largest = 0;
   for (const auto& planes : grid.planes) largest = std::max({largest, std::fabs(planes.front()), std::fabs(planes.back())});
   return largest;
-}
-
-void snapPoints(const Grid& grid, double tolerance, const Scale& scale, std::vector<Point>& points, Run& run) {
-  uint32_t flushed = 0;  // counted when the planes are scaled again
-  std::array<std::vector<double>, 3> planes;
-  for (int d = 0; d < 3; ++d) planes[size_t(d)] = scalePlanes(grid, d, scale, flushed);
-  struct Snaps {
-    uint32_t count = 0;
-    double largest = 0;
-  };
-  const auto chunks = forChunks<Snaps>(points.size(), run.monitor, [&](Snaps& chunk, size_t begin, size_t end) {
-    for (size_t v = begin; v < end; ++v) {
-      bool moved = false;
-      for (size_t d = 0; d < 3; ++d) {
-        const int32_t slab = locate(planes[d], cellsPerUnit(planes[d]), points[v][d]);
-        moved |= !onPlane(slab) && onPlane(snap(planes[d], slab, tolerance, points[v][d], chunk.largest));
-      }
-      chunk.count += moved;
-    }
-  });
-  for (const Snaps& s : chunks) {
-    run.stats.snappedVertices += s.count;
-    run.stats.largestSnap = std::max(run.stats.largestSnap, s.largest);
-  }
 }
 
 Input prepareInput(const Prepared& mesh, const Grid& grid, Run& run) {

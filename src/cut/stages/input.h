@@ -1,7 +1,6 @@
 // The grid: checks it, scales its planes like the mesh, and finds all vertices' slabs.
 //
-// In: the user's grid, and Prepared. Out: Input, or a Failure that names the offending axis. With a snap tolerance, tri-vertices are moved
-// onto planes before the mesh is prepared.
+// In: the user's grid, and Prepared. Out: Input, or a Failure that names the offending axis.
 #pragma once
 
 #include "cut/scaled_input.h"
@@ -12,8 +11,6 @@ namespace mandoline::detail {
 void checkGrid(const Grid& grid, double snapTolerance);
 /// The largest coordinate of a plane.
 double largestCoordinate(const Grid& grid);
-/// Moves coordinates onto the planes within the tolerance of them: for Preparation::move.
-void snapPoints(const Grid& grid, double tolerance, const Scale& scale, std::vector<Point>& points, Run& run);
 /// The planes must fit the mesh's scale: largestCoordinate(grid) * 2^shift < 2^(Scale::kLargestExponent + Scale::kRoom + 1).
 Input prepareInput(const Prepared& mesh, const Grid& grid, Run& run);
 

@@ -16,7 +16,7 @@ struct CutState {
   Regions regions;
 };
 
-/// Moves the arrays out of `state`. `mesh` and `grid` are those of the user: coordinates that they have are handed back as they are.
+/// Moves the arrays out of `state`. `mesh` was prepared; coordinates that it and `grid` have are handed back as they are.
 CutMesh makeOutput(const MeshView& mesh, const Grid& grid, CutState& state, Run& run);
 
 }  // namespace mandoline::detail

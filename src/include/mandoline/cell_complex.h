@@ -49,6 +49,9 @@ struct CellComplex {
   std::vector<double> cellVolume;             ///< per cell
   std::vector<double> cellCentroid;           ///< 3 per cell
 
+  Fingerprint madeFrom;     ///< of the cut-mesh; of the whole, if it is a part of another cell complex
+  Fingerprint fingerprint;  ///< of the cell complex
+
   size_t vertexCount() const { return positions.size() / 3; }
   size_t faceCount() const { return faceTag.size(); }
   size_t cellCount() const { return cellRegion.size(); }
@@ -80,6 +83,8 @@ struct CellComplex {
     f("cellRegion", self.cellRegion);
     f("cellVolume", self.cellVolume);
     f("cellCentroid", self.cellCentroid);
+    f("madeFrom", self.madeFrom);
+    f("fingerprint", self.fingerprint);
   }
 };
 

@@ -20,6 +20,8 @@ struct OctreeCells {
   std::vector<int32_t> cellCorner;     ///< 3 per octree cell: its lowest grid cell
   std::vector<uint8_t> cellLevel;      ///< per octree cell
   std::vector<uint32_t> cellRegion;    ///< per octree cell: region of the cut-mesh
+  Fingerprint madeFrom;                ///< of the cut-mesh
+  Fingerprint fingerprint;             ///< of the octree cells
 
   size_t cellCount() const { return cellLevel.size(); }
   std::array<int32_t, 3> corner(size_t cell) const { return {cellCorner[3 * cell], cellCorner[3 * cell + 1], cellCorner[3 * cell + 2]}; }
@@ -33,6 +35,8 @@ struct OctreeCells {
     f("cellCorner", self.cellCorner);
     f("cellLevel", self.cellLevel);
     f("cellRegion", self.cellRegion);
+    f("madeFrom", self.madeFrom);
+    f("fingerprint", self.fingerprint);
   }
 };
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "mandoline/fields.h"
+#include "mandoline/fingerprint.h"
 #include "mandoline/grid.h"
 
 namespace MANDOLINE_API mandoline {
@@ -157,6 +158,10 @@ struct CutMesh {
   uint32_t triangleCount = 0;              ///< of the input
   std::vector<uint32_t> droppedTriangles;  ///< ascending ids of triangles without a face: no area, or none inside the grid
 
+  double snapTolerance = 0;  ///< that of the cut: functions that are given the input move its tri-vertices as the cut did
+  Fingerprint madeFrom;      ///< of the input
+  Fingerprint fingerprint;   ///< of the cut-mesh
+
   size_t vertexCount() const { return vertexMask.size(); }
   size_t loopCount() const { return loopOffsets.empty() ? 0 : loopOffsets.size() - 1; }
   size_t faceCount() const { return faceTriangle.size(); }
@@ -212,6 +217,9 @@ struct CutMesh {
     f(ArrayInfo{"openTriangles", Element::openTriangle}, self.openTriangles);
     f("triangleCount", self.triangleCount);
     f(ArrayInfo{"droppedTriangles", Element::droppedTriangle}, self.droppedTriangles);
+    f("snapTolerance", self.snapTolerance);
+    f("madeFrom", self.madeFrom);
+    f("fingerprint", self.fingerprint);
   }
 };
 

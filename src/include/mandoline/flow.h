@@ -27,6 +27,7 @@ struct Flow {
   std::vector<double> cellPressure;  ///< per cell, at its centroid: the pressure coefficient 1 - |velocity|^2 / |wind|^2
   /// Components into which the wind would blow more than it takes out, or less; ascending. See solveFlow().
   std::vector<uint32_t> throttled;
+  Fingerprint madeFrom;  ///< of the cell complex
 
   static void fields(auto& self, const auto& f) {
     f("status", self.status);
@@ -38,6 +39,7 @@ struct Flow {
     f("cellGradient", self.cellGradient);
     f("cellPressure", self.cellPressure);
     f("throttled", self.throttled);
+    f("madeFrom", self.madeFrom);
   }
 };
 

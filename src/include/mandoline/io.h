@@ -54,14 +54,15 @@ using Sink = std::function<void(std::string_view)>;
 // All writers throw CallError if cancelled, and for arguments that do not fit: `regions` of a wrong length, the mesh of another cut, a
 // triangle (element) that names a vertex that does not exist, groups of other triangles.
 
-/// The complete dump as JSON: format, version, grid, the arrays of CutMesh under their names, gridCellRegion (as CutMesh::gridCellRegion())
-/// and triangleCount. Arrays that are not there, as regionWinding without winding numbers, have a null for each region. Doubles read back
-/// identically.
+/// The complete dump as JSON: format, version, grid, the arrays of CutMesh under their names, gridCellRegion (as
+/// CutMesh::gridCellRegion()), triangleCount, snapTolerance, madeFrom and fingerprint. Arrays that are not there, as regionWinding without
+/// winding numbers, have a null for each region. Doubles read back identically.
 void writeJson(const Sink& sink, const CutMesh& cutMesh, const RunOptions& options = {});
 /// The same with two arrays more: groupNames, and triangleGroup per triangle of the input; with neither if there are no groups.
 void writeJson(const Sink& sink, const CutMesh& cutMesh, const TriangleGroups& groups, const RunOptions& options);
 /// A cell complex made from the cut-mesh as JSON: format, version, cutVertices, cutFaces, cutCells, the arrays of CellComplex under their
-/// names, the cut-mesh's faceTriangle for its faces, and the two arrays of groups if there are any. It always has all cells.
+/// names, the cut-mesh's faceTriangle for its faces, madeFrom, fingerprint, and the two arrays of groups if there are any. It always has
+/// all cells.
 void writeJson(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options);
 /// The cut-mesh as bytes that readCutMesh() takes, in Mandoline's own format: compressed, with a version and a checksum of each array. The
 /// same cut-mesh always gives the same bytes.

@@ -14,6 +14,7 @@ struct Measures {
   std::vector<double> faceCentroid;  ///< 3 per face
   std::vector<double> cellVolume;    ///< per cut-cell
   std::vector<double> cellCentroid;  ///< 3 per cut-cell
+  Fingerprint madeFrom;              ///< of the cut-mesh
 
   static void fields(auto& self, const auto& f) {
     f("faceArea", self.faceArea);
@@ -21,10 +22,11 @@ struct Measures {
     f("faceCentroid", self.faceCentroid);
     f("cellVolume", self.cellVolume);
     f("cellCentroid", self.cellCentroid);
+    f("madeFrom", self.madeFrom);
   }
 };
 
-/// `mesh` is the input that `cutMesh` was made from. Throws CallError if it clearly is not (badArgument), or if cancelled.
+/// `mesh` is the input that `cutMesh` was made from. Throws CallError if it is not (badArgument), or if cancelled.
 Measures measure(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions& options = {});
 
 /// Unique undirected cut-edges (of all loops), lower vertex id first, ascending, with their lengths.
@@ -40,8 +42,8 @@ struct CutEdges {
 /// Throws as measure() does.
 CutEdges cutEdges(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions& options = {});
 
-/// Volume of each region, cut-cells and untouched grid cells together. Throws CallError if the measures are of a cut-mesh with another
-/// number of cut-cells.
+/// Volume of each region, cut-cells and untouched grid cells together. Throws CallError if the measures are of another
+/// cut-mesh.
 std::vector<double> regionVolumes(const CutMesh& cutMesh, const Measures& measures);
 
 /// What lies on the two sides of each face (a cut-cell, an untouched grid cell, or nothing where the grid ends), and beside each cut-cell.

@@ -25,15 +25,19 @@ enum class DualPoints : uint8_t {
 /// The edges of all faces.
 struct ComplexEdges {
   std::vector<uint32_t> vertices;  ///< 2 per edge, the lower id first; edges ascend by the first, then by the second
+  Fingerprint madeFrom;            ///< of the cell complex
 
   size_t count() const { return vertices.size() / 2; }
 
-  static void fields(auto& self, const auto& f) { f("vertices", self.vertices); }
+  static void fields(auto& self, const auto& f) {
+    f("vertices", self.vertices);
+    f("madeFrom", self.madeFrom);
+  }
 };
 ComplexEdges complexEdges(const CellComplex& cells);
 
-// Signed incidences, of entries 1 and -1. The product of one with the next is zero to the bit. `edges` are complexEdges(cells); others
-// throw CallError{badArgument} with the first edge (element) that differs.
+// Signed incidences, of entries 1 and -1. The product of one with the next is zero to the bit. `edges` are complexEdges(cells); those of
+// other cells throw CallError{badArgument}.
 
 /// Cells x faces: 1 if the face's normal points out of the cell, -1 if into it; none for a face with the cell on both sides.
 SparseMatrix cellFaceIncidence(const CellComplex& cells);

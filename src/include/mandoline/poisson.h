@@ -19,11 +19,13 @@ struct Boundary {
   std::vector<uint32_t> halfFaces;   ///< ascending
   std::vector<Condition> condition;  ///< per half-face
   std::vector<double> value;         ///< per half-face: the mean of what its condition gives on the face
+  Fingerprint madeFrom;              ///< of the cell complex
 
   static void fields(auto& self, const auto& f) {
     f("halfFaces", self.halfFaces);
     f("condition", self.condition);
     f("value", self.value);
+    f("madeFrom", self.madeFrom);
   }
 };
 

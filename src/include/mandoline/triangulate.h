@@ -12,10 +12,12 @@ namespace MANDOLINE_API mandoline {
 struct FaceTriangles {
   std::vector<uint32_t> faceTriangleOffsets;  ///< into triangles (in triangles, not entries), per face
   std::vector<uint32_t> triangles;            ///< 3 vertex ids per triangle, counter-clockwise about the face's normal
+  Fingerprint madeFrom;                       ///< of the cut-mesh
 
   static void fields(auto& self, const auto& f) {
     f("faceTriangleOffsets", self.faceTriangleOffsets);
     f("triangles", self.triangles);
+    f("madeFrom", self.madeFrom);
   }
 };
 /// Throws CallError if the cut-mesh is empty.

@@ -49,13 +49,8 @@ Check checkArrays(const CutMesh& cutMesh, const MeshView* mesh = nullptr);
 /// subComplex() give passes.
 Check checkArrays(const CellComplex& cells);
 
-struct ValidateOptions : RunOptions {
-  double snapTolerance = 0;  ///< that of the cut
-};
-
 /// The paper's four checks (5.6) and the invariants of a cut-mesh. `mesh` is the input. Any arrays may be passed: if they don't fit
-/// together or don't fit the mesh, the first check says so and is the only one. Throws CallError if cancelled, or if cut() would not take
-/// the snap tolerance.
-Validation validate(const MeshView& mesh, const CutMesh& cutMesh, const ValidateOptions& options = {});
+/// together or don't fit the mesh, the first check says so and is the only one. Throws CallError if cancelled.
+Validation validate(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions& options = {});
 
 }  // namespace mandoline

@@ -2,17 +2,12 @@
 
 #include <cstring>
 
+#include "base/mix.h"
 #include "base/plain_arithmetic.h"
 #include "mesh/read/scalar.h"
 
 namespace mandoline::detail {
 namespace {
-
-/// Each step can be undone, so that other words or another start give another result.
-uint64_t mixed(uint64_t sum, uint64_t word) {
-  sum = (sum ^ word) * 0x9e3779b97f4a7c15u;
-  return sum ^ sum >> 32;
-}
 
 uint64_t checksum(std::string_view bytes, uint64_t sum) {
   for (; bytes.size() >= 8; bytes.remove_prefix(8)) sum = mixed(sum, loadScalar<uint64_t>(bytes.data(), ByteOrder::little));
@@ -51,6 +46,9 @@ void codeHead(typename Stream::Bytes& bytes, AnyCutMesh& cutMesh) {
   code(cutMesh.regionCount);
   code(cutMesh.hasWinding);
   code(cutMesh.triangleCount);
+  code(cutMesh.snapTolerance);
+  code(cutMesh.madeFrom.value);
+  code(cutMesh.fingerprint.value);
   for (size_t d = 0; d < 3; ++d) codePlanes(stream, grid.planes[d], grid.origin[d], grid.spacing[d]);
   stream.finish();
 }

@@ -11,7 +11,7 @@ namespace mandoline::detail {
 
 /// As of PNG: the first byte is not ASCII, and transfer as text would change the ends of lines.
 inline constexpr std::string_view kMcmSignature("\x89MCM\r\n\x1a\n", 8);
-inline constexpr uint64_t kMcmVersion = 3;
+inline constexpr uint64_t kMcmVersion = 4;
 inline constexpr int kChecksumBytes = 8;
 
 struct RecordHead {

@@ -59,6 +59,8 @@ Number fromInteger(int64_t n) {
     double number;
     std::memcpy(&number, &bits, sizeof number);
     return number;
+  } else if constexpr (std::is_same_v<Number, uint64_t>) {
+    return Number(n);
   } else {
     if (n < int64_t(std::numeric_limits<Number>::min()) || n > int64_t(std::numeric_limits<Number>::max())) {
       throw Damaged{"has an entry that is out of its type's range"};

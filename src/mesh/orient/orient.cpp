@@ -70,7 +70,7 @@ OrientedMesh orient(const MeshView& mesh, const RunOptions& options) {
   return runCall("orientation", [&] {
     Monitor monitor(options, 2);
     const auto prepared =
-        prepareMesh(mesh, {0, Intersections::assumeNone, {}}, monitor, [&](const char* stage) { monitor.beginStage(stage, 0); });
+        prepareMesh(mesh, {0, Intersections::assumeNone}, monitor, [&](const char* stage) { monitor.beginStage(stage, 0); });
     monitor.beginStage("orient", 1);
     std::vector<EdgeUse> uses = edgeUses(prepared->triangles);
     Patches patches = findPatches(prepared->triangles, uses);

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "mandoline/measure.h"
+#include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
 #include "operators/cell_complex/grid_corners.h"
-#include "operators/measure/require_input.h"
 #include "operators/require_cut_mesh.h"
 
 namespace mandoline {
@@ -13,6 +13,8 @@ namespace {
 
 using operators::GridCorners;
 using operators::GridIndex;
+
+constexpr const char* kOther = "The octree cells are not those of this cut-mesh.";
 
 class Builder {
  public:
@@ -49,7 +51,10 @@ class Builder {
     const int64_t nx = octree_.gridCells[0], ny = octree_.gridCells[1];
     for (size_t h = 0; h < result_.faceCells.size(); ++h) {
       const int64_t cell = beside.faceGridCells[h];
-      if (cell >= 0) result_.faceCells[h] = idOf(octree_.find(cell % nx, cell / nx % ny, cell / nx / ny));
+      if (cell < 0) continue;
+      const int64_t octreeCell = octree_.find(cell % nx, cell / nx % ny, cell / nx / ny);
+      if (octreeCell < 0) operators::refuse(kOther);
+      result_.faceCells[h] = idOf(octreeCell);
     }
     for (size_t f = 0; f < cutMesh_.faceCount(); ++f) result_.faceTag.push_back(tagOf(f));
   }
@@ -173,36 +178,30 @@ bool isOctree(const OctreeCells& octree) {
   return true;
 }
 
-/// Refuses octree cells that are not those of untouched grid cells, all of them.
-void requireMatch(const CutMesh& cutMesh, const OctreeCells& octree) {
+/// Refuses octree cells of another cut-mesh, and arrays that don't fit together.
+void requireOctree(const CutMesh& cutMesh, const OctreeCells& octree) {
+  operators::requireMadeFrom(octree.madeFrom, cutMesh.fingerprint, kOther);
   for (size_t d = 0; d < 3; ++d) {
     if (octree.gridCells[d] != cutMesh.grid.cells(int(d))) operators::refuse("The octree cells are of another grid.");
   }
-  const UntouchedCells untouched(cutMesh);
-  bool matches = isOctree(octree);
-  uint64_t count = 0;
-  for (size_t c = 0; matches && c < octree.cellCount(); ++c) {
-    const GridIndex corner = octree.corner(c), end = octree.end(c);
-    matches = untouched.regionAt(corner[0], corner[1], corner[2]) == int64_t(octree.cellRegion[c]);
-    count += uint64_t(end[0] - corner[0]) * uint64_t(end[1] - corner[1]) * uint64_t(end[2] - corner[2]);
-  }
-  for (size_t c = 0; matches && c < cutMesh.cellCount(); ++c) {
-    const int32_t* cell = &cutMesh.cellGridCell[3 * c];
-    matches = octree.find(cell[0], cell[1], cell[2]) < 0;
-  }
-  if (!matches || count != untouched.count()) operators::refuse("The octree cells are not those of this cut-mesh.");
+  const auto exists = [&](uint32_t region) { return region < cutMesh.regionCount; };
+  if (!isOctree(octree) || !std::all_of(octree.cellRegion.begin(), octree.cellRegion.end(), exists)) operators::refuse(kOther);
 }
 
 }  // namespace
 
 CellComplex cellComplex(const MeshView& mesh, const CutMesh& cutMesh, const OctreeCells& octree, const RunOptions& options) {
   operators::requireCutMesh(cutMesh);
-  requireMatch(cutMesh, octree);
+  requireOctree(cutMesh, octree);
   Measures measures = measure(mesh, cutMesh, options);
-  measuring::requireTriangles(mesh, cutMesh);
   return detail::runCall("assembly of the cells", [&] {
     detail::Monitor monitor(options, 2);
-    return Builder(cutMesh, octree, monitor).run(std::move(measures));
+    CellComplex cells = Builder(cutMesh, octree, monitor).run(std::move(measures));
+    detail::Fingerprinter fingerprinter("cells", cutMesh.fingerprint);
+    fingerprinter.add(octree.fingerprint.value);
+    cells.madeFrom = cutMesh.fingerprint;
+    cells.fingerprint = octree.fingerprint.isKnown() ? fingerprinter.get() : Fingerprint{};
+    return cells;
   });
 }
 

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "mandoline/cell_complex.h"
+#include "mesh/fingerprints.h"
 #include "operators/require_cut_mesh.h"
 
 namespace mandoline {
@@ -32,6 +33,10 @@ class Extractor {
     result.cutVertices = countBelow(sub_.wholeVertex, whole_.cutVertices);
     result.cutFaces = countBelow(sub_.wholeFace, whole_.cutFaces);
     result.cutCells = countBelow(sub_.wholeCell, whole_.cutCells);
+    detail::Fingerprinter fingerprinter("part", whole_.fingerprint);
+    fingerprinter.add(sub_.wholeCell);
+    result.madeFrom = whole_.fingerprint;
+    result.fingerprint = fingerprinter.get();
     return std::move(sub_);
   }
 

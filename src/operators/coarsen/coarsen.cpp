@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/sort.h"
+#include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
 #include "operators/require_cut_mesh.h"
 
@@ -170,7 +171,12 @@ OctreeCells coarsen(const CutMesh& cutMesh, const CoarsenOptions& options) {
   }
   return detail::runCall("coarsening", [&] {
     detail::Monitor monitor(options, 2);
-    return Coarsener(cutMesh, options, monitor).run();
+    OctreeCells result = Coarsener(cutMesh, options, monitor).run();
+    detail::Fingerprinter fingerprinter("octree", cutMesh.fingerprint);
+    for (const int option : {options.maxLevel, options.fineLayers, int(options.balanceEdges)}) fingerprinter.add(uint64_t(option));
+    result.madeFrom = cutMesh.fingerprint;
+    result.fingerprint = fingerprinter.get();
+    return result;
   });
 }
 

@@ -3,14 +3,15 @@
 
 #include "base/csr.h"
 #include "mandoline/coarsen.h"
+#include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
+#include "operators/cut_input.h"
 #include "operators/inside/cell_samples.h"
 #include "operators/inside/divided_regions.h"
 #include "operators/inside/inside_rule.h"
 #include "operators/inside/neighbours.h"
 #include "operators/inside/winding_tree.h"
 #include "operators/measure/owners.h"
-#include "operators/measure/require_input.h"
 #include "operators/require_cut_mesh.h"
 
 namespace mandoline {
@@ -222,7 +223,7 @@ class Estimator {
     }
   }
 
-  const MeshView& mesh_;
+  const MeshView mesh_;
   const CutMesh& cutMesh_;
   const EstimateOptions& options_;
   detail::Monitor& monitor_;
@@ -241,12 +242,16 @@ class Estimator {
 CutMesh estimateInside(const MeshView& mesh, const CutMesh& cutMesh, const EstimateOptions& options) {
   requireCutMesh(cutMesh);
   requireThreshold(options.threshold);
-  measuring::requireInput(mesh, cutMesh);
+  const CutInput input(mesh, cutMesh);
   if (!cutMesh.regionInsideness.empty()) refuse("The cut-mesh has estimates already.");
   if (cutMesh.openTriangles.empty()) return cutMesh;
   return detail::runCall("estimate", [&] {
     detail::Monitor monitor(options, kStages);
-    return Estimator(mesh, cutMesh, options, monitor).run();
+    CutMesh result = Estimator(input.mesh(), cutMesh, options, monitor).run();
+    detail::Fingerprinter fingerprinter("estimate", cutMesh.fingerprint);
+    fingerprinter.add(options.threshold);
+    result.fingerprint = fingerprinter.get();
+    return result;
   });
 }
 

@@ -5,8 +5,8 @@
 #include "base/sort.h"
 #include "mandoline/measure.h"
 #include "mesh/run_call.h"
+#include "operators/cut_input.h"
 #include "operators/measure/places.h"
-#include "operators/measure/require_input.h"
 
 namespace mandoline {
 
@@ -36,11 +36,11 @@ detail::Csr<uint32_t> higherEnds(const CutMesh& cutMesh) {
 }  // namespace
 
 CutEdges cutEdges(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions& options) {
-  measuring::requireInput(mesh, cutMesh);
+  const operators::CutInput input(mesh, cutMesh);
   return detail::runCall("measuring", [&] {
     detail::Monitor monitor(options, 1);
     monitor.beginStage("edges", 0);
-    const measuring::Places places(mesh, cutMesh, monitor);
+    const measuring::Places places(input.mesh(), cutMesh, monitor);
     detail::Csr<uint32_t> ends = higherEnds(cutMesh);
     CutEdges edges;
     edges.edgeVertices.reserve(ends.items.size());

@@ -7,8 +7,8 @@
 #include "mandoline/measure.h"
 
 #include "mesh/run_call.h"
+#include "operators/cut_input.h"
 #include "operators/measure/places.h"
-#include "operators/measure/require_input.h"
 
 namespace mandoline {
 namespace {
@@ -231,12 +231,14 @@ class Measuring {
 }  // namespace
 
 Measures measure(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions& options) {
-  measuring::requireInput(mesh, cutMesh);
+  const operators::CutInput input(mesh, cutMesh);
   return detail::runCall("measuring", [&] {
     detail::Monitor monitor(options, 3);
     monitor.beginStage("vertices", 0);
-    const Places places(mesh, cutMesh, monitor);
-    return Measuring(cutMesh, places).run(monitor);
+    const Places places(input.mesh(), cutMesh, monitor);
+    Measures measures = Measuring(cutMesh, places).run(monitor);
+    measures.madeFrom = cutMesh.fingerprint;
+    return measures;
   });
 }
 

@@ -5,22 +5,14 @@ namespace mandoline::measuring {
 using detail::twoSum;
 
 Places::Places(const MeshView& mesh, const CutMesh& cutMesh, detail::Monitor& monitor)
-    : mesh_(mesh), cutMesh_(cutMesh), vertexOf_(mesh.vertexCount(), -1), places_(cutMesh.vertexCount()) {
-  for (size_t v = 0; v < places_.size(); ++v) {
-    if (cutMesh.vertexTriVertex[v] >= 0) vertexOf_[size_t(cutMesh.vertexTriVertex[v])] = int32_t(v);
-  }
-  forEach(places_.size(), monitor, [&](size_t v) { places_[v] = checked(v, make(v)); });
+    : mesh_(mesh), cutMesh_(cutMesh), places_(cutMesh.vertexCount()) {
+  forEach(places_.size(), monitor, [&](size_t v) { places_[v] = make(v); });
 }
 
 Vector<DoubleDouble> Places::triangleNormal(size_t t) const {
   const double *a = corner(t, 0), *b = corner(t, 1), *c = corner(t, 2);
   return cross<DoubleDouble>({twoSum(b[0], -a[0]), twoSum(b[1], -a[1]), twoSum(b[2], -a[2])},
                              {twoSum(c[0], -a[0]), twoSum(c[1], -a[1]), twoSum(c[2], -a[2])});
-}
-
-/// Where the cutter had a tri-vertex: the cut-mesh knows if it has been moved onto a plane.
-const double* Places::triVertex(size_t v) const {
-  return vertexOf_[v] < 0 ? &mesh_.positions[3 * v] : &cutMesh_.positions[3 * size_t(vertexOf_[v])];
 }
 
 Vector<DoubleDouble> Places::make(size_t v) const {
@@ -57,20 +49,6 @@ void Places::placeInTriangle(size_t v, size_t triangle, Vector<DoubleDouble>& pl
   if (normal[w].high == 0) return;
   const DoubleDouble slope = normal[p] * twoSum(plane(v, p), -a[p]) + normal[q] * twoSum(plane(v, q), -a[q]);
   place[w] = a[w] - slope / normal[w];
-}
-
-/// The place, or the vertex's position where the two differ by more than rounding. Then snapping has moved tri-vertices that the cut-mesh
-/// does not have (outside of the grid, or welded by the move), and the place was computed from their old coordinates.
-Vector<DoubleDouble> Places::checked(size_t v, const Vector<DoubleDouble>& place) const {
-  for (int d = 0; d < 3; ++d) {
-    const double position = cutMesh_.positions[3 * v + d];
-    const auto& planes = cutMesh_.grid.planes[d];
-    const size_t c = std::min<size_t>(size_t(cutMesh_.vertexCell[3 * v + d]), planes.size() - 2);
-    if (!(std::fabs(place[d].high - position) <= 0x1p-40 * (planes[c + 1] - planes[c]) + 0x1p-48 * std::fabs(position))) {
-      return {cutMesh_.positions[3 * v], cutMesh_.positions[3 * v + 1], cutMesh_.positions[3 * v + 2]};
-    }
-  }
-  return place;
 }
 
 }  // namespace mandoline::measuring

@@ -13,7 +13,7 @@ namespace mandoline::measuring {
 using detail::DoubleDouble;
 
 /// Coordinates of all vertices, as double-doubles made from their provenance: the tri-edge or triangle and the exact planes that they lie
-/// on. The mesh has to be the input of the cut-mesh (requireInput).
+/// on. `mesh` is that of CutInput.
 class Places {
  public:
   Places(const MeshView& mesh, const CutMesh& cutMesh, detail::Monitor& monitor);
@@ -31,18 +31,16 @@ class Places {
   Vector<DoubleDouble> triangleNormal(size_t t) const;
 
  private:
-  const double* triVertex(size_t v) const;
+  const double* triVertex(size_t v) const { return &mesh_.positions[3 * v]; }
   const double* corner(size_t t, size_t i) const { return triVertex(mesh_.triangles[3 * t + i]); }
   bool onPlane(size_t v, int d) const { return (cutMesh_.vertexMask[v] >> d & 1) != 0; }
   double plane(size_t v, int d) const { return cutMesh_.grid.planes[size_t(d)][size_t(cutMesh_.vertexCell[3 * v + size_t(d)])]; }
   Vector<DoubleDouble> make(size_t v) const;
   void placeOnEdge(size_t v, const double* a, const double* b, Vector<DoubleDouble>& place) const;
   void placeInTriangle(size_t v, size_t triangle, Vector<DoubleDouble>& place) const;
-  Vector<DoubleDouble> checked(size_t v, const Vector<DoubleDouble>& place) const;
 
-  const MeshView& mesh_;
+  const MeshView mesh_;
   const CutMesh& cutMesh_;
-  std::vector<int32_t> vertexOf_;  // per tri-vertex
   std::vector<Vector<DoubleDouble>> places_;
 };
 

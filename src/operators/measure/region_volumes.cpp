@@ -1,15 +1,16 @@
 // Volumes of regions.
 #include "base/double_double.h"
 #include "mandoline/measure.h"
+#include "operators/require_cut_mesh.h"
 
 namespace mandoline {
 
 std::vector<double> regionVolumes(const CutMesh& cutMesh, const Measures& measures) {
   using detail::DoubleDouble;
+  operators::requireMadeFrom(measures.madeFrom, cutMesh.fingerprint, "The measures are those of another cut-mesh.");
   if (measures.cellVolume.size() != cutMesh.cellCount()) {
-    throw CallError({Status::badArgument, -1, -1,
-                     "The measures are not of this cut-mesh: they have the volumes of " + std::to_string(measures.cellVolume.size()) +
-                         " cut-cells, it has " + std::to_string(cutMesh.cellCount()) + "."});
+    operators::refuse("The measures are not of this cut-mesh: they have the volumes of " + std::to_string(measures.cellVolume.size()) +
+                      " cut-cells, it has " + std::to_string(cutMesh.cellCount()) + ".");
   }
   std::vector<DoubleDouble> sums(cutMesh.regionCount);
   for (size_t c = 0; c < cutMesh.cellCount(); ++c) sums[cutMesh.cellRegion[c]] += measures.cellVolume[c];

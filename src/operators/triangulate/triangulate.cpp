@@ -16,6 +16,7 @@ FaceTriangles triangulateFaces(const CutMesh& cutMesh) {
     triangulator.run(cutMesh.face(f), result.triangles);
     result.faceTriangleOffsets.push_back(uint32_t(result.triangles.size() / 3));
   }
+  result.madeFrom = cutMesh.fingerprint;
   return result;
 }
 

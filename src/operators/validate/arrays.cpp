@@ -82,7 +82,9 @@ class ArrayCheck {
         if (!expect(fine, "axis", d, "has planes too close for the size of the whole")) return false;
       }
     }
-    return expect(cut_.grid.cells(1) * cut_.grid.cells(2) <= int64_t(1) << 28, "grid", 0, "has too many rows");
+    return expect(cut_.grid.cells(1) * cut_.grid.cells(2) <= int64_t(1) << 28, "grid", 0, "has too many rows") &&
+           expect(cut_.snapTolerance >= 0 && cut_.snapTolerance < 0.5, "grid", 0,
+                  "has a snap tolerance below 0, or of half a cell or more");
   }
 
   bool checkVertices() {

@@ -118,7 +118,7 @@ int scaleOf(const MeshView& mesh, const Grid& grid) {
   return kLargestExponent - std::ilogb(largest);
 }
 
-Coordinates scaled(const MeshView& mesh, const CutMesh& cutMesh, double snapTolerance) {
+Coordinates scaled(const MeshView& mesh, const CutMesh& cutMesh) {
   const int exponent = scaleOf(mesh, cutMesh.grid);
   const auto scale = [&](const auto& from) {
     std::vector<double> to(from.size());
@@ -132,9 +132,9 @@ Coordinates scaled(const MeshView& mesh, const CutMesh& cutMesh, double snapTole
   for (int d = 0; d < 3; ++d) result.planes[d] = scale(cutMesh.grid.planes[d]);
   result.positions = scale(cutMesh.positions);
   result.triPositions = scale(mesh.positions);
-  for (size_t i = 0; i < result.triPositions.size() && snapTolerance > 0; ++i) {
+  for (size_t i = 0; i < result.triPositions.size() && cutMesh.snapTolerance > 0; ++i) {
     double& x = result.triPositions[i];
-    if (std::isfinite(x)) x = snapped(result.planes[i % 3], x, snapTolerance);
+    if (std::isfinite(x)) x = snapped(result.planes[i % 3], x, cutMesh.snapTolerance);
   }
   return result;
 }
@@ -155,10 +155,10 @@ GridCellGroups groupByGridCell(const CutMesh& cutMesh) {
   return groups;
 }
 
-Context::Context(const MeshView& mesh_, const CutMesh& cutMesh, double snapTolerance)
+Context::Context(const MeshView& mesh_, const CutMesh& cutMesh)
     : mesh(mesh_),
       cut(cutMesh),
-      coordinates(scaled(mesh, cut, snapTolerance)),
+      coordinates(scaled(mesh, cut)),
       dropped(isDropped(cut, mesh.triangleCount())),
       weld(welded(mesh, coordinates.triPositions)),
       rounding(roundingOf(mesh, coordinates, dropped)),

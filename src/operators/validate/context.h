@@ -25,7 +25,7 @@ struct Coordinates {
   std::vector<double> positions;     ///< the cut-mesh's
   std::vector<double> triPositions;  ///< the input's, snapped onto planes
 };
-Coordinates scaled(const MeshView& mesh, const CutMesh& cutMesh, double snapTolerance);
+Coordinates scaled(const MeshView& mesh, const CutMesh& cutMesh);
 
 /// Cut-cells by grid cell.
 struct GridCellGroups {
@@ -43,7 +43,7 @@ inline Edge edgeOf(uint32_t u, uint32_t v) { return {std::min(u, v), std::max(u,
 
 /// The cut-mesh and its input, with what follows from their arrays. Needs arrays that passed checkArrays.
 struct Context {
-  Context(const MeshView& mesh, const CutMesh& cutMesh, double snapTolerance);
+  Context(const MeshView& mesh, const CutMesh& cutMesh);
 
   const MeshView& mesh;
   const CutMesh& cut;

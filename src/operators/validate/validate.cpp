@@ -10,11 +10,11 @@ namespace {
 
 constexpr int kStages = 6;
 
-std::vector<Check> checkAll(const MeshView& mesh, const CutMesh& cutMesh, const ValidateOptions& options, Check arrays) {
+std::vector<Check> checkAll(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions& options, Check arrays) {
   using namespace validation;
   detail::Monitor monitor(options, kStages);
   monitor.beginStage("input", 0);
-  const Context context(mesh, cutMesh, options.snapTolerance);
+  const Context context(mesh, cutMesh);
   const InputTopology topology = findTopology(context);
   const TriangleBins bins(context);
   monitor.beginStage("vertices", 1);
@@ -57,9 +57,7 @@ std::vector<Check> checkAll(const MeshView& mesh, const CutMesh& cutMesh, const 
 
 }  // namespace
 
-Validation validate(const MeshView& mesh, const CutMesh& cutMesh, const ValidateOptions& options) {
-  if (!(options.snapTolerance >= 0 && options.snapTolerance < 0.5))
-    throw CallError({Status::badOption, -1, -1, "snapTolerance must be at least 0 and below 0.5."});
+Validation validate(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions& options) {
   Validation result;
   Check arrays = checkArrays(cutMesh, &mesh);
   if (arrays.pass) {

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "catch.h"
+#include "grid/snap.h"
 #include "staged_cut.h"
 
 using namespace stages;
@@ -28,14 +29,12 @@ TEST_CASE("Slabs name the planes that vertices lie on, and where they lie betwee
 }
 
 TEST_CASE("Snapping moves coordinates onto planes within the tolerance", "[stages][input]") {
-  CutOptions options;
-  options.snapTolerance = 0.1;
-  const StagedCut cut(shapes::triangle({1.05, 1.2, 2.96}, {0.5, 0.5, 0.5}, {2.5, 0.5, 0.5}), Stage::input, options);
-  const Input& input = cut.state.surface.input;
-  CHECK(input.slabs[{0}] == Slab{2, 3, 6});
-  CHECK(Scale(cut.prepared->shift).world(cut.prepared->points[0][0]) == 1);
-  CHECK(cut.stats.snappedVertices == 1);
-  CHECK(cut.stats.largestSnap == Approx(0.05));
+  const Mesh mesh = shapes::triangle({1.05, 1.2, 2.96}, {0.5, 0.5, 0.5}, {2.5, 0.5, 0.5});
+  const SnappedMesh moved = snapped(mesh, unitCells(), 0.1);
+  CHECK(moved.mesh.positions == std::vector<double>{1, 1.2, 3, 0.5, 0.5, 0.5, 2.5, 0.5, 0.5});
+  CHECK(moved.mesh.triangles == mesh.triangles);
+  CHECK(moved.vertices == 1);
+  CHECK(moved.largest == Approx(0.05));
 }
 
 TEST_CASE("Vertices at one position are welded, 0 and -0 alike", "[stages][input]") {

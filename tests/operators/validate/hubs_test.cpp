@@ -36,7 +36,7 @@ struct Looked {
     options.intersections = intersections;
     cutMesh = cut(mesh, unitGrid(3), options).mesh;
     REQUIRE(cutMesh.cellCount() > 0);
-    context.emplace(view, cutMesh, 0);
+    context.emplace(view, cutMesh);
     cell.emplace(*context);
     cell->gather(0);
     EdgeCheck check;

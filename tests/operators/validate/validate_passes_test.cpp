@@ -20,7 +20,7 @@ struct Fixture {
     REQUIRE(cutMesh.cellCount() > 0);
   }
 
-  Context context() const { return Context(view, cutMesh, 0); }
+  Context context() const { return Context(view, cutMesh); }
 
   Mesh mesh;
   MeshView view;

@@ -1,15 +1,5 @@
 // The table of the calls of the module that is loaded when the first of them is made, as in ../calls.js.
-import {
-  flag,
-  optional,
-  readFlags,
-  readFunction,
-  readMembers,
-  readMesh,
-  readNumbers,
-  readSnapTolerance,
-  readVector,
-} from '../arguments.js';
+import { flag, optional, readFlags, readFunction, readMembers, readMesh, readNumbers, readVector } from '../arguments.js';
 import { readFile, readName } from '../files.js';
 import { format, readDefects, readGroups, readLayers, readLines } from './arguments.js';
 
@@ -21,14 +11,13 @@ const readStack = (stack, name) => readMembers(stack, { normal: readVector, offs
 
 export const fileCalls = {
   /**
-   * The paper's four checks (5.6) and the invariants of a cut-mesh, worked out from its arrays alone. `mesh` is the input, `snapTolerance`
-   * that of the cut.
+   * The paper's four checks (5.6) and the invariants of a cut-mesh, worked out from its arrays alone. `mesh` is the input.
    *
-   * validate(mesh: Mesh, cutMesh: CutMeshArrays, options?: ValidateOptions): Promise<Validation>
+   * validate(mesh: Mesh, cutMesh: CutMeshArrays, options?: RunOptions): Promise<Validation>
    */
   validate: {
     takes: { mesh: readMesh, cutMesh: { kind: 'cutMesh', isChecked: false } },
-    options: { snapTolerance: readSnapTolerance, progress },
+    options: { progress },
   },
   /**
    * The cut-mesh as a file. "json": every array; "mcm": the same in a tenth of the bytes, for readCutMesh(); "vtu": polyhedra for VTK and

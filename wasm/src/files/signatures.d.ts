@@ -8,7 +8,6 @@ import type {
   ReadMeshOptions,
   RunOptions,
   TriangleGroups,
-  ValidateOptions,
   Validation,
   WriteMeshOptions,
   WriteOptions,
@@ -17,11 +16,8 @@ import type {
 import type { CallOptions } from '../worker.js';
 
 export interface Calls {
-  /**
-   * The paper's four checks (5.6) and the invariants of a cut-mesh, worked out from its arrays alone. `mesh` is the input, `snapTolerance`
-   * that of the cut.
-   */
-  validate(mesh: Mesh, cutMesh: CutMeshArrays, options?: ValidateOptions): Promise<Validation>;
+  /** The paper's four checks (5.6) and the invariants of a cut-mesh, worked out from its arrays alone. `mesh` is the input. */
+  validate(mesh: Mesh, cutMesh: CutMeshArrays, options?: RunOptions): Promise<Validation>;
   /**
    * The cut-mesh as a file. "json": every array; "mcm": the same in a tenth of the bytes, for readCutMesh(); "vtu": polyhedra for VTK and
    * ParaView; "obj", "stl" and "ply": the cut surface, by region but for "stl". `mesh` is the input of the cut.
@@ -61,7 +57,7 @@ export interface Calls {
 
 /** The same in a worker. */
 export interface WorkerCalls {
-  validate(mesh: Mesh, cutMesh: CutMeshArrays, options?: ValidateOptions & CallOptions): Promise<Validation>;
+  validate(mesh: Mesh, cutMesh: CutMeshArrays, options?: RunOptions & CallOptions): Promise<Validation>;
   write(
     mesh: Mesh,
     cutMesh: CutMeshArrays,

@@ -82,10 +82,11 @@ export function readConditions(given = {}, name) {
 }
 
 export function readBoundary(boundary, name) {
-  const { halfFaces, condition } = readFields(boundary, { halfFaces: Boundary.halfFaces, condition: Boundary.condition }, name);
+  const { value: _, ...fields } = Boundary;
+  const { condition, ...others } = readFields(boundary, fields, name);
   const wrong = condition.findIndex((number) => number >= Condition.length);
   if (wrong >= 0) throw bad(`${name}.condition[${wrong}] must be 0 (neumann) or 1 (dirichlet), not ${condition[wrong]}.`);
-  return { halfFaces, condition, value: readNumbers(boundary.value, `${name}.value`) };
+  return { ...others, condition, value: readNumbers(boundary.value, `${name}.value`) };
 }
 
 export function readProblem(problem = {}, name) {
@@ -94,8 +95,8 @@ export function readProblem(problem = {}, name) {
 
 /** As much of a flow as is read again. */
 export function readFlow(flow) {
-  const { wind, cellVelocity, cellGradient } = Flow;
-  return readFields(flow, { wind, cellVelocity, cellGradient }, 'flow');
+  const { wind, cellVelocity, cellGradient, madeFrom } = Flow;
+  return readFields(flow, { wind, cellVelocity, cellGradient, madeFrom }, 'flow');
 }
 
 export function readMaxPoints(maxPoints = 10000, name) {

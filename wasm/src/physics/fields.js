@@ -21,6 +21,8 @@ export const CellComplex = {
   cellRegion: 'Uint32Array',
   cellVolume: 'Float64Array',
   cellCentroid: 'Float64Array',
+  madeFrom: 'Fingerprint',
+  fingerprint: 'Fingerprint',
 };
 
 export const SubComplex = {
@@ -35,6 +37,8 @@ export const OctreeCells = {
   cellCorner: 'Int32Array',
   cellLevel: 'Uint8Array',
   cellRegion: 'Uint32Array',
+  madeFrom: 'Fingerprint',
+  fingerprint: 'Fingerprint',
 };
 
 export const Flow = {
@@ -47,6 +51,7 @@ export const Flow = {
   cellGradient: 'Float64Array',
   cellPressure: 'Float64Array',
   throttled: 'Uint32Array',
+  madeFrom: 'Fingerprint',
 };
 
 export const Streamlines = {
@@ -58,12 +63,14 @@ export const Streamlines = {
 
 export const ComplexEdges = {
   vertices: 'Uint32Array',
+  madeFrom: 'Fingerprint',
 };
 
 export const Boundary = {
   halfFaces: 'Uint32Array',
   condition: 'Uint8Array',
   value: 'Float64Array',
+  madeFrom: 'Fingerprint',
 };
 
 export const CellComponents = {

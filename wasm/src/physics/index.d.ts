@@ -20,7 +20,7 @@ import type { CutMesh, Mesh, RunOptions, WasmSource, WriteOptions } from '../ind
 import type { Boundary, CellComplex, FaceTag, Flow } from './results.js';
 import type { Calls } from './signatures.js';
 
-export { MandolineError, type TriangleGroups, describe } from '../index.js';
+export { type Fingerprint, MandolineError, type TriangleGroups, describe } from '../index.js';
 export * from './results.js';
 
 /** What a face is part of, by its `faceTag`: faceTags[cells.faceTag[f]]. */

@@ -1,5 +1,5 @@
 // Written by wasm/results.mjs from the headers in src/include/mandoline: change those.
-import type { SparseMatrix } from './index.js';
+import type { Fingerprint, SparseMatrix } from './index.js';
 
 /**
  * All cells, with every face between two of them or on the boundary once. Where a large cell meets smaller ones, its side is divided like
@@ -53,6 +53,11 @@ export interface CellComplex {
   cellVolume: Float64Array<ArrayBuffer>;
   /** 3 per cell. */
   cellCentroid: Float64Array<ArrayBuffer>;
+
+  /** The fingerprint of the cut-mesh; of the whole, if it is a part of another cell complex. */
+  madeFrom?: Fingerprint;
+  /** That of the cell complex. */
+  fingerprint?: Fingerprint;
 }
 
 /**
@@ -88,6 +93,10 @@ export interface OctreeCells {
   cellLevel: Uint8Array<ArrayBuffer>;
   /** Per octree cell: region of the cut-mesh. */
   cellRegion: Uint32Array<ArrayBuffer>;
+  /** The fingerprint of the cut-mesh. */
+  madeFrom?: Fingerprint;
+  /** That of the octree cells. */
+  fingerprint?: Fingerprint;
 }
 
 /** A flow without rotation or sources: its velocity is the gradient of phi. Velocities are in the unit of the wind. */
@@ -118,6 +127,8 @@ export interface Flow {
   cellPressure: Float64Array<ArrayBuffer>;
   /** Components into which the wind would blow more than it takes out, or less; ascending. See solveFlow(). */
   throttled: Uint32Array<ArrayBuffer>;
+  /** The fingerprint of the cell complex. */
+  madeFrom?: Fingerprint;
 }
 
 /** Streamlines, one per seed. */
@@ -136,6 +147,8 @@ export interface Streamlines {
 export interface ComplexEdges {
   /** 2 per edge, the lower id first; edges ascend by the first, then by the second. */
   vertices: Uint32Array<ArrayBuffer>;
+  /** The fingerprint of the cell complex. */
+  madeFrom?: Fingerprint;
 }
 
 /**
@@ -150,6 +163,8 @@ export interface Boundary {
   condition: Uint8Array<ArrayBuffer>;
   /** Per half-face: the mean of what its condition gives on the face. */
   value: Float64Array<ArrayBuffer>;
+  /** The fingerprint of the cell complex. */
+  madeFrom?: Fingerprint;
 }
 
 /** Which cells are connected through inner faces. For whole regions these are the regions. */

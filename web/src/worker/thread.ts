@@ -32,7 +32,7 @@ const calls: Answering = {
   },
   validate(mandoline, { recipe }) {
     const { mesh, cutMesh } = cutOf(mandoline, recipe);
-    return mandoline.validate(mesh, cutMesh, { snapTolerance: recipe.snapTolerance });
+    return mandoline.validate(mesh, cutMesh);
   },
   edges(mandoline, { recipe }) {
     const { mesh, cutMesh } = cutOf(mandoline, recipe);
