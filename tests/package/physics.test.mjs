@@ -310,14 +310,15 @@ const flow = physics.solveFlow(cells, [1, 2, 3]);
 const inputs = {
   cutMesh: () => cut(mesh, grid),
   cells: () => physics.cellComplex(mesh, cut(mesh, grid)),
-  field: () => {
+  both: () => {
     const made = cut(mesh, grid);
-    return { mesh, cutMesh: made, cells: physics.cellComplex(mesh, made), flow };
+    return { cutMesh: made, cells: physics.cellComplex(mesh, made) };
   },
+  field: () => ({ mesh, ...inputs.both(), flow }),
 };
-/** Of a field, what has twins. */
-const gutInput = (given) => (given.flow ? { ...given, cutMesh: gut(given.cutMesh), cells: gut(given.cells) } : gut(given));
-const copyInput = (given) => (given.flow ? { ...given, cells: { ...given.cells } } : { ...given });
+/** Of several results, those that have twins. */
+const gutInput = (given) => (given.cells ? { ...given, cutMesh: gut(given.cutMesh), cells: gut(given.cells) } : gut(given));
+const copyInput = (given) => (given.cells ? { ...given, cells: { ...given.cells } } : { ...given });
 const calls = {
   coarsen: ['cutMesh', (given) => physics.coarsen(given)],
   cellComplex: ['cutMesh', (given) => physics.cellComplex(mesh, given, octree)],
@@ -333,6 +334,9 @@ const calls = {
   solvePoisson: ['cells', (given) => physics.solvePoisson(given, { source }, { balance: true })],
   velocityAt: ['field', (given) => physics.velocityAt(given, cells.cellCentre)],
   streamlines: ['field', (given) => physics.streamlines(given, physics.inflowSeeds(cutMesh.grid, [1, 2, 3], 50))],
+  writeCells: ['both', (given) => physics.writeCells(given.cutMesh, given.cells, 'vtu')],
+  writeFaces: ['both', (given) => physics.writeFaces(given.cutMesh, given.cells)],
+  writePolyMesh: ['both', (given) => physics.writePolyMesh(given.cutMesh, given.cells)],
 };
 
 test('every call gives the same from the twin and from data', () => {
