@@ -23,6 +23,11 @@ void requireProblem(const CellComplex& cells, const PoissonProblem& problem) {
   requireLengths(cells);
   const Boundary& boundary = problem.boundary;
   requireBoundary(boundary, cells);
+  const size_t count = boundary.halfFaces.size(), expected = boundaryOf(cells).halfFaces.size();
+  if (count != expected) {
+    operators::refuse("The boundary has " + std::to_string(count) + " half-faces, that of these cells has " + std::to_string(expected) +
+                      ".");
+  }
   for (size_t b = 0; b < boundary.value.size(); ++b) {
     if (!std::isfinite(boundary.value[b]))
       operators::refuse("The value of half-face " + std::to_string(boundary.halfFaces[b]) + " is not finite.", boundary.halfFaces[b]);

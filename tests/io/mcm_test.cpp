@@ -149,7 +149,7 @@ TEST_CASE("files that are not saved cut-meshes are refused by name") {
   CHECK(errorOf(bytes + '\0') == byte(bytes.size()) + "goes on after its last array");
   std::string altered = bytes;
   altered[8] = 1;
-  CHECK(errorOf(altered) == "a.mcm: has the version 1 of the format; this library reads version 3");
+  CHECK(errorOf(altered) == "a.mcm: has the version 1 of the format; this library reads version 4");
   altered = bytes;
   altered[loops + 40] ^= 1;
   CHECK(errorOf(altered) == byte(loops) + "loopVertices has been altered: its checksum is another");

@@ -102,6 +102,12 @@ TEST_CASE("poisson: what does not fit is refused by name", "[poisson]") {
   PoissonProblem problem;
   CHECK(refusal([&] { poissonSystem(cells, problem); }).first == Status::badArgument);
   problem.boundary = boundaryOf(cells);
+  problem.boundary.madeFrom = {};
+  problem.boundary.halfFaces.pop_back();
+  problem.boundary.condition.pop_back();
+  problem.boundary.value.pop_back();
+  CHECK(refusal([&] { poissonSystem(cells, problem); }).first == Status::badArgument);
+  problem.boundary = boundaryOf(cells);
   problem.source.assign(3, 0);
   CHECK(refusal([&] { poissonSystem(cells, problem); }).first == Status::badArgument);
   problem.source.assign(cells.cellCount(), 0);
