@@ -21,7 +21,9 @@ using namespace mandoline::wasm;
 
 val lastStage(const CutStats& stats) { return val(std::string(stats.stages.empty() ? "input" : stats.stages.back().stage)); }
 
-val prepareMesh(const val& mesh, const val& options) {
+/// What f(prepared mesh) gives.
+template <class F>
+val withPrepared(const val& mesh, const val& options, const F& f) {
   return guarded([&] {
     PrepareOptions prepareOptions;
     prepareOptions.progress = progressOf(options);
@@ -29,12 +31,22 @@ val prepareMesh(const val& mesh, const val& options) {
     prepareOptions.orient = options["orient"].isTrue();
     const Mesh input = fromObject<Mesh>(mesh);
     const PrepareResult result = prepare(input, prepareOptions);
-    if (!result) return failure(result.error, lastStage(result.stats));
-    const MeshView prepared = result.mesh.mesh();
-    const val value = object({{"positions", toArray("Float64Array", prepared.positions.data(), prepared.positions.size())},
-                              {"triangles", toArray("Uint32Array", prepared.triangles.data(), prepared.triangles.size())}});
-    return success(object({{"value", value}, {"twin", val(KeptMesh(result.mesh))}}));
+    return result ? success(f(result.mesh)) : failure(result.error, lastStage(result.stats));
   });
+}
+
+val prepareMesh(const val& mesh, const val& options) {
+  return withPrepared(mesh, options, [](const PreparedMesh& prepared) {
+    const auto [positions, triangles] = prepared.mesh();
+    const val value = object({{"positions", toArray("Float64Array", positions.data(), positions.size())},
+                              {"triangles", toArray("Uint32Array", triangles.data(), triangles.size())}});
+    return object({{"value", value}, {"twin", val(KeptMesh(prepared))}});
+  });
+}
+
+/// Of a mesh that was prepared before: it is oriented if it was to be.
+val keepMesh(const val& mesh, const val& options) {
+  return withPrepared(mesh, options, [](const PreparedMesh& prepared) { return val(KeptMesh(prepared)); });
 }
 
 /// `mesh` is null where options.prepared is the handle of one.
@@ -226,6 +238,7 @@ EMSCRIPTEN_BINDINGS(mandoline) {
   emscripten::class_<KeptMesh>("KeptMesh").function("bytes", &KeptMesh::bytes);
   emscripten::function("version", &version);
   emscripten::function("prepare", &prepareMesh);
+  emscripten::function("keepMesh", &keepMesh);
   emscripten::function("cut", &cutMesh);
   emscripten::function("findIntersections", &intersectionsOf);
   emscripten::function("inspect", &inspectMesh);

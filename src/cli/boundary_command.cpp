@@ -29,19 +29,12 @@ struct BoundaryReport {
   }
 };
 
-bool isAnyInside(const std::optional<InsideRegions>& inside) {
-  return inside && std::count(inside->isInside.begin(), inside->isInside.end(), 1) > 0;
-}
-
-/// Says why there is nothing to write, in the report too.
 int failWithNothing(const Arguments& arguments, const BoundaryReport& report) {
   const std::string how = describeInside(report.inside, report.parts);
   Outcome outcome("nothingInside", "Nothing is inside" + (how.empty() ? "" : ": " + how) + ".");
   if (report.inside && report.inside->by == InsideBy::estimate)
     outcome.message += " With a lower --inside-threshold more counts as inside.";
-  complain(report.mesh.input.name + ": " + outcome.status + ": " + outcome.message);
-  if (!arguments.report.empty()) writeOutput(arguments.report, [&](const Sink& sink) { sink(report.json(outcome)); });
-  return kNotCut;
+  return failWith(arguments, report.mesh.input.name, outcome, [&] { return report.json(outcome); });
 }
 
 }  // namespace
@@ -66,10 +59,10 @@ int runBoundary(const Arguments& arguments) {
     deliver(
         arguments, [&] { return report.text(); }, [&] { return report.json({}); });
   });
-  for (const std::string& output : arguments.outputs) {
-    attempt(exitCode, [&] { writeOutput(output, [&](const Sink& sink) { writeMesh(sink, formatFor(arguments, output), written); }); });
-  }
-  return exitCode;
+  const auto write = [&](const std::string& output) {
+    writeOutput(output, [&](const Sink& sink) { writeMesh(sink, formatFor(arguments, output), written); });
+  };
+  return writeOutputs(arguments, write, exitCode);
 }
 
 }  // namespace mandoline::cli

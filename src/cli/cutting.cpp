@@ -50,8 +50,7 @@ void attempt(int& exitCode, const std::function<void()>& work) {
   }
 }
 
-int writeOutputs(const Arguments& arguments, const std::function<void(const std::string&)>& write) {
-  int exitCode = kFine;
+int writeOutputs(const Arguments& arguments, const std::function<void(const std::string&)>& write, int exitCode) {
   for (const std::string& output : arguments.outputs) attempt(exitCode, [&] { write(output); });
   return exitCode;
 }
@@ -60,8 +59,18 @@ bool takesStandardOutput(const Arguments& arguments) {
   return std::find(arguments.outputs.begin(), arguments.outputs.end(), "-") != arguments.outputs.end();
 }
 
+void writeReport(const Arguments& arguments, const std::function<std::string()>& json) {
+  if (!arguments.report.empty()) writeOutput(arguments.report, [&](const Sink& sink) { sink(json()); });
+}
+
+int failWith(const Arguments& arguments, const std::string& meshName, const Outcome& outcome, const std::function<std::string()>& json) {
+  complain(refusal(meshName, outcome));
+  writeReport(arguments, json);
+  return kNotCut;
+}
+
 void deliver(const Arguments& arguments, const std::function<std::string()>& text, const std::function<std::string()>& json) {
-  if (!arguments.report.empty()) return writeOutput(arguments.report, [&](const Sink& sink) { sink(json()); });
+  if (!arguments.report.empty()) return writeReport(arguments, json);
   if (!takesStandardOutput(arguments)) return writeOutput("-", [&](const Sink& sink) { sink(text()); });
   std::cerr << text() << std::flush;
 }
@@ -98,9 +107,7 @@ std::optional<CutResult> cutOrComplain(const Arguments& arguments, const Input& 
   const AskedGrid grid = makeGrid(asked, input.mesh, mesh.info);
   CutResult result = cutMesh(arguments, input.mesh, grid);
   if (result) return result;
-  complain(refusal(input.name, result.error));
-  if (!arguments.report.empty())
-    writeOutput(arguments.report, [&](const Sink& sink) { sink(reportJson(reportOf(arguments, mesh, grid, result))); });
+  failWith(arguments, input.name, result.error, [&] { return reportJson(reportOf(arguments, mesh, grid, result)); });
   return std::nullopt;
 }
 
@@ -121,7 +128,7 @@ WriteOptions writeOptions(const Arguments& arguments, const CutResult& cut) {
   OnlyArguments only = arguments.only;
   std::optional<InsideRegions> inside;
   if (only.inside || only.outside || isInsideDefault(arguments)) inside = insideOf(arguments, cutMesh);
-  const bool any = inside && std::count(inside->isInside.begin(), inside->isInside.end(), 1) > 0;
+  const bool any = isAnyInside(inside);
   const std::string how = inside ? describeInside(inside, cut.stats.parts) : "";
   if (only.inside && !any) throw UsageError("--only inside: nothing is inside" + (how.empty() ? how : " (" + how + ")"));
   if (!how.empty()) std::cerr << "Note: " << how << "\n";
@@ -158,6 +165,8 @@ FileFormat formatFor(const Arguments& arguments, const std::string& output) {
   return output == "-" ? *arguments.format : *formatOf(output);
 }
 
-std::string refusal(const std::string& meshName, const Error& error) { return meshName + ": " + name(error.status) + ": " + error.message; }
+std::string refusal(const std::string& meshName, const Outcome& outcome) {
+  return meshName + ": " + outcome.status + ": " + outcome.message;
+}
 
 }  // namespace mandoline::cli

@@ -21,11 +21,17 @@ void checkOutputs(const Arguments& arguments, bool (*isAllowed)(FileFormat), con
 /// files.
 void attempt(int& exitCode, const std::function<void()>& work);
 
-/// Attempts write(output) for every output. Gives the exit code.
-int writeOutputs(const Arguments& arguments, const std::function<void(const std::string&)>& write);
+/// Attempts write(output) for every output. Gives the exit code, which is that of what went before unless a file can't be written.
+int writeOutputs(const Arguments& arguments, const std::function<void(const std::string&)>& write, int exitCode = 0);
 
 /// Whether one of the outputs is standard output.
 bool takesStandardOutput(const Arguments& arguments);
+
+/// Writes the report as JSON where --report says, if it does.
+void writeReport(const Arguments& arguments, const std::function<std::string()>& json);
+
+/// Says why there is nothing to write, in the report too. Gives the exit code.
+int failWith(const Arguments& arguments, const std::string& meshName, const Outcome& outcome, const std::function<std::string()>& json);
 
 /// Writes the report as JSON where --report says, or as text to standard output; to standard error if one of the outputs is there.
 void deliver(const Arguments& arguments, const std::function<std::string()>& text, const std::function<std::string()>& json);
@@ -59,6 +65,6 @@ void requireSelection(const WriteOptions& options, const CutMesh& cutMesh);
 FileFormat formatFor(const Arguments& arguments, const std::string& output);
 
 /// "path: status: message".
-std::string refusal(const std::string& meshName, const Error& error);
+std::string refusal(const std::string& meshName, const Outcome& outcome);
 
 }  // namespace mandoline::cli

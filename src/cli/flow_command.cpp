@@ -135,8 +135,8 @@ int runFlow(const Arguments& arguments) {
     deliver(
         arguments, [&] { return report.text(); }, [&] { return report.json(); });
   });
-  for (const std::string& output : arguments.outputs) attempt(exitCode, [&] { write(arguments, output, field, options); });
-  return exitCode;
+  return writeOutputs(
+      arguments, [&](const std::string& output) { write(arguments, output, field, options); }, exitCode);
 }
 
 }  // namespace mandoline::cli

@@ -1,5 +1,7 @@
 #include "cli/inside.h"
 
+#include <algorithm>
+
 namespace mandoline::cli {
 namespace {
 
@@ -24,6 +26,10 @@ std::string ofParts(uint32_t count, const PartCounts& counts) {
 std::optional<InsideRegions> insideOf(const CutMesh& cutMesh, double threshold) {
   if (!cutMesh.hasWinding && cutMesh.regionParity.empty() && cutMesh.regionInsideness.empty()) return std::nullopt;
   return insideRegions(cutMesh, {WindingRule::nonZero, threshold});
+}
+
+bool isAnyInside(const std::optional<InsideRegions>& inside) {
+  return inside && std::count(inside->isInside.begin(), inside->isInside.end(), 1) > 0;
 }
 
 std::string describeInside(const std::optional<InsideRegions>& inside, const PartCounts& counts) {

@@ -47,13 +47,6 @@ struct ResolveReport {
   }
 };
 
-/// Says why there is nothing to write, in the report too.
-int fail(const Arguments& arguments, const ResolveReport& report, const Outcome& outcome) {
-  complain(report.mesh.input.name + ": " + outcome.status + ": " + outcome.message);
-  if (!arguments.report.empty()) writeOutput(arguments.report, [&](const Sink& sink) { sink(report.json(outcome)); });
-  return kNotCut;
-}
-
 }  // namespace
 
 int runResolve(const Arguments& arguments) {
@@ -62,11 +55,11 @@ int runResolve(const Arguments& arguments) {
   const ResolveResult result = withProgress(arguments.threads, [&](const RunOptions& options) { return resolve(input.mesh, options); });
   const MeshReport meshReport{input, inspect(input.mesh), {}};
   ResolveReport report{meshReport, result};
-  if (!result) return fail(arguments, report, result.error);
+  const auto fail = [&](const Outcome& outcome) { return failWith(arguments, input.name, outcome, [&] { return report.json(outcome); }); };
+  if (!result) return fail(result.error);
   const std::string how = arguments.rule ? describeInside(std::nullopt, result.stats.parts) : "";
   if (arguments.rule && !result.mesh.hasWinding && result.mesh.frontParity.empty()) {
-    return fail(arguments, report,
-                {"badArgument",
+    return fail({"badArgument",
                  "No part of the mesh is closed, so that it bounds no solid: " + how + ". 'mandoline boundary' closes it by an estimate."});
   }
   if (!how.empty()) std::cerr << "Note: " << how << "\n";
@@ -75,17 +68,13 @@ int runResolve(const Arguments& arguments) {
   report.triangles = written.triangleCount();
   int exitCode = kFine;
   attempt(exitCode, [&] {
-    if (!arguments.report.empty()) {
-      writeOutput(arguments.report, [&](const Sink& sink) { sink(report.json({})); });
-    } else {
-      std::cerr << report.text();
-    }
+    writeReport(arguments, [&] { return report.json({}); });
+    if (arguments.report.empty()) std::cerr << report.text();
   });
-  for (const std::string& output : arguments.outputs) {
-    attempt(exitCode,
-            [&] { writeOutput(output, [&](const Sink& sink) { writeMesh(sink, formatFor(arguments, output), written, {}, &groups); }); });
-  }
-  return exitCode;
+  const auto write = [&](const std::string& output) {
+    writeOutput(output, [&](const Sink& sink) { writeMesh(sink, formatFor(arguments, output), written, {}, &groups); });
+  };
+  return writeOutputs(arguments, write, exitCode);
 }
 
 }  // namespace mandoline::cli

@@ -106,15 +106,12 @@ int runSlice(const Arguments& arguments) {
   for (const Outlines& layer : stack.layers) report.shapes.push_back(shapesOf(layer, options));
   if (!report.note().empty()) complain(input.name + ": " + report.note());
   int exitCode = kFine;
-  attempt(exitCode, [&] {
-    if (!arguments.report.empty()) writeOutput(arguments.report, [&](const Sink& sink) { sink(report.json()); });
-  });
+  attempt(exitCode, [&] { writeReport(arguments, [&] { return report.json(); }); });
   if (report.emptyLayers() == heights.size()) return kNotCut;
-  for (const std::string& output : arguments.outputs) {
-    attempt(exitCode,
-            [&] { writeOutput(output, [&](const Sink& sink) { writeOutlines(sink, formatFor(arguments, output), stack, options); }); });
-  }
-  return exitCode;
+  const auto write = [&](const std::string& output) {
+    writeOutput(output, [&](const Sink& sink) { writeOutlines(sink, formatFor(arguments, output), stack, options); });
+  };
+  return writeOutputs(arguments, write, exitCode);
 }
 
 }  // namespace mandoline::cli

@@ -4,10 +4,14 @@
 
 namespace mandoline {
 
+static bool isOfBoundary(const CellComplex& cells, uint32_t halfFace) {
+  return cells.faceCells[halfFace] >= 0 && !physics::isInner(cells, halfFace / 2);
+}
+
 Boundary boundaryOf(const CellComplex& cells) {
   Boundary boundary;
   for (uint32_t h = 0; h < 2 * cells.faceCount(); ++h) {
-    if (cells.faceCells[h] >= 0 && !physics::isInner(cells, h / 2)) boundary.halfFaces.push_back(h);
+    if (isOfBoundary(cells, h)) boundary.halfFaces.push_back(h);
   }
   boundary.condition.assign(boundary.halfFaces.size(), Condition::neumann);
   boundary.value.assign(boundary.halfFaces.size(), 0);
@@ -21,7 +25,7 @@ void physics::requireBoundary(const Boundary& boundary, const CellComplex& cells
   for (size_t b = 0; b < n; ++b) {
     const uint32_t h = boundary.halfFaces[b];
     if (h >= 2 * cells.faceCount()) operators::refuse("There is no half-face " + std::to_string(h) + ".", int64_t(b));
-    if (cells.faceCells[h] < 0 || isInner(cells, h / 2) || (b > 0 && boundary.halfFaces[b - 1] >= h))
+    if (!isOfBoundary(cells, h) || (b > 0 && boundary.halfFaces[b - 1] >= h))
       operators::refuse("The boundary has half-face " + std::to_string(h) + ", which is none of the boundary or is out of order.",
                         int64_t(b));
   }

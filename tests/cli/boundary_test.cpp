@@ -1,7 +1,6 @@
 // The command line writes closed surfaces of what is inside, as the library makes them, and says what tells inside from outside.
 #ifdef MANDOLINE_CLI
 
-#include <map>
 #include <optional>
 
 #include "catch.h"
@@ -14,18 +13,6 @@
 using namespace mandoline;
 
 namespace {
-
-/// Edges at which the triangles' directed edges do not cancel.
-size_t openEdges(const Mesh& mesh) {
-  std::map<std::pair<uint32_t, uint32_t>, int> sums;
-  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const uint32_t a = mesh.triangles[i], b = mesh.triangles[i % 3 == 2 ? i - 2 : i + 1];
-    sums[std::minmax(a, b)] += a < b ? 1 : -1;
-  }
-  size_t open = 0;
-  for (const auto& [edge, sum] : sums) open += sum != 0;
-  return open;
-}
 
 std::string fileOf(const Mesh& mesh) {
   std::string text;
@@ -65,7 +52,7 @@ TEST_CASE("Command line: the boundary of what is inside is closed, and the libra
     const Mesh written = readMesh(solid), expected = boundary(estimated, isInside);
     CHECK(written.positions == expected.positions);
     CHECK(written.triangles == expected.triangles);
-    CHECK(openEdges(written) == 0);
+    CHECK(shapes::openEdges(written) == 0);
     return shapes::signedVolume(written);
   };
   const Outcome o = inGrid(folder, {"boundary", path, "-o", solid, "--report", "-"});
@@ -102,7 +89,7 @@ TEST_CASE("Command line: the boundary goes to standard output and into every for
   CHECK(contains(o.err, "Boundary of "));
   const Mesh written = readMesh(std::span(o.out.data(), o.out.size()), "a.off");
   CHECK(written.triangleCount() > 0);
-  CHECK(openEdges(written) == 0);
+  CHECK(shapes::openEdges(written) == 0);
   for (const std::string name : {"a.stl", "a.ply", "a.off"}) {
     REQUIRE(inGrid(folder, {"boundary", path, "-o", folder.path(name)}).exitCode == 0);
     CHECK(readMesh(folder.path(name)).triangleCount() == written.triangleCount());
@@ -146,7 +133,7 @@ TEST_CASE("Command line: of a mesh that is open, or has one side, it is told wha
   CHECK(resolved.exitCode == 1);
   CHECK(contains(resolved.err, "around 1 hole: left out. 'mandoline boundary' closes it by an estimate.\n"));
   CHECK(run(folder, {"boundary", strip, "--cells", "6", "-o", obj}).exitCode == 0);
-  CHECK(openEdges(readMesh(obj)) == 0);
+  CHECK(shapes::openEdges(readMesh(obj)) == 0);
   for (const std::string threshold : {"nan", "2", "-1", "0", "inf", "half"}) {
     const Outcome o = run(folder, {"boundary", strip, "--inside-threshold", threshold, "-o", obj});
     CHECK(o.exitCode == 2);
@@ -190,7 +177,7 @@ TEST_CASE("Command line: boundaries of ten open scans are closed", "[scans]") {
     CHECK(o.exitCode == 0);
     const Mesh written = readMesh(solid);
     CHECK(written.triangleCount() > 0);
-    CHECK(openEdges(written) == 0);
+    CHECK(shapes::openEdges(written) == 0);
   }
   CHECK(scans == 10);
 }

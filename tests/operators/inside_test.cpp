@@ -2,7 +2,6 @@
 #include "mandoline/inside.h"
 
 #include <cmath>
-#include <map>
 #include <random>
 
 #include "catch.h"
@@ -83,17 +82,6 @@ Mesh withoutEvery(Mesh mesh, size_t nth) {
   return mesh;
 }
 
-size_t oddEdges(const Mesh& mesh) {
-  std::map<std::pair<uint32_t, uint32_t>, int> uses;
-  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const uint32_t a = mesh.triangles[i], b = mesh.triangles[i % 3 == 2 ? i - 2 : i + 1];
-    ++uses[std::minmax(a, b)];
-  }
-  size_t odd = 0;
-  for (const auto& [edge, count] : uses) odd += count % 2 != 0;
-  return odd;
-}
-
 /// By region, the area of its cells' polygons or of its outlines in a plane.
 template <class Cut>
 std::vector<double> areasByRegion(const Cut& cut, const Plane& plane, size_t regions) {
@@ -126,7 +114,7 @@ double checkedEstimate(const Mesh& mesh, const CutMesh& cutMesh, const CutMesh& 
   const InsideRegions inside = insideRegions(estimated);
   CHECK(inside.isComplete);
   const Mesh solid = boundary(estimated);
-  CHECK(oddEdges(solid) == 0);
+  CHECK(shapes::openEdges(solid) == 0);
   const std::vector<double> volumes = regionVolumes(estimated, measure(mesh, estimated));
   double volume = 0, all = 0;
   for (size_t r = 0; r < volumes.size(); ++r) {
@@ -272,7 +260,7 @@ TEST_CASE("between two points of a box generalized winding numbers vary by no mo
   std::vector<uint32_t> all(mesh.triangleCount());
   for (uint32_t t = 0; t < all.size(); ++t) all[t] = t;
   const operators::WindingTree tree(mesh, all);
-  CHECK(tree.rimSize() == oddEdges(mesh));
+  CHECK(tree.rimSize() == shapes::openEdges(mesh));
   std::mt19937 random(9);
   const auto number = [&] { return 2 * (double(random()) * 0x1p-32) - 1; };
   int finite = 0;

@@ -2,8 +2,6 @@
 #include "mandoline/resolve.h"
 
 #include <algorithm>
-#include <map>
-#include <utility>
 
 #include "case_list.h"
 #include "catch.h"
@@ -26,19 +24,13 @@ bool isInside(int winding, WindingRule rule) {
 
 /// Every edge has an even number of triangles, as many in one direction as in the other, and every vertex has triangles.
 void requireClosed(const Mesh& mesh) {
-  std::map<std::pair<uint32_t, uint32_t>, std::pair<int, int>> edges;  // how many triangles, and the sum of their directions
   std::vector<bool> isUsed(mesh.vertexCount());
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {
     const uint32_t a = mesh.triangles[i], b = mesh.triangles[i % 3 < 2 ? i + 1 : i - 2];
     REQUIRE(a != b);
     isUsed.at(a) = true;
-    auto& [count, sum] = edges[std::minmax(a, b)];
-    ++count;
-    sum += a < b ? 1 : -1;
   }
-  size_t open = 0;
-  for (const auto& [edge, triangles] : edges) open += triangles.first % 2 != 0 || triangles.second != 0;
-  REQUIRE(open == 0);
+  REQUIRE(openEdges(mesh) == 0);
   REQUIRE(std::find(isUsed.begin(), isUsed.end(), false) == isUsed.end());
 }
 

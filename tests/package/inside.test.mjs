@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { init } from 'mandoline-wasm';
-import { box, join, sheet, torus } from './meshes.mjs';
+import { assertClosed, box, join, sheet, torus, volumeOf } from './meshes.mjs';
 
 const mandoline = await init();
 const cube = box([0.5, 0.5, 0.5], [1.5, 1.5, 1.5]);
@@ -20,27 +20,6 @@ function turned({ positions, triangles }) {
 /** A cube without the side at its top. */
 const openCube = without(cube, 2);
 const closedBeside = box([3, 0.5, 0.5], [4, 1.5, 1.5]);
-
-function volumeOf({ positions, triangles }) {
-  let volume = 0;
-  for (let i = 0; i < triangles.length; i += 3) {
-    const [a, b, c] = [0, 1, 2].map((j) => positions.subarray(3 * triangles[i + j], 3 * triangles[i + j] + 3));
-    volume += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
-  }
-  return volume / 6;
-}
-
-/** Whether each edge is run through as often one way as the other, of a surface with any triangles. */
-function assertClosed({ triangles }) {
-  assert.ok(triangles.length > 0);
-  const sums = new Map();
-  for (let i = 0; i < triangles.length; ++i) {
-    const [a, b] = [triangles[i], triangles[i % 3 === 2 ? i - 2 : i + 1]];
-    const edge = `${Math.min(a, b)} ${Math.max(a, b)}`;
-    sums.set(edge, (sums.get(edge) ?? 0) + (a < b ? 1 : -1));
-  }
-  assert.ok([...sums.values()].every((sum) => sum === 0));
-}
 
 /** Whether each of these points is inside. */
 function insideAt(cutMesh, points, options) {

@@ -1,4 +1,5 @@
-// Meshes for the tests, made by formula, and OBJ files; and results that have lost their arrays.
+// Meshes for the tests, made by formula, with what is measured and asserted of them, and OBJ files; and results that have lost their arrays.
+import assert from 'node:assert/strict';
 
 /** An axis-aligned box with outward normals. */
 export function box([x0, y0, z0], [x1, y1, z1]) {
@@ -60,6 +61,28 @@ export function writeObj({ positions, triangles }) {
   for (let i = 0; i < positions.length; i += 3) lines.push(`v ${positions[i]} ${positions[i + 1]} ${positions[i + 2]}`);
   for (let i = 0; i < triangles.length; i += 3) lines.push(`f ${triangles[i] + 1} ${triangles[i + 1] + 1} ${triangles[i + 2] + 1}`);
   return `${lines.join('\n')}\n`;
+}
+
+/** The volume that triangles enclose: positive if they are oriented outwards. */
+export function volumeOf({ positions, triangles }) {
+  let volume = 0;
+  for (let i = 0; i < triangles.length; i += 3) {
+    const [a, b, c] = [0, 1, 2].map((j) => positions.subarray(3 * triangles[i + j], 3 * triangles[i + j] + 3));
+    volume += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+  }
+  return volume / 6;
+}
+
+/** Asserts that there are triangles, and that each edge is run through as often one way as the other. */
+export function assertClosed({ triangles }) {
+  assert.ok(triangles.length > 0);
+  const sums = new Map();
+  for (let i = 0; i < triangles.length; ++i) {
+    const [a, b] = [triangles[i], triangles[i % 3 === 2 ? i - 2 : i + 1]];
+    const edge = `${Math.min(a, b)} ${Math.max(a, b)}`;
+    sums.set(edge, (sums.get(edge) ?? 0) + (a < b ? 1 : -1));
+  }
+  assert.ok([...sums.values()].every((sum) => sum === 0));
 }
 
 /** Vertices and faces of an OBJ file; polygons are fanned from their first vertex, as the native program does. */

@@ -27,6 +27,7 @@ import { GLTFExporter } from 'three/addons/exporters/GLTFExporter.js';
 import { strToU8, zipSync } from 'three/addons/libs/fflate.module.js';
 import { ThreeMFLoader } from 'three/addons/loaders/3MFLoader.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { volumeOf } from './meshes.mjs';
 
 const { cut, measure, readMesh } = await init();
 
@@ -44,16 +45,6 @@ function cube() {
     [1, 3, 7, 5],
   ];
   return geometry.setIndex(sides.flatMap(([a, b, c, d]) => [a, b, c, a, c, d]));
-}
-
-/** Signed volume. */
-function volume({ positions, triangles }) {
-  let sum = 0;
-  for (let t = 0; t < triangles.length; t += 3) {
-    const [a, b, c] = [0, 1, 2].map((k) => positions.subarray(3 * triangles[t + k], 3 * triangles[t + k] + 3));
-    sum += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
-  }
-  return sum / 6;
 }
 
 /** Lowest and highest coordinates. */
@@ -76,7 +67,7 @@ test('all meshes of a scene are merged, each at its place in the world', () => {
   const mesh = meshFromObject(scene);
   assert.equal(mesh.positions.length, 3 * (8 + 36));
   assert.equal(mesh.triangles.length, 3 * (12 + 12));
-  assert.equal(volume(mesh), 25);
+  assert.equal(volumeOf(mesh), 25);
   assert.deepEqual(bounds(mesh), [
     [0, 0, 0],
     [2, 3, 14],
@@ -97,10 +88,10 @@ test('a mesh alone is what meshFromGeometry gives, also of interleaved attribute
 test('mirrored meshes stay outward', () => {
   const mesh = new Mesh(cube());
   mesh.scale.x = -1;
-  assert.equal(volume(meshFromObject(mesh)), 1);
+  assert.equal(volumeOf(meshFromObject(mesh)), 1);
   const mirror = new Group().add(mesh);
   mirror.scale.y = -2;
-  assert.equal(volume(meshFromObject(mirror)), 2);
+  assert.equal(volumeOf(meshFromObject(mirror)), 2);
 });
 
 test('each instance of an InstancedMesh is there', () => {
@@ -110,7 +101,7 @@ test('each instance of an InstancedMesh is there', () => {
   instances.position.y = 5;
   const mesh = meshFromObject(instances);
   assert.equal(mesh.triangles.length, 3 * 36);
-  assert.equal(volume(mesh), 4);
+  assert.equal(volumeOf(mesh), 4);
   assert.deepEqual(bounds(mesh), [
     [-2, 5, 0],
     [3, 6, 1],
@@ -124,7 +115,7 @@ test('skinned and morphed meshes are taken as they stand', () => {
   morphed.geometry.morphTargetsRelative = true;
   morphed.updateMorphTargets();
   morphed.morphTargetInfluences[0] = 0.5;
-  assert.equal(volume(meshFromObject(morphed)), 2);
+  assert.equal(volumeOf(meshFromObject(morphed)), 2);
 
   const geometry = cube();
   geometry.setAttribute(
@@ -147,7 +138,7 @@ test('skinned and morphed meshes are taken as they stand', () => {
   scene.updateMatrixWorld(true);
   skinned.bind(new Skeleton(bones));
   bones[1].position.z = 3;
-  assert.equal(volume(meshFromObject(skinned)), 4);
+  assert.equal(volumeOf(meshFromObject(skinned)), 4);
 });
 
 test('what is no mesh is left out, and what is not visible in the object', () => {
@@ -283,7 +274,7 @@ test('3MF: what ThreeMFLoader makes is cut', async () => {
   await assert.rejects(readMesh(file, { name: 'box.3mf' }), { code: 'badFile', message: /3MF/ });
   globalThis.DOMParser ??= XmlParser;
   const mesh = meshFromObject(new ThreeMFLoader().parse(file.buffer));
-  assert.equal(volume(mesh), 3);
+  assert.equal(volumeOf(mesh), 3);
   assert.deepEqual(bounds(mesh), [
     [0, 0, 0],
     [6, 1, 1],

@@ -32,7 +32,7 @@ import {
   TorusGeometry,
 } from 'three';
 import { mergeVertices } from 'three/addons/utils/BufferGeometryUtils.js';
-import { box, sheet, torus } from './meshes.mjs';
+import { box, sheet, torus, volumeOf } from './meshes.mjs';
 
 const three = await import('mandoline-wasm/three');
 const mandoline = await init();
@@ -498,22 +498,12 @@ test('a slice fills the box of the grid', () => {
   assert.ok(Math.abs(area - width * height) < 1e-5);
 });
 
-/** Signed volume of a mesh. */
-function volume({ positions, triangles }) {
-  let sum = 0;
-  for (let t = 0; t < triangles.length; t += 3) {
-    const [a, b, c] = [0, 1, 2].map((k) => corner(positions, triangles[t + k]));
-    sum += dot(a, cross(b, c)) / 6;
-  }
-  return sum;
-}
-
 test('meshes come from indexed, unindexed and interleaved geometries', () => {
   const geometry = new BoxGeometry(1, 2, 3);
   const indexed = meshFromGeometry(geometry);
   const unindexed = meshFromGeometry(geometry.toNonIndexed());
   assert.equal(unindexed.positions.length, 108);
-  for (const made of [indexed, unindexed]) assert.ok(Math.abs(volume(made) - 6) < 1e-12);
+  for (const made of [indexed, unindexed]) assert.ok(Math.abs(volumeOf(made) - 6) < 1e-12);
   assert.equal(mandoline.cut(unindexed, { cells: 6 }).regionCount, 2);
   const buffer = new InterleavedBuffer(Float32Array.of(0, 0, 0, 9, 1, 0, 0, 9, 0, 1, 0, 9), 4);
   const interleaved = new BufferGeometry().setAttribute('position', new InterleavedBufferAttribute(buffer, 3, 0));
@@ -535,11 +525,11 @@ test('seams that miss themselves by a rounding close when their vertices are mer
 
 test('a matrix moves the mesh; one that mirrors leaves it outward', () => {
   const geometry = new SphereGeometry(1, 16, 12);
-  const whole = volume(meshFromGeometry(geometry));
+  const whole = volumeOf(meshFromGeometry(geometry));
   const moved = meshFromGeometry(geometry, new Matrix4().makeTranslation(5, 6, 7).multiply(new Matrix4().makeScale(2, 1, 1)));
-  assert.ok(Math.abs(volume(moved) - 2 * whole) < 1e-6);
+  assert.ok(Math.abs(volumeOf(moved) - 2 * whole) < 1e-6);
   assertClose(corner(moved.positions, 0), [5, 7, 7], 1e-6, 'position');
-  assert.ok(Math.abs(volume(meshFromGeometry(geometry, new Matrix4().makeScale(-1, 1, 1))) - whole) < 1e-6);
+  assert.ok(Math.abs(volumeOf(meshFromGeometry(geometry, new Matrix4().makeScale(-1, 1, 1))) - whole) < 1e-6);
 });
 
 test('colours one by one are those of cellColors, and colours of kinds are told apart', () => {

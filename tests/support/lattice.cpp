@@ -1,7 +1,6 @@
 #include "lattice.h"
 
 #include <algorithm>
-#include <map>
 #include <sstream>
 
 #include "mandoline/inside.h"
@@ -9,6 +8,7 @@
 #include "mandoline/orient.h"
 #include "mandoline/resolve.h"
 #include "mandoline/validate.h"
+#include "shapes.h"
 #include "vectors.h"
 
 using namespace mandoline;
@@ -277,23 +277,13 @@ static std::string failures(const Validation& validation) {
   return text;
 }
 
-/// Whether the edges of each vertex pair run as often one way as the other.
-static bool isClosed(const Mesh& mesh) {
-  std::map<std::pair<uint32_t, uint32_t>, int> balance;
-  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const uint32_t a = mesh.triangles[i], b = mesh.triangles[i % 3 == 2 ? i - 2 : i + 1];
-    balance[std::minmax(a, b)] += a < b ? 1 : -1;
-  }
-  return std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
-}
-
 /// Of what is told about inside and outside.
 static std::string brokenInside(const Mesh& mesh, const CutMesh& cutMesh) {
   const CutMesh estimated = estimateInside(mesh, cutMesh);
   const Validation validation = validate(mesh, estimated);
   if (!validation.pass) return "with estimates, validation fails:" + failures(validation);
   if (!insideRegions(estimated).isComplete) return "estimates leave parts out";
-  if (!isClosed(boundary(estimated))) return "the boundary of what is inside is open";
+  if (shapes::openEdges(boundary(estimated)) > 0) return "the boundary of what is inside is open";
   return "";
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <random>
 #include <utility>
@@ -373,6 +374,15 @@ double area(const Mesh& mesh) {
     sum += length(cross(corner(mesh, t, 1) - a, corner(mesh, t, 2) - a));
   }
   return sum / 2;
+}
+
+size_t openEdges(const Mesh& mesh) {
+  std::map<std::pair<uint32_t, uint32_t>, int> sums;
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const uint32_t a = mesh.triangles[i], b = mesh.triangles[i % 3 == 2 ? i - 2 : i + 1];
+    sums[std::minmax(a, b)] += a < b ? 1 : -1;
+  }
+  return size_t(std::count_if(sums.begin(), sums.end(), [](const auto& edge) { return edge.second != 0; }));
 }
 
 }  // namespace shapes

@@ -67,5 +67,6 @@ Mesh soup(const std::vector<std::array<Point, 3>>& triangles);  ///< which share
 
 double signedVolume(const Mesh& mesh);
 double area(const Mesh& mesh);
+size_t openEdges(const Mesh& mesh);  ///< that triangles run along more often one way than the other: 0 of a closed surface
 
 }  // namespace shapes

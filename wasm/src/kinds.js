@@ -8,8 +8,5 @@ export const cutMesh = {
 
 export const prepared = {
   read: readMesh,
-  make: (bindings, mesh, { origin: { intersections }, progress }) => {
-    const { value, error } = bindings.prepare(mesh, { intersections, progress }); // it was oriented, if it was to be
-    return error ? { error } : { value: value.twin };
-  },
+  make: (bindings, mesh, { origin: { intersections }, progress }) => bindings.keepMesh(mesh, { intersections, progress }),
 };
