@@ -33,16 +33,22 @@ test('the first sight is the bunny, cut, sliced and exploded', async (t) => {
   await looksLike(page, 'first sight');
 });
 
-test('all that is asked for is there, comes from the same folder, and comes while the page loads', async (t) => {
+test('all that is asked for is there and comes from the same folder', async (t) => {
   const requests = [];
   const failed = [];
   const before = site.host.requests.length;
-  const page = await site.open(t, 'mesh=claw&n=2', {
+  await site.open(t, 'mesh=claw&n=2', {
     onNewPage: async (made) => {
       made.on('request', (request) => requests.push(request.url()));
       made.on('requestfailed', (request) => failed.push(request.url()));
     },
   });
+  await eventually(async () =>
+    assert.ok(
+      requests.some((url) => url.includes('GLTFExporter')),
+      'the last that is loaded',
+    ),
+  );
   assert.deepEqual(failed, []);
   assert.deepEqual(
     site.host.requests.slice(before).filter(({ status }) => status !== 200),
@@ -52,13 +58,6 @@ test('all that is asked for is there, comes from the same folder, and comes whil
     requests.filter((url) => !url.startsWith(site.url) && !/^(data|blob):/.test(url)),
     [],
   );
-  const loaded = site.host.requests.length;
-  for (const name of ['wedge', 'bunny']) {
-    await page.locator(`#gallery [data-name="${name}"]`).click();
-    await shows(page, '#mesh-line', { name });
-    assert.equal(await isReady(page), 'ready');
-  }
-  assert.deepEqual(site.host.requests.slice(loaded), []);
 });
 
 for (const colorScheme of ['light', 'dark']) {

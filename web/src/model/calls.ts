@@ -27,6 +27,8 @@ export interface Recipe {
 /** What is asked, and what comes. */
 export interface Calls {
   load: { ask: { id: number; source: Source; bytes?: ArrayBuffer }; answer: LoadedMesh };
+  /** Loads the readers of files that the thread would else load when it first needs them. */
+  loadAhead: { ask: null; answer: void };
   /** Gives a mesh to a thread that took the place of another. */
   keep: { ask: LoadedMesh; answer: void };
   cut: { ask: Recipe; answer: Model };

@@ -174,6 +174,8 @@ export interface MeshInfo {
 export interface Engine {
   /** Loads the mesh of a source (bytes with a file) and keeps it. Rejects with a PageError. */
   load(source: Source, bytes?: ArrayBuffer): Promise<MeshInfo>;
+  /** Loads the readers of files before a file is opened. */
+  loadAhead(): Promise<void>;
   cut(grid: GridSettings, snapTolerance: number): Promise<Model>;
   /** Ends the load or cut under way: they reject with an AbortError. */
   cancel(): void;

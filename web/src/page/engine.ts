@@ -63,6 +63,10 @@ class WorkerEngine implements Engine {
     return { name: mesh.name, triangles: mesh.triangles.length / 3, bounds: mesh.bounds };
   }
 
+  loadAhead(): Promise<void> {
+    return this.call('loadAhead', null);
+  }
+
   private keep(mesh: LoadedMesh): void {
     this.kept.set(mesh.id, mesh);
     for (const id of this.kept.keys()) if (id !== this.mesh?.id && id !== this.shown?.mesh) this.kept.delete(id);

@@ -6,6 +6,7 @@ import type { PageError } from '../model/types';
 
 const titles: Record<CallName, string> = {
   load: "The mesh can't be read",
+  loadAhead: "The readers can't be loaded",
   keep: "The mesh can't be kept",
   cut: "The mesh can't be cut",
   slice: "The cells can't be sliced",

@@ -1,4 +1,5 @@
 import { App, pageError } from './app';
+import { loadAhead } from './ahead';
 import { createEngine } from './engine';
 import { followLink } from './link';
 import { alerts } from './ui/alerts';
@@ -51,5 +52,5 @@ function start(): void {
   element('panels').append(meshPanel(app), cutPanel(app), viewPanel(app), stepsPanel(app), checksPanel(app), savePanel(app));
   acceptDrops(app);
   skipToPanels();
-  void followLink(app, notice);
+  void followLink(app, notice).then(() => loadAhead(engine));
 }

@@ -3,6 +3,7 @@
 import type { Mandoline } from 'mandoline-wasm';
 import { serve } from 'mandoline-wasm/worker-thread';
 import type { CallName, CallProgress, Calls } from '../model/calls';
+import { loadAhead } from './ahead';
 import { cellCard } from './card';
 import { cutOf, keep, makeCut } from './kept';
 import { loadMesh } from './load';
@@ -20,6 +21,7 @@ const calls: Answering = {
     keep(mesh);
     return { ...mesh, positions: mesh.positions.slice(), triangles: mesh.triangles.slice() };
   },
+  loadAhead,
   keep: (_mandoline, mesh) => keep(mesh),
   cut(mandoline, recipe, tell) {
     const cut = makeCut(mandoline, recipe, tell);

@@ -1,6 +1,5 @@
 // What is shown, as a GLB file.
 import { BufferGeometry, Color, Float32BufferAttribute, Mesh, MeshStandardMaterial, Triangle, Vector3 } from 'three';
-import { GLTFExporter } from 'three/examples/jsm/exporters/GLTFExporter.js';
 import type { Model, Settings } from '../../model/types';
 import type { Piece } from './piece';
 import { isBeyond, type ViewPlane } from './planes';
@@ -15,10 +14,15 @@ export interface Shown {
   parts: readonly { forEachPiece(take: (piece: Piece) => void): void }[];
 }
 
+export function loadGltfExporter() {
+  return import('three/examples/jsm/exporters/GLTFExporter.js');
+}
+
 export async function exportGlb(shown: Shown): Promise<Blob> {
   const mesh = new Mesh(shownTriangles(shown), new MeshStandardMaterial({ vertexColors: true, roughness: 0.8 }));
   mesh.position.fromArray(shown.model.origin);
   mesh.name = shown.model.name;
+  const { GLTFExporter } = await loadGltfExporter();
   const bytes = await new GLTFExporter().parseAsync(mesh, { binary: true });
   return new Blob([bytes as ArrayBuffer], { type: 'model/gltf-binary' });
 }

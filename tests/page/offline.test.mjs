@@ -1,0 +1,55 @@
+// What is loaded, and when: little before the first picture, then all the rest, so that the page works offline.
+import assert from 'node:assert/strict';
+import { after, test } from 'node:test';
+import { octahedronFiles } from './mesh_files.mjs';
+import { download, eventually, isReady, openPanel, shows, startSite } from './page_helpers.mjs';
+
+const site = await startSite();
+after(() => site.close());
+
+/** The texts of all scripts that were asked for so far, by their paths. */
+async function scripts() {
+  const paths = new Set(site.host.requests.map(({ path }) => path).filter((path) => path.endsWith('.js')));
+  const textAt = async (path) => (await fetch(new URL(path, site.url))).text();
+  return Promise.all([...paths].map(textAt));
+}
+
+const has = (texts, word) => texts.some((text) => text.includes(word));
+
+test('offline, meshes of the gallery and files of every format are opened and saved', async (t) => {
+  const page = await site.newPage(t);
+  const loaded = [];
+  page.on('requestfinished', (request) => loaded.push(request.url()));
+  await page.goto(`${site.url}#mesh=wedge&n=4`);
+  await page.waitForFunction(() => document.getElementById('canvas').dataset.model);
+  const first = await scripts();
+  assert.ok(has(first, 'WebGL'), 'three draws the picture');
+  assert.ok(!has(first, 'THREE.GLTFLoader') && !has(first, 'THREE.GLTFExporter'), 'the picture does not wait for readers and writers');
+  await eventually(async () => {
+    for (const name of [/gltf.*\.js$/, /GLTFExporter.*\.js$/, /files.*\.wasm$/])
+      assert.ok(
+        loaded.some((url) => name.test(url)),
+        String(name),
+      );
+  });
+  await page.context().setOffline(true);
+  const asked = site.host.requests.length;
+  for (const name of ['claw', 'bunny']) {
+    await page.locator(`#gallery [data-name="${name}"]`).click();
+    await shows(page, '#mesh-line', { name });
+    assert.equal(await isReady(page), 'ready');
+  }
+  for (const [name, content] of Object.entries(octahedronFiles).reverse()) {
+    await page.locator('#file').setInputFiles({ name, mimeType: 'application/octet-stream', buffer: Buffer.from(content) });
+    await shows(page, '#mesh-line', { name, triangles: 8 });
+    assert.equal(await isReady(page), 'ready');
+  }
+  await openPanel(page, 'save');
+  for (const format of ['json', 'vtu', 'obj', 'glb', 'png']) {
+    assert.ok((await download(page, `#save-${format}`)).bytes.length > 100, format);
+  }
+  await openPanel(page, 'checks');
+  await page.locator('#validate').click();
+  await shows(page, '#validation', { pass: true });
+  assert.equal(site.host.requests.length, asked);
+});
