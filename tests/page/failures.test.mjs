@@ -165,6 +165,7 @@ test('a mesh of degenerate triangles alone leaves a word instead of an empty pic
   await pick(page, 'needle.obj', needle);
   await page.locator('#stage-note').waitFor();
   assert.match(await textOf(page, '#stage-note'), /All 3 triangles are degenerate/);
+  assert.equal(await page.locator('#legend').isVisible(), false);
   assert.equal(await isReady(page), 'ready');
   await page.locator('#gallery [data-name="claw"]').click();
   await shows(page, '#mesh-line', { name: 'claw' });

@@ -219,6 +219,22 @@ describe('colours', () => {
     await eventually(async () => assert.match(await textOf(page, '#legend'), /untouched cells$/));
   });
 
+  test('an empty picture has no legend', async (t) => {
+    const page = await site.open(t, link('x=0.4,1'));
+    const hasLegend = (expected) => eventually(async () => assert.equal(await page.locator('#legend').isVisible(), expected));
+    await hasLegend(true);
+    await slideTo(page, '#slice-x-position', 0);
+    await hasLegend(false);
+    await slideTo(page, '#slice-x-position', 0.5);
+    await hasLegend(true);
+    for (const layer of ['cutCells', 'untouched']) await page.locator(`#show-${layer}`).uncheck();
+    await hasLegend(false);
+    await page.locator('#show-cutCells').check();
+    await hasLegend(true);
+    for (const layer of ['surface', 'gridFaces', 'edges']) await page.locator(`#show-${layer}`).uncheck();
+    await hasLegend(false);
+  });
+
   const legends = {
     region: ['region 0, outside', 'region 1', 'region 2, outside', 'region 3', 'region 4, outside', 'region 5'],
     winding: ['winding number 0', 'winding number 1'],

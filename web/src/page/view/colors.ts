@@ -1,6 +1,7 @@
 // What colours mean. The colours themselves are the package's; here they are sRGB bytes, which the shaders make linear.
 import { idColor, kindColors, outsideColor, regionColor as paletteColor, volumeColor, windingColor } from 'mandoline-wasm/three';
 import { insideWords, isOutside, nearestWinding } from '../../model/inside';
+import { isAnythingShown } from './look';
 import type { ColorBy, Model, Settings } from '../../model/types';
 
 export type Rgb = readonly [number, number, number];
@@ -90,10 +91,11 @@ export function untouchedColors(model: Model, colorBy: ColorBy): (gridCell: numb
   return (_gridCell, region) => regions[region];
 }
 
-/** What the colours mean, as CSS colours, for at most `most` regions. */
-export function legend(model: Model, { colorBy, sliceMode, slices }: Settings, most = 12): { label: string; color: string }[] {
+/** What the colours mean, as CSS colours, for at most `most` regions; nothing where nothing is seen. */
+export function legend(model: Model, settings: Settings, most = 12): { label: string; color: string }[] {
+  const { colorBy, sliceMode, slices } = settings;
   const entry = (label: string, color: Rgb) => ({ label, color: toCss(color) });
-  if (colorBy === 'cell') return [];
+  if (colorBy === 'cell' || !isAnythingShown(model, settings)) return [];
   if (colorBy === 'kind') {
     const isCutOpen = sliceMode === 'flat' && Object.values(slices).some(({ on }) => on);
     return [

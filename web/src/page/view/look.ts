@@ -1,11 +1,21 @@
 // Which regions and cells the settings show, slices aside.
-import type { Model, Settings } from '../../model/types';
+import type { Model, RegionInfo, Settings } from '../../model/types';
 import { isOutside } from '../../model/inside';
 
 /** Per region: 1 if it is shown. A region that is picked is shown even if it is outside. */
 export function shownRegions(model: Model, { show }: Settings): Uint8Array {
   const isShown = (id: number) => (show.region !== null ? id === show.region : show.outside || !isOutside(model, id));
   return Uint8Array.from(model.regions, ({ id }) => Number(isShown(id)));
+}
+
+/** Whether anything of the model is left to see. */
+export function isAnythingShown(model: Model, settings: Settings): boolean {
+  const { show, slices } = settings;
+  if (!show.surface && !show.gridFaces && !show.edges) return false;
+  if (Object.values(slices).some(({ on, position }) => on && position === 0)) return false;
+  const isShown = shownRegions(model, settings);
+  const hasCells = (region: RegionInfo) => (show.cutCells && region.cutCells > 0) || (show.untouched && region.untouchedCells > 0);
+  return model.regions.some((region) => isShown[region.id] === 1 && hasCells(region));
 }
 
 /** Whether a third of the surface or more has the outside on both sides, and is hidden with it: an open sheet, walls that cross. */
