@@ -23,11 +23,15 @@ export interface SliceSettings {
 
 export type ColorBy = 'region' | 'winding' | 'cell' | 'volume' | 'kind';
 
-/** All that a link restores. Plain data. */
-export interface Settings {
+/** What is cut, and how. */
+export interface CutSettings {
   source: Source;
   grid: GridSettings;
   snapTolerance: number;
+}
+
+/** How it is shown. */
+export interface LookSettings {
   slices: Record<SliceName, SliceSettings>;
   /** Cells are shown whole or cut flat with filled caps. */
   sliceMode: 'whole' | 'flat';
@@ -49,6 +53,9 @@ export interface Settings {
   };
   camera: { position: Vector3; target: Vector3 } | null;
 }
+
+/** All that a link restores. Plain data. */
+export type Settings = CutSettings & LookSettings;
 
 export interface RegionInfo {
   id: number;

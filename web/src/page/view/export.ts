@@ -1,34 +1,24 @@
 // What is shown, as a GLB file.
 import { BufferGeometry, Color, Float32BufferAttribute, Mesh, MeshStandardMaterial, Triangle, Vector3 } from 'three';
-import type { Model, Settings } from '../../model/types';
+import type { Layer, Look } from './layer';
 import type { Piece } from './piece';
 import { isBeyond, type ViewPlane } from './planes';
-
-export interface Shown {
-  model: Model;
-  settings: Settings;
-  planes: readonly ViewPlane[];
-  /** 3 per region: how it moves in an explosion by region. */
-  shifts: Float32Array;
-  /** The parts that draw triangles. */
-  parts: readonly { forEachPiece(take: (piece: Piece) => void): void }[];
-}
 
 export function loadGltfExporter() {
   return import('three/examples/jsm/exporters/GLTFExporter.js');
 }
 
-export async function exportGlb(shown: Shown): Promise<Blob> {
-  const mesh = new Mesh(shownTriangles(shown), new MeshStandardMaterial({ vertexColors: true, roughness: 0.8 }));
-  mesh.position.fromArray(shown.model.origin);
-  mesh.name = shown.model.name;
+export async function exportGlb(look: Look, layers: readonly Layer[]): Promise<Blob> {
+  const mesh = new Mesh(shownTriangles(look, layers), new MeshStandardMaterial({ vertexColors: true, roughness: 0.8 }));
+  mesh.position.fromArray(look.model.origin);
+  mesh.name = look.model.name;
   const { GLTFExporter } = await loadGltfExporter();
   const bytes = await new GLTFExporter().parseAsync(mesh, { binary: true });
   return new Blob([bytes as ArrayBuffer], { type: 'model/gltf-binary' });
 }
 
 /** The triangles that the planes leave, moved by the explosions, with flat normals and linear colours. */
-function shownTriangles({ settings, planes, shifts, parts }: Shown): BufferGeometry {
+function shownTriangles({ settings, planes, shifts }: Look, layers: readonly Layer[]): BufferGeometry {
   const isFlat = settings.sliceMode === 'flat';
   const position: number[] = [];
   const normal: number[] = [];
@@ -53,7 +43,7 @@ function shownTriangles({ settings, planes, shifts, parts }: Shown): BufferGeome
       }
     }
   };
-  for (const part of parts) part.forEachPiece(put);
+  for (const layer of layers) layer.forEachPiece?.(put);
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new Float32BufferAttribute(position, 3));
   geometry.setAttribute('normal', new Float32BufferAttribute(normal, 3));

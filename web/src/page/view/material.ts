@@ -1,24 +1,9 @@
 // One shader draws all cells. It looks up per cell what is the same for all of a cell's vertices, so that exploding, colouring and slicing
 // only change uniforms and a small texture, never the vertices.
-import { BackSide, Color, DataTexture, DoubleSide, FloatType, FrontSide, ShaderMaterial, Vector3, Vector4 } from 'three';
-import type { IUniform, Side } from 'three';
+import { BackSide, Color, DoubleSide, FrontSide, ShaderMaterial, Vector3, Vector4 } from 'three';
+import type { DataTexture, IUniform, Side } from 'three';
+import { tableWidth } from './buffers';
 import { gridFaceColor } from './colors';
-
-/** Texels per row of the textures that are looked up by id. */
-const tableWidth = 1024;
-
-/** RGBA per id, looked up in shaders by `texelFetch(table, place(id), 0)`. The data is padded to whole rows. */
-export function makeTable<T extends Uint8Array | Float32Array>(
-  count: number,
-  create: (length: number) => T,
-): { texture: DataTexture; data: T } {
-  const height = Math.max(1, Math.ceil(count / tableWidth));
-  const data = create(4 * tableWidth * height);
-  const texture = new DataTexture(data as Uint8Array<ArrayBuffer>, tableWidth, height);
-  if (data instanceof Float32Array) texture.type = FloatType;
-  texture.needsUpdate = true;
-  return { texture, data };
-}
 
 export type Uniforms = ReturnType<typeof makeUniforms>;
 

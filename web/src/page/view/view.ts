@@ -1,23 +1,25 @@
-// The 3D view: puts the parts together and draws when something has changed.
-import { Color, Group, Scene, Vector3, Vector4, WebGLRenderer } from 'three';
-import type { Slice } from 'mandoline-wasm';
+// The 3D view: puts the layers together, and draws when something has changed.
+import { Color, Group, Scene, type Vector3, type WebGLRenderer } from 'three';
 import type { Engine, Model, PageError, Settings, StepPicture, View } from '../../model/types';
 import { Camera } from './camera';
-import { Caps } from './caps';
-import { CutCells } from './cut_cells';
 import { exportGlb } from './export';
 import { shownBall } from './extent';
-import { Frames } from './frames';
-import { Gizmo } from './gizmo';
-import { GpuPace } from './gpu_pace';
-import { shownRegions } from './look';
+import { FlatCuts } from './flat_cuts';
+import type { Layer, Look } from './layer';
+import { Caps } from './layers/caps';
+import { CutCells } from './layers/cut_cells';
+import { Frames } from './layers/frames';
+import { Gizmo } from './layers/gizmo';
+import { Step } from './layers/step';
+import { Untouched } from './layers/untouched';
+import { regionShifts, shownRegions } from './look';
+import { Loop } from './loop';
 import { makeUniforms } from './material';
-import type { Piece } from './piece';
 import { Picker } from './picking';
-import { activePlanes, planeOf, reach, type ViewPlane } from './planes';
 import { Pointer } from './pointer';
-import { Step } from './step';
-import { Untouched } from './untouched';
+import { makeRenderer } from './renderer';
+import { fromModel, fromWorld, keepCamera, sceneScale, toWorld } from './scene_space';
+import { setUniforms } from './uniforms';
 
 export interface ViewOptions {
   /** Makes the caps of flat cuts. */
@@ -26,22 +28,8 @@ export interface ViewOptions {
   onError?: (error: PageError) => void;
 }
 
-/** The answer to a request for slices. */
-interface Slices {
-  count: number;
-  model: number;
-  planes: ViewPlane[];
-  slices: Slice[];
-}
-
-const noSlices: Slices = { count: 0, model: 0, planes: [], slices: [] };
-
 /** In ms. */
-const longestWait = 400;
 const compileTime = 100;
-
-/** About so many cells share an edge, each of which draws it. */
-const cellsPerEdge = 2.8;
 
 const schemes = {
   light: { background: '#f3f1ec', line: '#1c2430', accent: '#e0218a' },
@@ -59,39 +47,35 @@ class ThreeView implements View {
   onCamera: View['onCamera'] = () => {};
   onFreePlane: View['onFreePlane'] = () => {};
   private readonly renderer: WebGLRenderer;
-  private readonly pace: GpuPace;
   private readonly scene = new Scene();
   /** From the model's units to scene units. */
   private readonly root = new Group();
-  private readonly modelGroup = new Group();
   private readonly uniforms = makeUniforms();
   private readonly cells = new CutCells(this.uniforms);
   private readonly untouched = new Untouched(this.uniforms);
-  private readonly caps = new Caps(this.uniforms);
-  private readonly frames = new Frames();
-  private readonly stepPicture = new Step();
-  private readonly camera: Camera;
+  private readonly caps = new Caps(this.uniforms, this.cells);
   private readonly gizmo: Gizmo;
+  /** What is seen of the model, and what is seen instead during a step. */
+  private readonly ofModel: readonly Layer[] = [this.cells, this.untouched, this.caps, new Frames()];
+  private readonly ofSteps: readonly Layer[] = [new Step()];
+  private readonly layers: readonly Layer[];
+  private readonly modelGroup = groupOf(this.ofModel);
+  private readonly stepGroup = groupOf(this.ofSteps).add(this.cells.ghost);
+  private readonly camera: Camera;
   private readonly picker: Picker;
+  private readonly loop: Loop;
+  private readonly flatCuts: FlatCuts;
   private model: Model | null = null;
+  private shifts: Float32Array = new Float32Array(0);
   private settings: Settings | null = null;
   private step: StepPicture | null = null;
-  private regions: Uint8Array = new Uint8Array(0);
-  /** The planes that cut what is drawn. A flat cut keeps the previous ones until new caps arrive, so that no picture lacks them. */
-  private planes: ViewPlane[] = [];
-  private slices: Slices | null = null;
-  private slicesMade = 0;
-  private modelSince = 0;
-  private readonly keys = new Map<string, string>();
-  private isSlicing = false;
+  private look: Look | null = null;
+  /** What the looks of layers were made of. */
+  private readonly made = new Map<Layer, readonly unknown[]>();
+  private explosion = '';
   private cameraKnown = '';
   private cameraBeforeStep: { position: Vector3; target: Vector3; isFramed: boolean } | null = null;
   private isFramed = false;
-  private hoverAt: { x: number; y: number } | null = null;
-  private isLookStale = true;
-  /** Whether the look is up to date and waits to be drawn. */
-  private isLookNew = false;
-  private frameAsked = 0;
   private framesDrawn = 0;
 
   constructor(
@@ -99,14 +83,22 @@ class ThreeView implements View {
     private readonly options: ViewOptions,
   ) {
     this.renderer = makeRenderer(canvas);
-    this.pace = new GpuPace(this.renderer.getContext() as WebGL2RenderingContext);
     this.camera = new Camera(canvas, matchMedia('(prefers-reduced-motion: reduce)'));
     this.gizmo = new Gizmo(this.camera.camera, canvas);
-    this.picker = new Picker(this.renderer, [this.cells.pick, this.untouched.pick, this.caps.pick]);
-    this.modelGroup.add(this.cells.group, this.untouched.group, this.caps.group, this.frames.group);
-    this.root.add(this.modelGroup, this.cells.ghost, this.stepPicture.group);
-    this.scene.add(this.root, this.gizmo.group);
-    this.cells.ghost.visible = this.stepPicture.group.visible = this.modelGroup.visible = false;
+    this.layers = [...this.ofModel, ...this.ofSteps, this.gizmo];
+    this.picker = new Picker(
+      this.renderer,
+      this.layers.flatMap(({ pick }) => pick ?? []),
+    );
+    this.flatCuts = new FlatCuts(options.slice);
+    this.loop = new Loop(this.renderer.getContext() as WebGL2RenderingContext, {
+      prepare: () => this.prepare(),
+      isWaiting: () => this.flatCuts.isAwaited,
+      draw: (seconds) => this.draw(seconds),
+    });
+    this.root.add(this.modelGroup, this.stepGroup);
+    this.scene.add(this.root, this.gizmo.object);
+    this.modelGroup.visible = this.stepGroup.visible = false;
     this.setScheme(matchMedia('(prefers-color-scheme: dark)').matches);
     this.listen();
     this.resize();
@@ -118,119 +110,111 @@ class ThreeView implements View {
     this.renderer.compile(this.scene, this.camera.camera);
     const takeOver = () => {
       if (this.model) return;
-      const hidden = [this.modelGroup, this.cells.ghost, this.stepPicture.group];
-      for (const object of hidden) object.visible = true;
+      this.modelGroup.visible = this.stepGroup.visible = true;
       this.renderer.render(this.scene, this.camera.camera);
-      for (const object of hidden) object.visible = false;
+      this.modelGroup.visible = this.stepGroup.visible = false;
       void this.picker.pick(this.camera.camera, 0, 0);
-      this.invalidate();
+      this.loop.invalidate();
     };
     setTimeout(takeOver, compileTime);
   }
 
   private listen(): void {
-    this.camera.onChange = () => this.invalidate();
+    this.camera.onChange = this.gizmo.onChange = () => this.loop.invalidate();
     this.camera.onMoved = () => this.tellCamera();
-    this.gizmo.onChange = () => this.invalidate();
     this.gizmo.onDragging = (isDragging) => (this.camera.controls.enabled = !isDragging);
-    this.gizmo.onMoved = (normal, point) => this.moveFreePlane(normal, point);
+    this.gizmo.onMoved = (free) => {
+      if (!this.settings) return;
+      this.settings = { ...this.settings, slices: { ...this.settings.slices, free } };
+      this.loop.changed();
+      this.onFreePlane(free);
+    };
+    this.flatCuts.onMade = () => this.loop.changed();
+    this.flatCuts.onError = (error) => this.options.onError?.(error);
     const pointer = new Pointer(this.canvas, () => this.gizmo.isTouched);
-    pointer.onHover = (at) => this.hover(at);
+    // A GPU that is behind is asked once it has caught up.
+    pointer.onHover = (at) => {
+      this.loop.soon(at && (() => void this.cellAt(at).then((cell) => this.setHovered(cell))));
+      if (!at) this.setHovered(null);
+    };
     pointer.onTap = (at) => void this.cellAt(at).then((cell) => this.onPick(cell));
     this.canvas.addEventListener('keydown', (event) => {
       if (event.key === 'Escape') this.onPick(null);
     });
     new ResizeObserver(() => this.resize()).observe(this.canvas);
     this.canvas.addEventListener('webglcontextlost', () => this.tellContextLost());
-    this.canvas.addEventListener('webglcontextrestored', () => this.invalidate());
+    this.canvas.addEventListener('webglcontextrestored', () => this.loop.invalidate());
   }
 
   private tellContextLost(): void {
-    this.pace.reset();
+    this.loop.reset();
     const why = 'The browser dropped the graphics context, perhaps because memory ran low.';
     const detail = `${why} If the picture does not come back, reload the page.`;
     this.options.onError?.({ title: 'The picture is lost for now', detail });
   }
 
   setModel(model: Model, frame: boolean): void {
-    const scale = 2 / model.diagonal;
-    if (this.model && !frame) this.keepCamera(this.model, model);
+    this.loop.finish();
+    if (this.model && !frame) keepCamera(this.camera, this.model, model);
     this.model = model;
-    this.root.scale.setScalar(scale);
-    this.picker.root.scale.setScalar(scale);
-    this.cells.setModel(model);
+    this.shifts = regionShifts(model);
+    this.root.scale.setScalar(sceneScale(model));
+    this.picker.root.scale.setScalar(sceneScale(model));
     this.uniforms.hovered.value = this.uniforms.pinned.value = -1;
-    this.lookChanged();
-    this.modelSince = performance.now();
-    this.isLookNew = false; // The former model's look would hide this one.
-    // At once, so that it runs before the next cut.
-    if (this.settings?.sliceMode === 'flat' && activePlanes(model, this.settings).length > 0) void this.requestSlices();
+    this.flatCuts.setModel(model);
+    for (const layer of this.layers) layer.setModel?.(model);
     if (frame) this.isFramed = false;
+    this.loop.changed();
   }
 
   clear(): void {
     this.model = null;
+    this.look = null;
     this.uniforms.hovered.value = this.uniforms.pinned.value = -1;
-    this.modelGroup.visible = this.cells.ghost.visible = this.stepPicture.group.visible = false;
+    this.modelGroup.visible = this.stepGroup.visible = false;
     this.gizmo.hide();
     Object.assign(this.canvas.dataset, { model: '', cells: '0', untouched: '0', caps: '0' });
     this.onHover(null);
-    this.draw(); // At once: the previous model must not stay behind the words that replace it.
-  }
-
-  /** Another grid has another centre and size; the camera keeps looking at the same place. */
-  private keepCamera(from: Model, to: Model): void {
-    const move = (point: Vector3) => {
-      const world = point.clone().multiplyScalar(from.diagonal / 2);
-      return world
-        .add(new Vector3(...from.origin))
-        .sub(new Vector3(...to.origin))
-        .multiplyScalar(2 / to.diagonal);
-    };
-    const isSame = from.diagonal === to.diagonal && from.origin.every((x, d) => x === to.origin[d]);
-    if (!isSame) this.camera.transform(move, from.diagonal / to.diagonal);
+    this.loop.draw(); // At once: the previous model must not stay behind the words that replace it.
   }
 
   setLook(settings: Settings): void {
     this.settings = settings;
-    const { camera } = settings;
-    if (camera && this.model && JSON.stringify(camera) !== this.cameraKnown) {
+    const { model } = this;
+    const { camera, explode } = settings;
+    if (camera && model && JSON.stringify(camera) !== this.cameraKnown) {
       this.cameraKnown = JSON.stringify(camera);
       this.isFramed = true;
-      this.camera.place(this.toScene(camera.position), this.toScene(camera.target));
+      this.camera.place(fromWorld(model, camera.position), fromWorld(model, camera.target));
     }
-    const isPulled = this.hasChanged('explosion', [settings.explode, settings.explode.regions > 0 && this.model?.id]);
+    const explosion = JSON.stringify([explode, explode.regions > 0 && model?.id]);
+    const isPulled = explosion !== this.explosion;
+    this.explosion = explosion;
     if (!this.isFramed) this.frame();
     // Until the person moves the camera, exploded parts stay in view.
     else if (isPulled && this.camera.isFramed && !this.step) this.frameShown(true);
-    this.lookChanged();
-  }
-
-  private lookChanged(): void {
-    this.isLookStale = true;
-    this.invalidate();
+    this.loop.changed();
   }
 
   setStep(picture: StepPicture | null): void {
     const isNew = JSON.stringify(picture?.choices.request) !== JSON.stringify(this.step?.choices.request);
     this.step = picture;
-    if (picture) {
-      this.stepPicture.set(picture);
+    if (picture && this.model) {
       const { camera, controls } = this.camera;
       this.cameraBeforeStep ??= { position: camera.position.clone(), target: controls.target.clone(), isFramed: this.camera.isFramed };
-      if (isNew) this.camera.frame(this.fromModel(picture.center), picture.radius * this.root.scale.x * 1.2, true);
+      if (isNew) this.camera.frame(fromModel(this.model, picture.center), picture.radius * sceneScale(this.model) * 1.2, true);
     } else if (this.cameraBeforeStep) {
       const { position, target, isFramed } = this.cameraBeforeStep;
       this.camera.place(position, target);
       if (isFramed) this.frameShown(true);
       this.cameraBeforeStep = null;
     }
-    this.lookChanged();
+    this.loop.changed();
   }
 
   setPinned(cell: number | null): void {
     this.uniforms.pinned.value = cell ?? -1;
-    this.invalidate();
+    this.loop.invalidate();
   }
 
   setScheme(dark: boolean): void {
@@ -238,7 +222,7 @@ class ThreeView implements View {
     this.scene.background = new Color(scheme.background);
     this.uniforms.lineColor.value.set(scheme.line);
     this.uniforms.accent.value.set(scheme.accent);
-    this.invalidate();
+    this.loop.invalidate();
   }
 
   frame(): void {
@@ -251,107 +235,47 @@ class ThreeView implements View {
   private frameShown(keepDirection: boolean): void {
     const { model, settings } = this;
     if (!model || !settings) return;
-    const { center, radius } = shownBall(model, settings, this.cells.shifts);
-    this.camera.frame(this.fromModel(center), radius * this.root.scale.x, keepDirection);
+    const { center, radius } = shownBall(model, settings, this.shifts);
+    this.camera.frame(fromModel(model, center), radius * sceneScale(model), keepDirection);
   }
 
   async png(): Promise<Blob> {
-    const hadGizmo = this.gizmo.group.visible;
-    this.gizmo.group.visible = false;
-    this.draw();
+    const hadGizmo = this.gizmo.object.visible;
+    this.loop.prepare();
+    this.gizmo.object.visible = false;
+    this.loop.draw();
     const blob = await new Promise<Blob | null>((resolve) => this.canvas.toBlob(resolve, 'image/png'));
-    this.gizmo.group.visible = hadGizmo;
-    this.invalidate();
+    this.gizmo.object.visible = hadGizmo;
+    this.loop.invalidate();
     if (blob) return blob;
     throw pictureError('The browser could not capture the picture, perhaps because memory ran low.');
   }
 
   async glb(): Promise<Blob> {
-    const { model, settings, cells } = this;
-    if (!model || !settings) throw pictureError('Nothing is shown yet.');
-    this.updateLook();
-    const cutCells = { forEachPiece: (take: (piece: Piece) => void) => cells.forEachPiece(model, settings, take) };
-    return exportGlb({ model, settings, planes: this.planes, shifts: cells.shifts, parts: [cutCells, this.untouched, this.caps] });
-  }
-
-  private fromModel(point: readonly number[]): Vector3 {
-    return new Vector3(point[0], point[1], point[2]).multiplyScalar(this.root.scale.x);
-  }
-
-  private toScene(world: readonly number[]): Vector3 {
-    return this.fromModel(world.map((x, d) => x - (this.model?.origin[d] ?? 0)));
+    this.loop.prepare();
+    if (!this.look) throw pictureError('Nothing is shown yet.');
+    return exportGlb(this.look, this.ofModel);
   }
 
   private tellCamera(): void {
     const { model } = this;
     if (!model || this.step) return;
-    const toWorld = (point: Vector3) => {
-      const [x, y, z] = point.toArray().map((value, d) => value / this.root.scale.x + model.origin[d]);
-      return [x, y, z] as const;
-    };
-    const camera = { position: toWorld(this.camera.camera.position), target: toWorld(this.camera.controls.target) };
+    const camera = { position: toWorld(model, this.camera.camera.position), target: toWorld(model, this.camera.controls.target) };
     this.cameraKnown = JSON.stringify(camera);
     this.onCamera(camera);
-  }
-
-  private moveFreePlane(normal: Vector3, point: Vector3): void {
-    const { model, settings } = this;
-    if (!model || !settings) return;
-    const scale = this.root.scale.x * (1 + settings.explode.cells);
-    const position = (normal.dot(point) / scale / reach(model, normal.toArray()) + 1) / 2;
-    const free = { on: true, position: Math.max(0, Math.min(1, position)), normal: normal.toArray() };
-    this.settings = { ...settings, slices: { ...settings.slices, free } };
-    this.lookChanged();
-    this.onFreePlane(free);
-  }
-
-  private hover(at: { x: number; y: number } | null): void {
-    this.hoverAt = at;
-    if (!at) return this.setHovered(null);
-    // A GPU that is behind is asked once it has caught up.
-    if (this.pace.isBehind) return this.invalidate();
-    this.hoverAt = null;
-    void this.cellAt(at).then((cell) => this.setHovered(cell));
   }
 
   private setHovered(cell: number | null): void {
     if (this.uniforms.hovered.value === (cell ?? -1)) return;
     this.uniforms.hovered.value = cell ?? -1;
     this.onHover(cell);
-    this.invalidate();
+    this.loop.invalidate();
   }
 
   private async cellAt({ x, y }: { x: number; y: number }): Promise<number | null> {
     if (!this.model || this.step) return null;
-    this.updateLook();
+    this.loop.prepare();
     return this.picker.pick(this.camera.camera, x, y);
-  }
-
-  private invalidate(): void {
-    if (this.frameAsked === 0) this.frameAsked = requestAnimationFrame(() => this.drawInTime());
-  }
-
-  private drawInTime(): void {
-    this.frameAsked = 0;
-    if (this.pace.isBehind) this.invalidate();
-    else if (this.hoverAt) {
-      this.hover(this.hoverAt);
-      this.invalidate();
-    } else if (this.isLookStale && !this.isLookNew) this.prepare();
-    else if (this.lacksCaps) this.invalidate();
-    else this.render();
-  }
-
-  /** Preparing and drawing are separate tasks, so that the page never waits for both at once. */
-  private prepare(): void {
-    this.updateLook();
-    this.isLookNew = true;
-    this.invalidate();
-  }
-
-  /** The previous picture stays while the caps of a new model are on their way, but not for long. */
-  private get lacksCaps(): boolean {
-    return this.isSlicing && this.slices?.model !== this.model?.id && performance.now() - this.modelSince < longestWait;
   }
 
   private resize(): void {
@@ -361,143 +285,53 @@ class ThreeView implements View {
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.resize(clientWidth, clientHeight);
-    this.stepPicture.setPixelRatio(ratio);
-    this.isLookStale = true;
-    this.draw();
+    for (const layer of this.layers) layer.setPixelRatio?.(ratio);
+    this.loop.changed();
+    this.loop.draw();
   }
 
-  private draw(): void {
-    cancelAnimationFrame(this.frameAsked);
-    this.frameAsked = 0;
-    this.updateLook();
-    this.render();
-  }
-
-  private render(): void {
-    this.isLookNew = false;
+  private draw(seconds: number): boolean {
     this.camera.update();
+    const moving = this.layers.filter((layer) => layer.animate?.(seconds));
     this.renderer.render(this.scene, this.camera.camera);
-    this.pace.mark();
     this.canvas.dataset.frames = String(++this.framesDrawn);
-    if (this.isLookStale) this.invalidate();
+    return moving.length > 0;
   }
 
-  /** Brings what is drawn up to date with the settings. */
-  private updateLook(): void {
-    const { model, settings } = this;
-    const wasStale = this.isLookStale;
-    this.isLookStale = false;
-    if (!model || !settings || !wasStale) return;
-    this.regions = shownRegions(model, settings);
-    const { show, colorBy, sliceMode } = settings;
-    const isFlat = sliceMode === 'flat';
-    // Explosions and slices of whole cells only change uniforms; other parts are computed again if something they depend on has changed.
-    if (this.hasChanged('cells', [model.id, show, colorBy])) this.cells.setLook(model, settings, this.regions);
-    const slices = this.choosePlanes(model, settings);
-    if (this.hasChanged('caps', [model.id, show, colorBy, slices.count])) {
-      this.caps.set(model, settings, this.regions, this.cells, slices.slices);
+  /** Brings what is drawn up to date with the settings. Explosions and slices of whole cells only change uniforms. */
+  private prepare(): void {
+    const { model, settings, shifts, step } = this;
+    if (!model || !settings) return;
+    const look = { model, settings, regions: shownRegions(model, settings), shifts, step, ...this.flatCuts.choose(model, settings) };
+    this.look = look;
+    for (const layer of this.layers) {
+      const needs = layer.dependsOn(look);
+      const had = this.made.get(layer);
+      if (had && needs.every((value, at) => Object.is(value, had[at]))) continue;
+      this.made.set(layer, needs);
+      layer.setLook(look);
     }
-    if (this.hasChanged('untouched', [model.id, show, colorBy, isFlat, this.planes, settings.explode.cells > 0])) {
-      this.untouched.setLook(model, settings, this.regions, this.planes);
-    }
-    this.setUniforms(model, settings);
-    this.modelGroup.visible = this.step === null;
-    this.cells.ghost.visible = this.stepPicture.group.visible = this.step !== null;
-    this.frames.set(model, this.planes);
-    this.frames.group.scale.setScalar(1 + settings.explode.cells);
-    this.placeGizmo(model, settings);
-    this.tellTests(model, isFlat);
-  }
-
-  /** Sets the planes, and gives the slices to draw as caps. */
-  private choosePlanes(model: Model, settings: Settings): Slices {
-    const wanted = activePlanes(model, settings);
-    const isFlat = settings.sliceMode === 'flat';
-    const made = this.slices?.model === model.id ? this.slices : null;
-    if (isFlat && wanted.length > 0 && !(made && samePlanes(made.planes, wanted))) void this.requestSlices();
-    this.planes = isFlat && wanted.length > 0 && made ? made.planes : wanted;
-    return isFlat && wanted.length > 0 && made ? made : noSlices;
-  }
-
-  /** Whether something that a part depends on has changed since the last call. */
-  private hasChanged(part: string, dependsOn: unknown[]): boolean {
-    const key = JSON.stringify(dependsOn);
-    const isNew = this.keys.get(part) !== key;
-    this.keys.set(part, key);
-    return isNew;
-  }
-
-  /** One request at a time: after its answer, the planes wanted by then are asked for. */
-  private async requestSlices(): Promise<void> {
-    const { model, settings } = this;
-    if (this.isSlicing || !model || !settings) return;
-    this.isSlicing = true;
-    const planes = activePlanes(model, settings);
-    const toWorld = ({ normal, offset }: ViewPlane) => normal.reduce((sum, n, d) => sum + n * model.origin[d], offset);
-    const inWorld = planes.map((plane) => ({ normal: plane.normal, offset: toWorld(plane) }));
-    try {
-      const slices = await this.options.slice(inWorld, true);
-      this.slices = { count: ++this.slicesMade, model: model.id, planes, slices };
-    } catch (error) {
-      // Without caps, cells are seen cut open. The same planes aren't asked for again, or failures would go on for ever.
-      this.slices = { count: ++this.slicesMade, model: model.id, planes, slices: [] };
-      if (!(error instanceof DOMException)) this.options.onError?.(error as PageError);
-    }
-    this.isSlicing = false;
-    this.lookChanged();
-  }
-
-  private setUniforms(model: Model, settings: Settings): void {
-    const { uniforms, planes } = this;
-    uniforms.explodeCells.value = settings.explode.cells;
-    uniforms.explodeRegions.value = settings.explode.regions;
-    uniforms.planeCount.value = planes.length;
-    planes.forEach(({ normal, offset }, p) => (uniforms.planes.value[p] = new Vector4(...normal, offset)));
-    uniforms.flatCut.value = settings.sliceMode === 'flat';
-    uniforms.byKind.value = settings.colorBy === 'kind';
-    // So many lines that they fill the picture would only darken it.
-    const pixelsPerEdge = (this.canvas.clientWidth * this.canvas.clientHeight * cellsPerEdge) / (model.edges.index.length / 2);
-    uniforms.lineOpacity.value = 0.5 * Math.min(1, Math.max(0.3, Math.sqrt(pixelsPerEdge / 20)));
-  }
-
-  private placeGizmo(model: Model, settings: Settings): void {
-    if (!settings.slices.free.on || this.step) return this.gizmo.hide();
-    const { normal, offset } = planeOf(model, settings, 'free');
-    const direction = new Vector3(...normal);
-    this.gizmo.show(direction, direction.clone().multiplyScalar(offset * this.root.scale.x * (1 + settings.explode.cells)));
+    setUniforms(this.uniforms, look, this.canvas.clientWidth * this.canvas.clientHeight);
+    this.modelGroup.visible = step === null;
+    this.stepGroup.visible = step !== null;
+    this.tellTests(look);
   }
 
   /** Says what is drawn, in data attributes of the canvas. */
-  private tellTests(model: Model, isFlat: boolean): void {
+  private tellTests(look: Look): void {
     const { dataset } = this.canvas;
-    dataset.model = String(model.id);
-    dataset.cells = String(this.cells.count(model, this.planes, isFlat));
+    dataset.model = String(look.model.id);
+    dataset.cells = String(this.cells.count(look));
     dataset.untouched = String(this.untouched.count);
     dataset.caps = String(this.caps.count);
-    dataset.step = this.step?.kind ?? '';
+    dataset.step = look.step?.kind ?? '';
   }
 }
 
-function samePlanes(a: readonly ViewPlane[], b: readonly ViewPlane[]): boolean {
-  return JSON.stringify(a) === JSON.stringify(b);
+function groupOf(layers: readonly Layer[]): Group {
+  return new Group().add(...layers.map(({ object }) => object));
 }
 
 function pictureError(detail: string): PageError {
   return { title: "The picture can't be saved", detail };
-}
-
-function makeRenderer(canvas: HTMLCanvasElement): WebGLRenderer {
-  try {
-    const renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
-    // Asking for errors would wait for the compiler.
-    renderer.debug.checkShaderErrors = import.meta.env.DEV;
-    // Transparent objects are drawn last anyway, and to sort them three.js would visit all vertices.
-    renderer.sortObjects = false;
-    return renderer;
-  } catch {
-    const why = 'This page draws with WebGL 2, which this browser lacks or has turned off.';
-    const detail = `${why} Try another browser, or turn on hardware acceleration in its settings.`;
-    const error: PageError = { title: 'This browser cannot draw the picture', detail };
-    throw error;
-  }
 }

@@ -1,10 +1,11 @@
 // The picture of a step of the algorithm, over a faint surface.
-import { BufferAttribute, BufferGeometry, DoubleSide, Group } from 'three';
+import { BufferGeometry, DoubleSide, Group } from 'three';
 import { LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, Points, PointsMaterial } from 'three';
-import type { StepPicture } from '../../model/types';
+import { refill } from '../buffers';
+import type { Layer, Look } from '../layer';
 
-export class Step {
-  readonly group = new Group();
+export class Step implements Layer {
+  readonly object = new Group();
   private readonly faces = new Mesh(
     new BufferGeometry(),
     new MeshBasicMaterial({ vertexColors: true, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2 }),
@@ -14,16 +15,18 @@ export class Step {
 
   constructor() {
     for (const object of [this.faces, this.lines, this.points]) object.frustumCulled = false;
-    this.group.add(this.faces, this.lines, this.points);
+    this.object.add(this.faces, this.lines, this.points);
   }
 
-  set(picture: StepPicture): void {
+  dependsOn({ step }: Look): readonly unknown[] {
+    return [step];
+  }
+
+  setLook({ step }: Look): void {
+    if (!step) return;
     for (const part of ['faces', 'lines', 'points'] as const) {
-      const geometry = new BufferGeometry();
-      geometry.setAttribute('position', new BufferAttribute(picture[part].position, 3));
-      geometry.setAttribute('color', new BufferAttribute(picture[part].color, 3));
-      this[part].geometry.dispose();
-      this[part].geometry = geometry;
+      const { position, color } = step[part];
+      refill(this[part].geometry, { position: { array: position, size: 3 }, color: { array: color, size: 3 } });
     }
   }
 

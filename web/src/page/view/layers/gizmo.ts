@@ -1,26 +1,32 @@
 // Handles to move the free plane along its normal and to turn it.
 import { Group, Object3D, Vector3, type Camera } from 'three';
 import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
+import type { SliceSettings } from '../../../model/types';
+import type { Layer, Look } from '../layer';
+import { planeOf, reach } from '../planes';
+import { sceneScale } from '../scene_space';
 
 const up = new Vector3(0, 0, 1);
 
-export class Gizmo {
-  readonly group = new Group();
+/** In scene units, unlike other layers: handles are as large as the screen has them. */
+export class Gizmo implements Layer {
+  readonly object = new Group();
   onChange = () => {};
-  /** The plane was moved: its unit normal and a point on it, in scene units. */
-  onMoved: (normal: Vector3, point: Vector3) => void = () => {};
+  /** The plane was moved. */
+  onMoved: (slice: SliceSettings) => void = () => {};
   /** A drag of a handle begins or ends. */
   onDragging: (isDragging: boolean) => void = () => {};
   isDragging = false;
   private readonly handle = new Object3D();
   private readonly controls: TransformControls[];
+  private look: Look | null = null;
 
   constructor(camera: Camera, canvas: HTMLCanvasElement) {
     const [move, rotate] = (['translate', 'rotate'] as const).map((mode) => this.makeControls(mode, camera, canvas));
     for (const key of ['showX', 'showY', 'showXY', 'showYZ', 'showXZ'] as const) move[key] = false;
     for (const key of ['showZ', 'showE', 'showXYZE'] as const) rotate[key] = false;
     this.controls = [move, rotate];
-    this.group.add(this.handle, move.getHelper(), rotate.getHelper());
+    this.object.add(this.handle, move.getHelper(), rotate.getHelper());
     this.hide();
   }
 
@@ -30,9 +36,7 @@ export class Gizmo {
     controls.space = 'local';
     controls.size = mode === 'rotate' ? 0.65 : 0.85;
     controls.addEventListener('change', () => this.onChange());
-    controls.addEventListener('objectChange', () => {
-      this.onMoved(up.clone().applyQuaternion(this.handle.quaternion), this.handle.position.clone());
-    });
+    controls.addEventListener('objectChange', () => this.moved());
     controls.addEventListener('dragging-changed', ({ value }) => {
       this.isDragging = value === true;
       for (const other of this.controls) other.enabled = other === controls || !this.isDragging;
@@ -43,22 +47,40 @@ export class Gizmo {
 
   /** Whether the pointer is on a handle. */
   get isTouched(): boolean {
-    return this.group.visible && (this.isDragging || this.controls.some((controls) => controls.axis !== null));
+    return this.object.visible && (this.isDragging || this.controls.some((controls) => controls.axis !== null));
   }
 
-  show(normal: Vector3, point: Vector3): void {
-    this.group.visible = true;
+  private moved(): void {
+    if (!this.look) return;
+    const { model, settings } = this.look;
+    const normal = up.clone().applyQuaternion(this.handle.quaternion);
+    const scale = sceneScale(model) * (1 + settings.explode.cells);
+    const position = (normal.dot(this.handle.position) / scale / reach(model, normal.toArray()) + 1) / 2;
+    this.onMoved({ on: true, position: Math.max(0, Math.min(1, position)), normal: normal.toArray() });
+  }
+
+  dependsOn({ model, settings: { slices, explode }, step }: Look): readonly unknown[] {
+    return [model.id, slices.free, explode.cells, step];
+  }
+
+  setLook(look: Look): void {
+    const { model, settings, step } = look;
+    this.look = look;
+    if (!settings.slices.free.on || step) return this.hide();
+    this.object.visible = true;
     for (const controls of this.controls) {
       controls.enabled = true;
       controls.attach(this.handle);
     }
     if (this.isDragging) return;
-    this.handle.quaternion.setFromUnitVectors(up, normal);
-    this.handle.position.copy(point);
+    const { normal, offset } = planeOf(model, settings, 'free');
+    const direction = new Vector3(...normal);
+    this.handle.quaternion.setFromUnitVectors(up, direction);
+    this.handle.position.copy(direction).multiplyScalar(offset * sceneScale(model) * (1 + settings.explode.cells));
   }
 
   hide(): void {
-    this.group.visible = false;
+    this.object.visible = false;
     for (const controls of this.controls) {
       controls.detach();
       controls.enabled = false;

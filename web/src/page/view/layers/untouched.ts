@@ -1,11 +1,12 @@
 // The untouched grid cells as boxes. Their corners are worked out in the shader from a table of boxes; the buffers only say which corners
 // make triangles and lines, and are the same for all models. (Instances of a mesh as small as a box are slow.)
-import { BufferAttribute, BufferGeometry, Group, LineSegments, Mesh, type DataTexture } from 'three';
-import type { Model, Settings } from '../../model/types';
-import { untouchedColors, type Rgb } from './colors';
-import { makeMaterial, makeTable, type Uniforms } from './material';
-import { paler, type Piece } from './piece';
-import type { ViewPlane } from './planes';
+import { BufferAttribute, BufferGeometry, Group, LineSegments, Mesh } from 'three';
+import type { Model } from '../../../model/types';
+import { Table } from '../buffers';
+import { untouchedColors, type Rgb } from '../colors';
+import type { Layer, Look } from '../layer';
+import { makeMaterial, type Uniforms } from '../material';
+import { paler, type Piece } from '../piece';
 
 /**
  * Boxes drawn at most when cells are pulled apart and any box might be seen through the gaps: all of a 50^3 grid, 1.8 million triangles.
@@ -24,15 +25,15 @@ const lineCorners = [1, 2, 4].flatMap((far) => {
   return near.flatMap((corner) => [corner, corner | far]);
 });
 
-export class Untouched {
-  readonly group = new Group();
+export class Untouched implements Layer {
+  readonly object = new Group();
   readonly pick: Mesh;
   count = 0;
   private readonly faces: Mesh;
   private readonly lines: LineSegments;
-  private readonly table = { value: null as DataTexture | null };
   /** 8 numbers per box: its min corner, region, size, and its colour as one number. */
-  private boxes: Float32Array = new Float32Array(0);
+  private readonly boxes = new Table((length) => new Float32Array(length));
+  private readonly table = { value: this.boxes.texture };
 
   constructor(uniforms: Uniforms) {
     const own = { boxes: this.table };
@@ -40,15 +41,19 @@ export class Untouched {
     this.pick = new Mesh(this.faces.geometry, makeMaterial('BOXES', 'PICK', uniforms, own));
     this.lines = new LineSegments(new BufferGeometry(), makeMaterial('BOXES', 'LINES', uniforms, own));
     for (const object of [this.faces, this.pick, this.lines]) object.frustumCulled = false;
-    this.group.add(this.faces, this.lines);
+    this.object.add(this.faces, this.lines);
   }
 
-  setLook(model: Model, settings: Settings, regions: Uint8Array, planes: readonly ViewPlane[]): void {
-    const { show, explode, sliceMode } = settings;
-    const wanted = show.untouched && (show.gridFaces || show.edges);
-    const gridCells = wanted ? seenBoxes(model, regions, planes, sliceMode === 'flat', explode.cells > 0) : new Uint32Array(0);
+  dependsOn({ model, settings: { show, colorBy, sliceMode, explode }, planes }: Look): readonly unknown[] {
+    return [model.id, show, colorBy, sliceMode, planes, explode.cells > 0];
+  }
+
+  setLook(look: Look): void {
+    const { model, settings } = look;
+    const { show } = settings;
+    const gridCells = show.untouched && (show.gridFaces || show.edges) ? seenBoxes(look) : new Uint32Array(0);
     this.count = gridCells.length;
-    this.group.visible = this.pick.visible = this.count > 0;
+    this.object.visible = this.pick.visible = this.count > 0;
     this.faces.visible = show.gridFaces;
     this.lines.visible = show.edges;
     this.setBoxes(model, gridCells, untouchedColors(model, settings.colorBy));
@@ -58,7 +63,9 @@ export class Untouched {
 
   private setBoxes(model: Model, gridCells: Uint32Array, colorOf: ReturnType<typeof untouchedColors>): void {
     const { grid, origin, gridCellRegion } = model;
-    const { texture, data } = makeTable(2 * gridCells.length, (length) => new Float32Array(length));
+    this.boxes.resize(2 * gridCells.length);
+    this.table.value = this.boxes.texture;
+    const { data } = this.boxes;
     for (let box = 0; box < gridCells.length; box++) {
       const gridCell = gridCells[box];
       let rest = gridCell;
@@ -74,15 +81,12 @@ export class Untouched {
       data[8 * box + 3] = region;
       data[8 * box + 7] = Math.round(red) + 256 * Math.round(green) + 65536 * Math.round(blue);
     }
-    this.table.value?.dispose();
-    this.table.value = texture;
-    this.boxes = data;
   }
 
   forEachPiece(take: (piece: Piece) => void): void {
-    if (!this.group.visible || !this.faces.visible) return;
+    if (!this.object.visible || !this.faces.visible) return;
     for (let box = 0; box < this.count; box++) {
-      const [x, y, z, region, dx, dy, dz, packed] = this.boxes.subarray(8 * box, 8 * box + 8);
+      const [x, y, z, region, dx, dy, dz, packed] = this.boxes.data.subarray(8 * box, 8 * box + 8);
       const corner = (bits: number) => [x + (bits & 1) * dx, y + ((bits >> 1) & 1) * dy, z + (bits >> 2) * dz];
       const color = paler([packed & 255, (packed >> 8) & 255, packed >> 16] as Rgb);
       const middle = [x + dx / 2, y + dy / 2, z + dz / 2];
@@ -107,11 +111,12 @@ function setRange(geometry: BufferGeometry, corners: readonly number[], boxes: n
 }
 
 /** Untouched grid cells that are shown and not hidden behind six others. */
-function seenBoxes(model: Model, regions: Uint8Array, planes: readonly ViewPlane[], flat: boolean, pulledApart: boolean): Uint32Array {
-  const solid = solidCells(model, regions, planes, flat);
+function seenBoxes(look: Look): Uint32Array {
+  const { model, settings } = look;
+  const solid = solidCells(look);
   let shown = 0;
   for (let at = 0; at < solid.length; at++) shown += solid[at];
-  const drawAll = pulledApart && shown <= mostBoxes;
+  const drawAll = settings.explode.cells > 0 && shown <= mostBoxes;
   const boxes = new Uint32Array(shown);
   const [nx, ny, nz] = model.grid.cells;
   let count = 0;
@@ -130,8 +135,9 @@ function seenBoxes(model: Model, regions: Uint8Array, planes: readonly ViewPlane
 }
 
 /** 1 per untouched grid cell of a shown region that the planes keep: its middle, or in a flat cut any of it. */
-function solidCells(model: Model, regions: Uint8Array, planes: readonly ViewPlane[], flat: boolean): Uint8Array {
+function solidCells({ model, settings, regions, planes }: Look): Uint8Array {
   const { grid, origin, gridCellRegion } = model;
+  const flat = settings.sliceMode === 'flat';
   const [nx, ny, nz] = grid.cells;
   const solid = new Uint8Array(gridCellRegion.length);
   // normal . x is a sum of one term per axis.

@@ -1,22 +1,28 @@
 import { Group, LineBasicMaterial, LineSegments } from 'three';
-import type { Model, SliceName } from '../../model/types';
+import type { Model, SliceName } from '../../../model/types';
+import type { Layer, Look } from '../layer';
+import type { ViewPlane } from '../planes';
 import { lineGeometry } from './cut_cells';
-import type { ViewPlane } from './planes';
 
 const colors: Record<SliceName, number> = { x: 0xd9534f, y: 0x4fae5a, z: 0x3f83d6, free: 0xd78f1f };
 
 /** Outlines of the slice planes where they cut the grid's box. */
-export class Frames {
-  readonly group = new Group();
+export class Frames implements Layer {
+  readonly object = new Group();
   private readonly lines = { x: makeLines('x'), y: makeLines('y'), z: makeLines('z'), free: makeLines('free') };
 
-  set(model: Model, planes: readonly ViewPlane[]): void {
-    this.group.clear();
+  dependsOn({ model, planes, settings }: Look): readonly unknown[] {
+    return [model.id, planes, settings.explode.cells];
+  }
+
+  setLook({ model, planes, settings }: Look): void {
+    this.object.scale.setScalar(1 + settings.explode.cells);
+    this.object.clear();
     for (const plane of planes) {
       const lines = this.lines[plane.name];
       lines.geometry.dispose();
       lines.geometry = lineGeometry(outline(model, plane));
-      this.group.add(lines);
+      this.object.add(lines);
     }
   }
 }

@@ -1,11 +1,13 @@
 // The filled polygons where slice planes cut cells flat.
-import { BufferAttribute, BufferGeometry, Group, LineSegments, Mesh } from 'three';
+import { BufferGeometry, Group, LineSegments, Mesh } from 'three';
 import type { Slice } from 'mandoline-wasm';
-import type { Model, Settings } from '../../model/types';
-import { insideColor, untouchedColors, type Rgb } from './colors';
+import type { Model, Settings } from '../../../model/types';
+import { refill } from '../buffers';
+import { insideColor, untouchedColors, type Rgb } from '../colors';
+import type { Layer, Look } from '../layer';
+import { makeMaterial, type Uniforms } from '../material';
+import type { Piece } from '../piece';
 import type { CutCells } from './cut_cells';
-import { makeMaterial, type Uniforms } from './material';
-import type { Piece } from './piece';
 
 interface Cap {
   faces: Mesh;
@@ -13,14 +15,17 @@ interface Cap {
   lines: LineSegments;
 }
 
-export class Caps {
-  readonly group = new Group();
+export class Caps implements Layer {
+  readonly object = new Group();
   readonly pick = new Group();
   /** Polygons drawn. */
   count = 0;
   private readonly caps: Cap[];
 
-  constructor(uniforms: Uniforms) {
+  constructor(
+    uniforms: Uniforms,
+    private readonly cells: CutCells,
+  ) {
     this.caps = [0, 1, 2, 3].map((ownPlane) => this.makeCap(uniforms, ownPlane));
   }
 
@@ -30,13 +35,18 @@ export class Caps {
     const pick = new Mesh(faces.geometry, makeMaterial('CAPS', 'PICK', uniforms, own));
     const lines = new LineSegments(new BufferGeometry(), makeMaterial('CAPS', 'LINES', uniforms, own));
     for (const object of [faces, pick, lines]) object.frustumCulled = false;
-    this.group.add(faces, lines);
+    this.object.add(faces, lines);
     this.pick.add(pick);
     return { faces, pick, lines };
   }
 
-  /** Takes the slices by the planes, in their order, and draws the polygons of cells that are shown. */
-  set(model: Model, settings: Settings, regions: Uint8Array, cells: CutCells, slices: readonly Slice[]): void {
+  dependsOn({ model, settings: { show, colorBy }, caps }: Look): readonly unknown[] {
+    return [model.id, show, colorBy, caps.id];
+  }
+
+  /** Draws the polygons of cells that are shown. */
+  setLook({ model, settings, regions, caps: { slices } }: Look): void {
+    const { cells } = this;
     const isShown = (cell: number, region: number) => (cell >= 0 ? cells.isShown(cell) : settings.show.untouched && regions[region] > 0);
     this.count = 0;
     this.caps.forEach((cap, p) => {
@@ -49,9 +59,8 @@ export class Caps {
       });
       this.count += polygons.length;
       const table = polygonTable(model, settings, cells, slice);
-      replace(cap.faces, capGeometry(model, slice, table, trianglePoints(slice, polygons)));
-      cap.pick.geometry = cap.faces.geometry;
-      replace(cap.lines, capGeometry(model, slice, table, outlinePoints(slice, polygons)));
+      fillCap(cap.faces.geometry, model, slice, table, trianglePoints(slice, polygons));
+      fillCap(cap.lines.geometry, model, slice, table, outlinePoints(slice, polygons));
     });
   }
 
@@ -59,7 +68,7 @@ export class Caps {
     this.caps.forEach(({ faces }, ownPlane) => {
       if (!faces.visible) return;
       const { position, center, region, tint } = faces.geometry.attributes;
-      for (let vertex = 0; vertex < region.count; vertex += 3) {
+      for (let vertex = 0; vertex < faces.geometry.drawRange.count; vertex += 3) {
         take({
           corners: Array.from(position.array.subarray(3 * vertex, 3 * vertex + 9)),
           middle: center.array.subarray(3 * vertex, 3 * vertex + 3),
@@ -70,11 +79,6 @@ export class Caps {
       }
     });
   }
-}
-
-function replace(object: Mesh | LineSegments, geometry: BufferGeometry): void {
-  object.geometry.dispose();
-  object.geometry = geometry;
 }
 
 /** What all points of a polygon share. */
@@ -95,7 +99,7 @@ function polygonTable(model: Model, settings: Settings, cells: CutCells, slice: 
   polygonCell.forEach((cell, polygon) => {
     if (cell >= 0) {
       center.set(model.cells.centroid.subarray(3 * cell, 3 * cell + 3), 3 * polygon);
-      tint.set(settings.colorBy === 'kind' ? insideColor : cells.looks.subarray(4 * cell, 4 * cell + 3), 4 * polygon);
+      tint.set(settings.colorBy === 'kind' ? insideColor : cells.colorOf(cell), 4 * polygon);
       return;
     }
     const [i, j, k] = polygonGridCell.subarray(3 * polygon, 3 * polygon + 3);
@@ -145,7 +149,7 @@ function outlinePoints(slice: Slice, polygons: readonly number[]): Points {
   return points;
 }
 
-function capGeometry(model: Model, slice: Slice, table: PolygonTable, { point, polygon }: Points): BufferGeometry {
+function fillCap(geometry: BufferGeometry, model: Model, slice: Slice, table: PolygonTable, { point, polygon }: Points): void {
   const position = new Float32Array(3 * point.length);
   const center = new Float32Array(3 * point.length);
   const tint = new Uint8Array(4 * point.length);
@@ -160,11 +164,11 @@ function capGeometry(model: Model, slice: Slice, table: PolygonTable, { point, p
     region[at] = slice.polygonRegion[polygon[at]];
     owner[at] = slice.polygonCell[polygon[at]];
   }
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new BufferAttribute(position, 3));
-  geometry.setAttribute('center', new BufferAttribute(center, 3));
-  geometry.setAttribute('region', new BufferAttribute(region, 1));
-  geometry.setAttribute('tint', new BufferAttribute(tint, 4, true));
-  geometry.setAttribute('owner', new BufferAttribute(owner, 1));
-  return geometry;
+  refill(geometry, {
+    position: { array: position, size: 3 },
+    center: { array: center, size: 3 },
+    region: { array: region, size: 1 },
+    tint: { array: tint, size: 4, normalized: true },
+    owner: { array: owner, size: 1 },
+  });
 }

@@ -1,0 +1,39 @@
+// What the view is made of. To add something that is drawn, add a layer.
+import type { Object3D } from 'three';
+import type { Slice } from 'mandoline-wasm';
+import type { Model, Settings, StepPicture } from '../../model/types';
+import type { Piece } from './piece';
+import type { ViewPlane } from './planes';
+
+/** All that decides what is drawn. */
+export interface Look {
+  model: Model;
+  settings: Settings;
+  /** Per region: 1 if it is shown. */
+  regions: Uint8Array;
+  /** 3 per region: how it moves in an explosion by region. */
+  shifts: Float32Array;
+  /** They cut what is drawn. */
+  planes: readonly ViewPlane[];
+  /** What fills flat cuts, one for each of the planes or none at all; `id` counts them. */
+  caps: { id: number; slices: readonly Slice[] };
+  /** The step that is drawn instead of the model, if any. */
+  step: StepPicture | null;
+}
+
+/** A part of the picture. Its coordinates are the model's, less the model's origin. */
+export interface Layer {
+  readonly object: Object3D;
+  /** What is drawn to find out which cell is seen at a point. */
+  readonly pick?: Object3D;
+  /** Takes the buffers of a new model, whose look is set next. */
+  setModel?(model: Model): void;
+  /** What setLook() makes its work of: it is called once one of these is not the same value, or the same object, any more. */
+  dependsOn(look: Look): readonly unknown[];
+  setLook(look: Look): void;
+  /** Moves what moves by itself, before each frame, to a time in seconds. Gives whether it goes on moving. */
+  animate?(seconds: number): boolean;
+  setPixelRatio?(ratio: number): void;
+  /** The triangles that it draws, for files. */
+  forEachPiece?(take: (piece: Piece) => void): void;
+}

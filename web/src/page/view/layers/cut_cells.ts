@@ -1,0 +1,151 @@
+// The cut-cells: one draw call for all faces, one for all edges.
+import { BufferGeometry, Float32BufferAttribute, Group, LineSegments, Mesh } from 'three';
+import type { ShaderMaterial } from 'three';
+import type { Model } from '../../../model/types';
+import { refill, Table } from '../buffers';
+import { cutCellColors, gridFaceColor, type Rgb } from '../colors';
+import type { Layer, Look } from '../layer';
+import { makeMaterial, type Purpose, type Uniforms } from '../material';
+import { paler, type Piece } from '../piece';
+import { isBeyond, isBoxBeyond, type ViewPlane } from '../planes';
+
+/** Drawn in two groups: pieces of triangles, and pieces of grid-faces. */
+type Faces = Mesh<BufferGeometry, [ShaderMaterial, ShaderMaterial]>;
+
+export class CutCells implements Layer {
+  readonly object = new Group();
+  readonly pick: Faces;
+  /** The surface alone, faint, behind the pictures of steps. */
+  readonly ghost: Faces;
+  private readonly faces: Faces;
+  private readonly backs: Faces;
+  private readonly lines: LineSegments;
+  private readonly centers = new Table((length) => new Float32Array(length));
+  /** RGB, and whether it is shown, per cell. */
+  private readonly looks = new Table((length) => new Uint8Array(length));
+  private readonly shifts = new Table((length) => new Float32Array(length));
+  private look: Look | null = null;
+
+  constructor(private readonly uniforms: Uniforms) {
+    const makeFaces = (purpose: Purpose): Faces => {
+      const material = (isSurface: boolean) => makeMaterial('CELLS', purpose, uniforms, { isSurface: { value: isSurface } });
+      return new Mesh(geometry, [material(true), material(false)]);
+    };
+    const geometry = new BufferGeometry();
+    for (const kind of [0, 1]) geometry.addGroup(0, Infinity, kind);
+    this.faces = makeFaces('FACES');
+    this.backs = makeFaces('BACKS');
+    this.pick = makeFaces('PICK');
+    this.ghost = makeFaces('GHOST');
+    this.ghost.material[1].visible = false;
+    this.lines = new LineSegments(new BufferGeometry(), makeMaterial('CELLS', 'LINES', uniforms));
+    this.object.add(this.faces, this.backs, this.lines);
+    for (const object of [this.faces, this.backs, this.pick, this.ghost, this.lines]) object.frustumCulled = false;
+  }
+
+  setModel(model: Model): void {
+    const { triangles, edges } = model;
+    const { geometry } = this.faces;
+    refill(geometry, { position: { array: triangles.position, size: 3 }, cell: { array: triangles.cell, size: 1 } }, triangles.index);
+    geometry.clearGroups();
+    geometry.addGroup(0, triangles.surfaceEnd, 0);
+    geometry.addGroup(triangles.surfaceEnd, triangles.index.length - triangles.surfaceEnd, 1);
+    // What both share is not the lines' to dispose of.
+    const lines = this.lines.geometry;
+    for (const name of ['position', 'cell']) lines.deleteAttribute(name);
+    refill(lines, {}, edges.index);
+    for (const name of ['position', 'cell']) lines.setAttribute(name, geometry.getAttribute(name));
+    this.setCenters(model);
+  }
+
+  private setCenters({ cells: { region, centroid } }: Model): void {
+    this.centers.resize(region.length);
+    const { data } = this.centers;
+    for (let cell = 0; cell < region.length; cell++) {
+      for (let d = 0; d < 3; d++) data[4 * cell + d] = centroid[3 * cell + d];
+      data[4 * cell + 3] = region[cell];
+    }
+    this.looks.resize(region.length);
+    this.uniforms.cellCenters.value = this.centers.texture;
+    this.uniforms.cellLooks.value = this.looks.texture;
+  }
+
+  dependsOn({ model, settings: { show, colorBy } }: Look): readonly unknown[] {
+    return [model.id, show, colorBy];
+  }
+
+  setLook(look: Look): void {
+    const { model, settings, regions, shifts } = look;
+    const { show, colorBy } = settings;
+    this.look = look;
+    this.shifts.resize(model.regions.length);
+    shifts.forEach((x, at) => (this.shifts.data[4 * Math.floor(at / 3) + (at % 3)] = x));
+    this.uniforms.regionShifts.value = this.shifts.texture;
+    const { region } = model.cells;
+    this.looks.resize(region.length);
+    this.looks.data.set(cutCellColors(model, colorBy));
+    for (let cell = 0; cell < region.length; cell++) this.looks.data[4 * cell + 3] = show.cutCells && regions[region[cell]] ? 255 : 0;
+    // Of a face between two shown cells only the front is drawn, so neighbours don't fight for its pixels; without the rest of the boundary
+    // one looks into cells and sees the backs as well.
+    this.backs.visible = !(show.surface && show.gridFaces);
+    for (const { material } of [this.faces, this.backs, this.pick]) {
+      material[0].visible = show.surface;
+      material[1].visible = show.gridFaces;
+    }
+    this.lines.visible = show.edges;
+  }
+
+  isShown(cell: number): boolean {
+    return this.looks.data[4 * cell + 3] > 0;
+  }
+
+  colorOf(cell: number): Rgb {
+    return this.looks.data.subarray(4 * cell, 4 * cell + 3) as unknown as Rgb;
+  }
+
+  forEachPiece(take: (piece: Piece) => void): void {
+    if (!this.look) return;
+    const { model, settings } = this.look;
+    const { show, colorBy } = settings;
+    const { position, cell: cells, index, surfaceEnd } = model.triangles;
+    for (let at = 0; at < index.length; at += 3) {
+      const cell = cells[index[at]];
+      const isSurface = at < surfaceEnd;
+      if (!this.isShown(cell) || !(isSurface ? show.surface : show.gridFaces)) continue;
+      const own = this.colorOf(cell);
+      const ofGrid = colorBy === 'kind' ? gridFaceColor : paler(own);
+      take({
+        corners: Array.from(index.subarray(at, at + 3)).flatMap((vertex) => Array.from(position.subarray(3 * vertex, 3 * vertex + 3))),
+        middle: model.cells.centroid.subarray(3 * cell, 3 * cell + 3),
+        region: model.cells.region[cell],
+        color: isSurface ? own : ofGrid,
+        ownPlane: -1,
+      });
+    }
+  }
+
+  /** Whether the planes leave a part of the cell. */
+  private isKept(model: Model, planes: readonly ViewPlane[], flat: boolean, cell: number): boolean {
+    const { centroid, gridCell } = model.cells;
+    if (!flat) return !isBeyond(planes, centroid[3 * cell], centroid[3 * cell + 1], centroid[3 * cell + 2]);
+    const side = (end: number) => model.grid.planes.map((axis, d) => axis[gridCell[3 * cell + d] + end] - model.origin[d]);
+    return !isBoxBeyond(planes, side(0), side(1));
+  }
+
+  /** How many cut-cells are seen, wholly or in part. */
+  count({ model, settings, planes }: Look): number {
+    const isFlat = settings.sliceMode === 'flat';
+    let count = 0;
+    for (let cell = 0; cell < model.cells.region.length; cell++) {
+      if (this.isShown(cell) && (planes.length === 0 || this.isKept(model, planes, isFlat, cell))) count++;
+    }
+    return count;
+  }
+}
+
+/** A geometry of plain line segments. */
+export function lineGeometry(position: Float32Array | number[]): BufferGeometry {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new Float32BufferAttribute(position, 3));
+  return geometry;
+}

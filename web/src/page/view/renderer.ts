@@ -1,0 +1,19 @@
+import { WebGLRenderer } from 'three';
+import type { PageError } from '../../model/types';
+
+/** Throws a PageError where there is no WebGL 2. */
+export function makeRenderer(canvas: HTMLCanvasElement): WebGLRenderer {
+  try {
+    const renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
+    // Asking for errors would wait for the compiler.
+    renderer.debug.checkShaderErrors = import.meta.env.DEV;
+    // Transparent objects are drawn last anyway, and to sort them three.js would visit all vertices.
+    renderer.sortObjects = false;
+    return renderer;
+  } catch {
+    const why = 'This page draws with WebGL 2, which this browser lacks or has turned off.';
+    const detail = `${why} Try another browser, or turn on hardware acceleration in its settings.`;
+    const error: PageError = { title: 'This browser cannot draw the picture', detail };
+    throw error;
+  }
+}
