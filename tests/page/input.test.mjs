@@ -23,17 +23,19 @@ async function pick(page, name, content) {
   await page.locator('#file').setInputFiles({ name, mimeType: 'application/octet-stream', buffer: Buffer.from(content) });
 }
 
-/** As if the file were dropped on the picture. */
-async function drop(page, name, content) {
+/** As if the files, contents by their names, were dropped on the picture. */
+async function drop(page, files) {
   await page.evaluate(
-    ([fileName, base64]) => {
-      const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+    (encoded) => {
       const dataTransfer = new DataTransfer();
-      dataTransfer.items.add(new File([bytes], fileName));
+      for (const [name, base64] of encoded) {
+        const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+        dataTransfer.items.add(new File([bytes], name));
+      }
       const target = document.getElementById('canvas');
       for (const kind of ['dragover', 'drop']) target.dispatchEvent(new DragEvent(kind, { dataTransfer, bubbles: true, cancelable: true }));
     },
-    [name, Buffer.from(content).toString('base64')],
+    Object.entries(files).map(([name, content]) => [name, Buffer.from(content).toString('base64')]),
   );
 }
 
@@ -82,17 +84,34 @@ test('files of every format, chosen', async (t) => {
 
 test('a file opened after a mesh of the gallery is not cut as coarsely as that', async (t) => {
   const page = await site.open(t, 'mesh=wedge&n=2');
-  await drop(page, 'octahedron.obj', octahedronFiles['octahedron.obj']);
+  await drop(page, { 'octahedron.obj': octahedronFiles['octahedron.obj'] });
   await showsMesh(page, 'octahedron.obj', octahedron, 16);
 });
 
 test('dropped files', async (t) => {
   const page = await site.open(t, start);
-  await drop(page, 'octahedron.off', octahedronFiles['octahedron.off']);
+  await drop(page, { 'octahedron.off': octahedronFiles['octahedron.off'] });
   await showsMesh(page, 'octahedron.off', octahedron, 4);
   assert.equal(await page.locator('.drop-veil').isVisible(), false);
-  await drop(page, 'octahedron.stl', octahedronFiles['octahedron.stl']);
+  await drop(page, { 'octahedron.stl': octahedronFiles['octahedron.stl'] });
   await shows(page, '#mesh-line', { name: 'octahedron.stl' });
+});
+
+test('of several dropped files the first mesh is opened, and the page says which are not', async (t) => {
+  const page = await site.open(t, start);
+  await drop(page, { 'octahedron.mtl': 'newmtl red', ...octahedronFiles, 'letter.txt': 'Dear reader' });
+  const says = /The page shows one mesh at a time: octahedron\.obj\. Not opened: octahedron\.mtl, octahedron\.off, .* and 1 more\./;
+  await eventually(async () => assert.match(await textOf(page, '[data-test=notice]'), says));
+  await showsMesh(page, 'octahedron.obj', octahedron, 4);
+});
+
+test('a dropped folder is refused, by its name', async (t) => {
+  const page = await site.open(t, start);
+  const browser = await page.context().newCDPSession(page);
+  const data = { items: [], files: [import.meta.dirname], dragOperationsMask: 1 };
+  for (const type of ['dragEnter', 'dragOver', 'drop']) await browser.send('Input.dispatchDragEvent', { type, x: 100, y: 300, data });
+  await eventually(async () => assert.match(await textOf(page, '[data-test=alert]'), /^page can't be read .*it is a folder/));
+  assert.equal(await isReady(page), 'ready');
 });
 
 test('an address', async (t) => {

@@ -50,7 +50,7 @@ function start(): void {
   );
   element('stage').append(legend(app), hoverLine(app), stageNote(app), progressLine(app), cellCard(app));
   element('panels').append(meshPanel(app), cutPanel(app), viewPanel(app), stepsPanel(app), checksPanel(app), savePanel(app));
-  acceptDrops(app);
+  acceptDrops(app, notice);
   skipToPanels();
   void followLink(app, notice).then(() => loadAhead(engine));
 }

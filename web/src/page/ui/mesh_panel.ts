@@ -1,8 +1,9 @@
 import type { App } from '../app';
 import { fileExtensions } from '../../model/formats';
+import { fileError } from '../../model/failure';
 import { gallery } from '../../model/gallery/list';
 import { button, el } from './dom';
-import { plural } from '../../model/format';
+import { integer, plural } from '../../model/format';
 import { section } from './section';
 
 /** Pickers only look at the last extension. */
@@ -71,8 +72,10 @@ function fileButton(app: App): HTMLElement {
   );
 }
 
+const unreadable = "The browser can't read it: it is a folder, or it was moved or changed meanwhile. Open a file that holds a mesh.";
+
 async function openFile(app: App, file: File): Promise<void> {
-  const bytes = await app.ask(file.arrayBuffer());
+  const bytes = await app.ask(file.arrayBuffer().catch(() => Promise.reject(fileError(file.name, unreadable))));
   if (bytes) await app.open({ kind: 'file', name: file.name }, { bytes });
 }
 
@@ -87,8 +90,22 @@ function urlForm(app: App): HTMLElement {
   return el('form', { class: 'row', id: 'url-form', submit }, label, input, el('button', { id: 'open-url' }, 'Load'));
 }
 
+/** Of several files the one to open: the first that is a mesh by its name. */
+function firstMesh(files: readonly File[]): File | undefined {
+  const isMesh = ({ name }: File) => fileExtensions.some((extension) => name.toLowerCase().endsWith(extension));
+  return files.find(isMesh) ?? files[0];
+}
+
+const mostNames = 5;
+
+function namesOf(files: readonly File[]): string {
+  const more = files.length > mostNames ? ` and ${integer(files.length - mostNames)} more` : '';
+  const names = files.slice(0, mostNames).map(({ name }) => name);
+  return names.join(', ') + more;
+}
+
 /** Files dropped anywhere on the page. */
-export function acceptDrops(app: App): void {
+export function acceptDrops(app: App, notice: (text: string) => void): void {
   const veil = el('div', { class: 'drop-veil', hidden: true }, 'Drop a mesh to cut it');
   document.body.append(veil);
   const hasFiles = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false;
@@ -104,7 +121,11 @@ export function acceptDrops(app: App): void {
     veil.hidden = true;
     if (!hasFiles(event)) return;
     event.preventDefault();
-    const file = event.dataTransfer?.files[0];
-    if (file) void openFile(app, file);
+    const files = Array.from(event.dataTransfer?.files ?? []);
+    const file = firstMesh(files);
+    if (!file) return;
+    const others = files.filter((other) => other !== file);
+    if (others.length > 0) notice(`The page shows one mesh at a time: ${file.name}. Not opened: ${namesOf(others)}.`);
+    void openFile(app, file);
   });
 }
