@@ -6,7 +6,7 @@ import { importBundled } from './bundled.mjs';
 const { gallery, galleryMesh } = await importBundled('model/gallery/index.ts');
 const resolutions = [8, 16, 32, 50];
 
-/** What has to come out: regions at a resolution of 32, and whether they have winding numbers. */
+/** What has to come out: regions at a resolution of 32, whether they have winding numbers, and pairs of triangles that cross. */
 const expected = {
   bunny: { windings: [0, 1] },
   hilbert: { windings: [0, 1, 0] },
@@ -28,6 +28,11 @@ const expected = {
   trumpet: { windings: null },
   pages: { windings: null },
   crate: { windings: null },
+  'crossing-tori': { windings: [0, 1, 1, 2, 2], crossing: 272 },
+  'pushed-blob': { windings: [0, 1, -1], crossing: 112 },
+  teapot: { windings: [0, 1, 1, 1, 2, 2, 2], crossing: 205 },
+  'klein-bottle': { windings: null, regions: 2, crossing: 98 },
+  'boys-surface': { windings: null, regions: 2, crossing: 291 },
 };
 
 const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
@@ -45,8 +50,8 @@ function pierces(p, q, [a, b, c]) {
   return sides.every((side) => side > 0) || sides.every((side) => side < 0);
 }
 
-/** Two triangles that share no vertex, one of which has an edge that runs through the other; null if there are none. */
-function findIntersection({ positions, triangles }) {
+/** Pairs of triangles that share no vertex, one of which has an edge that runs through the other. */
+function findIntersections({ positions, triangles }) {
   const corner = (k) => Array.from(positions.subarray(3 * triangles[k], 3 * triangles[k] + 3));
   const items = Array.from({ length: triangles.length / 3 }, (_, t) => {
     const corners = [0, 1, 2].map((k) => corner(3 * t + k));
@@ -60,21 +65,22 @@ function findIntersection({ positions, triangles }) {
     [2, 0],
   ];
   const meets = (a, b) => edges.some(([i, j]) => pierces(a.corners[i], a.corners[j], b.corners));
+  const pairs = [];
   for (let i = 0; i < items.length; ++i) {
     const a = items[i];
     for (let j = i + 1; j < items.length && items[j].low[0] <= a.high[0]; ++j) {
       const b = items[j];
       if (b.low[1] > a.high[1] || b.high[1] < a.low[1] || b.low[2] > a.high[2] || b.high[2] < a.low[2]) continue;
       if (a.places.some((place) => b.places.includes(place))) continue;
-      if (meets(a, b) || meets(b, a)) return [a.t, b.t];
+      if (meets(a, b) || meets(b, a)) pairs.push([a.t, b.t]);
     }
   }
-  return null;
+  return pairs;
 }
 
 test('an intersection is found', () => {
   const crossing = { positions: new Float64Array([0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, -1, 1, 1, 1, 9, 9, 9]), triangles: [0, 1, 2, 3, 4, 5] };
-  assert.deepEqual(findIntersection(crossing), [0, 1]);
+  assert.deepEqual(findIntersections(crossing), [[0, 1]]);
 });
 
 test('entries are complete and their names differ', () => {
@@ -87,7 +93,7 @@ test('entries are complete and their names differ', () => {
 });
 
 test('an unknown name is refused', async () => {
-  await assert.rejects(galleryMesh('teapot'), /no "teapot" in the gallery/);
+  await assert.rejects(galleryMesh('dragon'), /no "dragon" in the gallery/);
   await assert.rejects(galleryMesh('constructor'), /no "constructor"/);
 });
 
@@ -100,7 +106,11 @@ for (const { name, cells } of gallery) {
       mesh = await galleryMesh(name);
     });
 
-    test('does not intersect itself', () => assert.equal(findIntersection(mesh), null));
+    const { crossing = 0 } = expected[name];
+    test(`crosses itself in ${crossing} places`, () => {
+      assert.equal(findIntersections(mesh).length, crossing);
+      assert.equal(mandoline.findIntersections(mesh).counts.crossing, crossing);
+    });
 
     test('is the same every time', async () => assert.deepEqual(await galleryMesh(name), mesh));
 

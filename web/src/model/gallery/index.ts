@@ -1,5 +1,6 @@
-// The meshes that the page brings along: the paper's cases and a scan. They are y-up, and none intersects itself.
+// The meshes that the page brings along: the paper's cases, a scan, and surfaces that cross themselves. They are y-up.
 import bunnyScan from 'bunny';
+import { boysSurface, crossingTori, kleinBottle, pushedBlob, teapot } from './crossing';
 import { claw, emptyCones, oscillator, wedge } from './difficult';
 import type { MeshArrays } from './mesh';
 import { crate, doubleBubble, moebiusStrip, pages, thinBowl, trumpet, wavyPlane, wavySlab } from './sheets';
@@ -35,6 +36,11 @@ const makers = new Map<string, () => MeshArrays | Promise<MeshArrays>>([
   ['trumpet', trumpet],
   ['pages', pages],
   ['crate', crate],
+  ['crossing-tori', crossingTori],
+  ['pushed-blob', pushedBlob],
+  ['teapot', teapot],
+  ['klein-bottle', kleinBottle],
+  ['boys-surface', boysSurface],
 ]);
 
 export async function galleryMesh(name: string): Promise<MeshArrays> {

@@ -130,4 +130,34 @@ export const gallery: readonly GalleryEntry[] = [
     cells: 9,
     line: 'Walls that cross at shared edges: up to four sheets meet at an edge, and top and bottom are open.',
   },
+  {
+    name: 'crossing-tori',
+    title: 'Crossing tori',
+    cells: 16,
+    line: 'Two rings, each through the wall of the other: where they overlap are regions of their own, of winding number 2.',
+  },
+  {
+    name: 'pushed-blob',
+    title: 'Blob pushed through itself',
+    cells: 16,
+    line: 'One side of a lumpy blob is pushed in until it comes out at the other, inside out: its tip has winding number −1.',
+  },
+  {
+    name: 'teapot',
+    title: 'Teapot',
+    cells: 18,
+    line: 'Spout and handle are simply stuck through the wall of the pot: the cut finds what lies in which of them.',
+  },
+  {
+    name: 'klein-bottle',
+    title: 'Klein bottle',
+    cells: 16,
+    line: 'A closed surface with one side, which passes through itself in a ring: its inside is told by parity.',
+  },
+  {
+    name: 'boys-surface',
+    title: "Boy's surface",
+    cells: 14,
+    line: 'A closed surface with one side that crosses itself along three loops, which meet in a triple point.',
+  },
 ];

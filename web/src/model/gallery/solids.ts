@@ -3,7 +3,7 @@ import { flipped, fromPoints, loft, merged, moved, range, type MeshArrays, type 
 import { add, scale, unit } from './vector';
 
 /** A sphere of 20 * 4^subdivisions triangles about the origin. */
-function sphere(radius: number, subdivisions: number): MeshArrays {
+export function sphere(radius: number, subdivisions: number): MeshArrays {
   const g = (1 + Math.sqrt(5)) / 2;
   const points: Point[] = [];
   for (const a of [-1, 1]) for (const b of [-g, g]) points.push([0, a, b], [a, b, 0], [b, 0, a]);

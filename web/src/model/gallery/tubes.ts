@@ -90,7 +90,7 @@ export function torusKnot(): MeshArrays {
 }
 
 /** A ring about the y axis. */
-function torus(ringRadius: number, tubeRadius: number, slices: number, sides: number): MeshArrays {
+export function torus(ringRadius: number, tubeRadius: number, slices: number, sides: number): MeshArrays {
   const rings = range(slices).map((k) => {
     const u = (2 * Math.PI * k) / slices;
     return range(sides).map((i): Point => {
