@@ -3,6 +3,7 @@ import type { Slice, Validation } from 'mandoline-wasm';
 import type { Vector3 } from './vector';
 import type { Bounds } from './grid_around';
 import type { CellCard, GridSettings, Model, Source, StepPicture, StepRequest } from './types';
+import type { Wind, WindFormat, WindRequest } from './wind';
 
 /** A mesh as both sides keep it. */
 export interface LoadedMesh {
@@ -41,6 +42,16 @@ export interface Calls {
   write: { ask: AboutCut<{ format: 'json' | 'vtu' | 'obj' }>; answer: Uint8Array };
 }
 export type CallName = keyof Calls;
+
+/** What is asked of the thread of the wind tunnel. */
+export interface WindCalls {
+  keep: { ask: LoadedMesh; answer: void };
+  wind: { ask: WindRequest; answer: Wind };
+  /** Loads the module that computes, or solves for another wind, so that this can be turned at once; whether there may be more to do. */
+  windAhead: { ask: null; answer: boolean };
+  writeWind: { ask: { request: Omit<WindRequest, 'known'>; format: WindFormat }; answer: Uint8Array };
+}
+export type WindCallName = keyof WindCalls;
 
 /** About the cut-mesh of this recipe, which the thread holds or makes again. */
 export type AboutCut<More = unknown> = { recipe: Recipe } & More;

@@ -1,0 +1,61 @@
+// A mesh in a box of cells through which wind can blow: a cut of its own, with octree cells away from the surface.
+import type { CutMesh, Mesh } from 'mandoline-wasm';
+import type { CellComplex, Flow } from 'mandoline-wasm/physics';
+import type { LoadedMesh } from '../../model/calls';
+import { pageError } from '../../model/failure';
+import type { Vector3 } from '../../model/vector';
+import { mostWindCells, windMargin } from '../../model/wind';
+import type { Package } from './package';
+import type { Surface } from './surface';
+
+export interface Tunnel {
+  /** Of the mesh and the size. */
+  key: string;
+  mesh: LoadedMesh;
+  /** Grid cells along its longest side. */
+  size: number;
+  cutMesh: CutMesh;
+  cells: CellComplex;
+  origin: Vector3;
+  /** Per region: 1 if it reaches a side of the box. Nothing flows in the others. */
+  isOpen: Uint8Array;
+  /** Flows of winds of length 1 that were solved: along x, y and z, and in the latest direction besides. */
+  axes: (Flow | null)[];
+  other: Flow | null;
+  /** Made when it is first drawn. */
+  surface: Surface | null;
+}
+
+export async function makeTunnel({ mandoline, physics }: Package, mesh: LoadedMesh, size: number): Promise<Tunnel> {
+  if (size > mostWindCells) {
+    const detail = `It has ${size} cells along its longest side; the page takes up to ${mostWindCells}. The library has no such limit.`;
+    throw pageError('The grid of the wind tunnel is too fine', detail);
+  }
+  const cutMesh = mandoline.cut(mesh as Mesh, { cells: size, margin: windMargin }, { gridCellRegion: false });
+  const cells = await physics.cellComplex(mesh, cutMesh, await physics.coarsen(cutMesh));
+  const [x, y, z] = cutMesh.grid.planes.map((planes) => (planes[0] + planes[planes.length - 1]) / 2);
+  const isOpen = openRegions(cells, cutMesh.regionCount);
+  return {
+    key: `${mesh.id} ${size}`,
+    mesh,
+    size,
+    cutMesh,
+    cells,
+    origin: [x, y, z],
+    isOpen,
+    axes: [null, null, null],
+    other: null,
+    surface: null,
+  };
+}
+
+/** Tags of faces below this are the sides of the box. */
+const innerTag = 6;
+
+function openRegions({ faceTag, faceCells, cellRegion }: CellComplex, count: number): Uint8Array {
+  const isOpen = new Uint8Array(count);
+  for (let face = 0; face < faceTag.length; face++) {
+    if (faceTag[face] < innerTag) isOpen[cellRegion[Math.max(faceCells[2 * face], faceCells[2 * face + 1])]] = 1;
+  }
+  return isOpen;
+}
