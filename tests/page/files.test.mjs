@@ -281,23 +281,40 @@ describe('bad files', () => {
     ['cut.stl', binaryStl().subarray(0, 200), /^Byte \d+: /],
     ['index.ply', ply.replace('3 0 3 1', '3 0 4 1'), /^Line 16: .*vertex 4/],
 
-    ['json.gltf', '{"asset": ', /JSON/],
-    ['other.gltf', '{"type": "geo"}', /Unsupported asset/],
-    ['old.gltf', embedded({ asset: { version: '1.0' } }), />=2\.0 are supported/],
+    ['json.gltf', '{"asset": ', /cut off: its JSON/],
+    ['other.gltf', '{"type": "geo"}', /no glTF/],
+    ['old.gltf', embedded({ asset: { version: '1.0' } }), /glTF of version 1\.0; only version 2 is read/],
     ['outside.gltf', JSON.stringify(gltf({ buffers: [{ byteLength: 72, uri: 'data.bin' }] })), /another file, "data\.bin"/],
-    ['base64.gltf', JSON.stringify(gltf({ buffers: [{ byteLength: 72, uri: 'data:;base64,@@' }] })), /buffer/],
+    ['base64.gltf', JSON.stringify(gltf({ buffers: [{ byteLength: 72, uri: 'data:;base64,@@' }] })), /^It is damaged, or/],
+    ['lonely.gltf', JSON.stringify(gltf()), /buffer 0 has no data/],
     ['draco.glb', glb(gltf({ extensionsRequired: ['KHR_draco_mesh_compression'] })), /compressed with Draco/],
-    ['cut.glb', glb(gltf()).subarray(0, -10), /./],
-    ['header.glb', glb(gltf()).subarray(0, 10), /./],
-    ['cycle.glb', glb(gltf({ nodes: [{ children: [0], mesh: 0 }] })), /./],
-    ['child.glb', glb(gltf({ nodes: [{ children: [7] }] })), /./],
-    ['mesh.glb', glb(gltf({ nodes: [{ mesh: 9 }] })), /./],
+    ['used.glb', glb(gltf({ extensionsUsed: ['KHR_draco_mesh_compression'] })), /compressed with Draco/],
+    ['cut.glb', glb(gltf()).subarray(0, -10), /^It is cut off: of \d+ bytes \d+ are there\.$/],
+    ['header.glb', glb(gltf()).subarray(0, 10), /cut off: of 12 bytes 10 are there/],
+    ['cut.glb.gz', gzipSync(glb(gltf())).subarray(0, 100), /^Damaged gzip data/],
+    ['cycle.glb', glb(gltf({ nodes: [{ children: [0], mesh: 0 }] })), /node 0 contains itself/],
+    ['child.glb', glb(gltf({ nodes: [{ children: [7] }] })), /node 0 refers to node 7, but there are 1, from 0 on/],
+    ['mesh.glb', glb(gltf({ nodes: [{ mesh: 9 }] })), /node 0 refers to mesh 9/],
+    ['scene.glb', glb(gltf({ scene: 3 })), /"scene" refers to scene 3/],
+    ['no-scene.glb', glb(gltf({ scenes: undefined, scene: undefined })), /no scene/],
     ['nothing.glb', glb(gltf({ nodes: [{}] })), /no triangles/],
-    ['strange.glb', glb(gltf({ nodes: 7, meshes: {}, accessors: 'x' })), /./],
-    ['many.glb', glb(gltf({ accessors: [{ bufferView: 0, componentType: 5126, count: 4e9, type: 'VEC3' }, gltf().accessors[1]] })), /./],
-    ['component.glb', glb(gltf({ accessors: [{ ...gltf().accessors[0], componentType: 1 }, gltf().accessors[1]] })), /./],
-    ['accessor.glb', glb(gltf({ meshes: [{ primitives: [{ attributes: { POSITION: 5 } }] }] })), /./],
-    ['beyond.glb', glb(gltf({ accessors: [{ bufferView: 0, componentType: 5126, count: 20, type: 'VEC3' }, gltf().accessors[1]] })), /./],
+    ['strange.glb', glb(gltf({ nodes: 7, meshes: {}, accessors: 'x' })), /"nodes" is no list/],
+    [
+      'many.glb',
+      glb(gltf({ accessors: [{ bufferView: 0, componentType: 5126, count: 4e9, type: 'VEC3' }, gltf().accessors[1]] })),
+      /accessor 0 needs 4000000000 items, but its buffer view 0 has only 48 bytes/,
+    ],
+    [
+      'component.glb',
+      glb(gltf({ accessors: [{ ...gltf().accessors[0], componentType: 1 }, gltf().accessors[1]] })),
+      /accessor 0 has no type/,
+    ],
+    ['accessor.glb', glb(gltf({ meshes: [{ primitives: [{ attributes: { POSITION: 5 } }] }] })), /mesh 0 refers to accessor 5/],
+    [
+      'beyond.glb',
+      glb(gltf({ accessors: [{ bufferView: 0, componentType: 5126, count: 20, type: 'VEC3' }, gltf().accessors[1]] })),
+      /accessor 0 needs 20 items/,
+    ],
     [
       'index.glb',
       glb(gltf(), Buffer.concat([gltfData.subarray(0, 48), Buffer.from(new Uint16Array([0, 1, 9, ...faces.flat().slice(3)]).buffer)])),
@@ -312,11 +329,21 @@ describe('bad files', () => {
   for (const [name, content, detail] of bad) test(name, { timeout: 5000 }, () => refuses(name, content, detail));
 });
 
+test('bounds of positions may be missing: nothing is said on the console', async (t) => {
+  const warn = t.mock.method(console, 'warn', () => {});
+  const [{ min, max, ...position }, indices] = gltf().accessors;
+  assert.deepEqual(corners(await parse('a.glb', glb(gltf({ accessors: [position, indices] })))), expectedCorners);
+  assert.equal(warn.mock.callCount(), 0);
+});
+
 describe('a glTF file cut off anywhere gives a mesh or an error, soon', () => {
   const settle = (name, bytes) =>
     parse(name, bytes).then(
       ({ positions, triangles }) => assert.ok(positions.every(Number.isFinite) && triangles.every((v) => 3 * v < positions.length), name),
-      ({ title, detail }) => assert.ok(title && detail, name),
+      ({ title, detail }) => {
+        assert.ok(title && detail, name);
+        assert.doesNotMatch(detail, /THREE|undefined|Cannot read|typed array|DataView|token|position \d/, 'words for people');
+      },
     );
   for (const [name, content] of Object.entries({ 'a.glb': glb(gltf()), 'a.gltf': embedded() })) {
     const bytes = Buffer.from(content);

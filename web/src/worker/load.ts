@@ -45,12 +45,19 @@ async function fetched(url: string): Promise<ArrayBuffer> {
 /** glTF and GLB by three's loader, which is fetched when it is needed; all else by the package. */
 export async function readMesh(mandoline: Mandoline, bytes: ArrayBuffer, name: string): Promise<MeshArrays> {
   try {
-    const mesh = isGltf(bytes, name) ? await (await import('./gltf')).readGltf(bytes) : await mandoline.readMesh(bytes, { name });
+    const mesh = isGltf(bytes, name) ? await readGltf(bytes) : await mandoline.readMesh(bytes, { name });
     if (mesh.triangles.length === 0) throw new Error('It has no triangles.');
     return mesh;
   } catch (error) {
     throw isPageError(error) ? error : fileError(name, whatIsWrong(error, name));
   }
+}
+
+async function readGltf(bytes: ArrayBuffer): Promise<MeshArrays> {
+  const reader = await import('./gltf').catch(() => {
+    throw new Error('What reads glTF could not be loaded. Look after the connection, then open the file again.');
+  });
+  return reader.readGltf(bytes);
 }
 
 /** By content if that is enough, else by name. */
