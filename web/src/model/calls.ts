@@ -2,7 +2,7 @@
 import type { Slice, Validation } from 'mandoline-wasm';
 import type { Vector3 } from './vector';
 import type { Bounds } from './grid_around';
-import type { CellCard, GridSettings, Model, Source, StepPicture, StepRequest } from './types';
+import type { CellCard, Cutting, Model, Source, StepPicture, StepRequest } from './types';
 import type { Wind, WindFormat, WindRequest } from './wind';
 
 /** A mesh as both sides keep it. */
@@ -16,13 +16,11 @@ export interface LoadedMesh {
 }
 
 /** How a cut is made. Cutting again gives the same ids, bit by bit. */
-export interface Recipe {
+export interface Recipe extends Cutting {
   /** The Model's: counts up with every cut. */
   id: number;
   /** Id of the mesh. */
   mesh: number;
-  grid: GridSettings;
-  snapTolerance: number;
 }
 
 /** What is asked, and what comes. */

@@ -1,4 +1,5 @@
 // The state of the page as plain data, and as the hash of a link.
+import { motions } from './motion';
 import type { Axis, ColorBy, GridSettings, Settings, SliceName, SliceSettings, Source } from './types';
 import type { Vector3 } from './vector';
 
@@ -14,6 +15,7 @@ export function defaultSettings(): Settings {
     source: defaultSource,
     grid: { cells: defaultCells },
     snapTolerance: 0,
+    pose: null,
     slices: {
       x: { on: false, position: 0.5, normal: [1, 0, 0] },
       y: { on: false, position: 0.5, normal: [0, 1, 0] },
@@ -43,6 +45,7 @@ function entries(settings: Settings): [string, string][] {
   if ('min' in grid) list.push(['n', grid.cells.join()], ['box', [...grid.min, ...grid.max].join()]);
   else list.push(['n', String(grid.cells)]);
   list.push(['snap', String(settings.snapTolerance)]);
+  if (settings.pose) list.push(['pose', `${settings.pose.motion},${short([settings.pose.phase])}`]);
   for (const name of sliceNames) list.push([name, sliceText(name, slices[name])]);
   list.push(['slice', settings.sliceMode], ['explode', short([explode.cells, explode.regions])], ['color', settings.colorBy]);
   list.push(['show', layers.filter((layer) => show[layer]).join()]);
@@ -85,6 +88,14 @@ const readers: Record<string, Reader> = {
     const [value] = numbers(text, 1) ?? [-1];
     if (value < 0 || value >= 0.5) return false;
     settings.snapTolerance = value;
+    return true;
+  },
+  pose: (settings, text) => {
+    const [name, ...rest] = text.split(',');
+    const motion = motions.find((known) => known === name);
+    const [phase] = numbers(rest.join(), 1) ?? [NaN];
+    if (!motion || !(phase >= 0)) return false;
+    settings.pose = { motion, phase };
     return true;
   },
   x: (settings, text) => readAxisSlice(settings, 'x', text),

@@ -2,6 +2,7 @@
 import type { CutStats, Grid, InsideBy, Slice, Validation } from 'mandoline-wasm';
 import type { Vector3 } from './vector';
 import type { Bounds } from './grid_around';
+import type { Pose } from './motion';
 
 /** Where a mesh comes from. A file's bytes are kept by the worker; a link can't restore it. */
 export type Source = { kind: 'gallery'; name: string } | { kind: 'url'; url: string } | { kind: 'file'; name: string };
@@ -23,11 +24,17 @@ export interface SliceSettings {
 
 export type ColorBy = 'region' | 'winding' | 'cell' | 'volume' | 'kind';
 
-/** What is cut, and how. */
-export interface CutSettings {
-  source: Source;
+/** How a mesh is cut. */
+export interface Cutting {
   grid: GridSettings;
   snapTolerance: number;
+  /** The moment of a motion at which it is cut; a grid without a box then has room for all of the motion. Null for the mesh as it is. */
+  pose: Pose | null;
+}
+
+/** What is cut, and how. */
+export interface CutSettings extends Cutting {
+  source: Source;
 }
 
 /** How it is shown. */
@@ -183,7 +190,7 @@ export interface Engine {
   load(source: Source, bytes?: ArrayBuffer): Promise<MeshInfo>;
   /** Loads the readers of files before a file is opened. */
   loadAhead(): Promise<void>;
-  cut(grid: GridSettings, snapTolerance: number): Promise<Model>;
+  cut(cutting: Cutting): Promise<Model>;
   /** Ends the load or cut under way: they reject with an AbortError. */
   cancel(): void;
   onProgress: (progress: { stage: string; fraction: number } | null) => void;

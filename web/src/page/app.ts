@@ -5,9 +5,11 @@ import { Events } from './events';
 import { gallery } from '../model/gallery/list';
 import { defaultCells, defaultSettings, defaultSource } from '../model/settings';
 import { isOutside } from '../model/inside';
+import type { Pose } from '../model/motion';
 import { isSheet } from './view/look';
 import type {
   CellCard,
+  Cutting,
   Engine,
   GridSettings,
   MeshInfo,
@@ -66,7 +68,7 @@ export class App {
   private fitNext = false;
   private wasSheet = false;
   /** What the model was made of. */
-  private shown: Pick<Settings, 'grid' | 'snapTolerance'> & { mesh: MeshInfo | null } = { ...this.settings, mesh: null };
+  private shown: { cutting: Cutting; mesh: MeshInfo | null } = { cutting: this.settings, mesh: null };
 
   constructor(
     private readonly engine: Engine,
@@ -86,7 +88,7 @@ export class App {
       if (this.model) this.wasSheet = isSheet(this.model);
       const grid = { cells: cells ?? this.cellsToKeep() };
       this.fitNext = true;
-      this.change({ source, grid, snapTolerance: 0, show: { ...this.settings.show, region: null }, camera: null }, false);
+      this.change({ source, grid, snapTolerance: 0, pose: null, show: { ...this.settings.show, region: null }, camera: null }, false);
       await this.recut(true);
     });
   }
@@ -161,8 +163,8 @@ export class App {
   private async fallBack(error: PageError): Promise<void> {
     this.troubles.push(error);
     if ((await this.load(defaultSource)) !== 'loaded') return;
-    const { source, grid, snapTolerance } = defaultSettings();
-    this.change({ source, grid, snapTolerance, camera: null }, false);
+    const { source, grid, snapTolerance, pose } = defaultSettings();
+    this.change({ source, grid, snapTolerance, pose, camera: null }, false);
     await this.recut(true);
   }
 
@@ -231,28 +233,38 @@ export class App {
     this.change({ show: { ...this.settings.show, ...part } });
   }
 
-  setGrid(grid: GridSettings): void {
-    this.change({ grid }, false);
-    void this.recut(false);
+  /** Resolves once this is drawn, or a newer cut has taken its place; false if it failed. */
+  setGrid(grid: GridSettings): Promise<boolean> {
+    return this.setCutting({ grid });
   }
 
-  setSnapTolerance(snapTolerance: number): void {
-    this.change({ snapTolerance }, false);
-    void this.recut(false);
+  setSnapTolerance(snapTolerance: number): Promise<boolean> {
+    return this.setCutting({ snapTolerance });
+  }
+
+  /** Cuts the mesh at a moment of a motion. */
+  setPose(pose: Pose | null): Promise<boolean> {
+    return this.setCutting({ pose });
+  }
+
+  private async setCutting(part: Partial<Cutting>): Promise<boolean> {
+    this.change(part, false);
+    return (await this.recut(false)) === null;
   }
 
   /** Cuts with the current settings; the engine makes the newest cut win. Resolves to what went wrong, if anything did. */
   private async recut(frame: boolean): Promise<PageError | null> {
     let problem: PageError | null = null;
     this.frameNext ||= frame;
-    const { grid, snapTolerance } = this.settings;
+    const { grid, snapTolerance, pose } = this.settings;
+    const cutting = { grid, snapTolerance, pose };
     this.cuts++;
     this.tellWork();
     await this.during(async () => {
       try {
-        this.takeModel(await this.engine.cut(grid, snapTolerance));
+        this.takeModel(await this.engine.cut(cutting));
         this.failed = false;
-        this.shown = { mesh: this.mesh, grid, snapTolerance };
+        this.shown = { mesh: this.mesh, cutting };
         this.events.tell('cutError', null);
         this.events.tell('alert', null);
       } catch (error) {
@@ -300,8 +312,8 @@ export class App {
   /** Stops what is under way and goes back to the settings of the picture, if that is of the same mesh. */
   cancel(): void {
     this.engine.cancel();
-    const { mesh, grid, snapTolerance } = this.shown;
-    if (this.mesh === mesh) this.change({ grid, snapTolerance }, false);
+    const { mesh, cutting } = this.shown;
+    if (this.mesh === mesh) this.change(cutting, false);
     else this.giveUp({ title: 'Cancelled', detail: 'This mesh has not been cut yet. Change its grid to cut it.' });
   }
 

@@ -4,7 +4,7 @@ import { createWorker, type MandolineWorker } from 'mandoline-wasm/worker';
 import type { Slice, Validation } from 'mandoline-wasm';
 import type { Vector3 } from '../model/vector';
 import { isLack, isOutdated, type CallName, type CallProgress, type Calls, type LoadedMesh, type Recipe } from '../model/calls';
-import type { CellCard, Engine, GridSettings, MeshInfo, Model, PageError, Source, StepPicture, StepRequest } from '../model/types';
+import type { CellCard, Cutting, Engine, MeshInfo, Model, PageError, Source, StepPicture, StepRequest } from '../model/types';
 import { pageError } from '../model/failure';
 import { abortError, isCancellation, toPageError } from './failure';
 
@@ -16,8 +16,7 @@ interface CallOptions {
 
 /** A cut that waits for the one under way. */
 interface WaitingCut {
-  grid: GridSettings;
-  snapTolerance: number;
+  cutting: Cutting;
   resolve(model: Promise<Model>): void;
   reject(error: unknown): void;
 }
@@ -73,20 +72,20 @@ class WorkerEngine implements Engine {
   }
 
   /** A running cut is finished, so that the picture keeps changing while a slider moves; then comes the newest of those that wait. */
-  cut(grid: GridSettings, snapTolerance: number): Promise<Model> {
-    if (!this.cutting) return this.cutNow(grid, snapTolerance);
+  cut(cutting: Cutting): Promise<Model> {
+    if (!this.cutting) return this.cutNow(cutting);
     this.waiting?.reject(abortError());
-    return new Promise((resolve, reject) => (this.waiting = { grid, snapTolerance, resolve, reject }));
+    return new Promise((resolve, reject) => (this.waiting = { cutting, resolve, reject }));
   }
 
-  private async cutNow(grid: GridSettings, snapTolerance: number): Promise<Model> {
+  private async cutNow(how: Cutting): Promise<Model> {
     const cutting = new AbortController();
     this.cutting = cutting;
     try {
       await this.loaded;
       const { mesh } = this;
       if (!mesh) throw noMesh();
-      const recipe: Recipe = { id: ++this.cuts, mesh: mesh.id, grid, snapTolerance };
+      const recipe: Recipe = { id: ++this.cuts, mesh: mesh.id, ...how };
       const model = await this.call('cut', recipe, { signal: cutting.signal, progress: (progress) => this.onProgress(progress) });
       this.shown = recipe;
       this.keep(mesh);
@@ -100,7 +99,7 @@ class WorkerEngine implements Engine {
     const { waiting } = this;
     this.cutting = this.waiting = null;
     this.onProgress(null);
-    waiting?.resolve(this.cutNow(waiting.grid, waiting.snapTolerance));
+    waiting?.resolve(this.cutNow(waiting.cutting));
   }
 
   /** Without shared memory the thread can't be told to stop, so it is ended with its call. */

@@ -4,6 +4,7 @@ import type { Vector3 } from '../model/vector';
 import type { CallProgress, Lack, LoadedMesh, Outdated, Recipe } from '../model/calls';
 import { pageError } from '../model/failure';
 import { gridAround, type Bounds } from '../model/grid_around';
+import { makeMover, type Motion, type Mover } from '../model/motion';
 import type { GridSettings } from '../model/types';
 
 export interface Cut {
@@ -26,6 +27,7 @@ const mostGridCells = 2 ** 24;
 const meshes = new Map<number, LoadedMesh>();
 const prepared = new WeakMap<LoadedMesh, Mesh>();
 let newest: Cut | null = null;
+let moving: { mesh: LoadedMesh; motion: Motion; mover: Mover } | null = null;
 
 /** Keeps a mesh, and drops all others except the one that is shown. */
 export function keep(mesh: LoadedMesh): void {
@@ -40,12 +42,22 @@ export function meshOf(id: number): LoadedMesh {
   throw lack;
 }
 
-/** The mesh, prepared when it is first cut: the slider cuts it again and again. */
-function preparedMesh(mandoline: Mandoline, mesh: LoadedMesh, snapTolerance: number): Mesh {
-  if (snapTolerance > 0) return mesh;
+/** The mesh, prepared when it is first cut: the slider cuts it again and again. A mesh that moves is another one every time. */
+function preparedMesh(mandoline: Mandoline, mesh: LoadedMesh, { snapTolerance, pose }: Recipe): Mesh {
+  if (snapTolerance > 0 || pose) return mesh;
   const known = prepared.get(mesh) ?? mandoline.prepare(mesh);
   prepared.set(mesh, known);
   return known;
+}
+
+/** The mesh of a recipe at the moment of its motion, with the bounds of all of the motion. */
+function posed(mandoline: Mandoline, { mesh: id, pose }: Recipe): LoadedMesh {
+  const mesh = meshOf(id);
+  if (!pose) return mesh;
+  if (moving?.mesh !== mesh || moving.motion !== pose.motion) {
+    moving = { mesh, motion: pose.motion, mover: makeMover(mesh, mandoline.inspect(mesh).triangleComponent, pose.motion) };
+  }
+  return { ...mesh, ...moving.mover.at(pose.phase), bounds: moving.mover.bounds };
 }
 
 /** How far a call has come, as the part of the cut from one fraction to another. */
@@ -62,9 +74,10 @@ function withEstimates(mandoline: Mandoline, mesh: LoadedMesh, cutMesh: CutMesh,
 }
 
 export function makeCut(mandoline: Mandoline, recipe: Recipe, tell: (progress: CallProgress) => void): Cut {
-  const mesh = meshOf(recipe.mesh);
+  const mesh = posed(mandoline, recipe);
   checkSize(recipe.grid, mesh.bounds);
-  const exact = mandoline.cut(preparedMesh(mandoline, mesh, recipe.snapTolerance), recipe.grid as GridInput, {
+  const grid = recipe.pose && !('min' in recipe.grid) ? gridAround(mesh.bounds, recipe.grid.cells) : recipe.grid;
+  const exact = mandoline.cut(preparedMesh(mandoline, mesh, recipe), grid as GridInput, {
     snapTolerance: recipe.snapTolerance,
     gridCellRegion: false,
     progress: telling(tell, 0, 0.5),
