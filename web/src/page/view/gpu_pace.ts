@@ -1,9 +1,12 @@
 /**
- * Tells when the GPU has drawn what it was given. Uploads wait inside the browser for a GPU that is behind, and block the page
- * meanwhile, so it is given nothing new before.
+ * Tells when the GPU has drawn what it was given, and how long that took. Uploads wait inside the browser for a GPU that is behind, and block
+ * the page meanwhile, so it is given nothing new before.
  */
 export class GpuPace {
   private fence: WebGLSync | null = null;
+  private markedAt = 0;
+  /** How long the last picture took of which isBehind has told that it is done, in ms: as accurate as that is asked often. */
+  took = 0;
 
   constructor(private readonly gl: WebGL2RenderingContext) {}
 
@@ -12,6 +15,7 @@ export class GpuPace {
     if (this.fence) this.gl.deleteSync(this.fence);
     this.fence = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     this.gl.flush();
+    this.markedAt = performance.now();
   }
 
   /** With a new context nothing is left to wait for. */
@@ -24,6 +28,7 @@ export class GpuPace {
     if (this.gl.clientWaitSync(this.fence, 0, 0) === this.gl.TIMEOUT_EXPIRED) return true;
     this.gl.deleteSync(this.fence);
     this.fence = null;
+    this.took = performance.now() - this.markedAt;
     return false;
   }
 }

@@ -1,19 +1,22 @@
 // When to draw: once something has changed, at the pace of the GPU. Preparing a picture and drawing it are separate tasks, so that the page
 // never waits for both at once.
 import { GpuPace } from './gpu_pace';
+import { Quality } from './quality';
 
 export interface Drawing {
   /** Brings what is drawn up to date. */
   prepare(): void;
   /** Whether the former picture had better stay, since something of the next one is still on its way. */
   isWaiting(): boolean;
-  /** Draws. Gives whether something goes on moving by itself. */
-  draw(seconds: number): boolean;
+  /** Draws, with this share of the screen's pixels per side. Gives whether something goes on moving by itself. */
+  draw(seconds: number, share: number): boolean;
 }
 
 export class Loop {
   private readonly pace: GpuPace;
+  private readonly quality = new Quality(() => this.invalidate());
   private asked = 0;
+  private watched = 0;
   private isStale = true;
   /** Whether what is drawn is up to date and waits for its frame. */
   private isPrepared = false;
@@ -37,12 +40,12 @@ export class Loop {
     this.invalidate();
   }
 
-  /** Draws now. */
+  /** Draws now, as finely as the screen has it. */
   draw(): void {
     cancelAnimationFrame(this.asked);
     this.asked = 0;
     this.prepare();
-    this.render();
+    this.render(1);
   }
 
   /** Draws what has been prepared, before it is replaced: pictures must not be put off as long as new ones keep coming. */
@@ -89,10 +92,16 @@ export class Loop {
     else this.render();
   }
 
-  private render(): void {
+  private render(share = this.quality.next(this.pace.took)): void {
     this.isPrepared = false;
-    const isMoving = this.drawing.draw(performance.now() / 1000);
+    const isMoving = this.drawing.draw(performance.now() / 1000, share);
     this.pace.mark();
     if (isMoving || this.isStale) this.invalidate();
+    this.watched ||= requestAnimationFrame(() => this.watch());
+  }
+
+  /** Sees when the picture is done, even if no other follows. */
+  private watch(): void {
+    this.watched = this.pace.isBehind ? requestAnimationFrame(() => this.watch()) : 0;
   }
 }

@@ -94,7 +94,7 @@ class ThreeView implements View {
     this.loop = new Loop(this.renderer.getContext() as WebGL2RenderingContext, {
       prepare: () => this.prepare(),
       isWaiting: () => this.flatCuts.isAwaited,
-      draw: (seconds) => this.draw(seconds),
+      draw: (seconds, share) => this.draw(seconds, share),
     });
     this.root.add(this.modelGroup, this.stepGroup);
     this.scene.add(this.root, this.gizmo.object);
@@ -281,16 +281,20 @@ class ThreeView implements View {
   private resize(): void {
     const { clientWidth, clientHeight } = this.canvas;
     if (clientWidth === 0 || clientHeight === 0) return;
-    const ratio = Math.min(devicePixelRatio, 2);
-    this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.resize(clientWidth, clientHeight);
-    for (const layer of this.layers) layer.setPixelRatio?.(ratio);
     this.loop.changed();
     this.loop.draw();
   }
 
-  private draw(seconds: number): boolean {
+  private setPixelRatio(ratio: number): void {
+    if (this.renderer.getPixelRatio() === ratio) return;
+    this.renderer.setPixelRatio(ratio);
+    for (const layer of this.layers) layer.setPixelRatio?.(ratio);
+  }
+
+  private draw(seconds: number, share: number): boolean {
+    this.setPixelRatio(share * Math.min(devicePixelRatio, 2));
     this.camera.update();
     const moving = this.layers.filter((layer) => layer.animate?.(seconds));
     this.renderer.render(this.scene, this.camera.camera);
