@@ -133,6 +133,41 @@ describe('while a mesh is loading', () => {
   });
 });
 
+describe('what is too large or too small to be drawn', () => {
+  const scaled = (scale) => writeObj({ ...crossing, positions: crossing.positions.map((x) => x * scale) });
+
+  for (const [scale, says] of [
+    [6e307, /more than 1e\+18 across/],
+    [1e19, /more than 1e\+18 across/],
+    [1e-20, /less than 1e-18 across/],
+    [1e-308, /less than 1e-18 across/],
+  ]) {
+    test(`a mesh with coordinates near ${scale} is refused`, async (t) => {
+      const page = await site.open(t, start);
+      await pick(page, 'scaled.obj', scaled(scale));
+      await eventually(async () => assert.match(await textOf(page, '[data-test=alert]'), says));
+      assert.match(await textOf(page, '[data-test=alert]'), /^scaled\.obj can't be drawn/);
+      await shows(page, '#mesh-line', { name: 'wedge' });
+    });
+  }
+
+  for (const scale of [1e17, 1e-17]) {
+    test(`a mesh with coordinates near ${scale} is drawn`, async (t) => {
+      const page = await site.open(t, start);
+      await pick(page, 'scaled.obj', scaled(scale));
+      await shows(page, '#mesh-line', { name: 'scaled.obj' });
+      assert.equal(await isReady(page), 'ready');
+      await eventually(async () => assert.ok(covered(await pixelsOf(page)) > 0.05));
+    });
+  }
+
+  test('a grid of a link is refused, and its mesh shown in another', async (t) => {
+    const page = await site.open(t, 'mesh=wedge&n=2,2,2&box=-1e300,-1e300,-1e300,1e300,1e300,1e300');
+    assert.match(await textOf(page, '[data-test=alert]'), /The grid can't be drawn.*more than 1e\+18 across/);
+    await eventually(async () => assert.ok(covered(await pixelsOf(page)) > 0.05));
+  });
+});
+
 describe('alerts', () => {
   const alerts = '[data-test=alert]';
 

@@ -3,6 +3,7 @@ import type { Adjacency, CutMesh, FaceTriangles, GridInput, Mandoline, Measures,
 import type { Vector3 } from '../model/vector';
 import type { CallProgress, Lack, LoadedMesh, Outdated, Recipe } from '../model/calls';
 import { pageError } from '../model/failure';
+import { checkExtent } from './extent';
 import { gridAround, type Bounds } from '../model/grid_around';
 import { makeMover, type Motion, type Mover } from '../model/motion';
 import type { GridSettings } from '../model/types';
@@ -100,6 +101,7 @@ export function cutOf(mandoline: Mandoline, recipe: Recipe): Cut {
 }
 
 function checkSize(grid: GridSettings, bounds: Bounds): void {
+  if ('min' in grid) checkExtent(grid, "The grid can't be drawn");
   const { cells } = 'min' in grid ? grid : gridAround(bounds, grid.cells);
   const count = cells[0] * cells[1] * cells[2];
   if (count <= mostGridCells) return;

@@ -1,6 +1,7 @@
 // Where meshes come from: the gallery, an address, a file.
 import type { Mandoline } from 'mandoline-wasm';
 import type { Calls, LoadedMesh } from '../model/calls';
+import { checkExtent } from './extent';
 import { fileError, isPageError, pageError } from '../model/failure';
 import { boundsOf } from '../model/grid_around';
 import { galleryMesh, type MeshArrays } from '../model/gallery';
@@ -8,7 +9,10 @@ import type { Source } from '../model/types';
 
 export async function loadMesh(mandoline: Mandoline, { id, source, bytes }: Calls['load']['ask']): Promise<LoadedMesh> {
   const mesh = source.kind === 'gallery' ? await galleryMesh(source.name) : await readFile(mandoline, source, bytes);
-  return { id, name: nameOf(source), ...mesh, bounds: boundsOf(mesh) };
+  const name = nameOf(source);
+  const bounds = boundsOf(mesh);
+  checkExtent(bounds, `${name} can't be drawn`);
+  return { id, name, ...mesh, bounds };
 }
 
 function nameOf(source: Source): string {
