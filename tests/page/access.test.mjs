@@ -15,7 +15,7 @@ async function openAll(page) {
   await page.locator('#custom-grid summary').click();
   await page.getByText('Stages and details').click();
   await page.locator('#step-next').click();
-  await shows(page, '#canvas', { step: 'triEdges' });
+  await shows(page, '#canvas', { instead: 'triEdges' });
   await enter(page, '#pin-number', 0);
   await shows(page, '#cell-card', { cell: 0 });
 }

@@ -1,6 +1,7 @@
 // How the camera glides after a drag.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { Vector3 } from 'three';
 import { importBundled } from './bundled.mjs';
 
 const { Camera } = await importBundled('page/view/camera.ts');
@@ -41,4 +42,48 @@ test('inertia takes the same time at any frame rate', () => {
 
 test('a glide ends where it was going, at any frame rate', () => {
   for (const rate of [10, 60, 240]) assert.ok(Math.abs(glide(rate, 1) - 0.5) < 1e-3);
+});
+
+/** The camera's places at so many ms of a flight from a ball to another; null where the person takes over. */
+function flight(times, reducedMotion, onTheWay = () => {}) {
+  let time = 5000;
+  const element = canvas();
+  const view = new Camera(element, Object.assign(new EventTarget(), { matches: reducedMotion }), () => time);
+  view.frame(new Vector3(0, 0, 0), 1, false);
+  const { at } = view;
+  view.frame(new Vector3(4, 0, 0), 0.5, true);
+  const there = view.at;
+  view.flyFrom(at);
+  const places = times.map((ms) => {
+    time = 5000 + ms;
+    view.update();
+    onTheWay(view, element, ms);
+    return view.controls.target.x;
+  });
+  return { places, there, view };
+}
+
+test('a flight goes from one place to the other and ends there', () => {
+  const { places, there, view } = flight([0, 200, 400, 600, 1000], false);
+  assert.equal(places[0], 0);
+  for (const [k, x] of places.slice(1).entries()) assert.ok(x > places[k], String(places));
+  assert.ok(view.at.position.distanceTo(there.position) < 1e-9 && view.at.target.equals(there.target));
+  assert.ok(view.isFramed);
+});
+
+test('where motion is to be reduced there is no flight', () => assert.deepEqual(flight([0], true).places, [4]));
+
+test('a flight ends where the person takes over', () => {
+  const press = (_view, element, ms) => {
+    if (ms === 200) element.dispatchEvent(Object.assign(new Event('keydown'), { key: '+' }));
+  };
+  const { places, view } = flight([0, 200, 1000, 2000], false, press);
+  assert.ok(places[3] < 3, String(places));
+  assert.ok(!view.isFramed);
+});
+
+test('a flight goes on in a scene that has been moved', () => {
+  const move = (view, _element, ms) => ms === 200 && view.transform((point) => point.clone().addScalar(10), 1);
+  const { places, there } = flight([0, 200, 1000], false, move);
+  assert.ok(Math.abs(places[2] - 10 - there.target.x) < 1e-9);
 });

@@ -30,7 +30,7 @@ describe('steps', () => {
     const pictures = [model];
     for (const step of ['triEdges', 'hybridEdges', 'triangleFaces', 'axialPlane', 'gridCell']) {
       await page.locator('#step-next').click();
-      await shows(page, '#canvas', { step });
+      await shows(page, '#canvas', { instead: step });
       assert.equal(await page.locator(`#step-${step}`).getAttribute('aria-current'), 'step');
       assert.ok((await textOf(page, '#step-text')).length > 40);
       await looksLike(page, `step ${step}`);
@@ -41,9 +41,9 @@ describe('steps', () => {
     }
     assert.equal(await page.locator('#step-next').isDisabled(), true);
     await page.locator('#step-gridCell').press('ArrowLeft');
-    await shows(page, '#canvas', { step: 'axialPlane' });
+    await shows(page, '#canvas', { instead: 'axialPlane' });
     await page.locator('#step-leave').click();
-    await shows(page, '#canvas', { step: '' });
+    await shows(page, '#canvas', { instead: '' });
     await eventually(async () => assert.ok(difference(model, tiles(await pixelsOf(page))) < 1, 'the model again, seen as before'));
   });
 
@@ -51,7 +51,7 @@ describe('steps', () => {
     const page = await site.open(t, link);
     await openPanel(page, 'steps');
     await page.locator('#step-triangleFaces').click();
-    await shows(page, '#canvas', { step: 'triangleFaces' });
+    await shows(page, '#canvas', { instead: 'triangleFaces' });
     assert.equal(await page.locator('#step-triangle').getAttribute('max'), String(cutMesh.triangleCount - 1));
     for (const triangle of [0, 17, cutMesh.triangleCount - 1]) {
       await enter(page, '#step-triangle-number', triangle);
@@ -65,7 +65,7 @@ describe('steps', () => {
     const page = await site.open(t, link);
     await openPanel(page, 'steps');
     await page.locator('#step-axialPlane').click();
-    await shows(page, '#canvas', { step: 'axialPlane' });
+    await shows(page, '#canvas', { instead: 'axialPlane' });
     for (const [axis, plane] of [
       [1, 2],
       [2, 1],
@@ -81,7 +81,7 @@ describe('steps', () => {
     const page = await site.open(t, link);
     await openPanel(page, 'steps');
     await page.locator('#step-gridCell').click();
-    await shows(page, '#canvas', { step: 'gridCell' });
+    await shows(page, '#canvas', { instead: 'gridCell' });
     const wanted = [3, 1, 2];
     for (const [d, axis] of ['x', 'y', 'z'].entries()) await slideTo(page, `#step-cell-${axis}`, wanted[d]);
     const isWanted = (cell) => wanted.every((c, d) => cutMesh.cellGridCell[3 * cell + d] === c);
@@ -89,7 +89,7 @@ describe('steps', () => {
     assert.ok(cells > 1);
     await hasStepText(page, new RegExp(`^Grid cell \\(${wanted.join(', ')}\\) holds ${cells} cut-cells `));
     await page.locator('#canvas').press('Escape');
-    await shows(page, '#canvas', { step: '' });
+    await shows(page, '#canvas', { instead: '' });
   });
 });
 

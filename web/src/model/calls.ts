@@ -2,7 +2,7 @@
 import type { Slice, Validation } from 'mandoline-wasm';
 import type { Vector3 } from './vector';
 import type { Bounds } from './grid_around';
-import type { CellCard, Cutting, Model, Source, StepPicture, StepRequest } from './types';
+import type { CellCard, Crossings, Cutting, Model, Source, StepPicture, StepRequest } from './types';
 import type { Wind, WindFormat, WindRequest } from './wind';
 
 /** A mesh as both sides keep it. */
@@ -36,6 +36,7 @@ export interface Calls {
   /** The number of cut-edges. */
   edges: { ask: AboutCut; answer: number };
   card: { ask: AboutCut<{ cell: number }>; answer: CellCard };
+  crossings: { ask: AboutCut; answer: Crossings };
   step: { ask: AboutCut<{ request: StepRequest }>; answer: StepPicture };
   write: { ask: AboutCut<{ format: 'json' | 'vtu' | 'obj' }>; answer: Uint8Array };
 }

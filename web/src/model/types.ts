@@ -171,6 +171,21 @@ export interface StepPicture {
   choices: { triangles: number; planes: Vector3; request: StepRequest };
 }
 
+/** Where the triangles of the input meet other than in shared vertices and edges. */
+export interface Crossings {
+  kind: 'crossings';
+  /** How many pairs of triangles are drawn: all, up to a limit. */
+  pairs: number;
+  /** 2 points per segment, less the model's origin; a point is a segment of no length. */
+  segments: Float32Array;
+  /** What to look at: the longest connected curve, with some of its surroundings. */
+  center: Vector3;
+  radius: number;
+}
+
+/** What can be drawn instead of the model, in front of its faint surface. */
+export type Instead = StepPicture | Crossings;
+
 /** An error to show: what is wrong and where. */
 export interface PageError {
   title: string;
@@ -201,6 +216,7 @@ export interface Engine {
   countEdges(): Promise<number>;
   card(cell: number): Promise<CellCard>;
   step(request: StepRequest): Promise<StepPicture>;
+  crossings(): Promise<Crossings>;
   write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array>;
 }
 
@@ -212,8 +228,8 @@ export interface View {
   clear(): void;
   /** Applies slices, explosion, colours and visibility. */
   setLook(settings: Settings): void;
-  /** Draws a step instead of the model, or the model again. */
-  setStep(picture: StepPicture | null): void;
+  /** Draws this instead of the model, or the model again. */
+  setInstead(instead: Instead | null): void;
   setPinned(cell: number | null): void;
   onHover: (cell: number | null) => void;
   onPick: (cell: number | null) => void;

@@ -337,7 +337,7 @@ export class App {
   }
 
   private showStep(picture: StepPicture | null): void {
-    this.view.setStep(picture);
+    this.view.setInstead(picture);
     this.events.tell('step', picture);
   }
 

@@ -4,7 +4,7 @@ import { createWorker, type MandolineWorker } from 'mandoline-wasm/worker';
 import type { Slice, Validation } from 'mandoline-wasm';
 import type { Vector3 } from '../model/vector';
 import { isLack, isOutdated, type CallName, type CallProgress, type Calls, type LoadedMesh, type Recipe } from '../model/calls';
-import type { CellCard, Cutting, Engine, MeshInfo, Model, PageError, Source, StepPicture, StepRequest } from '../model/types';
+import type { CellCard, Crossings, Cutting, Engine, MeshInfo, Model, PageError, Source, StepPicture, StepRequest } from '../model/types';
 import { pageError } from '../model/failure';
 import { abortError, isCancellation, toPageError } from './failure';
 
@@ -124,6 +124,10 @@ class WorkerEngine implements Engine {
 
   countEdges(): Promise<number> {
     return this.aboutShown((recipe) => this.call('edges', { recipe }));
+  }
+
+  crossings(): Promise<Crossings> {
+    return this.aboutShown((recipe) => this.call('crossings', { recipe }));
   }
 
   step(request: StepRequest): Promise<StepPicture> {

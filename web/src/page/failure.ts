@@ -13,6 +13,7 @@ const titles: Record<CallName, string> = {
   validate: "The cut-mesh can't be validated",
   edges: "The edges can't be counted",
   card: "The cell can't be shown",
+  crossings: "The crossings can't be shown",
   step: "The step can't be shown",
   write: "The file can't be written",
 };

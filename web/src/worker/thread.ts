@@ -5,6 +5,7 @@ import { serve } from 'mandoline-wasm/worker-thread';
 import type { CallName, CallProgress, Calls } from '../model/calls';
 import { loadAhead } from './ahead';
 import { cellCard } from './card';
+import { crossingsOf } from './crossings';
 import { cutOf, keep, makeCut } from './kept';
 import { loadMesh } from './load';
 import { makeModel } from './make_model';
@@ -41,6 +42,7 @@ const calls: Answering = {
     return mandoline.cutEdges(mesh, cutMesh).edgeLength.length;
   },
   card: (mandoline, { recipe, cell }) => cellCard(mandoline, cutOf(mandoline, recipe), cell),
+  crossings: (mandoline, { recipe }) => crossingsOf(mandoline, cutOf(mandoline, recipe)),
   step(mandoline, { recipe, request }) {
     const { mesh, cutMesh, faceTriangles, origin } = cutOf(mandoline, recipe);
     return stepPicture(mesh, cutMesh, faceTriangles, request, origin);

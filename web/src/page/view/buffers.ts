@@ -30,7 +30,8 @@ export function refill(geometry: BufferGeometry, attributes: Record<string, Valu
 }
 
 function hasRoom(attribute: BufferAttribute | null | undefined, { length }: TypedArray): boolean {
-  const room = attribute?.array.length ?? 0;
+  if (!attribute) return false;
+  const room = attribute.array.length;
   return length <= room && room <= Math.max(excess * length, 1024);
 }
 

@@ -6,8 +6,22 @@ const firstDirection = new Vector3(0.42, 0.36, 1).normalize();
 const turn = Math.PI / 24;
 /** Inertia: what is left of a movement falls to 1 / e in this time, in ms. */
 const glideTime = 100;
+/** How long a flight takes, in ms. */
+const flightTime = 700;
 /** Shortest time between two reports of the camera's position, in ms. */
 const tellTime = 200;
+
+/** Where the camera is and what it looks at. */
+export interface Place {
+  position: Vector3;
+  target: Vector3;
+}
+
+interface Flight {
+  from: Place;
+  to: Place;
+  begin: number;
+}
 
 export class Camera {
   readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
@@ -23,10 +37,11 @@ export class Camera {
   /** When the camera was last updated and until when it glides, in ms. */
   private movedAt = 0;
   private glidesUntil = 0;
+  private flight: Flight | null = null;
 
   constructor(
     canvas: HTMLCanvasElement,
-    reducedMotion: MediaQueryList,
+    private readonly reducedMotion: MediaQueryList,
     private readonly now = () => performance.now(),
   ) {
     this.camera.position.copy(firstDirection).multiplyScalar(5);
@@ -38,9 +53,15 @@ export class Camera {
     const damp = () => (this.controls.enableDamping = !reducedMotion.matches);
     damp();
     reducedMotion.addEventListener('change', damp);
-    this.controls.addEventListener('start', () => (this.isPersons = true));
+    this.controls.addEventListener('start', () => this.takeOver());
     this.controls.addEventListener('change', () => this.changed());
     canvas.addEventListener('keydown', (event) => this.key(event));
+  }
+
+  /** The person moves the camera now. */
+  private takeOver(): void {
+    this.isPersons = true;
+    this.flight = null;
   }
 
   /** Asks for a frame, since there is some movement to make. */
@@ -55,9 +76,10 @@ export class Camera {
   /** To be called before each frame. */
   update(): void {
     const now = this.now();
+    if (this.flight) this.flyOn(this.flight);
     this.move(1 - Math.exp((this.movedAt - now) / glideTime));
     this.movedAt = now;
-    if (now < this.glidesUntil) this.onChange();
+    if (this.flight || now < this.glidesUntil) this.onChange();
   }
 
   /** Makes this share of the movement that is left. */
@@ -88,7 +110,7 @@ export class Camera {
     const step = keySteps[event.key];
     if (!step) return;
     event.preventDefault();
-    this.isPersons = true;
+    this.takeOver();
     const [x, y, nearer] = step;
     if (nearer !== 0) this.controls.dollyIn(nearer > 0 ? 1 / 0.9 : 0.9);
     else if (event.shiftKey) this.controls.pan(-40 * x, 40 * y);
@@ -103,16 +125,38 @@ export class Camera {
     const direction = keepDirection ? this.camera.position.clone().sub(this.controls.target).normalize() : firstDirection;
     const half = (this.camera.fov * Math.PI) / 360;
     const narrow = Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect));
-    this.place(center.clone().addScaledVector(direction, radius / Math.sin(narrow)), center);
+    this.place({ position: center.clone().addScaledVector(direction, radius / Math.sin(narrow)), target: center });
     this.framed = { center: center.clone(), radius };
   }
 
-  place(position: Vector3, target: Vector3): void {
+  place(to: Place): void {
     this.isPersons = false;
-    this.framed = null;
+    this.framed = this.flight = null;
     clearTimeout(this.timer);
     this.timer = undefined;
     this.move(1); // a glide ends here
+    this.moveTo(to);
+  }
+
+  get at(): Place {
+    return { position: this.camera.position.clone(), target: this.controls.target.clone() };
+  }
+
+  /** Flies here from there, unless motion is to be reduced. */
+  flyFrom(from: Place): void {
+    if (this.reducedMotion.matches) return;
+    this.flight = { from, to: this.at, begin: this.now() };
+    this.moveTo(from);
+  }
+
+  private flyOn({ from, to, begin }: Flight): void {
+    const time = Math.min((this.now() - begin) / flightTime, 1);
+    const share = time * time * (3 - 2 * time);
+    if (time === 1) this.flight = null;
+    this.moveTo({ position: from.position.clone().lerp(to.position, share), target: from.target.clone().lerp(to.target, share) });
+  }
+
+  private moveTo({ position, target }: Place): void {
     this.camera.position.copy(position);
     this.controls.target.copy(target);
     this.move(1);
@@ -121,9 +165,11 @@ export class Camera {
 
   /** Follows a scene that has been moved and scaled. */
   transform(move: (point: Vector3) => Vector3, scale: number): void {
-    const { isPersons, framed } = this;
-    this.place(move(this.camera.position), move(this.controls.target));
+    const { isPersons, framed, flight } = this;
+    const moved = ({ position, target }: Place) => ({ position: move(position), target: move(target) });
+    this.place(moved(this.at));
     this.isPersons = isPersons;
+    this.flight = flight && { ...flight, from: moved(flight.from), to: moved(flight.to) };
     this.framed = framed && { center: move(framed.center), radius: framed.radius * scale };
   }
 

@@ -1,7 +1,7 @@
 // What the view is made of. To add something that is drawn, add a layer.
 import type { Object3D } from 'three';
 import type { Slice } from 'mandoline-wasm';
-import type { Model, Settings, StepPicture } from '../../model/types';
+import type { Instead, Model, Settings } from '../../model/types';
 import type { Piece } from './piece';
 import type { ViewPlane } from './planes';
 
@@ -17,8 +17,8 @@ export interface Look {
   planes: readonly ViewPlane[];
   /** What fills flat cuts, one for each of the planes or none at all; `id` counts them. */
   caps: { id: number; slices: readonly Slice[] };
-  /** The step that is drawn instead of the model, if any. */
-  step: StepPicture | null;
+  /** What is drawn instead of the model, if anything. */
+  instead: Instead | null;
 }
 
 /** A part of the picture. Its coordinates are the model's, less the model's origin. */

@@ -1,12 +1,13 @@
 // The 3D view: puts the layers together, and draws when something has changed.
-import { Color, Group, Scene, type Vector3, type WebGLRenderer } from 'three';
-import type { Engine, Model, PageError, Settings, StepPicture, View } from '../../model/types';
+import { Color, Group, Scene, type Object3D, type WebGLRenderer } from 'three';
+import type { Engine, Instead, Model, PageError, Settings, View } from '../../model/types';
 import { Camera } from './camera';
 import { exportGlb } from './export';
 import { shownBall } from './extent';
 import { FlatCuts } from './flat_cuts';
 import type { Layer, Look } from './layer';
 import { Caps } from './layers/caps';
+import { CrossingCurves } from './layers/crossings';
 import { CutCells } from './layers/cut_cells';
 import { Frames } from './layers/frames';
 import { Gizmo } from './layers/gizmo';
@@ -20,6 +21,7 @@ import { Pointer } from './pointer';
 import { makeRenderer } from './renderer';
 import { fromModel, fromWorld, keepCamera, sceneScale, toWorld } from './scene_space';
 import { setUniforms } from './uniforms';
+import { Visit } from './visit';
 
 export interface ViewOptions {
   /** Makes the caps of flat cuts. */
@@ -55,26 +57,26 @@ class ThreeView implements View {
   private readonly untouched = new Untouched(this.uniforms);
   private readonly caps = new Caps(this.uniforms, this.cells);
   private readonly gizmo: Gizmo;
-  /** What is seen of the model, and what is seen instead during a step. */
+  /** What is seen of the model, and what is seen instead of it. */
   private readonly ofModel: readonly Layer[] = [this.cells, this.untouched, this.caps, new Frames()];
-  private readonly ofSteps: readonly Layer[] = [new Step()];
+  private readonly ofInsteads: readonly Layer[] = [new Step(), new CrossingCurves(this.uniforms)];
   private readonly layers: readonly Layer[];
-  private readonly modelGroup = groupOf(this.ofModel);
-  private readonly stepGroup = groupOf(this.ofSteps).add(this.cells.ghost);
+  private readonly modelGroup = new Group().add(...objectsOf(this.ofModel));
+  private readonly insteadGroup = new Group().add(this.cells.ghost, ...objectsOf(this.ofInsteads));
   private readonly camera: Camera;
+  private readonly visit: Visit;
   private readonly picker: Picker;
   private readonly loop: Loop;
   private readonly flatCuts: FlatCuts;
   private model: Model | null = null;
   private shifts: Float32Array = new Float32Array(0);
   private settings: Settings | null = null;
-  private step: StepPicture | null = null;
+  private instead: Instead | null = null;
   private look: Look | null = null;
   /** What the looks of layers were made of. */
   private readonly made = new Map<Layer, readonly unknown[]>();
   private explosion = '';
   private cameraKnown = '';
-  private cameraBeforeStep: { position: Vector3; target: Vector3; isFramed: boolean } | null = null;
   private isFramed = false;
   private framesDrawn = 0;
 
@@ -84,8 +86,9 @@ class ThreeView implements View {
   ) {
     this.renderer = makeRenderer(canvas);
     this.camera = new Camera(canvas, matchMedia('(prefers-reduced-motion: reduce)'));
+    this.visit = new Visit(this.camera);
     this.gizmo = new Gizmo(this.camera.camera, canvas);
-    this.layers = [...this.ofModel, ...this.ofSteps, this.gizmo];
+    this.layers = [...this.ofModel, ...this.ofInsteads, this.gizmo];
     this.picker = new Picker(
       this.renderer,
       this.layers.flatMap(({ pick }) => pick ?? []),
@@ -96,9 +99,9 @@ class ThreeView implements View {
       isWaiting: () => this.flatCuts.isAwaited,
       draw: (seconds, share) => this.draw(seconds, share),
     });
-    this.root.add(this.modelGroup, this.stepGroup);
+    this.root.add(this.modelGroup, this.insteadGroup);
     this.scene.add(this.root, this.gizmo.object);
-    this.modelGroup.visible = this.stepGroup.visible = false;
+    this.modelGroup.visible = this.insteadGroup.visible = false;
     this.setScheme(matchMedia('(prefers-color-scheme: dark)').matches);
     this.listen();
     this.resize();
@@ -110,9 +113,9 @@ class ThreeView implements View {
     this.renderer.compile(this.scene, this.camera.camera);
     const takeOver = () => {
       if (this.model) return;
-      this.modelGroup.visible = this.stepGroup.visible = true;
+      this.modelGroup.visible = this.insteadGroup.visible = true;
       this.renderer.render(this.scene, this.camera.camera);
-      this.modelGroup.visible = this.stepGroup.visible = false;
+      this.modelGroup.visible = this.insteadGroup.visible = false;
       void this.picker.pick(this.camera.camera, 0, 0);
       this.loop.invalidate();
     };
@@ -171,7 +174,7 @@ class ThreeView implements View {
     this.model = null;
     this.look = null;
     this.uniforms.hovered.value = this.uniforms.pinned.value = -1;
-    this.modelGroup.visible = this.stepGroup.visible = false;
+    this.modelGroup.visible = this.insteadGroup.visible = false;
     this.gizmo.hide();
     Object.assign(this.canvas.dataset, { model: '', cells: '0', untouched: '0', caps: '0' });
     this.onHover(null);
@@ -185,30 +188,22 @@ class ThreeView implements View {
     if (camera && model && JSON.stringify(camera) !== this.cameraKnown) {
       this.cameraKnown = JSON.stringify(camera);
       this.isFramed = true;
-      this.camera.place(fromWorld(model, camera.position), fromWorld(model, camera.target));
+      this.camera.place({ position: fromWorld(model, camera.position), target: fromWorld(model, camera.target) });
     }
     const explosion = JSON.stringify([explode, explode.regions > 0 && model?.id]);
     const isPulled = explosion !== this.explosion;
     this.explosion = explosion;
     if (!this.isFramed) this.frame();
     // Until the person moves the camera, exploded parts stay in view.
-    else if (isPulled && this.camera.isFramed && !this.step) this.frameShown(true);
+    else if (isPulled && this.camera.isFramed && !this.instead) this.frameShown(true);
     this.loop.changed();
   }
 
-  setStep(picture: StepPicture | null): void {
-    const isNew = JSON.stringify(picture?.choices.request) !== JSON.stringify(this.step?.choices.request);
-    this.step = picture;
-    if (picture && this.model) {
-      const { camera, controls } = this.camera;
-      this.cameraBeforeStep ??= { position: camera.position.clone(), target: controls.target.clone(), isFramed: this.camera.isFramed };
-      if (isNew) this.camera.frame(fromModel(this.model, picture.center), picture.radius * sceneScale(this.model) * 1.2, true);
-    } else if (this.cameraBeforeStep) {
-      const { position, target, isFramed } = this.cameraBeforeStep;
-      this.camera.place(position, target);
-      if (isFramed) this.frameShown(true);
-      this.cameraBeforeStep = null;
-    }
+  setInstead(instead: Instead | null): void {
+    const isNew = instead !== null && (this.instead === null || subjectOf(instead) !== subjectOf(this.instead));
+    this.instead = instead;
+    if (isNew && this.model) this.visit.begin(fromModel(this.model, instead.center), instead.radius * sceneScale(this.model) * 1.2);
+    else if (!instead) this.visit.end(() => this.frameShown(true));
     this.loop.changed();
   }
 
@@ -259,7 +254,7 @@ class ThreeView implements View {
 
   private tellCamera(): void {
     const { model } = this;
-    if (!model || this.step) return;
+    if (!model || this.instead) return;
     const camera = { position: toWorld(model, this.camera.camera.position), target: toWorld(model, this.camera.controls.target) };
     this.cameraKnown = JSON.stringify(camera);
     this.onCamera(camera);
@@ -273,7 +268,7 @@ class ThreeView implements View {
   }
 
   private async cellAt({ x, y }: { x: number; y: number }): Promise<number | null> {
-    if (!this.model || this.step) return null;
+    if (!this.model || this.instead) return null;
     this.loop.prepare();
     return this.picker.pick(this.camera.camera, x, y);
   }
@@ -304,9 +299,9 @@ class ThreeView implements View {
 
   /** Brings what is drawn up to date with the settings. Explosions and slices of whole cells only change uniforms. */
   private prepare(): void {
-    const { model, settings, shifts, step } = this;
+    const { model, settings, shifts, instead } = this;
     if (!model || !settings) return;
-    const look = { model, settings, regions: shownRegions(model, settings), shifts, step, ...this.flatCuts.choose(model, settings) };
+    const look = { model, settings, regions: shownRegions(model, settings), shifts, instead, ...this.flatCuts.choose(model, settings) };
     this.look = look;
     for (const layer of this.layers) {
       const needs = layer.dependsOn(look);
@@ -316,8 +311,8 @@ class ThreeView implements View {
       layer.setLook(look);
     }
     setUniforms(this.uniforms, look, this.canvas.clientWidth * this.canvas.clientHeight);
-    this.modelGroup.visible = step === null;
-    this.stepGroup.visible = step !== null;
+    this.modelGroup.visible = instead === null;
+    this.insteadGroup.visible = instead !== null;
     this.tellTests(look);
   }
 
@@ -328,12 +323,17 @@ class ThreeView implements View {
     dataset.cells = String(this.cells.count(look));
     dataset.untouched = String(this.untouched.count);
     dataset.caps = String(this.caps.count);
-    dataset.step = look.step?.kind ?? '';
+    dataset.instead = look.instead?.kind ?? '';
   }
 }
 
-function groupOf(layers: readonly Layer[]): Group {
-  return new Group().add(...layers.map(({ object }) => object));
+function objectsOf(layers: readonly Layer[]): Object3D[] {
+  return layers.map(({ object }) => object);
+}
+
+/** The same for pictures of the same thing, made of different cuts. */
+function subjectOf(instead: Instead): string {
+  return JSON.stringify(instead.kind === 'crossings' ? instead.kind : instead.choices.request);
 }
 
 function pictureError(detail: string): PageError {

@@ -59,14 +59,14 @@ export class Gizmo implements Layer {
     this.onMoved({ on: true, position: Math.max(0, Math.min(1, position)), normal: normal.toArray() });
   }
 
-  dependsOn({ model, settings: { slices, explode }, step }: Look): readonly unknown[] {
-    return [model.id, slices.free, explode.cells, step];
+  dependsOn({ model, settings: { slices, explode }, instead }: Look): readonly unknown[] {
+    return [model.id, slices.free, explode.cells, instead];
   }
 
   setLook(look: Look): void {
-    const { model, settings, step } = look;
+    const { model, settings, instead } = look;
     this.look = look;
-    if (!settings.slices.free.on || step) return this.hide();
+    if (!settings.slices.free.on || instead) return this.hide();
     this.object.visible = true;
     for (const controls of this.controls) {
       controls.enabled = true;

@@ -18,11 +18,13 @@ export class Step implements Layer {
     this.object.add(this.faces, this.lines, this.points);
   }
 
-  dependsOn({ step }: Look): readonly unknown[] {
-    return [step];
+  dependsOn({ instead }: Look): readonly unknown[] {
+    return [instead];
   }
 
-  setLook({ step }: Look): void {
+  setLook({ instead }: Look): void {
+    const step = instead?.kind === 'crossings' ? null : instead;
+    this.object.visible = step !== null;
     if (!step) return;
     for (const part of ['faces', 'lines', 'points'] as const) {
       const { position, color } = step[part];
