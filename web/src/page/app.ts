@@ -1,14 +1,14 @@
-// The state of the page and the actions on it. Panels call the methods and listen to the events.
+// The actions on the state of the page. Panels call them and read the state.
+import { batch } from '@preact/signals';
 import type { Validation } from 'mandoline-wasm';
 import { isPageError } from '../model/failure';
-import { Events } from './events';
 import { gallery } from '../model/gallery/list';
 import { defaultCells, defaultSettings, defaultSource } from '../model/settings';
 import { isOutside } from '../model/inside';
 import type { Pose } from '../model/motion';
 import { isSheet } from './view/look';
+import type { State } from './state';
 import type {
-  CellCard,
   Cutting,
   Engine,
   GridSettings,
@@ -24,34 +24,12 @@ import type {
   View,
 } from '../model/types';
 
-export interface AppEvents {
-  settings: Settings;
-  /** The mesh to cut from now on. */
-  mesh: MeshInfo;
-  /** Null once a mesh could not be cut: no picture is better than that of the previous mesh. */
-  model: Model | null;
-  state: 'busy' | 'ready' | 'error';
-  /** What the page is doing. */
-  work: 'loading' | 'cutting' | null;
-  progress: { stage: string; fraction: number } | null;
-  cutError: PageError | null;
-  /** Null when something has succeeded since, so that earlier alerts are old news. */
-  alert: PageError | null;
-  hover: number | null;
-  pinned: CellCard | null;
-  step: StepPicture | null;
-}
-
 /** Fewer cut-cells than this are best seen without a slice. */
 const fewCells = 60;
 /** Tells the pieces beside a sheet apart. */
 const sheetColoring = 'cell';
 
 export class App {
-  readonly events = new Events<AppEvents>();
-  settings = defaultSettings();
-  model: Model | null = null;
-  mesh: MeshInfo | null = null;
   private loads = 0;
   private loading = 0;
   private pins = 0;
@@ -68,17 +46,30 @@ export class App {
   private fitNext = false;
   private wasSheet = false;
   /** What the model was made of. */
-  private shown: { cutting: Cutting; mesh: MeshInfo | null } = { cutting: this.settings, mesh: null };
+  private shown: { cutting: Cutting; mesh: MeshInfo | null } = { cutting: defaultSettings(), mesh: null };
 
   constructor(
     private readonly engine: Engine,
     readonly view: View,
+    readonly state: State,
   ) {
-    engine.onProgress = (progress) => this.events.tell('progress', progress);
-    view.onHover = (cell) => this.events.tell('hover', cell);
+    engine.onProgress = (progress) => (state.progress.value = progress);
+    view.onHover = (cell) => (state.hovered.value = cell);
     view.onPick = (cell) => void this.pin(cell);
     view.onCamera = (camera) => this.change({ camera }, false);
     view.onFreePlane = (slice) => this.change({ slices: { ...this.settings.slices, free: slice } }, false);
+  }
+
+  get settings(): Settings {
+    return this.state.settings.value;
+  }
+
+  get mesh(): MeshInfo | null {
+    return this.state.mesh.value;
+  }
+
+  get model(): Model | null {
+    return this.state.model.value;
   }
 
   /** Loads a mesh and cuts it, if given into `cells` along its longest side. If it can't be loaded, the page keeps the previous one. */
@@ -176,8 +167,7 @@ export class App {
     try {
       const mesh = await this.engine.load(source, bytes);
       if (load !== this.loads) return 'superseded';
-      this.mesh = mesh;
-      this.events.tell('mesh', mesh);
+      this.state.mesh.value = mesh;
       return 'loaded';
     } catch (error) {
       if (load !== this.loads) return 'superseded';
@@ -192,24 +182,24 @@ export class App {
   }
 
   private tellWork(): void {
-    this.events.tell('work', this.loading > 0 ? 'loading' : this.cuts > 0 ? 'cutting' : null);
+    this.state.work.value = this.loading > 0 ? 'loading' : this.cuts > 0 ? 'cutting' : null;
+    this.state.progress.value = null;
   }
 
   /** The page is busy until this and everything else is done. */
   private async during(task: () => Promise<void>): Promise<void> {
-    if (this.work++ === 0) this.events.tell('state', 'busy');
+    if (this.work++ === 0) this.state.status.value = 'busy';
     this.failed = false;
     await task();
     if (--this.work > 0) return;
-    for (const error of this.troubles.splice(0)) this.events.tell('alert', error);
-    this.events.tell('state', this.failed ? 'error' : 'ready');
+    for (const error of this.troubles.splice(0)) this.state.alert(error);
+    this.state.status.value = this.failed ? 'error' : 'ready';
   }
 
   /** Changes how the model is shown. */
   change(part: Partial<Settings>, draw = true): void {
-    this.settings = { ...this.settings, ...part };
+    this.state.settings.value = { ...this.settings, ...part };
     if (draw) this.view.setLook(this.settings);
-    this.events.tell('settings', this.settings);
   }
 
   changeSlice(name: SliceName, part: Partial<SliceSettings>): void {
@@ -265,8 +255,8 @@ export class App {
         this.takeModel(await this.engine.cut(cutting));
         this.failed = false;
         this.shown = { mesh: this.mesh, cutting };
-        this.events.tell('cutError', null);
-        this.events.tell('alert', null);
+        this.state.cutError.value = null;
+        this.state.clearAlerts();
       } catch (error) {
         if (isAbort(error)) return;
         this.failed = true;
@@ -280,18 +270,19 @@ export class App {
   }
 
   private takeModel(model: Model): void {
-    this.model = model;
+    const { settings } = this;
+    const { region } = settings.show;
+    const isGone = region !== null && region >= model.counts.regions;
+    batch(() => {
+      this.state.model.value = model;
+      this.state.hovered.value = null;
+      if (isGone) this.state.settings.value = { ...settings, show: { ...settings.show, region: null } };
+      if (this.fitNext) this.state.settings.value = { ...this.settings, ...this.lookFor(model, this.wasSheet) };
+    });
     void this.pin(null);
-    const { region } = this.settings.show;
-    if (region !== null && region >= model.counts.regions) {
-      this.settings = { ...this.settings, show: { ...this.settings.show, region: null } };
-    }
-    if (this.fitNext) this.settings = { ...this.settings, ...this.lookFor(model, this.wasSheet) };
     this.view.setModel(model, this.frameNext);
     this.fitNext = this.frameNext = false;
     this.view.setLook(this.settings);
-    this.events.tell('model', model);
-    this.events.tell('settings', this.settings);
     if (this.stepKind) void this.step({ kind: this.stepKind });
   }
 
@@ -299,14 +290,12 @@ export class App {
   private giveUp(problem: PageError): void {
     if (this.model && this.shown.mesh !== this.mesh) {
       this.wasSheet = isSheet(this.model);
-      this.model = null;
+      this.state.model.value = null;
       void this.pin(null);
       void this.step(null);
       this.view.clear();
-      this.events.tell('model', null);
-      this.events.tell('settings', this.settings);
     }
-    this.events.tell('cutError', problem);
+    this.state.cutError.value = problem;
   }
 
   /** Stops what is under way and goes back to the settings of the picture, if that is of the same mesh. */
@@ -322,9 +311,8 @@ export class App {
     const pin = ++this.pins;
     this.pinned = cell !== null;
     this.view.setPinned(cell);
-    if (cell === null) return this.events.tell('pinned', null);
-    const card = await this.ask(this.engine.card(cell));
-    if (card && pin === this.pins) this.events.tell('pinned', card);
+    const card = cell === null ? null : await this.ask(this.engine.card(cell));
+    if (pin === this.pins && (card || cell === null)) this.state.pinned.value = card;
   }
 
   /** Shows a step of the algorithm instead of the model, or the model again. */
@@ -338,7 +326,7 @@ export class App {
 
   private showStep(picture: StepPicture | null): void {
     this.view.setInstead(picture);
-    this.events.tell('step', picture);
+    this.state.step.value = picture;
   }
 
   /** Unpins the cell, or else leaves the step. */
@@ -363,10 +351,10 @@ export class App {
   async ask<T>(answer: Promise<T>): Promise<T | null> {
     try {
       const value = await answer;
-      this.events.tell('alert', null);
+      this.state.clearAlerts();
       return value;
     } catch (error) {
-      if (!isAbort(error)) this.events.tell('alert', pageError(error));
+      if (!isAbort(error)) this.state.alert(pageError(error));
       return null;
     }
   }

@@ -1,19 +1,21 @@
 import type { App } from '../app';
 import type { Model, PageError } from '../../model/types';
-import { el } from './dom';
 import { plural } from '../../model/format';
 import { isOutside } from '../../model/inside';
 
 /** Says why the stage is empty. */
-export function stageNote(app: App): HTMLElement {
-  const note = el('div', { class: 'stage-note', id: 'stage-note', role: 'status', hidden: true });
-  const show = (what: PageError | null) => {
-    note.hidden = what === null;
-    note.replaceChildren(...(what ? [el('strong', {}, what.title), el('p', {}, what.detail)] : []));
-  };
-  app.events.on('model', (model) => show(model && emptiness(model)));
-  app.events.on('cutError', (error) => error && !app.model && show(error));
-  return note;
+export function StageNote({ app: { model, state } }: { app: App }) {
+  const reason = model ? emptiness(model) : state.cutError.value;
+  return (
+    <div class="stage-note" id="stage-note" role="status" hidden={reason === null}>
+      {reason && (
+        <>
+          <strong>{reason.title}</strong>
+          <p>{reason.detail}</p>
+        </>
+      )}
+    </div>
+  );
 }
 
 /** Why a cut left nothing to see, if it did. */

@@ -1,0 +1,61 @@
+import { signal } from '@preact/signals';
+import { defaultSettings } from '../model/settings';
+import { Sections } from './sections';
+import type { CellCard, MeshInfo, Model, PageError, StepPicture } from '../model/types';
+
+/** What is said on top of the picture: an alert stays until it is dismissed or cleared, a notice goes away by itself. */
+export interface Message {
+  id: number;
+  kind: 'alert' | 'notice';
+  /** Of an alert. */
+  title?: string;
+  detail: string;
+}
+
+const mostMessages = 3;
+
+/** The state of the page. App writes it; a component that reads a signal is drawn again when that changes. */
+export class State {
+  readonly settings = signal(defaultSettings());
+  /** The mesh to cut from now on. */
+  readonly mesh = signal<MeshInfo | null>(null);
+  /** Null once a mesh could not be cut: no picture is better than that of the previous mesh. */
+  readonly model = signal<Model | null>(null);
+  readonly status = signal<'busy' | 'ready' | 'error'>('busy');
+  /** What the page is doing. */
+  readonly work = signal<'loading' | 'cutting' | null>(null);
+  readonly progress = signal<{ stage: string; fraction: number } | null>(null);
+  readonly cutError = signal<PageError | null>(null);
+  /** The cut-cell under the pointer. */
+  readonly hovered = signal<number | null>(null);
+  readonly pinned = signal<CellCard | null>(null);
+  readonly step = signal<StepPicture | null>(null);
+  readonly sections = new Sections();
+  /** The newest first. */
+  readonly messages = signal<readonly Message[]>([]);
+  private said = 0;
+
+  alert({ title, detail }: PageError): void {
+    this.say({ kind: 'alert', title, detail });
+  }
+
+  notice(detail: string): void {
+    const id = this.say({ kind: 'notice', detail });
+    setTimeout(() => this.dismiss(id), 6000);
+  }
+
+  dismiss(id: number): void {
+    this.messages.value = this.messages.value.filter((message) => message.id !== id);
+  }
+
+  /** Something has succeeded since, so that earlier alerts are old news. */
+  clearAlerts(): void {
+    this.messages.value = this.messages.value.filter(({ kind }) => kind !== 'alert');
+  }
+
+  private say(message: Omit<Message, 'id'>): number {
+    const id = ++this.said;
+    this.messages.value = [{ ...message, id }, ...this.messages.value].slice(0, mostMessages);
+    return id;
+  }
+}

@@ -1,0 +1,19 @@
+import type { App } from '../app';
+import { legend as entriesOf } from '../view/colors';
+import { insideWords } from '../../model/inside';
+
+/** What the colours mean, on top of the picture, and what tells the inside from the outside unless winding numbers do. */
+export function Legend({ app: { model, settings, state } }: { app: App }) {
+  const entries = model && !state.step.value ? entriesOf(model, settings) : [];
+  return (
+    <div class="legend" id="legend" role="group" aria-label="Colours" hidden={entries.length === 0}>
+      {entries.map(({ color, label }) => (
+        <span key={label} class="entry">
+          <span class="swatch" style={{ background: color }} />
+          {label}
+        </span>
+      ))}
+      {model && model.insideBy !== 'winding' && <span class="doubt">inside {insideWords[model.insideBy]}</span>}
+    </div>
+  );
+}

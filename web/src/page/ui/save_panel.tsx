@@ -1,0 +1,96 @@
+import { useLayoutEffect, useRef, useState } from 'preact/hooks';
+import type { App } from '../app';
+import { toHash } from '../../model/settings';
+import { Section } from './controls/section';
+
+interface Format {
+  format: string;
+  label: string;
+  what: string;
+  make: () => Promise<Blob | null>;
+}
+
+/** Saves the result and the view as files, or as a link. */
+export function SavePanel({ app }: { app: App }) {
+  const written = (format: 'json' | 'vtu' | 'obj', type: string) => async () => {
+    const bytes = await app.write(format);
+    return bytes && new Blob([bytes as Uint8Array<ArrayBuffer>], { type });
+  };
+  const formats: Format[] = [
+    { format: 'json', label: 'JSON', what: 'all arrays', make: written('json', 'application/json') },
+    { format: 'vtu', label: 'VTU', what: 'cells for ParaView', make: written('vtu', 'application/xml') },
+    { format: 'obj', label: 'OBJ', what: 'surface by region', make: written('obj', 'text/plain') },
+    { format: 'glb', label: 'GLB', what: 'visible geometry', make: () => app.ask(app.view.glb()) },
+    { format: 'png', label: 'PNG', what: 'screenshot', make: () => app.ask(app.view.png()) },
+  ];
+  return (
+    <Section app={app} id="save" title="Save">
+      <ul class="savers">
+        {formats.map((format) => (
+          <li key={format.format}>
+            <Saver app={app} {...format} />
+          </li>
+        ))}
+      </ul>
+      <LinkRow app={app} />
+    </Section>
+  );
+}
+
+function Saver({ app, format, label, what, make }: Format & { app: App }) {
+  const [isSaving, setSaving] = useState(false);
+  const { model } = app;
+  const save = async () => {
+    if (!model) return;
+    const name = `${model.name}-${model.grid.cells.join('x')}.${format}`.replaceAll(/[^\w.-]+/g, '-');
+    setSaving(true);
+    const blob = await make();
+    setSaving(false);
+    if (blob) download(blob, name);
+  };
+  return (
+    <button type="button" id={`save-${format}`} disabled={isSaving || !model} onClick={() => void save()}>
+      <strong>{label}</strong>
+      <small>{what}</small>
+    </button>
+  );
+}
+
+function download(blob: Blob, name: string): void {
+  const url = URL.createObjectURL(blob);
+  const link = document.createElement('a');
+  link.href = url;
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(url), 10000);
+}
+
+function LinkRow({ app }: { app: App }) {
+  const [status, setStatus] = useState('');
+  /** Shown where the clipboard is out of reach. */
+  const [link, setLink] = useState<string | null>(null);
+  const field = useRef<HTMLInputElement>(null);
+  useLayoutEffect(() => field.current?.select(), [link]);
+  const copy = async () => {
+    const url = `${location.href.split('#')[0]}#${toHash(app.settings)}`;
+    const fileNote = app.settings.source.kind === 'file' ? ' The file itself is not included.' : '';
+    try {
+      await navigator.clipboard.writeText(url);
+      setStatus(`Copied.${fileNote}`);
+    } catch {
+      setLink(url);
+      setStatus(`Copy it from the field below.${fileNote}`);
+    }
+  };
+  return (
+    <div class="row">
+      <button type="button" id="copy-link" onClick={() => void copy()}>
+        Copy link
+      </button>
+      <span class="hint" aria-live="polite" id="link-status">
+        {status}
+      </span>
+      {link !== null && <input ref={field} id="link" readOnly value={link} aria-label="Link to this view" />}
+    </div>
+  );
+}

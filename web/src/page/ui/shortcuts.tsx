@@ -1,0 +1,61 @@
+import { useEffect, useRef } from 'preact/hooks';
+import type { App } from '../app';
+import type { Axis } from '../../model/types';
+import { Terms } from './controls/terms';
+
+const help: [string, string][] = [
+  ['F', 'fit view'],
+  ['X Y Z', 'slice along an axis, on or off'],
+  ['Esc', 'unpin the cell, or leave the steps'],
+  ['← →', 'in the steps: previous and next'],
+  ['?', 'show this list'],
+];
+const mouse: [string, string][] = [
+  ['drag, arrow keys', 'rotate'],
+  ['right drag, two fingers, Shift + arrow keys', 'pan'],
+  ['wheel, pinch, +\u00a0and\u00a0−', 'zoom'],
+  ['click a cell', 'pin it and show its card'],
+];
+
+/** The shortcuts, and the button that lists them. */
+export function Shortcuts({ app }: { app: App }) {
+  const dialog = useRef<HTMLDialogElement>(null);
+  useEffect(() => {
+    const press = (event: KeyboardEvent) => {
+      const list = dialog.current;
+      if (!list || event.ctrlKey || event.metaKey || event.altKey || list.open || isTyping(event.target)) return;
+      if (event.key === '?') list.showModal();
+      else act(app, event.key);
+    };
+    addEventListener('keydown', press);
+    return () => removeEventListener('keydown', press);
+  }, [app]);
+  return (
+    <>
+      <button type="button" id="help" class="quiet" aria-label="Keyboard, mouse and touch" onClick={() => dialog.current?.showModal()}>
+        ?
+      </button>
+      <dialog ref={dialog} id="shortcuts" aria-labelledby="shortcuts-title">
+        <h2 id="shortcuts-title">Keyboard, mouse and touch</h2>
+        <Terms list={[...help, ...mouse]} />
+        <button type="button" onClick={() => dialog.current?.close()}>
+          Close
+        </button>
+      </dialog>
+    </>
+  );
+}
+
+function act(app: App, key: string): void {
+  if (key === 'Escape') app.leave();
+  else if (key.toLowerCase() === 'f') app.fit();
+  else if ('xyz'.includes(key.toLowerCase())) {
+    const axis = key.toLowerCase() as Axis;
+    app.changeSlice(axis, { on: !app.settings.slices[axis].on });
+  }
+}
+
+function isTyping(target: EventTarget | null): boolean {
+  if (target instanceof HTMLInputElement) return !['range', 'checkbox', 'radio'].includes(target.type);
+  return target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement;
+}
