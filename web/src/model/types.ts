@@ -1,6 +1,7 @@
 // What the parts of the page say to each other.
 import type { CutStats, Grid, InsideBy, Slice, Validation } from 'mandoline-wasm';
 import type { Vector3 } from './vector';
+import type { Comparison, OtherWay } from './comparison';
 import type { Bounds } from './grid_around';
 import type { Pose } from './motion';
 
@@ -217,6 +218,7 @@ export interface Engine {
   card(cell: number): Promise<CellCard>;
   step(request: StepRequest): Promise<StepPicture>;
   crossings(): Promise<Crossings>;
+  compare(way: OtherWay): Promise<Comparison>;
   write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array>;
 }
 

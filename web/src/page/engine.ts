@@ -5,6 +5,7 @@ import type { Slice, Validation } from 'mandoline-wasm';
 import type { Vector3 } from '../model/vector';
 import { isLack, isOutdated, type CallName, type CallProgress, type Calls, type LoadedMesh, type Recipe } from '../model/calls';
 import type { CellCard, Crossings, Cutting, Engine, MeshInfo, Model, PageError, Source, StepPicture, StepRequest } from '../model/types';
+import type { Comparison, OtherWay } from '../model/comparison';
 import { pageError } from '../model/failure';
 import { abortError, isCancellation, toPageError } from './failure';
 
@@ -132,6 +133,10 @@ class WorkerEngine implements Engine {
 
   step(request: StepRequest): Promise<StepPicture> {
     return this.aboutNewest((recipe) => this.call('step', { recipe, request }));
+  }
+
+  compare(way: OtherWay): Promise<Comparison> {
+    return this.aboutNewest((recipe) => this.call('compare', { recipe, way }));
   }
 
   write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array> {

@@ -14,6 +14,7 @@ const titles: Record<CallName, string> = {
   edges: "The edges can't be counted",
   card: "The cell can't be shown",
   crossings: "The crossings can't be shown",
+  compare: "The comparison can't be made",
   step: "The step can't be shown",
   write: "The file can't be written",
 };

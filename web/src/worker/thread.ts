@@ -6,6 +6,7 @@ import type { CallName, CallProgress, Calls } from '../model/calls';
 import { loadAhead } from './ahead';
 import { cellCard } from './card';
 import { crossingsOf } from './crossings';
+import { comparison } from './compare';
 import { cutOf, keep, makeCut } from './kept';
 import { loadMesh } from './load';
 import { makeModel } from './make_model';
@@ -47,6 +48,7 @@ const calls: Answering = {
     const { mesh, cutMesh, faceTriangles, origin } = cutOf(mandoline, recipe);
     return stepPicture(mesh, cutMesh, faceTriangles, request, origin);
   },
+  compare: (mandoline, { recipe, way }) => comparison(mandoline, cutOf(mandoline, recipe), way),
   write(mandoline, { recipe, format }) {
     const { mesh, cutMesh } = cutOf(mandoline, recipe);
     return mandoline.write(mesh, cutMesh, format);
