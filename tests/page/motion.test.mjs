@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { after, describe, test } from 'node:test';
 import { box, join } from '../package/meshes.mjs';
 import { importBundled } from './bundled.mjs';
-import { shows, startSite } from './page_helpers.mjs';
+import { download, eventually, isReady, openPanel, shows, startSite, textOf } from './page_helpers.mjs';
 import { cutOf, galleryMesh, mandoline } from './reference.mjs';
 
 const { makeMover, motions } = await importBundled('model/motion.ts');
@@ -73,4 +73,40 @@ describe('on the page', async () => {
       });
     });
   }
+
+  test('a moving surface is cut again and again, validly, until it is paused; at rest it is as it was', async (t) => {
+    const page = await site.open(t, 'mesh=bunny&n=12');
+    const cuts = () => page.locator('#counts').evaluate((counts) => Number(counts.dataset.model));
+    const cells = () => page.locator('#counts').evaluate((counts) => counts.dataset.cutCells);
+    const [first, atRest] = [await cuts(), await cells()];
+    await openPanel(page, 'motion');
+    await page.locator('#play-what').selectOption('wave');
+    await page.locator('#play').click();
+    await eventually(async () => assert.ok((await cuts()) > first + 10));
+    assert.match(await textOf(page, '#play-rate'), /^\d+ cuts a second$/);
+    await page.locator('#play').click();
+    assert.equal(await isReady(page), 'ready');
+    const last = await cuts();
+    await page.waitForTimeout(300);
+    assert.equal(await cuts(), last, 'nothing is cut after the pause');
+    assert.match(await page.evaluate(() => location.hash), /pose=wave,/);
+    await openPanel(page, 'checks');
+    await page.locator('#validate').click();
+    await shows(page, '#validation', { pass: true });
+    await page.locator('#at-rest').click();
+    await eventually(async () => assert.equal(await cells(), atRest));
+  });
+
+  test('what is seen can be filmed', async (t) => {
+    const page = await site.open(t, 'mesh=torus-knot&n=8');
+    await openPanel(page, 'motion');
+    await page.locator('#play-what').selectOption('explode');
+    await page.locator('#film').click();
+    await page.locator('#play').click();
+    await page.waitForTimeout(800);
+    const { name, bytes } = await download(page, '#film');
+    assert.equal(name, 'torus-knot-8x4x8.webm');
+    assert.deepEqual([...bytes.subarray(0, 4)], [0x1a, 0x45, 0xdf, 0xa3], 'the mark of WebM');
+    assert.ok(bytes.length > 10_000);
+  });
 });

@@ -222,6 +222,13 @@ export interface Engine {
   write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array>;
 }
 
+/** A film under way. */
+export interface Recording {
+  /** Of the file, without codecs: for example "video/webm". */
+  type: string;
+  stop(): Promise<Blob>;
+}
+
 /** What is drawn. Owns the canvas; knows nothing of panels. */
 export interface View {
   /** Draws this model instead of the last one, with the look that is set next; keeps the camera unless it is to fit the model. */
@@ -243,5 +250,7 @@ export interface View {
   /** Everything that is seen, at the current explosion, as a file. */
   png(): Promise<Blob>;
   glb(): Promise<Blob>;
+  /** Films the canvas from now on. Throws a PageError where the browser can't. */
+  record(): Recording;
   frame(): void;
 }

@@ -6,6 +6,7 @@ import { gallery } from '../model/gallery/list';
 import { defaultCells, defaultSettings, defaultSource } from '../model/settings';
 import { isOutside } from '../model/inside';
 import type { Pose } from '../model/motion';
+import { Player } from './player';
 import { isSheet } from './view/look';
 import type { State } from './state';
 import type {
@@ -30,6 +31,7 @@ const fewCells = 60;
 const sheetColoring = 'cell';
 
 export class App {
+  readonly player: Player;
   private loads = 0;
   private loading = 0;
   private pins = 0;
@@ -53,6 +55,7 @@ export class App {
     readonly view: View,
     readonly state: State,
   ) {
+    this.player = new Player(this);
     engine.onProgress = (progress) => (state.progress.value = progress);
     view.onHover = (cell) => (state.hovered.value = cell);
     view.onPick = (cell) => void this.pin(cell);

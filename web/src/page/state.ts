@@ -1,5 +1,6 @@
 import { signal } from '@preact/signals';
 import { defaultSettings } from '../model/settings';
+import type { Playing } from './player';
 import { Sections } from './sections';
 import type { CellCard, MeshInfo, Model, PageError, StepPicture } from '../model/types';
 
@@ -30,6 +31,8 @@ export class State {
   readonly hovered = signal<number | null>(null);
   readonly pinned = signal<CellCard | null>(null);
   readonly step = signal<StepPicture | null>(null);
+  /** What moves by itself. */
+  readonly playing = signal<Playing | null>(null);
   readonly sections = new Sections();
   /** The newest first. */
   readonly messages = signal<readonly Message[]>([]);

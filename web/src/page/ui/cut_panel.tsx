@@ -59,11 +59,13 @@ function CutError({ app }: { app: App }) {
   );
 }
 
-function Counts({ app: { model } }: { app: App }) {
+function Counts({ app: { model, state } }: { app: App }) {
+  // Nobody could listen to the counts of twenty cuts a second.
+  const isPlaying = state.playing.value !== null;
   return (
     <div
       id="counts"
-      aria-live="polite"
+      aria-live={isPlaying ? 'off' : 'polite'}
       aria-atomic="true"
       data-model={model?.id}
       data-grid={model?.grid.cells.join('x')}

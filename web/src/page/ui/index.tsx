@@ -10,6 +10,7 @@ import { Drops } from './drops';
 import { HoverLine } from './hover_line';
 import { Legend } from './legend';
 import { MeshPanel } from './mesh_panel';
+import { MotionPanel } from './motion_panel';
 import { ProgressLine } from './progress_line';
 import { SavePanel } from './save_panel';
 import { SchemeToggle } from './scheme';
@@ -48,6 +49,7 @@ export function showPanels(app: App): void {
       <MeshPanel app={app} />
       <CutPanel app={app} />
       <ViewPanel app={app} />
+      <MotionPanel app={app} />
       <StepsPanel app={app} />
       <ChecksPanel app={app} />
       <SavePanel app={app} />

@@ -6,7 +6,7 @@ import { words } from '../../model/format';
 export function ProgressLine({ app }: { app: App }) {
   const work = app.state.work.value;
   const progress = app.state.progress.value;
-  const isWorking = work !== null;
+  const isWorking = work !== null && app.state.playing.value === null;
   const [isLong, setLong] = useState(false);
   useEffect(() => {
     if (!isWorking) return;

@@ -1,6 +1,7 @@
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import type { App } from '../app';
 import { toHash } from '../../model/settings';
+import { download } from './download';
 import { Section } from './controls/section';
 
 interface Format {
@@ -42,11 +43,10 @@ function Saver({ app, format, label, what, make }: Format & { app: App }) {
   const { model } = app;
   const save = async () => {
     if (!model) return;
-    const name = `${model.name}-${model.grid.cells.join('x')}.${format}`.replaceAll(/[^\w.-]+/g, '-');
     setSaving(true);
     const blob = await make();
     setSaving(false);
-    if (blob) download(blob, name);
+    if (blob) download(blob, model, format);
   };
   return (
     <button type="button" id={`save-${format}`} disabled={isSaving || !model} onClick={() => void save()}>
@@ -54,15 +54,6 @@ function Saver({ app, format, label, what, make }: Format & { app: App }) {
       <small>{what}</small>
     </button>
   );
-}
-
-function download(blob: Blob, name: string): void {
-  const url = URL.createObjectURL(blob);
-  const link = document.createElement('a');
-  link.href = url;
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(url), 10000);
 }
 
 function LinkRow({ app }: { app: App }) {

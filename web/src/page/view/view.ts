@@ -1,6 +1,6 @@
 // The 3D view: puts the layers together, and draws when something has changed.
 import { Color, Group, Scene, type Object3D, type WebGLRenderer } from 'three';
-import type { Engine, Instead, Model, PageError, Settings, View } from '../../model/types';
+import type { Engine, Instead, Model, PageError, Recording, Settings, View } from '../../model/types';
 import { Camera } from './camera';
 import { exportGlb } from './export';
 import { shownBall } from './extent';
@@ -18,6 +18,7 @@ import { Loop } from './loop';
 import { makeUniforms } from './material';
 import { Picker } from './picking';
 import { Pointer } from './pointer';
+import { record } from './recorder';
 import { makeRenderer } from './renderer';
 import { fromModel, fromWorld, keepCamera, sceneScale, toWorld } from './scene_space';
 import { setUniforms } from './uniforms';
@@ -250,6 +251,10 @@ class ThreeView implements View {
     this.loop.prepare();
     if (!this.look) throw pictureError('Nothing is shown yet.');
     return exportGlb(this.look, this.ofModel);
+  }
+
+  record(): Recording {
+    return record(this.canvas);
   }
 
   private tellCamera(): void {
