@@ -1,7 +1,12 @@
 import assert from 'node:assert/strict';
-import { describe, test } from 'node:test';
+import { after, describe, test } from 'node:test';
 import { importBundled } from './bundled.mjs';
+import { eventually, isReady, openPanel, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
+import { pixelsOf, share } from './pictures.mjs';
 import { galleryMesh, mandoline } from './reference.mjs';
+
+const site = await startSite();
+after(() => site.close());
 
 const { crossingsOf } = await importBundled('worker/crossings.ts');
 const { boundsOf } = await importBundled('model/grid_around.ts');
@@ -83,5 +88,65 @@ describe('the sentence', () => {
       crossingsSentence({ crossing: 0, touching: 1, overlapping: 23, folded: 0, identical: 4 }),
       'This mesh touches itself in 1 place, overlaps itself in 23 and has a triangle twice in 4; they were resolved exactly.',
     );
+  });
+});
+
+describe('the banner', () => {
+  const isAccent = (r, g, b) => r > 190 && g < 110 && b > 100;
+  const hasGlow = async (page) => share(await pixelsOf(page), isAccent) > 0.001;
+  const sentenceOf = async (name) => crossingsSentence(mandoline.findIntersections(await galleryMesh(name), { maxPairs: 0 }).counts);
+
+  test('says how often the mesh meets itself, and shows where', async (t) => {
+    const page = await site.open(t, 'mesh=teapot&n=8&free=off&explode=0,0', { colorScheme: 'light', reducedMotion: 'reduce' });
+    assert.equal(await textOf(page, '#crossings p'), await sentenceOf('teapot'));
+    assert.equal(await hasGlow(page), false);
+    await page.locator('#show-crossings').press('Enter');
+    await shows(page, '#canvas', { instead: 'crossings' });
+    await eventually(async () => assert.ok(await hasGlow(page), 'the curves are seen'));
+    assert.equal(await page.locator('#show-crossings').getAttribute('aria-pressed'), 'true');
+    await slideTo(page, '#cells', 9);
+    await shows(page, '#counts', { grid: '9x6x6' });
+    assert.equal(await isReady(page), 'ready');
+    await shows(page, '#canvas', { instead: 'crossings' });
+    await page.locator('#show-crossings').press('Enter');
+    await shows(page, '#canvas', { instead: '' });
+    await page.locator('#show-crossings').click();
+    await shows(page, '#canvas', { instead: 'crossings' });
+    await page.keyboard.press('Escape');
+    await shows(page, '#canvas', { instead: '' });
+    assert.equal(await hasGlow(page), false);
+  });
+
+  test('counts the mesh as it was given, also where vertices are snapped', async (t) => {
+    const page = await site.open(t, 'mesh=teapot&n=8&snap=0.3&free=off');
+    assert.equal(await textOf(page, '#crossings p'), await sentenceOf('teapot'));
+  });
+
+  test('once dismissed stays away until there is another mesh', async (t) => {
+    const page = await site.open(t, 'mesh=teapot&n=8&free=off');
+    await page.locator('#show-crossings').click();
+    await shows(page, '#canvas', { instead: 'crossings' });
+    await page.locator('#dismiss-crossings').click();
+    await shows(page, '#canvas', { instead: '' });
+    await slideTo(page, '#cells', 9);
+    await shows(page, '#counts', { grid: '9x6x6' });
+    assert.equal(await page.locator('#crossings').isVisible(), false);
+    await openPanel(page, 'mesh');
+    await page.locator('#gallery [data-name="crossing-tori"]').click();
+    await shows(page, '#mesh-line', { name: 'crossing-tori' });
+    await isReady(page);
+    assert.equal(await textOf(page, '#crossings p'), await sentenceOf('crossing-tori'));
+  });
+
+  test('is silent about a mesh that does not meet itself, and goes with the mesh that does', async (t) => {
+    const page = await site.open(t, 'mesh=crossing-tori&n=8&free=off');
+    await page.locator('#show-crossings').click();
+    await shows(page, '#canvas', { instead: 'crossings' });
+    await openPanel(page, 'mesh');
+    await page.locator('#gallery [data-name="wedge"]').click();
+    await shows(page, '#mesh-line', { name: 'wedge' });
+    await isReady(page);
+    await shows(page, '#canvas', { instead: '' });
+    assert.equal(await page.locator('#crossings').isVisible(), false);
   });
 });

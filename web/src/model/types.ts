@@ -1,5 +1,5 @@
 // What the parts of the page say to each other.
-import type { CutStats, Grid, InsideBy, Slice, Validation } from 'mandoline-wasm';
+import type { CutStats, Grid, InsideBy, PairCounts, Slice, Validation } from 'mandoline-wasm';
 import type { Vector3 } from './vector';
 import type { Comparison, OtherWay } from './comparison';
 import type { Bounds } from './grid_around';
@@ -102,6 +102,8 @@ export interface Model {
   droppedTriangles: number;
   counts: { cutCells: number; untouchedCells: number; faces: number; vertices: number; regions: number };
   stats: CutStats;
+  /** How many pairs of triangles of the mesh, unsnapped, meet other than in shared vertices and edges. */
+  crossings: PairCounts;
   /** Time of the estimate of what is inside, or null if there was none to make. */
   estimateMs: number | null;
   regions: RegionInfo[];

@@ -13,6 +13,7 @@ import type {
   Cutting,
   Engine,
   GridSettings,
+  Instead,
   MeshInfo,
   Model,
   PageError,
@@ -20,7 +21,6 @@ import type {
   SliceName,
   SliceSettings,
   Source,
-  StepPicture,
   StepRequest,
   View,
 } from '../model/types';
@@ -36,8 +36,8 @@ export class App {
   private loading = 0;
   private pins = 0;
   private pinned = false;
-  private steps = 0;
-  private stepKind: StepRequest['kind'] | null = null;
+  private insteads = 0;
+  private insteadKind: Instead['kind'] | null = null;
   private work = 0;
   private cuts = 0;
   private failed = false;
@@ -286,7 +286,15 @@ export class App {
     this.view.setModel(model, this.frameNext);
     this.fitNext = this.frameNext = false;
     this.view.setLook(this.settings);
-    if (this.stepKind) void this.step({ kind: this.stepKind });
+    this.renewInstead();
+  }
+
+  /** Shows the same of the new cut; of another mesh, where that meets itself is another matter. */
+  private renewInstead(): void {
+    if (this.insteadKind !== 'crossings') {
+      if (this.insteadKind) void this.step({ kind: this.insteadKind });
+    } else if (this.shown.mesh === this.mesh) void this.showCrossings();
+    else this.showModel();
   }
 
   /** There is no cut with these settings. A picture of the same mesh stays; one of another mesh would be mistaken for this one. */
@@ -295,7 +303,7 @@ export class App {
       this.wasSheet = isSheet(this.model);
       this.state.model.value = null;
       void this.pin(null);
-      void this.step(null);
+      this.showModel();
       this.view.clear();
     }
     this.state.cutError.value = problem;
@@ -320,22 +328,37 @@ export class App {
 
   /** Shows a step of the algorithm instead of the model, or the model again. */
   async step(request: StepRequest | null): Promise<void> {
-    const step = ++this.steps;
-    this.stepKind = request?.kind ?? null;
-    if (!request) return this.showStep(null);
-    const picture = await this.ask(this.engine.step(request));
-    if (picture && step === this.steps) this.showStep(picture);
+    if (request) await this.showInstead(request.kind, this.engine.step(request));
+    else this.showModel();
   }
 
-  private showStep(picture: StepPicture | null): void {
-    this.view.setInstead(picture);
-    this.state.step.value = picture;
+  /** Shows where the surface meets itself, instead of the model. */
+  showCrossings(): Promise<void> {
+    return this.showInstead('crossings', this.engine.crossings());
   }
 
-  /** Unpins the cell, or else leaves the step. */
+  showModel(): void {
+    this.insteads++;
+    this.insteadKind = null;
+    this.takeInstead(null);
+  }
+
+  private async showInstead(kind: Instead['kind'], answer: Promise<Instead>): Promise<void> {
+    const asked = ++this.insteads;
+    this.insteadKind = kind;
+    const instead = await this.ask(answer);
+    if (instead && asked === this.insteads) this.takeInstead(instead);
+  }
+
+  private takeInstead(instead: Instead | null): void {
+    this.view.setInstead(instead);
+    this.state.instead.value = instead;
+  }
+
+  /** Unpins the cell, or else goes back to the model. */
   leave(): void {
     if (this.pinned) void this.pin(null);
-    else if (this.stepKind) void this.step(null);
+    else if (this.insteadKind) this.showModel();
   }
 
   validate(): Promise<Validation | null> {

@@ -1,8 +1,8 @@
-import { signal } from '@preact/signals';
+import { computed, signal } from '@preact/signals';
 import { defaultSettings } from '../model/settings';
 import type { Playing } from './player';
 import { Sections } from './sections';
-import type { CellCard, MeshInfo, Model, PageError, StepPicture } from '../model/types';
+import type { CellCard, Crossings, Instead, MeshInfo, Model, PageError, StepPicture } from '../model/types';
 
 /** What is said on top of the picture: an alert stays until it is dismissed or cleared, a notice goes away by itself. */
 export interface Message {
@@ -30,7 +30,10 @@ export class State {
   /** The cut-cell under the pointer. */
   readonly hovered = signal<number | null>(null);
   readonly pinned = signal<CellCard | null>(null);
-  readonly step = signal<StepPicture | null>(null);
+  /** What is drawn instead of the model: a step of the algorithm, or where the surface meets itself. */
+  readonly instead = signal<Instead | null>(null);
+  readonly step = computed((): StepPicture | null => (this.instead.value?.kind === 'crossings' ? null : this.instead.value));
+  readonly crossings = computed((): Crossings | null => (this.instead.value?.kind === 'crossings' ? this.instead.value : null));
   /** What moves by itself. */
   readonly playing = signal<Playing | null>(null);
   readonly sections = new Sections();

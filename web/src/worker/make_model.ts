@@ -29,6 +29,7 @@ export function makeModel(mandoline: Mandoline, cut: Cut): Model {
       regions: cutMesh.regionCount,
     },
     stats: cutMesh.stats,
+    crossings: recipe.snapTolerance > 0 ? mandoline.findIntersections(mesh, { maxPairs: 0 }).counts : cutMesh.stats.intersections,
     estimateMs,
     regions,
     insideBy: inside.by,

@@ -5,6 +5,7 @@ import type { State } from '../state';
 import { Alerts } from './alerts';
 import { CellCard } from './cell_card';
 import { ChecksPanel } from './checks_panel';
+import { CrossingsBanner } from './crossings_banner';
 import { CutPanel } from './cut_panel';
 import { Drops } from './drops';
 import { HoverLine } from './hover_line';
@@ -37,6 +38,7 @@ export function showPanels(app: App): void {
     <>
       <Legend app={app} />
       <HoverLine app={app} />
+      <CrossingsBanner app={app} />
       <StageNote app={app} />
       <ProgressLine app={app} />
       <CellCard app={app} />

@@ -4,7 +4,7 @@ import { insideWords } from '../../model/inside';
 
 /** What the colours mean, on top of the picture, and what tells the inside from the outside unless winding numbers do. */
 export function Legend({ app: { model, settings, state } }: { app: App }) {
-  const entries = model && !state.step.value ? entriesOf(model, settings) : [];
+  const entries = model && !state.instead.value ? entriesOf(model, settings) : [];
   return (
     <div class="legend" id="legend" role="group" aria-label="Colours" hidden={entries.length === 0}>
       {entries.map(({ color, label }) => (

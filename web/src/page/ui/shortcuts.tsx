@@ -6,7 +6,7 @@ import { Terms } from './controls/terms';
 const help: [string, string][] = [
   ['F', 'fit view'],
   ['X Y Z', 'slice along an axis, on or off'],
-  ['Esc', 'unpin the cell, or leave the steps'],
+  ['Esc', 'unpin the cell, or go back to the model'],
   ['← →', 'in the steps: previous and next'],
   ['?', 'show this list'],
 ];
