@@ -41,6 +41,8 @@ export class App {
   private work = 0;
   private cuts = 0;
   private failed = false;
+  /** What was opened from files, by their names, for the way back. */
+  private readonly files = new Map<string, Blob>();
   /** Alerts to be shown in the end: a fallback that succeeds must not clear them. */
   private troubles: PageError[] = [];
   /** Whether the next model needs a camera that sees all of it, or a look that suits it. */
@@ -78,7 +80,8 @@ export class App {
   /** Loads a mesh and cuts it, if given into `cells` along its longest side. If it can't be loaded, the page keeps the previous one. */
   async open(source: Source, { bytes, cells }: { bytes?: ArrayBuffer; cells?: number } = {}): Promise<void> {
     await this.during(async () => {
-      if ((await this.load(source, bytes)) !== 'loaded') return;
+      if (source.kind === 'file' && bytes) this.files.set(source.name, new Blob([bytes]));
+      if ((await this.load(source)) !== 'loaded') return;
       if (this.model) this.wasSheet = isSheet(this.model);
       const grid = { cells: cells ?? this.cellsToKeep() };
       this.fitNext = true;
@@ -98,18 +101,43 @@ export class App {
   /** Applies all settings of a link. If its mesh can't be loaded, the previous or the default one takes its place. */
   async restore(settings: Settings): Promise<void> {
     await this.during(async () => {
-      let source = settings.source.kind === 'file' ? defaultSource : settings.source;
-      let outcome = await this.load(source);
+      let source = this.canOpen(settings.source) ? settings.source : defaultSource;
+      let outcome = this.isOpen(source) ? 'loaded' : await this.load(source);
       if (outcome === 'failed' || outcome === 'cancelled') {
         source = this.model ? this.settings.source : defaultSource;
         outcome = this.model ? 'loaded' : await this.load(source);
       }
       if (outcome !== 'loaded') return;
       this.change({ ...settings, source }, false);
+      if (this.isCut()) return this.showAgain();
       const error = await this.recut(settings.camera === null);
       if (error && !this.model) await this.fallBack(error);
       else if (!error) this.showSomething();
     });
+  }
+
+  /** Files can be opened again as long as the page is there. */
+  canOpen(source: Source): boolean {
+    return source.kind !== 'file' || this.files.has(source.name);
+  }
+
+  private isOpen(source: Source): boolean {
+    return this.mesh !== null && this.loading === 0 && same(source, this.settings.source);
+  }
+
+  /** Whether the model is what the settings ask for. */
+  private isCut(): boolean {
+    const { grid, snapTolerance, pose } = this.settings;
+    return (
+      this.model !== null && this.cuts === 0 && this.shown.mesh === this.mesh && same(this.shown.cutting, { grid, snapTolerance, pose })
+    );
+  }
+
+  private showAgain(): void {
+    this.state.cutError.value = null;
+    this.view.setLook(this.settings);
+    if (!this.settings.camera) this.view.frame();
+    this.showSomething();
   }
 
   /** Links leave out defaults, and these would hide a sheet, or a model that is all outside. */
@@ -163,11 +191,13 @@ export class App {
   }
 
   /** Failures are shown in the end; the outcome is "superseded" if a newer mesh was asked for meanwhile. */
-  private async load(source: Source, bytes?: ArrayBuffer): Promise<'loaded' | 'failed' | 'cancelled' | 'superseded'> {
+  private async load(source: Source): Promise<'loaded' | 'failed' | 'cancelled' | 'superseded'> {
     const load = ++this.loads;
     this.loading++;
     this.tellWork();
     try {
+      const bytes = source.kind === 'file' ? await this.files.get(source.name)?.arrayBuffer() : undefined;
+      if (load !== this.loads) return 'superseded';
       const mesh = await this.engine.load(source, bytes);
       if (load !== this.loads) return 'superseded';
       this.state.mesh.value = mesh;
@@ -384,6 +414,10 @@ export class App {
       return null;
     }
   }
+}
+
+function same(a: unknown, b: unknown): boolean {
+  return JSON.stringify(a) === JSON.stringify(b);
 }
 
 function isAbort(error: unknown): boolean {

@@ -1,27 +1,80 @@
 import type { App } from './app';
 import { fromHash, toHash } from '../model/settings';
 
-/** Keeps the URL in step with the settings, and the settings with a URL that the person has changed. */
+/** What sliders and handles change, step by step. */
+const continuous = ['n', 'box', 'snap', 'x', 'y', 'z', 'free', 'explode', 'pose'];
+/** In ms: a change has been made once nothing has changed for so long ... */
+const pause = 300;
+/** ... and a continuous one goes on if it is taken up again within this time. */
+const rest = 1000;
+
+/**
+ * Keeps the URL in step with the settings, and the settings with the URL: Back and Forward go through what was opened, its cuts and their
+ * looks, one change at a time. The camera is part of each.
+ */
 export async function followLink(app: App): Promise<void> {
   let timer = 0;
-  const write = () => {
-    const hash = toHash(app.settings);
-    history.replaceState(null, '', hash ? `#${hash}` : location.pathname + location.search);
+  let isBusy = true;
+  let isHeld = false;
+  /** The hash of this entry of the history. */
+  let known = hashHere();
+  /** Whether the settings come from the entry: what its link leaves out isn't a change. */
+  let isRead = true;
+  let change = { keys: '', at: 0 };
+
+  const isNewChange = (hash: string) => {
+    const keys = changedKeys(known, hash).filter((key) => key !== 'camera');
+    const goesOn = keys.join() === change.keys && (isHeld || performance.now() - change.at < rest);
+    change = { keys: keys.every((key) => continuous.includes(key)) ? keys.join() : '', at: performance.now() };
+    return keys.length > 0 && !goesOn;
   };
-  const read = () => {
-    const { settings, problems } = fromHash(location.hash);
+  const write = () => {
+    if (isBusy) return; // The look may still be adapted to the mesh.
+    const hash = toHash(app.settings);
+    const isNew = !isRead && isNewChange(hash);
+    isRead = false;
+    if (hash === known) return;
+    known = hash;
+    const url = hash ? `#${hash}` : location.pathname + location.search;
+    if (isNew) history.pushState(null, '', url);
+    else history.replaceState(null, '', url);
+  };
+  const writeSoon = () => {
+    clearTimeout(timer);
+    timer = window.setTimeout(write, pause);
+  };
+  const read = async () => {
+    known = hashHere();
+    isRead = true;
+    const { settings, problems } = fromHash(known);
     if (problems.length > 0) app.state.notice(`Parts of the link were not understood (${problems.join(', ')}); the rest is shown.`);
-    if (settings.source.kind === 'file') {
+    if (settings.source.kind === 'file' && !app.canOpen(settings.source)) {
       app.state.notice(
         `The link was made from the file ${settings.source.name}, which it does not contain. Open that file to see the same view.`,
       );
     }
-    return app.restore(settings);
+    await app.restore(settings);
+    writeSoon();
   };
-  addEventListener('hashchange', () => void read());
+  // Of the same change both may tell.
+  for (const event of ['popstate', 'hashchange']) addEventListener(event, () => hashHere() !== known && void read());
+  for (const event of ['pointerdown', 'pointerup', 'pointercancel']) {
+    addEventListener(event, () => (isHeld = event === 'pointerdown'), { capture: true });
+  }
   await read();
-  app.state.settings.subscribe(() => {
-    clearTimeout(timer);
-    timer = window.setTimeout(write, 300);
+  app.state.status.subscribe((status) => {
+    isBusy = status === 'busy';
+    if (!isBusy) writeSoon();
   });
+  app.state.settings.subscribe(writeSoon);
+}
+
+function hashHere(): string {
+  return location.hash.slice(1);
+}
+
+/** The keys of which two hashes say different things. */
+function changedKeys(one: string, other: string): string[] {
+  const [a, b] = [new URLSearchParams(one), new URLSearchParams(other)];
+  return [...new Set([...a.keys(), ...b.keys()])].filter((key) => a.get(key) !== b.get(key));
 }
