@@ -6,7 +6,7 @@ import { covered, pixelsOf } from './pictures.mjs';
 const site = await startSite();
 after(() => site.close());
 const link = 'mesh=wedge&n=2&free=off';
-const panels = ['mesh', 'cut', 'view', 'steps', 'checks', 'save'];
+const panels = ['mesh', 'cut', 'view', 'wind', 'steps', 'checks', 'save'];
 const controls = 'a[href], button, input, select, textarea, summary, [tabindex]';
 
 /** Opens all that can be opened, and pins a cell. */
@@ -202,15 +202,15 @@ test('panels come back when a narrow window becomes wide', async (t) => {
   const expanded = (id) => page.locator(`#${id}-toggle`).getAttribute('aria-expanded');
   const isOpen = () => Promise.all(panels.map(async (id) => (await expanded(id)) === 'true'));
   const are = (expected) => eventually(async () => assert.deepEqual(await isOpen(), expected));
-  await are([false, false, false, false, false, false]);
+  await are([false, false, false, false, false, false, false]);
   await page.setViewportSize(wide);
-  await are([true, true, true, false, false, false]);
+  await are([true, true, true, false, false, false, false]);
   await page.locator('#mesh-toggle').click();
   await page.locator('#save-toggle').click();
   await page.setViewportSize({ width: 360, height: 640 });
-  await are([false, false, false, false, false, false]);
+  await are([false, false, false, false, false, false, false]);
   await page.setViewportSize(wide);
-  await are([false, true, true, false, false, true]);
+  await are([false, true, true, false, false, false, true]);
 });
 
 test('where motion is unwanted nothing moves by itself', async (t) => {

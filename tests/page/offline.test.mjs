@@ -16,7 +16,7 @@ async function scripts() {
 
 const has = (texts, word) => texts.some((text) => text.includes(word));
 
-test('offline, meshes of the gallery and files of every format are opened and saved', async (t) => {
+test('offline, meshes of the gallery and files of every format are opened and saved, and the wind blows', async (t) => {
   const page = await site.newPage(t);
   const loaded = [];
   page.on('requestfinished', (request) => loaded.push(request.url()));
@@ -26,7 +26,7 @@ test('offline, meshes of the gallery and files of every format are opened and sa
   assert.ok(has(first, 'WebGL'), 'three draws the picture');
   assert.ok(!has(first, 'THREE.GLTFLoader') && !has(first, 'THREE.GLTFExporter'), 'the picture does not wait for readers and writers');
   await eventually(async () => {
-    for (const name of [/gltf.*\.js$/, /GLTFExporter.*\.js$/, /files.*\.wasm$/])
+    for (const name of [/gltf.*\.js$/, /GLTFExporter.*\.js$/, /files.*\.wasm$/, /physics.*\.wasm$/])
       assert.ok(
         loaded.some((url) => name.test(url)),
         String(name),
@@ -47,6 +47,13 @@ test('offline, meshes of the gallery and files of every format are opened and sa
   await openPanel(page, 'save');
   for (const format of ['json', 'vtu', 'obj', 'glb', 'png']) {
     assert.ok((await download(page, `#save-${format}`)).bytes.length > 100, format);
+  }
+  await openPanel(page, 'wind');
+  await page.locator('#wind-on').check();
+  await shows(page, '#canvas', { wind: '1,0,0' });
+  await openPanel(page, 'save');
+  for (const format of ['csv', 'vtu', 'obj']) {
+    assert.ok((await download(page, `#save-wind-${format}`)).bytes.length > 100, format);
   }
   await openPanel(page, 'checks');
   await page.locator('#validate').click();

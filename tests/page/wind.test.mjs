@@ -21,7 +21,7 @@ const { boundsOf } = await importBundled('model/grid_around.ts');
 const program = process.env.MANDOLINE_CLI ?? fileURLToPath(new URL('../../build/mandoline', import.meta.url));
 
 const loaded = (mesh, name = 'a mesh') => ({ ...mesh, id: 1, name, bounds: boundsOf(mesh) });
-const request = (part = {}) => ({ mesh: 1, cells: 48, direction: [1, 0, 0], surface: false, known: '', planes: [], ...part });
+const request = (part = {}) => ({ mesh: 1, pose: null, cells: 48, direction: [1, 0, 0], surface: false, known: '', planes: [], ...part });
 const bunny = loaded(await galleryMesh('bunny'), 'bunny');
 const slanted = [0.48, -0.6, 0.64];
 
@@ -30,7 +30,7 @@ function largestDifference(a, b) {
 }
 
 test('the flow of a slanted wind is that of winds along the axes combined', async () => {
-  const tunnel = await makeTunnel(pack, bunny, 32);
+  const tunnel = await makeTunnel(pack, bunny, { mesh: 1, pose: null, cells: 32 });
   while (await solveAhead(pack, tunnel));
   const combined = await flowOf(pack, tunnel, slanted);
   const solved = physics.solveFlow(tunnel.cells, slanted);
@@ -47,7 +47,7 @@ test('a wind that a wall holds back is not combined', async () => {
     triangles: Uint32Array.of(0, 1, 2, 0, 2, 3),
   });
   // A grid that the wall divides.
-  const tunnel = await makeTunnel(pack, wall, 8);
+  const tunnel = await makeTunnel(pack, wall, { mesh: 1, pose: null, cells: 8 });
   tunnel.cutMesh = mandoline.cut(wall, { min: [-1, -1, -1], max: [1, 1, 1], cells: [8, 8, 8] });
   tunnel.cells = physics.cellComplex(wall, tunnel.cutMesh);
   while (await solveAhead(pack, tunnel));
@@ -57,7 +57,7 @@ test('a wind that a wall holds back is not combined', async () => {
 });
 
 test('pulses arrive along a streamline at the speed of the flow', async () => {
-  const tunnel = await makeTunnel(pack, bunny, 24);
+  const tunnel = await makeTunnel(pack, bunny, { mesh: 1, pose: null, cells: 24 });
   const { lines } = await windPicture(pack, tunnel, request(), 0);
   const { arrival, offsets, position, speed } = lines;
   assert.ok(Math.abs(offsets.length - 501) < 60, `${offsets.length - 1} lines`);
@@ -74,7 +74,7 @@ test('pulses arrive along a streamline at the speed of the flow', async () => {
 });
 
 test('the surface of a box has the speed of the cells outside it, and none of its inside', async () => {
-  const tunnel = await makeTunnel(pack, loaded(box([-1, -1, -1], [1, 1, 1])), 16);
+  const tunnel = await makeTunnel(pack, loaded(box([-1, -1, -1], [1, 1, 1])), { mesh: 1, pose: null, cells: 16 });
   const { surface } = await windPicture(pack, tunnel, request({ surface: true }), 0);
   const { position, index } = surface.shape;
   const corner = (at) => [...position.subarray(3 * index[at], 3 * index[at] + 3)];
@@ -97,7 +97,7 @@ test('the surface of a box has the speed of the cells outside it, and none of it
 });
 
 test('a section has the area of the tunnel, and no speed within a body', async () => {
-  const tunnel = await makeTunnel(pack, bunny, 24);
+  const tunnel = await makeTunnel(pack, bunny, { mesh: 1, pose: null, cells: 24 });
   const normal = [0.6, 0, 0.8];
   const offset = normal.reduce((sum, n, d) => sum + n * tunnel.origin[d], 0);
   const { sections, half } = await windPicture(pack, tunnel, request({ planes: [{ normal, offset }] }), 0);
@@ -134,7 +134,7 @@ for (const direction of [[1, 0, 0], slanted]) {
     writeFileSync(input, await mandoline.writeMesh(bunny, 'obj'));
     const told = spawnSync(program, ['flow', input, '--wind', direction.join(), '--cells', '48', '--coarsen', '24', '-o', output]);
     assert.equal(told.status, 0, String(told.stderr));
-    const tunnel = await makeTunnel(pack, bunny, 48);
+    const tunnel = await makeTunnel(pack, bunny, { mesh: 1, pose: null, cells: 48 });
     const written = async (format) => Buffer.from(await writeWind(pack, tunnel, direction, format));
     const native = readFileSync(output);
     assert.ok((await written('vtu')).equals(native));

@@ -21,11 +21,11 @@ export function boundsOf({ positions, triangles }: Mesh): Bounds {
 }
 
 /** The box and the counts of the package's grid of `cells` cubic cells along the longest side of the mesh, up to rounding. */
-export function gridAround({ min, max }: Bounds, cells: number): { min: Vector3; max: Vector3; cells: Vector3 } {
+export function gridAround({ min, max }: Bounds, cells: number, margin = 0.05): { min: Vector3; max: Vector3; cells: Vector3 } {
   const longest = Math.max(...max.map((x, d) => x - min[d])) || 1;
-  const size = (1.1 * longest) / cells;
+  const size = ((1 + 2 * margin) * longest) / cells;
   const axes = [0, 1, 2].map((d) => {
-    const count = Math.min(Math.max(Math.ceil(((max[d] - min[d] + 0.1 * longest) / size) * (1 - 1e-12)), 1), cells);
+    const count = Math.min(Math.max(Math.ceil(((max[d] - min[d] + 2 * margin * longest) / size) * (1 - 1e-12)), 1), cells);
     const middle = 0.5 * min[d] + 0.5 * max[d];
     return { min: middle - 0.5 * size * count, max: middle + 0.5 * size * count, count };
   });

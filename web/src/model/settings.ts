@@ -2,6 +2,7 @@
 import { motions } from './motion';
 import type { Axis, ColorBy, GridSettings, Settings, SliceName, SliceSettings, Source } from './types';
 import type { Vector3 } from './vector';
+import { defaultWindCells, mostWindCells, windColorings } from './wind';
 
 export const axes: readonly Axis[] = ['x', 'y', 'z'];
 export const sliceNames: readonly SliceName[] = [...axes, 'free'];
@@ -27,6 +28,7 @@ export function defaultSettings(): Settings {
     colorBy: 'kind',
     show: { surface: true, gridFaces: true, edges: true, untouched: true, cutCells: true, outside: false, region: null },
     camera: null,
+    wind: { on: false, direction: [1, 0, 0], show: 'none', cells: defaultWindCells },
   };
 }
 
@@ -50,6 +52,8 @@ function entries(settings: Settings): [string, string][] {
   list.push(['slice', settings.sliceMode], ['explode', short([explode.cells, explode.regions])], ['color', settings.colorBy]);
   list.push(['show', layers.filter((layer) => show[layer]).join()]);
   if (show.region !== null) list.push(['region', String(show.region)]);
+  const { wind } = settings;
+  list.push(['wind', wind.on ? short(wind.direction) : 'off'], ['flow', wind.show], ['tunnel', String(wind.cells)]);
   if (camera) list.push(['camera', short([...camera.position, ...camera.target])]);
   return list;
 }
@@ -135,6 +139,18 @@ const readers: Record<string, Reader> = {
     settings.camera = { position: vector(values), target: vector(values.slice(3)) };
     return true;
   },
+  wind: readWind,
+  flow: (settings, text) => {
+    const show = windColorings.find((name) => name === text);
+    if (show) settings.wind.show = show;
+    return show !== undefined;
+  },
+  tunnel: (settings, text) => {
+    const cells = count(text, 2);
+    if (cells === null || cells > mostWindCells) return false;
+    settings.wind.cells = cells;
+    return true;
+  },
 };
 
 function readSource(settings: Settings, source: Source, text: string): boolean {
@@ -183,6 +199,15 @@ function readFreeSlice(settings: Settings, text: string): boolean {
   const normal = values.slice(1);
   if (!normal.some((x) => x !== 0)) return false;
   settings.slices.free = { on: true, position: values[0], normal: unit(normal) };
+  return true;
+}
+
+function readWind(settings: Settings, text: string): boolean {
+  settings.wind.on = text !== 'off';
+  if (text === 'off') return true;
+  const values = numbers(text, 3);
+  if (!values?.some((x) => x !== 0)) return false;
+  settings.wind.direction = unit(values);
   return true;
 }
 

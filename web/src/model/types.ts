@@ -4,6 +4,7 @@ import type { Vector3 } from './vector';
 import type { Comparison, OtherWay } from './comparison';
 import type { Bounds } from './grid_around';
 import type { Pose } from './motion';
+import type { Wind, WindFormat, WindRequest, WindSettings } from './wind';
 
 /** Where a mesh comes from. A file's bytes are kept by the worker; a link can't restore it. */
 export type Source = { kind: 'gallery'; name: string } | { kind: 'url'; url: string } | { kind: 'file'; name: string };
@@ -60,6 +61,7 @@ export interface LookSettings {
     region: number | null;
   };
   camera: { position: Vector3; target: Vector3 } | null;
+  wind: WindSettings;
 }
 
 /** All that a link restores. Plain data. */
@@ -222,6 +224,11 @@ export interface Engine {
   crossings(): Promise<Crossings>;
   compare(way: OtherWay): Promise<Comparison>;
   write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array>;
+  /** The flow about the mesh that is shown. Of several under way the newest wins: those before it reject with an AbortError. */
+  wind(request: AboutShown<WindRequest>): Promise<Wind>;
+  /** Ends the flow under way. */
+  cancelWind(): void;
+  writeWind(request: AboutShown<WindRequest>, format: WindFormat): Promise<Uint8Array>;
 }
 
 /** A film under way. */
@@ -230,6 +237,8 @@ export interface Recording {
   type: string;
   stop(): Promise<Blob>;
 }
+/** About the mesh that is shown. */
+type AboutShown<Request> = Omit<Request, 'mesh' | 'known'>;
 
 /** What is drawn. Owns the canvas; knows nothing of panels. */
 export interface View {
@@ -242,12 +251,16 @@ export interface View {
   /** Draws this instead of the model, or the model again. */
   setInstead(instead: Instead | null): void;
   setPinned(cell: number | null): void;
+  /** Draws this flow, or none. */
+  setWind(wind: Wind | null): void;
   onHover: (cell: number | null) => void;
   onPick: (cell: number | null) => void;
   /** The camera was moved, by the person. */
   onCamera: (camera: NonNullable<Settings['camera']>) => void;
   /** The free plane was moved with its gizmo. */
   onFreePlane: (slice: SliceSettings) => void;
+  /** The wind was turned with its handle. */
+  onWind: (direction: Vector3) => void;
   setScheme(dark: boolean): void;
   /** Everything that is seen, at the current explosion, as a file. */
   png(): Promise<Blob>;

@@ -1,4 +1,5 @@
 // The wind tunnel: what is asked for and what is drawn of it.
+import type { Pose } from './motion';
 import type { Vector3 } from './vector';
 
 export const windColorings = ['none', 'speed', 'pressure'] as const;
@@ -23,6 +24,7 @@ export const mostWindCells = 128;
 export interface WindRequest {
   /** Id of the mesh. */
   mesh: number;
+  pose: Pose | null;
   cells: number;
   direction: Vector3;
   /** Whether the speed at the surface is wanted. */

@@ -9,6 +9,7 @@ import type { Pose } from '../model/motion';
 import { Player } from './player';
 import { isSheet } from './view/look';
 import type { State } from './state';
+import { WindTunnel } from './wind';
 import type {
   Cutting,
   Engine,
@@ -32,6 +33,7 @@ const sheetColoring = 'cell';
 
 export class App {
   readonly player: Player;
+  readonly windTunnel: WindTunnel;
   private loads = 0;
   private loading = 0;
   private pins = 0;
@@ -62,6 +64,8 @@ export class App {
     view.onHover = (cell) => (state.hovered.value = cell);
     view.onPick = (cell) => void this.pin(cell);
     view.onCamera = (camera) => this.change({ camera }, false);
+    this.windTunnel = new WindTunnel(state, engine, view, (answer) => this.ask(answer));
+    view.onWind = (direction) => this.changeWind({ direction });
     view.onFreePlane = (slice) => this.change({ slices: { ...this.settings.slices, free: slice } }, false);
   }
 
@@ -254,6 +258,12 @@ export class App {
 
   changeShow(part: Partial<Settings['show']>): void {
     this.change({ show: { ...this.settings.show, ...part } });
+  }
+
+  /** Where a wind blows nothing is pulled apart, unless the person does so then. */
+  changeWind(part: Partial<Settings['wind']>): void {
+    const wind = { ...this.settings.wind, ...part };
+    this.change({ wind, ...(part.on ? { explode: { cells: 0, regions: 0 } } : {}) });
   }
 
   /** Resolves once this is drawn, or a newer cut has taken its place; false if it failed. */

@@ -6,7 +6,9 @@ import type { Vector3 } from '../model/vector';
 import { isLack, isOutdated, type CallName, type CallProgress, type Calls, type LoadedMesh, type Recipe } from '../model/calls';
 import type { CellCard, Crossings, Cutting, Engine, MeshInfo, Model, PageError, Source, StepPicture, StepRequest } from '../model/types';
 import type { Comparison, OtherWay } from '../model/comparison';
+import type { Wind, WindFormat } from '../model/wind';
 import { pageError } from '../model/failure';
+import { WindEngine } from './wind_engine';
 import { abortError, isCancellation, toPageError } from './failure';
 
 interface CallOptions {
@@ -25,6 +27,7 @@ interface WaitingCut {
 class WorkerEngine implements Engine {
   onProgress: Engine['onProgress'] = () => {};
   private worker: Promise<MandolineWorker> | null = null;
+  private readonly tunnel = new WindEngine();
   private meshes = 0;
   private cuts = 0;
   /** The newest mesh, and that of the Model that is shown. */
@@ -64,7 +67,7 @@ class WorkerEngine implements Engine {
   }
 
   loadAhead(): Promise<void> {
-    return this.call('loadAhead', null);
+    return Promise.all([this.call('loadAhead', null), this.tunnel.loadAhead()]).then(() => {});
   }
 
   private keep(mesh: LoadedMesh): void {
@@ -141,6 +144,26 @@ class WorkerEngine implements Engine {
 
   write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array> {
     return this.aboutNewest((recipe) => this.call('write', { recipe, format }));
+  }
+
+  wind(request: Parameters<Engine['wind']>[0]): Promise<Wind> {
+    const mesh = this.meshShown();
+    return this.tunnel.flow(mesh, { mesh: mesh.id, ...request });
+  }
+
+  cancelWind(): void {
+    this.tunnel.cancel();
+  }
+
+  writeWind(request: Parameters<Engine['wind']>[0], format: WindFormat): Promise<Uint8Array> {
+    const mesh = this.meshShown();
+    return this.tunnel.write(mesh, { mesh: mesh.id, ...request }, format);
+  }
+
+  private meshShown(): LoadedMesh {
+    const mesh = this.kept.get(this.shown?.mesh ?? 0);
+    if (!mesh) throw noMesh();
+    return mesh;
   }
 
   /** Calls about planes or cells of the cut that is shown, which mean nothing for another cut. */

@@ -1,10 +1,10 @@
 // What went wrong in a call of the worker, as the page shows it.
 import { describe, MandolineError } from 'mandoline-wasm/worker';
-import type { CallName } from '../model/calls';
+import type { CallName, WindCallName } from '../model/calls';
 import { isPageError, pageError } from '../model/failure';
 import type { PageError } from '../model/types';
 
-const titles: Record<CallName, string> = {
+const titles: Record<CallName | WindCallName, string> = {
   load: "The mesh can't be read",
   loadAhead: "The readers can't be loaded",
   keep: "The mesh can't be kept",
@@ -17,9 +17,12 @@ const titles: Record<CallName, string> = {
   compare: "The comparison can't be made",
   step: "The step can't be shown",
   write: "The file can't be written",
+  wind: "The flow can't be computed",
+  windAhead: "The wind tunnel can't be loaded",
+  writeWind: "The flow can't be written",
 };
 
-export function toPageError(error: unknown, call: CallName): PageError {
+export function toPageError(error: unknown, call: CallName | WindCallName): PageError {
   if (isPageError(error)) return error;
   if (!(error instanceof MandolineError)) return pageError(titles[call], error instanceof Error ? error.message : String(error));
   return pageError(error.code === 'loadFailed' ? "The cutter can't be started" : titles[call], describe(error));

@@ -3,6 +3,7 @@ import { defaultSettings } from '../model/settings';
 import type { Playing } from './player';
 import { Sections } from './sections';
 import type { CellCard, Crossings, Instead, MeshInfo, Model, PageError, StepPicture } from '../model/types';
+import type { Wind } from '../model/wind';
 
 /** What is said on top of the picture: an alert stays until it is dismissed or cleared, a notice goes away by itself. */
 export interface Message {
@@ -36,6 +37,9 @@ export class State {
   readonly crossings = computed((): Crossings | null => (this.instead.value?.kind === 'crossings' ? this.instead.value : null));
   /** What moves by itself. */
   readonly playing = signal<Playing | null>(null);
+  /** The flow that is drawn. */
+  readonly wind = signal<Wind | null>(null);
+  readonly isWindAwaited = signal(false);
   readonly sections = new Sections();
   /** The newest first. */
   readonly messages = signal<readonly Message[]>([]);

@@ -5,8 +5,8 @@ import type { CallProgress, Lack, LoadedMesh, Outdated, Recipe } from '../model/
 import { pageError } from '../model/failure';
 import { checkExtent } from './extent';
 import { gridAround, type Bounds } from '../model/grid_around';
-import { makeMover, type Motion, type Mover } from '../model/motion';
 import type { GridSettings } from '../model/types';
+import { posed } from './posed';
 
 export interface Cut {
   recipe: Recipe;
@@ -28,7 +28,6 @@ const mostGridCells = 2 ** 24;
 const meshes = new Map<number, LoadedMesh>();
 const prepared = new WeakMap<LoadedMesh, Mesh>();
 let newest: Cut | null = null;
-let moving: { mesh: LoadedMesh; motion: Motion; mover: Mover } | null = null;
 
 /** Keeps a mesh, and drops all others except the one that is shown. */
 export function keep(mesh: LoadedMesh): void {
@@ -51,16 +50,6 @@ function preparedMesh(mandoline: Mandoline, mesh: LoadedMesh, { snapTolerance, p
   return known;
 }
 
-/** The mesh of a recipe at the moment of its motion, with the bounds of all of the motion. */
-function posed(mandoline: Mandoline, { mesh: id, pose }: Recipe): LoadedMesh {
-  const mesh = meshOf(id);
-  if (!pose) return mesh;
-  if (moving?.mesh !== mesh || moving.motion !== pose.motion) {
-    moving = { mesh, motion: pose.motion, mover: makeMover(mesh, mandoline.inspect(mesh).triangleComponent, pose.motion) };
-  }
-  return { ...mesh, ...moving.mover.at(pose.phase), bounds: moving.mover.bounds };
-}
-
 /** How far a call has come, as the part of the cut from one fraction to another. */
 function telling(tell: (progress: CallProgress) => void, from: number, to: number) {
   return ({ stage, stageIndex, stageCount, done, total }: Progress): void => {
@@ -75,7 +64,7 @@ function withEstimates(mandoline: Mandoline, mesh: LoadedMesh, cutMesh: CutMesh,
 }
 
 export function makeCut(mandoline: Mandoline, recipe: Recipe, tell: (progress: CallProgress) => void): Cut {
-  const mesh = posed(mandoline, recipe);
+  const mesh = posed(mandoline, meshOf(recipe.mesh), recipe.pose);
   checkSize(recipe.grid, mesh.bounds);
   const grid = recipe.pose && !('min' in recipe.grid) ? gridAround(mesh.bounds, recipe.grid.cells) : recipe.grid;
   const exact = mandoline.cut(preparedMesh(mandoline, mesh, recipe), grid as GridInput, {

@@ -1,11 +1,11 @@
 import type { Model } from '../../model/types';
 
-/** Saves a file that is named for the model. */
-export function download(blob: Blob, { name, grid }: Model, extension: string): void {
+/** Saves a file that is named for the model, and for its grid or what else it is about. */
+export function download(blob: Blob, { name, grid }: Model, extension: string, about = grid.cells.join('x')): void {
   const url = URL.createObjectURL(blob);
   const link = document.createElement('a');
   link.href = url;
-  link.download = `${name}-${grid.cells.join('x')}.${extension}`.replaceAll(/[^\w.-]+/g, '-');
+  link.download = `${name}-${about}.${extension}`.replaceAll(/[^\w.-]+/g, '-');
   link.click();
   setTimeout(() => URL.revokeObjectURL(url), 10000);
 }

@@ -19,6 +19,7 @@ import { Shortcuts } from './shortcuts';
 import { StageNote } from './stage_note';
 import { StepsPanel } from './steps_panel';
 import { ViewPanel } from './view_panel';
+import { WindPanel } from './wind_panel';
 
 /** Apart from the others, so that the page can say why there is no app. */
 export function showAlerts(state: State): void {
@@ -52,6 +53,7 @@ export function showPanels(app: App): void {
       <CutPanel app={app} />
       <ViewPanel app={app} />
       <MotionPanel app={app} />
+      <WindPanel app={app} />
       <StepsPanel app={app} />
       <ChecksPanel app={app} />
       <SavePanel app={app} />

@@ -1,9 +1,12 @@
 import type { App } from '../app';
 import { legend as entriesOf } from '../view/colors';
+import { WindLegend } from './wind_legend';
 import { insideWords } from '../../model/inside';
 
 /** What the colours mean, on top of the picture, and what tells the inside from the outside unless winding numbers do. */
 export function Legend({ app: { model, settings, state } }: { app: App }) {
+  const wind = state.instead.value ? null : state.wind.value;
+  if (wind?.surface) return <WindLegend coloring={settings.wind.show} />;
   const entries = model && !state.instead.value ? entriesOf(model, settings) : [];
   return (
     <div class="legend" id="legend" role="group" aria-label="Colours" hidden={entries.length === 0}>

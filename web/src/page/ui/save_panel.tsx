@@ -1,14 +1,31 @@
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import type { App } from '../app';
 import { toHash } from '../../model/settings';
+import type { WindFormat } from '../../model/wind';
 import { download } from './download';
 import { Section } from './controls/section';
 
 interface Format {
+  /** Also the end of its name. */
   format: string;
+  /** What the file's name ends with besides. */
+  about?: string;
   label: string;
   what: string;
   make: () => Promise<Blob | null>;
+}
+
+/** The flow that is drawn. */
+function windFormats(app: App): Format[] {
+  const written = (format: WindFormat, type: string) => async () => {
+    const bytes = await app.windTunnel.write(format);
+    return bytes && new Blob([bytes as Uint8Array<ArrayBuffer>], { type });
+  };
+  return [
+    { format: 'csv', about: 'wind', label: 'CSV', what: 'flow in cells', make: written('csv', 'text/csv') },
+    { format: 'vtu', about: 'wind', label: 'VTU', what: 'flow for ParaView', make: written('vtu', 'application/xml') },
+    { format: 'obj', about: 'wind', label: 'OBJ', what: 'streamlines', make: written('obj', 'text/plain') },
+  ];
 }
 
 /** Saves the result and the view as files, or as a link. */
@@ -23,12 +40,13 @@ export function SavePanel({ app }: { app: App }) {
     { format: 'obj', label: 'OBJ', what: 'surface by region', make: written('obj', 'text/plain') },
     { format: 'glb', label: 'GLB', what: 'visible geometry', make: () => app.ask(app.view.glb()) },
     { format: 'png', label: 'PNG', what: 'screenshot', make: () => app.ask(app.view.png()) },
+    ...(app.state.wind.value ? windFormats(app) : []),
   ];
   return (
     <Section app={app} id="save" title="Save">
       <ul class="savers">
         {formats.map((format) => (
-          <li key={format.format}>
+          <li key={format.what}>
             <Saver app={app} {...format} />
           </li>
         ))}
@@ -38,7 +56,7 @@ export function SavePanel({ app }: { app: App }) {
   );
 }
 
-function Saver({ app, format, label, what, make }: Format & { app: App }) {
+function Saver({ app, format, about, label, what, make }: Format & { app: App }) {
   const [isSaving, setSaving] = useState(false);
   const { model } = app;
   const save = async () => {
@@ -46,10 +64,10 @@ function Saver({ app, format, label, what, make }: Format & { app: App }) {
     setSaving(true);
     const blob = await make();
     setSaving(false);
-    if (blob) download(blob, model, format);
+    if (blob) download(blob, model, format, about);
   };
   return (
-    <button type="button" id={`save-${format}`} disabled={isSaving || !model} onClick={() => void save()}>
+    <button type="button" id={`save-${about ? `${about}-` : ''}${format}`} disabled={isSaving || !model} onClick={() => void save()}>
       <strong>{label}</strong>
       <small>{what}</small>
     </button>

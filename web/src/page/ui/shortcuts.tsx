@@ -15,6 +15,7 @@ const mouse: [string, string][] = [
   ['right drag, two fingers, Shift + arrow keys', 'pan'],
   ['wheel, pinch, +\u00a0and\u00a0−', 'zoom'],
   ['click a cell', 'pin it and show its card'],
+  ['drag the arrow of the wind', 'turn the wind'],
 ];
 
 /** The shortcuts, and the button that lists them. */

@@ -2,6 +2,7 @@
 import type { Object3D } from 'three';
 import type { Slice } from 'mandoline-wasm';
 import type { Instead, Model, Settings } from '../../model/types';
+import type { Wind } from '../../model/wind';
 import type { Piece } from './piece';
 import type { ViewPlane } from './planes';
 
@@ -19,6 +20,8 @@ export interface Look {
   caps: { id: number; slices: readonly Slice[] };
   /** What is drawn instead of the model, if anything. */
   instead: Instead | null;
+  /** The flow about the mesh, if there is a wind. */
+  wind: Wind | null;
 }
 
 /** A part of the picture. Its coordinates are the model's, less the model's origin. */

@@ -1,6 +1,7 @@
 // The 3D view: puts the layers together, and draws when something has changed.
 import { Color, Group, Scene, type Object3D, type WebGLRenderer } from 'three';
 import type { Engine, Instead, Model, PageError, Recording, Settings, View } from '../../model/types';
+import type { Wind } from '../../model/wind';
 import { Camera } from './camera';
 import { exportGlb } from './export';
 import { shownBall } from './extent';
@@ -21,6 +22,7 @@ import { Pointer } from './pointer';
 import { record } from './recorder';
 import { makeRenderer } from './renderer';
 import { fromModel, fromWorld, keepCamera, sceneScale, toWorld } from './scene_space';
+import { WindTunnel } from './wind';
 import { setUniforms } from './uniforms';
 import { Visit } from './visit';
 
@@ -49,6 +51,7 @@ class ThreeView implements View {
   onPick: View['onPick'] = () => {};
   onCamera: View['onCamera'] = () => {};
   onFreePlane: View['onFreePlane'] = () => {};
+  onWind: View['onWind'] = () => {};
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   /** From the model's units to scene units. */
@@ -61,6 +64,7 @@ class ThreeView implements View {
   /** What is seen of the model, and what is seen instead of it. */
   private readonly ofModel: readonly Layer[] = [this.cells, this.untouched, this.caps, new Frames()];
   private readonly ofInsteads: readonly Layer[] = [new Step(), new CrossingCurves(this.uniforms)];
+  private readonly windTunnel: WindTunnel;
   private readonly layers: readonly Layer[];
   private readonly modelGroup = new Group().add(...objectsOf(this.ofModel));
   private readonly insteadGroup = new Group().add(this.cells.ghost, ...objectsOf(this.ofInsteads));
@@ -73,6 +77,7 @@ class ThreeView implements View {
   private shifts: Float32Array = new Float32Array(0);
   private settings: Settings | null = null;
   private instead: Instead | null = null;
+  private wind: Wind | null = null;
   private look: Look | null = null;
   /** What the looks of layers were made of. */
   private readonly made = new Map<Layer, readonly unknown[]>();
@@ -89,7 +94,8 @@ class ThreeView implements View {
     this.camera = new Camera(canvas, matchMedia('(prefers-reduced-motion: reduce)'));
     this.visit = new Visit(this.camera);
     this.gizmo = new Gizmo(this.camera.camera, canvas);
-    this.layers = [...this.ofModel, ...this.ofInsteads, this.gizmo];
+    this.windTunnel = new WindTunnel(this.uniforms, this.camera.camera, canvas);
+    this.layers = [...this.ofModel, ...this.ofInsteads, this.windTunnel, this.gizmo];
     this.picker = new Picker(
       this.renderer,
       this.layers.flatMap(({ pick }) => pick ?? []),
@@ -100,7 +106,7 @@ class ThreeView implements View {
       isWaiting: () => this.flatCuts.isAwaited,
       draw: (seconds, share) => this.draw(seconds, share),
     });
-    this.root.add(this.modelGroup, this.insteadGroup);
+    this.root.add(this.modelGroup, this.insteadGroup, this.windTunnel.object);
     this.scene.add(this.root, this.gizmo.object);
     this.modelGroup.visible = this.insteadGroup.visible = false;
     this.setScheme(matchMedia('(prefers-color-scheme: dark)').matches);
@@ -133,9 +139,12 @@ class ThreeView implements View {
       this.loop.changed();
       this.onFreePlane(free);
     };
+    this.windTunnel.onChange = () => this.loop.invalidate();
+    this.windTunnel.onDragging = (isDragging) => (this.camera.controls.enabled = !isDragging);
+    this.windTunnel.onTurned = (direction) => this.onWind(direction);
     this.flatCuts.onMade = () => this.loop.changed();
     this.flatCuts.onError = (error) => this.options.onError?.(error);
-    const pointer = new Pointer(this.canvas, () => this.gizmo.isTouched);
+    const pointer = new Pointer(this.canvas, () => this.gizmo.isTouched || this.windTunnel.isTouched);
     // A GPU that is behind is asked once it has caught up.
     pointer.onHover = (at) => {
       this.loop.soon(at && (() => void this.cellAt(at).then((cell) => this.setHovered(cell))));
@@ -175,7 +184,7 @@ class ThreeView implements View {
     this.model = null;
     this.look = null;
     this.uniforms.hovered.value = this.uniforms.pinned.value = -1;
-    this.modelGroup.visible = this.insteadGroup.visible = false;
+    this.modelGroup.visible = this.insteadGroup.visible = this.windTunnel.object.visible = false;
     this.gizmo.hide();
     Object.assign(this.canvas.dataset, { model: '', cells: '0', untouched: '0', caps: '0' });
     this.onHover(null);
@@ -208,6 +217,11 @@ class ThreeView implements View {
     this.loop.changed();
   }
 
+  setWind(wind: Wind | null): void {
+    this.wind = wind;
+    this.loop.changed();
+  }
+
   setPinned(cell: number | null): void {
     this.uniforms.pinned.value = cell ?? -1;
     this.loop.invalidate();
@@ -218,6 +232,7 @@ class ThreeView implements View {
     this.scene.background = new Color(scheme.background);
     this.uniforms.lineColor.value.set(scheme.line);
     this.uniforms.accent.value.set(scheme.accent);
+    this.windTunnel.setAccent(scheme.accent);
     this.loop.invalidate();
   }
 
@@ -238,10 +253,11 @@ class ThreeView implements View {
   async png(): Promise<Blob> {
     const hadGizmo = this.gizmo.object.visible;
     this.loop.prepare();
-    this.gizmo.object.visible = false;
+    this.gizmo.object.visible = this.windTunnel.hasHandle = false;
     this.loop.draw();
     const blob = await new Promise<Blob | null>((resolve) => this.canvas.toBlob(resolve, 'image/png'));
     this.gizmo.object.visible = hadGizmo;
+    this.windTunnel.hasHandle = true;
     this.loop.invalidate();
     if (blob) return blob;
     throw pictureError('The browser could not capture the picture, perhaps because memory ran low.');
@@ -273,8 +289,8 @@ class ThreeView implements View {
   }
 
   private async cellAt({ x, y }: { x: number; y: number }): Promise<number | null> {
-    if (!this.model || this.instead) return null;
     this.loop.prepare();
+    if (!this.modelGroup.visible) return null;
     return this.picker.pick(this.camera.camera, x, y);
   }
 
@@ -304,9 +320,17 @@ class ThreeView implements View {
 
   /** Brings what is drawn up to date with the settings. Explosions and slices of whole cells only change uniforms. */
   private prepare(): void {
-    const { model, settings, shifts, instead } = this;
+    const { model, settings, shifts, instead, wind } = this;
     if (!model || !settings) return;
-    const look = { model, settings, regions: shownRegions(model, settings), shifts, instead, ...this.flatCuts.choose(model, settings) };
+    const look = {
+      model,
+      settings,
+      regions: shownRegions(model, settings),
+      shifts,
+      instead,
+      wind,
+      ...this.flatCuts.choose(model, settings),
+    };
     this.look = look;
     for (const layer of this.layers) {
       const needs = layer.dependsOn(look);
@@ -316,7 +340,7 @@ class ThreeView implements View {
       layer.setLook(look);
     }
     setUniforms(this.uniforms, look, this.canvas.clientWidth * this.canvas.clientHeight);
-    this.modelGroup.visible = instead === null;
+    this.modelGroup.visible = instead === null && !this.windTunnel.hidesModel;
     this.insteadGroup.visible = instead !== null;
     this.tellTests(look);
   }
@@ -328,6 +352,7 @@ class ThreeView implements View {
     dataset.cells = String(this.cells.count(look));
     dataset.untouched = String(this.untouched.count);
     dataset.caps = String(this.caps.count);
+    this.windTunnel.tellTests(dataset);
     dataset.instead = look.instead?.kind ?? '';
   }
 }

@@ -6,7 +6,7 @@ import type { Lack, LoadedMesh, WindCallName, WindCalls } from '../../model/call
 import { solveAhead } from './flows';
 import type { Package } from './package';
 import { windPicture } from './picture';
-import { makeTunnel, type Tunnel } from './tunnel';
+import { keyOf, makeTunnel, type Site, type Tunnel } from './tunnel';
 import { writeWind } from './write';
 
 type Answering = { [K in WindCallName]: (pack: Package, ask: WindCalls[K]['ask']) => Promise<WindCalls[K]['answer']> };
@@ -14,21 +14,22 @@ type Answering = { [K in WindCallName]: (pack: Package, ask: WindCalls[K]['ask']
 let mesh: LoadedMesh | null = null;
 let tunnel: Tunnel | null = null;
 
-async function tunnelFor(pack: Package, about: { mesh: number; cells: number }): Promise<Tunnel> {
-  if (mesh?.id !== about.mesh) {
-    const lack: Lack = { lacksMesh: about.mesh };
+async function tunnelFor(pack: Package, site: Site): Promise<Tunnel> {
+  if (mesh?.id !== site.mesh) {
+    const lack: Lack = { lacksMesh: site.mesh };
     throw lack;
   }
-  if (tunnel?.mesh !== mesh || tunnel.size !== about.cells) {
+  if (tunnel?.key !== keyOf(site)) {
     tunnel = null; // its memory is needed
-    tunnel = await makeTunnel(pack, mesh, about.cells);
+    tunnel = await makeTunnel(pack, mesh, site);
   }
   return tunnel;
 }
 
-/** The package loads the module that computes with the first of its calls. */
-async function loadModule({ physics }: Package): Promise<void> {
+/** The package loads the modules that compute and write with the first of their calls. */
+async function loadModules({ mandoline, physics }: Package): Promise<void> {
   await physics.inflowSeeds({ min: [0, 0, 0], max: [1, 1, 1], cells: [1, 1, 1] }, [1, 0, 0], 1);
+  await mandoline.writeLines({ points: [], offsets: Uint32Array.of(0) });
 }
 
 const calls: Answering = {
@@ -42,7 +43,7 @@ const calls: Answering = {
   },
   async windAhead(pack) {
     if (tunnel) return solveAhead(pack, tunnel);
-    await loadModule(pack);
+    await loadModules(pack);
     return false;
   },
   async writeWind(pack, { request, format }) {

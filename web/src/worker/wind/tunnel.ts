@@ -1,19 +1,19 @@
 // A mesh in a box of cells through which wind can blow: a cut of its own, with octree cells away from the surface.
-import type { CutMesh, Mesh } from 'mandoline-wasm';
+import type { CutMesh, GridInput } from 'mandoline-wasm';
 import type { CellComplex, Flow } from 'mandoline-wasm/physics';
 import type { LoadedMesh } from '../../model/calls';
 import { pageError } from '../../model/failure';
+import { gridAround } from '../../model/grid_around';
 import type { Vector3 } from '../../model/vector';
-import { mostWindCells, windMargin } from '../../model/wind';
+import { mostWindCells, windMargin, type WindRequest } from '../../model/wind';
+import { posed } from '../posed';
 import type { Package } from './package';
 import type { Surface } from './surface';
 
 export interface Tunnel {
-  /** Of the mesh and the size. */
+  /** Of the mesh, its pose and the size. */
   key: string;
   mesh: LoadedMesh;
-  /** Grid cells along its longest side. */
-  size: number;
   cutMesh: CutMesh;
   cells: CellComplex;
   origin: Vector3;
@@ -26,19 +26,29 @@ export interface Tunnel {
   surface: Surface | null;
 }
 
-export async function makeTunnel({ mandoline, physics }: Package, mesh: LoadedMesh, size: number): Promise<Tunnel> {
+export type Site = Pick<WindRequest, 'mesh' | 'pose' | 'cells'>;
+
+/** Of the same site every tunnel is the same. */
+export function keyOf({ mesh, pose, cells }: Site): string {
+  return JSON.stringify([mesh, pose, cells]);
+}
+
+export async function makeTunnel({ mandoline, physics }: Package, loaded: LoadedMesh, site: Site): Promise<Tunnel> {
+  const { pose, cells: size } = site;
   if (size > mostWindCells) {
     const detail = `It has ${size} cells along its longest side; the page takes up to ${mostWindCells}. The library has no such limit.`;
     throw pageError('The grid of the wind tunnel is too fine', detail);
   }
-  const cutMesh = mandoline.cut(mesh as Mesh, { cells: size, margin: windMargin }, { gridCellRegion: false });
+  const mesh = posed(mandoline, loaded, pose);
+  // A tunnel stays where it is while the mesh in it moves.
+  const grid = pose ? (gridAround(mesh.bounds, size, windMargin) as GridInput) : { cells: size, margin: windMargin };
+  const cutMesh = mandoline.cut(mesh, grid, { gridCellRegion: false });
   const cells = await physics.cellComplex(mesh, cutMesh, await physics.coarsen(cutMesh));
   const [x, y, z] = cutMesh.grid.planes.map((planes) => (planes[0] + planes[planes.length - 1]) / 2);
   const isOpen = openRegions(cells, cutMesh.regionCount);
   return {
-    key: `${mesh.id} ${size}`,
+    key: keyOf(site),
     mesh,
-    size,
     cutMesh,
     cells,
     origin: [x, y, z],
