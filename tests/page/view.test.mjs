@@ -344,7 +344,7 @@ describe('show', () => {
     const hasSheetLook = async () => {
       assert.equal(await page.locator('#show-outside').isChecked(), true);
       assert.equal(await page.locator('#show-gridFaces').isChecked(), false, 'what would hide the sheet is left out');
-      assert.equal(await page.locator('#color-by').inputValue(), 'cell');
+      assert.equal(await textOf(page, '#legend'), 'pieces of triangles inside by an estimate', 'the sheet has one colour');
     };
     await hasSheetLook();
     await page.locator('#show-outside').uncheck();

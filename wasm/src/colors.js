@@ -51,10 +51,10 @@ const noWinding = fromHex('#9a9a9a');
 
 /** For faces by what they are pieces of, for the inside of cut-cells where they are cut open, and for untouched grid cells. */
 export const kindColors = {
-  surface: fromHex('#e9a23b'),
-  grid: fromHex('#6fa3cf'),
-  inside: fromHex('#e6d3ae'),
-  untouched: fromHex('#a9b4bf'),
+  surface: fromHex('#e4936a'),
+  grid: fromHex('#5a8ab4'),
+  inside: fromHex('#f0d9c4'),
+  untouched: fromHex('#d3d9e0'),
 };
 /** For regions outside the surface, where they are told from the others. */
 export const outsideColor = fromHex('#8ea2b6');

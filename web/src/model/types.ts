@@ -116,8 +116,10 @@ export interface Model {
   cells: CellInfo;
   /** Triangles of all cut-cells, both sides of every face: a face between two cut-cells appears once for each, seen from outside it. */
   triangles: {
-    /** 3 per vertex. A vertex belongs to one cut-cell; its position may appear many times. */
+    /** 3 per vertex. A vertex belongs to one cut-cell, and to one side of a crease; its position may appear many times. */
     position: Float32Array;
+    /** 4 bytes per vertex: the smoothed unit normal of the surface, times 127, on the side of its triangles' normals, and 1; 0 off the surface. */
+    normal: Int8Array;
     /** Per vertex: the cut-cell. */
     cell: Uint32Array;
     /** 3 vertices per triangle: first those of pieces of triangles, then those of pieces of grid-faces. */
@@ -125,8 +127,11 @@ export interface Model {
     /** Where the latter begin in `index`. */
     surfaceEnd: number;
   };
-  /** Edges of all cut-cells, once for each of their cells: 2 vertices of `triangles` per edge. */
-  edges: { index: Uint32Array };
+  /**
+   * Edges of all cut-cells, once for each of their cells: 2 vertices of `triangles` per edge. First hybrid edges, then grid-edges from
+   * `hybridEnd`, then pieces of tri-edges from `gridEnd`.
+   */
+  edges: { index: Uint32Array; hybridEnd: number; gridEnd: number };
   gridCellRegion: Int32Array;
 }
 

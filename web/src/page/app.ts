@@ -28,8 +28,6 @@ import type {
 
 /** Fewer cut-cells than this are best seen without a slice. */
 const fewCells = 60;
-/** Tells the pieces beside a sheet apart. */
-const sheetColoring = 'cell';
 
 export class App {
   readonly player: Player;
@@ -50,7 +48,6 @@ export class App {
   /** Whether the next model needs a camera that sees all of it, or a look that suits it. */
   private frameNext = false;
   private fitNext = false;
-  private wasSheet = false;
   /** What the model was made of. */
   private shown: { cutting: Cutting; mesh: MeshInfo | null } = { cutting: defaultSettings(), mesh: null };
 
@@ -86,7 +83,6 @@ export class App {
     await this.during(async () => {
       if (source.kind === 'file' && bytes) this.files.set(source.name, new Blob([bytes]));
       if ((await this.load(source)) !== 'loaded') return;
-      if (this.model) this.wasSheet = isSheet(this.model);
       const grid = { cells: cells ?? this.cellsToKeep() };
       this.fitNext = true;
       this.change({ source, grid, snapTolerance: 0, pose: null, show: { ...this.settings.show, region: null }, camera: null }, false);
@@ -160,28 +156,23 @@ export class App {
   }
 
   private fitLook(): void {
-    if (this.model) this.change(this.lookFor(this.model, false));
+    if (this.model) this.change(this.lookFor(this.model));
     if (!this.settings.camera) this.view.frame();
   }
 
   /**
    * The look to start with: a sheet with the edges of the cells around it, but without their grid-faces, which would hide it; few cells
-   * without a slice. Planes that were moved and colours that were chosen stay.
+   * without a slice. Planes that were moved stay.
    */
-  private lookFor(model: Model, wasSheet: boolean): Pick<Settings, 'slices' | 'show' | 'colorBy'> {
+  private lookFor(model: Model): Pick<Settings, 'slices' | 'show'> {
     const sheet = isSheet(model);
-    const { slices, show, colorBy } = this.settings;
-    const {
-      slices: { free },
-      colorBy: usual,
-    } = defaultSettings();
+    const { slices, show } = this.settings;
+    const { free } = defaultSettings().slices;
     const isMoved = slices.free.position !== free.position || slices.free.normal.some((x, d) => x !== free.normal[d]);
     const on = isMoved ? slices.free.on : !sheet && model.counts.cutCells >= fewCells;
-    const isChosen = colorBy !== (wasSheet ? sheetColoring : usual);
     return {
       slices: { ...slices, free: { ...slices.free, on } },
       show: { ...show, gridFaces: !sheet, untouched: !sheet, outside: sheet },
-      colorBy: isChosen ? colorBy : sheet ? sheetColoring : usual,
     };
   }
 
@@ -320,7 +311,7 @@ export class App {
       this.state.model.value = model;
       this.state.hovered.value = null;
       if (isGone) this.state.settings.value = { ...settings, show: { ...settings.show, region: null } };
-      if (this.fitNext) this.state.settings.value = { ...this.settings, ...this.lookFor(model, this.wasSheet) };
+      if (this.fitNext) this.state.settings.value = { ...this.settings, ...this.lookFor(model) };
     });
     void this.pin(null);
     this.view.setModel(model, this.frameNext);
@@ -340,7 +331,6 @@ export class App {
   /** There is no cut with these settings. A picture of the same mesh stays; one of another mesh would be mistaken for this one. */
   private giveUp(problem: PageError): void {
     if (this.model && this.shown.mesh !== this.mesh) {
-      this.wasSheet = isSheet(this.model);
       this.state.model.value = null;
       void this.pin(null);
       this.showModel();

@@ -1,100 +1,221 @@
 import type { CutMesh, FaceTriangles } from 'mandoline-wasm';
 import type { Model } from '../model/types';
+import { areAlike } from './face_normals';
 
 type Buffers = Pick<Model, 'triangles' | 'edges'>;
 
-/** Triangles and edges of all cut-cells. The faces of a cell share their vertices. */
-export function cellBuffers(cutMesh: CutMesh, faceTriangles: FaceTriangles, origin: readonly number[]): Buffers {
+/**
+ * Triangles and edges of all cut-cells. The faces of a cell share their vertices, except where the surface has a crease. `normals` are
+ * those of faceNormals().
+ */
+export function cellBuffers(cutMesh: CutMesh, faceTriangles: FaceTriangles, normals: Int32Array, origin: readonly number[]): Buffers {
   const counts = countBuffers(cutMesh, faceTriangles);
-  const made = {
-    // Every vertex of a cell is an end of two of its edges at least.
-    position: new Float32Array(3 * counts.edges),
-    cell: new Uint32Array(counts.edges),
-    triangles: new Uint32Array(3 * (counts.surface + counts.grid)),
-    edges: new Uint32Array(2 * counts.edges),
-  };
-  const vertices = fill(made, 3 * counts.surface, cutMesh, faceTriangles, origin);
-  return {
-    triangles: {
-      position: made.position.slice(0, 3 * vertices),
-      cell: made.cell.slice(0, vertices),
-      index: made.triangles,
-      surfaceEnd: 3 * counts.surface,
-    },
-    edges: { index: made.edges },
-  };
+  const filling = new Filling(cutMesh, faceTriangles, normals, origin, counts);
+  const { cellHalfFaceOffsets, cellHalfFaces } = cutMesh;
+  for (let owner = 0; owner + 1 < cellHalfFaceOffsets.length; owner++) {
+    filling.beginCell(owner);
+    for (let h = cellHalfFaceOffsets[owner]; h < cellHalfFaceOffsets[owner + 1]; h++) {
+      filling.addVertices(cellHalfFaces[h] >> 1);
+      filling.addEdges(cellHalfFaces[h]);
+      filling.addTriangles(cellHalfFaces[h]);
+    }
+  }
+  return filling.buffers(3 * counts.surface);
 }
 
-function countBuffers(cutMesh: CutMesh, { faceTriangleOffsets }: FaceTriangles): { surface: number; grid: number; edges: number } {
+interface Counts {
+  /** Triangles of pieces of triangles and of grid-faces. */
+  surface: number;
+  grid: number;
+  edges: number;
+  vertices: number;
+}
+
+function countBuffers(cutMesh: CutMesh, { faceTriangleOffsets }: FaceTriangles): Counts {
   const { cellHalfFaces, faceLoopOffsets, loopOffsets, faceTriangle } = cutMesh;
-  const counts = { surface: 0, grid: 0, edges: 0 };
+  const counts = { surface: 0, grid: 0 };
   let corners = 0;
+  let surfaceCorners = 0;
   for (let h = 0; h < cellHalfFaces.length; h++) {
     const face = cellHalfFaces[h] >> 1;
     const triangles = faceTriangleOffsets[face + 1] - faceTriangleOffsets[face];
-    if (faceTriangle[face] >= 0) counts.surface += triangles;
-    else counts.grid += triangles;
-    corners += loopOffsets[faceLoopOffsets[face + 1]] - loopOffsets[faceLoopOffsets[face]];
+    const own = loopOffsets[faceLoopOffsets[face + 1]] - loopOffsets[faceLoopOffsets[face]];
+    corners += own;
+    if (faceTriangle[face] >= 0) {
+      counts.surface += triangles;
+      surfaceCorners += own;
+    } else counts.grid += triangles;
   }
-  counts.edges = corners / 2; // Every edge of a cell is met twice.
-  return counts;
+  // Every edge of a cell is met twice, and every vertex is an end of two edges at least; at most, each corner at the surface is a crease.
+  return { ...counts, edges: corners / 2, vertices: corners / 2 + surfaceCorners };
 }
 
-interface Arrays {
-  position: Float32Array;
-  cell: Uint32Array;
-  triangles: Uint32Array;
-  edges: Uint32Array;
-}
+/** The buffers while they are filled. */
+class Filling {
+  private readonly position: Float32Array;
+  private readonly normal: Int32Array;
+  private readonly cell: Uint32Array;
+  private readonly triangles: Uint32Array;
+  /** Hybrid edges from the front, pieces of tri-edges from the back. */
+  private readonly edges: Uint32Array;
+  private readonly gridEdges: Uint32Array;
+  /** A cut-vertex has an id in the current cell if its last id is not below the cell's first. */
+  private readonly idOf: Int32Array;
+  /** The next one of the ids that a cut-vertex has in one cell, in a circle. */
+  private readonly twin: Uint32Array;
+  private readonly ox: number;
+  private readonly oy: number;
+  private readonly oz: number;
+  private owner = 0;
+  private first = 0;
+  private vertexEnd = 0;
+  private hybridEnd = 0;
+  private triEdgeBegin: number;
+  private gridEdgeEnd = 0;
+  private surfaceEnd = 0;
+  private gridEnd: number;
 
-/**
- * Returns the number of vertices. A vertex has an id in the current cell if its last id is not below the cell's first. The half-faces of a
- * cell traverse an edge equally often in both directions, so that one direction is enough to find it.
- */
-function fill(made: Arrays, gridBegin: number, cutMesh: CutMesh, faceTriangles: FaceTriangles, [ox, oy, oz]: readonly number[]): number {
-  const { position, cell, triangles, edges } = made;
-  const { positions, cellHalfFaceOffsets, cellHalfFaces, faceLoopOffsets, loopOffsets, loopVertices, faceTriangle } = cutMesh;
-  const { faceTriangleOffsets, triangles: corners } = faceTriangles;
-  const idOf = new Int32Array(positions.length / 3).fill(-1);
-  let vertexEnd = 0;
-  let edgeEnd = 0;
-  let surfaceEnd = 0;
-  let gridEnd = gridBegin;
-  for (let owner = 0; owner + 1 < cellHalfFaceOffsets.length; owner++) {
-    const first = vertexEnd;
-    for (let h = cellHalfFaceOffsets[owner]; h < cellHalfFaceOffsets[owner + 1]; h++) {
-      const face = cellHalfFaces[h] >> 1;
-      const reversed = (cellHalfFaces[h] & 1) === 1;
-      for (let loop = faceLoopOffsets[face]; loop < faceLoopOffsets[face + 1]; loop++) {
-        const end = loopOffsets[loop + 1];
-        for (let at = loopOffsets[loop]; at < end; at++) {
-          const vertex = loopVertices[at];
-          if (idOf[vertex] >= first) continue;
-          position[3 * vertexEnd] = positions[3 * vertex] - ox;
-          position[3 * vertexEnd + 1] = positions[3 * vertex + 1] - oy;
-          position[3 * vertexEnd + 2] = positions[3 * vertex + 2] - oz;
-          cell[vertexEnd] = owner;
-          idOf[vertex] = vertexEnd++;
-        }
-        let from = loopVertices[end - 1];
-        for (let at = loopOffsets[loop]; at < end; at++) {
-          const to = loopVertices[at];
-          if (from < to !== reversed) {
-            edges[edgeEnd++] = idOf[from];
-            edges[edgeEnd++] = idOf[to];
-          }
-          from = to;
-        }
-      }
-      let out = faceTriangle[face] >= 0 ? surfaceEnd : gridEnd;
-      const begin = 3 * faceTriangleOffsets[face];
-      const end = 3 * faceTriangleOffsets[face + 1];
-      // Side 1 sees the face from behind.
-      if (reversed) for (let corner = end - 1; corner >= begin; corner--) triangles[out++] = idOf[corners[corner]];
-      else for (let corner = begin; corner < end; corner++) triangles[out++] = idOf[corners[corner]];
-      if (faceTriangle[face] >= 0) surfaceEnd = out;
-      else gridEnd = out;
+  constructor(
+    private readonly cutMesh: CutMesh,
+    private readonly faceTriangles: FaceTriangles,
+    private readonly normals: Int32Array,
+    [ox, oy, oz]: readonly number[],
+    counts: Counts,
+  ) {
+    [this.ox, this.oy, this.oz] = [ox, oy, oz];
+    this.position = new Float32Array(3 * counts.vertices);
+    this.normal = new Int32Array(counts.vertices);
+    this.cell = new Uint32Array(counts.vertices);
+    this.twin = new Uint32Array(counts.vertices);
+    this.triangles = new Uint32Array(3 * (counts.surface + counts.grid));
+    this.edges = new Uint32Array(2 * counts.edges);
+    this.gridEdges = new Uint32Array(2 * counts.edges);
+    this.idOf = new Int32Array(cutMesh.positions.length / 3).fill(-1);
+    this.triEdgeBegin = 2 * counts.edges;
+    this.gridEnd = 3 * counts.surface;
+  }
+
+  beginCell(owner: number): void {
+    this.owner = owner;
+    this.first = this.vertexEnd;
+  }
+
+  /** Gives the corners of a face ids, those with its normals if it is a piece of a triangle. */
+  addVertices(face: number): void {
+    const { idOf, first, normals, normal } = this;
+    const { faceLoopOffsets, loopOffsets, loopVertices } = this.cutMesh;
+    const end = loopOffsets[faceLoopOffsets[face + 1]];
+    for (let at = loopOffsets[faceLoopOffsets[face]]; at < end; at++) {
+      const vertex = loopVertices[at];
+      const wanted = normals[at];
+      const id = idOf[vertex];
+      if (id < first) idOf[vertex] = this.add(vertex, wanted);
+      else if (wanted !== 0 && normal[id] !== wanted) idOf[vertex] = this.withNormal(id, wanted);
     }
   }
-  return vertexEnd;
+
+  private add(vertex: number, wanted: number): number {
+    const { position, ox, oy, oz } = this;
+    const { positions } = this.cutMesh;
+    const id = this.vertexEnd++;
+    position[3 * id] = positions[3 * vertex] - ox;
+    position[3 * id + 1] = positions[3 * vertex + 1] - oy;
+    position[3 * id + 2] = positions[3 * vertex + 2] - oz;
+    this.cell[id] = this.owner;
+    this.normal[id] = wanted;
+    this.twin[id] = id;
+    return id;
+  }
+
+  /** The one of a vertex's ids in the cell that has this normal; a new one beyond a crease. */
+  private withNormal(known: number, wanted: number): number {
+    const { normal, position, twin } = this;
+    let id = known;
+    do {
+      if (normal[id] === 0) normal[id] = wanted;
+      if (areAlike(normal[id], wanted)) return id;
+      id = twin[id];
+    } while (id !== known);
+    id = this.vertexEnd++;
+    position.copyWithin(3 * id, 3 * known, 3 * known + 3);
+    this.cell[id] = this.owner;
+    normal[id] = wanted;
+    twin[id] = twin[known];
+    twin[known] = id;
+    return id;
+  }
+
+  /** The half-faces of a cell traverse an edge equally often in both directions, so that one direction is enough to find it. */
+  addEdges(halfFace: number): void {
+    const { faceLoopOffsets, loopOffsets, loopVertices } = this.cutMesh;
+    const face = halfFace >> 1;
+    const reversed = (halfFace & 1) === 1;
+    for (let loop = faceLoopOffsets[face]; loop < faceLoopOffsets[face + 1]; loop++) {
+      const end = loopOffsets[loop + 1];
+      let from = loopVertices[end - 1];
+      for (let at = loopOffsets[loop]; at < end; at++) {
+        const to = loopVertices[at];
+        if (from < to !== reversed) this.addEdge(from, to);
+        from = to;
+      }
+    }
+  }
+
+  private addEdge(from: number, to: number): void {
+    const { edges, gridEdges, idOf } = this;
+    const planes = this.planesOf(from, to);
+    if (planes === 0) {
+      edges[--this.triEdgeBegin] = idOf[to];
+      edges[--this.triEdgeBegin] = idOf[from];
+    } else if (planes === 1) {
+      edges[this.hybridEnd++] = idOf[from];
+      edges[this.hybridEnd++] = idOf[to];
+    } else {
+      gridEdges[this.gridEdgeEnd++] = idOf[from];
+      gridEdges[this.gridEdgeEnd++] = idOf[to];
+    }
+  }
+
+  /** In how many axial planes an edge lies. */
+  private planesOf(from: number, to: number): number {
+    const { vertexCell, vertexMask } = this.cutMesh;
+    const both = vertexMask[from] & vertexMask[to];
+    if (both === 0) return 0;
+    const a = 3 * from;
+    const b = 3 * to;
+    const x = both & 1 && vertexCell[a] === vertexCell[b] ? 1 : 0;
+    const y = both & 2 && vertexCell[a + 1] === vertexCell[b + 1] ? 1 : 0;
+    const z = both & 4 && vertexCell[a + 2] === vertexCell[b + 2] ? 1 : 0;
+    return x + y + z;
+  }
+
+  addTriangles(halfFace: number): void {
+    const { triangles, idOf } = this;
+    const { faceTriangleOffsets, triangles: corners } = this.faceTriangles;
+    const face = halfFace >> 1;
+    const isSurface = this.cutMesh.faceTriangle[face] >= 0;
+    let out = isSurface ? this.surfaceEnd : this.gridEnd;
+    const begin = 3 * faceTriangleOffsets[face];
+    const end = 3 * faceTriangleOffsets[face + 1];
+    // Side 1 sees the face from behind.
+    if (halfFace & 1) for (let corner = end - 1; corner >= begin; corner--) triangles[out++] = idOf[corners[corner]];
+    else for (let corner = begin; corner < end; corner++) triangles[out++] = idOf[corners[corner]];
+    if (isSurface) this.surfaceEnd = out;
+    else this.gridEnd = out;
+  }
+
+  buffers(surfaceEnd: number): Buffers {
+    const { position, normal, cell, triangles, edges, vertexEnd, hybridEnd } = this;
+    edges.set(this.gridEdges.subarray(0, this.gridEdgeEnd), hybridEnd);
+    return {
+      triangles: {
+        position: position.slice(0, 3 * vertexEnd),
+        normal: new Int8Array(normal.buffer.slice(0, 4 * vertexEnd)),
+        cell: cell.slice(0, vertexEnd),
+        index: triangles,
+        surfaceEnd,
+      },
+      edges: { index: edges, hybridEnd, gridEnd: this.triEdgeBegin },
+    };
+  }
 }

@@ -1,9 +1,21 @@
 // What the page gets of a cut: ready to be drawn, in arrays of its own.
 import type { CutMesh, InsideRegions, Mandoline } from 'mandoline-wasm';
+import type { LoadedMesh } from '../model/calls';
 import type { CellInfo, Model, RegionInfo } from '../model/types';
 import { cellBuffers } from './cell_buffers';
 import { cellShapes } from './cell_shapes';
+import { cornerNormals } from './corner_normals';
+import { faceNormals } from './face_normals';
 import type { Cut } from './kept';
+
+/** Normals of a mesh that is cut again and again. */
+const knownCorners = new WeakMap<LoadedMesh, Float32Array>();
+
+function cornersOf(mesh: LoadedMesh): Float32Array {
+  const corners = knownCorners.get(mesh) ?? cornerNormals(mesh);
+  knownCorners.set(mesh, corners);
+  return corners;
+}
 
 export function makeModel(mandoline: Mandoline, cut: Cut): Model {
   const { recipe, mesh, cutMesh, origin, estimateMs } = cut;
@@ -35,7 +47,7 @@ export function makeModel(mandoline: Mandoline, cut: Cut): Model {
     insideBy: inside.by,
     outsideRegion: regions.find(({ isInside }) => !isInside)?.id ?? null,
     cells,
-    ...cellBuffers(cutMesh, cut.faceTriangles, origin),
+    ...cellBuffers(cutMesh, cut.faceTriangles, faceNormals(mesh, cornersOf(mesh), cutMesh), origin),
     gridCellRegion: gridCellRegion(cutMesh),
   };
 }

@@ -93,16 +93,16 @@ export function untouchedColors(model: Model, colorBy: ColorBy): (gridCell: numb
 
 /** What the colours mean, as CSS colours, for at most `most` regions; nothing where nothing is seen. */
 export function legend(model: Model, settings: Settings, most = 12): { label: string; color: string }[] {
-  const { colorBy, sliceMode, slices } = settings;
+  const { colorBy, sliceMode, slices, show } = settings;
   const entry = (label: string, color: Rgb) => ({ label, color: toCss(color) });
   if (colorBy === 'cell' || !isAnythingShown(model, settings)) return [];
   if (colorBy === 'kind') {
     const isCutOpen = sliceMode === 'flat' && Object.values(slices).some(({ on }) => on);
     return [
-      entry('pieces of triangles', surfaceColor),
-      entry('pieces of grid-faces', gridFaceColor),
+      ...(show.surface ? [entry('pieces of triangles', surfaceColor)] : []),
+      ...(show.gridFaces ? [entry('pieces of grid-faces', gridFaceColor)] : []),
       ...(isCutOpen ? [entry('inside of cut-cells', insideColor)] : []),
-      ...(model.counts.untouchedCells > 0 ? [entry('untouched cells', untouchedKindColor)] : []),
+      ...(show.untouched && show.gridFaces && model.counts.untouchedCells > 0 ? [entry('untouched cells', untouchedKindColor)] : []),
     ];
   }
   if (colorBy === 'volume') return [0, 0.25, 0.5, 1].map((fraction) => entry(`${100 * fraction}% of a grid cell`, shareColor(fraction)));

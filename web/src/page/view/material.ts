@@ -24,20 +24,39 @@ export function makeUniforms() {
     pinned: { value: -1 },
     accent: { value: new Color() },
     lineColor: { value: new Color() },
-    lineOpacity: { value: 0.35 },
+    /** Of boxes around a sheet, seen on the background. */
+    boxColor: { value: new Color() },
+    /** Mean side of a grid cell. */
+    cellSize: { value: 1 },
+    /** Whether a sheet is shown, whose two sides are told apart. */
+    darkBacks: { value: false },
+    /** Height of the picture in CSS pixels. */
+    stageHeight: { value: 600 },
+    up: { value: new Vector3(0, 1, 0) },
   };
 }
 
 export type Geometry = 'CELLS' | 'BOXES' | 'CAPS';
 export type Purpose = 'FACES' | 'BACKS' | 'LINES' | 'PICK' | 'GHOST';
 
+/** Uniforms of lines: their opacity, the distance from one to the next in the model's units, and the pixels of it below which they fade. */
+export function stroke(strength: number, spacing: IUniform<number>, fadeBelow: number) {
+  return { strength: { value: strength }, spacing, fadeBelow: { value: fadeBelow } };
+}
+
+/** Of lines in axial planes. */
+export function gridStroke({ cellSize }: Uniforms) {
+  return stroke(0.55, cellSize, 4);
+}
+
 const sides: Record<Purpose, Side> = { FACES: FrontSide, BACKS: BackSide, LINES: FrontSide, PICK: DoubleSide, GHOST: DoubleSide };
 
 export function makeMaterial(geometry: Geometry, purpose: Purpose, shared: Uniforms, own: Record<string, IUniform> = {}): ShaderMaterial {
   const isTransparent = purpose === 'LINES' || purpose === 'GHOST';
+  const isLit = purpose !== 'LINES' && purpose !== 'PICK';
   const material = new ShaderMaterial({
     uniforms: { ...shared, ...own },
-    defines: { [geometry]: 1, [purpose]: 1, TABLE_WIDTH: tableWidth },
+    defines: { [geometry]: 1, [purpose]: 1, TABLE_WIDTH: tableWidth, ...(isLit && { LIT: 1 }) },
     vertexShader,
     fragmentShader,
     side: geometry === 'CAPS' ? DoubleSide : sides[purpose],
@@ -66,6 +85,16 @@ varying vec3 vView;
 varying vec3 vColor;
 varying float vHighlight;
 flat varying int vCell;
+#ifdef LINES
+  uniform float strength;
+  uniform float spacing;
+  uniform float fadeBelow;
+  uniform float stageHeight;
+  varying float vStrength;
+#endif
+#ifdef LIT
+  varying vec3 vNormal;
+#endif
 
 #ifdef CELLS
   uniform highp sampler2D cellCenters;
@@ -138,6 +167,17 @@ void main() {
   #endif
   vec4 seen = modelViewMatrix * vec4(moved, 1.0);
   vView = seen.xyz;
+  #ifdef LINES
+    // Lines so dense that they fill the picture would only darken it.
+    float pixels = spacing * length(modelViewMatrix[0].xyz) * 0.5 * stageHeight * projectionMatrix[1][1] / max(-seen.z, 1e-6);
+    vStrength = strength * smoothstep(0.5 * fadeBelow, 2.0 * fadeBelow, pixels);
+  #endif
+  #ifdef LIT
+    vNormal = vec3(0.0);
+    #ifdef CELLS
+      if (isSurface) vNormal = mat3(modelViewMatrix) * normal;
+    #endif
+  #endif
   // Beyond the far plane, nothing of the triangle is drawn.
   gl_Position = shown ? projectionMatrix * seen : vec4(0.0, 0.0, 2.0, 1.0);
 }
@@ -148,8 +188,6 @@ uniform vec4 planes[4];
 uniform int planeCount;
 uniform bool flatCut;
 uniform vec3 accent;
-uniform vec3 lineColor;
-uniform float lineOpacity;
 varying vec3 vRest;
 varying vec3 vView;
 varying vec3 vColor;
@@ -158,20 +196,40 @@ flat varying int vCell;
 #ifdef CAPS
   uniform int ownPlane;
 #endif
+#ifdef LINES
+  uniform vec3 lineColor;
+  varying float vStrength;
+#endif
 
-vec3 linear(vec3 color) {
-  return pow(color, vec3(2.2));
-}
+#ifdef LIT
+  uniform vec3 up;
+  uniform bool darkBacks;
+  varying vec3 vNormal;
 
-/** A key light from above left of the eye, a weak one from the other side, and light from everywhere, more from above. */
-float light() {
-  // The facet's normal from its slope on the screen: vertices need none.
-  vec3 n = normalize(cross(dFdx(vView), dFdy(vView)));
-  if (dot(n, vView) > 0.0) n = -n;
-  float key = max(0.0, dot(n, normalize(vec3(-0.3, 0.5, 0.81))));
-  float fill = max(0.0, dot(n, normalize(vec3(0.8, -0.1, 0.4))));
-  return 0.3 + 0.72 * key + 0.2 * fill + 0.1 * n.y;
-}
+  vec3 linear(vec3 color) {
+    return pow(color, vec3(2.2));
+  }
+
+  /** By the hemisphere, a warm key from above left of the eye, a cool fill from its right, and a rim where the surface turns away. */
+  vec3 light(vec3 n) {
+    vec3 top = mat3(viewMatrix) * up;
+    float height = 0.5 + 0.5 * dot(n, top);
+    float key = max(0.0, dot(n, normalize(vec3(-0.55, 0.0, 0.7) + 0.75 * top)));
+    float fill = max(0.0, dot(n, normalize(vec3(0.8, -0.1, 0.45))));
+    float rim = pow(1.0 - abs(dot(n, normalize(vView))), 4.0) * height;
+    return mix(vec3(0.26, 0.23, 0.22), vec3(0.46, 0.49, 0.54), height) + key * vec3(0.72, 0.67, 0.59) + fill * vec3(0.10, 0.13, 0.18) + 0.25 * rim;
+  }
+
+  vec3 lit(vec3 color) {
+    // The facet's normal, from its slope on the screen. The smooth one replaces it unless it bends away: on long slivers it may.
+    vec3 n = normalize(cross(dFdx(vView), dFdy(vView)));
+    if (dot(n, vView) > 0.0) n = -n;
+    float along = dot(vNormal, n) / max(length(vNormal), 1e-6);
+    if (darkBacks && along < 0.0) color *= 0.55;
+    if (abs(along) > 0.5) n = normalize(along < 0.0 ? -vNormal : vNormal);
+    return color * light(n);
+  }
+#endif
 
 void main() {
   #ifndef GHOST
@@ -187,15 +245,15 @@ void main() {
   #ifdef PICK
     int id = vCell + 1;
     gl_FragColor = vec4(float(id & 255), float((id >> 8) & 255), float((id >> 16) & 255), 255.0) / 255.0;
-  #else
-    #ifdef LINES
-      gl_FragColor = vec4(mix(lineColor, accent, step(0.01, vHighlight)), max(lineOpacity, step(0.01, vHighlight)));
-    #else
-      vec3 color = mix(linear(vColor), accent, vHighlight);
-      gl_FragColor = vec4(color * light(), 1.0);
-      #ifdef GHOST
-        gl_FragColor.a = 0.06;
-      #endif
+  #endif
+  #ifdef LINES
+    gl_FragColor = vec4(mix(lineColor, accent, step(0.01, vHighlight)), max(vStrength, step(0.01, vHighlight)));
+    #include <colorspace_fragment>
+  #endif
+  #ifdef LIT
+    gl_FragColor = vec4(lit(mix(linear(vColor), accent, vHighlight)), 1.0);
+    #ifdef GHOST
+      gl_FragColor.a = 0.06;
     #endif
     #include <colorspace_fragment>
   #endif

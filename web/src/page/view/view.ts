@@ -1,7 +1,8 @@
 // The 3D view: puts the layers together, and draws when something has changed.
-import { Color, Group, Scene, type Object3D, type WebGLRenderer } from 'three';
+import { type DataTexture, Group, Scene, type Object3D, type WebGLRenderer } from 'three';
 import type { Engine, Instead, Model, PageError, Recording, Settings, View } from '../../model/types';
 import type { Wind } from '../../model/wind';
+import { gradient } from './background';
 import { Camera } from './camera';
 import { exportGlb } from './export';
 import { shownBall } from './extent';
@@ -37,8 +38,8 @@ export interface ViewOptions {
 const compileTime = 100;
 
 const schemes = {
-  light: { background: '#f3f1ec', line: '#1c2430', accent: '#e0218a' },
-  dark: { background: '#14181e', line: '#5b6675', accent: '#ff4fa8' },
+  light: { background: ['#f4f2ee', '#ebe8e2'], line: '#2a3440', box: '#2a3440', accent: '#e0218a' },
+  dark: { background: ['#1b2028', '#12151a'], line: '#0d1116', box: '#c3ccd6', accent: '#ff4fa8' },
 };
 
 /** Draws into the canvas, which fills its parent by CSS. Throws a PageError where there is no WebGL 2. */
@@ -229,8 +230,10 @@ class ThreeView implements View {
 
   setScheme(dark: boolean): void {
     const scheme = dark ? schemes.dark : schemes.light;
-    this.scene.background = new Color(scheme.background);
+    (this.scene.background as DataTexture | null)?.dispose();
+    this.scene.background = gradient(scheme.background);
     this.uniforms.lineColor.value.set(scheme.line);
+    this.uniforms.boxColor.value.set(scheme.box);
     this.uniforms.accent.value.set(scheme.accent);
     this.windTunnel.setAccent(scheme.accent);
     this.loop.invalidate();
@@ -339,7 +342,7 @@ class ThreeView implements View {
       this.made.set(layer, needs);
       layer.setLook(look);
     }
-    setUniforms(this.uniforms, look, this.canvas.clientWidth * this.canvas.clientHeight);
+    setUniforms(this.uniforms, look, this.canvas.clientHeight);
     this.modelGroup.visible = instead === null && !this.windTunnel.hidesModel;
     this.insteadGroup.visible = instead !== null;
     this.tellTests(look);

@@ -5,7 +5,7 @@ import type { Model, Settings } from '../../../model/types';
 import { refill } from '../buffers';
 import { insideColor, untouchedColors, type Rgb } from '../colors';
 import type { Layer, Look } from '../layer';
-import { makeMaterial, type Uniforms } from '../material';
+import { gridStroke, makeMaterial, type Uniforms } from '../material';
 import type { Piece } from '../piece';
 import type { CutCells } from './cut_cells';
 
@@ -33,7 +33,7 @@ export class Caps implements Layer {
     const own = { ownPlane: { value: ownPlane } };
     const faces = new Mesh(new BufferGeometry(), makeMaterial('CAPS', 'FACES', uniforms, own));
     const pick = new Mesh(faces.geometry, makeMaterial('CAPS', 'PICK', uniforms, own));
-    const lines = new LineSegments(new BufferGeometry(), makeMaterial('CAPS', 'LINES', uniforms, own));
+    const lines = new LineSegments(new BufferGeometry(), makeMaterial('CAPS', 'LINES', uniforms, { ...own, ...gridStroke(uniforms) }));
     for (const object of [faces, pick, lines]) object.frustumCulled = false;
     this.object.add(faces, lines);
     this.pick.add(pick);

@@ -5,12 +5,23 @@ import type { Model } from '../../../model/types';
 import { refill, Table } from '../buffers';
 import { cutCellColors, gridFaceColor, type Rgb } from '../colors';
 import type { Layer, Look } from '../layer';
-import { makeMaterial, type Purpose, type Uniforms } from '../material';
+import { isSheet } from '../look';
+import { gridStroke, makeMaterial, stroke, type Purpose, type Uniforms } from '../material';
 import { paler, type Piece } from '../piece';
 import { isBeyond, isBoxBeyond, type ViewPlane } from '../planes';
 
 /** Drawn in two groups: pieces of triangles, and pieces of grid-faces. */
 type Faces = Mesh<BufferGeometry, [ShaderMaterial, ShaderMaterial]>;
+
+/** Drawn in three groups: hybrid edges, grid-edges, and pieces of tri-edges. */
+type Lines = LineSegments<BufferGeometry, [ShaderMaterial, ShaderMaterial, ShaderMaterial]>;
+
+const triEdgeStrength = 0.16;
+/** In pixels. */
+const shortestTriEdge = 9;
+/** Of grid-edges as outlines of grid-faces, and as boxes that stand around a sheet. */
+const gridEdgeStrength = 0.4;
+const boxStrength = 0.06;
 
 export class CutCells implements Layer {
   readonly object = new Group();
@@ -19,7 +30,9 @@ export class CutCells implements Layer {
   readonly ghost: Faces;
   private readonly faces: Faces;
   private readonly backs: Faces;
-  private readonly lines: LineSegments;
+  private readonly lines: Lines;
+  /** Mean length of pieces of tri-edges. */
+  private readonly triEdgeLength = { value: 1 };
   private readonly centers = new Table((length) => new Float32Array(length));
   /** RGB, and whether it is shown, per cell. */
   private readonly looks = new Table((length) => new Uint8Array(length));
@@ -38,7 +51,9 @@ export class CutCells implements Layer {
     this.pick = makeFaces('PICK');
     this.ghost = makeFaces('GHOST');
     this.ghost.material[1].visible = false;
-    this.lines = new LineSegments(new BufferGeometry(), makeMaterial('CELLS', 'LINES', uniforms));
+    const strokes = [gridStroke(uniforms), gridStroke(uniforms), stroke(triEdgeStrength, this.triEdgeLength, shortestTriEdge)];
+    const [hybrid, grid, tri] = strokes.map((own) => makeMaterial('CELLS', 'LINES', uniforms, own));
+    this.lines = new LineSegments(new BufferGeometry(), [hybrid, grid, tri]);
     this.object.add(this.faces, this.backs, this.lines);
     for (const object of [this.faces, this.backs, this.pick, this.ghost, this.lines]) object.frustumCulled = false;
   }
@@ -46,7 +61,12 @@ export class CutCells implements Layer {
   setModel(model: Model): void {
     const { triangles, edges } = model;
     const { geometry } = this.faces;
-    refill(geometry, { position: { array: triangles.position, size: 3 }, cell: { array: triangles.cell, size: 1 } }, triangles.index);
+    const attributes = {
+      position: { array: triangles.position, size: 3 },
+      normal: { array: triangles.normal, size: 4, normalized: true },
+      cell: { array: triangles.cell, size: 1 },
+    };
+    refill(geometry, attributes, triangles.index);
     geometry.clearGroups();
     geometry.addGroup(0, triangles.surfaceEnd, 0);
     geometry.addGroup(triangles.surfaceEnd, triangles.index.length - triangles.surfaceEnd, 1);
@@ -55,6 +75,13 @@ export class CutCells implements Layer {
     for (const name of ['position', 'cell']) lines.deleteAttribute(name);
     refill(lines, {}, edges.index);
     for (const name of ['position', 'cell']) lines.setAttribute(name, geometry.getAttribute(name));
+    const { hybridEnd, gridEnd, index } = edges;
+    lines.clearGroups();
+    lines.addGroup(0, hybridEnd, 0);
+    lines.addGroup(hybridEnd, gridEnd - hybridEnd, 1);
+    lines.addGroup(gridEnd, index.length - gridEnd, 2);
+    this.triEdgeLength.value = meanLength(triangles.position, index.subarray(gridEnd));
+    this.uniforms.darkBacks.value = isSheet(model);
     this.setCenters(model);
   }
 
@@ -93,6 +120,9 @@ export class CutCells implements Layer {
       material[1].visible = show.gridFaces;
     }
     this.lines.visible = show.edges;
+    const { uniforms } = this.lines.material[1];
+    uniforms.strength.value = show.gridFaces ? gridEdgeStrength : boxStrength;
+    uniforms.lineColor = show.gridFaces ? this.uniforms.lineColor : this.uniforms.boxColor;
   }
 
   isShown(cell: number): boolean {
@@ -141,6 +171,19 @@ export class CutCells implements Layer {
     }
     return count;
   }
+}
+
+/** Of edges given by their vertices, from at most a thousand of them. */
+function meanLength(position: Float32Array, edges: Uint32Array): number {
+  const step = 2 * Math.ceil(edges.length / 2000);
+  let sum = 0;
+  let count = 0;
+  for (let at = 0; at < edges.length; at += step) {
+    const [a, b] = [3 * edges[at], 3 * edges[at + 1]];
+    sum += Math.hypot(position[b] - position[a], position[b + 1] - position[a + 1], position[b + 2] - position[a + 2]);
+    count++;
+  }
+  return count > 0 ? sum / count : 1;
 }
 
 /** A geometry of plain line segments. */

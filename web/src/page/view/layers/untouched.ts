@@ -5,7 +5,7 @@ import type { Model } from '../../../model/types';
 import { Table } from '../buffers';
 import { untouchedColors, type Rgb } from '../colors';
 import type { Layer, Look } from '../layer';
-import { makeMaterial, type Uniforms } from '../material';
+import { gridStroke, makeMaterial, type Uniforms } from '../material';
 import { paler, type Piece } from '../piece';
 
 /**
@@ -39,7 +39,7 @@ export class Untouched implements Layer {
     const own = { boxes: this.table };
     this.faces = new Mesh(new BufferGeometry(), makeMaterial('BOXES', 'FACES', uniforms, own));
     this.pick = new Mesh(this.faces.geometry, makeMaterial('BOXES', 'PICK', uniforms, own));
-    this.lines = new LineSegments(new BufferGeometry(), makeMaterial('BOXES', 'LINES', uniforms, own));
+    this.lines = new LineSegments(new BufferGeometry(), makeMaterial('BOXES', 'LINES', uniforms, { ...own, ...gridStroke(uniforms) }));
     for (const object of [this.faces, this.pick, this.lines]) object.frustumCulled = false;
     this.object.add(this.faces, this.lines);
   }
