@@ -29,6 +29,8 @@ export interface Layer {
   readonly object: Object3D;
   /** What is drawn to find out which cell is seen at a point. */
   readonly pick?: Object3D;
+  /** What casts a shadow on the ground. */
+  readonly caster?: Object3D;
   /** Takes the buffers of a new model, whose look is set next. */
   setModel?(model: Model): void;
   /** What setLook() makes its work of: it is called once one of these is not the same value, or the same object, any more. */

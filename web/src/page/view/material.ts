@@ -1,6 +1,6 @@
 // One shader draws all cells. It looks up per cell what is the same for all of a cell's vertices, so that exploding, colouring and slicing
 // only change uniforms and a small texture, never the vertices.
-import { BackSide, Color, DoubleSide, FrontSide, ShaderMaterial, Vector3, Vector4 } from 'three';
+import { BackSide, Color, DoubleSide, FrontSide, ShaderMaterial, Vector2, Vector3, Vector4 } from 'three';
 import type { DataTexture, IUniform, Side } from 'three';
 import { tableWidth } from './buffers';
 import { gridFaceColor } from './colors';
@@ -33,11 +33,15 @@ export function makeUniforms() {
     /** Height of the picture in CSS pixels. */
     stageHeight: { value: 600 },
     up: { value: new Vector3(0, 1, 0) },
+    /** Height of the ground, and the height above it from which on nothing casts a shadow. */
+    ground: { value: new Vector2() },
+    /** How dark shadows are, 0 to 1. */
+    shade: { value: 0 },
   };
 }
 
 export type Geometry = 'CELLS' | 'BOXES' | 'CAPS';
-export type Purpose = 'FACES' | 'BACKS' | 'LINES' | 'PICK' | 'GHOST';
+export type Purpose = 'FACES' | 'BACKS' | 'LINES' | 'PICK' | 'GHOST' | 'SHADOW';
 
 /** Uniforms of lines: their opacity, the distance from one to the next in the model's units, and the pixels of it below which they fade. */
 export function stroke(strength: number, spacing: IUniform<number>, fadeBelow: number) {
@@ -49,11 +53,18 @@ export function gridStroke({ cellSize }: Uniforms) {
   return stroke(0.55, cellSize, 4);
 }
 
-const sides: Record<Purpose, Side> = { FACES: FrontSide, BACKS: BackSide, LINES: FrontSide, PICK: DoubleSide, GHOST: DoubleSide };
+const sides: Record<Purpose, Side> = {
+  FACES: FrontSide,
+  BACKS: BackSide,
+  LINES: FrontSide,
+  PICK: DoubleSide,
+  GHOST: DoubleSide,
+  SHADOW: DoubleSide,
+};
 
 export function makeMaterial(geometry: Geometry, purpose: Purpose, shared: Uniforms, own: Record<string, IUniform> = {}): ShaderMaterial {
   const isTransparent = purpose === 'LINES' || purpose === 'GHOST';
-  const isLit = purpose !== 'LINES' && purpose !== 'PICK';
+  const isLit = purpose === 'FACES' || purpose === 'BACKS' || purpose === 'GHOST';
   const material = new ShaderMaterial({
     uniforms: { ...shared, ...own },
     defines: { [geometry]: 1, [purpose]: 1, TABLE_WIDTH: tableWidth, ...(isLit && { LIT: 1 }) },
@@ -64,7 +75,7 @@ export function makeMaterial(geometry: Geometry, purpose: Purpose, shared: Unifo
     depthWrite: !isTransparent,
   });
   // Lines lie in front of the faces that they bound, caps before faces in their plane, the front of a face before its neighbour's back.
-  const depth = { FACES: geometry === 'CAPS' ? 1 : 2, BACKS: 3, LINES: 0, PICK: geometry === 'CAPS' ? 1 : 2, GHOST: 2 }[purpose];
+  const depth = { FACES: geometry === 'CAPS' ? 1 : 2, BACKS: 3, LINES: 0, PICK: geometry === 'CAPS' ? 1 : 2, GHOST: 2, SHADOW: 0 }[purpose];
   material.polygonOffset = depth > 0;
   material.polygonOffsetFactor = depth / 2;
   material.polygonOffsetUnits = depth;
@@ -94,6 +105,11 @@ flat varying int vCell;
 #endif
 #ifdef LIT
   varying vec3 vNormal;
+#endif
+#ifdef SHADOW
+  uniform vec3 up;
+  uniform vec2 ground;
+  varying float vHeight;
 #endif
 
 #ifdef CELLS
@@ -172,6 +188,9 @@ void main() {
     float pixels = spacing * length(modelViewMatrix[0].xyz) * 0.5 * stageHeight * projectionMatrix[1][1] / max(-seen.z, 1e-6);
     vStrength = strength * smoothstep(0.5 * fadeBelow, 2.0 * fadeBelow, pixels);
   #endif
+  #ifdef SHADOW
+    vHeight = (dot(moved, up) - ground.x) / ground.y;
+  #endif
   #ifdef LIT
     vNormal = vec3(0.0);
     #ifdef CELLS
@@ -199,6 +218,10 @@ flat varying int vCell;
 #ifdef LINES
   uniform vec3 lineColor;
   varying float vStrength;
+#endif
+
+#ifdef SHADOW
+  varying float vHeight;
 #endif
 
 #ifdef LIT
@@ -245,6 +268,10 @@ void main() {
   #ifdef PICK
     int id = vCell + 1;
     gl_FragColor = vec4(float(id & 255), float((id >> 8) & 255), float((id >> 16) & 255), 255.0) / 255.0;
+  #endif
+  #ifdef SHADOW
+    float near = 1.0 - clamp(vHeight, 0.0, 1.0);
+    gl_FragColor = vec4(near * near, 0.0, 0.0, 1.0);
   #endif
   #ifdef LINES
     gl_FragColor = vec4(mix(lineColor, accent, step(0.01, vHighlight)), max(vStrength, step(0.01, vHighlight)));

@@ -1,8 +1,7 @@
 // The 3D view: puts the layers together, and draws when something has changed.
-import { type DataTexture, Group, Scene, type Object3D, type WebGLRenderer } from 'three';
+import { Group, Scene, type Object3D, type WebGLRenderer } from 'three';
 import type { Engine, Instead, Model, PageError, Recording, Settings, View } from '../../model/types';
 import type { Wind } from '../../model/wind';
-import { gradient } from './background';
 import { Camera } from './camera';
 import { exportGlb } from './export';
 import { shownBall } from './extent';
@@ -13,6 +12,7 @@ import { CrossingCurves } from './layers/crossings';
 import { CutCells } from './layers/cut_cells';
 import { Frames } from './layers/frames';
 import { Gizmo } from './layers/gizmo';
+import { Shadow } from './layers/shadow';
 import { Step } from './layers/step';
 import { Untouched } from './layers/untouched';
 import { regionShifts, shownRegions } from './look';
@@ -22,6 +22,7 @@ import { Picker } from './picking';
 import { Pointer } from './pointer';
 import { record } from './recorder';
 import { makeRenderer } from './renderer';
+import { setScheme } from './scheme';
 import { fromModel, fromWorld, keepCamera, sceneScale, toWorld } from './scene_space';
 import { WindTunnel } from './wind';
 import { setUniforms } from './uniforms';
@@ -36,11 +37,6 @@ export interface ViewOptions {
 
 /** In ms. */
 const compileTime = 100;
-
-const schemes = {
-  light: { background: ['#f4f2ee', '#ebe8e2'], line: '#2a3440', box: '#2a3440', accent: '#e0218a' },
-  dark: { background: ['#1b2028', '#12151a'], line: '#0d1116', box: '#c3ccd6', accent: '#ff4fa8' },
-};
 
 /** Draws into the canvas, which fills its parent by CSS. Throws a PageError where there is no WebGL 2. */
 export function createView(canvas: HTMLCanvasElement, options: ViewOptions): View {
@@ -62,6 +58,7 @@ class ThreeView implements View {
   private readonly untouched = new Untouched(this.uniforms);
   private readonly caps = new Caps(this.uniforms, this.cells);
   private readonly gizmo: Gizmo;
+  private readonly shadow: Shadow;
   /** What is seen of the model, and what is seen instead of it. */
   private readonly ofModel: readonly Layer[] = [this.cells, this.untouched, this.caps, new Frames()];
   private readonly ofInsteads: readonly Layer[] = [new Step(), new CrossingCurves(this.uniforms)];
@@ -96,7 +93,13 @@ class ThreeView implements View {
     this.visit = new Visit(this.camera);
     this.gizmo = new Gizmo(this.camera.camera, canvas);
     this.windTunnel = new WindTunnel(this.uniforms, this.camera.camera, canvas);
-    this.layers = [...this.ofModel, ...this.ofInsteads, this.windTunnel, this.gizmo];
+    this.shadow = new Shadow(
+      this.renderer,
+      this.uniforms,
+      this.ofModel.flatMap(({ caster }) => caster ?? []),
+    );
+    this.modelGroup.add(this.shadow.object);
+    this.layers = [...this.ofModel, this.shadow, ...this.ofInsteads, this.windTunnel, this.gizmo];
     this.picker = new Picker(
       this.renderer,
       this.layers.flatMap(({ pick }) => pick ?? []),
@@ -119,6 +122,7 @@ class ThreeView implements View {
   /** Compiles all shaders while the first mesh is being cut: the compiler runs beside the page, then an empty draw picks up the results. */
   private warmUp(): void {
     this.renderer.compile(this.scene, this.camera.camera);
+    this.shadow.compile();
     const takeOver = () => {
       if (this.model) return;
       this.modelGroup.visible = this.insteadGroup.visible = true;
@@ -131,7 +135,7 @@ class ThreeView implements View {
   }
 
   private listen(): void {
-    this.camera.onChange = this.gizmo.onChange = () => this.loop.invalidate();
+    this.camera.onChange = this.gizmo.onChange = this.shadow.onChange = () => this.loop.invalidate();
     this.camera.onMoved = () => this.tellCamera();
     this.gizmo.onDragging = (isDragging) => (this.camera.controls.enabled = !isDragging);
     this.gizmo.onMoved = (free) => {
@@ -229,13 +233,7 @@ class ThreeView implements View {
   }
 
   setScheme(dark: boolean): void {
-    const scheme = dark ? schemes.dark : schemes.light;
-    (this.scene.background as DataTexture | null)?.dispose();
-    this.scene.background = gradient(scheme.background);
-    this.uniforms.lineColor.value.set(scheme.line);
-    this.uniforms.boxColor.value.set(scheme.box);
-    this.uniforms.accent.value.set(scheme.accent);
-    this.windTunnel.setAccent(scheme.accent);
+    setScheme(dark, this.scene, this.uniforms);
     this.loop.invalidate();
   }
 
@@ -256,6 +254,7 @@ class ThreeView implements View {
   async png(): Promise<Blob> {
     const hadGizmo = this.gizmo.object.visible;
     this.loop.prepare();
+    this.shadow.redraw();
     this.gizmo.object.visible = this.windTunnel.hasHandle = false;
     this.loop.draw();
     const blob = await new Promise<Blob | null>((resolve) => this.canvas.toBlob(resolve, 'image/png'));

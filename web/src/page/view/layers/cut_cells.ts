@@ -26,6 +26,7 @@ const boxStrength = 0.06;
 export class CutCells implements Layer {
   readonly object = new Group();
   readonly pick: Faces;
+  readonly caster: Faces;
   /** The surface alone, faint, behind the pictures of steps. */
   readonly ghost: Faces;
   private readonly faces: Faces;
@@ -49,13 +50,14 @@ export class CutCells implements Layer {
     this.faces = makeFaces('FACES');
     this.backs = makeFaces('BACKS');
     this.pick = makeFaces('PICK');
+    this.caster = makeFaces('SHADOW');
     this.ghost = makeFaces('GHOST');
     this.ghost.material[1].visible = false;
     const strokes = [gridStroke(uniforms), gridStroke(uniforms), stroke(triEdgeStrength, this.triEdgeLength, shortestTriEdge)];
     const [hybrid, grid, tri] = strokes.map((own) => makeMaterial('CELLS', 'LINES', uniforms, own));
     this.lines = new LineSegments(new BufferGeometry(), [hybrid, grid, tri]);
     this.object.add(this.faces, this.backs, this.lines);
-    for (const object of [this.faces, this.backs, this.pick, this.ghost, this.lines]) object.frustumCulled = false;
+    for (const object of [this.faces, this.backs, this.pick, this.caster, this.ghost, this.lines]) object.frustumCulled = false;
   }
 
   setModel(model: Model): void {
@@ -115,7 +117,7 @@ export class CutCells implements Layer {
     // Of a face between two shown cells only the front is drawn, so neighbours don't fight for its pixels; without the rest of the boundary
     // one looks into cells and sees the backs as well.
     this.backs.visible = !(show.surface && show.gridFaces);
-    for (const { material } of [this.faces, this.backs, this.pick]) {
+    for (const { material } of [this.faces, this.backs, this.pick, this.caster]) {
       material[0].visible = show.surface;
       material[1].visible = show.gridFaces;
     }

@@ -28,6 +28,7 @@ const lineCorners = [1, 2, 4].flatMap((far) => {
 export class Untouched implements Layer {
   readonly object = new Group();
   readonly pick: Mesh;
+  readonly caster: Mesh;
   count = 0;
   private readonly faces: Mesh;
   private readonly lines: LineSegments;
@@ -39,8 +40,9 @@ export class Untouched implements Layer {
     const own = { boxes: this.table };
     this.faces = new Mesh(new BufferGeometry(), makeMaterial('BOXES', 'FACES', uniforms, own));
     this.pick = new Mesh(this.faces.geometry, makeMaterial('BOXES', 'PICK', uniforms, own));
+    this.caster = new Mesh(this.faces.geometry, makeMaterial('BOXES', 'SHADOW', uniforms, own));
     this.lines = new LineSegments(new BufferGeometry(), makeMaterial('BOXES', 'LINES', uniforms, { ...own, ...gridStroke(uniforms) }));
-    for (const object of [this.faces, this.pick, this.lines]) object.frustumCulled = false;
+    for (const object of [this.faces, this.pick, this.caster, this.lines]) object.frustumCulled = false;
     this.object.add(this.faces, this.lines);
   }
 
@@ -55,6 +57,7 @@ export class Untouched implements Layer {
     this.count = gridCells.length;
     this.object.visible = this.pick.visible = this.count > 0;
     this.faces.visible = show.gridFaces;
+    this.caster.visible = this.count > 0 && show.gridFaces;
     this.lines.visible = show.edges;
     this.setBoxes(model, gridCells, untouchedColors(model, settings.colorBy));
     setRange(this.faces.geometry, triangleCorners, this.count);

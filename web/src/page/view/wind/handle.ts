@@ -1,6 +1,6 @@
 // An arrow that blows at the mesh. It is turned around it by dragging.
-import { ConeGeometry, CylinderGeometry, Group, Color, Mesh, Raycaster, ShaderMaterial, Sphere, Vector2, Vector3 } from 'three';
-import type { PerspectiveCamera } from 'three';
+import { ConeGeometry, CylinderGeometry, Group, Mesh, Raycaster, ShaderMaterial, Sphere, Vector2, Vector3 } from 'three';
+import type { Color, PerspectiveCamera } from 'three';
 import type { Vector3 as Numbers } from '../../../model/vector';
 import type { Wind } from '../../../model/wind';
 import type { Look } from '../layer';
@@ -21,7 +21,6 @@ export class WindHandle {
   /** A drag begins or ends. */
   onDragging: (isDragging: boolean) => void = () => {};
   private readonly arrow = new Group();
-  private readonly color = { value: new Color() };
   /** 1 while it is touched. */
   private readonly glow = { value: 0 };
   private readonly direction = new Vector3(1, 0, 0);
@@ -34,8 +33,9 @@ export class WindHandle {
   constructor(
     private readonly camera: PerspectiveCamera,
     private readonly canvas: HTMLCanvasElement,
+    color: { value: Color },
   ) {
-    const material = new ShaderMaterial({ uniforms: { color: this.color, glow: this.glow }, vertexShader, fragmentShader });
+    const material = new ShaderMaterial({ uniforms: { color, glow: this.glow }, vertexShader, fragmentShader });
     const head = new Mesh(new ConeGeometry(0.2, 0.5, 40), material);
     const shaft = new Mesh(new CylinderGeometry(0.07, 0.07, 0.5, 24), material);
     head.position.y = -0.25;
@@ -51,10 +51,6 @@ export class WindHandle {
   /** Whether the pointer is on it. */
   get isTouched(): boolean {
     return this.dragged !== null || this.isNear;
-  }
-
-  setAccent(color: string): void {
-    this.color.value.set(color);
   }
 
   setLook({ wind, settings }: Look): void {

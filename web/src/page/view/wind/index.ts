@@ -22,7 +22,7 @@ export class WindTunnel implements Layer {
   constructor(uniforms: Uniforms, camera: PerspectiveCamera, canvas: HTMLCanvasElement) {
     this.pulses = new Pulses(this.uniforms, matchMedia('(prefers-reduced-motion: reduce)'));
     this.surface = new WindSurface(this.uniforms, uniforms);
-    this.handle = new WindHandle(camera, canvas);
+    this.handle = new WindHandle(camera, canvas, uniforms.accent);
     this.object.add(this.surface.object, this.handle.object, this.pulses.object);
     this.object.visible = false;
   }
@@ -47,10 +47,6 @@ export class WindTunnel implements Layer {
   }
   set onTurned(listener: WindHandle['onTurned']) {
     this.handle.onTurned = listener;
-  }
-
-  setAccent(color: string): void {
-    this.handle.setAccent(color);
   }
 
   dependsOn({ wind, model, settings, instead }: Look): readonly unknown[] {
