@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { after, describe, test } from 'node:test';
 import { dataOf, enter, eventually, isReady, openPanel, shows, startSite, textOf } from './page_helpers.mjs';
-import { covered, pixelsOf } from './pictures.mjs';
+import { covered, pixelsOf, settledPixels } from './pictures.mjs';
 
 const site = await startSite();
 after(() => site.close());
@@ -97,7 +97,7 @@ test('Tab reaches every control, in turn, and says where it is', async (t) => {
 test('the keys of the picture', async (t) => {
   const page = await site.open(t, link);
   await page.locator('#canvas').focus();
-  const before = await pixelsOf(page);
+  const before = await settledPixels(page);
   for (let press = 0; press < 3; ++press) await page.keyboard.press('ArrowLeft');
   await eventually(async () => assert.notDeepEqual((await pixelsOf(page)).rgba, before.rgba));
   await eventually(async () => assert.match(page.url(), /camera=/));

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
 import { writeObj } from '../package/meshes.mjs';
 import { dataOf, enter, eventually, shows, startSite, textOf } from './page_helpers.mjs';
-import { covered, isBlue, isOrange, pixelsOf, share } from './pictures.mjs';
+import { covered, isBlue, isOrange, pixelsOf, settledPixels, share } from './pictures.mjs';
 import { cutOf, galleryMesh, mandoline } from './reference.mjs';
 
 const knot = await galleryMesh('torus-knot');
@@ -80,7 +80,7 @@ async function cardIs(page, cell) {
 
 test('hovering tells the cell under the pointer and lights it up', async (t) => {
   const page = await site.open(t, link);
-  const before = await pixelsOf(page);
+  const before = await settledPixels(page);
   const { cell, x, y, scale, box } = await hoverCell(page);
   const [cellX, cellY] = project(measures.cellCentroid.subarray(3 * cell, 3 * cell + 3), box);
   const reach = scale * Math.hypot(...[0, 1].map((d) => cutMesh.grid.spacing[d]));
@@ -157,7 +157,7 @@ test('a tap pins, a swipe turns', async (t) => {
   await page.touchscreen.tap(x, y);
   await cardIs(page, cell);
   await page.keyboard.press('Escape');
-  const before = await pixelsOf(page);
+  const before = await settledPixels(page);
   const session = await page.context().newCDPSession(page);
   const touch = (type, points) => session.send('Input.dispatchTouchEvent', { type, touchPoints: points });
   await touch('touchStart', [{ x, y }]);

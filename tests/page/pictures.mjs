@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { eventually } from './page_helpers.mjs';
+import { dataOf, eventually } from './page_helpers.mjs';
 
 const expectedFile = new URL('./expected/pictures.json', import.meta.url);
 const columns = 16;
@@ -85,7 +85,7 @@ const likeness = 6;
 export async function looksLike(page, name) {
   const folder = process.env.UPDATE_PICTURES;
   if (folder) {
-    keep(name, await settled(page));
+    keep(name, tiles(await settledPixels(page)));
     writeFileSync(join(folder, `${name}.png`), await screenshot(page, '#canvas'));
     return;
   }
@@ -97,13 +97,15 @@ export async function looksLike(page, name) {
   }, 8000);
 }
 
-/** Tiles that stay the same in two screenshots running. */
-async function settled(page) {
-  let last = tiles(await pixelsOf(page));
+/** The canvas once its shadow is drawn, too, and two screenshots running are the same. */
+export async function settledPixels(page) {
+  let last = await pixelsOf(page);
   return eventually(async () => {
-    const next = tiles(await pixelsOf(page));
-    const by = difference(last, next);
+    const { shadow } = await dataOf(page, '#canvas');
+    const next = await pixelsOf(page);
+    const by = difference(tiles(last), tiles(next));
     last = next;
+    assert.equal(shadow, 'drawn');
     assert.equal(by, 0);
     return next;
   });

@@ -4,7 +4,7 @@ import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { readObj, writeObj } from '../package/meshes.mjs';
 import { octahedron, octahedronFiles } from './mesh_files.mjs';
 import { dataOf, download, enter, eventually, isReady, openPanel, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
-import { covered, difference, pixelsOf, tiles } from './pictures.mjs';
+import { covered, difference, pixelsOf, settledPixels, tiles } from './pictures.mjs';
 import { cutOf, galleryMesh, keptCells, mandoline } from './reference.mjs';
 
 const knot = await galleryMesh('torus-knot');
@@ -93,7 +93,7 @@ describe('files', () => {
   test('PNG: what is seen', async (t) => {
     const { page, bytes } = await saved(t, 'png');
     const picture = await pixelsOf(page, bytes);
-    const seen = await pixelsOf(page);
+    const seen = await settledPixels(page);
     assert.deepEqual([picture.width, picture.height], [seen.width, seen.height]);
     assert.ok(covered(picture) > 0.1);
     assert.ok(difference(tiles(picture), tiles(seen)) < 3);

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { after, describe, test } from 'node:test';
 import { writeObj } from '../package/meshes.mjs';
 import { dataOf, enter, eventually, openPanel, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
-import { covered, difference, looksLike, pixelsOf, tiles } from './pictures.mjs';
+import { covered, difference, looksLike, pixelsOf, settledPixels, tiles } from './pictures.mjs';
 import { cutOf, galleryMesh, mandoline } from './reference.mjs';
 
 const knot = await galleryMesh('torus-knot');
@@ -25,7 +25,7 @@ async function hasStepText(page, words) {
 describe('steps', () => {
   test('one after the other, each with its picture and text', async (t) => {
     const page = await site.open(t, link);
-    const model = tiles(await pixelsOf(page));
+    const model = tiles(await settledPixels(page));
     await openPanel(page, 'steps');
     const pictures = [model];
     for (const step of ['triEdges', 'hybridEdges', 'triangleFaces', 'axialPlane', 'gridCell']) {

@@ -3,7 +3,7 @@ import { after, describe, test } from 'node:test';
 import { torus, writeObj } from '../package/meshes.mjs';
 import { octahedron } from './mesh_files.mjs';
 import { dataOf, enter, eventually, isReady, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
-import { covered, difference, isBlue, isDrawn, isOrange, looksLike, pixelsOf, share, tiles } from './pictures.mjs';
+import { covered, difference, isBlue, isDrawn, isOrange, looksLike, pixelsOf, settledPixels, share, tiles } from './pictures.mjs';
 import { cutOf, galleryMesh, keptCells, mandoline } from './reference.mjs';
 
 const mesh = torus(24, 12);
@@ -81,7 +81,7 @@ describe('slices', () => {
   test('cells cut flat have filled caps', async (t) => {
     const page = await site.open(t, link('x=0.44,1&camera=6,1.5,2,0,0,0'));
     await shows(page, '#canvas', { caps: 0 });
-    const whole = await pixelsOf(page);
+    const whole = await settledPixels(page);
     await page.locator('#slice-mode-flat').check();
     await shows(page, '#canvas', { caps: capsOf(reference, axes.x, 0.44) });
     await looksUnlike(page, whole);
@@ -153,7 +153,7 @@ describe('slices', () => {
 describe('explosions', () => {
   test('by cell', async (t) => {
     const page = await site.open(t, link());
-    const whole = await pixelsOf(page);
+    const whole = await settledPixels(page);
     await slideTo(page, '#explode-cells', 0.6);
     await looksUnlike(page, whole, 8);
     await looksLike(page, 'torus exploded');
@@ -164,7 +164,7 @@ describe('explosions', () => {
 
   test('by region', async (t) => {
     const page = await site.open(t, 'mesh=nested-spheres&n=6&free=off&explode=0,0&color=region&camera=0,2,16,0,0,0');
-    const whole = await pixelsOf(page);
+    const whole = await settledPixels(page);
     await slideTo(page, '#explode-regions', 0.8);
     await looksUnlike(page, whole, 8);
     await looksLike(page, 'nested spheres side by side');
@@ -194,7 +194,7 @@ describe('a whole view stays whole', () => {
     for (const key of ['regions', 'cells']) {
       test(`when ${name} explode by ${key}`, async (t) => {
         const page = await site.open(t, `mesh=${name}&n=${cells}&free=off&explode=0,0&color=region`);
-        const whole = await pixelsOf(page);
+        const whole = await settledPixels(page);
         for (const amount of [0.5, 1]) {
           await slideTo(page, `#explode-${key}`, amount);
           await looksUnlike(page, whole, 3);
@@ -281,11 +281,8 @@ describe('show', () => {
 
   test('edges', async (t) => {
     const page = await site.open(t, link('show=surface,gridFaces,cutCells'));
-    const bare = await eventually(async () => {
-      const picture = await pixelsOf(page);
-      assert.ok(covered(picture) > 0.1);
-      return picture;
-    });
+    const bare = await settledPixels(page);
+    assert.ok(covered(bare) > 0.1);
     const isDark = (r, g, b) => r + g + b < 240;
     await page.locator('#show-edges').check();
     await eventually(async () => assert.ok(share(await pixelsOf(page), isDark) > share(bare, isDark) + 0.005));
@@ -397,11 +394,8 @@ describe('show', () => {
 
 test('a link to an exploded view shows all of it', async (t) => {
   const page = await site.open(t, link('explode=1,0'));
-  const linked = await eventually(async () => {
-    const picture = await pixelsOf(page);
-    assert.ok(covered(picture) > 0.05);
-    return picture;
-  });
+  const linked = await settledPixels(page);
+  assert.ok(covered(linked) > 0.05);
   await page.locator('#fit').click();
   await eventually(async () => assert.ok(difference(tiles(await pixelsOf(page)), tiles(linked)) < 1));
 });

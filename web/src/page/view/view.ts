@@ -317,6 +317,7 @@ class ThreeView implements View {
     const moving = this.layers.filter((layer) => layer.animate?.(seconds));
     this.renderer.render(this.scene, this.camera.camera);
     this.canvas.dataset.frames = String(++this.framesDrawn);
+    this.shadow.tellTests(this.canvas.dataset);
     return moving.length > 0;
   }
 
@@ -355,6 +356,7 @@ class ThreeView implements View {
     dataset.untouched = String(this.untouched.count);
     dataset.caps = String(this.caps.count);
     this.windTunnel.tellTests(dataset);
+    this.shadow.tellTests(dataset);
     dataset.instead = look.instead?.kind ?? '';
   }
 }

@@ -90,6 +90,11 @@ export class Shadow implements Layer {
     toPicture.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).multiply(object.matrix);
   }
 
+  /** Says in a data attribute whether it is drawn as the look has it. */
+  tellTests(dataset: DOMStringMap): void {
+    dataset.shadow = this.isStale ? 'awaited' : 'drawn';
+  }
+
   /** Waits until the look has stayed as it is for a moment. */
   animate(): boolean {
     if (this.timer === undefined) this.redraw();
