@@ -7,12 +7,18 @@ import { NumberField } from './controls/number_field';
 type Grid = Extract<GridSettings, { min: unknown }>;
 
 const rows = ['cells', 'min', 'max'] as const;
+type RowName = (typeof rows)[number];
 
 /** Counts and box of the grid, starting from the current one, and the snap tolerance. */
 export function CustomGrid({ app }: { app: App }) {
   const { grid, snapTolerance } = app.settings;
   const shown = shownGrid(app);
   const cells = 'min' in grid ? Math.max(...grid.cells) : grid.cells;
+  // Of the grid at that time: what was entered just before is not drawn yet.
+  const set = (row: RowName, axis: number, value: number) => {
+    const now = shownGrid(app);
+    if (now) app.setGrid({ ...now, [row]: now[row].map((x, d) => (d === axis ? value : x)) });
+  };
   return (
     <div>
       <div class="custom-grid" role="group" aria-label="Custom grid">
@@ -23,7 +29,7 @@ export function CustomGrid({ app }: { app: App }) {
           </span>
         ))}
         {rows.map((row) => (
-          <Row key={row} row={row} grid={shown} onChange={(changed) => app.setGrid(changed)} />
+          <Row key={row} row={row} grid={shown} onChange={(axis, value) => set(row, axis, value)} />
         ))}
       </div>
       <div class="row">
@@ -51,14 +57,13 @@ function shownGrid({ settings: { grid }, mesh }: App): Grid | null {
 }
 
 interface RowProps {
-  row: (typeof rows)[number];
+  row: RowName;
   grid: Grid | null;
-  onChange: (grid: Grid) => void;
+  onChange: (axis: number, value: number) => void;
 }
 
 function Row({ row, grid, onChange }: RowProps) {
   const limits = row === 'cells' ? { min: 1, max: 4096, step: 1 } : { step: 'any' as const };
-  const set = (axis: number, value: number) => grid && onChange({ ...grid, [row]: grid[row].map((x, d) => (d === axis ? value : x)) });
   return (
     <>
       <span class="hint" aria-hidden="true">
@@ -72,7 +77,7 @@ function Row({ row, grid, onChange }: RowProps) {
           hideLabel
           {...limits}
           value={grid?.[row][d] ?? null}
-          onChange={(value) => set(d, value)}
+          onChange={(value) => onChange(d, value)}
         />
       ))}
     </>
