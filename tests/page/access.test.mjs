@@ -112,7 +112,7 @@ test('the keys of the picture', async (t) => {
 
 test('what happens is announced', async (t) => {
   const page = await site.open(t, link);
-  for (const selector of ['#counts', '#mesh-line', '#step-text', '#validation', '#link-status']) {
+  for (const selector of ['#hover-line', '#mesh-line', '#step-text', '#validation', '#link-status']) {
     assert.equal(await page.locator(selector).getAttribute('aria-live'), 'polite', selector);
   }
   await page.locator('#file').setInputFiles({ name: 'empty.obj', mimeType: 'text/plain', buffer: Buffer.alloc(0) });
@@ -123,21 +123,32 @@ describe('on a screen 360 pixels wide', () => {
   const phone = { viewport: { width: 360, height: 640 }, hasTouch: true, isMobile: true };
   const overflow = (page) => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
 
-  test('the picture is seen, and nothing runs over the side', async (t) => {
-    const page = await site.open(t, '', phone);
+  const phonePage = (t, hash) => site.open(t, hash, { ...phone, panels: [] });
+  /** Whether they share no pixel. */
+  const areApart = async (page, ...selectors) => {
+    const boxes = await Promise.all(selectors.map((selector) => page.locator(selector).boundingBox()));
+    const [a, b] = boxes;
+    return a.x + a.width <= b.x || b.x + b.width <= a.x || a.y + a.height <= b.y || b.y + b.height <= a.y;
+  };
+
+  test('the picture is seen, nothing lies over it, and nothing runs over the side', async (t) => {
+    const page = await phonePage(t, '');
     assert.ok((await overflow(page)) <= 0);
     const { width, height } = await page.locator('#canvas').boundingBox();
-    assert.ok(width >= 320 && height >= 200, `the picture has ${width} x ${height}`);
+    assert.ok(width >= 320 && height >= 400, `the picture has ${width} x ${height}`);
+    for (const selector of ['#bar', '.title', '#tools']) assert.ok(await areApart(page, '#canvas', selector), selector);
     await eventually(async () => assert.ok(covered(await pixelsOf(page)) > 0.08));
   });
 
   test('every control can be reached with a finger', async (t) => {
-    const page = await site.open(t, link, phone);
-    for (const id of panels) {
-      await page.locator(`#${id}-toggle`).tap();
-      await eventually(async () => assert.equal(await page.locator(`#${id}-toggle`).getAttribute('aria-expanded'), 'true'));
+    const page = await phonePage(t, link);
+    await page.locator('#panels-toggle').tap();
+    await page.locator('#mesh-toggle').tap();
+    for (const id of ['bar', ...panels]) {
+      if (id !== 'bar') await page.locator(`#${id}-toggle`).tap();
       if (id === 'cut') await page.locator('#custom-grid summary').tap();
       assert.ok((await overflow(page)) <= 0, `${id} fits`);
+      assert.ok(await areApart(page, '#canvas', `#panels`), 'the picture stays in view');
       const hidden = await page
         .locator(`#${id}`)
         .locator(controls)
@@ -157,13 +168,15 @@ describe('on a screen 360 pixels wide', () => {
     }
   });
 
-  test('the card of a cell leaves room for the picture', async (t) => {
-    const page = await site.open(t, link, phone);
-    await page.locator('#view-toggle').tap();
+  test('the card of a cell takes the place of the panels, and leaves the picture free', async (t) => {
+    const page = await phonePage(t, link);
+    await openPanel(page, 'view');
     await enter(page, '#pin-number', 0);
     await shows(page, '#cell-card', { cell: 0 });
+    await eventually(async () => assert.equal(await page.locator('#panels').isVisible(), false));
     const { x, width } = await page.locator('#cell-card').boundingBox();
     assert.ok(x >= 0 && x + width <= 360);
+    for (const selector of ['#canvas', '#bar']) assert.ok(await areApart(page, '#cell-card', selector), selector);
     await page.locator('#unpin').tap();
     await eventually(async () => assert.equal(await page.locator('#cell-card').isVisible(), false));
   });
@@ -182,7 +195,7 @@ test('the skip link leads to the controls and leaves the settings alone', async 
 });
 
 for (const viewport of [
-  { width: 1000, height: 600 },
+  { width: 1000, height: 521 },
   { width: 360, height: 640 },
 ]) {
   test(`the document is no higher than a window of ${viewport.width} x ${viewport.height}`, async (t) => {
@@ -196,21 +209,30 @@ for (const viewport of [
   });
 }
 
-test('panels come back when a narrow window becomes wide', async (t) => {
-  const wide = { width: 1000, height: 600 };
-  const page = await site.open(t, link, { viewport: { width: 360, height: 640 } });
-  const expanded = (id) => page.locator(`#${id}-toggle`).getAttribute('aria-expanded');
-  const isOpen = () => Promise.all(panels.map(async (id) => (await expanded(id)) === 'true'));
-  const are = (expected) => eventually(async () => assert.deepEqual(await isOpen(), expected));
-  await are([false, false, false, false, false, false, false]);
+test('the panels are folded where they would leave the picture no room; what was open in them stays open', async (t) => {
+  const wide = { width: 1000, height: 521 };
+  const narrow = { width: 360, height: 640 };
+  const page = await site.open(t, link, { viewport: narrow, panels: [] });
+  const isExpanded = async (id) => (await page.locator(`#${id}-toggle`).getAttribute('aria-expanded')) === 'true';
+  const are = (expected) =>
+    eventually(async () => {
+      const open = [];
+      for (const id of ['panels', ...panels]) if (await isExpanded(id)) open.push(id);
+      assert.deepEqual(open, expected);
+      assert.equal(await page.locator('#panels').isVisible(), expected.includes('panels'));
+    });
+  await are(['mesh']);
   await page.setViewportSize(wide);
-  await are([true, true, true, false, false, false, false]);
+  await are(['panels', 'mesh']);
   await page.locator('#mesh-toggle').click();
   await page.locator('#save-toggle').click();
-  await page.setViewportSize({ width: 360, height: 640 });
-  await are([false, false, false, false, false, false, false]);
-  await page.setViewportSize(wide);
-  await are([false, true, true, false, false, false, true]);
+  const { width } = await page.locator('#canvas').boundingBox();
+  await page.locator('#panels-toggle').click();
+  await are(['save']);
+  assert.ok((await page.locator('#canvas').boundingBox()).width > width, 'the picture takes their room');
+  await page.locator('#panels-toggle').click();
+  await page.setViewportSize(narrow);
+  await are(['save']);
 });
 
 test('where motion is unwanted nothing moves by itself', async (t) => {

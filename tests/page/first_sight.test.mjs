@@ -21,7 +21,7 @@ test('the first sight is the bunny, cut, sliced and exploded', async (t) => {
   const { cells, untouched } = await dataOf(page, '#canvas');
   assert.ok(Number(cells) > 0 && Number(cells) < inside, 'sliced: some of the inner cut-cells are seen, not all');
   assert.ok(Number(untouched) > 0, 'the slice shows untouched cells');
-  assert.match(await textOf(page, 'body > header'), /Any triangle mesh, cut by a grid into exact polyhedral cells/);
+  assert.match(await textOf(page, 'body > header'), /Any triangle mesh, cut into exact cells/);
 
   await eventually(async () => {
     const picture = await pixelsOf(page);

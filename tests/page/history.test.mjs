@@ -62,9 +62,9 @@ test('take the steps of a slider as one, and the camera with what it looks at', 
   const settled = page.url().split('#')[1];
   assert.equal(await entries(page), first + 1);
   const box = await page.locator('#canvas').boundingBox();
-  await page.mouse.move(box.x + 40, box.y + box.height - 60);
+  await page.mouse.move(box.x + 40, box.y + box.height / 2);
   await page.mouse.down();
-  await page.mouse.move(box.x + 160, box.y + box.height - 100, { steps: 5 });
+  await page.mouse.move(box.x + 160, box.y + box.height / 2 - 60, { steps: 5 });
   await page.mouse.up();
   await hasUrl(page, /camera=/);
   assert.equal(await entries(page), first + 1);

@@ -32,11 +32,14 @@ export async function startSite({ files = {} } = {}) {
     url: host.url,
     host,
     meshUrl: (name) => meshes.url + name,
-    /** Opens the page with a link's hash and waits for its first cut. A complaint that isn't expected fails the test. */
-    async open(t, hash = '', options = {}) {
+    /**
+     * Opens the page with a link's hash, waits for its first cut and opens panels. A complaint that isn't expected fails the test.
+     */
+    async open(t, hash = '', { panels = ['cut', 'view'], ...options } = {}) {
       const page = await newPage(t, browser, options);
       await page.goto(host.url + (hash ? `#${hash}` : ''));
       await isReady(page);
+      for (const id of panels) await openPanel(page, id);
       return page;
     },
     newPage: (t, options) => newPage(t, browser, options),
@@ -49,7 +52,7 @@ export async function startSite({ files = {} } = {}) {
 }
 
 async function newPage(t, browser, { expectedProblem = null, onNewPage = async () => {}, ...options } = {}) {
-  const context = await browser.newContext({ viewport: { width: 1000, height: 600 }, ...options });
+  const context = await browser.newContext({ viewport: { width: 1000, height: 521 }, ...options });
   context.setDefaultTimeout(patience);
   const page = await context.newPage();
   page.problems = [];
@@ -106,8 +109,10 @@ export async function textOf(page, selector) {
   return (await page.locator(selector).innerText()).replaceAll(/\s+/g, ' ');
 }
 
-/** Opens a panel that may be closed. */
+/** Opens a panel that may be closed, or folded away with the others. */
 export async function openPanel(page, id) {
+  const all = page.locator('#panels-toggle');
+  if ((await all.getAttribute('aria-expanded')) === 'false') await all.click();
   const toggle = page.locator(`#${id}-toggle`);
   if ((await toggle.getAttribute('aria-expanded')) === 'false') await toggle.click();
 }

@@ -16,14 +16,19 @@ export async function pixelsOf(page, selectorOrPng = '#canvas') {
 }
 
 async function screenshot(page, selector) {
-  const setCovers = (visibility) =>
-    page.locator(selector).evaluate((element, value) => {
-      for (const other of element.parentElement.children) if (other !== element) other.style.visibility = value;
-    }, visibility);
-  await setCovers('hidden');
+  await setOthers(page, selector, 'hidden');
   const png = await page.locator(selector).screenshot();
-  await setCovers('');
+  await setOthers(page, selector, '');
   return png;
+}
+
+/** The visibility of all that may lie over an element. */
+export function setOthers(page, selector, visibility) {
+  return page.locator(selector).evaluate((element, value) => {
+    for (let item = element; item !== document.body; item = item.parentElement) {
+      for (const other of item.parentElement.children) if (other !== item) other.style.visibility = value;
+    }
+  }, visibility);
 }
 
 /** Runs in the page. */

@@ -2,6 +2,7 @@
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { startSite, isReady } from './page_helpers.mjs';
 import { path } from '../steps.mjs';
+import { setOthers } from './pictures.mjs';
 
 const pictures = {
   slice: 'n=24&free=off&x=0.56,1&slice=flat&explode=0.12,0&camera=19,11,7,-0.6,4.4,0',
@@ -17,9 +18,7 @@ for (const [name, hash] of Object.entries(pictures)) {
   const page = await site.open({ after: (f) => cleanUp.push(f) }, hash, { viewport: { width: 1240, height: 700 } });
   await isReady(page);
   await page.waitForTimeout(2000);
-  await page.locator('#canvas').evaluate((canvas) => {
-    for (const other of canvas.parentElement.children) if (other !== canvas) other.style.visibility = 'hidden';
-  });
+  await setOthers(page, '#canvas', 'hidden');
   const { x, y, width, height } = await page.locator('canvas').first().boundingBox();
   const side = Math.min(width, height * 1.3);
   const clip = { x: x + (width - side) / 2, y, width: side, height };

@@ -117,9 +117,9 @@ describe('links', () => {
     await page.locator('#show-edges').uncheck();
     await page.locator('#slice-mode-flat').check();
     const box = await page.locator('#canvas').boundingBox();
-    await page.mouse.move(box.x + 40, box.y + box.height - 40);
+    await page.mouse.move(box.x + 40, box.y + box.height / 2);
     await page.mouse.down();
-    await page.mouse.move(box.x + 160, box.y + box.height - 100, { steps: 5 });
+    await page.mouse.move(box.x + 160, box.y + box.height / 2 - 60, { steps: 5 });
     await page.mouse.up();
     await eventually(async () => assert.match(page.url(), /camera=/));
     await shows(page, '#counts', { grid: (await cutOf(await galleryMesh('torus-knot'), { cells: 7 })).cutMesh.grid.cells.join('x') });

@@ -12,6 +12,9 @@ const state = new State();
 showAlerts(state);
 state.status.subscribe((status) => (document.body.dataset.state = status));
 
+const { arePanelsOpen } = state.sections;
+arePanelsOpen.subscribe((open) => document.body.classList.toggle('with-panels', open));
+
 try {
   start();
 } catch (error) {
@@ -23,6 +26,7 @@ try {
 function skipToPanels(): void {
   element('skip').addEventListener('click', (event) => {
     event.preventDefault();
+    arePanelsOpen.value = true;
     element('panels').focus();
   });
 }

@@ -13,7 +13,6 @@ const cellRange = [2, 64] as const;
 const rateTime = 1000;
 
 export interface Playing {
-  play: Play;
   /** Cuts a second; null for what is not cut again. */
   rate: number | null;
 }
@@ -27,11 +26,12 @@ export class Player {
   }
 
   /** Goes on from where the page stands, until it is paused or can't go on. */
-  async play(play: Play): Promise<void> {
+  async play(): Promise<void> {
     const run = ++this.runs;
     const { app } = this;
     const { playing } = app.state;
-    playing.value = { play, rate: isCut(play) ? 0 : null };
+    const play = app.state.play.value;
+    playing.value = { rate: isCut(play) ? 0 : null };
     let phase = phaseOf(app, play);
     let before = performance.now();
     const cuts: number[] = [];
@@ -43,7 +43,7 @@ export class Player {
       if (!isCut(play)) continue;
       cuts.push(now);
       while (cuts[0] < now - rateTime) cuts.shift();
-      playing.value = { play, rate: cuts.length };
+      playing.value = { rate: cuts.length };
     }
     if (run === this.runs) this.pause();
   }

@@ -1,18 +1,15 @@
 import { signal } from '@preact/signals';
 
-/** Which sections of the panels are open. A narrow window has them at the bottom, one at a time and closed at first. */
+/** Which sections of the panels are open, and whether the panels are: at first only where they leave room for the picture. */
 export class Sections {
+  private readonly open = signal<readonly string[]>(['mesh']);
+  private readonly wide = matchMedia('(min-width: 960px)');
+  /** Narrower windows have the panels in a sheet that lies over the picture. */
   private readonly narrow = matchMedia('(max-width: 760px)');
-  private readonly open = signal<readonly string[]>([]);
-  /** Those to open again when the window becomes wide. */
-  private openWhenWide: readonly string[] = ['mesh', 'cut', 'view'];
+  readonly arePanelsOpen = signal(this.wide.matches);
 
   constructor() {
-    if (!this.narrow.matches) this.open.value = this.openWhenWide;
-    this.narrow.addEventListener('change', ({ matches }) => {
-      if (matches) this.openWhenWide = this.open.value;
-      this.open.value = matches ? [] : [...new Set([...this.open.value, ...this.openWhenWide])];
-    });
+    this.wide.addEventListener('change', ({ matches }) => (this.arePanelsOpen.value = matches));
   }
 
   isOpen(id: string): boolean {
@@ -20,7 +17,12 @@ export class Sections {
   }
 
   set(id: string, open: boolean): void {
-    const others = open && this.narrow.matches ? [] : this.open.value.filter((other) => other !== id);
+    const others = this.open.value.filter((other) => other !== id);
     this.open.value = open ? [...others, id] : others;
+  }
+
+  /** Gives the picture back its room, if the panels lie over it. */
+  uncover(): void {
+    if (this.narrow.matches) this.arePanelsOpen.value = false;
   }
 }

@@ -1,6 +1,6 @@
 import { computed, signal } from '@preact/signals';
 import { defaultSettings } from '../model/settings';
-import type { Playing } from './player';
+import type { Play, Playing } from './player';
 import { Sections } from './sections';
 import type { CellCard, Crossings, Instead, MeshInfo, Model, PageError, StepPicture } from '../model/types';
 import type { Wind } from '../model/wind';
@@ -35,7 +35,9 @@ export class State {
   readonly instead = signal<Instead | null>(null);
   readonly step = computed((): StepPicture | null => (this.instead.value?.kind === 'crossings' ? null : this.instead.value));
   readonly crossings = computed((): Crossings | null => (this.instead.value?.kind === 'crossings' ? this.instead.value : null));
-  /** What moves by itself. */
+  /** What is to move by itself. */
+  readonly play = signal<Play>('wave');
+  /** What moves by itself now. */
   readonly playing = signal<Playing | null>(null);
   /** The flow that is drawn. */
   readonly wind = signal<Wind | null>(null);

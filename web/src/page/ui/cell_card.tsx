@@ -1,4 +1,4 @@
-import { useLayoutEffect, useRef } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import type { App } from '../app';
 import type { CellCard as Card } from '../../model/types';
 import { gridCellVolume } from '../view/colors';
@@ -13,6 +13,9 @@ export function CellCard({ app }: { app: App }) {
   const card = useRef<HTMLElement>(null);
   const title = useRef<HTMLHeadingElement>(null);
   const hadFocus = card.current?.contains(document.activeElement) ?? false;
+  useEffect(() => {
+    if (pinned) app.state.sections.uncover();
+  }, [pinned, app]);
   // What had the focus may be gone: the neighbours are other ones, or the card is hidden.
   useLayoutEffect(() => {
     if (!hadFocus || (pinned && card.current?.contains(document.activeElement))) return;

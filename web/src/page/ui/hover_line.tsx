@@ -3,14 +3,22 @@ import type { Model } from '../../model/types';
 import { milliseconds, plural, real } from '../../model/format';
 import { insideOf } from '../../model/inside';
 
-/** The line below the picture: the cell under the pointer, or else a summary of the cut. */
+/** The line below the picture: the cell under the pointer, or else a summary of the cut; how often it is cut while something plays. */
 export function HoverLine({ app }: { app: App }) {
   const { model } = app;
   const cell = app.state.hovered.value;
+  const playing = app.state.playing.value;
+  // Nobody could listen to twenty cuts a second, or to every cell that the pointer passes.
+  const isSaid = cell === null && !playing;
   return (
-    <p class="hover-line" id="hover-line" data-cell={cell ?? ''}>
-      {model && (cell === null ? summary(model) : describeCell(model, cell))}
-    </p>
+    <div class="lines">
+      <p class="hover-line" id="hover-line" aria-live={isSaid ? 'polite' : 'off'} data-cell={cell ?? ''}>
+        {model && (cell === null ? summary(model) : describeCell(model, cell))}
+      </p>
+      <p class="hover-line" id="play-rate">
+        {playing?.rate ? `${plural(playing.rate, 'cut')} a second` : ''}
+      </p>
+    </div>
   );
 }
 

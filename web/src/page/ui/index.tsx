@@ -3,6 +3,7 @@ import { render, type ComponentChild } from 'preact';
 import type { App } from '../app';
 import type { State } from '../state';
 import { Alerts } from './alerts';
+import { Bar } from './bar';
 import { CellCard } from './cell_card';
 import { ChecksPanel } from './checks_panel';
 import { CrossingsBanner } from './crossings_banner';
@@ -12,6 +13,7 @@ import { HoverLine } from './hover_line';
 import { Legend } from './legend';
 import { MeshPanel } from './mesh_panel';
 import { MotionPanel } from './motion_panel';
+import { PanelsToggle } from './panels_toggle';
 import { ProgressLine } from './progress_line';
 import { SavePanel } from './save_panel';
 import { SchemeToggle } from './scheme';
@@ -32,18 +34,25 @@ export function showPanels(app: App): void {
     <>
       <SchemeToggle app={app} />
       <Shortcuts app={app} />
+      <PanelsToggle app={app} />
     </>,
   );
   put(
     'over-stage',
     <>
       <Legend app={app} />
-      <HoverLine app={app} />
-      <CrossingsBanner app={app} />
       <StageNote app={app} />
+      <CrossingsBanner app={app} />
       <ProgressLine app={app} />
-      <CellCard app={app} />
+      <HoverLine app={app} />
       <Drops app={app} />
+    </>,
+  );
+  put(
+    'foot',
+    <>
+      <Bar app={app} />
+      <CellCard app={app} />
     </>,
   );
   put(

@@ -3,7 +3,6 @@ import type { App } from '../app';
 import { pageError } from '../app';
 import { isMotion, plays, type Play } from '../player';
 import type { Recording } from '../../model/types';
-import { plural } from '../../model/format';
 import { Section } from './controls/section';
 import { Select } from './controls/select';
 import { Slider } from './controls/slider';
@@ -21,17 +20,12 @@ const options = plays.map((play) => [play, names[play]] as const);
 
 /** What moves by itself; a surface that moves is cut anew in every picture. */
 export function MotionPanel({ app }: { app: App }) {
-  const [chosen, setChosen] = useState<Play>('wave');
   const { playing } = app.state;
   const { pose } = app.settings;
-  const play = playing.value?.play ?? chosen;
+  const play = app.state.play.value;
   const choose = (next: Play) => {
-    setChosen(next);
-    if (playing.value) void app.player.play(next);
-  };
-  const toggle = () => {
-    if (playing.value) app.player.pause();
-    else void app.player.play(play);
+    app.state.play.value = next;
+    if (playing.value) void app.player.play();
   };
   const moveTo = (phase: number) => {
     app.player.pause();
@@ -56,17 +50,11 @@ export function MotionPanel({ app }: { app: App }) {
         />
       )}
       <div class="row">
-        <button type="button" id="play" disabled={!app.model} onClick={toggle}>
-          {playing.value ? 'Pause' : 'Play'}
-        </button>
         <button type="button" id="at-rest" disabled={!pose} onClick={rest}>
           Back to rest
         </button>
         <Film app={app} />
       </div>
-      <p class="hint" id="play-rate">
-        {playing.value?.rate ? `${plural(playing.value.rate, 'cut')} a second` : ''}
-      </p>
     </Section>
   );
 }

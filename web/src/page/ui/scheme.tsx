@@ -1,5 +1,6 @@
 import { useEffect, useLayoutEffect, useState } from 'preact/hooks';
 import type { App } from '../app';
+import { Icon } from './controls/icon';
 
 const systemDark = matchMedia('(prefers-color-scheme: dark)');
 
@@ -16,7 +17,7 @@ export function SchemeToggle({ app: { view } }: { app: App }) {
   };
   return (
     <button type="button" id="scheme" class="quiet" aria-label={`Switch to ${isDark ? 'light' : 'dark'} mode`} onClick={change}>
-      {isDark ? 'Light' : 'Dark'}
+      <Icon name={isDark ? 'light' : 'dark'} />
     </button>
   );
 }

@@ -1,22 +1,16 @@
 import type { App } from '../app';
-import { colorings, layers, sliceNames } from '../../model/settings';
-import type { ColorBy, Model, SliceName } from '../../model/types';
+import { axes, layers } from '../../model/settings';
+import type { Model } from '../../model/types';
 import { Check } from './controls/check';
 import { Choice } from './controls/choice';
 import { NumberField } from './controls/number_field';
 import { Section } from './controls/section';
 import { Select } from './controls/select';
-import { Slider } from './controls/slider';
+import { Explosion } from './explosion';
+import { SliceRow } from './slice_row';
 import { insideOf, isOutside } from '../../model/inside';
 import { plural, real } from '../../model/format';
 
-const colorNames: Record<ColorBy, string> = {
-  region: 'region',
-  winding: 'winding number',
-  cell: 'cell',
-  volume: 'volume',
-  kind: 'face type',
-};
 const layerNames: Record<(typeof layers)[number], string> = {
   surface: 'surface',
   gridFaces: 'grid-faces',
@@ -26,13 +20,12 @@ const layerNames: Record<(typeof layers)[number], string> = {
   outside: 'outside',
 };
 
-/** How the cut-mesh is shown. */
+/** How the cut-mesh is shown, but for what the bar has. */
 export function ViewPanel({ app }: { app: App }) {
   return (
     <Section app={app} id="view" title="View">
       <Slices app={app} />
-      <Explosion app={app} />
-      <Coloring app={app} />
+      <Explosion app={app} part="regions" label="Explode by region" />
       <Visibility app={app} />
       <OneRegion app={app} />
       <PinByNumber app={app} />
@@ -57,8 +50,8 @@ function Slices({ app }: { app: App }) {
   const { sliceMode } = app.settings;
   return (
     <fieldset class="slices">
-      <legend>Slice</legend>
-      {sliceNames.map((name) => (
+      <legend>Slice along an axis</legend>
+      {axes.map((name) => (
         <SliceRow key={name} app={app} name={name} />
       ))}
       <Choice
@@ -70,61 +63,6 @@ function Slices({ app }: { app: App }) {
       />
     </fieldset>
   );
-}
-
-function SliceRow({ app, name }: { app: App; name: SliceName }) {
-  const { on, position } = app.settings.slices[name];
-  return (
-    <div class={on ? 'slice' : 'slice off'}>
-      <Check id={`slice-${name}`} label={name} checked={on} onChange={(checked) => app.changeSlice(name, { on: checked })} />
-      <Slider
-        id={`slice-${name}-position`}
-        label={`Position of the ${name} plane`}
-        hideLabel
-        min={0}
-        max={1}
-        step={0.002}
-        value={position}
-        onInput={(value) => app.changeSlice(name, { position: value, on: true })}
-      />
-      <button type="button" id={`slice-${name}-flip`} class="quiet" aria-label={`Flip the ${name} plane`} onClick={() => app.flip(name)}>
-        flip
-      </button>
-    </div>
-  );
-}
-
-const explosions = [
-  ['cells', 'by cell'],
-  ['regions', 'by region'],
-] as const;
-
-function Explosion({ app }: { app: App }) {
-  const { explode } = app.settings;
-  return (
-    <fieldset>
-      <legend>Explode</legend>
-      {explosions.map(([key, label]) => (
-        <Slider
-          key={key}
-          id={`explode-${key}`}
-          label={label}
-          min={0}
-          max={1}
-          step={0.01}
-          value={explode[key]}
-          format={(x) => `${Math.round(100 * x)}%`}
-          onInput={(value) => app.change({ explode: { ...app.settings.explode, [key]: value } })}
-        />
-      ))}
-    </fieldset>
-  );
-}
-
-function Coloring({ app }: { app: App }) {
-  const options = colorings.map((name) => [name, colorNames[name]] as const);
-  const { colorBy } = app.settings;
-  return <Select id="color-by" label="Colour by" options={options} value={colorBy} onChange={(name) => app.change({ colorBy: name })} />;
 }
 
 function Visibility({ app }: { app: App }) {

@@ -2,19 +2,17 @@ import type { App } from '../app';
 import { integer, milliseconds, real } from '../../model/format';
 import type { Vector3 } from '../../model/vector';
 import { mostWindCells, type WindColoring, type WindStats } from '../../model/wind';
-import { Check } from './controls/check';
 import { Choice } from './controls/choice';
 import { NumberField } from './controls/number_field';
 import { Section } from './controls/section';
 import { Slider } from './controls/slider';
 import { Terms } from './controls/terms';
 
-/** The wind tunnel: whether and where the wind blows, what the colours show, and the flow in numbers. */
+/** The wind tunnel: where the wind blows, what the colours show, and the flow in numbers. */
 export function WindPanel({ app }: { app: App }) {
-  const { on, show, cells } = app.settings.wind;
+  const { show, cells } = app.settings.wind;
   return (
     <Section app={app} id="wind" title="Wind">
-      <Check id="wind-on" label="Wind blows around the mesh" checked={on} onChange={(checked) => app.changeWind({ on: checked })} />
       <Direction app={app} />
       <Choice
         name="wind-show"
