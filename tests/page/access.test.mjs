@@ -182,6 +182,33 @@ describe('on a screen 360 pixels wide', () => {
   });
 });
 
+test('the gallery is one stop of the Tab key; arrow keys, Home and End go through it', async (t) => {
+  const page = await site.open(t, link, { panels: [] });
+  const focused = () => page.evaluate(() => document.activeElement.dataset.name ?? document.activeElement.id);
+  const names = await page.locator('#gallery button').evaluateAll((all) => all.map(({ dataset }) => dataset.name));
+  await page.locator('#mesh-toggle').focus();
+  await page.keyboard.press('Tab');
+  assert.equal(await focused(), 'wedge', 'the mesh that is shown');
+  for (const [key, name] of [
+    ['End', names.at(-1)],
+    ['ArrowDown', names.at(-1)],
+    ['ArrowUp', names.at(-2)],
+    ['Home', names[0]],
+    ['ArrowRight', names[1]],
+    ['ArrowLeft', names[0]],
+  ]) {
+    await page.keyboard.press(key);
+    assert.equal(await focused(), name, key);
+  }
+  await page.keyboard.press('Tab');
+  assert.equal(await focused(), 'open-file');
+  await page.keyboard.press('Shift+Tab');
+  assert.equal(await focused(), names[0]);
+  await page.keyboard.press('ArrowDown');
+  await page.keyboard.press('Enter');
+  await shows(page, '#mesh-line', { name: names[1] });
+});
+
 test('the skip link leads to the controls and leaves the settings alone', async (t) => {
   const page = await site.open(t, 'mesh=claw&n=3&free=off&explode=0,0');
   const former = await dataOf(page, '#counts');

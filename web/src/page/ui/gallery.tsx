@@ -1,23 +1,37 @@
-import { useEffect, useRef } from 'preact/hooks';
+import { useEffect, useRef, useState } from 'preact/hooks';
 import type { App } from '../app';
 import { gallery } from '../../model/gallery/list';
 
-/** The meshes that come with the page. The one that is shown is scrolled to. */
+/** The meshes that come with the page: one stop of the Tab key, with the arrow keys from one to the next. The one that is shown is scrolled to. */
 export function Gallery({ app }: { app: App }) {
   const { source } = app.settings;
   const chosen = source.kind === 'gallery' ? source.name : null;
   const list = useRef<HTMLUListElement>(null);
-  useEffect(() => reveal(list.current), [chosen]);
+  /** Where the Tab key leads. */
+  const [stop, setStop] = useState(0);
+  useEffect(() => {
+    reveal(list.current);
+    setStop(Math.max(names.indexOf(chosen ?? ''), 0));
+  }, [chosen]);
   useEffect(() => {
     if (list.current) return onAppearance(list.current, () => reveal(list.current));
   }, []);
+  const move = (event: KeyboardEvent) => {
+    const to = nextStop(event.key, stop);
+    if (to === null) return;
+    event.preventDefault();
+    setStop(to);
+    list.current?.querySelectorAll('button')[to].focus();
+  };
   return (
-    <ul ref={list} class="gallery" id="gallery" aria-label="Gallery">
-      {gallery.map(({ name, title, line, cells }) => (
+    <ul ref={list} class="gallery" id="gallery" aria-label="Gallery" onKeyDown={move}>
+      {gallery.map(({ name, title, line, cells }, i) => (
         <li key={name}>
           <button
             type="button"
             data-name={name}
+            tabIndex={i === stop ? 0 : -1}
+            onFocus={() => setStop(i)}
             aria-pressed={name === chosen}
             onClick={() => void app.open({ kind: 'gallery', name }, { cells })}
           >
@@ -28,6 +42,15 @@ export function Gallery({ app }: { app: App }) {
       ))}
     </ul>
   );
+}
+
+const names = gallery.map(({ name }) => name);
+
+function nextStop(key: string, stop: number): number | null {
+  if (key === 'Home') return 0;
+  if (key === 'End') return names.length - 1;
+  const step = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 }[key];
+  return step === undefined ? null : Math.min(Math.max(stop + step, 0), names.length - 1);
 }
 
 function reveal(list: HTMLElement | null): void {
