@@ -1,6 +1,6 @@
-// Makes the README's pictures from the built page: node tests/page/readme_pictures.mjs
+// Makes the README's pictures, and the one that links to the page are shown with, from the built page: node tests/page/readme_pictures.mjs
 import { mkdirSync, writeFileSync } from 'node:fs';
-import { startSite, isReady } from './page_helpers.mjs';
+import { isReady, shows, startSite } from './page_helpers.mjs';
 import { path } from '../steps.mjs';
 import { setOthers } from './pictures.mjs';
 
@@ -24,5 +24,19 @@ for (const [name, hash] of Object.entries(pictures)) {
   const clip = { x: x + (width - side) / 2, y, width: side, height };
   writeFileSync(path('web', 'pictures', `${name}.png`), await page.screenshot({ clip }));
 }
+
+// Where motion is unwanted, whole streamlines are drawn, at rest.
+const page = await site.open({ after: (f) => cleanUp.push(f) }, 'n=24&free=off&explode=0,0&wind=1,0,0&camera=6.6,9.5,18.8,0.9,4.6,0', {
+  viewport: { width: 1200, height: 630 },
+  colorScheme: 'dark',
+  reducedMotion: 'reduce',
+});
+await page.locator('#panels-toggle').click();
+await shows(page, '#canvas', { wind: '1,0,0' });
+await page.waitForTimeout(3000);
+await setOthers(page, '#canvas', 'hidden');
+for (const selector of ['h1', '.what']) await page.locator(selector).evaluate((element) => (element.style.visibility = 'visible'));
+await page.screenshot({ path: path('web', 'pictures', 'share.jpg'), type: 'jpeg', quality: 88 });
+
 for (const f of cleanUp) await f();
 await site.close();
