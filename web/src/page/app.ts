@@ -1,20 +1,23 @@
 // The actions on the state of the page. Panels call them and read the state.
 import { batch } from '@preact/signals';
 import type { Validation } from 'mandoline-wasm';
-import { isPageError } from '../model/failure';
 import { gallery } from '../model/gallery/list';
 import { defaultCells, defaultSettings, defaultSource } from '../model/settings';
 import { isOutside } from '../model/inside';
 import type { Pose } from '../model/motion';
+import { ask } from './ask';
+import { asPageError, isAbort } from './failure';
+import { Inspector } from './inspector';
+import { Meshes } from './meshes';
 import { Player } from './player';
 import { isSheet } from './view/look';
 import type { State } from './state';
 import { WindTunnel } from './wind';
+import { Work } from './work';
 import type {
   Cutting,
   Engine,
   GridSettings,
-  Instead,
   MeshInfo,
   Model,
   PageError,
@@ -22,7 +25,6 @@ import type {
   SliceName,
   SliceSettings,
   Source,
-  StepRequest,
   View,
 } from '../model/types';
 
@@ -32,19 +34,9 @@ const fewCells = 60;
 export class App {
   readonly player: Player;
   readonly windTunnel: WindTunnel;
-  private loads = 0;
-  private loading = 0;
-  private pins = 0;
-  private pinned = false;
-  private insteads = 0;
-  private insteadKind: Instead['kind'] | null = null;
-  private work = 0;
-  private cuts = 0;
-  private failed = false;
-  /** What was opened from files, by their names, for the way back. */
-  private readonly files = new Map<string, Blob>();
-  /** Alerts to be shown in the end: a fallback that succeeds must not clear them. */
-  private troubles: PageError[] = [];
+  readonly inspector: Inspector;
+  readonly meshes: Meshes;
+  private readonly work: Work;
   /** Whether the next model needs a camera that sees all of it, or a look that suits it. */
   private frameNext = false;
   private fitNext = false;
@@ -57,11 +49,14 @@ export class App {
     readonly state: State,
   ) {
     this.player = new Player(this);
+    this.work = new Work(state);
+    this.meshes = new Meshes(engine, state, this.work);
+    this.inspector = new Inspector(engine, view, state);
     engine.onProgress = (progress) => (state.progress.value = progress);
     view.onHover = (cell) => (state.hovered.value = cell);
-    view.onPick = (cell) => void this.pin(cell);
+    view.onPick = (cell) => void this.inspector.pin(cell);
     view.onCamera = (camera) => this.change({ camera }, false);
-    this.windTunnel = new WindTunnel(state, engine, view, (answer) => this.ask(answer));
+    this.windTunnel = new WindTunnel(state, engine, view);
     view.onWind = (direction) => this.changeWind({ direction });
     view.onFreePlane = (slice) => this.change({ slices: { ...this.settings.slices, free: slice } }, false);
   }
@@ -80,9 +75,9 @@ export class App {
 
   /** Loads a mesh and cuts it, if given into `cells` along its longest side. If it can't be loaded, the page keeps the previous one. */
   async open(source: Source, { bytes, cells }: { bytes?: ArrayBuffer; cells?: number } = {}): Promise<void> {
-    await this.during(async () => {
-      if (source.kind === 'file' && bytes) this.files.set(source.name, new Blob([bytes]));
-      if ((await this.load(source)) !== 'loaded') return;
+    await this.work.during(async () => {
+      if (source.kind === 'file' && bytes) this.meshes.keepFile(source.name, bytes);
+      if ((await this.meshes.load(source)) !== 'loaded') return;
       const grid = { cells: cells ?? this.cellsToKeep() };
       this.fitNext = true;
       this.change({ source, grid, snapTolerance: 0, pose: null, show: { ...this.settings.show, region: null }, camera: null }, false);
@@ -100,12 +95,12 @@ export class App {
 
   /** Applies all settings of a link. If its mesh can't be loaded, the previous or the default one takes its place. */
   async restore(settings: Settings): Promise<void> {
-    await this.during(async () => {
-      let source = this.canOpen(settings.source) ? settings.source : defaultSource;
-      let outcome = this.isOpen(source) ? 'loaded' : await this.load(source);
+    await this.work.during(async () => {
+      let source = this.meshes.canOpen(settings.source) ? settings.source : defaultSource;
+      let outcome = this.isOpen(source) ? 'loaded' : await this.meshes.load(source);
       if (outcome === 'failed' || outcome === 'cancelled') {
         source = this.model ? this.settings.source : defaultSource;
-        outcome = this.model ? 'loaded' : await this.load(source);
+        outcome = this.model ? 'loaded' : await this.meshes.load(source);
       }
       if (outcome !== 'loaded') return;
       this.change({ ...settings, source }, false);
@@ -116,20 +111,18 @@ export class App {
     });
   }
 
-  /** Files can be opened again as long as the page is there. */
-  canOpen(source: Source): boolean {
-    return source.kind !== 'file' || this.files.has(source.name);
-  }
-
   private isOpen(source: Source): boolean {
-    return this.mesh !== null && this.loading === 0 && same(source, this.settings.source);
+    return this.mesh !== null && !this.work.isDoing('loading') && same(source, this.settings.source);
   }
 
   /** Whether the model is what the settings ask for. */
   private isCut(): boolean {
     const { grid, snapTolerance, pose } = this.settings;
     return (
-      this.model !== null && this.cuts === 0 && this.shown.mesh === this.mesh && same(this.shown.cutting, { grid, snapTolerance, pose })
+      this.model !== null &&
+      !this.work.isDoing('cutting') &&
+      this.shown.mesh === this.mesh &&
+      same(this.shown.cutting, { grid, snapTolerance, pose })
     );
   }
 
@@ -178,50 +171,11 @@ export class App {
 
   /** Shows the default mesh, since a page without a picture is no use. */
   private async fallBack(error: PageError): Promise<void> {
-    this.troubles.push(error);
-    if ((await this.load(defaultSource)) !== 'loaded') return;
+    this.work.alertInTheEnd(error);
+    if ((await this.meshes.load(defaultSource)) !== 'loaded') return;
     const { source, grid, snapTolerance, pose } = defaultSettings();
     this.change({ source, grid, snapTolerance, pose, camera: null }, false);
     await this.recut(true);
-  }
-
-  /** Failures are shown in the end; the outcome is "superseded" if a newer mesh was asked for meanwhile. */
-  private async load(source: Source): Promise<'loaded' | 'failed' | 'cancelled' | 'superseded'> {
-    const load = ++this.loads;
-    this.loading++;
-    this.tellWork();
-    try {
-      const bytes = source.kind === 'file' ? await this.files.get(source.name)?.arrayBuffer() : undefined;
-      if (load !== this.loads) return 'superseded';
-      const mesh = await this.engine.load(source, bytes);
-      if (load !== this.loads) return 'superseded';
-      this.state.mesh.value = mesh;
-      return 'loaded';
-    } catch (error) {
-      if (load !== this.loads) return 'superseded';
-      if (isAbort(error)) return 'cancelled';
-      this.failed = true;
-      this.troubles.push(pageError(error));
-      return 'failed';
-    } finally {
-      this.loading--;
-      this.tellWork();
-    }
-  }
-
-  private tellWork(): void {
-    this.state.work.value = this.loading > 0 ? 'loading' : this.cuts > 0 ? 'cutting' : null;
-    this.state.progress.value = null;
-  }
-
-  /** The page is busy until this and everything else is done. */
-  private async during(task: () => Promise<void>): Promise<void> {
-    if (this.work++ === 0) this.state.status.value = 'busy';
-    this.failed = false;
-    await task();
-    if (--this.work > 0) return;
-    for (const error of this.troubles.splice(0)) this.state.alert(error);
-    this.state.status.value = this.failed ? 'error' : 'ready';
   }
 
   /** Changes how the model is shown. */
@@ -282,24 +236,21 @@ export class App {
     this.frameNext ||= frame;
     const { grid, snapTolerance, pose } = this.settings;
     const cutting = { grid, snapTolerance, pose };
-    this.cuts++;
-    this.tellWork();
-    await this.during(async () => {
+    const cut = async () => {
       try {
         this.takeModel(await this.engine.cut(cutting));
-        this.failed = false;
+        this.work.succeed();
         this.shown = { mesh: this.mesh, cutting };
         this.state.cutError.value = null;
         this.state.clearAlerts();
       } catch (error) {
         if (isAbort(error)) return;
-        this.failed = true;
-        problem = pageError(error);
+        this.work.fail();
+        problem = asPageError(error);
         this.giveUp(problem);
       }
-    });
-    this.cuts--;
-    this.tellWork();
+    };
+    await this.work.doing('cutting', () => this.work.during(cut));
     return problem;
   }
 
@@ -313,27 +264,19 @@ export class App {
       if (isGone) this.state.settings.value = { ...settings, show: { ...settings.show, region: null } };
       if (this.fitNext) this.state.settings.value = { ...this.settings, ...this.lookFor(model) };
     });
-    void this.pin(null);
+    void this.inspector.pin(null);
     this.view.setModel(model, this.frameNext);
     this.fitNext = this.frameNext = false;
     this.view.setLook(this.settings);
-    this.renewInstead();
-  }
-
-  /** Shows the same of the new cut; of another mesh, where that meets itself is another matter. */
-  private renewInstead(): void {
-    if (this.insteadKind !== 'crossings') {
-      if (this.insteadKind) void this.step({ kind: this.insteadKind });
-    } else if (this.shown.mesh === this.mesh) void this.showCrossings();
-    else this.showModel();
+    this.inspector.renew(this.shown.mesh === this.mesh);
   }
 
   /** There is no cut with these settings. A picture of the same mesh stays; one of another mesh would be mistaken for this one. */
   private giveUp(problem: PageError): void {
     if (this.model && this.shown.mesh !== this.mesh) {
       this.state.model.value = null;
-      void this.pin(null);
-      this.showModel();
+      void this.inspector.pin(null);
+      this.inspector.showModel();
       this.view.clear();
     }
     this.state.cutError.value = problem;
@@ -347,84 +290,19 @@ export class App {
     else this.giveUp({ title: 'Cancelled', detail: 'This mesh has not been cut yet. Change its grid to cut it.' });
   }
 
-  /** Pins a cell and fetches its card, or unpins it. */
-  async pin(cell: number | null): Promise<void> {
-    const pin = ++this.pins;
-    this.pinned = cell !== null;
-    this.view.setPinned(cell);
-    const card = cell === null ? null : await this.ask(this.engine.card(cell));
-    if (pin === this.pins && (card || cell === null)) this.state.pinned.value = card;
-  }
-
-  /** Shows a step of the algorithm instead of the model, or the model again. */
-  async step(request: StepRequest | null): Promise<void> {
-    if (request) await this.showInstead(request.kind, this.engine.step(request));
-    else this.showModel();
-  }
-
-  /** Shows where the surface meets itself, instead of the model. */
-  showCrossings(): Promise<void> {
-    return this.showInstead('crossings', this.engine.crossings());
-  }
-
-  showModel(): void {
-    this.insteads++;
-    this.insteadKind = null;
-    this.takeInstead(null);
-  }
-
-  private async showInstead(kind: Instead['kind'], answer: Promise<Instead>): Promise<void> {
-    const asked = ++this.insteads;
-    this.insteadKind = kind;
-    const instead = await this.ask(answer);
-    if (instead && asked === this.insteads) this.takeInstead(instead);
-  }
-
-  private takeInstead(instead: Instead | null): void {
-    this.view.setInstead(instead);
-    this.state.instead.value = instead;
-  }
-
-  /** Unpins the cell, or else goes back to the model. */
-  leave(): void {
-    if (this.pinned) void this.pin(null);
-    else if (this.insteadKind) this.showModel();
-  }
-
   validate(): Promise<Validation | null> {
-    return this.ask(this.engine.validate());
+    return ask(this.state, this.engine.validate());
   }
 
   countEdges(): Promise<number | null> {
-    return this.ask(this.engine.countEdges());
+    return ask(this.state, this.engine.countEdges());
   }
 
   write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array | null> {
-    return this.ask(this.engine.write(format));
-  }
-
-  /** Resolves to the answer, or to null after an alert. */
-  async ask<T>(answer: Promise<T>): Promise<T | null> {
-    try {
-      const value = await answer;
-      this.state.clearAlerts();
-      return value;
-    } catch (error) {
-      if (!isAbort(error)) this.state.alert(pageError(error));
-      return null;
-    }
+    return ask(this.state, this.engine.write(format));
   }
 }
 
 function same(a: unknown, b: unknown): boolean {
   return JSON.stringify(a) === JSON.stringify(b);
-}
-
-function isAbort(error: unknown): boolean {
-  return error instanceof Error && error.name === 'AbortError';
-}
-
-export function pageError(error: unknown): PageError {
-  if (isPageError(error)) return error;
-  return { title: 'Something went wrong', detail: error instanceof Error ? error.message : String(error) };
 }

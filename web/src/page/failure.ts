@@ -1,4 +1,4 @@
-// What went wrong in a call of the worker, as the page shows it.
+// What went wrong, as the page shows it.
 import { describe, MandolineError } from 'mandoline-wasm/worker';
 import type { CallName, WindCallName } from '../model/calls';
 import { isPageError, pageError } from '../model/failure';
@@ -22,6 +22,12 @@ const titles: Record<CallName | WindCallName, string> = {
   writeWind: "The flow can't be written",
 };
 
+/** Of what was thrown anywhere. */
+export function asPageError(error: unknown): PageError {
+  return isPageError(error) ? error : pageError('Something went wrong', error instanceof Error ? error.message : String(error));
+}
+
+/** Of what a call of the worker threw. */
 export function toPageError(error: unknown, call: CallName | WindCallName): PageError {
   if (isPageError(error)) return error;
   if (!(error instanceof MandolineError)) return pageError(titles[call], error instanceof Error ? error.message : String(error));
@@ -30,6 +36,10 @@ export function toPageError(error: unknown, call: CallName | WindCallName): Page
 
 export function abortError(): DOMException {
   return new DOMException('Cancelled, or a newer call took its place.', 'AbortError');
+}
+
+export function isAbort(error: unknown): boolean {
+  return error instanceof Error && error.name === 'AbortError';
 }
 
 /** Whether a call ended because it was stopped. */

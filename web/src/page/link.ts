@@ -48,7 +48,7 @@ export async function followLink(app: App): Promise<void> {
     isRead = true;
     const { settings, problems } = fromHash(known);
     if (problems.length > 0) app.state.notice(`Parts of the link were not understood (${problems.join(', ')}); the rest is shown.`);
-    if (settings.source.kind === 'file' && !app.canOpen(settings.source)) {
+    if (settings.source.kind === 'file' && !app.meshes.canOpen(settings.source)) {
       app.state.notice(
         `The link was made from the file ${settings.source.name}, which it does not contain. Open that file to see the same view.`,
       );

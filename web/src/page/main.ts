@@ -1,6 +1,7 @@
-import { App, pageError } from './app';
+import { App } from './app';
 import { loadAhead } from './ahead';
 import { createEngine } from './engine';
+import { asPageError } from './failure';
 import { followLink } from './link';
 import { State } from './state';
 import { showAlerts, showPanels } from './ui';
@@ -18,7 +19,7 @@ arePanelsOpen.subscribe((open) => document.body.classList.toggle('with-panels', 
 try {
   start();
 } catch (error) {
-  state.alert(pageError(error));
+  state.alert(asPageError(error));
   state.status.value = 'error';
 }
 

@@ -2,7 +2,7 @@
 import { effect } from '@preact/signals';
 import type { Engine, Model, Settings, View } from '../model/types';
 import type { Wind, WindFormat } from '../model/wind';
-import type { App } from './app';
+import { ask } from './ask';
 import type { State } from './state';
 import { activePlanes } from './view/planes';
 
@@ -19,7 +19,6 @@ export class WindTunnel {
     private readonly state: State,
     private readonly engine: Engine,
     private readonly view: View,
-    private readonly ask: App['ask'],
   ) {
     effect(() => this.forget(state.mesh.value));
     effect(() => void this.update(state.model.value, state.settings.value));
@@ -56,7 +55,7 @@ export class WindTunnel {
     this.asked = asked;
     const count = ++this.count;
     this.state.isWindAwaited.value = true;
-    const wind = await this.ask(this.engine.wind(request));
+    const wind = await ask(this.state, this.engine.wind(request));
     // Where newer ones have been asked for, this one is shown until they come, unless it is about another mesh.
     if (wind && this.asked !== '') this.show(wind);
     if (count !== this.count) return;
@@ -67,7 +66,7 @@ export class WindTunnel {
   /** The flow as a file. */
   async write(format: WindFormat): Promise<Uint8Array | null> {
     const { model, settings } = this.state;
-    return model.value && this.ask(this.engine.writeWind(requestOf(model.value, settings.value), format));
+    return model.value && ask(this.state, this.engine.writeWind(requestOf(model.value, settings.value), format));
   }
 }
 

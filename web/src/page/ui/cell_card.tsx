@@ -36,7 +36,7 @@ export function CellCard({ app }: { app: App }) {
         <h2 ref={title} id="card-title" tabIndex={-1}>
           {pinned && `Cell ${pinned.cell}`}
         </h2>
-        <button type="button" id="unpin" class="quiet" onClick={() => void app.pin(null)}>
+        <button type="button" id="unpin" class="quiet" onClick={() => void app.inspector.pin(null)}>
           Unpin
         </button>
       </header>
@@ -103,7 +103,7 @@ function Neighbours({ card, app }: { card: Card; app: App }) {
       <ul class="neighbours" aria-label="Neighbouring cut-cells">
         {card.neighbours.slice(0, shownNeighbours).map((cell) => (
           <li key={`${card.cell} ${cell}`}>
-            <button type="button" class="quiet" aria-label={`Pin cell ${cell}`} onClick={() => void app.pin(cell)}>
+            <button type="button" class="quiet" aria-label={`Pin cell ${cell}`} onClick={() => void app.inspector.pin(cell)}>
               {cell}
             </button>
           </li>

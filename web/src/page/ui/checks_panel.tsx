@@ -64,7 +64,7 @@ function Item({ check, app }: { check: Check; app: App }) {
       {state === 'pass' && <span class="hint">{check.tolerance === 0 ? 'no violations' : 'exact, up to rounding'}</span>}
       {check.message && <span class="message">{check.message}</span>}
       {!check.pass && check.elementKind === 'cell' && (
-        <button type="button" class="quiet" onClick={() => void app.pin(check.element)}>
+        <button type="button" class="quiet" onClick={() => void app.inspector.pin(check.element)}>
           Show cell {check.element}
         </button>
       )}

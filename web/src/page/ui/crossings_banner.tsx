@@ -13,7 +13,7 @@ export function CrossingsBanner({ app }: { app: App }) {
   const total = model ? Object.values(model.crossings).reduce((sum, count) => sum + count, 0) : 0;
   const dismiss = () => {
     setDismissed(mesh);
-    if (shown) app.showModel();
+    if (shown) app.inspector.showModel();
   };
   return (
     <div class="banner" id="crossings" hidden={!sentence || mesh === dismissed}>
@@ -25,7 +25,7 @@ export function CrossingsBanner({ app }: { app: App }) {
         type="button"
         id="show-crossings"
         aria-pressed={shown !== null}
-        onClick={() => (shown ? app.showModel() : void app.showCrossings())}
+        onClick={() => (shown ? app.inspector.showModel() : void app.inspector.showCrossings())}
       >
         Show
       </button>

@@ -1,6 +1,6 @@
 import { useState } from 'preact/hooks';
 import type { App } from '../app';
-import { pageError } from '../app';
+import { asPageError } from '../failure';
 import { isMotion, plays, type Play } from '../player';
 import type { Recording } from '../../model/types';
 import { Section } from './controls/section';
@@ -66,7 +66,7 @@ function Film({ app }: { app: App }) {
     try {
       setRecording(app.view.record());
     } catch (error) {
-      app.state.alert(pageError(error));
+      app.state.alert(asPageError(error));
     }
   };
   const end = async (film: Recording) => {

@@ -1,5 +1,6 @@
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import type { App } from '../app';
+import { ask } from '../ask';
 import { toHash } from '../../model/settings';
 import type { WindFormat } from '../../model/wind';
 import { download } from './download';
@@ -38,8 +39,8 @@ export function SavePanel({ app }: { app: App }) {
     { format: 'json', label: 'JSON', what: 'all arrays', make: written('json', 'application/json') },
     { format: 'vtu', label: 'VTU', what: 'cells for ParaView', make: written('vtu', 'application/xml') },
     { format: 'obj', label: 'OBJ', what: 'surface by region', make: written('obj', 'text/plain') },
-    { format: 'glb', label: 'GLB', what: 'visible geometry', make: () => app.ask(app.view.glb()) },
-    { format: 'png', label: 'PNG', what: 'screenshot', make: () => app.ask(app.view.png()) },
+    { format: 'glb', label: 'GLB', what: 'visible geometry', make: () => ask(app.state, app.view.glb()) },
+    { format: 'png', label: 'PNG', what: 'screenshot', make: () => ask(app.state, app.view.png()) },
     ...(app.state.wind.value ? windFormats(app) : []),
   ];
   return (

@@ -48,7 +48,7 @@ export function Shortcuts({ app }: { app: App }) {
 }
 
 function act(app: App, key: string): void {
-  if (key === 'Escape') app.leave();
+  if (key === 'Escape') app.inspector.leave();
   else if (key.toLowerCase() === 'f') app.fit();
   else if ('xyz'.includes(key.toLowerCase())) {
     const axis = key.toLowerCase() as Axis;

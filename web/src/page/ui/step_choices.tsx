@@ -23,7 +23,7 @@ export function StepChoices({ app }: { app: App }) {
   const latest = () => asked.current?.request ?? shown;
   const ask = (part: Partial<StepRequest>) => {
     asked.current = { picture, request: { ...latest(), ...part } };
-    void app.step(asked.current.request);
+    void app.inspector.step(asked.current.request);
   };
   const { triangle, plane, gridCell, axis = 0 } = shown;
   return (

@@ -24,7 +24,7 @@ export function StepsPanel({ app }: { app: App }) {
         </p>
         <StepChoices app={app} />
         <div class="row">
-          <button type="button" id="step-leave" onClick={() => void app.step(null)}>
+          <button type="button" id="step-leave" onClick={() => void app.inspector.step(null)}>
             Back to the model
           </button>
         </div>
@@ -38,7 +38,7 @@ function Stepper({ app }: { app: App }) {
   const current = steps.findIndex(([kind]) => kind === app.state.step.value?.kind);
   const go = (index: number) => {
     const [kind] = steps[Math.min(Math.max(index, 0), steps.length - 1)];
-    void app.step({ kind });
+    void app.inspector.step({ kind });
   };
   const turn = (event: KeyboardEvent) => {
     if (event.key !== 'ArrowLeft' && event.key !== 'ArrowRight') return;

@@ -112,7 +112,7 @@ function PinByNumber({ app }: { app: App }) {
       optional
       disabled={!model}
       value={app.state.pinned.value?.cell ?? null}
-      onChange={(cell) => void app.pin(cell)}
+      onChange={(cell) => void app.inspector.pin(cell)}
     />
   );
 }

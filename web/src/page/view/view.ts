@@ -4,8 +4,8 @@ import type { Engine, Instead, Model, PageError, Recording, Settings, View } fro
 import type { Wind } from '../../model/wind';
 import { Camera } from './camera';
 import { exportGlb } from './export';
-import { shownBall } from './extent';
 import { FlatCuts } from './flat_cuts';
+import { Framing } from './framing';
 import type { Layer, Look } from './layer';
 import { Caps } from './layers/caps';
 import { CrossingCurves } from './layers/crossings';
@@ -23,10 +23,9 @@ import { Pointer } from './pointer';
 import { record } from './recorder';
 import { makeRenderer } from './renderer';
 import { setScheme } from './scheme';
-import { fromModel, fromWorld, keepCamera, sceneScale, toWorld } from './scene_space';
+import { keepCamera, sceneScale } from './scene_space';
 import { WindTunnel } from './wind';
 import { setUniforms } from './uniforms';
-import { Visit } from './visit';
 
 export interface ViewOptions {
   /** Makes the caps of flat cuts. */
@@ -67,7 +66,7 @@ class ThreeView implements View {
   private readonly modelGroup = new Group().add(...objectsOf(this.ofModel));
   private readonly insteadGroup = new Group().add(this.cells.ghost, ...objectsOf(this.ofInsteads));
   private readonly camera: Camera;
-  private readonly visit: Visit;
+  private readonly framing: Framing;
   private readonly picker: Picker;
   private readonly loop: Loop;
   private readonly flatCuts: FlatCuts;
@@ -79,9 +78,6 @@ class ThreeView implements View {
   private look: Look | null = null;
   /** What the looks of layers were made of. */
   private readonly made = new Map<Layer, readonly unknown[]>();
-  private explosion = '';
-  private cameraKnown = '';
-  private isFramed = false;
   private framesDrawn = 0;
 
   constructor(
@@ -90,7 +86,10 @@ class ThreeView implements View {
   ) {
     this.renderer = makeRenderer(canvas);
     this.camera = new Camera(canvas, matchMedia('(prefers-reduced-motion: reduce)'));
-    this.visit = new Visit(this.camera);
+    this.framing = new Framing(this.camera, () => {
+      const { model, settings, shifts, instead } = this;
+      return model && settings && { model, settings, shifts, instead };
+    });
     this.gizmo = new Gizmo(this.camera.camera, canvas);
     this.windTunnel = new WindTunnel(this.uniforms, this.camera.camera, canvas);
     this.shadow = new Shadow(
@@ -136,7 +135,7 @@ class ThreeView implements View {
 
   private listen(): void {
     this.camera.onChange = this.gizmo.onChange = this.shadow.onChange = () => this.loop.invalidate();
-    this.camera.onMoved = () => this.tellCamera();
+    this.framing.onMoved = (camera) => this.onCamera(camera);
     this.gizmo.onDragging = (isDragging) => (this.camera.controls.enabled = !isDragging);
     this.gizmo.onMoved = (free) => {
       if (!this.settings) return;
@@ -173,7 +172,8 @@ class ThreeView implements View {
 
   setModel(model: Model, frame: boolean): void {
     this.loop.finish();
-    if (this.model && !frame) keepCamera(this.camera, this.model, model);
+    if (frame) this.framing.forget();
+    else if (this.model) keepCamera(this.camera, this.model, model);
     this.model = model;
     this.shifts = regionShifts(model);
     this.root.scale.setScalar(sceneScale(model));
@@ -181,7 +181,6 @@ class ThreeView implements View {
     this.uniforms.hovered.value = this.uniforms.pinned.value = -1;
     this.flatCuts.setModel(model);
     for (const layer of this.layers) layer.setModel?.(model);
-    if (frame) this.isFramed = false;
     this.loop.changed();
   }
 
@@ -198,27 +197,14 @@ class ThreeView implements View {
 
   setLook(settings: Settings): void {
     this.settings = settings;
-    const { model } = this;
-    const { camera, explode } = settings;
-    if (camera && model && JSON.stringify(camera) !== this.cameraKnown) {
-      this.cameraKnown = JSON.stringify(camera);
-      this.isFramed = true;
-      this.camera.place({ position: fromWorld(model, camera.position), target: fromWorld(model, camera.target) });
-    }
-    const explosion = JSON.stringify([explode, explode.regions > 0 && model?.id]);
-    const isPulled = explosion !== this.explosion;
-    this.explosion = explosion;
-    if (!this.isFramed) this.frame();
-    // Until the person moves the camera, exploded parts stay in view.
-    else if (isPulled && this.camera.isFramed && !this.instead) this.frameShown(true);
+    this.framing.follow(settings);
     this.loop.changed();
   }
 
   setInstead(instead: Instead | null): void {
-    const isNew = instead !== null && (this.instead === null || subjectOf(instead) !== subjectOf(this.instead));
+    const former = this.instead;
     this.instead = instead;
-    if (isNew && this.model) this.visit.begin(fromModel(this.model, instead.center), instead.radius * sceneScale(this.model) * 1.2);
-    else if (!instead) this.visit.end(() => this.frameShown(true));
+    this.framing.visitInstead(instead, former);
     this.loop.changed();
   }
 
@@ -238,17 +224,7 @@ class ThreeView implements View {
   }
 
   frame(): void {
-    if (!this.model) return;
-    this.isFramed = true;
-    this.cameraKnown = '';
-    this.frameShown(false);
-  }
-
-  private frameShown(keepDirection: boolean): void {
-    const { model, settings } = this;
-    if (!model || !settings) return;
-    const { center, radius } = shownBall(model, settings, this.shifts);
-    this.camera.frame(fromModel(model, center), radius * sceneScale(model), keepDirection);
+    this.framing.frame();
   }
 
   async png(): Promise<Blob> {
@@ -273,14 +249,6 @@ class ThreeView implements View {
 
   record(): Recording {
     return record(this.canvas);
-  }
-
-  private tellCamera(): void {
-    const { model } = this;
-    if (!model || this.instead) return;
-    const camera = { position: toWorld(model, this.camera.camera.position), target: toWorld(model, this.camera.controls.target) };
-    this.cameraKnown = JSON.stringify(camera);
-    this.onCamera(camera);
   }
 
   private setHovered(cell: number | null): void {
@@ -363,11 +331,6 @@ class ThreeView implements View {
 
 function objectsOf(layers: readonly Layer[]): Object3D[] {
   return layers.map(({ object }) => object);
-}
-
-/** The same for pictures of the same thing, made of different cuts. */
-function subjectOf(instead: Instead): string {
-  return JSON.stringify(instead.kind === 'crossings' ? instead.kind : instead.choices.request);
 }
 
 function pictureError(detail: string): PageError {
