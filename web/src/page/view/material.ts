@@ -48,9 +48,9 @@ export function stroke(strength: number, spacing: IUniform<number>, fadeBelow: n
   return { strength: { value: strength }, spacing, fadeBelow: { value: fadeBelow } };
 }
 
-/** Of lines in axial planes. */
-export function gridStroke({ cellSize }: Uniforms) {
-  return stroke(0.55, cellSize, 4);
+/** Of lines in axial planes, by default as far from each other as the planes. */
+export function gridStroke({ cellSize }: Uniforms, spacing: IUniform<number> = cellSize) {
+  return stroke(0.55, spacing, 4);
 }
 
 const sides: Record<Purpose, Side> = {

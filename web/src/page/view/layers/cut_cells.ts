@@ -1,5 +1,5 @@
 // The cut-cells: one draw call for all faces, one for all edges.
-import { BufferGeometry, Float32BufferAttribute, Group, LineSegments, Mesh } from 'three';
+import { BufferGeometry, Float32BufferAttribute, Group, LineSegments, Mesh, Vector3 } from 'three';
 import type { ShaderMaterial } from 'three';
 import type { Model } from '../../../model/types';
 import { refill, Table } from '../buffers';
@@ -34,6 +34,8 @@ export class CutCells implements Layer {
   private readonly lines: Lines;
   /** Mean length of pieces of tri-edges. */
   private readonly triEdgeLength = { value: 1 };
+  /** Mean distance of hybrid edges: in a surface that lies in an axial plane, all edges of triangles are such. */
+  private readonly hybridEdgeGap = { value: 1 };
   private readonly centers = new Table((length) => new Float32Array(length));
   /** RGB, and whether it is shown, per cell. */
   private readonly looks = new Table((length) => new Uint8Array(length));
@@ -53,7 +55,11 @@ export class CutCells implements Layer {
     this.caster = makeFaces('SHADOW');
     this.ghost = makeFaces('GHOST');
     this.ghost.material[1].visible = false;
-    const strokes = [gridStroke(uniforms), gridStroke(uniforms), stroke(triEdgeStrength, this.triEdgeLength, shortestTriEdge)];
+    const strokes = [
+      gridStroke(uniforms, this.hybridEdgeGap),
+      gridStroke(uniforms),
+      stroke(triEdgeStrength, this.triEdgeLength, shortestTriEdge),
+    ];
     const [hybrid, grid, tri] = strokes.map((own) => makeMaterial('CELLS', 'LINES', uniforms, own));
     this.lines = new LineSegments(new BufferGeometry(), [hybrid, grid, tri]);
     this.object.add(this.faces, this.backs, this.lines);
@@ -83,6 +89,7 @@ export class CutCells implements Layer {
     lines.addGroup(hybridEnd, gridEnd - hybridEnd, 1);
     lines.addGroup(gridEnd, index.length - gridEnd, 2);
     this.triEdgeLength.value = meanLength(triangles.position, index.subarray(gridEnd));
+    this.hybridEdgeGap.value = meanGap(triangles, index.subarray(0, hybridEnd));
     this.uniforms.darkBacks.value = isSheet(model);
     this.setCenters(model);
   }
@@ -186,6 +193,27 @@ function meanLength(position: Float32Array, edges: Uint32Array): number {
     count++;
   }
   return count > 0 ? sum / count : 1;
+}
+
+/** The side of squares, if edges of that length divide the surface into such. */
+function meanGap({ position, index, surfaceEnd }: Model['triangles'], edges: Uint32Array): number {
+  const length = (edges.length / 2) * meanLength(position, edges);
+  // A square has four sides, each of which is there once for every cell.
+  return length > 0 ? (4 * (surfaceEnd / 3) * meanArea(position, index.subarray(0, surfaceEnd))) / length : 1;
+}
+
+/** Of triangles given by their vertices, from at most a thousand of them. */
+function meanArea(position: Float32Array, triangles: Uint32Array): number {
+  const step = 3 * Math.ceil(triangles.length / 3000);
+  const [a, b, c] = [new Vector3(), new Vector3(), new Vector3()];
+  let sum = 0;
+  let count = 0;
+  for (let at = 0; at < triangles.length; at += step) {
+    [a, b, c].forEach((corner, k) => corner.fromArray(position, 3 * triangles[at + k]));
+    sum += b.sub(a).cross(c.sub(a)).length() / 2;
+    count++;
+  }
+  return count > 0 ? sum / count : 0;
 }
 
 /** A geometry of plain line segments. */
