@@ -91,6 +91,30 @@ describe('slices', () => {
     await eventually(async () => assert.equal(difference(tiles(await pixelsOf(page)), tiles(whole)), 0));
   });
 
+  test('a flat cut comes with its caps, and new ones with every cut', async (t) => {
+    const onNewPage = (made) =>
+      made.addInitScript(() => {
+        // What is asked of the worker reaches it late, so that whatever is asked for after a cut comes after its picture.
+        window.Worker = class extends Worker {
+          postMessage(...given) {
+            setTimeout(() => super.postMessage(...given), 600);
+          }
+        };
+        window.hollows = [];
+        new MutationObserver(() => {
+          const { frames, model, caps } = document.getElementById('canvas').dataset;
+          if (model && caps === '0') window.hollows.push(`frame ${frames} of model ${model}`);
+        }).observe(document, { subtree: true, attributeFilter: ['data-frames'] });
+      });
+    const page = await site.open(t, link('x=0.44,1&slice=flat'), { onNewPage });
+    await shows(page, '#canvas', { caps: capsOf(reference, axes.x, 0.44) });
+    await slideTo(page, '#cells', 9);
+    await shows(page, '#counts', { grid: mandoline.cut(mesh, { cells: 9 }).grid.cells.join('x') });
+    assert.equal(await isReady(page), 'ready');
+    await shows(page, '#canvas', { caps: capsOf(await cutOf(mesh, { cells: 9 }), axes.x, 0.44) });
+    assert.deepEqual(await page.evaluate(() => window.hollows), [], 'no frame lacks its caps');
+  });
+
   test('a flat cut has no gaps: two discs of one colour', async (t) => {
     const page = await site.open(t, link('x=0.48,1&slice=flat&camera=8,0,0,0,0,0&color=region&show=surface,gridFaces,untouched,cutCells'));
     await shows(page, '#canvas', { caps: capsOf(reference, axes.x, 0.48) });

@@ -3,7 +3,7 @@ import type { Slice, Validation } from 'mandoline-wasm';
 import type { Vector3 } from './vector';
 import type { Comparison, OtherWay } from './comparison';
 import type { Bounds } from './grid_around';
-import type { CellCard, Crossings, Cutting, Model, Source, StepPicture, StepRequest } from './types';
+import type { CellCard, Crossings, Cutting, Model, Slicing, Source, StepPicture, StepRequest } from './types';
 import type { Wind, WindFormat, WindRequest } from './wind';
 
 /** A mesh as both sides keep it. */
@@ -31,7 +31,7 @@ export interface Calls {
   loadAhead: { ask: null; answer: void };
   /** Gives a mesh to a thread that took the place of another. */
   keep: { ask: LoadedMesh; answer: void };
-  cut: { ask: Recipe; answer: Model };
+  cut: { ask: AboutCut<{ slicing: Slicing }>; answer: Model };
   slice: { ask: AboutCut<{ planes: readonly { normal: Vector3; offset: number }[]; untouched: boolean }>; answer: Slice[] };
   validate: { ask: AboutCut; answer: Validation };
   /** The number of cut-edges. */

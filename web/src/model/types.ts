@@ -4,6 +4,7 @@ import type { Vector3 } from './vector';
 import type { Comparison, OtherWay } from './comparison';
 import type { Bounds } from './grid_around';
 import type { Pose } from './motion';
+import type { ViewPlane } from './planes';
 import type { Wind, WindFormat, WindRequest, WindSettings } from './wind';
 
 /** Where a mesh comes from. A file's bytes are kept by the worker; a link can't restore it. */
@@ -33,6 +34,9 @@ export interface Cutting {
   /** The moment of a motion at which it is cut; a grid without a box then has room for all of the motion. Null for the mesh as it is. */
   pose: Pose | null;
 }
+
+/** How a cut is sliced at once: its caps come with it. */
+export type Slicing = Pick<LookSettings, 'slices' | 'sliceMode'>;
 
 /** What is cut, and how. */
 export interface CutSettings extends Cutting {
@@ -88,6 +92,12 @@ export interface CellInfo {
   gridCell: Int32Array;
 }
 
+/** What fills flat cuts, one for each plane. */
+export interface Caps {
+  planes: readonly ViewPlane[];
+  slices: readonly Slice[];
+}
+
 /** A cut-mesh, ready to be drawn. Positions in Float32Arrays are less `origin`, the centre of the grid's box. */
 export interface Model {
   /** Counts up with every cut. */
@@ -133,6 +143,8 @@ export interface Model {
    */
   edges: { index: Uint32Array; hybridEnd: number; gridEnd: number };
   gridCellRegion: Int32Array;
+  /** Of the planes with which it was cut; null if none cuts flat. */
+  caps: Caps | null;
 }
 
 /** What the card of a pinned cell shows. `neighbours` are cut-cells; `cavities` counts shells beyond the outer one. */
@@ -215,7 +227,7 @@ export interface Engine {
   load(source: Source, bytes?: ArrayBuffer): Promise<MeshInfo>;
   /** Loads the readers of files before a file is opened. */
   loadAhead(): Promise<void>;
-  cut(cutting: Cutting): Promise<Model>;
+  cut(cutting: Cutting, slicing: Slicing): Promise<Model>;
   /** Ends the load or cut under way: they reject with an AbortError. */
   cancel(): void;
   onProgress: (progress: { stage: string; fraction: number } | null) => void;

@@ -234,11 +234,11 @@ export class App {
   private async recut(frame: boolean): Promise<PageError | null> {
     let problem: PageError | null = null;
     this.frameNext ||= frame;
-    const { grid, snapTolerance, pose } = this.settings;
+    const { grid, snapTolerance, pose, slices, sliceMode } = this.settings;
     const cutting = { grid, snapTolerance, pose };
     const cut = async () => {
       try {
-        this.takeModel(await this.engine.cut(cutting));
+        this.takeModel(await this.engine.cut(cutting, { slices, sliceMode }));
         this.work.succeed();
         this.shown = { mesh: this.mesh, cutting };
         this.state.cutError.value = null;

@@ -4,7 +4,8 @@ import { createWorker, type MandolineWorker } from 'mandoline-wasm/worker';
 import type { Slice, Validation } from 'mandoline-wasm';
 import type { Vector3 } from '../model/vector';
 import { isLack, isOutdated, type CallName, type CallProgress, type Calls, type LoadedMesh, type Recipe } from '../model/calls';
-import type { CellCard, Crossings, Cutting, Engine, MeshInfo, Model, PageError, Source, StepPicture, StepRequest } from '../model/types';
+import type { CellCard, Crossings, Cutting, Engine, MeshInfo, Model, PageError } from '../model/types';
+import type { Slicing, Source, StepPicture, StepRequest } from '../model/types';
 import type { Comparison, OtherWay } from '../model/comparison';
 import type { Wind, WindFormat } from '../model/wind';
 import { pageError } from '../model/failure';
@@ -20,6 +21,7 @@ interface CallOptions {
 /** A cut that waits for the one under way. */
 interface WaitingCut {
   cutting: Cutting;
+  slicing: Slicing;
   resolve(model: Promise<Model>): void;
   reject(error: unknown): void;
 }
@@ -76,13 +78,13 @@ class WorkerEngine implements Engine {
   }
 
   /** A running cut is finished, so that the picture keeps changing while a slider moves; then comes the newest of those that wait. */
-  cut(cutting: Cutting): Promise<Model> {
-    if (!this.cutting) return this.cutNow(cutting);
+  cut(cutting: Cutting, slicing: Slicing): Promise<Model> {
+    if (!this.cutting) return this.cutNow(cutting, slicing);
     this.waiting?.reject(abortError());
-    return new Promise((resolve, reject) => (this.waiting = { cutting, resolve, reject }));
+    return new Promise((resolve, reject) => (this.waiting = { cutting, slicing, resolve, reject }));
   }
 
-  private async cutNow(how: Cutting): Promise<Model> {
+  private async cutNow(how: Cutting, slicing: Slicing): Promise<Model> {
     const cutting = new AbortController();
     this.cutting = cutting;
     try {
@@ -90,7 +92,8 @@ class WorkerEngine implements Engine {
       const { mesh } = this;
       if (!mesh) throw noMesh();
       const recipe: Recipe = { id: ++this.cuts, mesh: mesh.id, ...how };
-      const model = await this.call('cut', recipe, { signal: cutting.signal, progress: (progress) => this.onProgress(progress) });
+      const options: CallOptions = { signal: cutting.signal, progress: (progress) => this.onProgress(progress) };
+      const model = await this.call('cut', { recipe, slicing }, options);
       this.shown = recipe;
       this.keep(mesh);
       return model;
@@ -103,7 +106,7 @@ class WorkerEngine implements Engine {
     const { waiting } = this;
     this.cutting = this.waiting = null;
     this.onProgress(null);
-    waiting?.resolve(this.cutNow(waiting.cutting));
+    waiting?.resolve(this.cutNow(waiting.cutting, waiting.slicing));
   }
 
   /** Without shared memory the thread can't be told to stop, so it is ended with its call. */

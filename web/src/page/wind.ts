@@ -4,7 +4,7 @@ import type { Engine, Model, Settings, View } from '../model/types';
 import type { Wind, WindFormat } from '../model/wind';
 import { ask } from './ask';
 import type { State } from './state';
-import { activePlanes } from './view/planes';
+import { activePlanes, inWorld } from '../model/planes';
 
 type Request = Parameters<Engine['wind']>[0];
 
@@ -73,12 +73,11 @@ export class WindTunnel {
 function requestOf(model: Model, settings: Settings): Request {
   const { direction, cells, show } = settings.wind;
   const planes = show === 'none' ? [] : activePlanes(model, settings);
-  const toWorld = (normal: readonly number[], offset: number) => normal.reduce((sum, n, d) => sum + n * model.origin[d], offset);
   return {
     pose: settings.pose,
     cells,
     direction,
     surface: show !== 'none',
-    planes: planes.map(({ normal, offset }) => ({ normal, offset: toWorld(normal, offset) })),
+    planes: inWorld(planes, model.origin),
   };
 }

@@ -1,7 +1,8 @@
 // What the page gets of a cut: ready to be drawn, in arrays of its own.
 import type { CutMesh, InsideRegions, Mandoline } from 'mandoline-wasm';
 import type { LoadedMesh } from '../model/calls';
-import type { CellInfo, Model, RegionInfo } from '../model/types';
+import { flatPlanes, inWorld } from '../model/planes';
+import type { Caps, CellInfo, Model, RegionInfo, Slicing } from '../model/types';
 import { cellBuffers } from './cell_buffers';
 import { cellShapes } from './cell_shapes';
 import { cornerNormals } from './corner_normals';
@@ -17,7 +18,7 @@ function cornersOf(mesh: LoadedMesh): Float32Array {
   return corners;
 }
 
-export function makeModel(mandoline: Mandoline, cut: Cut): Model {
+export function makeModel(mandoline: Mandoline, cut: Cut, slicing: Slicing): Model {
   const { recipe, mesh, cutMesh, origin, estimateMs } = cut;
   const { planes } = cutMesh.grid;
   const cells = cellInfo(cut);
@@ -49,7 +50,19 @@ export function makeModel(mandoline: Mandoline, cut: Cut): Model {
     cells,
     ...cellBuffers(cutMesh, cut.faceTriangles, faceNormals(mesh, cornersOf(mesh), cutMesh), origin),
     gridCellRegion: gridCellRegion(cutMesh),
+    caps: capsOf(mandoline, cut, slicing),
   };
+}
+
+/** A model without its caps is better than none: the page asks for them once more, and tells why they can't be made. */
+function capsOf(mandoline: Mandoline, { cutMesh, origin }: Cut, slicing: Slicing): Caps | null {
+  const planes = flatPlanes(cutMesh, slicing);
+  if (planes.length === 0) return null;
+  try {
+    return { planes, slices: inWorld(planes, origin).map((plane) => mandoline.slice(cutMesh, plane, { untouched: true })) };
+  } catch {
+    return null;
+  }
 }
 
 function cellInfo({ cutMesh, faceTriangles, origin }: Cut): CellInfo {

@@ -25,10 +25,10 @@ const calls: Answering = {
   },
   loadAhead,
   keep: (_mandoline, mesh) => keep(mesh),
-  cut(mandoline, recipe, tell) {
+  cut(mandoline, { recipe, slicing }, tell) {
     const cut = makeCut(mandoline, recipe, tell);
     tell({ stage: 'drawing', fraction: 0.9 });
-    return makeModel(mandoline, cut);
+    return makeModel(mandoline, cut, slicing);
   },
   slice(mandoline, { recipe, planes, untouched }) {
     const { cutMesh } = cutOf(mandoline, recipe);

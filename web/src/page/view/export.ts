@@ -2,7 +2,7 @@
 import { BufferGeometry, Color, Float32BufferAttribute, Mesh, MeshStandardMaterial, Triangle, Vector3 } from 'three';
 import type { Layer, Look } from './layer';
 import type { Piece } from './piece';
-import { isBeyond, type ViewPlane } from './planes';
+import { isBeyond, type ViewPlane } from '../../model/planes';
 
 export function loadGltfExporter() {
   return import('three/examples/jsm/exporters/GLTFExporter.js');

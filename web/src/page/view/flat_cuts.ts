@@ -1,15 +1,12 @@
-// What fills cells that are cut flat: the worker slices them, one request at a time.
-import type { Slice } from 'mandoline-wasm';
-import type { Engine, Model, PageError, Settings } from '../../model/types';
+// What fills cells that are cut flat: it comes with the model; when planes move, the worker slices again, one request at a time.
+import type { Caps, Engine, Model, PageError, Settings } from '../../model/types';
 import type { Look } from './layer';
-import { activePlanes, type ViewPlane } from './planes';
+import { activePlanes, inWorld, type ViewPlane } from '../../model/planes';
 
 /** The answer to a request for slices. */
-interface Slices {
+interface Slices extends Caps {
   id: number;
   model: number;
-  planes: readonly ViewPlane[];
-  slices: readonly Slice[];
 }
 
 /** In ms. */
@@ -30,11 +27,10 @@ export class FlatCuts {
 
   constructor(private readonly slice: Engine['slice']) {}
 
-  /** Asks at once, so that the answer comes before the next cut. */
   setModel(model: Model): void {
     this.model = model;
     this.modelSince = performance.now();
-    if (this.settings?.sliceMode === 'flat' && activePlanes(model, this.settings).length > 0) void this.ask();
+    if (model.caps) this.made = { id: ++this.count, model: model.id, ...model.caps };
   }
 
   /**
@@ -63,15 +59,13 @@ export class FlatCuts {
     if (this.isAsking || !model || !settings) return;
     this.isAsking = true;
     const planes = activePlanes(model, settings);
-    const toWorld = ({ normal, offset }: ViewPlane) => normal.reduce((sum, n, d) => sum + n * model.origin[d], offset);
-    const inWorld = planes.map((plane) => ({ normal: plane.normal, offset: toWorld(plane) }));
-    try {
-      this.made = { id: ++this.count, model: model.id, planes, slices: await this.slice(inWorld, true) };
-    } catch (error) {
-      // Without caps, cells are seen cut open. The same planes aren't asked for again, or failures would go on for ever.
-      this.made = { id: ++this.count, model: model.id, planes, slices: [] };
+    const slices = await this.slice(inWorld(planes, model.origin), true).catch((error: unknown) => {
       if (!(error instanceof DOMException)) this.onError(error as PageError);
-    }
+      // Without caps, cells are seen cut open. The same planes aren't asked for again, or failures would go on for ever.
+      return [];
+    });
+    // A newer model may have come, with its own.
+    if (model === this.model) this.made = { id: ++this.count, model: model.id, planes, slices };
     this.isAsking = false;
     this.onMade();
   }

@@ -4,7 +4,7 @@ import type { Slice } from 'mandoline-wasm';
 import type { Instead, Model, Settings } from '../../model/types';
 import type { Wind } from '../../model/wind';
 import type { Piece } from './piece';
-import type { ViewPlane } from './planes';
+import type { ViewPlane } from '../../model/planes';
 
 /** All that decides what is drawn. */
 export interface Look {

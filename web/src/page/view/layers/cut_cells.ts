@@ -8,7 +8,7 @@ import type { Layer, Look } from '../layer';
 import { isSheet } from '../look';
 import { gridStroke, makeMaterial, stroke, type Purpose, type Uniforms } from '../material';
 import { paler, type Piece } from '../piece';
-import { isBeyond, isBoxBeyond, type ViewPlane } from '../planes';
+import { isBeyond, isBoxBeyond, type ViewPlane } from '../../../model/planes';
 
 /** Drawn in two groups: pieces of triangles, and pieces of grid-faces. */
 type Faces = Mesh<BufferGeometry, [ShaderMaterial, ShaderMaterial]>;

@@ -1,7 +1,7 @@
 import { Group, LineBasicMaterial, LineSegments } from 'three';
 import type { Model, SliceName } from '../../../model/types';
 import type { Layer, Look } from '../layer';
-import type { ViewPlane } from '../planes';
+import type { ViewPlane } from '../../../model/planes';
 import { lineGeometry } from './cut_cells';
 
 const colors: Record<SliceName, number> = { x: 0xd9534f, y: 0x4fae5a, z: 0x3f83d6, free: 0xd78f1f };

@@ -3,7 +3,7 @@ import { Group, Object3D, Vector3, type Camera } from 'three';
 import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
 import type { SliceSettings } from '../../../model/types';
 import type { Layer, Look } from '../layer';
-import { planeOf, reach } from '../planes';
+import { planeOf, reach } from '../../../model/planes';
 import { sceneScale } from '../scene_space';
 
 const up = new Vector3(0, 0, 1);

@@ -1,4 +1,7 @@
-import type { Model, Settings, SliceName } from '../../model/types';
+import type { Model, Settings, SliceName, Slicing } from './types';
+import type { Vector3 } from './vector';
+
+type Gridded = Pick<Model, 'grid'>;
 
 /** A slice plane normal . x = offset, less the model's origin. What lies beyond it is hidden. */
 export interface ViewPlane {
@@ -10,19 +13,29 @@ export interface ViewPlane {
 export const sliceOrder: readonly SliceName[] = ['x', 'y', 'z', 'free'];
 
 /** Half the extent of the grid's box along a direction. */
-export function reach(model: Model, normal: readonly number[]): number {
-  return model.grid.planes.reduce((sum, planes, d) => sum + (Math.abs(normal[d]) * (planes[planes.length - 1] - planes[0])) / 2, 0);
+export function reach({ grid }: Gridded, normal: readonly number[]): number {
+  return grid.planes.reduce((sum, planes, d) => sum + (Math.abs(normal[d]) * (planes[planes.length - 1] - planes[0])) / 2, 0);
 }
 
-export function planeOf(model: Model, settings: Settings, name: SliceName): ViewPlane {
+export function planeOf(model: Gridded, settings: Pick<Settings, 'slices'>, name: SliceName): ViewPlane {
   const { normal, position } = settings.slices[name];
   return { name, normal: [normal[0], normal[1], normal[2]], offset: (2 * position - 1) * reach(model, normal) };
 }
 
 /** The planes that are on and hide something. */
-export function activePlanes(model: Model, settings: Settings): ViewPlane[] {
+export function activePlanes(model: Gridded, settings: Pick<Settings, 'slices'>): ViewPlane[] {
   const active = sliceOrder.filter((name) => settings.slices[name].on && settings.slices[name].position < 1);
   return active.map((name) => planeOf(model, settings, name));
+}
+
+/** In world units, of planes less the model's origin. */
+export function inWorld(planes: readonly ViewPlane[], origin: Vector3): { normal: Vector3; offset: number }[] {
+  return planes.map(({ normal, offset }) => ({ normal: [...normal], offset: normal.reduce((sum, n, d) => sum + n * origin[d], offset) }));
+}
+
+/** Those that cut cells flat, so that caps fill them. */
+export function flatPlanes(model: Gridded, slicing: Slicing): ViewPlane[] {
+  return slicing.sliceMode === 'flat' ? activePlanes(model, slicing) : [];
 }
 
 export function isBeyond(planes: readonly ViewPlane[], x: number, y: number, z: number): boolean {
