@@ -7,6 +7,8 @@ import { setUp } from './set_up.mjs';
 import { build, jobs, path, run } from './steps.mjs';
 
 const results = [];
+/** What a test waits for in vain is no reason to wait for ever. In s; the longest take four minutes. */
+const longest = 900;
 
 /** A file for the results of a group of tests, in JUnit's format. */
 function resultFile(name) {
@@ -16,7 +18,18 @@ function resultFile(name) {
 }
 
 function runCtest(folder) {
-  run('ctest', '--test-dir', folder, '--output-on-failure', '--parallel', jobs, '--output-junit', resultFile(folder));
+  run(
+    'ctest',
+    '--test-dir',
+    folder,
+    '--output-on-failure',
+    '--parallel',
+    jobs,
+    '--timeout',
+    String(longest),
+    '--output-junit',
+    resultFile(folder),
+  );
 }
 
 if (meshFolder) process.env.MANDOLINE_MESHES = resolve(meshFolder); // tests run in other folders
@@ -30,6 +43,7 @@ run('npm', 'run', 'build', '-w', 'web');
 run(
   'node',
   '--test',
+  `--test-timeout=${1000 * longest}`,
   '--test-reporter=spec',
   '--test-reporter-destination=stdout',
   '--test-reporter=junit',

@@ -100,7 +100,7 @@ void cutAll(int64_t n) {
       CHECK(differences(result.mesh, loaded).empty());
       CHECK(mcmOf(loaded) == saved);
     }
-    if (n == 32 && ++complexes % 4 == 0) checkedComplex(mesh, result.mesh);  // a quarter of them, which takes long enough
+    if (n == 13 && ++complexes % 4 == 0) checkedComplex(mesh, result.mesh);  // a quarter of them, which takes long enough
     const PairCounts& pairs = result.stats.intersections;
     const bool intersects = pairs.total() > pairs.identical;
     CHECK((row.intersects || !intersects));  // the manifest counts triangles without area
@@ -135,5 +135,4 @@ TEST_CASE("real meshes: pairs of triangles that meet", "[pairs]") {
 
 TEST_CASE("real meshes at N = 5", "[corpus5]") { cutAll(5); }
 TEST_CASE("real meshes at N = 13", "[corpus13]") { cutAll(13); }
-TEST_CASE("real meshes at N = 32", "[corpus32]") { cutAll(32); }
 TEST_CASE("real meshes at N = 64", "[corpus64]") { cutAll(64); }
