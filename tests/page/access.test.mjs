@@ -6,7 +6,7 @@ import { covered, pixelsOf, settledPixels } from './pictures.mjs';
 const site = await startSite();
 after(() => site.close());
 const link = 'mesh=wedge&n=2&free=off';
-const panels = ['mesh', 'cut', 'view', 'wind', 'steps', 'checks', 'save'];
+const panels = ['mesh', 'cut', 'view', 'wind', 'compare', 'steps', 'checks', 'save'];
 const controls = 'a[href], button, input, select, textarea, summary, [tabindex]';
 
 /** Opens all that can be opened, and pins a cell. */

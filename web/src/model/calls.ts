@@ -1,7 +1,7 @@
 // What the page asks its worker thread, beside the package's own calls.
 import type { Slice, Validation } from 'mandoline-wasm';
 import type { Vector3 } from './vector';
-import type { Comparison, OtherWay } from './comparison';
+import type { Comparison } from './comparison';
 import type { Bounds } from './grid_around';
 import type { CellCard, Crossings, Cutting, Model, Slicing, Source, StepPicture, StepRequest } from './types';
 import type { Wind, WindFormat, WindRequest } from './wind';
@@ -38,7 +38,7 @@ export interface Calls {
   edges: { ask: AboutCut; answer: number };
   card: { ask: AboutCut<{ cell: number }>; answer: CellCard };
   crossings: { ask: AboutCut; answer: Crossings };
-  compare: { ask: AboutCut<{ way: OtherWay }>; answer: Comparison };
+  compare: { ask: AboutCut; answer: Comparison };
   step: { ask: AboutCut<{ request: StepRequest }>; answer: StepPicture };
   write: { ask: AboutCut<{ format: 'json' | 'vtu' | 'obj' }>; answer: Uint8Array };
 }

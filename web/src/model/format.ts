@@ -10,6 +10,12 @@ export function real(x: number): string {
   return String(Number(x.toPrecision(4)));
 }
 
+/** How far off something is, as a share of what is right: for example "+1.82%". */
+export function deviation(share: number): string {
+  const size = Number((100 * Math.abs(share)).toPrecision(3));
+  return size === 0 ? '0%' : `${share < 0 ? '−' : '+'}${size}%`;
+}
+
 /** With a space that doesn't break. */
 export function milliseconds(ms: number): string {
   return ms < 1000 ? `${ms < 10 ? ms.toFixed(1) : Math.round(ms)}\u00a0ms` : `${(ms / 1000).toFixed(ms < 10000 ? 2 : 1)}\u00a0s`;

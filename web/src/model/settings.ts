@@ -1,4 +1,5 @@
 // The state of the page as plain data, and as the hash of a link.
+import { otherWays } from './comparison';
 import { motions } from './motion';
 import type { Axis, ColorBy, GridSettings, Settings, SliceName, SliceSettings, Source } from './types';
 import type { Vector3 } from './vector';
@@ -29,6 +30,7 @@ export function defaultSettings(): Settings {
     show: { surface: true, gridFaces: true, edges: true, untouched: true, cutCells: true, outside: false, region: null },
     camera: null,
     wind: { on: false, direction: [1, 0, 0], show: 'none', cells: defaultWindCells },
+    compare: { way: 'none', divider: 0.5 },
   };
 }
 
@@ -54,6 +56,7 @@ function entries(settings: Settings): [string, string][] {
   if (show.region !== null) list.push(['region', String(show.region)]);
   const { wind } = settings;
   list.push(['wind', wind.on ? short(wind.direction) : 'off'], ['flow', wind.show], ['tunnel', String(wind.cells)]);
+  list.push(['compare', settings.compare.way], ['divider', short([settings.compare.divider])]);
   if (camera) list.push(['camera', short([...camera.position, ...camera.target])]);
   return list;
 }
@@ -149,6 +152,17 @@ const readers: Record<string, Reader> = {
     const cells = count(text, 2);
     if (cells === null || cells > mostWindCells) return false;
     settings.wind.cells = cells;
+    return true;
+  },
+  compare: (settings, text) => {
+    const way = otherWays.find((known) => known === text);
+    if (way) settings.compare.way = way;
+    return way !== undefined || text === 'none';
+  },
+  divider: (settings, text) => {
+    const [divider] = numbers(text, 1) ?? [NaN];
+    if (!isFraction(divider)) return false;
+    settings.compare.divider = divider;
     return true;
   },
 };

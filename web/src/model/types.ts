@@ -1,7 +1,7 @@
 // What the parts of the page say to each other.
 import type { CutStats, Grid, InsideBy, PairCounts, Slice, Validation } from 'mandoline-wasm';
 import type { Vector3 } from './vector';
-import type { Comparison, OtherWay } from './comparison';
+import type { Comparison, CompareSettings } from './comparison';
 import type { Bounds } from './grid_around';
 import type { Pose } from './motion';
 import type { ViewPlane } from './planes';
@@ -66,6 +66,7 @@ export interface LookSettings {
   };
   camera: { position: Vector3; target: Vector3 } | null;
   wind: WindSettings;
+  compare: CompareSettings;
 }
 
 /** All that a link restores. Plain data. */
@@ -239,7 +240,8 @@ export interface Engine {
   card(cell: number): Promise<CellCard>;
   step(request: StepRequest): Promise<StepPicture>;
   crossings(): Promise<Crossings>;
-  compare(way: OtherWay): Promise<Comparison>;
+  /** What is inside in other ways than cut-cells, with the same grid. */
+  compare(): Promise<Comparison>;
   write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array>;
   /** The flow about the mesh that is shown. Of several under way the newest wins: those before it reject with an AbortError. */
   wind(request: AboutShown<WindRequest>): Promise<Wind>;
@@ -267,6 +269,8 @@ export interface View {
   setLook(settings: Settings): void;
   /** Draws this instead of the model, or the model again. */
   setInstead(instead: Instead | null): void;
+  /** Draws the other way of this right of the divider, or the model alone. */
+  setComparison(comparison: Comparison | null): void;
   setPinned(cell: number | null): void;
   /** Draws this flow, or none. */
   setWind(wind: Wind | null): void;

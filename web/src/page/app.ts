@@ -6,6 +6,7 @@ import { defaultCells, defaultSettings, defaultSource } from '../model/settings'
 import { isOutside } from '../model/inside';
 import type { Pose } from '../model/motion';
 import { ask } from './ask';
+import { Comparing } from './compare';
 import { asPageError, isAbort } from './failure';
 import { Inspector } from './inspector';
 import { Meshes } from './meshes';
@@ -34,6 +35,7 @@ const fewCells = 60;
 export class App {
   readonly player: Player;
   readonly windTunnel: WindTunnel;
+  readonly comparing: Comparing;
   readonly inspector: Inspector;
   readonly meshes: Meshes;
   private readonly work: Work;
@@ -57,6 +59,7 @@ export class App {
     view.onPick = (cell) => void this.inspector.pin(cell);
     view.onCamera = (camera) => this.change({ camera }, false);
     this.windTunnel = new WindTunnel(state, engine, view);
+    this.comparing = new Comparing(state, engine, view);
     view.onWind = (direction) => this.changeWind({ direction });
     view.onFreePlane = (slice) => this.change({ slices: { ...this.settings.slices, free: slice } }, false);
   }
@@ -209,6 +212,13 @@ export class App {
   changeWind(part: Partial<Settings['wind']>): void {
     const wind = { ...this.settings.wind, ...part };
     this.change({ wind, ...(part.on ? { explode: { cells: 0, regions: 0 } } : {}) });
+  }
+
+  /** Other ways than cut-cells can't be pulled apart: nothing is, unless the person does so then. */
+  changeCompare(part: Partial<Settings['compare']>): void {
+    const compare = { ...this.settings.compare, ...part };
+    const isBegun = this.settings.compare.way === 'none' && compare.way !== 'none';
+    this.change({ compare, ...(isBegun ? { explode: { cells: 0, regions: 0 } } : {}) });
   }
 
   /** Resolves once this is drawn, or a newer cut has taken its place; false if it failed. */

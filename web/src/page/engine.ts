@@ -6,7 +6,7 @@ import type { Vector3 } from '../model/vector';
 import { isLack, isOutdated, type CallName, type CallProgress, type Calls, type LoadedMesh, type Recipe } from '../model/calls';
 import type { CellCard, Crossings, Cutting, Engine, MeshInfo, Model, PageError } from '../model/types';
 import type { Slicing, Source, StepPicture, StepRequest } from '../model/types';
-import type { Comparison, OtherWay } from '../model/comparison';
+import type { Comparison } from '../model/comparison';
 import type { Wind, WindFormat } from '../model/wind';
 import { pageError } from '../model/failure';
 import { WindEngine } from './wind_engine';
@@ -141,8 +141,8 @@ class WorkerEngine implements Engine {
     return this.aboutNewest((recipe) => this.call('step', { recipe, request }));
   }
 
-  compare(way: OtherWay): Promise<Comparison> {
-    return this.aboutNewest((recipe) => this.call('compare', { recipe, way }));
+  compare(): Promise<Comparison> {
+    return this.aboutShown((recipe) => this.call('compare', { recipe }));
   }
 
   write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array> {

@@ -2,7 +2,7 @@ import type { App } from './app';
 import { fromHash, toHash } from '../model/settings';
 
 /** What sliders and handles change, step by step. */
-const continuous = ['n', 'box', 'snap', 'x', 'y', 'z', 'free', 'explode', 'pose'];
+const continuous = ['n', 'box', 'snap', 'x', 'y', 'z', 'free', 'explode', 'pose', 'divider'];
 /** In ms: a change has been made once nothing has changed for so long ... */
 const pause = 300;
 /** ... and a continuous one goes on if it is taken up again within this time. */

@@ -3,6 +3,7 @@ import { defaultSettings } from '../model/settings';
 import type { Play, Playing } from './player';
 import { Sections } from './sections';
 import type { CellCard, Crossings, Instead, MeshInfo, Model, PageError, StepPicture } from '../model/types';
+import type { Comparison } from '../model/comparison';
 import type { Wind } from '../model/wind';
 
 /** What is said on top of the picture: an alert stays until it is dismissed or cleared, a notice goes away by itself. */
@@ -42,6 +43,12 @@ export class State {
   /** The flow that is drawn. */
   readonly wind = signal<Wind | null>(null);
   readonly isWindAwaited = signal(false);
+  /** What is inside in other ways, of the newest cut or the one before it. */
+  readonly comparison = signal<Comparison | null>(null);
+  /** The same, where the picture is divided: not where something else is drawn instead of the model. */
+  readonly divided = computed((): Comparison | null => {
+    return this.instead.value || this.wind.value?.surface ? null : this.comparison.value;
+  });
   readonly sections = new Sections();
   /** The newest first. */
   readonly messages = signal<readonly Message[]>([]);

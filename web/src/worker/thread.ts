@@ -6,7 +6,6 @@ import type { CallName, CallProgress, Calls } from '../model/calls';
 import { loadAhead } from './ahead';
 import { cellCard } from './card';
 import { crossingsOf } from './crossings';
-import { comparison } from './compare';
 import { cutOf, keep, makeCut } from './kept';
 import { loadMesh } from './load';
 import { makeModel } from './make_model';
@@ -48,7 +47,10 @@ const calls: Answering = {
     const { mesh, cutMesh, faceTriangles, origin } = cutOf(mandoline, recipe);
     return stepPicture(mesh, cutMesh, faceTriangles, request, origin);
   },
-  compare: (mandoline, { recipe, way }) => comparison(mandoline, cutOf(mandoline, recipe), way),
+  async compare(mandoline, { recipe }) {
+    const { comparison } = await import('./compare');
+    return comparison(mandoline, cutOf(mandoline, recipe));
+  },
   write(mandoline, { recipe, format }) {
     const { mesh, cutMesh } = cutOf(mandoline, recipe);
     return mandoline.write(mesh, cutMesh, format);

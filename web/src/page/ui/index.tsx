@@ -6,8 +6,10 @@ import { Alerts } from './alerts';
 import { Bar } from './bar';
 import { CellCard } from './cell_card';
 import { ChecksPanel } from './checks_panel';
+import { ComparePanel } from './compare_panel';
 import { CrossingsBanner } from './crossings_banner';
 import { CutPanel } from './cut_panel';
+import { Divider } from './divider';
 import { Drops } from './drops';
 import { HoverLine } from './hover_line';
 import { Legend } from './legend';
@@ -40,6 +42,7 @@ export function showPanels(app: App): void {
   put(
     'over-stage',
     <>
+      <Divider app={app} />
       <Legend app={app} />
       <StageNote app={app} />
       <CrossingsBanner app={app} />
@@ -63,6 +66,7 @@ export function showPanels(app: App): void {
       <ViewPanel app={app} />
       <MotionPanel app={app} />
       <WindPanel app={app} />
+      <ComparePanel app={app} />
       <StepsPanel app={app} />
       <ChecksPanel app={app} />
       <SavePanel app={app} />

@@ -16,6 +16,7 @@ const mouse: [string, string][] = [
   ['wheel, pinch, +\u00a0and\u00a0−', 'zoom'],
   ['click a cell', 'pin it and show its card'],
   ['drag the arrow of the wind', 'turn the wind'],
+  ['drag the divider of a comparison, arrow keys', 'show more of one side'],
 ];
 
 /** The shortcuts, and the button that lists them. */

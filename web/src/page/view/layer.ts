@@ -2,6 +2,7 @@
 import type { Object3D } from 'three';
 import type { Slice } from 'mandoline-wasm';
 import type { Instead, Model, Settings } from '../../model/types';
+import type { Comparison } from '../../model/comparison';
 import type { Wind } from '../../model/wind';
 import type { Piece } from './piece';
 import type { ViewPlane } from '../../model/planes';
@@ -22,6 +23,8 @@ export interface Look {
   instead: Instead | null;
   /** The flow about the mesh, if there is a wind. */
   wind: Wind | null;
+  /** What is drawn right of a divider in other ways, if it is. */
+  comparison: Comparison | null;
 }
 
 /** A part of the picture. Its coordinates are the model's, less the model's origin. */

@@ -4,6 +4,7 @@ import { BackSide, Color, DoubleSide, FrontSide, ShaderMaterial, Vector2, Vector
 import type { DataTexture, IUniform, Side } from 'three';
 import { tableWidth } from './buffers';
 import { gridFaceColor } from './colors';
+import { lightChunk } from './light';
 
 export type Uniforms = ReturnType<typeof makeUniforms>;
 
@@ -208,7 +209,6 @@ uniform int planeCount;
 uniform bool flatCut;
 uniform vec3 accent;
 varying vec3 vRest;
-varying vec3 vView;
 varying vec3 vColor;
 varying float vHighlight;
 flat varying int vCell;
@@ -225,24 +225,10 @@ flat varying int vCell;
 #endif
 
 #ifdef LIT
-  uniform vec3 up;
   uniform bool darkBacks;
   varying vec3 vNormal;
 
-  vec3 linear(vec3 color) {
-    return pow(color, vec3(2.2));
-  }
-
-  /** By the hemisphere, a warm key from above left of the eye, a cool fill from its right, and a rim where the surface turns away. */
-  vec3 light(vec3 n) {
-    vec3 top = mat3(viewMatrix) * up;
-    float height = 0.5 + 0.5 * dot(n, top);
-    float key = max(0.0, dot(n, normalize(vec3(-0.55, 0.0, 0.7) + 0.75 * top)));
-    float fill = max(0.0, dot(n, normalize(vec3(0.8, -0.1, 0.45))));
-    float rim = pow(1.0 - abs(dot(n, normalize(vView))), 4.0) * height;
-    return mix(vec3(0.26, 0.23, 0.22), vec3(0.46, 0.49, 0.54), height) + key * vec3(0.72, 0.67, 0.59) + fill * vec3(0.10, 0.13, 0.18) + 0.25 * rim;
-  }
-
+  ${lightChunk}
   vec3 lit(vec3 color) {
     // The facet's normal, from its slope on the screen. The smooth one replaces it unless it bends away: on long slivers it may.
     vec3 n = normalize(cross(dFdx(vView), dFdy(vView)));

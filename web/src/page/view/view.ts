@@ -1,11 +1,13 @@
 // The 3D view: puts the layers together, and draws when something has changed.
 import { Group, Scene, type Object3D, type WebGLRenderer } from 'three';
 import type { Engine, Instead, Model, PageError, Recording, Settings, View } from '../../model/types';
+import type { Comparison } from '../../model/comparison';
 import type { Wind } from '../../model/wind';
 import { Camera } from './camera';
 import { exportGlb } from './export';
 import { FlatCuts } from './flat_cuts';
 import { Framing } from './framing';
+import { Halves } from './halves';
 import type { Layer, Look } from './layer';
 import { Caps } from './layers/caps';
 import { CrossingCurves } from './layers/crossings';
@@ -63,7 +65,8 @@ class ThreeView implements View {
   private readonly ofInsteads: readonly Layer[] = [new Step(), new CrossingCurves(this.uniforms)];
   private readonly windTunnel: WindTunnel;
   private readonly layers: readonly Layer[];
-  private readonly modelGroup = new Group().add(...objectsOf(this.ofModel));
+  private readonly halves = new Halves(this.uniforms, objectsOf(this.ofModel));
+  private readonly modelGroup = new Group().add(this.halves.object);
   private readonly insteadGroup = new Group().add(this.cells.ghost, ...objectsOf(this.ofInsteads));
   private readonly camera: Camera;
   private readonly framing: Framing;
@@ -75,6 +78,7 @@ class ThreeView implements View {
   private settings: Settings | null = null;
   private instead: Instead | null = null;
   private wind: Wind | null = null;
+  private comparison: Comparison | null = null;
   private look: Look | null = null;
   /** What the looks of layers were made of. */
   private readonly made = new Map<Layer, readonly unknown[]>();
@@ -98,7 +102,7 @@ class ThreeView implements View {
       this.ofModel.flatMap(({ caster }) => caster ?? []),
     );
     this.modelGroup.add(this.shadow.object);
-    this.layers = [...this.ofModel, this.shadow, ...this.ofInsteads, this.windTunnel, this.gizmo];
+    this.layers = [...this.ofModel, this.halves.otherWay, this.shadow, ...this.ofInsteads, this.windTunnel, this.gizmo];
     this.picker = new Picker(
       this.renderer,
       this.layers.flatMap(({ pick }) => pick ?? []),
@@ -125,7 +129,7 @@ class ThreeView implements View {
     const takeOver = () => {
       if (this.model) return;
       this.modelGroup.visible = this.insteadGroup.visible = true;
-      this.renderer.render(this.scene, this.camera.camera);
+      this.halves.render(this.renderer, this.scene, this.camera.camera);
       this.modelGroup.visible = this.insteadGroup.visible = false;
       void this.picker.pick(this.camera.camera, 0, 0);
       this.loop.invalidate();
@@ -213,6 +217,11 @@ class ThreeView implements View {
     this.loop.changed();
   }
 
+  setComparison(comparison: Comparison | null): void {
+    this.comparison = comparison;
+    this.loop.changed();
+  }
+
   setPinned(cell: number | null): void {
     this.uniforms.pinned.value = cell ?? -1;
     this.loop.invalidate();
@@ -260,7 +269,7 @@ class ThreeView implements View {
 
   private async cellAt({ x, y }: { x: number; y: number }): Promise<number | null> {
     this.loop.prepare();
-    if (!this.modelGroup.visible) return null;
+    if (!this.modelGroup.visible || this.halves.isOther(x, this.canvas)) return null;
     return this.picker.pick(this.camera.camera, x, y);
   }
 
@@ -283,7 +292,7 @@ class ThreeView implements View {
     this.setPixelRatio(share * Math.min(devicePixelRatio, 2));
     this.camera.update();
     const moving = this.layers.filter((layer) => layer.animate?.(seconds));
-    this.renderer.render(this.scene, this.camera.camera);
+    this.halves.render(this.renderer, this.scene, this.camera.camera);
     this.canvas.dataset.frames = String(++this.framesDrawn);
     this.shadow.tellTests(this.canvas.dataset);
     return moving.length > 0;
@@ -291,7 +300,7 @@ class ThreeView implements View {
 
   /** Brings what is drawn up to date with the settings. Explosions and slices of whole cells only change uniforms. */
   private prepare(): void {
-    const { model, settings, shifts, instead, wind } = this;
+    const { model, settings, shifts, instead, wind, comparison } = this;
     if (!model || !settings) return;
     const look = {
       model,
@@ -300,6 +309,7 @@ class ThreeView implements View {
       shifts,
       instead,
       wind,
+      comparison,
       ...this.flatCuts.choose(model, settings),
     };
     this.look = look;
@@ -310,6 +320,7 @@ class ThreeView implements View {
       this.made.set(layer, needs);
       layer.setLook(look);
     }
+    this.halves.divider = comparison && settings.compare.divider;
     setUniforms(this.uniforms, look, this.canvas.clientHeight);
     this.modelGroup.visible = instead === null && !this.windTunnel.hidesModel;
     this.insteadGroup.visible = instead !== null;
@@ -325,6 +336,7 @@ class ThreeView implements View {
     dataset.caps = String(this.caps.count);
     this.windTunnel.tellTests(dataset);
     this.shadow.tellTests(dataset);
+    dataset.compare = look.comparison ? look.settings.compare.way : '';
     dataset.instead = look.instead?.kind ?? '';
   }
 }

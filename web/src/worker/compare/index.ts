@@ -1,6 +1,6 @@
 // The same mesh and grid in other ways than cut-cells, to be seen beside them.
-import type { CutMesh, Mandoline } from 'mandoline-wasm';
-import type { Comparison, Extent, OtherWay } from '../../model/comparison';
+import type { CutMesh, Mandoline, Mesh } from 'mandoline-wasm';
+import type { Comparison, Extent, OtherSurface } from '../../model/comparison';
 import type { Cut } from '../kept';
 import { marchingCubes } from './cubes';
 import { voxels } from './voxels';
@@ -14,17 +14,15 @@ export interface Surface {
 /** Per point, 3 numbers each: whether it is inside; not outside the grid. */
 export type InsideAt = (points: Float64Array) => Uint8Array;
 
-export function comparison(mandoline: Mandoline, cut: Cut, way: OtherWay): Comparison {
+export function comparison(mandoline: Mandoline, cut: Cut): Comparison {
   const { cutMesh, origin } = cut;
   const insideAt = testInside(mandoline, cutMesh);
-  const surface = way === 'voxels' ? voxels(cutMesh.grid, insideAt) : marchingCubes(cutMesh.grid, insideAt);
-  return {
-    way,
-    position: Float32Array.from(surface.positions, (x, at) => x - origin[at % 3]),
-    index: surface.triangles,
-    other: extentOf(surface),
-    exact: exactExtent(mandoline, cut),
+  const other = (make: (cutMesh: CutMesh, insideAt: InsideAt) => Surface): OtherSurface => {
+    const surface = make(cutMesh, insideAt);
+    const position = Float32Array.from(surface.positions, (x, at) => x - origin[at % 3]);
+    return { ...extentOf(surface), position, index: surface.triangles };
   };
+  return { origin, ways: { voxels: other(voxels), cubes: other(marchingCubes) }, exact: exactExtent(mandoline, cut) };
 }
 
 function testInside(mandoline: Mandoline, cutMesh: CutMesh): InsideAt {
@@ -41,7 +39,7 @@ function exactExtent(mandoline: Mandoline, cut: Cut): Extent {
 }
 
 /** Enclosed volume, and area. */
-export function extentOf({ positions, triangles }: Surface): Extent {
+export function extentOf({ positions, triangles }: Mesh): Extent {
   let volume = 0;
   let area = 0;
   // From a point nearby, so that few digits are lost far from the origin.

@@ -23,10 +23,10 @@ const sides = [0, 1, 2].flatMap((axis) => {
   ];
 });
 
-/** Per set of inside corners: triangles of edges, with the inside behind them. */
-export const cubeCases: readonly (readonly number[])[] = Array.from({ length: 256 }, (_, inside) => trianglesOf(inside));
+/** Per set of inside corners: polygons of edges, with the inside behind them. */
+export const cubeCases: readonly (readonly (readonly number[])[])[] = Array.from({ length: 256 }, (_, inside) => polygonsOf(inside));
 
-function trianglesOf(inside: number): number[] {
+function polygonsOf(inside: number): number[][] {
   // On each side, a segment leads from where its border leaves the inside to where it came in: corners inside are never joined across a side.
   const next = new Map<number, number>();
   for (const corners of sides) {
@@ -38,7 +38,7 @@ function trianglesOf(inside: number): number[] {
       next.set(edgeBetween(corners[at], corners[(at + 1) % 4]), edgeBetween(corners[(first + 3) % 4], corners[first]));
     }
   }
-  const triangles: number[] = [];
+  const polygons: number[][] = [];
   for (const begin of [...next.keys()]) {
     const loop: number[] = [];
     for (let edge: number | undefined = begin; edge !== undefined && next.has(edge); ) {
@@ -47,7 +47,7 @@ function trianglesOf(inside: number): number[] {
       next.delete(edge);
       edge = following;
     }
-    for (let at = 1; at + 1 < loop.length; at++) triangles.push(loop[0], loop[at + 1], loop[at]);
+    if (loop.length > 0) polygons.push(loop.reverse());
   }
-  return triangles;
+  return polygons;
 }

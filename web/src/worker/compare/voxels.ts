@@ -1,9 +1,9 @@
-import type { Grid } from 'mandoline-wasm';
+import type { CutMesh } from 'mandoline-wasm';
 import type { InsideAt, Surface } from '.';
 import { gridPoints, middles, Welder } from './grid_points';
 
 /** The sides between grid cells whose middle is inside and others. */
-export function voxels(grid: Grid, insideAt: InsideAt): Surface {
+export function voxels({ grid }: CutMesh, insideAt: InsideAt): Surface {
   const [nx, ny, nz] = grid.cells;
   const inside = insideAt(gridPoints(grid.planes.map(middles)));
   const isIn = (i: number, j: number, k: number) =>

@@ -1,0 +1,3 @@
+import type { OtherWay } from '../../model/comparison';
+
+export const wayNames: Record<OtherWay, string> = { voxels: 'voxels', cubes: 'marching cubes' };
