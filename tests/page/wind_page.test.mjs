@@ -59,6 +59,7 @@ test('the wind follows its handle while that is dragged', async (t) => {
   const flows = await page.evaluate(() => window.flows.length);
   t.diagnostic(`${(flows / 4).toFixed(1)} flows a second while the handle moved ${steps} times in 4 s`);
   assert.ok(flows > 1, 'new flows come while the button is down');
+  await page.mouse.move(x + handleX + 60, y + handleY - 90);
   await page.mouse.up();
   await eventually(async () => {
     const [, x1, y1, z1] = /wind=([^,]+),([^,]+),([^&]+)/.exec(page.url()) ?? [];
