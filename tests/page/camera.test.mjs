@@ -1,7 +1,6 @@
 // How the camera glides after a drag.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Vector3 } from 'three';
 import { importBundled } from './bundled.mjs';
 
 const { Camera } = await importBundled('page/view/camera.ts');
@@ -44,14 +43,20 @@ test('a glide ends where it was going, at any frame rate', () => {
   for (const rate of [10, 60, 240]) assert.ok(Math.abs(glide(rate, 1) - 0.5) < 1e-3);
 });
 
-/** The camera's places at so many ms of a flight from a ball to another; null where the person takes over. */
+/** The corners of a cube of this size around (x, 0, 0). */
+const cube = (x, size) =>
+  new Float32Array(
+    [0, 1, 2, 3, 4, 5, 6, 7].flatMap((bits) => [0, 1, 2].map((d) => (d === 0 ? x : 0) + (bits & (1 << d) ? 0.5 : -0.5) * size)),
+  );
+
+/** The camera's places at so many ms of a flight from a cube to another. */
 function flight(times, reducedMotion, onTheWay = () => {}) {
   let time = 5000;
   const element = canvas();
   const view = new Camera(element, Object.assign(new EventTarget(), { matches: reducedMotion }), () => time);
-  view.frame(new Vector3(0, 0, 0), 1, false);
+  view.frame(cube(0, 1), false);
   const { at } = view;
-  view.frame(new Vector3(4, 0, 0), 0.5, true);
+  view.frame(cube(4, 0.5), true);
   const there = view.at;
   view.flyFrom(at);
   const places = times.map((ms) => {
@@ -65,13 +70,35 @@ function flight(times, reducedMotion, onTheWay = () => {}) {
 
 test('a flight goes from one place to the other and ends there', () => {
   const { places, there, view } = flight([0, 200, 400, 600, 1000], false);
-  assert.equal(places[0], 0);
+  assert.ok(Math.abs(places[0]) < 0.1 && Math.abs(places[4] - 4) < 0.1, String(places));
   for (const [k, x] of places.slice(1).entries()) assert.ok(x > places[k], String(places));
   assert.ok(view.at.position.distanceTo(there.position) < 1e-9 && view.at.target.equals(there.target));
   assert.ok(view.isFramed);
 });
 
-test('where motion is to be reduced there is no flight', () => assert.deepEqual(flight([0], true).places, [4]));
+test('where motion is to be reduced there is no flight', () => {
+  const { places, there } = flight([0], true);
+  assert.deepEqual(places, [there.target.x]);
+});
+
+test('a flight to the other side goes around what is looked at, about the axis upwards', () => {
+  for (const up of ['x', 'y', 'z']) {
+    let time = 5000;
+    const view = new Camera(canvas(), Object.assign(new EventTarget(), { matches: false }), () => time);
+    view.setUp(up);
+    view.frame(cube(0, 1), false);
+    const distance = view.at.position.distanceTo(view.at.target);
+    const { at } = view;
+    view.place({ position: at.target.clone().multiplyScalar(2).sub(at.position), target: at.target });
+    view.flyFrom(at);
+    for (; time < 6000; time += 50) {
+      view.update();
+      const { position, target } = view.at;
+      assert.ok(position.distanceTo(target) > 0.8 * distance, `${position.distanceTo(target)} of ${distance} after ${time - 5000} ms`);
+    }
+    assert.equal(view.camera.up[up], 1);
+  }
+});
 
 test('a flight ends where the person takes over', () => {
   const press = (_view, element, ms) => {
@@ -83,7 +110,7 @@ test('a flight ends where the person takes over', () => {
 });
 
 test('a flight goes on in a scene that has been moved', () => {
-  const move = (view, _element, ms) => ms === 200 && view.transform((point) => point.clone().addScalar(10), 1);
+  const move = (view, _element, ms) => ms === 200 && view.transform((point) => point.clone().addScalar(10));
   const { places, there } = flight([0, 200, 1000], false, move);
   assert.ok(Math.abs(places[2] - 10 - there.target.x) < 1e-9);
 });

@@ -8,7 +8,7 @@ import { cutOf, galleryMesh, mandoline } from './reference.mjs';
 const mesh = torus(24, 12);
 const site = await startSite({ files: { 'torus.obj': writeObj(mesh) } });
 after(() => site.close());
-const link = (rest) => `url=${encodeURIComponent(site.meshUrl('torus.obj'))}&free=off&explode=0,0&${rest}`;
+const link = (rest) => `url=${encodeURIComponent(site.meshUrl('torus.obj'))}&up=y&explode=0,0&${rest}`;
 
 function countsOf({ cutMesh }) {
   return {

@@ -17,7 +17,7 @@ after(() => site.close());
 
 /** The torus as one solid, whole, unless the rest says otherwise. */
 const link = (rest = '') => {
-  const parts = { url: site.meshUrl('torus.obj'), n: 8, free: 'off', explode: '0,0', ...Object.fromEntries(new URLSearchParams(rest)) };
+  const parts = { url: site.meshUrl('torus.obj'), n: 8, up: 'y', explode: '0,0', ...Object.fromEntries(new URLSearchParams(rest)) };
   return Object.entries(parts)
     .map(([key, value]) => `${key}=${key === 'url' ? encodeURIComponent(value) : value}`)
     .join('&');
@@ -196,17 +196,17 @@ describe('explosions', () => {
 });
 
 describe('a whole view stays whole', () => {
-  /** The share of the pixels along the picture's rim that something is drawn on. */
+  /** How many pixels along the picture's rim have a region's colour; its shadow, which has none, may be there. */
   const atRim = async (page) => {
     const picture = await pixelsOf(page);
     const { width, height, rgba } = picture;
-    const drawn = isDrawn(picture);
+    const isColored = (r, g, b) => Math.max(r, g, b) - Math.min(r, g, b) > 40;
     let count = 0;
     for (let y = 0; y < height; ++y) {
       for (let x = 0; x < width; ++x) {
         if (x > 1 && y > 1 && x < width - 2 && y < height - 2) continue;
         const at = 4 * (x + width * y);
-        if (drawn(...rgba.subarray(at, at + 3))) ++count;
+        if (isColored(...rgba.subarray(at, at + 3))) ++count;
       }
     }
     return count;
@@ -429,7 +429,7 @@ test('reset and fit', async (t) => {
   await page.locator('#reset-look').click();
   await eventually(async () => {
     assert.equal(await page.locator('#slice-x').isChecked(), false);
-    assert.equal(await page.locator('#slice-free').isChecked(), true);
+    assert.equal(await page.locator('#slice-free').isChecked(), false);
     assert.equal(await page.locator('#color-by').inputValue(), 'kind');
   });
   await eventually(async () => assert.ok(covered(await pixelsOf(page)) > 0.1));

@@ -3,7 +3,7 @@ import type { Slice, Validation } from 'mandoline-wasm';
 import type { Vector3 } from './vector';
 import type { Comparison } from './comparison';
 import type { Bounds } from './grid_around';
-import type { CellCard, Crossings, Cutting, Model, Slicing, Source, StepPicture, StepRequest } from './types';
+import type { CellCard, Crossings, Cutting, Model, Slicing, Source, StepPicture, StepRequest, Up } from './types';
 import type { Wind, WindFormat, WindRequest } from './wind';
 
 /** A mesh as both sides keep it. */
@@ -14,6 +14,8 @@ export interface LoadedMesh {
   positions: Float64Array;
   triangles: Uint32Array;
   bounds: Bounds;
+  /** The axis that seems to point upwards. */
+  up: Up;
 }
 
 /** How a cut is made. Cutting again gives the same ids, bit by bit. */

@@ -9,6 +9,7 @@ export const axes: readonly Axis[] = ['x', 'y', 'z'];
 export const sliceNames: readonly SliceName[] = [...axes, 'free'];
 export const colorings: readonly ColorBy[] = ['region', 'winding', 'cell', 'volume', 'kind'];
 export const layers = ['surface', 'gridFaces', 'edges', 'untouched', 'cutCells', 'outside'] as const;
+export const ups: readonly Settings['up'][] = ['auto', 'x', 'y', 'z'];
 export const defaultCells = 16;
 export const defaultSource: Source = { kind: 'gallery', name: 'bunny' };
 
@@ -22,12 +23,13 @@ export function defaultSettings(): Settings {
       x: { on: false, position: 0.5, normal: [1, 0, 0] },
       y: { on: false, position: 0.5, normal: [0, 1, 0] },
       z: { on: false, position: 0.5, normal: [0, 0, 1] },
-      free: { on: true, position: 0.52, normal: unit([0.75, 0.1, 0.65]) },
+      free: { on: false, position: 0.52, normal: unit([0.75, 0.1, 0.65]) },
     },
     sliceMode: 'whole',
-    explode: { cells: 0.2, regions: 0 },
+    explode: { cells: 0.06, regions: 0 },
     colorBy: 'kind',
     show: { surface: true, gridFaces: true, edges: true, untouched: true, cutCells: true, outside: false, region: null },
+    up: 'auto',
     camera: null,
     wind: { on: false, direction: [1, 0, 0], show: 'none', cells: defaultWindCells },
     compare: { way: 'none', divider: 0.5 },
@@ -44,7 +46,7 @@ export function toHash(settings: Settings): string {
 }
 
 function entries(settings: Settings): [string, string][] {
-  const { source, grid, slices, explode, show, camera } = settings;
+  const { source, grid, slices, explode, show, up, camera } = settings;
   const list: [string, string][] = [source.kind === 'url' ? ['url', source.url] : [source.kind === 'file' ? 'file' : 'mesh', source.name]];
   if ('min' in grid) list.push(['n', grid.cells.join()], ['box', [...grid.min, ...grid.max].join()]);
   else list.push(['n', String(grid.cells)]);
@@ -54,6 +56,7 @@ function entries(settings: Settings): [string, string][] {
   list.push(['slice', settings.sliceMode], ['explode', short([explode.cells, explode.regions])], ['color', settings.colorBy]);
   list.push(['show', layers.filter((layer) => show[layer]).join()]);
   if (show.region !== null) list.push(['region', String(show.region)]);
+  list.push(['up', up]);
   const { wind } = settings;
   list.push(['wind', wind.on ? short(wind.direction) : 'off'], ['flow', wind.show], ['tunnel', String(wind.cells)]);
   list.push(['compare', settings.compare.way], ['divider', short([settings.compare.divider])]);
@@ -135,6 +138,11 @@ const readers: Record<string, Reader> = {
     const region = count(text, 0);
     if (region !== null) settings.show.region = region;
     return region !== null;
+  },
+  up: (settings, text) => {
+    const up = ups.find((name) => name === text);
+    if (up) settings.up = up;
+    return up !== undefined;
   },
   camera: (settings, text) => {
     const values = numbers(text, 6);

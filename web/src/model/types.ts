@@ -14,6 +14,8 @@ export type Source = { kind: 'gallery'; name: string } | { kind: 'url'; url: str
 export type GridSettings = { cells: number } | { min: Vector3; max: Vector3; cells: Vector3 };
 
 export type Axis = 'x' | 'y' | 'z';
+/** The axis of a mesh that points upwards. */
+export type Up = 'x' | 'y' | 'z';
 export type SliceName = Axis | 'free';
 
 /** A slice plane. Cells on the side that its normal points to are hidden. */
@@ -64,6 +66,8 @@ export interface LookSettings {
     /** Only this region, or null for all. */
     region: number | null;
   };
+  /** "auto" takes the mesh's guess. */
+  up: Up | 'auto';
   camera: { position: Vector3; target: Vector3 } | null;
   wind: WindSettings;
   compare: CompareSettings;
@@ -111,6 +115,8 @@ export interface Model {
   /** Bounding box of the mesh. */
   meshMin: Vector3;
   meshMax: Vector3;
+  /** The axis that seems to point upwards. */
+  up: Up;
   triangleCount: number;
   droppedTriangles: number;
   counts: { cutCells: number; untouchedCells: number; faces: number; vertices: number; regions: number };

@@ -11,7 +11,7 @@ import { asPageError, isAbort } from './failure';
 import { Inspector } from './inspector';
 import { Meshes } from './meshes';
 import { Player } from './player';
-import { isSheet } from './view/look';
+import { isSheet, usualColoring } from './view/look';
 import type { State } from './state';
 import { WindTunnel } from './wind';
 import { Work } from './work';
@@ -29,9 +29,6 @@ import type {
   View,
 } from '../model/types';
 
-/** Fewer cut-cells than this are best seen without a slice. */
-const fewCells = 60;
-
 export class App {
   readonly player: Player;
   readonly windTunnel: WindTunnel;
@@ -42,6 +39,8 @@ export class App {
   /** Whether the next model needs a camera that sees all of it, or a look that suits it. */
   private frameNext = false;
   private fitNext = false;
+  /** The colours that suited the last model, until others are chosen. */
+  private usual = defaultSettings().colorBy;
   /** What the model was made of. */
   private shown: { cutting: Cutting; mesh: MeshInfo | null } = { cutting: defaultSettings(), mesh: null };
 
@@ -83,9 +82,17 @@ export class App {
       if ((await this.meshes.load(source)) !== 'loaded') return;
       const grid = { cells: cells ?? this.cellsToKeep() };
       this.fitNext = true;
-      this.change({ source, grid, snapTolerance: 0, pose: null, show: { ...this.settings.show, region: null }, camera: null }, false);
+      this.change({ source, grid, snapTolerance: 0, pose: null, ...this.wholeLook(), up: 'auto', camera: null }, false);
       await this.recut(true);
     });
+  }
+
+  /** Another mesh is seen whole: its regions are others, and planes that sliced the last one are off. */
+  private wholeLook(): Pick<Settings, 'slices' | 'show'> {
+    const { slices, show } = this.settings;
+    const { x, y, z, free } = slices;
+    const off = (slice: SliceSettings) => ({ ...slice, on: false });
+    return { slices: { x: off(x), y: off(y), z: off(z), free: off(free) }, show: { ...show, region: null } };
   }
 
   /** The resolution for a mesh that comes without one: the current one, unless it was meant for a mesh of the gallery. */
@@ -146,8 +153,9 @@ export class App {
 
   /** Back to the look in which this mesh was first shown. */
   resetLook(): void {
-    const { slices, sliceMode, explode, colorBy, show } = defaultSettings();
-    this.change({ slices, sliceMode, explode, colorBy, show, camera: null }, false);
+    const { slices, sliceMode, explode, colorBy, show, up } = defaultSettings();
+    this.usual = colorBy;
+    this.change({ slices, sliceMode, explode, colorBy, show, up, camera: null }, false);
     this.fitLook();
   }
 
@@ -157,18 +165,17 @@ export class App {
   }
 
   /**
-   * The look to start with: a sheet with the edges of the cells around it, but without their grid-faces, which would hide it; few cells
-   * without a slice. Planes that were moved stay.
+   * The look to start with: a sheet with the edges of the cells around it, but without their grid-faces, which would hide it; several
+   * regions in their colours. Colours that were chosen stay.
    */
-  private lookFor(model: Model): Pick<Settings, 'slices' | 'show'> {
+  private lookFor(model: Model): Pick<Settings, 'show' | 'colorBy'> {
     const sheet = isSheet(model);
-    const { slices, show } = this.settings;
-    const { free } = defaultSettings().slices;
-    const isMoved = slices.free.position !== free.position || slices.free.normal.some((x, d) => x !== free.normal[d]);
-    const on = isMoved ? slices.free.on : !sheet && model.counts.cutCells >= fewCells;
+    const { show, colorBy } = this.settings;
+    const isChosen = colorBy !== this.usual;
+    this.usual = usualColoring(model);
     return {
-      slices: { ...slices, free: { ...slices.free, on } },
       show: { ...show, gridFaces: !sheet, untouched: !sheet, outside: sheet },
+      colorBy: isChosen ? colorBy : this.usual,
     };
   }
 
@@ -202,6 +209,12 @@ export class App {
   fit(): void {
     this.view.frame();
     this.change({ camera: null }, false);
+  }
+
+  /** Stands the model upright along another axis. */
+  changeUp(up: Settings['up']): void {
+    this.change({ up, camera: null });
+    this.view.frame();
   }
 
   changeShow(part: Partial<Settings['show']>): void {

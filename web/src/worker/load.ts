@@ -6,13 +6,16 @@ import { fileError, isPageError, pageError } from '../model/failure';
 import { boundsOf } from '../model/grid_around';
 import { galleryMesh, type MeshArrays } from '../model/gallery';
 import type { Source } from '../model/types';
+import { guessUp } from './up';
 
 export async function loadMesh(mandoline: Mandoline, { id, source, bytes }: Calls['load']['ask']): Promise<LoadedMesh> {
   const mesh = source.kind === 'gallery' ? await galleryMesh(source.name) : await readFile(mandoline, source, bytes);
   const name = nameOf(source);
   const bounds = boundsOf(mesh);
   checkExtent(bounds, `${name} can't be drawn`);
-  return { id, name, ...mesh, bounds };
+  // The gallery's meshes stand along y.
+  const up = source.kind === 'gallery' ? 'y' : guessUp(name, mesh, bounds);
+  return { id, name, ...mesh, bounds, up };
 }
 
 function nameOf(source: Source): string {

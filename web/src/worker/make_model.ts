@@ -32,6 +32,7 @@ export function makeModel(mandoline: Mandoline, cut: Cut, slicing: Slicing): Mod
     diagonal: Math.hypot(...planes.map((axis) => axis[axis.length - 1] - axis[0])),
     meshMin: mesh.bounds.min,
     meshMax: mesh.bounds.max,
+    up: mesh.up,
     triangleCount: cutMesh.triangleCount,
     droppedTriangles: cutMesh.droppedTriangles.length,
     counts: {

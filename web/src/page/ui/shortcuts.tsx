@@ -15,6 +15,7 @@ const mouse: [string, string][] = [
   ['right drag, two fingers, Shift + arrow keys', 'pan'],
   ['wheel, pinch, +\u00a0and\u00a0−', 'zoom'],
   ['click a cell', 'pin it and show its card'],
+  ['double click a cell, or beside all', 'fly there, or back'],
   ['drag the arrow of the wind', 'turn the wind'],
   ['drag the divider of a comparison, arrow keys', 'show more of one side'],
 ];

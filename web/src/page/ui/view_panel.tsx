@@ -1,6 +1,6 @@
 import type { App } from '../app';
-import { axes, layers } from '../../model/settings';
-import type { Model } from '../../model/types';
+import { axes, layers, ups } from '../../model/settings';
+import type { Model, Settings } from '../../model/types';
 import { Check } from './controls/check';
 import { Choice } from './controls/choice';
 import { NumberField } from './controls/number_field';
@@ -26,6 +26,7 @@ export function ViewPanel({ app }: { app: App }) {
     <Section app={app} id="view" title="View">
       <Slices app={app} />
       <Explosion app={app} part="regions" label="Explode by region" />
+      <Upwards app={app} />
       <Visibility app={app} />
       <OneRegion app={app} />
       <PinByNumber app={app} />
@@ -63,6 +64,13 @@ function Slices({ app }: { app: App }) {
       />
     </fieldset>
   );
+}
+
+const upNames: Record<Settings['up'], string> = { auto: 'guessed', x: 'x', y: 'y', z: 'z' };
+
+function Upwards({ app }: { app: App }) {
+  const options = ups.map((name) => [name, upNames[name]] as const);
+  return <Choice name="up" legend="Upwards" options={options} value={app.settings.up} onChange={(up) => app.changeUp(up)} />;
 }
 
 function Visibility({ app }: { app: App }) {

@@ -1,5 +1,6 @@
 import type { App } from '../app';
 import { integer, milliseconds, real } from '../../model/format';
+import { fromUpright, toUpright, upOf } from '../../model/up';
 import type { Vector3 } from '../../model/vector';
 import { mostWindCells, type WindColoring, type WindStats } from '../../model/wind';
 import { Choice } from './controls/choice';
@@ -44,8 +45,9 @@ const degrees = (x: number) => `${Math.round(x)}°`;
 
 /** Arrow keys turn the wind here; in the picture, the arrow is dragged. */
 function Direction({ app }: { app: App }) {
-  const { heading, rise } = anglesOf(app.settings.wind.direction);
-  const turn = (to: { heading: number; rise: number }) => app.changeWind({ direction: directionOf(to) });
+  const up = upOf(app.settings, app.model);
+  const { heading, rise } = anglesOf(toUpright(app.settings.wind.direction, up));
+  const turn = (to: { heading: number; rise: number }) => app.changeWind({ direction: fromUpright(directionOf(to), up) });
   return (
     <fieldset>
       <legend>Direction</legend>
@@ -73,7 +75,7 @@ function Direction({ app }: { app: App }) {
   );
 }
 
-/** In degrees: from the x axis towards the viewer's side, and upward. */
+/** In degrees: from the right towards the viewer, and upward. */
 function anglesOf([x, y, z]: Vector3): { heading: number; rise: number } {
   const toDegrees = 180 / Math.PI;
   return { heading: toDegrees * Math.atan2(z, x), rise: toDegrees * Math.asin(Math.max(-1, Math.min(1, y))) };

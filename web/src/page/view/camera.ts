@@ -1,8 +1,12 @@
 // The camera, moved by mouse, touch and keys. In scene units: the grid's box has a diagonal of 2 and lies around 0.
 import { PerspectiveCamera, Vector3 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import type { Up } from '../../model/types';
+import { placeBetween, type Place } from './flight';
+import { firstDirection, fit, uprightAxes } from './fit';
 
-const firstDirection = new Vector3(0.42, 0.36, 1).normalize();
+/** The share of the picture's width or height that what is framed fills. */
+const filled = 0.78;
 const turn = Math.PI / 24;
 /** Inertia: what is left of a movement falls to 1 / e in this time, in ms. */
 const glideTime = 100;
@@ -10,12 +14,6 @@ const glideTime = 100;
 const flightTime = 700;
 /** Shortest time between two reports of the camera's position, in ms. */
 const tellTime = 200;
-
-/** Where the camera is and what it looks at. */
-export interface Place {
-  position: Vector3;
-  target: Vector3;
-}
 
 interface Flight {
   from: Place;
@@ -25,14 +23,15 @@ interface Flight {
 
 export class Camera {
   readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
-  readonly controls: OrbitControls;
+  controls: OrbitControls;
   /** The camera has changed. */
   onChange = () => {};
   /** The person has moved it. */
   onMoved = () => {};
+  private up: Up = 'y';
   private isPersons = false;
-  /** The ball in view, kept in view when the window changes its shape until the person moves the camera. */
-  private framed: { center: Vector3; radius: number } | null = null;
+  /** Points in view, 3 numbers each, kept in view when the window changes its shape until the person moves the camera. */
+  private framed: Float32Array | null = null;
   private timer: ReturnType<typeof setTimeout> | undefined;
   /** When the camera was last updated and until when it glides, in ms. */
   private movedAt = 0;
@@ -40,22 +39,38 @@ export class Camera {
   private flight: Flight | null = null;
 
   constructor(
-    canvas: HTMLCanvasElement,
+    private readonly canvas: HTMLCanvasElement,
     private readonly reducedMotion: MediaQueryList,
     private readonly now = () => performance.now(),
   ) {
-    this.camera.position.copy(firstDirection).multiplyScalar(5);
-    this.controls = new OrbitControls(this.camera, canvas);
-    // Only frames move the camera, by the time that has passed: otherwise inertia would depend on the rates of frames and events.
-    this.controls.update = () => this.wake();
-    this.controls.minDistance = 0.02;
-    this.controls.maxDistance = 60;
-    const damp = () => (this.controls.enableDamping = !reducedMotion.matches);
-    damp();
-    reducedMotion.addEventListener('change', damp);
-    this.controls.addEventListener('start', () => this.takeOver());
-    this.controls.addEventListener('change', () => this.changed());
+    this.camera.position.set(0, 0, 5);
+    this.controls = this.makeControls();
+    reducedMotion.addEventListener('change', () => (this.controls.enableDamping = !reducedMotion.matches));
     canvas.addEventListener('keydown', (event) => this.key(event));
+  }
+
+  private makeControls(): OrbitControls {
+    const controls = new OrbitControls(this.camera, this.canvas);
+    // Only frames move the camera, by the time that has passed: otherwise inertia would depend on the rates of frames and events.
+    controls.update = () => this.wake();
+    controls.minDistance = 0.02;
+    controls.maxDistance = 60;
+    controls.enableDamping = !this.reducedMotion.matches;
+    controls.addEventListener('start', () => this.takeOver());
+    controls.addEventListener('change', () => this.changed());
+    return controls;
+  }
+
+  /** Stands the camera upright along an axis, about which it turns from now on. OrbitControls only look at this when they are made. */
+  setUp(up: Up): void {
+    if (up === this.up) return;
+    this.up = up;
+    this.camera.up.copy(uprightAxes(up)[1]);
+    const { target, enabled } = this.controls;
+    this.controls.dispose();
+    this.controls = this.makeControls();
+    this.controls.target.copy(target);
+    this.controls.enabled = enabled;
   }
 
   /** The person moves the camera now. */
@@ -120,13 +135,30 @@ export class Camera {
     }
   }
 
-  /** Brings a whole ball into view. */
-  frame(center: Vector3, radius: number, keepDirection: boolean): void {
-    const direction = keepDirection ? this.camera.position.clone().sub(this.controls.target).normalize() : firstDirection;
-    const half = (this.camera.fov * Math.PI) / 360;
-    const narrow = Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect));
-    this.place({ position: center.clone().addScaledVector(direction, radius / Math.sin(narrow)), target: center });
-    this.framed = { center: center.clone(), radius };
+  /** Brings points into view, 3 numbers each, as large as they fit; from the first direction, or from where the camera is. */
+  frame(points: Float32Array, keepDirection: boolean): void {
+    this.place(this.placeFor(points, keepDirection ? this.direction : firstDirection(points, this.up), filled));
+    this.framed = points;
+  }
+
+  /** From there the points fill this share of the picture's width or height. */
+  private placeFor(points: Float32Array, direction: Vector3, share: number): Place {
+    const slope = share * Math.tan((this.camera.fov * Math.PI) / 360);
+    return fit(points, direction, this.camera.up, [slope * this.camera.aspect, slope]);
+  }
+
+  /** From the target to the camera. */
+  private get direction(): Vector3 {
+    return this.camera.position.clone().sub(this.controls.target).normalize();
+  }
+
+  /** Flies to points, as if the person had moved there. */
+  flyTo(points: Float32Array, share = filled): void {
+    const { at } = this;
+    this.place(this.placeFor(points, this.direction, share));
+    this.flyFrom(at);
+    this.isPersons = true;
+    this.changed();
   }
 
   place(to: Place): void {
@@ -153,7 +185,7 @@ export class Camera {
     const time = Math.min((this.now() - begin) / flightTime, 1);
     const share = time * time * (3 - 2 * time);
     if (time === 1) this.flight = null;
-    this.moveTo({ position: from.position.clone().lerp(to.position, share), target: from.target.clone().lerp(to.target, share) });
+    this.moveTo(time === 1 ? to : placeBetween(from, to, share, this.camera.up));
   }
 
   private moveTo({ position, target }: Place): void {
@@ -164,16 +196,19 @@ export class Camera {
   }
 
   /** Follows a scene that has been moved and scaled. */
-  transform(move: (point: Vector3) => Vector3, scale: number): void {
+  transform(move: (point: Vector3) => Vector3): void {
     const { isPersons, framed, flight } = this;
     const moved = ({ position, target }: Place) => ({ position: move(position), target: move(target) });
     this.place(moved(this.at));
     this.isPersons = isPersons;
     this.flight = flight && { ...flight, from: moved(flight.from), to: moved(flight.to) };
-    this.framed = framed && { center: move(framed.center), radius: framed.radius * scale };
+    if (!framed) return;
+    const point = new Vector3();
+    for (let at = 0; at < framed.length; at += 3) move(point.fromArray(framed, at)).toArray(framed, at);
+    this.framed = framed;
   }
 
-  /** Whether a ball was brought into view and the camera has not been moved since. */
+  /** Whether something was brought into view and the camera has not been moved since. */
   get isFramed(): boolean {
     return this.framed !== null;
   }
@@ -181,7 +216,7 @@ export class Camera {
   resize(width: number, height: number): void {
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    if (this.framed) this.frame(this.framed.center, this.framed.radius, true);
+    if (this.framed) this.frame(this.framed, true);
   }
 }
 

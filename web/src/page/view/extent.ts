@@ -1,68 +1,91 @@
-// What the camera has to see of a model.
-import type { Model, Settings } from '../../model/types';
-import { shownRegions } from './look';
+// What the camera has to see of a model: points, 3 numbers each, less the model's origin.
+import type { Instead, Model } from '../../model/types';
+import type { Look } from './layer';
+import { sceneScale } from './scene_space';
+import { arrowEnds } from './wind/handle';
 
-interface Box {
-  min: number[];
-  max: number[];
-}
+/** What of a look decides where things are. */
+export type Extent = Pick<Look, 'model' | 'settings' | 'regions' | 'shifts'>;
 
-/** Around the exploded mesh, or the grid if the outside is shown or the mesh lies beside it; less the model's origin. */
-export function shownBall(model: Model, settings: Settings, shifts: Float32Array): { center: number[]; radius: number } {
-  const explode = 1 + settings.explode.cells;
-  const isGrid = showsGrid(model, settings);
-  const { min, max } = apart(model, settings, shifts, isGrid ? gridBox(model) : meshBox(model));
-  const center = min.map((x, d) => (x + max[d]) / 2);
-  const sides = max.map((x, d) => x - min[d]);
-  const diagonal = Math.hypot(...sides);
-  if (isGrid) return { center, radius: diagonal / 2 };
-  // Unless the box is long, a slight explosion fits into its corners.
-  return { center, radius: Math.max((0.51 * diagonal) / explode, 0.53 * Math.max(...sides), 0.42 * diagonal) };
-}
+/** A sample of so many vertices spans the picture as well as all of them do. */
+const enough = 50_000;
 
-function showsGrid({ meshMin, meshMax, grid }: Model, { show }: Settings): boolean {
-  const isBesideMesh = grid.planes.some((planes, d) => meshMax[d] < planes[0] || meshMin[d] > planes[planes.length - 1]);
-  return isBesideMesh || (show.outside && (show.untouched || show.cutCells));
-}
-
-function gridBox({ grid, origin }: Model): Box {
-  return {
-    min: grid.planes.map((planes, d) => planes[0] - origin[d]),
-    max: grid.planes.map((planes, d) => planes[planes.length - 1] - origin[d]),
-  };
-}
-
-function meshBox({ meshMin, meshMax, origin }: Model): Box {
-  return { min: meshMin.map((x, d) => x - origin[d]), max: meshMax.map((x, d) => x - origin[d]) };
-}
-
-/** The box after the explosions: the one by cell makes it grow, and it includes the regions where the one by region takes them. */
-function apart(model: Model, settings: Settings, shifts: Float32Array, whole: Box): Box {
-  const { cells, regions } = settings.explode;
-  const box: Box = { min: whole.min.map((x) => x * (1 + cells)), max: whole.max.map((x) => x * (1 + cells)) };
-  if (regions === 0) return box;
-  const shown = shownRegions(model, settings);
-  regionBoxes(model, whole).forEach(({ min, max }, region) => {
-    if (!shown[region]) return;
-    for (let d = 0; d < 3; d++) {
-      const shift = regions * shifts[3 * region + d];
-      box.min[d] = Math.min(box.min[d], min[d] * (1 + cells) + shift);
-      box.max[d] = Math.max(box.max[d], max[d] * (1 + cells) + shift);
-    }
-  });
-  return box;
-}
-
-/** Around the cut-cells of each region, as far as they lie in `whole`; untouched cells lie between them. */
-function regionBoxes({ cells: { region, gridCell }, grid, origin, regions }: Model, whole: Box): Box[] {
-  const boxes = regions.map((): Box => ({ min: [Infinity, Infinity, Infinity], max: [-Infinity, -Infinity, -Infinity] }));
-  for (let cell = 0; cell < region.length; cell++) {
-    const { min, max } = boxes[region[cell]];
-    for (let d = 0; d < 3; d++) {
-      const at = gridCell[3 * cell + d];
-      min[d] = Math.min(min[d], Math.max(whole.min[d], grid.planes[d][at] - origin[d]));
-      max[d] = Math.max(max[d], Math.min(whole.max[d], grid.planes[d][at + 1] - origin[d]));
-    }
+/**
+ * They span what is shown, slices aside, where explosions take it: vertices of cut-cells, or else corners of the box of the mesh, which
+ * lies beside the grid.
+ */
+export function shownPoints(extent: Extent): Float32Array {
+  const { model, settings, regions } = extent;
+  const { normal, cell } = model.triangles;
+  const { show, explode } = settings;
+  const points: number[] = [];
+  const step = Math.ceil(cell.length / enough);
+  for (let vertex = 0; vertex < cell.length; vertex += step) {
+    // Of cells around a sheet only that is seen.
+    if (!show.cutCells || !regions[model.cells.region[cell[vertex]]] || (!show.gridFaces && normal[4 * vertex + 3] === 0)) continue;
+    addVertex(points, vertex, extent);
   }
-  return boxes;
+  if (show.outside && show.untouched && show.gridFaces) points.push(...exploded(gridCorners(model), explode.cells));
+  if (points.length === 0) points.push(...exploded(meshCorners(model), explode.cells));
+  return Float32Array.from(points);
+}
+
+/** In scene units, they span what is shown and the arrow of the wind. */
+export function framedPoints(extent: Extent): Float32Array {
+  return Float32Array.from([...shownPoints(extent), ...windPoints(extent)], (x) => x * sceneScale(extent.model));
+}
+
+/** In scene units, they span a cut-cell. */
+export function cellPoints(extent: Extent, id: number): Float32Array {
+  const points: number[] = [];
+  extent.model.triangles.cell.forEach((cell, vertex) => {
+    if (cell === id) addVertex(points, vertex, extent);
+  });
+  return Float32Array.from(points, (x) => x * sceneScale(extent.model));
+}
+
+/** In scene units, they span what is drawn instead of the model. */
+export function insteadPoints(model: Model, { center, radius }: Instead): Float32Array {
+  const half = 0.7 * radius;
+  const ends = [-half, half].map((by) => center.map((x) => x + by));
+  return Float32Array.from(corners(ends[0], ends[1]), (x) => x * sceneScale(model));
+}
+
+function windPoints({ model: { meshMin, meshMax, origin }, settings: { wind } }: Extent): number[] {
+  if (!wind.on) return [];
+  const size = Math.max(...meshMax.map((x, d) => x - meshMin[d]));
+  return arrowEnds.flatMap((end) => meshMin.map((x, d) => (x + meshMax[d]) / 2 - origin[d] - end * size * wind.direction[d]));
+}
+
+/** A vertex of a cut-cell, where the explosions take it. */
+function addVertex(points: number[], vertex: number, { model, settings: { explode }, shifts }: Extent): void {
+  const { position, cell } = model.triangles;
+  const { region, centroid } = model.cells;
+  const owner = cell[vertex];
+  for (let d = 0; d < 3; d++) {
+    const shift = explode.cells * centroid[3 * owner + d] + explode.regions * shifts[3 * region[owner] + d];
+    points.push(position[3 * vertex + d] + shift);
+  }
+}
+
+function gridCorners({ grid, origin }: Model): number[] {
+  return corners(
+    grid.planes.map((planes, d) => planes[0] - origin[d]),
+    grid.planes.map((planes, d) => planes[planes.length - 1] - origin[d]),
+  );
+}
+
+function meshCorners({ meshMin, meshMax, origin }: Model): number[] {
+  return corners(
+    meshMin.map((x, d) => x - origin[d]),
+    meshMax.map((x, d) => x - origin[d]),
+  );
+}
+
+function corners(min: readonly number[], max: readonly number[]): number[] {
+  return [0, 1, 2, 3, 4, 5, 6, 7].flatMap((bits) => [0, 1, 2].map((d) => (bits & (1 << d) ? max[d] : min[d])));
+}
+
+function exploded(points: number[], by: number): number[] {
+  return points.map((x) => (1 + by) * x);
 }

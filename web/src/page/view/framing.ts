@@ -1,12 +1,17 @@
 // Where the camera stands: where the settings have it, around all that is shown, or at what is drawn instead of the model.
 import type { Instead, Settings, View } from '../../model/types';
+import { upOf } from '../../model/up';
 import type { Camera } from './camera';
-import { shownBall } from './extent';
+import { cellPoints, framedPoints, insteadPoints, type Extent } from './extent';
 import type { Look } from './layer';
-import { fromModel, fromWorld, sceneScale, toWorld } from './scene_space';
+import { shownRegions } from './look';
+import { fromWorld, toWorld } from './scene_space';
 import { Visit } from './visit';
 
 type Shown = Pick<Look, 'model' | 'settings' | 'shifts' | 'instead'>;
+
+/** Of the picture, what a cell fills that one flies to. */
+const cellShare = 0.25;
 
 export class Framing {
   /** The camera was moved, by the person. */
@@ -30,19 +35,21 @@ export class Framing {
     this.isFramed = false;
   }
 
-  follow({ camera, explode }: Settings): void {
+  follow(settings: Settings): void {
+    const { camera, explode, wind } = settings;
     const shown = this.shown();
     const model = shown?.model;
+    if (model) this.camera.setUp(upOf(settings, model));
     if (camera && model && JSON.stringify(camera) !== this.known) {
       this.known = JSON.stringify(camera);
       this.isFramed = true;
       this.camera.place({ position: fromWorld(model, camera.position), target: fromWorld(model, camera.target) });
     }
-    const explosion = JSON.stringify([explode, explode.regions > 0 && model?.id]);
+    const explosion = JSON.stringify([explode, explode.regions > 0 && model?.id, wind.on]);
     const isPulled = explosion !== this.explosion;
     this.explosion = explosion;
     if (!this.isFramed) this.frame();
-    // Until the person moves the camera, exploded parts stay in view.
+    // Until the person moves the camera, exploded parts and the wind's arrow stay in view.
     else if (isPulled && this.camera.isFramed && !shown?.instead) this.frameShown(true);
   }
 
@@ -54,18 +61,28 @@ export class Framing {
   }
 
   private frameShown(keepDirection: boolean): void {
+    const extent = this.extent();
+    if (extent) this.camera.frame(framedPoints(extent), keepDirection);
+  }
+
+  private extent(): Extent | null {
     const shown = this.shown();
-    if (!shown) return;
-    const { model, settings, shifts } = shown;
-    const { center, radius } = shownBall(model, settings, shifts);
-    this.camera.frame(fromModel(model, center), radius * sceneScale(model), keepDirection);
+    return shown && { ...shown, regions: shownRegions(shown.model, shown.settings) };
+  }
+
+  /** Flies to a cell, or to where all is seen. */
+  flyToCell(cell: number | null): void {
+    const extent = this.extent();
+    if (!extent || this.shown()?.instead) return;
+    if (cell === null) this.camera.flyTo(framedPoints(extent));
+    else this.camera.flyTo(cellPoints(extent, cell), cellShare);
   }
 
   /** Goes to what is drawn instead of the model, unless it is there, or back. */
   visitInstead(instead: Instead | null, former: Instead | null): void {
     const model = this.shown()?.model;
     const isNew = instead !== null && (former === null || subjectOf(instead) !== subjectOf(former));
-    if (isNew && model) this.visit.begin(fromModel(model, instead.center), instead.radius * sceneScale(model) * 1.2);
+    if (isNew && model) this.visit.begin(insteadPoints(model, instead));
     else if (!instead) this.visit.end(() => this.frameShown(true));
   }
 

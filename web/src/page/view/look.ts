@@ -1,5 +1,5 @@
 // Which regions and cells the settings show, slices aside.
-import type { Model, RegionInfo, Settings } from '../../model/types';
+import type { ColorBy, Model, RegionInfo, Settings } from '../../model/types';
 import { isOutside } from '../../model/inside';
 
 /** Per region: 1 if it is shown. A region that is picked is shown even if it is outside. */
@@ -30,6 +30,12 @@ export function isSheet(model: Model): boolean {
     else inner++;
   }
   return outer > 2 * inner;
+}
+
+/** By region where there are several inside, else by kind. Estimates divide what is one in truth. */
+export function usualColoring({ regions, insideBy }: Model): ColorBy {
+  const inside = regions.filter(({ isInside }) => isInside);
+  return inside.length > 1 && insideBy !== 'estimate' ? 'region' : 'kind';
 }
 
 /** Per region: how it moves in an explosion by region, 3 numbers. */

@@ -9,6 +9,7 @@ const tapDistance = 6;
 export class Pointer {
   onHover: (at: Point | null) => void = () => {};
   onTap: (at: Point) => void = () => {};
+  onDoubleTap: (at: Point) => void = () => {};
   private pressed: (Point & { id: number }) | null = null;
   private hoverAt: Point | null = null;
   private hoverAsked = 0;
@@ -22,9 +23,10 @@ export class Pointer {
     canvas.addEventListener('pointerup', (event) => this.up(event));
     canvas.addEventListener('pointercancel', () => (this.pressed = null));
     canvas.addEventListener('pointerleave', () => this.hover(null));
+    canvas.addEventListener('dblclick', (event) => !this.isTaken() && this.onDoubleTap(this.place(event)));
   }
 
-  private place(event: PointerEvent): Point {
+  private place(event: MouseEvent): Point {
     const { left, top } = this.canvas.getBoundingClientRect();
     return { x: event.clientX - left, y: event.clientY - top };
   }

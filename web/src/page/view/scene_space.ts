@@ -27,5 +27,5 @@ export function toWorld(model: Model, point: Vector3): readonly [number, number,
 /** Another grid has another centre and size; the camera keeps looking at the same place. */
 export function keepCamera(camera: Camera, from: Model, to: Model): void {
   const isSame = from.diagonal === to.diagonal && from.origin.every((x, d) => x === to.origin[d]);
-  if (!isSame) camera.transform((point) => fromWorld(to, toWorld(from, point)), from.diagonal / to.diagonal);
+  if (!isSame) camera.transform((point) => fromWorld(to, toWorld(from, point)));
 }

@@ -58,10 +58,11 @@ class ThreeView implements View {
   private readonly cells = new CutCells(this.uniforms);
   private readonly untouched = new Untouched(this.uniforms);
   private readonly caps = new Caps(this.uniforms, this.cells);
+  private readonly frames = new Frames();
   private readonly gizmo: Gizmo;
   private readonly shadow: Shadow;
   /** What is seen of the model, and what is seen instead of it. */
-  private readonly ofModel: readonly Layer[] = [this.cells, this.untouched, this.caps, new Frames()];
+  private readonly ofModel: readonly Layer[] = [this.cells, this.untouched, this.caps, this.frames];
   private readonly ofInsteads: readonly Layer[] = [new Step(), new CrossingCurves(this.uniforms)];
   private readonly windTunnel: WindTunnel;
   private readonly layers: readonly Layer[];
@@ -138,7 +139,7 @@ class ThreeView implements View {
   }
 
   private listen(): void {
-    this.camera.onChange = this.gizmo.onChange = this.shadow.onChange = () => this.loop.invalidate();
+    for (const part of [this.camera, this.gizmo, this.shadow, this.frames]) part.onChange = () => this.loop.invalidate();
     this.framing.onMoved = (camera) => this.onCamera(camera);
     this.gizmo.onDragging = (isDragging) => (this.camera.controls.enabled = !isDragging);
     this.gizmo.onMoved = (free) => {
@@ -159,6 +160,7 @@ class ThreeView implements View {
       if (!at) this.setHovered(null);
     };
     pointer.onTap = (at) => void this.cellAt(at).then((cell) => this.onPick(cell));
+    pointer.onDoubleTap = (at) => void this.cellAt(at).then((cell) => this.framing.flyToCell(cell));
     this.canvas.addEventListener('keydown', (event) => {
       if (event.key === 'Escape') this.onPick(null);
     });
@@ -202,6 +204,7 @@ class ThreeView implements View {
   setLook(settings: Settings): void {
     this.settings = settings;
     this.framing.follow(settings);
+    this.uniforms.up.value.copy(this.camera.camera.up);
     this.loop.changed();
   }
 
@@ -229,6 +232,7 @@ class ThreeView implements View {
 
   setScheme(dark: boolean): void {
     setScheme(dark, this.scene, this.uniforms);
+    this.gizmo.setColor(this.uniforms.accent.value);
     this.loop.invalidate();
   }
 

@@ -1,5 +1,5 @@
-import type { Vector3 } from 'three';
-import type { Camera, Place } from './camera';
+import type { Camera } from './camera';
+import type { Place } from './flight';
 
 /** Takes the camera to what is drawn instead of the model, and back in the end. */
 export class Visit {
@@ -7,10 +7,11 @@ export class Visit {
 
   constructor(private readonly camera: Camera) {}
 
-  begin(center: Vector3, radius: number): void {
+  /** To points, 3 numbers each. */
+  begin(points: Float32Array): void {
     const { at, isFramed } = this.camera;
     this.before ??= { ...at, isFramed };
-    this.camera.frame(center, radius, true);
+    this.camera.frame(points, true);
     this.camera.flyFrom(at);
   }
 

@@ -6,9 +6,16 @@ import { lineGeometry } from './cut_cells';
 
 const colors: Record<SliceName, number> = { x: 0xd9534f, y: 0x4fae5a, z: 0x3f83d6, free: 0xd78f1f };
 
-/** Outlines of the slice planes where they cut the grid's box. */
+/** How long a plane that has been moved is seen, in ms. */
+const seenFor = 700;
+
+/** Outlines of the slice planes where they cut the grid's box, while they are moved. */
 export class Frames implements Layer {
   readonly object = new Group();
+  onChange = () => {};
+  private model = 0;
+  private planes: readonly ViewPlane[] = [];
+  private timer: ReturnType<typeof setTimeout> | undefined;
   private readonly lines = { x: makeLines('x'), y: makeLines('y'), z: makeLines('z'), free: makeLines('free') };
 
   dependsOn({ model, planes, settings }: Look): readonly unknown[] {
@@ -16,6 +23,10 @@ export class Frames implements Layer {
   }
 
   setLook({ model, planes, settings }: Look): void {
+    if (model.id !== this.model) this.object.visible = false;
+    else if (planes !== this.planes) this.show();
+    this.model = model.id;
+    this.planes = planes;
     this.object.scale.setScalar(1 + settings.explode.cells);
     this.object.clear();
     for (const plane of planes) {
@@ -24,6 +35,15 @@ export class Frames implements Layer {
       lines.geometry = lineGeometry(outline(model, plane));
       this.object.add(lines);
     }
+  }
+
+  private show(): void {
+    clearTimeout(this.timer);
+    this.object.visible = true;
+    this.timer = setTimeout(() => {
+      this.object.visible = false;
+      this.onChange();
+    }, seenFor);
   }
 }
 

@@ -1,5 +1,5 @@
 // Handles to move the free plane along its normal and to turn it.
-import { Group, Object3D, Vector3, type Camera } from 'three';
+import { Group, Line, Mesh, Object3D, Vector3, type Camera, type ColorRepresentation } from 'three';
 import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
 import type { SliceSettings } from '../../../model/types';
 import type { Layer, Look } from '../layer';
@@ -7,6 +7,8 @@ import { planeOf, reach } from '../../../model/planes';
 import { sceneScale } from '../scene_space';
 
 const up = new Vector3(0, 0, 1);
+/** Opacity of the handles while the pointer is elsewhere. */
+const idle = 0.35;
 
 /** In scene units, unlike other layers: handles are as large as the screen has them. */
 export class Gizmo implements Layer {
@@ -27,6 +29,7 @@ export class Gizmo implements Layer {
     for (const key of ['showZ', 'showE', 'showXYZE'] as const) rotate[key] = false;
     this.controls = [move, rotate];
     this.object.add(this.handle, move.getHelper(), rotate.getHelper());
+    this.fade();
     this.hide();
   }
 
@@ -36,6 +39,7 @@ export class Gizmo implements Layer {
     controls.space = 'local';
     controls.size = mode === 'rotate' ? 0.65 : 0.85;
     controls.addEventListener('change', () => this.onChange());
+    controls.addEventListener('axis-changed', () => this.fade());
     controls.addEventListener('objectChange', () => this.moved());
     controls.addEventListener('dragging-changed', ({ value }) => {
       this.isDragging = value === true;
@@ -43,6 +47,21 @@ export class Gizmo implements Layer {
       this.onDragging(this.isDragging);
     });
     return controls;
+  }
+
+  setColor(color: ColorRepresentation): void {
+    for (const controls of this.controls) controls.setColors(color, color, color, color);
+  }
+
+  /** Handles that nobody touches stay in the background. */
+  private fade(): void {
+    const opacity = this.isTouched ? 1 : idle;
+    for (const controls of this.controls) {
+      controls.getHelper().traverse((part) => {
+        // TransformControls set the opacity of each handle anew from this.
+        if (part instanceof Mesh || part instanceof Line) Object.assign(part.material, { _opacity: opacity });
+      });
+    }
   }
 
   /** Whether the pointer is on a handle. */

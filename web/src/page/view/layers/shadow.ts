@@ -1,7 +1,8 @@
 // A soft shadow on the ground where the model stands on it or is near to it. The model is drawn once more, seen from below into a small
 // picture, which is blurred and lies on the ground; it is drawn again only when the look has changed and then stays so for a moment.
-import { Matrix4, Mesh, NoBlending, OrthographicCamera, PlaneGeometry, Scene, ShaderMaterial, Vector2, Vector3 } from 'three';
+import { Box3, Matrix4, Mesh, NoBlending, OrthographicCamera, PlaneGeometry, Scene, ShaderMaterial, Vector2, Vector3 } from 'three';
 import { WebGLRenderTarget, type Object3D, type WebGLRenderer } from 'three';
+import { shownPoints } from '../extent';
 import type { Layer, Look } from '../layer';
 import type { Uniforms } from '../material';
 
@@ -44,8 +45,8 @@ export class Shadow implements Layer {
     this.renderer.compile(this.blurring, this.camera);
   }
 
-  dependsOn({ model, settings: { show, explode, sliceMode }, planes }: Look): readonly unknown[] {
-    return [model.id, show, explode, sliceMode, planes];
+  dependsOn({ model, settings: { show, explode, sliceMode, up }, planes }: Look): readonly unknown[] {
+    return [model.id, show, explode, sliceMode, planes, up];
   }
 
   setLook(look: Look): void {
@@ -60,14 +61,11 @@ export class Shadow implements Layer {
 
   /** Puts the ground under the lowest point that is shown, and the camera under that. */
   private place(look: Look): void {
-    const { model, settings } = look;
     const up = this.uniforms.up.value;
-    const [min, max] = [model.meshMin, model.meshMax].map((end) => {
-      return new Vector3(...end.map((x, d) => (x - model.origin[d]) * (1 + settings.explode.cells)));
-    });
+    const { min, max } = new Box3().setFromArray(shownPoints(look));
     const extent = max.clone().sub(min);
     const side = (1 + 2 * margin) * extent.clone().addScaledVector(up, -extent.dot(up)).length();
-    const low = lowestShown(look, up);
+    const low = min.dot(up);
     const middle = min.add(max).divideScalar(2);
     middle.addScaledVector(up, low - middle.dot(up));
     const { object, camera } = this;
@@ -121,27 +119,6 @@ export class Shadow implements Layer {
     }
     renderer.setRenderTarget(null);
   }
-}
-
-/** How high the lowest point of what is shown lies along a direction, slices aside; less the model's origin. */
-function lowestShown({ model, settings, regions, shifts }: Look, up: Vector3): number {
-  const { position, normal, cell } = model.triangles;
-  const { show, explode } = settings;
-  const height = (array: ArrayLike<number>, at: number) => up.x * array[3 * at] + up.y * array[3 * at + 1] + up.z * array[3 * at + 2];
-  const lifts = Float64Array.from(model.cells.region, (region, id) => {
-    if (!regions[region] || !show.cutCells) return Infinity;
-    return explode.cells * height(model.cells.centroid, id) + explode.regions * height(shifts, region);
-  });
-  let low = Infinity;
-  for (let vertex = 0; vertex < cell.length; vertex++) {
-    if (!show.gridFaces && normal[4 * vertex + 3] === 0) continue;
-    low = Math.min(low, height(position, vertex) + lifts[cell[vertex]]);
-  }
-  if (show.outside && show.untouched && show.gridFaces) {
-    const corner = model.grid.planes.map((planes, d) => planes[0] - model.origin[d]);
-    low = Math.min(low, (1 + explode.cells) * height(corner, 0));
-  }
-  return low < Infinity ? low : 0;
 }
 
 function makeGround(uniforms: Uniforms, { texture }: WebGLRenderTarget): ShaderMaterial {

@@ -12,6 +12,8 @@ const touchDistance = 30;
 const distance = 0.82;
 /** Of the arrow, in longest sides. */
 const length = 0.2;
+/** Where the arrow begins and ends, from the middle of the mesh against the wind, in longest sides. */
+export const arrowEnds = [distance, distance + length];
 const up = new Vector3(0, 1, 0);
 
 export class WindHandle {
