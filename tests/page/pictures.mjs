@@ -102,15 +102,20 @@ export async function looksLike(page, name) {
   }, 8000);
 }
 
-/** The canvas once its shadow is drawn, too, and two screenshots running are the same. */
+/** The canvas once it is drawn with all pixels of the screen, its shadow, too, and two screenshots running are the same. */
 export async function settledPixels(page) {
   let last = await pixelsOf(page);
   return eventually(async () => {
     const { shadow } = await dataOf(page, '#canvas');
+    const isFine = await page.evaluate(() => {
+      const canvas = document.querySelector('#canvas');
+      return canvas.width >= Math.floor(canvas.clientWidth * devicePixelRatio);
+    });
     const next = await pixelsOf(page);
     const by = difference(tiles(last), tiles(next));
     last = next;
     assert.equal(shadow, 'drawn');
+    assert.ok(isFine, 'drawn with all pixels of the screen');
     assert.equal(by, 0);
     return next;
   });

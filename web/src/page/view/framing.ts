@@ -20,7 +20,8 @@ export class Framing {
   private isFramed = false;
   /** The camera of the settings, where it stands. */
   private known = '';
-  private explosion = '';
+  /** What decides how far the picture has to reach. */
+  private reach = '';
 
   constructor(
     private readonly camera: Camera,
@@ -36,7 +37,7 @@ export class Framing {
   }
 
   follow(settings: Settings): void {
-    const { camera, explode, wind } = settings;
+    const { camera, explode, show, wind } = settings;
     const shown = this.shown();
     const model = shown?.model;
     if (model) this.camera.setUp(upOf(settings, model));
@@ -45,12 +46,12 @@ export class Framing {
       this.isFramed = true;
       this.camera.place({ position: fromWorld(model, camera.position), target: fromWorld(model, camera.target) });
     }
-    const explosion = JSON.stringify([explode, explode.regions > 0 && model?.id, wind.on]);
-    const isPulled = explosion !== this.explosion;
-    this.explosion = explosion;
+    const reach = JSON.stringify([explode, explode.regions > 0 && model?.id, show.outside, wind.on]);
+    const isOther = reach !== this.reach;
+    this.reach = reach;
     if (!this.isFramed) this.frame();
-    // Until the person moves the camera, exploded parts and the wind's arrow stay in view.
-    else if (isPulled && this.camera.isFramed && !shown?.instead) this.frameShown(true);
+    // Until the person moves the camera, exploded parts, the outside and the wind's arrow stay in view.
+    else if (isOther && this.camera.isFramed && !shown?.instead) this.frameShown(true);
   }
 
   frame(): void {
