@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { after, describe, test } from 'node:test';
 import { torus, writeObj } from '../package/meshes.mjs';
 import { octahedron } from './mesh_files.mjs';
-import { dataOf, enter, eventually, isReady, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
+import { dataOf, enter, eventually, isReady, openPanel, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
 import { covered, difference, isBlue, isDrawn, isOrange, looksLike, pixelsOf, settledPixels, share, tiles } from './pictures.mjs';
 import { cutOf, galleryMesh, keptCells, mandoline } from './reference.mjs';
 
@@ -76,6 +76,24 @@ describe('slices', () => {
     await shows(page, '#canvas', { cells: keptCells(reference, planes).length });
     await page.keyboard.press('x');
     await shows(page, '#canvas', { cells: keptCells(reference, [{ normal: axes.z, position: 0.5 }]).length });
+  });
+
+  test('the free plane is turned with arrow keys, around and upward', async (t) => {
+    const page = await site.open(t, link('free=0.44,1,0,0&up=y'));
+    const keptBy = (heading, rise) => {
+      const [h, r] = [(heading * Math.PI) / 180, (rise * Math.PI) / 180];
+      const normal = [Math.cos(r) * Math.cos(h), Math.sin(r), Math.cos(r) * Math.sin(h)];
+      return keptCells(reference, [{ normal, position: 0.44 }]).length;
+    };
+    await openPanel(page, 'view');
+    await shows(page, '#canvas', { cells: keptBy(0, 0) });
+    await slideTo(page, '#free-heading', 69);
+    await page.locator('#free-heading').press('ArrowRight');
+    await shows(page, '#canvas', { cells: keptBy(70, 0) });
+    await slideTo(page, '#free-rise', 39);
+    await page.locator('#free-rise').press('ArrowUp');
+    await shows(page, '#canvas', { cells: keptBy(70, 40) });
+    assert.equal(new Set([keptBy(0, 0), keptBy(70, 0), keptBy(70, 40)]).size, 3);
   });
 
   test('cells cut flat have filled caps', async (t) => {

@@ -3,12 +3,14 @@ import { axes, layers, ups } from '../../model/settings';
 import type { Model, Settings } from '../../model/types';
 import { Check } from './controls/check';
 import { Choice } from './controls/choice';
+import { Direction } from './controls/direction';
 import { NumberField } from './controls/number_field';
 import { Section } from './controls/section';
 import { Select } from './controls/select';
 import { Explosion } from './explosion';
 import { SliceRow } from './slice_row';
 import { insideOf, isOutside } from '../../model/inside';
+import { upOf } from '../../model/up';
 import { plural, real } from '../../model/format';
 
 const layerNames: Record<(typeof layers)[number], string> = {
@@ -25,6 +27,7 @@ export function ViewPanel({ app }: { app: App }) {
   return (
     <Section app={app} id="view" title="View">
       <Slices app={app} />
+      <FreePlane app={app} />
       <Explosion app={app} part="regions" label="Explode by region" />
       <Upwards app={app} />
       <Visibility app={app} />
@@ -71,6 +74,21 @@ const upNames: Record<Settings['up'], string> = { auto: 'guessed', x: 'x', y: 'y
 function Upwards({ app }: { app: App }) {
   const options = ups.map((name) => [name, upNames[name]] as const);
   return <Choice name="up" legend="Upwards" options={options} value={app.settings.up} onChange={(up) => app.changeUp(up)} />;
+}
+
+/** Where the plane of the bar's slice faces. */
+function FreePlane({ app }: { app: App }) {
+  const { on, normal } = app.settings.slices.free;
+  if (!on) return null;
+  return (
+    <Direction
+      name="free"
+      legend="Turn the slice"
+      up={upOf(app.settings, app.model)}
+      direction={normal}
+      onTurn={(to) => app.changeSlice('free', { normal: to })}
+    />
+  );
 }
 
 function Visibility({ app }: { app: App }) {

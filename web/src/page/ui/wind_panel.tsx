@@ -1,20 +1,25 @@
 import type { App } from '../app';
 import { integer, milliseconds, real } from '../../model/format';
-import { fromUpright, toUpright, upOf } from '../../model/up';
-import type { Vector3 } from '../../model/vector';
+import { upOf } from '../../model/up';
 import { mostWindCells, type WindColoring, type WindStats } from '../../model/wind';
 import { Choice } from './controls/choice';
+import { Direction } from './controls/direction';
 import { NumberField } from './controls/number_field';
 import { Section } from './controls/section';
-import { Slider } from './controls/slider';
 import { Terms } from './controls/terms';
 
 /** The wind tunnel: where the wind blows, what the colours show, and the flow in numbers. */
 export function WindPanel({ app }: { app: App }) {
-  const { show, cells } = app.settings.wind;
+  const { direction, show, cells } = app.settings.wind;
   return (
     <Section app={app} id="wind" title="Wind">
-      <Direction app={app} />
+      <Direction
+        name="wind"
+        legend="Direction"
+        up={upOf(app.settings, app.model)}
+        direction={direction}
+        onTurn={(to) => app.changeWind({ direction: to })}
+      />
       <Choice
         name="wind-show"
         legend="Colours"
@@ -40,54 +45,6 @@ const colorings: readonly (readonly [WindColoring, string])[] = [
   ['speed', 'speed'],
   ['pressure', 'pressure'],
 ];
-
-const degrees = (x: number) => `${Math.round(x)}°`;
-
-/** Arrow keys turn the wind here; in the picture, the arrow is dragged. */
-function Direction({ app }: { app: App }) {
-  const up = upOf(app.settings, app.model);
-  const { heading, rise } = anglesOf(toUpright(app.settings.wind.direction, up));
-  const turn = (to: { heading: number; rise: number }) => app.changeWind({ direction: fromUpright(directionOf(to), up) });
-  return (
-    <fieldset>
-      <legend>Direction</legend>
-      <Slider
-        id="wind-heading"
-        label="around"
-        min={-180}
-        max={180}
-        step={1}
-        value={heading}
-        format={degrees}
-        onInput={(value) => turn({ heading: value, rise })}
-      />
-      <Slider
-        id="wind-rise"
-        label="upward"
-        min={-90}
-        max={90}
-        step={1}
-        value={rise}
-        format={degrees}
-        onInput={(value) => turn({ heading, rise: value })}
-      />
-    </fieldset>
-  );
-}
-
-/** In degrees: from the right towards the viewer, and upward. */
-function anglesOf([x, y, z]: Vector3): { heading: number; rise: number } {
-  const toDegrees = 180 / Math.PI;
-  return { heading: toDegrees * Math.atan2(z, x), rise: toDegrees * Math.asin(Math.max(-1, Math.min(1, y))) };
-}
-
-/** Straight up and down it keeps a trace of where it was headed. */
-function directionOf({ heading, rise }: { heading: number; rise: number }): Vector3 {
-  const toRadians = Math.PI / 180;
-  const [h, r] = [heading * toRadians, Math.max(-89.9, Math.min(89.9, rise)) * toRadians];
-  const round = (x: number) => Number(x.toFixed(12));
-  return [Math.cos(r) * Math.cos(h), Math.sin(r), Math.cos(r) * Math.sin(h)].map(round);
-}
 
 function Numbers({ app: { state } }: { app: App }) {
   const stats = state.wind.value?.stats;
