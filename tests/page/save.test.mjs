@@ -157,7 +157,7 @@ describe('links', () => {
     await openPanel(page, 'save');
     await page.locator('#copy-link').click();
     await page.locator('#link').waitFor();
-    assert.match(await page.locator('#link').inputValue(), /#url=http.*knot\.obj&n=6&free=off&explode=0,0$/);
+    assert.match(await page.locator('#link').inputValue(), /#url=http.*knot\.obj&n=6&explode=0,0$/);
   });
 
   test('a link to a mesh at an address, with a grid of its own', async (t) => {
