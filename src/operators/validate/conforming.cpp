@@ -1,25 +1,20 @@
 // No vertex lies inside an edge of the same grid cell. Positions find the candidates; the exact places decide.
 #include <algorithm>
 
-#include "base/sort.h"
 #include "operators/validate/grid_cell_checks.h"
+#include "operators/validate/spots.h"
 
 namespace mandoline::validation {
 
-void ConformingCheck::gatherVertices(const GridCell& cell, const std::vector<Edge>& edges) {
-  ids_.clear();
-  for (const Edge& edge : edges) ids_.insert(ids_.end(), edge.begin(), edge.end());
-  detail::sortUnique(ids_);
-  vertices_.build(ids_.size(), [&](size_t i) {
-    const Vec3 p = cell.local(cell.context.vertex(ids_[i]));
-    return detail::BoxTree::Item{boxOf(p, p), ids_[i]};
-  });
+void ConformingCheck::gatherVertices(const GridCell& cell) {
+  const std::vector<uint32_t>& ids = cell.numbers.vertices();
+  vertices_.build(ids.size(), [&](size_t i) { return detail::BoxTree::Item{boxOf(cell.places[i], cell.places[i]), ids[i]}; });
 }
 
 void ConformingCheck::run(const GridCell& cell, const std::vector<Edge>& edges) {
-  gatherVertices(cell, edges);
+  gatherVertices(cell);
   for (const Edge& edge : edges) {
-    const Vec3 a = cell.local(cell.context.vertex(edge[0])), b = cell.local(cell.context.vertex(edge[1]));
+    const Vec3 &a = cell.placeOf(edge[0]), &b = cell.placeOf(edge[1]);
     Vec3 low, high;
     for (int d = 0; d < 3; ++d) {
       low[d] = std::min(a[d], b[d]) - kTolerance * cell.noise[d], high[d] = std::max(a[d], b[d]) + kTolerance * cell.noise[d];
@@ -52,9 +47,9 @@ bool ConformingCheck::isBetween(const Context& x, const Edge& edge, uint32_t ver
   for (const uint32_t v : {edge[0], edge[1], vertex}) {
     if (!x.exact.isKnown(v)) return false;  // reported elsewhere
   }
-  const ExactPoint from = exactPoint(x, edge[0]), to = exactPoint(x, edge[1]), point = exactPoint(x, vertex);
+  const Spot from = spotOf(x, edge[0]), to = spotOf(x, edge[1]), point = spotOf(x, vertex);
   for (int d = 0; d < 3; ++d) {
-    if (compare(from, point, d) * compare(to, point, d) < 0) return true;
+    if (compare(x, from, point, d) * compare(x, to, point, d) < 0) return true;
   }
   return false;
 }

@@ -180,8 +180,9 @@ int64_t Context::madeIndex(uint32_t v) const {
 }
 
 bool Context::haveOnePlane(size_t s, size_t t) const {
-  const ExactPlane plane = exactPlane(*this, s);
-  return plane.holds(exactPlace(corner(t, 0))) && plane.holds(exactPlace(corner(t, 1))) && plane.holds(exactPlace(corner(t, 2)));
+  const uint32_t* corners = &mesh.triangles[3 * t];
+  const auto isIn = [&](uint32_t v) { return exact.planeOf(s).holds(exact.triVertex(v)); };
+  return isIn(corners[0]) && isIn(corners[1]) && isIn(corners[2]);
 }
 
 int Context::axialSide(size_t face) const {

@@ -81,7 +81,7 @@ struct Context {
   /// Where a vertex is among the made ones, or -1.
   int64_t madeIndex(uint32_t v) const;
   /// Exact: whether a triangle's plane holds a vertex.
-  bool inPlane(uint32_t v, const ExactPlane& plane) const { return !exact.isKnown(v) || plane.holds(exact[v]); }
+  bool inPlane(uint32_t v, size_t triangle) const { return !exact.isKnown(v) || exact.planeOf(triangle).holds(exact[v]); }
   /// Exact: whether the planes of two triangles are the same.
   bool haveOnePlane(size_t s, size_t t) const;
   /// Exact: sign of the axis-component of a triangle's normal.

@@ -5,7 +5,7 @@
 // - an edge lies in a face that it does not bound,
 // - two faces have a segment in common whose ends are vertices of one in the plane of the other,
 // - two faces have the same outline.
-// Rounded places find what may meet; where they leave open on which side of something a point lies, its exact place decides.
+// Rounded places find what may meet; where they leave open on which side of something a point lies, its exact place decides (spots.h).
 #include <algorithm>
 
 #include "base/sort.h"
@@ -23,10 +23,13 @@ int sideOfLine(const Vec3& a, const Vec3& b, const Vec3& p, int axis, const Vec3
   return std::fabs(left) > doubt ? (left > 0 ? 1 : -1) : 0;
 }
 
+using SpotPair = std::array<const Spot*, 2>;
+
 /// Whether two segments cross, seen along an axis.
-bool doCross(const std::array<ExactPoint, 2>& one, const std::array<ExactPoint, 2>& other, int axis) {
-  const auto separates = [&](const std::array<ExactPoint, 2>& line, const std::array<ExactPoint, 2>& ends) {
-    return turn(line[0], line[1], ends[0], axis) * turn(line[0], line[1], ends[1], axis) < 0;
+bool doCross(const Context& x, const SpotPair& one, const SpotPair& other, int axis) {
+  const auto separates = [&](const SpotPair& line, const SpotPair& ends) {
+    const int side = turn(x, {line[0], line[1], ends[0]}, axis);
+    return side != 0 && turn(x, {line[0], line[1], ends[1]}, axis) == -side;
   };
   return separates(one, other) && separates(other, one);
 }
@@ -35,6 +38,7 @@ bool doCross(const std::array<ExactPoint, 2>& one, const std::array<ExactPoint, 
 
 void CrossingCheck::run(const GridCell& cell, const std::vector<Edge>& edges) {
   margin_ = kTolerance * cell.noise;
+  spots_.start(cell.places.size()), finePlanes_.start(cell.faces.size());
   gatherPlanes(cell);
   gatherSegments(cell, edges);
   hubs_.find(cell, edges);
@@ -69,7 +73,7 @@ void CrossingCheck::buildTrees(const GridCell& cell) {
 
 /// Edges and faces that share a hub. Triangles that also meet elsewhere are found by their edges, unless they are the same.
 void CrossingCheck::checkAbout(const GridCell& cell, const Hubs::Hub& hub) {
-  const Vec3 from = cell.local(cell.context.vertex(hub.vertex));
+  const Vec3 from = cell.placeOf(hub.vertex);
   const auto directionsOfFace = [&](uint32_t f) {
     return directionsOf(from, {cell.corners.data() + cell.faces[f].firstCorner, cell.vertices(f).size()}, margin_);
   };
@@ -111,7 +115,7 @@ void CrossingCheck::gatherPlanes(const GridCell& cell) {
 void CrossingCheck::gatherSegments(const GridCell& cell, const std::vector<Edge>& edges) {
   segments_.clear();
   for (const Edge& edge : edges) {
-    segments_.push_back({edge, cell.local(cell.context.vertex(edge[0])), cell.local(cell.context.vertex(edge[1]))});
+    segments_.push_back({edge, cell.placeOf(edge[0]), cell.placeOf(edge[1])});
   }
 }
 
@@ -138,7 +142,7 @@ void CrossingCheck::checkEdgeAndFace(const GridCell& cell, const Segment& edge, 
 }
 
 /// Whether an edge from one side of a face's plane to the other meets it inside of the face.
-bool CrossingCheck::passesThrough(const GridCell& cell, const Segment& edge, double share, uint32_t f) const {
+bool CrossingCheck::passesThrough(const GridCell& cell, const Segment& edge, double share, uint32_t f) {
   const Context& x = cell.context;
   const GridCell::Face& face = cell.faces[f];
   const Plane& plane = planes_[f];
@@ -152,16 +156,16 @@ bool CrossingCheck::passesThrough(const GridCell& cell, const Segment& edge, dou
     if (place != Place::open) return place == Place::inside;
   }
   const uint32_t triangle = uint32_t(x.cut.faceTriangle[face.id]);
-  return isInside(cell, face, meet(x, exactPoint(x, edge.ends[0]), exactPoint(x, edge.ends[1]), triangle));
+  return isInside(cell, face, meet(x, spotAt(cell, edge.ends[0]), spotAt(cell, edge.ends[1]), triangle));
 }
 
 /// Whether the middle between two points in a face's plane lies inside of the face.
-bool CrossingCheck::holdsMiddle(const GridCell& cell, const Segment& points, uint32_t f) const {
+bool CrossingCheck::holdsMiddle(const GridCell& cell, const Segment& points, uint32_t f) {
   const GridCell::Face& face = cell.faces[f];
   if (bounds(cell, points.ends, face)) return false;
   const Place place = placeOn(cell, face, dominantAxis(planes_[f].normal), 0.5 * (points.from + points.to), margin_);
   if (place != Place::open) return place == Place::inside;
-  return isInside(cell, face, middle(exactPoint(cell.context, points.ends[0]), exactPoint(cell.context, points.ends[1])));
+  return isInside(cell, face, middle(spotAt(cell, points.ends[0]), spotAt(cell, points.ends[1])));
 }
 
 bool CrossingCheck::bounds(const GridCell& cell, const Edge& edge, const GridCell::Face& face) const {
@@ -172,32 +176,39 @@ bool CrossingCheck::bounds(const GridCell& cell, const Edge& edge, const GridCel
 }
 
 /// Exact: whether a point in the plane of a face lies inside of it.
-bool CrossingCheck::isInside(const GridCell& cell, const GridCell::Face& face, const ExactPoint& point) const {
+bool CrossingCheck::isInside(const GridCell& cell, const GridCell::Face& face, const Spot& point) {
   const Context& x = cell.context;
   const size_t t = size_t(x.cut.faceTriangle[face.id]);
   int axis = 0;
   while (axis < 2 && x.sideOf(t, axis) == 0) ++axis;
-  std::vector<ExactPoint> corners;
-  for (uint32_t i = face.firstCorner; i < face.lastCorner; ++i) corners.push_back(exactPoint(x, cell.cornerVertex[i]));
   const int d = (axis + 1) % 3, e = (axis + 2) % 3;
   bool inside = false;
   for (uint32_t i = face.firstCorner; i < face.lastCorner; ++i) {
-    const ExactPoint &a = corners[i - face.firstCorner], &b = corners[cell.cornerNext[i] - face.firstCorner];
-    const int low = compare(a, point, e), high = compare(b, point, e), left = turn(a, b, point, axis);
-    if (left == 0 && low * high <= 0 && compare(a, point, d) * compare(b, point, d) <= 0) return false;  // on the outline
+    const Spot &a = spotAt(cell, cell.cornerVertex[i]), &b = spotAt(cell, cell.cornerVertex[cell.cornerNext[i]]);
+    const int low = compare(x, a, point, e), high = compare(x, b, point, e);
+    if (low * high > 0) continue;  // above or below the edge
+    const int left = turn(x, {&a, &b, &point}, axis);
+    if (left == 0 && compare(x, a, point, d) * compare(x, b, point, d) <= 0) return false;  // on the outline
     if ((low > 0) != (high > 0) && (high > 0) == (left > 0)) inside = !inside;
   }
   return inside;
 }
 
 /// The side of a face's plane that a vertex lies on, given its height above it.
-int CrossingCheck::sideOf(const GridCell& cell, uint32_t v, double height, uint32_t f) const {
+int CrossingCheck::sideOf(const GridCell& cell, uint32_t v, double height, uint32_t f) {
   if (std::fabs(height) > planes_[f].doubt) return height > 0 ? 1 : -1;
   const auto corners = cell.cornerVertex.begin(), last = corners + cell.faces[f].lastCorner;
   if (std::find(corners + cell.faces[f].firstCorner, last, v) != last) return 0;
   const Context& x = cell.context;
   const size_t triangle = size_t(x.cut.faceTriangle[cell.faces[f].id]);
-  return x.inPlane(v, exactPlane(x, triangle)) ? 0 : validation::sideOf(x, exactPoint(x, v), triangle);
+  if (x.inPlane(v, triangle)) return 0;
+  const Spot& corner = spotAt(cell, *(corners + cell.faces[f].firstCorner));
+  const FinePlane& plane = finePlanes_.at(f, [&] { return finePlane(x, triangle, corner); });
+  return validation::sideOf(x, plane, spotAt(cell, v));
+}
+
+const Spot& CrossingCheck::spotAt(const GridCell& cell, uint32_t v) {
+  return spots_.at(cell.numbers.of(v), [&] { return spotOf(cell.context, v); });
 }
 
 void CrossingCheck::checkEdges(const GridCell& cell, const Segment& one, const Segment& other) {
@@ -214,22 +225,20 @@ void CrossingCheck::checkEdges(const GridCell& cell, const Segment& one, const S
                         sideOfLine(other.from, other.to, one.from, axis, margin_), sideOfLine(other.from, other.to, one.to, axis, margin_)};
   if (sides[0] * sides[1] > 0 || sides[2] * sides[3] > 0) return;
   const Context& x = cell.context;
+  const SpotPair first{&spotAt(cell, one.ends[0]), &spotAt(cell, one.ends[1])};
+  const SpotPair second{&spotAt(cell, other.ends[0]), &spotAt(cell, other.ends[1])};
+  if (areSurelySkew({first[0], first[1], second[0], second[1]})) return;
   const Residues &p = x.exact[one.ends[0]], &q = x.exact[other.ends[0]];
   if (!areKnown(x, one.ends) || !areKnown(x, other.ends)) return;  // reported elsewhere
   const Residues along = x.exact[one.ends[1]] - p, across = cross(along, x.exact[other.ends[1]] - q);
   if (isZero(across) || !dot(across, q - p).isZero()) return;  // parallel or skew
   const bool certain = sides[0] * sides[1] * sides[2] * sides[3] != 0;
-  if (certain || crossExactly(x, one.ends, other.ends))
+  // Seen along an axis in the plane of both, they are on one line and don't.
+  if (certain || doCross(x, first, second, 0) || doCross(x, first, second, 1) || doCross(x, first, second, 2))
     crossings_.violate("vertex", one.ends[0], "is an end of an edge that crosses another edge");
 }
 
 bool CrossingCheck::areKnown(const Context& x, const Edge& ends) { return x.exact.isKnown(ends[0]) && x.exact.isKnown(ends[1]); }
-
-/// Exact: whether two segments in one plane cross. Seen along an axis in that plane, they are on one line and don't.
-bool CrossingCheck::crossExactly(const Context& x, const Edge& one, const Edge& other) {
-  const std::array<ExactPoint, 2> a{exactPoint(x, one[0]), exactPoint(x, one[1])}, b{exactPoint(x, other[0]), exactPoint(x, other[1])};
-  return doCross(a, b, 0) || doCross(a, b, 1) || doCross(a, b, 2);
-}
 
 void CrossingCheck::checkFaces(const GridCell& cell, uint32_t f, uint32_t g) {
   if (cell.faces[f].side >= 0 || cell.faces[g].side >= 0) return;
@@ -259,7 +268,7 @@ void CrossingCheck::sortAlongLine(const GridCell& cell) {
     for (int d = 0; d < 3; ++d) {
       if (std::fabs(a.point[d] - b.point[d]) > 2 * margin_[d]) return a.point[d] < b.point[d];
       if (x.exact[a.vertex][size_t(d)] == x.exact[b.vertex][size_t(d)]) continue;
-      return compare(exactPoint(x, a.vertex), exactPoint(x, b.vertex), d) < 0;
+      return compare(x, spotAt(cell, a.vertex), spotAt(cell, b.vertex), d) < 0;
     }
     return false;
   });
@@ -267,7 +276,7 @@ void CrossingCheck::sortAlongLine(const GridCell& cell) {
 
 /// Exact: whether a vertex lies in the plane of a face.
 bool CrossingCheck::isIn(const GridCell& cell, uint32_t v, uint32_t f) const {
-  return cell.context.inPlane(v, exactPlane(cell.context, size_t(cell.context.cut.faceTriangle[cell.faces[f].id])));
+  return cell.context.inPlane(v, size_t(cell.context.cut.faceTriangle[cell.faces[f].id]));
 }
 
 /// Adds the vertices of a face that may lie in the plane of another one. Returns whether all may.

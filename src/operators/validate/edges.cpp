@@ -27,10 +27,7 @@ void EdgeCheck::collectUses(const GridCell& cell) {
       uses_.push_back({{std::min(u, v), std::max(u, v)}, f, u < v});
     }
   }
-  const auto key = [](const Use& use) { return uint64_t(use.edge[0]) << 32 | use.edge[1]; };
-  detail::sortItems(uses_, [&](const Use& a, const Use& b) {
-    return key(a) != key(b) ? key(a) < key(b) : a.face != b.face ? a.face < b.face : a.forward < b.forward;
-  });
+  std::sort(uses_.begin(), uses_.end(), [](const Use& a, const Use& b) { return a.key() < b.key(); });
 }
 
 const CellEdges& EdgeCheck::run(const GridCell& cell) {

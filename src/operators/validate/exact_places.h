@@ -1,5 +1,5 @@
 // The exact places of the vertices of a cut-mesh, as their cells, masks and parents give them. Whether one thing lies on another is decided
-// by residues, on which side of it by exact numbers.
+// by residues, on which side of it by spots (spots.h).
 #pragma once
 
 #include <array>
@@ -51,37 +51,27 @@ struct PlaneOf {
   bool holds(const Triple<Number>& p) const { return dot(normal, p) == offset; }
 };
 using ExactPlane = PlaneOf<Residue>;
-ExactPlane exactPlane(const Context& context, size_t triangle);
 
-/// The exact coordinates of all vertices.
+/// The exact coordinates of all vertices, and the planes of all triangles.
 class ExactPlaces {
  public:
   explicit ExactPlaces(const Context& context);
   const Residues& operator[](uint32_t v) const { return places_[v]; }
   /// False if the parents of v do not meet in one point.
   bool isKnown(uint32_t v) const { return known_[v] != 0; }
+  const ExactPlane& planeOf(size_t triangle) const { return triPlanes_[triangle]; }
+  /// Of a tri-vertex that a triangle has.
+  const Residues& triVertex(uint32_t v) const { return triVertices_[v]; }
+  const Residue& axialPlane(int axis, size_t plane) const { return axialPlanes_[size_t(axis)][plane]; }
 
  private:
+  void convert(const Context& context);
+
+  std::array<std::vector<Residue>, 3> axialPlanes_;
+  std::vector<Residues> triVertices_;
+  std::vector<ExactPlane> triPlanes_;
   std::vector<Residues> places_;
   std::vector<uint8_t> known_;
 };
-
-/// The point x / w, where w is positive.
-struct ExactPoint {
-  Triple<Exact> x;
-  Exact w;
-};
-/// A vertex whose place is known.
-ExactPoint exactPoint(const Context& context, uint32_t v);
-/// The point halfway between two points.
-ExactPoint middle(const ExactPoint& a, const ExactPoint& b);
-/// Where the line through two points on different sides of a triangle's plane meets it.
-ExactPoint meet(const Context& context, const ExactPoint& a, const ExactPoint& b, size_t triangle);
-/// The side of a triangle's plane that a point lies on: 1 if its normal points there, 0 in the plane.
-int sideOf(const Context& context, const ExactPoint& p, size_t triangle);
-/// 1 if a, b, c turn counter-clockwise about +axis.
-int turn(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int axis);
-/// The sign of a - b along an axis.
-int compare(const ExactPoint& a, const ExactPoint& b, int axis);
 
 }  // namespace mandoline::validation

@@ -110,14 +110,13 @@ class FaceCheck {
   void checkInTriangle(size_t f, uint32_t t) {
     const Vec3 origin = x_.corner(t, 0);
     const Vec3 b = x_.inRoundings(x_.corner(t, 1), origin), c = x_.inRoundings(x_.corner(t, 2), origin);
-    const ExactPlane plane = exactPlane(x_, t);
     bool inPlane = true;
     for (const std::span<const uint32_t> loop : x_.cut.loops(f)) {
       for (const uint32_t v : loop) {
         const double distance = distanceToTriangle(x_.inRoundings(x_.vertex(v), origin), {}, b, c);
         found_.planarity.measure(Deviation::ofDistance(distance), "face", int64_t(f),
                                  "has a vertex that is off its triangle by {} of the largest coordinate");
-        inPlane &= x_.inPlane(v, plane);
+        inPlane &= x_.inPlane(v, t);
       }
     }
     if (!inPlane) found_.faces.violate("face", int64_t(f), "has a vertex that does not lie exactly in the plane of its triangle");

@@ -70,6 +70,12 @@ class Exact {
   Exact operator-(const Exact& other) const { return sum(other, -1); }
   Exact operator*(const Exact& other) const;
   int sign() const { return digits_.empty() ? 0 : digits_.back() > 0 ? 1 : -1; }
+  /// It is the sum of these, the largest first, each less than half of 2^24 of its unit; divided by (2^24)^power.
+  size_t termCount() const { return digits_.size(); }
+  double term(size_t i, int power) const { return double(digits_[digits_.size() - 1 - i]) * unit(i, power); }
+  double unit(size_t i, int power) const { return std::ldexp(1.0, kBits * (end() - 1 - int(i) - power)); }
+  /// The power of 2^24 above it.
+  int end() const { return exponent_ + int(digits_.size()); }
 
  private:
   static constexpr int kBits = 24;

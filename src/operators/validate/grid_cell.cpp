@@ -7,8 +7,32 @@
 
 namespace mandoline::validation {
 
+void VertexNumbers::clear() {
+  vertices_.clear();
+  slots_.assign(64, kFree);
+}
+
+uint32_t VertexNumbers::add(uint32_t vertex) {
+  const size_t slot = slotOf(vertex);
+  if (slots_[slot] != kFree) return slots_[slot];
+  const uint32_t number = uint32_t(vertices_.size());
+  slots_[slot] = number;
+  vertices_.push_back(vertex);
+  if (2 * vertices_.size() > slots_.size()) {
+    slots_.assign(2 * slots_.size(), kFree);
+    for (uint32_t i = 0; i < vertices_.size(); ++i) slots_[slotOf(vertices_[i])] = i;
+  }
+  return number;
+}
+
+uint32_t GridCell::addVertex(uint32_t v) {
+  const uint32_t number = numbers.add(v);
+  if (number == places.size()) places.push_back(local(context.vertex(v)));
+  return number;
+}
+
 void GridCell::gather(size_t group) {
-  faces.clear(), cornerVertex.clear(), cornerNext.clear(), corners.clear(), listings_.clear();
+  faces.clear(), cornerVertex.clear(), cornerNext.clear(), corners.clear(), listings_.clear(), numbers.clear(), places.clear();
   cells = context.groups[group];
   for (int d = 0; d < 3; ++d) {
     const std::vector<double>& planes = context.planes()[size_t(d)];
@@ -28,6 +52,7 @@ void GridCell::gather(size_t group) {
     int32_t& owner = faces.back().owner[listing.halfFace % 2];
     if (owner < 0) owner = listing.cell;
   }
+  for (const Edge& edge : context.edgesBeyond[group]) addVertex(edge[0]), addVertex(edge[1]);
   faceTree.build(faces.size(), [&](size_t f) { return detail::BoxTree::Item{boxOf(faces[f].low, faces[f].high), uint32_t(f)}; });
 }
 
@@ -45,7 +70,7 @@ void GridCell::addFace(uint32_t id) {
 void GridCell::addLoop(Face& face, std::span<const uint32_t> loop) {
   const size_t first = corners.size();
   for (size_t i = 0; i < loop.size(); ++i) {
-    const Vec3 q = local(context.vertex(loop[i]));
+    const Vec3 q = places[addVertex(loop[i])];
     for (int d = 0; d < 3; ++d) face.low[d] = std::min(face.low[d], q[d]), face.high[d] = std::max(face.high[d], q[d]);
     corners.push_back(q);
     cornerVertex.push_back(loop[i]);

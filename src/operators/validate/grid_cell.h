@@ -8,6 +8,27 @@ namespace mandoline::validation {
 
 inline detail::Box boxOf(const Vec3& low, const Vec3& high) { return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}; }
 
+/// Numbers the vertices of a grid cell from 0, in the order in which they are added.
+class VertexNumbers {
+ public:
+  void clear();
+  /// Its number, also if it has one already.
+  uint32_t add(uint32_t vertex);
+  /// Of a vertex that has been added.
+  uint32_t of(uint32_t vertex) const { return slots_[slotOf(vertex)]; }
+  const std::vector<uint32_t>& vertices() const { return vertices_; }
+
+ private:
+  static constexpr uint32_t kFree = UINT32_MAX;
+  size_t slotOf(uint32_t vertex) const {
+    size_t slot = (vertex * 0x9e3779b97f4a7c15u >> 32) & (slots_.size() - 1);
+    while (slots_[slot] != kFree && vertices_[slots_[slot]] != vertex) slot = (slot + 1) & (slots_.size() - 1);
+    return slot;
+  }
+
+  std::vector<uint32_t> vertices_, slots_;
+};
+
 /// The cut-cells of one grid cell, in coordinates of that cell: 0 to 1 per axis.
 struct GridCell {
   struct Face {
@@ -25,6 +46,8 @@ struct GridCell {
   /// Becomes the grid cell of a group.
   void gather(size_t group);
   Vec3 local(const Vec3& p) const { return {{(p[0] - low[0]) / size[0], (p[1] - low[1]) / size[1], (p[2] - low[2]) / size[2]}}; }
+  /// Of a vertex of a face or an edge beyond.
+  const Vec3& placeOf(uint32_t vertex) const { return places[numbers.of(vertex)]; }
   /// Of the loops of faces[f].
   std::span<const uint32_t> vertices(size_t f) const {
     return {cornerVertex.data() + faces[f].firstCorner, faces[f].lastCorner - faces[f].firstCorner};
@@ -36,6 +59,8 @@ struct GridCell {
   Vec3 noise;                          ///< one rounding
   std::span<const uint32_t> cells;     ///< its cut-cells, ascending
   std::vector<Face> faces;             ///< by ascending id
+  VertexNumbers numbers;               ///< of the vertices of faces and of edges beyond
+  std::vector<Vec3> places;            ///< theirs, by number
   std::vector<uint32_t> cornerVertex;  ///< loops of all faces
   std::vector<uint32_t> cornerNext;    ///< the next corner of the loop
   std::vector<Vec3> corners;           ///< their positions
@@ -46,6 +71,7 @@ struct GridCell {
     uint32_t halfFace;
     int32_t cell;
   };
+  uint32_t addVertex(uint32_t v);
   void addFace(uint32_t id);
   void addLoop(Face& face, std::span<const uint32_t> loop);
   std::vector<Listing> listings_;

@@ -1,10 +1,13 @@
 // The checks that look at one grid cell after the other. Each keeps its tallies and its buffers.
 #pragma once
 
+#include <deque>
+
 #include "base/disjoint_sets.h"
 #include "operators/validate/grid_cell.h"
 #include "operators/validate/hubs.h"
 #include "operators/validate/passes.h"
+#include "operators/validate/spots.h"
 
 namespace mandoline::validation {
 
@@ -27,6 +30,9 @@ class EdgeCheck {
     Edge edge;
     uint32_t face;
     bool forward;  ///< whether the face runs from the lower vertex to the higher one
+
+    /// Orders by edge, then by face.
+    std::pair<uint64_t, uint64_t> key() const { return {uint64_t(edge[0]) << 32 | edge[1], 2 * uint64_t(face) + forward}; }
   };
   void collectUses(const GridCell& cell);
   void checkCancel(const GridCell& cell, std::span<const Use> uses);
@@ -51,11 +57,10 @@ class ConformingCheck {
   Check conforming() const { return conforming_.finish(); }
 
  private:
-  void gatherVertices(const GridCell& cell, const std::vector<Edge>& edges);
+  void gatherVertices(const GridCell& cell);
   void checkVertex(const GridCell& cell, const Edge& edge, uint32_t vertex);
   static bool isBetween(const Context& context, const Edge& edge, uint32_t vertex);
 
-  std::vector<uint32_t> ids_;
   detail::BoxTree vertices_;  // of the grid cell, by place
   Tally conforming_{"conforming"};
 };
@@ -74,6 +79,26 @@ class GridFaceCheck {
   std::vector<uint32_t> vertices_;
   detail::DisjointSets components_;
   Tally divided_{"gridFaces"};
+};
+
+/// Things with numbers from 0 that are made when they are first needed.
+template <class Thing>
+class MadeOnce {
+ public:
+  void start(size_t count) { things_.clear(), places_.assign(count, kNone); }
+  template <class Make>
+  const Thing& at(size_t number, const Make& make) {
+    if (places_[number] == kNone) {
+      places_[number] = uint32_t(things_.size());
+      things_.push_back(make());
+    }
+    return things_[places_[number]];
+  }
+
+ private:
+  static constexpr uint32_t kNone = UINT32_MAX;
+  std::deque<Thing> things_;  // which stay where they are
+  std::vector<uint32_t> places_;
 };
 
 /// Tri-faces and edges meet only in shared vertices and edges.
@@ -111,13 +136,13 @@ class CrossingCheck {
   void checkFaces(const GridCell& cell, uint32_t f, uint32_t g);
   bool gatherNear(const GridCell& cell, uint32_t face, uint32_t other);
   void sortAlongLine(const GridCell& cell);
-  bool passesThrough(const GridCell& cell, const Segment& edge, double share, uint32_t face) const;
-  bool holdsMiddle(const GridCell& cell, const Segment& points, uint32_t face) const;
+  bool passesThrough(const GridCell& cell, const Segment& edge, double share, uint32_t face);
+  bool holdsMiddle(const GridCell& cell, const Segment& points, uint32_t face);
   bool bounds(const GridCell& cell, const Edge& edge, const GridCell::Face& face) const;
-  bool isInside(const GridCell& cell, const GridCell::Face& face, const ExactPoint& point) const;
-  int sideOf(const GridCell& cell, uint32_t vertex, double height, uint32_t face) const;
+  bool isInside(const GridCell& cell, const GridCell::Face& face, const Spot& point);
+  int sideOf(const GridCell& cell, uint32_t vertex, double height, uint32_t face);
+  const Spot& spotAt(const GridCell& cell, uint32_t vertex);
   static bool areKnown(const Context& context, const Edge& ends);
-  static bool crossExactly(const Context& context, const Edge& one, const Edge& other);
   bool isIn(const GridCell& cell, uint32_t vertex, uint32_t face) const;
   bool haveOnePlane(const GridCell& cell, uint32_t f, uint32_t g) const;
 
@@ -128,6 +153,8 @@ class CrossingCheck {
   HubTree faceTree_, segmentTree_;  // of tri-faces and of segments
   detail::BoxTree directionTree_;   // of tri-faces, seen from a hub
   std::vector<Common> common_;
+  MadeOnce<Spot> spots_;            // of the grid cell's vertices, by number
+  MadeOnce<FinePlane> finePlanes_;  // of tri-faces
   Tally crossings_{"crossings"};
 };
 

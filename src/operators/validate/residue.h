@@ -71,9 +71,13 @@ class Residue {
 
   /// The upper 64 bits of a b.
   static uint64_t upper(uint64_t a, uint64_t b) {
+#ifdef __SIZEOF_INT128__
+    return uint64_t(static_cast<unsigned __int128>(a) * b >> 64);
+#else
     const uint64_t low = UINT32_MAX, one = (a >> 32) * (b & low) + ((a & low) * (b & low) >> 32),
                    other = (a & low) * (b >> 32) + (one & low);
     return (a >> 32) * (b >> 32) + (one >> 32) + (other >> 32);
+#endif
   }
   /// a b / 2^64 modulo the prime (Montgomery), for a below the prime.
   static uint64_t product(uint64_t a, uint64_t b) {

@@ -64,10 +64,10 @@ class VertexCheck {
   void checkMask(uint32_t v) {
     if (!x_.exact.isKnown(v)) return vertices_.violate("vertex", v, "has parents that do not meet in one point");
     for (int d = 0; d < 3; ++d) {
-      const auto& planes = x_.planes()[size_t(d)];
       const size_t c = size_t(x_.cellAt(v)[d]);
       const Residue p = x_.exact[v][size_t(d)];
-      const bool fits = x_.onPlane(v, d) ? p == planes[c] : !(p == planes[c]) && !(p == planes[c + 1]);
+      const auto isOn = [&](size_t plane) { return p == x_.exact.axialPlane(d, plane); };
+      const bool fits = x_.onPlane(v, d) ? isOn(c) : !isOn(c) && !isOn(c + 1);
       if (!fits) return vertices_.violate("vertex", v, "is on other planes than its mask says");
     }
   }
@@ -102,7 +102,7 @@ class VertexCheck {
     const Vec3 p = x_.vertex(v), start = x_.triVertex(a), end = x_.triVertex(b);
     const double distance = distanceToSegment({}, x_.inRoundings(start, p), x_.inRoundings(end, p));
     positions_.measure(Deviation::ofDistance(distance), "vertex", v, "is off its tri-edge by {} of the largest coordinate");
-    if (x_.exact.isKnown(v) && !collinear(x_.exact[v], exactPlace(start), exactPlace(end)))
+    if (x_.exact.isKnown(v) && !collinear(x_.exact[v], x_.exact.triVertex(a), x_.exact.triVertex(b)))
       vertices_.violate("vertex", v, "does not lie on its tri-edge");
   }
 
@@ -111,7 +111,7 @@ class VertexCheck {
     const auto corner = [&](int i) { return x_.inRoundings(x_.corner(triangle, i), p); };
     const double distance = distanceToTriangle({}, corner(0), corner(1), corner(2));
     positions_.measure(Deviation::ofDistance(distance), "vertex", v, "is off its triangle by {} of the largest coordinate");
-    if (!x_.inPlane(v, exactPlane(x_, triangle))) vertices_.violate("vertex", v, "does not lie in the plane of its triangle");
+    if (!x_.inPlane(v, triangle)) vertices_.violate("vertex", v, "does not lie in the plane of its triangle");
   }
 
   const Context& x_;

@@ -1,0 +1,53 @@
+// Points of which is known exactly on which side of one another they lie. Bounds decide nearly always; of what they leave open, residues
+// find what is 0, and exact numbers decide the rest.
+#pragma once
+
+#include <optional>
+
+#include "operators/validate/context.h"
+#include "operators/validate/fine.h"
+
+namespace mandoline::validation {
+
+/// The point x / w, where w is positive.
+struct ExactPoint {
+  Triple<Exact> x;
+  Exact w;
+};
+
+/// A vertex, a point halfway between two vertices, or where their line meets a triangle's plane.
+struct Spot {
+  Triple<Fine> place;
+  Residues x;                                 ///< the place, times w
+  Residue w;                                  ///< 0 where there are only exact numbers
+  uint32_t vertex = 0;                        ///< where `ends` are none
+  std::array<const Spot*, 2> ends{};          ///< vertices, which must outlive it
+  int64_t triangle = -1;                      ///< -1: halfway
+  mutable std::optional<ExactPoint> exact{};  ///< made when it is first needed
+};
+
+Spot spotOf(const Context& context, uint32_t v);
+/// The point halfway between two vertices.
+Spot middle(const Spot& a, const Spot& b);
+/// Where the line through two vertices on different sides of a triangle's plane meets it.
+Spot meet(const Context& context, const Spot& a, const Spot& b, size_t triangle);
+
+/// The plane of a triangle, with a point near or in it from where heights are measured.
+struct FinePlane {
+  Triple<Bounded> normal;
+  Triple<Fine> origin;
+  Bounded height;  ///< of the origin
+  size_t triangle;
+  mutable std::optional<PlaneOf<Exact>> exact{};  ///< made when it is first needed
+};
+FinePlane finePlane(const Context& context, size_t triangle, const Spot& origin);
+/// Exact: the side of a triangle's plane that a vertex lies on, which is not in it: 1 if its normal points there.
+int sideOf(const Context& context, const FinePlane& plane, const Spot& spot);
+/// Exact: 1 if a, b, c turn counter-clockwise about +axis.
+int turn(const Context& context, const std::array<const Spot*, 3>& spots, int axis);
+/// Exact: the sign of a - b along an axis.
+int compare(const Context& context, const Spot& a, const Spot& b, int axis);
+/// Whether four vertices are surely not in one plane.
+bool areSurelySkew(const std::array<const Spot*, 4>& spots);
+
+}  // namespace mandoline::validation
