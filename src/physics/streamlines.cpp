@@ -13,7 +13,7 @@ struct Chunk {
 };
 
 void append(const Streamlines& more, Streamlines& lines) {
-  if (lines.speeds.size() + more.speeds.size() >= uint64_t(1) << 32)
+  if (uint64_t(lines.speeds.size()) + more.speeds.size() >= uint64_t(1) << 32)
     throw CallError({Status::meshTooLarge, -1, -1, "The streamlines have 2^32 points or more."});
   for (const uint32_t first : more.offsets) lines.offsets.push_back(uint32_t(lines.speeds.size()) + first);
   lines.points.insert(lines.points.end(), more.points.begin(), more.points.end());
