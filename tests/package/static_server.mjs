@@ -25,7 +25,7 @@ function fileAt(folder, path) {
 
 /**
  * Starts the server on a free port. Returns { url, requests, close }: `url` ends with the sub-path and a slash, `requests` lists the paths
- * asked for with their status.
+ * asked for with their status and time (Date.now()).
  */
 export async function serveFolder({ folder, subPath = '/', headers = {} }) {
   const root = resolve(folder);
@@ -35,7 +35,7 @@ export async function serveFolder({ folder, subPath = '/', headers = {} }) {
     const { pathname } = new URL(request.url, 'http://localhost');
     const file = pathname.startsWith(base) ? fileAt(root, pathname.slice(base.length)) : null;
     const status = file ? 200 : 404;
-    requests.push({ path: pathname, status });
+    requests.push({ path: pathname, status, at: Date.now() });
     response.writeHead(status, { 'Content-Type': types[file && extname(file)] ?? 'application/octet-stream', ...headers });
     if (file) createReadStream(file).pipe(response);
     else response.end();

@@ -100,6 +100,33 @@ test('a flight to the other side goes around what is looked at, about the axis u
   }
 });
 
+test('it flies around what is in view to look from any direction, and tells how it sees the axes', () => {
+  for (const up of ['x', 'y', 'z']) {
+    for (const [d, sign] of [0, 1, 2].flatMap((axis) => [
+      [axis, 1],
+      [axis, -1],
+    ])) {
+      let time = 5000;
+      const view = new Camera(canvas(), Object.assign(new EventTarget(), { matches: false }), () => time);
+      view.setUp(up);
+      view.frame(cube(2, 1), false);
+      let seen = null;
+      view.onTurned = (axes) => (seen = axes);
+      view.lookFrom(view.at.target.clone().set(0, 0, 0).setComponent(d, sign));
+      for (; time < 6000; time += 100) view.update();
+      const toViewer = seen[d][2];
+      assert.ok(Math.abs(toViewer - sign) < 1e-5, `${toViewer} from ${sign} ${d}, ${up} upwards`);
+      const { position, target } = view.at;
+      assert.ok(target.distanceTo(position.clone().set(2, 0, 0)) < 1e-3, 'the cube is in the middle');
+      for (const [right, over] of seen)
+        assert.ok(
+          [right, over].every((x) => Math.abs(x - Math.round(x)) < 2e-3),
+          String(seen),
+        );
+    }
+  }
+});
+
 test('a flight ends where the person takes over', () => {
   const press = (_view, element, ms) => {
     if (ms === 200) element.dispatchEvent(Object.assign(new Event('keydown'), { key: '+' }));
@@ -113,4 +140,20 @@ test('a flight goes on in a scene that has been moved', () => {
   const move = (view, _element, ms) => ms === 200 && view.transform((point) => point.clone().addScalar(10));
   const { places, there } = flight([0, 200, 1000], false, move);
   assert.ok(Math.abs(places[2] - 10 - there.target.x) < 1e-9);
+});
+
+test('where the person has moved it is told, also if the scene is moved before that', async () => {
+  const view = new Camera(canvas(), Object.assign(new EventTarget(), { matches: false }));
+  const told = [];
+  view.onMoved = () => told.push(view.at.position.x);
+  view.update();
+  view.controls.rotateLeft(0.5);
+  view.transform((point) => point.clone().addScalar(10));
+  await new Promise((resolve) => setTimeout(resolve, 300));
+  assert.deepEqual(told, []); // nobody has taken hold of it
+  view.controls.dispatchEvent({ type: 'start' });
+  view.controls.rotateLeft(0.5);
+  view.transform((point) => point.clone().addScalar(10));
+  await new Promise((resolve) => setTimeout(resolve, 300));
+  assert.deepEqual(told, [view.at.position.x]);
 });

@@ -8,6 +8,7 @@ import { settledPixels } from './pictures.mjs';
 import { cutOf, galleryMesh, mandoline } from './reference.mjs';
 
 const { comparison } = await importBundled('worker/compare/index.ts');
+const { otherGrid } = await importBundled('model/comparison.ts');
 const { cubeCases, cubeEdges } = await importBundled('worker/compare/marching_cubes.ts');
 
 const extentOf = ({ volume, area }) => ({ volume, area });
@@ -22,7 +23,7 @@ const origin = [0.1, 0.2, 0.3];
 
 async function compared([mesh, grid]) {
   const { cutMesh, measures } = await cutOf(mesh, grid);
-  return { cutMesh, measures, ...comparison(mandoline, { mesh, cutMesh, origin, measures: null }) };
+  return { cutMesh, measures, ...comparison(mandoline, { mesh, cutMesh, origin, measures: null }, null) };
 }
 
 test('each case of marching cubes parts the corners inside from the others, and cubes side by side agree', () => {
@@ -92,10 +93,41 @@ for (const [name, given] of Object.entries(cases)) {
   });
 }
 
+/** How many cells are inside: those with a winding number. */
+function countInside({ cellRegion, regionWinding, runRegion, runBegin, runEnd }) {
+  const isIn = (region) => regionWinding[region] !== 0;
+  const untouched = runRegion.reduce((sum, region, run) => sum + (isIn(region) ? runEnd[run] - runBegin[run] : 0), 0);
+  return { cut: cellRegion.filter(isIn).length, untouched };
+}
+
+test('cut-cells of a coarser and a finer grid have the same volume and area, and other cells', async () => {
+  const [mesh, grid] = cases.bunny;
+  const cut = { ...(await cutOf(mesh, grid)), origin };
+  for (const [way, cells] of [
+    ['coarser', 8],
+    ['finer', 32],
+  ]) {
+    assert.deepEqual(otherGrid(grid, way), { cells });
+    const other = { ...(await cutOf(mesh, { cells })), origin: [7, 8, 9] };
+    const { exact, ways } = comparison(mandoline, cut, { way, cut: other });
+    assert.deepEqual(Object.keys(ways), ['voxels', 'cubes', way]);
+    const surface = ways[way];
+    for (const what of ['volume', 'area']) assert.ok(Math.abs(surface[what] / exact[what] - 1) < 1e-12, `${way}, ${what}`);
+    assert.deepEqual(surface.cells, countInside(other.cutMesh));
+    assert.deepEqual(exact.cells, countInside(cut.cutMesh));
+    assertClosed({ triangles: surface.index });
+    assert.deepEqual(
+      surface.grid.low.map((x, d) => Math.abs(x + origin[d] - other.cutMesh.grid.planes[d][0]) < 1e-12),
+      [true, true, true],
+    );
+  }
+  assert.deepEqual(otherGrid({ min: [0, 0, 0], max: [1, 2, 3], cells: [1, 5, 8] }, 'coarser').cells, [1, 3, 4]);
+});
+
 test('a box on grid planes is what voxels make of it', async () => {
   const { ways, exact } = await compared([box([1, 1, 1], [3, 2, 2]), { min: [0, 0, 0], max: [4, 4, 4], cells: [4, 4, 4] }]);
   assert.deepEqual(extentOf(ways.voxels), { volume: 2, area: 10 });
-  assert.deepEqual(exact, { volume: 2, area: 10 });
+  assert.deepEqual(extentOf(exact), { volume: 2, area: 10 });
 });
 
 test('a grid inside a box is full, and closed by its sides, in all ways', async () => {
@@ -182,11 +214,36 @@ describe('on the page', async () => {
     const { x, y, width, height } = await page.locator('#canvas').boundingBox();
     await page.mouse.click(x + 0.35 * width, y + 0.5 * height);
     assert.equal(await page.locator('#cell-card').isVisible(), false, 'voxels are not cut-cells that can be picked');
+    await page.mouse.move(0, 0); // A cell that comes under the pointer would be lit.
     await page.locator('#divider').press('End');
     await eventually(async () => assert.equal(await changedIn(0, 1), 0));
     await openPanel(page, 'steps');
     await page.locator('#step-next').click();
     await eventually(async () => assert.equal(await page.locator('#divider').count(), 0, 'a step is not divided'));
+  });
+
+  test('cut-cells of a finer grid stand beside; the table has their numbers, which are the same', async (t) => {
+    const page = await site.open(t, 'mesh=torus-knot&n=12&compare=finer', { panels: ['compare'] });
+    await shows(page, '#canvas', { compare: 'finer' });
+    const mesh = await galleryMesh('torus-knot');
+    const row = async (way) => {
+      const { cut, untouched } = await dataOf(page, `#compare [data-way="${way}"]`);
+      return { cut: Number(cut), untouched: Number(untouched) };
+    };
+    const isBeside = async (way, cells) => {
+      const { cutMesh } = await cutOf(mesh, { cells });
+      await eventually(async () => assert.deepEqual(await row(way), countInside(cutMesh)));
+      assert.ok((await textOf(page, '#divided')).includes(`${cutMesh.grid.cells.join(' × ')} grid`));
+      const [exact, other] = [await rowOf(page, 'cutCells'), await rowOf(page, way)];
+      for (const what of ['volume', 'area']) assert.ok(Math.abs(other[what] / exact[what] - 1) < 1e-12, what);
+      assert.match(await textOf(page, `#compare [data-way="${way}"]`), /(the same|same to).*(the same|same to)/);
+    };
+    await isBeside('finer', 24);
+    await page.locator('#compare-coarser').check();
+    await isBeside('coarser', 6);
+    await slideTo(page, '#cells', 14);
+    await isBeside('coarser', 7);
+    assert.deepEqual(await row('cutCells'), countInside((await cutOf(mesh, { cells: 14 })).cutMesh));
   });
 
   test('where there is no inside, as of an open sheet, the page says so', async (t) => {
@@ -196,6 +253,7 @@ describe('on the page', async () => {
     assert.equal(await page.locator('#divider').count(), 0);
     await page.locator('#gallery [data-name="wedge"]').click();
     assert.equal(await isReady(page), 'ready');
+    await page.locator('#compare-cubes').check();
     await shows(page, '#canvas', { compare: 'cubes' });
     assert.equal(await textOf(page, '#compare-note'), '');
   });

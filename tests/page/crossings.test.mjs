@@ -105,7 +105,7 @@ describe('the banner', () => {
     await eventually(async () => assert.ok(await hasGlow(page), 'the curves are seen'));
     assert.equal(await page.locator('#show-crossings').getAttribute('aria-pressed'), 'true');
     await slideTo(page, '#cells', 9);
-    await shows(page, '#counts', { grid: '9x6x6' });
+    await shows(page, '#counts', { grid: '9x5x6' });
     assert.equal(await isReady(page), 'ready');
     await shows(page, '#canvas', { instead: 'crossings' });
     await page.locator('#show-crossings').press('Enter');
@@ -129,7 +129,7 @@ describe('the banner', () => {
     await page.locator('#dismiss-crossings').click();
     await shows(page, '#canvas', { instead: '' });
     await slideTo(page, '#cells', 9);
-    await shows(page, '#counts', { grid: '9x6x6' });
+    await shows(page, '#counts', { grid: '9x5x6' });
     assert.equal(await page.locator('#crossings').isVisible(), false);
     await openPanel(page, 'mesh');
     await page.locator('#gallery [data-name="crossing-tori"]').click();

@@ -70,6 +70,19 @@ test('of many resolutions at once the newest wins', async (t) => {
   assert.equal(await page.locator('#cells-number').inputValue(), '14');
 });
 
+test('after a large cut and a small one another thread goes on: memory that grew does not stay', async (t) => {
+  const page = await site.open(t, link('n=8'));
+  const threads = page.workers();
+  await enter(page, '#cells-number', 190);
+  await eventually(async () => assert.equal((await dataOf(page, '#canvas')).model, '2'));
+  assert.ok(threads.every((thread) => page.workers().includes(thread)));
+  await enter(page, '#cells-number', 9);
+  await shows(page, '#counts', countsOf(await cutOf(mesh, { cells: 9 })));
+  await eventually(() => assert.ok(threads.some((thread) => !page.workers().includes(thread))));
+  await enter(page, '#cells-number', 10);
+  await shows(page, '#counts', countsOf(await cutOf(mesh, { cells: 10 })));
+});
+
 test('a custom grid', async (t) => {
   const page = await site.open(t, link('n=8'));
   await page.locator('#custom-grid summary').click();

@@ -1,12 +1,15 @@
 import assert from 'node:assert/strict';
+import { readdirSync, readFileSync } from 'node:fs';
 import { before, describe, test } from 'node:test';
 import { init } from 'mandoline-wasm';
+import { TeapotGeometry } from 'three/examples/jsm/geometries/TeapotGeometry.js';
 import { importBundled } from './bundled.mjs';
 
 const { gallery, galleryMesh } = await importBundled('model/gallery/index.ts');
+const { readPreset } = await importBundled('model/gallery/preset.ts');
 const resolutions = [8, 16, 32, 50];
 
-/** What has to come out: regions at a resolution of 32, whether they have winding numbers, and pairs of triangles that cross. */
+/** What has to come out: regions at a resolution of 32, whether they have winding numbers, and pairs of triangles that cross. Or it is `like` another. */
 const expected = {
   bunny: { windings: [0, 1] },
   hilbert: { windings: [0, 1, 0] },
@@ -30,8 +33,12 @@ const expected = {
   crate: { windings: null },
   'crossing-tori': { windings: [0, 1, 1, 2, 2], crossing: 272 },
   'pushed-blob': { windings: [0, 1, -1], crossing: 112 },
-  teapot: { windings: [0, 1, 1, 1, 2, 2, 2], crossing: 205 },
+  teapot: { windings: null, crossing: 118 },
   'klein-bottle': { windings: null, regions: 2, crossing: 98 },
+  'bunny-in-wind': { like: 'bunny' },
+  'adaptive-grid': { like: 'bunny' },
+  'passing-tori': { like: 'crossing-tori' },
+  'turning-gears': { like: 'gears' },
   'boys-surface': { windings: null, regions: 2, crossing: 291 },
 };
 
@@ -85,11 +92,29 @@ test('an intersection is found', () => {
 
 test('entries are complete and their names differ', () => {
   assert.deepEqual(gallery.map(({ name }) => name).sort(), Object.keys(expected).sort());
-  for (const { name, title, line, cells } of gallery) {
+  for (const { name, title, line } of gallery) {
     assert.match(name, /^[a-z-]+$/);
     assert.ok(title.length > 3 && line.endsWith('.') && line.length < 170, name);
-    assert.ok(Number.isInteger(cells) && cells >= 2 && cells <= 32, name);
   }
+});
+
+test('presets are understood as links are', () => {
+  for (const entry of gallery) {
+    const { settings, problems } = readPreset(entry);
+    assert.deepEqual(problems, [], entry.name);
+    assert.deepEqual(settings.source, { kind: 'gallery', name: entry.name });
+    assert.ok(settings.grid.cells >= 2 && settings.grid.cells <= 32, entry.name);
+    assert.doesNotMatch(entry.preset, /mesh=|%/, entry.name);
+  }
+});
+
+test('every entry has its picture, and all of them are small', () => {
+  const folder = new URL('../../web/public/thumbnails/', import.meta.url);
+  const files = readdirSync(folder).sort();
+  assert.deepEqual(files, gallery.map(({ name }) => `${name}.webp`).sort());
+  const pictures = files.map((file) => readFileSync(new URL(file, folder)));
+  for (const [at, bytes] of pictures.entries()) assert.match(bytes.toString('latin1', 0, 12), /^RIFF.{4}WEBP$/s, files[at]);
+  assert.ok(pictures.reduce((sum, { length }) => sum + length, 0) < 120_000);
 });
 
 test('an unknown name is refused', async () => {
@@ -97,7 +122,14 @@ test('an unknown name is refused', async () => {
   await assert.rejects(galleryMesh('constructor'), /no "constructor"/);
 });
 
-for (const { name, cells } of gallery) {
+for (const entry of gallery) {
+  const { name } = entry;
+  const { cells } = readPreset(entry).settings.grid;
+  const { like } = expected[name];
+  if (like) {
+    test(`${name} has the mesh of ${like}`, async () => assert.deepEqual(await galleryMesh(name), await galleryMesh(like)));
+    continue;
+  }
   describe(name, () => {
     let mandoline;
     let mesh;
@@ -145,4 +177,30 @@ test('the difficult cases lie on the plane between two layers of grid cells', as
   assert.deepEqual(await middleFaces('empty-cone'), { holes: [0, 0, 1, 1], cells: 8 });
   assert.deepEqual((await middleFaces('claw')).holes, [0, 0, 0, 3]);
   assert.deepEqual((await middleFaces('oscillator')).holes, [0, 1, 1, 1, 1]);
+});
+
+test("the teapot's points are those of another program that has Newell's patches", async () => {
+  const { positions, triangles } = await galleryMesh('teapot');
+  const half = 3.15 / 2;
+  const other = new TeapotGeometry(half, 8, true, true, true, false, true).getAttribute('position').array;
+  const isNear = (x, y, z, points, rise) => {
+    for (let at = 0; at < points.length; at += 3) {
+      if (Math.abs(points[at] - x) + Math.abs(points[at + 1] + rise - y) + Math.abs(points[at + 2] - z) < 1e-5) return true;
+    }
+    return false;
+  };
+  for (let at = 0; at < other.length; at += 3) assert.ok(isNear(other[at], other[at + 1] + half, other[at + 2], positions, 0));
+  for (let at = 0; at < positions.length; at += 3) assert.ok(isNear(...positions.subarray(at, at + 3), other, half));
+  // Two triangles for each of 8 by 8 squares of 32 patches, but one at the eight poles, where sides of patches are points.
+  assert.equal(triangles.length / 3, 32 * 64 * 2 - 8 * 8);
+});
+
+test('the teapot is open around its lid, and at both ends of spout and handle', async () => {
+  const { openEdges, inconsistentEdges, nonManifoldEdges, zeroAreaTriangles, components } = (await init()).inspect(
+    await galleryMesh('teapot'),
+  );
+  assert.deepEqual(
+    { openEdges, inconsistentEdges, nonManifoldEdges, zeroAreaTriangles, components },
+    { openEdges: 2 * 32 + 4 * 16, inconsistentEdges: 0, nonManifoldEdges: 0, zeroAreaTriangles: 0, components: 4 },
+  );
 });

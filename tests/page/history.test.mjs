@@ -27,9 +27,10 @@ test('go through meshes, cuts and looks', async (t) => {
   await page.locator('#color-by').selectOption('volume');
   await hasUrl(page, /color=volume/);
   assert.equal(await entries(page), first + 3);
+  await isReady(page);
   const { model } = await dataOf(page, '#canvas');
   await page.goBack();
-  await eventually(async () => assert.equal(await page.locator('#color-by').inputValue(), 'kind'));
+  await eventually(async () => assert.equal(await page.locator('#color-by').inputValue(), 'region'));
   await isReady(page);
   await shows(page, '#counts', { model }); // A look is no reason to cut again.
   await page.goBack();

@@ -7,9 +7,10 @@ import { download, eventually, isReady, openPanel, shows, startSite } from './pa
 const site = await startSite();
 after(() => site.close());
 
-/** The texts of all scripts that were asked for so far, by their paths. */
-async function scripts() {
-  const paths = new Set(site.host.requests.map(({ path }) => path).filter((path) => path.endsWith('.js')));
+/** The texts of all scripts that were asked for until then. */
+async function scripts(until) {
+  const asked = site.host.requests.filter(({ path, at }) => path.endsWith('.js') && at <= until);
+  const paths = new Set(asked.map(({ path }) => path));
   const textAt = async (path) => (await fetch(new URL(path, site.url))).text();
   return Promise.all([...paths].map(textAt));
 }
@@ -20,9 +21,16 @@ test('offline, meshes of the gallery and files of every format are opened and sa
   const page = await site.newPage(t);
   const loaded = [];
   page.on('requestfinished', (request) => loaded.push(request.url()));
+  await page.addInitScript(() => {
+    const noteFirstPicture = (_, observer) => {
+      if (!document.getElementById('canvas')?.dataset.frames) return;
+      window.firstPicture = Date.now();
+      observer.disconnect();
+    };
+    new MutationObserver(noteFirstPicture).observe(document, { subtree: true, childList: true, attributeFilter: ['data-frames'] });
+  });
   await page.goto(`${site.url}#mesh=wedge&n=4`);
-  await page.waitForFunction(() => document.getElementById('canvas').dataset.model);
-  const first = await scripts();
+  const first = await scripts(await (await page.waitForFunction(() => window.firstPicture)).jsonValue());
   assert.ok(has(first, 'WebGL'), 'three draws the picture');
   assert.ok(!has(first, 'THREE.GLTFLoader') && !has(first, 'THREE.GLTFExporter'), 'the picture does not wait for readers and writers');
   await eventually(async () => {
@@ -31,6 +39,13 @@ test('offline, meshes of the gallery and files of every format are opened and sa
         loaded.some((url) => name.test(url)),
         String(name),
       );
+  });
+  const paths = site.host.requests.map(({ path }) => path);
+  const firstOf = (part) => paths.findIndex((path) => path.includes(part));
+  assert.ok(firstOf('thumbnails/') > firstOf('mandoline-'), 'the pictures of the gallery wait for what makes the first picture');
+  await eventually(async () => {
+    const missing = await page.locator('#gallery img').evaluateAll((all) => all.filter((image) => image.naturalWidth === 0).length);
+    assert.equal(missing, 0, 'then all of them are loaded');
   });
   await page.context().setOffline(true);
   const asked = site.host.requests.length;

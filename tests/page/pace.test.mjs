@@ -15,6 +15,13 @@ test('the bunny at 50 cells is cut and drawn while the slider moves', async (t) 
         new PerformanceObserver((list) =>
           window.longTasks.push(...list.getEntries().map(({ startTime, duration }) => [startTime, duration])),
         ).observe({ type: 'longtask', buffered: true });
+        window.shaders = [];
+        const { shaderSource } = WebGL2RenderingContext.prototype;
+        WebGL2RenderingContext.prototype.shaderSource = function (shader, source) {
+          if (source.includes('gl_Position'))
+            window.shaders.push(source.match(/(?<=#define )(CELLS|FACES|BACKS|LINES|PICK|SHADOW|GHOST)\b/g)?.join(' '));
+          return shaderSource.call(this, shader, source);
+        };
       }),
   });
   const longest = async () => {
@@ -41,6 +48,9 @@ test('the bunny at 50 cells is cut and drawn while the slider moves', async (t) 
   assert.equal(await isReady(page), 'ready');
   const drawn = Number((await dataOf(page, '#canvas')).model);
   assert.ok(drawn > first);
+  const ofCells = await page.evaluate(() => window.shaders.filter((defines) => defines?.startsWith('CELLS')));
+  const purposes = ['BACKS', 'FACES', 'GHOST', 'LINES', 'PICK', 'SHADOW'].map((purpose) => `CELLS ${purpose}`);
+  assert.deepEqual(ofCells.sort(), purposes, 'each shader is compiled once');
   t.diagnostic(`while the slider moves from 44 to 54 and back to 50: ${await longest()}`);
   const cells = Number(await slider.inputValue());
   await shows(page, '#counts', { grid: (await cutOf(await galleryMesh('bunny'), { cells })).cutMesh.grid.cells.join('x') });

@@ -43,10 +43,10 @@ async function decode(base64) {
   return { width: bitmap.width, height: bitmap.height, rgba: btoa(text) };
 }
 
-/** The share of the pixels for which a test of red, green and blue holds. */
+/** The share of the pixels for which a test of red, green, blue and alpha holds. */
 export function share({ rgba }, holds) {
   let count = 0;
-  for (let at = 0; at < rgba.length; at += 4) if (holds(rgba[at], rgba[at + 1], rgba[at + 2])) ++count;
+  for (let at = 0; at < rgba.length; at += 4) if (holds(rgba[at], rgba[at + 1], rgba[at + 2], rgba[at + 3])) ++count;
   return (4 * count) / rgba.length;
 }
 

@@ -25,7 +25,7 @@ test('slow pictures get fewer pixels while they follow one another, and all of t
     () => clock.now,
   );
   const shares = draw(quality, clock, { count: 6, every: 100, fullTime: 200 });
-  assert.equal(shares[0], 1, 'the first picture stands');
+  assert.deepEqual(shares.slice(0, 2), [1, 1], 'the first picture stands, and what it took says nothing about the next one');
   assert.equal(Math.min(...shares), shares.at(-1));
   assert.ok(shares.at(-1) <= 0.5);
   assert.equal(refined, 0);

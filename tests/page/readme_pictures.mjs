@@ -1,5 +1,6 @@
 // Makes the README's pictures, and the one that links to the page are shown with, from the built page: node tests/page/readme_pictures.mjs
 import { mkdirSync } from 'node:fs';
+import { makeAnimation } from './animation.mjs';
 import { isReady, shows, startSite } from './page_helpers.mjs';
 import { path } from '../steps.mjs';
 import { setOthers } from './pictures.mjs';
@@ -34,6 +35,8 @@ await page.waitForTimeout(3000);
 await setOthers(page, '#canvas', 'hidden');
 for (const selector of ['h1', '.what']) await page.locator(selector).evaluate((element) => (element.style.visibility = 'visible'));
 await page.screenshot({ path: path('web', 'pictures', 'share.jpg'), type: 'jpeg', quality: 88 });
+
+await makeAnimation(site, { after: (f) => cleanUp.push(f) }, path('web', 'pictures', 'bunny.webp'));
 
 for (const f of cleanUp) await f();
 await site.close();

@@ -76,6 +76,32 @@ describe('what is drawn', () => {
     about(area(faces.position), (0.81 * Math.hypot(...cross(minus(b, a), minus(c, a)))) / 2);
   });
 
+  test('the frame is the grid cells that hold the triangle, the grid cell, or all of the grid around an axial plane', async () => {
+    const { mesh, cutMesh, picture } = await subject('bunny', 32);
+    const { planes } = cutMesh.grid;
+    const origin = [0.1, 0.2, 0.3];
+    const indicesOf = ({ min, max }) =>
+      [min, max].map((end) => end.map((x, d) => planes[d].findIndex((plane) => Math.abs(plane - x - origin[d]) < 1e-12)));
+    const triangle = 100;
+    for (const kind of ['triEdges', 'hybridEdges', 'triangleFaces']) {
+      const [from, to] = indicesOf(picture({ kind, triangle }, origin).frame);
+      for (let d = 0; d < 3; ++d) {
+        const xs = [0, 1, 2].map((k) => mesh.positions[3 * mesh.triangles[3 * triangle + k] + d]);
+        const [low, high] = [Math.min(...xs), Math.max(...xs)];
+        assert.ok(planes[d][from[d]] <= low && low < planes[d][from[d] + 1], kind);
+        assert.ok(planes[d][to[d] - 1] < high && high <= planes[d][to[d]], kind);
+      }
+    }
+    assert.deepEqual(indicesOf(picture({ kind: 'gridCell', gridCell: [3, 4, 5] }, origin).frame), [
+      [3, 4, 5],
+      [4, 5, 6],
+    ]);
+    const [from, to] = indicesOf(picture({ kind: 'axialPlane', axis: 2, plane: 7 }, origin).frame);
+    assert.deepEqual([from, to], [[0, 0, 0], [...cutMesh.grid.cells]]);
+    const { picture: ofClaw } = await subject('claw', 2);
+    assert.equal(ofClaw({ kind: 'triEdges' }).frame, null, 'all of the mesh is shown');
+  });
+
   test('cut-cells fill their grid cell', async () => {
     for (const [name, cells] of [
       ['bunny', 16],

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { after, describe, test } from 'node:test';
 import { writeObj } from '../package/meshes.mjs';
-import { dataOf, enter, eventually, openPanel, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
+import { dataOf, enter, eventually, isReady, openPanel, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
 import { covered, difference, looksLike, pixelsOf, settledPixels, tiles } from './pictures.mjs';
 import { cutOf, galleryMesh, mandoline } from './reference.mjs';
 
@@ -61,6 +61,39 @@ describe('steps', () => {
     }
   });
 
+  test('a small picture shows where on the model a triangle is, and none where all of the grid is seen', async (t) => {
+    const page = await site.open(t, link);
+    await openPanel(page, 'steps');
+    await page.locator('#step-axialPlane').click();
+    await shows(page, '#canvas', { instead: 'axialPlane', inset: '' });
+    await page.locator('#step-triangleFaces').click();
+    await shows(page, '#canvas', { instead: 'triangleFaces', inset: 'shown' });
+    const middleX = (triangle) => [0, 1, 2].reduce((sum, k) => sum + knot.positions[3 * knot.triangles[3 * triangle + k]] / 3, 0);
+    const byX = Array.from({ length: knot.triangles.length / 3 }, (_, triangle) => triangle).sort((a, b) => middleX(a) - middleX(b));
+    const markOf = async (triangle) => {
+      await enter(page, '#step-triangle-number', triangle);
+      await hasStepText(page, new RegExp(`triangle ${triangle} `));
+      const { rgba, width } = await settledPixels(page);
+      const [columns, rows] = [
+        [18, 140],
+        [66, 190],
+      ];
+      let [count, sum] = [0, 0];
+      for (let y = rows[0]; y < rows[1]; ++y) {
+        for (let x = columns[0]; x < columns[1]; ++x) {
+          const [r, g, b] = rgba.subarray(4 * (x + width * y), 4 * (x + width * y) + 3);
+          if (r > 190 && g < 90 && b > 100) [count, sum] = [count + 1, sum + x];
+        }
+      }
+      assert.ok(count > 20, `${count} pixels of the mark`);
+      return sum / count;
+    };
+    const [left, right] = [await markOf(byX[0]), await markOf(byX.at(-1))];
+    assert.ok(right - left > 45, `from ${left} to ${right}`);
+    await page.locator('#step-leave').click();
+    await shows(page, '#canvas', { instead: '', inset: '' });
+  });
+
   test('any axial plane', async (t) => {
     const page = await site.open(t, link);
     await openPanel(page, 'steps');
@@ -117,8 +150,62 @@ describe('checks', () => {
       return all.map((row) => [...row.cells].slice(1).map((cell) => Number(cell.innerText)));
     });
     assert.deepEqual(shown, rows);
+  });
+
+  test('of a small cut are made by themselves once it stands, and told in one line', async (t) => {
+    const page = await site.open(t, link);
+    const { grid, cellGridCell, cellRegion } = cutMesh;
+    const filled = new Map();
+    reference.measures.cellVolume.forEach((volume, cell) => {
+      const at = cellGridCell.subarray(3 * cell, 3 * cell + 3);
+      const share = at.reduce((rest, i, d) => rest / (grid.planes[d][i + 1] - grid.planes[d][i]), volume);
+      filled.set(at.join(), (filled.get(at.join()) ?? 0) + share);
+    });
+    const gap = Math.max(...Array.from(filled.values(), (share) => Math.abs(share - 1)));
+    assert.ok(gap < 1e-14, `${gap} of a cell`);
+    const isChecked = () =>
+      eventually(async () => assert.equal((await dataOf(page, '#check-line')).model, (await dataOf(page, '#counts')).model));
+    await isChecked();
+    const [count, words] = [cellRegion.length.toLocaleString('en'), gap === 0 ? 'exactly' : `within ${gap.toPrecision(1)} of a cell`];
+    assert.equal(await textOf(page, '#check-line'), `All ${count} cut-cells are closed; their volumes add up to the grid's ${words}.`);
+    await page.mouse.move(300, 300);
+    await page.mouse.down();
     await slideTo(page, '#cells', 7);
-    await eventually(async () => assert.equal((await dataOf(page, '#validation')).pass, undefined, 'of another cut nothing is said'));
+    assert.equal(await isReady(page), 'ready');
+    await page.waitForTimeout(1200);
+    assert.equal(await page.locator('#check-line').count(), 0, 'of a cut that is held nothing is said');
+    await page.mouse.up();
+    await isChecked();
+    await slideTo(page, '#cells', 24);
+    assert.equal(await isReady(page), 'ready');
+    assert.ok(Number((await dataOf(page, '#counts')).faces) > 14_000);
+    await page.waitForTimeout(1200);
+    assert.equal(await page.locator('#check-line').count(), 0, 'a larger one is checked when that is asked for');
+    await openPanel(page, 'checks');
+    await page.locator('#validate').click();
+    await isChecked();
+    await shows(page, '#validation', { pass: true });
+  });
+
+  test('that fail are said loudly', async (t) => {
+    const page = await site.open(t, link, {
+      onNewPage: (made) =>
+        made.addInitScript(() => {
+          // The page's own cuts pass.
+          window.Worker = class extends Worker {
+            addEventListener(type, take) {
+              super.addEventListener(type, (event) => {
+                const check = event.data?.value?.checks?.[8];
+                if (check) Object.assign(check, { pass: false, worst: 1, message: 'Cell 3 is not closed.' });
+                if (check) event.data.value.pass = false;
+                take(event);
+              });
+            }
+          };
+        }),
+    });
+    await page.getByRole('alert').filter({ hasText: 'The cut-mesh is wrong' }).waitFor();
+    assert.match(await textOf(page, '#check-line'), /^1 of \d+ checks failed\. Cell 3 is not closed\.$/);
   });
 
   test('what fails is said in sentences, without raw numbers', async () => {

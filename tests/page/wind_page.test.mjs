@@ -127,9 +127,11 @@ for (const [name, what] of [
   ['klein-bottle', 'self-crossing'],
 ]) {
   test(`wind about ${name}, which is ${what}`, async (t) => {
-    const page = await site.open(t, 'mesh=wedge&wind=1,0,0&flow=speed&tunnel=24');
+    const wind = 'wind=1,0,0&flow=speed&tunnel=24';
+    const page = await site.open(t, `mesh=wedge&${wind}`);
     await shows(page, '#canvas', { wind: '1,0,0' });
-    await page.locator(`#gallery [data-name="${name}"]`).click();
+    await page.evaluate((hash) => (location.hash = hash), `mesh=${name}&${wind}`);
+    await shows(page, '#mesh-line', { name });
     assert.equal(await isReady(page), 'ready');
     await openPanel(page, 'wind');
     const { cells, cutMesh } = await tunnelAbout(name, 24);

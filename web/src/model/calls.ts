@@ -1,7 +1,8 @@
 // What the page asks its worker thread, beside the package's own calls.
-import type { Slice, Validation } from 'mandoline-wasm';
+import type { Slice } from 'mandoline-wasm';
 import type { Vector3 } from './vector';
-import type { Comparison } from './comparison';
+import type { Checks } from './checks';
+import type { Comparison, OtherGridWay } from './comparison';
 import type { Bounds } from './grid_around';
 import type { CellCard, Crossings, Cutting, Model, Slicing, Source, StepPicture, StepRequest, Up } from './types';
 import type { Wind, WindFormat, WindRequest } from './wind';
@@ -35,14 +36,18 @@ export interface Calls {
   keep: { ask: LoadedMesh; answer: void };
   cut: { ask: AboutCut<{ slicing: Slicing }>; answer: Model };
   slice: { ask: AboutCut<{ planes: readonly { normal: Vector3; offset: number }[]; untouched: boolean }>; answer: Slice[] };
-  validate: { ask: AboutCut; answer: Validation };
+  validate: { ask: AboutCut; answer: Checks };
   /** The number of cut-edges. */
   edges: { ask: AboutCut; answer: number };
   card: { ask: AboutCut<{ cell: number }>; answer: CellCard };
   crossings: { ask: AboutCut; answer: Crossings };
-  compare: { ask: AboutCut; answer: Comparison };
+  compare: { ask: AboutCut<{ way: OtherGridWay | null }>; answer: Comparison };
   step: { ask: AboutCut<{ request: StepRequest }>; answer: StepPicture };
+  /** The mesh that was cut, as OBJ. */
+  writeMesh: { ask: AboutCut; answer: Uint8Array };
   write: { ask: AboutCut<{ format: 'json' | 'vtu' | 'obj' }>; answer: Uint8Array };
+  /** Answered after all that was asked before. */
+  end: { ask: null; answer: void };
 }
 export type CallName = keyof Calls;
 

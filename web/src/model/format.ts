@@ -10,10 +10,15 @@ export function real(x: number): string {
   return String(Number(x.toPrecision(4)));
 }
 
-/** How far off something is, as a share of what is right: for example "+1.82%". */
+/** What sums of doubles differ by. */
+const rounding = 1e-9;
+
+/** How far off something is, as a share of what is right: for example "+1.82%", or "same to 2e-16". */
 export function deviation(share: number): string {
-  const size = Number((100 * Math.abs(share)).toPrecision(3));
-  return size === 0 ? '0%' : `${share < 0 ? '−' : '+'}${size}%`;
+  const size = Math.abs(share);
+  if (size === 0) return 'the same';
+  if (size < rounding) return `same to ${size.toPrecision(1)}`;
+  return `${share < 0 ? '−' : '+'}${Number((100 * size).toPrecision(3))}%`;
 }
 
 /** With a space that doesn't break. */

@@ -2,4 +2,5 @@
 export const formats = ['obj', 'stl', 'ply', 'off', 'glb', 'gltf'] as const;
 export type Format = (typeof formats)[number];
 
-export const fileExtensions: readonly string[] = formats.flatMap((format) => [`.${format}`, `.${format}.gz`]);
+/** A 3MF file is packed by itself. */
+export const fileExtensions: readonly string[] = [...formats.flatMap((format) => [`.${format}`, `.${format}.gz`]), '.3mf'];

@@ -3,6 +3,7 @@ import { otherWays } from './comparison';
 import { motions } from './motion';
 import type { Axis, ColorBy, GridSettings, Settings, SliceName, SliceSettings, Source } from './types';
 import type { Vector3 } from './vector';
+import { allVolumes, barWidth } from './volumes';
 import { defaultWindCells, mostWindCells, windColorings } from './wind';
 
 export const axes: readonly Axis[] = ['x', 'y', 'z'];
@@ -10,13 +11,12 @@ export const sliceNames: readonly SliceName[] = [...axes, 'free'];
 export const colorings: readonly ColorBy[] = ['region', 'winding', 'cell', 'volume', 'kind'];
 export const layers = ['surface', 'gridFaces', 'edges', 'untouched', 'cutCells', 'outside'] as const;
 export const ups: readonly Settings['up'][] = ['auto', 'x', 'y', 'z'];
-export const defaultCells = 16;
 export const defaultSource: Source = { kind: 'gallery', name: 'bunny' };
 
 export function defaultSettings(): Settings {
   return {
     source: defaultSource,
-    grid: { cells: defaultCells },
+    grid: { cells: 16 },
     snapTolerance: 0,
     pose: null,
     slices: {
@@ -29,6 +29,7 @@ export function defaultSettings(): Settings {
     explode: { cells: 0.06, regions: 0 },
     colorBy: 'kind',
     show: { surface: true, gridFaces: true, edges: true, untouched: true, cutCells: true, outside: false, region: null },
+    volumes: allVolumes,
     up: 'auto',
     camera: null,
     wind: { on: false, direction: [1, 0, 0], show: 'none', cells: defaultWindCells },
@@ -56,7 +57,7 @@ function entries(settings: Settings): [string, string][] {
   list.push(['slice', settings.sliceMode], ['explode', short([explode.cells, explode.regions])], ['color', settings.colorBy]);
   list.push(['show', layers.filter((layer) => show[layer]).join()]);
   if (show.region !== null) list.push(['region', String(show.region)]);
-  list.push(['up', up]);
+  list.push(['volumes', short(settings.volumes)], ['up', up]);
   const { wind } = settings;
   list.push(['wind', wind.on ? short(wind.direction) : 'off'], ['flow', wind.show], ['tunnel', String(wind.cells)]);
   list.push(['compare', settings.compare.way], ['divider', short([settings.compare.divider])]);
@@ -138,6 +139,12 @@ const readers: Record<string, Reader> = {
     const region = count(text, 0);
     if (region !== null) settings.show.region = region;
     return region !== null;
+  },
+  volumes: (settings, text) => {
+    const values = numbers(text, 2);
+    if (!values || values[0] >= values[1] || !values.every(isOnAxis)) return false;
+    settings.volumes = [values[0], values[1]];
+    return true;
   },
   up: (settings, text) => {
     const up = ups.find((name) => name === text);
@@ -251,6 +258,11 @@ function numbers(text: string, length: number): number[] | null {
 function count(text: string, least: number): number | null {
   const [value] = numbers(text, 1) ?? [NaN];
   return Number.isInteger(value) && value >= least ? value : null;
+}
+
+/** Whether it lies between two bars of the histogram, or at an end of it. */
+function isOnAxis(power: number): boolean {
+  return power >= allVolumes[0] && power <= allVolumes[1] && Number.isInteger(power / barWidth);
 }
 
 function isFraction(x: number): boolean {

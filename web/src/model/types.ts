@@ -1,10 +1,13 @@
 // What the parts of the page say to each other.
-import type { CutStats, Grid, InsideBy, PairCounts, Slice, Validation } from 'mandoline-wasm';
+import type { CutStats, Grid, InsideBy, PairCounts, Slice } from 'mandoline-wasm';
 import type { Vector3 } from './vector';
-import type { Comparison, CompareSettings } from './comparison';
+import type { Checks } from './checks';
+import type { MeasuredPlace, Measurement } from './measurement';
+import type { Comparison, CompareSettings, OtherGridWay } from './comparison';
 import type { Bounds } from './grid_around';
 import type { Pose } from './motion';
 import type { ViewPlane } from './planes';
+import type { VolumeRange } from './volumes';
 import type { Wind, WindFormat, WindRequest, WindSettings } from './wind';
 
 /** Where a mesh comes from. A file's bytes are kept by the worker; a link can't restore it. */
@@ -66,6 +69,8 @@ export interface LookSettings {
     /** Only this region, or null for all. */
     region: number | null;
   };
+  /** Cut-cells of other volumes are faint. */
+  volumes: VolumeRange;
   /** "auto" takes the mesh's guess. */
   up: Up | 'auto';
   camera: { position: Vector3; target: Vector3 } | null;
@@ -196,6 +201,8 @@ export interface StepPicture {
   /** What to look at. */
   center: Vector3;
   radius: number;
+  /** The grid cells that hold the triangle, plane or grid cell, as a box; null for a picture of the whole mesh. */
+  frame: Bounds | null;
   /** What a request may ask for: how many items there are and which one this is. */
   choices: { triangles: number; planes: Vector3; request: StepRequest };
 }
@@ -240,15 +247,17 @@ export interface Engine {
   onProgress: (progress: { stage: string; fraction: number } | null) => void;
   /** Caps of the planes through the current cut-mesh; planes in world units. */
   slice(planes: { normal: Vector3; offset: number }[], untouched: boolean): Promise<Slice[]>;
-  validate(): Promise<Validation>;
+  validate(): Promise<Checks>;
   /** The number of cut-edges, which few ask for. */
   countEdges(): Promise<number>;
   card(cell: number): Promise<CellCard>;
   step(request: StepRequest): Promise<StepPicture>;
   crossings(): Promise<Crossings>;
-  /** What is inside in other ways than cut-cells, with the same grid. */
-  compare(): Promise<Comparison>;
+  /** What is inside in other ways than cut-cells with the same grid, and by cut-cells with another one. */
+  compare(way: OtherGridWay | null): Promise<Comparison>;
   write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array>;
+  /** The mesh as it was cut, as OBJ. */
+  writeMesh(): Promise<Uint8Array>;
   /** The flow about the mesh that is shown. Of several under way the newest wins: those before it reject with an AbortError. */
   wind(request: AboutShown<WindRequest>): Promise<Wind>;
   /** Ends the flow under way. */
@@ -265,6 +274,36 @@ export interface Recording {
 /** About the mesh that is shown. */
 type AboutShown<Request> = Omit<Request, 'mesh' | 'known'>;
 
+/** The mesh's axes as the camera sees them: how far each points to the right, up, and to the viewer. */
+export type AxesSeen = readonly [Vector3, Vector3, Vector3];
+
+export interface PictureOptions {
+  /** How many times the pixels of the screen per side. */
+  times: number;
+  isTransparent: boolean;
+}
+
+export interface Picture {
+  blob: Blob;
+  /** In pixels. */
+  width: number;
+  height: number;
+  /** Whether it has fewer pixels than asked for, since the GPU has room for no more. */
+  isSmaller: boolean;
+}
+
+/** What one takes along of what is seen. */
+export interface ViewFiles {
+  /** Everything that is seen, at the current explosion. */
+  png(options: PictureOptions): Promise<Picture>;
+  /** The same as one mesh, or with a node for each cell. */
+  glb(isByCell: boolean): Promise<Blob>;
+  /** What a plane cuts. */
+  svg(name: SliceName): Promise<Blob>;
+  /** Films the canvas from now on. Throws a PageError where the browser can't. */
+  record(): Recording;
+}
+
 /** What is drawn. Owns the canvas; knows nothing of panels. */
 export interface View {
   /** Draws this model instead of the last one, with the look that is set next; keeps the camera unless it is to fit the model. */
@@ -278,10 +317,15 @@ export interface View {
   /** Draws the other way of this right of the divider, or the model alone. */
   setComparison(comparison: Comparison | null): void;
   setPinned(cell: number | null): void;
+  /** Taps set the places of this distance from now on, which is drawn; null ends that. */
+  setMeasurement(measurement: Measurement | null): void;
+  onMeasured: (place: MeasuredPlace) => void;
   /** Draws this flow, or none. */
   setWind(wind: Wind | null): void;
   onHover: (cell: number | null) => void;
   onPick: (cell: number | null) => void;
+  /** The camera has turned. */
+  onTurned: (axes: AxesSeen) => void;
   /** The camera was moved, by the person. */
   onCamera: (camera: NonNullable<Settings['camera']>) => void;
   /** The free plane was moved with its gizmo. */
@@ -289,10 +333,10 @@ export interface View {
   /** The wind was turned with its handle. */
   onWind: (direction: Vector3) => void;
   setScheme(dark: boolean): void;
-  /** Everything that is seen, at the current explosion, as a file. */
-  png(): Promise<Blob>;
-  glb(): Promise<Blob>;
-  /** Films the canvas from now on. Throws a PageError where the browser can't. */
-  record(): Recording;
+  readonly files: ViewFiles;
+  /** How many pictures have been drawn. */
+  readonly pictures: number;
   frame(): void;
+  /** Flies to where the camera looks at the model from this direction. */
+  lookFrom(direction: Vector3): void;
 }

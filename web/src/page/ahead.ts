@@ -1,16 +1,20 @@
 // What is loaded before it is asked for, so that it is at hand at once, also offline.
-import type { Engine } from '../model/types';
+import type { Engine, View } from '../model/types';
+import type { State } from './state';
 import { loadGltfExporter } from './view/export';
 
 /**
- * After the first picture, one after another, each when the page has nothing else to do. What can't be loaded is asked for again where it is
- * used, and missed there.
+ * Once the first picture is drawn, one after another, each when the page has nothing else to do. What can't be loaded is asked for again
+ * where it is used, and missed there.
  */
-export async function loadAhead(engine: Engine): Promise<void> {
+export async function loadAhead(engine: Engine, state: State, view: View): Promise<void> {
+  while (state.model.value && view.pictures === 0) await new Promise(requestAnimationFrame);
+  state.thumbnails.value = 'seen';
   for (const load of [() => engine.loadAhead(), loadGltfExporter]) {
     await idle();
     await load().catch(() => {});
   }
+  state.thumbnails.value = 'all';
 }
 
 /** Not every browser tells when it is idle. */

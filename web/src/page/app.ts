@@ -1,14 +1,16 @@
 // The actions on the state of the page. Panels call them and read the state.
 import { batch } from '@preact/signals';
-import type { Validation } from 'mandoline-wasm';
-import { gallery } from '../model/gallery/list';
-import { defaultCells, defaultSettings, defaultSource } from '../model/settings';
+import { presetOf, withoutPreset } from '../model/gallery/preset';
+import { axes, axisNormal, defaultSettings, defaultSource } from '../model/settings';
 import { isOutside } from '../model/inside';
+import { same } from '../model/same';
 import type { Pose } from '../model/motion';
 import { ask } from './ask';
+import { Checking } from './checking';
 import { Comparing } from './compare';
 import { asPageError, isAbort } from './failure';
 import { Inspector } from './inspector';
+import { Measuring } from './measuring';
 import { Meshes } from './meshes';
 import { Player } from './player';
 import { isSheet, usualColoring } from './view/look';
@@ -16,6 +18,7 @@ import type { State } from './state';
 import { WindTunnel } from './wind';
 import { Work } from './work';
 import type {
+  Axis,
   Cutting,
   Engine,
   GridSettings,
@@ -32,8 +35,10 @@ import type {
 export class App {
   readonly player: Player;
   readonly windTunnel: WindTunnel;
+  readonly checking: Checking;
   readonly comparing: Comparing;
   readonly inspector: Inspector;
+  readonly measuring: Measuring;
   readonly meshes: Meshes;
   private readonly work: Work;
   /** Whether the next model needs a camera that sees all of it, or a look that suits it. */
@@ -56,9 +61,12 @@ export class App {
     engine.onProgress = (progress) => (state.progress.value = progress);
     view.onHover = (cell) => (state.hovered.value = cell);
     view.onPick = (cell) => void this.inspector.pin(cell);
+    view.onTurned = (axes) => (state.axesSeen.value = axes);
     view.onCamera = (camera) => this.change({ camera }, false);
     this.windTunnel = new WindTunnel(state, engine, view);
+    this.checking = new Checking(state, engine);
     this.comparing = new Comparing(state, engine, view);
+    this.measuring = new Measuring(state, view);
     view.onWind = (direction) => this.changeWind({ direction });
     view.onFreePlane = (slice) => this.change({ slices: { ...this.settings.slices, free: slice } }, false);
   }
@@ -75,32 +83,30 @@ export class App {
     return this.state.model.value;
   }
 
-  /** Loads a mesh and cuts it, if given into `cells` along its longest side. If it can't be loaded, the page keeps the previous one. */
-  async open(source: Source, { bytes, cells }: { bytes?: ArrayBuffer; cells?: number } = {}): Promise<void> {
+  /** Loads a mesh and cuts it, with a file's bytes. If it can't be loaded, the page keeps the previous one. */
+  async open(source: Source, bytes?: ArrayBuffer): Promise<void> {
     await this.work.during(async () => {
       if (source.kind === 'file' && bytes) this.meshes.keepFile(source.name, bytes);
       if ((await this.meshes.load(source)) !== 'loaded') return;
-      const grid = { cells: cells ?? this.cellsToKeep() };
       this.fitNext = true;
-      this.change({ source, grid, snapTolerance: 0, pose: null, ...this.wholeLook(), up: 'auto', camera: null }, false);
+      this.change({ ...this.settingsToKeep(), source, snapTolerance: 0, pose: null, up: 'auto', camera: null }, false);
       await this.recut(true);
     });
   }
 
-  /** Another mesh is seen whole: its regions are others, and planes that sliced the last one are off. */
-  private wholeLook(): Pick<Settings, 'slices' | 'show'> {
-    const { slices, show } = this.settings;
+  /** Another mesh is seen whole: its regions are others, and planes that sliced the last one are off. It has cubic cells. */
+  private settingsToKeep(): Settings {
+    this.usual = presetOf(this.settings.source)?.colorBy ?? this.usual;
+    const { slices, show, grid, ...others } = withoutPreset(this.settings);
     const { x, y, z, free } = slices;
     const off = (slice: SliceSettings) => ({ ...slice, on: false });
-    return { slices: { x: off(x), y: off(y), z: off(z), free: off(free) }, show: { ...show, region: null } };
-  }
-
-  /** The resolution for a mesh that comes without one: the current one, unless it was meant for a mesh of the gallery. */
-  private cellsToKeep(): number {
-    const { source, grid } = this.settings;
-    const cells = 'min' in grid ? Math.max(...grid.cells) : grid.cells;
-    const isGallerys = source.kind === 'gallery' && gallery.some((entry) => entry.name === source.name && entry.cells === cells);
-    return isGallerys ? defaultCells : cells;
+    return {
+      ...others,
+      slices: { x: off(x), y: off(y), z: off(z), free: off(free) },
+      show: { ...show, region: null },
+      volumes: defaultSettings().volumes,
+      grid: { cells: 'min' in grid ? Math.max(...grid.cells) : grid.cells },
+    };
   }
 
   /** Applies all settings of a link. If its mesh can't be loaded, the previous or the default one takes its place. */
@@ -146,16 +152,16 @@ export class App {
   /** Links leave out defaults, and these would hide a sheet, or a model that is all outside. */
   private showSomething(): void {
     const { model, settings } = this;
-    if (!model || settings.show.outside) return;
-    if (isSheet(model) && JSON.stringify(settings.show) === JSON.stringify(defaultSettings().show)) this.fitLook();
+    if (!model || this.shown.mesh !== this.mesh || settings.show.outside) return;
+    if (isSheet(model) && same(settings.show, defaultSettings().show)) this.fitLook();
     else if (model.regions.every(({ id }) => isOutside(model, id))) this.changeShow({ outside: true });
   }
 
   /** Back to the look in which this mesh was first shown. */
   resetLook(): void {
-    const { slices, sliceMode, explode, colorBy, show, up } = defaultSettings();
+    const { slices, sliceMode, explode, colorBy, show, volumes, up } = defaultSettings();
     this.usual = colorBy;
-    this.change({ slices, sliceMode, explode, colorBy, show, up, camera: null }, false);
+    this.change({ slices, sliceMode, explode, colorBy, show, volumes, up, camera: null }, false);
     this.fitLook();
   }
 
@@ -217,6 +223,13 @@ export class App {
     this.view.frame();
   }
 
+  /** Flies the camera to where it looks from an axis, or from its other end if it does so already. */
+  lookAlong(axis: Axis): void {
+    const d = axes.indexOf(axis);
+    const isThere = (this.state.axesSeen.value?.[d][2] ?? 0) > 0.999;
+    this.view.lookFrom(axisNormal(axis, isThere ? -1 : 1));
+  }
+
   changeShow(part: Partial<Settings['show']>): void {
     this.change({ show: { ...this.settings.show, ...part } });
   }
@@ -232,6 +245,13 @@ export class App {
     const compare = { ...this.settings.compare, ...part };
     const isBegun = this.settings.compare.way === 'none' && compare.way !== 'none';
     this.change({ compare, ...(isBegun ? { explode: { cells: 0, regions: 0 } } : {}) });
+  }
+
+  /** A distance between cells that are pulled apart would look longer than it is. */
+  toggleMeasure(): void {
+    if (this.state.measurement.value) return this.measuring.end();
+    this.change({ explode: { cells: 0, regions: 0 } });
+    this.measuring.begin();
   }
 
   /** Resolves once this is drawn, or a newer cut has taken its place; false if it failed. */
@@ -313,10 +333,6 @@ export class App {
     else this.giveUp({ title: 'Cancelled', detail: 'This mesh has not been cut yet. Change its grid to cut it.' });
   }
 
-  validate(): Promise<Validation | null> {
-    return ask(this.state, this.engine.validate());
-  }
-
   countEdges(): Promise<number | null> {
     return ask(this.state, this.engine.countEdges());
   }
@@ -324,8 +340,8 @@ export class App {
   write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array | null> {
     return ask(this.state, this.engine.write(format));
   }
-}
 
-function same(a: unknown, b: unknown): boolean {
-  return JSON.stringify(a) === JSON.stringify(b);
+  writeMesh(): Promise<Uint8Array | null> {
+    return ask(this.state, this.engine.writeMesh());
+  }
 }

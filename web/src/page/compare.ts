@@ -1,25 +1,33 @@
 // Shows the comparison that the settings ask for, of every new cut.
-import { effect } from '@preact/signals';
-import type { Comparison } from '../model/comparison';
+import { computed, effect } from '@preact/signals';
+import { otherGridWay, type Comparison, type OtherGridWay } from '../model/comparison';
 import { isOutside } from '../model/inside';
 import type { Engine, Model, View } from '../model/types';
 import { ask } from './ask';
 import type { State } from './state';
 import { isSheet } from './view/look';
 
+interface Asked {
+  model: Model;
+  way: OtherGridWay | null;
+}
+
 export class Comparing {
   /** A model of the former mesh, which is shown until there is one of the new mesh. */
   private former: Model | null = null;
   /** What was asked about last. */
-  private asked: Model | null = null;
+  private asked: Asked | null = null;
 
   constructor(
     private readonly state: State,
     private readonly engine: Engine,
     view: View,
   ) {
+    const way = computed(() => state.settings.value.compare.way);
+    const otherGrid = computed(() => otherGridWay(way.value));
+    const isOn = computed(() => way.value !== 'none');
     effect(() => this.forget(state.mesh.value));
-    effect(() => void this.update(state.model.value, state.settings.value.compare.way !== 'none'));
+    effect(() => void this.update(state.model.value, isOn.value, otherGrid.value));
     effect(() => view.setComparison(state.divided.value));
   }
 
@@ -29,21 +37,26 @@ export class Comparing {
     this.show(null, null);
   }
 
-  private show(asked: Model | null, comparison: Comparison | null): void {
+  private show(asked: Asked | null, comparison: Comparison | null): void {
     this.asked = asked;
     this.state.comparison.value = comparison;
+    this.state.isComparisonAwaited.value = false;
   }
 
-  private async update(model: Model | null, isOn: boolean): Promise<void> {
+  private async update(model: Model | null, isOn: boolean, way: OtherGridWay | null): Promise<void> {
     if (!isOn || !model || model === this.former || !hasInside(model)) {
       this.show(null, null);
       return;
     }
-    if (model === this.asked) return;
-    this.asked = model;
-    const comparison = await ask(this.state, this.engine.compare());
+    const isKnown = way === null || (this.asked && way === this.asked.way);
+    if (model === this.asked?.model && isKnown) return;
+    const asked = { model, way };
+    this.asked = asked;
+    this.state.isComparisonAwaited.value = true;
+    const comparison = await ask(this.state, this.engine.compare(way));
     // Until there is one of the newest cut, the one before is shown.
-    if (this.asked && (comparison || this.asked === model)) this.show(this.asked, comparison);
+    if (this.asked === asked) this.show(comparison && asked, comparison);
+    else if (this.asked && comparison) this.state.comparison.value = comparison;
   }
 }
 

@@ -1,37 +1,30 @@
 // The page's half of the work: asks the package's worker, whose thread keeps meshes and cut-meshes. A new thread gets back what the former
 // one had.
-import { createWorker, type MandolineWorker } from 'mandoline-wasm/worker';
-import type { Slice, Validation } from 'mandoline-wasm';
+import { createWorker } from 'mandoline-wasm/worker';
+import type { Slice } from 'mandoline-wasm';
 import type { Vector3 } from '../model/vector';
-import { isLack, isOutdated, type CallName, type CallProgress, type Calls, type LoadedMesh, type Recipe } from '../model/calls';
+import { isOutdated, type CallName, type Calls, type LoadedMesh, type Recipe } from '../model/calls';
 import type { CellCard, Crossings, Cutting, Engine, MeshInfo, Model, PageError } from '../model/types';
 import type { Slicing, Source, StepPicture, StepRequest } from '../model/types';
-import type { Comparison } from '../model/comparison';
+import type { Checks } from '../model/checks';
+import type { Comparison, OtherGridWay } from '../model/comparison';
 import type { Wind, WindFormat } from '../model/wind';
 import { pageError } from '../model/failure';
+import { abortError } from './failure';
+import { Newest } from './newest';
+import { Thread, type CallOptions } from './thread';
 import { WindEngine } from './wind_engine';
-import { abortError, isCancellation, toPageError } from './failure';
 
-interface CallOptions {
-  signal?: AbortSignal;
-  transfer?: ArrayBuffer[];
-  progress?: (progress: CallProgress) => void;
-}
-
-/** A cut that waits for the one under way. */
-interface WaitingCut {
-  cutting: Cutting;
-  slicing: Slicing;
-  resolve(model: Promise<Model>): void;
-  reject(error: unknown): void;
-}
+/** Corners of triangles that are drawn of a cut whose memory is worth getting back. */
+const largeCut = 3_000_000;
 
 class WorkerEngine implements Engine {
   onProgress: Engine['onProgress'] = () => {};
-  private worker: Promise<MandolineWorker> | null = null;
-  private readonly tunnel = new WindEngine();
+  private readonly thread: Thread;
+  private readonly tunnel: WindEngine;
+  private readonly cuts = new Newest(this.cutNow.bind(this));
   private meshes = 0;
-  private cuts = 0;
+  private recipes = 0;
   /** The newest mesh, and that of the Model that is shown. */
   private readonly kept = new Map<number, LoadedMesh>();
   private mesh: LoadedMesh | null = null;
@@ -39,18 +32,15 @@ class WorkerEngine implements Engine {
   private loading: AbortController | null = null;
   /** Settles with the newest load. */
   private loaded: Promise<unknown> = Promise.resolve();
-  private cutting: AbortController | null = null;
-  private waiting: WaitingCut | null = null;
+  /** Of all cuts by the present thread. */
+  private largestCut = 0;
 
   constructor() {
-    void this.start().catch(() => {}); // The first call tries again and says what is wrong.
-  }
-
-  private start(): Promise<MandolineWorker> {
-    const worker = createWorker({ thread: () => new Worker(new URL('../worker/thread.ts', import.meta.url), { type: 'module' }) });
-    worker.catch(() => (this.worker = null));
-    this.worker = worker;
-    return worker;
+    const meshOf = (id: number) => this.kept.get(id);
+    const thread = () => new Worker(new URL('../worker/thread.ts', import.meta.url), { type: 'module' });
+    this.thread = new Thread(() => createWorker({ thread }), meshOf);
+    this.tunnel = new WindEngine(meshOf);
+    void this.thread.start().catch(() => {}); // The first call tries again and says what is wrong.
   }
 
   load(source: Source, bytes?: ArrayBuffer): Promise<MeshInfo> {
@@ -79,42 +69,36 @@ class WorkerEngine implements Engine {
 
   /** A running cut is finished, so that the picture keeps changing while a slider moves; then comes the newest of those that wait. */
   cut(cutting: Cutting, slicing: Slicing): Promise<Model> {
-    if (!this.cutting) return this.cutNow(cutting, slicing);
-    this.waiting?.reject(abortError());
-    return new Promise((resolve, reject) => (this.waiting = { cutting, slicing, resolve, reject }));
+    return this.cuts.answer({ cutting, slicing });
   }
 
-  private async cutNow(how: Cutting, slicing: Slicing): Promise<Model> {
-    const cutting = new AbortController();
-    this.cutting = cutting;
+  private async cutNow({ cutting, slicing }: { cutting: Cutting; slicing: Slicing }, signal: AbortSignal): Promise<Model> {
     try {
       await this.loaded;
       const { mesh } = this;
       if (!mesh) throw noMesh();
-      const recipe: Recipe = { id: ++this.cuts, mesh: mesh.id, ...how };
-      const options: CallOptions = { signal: cutting.signal, progress: (progress) => this.onProgress(progress) };
-      const model = await this.call('cut', { recipe, slicing }, options);
+      const recipe: Recipe = { id: ++this.recipes, mesh: mesh.id, ...cutting };
+      const model = await this.call('cut', { recipe, slicing }, { signal, progress: (progress) => this.onProgress(progress) });
       this.shown = recipe;
       this.keep(mesh);
+      this.giveBackMemory(model.triangles.index.length);
       return model;
     } finally {
-      if (this.cutting === cutting) this.finishCut();
+      this.onProgress(null);
     }
   }
 
-  private finishCut(): void {
-    const { waiting } = this;
-    this.cutting = this.waiting = null;
-    this.onProgress(null);
-    waiting?.resolve(this.cutNow(waiting.cutting, waiting.slicing));
+  /** WebAssembly's memory never shrinks: after a cut far smaller than one before, another thread goes on. */
+  private giveBackMemory(size: number): void {
+    const isFarSmaller = this.largestCut > largeCut && size < this.largestCut / 8;
+    this.largestCut = isFarSmaller ? size : Math.max(size, this.largestCut);
+    if (isFarSmaller) this.thread.end();
   }
 
   /** Without shared memory the thread can't be told to stop, so it is ended with its call. */
   cancel(): void {
     this.loading?.abort();
-    this.waiting?.reject(abortError());
-    this.waiting = null;
-    this.cutting?.abort();
+    this.cuts.cancel();
   }
 
   slice(planes: readonly { normal: Vector3; offset: number }[], untouched: boolean): Promise<Slice[]> {
@@ -125,7 +109,7 @@ class WorkerEngine implements Engine {
     return this.aboutShown((recipe) => this.call('card', { recipe, cell }));
   }
 
-  validate(): Promise<Validation> {
+  validate(): Promise<Checks> {
     return this.aboutNewest((recipe) => this.call('validate', { recipe }));
   }
 
@@ -141,32 +125,33 @@ class WorkerEngine implements Engine {
     return this.aboutNewest((recipe) => this.call('step', { recipe, request }));
   }
 
-  compare(): Promise<Comparison> {
-    return this.aboutShown((recipe) => this.call('compare', { recipe }));
+  compare(way: OtherGridWay | null): Promise<Comparison> {
+    return this.aboutShown((recipe) => this.call('compare', { recipe, way }));
   }
 
   write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array> {
     return this.aboutNewest((recipe) => this.call('write', { recipe, format }));
   }
 
-  wind(request: Parameters<Engine['wind']>[0]): Promise<Wind> {
-    const mesh = this.meshShown();
-    return this.tunnel.flow(mesh, { mesh: mesh.id, ...request });
+  writeMesh(): Promise<Uint8Array> {
+    return this.aboutShown((recipe) => this.call('writeMesh', { recipe }));
+  }
+
+  async wind(request: Parameters<Engine['wind']>[0]): Promise<Wind> {
+    return this.tunnel.flow({ mesh: this.meshShown(), ...request });
   }
 
   cancelWind(): void {
     this.tunnel.cancel();
   }
 
-  writeWind(request: Parameters<Engine['wind']>[0], format: WindFormat): Promise<Uint8Array> {
-    const mesh = this.meshShown();
-    return this.tunnel.write(mesh, { mesh: mesh.id, ...request }, format);
+  async writeWind(request: Parameters<Engine['wind']>[0], format: WindFormat): Promise<Uint8Array> {
+    return this.tunnel.write({ mesh: this.meshShown(), ...request }, format);
   }
 
-  private meshShown(): LoadedMesh {
-    const mesh = this.kept.get(this.shown?.mesh ?? 0);
-    if (!mesh) throw noMesh();
-    return mesh;
+  private meshShown(): number {
+    if (!this.shown) throw noMesh();
+    return this.shown.mesh;
   }
 
   /** Calls about planes or cells of the cut that is shown, which mean nothing for another cut. */
@@ -193,20 +178,8 @@ class WorkerEngine implements Engine {
     }
   }
 
-  private async call<K extends CallName>(name: K, ask: Calls[K]['ask'], options: CallOptions = {}): Promise<Calls[K]['answer']> {
-    try {
-      const worker = await (this.worker ?? this.start());
-      const run = () => worker.call<Calls[K]['answer']>(name, [ask], options);
-      return await run().catch(async (error: unknown) => {
-        const mesh = isLack(error) ? this.kept.get(error.lacksMesh) : undefined;
-        if (!mesh) throw error;
-        await worker.call('keep', [mesh]);
-        return run();
-      });
-    } catch (error) {
-      if (isCancellation(error)) throw abortError();
-      throw isOutdated(error) ? error : toPageError(error, name);
-    }
+  private call<K extends CallName>(name: K, ask: Calls[K]['ask'], options?: CallOptions): Promise<Calls[K]['answer']> {
+    return this.thread.call(name, ask, options);
   }
 }
 

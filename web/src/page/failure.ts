@@ -17,6 +17,8 @@ const titles: Record<CallName | WindCallName, string> = {
   compare: "The comparison can't be made",
   step: "The step can't be shown",
   write: "The file can't be written",
+  writeMesh: "The mesh can't be written",
+  end: "The thread can't be ended",
   wind: "The flow can't be computed",
   windAhead: "The wind tunnel can't be loaded",
   writeWind: "The flow can't be written",

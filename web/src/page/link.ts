@@ -1,8 +1,10 @@
+import { computed } from '@preact/signals';
 import type { App } from './app';
 import { fromHash, toHash } from '../model/settings';
+import type { Settings } from '../model/types';
 
 /** What sliders and handles change, step by step. */
-const continuous = ['n', 'box', 'snap', 'x', 'y', 'z', 'free', 'explode', 'pose', 'divider'];
+const continuous = ['n', 'box', 'snap', 'x', 'y', 'z', 'free', 'explode', 'pose', 'divider', 'volumes'];
 /** In ms: a change has been made once nothing has changed for so long ... */
 const pause = 300;
 /** ... and a continuous one goes on if it is taken up again within this time. */
@@ -15,7 +17,6 @@ const rest = 1000;
 export async function followLink(app: App): Promise<void> {
   let timer = 0;
   let isBusy = true;
-  let isHeld = false;
   /** The hash of this entry of the history. */
   let known = hashHere();
   /** Whether the settings come from the entry: what its link leaves out isn't a change. */
@@ -24,7 +25,7 @@ export async function followLink(app: App): Promise<void> {
 
   const isNewChange = (hash: string) => {
     const keys = changedKeys(known, hash).filter((key) => key !== 'camera');
-    const goesOn = keys.join() === change.keys && (isHeld || performance.now() - change.at < rest);
+    const goesOn = keys.join() === change.keys && (app.state.isHeld.value || performance.now() - change.at < rest);
     change = { keys: keys.every((key) => continuous.includes(key)) ? keys.join() : '', at: performance.now() };
     return keys.length > 0 && !goesOn;
   };
@@ -59,14 +60,25 @@ export async function followLink(app: App): Promise<void> {
   // Of the same change both may tell.
   for (const event of ['popstate', 'hashchange']) addEventListener(event, () => hashHere() !== known && void read());
   for (const event of ['pointerdown', 'pointerup', 'pointercancel']) {
-    addEventListener(event, () => (isHeld = event === 'pointerdown'), { capture: true });
+    addEventListener(event, () => (app.state.isHeld.value = event === 'pointerdown'), { capture: true });
   }
   await read();
+  const isPlaying = computed(() => app.state.playing.value !== null);
+  // What is opened to play has a step of its own before it moves on.
+  isPlaying.subscribe((begins) => begins && write());
   app.state.status.subscribe((status) => {
     isBusy = status === 'busy';
     if (!isBusy) writeSoon();
   });
   app.state.settings.subscribe(writeSoon);
+}
+
+/** Of the page with these settings, as a page of its own or as a part of another. */
+export function addressOf(settings: Settings, isEmbedded = false): string {
+  const url = new URL(location.href);
+  url.search = isEmbedded ? '?embed' : '';
+  url.hash = toHash(settings);
+  return url.href;
 }
 
 function hashHere(): string {

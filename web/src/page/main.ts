@@ -3,8 +3,9 @@ import { loadAhead } from './ahead';
 import { createEngine } from './engine';
 import { asPageError } from './failure';
 import { followLink } from './link';
+import { playOpening } from './opening';
 import { State } from './state';
-import { showAlerts, showPanels } from './ui';
+import { showAlerts, showEmbedded, showPanels } from './ui';
 import { createView } from './view/view';
 
 const element = (id: string) => document.getElementById(id) as HTMLElement;
@@ -13,8 +14,12 @@ const state = new State();
 showAlerts(state);
 state.status.subscribe((status) => (document.body.dataset.state = status));
 
+/** As a part of another page there is the picture alone. */
+const isEmbedded = new URLSearchParams(location.search).has('embed');
+document.body.classList.toggle('embedded', isEmbedded);
+
 const { arePanelsOpen } = state.sections;
-arePanelsOpen.subscribe((open) => document.body.classList.toggle('with-panels', open));
+arePanelsOpen.subscribe((open) => document.body.classList.toggle('with-panels', open && !isEmbedded));
 
 try {
   start();
@@ -40,7 +45,16 @@ function start(): void {
     onError: (error) => state.alert(error),
   });
   const app = new App(engine, view, state);
+  if (isEmbedded) {
+    showEmbedded(app);
+    void followLink(app);
+    return;
+  }
   showPanels(app);
   skipToPanels();
-  void followLink(app).then(() => loadAhead(engine));
+  app.checking.begin();
+  void followLink(app).then(() => {
+    void playOpening(app, engine);
+    return loadAhead(engine, state, view);
+  });
 }

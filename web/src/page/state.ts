@@ -2,8 +2,10 @@ import { computed, signal } from '@preact/signals';
 import { defaultSettings } from '../model/settings';
 import type { Play, Playing } from './player';
 import { Sections } from './sections';
-import type { CellCard, Crossings, Instead, MeshInfo, Model, PageError, StepPicture } from '../model/types';
+import type { Checks } from '../model/checks';
+import type { AxesSeen, CellCard, Crossings, Instead, MeshInfo, Model, PageError, StepPicture } from '../model/types';
 import type { Comparison } from '../model/comparison';
+import type { Measurement } from '../model/measurement';
 import type { Wind } from '../model/wind';
 
 /** What is said on top of the picture: an alert stays until it is dismissed or cleared, a notice goes away by itself. */
@@ -32,6 +34,8 @@ export class State {
   /** The cut-cell under the pointer. */
   readonly hovered = signal<number | null>(null);
   readonly pinned = signal<CellCard | null>(null);
+  /** Null where nothing is measured. */
+  readonly measurement = signal<Measurement | null>(null);
   /** What is drawn instead of the model: a step of the algorithm, or where the surface meets itself. */
   readonly instead = signal<Instead | null>(null);
   readonly step = computed((): StepPicture | null => (this.instead.value?.kind === 'crossings' ? null : this.instead.value));
@@ -45,10 +49,22 @@ export class State {
   readonly isWindAwaited = signal(false);
   /** What is inside in other ways, of the newest cut or the one before it. */
   readonly comparison = signal<Comparison | null>(null);
+  readonly isComparisonAwaited = signal(false);
   /** The same, where the picture is divided: not where something else is drawn instead of the model. */
   readonly divided = computed((): Comparison | null => {
-    return this.instead.value || this.wind.value?.surface ? null : this.comparison.value;
+    const { way } = this.settings.value.compare;
+    const comparison = this.comparison.value;
+    if (way === 'none' || !comparison?.ways[way]) return null;
+    return this.instead.value || this.wind.value?.surface ? null : comparison;
   });
+  /** What the checks of a model have found; of the last one that was checked. */
+  readonly checked = signal<{ model: Model; checks: Checks } | null>(null);
+  /** Null before the first picture. */
+  readonly axesSeen = signal<AxesSeen | null>(null);
+  /** Whether a button of the mouse, a finger or a pen is held down. */
+  readonly isHeld = signal(false);
+  /** Which pictures of the gallery may be loaded. */
+  readonly thumbnails = signal<'none' | 'seen' | 'all'>('none');
   readonly sections = new Sections();
   /** The newest first. */
   readonly messages = signal<readonly Message[]>([]);

@@ -64,6 +64,12 @@ function withEstimates(mandoline: Mandoline, mesh: LoadedMesh, cutMesh: CutMesh,
 }
 
 export function makeCut(mandoline: Mandoline, recipe: Recipe, tell: (progress: CallProgress) => void): Cut {
+  newest = cutNow(mandoline, recipe, tell);
+  return newest;
+}
+
+/** A cut that isn't kept. */
+export function cutNow(mandoline: Mandoline, recipe: Recipe, tell: (progress: CallProgress) => void): Cut {
   const mesh = posed(mandoline, meshOf(recipe.mesh), recipe.pose);
   checkSize(recipe.grid, mesh.bounds);
   const grid = recipe.pose && !('min' in recipe.grid) ? gridAround(mesh.bounds, recipe.grid.cells) : recipe.grid;
@@ -78,8 +84,7 @@ export function makeCut(mandoline: Mandoline, recipe: Recipe, tell: (progress: C
   tell({ stage: 'triangles', fraction: 0.85 });
   const [x, y, z] = cutMesh.grid.planes.map((planes) => (planes[0] + planes[planes.length - 1]) / 2);
   const faceTriangles = mandoline.triangulate(cutMesh);
-  newest = { recipe, mesh, cutMesh, estimateMs, origin: [x, y, z], faceTriangles, measures: null, adjacency: null };
-  return newest;
+  return { recipe, mesh, cutMesh, estimateMs, origin: [x, y, z], faceTriangles, measures: null, adjacency: null };
 }
 
 /** The cut of a recipe, made again by a thread that took the place of the one that made it. */

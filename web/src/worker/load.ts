@@ -49,10 +49,10 @@ async function fetched(url: string): Promise<ArrayBuffer> {
   return response.arrayBuffer();
 }
 
-/** glTF and GLB by three's loader, which is fetched when it is needed; all else by the package. */
+/** What the package doesn't read is read here, by what is fetched when it is needed. */
 export async function readMesh(mandoline: Mandoline, bytes: ArrayBuffer, name: string): Promise<MeshArrays> {
   try {
-    const mesh = isGltf(bytes, name) ? await readGltf(bytes) : await mandoline.readMesh(bytes, { name });
+    const mesh = await (isGltf(bytes, name) ? readGltf(bytes) : is3mf(bytes) ? read3mf(bytes) : mandoline.readMesh(bytes, { name }));
     if (mesh.triangles.length === 0) throw new Error('It has no triangles.');
     return mesh;
   } catch (error) {
@@ -61,10 +61,23 @@ export async function readMesh(mandoline: Mandoline, bytes: ArrayBuffer, name: s
 }
 
 async function readGltf(bytes: ArrayBuffer): Promise<MeshArrays> {
-  const reader = await import('./gltf').catch(() => {
-    throw new Error('What reads glTF could not be loaded. Look after the connection, then open the file again.');
-  });
+  const reader = await import('./gltf').catch(() => notLoaded('glTF'));
   return reader.readGltf(bytes);
+}
+
+async function read3mf(bytes: ArrayBuffer): Promise<MeshArrays> {
+  const reader = await import('./three_mf').catch(() => notLoaded('3MF'));
+  return reader.read3mf(bytes);
+}
+
+function notLoaded(format: string): never {
+  throw new Error(`What reads ${format} could not be loaded. Look after the connection, then open the file again.`);
+}
+
+/** A zip archive that names the file of a model at its beginning or end; of other archives the package tells what they are. */
+function is3mf(bytes: ArrayBuffer): boolean {
+  const start = textAt(bytes);
+  return start.startsWith('PK\x03\x04') && /\.model/i.test(start + textAt(bytes.slice(-100_000), 100_000));
 }
 
 /** By content if that is enough, else by name. */
@@ -73,8 +86,8 @@ function isGltf(bytes: ArrayBuffer, name: string): boolean {
   return start.startsWith('glTF') || start.startsWith('{') || /\.(glb|gltf)(\.gz)?$/i.test(name);
 }
 
-function textAt(bytes: ArrayBuffer): string {
-  return new TextDecoder('latin1').decode(bytes.slice(0, 1000));
+function textAt(bytes: ArrayBuffer, length = 1000): string {
+  return new TextDecoder('latin1').decode(bytes.slice(0, length));
 }
 
 /** The package's messages start with the name, which the title says already. */

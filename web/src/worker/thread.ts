@@ -3,10 +3,12 @@
 import type { Mandoline } from 'mandoline-wasm';
 import { serve } from 'mandoline-wasm/worker-thread';
 import type { CallName, CallProgress, Calls } from '../model/calls';
+import { otherGrid } from '../model/comparison';
 import { loadAhead } from './ahead';
 import { cellCard } from './card';
+import { checksOf } from './checks';
 import { crossingsOf } from './crossings';
-import { cutOf, keep, makeCut } from './kept';
+import { cutNow, cutOf, keep, makeCut } from './kept';
 import { loadMesh } from './load';
 import { makeModel } from './make_model';
 import { stepPicture } from './steps';
@@ -33,10 +35,7 @@ const calls: Answering = {
     const { cutMesh } = cutOf(mandoline, recipe);
     return planes.map((plane) => mandoline.slice(cutMesh, plane, { untouched }));
   },
-  validate(mandoline, { recipe }) {
-    const { mesh, cutMesh } = cutOf(mandoline, recipe);
-    return mandoline.validate(mesh, cutMesh);
-  },
+  validate: (mandoline, { recipe }) => checksOf(mandoline, cutOf(mandoline, recipe)),
   edges(mandoline, { recipe }) {
     const { mesh, cutMesh } = cutOf(mandoline, recipe);
     return mandoline.cutEdges(mesh, cutMesh).edgeLength.length;
@@ -47,14 +46,18 @@ const calls: Answering = {
     const { mesh, cutMesh, faceTriangles, origin } = cutOf(mandoline, recipe);
     return stepPicture(mesh, cutMesh, faceTriangles, request, origin);
   },
-  async compare(mandoline, { recipe }) {
+  async compare(mandoline, { recipe, way }) {
     const { comparison } = await import('./compare');
-    return comparison(mandoline, cutOf(mandoline, recipe));
+    const cut = cutOf(mandoline, recipe);
+    const other = way && { way, cut: cutNow(mandoline, { ...recipe, grid: otherGrid(recipe.grid, way) }, () => {}) };
+    return comparison(mandoline, cut, other);
   },
+  writeMesh: (mandoline, { recipe }) => mandoline.writeMesh(cutOf(mandoline, recipe).mesh, 'obj'),
   write(mandoline, { recipe, format }) {
     const { mesh, cutMesh } = cutOf(mandoline, recipe);
     return mandoline.write(mesh, cutMesh, format);
   },
+  end() {},
 };
 
 /** In ms. */

@@ -25,7 +25,7 @@ const names: readonly Up[] = ['x', 'y', 'z'];
 /** By what a file is made for: STL comes from printers and CAD and has z upwards, glTF has y. Else by the mesh; without a sign, y. */
 export function guessUp(name: string, mesh: Mesh, bounds: Bounds): Up {
   if (/\.(glb|gltf)(\.gz)?$/i.test(name)) return 'y';
-  if (/\.stl(\.gz)?$/i.test(name)) return 'z';
+  if (/\.(stl|3mf)(\.gz)?$/i.test(name)) return 'z';
   // A drawing in a plane is looked at from its front.
   if (bounds.min[2] === bounds.max[2]) return 'y';
   const shape = shapeOf(mesh, bounds);

@@ -1,8 +1,8 @@
 // Surfaces that cross themselves: bodies in one another, a scan pushed through itself, closed surfaces with one side.
-import { loft, merged, moved, range, revolved, type MeshArrays, type Point } from './mesh';
+import { loft, merged, moved, range, type MeshArrays, type Point } from './mesh';
 import { sphere } from './solids';
 import { torus } from './tubes';
-import { add, dot, scale, unit } from './vector';
+import { add, dot, scale, unit } from '../vector';
 
 /** Two rings, each through the wall of the other. */
 export function crossingTori(): MeshArrays {
@@ -71,75 +71,4 @@ function boysPoint(r: number, angle: number): Point {
   const z = -1.5 * ((z1[0] + z5[0]) * re + (z1[1] + z5[1]) * im);
   const y = z6[1] * re - (1 + z6[0]) * im - 0.5 * square;
   return scale(square / (x * x + y * y + z * z), [x, y, z]);
-}
-
-/** A cubic Bezier curve at t. */
-function bezier([a, b, c, d]: readonly Point[], t: number): Point {
-  const weights = [(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t ** 3];
-  return [a, b, c, d].reduce((sum, p, k) => add(sum, scale(weights[k], p)), [0, 0, 0] as Point);
-}
-
-/** A tube about a Bezier curve in the plane z = 0, closed at its ends. */
-function bentTube(curve: readonly Point[], radius: (t: number) => number): MeshArrays {
-  const steps = 24;
-  const rings = range(steps + 1).map((k) => {
-    const t = k / steps;
-    const [before, after] = [bezier(curve, t - 1e-4), bezier(curve, t + 1e-4)];
-    const [tx, ty] = unit([after[0] - before[0], after[1] - before[1], 0]);
-    return range(20).map((i): Point => {
-      const angle = (2 * Math.PI * i) / 20;
-      const out = radius(t) * Math.cos(angle);
-      return add(bezier(curve, t), [-ty * out, tx * out, radius(t) * Math.sin(angle)]);
-    });
-  });
-  return loft([[curve[0]], ...rings, [curve[3]]], { around: true });
-}
-
-/** A pot with a lid, turned on a lathe; its spout and its handle are stuck through its wall, as such models are often made. */
-export function teapot(): MeshArrays {
-  const profiles: Point[][] = [
-    [
-      [0.62, -0.75, 0],
-      [1.25, -0.55, 0],
-      [1.15, 0.2, 0],
-      [0.72, 0.5, 0],
-    ],
-    [
-      [0.72, 0.58, 0],
-      [0.5, 0.78, 0],
-      [0.12, 0.7, 0],
-      [0.1, 0.86, 0],
-    ],
-    [
-      [0.1, 0.86, 0],
-      [0.26, 0.9, 0],
-      [0.2, 1.1, 0],
-      [0, 1.08, 0],
-    ],
-  ];
-  const turned = profiles.flatMap((curve, part) =>
-    range(part === 0 ? 15 : 9).map((k): [number, number] => {
-      const [x, y] = bezier(curve, k / (part === 0 ? 14 : 8));
-      return [x, y];
-    }),
-  );
-  // Each profile begins where the one before ends.
-  const profile = turned.filter(([x, y], k) => k === 0 || Math.hypot(x - turned[k - 1][0], y - turned[k - 1][1]) > 1e-9);
-  const spout: Point[] = [
-    [0.7, -0.35, 0],
-    [1.55, -0.4, 0],
-    [1.15, 0.42, 0],
-    [1.72, 0.62, 0],
-  ];
-  const handle: Point[] = [
-    [-0.65, 0.35, 0],
-    [-2.05, 0.6, 0],
-    [-1.85, -0.55, 0],
-    [-0.8, -0.45, 0],
-  ];
-  return merged(
-    revolved([[0, -0.75], ...profile], 48),
-    bentTube(spout, (t) => 0.3 - 0.19 * t),
-    bentTube(handle, () => 0.1),
-  );
 }

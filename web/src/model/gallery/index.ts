@@ -1,10 +1,11 @@
 // The meshes that the page brings along: the paper's cases, a scan, and surfaces that cross themselves. They are y-up.
 import bunnyScan from 'bunny';
-import { boysSurface, crossingTori, kleinBottle, pushedBlob, teapot } from './crossing';
+import { boysSurface, crossingTori, kleinBottle, pushedBlob } from './crossing';
 import { claw, emptyCones, oscillator, wedge } from './difficult';
 import type { MeshArrays } from './mesh';
 import { crate, doubleBubble, moebiusStrip, pages, thinBowl, trumpet, wavyPlane, wavySlab } from './sheets';
 import { alignedSteps, gears, nestedSpheres, noisySphere } from './solids';
+import { teapot } from './teapot';
 import { chain, hollowHilbertCurve, torusKnot } from './tubes';
 
 export type { MeshArrays } from './mesh';
@@ -17,6 +18,10 @@ function bunny(): MeshArrays {
 
 const makers = new Map<string, () => MeshArrays | Promise<MeshArrays>>([
   ['bunny', bunny],
+  ['bunny-in-wind', bunny],
+  ['adaptive-grid', bunny],
+  ['passing-tori', crossingTori],
+  ['turning-gears', gears],
   ['hilbert', hollowHilbertCurve],
   ['wavy-plane', wavyPlane],
   ['wavy-slab', wavySlab],

@@ -1,6 +1,6 @@
 // Closed surfaces, oriented outward.
 import { flipped, fromPoints, loft, merged, moved, range, type MeshArrays, type Point } from './mesh';
-import { add, scale, unit } from './vector';
+import { add, scale, unit } from '../vector';
 
 /** A sphere of 20 * 4^subdivisions triangles about the origin. */
 export function sphere(radius: number, subdivisions: number): MeshArrays {

@@ -1,6 +1,6 @@
 // Tubes along paths: the hollow Hilbert curve, the torus knot, chain links.
 import { flipped, loft, merged, moved, range, type MeshArrays, type Point } from './mesh';
-import { add, cross, dot, scale, subtract, unit } from './vector';
+import { add, cross, dot, scale, subtract, unit } from '../vector';
 
 /** A round tube of n sides along an axis-aligned path with right-angled turns, mitred; its ends are capped. */
 function mitredTube(path: readonly Point[], radius: number, n: number): MeshArrays {

@@ -1,11 +1,11 @@
 import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import type { App } from '../app';
 import type { CellCard as Card } from '../../model/types';
-import { gridCellVolume } from '../view/colors';
 import { CellViewer } from './cell_viewer';
 import { Terms } from './controls/terms';
 import { integer, plural, real, winding } from '../../model/format';
 import { insideOf } from '../../model/inside';
+import { gridCellVolume } from '../../model/volumes';
 
 /** The card of the pinned cell: its properties, and a view of it on its own. */
 export function CellCard({ app }: { app: App }) {

@@ -1,4 +1,5 @@
 import type { App } from '../app';
+import { otherGridWay } from '../../model/comparison';
 import { deviation } from '../../model/format';
 import { wayNames } from './way_names';
 
@@ -6,9 +7,9 @@ import { wayNames } from './way_names';
 export function Divider({ app }: { app: App }) {
   const { way, divider } = app.settings.compare;
   const comparison = app.state.divided.value;
-  if (way === 'none' || !comparison) return null;
+  const other = way === 'none' ? null : comparison?.ways[way];
+  if (way === 'none' || !comparison || !other) return null;
   const { exact } = comparison;
-  const other = comparison.ways[way];
   return (
     <div class="divider" id="divided">
       <input
@@ -30,6 +31,7 @@ export function Divider({ app }: { app: App }) {
         <span class="knob">⇔</span>
         <span class="side">
           {wayNames[way]}
+          {otherGridWay(way) && other.grid && <small>{other.grid.cells.join(' × ')} grid</small>}
           <small>volume {deviation(other.volume / exact.volume - 1)}</small>
           <small>area {deviation(other.area / exact.area - 1)}</small>
         </span>

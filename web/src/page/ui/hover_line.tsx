@@ -2,6 +2,7 @@ import type { App } from '../app';
 import type { Model } from '../../model/types';
 import { milliseconds, plural, real } from '../../model/format';
 import { insideOf } from '../../model/inside';
+import { CheckLine } from './check_line';
 
 /** The line below the picture: the cell under the pointer, or else a summary of the cut; how often it is cut while something plays. */
 export function HoverLine({ app }: { app: App }) {
@@ -15,6 +16,7 @@ export function HoverLine({ app }: { app: App }) {
       <p class="hover-line" id="hover-line" aria-live={isSaid ? 'polite' : 'off'} data-cell={cell ?? ''}>
         {model && (cell === null ? summary(model) : describeCell(model, cell))}
       </p>
+      <CheckLine app={app} />
       <p class="hover-line" id="play-rate">
         {playing?.rate ? `${plural(playing.rate, 'cut')} a second` : ''}
       </p>

@@ -6,6 +6,7 @@ import { Alerts } from './alerts';
 import { Bar } from './bar';
 import { CellCard } from './cell_card';
 import { ChecksPanel } from './checks_panel';
+import { CodePanel } from './code_panel';
 import { ComparePanel } from './compare_panel';
 import { CrossingsBanner } from './crossings_banner';
 import { CutPanel } from './cut_panel';
@@ -13,6 +14,8 @@ import { Divider } from './divider';
 import { Drops } from './drops';
 import { HoverLine } from './hover_line';
 import { Legend } from './legend';
+import { MeasureLine } from './measure_line';
+import { MeasurePanel } from './measure_panel';
 import { MeshPanel } from './mesh_panel';
 import { MotionPanel } from './motion_panel';
 import { PanelsToggle } from './panels_toggle';
@@ -22,12 +25,28 @@ import { SchemeToggle } from './scheme';
 import { Shortcuts } from './shortcuts';
 import { StageNote } from './stage_note';
 import { StepsPanel } from './steps_panel';
+import { ViewAxes } from './view_axes';
 import { ViewPanel } from './view_panel';
+import { VolumesPanel } from './volumes_panel';
+import { WholePage } from './whole_page';
 import { WindPanel } from './wind_panel';
 
 /** Apart from the others, so that the page can say why there is no app. */
 export function showAlerts(state: State): void {
   put('alerts', <Alerts state={state} />);
+}
+
+/** The picture alone, and the way to all the rest. */
+export function showEmbedded(app: App): void {
+  put(
+    'over-stage',
+    <>
+      <Legend app={app} />
+      <StageNote app={app} />
+      <ProgressLine app={app} />
+      <WholePage app={app} />
+    </>,
+  );
 }
 
 export function showPanels(app: App): void {
@@ -44,8 +63,10 @@ export function showPanels(app: App): void {
     <>
       <Divider app={app} />
       <Legend app={app} />
+      <ViewAxes app={app} />
       <StageNote app={app} />
       <CrossingsBanner app={app} />
+      <MeasureLine app={app} />
       <ProgressLine app={app} />
       <HoverLine app={app} />
       <Drops app={app} />
@@ -64,12 +85,15 @@ export function showPanels(app: App): void {
       <MeshPanel app={app} />
       <CutPanel app={app} />
       <ViewPanel app={app} />
+      <VolumesPanel app={app} />
+      <MeasurePanel app={app} />
       <MotionPanel app={app} />
       <WindPanel app={app} />
       <ComparePanel app={app} />
       <StepsPanel app={app} />
       <ChecksPanel app={app} />
       <SavePanel app={app} />
+      <CodePanel app={app} />
     </>,
   );
 }

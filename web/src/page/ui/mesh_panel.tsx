@@ -57,7 +57,7 @@ function FileButton({ app }: { app: App }) {
         aria-label="Mesh file"
         onChange={({ currentTarget }) => open(currentTarget)}
       />
-      <span class="hint">or drop one anywhere: OBJ, STL, PLY, OFF, GLB</span>
+      <span class="hint">or drop one anywhere: OBJ, STL, PLY, OFF, GLB, 3MF</span>
     </div>
   );
 }

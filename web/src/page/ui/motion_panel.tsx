@@ -64,7 +64,7 @@ function Film({ app }: { app: App }) {
   const [recording, setRecording] = useState<Recording | null>(null);
   const begin = () => {
     try {
-      setRecording(app.view.record());
+      setRecording(app.view.files.record());
     } catch (error) {
       app.state.alert(asPageError(error));
     }

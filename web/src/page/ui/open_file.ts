@@ -9,5 +9,5 @@ export async function openFile(app: App, file: File): Promise<void> {
     app.state,
     file.arrayBuffer().catch(() => Promise.reject(fileError(file.name, unreadable))),
   );
-  if (bytes) await app.open({ kind: 'file', name: file.name }, { bytes });
+  if (bytes) await app.open({ kind: 'file', name: file.name }, bytes);
 }

@@ -1,10 +1,15 @@
-import { useLayoutEffect, useRef, useState } from 'preact/hooks';
+import { useState } from 'preact/hooks';
 import type { App } from '../app';
 import { ask } from '../ask';
-import { toHash } from '../../model/settings';
+import { activePlanes } from '../../model/planes';
+import type { PictureOptions } from '../../model/types';
 import type { WindFormat } from '../../model/wind';
+import { addressOf } from '../link';
 import { download } from './download';
+import { CopyButton } from './controls/copy_button';
+import { Check } from './controls/check';
 import { Section } from './controls/section';
+import { Select } from './controls/select';
 
 interface Format {
   /** Also the end of its name. */
@@ -29,8 +34,31 @@ function windFormats(app: App): Format[] {
   ];
 }
 
+/** What the planes that are on cut. */
+function sliceFormats(app: App): Format[] {
+  const { model, settings } = app;
+  const planes = model ? activePlanes(model, settings) : [];
+  return planes.map(({ name }) => ({
+    format: 'svg',
+    about: `slice-${name}`,
+    label: 'SVG',
+    what: name === 'free' ? 'drawing of the slice' : `drawing of slice ${name}`,
+    make: () => ask(app.state, app.view.files.svg(name)),
+  }));
+}
+
+const pictureSizes = [
+  ['1', 'as on the screen'],
+  ['2', 'twice as wide and high'],
+  ['4', '4 times as wide and high'],
+] as const;
+type PictureSize = (typeof pictureSizes)[number][0];
+
 /** Saves the result and the view as files, or as a link. */
 export function SavePanel({ app }: { app: App }) {
+  const [size, setSize] = useState<PictureSize>('1');
+  const [isTransparent, setTransparent] = useState(false);
+  const { files } = app.view;
   const written = (format: 'json' | 'vtu' | 'obj', type: string) => async () => {
     const bytes = await app.write(format);
     return bytes && new Blob([bytes as Uint8Array<ArrayBuffer>], { type });
@@ -39,9 +67,11 @@ export function SavePanel({ app }: { app: App }) {
     { format: 'json', label: 'JSON', what: 'all arrays', make: written('json', 'application/json') },
     { format: 'vtu', label: 'VTU', what: 'cells for ParaView', make: written('vtu', 'application/xml') },
     { format: 'obj', label: 'OBJ', what: 'surface by region', make: written('obj', 'text/plain') },
-    { format: 'glb', label: 'GLB', what: 'visible geometry', make: () => ask(app.state, app.view.glb()) },
-    { format: 'png', label: 'PNG', what: 'screenshot', make: () => ask(app.state, app.view.png()) },
+    { format: 'glb', label: 'GLB', what: 'visible geometry', make: () => ask(app.state, files.glb(false)) },
+    { format: 'glb', about: 'cells', label: 'GLB', what: 'each cell an object', make: () => ask(app.state, files.glb(true)) },
+    ...sliceFormats(app),
     ...(app.state.wind.value ? windFormats(app) : []),
+    { format: 'png', label: 'PNG', what: 'picture', make: () => picture(app, { times: Number(size), isTransparent }) },
   ];
   return (
     <Section app={app} id="save" title="Save">
@@ -52,9 +82,21 @@ export function SavePanel({ app }: { app: App }) {
           </li>
         ))}
       </ul>
-      <LinkRow app={app} />
+      <Select id="picture-size" label="Picture" options={pictureSizes} value={size} onChange={setSize} />
+      <Check id="picture-transparent" label="picture without background" checked={isTransparent} onChange={setTransparent} />
+      <Links app={app} />
     </Section>
   );
+}
+
+/** Says where there is no room for as many pixels as were asked for. */
+async function picture(app: App, options: PictureOptions): Promise<Blob | null> {
+  const made = await ask(app.state, app.view.files.png(options));
+  if (!made) return null;
+  if (made.isSmaller) {
+    app.state.notice(`This browser can't draw that many pixels. The picture has as many as it can: ${made.width} × ${made.height}.`);
+  }
+  return made.blob;
 }
 
 function Saver({ app, format, about, label, what, make }: Format & { app: App }) {
@@ -75,32 +117,22 @@ function Saver({ app, format, about, label, what, make }: Format & { app: App })
   );
 }
 
-function LinkRow({ app }: { app: App }) {
-  const [status, setStatus] = useState('');
-  /** Shown where the clipboard is out of reach. */
-  const [link, setLink] = useState<string | null>(null);
-  const field = useRef<HTMLInputElement>(null);
-  useLayoutEffect(() => field.current?.select(), [link]);
-  const copy = async () => {
-    const url = `${location.href.split('#')[0]}#${toHash(app.settings)}`;
-    const fileNote = app.settings.source.kind === 'file' ? ' The file itself is not included.' : '';
-    try {
-      await navigator.clipboard.writeText(url);
-      setStatus(`Copied.${fileNote}`);
-    } catch {
-      setLink(url);
-      setStatus(`Copy it from the field below.${fileNote}`);
-    }
-  };
+/** The page as it is now, as an address and as a part of another page. */
+function Links({ app }: { app: App }) {
+  const note = app.settings.source.kind === 'file' ? 'The file itself is not included.' : '';
   return (
-    <div class="row">
-      <button type="button" id="copy-link" onClick={() => void copy()}>
-        Copy link
-      </button>
-      <span class="hint" aria-live="polite" id="link-status">
-        {status}
-      </span>
-      {link !== null && <input ref={field} id="link" readOnly value={link} aria-label="Link to this view" />}
-    </div>
+    <>
+      <CopyButton name="link" label="Copy link" text={() => addressOf(app.settings)} note={note} field="Link to this view" />
+      <CopyButton name="embed" label="Copy to embed" text={() => embedding(app)} note={note || 'Paste it into a web page.'} field="HTML" />
+    </>
   );
+}
+
+function embedding({ settings, mesh }: App): string {
+  const title = `${mesh?.name ?? 'A mesh'}, cut by Mandoline`;
+  return `<iframe src="${inHtml(addressOf(settings, true))}" title="${inHtml(title)}" width="800" height="500" style="border: 0"></iframe>`;
+}
+
+function inHtml(text: string): string {
+  return text.replaceAll('&', '&amp;').replaceAll('"', '&quot;').replaceAll('<', '&lt;');
 }

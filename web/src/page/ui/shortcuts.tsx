@@ -1,12 +1,15 @@
 import { useEffect, useRef } from 'preact/hooks';
 import type { App } from '../app';
+import { axes } from '../../model/settings';
 import type { Axis } from '../../model/types';
 import { Terms } from './controls/terms';
 
 const help: [string, string][] = [
   ['F', 'fit view'],
   ['X Y Z', 'slice along an axis, on or off'],
-  ['Esc', 'unpin the cell, or go back to the model'],
+  ['1 2 3', 'look along x, y or z; again: from the other side'],
+  ['M', 'measure a distance'],
+  ['Esc', 'end measuring, unpin the cell, or go back to the model'],
   ['← →', 'in the steps: previous and next'],
   ['?', 'show this list'],
 ];
@@ -50,12 +53,19 @@ export function Shortcuts({ app }: { app: App }) {
 }
 
 function act(app: App, key: string): void {
-  if (key === 'Escape') app.inspector.leave();
+  if (key === 'Escape') leave(app);
+  else if (key.toLowerCase() === 'm') app.toggleMeasure();
   else if (key.toLowerCase() === 'f') app.fit();
+  else if ('123'.includes(key)) app.lookAlong(axes[Number(key) - 1]);
   else if ('xyz'.includes(key.toLowerCase())) {
     const axis = key.toLowerCase() as Axis;
     app.changeSlice(axis, { on: !app.settings.slices[axis].on });
   }
+}
+
+function leave(app: App): void {
+  if (app.state.measurement.value) app.measuring.end();
+  else app.inspector.leave();
 }
 
 function isTyping(target: EventTarget | null): boolean {

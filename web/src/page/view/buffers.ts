@@ -1,5 +1,5 @@
 // Buffers on the GPU that outlive the models: they are filled anew, and made anew only where they are too small or much too large.
-import { BufferAttribute, DataTexture, DynamicDrawUsage, FloatType, type BufferGeometry, type TypedArray } from 'three';
+import { BufferAttribute, DataTexture, DynamicDrawUsage, BufferGeometry, FloatType, type TypedArray } from 'three';
 
 /** Room that is made where something has grown, since it may well grow again. */
 const growth = 1.5;
@@ -11,6 +11,13 @@ export interface Values {
   array: TypedArray;
   size: number;
   normalized?: boolean;
+}
+
+/** To be filled later. Shaders depend on which of these attributes there are. */
+export function emptyGeometry(...names: 'normal'[]): BufferGeometry {
+  const geometry = new BufferGeometry();
+  for (const name of ['position', ...names]) geometry.setAttribute(name, new BufferAttribute(new Float32Array(0), 3));
+  return geometry;
 }
 
 /** Gives a geometry these vertices, and draws all of them. */

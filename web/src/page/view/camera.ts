@@ -1,10 +1,12 @@
 // The camera, moved by mouse, touch and keys. In scene units: the grid's box has a diagonal of 2 and lies around 0.
-import { PerspectiveCamera, Vector3 } from 'three';
+import { MathUtils, PerspectiveCamera, Quaternion, Vector3 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import type { Up } from '../../model/types';
+import type { AxesSeen, Up } from '../../model/types';
 import { placeBetween, type Place } from './flight';
 import { firstDirection, fit, uprightAxes } from './fit';
 
+/** Degrees from one side of the picture to the other, along the shorter ones: what a link shows on a desk is in the picture on a phone. */
+const shorterAngle = 35;
 /** The share of the picture's width or height that what is framed fills. */
 const filled = 0.78;
 const turn = Math.PI / 24;
@@ -12,6 +14,8 @@ const turn = Math.PI / 24;
 const glideTime = 100;
 /** How long a flight takes, in ms. */
 const flightTime = 700;
+/** The cosine of the angle to the axis upwards below which no side of the camera is known to be up. */
+const nearPole = 0.9999;
 /** Shortest time between two reports of the camera's position, in ms. */
 const tellTime = 200;
 
@@ -22,12 +26,15 @@ interface Flight {
 }
 
 export class Camera {
-  readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
+  readonly camera = new PerspectiveCamera(shorterAngle, 1, 0.01, 100);
   controls: OrbitControls;
   /** The camera has changed. */
   onChange = () => {};
+  /** It sees the axes in another way, in the frame that is to be drawn. */
+  onTurned: (axes: AxesSeen) => void = () => {};
   /** The person has moved it. */
   onMoved = () => {};
+  private readonly turned = new Quaternion();
   private up: Up = 'y';
   private isPersons = false;
   /** Points in view, 3 numbers each, kept in view when the window changes its shape until the person moves the camera. */
@@ -94,7 +101,17 @@ export class Camera {
     if (this.flight) this.flyOn(this.flight);
     this.move(1 - Math.exp((this.movedAt - now) / glideTime));
     this.movedAt = now;
+    this.tellTurn();
     if (this.flight || now < this.glidesUntil) this.onChange();
+  }
+
+  private tellTurn(): void {
+    const { quaternion } = this.camera;
+    if (this.turned.equals(quaternion)) return;
+    this.turned.copy(quaternion);
+    const toCamera = quaternion.clone().invert();
+    const seen = (...axis: [number, number, number]) => new Vector3(...axis).applyQuaternion(toCamera).toArray();
+    this.onTurned([seen(1, 0, 0), seen(0, 1, 0), seen(0, 0, 1)]);
   }
 
   /** Makes this share of the movement that is left. */
@@ -154,11 +171,28 @@ export class Camera {
 
   /** Flies to points, as if the person had moved there. */
   flyTo(points: Float32Array, share = filled): void {
+    this.flyToPlace(this.placeFor(points, this.direction, share));
+  }
+
+  private flyToPlace(to: Place): void {
     const { at } = this;
-    this.place(this.placeFor(points, this.direction, share));
+    this.place(to);
     this.flyFrom(at);
     this.isPersons = true;
     this.changed();
+  }
+
+  /** Flies around what it looks at, as if the person had, to see it from this direction: all of it, if all was in view. */
+  lookFrom(direction: Vector3): void {
+    const { at, framed } = this;
+    const [, up, front] = uprightAxes(this.up);
+    // From above or below what is in front is seen below.
+    const from = direction.clone().normalize();
+    if (Math.abs(from.dot(up)) > nearPole) from.addScaledVector(front, 1e-3).normalize();
+    const distance = at.position.distanceTo(at.target);
+    this.flyToPlace(
+      framed ? this.placeFor(framed, from, filled) : { position: from.multiplyScalar(distance).add(at.target), target: at.target },
+    );
   }
 
   place(to: Place): void {
@@ -195,12 +229,13 @@ export class Camera {
     this.changed();
   }
 
-  /** Follows a scene that has been moved and scaled. */
+  /** Follows a scene that has been moved and scaled. A glide ends, and where it has led is told. */
   transform(move: (point: Vector3) => Vector3): void {
     const { isPersons, framed, flight } = this;
     const moved = ({ position, target }: Place) => ({ position: move(position), target: move(target) });
     this.place(moved(this.at));
     this.isPersons = isPersons;
+    if (isPersons) this.changed();
     this.flight = flight && { ...flight, from: moved(flight.from), to: moved(flight.to) };
     if (!framed) return;
     const point = new Vector3();
@@ -214,7 +249,9 @@ export class Camera {
   }
 
   resize(width: number, height: number): void {
+    const { DEG2RAD } = MathUtils;
     this.camera.aspect = width / height;
+    this.camera.fov = (2 * Math.atan(Math.tan((shorterAngle * DEG2RAD) / 2) / Math.min(this.camera.aspect, 1))) / DEG2RAD;
     this.camera.updateProjectionMatrix();
     if (this.framed) this.frame(this.framed, true);
   }

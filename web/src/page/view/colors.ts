@@ -1,6 +1,7 @@
 // What colours mean. The colours themselves are the package's; here they are sRGB bytes, which the shaders make linear.
 import { idColor, kindColors, outsideColor, regionColor as paletteColor, volumeColor, windingColor } from 'mandoline-wasm/three';
 import { insideWords, isOutside, nearestWinding } from '../../model/inside';
+import { hasWhole, shareOf } from '../../model/volumes';
 import { isAnythingShown } from './look';
 import type { ColorBy, Model, Settings } from '../../model/types';
 
@@ -41,10 +42,6 @@ function shareColor(share: number): Rgb {
   return volumeColors[Math.round(volumeSteps * Math.sqrt(Math.max(0, Math.min(1, share))))];
 }
 
-export function gridCellVolume({ grid }: Model, gridCell: ArrayLike<number>): number {
-  return grid.planes.reduce((volume, planes, d) => volume * (planes[gridCell[d] + 1] - planes[gridCell[d]]), 1);
-}
-
 function byRegion(model: Model, colorBy: ColorBy): Rgb[] {
   return model.regions.map(({ id }) => (colorBy === 'winding' ? colorOfWinding(model, id) : regionColor(model, id)));
 }
@@ -68,14 +65,14 @@ function windingLegend(model: Model): { label: string; color: Rgb }[] {
 
 /** 4 bytes per cut-cell, the last one free. */
 export function cutCellColors(model: Model, colorBy: ColorBy): Uint8Array {
-  const { region, volume, gridCell } = model.cells;
+  const { region } = model.cells;
   const regions = byRegion(model, colorBy);
   const colors = new Uint8Array(4 * region.length);
   for (let cell = 0; cell < region.length; cell++) {
     let color: Rgb;
     if (colorBy === 'cell') color = colorOfId(cell);
     else if (colorBy === 'kind') color = surfaceColor;
-    else if (colorBy === 'volume') color = shareColor(volume[cell] / gridCellVolume(model, gridCell.subarray(3 * cell, 3 * cell + 3)));
+    else if (colorBy === 'volume') color = shareColor(shareOf(model, cell));
     else color = regions[region[cell]];
     colors.set(color, 4 * cell);
   }
@@ -93,7 +90,7 @@ export function untouchedColors(model: Model, colorBy: ColorBy): (gridCell: numb
 
 /** What the colours mean, as CSS colours, for at most `most` regions; nothing where nothing is seen. */
 export function legend(model: Model, settings: Settings, most = 12): { label: string; color: string }[] {
-  const { colorBy, sliceMode, slices, show } = settings;
+  const { colorBy, sliceMode, slices, show, volumes } = settings;
   const entry = (label: string, color: Rgb) => ({ label, color: toCss(color) });
   if (colorBy === 'cell' || !isAnythingShown(model, settings)) return [];
   if (colorBy === 'kind') {
@@ -102,7 +99,9 @@ export function legend(model: Model, settings: Settings, most = 12): { label: st
       ...(show.surface ? [entry('pieces of triangles', surfaceColor)] : []),
       ...(show.gridFaces ? [entry('pieces of grid-faces', gridFaceColor)] : []),
       ...(isCutOpen ? [entry('inside of cut-cells', insideColor)] : []),
-      ...(show.untouched && show.gridFaces && model.counts.untouchedCells > 0 ? [entry('untouched cells', untouchedKindColor)] : []),
+      ...(show.untouched && show.gridFaces && hasWhole(volumes) && model.counts.untouchedCells > 0
+        ? [entry('untouched cells', untouchedKindColor)]
+        : []),
     ];
   }
   if (colorBy === 'volume') return [0, 0.25, 0.5, 1].map((fraction) => entry(`${100 * fraction}% of a grid cell`, shareColor(fraction)));

@@ -51,6 +51,11 @@ export function insteadPoints(model: Model, { center, radius }: Instead): Float3
   return Float32Array.from(corners(ends[0], ends[1]), (x) => x * sceneScale(model));
 }
 
+/** In scene units, the corners of the mesh's box. */
+export function meshPoints(model: Model): Float32Array {
+  return Float32Array.from(meshCorners(model), (x) => x * sceneScale(model));
+}
+
 function windPoints({ model: { meshMin, meshMax, origin }, settings: { wind } }: Extent): number[] {
   if (!wind.on) return [];
   const size = Math.max(...meshMax.map((x, d) => x - meshMin[d]));

@@ -3,6 +3,7 @@ import type { Object3D } from 'three';
 import type { Slice } from 'mandoline-wasm';
 import type { Instead, Model, Settings } from '../../model/types';
 import type { Comparison } from '../../model/comparison';
+import type { Measurement } from '../../model/measurement';
 import type { Wind } from '../../model/wind';
 import type { Piece } from './piece';
 import type { ViewPlane } from '../../model/planes';
@@ -23,6 +24,8 @@ export interface Look {
   instead: Instead | null;
   /** The flow about the mesh, if there is a wind. */
   wind: Wind | null;
+  /** The distance that is measured, if one is. */
+  measurement: Measurement | null;
   /** What is drawn right of a divider in other ways, if it is. */
   comparison: Comparison | null;
 }
@@ -42,6 +45,6 @@ export interface Layer {
   /** Moves what moves by itself, before each frame, to a time in seconds. Gives whether it goes on moving. */
   animate?(seconds: number): boolean;
   setPixelRatio?(ratio: number): void;
-  /** The triangles that it draws, for files. */
-  forEachPiece?(take: (piece: Piece) => void): void;
+  /** The triangles that it draws; of one cut-cell, if only those are wanted, or one box, or what has neither: both are -1 then. */
+  forEachPiece?(take: (piece: Piece) => void, only?: { cell: number; box: number }): void;
 }

@@ -1,16 +1,26 @@
-// When to draw: once something has changed, at the pace of the GPU. Preparing a picture and drawing it are separate tasks, so that the page
-// never waits for both at once.
+// When to draw: once something has changed, at the pace of the GPU. Preparing a picture and drawing it are separate tasks where that takes
+// long, so that the page never waits for both at once.
 import { GpuPace } from './gpu_pace';
 import { Quality } from './quality';
 
 export interface Drawing {
+  /** Does a part of what is best done before the first picture, then of what is best done soon after it. Gives whether there is more. */
+  warmUp(): boolean;
   /** Brings what is drawn up to date. */
   prepare(): void;
   /** Whether the former picture had better stay, since something of the next one is still on its way. */
   isWaiting(): boolean;
   /** Draws, with this share of the screen's pixels per side. Gives whether something goes on moving by itself. */
   draw(seconds: number, share: number): boolean;
+  /** A picture that took so long, in ms, has stood for a moment. */
+  stand(took: number): void;
 }
+
+/** In ms. */
+const pollTime = 4;
+const longPreparation = 10;
+/** In ms: how long a picture has to be there before it stands. */
+const rest = 300;
 
 export class Loop {
   private readonly pace: GpuPace;
@@ -18,20 +28,38 @@ export class Loop {
   private asked = 0;
   private watched = 0;
   private isStale = true;
+  /** Before the first picture, and after it has stood. */
+  private warmUps: 'none' | 'first' | 'both' = 'none';
   /** Whether what is drawn is up to date and waits for its frame. */
   private isPrepared = false;
   private whenFree: (() => void) | null = null;
+  private standing: ReturnType<typeof setTimeout> | undefined;
 
   constructor(
     gl: WebGL2RenderingContext,
     private readonly drawing: Drawing,
   ) {
     this.pace = new GpuPace(gl);
+    setTimeout(() => this.warmUp(() => this.begin()));
+  }
+
+  /** By a timer, since there may be no frames while the GPU is busy. */
+  private warmUp(whenDone = () => {}): void {
+    if (!this.pace.isBehind) {
+      if (!this.drawing.warmUp()) return whenDone();
+      this.pace.mark();
+    }
+    setTimeout(() => this.warmUp(whenDone), pollTime);
+  }
+
+  private begin(): void {
+    this.warmUps = 'first';
+    this.invalidate();
   }
 
   /** Asks for a frame. */
   invalidate(): void {
-    if (this.asked === 0) this.asked = requestAnimationFrame(() => this.tick());
+    if (this.asked === 0 && this.warmUps !== 'none') this.asked = requestAnimationFrame(() => this.tick());
   }
 
   /** Asks for a frame that has to be prepared. */
@@ -40,8 +68,9 @@ export class Loop {
     this.invalidate();
   }
 
-  /** Draws now, as finely as the screen has it. */
+  /** Draws now, as finely as the screen has it; before the first picture, as soon as can be. */
   draw(): void {
+    if (this.warmUps === 'none') return;
     cancelAnimationFrame(this.asked);
     this.asked = 0;
     this.prepare();
@@ -61,9 +90,9 @@ export class Loop {
   }
 
   /** Has the GPU do something else as soon as it has caught up. Of several such tasks the last one wins. */
-  soon(task: (() => void) | null): void {
+  soon(task: () => void): void {
     this.whenFree = task;
-    if (task && this.pace.isBehind) this.invalidate();
+    if (this.pace.isBehind) this.invalidate();
     else this.runTask();
   }
 
@@ -85,9 +114,12 @@ export class Loop {
       this.runTask();
       this.invalidate();
     } else if (this.isStale && !this.isPrepared) {
+      const begin = performance.now();
       this.prepare();
       this.isPrepared = true;
-      this.invalidate();
+      const isLong = performance.now() - begin > longPreparation;
+      if (isLong || this.drawing.isWaiting()) this.invalidate();
+      else this.render();
     } else if (this.drawing.isWaiting()) this.invalidate();
     else this.render();
   }
@@ -97,7 +129,17 @@ export class Loop {
     const isMoving = this.drawing.draw(performance.now() / 1000, share);
     this.pace.mark();
     if (isMoving || this.isStale) this.invalidate();
+    clearTimeout(this.standing);
+    this.standing = setTimeout(() => this.stand(), rest);
     this.watched ||= requestAnimationFrame(() => this.watch());
+  }
+
+  private stand(): void {
+    if (this.asked !== 0 || this.pace.isBehind) return;
+    this.drawing.stand(this.pace.took);
+    if (this.warmUps === 'both') return;
+    this.warmUps = 'both';
+    this.warmUp();
   }
 
   /** Sees when the picture is done, even if no other follows. */

@@ -5,6 +5,7 @@ import type { DataTexture, IUniform, Side } from 'three';
 import { tableWidth } from './buffers';
 import { gridFaceColor } from './colors';
 import { lightChunk } from './light';
+import { firstBox } from './picking';
 
 export type Uniforms = ReturnType<typeof makeUniforms>;
 
@@ -36,13 +37,15 @@ export function makeUniforms() {
     up: { value: new Vector3(0, 1, 0) },
     /** Height of the ground, and the height above it from which on nothing casts a shadow. */
     ground: { value: new Vector2() },
+    /** How much is seen of a surface that is only hinted at. */
+    faintness: { value: 0.06 },
     /** How dark shadows are, 0 to 1. */
     shade: { value: 0 },
   };
 }
 
 export type Geometry = 'CELLS' | 'BOXES' | 'CAPS';
-export type Purpose = 'FACES' | 'BACKS' | 'LINES' | 'PICK' | 'GHOST' | 'SHADOW';
+export type Purpose = 'FACES' | 'BACKS' | 'LINES' | 'PICK' | 'GHOST' | 'DIMMED' | 'SHADOW';
 
 /** Uniforms of lines: their opacity, the distance from one to the next in the model's units, and the pixels of it below which they fade. */
 export function stroke(strength: number, spacing: IUniform<number>, fadeBelow: number) {
@@ -60,15 +63,24 @@ const sides: Record<Purpose, Side> = {
   LINES: FrontSide,
   PICK: DoubleSide,
   GHOST: DoubleSide,
+  DIMMED: DoubleSide,
   SHADOW: DoubleSide,
 };
 
 export function makeMaterial(geometry: Geometry, purpose: Purpose, shared: Uniforms, own: Record<string, IUniform> = {}): ShaderMaterial {
-  const isTransparent = purpose === 'LINES' || purpose === 'GHOST';
-  const isLit = purpose === 'FACES' || purpose === 'BACKS' || purpose === 'GHOST';
+  const isFaint = purpose === 'GHOST' || purpose === 'DIMMED';
+  const isTransparent = purpose === 'LINES' || isFaint;
+  const isLit = purpose === 'FACES' || purpose === 'BACKS' || isFaint;
   const material = new ShaderMaterial({
     uniforms: { ...shared, ...own },
-    defines: { [geometry]: 1, [purpose]: 1, TABLE_WIDTH: tableWidth, ...(isLit && { LIT: 1 }) },
+    defines: {
+      [geometry]: 1,
+      [purpose]: 1,
+      TABLE_WIDTH: tableWidth,
+      FIRST_BOX: firstBox,
+      ...(isLit && { LIT: 1 }),
+      ...(isFaint && { FAINT: 1 }),
+    },
     vertexShader,
     fragmentShader,
     side: geometry === 'CAPS' ? DoubleSide : sides[purpose],
@@ -76,7 +88,15 @@ export function makeMaterial(geometry: Geometry, purpose: Purpose, shared: Unifo
     depthWrite: !isTransparent,
   });
   // Lines lie in front of the faces that they bound, caps before faces in their plane, the front of a face before its neighbour's back.
-  const depth = { FACES: geometry === 'CAPS' ? 1 : 2, BACKS: 3, LINES: 0, PICK: geometry === 'CAPS' ? 1 : 2, GHOST: 2, SHADOW: 0 }[purpose];
+  const depth = {
+    FACES: geometry === 'CAPS' ? 1 : 2,
+    BACKS: 3,
+    LINES: 0,
+    PICK: geometry === 'CAPS' ? 1 : 2,
+    GHOST: 2,
+    DIMMED: 2,
+    SHADOW: 0,
+  }[purpose];
   material.polygonOffset = depth > 0;
   material.polygonOffsetFactor = depth / 2;
   material.polygonOffsetUnits = depth;
@@ -97,6 +117,7 @@ varying vec3 vView;
 varying vec3 vColor;
 varying float vHighlight;
 flat varying int vCell;
+flat varying vec3 vMiddle;
 #ifdef LINES
   uniform float strength;
   uniform float spacing;
@@ -150,7 +171,9 @@ void main() {
     middle = centerAndRegion.xyz;
     regionId = centerAndRegion.w;
     vColor = look.rgb;
-    #ifndef GHOST
+    #ifdef DIMMED
+      shown = look.a > 0.1 && look.a < 0.5;
+    #elif !defined(GHOST)
       shown = look.a > 0.5;
     #endif
     #ifndef LINES
@@ -160,6 +183,7 @@ void main() {
   #endif
   #ifdef BOXES
     int box = gl_VertexID / 8;
+    vCell = -2 - box;
     vec4 lowAndRegion = texelFetch(boxes, place(2 * box), 0);
     vec4 sizeAndColor = texelFetch(boxes, place(2 * box + 1), 0);
     vRest = lowAndRegion.xyz + sizeAndColor.xyz * vec3(gl_VertexID & 1, (gl_VertexID >> 1) & 1, (gl_VertexID >> 2) & 1);
@@ -175,6 +199,7 @@ void main() {
     vColor = tint.rgb;
   #endif
   vHighlight = vCell < 0 ? 0.0 : vCell == pinned ? 0.7 : vCell == hovered ? 0.4 : 0.0;
+  vMiddle = middle;
   vec3 moved = vRest;
   #ifndef GHOST
     if (!flatCut) {
@@ -212,6 +237,7 @@ varying vec3 vRest;
 varying vec3 vColor;
 varying float vHighlight;
 flat varying int vCell;
+flat varying vec3 vMiddle;
 #ifdef CAPS
   uniform int ownPlane;
 #endif
@@ -224,6 +250,9 @@ flat varying int vCell;
   varying float vHeight;
 #endif
 
+#ifdef FAINT
+  uniform float faintness;
+#endif
 #ifdef LIT
   uniform bool darkBacks;
   varying vec3 vNormal;
@@ -247,12 +276,15 @@ void main() {
         #ifdef CAPS
           if (p == ownPlane) continue;
         #endif
-        if (dot(planes[p].xyz, vRest) > planes[p].w) discard;
+        // What lies in the plane belongs to it on the near side alone: a cell beyond it may end there.
+        bool isBeyond = dot(planes[p].xyz, vMiddle) > planes[p].w;
+        float slack = isBeyond ? 1e-5 * (length(vRest) + abs(planes[p].w)) : 0.0;
+        if (dot(planes[p].xyz, vRest) > planes[p].w - slack) discard;
       }
     }
   #endif
   #ifdef PICK
-    int id = vCell + 1;
+    int id = vCell < -1 ? FIRST_BOX - 2 - vCell : vCell + 1;
     gl_FragColor = vec4(float(id & 255), float((id >> 8) & 255), float((id >> 16) & 255), 255.0) / 255.0;
   #endif
   #ifdef SHADOW
@@ -265,8 +297,8 @@ void main() {
   #endif
   #ifdef LIT
     gl_FragColor = vec4(lit(mix(linear(vColor), accent, vHighlight)), 1.0);
-    #ifdef GHOST
-      gl_FragColor.a = 0.06;
+    #ifdef FAINT
+      gl_FragColor.a = faintness;
     #endif
     #include <colorspace_fragment>
   #endif

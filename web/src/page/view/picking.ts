@@ -1,10 +1,18 @@
 // Which cell is seen at a point of the canvas: the cells are drawn once more into one pixel, with their ids as colours.
 import { Group, Scene, WebGLRenderTarget, type Object3D, type PerspectiveCamera, type WebGLRenderer } from 'three';
+import type { Pass } from './warm_up';
+
+/** A cut-cell, or an untouched grid cell by the number of its box; null for anything else. */
+export type Picked = { cell: number; box?: undefined } | { box: number; cell?: undefined } | null;
+
+/** Ids from here on are those of boxes. */
+export const firstBox = 2 ** 23;
 
 export class Picker {
   readonly root = new Group();
   private readonly scene = new Scene();
   private readonly target = new WebGLRenderTarget(1, 1);
+  readonly pass: Pass = { scene: this.scene, target: this.target };
   private readonly pixel = new Uint8Array(4);
   private running: Promise<unknown> = Promise.resolve();
 
@@ -16,24 +24,30 @@ export class Picker {
     this.scene.add(this.root);
   }
 
-  /** The cut-cell at this point, in CSS pixels; null where there is none. */
-  pick(camera: PerspectiveCamera, x: number, y: number): Promise<number | null> {
+  /** What is seen at this point, in CSS pixels. */
+  pick(camera: PerspectiveCamera, x: number, y: number): Promise<Picked> {
     const answer = this.running.then(() => this.read(camera, x, y));
     this.running = answer.catch(() => null);
     return answer;
   }
 
-  private async read(camera: PerspectiveCamera, x: number, y: number): Promise<number | null> {
+  private async read(camera: PerspectiveCamera, x: number, y: number): Promise<Picked> {
     const { clientWidth, clientHeight } = this.renderer.domElement;
     camera.setViewOffset(clientWidth, clientHeight, x, y, 1, 1);
-    this.renderer.setRenderTarget(this.target);
+    this.draw(this.target, camera);
+    camera.clearViewOffset();
+    const [low, middle, high] = await this.renderer.readRenderTargetPixelsAsync(this.target, 0, 0, 1, 1, this.pixel);
+    const id = low + 256 * middle + 65536 * high;
+    if (id >= firstBox) return { box: id - firstBox };
+    return id === 0 ? null : { cell: id - 1 };
+  }
+
+  /** Draws what can be picked, and how far away it is. */
+  draw(target: WebGLRenderTarget, camera: PerspectiveCamera): void {
+    this.renderer.setRenderTarget(target);
     this.renderer.setClearColor(0, 0);
     this.renderer.clear();
     this.renderer.render(this.scene, camera);
     this.renderer.setRenderTarget(null);
-    camera.clearViewOffset();
-    const [low, middle, high] = await this.renderer.readRenderTargetPixelsAsync(this.target, 0, 0, 1, 1, this.pixel);
-    const id = low + 256 * middle + 65536 * high - 1;
-    return id < 0 ? null : id;
   }
 }

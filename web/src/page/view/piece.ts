@@ -4,6 +4,8 @@ import type { Rgb } from './colors';
 export interface Piece {
   /** Its corners at rest: 9 numbers. */
   corners: readonly number[];
+  /** The cut-cell; -1 for an untouched grid cell. */
+  cell: number;
   /** Centre and region of its cell. */
   middle: ArrayLike<number>;
   region: number;

@@ -10,6 +10,8 @@ const rest = 250;
 export class Quality {
   private level = 0;
   private lastAt = -Infinity;
+  /** For the first picture there is more to do than for those that follow. */
+  private isFirst = true;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
   /** `refine` draws a picture that stands. */
@@ -25,7 +27,8 @@ export class Quality {
     this.lastAt = now;
     clearTimeout(this.timer);
     if (!isMoving) return 1;
-    if (took > slow) this.level = Math.min(this.level + 1, levels.length - 1);
+    if (this.isFirst) this.isFirst = false;
+    else if (took > slow) this.level = Math.min(this.level + 1, levels.length - 1);
     else if (took < quick) this.level = Math.max(this.level - 1, 0);
     if (this.level > 0) this.timer = setTimeout(() => this.stand(), rest + took);
     return levels[this.level];

@@ -17,3 +17,8 @@ export function makeRenderer(canvas: HTMLCanvasElement): WebGLRenderer {
     throw error;
   }
 }
+
+export function contextLost(): PageError {
+  const why = 'The browser dropped the graphics context, perhaps because memory ran low.';
+  return { title: 'The picture is lost for now', detail: `${why} If the picture does not come back, reload the page.` };
+}

@@ -1,33 +1,39 @@
 // The 3D view: puts the layers together, and draws when something has changed.
-import { Group, Scene, type Object3D, type WebGLRenderer } from 'three';
-import type { Engine, Instead, Model, PageError, Recording, Settings, View } from '../../model/types';
+import { Group, Scene, Vector3, type Object3D, type WebGLRenderer } from 'three';
+import type { Engine, Instead, Model, PageError, Settings, View } from '../../model/types';
 import type { Comparison } from '../../model/comparison';
+import type { Vector3 as ModelVector } from '../../model/vector';
+import type { Measurement } from '../../model/measurement';
 import type { Wind } from '../../model/wind';
 import { Camera } from './camera';
-import { exportGlb } from './export';
+import { Files } from './files';
 import { FlatCuts } from './flat_cuts';
 import { Framing } from './framing';
 import { Halves } from './halves';
+import { Inset } from './inset';
 import type { Layer, Look } from './layer';
 import { Caps } from './layers/caps';
 import { CrossingCurves } from './layers/crossings';
 import { CutCells } from './layers/cut_cells';
 import { Frames } from './layers/frames';
 import { Gizmo } from './layers/gizmo';
+import { Marks } from './layers/marks';
+import { Ruler } from './layers/ruler';
 import { Shadow } from './layers/shadow';
 import { Step } from './layers/step';
 import { Untouched } from './layers/untouched';
 import { regionShifts, shownRegions } from './look';
 import { Loop } from './loop';
 import { makeUniforms } from './material';
+import { Occlusion } from './occlusion';
 import { Picker } from './picking';
-import { Pointer } from './pointer';
-import { record } from './recorder';
-import { makeRenderer } from './renderer';
+import { contextLost, makeRenderer } from './renderer';
 import { setScheme } from './scheme';
 import { keepCamera, sceneScale } from './scene_space';
+import { Touch } from './touch';
 import { WindTunnel } from './wind';
 import { setUniforms } from './uniforms';
+import { WarmUp } from './warm_up';
 
 export interface ViewOptions {
   /** Makes the caps of flat cuts. */
@@ -35,9 +41,6 @@ export interface ViewOptions {
   /** Called when drawing fails: the graphics context is lost, or caps can't be made. */
   onError?: (error: PageError) => void;
 }
-
-/** In ms. */
-const compileTime = 100;
 
 /** Draws into the canvas, which fills its parent by CSS. Throws a PageError where there is no WebGL 2. */
 export function createView(canvas: HTMLCanvasElement, options: ViewOptions): View {
@@ -47,9 +50,12 @@ export function createView(canvas: HTMLCanvasElement, options: ViewOptions): Vie
 class ThreeView implements View {
   onHover: View['onHover'] = () => {};
   onPick: View['onPick'] = () => {};
+  pictures = 0;
+  onTurned: View['onTurned'] = () => {};
   onCamera: View['onCamera'] = () => {};
   onFreePlane: View['onFreePlane'] = () => {};
   onWind: View['onWind'] = () => {};
+  onMeasured: View['onMeasured'] = () => {};
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   /** From the model's units to scene units. */
@@ -62,9 +68,13 @@ class ThreeView implements View {
   private readonly gizmo: Gizmo;
   private readonly shadow: Shadow;
   /** What is seen of the model, and what is seen instead of it. */
-  private readonly ofModel: readonly Layer[] = [this.cells, this.untouched, this.caps, this.frames];
-  private readonly ofInsteads: readonly Layer[] = [new Step(), new CrossingCurves(this.uniforms)];
+  private readonly ofModel: readonly Layer[] = [this.cells, this.untouched, this.caps, this.frames, new Marks(this.uniforms, this.cells)];
+  private readonly step = new Step(this.uniforms);
+  private readonly ofInsteads: readonly Layer[] = [this.step, new CrossingCurves(this.uniforms)];
   private readonly windTunnel: WindTunnel;
+  private readonly ruler = new Ruler(this.uniforms);
+  private readonly touch: Touch;
+  private readonly inset: Inset;
   private readonly layers: readonly Layer[];
   private readonly halves = new Halves(this.uniforms, objectsOf(this.ofModel));
   private readonly modelGroup = new Group().add(this.halves.object);
@@ -72,24 +82,27 @@ class ThreeView implements View {
   private readonly camera: Camera;
   private readonly framing: Framing;
   private readonly picker: Picker;
+  private readonly occlusion: Occlusion;
   private readonly loop: Loop;
   private readonly flatCuts: FlatCuts;
+  readonly files: Files;
   private model: Model | null = null;
   private shifts: Float32Array = new Float32Array(0);
   private settings: Settings | null = null;
   private instead: Instead | null = null;
   private wind: Wind | null = null;
   private comparison: Comparison | null = null;
+  private measurement: Measurement | null = null;
   private look: Look | null = null;
   /** What the looks of layers were made of. */
   private readonly made = new Map<Layer, readonly unknown[]>();
-  private framesDrawn = 0;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly options: ViewOptions,
   ) {
     this.renderer = makeRenderer(canvas);
+    this.inset = new Inset(this.renderer, this.scene, this.uniforms, this.step);
     this.camera = new Camera(canvas, matchMedia('(prefers-reduced-motion: reduce)'));
     this.framing = new Framing(this.camera, () => {
       const { model, settings, shifts, instead } = this;
@@ -103,43 +116,49 @@ class ThreeView implements View {
       this.ofModel.flatMap(({ caster }) => caster ?? []),
     );
     this.modelGroup.add(this.shadow.object);
-    this.layers = [...this.ofModel, this.halves.otherWay, this.shadow, ...this.ofInsteads, this.windTunnel, this.gizmo];
+    this.layers = [...this.ofModel, this.halves.otherWay, this.shadow, ...this.ofInsteads, this.windTunnel, this.gizmo, this.ruler];
     this.picker = new Picker(
       this.renderer,
       this.layers.flatMap(({ pick }) => pick ?? []),
     );
+    this.occlusion = new Occlusion(this.renderer, this.picker, this.camera.camera);
     this.flatCuts = new FlatCuts(options.slice);
+    const warmUp = new WarmUp(this.renderer, this.camera.camera);
     this.loop = new Loop(this.renderer.getContext() as WebGL2RenderingContext, {
+      warmUp: () => warmUp.takeOver(),
       prepare: () => this.prepare(),
       isWaiting: () => this.flatCuts.isAwaited,
       draw: (seconds, share) => this.draw(seconds, share),
+      stand: (took) => this.occlusion.stand(this.look, took),
     });
-    this.root.add(this.modelGroup, this.insteadGroup, this.windTunnel.object);
+    const { renderer, scene, loop, ofModel, caps, shadow, gizmo, windTunnel, uniforms, camera, framing, picker, halves } = this;
+    this.touch = new Touch({
+      ...{ canvas, uniforms, camera, framing, loop, picker, halves, ofModel },
+      look: () => (this.modelGroup.visible ? this.look : null),
+      isTaken: () => gizmo.isTouched || windTunnel.isTouched,
+    });
+    this.files = new Files({
+      ...{ renderer, scene, loop, ofModel, caps, shadow, gizmo, windTunnel },
+      slice: options.slice,
+      look: () => this.look,
+      draw: (times) => this.draw(performance.now() / 1000, times),
+    });
+    this.root.add(this.modelGroup, this.insteadGroup, this.windTunnel.object, this.ruler.object);
+    this.ruler.object.visible = false;
     this.scene.add(this.root, this.gizmo.object);
     this.modelGroup.visible = this.insteadGroup.visible = false;
     this.setScheme(matchMedia('(prefers-color-scheme: dark)').matches);
     this.listen();
     this.resize();
-    this.warmUp();
-  }
-
-  /** Compiles all shaders while the first mesh is being cut: the compiler runs beside the page, then an empty draw picks up the results. */
-  private warmUp(): void {
-    this.renderer.compile(this.scene, this.camera.camera);
-    this.shadow.compile();
-    const takeOver = () => {
-      if (this.model) return;
-      this.modelGroup.visible = this.insteadGroup.visible = true;
-      this.halves.render(this.renderer, this.scene, this.camera.camera);
-      this.modelGroup.visible = this.insteadGroup.visible = false;
-      void this.picker.pick(this.camera.camera, 0, 0);
-      this.loop.invalidate();
-    };
-    setTimeout(takeOver, compileTime);
+    // The background, before the GPU is busy.
+    renderer.render(scene, camera.camera);
+    const [first, all] = [this.modelGroup, scene].map((object) => ({ scene: object, target: null }));
+    void warmUp.compile(first, [...shadow.passes, picker.pass, all]);
   }
 
   private listen(): void {
-    for (const part of [this.camera, this.gizmo, this.shadow, this.frames]) part.onChange = () => this.loop.invalidate();
+    for (const part of [this.camera, this.gizmo, this.shadow, this.frames, this.occlusion]) part.onChange = () => this.loop.invalidate();
+    this.camera.onTurned = (axes) => this.onTurned(axes);
     this.framing.onMoved = (camera) => this.onCamera(camera);
     this.gizmo.onDragging = (isDragging) => (this.camera.controls.enabled = !isDragging);
     this.gizmo.onMoved = (free) => {
@@ -153,27 +172,15 @@ class ThreeView implements View {
     this.windTunnel.onTurned = (direction) => this.onWind(direction);
     this.flatCuts.onMade = () => this.loop.changed();
     this.flatCuts.onError = (error) => this.options.onError?.(error);
-    const pointer = new Pointer(this.canvas, () => this.gizmo.isTouched || this.windTunnel.isTouched);
-    // A GPU that is behind is asked once it has caught up.
-    pointer.onHover = (at) => {
-      this.loop.soon(at && (() => void this.cellAt(at).then((cell) => this.setHovered(cell))));
-      if (!at) this.setHovered(null);
-    };
-    pointer.onTap = (at) => void this.cellAt(at).then((cell) => this.onPick(cell));
-    pointer.onDoubleTap = (at) => void this.cellAt(at).then((cell) => this.framing.flyToCell(cell));
-    this.canvas.addEventListener('keydown', (event) => {
-      if (event.key === 'Escape') this.onPick(null);
-    });
+    this.touch.onHover = (cell) => this.onHover(cell);
+    this.touch.onPick = (cell) => this.onPick(cell);
+    this.touch.onMeasured = (place) => this.onMeasured(place);
     new ResizeObserver(() => this.resize()).observe(this.canvas);
-    this.canvas.addEventListener('webglcontextlost', () => this.tellContextLost());
-    this.canvas.addEventListener('webglcontextrestored', () => this.loop.invalidate());
-  }
-
-  private tellContextLost(): void {
-    this.loop.reset();
-    const why = 'The browser dropped the graphics context, perhaps because memory ran low.';
-    const detail = `${why} If the picture does not come back, reload the page.`;
-    this.options.onError?.({ title: 'The picture is lost for now', detail });
+    this.canvas.addEventListener('webglcontextlost', () => {
+      this.loop.reset();
+      this.options.onError?.(contextLost());
+    });
+    this.canvas.addEventListener('webglcontextrestored', () => this.loop.changed());
   }
 
   setModel(model: Model, frame: boolean): void {
@@ -184,7 +191,7 @@ class ThreeView implements View {
     this.shifts = regionShifts(model);
     this.root.scale.setScalar(sceneScale(model));
     this.picker.root.scale.setScalar(sceneScale(model));
-    this.uniforms.hovered.value = this.uniforms.pinned.value = -1;
+    this.forgetCells();
     this.flatCuts.setModel(model);
     for (const layer of this.layers) layer.setModel?.(model);
     this.loop.changed();
@@ -193,12 +200,17 @@ class ThreeView implements View {
   clear(): void {
     this.model = null;
     this.look = null;
-    this.uniforms.hovered.value = this.uniforms.pinned.value = -1;
+    this.forgetCells();
     this.modelGroup.visible = this.insteadGroup.visible = this.windTunnel.object.visible = false;
     this.gizmo.hide();
     Object.assign(this.canvas.dataset, { model: '', cells: '0', untouched: '0', caps: '0' });
     this.onHover(null);
     this.loop.draw(); // At once: the previous model must not stay behind the words that replace it.
+  }
+
+  private forgetCells(): void {
+    this.touch.forget();
+    this.uniforms.pinned.value = -1;
   }
 
   setLook(settings: Settings): void {
@@ -217,6 +229,12 @@ class ThreeView implements View {
 
   setWind(wind: Wind | null): void {
     this.wind = wind;
+    this.loop.changed();
+  }
+
+  setMeasurement(measurement: Measurement | null): void {
+    this.measurement = measurement;
+    this.touch.isMeasuring = measurement !== null;
     this.loop.changed();
   }
 
@@ -240,41 +258,8 @@ class ThreeView implements View {
     this.framing.frame();
   }
 
-  async png(): Promise<Blob> {
-    const hadGizmo = this.gizmo.object.visible;
-    this.loop.prepare();
-    this.shadow.redraw();
-    this.gizmo.object.visible = this.windTunnel.hasHandle = false;
-    this.loop.draw();
-    const blob = await new Promise<Blob | null>((resolve) => this.canvas.toBlob(resolve, 'image/png'));
-    this.gizmo.object.visible = hadGizmo;
-    this.windTunnel.hasHandle = true;
-    this.loop.invalidate();
-    if (blob) return blob;
-    throw pictureError('The browser could not capture the picture, perhaps because memory ran low.');
-  }
-
-  async glb(): Promise<Blob> {
-    this.loop.prepare();
-    if (!this.look) throw pictureError('Nothing is shown yet.');
-    return exportGlb(this.look, this.ofModel);
-  }
-
-  record(): Recording {
-    return record(this.canvas);
-  }
-
-  private setHovered(cell: number | null): void {
-    if (this.uniforms.hovered.value === (cell ?? -1)) return;
-    this.uniforms.hovered.value = cell ?? -1;
-    this.onHover(cell);
-    this.loop.invalidate();
-  }
-
-  private async cellAt({ x, y }: { x: number; y: number }): Promise<number | null> {
-    this.loop.prepare();
-    if (!this.modelGroup.visible || this.halves.isOther(x, this.canvas)) return null;
-    return this.picker.pick(this.camera.camera, x, y);
+  lookFrom(direction: ModelVector): void {
+    this.camera.lookFrom(new Vector3(...direction));
   }
 
   private resize(): void {
@@ -297,14 +282,15 @@ class ThreeView implements View {
     this.camera.update();
     const moving = this.layers.filter((layer) => layer.animate?.(seconds));
     this.halves.render(this.renderer, this.scene, this.camera.camera);
-    this.canvas.dataset.frames = String(++this.framesDrawn);
+    this.inset.render(this.look, this.camera.camera);
+    this.canvas.dataset.frames = String(++this.pictures);
     this.shadow.tellTests(this.canvas.dataset);
-    return moving.length > 0;
+    return this.occlusion.draw(this.look) || moving.length > 0;
   }
 
   /** Brings what is drawn up to date with the settings. Explosions and slices of whole cells only change uniforms. */
   private prepare(): void {
-    const { model, settings, shifts, instead, wind, comparison } = this;
+    const { model, settings, shifts, instead, wind, comparison, measurement } = this;
     if (!model || !settings) return;
     const look = {
       model,
@@ -314,6 +300,7 @@ class ThreeView implements View {
       instead,
       wind,
       comparison,
+      measurement,
       ...this.flatCuts.choose(model, settings),
     };
     this.look = look;
@@ -347,8 +334,4 @@ class ThreeView implements View {
 
 function objectsOf(layers: readonly Layer[]): Object3D[] {
   return layers.map(({ object }) => object);
-}
-
-function pictureError(detail: string): PageError {
-  return { title: "The picture can't be saved", detail };
 }

@@ -1,6 +1,7 @@
-// The same mesh and grid in other ways than cut-cells, to be seen beside them.
+// The same mesh in other ways than the cut-cells that are shown, to be seen beside them.
 import type { CutMesh, Mandoline, Mesh } from 'mandoline-wasm';
-import type { Comparison, Extent, OtherSurface } from '../../model/comparison';
+import type { Comparison, Extent, GridPlanes, Inside, OtherGridWay, OtherSurface } from '../../model/comparison';
+import type { Vector3 } from '../../model/vector';
 import type { Cut } from '../kept';
 import { marchingCubes } from './cubes';
 import { voxels } from './voxels';
@@ -14,15 +15,40 @@ export interface Surface {
 /** Per point, 3 numbers each: whether it is inside; not outside the grid. */
 export type InsideAt = (points: Float64Array) => Uint8Array;
 
-export function comparison(mandoline: Mandoline, cut: Cut): Comparison {
+/** A cut of the same mesh with another grid. */
+export interface OtherCut {
+  way: OtherGridWay;
+  cut: Cut;
+}
+
+export function comparison(mandoline: Mandoline, cut: Cut, other: OtherCut | null): Comparison {
   const { cutMesh, origin } = cut;
   const insideAt = testInside(mandoline, cutMesh);
-  const other = (make: (cutMesh: CutMesh, insideAt: InsideAt) => Surface): OtherSurface => {
-    const surface = make(cutMesh, insideAt);
-    const position = Float32Array.from(surface.positions, (x, at) => x - origin[at % 3]);
-    return { ...extentOf(surface), position, index: surface.triangles };
+  const drawn = ({ positions, triangles }: Surface, { grid }: CutMesh) => ({
+    position: Float32Array.from(positions, (x, at) => x - origin[at % 3]),
+    index: triangles,
+    grid: planesOf(grid, origin),
+  });
+  const sameGrid = ({ untouched, ...surface }: Surface & { untouched: number | null }): OtherSurface => ({
+    ...extentOf(surface),
+    cells: untouched === null ? null : { cut: 0, untouched },
+    ...drawn(surface, cutMesh),
+  });
+  const ways: Comparison['ways'] = {
+    voxels: sameGrid(voxels(cutMesh, insideAt)),
+    cubes: sameGrid({ ...marchingCubes(cutMesh, insideAt), untouched: null }),
   };
-  return { origin, ways: { voxels: other(voxels), cubes: other(marchingCubes) }, exact: exactExtent(mandoline, cut) };
+  const { surface: _, ...exact } = exactInside(mandoline, cut);
+  if (other) {
+    const { surface, ...inside } = exactInside(mandoline, other.cut);
+    ways[other.way] = { ...inside, ...drawn(surface, other.cut.cutMesh) };
+  }
+  return { origin, ways, exact };
+}
+
+function planesOf({ planes, cells }: CutMesh['grid'], origin: Vector3): GridPlanes {
+  const low = planes.map((axis, d) => axis[0] - origin[d]);
+  return { low, step: planes.map((axis) => axis[1] - axis[0]), cells: [cells[0], cells[1], cells[2]] };
 }
 
 function testInside(mandoline: Mandoline, cutMesh: CutMesh): InsideAt {
@@ -30,12 +56,18 @@ function testInside(mandoline: Mandoline, cutMesh: CutMesh): InsideAt {
   return (points) => Uint8Array.from(mandoline.cellsAt(cutMesh, points).region, (region) => (region >= 0 ? isInside[region] : 0));
 }
 
-function exactExtent(mandoline: Mandoline, cut: Cut): Extent {
+function exactInside(mandoline: Mandoline, cut: Cut): Inside & { surface: Surface } {
   const { mesh, cutMesh } = cut;
   cut.measures ??= mandoline.measure(mesh, cutMesh);
   const { isInside } = mandoline.insideRegions(cutMesh, { rule: 'nonZero' });
   const volume = cut.measures.regionVolume.reduce((sum, x, region) => sum + isInside[region] * x, 0);
-  return { volume, area: extentOf(mandoline.boundary(cutMesh, 'nonZero')).area };
+  const surface = mandoline.boundary(cutMesh, 'nonZero');
+  return { volume, area: extentOf(surface).area, cells: countInside(cutMesh, isInside), surface };
+}
+
+function countInside({ cellRegion, runBegin, runEnd, runRegion }: CutMesh, isInside: Uint8Array): { cut: number; untouched: number } {
+  const untouched = runRegion.reduce((sum, region, run) => sum + isInside[region] * (runEnd[run] - runBegin[run]), 0);
+  return { cut: cellRegion.reduce((sum, region) => sum + isInside[region], 0), untouched };
 }
 
 /** Enclosed volume, and area. */

@@ -2,8 +2,8 @@ import type { CutMesh } from 'mandoline-wasm';
 import type { InsideAt, Surface } from '.';
 import { gridPoints, middles, Welder } from './grid_points';
 
-/** The sides between grid cells whose middle is inside and others. */
-export function voxels({ grid }: CutMesh, insideAt: InsideAt): Surface {
+/** The sides between grid cells whose middle is inside and others, and how many those are. */
+export function voxels({ grid }: CutMesh, insideAt: InsideAt): Surface & { untouched: number } {
   const [nx, ny, nz] = grid.cells;
   const inside = insideAt(gridPoints(grid.planes.map(middles)));
   const isIn = (i: number, j: number, k: number) =>
@@ -25,7 +25,8 @@ export function voxels({ grid }: CutMesh, insideAt: InsideAt): Surface {
       }
     }
   }
-  return { positions: welder.positions(), triangles: Uint32Array.from(triangles) };
+  const untouched = inside.reduce((sum, x) => sum + x, 0);
+  return { positions: welder.positions(), triangles: Uint32Array.from(triangles), untouched };
 }
 
 /** Of a side of a unit cube, counter-clockwise seen from outside. */

@@ -1,5 +1,6 @@
 // The first two steps: tri-edges with their crossings, and hybrid edges.
 import type { StepPicture, StepRequest } from '../../model/types';
+import type { Vector3 } from '../../model/vector';
 import { plural } from '../../model/format';
 import { axisColors, crossingColors, outlineColor, triEdgeColor } from './colors';
 import { chosenTriangle } from './choose';
@@ -63,6 +64,10 @@ function drawTriEdges(drawing: Drawing, { mesh }: Subject, triangles: Iterable<n
   return seen.size;
 }
 
+function cornersOf({ mesh: { positions, triangles } }: Subject, triangle: number | undefined): Vector3[] | null {
+  return triangle === undefined ? null : [0, 1, 2].map((k) => pointOf(positions, triangles[3 * triangle + k]));
+}
+
 function where(triangle: number | undefined): string {
   return triangle === undefined ? '' : ` of triangle ${triangle} and its neighbours`;
 }
@@ -90,7 +95,7 @@ export function triEdges(subject: Subject, request: StepRequest): StepPicture {
     ` (orange${several ? `; ${several.toLocaleString('en')} of them where two planes meet, magenta, or three, red` : ''}).` +
     `${triVerticesOnPlanes ? ` ${plural(triVerticesOnPlanes, 'tri-vertex lies', 'tri-vertices lie')} exactly on a plane.` : ''}` +
     ' All of these become vertices of the cut-mesh (Section 4.1.1).';
-  return drawing.finish(text, { kind: 'triEdges', triangle }, subject);
+  return drawing.finish(text, { kind: 'triEdges', triangle }, subject, cornersOf(subject, triangle));
 }
 
 export function hybridEdges(subject: Subject, request: StepRequest): StepPicture {
@@ -113,5 +118,5 @@ export function hybridEdges(subject: Subject, request: StepRequest): StepPicture
       ? `Hybrid edges are where the triangles${where(triangle)} meet the axial planes normal to x (red), y (green) and z (blue).` +
         ` They are split where they cross each other, which makes ${plural(total, 'cut-edge')} (Section 4.1.2).`
       : `There are no hybrid edges${where(triangle)}: no axial plane passes through the inside of a triangle (Section 4.1.2).`;
-  return drawing.finish(text, { kind: 'hybridEdges', triangle }, subject);
+  return drawing.finish(text, { kind: 'hybridEdges', triangle }, subject, cornersOf(subject, triangle));
 }

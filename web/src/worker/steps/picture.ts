@@ -1,4 +1,5 @@
-import type { CutMesh, FaceTriangles } from 'mandoline-wasm';
+import type { CutMesh, FaceTriangles, Grid } from 'mandoline-wasm';
+import type { Bounds } from '../../model/grid_around';
 import type { Vector3 } from '../../model/vector';
 import type { MeshArrays } from '../../model/gallery/mesh';
 import type { StepPicture, StepRequest } from '../../model/types';
@@ -67,7 +68,8 @@ export class Drawing {
     for (let bits = 0; bits < 8; ++bits) for (const bit of [1, 2, 4]) if (!(bits & bit)) this.line(corner(bits), corner(bits | bit), color);
   }
 
-  finish(text: string, request: StepRequest, { cutMesh }: Subject): StepPicture {
+  /** `framed` are points of what is shown, unless that is the whole mesh. */
+  finish(text: string, request: StepRequest, { cutMesh }: Subject, framed: readonly Vector3[] | null): StepPicture {
     const { cells } = cutMesh.grid;
     const [min, max] =
       this.#min[0] <= this.#max[0]
@@ -84,6 +86,7 @@ export class Drawing {
       points: this.#parts.points.arrays(),
       center: [(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2],
       radius: Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]) / 2,
+      frame: framed && frameOf(cutMesh.grid, framed, this.#origin),
       choices: { triangles: cutMesh.triangleCount, planes: [cells[0] + 1, cells[1] + 1, cells[2] + 1], request },
     };
   }
@@ -98,4 +101,22 @@ export class Drawing {
     }
     this.#parts[part].add(moved, color);
   }
+}
+
+/** The box of the grid cells that hold some points. */
+function frameOf({ planes }: Grid, points: readonly Vector3[], origin: Vector3): Bounds {
+  const ends = planes.map((axis, d) => {
+    const [low, high] = [Math.min(...points.map((p) => p[d])), Math.max(...points.map((p) => p[d]))];
+    const last = axis.length - 1;
+    const from = Math.max(
+      0,
+      Math.min(
+        last - 1,
+        axis.findLastIndex((plane) => plane <= low),
+      ),
+    );
+    const to = axis.findIndex((plane) => plane >= high);
+    return [axis[from] - origin[d], axis[Math.max(from + 1, to < 0 ? last : to)] - origin[d]];
+  });
+  return { min: [ends[0][0], ends[1][0], ends[2][0]], max: [ends[0][1], ends[1][1], ends[2][1]] };
 }

@@ -21,10 +21,8 @@ export function triangleFaces(subject: Subject, request: StepRequest): StepPictu
   const { mesh, cutMesh } = subject;
   const triangle = chosenTriangle(cutMesh, request);
   const drawing = new Drawing(subject.origin);
-  drawing.polygon(
-    [0, 1, 2].map((k) => pointOf(mesh.positions, mesh.triangles[3 * triangle + k])),
-    gridColor,
-  );
+  const corners = [0, 1, 2].map((k) => pointOf(mesh.positions, mesh.triangles[3 * triangle + k]));
+  drawing.polygon(corners, gridColor);
   const faces = facesWhere(subject, (face) => cutMesh.faceTriangle[face] === triangle);
   faces.forEach((face, k) => drawFace(drawing, subject, face, 0.9, pieceColor(k)));
   const text =
@@ -32,7 +30,12 @@ export function triangleFaces(subject: Subject, request: StepRequest): StepPictu
       ? `The axial planes cut triangle ${triangle} into ${plural(faces.length, 'cut-face')}, drawn slightly apart.` +
         ' Together they cover the triangle exactly, and each lies in one grid cell (Section 4.3).'
       : `Triangle ${triangle} has no cut-face: it is degenerate, another triangle covers it, or it lies outside the grid.`;
-  return drawing.finish(text, { kind: 'triangleFaces', triangle }, subject);
+  return drawing.finish(text, { kind: 'triangleFaces', triangle }, subject, corners);
+}
+
+/** Two corners of the grid's box. */
+function boxEnds({ cutMesh: { grid } }: Subject): Vector3[] {
+  return [0, -1].map((at) => grid.planes.map((planes) => planes.at(at) ?? 0));
 }
 
 /** The outline of an axial plane within the grid's box. */
@@ -67,7 +70,7 @@ export function axialPlane(subject: Subject, request: StepRequest): StepPicture 
     ` into ${plural(faces.length, 'face')}` +
     `${punctured ? `, ${punctured.toLocaleString('en')} of them with holes` : ''} (Sections 4.3 and 4.5).` +
     (coplanar > 0 ? ` Pieces of triangles in the plane (${coplanar.toLocaleString('en')}, yellow) replace grid-faces.` : '');
-  return drawing.finish(text, { kind: 'axialPlane', axis, plane }, subject);
+  return drawing.finish(text, { kind: 'axialPlane', axis, plane }, subject, boxEnds(subject));
 }
 
 interface Piece {
@@ -164,5 +167,5 @@ export function gridCell(subject: Subject, request: StepRequest): StepPicture {
       ? `${name} holds ${plural(pieces.length, 'cut-cell')} of ${plural(regions, 'region')}, pulled apart:` +
         ' each is a closed set of half-faces, joined at their edges (Section 4.4).'
       : `${name} is untouched: the surface does not reach it, so it stays whole.`;
-  return drawing.finish(text, { kind: 'gridCell', gridCell: at }, subject);
+  return drawing.finish(text, { kind: 'gridCell', gridCell: at }, subject, [min, max]);
 }

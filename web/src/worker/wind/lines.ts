@@ -49,23 +49,61 @@ function nearSeeds({ mesh }: Tunnel, wind: Vector3, seeds: Float64Array): number
   return near;
 }
 
-/** The lines as they are drawn. */
-export function drawnLines({ points, speeds, offsets }: Streamlines, [ox, oy, oz]: Vector3): Wind['lines'] {
-  const position = new Float32Array(points.length);
-  const arrival = new Float32Array(speeds.length);
+/** What points of lines that are left out may differ from what is drawn: in longest sides of the mesh, and in speeds of the wind. */
+const mostAside = 0.001;
+const mostLate = 0.01;
+const mostFaster = 0.03;
+/** So many points in a row are looked at. */
+const mostLeftOut = 12;
+
+/** The lines as they are drawn: without points between which they are straight. `size` is the longest side of the mesh. */
+export function drawnLines(lines: Streamlines, [ox, oy, oz]: Vector3, size: number): Wind['lines'] {
+  const { points, speeds, offsets } = lines;
+  const times = arrivals(lines);
+  const kept: number[] = [];
+  const starts = new Uint32Array(offsets.length);
   for (let line = 0; line + 1 < offsets.length; line++) {
-    let time = 0;
-    for (let at = offsets[line]; at < offsets[line + 1]; at++) {
-      const [x, y, z] = [points[3 * at], points[3 * at + 1], points[3 * at + 2]];
-      if (at > offsets[line]) {
-        const length = Math.hypot(x - points[3 * at - 3], y - points[3 * at - 2], z - points[3 * at - 1]);
-        time += length / Math.max(slowest, (speeds[at] + speeds[at - 1]) / 2);
-      }
-      position[3 * at] = x - ox;
-      position[3 * at + 1] = y - oy;
-      position[3 * at + 2] = z - oz;
-      arrival[at] = time;
+    const end = offsets[line + 1];
+    for (let at = offsets[line]; at < end; ) {
+      kept.push(at);
+      let next = at + 1;
+      while (next + 1 < end && next - at <= mostLeftOut && isStraight(lines, times, at, next + 1, size)) next++;
+      at = next;
+    }
+    starts[line + 1] = kept.length;
+  }
+  return {
+    position: Float32Array.from(kept.flatMap((at) => [points[3 * at] - ox, points[3 * at + 1] - oy, points[3 * at + 2] - oz])),
+    arrival: Float32Array.from(kept, (at) => times[at]),
+    speed: Float32Array.from(kept, (at) => speeds[at]),
+    offsets: starts,
+  };
+}
+
+/** When what begins with a line arrives at each of its points. */
+function arrivals({ points, speeds, offsets }: Streamlines): Float64Array {
+  const times = new Float64Array(speeds.length);
+  for (let line = 0; line + 1 < offsets.length; line++) {
+    for (let at = offsets[line] + 1; at < offsets[line + 1]; at++) {
+      const [x, y, z] = [0, 1, 2].map((d) => points[3 * at + d] - points[3 * at - 3 + d]);
+      times[at] = times[at - 1] + Math.hypot(x, y, z) / Math.max(slowest, (speeds[at] + speeds[at - 1]) / 2);
     }
   }
-  return { position, arrival, speed: Float32Array.from(speeds), offsets: offsets.slice() };
+  return times;
+}
+
+/** Whether the points between two of a line are about where, when and as fast as on the straight way from one to the other. */
+function isStraight({ points, speeds }: Streamlines, times: Float64Array, from: number, to: number, size: number): boolean {
+  const [ax, ay, az] = [points[3 * from], points[3 * from + 1], points[3 * from + 2]];
+  const [bx, by, bz] = [points[3 * to] - ax, points[3 * to + 1] - ay, points[3 * to + 2] - az];
+  const square = bx * bx + by * by + bz * bz;
+  for (let at = from + 1; at < to; at++) {
+    const [x, y, z] = [points[3 * at] - ax, points[3 * at + 1] - ay, points[3 * at + 2] - az];
+    const share = (x * bx + y * by + z * bz) / square;
+    const between = (values: Float64Array) => values[from] + share * (values[to] - values[from]);
+    const isNear = Math.hypot(x - share * bx, y - share * by, z - share * bz) <= mostAside * size;
+    const isThen = Math.abs(times[at] - between(times)) <= mostLate * size;
+    if (!isNear || !isThen || Math.abs(speeds[at] - between(speeds)) > mostFaster) return false;
+  }
+  return true;
 }

@@ -13,7 +13,8 @@ export async function windPicture(pack: Package, tunnel: Tunnel, request: WindRe
   const start = performance.now();
   const flow = await flowOf(pack, tunnel, request.direction);
   const solved = performance.now();
-  const lines = drawnLines(await tunnelLines(pack, tunnel, flow), origin);
+  const size = Math.max(...mesh.bounds.max.map((x, d) => x - mesh.bounds.min[d]));
+  const lines = drawnLines(await tunnelLines(pack, tunnel, flow), origin, size);
   const surface = request.surface ? surfaceSpeeds(pack, tunnel, flow, request.known !== tunnel.key) : null;
   const sections = request.planes.map((plane) => section(pack, tunnel, flow, plane));
   return {
@@ -21,7 +22,7 @@ export async function windPicture(pack: Package, tunnel: Tunnel, request: WindRe
     direction: request.direction,
     origin,
     half: cutMesh.grid.planes.map((planes) => (planes[planes.length - 1] - planes[0]) / 2),
-    size: Math.max(...mesh.bounds.max.map((x, d) => x - mesh.bounds.min[d])),
+    size,
     lines,
     surface,
     sections,

@@ -13,35 +13,32 @@ interface Props {
   onTurn: (direction: Vector3) => void;
 }
 
+const sliders = [
+  { angle: 'heading', label: 'around', most: 180 },
+  { angle: 'rise', label: 'upward', most: 90 },
+] as const;
+
 const degrees = (x: number) => `${Math.round(x)}°`;
 
 /** Turns a direction with two sliders, which arrow keys move; in the picture, a handle is dragged. */
 export function Direction({ name, legend, up, direction, onTurn }: Props) {
-  const { heading, rise } = anglesOf(toUpright(direction, up));
-  const turn = (to: { heading: number; rise: number }) => onTurn(fromUpright(directionOf(to), up));
+  const angles = anglesOf(toUpright(direction, up));
   return (
     <fieldset>
       <legend>{legend}</legend>
-      <Slider
-        id={`${name}-heading`}
-        label="around"
-        min={-180}
-        max={180}
-        step={1}
-        value={heading}
-        format={degrees}
-        onInput={(value) => turn({ heading: value, rise })}
-      />
-      <Slider
-        id={`${name}-rise`}
-        label="upward"
-        min={-90}
-        max={90}
-        step={1}
-        value={rise}
-        format={degrees}
-        onInput={(value) => turn({ heading, rise: value })}
-      />
+      {sliders.map(({ angle, label, most }) => (
+        <Slider
+          key={angle}
+          id={`${name}-${angle}`}
+          label={label}
+          min={-most}
+          max={most}
+          step={1}
+          value={angles[angle]}
+          format={degrees}
+          onInput={(value) => onTurn(fromUpright(directionOf({ ...angles, [angle]: value }), up))}
+        />
+      ))}
     </fieldset>
   );
 }

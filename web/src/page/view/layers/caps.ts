@@ -1,12 +1,13 @@
 // The filled polygons where slice planes cut cells flat.
-import { BufferGeometry, Group, LineSegments, Mesh } from 'three';
+import { type BufferGeometry, Group, LineSegments, Mesh } from 'three';
 import type { Slice } from 'mandoline-wasm';
 import type { Model, Settings } from '../../../model/types';
-import { refill } from '../buffers';
+import { emptyGeometry, refill } from '../buffers';
 import { insideColor, untouchedColors, type Rgb } from '../colors';
 import type { Layer, Look } from '../layer';
 import { gridStroke, makeMaterial, type Uniforms } from '../material';
 import type { Piece } from '../piece';
+import { hasWhole } from '../../../model/volumes';
 import type { CutCells } from './cut_cells';
 
 interface Cap {
@@ -31,47 +32,57 @@ export class Caps implements Layer {
 
   private makeCap(uniforms: Uniforms, ownPlane: number): Cap {
     const own = { ownPlane: { value: ownPlane } };
-    const faces = new Mesh(new BufferGeometry(), makeMaterial('CAPS', 'FACES', uniforms, own));
+    const faces = new Mesh(emptyGeometry(), makeMaterial('CAPS', 'FACES', uniforms, own));
     const pick = new Mesh(faces.geometry, makeMaterial('CAPS', 'PICK', uniforms, own));
-    const lines = new LineSegments(new BufferGeometry(), makeMaterial('CAPS', 'LINES', uniforms, { ...own, ...gridStroke(uniforms) }));
+    const lines = new LineSegments(emptyGeometry(), makeMaterial('CAPS', 'LINES', uniforms, { ...own, ...gridStroke(uniforms) }));
     for (const object of [faces, pick, lines]) object.frustumCulled = false;
     this.object.add(faces, lines);
     this.pick.add(pick);
     return { faces, pick, lines };
   }
 
-  dependsOn({ model, settings: { show, colorBy }, caps }: Look): readonly unknown[] {
-    return [model.id, show, colorBy, caps.id];
+  dependsOn({ model, settings: { show, volumes, colorBy }, caps }: Look): readonly unknown[] {
+    return [model.id, show, volumes, colorBy, caps.id];
   }
 
   /** Draws the polygons of cells that are shown. */
-  setLook({ model, settings, regions, caps: { slices } }: Look): void {
-    const { cells } = this;
-    const isShown = (cell: number, region: number) => (cell >= 0 ? cells.isShown(cell) : settings.show.untouched && regions[region] > 0);
+  setLook(look: Look): void {
+    const { model, settings, caps } = look;
     this.count = 0;
     this.caps.forEach((cap, p) => {
-      const slice = slices[p];
+      const slice = caps.slices[p];
       cap.faces.visible = cap.pick.visible = slice !== undefined;
       cap.lines.visible = slice !== undefined && settings.show.edges;
       if (!slice) return;
-      const polygons = Array.from(slice.polygonCell.keys()).filter((polygon) => {
-        return isShown(slice.polygonCell[polygon], slice.polygonRegion[polygon]);
-      });
+      const { polygons, ...table } = this.section(look, slice);
       this.count += polygons.length;
-      const table = polygonTable(model, settings, cells, slice);
       fillCap(cap.faces.geometry, model, slice, table, trianglePoints(slice, polygons));
       fillCap(cap.lines.geometry, model, slice, table, outlinePoints(slice, polygons));
     });
   }
 
-  forEachPiece(take: (piece: Piece) => void): void {
+  /** The polygons of a slice that are shown, and their looks. */
+  section({ model, settings, regions }: Look, slice: Slice): Section {
+    const { cells } = this;
+    const showsUntouched = settings.show.untouched && hasWhole(settings.volumes);
+    const isShown = (cell: number, region: number) => (cell >= 0 ? cells.isShown(cell) : showsUntouched && regions[region] > 0);
+    const polygons = Array.from(slice.polygonCell.keys()).filter((polygon) => {
+      return isShown(slice.polygonCell[polygon], slice.polygonRegion[polygon]);
+    });
+    return { polygons, ...polygonTable(model, settings, cells, slice) };
+  }
+
+  forEachPiece(take: (piece: Piece) => void, only?: { cell: number; box: number }): void {
+    if (only && only.box >= 0) return;
     this.caps.forEach(({ faces }, ownPlane) => {
       if (!faces.visible) return;
-      const { position, center, region, tint } = faces.geometry.attributes;
+      const { position, center, region, tint, owner } = faces.geometry.attributes;
       for (let vertex = 0; vertex < faces.geometry.drawRange.count; vertex += 3) {
+        if (only && owner.array[vertex] !== only.cell) continue;
         take({
           corners: Array.from(position.array.subarray(3 * vertex, 3 * vertex + 9)),
           middle: center.array.subarray(3 * vertex, 3 * vertex + 3),
+          cell: owner.array[vertex],
           region: region.array[vertex],
           color: tint.array.subarray(4 * vertex, 4 * vertex + 3) as unknown as Rgb,
           ownPlane,
@@ -87,6 +98,10 @@ interface PolygonTable {
   center: Float32Array;
   /** 4 per polygon. */
   tint: Uint8Array;
+}
+
+interface Section extends PolygonTable {
+  polygons: readonly number[];
 }
 
 function polygonTable(model: Model, settings: Settings, cells: CutCells, slice: Slice): PolygonTable {

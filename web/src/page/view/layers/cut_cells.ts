@@ -2,13 +2,14 @@
 import { BufferGeometry, Float32BufferAttribute, Group, LineSegments, Mesh, Vector3 } from 'three';
 import type { ShaderMaterial } from 'three';
 import type { Model } from '../../../model/types';
-import { refill, Table } from '../buffers';
+import { emptyGeometry, refill, Table } from '../buffers';
 import { cutCellColors, gridFaceColor, type Rgb } from '../colors';
 import type { Layer, Look } from '../layer';
 import { isSheet } from '../look';
 import { gridStroke, makeMaterial, stroke, type Purpose, type Uniforms } from '../material';
 import { paler, type Piece } from '../piece';
 import { isBeyond, isBoxBeyond, type ViewPlane } from '../../../model/planes';
+import { isAll, isWithin, shareOf } from '../../../model/volumes';
 
 /** Drawn in two groups: pieces of triangles, and pieces of grid-faces. */
 type Faces = Mesh<BufferGeometry, [ShaderMaterial, ShaderMaterial]>;
@@ -19,6 +20,8 @@ type Lines = LineSegments<BufferGeometry, [ShaderMaterial, ShaderMaterial, Shade
 const triEdgeStrength = 0.16;
 /** In pixels. */
 const shortestTriEdge = 9;
+/** How a cell is looked up: shown, or faint since its volume is not selected. */
+const [shown, dimmed] = [255, 64];
 /** Of grid-edges as outlines of grid-faces, and as boxes that stand around a sheet. */
 const gridEdgeStrength = 0.4;
 const boxStrength = 0.06;
@@ -29,9 +32,12 @@ export class CutCells implements Layer {
   readonly caster: Faces;
   /** The surface alone, faint, behind the pictures of steps. */
   readonly ghost: Faces;
+  private readonly geometry = emptyGeometry('normal');
   private readonly faces: Faces;
   private readonly backs: Faces;
   private readonly lines: Lines;
+  /** The surface of cells that are not selected. Made, and its shader compiled, when there are such. */
+  private dimmed: Faces | null = null;
   /** Mean length of pieces of tri-edges. */
   private readonly triEdgeLength = { value: 1 };
   /** Mean distance of hybrid edges: in a surface that lies in an axial plane, all edges of triangles are such. */
@@ -43,17 +49,12 @@ export class CutCells implements Layer {
   private look: Look | null = null;
 
   constructor(private readonly uniforms: Uniforms) {
-    const makeFaces = (purpose: Purpose): Faces => {
-      const material = (isSurface: boolean) => makeMaterial('CELLS', purpose, uniforms, { isSurface: { value: isSurface } });
-      return new Mesh(geometry, [material(true), material(false)]);
-    };
-    const geometry = new BufferGeometry();
-    for (const kind of [0, 1]) geometry.addGroup(0, Infinity, kind);
-    this.faces = makeFaces('FACES');
-    this.backs = makeFaces('BACKS');
-    this.pick = makeFaces('PICK');
-    this.caster = makeFaces('SHADOW');
-    this.ghost = makeFaces('GHOST');
+    for (const kind of [0, 1]) this.geometry.addGroup(0, Infinity, kind);
+    this.faces = this.makeFaces('FACES');
+    this.backs = this.makeFaces('BACKS');
+    this.pick = this.makeFaces('PICK');
+    this.caster = this.makeFaces('SHADOW');
+    this.ghost = this.makeFaces('GHOST');
     this.ghost.material[1].visible = false;
     const strokes = [
       gridStroke(uniforms, this.hybridEdgeGap),
@@ -61,14 +62,28 @@ export class CutCells implements Layer {
       stroke(triEdgeStrength, this.triEdgeLength, shortestTriEdge),
     ];
     const [hybrid, grid, tri] = strokes.map((own) => makeMaterial('CELLS', 'LINES', uniforms, own));
-    this.lines = new LineSegments(new BufferGeometry(), [hybrid, grid, tri]);
+    this.lines = new LineSegments(emptyGeometry(), [hybrid, grid, tri]);
     this.object.add(this.faces, this.backs, this.lines);
-    for (const object of [this.faces, this.backs, this.pick, this.caster, this.ghost, this.lines]) object.frustumCulled = false;
+    this.lines.frustumCulled = false;
+  }
+
+  private makeFaces(purpose: Purpose): Faces {
+    const material = (isSurface: boolean) => makeMaterial('CELLS', purpose, this.uniforms, { isSurface: { value: isSurface } });
+    const faces: Faces = new Mesh(this.geometry, [material(true), material(false)]);
+    faces.frustumCulled = false;
+    return faces;
+  }
+
+  private makeDimmed(): Faces {
+    const faces = this.makeFaces('DIMMED');
+    faces.material[1].visible = false;
+    this.object.add(faces);
+    return faces;
   }
 
   setModel(model: Model): void {
     const { triangles, edges } = model;
-    const { geometry } = this.faces;
+    const { geometry } = this;
     const attributes = {
       position: { array: triangles.position, size: 3 },
       normal: { array: triangles.normal, size: 4, normalized: true },
@@ -106,13 +121,13 @@ export class CutCells implements Layer {
     this.uniforms.cellLooks.value = this.looks.texture;
   }
 
-  dependsOn({ model, settings: { show, colorBy } }: Look): readonly unknown[] {
-    return [model.id, show, colorBy];
+  dependsOn({ model, settings: { show, volumes, colorBy } }: Look): readonly unknown[] {
+    return [model.id, show, volumes, colorBy];
   }
 
   setLook(look: Look): void {
     const { model, settings, regions, shifts } = look;
-    const { show, colorBy } = settings;
+    const { show, volumes, colorBy } = settings;
     this.look = look;
     this.shifts.resize(model.regions.length);
     shifts.forEach((x, at) => (this.shifts.data[4 * Math.floor(at / 3) + (at % 3)] = x));
@@ -120,7 +135,13 @@ export class CutCells implements Layer {
     const { region } = model.cells;
     this.looks.resize(region.length);
     this.looks.data.set(cutCellColors(model, colorBy));
-    for (let cell = 0; cell < region.length; cell++) this.looks.data[4 * cell + 3] = show.cutCells && regions[region[cell]] ? 255 : 0;
+    const hasDimmed = !isAll(volumes);
+    for (let cell = 0; cell < region.length; cell++) {
+      const isDimmed = hasDimmed && !isWithin(volumes, shareOf(model, cell));
+      this.looks.data[4 * cell + 3] = show.cutCells && regions[region[cell]] ? (isDimmed ? dimmed : shown) : 0;
+    }
+    if (hasDimmed) this.dimmed ??= this.makeDimmed();
+    if (this.dimmed) this.dimmed.visible = hasDimmed && show.surface;
     // Of a face between two shown cells only the front is drawn, so neighbours don't fight for its pixels; without the rest of the boundary
     // one looks into cells and sees the backs as well.
     this.backs.visible = !(show.surface && show.gridFaces);
@@ -135,20 +156,21 @@ export class CutCells implements Layer {
   }
 
   isShown(cell: number): boolean {
-    return this.looks.data[4 * cell + 3] > 0;
+    return this.looks.data[4 * cell + 3] === shown;
   }
 
   colorOf(cell: number): Rgb {
     return this.looks.data.subarray(4 * cell, 4 * cell + 3) as unknown as Rgb;
   }
 
-  forEachPiece(take: (piece: Piece) => void): void {
-    if (!this.look) return;
+  forEachPiece(take: (piece: Piece) => void, only?: { cell: number; box: number }): void {
+    if (!this.look || only?.cell === -1) return;
     const { model, settings } = this.look;
     const { show, colorBy } = settings;
     const { position, cell: cells, index, surfaceEnd } = model.triangles;
     for (let at = 0; at < index.length; at += 3) {
       const cell = cells[index[at]];
+      if (only && only.cell !== cell) continue;
       const isSurface = at < surfaceEnd;
       if (!this.isShown(cell) || !(isSurface ? show.surface : show.gridFaces)) continue;
       const own = this.colorOf(cell);
@@ -156,6 +178,7 @@ export class CutCells implements Layer {
       take({
         corners: Array.from(index.subarray(at, at + 3)).flatMap((vertex) => Array.from(position.subarray(3 * vertex, 3 * vertex + 3))),
         middle: model.cells.centroid.subarray(3 * cell, 3 * cell + 3),
+        cell,
         region: model.cells.region[cell],
         color: isSurface ? own : ofGrid,
         ownPlane: -1,

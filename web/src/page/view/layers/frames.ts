@@ -6,6 +6,9 @@ import { lineGeometry } from './cut_cells';
 
 const colors: Record<SliceName, number> = { x: 0xd9534f, y: 0x4fae5a, z: 0x3f83d6, free: 0xd78f1f };
 
+/** Of x, y and z. */
+export const axisColors = [colors.x, colors.y, colors.z];
+
 /** How long a plane that has been moved is seen, in ms. */
 const seenFor = 700;
 

@@ -1,6 +1,6 @@
 // What is inside in another way than cut-cells: one closed surface. It has no cells that could stay whole, so that planes cut it flat.
-import { BackSide, BufferGeometry, FrontSide, Group, Mesh, ShaderMaterial, Vector3 } from 'three';
-import { refill } from '../buffers';
+import { BackSide, FrontSide, Group, Mesh, ShaderMaterial, Vector3 } from 'three';
+import { emptyGeometry, refill } from '../buffers';
 import { insideColor, surfaceColor, type Rgb } from '../colors';
 import type { Layer, Look } from '../layer';
 import { lightChunk } from '../light';
@@ -22,21 +22,23 @@ export class OtherWay implements Layer {
   }
 
   setLook({ comparison, model, settings: { compare, show } }: Look): void {
-    if (!comparison || compare.way === 'none') return;
-    const { position, index } = comparison.ways[compare.way];
+    const surface = compare.way === 'none' ? null : comparison?.ways[compare.way];
+    if (!comparison || !surface) return;
+    const { position, index, grid } = surface;
     this.faces ??= this.makeFaces();
     refill(this.faces.geometry, { position: { array: position, size: 3 } }, index);
     this.object.position.fromArray(comparison.origin.map((x, d) => x - model.origin[d]));
     const { gridLow, gridStep, edgeStrength: strength } = this.grid;
-    const { planes } = model.grid;
-    gridLow.value.fromArray(planes.map((axis, d) => axis[0] - comparison.origin[d]));
-    gridStep.value.fromArray(planes.map((axis) => axis[1] - axis[0]));
-    strength.value = show.edges ? edgeStrength : 0;
+    if (grid) {
+      gridLow.value.fromArray([...grid.low]);
+      gridStep.value.fromArray([...grid.step]);
+    }
+    strength.value = show.edges && grid ? edgeStrength : 0;
     for (const part of this.object.children) part.visible = show.surface;
   }
 
   private makeFaces(): Mesh {
-    const faces = new Mesh(new BufferGeometry(), this.material(surfaceColor, false));
+    const faces = new Mesh(emptyGeometry(), this.material(surfaceColor, false));
     this.object.add(faces, new Mesh(faces.geometry, this.material(insideColor, true)));
     for (const part of this.object.children) part.frustumCulled = false;
     return faces;

@@ -5,6 +5,7 @@ import { WebGLRenderTarget, type Object3D, type WebGLRenderer } from 'three';
 import { shownPoints } from '../extent';
 import type { Layer, Look } from '../layer';
 import type { Uniforms } from '../material';
+import type { Pass } from '../warm_up';
 
 /** Pixels along a side of the picture. */
 const size = 128;
@@ -25,6 +26,7 @@ export class Shadow implements Layer {
   private readonly camera = new OrthographicCamera();
   private readonly targets = [0, 1].map(() => new WebGLRenderTarget(size, size));
   private readonly blurring = new Mesh(new PlaneGeometry(2, 2), makeBlur());
+  readonly passes: readonly Pass[];
   private isStale = false;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
@@ -34,15 +36,10 @@ export class Shadow implements Layer {
     casters: readonly Object3D[],
   ) {
     this.scene.add(...casters);
+    this.passes = [this.scene, this.blurring].map((scene) => ({ scene, target: this.targets[0] }));
     this.blurring.frustumCulled = false;
     this.object = new Mesh(new PlaneGeometry(1, 1), makeGround(uniforms, this.targets[0]));
     this.object.frustumCulled = false;
-  }
-
-  /** Beside the page, before there is something to draw. */
-  compile(): void {
-    this.renderer.compile(this.scene, this.camera);
-    this.renderer.compile(this.blurring, this.camera);
   }
 
   dependsOn({ model, settings: { show, explode, sliceMode, up }, planes }: Look): readonly unknown[] {

@@ -1,21 +1,43 @@
-// The picture of a step of the algorithm, over a faint surface.
-import { BufferGeometry, DoubleSide, Group } from 'three';
+// The picture of a step of the algorithm, over a faint surface, and the grid cells that hold what it shows.
+import { DoubleSide, Group, type BufferGeometry } from 'three';
 import { LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, Points, PointsMaterial } from 'three';
-import { refill } from '../buffers';
+import type { Bounds } from '../../../model/grid_around';
+import { emptyGeometry, refill } from '../buffers';
 import type { Layer, Look } from '../layer';
+import type { Uniforms } from '../material';
+import { Strokes } from '../strokes';
+
+/** Two corners of a box differ in one bit along each of its edges; bit d is set on the far side of axis d. */
+const boxEdges = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((from) => [1, 2, 4].flatMap((bit) => (from & bit ? [] : [from, from | bit])));
 
 export class Step implements Layer {
   readonly object = new Group();
   private readonly faces = new Mesh(
-    new BufferGeometry(),
+    emptyGeometry(),
     new MeshBasicMaterial({ vertexColors: true, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2 }),
   );
-  private readonly lines = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ vertexColors: true }));
-  private readonly points = new Points(new BufferGeometry(), new PointsMaterial({ vertexColors: true, size: 7, sizeAttenuation: false }));
+  private readonly lines = new LineSegments(emptyGeometry(), new LineBasicMaterial({ vertexColors: true }));
+  private readonly points = new Points(emptyGeometry(), new PointsMaterial({ vertexColors: true, size: 7, sizeAttenuation: false }));
+  private readonly frame: LineSegments<BufferGeometry, LineBasicMaterial>;
+  /** The frame as it is seen from afar. */
+  private readonly mark: Strokes;
 
-  constructor() {
-    for (const object of [this.faces, this.lines, this.points]) object.frustumCulled = false;
-    this.object.add(this.faces, this.lines, this.points);
+  constructor({ accent }: Uniforms) {
+    this.frame = new LineSegments(emptyGeometry(), new LineBasicMaterial());
+    this.frame.material.color = accent.value;
+    this.mark = new Strokes([
+      { color: accent, width: 2, opacity: 1, depth: 0 },
+      { color: accent, width: 9, opacity: 0.35, depth: 1 },
+    ]);
+    for (const object of [this.faces, this.lines, this.points, this.frame]) object.frustumCulled = false;
+    this.object.add(this.faces, this.lines, this.points, this.frame, this.mark.object);
+    this.seenFromAfar = false;
+  }
+
+  /** Points would cover all else then. */
+  set seenFromAfar(isAfar: boolean) {
+    this.mark.object.visible = isAfar;
+    this.points.visible = this.frame.visible = !isAfar;
   }
 
   dependsOn({ instead }: Look): readonly unknown[] {
@@ -30,9 +52,16 @@ export class Step implements Layer {
       const { position, color } = step[part];
       refill(this[part].geometry, { position: { array: position, size: 3 }, color: { array: color, size: 3 } });
     }
+    const edges = step.frame ? boxSegments(step.frame) : new Float32Array(0);
+    refill(this.frame.geometry, { position: { array: edges, size: 3 } });
+    this.mark.segments = edges;
   }
 
   setPixelRatio(ratio: number): void {
     this.points.material.size = 7 * ratio;
   }
+}
+
+function boxSegments({ min, max }: Bounds): Float32Array {
+  return Float32Array.from(boxEdges.flatMap((corner) => [0, 1, 2].map((d) => (corner & (1 << d) ? max[d] : min[d]))));
 }

@@ -7,6 +7,7 @@ import { untouchedColors, type Rgb } from '../colors';
 import type { Layer, Look } from '../layer';
 import { gridStroke, makeMaterial, type Uniforms } from '../material';
 import { paler, type Piece } from '../piece';
+import { hasWhole } from '../../../model/volumes';
 
 /**
  * Boxes drawn at most when cells are pulled apart and any box might be seen through the gaps: all of a 50^3 grid, 1.8 million triangles.
@@ -46,14 +47,15 @@ export class Untouched implements Layer {
     this.object.add(this.faces, this.lines);
   }
 
-  dependsOn({ model, settings: { show, colorBy, sliceMode, explode }, planes }: Look): readonly unknown[] {
-    return [model.id, show, colorBy, sliceMode, planes, explode.cells > 0];
+  dependsOn({ model, settings: { show, volumes, colorBy, sliceMode, explode }, planes }: Look): readonly unknown[] {
+    return [model.id, show, hasWhole(volumes), colorBy, sliceMode, planes, explode.cells > 0];
   }
 
   setLook(look: Look): void {
     const { model, settings } = look;
     const { show } = settings;
-    const gridCells = show.untouched && (show.gridFaces || show.edges) ? seenBoxes(look) : new Uint32Array(0);
+    const isShown = show.untouched && hasWhole(settings.volumes) && (show.gridFaces || show.edges);
+    const gridCells = isShown ? seenBoxes(look) : new Uint32Array(0);
     this.count = gridCells.length;
     this.object.visible = this.pick.visible = this.count > 0;
     this.faces.visible = show.gridFaces;
@@ -86,15 +88,16 @@ export class Untouched implements Layer {
     }
   }
 
-  forEachPiece(take: (piece: Piece) => void): void {
+  forEachPiece(take: (piece: Piece) => void, only?: { cell: number; box: number }): void {
     if (!this.object.visible || !this.faces.visible) return;
     for (let box = 0; box < this.count; box++) {
+      if (only && only.box !== box) continue;
       const [x, y, z, region, dx, dy, dz, packed] = this.boxes.data.subarray(8 * box, 8 * box + 8);
       const corner = (bits: number) => [x + (bits & 1) * dx, y + ((bits >> 1) & 1) * dy, z + (bits >> 2) * dz];
       const color = paler([packed & 255, (packed >> 8) & 255, packed >> 16] as Rgb);
       const middle = [x + dx / 2, y + dy / 2, z + dz / 2];
       for (let at = 0; at < triangleCorners.length; at += 3) {
-        take({ corners: triangleCorners.slice(at, at + 3).flatMap(corner), middle, region, color, ownPlane: -1 });
+        take({ corners: triangleCorners.slice(at, at + 3).flatMap(corner), cell: -1, middle, region, color, ownPlane: -1 });
       }
     }
   }

@@ -56,8 +56,10 @@ export class WindHandle {
   }
 
   setLook({ wind, settings }: Look): void {
-    this.wind = wind;
-    if (!wind) this.isNear = false;
+    // The opening's wind can't be turned.
+    this.wind = settings.wind.on ? wind : null;
+    this.arrow.visible = this.wind !== null;
+    if (!this.wind) this.isNear = false;
     const [x, y, z] = settings.wind.direction;
     this.direction.set(x, y, z);
     this.place();
@@ -110,6 +112,7 @@ export class WindHandle {
 
   /** In CSS pixels of the canvas. */
   placeInPicture(): [x: number, y: number] {
+    this.camera.updateMatrixWorld();
     const at = this.arrow.localToWorld(new Vector3(0, -0.5, 0)).project(this.camera);
     return [((at.x + 1) / 2) * this.canvas.clientWidth, ((1 - at.y) / 2) * this.canvas.clientHeight];
   }

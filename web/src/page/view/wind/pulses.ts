@@ -1,8 +1,8 @@
 // Pulses that run along the streamlines. Each point of a line knows when what starts with the wind arrives there; one uniform, the time, moves
 // all of them.
-import { BufferGeometry, DoubleSide, Group, Mesh, ShaderMaterial, Vector2 } from 'three';
+import { type BufferGeometry, DoubleSide, Group, Mesh, ShaderMaterial, Vector2 } from 'three';
 import type { Wind } from '../../../model/wind';
-import { refill } from '../buffers';
+import { emptyGeometry, refill } from '../buffers';
 import { windChunk, type WindUniforms } from './uniforms';
 
 /** Time in which the undisturbed wind covers the longest side of the mesh, in seconds. */
@@ -35,7 +35,7 @@ export class Pulses {
       transparent: true,
       depthWrite: false,
     });
-    this.ribbons = new Mesh(new BufferGeometry(), material);
+    this.ribbons = new Mesh(emptyGeometry(), material);
     this.ribbons.frustumCulled = false;
     this.ribbons.onBeforeRender = (renderer) => void renderer.getDrawingBufferSize(this.own.viewport.value);
     this.object.add(this.ribbons);
@@ -92,13 +92,7 @@ function ribbonArrays({ position, speed, arrival, offsets }: Wind['lines']) {
   };
 }
 
-const vertexShader = /* glsl */ `
-uniform vec2 viewport;
-uniform float pixelRatio;
-uniform vec3 reach;
-uniform float size;
-attribute vec3 ahead;
-attribute vec3 course;
+const varyings = /* glsl */ `
 varying vec3 vPoint;
 varying float vArrival;
 varying float vSpeed;
@@ -106,7 +100,16 @@ varying float vPhase;
 varying float vSide;
 varying float vFade;
 varying float vWidth;
+`;
 
+const vertexShader = /* glsl */ `
+uniform vec2 viewport;
+uniform float pixelRatio;
+uniform vec3 reach;
+uniform float size;
+attribute vec3 ahead;
+attribute vec3 course;
+${varyings}
 void main() {
   vPoint = position;
   vArrival = course.x;
@@ -134,14 +137,7 @@ uniform float size;
 uniform float pulseGap;
 uniform float time;
 uniform bool isStill;
-varying vec3 vPoint;
-varying float vArrival;
-varying float vSpeed;
-varying float vPhase;
-varying float vSide;
-varying float vFade;
-varying float vWidth;
-
+${varyings}
 void main() {
   // In front of a section only what is close to it.
   float beyond = beyondSections(vPoint, -1);

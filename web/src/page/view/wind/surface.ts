@@ -1,7 +1,7 @@
 // The surface, and sections through the cells, in the colours of speeds or pressures. Drawn instead of the model.
-import { BufferGeometry, DoubleSide, FrontSide, Group, LineSegments, Mesh, ShaderMaterial, type IUniform } from 'three';
+import { DoubleSide, FrontSide, Group, LineSegments, Mesh, ShaderMaterial, type IUniform } from 'three';
 import type { Shape, Wind } from '../../../model/wind';
-import { refill } from '../buffers';
+import { emptyGeometry, refill } from '../buffers';
 import type { Uniforms } from '../material';
 import { lightChunk, windChunk, type WindUniforms } from './uniforms';
 
@@ -29,10 +29,10 @@ export class WindSurface {
         polygonOffsetFactor: 1,
         polygonOffsetUnits: 1,
       });
-    this.faces = new Mesh(new BufferGeometry(), material('SURFACE', { own: { value: -1 } }));
+    this.faces = new Mesh(emptyGeometry(), material('SURFACE', { own: { value: -1 } }));
     this.sections = [0, 1, 2, 3].map((s) => ({
-      faces: new Mesh(new BufferGeometry(), material('SECTION', { own: { value: s } })),
-      edges: new LineSegments(new BufferGeometry(), material('EDGES', { own: { value: s }, lineColor })),
+      faces: new Mesh(emptyGeometry(), material('SECTION', { own: { value: s } })),
+      edges: new LineSegments(emptyGeometry(), material('EDGES', { own: { value: s }, lineColor })),
     }));
     this.object.add(this.faces, ...this.sections.flatMap(({ faces, edges }) => [faces, edges]));
     for (const object of this.object.children) object.frustumCulled = false;

@@ -1,0 +1,170 @@
+// The present state of the page as code that runs as it is: JavaScript for Node, and the command line. Both write the same files.
+import { gridAround } from './grid_around';
+import { activePlanes, inWorld } from './planes';
+import type { Model, Settings, SliceName } from './types';
+import type { Vector3 } from './vector';
+import { windMargin } from './wind';
+
+/** What the code says of a cut beside the settings. */
+export type CodeModel = Pick<Model, 'name' | 'grid' | 'origin' | 'meshMin' | 'meshMax' | 'estimateMs' | 'regions'>;
+
+export interface Code {
+  /** The file with the mesh that both read. */
+  file: string;
+  /** Whether it is the very file that was opened; else it has to be saved first. */
+  isOpened: boolean;
+  javascript: string;
+  commandLine: string;
+}
+
+/** A plane that meets the mesh, in world units. */
+interface Section {
+  name: SliceName;
+  normal: Vector3;
+  offset: number;
+}
+
+export function codeOf(settings: Settings, model: CodeModel): Code {
+  const { file, isOpened } = meshFile(settings, model);
+  const sections = sectionsOf(settings, model);
+  return {
+    file,
+    isOpened,
+    javascript: javascript(settings, model, file, sections),
+    commandLine: commandLine(settings, model, file, sections),
+  };
+}
+
+/** The package and the command line read neither glTF nor 3MF; what moves, or isn't a file, is there once it is saved. */
+function meshFile({ source, pose }: Settings, { name }: CodeModel): Pick<Code, 'file' | 'isOpened'> {
+  if (source.kind === 'file' && !pose && !/\.((glb|gltf)(\.gz)?|3mf)$/i.test(name)) return { file: name, isOpened: true };
+  const stem = name.replace(/(\.(obj|stl|ply|off|glb|gltf|3mf))?(\.gz)?$/i, '').replaceAll(/[^\w.-]+/g, '-');
+  return { file: `${stem || 'mesh'}${pose ? `-${pose.motion}` : ''}.obj`, isOpened: false };
+}
+
+/** A plane beside the mesh has no outlines. */
+function sectionsOf(settings: Settings, model: CodeModel): Section[] {
+  const planes = activePlanes(model, settings);
+  const sections = inWorld(planes, model.origin).map((plane, at) => ({ name: planes[at].name, ...plane }));
+  const farthest = (normal: Vector3, sign: number) =>
+    normal.reduce((sum, n, d) => sum + n * (n * sign > 0 ? model.meshMax[d] : model.meshMin[d]), 0);
+  return sections.filter(({ normal, offset }) => farthest(normal, -1) < offset && offset < farthest(normal, 1));
+}
+
+/** While a mesh moves, its grid has room for all of the motion. */
+function gridOf({ grid, pose }: Settings, { grid: { planes, cells } }: CodeModel): Settings['grid'] {
+  if ('min' in grid || !pose) return grid;
+  const end = (at: number): Vector3 => [planes[0].at(at) ?? 0, planes[1].at(at) ?? 0, planes[2].at(at) ?? 0];
+  return { min: end(0), max: end(-1), cells };
+}
+
+/** The same of the wind tunnel. */
+function tunnelOf({ wind: { cells }, pose }: Settings, { meshMin, meshMax }: CodeModel): Settings['grid'] {
+  return pose ? gridAround({ min: meshMin, max: meshMax }, cells, windMargin) : { cells };
+}
+
+function javascript(settings: Settings, model: CodeModel, file: string, sections: readonly Section[]): string {
+  const { wind } = settings;
+  const isInside = sections.length > 0 && model.regions.some((region) => region.isInside);
+  const calls = ['cut', 'readMesh', 'write'];
+  if (model.estimateMs !== null) calls.push('estimateInside');
+  if (isInside) calls.push('insideRegions');
+  if (sections.length > 0) calls.push('outlines', 'writeOutlines');
+  if (wind.on) calls.push('writeLines');
+  return [
+    "import { readFile, writeFile } from 'node:fs/promises';",
+    "import { init } from 'mandoline-wasm';",
+    ...(wind.on ? ["import { initPhysics } from 'mandoline-wasm/physics';"] : []),
+    '',
+    `const { ${calls.sort().join(', ')} } = await init();`,
+    `const mesh = await readMesh(await readFile(${quoted(file)}), { name: ${quoted(file)} });`,
+    ...cutLines(settings, model),
+    ...(isInside ? ['', "const { isInside } = insideRegions(cutMesh, { rule: 'nonZero' });"] : []),
+    ...sections.flatMap((section) => sliceLines(section, isInside)),
+    ...(wind.on ? ['', ...flowLines(settings, model)] : []),
+    '',
+  ].join('\n');
+}
+
+function cutLines(settings: Settings, model: CodeModel): string[] {
+  const snap = settings.snapTolerance > 0 ? `, { snapTolerance: ${settings.snapTolerance} }` : '';
+  const cut = `cut(mesh, ${gridObject(gridOf(settings, model))}${snap})`;
+  return [
+    `const cutMesh = ${model.estimateMs === null ? cut : `estimateInside(mesh, ${cut})`};`,
+    "console.log(cutMesh.cellRegion.length, 'cut-cells,', cutMesh.regionCount, 'regions');",
+    "await writeFile('cells.vtu', await write(mesh, cutMesh, 'vtu'));",
+  ];
+}
+
+function gridObject(grid: Settings['grid'], margin = ''): string {
+  if (!('min' in grid)) return `{ cells: ${grid.cells}${margin} }`;
+  return `{ min: ${list(grid.min)}, max: ${list(grid.max)}, cells: ${list(grid.cells)} }`;
+}
+
+function list(numbers: Vector3): string {
+  return `[${numbers.join(', ')}]`;
+}
+
+function sliceLines({ name, normal, offset }: Section, isInside: boolean): string[] {
+  const plane = `${name}Plane`;
+  return [
+    '',
+    `const ${plane} = { normal: ${list(normal)}, offsets: [${offset}] };`,
+    `const ${name}Outlines = { ...${plane}, layers: outlines(cutMesh, ${plane}.normal, ${plane}.offsets) };`,
+    `await writeFile('slice-${name}.svg', await writeOutlines(${name}Outlines, 'svg'${isInside ? ', { regions: isInside }' : ''}));`,
+  ];
+}
+
+function flowLines(settings: Settings, model: CodeModel): string[] {
+  return [
+    'const { cellComplex, coarsen, inflowSeeds, solveFlow, streamlines, writeCells } = await initPhysics();',
+    `const wind = ${list(settings.wind.direction)};`,
+    `const tunnel = cut(mesh, ${gridObject(tunnelOf(settings, model), `, margin: ${windMargin}`)});`,
+    'const cells = cellComplex(mesh, tunnel, coarsen(tunnel));',
+    'const flow = solveFlow(cells, wind);',
+    "console.log(cells.cellVolume.length, 'cells in the wind,', flow.status);",
+    'const fields = { phi: flow.phi, velocity: flow.cellVelocity, pressure_coefficient: flow.cellPressure };',
+    "await writeFile('flow.vtu', writeCells(tunnel, cells, 'vtu', { fields }));",
+    `const seeds = inflowSeeds(tunnel.grid, wind, ${lineCount});`,
+    "await writeFile('streamlines.obj', await writeLines(streamlines({ mesh, cutMesh: tunnel, cells, flow }, seeds)));",
+  ];
+}
+
+/** Of streamlines: that of the command line. */
+const lineCount = 100;
+/** As many levels as there may be, as in JavaScript. */
+const levels = 24;
+
+function commandLine(settings: Settings, model: CodeModel, file: string, sections: readonly Section[]): string {
+  const { snapTolerance, wind } = settings;
+  const mesh = word(file);
+  const options = [
+    gridOptions(gridOf(settings, model)),
+    ...(snapTolerance > 0 ? [`--snap-tolerance ${snapTolerance}`] : []),
+    ...(model.estimateMs === null ? [] : ['--inside-threshold 0.5']),
+  ].join(' ');
+  const slices = sections.map((section) => `mandoline slice ${mesh} ${options} ${planeOptions(section)} -o slice-${section.name}.svg`);
+  const tunnel = `--wind ${wind.direction.join()} ${gridOptions(tunnelOf(settings, model))} --coarsen ${levels}`;
+  const flows = wind.on ? [`mandoline flow ${mesh} ${tunnel} -o flow.vtu streamlines.obj`] : [];
+  return [`mandoline cut ${mesh} ${options} -o cells.vtu`, ...slices, ...flows, ''].join('\n');
+}
+
+function gridOptions(grid: Settings['grid']): string {
+  return 'min' in grid ? `--box ${[...grid.min, ...grid.max].join()} --cells ${grid.cells.join()}` : `--cells ${grid.cells}`;
+}
+
+function planeOptions({ name, normal, offset }: Section): string {
+  const across = name !== 'free' && normal.includes(1) ? `--axis ${name}` : `--normal ${normal.join()}`;
+  return `${across} --heights ${offset}`;
+}
+
+/** For JavaScript. */
+function quoted(text: string): string {
+  return `'${text.replaceAll(/['\\]/g, '\\$&')}'`;
+}
+
+/** For a shell; a name that begins with a dash isn't an option. */
+function word(file: string): string {
+  const path = file.startsWith('-') ? `./${file}` : file;
+  return /^[\w./-]+$/.test(path) ? path : `'${path.replaceAll("'", "'\\''")}'`;
+}

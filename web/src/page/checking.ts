@@ -1,0 +1,50 @@
+// Checks a small cut-mesh once it has stood for a moment, and any when asked.
+import { effect } from '@preact/signals';
+import { checksSentence, mostFacesUnasked, type Checks } from '../model/checks';
+import type { Engine, Model } from '../model/types';
+import { ask } from './ask';
+import type { State } from './state';
+
+/** In ms: a cut-mesh stands if no other has come and nothing has been held for so long. */
+const pause = 600;
+
+export class Checking {
+  private timer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(
+    private readonly state: State,
+    private readonly engine: Engine,
+  ) {}
+
+  /** From now on small cut-meshes are checked unasked. */
+  begin(): void {
+    effect(() => {
+      const { model, status, playing, isHeld } = this.state;
+      clearTimeout(this.timer);
+      const shown = model.value;
+      const isStanding = status.value === 'ready' && playing.value === null && !isHeld.value;
+      if (shown && isStanding) this.timer = setTimeout(() => void this.checkUnasked(shown), pause);
+    });
+  }
+
+  /** Nobody waits for it: where it can't be done nothing is said. */
+  private async checkUnasked(model: Model): Promise<void> {
+    if (model.counts.faces > mostFacesUnasked || this.state.checked.value?.model === model) return;
+    const checks = await this.engine.validate().catch(() => null);
+    if (checks) this.take(model, checks);
+  }
+
+  /** As the person asks. */
+  async check(): Promise<void> {
+    const model = this.state.model.value;
+    const checks = await ask(this.state, this.engine.validate());
+    if (model && checks) this.take(model, checks);
+  }
+
+  /** Of a model that is no longer shown nothing is said. */
+  private take(model: Model, checks: Checks): void {
+    if (this.state.model.value !== model) return;
+    this.state.checked.value = { model, checks };
+    if (!checks.pass) this.state.alert({ title: 'The cut-mesh is wrong', detail: checksSentence(checks, model.counts.cutCells) ?? '' });
+  }
+}

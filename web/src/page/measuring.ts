@@ -1,0 +1,48 @@
+// Measures a distance between two places of the model, which are touched in the picture, typed, or the middle of the pinned cell.
+import { effect } from '@preact/signals';
+import type { Measurement, MeasuredPlace } from '../model/measurement';
+import type { View } from '../model/types';
+import type { Vector3 } from '../model/vector';
+import type { State } from './state';
+
+const nothing: Measurement = { from: null, to: null };
+
+export class Measuring {
+  constructor(
+    private readonly state: State,
+    view: View,
+  ) {
+    view.onMeasured = (place) => this.take(place);
+    // What has been measured is of another model.
+    effect(() => this.forget(state.model.value));
+    effect(() => view.setMeasurement(state.measurement.value));
+  }
+
+  begin(): void {
+    this.state.measurement.value = nothing;
+    this.state.sections.uncover();
+  }
+
+  end(): void {
+    this.state.measurement.value = null;
+  }
+
+  private forget(_model: unknown): void {
+    if (this.state.measurement.peek()) this.state.measurement.value = nothing;
+  }
+
+  /** The next place; after two, a new distance begins. */
+  private take(place: MeasuredPlace): void {
+    const { from, to } = this.state.measurement.value ?? nothing;
+    this.state.measurement.value = from && !to ? { from, to: place } : { from: place, to: null };
+  }
+
+  /** A point in world units, which moves as a cell in its place does when cells are pulled apart. */
+  set(end: 'from' | 'to', point: Vector3): void {
+    const { model } = this.state;
+    if (!model.value) return;
+    const { origin } = model.value;
+    const place = { point, middle: point.map((x, d) => x - origin[d]), region: null };
+    this.state.measurement.value = { ...(this.state.measurement.value ?? nothing), [end]: place };
+  }
+}

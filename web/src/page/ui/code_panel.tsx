@@ -1,0 +1,75 @@
+import type { ComponentChildren } from 'preact';
+import { useState } from 'preact/hooks';
+import type { App } from '../app';
+import { codeOf, type Code } from '../../model/code';
+import { saveAs } from './download';
+import { CopyButton } from './controls/copy_button';
+import { Section } from './controls/section';
+
+/** What makes the same outside the page. */
+export function CodePanel({ app }: { app: App }) {
+  const { model, settings } = app;
+  const code = model && codeOf(settings, model);
+  return (
+    <Section app={app} id="code" title="Use this in code">
+      {code ? (
+        <>
+          <MeshFile app={app} code={code} />
+          <Block name="javascript" title="JavaScript" copy="Copy JavaScript" text={code.javascript}>
+            Save it as <code>cut.mjs</code> beside the mesh; then <code>npm install mandoline-wasm</code> and <code>node cut.mjs</code>. In
+            a browser, fetch the mesh instead of reading it.
+          </Block>
+          <Block name="command-line" title="Command line" copy="Copy commands" text={code.commandLine}>
+            For the program <code>mandoline</code>, built from source, in the folder with the mesh.
+          </Block>
+        </>
+      ) : (
+        <p class="hint">Nothing is cut yet.</p>
+      )}
+    </Section>
+  );
+}
+
+/** The file that the code reads. */
+function MeshFile({ app, code: { file, isOpened } }: { app: App; code: Code }) {
+  const [isSaving, setSaving] = useState(false);
+  const save = async () => {
+    setSaving(true);
+    const bytes = await app.writeMesh();
+    setSaving(false);
+    if (bytes) saveAs(new Blob([bytes as Uint8Array<ArrayBuffer>], { type: 'text/plain' }), file);
+  };
+  if (isOpened) return <p class="line">This makes what you see now. It reads {file}, the file that you opened.</p>;
+  return (
+    <div class="row">
+      <span class="line">This makes what you see now. It reads the mesh from a file:</span>
+      <button type="button" id="save-mesh" disabled={isSaving} onClick={() => void save()}>
+        Save {file}
+      </button>
+    </div>
+  );
+}
+
+interface BlockProps {
+  name: string;
+  title: string;
+  /** What the button says. */
+  copy: string;
+  text: string;
+  /** How to run it. */
+  children: ComponentChildren;
+}
+
+function Block({ name, title, copy, text, children }: BlockProps) {
+  return (
+    <div class="code">
+      <h3>{title}</h3>
+      {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by the keyboard */}
+      <pre id={`${name}-text`} role="region" aria-label={`${title} for this view`} tabIndex={0}>
+        {text}
+      </pre>
+      <p class="hint">{children}</p>
+      <CopyButton name={name} label={copy} text={() => text} field={title} />
+    </div>
+  );
+}
