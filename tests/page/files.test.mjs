@@ -1,14 +1,13 @@
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
-import { init } from 'mandoline-wasm';
 import { BoxGeometry, BufferAttribute, BufferGeometry, Group, Mesh } from 'three';
-import { strToU8, zipSync } from 'three/examples/jsm/libs/fflate.module.js';
 import { GLTFExporter } from 'three/examples/jsm/exporters/GLTFExporter.js';
 import { OBJExporter } from 'three/examples/jsm/exporters/OBJExporter.js';
 import { PLYExporter } from 'three/examples/jsm/exporters/PLYExporter.js';
 import { STLExporter } from 'three/examples/jsm/exporters/STLExporter.js';
 import { importBundled } from './bundled.mjs';
+import { corners, expectedCorners, faces, parse, points, refuses } from './parsed_files.mjs';
 
 // What three's loaders and exporters need of a browser.
 globalThis.ProgressEvent ??= class extends Event {};
@@ -22,45 +21,7 @@ globalThis.FileReader ??= class {
   }
 };
 
-const { readMesh } = await importBundled('worker/load.ts');
 const { fileExtensions } = await importBundled('model/formats.ts');
-const mandoline = await init();
-
-function toBytes(content) {
-  const bytes = typeof content === 'string' ? new TextEncoder().encode(content) : new Uint8Array(content);
-  return bytes.slice().buffer;
-}
-
-const parse = (name, content) => readMesh(mandoline, toBytes(content), name);
-
-/** Corners of all triangles as numbers. */
-function corners({ positions, triangles }) {
-  return Array.from(triangles, (v) => Array.from(positions.subarray(3 * v, 3 * v + 3)));
-}
-
-/** Rejects with an error that the page can show: the file in its title, what and where in its detail. */
-async function refuses(name, content, detail) {
-  await assert.rejects(parse(name, content), (error) => {
-    assert.equal(error.title, `${name} can't be read`);
-    assert.match(error.detail, detail);
-    return true;
-  });
-}
-
-// A tetrahedron whose coordinates single precision holds.
-const points = [
-  [0, 0, 0],
-  [1.5, 0, 0],
-  [0, 2.25, 0],
-  [0, 0, -3.125],
-];
-const faces = [
-  [0, 1, 2],
-  [0, 3, 1],
-  [1, 3, 2],
-  [2, 3, 0],
-];
-const expectedCorners = faces.flat().map((v) => points[v]);
 
 const pointLines = points.map((p) => `${p.join(' ')}\n`);
 const faceLines = faces.map((f) => `f ${f.map((v) => v + 1).join(' ')}\n`);
@@ -238,78 +199,6 @@ describe('what glTF allows', () => {
     ];
     assert.deepEqual(corners(await parse('a.gltf', JSON.stringify(gltf({ buffers, bufferViews })))), expectedCorners);
   });
-});
-
-/** A 3MF file with the tetrahedron as object 1; `parts` are more files of the archive. */
-function threeMf({ objects = '', items = '<item objectid="1"/>', parts = {}, mesh = threeMfMesh() } = {}) {
-  const type = 'http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel';
-  const model = `<?xml version="1.0"?>
-<!-- <object id="9"> -->
-<model unit="millimeter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" xmlns:p="http://production">
-<metadata name="Title">a &lt;b&gt;</metadata>
-<resources><object id="1" type="model">${mesh}</object>${objects}</resources><build>${items}</build></model>`;
-  const files = {
-    '_rels/.rels': `<Relationships><Relationship Id='r' Type='${type}' Target='/3D/main.model'/></Relationships>`,
-    '3D/other.model': '<model/>',
-    '3D/main.model': model,
-    ...parts,
-  };
-  return zipSync(Object.fromEntries(Object.entries(files).map(([name, text]) => [name, strToU8(text)])));
-}
-
-function threeMfMesh(triangles = faces) {
-  const vertices = points.map(([x, y, z]) => `<vertex x="${x}" y='${y}' z = "${z}" />`);
-  const corners = triangles.map(([a, b, c]) => `<m:triangle v1="${a}" v2="${b}" v3="${c}" pid="v1" p1="7"/>`);
-  return `<mesh><vertices>${vertices.join('')}</vertices>\n<triangles>${corners.join('\n')}</triangles></mesh>`;
-}
-
-describe('3MF', () => {
-  test('by content, whatever its name', async () => {
-    for (const name of ['a.3mf', 'a.stl', 'a']) assert.deepEqual(corners(await parse(name, threeMf())), expectedCorners);
-  });
-
-  test('objects placed, mirrored, made of others, and in another file of the archive', async () => {
-    const file = threeMf({
-      objects: '<object id="2"><components><component objectid="1" transform="1 0 0 0 1 0 0 0 1 0 0 5"/></components></object>',
-      items: `<item objectid="2" transform="-2 0 0 0 2 0 0 0 2 10 0 0"/><item objectid="3" p:path="/3D/Objects/part.model"/>`,
-      parts: { '3D/Objects/part.model': `<model><resources><object id="3">${threeMfMesh()}</object></resources></model>` },
-    });
-    const found = corners(await parse('a.3mf', file));
-    const swapped = [0, 1, 2, 3].flatMap((t) => [0, 2, 1].map((k) => expectedCorners[3 * t + k]));
-    assert.deepEqual(
-      found.slice(0, 12),
-      swapped.map(([x, y, z]) => [10 - 2 * x, 2 * y, 2 * (z + 5)]),
-    );
-    assert.deepEqual(found.slice(12), expectedCorners);
-  });
-
-  for (const [what, content, detail] of [
-    ['cut off', threeMf().slice(0, 300), /zip archive.* ends too early/],
-    ['with nothing placed', threeMf({ items: '' }), /no object is placed/],
-    [
-      'with an object that is not there',
-      threeMf({ items: '<item objectid="5"/>' }),
-      /object 5 is placed, but 3D\/main.model doesn't have it/,
-    ],
-    ['with a part that is not there', threeMf({ items: '<item objectid="1" p:path="/3D/gone.model"/>' }), /no file 3D\/gone.model/],
-    [
-      'with a vertex that is not there',
-      threeMf({ mesh: threeMfMesh([[0, 1, 4]]) }),
-      /triangle 0 of object 1 has vertex 4, but there are 4/,
-    ],
-    ['with a coordinate that is none', threeMf({ mesh: threeMfMesh().replace('1.5', 'wide') }), /x of vertex 1 of object 1 is "wide"/],
-    ['with a transform that is none', threeMf({ items: '<item objectid="1" transform="1 0 0"/>' }), /"1 0 0" is no transform/],
-    [
-      'with an object made of itself',
-      threeMf({ objects: '<object id="2"><components><component objectid="2"/></components></object>', items: '<item objectid="2"/>' }),
-      /object 2 is made of itself/,
-    ],
-    ['without triangles', threeMf({ mesh: threeMfMesh([]) }), /no triangles/],
-  ]) {
-    test(`${what} it is refused by name`, () => refuses('a.3mf', content, detail));
-  }
-
-  test('another archive is named as the package does', () => refuses('a.zip', zipSync({ 'a.txt': strToU8('hello') }), /./));
 });
 
 describe('what three writes', () => {

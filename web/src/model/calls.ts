@@ -17,6 +17,8 @@ export interface LoadedMesh {
   bounds: Bounds;
   /** The axis that seems to point upwards. */
   up: Up;
+  /** Whether it comes from a file of a format that the package doesn't read. */
+  isReadHere: boolean;
 }
 
 /** How a cut is made. Cutting again gives the same ids, bit by bit. */

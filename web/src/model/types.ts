@@ -122,6 +122,8 @@ export interface Model {
   meshMax: Vector3;
   /** The axis that seems to point upwards. */
   up: Up;
+  /** Whether the mesh comes from a file of a format that the package doesn't read. */
+  isReadHere: boolean;
   triangleCount: number;
   droppedTriangles: number;
   counts: { cutCells: number; untouchedCells: number; faces: number; vertices: number; regions: number };
@@ -258,8 +260,11 @@ export interface Engine {
   write(format: 'json' | 'vtu' | 'obj'): Promise<Uint8Array>;
   /** The mesh as it was cut, as OBJ. */
   writeMesh(): Promise<Uint8Array>;
-  /** The flow about the mesh that is shown. Of several under way the newest wins: those before it reject with an AbortError. */
-  wind(request: AboutShown<WindRequest>): Promise<Wind>;
+  /**
+   * The flow about the mesh that is shown. Of several under way the newest wins: those before it reject with an AbortError. By default it may
+   * be turned next, which is prepared.
+   */
+  wind(request: AboutShown<WindRequest>, isTurned?: boolean): Promise<Wind>;
   /** Ends the flow under way. */
   cancelWind(): void;
   writeWind(request: AboutShown<WindRequest>, format: WindFormat): Promise<Uint8Array>;
@@ -292,7 +297,7 @@ export interface Picture {
   isSmaller: boolean;
 }
 
-/** What one takes along of what is seen. */
+/** What can be saved of the view. */
 export interface ViewFiles {
   /** Everything that is seen, at the current explosion. */
   png(options: PictureOptions): Promise<Picture>;

@@ -1,4 +1,5 @@
 // What is wrong with a glTF or GLB file, in words, before three's loader stumbles over it. Only what leads to triangles is looked at.
+import { damaged } from './damaged';
 
 interface Buffer {
   byteLength: number;
@@ -120,10 +121,6 @@ function checkLists(gltf: Gltf): void {
     const list: unknown = gltf[key] ?? [];
     if (!Array.isArray(list) || !list.every(isObject)) throw damaged(`"${key}" is no list of objects`);
   }
-}
-
-function damaged(why: string): Error {
-  return new Error(`It is damaged: ${why}.`);
 }
 
 /** The item that something refers to by its number. */

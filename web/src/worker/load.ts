@@ -8,13 +8,16 @@ import { galleryMesh, type MeshArrays } from '../model/gallery';
 import type { Source } from '../model/types';
 import { guessUp } from './up';
 
+type MeshFile = MeshArrays & Pick<LoadedMesh, 'isReadHere'>;
+
 export async function loadMesh(mandoline: Mandoline, { id, source, bytes }: Calls['load']['ask']): Promise<LoadedMesh> {
-  const mesh = source.kind === 'gallery' ? await galleryMesh(source.name) : await readFile(mandoline, source, bytes);
+  const isGallery = source.kind === 'gallery';
+  const mesh = isGallery ? { ...(await galleryMesh(source.name)), isReadHere: false } : await readFile(mandoline, source, bytes);
   const name = nameOf(source);
   const bounds = boundsOf(mesh);
   checkExtent(bounds, `${name} can't be drawn`);
   // The gallery's meshes stand along y.
-  const up = source.kind === 'gallery' ? 'y' : guessUp(name, mesh, bounds);
+  const up = isGallery ? 'y' : guessUp(name, mesh, bounds);
   return { id, name, ...mesh, bounds, up };
 }
 
@@ -32,7 +35,7 @@ function fileName(url: string): string {
   }
 }
 
-async function readFile(mandoline: Mandoline, source: Exclude<Source, { kind: 'gallery' }>, given?: ArrayBuffer): Promise<MeshArrays> {
+async function readFile(mandoline: Mandoline, source: Exclude<Source, { kind: 'gallery' }>, given?: ArrayBuffer): Promise<MeshFile> {
   const name = nameOf(source);
   const bytes = source.kind === 'url' ? await fetched(source.url) : given;
   if (!bytes) throw pageError(`${name} is not here any more`, 'A link keeps only the name of a file. Open the file again.');
@@ -50,11 +53,12 @@ async function fetched(url: string): Promise<ArrayBuffer> {
 }
 
 /** What the package doesn't read is read here, by what is fetched when it is needed. */
-export async function readMesh(mandoline: Mandoline, bytes: ArrayBuffer, name: string): Promise<MeshArrays> {
+export async function readMesh(mandoline: Mandoline, bytes: ArrayBuffer, name: string): Promise<MeshFile> {
   try {
-    const mesh = await (isGltf(bytes, name) ? readGltf(bytes) : is3mf(bytes) ? read3mf(bytes) : mandoline.readMesh(bytes, { name }));
+    const read = isGltf(bytes, name) ? readGltf : is3mf(bytes, name) ? read3mf : null;
+    const mesh = await (read ? read(bytes) : mandoline.readMesh(bytes, { name }));
     if (mesh.triangles.length === 0) throw new Error('It has no triangles.');
-    return mesh;
+    return { ...mesh, isReadHere: read !== null };
   } catch (error) {
     throw isPageError(error) ? error : fileError(name, whatIsWrong(error, name));
   }
@@ -71,13 +75,14 @@ async function read3mf(bytes: ArrayBuffer): Promise<MeshArrays> {
 }
 
 function notLoaded(format: string): never {
-  throw new Error(`What reads ${format} could not be loaded. Look after the connection, then open the file again.`);
+  throw new Error(`What reads ${format} could not be loaded. Check the connection, then open the file again.`);
 }
 
-/** A zip archive that names the file of a model at its beginning or end; of other archives the package tells what they are. */
-function is3mf(bytes: ArrayBuffer): boolean {
+/** A zip archive that is called one, or names the file of a model at its beginning or end; of others the package tells what they are. */
+function is3mf(bytes: ArrayBuffer, name: string): boolean {
   const start = textAt(bytes);
-  return start.startsWith('PK\x03\x04') && /\.model/i.test(start + textAt(bytes.slice(-100_000), 100_000));
+  if (!start.startsWith('PK\x03\x04')) return false;
+  return /\.3mf$/i.test(name) || /\.model/i.test(start + textAt(bytes.slice(-100_000), 100_000));
 }
 
 /** By content if that is enough, else by name. */

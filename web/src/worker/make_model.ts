@@ -33,6 +33,7 @@ export function makeModel(mandoline: Mandoline, cut: Cut, slicing: Slicing): Mod
     meshMin: mesh.bounds.min,
     meshMax: mesh.bounds.max,
     up: mesh.up,
+    isReadHere: mesh.isReadHere,
     triangleCount: cutMesh.triangleCount,
     droppedTriangles: cutMesh.droppedTriangles.length,
     counts: {

@@ -1,37 +1,27 @@
-// 3MF: a zip archive with meshes as XML. three's loader reads that with the XML parser of a page, which workers lack; here the few tags
-// that matter are read by themselves.
+// 3MF: a zip archive with meshes as XML. What repeats its parts is small in a file: how large it becomes is known before it is made.
 import { unzipSync } from 'three/examples/jsm/libs/fflate.module.js';
 import type { MeshArrays } from '../model/gallery';
+import { damaged } from './damaged';
+import { identity, pathIn, readModel, type MeshObject, type Model, type Placed, type Transform } from './three_mf_model';
+import { readTags, xmlText } from './xml';
 
-/** Twelve numbers: the rows that x, y, z and 1 are multiplied by. */
-type Transform = readonly number[];
+type Files = Record<string, Uint8Array>;
 
-interface Placed {
-  /** The file that has it, within the archive. */
-  path: string;
-  object: string;
-  transform: Transform;
+/** Of an object with all that it is made of. */
+interface Size {
+  vertices: number;
+  triangles: number;
+  /** How many objects are placed for it, itself among them. */
+  placed: number;
+  /** Objects within objects. */
+  depth: number;
 }
 
-interface MeshObject {
-  positions: number[];
-  triangles: number[];
-  components: Placed[];
-}
-
-/** What one file of the archive describes. */
-interface Model {
-  objects: Map<string, MeshObject>;
-  items: Placed[];
-}
-
-type Attributes = (name: string) => string | undefined;
-
-const identity: Transform = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0];
-/** Components within components. */
-const deepest = 32;
-/** Of triangles: beyond it, files that repeat their parts would fill memory. */
-const mostTriangles = 2e7;
+/** Of what is unpacked, in bytes. */
+const mostBytes = 4e8;
+const most: Size = { vertices: 2e7, triangles: 2e7, placed: 1e6, depth: 32 };
+/** In bytes: the least that the directory of a zip archive has for a file. */
+const leastEntry = 46;
 
 export function read3mf(bytes: ArrayBuffer): MeshArrays {
   const files = unpacked(bytes);
@@ -42,47 +32,52 @@ export function read3mf(bytes: ArrayBuffer): MeshArrays {
     models.set(path, model);
     return model;
   };
-  const positions: number[] = [];
-  const triangles: number[] = [];
-  const place = ({ path, object, transform }: Placed, depth: number) => {
+  const objectOf = ({ path, object }: Placed): MeshObject => {
     const found = modelAt(path).objects.get(object);
     if (!found) throw damaged(`object ${object} is placed, but ${path} doesn't have it`);
-    if (depth > deepest) throw damaged(`object ${object} is made of itself, or of parts within parts without end`);
-    if (triangles.length + found.triangles.length > 3 * mostTriangles) throw new Error('It has too many triangles for this page.');
-    append(positions, triangles, found, transform);
-    for (const part of found.components) place({ ...part, transform: product(part.transform, transform) }, depth + 1);
+    return found;
   };
   const { items } = modelAt(main);
   if (items.length === 0) throw new Error('It says nothing about what to build of it: no object is placed.');
-  for (const item of items) place(item, 0);
-  return { positions: Float64Array.from(positions), triangles: Uint32Array.from(triangles) };
+  const all: MeshObject = { positions: [], triangles: [], components: items };
+  const { vertices, triangles } = sizeOf(all, objectOf);
+  return new Assembly(vertices, triangles, objectOf).place(all, identity);
 }
 
-function damaged(why: string): Error {
-  return new Error(`It is damaged: ${why}.`);
-}
-
-function unpacked(bytes: ArrayBuffer): Record<string, Uint8Array> {
+function unpacked(bytes: ArrayBuffer): Files {
+  let [size, entries] = [0, 0];
+  const filter = (entry: { name: string; size: number; originalSize: number }) => {
+    if (++entries * leastEntry > bytes.byteLength) throw new Error('It says that it has more files than there is room for.');
+    if (!/\.(model|rels)$/i.test(entry.name)) return false;
+    size += Math.max(entry.size, entry.originalSize);
+    return size <= mostBytes;
+  };
+  let files: Files;
   try {
-    return unzipSync(new Uint8Array(bytes), { filter: ({ name }) => /\.(model|rels)$/i.test(name) });
-  } catch {
-    throw damaged('a 3MF file is a zip archive, and this one ends too early or is none');
+    files = unzipSync(new Uint8Array(bytes), { filter });
+  } catch (error) {
+    // Too little memory is no fault of the file.
+    if (error instanceof RangeError) throw new Error('There is not enough memory to unpack it.');
+    throw damaged('a 3MF file is a zip archive, and this one ends too early or is not one');
   }
+  if (size > mostBytes) throw new Error('It is too large for this page once it is unpacked.');
+  return files;
 }
 
-function textOf(files: Record<string, Uint8Array>, path: string): string {
-  const file = files[path];
-  if (!file) throw damaged(`it has no file ${path}`);
-  return new TextDecoder().decode(file);
+function textOf(files: Files, path: string): string {
+  if (!Object.hasOwn(files, path)) throw damaged(`it has no file ${path}`);
+  return xmlText(files[path]);
 }
 
 /** Where the relations of the archive say that its model is. */
-function mainPath(files: Record<string, Uint8Array>): string {
+function mainPath(files: Files): string {
   const relations = '_rels/.rels';
   let path = '';
-  if (files[relations]) {
-    readTags(textOf(files, relations), (name, attribute) => {
-      if (name === 'Relationship' && attribute('Type')?.endsWith('/3dmodel')) path ||= pathIn(attribute('Target'), '');
+  if (Object.hasOwn(files, relations)) {
+    readTags(textOf(files, relations), {
+      begin: (name, attribute) => {
+        if (name === 'Relationship' && attribute('Type')?.endsWith('/3dmodel')) path ||= pathIn(attribute('Target'), '');
+      },
     });
   }
   path ||= Object.keys(files).find((name) => /\.model$/i.test(name)) ?? '';
@@ -90,60 +85,79 @@ function mainPath(files: Record<string, Uint8Array>): string {
   return path;
 }
 
-/** Paths in an archive begin with a slash, the names of its files don't. */
-function pathIn(path: string | undefined, fallback: string): string {
-  return path ? path.replace(/^\//, '') : fallback;
-}
-
-function readModel(text: string, path: string): Model {
-  const model: Model = { objects: new Map(), items: [] };
-  let object: MeshObject = { positions: [], triangles: [], components: [] };
-  let id = '';
-  const placed = (attribute: Attributes): Placed => ({
-    path: pathIn(attribute('path'), path),
-    object: attribute('objectid') ?? '',
-    transform: transformOf(attribute('transform')),
-  });
-  const readers: Record<string, (attribute: Attributes) => void> = {
-    object: (attribute) => {
-      id = attribute('id') ?? '';
-      object = { positions: [], triangles: [], components: [] };
-      model.objects.set(id, object);
-    },
-    vertex: (attribute) => {
-      for (const axis of ['x', 'y', 'z'])
-        object.positions.push(numberOf(attribute(axis), `${axis} of vertex ${object.positions.length / 3} of object ${id}`));
-    },
-    triangle: (attribute) => {
-      for (const corner of ['v1', 'v2', 'v3']) object.triangles.push(Number(attribute(corner)));
-    },
-    component: (attribute) => object.components.push(placed(attribute)),
-    item: (attribute) => model.items.push(placed(attribute)),
+/** Looks at every object once, however often it is placed. */
+function sizeOf(all: MeshObject, objectOf: (part: Placed) => MeshObject): Size {
+  const sizes = new Map<MeshObject, Size>();
+  const above = new Set<MeshObject>();
+  const measure = (object: MeshObject): Size => {
+    const known = sizes.get(object);
+    if (known) return known;
+    const size = { vertices: object.positions.length / 3, triangles: object.triangles.length / 3, placed: 1, depth: 0 };
+    above.add(object);
+    for (const part of object.components) {
+      const found = objectOf(part);
+      if (above.has(found)) throw damaged(`object ${part.object} is made of itself`);
+      if (above.size > most.depth) throw tooMuch('parts within parts');
+      const { vertices, triangles, placed, depth } = measure(found);
+      size.vertices += vertices;
+      size.triangles += triangles;
+      size.placed += placed;
+      size.depth = Math.max(size.depth, depth + 1);
+    }
+    above.delete(object);
+    checkSize(size);
+    sizes.set(object, size);
+    return size;
   };
-  readTags(text, (name, attribute) => {
-    if (Object.hasOwn(readers, name)) readers[name](attribute);
-  });
-  for (const [name, { positions, triangles }] of model.objects) checkTriangles(name, positions.length / 3, triangles);
-  return model;
+  return measure(all);
 }
 
-function numberOf(text: string | undefined, what: string): number {
-  const value = text?.trim() ? Number(text) : NaN;
-  if (!Number.isFinite(value)) throw damaged(`${what} is ${text === undefined ? 'missing' : `"${text}"`} instead of a number`);
-  return value;
+function checkSize({ vertices, triangles, placed, depth }: Size): void {
+  if (triangles > most.triangles) throw tooMuch('triangles');
+  if (vertices > most.vertices) throw tooMuch('vertices');
+  if (placed > most.placed) throw tooMuch('parts');
+  if (depth > most.depth) throw tooMuch('parts within parts');
 }
 
-function checkTriangles(object: string, count: number, triangles: readonly number[]): void {
-  const wrong = triangles.findIndex((vertex) => !(Number.isInteger(vertex) && vertex >= 0 && vertex < count));
-  if (wrong < 0) return;
-  throw damaged(`triangle ${Math.floor(wrong / 3)} of object ${object} has vertex ${triangles[wrong]}, but there are ${count}, from 0 on`);
+function tooMuch(what: string): Error {
+  return new Error(`It has too many ${what} for this page.`);
 }
 
-function transformOf(text: string | undefined): Transform {
-  if (text === undefined) return identity;
-  const numbers = text.trim().split(/\s+/).map(Number);
-  if (numbers.length !== 12 || !numbers.every(Number.isFinite)) throw damaged(`"${text}" is no transform`);
-  return numbers;
+/** The mesh, while objects are placed in it. */
+class Assembly {
+  private readonly positions: Float64Array;
+  private readonly triangles: Uint32Array;
+  private vertexEnd = 0;
+  private cornerEnd = 0;
+
+  constructor(
+    vertices: number,
+    triangles: number,
+    private readonly objectOf: (part: Placed) => MeshObject,
+  ) {
+    this.positions = new Float64Array(3 * vertices);
+    this.triangles = new Uint32Array(3 * triangles);
+  }
+
+  place(object: MeshObject, transform: Transform): MeshArrays {
+    this.append(object, transform);
+    for (const part of object.components) this.place(this.objectOf(part), product(part.transform, transform));
+    return { positions: this.positions, triangles: this.triangles };
+  }
+
+  /** Where a transform mirrors, triangles are turned around, so that they face outwards as before. */
+  private append({ positions, triangles }: MeshObject, m: Transform): void {
+    const first = this.vertexEnd;
+    for (let at = 0; at < positions.length; at += 3, this.vertexEnd++) {
+      const [x, y, z] = [positions[at], positions[at + 1], positions[at + 2]];
+      for (let d = 0; d < 3; d++) this.positions[3 * this.vertexEnd + d] = x * m[d] + y * m[3 + d] + z * m[6 + d] + m[9 + d];
+    }
+    const isMirrored = m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]) < 0;
+    const order = isMirrored ? [0, 2, 1] : [0, 1, 2];
+    for (let at = 0; at < triangles.length; at += 3) {
+      for (const corner of order) this.triangles[this.cornerEnd++] = first + triangles[at + corner];
+    }
+  }
 }
 
 /** One transform after another. */
@@ -153,36 +167,4 @@ function product(first: Transform, second: Transform): Transform {
     const sum = first[row] * second[column] + first[row + 1] * second[3 + column] + first[row + 2] * second[6 + column];
     return row === 9 ? sum + second[9 + column] : sum;
   });
-}
-
-/** Where a transform mirrors, triangles are turned around, so that they face outwards as before. */
-function append(positions: number[], triangles: number[], { positions: points, triangles: corners }: MeshObject, m: Transform): void {
-  const first = positions.length / 3;
-  for (let at = 0; at < points.length; at += 3) {
-    const [x, y, z] = [points[at], points[at + 1], points[at + 2]];
-    for (let d = 0; d < 3; d++) positions.push(x * m[d] + y * m[3 + d] + z * m[6 + d] + m[9 + d]);
-  }
-  const isMirrored = m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]) < 0;
-  const [second, third] = isMirrored ? [2, 1] : [1, 2];
-  for (let at = 0; at < corners.length; at += 3) {
-    triangles.push(first + corners[at], first + corners[at + second], first + corners[at + third]);
-  }
-}
-
-const tags = /<(?:[\w.-]+:)?([\w.-]+)((?:\s+[\w:.-]+\s*=\s*(?:"[^"]*"|'[^']*'))*)\s*\/?>/g;
-
-/** Calls back for every tag that begins something, names and attributes without their prefixes. */
-function readTags(text: string, read: (name: string, attribute: Attributes) => void): void {
-  const searches = new Map<string, RegExp>();
-  const searchFor = (name: string) => {
-    const search = searches.get(name) ?? new RegExp(`[\\s:]${name}\\s*=\\s*(?:"([^"]*)"|'([^']*)')`);
-    searches.set(name, search);
-    return search;
-  };
-  for (const [, name, attributes] of text.replaceAll(/<!--.*?-->/gs, '').matchAll(tags)) {
-    read(name, (wanted) => {
-      const found = searchFor(wanted).exec(attributes);
-      return found?.[1] ?? found?.[2];
-    });
-  }
 }
