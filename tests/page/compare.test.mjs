@@ -10,6 +10,7 @@ import { cutOf, galleryMesh, mandoline } from './reference.mjs';
 const { comparison } = await importBundled('worker/compare/index.ts');
 const { otherGrid } = await importBundled('model/comparison.ts');
 const { cubeCases, cubeEdges } = await importBundled('worker/compare/marching_cubes.ts');
+const { OtherWay } = await importBundled('page/view/layers/other_way.ts');
 
 const extentOf = ({ volume, area }) => ({ volume, area });
 
@@ -40,6 +41,25 @@ test('each case of marching cubes parts the corners inside from the others, and 
     cubeCases.flat().reduce((sum, { length }) => sum + length - 2, 0),
     820,
   );
+});
+
+test('what is drawn of one way leaves that of another as it is, to be drawn again', () => {
+  const way = (length, value) => ({
+    position: new Float32Array(length).fill(value),
+    index: new Uint32Array(length).fill(value),
+    grid: null,
+  });
+  const ways = { voxels: way(90, 1), cubes: way(60, 2) };
+  const layer = new OtherWay({});
+  for (const shown of ['voxels', 'cubes', 'voxels']) {
+    const settings = { compare: { way: shown }, show: { surface: true, edges: true } };
+    layer.setLook({ comparison: { origin, ways }, model: { origin }, settings });
+    const { attributes, index, drawRange } = layer.object.children[0].geometry;
+    for (const array of [attributes.position.array, index.array]) {
+      assert.deepEqual(new Set(array.subarray(0, drawRange.count)), new Set([shown === 'voxels' ? 1 : 2]));
+    }
+  }
+  assert.deepEqual(ways, { voxels: way(90, 1), cubes: way(60, 2) });
 });
 
 /** How many grid cells have their middle inside, by sums of solid angles, which know nothing of cells. */

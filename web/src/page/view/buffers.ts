@@ -20,16 +20,16 @@ export function emptyGeometry(...names: 'normal'[]): BufferGeometry {
   return geometry;
 }
 
-/** Gives a geometry these vertices, and draws all of them. */
-export function refill(geometry: BufferGeometry, attributes: Record<string, Values>, index?: Uint32Array): void {
+/** Gives a geometry these vertices, and draws all of them. Arrays that it may keep are written over by later ones: others are copied. */
+export function refill(geometry: BufferGeometry, attributes: Record<string, Values>, index?: Uint32Array, mayKeep = false): void {
   const entries = Object.entries(attributes);
   const fits = entries.every(([name, { array }]) => hasRoom(geometry.attributes[name] as BufferAttribute | undefined, array));
   if (!fits || (index && !hasRoom(geometry.index, index))) {
     geometry.dispose();
     for (const [name, values] of entries) {
-      geometry.setAttribute(name, withRoom(geometry.attributes[name] as BufferAttribute | undefined, values));
+      geometry.setAttribute(name, withRoom(geometry.attributes[name] as BufferAttribute | undefined, values, mayKeep));
     }
-    if (index) geometry.setIndex(withRoom(geometry.index, { array: index, size: 1 }));
+    if (index) geometry.setIndex(withRoom(geometry.index, { array: index, size: 1 }, mayKeep));
   }
   for (const [name, { array }] of entries) overwrite(geometry.attributes[name] as BufferAttribute, array);
   if (index && geometry.index) overwrite(geometry.index, index);
@@ -42,9 +42,11 @@ function hasRoom(attribute: BufferAttribute | null | undefined, { length }: Type
   return length <= room && room <= Math.max(excess * length, 1024);
 }
 
-function withRoom(former: BufferAttribute | null | undefined, { array, size, normalized = false }: Values): BufferAttribute {
+function withRoom(former: BufferAttribute | null | undefined, values: Values, mayKeep: boolean): BufferAttribute {
+  const { array, size, normalized = false } = values;
   const hasGrown = former && former.array.length > 0 && former.array.length < array.length;
-  const room = hasGrown ? new (array.constructor as Float32ArrayConstructor)(size * Math.ceil((growth * array.length) / size)) : array;
+  const length = hasGrown ? size * Math.ceil((growth * array.length) / size) : array.length;
+  const room = mayKeep && !hasGrown ? array : new (array.constructor as Float32ArrayConstructor)(length);
   return new BufferAttribute(room, size, normalized).setUsage(DynamicDrawUsage);
 }
 
