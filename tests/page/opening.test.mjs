@@ -1,4 +1,4 @@
-// The opening of a first visit: its script, and that it leaves nothing behind.
+// The opening of a visit without a link: its script, and that it leaves nothing behind.
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
 import { importBundled } from './bundled.mjs';
@@ -55,16 +55,17 @@ function quickMachine() {
   WebGL2RenderingContext.prototype.clientWaitSync = () => WebGL2RenderingContext.CONDITION_SATISFIED;
 }
 
+const newPage = (t, options = {}) =>
+  site.newPage(t, { viewport: { width: 300, height: 400 }, ...options, onNewPage: (made) => made.addInitScript(quickMachine) });
+
 const open = async (t, { hash = '', ...options } = {}) => {
-  const page = await site.newPage(t, {
-    viewport: { width: 300, height: 400 },
-    ...options,
-    onNewPage: (made) => made.addInitScript(quickMachine),
-  });
+  const page = await newPage(t, options);
   await page.goto(site.url + hash);
   await page.waitForFunction(() => document.getElementById('canvas').dataset.model === '1');
   return page;
 };
+
+const timeOf = (page) => page.evaluate(() => performance.now());
 
 test('the first touch ends it: settings, link and history are as if it had never been', async (t) => {
   const page = await open(t);
@@ -86,11 +87,24 @@ test('the first touch ends it: settings, link and history are as if it had never
   assert.equal(await page.locator('#explode-cells').inputValue(), '0.06');
 });
 
+test('it begins with the first picture, however late that is', async (t) => {
+  const page = await newPage(t);
+  await page.addInitScript(() => {
+    WebGL2RenderingContext.prototype.clientWaitSync = () =>
+      WebGL2RenderingContext[window.isInTime ? 'CONDITION_SATISFIED' : 'TIMEOUT_EXPIRED'];
+  });
+  await page.goto(site.url);
+  await page.waitForFunction(() => document.body.dataset.state === 'ready');
+  const begin = await timeOf(page);
+  await eventually(async () => assert.ok((await timeOf(page)) > begin + 1000));
+  await page.evaluate(() => (window.isInTime = true));
+  await shows(page, '#canvas', { compare: 'voxels' });
+});
+
 test('it is left out where motion is unwanted, in embedded pages and for links', async (t) => {
   for (const options of [{ reducedMotion: 'reduce' }, { hash: '?embed' }, { hash: '#n=8' }]) {
     const page = await open(t, options);
-    const time = () => page.evaluate(() => performance.now());
-    const begin = await time();
+    const begin = await timeOf(page);
     await page.evaluate(() => {
       window.seen = [];
       new MutationObserver(() => window.seen.push(document.getElementById('canvas').dataset.compare)).observe(
@@ -98,7 +112,7 @@ test('it is left out where motion is unwanted, in embedded pages and for links',
         { attributeFilter: ['data-compare'] },
       );
     });
-    await eventually(async () => assert.ok((await time()) > begin + 1000));
+    await eventually(async () => assert.ok((await timeOf(page)) > begin + 1000));
     assert.deepEqual((await page.evaluate(() => window.seen)).filter(Boolean), []);
   }
 });

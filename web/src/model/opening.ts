@@ -1,4 +1,4 @@
-// What a first visit begins with: the surface alone, the grid that sweeps through it, cells that come apart, and wind.
+// What a visit without a link begins with: the surface alone, the grid that sweeps through it, cells that come apart, and wind.
 import type { Settings } from './types';
 
 /** A moment of the opening. */

@@ -1,5 +1,6 @@
 // What is loaded before it is asked for, so that it is at hand at once, also offline.
 import type { Engine, View } from '../model/types';
+import { firstPicture } from './frames';
 import type { State } from './state';
 import { loadGltfExporter } from './view/export';
 
@@ -8,7 +9,7 @@ import { loadGltfExporter } from './view/export';
  * where it is used, and missed there.
  */
 export async function loadAhead(engine: Engine, state: State, view: View): Promise<void> {
-  while (state.model.value && view.pictures === 0) await new Promise(requestAnimationFrame);
+  await firstPicture(state, view);
   state.thumbnails.value = 'seen';
   for (const load of [() => engine.loadAhead(), loadGltfExporter]) {
     await idle();

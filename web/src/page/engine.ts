@@ -137,8 +137,8 @@ class WorkerEngine implements Engine {
     return this.aboutShown((recipe) => this.call('writeMesh', { recipe }));
   }
 
-  async wind(request: Parameters<Engine['wind']>[0]): Promise<Wind> {
-    return this.tunnel.flow({ mesh: this.meshShown(), ...request });
+  async wind(request: Parameters<Engine['wind']>[0], isTurned = true): Promise<Wind> {
+    return this.tunnel.flow({ mesh: this.meshShown(), ...request }, isTurned);
   }
 
   cancelWind(): void {

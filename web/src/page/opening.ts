@@ -1,4 +1,4 @@
-// The opening of a first visit. It changes what is drawn alone: settings, link and history know nothing of it.
+// The opening of a visit without a link. It changes what is drawn alone: settings, link and history know nothing of it.
 import { effect } from '@preact/signals';
 import type { Comparison } from '../model/comparison';
 import { isOutside } from '../model/inside';
@@ -7,6 +7,8 @@ import { toHash } from '../model/settings';
 import type { Engine, Model } from '../model/types';
 import type { Wind } from '../model/wind';
 import type { App } from './app';
+import { firstPicture, nextFrame } from './frames';
+import { reducedMotion } from './view/reduced_motion';
 
 /** What a person does first ends it. */
 const touches = ['pointerdown', 'keydown', 'wheel', 'dragenter', 'focusin', 'popstate', 'hashchange'];
@@ -29,18 +31,19 @@ export async function playOpening(app: App, engine: Engine): Promise<void> {
     unwatch();
     view.setComparison(state.divided.value);
     view.setWind(state.wind.value);
+    if (!app.settings.wind.on) engine.cancelWind();
     view.setLook(app.settings);
   });
-  await new Play(app, engine, model).run(end.signal);
+  await new Opening(app, engine, model).run(end.signal);
   end.abort();
 }
 
 /** Links show what they say, and not everybody likes motion. */
 function isWanted(): boolean {
-  return location.hash === '' && !matchMedia('(prefers-reduced-motion: reduce)').matches;
+  return location.hash === '' && !reducedMotion().matches;
 }
 
-class Play {
+class Opening {
   private wind: Wind | null = null;
   private readonly surface: Comparison;
 
@@ -54,7 +57,8 @@ class Play {
 
   /** Until it is over, or pictures don't keep up. */
   async run(signal: AbortSignal): Promise<void> {
-    const { view } = this.app;
+    const { state, view } = this.app;
+    await firstPicture(state, view);
     let [lookedAt, pictures] = [performance.now(), view.pictures];
     let begin: number | null = null;
     for (;;) {
@@ -74,7 +78,7 @@ class Play {
   /** Without it the opening goes on. */
   private async askForWind(): Promise<void> {
     const { direction, cells } = this.app.settings.wind;
-    this.wind = await this.engine.wind({ pose: null, cells, direction, surface: false, planes: [] }).catch(() => null);
+    this.wind = await this.engine.wind({ pose: null, cells, direction, surface: false, planes: [] }, false).catch(() => null);
   }
 
   private show(seconds: number): void {
@@ -93,8 +97,4 @@ function surfaceOf(model: Model): Comparison {
   const shown = index.subarray(0, surfaceEnd).filter((_, at) => isInside(index[at - (at % 3)]));
   const inside = { volume: 0, area: 0, cells: null };
   return { origin: model.origin, ways: { voxels: { ...inside, position, index: shown, grid: null } }, exact: inside };
-}
-
-function nextFrame(): Promise<number> {
-  return new Promise((resolve) => requestAnimationFrame(() => resolve(performance.now())));
 }

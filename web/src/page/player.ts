@@ -1,6 +1,7 @@
 // What moves by itself: the surface, or how it is sliced, pulled apart, and how finely it is cut.
 import { motions, type Motion } from '../model/motion';
 import type { App } from './app';
+import { nextFrame } from './frames';
 
 export const plays = [...motions, 'slice', 'explode', 'cells'] as const;
 export type Play = (typeof plays)[number];
@@ -60,10 +61,6 @@ function isCut(play: Play): boolean {
 
 export function isMotion(play: Play): play is Motion {
   return motions.some((motion) => motion === play);
-}
-
-function nextFrame(): Promise<number> {
-  return new Promise((resolve) => requestAnimationFrame(() => resolve(performance.now())));
 }
 
 /** 0 to 1 and back in a period. */

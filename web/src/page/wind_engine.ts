@@ -15,6 +15,8 @@ export class WindEngine {
   private readonly thread: Thread;
   /** The surface that came last: the same one is not sent again. */
   private surface: { tunnel: string; shape: Shape } | null = null;
+  /** Whether the newest flow may be turned. */
+  private isTurned = false;
 
   constructor(meshOf: (id: number) => LoadedMesh | undefined) {
     const thread = () => new Worker(new URL('../worker/wind/thread.ts', import.meta.url), { type: 'module' });
@@ -27,7 +29,8 @@ export class WindEngine {
   }
 
   /** Of several requests under way the newest wins: those before it reject with an AbortError, except the running one. */
-  flow(request: Request): Promise<Wind> {
+  flow(request: Request, isTurned: boolean): Promise<Wind> {
+    this.isTurned = isTurned;
     return this.flows.answer(request);
   }
 
@@ -45,7 +48,7 @@ export class WindEngine {
 
   /** Until the wind can be turned at once, or is asked for. */
   private async solveAhead(): Promise<void> {
-    while (!this.flows.isRunning && (await this.call('windAhead', null).catch(() => false)));
+    while (this.isTurned && !this.flows.isRunning && (await this.call('windAhead', null).catch(() => false)));
   }
 
   write(request: Request, format: WindFormat): Promise<Uint8Array> {
@@ -54,6 +57,7 @@ export class WindEngine {
 
   /** Ends what is under way: it rejects with an AbortError. */
   cancel(): void {
+    this.isTurned = false;
     this.flows.cancel();
   }
 

@@ -27,6 +27,7 @@ import { Loop } from './loop';
 import { makeUniforms } from './material';
 import { Occlusion } from './occlusion';
 import { Picker } from './picking';
+import { reducedMotion } from './reduced_motion';
 import { contextLost, makeRenderer } from './renderer';
 import { setScheme } from './scheme';
 import { keepCamera, sceneScale } from './scene_space';
@@ -103,7 +104,7 @@ class ThreeView implements View {
   ) {
     this.renderer = makeRenderer(canvas);
     this.inset = new Inset(this.renderer, this.scene, this.uniforms, this.step);
-    this.camera = new Camera(canvas, matchMedia('(prefers-reduced-motion: reduce)'));
+    this.camera = new Camera(canvas, reducedMotion());
     this.framing = new Framing(this.camera, () => {
       const { model, settings, shifts, instead } = this;
       return model && settings && { model, settings, shifts, instead };

@@ -4,7 +4,7 @@ import type { Color, PerspectiveCamera } from 'three';
 import type { Vector3 as Numbers } from '../../../model/vector';
 import type { Wind } from '../../../model/wind';
 import type { Look } from '../layer';
-import { lightChunk } from './uniforms';
+import { windLightChunk } from './uniforms';
 
 /** How near a pointer has to be, in CSS pixels. */
 const touchDistance = 30;
@@ -93,7 +93,8 @@ export class WindHandle {
     if (this.dragged !== event.pointerId) return;
     this.dragged = null;
     this.onDragging(false);
-    this.setNear(this.isAt(event));
+    // Nothing stays where a finger was.
+    this.setNear(event.pointerType !== 'touch' && this.isAt(event));
   }
 
   private setNear(isNear: boolean): void {
@@ -153,7 +154,7 @@ void main() {
 `;
 
 const fragmentShader = /* glsl */ `
-${lightChunk}
+${windLightChunk}
 uniform vec3 color;
 uniform float glow;
 

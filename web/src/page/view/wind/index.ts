@@ -3,6 +3,7 @@ import { Group, type PerspectiveCamera } from 'three';
 import type { Wind } from '../../../model/wind';
 import type { Layer, Look } from '../layer';
 import type { Uniforms } from '../material';
+import { reducedMotion } from '../reduced_motion';
 import { WindHandle } from './handle';
 import { Pulses } from './pulses';
 import { WindSurface } from './surface';
@@ -20,7 +21,7 @@ export class WindTunnel implements Layer {
   private wind: Wind | null = null;
 
   constructor(uniforms: Uniforms, camera: PerspectiveCamera, canvas: HTMLCanvasElement) {
-    this.pulses = new Pulses(this.uniforms, matchMedia('(prefers-reduced-motion: reduce)'));
+    this.pulses = new Pulses(this.uniforms, reducedMotion());
     this.surface = new WindSurface(this.uniforms, uniforms);
     this.handle = new WindHandle(camera, canvas, uniforms.accent);
     this.object.add(this.surface.object, this.handle.object, this.pulses.object);
@@ -57,10 +58,10 @@ export class WindTunnel implements Layer {
     const { wind, model, instead } = look;
     this.object.visible = wind !== null && instead === null;
     this.hidesModel = wind?.surface != null;
+    this.handle.setLook(look);
     if (!wind) return;
     setWindUniforms(this.uniforms, wind, look);
     this.object.position.fromArray(wind.origin.map((x, d) => x - model.origin[d]));
-    this.handle.setLook(look);
     if (wind === this.wind) return;
     this.wind = wind;
     this.pulses.set(wind);

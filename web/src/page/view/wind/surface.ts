@@ -3,7 +3,7 @@ import { DoubleSide, FrontSide, Group, LineSegments, Mesh, ShaderMaterial, type 
 import type { Shape, Wind } from '../../../model/wind';
 import { emptyGeometry, refill } from '../buffers';
 import type { Uniforms } from '../material';
-import { lightChunk, windChunk, type WindUniforms } from './uniforms';
+import { windChunk, windLightChunk, type WindUniforms } from './uniforms';
 
 interface Section {
   faces: Mesh;
@@ -50,7 +50,7 @@ export class WindSurface {
     });
   }
 
-  /** Another wind about the same surface changes but its speeds. */
+  /** Another wind about the same surface changes only its speeds. */
   private setSurface(surface: Wind['surface']): void {
     this.faces.visible = surface?.shape != null;
     if (!surface?.shape) return;
@@ -80,7 +80,7 @@ void main() {
 
 const fragmentShader = /* glsl */ `
 ${windChunk}
-${lightChunk}
+${windLightChunk}
 uniform int own;
 uniform vec3 lineColor;
 varying vec3 vPoint;

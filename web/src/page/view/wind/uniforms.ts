@@ -53,7 +53,7 @@ float beyondSections(vec3 point, int own) {
 `;
 
 /** A key light from above left of the eye, a weak one from the other side, and light from everywhere, more from above. */
-export const lightChunk = /* glsl */ `
+export const windLightChunk = /* glsl */ `
 varying vec3 vView;
 
 float light() {

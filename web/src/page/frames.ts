@@ -1,0 +1,13 @@
+// Waiting for frames of the screen and for pictures.
+import type { View } from '../model/types';
+import type { State } from './state';
+
+/** Resolves to when it comes, in ms. */
+export function nextFrame(): Promise<number> {
+  return new Promise((resolve) => requestAnimationFrame(() => resolve(performance.now())));
+}
+
+/** Of a model, if there is one. It may be late: shaders are compiled before it. */
+export async function firstPicture({ model }: State, view: View): Promise<void> {
+  while (model.value && view.pictures === 0) await nextFrame();
+}
