@@ -3,7 +3,8 @@ import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
 import { box as boxMesh, writeObj } from '../package/meshes.mjs';
 import { enter, eventually, isReady, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
-import { pixelsOf, settledPixels } from './pictures.mjs';
+import { notFinite } from './mesh_files.mjs';
+import { covered, pixelsOf, settledPixels } from './pictures.mjs';
 import { cutOf, originOf } from './reference.mjs';
 
 const mesh = boxMesh([0, 0, 0], [4, 2, 1]);
@@ -131,4 +132,46 @@ test('by keys: typed coordinates, and the middle of the pinned cell', async (t) 
   const drawn = await settledPixels(page);
   await page.locator('#measure-end').click();
   await eventually(async () => assert.notDeepEqual((await pixelsOf(page)).rgba, drawn.rgba));
+});
+
+test('where nothing is shown there is nothing to measure: the distance goes with the picture, and the key does nothing', async (t) => {
+  const page = await site.open(t, link, { panels: ['measure'] });
+  for (const end of ['from', 'to']) {
+    for (const [axis, value] of Object.entries({ x: end === 'to' ? 4 : 0, y: 1, z: 0.5 }))
+      await enter(page, `#measure-${end}-${axis}`, value);
+  }
+  await page.locator('#file').setInputFiles({ name: 'not-finite.obj', mimeType: 'text/plain', buffer: Buffer.from(writeObj(notFinite)) });
+  await page.locator('#stage-note').waitFor();
+  await eventually(async () => assert.ok(covered(await pixelsOf(page)) < 0.001, 'the line is gone'));
+  const explode = await page.locator('#explode-cells').inputValue();
+  await page.locator('#canvas').focus();
+  await page.keyboard.press('m');
+  assert.equal(await page.locator('#measure-line').isVisible(), false);
+  assert.equal(await page.locator('#explode-cells').inputValue(), explode);
+});
+
+test('a touch that a slow GPU answers after the end of measuring does not begin it again', async (t) => {
+  const page = await site.open(t, link, { panels: ['measure'] });
+  await settledPixels(page);
+  await page.locator('#measure-on').click();
+  const middle = [2.1, 1.1, 1];
+  await page.evaluate(() => {
+    const { clientWaitSync, fenceSync, TIMEOUT_EXPIRED } = WebGL2RenderingContext.prototype;
+    window.isBehind = true;
+    WebGL2RenderingContext.prototype.clientWaitSync = function (...given) {
+      return window.isBehind ? TIMEOUT_EXPIRED : clientWaitSync.apply(this, given);
+    };
+    window.fences = 0;
+    WebGL2RenderingContext.prototype.fenceSync = function (...given) {
+      window.fences++;
+      return fenceSync.apply(this, given);
+    };
+  });
+  await click(page, middle);
+  await page.waitForFunction(() => window.fences > 0);
+  await page.keyboard.press('Escape');
+  await page.evaluate(() => (window.isBehind = false));
+  await click(page, middle);
+  await page.locator('#cell-card').waitFor();
+  assert.equal(await page.locator('#measure-line').isVisible(), false);
 });

@@ -70,6 +70,22 @@ test('the wind follows its handle while that is dragged', async (t) => {
   });
 });
 
+test('a finger that has turned the wind leaves the picture to be touched', async (t) => {
+  const page = await site.open(t, 'mesh=bunny&wind=1,0,0&tunnel=16&explode=0,0', { hasTouch: true });
+  await shows(page, '#canvas', { wind: '1,0,0' });
+  const { x, y, width, height } = await page.locator('#canvas').boundingBox();
+  const [handleX, handleY] = (await dataOf(page, '#canvas')).windHandle.split(',').map(Number);
+  const browser = await page.context().newCDPSession(page);
+  const touch = (type, by = null) =>
+    browser.send('Input.dispatchTouchEvent', { type, touchPoints: by === null ? [] : [{ x: x + handleX + by, y: y + handleY - by }] });
+  await touch('touchStart', 0);
+  for (const by of [10, 20, 30]) await touch('touchMove', by);
+  await touch('touchEnd');
+  await eventually(async () => assert.notEqual((await dataOf(page, '#canvas')).wind, '1,0,0'));
+  await page.touchscreen.tap(x + width / 2, y + height / 2);
+  await page.locator('#cell-card').waitFor();
+});
+
 test('arrow keys turn the wind', async (t) => {
   const page = await site.open(t, 'mesh=wedge&wind=1,0,0&tunnel=16');
   await openPanel(page, 'wind');

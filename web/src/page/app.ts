@@ -250,6 +250,7 @@ export class App {
   /** A distance between cells that are pulled apart would look longer than it is. */
   toggleMeasure(): void {
     if (this.state.measurement.value) return this.measuring.end();
+    if (!this.model) return;
     this.change({ explode: { cells: 0, regions: 0 } });
     this.measuring.begin();
   }

@@ -84,6 +84,7 @@ export class Touch {
     // The camera may move on until it is known what was picked.
     const ray = look && rayAt(look, camera.camera, at, canvas);
     const picked = await picking;
+    if (!this.isMeasuring) return;
     if (!ray || look.model !== this.parts.look()?.model || halves.isOther(at.x, canvas)) return;
     const place = hitOn(ofModel, look, picked, ray, pixelAt(camera.camera, canvas));
     if (place) this.onMeasured(place);

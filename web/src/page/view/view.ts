@@ -202,7 +202,7 @@ class ThreeView implements View {
     this.model = null;
     this.look = null;
     this.forgetCells();
-    this.modelGroup.visible = this.insteadGroup.visible = this.windTunnel.object.visible = false;
+    for (const object of [this.modelGroup, this.insteadGroup, this.windTunnel.object, this.ruler.object]) object.visible = false;
     this.gizmo.hide();
     Object.assign(this.canvas.dataset, { model: '', cells: '0', untouched: '0', caps: '0' });
     this.onHover(null);
