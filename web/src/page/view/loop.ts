@@ -129,13 +129,19 @@ export class Loop {
     const isMoving = this.drawing.draw(performance.now() / 1000, share);
     this.pace.mark();
     if (isMoving || this.isStale) this.invalidate();
-    clearTimeout(this.standing);
-    this.standing = setTimeout(() => this.stand(), rest);
+    this.standSoon();
     this.watched ||= requestAnimationFrame(() => this.watch());
   }
 
+  private standSoon(): void {
+    clearTimeout(this.standing);
+    this.standing = setTimeout(() => this.stand(), rest);
+  }
+
+  /** Only once the GPU has drawn it. */
   private stand(): void {
-    if (this.asked !== 0 || this.pace.isBehind) return;
+    if (this.asked !== 0) return;
+    if (this.pace.isBehind) return this.standSoon();
     this.drawing.stand(this.pace.took);
     if (this.warmUps === 'both') return;
     this.warmUps = 'both';

@@ -42,8 +42,8 @@ export class Shadow implements Layer {
     this.object.frustumCulled = false;
   }
 
-  dependsOn({ model, settings: { show, explode, sliceMode, up }, planes }: Look): readonly unknown[] {
-    return [model.id, show, explode, sliceMode, planes, up];
+  dependsOn({ model, settings: { show, volumes, explode, sliceMode, up }, planes }: Look): readonly unknown[] {
+    return [model.id, show, volumes, explode, sliceMode, planes, up];
   }
 
   setLook(look: Look): void {
