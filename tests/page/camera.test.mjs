@@ -4,6 +4,7 @@ import { test } from 'node:test';
 import { importBundled } from './bundled.mjs';
 
 const { Camera } = await importBundled('page/view/camera.ts');
+const { Visit } = await importBundled('page/view/visit.ts');
 
 /** What OrbitControls needs of a canvas. */
 function canvas() {
@@ -125,6 +126,76 @@ test('it flies around what is in view to look from any direction, and tells how 
         );
     }
   }
+});
+
+/** A camera without motion that sees all of a box, long along x; `look` flies to a direction and gives how far the box reaches in the picture. */
+function aroundLongBox() {
+  const element = canvas();
+  const view = new Camera(element, Object.assign(new EventTarget(), { matches: true }));
+  const box = cube(0, 1).map((x, at) => (at % 3 === 0 ? 6 * x : x));
+  view.frame(box, false);
+  /** 1 at the sides of the picture. */
+  const reach = () => {
+    view.camera.updateMatrixWorld();
+    let most = 0;
+    for (let at = 0; at < box.length; at += 3) {
+      const seen = view.at.target.clone().fromArray(box, at).project(view.camera);
+      most = Math.max(most, Math.abs(seen.x), Math.abs(seen.y));
+    }
+    return most;
+  };
+  const look = (x, y, z) => {
+    view.lookFrom(view.at.target.clone().set(x, y, z));
+    view.update();
+    return reach();
+  };
+  return { view, element, look };
+}
+
+test('what is seen whole stays so from one direction after another, also in a scene that has been moved, until the person takes over', () => {
+  const { view, element, look } = aroundLongBox();
+  for (const direction of [
+    [1, 0, 0],
+    [0, 0, 1],
+    [0, 1, 0],
+    [-1, 0, 0],
+    [0, 0, -1],
+  ]) {
+    const reach = look(...direction);
+    assert.ok(reach > 0.7 && reach < 0.8, `${reach} from ${direction}`);
+    assert.ok(!view.isFramed);
+    view.transform((point) => point.clone());
+  }
+  look(1, 0, 0);
+  const distance = () => view.at.position.distanceTo(view.at.target);
+  element.dispatchEvent(Object.assign(new Event('keydown'), { key: '+' }));
+  view.update();
+  const near = distance();
+  assert.ok(look(0, 0, 1) > 1);
+  assert.ok(Math.abs(distance() / near - 1) < 1e-6);
+});
+
+test('where a visit goes back to follows a scene that is moved meanwhile', () => {
+  const view = new Camera(canvas(), Object.assign(new EventTarget(), { matches: true }));
+  view.frame(cube(0, 1), false);
+  const { at } = view;
+  view.place(at);
+  const visit = new Visit(view);
+  visit.begin(cube(1, 0.1));
+  const move = (point) => point.clone().multiplyScalar(2).addScalar(10);
+  view.transform(move);
+  visit.transform(move);
+  visit.end(() => assert.fail('it was not framed'));
+  assert.ok(view.at.position.distanceTo(move(at.position)) < 1e-6);
+  assert.ok(view.at.target.distanceTo(move(at.target)) < 1e-6);
+});
+
+test('it tells how it sees the axes from the very first, also where it has not turned', () => {
+  const view = new Camera(canvas(), Object.assign(new EventTarget(), { matches: true }));
+  let seen = null;
+  view.onTurned = (axes) => (seen = axes);
+  view.update();
+  assert.equal(seen?.[2][2], 1);
 });
 
 test('a flight ends where the person takes over', () => {

@@ -5,7 +5,7 @@ import type { AxesSeen, Up } from '../../model/types';
 import { placeBetween, type Place } from './flight';
 import { firstDirection, fit, uprightAxes } from './fit';
 
-/** Degrees from one side of the picture to the other, along the shorter ones: what a link shows on a desk is in the picture on a phone. */
+/** Field of view in degrees, along the picture's shorter side: what a link shows on a desk is in the picture on a phone. */
 const shorterAngle = 35;
 /** The share of the picture's width or height that what is framed fills. */
 const filled = 0.78;
@@ -34,11 +34,14 @@ export class Camera {
   onTurned: (axes: AxesSeen) => void = () => {};
   /** The person has moved it. */
   onMoved = () => {};
-  private readonly turned = new Quaternion();
+  /** Of no camera, so that the first turn is told, too. */
+  private readonly turned = new Quaternion(0, 0, 0, 0);
   private up: Up = 'y';
   private isPersons = false;
   /** Points in view, 3 numbers each, kept in view when the window changes its shape until the person moves the camera. */
   private framed: Float32Array | null = null;
+  /** The same after flights around them. */
+  private flownAround: Float32Array | null = null;
   private timer: ReturnType<typeof setTimeout> | undefined;
   /** When the camera was last updated and until when it glides, in ms. */
   private movedAt = 0;
@@ -83,7 +86,7 @@ export class Camera {
   /** The person moves the camera now. */
   private takeOver(): void {
     this.isPersons = true;
-    this.flight = null;
+    this.flight = this.flownAround = null;
   }
 
   /** Asks for a frame, since there is some movement to make. */
@@ -184,20 +187,22 @@ export class Camera {
 
   /** Flies around what it looks at, as if the person had, to see it from this direction: all of it, if all was in view. */
   lookFrom(direction: Vector3): void {
-    const { at, framed } = this;
+    const { at } = this;
+    const whole = this.framed ?? this.flownAround;
     const [, up, front] = uprightAxes(this.up);
-    // From above or below what is in front is seen below.
+    // From above what is in front is at the bottom of the picture, from below at its top.
     const from = direction.clone().normalize();
     if (Math.abs(from.dot(up)) > nearPole) from.addScaledVector(front, 1e-3).normalize();
     const distance = at.position.distanceTo(at.target);
     this.flyToPlace(
-      framed ? this.placeFor(framed, from, filled) : { position: from.multiplyScalar(distance).add(at.target), target: at.target },
+      whole ? this.placeFor(whole, from, filled) : { position: from.multiplyScalar(distance).add(at.target), target: at.target },
     );
+    this.flownAround = whole;
   }
 
   place(to: Place): void {
     this.isPersons = false;
-    this.framed = this.flight = null;
+    this.framed = this.flownAround = this.flight = null;
     clearTimeout(this.timer);
     this.timer = undefined;
     this.move(1); // a glide ends here
@@ -231,16 +236,17 @@ export class Camera {
 
   /** Follows a scene that has been moved and scaled. A glide ends, and where it has led is told. */
   transform(move: (point: Vector3) => Vector3): void {
-    const { isPersons, framed, flight } = this;
+    const { isPersons, framed, flownAround, flight } = this;
     const moved = ({ position, target }: Place) => ({ position: move(position), target: move(target) });
     this.place(moved(this.at));
     this.isPersons = isPersons;
     if (isPersons) this.changed();
     this.flight = flight && { ...flight, from: moved(flight.from), to: moved(flight.to) };
-    if (!framed) return;
+    const points = framed ?? flownAround ?? [];
     const point = new Vector3();
-    for (let at = 0; at < framed.length; at += 3) move(point.fromArray(framed, at)).toArray(framed, at);
+    for (let at = 0; at < points.length; at += 3) move(point.fromArray(points, at)).toArray(points, at);
     this.framed = framed;
+    this.flownAround = flownAround;
   }
 
   /** Whether something was brought into view and the camera has not been moved since. */

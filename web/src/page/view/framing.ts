@@ -1,11 +1,12 @@
 // Where the camera stands: where the settings have it, around all that is shown, or at what is drawn instead of the model.
-import type { Instead, Settings, View } from '../../model/types';
+import type { Vector3 } from 'three';
+import type { Instead, Model, Settings, View } from '../../model/types';
 import { upOf } from '../../model/up';
 import type { Camera } from './camera';
 import { cellPoints, framedPoints, insteadPoints, type Extent } from './extent';
 import type { Look } from './layer';
 import { shownRegions } from './look';
-import { fromWorld, toWorld } from './scene_space';
+import { fromWorld, haveSameSpace, toWorld } from './scene_space';
 import { Visit } from './visit';
 
 type Shown = Pick<Look, 'model' | 'settings' | 'shifts' | 'instead'>;
@@ -34,6 +35,14 @@ export class Framing {
   /** The next look is seen as a whole, unless it has a camera. */
   forget(): void {
     this.isFramed = false;
+  }
+
+  /** The camera keeps looking at the same place, and so does where it goes back to. */
+  keep(from: Model, to: Model): void {
+    if (haveSameSpace(from, to)) return;
+    const move = (point: Vector3) => fromWorld(to, toWorld(from, point));
+    this.camera.transform(move);
+    this.visit.transform(move);
   }
 
   follow(settings: Settings): void {

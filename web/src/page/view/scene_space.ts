@@ -1,14 +1,13 @@
 // Coordinates of the scene: the grid's box has a diagonal of 2 and lies around 0.
 import { Vector3 } from 'three';
 import type { Model } from '../../model/types';
-import type { Camera } from './camera';
 
 export function sceneScale(model: Model): number {
   return 2 / model.diagonal;
 }
 
 /** A point less the model's origin. */
-export function fromModel(model: Model, point: readonly number[]): Vector3 {
+function fromModel(model: Model, point: readonly number[]): Vector3 {
   return new Vector3(point[0], point[1], point[2]).multiplyScalar(sceneScale(model));
 }
 
@@ -24,8 +23,7 @@ export function toWorld(model: Model, point: Vector3): readonly [number, number,
   return [x, y, z];
 }
 
-/** Another grid has another centre and size; the camera keeps looking at the same place. */
-export function keepCamera(camera: Camera, from: Model, to: Model): void {
-  const isSame = from.diagonal === to.diagonal && from.origin.every((x, d) => x === to.origin[d]);
-  if (!isSame) camera.transform((point) => fromWorld(to, toWorld(from, point)));
+/** Whether two models have the same places in the scene: another grid has another centre and size. */
+export function haveSameSpace(one: Model, other: Model): boolean {
+  return one.diagonal === other.diagonal && one.origin.every((x, d) => x === other.origin[d]);
 }

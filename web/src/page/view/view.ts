@@ -30,7 +30,7 @@ import { Picker } from './picking';
 import { reducedMotion } from './reduced_motion';
 import { contextLost, makeRenderer } from './renderer';
 import { setScheme } from './scheme';
-import { keepCamera, sceneScale } from './scene_space';
+import { sceneScale } from './scene_space';
 import { Touch } from './touch';
 import { WindTunnel } from './wind';
 import { setUniforms } from './uniforms';
@@ -187,7 +187,7 @@ class ThreeView implements View {
   setModel(model: Model, frame: boolean): void {
     this.loop.finish();
     if (frame) this.framing.forget();
-    else if (this.model) keepCamera(this.camera, this.model, model);
+    else if (this.model) this.framing.keep(this.model, model);
     this.model = model;
     this.shifts = regionShifts(model);
     this.root.scale.setScalar(sceneScale(model));

@@ -1,3 +1,4 @@
+import type { Vector3 } from 'three';
 import type { Camera } from './camera';
 import type { Place } from './flight';
 
@@ -13,6 +14,12 @@ export class Visit {
     this.before ??= { ...at, isFramed };
     this.camera.frame(points, true);
     this.camera.flyFrom(at);
+  }
+
+  /** Follows a scene that has been moved and scaled, beside the camera. */
+  transform(move: (point: Vector3) => Vector3): void {
+    const { before } = this;
+    if (before) this.before = { ...before, position: move(before.position), target: move(before.target) };
   }
 
   /** `reframe` brings the whole model into view, if the camera was to see it before. */
