@@ -6,6 +6,7 @@ import { tmpdir } from 'node:os';
 import { basename, dirname, join } from 'node:path';
 import { after, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
 import { initPhysics } from 'mandoline-wasm/physics';
 import { importBundled } from './bundled.mjs';
 import { galleryMesh, mandoline } from './reference.mjs';
@@ -28,11 +29,11 @@ symlinkSync(join(root, 'node_modules'), join(folder, 'node_modules'));
 let id = 0;
 
 /** What the page has in the state of a link: the model, and the cells in the wind. */
-async function stateOf(hash, name) {
+async function stateOf(hash, name, isReadHere) {
   const { settings, problems } = fromHash(hash);
   assert.deepEqual(problems, []);
   const mesh = await galleryMesh(name);
-  const loaded = { id: ++id, name: settings.source.name, ...mesh, bounds: boundsOf(mesh), up: 'y' };
+  const loaded = { id: ++id, name: settings.source.name, ...mesh, bounds: boundsOf(mesh), up: 'y', isReadHere };
   keep(loaded);
   const { grid, snapTolerance, pose } = settings;
   const cut = makeCut(mandoline, { id, mesh: id, grid, snapTolerance, pose }, () => {});
@@ -46,7 +47,8 @@ async function stateOf(hash, name) {
 async function folderWith(kind, { file }, mesh) {
   const place = join(folder, `${kind}-${id}`);
   mkdirSync(place);
-  writeFileSync(join(place, file), await mandoline.writeMesh(mesh, 'obj'));
+  const content = await mandoline.writeMesh(mesh, 'obj');
+  writeFileSync(join(place, file), file.endsWith('.gz') ? gzipSync(content) : content);
   return place;
 }
 
@@ -57,6 +59,52 @@ const states = {
     name: 'torus-knot',
     file: "-it's $HOME.obj",
     isOpened: true,
+  },
+  'a packed file whose name has a line break': {
+    hash: `file=${encodeURIComponent('two\nlines.obj.gz')}&n=5`,
+    name: 'wedge',
+    file: 'two\nlines.obj.gz',
+    isOpened: true,
+  },
+  'a file with a name in another script, which neither reads whatever it is called': {
+    hash: `file=${encodeURIComponent('模型 é.stl.zip')}&n=5`,
+    name: 'wedge',
+    file: '模型-é.stl.zip.obj',
+    isReadHere: true,
+  },
+  'a free plane through a corner of the box around the mesh, beside the mesh': {
+    hash: 'mesh=nested-spheres&n=8&free=0.82,1,1,1',
+    name: 'nested-spheres',
+    file: 'nested-spheres.obj',
+  },
+  'a plane that meets what is outside alone': {
+    hash: 'mesh=empty-cone&n=8&x=0.5,1',
+    name: 'empty-cone',
+    file: 'empty-cone.obj',
+  },
+  'a grid within the mesh, whose cells are untouched, and a plane': {
+    hash: 'mesh=bunny&n=3,3,3&box=-0.5,3,-0.5,0.5,4,0.5&x=0.5,1',
+    name: 'bunny',
+    file: 'bunny.obj',
+    slices: ['x'],
+  },
+  'slices of an open sheet, whose inside is an estimate': {
+    hash: 'mesh=trumpet&n=9&z=0.5,1&y=0.55,-1',
+    name: 'trumpet',
+    file: 'trumpet.obj',
+    slices: ['y', 'z'],
+  },
+  'an open sheet with pockets that count as inside, and a plane beside them': {
+    hash: 'mesh=wavy-plane&n=9&z=0.5,1&y=0.9,1',
+    name: 'wavy-plane',
+    file: 'wavy-plane.obj',
+    slices: ['z'],
+  },
+  'slices of an open sheet without an inside': {
+    hash: 'mesh=wavy-plane&n=2&z=0.5,1&y=0.9,1',
+    name: 'wavy-plane',
+    file: 'wavy-plane.obj',
+    slices: ['y', 'z'],
   },
   'slices along an axis, against one and free, and one beside the mesh': {
     hash: 'mesh=nested-spheres&n=8&x=0.5,1&y=0.6,-1&free=0.52,0.75,0.1,0.65&z=0.999,1',
@@ -76,13 +124,13 @@ const states = {
   },
 };
 
-for (const [what, { hash, name, file, isOpened = false, slices = [] }] of Object.entries(states)) {
+for (const [what, { hash, name, file, isOpened = false, isReadHere = false, slices = [] }] of Object.entries(states)) {
   describe(what, () => {
     let state, code, byScript;
     const files = ['cells.vtu', ...slices.map((plane) => `slice-${plane}.svg`)];
 
     test('JavaScript', async () => {
-      state = await stateOf(hash, name);
+      state = await stateOf(hash, name, isReadHere);
       code = codeOf(state.settings, state.model);
       assert.deepEqual([code.file, code.isOpened], [file, isOpened]);
       byScript = await folderWith('script', code, state.mesh);

@@ -158,8 +158,8 @@ describe('checks', () => {
     const filled = new Map();
     reference.measures.cellVolume.forEach((volume, cell) => {
       const at = cellGridCell.subarray(3 * cell, 3 * cell + 3);
-      const share = at.reduce((rest, i, d) => rest / (grid.planes[d][i + 1] - grid.planes[d][i]), volume);
-      filled.set(at.join(), (filled.get(at.join()) ?? 0) + share);
+      const size = at.reduce((product, i, d) => product * (grid.planes[d][i + 1] - grid.planes[d][i]), 1);
+      filled.set(at.join(), (filled.get(at.join()) ?? 0) + volume / size);
     });
     const gap = Math.max(...Array.from(filled.values(), (share) => Math.abs(share - 1)));
     assert.ok(gap < 1e-14, `${gap} of a cell`);
@@ -167,7 +167,7 @@ describe('checks', () => {
       eventually(async () => assert.equal((await dataOf(page, '#check-line')).model, (await dataOf(page, '#counts')).model));
     await isChecked();
     const [count, words] = [cellRegion.length.toLocaleString('en'), gap === 0 ? 'exactly' : `within ${gap.toPrecision(1)} of a cell`];
-    assert.equal(await textOf(page, '#check-line'), `All ${count} cut-cells are closed; their volumes add up to the grid's ${words}.`);
+    assert.equal(await textOf(page, '#check-line'), `All ${count} cut-cells are closed; their volumes fill their grid cells ${words}.`);
     await page.mouse.move(300, 300);
     await page.mouse.down();
     await slideTo(page, '#cells', 7);

@@ -10,12 +10,12 @@ export interface Checks extends Validation {
 /** Cut-meshes with more cut-faces are checked when that is asked for: a cut that comes meanwhile waits for about 0.1 s at most. */
 export const mostFacesUnasked = 14_000;
 
-/** For example "All 1,234 cut-cells are closed; their volumes add up to the grid's within 3e-16 of a cell."; null if there are none. */
+/** For example "All 1,234 cut-cells are closed; their volumes fill their grid cells within 3e-16 of a cell."; null if there are none. */
 export function checksSentence({ pass, checks, volumeGap }: Checks, cutCells: number): string | null {
   const failed = checks.filter((check) => !check.pass);
   if (!pass) return `${failed.length} of ${checks.length} checks failed. ${failed[0]?.message ?? ''}`.trim();
   if (cutCells === 0) return null;
   const within = volumeGap === 0 ? ' exactly' : ` within ${volumeGap.toPrecision(1)} of a cell`;
-  const who = cutCells === 1 ? 'The only cut-cell is closed' : `All ${integer(cutCells)} cut-cells are closed`;
-  return `${who}; their volumes add up to the grid's${within}.`;
+  if (cutCells === 1) return `The only cut-cell is closed; its volume fills its grid cell${within}.`;
+  return `All ${integer(cutCells)} cut-cells are closed; their volumes fill their grid cells${within}.`;
 }

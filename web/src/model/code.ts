@@ -1,12 +1,14 @@
 // The present state of the page as code that runs as it is: JavaScript for Node, and the command line. Both write the same files.
+import { inFileName, stemOf } from './formats';
 import { gridAround } from './grid_around';
+import { meetsInside, type SlicedModel } from './meets_inside';
 import { activePlanes, inWorld } from './planes';
 import type { Model, Settings, SliceName } from './types';
 import type { Vector3 } from './vector';
 import { windMargin } from './wind';
 
 /** What the code says of a cut beside the settings. */
-export type CodeModel = Pick<Model, 'name' | 'grid' | 'origin' | 'meshMin' | 'meshMax' | 'estimateMs' | 'regions'>;
+export type CodeModel = SlicedModel & Pick<Model, 'name' | 'isReadHere' | 'origin' | 'meshMin' | 'meshMax' | 'estimateMs'>;
 
 export interface Code {
   /** The file with the mesh that both read. */
@@ -17,7 +19,7 @@ export interface Code {
   commandLine: string;
 }
 
-/** A plane that meets the mesh, in world units. */
+/** A plane that meets what is inside, in world units. */
 interface Section {
   name: SliceName;
   normal: Vector3;
@@ -36,19 +38,16 @@ export function codeOf(settings: Settings, model: CodeModel): Code {
 }
 
 /** The package and the command line read neither glTF nor 3MF; what moves, or isn't a file, is there once it is saved. */
-function meshFile({ source, pose }: Settings, { name }: CodeModel): Pick<Code, 'file' | 'isOpened'> {
-  if (source.kind === 'file' && !pose && !/\.((glb|gltf)(\.gz)?|3mf)$/i.test(name)) return { file: name, isOpened: true };
-  const stem = name.replace(/(\.(obj|stl|ply|off|glb|gltf|3mf))?(\.gz)?$/i, '').replaceAll(/[^\w.-]+/g, '-');
+function meshFile({ source, pose }: Settings, { name, isReadHere }: CodeModel): Pick<Code, 'file' | 'isOpened'> {
+  if (source.kind === 'file' && !pose && !isReadHere) return { file: name, isOpened: true };
+  const stem = inFileName(stemOf(name));
   return { file: `${stem || 'mesh'}${pose ? `-${pose.motion}` : ''}.obj`, isOpened: false };
 }
 
-/** A plane beside the mesh has no outlines. */
+/** A plane beside all that is inside has no outlines. */
 function sectionsOf(settings: Settings, model: CodeModel): Section[] {
-  const planes = activePlanes(model, settings);
-  const sections = inWorld(planes, model.origin).map((plane, at) => ({ name: planes[at].name, ...plane }));
-  const farthest = (normal: Vector3, sign: number) =>
-    normal.reduce((sum, n, d) => sum + n * (n * sign > 0 ? model.meshMax[d] : model.meshMin[d]), 0);
-  return sections.filter(({ normal, offset }) => farthest(normal, -1) < offset && offset < farthest(normal, 1));
+  const planes = activePlanes(model, settings).filter((plane) => meetsInside(model, plane));
+  return inWorld(planes, model.origin).map((plane, at) => ({ name: planes[at].name, ...plane }));
 }
 
 /** While a mesh moves, its grid has room for all of the motion. */
@@ -160,7 +159,8 @@ function planeOptions({ name, normal, offset }: Section): string {
 
 /** For JavaScript. */
 function quoted(text: string): string {
-  return `'${text.replaceAll(/['\\]/g, '\\$&')}'`;
+  const escapes: Record<string, string> = { '\n': '\\n', '\r': '\\r' };
+  return `'${text.replaceAll(/['\\\n\r]/g, (letter) => escapes[letter] ?? `\\${letter}`)}'`;
 }
 
 /** For a shell; a name that begins with a dash isn't an option. */

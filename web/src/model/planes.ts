@@ -1,3 +1,4 @@
+import { sliceNames } from './settings';
 import type { Model, Settings, SliceName, Slicing } from './types';
 import type { Vector3 } from './vector';
 
@@ -9,8 +10,6 @@ export interface ViewPlane {
   normal: readonly [number, number, number];
   offset: number;
 }
-
-export const sliceOrder: readonly SliceName[] = ['x', 'y', 'z', 'free'];
 
 /** Half the extent of the grid's box along a direction. */
 export function reach({ grid }: Gridded, normal: readonly number[]): number {
@@ -24,7 +23,7 @@ export function planeOf(model: Gridded, settings: Pick<Settings, 'slices'>, name
 
 /** The planes that are on and hide something. */
 export function activePlanes(model: Gridded, settings: Pick<Settings, 'slices'>): ViewPlane[] {
-  const active = sliceOrder.filter((name) => settings.slices[name].on && settings.slices[name].position < 1);
+  const active = sliceNames.filter((name) => settings.slices[name].on && settings.slices[name].position < 1);
   return active.map((name) => planeOf(model, settings, name));
 }
 

@@ -1,8 +1,9 @@
 // The state of the page as plain data, and as the hash of a link.
 import { otherWays } from './comparison';
 import { motions } from './motion';
+import { same } from './same';
 import type { Axis, ColorBy, GridSettings, Settings, SliceName, SliceSettings, Source } from './types';
-import type { Vector3 } from './vector';
+import { unit, type Vector3 } from './vector';
 import { allVolumes, barWidth } from './volumes';
 import { defaultWindCells, mostWindCells, windColorings } from './wind';
 
@@ -23,7 +24,7 @@ export function defaultSettings(): Settings {
       x: { on: false, position: 0.5, normal: [1, 0, 0] },
       y: { on: false, position: 0.5, normal: [0, 1, 0] },
       z: { on: false, position: 0.5, normal: [0, 0, 1] },
-      free: { on: false, position: 0.52, normal: unit([0.75, 0.1, 0.65]) },
+      free: { on: false, position: 0.52, normal: direction([0.75, 0.1, 0.65]) },
     },
     sliceMode: 'whole',
     explode: { cells: 0.06, regions: 0 },
@@ -227,7 +228,7 @@ function readFreeSlice(settings: Settings, text: string): boolean {
   if (!values || !isFraction(values[0])) return false;
   const normal = values.slice(1);
   if (!normal.some((x) => x !== 0)) return false;
-  settings.slices.free = { on: true, position: values[0], normal: unit(normal) };
+  settings.slices.free = { on: true, position: values[0], normal: direction(normal) };
   return true;
 }
 
@@ -236,14 +237,14 @@ function readWind(settings: Settings, text: string): boolean {
   if (text === 'off') return true;
   const values = numbers(text, 3);
   if (!values?.some((x) => x !== 0)) return false;
-  settings.wind.direction = unit(values);
+  settings.wind.direction = direction(values);
   return true;
 }
 
-function unit(values: readonly number[]): Vector3 {
+/** A unit vector, also of numbers whose squares are too large or too small. */
+function direction(values: readonly number[]): Vector3 {
   const largest = Math.max(...values.map(Math.abs));
-  const length = Math.hypot(...values.map((x) => x / largest));
-  return vector(values.map((x) => x / largest / length));
+  return unit(values.map((x) => x / largest));
 }
 
 export function axisNormal(axis: Axis, sign: number): Vector3 {
@@ -271,8 +272,4 @@ function isFraction(x: number): boolean {
 
 function vector(values: readonly number[]): Vector3 {
   return [values[0], values[1], values[2]];
-}
-
-function same(a: readonly number[], b: readonly number[]): boolean {
-  return a.every((x, d) => x === b[d]);
 }

@@ -1,5 +1,6 @@
 // A slice as a drawing: a path for each polygon of a cell, in the units of the mesh, with the plane's normal towards the viewer.
 import type { Slice } from 'mandoline-wasm';
+import { escaped } from './markup';
 import { fromUpright } from './up';
 import type { Up } from './types';
 import { cross, dot, unit, type Vector3 } from './vector';
@@ -43,8 +44,11 @@ export function sliceSvg({ title, slice, normal, up, polygons, tint }: Drawing):
   };
   const paths = polygons.map(pathOf).join('');
   const size = [max[0] - min[0], max[1] - min[1]];
-  const stroke = `stroke="#2a3440" stroke-width="${Math.hypot(...size) / strokes}" stroke-linejoin="round"`;
-  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="${[...min, ...size].join(' ')}">
+  const width = Math.hypot(...size) / strokes;
+  const stroke = `stroke="#2a3440" stroke-width="${width}" stroke-linejoin="round"`;
+  // The outer strokes reach half their width beyond the points.
+  const box = [...min.map((x) => x - width / 2), ...size.map((x) => x + width)];
+  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="${box.join(' ')}">
 <title>${escaped(title)}</title>
 <g fill-rule="evenodd" ${stroke}>
 ${paths}</g>
@@ -66,8 +70,4 @@ function axesOf(normal: Vector3, up: Up): { right: Vector3; above: Vector3 } {
   const isFlat = Math.abs(dot(normal, upright)) > flat;
   const right = unit(cross(isFlat ? fromUpright([0, 0, -1], up) : upright, normal));
   return { right, above: cross(normal, right) };
-}
-
-function escaped(text: string): string {
-  return text.replaceAll('&', '&amp;').replaceAll('<', '&lt;');
 }

@@ -21,10 +21,10 @@ export function shareOf(model: Cells, cell: number): number {
   return volume[cell] / gridCellVolume(model, gridCell.subarray(3 * cell, 3 * cell + 3));
 }
 
-/** The bar that holds a share. */
+/** The bar that holds a share. That of a cell without volume may be rounded to less than nothing. */
 function barOf(share: number): number {
   const [low, high] = allVolumes;
-  const bar = Math.floor((Math.log10(share) - low) / barWidth);
+  const bar = share > 0 ? Math.floor((Math.log10(share) - low) / barWidth) : 0;
   return Math.max(0, Math.min((high - low) / barWidth - 1, bar));
 }
 

@@ -1,15 +1,15 @@
 import type { ComponentChildren } from 'preact';
-import { useState } from 'preact/hooks';
 import type { App } from '../app';
 import { codeOf, type Code } from '../../model/code';
 import { saveAs } from './download';
+import { blobOf, useSaving } from './saving';
 import { CopyButton } from './controls/copy_button';
 import { Section } from './controls/section';
 
 /** What makes the same outside the page. */
 export function CodePanel({ app }: { app: App }) {
-  const { model, settings } = app;
-  const code = model && codeOf(settings, model);
+  const { model, settings, state } = app;
+  const code = model && state.sections.isOpen('code') && !state.cutError.value ? codeOf(settings, model) : null;
   return (
     <Section app={app} id="code" title="Use this in code">
       {code ? (
@@ -24,7 +24,7 @@ export function CodePanel({ app }: { app: App }) {
           </Block>
         </>
       ) : (
-        <p class="hint">Nothing is cut yet.</p>
+        <p class="hint">Nothing is cut with these settings.</p>
       )}
     </Section>
   );
@@ -32,13 +32,10 @@ export function CodePanel({ app }: { app: App }) {
 
 /** The file that the code reads. */
 function MeshFile({ app, code: { file, isOpened } }: { app: App; code: Code }) {
-  const [isSaving, setSaving] = useState(false);
-  const save = async () => {
-    setSaving(true);
-    const bytes = await app.writeMesh();
-    setSaving(false);
-    if (bytes) saveAs(new Blob([bytes as Uint8Array<ArrayBuffer>], { type: 'text/plain' }), file);
-  };
+  const [isSaving, save] = useSaving(async () => {
+    const blob = blobOf(await app.writeMesh(), 'text/plain');
+    if (blob) saveAs(blob, file);
+  });
   if (isOpened) return <p class="line">This makes what you see now. It reads {file}, the file that you opened.</p>;
   return (
     <div class="row">

@@ -1,8 +1,9 @@
+import { inFileName } from '../../model/formats';
 import type { Model } from '../../model/types';
 
 /** Saves a file that is named for the model, and for its grid or what else it is about. */
 export function download(blob: Blob, { name, grid }: Model, extension: string, about = grid.cells.join('x')): void {
-  saveAs(blob, `${name}-${about}.${extension}`.replaceAll(/[^\w.-]+/g, '-'));
+  saveAs(blob, inFileName(`${name}-${about}.${extension}`));
 }
 
 export function saveAs(blob: Blob, name: string): void {

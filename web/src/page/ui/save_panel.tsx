@@ -1,11 +1,13 @@
 import { useState } from 'preact/hooks';
 import type { App } from '../app';
 import { ask } from '../ask';
+import { escaped } from '../../model/markup';
 import { activePlanes } from '../../model/planes';
 import type { PictureOptions } from '../../model/types';
 import type { WindFormat } from '../../model/wind';
 import { addressOf } from '../link';
 import { download } from './download';
+import { blobOf, useSaving } from './saving';
 import { CopyButton } from './controls/copy_button';
 import { Check } from './controls/check';
 import { Section } from './controls/section';
@@ -23,10 +25,7 @@ interface Format {
 
 /** The flow that is drawn. */
 function windFormats(app: App): Format[] {
-  const written = (format: WindFormat, type: string) => async () => {
-    const bytes = await app.windTunnel.write(format);
-    return bytes && new Blob([bytes as Uint8Array<ArrayBuffer>], { type });
-  };
+  const written = (format: WindFormat, type: string) => async () => blobOf(await app.windTunnel.write(format), type);
   return [
     { format: 'csv', about: 'wind', label: 'CSV', what: 'flow in cells', make: written('csv', 'text/csv') },
     { format: 'vtu', about: 'wind', label: 'VTU', what: 'flow for ParaView', make: written('vtu', 'application/xml') },
@@ -59,10 +58,7 @@ export function SavePanel({ app }: { app: App }) {
   const [size, setSize] = useState<PictureSize>('1');
   const [isTransparent, setTransparent] = useState(false);
   const { files } = app.view;
-  const written = (format: 'json' | 'vtu' | 'obj', type: string) => async () => {
-    const bytes = await app.write(format);
-    return bytes && new Blob([bytes as Uint8Array<ArrayBuffer>], { type });
-  };
+  const written = (format: 'json' | 'vtu' | 'obj', type: string) => async () => blobOf(await app.write(format), type);
   const formats: Format[] = [
     { format: 'json', label: 'JSON', what: 'all arrays', make: written('json', 'application/json') },
     { format: 'vtu', label: 'VTU', what: 'cells for ParaView', make: written('vtu', 'application/xml') },
@@ -100,15 +96,11 @@ async function picture(app: App, options: PictureOptions): Promise<Blob | null> 
 }
 
 function Saver({ app, format, about, label, what, make }: Format & { app: App }) {
-  const [isSaving, setSaving] = useState(false);
   const { model } = app;
-  const save = async () => {
-    if (!model) return;
-    setSaving(true);
+  const [isSaving, save] = useSaving(async () => {
     const blob = await make();
-    setSaving(false);
-    if (blob) download(blob, model, format, about);
-  };
+    if (blob && model) download(blob, model, format, about);
+  });
   return (
     <button type="button" id={`save-${about ? `${about}-` : ''}${format}`} disabled={isSaving || !model} onClick={() => void save()}>
       <strong>{label}</strong>
@@ -130,9 +122,5 @@ function Links({ app }: { app: App }) {
 
 function embedding({ settings, mesh }: App): string {
   const title = `${mesh?.name ?? 'A mesh'}, cut by Mandoline`;
-  return `<iframe src="${inHtml(addressOf(settings, true))}" title="${inHtml(title)}" width="800" height="500" style="border: 0"></iframe>`;
-}
-
-function inHtml(text: string): string {
-  return text.replaceAll('&', '&amp;').replaceAll('"', '&quot;').replaceAll('<', '&lt;');
+  return `<iframe src="${escaped(addressOf(settings, true))}" title="${escaped(title)}" width="800" height="500" style="border: 0"></iframe>`;
 }
