@@ -5,7 +5,7 @@ import { after, describe, test } from 'node:test';
 import { writeObj } from '../package/meshes.mjs';
 import { crossing, notFinite, octahedronFiles } from './mesh_files.mjs';
 import { dataOf, enter, eventually, isReady, openPanel, shows, startSite, textOf } from './page_helpers.mjs';
-import { covered, pixelsOf } from './pictures.mjs';
+import { covered, difference, pixelsOf, settledPixels, tiles } from './pictures.mjs';
 import { galleryMesh, mandoline } from './reference.mjs';
 
 const needle = 'v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 1 0\nv 3 1 0\nf 1 2 3\nf 1 4 5\nf 2 2 4\n';
@@ -205,4 +205,50 @@ test('a mesh of degenerate triangles alone leaves a word instead of an empty pic
   await page.locator('#gallery [data-name="claw"]').click();
   await shows(page, '#mesh-line', { name: 'claw' });
   assert.equal(await page.locator('#stage-note').isVisible(), false);
+});
+
+describe('when the graphics context is lost', () => {
+  const alert = '[data-test=alert]';
+  const lose = (page) =>
+    page.evaluate(() => {
+      window.lost = document.getElementById('canvas').getContext('webgl2').getExtension('WEBGL_lose_context');
+      window.lost.loseContext();
+    });
+  const restore = (page) => page.evaluate(() => window.lost.restoreContext());
+
+  test('the page says so, answers touches, and draws all of the picture again once it is back', async (t) => {
+    const page = await site.open(t, `${start}&explode=0,0`);
+    const before = await settledPixels(page);
+    const { x, y, width, height } = await page.locator('#canvas').boundingBox();
+    await lose(page);
+    await eventually(async () => assert.match(await textOf(page, alert), /The picture is lost for now/));
+    await page.mouse.click(x + width / 2, y + height / 2);
+    await restore(page);
+    await eventually(async () => assert.equal(await page.locator(alert).count(), 0));
+    await page.mouse.move(x + 1, y + 1);
+    await eventually(async () => {
+      const by = difference(tiles(before), tiles(await settledPixels(page)));
+      assert.ok(by < 0.1, `it differs by ${by}`);
+    }, 8000);
+    await page.mouse.click(x + width / 2, y + height / 2);
+    await page.locator('#cell-card').waitFor();
+  });
+
+  test('before the first picture, that comes once it is back', async (t) => {
+    const page = await site.newPage(t);
+    await page.addInitScript(() => {
+      const { clientWaitSync, TIMEOUT_EXPIRED } = WebGL2RenderingContext.prototype;
+      WebGL2RenderingContext.prototype.clientWaitSync = function (...given) {
+        return window.lost ? clientWaitSync.apply(this, given) : TIMEOUT_EXPIRED;
+      };
+    });
+    await page.goto(`${site.url}#${start}`);
+    await page.waitForFunction(() => document.body.dataset.state === 'ready');
+    await lose(page);
+    await eventually(async () => assert.match(await textOf(page, alert), /The picture is lost for now/));
+    assert.ok(!(await dataOf(page, '#canvas')).frames);
+    await restore(page);
+    await isReady(page);
+    await eventually(async () => assert.ok(covered(await pixelsOf(page)) > 0.05));
+  });
 });

@@ -39,10 +39,15 @@ function skipToPanels(): void {
 
 function start(): void {
   const engine = createEngine();
+  let lost = 0;
   const canvas = element('canvas') as HTMLCanvasElement;
   const view = createView(canvas, {
     slice: (planes, untouched) => engine.slice(planes, untouched),
     onError: (error) => state.alert(error),
+    onContext: (problem) => {
+      if (problem) lost = state.alert(problem);
+      else state.dismiss(lost);
+    },
   });
   const app = new App(engine, view, state);
   if (isEmbedded) {

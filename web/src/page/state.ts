@@ -70,8 +70,9 @@ export class State {
   readonly messages = signal<readonly Message[]>([]);
   private said = 0;
 
-  alert({ title, detail }: PageError): void {
-    this.say({ kind: 'alert', title, detail });
+  /** Gives what dismisses it. */
+  alert({ title, detail }: PageError): number {
+    return this.say({ kind: 'alert', title, detail });
   }
 
   notice(detail: string): void {

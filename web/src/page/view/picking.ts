@@ -32,11 +32,16 @@ export class Picker {
   }
 
   private async read(camera: PerspectiveCamera, x: number, y: number): Promise<Picked> {
+    // three.js would wait for it for ever.
+    if (this.renderer.getContext().isContextLost()) return null;
     const { clientWidth, clientHeight } = this.renderer.domElement;
     camera.setViewOffset(clientWidth, clientHeight, x, y, 1, 1);
     this.draw(this.target, camera);
     camera.clearViewOffset();
-    const [low, middle, high] = await this.renderer.readRenderTargetPixelsAsync(this.target, 0, 0, 1, 1, this.pixel);
+    // It fails if the context is lost meanwhile.
+    const pixel = await this.renderer.readRenderTargetPixelsAsync(this.target, 0, 0, 1, 1, this.pixel).catch(() => null);
+    if (!pixel) return null;
+    const [low, middle, high] = this.pixel;
     const id = low + 256 * middle + 65536 * high;
     if (id >= firstBox) return { box: id - firstBox };
     return id === 0 ? null : { cell: id - 1 };

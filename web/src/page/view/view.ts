@@ -36,11 +36,13 @@ import { WindTunnel } from './wind';
 import { setUniforms } from './uniforms';
 import { WarmUp } from './warm_up';
 
-export interface ViewOptions {
+interface ViewOptions {
   /** Makes the caps of flat cuts. */
   slice: Engine['slice'];
-  /** Called when drawing fails: the graphics context is lost, or caps can't be made. */
+  /** Called when drawing fails: caps can't be made. */
   onError?: (error: PageError) => void;
+  /** Called when the graphics context is lost, and with null when it is there again. */
+  onContext?: (problem: PageError | null) => void;
 }
 
 /** Draws into the canvas, which fills its parent by CSS. Throws a PageError where there is no WebGL 2. */
@@ -84,6 +86,7 @@ class ThreeView implements View {
   private readonly framing: Framing;
   private readonly picker: Picker;
   private readonly occlusion: Occlusion;
+  private readonly warmUp: WarmUp;
   private readonly loop: Loop;
   private readonly flatCuts: FlatCuts;
   readonly files: Files;
@@ -124,15 +127,15 @@ class ThreeView implements View {
     );
     this.occlusion = new Occlusion(this.renderer, this.picker, this.camera.camera);
     this.flatCuts = new FlatCuts(options.slice);
-    const warmUp = new WarmUp(this.renderer, this.camera.camera);
+    this.warmUp = new WarmUp(this.renderer, this.camera.camera);
     this.loop = new Loop(this.renderer.getContext() as WebGL2RenderingContext, {
-      warmUp: () => warmUp.takeOver(),
+      warmUp: () => this.warmUp.takeOver(),
       prepare: () => this.prepare(),
       isWaiting: () => this.flatCuts.isAwaited,
       draw: (seconds, share) => this.draw(seconds, share),
       stand: (took) => this.occlusion.stand(this.look, took),
     });
-    const { renderer, scene, loop, ofModel, caps, shadow, gizmo, windTunnel, uniforms, camera, framing, picker, halves } = this;
+    const { renderer, scene, loop, ofModel, caps, shadow, gizmo, windTunnel, uniforms, camera, framing, picker, halves, warmUp } = this;
     this.touch = new Touch({
       ...{ canvas, uniforms, camera, framing, loop, picker, halves, ofModel },
       look: () => (this.modelGroup.visible ? this.look : null),
@@ -154,7 +157,7 @@ class ThreeView implements View {
     // The background, before the GPU is busy.
     renderer.render(scene, camera.camera);
     const [first, all] = [this.modelGroup, scene].map((object) => ({ scene: object, target: null }));
-    void warmUp.compile(first, [...shadow.passes, picker.pass, all]);
+    void warmUp.compile(first, [...shadow.passes, picker.pass, all]).catch(() => warmUp.forget());
   }
 
   private listen(): void {
@@ -178,10 +181,15 @@ class ThreeView implements View {
     this.touch.onMeasured = (place) => this.onMeasured(place);
     new ResizeObserver(() => this.resize()).observe(this.canvas);
     this.canvas.addEventListener('webglcontextlost', () => {
-      this.loop.reset();
-      this.options.onError?.(contextLost());
+      this.warmUp.forget();
+      this.options.onContext?.(contextLost());
     });
-    this.canvas.addEventListener('webglcontextrestored', () => this.loop.changed());
+    this.canvas.addEventListener('webglcontextrestored', () => {
+      this.loop.reset();
+      this.shadow.forget();
+      this.options.onContext?.(null);
+      this.loop.changed();
+    });
   }
 
   setModel(model: Model, frame: boolean): void {
@@ -279,6 +287,7 @@ class ThreeView implements View {
   }
 
   private draw(seconds: number, share: number): boolean {
+    if (this.renderer.getContext().isContextLost()) return false;
     this.setPixelRatio(share * Math.min(devicePixelRatio, 2));
     this.camera.update();
     const moving = this.layers.filter((layer) => layer.animate?.(seconds));

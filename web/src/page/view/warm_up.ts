@@ -18,6 +18,7 @@ export class WarmUp {
   private readonly batches: Program[][] = [];
   private readonly known = new Set<Program>();
   private awaited: Program[] | null = null;
+  private isOver = false;
 
   constructor(
     private readonly renderer: WebGLRenderer,
@@ -36,6 +37,11 @@ export class WarmUp {
     this.addBatch();
   }
 
+  /** Leaves what is not compiled yet to the pictures that need it: the graphics context is lost, and programs with it, or it has failed. */
+  forget(): void {
+    this.isOver = true;
+  }
+
   private addBatch(): void {
     const programs = (this.renderer.info.programs ?? []) as Program[];
     this.batches.push(programs.filter((program) => !this.known.has(program)));
@@ -47,6 +53,7 @@ export class WarmUp {
     scene.traverse((object) => 'material' in object && objects.push(object));
     let end = performance.now() + most;
     for (const object of objects) {
+      if (this.isOver) return;
       this.renderer.setRenderTarget(target);
       this.renderer.compile(object, this.camera);
       this.renderer.setRenderTarget(null);
@@ -58,6 +65,7 @@ export class WarmUp {
 
   /** Takes over a part of what has been compiled, to be called when the GPU has caught up. Gives whether there is more in this batch. */
   takeOver(): boolean {
+    if (this.isOver) return false;
     const [programs] = this.batches;
     if (!programs) return true;
     if (this.awaited !== programs) {

@@ -96,6 +96,11 @@ export class Shadow implements Layer {
     return false;
   }
 
+  /** What was drawn is lost. */
+  forget(): void {
+    this.isStale = true;
+  }
+
   redraw(): void {
     if (!this.isStale) return;
     this.isStale = false;
