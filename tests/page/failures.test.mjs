@@ -3,11 +3,13 @@ import assert from 'node:assert/strict';
 import { createServer } from 'node:http';
 import { after, describe, test } from 'node:test';
 import { writeObj } from '../package/meshes.mjs';
+import { importBundled } from './bundled.mjs';
 import { crossing, notFinite, octahedronFiles } from './mesh_files.mjs';
 import { dataOf, enter, eventually, isReady, openPanel, shows, startSite, textOf } from './page_helpers.mjs';
 import { covered, difference, pixelsOf, settledPixels, tiles } from './pictures.mjs';
 import { galleryMesh, mandoline } from './reference.mjs';
 
+const { Thread } = await importBundled('page/thread.ts');
 const needle = 'v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 1 0\nv 3 1 0\nf 1 2 3\nf 1 4 5\nf 2 2 4\n';
 const site = await startSite({ files: octahedronFiles });
 after(() => site.close());
@@ -251,4 +253,19 @@ describe('when the graphics context is lost', () => {
     await isReady(page);
     await eventually(async () => assert.ok(covered(await pixelsOf(page)) > 0.05));
   });
+});
+
+test('a worker that turns out not to start does not take the place of the one after it, and is ended in silence', async () => {
+  const workers = [];
+  const open = () => new Promise((resolve, reject) => workers.push({ resolve, reject }));
+  const thread = new Thread(open, () => undefined);
+  thread.start();
+  thread.end();
+  const answer = thread.call('cut', null);
+  workers[1].resolve({ call: async () => 'cells', terminate() {} });
+  assert.equal(await answer, 'cells');
+  workers[0].reject(new Error('no memory'));
+  await new Promise(setImmediate);
+  assert.equal(await thread.call('cut', null), 'cells');
+  assert.equal(workers.length, 2);
 });

@@ -1,6 +1,7 @@
 // Checks a small cut-mesh once it has stood for a moment, and any when asked.
 import { effect } from '@preact/signals';
 import { checksSentence, mostFacesUnasked, type Checks } from '../model/checks';
+import { pageError } from '../model/failure';
 import type { Engine, Model } from '../model/types';
 import { ask } from './ask';
 import type { State } from './state';
@@ -29,22 +30,22 @@ export class Checking {
 
   /** Nobody waits for it: where it can't be done nothing is said. */
   private async checkUnasked(model: Model): Promise<void> {
-    if (model.counts.faces > mostFacesUnasked || this.state.checked.value?.model === model) return;
+    if (model.counts.faces > mostFacesUnasked || this.state.checked.value?.model === model.id) return;
     const checks = await this.engine.validate().catch(() => null);
-    if (checks) this.take(model, checks);
+    if (checks) this.take(checks);
   }
 
   /** As the person asks. */
   async check(): Promise<void> {
-    const model = this.state.model.value;
     const checks = await ask(this.state, this.engine.validate());
-    if (model && checks) this.take(model, checks);
+    if (checks) this.take(checks);
   }
 
-  /** Of a model that is no longer shown nothing is said. */
-  private take(model: Model, checks: Checks): void {
-    if (this.state.model.value !== model) return;
-    this.state.checked.value = { model, checks };
-    if (!checks.pass) this.state.alert({ title: 'The cut-mesh is wrong', detail: checksSentence(checks, model.counts.cutCells) ?? '' });
+  /** If another cut came meanwhile, its checks have been answered. */
+  private take(checks: Checks): void {
+    const model = this.state.model.value;
+    if (!model) return;
+    this.state.checked.value = { model: model.id, checks };
+    if (!checks.pass) this.state.alert(pageError('The cut-mesh is wrong', checksSentence(checks, model.counts.cutCells) ?? ''));
   }
 }

@@ -57,8 +57,8 @@ export class State {
     if (way === 'none' || !comparison?.ways[way]) return null;
     return this.instead.value || this.wind.value?.surface ? null : comparison;
   });
-  /** What the checks of a model have found; of the last one that was checked. */
-  readonly checked = signal<{ model: Model; checks: Checks } | null>(null);
+  /** What the checks of a model, by its id, have found; of the last one that was checked. */
+  readonly checked = signal<{ model: number; checks: Checks } | null>(null);
   /** Null before the first picture. */
   readonly axesSeen = signal<AxesSeen | null>(null);
   /** Whether a button of the mouse, a finger or a pen is held down. */

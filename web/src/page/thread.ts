@@ -24,7 +24,9 @@ export class Thread {
 
   start(): Promise<Callable> {
     const worker = this.open();
-    worker.catch(() => (this.worker = null));
+    worker.catch(() => {
+      if (this.worker === worker) this.worker = null;
+    });
     this.worker = worker;
     return worker;
   }
@@ -33,7 +35,8 @@ export class Thread {
   end(): void {
     const { worker } = this;
     this.worker = null;
-    void worker?.then((former) => former.call('end', [null]).finally(() => former.terminate()));
+    // If it can't be started or can't answer, there is nothing left to end.
+    worker?.then((former) => former.call('end', [null]).finally(() => former.terminate())).catch(() => {});
   }
 
   async call<T>(name: CallName | WindCallName, ask: unknown, options: CallOptions = {}): Promise<T> {

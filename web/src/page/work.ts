@@ -17,7 +17,17 @@ export class Work {
   async during(task: () => Promise<void>): Promise<void> {
     if (this.tasks++ === 0) this.state.status.value = 'busy';
     this.failed = false;
-    await task();
+    try {
+      await task();
+    } catch (error) {
+      this.failed = true;
+      throw error;
+    } finally {
+      this.done();
+    }
+  }
+
+  private done(): void {
     if (--this.tasks > 0) return;
     for (const error of this.troubles.splice(0)) this.state.alert(error);
     this.state.status.value = this.failed ? 'error' : 'ready';

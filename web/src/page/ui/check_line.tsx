@@ -5,8 +5,9 @@ import { checksSentence } from '../../model/checks';
 export function CheckLine({ app }: { app: App }) {
   const { checked, playing } = app.state;
   const found = playing.value ? null : checked.value;
-  if (!found || found.model !== app.model) return null;
-  const { model, checks } = found;
+  const { model } = app;
+  if (!model || found?.model !== model.id) return null;
+  const { checks } = found;
   return (
     <p class={checks.pass ? 'hover-line' : 'hover-line bad'} id="check-line" data-model={model.id}>
       {checksSentence(checks, model.counts.cutCells)}

@@ -30,8 +30,8 @@ export function ChecksPanel({ app }: { app: App }) {
 }
 
 function Result({ app }: { app: App }) {
-  const { value } = app.state.checked;
-  const found = value?.model === app.model ? value : null;
+  const { model, state } = app;
+  const found = model && state.checked.value?.model === model.id ? state.checked.value : null;
   const { pass, checks } = found?.checks ?? { checks: [] };
   const failed = checks.filter((check) => !check.pass).length;
   const skipped = checks.filter((check) => check.skipped).length;
@@ -39,7 +39,7 @@ function Result({ app }: { app: App }) {
   const verdict = pass ? `All ${passed} checks pass.` : '';
   const notApplied = skipped > 0 ? ` ${skipped} skipped: ${skipped === 1 ? 'it does' : 'they do'} not apply to this mesh.` : '';
   const counts = found && {
-    'data-model': found.model.id,
+    'data-model': found.model,
     'data-pass': String(pass),
     'data-passed': passed,
     'data-failed': failed,
@@ -47,9 +47,9 @@ function Result({ app }: { app: App }) {
   };
   return (
     <div id="validation" aria-live="polite" {...counts}>
-      {found && (
+      {model && found && (
         <>
-          <p class={pass ? 'verdict good' : 'verdict bad'}>{checksSentence(found.checks, found.model.counts.cutCells)}</p>
+          <p class={pass ? 'verdict good' : 'verdict bad'}>{checksSentence(found.checks, model.counts.cutCells)}</p>
           <p class="hint">{verdict + notApplied}</p>
           <ul class="check-list">
             {checks.map((check) => (
