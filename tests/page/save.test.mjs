@@ -3,11 +3,13 @@ import { after, describe, test } from 'node:test';
 import { Triangle, Vector3 } from 'three';
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { readObj, writeObj } from '../package/meshes.mjs';
+import { importBundled } from './bundled.mjs';
 import { octahedron, octahedronFiles } from './mesh_files.mjs';
 import { dataOf, download, enter, eventually, isReady, openPanel, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
 import { covered, difference, pixelsOf, settledPixels, share, tiles } from './pictures.mjs';
 import { cutOf, galleryMesh, keptCells, mandoline } from './reference.mjs';
 
+const { takePicture } = await importBundled('page/view/picture.ts');
 const knot = await galleryMesh('torus-knot');
 const site = await startSite({ files: { ...octahedronFiles, 'knot.obj': writeObj(knot) } });
 after(() => site.close());
@@ -145,6 +147,30 @@ describe('files', () => {
     const { bytes: most } = await download(page, '#save-png');
     assert.match(await textOf(page, '[data-test=notice]'), /as many as it can: 1000 × \d+/);
     assert.equal((await pixelsOf(page, most)).width, 1000, 'the largest for which there is room');
+  });
+
+  test('PNG: drawn once where it has the pixels of the screen, and the background is back also where drawing fails', async () => {
+    const gl = { canvas: { width: 100, height: 50 }, drawingBufferWidth: 100, drawingBufferHeight: 50 };
+    Object.assign(gl, { getParameter: (name) => (name === 'MAX_VIEWPORT_DIMS' ? [8192, 8192] : 8192) });
+    Object.assign(gl, { MAX_RENDERBUFFER_SIZE: 'MAX_RENDERBUFFER_SIZE', MAX_VIEWPORT_DIMS: 'MAX_VIEWPORT_DIMS' });
+    const domElement = { width: 100, height: 50, toBlob: (take) => take('blob') };
+    const renderer = { domElement, getContext: () => gl, setClearColor() {} };
+    const scene = { background: 'grey' };
+    for (const [times, expected] of Object.entries({ 1: [1], 2: [1, 2] })) {
+      const drawn = [];
+      const options = { times: Number(times), isTransparent: true };
+      const picture = await takePicture(renderer, scene, options, (share) => drawn.push([share, scene.background]));
+      assert.deepEqual(
+        drawn,
+        expected.map((share) => [share, null]),
+      );
+      assert.deepEqual(picture, { blob: 'blob', width: 100, height: 50, isSmaller: false });
+    }
+    const draw = () => {
+      throw new Error('no memory');
+    };
+    assert.throws(() => takePicture(renderer, scene, { times: 1, isTransparent: true }, draw), /no memory/);
+    assert.equal(scene.background, 'grey');
   });
 
   test('GLB with an object for each cell', async (t) => {

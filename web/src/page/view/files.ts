@@ -1,4 +1,4 @@
-// What one takes along of the view: pictures, meshes, drawings, films.
+// What can be saved of the view: pictures, meshes, drawings, films.
 import type { Scene, WebGLRenderer } from 'three';
 import { pageError } from '../../model/failure';
 import { inWorld, planeOf } from '../../model/planes';
@@ -16,7 +16,7 @@ import { record } from './recorder';
 import type { WindTunnel } from './wind';
 
 /** The parts of the view that files are made of. */
-export interface Parts {
+interface FileParts {
   renderer: WebGLRenderer;
   scene: Scene;
   loop: Loop;
@@ -33,7 +33,7 @@ export interface Parts {
 }
 
 export class Files implements ViewFiles {
-  constructor(private readonly parts: Parts) {}
+  constructor(private readonly parts: FileParts) {}
 
   /** Without handles, and in one task, so that the canvas is never seen otherwise than it was. */
   png(options: PictureOptions): Promise<Picture> {
@@ -42,19 +42,21 @@ export class Files implements ViewFiles {
     loop.prepare();
     shadow.redraw();
     gizmo.object.visible = windTunnel.hasHandle = false;
-    const picture = takePicture(renderer, scene, options, draw);
-    gizmo.object.visible = hadGizmo;
-    windTunnel.hasHandle = true;
-    loop.draw();
-    return picture;
+    try {
+      return takePicture(renderer, scene, options, draw);
+    } finally {
+      gizmo.object.visible = hadGizmo;
+      windTunnel.hasHandle = true;
+      loop.draw();
+    }
   }
 
   async glb(isByCell: boolean): Promise<Blob> {
-    return exportGlb(this.look(), this.parts.ofModel, isByCell);
+    return exportGlb(this.look('The mesh'), this.parts.ofModel, isByCell);
   }
 
   async svg(name: SliceName): Promise<Blob> {
-    const look = this.look();
+    const look = this.look('The slice');
     const { model, settings } = look;
     const planes = inWorld([planeOf(model, settings, name)], model.origin);
     const [slice] = await this.parts.slice(planes, true);
@@ -69,10 +71,11 @@ export class Files implements ViewFiles {
     return record(this.parts.renderer.domElement);
   }
 
-  private look(): Look {
+  /** Of what is to be saved. */
+  private look(what: string): Look {
     this.parts.loop.prepare();
     const look = this.parts.look();
     if (look) return look;
-    throw pageError("It can't be saved", 'Nothing is shown yet.');
+    throw pageError(`${what} can't be saved`, 'Nothing is shown yet.');
   }
 }

@@ -18,19 +18,26 @@ export function takePicture(
     scene.background = null;
     renderer.setClearColor(0, 0);
   }
-  const times = drawLarge(renderer, options.times, draw);
-  const { width, height } = renderer.domElement;
-  const blob = new Promise<Blob | null>((resolve) => renderer.domElement.toBlob(resolve, 'image/png'));
-  scene.background = background;
-  return blob.then((made) => {
-    if (made) return { blob: made, width, height, isSmaller: times < options.times };
-    throw pageError("The picture can't be saved", 'The browser could not capture the picture, perhaps because memory ran low.');
-  });
+  try {
+    const times = drawLarge(renderer, options.times, draw);
+    return capture(renderer.domElement, times < options.times);
+  } finally {
+    scene.background = background;
+  }
+}
+
+/** What is on the canvas now. */
+async function capture(canvas: HTMLCanvasElement, isSmaller: boolean): Promise<Picture> {
+  const { width, height } = canvas;
+  const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, 'image/png'));
+  if (blob) return { blob, width, height, isSmaller };
+  throw pageError("The picture can't be saved", 'The browser could not capture the picture, perhaps because memory ran low.');
 }
 
 /** How many times it became. */
 function drawLarge(renderer: WebGLRenderer, wanted: number, draw: (times: number) => void): number {
   draw(1);
+  if (wanted <= 1) return 1;
   const gl = renderer.getContext();
   const { width, height } = gl.canvas;
   const longest = Math.min(gl.getParameter(gl.MAX_RENDERBUFFER_SIZE), ...gl.getParameter(gl.MAX_VIEWPORT_DIMS));

@@ -11,7 +11,7 @@ import type { Picked, Picker } from './picking';
 import { type Point, Pointer } from './pointer';
 
 /** The parts of the view that it works on. */
-export interface Parts {
+interface TouchParts {
   canvas: HTMLCanvasElement;
   uniforms: Uniforms;
   camera: Camera;
@@ -34,7 +34,7 @@ export class Touch {
   isMeasuring = false;
   private hoverAt: Point | null = null;
 
-  constructor(private readonly parts: Parts) {
+  constructor(private readonly parts: TouchParts) {
     const pointer = new Pointer(parts.canvas, parts.isTaken);
     // A GPU that is behind is asked once it has caught up.
     pointer.onHover = (at) => {

@@ -80,7 +80,7 @@ class ThreeView implements View {
   private readonly inset: Inset;
   private readonly layers: readonly Layer[];
   private readonly halves = new Halves(this.uniforms, objectsOf(this.ofModel));
-  private readonly modelGroup = new Group().add(this.halves.object);
+  private readonly modelGroup = new Group();
   private readonly insteadGroup = new Group().add(this.cells.ghost, ...objectsOf(this.ofInsteads));
   private readonly camera: Camera;
   private readonly framing: Framing;
@@ -119,7 +119,8 @@ class ThreeView implements View {
       this.uniforms,
       this.ofModel.flatMap(({ caster }) => caster ?? []),
     );
-    this.modelGroup.add(this.shadow.object);
+    // What is transparent is drawn in this order: the shadow lies below all of the model.
+    this.modelGroup.add(this.shadow.object, this.halves.object);
     this.layers = [...this.ofModel, this.halves.otherWay, this.shadow, ...this.ofInsteads, this.windTunnel, this.gizmo, this.ruler];
     this.picker = new Picker(
       this.renderer,

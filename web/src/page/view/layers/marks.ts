@@ -22,7 +22,6 @@ export class Marks implements Layer {
     const material = new ShaderMaterial({ uniforms, vertexShader, fragmentShader, transparent: true, depthTest: false, depthWrite: false });
     this.object = new Points(new BufferGeometry(), material);
     this.object.frustumCulled = false;
-    this.object.renderOrder = 1;
   }
 
   dependsOn({ model, settings }: Look): readonly unknown[] {
