@@ -1,5 +1,6 @@
 // Ambient occlusion: in a picture that stands, it is darker where little light comes from around. Software renderers would take seconds for
 // it, so it is for GPUs that have shown to be quick.
+import { Group } from 'three';
 import type { Matrix4, PerspectiveCamera, WebGLRenderer } from 'three';
 import type { Look } from './layer';
 import type { OcclusionPass } from './occlusion_pass';
@@ -13,6 +14,8 @@ const fade = 250;
 const software = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 
 export class Occlusion {
+  /** To be drawn after the model, and before handles, which it does not darken. */
+  readonly object = new Group();
   /** A picture is asked for. */
   onChange = () => {};
   private isLeftOut = false;
@@ -40,6 +43,7 @@ export class Occlusion {
     this.isLeftOut = true;
     const { OcclusionPass } = await import('./occlusion_pass');
     this.pass = new OcclusionPass(this.renderer, this.camera);
+    this.object.add(this.pass.object);
     this.isLeftOut = false;
     this.onChange();
   }
@@ -55,21 +59,22 @@ export class Occlusion {
   }
 
   private view(): Matrix4 {
+    this.camera.updateMatrixWorld();
     return this.camera.projectionMatrix.clone().multiply(this.camera.matrixWorldInverse);
   }
 
-  /** Draws what has been worked out for this picture, over it. Gives whether it is still appearing. */
-  draw(look: Look | null): boolean {
+  /** To be called before each picture: shows what has been worked out for it. Gives whether it is still appearing. */
+  animate(look: Look | null): boolean {
     const { pass, made, renderer } = this;
     const strength = pass && made && this.isOf(look) ? Math.min((performance.now() - made.at) / fade, 1) : 0;
-    if (strength > 0) pass?.darken(strength);
+    if (pass) pass.strength = strength;
     renderer.domElement.dataset.occlusion = String(strength);
     return strength > 0 && strength < 1;
   }
 }
 
 function isModelAlone({ instead, comparison, wind }: Look): boolean {
-  return !instead && !comparison && !wind?.surface;
+  return !instead && !comparison && !wind;
 }
 
 function nameOf(gl: WebGLRenderingContext | WebGL2RenderingContext): string {

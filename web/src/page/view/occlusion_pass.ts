@@ -1,8 +1,7 @@
 // Ambient occlusion, worked out from the depths of what is drawn. Apart from what decides when, since only quick GPUs need to load it.
-import { CustomBlending, DepthTexture, DstAlphaFactor, DstColorFactor, Scene, ShaderMaterial, Vector2, WebGLRenderTarget } from 'three';
-import { ZeroFactor, type PerspectiveCamera, type WebGLRenderer } from 'three';
+import { CustomBlending, DepthTexture, DstAlphaFactor, DstColorFactor, Mesh, PlaneGeometry, Scene, ShaderMaterial } from 'three';
+import { Vector2, WebGLRenderTarget, ZeroFactor, type PerspectiveCamera, type WebGLRenderer } from 'three';
 import { GTAOPass } from 'three/examples/jsm/postprocessing/GTAOPass.js';
-import { FullScreenQuad } from 'three/examples/jsm/postprocessing/Pass.js';
 
 /** From how far away things shade each other, in scene units. */
 const reach = 0.3;
@@ -12,9 +11,10 @@ const darkest = 0.6;
 const mostPixels = 2.5e6;
 
 export class OcclusionPass {
+  /** Darkens what was drawn before it. */
+  readonly object = new Mesh(new PlaneGeometry(2, 2), makeDarkening());
   private readonly depths = new WebGLRenderTarget(1, 1, { depthTexture: new DepthTexture(1, 1) });
   private readonly pass: GTAOPass;
-  private readonly quad = new FullScreenQuad(makeDarkening());
 
   constructor(
     private readonly renderer: WebGLRenderer,
@@ -23,6 +23,7 @@ export class OcclusionPass {
     this.pass = new GTAOPass(new Scene(), camera, 1, 1, { depthTexture: this.depths.depthTexture as DepthTexture });
     this.pass.output = GTAOPass.OUTPUT.Off;
     this.pass.updateGtaoMaterial({ radius: reach });
+    this.object.frustumCulled = false;
   }
 
   /** Of what `draw` draws into a render target. */
@@ -38,16 +39,12 @@ export class OcclusionPass {
     renderer.setRenderTarget(null);
   }
 
-  /** Darkens what is on the canvas, by 0 to all of it. */
-  darken(strength: number): void {
-    const { renderer, quad, pass } = this;
-    const { uniforms } = quad.material as ShaderMaterial;
-    uniforms.light.value = pass.gtaoMap;
+  /** 0 to 1, from nothing to all of it. */
+  set strength(strength: number) {
+    const { uniforms } = this.object.material;
+    uniforms.light.value = this.pass.gtaoMap;
     uniforms.strength.value = darkest * strength;
-    const { autoClear } = renderer;
-    renderer.autoClear = false;
-    quad.render(renderer);
-    renderer.autoClear = autoClear;
+    this.object.visible = strength > 0;
   }
 }
 

@@ -148,7 +148,7 @@ class ThreeView implements View {
       look: () => this.look,
       draw: (times) => this.draw(performance.now() / 1000, times),
     });
-    this.root.add(this.modelGroup, this.insteadGroup, this.windTunnel.object, this.ruler.object);
+    this.root.add(this.modelGroup, this.insteadGroup, this.occlusion.object, this.windTunnel.object, this.ruler.object);
     this.ruler.object.visible = false;
     this.scene.add(this.root, this.gizmo.object);
     this.modelGroup.visible = this.insteadGroup.visible = false;
@@ -292,11 +292,12 @@ class ThreeView implements View {
     this.setPixelRatio(share * Math.min(devicePixelRatio, 2));
     this.camera.update();
     const moving = this.layers.filter((layer) => layer.animate?.(seconds));
+    const isAppearing = this.occlusion.animate(this.look);
     this.halves.render(this.renderer, this.scene, this.camera.camera);
     this.inset.render(this.look, this.camera.camera);
     this.canvas.dataset.frames = String(++this.pictures);
     this.shadow.tellTests(this.canvas.dataset);
-    return this.occlusion.draw(this.look) || moving.length > 0;
+    return isAppearing || moving.length > 0;
   }
 
   /** Brings what is drawn up to date with the settings. Explosions and slices of whole cells only change uniforms. */
