@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
 import { importBundled } from './bundled.mjs';
 import { octahedronFiles } from './mesh_files.mjs';
-import { eventually, isReady, shows, startSite, textOf } from './page_helpers.mjs';
+import { dataOf, eventually, isReady, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
 
 const { presetOf } = await importBundled('model/gallery/preset.ts');
 const { fromHash } = await importBundled('model/settings.ts');
@@ -60,11 +60,41 @@ test('a file is seen whole after an entry that is cut flat and coloured, with wh
   await hasSettings(page, { ...whole('second.obj'), colorBy: 'volume' });
 });
 
-test('what has a pose moves at once; Back ends that', async (t) => {
-  const page = await site.open(t, 'mesh=wedge&n=4', { panels: ['mesh'] });
+test('a file after an entry in wind is seen without it, its cells apart; a wind that was turned stays', async (t) => {
+  const page = await site.open(t, 'mesh=wedge&n=4', { panels: ['mesh', 'wind'], reducedMotion: 'reduce' });
+  const open = async (name) => {
+    await page.locator('#file').setInputFiles({ name, mimeType: 'text/plain', buffer: Buffer.from(octahedronFiles['octahedron.obj']) });
+    await shows(page, '#mesh-line', { name });
+  };
+  for (const entry of ['bunny-in-wind', 'adaptive-grid']) {
+    await click(page, entry);
+    await hasSettings(page, preset(entry));
+    await open(`after-${entry}.obj`);
+    await hasSettings(page, fromHash(`file=after-${entry}.obj`).settings);
+  }
+  await click(page, 'bunny-in-wind');
+  await hasSettings(page, preset('bunny-in-wind'));
+  await slideTo(page, '#wind-heading', 90);
+  await eventually(async () => assert.notDeepEqual(fromHash(await hash(page)).settings.wind, preset('bunny-in-wind').wind));
+  const { wind } = fromHash(await hash(page)).settings;
+  await open('turned.obj');
+  const whole = fromHash('file=turned.obj&explode=0,0').settings;
+  await hasSettings(page, { ...whole, wind });
+});
+
+/** Runs in the page before all else: pictures are as far apart as on a slow machine. */
+function makeSlow() {
+  const request = requestAnimationFrame.bind(window);
+  window.requestAnimationFrame = (callback) => setTimeout(() => request(callback), 700);
+}
+
+test('what has a pose moves at once, without steps of its own however slowly; Back ends that', async (t) => {
+  const page = await site.open(t, 'mesh=wedge&n=4', { panels: ['mesh'], onNewPage: (made) => made.addInitScript(makeSlow) });
   const steps = await entries(page);
   await click(page, 'turning-gears');
   await eventually(async () => assert.match(await textOf(page, '#play'), /Pause/));
+  const { model } = await dataOf(page, '#counts');
+  await eventually(async () => assert.ok(Number((await dataOf(page, '#counts')).model) > Number(model) + 2));
   assert.equal(await entries(page), steps + 1);
   await page.goBack();
   await shows(page, '#mesh-line', { name: 'wedge' });

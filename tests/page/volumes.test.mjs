@@ -79,6 +79,7 @@ test('a range of volumes leaves its cells; it is said, kept in the link and by a
   await isReady(page);
   await shows(page, '#canvas', { cells: countOf(await sharesOf(13), 10 ** -1.25, 0.1) });
 
+  await eventually(async () => assert.match(page.url(), /n=13/));
   const link = page.url();
   await page.locator('#gallery [data-name="wedge"]').click();
   await isReady(page);

@@ -29,8 +29,10 @@ export async function followLink(app: App): Promise<void> {
     change = { keys: keys.every((key) => continuous.includes(key)) ? keys.join() : '', at: performance.now() };
     return keys.length > 0 && !goesOn;
   };
-  const write = () => {
+  const isPlaying = computed(() => app.state.playing.value !== null);
+  const write = (isBegin = false) => {
     if (isBusy) return; // The look may still be adapted to the mesh.
+    if (isPlaying.value && !isBegin) return; // What moves by itself makes no steps.
     const hash = toHash(app.settings);
     const isNew = !isRead && isNewChange(hash);
     isRead = false;
@@ -42,7 +44,7 @@ export async function followLink(app: App): Promise<void> {
   };
   const writeSoon = () => {
     clearTimeout(timer);
-    timer = window.setTimeout(write, pause);
+    timer = window.setTimeout(() => write(), pause);
   };
   const read = async () => {
     known = hashHere();
@@ -63,9 +65,8 @@ export async function followLink(app: App): Promise<void> {
     addEventListener(event, () => (app.state.isHeld.value = event === 'pointerdown'), { capture: true });
   }
   await read();
-  const isPlaying = computed(() => app.state.playing.value !== null);
   // What is opened to play has a step of its own before it moves on.
-  isPlaying.subscribe((begins) => begins && write());
+  isPlaying.subscribe((begins) => (begins ? write(true) : writeSoon()));
   app.state.status.subscribe((status) => {
     isBusy = status === 'busy';
     if (!isBusy) writeSoon();

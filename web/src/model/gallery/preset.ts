@@ -20,6 +20,8 @@ export function withoutPreset(settings: Settings): Settings {
   if (!preset) return settings;
   const fallback = defaultSettings();
   const own = <K extends keyof Settings>(key: K): Settings[K] => (same(settings[key], preset[key]) ? fallback[key] : settings[key]);
-  const [grid, sliceMode, explode] = [own('grid'), own('sliceMode'), own('explode')];
-  return { ...settings, grid, sliceMode, explode, show: own('show'), compare: own('compare') };
+  const [wind, compare] = [own('wind'), own('compare')];
+  // What stands beside wind or another way isn't pulled apart.
+  const explode = wind.on || compare.way !== 'none' ? settings.explode : own('explode');
+  return { ...settings, grid: own('grid'), sliceMode: own('sliceMode'), explode, show: own('show'), compare, wind };
 }
