@@ -4,6 +4,11 @@
 
 namespace mandoline::detail {
 
+void requireAll(const WriteOptions& options) {
+  if (options.regions.empty() && options.untouched) return;
+  operators::refuse("Files of this format always have everything: leave out regions and untouched.");
+}
+
 Selection::Selection(const CutMesh& cutMesh, const WriteOptions& options) : cutMesh_(cutMesh), options_(options) {
   operators::requireCutMesh(cutMesh);
   if (!allRegions() && options.regions.size() != cutMesh.regionCount) {

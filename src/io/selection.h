@@ -5,6 +5,9 @@
 
 namespace mandoline::detail {
 
+/// Throws CallError for options that select parts, before a file is written that always has everything.
+void requireAll(const WriteOptions& options);
+
 class Selection {
  public:
   /// Throws CallError for options that do not fit the cut-mesh.

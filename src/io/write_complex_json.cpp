@@ -1,6 +1,7 @@
 #include "io/complex_polygons.h"
 #include "io/groups.h"
 #include "io/json_members.h"
+#include "io/selection.h"
 #include "mesh/run_call.h"
 
 namespace mandoline {
@@ -30,6 +31,7 @@ void putCells(OutputBuffer& out, const CutMesh& cutMesh, const CellComplex& cell
 
 void writeJson(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options) {
   detail::runCall("writing", [&] {
+    detail::requireAll(options);
     operators::requireCellsOf(cutMesh, cells);
     const TriangleGroups* groups = detail::checkedGroups(options.groups, cutMesh.triangleCount);
     uint64_t numbers = cutMesh.faceTriangle.size() + (groups ? groups->triangleGroup.size() : 0);

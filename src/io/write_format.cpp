@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "mandoline/io.h"
+#include "io/selection.h"
 #include "mesh/read/text_cursor.h"
 
 namespace mandoline {
@@ -27,6 +27,7 @@ bool isMeshFormat(FileFormat format) { return FileFormat::obj <= format && forma
 bool isOutlineFormat(FileFormat format) { return format == FileFormat::svg || format == FileFormat::dxf || format == FileFormat::obj; }
 
 void writeCutMesh(const Sink& sink, FileFormat format, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options) {
+  if (format == FileFormat::json || format == FileFormat::mcm) detail::requireAll(options);
   switch (format) {
     case FileFormat::json:
       return options.groups ? writeJson(sink, cutMesh, *options.groups, options) : writeJson(sink, cutMesh, options);

@@ -431,4 +431,6 @@ TEST_CASE("Cells as JSON: with the triangles and groups of faces", "[cellfiles]"
 
   const Cells others(shapes::cube(0.5, 1.5), Grid::box({0, 0, 0}, {2, 2, 2}, {3, 3, 3}), 1);
   CHECK(refusal([&] { jsonOf(others.cutMesh, cells.complex); }).first == Status::badArgument);
+  options.untouched = false;
+  CHECK(refusal([&] { jsonOf(cells.cutMesh, cells.complex, options); }).first == Status::badArgument);
 }

@@ -804,6 +804,15 @@ TEST_CASE("Writers refuse regions and meshes that don't fit", "[io]") {
     CHECK(withRegions(2, write) == Refusal{Status::ok, -1});
     CHECK(refusal([&] { writeCutMesh(nowhere, format, cube, CutMesh{}); }) == Refusal{Status::badArgument, -1});
   }
+  for (const FileFormat format : {FileFormat::json, FileFormat::mcm}) {
+    CAPTURE(mandoline::name(format));
+    const auto write = [&](const auto& options) { writeCutMesh(nowhere, format, cube, cutMesh, options); };
+    CHECK(withRegions(2, write) == Refusal{Status::badArgument, -1});
+    CHECK(withRegions(0, write) == Refusal{Status::ok, -1});
+    WriteOptions cutCellsAlone;
+    cutCellsAlone.untouched = false;
+    CHECK(refusal([&] { write(cutCellsAlone); }) == Refusal{Status::badArgument, -1});
+  }
   for (const FileFormat format : {FileFormat::svg, FileFormat::dxf, FileFormat::obj}) {
     CAPTURE(mandoline::name(format));
     const auto write = [&](const auto& options) { writeOutlines(nowhere, format, stack, options); };

@@ -216,7 +216,7 @@ export interface SliceOptions {
 }
 
 export interface WriteOutlinesOptions extends RunOptions {
-  /** Per region whether it is written; default: all are. Of the surface, all that bounds the regions; "json" and "mcm" have everything. */
+  /** Per region whether it is written; default: all are. Of the surface, all that bounds the regions. Not for "json" and "mcm", which have all. */
   regions?: Uint8Array | readonly boolean[];
 }
 export interface WriteMeshOptions extends RunOptions {

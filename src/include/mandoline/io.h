@@ -62,7 +62,7 @@ void writeJson(const Sink& sink, const CutMesh& cutMesh, const RunOptions& optio
 void writeJson(const Sink& sink, const CutMesh& cutMesh, const TriangleGroups& groups, const RunOptions& options);
 /// A cell complex made from the cut-mesh as JSON: format, version, cutVertices, cutFaces, cutCells, the arrays of CellComplex under their
 /// names, the cut-mesh's faceTriangle for its faces, madeFrom, fingerprint, and the two arrays of groups if there are any. It always has
-/// all cells.
+/// all cells: CallError for options that select less.
 void writeJson(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options);
 /// The cut-mesh as bytes that readCutMesh() takes, in Mandoline's own format: compressed, with a version and a checksum of each array. The
 /// same cut-mesh always gives the same bytes.
@@ -88,7 +88,8 @@ void writeFacesVtu(const Sink& sink, const CutMesh& cutMesh, const CellComplex& 
 void writeObj(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options = {});
 void writeStl(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options = {});
 void writePly(const Sink& sink, const CutMesh& cutMesh, const WriteOptions& options = {});
-/// A cut-mesh as json, mcm, vtu, obj, stl or ply. JSON and .mcm always have everything. Throws FileError for the others.
+/// A cut-mesh as json, mcm, vtu, obj, stl or ply. JSON and .mcm always have everything: CallError for options that select less. Throws
+/// FileError for the other formats.
 void writeCutMesh(const Sink& sink, FileFormat format, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options = {});
 /// A mesh as obj, stl, ply or off. Throws FileError for the others. OBJ has the groups as `g` lines, with '_' for blanks in names.
 void writeMesh(const Sink& sink, FileFormat format, const MeshView& mesh, const RunOptions& options = {},
