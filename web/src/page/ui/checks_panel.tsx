@@ -17,7 +17,7 @@ export function ChecksPanel({ app }: { app: App }) {
   return (
     <Section app={app} id="checks" title="Checks">
       <p class="hint">
-        Checks every invariant of the cut-mesh, from the result and the input alone: by itself where that takes no time to speak of.
+        Checks every invariant of the cut-mesh, from the result and the input alone: by itself where that takes hardly any time.
       </p>
       <div class="row">
         <button type="button" id="validate" disabled={isRunning || !model} onClick={() => void validate()}>

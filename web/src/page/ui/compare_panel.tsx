@@ -17,11 +17,11 @@ const options: readonly (readonly [CompareSettings['way'], string])[] = [
 ];
 
 const meanings: Record<CompareSettings['way'], string> = {
-  none: 'What the same grid gives without cutting cells, or another grid with: drag the divider in the picture to see both.',
+  none: 'What the same grid gives without cutting cells, or what another grid gives: drag the divider in the picture to see both.',
   voxels: 'Grid cells whose middle is inside. What is thinner than a cell goes missing, and slopes become stairs, which have more area.',
   cubes: 'A surface through the places where grid-edges cross the mesh. It rounds off what lies between: edges, corners, thin parts.',
-  coarser: 'Cut-cells of a grid with half as many cells along each axis. The surface is the same, so are its volume and area.',
-  finer: 'Cut-cells of a grid with twice as many cells along each axis. The surface is the same, so are its volume and area.',
+  coarser: 'Cut-cells of a grid with half as many cells along each axis. The surface is the same, and so are its volume and area.',
+  finer: 'Cut-cells of a grid with twice as many cells along each axis. The surface is the same, and so are its volume and area.',
 };
 
 /** What other ways, or another grid, make of the mesh, beside the cut-cells. */

@@ -41,6 +41,7 @@ export function showEmbedded(app: App): void {
   put(
     'over-stage',
     <>
+      <Divider app={app} />
       <Legend app={app} />
       <StageNote app={app} />
       <ProgressLine app={app} />

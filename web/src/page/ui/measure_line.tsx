@@ -17,7 +17,8 @@ export function MeasureLine({ app }: { app: App }) {
 }
 
 function Words({ measurement: { from, to } }: { measurement: Measurement }) {
-  if (!from || !to) return <>{from || to ? 'Now the place where the distance ends.' : 'Choose two places on the model.'}</>;
+  if (!from && !to) return <>Choose two places on the model.</>;
+  if (!from || !to) return <>Now the place where the distance {from ? 'ends' : 'begins'}.</>;
   const { length, along } = distance(from.point, to.point);
   return (
     <>

@@ -12,7 +12,7 @@ export function MeasurePanel({ app }: { app: App }) {
   const measurement = app.state.measurement.value;
   return (
     <Section app={app} id="measure" title="Measure">
-      <p class="hint">The distance between two places of the model, in its units. Corners that are near are met exactly.</p>
+      <p class="hint">The distance between two places of the model, in its units. Nearby corners are snapped to.</p>
       <div class="row">
         <button type="button" id="measure-on" disabled={!app.model} aria-pressed={measurement !== null} onClick={() => app.toggleMeasure()}>
           {measurement ? 'End measuring' : 'Choose in the picture'}
@@ -73,7 +73,12 @@ function Place({ app, end, place }: { app: App; end: End; place: MeasuredPlace |
 function PinnedCell({ app, end }: { app: App; end: End }) {
   const pinned = app.state.pinned.value;
   return (
-    <button type="button" id={`measure-${end}-pinned`} disabled={!pinned} onClick={() => pinned && app.measuring.set(end, pinned.centroid)}>
+    <button
+      type="button"
+      id={`measure-${end}-pinned`}
+      disabled={!pinned}
+      onClick={() => pinned && app.measuring.set(end, pinned.centroid, pinned.region)}
+    >
       {end === 'from' ? 'From' : 'To'} the pinned cell
     </button>
   );

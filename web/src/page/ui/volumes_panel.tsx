@@ -14,7 +14,7 @@ import {
   shareOf,
   shareWords,
 } from '../../model/volumes';
-import { shownRegions } from '../view/look';
+import { shownRegions } from '../../model/shown';
 import { Section } from './controls/section';
 import { Slider } from './controls/slider';
 
@@ -28,7 +28,7 @@ export function VolumesPanel({ app }: { app: App }) {
   return (
     <Section app={app} id="volumes" title="Volumes">
       <p class="hint">
-        How much of a grid cell a cut-cell fills, on a logarithmic axis. Of a chosen range, cells stay; others become faint.
+        How much of a grid cell a cut-cell fills, on a logarithmic axis. Cells in the chosen range stay; others become faint.
       </p>
       {model && state.sections.isOpen('volumes') && <Histogram app={app} model={model} />}
     </Section>

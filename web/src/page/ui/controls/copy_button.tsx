@@ -12,11 +12,11 @@ interface Props {
   field: string;
 }
 
-/** Copies a text, or shows it to be copied. */
+/** Copies a text, or shows it to be copied, with all of its lines. */
 export function CopyButton({ name, label, text, note = '', field }: Props) {
   const [status, setStatus] = useState('');
   const [shown, setShown] = useState<string | null>(null);
-  const input = useRef<HTMLInputElement>(null);
+  const input = useRef<HTMLTextAreaElement>(null);
   useLayoutEffect(() => input.current?.select(), [shown]);
   const copy = async () => {
     const copied = text();
@@ -37,7 +37,7 @@ export function CopyButton({ name, label, text, note = '', field }: Props) {
       <span class="hint" aria-live="polite" id={`${name}-status`}>
         {status}
       </span>
-      {shown !== null && <input ref={input} class="copied" id={name} readOnly value={shown} aria-label={field} />}
+      {shown !== null && <textarea ref={input} class="copied" id={name} readOnly rows={2} value={shown} aria-label={field} />}
     </div>
   );
 }
