@@ -4,16 +4,17 @@ import { presetOf, withoutPreset } from '../model/gallery/preset';
 import { axes, axisNormal, defaultSettings, defaultSource } from '../model/settings';
 import { isOutside } from '../model/inside';
 import { same } from '../model/same';
+import { isSheet, usualColoring } from '../model/shown';
+import { isAbort, pageError } from '../model/failure';
 import type { Pose } from '../model/motion';
 import { ask } from './ask';
 import { Checking } from './checking';
 import { Comparing } from './compare';
-import { asPageError, isAbort } from './failure';
+import { asPageError } from './failure';
 import { Inspector } from './inspector';
 import { Measuring } from './measuring';
 import { Meshes } from './meshes';
 import { Player } from './player';
-import { isSheet, usualColoring } from './view/look';
 import type { State } from './state';
 import { WindTunnel } from './wind';
 import { Work } from './work';
@@ -331,7 +332,7 @@ export class App {
     this.engine.cancel();
     const { mesh, cutting } = this.shown;
     if (this.mesh === mesh) this.change(cutting, false);
-    else this.giveUp({ title: 'Cancelled', detail: 'This mesh has not been cut yet. Change its grid to cut it.' });
+    else this.giveUp(pageError('Cancelled', 'This mesh has not been cut yet. Change its grid to cut it.'));
   }
 
   countEdges(): Promise<number | null> {

@@ -1,4 +1,5 @@
-import { asPageError, isAbort } from './failure';
+import { isAbort } from '../model/failure';
+import { asPageError } from './failure';
 import type { State } from './state';
 
 /** Resolves to the answer, or to null after an alert. */

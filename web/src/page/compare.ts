@@ -2,10 +2,10 @@
 import { computed, effect } from '@preact/signals';
 import { otherGridWay, type Comparison, type OtherGridWay } from '../model/comparison';
 import { isOutside } from '../model/inside';
+import { isSheet } from '../model/shown';
 import type { Engine, Model, View } from '../model/types';
 import { ask } from './ask';
 import type { State } from './state';
-import { isSheet } from './view/look';
 
 interface Asked {
   model: Model;

@@ -40,10 +40,6 @@ export function abortError(): DOMException {
   return new DOMException('Cancelled, or a newer call took its place.', 'AbortError');
 }
 
-export function isAbort(error: unknown): boolean {
-  return error instanceof Error && error.name === 'AbortError';
-}
-
 /** Whether a call ended because it was stopped. */
 export function isCancellation(error: unknown): boolean {
   return error instanceof MandolineError && error.code === 'cancelled';

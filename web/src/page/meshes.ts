@@ -1,6 +1,7 @@
 // Which mesh is loaded, and the files that meshes came from.
+import { isAbort } from '../model/failure';
 import type { Engine, MeshInfo, Source } from '../model/types';
-import { asPageError, isAbort } from './failure';
+import { asPageError } from './failure';
 import type { State } from './state';
 import type { Work } from './work';
 

@@ -2,7 +2,7 @@
 import { idColor, kindColors, outsideColor, regionColor as paletteColor, volumeColor, windingColor } from 'mandoline-wasm/three';
 import { insideWords, isOutside, nearestWinding } from '../../model/inside';
 import { hasWhole, shareOf } from '../../model/volumes';
-import { isAnythingShown } from './look';
+import { isAnythingShown } from '../../model/shown';
 import type { ColorBy, Model, Settings } from '../../model/types';
 
 export type Rgb = readonly [number, number, number];

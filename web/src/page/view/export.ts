@@ -3,6 +3,7 @@ import { BufferGeometry, Color, Float32BufferAttribute, Group, Mesh, MeshStandar
 import { pageError } from '../../model/failure';
 import { integer } from '../../model/format';
 import type { Model, PageError } from '../../model/types';
+import { movedBy } from './explosion';
 import type { Layer, Look } from './layer';
 import type { Piece } from './piece';
 import { isBeyond, type ViewPlane } from '../../model/planes';
@@ -82,7 +83,8 @@ class Shape {
 }
 
 /** The triangles that the planes leave, moved by the explosions, by the names of their nodes: all in one, or each cell about its middle. */
-function shownShapes({ model, settings, planes, shifts }: Look, layers: readonly Layer[], isByCell: boolean): Map<string, Shape> {
+function shownShapes(look: Look, layers: readonly Layer[], isByCell: boolean): Map<string, Shape> {
+  const { model, settings, planes } = look;
   const isFlat = settings.sliceMode === 'flat';
   const shapes = new Map<string, Shape>();
   const color = new Color();
@@ -92,7 +94,7 @@ function shownShapes({ model, settings, planes, shifts }: Look, layers: readonly
     const polygon = isFlat ? clipped(piece, planes) : piece.corners;
     if (polygon.length === 0) return;
     color.setRGB(piece.color[0] / 255, piece.color[1] / 255, piece.color[2] / 255, 'srgb');
-    const shift = [0, 1, 2].map((d) => settings.explode.cells * middle[d] + settings.explode.regions * shifts[3 * region + d]);
+    const shift = movedBy(look, middle, region);
     const name = isByCell ? cellName(model, piece) : model.name;
     const center = isByCell ? shift.map((x, d) => x + middle[d]) : [0, 0, 0];
     const shape = shapes.get(name) ?? new Shape(center);

@@ -1,5 +1,7 @@
 // What the camera has to see of a model: points, 3 numbers each, less the model's origin.
 import type { Instead, Model } from '../../model/types';
+import { boxCorners, boxPoints } from './box';
+import { shiftAlong } from './explosion';
 import type { Look } from './layer';
 import { sceneScale } from './scene_space';
 import { arrowEnds } from './wind/handle';
@@ -48,7 +50,7 @@ export function cellPoints(extent: Extent, id: number): Float32Array {
 export function insteadPoints(model: Model, { center, radius }: Instead): Float32Array {
   const half = 0.7 * radius;
   const ends = [-half, half].map((by) => center.map((x) => x + by));
-  return Float32Array.from(corners(ends[0], ends[1]), (x) => x * sceneScale(model));
+  return Float32Array.from(boxPoints(boxCorners, ends[0], ends[1]), (x) => x * sceneScale(model));
 }
 
 /** In scene units, the corners of the mesh's box. */
@@ -63,32 +65,29 @@ function windPoints({ model: { meshMin, meshMax, origin }, settings: { wind } }:
 }
 
 /** A vertex of a cut-cell, where the explosions take it. */
-function addVertex(points: number[], vertex: number, { model, settings: { explode }, shifts }: Extent): void {
-  const { position, cell } = model.triangles;
-  const { region, centroid } = model.cells;
-  const owner = cell[vertex];
+function addVertex(points: number[], vertex: number, extent: Extent): void {
+  const { triangles, cells } = extent.model;
+  const owner = triangles.cell[vertex];
   for (let d = 0; d < 3; d++) {
-    const shift = explode.cells * centroid[3 * owner + d] + explode.regions * shifts[3 * region[owner] + d];
-    points.push(position[3 * vertex + d] + shift);
+    const shift = shiftAlong(d, extent, cells.centroid[3 * owner + d], cells.region[owner]);
+    points.push(triangles.position[3 * vertex + d] + shift);
   }
 }
 
 function gridCorners({ grid, origin }: Model): number[] {
-  return corners(
+  return boxPoints(
+    boxCorners,
     grid.planes.map((planes, d) => planes[0] - origin[d]),
     grid.planes.map((planes, d) => planes[planes.length - 1] - origin[d]),
   );
 }
 
 function meshCorners({ meshMin, meshMax, origin }: Model): number[] {
-  return corners(
+  return boxPoints(
+    boxCorners,
     meshMin.map((x, d) => x - origin[d]),
     meshMax.map((x, d) => x - origin[d]),
   );
-}
-
-function corners(min: readonly number[], max: readonly number[]): number[] {
-  return [0, 1, 2, 3, 4, 5, 6, 7].flatMap((bits) => [0, 1, 2].map((d) => (bits & (1 << d) ? max[d] : min[d])));
 }
 
 function exploded(points: number[], by: number): number[] {

@@ -1,4 +1,5 @@
 // What fills cells that are cut flat: it comes with the model; when planes move, the worker slices again, one request at a time.
+import { isAbort } from '../../model/failure';
 import type { Caps, Engine, Model, PageError, Settings } from '../../model/types';
 import type { Look } from './layer';
 import { activePlanes, inWorld, type ViewPlane } from '../../model/planes';
@@ -60,7 +61,7 @@ export class FlatCuts {
     this.isAsking = true;
     const planes = activePlanes(model, settings);
     const slices = await this.slice(inWorld(planes, model.origin), true).catch((error: unknown) => {
-      if (!(error instanceof DOMException)) this.onError(error as PageError);
+      if (!isAbort(error)) this.onError(error as PageError);
       // Without caps, cells are seen cut open. The same planes aren't asked for again, or failures would go on for ever.
       return [];
     });

@@ -1,11 +1,11 @@
 // Where the camera stands: where the settings have it, around all that is shown, or at what is drawn instead of the model.
 import type { Vector3 } from 'three';
+import { shownRegions } from '../../model/shown';
 import type { Instead, Model, Settings, View } from '../../model/types';
 import { upOf } from '../../model/up';
 import type { Camera } from './camera';
 import { cellPoints, framedPoints, insteadPoints, type Extent } from './extent';
 import type { Look } from './layer';
-import { shownRegions } from './look';
 import { fromWorld, haveSameSpace, toWorld } from './scene_space';
 import { Visit } from './visit';
 

@@ -1,6 +1,7 @@
 // Where a ray meets what is drawn: on a triangle of a cell, or at a corner nearby.
 import { Ray, Vector3, type PerspectiveCamera } from 'three';
 import type { MeasuredPlace } from '../../model/measurement';
+import { movedBy } from './explosion';
 import type { Layer, Look } from './layer';
 import type { Picked } from './picking';
 import type { Piece } from './piece';
@@ -9,11 +10,6 @@ import { sceneScale } from './scene_space';
 
 /** How near a corner has to be seen to be taken for the place, in pixels. */
 const reach = 9;
-
-/** How explosions move what belongs to a cell. */
-export function movedBy({ settings: { explode }, shifts }: Look, middle: ArrayLike<number>, region: number | null): number[] {
-  return [0, 1, 2].map((d) => explode.cells * middle[d] + (region === null ? 0 : explode.regions * shifts[3 * region + d]));
-}
 
 /** A ray from the eye through a point of the canvas, in the model's units less its origin. */
 export function rayAt(look: Look, camera: PerspectiveCamera, { x, y }: Point, { clientWidth, clientHeight }: HTMLCanvasElement): Ray {

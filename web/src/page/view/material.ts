@@ -44,7 +44,7 @@ export function makeUniforms() {
   };
 }
 
-export type Geometry = 'CELLS' | 'BOXES' | 'CAPS';
+type Geometry = 'CELLS' | 'BOXES' | 'CAPS';
 export type Purpose = 'FACES' | 'BACKS' | 'LINES' | 'PICK' | 'GHOST' | 'DIMMED' | 'SHADOW';
 
 /** Uniforms of lines: their opacity, the distance from one to the next in the model's units, and the pixels of it below which they fade. */

@@ -1,4 +1,5 @@
 import { WebGLRenderer } from 'three';
+import { pageError } from '../../model/failure';
 import type { PageError } from '../../model/types';
 
 /** Throws a PageError where there is no WebGL 2. */
@@ -13,12 +14,11 @@ export function makeRenderer(canvas: HTMLCanvasElement): WebGLRenderer {
   } catch {
     const why = 'This page draws with WebGL 2, which this browser lacks or has turned off.';
     const detail = `${why} Try another browser, or turn on hardware acceleration in its settings.`;
-    const error: PageError = { title: 'This browser cannot draw the picture', detail };
-    throw error;
+    throw pageError("This browser can't draw the picture", detail);
   }
 }
 
 export function contextLost(): PageError {
   const why = 'The browser dropped the graphics context, perhaps because memory ran low.';
-  return { title: 'The picture is lost for now', detail: `${why} If the picture does not come back, reload the page.` };
+  return pageError('The picture is lost for now', `${why} If the picture does not come back, reload the page.`);
 }

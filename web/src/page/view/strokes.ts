@@ -2,7 +2,7 @@
 import { Group, InstancedBufferGeometry, InstancedInterleavedBuffer, InterleavedBufferAttribute, Mesh } from 'three';
 import { Float32BufferAttribute, LessDepth, ShaderMaterial, Vector2, Vector4, type Color, type IUniform, type WebGLRenderer } from 'three';
 
-export interface Stroke {
+interface Stroke {
   color: IUniform<Color>;
   /** In pixels. */
   width: number;

@@ -1,11 +1,13 @@
 // The 3D view: puts the layers together, and draws when something has changed.
 import { Group, Scene, Vector3, type Object3D, type WebGLRenderer } from 'three';
+import { shownRegions } from '../../model/shown';
 import type { Engine, Instead, Model, PageError, Settings, View } from '../../model/types';
 import type { Comparison } from '../../model/comparison';
 import type { Vector3 as ModelVector } from '../../model/vector';
 import type { Measurement } from '../../model/measurement';
 import type { Wind } from '../../model/wind';
 import { Camera } from './camera';
+import { regionShifts } from './explosion';
 import { Files } from './files';
 import { FlatCuts } from './flat_cuts';
 import { Framing } from './framing';
@@ -22,7 +24,6 @@ import { Ruler } from './layers/ruler';
 import { Shadow } from './layers/shadow';
 import { Step } from './layers/step';
 import { Untouched } from './layers/untouched';
-import { regionShifts, shownRegions } from './look';
 import { Loop } from './loop';
 import { makeUniforms } from './material';
 import { Occlusion } from './occlusion';

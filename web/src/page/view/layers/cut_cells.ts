@@ -1,11 +1,11 @@
 // The cut-cells: one draw call for all faces, one for all edges.
-import { BufferGeometry, Float32BufferAttribute, Group, LineSegments, Mesh, Vector3 } from 'three';
-import type { ShaderMaterial } from 'three';
+import { Group, LineSegments, Mesh, Vector3 } from 'three';
+import type { BufferGeometry, ShaderMaterial } from 'three';
+import { isSheet } from '../../../model/shown';
 import type { Model } from '../../../model/types';
 import { emptyGeometry, refill, Table } from '../buffers';
 import { cutCellColors, gridFaceColor, type Rgb } from '../colors';
 import type { Layer, Look } from '../layer';
-import { isSheet } from '../look';
 import { gridStroke, makeMaterial, stroke, type Purpose, type Uniforms } from '../material';
 import { paler, type Piece } from '../piece';
 import { isBeyond, isBoxBeyond, type ViewPlane } from '../../../model/planes';
@@ -238,11 +238,4 @@ function meanArea(position: Float32Array, triangles: Uint32Array): number {
     count++;
   }
   return count > 0 ? sum / count : 0;
-}
-
-/** A geometry of plain line segments. */
-export function lineGeometry(position: Float32Array | number[]): BufferGeometry {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new Float32BufferAttribute(position, 3));
-  return geometry;
 }

@@ -1,8 +1,7 @@
-import { Group, LineBasicMaterial, LineSegments } from 'three';
+import { BufferGeometry, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments } from 'three';
 import type { Model, SliceName } from '../../../model/types';
 import type { Layer, Look } from '../layer';
 import type { ViewPlane } from '../../../model/planes';
-import { lineGeometry } from './cut_cells';
 
 const colors: Record<SliceName, number> = { x: 0xd9534f, y: 0x4fae5a, z: 0x3f83d6, free: 0xd78f1f };
 
@@ -54,6 +53,10 @@ function makeLines(name: SliceName): LineSegments {
   const lines = new LineSegments(lineGeometry([]), new LineBasicMaterial({ color: colors[name], transparent: true, opacity: 0.7 }));
   lines.frustumCulled = false;
   return lines;
+}
+
+function lineGeometry(position: number[]): BufferGeometry {
+  return new BufferGeometry().setAttribute('position', new Float32BufferAttribute(position, 3));
 }
 
 /** The segments in which a plane cuts the sides of the box: each side is cut where two of its edges are. */

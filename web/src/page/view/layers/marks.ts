@@ -3,6 +3,7 @@ import { BufferGeometry, Points, ShaderMaterial } from 'three';
 import { activePlanes, isBeyond } from '../../../model/planes';
 import { isAll } from '../../../model/volumes';
 import { refill } from '../buffers';
+import { shiftAlong } from '../explosion';
 import type { Layer, Look } from '../layer';
 import type { Uniforms } from '../material';
 import type { CutCells } from './cut_cells';
@@ -33,13 +34,12 @@ export class Marks implements Layer {
     this.object.visible = !isAll(look.settings.volumes);
     if (!this.object.visible) return;
     const marked = this.markedCells(look);
-    const { model, shifts, settings } = look;
-    const { centroid, region, volume } = model.cells;
+    const { centroid, region, volume } = look.model.cells;
     const position = new Float32Array(3 * marked.length);
     marked.forEach((cell, at) => {
       for (let d = 0; d < 3; d++) {
-        const shift = settings.explode.regions * shifts[3 * region[cell] + d];
-        position[3 * at + d] = (1 + settings.explode.cells) * centroid[3 * cell + d] + shift;
+        const middle = centroid[3 * cell + d];
+        position[3 * at + d] = middle + shiftAlong(d, look, middle, region[cell]);
       }
     });
     refill(this.object.geometry, {

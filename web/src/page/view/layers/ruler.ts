@@ -1,8 +1,8 @@
 // A distance that is measured: the line, its ways along x, y and z, and the places at its ends.
 import { Color, Group } from 'three';
 import type { MeasuredPlace } from '../../../model/measurement';
+import { movedBy } from '../explosion';
 import type { Layer, Look } from '../layer';
-import { movedBy } from '../hit';
 import type { Uniforms } from '../material';
 import { Strokes } from '../strokes';
 import { axisColors } from './frames';

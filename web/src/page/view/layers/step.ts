@@ -1,14 +1,11 @@
 // The picture of a step of the algorithm, over a faint surface, and the grid cells that hold what it shows.
 import { DoubleSide, Group, type BufferGeometry } from 'three';
 import { LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, Points, PointsMaterial } from 'three';
-import type { Bounds } from '../../../model/grid_around';
+import { boxEdges, boxPoints } from '../box';
 import { emptyGeometry, refill } from '../buffers';
 import type { Layer, Look } from '../layer';
 import type { Uniforms } from '../material';
 import { Strokes } from '../strokes';
-
-/** Two corners of a box differ in one bit along each of its edges; bit d is set on the far side of axis d. */
-const boxEdges = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((from) => [1, 2, 4].flatMap((bit) => (from & bit ? [] : [from, from | bit])));
 
 export class Step implements Layer {
   readonly object = new Group();
@@ -52,7 +49,7 @@ export class Step implements Layer {
       const { position, color } = step[part];
       refill(this[part].geometry, { position: { array: position, size: 3 }, color: { array: color, size: 3 } });
     }
-    const edges = step.frame ? boxSegments(step.frame) : new Float32Array(0);
+    const edges = Float32Array.from(step.frame ? boxPoints(boxEdges, step.frame.min, step.frame.max) : []);
     refill(this.frame.geometry, { position: { array: edges, size: 3 } });
     this.mark.segments = edges;
   }
@@ -60,8 +57,4 @@ export class Step implements Layer {
   setPixelRatio(ratio: number): void {
     this.points.material.size = 7 * ratio;
   }
-}
-
-function boxSegments({ min, max }: Bounds): Float32Array {
-  return Float32Array.from(boxEdges.flatMap((corner) => [0, 1, 2].map((d) => (corner & (1 << d) ? max[d] : min[d]))));
 }

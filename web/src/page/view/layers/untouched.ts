@@ -2,6 +2,7 @@
 // make triangles and lines, and are the same for all models. (Instances of a mesh as small as a box are slow.)
 import { BufferAttribute, BufferGeometry, Group, LineSegments, Mesh } from 'three';
 import type { Model } from '../../../model/types';
+import { boxEdges } from '../box';
 import { Table } from '../buffers';
 import { untouchedColors, type Rgb } from '../colors';
 import type { Layer, Look } from '../layer';
@@ -16,14 +17,10 @@ import { hasWhole } from '../../../model/volumes';
  */
 const mostBoxes = 150_000;
 
-/** Corners are numbered by bits: bit d is set on the far side of axis d. */
+/** Corners of boxes, by their numbers. */
 const triangleCorners = [0, 1, 2].flatMap((d) => {
   const [u, v, far] = [1 << ((d + 1) % 3), 1 << ((d + 2) % 3), 1 << d];
   return [0, v, u | v, 0, u | v, u, far, far | u, 7, far, 7, far | v];
-});
-const lineCorners = [1, 2, 4].flatMap((far) => {
-  const near = [0, 1, 2, 3, 4, 5, 6, 7].filter((corner) => !(corner & far));
-  return near.flatMap((corner) => [corner, corner | far]);
 });
 
 export class Untouched implements Layer {
@@ -63,7 +60,7 @@ export class Untouched implements Layer {
     this.lines.visible = show.edges;
     this.setBoxes(model, gridCells, untouchedColors(model, settings.colorBy));
     setRange(this.faces.geometry, triangleCorners, this.count);
-    setRange(this.lines.geometry, lineCorners, this.count);
+    setRange(this.lines.geometry, boxEdges, this.count);
   }
 
   private setBoxes(model: Model, gridCells: Uint32Array, colorOf: ReturnType<typeof untouchedColors>): void {
