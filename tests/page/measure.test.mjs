@@ -2,11 +2,13 @@
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
 import { box as boxMesh, writeObj } from '../package/meshes.mjs';
+import { importBundled } from './bundled.mjs';
 import { enter, eventually, isReady, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
 import { notFinite } from './mesh_files.mjs';
 import { covered, pixelsOf, settledPixels } from './pictures.mjs';
 import { cutOf, originOf } from './reference.mjs';
 
+const { Measuring } = await importBundled('page/measuring.ts');
 const mesh = boxMesh([0, 0, 0], [4, 2, 1]);
 const site = await startSite({ files: { 'box.obj': writeObj(mesh) } });
 after(() => site.close());
@@ -33,7 +35,15 @@ async function placeIs(page, end, expected, error = 1e-4) {
     const place = await Promise.all(['x', 'y', 'z'].map((axis) => page.locator(`#measure-${end}-${axis}`).inputValue()));
     const off = place.map((x, d) => Math.abs(Number(x) - expected[d]));
     assert.ok(place.every((x) => x !== '') && Math.max(...off) <= error, `${place} instead of ${expected}`);
-  }, 10_000);
+  });
+}
+
+/** Without what the pointer lights. */
+async function restingPixels(page) {
+  const { x, y } = await page.locator('#canvas').boundingBox();
+  await page.mouse.move(x + 5, y + 5);
+  await shows(page, '#hover-line', { cell: '' });
+  return settledPixels(page);
 }
 
 const lengthOf = (page) => page.locator('#measure-line strong').getAttribute('data-length').then(Number);
@@ -45,7 +55,7 @@ test('two places are touched: corners that are near, and where a face is met; Es
   await page.keyboard.press('m');
   await asks(page, /two places/);
   assert.equal(await page.locator('#explode-cells').inputValue(), '0', 'nothing is pulled apart');
-  const before = await settledPixels(page);
+  const before = await restingPixels(page);
   await click(page, [0, 2, 1], [4, 3]);
   await placeIs(page, 'from', [0, 2, 1], 0);
   await asks(page, /where the distance ends/);
@@ -53,7 +63,8 @@ test('two places are touched: corners that are near, and where a face is met; Es
   await placeIs(page, 'to', [4, 0, 1], 0);
   assert.ok(Math.abs((await lengthOf(page)) - Math.sqrt(20)) < 1e-6);
   assert.match(await textOf(page, '#measure-line'), /4\.472 x 4 y −2 z 0/);
-  assert.notDeepEqual((await settledPixels(page)).rgba, before.rgba, 'it is drawn');
+  const drawn = await restingPixels(page);
+  assert.notDeepEqual(drawn.rgba, before.rgba, 'it is drawn');
   assert.equal(await page.locator('#cell-card').isVisible(), false, 'no cell is pinned');
 
   const { planes } = cutMesh.grid;
@@ -65,6 +76,7 @@ test('two places are touched: corners that are near, and where a face is met; Es
   assert.equal(await page.locator('#measure-from-z').inputValue(), '1');
   await page.keyboard.press('Escape');
   await eventually(async () => assert.equal(await page.locator('#measure-line').isVisible(), false));
+  assert.deepEqual((await restingPixels(page)).rgba, before.rgba, 'nothing else was');
   await click(page, inFace);
   await eventually(async () => assert.ok(await page.locator('#cell-card').isVisible()));
   await page.keyboard.press('Escape');
@@ -112,6 +124,27 @@ test('cells that are pulled apart, flat cuts and untouched cells are met where t
   await asks(page, /where the distance ends/);
   await placeIs(page, 'from', [2.1, 1.1, 0.8], 0.1);
   assert.equal(await page.locator('#measure-from-z').inputValue(), '0.8', 'on the side of an untouched grid cell');
+});
+
+test('where only the end is known, the beginning is asked for and taken next', async (t) => {
+  const page = await site.open(t, link, { panels: ['measure', 'view'] });
+  await enter(page, '#pin-number', 3);
+  await shows(page, '#cell-card', { cell: 3 });
+  await page.locator('#measure-to-pinned').click();
+  await asks(page, /where the distance begins/);
+  await settledPixels(page);
+  await click(page, [0, 2, 1], [4, 3]);
+  await placeIs(page, 'from', [0, 2, 1], 0);
+  const [x, y, z] = measures.cellCentroid.subarray(9, 12);
+  await placeIs(page, 'to', [x, y, z]);
+  assert.ok(Math.abs((await lengthOf(page)) / Math.hypot(x, y - 2, z - 1) - 1) < 1e-6);
+});
+
+test('the middle of a cell moves as its region does', () => {
+  const measurement = { value: null, peek: () => measurement.value };
+  const measuring = new Measuring({ model: { value: { origin: [1, 2, 3] } }, measurement }, { setMeasurement() {} });
+  measuring.set('from', [4, 4, 4], 5);
+  assert.deepEqual(measurement.value, { from: { point: [4, 4, 4], middle: [3, 2, 1], region: 5 }, to: null });
 });
 
 test('by keys: typed coordinates, and the middle of the pinned cell', async (t) => {
