@@ -3,19 +3,13 @@
 #include "operators/validate/place_finder.h"
 
 namespace mandoline::validation {
-namespace {
-
-bool isFinite(const Vec3& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
-
-}  // namespace
-
 /// Each number is converted once.
 void ExactPlaces::convert(const Context& context) {
   for (int d = 0; d < 3; ++d) axialPlanes_[size_t(d)].assign(context.planes()[size_t(d)].begin(), context.planes()[size_t(d)].end());
   triVertices_.resize(context.mesh.vertexCount());
   for (uint32_t v = 0; v < triVertices_.size(); ++v) {
-    const Vec3 p = context.triVertex(v);
-    if (isFinite(p)) triVertices_[v] = {p[0], p[1], p[2]};
+    const Vec3 p = finiteTriVertex(context, v);
+    triVertices_[v] = {p[0], p[1], p[2]};
   }
   const Finder<Residue> finder(context);
   triPlanes_.resize(context.mesh.triangleCount());

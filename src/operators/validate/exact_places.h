@@ -12,7 +12,7 @@ namespace mandoline::validation {
 
 struct Context;
 
-/// A point or vector of exact numbers or their residues.
+/// A point or vector of exact numbers, their residues, or numbers near them.
 template <class Number>
 using Triple = std::array<Number, 3>;
 
@@ -40,7 +40,6 @@ Triple<N> cross(const Triple<N>& a, const Triple<N>& b) {
 using Residues = Triple<Residue>;
 inline bool isZero(const Residues& a) { return a[0].isZero() && a[1].isZero() && a[2].isZero(); }
 inline bool collinear(const Residues& a, const Residues& b, const Residues& c) { return isZero(cross(b - a, c - a)); }
-inline Residues exactPlace(const Vec3& p) { return {p[0], p[1], p[2]}; }
 
 /// The plane of a triangle: the points p with dot(normal, p) = offset.
 template <class Number>
@@ -60,7 +59,7 @@ class ExactPlaces {
   /// False if the parents of v do not meet in one point.
   bool isKnown(uint32_t v) const { return known_[v] != 0; }
   const ExactPlane& planeOf(size_t triangle) const { return triPlanes_[triangle]; }
-  /// Of a tri-vertex that a triangle has.
+  /// 0 where that is not finite, as it may be if no triangle has it.
   const Residues& triVertex(uint32_t v) const { return triVertices_[v]; }
   const Residue& axialPlane(int axis, size_t plane) const { return axialPlanes_[size_t(axis)][plane]; }
 

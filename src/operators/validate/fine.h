@@ -13,7 +13,7 @@ constexpr double kUnderflow = 0x1p-1000;
 /// Bounds are computed with rounding, too.
 constexpr double kOfBounds = 1 + 0x1p-40;
 
-/// A double, and a bound of its distance from the exact number. What overflows has an error that is infinite or no number.
+/// A double, and a bound of its distance from the exact number. What overflows has an error that is infinite or NaN.
 struct Bounded {
   double value = 0, error = 0;
 
@@ -33,7 +33,8 @@ struct Bounded {
   int sign() const { return std::fabs(value) > kOfBounds * error ? (value > 0 ? 1 : -1) : 0; }
 };
 
-/// The same with twice as many digits: a sum of two doubles, the second of which is some rounding of the first or less.
+/// The same with twice as many digits: a sum of two doubles, the second of which is at most about a rounding of the
+/// first.
 class Fine {
  public:
   Fine() = default;
@@ -63,13 +64,15 @@ class Fine {
     const Fine left = rest - Fine(second) * b;
     return rounded(first, second, (left.size() + left.error_) / least + kUnderflow);
   }
+  /// Could be any number, so that 0 times it is 0.
   static Fine unknown() { return {0, 0, INFINITY}; }
   /// An exact number divided by (2^24)^power.
   static Fine of(const Exact& x, int power) {
     constexpr size_t kTerms = 6;
     Fine sum;
     for (size_t i = 0; i < x.termCount() && i < kTerms; ++i) sum = sum + Fine(x.term(i, power));
-    if (x.termCount() > kTerms) sum.error_ += x.unit(kTerms - 1, power) + kUnderflow;
+    if (x.sign() != 0) sum.error_ += kUnderflow;
+    if (x.termCount() > kTerms) sum.error_ += x.unit(kTerms - 1, power);
     return sum;
   }
   double error() const { return error_; }

@@ -70,7 +70,7 @@ class Exact {
   Exact operator-(const Exact& other) const { return sum(other, -1); }
   Exact operator*(const Exact& other) const;
   int sign() const { return digits_.empty() ? 0 : digits_.back() > 0 ? 1 : -1; }
-  /// It is the sum of these, the largest first, each less than half of 2^24 of its unit; divided by (2^24)^power.
+  /// It is the sum of these, the largest first, each at most half of 2^24 of its unit; divided by (2^24)^power.
   size_t termCount() const { return digits_.size(); }
   double term(size_t i, int power) const { return double(digits_[digits_.size() - 1 - i]) * unit(i, power); }
   double unit(size_t i, int power) const { return std::ldexp(1.0, kBits * (end() - 1 - int(i) - power)); }

@@ -13,6 +13,12 @@ inline bool isZero(const Exact& x) { return x.sign() == 0; }
 /// What may be 0 without being known as 0 ends as a divisor, and its quotient is unknown.
 inline bool isZero(const Fine& x) { return x.isZero(); }
 
+/// A tri-vertex, or 0: those that no triangle has need not be finite, and a damaged cut-mesh may name them.
+inline Vec3 finiteTriVertex(const Context& context, uint32_t v) {
+  const Vec3 p = context.triVertex(v);
+  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]) ? p : Vec3{};
+}
+
 /// Finds places in numbers of one kind.
 template <class Number>
 class Finder {
@@ -31,7 +37,7 @@ class Finder {
     if constexpr (std::is_same_v<Number, Residue>) {
       return x_.exact.triVertex(v);
     } else {
-      const Vec3 p = x_.triVertex(v);
+      const Vec3 p = finiteTriVertex(x_, v);
       return {p[0], p[1], p[2]};
     }
   }

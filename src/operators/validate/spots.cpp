@@ -53,7 +53,8 @@ Triple<Bounded> difference(const Triple<Fine>& a, const Triple<Fine>& b) {
   return {Fine::difference(a[0], b[0]), Fine::difference(a[1], b[1]), Fine::difference(a[2], b[2])};
 }
 
-/// Rounded from the exact place where planes that are nearly parallel leave too few digits: one vertex is compared with many.
+/// Where planes are nearly parallel, doubles leave too few digits; then the exact place is rounded. That pays, as one vertex is compared
+/// with many.
 Triple<Fine> finePlace(const Context& context, uint32_t v) {
   const auto q = Finder<Fine>(context).placeOf(v);
   const Triple<Fine> place{quotient(q.x[0], q.w), quotient(q.x[1], q.w), quotient(q.x[2], q.w)};
@@ -79,8 +80,8 @@ Spot meet(const Context& context, const Spot& a, const Spot& b, size_t triangle)
   const PlaneOf<Fine> plane = Finder<Fine>(context).planeOf(triangle);
   const Fine above = fineHeight(a.place, plane), below = fineHeight(b.place, plane);
   Spot spot{{Fine::unknown(), Fine::unknown(), Fine::unknown()}, {}, {}, 0, {&a, &b}, int64_t(triangle)};
-  // Their rounded positions are on different sides. In a wrong mesh their places need not be.
-  if (above.bounded().sign() * below.bounded().sign() >= 0) return spot;
+  // Bounds may leave a side open, and in a wrong mesh the sides may be the same or the places unknown.
+  if (!isKnown(a) || !isKnown(b) || above.bounded().sign() * below.bounded().sign() >= 0) return spot;
   spot.place = a.place + quotient(above, above - below) * (b.place - a.place);
   const ExactPlane& its = context.exact.planeOf(triangle);
   const Residue high = dot(its.normal, a.x) - its.offset, low = dot(its.normal, b.x) - its.offset;  // w of a vertex is 1

@@ -1,5 +1,5 @@
-// Points of which is known exactly on which side of one another they lie. Bounds decide nearly always; of what they leave open, residues
-// find what is 0, and exact numbers decide the rest.
+// Points that are compared exactly. Bounds decide nearly always; of what they leave open, residues find what is 0, and exact numbers decide
+// the rest.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ struct Spot {
   Triple<Fine> place;
   Residues x;                                 ///< the place, times w
   Residue w;                                  ///< 0 where there are only exact numbers
-  uint32_t vertex = 0;                        ///< where `ends` are none
+  uint32_t vertex = 0;                        ///< if it has no `ends`
   std::array<const Spot*, 2> ends{};          ///< vertices, which must outlive it
   int64_t triangle = -1;                      ///< -1: halfway
   mutable std::optional<ExactPoint> exact{};  ///< made when it is first needed

@@ -1,10 +1,12 @@
 // The validator's bounds decide only what they prove: without them the exact numbers decide the same.
 #include "operators/validate/spots.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "catch.h"
 #include "checked_cut.h"
 #include "rational.h"
-#include "samples.h"
 #include "shapes.h"
 
 using namespace mandoline;
@@ -30,21 +32,78 @@ struct Spindle {
 
 }  // namespace
 
+namespace {
+
+/// The same number in every way.
+struct Numbers {
+  Rational exact;
+  Fine fine;
+  Bounded bounded;
+};
+
+Numbers ofDouble(double x) { return {x, x, {x, 0}}; }
+
+/// Whether the exact number is within the bound. What overflows has none.
+bool holds(const Bounded& bounded, const Rational& exact) {
+  if (!std::isfinite(bounded.value) || !std::isfinite(bounded.error)) return bounded.sign() == 0;
+  return abs(exact - bounded.value) <= Rational(bounded.error) * kOfBounds;
+}
+
+/// The same with all digits of a sum of two doubles.
+bool holds(const Fine& fine, const Rational& exact) {
+  const double high = fine.bounded().value;
+  return std::isfinite(high) ? holds(Fine::difference(fine, high), exact - high) : fine.bounded().sign() == 0;
+}
+
+}  // namespace
+
 TEST_CASE("spots: bounds of numbers hold the exact ones", "[validate]") {
-  for (const Kind kind : kKinds) {
-    Sampler sampler(kind, 11);
-    for (int i = 0; i < 300; ++i) {
-      const double a = sampler.coordinate(), b = sampler.coordinate(), c = sampler.coordinate(), d = sampler.coordinate();
-      const int expected = ((Rational(a) - b) * (Rational(c) - d) - (Rational(b) - c) * (Rational(a) - d)).sign();
-      const Fine x = a, y = b, z = c, w = d;
-      const int fine = ((x - y) * (z - w) - (y - z) * (x - w)).bounded().sign();
-      const auto apart = &Fine::difference;
-      const int bounded = (apart(x, y) * apart(z, w) - apart(y, z) * apart(x, w)).sign();
-      CHECK((fine == 0 || fine == expected));
-      CHECK((bounded == 0 || bounded == expected));
-      if (expected == 0) CHECK((x - x).isZero());
+  Random random(5);
+  const auto any = [&](size_t count) { return size_t(random.next() % count); };
+  // Small whole numbers, doubles of all digits, neighbours of 1, and far below the range that is scaled to.
+  const auto number = [&] {
+    const double x = 1 + double(random.next() >> 12) * 0x1p-52, small = double(any(7)) - 3;
+    const double kinds[] = {small, any(2) ? x : -x, 1 + small * 0x1p-52, std::ldexp(x, int(any(200)) - 80),
+                            std::ldexp(x, -500 - int(any(40)))};
+    return kinds[any(5)];
+  };
+  for (int i = 0; i < 1500; ++i) {
+    std::vector<Numbers> chain = {ofDouble(number()), ofDouble(number()), ofDouble(number())};
+    for (int step = 0; step < 5; ++step) {
+      const Numbers a = chain[any(chain.size())], b = chain[any(chain.size())];
+      CHECK(holds(Fine::difference(a.fine, b.fine), a.exact - b.exact));
+      if (b.exact.sign() != 0) CHECK(holds(quotient(a.fine, b.fine), a.exact / b.exact));
+      if (any(3) == 0) {
+        chain.push_back({a.exact + b.exact, a.fine + b.fine, a.bounded + b.bounded});
+      } else if (any(2) == 0) {
+        chain.push_back({a.exact - b.exact, a.fine - b.fine, a.bounded - b.bounded});
+      } else {
+        chain.push_back({a.exact * b.exact, a.fine * b.fine, a.bounded * b.bounded});
+      }
+      CHECK(holds(chain.back().fine, chain.back().exact));
+      CHECK(holds(chain.back().bounded, chain.back().exact));
+      if (chain.back().fine.isZero()) CHECK(chain.back().exact.sign() == 0);
     }
   }
+}
+
+TEST_CASE("spots: exact numbers are rounded within their bounds", "[validate]") {
+  Random random(9);
+  for (int i = 0; i < 300; ++i) {
+    Exact exact = 0.0;
+    Rational same = 0.0;
+    for (int step = 0; step < 4; ++step) {  // more terms than are kept
+      const double x = random.between(-1, 1), y = std::ldexp(random.between(-1, 1), -int(random.next() % 150));
+      exact = exact * Exact(x) + Exact(y), same = same * x + y;
+    }
+    const int power = exact.end();
+    CHECK(holds(Fine::of(exact, power), same * std::ldexp(1.0, -24 * power)));
+  }
+  CHECK(Fine::of(Exact(0.0), 0).isZero());
+  CHECK_FALSE(Fine::of(Exact(0x1p-1000), 20).isZero());  // underflows
+}
+
+TEST_CASE("spots: what is left open", "[validate]") {
   CHECK((Fine(0x1p1000) * Fine(0x1p1000)).bounded().sign() == 0);
   CHECK((Fine(0x1p-600) * Fine(0x1p-600)).bounded().sign() == 0);
   CHECK(quotient(Fine(1), Fine(1) - Fine(1)).bounded().sign() == 0);
@@ -91,12 +150,16 @@ TEST_CASE("spots: exact numbers alone give the same sides, turns and orders", "[
 TEST_CASE("spots: a spindle torus is as right as it was cut", "[validate]") {
   const Spindle spindle;
   CHECK(validate(spindle.mesh, spindle.cutMesh).pass);
-  // A made vertex between two others that share its parents is another point of the same triangles.
-  CutMesh wrong = spindle.cutMesh;
-  for (size_t i = 0; i + 1 < wrong.madeVertices.size(); ++i) {
-    if (wrong.madeVertexKinds[i] != wrong.madeVertexKinds[i + 1]) continue;
-    for (size_t k = 0; k < 4; ++k) std::swap(wrong.madeVertexParents[4 * i + k], wrong.madeVertexParents[4 * i + 4 + k]);
-    break;
-  }
-  CHECK_FALSE(validate(spindle.mesh, wrong).pass);
+}
+
+TEST_CASE("spots: a cut-vertex may name a tri-vertex that isn't finite", "[validate]") {
+  Mesh mesh = shapes::torus({1.53, 1.47, 1.5}, 0.5, 0.75, 12, 12);
+  const int32_t extra = int32_t(mesh.vertexCount());
+  mesh.positions.insert(mesh.positions.end(), {NAN, INFINITY, 0});  // which no triangle has
+  CutMesh wrong = cut(mesh, Grid::around(mesh, 3)).mesh;
+  REQUIRE(validate(mesh, wrong).pass);
+  const size_t v = size_t(std::find(wrong.vertexTriVertex.begin(), wrong.vertexTriVertex.end(), 5) - wrong.vertexTriVertex.begin());
+  REQUIRE(v < wrong.vertexCount());
+  wrong.vertexTriVertex[v] = wrong.vertexParents[2 * v] = wrong.vertexParents[2 * v + 1] = extra;
+  CHECK_FALSE(validate(mesh, wrong).pass);
 }
