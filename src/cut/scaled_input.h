@@ -34,6 +34,7 @@ struct Input {
 struct Run {
   CutStats& stats;
   Monitor& monitor;
+  bool onlyGeneral = false;  ///< whether stages leave out their short cuts, which give the same: for tests
 
   void count(const Predicates& predicates) { stats.exactFallbacks += predicates.fallbacks; }
 };

@@ -26,7 +26,9 @@ struct StagedCut {
   UndividedFaces undivided;
   GridEdges gridEdges;
 
-  StagedCut(const Mesh& mesh, Stage last, const CutOptions& options_, const Grid& grid = unitCells()) : options(options_) {
+  StagedCut(const Mesh& mesh, Stage last, const CutOptions& options_, const Grid& grid = unitCells(), bool onlyGeneral = false)
+      : options(options_) {
+    run.onlyGeneral = onlyGeneral;
     prepareOne(mesh, grid);
     state.surface.input = prepareInput(*prepared, grid, run);
     if (last >= Stage::triEdges) cutTriEdges(state.surface, run);

@@ -11,6 +11,7 @@ struct Chunk {
   GridFaces faces;  // ids count from triFaces.size() on
   Predicates predicates;
   PlanarGraph graph;
+  Chains chains;
   std::vector<VertexId> outline, loop;
   IdVector<PlanarGraph::Face, std::optional<HalfFace>> seen;  // per face of the graph: what the cell below the plane sees
 };
@@ -19,6 +20,9 @@ class FaceCutter {
  public:
   FaceCutter(const Surface& surface, const Stencil& stencil, const GridEdges& gridEdges, const TriFaces& triFaces, Chunk& chunk)
       : input_(surface.input), stencil_(stencil), gridEdges_(gridEdges), triFaces_(triFaces), vertices_(surface.vertices), chunk_(chunk) {}
+
+  /// Without chains.h.
+  bool onlyGraph = false;
 
   void cut(GridFaceId gridFace) {
     findOutline(stencil_.faces[gridFace]);
@@ -72,6 +76,7 @@ class FaceCutter {
     graph.begin(vertices_, axis);
     graph.setOutline(chunk_.outline);
     for (const FaceEdge& e : stencil_.edgesOnFace[gridFace]) graph.addEdge(e.from, e.to);
+    if (!onlyGraph && stencil_.triFacesOnFace[gridFace].empty() && graph.traceChains(chunk_.chains)) return addChained(gridFace);
     graph.build(chunk_.predicates);
 
     auto& seen = chunk_.seen;
@@ -98,6 +103,16 @@ class FaceCutter {
       endFace(id);
     }
     addSlits();
+  }
+
+  void addChained(GridFaceId gridFace) {
+    Csr<VertexId>& loops = chunk_.faces.loops;
+    for (size_t face = 0; face < chunk_.chains.loops.size(); ++face) {
+      const FaceId id = beginFace(gridFace);
+      for (const GraphVertex v : chunk_.chains.loops[face]) loops.items.push_back(chunk_.graph.vertex(v));
+      loops.endGroup();
+      endFace(id);
+    }
   }
 
   void addLoop(PlanarGraph::HalfEdge start) {
@@ -194,6 +209,7 @@ void append(GridFaces& a, const GridFaces& b, uint32_t firstOwn) {
 GridFaces cutGridFaces(const Surface& surface, const Stencil& stencil, const GridEdges& gridEdges, const TriFaces& triFaces, Run& run) {
   auto chunks = forChunks<Chunk>(stencil.faces.size(), run.monitor, [&](Chunk& chunk, size_t begin, size_t end) {
     FaceCutter cutter(surface, stencil, gridEdges, triFaces, chunk);
+    cutter.onlyGraph = run.onlyGeneral;
     for (const GridFaceId g : Ids<GridFaceId>(begin, end)) cutter.cut(g);
   });
   GridFaces faces = std::move(chunks[0].faces);

@@ -14,8 +14,8 @@ void PlanarGraph::begin(const CutVertices& vertices, int axis) {
   if (localTable_.size() < vertices.size()) localTable_.resize(vertices.size());
 }
 
-PlanarGraph::LocalVertex PlanarGraph::localOf(VertexId id) {
-  LocalVertex& local = localTable_[id];
+GraphVertex PlanarGraph::localOf(VertexId id) {
+  GraphVertex& local = localTable_[id];
   if (local.number >= ids_.size() || ids_[local] != id) {
     local = {uint32_t(ids_.size())};
     ids_.push_back(id);
@@ -42,19 +42,19 @@ void PlanarGraph::build(Predicates& predicates, Slits slits) {
   const size_t n = ids_.size();
   std::vector<uint32_t>& offsets = out_.offsets;
   offsets.assign(n + 1, 0);
-  for (const LocalVertex v : ends_) ++offsets[v.number + 1];
+  for (const GraphVertex v : ends_) ++offsets[v.number + 1];
   for (size_t v = 0; v < n; ++v) offsets[v + 1] += offsets[v];
   out_.items.resize(ends_.size());
   at_.assign(offsets.begin(), offsets.end() - 1);
   for (const HalfEdge h : ends_.ids()) out_.items[at_[ends_[h].number]++] = h;
   nextOf_.resize(ends_.size());
-  for (const LocalVertex v : ids_.ids()) orderOutgoing(v, predicates);
+  for (const GraphVertex v : ids_.ids()) orderOutgoing(v, predicates);
   traceCycles();
   placeComponents(predicates);
   traceLoops(predicates);
 }
 
-void PlanarGraph::orderOutgoing(LocalVertex v, Predicates& predicates) {
+void PlanarGraph::orderOutgoing(GraphVertex v, Predicates& predicates) {
   const std::span<HalfEdge> out = out_[v];
   if (v.number < sides_) {  // along the outline first, edges inside counter-clockwise, back along the outline last
     const uint32_t before = v.number > 0 ? v.number - 1 : uint32_t(sides_ - 1);
@@ -70,7 +70,7 @@ void PlanarGraph::orderOutgoing(LocalVertex v, Predicates& predicates) {
 }
 
 /// P4: sorts half-edges out of v by angle; those of a side's vertex span less than half a turn.
-void PlanarGraph::sortAround(LocalVertex v, std::span<HalfEdge> out, bool fullCircle, Predicates& predicates) {
+void PlanarGraph::sortAround(GraphVertex v, std::span<HalfEdge> out, bool fullCircle, Predicates& predicates) {
   if (out.size() < 2) return;
   const auto head = [&](HalfEdge h) { return origin(h.twin()); };
   const auto turn = [&](HalfEdge g, HalfEdge h) { return vertices_->orient(ids_[v], head(g), head(h), axis_, predicates); };
@@ -113,9 +113,9 @@ bool PlanarGraph::isBefore(VertexId u, VertexId v, Predicates& predicates) const
 }
 
 /// The cycle that runs around a component from outside: it passes the component's first vertex where the rest lies to the right.
-PlanarGraph::Cycle PlanarGraph::exteriorCycle(const std::vector<LocalVertex>& component, Predicates& predicates) {
-  LocalVertex first = component[0];
-  for (const LocalVertex v : component) {
+PlanarGraph::Cycle PlanarGraph::exteriorCycle(const std::vector<GraphVertex>& component, Predicates& predicates) {
+  GraphVertex first = component[0];
+  for (const GraphVertex v : component) {
     if (isBefore(ids_[v], ids_[first], predicates)) first = v;
   }
   const std::span<const HalfEdge> out = out_[first];
@@ -152,7 +152,7 @@ void PlanarGraph::placeComponents(Predicates& predicates) {
       if (innermost == kNoCycle || depthOf(c) > depthOf(innermost)) innermost = c;
     }
     if (innermost == kNoCycle || depthOf(innermost) + 1 != component.holders.size()) {  // loops that cross
-      const VertexId other = component.holders.empty() ? ids_[LocalVertex{0}] : origin(cycleStarts_[component.holders.back()]);
+      const VertexId other = component.holders.empty() ? ids_[GraphVertex{0}] : origin(cycleStarts_[component.holders.back()]);
       vertices_->failSelfIntersectionAt(ids_[component.members[0]], other);
     }
     faceOf_[component.exterior] = faceOf_[innermost];
@@ -165,15 +165,15 @@ void PlanarGraph::findFloating(Predicates& predicates) {
   isExterior_.assign(cycleStarts_.size(), 0);
   components_.reset(ids_.size());
   for (HalfEdge h{0}; h.number < ends_.size(); h.number += 2) components_.unite(ends_[h], ends_[h.twin()]);
-  const Ids<LocalVertex> inside(sides_, ids_.size());
-  std::vector<LocalVertex> roots;
-  for (const LocalVertex v : inside) {
+  const Ids<GraphVertex> inside(sides_, ids_.size());
+  std::vector<GraphVertex> roots;
+  for (const GraphVertex v : inside) {
     if (components_.find(v) == v) roots.push_back(v);
   }
   if (roots.empty()) return;
   floating_.resize(roots.size());
   componentOf_.assign(ids_.size(), uint32_t(roots.size()));  // the outline's, unless found to float
-  for (const LocalVertex v : inside) {
+  for (const GraphVertex v : inside) {
     const auto root = std::lower_bound(roots.begin(), roots.end(), components_.find(v));
     if (root == roots.end() || *root != components_.find(v)) continue;
     componentOf_[v] = uint32_t(root - roots.begin());
@@ -188,20 +188,20 @@ void PlanarGraph::findFloating(Predicates& predicates) {
 /// Which bounded cycles hold each component: those that a ray to growing p from one of its vertices leaves an odd number of times.
 void PlanarGraph::findHolders(Predicates& predicates) {
   const int p = (axis_ + 1) % 3, q = (axis_ + 2) % 3;
-  IdVector<LocalVertex, CutVertices::Range> rangeP(ids_.size()), rangeQ(ids_.size());
-  for (const LocalVertex v : ids_.ids()) {
+  IdVector<GraphVertex, CutVertices::Range> rangeP(ids_.size()), rangeQ(ids_.size());
+  for (const GraphVertex v : ids_.ids()) {
     rangeP[v] = vertices_->range(ids_[v], p, predicates);
     rangeQ[v] = vertices_->range(ids_[v], q, predicates);
   }
   IdVector<Cycle, uint8_t> odd(cycleStarts_.size(), 0);
   for (uint32_t k = 0; k < floating_.size(); ++k) {
-    const LocalVertex v = floating_[k].members[0];
+    const GraphVertex v = floating_[k].members[0];
     std::fill(odd.begin(), odd.end(), uint8_t(0));
-    const auto above = [&](LocalVertex u) {
+    const auto above = [&](GraphVertex u) {
       return rangeQ[u].low > rangeQ[v].high || (rangeQ[u].high >= rangeQ[v].low && vertices_->compare(ids_[u], ids_[v], q, predicates) > 0);
     };
     for (HalfEdge h{0}; h.number < ends_.size(); h.number += 2) {
-      LocalVertex low = ends_[h], high = ends_[h.twin()];
+      GraphVertex low = ends_[h], high = ends_[h.twin()];
       if (componentOf_[low] == k || std::max(rangeP[low].high, rangeP[high].high) < rangeP[v].low) continue;
       if (above(low) == above(high)) continue;
       if (above(low)) std::swap(low, high);

@@ -11,6 +11,7 @@
 #include "base/csr.h"
 #include "base/disjoint_sets.h"
 #include "cut/predicates/cut_vertices.h"
+#include "cut/stages/chains.h"
 
 namespace mandoline::detail {
 
@@ -31,6 +32,10 @@ class PlanarGraph {
   void setOutline(const std::vector<VertexId>& outline);
   /// A cut-edge inside of the square.
   void addEdge(VertexId from, VertexId to);
+
+  /// The faces by chains alone, where that is enough: then `chains.loops` holds all of them, and nothing needs to be built.
+  bool traceChains(Chains& chains) const { return chains.trace(uint32_t(sides_), ends_, ids_.size()); }
+  VertexId vertex(GraphVertex v) const { return ids_[v]; }
 
   /// Traces the faces: afterwards the members below hold. Slits are left out of the loops, or run through forth and back.
   enum class Slits : bool { out, in };
@@ -64,26 +69,25 @@ class PlanarGraph {
   std::optional<HalfEdge> find(VertexId from, VertexId to) const;
 
  private:
-  using LocalVertex = Id<struct GraphVertexTag>;
   using Cycle = Id<struct GraphCycleTag>;  ///< of half-edges, each with the next: an outline of a face with its slits
   static constexpr Cycle kNoCycle{~0u};
   static constexpr Face kUnset{~0u - 1};
 
   /// A component that does not reach the outline.
   struct Floating {
-    std::vector<LocalVertex> members;
+    std::vector<GraphVertex> members;
     Cycle exterior = kNoCycle;   // the one that runs around it from outside
     std::vector<Cycle> holders;  // those that run around it
   };
 
-  LocalVertex localOf(VertexId id);
-  void orderOutgoing(LocalVertex v, Predicates& predicates);
-  void sortAround(LocalVertex v, std::span<HalfEdge> out, bool fullCircle, Predicates& predicates);
+  GraphVertex localOf(VertexId id);
+  void orderOutgoing(GraphVertex v, Predicates& predicates);
+  void sortAround(GraphVertex v, std::span<HalfEdge> out, bool fullCircle, Predicates& predicates);
   void traceCycles();
   void placeComponents(Predicates& predicates);
   void findFloating(Predicates& predicates);
   void findHolders(Predicates& predicates);
-  Cycle exteriorCycle(const std::vector<LocalVertex>& component, Predicates& predicates);
+  Cycle exteriorCycle(const std::vector<GraphVertex>& component, Predicates& predicates);
   void traceLoops(Predicates& predicates);
   bool isBefore(VertexId u, VertexId v, Predicates& predicates) const;
 
@@ -91,20 +95,20 @@ class PlanarGraph {
   int axis_ = 0;
   Slits slits_ = Slits::out;
   size_t sides_ = 0;
-  IdVector<LocalVertex, VertexId> ids_;
-  IdVector<VertexId, LocalVertex> localTable_;  // sparse: valid where ids_ agrees
-  IdVector<HalfEdge, LocalVertex> ends_;        // origins
-  Csr<HalfEdge, LocalVertex> out_;              // outgoing half-edges, counter-clockwise
+  IdVector<GraphVertex, VertexId> ids_;
+  IdVector<VertexId, GraphVertex> localTable_;  // sparse: valid where ids_ agrees
+  IdVector<HalfEdge, GraphVertex> ends_;        // origins
+  Csr<HalfEdge, GraphVertex> out_;              // outgoing half-edges, counter-clockwise
   std::vector<uint32_t> at_;                    // scratch
   IdVector<HalfEdge, HalfEdge> nextOf_;         // slits included
   IdVector<HalfEdge, Cycle> cycleOf_;
   IdVector<Cycle, HalfEdge> cycleStarts_;
   IdVector<Cycle, Face> faceOf_;
   IdVector<HalfEdge, uint8_t> traced_;
-  IdSets<LocalVertex> components_;
+  IdSets<GraphVertex> components_;
   std::vector<Floating> floating_;
   IdVector<Cycle, uint8_t> isExterior_;
-  IdVector<LocalVertex, uint32_t> componentOf_;  // index into floating_, or its size; only where some float
+  IdVector<GraphVertex, uint32_t> componentOf_;  // index into floating_, or its size; only where some float
 };
 
 }  // namespace mandoline::detail

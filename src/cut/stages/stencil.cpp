@@ -21,26 +21,84 @@ int owner(const Input& input, const Slab& gridFace, Slab& cell) {
   return cellFace(axis, last ? 1 : 0);
 }
 
-/// Earlier neighbours of a cell in the order by z, y, x: each is found by walking along as the cells ascend.
+/// What a cell has in common with one of the neighbours that come before it in the order by z, y, x.
+struct Neighbour {
+  /// Index of a grid-face, grid-edge or corner in the cell, and in the neighbour.
+  struct Shared {
+    uint8_t here, there;
+  };
+  template <size_t kMost>
+  struct List {
+    Shared items[kMost] = {};
+    size_t count = 0;
+
+    constexpr void add(int here, int there) { items[count++] = {uint8_t(here), uint8_t(there)}; }
+    constexpr const Shared* begin() const { return items; }
+    constexpr const Shared* end() const { return items + count; }
+  };
+  int shift[3] = {};
+  List<1> faces;
+  List<4> edges, corners;
+};
+
+constexpr Neighbour neighbourAt(int dx, int dy, int dz) {
+  Neighbour n{{dx, dy, dz}, {}, {}, {}};
+  // A side of the cell is shared if the neighbour lies towards it or level with it; it is then the opposite or the same side there.
+  const auto isShared = [&](int d, int side) { return n.shift[d] == 0 || (n.shift[d] > 0) == (side == 1); };
+  const auto there = [&](int d, int side) { return n.shift[d] == 0 ? side : 1 - side; };
+  for (int d = 0; d < 3; ++d) {
+    const int e = (d + 1) % 3, f = (d + 2) % 3;
+    for (int side = 0; side < 2; ++side) {
+      if (n.shift[d] != 0 && isShared(d, side) && n.shift[e] == 0 && n.shift[f] == 0) n.faces.add(2 * d + side, 2 * d + 1 - side);
+    }
+    if (n.shift[d] != 0) continue;
+    for (int i = 0; i < 4; ++i) {
+      if (isShared(e, i & 1) && isShared(f, i >> 1)) n.edges.add(4 * d + i, 4 * d + there(e, i & 1) + 2 * there(f, i >> 1));
+    }
+  }
+  for (int i = 0; i < 8; ++i) {
+    const int x = i & 1, y = i >> 1 & 1, z = i >> 2;
+    if (isShared(0, x) && isShared(1, y) && isShared(2, z)) n.corners.add(i, there(0, x) + 2 * there(1, y) + 4 * there(2, z));
+  }
+  return n;
+}
+
+/// The 13 of 26 neighbours that come before.
+constexpr auto kEarlier = [] {
+  std::array<Neighbour, 13> earlier{};
+  for (int i = 0; i < 13; ++i) earlier[size_t(i)] = neighbourAt(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+  return earlier;
+}();
+
+/// Finds earlier neighbours: each by walking along as the cells ascend.
 class EarlierNeighbours {
  public:
-  EarlierNeighbours(const Input& input, const std::vector<uint64_t>& keys) : input_(input), keys_(keys) {}
+  EarlierNeighbours(const Input& input, const std::vector<uint64_t>& keys) : keys_(keys) {
+    for (size_t d = 0; d < 3; ++d) most_[d] = 2 * input.cells(int(d));
+    for (size_t i = 0; i < kEarlier.size(); ++i) {
+      const auto& [dx, dy, dz] = kEarlier[i].shift;
+      distances_[i] = (int64_t(dz) * input.cells(1) + dy) * input.cells(0) + dx;
+    }
+  }
 
-  /// Cell at `element` + 2 * (dx, dy, dz), if any. For each offset, calls must come with ascending cells.
-  std::optional<GridCellId> find(const Slab& element, int dx, int dy, int dz) {
-    const Slab other = {element[0] + 2 * dx, element[1] + 2 * dy, element[2] + 2 * dz};
-    if (!input_.inGrid(other)) return {};
-    const uint64_t key = keyOf(input_, other);
-    size_t& at = at_[(dz + 1) * 9 + (dy + 1) * 3 + dx + 1];
-    while (at < keys_.size() && keys_[at] < key) ++at;
-    if (at == keys_.size() || keys_[at] != key) return {};
+  /// kEarlier[i] of a cell, if it is there. For each i, calls must come with ascending cells.
+  std::optional<GridCellId> find(size_t i, const Slab& element, uint64_t key) {
+    for (size_t d = 0; d < 3; ++d) {
+      const int32_t at = element[d] + 2 * kEarlier[i].shift[d];
+      if (at < 0 || at > most_[d]) return {};
+    }
+    const uint64_t wanted = key + uint64_t(distances_[i]);
+    size_t& at = at_[i];
+    while (keys_[at] < wanted) ++at;  // the cell itself comes later
+    if (keys_[at] != wanted) return {};
     return GridCellId{uint32_t(at)};
   }
 
  private:
-  const Input& input_;
   const std::vector<uint64_t>& keys_;
-  size_t at_[27] = {};
+  int32_t most_[3];
+  int64_t distances_[13];
+  size_t at_[13] = {};
 };
 
 /// Ids of grid-faces, grid-edges and grid vertices: a cell takes over those that an earlier neighbour shares.
@@ -53,30 +111,13 @@ void numberElements(const Input& input, const std::vector<uint64_t>& keys, Stenc
     cell.faces.fill({kNew});
     cell.edges.fill({kNew});
     cell.corners.fill({kNew});
-    for (int offset = 0; offset < 13; ++offset) {  // the 13 of 26 neighbours that come before
-      const int shift[3] = {offset % 3 - 1, offset / 3 % 3 - 1, offset / 9 - 1};
-      const auto n = neighbours.find(cell.element, shift[0], shift[1], shift[2]);
+    for (size_t i = 0; i < kEarlier.size(); ++i) {
+      const auto n = neighbours.find(i, cell.element, keys[c.number]);
       if (!n) continue;
       const Stencil::Cell& other = stencil.cells[*n];
-      // A side of this cell is shared if the neighbour lies towards it or level with it; it is then the opposite or the same side there.
-      const auto shared = [&](int d, int side) { return shift[d] == 0 || (shift[d] > 0) == (side == 1); };
-      const auto there = [&](int d, int side) { return shift[d] == 0 ? side : 1 - side; };
-      for (int d = 0; d < 3; ++d) {
-        const int e = (d + 1) % 3, f = (d + 2) % 3;
-        for (int side = 0; side < 2; ++side) {
-          if (shift[d] != 0 && shared(d, side) && shift[e] == 0 && shift[f] == 0)
-            cell.faces[cellFace(d, side)] = other.faces[cellFace(d, 1 - side)];
-        }
-        if (shift[d] != 0) continue;
-        for (int i = 0; i < 4; ++i) {
-          if (shared(e, i & 1) && shared(f, i >> 1))
-            cell.edges[cellEdge(d, i & 1, i >> 1)] = other.edges[cellEdge(d, there(e, i & 1), there(f, i >> 1))];
-        }
-      }
-      for (int i = 0; i < 8; ++i) {
-        const int x = i & 1, y = i >> 1 & 1, z = i >> 2;
-        if (shared(0, x) && shared(1, y) && shared(2, z)) cell.corners[i] = other.corners[there(0, x) + 2 * there(1, y) + 4 * there(2, z)];
-      }
+      for (const auto [here, there] : kEarlier[i].faces) cell.faces[here] = other.faces[there];
+      for (const auto [here, there] : kEarlier[i].edges) cell.edges[here] = other.edges[there];
+      for (const auto [here, there] : kEarlier[i].corners) cell.corners[here] = other.corners[there];
     }
     for (uint8_t i = 0; i < 6; ++i) {
       if (cell.faces[i].number != kNew) continue;

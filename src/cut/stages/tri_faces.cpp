@@ -11,6 +11,79 @@ struct Corner {
 };
 using Polygon = std::vector<Corner>;
 
+/// A convex polygon that is cut along an axis, from its lowest vertices up. Its outline ascends from there on two sides, which are walked
+/// once for all planes: so a polygon across many planes costs what its pieces cost.
+class Sweep {
+ public:
+  Sweep(const Polygon& polygon, int axis, int32_t least, Polygon& piece, Polygon& floor)
+      : polygon_(polygon), axis_(axis), piece_(piece), floor_(floor) {
+    while (slab(up_) != least || slab(after(up_)) == least) ++up_;
+    down_ = up_;
+    while (slab(before(down_)) == least) down_ = before(down_);
+    begin();
+    for (size_t i = down_; i != up_; i = after(i)) take(i);
+    take(up_);
+  }
+
+  /// Where the outline leaves the last plane upwards, counter-clockwise, and where it comes back.
+  const Corner& up() const { return polygon_[up_]; }
+  const Corner& down() const { return polygon_[down_]; }
+
+  /// Goes on to a plane, which the polygon has been cut at along its outline.
+  void climb(int32_t slabOfPlane) {
+    while (slab(up_) != slabOfPlane) take(up_ = after(up_));
+    base_ = down_;
+    while (slab(down_) != slabOfPlane) down_ = before(down_);
+  }
+  /// The piece below that plane, whose line in the plane has these vertices from up() to down() inside of it.
+  const Polygon& below(const Polygon& line) {
+    piece_.insert(piece_.end(), line.begin(), line.end());
+    for (size_t i = down_; i != base_; i = after(i)) take(i);
+    floor_.assign(line.rbegin(), line.rend());
+    return rotated();
+  }
+  /// The piece above that line; what climbs on begins there.
+  void beginAbove() {
+    begin();
+    take(down_);
+    piece_.insert(piece_.end(), floor_.begin(), floor_.end());
+    take(up_);
+  }
+  /// The piece above the last plane.
+  const Polygon& rest() {
+    for (size_t i = after(up_); i != down_; i = after(i)) take(i);
+    return rotated();
+  }
+
+ private:
+  int32_t slab(size_t i) const { return polygon_[i].slab[axis_]; }
+  size_t after(size_t i) const { return i + 1 < polygon_.size() ? i + 1 : 0; }
+  size_t before(size_t i) const { return i > 0 ? i - 1 : polygon_.size() - 1; }
+
+  void begin() {
+    piece_.clear();
+    lowest_ = polygon_.size();
+  }
+  void take(size_t i) {
+    if (i < lowest_) {
+      lowest_ = i;
+      start_ = piece_.size();
+    }
+    piece_.push_back(polygon_[i]);
+  }
+  /// Loops begin with the first vertex in the polygon's order.
+  const Polygon& rotated() {
+    std::rotate(piece_.begin(), piece_.begin() + std::ptrdiff_t(start_), piece_.end());
+    return piece_;
+  }
+
+  const Polygon& polygon_;
+  const int axis_;
+  Polygon &piece_, &floor_;
+  size_t up_ = 0, down_ = 0, base_ = 0;
+  size_t lowest_ = 0, start_ = 0;
+};
+
 /// What one chunk of triangles makes. Ids of its own vertices count from vertices.size() on.
 struct Chunk {
   TriFaces faces;
@@ -18,8 +91,8 @@ struct Chunk {
   std::vector<Slab> slabs;          // of those vertices
   std::vector<TriangleId> parents;  // of those vertices
   Predicates predicates;
-  Polygon whole, chain;
-  Polygon rest[3], low[3], high[3];  // per axis
+  Polygon whole, line;
+  Polygon piece[3], floor[3];  // per axis
 };
 
 constexpr size_t kMost = size_t(1) << 31;  // loop entries, vertices
@@ -100,20 +173,24 @@ class Dicer {
   void split(int axis, const Polygon& polygon) {
     if (axis == 3) return emit(polygon);
     const auto [least, greatest] = extent(polygon, axis);
-    const int32_t first = firstPlaneAfter(least), last = lastPlaneBefore(greatest), end = 2 * input_.cells(axis);
-    if (first > last) {
-      const int32_t slab = slabBetween(least, greatest);
-      if (keepOutside_ || (slab >= 0 && slab <= end)) split(axis + 1, polygon);
-      return;
-    }
-    Polygon &rest = chunk_.rest[axis], &low = chunk_.low[axis], &high = chunk_.high[axis];
-    rest = polygon;
+    const int32_t first = firstPlaneAfter(least), last = lastPlaneBefore(greatest);
+    if (first > last) return splitOn(axis, slabBetween(least, greatest), polygon);
+    Sweep sweep(polygon, axis, least, chunk_.piece[axis], chunk_.floor[axis]);
     for (int32_t plane = first; plane <= last; ++plane) {
-      splitAt(axis, plane, rest, low, high);
-      if (keepOutside_ || plane > 0) split(axis + 1, low);
-      rest.swap(high);
+      sweep.climb(2 * plane);
+      makeLine(axis, plane, sweep.up(), sweep.down());
+      addHybridEdges(sweep.up(), sweep.down());
+      splitOn(axis, 2 * plane - 1, sweep.below(chunk_.line));
+      sweep.beginAbove();
     }
-    if (keepOutside_ || last < input_.cells(axis)) split(axis + 1, rest);
+    splitOn(axis, 2 * last + 1, sweep.rest());
+  }
+
+  /// Goes on with a polygon that lies in one slab of the axis.
+  void splitOn(int axis, int32_t slab, const Polygon& polygon) {
+    if (!keepOutside_ && (slab < 0 || slab > 2 * input_.cells(axis))) return;
+    element_[axis] = slab;
+    split(axis + 1, polygon);
   }
 
   static std::pair<int32_t, int32_t> extent(const Polygon& polygon, int axis) {
@@ -125,43 +202,25 @@ class Dicer {
     return {least, greatest};
   }
 
-  /// The polygon has vertices on both sides of the plane, and, being convex and cut at every plane along its sides, two on it.
-  void splitAt(int axis, int32_t plane, const Polygon& polygon, Polygon& low, Polygon& high) {
-    const int32_t on = 2 * plane;
-    const size_t n = polygon.size();
-    const Corner *up = nullptr, *down = nullptr;  // where the polygon's outline leaves the low side, and where it comes back
-    for (size_t i = 0; i < n; ++i) {
-      if (polygon[i].slab[axis] != on) continue;
-      (polygon[i + 1 < n ? i + 1 : 0].slab[axis] > on ? up : down) = &polygon[i];
-    }
-    low.clear();
-    high.clear();
-    makeChain(axis, plane, *up, *down);
-    const Polygon& chain = chunk_.chain;
-    for (const Corner& c : polygon) {
-      if (c.slab[axis] <= on) low.push_back(c);
-      if (c.slab[axis] >= on) high.push_back(c);
-      if (&c == up) low.insert(low.end(), chain.begin(), chain.end());
-      if (&c == down) high.insert(high.end(), chain.rbegin(), chain.rend());
-    }
-    const Corner* from = up;
-    for (size_t i = 0; i <= chain.size(); ++i) {
-      const Corner* to = i < chain.size() ? &chain[i] : down;
+  /// The pieces of a hybrid edge, whose inner vertices have been made.
+  void addHybridEdges(const Corner& a, const Corner& b) {
+    const Polygon& line = chunk_.line;
+    const Corner* from = &a;
+    for (size_t i = 0; i <= line.size(); ++i) {
+      const Corner* to = i < line.size() ? &line[i] : &b;
       const Slab element = elementBetween(from->slab, to->slab);
-      if (planeCount(element) == 1 && (keepOutside_ || input_.inGrid(element))) addHybridEdge({element, from->id, to->id});
+      if (planeCount(element) == 1 && (keepOutside_ || input_.inGrid(element))) {
+        faces_->hybridEdges.push_back({element, from->id, to->id});
+        if (faces_ == &chunk_.undivided) chunk_.undivided.hybridTriangles.push_back(triangle_);
+      }
       from = to;
     }
   }
 
-  void addHybridEdge(const FaceEdge& edge) {
-    faces_->hybridEdges.push_back(edge);
-    if (faces_ == &chunk_.undivided) chunk_.undivided.hybridTriangles.push_back(triangle_);
-  }
-
   /// The vertices inside of the hybrid edge a -> b, which lies in the plane: its crossings with planes of the axes not yet cut.
-  void makeChain(int axis, int32_t plane, const Corner& a, const Corner& b) {
-    Polygon& chain = chunk_.chain;
-    chain.clear();
+  void makeLine(int axis, int32_t plane, const Corner& a, const Corner& b) {
+    Polygon& line = chunk_.line;
+    line.clear();
     if (axis == 2) return;
     Corner at = a;
     if (axis == 0) {  // crossings with y-planes; where they lie along z is up to P2
@@ -172,7 +231,7 @@ class Dicer {
         const Slab slab = {2 * plane, 2 * j, heightOf(plane, j, step, at.slab[2], b.slab[2])};
         crossZ(at, slab);
         at = addVertex(slab);
-        chain.push_back(at);
+        line.push_back(at);
       }
     }
     crossZ(at, b.slab);
@@ -186,7 +245,7 @@ class Dicer {
     Slab slab = elementBetween(from.slab, to);
     for (int32_t k = first; step > 0 ? k < past : k > past; k += step) {
       slab[2] = 2 * k;
-      chunk_.chain.push_back(addVertex(slab));
+      chunk_.line.push_back(addVertex(slab));
     }
   }
 
@@ -217,17 +276,12 @@ class Dicer {
   }
 
   void emit(const Polygon& polygon) {
-    Slab element;
-    for (int d = 0; d < 3; ++d) {
-      const auto [least, greatest] = extent(polygon, d);
-      element[d] = slabBetween(least, greatest);
-    }
     bool touchesLine = false;
     for (const Corner& c : polygon) {
       faces_->loops.items.push_back(c.id);
       touchesLine |= planeCount(c.slab) > 1;
     }
-    addFace(element, touchesLine);
+    addFace(element_, touchesLine);
   }
 
   void addFace(const Slab& element, bool touchesLine) {
@@ -249,6 +303,7 @@ class Dicer {
   TriangleId triangle_{0};
   TriFaces* faces_ = nullptr;    // where faces go
   bool keepOutside_ = false;     // those outside the grid as well
+  Slab element_{};               // of the piece, for the axes by which it has been cut
   std::vector<Corner> onLines_;  // vertices of the arrangement inside of the triangle that lie on grid lines, by slab
 };
 

@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <random>
 
+#include "case_list.h"
 #include "catch.h"
+#include "lattice.h"
 #include "staged_cut.h"
 
 using namespace stages;
@@ -59,4 +62,66 @@ TEST_CASE("A triangle in a grid-face takes the place of that piece", "[stages][g
   CHECK_FALSE(cut.state.faces.isTri(halfFaces[1].face()));
   CHECK_FALSE(cut.state.faces.triangle(halfFaces[1].face()));
   CHECK(cut.state.faces.loops(halfFaces[1].face()).size() == 2);
+}
+
+TEST_CASE("Chains give the same pieces as planar graphs", "[stages][gridFaces]") {
+  std::vector<NamedCase> cases = caseList();
+  std::mt19937 random(7);
+  for (int i = 0; i < 150; ++i) {
+    std::array<uint8_t, 96> bytes;
+    for (uint8_t& byte : bytes) byte = uint8_t(random());
+    LatticeCase soup = decodeLattice(bytes.data(), bytes.size());
+    cases.push_back({"lattice", std::move(soup.mesh), std::move(soup.grid)});
+  }
+  size_t pieces = 0;
+  for (const NamedCase& one : cases) {
+    CAPTURE(one.name);
+    const StagedCut quick(one.mesh, Stage::gridFaces, {}, one.grid), general(one.mesh, Stage::gridFaces, {}, one.grid, true);
+    const GridFaces &a = quick.state.faces.grid, &b = general.state.faces.grid;
+    CHECK(a.loops.offsets == b.loops.offsets);
+    CHECK(a.loops.items == b.loops.items);
+    CHECK(a.faceLoopOffsets == b.faceLoopOffsets);
+    CHECK(a.gridFaces == b.gridFaces);
+    CHECK(a.halfFaces.offsets == b.halfFaces.offsets);
+    CHECK(a.halfFaces.items == b.halfFaces.items);
+    CHECK(a.slits.offsets == b.slits.offsets);
+    pieces += a.size();
+  }
+  CHECK(pieces > 10000);
+}
+
+namespace {
+
+/// A square whose corners are the vertices 0 to 3, and edges inside.
+bool areChains(const std::vector<std::array<uint32_t, 2>>& edges, Chains& chains) {
+  std::vector<GraphVertex> ends;
+  uint32_t vertices = 4;
+  for (uint32_t i = 0; i < 4; ++i) ends.insert(ends.end(), {{i}, {(i + 1) % 4}});
+  for (const auto& [a, b] : edges) {
+    ends.insert(ends.end(), {{a}, {b}});
+    vertices = std::max({vertices, a + 1, b + 1});
+  }
+  return chains.trace(4, ends, vertices);
+}
+
+}  // namespace
+
+TEST_CASE("Chains say where they are not enough", "[stages][gridFaces]") {
+  Chains chains;
+  CHECK(areChains({{0, 4}, {5, 4}, {5, 2}}, chains));
+  REQUIRE(chains.loops.size() == 2);
+  const auto loop = [&](size_t i) {
+    std::vector<uint32_t> ids;
+    for (const GraphVertex v : chains.loops[i]) ids.push_back(v.number);
+    return ids;
+  };
+  CHECK(loop(0) == std::vector<uint32_t>{0, 1, 2, 5, 4});
+  CHECK(loop(1) == std::vector<uint32_t>{2, 3, 0, 4, 5});
+  CHECK_FALSE(areChains({{0, 4}}, chains));                          // ends inside
+  CHECK_FALSE(areChains({{4, 5}, {5, 6}, {6, 4}}, chains));          // floats
+  CHECK_FALSE(areChains({{0, 2}, {4, 5}, {5, 6}, {6, 4}}, chains));  // floats beside a chain
+  CHECK_FALSE(areChains({{0, 2}, {1, 3}}, chains));                  // cross
+  CHECK_FALSE(areChains({{0, 2}, {0, 3}}, chains));                  // share a vertex of the outline
+  CHECK_FALSE(areChains({{0, 4}, {4, 2}, {4, 3}}, chains));          // meet inside
+  CHECK_FALSE(areChains({{0, 1}}, chains));                          // along the outline
 }
