@@ -74,7 +74,7 @@ test('after a large cut and a small one another thread goes on: memory that grew
   const page = await site.open(t, link('n=8'));
   const threads = page.workers();
   await enter(page, '#cells-number', 190);
-  await eventually(async () => assert.equal((await dataOf(page, '#canvas')).model, '2'));
+  await eventually(async () => assert.equal((await dataOf(page, '#canvas')).model, '2'), 120_000);
   assert.ok(threads.every((thread) => page.workers().includes(thread)));
   await enter(page, '#cells-number', 9);
   await shows(page, '#counts', countsOf(await cutOf(mesh, { cells: 9 })));

@@ -43,12 +43,12 @@ test('nothing in it jumps', () => {
 const site = await startSite();
 after(() => site.close());
 
-/** A machine that draws sixty pictures a second, by its own clock. */
+/** A machine that draws sixty pictures a second, by its own clock, which stands still while the picture is divided. */
 function quickMachine() {
   let time = performance.now();
   performance.now = () => time;
   const tick = () => {
-    time += 1000 / 60;
+    if (document.getElementById('canvas')?.dataset.compare !== 'voxels') time += 1000 / 60;
     requestAnimationFrame(tick);
   };
   requestAnimationFrame(tick);
@@ -65,6 +65,19 @@ const open = async (t, { hash = '', ...options } = {}) => {
   return page;
 };
 
+/** From now on notes what stands beside the model. */
+async function watch(page) {
+  await page.locator('#canvas').evaluate((canvas) => {
+    window.seen = [];
+    const note = () => window.seen.push(canvas.dataset.compare, canvas.dataset.wind);
+    new MutationObserver(note).observe(canvas, { attributeFilter: ['data-compare', 'data-wind'] });
+  });
+}
+
+async function showedModelAlone(page) {
+  assert.deepEqual((await page.evaluate(() => window.seen)).filter(Boolean), []);
+}
+
 const timeOf = (page) => page.evaluate(() => performance.now());
 
 test('the first touch ends it: settings, link and history are as if it had never been', async (t) => {
@@ -73,6 +86,7 @@ test('the first touch ends it: settings, link and history are as if it had never
   assert.equal(await page.locator('.divider').count(), 0);
   await page.keyboard.press('Shift');
   await shows(page, '#canvas', { compare: '', wind: '' });
+  await watch(page);
   const pictures = async () => Number((await dataOf(page, '#canvas')).frames);
   let before = -1;
   await eventually(async () => {
@@ -81,6 +95,9 @@ test('the first touch ends it: settings, link and history are as if it had never
     before = now;
     assert.ok(rests, 'the picture rests');
   });
+  const touched = await timeOf(page);
+  await eventually(async () => assert.ok((await timeOf(page)) > touched + 1000));
+  await showedModelAlone(page);
   await shows(page, '#canvas', { compare: '', wind: '' });
   assert.equal(new URL(page.url()).hash, toHash(defaultSettings()));
   assert.equal(await page.evaluate(() => history.length), 2); // the empty page and this one
@@ -105,14 +122,8 @@ test('it is left out where motion is unwanted, in embedded pages and for links',
   for (const options of [{ reducedMotion: 'reduce' }, { hash: '?embed' }, { hash: '#n=8' }]) {
     const page = await open(t, options);
     const begin = await timeOf(page);
-    await page.evaluate(() => {
-      window.seen = [];
-      new MutationObserver(() => window.seen.push(document.getElementById('canvas').dataset.compare)).observe(
-        document.getElementById('canvas'),
-        { attributeFilter: ['data-compare'] },
-      );
-    });
+    await watch(page);
     await eventually(async () => assert.ok((await timeOf(page)) > begin + 1000));
-    assert.deepEqual((await page.evaluate(() => window.seen)).filter(Boolean), []);
+    await showedModelAlone(page);
   }
 });

@@ -126,6 +126,27 @@ describe('steps', () => {
   });
 });
 
+/** Runs in the page before all else: counts how often the worker is asked for checks. */
+function noteChecks() {
+  const { postMessage } = Worker.prototype;
+  window.checks = 0;
+  Worker.prototype.postMessage = function (message, ...rest) {
+    if (Object.values(message).includes('validate')) ++window.checks;
+    return postMessage.call(this, message, ...rest);
+  };
+}
+
+/** After a pause, by the page's own timer: those that were set before it have gone off then. */
+async function areNotAsked(page, why) {
+  const [before, after] = await page.evaluate(async () => {
+    const { checks } = window;
+    await new Promise((resolve) => setTimeout(resolve, 1200));
+    return [checks, window.checks];
+  });
+  assert.equal(after, before, why);
+  assert.equal(await page.locator('#check-line').count(), 0, why);
+}
+
 describe('checks', () => {
   test('all pass for the bunny; their deviations are there for those who ask', async (t) => {
     const page = await site.open(t, 'mesh=bunny&n=8&free=off');
@@ -153,7 +174,7 @@ describe('checks', () => {
   });
 
   test('of a small cut are made by themselves once it stands, and told in one line', async (t) => {
-    const page = await site.open(t, link);
+    const page = await site.open(t, link, { onNewPage: (made) => made.addInitScript(noteChecks) });
     const { grid, cellGridCell, cellRegion } = cutMesh;
     const filled = new Map();
     reference.measures.cellVolume.forEach((volume, cell) => {
@@ -166,21 +187,20 @@ describe('checks', () => {
     const isChecked = () =>
       eventually(async () => assert.equal((await dataOf(page, '#check-line')).model, (await dataOf(page, '#counts')).model));
     await isChecked();
+    assert.equal(await page.evaluate(() => window.checks), 1);
     const [count, words] = [cellRegion.length.toLocaleString('en'), gap === 0 ? 'exactly' : `within ${gap.toPrecision(1)} of a cell`];
     assert.equal(await textOf(page, '#check-line'), `All ${count} cut-cells are closed; their volumes fill their grid cells ${words}.`);
     await page.mouse.move(300, 300);
     await page.mouse.down();
     await slideTo(page, '#cells', 7);
     assert.equal(await isReady(page), 'ready');
-    await page.waitForTimeout(1200);
-    assert.equal(await page.locator('#check-line').count(), 0, 'of a cut that is held nothing is said');
+    await areNotAsked(page, 'of a cut that is held nothing is said');
     await page.mouse.up();
     await isChecked();
     await slideTo(page, '#cells', 24);
     assert.equal(await isReady(page), 'ready');
     assert.ok(Number((await dataOf(page, '#counts')).faces) > 14_000);
-    await page.waitForTimeout(1200);
-    assert.equal(await page.locator('#check-line').count(), 0, 'a larger one is checked when that is asked for');
+    await areNotAsked(page, 'a larger one is checked when that is asked for');
     await openPanel(page, 'checks');
     await page.locator('#validate').click();
     await isChecked();

@@ -383,7 +383,7 @@ describe('show', () => {
   });
 
   test('an open sheet has next to no inside: all cells around it are shown', async (t) => {
-    const page = await site.open(t);
+    const page = await site.open(t, '', { reducedMotion: 'reduce' });
     await page.locator('#url').fill(site.meshUrl('sheet.obj'));
     await page.locator('#open-url').click();
     const { cutMesh } = await cutOf(sheet, { cells: 16 });
