@@ -1,5 +1,5 @@
 // Makes the pictures of the gallery, each of an entry as it opens, from the built page: node tests/page/thumbnails.mjs
-import { mkdirSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { path } from '../steps.mjs';
 import { importBundled } from './bundled.mjs';
@@ -13,32 +13,48 @@ const size = { width: 128, height: 96 };
 
 const cleanUp = [];
 const site = await startSite();
-rmSync(folder, { recursive: true, force: true });
-mkdirSync(folder, { recursive: true });
-// Where motion is unwanted, whole streamlines are drawn, at rest.
-const page = await site.open({ after: (f) => cleanUp.push(f) }, 'mesh=wedge&n=2', {
-  viewport: { width: 340 + 480, height: 360 },
-  colorScheme: 'light',
-  reducedMotion: 'reduce',
-  panels: ['save'],
-  expectedProblem: /404/, // of the pictures of new entries
-});
-await page.locator('#picture-transparent').check();
-let bytes = 0;
-for (const entry of gallery) {
+try {
+  const made = await pictures();
+  for (const f of cleanUp) await f();
+  keep(made);
+} finally {
+  await site.close();
+}
+
+/** The pictures, by the names of their files. */
+async function pictures() {
+  // Where motion is unwanted, whole streamlines are drawn, at rest.
+  const page = await site.open({ after: (f) => cleanUp.push(f) }, 'mesh=wedge&n=2', {
+    viewport: { width: 340 + 480, height: 360 },
+    colorScheme: 'light',
+    reducedMotion: 'reduce',
+    panels: ['save'],
+    expectedProblem: /404/, // of the pictures of new entries
+  });
+  await page.locator('#picture-transparent').check();
+  const made = new Map();
+  for (const entry of gallery) made.set(`${entry.name}.webp`, await pictureOf(page, entry));
+  return made;
+}
+
+async function pictureOf(page, entry) {
   const { settings } = readPreset(entry);
   await page.evaluate((hash) => (location.hash = hash), toHash(settings));
   await shows(page, '#mesh-line', { name: entry.name });
   await isReady(page);
   await shows(page, '#canvas', { wind: settings.wind.on ? settings.wind.direction.join() : '', shadow: 'drawn' });
   const picture = await download(page, '#save-png');
-  const thumbnail = Buffer.from(await page.evaluate(shrink, { png: picture.bytes.toString('base64'), ...size }), 'base64');
-  writeFileSync(join(folder, `${entry.name}.webp`), thumbnail);
-  bytes += thumbnail.length;
+  return Buffer.from(await page.evaluate(shrink, { png: picture.bytes.toString('base64'), ...size }), 'base64');
 }
-console.log(`${gallery.length} pictures, ${(bytes / 1024).toFixed(0)} KB`);
-for (const f of cleanUp) await f();
-await site.close();
+
+/** Only once all are there: these, and none of entries that are gone. */
+function keep(made) {
+  mkdirSync(folder, { recursive: true });
+  for (const [name, bytes] of made) writeFileSync(join(folder, name), bytes);
+  for (const name of readdirSync(folder)) if (!made.has(name)) rmSync(join(folder, name), { recursive: true });
+  const total = Array.from(made.values()).reduce((sum, { length }) => sum + length, 0);
+  console.log(`${made.size} pictures, ${(total / 1024).toFixed(0)} KB`);
+}
 
 /** Runs in the page: what is drawn on a transparent picture, as large as it fits, as WebP. */
 async function shrink({ png, width, height }) {
