@@ -3,6 +3,7 @@
 
 #include "case_list.h"
 #include "catch.h"
+#include "cut/stages/chains.h"
 #include "lattice.h"
 #include "staged_cut.h"
 
