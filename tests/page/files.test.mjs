@@ -145,6 +145,7 @@ describe('formats', () => {
       const mesh = await parse(name, content);
       assert.ok(mesh.positions instanceof Float64Array && mesh.triangles instanceof Uint32Array);
       assert.deepEqual(corners(mesh), expectedCorners);
+      assert.equal(mesh.isReadHere, /gltf|glb|also/.test(name), 'whether the package does not read it');
     });
   }
 

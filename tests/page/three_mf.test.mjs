@@ -47,7 +47,11 @@ const upTo = (name, file) => Buffer.from(file).subarray(0, Buffer.from(file).ind
 
 describe('3MF', () => {
   test('by content, whatever its name', async () => {
-    for (const name of ['a.3mf', 'a.stl', 'a']) assert.deepEqual(corners(await parse(name, threeMf())), expectedCorners);
+    for (const name of ['a.3mf', 'a.stl', 'part.zip', 'a']) {
+      const mesh = await parse(name, threeMf());
+      assert.deepEqual(corners(mesh), expectedCorners);
+      assert.ok(mesh.isReadHere, 'not by the package');
+    }
   });
 
   test('objects placed, mirrored, made of others, and in another file of the archive', async () => {
