@@ -4,7 +4,7 @@ import { GpuPace } from './gpu_pace';
 import { Quality } from './quality';
 
 export interface Drawing {
-  /** Does a part of what is best done before the first picture, then of what is best done soon after it. Gives whether there is more. */
+  /** Does a part of what is best done soon after the first picture. Gives whether there is more. */
   warmUp(): boolean;
   /** Brings what is drawn up to date. */
   prepare(): void;
@@ -12,8 +12,8 @@ export interface Drawing {
   isWaiting(): boolean;
   /** Draws, with this share of the screen's pixels per side. Gives whether something goes on moving by itself. */
   draw(seconds: number, share: number): boolean;
-  /** A picture that took so long, in ms, has stood for a moment. */
-  stand(took: number): void;
+  /** A picture that took so long, in ms, has stood for a moment. Gives whether a model is in it. */
+  stand(took: number): boolean;
 }
 
 /** In ms. */
@@ -28,8 +28,7 @@ export class Loop {
   private asked = 0;
   private watched = 0;
   private isStale = true;
-  /** Before the first picture, and after it has stood. */
-  private warmUps: 'none' | 'first' | 'both' = 'none';
+  private isWarm = false;
   /** Whether what is drawn is up to date and waits for its frame. */
   private isPrepared = false;
   private whenFree: (() => void) | null = null;
@@ -40,26 +39,20 @@ export class Loop {
     private readonly drawing: Drawing,
   ) {
     this.pace = new GpuPace(gl);
-    setTimeout(() => this.warmUp(() => this.begin()));
   }
 
   /** By a timer, since there may be no frames while the GPU is busy. */
-  private warmUp(whenDone = () => {}): void {
+  private warmUp(): void {
     if (!this.pace.isBehind) {
-      if (!this.drawing.warmUp()) return whenDone();
+      if (!this.drawing.warmUp()) return;
       this.pace.mark();
     }
-    setTimeout(() => this.warmUp(whenDone), pollTime);
-  }
-
-  private begin(): void {
-    this.warmUps = 'first';
-    this.invalidate();
+    setTimeout(() => this.warmUp(), pollTime);
   }
 
   /** Asks for a frame. */
   invalidate(): void {
-    if (this.asked === 0 && this.warmUps !== 'none') this.asked = requestAnimationFrame(() => this.tick());
+    if (this.asked === 0) this.asked = requestAnimationFrame(() => this.tick());
   }
 
   /** Asks for a frame that has to be prepared. */
@@ -68,9 +61,8 @@ export class Loop {
     this.invalidate();
   }
 
-  /** Draws now, as finely as the screen has it; before the first picture, as soon as can be. */
+  /** Draws now, as finely as the screen has it. */
   draw(): void {
-    if (this.warmUps === 'none') return;
     cancelAnimationFrame(this.asked);
     this.asked = 0;
     this.prepare();
@@ -142,9 +134,8 @@ export class Loop {
   private stand(): void {
     if (this.asked !== 0) return;
     if (this.pace.isBehind) return this.standSoon();
-    this.drawing.stand(this.pace.took);
-    if (this.warmUps === 'both') return;
-    this.warmUps = 'both';
+    if (!this.drawing.stand(this.pace.took) || this.isWarm) return;
+    this.isWarm = true;
     this.warmUp();
   }
 

@@ -129,15 +129,17 @@ class ThreeView implements View {
     );
     this.occlusion = new Occlusion(this.renderer, this.picker, this.camera.camera);
     this.flatCuts = new FlatCuts(options.slice);
-    this.warmUp = new WarmUp(this.renderer, this.camera.camera);
     this.loop = new Loop(this.renderer.getContext() as WebGL2RenderingContext, {
       warmUp: () => this.warmUp.takeOver(),
       prepare: () => this.prepare(),
       isWaiting: () => this.flatCuts.isAwaited,
       draw: (seconds, share) => this.draw(seconds, share),
-      stand: (took) => this.occlusion.stand(this.look, took),
+      stand: (took) => {
+        this.occlusion.stand(this.look, took);
+        return this.look !== null;
+      },
     });
-    const { renderer, scene, loop, ofModel, caps, shadow, gizmo, windTunnel, uniforms, camera, framing, picker, halves, warmUp } = this;
+    const { renderer, scene, loop, ofModel, caps, shadow, gizmo, windTunnel, uniforms, camera, framing, picker, halves } = this;
     this.touch = new Touch({
       ...{ canvas, uniforms, camera, framing, loop, picker, halves, ofModel },
       look: () => (this.modelGroup.visible ? this.look : null),
@@ -156,10 +158,7 @@ class ThreeView implements View {
     this.setScheme(matchMedia('(prefers-color-scheme: dark)').matches);
     this.listen();
     this.resize();
-    // The background, before the GPU is busy.
-    renderer.render(scene, camera.camera);
-    const [first, all] = [this.modelGroup, scene].map((object) => ({ scene: object, target: null }));
-    void warmUp.compile(first, [...shadow.passes, picker.pass, all]).catch(() => warmUp.forget());
+    this.warmUp = new WarmUp(renderer, camera.camera, [{ scene, target: null }, ...shadow.passes, picker.pass]);
   }
 
   private listen(): void {
