@@ -248,7 +248,7 @@ describe('when the graphics context is lost', () => {
     await page.waitForFunction(() => document.body.dataset.state === 'ready');
     await lose(page);
     await eventually(async () => assert.match(await textOf(page, alert), /The picture is lost for now/));
-    assert.ok(!(await dataOf(page, '#canvas')).frames);
+    assert.ok(!(await dataOf(page, '#canvas')).model, 'the model has not been drawn');
     await restore(page);
     await isReady(page);
     await eventually(async () => assert.ok(covered(await pixelsOf(page)) > 0.05));
