@@ -235,24 +235,6 @@ describe('when the graphics context is lost', () => {
     await page.mouse.click(x + width / 2, y + height / 2);
     await page.locator('#cell-card').waitFor();
   });
-
-  test('before the first picture, that comes once it is back', async (t) => {
-    const page = await site.newPage(t);
-    await page.addInitScript(() => {
-      const { clientWaitSync, TIMEOUT_EXPIRED } = WebGL2RenderingContext.prototype;
-      WebGL2RenderingContext.prototype.clientWaitSync = function (...given) {
-        return window.lost ? clientWaitSync.apply(this, given) : TIMEOUT_EXPIRED;
-      };
-    });
-    await page.goto(`${site.url}#${start}`);
-    await page.waitForFunction(() => document.body.dataset.state === 'ready');
-    await lose(page);
-    await eventually(async () => assert.match(await textOf(page, alert), /The picture is lost for now/));
-    assert.ok(!(await dataOf(page, '#canvas')).model, 'the model has not been drawn');
-    await restore(page);
-    await isReady(page);
-    await eventually(async () => assert.ok(covered(await pixelsOf(page)) > 0.05));
-  });
 });
 
 test('a worker that turns out not to start does not take the place of the one after it, and is ended in silence', async () => {
