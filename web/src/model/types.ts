@@ -339,7 +339,7 @@ export interface View {
   onWind: (direction: Vector3) => void;
   setScheme(dark: boolean): void;
   readonly files: ViewFiles;
-  /** How many pictures have been drawn. */
+  /** How many pictures of models have been drawn. */
   readonly pictures: number;
   frame(): void;
   /** Flies to where the camera looks at the model from this direction. */

@@ -295,7 +295,8 @@ class ThreeView implements View {
     const isAppearing = this.occlusion.animate(this.look);
     this.halves.render(this.renderer, this.scene, this.camera.camera);
     this.inset.render(this.look, this.camera.camera);
-    this.canvas.dataset.frames = String(++this.pictures);
+    if (this.look) ++this.pictures;
+    this.canvas.dataset.frames = String(Number(this.canvas.dataset.frames ?? 0) + 1);
     this.shadow.tellTests(this.canvas.dataset);
     return isAppearing || moving.length > 0;
   }
