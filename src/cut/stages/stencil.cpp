@@ -49,11 +49,12 @@ constexpr Neighbour neighbourAt(int dx, int dy, int dz) {
   for (int d = 0; d < 3; ++d) {
     const int e = (d + 1) % 3, f = (d + 2) % 3;
     for (int side = 0; side < 2; ++side) {
-      if (n.shift[d] != 0 && isShared(d, side) && n.shift[e] == 0 && n.shift[f] == 0) n.faces.add(2 * d + side, 2 * d + 1 - side);
+      if (n.shift[d] != 0 && isShared(d, side) && n.shift[e] == 0 && n.shift[f] == 0) n.faces.add(cellFace(d, side), cellFace(d, 1 - side));
     }
     if (n.shift[d] != 0) continue;
     for (int i = 0; i < 4; ++i) {
-      if (isShared(e, i & 1) && isShared(f, i >> 1)) n.edges.add(4 * d + i, 4 * d + there(e, i & 1) + 2 * there(f, i >> 1));
+      if (!isShared(e, i & 1) || !isShared(f, i >> 1)) continue;
+      n.edges.add(cellEdge(d, i & 1, i >> 1), cellEdge(d, there(e, i & 1), there(f, i >> 1)));
     }
   }
   for (int i = 0; i < 8; ++i) {

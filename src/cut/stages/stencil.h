@@ -13,8 +13,8 @@ namespace mandoline::detail {
 
 /// Numbering inside of a cell, by bits: 1 for the upper side along an axis.
 /// Corner: bit d for axis d. Grid-face: 2 * axis + side. Grid-edge along d: 4 * d + side along d + 1, + 2 * side along d + 2 (mod 3).
-inline int cellFace(int axis, int side) { return 2 * axis + side; }
-inline int cellEdge(int axis, int side1, int side2) { return 4 * axis + side1 + 2 * side2; }
+constexpr int cellFace(int axis, int side) { return 2 * axis + side; }
+constexpr int cellEdge(int axis, int side1, int side2) { return 4 * axis + side1 + 2 * side2; }
 
 struct Stencil {
   struct Cell {
