@@ -2,6 +2,7 @@
 import { CustomBlending, DepthTexture, DstAlphaFactor, DstColorFactor, Mesh, PlaneGeometry, Scene, ShaderMaterial } from 'three';
 import { Vector2, WebGLRenderTarget, ZeroFactor, type PerspectiveCamera, type WebGLRenderer } from 'three';
 import { GTAOPass } from 'three/examples/jsm/postprocessing/GTAOPass.js';
+import { wholeTargetShader } from './whole_target';
 
 /** From how far away things shade each other, in scene units. */
 const reach = 0.3;
@@ -60,12 +61,7 @@ function makeDarkening(): ShaderMaterial {
     blendDst: ZeroFactor,
     blendSrcAlpha: DstAlphaFactor,
     blendDstAlpha: ZeroFactor,
-    vertexShader: /* glsl */ `
-      varying vec2 at;
-      void main() {
-        at = uv;
-        gl_Position = vec4(position.xy, 0.0, 1.0);
-      }`,
+    vertexShader: wholeTargetShader,
     fragmentShader: /* glsl */ `
       uniform sampler2D light;
       uniform float strength;

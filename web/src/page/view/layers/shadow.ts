@@ -6,6 +6,7 @@ import { shownPoints } from '../extent';
 import type { Layer, Look } from '../layer';
 import type { Uniforms } from '../material';
 import type { Pass } from '../warm_up';
+import { wholeTargetShader } from '../whole_target';
 
 /** Pixels along a side of the picture. */
 const size = 128;
@@ -152,12 +153,7 @@ function makeBlur(): ShaderMaterial {
     depthTest: false,
     depthWrite: false,
     blending: NoBlending,
-    vertexShader: /* glsl */ `
-      varying vec2 at;
-      void main() {
-        at = uv;
-        gl_Position = vec4(position.xy, 0.0, 1.0);
-      }`,
+    vertexShader: wholeTargetShader,
     fragmentShader: /* glsl */ `
       uniform sampler2D picture;
       uniform vec2 step;
