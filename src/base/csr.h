@@ -63,6 +63,11 @@ struct Csr {
   /// Groups first .. past - 1.
   Groups<Item> groups(size_t first, size_t past) const { return {offsets.data() + first, past - first, items.data()}; }
 
+  /// Forgets all groups, but keeps their memory.
+  void clear() {
+    offsets.assign(1, 0);
+    items.clear();
+  }
   /// Ends a group: it holds the items that were appended since the one before it.
   void endGroup() { offsets.push_back(uint32_t(items.size())); }
   /// Appends the groups of another one.

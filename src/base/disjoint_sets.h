@@ -18,6 +18,7 @@ class DisjointSets {
     parent_.resize(n);
     std::iota(parent_.begin(), parent_.end(), 0u);
   }
+  size_t size() const { return parent_.size(); }
   uint32_t find(uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;

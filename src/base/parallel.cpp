@@ -5,13 +5,57 @@
 
 namespace mandoline::detail {
 
+namespace {
+
+/// Runs work(thread) on that many threads, or on fewer where there are no more.
+void runOnThreads(size_t threads, FunctionRef<void(size_t)> work) {
+  std::vector<std::thread> pool;
+  try {
+    for (size_t i = 1; i < threads; ++i) pool.emplace_back([&, i] { work(i); });
+  } catch (const std::system_error&) {  // the existing ones do the work
+  }
+  work(0);
+  for (std::thread& thread : pool) thread.join();
+}
+
+/// What went wrong in a loop on several threads.
+class Failures {
+ public:
+  /// To be called in a handler, by any thread.
+  void note(size_t item) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    try {
+      throw;
+    } catch (const ProgressFailed&) {
+      item_ = 0;  // nothing else counts any more
+      isProgress_ = true;
+      exception_ = std::current_exception();
+    } catch (...) {
+      if (isProgress_ || item >= item_) return;
+      item_ = item;
+      exception_ = std::current_exception();
+    }
+  }
+  /// Whether an item before this one, or this one, has failed.
+  bool isBehind(size_t item) const { return item >= item_; }
+  void rethrow() const {
+    if (exception_) std::rethrow_exception(exception_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::atomic<size_t> item_{SIZE_MAX};
+  bool isProgress_ = false;
+  std::exception_ptr exception_;
+};
+
+}  // namespace
+
 void runChunks(size_t n, size_t chunks, Monitor& monitor, FunctionRef<void(size_t, size_t, size_t)> f, size_t block) {
-  std::vector<std::exception_ptr> failures(chunks);
-  std::exception_ptr progressFailure;
+  Failures failures;
   std::atomic<size_t> nextChunk{0}, done{0};
-  std::atomic<bool> failed{false};
-  const auto work = [&] {
-    for (size_t c; !failed && (c = nextChunk++) < chunks;) {
+  runOnThreads(chunks > 1 ? monitor.threads() : 1, [&](size_t) {
+    for (size_t c; (c = nextChunk++) < chunks && !failures.isBehind(c);) {
       try {
         for (size_t begin = n * c / chunks, end = n * (c + 1) / chunks; begin < end;) {
           const size_t stop = std::min(end, begin + block);
@@ -19,26 +63,30 @@ void runChunks(size_t n, size_t chunks, Monitor& monitor, FunctionRef<void(size_
           monitor.report(done += stop - begin, n);
           begin = stop;
         }
-      } catch (const ProgressFailed&) {  // the callback is not called again, so there is one at most
-        progressFailure = std::current_exception();
-        failed = true;
       } catch (...) {
-        failures[c] = std::current_exception();
-        failed = true;
+        failures.note(c);
       }
     }
-  };
-  std::vector<std::thread> pool;
-  try {
-    for (unsigned i = 1; chunks > 1 && i < monitor.threads(); ++i) pool.emplace_back(work);
-  } catch (const std::system_error&) {  // no more threads available: the existing ones do the work
-  }
-  work();
-  for (std::thread& thread : pool) thread.join();
-  if (progressFailure) std::rethrow_exception(progressFailure);
-  for (const std::exception_ptr& failure : failures) {
-    if (failure) std::rethrow_exception(failure);
-  }
+  });
+  failures.rethrow();
+}
+
+void runItems(const std::vector<uint32_t>& order, Monitor& monitor, FunctionRef<void(size_t, uint32_t)> f) {
+  Failures failures;
+  std::atomic<size_t> next{0}, done{0};
+  runOnThreads(std::min<size_t>(monitor.threads(), order.size()), [&](size_t thread) {
+    for (size_t i; (i = next++) < order.size();) {
+      const uint32_t item = order[i];
+      if (failures.isBehind(item)) continue;  // those before the first that failed have yet to show whether they do
+      try {
+        f(thread, item);
+        monitor.report(++done, order.size());
+      } catch (...) {
+        failures.note(item);
+      }
+    }
+  });
+  failures.rethrow();
 }
 
 }  // namespace mandoline::detail

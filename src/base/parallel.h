@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -102,5 +103,9 @@ std::vector<State> forChunks(size_t n, Monitor& monitor, const F& f, size_t bloc
       n, states.size(), monitor, [&](size_t chunk, size_t begin, size_t end) { f(states[chunk], begin, end); }, block);
   return states;
 }
+
+/// Runs f(thread, item) for each item of `order`, in that order, on all threads; `thread` counts from 0 to below monitor.threads(), and no
+/// two run with the same one at once. Of several failures that of the lowest item is thrown, but ProgressFailed before any other.
+MANDOLINE_SHARED void runItems(const std::vector<uint32_t>& order, Monitor& monitor, FunctionRef<void(size_t, uint32_t)> f);
 
 }  // namespace mandoline::detail

@@ -54,7 +54,7 @@ class Clock {
   double start_, last_;
 };
 
-constexpr int kOrientStages = 2, kMeshStages = 2, kGridStages = 9;
+constexpr int kOrientStages = 2, kMeshStages = 2, kGridStages = 6;
 
 /// Adds the counts of a mesh's preparation.
 void addCounts(const Prepared& prepared, CutStats& stats) {
@@ -85,7 +85,7 @@ void sign(CutMesh& cutMesh, Fingerprint mesh, const CutOptions& options) {
 CutMesh cutPrepared(const Prepared& prepared, const MeshView& mesh, const Grid& grid, Clock& clock, Run& run) {
   addCounts(prepared, run.stats);
   CutState state;
-  auto& [surface, stencil, faces, cells, regions] = state;
+  Surface& surface = state.surface;
 
   clock.begin("grid");
   surface.input = prepareInput(prepared, grid, run);
@@ -95,23 +95,16 @@ CutMesh cutPrepared(const Prepared& prepared, const MeshView& mesh, const Grid& 
 
     clock.begin("triFaces");
     UndividedFaces undivided;
-    faces.tri = cutTriangles(surface, undivided, run);
-    divideFaces(surface, undivided, faces.tri, run);
+    state.triFaces = cutTriangles(surface, undivided, run);
+    divideFaces(surface, undivided, state.triFaces, run);
 
-    clock.begin("stencil");
-    stencil = makeStencil(surface, faces.tri, run);
-
-    clock.begin("gridEdges");
-    const GridEdges gridEdges = cutGridEdges(stencil, faces.tri, surface.vertices, run);
-
-    clock.begin("gridFaces");
-    faces.grid = cutGridFaces(surface, stencil, gridEdges, faces.tri, run);
-
-    clock.begin("cutCells");
-    cells = makeCutCells(surface, stencil, faces, run);
+    clock.begin("bricks");
+    state.bricks = layOutBricks(surface, state.triFaces, run);
+    state.runs = findUntouchedRuns(surface.input, state.bricks, run.monitor);
+    state.cuts = cutBricks(state.cutSurface(), surface.vertices, state.runs, run);
 
     clock.begin("regions");
-    regions = findRegions(surface, stencil, faces, cells, run);
+    state.regions = findRegions(state.cutSurface(), state.runs, state.cuts, run);
 
     clock.begin("output");
     CutMesh result = makeOutput(mesh, grid, state, run);

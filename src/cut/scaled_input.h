@@ -34,7 +34,9 @@ struct Input {
 struct Run {
   CutStats& stats;
   Monitor& monitor;
-  bool onlyGeneral = false;  ///< whether stages leave out their short cuts, which give the same: for tests
+  // For tests: the result is the same.
+  bool onlyGeneral = false;  ///< whether stages leave out their short cuts
+  int brickShift = 5;        ///< 2^brickShift grid cells along each side of a brick
 
   void count(const Predicates& predicates) { stats.exactFallbacks += predicates.fallbacks; }
 };

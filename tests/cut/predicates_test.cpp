@@ -127,14 +127,14 @@ struct Cut : stages::StagedCut {
   Input& input = state.surface.input;
   const MeshEdges& edges = state.surface.edges();
   CutVertices& vertices = state.surface.vertices;
-  TriFaces& faces = state.faces.tri;
+  TriFaces& faces = state.triFaces;
   std::vector<VertexId> used;  // ids of vertices that there are
   IdVector<VertexId, Vector> points;
 
   explicit Cut(const Soup& soup) : StagedCut(soup.mesh, stages::Stage::triFaces, stages::unresolved(), soup.grid) {
     for (int32_t k = 0; k <= input.cells(2); k += 2) {
       for (int32_t j = 0; j <= input.cells(1); j += 2) {
-        for (int32_t i = 0; i <= input.cells(0); i += 2) vertices.append({2 * i, 2 * j, 2 * k});
+        for (int32_t i = 0; i <= input.cells(0); i += 2) vertices.slabs.push_back({2 * i, 2 * j, 2 * k});
       }
     }
     points.resize(vertices.size());
@@ -419,7 +419,10 @@ struct Wheel {
       }
     }
     std::vector<VertexId> outline;
-    for (const Slab& slab : {Slab{0, 0, 2}, Slab{2, 0, 2}, Slab{2, 2, 2}, Slab{0, 2, 2}}) outline.push_back(cut.vertices.append(slab));
+    for (const Slab& slab : {Slab{0, 0, 2}, Slab{2, 0, 2}, Slab{2, 2, 2}, Slab{0, 2, 2}}) {
+      outline.push_back({uint32_t(cut.vertices.size())});
+      cut.vertices.slabs.push_back(slab);
+    }
     graph.begin(cut.vertices, 2);
     graph.setOutline(outline);
     for (size_t i = 0; i < tips.size(); ++i) {

@@ -363,11 +363,11 @@ test('returning false cancels; what a callback throws reaches the caller; both l
       {
         progress: ({ stage }) => {
           ++calls;
-          return stage !== 'stencil';
+          return stage !== 'bricks';
         },
       },
     );
-  assert.throws(cancelled, { name: 'MandolineError', code: 'cancelled', stage: 'stencil' });
+  assert.throws(cancelled, { name: 'MandolineError', code: 'cancelled', stage: 'bricks' });
   const after = calls;
   const own = new Error('mine');
   assert.throws(
@@ -644,8 +644,8 @@ test('describe takes any value that was caught', () => {
   assert.equal(describe(new TypeError('no')), 'TypeError: no');
   assert.equal(describe('text'), 'text');
   assert.equal(describe(undefined), 'undefined');
-  const fault = { code: 'internalError', message: 'No way.', stage: 'gridFaces', element: -1, element2: -1 };
-  assert.match(describe(fault), /^No way\. It happened in gridFaces\. Please report/);
+  const fault = { code: 'internalError', message: 'No way.', stage: 'bricks', element: -1, element2: -1 };
+  assert.match(describe(fault), /^No way\. It happened in bricks\. Please report/);
 });
 
 test('describe says nothing twice', () => {

@@ -88,10 +88,7 @@ export type Stage =
   | 'grid'
   | 'triEdges'
   | 'triFaces'
-  | 'stencil'
-  | 'gridEdges'
-  | 'gridFaces'
-  | 'cutCells'
+  | 'bricks'
   | 'regions'
   | 'output';
 

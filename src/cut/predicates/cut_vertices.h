@@ -1,8 +1,8 @@
 // The cut-vertices (paper, 3.2) and exact predicates on them.
 //
 // Ids are ranges: tri-vertices (by input id; where triangles meet, made vertices follow), crossings of tri-edges with axial planes,
-// crossings of triangles with grid lines, grid vertices. Every vertex has slabs; its coordinates are only ever known as quotients of
-// polynomials in input and plane doubles.
+// crossings of triangles with grid lines, grid vertices (by brick). Every vertex has slabs; its coordinates are only ever known as
+// quotients of polynomials in input and plane doubles.
 #pragma once
 
 #include <optional>
@@ -44,12 +44,6 @@ struct CutVertices {
   std::optional<TriEdgeId> triEdgeOf(const Link& link) const;
   /// Whether a piece of a tri-edge runs along it from its lower end.
   bool runsUp(TriEdgeId edge, const Link& link) const;
-
-  /// Adds a vertex at the end of the last range.
-  VertexId append(const Slab& slab) {
-    slabs.push_back(slab);
-    return {uint32_t(slabs.size() - 1)};
-  }
 
   /// A double point at or near the vertex, for coordinates relative to it.
   Point reference(VertexId v) const;

@@ -5,7 +5,7 @@ namespace mandoline::detail {
 bool Chains::trace(uint32_t sides, std::span<const GraphVertex> ends, size_t vertices) {
   if (!link(sides, ends, vertices)) return false;
   const size_t edges = ends.size() / 2;
-  faceOf_.assign(edges, kNone);
+  beside.assign(2 * edges, kNone);
   traced_.assign(sides, 0);
   loops.offsets.assign(1, 0);
   loops.items.clear();
@@ -36,17 +36,18 @@ bool Chains::traceFace(uint32_t first, uint32_t sides, std::span<const GraphVert
   uint32_t at = first;
   do {
     traced_[at] = 1;
+    beside[2 * size_t(at)] = face;
     loops.items.push_back({at});
     at = at + 1 < sides ? at + 1 : 0;
     uint32_t edge = links_[2 * size_t(at)];
     if (edge == kNone) continue;
-    if (faceOf_[edge] == face) return false;  // on both sides of the chain
+    if (beside[2 * size_t(edge)] == face || beside[2 * size_t(edge) + 1] == face) return false;  // on both sides of the chain
     for (;;) {
       loops.items.push_back({at});
-      faceOf_[edge] = face;
       ++passes_;
-      const uint32_t from = ends[2 * size_t(edge)].number;
-      at = from != at ? from : ends[2 * size_t(edge) + 1].number;
+      const bool forward = ends[2 * size_t(edge)].number == at;
+      beside[2 * size_t(edge) + !forward] = face;
+      at = ends[2 * size_t(edge) + forward].number;
       if (at < sides) break;
       const uint32_t* links = &links_[2 * size_t(at)];
       edge = links[links[0] == edge ? 1 : 0];

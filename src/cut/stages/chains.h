@@ -21,6 +21,8 @@ class Chains {
 
   /// One for each face: those that PlanarGraph finds, in its order.
   Csr<GraphVertex> loops;
+  /// 2 per edge: the faces left and right of it, in its direction; of the outline, which runs counter-clockwise, the left one alone.
+  std::vector<uint32_t> beside;
 
  private:
   bool link(uint32_t sides, std::span<const GraphVertex> ends, size_t vertices);
@@ -28,10 +30,9 @@ class Chains {
 
   static constexpr uint32_t kNone = ~0u;
 
-  std::vector<uint32_t> links_;   // per vertex: its edges inside of the square, up to two
-  std::vector<uint32_t> faceOf_;  // per edge: the last face that passed it
-  std::vector<uint8_t> traced_;   // per edge of the outline
-  size_t passes_ = 0;             // of edges inside, one for each side
+  std::vector<uint32_t> links_;  // per vertex: its edges inside of the square, up to two
+  std::vector<uint8_t> traced_;  // per edge of the outline
+  size_t passes_ = 0;            // of edges inside, one for each side
 };
 
 }  // namespace mandoline::detail

@@ -4,36 +4,25 @@
 
 #include "base/sort.h"
 #include "cut/predicates/radial_order.h"
-#include "cut/stages/edge_table.h"
 #include "cut/stages/floating_shells.h"
 
 namespace mandoline::detail {
 namespace {
 
-struct Chunk {
-  CutCells cells;
-  Predicates predicates;
-  CellHalves halves;
-  EdgeTable table;
-  Shells shells;
-  std::vector<EdgeTable::Use> around;
-  IdVector<LocalHalf, uint8_t> anchored;  // per root: whether a half-face of a grid-face is joined to it
-  IdVector<LocalHalf, uint32_t> cellOf;   // among the cut-cells of the grid cell
-  std::vector<uint32_t> ends;             // per cut-cell: number of its half-faces, then where the next one goes
-};
-
 class CellMaker {
  public:
-  CellMaker(const Surface& surface, const Stencil& stencil, const CutFaces& faces, Chunk& chunk)
-      : surface_(surface), vertices_(surface.vertices), stencil_(stencil), faces_(faces), chunk_(chunk) {}
+  CellMaker(const Surface& surface, const Stencil& stencil, const CutFaces& faces, CellScratch& scratch, CutCells& cells)
+      : surface_(surface), vertices_(surface.vertices), stencil_(stencil), faces_(faces), scratch_(scratch), cells_(cells) {}
 
   void make(GridCellId gridCell) {
     collectHalves(gridCell);
-    collectUses();
-    chunk_.shells.reset(chunk_.halves.halfFaces.size());
-    for (const EdgeTable::Edge& edge : chunk_.table.edges) linkAround(edge);
+    scratch_.shells.reset(scratch_.halves.halfFaces.size());
+    if (scratch_.onlyGeneral || !scratch_.plain.link({surface_, stencil_, faces_, scratch_.halves}, scratch_.shells)) {
+      collectUses();
+      for (const EdgeTable::Edge& edge : scratch_.table.edges) linkAround(edge);
+    }
     if (hasFloatingShell()) {
-      nestFloatingShells({surface_, stencil_, faces_, chunk_.halves}, chunk_.shells, chunk_.predicates);
+      nestFloatingShells({surface_, stencil_, faces_, scratch_.halves}, scratch_.shells, scratch_.predicates);
     }
     emit();
   }
@@ -43,7 +32,7 @@ class CellMaker {
   static HalfFace seenFrom(int side, HalfFace fromBelow) { return side == 1 ? fromBelow : fromBelow.twin(); }
 
   void collectHalves(GridCellId gridCell) {
-    CellHalves& cell = chunk_.halves;
+    CellHalves& cell = scratch_.halves;
     cell.gridCell = gridCell;
     cell.triFaces = stencil_.triFacesInCell[gridCell];
     cell.halfFaces.clear();
@@ -57,17 +46,17 @@ class CellMaker {
   }
 
   /// Of the cell.
-  const std::array<GridFaceId, 6>& gridFaces() const { return stencil_.cells[chunk_.halves.gridCell].faces; }
+  const std::array<GridFaceId, 6>& gridFaces() const { return stencil_.cells[scratch_.halves.gridCell].faces; }
 
   void collectUses() {
-    chunk_.table.clear(countUses());
+    scratch_.table.clear(countUses());
     addTriFaces();
     addGridFaces();
     for (int i = 0; i < 6; ++i) addSlits(i, faces_.grid.slits[gridFaces()[i]]);
   }
 
   size_t countUses() const {
-    const CellHalves& cell = chunk_.halves;
+    const CellHalves& cell = scratch_.halves;
     size_t most = 0;
     for (const FaceId f : cell.triFaces) {
       for (const auto loop : faces_.tri.loopsOf(f)) most += loop.size();
@@ -80,24 +69,24 @@ class CellMaker {
   }
 
   void addTriFaces() {
-    const CellHalves& cell = chunk_.halves;
+    const CellHalves& cell = scratch_.halves;
     touchesLine_ = false;
     for (const LocalFace f : cell.localFaces()) {
       touchesLine_ |= faces_.tri.touchesLine[cell.triFace(f)] != 0;
       for (const auto loop : faces_.tri.loopsOf(cell.triFace(f))) {
-        for (size_t k = 0; k < loop.size(); ++k) chunk_.table.add(loop[k], loop[k + 1 < loop.size() ? k + 1 : 0], sideOf(f, 0), true);
+        for (size_t k = 0; k < loop.size(); ++k) scratch_.table.add(loop[k], loop[k + 1 < loop.size() ? k + 1 : 0], sideOf(f, 0), true);
       }
     }
   }
 
   void addGridFaces() {
-    const CellHalves& cell = chunk_.halves;
+    const CellHalves& cell = scratch_.halves;
     for (const LocalHalf h : cell.gridHalves()) {
       const bool reversed = cell.halfFaces[h].side() == 1;
       for (const auto loop : faces_.loops(cell.halfFaces[h].face())) {
         for (size_t k = 0; k < loop.size(); ++k) {
           const VertexId u = loop[k], v = loop[k + 1 < loop.size() ? k + 1 : 0];
-          reversed ? chunk_.table.add(v, u, h, false) : chunk_.table.add(u, v, h, false);
+          reversed ? scratch_.table.add(v, u, h, false) : scratch_.table.add(u, v, h, false);
         }
       }
     }
@@ -105,11 +94,11 @@ class CellMaker {
 
   /// `side`: which of the cell's grid-faces they lie in.
   void addSlits(int side, std::span<const Slit> slits) {
-    const CellHalves& cell = chunk_.halves;
+    const CellHalves& cell = scratch_.halves;
     for (const Slit& slit : slits) {
       const LocalHalf h = cell.localOf(seenFrom(side & 1, slit.halfFace));
-      chunk_.table.add(slit.from, slit.to, h, false);
-      chunk_.table.add(slit.to, slit.from, h, false);
+      scratch_.table.add(slit.from, slit.to, h, false);
+      scratch_.table.add(slit.to, slit.from, h, false);
     }
   }
 
@@ -117,12 +106,12 @@ class CellMaker {
   /// higher. A tri-cut-face that runs upward has its normal towards growing angles; a half-face of a grid-face that runs upward has the
   /// cell on the side of smaller angles, so it comes last, and one that runs downward comes first.
   void linkAround(const EdgeTable::Edge& edge) {
-    auto& around = chunk_.around;
+    auto& around = scratch_.around;
     around.clear();
     std::optional<LocalHalf> first, last;
     int gridUses = 0;
-    for (uint32_t u = edge.firstUse; u != EdgeTable::kEnd; u = chunk_.table.uses[u].next) {
-      const EdgeTable::Use& use = chunk_.table.uses[u];
+    for (uint32_t u = edge.firstUse; u != EdgeTable::kEnd; u = scratch_.table.uses[u].next) {
+      const EdgeTable::Use& use = scratch_.table.uses[u];
       if (use.isTri) {
         around.push_back(use);
       } else {
@@ -139,15 +128,15 @@ class CellMaker {
     const auto after = [](const EdgeTable::Use& use) { return sideOf(faceOf(use), use.ascending ? 1 : 0); };
     LocalHalf previous = open ? *first : after(around.back());
     for (const EdgeTable::Use& use : around) {
-      chunk_.shells.unite(previous, before(use));
+      scratch_.shells.unite(previous, before(use));
       previous = after(use);
     }
-    if (open) chunk_.shells.unite(previous, *last);
+    if (open) scratch_.shells.unite(previous, *last);
   }
 
   /// The tri-cut-face of a use by one.
   static LocalFace faceOf(const EdgeTable::Use& use) { return {use.local.number / 2}; }
-  TriangleId triangleOf(const EdgeTable::Use& use) const { return faces_.tri.triangles[chunk_.halves.triFace(faceOf(use))]; }
+  TriangleId triangleOf(const EdgeTable::Use& use) const { return faces_.tri.triangles[scratch_.halves.triFace(faceOf(use))]; }
 
   bool onGridElement(const EdgeTable::Edge& edge) const {
     const Slab &a = vertices_.slabs[edge.low], &b = vertices_.slabs[edge.high];
@@ -158,7 +147,7 @@ class CellMaker {
 
   /// P6: sorts the tri-cut-faces around an edge by angle; if open, they span less than half a turn.
   void sortAround(const EdgeTable::Edge& edge, bool open) {
-    auto& around = chunk_.around;
+    auto& around = scratch_.around;
     sortItems(around, [](const auto& a, const auto& b) { return a.local != b.local ? a.local < b.local : a.ascending < b.ascending; });
     if (surface_.edges().inner.size() > 0) return sortHalfPlanes(edge, open);
     std::vector<Flap> flaps;
@@ -175,7 +164,7 @@ class CellMaker {
       }
       flaps.push_back({&surface_.input.point(t[(side + 2) % 3]), i});
     }
-    const size_t equal = sortRadially(*a, *b, open, flaps, chunk_.predicates);
+    const size_t equal = sortRadially(*a, *b, open, flaps, scratch_.predicates);
     if (equal > 0) vertices_.failSelfIntersection(triangleOf(around[flaps[equal - 1].item]), triangleOf(around[flaps[equal].item]));
     const std::vector<EdgeTable::Use> unsorted = around;
     for (size_t i = 0; i < flaps.size(); ++i) around[i] = unsorted[flaps[i].item];
@@ -183,13 +172,13 @@ class CellMaker {
 
   /// The same where the edge may run through the inside of triangles: by their planes.
   void sortHalfPlanes(const EdgeTable::Edge& edge, bool open) {
-    const std::vector<EdgeTable::Use> unsorted = chunk_.around;
+    const std::vector<EdgeTable::Use> unsorted = scratch_.around;
     std::vector<HalfPlane> halfPlanes;
     for (uint32_t i = 0; i < unsorted.size(); ++i) halfPlanes.push_back({triangleOf(unsorted[i]), unsorted[i].ascending, i});
     const Line line = lineOf(edge);
-    const size_t equal = sortRadially(*surface_.input.mesh, line, open, halfPlanes, chunk_.predicates);
+    const size_t equal = sortRadially(*surface_.input.mesh, line, open, halfPlanes, scratch_.predicates);
     if (equal > 0) vertices_.failSelfIntersection(halfPlanes[equal - 1].triangle, halfPlanes[equal].triangle);
-    for (size_t i = 0; i < halfPlanes.size(); ++i) chunk_.around[i] = unsorted[halfPlanes[i].item];
+    for (size_t i = 0; i < halfPlanes.size(); ++i) scratch_.around[i] = unsorted[halfPlanes[i].item];
   }
 
   /// The line of an edge of tri-cut-faces, directed from its lower vertex to its higher.
@@ -224,13 +213,13 @@ class CellMaker {
     const auto note = [&](std::optional<TriangleId> triangle) {
       if (triangle && triangle != found[0]) (found[0] ? found[1] : found[0]) = triangle;
     };
-    for (uint32_t u = edge.firstUse; u != EdgeTable::kEnd; u = chunk_.table.uses[u].next) {
-      const EdgeTable::Use& use = chunk_.table.uses[u];
-      note(faces_.triangle(chunk_.halves.halfFaces[use.local].face()));
+    for (uint32_t u = edge.firstUse; u != EdgeTable::kEnd; u = scratch_.table.uses[u].next) {
+      const EdgeTable::Use& use = scratch_.table.uses[u];
+      note(faces_.triangle(scratch_.halves.halfFaces[use.local].face()));
     }
     note(vertices_.triangleAt(edge.low));
     note(vertices_.triangleAt(edge.high));
-    for (const FaceId f : chunk_.halves.triFaces) {  // another one that has a vertex on the same grid-edge
+    for (const FaceId f : scratch_.halves.triFaces) {  // another one that has a vertex on the same grid-edge
       for (const VertexId v : faces_.tri.loopsOf(f)[0]) {
         const Slab along = elementBetween(vertices_.slabs[edge.low], vertices_.slabs[edge.high]);
         if (!found[1] && vertices_.slabs[v] == along) note(faces_.tri.triangles[f]);
@@ -240,34 +229,34 @@ class CellMaker {
   }
 
   bool hasFloatingShell() {
-    const CellHalves& cell = chunk_.halves;
-    auto& anchored = chunk_.anchored;
+    const CellHalves& cell = scratch_.halves;
+    auto& anchored = scratch_.anchored;
     anchored.assign(cell.halfFaces.size(), 0);
-    for (const LocalHalf h : cell.gridHalves()) anchored[chunk_.shells.find(h)] = 1;
+    for (const LocalHalf h : cell.gridHalves()) anchored[scratch_.shells.find(h)] = 1;
     for (const LocalHalf h : cell.triHalves()) {
-      if (!anchored[chunk_.shells.find(h)]) return true;
+      if (!anchored[scratch_.shells.find(h)]) return true;
     }
     return false;
   }
 
   /// Cut-cells in the order of their first local half-face.
   void emit() {
-    const CellHalves& cell = chunk_.halves;
-    auto& cellOf = chunk_.cellOf;
-    auto& ends = chunk_.ends;
+    const CellHalves& cell = scratch_.halves;
+    auto& cellOf = scratch_.cellOf;
+    auto& ends = scratch_.ends;
     cellOf.assign(cell.halfFaces.size(), 0);
     ends.clear();
     for (const LocalHalf h : cell.halfFaces.ids()) {
-      const LocalHalf root = chunk_.shells.find(h);  // the lowest, so numbered before the others
+      const LocalHalf root = scratch_.shells.find(h);  // the lowest, so numbered before the others
       if (root == h) {
         cellOf[h] = uint32_t(ends.size());
         ends.push_back(0);
-        chunk_.cells.gridCells.push_back(cell.gridCell);
+        cells_.gridCells.push_back(cell.gridCell);
       }
       cellOf[h] = cellOf[root];
       ++ends[cellOf[h]];
     }
-    auto& out = chunk_.cells.halfFaces;
+    auto& out = cells_.halfFaces;
     uint32_t at = uint32_t(out.items.size());
     out.items.resize(at + cell.halfFaces.size());
     for (uint32_t& end : ends) {
@@ -277,32 +266,42 @@ class CellMaker {
       out.offsets.push_back(at);
     }
     for (const LocalHalf h : cell.halfFaces.ids()) out.items[ends[cellOf[h]]++] = cell.halfFaces[h];
+    noteSides(uint32_t(cells_.size() - ends.size()));
+  }
+
+  /// Says which cut-cells are on the sides of faces; those of this grid cell are numbered from `first` on.
+  void noteSides(uint32_t first) {
+    const CellHalves& cell = scratch_.halves;
+    const auto cellOf = [&](LocalHalf h) { return CellId{first + scratch_.cellOf[h]}; };
+    for (const LocalFace f : cell.localFaces()) cells_.ofTriFaces.push_back({{cellOf(sideOf(f, 0)), cellOf(sideOf(f, 1))}});
+    auto half = cell.gridHalves().begin();
+    for (size_t i = 0; i < 6; ++i) {
+      const auto& offsets = faces_.grid.halfFaces.offsets;
+      const GridFaceId g = gridFaces()[i];
+      for (uint32_t at = offsets[g.number]; at < offsets[g.number + 1]; ++at, ++half) {
+        cells_.ofGridFaces[at].cells[i & 1 ? 0 : 1] = cellOf(*half);
+      }
+    }
   }
 
   const Surface& surface_;
   const CutVertices& vertices_;
   const Stencil& stencil_;
   const CutFaces& faces_;
-  Chunk& chunk_;
+  CellScratch& scratch_;
+  CutCells& cells_;
   bool touchesLine_ = false;  ///< whether a tri-cut-face of the cell has a vertex on a grid line
 };
 
 }  // namespace
 
-CutCells makeCutCells(const Surface& surface, const Stencil& stencil, const CutFaces& faces, Run& run) {
-  auto chunks = forChunks<Chunk>(stencil.cells.size(), run.monitor, [&](Chunk& chunk, size_t begin, size_t end) {
-    CellMaker maker(surface, stencil, faces, chunk);
-    for (const GridCellId c : Ids<GridCellId>(begin, end)) maker.make(c);
-  });
-  CutCells cells = std::move(chunks[0].cells);
-  for (size_t c = 0; c < chunks.size(); ++c) {
-    run.count(chunks[c].predicates);
-    if (c == 0) continue;
-    const CutCells& more = chunks[c].cells;
-    cells.halfFaces.append(more.halfFaces);
-    cells.gridCells.insert(cells.gridCells.end(), more.gridCells.begin(), more.gridCells.end());
-  }
-  return cells;
+void makeCutCells(const Surface& surface, const Stencil& stencil, const CutFaces& faces, CellScratch& scratch, CutCells& cells) {
+  cells.halfFaces.clear();
+  cells.gridCells.clear();
+  cells.ofTriFaces.clear();
+  cells.ofGridFaces.assign(faces.grid.halfFaces.items.size(), {});
+  CellMaker maker(surface, stencil, faces, scratch, cells);
+  for (const GridCellId c : stencil.cells.ids()) maker.make(c);
 }
 
 }  // namespace mandoline::detail

@@ -1,4 +1,4 @@
-// All cut-faces of a cut (paper, 3.4): tri-cut-faces come first, then pieces of grid-faces. This is the one place that tells them apart.
+// The cut-faces of a brick (paper, 3.4): tri-cut-faces come first, then pieces of grid-faces. This is the one place that tells them apart.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 namespace mandoline::detail {
 
 struct CutFaces {
-  TriFaces tri;
-  GridFaces grid;
+  const TriFaces& tri;
+  const GridFaces& grid;
 
   size_t size() const { return tri.size() + grid.size(); }
   bool isTri(FaceId face) const { return face.number < tri.size(); }

@@ -9,20 +9,18 @@ class FaceParents {
  public:
   FaceParents(const Input& input, const TriFaces& faces) : input_(input), faces_(faces) {}
 
-  /// Calls f(triangle, whether its normal is the face's): for the one that has the face, then for others in no order. Quickest for
-  /// ascending faces.
+  /// Calls f(triangle, whether its normal is the face's): for the one that has the face, then for others in no order.
   template <class F>
-  void forEach(FaceId face, const F& f) {
+  void forEach(FaceId face, const F& f) const {
     const TriangleId triangle = faces_.triangles[face];
     f(triangle, true);
     forDuplicates(triangle, true, f);
     const auto& others = faces_.otherParents;
     if (others.empty()) return;
-    if (at_ > 0 && others[at_ - 1].face >= face) at_ = 0;
-    while (at_ < others.size() && others[at_].face < face) ++at_;
-    for (; at_ < others.size() && others[at_].face == face; ++at_) {
-      f(others[at_].triangle, others[at_].sameWay);
-      forDuplicates(others[at_].triangle, others[at_].sameWay, f);
+    auto other = std::lower_bound(others.begin(), others.end(), face, [](const OtherParent& o, FaceId at) { return o.face < at; });
+    for (; other != others.end() && other->face == face; ++other) {
+      f(other->triangle, other->sameWay);
+      forDuplicates(other->triangle, other->sameWay, f);
     }
   }
 
@@ -34,7 +32,6 @@ class FaceParents {
 
   const Input& input_;
   const TriFaces& faces_;
-  size_t at_ = 0;  // in otherParents
 };
 
 }  // namespace mandoline::detail

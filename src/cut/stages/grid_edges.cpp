@@ -11,16 +11,44 @@ struct Placed {
   Place place;
   VertexId vertex;
 };
-struct PlacedVertices {
+
+/// Finds all cut-vertices of the surface on grid-edges and grid vertices of a brick, each as often as a loop passes it.
+class Collector {
+ public:
+  Collector(const CutSurface& surface, const Stencil& stencil)
+      : triFaces_(surface.triFaces), vertices_(surface.surface.vertices), stencil_(stencil) {}
+
   std::vector<Placed<GridEdgeId>> onEdges;
   std::vector<Placed<GridVertexId>> onCorners;
-};
 
-/// Finds all cut-vertices of the surface on grid-edges and grid vertices, each as often as a loop passes it.
-PlacedVertices collect(const Stencil& stencil, const TriFaces& triFaces, const CutVertices& vertices) {
-  PlacedVertices placed;
-  const auto place = [&](const Stencil::Cell& cell, VertexId v) {
-    const Slab& slab = vertices.slabs[v];
+  void collect(std::span<const VertexId> seamVertices) {
+    for (const GridCellId c : stencil_.cells.ids()) {
+      for (const FaceId f : stencil_.triFacesInCell[c]) {
+        if (triFaces_.touchesLine[f]) placeLoops(stencil_.cells[c], f);
+      }
+    }
+    for (const GridFaceId g : stencil_.faces.ids()) {
+      const Stencil::Cell& cell = stencil_.cells[stencil_.faces[g].cell];
+      for (const FaceId f : stencil_.triFacesOnFace[g]) placeLoops(cell, f);
+      for (const FaceEdge& e : stencil_.edgesOnFace[g]) {  // tri-edges in the grid-face of a triangle without a face beside it
+        place(cell, e.from);
+        place(cell, e.to);
+      }
+    }
+    for (const VertexId v : seamVertices) {
+      if (const auto cell = stencil_.cellBeside(vertices_.slabs[v])) place(stencil_.cells[*cell], v);
+    }
+  }
+
+ private:
+  void placeLoops(const Stencil::Cell& cell, FaceId f) {
+    for (const auto loop : triFaces_.loopsOf(f)) {
+      for (const VertexId v : loop) place(cell, v);
+    }
+  }
+
+  void place(const Stencil::Cell& cell, VertexId v) {
+    const Slab& slab = vertices_.slabs[v];
     if (planeCount(slab) < 2) return;
     int side[3], along = -1;
     for (int d = 0; d < 3; ++d) {
@@ -28,64 +56,52 @@ PlacedVertices collect(const Stencil& stencil, const TriFaces& triFaces, const C
       if (!onPlane(slab[d])) along = d;
     }
     if (along < 0) {
-      placed.onCorners.push_back({cell.corners[side[0] + 2 * side[1] + 4 * side[2]], v});
+      onCorners.push_back({cell.corners[side[0] + 2 * side[1] + 4 * side[2]], v});
     } else {
-      placed.onEdges.push_back({cell.edges[cellEdge(along, side[(along + 1) % 3], side[(along + 2) % 3])], v});
-    }
-  };
-  for (const GridCellId c : stencil.cells.ids()) {
-    for (const FaceId f : stencil.triFacesInCell[c]) {
-      if (!triFaces.touchesLine[f]) continue;
-      for (const auto loop : triFaces.loopsOf(f)) {
-        for (const VertexId v : loop) place(stencil.cells[c], v);
-      }
+      onEdges.push_back({cell.edges[cellEdge(along, side[(along + 1) % 3], side[(along + 2) % 3])], v});
     }
   }
-  for (const GridFaceId g : stencil.faces.ids()) {
-    const Stencil::Cell& cell = stencil.cells[stencil.faces[g].cell];
-    for (const FaceId f : stencil.triFacesOnFace[g]) {
-      for (const auto loop : triFaces.loopsOf(f)) {
-        for (const VertexId v : loop) place(cell, v);
-      }
-    }
-    for (const FaceEdge& e : stencil.edgesOnFace[g]) {  // tri-edges in the grid-face of a triangle without a face beside it
-      place(cell, e.from);
-      place(cell, e.to);
+
+  const TriFaces& triFaces_;
+  const CutVertices& vertices_;
+  const Stencil& stencil_;
+};
+
+/// The cut-vertex of each grid vertex: those where the surface passes have one already.
+void setCorners(const Collector& found, const Stencil& stencil, VertexId next, CutVertices& vertices, GridEdges& gridEdges) {
+  constexpr VertexId kNone{~0u};
+  auto& corners = gridEdges.corners;
+  corners.assign(stencil.cornerCount, kNone);
+  for (const auto& [place, vertex] : found.onCorners) {
+    if (corners[place] != kNone && corners[place] != vertex) vertices.failSelfIntersectionAt(corners[place], vertex);
+    corners[place] = vertex;
+  }
+  for (const Stencil::Cell& cell : stencil.cells) {
+    for (int i = 0; i < 8; ++i) {
+      VertexId& corner = corners[cell.corners[i]];
+      if (corner != kNone) continue;
+      vertices.slabs[next] = {cell.element[0] - 1 + 2 * (i & 1), cell.element[1] - 1 + 2 * (i >> 1 & 1),
+                              cell.element[2] - 1 + 2 * (i >> 2)};
+      corner = next;
+      ++next.number;
     }
   }
-  return placed;
 }
 
 }  // namespace
 
-GridEdges cutGridEdges(const Stencil& stencil, const TriFaces& triFaces, CutVertices& vertices, Run& run) {
-  constexpr VertexId kNone{~0u};
-  const PlacedVertices placed = collect(stencil, triFaces, vertices);
-  const auto& onEdges = placed.onEdges;
+void cutGridEdges(const CutSurface& surface, BrickId brick, const Stencil& stencil, CutVertices& vertices, GridEdges& gridEdges) {
+  Collector found(surface, stencil);
+  found.collect(surface.bricks.seamVertices[brick]);
+  setCorners(found, stencil, surface.bricks.firstOnGrid[brick], vertices, gridEdges);
 
-  GridEdges result;
-  result.corners.assign(stencil.cornerCount, kNone);
-  for (const auto& p : placed.onCorners) {
-    VertexId& corner = result.corners[p.place];
-    if (corner != kNone && corner != p.vertex) vertices.failSelfIntersectionAt(corner, p.vertex);
-    corner = p.vertex;
-  }
-  for (const Stencil::Cell& cell : stencil.cells) {
-    for (int i = 0; i < 8; ++i) {
-      VertexId& corner = result.corners[cell.corners[i]];
-      if (corner != kNone) continue;
-      corner =
-          vertices.append({cell.element[0] - 1 + 2 * (i & 1), cell.element[1] - 1 + 2 * (i >> 1 & 1), cell.element[2] - 1 + 2 * (i >> 2)});
-    }
-  }
-
-  auto found = groupBy<VertexId, GridEdgeId>(
+  const auto& onEdges = found.onEdges;
+  auto groups = groupBy<VertexId, GridEdgeId>(
       stencil.edgeCount, onEdges.size(), [&](size_t i) { return onEdges[i].place; }, [&](size_t i) { return onEdges[i].vertex; });
-  Predicates predicates;
-  result.vertices.offsets.reserve(stencil.edgeCount + 1);
+  Predicates& predicates = gridEdges.predicates;
+  gridEdges.vertices.clear();
   for (const GridEdgeId e : Ids<GridEdgeId>(stencil.edgeCount)) {
-    if (e.number % 16384 == 0) run.monitor.report(e.number, stencil.edgeCount);
-    const std::span<VertexId> group = found[e];
+    const std::span<VertexId> group = groups[e];
     sortItems(group);
     const size_t count = size_t(std::unique(group.begin(), group.end()) - group.begin());
     if (count > 1) {
@@ -96,11 +112,9 @@ GridEdges cutGridEdges(const Stencil& stencil, const TriFaces& triFaces, CutVert
         if (vertices.compare(group[i - 1], group[i], along, predicates) == 0) vertices.failSelfIntersectionAt(group[i - 1], group[i]);
       }
     }
-    result.vertices.items.insert(result.vertices.items.end(), group.begin(), group.begin() + count);
-    result.vertices.endGroup();
+    gridEdges.vertices.items.insert(gridEdges.vertices.items.end(), group.begin(), group.begin() + count);
+    gridEdges.vertices.endGroup();
   }
-  run.count(predicates);
-  return result;
 }
 
 }  // namespace mandoline::detail

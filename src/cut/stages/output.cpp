@@ -1,59 +1,120 @@
 #include "cut/stages/output.h"
 
 #include <cmath>
+#include <numeric>
 
 #include "base/position_table.h"
 #include "base/sort.h"
-#include "cut/stages/face_parents.h"
 
 namespace mandoline::detail {
 namespace {
 
-constexpr uint32_t kUnused = ~0u;
-using NewIds = IdVector<VertexId, uint32_t>;  ///< numbers in the cut-mesh, or kUnused
+/// A part of something that is written by several threads.
+struct Block {
+  size_t begin, end;
 
-/// Numbers the vertices that loops use, in the order of their ids.
-NewIds numberVertices(size_t count, const CutFaces& faces) {
-  NewIds newIds(count, kUnused);
-  for (const VertexId v : faces.tri.loops.items) newIds[v] = 0;
-  for (const VertexId v : faces.grid.loops.items) newIds[v] = 0;
-  uint32_t next = 0;
-  for (uint32_t& id : newIds) {
-    if (id != kUnused) id = next++;
-  }
-  return newIds;
-}
+  static constexpr size_t kSize = 8192;
+  static size_t count(size_t n) { return (n + kSize - 1) / kSize; }
+  static Block at(size_t block, size_t n) { return {block * kSize, std::min(n, (block + 1) * kSize)}; }
+};
 
-void writePlaces(const Stencil& stencil, const CutFaces& faces, CutMesh& out) {
-  out.faceTriangle.assign(faces.size(), -1);
-  out.faceAxis.assign(faces.size(), -1);
-  out.facePlane.assign(faces.size(), 0);
-  for (const FaceId f : faces.tri.ids()) {
-    out.faceTriangle[f.number] = int32_t(faces.tri.triangles[f].number);
+/// Where tri-cut-faces lie.
+void writeTriFaces(const TriFaces& tri, Block block, CutMesh& out) {
+  for (const FaceId f : Ids<FaceId>(block.begin, block.end)) {
+    out.faceTriangle[f.number] = int32_t(tri.triangles[f].number);
     for (int d = 0; d < 3; ++d) {
-      if (!onPlane(faces.tri.elements[f][d])) continue;
+      if (!onPlane(tri.elements[f][d])) continue;
       out.faceAxis[f.number] = int8_t(d);
-      out.facePlane[f.number] = faces.tri.elements[f][d] >> 1;
+      out.facePlane[f.number] = tri.elements[f][d] >> 1;
     }
   }
-  for (size_t piece = 0; piece < faces.grid.size(); ++piece) {
-    const Stencil::Face& place = stencil.faces[faces.grid.gridFaces[piece]];
-    const FaceId f = faces.ofPiece(piece);
-    out.faceAxis[f.number] = int8_t(place.axis());
-    out.facePlane[f.number] = stencil.cells[place.cell].at(place.axis()) + place.side();
-  }
 }
 
-void moveLoops(CutFaces& faces, const NewIds& newIds, CutMesh& out) {
-  auto& [tri, grid] = faces;
-  out.faceLoopOffsets.resize(tri.size() + 1);
-  for (uint32_t f = 0; f <= tri.size(); ++f) out.faceLoopOffsets[f] = tri.faceLoopOffsets.empty() ? f : tri.faceLoopOffsets[f];
-  appendOffsets(out.faceLoopOffsets, grid.faceLoopOffsets);
+void writeTriLoops(const TriFaces& tri, const Numbers& numbers, Block block, CutMesh& out) {
+  for (size_t i = block.begin; i < block.end; ++i) out.loopVertices[i] = numbers.vertices[tri.loops.items[i]];
+}
+
+/// Writes what belongs to bricks: pieces of grid-faces, which come after all tri-cut-faces, and cut-cells.
+class BrickWriter {
+ public:
+  BrickWriter(const CutState& state, const Numbers& numbers, CutMesh& out)
+      : state_(state),
+        numbers_(numbers),
+        out_(out),
+        triFaces_(uint32_t(state.triFaces.size())),
+        triLoops_(uint32_t(out.loopCount()) - numbers.total.loops),
+        triLoopVertices_(uint32_t(state.triFaces.loops.items.size())) {}
+
+  void write(BrickId brick) const {
+    const BrickCut& cut = state_.cuts[brick];
+    uint32_t piece = 0, cell = 0;
+    auto seam = cut.otherSeams.begin();
+    for (uint32_t r = 0; r < cut.rows.size(); ++r) {
+      BrickCounts at = numbers_.rows[brick][r];
+      while (piece < cut.rows[r].pastPiece) {
+        if (seam != cut.otherSeams.end() && seam->firstPiece == piece) {
+          piece += (seam++)->pieces;
+        } else {
+          writePiece(cut, piece++, at);
+        }
+      }
+      for (; cell < cut.rows[r].pastCell; ++cell) writeCell(brick, {cell}, at);
+    }
+  }
+
+ private:
+  void writePiece(const BrickCut& cut, uint32_t piece, BrickCounts& at) const {
+    const uint32_t f = triFaces_ + at.pieces++;
+    const Slab& gridFace = cut.gridFaces[piece];
+    const int axis = planeAxis(gridFace);
+    out_.faceTriangle[f] = -1;
+    out_.faceAxis[f] = int8_t(axis);
+    out_.facePlane[f] = gridFace[size_t(axis)] >> 1;
+    out_.faceLoopOffsets[f] = triLoops_ + at.loops;
+    for (const auto loop : cut.loops.groups(cut.faceLoopOffsets[piece], cut.faceLoopOffsets[piece + 1])) {
+      out_.loopOffsets[triLoops_ + at.loops++] = triLoopVertices_ + at.loopVertices;
+      for (const VertexId v : loop) out_.loopVertices[triLoopVertices_ + at.loopVertices++] = numbers_.vertices[v];
+    }
+  }
+
+  void writeCell(BrickId brick, CellId cell, BrickCounts& at) const {
+    const BrickCut& cut = state_.cuts[brick];
+    const uint32_t c = at.cells++;
+    out_.cellHalfFaceOffsets[c] = at.halfFaces;
+    for (const HalfFace h : cut.halfFaces[cell]) {
+      const uint32_t face = h.face().number;
+      const uint32_t f = face < triFaces_ ? face : triFaces_ + numbers_.pieces[brick][face - triFaces_];
+      out_.cellHalfFaces[at.halfFaces++] = HalfFace({f}, h.side()).number;
+    }
+    const Slab gridCell = state_.bricks.boxes[brick].cellAt(cut.gridCells[cell]);
+    for (size_t d = 0; d < 3; ++d) out_.cellGridCell[3 * size_t(c) + d] = gridCell[d] >> 1;
+    out_.cellRegion[c] = state_.regions.ofComponents[brick][cut.components[cell]];
+  }
+
+  const CutState& state_;
+  const Numbers& numbers_;
+  CutMesh& out_;
+  const uint32_t triFaces_, triLoops_, triLoopVertices_;
+};
+
+/// Makes room for faces and cells, and ends their offsets. Those of tri-cut-faces are moved.
+void resize(TriFaces& tri, const BrickCounts& total, CutMesh& out) {
+  const size_t triFaces = tri.size(), faces = triFaces + total.pieces;
+  const uint32_t triLoops = uint32_t(tri.loops.size()), loops = triLoops + total.loops;
+  const uint32_t loopVertices = uint32_t(tri.loops.items.size()) + total.loopVertices;
+  out.faceTriangle.resize(faces);
+  out.faceAxis.resize(faces, -1);
+  out.facePlane.resize(faces);
+  out.faceLoopOffsets = std::move(tri.faceLoopOffsets);
+  for (uint32_t f = uint32_t(out.faceLoopOffsets.size()); f <= triFaces; ++f) out.faceLoopOffsets.push_back(f);  // one loop each
+  out.faceLoopOffsets.resize(faces + 1, loops);
   out.loopOffsets = std::move(tri.loops.offsets);
-  appendOffsets(out.loopOffsets, grid.loops.offsets);
-  out.loopVertices.reserve(tri.loops.items.size() + grid.loops.items.size());
-  for (const VertexId v : tri.loops.items) out.loopVertices.push_back(newIds[v]);
-  for (const VertexId v : grid.loops.items) out.loopVertices.push_back(newIds[v]);
+  out.loopOffsets.resize(size_t(loops) + 1, loopVertices);
+  out.loopVertices.resize(loopVertices);
+  out.cellHalfFaceOffsets.resize(size_t(total.cells) + 1, total.halfFaces);
+  out.cellHalfFaces.resize(total.halfFaces);
+  out.cellGridCell.resize(3 * size_t(total.cells));
+  out.cellRegion.resize(total.cells);
 }
 
 /// Writes cut-vertices one by one.
@@ -136,17 +197,35 @@ class VertexWriter {
   CutMesh& out_;
 };
 
-void writeVertices(const NewIds& newIds, VertexWriter& writer, Run& run) {
-  std::vector<VertexId> used;
-  for (const VertexId v : newIds.ids()) {
-    if (newIds[v] != kUnused) used.push_back(v);
+/// The vertices of the cut-mesh, in order.
+std::vector<VertexId> listUsed(const Numbers& numbers) {
+  std::vector<VertexId> used(numbers.vertexCount);
+  for (const VertexId v : numbers.vertices.ids()) {
+    if (numbers.vertices[v] != Numbers::kUnused) used[numbers.vertices[v]] = v;
   }
-  writer.resize(used.size());
-  const auto chunks = forChunks<Predicates>(used.size(), run.monitor, [&](Predicates& predicates, size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) writer.write(used[i], i, predicates);
+  return used;
+}
+
+/// Writes vertices, faces and cells, whose places are known.
+void writeAll(const CutState& state, const Numbers& numbers, VertexWriter& vertexWriter, CutMesh& out, Run& run) {
+  const TriFaces& tri = state.triFaces;
+  const std::vector<VertexId> used = listUsed(numbers);
+  vertexWriter.resize(used.size());
+  const BrickWriter brickWriter(state, numbers, out);
+  const size_t loopVertices = tri.loops.items.size();
+  const size_t bricks = state.cuts.size(), faces = bricks + Block::count(tri.size()), loops = faces + Block::count(loopVertices);
+  std::vector<uint32_t> tasks(loops + Block::count(used.size()));
+  std::iota(tasks.begin(), tasks.end(), 0u);
+  std::vector<Predicates> predicates(run.monitor.threads());
+  runItems(tasks, run.monitor, [&](size_t thread, uint32_t task) {
+    if (task < bricks) return brickWriter.write({task});
+    if (task < faces) return writeTriFaces(tri, Block::at(task - bricks, tri.size()), out);
+    if (task < loops) return writeTriLoops(tri, numbers, Block::at(task - faces, loopVertices), out);
+    const Block block = Block::at(task - loops, used.size());
+    for (size_t i = block.begin; i < block.end; ++i) vertexWriter.write(used[i], i, predicates[thread]);
   });
-  for (const Predicates& p : chunks) run.count(p);
-  writer.writeMade(used);
+  for (const Predicates& p : predicates) run.count(p);
+  vertexWriter.writeMade(used);
 }
 
 /// Moves made vertices that rounding put onto another one by a few units in the last place, so that no two have the same position.
@@ -176,18 +255,18 @@ void separate(CutMesh& out) {
 }
 
 /// The triangles that each face is a piece of, ascending.
-void writeParents(const Input& input, const CutFaces& faces, CutMesh& out) {
+void writeParents(const Input& input, const TriFaces& faces, size_t all, CutMesh& out) {
   struct Parent {
     uint32_t triangle;
     int8_t sign;
   };
-  out.faceParentOffsets.reserve(faces.size() + 1);
-  out.faceParents.reserve(faces.tri.size());
-  out.faceParentSigns.reserve(faces.tri.size());
+  out.faceParentOffsets.reserve(all + 1);
+  out.faceParents.reserve(faces.size());
+  out.faceParentSigns.reserve(faces.size());
   out.faceParentOffsets.push_back(0);
-  FaceParents parents(input, faces.tri);
+  const FaceParents parents(input, faces);
   std::vector<Parent> sorted;
-  for (const FaceId f : faces.tri.ids()) {
+  for (const FaceId f : faces.ids()) {
     sorted.clear();
     parents.forEach(f, [&](TriangleId t, bool sameWay) { sorted.push_back({t.number, int8_t(sameWay ? 1 : -1)}); });
     if (sorted.size() > 1) sortItems(sorted, [](const Parent& a, const Parent& b) { return a.triangle < b.triangle; });
@@ -197,7 +276,7 @@ void writeParents(const Input& input, const CutFaces& faces, CutMesh& out) {
     }
     out.faceParentOffsets.push_back(uint32_t(out.faceParents.size()));
   }
-  out.faceParentOffsets.resize(faces.size() + 1, uint32_t(out.faceParents.size()));
+  out.faceParentOffsets.resize(all + 1, uint32_t(out.faceParents.size()));
 }
 
 /// Triangles without a face: those dropped before, and those outside of the grid.
@@ -222,36 +301,29 @@ void listParts(const Parts& parts, CutMesh& out) {
 }  // namespace
 
 CutMesh makeOutput(const MeshView& mesh, const Grid& grid, CutState& state, Run& run) {
-  auto& [surface, stencil, faces, cells, regions] = state;
+  const Input& input = state.surface.input;
+  const Numbers numbers = makeNumbers(state.cutSurface(), state.cuts);
   CutMesh out;
   out.grid = grid;
-  writePlaces(stencil, faces, out);
-  writeParents(surface.input, faces, out);
-  const NewIds newIds = numberVertices(surface.vertices.size(), faces);
-  moveLoops(faces, newIds, out);
-  VertexWriter writer(mesh, grid, surface, out);
-  writeVertices(newIds, writer, run);
+  resize(state.triFaces, numbers.total, out);
+  VertexWriter writer(mesh, grid, state.surface, out);
+  writeAll(state, numbers, writer, out, run);
+  writeParents(input, state.triFaces, out.faceCount(), out);
   separate(out);
 
-  out.cellHalfFaceOffsets = std::move(cells.halfFaces.offsets);
-  out.cellHalfFaces.reserve(cells.halfFaces.items.size());
-  for (const HalfFace h : cells.halfFaces.items) out.cellHalfFaces.push_back(h.number);
-  for (const GridCellId c : cells.gridCells) {
-    for (int d = 0; d < 3; ++d) out.cellGridCell.push_back(stencil.cells[c].at(d));
-  }
-  out.cellRegion = std::move(regions.cellRegion);
-  out.rowRunOffsets = std::move(regions.rowRunOffsets);
-  out.runBegin = std::move(regions.runBegin);
-  out.runEnd = std::move(regions.runEnd);
+  out.rowRunOffsets = std::move(state.runs.rowOffsets);
+  out.runBegin = std::move(state.runs.begin);
+  out.runEnd = std::move(state.runs.end);
+  Regions& regions = state.regions;
   out.runRegion = std::move(regions.runRegion);
   out.regionCount = regions.count;
   out.hasWinding = regions.hasWinding;
   out.regionWinding = std::move(regions.winding);
   out.regionPartWinding = std::move(regions.partWinding);
   out.regionParity = std::move(regions.parity);
-  listParts(surface.input.mesh->parts, out);
-  out.triangleCount = uint32_t(surface.input.mesh->triangles.size());
-  listDropped(surface.input, out, run.stats);
+  listParts(input.mesh->parts, out);
+  out.triangleCount = uint32_t(input.mesh->triangles.size());
+  listDropped(input, out, run.stats);
   return out;
 }
 

@@ -1,8 +1,9 @@
-// Output: compacts the vertices, lays the faces one after the other, and computes the coordinates.
+// Output: numbers the vertices, lays the faces and cells of all bricks one after the other, and computes the coordinates.
 //
 // In: all stages before. Out: the public CutMesh (see cut_mesh.h for its arrays and their order).
 #pragma once
 
+#include "cut/stages/numbers.h"
 #include "cut/stages/regions.h"
 
 namespace mandoline::detail {
@@ -10,10 +11,13 @@ namespace mandoline::detail {
 /// What the stages have made so far; each adds its part.
 struct CutState {
   Surface surface;
-  Stencil stencil;
-  CutFaces faces;
-  CutCells cells;
+  TriFaces triFaces;
+  Bricks bricks;
+  UntouchedRuns runs;
+  IdVector<BrickId, BrickCut> cuts;
   Regions regions;
+
+  CutSurface cutSurface() const { return {surface, triFaces, bricks}; }
 };
 
 /// Moves the arrays out of `state`. `mesh` was prepared; coordinates that it and `grid` have are handed back as they are.

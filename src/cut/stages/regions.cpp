@@ -1,139 +1,111 @@
 #include "cut/stages/regions.h"
 
-#include "base/disjoint_sets.h"
+#include "base/sort.h"
 #include "cut/stages/winding.h"
 
 namespace mandoline::detail {
 namespace {
 
-/// The runs of grid cells between those of the stencil, row by row.
-void findRuns(const Input& input, const Stencil& stencil, Regions& regions, Monitor& monitor) {
-  const size_t rows = size_t(input.cells(1)) * size_t(input.cells(2));
-  regions.rowRunOffsets.assign(1, 0);
-  regions.rowRunOffsets.reserve(rows + 1);
-  const std::vector<Stencil::Cell>& cells = stencil.cells;
-  size_t c = 0;
-  const auto addRun = [&](int32_t begin, int32_t end) {
-    if (begin >= end) return;
-    regions.runBegin.push_back(begin);
-    regions.runEnd.push_back(end);
-  };
-  for (int32_t k = 0; k < input.cells(2); ++k) {
-    for (int32_t j = 0; j < input.cells(1); ++j) {
-      int32_t from = 0;
-      for (; c < cells.size() && cells[c].at(1) == j && cells[c].at(2) == k; ++c) {
-        addRun(from, cells[c].at(0));
-        from = cells[c].at(0) + 1;
-      }
-      addRun(from, input.cells(0));
-      regions.rowRunOffsets.push_back(uint32_t(regions.runBegin.size()));
-    }
-    monitor.report(size_t(k), size_t(input.cells(2)));
-  }
-}
-
-/// The run that holds an untouched grid cell.
-uint32_t runAt(const Input& input, const Regions& regions, const Slab& cell) {
-  const size_t row = size_t(cell[2] >> 1) * size_t(input.cells(1)) + size_t(cell[1] >> 1);
-  const auto first = regions.runEnd.begin() + regions.rowRunOffsets[row], past = regions.runEnd.begin() + regions.rowRunOffsets[row + 1];
-  return uint32_t(std::upper_bound(first, past, cell[0] >> 1) - regions.runEnd.begin());
-}
-
-/// Joins nodes into regions. Nodes are the cut-cells, then the runs.
+/// Joins nodes into regions. Nodes are the components of all bricks, then the runs.
 class RegionFinder {
  public:
-  RegionFinder(const Input& input, const Sides& sides, Regions& regions)
-      : input_(input),
-        sides_(sides),
-        regions_(regions),
-        firstRun_(uint32_t(sides.cells.size())),
-        nodes_(firstRun_ + regions.runBegin.size()) {}
+  RegionFinder(const CutSurface& surface, const UntouchedRuns& runs, const IdVector<BrickId, BrickCut>& cuts)
+      : input_(surface.surface.input), surface_(surface), runs_(runs), cuts_(cuts) {
+    for (const BrickCut& cut : cuts_) {
+      firstNodes_.push_back(firstRun_);
+      firstRun_ += cut.componentCount;
+    }
+    nodes_.reset(firstRun_ + runs_.size());
+  }
 
-  void run() {
+  void run(Regions& regions) {
     uniteRuns();
-    for (size_t piece = 0; piece < sides_.faces.grid.size(); ++piece) uniteAcross(piece);
-    number();
+    for (const BrickId b : cuts_.ids()) uniteBrick(b);
+    number(regions);
   }
 
  private:
   /// Joins runs that lie beside each other along y and z.
   void uniteRuns() {
-    const size_t ny = size_t(input_.cells(1)), rows = ny * size_t(input_.cells(2));
+    const size_t rows = runs_.rowOffsets.size() - 1;
     for (size_t r = 0; r < rows; ++r) {
-      if (r % ny > 0) uniteRows(r - 1, r);
-      if (r >= ny) uniteRows(r - ny, r);
+      if (r % runs_.ny > 0) uniteRows(r - 1, r);
+      if (r >= runs_.ny) uniteRows(r - runs_.ny, r);
     }
   }
 
   void uniteRows(size_t r, size_t s) {
-    const std::vector<uint32_t>& offsets = regions_.rowRunOffsets;
-    const std::vector<int32_t>&begin = regions_.runBegin, &end = regions_.runEnd;
+    const std::vector<uint32_t>& offsets = runs_.rowOffsets;
     for (uint32_t a = offsets[r], b = offsets[s]; a < offsets[r + 1] && b < offsets[s + 1];) {
-      if (std::max(begin[a], begin[b]) < std::min(end[a], end[b])) nodes_.unite(firstRun_ + a, firstRun_ + b);
-      end[a] < end[b] ? ++a : ++b;
+      if (std::max(runs_.begin[a], runs_.begin[b]) < std::min(runs_.end[a], runs_.end[b])) nodes_.unite(firstRun_ + a, firstRun_ + b);
+      runs_.end[a] < runs_.end[b] ? ++a : ++b;
     }
   }
 
-  /// A piece of a grid-face joins what lies on its two sides.
-  void uniteAcross(size_t piece) {
-    const FaceId face = sides_.faces.ofPiece(piece);
-    const CellId below = sides_.cell(HalfFace(face, 0)), above = sides_.cell(HalfFace(face, 1));
-    if (below != Sides::kNone && above != Sides::kNone) return nodes_.unite(below.number, above.number);
-    const Stencil::Face& place = sides_.stencil.faces[sides_.faces.grid.gridFaces[piece]];
-    Slab other = sides_.stencil.cells[place.cell].element;  // the first cell that has it, so the other side is the untouched one
-    other[place.axis()] += place.side() == 1 ? 2 : -2;
-    if (input_.inGrid(other)) nodes_.unite((below != Sides::kNone ? below : above).number, firstRun_ + runAt(input_, regions_, other));
+  void uniteBrick(BrickId brick) {
+    for (const auto& [component, run] : cuts_[brick].joins) nodes_.unite(firstNodes_[brick] + component, firstRun_ + run);
+    forSeams(cuts_, brick, [&](const SeamHalf& below, BrickId owner, const SeamHalf& above) {
+      if (surface_.isTri(below.halfFace.face())) return;
+      nodes_.unite(firstNodes_[owner] + below.component, firstNodes_[brick] + above.component);
+    });
   }
 
-  /// In the order of their first grid cells.
-  void number() {
-    regionOf_.assign(firstRun_ + regions_.runBegin.size(), kUnset);
-    regions_.cellRegion.resize(firstRun_);
-    regions_.runRegion.resize(regions_.runBegin.size());
-    CellId cell{0};
-    for (size_t row = 0; row + 1 < regions_.rowRunOffsets.size(); ++row) {
-      const uint32_t past = regions_.rowRunOffsets[row + 1];
-      for (uint32_t run = regions_.rowRunOffsets[row]; run < past || isInRow(cell, row);) {
-        if (run < past && (!isInRow(cell, row) || regions_.runBegin[run] < gridCellOf(cell).at(0))) {
-          regions_.runRegion[run] = label(firstRun_ + run);
-          ++run;
-        } else {
-          regions_.cellRegion[cell] = label(cell.number);
-          ++cell.number;
-        }
+  /// Where a node begins: by grid cells, and among the cut-cells of one, which all lie in one brick, by their order.
+  struct Begin {
+    uint64_t gridCell;
+    uint32_t node;
+    auto operator<=>(const Begin&) const = default;
+  };
+
+  void number(Regions& regions) {
+    constexpr uint32_t kUnset = ~0u;
+    const Begin last{~uint64_t(0), kUnset};
+    std::vector<Begin> begins(nodes_.size(), last);  // per root
+    const auto note = [&](uint64_t row, uint64_t x, uint32_t node) {
+      Begin& begin = begins[nodes_.find(node)];
+      begin = std::min(begin, {row * uint64_t(input_.cells(0)) + x, node});
+    };
+    for (const BrickId b : cuts_.ids()) {
+      uint32_t next = 0;
+      for (const CellId c : cuts_[b].components.ids()) {
+        if (cuts_[b].components[c] != next) continue;
+        const Slab cell = surface_.bricks.boxes[b].cellAt(cuts_[b].gridCells[c]);
+        note(runs_.rowOf(cell), uint64_t(cell[0] >> 1), firstNodes_[b] + next++);
       }
     }
+    for (size_t row = 0; row + 1 < runs_.rowOffsets.size(); ++row) {
+      for (uint32_t r = runs_.rowOffsets[row]; r < runs_.rowOffsets[row + 1]; ++r) note(row, uint64_t(runs_.begin[r]), firstRun_ + r);
+    }
+    begins.erase(std::remove(begins.begin(), begins.end(), last), begins.end());
+    sortItems(begins);
+    regions.count = uint32_t(begins.size());
+    std::vector<uint32_t> regionOf(nodes_.size());  // per root
+    for (uint32_t r = 0; r < begins.size(); ++r) regionOf[nodes_.find(begins[r].node)] = r;
+    for (const BrickId b : cuts_.ids()) {
+      std::vector<uint32_t> ofComponents;
+      for (uint32_t c = 0; c < cuts_[b].componentCount; ++c) ofComponents.push_back(regionOf[nodes_.find(firstNodes_[b] + c)]);
+      regions.ofComponents.push_back(std::move(ofComponents));
+    }
+    regions.runRegion.resize(runs_.size());
+    for (uint32_t r = 0; r < runs_.size(); ++r) regions.runRegion[r] = regionOf[nodes_.find(firstRun_ + r)];
   }
-
-  const Stencil::Cell& gridCellOf(CellId cell) const { return sides_.stencil.cells[sides_.cells.gridCells[cell]]; }
-  bool isInRow(CellId cell, size_t row) const {
-    return cell.number < firstRun_ && size_t(gridCellOf(cell).at(2)) * size_t(input_.cells(1)) + size_t(gridCellOf(cell).at(1)) == row;
-  }
-  uint32_t label(uint32_t node) {
-    uint32_t& region = regionOf_[nodes_.find(node)];
-    if (region == kUnset) region = regions_.count++;
-    return region;
-  }
-
-  static constexpr uint32_t kUnset = ~0u;
 
   const Input& input_;
-  const Sides& sides_;
-  Regions& regions_;
-  uint32_t firstRun_;
+  const CutSurface& surface_;
+  const UntouchedRuns& runs_;
+  const IdVector<BrickId, BrickCut>& cuts_;
+  IdVector<BrickId, uint32_t> firstNodes_;
+  uint32_t firstRun_ = 0;
   DisjointSets nodes_;
-  std::vector<uint32_t> regionOf_;  // per root
 };
 
 }  // namespace
 
-Regions findRegions(const Surface& surface, const Stencil& stencil, const CutFaces& faces, const CutCells& cells, Run& run) {
+Regions findRegions(const CutSurface& surface, const UntouchedRuns& runs, const IdVector<BrickId, BrickCut>& cuts, Run& run) {
   Regions regions;
-  findRuns(surface.input, stencil, regions, run.monitor);
-  const Sides sides(stencil, faces, cells);
-  RegionFinder(surface.input, sides, regions).run();
+  RegionFinder(surface, runs, cuts).run(regions);
   Predicates predicates;
-  findWinding(surface, sides, regions, predicates);
+  findWinding(surface, cuts, regions, predicates);
   run.count(predicates);
   return regions;
 }

@@ -2,20 +2,18 @@
 // not pieces of triangles; and the winding number of each, or what there is of it, stepping by one across every tri-cut-face from an exact
 // value in one place.
 //
-// In: all stages before. Out: Regions. Untouched grid cells are runs along x: memory by run, not by cell.
+// In: what all bricks found of themselves. Out: Regions. Components of bricks are joined over seams and through untouched grid cells.
 #pragma once
 
 #include <vector>
 
-#include "cut/stages/cut_cells.h"
+#include "cut/stages/brick_cut.h"
 
 namespace mandoline::detail {
 
 struct Regions {
-  std::vector<uint32_t> rowRunOffsets;    ///< per row of grid cells (k ny + j), and one more: into runs
-  std::vector<int32_t> runBegin, runEnd;  ///< per run of untouched grid cells: along x, half open
-  std::vector<uint32_t> runRegion;        ///< per run
-  IdVector<CellId, uint32_t> cellRegion;
+  IdVector<BrickId, std::vector<uint32_t>> ofComponents;  ///< per component of each brick
+  std::vector<uint32_t> runRegion;                        ///< per run of untouched grid cells
   uint32_t count = 0;
   bool hasWinding = false;           ///< closed and consistently oriented
   std::vector<int32_t> winding;      ///< per region, empty unless hasWinding
@@ -23,6 +21,7 @@ struct Regions {
   std::vector<uint8_t> parity;       ///< of parts that have parity; likewise
 };
 
-Regions findRegions(const Surface& surface, const Stencil& stencil, const CutFaces& faces, const CutCells& cells, Run& run);
+/// Numbers regions in the order of their first grid cells.
+Regions findRegions(const CutSurface& surface, const UntouchedRuns& runs, const IdVector<BrickId, BrickCut>& cuts, Run& run);
 
 }  // namespace mandoline::detail

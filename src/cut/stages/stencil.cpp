@@ -1,25 +1,7 @@
 #include "cut/stages/stencil.h"
 
-#include <optional>
-
 namespace mandoline::detail {
 namespace {
-
-/// Place of a grid cell in the order by z, y, x.
-uint64_t keyOf(const Input& input, const Slab& cell) {
-  return (uint64_t(cell[2] >> 1) * input.cells(1) + (cell[1] >> 1)) * input.cells(0) + (cell[0] >> 1);
-}
-
-int planeAxis(const Slab& gridFace) { return onPlane(gridFace[0]) ? 0 : onPlane(gridFace[1]) ? 1 : 2; }
-
-/// The cell that a grid-face is looked up in: above its plane, or below the last plane. Returns the grid-face's index in it.
-int owner(const Input& input, const Slab& gridFace, Slab& cell) {
-  const int axis = planeAxis(gridFace);
-  const bool last = gridFace[axis] == 2 * input.cells(axis);
-  cell = gridFace;
-  cell[axis] += last ? -1 : 1;
-  return cellFace(axis, last ? 1 : 0);
-}
 
 /// What a cell has in common with one of the neighbours that come before it in the order by z, y, x.
 struct Neighbour {
@@ -71,51 +53,40 @@ constexpr auto kEarlier = [] {
   return earlier;
 }();
 
-/// Finds earlier neighbours: each by walking along as the cells ascend.
-class EarlierNeighbours {
- public:
-  EarlierNeighbours(const Input& input, const std::vector<uint64_t>& keys) : keys_(keys) {
-    for (size_t d = 0; d < 3; ++d) most_[d] = 2 * input.cells(int(d));
-    for (size_t i = 0; i < kEarlier.size(); ++i) {
-      const auto& [dx, dy, dz] = kEarlier[i].shift;
-      distances_[i] = (int64_t(dz) * input.cells(1) + dy) * input.cells(0) + dx;
-    }
-  }
-
-  /// kEarlier[i] of a cell, if it is there. For each i, calls must come with ascending cells.
-  std::optional<GridCellId> find(size_t i, const Slab& element, uint64_t key) {
-    for (size_t d = 0; d < 3; ++d) {
-      const int32_t at = element[d] + 2 * kEarlier[i].shift[d];
-      if (at < 0 || at > most_[d]) return {};
-    }
-    const uint64_t wanted = key + uint64_t(distances_[i]);
-    size_t& at = at_[i];
-    while (keys_[at] < wanted) ++at;  // the cell itself comes later
-    if (keys_[at] != wanted) return {};
-    return GridCellId{uint32_t(at)};
-  }
-
- private:
-  const std::vector<uint64_t>& keys_;
-  int32_t most_[3];
-  int64_t distances_[13];
-  size_t at_[13] = {};
-};
+/// The touched cells of a brick, ascending.
+void listCells(const Bricks& bricks, BrickId brick, Stencil& stencil) {
+  for (const Stencil::Cell& cell : stencil.cells) stencil.table[stencil.placeOf(cell.element)] = Stencil::kNone;
+  stencil.cells.clear();
+  stencil.box = bricks.boxes[brick];
+  const auto& count = stencil.box.count;
+  const size_t size = size_t(count[0] + 2) * size_t(count[1] + 2) * size_t(count[2] + 2);
+  if (stencil.table.size() < size) stencil.table.resize(size, Stencil::kNone);
+  bricks.forTouched(brick, [&](uint32_t index) {
+    stencil.cells.push_back({stencil.box.cellAt(index), {}, {}, {}});
+    stencil.table[stencil.placeOf(stencil.cells.back().element)] = uint32_t(stencil.cells.size() - 1);
+  });
+}
 
 /// Ids of grid-faces, grid-edges and grid vertices: a cell takes over those that an earlier neighbour shares.
-void numberElements(const Input& input, const std::vector<uint64_t>& keys, Stencil& stencil, Monitor& monitor) {
-  EarlierNeighbours neighbours(input, keys);
+void numberElements(Stencil& stencil) {
+  std::array<size_t, kEarlier.size()> distances;  // in the table, to earlier cells
+  for (size_t i = 0; i < kEarlier.size(); ++i) {
+    const auto& [x, y, z] = kEarlier[i].shift;
+    distances[i] = size_t(-((ptrdiff_t(z) * (stencil.box.count[1] + 2) + y) * (stencil.box.count[0] + 2) + x));
+  }
+  stencil.faces.clear();
+  stencil.edgeCount = stencil.cornerCount = 0;
   for (const GridCellId c : stencil.cells.ids()) {
-    if (c.number % 4096 == 0) monitor.report(c.number, stencil.cells.size());
     Stencil::Cell& cell = stencil.cells[c];
     constexpr uint32_t kNew = ~0u;
     cell.faces.fill({kNew});
     cell.edges.fill({kNew});
     cell.corners.fill({kNew});
+    const uint32_t* at = &stencil.table[stencil.placeOf(cell.element)];
     for (size_t i = 0; i < kEarlier.size(); ++i) {
-      const auto n = neighbours.find(i, cell.element, keys[c.number]);
-      if (!n) continue;
-      const Stencil::Cell& other = stencil.cells[*n];
+      const uint32_t n = *(at - distances[i]);
+      if (n == Stencil::kNone) continue;
+      const Stencil::Cell& other = stencil.cells[GridCellId{n}];
       for (const auto [here, there] : kEarlier[i].faces) cell.faces[here] = other.faces[there];
       for (const auto [here, there] : kEarlier[i].edges) cell.edges[here] = other.edges[there];
       for (const auto [here, there] : kEarlier[i].corners) cell.corners[here] = other.corners[there];
@@ -134,79 +105,23 @@ void numberElements(const Input& input, const std::vector<uint64_t>& keys, Stenc
   }
 }
 
-uint64_t largestKey(const Input& input) { return keyOf(input, {2 * input.cells(0) - 1, 2 * input.cells(1) - 1, 2 * input.cells(2) - 1}); }
-
-/// The tri-cut-faces, by where they lie.
-struct PlacedFaces {
-  std::vector<KeyedItem> inCell;   // by cell
-  std::vector<FaceId> inPlane;     // in grid-faces
-  std::vector<KeyedItem> touched;  // cells beside a grid-face that something lies in
+template <class Item, class Place>
+struct Placed {
+  Item item;
+  Place place;
 };
 
-PlacedFaces placeFaces(const Surface& surface, const TriFaces& triFaces) {
-  const Input& input = surface.input;
-  PlacedFaces placed;
-  const auto touchBoth = [&](const Slab& gridFace) {
-    const int axis = planeAxis(gridFace);
-    for (int side = -1; side <= 1; side += 2) {
-      Slab cell = gridFace;
-      cell[axis] += side;
-      if (input.inGrid(cell)) placed.touched.push_back({keyOf(input, cell), 0});
-    }
-  };
-  placed.inCell.reserve(triFaces.size());
-  for (const FaceId f : triFaces.ids()) {
-    if (planeCount(triFaces.elements[f]) == 0) {
-      placed.inCell.push_back({keyOf(input, triFaces.elements[f]), f.number});
-    } else {
-      placed.inPlane.push_back(f);
-      touchBoth(triFaces.elements[f]);
-    }
-  }
-  for (const FaceEdge& e : surface.edgesInPlane) touchBoth(e.element);
-  sortByKey(placed.inCell, largestKey(input));
-  sortByKey(placed.touched, largestKey(input));
-  return placed;
+template <class Item, class Place>
+Csr<Item, Place> grouped(size_t places, const std::vector<Placed<Item, Place>>& placed) {
+  return groupBy<Item, Place>(
+      places, placed.size(), [&](size_t i) { return placed[i].place; }, [&](size_t i) { return placed[i].item; });
 }
 
-/// The cells, ascending, with the tri-cut-faces inside each. Returns their keys.
-std::vector<uint64_t> listCells(const Input& input, const PlacedFaces& placed, Stencil& stencil) {
-  const auto &inCell = placed.inCell, &touched = placed.touched;
-  std::vector<uint64_t> keys;
-  for (size_t i = 0, j = 0; i < inCell.size() || j < touched.size();) {
-    const uint64_t key = std::min(i < inCell.size() ? inCell[i].key : ~uint64_t(0), j < touched.size() ? touched[j].key : ~uint64_t(0));
-    keys.push_back(key);
-    for (; i < inCell.size() && inCell[i].key == key; ++i) stencil.triFacesInCell.items.push_back({inCell[i].item});
-    stencil.triFacesInCell.endGroup();
-    while (j < touched.size() && touched[j].key == key) ++j;
-  }
-  stencil.cells.resize(keys.size());
-  const uint64_t nx = uint64_t(input.cells(0)), ny = uint64_t(input.cells(1));
-  for (const GridCellId c : stencil.cells.ids()) {
-    const uint64_t key = keys[c.number];
-    stencil.cells[c].element = {int32_t(2 * (key % nx) + 1), int32_t(2 * (key / nx % ny) + 1), int32_t(2 * (key / nx / ny) + 1)};
-  }
-  return keys;
-}
-
-/// The grid-faces that n items lie in, found by way of the cells.
-template <class ElementOf>
-std::vector<GridFaceId> findGridFaces(const Input& input, const std::vector<uint64_t>& keys, const Stencil& stencil, size_t n,
-                                      const ElementOf& elementOf) {
-  std::vector<KeyedItem> sorted(n);
-  Slab cell;
-  for (uint32_t i = 0; i < n; ++i) {
-    owner(input, elementOf(i), cell);
-    sorted[i] = {keyOf(input, cell), i};
-  }
-  sortByKey(sorted, largestKey(input));
-  std::vector<GridFaceId> faceOf(n);
-  GridCellId c{0};
-  for (size_t i = 0; i < n; ++i) {
-    while (keys[c.number] < sorted[i].key) ++c.number;
-    faceOf[sorted[i].item] = stencil.cells[c].faces[owner(input, elementOf(sorted[i].item), cell)];
-  }
-  return faceOf;
+/// The grid-face of a cell of the brick.
+GridFaceId faceAt(const Stencil& stencil, const Slab& gridFace) {
+  const Stencil::Cell& cell = stencil.cells[*stencil.cellBeside(gridFace)];
+  const int axis = planeAxis(gridFace);
+  return cell.faces[size_t(cellFace(axis, gridFace[size_t(axis)] > cell.element[size_t(axis)]))];
 }
 
 }  // namespace
@@ -224,26 +139,56 @@ std::array<GridEdgeId, 4> Stencil::edgesOf(const Face& face) const {
           cell.edges[cellEdge(q, side, 0)]};
 }
 
-Stencil makeStencil(const Surface& surface, const TriFaces& triFaces, Run& run) {
-  const Input& input = surface.input;
-  const PlacedFaces placed = placeFaces(surface, triFaces);
-  Stencil stencil;
-  const std::vector<uint64_t> keys = listCells(input, placed, stencil);
-  numberElements(input, keys, stencil, run.monitor);
+std::optional<GridCellId> Stencil::find(const Slab& cell) const {
+  if (!box.has(cell)) return {};
+  const uint32_t number = table[placeOf(cell)];
+  if (number == kNone) return {};
+  return GridCellId{number};
+}
 
-  const std::vector<FaceEdge>&hybrid = triFaces.hybridEdges, &inPlane = surface.edgesInPlane;
-  const auto edgeAt = [&](size_t i) -> const FaceEdge& { return i < hybrid.size() ? hybrid[i] : inPlane[i - hybrid.size()]; };
-  const size_t edgeTotal = hybrid.size() + inPlane.size();
-  const std::vector<GridFaceId> faceOfEdge =
-      findGridFaces(input, keys, stencil, edgeTotal, [&](size_t i) -> const Slab& { return edgeAt(i).element; });
-  stencil.edgesOnFace = groupBy<FaceEdge, GridFaceId>(
-      stencil.faces.size(), edgeTotal, [&](size_t i) { return faceOfEdge[i]; }, edgeAt);
-  const std::vector<FaceId>& flat = placed.inPlane;
-  const std::vector<GridFaceId> faceOfTri =
-      findGridFaces(input, keys, stencil, flat.size(), [&](size_t i) -> const Slab& { return triFaces.elements[flat[i]]; });
-  stencil.triFacesOnFace = groupBy<FaceId, GridFaceId>(
-      stencil.faces.size(), flat.size(), [&](size_t i) { return faceOfTri[i]; }, [&](size_t i) { return flat[i]; });
-  return stencil;
+std::optional<GridCellId> Stencil::cellBeside(const Slab& element) const {
+  for (int corner = 0; corner < 8; ++corner) {
+    Slab cell = element;
+    bool isNew = true;
+    for (size_t d = 0; d < 3; ++d) {
+      const bool above = corner >> d & 1;
+      if (onPlane(element[d])) {
+        cell[d] += above ? 1 : -1;
+      } else {
+        isNew &= !above;
+      }
+    }
+    if (!isNew) continue;
+    if (const auto found = find(cell)) return found;
+  }
+  return {};
+}
+
+void makeStencil(const CutSurface& surface, BrickId brick, Stencil& stencil) {
+  const auto& [whole, triFaces, bricks] = surface;
+  listCells(bricks, brick, stencil);
+  numberElements(stencil);
+
+  std::vector<Placed<FaceId, GridCellId>> inCell;
+  std::vector<Placed<FaceId, GridFaceId>> onFace;
+  std::vector<Placed<FaceEdge, GridFaceId>> edges;
+  inCell.reserve(bricks.triFaces[brick].size());
+  for (const FaceId f : bricks.triFaces[brick]) {
+    const Slab& element = triFaces.elements[f];
+    if (planeCount(element) == 0) {
+      inCell.push_back({f, {stencil.table[stencil.placeOf(element)]}});
+    } else {
+      onFace.push_back({f, faceAt(stencil, element)});
+    }
+  }
+  edges.reserve(bricks.faceEdges[brick].size());
+  for (const uint32_t i : bricks.faceEdges[brick]) {
+    const FaceEdge& edge = faceEdge(whole, triFaces, i);
+    edges.push_back({edge, faceAt(stencil, edge.element)});
+  }
+  stencil.triFacesInCell = grouped(stencil.cells.size(), inCell);
+  stencil.triFacesOnFace = grouped(stencil.faces.size(), onFace);
+  stencil.edgesOnFace = grouped(stencil.faces.size(), edges);
 }
 
 }  // namespace mandoline::detail

@@ -1,13 +1,13 @@
 // The stencil (paper, 4.3.1): the grid cells that the surface touches, their grid-faces, grid-edges and grid vertices, and the parts of
 // the surface in each.
 //
-// In: Surface, TriFaces. Out: Stencil. A grid cell belongs to it if a tri-cut-face lies inside of it or in one of its grid-faces, or a
-// tri-edge in one of its grid-faces: so every grid-face between it and an untouched grid cell is whole.
+// In: a brick. Out: its part of the stencil. A grid cell belongs to it if a tri-cut-face lies inside of it or in one of its grid-faces, or
+// a tri-edge in one of its grid-faces: so every grid-face between it and an untouched grid cell is whole.
 #pragma once
 
 #include <vector>
 
-#include "cut/stages/tri_faces.h"
+#include "cut/stages/bricks.h"
 
 namespace mandoline::detail {
 
@@ -34,6 +34,7 @@ struct Stencil {
     int side() const { return index & 1; }
   };
 
+  BrickBox box;
   IdVector<GridCellId, Cell> cells;  ///< ascending by z, then y, then x
   IdVector<GridFaceId, Face> faces;
   uint32_t edgeCount = 0, cornerCount = 0;
@@ -45,8 +46,31 @@ struct Stencil {
   /// axis.
   std::array<GridVertexId, 4> cornersOf(const Face& face) const;
   std::array<GridEdgeId, 4> edgesOf(const Face& face) const;
+  /// A grid cell of the brick, if it belongs to the stencil.
+  std::optional<GridCellId> find(const Slab& cell) const;
+  /// A cell that has a grid element, and lies in the brick.
+  std::optional<GridCellId> cellBeside(const Slab& element) const;
+
+  /// Numbers of cells in the brick with a margin of one cell; kNone for those that are not touched.
+  std::vector<uint32_t> table;
+  static constexpr uint32_t kNone = ~0u;
+
+  size_t placeOf(const Slab& cell) const {
+    const auto at = [&](size_t d) { return size_t((cell[d] >> 1) - box.first[d] + 1); };
+    return (at(2) * size_t(box.count[1] + 2) + at(1)) * size_t(box.count[0] + 2) + at(0);
+  }
 };
 
-Stencil makeStencil(const Surface& surface, const TriFaces& triFaces, Run& run);
+/// What the stages of a brick read: all of the surface, and which parts of it lie in which brick.
+struct CutSurface {
+  const Surface& surface;
+  const TriFaces& triFaces;
+  const Bricks& bricks;
+
+  bool isTri(FaceId face) const { return face.number < triFaces.size(); }
+};
+
+/// Replaces `stencil`, whose memory is used again.
+void makeStencil(const CutSurface& surface, BrickId brick, Stencil& stencil);
 
 }  // namespace mandoline::detail

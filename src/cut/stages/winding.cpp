@@ -1,30 +1,7 @@
 #include "cut/stages/winding.h"
 
-#include "cut/stages/face_parents.h"
-
 namespace mandoline::detail {
 namespace {
-
-/// Which triangles count, and how: all of a mesh that has winding numbers, or those of parts that have them, or that have parity.
-class Counted {
- public:
-  explicit Counted(const Prepared& mesh) : mesh_(mesh) {}
-  /// Of parts that are at most as bad; modulo 2 unless those have winding numbers.
-  Counted(const Prepared& mesh, PartKind worst) : mesh_(mesh), worst_(worst) {}
-
-  bool has(TriangleId t) const { return mesh_.parts.kinds.empty() || mesh_.parts.kinds[t.number] <= worst_; }
-  /// The sum of the signs of a kept triangle and its duplicates.
-  int32_t signSum(TriangleId t) const {
-    int32_t sum = has(t);
-    for (const Duplicate& d : mesh_.duplicatesOf(t)) sum += !has({d.triangle}) ? 0 : d.sameWay ? 1 : -1;
-    return sum;
-  }
-  bool areEqual(int32_t a, int32_t b) const { return worst_ == PartKind::winding ? a == b : (a - b) % 2 == 0; }
-
- private:
-  const Prepared& mesh_;
-  PartKind worst_ = PartKind::winding;
-};
 
 /// Winding number of the counted triangles about the point (x0 + e^3, y0 + e, z0 + e^2), where (x0, y0, z0) is the grid's lowest corner and
 /// e is arbitrarily small: the sum of the signs of the crossings of the ray from there to -x.
@@ -59,20 +36,8 @@ int windingAtLowestCorner(const Input& input, const Counted& counted, Predicates
 }
 
 /// The region that holds the point of windingAtLowestCorner.
-uint32_t regionAtLowestCorner(const CutVertices& vertices, const Sides& sides, const Regions& regions) {
-  const Stencil& stencil = sides.stencil;
-  if (stencil.cells.empty() || stencil.cells.front().element != Slab{1, 1, 1}) return regions.runRegion[0];
-  // Its grid-face x = x0 holds the point's shadow right beside the y-axis: in the face with the directed edge from the corner along y.
-  for (const HalfFace fromBelow : sides.faces.grid.halfFaces[stencil.cells.front().faces[cellFace(0, 0)]]) {
-    const bool reversed = fromBelow.side() == 1;  // a triangle's face whose normal is -x
-    const auto loop = sides.faces.loops(fromBelow.face())[0];
-    for (size_t i = 0; i < loop.size(); ++i) {
-      VertexId u = loop[i], v = loop[i + 1 < loop.size() ? i + 1 : 0];
-      if (reversed) std::swap(u, v);
-      const bool found = vertices.slabs[u] == Slab{0, 0, 0} && vertices.slabs[v][0] == 0 && vertices.slabs[v][2] == 0;
-      if (found) return regions.cellRegion[sides.cell(fromBelow.twin())];
-    }
-  }
+uint32_t regionAtLowestCorner(const IdVector<BrickId, BrickCut>& cuts, const Regions& regions) {
+  if (!cuts.empty() && cuts.front().componentAtCorner) return regions.ofComponents.front()[*cuts.front().componentAtCorner];
   return regions.runRegion[0];
 }
 
@@ -114,31 +79,63 @@ class WindingSets {
   std::vector<int32_t> toParent_;  // winding number less the parent's; 0 of a root
 };
 
-[[noreturn]] void failAt(const CutVertices& vertices, const Sides& sides, FaceId face) {
-  const auto triangle = sides.faces.triangle(face);
-  std::optional<TriangleId> other;  // another triangle in the same grid cell
-  for (const HalfFace h : sides.cells.halfFaces[sides.cell(HalfFace(face, 0))]) {
-    const auto found = sides.faces.triangle(h.face());
-    if (found && found != triangle) other = found;
+/// A cut-cell of a brick, or none.
+struct Place {
+  BrickId brick{0};
+  CellId cell = FaceSides::kNone;
+};
+
+/// Where steps contradict each other, finds the first face, in the order of faces, that does, to blame its triangle.
+[[noreturn]] void failAtFirst(const CutSurface& surface, const IdVector<BrickId, BrickCut>& cuts, const Regions& regions, size_t kind) {
+  const std::vector<Counted> counted = countedOf(*surface.surface.input.mesh);
+  IdVector<FaceId, std::array<Place, 2>> faces(surface.triFaces.size());  // behind them and in front of them
+  for (const BrickId b : cuts.ids()) {
+    for (const CellId c : cuts[b].gridCells.ids()) {
+      for (const HalfFace h : cuts[b].halfFaces[c]) {
+        if (surface.isTri(h.face())) faces[h.face()][h.side()] = {b, c};
+      }
+    }
   }
-  vertices.failSelfIntersection(triangle, other);
+  const FaceParents parents(surface.surface.input, surface.triFaces);
+  WindingSets sets(regions.count);
+  std::optional<TriangleId> triangle, other;
+  for (const FaceId f : faces.ids()) {
+    const auto& [behind, inFront] = faces[f];
+    if (behind.cell == FaceSides::kNone || inFront.cell == FaceSides::kNone) continue;  // on the boundary of the grid
+    const auto regionOf = [&](const Place& side) { return regions.ofComponents[side.brick][cuts[side.brick].components[side.cell]]; };
+    if (sets.setMore(regionOf(behind), regionOf(inFront), stepsAt(f, parents, counted)[kind], counted[kind])) continue;
+    triangle = surface.triFaces.triangles[f];
+    for (const HalfFace h : cuts[behind.brick].halfFaces[behind.cell]) {  // another triangle in the same grid cell
+      if (surface.isTri(h.face()) && surface.triFaces.triangles[h.face()] != triangle) other = surface.triFaces.triangles[h.face()];
+    }
+    break;
+  }
+  surface.surface.vertices.failSelfIntersection(triangle, other);
 }
 
-/// Per region the winding number of the counted triangles.
-std::vector<int32_t> windingOf(const Surface& surface, const Sides& sides, const Regions& regions, const Counted& counted,
+/// Per region the winding number of the counted triangles of a kind.
+std::vector<int32_t> windingOf(const CutSurface& surface, const IdVector<BrickId, BrickCut>& cuts, const Regions& regions, size_t kind,
                                Predicates& predicates) {
+  const Input& input = surface.surface.input;
+  const std::vector<Counted> allCounted = countedOf(*input.mesh);
+  const Counted& counted = allCounted[kind];
+  const FaceParents parents(input, surface.triFaces);
   WindingSets sets(regions.count);
-  FaceParents parents(surface.input, sides.faces.tri);
-  for (const FaceId face : sides.faces.tri.ids()) {
-    const CellId behind = sides.cell(HalfFace(face, 0)), inFront = sides.cell(HalfFace(face, 1));
-    if (behind == Sides::kNone || inFront == Sides::kNone) continue;  // on the boundary of the grid
-    int32_t step = 0;
-    parents.forEach(face, [&](TriangleId t, bool sameWay) { step += !counted.has(t) ? 0 : sameWay ? 1 : -1; });
-    const uint32_t regionBehind = regions.cellRegion[behind], regionInFront = regions.cellRegion[inFront];
-    if (!sets.setMore(regionBehind, regionInFront, step, counted)) failAt(surface.vertices, sides, face);
+  const auto set = [&](uint32_t behind, uint32_t inFront, int32_t step) {
+    if (!sets.setMore(behind, inFront, step, counted)) failAtFirst(surface, cuts, regions, kind);
+  };
+  for (const BrickId b : cuts.ids()) {
+    for (const WindingStep& s : cuts[b].steps) set(regions.ofComponents[b][s.behind], regions.ofComponents[b][s.inFront], s.steps[kind]);
+    forSeams(cuts, b, [&](const SeamHalf& below, BrickId owner, const SeamHalf& above) {
+      const HalfFace h = below.halfFace;
+      if (!surface.isTri(h.face())) return;
+      uint32_t behind = regions.ofComponents[owner][below.component], inFront = regions.ofComponents[b][above.component];
+      if (h.side() == 1) std::swap(behind, inFront);
+      set(behind, inFront, stepsAt(h.face(), parents, allCounted)[kind]);
+    });
   }
-  const uint32_t anchor = regionAtLowestCorner(surface.vertices, sides, regions), root = sets.find(anchor);
-  const int32_t shift = windingAtLowestCorner(surface.input, counted, predicates) - sets.toRoot(anchor);
+  const uint32_t anchor = regionAtLowestCorner(cuts, regions), root = sets.find(anchor);
+  const int32_t shift = windingAtLowestCorner(input, counted, predicates) - sets.toRoot(anchor);
   std::vector<int32_t> winding(regions.count);
   for (uint32_t r = 0; r < regions.count; ++r) winding[r] = sets.find(r) == root ? shift + sets.toRoot(r) : 0;
   return winding;
@@ -146,21 +143,18 @@ std::vector<int32_t> windingOf(const Surface& surface, const Sides& sides, const
 
 }  // namespace
 
-void findWinding(const Surface& surface, const Sides& sides, Regions& regions, Predicates& predicates) {
-  const Prepared& mesh = *surface.input.mesh;
+void findWinding(const CutSurface& surface, const IdVector<BrickId, BrickCut>& cuts, Regions& regions, Predicates& predicates) {
+  const Prepared& mesh = *surface.surface.input.mesh;
   const PartCounts& parts = mesh.parts.counts;
   regions.hasWinding = mesh.closed;
   if (mesh.closed) {
-    regions.winding = windingOf(surface, sides, regions, Counted(mesh), predicates);
+    regions.winding = windingOf(surface, cuts, regions, 0, predicates);
     return;
   }
-  if (parts.winding > 0) {
-    regions.partWinding = windingOf(surface, sides, regions, {mesh, PartKind::winding}, predicates);
-  }
-  if (parts.winding + parts.parity > 0) {
-    for (const int32_t crossings : windingOf(surface, sides, regions, {mesh, PartKind::parity}, predicates)) {
-      regions.parity.push_back(uint8_t(crossings & 1));
-    }
+  if (parts.winding > 0) regions.partWinding = windingOf(surface, cuts, regions, 0, predicates);
+  if (parts.winding + parts.parity == 0) return;
+  for (const int32_t crossings : windingOf(surface, cuts, regions, parts.winding > 0 ? 1 : 0, predicates)) {
+    regions.parity.push_back(uint8_t(crossings & 1));
   }
 }
 

@@ -10,8 +10,8 @@ namespace {
 /// Number of half-faces of each cut-cell in a grid cell, ascending.
 std::vector<size_t> sizesIn(const StagedCut& cut, const Slab& gridCell) {
   std::vector<size_t> sizes;
-  for (const CellId c : cut.state.cells.gridCells.ids()) {
-    if (cut.state.stencil.cells[cut.state.cells.gridCells[c]].element == gridCell) sizes.push_back(cut.state.cells.halfFaces[c].size());
+  for (const CellId c : cut.cells.gridCells.ids()) {
+    if (cut.stencil.cells[cut.cells.gridCells[c]].element == gridCell) sizes.push_back(cut.cells.halfFaces[c].size());
   }
   std::sort(sizes.begin(), sizes.end());
   return sizes;
@@ -49,8 +49,8 @@ TEST_CASE("Three blades on one edge make three cells", "[stages][cutCells]") {
 
 TEST_CASE("Every half-face of a tri-cut-face inside the grid has one cell", "[stages][cutCells]") {
   const StagedCut cut(shapes::icosphere({1.5, 1.5, 1.5}, 1.2, 2), Stage::cutCells);
-  std::vector<int> owners(2 * cut.state.faces.size(), 0);
-  for (const HalfFace h : cut.state.cells.halfFaces.items) ++owners[h.number];
-  for (size_t h = 0; h < 2 * cut.state.faces.tri.size(); ++h) CHECK(owners[h] == 1);
+  std::vector<int> owners(2 * cut.faces().size(), 0);
+  for (const HalfFace h : cut.cells.halfFaces.items) ++owners[h.number];
+  for (size_t h = 0; h < 2 * cut.state.triFaces.size(); ++h) CHECK(owners[h] == 1);
   for (const int count : owners) CHECK(count <= 1);
 }

@@ -32,7 +32,8 @@ TEST_CASE("A surface vertex at a grid vertex is that grid vertex", "[stages][gri
   const StagedCut cut(shapes::triangle({1, 1, 1}, {1.5, 1.25, 1.5}, {1.25, 1.5, 1.5}), Stage::gridEdges);
   const auto& corners = cut.gridEdges.corners;
   CHECK(std::count(corners.begin(), corners.end(), VertexId{0}) == 1);
-  CHECK(cut.state.surface.vertices.size() == size_t(cut.state.surface.vertices.firstOnGrid.number) + 7);
+  const VertexId first = cut.state.bricks.firstOnGrid[{0}];
+  for (uint32_t i = 0; i < 7; ++i) CHECK(std::count(corners.begin(), corners.end(), VertexId{first.number + i}) == 1);
 }
 
 TEST_CASE("Two unresolved triangles through one point of a grid line are a self-intersection", "[stages][gridEdges]") {

@@ -14,7 +14,7 @@ namespace {
 /// The pieces of the one grid-face that has more than one loop or piece, as loops per piece.
 std::vector<size_t> loopsOfPieces(const StagedCut& cut, GridFaceId gridFace) {
   std::vector<size_t> counts;
-  for (const HalfFace h : cut.state.faces.grid.halfFaces[gridFace]) counts.push_back(cut.state.faces.loops(h.face()).size());
+  for (const HalfFace h : cut.gridFaces.halfFaces[gridFace]) counts.push_back(cut.faces().loops(h.face()).size());
   return counts;
 }
 
@@ -31,38 +31,38 @@ GridFaceId middleFace(const Stencil& stencil) {
 
 TEST_CASE("Grid-faces that nothing passes stay whole", "[stages][gridFaces]") {
   const StagedCut cut(shapes::octahedron({1.5, 1.5, 1.5}, 0.25), Stage::gridFaces);
-  CHECK(cut.state.faces.grid.size() == 6);
-  for (const GridFaceId g : cut.state.stencil.faces.ids()) {
+  CHECK(cut.gridFaces.size() == 6);
+  for (const GridFaceId g : cut.stencil.faces.ids()) {
     CHECK(loopsOfPieces(cut, g) == std::vector<size_t>{1});
-    CHECK(cut.state.faces.loops(cut.state.faces.grid.halfFaces[g][0].face())[0].size() == 4);
+    CHECK(cut.faces().loops(cut.gridFaces.halfFaces[g][0].face())[0].size() == 4);
   }
 }
 
 TEST_CASE("A tunnel leaves a face with a hole and a face in it", "[stages][gridFaces]") {
   const StagedCut cut(shapes::octahedron({1.5, 1.5, 1}, 0.25), Stage::gridFaces);
-  std::vector<size_t> loops = loopsOfPieces(cut, middleFace(cut.state.stencil));
+  std::vector<size_t> loops = loopsOfPieces(cut, middleFace(cut.stencil));
   std::sort(loops.begin(), loops.end());
   CHECK(loops == std::vector<size_t>{1, 2});
 }
 
 TEST_CASE("The end of a sheet leaves a slit", "[stages][gridFaces]") {
   const StagedCut cut(shapes::triangle({1.25, 1.5, 0.5}, {1.75, 1.5, 0.5}, {1.5, 1.5, 1.5}), Stage::gridFaces);
-  const GridFaceId face = middleFace(cut.state.stencil);
+  const GridFaceId face = middleFace(cut.stencil);
   CHECK(loopsOfPieces(cut, face) == std::vector<size_t>{1});
-  CHECK(cut.state.faces.grid.slits[face].size() == 1);
+  CHECK(cut.gridFaces.slits[face].size() == 1);
 }
 
 TEST_CASE("A triangle in a grid-face takes the place of that piece", "[stages][gridFaces]") {
   const StagedCut cut(shapes::triangle({1.25, 1.25, 1}, {1.75, 1.25, 1}, {1.25, 1.75, 1}), Stage::gridFaces);
-  const GridFaceId face = middleFace(cut.state.stencil);
-  const auto halfFaces = cut.state.faces.grid.halfFaces[face];
+  const GridFaceId face = middleFace(cut.stencil);
+  const auto halfFaces = cut.gridFaces.halfFaces[face];
   REQUIRE(halfFaces.size() == 2);
-  CHECK(cut.state.faces.isTri(halfFaces[0].face()));
-  CHECK(cut.state.faces.triangle(halfFaces[0].face()) == TriangleId{0});
+  CHECK(cut.faces().isTri(halfFaces[0].face()));
+  CHECK(cut.faces().triangle(halfFaces[0].face()) == TriangleId{0});
   CHECK(halfFaces[0].side() == 0);  // the normal is +z, out of the cell below
-  CHECK_FALSE(cut.state.faces.isTri(halfFaces[1].face()));
-  CHECK_FALSE(cut.state.faces.triangle(halfFaces[1].face()));
-  CHECK(cut.state.faces.loops(halfFaces[1].face()).size() == 2);
+  CHECK_FALSE(cut.faces().isTri(halfFaces[1].face()));
+  CHECK_FALSE(cut.faces().triangle(halfFaces[1].face()));
+  CHECK(cut.faces().loops(halfFaces[1].face()).size() == 2);
 }
 
 TEST_CASE("Chains give the same pieces as planar graphs", "[stages][gridFaces]") {
@@ -77,8 +77,10 @@ TEST_CASE("Chains give the same pieces as planar graphs", "[stages][gridFaces]")
   size_t pieces = 0;
   for (const NamedCase& one : cases) {
     CAPTURE(one.name);
-    const StagedCut quick(one.mesh, Stage::gridFaces, {}, one.grid), general(one.mesh, Stage::gridFaces, {}, one.grid, true);
-    const GridFaces &a = quick.state.faces.grid, &b = general.state.faces.grid;
+    Way onlyGeneral;
+    onlyGeneral.onlyGeneral = true;
+    const StagedCut quick(one.mesh, Stage::gridFaces, one.grid), general(one.mesh, Stage::gridFaces, onlyGeneral, one.grid);
+    const GridFaces &a = quick.gridFaces, &b = general.gridFaces;
     CHECK(a.loops.offsets == b.loops.offsets);
     CHECK(a.loops.items == b.loops.items);
     CHECK(a.faceLoopOffsets == b.faceLoopOffsets);

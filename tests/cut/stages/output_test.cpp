@@ -6,15 +6,6 @@
 
 using namespace stages;
 
-namespace {
-
-CutMesh cutMeshOf(const Mesh& mesh, const Grid& grid = unitCells()) {
-  StagedCut cut(mesh, Stage::regions, grid);
-  return makeOutput(mesh, grid, cut.state, cut.run);
-}
-
-}  // namespace
-
 TEST_CASE("Vertices come by kind, with their parents", "[stages][output]") {
   const CutMesh cutMesh = cutMeshOf(shapes::triangle({0.5, 0.5, 0.5}, {1.75, 0.5, 0.5}, {0.5, 1.75, 0.5}));
   int kind = 0;

@@ -45,12 +45,12 @@ TEST_CASE("Open and inconsistently oriented surfaces have no winding numbers", "
 }
 
 TEST_CASE("Untouched grid cells are runs along x", "[stages][regions]") {
-  const Regions regions = StagedCut(shapes::octahedron({1.5, 1.5, 1.5}, 0.25), Stage::regions).state.regions;
-  CHECK(regions.rowRunOffsets == std::vector<uint32_t>{0, 1, 2, 3, 4, 6, 7, 8, 9, 10});
-  CHECK(regions.runBegin[4] == 0);
-  CHECK(regions.runEnd[4] == 1);
-  CHECK(regions.runBegin[5] == 2);
-  CHECK(regions.runEnd[5] == 3);
+  const UntouchedRuns runs = StagedCut(shapes::octahedron({1.5, 1.5, 1.5}, 0.25), Stage::regions).state.runs;
+  CHECK(runs.rowOffsets == std::vector<uint32_t>{0, 1, 2, 3, 4, 6, 7, 8, 9, 10});
+  CHECK(runs.begin[4] == 0);
+  CHECK(runs.end[4] == 1);
+  CHECK(runs.begin[5] == 2);
+  CHECK(runs.end[5] == 3);
 }
 
 TEST_CASE("A sheet divides the grid into regions only where it reaches the border", "[stages][regions]") {

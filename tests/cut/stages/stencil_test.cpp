@@ -5,7 +5,7 @@ using namespace stages;
 
 TEST_CASE("One touched grid cell has 6 grid-faces, 12 grid-edges and 8 grid vertices", "[stages][stencil]") {
   const StagedCut cut(shapes::triangle({1.25, 1.25, 1.25}, {1.75, 1.25, 1.5}, {1.25, 1.75, 1.5}), Stage::stencil);
-  const Stencil& stencil = cut.state.stencil;
+  const Stencil& stencil = cut.stencil;
   REQUIRE(stencil.cells.size() == 1);
   CHECK(stencil.cells[{0}].element == Slab{3, 3, 3});
   CHECK(stencil.faces.size() == 6);
@@ -17,7 +17,7 @@ TEST_CASE("One touched grid cell has 6 grid-faces, 12 grid-edges and 8 grid vert
 TEST_CASE("Neighbours share what lies between them", "[stages][stencil]") {
   // In the grid-face between two cells: both are touched.
   const StagedCut cut(shapes::triangle({1.25, 1.25, 1}, {1.75, 1.25, 1}, {1.25, 1.75, 1}), Stage::stencil);
-  const Stencil& stencil = cut.state.stencil;
+  const Stencil& stencil = cut.stencil;
   REQUIRE(stencil.cells.size() == 2);
   CHECK(stencil.faces.size() == 11);
   CHECK(stencil.edgeCount == 20);
@@ -33,7 +33,7 @@ TEST_CASE("The whole grid's elements are counted once each", "[stages][stencil]"
   const Mesh sphere = shapes::icosphere({1.5, 1.5, 1.5}, 1.25, 3);
   const Mesh middle = shapes::triangle({1.25, 1.25, 1.25}, {1.75, 1.25, 1.5}, {1.25, 1.75, 1.5});
   const StagedCut cut(shapes::merged({sphere, middle}), Stage::stencil);
-  const Stencil& stencil = cut.state.stencil;
+  const Stencil& stencil = cut.stencil;
   if (stencil.cells.size() == 27) {
     CHECK(stencil.faces.size() == 108);
     CHECK(stencil.edgeCount == 144);
@@ -45,7 +45,7 @@ TEST_CASE("The whole grid's elements are counted once each", "[stages][stencil]"
 
 TEST_CASE("Corners of a grid-face run counter-clockwise, each edge from one to the next", "[stages][stencil]") {
   const StagedCut cut(shapes::triangle({1.25, 1.25, 1.25}, {1.75, 1.25, 1.5}, {1.25, 1.75, 1.5}), Stage::gridEdges);
-  const Stencil& stencil = cut.state.stencil;
+  const Stencil& stencil = cut.stencil;
   const CutVertices& vertices = cut.state.surface.vertices;
   for (const Stencil::Face& face : stencil.faces) {
     const auto corners = stencil.cornersOf(face);

@@ -8,7 +8,7 @@ using namespace stages;
 
 TEST_CASE("A triangle in one grid cell stays whole", "[stages][triFaces]") {
   const StagedCut cut(shapes::triangle({1.25, 1.25, 1.25}, {1.75, 1.25, 1.5}, {1.25, 1.75, 1.5}), Stage::triFaces);
-  const TriFaces& faces = cut.state.faces.tri;
+  const TriFaces& faces = cut.state.triFaces;
   REQUIRE(faces.size() == 1);
   CHECK(faces.elements[{0}] == Slab{3, 3, 3});
   CHECK(faces.loopsOf({0})[0].size() == 3);
@@ -18,7 +18,7 @@ TEST_CASE("A triangle in one grid cell stays whole", "[stages][triFaces]") {
 
 TEST_CASE("Every piece of a triangle lies in one grid cell, and pieces share hybrid edges", "[stages][triFaces]") {
   const StagedCut cut(shapes::triangle({0.1, 0.2, 0.3}, {2.9, 0.4, 1.7}, {0.6, 2.8, 2.9}), Stage::triFaces);
-  const TriFaces& faces = cut.state.faces.tri;
+  const TriFaces& faces = cut.state.triFaces;
   const CutVertices& vertices = cut.state.surface.vertices;
   CHECK(faces.size() > 8);
   std::map<std::array<VertexId, 2>, int> uses;
@@ -41,7 +41,7 @@ TEST_CASE("Every piece of a triangle lies in one grid cell, and pieces share hyb
 
 TEST_CASE("A triangle in an axial plane is cut into pieces of grid-faces", "[stages][triFaces]") {
   const StagedCut cut(shapes::triangle({0.5, 0.5, 1}, {1.5, 0.5, 1}, {0.5, 0.75, 1}), Stage::triFaces);
-  const TriFaces& faces = cut.state.faces.tri;
+  const TriFaces& faces = cut.state.triFaces;
   REQUIRE(faces.size() == 2);
   CHECK(faces.elements[{0}] == Slab{1, 1, 2});
   CHECK(faces.elements[{1}] == Slab{3, 1, 2});
@@ -52,12 +52,12 @@ TEST_CASE("Where a triangle meets a grid line there is one vertex for both hybri
   const CutVertices& vertices = cut.state.surface.vertices;
   REQUIRE(vertices.firstOnGrid.number - vertices.firstInTriangle.number == 1);
   CHECK(vertices.slabs[vertices.firstInTriangle] == Slab{2, 2, 1});
-  CHECK(cut.state.faces.tri.size() == 4);
+  CHECK(cut.state.triFaces.size() == 4);
 }
 
 TEST_CASE("Pieces outside the grid are left out", "[stages][triFaces]") {
   const StagedCut cut(shapes::triangle({-1, 0.5, 0.5}, {0.5, 0.25, 0.5}, {0.5, 0.75, 0.5}), Stage::triFaces);
-  REQUIRE(cut.state.faces.tri.size() == 1);
-  CHECK(cut.state.faces.tri.elements[{0}] == Slab{1, 1, 1});
-  CHECK(cut.state.faces.tri.loopsOf({0})[0].size() == 4);
+  REQUIRE(cut.state.triFaces.size() == 1);
+  CHECK(cut.state.triFaces.elements[{0}] == Slab{1, 1, 1});
+  CHECK(cut.state.triFaces.loopsOf({0})[0].size() == 4);
 }

@@ -1,0 +1,48 @@
+#include <random>
+
+#include "case_list.h"
+#include "catch.h"
+#include "lattice.h"
+#include "same_bits.h"
+#include "staged_cut.h"
+
+using namespace stages;
+
+TEST_CASE("The surface's grid cells are touched, each in one brick", "[stages][bricks]") {
+  Way way;
+  way.brickShift = 1;  // of 2 cells along each side, and 1 at the end
+  const StagedCut cut(shapes::triangle({1.25, 1.25, 1.25}, {2.75, 1.25, 1.5}, {1.25, 1.75, 1.5}), Stage::stencil, way);
+  const Bricks& bricks = cut.state.bricks;
+  REQUIRE(bricks.size() == 2);
+  CHECK(bricks.boxes[{1}].first == std::array<int32_t, 3>{2, 0, 0});
+  CHECK(bricks.boxes[{1}].count == std::array<int32_t, 3>{1, 2, 2});
+  CHECK(bricks.isTouched({3, 3, 3}));
+  CHECK(bricks.isTouched({5, 3, 3}));
+  CHECK_FALSE(bricks.isTouched({1, 3, 3}));
+  CHECK_FALSE(bricks.isTouched({5, 5, 5}));
+}
+
+TEST_CASE("The result is the same to the bit for all sizes of bricks", "[stages][bricks]") {
+  std::vector<NamedCase> cases = caseList();
+  std::mt19937 random(11);
+  for (int i = 0; i < 150; ++i) {
+    std::array<uint8_t, 96> bytes;
+    for (uint8_t& byte : bytes) byte = uint8_t(random());
+    LatticeCase soup = decodeLattice(bytes.data(), bytes.size());
+    cases.push_back({"lattice", std::move(soup.mesh), std::move(soup.grid)});
+  }
+  size_t cells = 0;
+  for (const NamedCase& one : cases) {
+    CAPTURE(one.name, one.mesh.triangleCount());
+    const CutMesh whole = cutMeshOf(one.mesh, one.grid);
+    for (const int shift : {0, 1, 2, 3, 4}) {  // 0: every grid cell is a brick, and every grid-face lies on a seam
+      CAPTURE(shift);
+      Way way;
+      way.brickShift = shift;
+      way.options.threads = 1 + unsigned(shift) % 3;
+      CHECK(differences(cutMeshOf(one.mesh, one.grid, way), whole).empty());
+    }
+    cells += whole.cellCount();
+  }
+  CHECK(cells > 5000);
+}
