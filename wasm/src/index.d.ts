@@ -82,15 +82,7 @@ export interface Grid {
 }
 
 /** The stages of a cut, in order; prepare() does the first two. */
-export type Stage =
-  | 'input'
-  | 'intersections'
-  | 'grid'
-  | 'triEdges'
-  | 'triFaces'
-  | 'bricks'
-  | 'regions'
-  | 'output';
+export type Stage = 'input' | 'intersections' | 'grid' | 'triEdges' | 'triFaces' | 'bricks' | 'regions' | 'output';
 
 export interface RunOptions {
   /**

@@ -103,9 +103,13 @@ class Harvest {
   void findSteps(const std::vector<Counted>& counted, BrickCut& out) const {
     if (counted.empty()) return;
     const FaceParents parents(input_, faces_.tri);
+    const bool areAlike = input_.mesh->closed && input_.mesh->duplicates.empty() && faces_.tri.otherParents.empty();
+    WindingStep last{~0u, ~0u, {}};
     const auto add = [&](FaceId face, CellId behind, CellId inFront) {
-      const WindingStep step{out.components[behind], out.components[inFront], stepsAt(face, parents, counted)};
-      if (out.steps.empty() || out.steps.back() != step) out.steps.push_back(step);
+      const WindingStep step{out.components[behind], out.components[inFront],
+                             areAlike ? std::array<int32_t, 2>{1, 0} : stepsAt(face, parents, counted)};
+      if (step.behind == last.behind && step.inFront == last.inFront && step.steps == last.steps) return;
+      out.steps.push_back(last = step);
     };
     for (size_t i = 0; i < cells_.ofTriFaces.size(); ++i) {
       const auto& [behind, inFront] = cells_.ofTriFaces[i].cells;

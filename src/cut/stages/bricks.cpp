@@ -17,8 +17,8 @@ class Found {
   }
 
   std::optional<BrickId> find(const Slab& cell) {
+    if (bricks.size() > 0 && bricks.boxes[last_].has(cell)) return last_;
     const uint64_t key = keyOf(cell);
-    if (bricks.size() > 0 && bricks.keys[last_] == key) return last_;
     const uint32_t slot = slots_[slotOf(key)];
     if (slot == kFree) return {};
     return last_ = {slot};
@@ -72,11 +72,28 @@ class Found {
   BrickId last_{0};
 };
 
-/// Something that a brick gets.
+/// Which bricks get which items: nearly all of them one.
 template <class Item>
 struct Given {
-  BrickId brick;
-  Item item;
+  struct More {
+    BrickId brick;
+    Item item;
+  };
+  static constexpr BrickId kNone{~0u};
+
+  std::vector<BrickId> first;  ///< per item, or kNone
+  std::vector<More> more;      ///< second ones
+
+  void add(std::optional<BrickId> brick, Item item) {
+    const size_t i = indexOf(item);
+    if (first.size() == i) return first.push_back(brick.value_or(kNone));
+    if (!brick || first[i] == *brick) return;
+    if (first[i] == kNone) {
+      first[i] = *brick;
+    } else {
+      more.push_back({*brick, item});
+    }
+  }
 };
 
 class Layout {
@@ -102,21 +119,16 @@ class Layout {
       if (input_.inGrid(cell)) f(cell);
     }
   }
-  template <class Item>
-  static void give(std::vector<Given<Item>>& given, BrickId brick, Item item) {
-    if (given.empty() || given.back().item != item || given.back().brick != brick) given.push_back({brick, item});
-  }
-
   void placeFaces() {
-    givenFaces_.reserve(faces_.size() + faces_.size() / 16);
+    givenFaces_.first.reserve(faces_.size());
     for (const FaceId f : faces_.ids()) {
       const Slab& element = faces_.elements[f];
       if (planeCount(element) == 0) {
-        givenFaces_.push_back({found_.touch(element), f});
+        givenFaces_.first.push_back(found_.touch(element));
       } else {
-        forSides(element, [&](const Slab& cell) { give(givenFaces_, found_.touch(cell), f); });
+        forSides(element, [&](const Slab& cell) { givenFaces_.add(found_.touch(cell), f); });
       }
-      if (!faces_.touchesLine[f]) continue;
+      if (!faces_.touchesLine[f] || !isBesideSeam(element)) continue;
       for (const auto loop : faces_.loopsOf(f)) {
         for (const VertexId v : loop) noteSeamVertex(v);
       }
@@ -125,24 +137,28 @@ class Layout {
 
   void placeEdges() {
     const uint32_t hybrid = uint32_t(faces_.hybridEdges.size()), all = hybrid + uint32_t(surface_.edgesInPlane.size());
-    givenEdges_.reserve(all + all / 16);
+    givenEdges_.first.reserve(all);
     for (uint32_t i = 0; i < all; ++i) {
       const FaceEdge& edge = faceEdge(surface_, faces_, i);
       const int axis = planeAxis(edge.element);
       if (i < hybrid && edge.element[size_t(axis)] > 0 && !isOnSeam(edge.element, axis)) {  // both sides lie in one brick, which has it
         Slab cell = edge.element;
         --cell[size_t(axis)];
-        if (const auto brick = found_.find(cell)) givenEdges_.push_back({*brick, i});
+        givenEdges_.add(found_.find(cell), i);
         continue;
       }
-      forSides(edge.element, [&](const Slab& cell) {
-        const auto brick = i < hybrid ? found_.find(cell) : found_.touch(cell);
-        if (brick) give(givenEdges_, *brick, i);
-      });
+      forSides(edge.element, [&](const Slab& cell) { givenEdges_.add(i < hybrid ? found_.find(cell) : found_.touch(cell), i); });
       if (i < hybrid) continue;
       noteSeamVertex(edge.from);
       noteSeamVertex(edge.to);
     }
+  }
+
+  bool isBesideSeam(const Slab& element) const {
+    const int32_t others = (2 << found_.bricks.shift) - 1;
+    bool isBeside = false;
+    for (const int32_t slab : element) isBeside |= ((slab + 1) & others) <= 2;
+    return isBeside;
   }
 
   bool isOnSeam(const Slab& slab, int axis) const {
@@ -169,7 +185,7 @@ class Layout {
           isNew &= side == 0 || isOnSeam(slab, d);
         }
         const auto brick = isNew ? found_.find(cell) : std::nullopt;
-        if (brick) give(givenVertices_, *brick, v);
+        if (brick) givenVertices_.push_back({*brick, v});
       }
     }
   }
@@ -193,23 +209,32 @@ class Layout {
     }
     bricks.triFaces = grouped(givenFaces_, newIds);
     bricks.faceEdges = grouped(givenEdges_, newIds);
-    bricks.seamVertices = grouped(givenVertices_, newIds);
+    bricks.seamVertices = groupBy<VertexId, BrickId>(
+        newIds.size(), givenVertices_.size(), [&](size_t i) { return newIds[givenVertices_[i].brick]; },
+        [&](size_t i) { return givenVertices_[i].item; });
     return bricks;
   }
 
   template <class Item>
-  static Csr<Item, BrickId> grouped(const std::vector<Given<Item>>& given, const IdVector<BrickId, BrickId>& newIds) {
-    return groupBy<Item, BrickId>(
-        newIds.size(), given.size(), [&](size_t i) { return newIds[given[i].brick]; }, [&](size_t i) { return given[i].item; });
+  static Csr<Item, BrickId> grouped(const Given<Item>& given, const IdVector<BrickId, BrickId>& newIds) {
+    const size_t firsts = given.first.size();
+    const auto brickOf = [&](size_t i) {
+      const BrickId brick = i < firsts ? given.first[i] : given.more[i - firsts].brick;
+      return brick == Given<Item>::kNone ? BrickId{uint32_t(newIds.size())} : newIds[brick];
+    };
+    const auto itemOf = [&](size_t i) { return i < firsts ? Item{uint32_t(i)} : given.more[i - firsts].item; };
+    Csr<Item, BrickId> groups = groupBy<Item, BrickId>(newIds.size() + 1, firsts + given.more.size(), brickOf, itemOf);
+    groups.offsets.pop_back();  // those that no brick has
+    return groups;
   }
 
   const Surface& surface_;
   const Input& input_;
   const TriFaces& faces_;
   Found found_;
-  std::vector<Given<FaceId>> givenFaces_;
-  std::vector<Given<uint32_t>> givenEdges_;
-  std::vector<Given<VertexId>> givenVertices_;
+  Given<FaceId> givenFaces_;
+  Given<uint32_t> givenEdges_;
+  std::vector<Given<VertexId>::More> givenVertices_;
   std::vector<VertexId> seamVertices_;
 };
 

@@ -55,8 +55,8 @@ struct Bricks {
   IdVector<BrickId, BrickBox> boxes;
   IdVector<BrickId, size_t> firstBit;       ///< in `touched`
   std::vector<uint64_t> touched;            ///< a bit for each cell of each brick: whether it belongs to the stencil
-  Csr<FaceId, BrickId> triFaces;            ///< those in the cells of a brick, or in grid-faces that these have; ascending
-  Csr<uint32_t, BrickId> faceEdges;         ///< those in grid-faces of its cells, as of faceEdge(); ascending
+  Csr<FaceId, BrickId> triFaces;            ///< those in the cells of a brick, or in grid-faces of these: ascending in each
+  Csr<uint32_t, BrickId> faceEdges;         ///< those in grid-faces of its cells, as of faceEdge(): ascending in each
   Csr<VertexId, BrickId> seamVertices;      ///< of the surface, on those grid lines of its boundary that other bricks have, too
   IdVector<BrickId, VertexId> firstOnGrid;  ///< where the grid vertices of a brick begin; those on seams occur once for each brick
 

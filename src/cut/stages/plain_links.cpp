@@ -58,8 +58,9 @@ std::optional<size_t> PlainLinks::findOnly(uint64_t key, size_t from) const {
   return found;
 }
 
-/// False if a grid-face needed a planar graph, or a tri-cut-face has holes.
+/// False if a grid-face needed a planar graph, a tri-cut-face has holes, or there are too many for a search among all.
 bool PlainLinks::collectUses(const CellView& cell) {
+  if (cell.halves.triFaces.size() > kMostFaces) return false;
   const auto& gridFaces = cell.stencil.cells[cell.halves.gridCell].faces;
   LocalHalf next = *cell.halves.gridHalves().begin();
   for (size_t i = 0; i < 6; ++i) {

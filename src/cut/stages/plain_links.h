@@ -30,7 +30,7 @@ class PlainLinks {
   bool linkTriEdges(const CellView& cell);
   void linkGridEdges(const CellView& cell, Shells& shells) const;
 
-  static constexpr size_t kMostUses = 64;
+  static constexpr size_t kMostFaces = 12, kMostUses = 64;
 
   std::array<uint64_t, kMostUses> keys_;  // of uses: the vertices of each, the lower one first
   std::array<Use, kMostUses> uses_;

@@ -35,9 +35,13 @@ export class Player {
     playing.value = { rate: isCut(play) ? 0 : null };
     let phase = phaseOf(app, play);
     let before = performance.now();
+    let frame = nextFrame();
     const cuts: number[] = [];
     while (run === this.runs && (await show(app, play, phase))) {
-      const now = await nextFrame();
+      // The next cut is made while this one is drawn, but no cut runs further ahead.
+      await frame;
+      frame = nextFrame();
+      const now = performance.now();
       if (run !== this.runs) return;
       phase += (now - before) / (1000 * periods[play]);
       before = now;
