@@ -39,28 +39,15 @@ bool liesInPlane(const Slab& a, const Slab& b) {
 }  // namespace
 
 bool PlainLinks::link(const CellView& cell, Shells& shells) {
-  pairs_.clear();
-  if (!collectUses(cell) || !linkHybridEdges(cell) || !linkTriEdges(cell)) return false;
-  for (const auto& [a, b] : pairs_) shells.unite(a, b);
-  linkGridEdges(cell, shells);
+  joins_.clear();
+  if (!findHalves(cell) || !linkTriEdges(cell) || !linkHybridEdges(cell)) return false;
+  linkGridEdges(cell);
+  for (const auto& [a, b] : joins_) shells.unite(a, b);
   return true;
 }
 
-/// The one use of an edge, from a place on, if there is just one.
-std::optional<size_t> PlainLinks::findOnly(uint64_t key, size_t from) const {
-  size_t found = 0, count = 0;
-  for (size_t i = from; i < count_; ++i) {  // without branches, which nothing would predict
-    const bool is = keys_[i] == key;
-    found = is ? i : found;
-    count += is;
-  }
-  if (count != 1) return {};
-  return found;
-}
-
-/// False if a grid-face needed a planar graph, a tri-cut-face has holes, or there are too many for a search among all.
-bool PlainLinks::collectUses(const CellView& cell) {
-  if (cell.halves.triFaces.size() > kMostFaces) return false;
+/// False if a grid-face needed a planar graph.
+bool PlainLinks::findHalves(const CellView& cell) {
   const auto& gridFaces = cell.stencil.cells[cell.halves.gridCell].faces;
   LocalHalf next = *cell.halves.gridHalves().begin();
   for (size_t i = 0; i < 6; ++i) {
@@ -68,22 +55,59 @@ bool PlainLinks::collectUses(const CellView& cell) {
     first_[i] = next;
     next.number += uint32_t(cell.faces.grid.halfFaces[gridFaces[i]].size());
   }
-  count_ = 0;
+  return true;
+}
+
+void PlainLinks::clearTable(size_t mostUses) {
+  mask_ = 63;
+  while (mask_ < 2 * mostUses) mask_ = 2 * mask_ + 1;
+  if (slots_.size() <= mask_ || ++stamp_ == 0) {
+    slots_.assign(mask_ + 1, {0, 0});
+    stamp_ = 1;
+  }
+}
+
+/// The slot of an edge, or a free one.
+PlainLinks::Slot& PlainLinks::slotOf(uint64_t key) {
+  size_t at = size_t((key * 0x9e3779b97f4a7c15u) >> 40);
+  while (slots_[at & mask_].stamp == stamp_ && uses_[slots_[at & mask_].use].key != key) ++at;
+  return slots_[at & mask_];
+}
+
+/// Edges inside of the cell have two tri-cut-faces. False if an edge has more, or lies on a grid line, or if a face has holes.
+bool PlainLinks::linkTriEdges(const CellView& cell) {
+  const auto& slabs = cell.surface.vertices.slabs;
+  const TriFaces& tri = cell.faces.tri;
+  size_t most = 0;
+  for (const FaceId f : cell.halves.triFaces) most += tri.loopsOf(f)[0].size();
+  clearTable(most);
+  uses_.clear();
   for (const LocalFace f : cell.halves.localFaces()) {
-    const auto loops = cell.faces.tri.loopsOf(cell.halves.triFace(f));
+    const FaceId id = cell.halves.triFace(f);
+    const auto loops = tri.loopsOf(id);
+    if (loops.size() > 1) return false;
     const auto loop = loops[0];
-    if (loops.size() > 1 || count_ + loop.size() > kMostUses) return false;
     for (size_t k = 0; k < loop.size(); ++k) {
       const VertexId u = loop[k], v = loop[k + 1 < loop.size() ? k + 1 : 0];
-      keys_[count_] = keyOf(u, v);
-      uses_[count_++] = {f, u < v, false};
+      Use use = {keyOf(u, v), f, u < v, false};
+      Slot& slot = slotOf(use.key);
+      if (slot.stamp != stamp_) {
+        slot = {stamp_, uint32_t(uses_.size())};
+        uses_.push_back(use);
+        continue;
+      }
+      Use& other = uses_[slot.use];
+      if (other.isLinked || other.face == f || (tri.touchesLine[id] && liesInPlane(slabs[u], slabs[v]))) return false;
+      other.isLinked = true;
+      join(after(other.face, other.ascending), before(f, use.ascending));
+      join(after(f, use.ascending), before(other.face, other.ascending));
     }
   }
   return true;
 }
 
-/// Each edge in a grid-face has one tri-cut-face in the cell, and a piece on either side. Seen from below the plane, the piece that runs
-/// upwards along the edge is the left one of its direction.
+/// All others lie in grid-faces and have one tri-cut-face in the cell, and a piece on either side. Seen from below the plane, the piece
+/// that runs upwards along the edge is the left one of its direction.
 bool PlainLinks::linkHybridEdges(const CellView& cell) {
   const auto& gridFaces = cell.stencil.cells[cell.halves.gridCell].faces;
   for (size_t i = 0; i < 6; ++i) {
@@ -93,38 +117,23 @@ bool PlainLinks::linkHybridEdges(const CellView& cell) {
     const auto beside = cell.faces.grid.beside[g];
     const auto sides = beside.subspan(5 + beside[4]);
     for (size_t e = 0; e < edges.size(); ++e) {
-      const auto found = findOnly(keyOf(edges[e].from, edges[e].to), 0);
-      if (!found || uses_[*found].isLinked) return false;
-      Use& use = uses_[*found];
+      const Slot& slot = slotOf(keyOf(edges[e].from, edges[e].to));
+      if (slot.stamp != stamp_ || uses_[slot.use].isLinked) return false;
+      Use& use = uses_[slot.use];
       use.isLinked = true;
       const bool isBelow = i & 1, isLeft = (edges[e].from < edges[e].to) == isBelow;
       const LocalHalf up{first_[i].number + sides[2 * e + !isLeft]}, down{first_[i].number + sides[2 * e + isLeft]};
-      pairs_.push_back({down, before(use.face, use.ascending)});
-      pairs_.push_back({after(use.face, use.ascending), up});
+      join(down, before(use.face, use.ascending));
+      join(after(use.face, use.ascending), up);
     }
   }
-  return true;
-}
-
-/// All other edges have two tri-cut-faces, and lie inside of the cell.
-bool PlainLinks::linkTriEdges(const CellView& cell) {
-  const auto& slabs = cell.surface.vertices.slabs;
-  for (size_t a = 0; a < count_; ++a) {
-    const Use& use = uses_[a];
-    if (use.isLinked) continue;
-    const auto found = findOnly(keys_[a], a + 1);
-    if (!found || uses_[*found].isLinked || uses_[*found].face == use.face) return false;
-    if (liesInPlane(slabs[{uint32_t(keys_[a] >> 32)}], slabs[{uint32_t(keys_[a])}])) return false;
-    Use* const other = &uses_[*found];
-    other->isLinked = true;
-    pairs_.push_back({after(other->face, other->ascending), before(use.face, use.ascending)});
-    pairs_.push_back({after(use.face, use.ascending), before(other->face, other->ascending)});
-  }
-  return true;
+  bool areAllLinked = true;
+  for (const Use& use : uses_) areAllLinked &= use.isLinked;
+  return areAllLinked;
 }
 
 /// Grid-faces meet along the grid-edges of the cell, cut-edge by cut-edge.
-void PlainLinks::linkGridEdges(const CellView& cell, Shells& shells) const {
+void PlainLinks::linkGridEdges(const CellView& cell) {
   const auto& gridFaces = cell.stencil.cells[cell.halves.gridCell].faces;
   for (int d = 0; d < 3; ++d) {
     for (int i = 0; i < 4; ++i) {
@@ -133,7 +142,7 @@ void PlainLinks::linkGridEdges(const CellView& cell, Shells& shells) const {
       const Side a(cell.faces.grid, gridFaces[p], side2 == 1 ? 1 : 3, first_[p]),
           b(cell.faces.grid, gridFaces[q], side1 == 0 ? 0 : 2, first_[q]);
       const size_t size = std::max<size_t>({a.size, b.size, 1});
-      for (size_t e = 0; e < size; ++e) shells.unite(a.half(e), b.half(e));
+      for (size_t e = 0; e < size; ++e) join(a.half(e), b.half(e));
     }
   }
 }

@@ -1,8 +1,7 @@
 // A grid cell without anything special, as nearly all are: triangles meet in it two by two, and each hybrid edge parts its grid-face. There
-// half-faces are joined by what lies beside each edge, and no edge has to be looked up among all.
+// half-faces are joined by what lies beside each edge: only the edges of tri-cut-faces have to be looked up.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "cut/stages/cell_view.h"
@@ -18,25 +17,30 @@ class PlainLinks {
  private:
   /// An edge of a tri-cut-face.
   struct Use {
+    uint64_t key;  ///< its vertices, the lower one first
     LocalFace face;
     bool ascending;  ///< runs from the lower vertex to the higher
     bool isLinked;
   };
-  using Pair = std::array<LocalHalf, 2>;
+  /// Of a hash table that is emptied by counting up a stamp.
+  struct Slot {
+    uint32_t stamp, use;
+  };
 
-  std::optional<size_t> findOnly(uint64_t key, size_t from) const;
-  bool collectUses(const CellView& cell);
-  bool linkHybridEdges(const CellView& cell);
+  bool findHalves(const CellView& cell);
+  void clearTable(size_t mostUses);
+  Slot& slotOf(uint64_t key);
   bool linkTriEdges(const CellView& cell);
-  void linkGridEdges(const CellView& cell, Shells& shells) const;
+  bool linkHybridEdges(const CellView& cell);
+  void linkGridEdges(const CellView& cell);
+  void join(LocalHalf a, LocalHalf b) { joins_.push_back({a, b}); }
 
-  static constexpr size_t kMostFaces = 12, kMostUses = 64;
-
-  std::array<uint64_t, kMostUses> keys_;  // of uses: the vertices of each, the lower one first
-  std::array<Use, kMostUses> uses_;
-  size_t count_ = 0;
-  std::vector<Pair> pairs_;
   std::array<LocalHalf, 6> first_;  // per grid-face of the cell: its first half-face
+  std::vector<Use> uses_;
+  std::vector<Slot> slots_;
+  uint32_t stamp_ = 0;
+  size_t mask_ = 0;
+  std::vector<std::array<LocalHalf, 2>> joins_;
 };
 
 }  // namespace mandoline::detail

@@ -22,7 +22,10 @@ TEST_CASE("The surface's grid cells are touched, each in one brick", "[stages][b
   CHECK_FALSE(bricks.isTouched({5, 5, 5}));
 }
 
-TEST_CASE("The result is the same to the bit for all sizes of bricks", "[stages][bricks]") {
+namespace {
+
+/// A bit of everything, and soups on a lattice.
+std::vector<NamedCase> allCases() {
   std::vector<NamedCase> cases = caseList();
   std::mt19937 random(11);
   for (int i = 0; i < 150; ++i) {
@@ -31,8 +34,14 @@ TEST_CASE("The result is the same to the bit for all sizes of bricks", "[stages]
     LatticeCase soup = decodeLattice(bytes.data(), bytes.size());
     cases.push_back({"lattice", std::move(soup.mesh), std::move(soup.grid)});
   }
+  return cases;
+}
+
+}  // namespace
+
+TEST_CASE("The result is the same to the bit for all sizes of bricks", "[stages][bricks]") {
   size_t cells = 0;
-  for (const NamedCase& one : cases) {
+  for (const NamedCase& one : allCases()) {
     CAPTURE(one.name, one.mesh.triangleCount());
     const CutMesh whole = cutMeshOf(one.mesh, one.grid);
     for (const int shift : {0, 1, 2, 3, 4}) {  // 0: every grid cell is a brick, and every grid-face lies on a seam
@@ -45,4 +54,13 @@ TEST_CASE("The result is the same to the bit for all sizes of bricks", "[stages]
     cells += whole.cellCount();
   }
   CHECK(cells > 5000);
+}
+
+TEST_CASE("The result is the same to the bit without short cuts", "[stages][bricks]") {
+  Way onlyGeneral;
+  onlyGeneral.onlyGeneral = true;
+  for (const NamedCase& one : allCases()) {
+    CAPTURE(one.name, one.mesh.triangleCount());
+    CHECK(differences(cutMeshOf(one.mesh, one.grid, onlyGeneral), cutMeshOf(one.mesh, one.grid)).empty());
+  }
 }
