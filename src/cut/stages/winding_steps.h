@@ -1,6 +1,8 @@
 // How winding numbers and parity change from one side of a tri-cut-face to the other.
 #pragma once
 
+#include <tuple>
+
 #include "cut/stages/face_parents.h"
 
 namespace mandoline::detail {
@@ -41,7 +43,10 @@ struct WindingStep {
   uint32_t behind, inFront;      ///< components of a brick, or regions
   std::array<int32_t, 2> steps;  ///< per Counted
 
-  auto operator<=>(const WindingStep&) const = default;
+  bool operator==(const WindingStep&) const = default;
+  bool operator<(const WindingStep& other) const {
+    return std::tie(behind, inFront, steps) < std::tie(other.behind, other.inFront, other.steps);
+  }
 };
 
 /// The step at a face, for each of `counted`.
