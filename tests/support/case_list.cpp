@@ -1,8 +1,10 @@
 #include "case_list.h"
 
 #include <cmath>
+#include <random>
 
 #include "checked_cut.h"
+#include "lattice.h"
 #include "shapes.h"
 
 using namespace mandoline;
@@ -46,5 +48,17 @@ std::vector<NamedCase> caseList() {
   };
   for (NamedCase& named : cases)
     for (double& x : named.mesh.positions) x = std::ldexp(std::round(std::ldexp(x, 20)), -20);
+  return cases;
+}
+
+std::vector<NamedCase> casesAndSoups() {
+  std::vector<NamedCase> cases = caseList();
+  std::mt19937 random(7);
+  for (int i = 0; i < 150; ++i) {
+    std::array<uint8_t, 96> bytes;
+    for (uint8_t& byte : bytes) byte = uint8_t(random());
+    LatticeCase soup = decodeLattice(bytes.data(), bytes.size());
+    cases.push_back({"lattice", std::move(soup.mesh), std::move(soup.grid)});
+  }
   return cases;
 }

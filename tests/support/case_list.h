@@ -13,3 +13,6 @@ struct NamedCase {
 
 /// All coordinates are multiples of 2^-20 below 16, so that they can be reflected, scaled and moved by whole cells without rounding.
 std::vector<NamedCase> caseList();
+
+/// The same, and 150 soups on a lattice.
+std::vector<NamedCase> casesAndSoups();

@@ -66,8 +66,7 @@ class Harvest {
       Slab other = stencil_.cells[face.cell].element;
       other[size_t(face.axis())] += face.side() == 1 ? 2 : -2;
       if (!input_.inGrid(other) || stencil_.find(other)) continue;
-      const auto brick = stencil_.box.has(other) ? std::nullopt : bricks_.find(other);
-      if (brick && bricks_.isTouched(*brick, bricks_.boxes[*brick].indexOf(other))) {
+      if (const auto brick = stencil_.box.has(other) ? std::nullopt : bricks_.findTouched(other)) {
         addSeam(g, first, piece - first, out);
         if (face.side() == 0) out.otherSeams.back().place = {*brick, keyOf(*brick, other, cellFace(face.axis(), 1))};
       } else {
@@ -108,7 +107,7 @@ class Harvest {
     const auto add = [&](FaceId face, CellId behind, CellId inFront) {
       const WindingStep step{out.components[behind], out.components[inFront],
                              areAlike ? std::array<int32_t, 2>{1, 0} : stepsAt(face, parents, counted)};
-      if (step.behind == last.behind && step.inFront == last.inFront && step.steps == last.steps) return;
+      if (step == last) return;
       out.steps.push_back(last = step);
     };
     for (size_t i = 0; i < cells_.ofTriFaces.size(); ++i) {
@@ -151,9 +150,9 @@ class Harvest {
       Slab other = cell;
       for (size_t d = 0; d < 3; ++d) other[d] += 2 * ((corner >> d & 1) + (i >> d & 1) - 1);
       if (other == cell) break;
-      if (!input_.inGrid(other) || !bricks_.isTouched(other)) continue;
-      const BrickId owner = *bricks_.find(other);
-      out.otherSeamVertices.push_back({{owner, keyOf(owner, other, 7 - i)}, v});
+      const auto owner = input_.inGrid(other) ? bricks_.findTouched(other) : std::nullopt;
+      if (!owner) continue;
+      out.otherSeamVertices.push_back({{*owner, keyOf(*owner, other, 7 - i)}, v});
       return;
     }
     out.ownSeamVertices.push_back({{brick_, keyOf(brick_, cell, corner)}, v});
@@ -199,8 +198,7 @@ class Harvest {
 
   void countRows(BrickCut& out) const {
     const uint32_t ny = uint32_t(input_.cells(1));
-    uint32_t cell = 0, piece = 0, gridVertex = 0;
-    auto seam = out.otherSeams.begin();
+    uint32_t cell = 0, gridVertex = 0;
     auto seamVertex = out.otherSeamVertices.begin();
     const VertexId firstOnGrid = bricks_.firstOnGrid[brick_];
     for (uint32_t c = 0; c < stencil_.cells.size();) {
@@ -211,28 +209,24 @@ class Harvest {
       row.pastPiece = pastPiece_[c - 1];
       row.pastGridVertex = pastGridVertex_[c - 1];
       BrickCounts& counts = row.counts;
-      const auto addPieces = [&](uint32_t begin, uint32_t end, uint32_t sign) {
-        const uint32_t firstLoop = out.faceLoopOffsets[begin], pastLoop = out.faceLoopOffsets[end];
-        counts.pieces += sign * (end - begin);
-        counts.loops += sign * (pastLoop - firstLoop);
-        counts.loopVertices += sign * (out.loops.offsets[pastLoop] - out.loops.offsets[firstLoop]);
-      };
       counts.cells = row.pastCell - cell;
       counts.halfFaces = out.halfFaces.offsets[row.pastCell] - out.halfFaces.offsets[cell];
-      addPieces(piece, row.pastPiece, 1);
-      for (; seam != out.otherSeams.end() && seam->firstPiece < row.pastPiece; ++seam) {
-        addPieces(seam->firstPiece, seam->firstPiece + seam->pieces, ~0u);
-      }
       counts.gridVertices = row.pastGridVertex - gridVertex;
       while (seamVertex != out.otherSeamVertices.end() && seamVertex->vertex.number - firstOnGrid.number < row.pastGridVertex) {
         --counts.gridVertices;
         ++seamVertex;
       }
       cell = row.pastCell;
-      piece = row.pastPiece;
       gridVertex = row.pastGridVertex;
       out.rows.push_back(row);
     }
+    forOwnPieces(out, [&](uint32_t row, uint32_t begin, uint32_t end) {
+      const uint32_t firstLoop = out.faceLoopOffsets[begin], pastLoop = out.faceLoopOffsets[end];
+      BrickCounts& counts = out.rows[row].counts;
+      counts.pieces += end - begin;
+      counts.loops += pastLoop - firstLoop;
+      counts.loopVertices += out.loops.offsets[pastLoop] - out.loops.offsets[firstLoop];
+    });
   }
 
   const Input& input_;

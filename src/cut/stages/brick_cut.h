@@ -79,6 +79,22 @@ struct BrickCut {
   std::span<const SeamHalf> halvesOf(const SeamFace& seam) const { return {seamHalves.data() + seam.firstHalf, seam.halves}; }
 };
 
+/// Calls f(row, begin, end) for the pieces that belong to the brick: ranges of them, ascending, each in one of its rows.
+template <class F>
+void forOwnPieces(const BrickCut& cut, const F& f) {
+  uint32_t piece = 0;
+  auto seam = cut.otherSeams.begin();
+  for (uint32_t row = 0; row < cut.rows.size(); ++row) {
+    const uint32_t past = cut.rows[row].pastPiece;
+    while (piece < past) {
+      const bool isSeamNext = seam != cut.otherSeams.end() && seam->firstPiece < past;
+      const uint32_t end = isSeamNext ? seam->firstPiece : past;
+      if (piece < end) f(row, piece, end);
+      piece = isSeamNext ? end + (seam++)->pieces : end;
+    }
+  }
+}
+
 /// What has this key, among those of its owner.
 template <class Seam>
 const Seam& seamAt(const std::vector<Seam>& own, uint32_t key) {

@@ -18,7 +18,7 @@ class Found {
 
   std::optional<BrickId> find(const Slab& cell) {
     if (bricks.size() > 0 && bricks.boxes[last_].has(cell)) return last_;
-    const uint64_t key = keyOf(cell);
+    const uint64_t key = bricks.keyOf(cell);
     const uint32_t slot = slots_[slotOf(key)];
     if (slot == kFree) return {};
     return last_ = {slot};
@@ -37,10 +37,6 @@ class Found {
  private:
   static constexpr uint32_t kFree = ~0u;
 
-  uint64_t keyOf(const Slab& cell) const {
-    const auto at = [&](size_t d) { return uint64_t(cell[d] >> 1 >> bricks.shift); };
-    return (at(2) * uint64_t(bricks.counts[1]) + at(1)) * uint64_t(bricks.counts[0]) + at(0);
-  }
   size_t slotOf(uint64_t key) const {
     size_t at = size_t((key * 0x9e3779b97f4a7c15u) >> 32);
     while (slots_[at & (slots_.size() - 1)] != kFree && bricks.keys[{slots_[at & (slots_.size() - 1)]}] != key) ++at;
@@ -54,7 +50,7 @@ class Found {
       box.first[d] = cell[d] >> 1 >> bricks.shift << bricks.shift;
       box.count[d] = std::min(1 << bricks.shift, cells_[d] - box.first[d]);
     }
-    const uint64_t key = keyOf(cell);
+    const uint64_t key = bricks.keyOf(cell);
     slots_[slotOf(key)] = brick.number;
     bricks.keys.push_back(key);
     bricks.boxes.push_back(box);
@@ -253,12 +249,13 @@ size_t countGridVertices(const Bricks& bricks, BrickId brick) {
 
 }  // namespace
 
-std::optional<BrickId> Bricks::find(const Slab& cell) const {
-  const auto at = [&](size_t d) { return uint64_t(cell[d] >> 1 >> shift); };
-  const uint64_t key = (at(2) * uint64_t(counts[1]) + at(1)) * uint64_t(counts[0]) + at(0);
+std::optional<BrickId> Bricks::findTouched(const Slab& cell) const {
+  const uint64_t key = keyOf(cell);
   const auto found = std::lower_bound(keys.begin(), keys.end(), key);
   if (found == keys.end() || *found != key) return {};
-  return BrickId{uint32_t(found - keys.begin())};
+  const BrickId brick{uint32_t(found - keys.begin())};
+  if (!isTouched(brick, boxes[brick].indexOf(cell))) return {};
+  return brick;
 }
 
 Bricks layOutBricks(Surface& surface, const TriFaces& faces, const Run& run) {

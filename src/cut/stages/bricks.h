@@ -62,13 +62,14 @@ struct Bricks {
 
   size_t size() const { return keys.size(); }
   Ids<BrickId> ids() const { return keys.ids(); }
-  /// The brick that has a cell of the grid, if the surface touches it.
-  std::optional<BrickId> find(const Slab& cell) const;
-  /// Whether a cell of the grid belongs to the stencil.
-  bool isTouched(const Slab& cell) const {
-    const auto brick = find(cell);
-    return brick && isTouched(*brick, boxes[*brick].indexOf(cell));
+  /// That of the brick that has a cell of the grid.
+  uint64_t keyOf(const Slab& cell) const {
+    const auto at = [&](size_t d) { return uint64_t(cell[d] >> 1 >> shift); };
+    return (at(2) * uint64_t(counts[1]) + at(1)) * uint64_t(counts[0]) + at(0);
   }
+  /// The brick that has a cell of the grid, if the cell belongs to the stencil.
+  std::optional<BrickId> findTouched(const Slab& cell) const;
+  bool isTouched(const Slab& cell) const { return findTouched(cell).has_value(); }
   bool isTouched(BrickId brick, uint32_t index) const {
     const size_t bit = firstBit[brick] + index;
     return touched[bit / 64] >> bit % 64 & 1;

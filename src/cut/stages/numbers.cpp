@@ -50,24 +50,19 @@ void numberSurfaceVertices(const CutSurface& surface, const IdVector<BrickId, Br
 void numberOwn(const BrickCut& cut, BrickId brick, VertexId firstOnGrid, Numbers& numbers) {
   std::vector<uint32_t>& pieces = numbers.pieces[brick];
   pieces.resize(cut.gridFaces.size());
-  uint32_t piece = 0, vertex = 0;
-  auto seam = cut.otherSeams.begin();
+  std::vector<BrickCounts> next = numbers.rows[brick];
+  forOwnPieces(cut, [&](uint32_t row, uint32_t begin, uint32_t end) {
+    for (uint32_t piece = begin; piece < end; ++piece) pieces[piece] = next[row].pieces++;
+  });
+  uint32_t vertex = 0;
   auto seamVertex = cut.otherSeamVertices.begin();
   for (uint32_t r = 0; r < cut.rows.size(); ++r) {
-    uint32_t nextPiece = numbers.rows[brick][r].pieces, nextVertex = numbers.vertexCount + numbers.rows[brick][r].gridVertices;
-    while (piece < cut.rows[r].pastPiece) {
-      if (seam != cut.otherSeams.end() && seam->firstPiece == piece) {
-        piece += (seam++)->pieces;
-      } else {
-        pieces[piece++] = nextPiece++;
-      }
-    }
     for (; vertex < cut.rows[r].pastGridVertex; ++vertex) {
       const VertexId v{firstOnGrid.number + vertex};
       if (seamVertex != cut.otherSeamVertices.end() && seamVertex->vertex == v) {
         ++seamVertex;
       } else {
-        numbers.vertices[v] = nextVertex++;
+        numbers.vertices[v] = numbers.vertexCount + next[r].gridVertices++;
       }
     }
   }

@@ -47,18 +47,13 @@ class BrickWriter {
 
   void write(BrickId brick) const {
     const BrickCut& cut = state_.cuts[brick];
-    uint32_t piece = 0, cell = 0;
-    auto seam = cut.otherSeams.begin();
-    for (uint32_t r = 0; r < cut.rows.size(); ++r) {
-      BrickCounts at = numbers_.rows[brick][r];
-      while (piece < cut.rows[r].pastPiece) {
-        if (seam != cut.otherSeams.end() && seam->firstPiece == piece) {
-          piece += (seam++)->pieces;
-        } else {
-          writePiece(cut, piece++, at);
-        }
-      }
-      for (; cell < cut.rows[r].pastCell; ++cell) writeCell(brick, {cell}, at);
+    std::vector<BrickCounts> at = numbers_.rows[brick];  // where what comes next goes
+    forOwnPieces(cut, [&](uint32_t row, uint32_t begin, uint32_t end) {
+      for (uint32_t piece = begin; piece < end; ++piece) writePiece(cut, piece, at[row]);
+    });
+    uint32_t cell = 0;
+    for (uint32_t row = 0; row < cut.rows.size(); ++row) {
+      for (; cell < cut.rows[row].pastCell; ++cell) writeCell(brick, {cell}, at[row]);
     }
   }
 

@@ -1,8 +1,5 @@
-#include <random>
-
 #include "case_list.h"
 #include "catch.h"
-#include "lattice.h"
 #include "same_bits.h"
 #include "staged_cut.h"
 
@@ -22,26 +19,9 @@ TEST_CASE("The surface's grid cells are touched, each in one brick", "[stages][b
   CHECK_FALSE(bricks.isTouched({5, 5, 5}));
 }
 
-namespace {
-
-/// A bit of everything, and soups on a lattice.
-std::vector<NamedCase> allCases() {
-  std::vector<NamedCase> cases = caseList();
-  std::mt19937 random(11);
-  for (int i = 0; i < 150; ++i) {
-    std::array<uint8_t, 96> bytes;
-    for (uint8_t& byte : bytes) byte = uint8_t(random());
-    LatticeCase soup = decodeLattice(bytes.data(), bytes.size());
-    cases.push_back({"lattice", std::move(soup.mesh), std::move(soup.grid)});
-  }
-  return cases;
-}
-
-}  // namespace
-
 TEST_CASE("The result is the same to the bit for all sizes of bricks", "[stages][bricks]") {
   size_t cells = 0;
-  for (const NamedCase& one : allCases()) {
+  for (const NamedCase& one : casesAndSoups()) {
     CAPTURE(one.name, one.mesh.triangleCount());
     const CutMesh whole = cutMeshOf(one.mesh, one.grid);
     for (const int shift : {0, 1, 2, 3, 4}) {  // 0: every grid cell is a brick, and every grid-face lies on a seam
@@ -59,7 +39,7 @@ TEST_CASE("The result is the same to the bit for all sizes of bricks", "[stages]
 TEST_CASE("The result is the same to the bit without short cuts", "[stages][bricks]") {
   Way onlyGeneral;
   onlyGeneral.onlyGeneral = true;
-  for (const NamedCase& one : allCases()) {
+  for (const NamedCase& one : casesAndSoups()) {
     CAPTURE(one.name, one.mesh.triangleCount());
     CHECK(differences(cutMeshOf(one.mesh, one.grid, onlyGeneral), cutMeshOf(one.mesh, one.grid)).empty());
   }

@@ -1,10 +1,8 @@
 #include <algorithm>
-#include <random>
 
 #include "case_list.h"
 #include "catch.h"
 #include "cut/stages/chains.h"
-#include "lattice.h"
 #include "staged_cut.h"
 
 using namespace stages;
@@ -66,16 +64,8 @@ TEST_CASE("A triangle in a grid-face takes the place of that piece", "[stages][g
 }
 
 TEST_CASE("Chains give the same pieces as planar graphs", "[stages][gridFaces]") {
-  std::vector<NamedCase> cases = caseList();
-  std::mt19937 random(7);
-  for (int i = 0; i < 150; ++i) {
-    std::array<uint8_t, 96> bytes;
-    for (uint8_t& byte : bytes) byte = uint8_t(random());
-    LatticeCase soup = decodeLattice(bytes.data(), bytes.size());
-    cases.push_back({"lattice", std::move(soup.mesh), std::move(soup.grid)});
-  }
   size_t pieces = 0;
-  for (const NamedCase& one : cases) {
+  for (const NamedCase& one : casesAndSoups()) {
     CAPTURE(one.name);
     Way onlyGeneral;
     onlyGeneral.onlyGeneral = true;
