@@ -61,7 +61,7 @@ await checkPotentialFoam(['build/sphere.obj', 'build/torus-knot.obj', ...scans])
 mkdirSync(path('build-clang', 'corpus'), { recursive: true });
 run(
   'build-clang/mandoline-fuzz',
-  '-max_total_time=90',
+  '-max_total_time=40',
   '-max_len=256',
   '-timeout=20',
   '-print_final_stats=1',
@@ -69,10 +69,10 @@ run(
   'tests/fuzz/corpus',
 );
 mkdirSync(path('build-clang', 'reader-corpus'), { recursive: true });
-run('build-clang/mandoline-fuzz-readers', '-max_total_time=30', '-max_len=2048', '-rss_limit_mb=4096', 'build-clang/reader-corpus');
+run('build-clang/mandoline-fuzz-readers', '-max_total_time=15', '-max_len=2048', '-rss_limit_mb=4096', 'build-clang/reader-corpus');
 mkdirSync(path('build-clang', 'mcm-corpus'), { recursive: true });
 run('build/mandoline', 'cut', 'build/box.obj', '--cells', '3', '-o', 'build-clang/mcm-corpus/box.mcm');
-run('build-clang/mandoline-fuzz-mcm', '-max_total_time=20', '-rss_limit_mb=4096', 'build-clang/mcm-corpus');
+run('build-clang/mandoline-fuzz-mcm', '-max_total_time=10', '-rss_limit_mb=4096', 'build-clang/mcm-corpus');
 
 // Real meshes and soups by the hundred take the sanitizers too long; the fuzzer has just made such soups, and replayed what it once found.
 delete process.env.MANDOLINE_MESHES;
