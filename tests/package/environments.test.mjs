@@ -6,7 +6,8 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import { build, createLogger, createServer } from 'vite';
-import { freePort, launchChromium, makeFolder, openPage, pack, readmeExample, removeFolders, root, runNode } from './environments.mjs';
+import { launchChromium } from '../chromium.mjs';
+import { freePort, makeFolder, openPage, pack, readmeExample, removeFolders, root, runNode } from './environments.mjs';
 import { pixelsOf, share } from '../page/pictures.mjs';
 import { serveFolder } from './static_server.mjs';
 

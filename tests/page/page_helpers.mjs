@@ -4,21 +4,10 @@ import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { chromium } from 'playwright-core';
+import { launchChromium } from '../chromium.mjs';
 import { serveFolder } from '../package/static_server.mjs';
 
 const builtPage = process.env.MANDOLINE_PAGE ?? fileURLToPath(new URL('../../web/dist', import.meta.url));
-export const browserArgs = [
-  '--headless',
-  '--no-sandbox',
-  '--use-angle=swiftshader',
-  '--enable-unsafe-swiftshader',
-  '--disable-quic',
-  '--no-first-run',
-  '--disable-background-networking',
-  '--disable-component-update',
-  '--disable-sync',
-];
 const patience = 30_000;
 
 /** The page below a sub-path of one server, and `files` (contents by name) on another that lets other pages read them. */
@@ -27,7 +16,7 @@ export async function startSite({ files = {} } = {}) {
   for (const [name, content] of Object.entries(files)) writeFileSync(join(folder, name), content);
   const host = await serveFolder({ folder: builtPage, subPath: '/some/sub-path/' });
   const meshes = await serveFolder({ folder, headers: { 'Access-Control-Allow-Origin': '*' } });
-  const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: browserArgs });
+  const browser = await launchChromium();
   return {
     url: host.url,
     host,

@@ -8,10 +8,9 @@ import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
-import { chromium } from 'playwright-core';
+import { launchChromium } from '../chromium.mjs';
 import { torus, writeObj } from '../package/meshes.mjs';
 import { serveFolder } from '../package/static_server.mjs';
-import { browserArgs } from './page_helpers.mjs';
 
 const { values, positionals } = parseArgs({
   allowPositionals: true,
@@ -68,7 +67,7 @@ async function timeOfCut({ page, session }, to) {
 }
 
 async function open(name) {
-  const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: browserArgs });
+  const browser = await launchChromium();
   const page = await browser.newPage({ viewport: { width: 1000, height: 600 } });
   const session = await page.context().newCDPSession(page);
   await session.send('Performance.enable', { timeDomain: 'threadTicks' });

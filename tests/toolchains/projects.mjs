@@ -6,7 +6,8 @@ import { delimiter, dirname, join } from 'node:path';
 import { after } from 'node:test';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { fileURLToPath } from 'node:url';
-import { freePort, launchChromium, openPage, pack, removeFolders, root } from '../package/environments.mjs';
+import { launchChromium } from '../chromium.mjs';
+import { freePort, openPage, pack, removeFolders, root } from '../package/environments.mjs';
 import { serveFolder } from '../package/static_server.mjs';
 
 const here = fileURLToPath(new URL('.', import.meta.url));
