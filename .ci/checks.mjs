@@ -4,7 +4,7 @@ import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 
 import { join } from 'node:path';
 import { meshFolder } from '../tests/mesh_folder.mjs';
 import { setUp } from '../tests/set_up.mjs';
-import { build, fail, jobs, path, run } from '../tests/steps.mjs';
+import { build, fail, jobs, path, run, runTogether } from '../tests/steps.mjs';
 import { checkPotentialFoam } from './potential_foam.mjs';
 import { checkPolyMeshes, checkVtuFiles } from './readers.mjs';
 import { checkFunctions } from './sources.mjs';
@@ -58,21 +58,14 @@ checkPolyMeshes([...made, 'build/groups.obj', ...all.filter((_, i) => i % 9 === 
 checkVtuFiles([...made, ...scans]);
 await checkPotentialFoam(['build/sphere.obj', 'build/torus-knot.obj', ...scans]);
 
-mkdirSync(path('build-clang', 'corpus'), { recursive: true });
-run(
-  'build-clang/mandoline-fuzz',
-  '-max_total_time=40',
-  '-max_len=256',
-  '-timeout=20',
-  '-print_final_stats=1',
-  'build-clang/corpus',
-  'tests/fuzz/corpus',
-);
-mkdirSync(path('build-clang', 'reader-corpus'), { recursive: true });
-run('build-clang/mandoline-fuzz-readers', '-max_total_time=15', '-max_len=2048', '-rss_limit_mb=4096', 'build-clang/reader-corpus');
-mkdirSync(path('build-clang', 'mcm-corpus'), { recursive: true });
+for (const corpus of ['corpus', 'reader-corpus', 'mcm-corpus']) mkdirSync(path('build-clang', corpus), { recursive: true });
 run('build/mandoline', 'cut', 'build/box.obj', '--cells', '3', '-o', 'build-clang/mcm-corpus/box.mcm');
-run('build-clang/mandoline-fuzz-mcm', '-max_total_time=10', '-rss_limit_mb=4096', 'build-clang/mcm-corpus');
+const fuzz = ['build-clang/mandoline-fuzz', '-max_total_time=90', '-max_len=256', '-timeout=20', '-print_final_stats=1'];
+await runTogether(
+  [...fuzz, 'build-clang/corpus', 'tests/fuzz/corpus'],
+  ['build-clang/mandoline-fuzz-readers', '-max_total_time=30', '-max_len=2048', '-rss_limit_mb=4096', 'build-clang/reader-corpus'],
+  ['build-clang/mandoline-fuzz-mcm', '-max_total_time=20', '-rss_limit_mb=4096', 'build-clang/mcm-corpus'],
+);
 
 // Real meshes and soups by the hundred take the sanitizers too long; the fuzzer has just made such soups, and replayed what it once found.
 // So do orders of accuracy, whose code the tests of the solver run as well.

@@ -1,5 +1,6 @@
 // Steps that npm start, npm test, npm run bench and the continuous integration have in common.
-import { spawnSync } from 'node:child_process';
+import { spawn, spawnSync } from 'node:child_process';
+import { once } from 'node:events';
 import { availableParallelism } from 'node:os';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -13,6 +14,16 @@ export function run(command, ...args) {
   const { status, error } = spawnSync(command, args, { cwd: root, stdio: 'inherit' });
   if (error) fail(`can't run ${command}: ${error.message}`);
   if (status !== 0) process.exit(status ?? 1);
+}
+
+/** Runs commands side by side, each a list of words, else as `run` does. */
+export async function runTogether(...commands) {
+  const runs = commands.map(async ([command, ...args]) => {
+    console.log(`\n> ${[command, ...args].join(' ')} &`);
+    const [status] = await once(spawn(command, args, { cwd: root, stdio: 'inherit' }), 'exit');
+    if (status !== 0) process.exit(status ?? 1);
+  });
+  await Promise.all(runs);
 }
 
 export function fail(message) {
