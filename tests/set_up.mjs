@@ -59,7 +59,7 @@ const tools = {
   },
   zlib: { has: () => hasHeader('zlib.h'), packages: ['zlib1g-dev'] },
   Emscripten: { has: () => works('emcc', '--version'), packages: ['emscripten'] },
-  Chromium: { has: () => works('/usr/bin/chromium', '--version'), packages: ['chromium'] },
+  Chromium: { has: () => works('/usr/bin/chromium-headless-shell', '--version'), packages: ['chromium-headless-shell'] },
   'the npm packages': { has: hasNpmPackages, install: ['npm', 'ci'] },
   // The version matters: each formats a little differently.
   'clang-format 14': { has: () => works('clang-format-14', '--version'), packages: ['clang-format-14'] },
