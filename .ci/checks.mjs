@@ -1,17 +1,15 @@
-// What the continuous integration does beyond npm test: the package in every toolchain, short functions, the same bits from another
-// compiler, what OpenFOAM and VTK say of the files, fuzz runs, the suite under sanitizers.
-import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
-import { join } from 'node:path';
-import { meshFolder } from '../tests/mesh_folder.mjs';
+// What the continuous integration does beyond npm test: the package in every toolchain, what OpenFOAM and VTK say of the files, short
+// functions, the same bits from another compiler, fuzz runs, the suite under sanitizers.
+import { mkdirSync, readFileSync } from 'node:fs';
 import { setUp } from '../tests/set_up.mjs';
 import { build, fail, jobs, path, run, runTogether } from '../tests/steps.mjs';
-import { checkPotentialFoam } from './potential_foam.mjs';
-import { checkPolyMeshes, checkVtuFiles } from './readers.mjs';
+import { scans } from './scans.mjs';
 import { checkFunctions } from './sources.mjs';
 
 setUp('checks');
 
-run('node', '--test', 'tests/toolchains/toolchains.test.mjs');
+// Neither keeps more than one core busy.
+await runTogether(['node', '--test', 'tests/toolchains/toolchains.test.mjs'], ['node', '.ci/files.mjs']);
 
 // One build of clang's is the other compiler, the sanitizers and the fuzzers: with assertions, yet fast enough for real meshes. It has the
 // flags of projects that want no exact arithmetic and no warning; only linking with them would change how the processor rounds.
@@ -26,7 +24,6 @@ build('build-clang', [
 ]);
 checkFunctions('build-clang');
 
-const scans = ['common_spot', 'common_fandisk', 'codim_feline'].map((name) => join(meshFolder ?? '', `${name}.obj.gz`)).filter(existsSync);
 run('build/mandoline', 'make', 'torus-knot', '-o', 'build/torus-knot.obj');
 for (const mesh of ['build/torus-knot.obj', ...scans]) {
   const dumps = [
@@ -39,24 +36,6 @@ for (const mesh of ['build/torus-knot.obj', ...scans]) {
   });
   if (!dumps.every((dump) => dump.equals(dumps[0]))) fail(`${mesh} is not cut alike by another number of threads or another compiler.`);
 }
-
-const made = ['box', 'sphere', 'torus', 'torus-knot'].map((shape) => {
-  run('build/mandoline', 'make', shape, '-o', `build/${shape}.obj`);
-  return `build/${shape}.obj`;
-});
-// A box and a ball, as groups under names that OpenFOAM does not take.
-const [box, ball] = ['box', 'sphere'].map((shape) => readFileSync(path('build', `${shape}.obj`), 'utf8'));
-const corners = box.match(/^v/gm).length;
-const shifted = ball.replace(/^f .*/gm, (face) => face.replace(/\d+/g, (v) => Number(v) + corners));
-writeFileSync(path('build', 'groups.obj'), `g xMin\n${box}g 2{ball}\n${shifted}`);
-const all = meshFolder
-  ? readdirSync(meshFolder)
-      .filter((name) => name.endsWith('.obj.gz'))
-      .sort()
-  : [];
-checkPolyMeshes([...made, 'build/groups.obj', ...all.filter((_, i) => i % 9 === 0).map((name) => join(meshFolder, name))]);
-checkVtuFiles([...made, ...scans]);
-await checkPotentialFoam(['build/sphere.obj', 'build/torus-knot.obj', ...scans]);
 
 for (const corpus of ['corpus', 'reader-corpus', 'mcm-corpus']) mkdirSync(path('build-clang', corpus), { recursive: true });
 run('build/mandoline', 'cut', 'build/box.obj', '--cells', '3', '-o', 'build-clang/mcm-corpus/box.mcm');

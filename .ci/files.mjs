@@ -1,0 +1,26 @@
+// What OpenFOAM and VTK say of the files that the build in build/ writes: of made meshes, and of real ones where there are any.
+import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { meshFolder } from '../tests/mesh_folder.mjs';
+import { path, run } from '../tests/steps.mjs';
+import { checkPotentialFoam } from './potential_foam.mjs';
+import { checkPolyMeshes, checkVtuFiles } from './readers.mjs';
+import { scans } from './scans.mjs';
+
+const made = ['box', 'sphere', 'torus', 'torus-knot'].map((shape) => {
+  run('build/mandoline', 'make', shape, '-o', `build/${shape}.obj`);
+  return `build/${shape}.obj`;
+});
+// A box and a ball, as groups under names that OpenFOAM does not take.
+const [box, ball] = ['box', 'sphere'].map((shape) => readFileSync(path('build', `${shape}.obj`), 'utf8'));
+const corners = box.match(/^v/gm).length;
+const shifted = ball.replace(/^f .*/gm, (face) => face.replace(/\d+/g, (v) => Number(v) + corners));
+writeFileSync(path('build', 'groups.obj'), `g xMin\n${box}g 2{ball}\n${shifted}`);
+const all = meshFolder
+  ? readdirSync(meshFolder)
+      .filter((name) => name.endsWith('.obj.gz'))
+      .sort()
+  : [];
+checkPolyMeshes([...made, 'build/groups.obj', ...all.filter((_, i) => i % 9 === 0).map((name) => join(meshFolder, name))]);
+checkVtuFiles([...made, ...scans]);
+await checkPotentialFoam(['build/sphere.obj', 'build/torus-knot.obj', ...scans]);
