@@ -38,6 +38,7 @@ for (const mesh of ['build/torus-knot.obj', ...scans]) {
 }
 
 for (const corpus of ['corpus', 'reader-corpus', 'mcm-corpus']) mkdirSync(path('build-clang', corpus), { recursive: true });
+run('build/mandoline', 'make', 'box', '-o', 'build/box.obj');
 run('build/mandoline', 'cut', 'build/box.obj', '--cells', '3', '-o', 'build-clang/mcm-corpus/box.mcm');
 const fuzz = ['build-clang/mandoline-fuzz', '-max_total_time=90', '-max_len=256', '-timeout=20', '-print_final_stats=1'];
 await runTogether(
