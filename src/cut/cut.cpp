@@ -94,17 +94,18 @@ CutMesh cutPrepared(const Prepared& prepared, const MeshView& mesh, const Grid& 
     cutTriEdges(surface, run);
 
     clock.begin("triFaces");
-    UndividedFaces undivided;
-    state.triFaces = cutTriangles(surface, undivided, run);
-    divideFaces(surface, undivided, state.triFaces, run);
+    const BrickGrid brickGrid(surface.input, run.brickShift);
+    state.parts.clipped = clipTriangles(surface, brickGrid, run);
+    divideFaces(surface, state.parts.clipped.undivided, state.parts.divided, run);
 
     clock.begin("bricks");
-    state.bricks = layOutBricks(surface, state.triFaces, run);
-    state.runs = findUntouchedRuns(surface.input, state.bricks, run.monitor);
-    state.cuts = cutBricks(state.cutSurface(), surface.vertices, state.runs, run);
+    state.bricks = layOutBricks(surface, state.parts, brickGrid);
+    state.cuts = cutBricks(surface, state.parts, state.bricks, run);
 
     clock.begin("regions");
-    state.regions = findRegions(state.cutSurface(), state.runs, state.cuts, run);
+    state.runs = findUntouchedRuns(surface.input, state.bricks, run.monitor);
+    state.seams = findSeams(surface.input, state.bricks, state.runs, state.cuts, run);
+    state.regions = findRegions(state.cut(), run);
 
     clock.begin("output");
     CutMesh result = makeOutput(mesh, grid, state, run);

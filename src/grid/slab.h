@@ -25,6 +25,20 @@ inline Slab elementBetween(const Slab& u, const Slab& v) {
   return e;
 }
 
+/// Calls f(cell) for the grid cells that have a grid element, by z, then y, then x, until it returns true; whether it did. Cells outside of
+/// the grid are among them.
+template <class F>
+bool findCellAround(const Slab& element, const F& f) {
+  for (int32_t z = element[2] - onPlane(element[2]); z <= element[2] + onPlane(element[2]); z += 2) {
+    for (int32_t y = element[1] - onPlane(element[1]); y <= element[1] + onPlane(element[1]); y += 2) {
+      for (int32_t x = element[0] - onPlane(element[0]); x <= element[0] + onPlane(element[0]); x += 2) {
+        if (f(Slab{x, y, z})) return true;
+      }
+    }
+  }
+  return false;
+}
+
 /// First and last plane strictly between two slabs, least <= greatest; none if first > last.
 inline int32_t firstPlaneAfter(int32_t least) { return (least >> 1) + 1; }
 inline int32_t lastPlaneBefore(int32_t greatest) { return (greatest - 1) >> 1; }

@@ -126,19 +126,19 @@ Soup wideSoup(uint64_t seed) {
 struct Cut : stages::StagedCut {
   Input& input = state.surface.input;
   const MeshEdges& edges = state.surface.edges();
-  CutVertices& vertices = state.surface.vertices;
-  TriFaces& faces = state.triFaces;
+  CutVertices& vertices = brick.vertices;
+  TriFaces& faces = brick.triFaces;
   std::vector<VertexId> used;  // ids of vertices that there are
   IdVector<VertexId, Vector> points;
 
   explicit Cut(const Soup& soup) : StagedCut(soup.mesh, stages::Stage::triFaces, stages::unresolved(), soup.grid) {
     for (int32_t k = 0; k <= input.cells(2); k += 2) {
       for (int32_t j = 0; j <= input.cells(1); j += 2) {
-        for (int32_t i = 0; i <= input.cells(0); i += 2) vertices.slabs.push_back({2 * i, 2 * j, 2 * k});
+        for (int32_t i = 0; i <= input.cells(0); i += 2) vertices.add({2 * i, 2 * j, 2 * k}, CutVertices::kNoTriangle);
       }
     }
     points.resize(vertices.size());
-    for (const VertexId v : vertices.slabs.ids()) {
+    for (const VertexId v : vertices.ids()) {
       if (!vertices.isUsed(v)) continue;
       used.push_back(v);
       points[v] = pointOf(v);
@@ -147,7 +147,7 @@ struct Cut : stages::StagedCut {
 
   Rational plane(int axis, int32_t index) const { return Rational(input.planes[axis][size_t(index)]); }
   Vector triVertex(VertexId v) const { return exact(input.point(v)); }
-  bool inGrid(VertexId v) const { return input.inGrid(vertices.slabs[v]); }
+  bool inGrid(VertexId v) const { return input.inGrid(vertices.slab(v)); }
 
   Slab slabOf(const Vector& p) const {
     Slab slab;
@@ -189,7 +189,7 @@ struct Cut : stages::StagedCut {
   /// By the vertex's origin and one (on a tri-edge) or two (in a triangle) of the planes it claims to be on.
   Vector pointOf(VertexId v) const {
     if (vertices.isTriVertex(v)) return triVertex(v);
-    const Slab& slab = vertices.slabs[v];
+    const Slab& slab = vertices.slab(v);
     Vector p;
     if (vertices.isOnEdge(v)) {
       const auto& ends = edges.ends[vertices.triEdge(v)];
@@ -231,10 +231,10 @@ std::vector<std::vector<VertexId>> alignedVertices(const Cut& cut) {
     }
   }
   for (int axis = 0; axis < 3; ++axis) {
-    for (const FaceEdge& first : cut.faces.hybridEdges) {
+    for (const FaceEdge& first : cut.brick.faceEdges) {
       if (!onPlane(first.element[axis])) continue;
       groups.emplace_back();
-      for (const FaceEdge& e : cut.faces.hybridEdges) {
+      for (const FaceEdge& e : cut.brick.faceEdges) {
         if (e.element == first.element) groups.back().insert(groups.back().end(), {e.from, e.to});
       }
     }
@@ -262,7 +262,7 @@ TEST_CASE("P1: the crossings of a tri-edge, their order and their slabs", "[pred
       size_t i = 0;
       for (const VertexId v : cut.vertices.crossings(e)) {
         REQUIRE(cut.vertices.isUsed(v) == (i < expected.size()));
-        if (i < expected.size()) REQUIRE(cut.vertices.slabs[v] == cut.slabOf(cut.onEdge(e, expected[i])));
+        if (i < expected.size()) REQUIRE(cut.vertices.slab(v) == cut.slabOf(cut.onEdge(e, expected[i])));
         ++i;
       }
       REQUIRE(i == all);
@@ -277,8 +277,11 @@ TEST_CASE("P1: the crossings of a tri-edge, their order and their slabs", "[pred
 TEST_CASE("P2: the grid lines that cross a triangle, and where", "[predicates]") {
   size_t crossings = 0, ties = 0;
   forCuts(12, [&](const Cut& cut) {
-    const Ids<VertexId> inTriangles(cut.vertices.firstInTriangle, cut.vertices.firstOnGrid);
-    for (const VertexId v : inTriangles) REQUIRE(cut.vertices.slabs[v] == cut.slabOf(cut.points[v]));
+    std::vector<VertexId> inTriangles;
+    for (const VertexId v : cut.used) {
+      if (cut.vertices.isInTriangle(v)) inTriangles.push_back(v);
+    }
+    for (const VertexId v : inTriangles) REQUIRE(cut.vertices.slab(v) == cut.slabOf(cut.points[v]));
     for (const TriangleId t : cut.input.triangleIds()) {
       if (!cut.input.kept(t)) continue;
       const auto corners = cut.corners(t);
@@ -304,7 +307,7 @@ TEST_CASE("P2: the grid lines that cross a triangle, and where", "[predicates]")
         int g = 0;
         while (area(corners[0], corners[1], corners[2], g).sign() == 0) ++g;
         REQUIRE(Cut::isInside(corners, g, cut.points[v]));
-        if (cut.inGrid(v)) found.push_back(cut.vertices.slabs[v]);
+        if (cut.inGrid(v)) found.push_back(cut.vertices.slab(v));
       }
       std::sort(found.begin(), found.end());
       REQUIRE(found == expected);
@@ -325,7 +328,7 @@ TEST_CASE("P3: the order of cut-vertices along an axis", "[predicates]") {
       for (int axis = 0; axis < 3; ++axis) {
         const int expected = order(cut.points[u][axis], cut.points[v][axis]);
         REQUIRE(cut.vertices.compare(u, v, axis, predicates) == expected);
-        if (cut.vertices.slabs[u][axis] != cut.vertices.slabs[v][axis] || onPlane(cut.vertices.slabs[u][axis])) continue;
+        if (cut.vertices.slab(u)[axis] != cut.vertices.slab(v)[axis] || onPlane(cut.vertices.slab(u)[axis])) continue;
         ++close;
         ties += u != v && expected == 0;
       }
@@ -405,7 +408,7 @@ struct Wheel {
       const std::array<VertexId, 2> ends = {std::min(a, b), std::max(a, b)};
       const auto edge = std::find(cut.edges.ends.begin(), cut.edges.ends.end(), ends);
       REQUIRE(edge != cut.edges.ends.end());
-      ids.push_back(soup.isCrossing[i] ? cut.vertices.crossingOffsets[size_t(edge - cut.edges.ends.begin())] : a);
+      ids.push_back(soup.isCrossing[i] ? *cut.vertices.crossings({uint32_t(edge - cut.edges.ends.begin())}).begin() : a);
     }
     for (uint32_t i = 1; i <= tipCount; ++i) tips.push_back(i);
     const Angles angles(point(0), point(0) + Vector{Rational(0), Rational(0), Rational(1)}, point(1));
@@ -421,7 +424,7 @@ struct Wheel {
     std::vector<VertexId> outline;
     for (const Slab& slab : {Slab{0, 0, 2}, Slab{2, 0, 2}, Slab{2, 2, 2}, Slab{0, 2, 2}}) {
       outline.push_back({uint32_t(cut.vertices.size())});
-      cut.vertices.slabs.push_back(slab);
+      cut.vertices.add(slab, CutVertices::kNoTriangle);
     }
     graph.begin(cut.vertices, 2);
     graph.setOutline(outline);
@@ -488,7 +491,7 @@ TEST_CASE("Proven ranges of cut-vertices hold, and are narrow", "[predicates]") 
         const CutVertices::Range range = cut.vertices.range(v, d, predicates);
         REQUIRE(Rational(range.low) <= cut.points[v][d]);
         REQUIRE(Rational(range.high) >= cut.points[v][d]);
-        if (cut.vertices.isTriVertex(v) || onPlane(cut.vertices.slabs[v][d])) REQUIRE(range.low == range.high);
+        if (cut.vertices.isTriVertex(v) || onPlane(cut.vertices.slab(v)[d])) REQUIRE(range.low == range.high);
       }
     }
   });
@@ -513,7 +516,7 @@ TEST_CASE("Positions of cut-vertices are rounded by little and never out of thei
       const Point p = cut.vertices.position(v, predicates), r = cut.vertices.reference(v);
       for (int d = 0; d < 3; ++d) {
         const Rational& truth = cut.points[v][d];
-        const int32_t slab = cut.vertices.slabs[v][d];
+        const int32_t slab = cut.vertices.slab(v)[d];
         if (cut.vertices.isTriVertex(v) || onPlane(slab)) {
           REQUIRE(Rational(p[d]) == truth);
           continue;

@@ -34,6 +34,7 @@ struct StagedCut {
   std::unique_ptr<const Prepared> prepared;
   CutState state;
   // Of the first brick.
+  BrickSurface brick{state.surface};
   Stencil stencil;
   GridEdges gridEdges;
   GridFaces gridFaces;
@@ -45,42 +46,46 @@ struct StagedCut {
     prepareOne(mesh, grid);
     state.surface.input = prepareInput(*prepared, grid, run);
     if (last >= Stage::triEdges) cutTriEdges(state.surface, run);
-    if (last >= Stage::triFaces) cutFaces();
-    if (last >= Stage::stencil) state.bricks = layOutBricks(state.surface, state.triFaces, run);
+    if (last >= Stage::triFaces) clip();
     if (last == Stage::regions) {
       findRest();
-    } else if (last >= Stage::stencil && state.bricks.size() > 0) {
+    } else if (last >= Stage::triFaces) {
       cutFirstBrick(last);
     }
   }
   StagedCut(const Mesh& mesh, Stage last, const Grid& grid = unitCells()) : StagedCut(mesh, last, Way(), grid) {}
 
-  CutFaces faces() const { return {state.triFaces, gridFaces}; }
+  CutFaces faces() const { return {brick.triFaces, gridFaces}; }
 
  private:
   void prepareOne(const Mesh& mesh, const Grid& grid) {
     prepared = prepareMesh(mesh, {largestCoordinate(grid), options.intersections}, monitor,
                            [&](const char* stage) { monitor.beginStage(stage, 0); });
   }
-  void cutFaces() {
-    UndividedFaces undivided;
-    state.triFaces = cutTriangles(state.surface, undivided, run);
-    divideFaces(state.surface, undivided, state.triFaces, run);
+  void clip() {
+    const BrickGrid brickGrid(state.surface.input, run.brickShift);
+    state.parts.clipped = clipTriangles(state.surface, brickGrid, run);
+    divideFaces(state.surface, state.parts.clipped.undivided, state.parts.divided, run);
+    state.bricks = layOutBricks(state.surface, state.parts, brickGrid);
   }
   void cutFirstBrick(Stage last) {
-    const CutSurface surface = state.cutSurface();
-    makeStencil(surface, {0}, stencil);
-    if (last >= Stage::gridEdges) cutGridEdges(surface, {0}, stencil, state.surface.vertices, gridEdges);
+    brick.vertices = CutVertices::ofBrick(state.surface.vertices);
+    if (state.bricks.size() == 0) return;
+    Predicates predicates;
+    cutBrickSurface(state.surface, state.parts, {0}, state.bricks, predicates, brick);
+    if (last >= Stage::stencil) makeStencil(brick, state.bricks, {0}, stencil);
+    if (last >= Stage::gridEdges) cutGridEdges(brick, stencil, gridEdges);
     GridFaceScratch gridFaceScratch;
     gridFaceScratch.onlyGraph = run.onlyGeneral;
-    if (last >= Stage::gridFaces) cutGridFaces(surface, stencil, gridEdges, gridFaceScratch, gridFaces);
+    if (last >= Stage::gridFaces) cutGridFaces(brick, stencil, gridEdges, gridFaceScratch, gridFaces);
     CellScratch cellScratch;
-    if (last >= Stage::cutCells) makeCutCells(state.surface, stencil, faces(), cellScratch, cells);
+    if (last >= Stage::cutCells) makeCutCells(brick, stencil, faces(), cellScratch, cells);
   }
   void findRest() {
+    state.cuts = cutBricks(state.surface, state.parts, state.bricks, run);
     state.runs = findUntouchedRuns(state.surface.input, state.bricks, monitor);
-    state.cuts = cutBricks(state.cutSurface(), state.surface.vertices, state.runs, run);
-    state.regions = findRegions(state.cutSurface(), state.runs, state.cuts, run);
+    state.seams = findSeams(state.surface.input, state.bricks, state.runs, state.cuts, run);
+    state.regions = findRegions(state.cut(), run);
   }
 };
 

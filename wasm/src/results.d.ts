@@ -80,7 +80,7 @@ export interface CutMeshArrays {
   grid: Grid;
 
   // Cut-vertices (paper, 3.2), in this order: tri-vertices; vertices that triangles make by meeting; crossings of axial planes with
-  // tri-edges and with the lines along which triangles meet; crossings of grid lines with triangles; grid vertices.
+  // tri-edges and with the lines along which triangles meet; crossings of grid lines with triangles, and grid vertices, by grid cell.
   /** 3 per vertex, world units. Output only: no decision reads them. */
   positions: Float64Array<ArrayBuffer>;
   /** 3 per vertex: the paper's c, exact. 0..n-1, or n on the last plane. */
@@ -100,7 +100,8 @@ export interface CutMeshArrays {
   /** 4 per made vertex, as its kind says; the rest is -1. */
   madeVertexParents: Int32Array<ArrayBuffer>;
 
-  // Cut-faces. The first loop of a face is its outer one, counter-clockwise about the face's normal; the others are holes, clockwise.
+  // Cut-faces: pieces of triangles, by grid cell and in each by triangle; then pieces of grid-faces, by grid cell. The first loop of a face
+  // is its outer one, counter-clockwise about the face's normal; the others are holes, clockwise.
   /** Into loopVertices, per loop. */
   loopOffsets: Uint32Array<ArrayBuffer>;
   /** Vertex ids. */

@@ -5,17 +5,28 @@
 
 namespace mandoline::detail {
 
+CutVertices CutVertices::ofBrick(const CutVertices& surface) {
+  CutVertices vertices;
+  vertices.input = surface.input;
+  vertices.edges = surface.edges;
+  vertices.surface = &surface;
+  vertices.firstOnEdge = surface.firstOnEdge;
+  vertices.firstInTriangle = surface.firstInTriangle;
+  vertices.firstOwn = {uint32_t(surface.size())};
+  return vertices;
+}
+
 Point CutVertices::reference(VertexId v) const {
   if (isTriVertex(v)) return input->point(v);
   if (isOnEdge(v)) return input->point(edges->ends[triEdge(v)][0]);
   if (isInTriangle(v)) return input->point(input->verticesOf(triangle(v))[0]);
   Point p;
-  for (int d = 0; d < 3; ++d) p[d] = input->planes[d][slabs[v][d] >> 1];
+  for (int d = 0; d < 3; ++d) p[d] = input->planes[d][slab(v)[d] >> 1];
   return p;
 }
 
 int CutVertices::compare(VertexId u, VertexId v, int axis, Predicates& predicates) const {
-  const int32_t su = slabs[u][axis], sv = slabs[v][axis];
+  const int32_t su = slab(u)[axis], sv = slab(v)[axis];
   if (su != sv || onPlane(su)) return (su > sv) - (su < sv);
   if (isTriVertex(u) && isTriVertex(v) && !input->mesh->isMade(u) && !input->mesh->isMade(v))
     return signOf(input->point(u)[axis] - input->point(v)[axis]);
@@ -50,8 +61,8 @@ CutVertices::Range CutVertices::range(VertexId v, int axis, Predicates& predicat
     return {x.value - 2 * x.error, x.value + 2 * x.error};
   }
   const auto& planes = input->planes[axis];
-  const int32_t c = slabs[v][axis] >> 1;
-  if (onPlane(slabs[v][axis])) return {planes[c], planes[c]};
+  const int32_t c = slab(v)[axis] >> 1;
+  if (onPlane(slab(v)[axis])) return {planes[c], planes[c]};
   const Point r = reference(v);
   const auto h = point<Bounded>(v, r, predicates);
   if (!(h.w.value > 2 * h.w.error)) return {planes[c], planes[c + 1]};
@@ -64,12 +75,12 @@ CutVertices::Range CutVertices::range(VertexId v, int axis, Predicates& predicat
 Point CutVertices::position(VertexId v, Predicates& predicates) const {
   if (isTriVertex(v) && !input->mesh->isMade(v)) return input->point(v);
   Point p;
-  for (int d = 0; d < 3; ++d) p[d] = input->planes[d][std::max(slabs[v][d] >> 1, 0)];
-  if (planeCount(slabs[v]) == 3) return p;
+  for (int d = 0; d < 3; ++d) p[d] = input->planes[d][std::max(slab(v)[d] >> 1, 0)];
+  if (planeCount(slab(v)) == 3) return p;
   const Point r = reference(v);
   const auto h = point<Bounded>(v, r, predicates);
   for (int d = 0; d < 3; ++d) {
-    if (onPlane(slabs[v][d])) continue;
+    if (onPlane(slab(v)[d])) continue;
     const double quotient = h.x[d].value / h.w.value;
     const double error = (h.x[d].error + std::fabs(quotient) * h.w.error) / (h.w.value - h.w.error);
     double x = r[d] + quotient;
@@ -83,7 +94,7 @@ Point CutVertices::position(VertexId v, Predicates& predicates) const {
       }
     }
     // Strictly inside of the slab, so that vertices on different grid elements have different positions.
-    const int32_t c = slabs[v][d] >> 1;
+    const int32_t c = slab(v)[d] >> 1;
     const double low = input->planes[d][c], high = input->planes[d][c + 1];
     if (!(x > low && x < high)) x = x <= low ? std::min(std::nextafter(low, high), high) : std::max(std::nextafter(high, low), low);
     p[d] = x;

@@ -1,10 +1,11 @@
 // The cut-vertices (paper, 3.2) and exact predicates on them.
 //
 // Ids are ranges: tri-vertices (by input id; where triangles meet, made vertices follow), crossings of tri-edges with axial planes,
-// crossings of triangles with grid lines, grid vertices (by brick). Every vertex has slabs; its coordinates are only ever known as
-// quotients of polynomials in input and plane doubles.
+// crossings of triangles with grid lines; and those that a brick makes of its own: more of the latter, and grid vertices. Every vertex has
+// slabs; its coordinates are only ever known as quotients of polynomials in input and plane doubles.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -14,27 +15,47 @@
 namespace mandoline::detail {
 
 struct CutVertices {
-  static constexpr int32_t kUnused = INT32_MIN;  ///< slabs[v][0] of an id that no vertex has
+  static constexpr int32_t kUnused = INT32_MIN;  ///< slab(v)[0] of an id that no vertex has
+  static constexpr TriangleId kNoTriangle{~0u};
 
   const Input* input = nullptr;
   const MeshEdges* edges = nullptr;
-  VertexId firstOnEdge{0}, firstInTriangle{0}, firstOnGrid{0};  ///< where the ranges begin
-  IdVector<VertexId, Slab> slabs;
+  const CutVertices* surface = nullptr;                      ///< those that all bricks have in common; null if these are they
+  VertexId firstOnEdge{0}, firstInTriangle{0}, firstOwn{0};  ///< where the ranges begin
+  std::vector<Slab> slabs;                                   ///< of those from firstOwn on
   std::vector<VertexId> crossingOffsets;    ///< per tri-edge: its crossings start here, from its lower end on; unused ids end them
   std::vector<TriEdgeId> parentEdges;       ///< of the vertices on edges
-  std::vector<TriangleId> parentTriangles;  ///< of the vertices in triangles
+  std::vector<TriangleId> parentTriangles;  ///< of the vertices after them that are not the surface's; kNoTriangle of a grid vertex
 
-  size_t size() const { return slabs.size(); }
-  bool isUsed(VertexId v) const { return slabs[v][0] != kUnused; }
+  CutVertices() = default;
+  /// Those of a brick that has none of its own yet.
+  static CutVertices ofBrick(const CutVertices& surface);
+
+  size_t size() const { return firstOwn.number + slabs.size(); }
+  Ids<VertexId> ids() const { return Ids<VertexId>(size()); }
+  Ids<VertexId> ownIds() const { return {firstOwn, VertexId{uint32_t(size())}}; }
+  const Slab& slab(VertexId v) const { return v < firstOwn ? surface->slabs[v.number] : slabs[v.number - firstOwn.number]; }
+  VertexId add(const Slab& slab, TriangleId triangle) {
+    slabs.push_back(slab);
+    parentTriangles.push_back(triangle);
+    return {uint32_t(size() - 1)};
+  }
+
+  bool isUsed(VertexId v) const { return slab(v)[0] != kUnused; }
   bool isTriVertex(VertexId v) const { return v < firstOnEdge; }
   bool isOnEdge(VertexId v) const { return v >= firstOnEdge && v < firstInTriangle; }
-  bool isInTriangle(VertexId v) const { return v >= firstInTriangle && v < firstOnGrid; }
+  bool isInTriangle(VertexId v) const { return v >= firstInTriangle && triangle(v) != kNoTriangle; }
   /// The crossings of a tri-edge, then unused ids.
-  Ids<VertexId> crossings(TriEdgeId edge) const { return {crossingOffsets[edge.number], crossingOffsets[edge.number + 1]}; }
+  Ids<VertexId> crossings(TriEdgeId edge) const {
+    const std::vector<VertexId>& offsets = ofSurface().crossingOffsets;
+    return {offsets[edge.number], offsets[edge.number + 1]};
+  }
   /// Of a vertex on an edge.
-  TriEdgeId triEdge(VertexId v) const { return parentEdges[v.number - firstOnEdge.number]; }
-  /// Of a vertex in a triangle.
-  TriangleId triangle(VertexId v) const { return parentTriangles[v.number - firstInTriangle.number]; }
+  TriEdgeId triEdge(VertexId v) const { return ofSurface().parentEdges[v.number - firstOnEdge.number]; }
+  /// Of a vertex from firstInTriangle on.
+  TriangleId triangle(VertexId v) const {
+    return v < firstOwn ? surface->triangle(v) : parentTriangles[v.number - std::max(firstInTriangle, firstOwn).number];
+  }
 
   /// Whether its exact coordinates are polynomials of a higher degree than Expansion is for.
   bool isImplicit(VertexId v) const { return isTriVertex(v) ? input->mesh->isMade(v) : isOnEdge(v) && edges->line(triEdge(v)).ofPlanes; }
@@ -71,6 +92,7 @@ struct CutVertices {
   [[noreturn]] void failSelfIntersectionAt(VertexId u, VertexId v) const { failSelfIntersection(triangleAt(u), triangleAt(v)); }
 
  private:
+  const CutVertices& ofSurface() const { return surface ? *surface : *this; }
   template <class Number>
   Homogeneous<Number> pointOfPlanes(VertexId v, const Line& line, const Point& reference) const;
 };
@@ -82,11 +104,11 @@ Homogeneous<Number> CutVertices::pointOfPlanes(VertexId v, const Line& line, con
   int across = -1;  // an axis whose plane crosses the edge, at the widest angle so far as is known
   const auto extent = [&](int d) { return std::fabs(input->point(high)[size_t(d)] - input->point(low)[size_t(d)]); };
   for (int d = 0; d < 3; ++d) {
-    const bool crosses = onPlane(slabs[v][size_t(d)]) && slabs[low][size_t(d)] != slabs[high][size_t(d)];
+    const bool crosses = onPlane(slab(v)[size_t(d)]) && slab(low)[size_t(d)] != slab(high)[size_t(d)];
     if (crosses && (across < 0 || extent(d) > extent(across))) across = d;
   }
   const auto toPlane = [&](int d) {
-    return Number::difference(input->planes[size_t(d)][size_t(slabs[v][size_t(d)] >> 1)], reference[size_t(d)]);
+    return Number::difference(input->planes[size_t(d)][size_t(slab(v)[size_t(d)] >> 1)], reference[size_t(d)]);
   };
   const Plane<Number> plane{{{Number(across == 0), Number(across == 1), Number(across == 2)}}, toPlane(across)};
   Homogeneous<Number> h =
@@ -99,7 +121,7 @@ Homogeneous<Number> CutVertices::pointOfPlanes(VertexId v, const Line& line, con
     h.w = -h.w;
   }
   for (int d = 0; d < 3; ++d) {
-    if (onPlane(slabs[v][size_t(d)])) h.x[d] = toPlane(d) * h.w;
+    if (onPlane(slab(v)[size_t(d)])) h.x[d] = toPlane(d) * h.w;
   }
   return h;
 }
@@ -107,7 +129,7 @@ Homogeneous<Number> CutVertices::pointOfPlanes(VertexId v, const Line& line, con
 template <class Number>
 Homogeneous<Number> CutVertices::point(VertexId v, const Point& reference, Predicates& predicates) const {
   const auto diff = &Number::difference;
-  const auto planeOf = [&](int d) { return input->planes[d][slabs[v][d] >> 1]; };
+  const auto planeOf = [&](int d) { return input->planes[d][slab(v)[d] >> 1]; };
   Homogeneous<Number> h;
   h.w = Number(1);
   if (isTriVertex(v)) {
@@ -115,7 +137,7 @@ Homogeneous<Number> CutVertices::point(VertexId v, const Point& reference, Predi
       if (input->mesh->isMade(v)) return input->mesh->arrangement->points.point<Number>(v.number, reference);
     }
     for (int d = 0; d < 3; ++d) h.x[d] = diff(input->point(v)[d], reference[d]);
-  } else if (planeCount(slabs[v]) == 3) {
+  } else if (planeCount(slab(v)) == 3) {
     for (int d = 0; d < 3; ++d) h.x[d] = diff(planeOf(d), reference[d]);
   } else if (isOnEdge(v)) {
     const Line along = edges->line(triEdge(v));
@@ -126,22 +148,19 @@ Homogeneous<Number> CutVertices::point(VertexId v, const Point& reference, Predi
     int across = -1;  // the axis whose plane cuts the edge at the widest angle
     for (int d = 0; d < 3; ++d) {
       const auto extent = [&](int e) { return std::fabs(input->point(high)[e] - input->point(low)[e]); };
-      if (onPlane(slabs[v][d]) && (across < 0 || extent(d) > extent(across))) across = d;
+      if (onPlane(slab(v)[d]) && (across < 0 || extent(d) > extent(across))) across = d;
     }
     if (input->point(low)[across] > input->point(high)[across]) std::swap(low, high);
     const Point &a = input->point(low), &b = input->point(high);
     h.w = diff(b[across], a[across]);
     const Number way = diff(planeOf(across), a[across]);
     for (int d = 0; d < 3; ++d) {
-      h.x[d] = onPlane(slabs[v][d]) ? diff(planeOf(d), reference[d]) * h.w : diff(a[d], reference[d]) * h.w + way * diff(b[d], a[d]);
+      h.x[d] = onPlane(slab(v)[d]) ? diff(planeOf(d), reference[d]) * h.w : diff(a[d], reference[d]) * h.w + way * diff(b[d], a[d]);
     }
   } else {
     const auto t = input->verticesOf(triangle(v));
     const Point &a = input->point(t[0]), &b = input->point(t[1]), &c = input->point(t[2]);
-    const int g = !onPlane(slabs[v][0])   ? 0
-                  : !onPlane(slabs[v][1]) ? 1
-                                          : 2,
-              e = (g + 1) % 3, f = (g + 2) % 3;  // the grid line runs along g
+    const int g = !onPlane(slab(v)[0]) ? 0 : !onPlane(slab(v)[1]) ? 1 : 2, e = (g + 1) % 3, f = (g + 2) % 3;  // the grid line runs along g
     const auto normal = [&](int p, int q) { return diff(b[p], a[p]) * diff(c[q], a[q]) - diff(b[q], a[q]) * diff(c[p], a[p]); };
     const bool flip = predicates.orient2d({a[e], a[f]}, {b[e], b[f]}, {c[e], c[f]}) < 0;
     const Number ng = flip ? -normal(e, f) : normal(e, f), ne = flip ? -normal(f, g) : normal(f, g),

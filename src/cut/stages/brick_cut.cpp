@@ -11,24 +11,24 @@ namespace {
 /// Takes from the stages of a brick what the result needs of it.
 class Harvest {
  public:
-  Harvest(const CutSurface& surface, BrickId brick, const Stencil& stencil, const CutFaces& faces, const CutCells& cells)
-      : input_(surface.surface.input),
-        bricks_(surface.bricks),
-        brick_(brick),
+  Harvest(const BrickSurface& surface, const Stencil& stencil, const GridEdges& gridEdges, const CutFaces& faces, const CutCells& cells,
+          BrickCut& out)
+      : input_(surface.input),
+        vertices_(surface.vertices),
         stencil_(stencil),
+        gridEdges_(gridEdges),
         faces_(faces),
         cells_(cells),
-        pastPiece_(stencil.cells.size(), 0),
-        pastGridVertex_(stencil.cells.size(), 0) {}
+        out_(out) {}
 
-  void run(const UntouchedRuns& runs, const std::vector<Counted>& counted, const GridEdges& gridEdges, BrickCut& out) {
-    findComponents(out);
-    findNeighbours(runs, out);
-    findSteps(counted, out);
-    findSeamVertices(gridEdges, out);
-    findCorner(gridEdges, out);
-    copy(out);
-    countRows(out);
+  void run(const std::vector<Counted>& counted) {
+    findComponents();
+    copyVertices();
+    copyFaces();
+    copyCells();
+    listBoundary();
+    findSteps(counted);
+    findCorner();
   }
 
  private:
@@ -39,7 +39,7 @@ class Harvest {
   }
   static bool isInside(const FaceSides& sides) { return sides.cells[0] != FaceSides::kNone && sides.cells[1] != FaceSides::kNone; }
 
-  void findComponents(BrickCut& out) const {
+  void findComponents() {
     IdSets<CellId> sets;
     sets.reset(cells_.size());
     for (const GridFaceId g : stencil_.faces.ids()) {
@@ -48,67 +48,162 @@ class Harvest {
         if (!faces_.isTri(halvesIn(g)[i].face()) && isInside(sides)) sets.unite(sides.cells[0], sides.cells[1]);
       }
     }
-    out.components.resize(cells_.size());
-    for (const CellId c : out.components.ids()) {
+    out_.components.resize(cells_.size());
+    for (const CellId c : out_.components.ids()) {
       const CellId first = sets.find(c);
-      out.components[c] = first == c ? out.componentCount++ : out.components[first];
+      out_.components[c] = first == c ? out_.componentCount++ : out_.components[first];
     }
   }
 
-  /// Looks at the grid-faces that have a cell of the brick on one side alone.
-  void findNeighbours(const UntouchedRuns& runs, BrickCut& out) {
-    uint32_t piece = 0;
-    for (const GridFaceId g : stencil_.faces.ids()) {
-      const Stencil::Face& face = stencil_.faces[g];
-      const uint32_t first = piece;
-      for (const HalfFace h : halvesIn(g)) piece += !faces_.isTri(h.face());
-      pastPiece_[face.cell.number] = piece;
-      Slab other = stencil_.cells[face.cell].element;
-      other[size_t(face.axis())] += face.side() == 1 ? 2 : -2;
-      if (!input_.inGrid(other) || stencil_.find(other)) continue;
-      if (const auto brick = stencil_.box.has(other) ? std::nullopt : bricks_.findTouched(other)) {
-        addSeam(g, first, piece - first, out);
-        if (face.side() == 0) out.otherSeams.back().place = {*brick, keyOf(*brick, other, cellFace(face.axis(), 1))};
-      } else {
-        const FaceSides& sides = sidesIn(g)[0];  // the grid-face is whole
-        join(out.components[sides.cells[sides.cells[0] != FaceSides::kNone ? 0 : 1]], runs.at(other), out);
+  uint32_t indexOf(GridCellId cell) const { return stencil_.box.indexOf(stencil_.cells[cell].element); }
+  bool isOnBoundary(const Slab& element) const {
+    bool isOn = false;
+    for (size_t d = 0; d < 3; ++d) {
+      const int32_t first = 2 * stencil_.box.first[d];
+      isOn |= element[d] == first || element[d] == first + 2 * stencil_.box.count[d];
+    }
+    return isOn;
+  }
+
+  void copyVertices() {
+    copy(vertices_.slabs, out_.vertices.slabs);
+    copy(vertices_.parentTriangles, out_.vertices.parentTriangles);
+    out_.lineVertices.reserve(vertices_.slabs.size());
+    GridVertexId corner{0};
+    GridEdgeId edge{0};
+    for (const GridCellId c : stencil_.cells.ids()) {
+      const Stencil::Cell& cell = stencil_.cells[c];
+      for (uint8_t i = 0; i < 8; ++i) {
+        if (cell.corners[i] != corner) continue;  // a cell before has it
+        ++corner.number;
+        const VertexId v = gridEdges_.corners[cell.corners[i]];
+        addLine(c, i, {&v, 1});
+      }
+      for (uint8_t i = 0; i < 12; ++i) {
+        if (cell.edges[i] != edge) continue;
+        ++edge.number;
+        addLine(c, uint8_t(8 + i), gridEdges_.vertices[cell.edges[i]]);
+      }
+      pastVertex_.push_back(uint32_t(out_.lineVertices.size()));
+    }
+  }
+
+  /// Appends the vertices of a grid-edge or grid vertex that are not of the mesh or its edges.
+  void addLine(GridCellId cell, uint8_t index, std::span<const VertexId> vertices) {
+    std::vector<VertexId>& all = out_.lineVertices;
+    const uint32_t first = uint32_t(all.size());
+    for (const VertexId v : vertices) {
+      if (v >= vertices_.firstInTriangle) all.push_back(v);
+    }
+    const uint32_t count = uint32_t(all.size()) - first;
+    if (count == 0) return;
+    if (count > 1) {
+      sortItems(std::span(all).subspan(first), [&](VertexId u, VertexId v) { return vertices_.triangle(u) < vertices_.triangle(v); });
+    }
+    if (isOnBoundary(vertices_.slab(all[first]))) out_.boundaryLines.push_back({indexOf(cell), index, {first, count}});
+  }
+
+  /// What the stages have room for, and no more.
+  template <class T>
+  static void copy(const T& from, T& to) {
+    to.assign(from.begin(), from.end());
+  }
+  template <class Item, class Group>
+  static void copy(const Csr<Item, Group>& from, Csr<Item, Group>& to) {
+    copy(from.offsets, to.offsets);
+    copy(from.items, to.items);
+  }
+
+  void copyFaces() {
+    const TriFaces& tri = faces_.tri;
+    copy(tri.loops, out_.triLoops);
+    copy(tri.faceLoopOffsets, out_.triFaceLoopOffsets);
+    copy(tri.triangles, out_.triangles);
+    copy(tri.otherParents, out_.otherParents);
+    copy(faces_.grid.loops, out_.loops);
+    copy(faces_.grid.faceLoopOffsets, out_.faceLoopOffsets);
+    out_.pieces.reserve(faces_.grid.size());
+    for (const GridFaceId g : faces_.grid.gridFaces) out_.pieces.push_back(planeOf(g));
+    out_.triOrder.reserve(tri.size());
+    GridFaceId g{0};
+    for (const GridCellId c : stencil_.cells.ids()) {
+      const auto inside = stencil_.triFacesInCell[c];
+      out_.triOrder.insert(out_.triOrder.end(), inside.begin(), inside.end());
+      for (; g.number < stencil_.faces.size() && stencil_.faces[g].cell == c; ++g.number) {
+        for (const FaceId f : stencil_.triFacesOnFace[g]) {
+          out_.triFacesInPlane.push_back({uint32_t(out_.triOrder.size()), planeOf(g)});
+          out_.triOrder.push_back(f);
+        }
       }
     }
-    for (size_t c = 1; c < pastPiece_.size(); ++c) pastPiece_[c] = std::max(pastPiece_[c], pastPiece_[c - 1]);
   }
 
-  /// Leaves out most of those that are known: runs along a surface are met again and again.
-  void join(uint32_t component, uint32_t run, BrickCut& out) const {
-    constexpr size_t kLast = 16;
-    const std::array<uint32_t, 2> join{component, run};
-    const auto end = out.joins.end(), begin = end - ptrdiff_t(std::min(kLast, out.joins.size()));
-    if (std::find(begin, end, join) == end) out.joins.push_back(join);
+  AxialPlane planeOf(GridFaceId gridFace) const {
+    const Stencil::Face& face = stencil_.faces[gridFace];
+    return {face.axis(), stencil_.cells[face.cell].at(face.axis()) + face.side()};
   }
 
-  uint32_t keyOf(BrickId brick, const Slab& cell, int element) const { return 8 * bricks_.boxes[brick].indexOf(cell) + uint32_t(element); }
+  void copyCells() {
+    copy(cells_.halfFaces, out_.halfFaces);
+    out_.gridCells.reserve(cells_.size());
+    for (const GridCellId c : cells_.gridCells) out_.gridCells.push_back(indexOf(c));
+  }
 
-  /// Of two cells the one below the plane comes first, so the grid-face belongs to that one.
-  void addSeam(GridFaceId g, uint32_t firstPiece, uint32_t pieces, BrickCut& out) const {
-    const Stencil::Face& face = stencil_.faces[g];
-    const uint32_t firstHalf = uint32_t(out.seamHalves.size());
-    for (size_t i = 0; i < halvesIn(g).size(); ++i) {
-      out.seamHalves.push_back({halvesIn(g)[i], out.components[sidesIn(g)[i].cells[face.side() == 1 ? 0 : 1]]});
+  /// Looks at the grid-faces that have a cell of the brick on one side alone, and ends the rows.
+  void listBoundary() {
+    uint32_t piece = 0, triFace = 0, cell = 0;
+    GridFaceId g{0};
+    const uint32_t ny = uint32_t(input_.cells(1));
+    for (const GridCellId c : stencil_.cells.ids()) {
+      triFace += uint32_t(stencil_.triFacesInCell[c].size());
+      for (; g.number < stencil_.faces.size() && stencil_.faces[g].cell == c; ++g.number) {
+        const uint32_t triFaces = uint32_t(stencil_.triFacesOnFace[g].size());
+        uint32_t pieces = 0;
+        for (const HalfFace h : halvesIn(g)) pieces += !faces_.isTri(h.face());
+        addOutside(g, {triFace, triFaces}, {piece, pieces});
+        piece += pieces;
+        triFace += triFaces;
+      }
+      while (cell < cells_.size() && cells_.gridCells[{cell}] == c) ++cell;
+      const uint32_t row = uint32_t(stencil_.cells[c].at(2)) * ny + uint32_t(stencil_.cells[c].at(1));
+      const BrickRow past{row, cell, triFace, piece, pastVertex_[c.number]};
+      if (out_.rows.empty() || out_.rows.back().row != row) {
+        out_.rows.push_back(past);
+      } else {
+        out_.rows.back() = past;
+      }
     }
-    const SeamPlace place{brick_, keyOf(brick_, stencil_.cells[face.cell].element, face.index)};
-    (face.side() == 1 ? out.ownSeams : out.otherSeams)
-        .push_back({place, firstPiece, pieces, firstHalf, uint32_t(out.seamHalves.size()) - firstHalf});
   }
 
-  void findSteps(const std::vector<Counted>& counted, BrickCut& out) const {
+  void addOutside(GridFaceId g, const Range& triFaces, const Range& pieces) {
+    const Stencil::Face& face = stencil_.faces[g];
+    Slab other = stencil_.cells[face.cell].element;
+    other[size_t(face.axis())] += face.side() == 1 ? 2 : -2;
+    if (stencil_.box.has(other)) {
+      if (stencil_.find(other)) return;
+      const FaceSides& sides = sidesIn(g)[0];  // the grid-face is whole
+      const OpenFace open{stencil_.box.indexOf(other), out_.components[sides.cells[sides.cells[0] != FaceSides::kNone ? 0 : 1]]};
+      out_.openFaces.push_back(open);
+    } else if (input_.inGrid(other)) {
+      const uint32_t first = uint32_t(out_.boundaryHalves.size());
+      for (size_t i = 0; i < halvesIn(g).size(); ++i) {
+        out_.boundaryHalves.push_back({halvesIn(g)[i], out_.components[sidesIn(g)[i].cells[face.side() == 1 ? 0 : 1]]});
+      }
+      const Range halves{first, uint32_t(out_.boundaryHalves.size()) - first};
+      out_.boundaryFaces.push_back({indexOf(face.cell), face.index, triFaces, pieces, halves});
+    }
+  }
+
+  void findSteps(const std::vector<Counted>& counted) {
     if (counted.empty()) return;
-    const FaceParents parents(input_, faces_.tri);
-    const bool areAlike = input_.mesh->closed && input_.mesh->duplicates.empty() && faces_.tri.otherParents.empty();
+    const FaceParents parents(input_, faces_.tri.triangles, faces_.tri.otherParents);
+    const bool areAlike = input_.mesh->closed && parents.areSingle();
     WindingStep last{~0u, ~0u, {}};
     const auto add = [&](FaceId face, CellId behind, CellId inFront) {
-      const WindingStep step{out.components[behind], out.components[inFront],
+      const WindingStep step{out_.components[behind], out_.components[inFront],
                              areAlike ? std::array<int32_t, 2>{1, 0} : stepsAt(face, parents, counted)};
       if (step == last) return;
-      out.steps.push_back(last = step);
+      out_.steps.push_back(last = step);
     };
     for (size_t i = 0; i < cells_.ofTriFaces.size(); ++i) {
       const auto& [behind, inFront] = cells_.ofTriFaces[i].cells;
@@ -121,151 +216,73 @@ class Harvest {
         if (faces_.isTri(h.face()) && isInside(sides)) add(h.face(), sides.cells[h.side()], sides.cells[1 - h.side()]);
       }
     }
-    sortUnique(out.steps);
-  }
-
-  void findSeamVertices(const GridEdges& gridEdges, BrickCut& out) {
-    const VertexId first = bricks_.firstOnGrid[brick_];
-    VertexId next = first;
-    for (const GridCellId c : stencil_.cells.ids()) {
-      for (int i = 0; i < 8; ++i) {
-        const VertexId v = gridEdges.corners[stencil_.cells[c].corners[size_t(i)]];
-        if (v != next) continue;  // the surface passes it, or a cell before has it
-        ++next.number;
-        placeSeamVertex(stencil_.cells[c].element, i, v, out);
-      }
-      pastGridVertex_[c.number] = next.number - first.number;
-    }
-  }
-
-  /// `cell` is the first of the brick that has the vertex, as its corner.
-  void placeSeamVertex(const Slab& cell, int corner, VertexId v, BrickCut& out) const {
-    bool onBoundary = false;
-    for (size_t d = 0; d < 3; ++d) {
-      const int32_t plane = (cell[d] >> 1) + (corner >> d & 1) - stencil_.box.first[d];
-      onBoundary |= plane == 0 || plane == stencil_.box.count[d];
-    }
-    if (!onBoundary) return;
-    for (int i = 0; i < 8; ++i) {  // the cells around, in order
-      Slab other = cell;
-      for (size_t d = 0; d < 3; ++d) other[d] += 2 * ((corner >> d & 1) + (i >> d & 1) - 1);
-      if (other == cell) break;
-      const auto owner = input_.inGrid(other) ? bricks_.findTouched(other) : std::nullopt;
-      if (!owner) continue;
-      out.otherSeamVertices.push_back({{*owner, keyOf(*owner, other, 7 - i)}, v});
-      return;
-    }
-    out.ownSeamVertices.push_back({{brick_, keyOf(brick_, cell, corner)}, v});
+    sortUnique(out_.steps);
   }
 
   /// Finds the cell that holds the point of windingAtLowestCorner(), if the surface touches its grid cell. The grid-face x = x0 holds the
   /// point's shadow right beside the y-axis: in the face with the directed edge from the corner along y.
-  void findCorner(const GridEdges& gridEdges, BrickCut& out) const {
+  void findCorner() {
     const auto cell = stencil_.find({1, 1, 1});
     if (!cell) return;
     const GridFaceId g = stencil_.cells[*cell].faces[size_t(cellFace(0, 0))];
-    const VertexId corner = gridEdges.corners[stencil_.cells[*cell].corners[0]];
-    const auto along = gridEdges.vertices[stencil_.cells[*cell].edges[size_t(cellEdge(1, 0, 0))]];
-    const VertexId next = along.empty() ? gridEdges.corners[stencil_.cells[*cell].corners[2]] : along[0];
+    const VertexId corner = gridEdges_.corners[stencil_.cells[*cell].corners[0]];
+    const auto along = gridEdges_.vertices[stencil_.cells[*cell].edges[size_t(cellEdge(1, 0, 0))]];
+    const VertexId next = along.empty() ? gridEdges_.corners[stencil_.cells[*cell].corners[2]] : along[0];
     for (size_t k = 0; k < halvesIn(g).size(); ++k) {
       const HalfFace fromBelow = halvesIn(g)[k];
       const auto loop = faces_.loops(fromBelow.face())[0];
       for (size_t i = 0; i < loop.size(); ++i) {
         VertexId u = loop[i], v = loop[i + 1 < loop.size() ? i + 1 : 0];
         if (fromBelow.side() == 1) std::swap(u, v);  // a triangle's face whose normal is -x
-        if (u == corner && v == next) out.componentAtCorner = out.components[sidesIn(g)[k].cells[1]];
+        if (u == corner && v == next) out_.componentAtCorner = out_.components[sidesIn(g)[k].cells[1]];
       }
     }
-  }
-
-  /// What the stages have room for, and no more.
-  void copy(BrickCut& out) const {
-    out.halfFaces.offsets.assign(cells_.halfFaces.offsets.begin(), cells_.halfFaces.offsets.end());
-    out.halfFaces.items.assign(cells_.halfFaces.items.begin(), cells_.halfFaces.items.end());
-    out.gridCells.reserve(cells_.size());
-    for (const GridCellId c : cells_.gridCells) out.gridCells.push_back(stencil_.box.indexOf(stencil_.cells[c].element));
-    out.loops.offsets.assign(faces_.grid.loops.offsets.begin(), faces_.grid.loops.offsets.end());
-    out.loops.items.assign(faces_.grid.loops.items.begin(), faces_.grid.loops.items.end());
-    out.faceLoopOffsets.assign(faces_.grid.faceLoopOffsets.begin(), faces_.grid.faceLoopOffsets.end());
-    out.gridFaces.reserve(faces_.grid.size());
-    for (const GridFaceId g : faces_.grid.gridFaces) {
-      const Stencil::Face& face = stencil_.faces[g];
-      Slab element = stencil_.cells[face.cell].element;
-      element[size_t(face.axis())] += face.side() == 1 ? 1 : -1;
-      out.gridFaces.push_back(element);
-    }
-  }
-
-  void countRows(BrickCut& out) const {
-    const uint32_t ny = uint32_t(input_.cells(1));
-    uint32_t cell = 0, gridVertex = 0;
-    auto seamVertex = out.otherSeamVertices.begin();
-    const VertexId firstOnGrid = bricks_.firstOnGrid[brick_];
-    for (uint32_t c = 0; c < stencil_.cells.size();) {
-      const auto rowOf = [&](uint32_t at) { return uint32_t(stencil_.cells[{at}].at(2)) * ny + uint32_t(stencil_.cells[{at}].at(1)); };
-      BrickRow row{rowOf(c), cell, 0, 0, {}};
-      while (c < stencil_.cells.size() && rowOf(c) == row.row) ++c;
-      while (row.pastCell < cells_.size() && cells_.gridCells[{row.pastCell}].number < c) ++row.pastCell;
-      row.pastPiece = pastPiece_[c - 1];
-      row.pastGridVertex = pastGridVertex_[c - 1];
-      BrickCounts& counts = row.counts;
-      counts.cells = row.pastCell - cell;
-      counts.halfFaces = out.halfFaces.offsets[row.pastCell] - out.halfFaces.offsets[cell];
-      counts.gridVertices = row.pastGridVertex - gridVertex;
-      while (seamVertex != out.otherSeamVertices.end() && seamVertex->vertex.number - firstOnGrid.number < row.pastGridVertex) {
-        --counts.gridVertices;
-        ++seamVertex;
-      }
-      cell = row.pastCell;
-      gridVertex = row.pastGridVertex;
-      out.rows.push_back(row);
-    }
-    forOwnPieces(out, [&](uint32_t row, uint32_t begin, uint32_t end) {
-      const uint32_t firstLoop = out.faceLoopOffsets[begin], pastLoop = out.faceLoopOffsets[end];
-      BrickCounts& counts = out.rows[row].counts;
-      counts.pieces += end - begin;
-      counts.loops += pastLoop - firstLoop;
-      counts.loopVertices += out.loops.offsets[pastLoop] - out.loops.offsets[firstLoop];
-    });
   }
 
   const Input& input_;
-  const Bricks& bricks_;
-  const BrickId brick_;
+  const CutVertices& vertices_;
   const Stencil& stencil_;
+  const GridEdges& gridEdges_;
   const CutFaces& faces_;
   const CutCells& cells_;
-  std::vector<uint32_t> pastPiece_, pastGridVertex_;  // per cell of the stencil: of those that it, or one before it, has first
+  BrickCut& out_;
+  std::vector<uint32_t> pastVertex_;  // per cell of the stencil: of those that it, or one before it, has first
 };
 
 /// Cuts bricks one after the other, on one thread.
 class BrickCutter {
  public:
-  BrickCutter(const CutSurface& surface, CutVertices& vertices, const UntouchedRuns& runs, bool onlyGeneral)
-      : surface_(surface), vertices_(vertices), runs_(runs), counted_(countedOf(*surface.surface.input.mesh)) {
+  BrickCutter(const Surface& surface, const SurfaceParts& parts, Bricks& bricks, bool onlyGeneral)
+      : surface_(surface), parts_(parts), bricks_(bricks), counted_(countedOf(*surface.input.mesh)), brickSurface_(surface) {
     gridFaceScratch_.onlyGraph = cellScratch_.onlyGeneral = onlyGeneral;
   }
 
-  void cut(BrickId brick, BrickCut& result) {
-    makeStencil(surface_, brick, stencil_);
-    cutGridEdges(surface_, brick, stencil_, vertices_, gridEdges_);
-    cutGridFaces(surface_, stencil_, gridEdges_, gridFaceScratch_, gridFaces_);
-    const CutFaces faces{surface_.triFaces, gridFaces_};
-    makeCutCells(surface_.surface, stencil_, faces, cellScratch_, cells_);
-    Harvest(surface_, brick, stencil_, faces, cells_).run(runs_, counted_, gridEdges_, result);
+  BrickCut cut(BrickId brick) {
+    cutBrickSurface(surface_, parts_, brick, bricks_, predicates_, brickSurface_);
+    makeStencil(brickSurface_, bricks_, brick, stencil_);
+    cutGridEdges(brickSurface_, stencil_, gridEdges_);
+    cutGridFaces(brickSurface_, stencil_, gridEdges_, gridFaceScratch_, gridFaces_);
+    const CutFaces faces{brickSurface_.triFaces, gridFaces_};
+    makeCutCells(brickSurface_, stencil_, faces, cellScratch_, cells_);
+    BrickCut result(surface_.vertices);
+    Harvest(brickSurface_, stencil_, gridEdges_, faces, cells_, result).run(counted_);
+    return result;
   }
 
   void count(Run& run) const {
+    run.count(predicates_);
     run.count(gridEdges_.predicates);
     run.count(gridFaceScratch_.predicates);
     run.count(cellScratch_.predicates);
   }
 
  private:
-  const CutSurface& surface_;
-  CutVertices& vertices_;
-  const UntouchedRuns& runs_;
+  const Surface& surface_;
+  const SurfaceParts& parts_;
+  Bricks& bricks_;
   const std::vector<Counted> counted_;
+  Predicates predicates_;
+  BrickSurface brickSurface_;
   Stencil stencil_;
   GridEdges gridEdges_;
   GridFaceScratch gridFaceScratch_;
@@ -276,16 +293,16 @@ class BrickCutter {
 
 }  // namespace
 
-IdVector<BrickId, BrickCut> cutBricks(const CutSurface& surface, CutVertices& vertices, const UntouchedRuns& runs, Run& run) {
-  IdVector<BrickId, BrickCut> cuts(surface.bricks.size());
-  const auto weightOf = [&](uint32_t b) { return surface.bricks.triFaces[{b}].size(); };
+IdVector<BrickId, BrickCut> cutBricks(const Surface& surface, const SurfaceParts& parts, Bricks& bricks, Run& run) {
+  IdVector<BrickId, BrickCut> cuts(bricks.size());
+  const auto weightOf = [&](uint32_t b) { return bricks.parts[{b}].size() + bricks.dividedFaces[{b}].size(); };
   std::vector<uint32_t> order(cuts.size());
   std::iota(order.begin(), order.end(), 0u);
   sortItems(order, [&](uint32_t a, uint32_t b) { return weightOf(a) > weightOf(b); });  // the heaviest first
   std::vector<std::unique_ptr<BrickCutter>> cutters(run.monitor.threads());
   runItems(order, run.monitor, [&](size_t thread, uint32_t b) {
-    if (!cutters[thread]) cutters[thread] = std::make_unique<BrickCutter>(surface, vertices, runs, run.onlyGeneral);
-    cutters[thread]->cut({b}, cuts[{b}]);
+    if (!cutters[thread]) cutters[thread] = std::make_unique<BrickCutter>(surface, parts, bricks, run.onlyGeneral);
+    cuts[{b}] = cutters[thread]->cut({b});
   });
   for (const auto& cutter : cutters) {
     if (cutter) cutter->count(run);

@@ -6,7 +6,7 @@
 namespace mandoline::detail {
 
 struct CellView {
-  const Surface& surface;
+  const BrickSurface& surface;
   const Stencil& stencil;
   const CutFaces& faces;
   const CellHalves& halves;

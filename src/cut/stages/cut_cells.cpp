@@ -11,7 +11,7 @@ namespace {
 
 class CellMaker {
  public:
-  CellMaker(const Surface& surface, const Stencil& stencil, const CutFaces& faces, CellScratch& scratch, CutCells& cells)
+  CellMaker(const BrickSurface& surface, const Stencil& stencil, const CutFaces& faces, CellScratch& scratch, CutCells& cells)
       : surface_(surface), vertices_(surface.vertices), stencil_(stencil), faces_(faces), scratch_(scratch), cells_(cells) {}
 
   void make(GridCellId gridCell) {
@@ -139,7 +139,7 @@ class CellMaker {
   TriangleId triangleOf(const EdgeTable::Use& use) const { return faces_.tri.triangles[scratch_.halves.triFace(faceOf(use))]; }
 
   bool onGridElement(const EdgeTable::Edge& edge) const {
-    const Slab &a = vertices_.slabs[edge.low], &b = vertices_.slabs[edge.high];
+    const Slab &a = vertices_.slab(edge.low), &b = vertices_.slab(edge.high);
     bool on = false;
     for (int d = 0; d < 3; ++d) on |= onPlane(a[d]) && a[d] == b[d];
     return on;
@@ -221,8 +221,8 @@ class CellMaker {
     note(vertices_.triangleAt(edge.high));
     for (const FaceId f : scratch_.halves.triFaces) {  // another one that has a vertex on the same grid-edge
       for (const VertexId v : faces_.tri.loopsOf(f)[0]) {
-        const Slab along = elementBetween(vertices_.slabs[edge.low], vertices_.slabs[edge.high]);
-        if (!found[1] && vertices_.slabs[v] == along) note(faces_.tri.triangles[f]);
+        const Slab along = elementBetween(vertices_.slab(edge.low), vertices_.slab(edge.high));
+        if (!found[1] && vertices_.slab(v) == along) note(faces_.tri.triangles[f]);
       }
     }
     vertices_.failSelfIntersection(found[0], found[1] ? found[1] : found[0]);
@@ -284,7 +284,7 @@ class CellMaker {
     }
   }
 
-  const Surface& surface_;
+  const BrickSurface& surface_;
   const CutVertices& vertices_;
   const Stencil& stencil_;
   const CutFaces& faces_;
@@ -295,7 +295,7 @@ class CellMaker {
 
 }  // namespace
 
-void makeCutCells(const Surface& surface, const Stencil& stencil, const CutFaces& faces, CellScratch& scratch, CutCells& cells) {
+void makeCutCells(const BrickSurface& surface, const Stencil& stencil, const CutFaces& faces, CellScratch& scratch, CutCells& cells) {
   cells.halfFaces.clear();
   cells.gridCells.clear();
   cells.ofTriFaces.clear();

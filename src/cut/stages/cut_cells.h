@@ -42,6 +42,6 @@ struct CellScratch {
 };
 
 /// Replaces `cells`, whose memory is used again.
-void makeCutCells(const Surface& surface, const Stencil& stencil, const CutFaces& faces, CellScratch& scratch, CutCells& cells);
+void makeCutCells(const BrickSurface& surface, const Stencil& stencil, const CutFaces& faces, CellScratch& scratch, CutCells& cells);
 
 }  // namespace mandoline::detail

@@ -82,13 +82,13 @@ class Divider {
       ownPlanes_ += onPlane(slab) && input_.slabs[t[1]][d] == slab && input_.slabs[t[2]][d] == slab;
     }
     const auto place = [&](VertexId v) {
-      if (planeCount(vertices_.slabs[v]) > ownPlanes_) placed_.push_back({vertices_.slabs[v], v});
+      if (planeCount(vertices_.slab(v)) > ownPlanes_) placed_.push_back({vertices_.slab(v), v});
     };
     for (const uint32_t v : arrangement_.innerVertices[triangle_.number]) place({v});
     for (const TriEdgeId e : edges_.innerOf(triangle_)) {
       VertexId from = edges_.ends[e][0];
       const auto add = [&](VertexId to) {
-        const Slab element = elementBetween(vertices_.slabs[from], vertices_.slabs[to]);
+        const Slab element = elementBetween(vertices_.slab(from), vertices_.slab(to));
         if (planeCount(element) > ownPlanes_) {
           inPlane_.push_back(sorted(from, to));
         } else {
@@ -111,7 +111,7 @@ class Divider {
   /// Calls f(vertex) for those of the arrangement that lie between two vertices of a side that an axial plane made, in order.
   template <class F>
   void forBetween(VertexId u, VertexId v, const F& f) {
-    const Slab element = elementBetween(vertices_.slabs[u], vertices_.slabs[v]);
+    const Slab element = elementBetween(vertices_.slab(u), vertices_.slab(v));
     if (planeCount(element) <= ownPlanes_) return;
     const auto [first, past] = std::equal_range(placed_.begin(), placed_.end(), Placed{element, {0}},
                                                 [](const Placed& a, const Placed& b) { return a.slab < b.slab; });
@@ -248,7 +248,7 @@ class Divider {
       if (!owned_[f] || !input_.inGrid(local_.elements[f])) continue;
       bool touchesLine = false;
       for (const auto loop : local_.loops.groups(local_.faceLoopOffsets[f], local_.faceLoopOffsets[f + 1])) {
-        for (const VertexId v : loop) touchesLine |= planeCount(vertices_.slabs[v]) > 1;
+        for (const VertexId v : loop) touchesLine |= planeCount(vertices_.slab(v)) > 1;
         faces.loops.items.insert(faces.loops.items.end(), loop.begin(), loop.end());
         faces.loops.endGroup();
       }

@@ -7,18 +7,22 @@ namespace mandoline::detail {
 
 class FaceParents {
  public:
-  FaceParents(const Input& input, const TriFaces& faces) : input_(input), faces_(faces) {}
+  /// `triangles`, `others`: as of TriFaces.
+  FaceParents(const Input& input, const IdVector<FaceId, TriangleId>& triangles, const std::vector<OtherParent>& others)
+      : input_(input), triangles_(triangles), others_(others) {}
+
+  /// Whether each face has one.
+  bool areSingle() const { return others_.empty() && input_.mesh->duplicates.empty(); }
 
   /// Calls f(triangle, whether its normal is the face's): for the one that has the face, then for others in no order.
   template <class F>
   void forEach(FaceId face, const F& f) const {
-    const TriangleId triangle = faces_.triangles[face];
+    const TriangleId triangle = triangles_[face];
     f(triangle, true);
     forDuplicates(triangle, true, f);
-    const auto& others = faces_.otherParents;
-    if (others.empty()) return;
-    auto other = std::lower_bound(others.begin(), others.end(), face, [](const OtherParent& o, FaceId at) { return o.face < at; });
-    for (; other != others.end() && other->face == face; ++other) {
+    if (others_.empty()) return;
+    auto other = std::lower_bound(others_.begin(), others_.end(), face, [](const OtherParent& o, FaceId at) { return o.face < at; });
+    for (; other != others_.end() && other->face == face; ++other) {
       f(other->triangle, other->sameWay);
       forDuplicates(other->triangle, other->sameWay, f);
     }
@@ -31,7 +35,8 @@ class FaceParents {
   }
 
   const Input& input_;
-  const TriFaces& faces_;
+  const IdVector<FaceId, TriangleId>& triangles_;
+  const std::vector<OtherParent>& others_;
 };
 
 }  // namespace mandoline::detail

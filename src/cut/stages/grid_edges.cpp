@@ -15,8 +15,8 @@ struct Placed {
 /// Finds all cut-vertices of the surface on grid-edges and grid vertices of a brick, each as often as a loop passes it.
 class Collector {
  public:
-  Collector(const CutSurface& surface, const Stencil& stencil)
-      : triFaces_(surface.triFaces), vertices_(surface.surface.vertices), stencil_(stencil) {}
+  Collector(const BrickSurface& surface, const Stencil& stencil)
+      : triFaces_(surface.triFaces), vertices_(surface.vertices), stencil_(stencil) {}
 
   std::vector<Placed<GridEdgeId>> onEdges;
   std::vector<Placed<GridVertexId>> onCorners;
@@ -36,7 +36,7 @@ class Collector {
       }
     }
     for (const VertexId v : seamVertices) {
-      if (const auto cell = stencil_.cellBeside(vertices_.slabs[v])) place(stencil_.cells[*cell], v);
+      if (const auto cell = stencil_.cellBeside(vertices_.slab(v))) place(stencil_.cells[*cell], v);
     }
   }
 
@@ -48,7 +48,7 @@ class Collector {
   }
 
   void place(const Stencil::Cell& cell, VertexId v) {
-    const Slab& slab = vertices_.slabs[v];
+    const Slab& slab = vertices_.slab(v);
     if (planeCount(slab) < 2) return;
     int side[3], along = -1;
     for (int d = 0; d < 3; ++d) {
@@ -68,7 +68,7 @@ class Collector {
 };
 
 /// The cut-vertex of each grid vertex: those where the surface passes have one already.
-void setCorners(const Collector& found, const Stencil& stencil, VertexId next, CutVertices& vertices, GridEdges& gridEdges) {
+void setCorners(const Collector& found, const Stencil& stencil, CutVertices& vertices, GridEdges& gridEdges) {
   constexpr VertexId kNone{~0u};
   auto& corners = gridEdges.corners;
   corners.assign(stencil.cornerCount, kNone);
@@ -80,20 +80,19 @@ void setCorners(const Collector& found, const Stencil& stencil, VertexId next, C
     for (int i = 0; i < 8; ++i) {
       VertexId& corner = corners[cell.corners[i]];
       if (corner != kNone) continue;
-      vertices.slabs[next] = {cell.element[0] - 1 + 2 * (i & 1), cell.element[1] - 1 + 2 * (i >> 1 & 1),
-                              cell.element[2] - 1 + 2 * (i >> 2)};
-      corner = next;
-      ++next.number;
+      const Slab slab = {cell.element[0] - 1 + 2 * (i & 1), cell.element[1] - 1 + 2 * (i >> 1 & 1), cell.element[2] - 1 + 2 * (i >> 2)};
+      corner = vertices.add(slab, CutVertices::kNoTriangle);
     }
   }
 }
 
 }  // namespace
 
-void cutGridEdges(const CutSurface& surface, BrickId brick, const Stencil& stencil, CutVertices& vertices, GridEdges& gridEdges) {
+void cutGridEdges(BrickSurface& surface, const Stencil& stencil, GridEdges& gridEdges) {
+  CutVertices& vertices = surface.vertices;
   Collector found(surface, stencil);
-  found.collect(surface.bricks.seamVertices[brick]);
-  setCorners(found, stencil, surface.bricks.firstOnGrid[brick], vertices, gridEdges);
+  found.collect(surface.seamVertices);
+  setCorners(found, stencil, vertices, gridEdges);
 
   const auto& onEdges = found.onEdges;
   auto groups = groupBy<VertexId, GridEdgeId>(
@@ -105,7 +104,7 @@ void cutGridEdges(const CutSurface& surface, BrickId brick, const Stencil& stenc
     sortItems(group);
     const size_t count = size_t(std::unique(group.begin(), group.end()) - group.begin());
     if (count > 1) {
-      const Slab& slab = vertices.slabs[group[0]];
+      const Slab& slab = vertices.slab(group[0]);
       const int along = !onPlane(slab[0]) ? 0 : !onPlane(slab[1]) ? 1 : 2;
       sortItems(group.first(count), [&](VertexId u, VertexId v) { return vertices.compare(u, v, along, predicates) < 0; });
       for (size_t i = 1; i < count; ++i) {

@@ -1,7 +1,7 @@
 // Grid lines (paper, 4.1.2): the cut-vertices on each grid-edge of the stencil in order, and the vertex at each grid vertex.
 //
-// In: Stencil. Out: GridEdges; CutVertices gets the grid vertices that the surface does not pass through, in the places that the brick has
-// there.
+// In: BrickSurface, Stencil. Out: GridEdges; the brick gets the grid vertices that the surface does not pass through as vertices of its
+// own.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ struct GridEdges {
   Predicates predicates;
 };
 
-/// Replaces `gridEdges`, whose memory is used again. Bricks write to different parts of `vertices`.
-void cutGridEdges(const CutSurface& surface, BrickId brick, const Stencil& stencil, CutVertices& vertices, GridEdges& gridEdges);
+/// Replaces `gridEdges`, whose memory is used again.
+void cutGridEdges(BrickSurface& surface, const Stencil& stencil, GridEdges& gridEdges);
 
 }  // namespace mandoline::detail

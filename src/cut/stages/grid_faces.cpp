@@ -5,12 +5,12 @@ namespace {
 
 class FaceCutter {
  public:
-  FaceCutter(const CutSurface& surface, const Stencil& stencil, const GridEdges& gridEdges, GridFaceScratch& scratch, GridFaces& faces)
-      : input_(surface.surface.input),
+  FaceCutter(const BrickSurface& surface, const Stencil& stencil, const GridEdges& gridEdges, GridFaceScratch& scratch, GridFaces& faces)
+      : input_(surface.input),
         stencil_(stencil),
         gridEdges_(gridEdges),
         triFaces_(surface.triFaces),
-        vertices_(surface.surface.vertices),
+        vertices_(surface.vertices),
         scratch_(scratch),
         faces_(faces) {}
 
@@ -208,7 +208,7 @@ void GridFaces::clear() {
   beside.clear();
 }
 
-void cutGridFaces(const CutSurface& surface, const Stencil& stencil, const GridEdges& gridEdges, GridFaceScratch& scratch,
+void cutGridFaces(const BrickSurface& surface, const Stencil& stencil, const GridEdges& gridEdges, GridFaceScratch& scratch,
                   GridFaces& faces) {
   faces.clear();
   FaceCutter cutter(surface, stencil, gridEdges, scratch, faces);

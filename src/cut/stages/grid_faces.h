@@ -1,6 +1,6 @@
 // Grid-faces (paper, 3.4, 4.3, 4.5, 4.6): the pieces that the surface cuts each grid-face of the stencil into, with their holes.
 //
-// In: Stencil, GridEdges, TriFaces. Out: GridFaces. Where a triangle lies in the grid-face, its tri-cut-face takes the piece's place.
+// In: BrickSurface, Stencil, GridEdges. Out: GridFaces. Where a triangle lies in the grid-face, its tri-cut-face takes the piece's place.
 // Ids of the faces made here follow those of TriFaces: they are numbers in the brick.
 #pragma once
 
@@ -48,7 +48,7 @@ struct GridFaceScratch {
 };
 
 /// Replaces `faces`, whose memory is used again.
-void cutGridFaces(const CutSurface& surface, const Stencil& stencil, const GridEdges& gridEdges, GridFaceScratch& scratch,
+void cutGridFaces(const BrickSurface& surface, const Stencil& stencil, const GridEdges& gridEdges, GridFaceScratch& scratch,
                   GridFaces& faces);
 
 }  // namespace mandoline::detail

@@ -1,6 +1,7 @@
 #include "cut/stages/output.h"
 
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "base/position_table.h"
@@ -18,38 +19,39 @@ struct Block {
   static Block at(size_t block, size_t n) { return {block * kSize, std::min(n, (block + 1) * kSize)}; }
 };
 
-/// Where tri-cut-faces lie.
-void writeTriFaces(const TriFaces& tri, Block block, CutMesh& out) {
-  for (const FaceId f : Ids<FaceId>(block.begin, block.end)) {
-    out.faceTriangle[f.number] = int32_t(tri.triangles[f].number);
-    for (int d = 0; d < 3; ++d) {
-      if (!onPlane(tri.elements[f][d])) continue;
-      out.faceAxis[f.number] = int8_t(d);
-      out.facePlane[f.number] = tri.elements[f][d] >> 1;
-    }
-  }
-}
-
-void writeTriLoops(const TriFaces& tri, const Numbers& numbers, Block block, CutMesh& out) {
-  for (size_t i = block.begin; i < block.end; ++i) out.loopVertices[i] = numbers.vertices[tri.loops.items[i]];
-}
-
-/// Writes what belongs to bricks: pieces of grid-faces, which come after all tri-cut-faces, and cut-cells.
+/// Writes what belongs to bricks: tri-cut-faces, pieces of grid-faces, which come after them, and cut-cells.
 class BrickWriter {
  public:
-  BrickWriter(const CutState& state, const Numbers& numbers, CutMesh& out)
-      : state_(state),
-        numbers_(numbers),
-        out_(out),
-        triFaces_(uint32_t(state.triFaces.size())),
-        triLoops_(uint32_t(out.loopCount()) - numbers.total.loops),
-        triLoopVertices_(uint32_t(state.triFaces.loops.items.size())) {}
+  BrickWriter(const CutState& state, const Numbers& numbers, CutMesh& out) : state_(state), numbers_(numbers), out_(out) {}
 
   void write(BrickId brick) const {
     const BrickCut& cut = state_.cuts[brick];
+    const BrickSeams& seams = state_.seams[brick];
     std::vector<BrickCounts> at = numbers_.rows[brick];  // where what comes next goes
-    forOwnPieces(cut, [&](uint32_t row, uint32_t begin, uint32_t end) {
-      for (uint32_t piece = begin; piece < end; ++piece) writePiece(cut, piece, at[row]);
+    const FaceParents parents(state_.surface.input, cut.triangles, cut.otherParents);
+    auto inPlane = cut.triFacesInPlane.begin();
+    forOwn(cut, &BrickRow::pastTriFace, seams.triFaces, [&](uint32_t row, uint32_t first, uint32_t past) {
+      for (uint32_t i = first; i < past; ++i) {
+        const FaceId face = cut.triOrder[i];
+        const uint32_t f = numbers_.faces[brick][face.number];
+        out_.faceTriangle[f] = int32_t(cut.triangles[face].number);
+        writeLoops(brick, face, f, at[row].triLoops, at[row].triLoopVertices);
+        writeParents(parents, face, f, at[row].parents);
+        while (inPlane != cut.triFacesInPlane.end() && inPlane->place < i) ++inPlane;  // that of another brick
+        if (inPlane != cut.triFacesInPlane.end() && inPlane->place == i) writePlane(inPlane->plane, f);
+      }
+    });
+    const BrickCounts& total = numbers_.total;
+    forOwn(cut, &BrickRow::pastPiece, seams.pieces, [&](uint32_t row, uint32_t first, uint32_t past) {
+      uint32_t loops = total.triLoops + at[row].loops, loopVertices = total.triLoopVertices + at[row].loopVertices;
+      for (uint32_t i = first; i < past; ++i) {
+        const FaceId face{uint32_t(cut.triangles.size()) + i};
+        const uint32_t f = numbers_.faces[brick][face.number];
+        writePlane(cut.pieces[i], f);
+        writeLoops(brick, face, f, loops, loopVertices);
+      }
+      at[row].loops = loops - total.triLoops;
+      at[row].loopVertices = loopVertices - total.triLoopVertices;
     });
     uint32_t cell = 0;
     for (uint32_t row = 0; row < cut.rows.size(); ++row) {
@@ -58,18 +60,36 @@ class BrickWriter {
   }
 
  private:
-  void writePiece(const BrickCut& cut, uint32_t piece, BrickCounts& at) const {
-    const uint32_t f = triFaces_ + at.pieces++;
-    const Slab& gridFace = cut.gridFaces[piece];
-    const int axis = planeAxis(gridFace);
-    out_.faceTriangle[f] = -1;
-    out_.faceAxis[f] = int8_t(axis);
-    out_.facePlane[f] = gridFace[size_t(axis)] >> 1;
-    out_.faceLoopOffsets[f] = triLoops_ + at.loops;
-    for (const auto loop : cut.loops.groups(cut.faceLoopOffsets[piece], cut.faceLoopOffsets[piece + 1])) {
-      out_.loopOffsets[triLoops_ + at.loops++] = triLoopVertices_ + at.loopVertices;
-      for (const VertexId v : loop) out_.loopVertices[triLoopVertices_ + at.loopVertices++] = numbers_.vertices[v];
+  void writePlane(const AxialPlane& plane, uint32_t f) const {
+    out_.faceAxis[f] = int8_t(plane.axis);
+    out_.facePlane[f] = plane.plane;
+  }
+
+  void writeLoops(BrickId brick, FaceId face, uint32_t f, uint32_t& loops, uint32_t& loopVertices) const {
+    const VertexId firstOwn = state_.cuts[brick].vertices.firstOwn;
+    const uint32_t *ofSurface = numbers_.ofSurface.data(), *ofBrick = numbers_.ofBrick[brick].data();
+    out_.faceLoopOffsets[f] = loops;
+    for (const auto loop : state_.cuts[brick].loopsOf(face)) {
+      out_.loopOffsets[loops++] = loopVertices;
+      uint32_t* to = &out_.loopVertices[loopVertices];
+      loopVertices += uint32_t(loop.size());
+      for (const VertexId v : loop) *to++ = v < firstOwn ? ofSurface[v.number] : ofBrick[v.number - firstOwn.number];
     }
+  }
+
+  /// The triangles that a face is a piece of, ascending.
+  void writeParents(const FaceParents& parents, FaceId face, uint32_t f, uint32_t& at) const {
+    const uint32_t first = at;
+    out_.faceParentOffsets[f] = first;
+    parents.forEach(face, [&](TriangleId t, bool sameWay) {
+      uint32_t place = at++;
+      for (; place > first && out_.faceParents[place - 1] > t.number; --place) {
+        out_.faceParents[place] = out_.faceParents[place - 1];
+        out_.faceParentSigns[place] = out_.faceParentSigns[place - 1];
+      }
+      out_.faceParents[place] = t.number;
+      out_.faceParentSigns[place] = sameWay ? 1 : -1;
+    });
   }
 
   void writeCell(BrickId brick, CellId cell, BrickCounts& at) const {
@@ -77,9 +97,7 @@ class BrickWriter {
     const uint32_t c = at.cells++;
     out_.cellHalfFaceOffsets[c] = at.halfFaces;
     for (const HalfFace h : cut.halfFaces[cell]) {
-      const uint32_t face = h.face().number;
-      const uint32_t f = face < triFaces_ ? face : triFaces_ + numbers_.pieces[brick][face - triFaces_];
-      out_.cellHalfFaces[at.halfFaces++] = HalfFace({f}, h.side()).number;
+      out_.cellHalfFaces[at.halfFaces++] = HalfFace({numbers_.faces[brick][h.face().number]}, h.side()).number;
     }
     const Slab gridCell = state_.bricks.boxes[brick].cellAt(cut.gridCells[cell]);
     for (size_t d = 0; d < 3; ++d) out_.cellGridCell[3 * size_t(c) + d] = gridCell[d] >> 1;
@@ -89,68 +107,70 @@ class BrickWriter {
   const CutState& state_;
   const Numbers& numbers_;
   CutMesh& out_;
-  const uint32_t triFaces_, triLoops_, triLoopVertices_;
 };
 
-/// Makes room for faces and cells, and ends their offsets. Those of tri-cut-faces are moved.
-void resize(TriFaces& tri, const BrickCounts& total, CutMesh& out) {
-  const size_t triFaces = tri.size(), faces = triFaces + total.pieces;
-  const uint32_t triLoops = uint32_t(tri.loops.size()), loops = triLoops + total.loops;
-  const uint32_t loopVertices = uint32_t(tri.loops.items.size()) + total.loopVertices;
-  out.faceTriangle.resize(faces);
-  out.faceAxis.resize(faces, -1);
-  out.facePlane.resize(faces);
-  out.faceLoopOffsets = std::move(tri.faceLoopOffsets);
-  for (uint32_t f = uint32_t(out.faceLoopOffsets.size()); f <= triFaces; ++f) out.faceLoopOffsets.push_back(f);  // one loop each
-  out.faceLoopOffsets.resize(faces + 1, loops);
-  out.loopOffsets = std::move(tri.loops.offsets);
-  out.loopOffsets.resize(size_t(loops) + 1, loopVertices);
-  out.loopVertices.resize(loopVertices);
-  out.cellHalfFaceOffsets.resize(size_t(total.cells) + 1, total.halfFaces);
-  out.cellHalfFaces.resize(total.halfFaces);
-  out.cellGridCell.resize(3 * size_t(total.cells));
-  out.cellRegion.resize(total.cells);
+/// Makes room for all, and ends offsets: each array on one thread, since the first touch of memory takes long.
+void makeRoom(const Numbers& numbers, CutMesh& out, Monitor& monitor) {
+  const BrickCounts& total = numbers.total;
+  const size_t vertices = size_t(numbers.surfaceVertices) + total.vertices, faces = size_t(total.triFaces) + total.pieces,
+               loops = size_t(total.triLoops) + total.loops;
+  const uint32_t loopVertices = total.triLoopVertices + total.loopVertices;
+  const std::function<void()> rooms[] = {
+      [&] { out.loopVertices.resize(loopVertices); },
+      [&] { out.positions.resize(3 * vertices); },
+      [&] { out.vertexCell.resize(3 * vertices); },
+      [&] { out.vertexParents.resize(2 * vertices, -1); },
+      [&] { out.cellHalfFaces.resize(total.halfFaces); },
+      [&] { out.loopOffsets.resize(loops + 1, loopVertices); },
+      [&] { out.faceLoopOffsets.resize(faces + 1, uint32_t(loops)); },
+      [&] { out.faceParentOffsets.resize(faces + 1, total.parents); },
+      [&] { out.faceTriangle.resize(faces, -1); },
+      [&] { out.facePlane.resize(faces); },
+      [&] { out.faceParents.resize(total.parents); },
+      [&] { out.vertexTriVertex.resize(vertices, -1); },
+      [&] { out.cellGridCell.resize(3 * size_t(total.cells)); },
+      [&] { out.cellHalfFaceOffsets.resize(size_t(total.cells) + 1, total.halfFaces); },
+      [&] { out.cellRegion.resize(total.cells); },
+      [&] { out.faceAxis.resize(faces, -1); },
+      [&] { out.faceParentSigns.resize(total.parents); },
+      [&] { out.vertexMask.resize(vertices); },
+  };
+  std::vector<uint32_t> tasks(std::size(rooms));
+  std::iota(tasks.begin(), tasks.end(), 0u);
+  runItems(tasks, monitor, [&](size_t, uint32_t task) { rooms[task](); });
 }
 
 /// Writes cut-vertices one by one.
 class VertexWriter {
  public:
   /// `mesh` and `grid` are those of the user.
-  VertexWriter(const MeshView& mesh, const Grid& grid, const Surface& surface, CutMesh& out)
-      : mesh_(mesh), grid_(grid), input_(surface.input), vertices_(surface.vertices), scale_(surface.input.mesh->shift), out_(out) {}
-
-  void resize(size_t count) {
-    out_.positions.resize(3 * count);
-    out_.vertexCell.resize(3 * count);
-    out_.vertexMask.assign(count, 0);
-    out_.vertexTriVertex.assign(count, -1);
-    out_.vertexParents.assign(2 * count, -1);
-  }
+  VertexWriter(const MeshView& mesh, const Grid& grid, const Input& input, CutMesh& out)
+      : mesh_(mesh), grid_(grid), input_(input), scale_(input.mesh->shift), out_(out) {}
 
   /// Vertex v becomes number i.
-  void write(VertexId v, size_t i, Predicates& predicates) {
-    const Slab& slab = vertices_.slabs[v];
-    const Point p = vertices_.position(v, predicates);
+  void write(const CutVertices& vertices, VertexId v, size_t i, Predicates& predicates) {
+    const Slab& slab = vertices.slab(v);
+    const Point p = vertices.position(v, predicates);
     for (int d = 0; d < 3; ++d) {
       out_.vertexCell[3 * i + d] = slab[d] >> 1;
       if (onPlane(slab[d])) out_.vertexMask[i] |= uint8_t(1 << d);
       // Coordinates that the input has are handed back as they are, even where scaling flushed them.
-      out_.positions[3 * i + d] = onPlane(slab[d]) ? grid_.planes[d][size_t(slab[d] >> 1)]
-                                  : isTriVertex(v) ? mesh_.positions[3 * size_t(v.number) + d]
-                                                   : scale_.world(p[d]);
+      out_.positions[3 * i + d] = onPlane(slab[d])           ? grid_.planes[d][size_t(slab[d] >> 1)]
+                                  : isTriVertex(vertices, v) ? mesh_.positions[3 * size_t(v.number) + d]
+                                                             : scale_.world(p[d]);
     }
-    writeParents(v, i);
+    writeParents(vertices, v, i);
   }
 
-  /// Adds the vertices that triangles make by meeting; `used` are those of the cut-mesh, in order.
-  void writeMade(const std::vector<VertexId>& used) {
+  /// Adds the vertices that triangles make by meeting; `used` are those of the mesh and its edges in the cut-mesh, in order.
+  void writeMade(const CutVertices& vertices, const std::vector<VertexId>& used) {
     if (!input_.mesh->hasIntersections()) return;
     for (uint32_t i = 0; i < used.size(); ++i) {
-      if (!vertices_.isImplicit(used[i])) continue;
+      if (!vertices.isImplicit(used[i])) continue;
       out_.madeVertices.push_back(i);
       int32_t parents[4] = {-1, -1, -1, -1};
       MadeVertex kind = MadeVertex::trianglesPlane;
-      if (vertices_.isTriVertex(used[i])) {
+      if (vertices.isTriVertex(used[i])) {
         const PointKey& key = input_.mesh->arrangement->points.key(used[i].number);
         const int count = key.kind == PointKey::Kind::edgeEdge ? 4 : 3;
         for (int k = 0; k < count; ++k) parents[k] = int32_t(key.ids[size_t(k)]);
@@ -158,7 +178,7 @@ class VertexWriter {
                : key.kind == PointKey::Kind::edgeTriangle ? MadeVertex::edgeTriangle
                                                           : MadeVertex::triangles;
       } else {
-        const Line line = vertices_.edges->line(vertices_.triEdge(used[i]));
+        const Line line = vertices.edges->line(vertices.triEdge(used[i]));
         parents[0] = int32_t(std::min(line.a, line.b));
         parents[1] = int32_t(std::max(line.a, line.b));
       }
@@ -168,67 +188,78 @@ class VertexWriter {
   }
 
  private:
-  bool isTriVertex(VertexId v) const { return vertices_.isTriVertex(v) && !input_.mesh->isMade(v); }
+  bool isTriVertex(const CutVertices& vertices, VertexId v) const { return vertices.isTriVertex(v) && !input_.mesh->isMade(v); }
 
-  void writeParents(VertexId v, size_t i) {
+  void writeParents(const CutVertices& vertices, VertexId v, size_t i) {
     int32_t* parents = &out_.vertexParents[2 * i];
-    if (isTriVertex(v)) {
+    if (isTriVertex(vertices, v)) {
       out_.vertexTriVertex[i] = parents[0] = parents[1] = int32_t(v.number);
-    } else if (vertices_.isOnEdge(v)) {
-      const Line line = vertices_.edges->line(vertices_.triEdge(v));
+    } else if (vertices.isOnEdge(v)) {
+      const Line line = vertices.edges->line(vertices.triEdge(v));
       if (line.ofPlanes) return;
       parents[0] = int32_t(std::min(line.a, line.b));
       parents[1] = int32_t(std::max(line.a, line.b));
-    } else if (vertices_.isInTriangle(v)) {
-      parents[0] = int32_t(vertices_.triangle(v).number);
+    } else if (vertices.isInTriangle(v)) {
+      parents[0] = int32_t(vertices.triangle(v).number);
     }
   }
 
   const MeshView& mesh_;
   const Grid& grid_;
   const Input& input_;
-  const CutVertices& vertices_;
   const Scale scale_;
   CutMesh& out_;
 };
 
-/// The vertices of the cut-mesh, in order.
-std::vector<VertexId> listUsed(const Numbers& numbers) {
-  std::vector<VertexId> used(numbers.vertexCount);
-  for (const VertexId v : numbers.vertices.ids()) {
-    if (numbers.vertices[v] != Numbers::kUnused) used[numbers.vertices[v]] = v;
+/// The vertices of the mesh and its edges in the cut-mesh, in order.
+std::vector<VertexId> listUsed(const Numbers& numbers, VertexId firstInTriangle) {
+  std::vector<VertexId> used;
+  used.reserve(numbers.surfaceVertices);
+  for (const VertexId v : Ids<VertexId>(VertexId{0}, firstInTriangle)) {
+    if (numbers.ofSurface[v] != Numbers::kUnused) used.push_back(v);
   }
   return used;
 }
 
 /// Writes vertices, faces and cells, whose places are known.
 void writeAll(const CutState& state, const Numbers& numbers, VertexWriter& vertexWriter, CutMesh& out, Run& run) {
-  const TriFaces& tri = state.triFaces;
-  const std::vector<VertexId> used = listUsed(numbers);
-  vertexWriter.resize(used.size());
+  const CutVertices& vertices = state.surface.vertices;
+  const std::vector<VertexId> used = listUsed(numbers, vertices.firstInTriangle);
   const BrickWriter brickWriter(state, numbers, out);
-  const size_t loopVertices = tri.loops.items.size();
-  const size_t bricks = state.cuts.size(), faces = bricks + Block::count(tri.size()), loops = faces + Block::count(loopVertices);
-  std::vector<uint32_t> tasks(loops + Block::count(used.size()));
+  const size_t bricks = state.cuts.size();
+  std::vector<uint32_t> tasks(bricks + Block::count(used.size()));
   std::iota(tasks.begin(), tasks.end(), 0u);
   std::vector<Predicates> predicates(run.monitor.threads());
   runItems(tasks, run.monitor, [&](size_t thread, uint32_t task) {
-    if (task < bricks) return brickWriter.write({task});
-    if (task < faces) return writeTriFaces(tri, Block::at(task - bricks, tri.size()), out);
-    if (task < loops) return writeTriLoops(tri, numbers, Block::at(task - faces, loopVertices), out);
-    const Block block = Block::at(task - loops, used.size());
-    for (size_t i = block.begin; i < block.end; ++i) vertexWriter.write(used[i], i, predicates[thread]);
+    if (task >= bricks) {
+      const Block block = Block::at(task - bricks, used.size());
+      for (size_t i = block.begin; i < block.end; ++i) vertexWriter.write(vertices, used[i], i, predicates[thread]);
+      return;
+    }
+    brickWriter.write({task});
+    const BrickCut& cut = state.cuts[{task}];
+    forOwn(cut, &BrickRow::pastVertex, state.seams[{task}].vertices, [&](uint32_t, uint32_t first, uint32_t past) {
+      for (uint32_t i = first; i < past; ++i) {
+        const VertexId v = cut.lineVertices[i];
+        vertexWriter.write(cut.vertices, v, numbers.vertex({task}, v), predicates[thread]);
+      }
+    });
   });
   for (const Predicates& p : predicates) run.count(p);
-  vertexWriter.writeMade(used);
+  vertexWriter.writeMade(vertices, used);
 }
 
 /// Moves made vertices that rounding put onto another one by a few units in the last place, so that no two have the same position.
-/// Vertices on different grid elements never need it: see CutVertices::position.
+/// Vertices on different grid elements never need it: see CutVertices::position. At a grid vertex there is one; inside of a grid cell there
+/// are those of the mesh alone, unless triangles meet.
 void separate(CutMesh& out) {
   const uint32_t n = uint32_t(out.vertexMask.size());
-  PositionTable table(n, [&](uint32_t v) { return &out.positions[3 * size_t(v)]; });
+  const uint8_t inCell = out.madeVertices.empty() ? 0 : 7;
+  const auto isAlone = [&](uint8_t mask) { return mask == 7 || mask == inCell; };
+  const auto alone = std::count_if(out.vertexMask.begin(), out.vertexMask.end(), isAlone);
+  PositionTable table(n - size_t(alone), [&](uint32_t v) { return &out.positions[3 * size_t(v)]; });
   for (uint32_t v = 0; v < n; ++v) {
+    if (isAlone(out.vertexMask[v])) continue;
     double* p = &out.positions[3 * size_t(v)];
     uint32_t* slot = &table.find(p);
     const Point original = {p[0], p[1], p[2]};
@@ -247,31 +278,6 @@ void separate(CutMesh& out) {
     }
     if (*slot == table.kFree) *slot = v;
   }
-}
-
-/// The triangles that each face is a piece of, ascending.
-void writeParents(const Input& input, const TriFaces& faces, size_t all, CutMesh& out) {
-  struct Parent {
-    uint32_t triangle;
-    int8_t sign;
-  };
-  out.faceParentOffsets.reserve(all + 1);
-  out.faceParents.reserve(faces.size());
-  out.faceParentSigns.reserve(faces.size());
-  out.faceParentOffsets.push_back(0);
-  const FaceParents parents(input, faces);
-  std::vector<Parent> sorted;
-  for (const FaceId f : faces.ids()) {
-    sorted.clear();
-    parents.forEach(f, [&](TriangleId t, bool sameWay) { sorted.push_back({t.number, int8_t(sameWay ? 1 : -1)}); });
-    if (sorted.size() > 1) sortItems(sorted, [](const Parent& a, const Parent& b) { return a.triangle < b.triangle; });
-    for (const Parent& p : sorted) {
-      out.faceParents.push_back(p.triangle);
-      out.faceParentSigns.push_back(p.sign);
-    }
-    out.faceParentOffsets.push_back(uint32_t(out.faceParents.size()));
-  }
-  out.faceParentOffsets.resize(all + 1, uint32_t(out.faceParents.size()));
 }
 
 /// Triangles without a face: those dropped before, and those outside of the grid.
@@ -297,13 +303,12 @@ void listParts(const Parts& parts, CutMesh& out) {
 
 CutMesh makeOutput(const MeshView& mesh, const Grid& grid, CutState& state, Run& run) {
   const Input& input = state.surface.input;
-  const Numbers numbers = makeNumbers(state.cutSurface(), state.cuts);
+  const Numbers numbers = makeNumbers(state.surface, state.cuts, state.seams, run);
   CutMesh out;
   out.grid = grid;
-  resize(state.triFaces, numbers.total, out);
-  VertexWriter writer(mesh, grid, state.surface, out);
+  makeRoom(numbers, out, run.monitor);
+  VertexWriter writer(mesh, grid, input, out);
   writeAll(state, numbers, writer, out, run);
-  writeParents(input, state.triFaces, out.faceCount(), out);
   separate(out);
 
   out.rowRunOffsets = std::move(state.runs.rowOffsets);

@@ -11,13 +11,14 @@ namespace mandoline::detail {
 /// What the stages have made so far; each adds its part.
 struct CutState {
   Surface surface;
-  TriFaces triFaces;
+  SurfaceParts parts;
   Bricks bricks;
-  UntouchedRuns runs;
   IdVector<BrickId, BrickCut> cuts;
+  UntouchedRuns runs;
+  IdVector<BrickId, BrickSeams> seams;
   Regions regions;
 
-  CutSurface cutSurface() const { return {surface, triFaces, bricks}; }
+  CutBricks cut() const { return {surface, bricks, runs, cuts, seams}; }
 };
 
 /// Moves the arrays out of `state`. `mesh` was prepared; coordinates that it and `grid` have are handed back as they are.

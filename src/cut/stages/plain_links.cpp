@@ -76,7 +76,7 @@ PlainLinks::Slot& PlainLinks::slotOf(uint64_t key) {
 
 /// Edges inside of the cell have two tri-cut-faces. False if an edge has more, or lies on a grid line, or if a face has holes.
 bool PlainLinks::linkTriEdges(const CellView& cell) {
-  const auto& slabs = cell.surface.vertices.slabs;
+  const CutVertices& vertices = cell.surface.vertices;
   const TriFaces& tri = cell.faces.tri;
   size_t most = 0;
   for (const FaceId f : cell.halves.triFaces) most += tri.loopsOf(f)[0].size();
@@ -97,7 +97,7 @@ bool PlainLinks::linkTriEdges(const CellView& cell) {
         continue;
       }
       Use& other = uses_[slot.use];
-      if (other.isLinked || other.face == f || (tri.touchesLine[id] && liesInPlane(slabs[u], slabs[v]))) return false;
+      if (other.isLinked || other.face == f || (tri.touchesLine[id] && liesInPlane(vertices.slab(u), vertices.slab(v)))) return false;
       other.isLinked = true;
       join(after(other.face, other.ascending), before(f, use.ascending));
       join(after(f, use.ascending), before(other.face, other.ascending));

@@ -9,8 +9,7 @@ namespace {
 /// Joins nodes into regions. Nodes are the components of all bricks, then the runs.
 class RegionFinder {
  public:
-  RegionFinder(const CutSurface& surface, const UntouchedRuns& runs, const IdVector<BrickId, BrickCut>& cuts)
-      : input_(surface.surface.input), surface_(surface), runs_(runs), cuts_(cuts) {
+  explicit RegionFinder(const CutBricks& cut) : input_(cut.surface.input), cut_(cut), runs_(cut.runs), cuts_(cut.cuts) {
     for (const BrickCut& cut : cuts_) {
       firstNodes_.push_back(firstRun_);
       firstRun_ += cut.componentCount;
@@ -43,9 +42,9 @@ class RegionFinder {
   }
 
   void uniteBrick(BrickId brick) {
-    for (const auto& [component, run] : cuts_[brick].joins) nodes_.unite(firstNodes_[brick] + component, firstRun_ + run);
-    forSeams(cuts_, brick, [&](const SeamHalf& below, BrickId owner, const SeamHalf& above) {
-      if (surface_.isTri(below.halfFace.face())) return;
+    for (const auto& [component, run] : cut_.seams[brick].joins) nodes_.unite(firstNodes_[brick] + component, firstRun_ + run);
+    cut_.forHalves(brick, [&](const BoundaryHalf& below, BrickId owner, const BoundaryHalf& above) {
+      if (cuts_[owner].isTri(below.halfFace.face())) return;
       nodes_.unite(firstNodes_[owner] + below.component, firstNodes_[brick] + above.component);
     });
   }
@@ -69,7 +68,7 @@ class RegionFinder {
       uint32_t next = 0;
       for (const CellId c : cuts_[b].components.ids()) {
         if (cuts_[b].components[c] != next) continue;
-        const Slab cell = surface_.bricks.boxes[b].cellAt(cuts_[b].gridCells[c]);
+        const Slab cell = cut_.bricks.boxes[b].cellAt(cuts_[b].gridCells[c]);
         note(runs_.rowOf(cell), uint64_t(cell[0] >> 1), firstNodes_[b] + next++);
       }
     }
@@ -91,7 +90,7 @@ class RegionFinder {
   }
 
   const Input& input_;
-  const CutSurface& surface_;
+  const CutBricks& cut_;
   const UntouchedRuns& runs_;
   const IdVector<BrickId, BrickCut>& cuts_;
   IdVector<BrickId, uint32_t> firstNodes_;
@@ -101,11 +100,11 @@ class RegionFinder {
 
 }  // namespace
 
-Regions findRegions(const CutSurface& surface, const UntouchedRuns& runs, const IdVector<BrickId, BrickCut>& cuts, Run& run) {
+Regions findRegions(const CutBricks& cut, Run& run) {
   Regions regions;
-  RegionFinder(surface, runs, cuts).run(regions);
+  RegionFinder(cut).run(regions);
   Predicates predicates;
-  findWinding(surface, cuts, regions, predicates);
+  findWinding(cut, regions, predicates);
   run.count(predicates);
   return regions;
 }

@@ -2,12 +2,12 @@
 // not pieces of triangles; and the winding number of each, or what there is of it, stepping by one across every tri-cut-face from an exact
 // value in one place.
 //
-// In: what all bricks found of themselves. Out: Regions. Components of bricks are joined over seams and through untouched grid cells.
+// In: BrickCuts, BrickSeams, UntouchedRuns. Out: Regions. Components of bricks are joined over seams and through untouched grid cells.
 #pragma once
 
 #include <vector>
 
-#include "cut/stages/brick_cut.h"
+#include "cut/stages/seams.h"
 
 namespace mandoline::detail {
 
@@ -22,6 +22,6 @@ struct Regions {
 };
 
 /// Numbers regions in the order of their first grid cells.
-Regions findRegions(const CutSurface& surface, const UntouchedRuns& runs, const IdVector<BrickId, BrickCut>& cuts, Run& run);
+Regions findRegions(const CutBricks& cut, Run& run);
 
 }  // namespace mandoline::detail

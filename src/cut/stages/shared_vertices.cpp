@@ -8,7 +8,7 @@ namespace {
 class VertexLinks {
  public:
   VertexLinks(const CellView& cell, Shells& shells)
-      : slabs_(cell.surface.vertices.slabs), faces_(cell.faces), cell_(cell.halves), shells_(shells) {
+      : vertices_(cell.surface.vertices), faces_(cell.faces), cell_(cell.halves), shells_(shells) {
     collect(*cell.surface.input.mesh);
   }
 
@@ -57,7 +57,7 @@ class VertexLinks {
     nodes_.reset(edges_.size() + 1);
     const auto nodeOf = [&](VertexId v, VertexId to) {
       for (size_t d = 0; d < 3; ++d) {
-        if (onPlane(slabs_[v][d]) && slabs_[v][d] == slabs_[to][d] && v != to) return uint32_t(edges_.size());
+        if (onPlane(vertices_.slab(v)[d]) && vertices_.slab(v)[d] == vertices_.slab(to)[d] && v != to) return uint32_t(edges_.size());
       }
       return uint32_t(std::lower_bound(edges_.begin(), edges_.end(), to) - edges_.begin());
     };
@@ -77,7 +77,7 @@ class VertexLinks {
     }
   }
 
-  const IdVector<VertexId, Slab>& slabs_;
+  const CutVertices& vertices_;
   const CutFaces& faces_;
   const CellHalves& cell_;
   Shells& shells_;

@@ -117,11 +117,18 @@ Csr<Item, Place> grouped(size_t places, const std::vector<Placed<Item, Place>>& 
       places, placed.size(), [&](size_t i) { return placed[i].place; }, [&](size_t i) { return placed[i].item; });
 }
 
-/// The grid-face of a cell of the brick.
+/// A grid-face that a cell of the stencil has.
 GridFaceId faceAt(const Stencil& stencil, const Slab& gridFace) {
-  const Stencil::Cell& cell = stencil.cells[*stencil.cellBeside(gridFace)];
   const int axis = planeAxis(gridFace);
-  return cell.faces[size_t(cellFace(axis, gridFace[size_t(axis)] > cell.element[size_t(axis)]))];
+  Slab cell = gridFace;
+  --cell[size_t(axis)];
+  uint32_t number = stencil.table[stencil.placeOf(cell)];
+  const bool isBelow = number != Stencil::kNone;
+  if (!isBelow) {
+    cell[size_t(axis)] += 2;
+    number = stencil.table[stencil.placeOf(cell)];
+  }
+  return stencil.cells[{number}].faces[size_t(cellFace(axis, isBelow))];
 }
 
 }  // namespace
@@ -147,33 +154,21 @@ std::optional<GridCellId> Stencil::find(const Slab& cell) const {
 }
 
 std::optional<GridCellId> Stencil::cellBeside(const Slab& element) const {
-  for (int corner = 0; corner < 8; ++corner) {
-    Slab cell = element;
-    bool isNew = true;
-    for (size_t d = 0; d < 3; ++d) {
-      const bool above = corner >> d & 1;
-      if (onPlane(element[d])) {
-        cell[d] += above ? 1 : -1;
-      } else {
-        isNew &= !above;
-      }
-    }
-    if (!isNew) continue;
-    if (const auto found = find(cell)) return found;
-  }
-  return {};
+  std::optional<GridCellId> found;
+  findCellAround(element, [&](const Slab& cell) { return (found = find(cell)).has_value(); });
+  return found;
 }
 
-void makeStencil(const CutSurface& surface, BrickId brick, Stencil& stencil) {
-  const auto& [whole, triFaces, bricks] = surface;
+void makeStencil(const BrickSurface& surface, const Bricks& bricks, BrickId brick, Stencil& stencil) {
   listCells(bricks, brick, stencil);
   numberElements(stencil);
 
+  const TriFaces& triFaces = surface.triFaces;
   std::vector<Placed<FaceId, GridCellId>> inCell;
   std::vector<Placed<FaceId, GridFaceId>> onFace;
   std::vector<Placed<FaceEdge, GridFaceId>> edges;
-  inCell.reserve(bricks.triFaces[brick].size());
-  for (const FaceId f : bricks.triFaces[brick]) {
+  inCell.reserve(triFaces.size());
+  for (const FaceId f : triFaces.ids()) {
     const Slab& element = triFaces.elements[f];
     if (planeCount(element) == 0) {
       inCell.push_back({f, {stencil.table[stencil.placeOf(element)]}});
@@ -181,11 +176,8 @@ void makeStencil(const CutSurface& surface, BrickId brick, Stencil& stencil) {
       onFace.push_back({f, faceAt(stencil, element)});
     }
   }
-  edges.reserve(bricks.faceEdges[brick].size());
-  for (const uint32_t i : bricks.faceEdges[brick]) {
-    const FaceEdge& edge = faceEdge(whole, triFaces, i);
-    edges.push_back({edge, faceAt(stencil, edge.element)});
-  }
+  edges.reserve(surface.faceEdges.size());
+  for (const FaceEdge& edge : surface.faceEdges) edges.push_back({edge, faceAt(stencil, edge.element)});
   stencil.triFacesInCell = grouped(stencil.cells.size(), inCell);
   stencil.triFacesOnFace = grouped(stencil.faces.size(), onFace);
   stencil.edgesOnFace = grouped(stencil.faces.size(), edges);

@@ -1,13 +1,13 @@
 // The stencil (paper, 4.3.1): the grid cells that the surface touches, their grid-faces, grid-edges and grid vertices, and the parts of
 // the surface in each.
 //
-// In: a brick. Out: its part of the stencil. A grid cell belongs to it if a tri-cut-face lies inside of it or in one of its grid-faces, or
-// a tri-edge in one of its grid-faces: so every grid-face between it and an untouched grid cell is whole.
+// In: BrickSurface. Out: its part of the stencil. A grid cell belongs to it if a tri-cut-face lies inside of it or in one of its
+// grid-faces, or a tri-edge in one of its grid-faces: so every grid-face between it and an untouched grid cell is whole.
 #pragma once
 
 #include <vector>
 
-#include "cut/stages/bricks.h"
+#include "cut/stages/brick_surface.h"
 
 namespace mandoline::detail {
 
@@ -61,16 +61,7 @@ struct Stencil {
   }
 };
 
-/// What the stages of a brick read: all of the surface, and which parts of it lie in which brick.
-struct CutSurface {
-  const Surface& surface;
-  const TriFaces& triFaces;
-  const Bricks& bricks;
-
-  bool isTri(FaceId face) const { return face.number < triFaces.size(); }
-};
-
 /// Replaces `stencil`, whose memory is used again.
-void makeStencil(const CutSurface& surface, BrickId brick, Stencil& stencil);
+void makeStencil(const BrickSurface& surface, const Bricks& bricks, BrickId brick, Stencil& stencil);
 
 }  // namespace mandoline::detail

@@ -24,7 +24,7 @@ class Sweep {
     while (slab(up_) != least || slab(after(up_)) == least) ++up_;
     down_ = up_;
     while (slab(before(down_)) == least) down_ = before(down_);
-    begin();
+    piece_.clear();
     for (size_t i = down_; i != up_; i = after(i)) take(i);
     take(up_);
   }
@@ -44,11 +44,11 @@ class Sweep {
     piece_.insert(piece_.end(), line.begin(), line.end());
     for (size_t i = down_; i != base_; i = after(i)) take(i);
     floor_.assign(line.rbegin(), line.rend());
-    return rotated();
+    return piece_;
   }
   /// The piece above that line; what climbs on begins there.
   void beginAbove() {
-    begin();
+    piece_.clear();
     take(down_);
     piece_.insert(piece_.end(), floor_.begin(), floor_.end());
     take(up_);
@@ -56,7 +56,7 @@ class Sweep {
   /// The piece above the last plane.
   const Polygon& rest() {
     for (size_t i = after(up_); i != down_; i = after(i)) take(i);
-    return rotated();
+    return piece_;
   }
 
  private:
@@ -64,28 +64,12 @@ class Sweep {
   size_t after(size_t i) const { return i + 1 < polygon_.size() ? i + 1 : 0; }
   size_t before(size_t i) const { return i > 0 ? i - 1 : polygon_.size() - 1; }
 
-  void begin() {
-    piece_.clear();
-    lowest_ = polygon_.size();
-  }
-  void take(size_t i) {
-    if (i < lowest_) {
-      lowest_ = i;
-      start_ = piece_.size();
-    }
-    piece_.push_back(polygon_[i]);
-  }
-  /// Loops begin with the first vertex in the polygon's order.
-  const Polygon& rotated() {
-    std::rotate(piece_.begin(), piece_.begin() + std::ptrdiff_t(start_), piece_.end());
-    return piece_;
-  }
+  void take(size_t i) { piece_.push_back(polygon_[i]); }
 
   const Polygon& polygon_;
   const int axis_;
   Polygon &piece_, &floor_;
   size_t up_ = 0, down_ = 0, base_ = 0;
-  size_t lowest_ = 0, start_ = 0;
 };
 
 }  // namespace mandoline::detail

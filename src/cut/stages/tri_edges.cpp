@@ -97,7 +97,7 @@ void collectInPlane(Surface& surface) {
     if (!lies) continue;
     VertexId from = edges.ends[e][0];
     const auto piece = [&](VertexId to) {
-      const Slab element = elementBetween(vertices.slabs[from], vertices.slabs[to]);
+      const Slab element = elementBetween(vertices.slab(from), vertices.slab(to));
       if (planeCount(element) == 1 && input.inGrid(element)) surface.edgesInPlane.push_back({element, from, to});
       from = to;
     };
@@ -126,8 +126,8 @@ void cutTriEdges(Surface& surface, Run& run) {
     if (total >= uint64_t(1) << 31) throw Failure{{Status::meshTooLarge, -1, -1, "The cut-mesh would have more than 2^31 vertices."}};
   }
   vertices.crossingOffsets.push_back({uint32_t(total)});
-  vertices.firstInTriangle = vertices.firstOnGrid = {uint32_t(total)};
-  vertices.slabs = input.slabs;
+  vertices.firstInTriangle = {uint32_t(total)};
+  vertices.slabs.assign(input.slabs.begin(), input.slabs.end());
   vertices.slabs.resize(total);
   vertices.parentEdges.resize(total - input.slabs.size());
   const auto chunks = forChunks<Predicates>(edgeCount, run.monitor, [&](Predicates& predicates, size_t begin, size_t end) {
@@ -135,10 +135,10 @@ void cutTriEdges(Surface& surface, Run& run) {
       const Ids<VertexId> crossings = vertices.crossings(e);
       if (crossings.empty()) continue;
       const VertexId first = *crossings.begin();
-      const size_t count = crossEdge(input, edges.ends[e], edges.line(e), &vertices.slabs[first], predicates);
+      const size_t count = crossEdge(input, edges.ends[e], edges.line(e), &vertices.slabs[first.number], predicates);
       for (const VertexId v : crossings) {
         vertices.parentEdges[v.number - vertices.firstOnEdge.number] = e;
-        if (v.number >= first.number + count) vertices.slabs[v] = {CutVertices::kUnused, 1, 1};
+        if (v.number >= first.number + count) vertices.slabs[v.number] = {CutVertices::kUnused, 1, 1};
       }
     }
   });

@@ -1,9 +1,5 @@
-// Triangles (paper, 4.1.2 and 4.2): the axial planes that a triangle spans dice it into convex tri-cut-faces, each in one
-// grid cell, or in one grid-face if the triangle lies in an axial plane.
-//
-// In: Surface. Out: TriFaces, and the range of CutVertices that lie in triangles. Pieces outside the grid are left out.
-// After it: every hybrid edge is cut at every plane; a crossing of two hybrid edges of a triangle is one vertex; each loop runs
-// counter-clockwise about its triangle's normal and holds all vertices that lie on it.
+// Tri-cut-faces (paper, 4.2): the pieces of triangles, each in one grid cell, or in one grid-face if the triangle lies in an axial plane.
+// Each loop runs counter-clockwise about its triangle's normal and holds all vertices that lie on it.
 #pragma once
 
 #include <vector>
@@ -30,17 +26,18 @@ struct TriFaces {
 
   size_t size() const { return triangles.size(); }
   Ids<FaceId> ids() const { return triangles.ids(); }
-  Groups<VertexId> loopsOf(FaceId f) const {
-    return faceLoopOffsets.empty() ? loops.groups(f.number, f.number + 1)
-                                   : loops.groups(faceLoopOffsets[f.number], faceLoopOffsets[f.number + 1]);
-  }
+  uint32_t firstLoop(FaceId f) const { return faceLoopOffsets.empty() ? f.number : faceLoopOffsets[f.number]; }
+  Groups<VertexId> loopsOf(FaceId f) const { return loops.groups(firstLoop(f), firstLoop({f.number + 1})); }
+  void clear();
+  /// Ends a face, whose loops have been appended.
+  void endFace(TriangleId triangle, const Slab& element, bool touches);
+  /// Appends a face of others; vertices keep their ids.
+  void append(const TriFaces& others, FaceId face);
 };
 
 /// Faces of triangles whose inside others reach into, not yet divided by those: see divideFaces().
 struct UndividedFaces : TriFaces {
   std::vector<TriangleId> hybridTriangles;  ///< per hybrid edge
 };
-
-TriFaces cutTriangles(Surface& surface, UndividedFaces& undivided, Run& run);
 
 }  // namespace mandoline::detail

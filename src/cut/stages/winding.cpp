@@ -1,5 +1,7 @@
 #include "cut/stages/winding.h"
 
+#include "base/sort.h"
+
 namespace mandoline::detail {
 namespace {
 
@@ -79,62 +81,88 @@ class WindingSets {
   std::vector<int32_t> toParent_;  // winding number less the parent's; 0 of a root
 };
 
-/// A cut-cell of a brick, or none.
-struct Place {
-  BrickId brick{0};
-  CellId cell = FaceSides::kNone;
+/// What a tri-cut-face says of the regions on its sides.
+struct Statement {
+  TriangleId triangle;
+  Slab cell;  ///< a grid cell that has the face
+  uint32_t behind, inFront;
+  int32_t step;
+  std::optional<TriangleId> other;  ///< another triangle in the cell
 };
 
-/// Where steps contradict each other, finds the first face, in the order of faces, that does, to blame its triangle.
-[[noreturn]] void failAtFirst(const CutSurface& surface, const IdVector<BrickId, BrickCut>& cuts, const Regions& regions, size_t kind) {
-  const std::vector<Counted> counted = countedOf(*surface.surface.input.mesh);
-  IdVector<FaceId, std::array<Place, 2>> faces(surface.triFaces.size());  // behind them and in front of them
-  for (const BrickId b : cuts.ids()) {
-    for (const CellId c : cuts[b].gridCells.ids()) {
-      for (const HalfFace h : cuts[b].halfFaces[c]) {
-        if (surface.isTri(h.face())) faces[h.face()][h.side()] = {b, c};
+/// All of them, by triangles and then by grid cells.
+std::vector<Statement> listStatements(const CutBricks& all, const Regions& regions, size_t kind) {
+  const std::vector<Counted> counted = countedOf(*all.surface.input.mesh);
+  std::vector<Statement> statements;
+  for (const BrickId b : all.cuts.ids()) {
+    const BrickCut& cut = all.cuts[b];
+    const FaceParents parents(all.surface.input, cut.triangles, cut.otherParents);
+    IdVector<FaceId, std::array<CellId, 2>> sides(cut.triangles.size(), {FaceSides::kNone, FaceSides::kNone});
+    for (const CellId c : cut.gridCells.ids()) {
+      for (const HalfFace h : cut.halfFaces[c]) {
+        if (cut.isTri(h.face())) sides[h.face()][h.side()] = c;
       }
     }
-  }
-  const FaceParents parents(surface.surface.input, surface.triFaces);
-  WindingSets sets(regions.count);
-  std::optional<TriangleId> triangle, other;
-  for (const FaceId f : faces.ids()) {
-    const auto& [behind, inFront] = faces[f];
-    if (behind.cell == FaceSides::kNone || inFront.cell == FaceSides::kNone) continue;  // on the boundary of the grid
-    const auto regionOf = [&](const Place& side) { return regions.ofComponents[side.brick][cuts[side.brick].components[side.cell]]; };
-    if (sets.setMore(regionOf(behind), regionOf(inFront), stepsAt(f, parents, counted)[kind], counted[kind])) continue;
-    triangle = surface.triFaces.triangles[f];
-    for (const HalfFace h : cuts[behind.brick].halfFaces[behind.cell]) {  // another triangle in the same grid cell
-      if (surface.isTri(h.face()) && surface.triFaces.triangles[h.face()] != triangle) other = surface.triFaces.triangles[h.face()];
+    const auto add = [&](FaceId f, CellId cell, uint32_t behind, uint32_t inFront) {
+      Statement statement{
+          cut.triangles[f], all.bricks.boxes[b].cellAt(cut.gridCells[cell]), behind, inFront, stepsAt(f, parents, counted)[kind], {}};
+      for (const HalfFace h : cut.halfFaces[cell]) {
+        if (cut.isTri(h.face()) && cut.triangles[h.face()] != statement.triangle) statement.other = cut.triangles[h.face()];
+      }
+      statements.push_back(statement);
+    };
+    const auto& ofComponents = regions.ofComponents[b];
+    for (const FaceId f : cut.triangles.ids()) {
+      const auto& [behind, inFront] = sides[f];
+      if (behind == FaceSides::kNone || inFront == FaceSides::kNone) continue;  // on the boundary of the brick
+      add(f, behind, ofComponents[cut.components[behind]], ofComponents[cut.components[inFront]]);
     }
-    break;
+    all.forHalves(b, [&](const BoundaryHalf& below, BrickId owner, const BoundaryHalf& above) {
+      const HalfFace h = above.halfFace;  // as the cell below sees it
+      if (!cut.isTri(h.face())) return;
+      uint32_t behind = regions.ofComponents[owner][below.component], inFront = ofComponents[above.component];
+      if (h.side() == 1) std::swap(behind, inFront);
+      add(h.face(), sides[h.face()][1 - h.side()], behind, inFront);
+    });
   }
-  surface.surface.vertices.failSelfIntersection(triangle, other);
+  sortItems(statements, [](const Statement& a, const Statement& b) { return std::tie(a.triangle, a.cell) < std::tie(b.triangle, b.cell); });
+  return statements;
+}
+
+/// Where steps contradict each other, finds the first face that does, to blame its triangle.
+[[noreturn]] void failAtFirst(const CutBricks& all, const Regions& regions, size_t kind) {
+  const Counted counted = countedOf(*all.surface.input.mesh)[kind];
+  WindingSets sets(regions.count);
+  for (const Statement& s : listStatements(all, regions, kind)) {
+    if (!sets.setMore(s.behind, s.inFront, s.step, counted)) all.surface.vertices.failSelfIntersection(s.triangle, s.other);
+  }
+  all.surface.vertices.failSelfIntersection({}, {});
 }
 
 /// Per region the winding number of the counted triangles of a kind.
-std::vector<int32_t> windingOf(const CutSurface& surface, const IdVector<BrickId, BrickCut>& cuts, const Regions& regions, size_t kind,
-                               Predicates& predicates) {
-  const Input& input = surface.surface.input;
+std::vector<int32_t> windingOf(const CutBricks& cut, const Regions& regions, size_t kind, Predicates& predicates) {
+  const Input& input = cut.surface.input;
   const std::vector<Counted> allCounted = countedOf(*input.mesh);
   const Counted& counted = allCounted[kind];
-  const FaceParents parents(input, surface.triFaces);
   WindingSets sets(regions.count);
   const auto set = [&](uint32_t behind, uint32_t inFront, int32_t step) {
-    if (!sets.setMore(behind, inFront, step, counted)) failAtFirst(surface, cuts, regions, kind);
+    if (!sets.setMore(behind, inFront, step, counted)) failAtFirst(cut, regions, kind);
   };
-  for (const BrickId b : cuts.ids()) {
-    for (const WindingStep& s : cuts[b].steps) set(regions.ofComponents[b][s.behind], regions.ofComponents[b][s.inFront], s.steps[kind]);
-    forSeams(cuts, b, [&](const SeamHalf& below, BrickId owner, const SeamHalf& above) {
+  for (const BrickId b : cut.cuts.ids()) {
+    for (const WindingStep& s : cut.cuts[b].steps) {
+      set(regions.ofComponents[b][s.behind], regions.ofComponents[b][s.inFront], s.steps[kind]);
+    }
+    cut.forHalves(b, [&](const BoundaryHalf& below, BrickId owner, const BoundaryHalf& above) {
       const HalfFace h = below.halfFace;
-      if (!surface.isTri(h.face())) return;
+      const BrickCut& lower = cut.cuts[owner];
+      if (!lower.isTri(h.face())) return;
       uint32_t behind = regions.ofComponents[owner][below.component], inFront = regions.ofComponents[b][above.component];
       if (h.side() == 1) std::swap(behind, inFront);
+      const FaceParents parents(input, lower.triangles, lower.otherParents);
       set(behind, inFront, stepsAt(h.face(), parents, allCounted)[kind]);
     });
   }
-  const uint32_t anchor = regionAtLowestCorner(cuts, regions), root = sets.find(anchor);
+  const uint32_t anchor = regionAtLowestCorner(cut.cuts, regions), root = sets.find(anchor);
   const int32_t shift = windingAtLowestCorner(input, counted, predicates) - sets.toRoot(anchor);
   std::vector<int32_t> winding(regions.count);
   for (uint32_t r = 0; r < regions.count; ++r) winding[r] = sets.find(r) == root ? shift + sets.toRoot(r) : 0;
@@ -143,17 +171,17 @@ std::vector<int32_t> windingOf(const CutSurface& surface, const IdVector<BrickId
 
 }  // namespace
 
-void findWinding(const CutSurface& surface, const IdVector<BrickId, BrickCut>& cuts, Regions& regions, Predicates& predicates) {
-  const Prepared& mesh = *surface.surface.input.mesh;
+void findWinding(const CutBricks& cut, Regions& regions, Predicates& predicates) {
+  const Prepared& mesh = *cut.surface.input.mesh;
   const PartCounts& parts = mesh.parts.counts;
   regions.hasWinding = mesh.closed;
   if (mesh.closed) {
-    regions.winding = windingOf(surface, cuts, regions, 0, predicates);
+    regions.winding = windingOf(cut, regions, 0, predicates);
     return;
   }
-  if (parts.winding > 0) regions.partWinding = windingOf(surface, cuts, regions, 0, predicates);
+  if (parts.winding > 0) regions.partWinding = windingOf(cut, regions, 0, predicates);
   if (parts.winding + parts.parity == 0) return;
-  for (const int32_t crossings : windingOf(surface, cuts, regions, parts.winding > 0 ? 1 : 0, predicates)) {
+  for (const int32_t crossings : windingOf(cut, regions, parts.winding > 0 ? 1 : 0, predicates)) {
     regions.parity.push_back(uint8_t(crossings & 1));
   }
 }

@@ -6,6 +6,6 @@
 namespace mandoline::detail {
 
 /// Sets winding numbers and parity of `regions`, whose regions are known.
-void findWinding(const CutSurface& surface, const IdVector<BrickId, BrickCut>& cuts, Regions& regions, Predicates& predicates);
+void findWinding(const CutBricks& cut, Regions& regions, Predicates& predicates);
 
 }  // namespace mandoline::detail

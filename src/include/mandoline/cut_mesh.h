@@ -101,7 +101,7 @@ struct CutMesh {
   Grid grid;
 
   // Cut-vertices (paper, 3.2), in this order: tri-vertices; vertices that triangles make by meeting; crossings of axial planes with
-  // tri-edges and with the lines along which triangles meet; crossings of grid lines with triangles; grid vertices.
+  // tri-edges and with the lines along which triangles meet; crossings of grid lines with triangles, and grid vertices, by grid cell.
   std::vector<double> positions;         ///< 3 per vertex, world units. Output only: no decision reads them
   std::vector<int32_t> vertexCell;       ///< 3 per vertex: the paper's c, exact. 0..n-1, or n on the last plane
   std::vector<uint8_t> vertexMask;       ///< per vertex: the paper's b. Bit d is set when it lies exactly on plane vertexCell[d] of axis d
@@ -114,7 +114,8 @@ struct CutMesh {
   std::vector<uint8_t> madeVertexKinds;    ///< per made vertex: MadeVertex
   std::vector<int32_t> madeVertexParents;  ///< 4 per made vertex, as its kind says; the rest is -1
 
-  // Cut-faces. The first loop of a face is its outer one, counter-clockwise about the face's normal; the others are holes, clockwise.
+  // Cut-faces: pieces of triangles, by grid cell and in each by triangle; then pieces of grid-faces, by grid cell. The first loop of a face
+  // is its outer one, counter-clockwise about the face's normal; the others are holes, clockwise.
   std::vector<uint32_t> loopOffsets;        ///< into loopVertices, per loop
   std::vector<uint32_t> loopVertices;       ///< vertex ids
   std::vector<uint32_t> faceLoopOffsets;    ///< into loops: face f has loops faceLoopOffsets[f] .. faceLoopOffsets[f + 1] - 1

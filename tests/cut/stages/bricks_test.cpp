@@ -8,7 +8,7 @@ using namespace stages;
 TEST_CASE("The surface's grid cells are touched, each in one brick", "[stages][bricks]") {
   Way way;
   way.brickShift = 1;  // of 2 cells along each side, and 1 at the end
-  const StagedCut cut(shapes::triangle({1.25, 1.25, 1.25}, {2.75, 1.25, 1.5}, {1.25, 1.75, 1.5}), Stage::stencil, way);
+  const StagedCut cut(shapes::triangle({1.25, 1.25, 1.25}, {2.75, 1.25, 1.5}, {1.25, 1.75, 1.5}), Stage::regions, way);
   const Bricks& bricks = cut.state.bricks;
   REQUIRE(bricks.size() == 2);
   CHECK(bricks.boxes[{1}].first == std::array<int32_t, 3>{2, 0, 0});

@@ -51,6 +51,6 @@ TEST_CASE("Every half-face of a tri-cut-face inside the grid has one cell", "[st
   const StagedCut cut(shapes::icosphere({1.5, 1.5, 1.5}, 1.2, 2), Stage::cutCells);
   std::vector<int> owners(2 * cut.faces().size(), 0);
   for (const HalfFace h : cut.cells.halfFaces.items) ++owners[h.number];
-  for (size_t h = 0; h < 2 * cut.state.triFaces.size(); ++h) CHECK(owners[h] == 1);
+  for (size_t h = 0; h < 2 * cut.brick.triFaces.size(); ++h) CHECK(owners[h] == 1);
   for (const int count : owners) CHECK(count <= 1);
 }

@@ -9,7 +9,7 @@ const Mesh kBase = shapes::triangle({1.125, 1.125, 1.5}, {1.875, 1.125, 1.5}, {1
 
 /// Per face of a triangle: the number of entries of each loop.
 std::vector<std::vector<size_t>> loopSizes(const StagedCut& cut, TriangleId triangle) {
-  const TriFaces& faces = cut.state.triFaces;
+  const TriFaces& faces = cut.brick.triFaces;
   std::vector<std::vector<size_t>> sizes;
   for (const FaceId f : faces.ids()) {
     if (faces.triangles[f] != triangle) continue;
@@ -39,7 +39,7 @@ TEST_CASE("A segment that ends inside of a triangle is a slit in its loop or a l
 TEST_CASE("A triangle inside of another in its plane makes a hole and a face of both", "[stages][dividedFaces]") {
   const Mesh inner = shapes::flipped(shapes::triangle({1.25, 1.25, 1.5}, {1.5, 1.25, 1.5}, {1.25, 1.5, 1.5}));
   const StagedCut cut(shapes::merged({kBase, inner}), Stage::triFaces);
-  const TriFaces& faces = cut.state.triFaces;
+  const TriFaces& faces = cut.brick.triFaces;
   CHECK(loopSizes(cut, {0}) == Sizes{{3, 3}, {3}});
   CHECK(loopSizes(cut, {1}).empty());
   REQUIRE(faces.otherParents.size() == 1);

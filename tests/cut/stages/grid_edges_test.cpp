@@ -14,7 +14,7 @@ Mesh across(double z) { return shapes::triangle({0.75, 0.75, z}, {1.25, 0.75, z}
 
 TEST_CASE("Vertices on a grid-edge come in order along it", "[stages][gridEdges]") {
   const StagedCut cut(shapes::merged({across(0.75), across(0.25), across(0.5)}), Stage::gridEdges);
-  const CutVertices& vertices = cut.state.surface.vertices;
+  const CutVertices& vertices = cut.brick.vertices;
   size_t cutEdges = 0;
   for (const GridEdgeId e : Ids<GridEdgeId>(cut.gridEdges.vertices.size())) {
     const auto on = cut.gridEdges.vertices[e];
@@ -32,8 +32,8 @@ TEST_CASE("A surface vertex at a grid vertex is that grid vertex", "[stages][gri
   const StagedCut cut(shapes::triangle({1, 1, 1}, {1.5, 1.25, 1.5}, {1.25, 1.5, 1.5}), Stage::gridEdges);
   const auto& corners = cut.gridEdges.corners;
   CHECK(std::count(corners.begin(), corners.end(), VertexId{0}) == 1);
-  const VertexId first = cut.state.bricks.firstOnGrid[{0}];
-  for (uint32_t i = 0; i < 7; ++i) CHECK(std::count(corners.begin(), corners.end(), VertexId{first.number + i}) == 1);
+  for (const VertexId v : cut.brick.vertices.ownIds()) CHECK(std::count(corners.begin(), corners.end(), v) == 1);
+  CHECK(cut.brick.vertices.slabs.size() == 7);
 }
 
 TEST_CASE("Two unresolved triangles through one point of a grid line are a self-intersection", "[stages][gridEdges]") {

@@ -11,13 +11,32 @@ TEST_CASE("Vertices come by kind, with their parents", "[stages][output]") {
   int kind = 0;
   for (size_t v = 0; v < cutMesh.vertexCount(); ++v) {
     const int32_t a = cutMesh.vertexParents[2 * v], b = cutMesh.vertexParents[2 * v + 1];
-    const int here = cutMesh.vertexTriVertex[v] >= 0 ? 0 : b >= 0 ? 1 : a >= 0 ? 2 : 3;
+    const int here = cutMesh.vertexTriVertex[v] >= 0 ? 0 : b >= 0 ? 1 : 2;  // 2: on a grid line
     CHECK(here >= kind);
     kind = here;
     if (here == 0) CHECK((a == b && a == cutMesh.vertexTriVertex[v]));
     if (here == 1) CHECK(a < b);
+    if (here == 2) CHECK((a == 0 || a == -1));
   }
-  CHECK(kind == 3);
+  CHECK(kind == 2);
+}
+
+TEST_CASE("Pieces of triangles come first, by grid cell and then by triangle", "[stages][output]") {
+  const Mesh mesh = shapes::icosphere({1.5, 1.5, 1.5}, 1.2, 2);
+  for (const int shift : {0, 1, 2}) {
+    Way way;
+    way.brickShift = shift;
+    const CutMesh cutMesh = cutMeshOf(mesh, unitCells(), way);
+    std::vector<std::array<int32_t, 2>> places(cutMesh.faceCount(), {-1, -1});  // grid cell and triangle
+    for (size_t c = 0; c < cutMesh.cellCount(); ++c) {
+      const int32_t* at = &cutMesh.cellGridCell[3 * c];
+      for (const uint32_t h : cutMesh.halfFaces(c)) places[h / 2] = {(at[2] * 3 + at[1]) * 3 + at[0], cutMesh.faceTriangle[h / 2]};
+    }
+    const auto past = std::find(cutMesh.faceTriangle.begin(), cutMesh.faceTriangle.end(), -1) - cutMesh.faceTriangle.begin();
+    CHECK(past > 320);
+    CHECK(std::count(cutMesh.faceTriangle.begin() + past, cutMesh.faceTriangle.end(), -1) == std::ptrdiff_t(cutMesh.faceCount()) - past);
+    CHECK(std::is_sorted(places.begin(), places.begin() + past));
+  }
 }
 
 TEST_CASE("The input's own coordinates are handed back, even those that scaling flushed", "[stages][output]") {

@@ -46,7 +46,7 @@ TEST_CASE("The whole grid's elements are counted once each", "[stages][stencil]"
 TEST_CASE("Corners of a grid-face run counter-clockwise, each edge from one to the next", "[stages][stencil]") {
   const StagedCut cut(shapes::triangle({1.25, 1.25, 1.25}, {1.75, 1.25, 1.5}, {1.25, 1.75, 1.5}), Stage::gridEdges);
   const Stencil& stencil = cut.stencil;
-  const CutVertices& vertices = cut.state.surface.vertices;
+  const CutVertices& vertices = cut.brick.vertices;
   for (const Stencil::Face& face : stencil.faces) {
     const auto corners = stencil.cornersOf(face);
     std::array<VertexId, 4> v;

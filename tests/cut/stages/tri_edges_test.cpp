@@ -13,7 +13,7 @@ std::vector<Slab> crossingsOf(const Surface& surface, VertexId low, VertexId hig
   for (const TriEdgeId e : surface.edges().ends.ids()) {
     if (surface.edges().ends[e] != std::array<VertexId, 2>{low, high}) continue;
     for (const VertexId v : surface.vertices.crossings(e)) {
-      if (surface.vertices.isUsed(v)) slabs.push_back(surface.vertices.slabs[v]);
+      if (surface.vertices.isUsed(v)) slabs.push_back(surface.vertices.slab(v));
     }
   }
   return slabs;

@@ -8,30 +8,30 @@ using namespace stages;
 
 TEST_CASE("A triangle in one grid cell stays whole", "[stages][triFaces]") {
   const StagedCut cut(shapes::triangle({1.25, 1.25, 1.25}, {1.75, 1.25, 1.5}, {1.25, 1.75, 1.5}), Stage::triFaces);
-  const TriFaces& faces = cut.state.triFaces;
+  const TriFaces& faces = cut.brick.triFaces;
   REQUIRE(faces.size() == 1);
   CHECK(faces.elements[{0}] == Slab{3, 3, 3});
   CHECK(faces.loopsOf({0})[0].size() == 3);
-  CHECK(faces.hybridEdges.empty());
+  CHECK(cut.brick.faceEdges.empty());
   CHECK_FALSE(faces.touchesLine[{0}]);
 }
 
 TEST_CASE("Every piece of a triangle lies in one grid cell, and pieces share hybrid edges", "[stages][triFaces]") {
   const StagedCut cut(shapes::triangle({0.1, 0.2, 0.3}, {2.9, 0.4, 1.7}, {0.6, 2.8, 2.9}), Stage::triFaces);
-  const TriFaces& faces = cut.state.triFaces;
-  const CutVertices& vertices = cut.state.surface.vertices;
+  const TriFaces& faces = cut.brick.triFaces;
+  const CutVertices& vertices = cut.brick.vertices;
   CHECK(faces.size() > 8);
   std::map<std::array<VertexId, 2>, int> uses;
   for (const FaceId f : faces.ids()) {
     const auto loop = faces.loopsOf(f)[0];
     for (size_t i = 0; i < loop.size(); ++i) {
-      for (int d = 0; d < 3; ++d) CHECK(std::abs(vertices.slabs[loop[i]][d] - faces.elements[f][d]) <= 1);
+      for (int d = 0; d < 3; ++d) CHECK(std::abs(vertices.slab(loop[i])[d] - faces.elements[f][d]) <= 1);
       const VertexId u = loop[i], v = loop[(i + 1) % loop.size()];
       uses[{std::min(u, v), std::max(u, v)}] += u < v ? 1 : -1;
     }
   }
   std::set<std::array<VertexId, 2>> hybrid;
-  for (const FaceEdge& e : faces.hybridEdges) {
+  for (const FaceEdge& e : cut.brick.faceEdges) {
     CHECK(planeCount(e.element) == 1);
     hybrid.insert({std::min(e.from, e.to), std::max(e.from, e.to)});
   }
@@ -41,7 +41,7 @@ TEST_CASE("Every piece of a triangle lies in one grid cell, and pieces share hyb
 
 TEST_CASE("A triangle in an axial plane is cut into pieces of grid-faces", "[stages][triFaces]") {
   const StagedCut cut(shapes::triangle({0.5, 0.5, 1}, {1.5, 0.5, 1}, {0.5, 0.75, 1}), Stage::triFaces);
-  const TriFaces& faces = cut.state.triFaces;
+  const TriFaces& faces = cut.brick.triFaces;
   REQUIRE(faces.size() == 2);
   CHECK(faces.elements[{0}] == Slab{1, 1, 2});
   CHECK(faces.elements[{1}] == Slab{3, 1, 2});
@@ -49,15 +49,14 @@ TEST_CASE("A triangle in an axial plane is cut into pieces of grid-faces", "[sta
 
 TEST_CASE("Where a triangle meets a grid line there is one vertex for both hybrid edges", "[stages][triFaces]") {
   const StagedCut cut(shapes::triangle({0.5, 0.5, 0.5}, {1.75, 0.5, 0.5}, {0.5, 1.75, 0.5}), Stage::triFaces);
-  const CutVertices& vertices = cut.state.surface.vertices;
-  REQUIRE(vertices.firstOnGrid.number - vertices.firstInTriangle.number == 1);
-  CHECK(vertices.slabs[vertices.firstInTriangle] == Slab{2, 2, 1});
-  CHECK(cut.state.triFaces.size() == 4);
+  const CutVertices& vertices = cut.brick.vertices;
+  REQUIRE(vertices.slabs == std::vector<Slab>{{2, 2, 1}});
+  CHECK(cut.brick.triFaces.size() == 4);
 }
 
 TEST_CASE("Pieces outside the grid are left out", "[stages][triFaces]") {
   const StagedCut cut(shapes::triangle({-1, 0.5, 0.5}, {0.5, 0.25, 0.5}, {0.5, 0.75, 0.5}), Stage::triFaces);
-  REQUIRE(cut.state.triFaces.size() == 1);
-  CHECK(cut.state.triFaces.elements[{0}] == Slab{1, 1, 1});
-  CHECK(cut.state.triFaces.loopsOf({0})[0].size() == 4);
+  REQUIRE(cut.brick.triFaces.size() == 1);
+  CHECK(cut.brick.triFaces.elements[{0}] == Slab{1, 1, 1});
+  CHECK(cut.brick.triFaces.loopsOf({0})[0].size() == 4);
 }

@@ -1,0 +1,222 @@
+#include "cut/stages/clipped_triangles.h"
+
+#include "base/sort.h"
+#include "cut/stages/dicer.h"
+
+namespace mandoline::detail {
+namespace {
+
+constexpr size_t kMost = size_t(1) << 31;  // loop entries, vertices
+
+[[noreturn]] void failTooLarge(int64_t element) {
+  throw Failure{{Status::meshTooLarge, element, -1, "The cut-mesh would have more than 2^31 loop entries or vertices."}};
+}
+
+/// What one chunk of triangles makes. Ids of its own vertices count from those of the surface on.
+struct Chunk {
+  ClippedTriangles clipped;
+  std::vector<Slab> slabs;
+  std::vector<TriangleId> parents;
+  Predicates predicates;
+};
+
+/// Clips triangles that others don't reach into.
+class Clipper {
+ public:
+  Clipper(const Surface& surface, const BrickGrid& bricks, Monitor& monitor, Chunk& chunk)
+      : surface_(surface),
+        input_(surface.input),
+        vertices_(surface.vertices),
+        bricks_(bricks),
+        monitor_(monitor),
+        chunk_(chunk),
+        dicer_(input_, bricks.shift, *this) {}
+  Clipper(const Clipper&) = delete;
+  ~Clipper() { chunk_.predicates.fallbacks += dicer_.predicates.fallbacks; }
+
+  void clip(TriangleId triangle) {
+    triangle_ = triangle;
+    const auto t = input_.verticesOf(triangle);
+    const Slab &a = input_.slabs[t[0]], &b = input_.slabs[t[1]], &c = input_.slabs[t[2]];
+    Slab element;
+    bool isWhole = true, isBesideSeam = false;
+    const int32_t others = (2 << bricks_.shift) - 1;
+    for (size_t d = 0; d < 3; ++d) {
+      const int32_t least = std::min({a[d], b[d], c[d]}), greatest = std::max({a[d], b[d], c[d]}), end = 2 * bricks_.cells[d];
+      if (greatest < 0 || least > end) return;
+      element[d] = slabBetween(least, greatest);
+      isWhole &= least == greatest || (least >= 0 && greatest <= end && isOneBrick(least | 1, greatest - 1));
+      isBesideSeam |= (least & others) == 0 || (greatest & others) == 0;
+    }
+    if (!isWhole) {
+      outlineOf(surface_, triangle, outline_);
+      return dicer_.dice(triangle, outline_);
+    }
+    give(element, ClippedTriangles::kWhole);
+    if (!isBesideSeam) return;
+    outlineOf(surface_, triangle, outline_);
+    noteSeamVertices(outline_);
+  }
+
+  // For the dicer.
+  VertexId addVertex(const Slab& slab) {
+    chunk_.slabs.push_back(slab);
+    chunk_.parents.push_back(triangle_);
+    return {uint32_t(vertices_.size() + chunk_.slabs.size() - 1)};
+  }
+  void addHybridEdge(const FaceEdge& edge) { chunk_.clipped.hybridEdges.push_back(edge); }
+  void addPiece(const Polygon& polygon, const Slab& element) {
+    Csr<Corner>& pieces = chunk_.clipped.pieces;
+    give(element, uint32_t(pieces.size()));
+    pieces.items.insert(pieces.items.end(), polygon.begin(), polygon.end());
+    pieces.endGroup();
+    noteSeamVertices(polygon);
+    if (pieces.size() % 1024 != 0) return;  // one triangle may have millions
+    if (pieces.items.size() > kMost || vertices_.size() + chunk_.slabs.size() > kMost) failTooLarge(triangle_.number);
+    monitor_.report(triangle_.number, input_.mesh->triangles.size());
+  }
+
+ private:
+  void give(const Slab& element, uint32_t piece) {
+    bricks_.forBricks(element, [&](const Slab& cell) { chunk_.clipped.parts.push_back({bricks_.keyOf(cell), triangle_, piece}); });
+  }
+  /// Whether cells from one to another, as slabs along an axis, are of one brick along it.
+  bool isOneBrick(int32_t first, int32_t last) const { return first >> 1 >> bricks_.shift == last >> 1 >> bricks_.shift; }
+  void noteSeamVertices(const Polygon& polygon) {
+    for (const Corner& c : polygon) {
+      if (planeCount(c.slab) > 1 && bricks_.isOnSeam(c.slab)) chunk_.clipped.seamVertices.push_back(c.id);
+    }
+  }
+
+  const Surface& surface_;
+  const Input& input_;
+  const CutVertices& vertices_;
+  const BrickGrid& bricks_;
+  Monitor& monitor_;
+  Chunk& chunk_;
+  TriangleId triangle_{0};
+  Polygon outline_;
+  Dicer<Clipper> dicer_;
+};
+
+/// Dices triangles that others reach into by all planes.
+class WholeDicer {
+ public:
+  WholeDicer(const Surface& surface, Monitor& monitor, Chunk& chunk)
+      : surface_(surface), input_(surface.input), vertices_(surface.vertices), monitor_(monitor), chunk_(chunk), dicer_(input_, 0, *this) {}
+  WholeDicer(const WholeDicer&) = delete;
+  ~WholeDicer() { chunk_.predicates.fallbacks += dicer_.predicates.fallbacks; }
+
+  /// False if others don't reach into the triangle.
+  bool dice(TriangleId triangle) {
+    if (!input_.mesh->hasIntersections()) return false;
+    const Arrangement& arrangement = *input_.mesh->arrangement;
+    const auto vertices = arrangement.innerVertices[triangle.number];
+    const bool overlaps = !arrangement.overlaps[triangle.number].empty();  // its faces are told apart by how they are connected
+    if (vertices.empty() && arrangement.innerEdges[triangle.number].empty() && !overlaps) return false;
+    triangle_ = triangle;
+    onLines_.clear();
+    const auto add = [&](VertexId v) {
+      if (vertices_.isUsed(v) && planeCount(vertices_.slab(v)) > 1) onLines_.push_back({v, vertices_.slab(v)});
+    };
+    for (const uint32_t v : vertices) add({v});
+    for (const TriEdgeId e : surface_.edges().innerOf(triangle)) {
+      for (const VertexId v : vertices_.crossings(e)) add(v);
+    }
+    sortItems(onLines_, [](const Corner& a, const Corner& b) { return a.slab < b.slab; });
+    outlineOf(surface_, triangle, outline_);
+    dicer_.dice(triangle, outline_, overlaps);
+    return true;
+  }
+
+  // For the dicer.
+  VertexId addVertex(const Slab& slab) {
+    const auto known = std::lower_bound(onLines_.begin(), onLines_.end(), slab, [](const Corner& c, const Slab& s) { return c.slab < s; });
+    if (known != onLines_.end() && known->slab == slab) return known->id;
+    chunk_.slabs.push_back(slab);
+    chunk_.parents.push_back(triangle_);
+    return {uint32_t(vertices_.size() + chunk_.slabs.size() - 1)};
+  }
+  void addHybridEdge(const FaceEdge& edge) {
+    chunk_.clipped.undivided.hybridEdges.push_back(edge);
+    chunk_.clipped.undivided.hybridTriangles.push_back(triangle_);
+  }
+  void addPiece(const Polygon& polygon, const Slab& element) {
+    TriFaces& faces = chunk_.clipped.undivided;
+    for (const Corner& c : polygon) faces.loops.items.push_back(c.id);
+    faces.loops.endGroup();
+    faces.endFace(triangle_, element, false);
+    if (faces.size() % 4096 != 0) return;  // one triangle may have millions
+    if (faces.loops.items.size() > kMost || vertices_.size() + chunk_.slabs.size() > kMost) failTooLarge(triangle_.number);
+    monitor_.report(triangle_.number, input_.mesh->triangles.size());
+  }
+
+ private:
+  const Surface& surface_;
+  const Input& input_;
+  const CutVertices& vertices_;
+  Monitor& monitor_;
+  Chunk& chunk_;
+  TriangleId triangle_{0};
+  Polygon outline_;
+  std::vector<Corner> onLines_;  // vertices of the arrangement inside of the triangle that lie on grid lines, by slab
+  Dicer<WholeDicer> dicer_;
+};
+
+/// Appends what a chunk made, whose own vertices get `shift` added.
+void append(const ClippedTriangles& chunk, VertexId firstInTriangle, uint32_t shift, ClippedTriangles& all) {
+  const auto shifted = [&](VertexId v) { return v < firstInTriangle ? v : VertexId{v.number + shift}; };
+  const auto appendEdges = [&](const std::vector<FaceEdge>& edges, std::vector<FaceEdge>& out) {
+    for (const FaceEdge& e : edges) out.push_back({e.element, shifted(e.from), shifted(e.to)});
+  };
+  const uint32_t pieces = uint32_t(all.pieces.size());
+  for (const auto& [brick, triangle, piece] : chunk.parts) {
+    all.parts.push_back({brick, triangle, piece == ClippedTriangles::kWhole ? piece : piece + pieces});
+  }
+  all.pieces.append(chunk.pieces, [&](const Corner& c) { return Corner{shifted(c.id), c.slab}; });
+  appendEdges(chunk.hybridEdges, all.hybridEdges);
+  for (const VertexId v : chunk.seamVertices) all.seamVertices.push_back(shifted(v));
+
+  const UndividedFaces& more = chunk.undivided;
+  UndividedFaces& faces = all.undivided;
+  faces.loops.append(more.loops, shifted);
+  faces.triangles.insert(faces.triangles.end(), more.triangles.begin(), more.triangles.end());
+  faces.elements.insert(faces.elements.end(), more.elements.begin(), more.elements.end());
+  faces.touchesLine.insert(faces.touchesLine.end(), more.touchesLine.begin(), more.touchesLine.end());
+  appendEdges(more.hybridEdges, faces.hybridEdges);
+  faces.hybridTriangles.insert(faces.hybridTriangles.end(), more.hybridTriangles.begin(), more.hybridTriangles.end());
+}
+
+}  // namespace
+
+ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& run) {
+  const Input& input = surface.input;
+  CutVertices& vertices = surface.vertices;
+  const auto chunks = forChunks<Chunk>(input.mesh->triangles.size(), run.monitor, [&](Chunk& chunk, size_t begin, size_t end) {
+    Clipper clipper(surface, bricks, run.monitor, chunk);
+    WholeDicer dicer(surface, run.monitor, chunk);
+    for (const TriangleId t : Ids<TriangleId>(begin, end)) {
+      if (input.kept(t) && !dicer.dice(t)) clipper.clip(t);
+    }
+  });
+  size_t entries = 0, made = vertices.size();
+  for (const Chunk& c : chunks) {
+    entries += std::max(c.clipped.pieces.items.size(), c.clipped.undivided.loops.items.size());
+    made += c.slabs.size();
+    run.count(c.predicates);
+  }
+  if (entries > kMost || made > kMost) failTooLarge(-1);
+  ClippedTriangles all;
+  uint32_t shift = 0;
+  for (const Chunk& c : chunks) {
+    append(c.clipped, vertices.firstInTriangle, shift, all);
+    shift += uint32_t(c.slabs.size());
+  }
+  for (const Chunk& c : chunks) {
+    vertices.slabs.insert(vertices.slabs.end(), c.slabs.begin(), c.slabs.end());
+    vertices.parentTriangles.insert(vertices.parentTriangles.end(), c.parents.begin(), c.parents.end());
+  }
+  return all;
+}
+
+}  // namespace mandoline::detail

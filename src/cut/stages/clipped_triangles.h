@@ -1,0 +1,32 @@
+// Triangles, clipped by the planes between bricks: each brick gets those that lie in it whole, and pieces of others.
+//
+// In: Surface. Out: ClippedTriangles, and the range of CutVertices that lie in triangles and on these planes. Triangles whose inside others
+// reach into are diced here as a whole, and divided by those next: see divided_faces.h. What lies outside the grid is left out.
+// After it: a piece has all vertices on its sides; what two pieces have in common is the same to both.
+#pragma once
+
+#include "cut/stages/brick_grid.h"
+#include "cut/stages/sweep.h"
+#include "cut/stages/tri_faces.h"
+
+namespace mandoline::detail {
+
+struct ClippedTriangles {
+  static constexpr uint32_t kWhole = ~0u;
+
+  /// What a brick gets of a triangle.
+  struct Part {
+    uint64_t brick;  ///< its key
+    TriangleId triangle;
+    uint32_t piece;  ///< or kWhole
+  };
+  std::vector<Part> parts;  ///< ascending by triangle
+  Csr<Corner> pieces;
+  std::vector<FaceEdge> hybridEdges;   ///< cut hybrid edges in the planes that clip
+  std::vector<VertexId> seamVertices;  ///< of parts, on grid lines that several bricks have; some repeatedly
+  UndividedFaces undivided;
+};
+
+ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& run);
+
+}  // namespace mandoline::detail

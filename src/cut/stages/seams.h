@@ -1,0 +1,91 @@
+// Seams: what bricks have in common, by the brick that owns it (brick_grid.h), and how much of the result belongs to each row of a brick.
+//
+// In: BrickCuts, and the runs of untouched grid cells. Out: BrickSeams. Both bricks of a seam have the same there, in the same order.
+#pragma once
+
+#include "cut/stages/brick_cut.h"
+#include "cut/stages/untouched_runs.h"
+
+namespace mandoline::detail {
+
+/// What a grid element on a seam holds, of one kind: a range in the lists of the brick.
+struct SeamRange {
+  BrickId owner;
+  uint32_t key;  ///< 32 * index of the owning cell in its brick + number of the element in the cell
+  Range range;
+};
+
+struct SeamRanges {
+  std::vector<SeamRange> own;     ///< of the brick, ascending by key
+  std::vector<SeamRange> others;  ///< of other bricks, ascending by range
+
+  void add(bool isOwn, const SeamRange& range) {
+    if (range.range.count > 0) (isOwn ? own : others).push_back(range);
+  }
+};
+
+/// How much of the result a part of a brick adds.
+struct BrickCounts {
+  uint32_t cells = 0, halfFaces = 0, triFaces = 0, triLoops = 0, triLoopVertices = 0, parents = 0, pieces = 0, loops = 0, loopVertices = 0,
+           vertices = 0;
+
+  void add(const BrickCounts& more);
+};
+
+struct BrickSeams {
+  SeamRanges triFaces, pieces, halves, vertices;
+  std::vector<BrickCounts> rows;               ///< per row of the brick, of what it owns
+  std::vector<std::array<uint32_t, 2>> joins;  ///< component, run: what lies beside each other
+};
+
+/// Calls f(row, first, past) for what a brick owns of a list: ranges of it, ascending, each in one row. `past` is the member of BrickRow
+/// that says where rows end in that list.
+template <class F>
+void forOwn(const BrickCut& cut, uint32_t BrickRow::*past, const SeamRanges& seams, const F& f) {
+  uint32_t at = 0;
+  auto other = seams.others.begin();
+  for (uint32_t row = 0; row < cut.rows.size(); ++row) {
+    const uint32_t end = cut.rows[row].*past;
+    while (at < end) {
+      const bool isOtherNext = other != seams.others.end() && other->range.first < end;
+      const uint32_t stop = isOtherNext ? other->range.first : end;
+      if (at < stop) f(row, at, stop);
+      at = isOtherNext ? (other++)->range.past() : stop;
+    }
+  }
+}
+
+/// Calls f(other, where its range begins in the owner's list) for what a brick has of others. `member`: one of the SeamRanges.
+template <class F>
+void forOthers(const IdVector<BrickId, BrickSeams>& seams, BrickId brick, SeamRanges BrickSeams::*member, const F& f) {
+  for (const SeamRange& other : (seams[brick].*member).others) {
+    const std::vector<SeamRange>& own = (seams[other.owner].*member).own;
+    const auto at =
+        std::lower_bound(own.begin(), own.end(), other.key, [](const SeamRange& range, uint32_t key) { return range.key < key; });
+    f(other, at->range.first);
+  }
+}
+
+IdVector<BrickId, BrickSeams> findSeams(const Input& input, const Bricks& bricks, const UntouchedRuns& runs,
+                                        const IdVector<BrickId, BrickCut>& cuts, Run& run);
+
+/// All that bricks have found.
+struct CutBricks {
+  const Surface& surface;
+  const Bricks& bricks;
+  const UntouchedRuns& runs;
+  const IdVector<BrickId, BrickCut>& cuts;
+  const IdVector<BrickId, BrickSeams>& seams;
+
+  /// Calls f(half, owner, other half) for what lies in the grid-faces of a brick that belong to others: what its owner, which lies below,
+  /// and the brick have of it.
+  template <class F>
+  void forHalves(BrickId brick, const F& f) const {
+    forOthers(seams, brick, &BrickSeams::halves, [&](const SeamRange& other, uint32_t first) {
+      const BoundaryHalf *below = &cuts[other.owner].boundaryHalves[first], *above = &cuts[brick].boundaryHalves[other.range.first];
+      for (uint32_t i = 0; i < other.range.count; ++i) f(below[i], other.owner, above[i]);
+    });
+  }
+};
+
+}  // namespace mandoline::detail
