@@ -14,7 +14,7 @@ const batch = 50;
 
 const ring = torus(48, 20);
 const rings = join(ring, { ...ring, positions: ring.positions.map((x, i) => (i % 3 === 0 ? x + 1.2 : x)) });
-const site = await startSite({ files: { 'rings.obj': writeObj(rings) } });
+const site = await startSite({ smooth: true, files: { 'rings.obj': writeObj(rings) } });
 const ends = [];
 
 const numberOf = async (page, selector, name) => Number((await dataOf(page, selector))[name]);

@@ -7,7 +7,7 @@ import { download, shows, startSite } from './page_helpers.mjs';
 import { pixelsOf } from './pictures.mjs';
 
 const { Occlusion } = await importBundled('page/view/occlusion.ts');
-const site = await startSite();
+const site = await startSite({ smooth: true });
 after(() => site.close());
 
 /** Runs in the page before all else: pictures are done at once, by a clock that counts frames, however slow they are. */

@@ -9,7 +9,7 @@ import { pixelsOf } from './pictures.mjs';
 
 const names = ['common_beetle-alt', 'common_teapot', 'oded_mountain', 'igltut_face', 'codim_Sharkey12K'].map((name) => `${name}.obj.gz`);
 const files = meshFolder ? Object.fromEntries(names.map((name) => [name, readFileSync(join(meshFolder, name))])) : {};
-const site = await startSite({ files });
+const site = await startSite({ smooth: true, files });
 after(() => site.close());
 
 /** The share of the model's pixels that are darker than a quarter. */

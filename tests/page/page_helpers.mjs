@@ -10,13 +10,16 @@ import { serveFolder } from '../package/static_server.mjs';
 const builtPage = process.env.MANDOLINE_PAGE ?? fileURLToPath(new URL('../../web/dist', import.meta.url));
 const patience = 30_000;
 
-/** The page below a sub-path of one server, and `files` (contents by name) on another that lets other pages read them. */
-export async function startSite({ files = {} } = {}) {
+/**
+ * The page below a sub-path of one server, and `files` (contents by name) on another that lets other pages read them. Tests that compare
+ * pictures ask for `smooth` ones.
+ */
+export async function startSite({ files = {}, smooth } = {}) {
   const folder = mkdtempSync(join(tmpdir(), 'mandoline-page-'));
   for (const [name, content] of Object.entries(files)) writeFileSync(join(folder, name), content);
   const host = await serveFolder({ folder: builtPage, subPath: '/some/sub-path/' });
   const meshes = await serveFolder({ folder, headers: { 'Access-Control-Allow-Origin': '*' } });
-  const browser = await launchChromium();
+  const browser = await launchChromium({ smooth });
   return {
     url: host.url,
     host,

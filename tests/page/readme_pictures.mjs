@@ -13,7 +13,7 @@ const pictures = {
 };
 
 const cleanUp = [];
-const site = await startSite();
+const site = await startSite({ smooth: true });
 mkdirSync(path('web', 'pictures'), { recursive: true });
 for (const [name, hash] of Object.entries(pictures)) {
   const page = await site.open({ after: (f) => cleanUp.push(f) }, hash, { viewport: { width: 910, height: 700 }, panels: [] });

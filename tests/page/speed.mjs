@@ -67,7 +67,7 @@ async function timeOfCut({ page, session }, to) {
 }
 
 async function open(name) {
-  const browser = await launchChromium();
+  const browser = await launchChromium({ smooth: true });
   const page = await browser.newPage({ viewport: { width: 1000, height: 600 } });
   const session = await page.context().newCDPSession(page);
   await session.send('Performance.enable', { timeDomain: 'threadTicks' });

@@ -12,7 +12,7 @@ const folder = path('web', 'public', 'thumbnails');
 const size = { width: 128, height: 96 };
 
 const cleanUp = [];
-const site = await startSite();
+const site = await startSite({ smooth: true });
 try {
   const made = await pictures();
   for (const f of cleanUp) await f();

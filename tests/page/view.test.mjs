@@ -12,7 +12,10 @@ const spheres = await galleryMesh('nested-spheres');
 const sheet = await galleryMesh('wavy-plane');
 const pocket = withPocket(sheet);
 const files = { 'torus.obj': mesh, 'spheres.obj': spheres, 'sheet.obj': sheet, 'pocket.obj': pocket };
-const site = await startSite({ files: Object.fromEntries(Object.entries(files).map(([name, file]) => [name, writeObj(file)])) });
+const site = await startSite({
+  smooth: true,
+  files: Object.fromEntries(Object.entries(files).map(([name, file]) => [name, writeObj(file)])),
+});
 after(() => site.close());
 
 /** The torus as one solid, whole, unless the rest says otherwise. */
