@@ -37,14 +37,18 @@ export class Player {
     let before = performance.now();
     let frame = nextFrame();
     const cuts: number[] = [];
-    while (run === this.runs && (await show(app, play, phase))) {
-      // The next cut is made while this one is drawn, but no cut runs further ahead.
+    let shown = show(app, play, phase);
+    while (run === this.runs) {
+      // The worker goes on with the next cut while this one is taken and drawn. None runs further ahead.
+      const next = isCut(play) ? show(app, play, phase) : null;
+      if (!(await shown)) break;
       await frame;
       frame = nextFrame();
       const now = performance.now();
       if (run !== this.runs) return;
       phase += (now - before) / (1000 * periods[play]);
       before = now;
+      shown = next ?? show(app, play, phase);
       if (!isCut(play)) continue;
       cuts.push(now);
       while (cuts[0] < now - rateTime) cuts.shift();

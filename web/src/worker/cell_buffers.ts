@@ -11,14 +11,11 @@ type Buffers = Pick<Model, 'triangles' | 'edges'>;
 export function cellBuffers(cutMesh: CutMesh, faceTriangles: FaceTriangles, normals: Int32Array, origin: readonly number[]): Buffers {
   const counts = countBuffers(cutMesh, faceTriangles);
   const filling = new Filling(cutMesh, faceTriangles, normals, origin, counts);
-  const { cellHalfFaceOffsets, cellHalfFaces } = cutMesh;
+  const { cellHalfFaceOffsets } = cutMesh;
   for (let owner = 0; owner + 1 < cellHalfFaceOffsets.length; owner++) {
-    filling.beginCell(owner);
-    for (let h = cellHalfFaceOffsets[owner]; h < cellHalfFaceOffsets[owner + 1]; h++) {
-      filling.addVertices(cellHalfFaces[h] >> 1);
-      filling.addEdges(cellHalfFaces[h]);
-      filling.addTriangles(cellHalfFaces[h]);
-    }
+    const [begin, end] = [cellHalfFaceOffsets[owner], cellHalfFaceOffsets[owner + 1]];
+    filling.addFaces(owner, begin, end);
+    filling.addEdges(begin, end);
   }
   return filling.buffers(3 * counts.surface);
 }
@@ -50,7 +47,18 @@ function countBuffers(cutMesh: CutMesh, { faceTriangleOffsets }: FaceTriangles):
   return { ...counts, edges: corners / 2, vertices: corners / 2 + surfaceCorners };
 }
 
-/** The buffers while they are filled. */
+/** More entries than this are not kept for the next cut. */
+const mostKept = 2 ** 20;
+const kept: Record<string, Float32Array | Int32Array | Uint32Array> = {};
+
+/** An array of at least this length, whatever is in it: a surface that moves needs the same ones for every picture. */
+function room<T extends Float32Array | Int32Array | Uint32Array>(name: string, create: new (length: number) => T, length: number): T {
+  if (length > mostKept) return new create(length);
+  if (!kept[name] || kept[name].length < length) kept[name] = new create(length);
+  return kept[name] as T;
+}
+
+/** The buffers while they are filled. The half-faces of one cell after the other are walked in long loops, since they are short. */
 class Filling {
   private readonly position: Float32Array;
   private readonly normal: Int32Array;
@@ -66,8 +74,6 @@ class Filling {
   private readonly ox: number;
   private readonly oy: number;
   private readonly oz: number;
-  private owner = 0;
-  private first = 0;
   private vertexEnd = 0;
   private hybridEnd = 0;
   private triEdgeBegin: number;
@@ -83,52 +89,63 @@ class Filling {
     counts: Counts,
   ) {
     [this.ox, this.oy, this.oz] = [ox, oy, oz];
-    this.position = new Float32Array(3 * counts.vertices);
-    this.normal = new Int32Array(counts.vertices);
-    this.cell = new Uint32Array(counts.vertices);
-    this.twin = new Uint32Array(counts.vertices);
+    this.position = room('position', Float32Array, 3 * counts.vertices);
+    this.normal = room('normal', Int32Array, counts.vertices);
+    this.cell = room('cell', Uint32Array, counts.vertices);
+    this.twin = room('twin', Uint32Array, counts.vertices);
+    this.gridEdges = room('gridEdges', Uint32Array, 2 * counts.edges);
+    this.idOf = room('idOf', Int32Array, cutMesh.positions.length / 3).fill(-1);
     this.triangles = new Uint32Array(3 * (counts.surface + counts.grid));
     this.edges = new Uint32Array(2 * counts.edges);
-    this.gridEdges = new Uint32Array(2 * counts.edges);
-    this.idOf = new Int32Array(cutMesh.positions.length / 3).fill(-1);
     this.triEdgeBegin = 2 * counts.edges;
     this.gridEnd = 3 * counts.surface;
   }
 
-  beginCell(owner: number): void {
-    this.owner = owner;
-    this.first = this.vertexEnd;
-  }
-
-  /** Gives the corners of a face ids, those with its normals if it is a piece of a triangle. */
-  addVertices(face: number): void {
-    const { idOf, first, normals, normal } = this;
-    const { faceLoopOffsets, loopOffsets, loopVertices } = this.cutMesh;
-    const end = loopOffsets[faceLoopOffsets[face + 1]];
-    for (let at = loopOffsets[faceLoopOffsets[face]]; at < end; at++) {
-      const vertex = loopVertices[at];
-      const wanted = normals[at];
-      const id = idOf[vertex];
-      if (id < first) idOf[vertex] = this.add(vertex, wanted);
-      else if (wanted !== 0 && normal[id] !== wanted) idOf[vertex] = this.withNormal(id, wanted);
+  /** Triangles of a cell's faces, whose corners get ids: each face has those with its normals, if it is a piece of a triangle. */
+  addFaces(owner: number, begin: number, end: number): void {
+    const { idOf, triangles } = this;
+    const { cellHalfFaces, faceTriangle } = this.cutMesh;
+    const { faceTriangleOffsets, triangles: corners } = this.faceTriangles;
+    const first = this.vertexEnd;
+    for (let h = begin; h < end; h++) {
+      const face = cellHalfFaces[h] >> 1;
+      this.addVertices(owner, first, face);
+      const from = (3 * faceTriangleOffsets[face]) | 0;
+      const to = (3 * faceTriangleOffsets[face + 1]) | 0;
+      const isSurface = faceTriangle[face] >= 0;
+      let out = isSurface ? this.surfaceEnd : this.gridEnd;
+      // Side 1 sees the face from behind.
+      if (cellHalfFaces[h] & 1) for (let corner = to - 1; corner >= from; corner--) triangles[out++] = idOf[corners[corner]];
+      else for (let corner = from; corner < to; corner++) triangles[out++] = idOf[corners[corner]];
+      if (isSurface) this.surfaceEnd = out;
+      else this.gridEnd = out;
     }
   }
 
-  private add(vertex: number, wanted: number): number {
-    const { position, ox, oy, oz } = this;
-    const { positions } = this.cutMesh;
-    const id = this.vertexEnd++;
-    position[3 * id] = positions[3 * vertex] - ox;
-    position[3 * id + 1] = positions[3 * vertex + 1] - oy;
-    position[3 * id + 2] = positions[3 * vertex + 2] - oz;
-    this.cell[id] = this.owner;
-    this.normal[id] = wanted;
-    this.twin[id] = id;
-    return id;
+  private addVertices(owner: number, first: number, face: number): void {
+    const { idOf, normals, normal, cell, position, twin, ox, oy, oz } = this;
+    const { faceLoopOffsets, loopOffsets, loopVertices, positions } = this.cutMesh;
+    const last = loopOffsets[faceLoopOffsets[face + 1]] | 0;
+    for (let at = loopOffsets[faceLoopOffsets[face]] | 0; at < last; at++) {
+      const vertex = loopVertices[at] | 0;
+      const wanted = normals[at];
+      const id = idOf[vertex];
+      if (id >= first) {
+        if (wanted !== 0 && normal[id] !== wanted) idOf[vertex] = this.withNormal(owner, id, wanted);
+        continue;
+      }
+      const added = this.vertexEnd++;
+      position[3 * added] = positions[3 * vertex] - ox;
+      position[3 * added + 1] = positions[3 * vertex + 1] - oy;
+      position[3 * added + 2] = positions[3 * vertex + 2] - oz;
+      cell[added] = owner;
+      normal[added] = wanted;
+      idOf[vertex] = twin[added] = added;
+    }
   }
 
   /** The one of a vertex's ids in the cell that has this normal; a new one beyond a crease. */
-  private withNormal(known: number, wanted: number): number {
+  private withNormal(owner: number, known: number, wanted: number): number {
     const { normal, position, twin } = this;
     let id = known;
     do {
@@ -138,7 +155,7 @@ class Filling {
     } while (id !== known);
     id = this.vertexEnd++;
     position.copyWithin(3 * id, 3 * known, 3 * known + 3);
-    this.cell[id] = this.owner;
+    this.cell[id] = owner;
     normal[id] = wanted;
     twin[id] = twin[known];
     twin[known] = id;
@@ -146,17 +163,20 @@ class Filling {
   }
 
   /** The half-faces of a cell traverse an edge equally often in both directions, so that one direction is enough to find it. */
-  addEdges(halfFace: number): void {
-    const { faceLoopOffsets, loopOffsets, loopVertices } = this.cutMesh;
-    const face = halfFace >> 1;
-    const reversed = (halfFace & 1) === 1;
-    for (let loop = faceLoopOffsets[face]; loop < faceLoopOffsets[face + 1]; loop++) {
-      const end = loopOffsets[loop + 1];
-      let from = loopVertices[end - 1];
-      for (let at = loopOffsets[loop]; at < end; at++) {
-        const to = loopVertices[at];
-        if (from < to !== reversed) this.addEdge(from, to);
-        from = to;
+  addEdges(begin: number, end: number): void {
+    const { cellHalfFaces, faceLoopOffsets, loopOffsets, loopVertices } = this.cutMesh;
+    for (let h = begin; h < end; h++) {
+      const face = cellHalfFaces[h] >> 1;
+      const reversed = (cellHalfFaces[h] & 1) === 1;
+      const lastLoop = faceLoopOffsets[face + 1] | 0;
+      for (let loop = faceLoopOffsets[face] | 0; loop < lastLoop; loop++) {
+        const last = loopOffsets[loop + 1] | 0;
+        let from = loopVertices[last - 1] | 0;
+        for (let at = loopOffsets[loop] | 0; at < last; at++) {
+          const to = loopVertices[at] | 0;
+          if (from < to !== reversed) this.addEdge(from, to);
+          from = to;
+        }
       }
     }
   }
@@ -187,21 +207,6 @@ class Filling {
     const y = both & 2 && vertexCell[a + 1] === vertexCell[b + 1] ? 1 : 0;
     const z = both & 4 && vertexCell[a + 2] === vertexCell[b + 2] ? 1 : 0;
     return x + y + z;
-  }
-
-  addTriangles(halfFace: number): void {
-    const { triangles, idOf } = this;
-    const { faceTriangleOffsets, triangles: corners } = this.faceTriangles;
-    const face = halfFace >> 1;
-    const isSurface = this.cutMesh.faceTriangle[face] >= 0;
-    let out = isSurface ? this.surfaceEnd : this.gridEnd;
-    const begin = 3 * faceTriangleOffsets[face];
-    const end = 3 * faceTriangleOffsets[face + 1];
-    // Side 1 sees the face from behind.
-    if (halfFace & 1) for (let corner = end - 1; corner >= begin; corner--) triangles[out++] = idOf[corners[corner]];
-    else for (let corner = begin; corner < end; corner++) triangles[out++] = idOf[corners[corner]];
-    if (isSurface) this.surfaceEnd = out;
-    else this.gridEnd = out;
   }
 
   buffers(surfaceEnd: number): Buffers {

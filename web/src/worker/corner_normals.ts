@@ -15,7 +15,9 @@ export function cornerNormals({ positions, triangles }: MeshArrays): Float32Arra
   const normals = new Float32Array(3 * triangles.length);
   for (let corner = 0; corner < triangles.length; corner++) {
     const own = 3 * Math.floor(corner / 3);
-    const [nx, ny, nz] = [normal[own], normal[own + 1], normal[own + 2]];
+    const nx = normal[own];
+    const ny = normal[own + 1];
+    const nz = normal[own + 2];
     const begin = around.offsets[vertexOf[corner]];
     const end = around.offsets[vertexOf[corner] + 1];
     let [x, y, z] = [nx, ny, nz];
@@ -46,23 +48,23 @@ function facets(positions: Float64Array, triangles: Uint32Array): { normal: Floa
   const normal = new Float32Array(triangles.length);
   const angle = new Float32Array(triangles.length);
   const edge = new Float64Array(9);
-  const length = new Float64Array(3);
   for (let corner = 0; corner < triangles.length; corner += 3) {
     for (let k = 0; k < 3; k++) {
-      const [from, to] = [3 * triangles[corner + k], 3 * triangles[corner + ((k + 1) % 3)]];
+      const from = 3 * triangles[corner + k];
+      const to = 3 * triangles[corner + ((k + 1) % 3)];
       for (let d = 0; d < 3; d++) edge[3 * k + d] = positions[to + d] - positions[from + d];
-      length[k] = Math.hypot(edge[3 * k], edge[3 * k + 1], edge[3 * k + 2]);
     }
     const x = edge[1] * edge[5] - edge[2] * edge[4];
     const y = edge[2] * edge[3] - edge[0] * edge[5];
     const z = edge[0] * edge[4] - edge[1] * edge[3];
-    const doubleArea = Math.hypot(x, y, z);
+    const doubleArea = Math.sqrt(x * x + y * y + z * z);
     if (doubleArea === 0) continue;
     normal[corner] = x / doubleArea;
     normal[corner + 1] = y / doubleArea;
     normal[corner + 2] = z / doubleArea;
     for (let k = 0; k < 3; k++) {
-      const [out, back] = [3 * k, 3 * ((k + 2) % 3)];
+      const out = 3 * k;
+      const back = 3 * ((k + 2) % 3);
       const cosine = -(edge[out] * edge[back] + edge[out + 1] * edge[back + 1] + edge[out + 2] * edge[back + 2]);
       angle[corner + k] = Math.atan2(doubleArea, cosine);
     }
