@@ -88,3 +88,46 @@ test('on a slow machine pictures come all along a drag, from one worker', async 
   await shows(page, '#counts', { grid: (await cutOf(await galleryMesh('wedge'), { cells: 7 })).cutMesh.grid.cells.join('x') });
   assert.equal(await page.evaluate(() => window.workers), workers, 'no worker was thrown away');
 });
+
+/**
+ * Runs in the page before its scripts: lists what is asked about programs before the GPU is known to have linked them, which waits for it.
+ * Before there is a model, three.js draws the background alone, with a small program of its own.
+ */
+function watchPrograms() {
+  window.askedEarly = [];
+  const { prototype } = WebGL2RenderingContext;
+  const linkedAt = new WeakMap();
+  const fencedAt = new WeakMap();
+  let [time, done] = [0, 0];
+  const watch = (name, after) => {
+    const call = prototype[name];
+    prototype[name] = function (...given) {
+      const result = call.apply(this, given);
+      after(result, ...given);
+      return result;
+    };
+  };
+  watch('linkProgram', (_, program) => linkedAt.set(program, ++time));
+  watch('fenceSync', (fence) => fencedAt.set(fence, ++time));
+  watch('clientWaitSync', (state, fence) => {
+    if (state !== WebGL2RenderingContext.TIMEOUT_EXPIRED) done = Math.max(done, fencedAt.get(fence));
+  });
+  watch('getProgramParameter', (_, program) => {
+    const isEarly = linkedAt.get(program) > done;
+    if (isEarly && document.getElementById('canvas').dataset.model) window.askedEarly.push(new Error().stack);
+  });
+}
+
+for (const [name, hash] of [
+  ['the first picture', 'mesh=bunny&n=8'],
+  ['a flat cut', 'mesh=bunny&n=8&z=0.5,1&slice=flat'],
+  ['a wind', 'mesh=wedge&wind=1,0,0&flow=speed&tunnel=16'],
+]) {
+  test(`the page does not wait for shaders of ${name}, nor of its shadow and of what comes later`, async (t) => {
+    const page = await site.open(t, hash, { onNewPage: (made) => made.addInitScript(watchPrograms) });
+    if (hash.includes('wind')) await shows(page, '#canvas', { wind: '1,0,0' });
+    await shows(page, '#canvas', { shadow: 'drawn' });
+    await page.waitForTimeout(1000);
+    assert.deepEqual(await page.evaluate(() => window.askedEarly), []);
+  });
+}

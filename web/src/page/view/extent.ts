@@ -17,24 +17,45 @@ const enough = 50_000;
  * lies beside the grid.
  */
 export function shownPoints(extent: Extent): Float32Array {
-  const { model, settings, regions } = extent;
-  const { normal, cell } = model.triangles;
+  const { model, settings } = extent;
   const { show, explode } = settings;
-  const points: number[] = [];
+  const vertices = show.cutCells ? shownVertices(extent) : new Float32Array(0);
+  if (show.outside && show.untouched && show.gridFaces) return joined(vertices, exploded(gridCorners(model), explode.cells));
+  return vertices.length > 0 ? vertices : Float32Array.from(exploded(meshCorners(model), explode.cells));
+}
+
+/** Of cut-cells: there are many, and a camera waits for them. */
+function shownVertices({ model, settings: { show, explode }, regions, shifts }: Extent): Float32Array {
+  const { position, normal, cell } = model.triangles;
+  const { region, centroid } = model.cells;
   const step = Math.ceil(cell.length / enough);
+  const points = new Float32Array(3 * Math.ceil(cell.length / step));
+  let end = 0;
   for (let vertex = 0; vertex < cell.length; vertex += step) {
+    const owner = cell[vertex];
+    const own = region[owner];
     // Of cells around a sheet only that is seen.
-    if (!show.cutCells || !regions[model.cells.region[cell[vertex]]] || (!show.gridFaces && normal[4 * vertex + 3] === 0)) continue;
-    addVertex(points, vertex, extent);
+    if (!regions[own] || (!show.gridFaces && normal[4 * vertex + 3] === 0)) continue;
+    for (let d = 0; d < 3; d++) {
+      points[end++] = position[3 * vertex + d] + explode.cells * centroid[3 * owner + d] + explode.regions * shifts[3 * own + d];
+    }
   }
-  if (show.outside && show.untouched && show.gridFaces) points.push(...exploded(gridCorners(model), explode.cells));
-  if (points.length === 0) points.push(...exploded(meshCorners(model), explode.cells));
-  return Float32Array.from(points);
+  return points.subarray(0, end);
+}
+
+function joined(points: Float32Array, more: readonly number[]): Float32Array {
+  const all = new Float32Array(points.length + more.length);
+  all.set(points);
+  all.set(more, points.length);
+  return all;
 }
 
 /** In scene units, they span what is shown and the arrow of the wind. */
 export function framedPoints(extent: Extent): Float32Array {
-  return Float32Array.from([...shownPoints(extent), ...windPoints(extent)], (x) => x * sceneScale(extent.model));
+  const points = joined(shownPoints(extent), windPoints(extent));
+  const scale = sceneScale(extent.model);
+  for (let at = 0; at < points.length; at++) points[at] *= scale;
+  return points;
 }
 
 /** In scene units, they span a cut-cell. */

@@ -5,17 +5,19 @@
 export class GpuPace {
   private fence: WebGLSync | null = null;
   private markedAt = 0;
+  private isPicture = false;
   /** How long the last picture took of which isBehind has told that it is done, in ms: as accurate as that is asked often. */
   took = 0;
 
   constructor(private readonly gl: WebGL2RenderingContext) {}
 
-  /** After drawing. */
-  mark(): void {
+  /** After drawing, or after anything else that it has to do. */
+  mark(isPicture = true): void {
     if (this.fence) this.gl.deleteSync(this.fence);
     this.fence = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     this.gl.flush();
     this.markedAt = performance.now();
+    this.isPicture = isPicture;
   }
 
   /** With a new context nothing is left to wait for. */
@@ -28,7 +30,7 @@ export class GpuPace {
     if (this.gl.clientWaitSync(this.fence, 0, 0) === this.gl.TIMEOUT_EXPIRED) return true;
     this.gl.deleteSync(this.fence);
     this.fence = null;
-    this.took = performance.now() - this.markedAt;
+    if (this.isPicture) this.took = performance.now() - this.markedAt;
     return false;
   }
 }

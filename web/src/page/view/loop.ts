@@ -4,12 +4,14 @@ import { GpuPace } from './gpu_pace';
 import { Quality } from './quality';
 
 export interface Drawing {
-  /** Does a part of what is best done soon after the first picture. Gives whether there is more. */
+  /** Does a part of what is best done soon after the first picture, or before it. Gives whether there is more. */
   warmUp(): boolean;
   /** Brings what is drawn up to date. */
   prepare(): void;
   /** Whether the former picture had better stay, since something of the next one is still on its way. */
   isWaiting(): boolean;
+  /** Whether the GPU has the shaders of what has been prepared. If not, does a part of what is missing. */
+  hasShaders(): boolean;
   /** Draws, with this share of the screen's pixels per side. Gives whether something goes on moving by itself. */
   draw(seconds: number, share: number): boolean;
   /** A picture that took so long, in ms, has stood for a moment. Gives whether a model is in it. */
@@ -39,13 +41,14 @@ export class Loop {
     private readonly drawing: Drawing,
   ) {
     this.pace = new GpuPace(gl);
+    setTimeout(() => this.warmUp());
   }
 
   /** By a timer, since there may be no frames while the GPU is busy. */
   private warmUp(): void {
     if (!this.pace.isBehind) {
       if (!this.drawing.warmUp()) return;
-      this.pace.mark();
+      this.pace.mark(false);
     }
     setTimeout(() => this.warmUp(), pollTime);
   }
@@ -66,12 +69,20 @@ export class Loop {
     cancelAnimationFrame(this.asked);
     this.asked = 0;
     this.prepare();
-    this.render(1);
+    if (this.hasShaders()) this.render(1);
+  }
+
+  /** Whether a picture can be drawn at once. If not, it is asked for once more. */
+  private hasShaders(): boolean {
+    if (this.drawing.hasShaders()) return true;
+    this.pace.mark(false);
+    this.invalidate();
+    return false;
   }
 
   /** Draws what has been prepared, before it is replaced: pictures must not be put off as long as new ones keep coming. */
   finish(): void {
-    if (this.isPrepared && !this.drawing.isWaiting()) this.render();
+    if (this.isPrepared && !this.drawing.isWaiting() && this.hasShaders()) this.render();
     this.isPrepared = false;
   }
 
@@ -111,9 +122,9 @@ export class Loop {
       this.isPrepared = true;
       const isLong = performance.now() - begin > longPreparation;
       if (isLong || this.drawing.isWaiting()) this.invalidate();
-      else this.render();
+      else if (this.hasShaders()) this.render();
     } else if (this.drawing.isWaiting()) this.invalidate();
-    else this.render();
+    else if (this.hasShaders()) this.render();
   }
 
   private render(share = this.quality.next(this.pace.took)): void {

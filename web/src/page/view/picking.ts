@@ -1,6 +1,6 @@
 // Which cell is seen at a point of the canvas: the cells are drawn once more into one pixel, with their ids as colours.
 import { Group, Scene, WebGLRenderTarget, type Object3D, type PerspectiveCamera, type WebGLRenderer } from 'three';
-import type { Pass } from './warm_up';
+import type { Pass } from './shaders';
 
 /** A cut-cell, or an untouched grid cell by the number of its box; null for anything else. */
 export type Picked = { cell: number; box?: undefined } | { box: number; cell?: undefined } | null;

@@ -31,11 +31,11 @@ import { Picker } from './picking';
 import { reducedMotion } from './reduced_motion';
 import { contextLost, makeRenderer } from './renderer';
 import { setScheme } from './scheme';
+import { Shaders } from './shaders';
 import { sceneScale } from './scene_space';
 import { Touch } from './touch';
 import { WindTunnel } from './wind';
 import { setUniforms } from './uniforms';
-import { WarmUp } from './warm_up';
 
 interface ViewOptions {
   /** Makes the caps of flat cuts. */
@@ -87,7 +87,7 @@ class ThreeView implements View {
   private readonly framing: Framing;
   private readonly picker: Picker;
   private readonly occlusion: Occlusion;
-  private readonly warmUp: WarmUp;
+  private readonly shaders: Shaders;
   private readonly loop: Loop;
   private readonly flatCuts: FlatCuts;
   readonly files: Files;
@@ -130,7 +130,8 @@ class ThreeView implements View {
     this.occlusion = new Occlusion(this.renderer, this.picker, this.camera.camera);
     this.flatCuts = new FlatCuts(options.slice);
     this.loop = new Loop(this.renderer.getContext() as WebGL2RenderingContext, {
-      warmUp: () => this.warmUp.takeOver(),
+      warmUp: () => !this.shaders.areReadyAhead(this.pictures > 0),
+      hasShaders: () => this.shaders.areReady(),
       prepare: () => this.prepare(),
       isWaiting: () => this.flatCuts.isAwaited,
       draw: (seconds, share) => this.draw(seconds, share),
@@ -152,13 +153,12 @@ class ThreeView implements View {
       draw: (times) => this.draw(performance.now() / 1000, times),
     });
     this.root.add(this.modelGroup, this.insteadGroup, this.occlusion.object, this.windTunnel.object, this.ruler.object);
-    this.ruler.object.visible = false;
     this.scene.add(this.root, this.gizmo.object);
-    this.modelGroup.visible = this.insteadGroup.visible = false;
+    this.shaders = new Shaders(renderer, camera.camera, { scene, first: objectsOf([this.cells, this.untouched, shadow]), shadow, picker });
+    this.modelGroup.visible = this.insteadGroup.visible = this.ruler.object.visible = false;
     this.setScheme(matchMedia('(prefers-color-scheme: dark)').matches);
     this.listen();
     this.resize();
-    this.warmUp = new WarmUp(renderer, camera.camera, [{ scene, target: null }, ...shadow.passes, picker.pass]);
   }
 
   private listen(): void {
@@ -182,7 +182,7 @@ class ThreeView implements View {
     this.touch.onMeasured = (place) => this.onMeasured(place);
     new ResizeObserver(() => this.resize()).observe(this.canvas);
     this.canvas.addEventListener('webglcontextlost', () => {
-      this.warmUp.forget();
+      this.shaders.forget();
       this.options.onContext?.(contextLost());
     });
     this.canvas.addEventListener('webglcontextrestored', () => {

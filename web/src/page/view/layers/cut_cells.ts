@@ -52,6 +52,7 @@ export class CutCells implements Layer {
     for (const kind of [0, 1]) this.geometry.addGroup(0, Infinity, kind);
     this.faces = this.makeFaces('FACES');
     this.backs = this.makeFaces('BACKS');
+    this.backs.visible = false;
     this.pick = this.makeFaces('PICK');
     this.caster = this.makeFaces('SHADOW');
     this.ghost = this.makeFaces('GHOST');

@@ -5,7 +5,7 @@ import { WebGLRenderTarget, type Object3D, type WebGLRenderer } from 'three';
 import { shownPoints } from '../extent';
 import type { Layer, Look } from '../layer';
 import type { Uniforms } from '../material';
-import type { Pass } from '../warm_up';
+import type { Pass } from '../shaders';
 import { wholeTargetShader } from '../whole_target';
 
 /** Pixels along a side of the picture. */
@@ -91,9 +91,13 @@ export class Shadow implements Layer {
     dataset.shadow = this.isStale ? 'awaited' : 'drawn';
   }
 
-  /** Waits until the look has stayed as it is for a moment. */
+  /** Whether the next picture draws it anew: the look has stayed as it is for a moment. */
+  get isDue(): boolean {
+    return this.isStale && this.timer === undefined;
+  }
+
   animate(): boolean {
-    if (this.timer === undefined) this.redraw();
+    if (this.isDue) this.redraw();
     return false;
   }
 
