@@ -47,3 +47,20 @@ test('quick pictures keep all pixels, and get them back', () => {
   draw(quality, clock, { count: 5, every: 100, fullTime: 200 });
   assert.equal(draw(quality, clock, { count: 5, every: 16, fullTime: 5 }).at(-1), 1);
 });
+
+test('a single picture that takes long, or little, changes nothing', () => {
+  const clock = { now: 0 };
+  const quality = new Quality(
+    () => {},
+    () => clock.now,
+  );
+  const taking = (times) =>
+    times.map((took) => {
+      clock.now += 16;
+      return quality.next(took);
+    });
+  assert.deepEqual(new Set(taking([5, 5, 5, 100, 5, 100, 30, 100, 5])), new Set([1]));
+  assert.equal(taking([100, 100]).at(-1), 0.7);
+  assert.deepEqual(new Set(taking([5, 30, 5, 100, 5])), new Set([0.7]));
+  assert.equal(taking([5]).at(-1), 1);
+});

@@ -12,7 +12,7 @@ const alike = 24 << 24;
  * the corners of the triangle that the piece belongs to. Those of pieces of grid-faces are 0.
  */
 export function faceNormals({ positions, triangles }: MeshArrays, corners: Float32Array, cutMesh: CutMesh): Int32Array {
-  const { faceTriangle, faceLoopOffsets, loopOffsets, loopVertices } = cutMesh;
+  const { faceTriangle, faceLoopOffsets, loopOffsets, loopVertices, positions: places } = cutMesh;
   const normals = new Int32Array(loopVertices.length);
   for (let face = 0; face < faceTriangle.length; face++) {
     const corner = 3 * faceTriangle[face];
@@ -30,14 +30,15 @@ export function faceNormals({ positions, triangles }: MeshArrays, corners: Float
     const cx = positions[c + u] - ax;
     const cy = positions[c + v] - ay;
     const area = bx * cy - by * cx;
-    for (let at = loopOffsets[faceLoopOffsets[face]]; at < loopOffsets[faceLoopOffsets[face + 1]]; at++) {
-      const vertex = 3 * loopVertices[at];
-      const px = cutMesh.positions[vertex + u] - ax;
-      const py = cutMesh.positions[vertex + v] - ay;
+    const from = (3 * corner) | 0;
+    const last = loopOffsets[faceLoopOffsets[face + 1]] | 0;
+    for (let at = loopOffsets[faceLoopOffsets[face]] | 0; at < last; at++) {
+      const vertex = (3 * loopVertices[at]) | 0;
+      const px = places[vertex + u] - ax;
+      const py = places[vertex + v] - ay;
       const ofB = Math.min(Math.max((px * cy - py * cx) / area, 0), 1);
       const ofC = Math.min(Math.max((bx * py - by * px) / area, 0), 1 - ofB);
       const ofA = 1 - ofB - ofC;
-      const from = 3 * corner;
       const x = ofA * corners[from] + ofB * corners[from + 3] + ofC * corners[from + 6];
       const y = ofA * corners[from + 1] + ofB * corners[from + 4] + ofC * corners[from + 7];
       const z = ofA * corners[from + 2] + ofB * corners[from + 5] + ofC * corners[from + 8];
