@@ -38,21 +38,22 @@ bool doCross(const Context& x, const SpotPair& one, const SpotPair& other, int a
 
 void CrossingCheck::run(const GridCell& cell, const std::vector<Edge>& edges) {
   margin_ = kTolerance * cell.noise;
-  spots_.start(cell.places.size()), finePlanes_.start(cell.faces.size());
+  spots_.start(cell.places.size()), finePlanes_.start(cell.faces.size()), sides_.start(cell.places.size());
   gatherPlanes(cell);
   gatherSegments(cell, edges);
   hubs_.find(cell, edges);
   buildTrees(cell);
   for (uint32_t e = 0; e < segments_.size(); ++e) {
-    const detail::Box box = boxOf(segments_[e], margin_);
-    faceTree_.forOverlapping(box, segments_[e].ends, [&](uint32_t f) { checkEdgeAndFace(cell, segments_[e], f); });
-    segmentTree_.forOverlapping(box, segments_[e].ends, [&](uint32_t other) {
+    segmentTree_.forOverlapping(boxOf(segments_[e], margin_), segments_[e].ends, [&](uint32_t other) {
       if (other > e) checkEdges(cell, segments_[e], segments_[other]);
     });
   }
   for (uint32_t f = 0; f < cell.faces.size(); ++f) {
-    if (cell.faces[f].side >= 0) continue;
-    const detail::Box box = validation::boxOf(cell.faces[f].low - margin_, cell.faces[f].high + margin_);
+    const GridCell::Face& face = cell.faces[f];
+    if (cell.context.cut.faceTriangle[face.id] < 0) continue;
+    const detail::Box box = validation::boxOf(face.low - margin_, face.high + margin_);
+    segmentTree_.forOverlapping(box, cell.vertices(f), [&](uint32_t e) { checkEdgeAndFace(cell, segments_[e], f); });
+    if (face.side >= 0) continue;
     faceTree_.forOverlapping(box, cell.vertices(f), [&](uint32_t g) {
       if (g > f) checkFaces(cell, f, g);
     });
@@ -155,8 +156,7 @@ bool CrossingCheck::passesThrough(const GridCell& cell, const Segment& edge, dou
     const Place place = placeOn(cell, face, axis, edge.from + share * along, margin);
     if (place != Place::open) return place == Place::inside;
   }
-  const uint32_t triangle = uint32_t(x.cut.faceTriangle[face.id]);
-  return isInside(cell, face, meet(x, spotAt(cell, edge.ends[0]), spotAt(cell, edge.ends[1]), triangle));
+  return isInside(cell, face, meet(x, spotAt(cell, edge.ends[0]), spotAt(cell, edge.ends[1]), planeAt(cell, f)));
 }
 
 /// Whether the middle between two points in a face's plane lies inside of the face.
@@ -199,12 +199,14 @@ int CrossingCheck::sideOf(const GridCell& cell, uint32_t v, double height, uint3
   if (std::fabs(height) > planes_[f].doubt) return height > 0 ? 1 : -1;
   const auto corners = cell.cornerVertex.begin(), last = corners + cell.faces[f].lastCorner;
   if (std::find(corners + cell.faces[f].firstCorner, last, v) != last) return 0;
-  const Context& x = cell.context;
-  const size_t triangle = size_t(x.cut.faceTriangle[cell.faces[f].id]);
-  if (x.inPlane(v, triangle)) return 0;
-  const Spot& corner = spotAt(cell, *(corners + cell.faces[f].firstCorner));
-  const FinePlane& plane = finePlanes_.at(f, [&] { return finePlane(x, triangle, corner); });
-  return validation::sideOf(x, plane, spotAt(cell, v));
+  return sides_.at(cell.context.cut.faceTriangle[cell.faces[f].id], cell.numbers.of(v),
+                   [&] { return isIn(cell, v, f) ? 0 : validation::sideOf(cell.context, planeAt(cell, f), spotAt(cell, v)); });
+}
+
+const FinePlane& CrossingCheck::planeAt(const GridCell& cell, uint32_t f) {
+  const GridCell::Face& face = cell.faces[f];
+  const Spot& corner = spotAt(cell, cell.cornerVertex[face.firstCorner]);
+  return finePlanes_.at(f, [&] { return finePlane(cell.context, size_t(cell.context.cut.faceTriangle[face.id]), corner); });
 }
 
 const Spot& CrossingCheck::spotAt(const GridCell& cell, uint32_t v) {

@@ -81,6 +81,8 @@ class Fine {
   bool isZero() const { return high_ == 0 && low_ == 0 && error_ == 0; }
   /// The sum as one double.
   Bounded bounded() const { return {high_ + low_, error_ + kRounding * size()}; }
+  /// a - b; nothing is lost.
+  static Fine exactDifference(double a, double b) { return exactSum(a, -b); }
   /// a - b, which may be far smaller than either.
   static Bounded difference(const Fine& a, const Fine& b) {
     const double high = a.high_ - b.high_, low = a.low_ - b.low_, value = high + low;
@@ -110,6 +112,14 @@ class Fine {
   }
 
   double high_ = 0, low_ = 0, error_ = 0;
+};
+
+/// The same with half as many digits again: base + rest.
+struct Finest {
+  double base = 0;
+  Fine rest;
+
+  friend Fine operator-(const Finest& a, const Finest& b) { return Fine::exactDifference(a.base, b.base) + (a.rest - b.rest); }
 };
 
 }  // namespace mandoline::validation

@@ -101,6 +101,35 @@ class MadeOnce {
   std::vector<uint32_t> places_;
 };
 
+/// On which sides of one triangle's plane vertices lie: its faces are looked at one after the other, and have many vertices around them in
+/// common.
+class KnownSides {
+ public:
+  /// Starts anew, with vertices numbered below `count`.
+  void start(size_t count) {
+    triangle_ = -1;
+    stamp_ = 0;
+    known_.assign(count, {});
+  }
+  template <class Find>
+  int at(int32_t triangle, size_t vertex, const Find& find) {
+    if (triangle != triangle_) ++stamp_;
+    triangle_ = triangle;
+    Known& known = known_[vertex];
+    if (known.stamp != stamp_) known = {stamp_, find()};
+    return known.side;
+  }
+
+ private:
+  struct Known {
+    uint32_t stamp = 0;
+    int side = 0;
+  };
+  int32_t triangle_ = -1;
+  uint32_t stamp_ = 0;  // counts triangles
+  std::vector<Known> known_;
+};
+
 /// Tri-faces and edges meet only in shared vertices and edges.
 class CrossingCheck {
  public:
@@ -142,6 +171,7 @@ class CrossingCheck {
   bool isInside(const GridCell& cell, const GridCell::Face& face, const Spot& point);
   int sideOf(const GridCell& cell, uint32_t vertex, double height, uint32_t face);
   const Spot& spotAt(const GridCell& cell, uint32_t vertex);
+  const FinePlane& planeAt(const GridCell& cell, uint32_t face);
   static bool areKnown(const Context& context, const Edge& ends);
   bool isIn(const GridCell& cell, uint32_t vertex, uint32_t face) const;
   bool haveOnePlane(const GridCell& cell, uint32_t f, uint32_t g) const;
@@ -155,6 +185,7 @@ class CrossingCheck {
   std::vector<Common> common_;
   MadeOnce<Spot> spots_;            // of the grid cell's vertices, by number
   MadeOnce<FinePlane> finePlanes_;  // of tri-faces
+  KnownSides sides_;
   Tally crossings_{"crossings"};
 };
 

@@ -14,6 +14,11 @@ ExactPoint exactVertex(const Context& context, uint32_t v) {
   return {sign * q.x, sign * q.w};
 }
 
+const PlaneOf<Exact>& exactPlane(const Context& context, const FinePlane& plane) {
+  if (!plane.exact) plane.exact = Finder<Exact>(context).planeOf(plane.triangle);
+  return *plane.exact;
+}
+
 ExactPoint madeExactly(const Context& context, const Spot& spot);
 
 const ExactPoint& exactPoint(const Context& context, const Spot& spot) {
@@ -24,8 +29,8 @@ const ExactPoint& exactPoint(const Context& context, const Spot& spot) {
 ExactPoint madeExactly(const Context& context, const Spot& spot) {
   if (!spot.ends[0]) return exactVertex(context, spot.vertex);
   const ExactPoint &a = exactPoint(context, *spot.ends[0]), &b = exactPoint(context, *spot.ends[1]);
-  if (spot.triangle < 0) return {b.w * a.x + a.w * b.x, Exact(2) * a.w * b.w};
-  const PlaneOf<Exact> plane = Finder<Exact>(context).planeOf(size_t(spot.triangle));
+  if (!spot.plane) return {b.w * a.x + a.w * b.x, Exact(2) * a.w * b.w};
+  const PlaneOf<Exact>& plane = exactPlane(context, *spot.plane);
   const Exact above = heightOf(a, plane), below = heightOf(b, plane), sign = above.sign();
   return {(sign * above) * b.x - (sign * below) * a.x, (sign * above) * b.w - (sign * below) * a.w};
 }
@@ -68,6 +73,55 @@ Triple<Fine> finePlace(const Context& context, uint32_t v) {
 
 Fine fineHeight(const Triple<Fine>& p, const PlaneOf<Fine>& plane) { return dot(plane.normal, p) - plane.offset; }
 
+Triple<Finest> madeFinest(const Context& context, const Spot& spot);
+
+const Triple<Finest>& finestPlace(const Context& context, const Spot& spot) {
+  if (!spot.finest) spot.finest = madeFinest(context, spot);
+  return *spot.finest;
+}
+
+/// An exact point, rounded.
+Finest finestOf(const ExactPoint& point, size_t d) {
+  const int power = point.w.end();
+  const Fine w = Fine::of(point.w, power);
+  const double base = quotient(Fine::of(point.x[d], power), w).bounded().value;
+  return {base, quotient(Fine::of(point.x[d] - Exact(base) * point.w, power), w)};
+}
+
+Triple<Fine> fineDifference(const Context& context, const Spot& a, const Spot& b) {
+  const Triple<Finest>&p = finestPlace(context, a), &q = finestPlace(context, b);
+  return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+}
+
+Fine fineHeight(const Context& context, const FinePlane& plane, const Spot& spot) {
+  return plane.holdsOrigin ? dot(plane.fineNormal, fineDifference(context, spot, *plane.origin)) : Fine::unknown();
+}
+
+Triple<Finest> madeFinest(const Context& context, const Spot& spot) {
+  const Finest unknown{0, Fine::unknown()};
+  if (!isKnown(spot)) return {unknown, unknown, unknown};
+  if (!spot.ends[0]) {
+    const ExactPoint& point = exactPoint(context, spot);
+    return {finestOf(point, 0), finestOf(point, 1), finestOf(point, 2)};
+  }
+  const Spot &a = *spot.ends[0], &b = *spot.ends[1];
+  Fine share = 0.5;
+  if (spot.plane) {
+    const Fine above = fineHeight(context, *spot.plane, a), below = fineHeight(context, *spot.plane, b);
+    share = quotient(above, above - below);
+  }
+  const Triple<Fine> along = share * fineDifference(context, b, a);
+  Triple<Finest> place = finestPlace(context, a);
+  for (size_t d = 0; d < 3; ++d) place[d].rest = place[d].rest + along[d];
+  return place;
+}
+
+int finestTurn(const Context& context, const std::array<const Spot*, 3>& spots, int axis) {
+  const size_t d = size_t(axis + 1) % 3, e = size_t(axis + 2) % 3;
+  const Triple<Fine> b = fineDifference(context, *spots[1], *spots[0]), c = fineDifference(context, *spots[2], *spots[0]);
+  return (b[d] * c[e] - b[e] * c[d]).bounded().sign();
+}
+
 }  // namespace
 
 Spot spotOf(const Context& context, uint32_t v) { return {finePlace(context, v), context.exact[v], context.exact.isKnown(v) ? 1 : 0, v}; }
@@ -76,14 +130,12 @@ Spot middle(const Spot& a, const Spot& b) {
   return {Fine(0.5) * (a.place + b.place), b.w * a.x + a.w * b.x, Residue(2) * a.w * b.w, 0, {&a, &b}};
 }
 
-Spot meet(const Context& context, const Spot& a, const Spot& b, size_t triangle) {
-  const PlaneOf<Fine> plane = Finder<Fine>(context).planeOf(triangle);
-  const Fine above = fineHeight(a.place, plane), below = fineHeight(b.place, plane);
-  Spot spot{{Fine::unknown(), Fine::unknown(), Fine::unknown()}, {}, {}, 0, {&a, &b}, int64_t(triangle)};
-  // Bounds may leave a side open, and in a wrong mesh the sides may be the same or the places unknown.
-  if (!isKnown(a) || !isKnown(b) || above.bounded().sign() * below.bounded().sign() >= 0) return spot;
-  spot.place = a.place + quotient(above, above - below) * (b.place - a.place);
-  const ExactPlane& its = context.exact.planeOf(triangle);
+Spot meet(const Context& context, const Spot& a, const Spot& b, const FinePlane& plane) {
+  const PlaneOf<Fine> fine = Finder<Fine>(context).planeOf(plane.triangle);
+  const Fine above = fineHeight(a.place, fine), below = fineHeight(b.place, fine);
+  Spot spot{a.place + quotient(above, above - below) * (b.place - a.place), {}, {}, 0, {&a, &b}, &plane};
+  if (!isKnown(a) || !isKnown(b)) return spot;
+  const ExactPlane& its = context.exact.planeOf(plane.triangle);
   const Residue high = dot(its.normal, a.x) - its.offset, low = dot(its.normal, b.x) - its.offset;  // w of a vertex is 1
   spot.x = high * b.x - low * a.x;
   spot.w = high - low;
@@ -93,14 +145,14 @@ Spot meet(const Context& context, const Spot& a, const Spot& b, size_t triangle)
 FinePlane finePlane(const Context& context, size_t triangle, const Spot& origin) {
   const PlaneOf<Fine> plane = Finder<Fine>(context).planeOf(triangle);
   const Triple<Bounded> normal{plane.normal[0].bounded(), plane.normal[1].bounded(), plane.normal[2].bounded()};
-  return {normal, origin.place, fineHeight(origin.place, plane).bounded(), triangle};
+  const bool holdsOrigin = isKnown(origin) && context.inPlane(origin.vertex, triangle);
+  return {normal, fineHeight(origin.place, plane).bounded(), &origin, triangle, plane.normal, holdsOrigin};
 }
 
 int sideOf(const Context& context, const FinePlane& plane, const Spot& spot) {
-  const int side = (dot(plane.normal, difference(spot.place, plane.origin)) + plane.height).sign();
-  if (side != 0) return side;
-  if (!plane.exact) plane.exact = Finder<Exact>(context).planeOf(plane.triangle);
-  return heightOf(exactPoint(context, spot), *plane.exact).sign();
+  int side = (dot(plane.normal, difference(spot.place, plane.origin->place)) + plane.height).sign();
+  if (side == 0) side = fineHeight(context, plane, spot).bounded().sign();
+  return side != 0 ? side : heightOf(exactPoint(context, spot), exactPlane(context, plane)).sign();
 }
 
 int turn(const Context& context, const std::array<const Spot*, 3>& spots, int axis) {
@@ -108,14 +160,19 @@ int turn(const Context& context, const std::array<const Spot*, 3>& spots, int ax
   const Triple<Fine>&a = spots[0]->place, &b = spots[1]->place, &c = spots[2]->place;
   const auto minor =
       Fine::difference(b[d], a[d]) * Fine::difference(c[e], a[e]) - Fine::difference(b[e], a[e]) * Fine::difference(c[d], a[d]);
-  const int sign = minor.sign();
-  return sign != 0 ? sign : areInLine(spots, axis) ? 0 : exactTurn(context, spots, axis);
+  int sign = minor.sign();
+  if (sign != 0) return sign;
+  if (areInLine(spots, axis)) return 0;
+  sign = finestTurn(context, spots, axis);
+  return sign != 0 ? sign : exactTurn(context, spots, axis);
 }
 
 int compare(const Context& context, const Spot& a, const Spot& b, int axis) {
-  const int sign = Fine::difference(a.place[size_t(axis)], b.place[size_t(axis)]).sign();
+  int sign = Fine::difference(a.place[size_t(axis)], b.place[size_t(axis)]).sign();
   if (sign != 0) return sign;
   if (isKnown(a) && isKnown(b) && a.x[size_t(axis)] * b.w == b.x[size_t(axis)] * a.w) return 0;
+  sign = (finestPlace(context, a)[size_t(axis)] - finestPlace(context, b)[size_t(axis)]).bounded().sign();
+  if (sign != 0) return sign;
   const ExactPoint &p = exactPoint(context, a), &q = exactPoint(context, b);
   return (p.x[size_t(axis)] * q.w - q.x[size_t(axis)] * p.w).sign();
 }
