@@ -11,6 +11,8 @@ const pause = 600;
 
 export class Checking {
   private timer: ReturnType<typeof setTimeout> | undefined;
+  /** The model whose check is under way. */
+  private underWay: number | null = null;
 
   constructor(
     private readonly state: State,
@@ -30,8 +32,11 @@ export class Checking {
 
   /** Nobody waits for it: where it can't be done nothing is said. */
   private async checkUnasked(model: Model): Promise<void> {
-    if (model.counts.faces > mostFacesUnasked || this.state.checked.value?.model === model.id) return;
+    const known = [this.state.checked.value?.model, this.underWay];
+    if (model.counts.faces > mostFacesUnasked || known.includes(model.id)) return;
+    this.underWay = model.id;
     const checks = await this.engine.validate().catch(() => null);
+    if (this.underWay === model.id) this.underWay = null;
     if (checks) this.take(checks);
   }
 
