@@ -36,9 +36,10 @@ bool doCross(const Context& x, const SpotPair& one, const SpotPair& other, int a
 
 }  // namespace
 
-void CrossingCheck::run(const GridCell& cell, const std::vector<Edge>& edges) {
+void CrossingCheck::run(const GridCell& cell, const std::vector<Edge>& edges, CellSpots& spots) {
+  spots_ = &spots;
   margin_ = kTolerance * cell.noise;
-  spots_.start(cell.places.size()), finePlanes_.start(cell.faces.size()), sides_.start(cell.places.size());
+  finePlanes_.start(cell.faces.size()), sides_.start(cell.places.size());
   gatherPlanes(cell);
   gatherSegments(cell, edges);
   hubs_.find(cell, edges);
@@ -207,10 +208,6 @@ const FinePlane& CrossingCheck::planeAt(const GridCell& cell, uint32_t f) {
   const GridCell::Face& face = cell.faces[f];
   const Spot& corner = spotAt(cell, cell.cornerVertex[face.firstCorner]);
   return finePlanes_.at(f, [&] { return finePlane(cell.context, size_t(cell.context.cut.faceTriangle[face.id]), corner); });
-}
-
-const Spot& CrossingCheck::spotAt(const GridCell& cell, uint32_t v) {
-  return spots_.at(cell.numbers.of(v), [&] { return spotOf(cell.context, v); });
 }
 
 void CrossingCheck::checkEdges(const GridCell& cell, const Segment& one, const Segment& other) {

@@ -49,17 +49,50 @@ class EdgeCheck {
   Tally closed_{"closedCells"}, facing_{"facingFaces"};
 };
 
+/// Things with numbers from 0 that are made when they are first needed.
+template <class Thing>
+class MadeOnce {
+ public:
+  void start(size_t count) { things_.clear(), places_.assign(count, kNone); }
+  template <class Make>
+  const Thing& at(size_t number, const Make& make) {
+    if (places_[number] == kNone) {
+      places_[number] = uint32_t(things_.size());
+      things_.push_back(make());
+    }
+    return things_[places_[number]];
+  }
+
+ private:
+  static constexpr uint32_t kNone = UINT32_MAX;
+  std::deque<Thing> things_;  // which stay where they are
+  std::vector<uint32_t> places_;
+};
+
+/// The spots of a grid cell's vertices.
+class CellSpots {
+ public:
+  /// Starts anew.
+  void start(const GridCell& cell) { spots_.start(cell.places.size()); }
+  const Spot& at(const GridCell& cell, uint32_t vertex) {
+    return spots_.at(cell.numbers.of(vertex), [&] { return spotOf(cell.context, vertex); });
+  }
+
+ private:
+  MadeOnce<Spot> spots_;  // by number
+};
+
 /// No vertex lies inside an edge of the same grid cell.
 class ConformingCheck {
  public:
-  void run(const GridCell& cell, const std::vector<Edge>& edges);
+  void run(const GridCell& cell, const std::vector<Edge>& edges, CellSpots& spots);
   void merge(const ConformingCheck& next) { conforming_.merge(next.conforming_); }
   Check conforming() const { return conforming_.finish(); }
 
  private:
   void gatherVertices(const GridCell& cell);
-  void checkVertex(const GridCell& cell, const Edge& edge, uint32_t vertex);
-  static bool isBetween(const Context& context, const Edge& edge, uint32_t vertex);
+  void checkVertex(const GridCell& cell, const Edge& edge, uint32_t vertex, CellSpots& spots);
+  static bool isBetween(const GridCell& cell, const Edge& edge, uint32_t vertex, CellSpots& spots);
 
   detail::BoxTree vertices_;  // of the grid cell, by place
   Tally conforming_{"conforming"};
@@ -79,26 +112,6 @@ class GridFaceCheck {
   std::vector<uint32_t> vertices_;
   detail::DisjointSets components_;
   Tally divided_{"gridFaces"};
-};
-
-/// Things with numbers from 0 that are made when they are first needed.
-template <class Thing>
-class MadeOnce {
- public:
-  void start(size_t count) { things_.clear(), places_.assign(count, kNone); }
-  template <class Make>
-  const Thing& at(size_t number, const Make& make) {
-    if (places_[number] == kNone) {
-      places_[number] = uint32_t(things_.size());
-      things_.push_back(make());
-    }
-    return things_[places_[number]];
-  }
-
- private:
-  static constexpr uint32_t kNone = UINT32_MAX;
-  std::deque<Thing> things_;  // which stay where they are
-  std::vector<uint32_t> places_;
 };
 
 /// On which sides of one triangle's plane vertices lie: its faces are looked at one after the other, and have many vertices around them in
@@ -133,7 +146,7 @@ class KnownSides {
 /// Tri-faces and edges meet only in shared vertices and edges.
 class CrossingCheck {
  public:
-  void run(const GridCell& cell, const std::vector<Edge>& edges);
+  void run(const GridCell& cell, const std::vector<Edge>& edges, CellSpots& spots);
   void merge(const CrossingCheck& next) { crossings_.merge(next.crossings_); }
   Check crossings() const { return crossings_.finish(); }
 
@@ -170,7 +183,7 @@ class CrossingCheck {
   bool bounds(const GridCell& cell, const Edge& edge, const GridCell::Face& face) const;
   bool isInside(const GridCell& cell, const GridCell::Face& face, const Spot& point);
   int sideOf(const GridCell& cell, uint32_t vertex, double height, uint32_t face);
-  const Spot& spotAt(const GridCell& cell, uint32_t vertex);
+  const Spot& spotAt(const GridCell& cell, uint32_t vertex) { return spots_->at(cell, vertex); }
   const FinePlane& planeAt(const GridCell& cell, uint32_t face);
   static bool areKnown(const Context& context, const Edge& ends);
   bool isIn(const GridCell& cell, uint32_t vertex, uint32_t face) const;
@@ -183,7 +196,7 @@ class CrossingCheck {
   HubTree faceTree_, segmentTree_;  // of tri-faces and of segments
   detail::BoxTree directionTree_;   // of tri-faces, seen from a hub
   std::vector<Common> common_;
-  MadeOnce<Spot> spots_;            // of the grid cell's vertices, by number
+  CellSpots* spots_ = nullptr;
   MadeOnce<FinePlane> finePlanes_;  // of tri-faces
   KnownSides sides_;
   Tally crossings_{"crossings"};

@@ -16,8 +16,9 @@ struct Checks {
     cell.gather(group);
     const CellEdges& found = edges.run(cell);
     const std::vector<Edge>& withThoseBeyond = join(found.edges, context.edgesBeyond[group]);
-    conforming.run(cell, withThoseBeyond);
-    crossings.run(cell, withThoseBeyond);
+    spots.start(cell);
+    conforming.run(cell, withThoseBeyond, spots);
+    crossings.run(cell, withThoseBeyond, spots);
     gridFaces.run(cell, withThoseBeyond);
     const std::vector<double> volumes = shells.run(cell, found.shell);
     for (size_t i = 0; i < volumes.size(); ++i) cellVolumes[cell.cells[i]] = volumes[i];
@@ -43,6 +44,7 @@ struct Checks {
   const Context& context;
   GridCell cell;
   std::vector<Edge> joined;
+  CellSpots spots;
   EdgeCheck edges;
   ConformingCheck conforming;
   CrossingCheck crossings;
