@@ -141,7 +141,9 @@ TEST_CASE("hubs: faces that cross or lie on others at a hub are found", "[valida
   const auto crossings = [](const Mesh& mesh) {
     const Looked looked(mesh, Intersections::assumeNone);
     CrossingCheck check;
-    check.run(*looked.cell, looked.edges);
+    CellSpots spots;
+    spots.start(*looked.cell);
+    check.run(*looked.cell, looked.edges, spots);
     return check.crossings().pass;
   };
   const auto withTriangle = [](const std::array<double, 3>& b, const std::array<double, 3>& c) {

@@ -14,10 +14,16 @@ using namespace mandoline::validation;
 
 namespace {
 
+/// The same point, whose bounds leave all open: so finer ones decide.
+Spot withoutPlace(const Spot& spot) {
+  Spot other = spot;
+  other.place = {Fine::unknown(), Fine::unknown(), Fine::unknown()};
+  return other;
+}
+
 /// The same point, of which only exact numbers know where it is.
 Spot withoutBounds(const Spot& spot) {
-  Spot exact = spot;
-  exact.place = {Fine::unknown(), Fine::unknown(), Fine::unknown()};
+  Spot exact = withoutPlace(spot);
   exact.w = Residue();
   return exact;
 }
@@ -136,7 +142,7 @@ TEST_CASE("spots: exact numbers alone give the same sides, turns and orders", "[
     CHECK(above == sideOf(x, plane0, a0));
     CHECK(below == sideOf(x, plane0, b0));
     if (above == below) continue;
-    const Spot e = meet(x, a, b, t), e0 = withoutBounds(e);
+    const Spot e = meet(x, a, b, plane), e0 = withoutBounds(e);
     for (int axis = 0; axis < 3; ++axis) {
       CHECK(compare(x, a, e, axis) == compare(x, a0, e0, axis));
       CHECK(turn(x, {&a, &b, &e}, axis) == 0);
@@ -145,6 +151,42 @@ TEST_CASE("spots: exact numbers alone give the same sides, turns and orders", "[
     }
   }
   CHECK(zeros > 0);
+}
+
+TEST_CASE("spots: finer bounds give the sides, turns and orders of exact numbers, and leave few open", "[validate]") {
+  const Spindle spindle;
+  const Context& x = spindle.context;
+  Random random(7);
+  const auto any = [&](size_t count) { return size_t(random.next() % count); };
+  const auto made = [&] { return spotOf(x, spindle.cutMesh.madeVertices[any(spindle.cutMesh.madeVertices.size())]); };
+  int exact = 0, met = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Spot a = withoutPlace(made()), b = withoutPlace(made()), d = withoutPlace(made());
+    const Spot a0 = withoutBounds(a), b0 = withoutBounds(b), d0 = withoutBounds(d);
+    for (int axis = 0; axis < 3; ++axis) {
+      CHECK(compare(x, a, b, axis) == compare(x, a0, b0, axis));
+      CHECK(turn(x, {&a, &b, &d}, axis) == turn(x, {&a0, &b0, &d0}, axis));
+    }
+    const size_t face = any(spindle.cutMesh.faceCount());
+    const int32_t t = spindle.cutMesh.faceTriangle[face];
+    if (t < 0 || x.inPlane(a.vertex, size_t(t)) || x.inPlane(b.vertex, size_t(t))) continue;
+    const Spot corner = spotOf(x, spindle.cutMesh.loopVertices[spindle.cutMesh.loopOffsets[spindle.cutMesh.faceLoopOffsets[face]]]);
+    const FinePlane plane = finePlane(x, size_t(t), corner);
+    REQUIRE(plane.holdsOrigin);
+    const int above = sideOf(x, plane, a), below = sideOf(x, plane, b);
+    exact += plane.exact.has_value();
+    CHECK(above == sideOf(x, plane, a0));
+    CHECK(below == sideOf(x, plane, b0));
+    if (above == below) continue;
+    const Spot e = withoutPlace(meet(x, a, b, plane)), e0 = withoutBounds(e);
+    ++met;
+    for (int axis = 0; axis < 3; ++axis) {
+      CHECK(compare(x, d, e, axis) == compare(x, d0, e0, axis));
+      CHECK(turn(x, {&e, &d, &a}, axis) == turn(x, {&e0, &d0, &a0}, axis));
+    }
+  }
+  CHECK(exact < 50);
+  CHECK(met > 20);
 }
 
 TEST_CASE("spots: a spindle torus is as right as it was cut", "[validate]") {
