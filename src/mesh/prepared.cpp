@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "mesh/resolve/contacts.h"
@@ -51,8 +52,8 @@ double largestCoordinate(const MeshView& mesh, const std::vector<uint8_t>& refer
 }
 
 /// Fails if any triangles meet: says which first, and how many pairs do.
-void refuseIntersections(const Prepared& prepared, Monitor& monitor, Predicates& predicates) {
-  const Contacts contacts = findContacts(prepared, monitor, predicates, 1);
+void refuseIntersections(const Prepared& prepared, const NearTriangles& near, Monitor& monitor, Predicates& predicates) {
+  const Contacts contacts = findContacts(prepared, near, monitor, predicates, 1);
   const uint64_t total = contacts.counts.total();
   if (total == 0) return;
   std::array<uint32_t, 2> first{~0u, ~0u};
@@ -64,14 +65,33 @@ void refuseIntersections(const Prepared& prepared, Monitor& monitor, Predicates&
                      (total == 1 ? "the only pair that does." : "the first of " + std::to_string(total) + " pairs that do.")}};
 }
 
+void findEdges(Prepared& prepared, const Arrangement* arrangement) {
+  prepared.edges = findMeshEdges(prepared, arrangement);
+  if (!prepared.closed) prepared.parts = findParts(prepared);
+}
+
+/// The edges and the triangles that may meet, side by side: neither needs the other.
+NearTriangles findEdgesAndNear(Prepared& prepared, Monitor& monitor) {
+  std::optional<NearTriangles> near;
+  const std::vector<TriangleState> states = prepared.states;  // which the edges change
+  runItems({0, 1}, monitor, [&](size_t, uint32_t task) {
+    if (task == 0) {
+      findEdges(prepared, nullptr);
+    } else {
+      near.emplace(SortedMesh(prepared, states));
+    }
+  });
+  return *std::move(near);
+}
+
 /// Finds where triangles meet; if any do, the arrangement's vertices and edges take the place of the mesh's.
-void findArrangement(Prepared& prepared, Monitor& monitor, Predicates& predicates) {
-  auto arrangement = std::make_unique<Arrangement>(arrange(prepared, monitor, predicates));
+void findArrangement(Prepared& prepared, const NearTriangles& near, Monitor& monitor, Predicates& predicates) {
+  auto arrangement = std::make_unique<Arrangement>(arrange(prepared, near, monitor, predicates));
   if (!arrangement->empty()) {
     prepared.stitches = arrangement->sides;
     for (uint32_t v = prepared.triVertices; v < arrangement->points.size(); ++v)
       prepared.points.push_back(arrangement->points.reference(v));
-    prepared.edges = findMeshEdges(prepared, arrangement.get());
+    findEdges(prepared, arrangement.get());
   }
   prepared.arrangement = std::move(arrangement);
 }
@@ -112,16 +132,17 @@ std::unique_ptr<const Prepared> prepareMesh(const MeshView& mesh, const Preparat
   const std::vector<uint32_t> zeroArea = dropZeroArea(*prepared, predicates);
   counts.zeroAreaTriangles = uint32_t(zeroArea.size());
   if (!zeroArea.empty()) prepared->stitches = findStitches(*prepared, zeroArea);
-  prepared->edges = findMeshEdges(*prepared, nullptr);
-  if (preparation.intersections != Intersections::assumeNone) {
+  if (preparation.intersections == Intersections::assumeNone) {
+    findEdges(*prepared, nullptr);
+  } else {
     beginStage("intersections");
+    const NearTriangles near = findEdgesAndNear(*prepared, monitor);
     if (preparation.intersections == Intersections::refuse) {
-      refuseIntersections(*prepared, monitor, predicates);
+      refuseIntersections(*prepared, near, monitor, predicates);
     } else {
-      findArrangement(*prepared, monitor, predicates);
+      findArrangement(*prepared, near, monitor, predicates);
     }
   }
-  if (!prepared->closed) prepared->parts = findParts(*prepared);
   counts.exactFallbacks = predicates.fallbacks;
   return prepared;
 }

@@ -71,8 +71,7 @@ struct StagedCut {
   void cutFirstBrick(Stage last) {
     brick.vertices = CutVertices::ofBrick(state.surface.vertices);
     if (state.bricks.size() == 0) return;
-    Predicates predicates;
-    cutBrickSurface(state.surface, state.parts, {0}, state.bricks, predicates, brick);
+    cutBrickSurface(state.surface, state.parts, {0}, state.bricks, brick);
     if (last >= Stage::stencil) makeStencil(brick, state.bricks, {0}, stencil);
     if (last >= Stage::gridEdges) cutGridEdges(brick, stencil, gridEdges);
     GridFaceScratch gridFaceScratch;

@@ -258,7 +258,7 @@ class BrickCutter {
   }
 
   BrickCut cut(BrickId brick) {
-    cutBrickSurface(surface_, parts_, brick, bricks_, predicates_, brickSurface_);
+    cutBrickSurface(surface_, parts_, brick, bricks_, brickSurface_);
     makeStencil(brickSurface_, bricks_, brick, stencil_);
     cutGridEdges(brickSurface_, stencil_, gridEdges_);
     cutGridFaces(brickSurface_, stencil_, gridEdges_, gridFaceScratch_, gridFaces_);
@@ -270,7 +270,7 @@ class BrickCutter {
   }
 
   void count(Run& run) const {
-    run.count(predicates_);
+    run.count(brickSurface_.predicates);
     run.count(gridEdges_.predicates);
     run.count(gridFaceScratch_.predicates);
     run.count(cellScratch_.predicates);
@@ -281,7 +281,6 @@ class BrickCutter {
   const SurfaceParts& parts_;
   Bricks& bricks_;
   const std::vector<Counted> counted_;
-  Predicates predicates_;
   BrickSurface brickSurface_;
   Stencil stencil_;
   GridEdges gridEdges_;

@@ -11,7 +11,7 @@ class SurfaceCutter {
       : surface_(surface), input_(surface.input), parts_(parts), brick_(brick), bricks_(bricks), out_(out), dicer_(input_, 0, *this) {}
   SurfaceCutter(const SurfaceCutter&) = delete;
 
-  void run(Predicates& predicates) {
+  void run() {
     for (const uint32_t i : bricks_.parts[brick_]) cut(parts_.clipped.parts[i]);
     for (const FaceId f : bricks_.dividedFaces[brick_]) {
       out_.triFaces.append(parts_.divided, f);
@@ -23,7 +23,7 @@ class SurfaceCutter {
       if (i >= hybrid) touch(out_.faceEdges.back().element);
     }
     out_.seamVertices = bricks_.seamVertices[brick_];
-    predicates.fallbacks += dicer_.predicates.fallbacks;
+    out_.predicates.fallbacks += dicer_.predicates.fallbacks;
   }
 
   // For the dicer.
@@ -99,13 +99,12 @@ class SurfaceCutter {
 
 }  // namespace
 
-void cutBrickSurface(const Surface& surface, const SurfaceParts& parts, BrickId brick, Bricks& bricks, Predicates& predicates,
-                     BrickSurface& brickSurface) {
+void cutBrickSurface(const Surface& surface, const SurfaceParts& parts, BrickId brick, Bricks& bricks, BrickSurface& brickSurface) {
   brickSurface.vertices.slabs.clear();
   brickSurface.vertices.parentTriangles.clear();
   brickSurface.triFaces.clear();
   brickSurface.faceEdges.clear();
-  SurfaceCutter(surface, parts, brick, bricks, brickSurface).run(predicates);
+  SurfaceCutter(surface, parts, brick, bricks, brickSurface).run();
 }
 
 }  // namespace mandoline::detail

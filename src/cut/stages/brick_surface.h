@@ -18,12 +18,12 @@ struct BrickSurface {
   TriFaces triFaces;                       ///< ascending by triangle, those of divided triangles last
   std::vector<FaceEdge> faceEdges;         ///< cut-edges that lie in a grid-face: in each by triangle, those of tri-edges last
   std::span<const VertexId> seamVertices;  ///< see Bricks
+  Predicates predicates;
 
   const MeshEdges& edges() const { return input.mesh->edges; }
 };
 
 /// Replaces `brickSurface`, whose memory is used again.
-void cutBrickSurface(const Surface& surface, const SurfaceParts& parts, BrickId brick, Bricks& bricks, Predicates& predicates,
-                     BrickSurface& brickSurface);
+void cutBrickSurface(const Surface& surface, const SurfaceParts& parts, BrickId brick, Bricks& bricks, BrickSurface& brickSurface);
 
 }  // namespace mandoline::detail

@@ -35,8 +35,8 @@ class Arranger {
   Arranger(const WeldedMesh& mesh, Monitor& monitor, Predicates& predicates)
       : mesh_(mesh), monitor_(monitor), predicates_(predicates), result_(mesh) {}
 
-  Arrangement run() {
-    Contacts contacts = findContacts(mesh_, monitor_, predicates_);
+  Arrangement run(const NearTriangles& near) {
+    Contacts contacts = findContacts(mesh_, near, monitor_, predicates_);
     pairs_ = std::move(contacts.pairs);
     result_.pairs = contacts.counts;
     if (pairs_.empty()) {
@@ -313,6 +313,8 @@ const MadeEdge* Arrangement::findMade(uint32_t low, uint32_t high) const {
   return at != madeEdges.end() && at->low == low && at->high == high ? &*at : nullptr;
 }
 
-Arrangement arrange(const WeldedMesh& mesh, Monitor& monitor, Predicates& predicates) { return Arranger(mesh, monitor, predicates).run(); }
+Arrangement arrange(const WeldedMesh& mesh, const NearTriangles& near, Monitor& monitor, Predicates& predicates) {
+  return Arranger(mesh, monitor, predicates).run(near);
+}
 
 }  // namespace mandoline::detail

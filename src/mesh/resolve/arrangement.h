@@ -1,7 +1,7 @@
 // The arrangement of a mesh's triangles: where they meet, cut into vertices and edges that all triangles there share. Grid-independent.
 //
-// In: a welded mesh. Out: Arrangement. After it, two triangles have nothing in common but vertices and edges of the arrangement, and
-// areas of one plane whose outlines are such edges. Nothing is rounded: a made vertex is a PointKey.
+// In: a welded mesh, NearTriangles. Out: Arrangement. After it, two triangles have nothing in common but vertices and edges of the
+// arrangement, and areas of one plane whose outlines are such edges. Nothing is rounded: a made vertex is a PointKey.
 #pragma once
 
 #include <optional>
@@ -25,6 +25,8 @@ struct MadeEdge {
   std::array<uint32_t, 2> ends() const { return {low, high}; }
 };
 
+struct NearTriangles;
+
 struct Arrangement {
   explicit Arrangement(const WeldedMesh& mesh) : points(mesh) {}
 
@@ -45,6 +47,6 @@ struct Arrangement {
 /// How many connected curves edges between vertices below `vertices` make.
 uint32_t countCurves(std::span<const InnerEdge> edges, size_t vertices);
 
-Arrangement arrange(const WeldedMesh& mesh, Monitor& monitor, Predicates& predicates);
+Arrangement arrange(const WeldedMesh& mesh, const NearTriangles& near, Monitor& monitor, Predicates& predicates);
 
 }  // namespace mandoline::detail

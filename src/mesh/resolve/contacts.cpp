@@ -5,7 +5,6 @@
 #include "base/keep_lowest.h"
 #include "base/sort.h"
 #include "mesh/resolve/charts.h"
-#include "mesh/resolve/triangle_tree.h"
 
 namespace mandoline::detail {
 namespace {
@@ -149,6 +148,11 @@ struct Chunk {
   uint64_t fallbacks = 0;
 };
 
+TriangleTree treeOf(const SortedMesh& mesh) {
+  const Charts charts = findCharts(mesh);
+  return {mesh, charts.chartOf, charts.count};
+}
+
 }  // namespace
 
 IntersectionKind PairContact::kind() const {
@@ -176,10 +180,11 @@ bool PairTest::meet(uint32_t s, uint32_t t) {
   return a == b || find(s, t, pair);
 }
 
-Contacts findContacts(const WeldedMesh& mesh, Monitor& monitor, Predicates& predicates, size_t most) {
-  const SortedMesh sorted(mesh);
-  const Charts charts = findCharts(sorted);
-  const TriangleTree tree(sorted, charts.chartOf, charts.count);
+NearTriangles::NearTriangles(SortedMesh sorted) : mesh(std::move(sorted)), tree(treeOf(mesh)) {}
+
+Contacts findContacts(const WeldedMesh& mesh, const NearTriangles& near, Monitor& monitor, Predicates& predicates, size_t most) {
+  const SortedMesh& sorted = near.mesh;
+  const TriangleTree& tree = near.tree;
   const std::vector<TriangleTree::LeafPair> leaves = tree.overlappingLeaves();
   const Copies copies(mesh);
   const auto chunks = forChunks<Chunk>(

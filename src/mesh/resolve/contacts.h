@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "mandoline/intersections.h"
 #include "mesh/resolve/contact.h"
+#include "mesh/resolve/triangle_tree.h"
 
 namespace mandoline::detail {
 
@@ -37,7 +38,16 @@ struct Contacts {
   PairCounts counts;               ///< of all pairs, those of duplicates too
 };
 
+/// The triangles, and those that may meet because their boxes overlap.
+struct NearTriangles {
+  SortedMesh mesh;
+  TriangleTree tree;
+
+  explicit NearTriangles(const WeldedMesh& welded) : NearTriangles(SortedMesh(welded)) {}
+  explicit NearTriangles(SortedMesh sorted);
+};
+
 /// Gives the lowest pairs, if there are more than `most`.
-Contacts findContacts(const WeldedMesh& mesh, Monitor& monitor, Predicates& predicates, size_t most = SIZE_MAX);
+Contacts findContacts(const WeldedMesh& mesh, const NearTriangles& near, Monitor& monitor, Predicates& predicates, size_t most = SIZE_MAX);
 
 }  // namespace mandoline::detail

@@ -1,4 +1,4 @@
-// The kept triangles of a mesh, reordered so that neighbours are mostly near each other in memory.
+// The kept triangles of a mesh, each once, reordered so that neighbours are mostly near each other in memory.
 #pragma once
 
 #include "mesh/welded_mesh.h"
@@ -10,7 +10,12 @@ struct SortedMesh {
   std::vector<std::array<uint32_t, 3>> triangles;  ///< places in `points`; ascending by the lowest of them
   std::vector<uint32_t> ids;                       ///< of the triangles
 
-  explicit SortedMesh(const WeldedMesh& mesh);
+  explicit SortedMesh(const WeldedMesh& mesh) : SortedMesh(mesh, mesh.states) {}
+  /// With other states than the mesh's own. Duplicates need not be known yet.
+  SortedMesh(const WeldedMesh& mesh, const std::vector<TriangleState>& states);
+
+ private:
+  void dropDuplicates();
 };
 
 }  // namespace mandoline::detail

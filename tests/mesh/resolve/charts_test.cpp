@@ -62,6 +62,26 @@ std::array<uint32_t, 2> ascending(uint32_t s, uint32_t t) { return {std::min(s, 
 
 }  // namespace
 
+TEST_CASE("sorted mesh: copies of a triangle are left out, whether they are known or not", "[resolve]") {
+  for (Mesh mesh : tangles()) {
+    const size_t all = mesh.triangles.size();
+    for (size_t i = 0; i < all; i += 3) {  // copies of every triangle, turned either way
+      const auto [a, b, c] = std::array{mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]};
+      if (i % 2 == 0) {
+        mesh.triangles.insert(mesh.triangles.end(), {b, c, a});
+      } else {
+        mesh.triangles.insert(mesh.triangles.end(), {b, a, c});
+      }
+    }
+    const Unresolved known(mesh);
+    std::vector<TriangleState> states = known.welded.states;
+    std::replace(states.begin(), states.end(), TriangleState::duplicate, TriangleState::kept);
+    const SortedMesh unknown(known.welded, states);
+    CHECK(unknown.ids == known.sorted.ids);
+    CHECK(unknown.triangles == known.sorted.triangles);
+  }
+}
+
 TEST_CASE("charts: triangles of one have nothing in common but shared vertices and sides", "[charts]") {
   size_t together = 0, meeting = 0;
   for (const Mesh& mesh : tangles()) {
@@ -126,7 +146,7 @@ TEST_CASE("contacts: the pairs that are found are all that meet", "[charts]") {
     CutOptions options;
     Monitor monitor(options, 1);
     Predicates predicates;
-    for (const PairContact& contact : findContacts(welded, monitor, predicates).pairs) {
+    for (const PairContact& contact : findContacts(welded, NearTriangles(welded), monitor, predicates).pairs) {
       CHECK(found.insert({contact.triangles[0], contact.triangles[1]}).second);
     }
     REQUIRE(found == expected);
