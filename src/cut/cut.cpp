@@ -94,7 +94,7 @@ CutMesh cutPrepared(const Prepared& prepared, const MeshView& mesh, const Grid& 
     cutTriEdges(surface, run);
 
     clock.begin("triFaces");
-    const BrickGrid brickGrid(surface.input, run.brickShift);
+    const BrickGrid brickGrid(surface.input, BrickGrid::shiftFor(surface.input, run.monitor.threads()));
     state.parts.clipped = clipTriangles(surface, brickGrid, run);
     divideFaces(surface, state.parts.clipped.undivided, state.parts.divided, run);
 

@@ -34,9 +34,7 @@ struct Input {
 struct Run {
   CutStats& stats;
   Monitor& monitor;
-  // For tests: the result is the same.
-  bool onlyGeneral = false;  ///< whether stages leave out their short cuts
-  int brickShift = 5;        ///< 2^brickShift grid cells along each side of a brick
+  bool onlyGeneral = false;  ///< for tests: whether stages leave out their short cuts, which changes nothing in the result
 
   void count(const Predicates& predicates) { stats.exactFallbacks += predicates.fallbacks; }
 };

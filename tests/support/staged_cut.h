@@ -42,11 +42,10 @@ struct StagedCut {
 
   StagedCut(const Mesh& mesh, Stage last, const Way& way, const Grid& grid = unitCells()) : options(way.options) {
     run.onlyGeneral = way.onlyGeneral;
-    run.brickShift = way.brickShift;
     prepareOne(mesh, grid);
     state.surface.input = prepareInput(*prepared, grid, run);
     if (last >= Stage::triEdges) cutTriEdges(state.surface, run);
-    if (last >= Stage::triFaces) clip();
+    if (last >= Stage::triFaces) clip({state.surface.input, way.brickShift});
     if (last == Stage::regions) {
       findRest();
     } else if (last >= Stage::triFaces) {
@@ -62,8 +61,7 @@ struct StagedCut {
     prepared = prepareMesh(mesh, {largestCoordinate(grid), options.intersections}, monitor,
                            [&](const char* stage) { monitor.beginStage(stage, 0); });
   }
-  void clip() {
-    const BrickGrid brickGrid(state.surface.input, run.brickShift);
+  void clip(const BrickGrid& brickGrid) {
     state.parts.clipped = clipTriangles(state.surface, brickGrid, run);
     divideFaces(state.surface, state.parts.clipped.undivided, state.parts.divided, run);
     state.bricks = layOutBricks(state.surface, state.parts, brickGrid);

@@ -47,6 +47,20 @@ struct BrickBox {
 
 /// How the grid is divided into bricks. Each has a key: its place by z, y, x.
 struct BrickGrid {
+  /// Bricks of 32 cells along each side fit into a processor's cache. Smaller ones of a small grid give each thread several.
+  static int shiftFor(const Input& input, unsigned threads) {
+    constexpr int kUsual = 5, kLeast = 3;
+    constexpr size_t kEach = 16;
+    const auto count = [&](int shift) {
+      size_t bricks = 1;
+      for (int d = 0; d < 3; ++d) bricks *= size_t((input.cells(d) - 1) >> shift) + 1;
+      return bricks;
+    };
+    int shift = kUsual;
+    while (threads > 1 && shift > kLeast && count(shift) < kEach * threads) --shift;
+    return shift;
+  }
+
   int shift = 0;                             ///< 2^shift grid cells along each side of a brick, or what is left of the grid
   std::array<int32_t, 3> cells{}, counts{};  ///< of grid cells and bricks along each axis
 

@@ -44,3 +44,16 @@ TEST_CASE("The result is the same to the bit without short cuts", "[stages][bric
     CHECK(differences(cutMeshOf(one.mesh, one.grid, onlyGeneral), cutMeshOf(one.mesh, one.grid)).empty());
   }
 }
+
+TEST_CASE("Bricks of a small grid are smaller where there are several threads", "[stages][bricks]") {
+  const auto shiftFor = [](int64_t cells, unsigned threads) {
+    Input input;
+    input.planes.fill(std::vector<double>(size_t(cells) + 1));
+    return BrickGrid::shiftFor(input, threads);
+  };
+  CHECK(shiftFor(10, 1) == 5);
+  CHECK(shiftFor(10, 2) == 3);
+  CHECK(shiftFor(50, 2) == 4);
+  CHECK(shiftFor(50, 16) == 3);
+  CHECK(shiftFor(200, 2) == 5);
+}
