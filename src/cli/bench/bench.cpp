@@ -1,4 +1,4 @@
-// The benchmark: times cuts on one thread beside their lower bound.
+// The benchmark: times cuts on one thread and two beside their lower bound, and beside those of another build.
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
@@ -16,23 +16,27 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kHelp =
-    R"(mandoline-bench [MESH N]... [--meshes FOLDER] [--cells N,...] [--repetitions R] [--markdown | --json]
+    R"(mandoline-bench [MESH N]... [--meshes FOLDER] [--cells N,...] [--repetitions R] [--compare PROGRAM]
+                [--markdown | --json]
 
 Cuts meshes with the default grid of N cells along their longest side, on one thread, and prints per mesh and N:
   bound       ms of the lower bound: clip the triangles and sort the pieces by grid cell, in plain doubles
   cut         ms of the cut without reading the file, all stages
   ratio       cut / bound
+  two         ms of the same cut on two threads, by the clock, and how many times that is as fast as on one
   peak        MB that the process needed, the input mesh and reading it included
   peak/out    the same over the size of the cut-mesh's arrays
-  stages      ms of each stage
-Times are processor time, except those of the stages, which are by the clock. Each is the median of R fresh processes
-(default 5), the lower bound and the cut taking turns.
+  stages      of each stage: ms, ms of those on two threads that the second one does not shorten, page faults
+Times are processor time, except those on two threads and of the stages, which are by the clock. Each is the median of
+R fresh processes (default 5), which take turns.
 
-  MESH N           this mesh at this N
-  --meshes FOLDER  every mesh in the folder, at each N of --cells
-  --cells N,...    default 50,100
-  --markdown       the table of the README
-  --json           all numbers
+  MESH N             this mesh at this N
+  --meshes FOLDER    every mesh in the folder, at each N of --cells
+  --cells N,...      default 50,100
+  --compare PROGRAM  the mandoline-bench of another build, which takes its turns, too: its ms on one thread, and cut
+                     over these
+  --markdown         the table of the README
+  --json             all numbers
 Without MESH N also a few meshes that this program makes. A mesh that can't be cut is left out.
 )";
 
@@ -43,7 +47,7 @@ struct UsageError : std::runtime_error {
 struct Arguments {
   std::vector<Job> jobs;
   std::vector<int64_t> cells = {50, 100};
-  std::string folder;
+  std::string folder, compared;
   int64_t repetitions = 5;
   void (*print)(const std::vector<Row>&) = printText;
 };
@@ -80,12 +84,14 @@ Arguments parse(const std::vector<std::string>& words) {
       arguments.print = word == "--json" ? printJson : printMarkdown;
       continue;
     }
-    const bool takesValue = word == "--meshes" || word == "--cells" || word == "--repetitions";
+    const bool takesValue = word == "--meshes" || word == "--cells" || word == "--repetitions" || word == "--compare";
     if (!takesValue && word.compare(0, 2, "--") == 0) throw UsageError("unknown option " + word);
     if (i + 1 == words.size()) throw UsageError("what follows " + word + " is missing");
     const std::string& value = words[++i];
     if (word == "--meshes")
       arguments.folder = value;
+    else if (word == "--compare")
+      arguments.compared = value;
     else if (word == "--cells")
       arguments.cells = parseCounts(value);
     else if (word == "--repetitions")
@@ -112,17 +118,18 @@ std::vector<Job> jobsOf(const Arguments& arguments, const MadeMeshes& madeMeshes
   return jobs;
 }
 
-Programs findPrograms(const char* asCalled) {
+Programs findPrograms(const char* asCalled, const std::string& compared) {
   std::error_code problem;
   const fs::path linked = fs::read_symlink("/proc/self/exe", problem);
   const fs::path self = problem ? fs::absolute(asCalled) : linked, lowerBound = self.parent_path() / "mandoline-lower-bound";
   if (!fs::exists(lowerBound)) throw std::runtime_error("the lower bound is missing: " + lowerBound.string());
-  return {self.string(), lowerBound.string()};
+  if (!compared.empty() && !fs::exists(compared)) throw std::runtime_error("the program to compare with is missing: " + compared);
+  return {self.string(), lowerBound.string(), compared.empty() ? "" : fs::absolute(compared).string()};
 }
 
 int run(const char* asCalled, const std::vector<std::string>& words) {
-  if (words.size() == 3 && words[0] == kCutOnce) {
-    cutOnce(words[1], parseCount(words[2], "N"));
+  if (words.size() >= 3 && words[0] == kCutOnce) {
+    cutOnce(words[1], parseCount(words[2], "N"), words.size() > 3 ? unsigned(parseCount(words[3], "the number of threads")) : 1);
     return 0;
   }
   if (std::find(words.begin(), words.end(), "--help") != words.end()) {
@@ -130,7 +137,7 @@ int run(const char* asCalled, const std::vector<std::string>& words) {
     return 0;
   }
   const Arguments arguments = parse(words);
-  const Programs programs = findPrograms(asCalled);
+  const Programs programs = findPrograms(asCalled, arguments.compared);
   const MadeMeshes madeMeshes;
   const std::vector<Job> jobs = jobsOf(arguments, madeMeshes);
   std::vector<Row> rows;

@@ -1,8 +1,10 @@
 #include "cli/bench/measure.h"
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <sstream>
@@ -28,9 +30,9 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-/// What a program prints, given a mesh and N.
-std::istringstream outputOf(const std::string& program, const Job& job) {
-  const std::string command = program + ' ' + quoted(job.path) + ' ' + std::to_string(job.n);
+/// What a program prints, given a mesh, N and what follows.
+std::istringstream outputOf(const std::string& program, const Job& job, const std::string& more = "") {
+  const std::string command = program + ' ' + quoted(job.path) + ' ' + std::to_string(job.n) + more;
   FILE* pipe = popen(command.c_str(), "r");
   if (!pipe) throw std::runtime_error("can't run " + command);
   std::string text;
@@ -47,36 +49,60 @@ double median(std::vector<double> values) {
   return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
+/// Fills all but what is measured on two threads.
+void readCut(std::istringstream in, Row& row) {
+  in >> row.triangles >> row.cutCells >> row.cutMs >> row.peakBytes >> row.outputBytes >> row.wallMs;
+  if (!in) throw std::runtime_error("can't read what a cut of " + row.job.path + " printed");
+  for (StageRow stage; in >> stage.name >> stage.ms >> stage.pageFaults;) row.stages.push_back(stage);
+}
+
 Row measureOnce(const Programs& programs, const Job& job) {
-  Row row;
-  row.job = job;
+  const auto cutBy = [&](const std::string& program, const char* threads) {
+    return outputOf(quoted(program) + ' ' + kCutOnce, job, threads);
+  };
+  Row row, onTwo;
+  row.job = onTwo.job = job;
   outputOf(quoted(programs.lowerBound), job) >> row.lowerBoundMs;
-  std::istringstream in = outputOf(quoted(programs.bench) + ' ' + kCutOnce, job);
-  in >> row.triangles >> row.cutCells >> row.cutMs >> row.peakBytes >> row.outputBytes;
-  if (!in) throw std::runtime_error("can't read what " + programs.bench + " printed");
-  std::string stage;
-  for (double ms; in >> stage >> ms;) {
-    row.stages.push_back(stage);
-    row.stageMs.push_back(ms);
-  }
+  readCut(cutBy(programs.bench, ""), row);
+  if (!programs.compared.empty()) cutBy(programs.compared, "") >> onTwo.triangles >> onTwo.cutCells >> row.comparedMs;
+  readCut(cutBy(programs.bench, " 2"), onTwo);
+  row.wallMsOnTwo = onTwo.wallMs;
+  for (size_t s = 0; s < row.stages.size(); ++s) row.stages[s].onTwoThreads = onTwo.stages.at(s).ms;
   return row;
+}
+
+double pageFaults() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return double(usage.ru_minflt);
 }
 
 }  // namespace
 
-void cutOnce(const std::string& path, int64_t n) {
+void cutOnce(const std::string& path, int64_t n, unsigned threads) {
   const Mesh mesh = readMesh(path);
   const Grid grid = Grid::around(mesh, n);
+  std::vector<double> faults;  // before each stage
   CutOptions options;
-  options.threads = 1;
+  options.threads = threads;
+  options.progress = [&](const Progress& progress) {
+    while (int(faults.size()) <= progress.stageIndex) faults.push_back(pageFaults());
+    return true;
+  };
   returnFreePages();
+  const auto clock = std::chrono::steady_clock::now();
   const double start = processorMs();
   const CutResult result = cut(mesh, grid, options);
   const double ms = processorMs() - start;
+  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - clock;
+  faults.push_back(pageFaults());
   if (!result) throw std::runtime_error(path + ": " + result.error.message);
   std::cout << mesh.triangleCount() << ' ' << result.mesh.cellCount() << ' ' << ms << ' ' << cli::peakMemoryBytes() << ' '
-            << bytesOf(result.mesh);
-  for (const StageTime& stage : result.stats.stages) std::cout << ' ' << stage.stage << ' ' << stage.ms;
+            << bytesOf(result.mesh) << ' ' << wall.count();
+  for (size_t s = 0; s < result.stats.stages.size(); ++s) {
+    const StageTime& stage = result.stats.stages[s];
+    std::cout << ' ' << stage.stage << ' ' << stage.ms << ' ' << faults.at(s + 1) - faults[s];
+  }
   std::cout << '\n';
 }
 
@@ -89,10 +115,14 @@ Row measure(const Programs& programs, const Job& job, int64_t repetitions) {
     return median(values);
   };
   Row result = rows[0];
-  result.lowerBoundMs = medianOf([](const Row& row) { return row.lowerBoundMs; });
-  result.cutMs = medianOf([](const Row& row) { return row.cutMs; });
-  result.peakBytes = medianOf([](const Row& row) { return row.peakBytes; });
-  for (size_t s = 0; s < result.stageMs.size(); ++s) result.stageMs[s] = medianOf([s](const Row& row) { return row.stageMs.at(s); });
+  for (double Row::*of : {&Row::lowerBoundMs, &Row::cutMs, &Row::wallMs, &Row::wallMsOnTwo, &Row::peakBytes, &Row::comparedMs}) {
+    result.*of = medianOf([of](const Row& row) { return row.*of; });
+  }
+  for (size_t s = 0; s < result.stages.size(); ++s) {
+    for (double StageRow::*of : {&StageRow::ms, &StageRow::onTwoThreads, &StageRow::pageFaults}) {
+      result.stages[s].*of = medianOf([of, s](const Row& row) { return row.stages.at(s).*of; });
+    }
+  }
   return result;
 }
 

@@ -2,8 +2,8 @@
 // faults count and both see the same machine.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,26 +14,36 @@ struct Job {
   int64_t n;
 };
 
-/// The measurements of one job: medians over the repetitions.
+/// Of one stage; ms by the clock.
+struct StageRow {
+  std::string name;
+  double ms = 0, onTwoThreads = 0, pageFaults = 0;
+
+  /// What of the time on two threads a second one does not shorten, in ms.
+  double serialMs() const { return std::clamp(2 * onTwoThreads - ms, 0.0, onTwoThreads); }
+};
+
+/// The measurements of one job: medians over the repetitions. Times are processor time, those with "wall" by the clock.
 struct Row {
   Job job;
   size_t triangles = 0, cutCells = 0;
-  double lowerBoundMs = 0, cutMs = 0, peakBytes = 0, outputBytes = 0;
-  std::vector<std::string> stages;
-  std::vector<double> stageMs;
+  double lowerBoundMs = 0, cutMs = 0, wallMs = 0, wallMsOnTwo = 0, peakBytes = 0, outputBytes = 0;
+  double comparedMs = 0;  ///< of the program to compare with
+  std::vector<StageRow> stages;
 
   double ratio() const { return cutMs / lowerBoundMs; }
+  double speedUp() const { return wallMs / wallMsOnTwo; }
 };
 
-/// The first argument with which this program is called to cut once; the mesh's path and N follow.
+/// The first argument with which this program is called to cut once; the mesh's path, N and the number of threads (by default 1) follow.
 inline constexpr const char* kCutOnce = "--cut-once";
 
-/// Cuts in this process, on one thread, and prints what measure() reads. Throws if the mesh can't be read or cut.
-void cutOnce(const std::string& path, int64_t n);
+/// Cuts in this process and prints what measure() reads. Throws if the mesh can't be read or cut.
+void cutOnce(const std::string& path, int64_t n, unsigned threads);
 
-/// Paths of this program and of the lower bound.
+/// Paths of this program, of the lower bound, and of another build of this program to compare with, if there is one.
 struct Programs {
-  std::string bench, lowerBound;
+  std::string bench, lowerBound, compared;
 };
 
 /// Throws if a program fails, with its messages on standard error.

@@ -60,29 +60,45 @@ void printText(const std::vector<Row>& rows) {
     for (const std::string& item : items) std::cout << std::setw(width) << item;
     std::cout << '\n';
   };
-  printLine("mesh", "N", {"triangles", "cut-cells", "bound ms", "cut ms", "ratio", "peak MB", "peak/out"});
+  const bool isCompared = rows[0].comparedMs > 0;
+  std::vector<std::string> titles = {"triangles", "cut-cells", "bound ms", "cut ms", "ratio", "two ms", "speed-up", "peak MB", "peak/out"};
+  if (isCompared) titles.insert(titles.end(), {"other ms", "cut/other"});
+  printLine("mesh", "N", titles);
   for (const Row& row : rows) {
-    printLine(row.job.name, std::to_string(row.job.n),
-              {std::to_string(row.triangles), std::to_string(row.cutCells), fixed(row.lowerBoundMs, 2), fixed(row.cutMs, 2),
-               fixed(row.ratio(), 2), fixed(row.peakBytes / 1e6, 1), fixed(row.peakBytes / row.outputBytes, 2)});
+    std::vector<std::string> items = {
+        std::to_string(row.triangles), std::to_string(row.cutCells),  fixed(row.lowerBoundMs, 2),
+        fixed(row.cutMs, 2),           fixed(row.ratio(), 2),         fixed(row.wallMsOnTwo, 2),
+        fixed(row.speedUp(), 2),       fixed(row.peakBytes / 1e6, 1), fixed(row.peakBytes / row.outputBytes, 2)};
+    if (isCompared) items.insert(items.end(), {fixed(row.comparedMs, 2), fixed(row.cutMs / row.comparedMs, 2)});
+    printLine(row.job.name, std::to_string(row.job.n), items);
   }
-  std::cout << "\nms of the stages\n";
-  printLine("mesh", "N", rows[0].stages);
-  for (const Row& row : rows) {
-    std::vector<std::string> times;
-    for (const double ms : row.stageMs) times.push_back(fixed(ms, 2));
-    printLine(row.job.name, std::to_string(row.job.n), times);
-  }
+  const auto printStages = [&](const char* title, int digits, const auto& valueOf) {
+    std::cout << '\n' << title << '\n';
+    std::vector<std::string> names;
+    for (const StageRow& stage : rows[0].stages) names.push_back(stage.name);
+    printLine("mesh", "N", names);
+    for (const Row& row : rows) {
+      std::vector<std::string> values;
+      for (const StageRow& stage : row.stages) values.push_back(fixed(valueOf(stage), digits));
+      printLine(row.job.name, std::to_string(row.job.n), values);
+    }
+  };
+  printStages("ms of the stages", 2, [](const StageRow& stage) { return stage.ms; });
+  printStages("ms of the stages on two threads that the second one does not shorten", 2,
+              [](const StageRow& stage) { return stage.serialMs(); });
+  printStages("page faults of the stages", 0, [](const StageRow& stage) { return stage.pageFaults; });
   const std::vector<Comparison> found = comparisons(rows);
   if (!found.empty()) std::cout << "\nms of one cut over another's\n";
   for (const Comparison& c : found) std::cout << fixed(c.ratio(), 2) << "  " << c.label() << '\n';
 }
 
 void printMarkdown(const std::vector<Row>& rows) {
-  std::cout << "| mesh | N | triangles | cut-cells | lower bound, ms | cut, ms | ratio |\n|---|--:|--:|--:|--:|--:|--:|\n";
+  std::cout << "| mesh | N | triangles | cut-cells | lower bound, ms | cut, ms | ratio | two threads, ms |\n"
+               "|---|--:|--:|--:|--:|--:|--:|--:|\n";
   for (const Row& row : rows) {
     std::cout << "| " << row.job.name << " | " << row.job.n << " | " << row.triangles << " | " << row.cutCells << " | "
-              << fixed(row.lowerBoundMs, 1) << " | " << fixed(row.cutMs, 0) << " | " << fixed(row.ratio(), 1) << " |\n";
+              << fixed(row.lowerBoundMs, 1) << " | " << fixed(row.cutMs, 0) << " | " << fixed(row.ratio(), 1) << " | "
+              << fixed(row.wallMsOnTwo, 0) << " |\n";
   }
   std::vector<double> doubled, memory;
   for (const Comparison& c : comparisons(rows)) {
@@ -100,8 +116,13 @@ void printJson(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
     json.open('{').member("mesh", row.job.name).member("n", row.job.n).member("triangles", row.triangles).member("cutCells", row.cutCells);
     json.member("lowerBoundMs", row.lowerBoundMs).member("cutMs", row.cutMs).member("ratio", row.ratio());
+    json.member("wallMs", row.wallMs).member("wallMsOnTwoThreads", row.wallMsOnTwo);
+    if (row.comparedMs > 0) json.member("comparedMs", row.comparedMs);
     json.member("peakMemoryBytes", row.peakBytes).member("outputBytes", row.outputBytes).key("stages").open('[');
-    for (size_t s = 0; s < row.stages.size(); ++s) json.open('{').member("stage", row.stages[s]).member("ms", row.stageMs[s]).close('}');
+    for (const StageRow& stage : row.stages) {
+      json.open('{').member("stage", stage.name).member("ms", stage.ms).member("serialMs", stage.serialMs());
+      json.member("pageFaults", stage.pageFaults).close('}');
+    }
     json.close(']').close('}');
   }
   json.close(']').key("comparisons").open('[');
