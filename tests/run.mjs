@@ -44,6 +44,7 @@ run(
   'node',
   '--test',
   `--test-timeout=${1000 * longest}`,
+  `--test-concurrency=${jobs}`, // files at a time: of two processors the browser's drawing leaves one idle now and then
   '--test-reporter=spec',
   '--test-reporter-destination=stdout',
   '--test-reporter=junit',

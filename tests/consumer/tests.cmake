@@ -29,7 +29,8 @@ endfunction()
 
 add_consumer_test(add_subdirectory add_subdirectory)
 string(JOIN "\\;" fetch_options -DBUILD_SHARED_LIBS=ON -DMANDOLINE_INSTALL=ON -DMANDOLINE_BUILD_CLI=ON
-  -DCMAKE_DISABLE_FIND_PACKAGE_FastFloat=ON "-DCMAKE_CXX_FLAGS=-O0 -ffast-math -Werror -fvisibility=hidden")
+  -DCMAKE_DISABLE_FIND_PACKAGE_FastFloat=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=OFF
+  "-DCMAKE_CXX_FLAGS=-O0 -ffast-math -Werror -fvisibility=hidden")
 add_consumer_test(FetchContent FetchContent -D MORE_TARGETS=mandoline-cli -D "OPTIONS=${fetch_options}")
 set_tests_properties(consumer_FetchContent PROPERTIES FIXTURES_SETUP shared)
 
