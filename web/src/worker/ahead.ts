@@ -4,7 +4,16 @@ import type { Mandoline } from 'mandoline-wasm';
 const smallestMesh = 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n';
 
 export async function loadAhead(mandoline: Mandoline): Promise<void> {
-  await Promise.all([import('./gltf'), import('./three_mf'), import('./compare'), loadFiles(mandoline)]);
+  await Promise.all([
+    import('./card'),
+    import('./compare'),
+    import('./crossings'),
+    import('./gltf'),
+    import('./steps'),
+    import('./three_mf'),
+    import('../model/gallery/made'),
+    loadFiles(mandoline),
+  ]);
 }
 
 /** The package loads the module that reads OFF when it is first to read it. */

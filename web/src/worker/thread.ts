@@ -5,13 +5,10 @@ import { serve } from 'mandoline-wasm/worker-thread';
 import type { CallName, CallProgress, Calls } from '../model/calls';
 import { otherGrid } from '../model/comparison';
 import { loadAhead } from './ahead';
-import { cellCard } from './card';
 import { checksOf } from './checks';
-import { crossingsOf } from './crossings';
 import { cutNow, cutOf, keep, makeCut } from './kept';
 import { loadMesh } from './load';
 import { makeModel } from './make_model';
-import { stepPicture } from './steps';
 
 type Tell = (progress: CallProgress) => void;
 type Answering = {
@@ -40,9 +37,16 @@ const calls: Answering = {
     const { mesh, cutMesh } = cutOf(mandoline, recipe);
     return mandoline.cutEdges(mesh, cutMesh).edgeLength.length;
   },
-  card: (mandoline, { recipe, cell }) => cellCard(mandoline, cutOf(mandoline, recipe), cell),
-  crossings: (mandoline, { recipe }) => crossingsOf(mandoline, cutOf(mandoline, recipe)),
-  step(mandoline, { recipe, request }) {
+  async card(mandoline, { recipe, cell }) {
+    const { cellCard } = await import('./card');
+    return cellCard(mandoline, cutOf(mandoline, recipe), cell);
+  },
+  async crossings(mandoline, { recipe }) {
+    const { crossingsOf } = await import('./crossings');
+    return crossingsOf(mandoline, cutOf(mandoline, recipe));
+  },
+  async step(mandoline, { recipe, request }) {
+    const { stepPicture } = await import('./steps');
     const { mesh, cutMesh, faceTriangles, origin } = cutOf(mandoline, recipe);
     return stepPicture(mesh, cutMesh, faceTriangles, request, origin);
   },
