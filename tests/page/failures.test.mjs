@@ -44,7 +44,7 @@ async function hasGridFields(page, { cells, planes }) {
         assert.ok(Math.abs((await read(key)) - x) < 1e-12 * size, `${key} along ${axis}: ${await read(key)} instead of ${x}`);
       }
     }
-  }, 5000);
+  });
 }
 
 /** A server that sends the file when it is told to. */
@@ -206,7 +206,7 @@ test('a mesh of degenerate triangles alone leaves a word instead of an empty pic
   assert.equal(await isReady(page), 'ready');
   await page.locator('#gallery [data-name="claw"]').click();
   await shows(page, '#mesh-line', { name: 'claw' });
-  assert.equal(await page.locator('#stage-note').isVisible(), false);
+  await page.locator('#stage-note').waitFor({ state: 'hidden' });
 });
 
 describe('when the graphics context is lost', () => {
@@ -231,7 +231,7 @@ describe('when the graphics context is lost', () => {
     await eventually(async () => {
       const by = difference(tiles(before), tiles(await settledPixels(page)));
       assert.ok(by < 0.1, `it differs by ${by}`);
-    }, 8000);
+    });
     await page.mouse.click(x + width / 2, y + height / 2);
     await page.locator('#cell-card').waitFor();
   });

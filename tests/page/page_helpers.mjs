@@ -8,7 +8,7 @@ import { launchChromium } from '../chromium.mjs';
 import { serveFolder } from '../package/static_server.mjs';
 
 const builtPage = process.env.MANDOLINE_PAGE ?? fileURLToPath(new URL('../../web/dist', import.meta.url));
-const patience = 30_000;
+const patience = 60_000;
 
 /**
  * The page below a sub-path of one server, and `files` (contents by name) on another that lets other pages read them. Tests that compare

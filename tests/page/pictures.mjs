@@ -99,7 +99,7 @@ export async function looksLike(page, name) {
   await eventually(async () => {
     const by = difference(tiles(await pixelsOf(page)), expected);
     assert.ok(by < likeness, `${name} differs by ${by.toFixed(1)} of ${likeness}`);
-  }, 8000);
+  });
 }
 
 /** The canvas once it is drawn with all pixels of the screen, its shadow, too, and two screenshots running are the same. */
