@@ -64,7 +64,10 @@ Row measureOnce(const Programs& programs, const Job& job) {
   row.job = onTwo.job = job;
   outputOf(quoted(programs.lowerBound), job) >> row.lowerBoundMs;
   readCut(cutBy(programs.bench, ""), row);
-  if (!programs.compared.empty()) cutBy(programs.compared, "") >> onTwo.triangles >> onTwo.cutCells >> row.comparedMs;
+  if (!programs.compared.empty()) {
+    size_t triangles, cutCells;
+    cutBy(programs.compared, "") >> triangles >> cutCells >> row.comparedMs;
+  }
   readCut(cutBy(programs.bench, " 2"), onTwo);
   row.wallMsOnTwo = onTwo.wallMs;
   for (size_t s = 0; s < row.stages.size(); ++s) row.stages[s].onTwoThreads = onTwo.stages.at(s).ms;

@@ -18,6 +18,17 @@ struct Chunk {
   std::vector<Slab> slabs;
   std::vector<TriangleId> parents;
   Predicates predicates;
+
+  VertexId addVertex(const Slab& slab, TriangleId parent, const CutVertices& ofSurface) {
+    slabs.push_back(slab);
+    parents.push_back(parent);
+    return {uint32_t(ofSurface.size() + slabs.size() - 1)};
+  }
+  /// To be called now and then while a triangle is diced, which may have millions of pieces; `entries`: of their loops.
+  void watch(size_t entries, TriangleId triangle, const Surface& surface, Monitor& monitor) const {
+    if (entries > kMost || surface.vertices.size() + slabs.size() > kMost) failTooLarge(triangle.number);
+    monitor.report(triangle.number, surface.input.mesh->triangles.size());
+  }
 };
 
 /// Clips triangles that others don't reach into.
@@ -59,11 +70,7 @@ class Clipper {
   }
 
   // For the dicer.
-  VertexId addVertex(const Slab& slab) {
-    chunk_.slabs.push_back(slab);
-    chunk_.parents.push_back(triangle_);
-    return {uint32_t(vertices_.size() + chunk_.slabs.size() - 1)};
-  }
+  VertexId addVertex(const Slab& slab) { return chunk_.addVertex(slab, triangle_, vertices_); }
   void addHybridEdge(const FaceEdge& edge) { chunk_.clipped.hybridEdges.push_back(edge); }
   void addPiece(const Polygon& polygon, const Slab& element) {
     Csr<Corner>& pieces = chunk_.clipped.pieces;
@@ -71,9 +78,7 @@ class Clipper {
     pieces.items.insert(pieces.items.end(), polygon.begin(), polygon.end());
     pieces.endGroup();
     noteSeamVertices(polygon);
-    if (pieces.size() % 1024 != 0) return;  // one triangle may have millions
-    if (pieces.items.size() > kMost || vertices_.size() + chunk_.slabs.size() > kMost) failTooLarge(triangle_.number);
-    monitor_.report(triangle_.number, input_.mesh->triangles.size());
+    if (pieces.size() % 1024 == 0) chunk_.watch(pieces.items.size(), triangle_, surface_, monitor_);
   }
 
  private:
@@ -133,9 +138,7 @@ class WholeDicer {
   VertexId addVertex(const Slab& slab) {
     const auto known = std::lower_bound(onLines_.begin(), onLines_.end(), slab, [](const Corner& c, const Slab& s) { return c.slab < s; });
     if (known != onLines_.end() && known->slab == slab) return known->id;
-    chunk_.slabs.push_back(slab);
-    chunk_.parents.push_back(triangle_);
-    return {uint32_t(vertices_.size() + chunk_.slabs.size() - 1)};
+    return chunk_.addVertex(slab, triangle_, vertices_);
   }
   void addHybridEdge(const FaceEdge& edge) {
     chunk_.clipped.undivided.hybridEdges.push_back(edge);
@@ -146,9 +149,7 @@ class WholeDicer {
     for (const Corner& c : polygon) faces.loops.items.push_back(c.id);
     faces.loops.endGroup();
     faces.endFace(triangle_, element, false);
-    if (faces.size() % 4096 != 0) return;  // one triangle may have millions
-    if (faces.loops.items.size() > kMost || vertices_.size() + chunk_.slabs.size() > kMost) failTooLarge(triangle_.number);
-    monitor_.report(triangle_.number, input_.mesh->triangles.size());
+    if (faces.size() % 4096 == 0) chunk_.watch(faces.loops.items.size(), triangle_, surface_, monitor_);
   }
 
  private:

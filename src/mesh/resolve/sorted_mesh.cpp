@@ -6,6 +6,11 @@
 #include "base/sort.h"
 
 namespace mandoline::detail {
+namespace {
+
+uint32_t lowestOf(const std::array<uint32_t, 3>& corners) { return std::min({corners[0], corners[1], corners[2]}); }
+
+}  // namespace
 
 SortedMesh::SortedMesh(const WeldedMesh& mesh, const std::vector<TriangleState>& states) {
   const auto order = orderAlongCurve(mesh.points, [](size_t v) { return uint32_t(v); });
@@ -20,11 +25,10 @@ SortedMesh::SortedMesh(const WeldedMesh& mesh, const std::vector<TriangleState>&
     return std::array{places[v[0]], places[v[1]], places[v[2]]};
   };
   std::vector<uint32_t> at(points.size() + 1, 0);  // where the next triangle with this lowest corner goes
-  const auto lowest = [](const std::array<uint32_t, 3>& v) { return std::min({v[0], v[1], v[2]}); };
   size_t count = 0;
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (states[t] != TriangleState::kept) continue;
-    ++at[lowest(cornersOf(t)) + 1];
+    ++at[lowestOf(cornersOf(t)) + 1];
     ++count;
   }
   for (size_t v = 0; v < points.size(); ++v) at[v + 1] += at[v];
@@ -33,7 +37,7 @@ SortedMesh::SortedMesh(const WeldedMesh& mesh, const std::vector<TriangleState>&
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (states[t] != TriangleState::kept) continue;
     const auto v = cornersOf(t);
-    const uint32_t place = at[lowest(v)]++;
+    const uint32_t place = at[lowestOf(v)]++;
     triangles[place] = v;
     ids[place] = uint32_t(t);
   }
@@ -46,7 +50,6 @@ void SortedMesh::dropDuplicates() {
     std::array<uint32_t, 3> sorted;
     size_t place;
   };
-  const auto lowestAt = [&](size_t place) { return *std::min_element(triangles[place].begin(), triangles[place].end()); };
   std::vector<Corners> group;
   std::vector<uint8_t> isDuplicate;  // empty if there is none
   for (size_t begin = 0; begin < triangles.size(); begin += group.size()) {
@@ -55,7 +58,7 @@ void SortedMesh::dropDuplicates() {
       const size_t place = begin + group.size();
       group.push_back({triangles[place], place});
       sortItems(group.back().sorted);
-    } while (begin + group.size() < triangles.size() && lowestAt(begin + group.size()) == group[0].sorted[0]);
+    } while (begin + group.size() < triangles.size() && lowestOf(triangles[begin + group.size()]) == group[0].sorted[0]);
     if (group.size() == 1) continue;
     sortItems(group, [](const Corners& a, const Corners& b) { return a.sorted < b.sorted; });
     for (size_t i = 1; i < group.size(); ++i) {

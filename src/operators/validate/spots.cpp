@@ -94,7 +94,7 @@ Triple<Fine> fineDifference(const Context& context, const Spot& a, const Spot& b
 }
 
 Fine fineHeight(const Context& context, const FinePlane& plane, const Spot& spot) {
-  return plane.holdsOrigin ? dot(plane.fineNormal, fineDifference(context, spot, *plane.origin)) : Fine::unknown();
+  return plane.holdsOrigin ? dot(plane.fine.normal, fineDifference(context, spot, *plane.origin)) : Fine::unknown();
 }
 
 Triple<Finest> madeFinest(const Context& context, const Spot& spot) {
@@ -131,8 +131,7 @@ Spot middle(const Spot& a, const Spot& b) {
 }
 
 Spot meet(const Context& context, const Spot& a, const Spot& b, const FinePlane& plane) {
-  const PlaneOf<Fine> fine = Finder<Fine>(context).planeOf(plane.triangle);
-  const Fine above = fineHeight(a.place, fine), below = fineHeight(b.place, fine);
+  const Fine above = fineHeight(a.place, plane.fine), below = fineHeight(b.place, plane.fine);
   Spot spot{a.place + quotient(above, above - below) * (b.place - a.place), {}, {}, 0, {&a, &b}, &plane};
   if (!isKnown(a) || !isKnown(b)) return spot;
   const ExactPlane& its = context.exact.planeOf(plane.triangle);
@@ -146,7 +145,7 @@ FinePlane finePlane(const Context& context, size_t triangle, const Spot& origin)
   const PlaneOf<Fine> plane = Finder<Fine>(context).planeOf(triangle);
   const Triple<Bounded> normal{plane.normal[0].bounded(), plane.normal[1].bounded(), plane.normal[2].bounded()};
   const bool holdsOrigin = isKnown(origin) && context.inPlane(origin.vertex, triangle);
-  return {normal, fineHeight(origin.place, plane).bounded(), &origin, triangle, plane.normal, holdsOrigin};
+  return {normal, fineHeight(origin.place, plane).bounded(), &origin, triangle, plane, holdsOrigin};
 }
 
 int sideOf(const Context& context, const FinePlane& plane, const Spot& spot) {

@@ -33,7 +33,7 @@ struct FinePlane {
   Bounded height;  ///< of the origin
   const Spot* origin;
   size_t triangle;
-  Triple<Fine> fineNormal;
+  PlaneOf<Fine> fine;
   bool holdsOrigin;
   mutable std::optional<PlaneOf<Exact>> exact{};  ///< made when it is first needed
 };
