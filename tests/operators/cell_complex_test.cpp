@@ -95,3 +95,31 @@ TEST_CASE("cell complex: what does not belong together is refused", "[cellcomple
   options.progress = [](const Progress&) { return false; };
   REQUIRE_THROWS_AS(cellComplex(mesh, small.mesh, coarsen(small.mesh), options), CallError);
 }
+
+TEST_CASE("cell complex: octree cells out of order, twice or inside each other are refused", "[cellcomplex]") {
+  const Mesh mesh = shapes::cube(1.25, 2.5);
+  const CutResult result = cut(mesh, unitGrid(8));
+  const OctreeCells octree = coarsen(result.mesh);
+  const auto isRefused = [&](const auto& damage) {
+    OctreeCells damaged = octree;
+    damage(damaged);
+    try {
+      cellComplex(mesh, result.mesh, damaged);
+    } catch (const CallError& failure) {
+      return failure.error.status == Status::badArgument;
+    }
+    return false;
+  };
+  const auto copyCell = [](OctreeCells& cells, size_t from, size_t to) {
+    for (size_t d = 0; d < 3; ++d) cells.cellCorner[3 * to + d] = cells.cellCorner[3 * from + d];
+    cells.cellLevel[to] = cells.cellLevel[from];
+  };
+  const size_t last = octree.cellCount() - 1;
+  REQUIRE(octree.cellLevel[last] > 0);
+  CHECK(isRefused([&](OctreeCells& cells) { copyCell(cells, last, 0); }));
+  CHECK(isRefused([&](OctreeCells& cells) { copyCell(cells, last, last - 1); }));
+  CHECK(isRefused([&](OctreeCells& cells) { cells.cellLevel[last - 1] = 3; }));
+  CHECK(isRefused([&](OctreeCells& cells) { cells.cellCorner[3 * last] = 8; }));
+  CHECK(isRefused([&](OctreeCells& cells) { cells.cellCorner[3 * last] = -4; }));
+  CHECK_FALSE(isRefused([](OctreeCells&) {}));
+}

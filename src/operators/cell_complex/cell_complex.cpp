@@ -1,11 +1,15 @@
 #include "mandoline/cell_complex.h"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 
 #include "mandoline/measure.h"
 #include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
 #include "operators/cell_complex/grid_corners.h"
+#include "operators/cell_complex/octree_index.h"
+#include "operators/coarsen/morton_order.h"
 #include "operators/require_cut_mesh.h"
 
 namespace mandoline {
@@ -13,31 +17,34 @@ namespace {
 
 using operators::GridCorners;
 using operators::GridIndex;
+using operators::OctreeIndex;
 
 constexpr const char* kOther = "The octree cells are not those of this cut-mesh.";
 
 class Builder {
  public:
   Builder(const CutMesh& cutMesh, const OctreeCells& octree, detail::Monitor& monitor)
-      : cutMesh_(cutMesh), octree_(octree), monitor_(monitor), corners_(cutMesh, octree) {}
+      : cutMesh_(cutMesh), octree_(octree), monitor_(monitor), index_(octree), corners_(cutMesh, octree) {}
 
   CellComplex run(Measures measures) {
     takeFaces(measures);
     takeCells(measures);
     addVertices();
     monitor_.beginStage("faces", 0);
-    for (size_t c = 0; c < octree_.cellCount(); ++c) {
-      if (c % 4096 == 0) monitor_.report(c, octree_.cellCount());
-      for (size_t axis = 0; axis < 3; ++axis) {
-        for (const int side : {0, 1}) addSide(c, axis, side);
-      }
-    }
+    const std::vector<Place> places = placeFaces();
     monitor_.beginStage("cells", 1);
+    addFaces(places);
+    addCells();
     gatherHalfFaces();
     return std::move(result_);
   }
 
  private:
+  /// Where faces of octree cells begin.
+  struct Place {
+    size_t face = 0, corner = 0;
+  };
+
   void takeFaces(Measures& measures) {
     result_.cutFaces = uint32_t(cutMesh_.faceCount());
     result_.loopOffsets = cutMesh_.loopOffsets;
@@ -52,7 +59,7 @@ class Builder {
     for (size_t h = 0; h < result_.faceCells.size(); ++h) {
       const int64_t cell = beside.faceGridCells[h];
       if (cell < 0) continue;
-      const int64_t octreeCell = octree_.find(cell % nx, cell / nx % ny, cell / nx / ny);
+      const int64_t octreeCell = index_.find({int32_t(cell % nx), int32_t(cell / nx % ny), int32_t(cell / nx / ny)}, 0);
       if (octreeCell < 0) operators::refuse(kOther);
       result_.faceCells[h] = idOf(octreeCell);
     }
@@ -71,64 +78,152 @@ class Builder {
   void takeCells(Measures& measures) {
     result_.cutCells = uint32_t(cutMesh_.cellCount());
     result_.cellRegion = cutMesh_.cellRegion;
-    result_.cellRegion.insert(result_.cellRegion.end(), octree_.cellRegion.begin(), octree_.cellRegion.end());
     result_.cellVolume = std::move(measures.cellVolume);
     result_.cellCentroid = std::move(measures.cellCentroid);
     result_.cellCorner = cutMesh_.cellGridCell;
+    result_.cellLevel.assign(cutMesh_.cellCount(), 0);
     for (size_t i = 0; i < result_.cellCorner.size(); ++i)
       result_.cellCentre.push_back(middle(i % 3, result_.cellCorner[i], result_.cellCorner[i] + 1));
-    result_.cellCorner.insert(result_.cellCorner.end(), octree_.cellCorner.begin(), octree_.cellCorner.end());
-    result_.cellLevel.assign(cutMesh_.cellCount(), 0);
-    result_.cellLevel.insert(result_.cellLevel.end(), octree_.cellLevel.begin(), octree_.cellLevel.end());
-    for (size_t c = 0; c < octree_.cellCount(); ++c) {
-      const auto corner = octree_.corner(c), end = octree_.end(c);
-      double volume = 1;
-      for (size_t d = 0; d < 3; ++d) {
-        volume *= plane(d, end[d]) - plane(d, corner[d]);
-        result_.cellCentroid.push_back(middle(d, corner[d], end[d]));
-        result_.cellCentre.push_back(middle(d, corner[d], end[d]));
-      }
-      result_.cellVolume.push_back(volume);
-    }
   }
 
   void addVertices() {
     result_.cutVertices = uint32_t(cutMesh_.vertexCount());
+    result_.positions.reserve(cutMesh_.positions.size() + 3 * corners_.added().size());
     result_.positions = cutMesh_.positions;
     for (const GridIndex& corner : corners_.added()) {
       for (size_t d = 0; d < 3; ++d) result_.positions.push_back(plane(d, corner[d]));
     }
   }
 
-  /// The face of an octree cell on one side, unless smaller cells, cut-cells or a cell of its size that comes before it have it.
-  void addSide(size_t c, size_t axis, int side) {
+  /// Calls f(axis, side, neighbour, tag) for the faces of an octree cell, except those that smaller cells, cut-cells or a cell of its size
+  /// that comes before it have.
+  template <class F>
+  void forSides(size_t c, const F& f) const {
     const GridIndex corner = octree_.corner(c), end = octree_.end(c);
-    GridIndex across = corner;
-    across[axis] = side ? end[axis] : corner[axis] - 1;
-    if (across[axis] < 0 || across[axis] >= octree_.gridCells[axis]) return addFace(c, axis, side, -1, FaceTag(2 * int(axis) + side));
-    const int64_t neighbour = octree_.find(across[0], across[1], across[2]);
-    if (neighbour < 0) return;  // cut: the face is one of the cut-mesh's
-    const int levels = int(octree_.cellLevel[size_t(neighbour)]) - int(octree_.cellLevel[c]);
-    if (levels > 0 || (levels == 0 && side == 1)) addFace(c, axis, side, idOf(neighbour), FaceTag::inner);
+    const int level = octree_.cellLevel[c];
+    for (size_t axis = 0; axis < 3; ++axis) {
+      for (const int side : {0, 1}) {
+        GridIndex across = corner;
+        across[axis] = side ? end[axis] : corner[axis] - 1;
+        if (across[axis] < 0 || across[axis] >= octree_.gridCells[axis]) {
+          f(axis, side, -1, FaceTag(2 * int(axis) + side));
+          continue;
+        }
+        const int64_t neighbour = index_.find(across, level);
+        if (neighbour < 0) continue;
+        if (octree_.cellLevel[size_t(neighbour)] > level || side == 1) f(axis, side, idOf(neighbour), FaceTag::inner);
+      }
+    }
   }
 
-  void addFace(size_t c, size_t axis, int side, int32_t neighbour, FaceTag tag) {
-    const GridIndex corner = octree_.corner(c), end = octree_.end(c);
-    const int32_t cells[2] = {idOf(int64_t(c)), neighbour};
-    result_.faceCells.insert(result_.faceCells.end(), {cells[side ? 0 : 1], cells[side ? 1 : 0]});
-    result_.faceTag.push_back(tag);
-
-    const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-    result_.faceArea.push_back((plane(u, end[u]) - plane(u, corner[u])) * (plane(v, end[v]) - plane(v, corner[v])));
-    for (size_t d = 0; d < 3; ++d) {
-      result_.faceNormal.push_back(d == axis);
-      result_.faceCentroid.push_back(d == axis ? plane(d, (side ? end : corner)[d]) : middle(d, corner[d], end[d]));
+  /// Makes room for the faces of octree cells. Gives where those begin of the first cell of each chunk, as forChunks() makes them.
+  std::vector<Place> placeFaces() {
+    struct Counts {
+      Place added;
+      std::vector<uint32_t> loop;
+    };
+    const auto counts = detail::forChunks<Counts>(octree_.cellCount(), monitor_, [&](Counts& chunk, size_t begin, size_t end) {
+      for (size_t c = begin; c < end; ++c) {
+        forSides(c, [&](size_t axis, int side, int32_t, FaceTag) {
+          chunk.loop.clear();
+          corners_.appendSide(c, axis, side, chunk.loop);
+          ++chunk.added.face;
+          chunk.added.corner += chunk.loop.size();
+        });
+      }
+    });
+    Place next{cutMesh_.faceCount(), result_.loopVertices.size()};
+    std::vector<Place> places;
+    for (const Counts& chunk : counts) {
+      places.push_back(next);
+      next.face += chunk.added.face;
+      next.corner += chunk.added.corner;
     }
+    if (next.corner >> 31 != 0) throw CallError({Status::meshTooLarge, -1, -1, "The faces have more than 2^31 corners."});
+    makeRoom(next);
+    return places;
+  }
 
-    corners_.appendSide(c, axis, side, result_.loopVertices);
-    if (result_.loopVertices.size() >> 31 != 0) throw CallError({Status::meshTooLarge, -1, -1, "The faces have more than 2^31 corners."});
-    result_.loopOffsets.push_back(uint32_t(result_.loopVertices.size()));
-    result_.faceLoopOffsets.push_back(uint32_t(result_.loopOffsets.size()) - 1);
+  /// Each array on one thread, since the first touch of memory takes long.
+  void makeRoom(const Place& end) {
+    const size_t cells = cutMesh_.cellCount() + octree_.cellCount(), loops = cutMesh_.loopCount() + end.face - cutMesh_.faceCount();
+    const std::function<void()> rooms[] = {
+        [&] { result_.faceNormal.resize(3 * end.face); },
+        [&] { result_.faceCentroid.resize(3 * end.face); },
+        [&] { result_.loopVertices.resize(end.corner); },
+        [&] { result_.faceArea.resize(end.face); },
+        [&] { result_.faceCells.resize(2 * end.face); },
+        [&] { result_.cellCentre.resize(3 * cells); },
+        [&] { result_.cellCentroid.resize(3 * cells); },
+        [&] { result_.loopOffsets.resize(loops + 1); },
+        [&] { result_.faceLoopOffsets.resize(end.face + 1); },
+        [&] { result_.faceTag.resize(end.face); },
+        [&] { result_.cellCorner.insert(result_.cellCorner.end(), octree_.cellCorner.begin(), octree_.cellCorner.end()); },
+        [&] { result_.cellVolume.resize(cells); },
+        [&] { result_.cellRegion.insert(result_.cellRegion.end(), octree_.cellRegion.begin(), octree_.cellRegion.end()); },
+        [&] { result_.cellLevel.insert(result_.cellLevel.end(), octree_.cellLevel.begin(), octree_.cellLevel.end()); },
+    };
+    std::vector<uint32_t> tasks(std::size(rooms));
+    std::iota(tasks.begin(), tasks.end(), 0u);
+    detail::runItems(tasks, monitor_, [&](size_t, uint32_t task) { rooms[task](); });
+  }
+
+  /// `places`: those of placeFaces().
+  void addFaces(std::vector<Place> places) {
+    std::vector<std::vector<uint32_t>> loops(places.size());
+    detail::runChunks(
+        octree_.cellCount(), places.size(), monitor_,
+        [&](size_t chunk, size_t begin, size_t end) {
+          for (size_t c = begin; c < end; ++c) {
+            forSides(c, [&](size_t axis, int side, int32_t neighbour, FaceTag tag) {
+              Place& at = places[chunk];
+              addFace(at.face, c, axis, side);
+              result_.faceTag[at.face] = tag;
+              result_.faceCells[2 * at.face + size_t(side)] = neighbour;
+              loops[chunk].clear();
+              corners_.appendSide(c, axis, side, loops[chunk]);
+              std::copy(loops[chunk].begin(), loops[chunk].end(), result_.loopVertices.begin() + std::ptrdiff_t(at.corner));
+              at.corner += loops[chunk].size();
+              ++at.face;
+              result_.loopOffsets[cutMesh_.loopCount() + at.face - cutMesh_.faceCount()] = uint32_t(at.corner);
+            });
+          }
+        },
+        kBlock);
+  }
+
+  /// The side of an octree cell becomes face f.
+  void addFace(size_t f, size_t c, size_t axis, int side) {
+    const GridIndex corner = octree_.corner(c), end = octree_.end(c);
+    const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+    result_.faceCells[2 * f + size_t(1 - side)] = idOf(int64_t(c));
+    result_.faceArea[f] = (plane(u, end[u]) - plane(u, corner[u])) * (plane(v, end[v]) - plane(v, corner[v]));
+    for (size_t d = 0; d < 3; ++d) {
+      result_.faceNormal[3 * f + d] = d == axis;
+      result_.faceCentroid[3 * f + d] = d == axis ? plane(d, (side ? end : corner)[d]) : middle(d, corner[d], end[d]);
+    }
+    result_.faceLoopOffsets[f + 1] = uint32_t(cutMesh_.loopCount() + f + 1 - cutMesh_.faceCount());
+  }
+
+  /// Of octree cells, what is not yet known.
+  void addCells() {
+    detail::runChunks(
+        octree_.cellCount(), detail::chunkCount(octree_.cellCount(), monitor_, kBlock), monitor_,
+        [&](size_t, size_t begin, size_t end) {
+          for (size_t c = begin; c < end; ++c) addCell(c);
+        },
+        kBlock);
+  }
+
+  void addCell(size_t c) {
+    const GridIndex corner = octree_.corner(c), end = octree_.end(c);
+    const size_t id = cutMesh_.cellCount() + c;
+    double volume = 1;
+    for (size_t d = 0; d < 3; ++d) {
+      volume *= plane(d, end[d]) - plane(d, corner[d]);
+      result_.cellCentroid[3 * id + d] = result_.cellCentre[3 * id + d] = middle(d, corner[d], end[d]);
+    }
+    result_.cellVolume[id] = volume;
   }
 
   void gatherHalfFaces() {
@@ -149,9 +244,12 @@ class Builder {
   double plane(size_t axis, int32_t index) const { return cutMesh_.grid.planes[axis][size_t(index)]; }
   double middle(size_t axis, int32_t from, int32_t to) const { return plane(axis, from) / 2 + plane(axis, to) / 2; }
 
+  static constexpr size_t kBlock = 2048;  // cells
+
   const CutMesh& cutMesh_;
   const OctreeCells& octree_;
   detail::Monitor& monitor_;
+  OctreeIndex index_;
   GridCorners corners_;
   CellComplex result_;
 };
@@ -168,10 +266,10 @@ bool isOctree(const OctreeCells& octree) {
   GridIndex end{};
   for (size_t c = 0; c < count; ++c) {
     const GridIndex corner = octree.corner(c);
-    for (const int32_t x : corner) {
-      if (x % (1 << octree.cellLevel[c]) != 0) return false;
+    for (size_t d = 0; d < 3; ++d) {
+      if (corner[d] < 0 || corner[d] >= octree.gridCells[d] || corner[d] % (1 << octree.cellLevel[c]) != 0) return false;
     }
-    if (octree.find(corner[0], corner[1], corner[2]) != int64_t(c)) return false;
+    if (c > 0 && !operators::isBefore(octree.corner(c - 1), corner)) return false;
     if (c > 0 && corner[0] < end[0] && corner[1] < end[1] && corner[2] < end[2]) return false;  // inside the one before
     end = octree.end(c);
   }

@@ -6,41 +6,48 @@
 #include "base/sort.h"
 
 namespace mandoline::operators {
-namespace {
-
-/// x changes fastest.
-bool isBefore(const GridIndex& a, const GridIndex& b) { return a[2] != b[2] ? a[2] < b[2] : a[1] != b[1] ? a[1] < b[1] : a[0] < b[0]; }
-
-}  // namespace
 
 GridCorners::GridCorners(const CutMesh& cutMesh, const OctreeCells& octree) : cutMesh_(cutMesh), octree_(octree) {
   linkCutVertices();
-  for (size_t v = 0; v < cutMesh.vertexCount(); ++v) {
-    const int32_t* at = &cutMesh.vertexCell[3 * v];
-    if (cutMesh.vertexMask[v] == 7) corners_.push_back({{at[0], at[1], at[2]}, uint32_t(v)});
-  }
-  const uint32_t firstNew = uint32_t(cutMesh.vertexCount());
+  const auto forCutCorners = [&](const auto& f) {
+    for (size_t v = 0; v < cutMesh.vertexCount(); ++v) {
+      const int32_t* at = &cutMesh.vertexCell[3 * v];
+      if (cutMesh.vertexMask[v] == 7) f(uint32_t(v), numberOf({at[0], at[1], at[2]}));
+    }
+  };
+  forCutCorners([&](uint32_t, uint64_t number) { places_.insert(number); });
   for (size_t c = 0; c < octree.cellCount(); ++c) {
     const GridIndex low = octree.corner(c), high = octree.end(c);
     for (int which = 0; which < 8; ++which) {
-      corners_.push_back({{(which & 1 ? high : low)[0], (which & 2 ? high : low)[1], (which & 4 ? high : low)[2]}, firstNew});
+      places_.insert(numberOf({(which & 1 ? high : low)[0], (which & 2 ? high : low)[1], (which & 4 ? high : low)[2]}));
     }
   }
-  detail::sortItems(corners_, [](const Corner& a, const Corner& b) { return a.at != b.at ? isBefore(a.at, b.at) : a.id < b.id; });
-  const auto end = std::unique(corners_.begin(), corners_.end(), [](const Corner& a, const Corner& b) { return a.at == b.at; });
-  corners_.erase(end, corners_.end());
-  for (Corner& corner : corners_) {
-    if (corner.id < firstNew) continue;
-    corner.id = firstNew + uint32_t(added_.size());
-    added_.push_back(corner.at);
-  }
+  places_.rank();
+
+  constexpr uint32_t kNew = ~0u;
+  ids_.assign(places_.size(), kNew);
+  forCutCorners([&](uint32_t v, uint64_t number) {
+    uint32_t& id = ids_[places_.rankOf(number)];
+    id = std::min(id, v);
+  });
+  const uint64_t nx = uint64_t(octree.gridCells[0]) + 1, ny = uint64_t(octree.gridCells[1]) + 1;
+  uint32_t rank = 0;
+  places_.forEach([&](uint64_t number) {
+    uint32_t& id = ids_[rank++];
+    if (id != kNew) return;
+    id = uint32_t(cutMesh.vertexCount() + added_.size());
+    added_.push_back({int32_t(number % nx), int32_t(number / nx % ny), int32_t(number / nx / ny)});
+  });
 }
 
-const GridCorners::Corner* GridCorners::find(const GridIndex& at) const {
-  const auto corner =
-      std::lower_bound(corners_.begin(), corners_.end(), at, [](const Corner& c, const GridIndex& i) { return isBefore(c.at, i); });
-  return corner != corners_.end() && corner->at == at ? &*corner : nullptr;
+/// Of a grid vertex: x changes fastest.
+uint64_t GridCorners::numberOf(const GridIndex& at) const {
+  const uint64_t nx = uint64_t(octree_.gridCells[0]) + 1, ny = uint64_t(octree_.gridCells[1]) + 1;
+  return (uint64_t(at[2]) * ny + uint64_t(at[1])) * nx + uint64_t(at[0]);
 }
+
+/// Of a grid vertex that is a corner.
+uint32_t GridCorners::idAt(const GridIndex& at) const { return ids_[places_.rankOf(numberOf(at))]; }
 
 /// A surface may touch a grid-edge, and not all four grid cells around it.
 void GridCorners::linkCutVertices() {
@@ -65,7 +72,8 @@ void GridCorners::linkCutVertices() {
 
 /// Appends the cut-vertices inside of a grid-edge.
 void GridCorners::appendCutVertices(const GridIndex& low, size_t axis, std::vector<uint32_t>& ids) const {
-  const uint32_t corner = find(low)->id;
+  const uint32_t corner = idAt(low);
+  if (corner >= cutMesh_.vertexCount()) return;
   const auto isInside = [&](uint32_t v) {
     return cutMesh_.vertexMask[v] == (7 & ~(1 << axis)) && cutMesh_.vertexCell[3 * v + axis] == low[axis];
   };
@@ -98,7 +106,7 @@ void GridCorners::appendSide(size_t cell, size_t axis, int side, std::vector<uin
 void GridCorners::appendEdge(const GridIndex& low, const Edge& edge, bool forwards, std::vector<uint32_t>& ids) const {
   GridIndex high = low;
   high[edge.axis] = int32_t(std::min(int64_t(low[edge.axis]) + (int64_t(1) << edge.level), int64_t(octree_.gridCells[edge.axis])));
-  ids.push_back(find(forwards ? low : high)->id);
+  ids.push_back(idAt(forwards ? low : high));
   const auto first = std::ptrdiff_t(ids.size());
   appendInside(low, edge, ids);
   if (!forwards) std::reverse(ids.begin() + first, ids.end());
@@ -111,10 +119,10 @@ void GridCorners::appendInside(const GridIndex& low, const Edge& edge, std::vect
   GridIndex middle = low;
   middle[edge.axis] += int32_t(1) << half.level;
   if (middle[edge.axis] >= octree_.gridCells[edge.axis]) return appendInside(low, half, ids);
-  const Corner* corner = find(middle);
-  if (!corner) return;
+  const uint32_t rank = places_.rankOf(numberOf(middle));
+  if (rank == places_.kNone) return;
   appendInside(low, half, ids);
-  ids.push_back(corner->id);
+  ids.push_back(ids_[rank]);
   appendInside(middle, half, ids);
 }
 

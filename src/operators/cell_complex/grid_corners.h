@@ -1,11 +1,9 @@
 // The vertices on grid lines in a cell complex: corners of cut grid cells and octree cells, and cut-vertices between them.
 #pragma once
 
-#include "mandoline/coarsen.h"
+#include "operators/cell_complex/octree_index.h"
 
 namespace mandoline::operators {
-
-using GridIndex = std::array<int32_t, 3>;
 
 /// Keeps references to both.
 class GridCorners {
@@ -25,19 +23,17 @@ class GridCorners {
     size_t axis;
     int level;
   };
-  struct Corner {
-    GridIndex at;
-    uint32_t id;
-  };
   void linkCutVertices();
-  const Corner* find(const GridIndex& at) const;
+  uint64_t numberOf(const GridIndex& at) const;
+  uint32_t idAt(const GridIndex& at) const;
   void appendEdge(const GridIndex& low, const Edge& edge, bool forwards, std::vector<uint32_t>& ids) const;
   void appendCutVertices(const GridIndex& low, size_t axis, std::vector<uint32_t>& ids) const;
   void appendInside(const GridIndex& low, const Edge& edge, std::vector<uint32_t>& ids) const;
 
   const CutMesh& cutMesh_;
   const OctreeCells& octree_;
-  std::vector<Corner> corners_;  // by place
+  detail::RankedSet places_;   // of corners
+  std::vector<uint32_t> ids_;  // by the ranks of their places
   std::vector<GridIndex> added_;
   std::vector<std::array<uint32_t, 2>> links_;  // cut-edges on grid lines that end inside of a grid-edge, both ways, ascending
 };

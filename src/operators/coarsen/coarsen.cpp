@@ -5,6 +5,7 @@
 #include "base/sort.h"
 #include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
+#include "operators/coarsen/morton_order.h"
 #include "operators/require_cut_mesh.h"
 
 namespace mandoline {
@@ -12,18 +13,8 @@ namespace {
 
 /// A block of grid cells of some level: its lowest grid cell, divided by the block's size.
 using Block = std::array<int32_t, 3>;
+using operators::isBefore;
 using Blocks = std::vector<Block>;  // ascending along the Morton curve, each once
-
-/// Order along the Morton curve. Decided by the axis whose numbers differ in the highest bit; of several, the last.
-bool isBefore(const Block& a, const Block& b) {
-  size_t axis = 2;
-  uint32_t most = uint32_t(a[2] ^ b[2]);
-  for (const size_t d : {size_t(1), size_t(0)}) {
-    const uint32_t differing = uint32_t(a[d] ^ b[d]);
-    if (most < differing && most < (most ^ differing)) axis = d, most = differing;
-  }
-  return a[axis] < b[axis];
-}
 
 class Coarsener {
  public:
