@@ -8,11 +8,11 @@ const readme = readFileSync(path('README.md'), 'utf8');
 const [, packages] = readme.match(/`apt-get install (g\+\+ [^`]+)`/);
 const [, line] = readme.match(/^ {4}(cmake -B build .*ctest.*)$/m);
 
-// npm start goes on for ever: what comes next begins once the page is served.
+// npm start goes on for ever: what comes next begins once the page is served. Nothing is optimized, which takes long.
 const start = 'npm start >/root/start.log & until grep -q http://localhost: /root/start.log; do kill -0 $! || break; sleep 1; done';
-const served = `${start}; cat /root/start.log; kill $! && npm run build`;
+const served = `export EMCC_CFLAGS=-O0; ${start}; cat /root/start.log; kill $! && npm run build`;
 
-// With a newer compiler, and without precompiled headers, which hide those that a file forgets. Nothing is optimized, which takes long.
+// With a newer compiler, and without precompiled headers, which hide those that a file forgets.
 const quick = '-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DCMAKE_CXX_FLAGS_RELEASE=-O0';
 const tests = `export CMAKE_BUILD_PARALLEL_LEVEL=${jobs}; ${line.replace('cmake -B build', `cmake -B build ${quick}`)} -R cases`;
 
