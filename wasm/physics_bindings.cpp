@@ -41,9 +41,20 @@ val complexOf(const val& mesh, const KeptCutMesh& kept, const val& octree, const
   });
 }
 
-val withTwin(SubComplex sub) {
-  const val value = toObject(sub);
-  return success(object({{"value", value}, {"twin", val(KeptComplex(std::move(sub.cells)))}}));
+/// Of a struct whose member `cells` is a cell complex.
+template <class Result>
+val withTwin(Result result) {
+  const val value = toObject(result);
+  return success(object({{"value", value}, {"twin", val(KeptComplex(std::move(result.cells)))}}));
+}
+
+val mergedOf(const KeptCutMesh& keptCutMesh, const KeptComplex& keptCells, const val& options) {
+  return guarded([&, cutMesh = keptCutMesh.get(), cells = keptCells.get()] {
+    MergeOptions mergeOptions;
+    mergeOptions.progress = progressOf(options);
+    mergeOptions.fraction = options["fraction"].as<double>();
+    return withTwin(mergeSmallCells(*cutMesh, *cells, mergeOptions));
+  });
 }
 
 val partOf(const KeptComplex& kept, const val& cellIds) {
@@ -222,6 +233,7 @@ EMSCRIPTEN_BINDINGS(physics) {
   emscripten::function("keepComplex", &keepComplex);
   emscripten::function("coarsen", &coarsenCutMesh);
   emscripten::function("cellComplex", &complexOf);
+  emscripten::function("mergeSmallCells", &mergedOf);
   emscripten::function("subComplex", &partOf);
   emscripten::function("regionComplex", &regionOf);
   emscripten::function("complexEdges", &edgesOf);

@@ -32,6 +32,7 @@ void checkOutputs(const Arguments& arguments) {
   }
   if (arguments.coarsen && !hasCells)
     throw UsageError("--coarsen: only .vtu and .json files and polyMesh folders have cells away from the surface");
+  if (arguments.merge && !hasCells) throw UsageError("--merge: only .vtu and .json files and polyMesh folders have all cells");
   if (arguments.faces && !hasVtu) throw UsageError("--faces: only .vtu files have faces instead of cells");
   requireDifferent(files);
 }
@@ -74,25 +75,31 @@ class Writer {
   Writer(const Arguments& arguments, const Input& input, const CutMesh& cutMesh)
       : arguments_(arguments), mesh_(input.mesh), groups_(input.groups), cutMesh_(cutMesh) {}
 
+  /// Makes the cells unless they are there.
+  const MergedCells& cells() {
+    if (!cells_) cells_ = makeCells(arguments_, mesh_, cutMesh_);
+    return *cells_;
+  }
+
   void write(const Output& output) {
     const bool isFolder = isPolyMesh(output.path);
     const std::optional<FileFormat> format = isFolder ? std::nullopt : std::optional(formatFor(arguments_, output.path));
     const bool isVtu = format == FileFormat::vtu, isJson = format == FileFormat::json;
-    const bool ofComplex = isFolder || (arguments_.coarsen && (isVtu || isJson)) || (arguments_.faces && isVtu);
-    if (ofComplex && !cells_) cells_ = makeCells(arguments_, mesh_, cutMesh_);
+    const bool ofComplex = isFolder || ((arguments_.coarsen || arguments_.merge) && (isVtu || isJson)) || (arguments_.faces && isVtu);
+    const CellComplex* const complex = ofComplex ? &cells().cells : nullptr;
     withProgress(arguments_.threads, [&](const RunOptions& run) {
       WriteOptions options = output.options;
       static_cast<RunOptions&>(options) = run;
       options.groups = &groups_;
       if (isFolder) {
         const DeferInterrupts defer;
-        return writePolyMesh(output.path, cutMesh_, *cells_, options);
+        return writePolyMesh(output.path, cutMesh_, *complex, options);
       }
       writeOutput(output.path, [&](const Sink& sink) {
         if (!ofComplex) return writeCutMesh(sink, *format, mesh_, cutMesh_, options);
-        if (isJson) return writeJson(sink, cutMesh_, *cells_, options);
-        if (arguments_.faces) return writeFacesVtu(sink, cutMesh_, *cells_, {}, options);
-        writeVtu(sink, cutMesh_, *cells_, {}, options);
+        if (isJson) return writeJson(sink, cutMesh_, *complex, options);
+        if (arguments_.faces) return writeFacesVtu(sink, cutMesh_, *complex, {}, options);
+        writeVtu(sink, cutMesh_, *complex, {}, options);
       });
     });
   }
@@ -102,7 +109,7 @@ class Writer {
   const Mesh& mesh_;
   const TriangleGroups& groups_;
   const CutMesh& cutMesh_;
-  std::optional<CellComplex> cells_;
+  std::optional<MergedCells> cells_;
 };
 
 void complainOf(const Report& report, int& exitCode) {
@@ -127,12 +134,14 @@ int runCut(const Arguments& arguments) {
   const AskedGrid grid = makeGrid(arguments.grid, mesh, info);
   const CutResult result = cutMesh(arguments, mesh, grid);
   Report report = reportOf(arguments, {input, info, {}}, grid, result);
+  Writer writer(arguments, input, result.mesh);
   if (result) {
     report.regionVolumes = withProgress(
         arguments.threads, [&](const RunOptions& options) { return regionVolumes(result.mesh, measure(mesh, result.mesh, options)); });
     if (arguments.validate) {
       report.validation = withProgress(arguments.threads, [&](const RunOptions& options) { return validate(mesh, result.mesh, options); });
     }
+    if (mergeFraction(arguments) > 0) report.merge = countMerged(writer.cells());
   }
   int exitCode = kFine;
   complainOf(report, exitCode);
@@ -142,7 +151,6 @@ int runCut(const Arguments& arguments) {
   });
   if (!result) return exitCode;
   attempt(exitCode, [&] {
-    Writer writer(arguments, input, result.mesh);
     for (const Output& output : outputsOf(arguments, result)) attempt(exitCode, [&] { writer.write(output); });
   });
   return exitCode;

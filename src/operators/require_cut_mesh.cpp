@@ -17,9 +17,11 @@ void requireMadeFrom(Fingerprint madeFrom, Fingerprint other, const char* messag
 void refuseCells() { refuse("The cells are not all of this cut-mesh's."); }
 
 void requireCellsOf(const CutMesh& cutMesh, const CellComplex& cells) {
-  const bool haveCounts =
-      cells.cutCells == cutMesh.cellCount() && cells.cutFaces == cutMesh.faceCount() && cells.cutVertices == cutMesh.vertexCount();
-  if (!haveCounts || !detail::mayBeSame(cells.madeFrom, cutMesh.fingerprint)) refuseCells();
+  const bool isMerged = !cells.cellMemberOffsets.empty();
+  const bool haveCounts = isMerged ? cells.cutCells <= cutMesh.cellCount() && cells.cellMembers.size() >= cutMesh.cellCount()
+                                   : cells.cutCells == cutMesh.cellCount() && cells.cutFaces == cutMesh.faceCount();
+  const bool areAll = haveCounts && cells.cutVertices == cutMesh.vertexCount();
+  if (!areAll || !detail::mayBeSame(cells.madeFrom, cutMesh.fingerprint)) refuseCells();
 }
 
 }  // namespace mandoline::operators

@@ -3,6 +3,7 @@
 export const physicsNames = [
   'coarsen',
   'cellComplex',
+  'mergeSmallCells',
   'subComplex',
   'regionComplex',
   'complexEdges',

@@ -15,7 +15,7 @@ class ComplexArrayCheck {
 
   Check run() {
     // Later steps index with what earlier ones have checked.
-    checkLengths() && checkOffsets() && checkLoops() && checkFaces() && checkCells() && checkNumbers();
+    checkLengths() && checkOffsets() && checkLoops() && checkFaces() && checkCells() && checkMembers() && checkNumbers();
     return tally_.finish();
   }
 
@@ -106,6 +106,33 @@ class ComplexArrayCheck {
     }
     const auto listed = std::count_if(cells_.faceCells.begin(), cells_.faceCells.end(), [](int32_t cell) { return cell >= 0; });
     return expect(size_t(listed) == cells_.cellHalfFaces.size(), "array", 0, "of the cells' half-faces lacks some");
+  }
+
+  /// Each member of cells belongs to one cell, and no member of faces to two; none of a cell's or a face's own are left out.
+  bool checkMembers() {
+    const bool none = cells_.cellMemberOffsets.empty() && cells_.cellMembers.empty();
+    const bool noneOfFaces = cells_.faceMemberOffsets.empty() && cells_.faceMembers.empty();
+    if (none && noneOfFaces) return true;
+    const size_t cells = cells_.cellMembers.size(), faces = cells_.faceMembers.size(), most = size_t(1) << 30;
+    if (!expect(none == noneOfFaces, "array", 0, "of members is there, but not all of them")) return false;
+    return expectOffsets(cells_.cellMemberOffsets, cells_.cellCount(), cells, "cell") &&
+           expectOffsets(cells_.faceMemberOffsets, cells_.faceCount(), faces, "face") &&
+           expectMembers(cells_.cellMemberOffsets, cells_.cellMembers, cells, "cell") &&
+           expectMembers(cells_.faceMemberOffsets, cells_.faceMembers, most, "face");
+  }
+  /// Members are below `limit`.
+  bool expectMembers(const std::vector<uint32_t>& offsets, const std::vector<uint32_t>& members, size_t limit, const char* kind) {
+    for (size_t i = 0; i + 1 < offsets.size(); ++i) {
+      if (!expect(offsets[i] < offsets[i + 1], kind, i, "has no members")) return false;
+      for (size_t k = offsets[i]; k < offsets[i + 1]; ++k) {
+        const bool isNext = k == offsets[i] || members[k - 1] < members[k];
+        if (!expect(members[k] < limit && isNext, kind, i, "has a member that does not exist, or is out of order")) return false;
+      }
+    }
+    std::vector<uint32_t> sorted = members;
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    return expect(twice == sorted.end(), "member", twice == sorted.end() ? 0 : *twice, "belongs to two elements");
   }
 
   bool expectFinite(const std::vector<double>& numbers, size_t perElement, const char* kind) {

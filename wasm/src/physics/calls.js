@@ -53,6 +53,15 @@ export const physicsCalls = {
     keeps: 'cells',
   },
   /**
+   * Small cut-cells merged with neighbours, so that solvers can take long steps: each cell then has at least `options.fraction` (default
+   * 0.2) of the volume of a grid cell, and at most 1.5 of it by default, but for the pockets that the result names. Never across a triangle.
+   * `cells` are all of the cut-mesh's. Code "badOption" for a fraction below 0 or above 0.5, "badArgument" if the cells are those of
+   * another cut-mesh, or merged already.
+   *
+   * mergeSmallCells(cutMesh: CutMeshArrays, cells: CellComplex, options?: MergeOptions): MergedCells
+   */
+  mergeSmallCells: { takes: { cutMesh, cells }, options: { fraction: number(0.2), progress }, keeps: 'cells', member: 'cells' },
+  /**
    * The cells that `cellIds` name, in any order. Code "badArgument" with the element if one does not exist or is named twice.
    *
    * subComplex(cells: CellComplex, cellIds: Uint32Array | readonly number[]): SubComplex

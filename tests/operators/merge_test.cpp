@@ -1,0 +1,347 @@
+// Small cells merged: bounds of volumes, what is never merged, and that the mesh stays conforming. All is worked out anew from the cells
+// before and after.
+#include "mandoline/merge.h"
+
+#include <map>
+#include <set>
+
+#include "case_list.h"
+#include "catch.h"
+#include "checked_cut.h"
+#include "conforming_cells.h"
+#include "mandoline/mesh_files.h"
+#include "mandoline/resolve.h"
+#include "mesh_folder.h"
+#include "refusal.h"
+#include "shapes.h"
+
+using namespace mandoline;
+
+namespace {
+
+CellComplex complexOf(const Mesh& mesh, const CutMesh& cutMesh, int maxLevel = 24) {
+  CoarsenOptions options;
+  options.maxLevel = maxLevel;
+  return cellComplex(mesh, cutMesh, coarsen(cutMesh, options));
+}
+
+/// Volume of the grid cell or octree cell of a cell before.
+double unitOf(const CutMesh& cutMesh, const CellComplex& before, uint32_t cell) {
+  if (cell >= before.cutCells) return before.cellVolume[cell];
+  double volume = 1;
+  for (size_t d = 0; d < 3; ++d) {
+    const double* plane = &cutMesh.grid.planes[d][size_t(before.cellCorner[3 * cell + d])];
+    volume *= plane[1] - plane[0];
+  }
+  return volume;
+}
+
+/// The member that is the base.
+uint32_t baseOf(const CellComplex& before, const Members& members) {
+  uint32_t base = members[0];
+  for (const uint32_t m : members) {
+    if (m >= before.cutCells || (base < before.cutCells && before.cellVolume[m] > before.cellVolume[base])) base = m;
+  }
+  return base;
+}
+
+class MergeCheck {
+ public:
+  MergeCheck(const CutMesh& cutMesh, const CellComplex& before, const MergedCells& merged, double fraction)
+      : cutMesh_(cutMesh), before_(before), merged_(merged), after_(merged.cells), fraction_(fraction) {}
+
+  void run() {
+    REQUIRE(checkArrays(after_).message.empty());
+    requireCells();
+    requireFaces();
+    requireClosedCells(after_);
+    requireBounds();
+    requireNothingLeft();
+  }
+
+ private:
+  void requireCells() {
+    REQUIRE(merged_.mergedCell.size() == before_.cellCount());
+    std::vector<size_t> found(before_.cellCount());
+    for (uint32_t c = 0; c < after_.cellCount(); ++c) {
+      CAPTURE(c);
+      const Members members = after_.membersOfCell(c);
+      double volume = 0, moment[3] = {};
+      size_t octreeCells = 0;
+      for (const uint32_t m : members) {
+        ++found[m];
+        octreeCells += m >= before_.cutCells;
+        volume += before_.cellVolume[m];
+        for (size_t d = 0; d < 3; ++d) moment[d] += before_.cellVolume[m] * before_.cellCentroid[3 * m + d];
+        REQUIRE(merged_.mergedCell[m] == c);
+        REQUIRE(before_.cellRegion[m] == after_.cellRegion[c]);
+      }
+      REQUIRE(octreeCells <= 1);
+      REQUIRE((c < after_.cutCells) == (members[0] < before_.cutCells));
+      REQUIRE(after_.cellVolume[c] == volume);
+      const uint32_t base = baseOf(before_, members);
+      for (size_t d = 0; d < 3; ++d) {
+        REQUIRE(after_.cellCentroid[3 * c + d] * volume == Approx(moment[d]).margin(1e-12 * std::fabs(volume)));
+        REQUIRE(after_.cellCorner[3 * c + d] == before_.cellCorner[3 * base + d]);
+        REQUIRE(after_.cellCentre[3 * c + d] == before_.cellCentre[3 * base + d]);
+      }
+      REQUIRE(after_.cellLevel[c] == before_.cellLevel[base]);
+    }
+    REQUIRE(std::count(found.begin(), found.end(), 1u) == std::ptrdiff_t(found.size()));
+  }
+
+  int32_t cellAfter(size_t halfFace) const {
+    const int32_t cell = before_.faceCells[halfFace];
+    return cell < 0 ? -1 : int32_t(merged_.mergedCell[size_t(cell)]);
+  }
+
+  /// Every face is part of one, unless it is no triangle and lies inside a cell; and triangles have the same cell on both sides only where
+  /// they had before.
+  void requireFaces() {
+    std::vector<size_t> found(before_.faceCount());
+    for (size_t f = 0; f < after_.faceCount(); ++f) {
+      CAPTURE(f);
+      const Members members = after_.membersOfFace(f);
+      double area = 0;
+      for (const uint32_t m : members) {
+        ++found[m];
+        area += before_.faceArea[m];
+        REQUIRE(before_.faceTag[m] == after_.faceTag[f]);
+        for (size_t side = 0; side < 2; ++side) REQUIRE(after_.faceCells[2 * f + side] == cellAfter(2 * size_t(m) + side));
+        for (size_t d = 0; d < 3; ++d) REQUIRE(before_.faceNormal[3 * m + d] == after_.faceNormal[3 * f + d]);
+      }
+      REQUIRE(after_.faceArea[f] == Approx(area).epsilon(1e-14));
+      REQUIRE((members.size() == 1 || after_.loops(f).size() == 1));
+      REQUIRE((f < after_.cutFaces) == (members[0] < before_.cutFaces));
+    }
+    for (size_t f = 0; f < found.size(); ++f) {
+      CAPTURE(f);
+      const bool isSurface = before_.faceTag[f] == FaceTag::surface, isInside = cellAfter(2 * f) == cellAfter(2 * f + 1);
+      REQUIRE(found[f] == (isSurface || !isInside ? 1 : 0));
+      if (isSurface && isInside) REQUIRE(before_.faceCells[2 * f] == before_.faceCells[2 * f + 1]);
+    }
+  }
+
+  double volumeByUnit(size_t c) const { return after_.cellVolume[c] / unitOf(cutMesh_, before_, baseOf(before_, after_.membersOfCell(c))); }
+
+  void requireBounds() {
+    const std::set<uint32_t> pockets(merged_.pockets.begin(), merged_.pockets.end());
+    REQUIRE(pockets.size() == merged_.pockets.size());
+    for (uint32_t c = 0; c < after_.cellCount(); ++c) {
+      CAPTURE(c, volumeByUnit(c));
+      REQUIRE((volumeByUnit(c) < fraction_) == (pockets.count(c) > 0));
+      REQUIRE(volumeByUnit(c) <= (1 + 2.5 * fraction_) * (1 + 1e-14));
+    }
+  }
+
+  /// A pocket can't join any of its neighbours.
+  void requireNothingLeft() {
+    for (const uint32_t c : merged_.pockets) {
+      std::set<int32_t> beside, separated;
+      for (const uint32_t h : after_.halfFaces(c)) {
+        const int32_t other = after_.faceCells[h ^ 1];
+        (after_.faceTag[h / 2] == FaceTag::surface ? separated : beside).insert(other);
+      }
+      for (const int32_t other : beside) {
+        if (other < 0 || separated.count(other) || after_.cellRegion[size_t(other)] != after_.cellRegion[c]) continue;
+        CAPTURE(c, other);
+        const uint32_t bases[] = {baseOf(before_, after_.membersOfCell(c)), baseOf(before_, after_.membersOfCell(size_t(other)))};
+        const bool isLarger = bases[1] >= before_.cutCells || before_.cellVolume[bases[1]] > before_.cellVolume[bases[0]];
+        const double all = after_.cellVolume[c] + after_.cellVolume[size_t(other)];
+        REQUIRE(all / unitOf(cutMesh_, before_, bases[isLarger]) > 1 + 2.5 * fraction_);
+      }
+    }
+  }
+
+  const CutMesh& cutMesh_;
+  const CellComplex& before_;
+  const MergedCells& merged_;
+  const CellComplex& after_;
+  const double fraction_;
+};
+
+/// The same volume per region, to rounding.
+void requireRegionVolumes(const CutMesh& cutMesh, const CellComplex& before, const CellComplex& after) {
+  std::vector<double> volumes[2];
+  for (const CellComplex* cells : {&before, &after}) {
+    std::vector<double>& mine = volumes[cells == &after];
+    mine.resize(cutMesh.regionCount);
+    for (size_t c = 0; c < cells->cellCount(); ++c) mine[cells->cellRegion[c]] += cells->cellVolume[c];
+  }
+  for (size_t r = 0; r < cutMesh.regionCount; ++r) REQUIRE(volumes[1][r] == Approx(volumes[0][r]).epsilon(1e-13));
+}
+
+MergedCells checkedMerge(const Mesh& mesh, const CutMesh& cutMesh, const CellComplex& before, double fraction = 0.2) {
+  MergeOptions options;
+  options.fraction = fraction;
+  const MergedCells merged = mergeSmallCells(cutMesh, before, options);
+  MergeCheck(cutMesh, before, merged, fraction).run();
+  requireAreasAndVolumes(merged.cells, mesh, cutMesh);
+  requireRegionVolumes(cutMesh, before, merged.cells);
+  return merged;
+}
+
+MergedCells checkedMerge(const Mesh& mesh, const Grid& grid, int maxLevel = 24, double fraction = 0.2) {
+  const CutResult result = cut(mesh, grid);
+  REQUIRE(result);
+  return checkedMerge(mesh, result.mesh, complexOf(mesh, result.mesh, maxLevel), fraction);
+}
+
+/// Of cells in a region.
+std::map<double, size_t> volumesOf(const CellComplex& cells, uint32_t region) {
+  std::map<double, size_t> volumes;
+  for (size_t c = 0; c < cells.cellCount(); ++c) {
+    if (cells.cellRegion[c] == region) ++volumes[cells.cellVolume[c]];
+  }
+  return volumes;
+}
+
+}  // namespace
+
+TEST_CASE("merge: all cases, single grid cells and octree cells", "[merge]") {
+  for (const NamedCase& c : caseList()) {
+    CAPTURE(c.name);
+    checkedMerge(c.mesh, c.grid, 0);
+    checkedMerge(c.mesh, c.grid, 24);
+    checkedMerge(c.mesh, c.grid, 24, 0.5);
+  }
+}
+
+TEST_CASE("merge: a box slightly larger than eight grid cells becomes eight cells", "[merge]") {
+  const Mesh box = shapes::cube(0.9375, 3.0625);
+  const CutResult result = cut(box, unitGrid(4));
+  const CellComplex before = complexOf(box, result.mesh, 0);
+  const MergedCells merged = checkedMerge(box, result.mesh, before);
+  const uint32_t inside = result.mesh.regionWinding[0] == 1 ? 0 : 1;
+  CHECK(volumesOf(before, inside).size() == 4);
+  CHECK(volumesOf(merged.cells, inside) == std::map<double, size_t>{{1.0625 * 1.0625 * 1.0625, 8}});
+  // The 12 sides between them were 4 faces each.
+  size_t sides = 0;
+  for (size_t f = 0; f < merged.cells.faceCount(); ++f) {
+    const int32_t front = merged.cells.faceCells[2 * f];
+    if (merged.cells.faceTag[f] != FaceTag::inner || merged.cells.cellRegion[size_t(front)] != inside) continue;
+    ++sides;
+    CHECK(merged.cells.membersOfFace(f).size() == 4);
+    CHECK(merged.cells.faceArea[f] == 1.0625 * 1.0625);
+  }
+  CHECK(sides == 12);
+  CHECK(merged.pockets.empty());
+}
+
+TEST_CASE("merge: a closed pocket stays, and is named", "[merge]") {
+  const Mesh pocket = shapes::cube(1.25, 1.75);
+  const MergedCells merged = checkedMerge(pocket, unitGrid(4), 0);
+  REQUIRE(merged.pockets.size() == 1);
+  CHECK(merged.cells.cellVolume[merged.pockets[0]] == 0.125);
+}
+
+TEST_CASE("merge: a small cell whose neighbour has no room stays", "[merge]") {
+  // Three bars that cross in a grid cell, which has 0.84375 of its volume, and reach 0.2 beyond it: six ends of 0.1125. Five fit below 1.5.
+  std::vector<Mesh> bars;
+  for (size_t d = 0; d < 3; ++d) {
+    shapes::Point low{1.125, 1.125, 1.125}, high{1.875, 1.875, 1.875};
+    low[d] = 0.8, high[d] = 2.2;
+    bars.push_back(shapes::box(low, high));
+  }
+  const Mesh crossing = shapes::merged(bars), cross = boundary(resolve(crossing).mesh);
+  const MergedCells merged = checkedMerge(cross, unitGrid(3), 0);
+  REQUIRE(merged.pockets.size() == 1);
+  CHECK(merged.cells.cellVolume[merged.pockets[0]] == Approx(0.1125));
+}
+
+TEST_CASE("merge: never across a triangle, where a sheet ends in a cell, nor around its rim", "[merge]") {
+  // The cells above and below the sheet are 0.0625 high, those at its rim have both sides.
+  const Mesh sheet = shapes::quad({0.5, 0.5, 2.0625}, {3.5, 0.5, 2.0625}, {3.5, 3.5, 2.0625}, {0.5, 3.5, 2.0625});
+  const CutResult result = cut(sheet, unitGrid(4));
+  const CellComplex before = complexOf(sheet, result.mesh, 0);
+  const MergedCells merged = checkedMerge(sheet, result.mesh, before);
+  CHECK(merged.cells.cellCount() == before.cellCount() - 4);  // those below the sheet
+}
+
+TEST_CASE("merge: octree cells take small ones in", "[merge]") {
+  // The box has 4^3 octree cells of level 1 inside, and around them plates of 0.0625 and what is in its edges and corners.
+  const Mesh box = shapes::cube(3.9375, 12.0625);
+  const CutResult result = cut(box, unitGrid(16));
+  const MergedCells merged = checkedMerge(box, result.mesh, complexOf(box, result.mesh, 1));
+  const std::map<double, size_t> inside = volumesOf(merged.cells, result.mesh.regionWinding[0] == 1 ? 0 : 1);
+  CHECK(inside.at(8) == 8);
+  CHECK(std::all_of(inside.begin(), inside.end(), [](const auto& each) { return each.first >= 8; }));
+}
+
+TEST_CASE("merge: graded grids", "[merge]") {
+  std::array<std::vector<double>, 3> planes;
+  for (size_t d = 0; d < 3; ++d) {
+    double x = 0;
+    for (int i = 0; i <= 12; ++i, x += 0.5 + 0.125 * double(i % 5)) planes[d].push_back(x);
+  }
+  checkedMerge(shapes::icosphere({4.1, 4.2, 4.3}, 2.7, 3), Grid::rectilinear(planes), 24);
+}
+
+TEST_CASE("merge: nothing is small at fraction 0", "[merge]") {
+  const Mesh ball = shapes::icosphere({4, 4, 4}, 2.3, 2);
+  const CutResult result = cut(ball, unitGrid(8));
+  const CellComplex before = complexOf(ball, result.mesh);
+  const CellComplex after = checkedMerge(ball, result.mesh, before, 0).cells;
+  CHECK(after.faceCells == before.faceCells);
+  CHECK(after.loopVertices == before.loopVertices);
+  CHECK(after.cellHalfFaces == before.cellHalfFaces);
+  CHECK(after.cellVolume == before.cellVolume);
+}
+
+TEST_CASE("merge: parts of merged cells, and the fingerprint", "[merge]") {
+  const Mesh ball = shapes::icosphere({4, 4, 4}, 2.3, 2);
+  const CutResult result = cut(ball, unitGrid(8));
+  const CellComplex before = complexOf(ball, result.mesh);
+  const CellComplex merged = mergeSmallCells(result.mesh, before).cells;
+  CHECK(merged.madeFrom == before.madeFrom);
+  CHECK(merged.fingerprint != before.fingerprint);
+  CHECK(merged.fingerprint != mergeSmallCells(result.mesh, before, MergeOptions{{}, 0.25}).cells.fingerprint);
+  const SubComplex sub = regionComplex(merged, 1);
+  CHECK(checkArrays(sub.cells).message.empty());
+  requireClosedCells(sub.cells);
+}
+
+TEST_CASE("merge: wrong options, and cells that are merged already or others'", "[merge]") {
+  const Mesh ball = shapes::icosphere({4, 4, 4}, 2.3, 2);
+  const CutResult result = cut(ball, unitGrid(8)), other = cut(ball, unitGrid(9));
+  const CellComplex before = complexOf(ball, result.mesh);
+  for (const double fraction : {-0.1, 0.51, double(NAN)}) {
+    CHECK(refusal([&] { mergeSmallCells(result.mesh, before, MergeOptions{{}, fraction}); }).first == Status::badOption);
+  }
+  const MergedCells merged = mergeSmallCells(result.mesh, before);
+  CHECK(refusal([&] { mergeSmallCells(result.mesh, merged.cells); }).first == Status::badArgument);
+  CHECK(refusal([&] { mergeSmallCells(other.mesh, before); }).first == Status::badArgument);
+  CHECK(refusal([&] { mergeSmallCells(result.mesh, regionComplex(before, 1).cells); }).first == Status::badArgument);
+  MergeOptions cancelled;
+  cancelled.progress = [](const Progress&) { return false; };
+  CHECK(refusal([&] { mergeSmallCells(result.mesh, before, cancelled); }).first == Status::cancelled);
+}
+
+TEST_CASE("merge: what is wrong with members is named", "[merge]") {
+  const Mesh ball = shapes::icosphere({4, 4, 4}, 2.3, 2);
+  const CutResult result = cut(ball, unitGrid(8));
+  const MergedCells merged = mergeSmallCells(result.mesh, complexOf(ball, result.mesh));
+  const auto messageAfter = [&](auto damage) {
+    CellComplex cells = merged.cells;
+    damage(cells);
+    return checkArrays(cells).message;
+  };
+  CHECK(messageAfter([](CellComplex&) {}).empty());
+  CHECK(!messageAfter([](CellComplex& cells) { cells.cellMembers.back() = cells.cellMembers.front(); }).empty());
+  CHECK(!messageAfter([](CellComplex& cells) { cells.cellMembers.back() += 1; }).empty());
+  CHECK(!messageAfter([](CellComplex& cells) { cells.cellMemberOffsets[1] = 0; }).empty());
+  CHECK(!messageAfter([](CellComplex& cells) { cells.faceMembers.back() = cells.faceMembers.front(); }).empty());
+  CHECK(!messageAfter([](CellComplex& cells) { cells.faceMemberOffsets.clear(), cells.faceMembers.clear(); }).empty());
+  CHECK(!messageAfter([](CellComplex& cells) { cells.cellMemberOffsets.pop_back(); }).empty());
+}
+
+TEST_CASE("merge: real meshes, coarsened", "[merge]") {
+  const auto folder = meshFolder();
+  if (!folder) return;
+  for (const char* name : {"common_spot", "codim_skirt8K", "assimp_Wuson", "cgal_bones", "trimesh_chair_model", "trimesh_angle_block",
+                           "manifold_self_intersectA", "igltut_truck"}) {
+    CAPTURE(name);
+    const Mesh mesh = readMesh((*folder / (std::string(name) + ".obj.gz")).string());
+    checkedMerge(mesh, Grid::around(mesh, 24), 3);
+  }
+}
