@@ -28,6 +28,11 @@ val coarsenCutMesh(const KeptCutMesh& kept, const val& options) {
   });
 }
 
+val keptWithTwin(CellComplex cells) {
+  const val value = toObject(cells);
+  return success(object({{"value", value}, {"twin", val(KeptComplex(std::move(cells)))}}));
+}
+
 /// `octree` is null for the untouched grid cells.
 val complexOf(const val& mesh, const KeptCutMesh& kept, const val& octree, const val& options) {
   return guarded([&, cutMesh = kept.get()] {
@@ -36,8 +41,7 @@ val complexOf(const val& mesh, const KeptCutMesh& kept, const val& octree, const
     none.maxLevel = 0;
     CellComplex cells =
         cellComplex(input, *cutMesh, octree.isNull() ? coarsen(*cutMesh, none) : fromObject<OctreeCells>(octree), runOptions(options));
-    const val value = toObject(cells);
-    return success(object({{"value", value}, {"twin", val(KeptComplex(std::move(cells)))}}));
+    return keptWithTwin(std::move(cells));
   });
 }
 
@@ -54,6 +58,18 @@ val mergedOf(const KeptCutMesh& keptCutMesh, const KeptComplex& keptCells, const
     mergeOptions.progress = progressOf(options);
     mergeOptions.fraction = options["fraction"].as<double>();
     return withTwin(mergeSmallCells(*cutMesh, *cells, mergeOptions));
+  });
+}
+
+val unitedOf(const KeptCutMesh& keptCutMesh, const KeptComplex& keptCells, const val& options) {
+  return guarded([&, cutMesh = keptCutMesh.get(), cells = keptCells.get()] {
+    TriangleGroups groups;
+    if (!options["groups"].isUndefined()) groups = fromObject<TriangleGroups>(options["groups"]);
+    WallOptions wallOptions;
+    wallOptions.progress = progressOf(options);
+    wallOptions.angle = options["angle"].as<double>();
+    wallOptions.triangleGroup = groups.triangleGroup;
+    return keptWithTwin(uniteWalls(*cutMesh, *cells, wallOptions));
   });
 }
 
@@ -234,6 +250,7 @@ EMSCRIPTEN_BINDINGS(physics) {
   emscripten::function("coarsen", &coarsenCutMesh);
   emscripten::function("cellComplex", &complexOf);
   emscripten::function("mergeSmallCells", &mergedOf);
+  emscripten::function("uniteWalls", &unitedOf);
   emscripten::function("subComplex", &partOf);
   emscripten::function("regionComplex", &regionOf);
   emscripten::function("complexEdges", &edgesOf);

@@ -115,13 +115,19 @@ std::optional<InsideRegions> insideOf(const Arguments& arguments, const CutMesh&
   return insideOf(cutMesh, arguments.insideThreshold.value_or(kThreshold));
 }
 
-MergedCells makeCells(const Arguments& arguments, const Mesh& mesh, const CutMesh& cutMesh) {
+MergedCells makeCells(const Arguments& arguments, const Input& input, const CutMesh& cutMesh) {
   return withProgress(arguments.threads, [&](const RunOptions& run) {
     CoarsenOptions coarsening{run};
     coarsening.maxLevel = arguments.coarsen.value_or(0);
-    CellComplex cells = cellComplex(mesh, cutMesh, coarsen(cutMesh, coarsening), run);
+    CellComplex cells = cellComplex(input.mesh, cutMesh, coarsen(cutMesh, coarsening), run);
     const double fraction = mergeFraction(arguments);
-    return fraction > 0 ? mergeSmallCells(cutMesh, cells, MergeOptions{run, fraction}) : MergedCells{std::move(cells), {}, {}};
+    MergedCells made;
+    if (fraction > 0)
+      made = mergeSmallCells(cutMesh, cells, MergeOptions{run, fraction});
+    else
+      made.cells = std::move(cells);
+    if (arguments.uniteWalls) made.cells = uniteWalls(cutMesh, made.cells, {run, *arguments.uniteWalls, input.groups.triangleGroup});
+    return made;
   });
 }
 

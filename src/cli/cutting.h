@@ -51,8 +51,9 @@ std::optional<CutResult> cutOrComplain(const Arguments& arguments, const Input& 
 /// The regions inside, by the threshold that was asked for; nothing if nothing is known of any.
 std::optional<InsideRegions> insideOf(const Arguments& arguments, const CutMesh& cutMesh);
 
-/// All cells, untouched ones merged as far as --coarsen says and small ones as --merge does. With progress.
-MergedCells makeCells(const Arguments& arguments, const Mesh& mesh, const CutMesh& cutMesh);
+/// All cells: untouched ones merged as far as --coarsen says and small ones as --merge does, their walls united as --unite-walls does. With
+/// progress.
+MergedCells makeCells(const Arguments& arguments, const Input& input, const CutMesh& cutMesh);
 
 /// --merge, or what it is by default.
 double mergeFraction(const Arguments& arguments);

@@ -122,7 +122,7 @@ int runFlow(const Arguments& arguments) {
   WriteOptions options = writeOptions(arguments, *cut);
   if (arguments.only.any()) requireSelection(options, cut->mesh);
   options.groups = &input.groups;
-  const MergedCells merged = makeCells(arguments, mesh, cut->mesh);
+  const MergedCells merged = makeCells(arguments, input, cut->mesh);
   const CellComplex& cells = merged.cells;
   const Flow flow =
       withProgress(arguments.threads, [&](const RunOptions& run) { return solveFlow(cells, *arguments.flow.wind, FlowOptions{run}); });

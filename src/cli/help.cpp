@@ -82,6 +82,9 @@ Options of cut
                          with neighbours, in what has octree cells; never across a triangle.
                          0.2 is right for solvers. The report tells how many cells there
                          are, and how many are still small, such as pockets
+  --unite-walls DEGREES  unite the pieces of triangles between the same two cells to faces,
+                         as long as their normals are that near to each other (0 to 90; 30
+                         is right for solvers), in the same files; groups stay apart
   --faces                in .vtu files, the faces of all cells as polygons, with tag,
                          triangle, cells and group, instead of cells
   --format EXTENSION     what -o - writes to standard output; the text of the report then
@@ -113,6 +116,7 @@ Options of flow
   --coarsen LEVELS, --faces, --only WHAT, --inside-threshold T
                          as of cut; faces have normal_velocity, normal and area
   --merge FRACTION       as of cut (default: 0.2; 0 merges nothing)
+  --unite-walls DEGREES  as of cut
   --streamlines N        how many lines (default: 100), from where the wind enters
   -o FILE ...            .vtu all cells with phi, velocity and pressure_coefficient;
                          .obj streamlines, none of which passes a triangle

@@ -17,10 +17,11 @@ void requireMadeFrom(Fingerprint madeFrom, Fingerprint other, const char* messag
 void refuseCells() { refuse("The cells are not all of this cut-mesh's."); }
 
 void requireCellsOf(const CutMesh& cutMesh, const CellComplex& cells) {
-  const bool isMerged = !cells.cellMemberOffsets.empty();
-  const bool haveCounts = isMerged ? cells.cutCells <= cutMesh.cellCount() && cells.cellMembers.size() >= cutMesh.cellCount()
-                                   : cells.cutCells == cutMesh.cellCount() && cells.cutFaces == cutMesh.faceCount();
-  const bool areAll = haveCounts && cells.cutVertices == cutMesh.vertexCount();
+  const size_t cutCells = cutMesh.cellCount(), cutFaces = cutMesh.faceCount();
+  const bool areCells =
+      cells.cellMemberOffsets.empty() ? cells.cutCells == cutCells : cells.cutCells <= cutCells && cells.cellMembers.size() >= cutCells;
+  const bool areFaces = cells.faceMemberOffsets.empty() ? cells.cutFaces == cutFaces : cells.cutFaces <= cutFaces;
+  const bool areAll = areCells && areFaces && cells.cutVertices == cutMesh.vertexCount();
   if (!areAll || !detail::mayBeSame(cells.madeFrom, cutMesh.fingerprint)) refuseCells();
 }
 

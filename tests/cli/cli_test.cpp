@@ -73,6 +73,8 @@ TEST_CASE("Command line: wrong usage exits with 2", "[cli]") {
       {{"info", mesh, "--cells", "3"}, "--cells is an option of cut, slice, boundary and flow"},
       {{"cut", mesh, "--wind", "1,0,0"}, "--wind is an option of flow"},
       {{"cut", mesh, "--merge", "0.6", "-o", folder.path("a.vtu")}, "--merge needs a number from 0 to 0.5, not '0.6'"},
+      {{"cut", mesh, "--unite-walls", "100", "-o", folder.path("a.vtu")}, "--unite-walls needs an angle from 0 to 90 degrees, not '100'"},
+      {{"cut", mesh, "--unite-walls", "20", "-o", folder.path("a.mcm")}, "--unite-walls: only .vtu and .json files and polyMesh folders"},
       {{"cut", mesh, "--merge", "0.2", "-o", folder.path("a.obj")}, "--merge: only .vtu and .json files and polyMesh folders"},
       {{"info", mesh, "--only"}, "--only is an option of cut, slice, boundary and flow"},
       {{"cut", mesh, "--cels", "3"}, "unknown option '--cels': did you mean --cells?"},
@@ -325,9 +327,9 @@ TEST_CASE("Command line: misspelt options are errors that suggest the name", "[c
   const TemporaryFolder folder;
   const std::string mesh = folder.write("cube.obj", kCube);
   const std::string cut = "cells margin box origin spacing planes snap-tolerance intersections orient threads only report format";
-  const std::pair<std::string, std::string> commands[] = {{"cut", cut + " validate coarsen merge faces"},
+  const std::pair<std::string, std::string> commands[] = {{"cut", cut + " validate coarsen merge unite-walls faces"},
                                                           {"slice", cut + " axis normal heights layers"},
-                                                          {"flow", cut + " coarsen merge faces wind streamlines"},
+                                                          {"flow", cut + " coarsen merge unite-walls faces wind streamlines"},
                                                           {"info", "threads report format"},
                                                           {"resolve", "rule orient threads report format"}};
   std::mt19937 random(7);

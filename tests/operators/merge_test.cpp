@@ -299,6 +299,13 @@ TEST_CASE("merge: parts of merged cells, and the fingerprint", "[merge]") {
   const SubComplex sub = regionComplex(merged, 1);
   CHECK(checkArrays(sub.cells).message.empty());
   requireClosedCells(sub.cells);
+  for (size_t c = 0; c < sub.cells.cellCount(); ++c) {
+    const Members mine = sub.cells.membersOfCell(c), whole = merged.membersOfCell(sub.wholeCell[c]);
+    REQUIRE(mine.size() == whole.size());
+    for (size_t i = 0; i < mine.size(); ++i) REQUIRE(mine[i] == whole[i]);
+  }
+  const Members face = sub.cells.membersOfFace(0);
+  CHECK(face[0] == merged.membersOfFace(sub.wholeFace[0])[0]);
 }
 
 TEST_CASE("merge: wrong options, and cells that are merged already or others'", "[merge]") {
@@ -328,10 +335,9 @@ TEST_CASE("merge: what is wrong with members is named", "[merge]") {
   };
   CHECK(messageAfter([](CellComplex&) {}).empty());
   CHECK(!messageAfter([](CellComplex& cells) { cells.cellMembers.back() = cells.cellMembers.front(); }).empty());
-  CHECK(!messageAfter([](CellComplex& cells) { cells.cellMembers.back() += 1; }).empty());
+  CHECK(!messageAfter([](CellComplex& cells) { cells.cellMembers.back() = ~0u; }).empty());
   CHECK(!messageAfter([](CellComplex& cells) { cells.cellMemberOffsets[1] = 0; }).empty());
   CHECK(!messageAfter([](CellComplex& cells) { cells.faceMembers.back() = cells.faceMembers.front(); }).empty());
-  CHECK(!messageAfter([](CellComplex& cells) { cells.faceMemberOffsets.clear(), cells.faceMembers.clear(); }).empty());
   CHECK(!messageAfter([](CellComplex& cells) { cells.cellMemberOffsets.pop_back(); }).empty());
 }
 
@@ -344,4 +350,122 @@ TEST_CASE("merge: real meshes, coarsened", "[merge]") {
     const Mesh mesh = readMesh((*folder / (std::string(name) + ".obj.gz")).string());
     checkedMerge(mesh, Grid::around(mesh, 24), 3);
   }
+}
+
+namespace {
+
+/// What is between the same two cells and of one group, and how large.
+void requireUnited(const Mesh& mesh, const CutMesh& cutMesh, const CellComplex& before, const CellComplex& after) {
+  REQUIRE(checkArrays(after).message.empty());
+  requireClosedCells(after);
+  requireAreasAndVolumes(after, mesh, cutMesh);
+  CHECK(after.cellVolume == before.cellVolume);
+  CHECK(after.cellMembers == before.cellMembers);
+  std::map<uint32_t, size_t> faceOf;  // per member of a face before
+  for (size_t f = 0; f < before.faceCount(); ++f) {
+    for (const uint32_t m : before.membersOfFace(f)) faceOf[m] = f;
+  }
+  std::set<uint32_t> found;
+  for (size_t f = 0; f < after.faceCount(); ++f) {
+    CAPTURE(f);
+    double area[3] = {};
+    std::set<size_t> pieces;
+    for (const uint32_t m : after.membersOfFace(f)) {
+      REQUIRE(found.insert(m).second);
+      pieces.insert(faceOf.at(m));
+    }
+    for (const size_t piece : pieces) {
+      REQUIRE(after.faceTag[f] == before.faceTag[piece]);
+      for (size_t side = 0; side < 2; ++side) REQUIRE(after.faceCells[2 * f + side] == before.faceCells[2 * piece + side]);
+      for (size_t d = 0; d < 3; ++d) area[d] += before.faceArea[piece] * before.faceNormal[3 * piece + d];
+    }
+    REQUIRE((pieces.size() == 1 || (after.faceTag[f] == FaceTag::surface && after.loops(f).size() == 1)));
+    for (size_t d = 0; d < 3; ++d)
+      REQUIRE(after.faceArea[f] * after.faceNormal[3 * f + d] == Approx(area[d]).margin(1e-13 * (1 + after.faceArea[f])));
+  }
+  REQUIRE(found.size() == faceOf.size());
+}
+
+/// How many faces a surface has.
+size_t wallsOf(const CellComplex& cells) { return size_t(std::count(cells.faceTag.begin(), cells.faceTag.end(), FaceTag::surface)); }
+
+}  // namespace
+
+TEST_CASE("unite walls: all cases, merged or not", "[merge]") {
+  for (const NamedCase& c : caseList()) {
+    CAPTURE(c.name);
+    const CutResult result = cut(c.mesh, c.grid);
+    const CellComplex single = complexOf(c.mesh, result.mesh), merged = mergeSmallCells(result.mesh, single).cells;
+    for (const CellComplex* cells : {&single, &merged}) {
+      for (const double angle : {10.0, 30.0, 90.0})
+        requireUnited(c.mesh, result.mesh, *cells, uniteWalls(result.mesh, *cells, WallOptions{{}, angle, {}}));
+    }
+  }
+}
+
+TEST_CASE("unite walls: a cube's sides are one face in each cell, unless their triangles are of two groups", "[merge]") {
+  const Mesh cube = shapes::cube(1.25, 2.75);
+  const CutResult result = cut(cube, unitGrid(4));
+  const CellComplex cells = complexOf(cube, result.mesh);
+  // 8 cells inside have three sides each.
+  CHECK(wallsOf(cells) > 24);
+  const CellComplex united = uniteWalls(result.mesh, cells);
+  CHECK(wallsOf(united) == 24);
+  for (size_t f = 0; f < united.faceCount(); ++f) {
+    if (united.faceTag[f] == FaceTag::surface) CHECK(united.faceArea[f] == 0.75 * 0.75);
+  }
+  std::vector<uint32_t> groups;
+  for (uint32_t t = 0; t < 12; ++t) groups.push_back(t % 2);
+  CHECK(wallsOf(uniteWalls(result.mesh, cells, WallOptions{{}, 30, groups})) == wallsOf(cells));
+  CHECK(uniteWalls(result.mesh, cells, WallOptions{{}, 30, groups}).fingerprint != united.fingerprint);
+}
+
+TEST_CASE("unite walls: as far as the angle allows, and unless a cell would lose much of its volume", "[merge]") {
+  const auto countOf = [](const std::vector<std::array<double, 2>>& polygon, double angle) {
+    const Mesh mesh = shapes::prism(polygon, 0.25, 0.75);
+    const CutResult result = cut(mesh, unitGrid(1));
+    return wallsOf(uniteWalls(result.mesh, complexOf(mesh, result.mesh), WallOptions{{}, angle, {}}));
+  };
+  // The sides of the roof are 23 degrees apart.
+  const std::vector<std::array<double, 2>> house{{0.25, 0.25}, {0.75, 0.25}, {0.75, 0.6}, {0.5, 0.65}, {0.25, 0.6}};
+  CHECK(countOf(house, 20) == 7);
+  CHECK(countOf(house, 30) == 6);
+  const std::vector<std::array<double, 2>> roof{{0.25, 0.25}, {0.75, 0.25}, {0.5, 0.3}};
+  CHECK(countOf(roof, 30) == 5);
+}
+
+TEST_CASE("unite walls: a ball, finely triangulated", "[merge]") {
+  const Mesh ball = shapes::icosphere({4, 4, 4}, 2.3, 5);
+  const CutResult result = cut(ball, unitGrid(8));
+  const CellComplex merged = mergeSmallCells(result.mesh, complexOf(ball, result.mesh)).cells;
+  const CellComplex united = uniteWalls(result.mesh, merged);
+  requireUnited(ball, result.mesh, merged, united);
+  CHECK(wallsOf(united) < 3 * merged.cutCells);
+  CHECK(wallsOf(merged) > 50 * merged.cutCells);
+}
+
+TEST_CASE("unite walls: real meshes, coarsened and merged", "[merge]") {
+  const auto folder = meshFolder();
+  if (!folder) return;
+  for (const char* name : {"common_spot", "codim_skirt8K", "assimp_Wuson", "trimesh_chair_model", "manifold_self_intersectA"}) {
+    CAPTURE(name);
+    const Mesh mesh = readMesh((*folder / (std::string(name) + ".obj.gz")).string());
+    const CutResult result = cut(mesh, Grid::around(mesh, 24));
+    const CellComplex merged = mergeSmallCells(result.mesh, complexOf(mesh, result.mesh, 3)).cells;
+    const CellComplex united = uniteWalls(result.mesh, merged);
+    requireUnited(mesh, result.mesh, merged, united);
+    CHECK(wallsOf(united) < wallsOf(merged));
+  }
+}
+
+TEST_CASE("unite walls: wrong options, and cells of others", "[merge]") {
+  const Mesh ball = shapes::icosphere({4, 4, 4}, 2.3, 2);
+  const CutResult result = cut(ball, unitGrid(8)), other = cut(ball, unitGrid(9));
+  const CellComplex cells = complexOf(ball, result.mesh);
+  for (const double angle : {-1.0, 91.0, double(NAN)}) {
+    CHECK(refusal([&] { uniteWalls(result.mesh, cells, WallOptions{{}, angle, {}}); }).first == Status::badOption);
+  }
+  const std::vector<uint32_t> tooFew(3);
+  CHECK(refusal([&] { uniteWalls(result.mesh, cells, WallOptions{{}, 30, tooFew}); }).first == Status::badArgument);
+  CHECK(refusal([&] { uniteWalls(other.mesh, cells); }).first == Status::badArgument);
 }

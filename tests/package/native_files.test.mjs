@@ -106,6 +106,14 @@ test('merged cells', { skip }, async () => {
   await compare(physics, 'writeFaces', [cutMesh, merged, { groups }], faces('faces.vtu'));
 });
 
+test('walls united, by groups', { skip }, async () => {
+  const united = physics.uniteWalls(cutMesh, cells, { angle: 40, groups });
+  const written = native('cut', [...gridOptions, '--coarsen', '2', '--unite-walls', '40'], ['cells.json', 'polyMesh']);
+  await compare(physics, 'writeCells', [cutMesh, united, 'json', { groups }], written('cells.json'));
+  for (const [name, bytes] of Object.entries(physics.writePolyMesh(cutMesh, united, { groups })))
+    assertSame(bytes, written(`polyMesh/${name}`), name);
+});
+
 test('flows and streamlines', { skip }, async () => {
   const options = [...gridOptions, '--coarsen', '2', '--wind', wind.join()];
   const written = native('flow', [...options, '--streamlines', '40'], ['flow.vtu', 'lines.obj']);

@@ -105,6 +105,21 @@ test('small cells merged: volumes, members, and what other calls make of them', 
   assert.throws(() => physics.mergeSmallCells(cutMesh, physics.mergeSmallCells(cutMesh, cells).cells), /merged already/);
 });
 
+test('walls united: fewer faces, as closed as before', () => {
+  const { cells: merged } = physics.mergeSmallCells(cutMesh, coarse);
+  const walls = ({ faceTag }) => faceTag.filter((tag) => faceTags[tag] === 'surface').length;
+  const united = physics.uniteWalls(cutMesh, merged);
+  assert.ok(walls(united) < walls(merged) / 2);
+  assert.deepEqual(united.cellVolume, merged.cellVolume);
+  const { divergence } = physics.operators(united, { only: ['divergence'] });
+  assertNear(times(divergence, products(field, united.faceNormal)), new Float64Array(cellCount(united)), 1e-13);
+  const triangleGroup = Uint32Array.from({ length: mesh.triangles.length / 3 }, (_, t) => t % 2);
+  const groups = { names: ['even', 'odd'], triangleGroup };
+  assert.ok(walls(physics.uniteWalls(cutMesh, merged, { groups })) > walls(united));
+  assert.ok(walls(physics.uniteWalls(cutMesh, merged, { angle: 5 })) > walls(united));
+  assert.throws(() => physics.uniteWalls(cutMesh, merged, { angle: 100 }), { code: 'badOption', stage: 'uniteWalls' });
+});
+
 test('the boundary of a boundary is nothing, to the bit', () => {
   for (const [name, all] of complexes) {
     const { cellFaceIncidence, faceEdgeIncidence, edgeVertexIncidence, ...rest } = physics.operators(all, {
@@ -347,6 +362,7 @@ const calls = {
   coarsen: ['cutMesh', (given) => physics.coarsen(given)],
   cellComplex: ['cutMesh', (given) => physics.cellComplex(mesh, given, octree)],
   mergeSmallCells: ['both', (given) => physics.mergeSmallCells(given.cutMesh, given.cells)],
+  uniteWalls: ['both', (given) => physics.uniteWalls(given.cutMesh, given.cells)],
   subComplex: ['cells', (given) => physics.subComplex(given, [1, 2, 3])],
   regionComplex: ['cells', (given) => physics.regionComplex(given, 0)],
   complexEdges: ['cells', (given) => physics.complexEdges(given)],

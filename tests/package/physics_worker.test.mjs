@@ -58,6 +58,7 @@ test('every call gives the same, and no arrays are sent', () =>
     const field = { mesh, cutMesh, cells, flow };
     const calls = {
       mergeSmallCells: [cutMesh, cells],
+      uniteWalls: [cutMesh, cells],
       subComplex: [cells, [1, 2, 3]],
       regionComplex: [cells, 0],
       complexEdges: [cells],

@@ -4,6 +4,7 @@ export const physicsNames = [
   'coarsen',
   'cellComplex',
   'mergeSmallCells',
+  'uniteWalls',
   'subComplex',
   'regionComplex',
   'complexEdges',

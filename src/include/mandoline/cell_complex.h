@@ -57,7 +57,7 @@ class Members {
 /// their ids; then come those of the octree cells: cell cutCells + c is octree cell c. Half-face = 2 * face + side; side 0: the face's
 /// normal points out of the cell, side 1: into it.
 ///
-/// mergeSmallCells() makes another one of it, whose cells and faces have these as members.
+/// mergeSmallCells() and uniteWalls() make others of it, whose cells and faces have these as members.
 struct CellComplex {
   uint32_t cutVertices = 0;  ///< how many of the vertices are the cut-mesh's
   uint32_t cutFaces = 0;     ///< how many of the faces are the cut-mesh's, or have one of those as their first member
@@ -85,7 +85,7 @@ struct CellComplex {
   std::vector<double> cellVolume;             ///< per cell
   std::vector<double> cellCentroid;           ///< 3 per cell
 
-  // Members: of which cells and faces, before any were merged, each one is made. All four are empty where each is its own only member.
+  // Members: of which cells and faces, before any were merged or united, each one is made. Empty where each is its own only member.
   std::vector<uint32_t> cellMemberOffsets;  ///< into cellMembers
   std::vector<uint32_t> cellMembers;        ///< cells, ascending for each cell; each belongs to one
   std::vector<uint32_t> faceMemberOffsets;  ///< into faceMembers
@@ -143,7 +143,7 @@ struct CellComplex {
 CellComplex cellComplex(const MeshView& mesh, const CutMesh& cutMesh, const OctreeCells& octree, const RunOptions& options = {});
 
 /// Some cells of a cell complex, their faces and vertices, in the whole's order. Where the other cell of a face is left out there is -1,
-/// as there is outside the grid. The members of merged cells and faces are left to the whole.
+/// as there is outside the grid. Members keep the ids that they have in the whole.
 struct SubComplex {
   CellComplex cells;
   std::vector<uint32_t> wholeVertex;  ///< per vertex: its id in the whole

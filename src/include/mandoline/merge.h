@@ -1,4 +1,4 @@
-// Small cells of a cell complex merged with neighbours, so that solvers can take long steps.
+// Cells for solvers: small ones merged with neighbours, and the many pieces of triangles that bound a cell united to a few faces.
 #pragma once
 
 #include "mandoline/cell_complex.h"
@@ -40,5 +40,23 @@ struct MergedCells {
 /// The result is the same to the bit for any number of threads. Throws CallError if the fraction is out of range (badOption), if the cells
 /// are not all of the cut-mesh's, or are merged already (badArgument), or if cancelled.
 MergedCells mergeSmallCells(const CutMesh& cutMesh, const CellComplex& cells, const MergeOptions& options = {});
+
+struct WallOptions : RunOptions {
+  double angle = 30;  ///< in degrees, 0 to 90: how far normals may be from that of the first piece
+  /// Per triangle of the input: its group, e.g. TriangleGroups::triangleGroup; pieces of different groups stay apart. Empty for one group.
+  std::span<const uint32_t> triangleGroup;
+};
+
+/// The same cells with fewer faces: pieces of triangles that are between the same two cells, on the same sides of them, and hang together
+/// through edges without other faces, become one face with one simple loop, which need not be flat. `cells` are all of the cut-mesh's,
+/// merged or not; merge them first.
+///
+/// The area vector, faceArea * faceNormal, is the sum of those of the pieces, so each cell is as closed as before. The centroid is that of
+/// the pieces, moved along the normal to where the divergence theorem gives cells the volumes that they have. Where a fan of triangles in
+/// the loop would change the volume of a cell by more than a tenth, the angle is halved for its pieces, or they stay as they are.
+///
+/// The result is the same to the bit for any number of threads. Throws CallError if the angle is out of range (badOption), if the cells are
+/// not all of the cut-mesh's or the groups not those of its triangles (badArgument), or if cancelled.
+CellComplex uniteWalls(const CutMesh& cutMesh, const CellComplex& cells, const WallOptions& options = {});
 
 }  // namespace mandoline

@@ -40,8 +40,13 @@ Clusters::Clusters(const CutMesh& cutMesh, const CellComplex& cells, double frac
   std::iota(clusterOf_.begin(), clusterOf_.end(), 0u);
   next_ = clusterOf_;
   for (uint32_t c = 0; c < cells.cellCount(); ++c) {
-    const double* p = &cells.cellCentroid[3 * size_t(c)];
-    clusters_.push_back({cells.cellVolume[c], isOctreeCell(c) ? cells.cellVolume[c] : gridCellVolume(c), c, {p[0], p[1], p[2]}});
+    Cluster cluster{cells.cellVolume[c], isOctreeCell(c) ? cells.cellVolume[c] : gridCellVolume(c), c, {}, {}, {}};
+    for (size_t d = 0; d < 3; ++d) {
+      cluster.centroid[d] = cells.cellCentroid[3 * size_t(c) + d];
+      cluster.low[d] = cells.cellCorner[3 * size_t(c) + d];
+      cluster.past[d] = endOf(c, d);
+    }
+    clusters_.push_back(cluster);
   }
 }
 
@@ -64,7 +69,18 @@ Cluster Clusters::joined(const Cluster& a, const Cluster& b) const {
   result.volume = a.volume + b.volume;
   for (size_t d = 0; d < 3 && result.volume > 0; ++d)
     result.centroid[d] = (a.volume * a.centroid[d] + b.volume * b.centroid[d]) / result.volume;
+  for (size_t d = 0; d < 3; ++d) {
+    result.low[d] = std::min(a.low[d], b.low[d]);
+    result.past[d] = std::max(a.past[d], b.past[d]);
+  }
   return result;
+}
+
+bool Clusters::isCompact(const Cluster& cluster) const {
+  for (size_t d = 0; d < 3; ++d) {
+    if (cluster.low[d] < cells_.cellCorner[3 * size_t(cluster.base) + d] - 1 || cluster.past[d] > endOf(cluster.base, d) + 1) return false;
+  }
+  return true;
 }
 
 void Clusters::join(detail::Monitor& monitor) {
@@ -101,7 +117,8 @@ void Clusters::findWays(uint32_t cluster) {
       } else {
         ways_.push_back({h, other});
         if (stamp_[other] != now_)
-          stamp_[other] = now_, place_[other] = uint32_t(choices_.size()), choices_.push_back({other, isSmall(clusters_[other]), 0, 0});
+          stamp_[other] = now_, place_[other] = uint32_t(choices_.size()),
+          choices_.push_back({other, isSmall(clusters_[other]), 0, false, 0});
         choices_[place_[other]].area += cells_.faceArea[h / 2];
       }
     }
@@ -137,6 +154,7 @@ double Clusters::cosineAfter(uint32_t cluster, uint32_t other) const {
 }
 
 bool Clusters::isBetter(const Choice& a, const Choice& b) {
+  if (a.isCompact != b.isCompact) return a.isCompact;
   const double angles[] = {std::min(a.cosine, kFineCosine), std::min(b.cosine, kFineCosine)};
   if (angles[0] != angles[1]) return angles[0] > angles[1];
   if (a.isSmall != b.isSmall) return b.isSmall;
@@ -149,6 +167,7 @@ uint32_t Clusters::choose(uint32_t cluster) {
   const Choice* best = nullptr;
   for (Choice& choice : choices_) {
     if (!canJoin(cluster, choice.cluster)) continue;
+    choice.isCompact = isCompact(joined(clusters_[cluster], clusters_[choice.cluster]));
     choice.cosine = cosineAfter(cluster, choice.cluster);
     if (!best || isBetter(choice, *best)) best = &choice;
   }

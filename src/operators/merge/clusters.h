@@ -14,6 +14,7 @@ struct Cluster {
   double unit;    ///< volume of its base's grid cell or octree cell
   uint32_t base;  ///< see mergeSmallCells()
   Vector centroid;
+  std::array<int32_t, 3> low, past;  ///< the box of the grid cells of all members
 };
 
 class Clusters {
@@ -25,11 +26,12 @@ class Clusters {
 
   uint32_t clusterOf(uint32_t cell) const { return clusterOf_[cell]; }
   const Cluster& operator[](uint32_t cluster) const { return clusters_[cluster]; }
-  bool isSmall(const Cluster& cluster) const { return cluster.volume < fraction_ * cluster.unit; }
+  bool isSmall(double volume, double unit) const { return volume < fraction_ * unit; }
   /// What the cluster of both would be.
   Cluster joined(const Cluster& a, const Cluster& b) const;
 
  private:
+  bool isSmall(const Cluster& cluster) const { return isSmall(cluster.volume, cluster.unit); }
   /// A face through which a cluster could join another.
   struct Way {
     uint32_t halfFace, cluster;
@@ -39,11 +41,14 @@ class Clusters {
     uint32_t cluster;
     bool isSmall;
     double area;
-    double cosine;  ///< of the largest angle that counts
+    bool isCompact;  ///< whether no member would be farther from the base than the next grid cell
+    double cosine;   ///< of the largest angle that counts
   };
 
   double gridCellVolume(uint32_t cell) const;
   bool isOctreeCell(uint32_t cell) const { return cell >= cells_.cutCells; }
+  int32_t endOf(uint32_t cell, size_t axis) const { return cells_.cellCorner[3 * size_t(cell) + axis] + (1 << cells_.cellLevel[cell]); }
+  bool isCompact(const Cluster& cluster) const;
   bool isBetterBase(uint32_t a, uint32_t b) const;
   void findWays(uint32_t cluster);
   bool canJoin(uint32_t a, uint32_t b) const;

@@ -167,7 +167,7 @@ class FaceJoiner {
   size_t boundarySize_ = 0;
 };
 
-/// Area, normal and centroid of a new face.
+/// Area, normal and centroid of a new face. The centroid is moved along the normal to where area times height is that of all members.
 void addMeasures(const CellComplex& cells, std::span<const uint32_t> members, CellComplex& result) {
   const size_t first = members[0];
   measuring::Vector<double> sum{}, offset{};
@@ -182,9 +182,18 @@ void addMeasures(const CellComplex& cells, std::span<const uint32_t> members, Ce
   const double length = measuring::length(sum);
   const bool isOne = members.size() == 1 || !(length > 0);
   result.faceArea.push_back(isOne ? area : length);
+  double shift = 0;
+  for (size_t d = 0; d < 3 && !isOne; ++d) {
+    offset[d] /= area;
+    for (const size_t f : members) {
+      shift += cells.faceArea[f] * cells.faceNormal[3 * f + d] *
+               (cells.faceCentroid[3 * f + d] - cells.faceCentroid[3 * first + d] - offset[d]) / length;
+    }
+  }
   for (size_t d = 0; d < 3; ++d) {
-    result.faceNormal.push_back(isOne ? cells.faceNormal[3 * first + d] : sum[d] / length);
-    result.faceCentroid.push_back(cells.faceCentroid[3 * first + d] + (area > 0 ? offset[d] / area : 0));
+    const double normal = isOne ? cells.faceNormal[3 * first + d] : sum[d] / length;
+    result.faceNormal.push_back(normal);
+    result.faceCentroid.push_back(cells.faceCentroid[3 * first + d] + (isOne ? 0 : offset[d] + shift * normal));
   }
 }
 

@@ -23,7 +23,7 @@ struct JoinedFaces {
 /// Edges inside a new face have no other faces. `mayJoin(first, face)`: whether the new face that begins with `first` may have `face`.
 JoinedFaces joinFaces(const CellComplex& cells, const std::vector<Fate>& fates, detail::FunctionRef<bool(uint32_t, uint32_t)> mayJoin);
 
-/// The complex with the new faces instead of its own; cells stay what they are.
+/// Fills in the new faces. Their cells are those that the first members had.
 void replaceFaces(const CellComplex& cells, const JoinedFaces& faces, CellComplex& result);
 
 }  // namespace mandoline::merging

@@ -57,7 +57,7 @@ class Merger {
       to.cellLevel.push_back(cells_.cellLevel[base]);
       to.cellRegion.push_back(cells_.cellRegion[base]);
       addMeasures(base, members[n]);
-      if (clusters_.isSmall({to.cellVolume.back(), cluster.unit, cluster.base, {}})) result_.pockets.push_back(n);
+      if (clusters_.isSmall(to.cellVolume.back(), cluster.unit)) result_.pockets.push_back(n);
     }
     to.cellMemberOffsets = std::move(members.offsets);
     to.cellMembers = std::move(members.items);

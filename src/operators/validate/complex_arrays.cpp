@@ -108,25 +108,20 @@ class ComplexArrayCheck {
     return expect(size_t(listed) == cells_.cellHalfFaces.size(), "array", 0, "of the cells' half-faces lacks some");
   }
 
-  /// Each member of cells belongs to one cell, and no member of faces to two; none of a cell's or a face's own are left out.
+  /// Each member of cells belongs to one cell, and no member of faces to two.
   bool checkMembers() {
-    const bool none = cells_.cellMemberOffsets.empty() && cells_.cellMembers.empty();
-    const bool noneOfFaces = cells_.faceMemberOffsets.empty() && cells_.faceMembers.empty();
-    if (none && noneOfFaces) return true;
-    const size_t cells = cells_.cellMembers.size(), faces = cells_.faceMembers.size(), most = size_t(1) << 30;
-    if (!expect(none == noneOfFaces, "array", 0, "of members is there, but not all of them")) return false;
-    return expectOffsets(cells_.cellMemberOffsets, cells_.cellCount(), cells, "cell") &&
-           expectOffsets(cells_.faceMemberOffsets, cells_.faceCount(), faces, "face") &&
-           expectMembers(cells_.cellMemberOffsets, cells_.cellMembers, cells, "cell") &&
-           expectMembers(cells_.faceMemberOffsets, cells_.faceMembers, most, "face");
+    return checkMembers(cells_.cellMemberOffsets, cells_.cellMembers, cells_.cellCount(), "cell") &&
+           checkMembers(cells_.faceMemberOffsets, cells_.faceMembers, cells_.faceCount(), "face");
   }
-  /// Members are below `limit`.
-  bool expectMembers(const std::vector<uint32_t>& offsets, const std::vector<uint32_t>& members, size_t limit, const char* kind) {
-    for (size_t i = 0; i + 1 < offsets.size(); ++i) {
+  bool checkMembers(const std::vector<uint32_t>& offsets, const std::vector<uint32_t>& members, size_t count, const char* kind) {
+    if (offsets.empty() && members.empty()) return true;
+    if (!expectOffsets(offsets, count, members.size(), kind)) return false;
+    constexpr uint32_t kMost = 1u << 30;
+    for (size_t i = 0; i < count; ++i) {
       if (!expect(offsets[i] < offsets[i + 1], kind, i, "has no members")) return false;
       for (size_t k = offsets[i]; k < offsets[i + 1]; ++k) {
         const bool isNext = k == offsets[i] || members[k - 1] < members[k];
-        if (!expect(members[k] < limit && isNext, kind, i, "has a member that does not exist, or is out of order")) return false;
+        if (!expect(members[k] < kMost && isNext, kind, i, "has members that are too high or out of order")) return false;
       }
     }
     std::vector<uint32_t> sorted = members;

@@ -7,7 +7,7 @@ import type { Fingerprint, SparseMatrix } from './index.js';
  * ids; then come those of the octree cells: cell cutCells + c is octree cell c. Half-face = 2 * face + side; side 0: the face's normal
  * points out of the cell, side 1: into it.
  *
- * mergeSmallCells() makes another one of it, whose cells and faces have these as members.
+ * mergeSmallCells() and uniteWalls() make others of it, whose cells and faces have these as members.
  */
 export interface CellComplex {
   /** How many of the vertices are the cut-mesh's. */
@@ -56,7 +56,7 @@ export interface CellComplex {
   /** 3 per cell. */
   cellCentroid: Float64Array<ArrayBuffer>;
 
-  // Members: of which cells and faces, before any were merged, each one is made. All four are empty where each is its own only member.
+  // Members: of which cells and faces, before any were merged or united, each one is made. Empty where each is its own only member.
   /** Into cellMembers. */
   cellMemberOffsets: Uint32Array<ArrayBuffer>;
   /** Cells, ascending for each cell; each belongs to one. */

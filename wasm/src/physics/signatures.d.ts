@@ -24,6 +24,7 @@ import type {
   StreamlineOptions,
   Streamlines,
   SubComplex,
+  WallOptions,
   WriteCellsOptions,
   WritePolyMeshOptions,
 } from './index.js';
@@ -44,6 +45,13 @@ export interface Calls {
    * another cut-mesh, or merged already.
    */
   mergeSmallCells(cutMesh: CutMeshArrays, cells: CellComplex, options?: MergeOptions): MergedCells;
+  /**
+   * The same cells with fewer faces: pieces of triangles between the same two cells that hang together, and whose normals are at most
+   * `options.angle` (default 30) degrees from that of the first, become one face, which need not be flat and has the sum of their area
+   * vectors. Groups stay apart. `cells` are all of the cut-mesh's, merged or not; merge them first. Code "badOption" for an angle below 0
+   * or above 90, "badArgument" if the cells are those of another cut-mesh.
+   */
+  uniteWalls(cutMesh: CutMeshArrays, cells: CellComplex, options?: WallOptions): CellComplex;
   /** The cells that `cellIds` name, in any order. Code "badArgument" with the element if one does not exist or is named twice. */
   subComplex(cells: CellComplex, cellIds: Uint32Array | readonly number[]): SubComplex;
   /** The cells of a region of the cut-mesh. Code "badArgument" if there is none. */
@@ -128,6 +136,7 @@ export interface WorkerCalls {
   coarsen(cutMesh: CutMeshArrays, options?: CoarsenOptions & CallOptions): Promise<OctreeCells>;
   cellComplex(mesh: Mesh, cutMesh: CutMeshArrays, octree?: OctreeCells | null, options?: RunOptions & CallOptions): Promise<CellComplex>;
   mergeSmallCells(cutMesh: CutMeshArrays, cells: CellComplex, options?: MergeOptions & CallOptions): Promise<MergedCells>;
+  uniteWalls(cutMesh: CutMeshArrays, cells: CellComplex, options?: WallOptions & CallOptions): Promise<CellComplex>;
   subComplex(cells: CellComplex, cellIds: Uint32Array | readonly number[], options?: CallOptions): Promise<SubComplex>;
   regionComplex(cells: CellComplex, region: number, options?: CallOptions): Promise<SubComplex>;
   complexEdges(cells: CellComplex, options?: CallOptions): Promise<ComplexEdges>;
