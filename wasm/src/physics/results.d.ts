@@ -74,7 +74,7 @@ export interface CellComplex {
 
 /**
  * Some cells of a cell complex, their faces and vertices, in the whole's order. Where the other cell of a face is left out there is -1, as
- * there is outside the grid. The members of merged cells and faces are left to the whole.
+ * there is outside the grid. Members keep the ids that they have in the whole.
  */
 export interface SubComplex {
   /**
