@@ -115,7 +115,8 @@ Options of flow
                          passes the mesh, nor either side of a sheet
   --coarsen LEVELS, --faces, --only WHAT, --inside-threshold T
                          as of cut; faces have normal_velocity, normal and area
-  --merge FRACTION       as of cut (default: 0.2; 0 merges nothing)
+  --merge FRACTION       as of cut (default: 0.2; 0 merges nothing: slivers stay, and velocities
+                         near the surface are more accurate in a grid without --coarsen)
   --unite-walls DEGREES  as of cut
   --streamlines N        how many lines (default: 100), from where the wind enters
   -o FILE ...            .vtu all cells with phi, velocity and pressure_coefficient;
