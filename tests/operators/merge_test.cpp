@@ -9,6 +9,7 @@
 #include "catch.h"
 #include "checked_cut.h"
 #include "conforming_cells.h"
+#include "mandoline/inside.h"
 #include "mandoline/mesh_files.h"
 #include "mandoline/resolve.h"
 #include "mesh_folder.h"
@@ -256,6 +257,31 @@ TEST_CASE("merge: never across a triangle, where a sheet ends in a cell, nor aro
   const CellComplex before = complexOf(sheet, result.mesh, 0);
   const MergedCells merged = checkedMerge(sheet, result.mesh, before);
   CHECK(merged.cells.cellCount() == before.cellCount() - 4);  // those below the sheet
+}
+
+TEST_CASE("merge: of two small cells on both sides of a sheet, one joins the cell at its rim", "[merge]") {
+  // A flat channel in one layer of cells, and a sheet half-way up, from its closed end to within the second cell.
+  const Mesh channel = shapes::box({2.25, 0.125, 0.375}, {7.75, 0.875, 0.6875});
+  const Mesh sheet = shapes::quad({1.5, 0, 0.53125}, {3.5, 0, 0.53125}, {3.5, 1, 0.53125}, {1.5, 1, 0.53125});
+  const Mesh both = shapes::merged({channel, sheet});
+  const CutResult result = cut(both, unitGrid(9, 1, 1));
+  REQUIRE(result);
+  const CellComplex before = complexOf(both, result.mesh, 0);
+  const MergedCells merged = checkedMerge(both, result.mesh, before);
+  const double half = 0.75 * 0.75 * 0.15625;
+  CHECK(std::count(before.cellVolume.begin(), before.cellVolume.end(), half) == 2);
+  REQUIRE(merged.pockets.size() == 1);
+  CHECK(merged.cells.cellVolume[merged.pockets[0]] == half);
+}
+
+TEST_CASE("merge: never across regions that an estimate of what is inside divides at holes", "[merge]") {
+  Mesh ball = shapes::noisySphere({4, 4, 4}, 2.7, 0.2, 3);
+  ball.triangles.resize(ball.triangles.size() / 4 * 3);
+  const CutResult result = cut(ball, unitGrid(8));
+  REQUIRE(result.mesh.regionCount == 1);
+  const CutMesh divided = estimateInside(ball, result.mesh, {});
+  REQUIRE(divided.regionCount > 1);
+  checkedMerge(ball, divided, complexOf(ball, divided), 0.5);
 }
 
 TEST_CASE("merge: octree cells take small ones in", "[merge]") {

@@ -80,8 +80,8 @@ struct Field {
 void writeVtu(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, std::span<const Field> cellFields = {},
               const WriteOptions& options = {});
 /// Its faces, those of the cells that the options select, as polygons with cell arrays face, tag (FaceTag), triangle, cells and the fields;
-/// with groups also group (-1 for none), and their names as the field data group_names. The triangle is that of a face's first member. A face with holes or slits is several triangles,
-/// with the same numbers.
+/// with groups also group (-1 for none), and their names as the field data group_names. The triangle is that of a face's first member. A
+/// face with holes or slits is several triangles, with the same numbers.
 void writeFacesVtu(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, std::span<const Field> faceFields = {},
                    const WriteOptions& options = {});
 /// The cut surface; with groups, the triangles of .ply also have a property group.

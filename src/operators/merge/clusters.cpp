@@ -84,9 +84,17 @@ bool Clusters::isCompact(const Cluster& cluster) const {
 }
 
 void Clusters::join(detail::Monitor& monitor) {
+  while (joinSmall(true, monitor)) {
+  }
+  joinSmall(false, monitor);
+}
+
+/// One round, the smallest first: with large clusters beside their bases alone, or with any. Whether some have joined.
+bool Clusters::joinSmall(bool withLarge, detail::Monitor& monitor) {
   std::priority_queue<Waiting> queue;
+  bool any = false;
   for (uint32_t c = 0; c < clusters_.size(); ++c) {
-    if (isSmall(clusters_[c])) queue.push({clusters_[c].volume / clusters_[c].unit, c});
+    if (clusterOf_[c] == c && isSmall(clusters_[c])) queue.push({clusters_[c].volume / clusters_[c].unit, c});
   }
   const size_t all = queue.size();
   for (size_t done = 0; !queue.empty(); ++done) {
@@ -95,11 +103,13 @@ void Clusters::join(detail::Monitor& monitor) {
     queue.pop();
     const bool isCurrent = clusterOf_[cluster] == cluster && volume == clusters_[cluster].volume / clusters_[cluster].unit;
     if (!isCurrent) continue;
-    const uint32_t other = choose(cluster);
+    const uint32_t other = choose(cluster, withLarge);
     if (other == kNone) continue;
+    any = true;
     const uint32_t both = unite(cluster, other);
     if (isSmall(clusters_[both])) queue.push({clusters_[both].volume / clusters_[both].unit, both});
   }
+  return any;
 }
 
 /// Fills in the ways from a cluster to others, and the choices, and stamps those that a triangle separates from it.
@@ -125,11 +135,10 @@ void Clusters::findWays(uint32_t cluster) {
   });
 }
 
-/// Whether both may be one cell, where a is the current cluster.
+/// Whether both may be one cell, where a is the current cluster. It has no octree cell, since those are never small.
 bool Clusters::canJoin(uint32_t a, uint32_t b) const {
   const Cluster &one = clusters_[a], &other = clusters_[b];
   if (separated_[b] == now_ || cells_.cellRegion[one.base] != cells_.cellRegion[other.base]) return false;
-  if (isOctreeCell(one.base) && isOctreeCell(other.base)) return false;
   const Cluster both = joined(one, other);
   return both.volume <= most_ * both.unit;
 }
@@ -162,13 +171,15 @@ bool Clusters::isBetter(const Choice& a, const Choice& b) {
 }
 
 /// The cluster that this one joins, if there is one.
-uint32_t Clusters::choose(uint32_t cluster) {
+uint32_t Clusters::choose(uint32_t cluster, bool onlyLarge) {
   findWays(cluster);
   const Choice* best = nullptr;
   for (Choice& choice : choices_) {
     if (!canJoin(cluster, choice.cluster)) continue;
     choice.isCompact = isCompact(joined(clusters_[cluster], clusters_[choice.cluster]));
+    if (onlyLarge && (choice.isSmall || !choice.isCompact)) continue;
     choice.cosine = cosineAfter(cluster, choice.cluster);
+    if (onlyLarge && choice.cosine < kFineCosine) continue;
     if (!best || isBetter(choice, *best)) best = &choice;
   }
   return best ? best->cluster : kNone;
