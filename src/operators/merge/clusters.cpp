@@ -13,6 +13,9 @@ namespace {
 /// Faces whose normals are at most 60 degrees from the line between centroids are all fine.
 constexpr double kFineCosine = 0.5;
 
+/// Of small clusters joining large ones alone. More make no difference, unless almost all cells are small.
+constexpr int kRounds = 4;
+
 /// How much larger than a grid cell a merged cell may be, in fractions.
 constexpr double kRoom = 2.5;
 
@@ -84,7 +87,7 @@ bool Clusters::isCompact(const Cluster& cluster) const {
 }
 
 void Clusters::join(detail::Monitor& monitor) {
-  while (joinSmall(true, monitor)) {
+  for (int round = 0; round < kRounds && joinSmall(true, monitor); ++round) {
   }
   joinSmall(false, monitor);
 }
