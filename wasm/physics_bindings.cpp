@@ -28,6 +28,11 @@ val coarsenCutMesh(const KeptCutMesh& kept, const val& options) {
   });
 }
 
+val keptWithTwin(CellComplex cells) {
+  const val value = toObject(cells);
+  return success(object({{"value", value}, {"twin", val(KeptComplex(std::move(cells)))}}));
+}
+
 /// `octree` is null for the untouched grid cells.
 val complexOf(const val& mesh, const KeptCutMesh& kept, const val& octree, const val& options) {
   return guarded([&, cutMesh = kept.get()] {
@@ -36,14 +41,36 @@ val complexOf(const val& mesh, const KeptCutMesh& kept, const val& octree, const
     none.maxLevel = 0;
     CellComplex cells =
         cellComplex(input, *cutMesh, octree.isNull() ? coarsen(*cutMesh, none) : fromObject<OctreeCells>(octree), runOptions(options));
-    const val value = toObject(cells);
-    return success(object({{"value", value}, {"twin", val(KeptComplex(std::move(cells)))}}));
+    return keptWithTwin(std::move(cells));
   });
 }
 
-val withTwin(SubComplex sub) {
-  const val value = toObject(sub);
-  return success(object({{"value", value}, {"twin", val(KeptComplex(std::move(sub.cells)))}}));
+/// Of a struct whose member `cells` is a cell complex.
+template <class Result>
+val withTwin(Result result) {
+  const val value = toObject(result);
+  return success(object({{"value", value}, {"twin", val(KeptComplex(std::move(result.cells)))}}));
+}
+
+val mergedOf(const KeptCutMesh& keptCutMesh, const KeptComplex& keptCells, const val& options) {
+  return guarded([&, cutMesh = keptCutMesh.get(), cells = keptCells.get()] {
+    MergeOptions mergeOptions;
+    mergeOptions.progress = progressOf(options);
+    mergeOptions.fraction = options["fraction"].as<double>();
+    return withTwin(mergeSmallCells(*cutMesh, *cells, mergeOptions));
+  });
+}
+
+val unitedOf(const KeptCutMesh& keptCutMesh, const KeptComplex& keptCells, const val& options) {
+  return guarded([&, cutMesh = keptCutMesh.get(), cells = keptCells.get()] {
+    TriangleGroups groups;
+    if (!options["groups"].isUndefined()) groups = fromObject<TriangleGroups>(options["groups"]);
+    WallOptions wallOptions;
+    wallOptions.progress = progressOf(options);
+    wallOptions.angle = options["angle"].as<double>();
+    wallOptions.triangleGroup = groups.triangleGroup;
+    return keptWithTwin(uniteWalls(*cutMesh, *cells, wallOptions));
+  });
 }
 
 val partOf(const KeptComplex& kept, const val& cellIds) {
@@ -222,6 +249,8 @@ EMSCRIPTEN_BINDINGS(physics) {
   emscripten::function("keepComplex", &keepComplex);
   emscripten::function("coarsen", &coarsenCutMesh);
   emscripten::function("cellComplex", &complexOf);
+  emscripten::function("mergeSmallCells", &mergedOf);
+  emscripten::function("uniteWalls", &unitedOf);
   emscripten::function("subComplex", &partOf);
   emscripten::function("regionComplex", &regionOf);
   emscripten::function("complexEdges", &edgesOf);

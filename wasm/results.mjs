@@ -9,7 +9,7 @@ const packageFolder = dirname(fileURLToPath(import.meta.url));
 const headerFolder = join(dirname(packageFolder), 'src', 'include', 'mandoline');
 
 // Of mandoline-wasm/physics; all others belong to the main entry.
-const physicsHeaders = ['coarsen.h', 'cell_complex.h', 'operators.h', 'poisson.h', 'flow.h'];
+const physicsHeaders = ['coarsen.h', 'cell_complex.h', 'merge.h', 'operators.h', 'poisson.h', 'flow.h'];
 
 // Calls give these with more: their whole is in index.d.ts, or the word means what is put in.
 const names = {

@@ -59,6 +59,8 @@ class Parser {
         {"--orient", kCuttingAndResolve, [](Parser& p, const std::string&) { p.arguments_.orient = true; }},
         {"--validate", {C::cut}, [](Parser& p, const std::string&) { p.arguments_.validate = true; }},
         {"--coarsen", {C::cut, C::flow}, [](Parser& p, const std::string& name) { p.parseCoarsen(p.value(name)); }},
+        {"--merge", {C::cut, C::flow}, [](Parser& p, const std::string& name) { p.parseMerge(p.value(name)); }},
+        {"--unite-walls", {C::cut, C::flow}, [](Parser& p, const std::string& name) { p.parseUniteWalls(p.value(name)); }},
         {"--faces", {C::cut, C::flow}, [](Parser& p, const std::string&) { p.arguments_.faces = true; }},
         {"--wind", {C::flow}, [](Parser& p, const std::string& name) { parseWind(p.value(name), p.arguments_.flow); }},
         {"--streamlines", {C::flow}, [](Parser& p, const std::string& name) { parseStreamlines(p.value(name), p.arguments_.flow); }},
@@ -190,6 +192,20 @@ class Parser {
     int levels = 0;
     if (!parseNumber(word, levels) || levels < 0) throw UsageError("--coarsen needs a number of levels, not '" + word + "'");
     arguments_.coarsen = levels;
+  }
+
+  void parseMerge(const std::string& word) {
+    double fraction = 0;
+    if (!parseNumber(word, fraction) || !(fraction >= 0 && fraction <= 0.5))
+      throw UsageError("--merge needs a number from 0 to 0.5, not '" + word + "'");
+    arguments_.merge = fraction;
+  }
+
+  void parseUniteWalls(const std::string& word) {
+    double angle = 0;
+    if (!parseNumber(word, angle) || !(angle >= 0 && angle <= 90))
+      throw UsageError("--unite-walls needs an angle from 0 to 90 degrees, not '" + word + "'");
+    arguments_.uniteWalls = angle;
   }
 
   void parseRule(const std::string& word) {

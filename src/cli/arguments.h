@@ -62,8 +62,10 @@ struct Arguments {
   Intersections intersections = Intersections::resolve;
   unsigned threads = 0;
   bool validate = false;
-  bool faces = false;          ///< in .vtu files, instead of cells
-  std::optional<int> coarsen;  ///< levels of octree cells; none: untouched grid cells as they are
+  bool faces = false;                ///< in .vtu files, instead of cells
+  std::optional<int> coarsen;        ///< levels of octree cells; none: untouched grid cells as they are
+  std::optional<double> merge;       ///< fraction of a grid cell below which cells are merged; 0: not
+  std::optional<double> uniteWalls;  ///< the angle, in degrees
   OnlyArguments only;
   std::optional<double> insideThreshold;  ///< of estimates: see InsideOptions
   SliceArguments slice;

@@ -32,6 +32,10 @@ void checkOutputs(const Arguments& arguments) {
   }
   if (arguments.coarsen && !hasCells)
     throw UsageError("--coarsen: only .vtu and .json files and polyMesh folders have cells away from the surface");
+  for (const auto& [isGiven, option] :
+       {std::pair(arguments.merge.has_value(), "--merge"), {arguments.uniteWalls.has_value(), "--unite-walls"}}) {
+    if (isGiven && !hasCells) throw UsageError(std::string(option) + ": only .vtu and .json files and polyMesh folders have all cells");
+  }
   if (arguments.faces && !hasVtu) throw UsageError("--faces: only .vtu files have faces instead of cells");
   requireDifferent(files);
 }
@@ -68,41 +72,48 @@ std::vector<Output> outputsOf(const Arguments& arguments, const CutResult& cut) 
   return outputs;
 }
 
+bool needsComplex(const Arguments& arguments) { return arguments.coarsen || arguments.merge || arguments.uniteWalls; }
+
 /// Writes a cut-mesh, and its cell complex for those outputs that take one.
 class Writer {
  public:
   Writer(const Arguments& arguments, const Input& input, const CutMesh& cutMesh)
-      : arguments_(arguments), mesh_(input.mesh), groups_(input.groups), cutMesh_(cutMesh) {}
+      : arguments_(arguments), input_(input), cutMesh_(cutMesh) {}
+
+  /// Makes the cells unless they are there.
+  const MergedCells& cells() {
+    if (!cells_) cells_ = makeCells(arguments_, input_, cutMesh_);
+    return *cells_;
+  }
 
   void write(const Output& output) {
     const bool isFolder = isPolyMesh(output.path);
     const std::optional<FileFormat> format = isFolder ? std::nullopt : std::optional(formatFor(arguments_, output.path));
     const bool isVtu = format == FileFormat::vtu, isJson = format == FileFormat::json;
-    const bool ofComplex = isFolder || (arguments_.coarsen && (isVtu || isJson)) || (arguments_.faces && isVtu);
-    if (ofComplex && !cells_) cells_ = makeCells(arguments_, mesh_, cutMesh_);
+    const bool ofComplex = isFolder || (needsComplex(arguments_) && (isVtu || isJson)) || (arguments_.faces && isVtu);
+    const CellComplex* const complex = ofComplex ? &cells().cells : nullptr;
     withProgress(arguments_.threads, [&](const RunOptions& run) {
       WriteOptions options = output.options;
       static_cast<RunOptions&>(options) = run;
-      options.groups = &groups_;
+      options.groups = &input_.groups;
       if (isFolder) {
         const DeferInterrupts defer;
-        return writePolyMesh(output.path, cutMesh_, *cells_, options);
+        return writePolyMesh(output.path, cutMesh_, *complex, options);
       }
       writeOutput(output.path, [&](const Sink& sink) {
-        if (!ofComplex) return writeCutMesh(sink, *format, mesh_, cutMesh_, options);
-        if (isJson) return writeJson(sink, cutMesh_, *cells_, options);
-        if (arguments_.faces) return writeFacesVtu(sink, cutMesh_, *cells_, {}, options);
-        writeVtu(sink, cutMesh_, *cells_, {}, options);
+        if (!ofComplex) return writeCutMesh(sink, *format, input_.mesh, cutMesh_, options);
+        if (isJson) return writeJson(sink, cutMesh_, *complex, options);
+        if (arguments_.faces) return writeFacesVtu(sink, cutMesh_, *complex, {}, options);
+        writeVtu(sink, cutMesh_, *complex, {}, options);
       });
     });
   }
 
  private:
   const Arguments& arguments_;
-  const Mesh& mesh_;
-  const TriangleGroups& groups_;
+  const Input& input_;
   const CutMesh& cutMesh_;
-  std::optional<CellComplex> cells_;
+  std::optional<MergedCells> cells_;
 };
 
 void complainOf(const Report& report, int& exitCode) {
@@ -127,12 +138,14 @@ int runCut(const Arguments& arguments) {
   const AskedGrid grid = makeGrid(arguments.grid, mesh, info);
   const CutResult result = cutMesh(arguments, mesh, grid);
   Report report = reportOf(arguments, {input, info, {}}, grid, result);
+  Writer writer(arguments, input, result.mesh);
   if (result) {
     report.regionVolumes = withProgress(
         arguments.threads, [&](const RunOptions& options) { return regionVolumes(result.mesh, measure(mesh, result.mesh, options)); });
     if (arguments.validate) {
       report.validation = withProgress(arguments.threads, [&](const RunOptions& options) { return validate(mesh, result.mesh, options); });
     }
+    if (mergeFraction(arguments) > 0) report.merge = countMerged(writer.cells());
   }
   int exitCode = kFine;
   complainOf(report, exitCode);
@@ -142,7 +155,6 @@ int runCut(const Arguments& arguments) {
   });
   if (!result) return exitCode;
   attempt(exitCode, [&] {
-    Writer writer(arguments, input, result.mesh);
     for (const Output& output : outputsOf(arguments, result)) attempt(exitCode, [&] { writer.write(output); });
   });
   return exitCode;

@@ -99,7 +99,7 @@ CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const AskedGrid&
 }
 
 Report reportOf(const Arguments& arguments, MeshReport mesh, const AskedGrid& grid, const CutResult& result) {
-  return {std::move(mesh), grid, result, peakMemoryBytes(), {}, {}, arguments.insideThreshold.value_or(kThreshold)};
+  return {std::move(mesh), grid, result, peakMemoryBytes(), {}, {}, arguments.insideThreshold.value_or(kThreshold), {}};
 }
 
 std::optional<CutResult> cutOrComplain(const Arguments& arguments, const Input& input, const GridArguments& asked) {
@@ -115,12 +115,24 @@ std::optional<InsideRegions> insideOf(const Arguments& arguments, const CutMesh&
   return insideOf(cutMesh, arguments.insideThreshold.value_or(kThreshold));
 }
 
-CellComplex makeCells(const Arguments& arguments, const Mesh& mesh, const CutMesh& cutMesh) {
+MergedCells makeCells(const Arguments& arguments, const Input& input, const CutMesh& cutMesh) {
   return withProgress(arguments.threads, [&](const RunOptions& run) {
     CoarsenOptions coarsening{run};
     coarsening.maxLevel = arguments.coarsen.value_or(0);
-    return cellComplex(mesh, cutMesh, coarsen(cutMesh, coarsening), run);
+    CellComplex cells = cellComplex(input.mesh, cutMesh, coarsen(cutMesh, coarsening), run);
+    const double fraction = mergeFraction(arguments);
+    MergedCells made;
+    if (fraction > 0)
+      made = mergeSmallCells(cutMesh, cells, MergeOptions{run, fraction});
+    else
+      made.cells = std::move(cells);
+    if (arguments.uniteWalls) made.cells = uniteWalls(cutMesh, made.cells, {run, *arguments.uniteWalls, input.groups.triangleGroup});
+    return made;
   });
+}
+
+double mergeFraction(const Arguments& arguments) {
+  return arguments.merge.value_or(arguments.command == Command::flow ? MergeOptions().fraction : 0);
 }
 
 WriteOptions writeOptions(const Arguments& arguments, const CutResult& cut) {

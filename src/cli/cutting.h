@@ -51,8 +51,12 @@ std::optional<CutResult> cutOrComplain(const Arguments& arguments, const Input& 
 /// The regions inside, by the threshold that was asked for; nothing if nothing is known of any.
 std::optional<InsideRegions> insideOf(const Arguments& arguments, const CutMesh& cutMesh);
 
-/// All cells, merged as far as --coarsen says. With progress.
-CellComplex makeCells(const Arguments& arguments, const Mesh& mesh, const CutMesh& cutMesh);
+/// All cells: untouched ones merged as far as --coarsen says and small ones as --merge does, their walls united as --unite-walls does. With
+/// progress.
+MergedCells makeCells(const Arguments& arguments, const Input& input, const CutMesh& cutMesh);
+
+/// --merge, or what it is by default.
+double mergeFraction(const Arguments& arguments);
 
 /// What --only selects. Says on standard error what tells inside from outside, unless the whole input has winding numbers. Throws
 /// UsageError for regions that the cut-mesh does not have, and for --only inside if nothing is known to be inside.

@@ -32,6 +32,7 @@ void writeCells(const Sink& sink, const FlowField& field, const WriteOptions& op
 struct FlowReport {
   const MeshReport& mesh;
   const FlowField& field;
+  std::optional<MergeCounts> merge;
 
   Outcome outcome() const {
     const SolveStatus status = flow().status;
@@ -66,6 +67,7 @@ struct FlowReport {
     Json json;
     addHead(json, outcome(), mesh);
     json.key("wind").values(flow().wind).member("cutCells", field.cells.cutCells).member("cells", field.cells.cellCount());
+    addMerge(json, merge);
     json.member("faces", field.cells.faceCount()).member("iterations", iterations()).key("residuals").values(flow().residuals);
     json.member("largestSpeed", largestSpeed()).key("throttled").values(flow().throttled);
     return json.close('}').text();
@@ -120,7 +122,8 @@ int runFlow(const Arguments& arguments) {
   WriteOptions options = writeOptions(arguments, *cut);
   if (arguments.only.any()) requireSelection(options, cut->mesh);
   options.groups = &input.groups;
-  const CellComplex cells = makeCells(arguments, mesh, cut->mesh);
+  const MergedCells merged = makeCells(arguments, input, cut->mesh);
+  const CellComplex& cells = merged.cells;
   const Flow flow =
       withProgress(arguments.threads, [&](const RunOptions& run) { return solveFlow(cells, *arguments.flow.wind, FlowOptions{run}); });
   const FlowField field{mesh, cut->mesh, cells, flow};
@@ -130,7 +133,8 @@ int runFlow(const Arguments& arguments) {
     exitCode = kNotCut;
   }
   const MeshReport meshReport{input, inspect(mesh), {}};
-  const FlowReport report{meshReport, field};
+  FlowReport report{meshReport, field, {}};
+  if (mergeFraction(arguments) > 0) report.merge = countMerged(merged);
   attempt(exitCode, [&] {
     deliver(
         arguments, [&] { return report.text(); }, [&] { return report.json(); });

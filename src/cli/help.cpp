@@ -78,6 +78,13 @@ Options of cut
   --coarsen LEVELS       merge untouched grid cells into octree cells, up to 2^LEVELS of
                          them on a side, in .vtu files and polyMesh folders; .json files
                          get all cells as one mesh (CellComplex) instead of the cut-mesh
+  --merge FRACTION       merge cells below this fraction of a grid cell's volume (0 to 0.5)
+                         with neighbours, in what has octree cells; never across a triangle.
+                         0.2 is right for solvers. The report tells how many cells there
+                         are, and how many are still small, such as pockets
+  --unite-walls DEGREES  unite the pieces of triangles between the same two cells to faces,
+                         as long as their normals are that near to each other (0 to 90; 30
+                         is right for solvers), in the same files; groups stay apart
   --faces                in .vtu files, the faces of all cells as polygons, with tag,
                          triangle, cells and group, instead of cells
   --format EXTENSION     what -o - writes to standard output; the text of the report then
@@ -108,6 +115,9 @@ Options of flow
                          passes the mesh, nor either side of a sheet
   --coarsen LEVELS, --faces, --only WHAT, --inside-threshold T
                          as of cut; faces have normal_velocity, normal and area
+  --merge FRACTION       as of cut (default: 0.2; 0 merges nothing: slivers stay, and velocities
+                         near the surface are more accurate in a grid without --coarsen)
+  --unite-walls DEGREES  as of cut
   --streamlines N        how many lines (default: 100), from where the wind enters
   -o FILE ...            .vtu all cells with phi, velocity and pressure_coefficient;
                          .obj streamlines, none of which passes a triangle
@@ -134,12 +144,13 @@ Options of all but make
                          ...). Then
                            cut      grid, counts, largestSnap, intersections (pairs, by
                                     kind ...), parts, inside, regions, stages (ms),
-                                    totalMs, exactFallbacks, peakMemoryBytes and
-                                    validation: null, or pass and checks
+                                    totalMs, exactFallbacks, peakMemoryBytes,
+                                    merge: null, or cells before and after, and
+                                    pockets; validation: null, or pass and checks
                            slice    layers: height, polygons, slits
                            boundary parts, inside, triangles
-                           flow     wind, cutCells, cells, faces, iterations, residuals,
-                                    largestSpeed and throttled (components)
+                           flow     wind, cutCells, cells, merge as of cut, faces, iterations,
+                                    residuals, largestSpeed and throttled (components)
                            info     intersections, placeCount, defectCount, and the first
                                     10000 components, places and defects
                            resolve  intersections, remaining, triangles

@@ -31,6 +31,10 @@ std::vector<Count> inputCounts(const CutResult& result) {
           {"flushedCoordinates", "coordinates taken as 0", s.flushedCoordinates}};
 }
 
+std::vector<Count> mergeCounts(const MergeCounts& counts) {
+  return {{"before", "cells before", counts.before}, {"after", "cells after", counts.after}, {"pockets", "  still small", counts.pockets}};
+}
+
 /// Null where nobody has looked for them, or not to the end.
 void addIntersections(Json& json, const Report& report) {
   const CutStats& stats = report.result.stats;
@@ -69,6 +73,7 @@ class TextReport {
     addHead();
     if (report_.result) {
       addCounts();
+      if (report_.merge) addMerge(*report_.merge);
       addRegions();
     }
     addStages();
@@ -106,6 +111,11 @@ class TextReport {
       addCount({"", "  made vertices", stats.madeVertices});
     }
     if (stats.snappedVertices > 0) label("largest snap (cells)") << std::setw(kNumberWidth) << stats.largestSnap << "\n";
+  }
+
+  void addMerge(const MergeCounts& counts) {
+    out_ << "\nMerging of small cells\n";
+    for (const Count& count : mergeCounts(counts)) addCount(count);
   }
 
   void addRegions() {
@@ -164,6 +174,19 @@ class TextReport {
 
 }  // namespace
 
+MergeCounts countMerged(const MergedCells& merged) { return {merged.mergedCell.size(), merged.cells.cellCount(), merged.pockets.size()}; }
+
+void addMerge(Json& json, const std::optional<MergeCounts>& counts) {
+  json.key("merge");
+  if (!counts) {
+    json.null();
+    return;
+  }
+  json.open('{');
+  for (const Count& count : mergeCounts(*counts)) json.member(count.key, count.value);
+  json.close('}');
+}
+
 std::string reportJson(const Report& report) {
   const CutStats& stats = report.result.stats;
   Json json;
@@ -187,6 +210,7 @@ std::string reportJson(const Report& report) {
   for (const StageTime& stage : stats.stages) json.open('{').member("stage", stage.stage).member("ms", stage.ms).close('}');
   json.close(']').member("totalMs", stats.totalMs).member("exactFallbacks", stats.exactFallbacks);
   json.member("peakMemoryBytes", report.peakMemoryBytes);
+  addMerge(json, report.merge);
   addValidation(json, report.validation);
   json.close('}');
   return json.text();

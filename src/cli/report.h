@@ -11,6 +11,14 @@
 
 namespace mandoline::cli {
 
+/// How many cells there were before small ones were merged, and are then; and how many of those are still small.
+struct MergeCounts {
+  size_t before, after, pockets;
+};
+MergeCounts countMerged(const MergedCells& merged);
+/// As the member "merge"; null if nothing was to be merged.
+void addMerge(Json& json, const std::optional<MergeCounts>& counts);
+
 /// Everything there is to tell of a cut; both forms tell the same.
 struct Report {
   MeshReport mesh;
@@ -20,6 +28,7 @@ struct Report {
   std::vector<double> regionVolumes;     ///< per region
   std::optional<Validation> validation;  ///< if it was asked for and the cut is ok
   double insideThreshold = 0.5;          ///< see InsideOptions
+  std::optional<MergeCounts> merge;      ///< if it was asked for
 };
 
 std::string reportJson(const Report& report);

@@ -7,23 +7,31 @@
 
 namespace mandoline::detail {
 
-/// As Polygons; those of octree cells are simple as they are.
+/// The triangle that a face is a piece of, the first one if it is joined of several pieces; -1 if it is no piece of one.
+inline int32_t triangleOf(const CutMesh& cutMesh, const CellComplex& cells, size_t face) {
+  const uint32_t first = cells.membersOfFace(face)[0];
+  return first < cutMesh.faceCount() ? cutMesh.faceTriangle[first] : -1;
+}
+
+/// As Polygons; those of octree cells, and of several faces that were joined, are simple as they are.
 class ComplexPolygons {
  public:
   /// `cells` is made from the cut-mesh, else throws CallError; both must outlive this.
-  ComplexPolygons(const CutMesh& cutMesh, const CellComplex& cells) : cells_(cells), polygons_(cutMesh) {
+  ComplexPolygons(const CutMesh& cutMesh, const CellComplex& cells) : cells_(cells), cutFaces_(cutMesh.faceCount()), polygons_(cutMesh) {
     operators::requireCellsOf(cutMesh, cells);
   }
 
   /// Calls visit(std::span<const uint32_t> vertices) for each polygon of a face, counter-clockwise about the face's normal.
   template <class Visit>
   void forEach(size_t face, const Visit& visit) const {
-    if (face < cells_.cutFaces) return polygons_.forEach(face, visit);
+    const Members members = cells_.membersOfFace(face);
+    if (members.size() == 1 && members[0] < cutFaces_) return polygons_.forEach(members[0], visit);
     visit(cells_.loops(face)[0]);
   }
 
  private:
   const CellComplex& cells_;
+  const size_t cutFaces_;
   Polygons polygons_;
 };
 

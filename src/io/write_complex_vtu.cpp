@@ -215,7 +215,7 @@ class FaceWriter : ComplexWriter {
     numberPoints();
   }
 
-  int32_t triangleOf(uint32_t face) const { return face < cells_.cutFaces ? cutMesh_.faceTriangle[face] : -1; }
+  int32_t triangleOf(uint32_t face) const { return detail::triangleOf(cutMesh_, cells_, face); }
 
   /// Fills an array with a value for each polygon, from its face.
   template <class Value>

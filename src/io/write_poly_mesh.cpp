@@ -72,7 +72,7 @@ Sides sort(const CutMesh& cutMesh, const CellComplex& cells, const std::vector<i
       sides.inner.push_back({at[owner], at[1 - owner], uint32_t(2 * f + owner)});
       continue;
     }
-    const size_t patch = size_t(cells.faceTag[f]) + (separates && groups ? size_t(groups->of(cutMesh.faceTriangle[f])) : 0);
+    const size_t patch = size_t(cells.faceTag[f]) + (separates && groups ? size_t(groups->of(triangleOf(cutMesh, cells, f))) : 0);
     for (size_t side = 0; side < 2; ++side) {
       if (at[side] != kLeftOut) sides.patches[patch].sides.push_back({at[side], kLeftOut, uint32_t(2 * f + side)});
     }

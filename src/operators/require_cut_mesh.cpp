@@ -17,9 +17,12 @@ void requireMadeFrom(Fingerprint madeFrom, Fingerprint other, const char* messag
 void refuseCells() { refuse("The cells are not all of this cut-mesh's."); }
 
 void requireCellsOf(const CutMesh& cutMesh, const CellComplex& cells) {
-  const bool haveCounts =
-      cells.cutCells == cutMesh.cellCount() && cells.cutFaces == cutMesh.faceCount() && cells.cutVertices == cutMesh.vertexCount();
-  if (!haveCounts || !detail::mayBeSame(cells.madeFrom, cutMesh.fingerprint)) refuseCells();
+  const size_t cutCells = cutMesh.cellCount(), cutFaces = cutMesh.faceCount();
+  const bool areCells =
+      cells.cellMemberOffsets.empty() ? cells.cutCells == cutCells : cells.cutCells <= cutCells && cells.cellMembers.size() >= cutCells;
+  const bool areFaces = cells.faceMemberOffsets.empty() ? cells.cutFaces == cutFaces : cells.cutFaces <= cutFaces;
+  const bool areAll = areCells && areFaces && cells.cutVertices == cutMesh.vertexCount();
+  if (!areAll || !detail::mayBeSame(cells.madeFrom, cutMesh.fingerprint)) refuseCells();
 }
 
 }  // namespace mandoline::operators

@@ -19,7 +19,8 @@ MANDOLINE_SHARED void requireMadeFrom(Fingerprint madeFrom, Fingerprint other, c
 /// Throws CallError for cells of another cut-mesh, or if some are missing.
 MANDOLINE_SHARED [[noreturn]] void refuseCells();
 
-/// Throws CallError unless the cell complex was made from the cut-mesh and begins with as many vertices, faces and cells.
+/// Throws CallError unless the cell complex was made from the cut-mesh and begins with as many vertices, faces and cells; or with as many
+/// or fewer, if cells or faces have members.
 MANDOLINE_SHARED void requireCellsOf(const CutMesh& cutMesh, const CellComplex& cells);
 
 }  // namespace mandoline::operators

@@ -30,9 +30,11 @@ class Finder {
   size_t firstBeside(size_t f, size_t side) {
     besides_.clear();
     const size_t axis = axisOf(f);
+    const double plane = placeOf(f, axis);
     for (const uint32_t h : cells_.halfFaces(cell(f, side))) {
       const size_t other = h / 2;
-      if (h % 2 == side && isInner(cells_, other) && level(other, 1 - side) < level(other, side) && axisOf(other) == axis)
+      if (h % 2 == side && isInner(cells_, other) && level(other, 1 - side) < level(other, side) && axisOf(other) == axis &&
+          placeOf(other, axis) == plane)
         besides_.push_back(uint32_t(other));
     }
     return besides_.front();
@@ -41,6 +43,8 @@ class Finder {
     const double* n = &cells_.faceNormal[3 * f];
     return n[0] != 0 ? 0 : n[1] != 0 ? 1 : 2;
   }
+  /// Merged cells have several sides across one axis.
+  double placeOf(size_t f, size_t axis) const { return cells_.positions[3 * size_t(cells_.loops(f)[0][0]) + axis]; }
 
   void add(size_t f, size_t side, const std::vector<uint32_t>& faces) {
     if (faces.empty())
@@ -60,14 +64,31 @@ class Finder {
   }
 
   /// Along the normal. Inner faces lie in axial planes between the cells' dual points. Centroids of slivers may round onto the plane;
-  /// they keep a billionth of their grid cells' distance.
+  /// they keep a billionth of their grid cells' distance. Merged cells may lie around each other: with them it is at least a twentieth of
+  /// the distance itself; or that of their centroids where both have the same dual point.
   double distance(size_t f) const {
-    const auto along = [&](const std::vector<double>& points) {
-      double sum = 0;
-      for (size_t d = 0; d < 3; ++d) sum += cells_.faceNormal[3 * f + d] * (points[3 * cell(f, 1) + d] - points[3 * cell(f, 0) + d]);
-      return sum;
-    };
-    return std::max(along(points_), 1e-9 * along(cells_.cellCentre));
+    if (cells_.cellMemberOffsets.empty()) return std::max(along(points_, f).normal, 1e-9 * along(cells_.cellCentre, f).normal);
+    const Along dual = along(points_, f), other = dual.all > 0 ? dual : along(cells_.cellCentroid, f);
+    return other.all > 0 ? std::max(other.normal, other.all / 20) : 1e-9 * sizeOf(cell(f, 0));
+  }
+  double sizeOf(size_t c) const {
+    double largest = 0;
+    for (const uint32_t h : cells_.halfFaces(c)) largest = std::max(largest, cells_.faceArea[h / 2]);
+    return std::sqrt(largest);
+  }
+
+  /// From the point of one cell at a face to that of the other: how far along the normal, and in all.
+  struct Along {
+    double normal, all;
+  };
+  Along along(const std::vector<double>& points, size_t f) const {
+    double sum = 0, square = 0;
+    for (size_t d = 0; d < 3; ++d) {
+      const double difference = points[3 * cell(f, 1) + d] - points[3 * cell(f, 0) + d];
+      sum += cells_.faceNormal[3 * f + d] * difference;
+      square += difference * difference;
+    }
+    return {sum, std::sqrt(square)};
   }
 
   const CellComplex& cells_;

@@ -30,37 +30,51 @@ operators::CutInput requireField(const FlowField& field, std::span<const double>
   return input;
 }
 
-OctreeCells octreeOf(const FlowField& field) {
-  OctreeCells octree;
+FieldMembers membersOf(const FlowField& field) {
+  constexpr uint32_t kNone = ~0u;
   const CellComplex& cells = field.cells;
+  const size_t cutCells = field.cutMesh.cellCount();
+  FieldMembers members;
+  members.cellOf.assign(std::max(cells.cellCount(), cells.cellMembers.size()), kNone);
+  for (uint32_t c = 0; c < cells.cellCount(); ++c) {
+    for (const uint32_t m : cells.membersOfCell(c)) {
+      if (m >= members.cellOf.size() || members.cellOf[m] != kNone) operators::refuseCells();
+      members.cellOf[m] = c;
+    }
+  }
+  OctreeCells& octree = members.octree;
   for (size_t d = 0; d < 3; ++d) octree.gridCells[d] = int32_t(field.cutMesh.grid.cells(int(d)));
-  octree.cellCorner.assign(cells.cellCorner.begin() + 3 * std::ptrdiff_t(cells.cutCells), cells.cellCorner.end());
-  octree.cellLevel.assign(cells.cellLevel.begin() + std::ptrdiff_t(cells.cutCells), cells.cellLevel.end());
-  octree.cellRegion.assign(cells.cellRegion.begin() + std::ptrdiff_t(cells.cutCells), cells.cellRegion.end());
-  return octree;
+  for (size_t m = cutCells; m < members.cellOf.size(); ++m) {
+    const size_t c = members.cellOf[m];
+    for (size_t d = 0; d < 3; ++d) octree.cellCorner.push_back(cells.cellCorner[3 * c + d]);
+    octree.cellLevel.push_back(cells.cellLevel[c]);
+    octree.cellRegion.push_back(cells.cellRegion[c]);
+  }
+  return members;
 }
 
-std::vector<int64_t> cellsAt(const FlowField& field, const OctreeCells& octree, std::span<const double> points) {
-  const Locations found = mandoline::cellsAt(field.cutMesh, points);
-  std::vector<int64_t> cells(found.cell.begin(), found.cell.end());
-  for (size_t i = 0; i < cells.size(); ++i) {
-    if (cells[i] >= 0 || found.gridCell[3 * i] < 0) continue;
-    const int64_t n = octree.find(found.gridCell[3 * i], found.gridCell[3 * i + 1], found.gridCell[3 * i + 2]);
+std::vector<int64_t> membersAt(const FlowField& field, const FieldMembers& members, std::span<const double> points) {
+  const Locations found = cellsAt(field.cutMesh, points);
+  std::vector<int64_t> result(found.cell.begin(), found.cell.end());
+  for (size_t i = 0; i < result.size(); ++i) {
+    if (result[i] >= 0 || found.gridCell[3 * i] < 0) continue;
+    const int64_t n = members.octree.find(found.gridCell[3 * i], found.gridCell[3 * i + 1], found.gridCell[3 * i + 2]);
     if (n < 0) operators::refuseCells();
-    cells[i] = int64_t(field.cells.cutCells) + n;
+    result[i] = int64_t(field.cutMesh.cellCount()) + n;
   }
-  return cells;
+  return result;
 }
 
 }  // namespace physics
 
 std::vector<double> velocityAt(const FlowField& field, std::span<const double> points) {
   physics::requireField(field, points);
-  const std::vector<int64_t> cells = physics::cellsAt(field, physics::octreeOf(field), points);
+  const physics::FieldMembers members = physics::membersOf(field);
+  const std::vector<int64_t> found = physics::membersAt(field, members, points);
   std::vector<double> result(points.size(), NAN);
-  for (size_t i = 0; i < cells.size(); ++i) {
-    if (cells[i] < 0) continue;
-    const auto v = physics::velocityIn(field.cells, field.flow, size_t(cells[i]), &points[3 * i]);
+  for (size_t i = 0; i < found.size(); ++i) {
+    if (found[i] < 0) continue;
+    const auto v = physics::velocityIn(field.cells, field.flow, members.cellOf[size_t(found[i])], &points[3 * i]);
     std::copy(v.begin(), v.end(), &result[3 * i]);
   }
   return result;

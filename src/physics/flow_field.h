@@ -10,11 +10,17 @@ namespace mandoline::physics {
 /// multiple of 3.
 operators::CutInput requireField(const FlowField& field, std::span<const double> points);
 
-/// The cells of a cell complex that are not cut-cells.
-OctreeCells octreeOf(const FlowField& field);
+/// The cells before any were merged: cut-cells, then octree cells.
+struct FieldMembers {
+  OctreeCells octree;
+  std::vector<uint32_t> cellOf;  ///< per member: the cell that it belongs to
+};
 
-/// Per point: the cell that holds it, or -1 outside the grid.
-std::vector<int64_t> cellsAt(const FlowField& field, const OctreeCells& octree, std::span<const double> points);
+/// Throws CallError{badArgument} if the members are not those of the cut-mesh.
+FieldMembers membersOf(const FlowField& field);
+
+/// Per point: the member that holds it, or -1 outside the grid.
+std::vector<int64_t> membersAt(const FlowField& field, const FieldMembers& members, std::span<const double> points);
 
 inline std::array<double, 3> velocityIn(const CellComplex& cells, const Flow& flow, size_t cell, const double* point) {
   const double *v = &flow.cellVelocity[3 * cell], *g = &flow.cellGradient[6 * cell];

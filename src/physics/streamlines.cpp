@@ -24,15 +24,15 @@ void append(const Streamlines& more, Streamlines& lines) {
 Streamlines traced(const FlowField& field, const MeshView& mesh, std::span<const double> seeds, const StreamlineOptions& options) {
   detail::Monitor monitor(options, 2);
   monitor.beginStage("seeds", 0);
-  const OctreeCells octree = physics::octreeOf(field);
-  const std::vector<int64_t> cells = physics::cellsAt(field, octree, seeds);
+  const physics::FieldMembers members = physics::membersOf(field);
+  const std::vector<int64_t> starts = physics::membersAt(field, members, seeds);
   const physics::Obstacles obstacles(mesh, field.cutMesh.grid);
   monitor.beginStage("streamlines", 1);
   const auto trace = [&](Chunk& chunk, size_t begin, size_t end) {
-    if (!chunk.tracer) chunk.tracer.emplace(field, octree, obstacles, options);
+    if (!chunk.tracer) chunk.tracer.emplace(field, members, obstacles, options);
     for (size_t i = begin; i < end; ++i) {
-      if (cells[i] >= 0) {
-        chunk.tracer->trace({seeds[3 * i], seeds[3 * i + 1], seeds[3 * i + 2]}, size_t(cells[i]), chunk.lines);
+      if (starts[i] >= 0) {
+        chunk.tracer->trace({seeds[3 * i], seeds[3 * i + 1], seeds[3 * i + 2]}, size_t(starts[i]), chunk.lines);
       } else {
         chunk.lines.offsets.push_back(uint32_t(chunk.lines.speeds.size()));
         chunk.lines.ends.push_back(StreamlineEnd::outside);
@@ -41,7 +41,7 @@ Streamlines traced(const FlowField& field, const MeshView& mesh, std::span<const
   };
   constexpr size_t kBlock = 16;
   Streamlines lines;
-  for (const Chunk& chunk : detail::forChunks<Chunk>(cells.size(), monitor, trace, kBlock)) append(chunk.lines, lines);
+  for (const Chunk& chunk : detail::forChunks<Chunk>(starts.size(), monitor, trace, kBlock)) append(chunk.lines, lines);
   lines.offsets.push_back(uint32_t(lines.speeds.size()));
   return lines;
 }

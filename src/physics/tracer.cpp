@@ -17,18 +17,18 @@ Point difference(const Point& p, const Point& q) { return combined(p, -1, q); }
 
 }  // namespace
 
-Tracer::Tracer(const FlowField& field, const OctreeCells& octree, const Obstacles& obstacles, const StreamlineOptions& options)
+Tracer::Tracer(const FlowField& field, const FieldMembers& members, const Obstacles& obstacles, const StreamlineOptions& options)
     : field_(field),
-      octree_(octree),
+      members_(members),
       obstacles_(obstacles),
       options_(options),
       space_(field.cutMesh.grid),
       walls_(field.cutMesh, space_),
       slowest_(kRest * length(field.flow.wind)) {}
 
-void Tracer::trace(const Point& seed, size_t cell, Streamlines& lines) {
+void Tracer::trace(const Point& seed, size_t member, Streamlines& lines) {
   lines_ = &lines;
-  enter(cell);
+  enter(member);
   at_ = seed;
   time_ = length_ = 0;
   mark_ = seed, markLength_ = 0, sinceMark_ = 0;
@@ -40,12 +40,16 @@ void Tracer::trace(const Point& seed, size_t cell, Streamlines& lines) {
   lines.ends.push_back(end_);
 }
 
-void Tracer::enter(size_t cell) {
-  const CellComplex& cells = field_.cells;
-  cell_ = cell;
-  const bool isCut = cell < cells.cutCells;
-  for (size_t d = 0; d < 3; ++d) corner_[d] = cells.cellCorner[3 * cell + d], past_[d] = corner_[d] + 1;
-  if (!isCut) past_ = octree_.end(cell - cells.cutCells);
+void Tracer::enter(size_t member) {
+  member_ = member;
+  cell_ = members_.cellOf[member];
+  if (isCut(member)) {
+    const int32_t* corner = &field_.cutMesh.cellGridCell[3 * member];
+    for (size_t d = 0; d < 3; ++d) corner_[d] = corner[d], past_[d] = corner[d] + 1;
+  } else {
+    const size_t n = member - field_.cutMesh.cellCount();
+    corner_ = members_.octree.corner(n), past_ = members_.octree.end(n);
+  }
   size_ = 0;
   for (size_t d = 0; d < 3; ++d) {
     low_[d] = field_.cutMesh.grid.planes[d][size_t(corner_[d])];
@@ -100,25 +104,19 @@ bool Tracer::cross(const Side& side) {
     at[d] = int32_t(next - planes.begin()) - 1;
   }
   at[side.axis] = side.upper ? past_[side.axis] : corner_[side.axis] - 1;
-  if (at[side.axis] < 0 || at[side.axis] >= octree_.gridCells[side.axis]) return end(StreamlineEnd::side);
-  const int64_t next = cellAcross(side, at);
+  if (at[side.axis] < 0 || at[side.axis] >= members_.octree.gridCells[side.axis]) return end(StreamlineEnd::side);
+  const int64_t next = memberAcross(side, at);
   if (next < 0) return end(StreamlineEnd::surface);
   enter(size_t(next));
   return true;
 }
 
-/// The cell in a grid cell across a side that the current one is joined with at this point; -1 if triangles lie between, by rounding.
-int64_t Tracer::cellAcross(const Side& side, const GridIndex& at) {
-  const CellComplex& cells = field_.cells;
-  const int64_t whole = octree_.find(at[0], at[1], at[2]);
-  if (whole >= 0) return int64_t(cells.cutCells) + whole;
+/// The member in a grid cell across a side that the current one is joined with at this point; -1 if triangles lie between, by rounding.
+int64_t Tracer::memberAcross(const Side& side, const GridIndex& at) {
+  const int64_t whole = members_.octree.find(at[0], at[1], at[2]);
+  if (whole >= 0) return int64_t(field_.cutMesh.cellCount()) + whole;
   const IdRange range = field_.cutMesh.cutCellsAt(at[0], at[1], at[2]);
-  std::vector<size_t> joined;
-  for (const uint32_t h : cells.halfFaces(cell_)) {
-    const int64_t other = cells.faceCells[h ^ 1];
-    if (cells.faceTag[h / 2] != FaceTag::inner || other < int64_t(range.begin) || other >= int64_t(range.end)) continue;
-    if (std::find(joined.begin(), joined.end(), size_t(other)) == joined.end()) joined.push_back(size_t(other));
-  }
+  const std::vector<size_t> joined = joinedAcross(side, range);
   if (joined.empty()) return -1;
   if (joined.size() == 1) return int64_t(joined[0]);
   Point p = at_;
@@ -128,6 +126,28 @@ int64_t Tracer::cellAcross(const Side& side, const GridIndex& at) {
   const uint32_t place = walls_.cellAt(scaled);
   if (place == operators::Walls::kNone || std::find(joined.begin(), joined.end(), range.begin + place) == joined.end()) return -1;
   return int64_t(range.begin + place);
+}
+
+/// Those of the cut-cells in a grid cell across a side that have a piece of a grid-face there in common with the current member.
+std::vector<size_t> Tracer::joinedAcross(const Side& side, const IdRange& range) const {
+  const CutMesh& cutMesh = field_.cutMesh;
+  const int32_t plane = side.upper ? past_[side.axis] : corner_[side.axis];
+  const auto isThere = [&](uint32_t h) {
+    return cutMesh.faceTriangle[h / 2] < 0 && size_t(cutMesh.faceAxis[h / 2]) == side.axis && cutMesh.facePlane[h / 2] == plane;
+  };
+  std::vector<uint32_t> own;  // half-faces seen from across
+  if (isCut(member_)) {
+    for (const uint32_t h : cutMesh.halfFaces(member_)) {
+      if (isThere(h)) own.push_back(h ^ 1);
+    }
+  }
+  const auto isJoined = [&](uint32_t h) { return isThere(h) && (!isCut(member_) || std::find(own.begin(), own.end(), h) != own.end()); };
+  std::vector<size_t> joined;
+  for (size_t c = range.begin; c < range.end; ++c) {
+    const auto halfFaces = cutMesh.halfFaces(c);
+    if (std::any_of(halfFaces.begin(), halfFaces.end(), isJoined)) joined.push_back(c);
+  }
+  return joined;
 }
 
 /// The Runge-Kutta step of Bogacki and Shampine.

@@ -1,7 +1,7 @@
 // Follows a flow from cell to cell.
 //
-// In a cell the velocity is linear, and a step ends where it meets a side of the cell's grid cell or octree cell: points on it have the
-// plane's coordinate exactly. Only triangles divide a grid cell, and no step meets one, so the cell stays the same until then. Where the
+// In a cell the velocity is linear, and a step ends where it meets a side of a member's grid cell or octree cell: points on it have the
+// plane's coordinate exactly. Only triangles divide a grid cell, and no step meets one, so the member stays the same until then. Where the
 // velocities of two cells both point at the side between them, the line slides along it.
 #pragma once
 
@@ -14,14 +14,14 @@ namespace mandoline::physics {
 class Tracer {
  public:
   /// Keeps references to all.
-  Tracer(const FlowField& field, const OctreeCells& octree, const Obstacles& obstacles, const StreamlineOptions& options);
+  Tracer(const FlowField& field, const FieldMembers& members, const Obstacles& obstacles, const StreamlineOptions& options);
 
-  /// Appends the line from a seed, which lies in the cell.
-  void trace(const Point& seed, size_t cell, Streamlines& lines);
+  /// Appends the line from a seed, which lies in the member.
+  void trace(const Point& seed, size_t member, Streamlines& lines);
 
  private:
   using GridIndex = std::array<int32_t, 3>;
-  /// A side of the cell's box: the lower or upper one across an axis.
+  /// A side of the member's box: the lower or upper one across an axis.
   struct Side {
     size_t axis;
     bool upper;
@@ -31,12 +31,14 @@ class Tracer {
     double error;  ///< of the end or of the chord, if that is larger
   };
 
-  void enter(size_t cell);
+  void enter(size_t member);
   bool goOn();
   bool isOutward(size_t axis, const Point& v) const;
   bool meetSide(size_t axis, const Point& v);
   bool cross(const Side& side);
-  int64_t cellAcross(const Side& side, const GridIndex& at);
+  int64_t memberAcross(const Side& side, const GridIndex& at);
+  std::vector<size_t> joinedAcross(const Side& side, const IdRange& range) const;
+  bool isCut(size_t member) const { return member < field_.cutMesh.cellCount(); }
   Point velocity(const Point& p) const;
   Step stepOf(double time) const;
   bool move(const Point& v);
@@ -50,7 +52,7 @@ class Tracer {
   }
 
   const FlowField& field_;
-  const OctreeCells& octree_;
+  const FieldMembers& members_;
   const Obstacles& obstacles_;
   const StreamlineOptions& options_;
   operators::ScaledSpace space_;
@@ -60,8 +62,8 @@ class Tracer {
 
   Streamlines* lines_ = nullptr;
   StreamlineEnd end_{};
-  size_t cell_ = 0;
-  GridIndex corner_{}, past_{};  ///< of the cell's box
+  size_t member_ = 0, cell_ = 0;
+  GridIndex corner_{}, past_{};  ///< of the member's box
   Point low_{}, high_{};
   double size_ = 0;  ///< the box's longest side
   Point at_{};

@@ -72,6 +72,10 @@ TEST_CASE("Command line: wrong usage exits with 2", "[cli]") {
       {{"cut", mesh, ""}, "unknown option ''"},
       {{"info", mesh, "--cells", "3"}, "--cells is an option of cut, slice, boundary and flow"},
       {{"cut", mesh, "--wind", "1,0,0"}, "--wind is an option of flow"},
+      {{"cut", mesh, "--merge", "0.6", "-o", folder.path("a.vtu")}, "--merge needs a number from 0 to 0.5, not '0.6'"},
+      {{"cut", mesh, "--unite-walls", "100", "-o", folder.path("a.vtu")}, "--unite-walls needs an angle from 0 to 90 degrees, not '100'"},
+      {{"cut", mesh, "--unite-walls", "20", "-o", folder.path("a.mcm")}, "--unite-walls: only .vtu and .json files and polyMesh folders"},
+      {{"cut", mesh, "--merge", "0.2", "-o", folder.path("a.obj")}, "--merge: only .vtu and .json files and polyMesh folders"},
       {{"info", mesh, "--only"}, "--only is an option of cut, slice, boundary and flow"},
       {{"cut", mesh, "--cels", "3"}, "unknown option '--cels': did you mean --cells?"},
       {{"cut", mesh, "-cells", "3"}, "unknown option '-cells': did you mean --cells?"},
@@ -323,9 +327,9 @@ TEST_CASE("Command line: misspelt options are errors that suggest the name", "[c
   const TemporaryFolder folder;
   const std::string mesh = folder.write("cube.obj", kCube);
   const std::string cut = "cells margin box origin spacing planes snap-tolerance intersections orient threads only report format";
-  const std::pair<std::string, std::string> commands[] = {{"cut", cut + " validate coarsen faces"},
+  const std::pair<std::string, std::string> commands[] = {{"cut", cut + " validate coarsen merge unite-walls faces"},
                                                           {"slice", cut + " axis normal heights layers"},
-                                                          {"flow", cut + " coarsen faces wind streamlines"},
+                                                          {"flow", cut + " coarsen merge unite-walls faces wind streamlines"},
                                                           {"info", "threads report format"},
                                                           {"resolve", "rule orient threads report format"}};
   std::mt19937 random(7);
@@ -505,6 +509,29 @@ TEST_CASE("Command line: octree cells, OpenFOAM and saved cut-meshes", "[cli]") 
   CHECK(mandoline::readCutMesh(saved).regionCount == 2);
   REQUIRE(run(folder, {"cut", mesh, "--only", "outside", "-o", foam}).exitCode == 0);
   CHECK(!std::filesystem::exists(foam + "cellZones"));
+}
+
+TEST_CASE("Command line: small cells merged, and how many stay small", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", kCube), vtu = folder.path("a.vtu"), foam = folder.path("polyMesh");
+  const auto inGrid = [&](std::vector<std::string> words) {
+    words.insert(words.end(), {"--origin", "-0.9,-0.9,-0.9", "--spacing", "1", "--cells", "5"});
+    return run(folder, words);
+  };
+  // The cube from 1 to 3 has cells of 0.1, 1 and 0.9 along each axis.
+  const Outcome o = inGrid({"cut", mesh, "--merge", "0.2", "-o", vtu, foam, "--report", "-"});
+  REQUIRE(o.exitCode == 0);
+  CHECK(contains(inOneLine(o.out), "\"merge\": {\"before\": 151, \"after\": "));
+  CHECK(contains(inOneLine(o.out), "\"pockets\": 0}"));
+  CHECK(contains(inGrid({"cut", mesh, "--merge", "0.2", "-o", vtu}).out, "Merging of small cells"));
+  CHECK(contains(inOneLine(inGrid({"cut", mesh, "-o", vtu, "--report", "-"}).out), "\"merge\": null"));
+  const auto flow = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"flow", mesh, "--wind", "1,0,0", "-o", vtu, "--report", "-"});
+    return inOneLine(inGrid(words).out);
+  };
+  CHECK(contains(flow({}), "\"merge\": {\"before\": 151, "));
+  CHECK(contains(flow({"--merge", "0"}), "\"merge\": null"));
+  CHECK(contains(flow({"--merge", "0"}), "\"cells\": 151, "));
 }
 
 TEST_CASE("Command line: groups of the input are patches, and stay through resolve", "[cli]") {

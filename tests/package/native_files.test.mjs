@@ -95,17 +95,37 @@ test('polyMeshes, with groups and without, of all cells or one region', { skip }
   }
 });
 
+test('merged cells', { skip }, async () => {
+  const merged = physics.mergeSmallCells(cutMesh, cells, { fraction: 0.3 }).cells;
+  const options = [...gridOptions, '--coarsen', '2', '--merge', '0.3'];
+  const written = native('cut', options, ['cells.vtu', 'polyMesh']);
+  await compare(physics, 'writeCells', [cutMesh, merged, 'vtu', {}], written('cells.vtu'));
+  for (const [name, bytes] of Object.entries(physics.writePolyMesh(cutMesh, merged, { groups })))
+    assertSame(bytes, written(`polyMesh/${name}`), name);
+  const faces = native('cut', [...options, '--faces'], ['faces.vtu']);
+  await compare(physics, 'writeFaces', [cutMesh, merged, { groups }], faces('faces.vtu'));
+});
+
+test('walls united, by groups', { skip }, async () => {
+  const united = physics.uniteWalls(cutMesh, cells, { angle: 40, groups });
+  const written = native('cut', [...gridOptions, '--coarsen', '2', '--unite-walls', '40'], ['cells.json', 'polyMesh']);
+  await compare(physics, 'writeCells', [cutMesh, united, 'json', { groups }], written('cells.json'));
+  for (const [name, bytes] of Object.entries(physics.writePolyMesh(cutMesh, united, { groups })))
+    assertSame(bytes, written(`polyMesh/${name}`), name);
+});
+
 test('flows and streamlines', { skip }, async () => {
   const options = [...gridOptions, '--coarsen', '2', '--wind', wind.join()];
   const written = native('flow', [...options, '--streamlines', '40'], ['flow.vtu', 'lines.obj']);
-  const flow = physics.solveFlow(cells, wind);
+  const { cells: merged } = physics.mergeSmallCells(cutMesh, cells);
+  const flow = physics.solveFlow(merged, wind);
   const fields = { phi: flow.phi, velocity: flow.cellVelocity, pressure_coefficient: flow.cellPressure };
-  await compare(physics, 'writeCells', [cutMesh, cells, 'vtu', { fields }], written('flow.vtu'));
-  const lines = physics.streamlines({ mesh, cutMesh, cells, flow }, physics.inflowSeeds(cutMesh.grid, wind, 40));
+  await compare(physics, 'writeCells', [cutMesh, merged, 'vtu', { fields }], written('flow.vtu'));
+  const lines = physics.streamlines({ mesh, cutMesh, cells: merged, flow }, physics.inflowSeeds(cutMesh.grid, wind, 40));
   await compare(mandoline, 'writeLines', [lines], written('lines.obj'));
-  const ofFaces = { normal_velocity: flow.faceVelocity, normal: cells.faceNormal, area: cells.faceArea };
+  const ofFaces = { normal_velocity: flow.faceVelocity, normal: merged.faceNormal, area: merged.faceArea };
   const faces = native('flow', [...options, '--faces'], ['faces.vtu']);
-  await compare(physics, 'writeFaces', [cutMesh, cells, { fields: ofFaces, groups }], faces('faces.vtu'));
+  await compare(physics, 'writeFaces', [cutMesh, merged, { fields: ofFaces, groups }], faces('faces.vtu'));
 });
 
 test('outlines', { skip }, async () => {

@@ -50,10 +50,10 @@ function readVtu(file) {
 }
 
 /** The cells as the program writes them, on three threads. */
-function nativeCells(file, { min, max, cells }, maxLevel) {
+function nativeCells(file, { min, max, cells }, maxLevel, fraction) {
   const json = path(folder, 'cells.json');
   const grid = ['--box', [...min, ...max].join(), '--cells', cells.join(), '--coarsen', String(maxLevel)];
-  execFileSync(program, ['cut', file, ...grid, '--threads', '3', '-o', json], { stdio: 'pipe' });
+  execFileSync(program, ['cut', file, ...grid, '--merge', String(fraction), '--threads', '3', '-o', json], { stdio: 'pipe' });
   return JSON.parse(readFileSync(json));
 }
 
@@ -106,14 +106,20 @@ const grid = { min: [-1.9, -1.7, -0.95], max: [1.8, 1.75, 0.9], cells: [19, 17, 
 function compare(file, mesh, grid, maxLevel) {
   const { report, arrays, lines } = nativeFlow(file, grid, maxLevel);
   const cutMesh = cut(mesh, grid);
-  const cells = physics.cellComplex(mesh, cutMesh, physics.coarsen(cutMesh, { maxLevel }));
-  const { format, version, faceTriangle, ...written } = nativeCells(file, grid, maxLevel);
-  assert.deepEqual([format, version], ['mandoline-cell-complex', 1]);
-  assertSame(faceTriangle, cutMesh.faceTriangle, 'faceTriangle');
-  assert.deepEqual(Object.keys(written).sort(), Object.keys(cells).sort());
-  for (const [name, values] of Object.entries(cells)) {
-    if (!ArrayBuffer.isView(values)) assert.equal(written[name], values, name);
-    else assertSame(written[name], values, name);
+  const single = physics.cellComplex(mesh, cutMesh, physics.coarsen(cutMesh, { maxLevel }));
+  const { cells } = physics.mergeSmallCells(cutMesh, single);
+  for (const [fraction, all] of [
+    [0, single],
+    [0.2, cells],
+  ]) {
+    const { format, version, faceTriangle, ...written } = nativeCells(file, grid, maxLevel, fraction);
+    assert.deepEqual([format, version], ['mandoline-cell-complex', 1]);
+    assertSame(faceTriangle, cutMesh.faceTriangle, 'faceTriangle');
+    assert.deepEqual(Object.keys(written).sort(), Object.keys(all).sort());
+    for (const [name, values] of Object.entries(all)) {
+      if (!ArrayBuffer.isView(values)) assert.equal(written[name], values, name);
+      else assertSame(written[name], values, name);
+    }
   }
   const flow = physics.solveFlow(cells, wind);
   const { status, cutCells, cells: cellCount, faces, throttled, residuals } = report;

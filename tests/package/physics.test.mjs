@@ -81,6 +81,45 @@ test('options of coarsen()', () => {
   assert.throws(() => physics.coarsen(cutMesh, { maxLevel: -1 }), { code: 'badOption', stage: 'coarsen' });
 });
 
+test('small cells merged: volumes, members, and what other calls make of them', () => {
+  for (const [name, all] of complexes) {
+    const { cells: merged, mergedCell, pockets } = physics.mergeSmallCells(cutMesh, all);
+    assert.deepEqual(pockets.length, 0, name);
+    assert.ok(cellCount(merged) < cellCount(all), name);
+    const volumes = new Float64Array(cellCount(merged));
+    all.cellVolume.forEach((volume, cell) => {
+      volumes[mergedCell[cell]] += volume;
+    });
+    assert.deepEqual(merged.cellVolume, volumes, name);
+    const gridCell = box3 / (13 * 12 * 7);
+    assert.ok(Math.min(...volumes) >= 0.2 * gridCell, name);
+    assert.deepEqual(Uint32Array.from(merged.cellMembers).sort(), Uint32Array.from(mergedCell.keys()), name);
+    const { divergence } = physics.operators(merged, { only: ['divergence'] });
+    assertNear(times(divergence, products(field, merged.faceNormal)), new Float64Array(cellCount(merged)), 1e-13);
+    const flow = physics.solveFlow(merged, [1, 0, 0]);
+    assert.equal(flow.status, 'converged', name);
+    const { points, ends } = physics.streamlines({ mesh, cutMesh, cells: merged, flow }, physics.inflowSeeds(cutMesh.grid, [1, 0, 0], 30));
+    assert.ok(points.length > 30 && ends.filter((end) => streamlineEnds[end] === 'side').length > 20, name);
+  }
+  assert.throws(() => physics.mergeSmallCells(cutMesh, cells, { fraction: 0.6 }), { code: 'badOption', stage: 'mergeSmallCells' });
+  assert.throws(() => physics.mergeSmallCells(cutMesh, physics.mergeSmallCells(cutMesh, cells).cells), /merged already/);
+});
+
+test('walls united: fewer faces, as closed as before', () => {
+  const { cells: merged } = physics.mergeSmallCells(cutMesh, coarse);
+  const walls = ({ faceTag }) => faceTag.filter((tag) => faceTags[tag] === 'surface').length;
+  const united = physics.uniteWalls(cutMesh, merged);
+  assert.ok(walls(united) < walls(merged) / 2);
+  assert.deepEqual(united.cellVolume, merged.cellVolume);
+  const { divergence } = physics.operators(united, { only: ['divergence'] });
+  assertNear(times(divergence, products(field, united.faceNormal)), new Float64Array(cellCount(united)), 1e-13);
+  const triangleGroup = Uint32Array.from({ length: mesh.triangles.length / 3 }, (_, t) => t % 2);
+  const groups = { names: ['even', 'odd'], triangleGroup };
+  assert.ok(walls(physics.uniteWalls(cutMesh, merged, { groups })) > walls(united));
+  assert.ok(walls(physics.uniteWalls(cutMesh, merged, { angle: 5 })) > walls(united));
+  assert.throws(() => physics.uniteWalls(cutMesh, merged, { angle: 100 }), { code: 'badOption', stage: 'uniteWalls' });
+});
+
 test('the boundary of a boundary is nothing, to the bit', () => {
   for (const [name, all] of complexes) {
     const { cellFaceIncidence, faceEdgeIncidence, edgeVertexIncidence, ...rest } = physics.operators(all, {
@@ -322,6 +361,8 @@ const copyInput = (given) => (given.cells ? { ...given, cells: { ...given.cells 
 const calls = {
   coarsen: ['cutMesh', (given) => physics.coarsen(given)],
   cellComplex: ['cutMesh', (given) => physics.cellComplex(mesh, given, octree)],
+  mergeSmallCells: ['both', (given) => physics.mergeSmallCells(given.cutMesh, given.cells)],
+  uniteWalls: ['both', (given) => physics.uniteWalls(given.cutMesh, given.cells)],
   subComplex: ['cells', (given) => physics.subComplex(given, [1, 2, 3])],
   regionComplex: ['cells', (given) => physics.regionComplex(given, 0)],
   complexEdges: ['cells', (given) => physics.complexEdges(given)],

@@ -57,6 +57,8 @@ test('every call gives the same, and no arrays are sent', () =>
     const boundary = physics.boundaryOf(expected);
     const field = { mesh, cutMesh, cells, flow };
     const calls = {
+      mergeSmallCells: [cutMesh, cells],
+      uniteWalls: [cutMesh, cells],
       subComplex: [cells, [1, 2, 3]],
       regionComplex: [cells, 0],
       complexEdges: [cells],
@@ -210,6 +212,7 @@ test('what progress cancels names the stage of the cut or else the call, as with
       write: [mesh, made, 'json'],
       coarsen: [made],
       cellComplex: [mesh, made, null],
+      mergeSmallCells: [made, expected],
       solvePoisson: [expected, {}],
       solveFlow: [expected, [1, 0, 0]],
       streamlines: [{ mesh, cutMesh: made, cells: expected, flow }, seeds],

@@ -110,6 +110,7 @@ test('results of mandoline-wasm/physics', async () => {
   const results = [
     ['OctreeCells', physics.coarsen(cutMesh)],
     ['CellComplex', cells],
+    ['MergedCells', physics.mergeSmallCells(cutMesh, cells)],
     ['SubComplex', physics.regionComplex(cells, 0)],
     ['SubComplex', physics.subComplex(cells, [0])],
     ['ComplexEdges', physics.complexEdges(cells)],

@@ -4,7 +4,11 @@ import { instantiate } from './instance.js';
 import { Twins } from './twins.js';
 
 /** What gives the kinds of results that may have twins. */
-const makers = { prepared: 'prepare()', cutMesh: 'cut()', cells: 'cellComplex(), subComplex() or regionComplex()' };
+const makers = {
+  prepared: 'prepare()',
+  cutMesh: 'cut()',
+  cells: 'cellComplex(), mergeSmallCells(), uniteWalls(), subComplex() or regionComplex()',
+};
 
 /** What calls of any of the package's modules gave: { host, kind }. Each module may have a twin of a cut-mesh. */
 const results = new WeakMap();

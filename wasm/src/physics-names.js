@@ -3,6 +3,8 @@
 export const physicsNames = [
   'coarsen',
   'cellComplex',
+  'mergeSmallCells',
+  'uniteWalls',
   'subComplex',
   'regionComplex',
   'complexEdges',

@@ -18,14 +18,50 @@ enum class FaceTag : uint8_t {
   surface  ///< a triangle of the input, which separates two cells or two sides of one; also where it lies in a side of the grid
 };
 
+/// The members of a cell or a face, as a range of ids.
+class Members {
+ public:
+  class Iterator {
+   public:
+    Iterator(const uint32_t* items, uint32_t id) : items_(items), id_(id) {}
+    uint32_t operator*() const { return items_ ? *items_ : id_; }
+    Iterator& operator++() {
+      if (items_) ++items_;
+      ++id_;
+      return *this;
+    }
+    bool operator==(const Iterator& other) const { return id_ == other.id_; }
+
+   private:
+    const uint32_t* items_;
+    uint32_t id_;
+  };
+
+  /// Those of element `id`; itself, if there are no offsets.
+  Members(const std::vector<uint32_t>& offsets, const std::vector<uint32_t>& items, size_t id)
+      : items_(offsets.empty() ? nullptr : items.data() + offsets[id]),
+        first_(uint32_t(id)),
+        count_(offsets.empty() ? 1 : offsets[id + 1] - offsets[id]) {}
+  size_t size() const { return count_; }
+  uint32_t operator[](size_t i) const { return items_ ? items_[i] : first_; }
+  Iterator begin() const { return {items_, first_}; }
+  Iterator end() const { return {nullptr, first_ + count_}; }
+
+ private:
+  const uint32_t* items_;
+  uint32_t first_, count_;
+};
+
 /// All cells, with every face between two of them or on the boundary once. Where a large cell meets smaller ones, its side is divided
 /// like theirs, and the edges of a face have all vertices that lie on them. The cut-mesh's vertices, faces and cells come first and keep
 /// their ids; then come those of the octree cells: cell cutCells + c is octree cell c. Half-face = 2 * face + side; side 0: the face's
 /// normal points out of the cell, side 1: into it.
+///
+/// mergeSmallCells() and uniteWalls() make others of it, whose cells and faces have these as members.
 struct CellComplex {
   uint32_t cutVertices = 0;  ///< how many of the vertices are the cut-mesh's
-  uint32_t cutFaces = 0;     ///< how many of the faces
-  uint32_t cutCells = 0;     ///< how many of the cells
+  uint32_t cutFaces = 0;     ///< how many of the faces are the cut-mesh's, or have one of those as their first member
+  uint32_t cutCells = 0;     ///< how many of the cells, the same
 
   std::vector<double> positions;  ///< 3 per vertex, world units
 
@@ -49,6 +85,12 @@ struct CellComplex {
   std::vector<double> cellVolume;             ///< per cell
   std::vector<double> cellCentroid;           ///< 3 per cell
 
+  // Members: of which cells and faces, before any were merged or united, each one is made. Empty where each is its own only member.
+  std::vector<uint32_t> cellMemberOffsets;  ///< into cellMembers
+  std::vector<uint32_t> cellMembers;        ///< cells, ascending for each cell; each belongs to one
+  std::vector<uint32_t> faceMemberOffsets;  ///< into faceMembers
+  std::vector<uint32_t> faceMembers;        ///< faces, ascending for each face; none belongs to two
+
   Fingerprint madeFrom;     ///< of the cut-mesh; of the whole, if it is a part of another cell complex
   Fingerprint fingerprint;  ///< of the cell complex
 
@@ -61,6 +103,9 @@ struct CellComplex {
   std::span<const uint32_t> halfFaces(size_t cell) const {
     return {cellHalfFaces.data() + cellHalfFaceOffsets[cell], cellHalfFaceOffsets[cell + 1] - cellHalfFaceOffsets[cell]};
   }
+
+  Members membersOfCell(size_t cell) const { return {cellMemberOffsets, cellMembers, cell}; }
+  Members membersOfFace(size_t face) const { return {faceMemberOffsets, faceMembers, face}; }
 
   static void fields(auto& self, const auto& f) {
     f("cutVertices", self.cutVertices);
@@ -83,6 +128,10 @@ struct CellComplex {
     f("cellRegion", self.cellRegion);
     f("cellVolume", self.cellVolume);
     f("cellCentroid", self.cellCentroid);
+    f("cellMemberOffsets", self.cellMemberOffsets);
+    f("cellMembers", self.cellMembers);
+    f("faceMemberOffsets", self.faceMemberOffsets);
+    f("faceMembers", self.faceMembers);
     f("madeFrom", self.madeFrom);
     f("fingerprint", self.fingerprint);
   }
@@ -94,7 +143,7 @@ struct CellComplex {
 CellComplex cellComplex(const MeshView& mesh, const CutMesh& cutMesh, const OctreeCells& octree, const RunOptions& options = {});
 
 /// Some cells of a cell complex, their faces and vertices, in the whole's order. Where the other cell of a face is left out there is -1,
-/// as there is outside the grid.
+/// as there is outside the grid. Members keep the ids that they have in the whole.
 struct SubComplex {
   CellComplex cells;
   std::vector<uint32_t> wholeVertex;  ///< per vertex: its id in the whole

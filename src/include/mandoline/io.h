@@ -61,7 +61,7 @@ void writeJson(const Sink& sink, const CutMesh& cutMesh, const RunOptions& optio
 /// The same with two arrays more: groupNames, and triangleGroup per triangle of the input; with neither if there are no groups.
 void writeJson(const Sink& sink, const CutMesh& cutMesh, const TriangleGroups& groups, const RunOptions& options);
 /// A cell complex made from the cut-mesh as JSON: format, version, cutVertices, cutFaces, cutCells, the arrays of CellComplex under their
-/// names, the cut-mesh's faceTriangle for its faces, madeFrom, fingerprint, and the two arrays of groups if there are any. It always has
+/// names, faceTriangle of the cut-mesh's faces, madeFrom, fingerprint, and the two arrays of groups if there are any. It always has
 /// all cells: CallError for options that select less.
 void writeJson(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options);
 /// The cut-mesh as bytes that readCutMesh() takes, in Mandoline's own format: compressed, with a version and a checksum of each array. The
@@ -80,8 +80,8 @@ struct Field {
 void writeVtu(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, std::span<const Field> cellFields = {},
               const WriteOptions& options = {});
 /// Its faces, those of the cells that the options select, as polygons with cell arrays face, tag (FaceTag), triangle, cells and the fields;
-/// with groups also group (-1 for none), and their names as the field data group_names. A face with holes or slits is several triangles,
-/// with the same numbers.
+/// with groups also group (-1 for none), and their names as the field data group_names. The triangle is that of a face's first member. A
+/// face with holes or slits is several triangles, with the same numbers.
 void writeFacesVtu(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, std::span<const Field> faceFields = {},
                    const WriteOptions& options = {});
 /// The cut surface; with groups, the triangles of .ply also have a property group.

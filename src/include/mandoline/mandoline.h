@@ -3,8 +3,8 @@
 // After "Mandoline: Robust Cut-Cell Generation for Arbitrary Triangle Meshes" (Tao, Batty, Fiume, Levin; SIGGRAPH Asia 2019), with
 // exact predicates in place of floating-point decisions. This header has all of the library mandoline::mandoline. grid.h, cut.h and
 // cut_mesh.h are about the cut and its result; mesh.h, prepare.h, intersections.h, resolve.h, inspect.h, orient.h and shapes.h about
-// meshes; measure.h, triangulate.h, locate.h, inside.h, slice.h, coarsen.h, cell_complex.h and validate.h work on cut-meshes and see
-// nothing but these public structs. Files are in io.h; operators.h, poisson.h and flow.h, which need Eigen, compute on all cells.
+// meshes; measure.h, triangulate.h, locate.h, inside.h, slice.h, coarsen.h, cell_complex.h, merge.h and validate.h work on cut-meshes and
+// see nothing but these public structs. Files are in io.h; operators.h, poisson.h and flow.h, which need Eigen, compute on all cells.
 //
 //   mandoline::Mesh mesh = mandoline::readMesh("bunny.obj");  // io.h
 //   mandoline::CutResult result = mandoline::cut(mesh, mandoline::Grid::around(mesh, 32));
@@ -21,6 +21,7 @@
 #include "mandoline/intersections.h"
 #include "mandoline/locate.h"
 #include "mandoline/measure.h"
+#include "mandoline/merge.h"
 #include "mandoline/orient.h"
 #include "mandoline/prepare.h"
 #include "mandoline/resolve.h"

@@ -16,7 +16,7 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 /// Where a cell's value lies.
 enum class DualPoints : uint8_t {
   /// CellComplex::cellCentre (Azevedo et al. 2016; paper, appendix B). The line between two dual points is normal to the face that they
-  /// share, so fluxes of linear fields are exact.
+  /// share, so fluxes of linear fields are exact; merged cells have that of their base, which leaves an error of first order beside them.
   centres,
   /// CellComplex::cellCentroid. Beside cut-cells the line is slanted, which leaves an error of first order.
   centroids

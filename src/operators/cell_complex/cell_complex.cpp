@@ -8,6 +8,7 @@
 #include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
 #include "operators/cell_complex/grid_corners.h"
+#include "operators/cell_complex/half_faces.h"
 #include "operators/cell_complex/octree_index.h"
 #include "operators/coarsen/morton_order.h"
 #include "operators/require_cut_mesh.h"
@@ -35,7 +36,7 @@ class Builder {
     monitor_.beginStage("cells", 1);
     addFaces(places);
     addCells();
-    gatherHalfFaces();
+    operators::gatherHalfFaces(result_);
     return std::move(result_);
   }
 
@@ -224,21 +225,6 @@ class Builder {
       result_.cellCentroid[3 * id + d] = result_.cellCentre[3 * id + d] = middle(d, corner[d], end[d]);
     }
     result_.cellVolume[id] = volume;
-  }
-
-  void gatherHalfFaces() {
-    std::vector<uint32_t>& offsets = result_.cellHalfFaceOffsets;
-    offsets.assign(result_.cellCount() + 1, 0);
-    for (const int32_t cell : result_.faceCells) {
-      if (cell >= 0) ++offsets[size_t(cell) + 1];
-    }
-    for (size_t c = 0; c < result_.cellCount(); ++c) offsets[c + 1] += offsets[c];
-    result_.cellHalfFaces.resize(offsets.back());
-    std::vector<uint32_t> next(offsets.begin(), offsets.end() - 1);
-    for (uint32_t h = 0; h < result_.faceCells.size(); ++h) {
-      const int32_t cell = result_.faceCells[h];
-      if (cell >= 0) result_.cellHalfFaces[next[size_t(cell)]++] = h;
-    }
   }
 
   double plane(size_t axis, int32_t index) const { return cutMesh_.grid.planes[axis][size_t(index)]; }

@@ -17,6 +17,17 @@ void take(const std::vector<Item>& from, const std::vector<uint32_t>& elements, 
   }
 }
 
+/// The groups of the elements, if there are any groups.
+void takeGroups(const std::vector<uint32_t>& offsets, const std::vector<uint32_t>& items, const std::vector<uint32_t>& elements,
+                std::vector<uint32_t>& toOffsets, std::vector<uint32_t>& toItems) {
+  if (offsets.empty()) return;
+  toOffsets = {0};
+  for (const uint32_t e : elements) {
+    toItems.insert(toItems.end(), items.begin() + offsets[e], items.begin() + offsets[e + 1]);
+    toOffsets.push_back(uint32_t(toItems.size()));
+  }
+}
+
 uint32_t countBelow(const std::vector<uint32_t>& ascending, uint32_t limit) {
   return uint32_t(std::lower_bound(ascending.begin(), ascending.end(), limit) - ascending.begin());
 }
@@ -53,6 +64,7 @@ class Extractor {
     take(whole_.cellRegion, sub_.wholeCell, 1, to.cellRegion);
     take(whole_.cellVolume, sub_.wholeCell, 1, to.cellVolume);
     take(whole_.cellCentroid, sub_.wholeCell, 3, to.cellCentroid);
+    takeGroups(whole_.cellMemberOffsets, whole_.cellMembers, sub_.wholeCell, to.cellMemberOffsets, to.cellMembers);
   }
 
   void takeFaces() {
@@ -61,6 +73,7 @@ class Extractor {
     take(whole_.faceArea, sub_.wholeFace, 1, to.faceArea);
     take(whole_.faceNormal, sub_.wholeFace, 3, to.faceNormal);
     take(whole_.faceCentroid, sub_.wholeFace, 3, to.faceCentroid);
+    takeGroups(whole_.faceMemberOffsets, whole_.faceMembers, sub_.wholeFace, to.faceMemberOffsets, to.faceMembers);
     to.faceCells.assign(2 * sub_.wholeFace.size(), -1);
     to.cellHalfFaceOffsets = {0};
     for (size_t c = 0; c < sub_.wholeCell.size(); ++c) {

@@ -15,7 +15,7 @@ class ComplexArrayCheck {
 
   Check run() {
     // Later steps index with what earlier ones have checked.
-    checkLengths() && checkOffsets() && checkLoops() && checkFaces() && checkCells() && checkNumbers();
+    checkLengths() && checkOffsets() && checkLoops() && checkFaces() && checkCells() && checkMembers() && checkNumbers();
     return tally_.finish();
   }
 
@@ -106,6 +106,28 @@ class ComplexArrayCheck {
     }
     const auto listed = std::count_if(cells_.faceCells.begin(), cells_.faceCells.end(), [](int32_t cell) { return cell >= 0; });
     return expect(size_t(listed) == cells_.cellHalfFaces.size(), "array", 0, "of the cells' half-faces lacks some");
+  }
+
+  /// Each member of cells belongs to one cell, and no member of faces to two.
+  bool checkMembers() {
+    return checkMembers(cells_.cellMemberOffsets, cells_.cellMembers, cells_.cellCount(), "cell") &&
+           checkMembers(cells_.faceMemberOffsets, cells_.faceMembers, cells_.faceCount(), "face");
+  }
+  bool checkMembers(const std::vector<uint32_t>& offsets, const std::vector<uint32_t>& members, size_t count, const char* kind) {
+    if (offsets.empty() && members.empty()) return true;
+    if (!expectOffsets(offsets, count, members.size(), kind)) return false;
+    constexpr uint32_t kMost = 1u << 30;
+    for (size_t i = 0; i < count; ++i) {
+      if (!expect(offsets[i] < offsets[i + 1], kind, i, "has no members")) return false;
+      for (size_t k = offsets[i]; k < offsets[i + 1]; ++k) {
+        const bool isNext = k == offsets[i] || members[k - 1] < members[k];
+        if (!expect(members[k] < kMost && isNext, kind, i, "has members that are too high or out of order")) return false;
+      }
+    }
+    std::vector<uint32_t> sorted = members;
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    return expect(twice == sorted.end(), "member", twice == sorted.end() ? 0 : *twice, "belongs to two elements");
   }
 
   bool expectFinite(const std::vector<double>& numbers, size_t perElement, const char* kind) {

@@ -53,6 +53,24 @@ export const physicsCalls = {
     keeps: 'cells',
   },
   /**
+   * Small cut-cells merged with neighbours, so that solvers can take long steps: each cell then has at least `options.fraction` (default
+   * 0.2) of the volume of a grid cell, and at most 1.5 of it by default, but for the pockets that the result names. Never across a triangle.
+   * `cells` are all of the cut-mesh's. Code "badOption" for a fraction below 0 or above 0.5, "badArgument" if the cells are those of
+   * another cut-mesh, or merged already.
+   *
+   * mergeSmallCells(cutMesh: CutMeshArrays, cells: CellComplex, options?: MergeOptions): MergedCells
+   */
+  mergeSmallCells: { takes: { cutMesh, cells }, options: { fraction: number(0.2), progress }, keeps: 'cells', member: 'cells' },
+  /**
+   * The same cells with fewer faces: pieces of triangles between the same two cells that hang together, and whose normals are at most
+   * `options.angle` (default 30) degrees from that of the first, become one face, which need not be flat and has the sum of their area
+   * vectors. Groups stay apart. `cells` are all of the cut-mesh's, merged or not; merge them first. Code "badOption" for an angle below 0
+   * or above 90, "badArgument" if the cells are those of another cut-mesh.
+   *
+   * uniteWalls(cutMesh: CutMeshArrays, cells: CellComplex, options?: WallOptions): CellComplex
+   */
+  uniteWalls: { takes: { cutMesh, cells }, options: { angle: number(30), groups: optional(readGroups), progress }, keeps: 'cells' },
+  /**
    * The cells that `cellIds` name, in any order. Code "badArgument" with the element if one does not exist or is named twice.
    *
    * subComplex(cells: CellComplex, cellIds: Uint32Array | readonly number[]): SubComplex

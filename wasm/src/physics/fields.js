@@ -21,6 +21,10 @@ export const CellComplex = {
   cellRegion: 'Uint32Array',
   cellVolume: 'Float64Array',
   cellCentroid: 'Float64Array',
+  cellMemberOffsets: 'Uint32Array',
+  cellMembers: 'Uint32Array',
+  faceMemberOffsets: 'Uint32Array',
+  faceMembers: 'Uint32Array',
   madeFrom: 'Fingerprint',
   fingerprint: 'Fingerprint',
 };
@@ -59,6 +63,12 @@ export const Streamlines = {
   speeds: 'Float64Array',
   offsets: 'Uint32Array',
   ends: 'Uint8Array',
+};
+
+export const MergedCells = {
+  cells: 'CellComplex',
+  mergedCell: 'Uint32Array',
+  pockets: 'Uint32Array',
 };
 
 export const ComplexEdges = {

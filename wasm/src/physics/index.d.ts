@@ -13,10 +13,11 @@
  * Arrays and calls have the names that they have in the C++ library, and like in index.d.ts all arrays are flat, all ids count from 0, and
  * every offsets array starts with 0 and has one more entry than there are items.
  *
- * The module keeps a twin of what cellComplex(), subComplex() and regionComplex() give, and of cut-meshes that cut() gave, as is told at
- * CutMesh: calls that are given that same object neither copy nor check its arrays, and take no notice of what was written into them.
+ * The module keeps a twin of what cellComplex(), mergeSmallCells(), uniteWalls(), subComplex() and regionComplex() give, and of cut-meshes
+ * that cut() gave, as is told at CutMesh: calls that are given that same object neither copy nor check its arrays, and take no notice of
+ * what was written into them.
  */
-import type { CutMesh, Mesh, RunOptions, WasmSource, WriteOptions } from '../index.js';
+import type { CutMesh, Mesh, RunOptions, TriangleGroups, WasmSource, WriteOptions } from '../index.js';
 import type { Boundary, CellComplex, FaceTag, Flow } from './results.js';
 import type { Calls } from './signatures.js';
 
@@ -33,6 +34,18 @@ export interface CoarsenOptions extends RunOptions {
   fineLayers?: number;
   /** Whether cells that share only an edge also differ by at most one level. Default false. */
   balanceEdges?: boolean;
+}
+
+export interface MergeOptions extends RunOptions {
+  /** Of its grid cell's volume: cells below it are small. 0 to 0.5; at 0 none is. Default 0.2. */
+  fraction?: number;
+}
+
+export interface WallOptions extends RunOptions {
+  /** In degrees: how far normals may be from that of the first piece. Default 30. */
+  angle?: number;
+  /** Pieces of different groups stay apart. */
+  groups?: TriangleGroups | null;
 }
 
 /** A sparse matrix by rows (CSR): row r has entries rowOffsets[r] .. rowOffsets[r + 1] - 1. */

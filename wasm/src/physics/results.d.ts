@@ -6,13 +6,15 @@ import type { Fingerprint, SparseMatrix } from './index.js';
  * theirs, and the edges of a face have all vertices that lie on them. The cut-mesh's vertices, faces and cells come first and keep their
  * ids; then come those of the octree cells: cell cutCells + c is octree cell c. Half-face = 2 * face + side; side 0: the face's normal
  * points out of the cell, side 1: into it.
+ *
+ * mergeSmallCells() and uniteWalls() make others of it, whose cells and faces have these as members.
  */
 export interface CellComplex {
   /** How many of the vertices are the cut-mesh's. */
   cutVertices: number;
-  /** How many of the faces. */
+  /** How many of the faces are the cut-mesh's, or have one of those as their first member. */
   cutFaces: number;
-  /** How many of the cells. */
+  /** How many of the cells, the same. */
   cutCells: number;
 
   /** 3 per vertex, world units. */
@@ -54,6 +56,16 @@ export interface CellComplex {
   /** 3 per cell. */
   cellCentroid: Float64Array<ArrayBuffer>;
 
+  // Members: of which cells and faces, before any were merged or united, each one is made. Empty where each is its own only member.
+  /** Into cellMembers. */
+  cellMemberOffsets: Uint32Array<ArrayBuffer>;
+  /** Cells, ascending for each cell; each belongs to one. */
+  cellMembers: Uint32Array<ArrayBuffer>;
+  /** Into faceMembers. */
+  faceMemberOffsets: Uint32Array<ArrayBuffer>;
+  /** Faces, ascending for each face; none belongs to two. */
+  faceMembers: Uint32Array<ArrayBuffer>;
+
   /** The fingerprint of the cut-mesh; of the whole, if it is a part of another cell complex. */
   madeFrom?: Fingerprint;
   /** That of the cell complex. */
@@ -62,7 +74,7 @@ export interface CellComplex {
 
 /**
  * Some cells of a cell complex, their faces and vertices, in the whole's order. Where the other cell of a face is left out there is -1, as
- * there is outside the grid.
+ * there is outside the grid. Members keep the ids that they have in the whole.
  */
 export interface SubComplex {
   /**
@@ -141,6 +153,16 @@ export interface Streamlines {
   offsets: Uint32Array<ArrayBuffer>;
   /** Per line: StreamlineEnd as a number (0: side, 1: surface, 2: rest, 3: maxLength, 4: maxPoints, 5: outside). */
   ends: Uint8Array<ArrayBuffer>;
+}
+
+/** What mergeSmallCells() made. */
+export interface MergedCells {
+  /** The merged ones. */
+  cells: CellComplex;
+  /** Per cell before: the cell that it is a member of. */
+  mergedCell: Uint32Array<ArrayBuffer>;
+  /** Cells that are still small, ascending. */
+  pockets: Uint32Array<ArrayBuffer>;
 }
 
 /** The edges of all faces. */

@@ -11,6 +11,8 @@ import type {
   Flow,
   FlowField,
   FlowOptions,
+  MergeOptions,
+  MergedCells,
   OctreeCells,
   OperatorNames,
   OperatorOptions,
@@ -22,6 +24,7 @@ import type {
   StreamlineOptions,
   Streamlines,
   SubComplex,
+  WallOptions,
   WriteCellsOptions,
   WritePolyMeshOptions,
 } from './index.js';
@@ -35,6 +38,20 @@ export interface Calls {
    * it, the untouched grid cells are cells. Code "badArgument" if these don't belong together.
    */
   cellComplex(mesh: Mesh, cutMesh: CutMeshArrays, octree?: OctreeCells | null, options?: RunOptions): CellComplex;
+  /**
+   * Small cut-cells merged with neighbours, so that solvers can take long steps: each cell then has at least `options.fraction` (default
+   * 0.2) of the volume of a grid cell, and at most 1.5 of it by default, but for the pockets that the result names. Never across a triangle.
+   * `cells` are all of the cut-mesh's. Code "badOption" for a fraction below 0 or above 0.5, "badArgument" if the cells are those of
+   * another cut-mesh, or merged already.
+   */
+  mergeSmallCells(cutMesh: CutMeshArrays, cells: CellComplex, options?: MergeOptions): MergedCells;
+  /**
+   * The same cells with fewer faces: pieces of triangles between the same two cells that hang together, and whose normals are at most
+   * `options.angle` (default 30) degrees from that of the first, become one face, which need not be flat and has the sum of their area
+   * vectors. Groups stay apart. `cells` are all of the cut-mesh's, merged or not; merge them first. Code "badOption" for an angle below 0
+   * or above 90, "badArgument" if the cells are those of another cut-mesh.
+   */
+  uniteWalls(cutMesh: CutMeshArrays, cells: CellComplex, options?: WallOptions): CellComplex;
   /** The cells that `cellIds` name, in any order. Code "badArgument" with the element if one does not exist or is named twice. */
   subComplex(cells: CellComplex, cellIds: Uint32Array | readonly number[]): SubComplex;
   /** The cells of a region of the cut-mesh. Code "badArgument" if there is none. */
@@ -118,6 +135,8 @@ export interface Calls {
 export interface WorkerCalls {
   coarsen(cutMesh: CutMeshArrays, options?: CoarsenOptions & CallOptions): Promise<OctreeCells>;
   cellComplex(mesh: Mesh, cutMesh: CutMeshArrays, octree?: OctreeCells | null, options?: RunOptions & CallOptions): Promise<CellComplex>;
+  mergeSmallCells(cutMesh: CutMeshArrays, cells: CellComplex, options?: MergeOptions & CallOptions): Promise<MergedCells>;
+  uniteWalls(cutMesh: CutMeshArrays, cells: CellComplex, options?: WallOptions & CallOptions): Promise<CellComplex>;
   subComplex(cells: CellComplex, cellIds: Uint32Array | readonly number[], options?: CallOptions): Promise<SubComplex>;
   regionComplex(cells: CellComplex, region: number, options?: CallOptions): Promise<SubComplex>;
   complexEdges(cells: CellComplex, options?: CallOptions): Promise<ComplexEdges>;

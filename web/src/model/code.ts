@@ -143,7 +143,7 @@ function commandLine(settings: Settings, model: CodeModel, file: string, section
     ...(model.estimateMs === null ? [] : ['--inside-threshold 0.5']),
   ].join(' ');
   const slices = sections.map((section) => `mandoline slice ${mesh} ${options} ${planeOptions(section)} -o slice-${section.name}.svg`);
-  const tunnel = `--wind ${wind.direction.join()} ${gridOptions(tunnelOf(settings, model))} --coarsen ${levels}`;
+  const tunnel = `--wind ${wind.direction.join()} ${gridOptions(tunnelOf(settings, model))} --coarsen ${levels} --merge 0`;
   const flows = wind.on ? [`mandoline flow ${mesh} ${tunnel} -o flow.vtu streamlines.obj`] : [];
   return [`mandoline cut ${mesh} ${options} -o cells.vtu`, ...slices, ...flows, ''].join('\n');
 }

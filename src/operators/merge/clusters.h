@@ -1,0 +1,86 @@
+// Which cells of a complex become one: the decisions of mergeSmallCells().
+#pragma once
+
+#include "base/parallel.h"
+#include "mandoline/merge.h"
+
+namespace mandoline::merging {
+
+using Vector = std::array<double, 3>;
+
+/// Cells that become one.
+struct Cluster {
+  double volume;
+  double unit;    ///< volume of its base's grid cell or octree cell
+  uint32_t base;  ///< see mergeSmallCells()
+  Vector centroid;
+  std::array<int32_t, 3> low, past;  ///< the box of the grid cells of all members
+};
+
+class Clusters {
+ public:
+  Clusters(const CutMesh& cutMesh, const CellComplex& cells, double fraction);
+
+  /// Joins small clusters with others until none is small, or none of those can join another.
+  void join(detail::Monitor& monitor);
+
+  uint32_t clusterOf(uint32_t cell) const { return clusterOf_[cell]; }
+  const Cluster& operator[](uint32_t cluster) const { return clusters_[cluster]; }
+  bool isSmall(double volume, double unit) const { return volume < fraction_ * unit; }
+  /// What the cluster of both would be.
+  Cluster joined(const Cluster& a, const Cluster& b) const;
+
+ private:
+  bool isSmall(const Cluster& cluster) const { return isSmall(cluster.volume, cluster.unit); }
+  /// A face through which a cluster could join another.
+  struct Way {
+    uint32_t halfFace, cluster;
+  };
+  /// A cluster that the current one could join.
+  struct Choice {
+    uint32_t cluster;
+    bool isSmall;
+    double area;
+    bool isCompact;  ///< whether no member would be farther from the base than the next grid cell
+    double cosine;   ///< of the largest angle that counts
+  };
+
+  double gridCellVolume(uint32_t cell) const;
+  bool isOctreeCell(uint32_t cell) const { return cell >= cells_.cutCells; }
+  int32_t endOf(uint32_t cell, size_t axis) const { return cells_.cellCorner[3 * size_t(cell) + axis] + (1 << cells_.cellLevel[cell]); }
+  bool isCompact(const Cluster& cluster) const;
+  bool isBetterBase(uint32_t a, uint32_t b) const;
+  void findWays(uint32_t cluster);
+  bool canJoin(uint32_t a, uint32_t b) const;
+  double cosineAfter(uint32_t cluster, uint32_t other) const;
+  static bool isBetter(const Choice& a, const Choice& b);
+  bool joinSmall(bool withLarge, detail::Monitor& monitor);
+  uint32_t choose(uint32_t cluster, bool onlyLarge);
+  uint32_t unite(uint32_t a, uint32_t b);
+
+  template <class Visit>
+  void forEachMember(uint32_t cluster, const Visit& visit) const {
+    for (uint32_t c = cluster;;) {
+      visit(c);
+      c = next_[c];
+      if (c == cluster) return;
+    }
+  }
+
+  static constexpr uint32_t kNone = ~0u;
+  const CutMesh& cutMesh_;
+  const CellComplex& cells_;
+  const double fraction_, most_;
+  std::vector<uint32_t> clusterOf_;  // per cell: a cell of its cluster, which stands for it
+  std::vector<uint32_t> next_;       // per cell: another of its cluster, in a ring
+  std::vector<uint32_t> size_;       // per cluster
+  std::vector<Cluster> clusters_;
+  std::vector<Way> ways_;            // of the current cluster
+  std::vector<Choice> choices_;      // the same
+  std::vector<uint32_t> place_;      // per cluster: place of its choice, if it has the current stamp
+  std::vector<uint32_t> stamp_;      // per cluster
+  std::vector<uint32_t> separated_;  // per cluster: the last stamp at which a triangle was between it and the current one
+  uint32_t now_ = 0;
+};
+
+}  // namespace mandoline::merging
