@@ -100,12 +100,10 @@ class RegionFinder {
 
 }  // namespace
 
-Regions findRegions(const CutBricks& cut, Run& run) {
+Regions findRegions(const CutBricks& cut) {
   Regions regions;
   RegionFinder(cut).run(regions);
-  Predicates predicates;
-  findWinding(cut, regions, predicates);
-  run.count(predicates);
+  findWinding(cut, regions);
   return regions;
 }
 
