@@ -13,12 +13,11 @@ namespace {
 
 /// What is told of the cut.
 struct StreamReport {
-  MeshReport mesh;
+  const MeshReport& mesh;
   const AskedGrid& grid;
   Outcome outcome;
   PieceCounts counts;
   double totalMs = 0;
-  size_t peakMemoryBytes = 0;
 };
 
 std::string reportJson(const StreamReport& report) {
@@ -27,7 +26,7 @@ std::string reportJson(const StreamReport& report) {
   addGrid(json, report.grid);
   json.member("pieces", report.counts.pieces).member("cutCells", report.counts.cutCells);
   json.member("untouchedCells", report.counts.untouchedCells);
-  json.member("totalMs", report.totalMs).member("peakMemoryBytes", report.peakMemoryBytes).close('}');
+  json.member("totalMs", report.totalMs).member("peakMemoryBytes", peakMemoryBytes()).close('}');
   return json.text();
 }
 
@@ -42,7 +41,7 @@ std::string reportText(const StreamReport& report) {
   if (report.counts.untouchedCells > 0) add("untouched grid cells", report.counts.untouchedCells);
   out << std::fixed << std::setprecision(2);
   add("total (ms)", report.totalMs);
-  add("Peak memory (MB)", double(report.peakMemoryBytes) / 1e6);
+  add("Peak memory (MB)", double(peakMemoryBytes()) / 1e6);
   return out.str();
 }
 
@@ -64,11 +63,13 @@ void checkArguments(const Arguments& arguments) {
   }
 }
 
-/// Of the mesh, which is no longer needed.
-PrepareResult prepareMesh(const Arguments& arguments, Mesh& mesh) {
-  PrepareResult result = withProgress(arguments.threads, [&](const RunOptions& run) { return prepare(mesh, {run, arguments.intersections}); });
+/// Prepares the mesh, and forgets it.
+PreparedMesh prepared(const Arguments& arguments, Mesh& mesh) {
+  const PrepareResult result =
+      withProgress(arguments.threads, [&](const RunOptions& run) { return prepare(mesh, {run, arguments.intersections}); });
+  if (!result) throw CallError(result.error);
   mesh = {};
-  return result;
+  return result.mesh;
 }
 
 PieceCounts writePieces(const Arguments& arguments, const PreparedMesh& mesh, const Grid& grid) {
@@ -85,9 +86,21 @@ int runStream(const Arguments& arguments) {
   checkArguments(arguments);
   const auto start = std::chrono::steady_clock::now();
   Input input = readInput(arguments);
-  StreamReport report{{input, inspect(input.mesh), {}}, {}, {}, {}};
-  const AskedGrid grid = makeGrid(arguments.grid, input.mesh, report.mesh.info);
-  return kFine;
+  const MeshReport mesh{input, inspect(input.mesh), {}};
+  const AskedGrid grid = makeGrid(arguments.grid, input.mesh, mesh.info);
+  StreamReport report{mesh, grid, {}, {}, 0};
+  try {
+    report.counts = writePieces(arguments, prepared(arguments, input.mesh), grid.grid);
+  } catch (const CallError& error) {
+    report.outcome = withSize(error.error, arguments, grid);
+    return failWith(arguments, input.name, report.outcome, [&] { return reportJson(report); });
+  }
+  report.totalMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  deliver(
+      arguments, [&] { return reportText(report); }, [&] { return reportJson(report); });
+  if (report.counts.pieces > 0) return kFine;
+  complain("--only cut selects nothing: the surface touches no grid cell");
+  return kBadUsageOrFile;
 }
 
 }  // namespace mandoline::cli
