@@ -65,8 +65,9 @@ void checkArguments(const Arguments& arguments) {
 
 /// Prepares the mesh, and forgets it.
 PreparedMesh prepared(const Arguments& arguments, Mesh& mesh) {
-  const PrepareResult result =
-      withProgress(arguments.threads, [&](const RunOptions& run) { return prepare(mesh, {run, arguments.intersections}); });
+  const PrepareResult result = withProgress(arguments.threads, [&](const RunOptions& run) {
+    return prepare(mesh, {run, arguments.intersections});
+  });
   if (!result) throw CallError(result.error);
   mesh = {};
   return result.mesh;

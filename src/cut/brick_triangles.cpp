@@ -51,7 +51,8 @@ BrickRange touched(const BrickGrid& bricks, size_t axis, const SlabBox& box) {
   return {std::max(firstCell, 0) >> bricks.shift, std::min(lastCell, last) >> bricks.shift};
 }
 
-/// Those with a margin whose lowest plane has a slab from least to greatest. That of brick b is b << shift, less 1 unless the grid begins there.
+/// Those with a margin whose lowest plane has a slab from least to greatest. That of brick b is b << shift, less 1 unless the grid begins
+/// there.
 BrickRange begun(const BrickGrid& bricks, size_t axis, const SlabBox& box) {
   const int32_t least = box.least[axis], greatest = box.greatest[axis];
   if (greatest < 0) return {0, -1};

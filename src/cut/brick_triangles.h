@@ -1,5 +1,5 @@
-// Which triangles each brick of a grid needs, for bricks that are cut by themselves, with a margin of one grid cell: a cell of the brick may
-// have a vertex, on a grid line, of triangles that touch none but its neighbours around that line.
+// Which triangles each brick of a grid needs, for bricks that are cut by themselves, with a margin of one grid cell: a cell of the brick
+// may have a vertex, on a grid line, of triangles that touch none but its neighbours around that line.
 #pragma once
 
 #include <span>

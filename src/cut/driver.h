@@ -35,8 +35,8 @@ class Clock {
 /// Whether a grid's planes are not so large that a mesh has to be scaled for them.
 bool fits(const Prepared& prepared, const Grid& grid);
 
-/// Cuts: the stages after "grid", which made `state.surface.input` of `mesh` and `grid`. Of a contradiction the Failure has the triangles that
-/// are blamed at first: see explainContradiction().
+/// Cuts: the stages after "grid", which made `state.surface.input` of `mesh` and `grid`. Of a contradiction the Failure has the triangles
+/// that are blamed at first: see explainContradiction().
 CutMesh cutInput(CutState& state, const MeshView& mesh, const Grid& grid, Clock& clock, Run& run);
 
 /// Notes in a cut-mesh what it was made of.

@@ -64,7 +64,8 @@ class BrickByBrick {
     std::array<std::vector<double>, 3> planes;
     for (size_t d = 0; d < 3; ++d) planes[d] = planesOf(grid_.planes[d], box, d);
     RunOptions part{options.threads, {}};
-    if (options.progress) part.progress = [&](const Progress&) { return options.progress({"bricks", 1, 2, size_t(done_), size_t(total_)}); };
+    if (options.progress)
+      part.progress = [&](const Progress&) { return options.progress({"bricks", 1, 2, size_t(done_), size_t(total_)}); };
     constexpr int kStages = 1;  // none is told of
     Monitor monitor(part, kStages);
     CutStats stats;

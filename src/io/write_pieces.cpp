@@ -1,4 +1,6 @@
 // Pieces of a cut as a folder of .vtu files, joined by a .pvtu file.
+#include <algorithm>
+
 #include "io/output_file.h"
 #include "io/vtu_file.h"
 
@@ -7,15 +9,36 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view kJoining = "cut.pvtu", kPiece = "cut_", kExtension = ".vtu";
+
+std::string nameOf(const CutPiece& piece) {
+  const auto& [i, j, k] = piece.first;
+  return std::string(kPiece) + std::to_string(i) + '_' + std::to_string(j) + '_' + std::to_string(k) + std::string(kExtension);
+}
+
+/// Whether a file has a name that is given here.
+bool isOurs(std::string_view name) {
+  if (name == kJoining) return true;
+  if (!name.starts_with(kPiece) || !name.ends_with(kExtension)) return false;
+  name = name.substr(kPiece.size(), name.size() - kPiece.size() - kExtension.size());
+  return std::count(name.begin(), name.end(), '_') == 2 && name.find_first_not_of("0123456789_") == std::string_view::npos;
+}
+
 /// A folder that keeps its new files if all have been written.
 class Folder {
  public:
-  /// `last`: the file that tells of the others. That of an earlier cut goes first, since its pieces may.
-  Folder(const std::string& path, const std::string& last) : path_(path) {
-    std::error_code error;
-    isNew_ = fs::create_directories(path_, error);
-    if (!error) fs::remove(path_ / last, error);
-    if (error) throw FileError(path + ": can't be written: " + error.message());
+  /// The files of an earlier cut go.
+  explicit Folder(const std::string& path) : path_(path) {
+    try {
+      isNew_ = fs::create_directories(path_);
+      std::vector<fs::path> earlier;
+      for (const fs::directory_entry& file : fs::directory_iterator(path_)) {
+        if (isOurs(file.path().filename().string())) earlier.push_back(file.path());
+      }
+      for (const fs::path& file : earlier) fs::remove(file);
+    } catch (const fs::filesystem_error& error) {
+      throw FileError(path + ": can't be written: " + error.code().message());
+    }
   }
   ~Folder() {
     if (isComplete_) return;
@@ -42,14 +65,9 @@ class Folder {
   std::vector<std::string> files_;
 };
 
-std::string nameOf(const CutPiece& piece) {
-  std::string name = "cut";
-  for (const int64_t cell : piece.first) name += '_' + std::to_string(cell);
-  return name + ".vtu";
-}
-
 std::string arrayXml(const char* type, const char* name, int components) {
-  return std::string("<PDataArray type=\"") + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" + std::to_string(components) + "\"/>\n";
+  return std::string("<PDataArray type=\"") + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" + std::to_string(components) +
+         "\"/>\n";
 }
 
 /// The arrays of all pieces, which are alike.
@@ -71,8 +89,7 @@ std::string joiningXml(const std::string& arrays, const std::vector<std::string>
 }  // namespace
 
 PieceCounts writePieces(const std::string& path, const PreparedMesh& mesh, const Grid& grid, const ForEachBrickOptions& options) {
-  const std::string last = "cut.pvtu";
-  Folder folder(path, last);
+  Folder folder(path);
   Progress progress{"", 0, 1, 0, 1};  // of the cut; that of the writers would begin anew with each piece
   ForEachBrickOptions cutting = options;
   WriteOptions writing;
@@ -91,7 +108,8 @@ PieceCounts writePieces(const std::string& path, const PreparedMesh& mesh, const
     if (options.untouched) counts.untouchedCells += UntouchedCells(piece.cutMesh).count();
   };
   forEachBrick(mesh, grid, write, cutting);
-  if (counts.pieces > 0) folder.add(last, [&](const Sink& sink) { sink(joiningXml(arrays, std::vector(folder.files()))); });
+  if (counts.pieces > 0)
+    folder.add(std::string(kJoining), [&](const Sink& sink) { sink(joiningXml(arrays, std::vector(folder.files()))); });
   folder.complete();
   return counts;
 }

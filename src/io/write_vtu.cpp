@@ -89,7 +89,8 @@ class VtuWriter {
         for (size_t d = 0; d < 3; ++d) put(cell.gridCell[d] + (piece_ ? piece_->first[d] : 0));
       });
     });
-    if (!piece_) visit(int32_t(), "region", cellCount_, 1, [&](const auto& put) { putAlike([&](const VtuCell& cell) { put(cell.region); }); });
+    if (!piece_)
+      visit(int32_t(), "region", cellCount_, 1, [&](const auto& put) { putAlike([&](const VtuCell& cell) { put(cell.region); }); });
     forEachRegionArray(cutMesh_, [&]<class Number>(const char* name, const std::vector<Number>& numbers) {
       visit(Number(), name, cellCount_, 1, [&](const auto& put) { putAlike([&](const VtuCell& cell) { put(numbers[cell.region]); }); });
     });

@@ -120,7 +120,8 @@ inline CellDescriptions describedCells(const mandoline::CutMesh& cutMesh) {
 inline CellDescriptions describedCells(const mandoline::PreparedMesh& mesh, const mandoline::Grid& grid,
                                        const mandoline::ForEachBrickOptions& options) {
   CellDescriptions cells;
-  mandoline::forEachBrick(mesh, grid, [&](const mandoline::CutPiece& piece) { CellDescriber(piece).describe(cells); }, options);
+  mandoline::forEachBrick(
+      mesh, grid, [&](const mandoline::CutPiece& piece) { CellDescriber(piece).describe(cells); }, options);
   for (auto& [gridCell, texts] : cells) std::sort(texts.begin(), texts.end());
   return cells;
 }
