@@ -1,5 +1,9 @@
 #include "cut/restricted.h"
 
+#include "base/csr.h"
+#include "base/disjoint_sets.h"
+#include "cut/stages/untouched_runs.h"
+
 namespace mandoline::detail {
 namespace {
 
@@ -40,8 +44,7 @@ void appendIfAny(std::vector<T>& to, const std::vector<T>& from, size_t index) {
 
 class Restrictor {
  public:
-  Restrictor(const BrickBox& box, const CutMesh& all)
-      : box_(box), all_(all), faces_(all.faceCount()), vertices_(all.vertexCount()), regions_(all.regionCount) {}
+  Restrictor(const BrickBox& box, const CutMesh& all) : box_(box), all_(all), faces_(all.faceCount()), vertices_(all.vertexCount()) {}
 
   CutMesh run() {
     takeRuns();
@@ -69,19 +72,19 @@ class Restrictor {
   void takeRuns() {
     const size_t ny = size_t(all_.grid.cells(1));
     const int32_t first = box_.first[0], past = first + box_.count[0];
-    out_.rowRunOffsets.push_back(0);
+    runs_.ny = size_t(box_.count[1]);
+    runs_.rowOffsets.push_back(0);
     for (int32_t k = box_.first[2]; k < box_.first[2] + box_.count[2]; ++k) {
       for (int32_t j = box_.first[1]; j < box_.first[1] + box_.count[1]; ++j) {
         const size_t row = size_t(k) * ny + size_t(j);
         for (uint32_t r = all_.rowRunOffsets[row]; r < all_.rowRunOffsets[row + 1]; ++r) {
           const int32_t begin = std::max(all_.runBegin[r], first), end = std::min(all_.runEnd[r], past);
           if (begin >= end) continue;
-          out_.runBegin.push_back(begin - first);
-          out_.runEnd.push_back(end - first);
-          out_.runRegion.push_back(all_.runRegion[r]);
-          regions_.keep(all_.runRegion[r]);
+          runs_.begin.push_back(begin - first);
+          runs_.end.push_back(end - first);
+          regionsOfRuns_.push_back(all_.runRegion[r]);
         }
-        out_.rowRunOffsets.push_back(uint32_t(out_.runBegin.size()));
+        runs_.rowOffsets.push_back(uint32_t(runs_.size()));
       }
     }
   }
@@ -90,7 +93,6 @@ class Restrictor {
     for (size_t c = 0; c < all_.cellCount(); ++c) {
       if (!box_.has(cellOf(c))) continue;
       cells_.push_back(c);
-      regions_.keep(all_.cellRegion[c]);
       for (const uint32_t h : all_.halfFaces(c)) faces_.keep(h / 2);
     }
   }
@@ -135,24 +137,77 @@ class Restrictor {
     }
   }
 
+  /// Joins cells, then runs, that pieces of grid-faces connect within the box.
+  DisjointSets joined() const {
+    constexpr uint32_t kNone = ~0u;
+    const uint32_t firstRun = uint32_t(cells_.size());
+    DisjointSets nodes(firstRun + runs_.size());
+    runs_.forNeighbours([&](uint32_t a, uint32_t b) { nodes.unite(firstRun + a, firstRun + b); });
+    std::vector<uint32_t> owners(all_.faceCount(), kNone);  // the first of each face
+    for (uint32_t i = 0; i < cells_.size(); ++i) {
+      for (const uint32_t h : all_.halfFaces(cells_[i])) {
+        const uint32_t f = h / 2;
+        if (all_.faceTriangle[f] >= 0) continue;
+        if (owners[f] != kNone) nodes.unite(owners[f], i);
+        owners[f] = i;
+        Slab beside = cellOf(cells_[i]);
+        const size_t axis = size_t(all_.faceAxis[f]);
+        beside[axis] += 2 * all_.facePlane[f] > beside[axis] ? 2 : -2;
+        const auto run = box_.has(beside) ? runAt(beside) : std::nullopt;
+        if (run) nodes.unite(i, firstRun + *run);
+      }
+    }
+    return nodes;
+  }
+
+  /// The run that has a cell of the box, if that is untouched.
+  std::optional<uint32_t> runAt(Slab cell) const {
+    for (size_t d = 0; d < 3; ++d) cell[d] -= 2 * box_.first[d];
+    const uint32_t run = runs_.at(cell);
+    if (run == runs_.rowOffsets[runs_.rowOf(cell) + 1] || runs_.begin[run] > cell[0] >> 1) return {};
+    return run;
+  }
+
+  /// Numbers regions in the order of their first grid cells.
   void takeRegions() {
+    constexpr uint32_t kUnset = ~0u;
+    DisjointSets nodes = joined();
+    std::vector<KeyedItem> order;
+    for (uint32_t i = 0; i < cells_.size(); ++i) order.push_back({box_.indexOf(cellOf(cells_[i])), i});
+    for (size_t row = 0; row + 1 < runs_.rowOffsets.size(); ++row) {
+      for (uint32_t r = runs_.rowOffsets[row]; r < runs_.rowOffsets[row + 1]; ++r)
+        order.push_back({row * uint64_t(box_.count[0]) + uint64_t(runs_.begin[r]), uint32_t(cells_.size()) + r});
+    }
+    sortByKey(order, uint64_t(box_.count[0]) * (runs_.rowOffsets.size() - 1));
+    std::vector<uint32_t> numbers(order.size(), kUnset);  // of roots
+    regions_.resize(order.size());
     out_.hasWinding = all_.hasWinding;
-    regions_.number([&](uint32_t r) {
-      ++out_.regionCount;
-      appendIfAny(out_.regionWinding, all_.regionWinding, r);
-      appendIfAny(out_.regionPartWinding, all_.regionPartWinding, r);
-      appendIfAny(out_.regionParity, all_.regionParity, r);
-    });
-    for (uint32_t& region : out_.runRegion) region = regions_[region];
+    for (const KeyedItem& at : order) {
+      uint32_t& number = numbers[nodes.find(at.item)];
+      if (number == kUnset) {
+        number = out_.regionCount++;
+        const bool isCell = at.item < cells_.size();
+        const uint32_t r = isCell ? all_.cellRegion[cells_[at.item]] : regionsOfRuns_[at.item - cells_.size()];
+        appendIfAny(out_.regionWinding, all_.regionWinding, r);
+        appendIfAny(out_.regionPartWinding, all_.regionPartWinding, r);
+        appendIfAny(out_.regionParity, all_.regionParity, r);
+      }
+      regions_[at.item] = number;
+    }
+    out_.runRegion.assign(regions_.begin() + ptrdiff_t(cells_.size()), regions_.end());
+    out_.rowRunOffsets = std::move(runs_.rowOffsets);
+    out_.runBegin = std::move(runs_.begin);
+    out_.runEnd = std::move(runs_.end);
   }
 
   void takeCells() {
     out_.cellHalfFaceOffsets.push_back(0);
-    for (const size_t c : cells_) {
+    for (size_t i = 0; i < cells_.size(); ++i) {
+      const size_t c = cells_[i];
       for (const uint32_t h : all_.halfFaces(c)) out_.cellHalfFaces.push_back(2 * faces_[h / 2] + h % 2);
       out_.cellHalfFaceOffsets.push_back(uint32_t(out_.cellHalfFaces.size()));
       for (size_t d = 0; d < 3; ++d) out_.cellGridCell.push_back(all_.cellGridCell[3 * c + d] - box_.first[d]);
-      out_.cellRegion.push_back(regions_[all_.cellRegion[c]]);
+      out_.cellRegion.push_back(regions_[i]);
     }
   }
 
@@ -171,7 +226,10 @@ class Restrictor {
   const CutMesh& all_;
   CutMesh out_;
   std::vector<size_t> cells_;
-  Kept faces_, vertices_, regions_;
+  Kept faces_, vertices_;
+  UntouchedRuns runs_;
+  std::vector<uint32_t> regionsOfRuns_;  // in `all_`
+  std::vector<uint32_t> regions_;        // per cell, then per run
 };
 
 }  // namespace

@@ -6,8 +6,8 @@
 
 namespace mandoline::detail {
 
-/// The cells in the box, with the faces and vertices that they have, in the same order; the grid is that of the box. Regions are those of
-/// `cutMesh` that are met there. The fingerprints are left out.
+/// The cells in the box, with the faces and vertices that they have, in the same order. Grid and regions are those of the box. The
+/// fingerprints are left out.
 CutMesh restrictedTo(const BrickBox& box, const CutMesh& cutMesh);
 
 }  // namespace mandoline::detail

@@ -8,7 +8,8 @@
 namespace MANDOLINE_API mandoline {
 
 /// What a cut has in one brick, a box of grid cells: the same cells as in the cut of the whole grid, to the bit, as a cut-mesh by itself.
-/// `cutMesh` was made from `mesh`, so all that takes both takes these, but for validate(): the winding numbers are those of the whole mesh.
+/// `cutMesh` was made from `mesh`, so all that takes both takes these. (Of validate(), the check of winding numbers is for the whole: here
+/// they are those of the whole mesh, which the triangles near a brick do not tell.)
 /// Cells on two sides of a seam between bricks have the same faces there, each in its own cut-mesh.
 struct CutPiece {
   /// The brick's lowest grid cell. Grid cells, planes and runs of `cutMesh` count from there; its grid has the planes of the brick.
