@@ -27,8 +27,9 @@ struct ForEachBrickOptions : RunOptions {
 };
 
 /// Calls f(piece) for the bricks of the grid, by z, then y, then x, one after the other, on the caller's thread. Needs memory for the
-/// prepared mesh and one piece, and time for the triangles near each brick. Errors are those of cut(), thrown as CallError; what f and
-/// options.progress throw passes through.
+/// prepared mesh and one piece, and time for the triangles near each brick. Errors are those of cut(), thrown as CallError; only where
+/// Intersections::assumeNone leads to a contradiction, other triangles may be named, or none. What f and options.progress throw passes
+/// through.
 void forEachBrick(const PreparedMesh& mesh, const Grid& grid, const std::function<void(CutPiece)>& f,
                   const ForEachBrickOptions& options = {});
 
