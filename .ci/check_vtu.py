@@ -1,4 +1,4 @@
-"""Reads .vtu files with VTK. Errors are cells that are not closed, or whose volumes are off by 1e-9 of the largest."""
+"""Reads .vtu and .pvtu files with VTK. Errors are cells that are not closed, or whose volumes are off by 1e-9 of the largest."""
 import sys
 
 import vtk
@@ -39,7 +39,7 @@ def volume(grid, cell):
 
 
 def check(path):
-    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader = vtk.vtkXMLPUnstructuredGridReader() if path.endswith('.pvtu') else vtk.vtkXMLUnstructuredGridReader()
     reader.SetFileName(path)
     reader.Update()
     grid = reader.GetOutput()

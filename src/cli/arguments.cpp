@@ -58,6 +58,7 @@ class Parser {
         {"--threads", kAllButMake, [](Parser& p, const std::string& name) { p.parseThreads(p.value(name)); }},
         {"--orient", kCuttingAndResolve, [](Parser& p, const std::string&) { p.arguments_.orient = true; }},
         {"--validate", {C::cut}, [](Parser& p, const std::string&) { p.arguments_.validate = true; }},
+        {"--stream", {C::cut}, [](Parser& p, const std::string&) { p.arguments_.stream = true; }},
         {"--coarsen", {C::cut, C::flow}, [](Parser& p, const std::string& name) { p.parseCoarsen(p.value(name)); }},
         {"--merge", {C::cut, C::flow}, [](Parser& p, const std::string& name) { p.parseMerge(p.value(name)); }},
         {"--unite-walls", {C::cut, C::flow}, [](Parser& p, const std::string& name) { p.parseUniteWalls(p.value(name)); }},

@@ -62,6 +62,7 @@ struct Arguments {
   Intersections intersections = Intersections::resolve;
   unsigned threads = 0;
   bool validate = false;
+  bool stream = false;               ///< cut: a folder of pieces
   bool faces = false;                ///< in .vtu files, instead of cells
   std::optional<int> coarsen;        ///< levels of octree cells; none: untouched grid cells as they are
   std::optional<double> merge;       ///< fraction of a grid cell below which cells are merged; 0: not

@@ -8,6 +8,7 @@ namespace mandoline::cli {
 enum ExitCode { kFine = 0, kNotCut = 1, kBadUsageOrFile = 2 };
 
 int runCut(const Arguments& arguments);
+int runStream(const Arguments& arguments);  ///< cut --stream
 int runSlice(const Arguments& arguments);
 int runBoundary(const Arguments& arguments);
 int runFlow(const Arguments& arguments);

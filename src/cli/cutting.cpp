@@ -81,6 +81,11 @@ static std::string sizeOf(const GridArguments& asked, const std::array<int64_t, 
   return std::to_string(cells[0]) + " x " + std::to_string(cells[1]) + " x " + std::to_string(cells[2]) + " cells";
 }
 
+Error withSize(Error error, const Arguments& arguments, const AskedGrid& asked) {
+  if (error.status == Status::gridTooLarge) error.message += " Asked for were " + sizeOf(arguments.grid, asked.cells) + ".";
+  return error;
+}
+
 bool needsInside(const Arguments& arguments) {
   const OnlyArguments& only = arguments.only;
   return only.inside || only.outside || isInsideDefault(arguments) || arguments.insideThreshold;
@@ -90,7 +95,7 @@ CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const AskedGrid&
   CutResult result = withProgress(arguments.threads, [&](const RunOptions& options) {
     return cut(mesh, asked.grid, {options, arguments.snapTolerance, arguments.intersections});
   });
-  if (result.error.status == Status::gridTooLarge) result.error.message += " Asked for were " + sizeOf(arguments.grid, asked.cells) + ".";
+  result.error = withSize(result.error, arguments, asked);
   if (!result || !needsInside(arguments)) return result;
   result.mesh = withProgress(arguments.threads, [&](const RunOptions& options) {
     return estimateInside(mesh, result.mesh, {options, arguments.insideThreshold.value_or(kThreshold)});

@@ -36,6 +36,9 @@ int failWith(const Arguments& arguments, const std::string& meshName, const Outc
 /// Writes the report as JSON where --report says, or as text to standard output; to standard error if one of the outputs is there.
 void deliver(const Arguments& arguments, const std::function<std::string()>& text, const std::function<std::string()>& json);
 
+/// The error of a cut; of a grid that is too large also how many cells were asked for.
+Error withSize(Error error, const Arguments& arguments, const AskedGrid& asked);
+
 /// Whether the command has to know which regions are inside.
 bool needsInside(const Arguments& arguments);
 

@@ -6,6 +6,8 @@ const char* const kHelp =
     R"(mandoline cuts a triangle mesh with a Cartesian grid into polyhedral cut-cells.
 
   mandoline cut MESH [options]      cut, and print a report
+  mandoline cut MESH --stream [options] -o FOLDER
+                                    cut piece by piece, for cuts larger than memory
   mandoline slice MESH [options] -o FILE ...
                                     write outlines at heights, as .svg, .dxf or .obj
   mandoline boundary MESH [options] -o FILE ...
@@ -87,6 +89,12 @@ Options of cut
                          is right for solvers), in the same files; groups stay apart
   --faces                in .vtu files, the faces of all cells as polygons, with tag,
                          triangle, cells and group, instead of cells
+  --stream               cut bricks of 128 x 128 x 128 grid cells one after the other, and write
+                         each as .vtu into the folder -o, and cut.pvtu, which joins them: the
+                         cells of the whole cut, in the memory of one piece and the mesh. With
+                         --only cut without untouched grid cells. Not with other parts of
+                         --only, --validate, --coarsen, --faces, --inside-threshold and
+                         --snap-tolerance. The report has pieces and counts of cells
   --format EXTENSION     what -o - writes to standard output; the text of the report then
                          goes to standard error
 

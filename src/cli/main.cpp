@@ -44,7 +44,7 @@ int run(const std::vector<std::string>& words) {
       std::cout << "mandoline " << MANDOLINE_VERSION << "\n";
       return kFine;
     case Command::cut:
-      return runCut(arguments);
+      return arguments.stream ? runStream(arguments) : runCut(arguments);
     case Command::slice:
       return runSlice(arguments);
     case Command::boundary:

@@ -86,10 +86,7 @@ class TextReport {
   static constexpr uint32_t kMostRegions = 20;
 
   void addHead() {
-    const auto& [g, cells] = report_.grid;
-    out_ << headline(report_.mesh) << "Grid of " << cells[0] << " x " << cells[1] << " x " << cells[2] << " cells";
-    if (g.uniform) out_ << ", " << triple(g.spacing.data(), " x ") << " each, from (" << triple(g.origin.data(), ", ") << ")";
-    out_ << "\n";
+    out_ << headline(report_.mesh) << headline(report_.grid);
     if (report_.result) return;
     out_ << "\nNot cut: " << name(report_.result.error.status) << "\n  " << report_.result.error.message << "\n";
   }
@@ -187,17 +184,29 @@ void addMerge(Json& json, const std::optional<MergeCounts>& counts) {
   json.close('}');
 }
 
+std::string headline(const AskedGrid& asked) {
+  const auto& [g, cells] = asked;
+  std::ostringstream out;
+  out << "Grid of " << cells[0] << " x " << cells[1] << " x " << cells[2] << " cells";
+  if (g.uniform) out << ", " << triple(g.spacing.data(), " x ") << " each, from (" << triple(g.origin.data(), ", ") << ")";
+  return out.str() + "\n";
+}
+
+void addGrid(Json& json, const AskedGrid& asked) {
+  json.key("grid").open('{').key("origin").values(asked.grid.origin).key("spacing");
+  if (asked.grid.uniform) {
+    json.values(asked.grid.spacing);
+  } else {
+    json.null();
+  }
+  json.key("cells").values(asked.cells).close('}');
+}
+
 std::string reportJson(const Report& report) {
   const CutStats& stats = report.result.stats;
   Json json;
   addHead(json, report.result.error, report.mesh);
-  json.key("grid").open('{').key("origin").values(report.grid.grid.origin).key("spacing");
-  if (report.grid.grid.uniform) {
-    json.values(report.grid.grid.spacing);
-  } else {
-    json.null();
-  }
-  json.key("cells").values(report.grid.cells).close('}');
+  addGrid(json, report.grid);
   json.key("counts").open('{');
   for (const Count& count : cutMeshCounts(report.result.mesh)) json.member(count.key, count.value);
   for (const Count& count : inputCounts(report.result)) json.member(count.key, count.value);

@@ -34,6 +34,10 @@ struct Report {
 std::string reportJson(const Report& report);
 std::string reportText(const Report& report);
 
+/// The grid in a line, and as a member of an open object.
+std::string headline(const AskedGrid& asked);
+void addGrid(Json& json, const AskedGrid& asked);
+
 /// One line about a check that does not pass: its name, the offending element and why.
 std::string describeFailure(const Check& check);
 

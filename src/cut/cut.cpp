@@ -2,57 +2,20 @@
 #include <chrono>
 
 #include "cut/contradiction.h"
+#include "cut/driver.h"
 #include "cut/stages/divided_faces.h"
 #include "cut/stages/input.h"
-#include "cut/stages/output.h"
 #include "grid/snap.h"
 #include "mandoline/orient.h"
-#include "mandoline/prepare.h"
 #include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
 
 namespace mandoline {
 
-/// A copy of a mesh, and the result of preparing it.
-struct detail::PreparedMeshData {
-  Mesh mesh;
-  Fingerprint fingerprint;
-  Intersections intersections;
-  std::unique_ptr<const Prepared> prepared;
-};
-
+namespace detail {
 namespace {
 
-using namespace detail;
-
-/// Names the stages for progress and takes their times.
-class Clock {
- public:
-  /// Progress has so many stages before those of the clock.
-  Clock(CutStats& stats, Monitor& monitor, int before = 0)
-      : stats_(stats), monitor_(monitor), before_(before), start_(now()), last_(start_) {}
-  ~Clock() { end(); }  // also of a cut that failed
-
-  void begin(const char* stage) {
-    end();
-    stats_.stages.push_back({stage, 0});
-    monitor_.beginStage(stage, before_ + int(stats_.stages.size()) - 1);
-  }
-
- private:
-  void end() {
-    const double t = now();
-    if (!stats_.stages.empty()) stats_.stages.back().ms = t - last_;
-    stats_.totalMs = t - start_;
-    last_ = t;
-  }
-  static double now() { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-  CutStats& stats_;
-  Monitor& monitor_;
-  int before_;
-  double start_, last_;
-};
+double now() { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 constexpr int kOrientStages = 2, kMeshStages = 2, kGridStages = 6;
 
@@ -70,7 +33,71 @@ void addCounts(const Prepared& prepared, CutStats& stats) {
   stats.intersectionCurves = prepared.arrangement->curves;
 }
 
-/// Notes in a cut-mesh what it was made of.
+/// `mesh` is the one that was prepared.
+CutMesh cutPrepared(const Prepared& prepared, const MeshView& mesh, const Grid& grid, Clock& clock, Run& run) {
+  addCounts(prepared, run.stats);
+  clock.begin("grid");
+  CutState state;
+  state.surface.input = prepareInput(prepared, grid, run);
+  try {
+    return cutInput(state, mesh, grid, clock, run);
+  } catch (const Failure& failure) {
+    if (failure.error.status != Status::selfIntersection) throw;
+    clock.begin("intersections");
+    throw Failure{explainContradiction(state.surface.input, failure.error.element, failure.error.element2, run)};
+  }
+}
+
+}  // namespace
+
+Clock::Clock(CutStats& stats, Monitor& monitor, int before)
+    : stats_(stats), monitor_(monitor), before_(before), start_(now()), last_(start_) {}
+
+void Clock::begin(const char* stage) {
+  end();
+  stats_.stages.push_back({stage, 0});
+  monitor_.beginStage(stage, before_ + int(stats_.stages.size()) - 1);
+}
+
+void Clock::end() {
+  const double t = now();
+  if (!stats_.stages.empty()) stats_.stages.back().ms = t - last_;
+  stats_.totalMs = t - start_;
+  last_ = t;
+}
+
+bool fits(const Prepared& prepared, const Grid& grid) {
+  const double largest = largestCoordinate(grid);
+  return largest == 0 || std::ilogb(largest) + prepared.shift <= Scale::kLargestExponent + Scale::kRoom;
+}
+
+CutMesh cutInput(CutState& state, const MeshView& mesh, const Grid& grid, Clock& clock, Run& run) {
+  Surface& surface = state.surface;
+  const Input& input = surface.input;
+
+  clock.begin("triEdges");
+  cutTriEdges(surface, run);
+
+  clock.begin("triFaces");
+  const BrickGrid brickGrid(input, BrickGrid::shiftFor(input, run.monitor.threads()));
+  state.parts.clipped = clipTriangles(surface, brickGrid, run);
+  divideFaces(surface, state.parts.clipped.undivided, state.parts.divided, run);
+
+  clock.begin("bricks");
+  state.bricks = layOutBricks(surface, state.parts, brickGrid);
+  state.cuts = cutBricks(surface, state.parts, state.bricks, run);
+
+  clock.begin("regions");
+  state.runs = findUntouchedRuns(input, state.bricks, run.monitor);
+  state.seams = findSeams(input, state.bricks, state.runs, state.cuts, run);
+  state.regions = findRegions(state.cut());
+
+  clock.begin("output");
+  CutMesh result = makeOutput(mesh, grid, state, run);
+  run.stats.madeVertices = uint32_t(result.madeVertices.size());
+  return result;
+}
+
 void sign(CutMesh& cutMesh, Fingerprint mesh, const CutOptions& options) {
   Fingerprinter fingerprinter("cut", mesh);
   for (const std::vector<double>& planes : cutMesh.grid.planes) fingerprinter.add(planes);
@@ -81,50 +108,9 @@ void sign(CutMesh& cutMesh, Fingerprint mesh, const CutOptions& options) {
   cutMesh.fingerprint = fingerprinter.get();
 }
 
-/// `mesh` is the one that was prepared.
-CutMesh cutPrepared(const Prepared& prepared, const MeshView& mesh, const Grid& grid, Clock& clock, Run& run) {
-  addCounts(prepared, run.stats);
-  CutState state;
-  Surface& surface = state.surface;
+}  // namespace detail
 
-  clock.begin("grid");
-  surface.input = prepareInput(prepared, grid, run);
-  try {
-    clock.begin("triEdges");
-    cutTriEdges(surface, run);
-
-    clock.begin("triFaces");
-    const BrickGrid brickGrid(surface.input, BrickGrid::shiftFor(surface.input, run.monitor.threads()));
-    state.parts.clipped = clipTriangles(surface, brickGrid, run);
-    divideFaces(surface, state.parts.clipped.undivided, state.parts.divided, run);
-
-    clock.begin("bricks");
-    state.bricks = layOutBricks(surface, state.parts, brickGrid);
-    state.cuts = cutBricks(surface, state.parts, state.bricks, run);
-
-    clock.begin("regions");
-    state.runs = findUntouchedRuns(surface.input, state.bricks, run.monitor);
-    state.seams = findSeams(surface.input, state.bricks, state.runs, state.cuts, run);
-    state.regions = findRegions(state.cut(), run);
-
-    clock.begin("output");
-    CutMesh result = makeOutput(mesh, grid, state, run);
-    run.stats.madeVertices = uint32_t(result.madeVertices.size());
-    return result;
-  } catch (const Failure& failure) {
-    if (failure.error.status != Status::selfIntersection) throw;
-    clock.begin("intersections");
-    throw Failure{explainContradiction(surface.input, failure.error.element, failure.error.element2, run)};
-  }
-}
-
-/// Whether a grid's planes are not so large that a mesh has to be scaled for them.
-bool fits(const Prepared& prepared, const Grid& grid) {
-  const double largest = largestCoordinate(grid);
-  return largest == 0 || std::ilogb(largest) + prepared.shift <= Scale::kLargestExponent + Scale::kRoom;
-}
-
-}  // namespace
+using namespace detail;
 
 MeshView PreparedMesh::mesh() const { return data_ ? MeshView(data_->mesh) : MeshView({}, {}); }
 

@@ -12,7 +12,8 @@ namespace mandoline::detail {
 struct Input {
   const Prepared* mesh = nullptr;
   std::array<std::vector<double>, 3> planes;
-  IdVector<VertexId, Slab> slabs;  ///< per tri-vertex and made vertex
+  IdVector<VertexId, Slab> slabs;      ///< per tri-vertex and made vertex
+  std::vector<int32_t> cornerWinding;  ///< at the grid's lowest corner, of each of countedOf(mesh): see corner_winding.h
 
   bool kept(TriangleId t) const { return mesh->kept(t); }
   std::array<VertexId, 3> verticesOf(TriangleId t) const { return mesh->verticesOf(t); }

@@ -12,10 +12,14 @@ std::string vtkStrings(std::string_view name, std::span<const std::string> strin
   return xml + "</Array>\n</FieldData>\n";
 }
 
+std::string vtkHead(std::string_view type) {
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + std::string(type) + "\" version=\"1.0\" byte_order=\"" +
+         (kNativeOrder == ByteOrder::little ? "LittleEndian" : "BigEndian") + "\" header_type=\"UInt64\">\n";
+}
+
 void VtuFile::beginHead(OutputBuffer& out) const {
-  out.text("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"");
-  out.text(kNativeOrder == ByteOrder::little ? "LittleEndian" : "BigEndian");
-  out.text("\" header_type=\"UInt64\">\n<UnstructuredGrid>\n");
+  out.text(vtkHead("UnstructuredGrid"));
+  out.text("<UnstructuredGrid>\n");
   out.text(fieldData_);
   out.text("<Piece NumberOfPoints=\"");
   out.number(points_);

@@ -49,6 +49,9 @@ void forEachRegionArray(const CutMesh& cutMesh, const F& f) {
   visit("insideness", cutMesh.regionInsideness);
 }
 
+/// What a file of VTK's begins with.
+std::string vtkHead(std::string_view type);
+
 /// An array of strings about the whole, as XML.
 std::string vtkStrings(std::string_view name, std::span<const std::string> strings);
 

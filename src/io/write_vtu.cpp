@@ -13,8 +13,9 @@ class VtuWriter {
  public:
   static constexpr int kStages = 3;
 
-  VtuWriter(Meter& meter, const Selection& selection, std::vector<double> cellVolume)
-      : meter_(meter), cutMesh_(selection.cutMesh()), cellVolume_(std::move(cellVolume)), cells_(cutMesh_, selection) {
+  /// `piece` has the cut-mesh, or is null.
+  VtuWriter(Meter& meter, const Selection& selection, std::vector<double> cellVolume, const CutPiece* piece)
+      : meter_(meter), cutMesh_(selection.cutMesh()), piece_(piece), cellVolume_(std::move(cellVolume)), cells_(cutMesh_, selection) {
     meter_.beginStage("count", 1, cutMesh_.cellCount());
     count(selection);
   }
@@ -83,9 +84,13 @@ class VtuWriter {
         putPerCell([&](const VtuCell&) { put(offset += int64_t(polyhedronSizes_[polyhedron++].faces)); }, [&](const VtuCell&) { put(-1); });
       });
     }
-    visit(int32_t(), "grid_cell", cellCount_, 3,
-          [&](const auto& put) { putAlike([&](const VtuCell& cell) { std::for_each(cell.gridCell.begin(), cell.gridCell.end(), put); }); });
-    visit(int32_t(), "region", cellCount_, 1, [&](const auto& put) { putAlike([&](const VtuCell& cell) { put(cell.region); }); });
+    visit(int32_t(), "grid_cell", cellCount_, 3, [&](const auto& put) {
+      putAlike([&](const VtuCell& cell) {
+        for (size_t d = 0; d < 3; ++d) put(cell.gridCell[d] + (piece_ ? piece_->first[d] : 0));
+      });
+    });
+    if (!piece_)
+      visit(int32_t(), "region", cellCount_, 1, [&](const auto& put) { putAlike([&](const VtuCell& cell) { put(cell.region); }); });
     forEachRegionArray(cutMesh_, [&]<class Number>(const char* name, const std::vector<Number>& numbers) {
       visit(Number(), name, cellCount_, 1, [&](const auto& put) { putAlike([&](const VtuCell& cell) { put(numbers[cell.region]); }); });
     });
@@ -164,6 +169,7 @@ class VtuWriter {
 
   Meter& meter_;
   const CutMesh& cutMesh_;
+  const CutPiece* piece_;
   std::vector<double> cellVolume_;  // per cut-cell
   VtuCells cells_;
   uint64_t cellCount_ = 0, connectivitySize_ = 0, facesSize_ = 0, usedCutVertices_ = 0;
@@ -184,15 +190,23 @@ std::vector<double> cellVolumes(Meter& meter, const MeshView& mesh, const CutMes
   return measure(mesh, cutMesh, measuring).cellVolume;
 }
 
+void write(const Sink& sink, const MeshView& mesh, const CutMesh& cutMesh, const CutPiece* piece, const WriteOptions& options) {
+  const Selection selection(cutMesh, options);
+  runCall("writing", [&] {
+    Meter meter(sink, options, VtuWriter::kStages);
+    VtuWriter(meter, selection, cellVolumes(meter, mesh, cutMesh, options), piece).write();
+  });
+}
+
 }  // namespace
 }  // namespace detail
 
 void writeVtu(const Sink& sink, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options) {
-  const detail::Selection selection(cutMesh, options);
-  detail::runCall("writing", [&] {
-    detail::Meter meter(sink, options, detail::VtuWriter::kStages);
-    detail::VtuWriter(meter, selection, detail::cellVolumes(meter, mesh, cutMesh, options)).write();
-  });
+  detail::write(sink, mesh, cutMesh, nullptr, options);
+}
+
+void writeVtu(const Sink& sink, const CutPiece& piece, const WriteOptions& options) {
+  detail::write(sink, piece.mesh, piece.cutMesh, &piece, options);
 }
 
 }  // namespace mandoline

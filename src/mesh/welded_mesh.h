@@ -14,7 +14,12 @@
 
 namespace mandoline::detail {
 
-enum class TriangleState : uint8_t { kept, zeroArea, duplicate };
+enum class TriangleState : uint8_t {
+  kept,
+  zeroArea,
+  duplicate,
+  beside  ///< of an excerpt: not cut, but named by others
+};
 
 /// A welded edge whose inside carries vertices of dropped triangles without area; neighbours on both sides share them ("stitching").
 struct Stitch {

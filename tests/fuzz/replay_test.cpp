@@ -6,10 +6,15 @@
 #include <random>
 #include <vector>
 
+#include "brick_sizes.h"
 #include "catch.h"
 #include "lattice.h"
 
-TEST_CASE("finds of the fuzzer stay fixed", "[fuzz]") {
+namespace {
+
+/// Calls f(name, find) for those in the corpus.
+template <class F>
+void forFinds(const F& f) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(MANDOLINE_FUZZ_CORPUS)) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
@@ -17,9 +22,24 @@ TEST_CASE("finds of the fuzzer stay fixed", "[fuzz]") {
   for (const auto& file : files) {
     std::ifstream in(file, std::ios::binary);
     const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
-    INFO(file.filename().string());
-    CHECK(brokenPromise(decodeLattice(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size())) == "");
+    f(file.filename().string(), decodeLattice(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()));
   }
+}
+
+}  // namespace
+
+TEST_CASE("finds of the fuzzer stay fixed", "[fuzz]") {
+  forFinds([](const std::string& name, const LatticeCase& find) {
+    INFO(name);
+    CHECK(brokenPromise(find) == "");
+  });
+}
+
+TEST_CASE("finds of the fuzzer are cut alike with all sizes of bricks", "[fuzz]") {
+  forFinds([](const std::string& name, const LatticeCase& find) {
+    INFO(name);
+    for (const int shift : {0, 1, 2, 3}) CHECK(brokenBricks(find.mesh, find.grid, shift, 1) == "");
+  });
 }
 
 TEST_CASE("random meshes on a lattice", "[fuzz]") {

@@ -82,7 +82,7 @@ struct StagedCut {
     state.cuts = cutBricks(state.surface, state.parts, state.bricks, run);
     state.runs = findUntouchedRuns(state.surface.input, state.bricks, monitor);
     state.seams = findSeams(state.surface.input, state.bricks, state.runs, state.cuts, run);
-    state.regions = findRegions(state.cut(), run);
+    state.regions = findRegions(state.cut());
   }
 };
 

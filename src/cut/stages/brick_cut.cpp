@@ -219,8 +219,8 @@ class Harvest {
     sortUnique(out_.steps);
   }
 
-  /// Finds the cell that holds the point of windingAtLowestCorner(), if the surface touches its grid cell. The grid-face x = x0 holds the
-  /// point's shadow right beside the y-axis: in the face with the directed edge from the corner along y.
+  /// Finds the cell that holds the point of windingBeside() at the grid's lowest corner, if the surface touches its grid cell. The
+  /// grid-face x = x0 holds the point's shadow right beside the y-axis: in the face with the directed edge from the corner along y.
   void findCorner() {
     const auto cell = stencil_.find({1, 1, 1});
     if (!cell) return;

@@ -90,8 +90,9 @@ struct BrickCut {
   std::vector<BoundaryHalf> boundaryHalves;
   std::vector<BoundaryLine> boundaryLines;  ///< ascending
   std::vector<OpenFace> openFaces;
-  std::vector<WindingStep> steps;             ///< between components
-  std::optional<uint32_t> componentAtCorner;  ///< that of the point in windingAtLowestCorner(), where the brick has that
+  std::vector<WindingStep> steps;  ///< between components
+  std::optional<uint32_t>
+      componentAtCorner;  ///< that of the point in windingBeside() at the grid's lowest corner, where the brick has that
 
   bool isTri(FaceId face) const { return face.number < triangles.size(); }
   size_t faceCount() const { return triangles.size() + pieces.size(); }

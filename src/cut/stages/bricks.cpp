@@ -1,47 +1,10 @@
 #include "cut/stages/bricks.h"
 
+#include "base/key_numbers.h"
 #include "base/sort.h"
 
 namespace mandoline::detail {
 namespace {
-
-/// Bricks while they are found, numbered in the order in which they are.
-class Found {
- public:
-  Found() : slots_(64, kFree) {}
-
-  std::vector<uint64_t> keys;
-
-  uint32_t add(uint64_t key) {
-    if (!keys.empty() && keys[last_] == key) return last_;
-    const size_t slot = slotOf(key);
-    if (slots_[slot] != kFree) return last_ = slots_[slot];
-    slots_[slot] = last_ = uint32_t(keys.size());
-    keys.push_back(key);
-    if (2 * keys.size() > slots_.size()) {
-      slots_.assign(2 * slots_.size(), kFree);
-      for (uint32_t b = 0; b < keys.size(); ++b) slots_[slotOf(keys[b])] = b;
-    }
-    return last_;
-  }
-  std::optional<uint32_t> find(uint64_t key) const {
-    const uint32_t at = slots_[slotOf(key)];
-    if (at == kFree) return {};
-    return at;
-  }
-
- private:
-  static constexpr uint32_t kFree = ~0u;
-
-  size_t slotOf(uint64_t key) const {
-    size_t at = size_t((key * 0x9e3779b97f4a7c15u) >> 32);
-    while (slots_[at & (slots_.size() - 1)] != kFree && keys[slots_[at & (slots_.size() - 1)]] != key) ++at;
-    return at & (slots_.size() - 1);
-  }
-
-  std::vector<uint32_t> slots_;  // a hash table of bricks by key
-  uint32_t last_ = 0;
-};
 
 template <class Item>
 struct Given {
@@ -131,7 +94,7 @@ class Layout {
   const Surface& surface_;
   const SurfaceParts& parts_;
   const BrickGrid& grid_;
-  Found found_;
+  KeyNumbers found_;  // bricks, numbered in the order in which they are found
   std::vector<Given<uint32_t>> givenParts_, givenEdges_;
   std::vector<Given<FaceId>> givenFaces_;
   std::vector<Given<VertexId>> givenVertices_;

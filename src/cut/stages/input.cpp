@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include "cut/corner_winding.h"
+
 namespace mandoline::detail {
 namespace {
 
@@ -46,6 +48,21 @@ int32_t locateMade(const MeshPoints& points, VertexId v, int axis, const std::ve
     if (order < 0) break;
   }
   return 2 * plane - 1;
+}
+
+std::vector<int32_t> windingAtLowestCorner(const Input& input, Run& run) {
+  const Point corner = {input.planes[0][0], input.planes[1][0], input.planes[2][0]};
+  Predicates predicates;
+  std::vector<int32_t> windings;
+  for (const Counted& counted : countedOf(*input.mesh)) {
+    int32_t winding = 0;
+    for (const TriangleId t : input.triangleIds()) {
+      if (input.kept(t)) winding += windingBeside(corner, *input.mesh, counted, t, predicates);
+    }
+    windings.push_back(winding);
+  }
+  run.count(predicates);
+  return windings;
 }
 
 }  // namespace
@@ -92,6 +109,7 @@ Input prepareInput(const Prepared& mesh, const Grid& grid, Run& run) {
     }
   });
   for (const Predicates& p : chunks) run.count(p);
+  input.cornerWinding = windingAtLowestCorner(input, run);
   return input;
 }
 

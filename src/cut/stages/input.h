@@ -1,4 +1,4 @@
-// The grid: checks it, scales its planes like the mesh, and finds all vertices' slabs.
+// The grid: checks it, scales its planes like the mesh, finds all vertices' slabs, and what winds around its lowest corner.
 //
 // In: the user's grid, and Prepared. Out: Input, or a Failure that names the offending axis.
 #pragma once

@@ -18,29 +18,12 @@ class RegionFinder {
   }
 
   void run(Regions& regions) {
-    uniteRuns();
+    runs_.forNeighbours([&](uint32_t a, uint32_t b) { nodes_.unite(firstRun_ + a, firstRun_ + b); });
     for (const BrickId b : cuts_.ids()) uniteBrick(b);
     number(regions);
   }
 
  private:
-  /// Joins runs that lie beside each other along y and z.
-  void uniteRuns() {
-    const size_t rows = runs_.rowOffsets.size() - 1;
-    for (size_t r = 0; r < rows; ++r) {
-      if (r % runs_.ny > 0) uniteRows(r - 1, r);
-      if (r >= runs_.ny) uniteRows(r - runs_.ny, r);
-    }
-  }
-
-  void uniteRows(size_t r, size_t s) {
-    const std::vector<uint32_t>& offsets = runs_.rowOffsets;
-    for (uint32_t a = offsets[r], b = offsets[s]; a < offsets[r + 1] && b < offsets[s + 1];) {
-      if (std::max(runs_.begin[a], runs_.begin[b]) < std::min(runs_.end[a], runs_.end[b])) nodes_.unite(firstRun_ + a, firstRun_ + b);
-      runs_.end[a] < runs_.end[b] ? ++a : ++b;
-    }
-  }
-
   void uniteBrick(BrickId brick) {
     for (const auto& [component, run] : cut_.seams[brick].joins) nodes_.unite(firstNodes_[brick] + component, firstRun_ + run);
     cut_.forHalves(brick, [&](const BoundaryHalf& below, BrickId owner, const BoundaryHalf& above) {
@@ -100,12 +83,10 @@ class RegionFinder {
 
 }  // namespace
 
-Regions findRegions(const CutBricks& cut, Run& run) {
+Regions findRegions(const CutBricks& cut) {
   Regions regions;
   RegionFinder(cut).run(regions);
-  Predicates predicates;
-  findWinding(cut, regions, predicates);
-  run.count(predicates);
+  findWinding(cut, regions);
   return regions;
 }
 

@@ -22,6 +22,6 @@ struct Regions {
 };
 
 /// Numbers regions in the order of their first grid cells.
-Regions findRegions(const CutBricks& cut, Run& run);
+Regions findRegions(const CutBricks& cut);
 
 }  // namespace mandoline::detail

@@ -18,6 +18,20 @@ struct UntouchedRuns {
     const auto first = end.begin() + ptrdiff_t(rowOffsets[row]), past = end.begin() + ptrdiff_t(rowOffsets[row + 1]);
     return uint32_t(std::upper_bound(first, past, cell[0] >> 1) - end.begin());
   }
+  /// Calls f(run, run) for those that lie beside each other along y and z.
+  template <class F>
+  void forNeighbours(const F& f) const {
+    const auto forRows = [&](size_t r, size_t s) {
+      for (uint32_t a = rowOffsets[r], b = rowOffsets[s]; a < rowOffsets[r + 1] && b < rowOffsets[s + 1];) {
+        if (std::max(begin[a], begin[b]) < std::min(end[a], end[b])) f(a, b);
+        end[a] < end[b] ? ++a : ++b;
+      }
+    };
+    for (size_t r = 0; r + 1 < rowOffsets.size(); ++r) {
+      if (r % ny > 0) forRows(r - 1, r);
+      if (r >= ny) forRows(r - ny, r);
+    }
+  }
 };
 
 UntouchedRuns findUntouchedRuns(const Input& input, const Bricks& bricks, Monitor& monitor);

@@ -5,39 +5,7 @@
 namespace mandoline::detail {
 namespace {
 
-/// Winding number of the counted triangles about the point (x0 + e^3, y0 + e, z0 + e^2), where (x0, y0, z0) is the grid's lowest corner and
-/// e is arbitrarily small: the sum of the signs of the crossings of the ray from there to -x.
-int windingAtLowestCorner(const Input& input, const Counted& counted, Predicates& predicates) {
-  const Point o = {input.planes[0][0], input.planes[1][0], input.planes[2][0]};
-  int winding = 0;
-  for (const TriangleId t : input.triangleIds()) {
-    if (!input.kept(t)) continue;
-    const int32_t copies = counted.signSum(t);
-    if (copies == 0) continue;
-    const auto v = input.verticesOf(t);
-    const Slab &sa = input.slabs[v[0]], &sb = input.slabs[v[1]], &sc = input.slabs[v[2]];
-    if (std::min({sa[0], sb[0], sc[0]}) > 0) continue;
-    if (std::min({sa[1], sb[1], sc[1]}) > 0 || std::max({sa[1], sb[1], sc[1]}) <= 0) continue;
-    if (std::min({sa[2], sb[2], sc[2]}) > 0 || std::max({sa[2], sb[2], sc[2]}) < 0) continue;
-    const Point &a = input.point(v[0]), &b = input.point(v[1]), &c = input.point(v[2]);
-    const auto sideOf = [&](const Point& p, const Point& q) {  // of the shifted point about p -> q, seen along -x
-      const int side = predicates.orient2d({p[1], p[2]}, {q[1], q[2]}, {o[1], o[2]});
-      if (side != 0) return side;
-      const int byY = -signOf(q[2] - p[2]);
-      return byY != 0 ? byY : signOf(q[1] - p[1]);
-    };
-    const int side = sideOf(a, b);
-    if (side == 0 || side != sideOf(b, c) || side != sideOf(c, a)) continue;  // side is now the sign of the normal's x
-    int above = predicates.orient3d(a.data(), b.data(), c.data(), o.data());
-    if (above == 0) above = predicates.orient2d({a[2], a[0]}, {b[2], b[0]}, {c[2], c[0]});
-    if (above == 0) above = predicates.orient2d({a[0], a[1]}, {b[0], b[1]}, {c[0], c[1]});
-    if (above == 0) above = side;
-    if (above == side) winding -= side * copies;  // the point lies beyond the triangle along +x, so the ray meets it
-  }
-  return winding;
-}
-
-/// The region that holds the point of windingAtLowestCorner.
+/// The region that holds the point of windingBeside(), at the lowest corner of the grid.
 uint32_t regionAtLowestCorner(const IdVector<BrickId, BrickCut>& cuts, const Regions& regions) {
   if (!cuts.empty() && cuts.front().componentAtCorner) return regions.ofComponents.front()[*cuts.front().componentAtCorner];
   return regions.runRegion[0];
@@ -140,7 +108,7 @@ std::vector<Statement> listStatements(const CutBricks& all, const Regions& regio
 }
 
 /// Per region the winding number of the counted triangles of a kind.
-std::vector<int32_t> windingOf(const CutBricks& cut, const Regions& regions, size_t kind, Predicates& predicates) {
+std::vector<int32_t> windingOf(const CutBricks& cut, const Regions& regions, size_t kind) {
   const Input& input = cut.surface.input;
   const std::vector<Counted> allCounted = countedOf(*input.mesh);
   const Counted& counted = allCounted[kind];
@@ -163,7 +131,7 @@ std::vector<int32_t> windingOf(const CutBricks& cut, const Regions& regions, siz
     });
   }
   const uint32_t anchor = regionAtLowestCorner(cut.cuts, regions), root = sets.find(anchor);
-  const int32_t shift = windingAtLowestCorner(input, counted, predicates) - sets.toRoot(anchor);
+  const int32_t shift = input.cornerWinding[kind] - sets.toRoot(anchor);
   std::vector<int32_t> winding(regions.count);
   for (uint32_t r = 0; r < regions.count; ++r) winding[r] = sets.find(r) == root ? shift + sets.toRoot(r) : 0;
   return winding;
@@ -171,17 +139,17 @@ std::vector<int32_t> windingOf(const CutBricks& cut, const Regions& regions, siz
 
 }  // namespace
 
-void findWinding(const CutBricks& cut, Regions& regions, Predicates& predicates) {
+void findWinding(const CutBricks& cut, Regions& regions) {
   const Prepared& mesh = *cut.surface.input.mesh;
   const PartCounts& parts = mesh.parts.counts;
   regions.hasWinding = mesh.closed;
   if (mesh.closed) {
-    regions.winding = windingOf(cut, regions, 0, predicates);
+    regions.winding = windingOf(cut, regions, 0);
     return;
   }
-  if (parts.winding > 0) regions.partWinding = windingOf(cut, regions, 0, predicates);
+  if (parts.winding > 0) regions.partWinding = windingOf(cut, regions, 0);
   if (parts.winding + parts.parity == 0) return;
-  for (const int32_t crossings : windingOf(cut, regions, parts.winding > 0 ? 1 : 0, predicates)) {
+  for (const int32_t crossings : windingOf(cut, regions, parts.winding > 0 ? 1 : 0)) {
     regions.parity.push_back(uint8_t(crossings & 1));
   }
 }

@@ -6,6 +6,6 @@
 namespace mandoline::detail {
 
 /// Sets winding numbers and parity of `regions`, whose regions are known.
-void findWinding(const CutBricks& cut, Regions& regions, Predicates& predicates);
+void findWinding(const CutBricks& cut, Regions& regions);
 
 }  // namespace mandoline::detail

@@ -70,6 +70,9 @@ void writeMcm(const Sink& sink, const CutMesh& cutMesh, const RunOptions& option
 /// VTK XML unstructured grid of polyhedra with cell arrays grid_cell, region, volume and, where they are there, winding, part_winding,
 /// parity and insideness. Faces with holes are split alike on both sides. Takes little memory besides that of the cut-mesh.
 void writeVtu(const Sink& sink, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options = {});
+/// A piece of forEachBrick() as such a file: grid_cell is that of the whole grid, and there is no region, which others of the whole cut
+/// would share.
+void writeVtu(const Sink& sink, const CutPiece& piece, const WriteOptions& options = {});
 /// Numbers to write beside the rest: 1 or 3 for each cell, or each face, of a cell complex.
 struct Field {
   std::string name;  ///< not empty, unique in the file, without control characters and < > & "; else CallError
@@ -135,6 +138,16 @@ void writePolyMesh(const std::string& folder, const CutMesh& cutMesh, const Cell
 using FolderSink = std::function<void(const std::string& file, std::string_view piece)>;
 /// The same to wherever the sink puts it.
 void writePolyMesh(const FolderSink& sink, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options = {});
+
+/// What writePieces() has written.
+struct PieceCounts {
+  uint64_t pieces = 0, cutCells = 0, untouchedCells = 0;
+};
+/// Cuts brick by brick, with no more memory than forEachBrick(), and writes each piece that has cells as a .vtu file into a folder, which
+/// is made if need be: cut_I_J_K.vtu, where the brick's lowest grid cell is (I, J, K). Then cut.pvtu, which joins them; no file if there
+/// are no pieces. Files of these names that are there already go. Untouched grid cells are written if options.untouched says so. Cells
+/// match face by face within a piece. Throws CallError as forEachBrick() does, and FileError; then none of the files is left.
+PieceCounts writePieces(const std::string& folder, const PreparedMesh& mesh, const Grid& grid, const ForEachBrickOptions& options = {});
 
 /// Throws the FileError that writeCutMesh would meet at once, before there is anything to write: an unknown extension, no such folder.
 void checkOutput(const std::string& path);

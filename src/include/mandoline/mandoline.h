@@ -16,6 +16,7 @@
 #include "mandoline/cell_complex.h"
 #include "mandoline/coarsen.h"
 #include "mandoline/cut.h"
+#include "mandoline/for_each_brick.h"
 #include "mandoline/inside.h"
 #include "mandoline/inspect.h"
 #include "mandoline/intersections.h"

@@ -18,6 +18,10 @@ class MeshPoints {
     made_.push_back({key, {}});
     return firstMade_ + uint32_t(made_.size()) - 1;
   }
+  /// Adds a made point of another arrangement, which has the key here; nothing else has to follow.
+  void addSame(const MeshPoints& other, uint32_t id, const PointKey& key) {
+    made_.push_back({key, other.made_[id - other.firstMade_].approximate});
+  }
   /// Finds the approximate coordinates of a made point. Different ones may be placed at the same time.
   void place(uint32_t id, Predicates& predicates);
 

@@ -1,0 +1,117 @@
+// Pieces of a cut as a folder of .vtu files, joined by a .pvtu file.
+#include <algorithm>
+
+#include "io/output_file.h"
+#include "io/vtu_file.h"
+
+namespace mandoline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kJoining = "cut.pvtu", kPiece = "cut_", kExtension = ".vtu";
+
+std::string nameOf(const CutPiece& piece) {
+  const auto& [i, j, k] = piece.first;
+  return std::string(kPiece) + std::to_string(i) + '_' + std::to_string(j) + '_' + std::to_string(k) + std::string(kExtension);
+}
+
+/// Whether a file has a name that is given here.
+bool isOurs(std::string_view name) {
+  if (name == kJoining) return true;
+  if (!name.starts_with(kPiece) || !name.ends_with(kExtension)) return false;
+  name = name.substr(kPiece.size(), name.size() - kPiece.size() - kExtension.size());
+  return std::count(name.begin(), name.end(), '_') == 2 && name.find_first_not_of("0123456789_") == std::string_view::npos;
+}
+
+/// A folder that keeps its new files if all have been written.
+class Folder {
+ public:
+  /// The files of an earlier cut go.
+  explicit Folder(const std::string& path) : path_(path) {
+    try {
+      isNew_ = fs::create_directories(path_);
+      std::vector<fs::path> earlier;
+      for (const fs::directory_entry& file : fs::directory_iterator(path_)) {
+        if (isOurs(file.path().filename().string())) earlier.push_back(file.path());
+      }
+      for (const fs::path& file : earlier) fs::remove(file);
+    } catch (const fs::filesystem_error& error) {
+      throw FileError(path + ": can't be written: " + error.code().message());
+    }
+  }
+  ~Folder() {
+    if (isComplete_) return;
+    std::error_code ignored;
+    for (const std::string& file : files_) fs::remove(path_ / file, ignored);
+    if (isNew_) fs::remove(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  template <class Write>
+  void add(const std::string& file, const Write& write) {
+    detail::OutputFile output((path_ / file).string());
+    write([&](std::string_view bytes) { output.write(bytes); });
+    files_.push_back(file);
+    output.commit();
+  }
+  const std::vector<std::string>& files() const { return files_; }
+  void complete() { isComplete_ = !files_.empty(); }
+
+ private:
+  const fs::path path_;
+  bool isNew_ = false, isComplete_ = false;
+  std::vector<std::string> files_;
+};
+
+std::string arrayXml(const char* type, const char* name, int components) {
+  return std::string("<PDataArray type=\"") + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" + std::to_string(components) +
+         "\"/>\n";
+}
+
+/// The arrays of all pieces, which are alike.
+std::string arraysXml(const CutMesh& cutMesh) {
+  using detail::vtkTypeName;
+  std::string xml = "<PPoints>\n" + arrayXml(vtkTypeName(double()), "Points", 3) + "</PPoints>\n<PCellData>\n" +
+                    arrayXml(vtkTypeName(int32_t()), "grid_cell", 3);
+  detail::forEachRegionArray(
+      cutMesh, [&]<class Number>(const char* name, const std::vector<Number>&) { xml += arrayXml(vtkTypeName(Number()), name, 1); });
+  return xml + arrayXml(vtkTypeName(double()), "volume", 1) + "</PCellData>\n";
+}
+
+std::string joiningXml(const std::string& arrays, const std::vector<std::string>& files) {
+  std::string xml = detail::vtkHead("PUnstructuredGrid") + "<PUnstructuredGrid GhostLevel=\"0\">\n" + arrays;
+  for (const std::string& file : files) xml += "<Piece Source=\"" + file + "\"/>\n";
+  return xml + "</PUnstructuredGrid>\n</VTKFile>\n";
+}
+
+}  // namespace
+
+PieceCounts writePieces(const std::string& path, const PreparedMesh& mesh, const Grid& grid, const ForEachBrickOptions& options) {
+  Folder folder(path);
+  Progress progress{"", 0, 1, 0, 1};  // of the cut; that of the writers would begin anew with each piece
+  ForEachBrickOptions cutting = options;
+  WriteOptions writing;
+  writing.threads = options.threads;
+  writing.untouched = options.untouched;
+  if (options.progress) {
+    cutting.progress = [&](const Progress& now) { return options.progress(progress = now); };
+    writing.progress = [&](const Progress&) { return options.progress(progress); };
+  }
+  PieceCounts counts;
+  std::string arrays;
+  const auto write = [&](const CutPiece& piece) {
+    folder.add(nameOf(piece), [&](const Sink& sink) { writeVtu(sink, piece, writing); });
+    if (counts.pieces++ == 0) arrays = arraysXml(piece.cutMesh);
+    counts.cutCells += piece.cutMesh.cellCount();
+    if (options.untouched) counts.untouchedCells += UntouchedCells(piece.cutMesh).count();
+  };
+  forEachBrick(mesh, grid, write, cutting);
+  if (counts.pieces > 0)
+    folder.add(std::string(kJoining), [&](const Sink& sink) { sink(joiningXml(arrays, std::vector(folder.files()))); });
+  folder.complete();
+  return counts;
+}
+
+}  // namespace mandoline
