@@ -54,6 +54,8 @@ void checkArguments(const Arguments& arguments) {
   const OnlyArguments& only = arguments.only;
   const std::pair<bool, const char*> others[] = {{arguments.validate, "--validate"},
                                                  {arguments.coarsen.has_value(), "--coarsen"},
+                                                 {arguments.merge.has_value(), "--merge"},
+                                                 {arguments.uniteWalls.has_value(), "--unite-walls"},
                                                  {arguments.faces, "--faces"},
                                                  {arguments.insideThreshold.has_value(), "--inside-threshold"},
                                                  {arguments.snapTolerance > 0, "--snap-tolerance"},

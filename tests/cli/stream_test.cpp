@@ -128,6 +128,8 @@ TEST_CASE("Command line: what does not go with --stream", "[cli][stream]") {
       {{"-o", folder.outer.path("{region}")}, "{region}: --stream writes a folder of .vtu files"},
       {{"-o", folder.path, "--validate"}, "--stream does not go with --validate"},
       {{"-o", folder.path, "--coarsen", "1"}, "--stream does not go with --coarsen"},
+      {{"-o", folder.path, "--merge", "0.2"}, "--stream does not go with --merge"},
+      {{"-o", folder.path, "--unite-walls", "30"}, "--stream does not go with --unite-walls"},
       {{"-o", folder.path, "--faces"}, "--stream does not go with --faces"},
       {{"-o", folder.path, "--inside-threshold", "0.5"}, "--stream does not go with --inside-threshold"},
       {{"-o", folder.path, "--snap-tolerance", "0.1"}, "--stream does not go with --snap-tolerance"},
