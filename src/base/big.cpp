@@ -1,6 +1,7 @@
 #include "base/big.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <new>
 
@@ -164,8 +165,9 @@ Big Big::product(const Big& a, const Big& b) {
 
 Big::Leading Big::leading() const {
   const int64_t top = end() - 1;
-  const double value = (double(limb(top)) * 0x1p32 + limb(top - 1)) * 0x1p32 + limb(top - 2);
-  return {value, 32 * (top - 2)};
+  const int zeros = std::countl_zero(limb(top));
+  const uint64_t high = uint64_t(limb(top)) << 32 | limb(top - 1), low = limb(top - 2);
+  return {double(high << zeros | (low << zeros) >> 32), 32 * (top - 1) - zeros};
 }
 
 double Big::quotient(const Big& numerator, const Big& denominator) {

@@ -29,11 +29,11 @@ class Big {
   bool certain() const noexcept { return true; }
   /// Throws bad_alloc if memory ran out on the way.
   int sign() const;
-  /// The quotient as a double, within four units in the last place.
+  /// The quotient as a double, within four units in the last place. Powers of two in both only shift its exponent.
   static double quotient(const Big& numerator, const Big& denominator);
 
  private:
-  /// A double in [2^64, 2^97) and the power of two that brings it to the leading 65 bits or more of the number.
+  /// The leading 64 bits of the number, the first of which is 1, as a double, and the power of two that brings it to the number.
   struct Leading {
     double value;
     int64_t exponent;

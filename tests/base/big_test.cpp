@@ -67,6 +67,20 @@ TEST_CASE("Big: differences that cancel are 0", "[big]") {
   CHECK(Big::difference(1, 1 + 0x1p-52).sign() == -1);
 }
 
+TEST_CASE("Big: scaling by powers of two shifts a quotient's exponent alone", "[big]") {
+  Doubles doubles(60);
+  for (int run = 0; run < 300; ++run) {
+    const double a = doubles.next(), b = doubles.next(), c = doubles.next(), d = doubles.next();
+    const Big numerator = Big(a) * Big(b) - Big(d), denominator = Big(c) * Big(c) * Big(b) + Big(a);
+    const double q = Big::quotient(numerator, denominator);
+    for (int shift = 1; shift <= 32; ++shift) {
+      CAPTURE(a, b, c, d, shift);
+      REQUIRE(Big::quotient(numerator * Big(std::ldexp(1, shift)), denominator) == std::ldexp(q, shift));
+      REQUIRE(Big::quotient(numerator, denominator * Big(std::ldexp(1, shift))) == std::ldexp(q, -shift));
+    }
+  }
+}
+
 TEST_CASE("Big: quotients are right to four units in the last place", "[big]") {
   Doubles doubles(300);
   for (int run = 0; run < 2000; ++run) {

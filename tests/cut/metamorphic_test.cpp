@@ -244,6 +244,20 @@ TEST_CASE("one thread or many, once or again: the same bits", "[metamorphic]") {
   }
 }
 
+TEST_CASE("a prepared mesh is cut to the same bits in grids larger than it", "[metamorphic]") {
+  const Mesh mesh = shapes::merged({shapes::icosphere({0.1, 0.2, 0.3}, 1, 2), shapes::icosphere({0.7, 0.5, 0.4}, 1.1, 2)});
+  const PreparedMesh prepared = prepare(mesh).mesh;
+  for (const double reach : {3.0, 5.0, 11.0, 1e3, 1e5}) {
+    CAPTURE(reach);
+    const std::vector<double> planes = {-reach, -1.03, 0.21, 0.67, 1.9, reach};
+    const Grid grid = Grid::rectilinear({planes, planes, planes});
+    const CutResult result = cut(mesh, grid);
+    REQUIRE(result);
+    REQUIRE(result.mesh.madeVertices.size() > 50);
+    CHECK(differences(result.mesh, cut(prepared, grid).mesh).empty());
+  }
+}
+
 TEST_CASE("a difference of one bit is seen in every array, in the grid and in the counts", "[metamorphic]") {
   const NamedCase named = caseList()[0];
   const CutResult result = cut(named.mesh, named.grid);
