@@ -6,6 +6,7 @@ const smallestMesh = 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n';
 export async function loadAhead(mandoline: Mandoline): Promise<void> {
   await Promise.all([
     import('./card'),
+    import('./checks'),
     import('./compare'),
     import('./crossings'),
     import('./gltf'),

@@ -5,7 +5,6 @@ import { serve } from 'mandoline-wasm/worker-thread';
 import type { CallName, CallProgress, Calls } from '../model/calls';
 import { otherGrid } from '../model/comparison';
 import { loadAhead } from './ahead';
-import { checksOf } from './checks';
 import { cutNow, cutOf, keep, makeCut } from './kept';
 import { loadMesh } from './load';
 import { makeModel } from './make_model';
@@ -32,7 +31,10 @@ const calls: Answering = {
     const { cutMesh } = cutOf(mandoline, recipe);
     return planes.map((plane) => mandoline.slice(cutMesh, plane, { untouched }));
   },
-  validate: (mandoline, { recipe }) => checksOf(mandoline, cutOf(mandoline, recipe)),
+  async validate(mandoline, { recipe }) {
+    const { checksOf } = await import('./checks');
+    return checksOf(mandoline, cutOf(mandoline, recipe));
+  },
   edges(mandoline, { recipe }) {
     const { mesh, cutMesh } = cutOf(mandoline, recipe);
     return mandoline.cutEdges(mesh, cutMesh).edgeLength.length;
