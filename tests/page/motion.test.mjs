@@ -103,7 +103,15 @@ describe('on the page', async () => {
     await page.locator('#play-what').selectOption('explode');
     await page.locator('#film').click();
     await page.locator('#play').click();
-    await page.waitForTimeout(800);
+    await page.evaluate(() => {
+      window.clears = 0;
+      const { clear } = WebGL2RenderingContext.prototype;
+      WebGL2RenderingContext.prototype.clear = function (...given) {
+        window.clears++;
+        clear.apply(this, given);
+      };
+    });
+    await page.waitForFunction(() => window.clears > 40); // a few for each picture, which waits for the one before
     const { name, bytes } = await download(page, '#film');
     assert.equal(name, 'torus-knot-8x4x8.webm');
     assert.deepEqual([...bytes.subarray(0, 4)], [0x1a, 0x45, 0xdf, 0xa3], 'the mark of WebM');
