@@ -16,9 +16,10 @@ class RankedSet {
  public:
   static constexpr uint32_t kNone = ~0u;
 
-  void insert(uint64_t number) { addBits(number / 64, bitOf(number)); }
-  void insert(const RankedSet& other) {
-    for (uint32_t w = 0; w < other.words_.size(); ++w) addBits(other.keys_.keys[w], other.words_[w].bits);
+  void insert(uint64_t number) {
+    const uint32_t w = keys_.add(number / 64);
+    if (w == words_.size()) words_.emplace_back();
+    words_[w].bits |= bitOf(number);
   }
 
   /// To be called after the last insertion.
@@ -55,12 +56,6 @@ class RankedSet {
   };
 
   static uint64_t bitOf(uint64_t number) { return uint64_t(1) << number % 64; }
-
-  void addBits(uint64_t key, uint64_t bits) {
-    const uint32_t w = keys_.add(key);
-    if (w == words_.size()) words_.emplace_back();
-    words_[w].bits |= bits;
-  }
 
   KeyNumbers keys_;
   std::vector<Word> words_;          // by the numbers of their keys

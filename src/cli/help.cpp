@@ -93,8 +93,9 @@ Options of cut
                          each as .vtu into the folder -o, and cut.pvtu, which joins them: the
                          cells of the whole cut, in the memory of one piece and the mesh. With
                          --only cut without untouched grid cells. Not with other parts of
-                         --only, --validate, --coarsen, --faces, --inside-threshold and
-                         --snap-tolerance. The report has pieces and counts of cells
+                         --only, --validate, --coarsen, --merge, --unite-walls, --faces,
+                         --inside-threshold and --snap-tolerance. The report has pieces and
+                         counts of cells
   --format EXTENSION     what -o - writes to standard output; the text of the report then
                          goes to standard error
 

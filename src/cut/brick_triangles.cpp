@@ -129,14 +129,7 @@ std::vector<int32_t> windingAtBrick(const Input& input, const BrickGrid& bricks,
   Point corner;
   for (size_t d = 0; d < 3; ++d) corner[d] = input.planes[d][size_t(box.first[d])];
   Predicates predicates;
-  std::vector<int32_t> windings;
-  for (const Counted& counted : countedOf(*input.mesh)) {
-    int32_t winding = 0;
-    for (const uint32_t t : triangles.below[key / uint64_t(bricks.counts[0])])
-      winding += windingBeside(corner, *input.mesh, counted, {t}, predicates);
-    windings.push_back(winding);
-  }
-  return windings;
+  return windingsBeside(corner, *input.mesh, triangles.below[key / uint64_t(bricks.counts[0])], predicates);
 }
 
 }  // namespace mandoline::detail

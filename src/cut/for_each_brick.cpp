@@ -80,11 +80,6 @@ class BrickByBrick {
     }
   }
 
-  static std::vector<double> planesOf(const std::vector<double>& planes, const BrickBox& box, size_t axis) {
-    const auto first = planes.begin() + box.first[axis];
-    return {first, first + box.count[axis] + 1};
-  }
-
   void takeMesh(const Excerpt& excerpt, CutPiece& piece) const {
     piece.triangles = excerpt.triangles;
     piece.triVertices.assign(excerpt.vertices.begin(), excerpt.vertices.begin() + excerpt.mesh.triVertices);

@@ -55,10 +55,7 @@ class Restrictor {
     takeCells();
     takeTriangles();
     std::array<std::vector<double>, 3> planes;
-    for (size_t d = 0; d < 3; ++d) {
-      const auto first = all_.grid.planes[d].begin() + box_.first[d];
-      planes[d].assign(first, first + box_.count[d] + 1);
-    }
+    for (size_t d = 0; d < 3; ++d) planes[d] = planesOf(all_.grid.planes[d], box_, d);
     out_.grid = Grid::rectilinear(std::move(planes));
     return std::move(out_);
   }
@@ -233,6 +230,11 @@ class Restrictor {
 };
 
 }  // namespace
+
+std::vector<double> planesOf(const std::vector<double>& planes, const BrickBox& box, size_t axis) {
+  const auto first = planes.begin() + box.first[axis];
+  return {first, first + box.count[axis] + 1};
+}
 
 CutMesh restrictedTo(const BrickBox& box, const CutMesh& cutMesh) { return Restrictor(box, cutMesh).run(); }
 

@@ -6,6 +6,9 @@
 
 namespace mandoline::detail {
 
+/// The planes of one axis that bound the cells of a box, of those of all cells.
+std::vector<double> planesOf(const std::vector<double>& planes, const BrickBox& box, size_t axis);
+
 /// The cells in the box, with the faces and vertices that they have, in the same order. Grid and regions are those of the box. The
 /// fingerprints are left out.
 CutMesh restrictedTo(const BrickBox& box, const CutMesh& cutMesh);

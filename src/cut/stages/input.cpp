@@ -50,21 +50,6 @@ int32_t locateMade(const MeshPoints& points, VertexId v, int axis, const std::ve
   return 2 * plane - 1;
 }
 
-std::vector<int32_t> windingAtLowestCorner(const Input& input, Run& run) {
-  const Point corner = {input.planes[0][0], input.planes[1][0], input.planes[2][0]};
-  Predicates predicates;
-  std::vector<int32_t> windings;
-  for (const Counted& counted : countedOf(*input.mesh)) {
-    int32_t winding = 0;
-    for (const TriangleId t : input.triangleIds()) {
-      if (input.kept(t)) winding += windingBeside(corner, *input.mesh, counted, t, predicates);
-    }
-    windings.push_back(winding);
-  }
-  run.count(predicates);
-  return windings;
-}
-
 }  // namespace
 
 void checkGrid(const Grid& grid, double snapTolerance) {
@@ -109,7 +94,9 @@ Input prepareInput(const Prepared& mesh, const Grid& grid, Run& run) {
     }
   });
   for (const Predicates& p : chunks) run.count(p);
-  input.cornerWinding = windingAtLowestCorner(input, run);
+  Predicates predicates;
+  input.cornerWinding = windingsBeside({input.planes[0][0], input.planes[1][0], input.planes[2][0]}, mesh, input.triangleIds(), predicates);
+  run.count(predicates);
   return input;
 }
 

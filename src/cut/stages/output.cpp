@@ -1,10 +1,10 @@
 #include "cut/stages/output.h"
 
 #include <cmath>
-#include <functional>
 #include <numeric>
 
 #include "base/position_table.h"
+#include "base/run_tasks.h"
 #include "base/sort.h"
 
 namespace mandoline::detail {
@@ -135,9 +135,7 @@ void makeRoom(const Numbers& numbers, CutMesh& out, Monitor& monitor) {
       [&] { out.faceParentSigns.resize(total.parents); },
       [&] { out.vertexMask.resize(vertices); },
   };
-  std::vector<uint32_t> tasks(std::size(rooms));
-  std::iota(tasks.begin(), tasks.end(), 0u);
-  runItems(tasks, monitor, [&](size_t, uint32_t task) { rooms[task](); });
+  runTasks(rooms, monitor);
 }
 
 /// Writes cut-vertices one by one.

@@ -1,9 +1,8 @@
 #include "mandoline/cell_complex.h"
 
 #include <algorithm>
-#include <functional>
-#include <numeric>
 
+#include "base/run_tasks.h"
 #include "mandoline/measure.h"
 #include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
@@ -164,9 +163,7 @@ class Builder {
         [&] { result_.cellRegion.insert(result_.cellRegion.end(), octree_.cellRegion.begin(), octree_.cellRegion.end()); },
         [&] { result_.cellLevel.insert(result_.cellLevel.end(), octree_.cellLevel.begin(), octree_.cellLevel.end()); },
     };
-    std::vector<uint32_t> tasks(std::size(rooms));
-    std::iota(tasks.begin(), tasks.end(), 0u);
-    detail::runItems(tasks, monitor_, [&](size_t, uint32_t task) { rooms[task](); });
+    detail::runTasks(rooms, monitor_);
   }
 
   /// `places`: those of placeFaces().

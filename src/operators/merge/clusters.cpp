@@ -93,7 +93,7 @@ void Clusters::join(detail::Monitor& monitor) {
 }
 
 /// One round, the smallest first: with large clusters beside their bases alone, or with any. Whether some have joined.
-bool Clusters::joinSmall(bool withLarge, detail::Monitor& monitor) {
+bool Clusters::joinSmall(bool onlyLarge, detail::Monitor& monitor) {
   std::priority_queue<Waiting> queue;
   bool any = false;
   for (uint32_t c = 0; c < clusters_.size(); ++c) {
@@ -106,7 +106,7 @@ bool Clusters::joinSmall(bool withLarge, detail::Monitor& monitor) {
     queue.pop();
     const bool isCurrent = clusterOf_[cluster] == cluster && volume == clusters_[cluster].volume / clusters_[cluster].unit;
     if (!isCurrent) continue;
-    const uint32_t other = choose(cluster, withLarge);
+    const uint32_t other = choose(cluster, onlyLarge);
     if (other == kNone) continue;
     any = true;
     const uint32_t both = unite(cluster, other);

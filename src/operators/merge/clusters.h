@@ -54,7 +54,7 @@ class Clusters {
   bool canJoin(uint32_t a, uint32_t b) const;
   double cosineAfter(uint32_t cluster, uint32_t other) const;
   static bool isBetter(const Choice& a, const Choice& b);
-  bool joinSmall(bool withLarge, detail::Monitor& monitor);
+  bool joinSmall(bool onlyLarge, detail::Monitor& monitor);
   uint32_t choose(uint32_t cluster, bool onlyLarge);
   uint32_t unite(uint32_t a, uint32_t b);
 
