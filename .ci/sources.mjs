@@ -58,18 +58,25 @@ function checkFiles() {
   if (problems.length) fail(problems.join('\n'));
 }
 
-/** Ends the program if a function is too long or takes too much. `database` is a build folder with compile_commands.json. */
+/**
+ * Ends the program if a function is too long or takes too much. `database` is a build folder with compile_commands.json, in which folders
+ * are compiled as one.
+ */
 export function checkFunctions(database) {
-  const options = { LineThreshold: mostFunctionLines, ParameterThreshold: mostParameters, StatementThreshold: 1000 };
+  const limits = { LineThreshold: mostFunctionLines, ParameterThreshold: mostParameters, StatementThreshold: 1000 };
   const check = 'readability-function-size';
   const config = {
     Checks: `-*,${check}`,
     WarningsAsErrors: '*',
-    CheckOptions: Object.entries(options).map(([key, value]) => ({ key: `${check}.${key}`, value: String(value) })),
+    CheckOptions: Object.entries(limits).map(([key, value]) => ({ key: `${check}.${key}`, value: String(value) })),
   };
+  const compiled = JSON.parse(readFileSync(path(database, 'compile_commands.json'), 'utf8')).map(({ file }) => file);
+  const united = compiled.filter((file) => file.includes('/Unity/'));
+  if (united.length < rooms.length) fail(`${database} does not compile folders as one.`);
   const list = path(database, 'sources.txt');
-  writeFileSync(list, sources.filter((file) => file.endsWith('.cpp')).join('\n'));
-  run('xargs', '-a', list, '-P', jobs, '-n', '4', 'clang-tidy', '--quiet', '-p', database, `--config=${JSON.stringify(config)}`);
+  writeFileSync(list, united.join('\n'));
+  const options = ['--quiet', '-p', database, `--header-filter=${path('src')}/`, `--config=${JSON.stringify(config)}`];
+  run('xargs', '-a', list, '-P', jobs, '-n', '1', 'clang-tidy', ...options);
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) checkFiles();

@@ -49,6 +49,7 @@ function compile(tests) {
     `-DCMAKE_TOOLCHAIN_FILE=${toolchainFile()}`,
     `-DCMAKE_CROSSCOMPILING_EMULATOR=${process.execPath}`,
     '-DCMAKE_BUILD_TYPE=Release',
+    '-DCMAKE_UNITY_BUILD=ON', // in less than half the time
     `-DMANDOLINE_BUILD_TESTS=${tests ? 'ON' : 'OFF'}`,
   );
   run('cmake', '--build', build, '--parallel', String(availableParallelism()));

@@ -9,7 +9,7 @@ namespace mandoline::detail {
 namespace {
 
 /// One use of a tri-edge by a side of a triangle, kept in the bucket of its lower end.
-struct Use {
+struct SideUse {
   uint32_t highAndWay;  ///< 2 * the higher end, + 1 if the triangle runs through the side from its lower end
   uint32_t slot;        ///< 3 * triangle + side, or beyond: see Sides
 
@@ -35,7 +35,7 @@ void forPlainSides(const WeldedMesh& mesh, const F& f) {
     const auto v = mesh.verticesOf(t);
     for (uint32_t i = 0; i < 3; ++i) {
       const VertexId a = v[i], b = v[i == 2 ? 0 : i + 1];
-      f(std::min(a, b), Use{2 * std::max(a, b).number + (a < b), 3 * t.number + i});
+      f(std::min(a, b), SideUse{2 * std::max(a, b).number + (a < b), 3 * t.number + i});
     }
   }
 }
@@ -47,8 +47,8 @@ bool sameWay(const std::array<VertexId, 3>& a, const std::array<VertexId, 3>& b)
 }
 
 /// Marks the higher one of two triangles with the same vertices among the users of one tri-edge.
-void dropDuplicates(WeldedMesh& mesh, std::span<const Use> users, const Sides& sides) {
-  const auto triangleOf = [&](const Use& use) {
+void dropDuplicates(WeldedMesh& mesh, std::span<const SideUse> users, const Sides& sides) {
+  const auto triangleOf = [&](const SideUse& use) {
     const size_t plain = 3 * mesh.triangles.size();
     return use.slot < plain ? TriangleId{use.slot / 3} : sides.extras[use.slot - plain].triangle;
   };
@@ -64,12 +64,12 @@ void dropDuplicates(WeldedMesh& mesh, std::span<const Use> users, const Sides& s
     mesh.duplicates.push_back({std::min(s, t).number, std::max(s, t).number, sameWay(mesh.verticesOf(s), mesh.verticesOf(t))});
   };
   if (users.size() == 2 && users[1].slot < 3 * mesh.triangles.size()) {
-    const auto opposite = [&](const Use& use) { return mesh.triangles[use.slot / 3][(use.slot % 3 + 2) % 3]; };
+    const auto opposite = [&](const SideUse& use) { return mesh.triangles[use.slot / 3][(use.slot % 3 + 2) % 3]; };
     if (opposite(users[0]) == opposite(users[1])) drop(triangleOf(users[0]), triangleOf(users[1]));
     return;
   }
   std::vector<TriangleId> triangles;
-  for (const Use& use : users) triangles.push_back(triangleOf(use));
+  for (const SideUse& use : users) triangles.push_back(triangleOf(use));
   sortItems(triangles, [&](TriangleId s, TriangleId t) {
     const auto a = corners(s), b = corners(t);
     return a != b ? a < b : s < t;
@@ -84,7 +84,7 @@ void dropDuplicates(WeldedMesh& mesh, std::span<const Use> users, const Sides& s
 Sides findStitchedSides(const WeldedMesh& mesh, const Arrangement* arrangement, MeshEdges& edges) {
   Sides sides;
   if (!mesh.stitches.empty()) {
-    forPlainSides(mesh, [&](VertexId low, const Use& use) {
+    forPlainSides(mesh, [&](VertexId low, const SideUse& use) {
       const Stitch* stitch = mesh.findStitch(low.number, use.high().number);
       if (!stitch) return;
       edges.sideEdges[use.slot] = MeshEdges::kStitched + uint32_t(sides.stitchedOffsets.size() - 1);
@@ -119,30 +119,30 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
   edges.sideEdges.assign(3 * mesh.triangles.size(), 0);
   const Sides sides = findStitchedSides(mesh, arrangement, edges);
   const auto forUses = [&](const auto& f) {
-    forPlainSides(mesh, [&](VertexId low, const Use& use) {
+    forPlainSides(mesh, [&](VertexId low, const SideUse& use) {
       if (edges.sideEdges[use.slot] < MeshEdges::kStitched) f(low, use);
     });
     for (size_t i = 0; i < sides.extras.size(); ++i) {
       const auto& [low, high, triangle, forward] = sides.extras[i];
-      f(low, Use{2 * high.number + forward, uint32_t(3 * mesh.triangles.size() + i)});
+      f(low, SideUse{2 * high.number + forward, uint32_t(3 * mesh.triangles.size() + i)});
     }
   };
 
   const size_t vertices = arrangement ? arrangement->points.size() : mesh.points.size();
   std::vector<uint32_t> offsets(vertices + 1, 0);
-  forUses([&](VertexId low, const Use&) { ++offsets[low.number + 1]; });
+  forUses([&](VertexId low, const SideUse&) { ++offsets[low.number + 1]; });
   for (size_t v = 0; v + 1 < offsets.size(); ++v) offsets[v + 1] += offsets[v];
-  const std::unique_ptr<Use[]> uses(new Use[offsets.back()]);
+  const std::unique_ptr<SideUse[]> uses(new SideUse[offsets.back()]);
   {
     std::vector<uint32_t> at(offsets.begin(), offsets.end() - 1);
-    forUses([&](VertexId low, const Use& use) { uses[at[low.number]++] = use; });
+    forUses([&](VertexId low, const SideUse& use) { uses[at[low.number]++] = use; });
   }
   std::vector<TriEdgeId> extraEdges(sides.extras.size());
   edges.ends.reserve(offsets.back() / 2 + 16);
   bool closed = true;
   for (const VertexId low : Ids<VertexId>(vertices)) {
-    const std::span<Use> bucket(uses.get() + offsets[low.number], offsets[low.number + 1] - offsets[low.number]);
-    sortItems(bucket, [](const Use& a, const Use& b) { return a.high() < b.high(); });  // slots ascend already
+    const std::span<SideUse> bucket(uses.get() + offsets[low.number], offsets[low.number + 1] - offsets[low.number]);
+    sortItems(bucket, [](const SideUse& a, const SideUse& b) { return a.high() < b.high(); });  // slots ascend already
     for (size_t i = 0, end; i < bucket.size(); i = end) {
       int net = 0;
       for (end = i; end < bucket.size() && bucket[end].high() == bucket[i].high(); ++end) {

@@ -10,7 +10,7 @@ namespace mandoline::detail {
 namespace {
 
 /// One use of a tri-edge by a triangle.
-struct Use {
+struct TriangleUse {
   uint32_t triangleAndWay;  ///< 2 * triangle, + 1 if it runs through the edge from the lower end
 
   uint32_t triangle() const { return triangleAndWay / 2; }
@@ -18,8 +18,8 @@ struct Use {
 };
 
 /// The uses of each tri-edge, ascending by triangle.
-Csr<Use, TriEdgeId> findUses(const Prepared& prepared) {
-  Csr<Use, TriEdgeId> uses;
+Csr<TriangleUse, TriEdgeId> findUses(const Prepared& prepared) {
+  Csr<TriangleUse, TriEdgeId> uses;
   uses.offsets.assign(prepared.edges.ends.size() + 2, 0);  // counted two places on, so that filling leaves begins one place on
   const auto forUses = [&](const auto& f) {
     for (const TriangleId t : prepared.triangleIds()) {
@@ -27,16 +27,16 @@ Csr<Use, TriEdgeId> findUses(const Prepared& prepared) {
       const std::span<const Duplicate> duplicates = prepared.duplicatesOf(t);
       for (int side = 0; side < 3; ++side) {
         prepared.edges.forSide(prepared, t, side, [&](TriEdgeId edge, bool forward) {
-          f(edge, Use{2 * t.number + forward});
-          for (const Duplicate& d : duplicates) f(edge, Use{2 * d.triangle + (forward == d.sameWay)});
+          f(edge, TriangleUse{2 * t.number + forward});
+          for (const Duplicate& d : duplicates) f(edge, TriangleUse{2 * d.triangle + (forward == d.sameWay)});
         });
       }
     }
   };
-  forUses([&](TriEdgeId edge, const Use&) { ++uses.offsets[edge.number + 2]; });
+  forUses([&](TriEdgeId edge, const TriangleUse&) { ++uses.offsets[edge.number + 2]; });
   for (size_t e = 2; e < uses.offsets.size(); ++e) uses.offsets[e] += uses.offsets[e - 1];
   uses.items.resize(uses.offsets.back());
-  forUses([&](TriEdgeId edge, const Use& use) { uses.items[uses.offsets[edge.number + 1]++] = use; });
+  forUses([&](TriEdgeId edge, const TriangleUse& use) { uses.items[uses.offsets[edge.number + 1]++] = use; });
   uses.offsets.pop_back();
   return uses;
 }
@@ -66,29 +66,29 @@ class PartFinder {
 
  private:
   size_t edgeCount() const { return uses_.offsets.size() - 1; }
-  std::span<const Use> usesOf(size_t edge) const {
+  std::span<const TriangleUse> usesOf(size_t edge) const {
     return {uses_.items.data() + uses_.offsets[edge], size_t(uses_.offsets[edge + 1] - uses_.offsets[edge])};
   }
 
   /// The uses that may join: where they don't cancel, copies of triangles are in excess and left alone, so that a triangle that lies twice
   /// in a closed surface does not open it.
   void findActive(size_t edge) {
-    const std::span<const Use> uses = usesOf(edge);
+    const std::span<const TriangleUse> uses = usesOf(edge);
     active_.assign(uses.begin(), uses.end());
     int32_t sum = 0;
-    for (const Use& use : uses) sum += use.sign();
+    for (const TriangleUse& use : uses) sum += use.sign();
     if (sum == 0 || prepared_.duplicates.empty()) return;
-    sortItems(active_, [](const Use& a, const Use& b) { return a.triangleAndWay > b.triangleAndWay; });
-    std::erase_if(active_, [&](const Use& use) {
+    sortItems(active_, [](const TriangleUse& a, const TriangleUse& b) { return a.triangleAndWay > b.triangleAndWay; });
+    std::erase_if(active_, [&](const TriangleUse& use) {
       const bool isExcess = sum * use.sign() > 0 && copied_[use.triangle()];
       if (isExcess) sum -= use.sign();
       return isExcess;
     });
   }
 
-  void findShares(std::span<const Use> uses) {
+  void findShares(std::span<const TriangleUse> uses) {
     shares_.clear();
-    for (const Use& use : uses) shares_.push_back({sets_.find(use.triangle()), use.sign(), 1});
+    for (const TriangleUse& use : uses) shares_.push_back({sets_.find(use.triangle()), use.sign(), 1});
     sortItems(shares_, [](const Share& a, const Share& b) { return a.set < b.set; });
     size_t kept = 0;
     for (size_t i = 1; i < shares_.size(); ++i) {
@@ -110,14 +110,14 @@ class PartFinder {
     findActive(edge);
     findShares(active_);
     int32_t sum = 0;
-    for (const Use& use : active_) sum += use.sign();
+    for (const TriangleUse& use : active_) sum += use.sign();
     const bool isEven = active_.size() % 2 == 0;
     std::erase_if(shares_, [&](const Share& share) { return sum == 0 ? share.sum == 0 : !isEven || !share.isOdd(); });
   }
 
   void joinPairs() {
     for (size_t edge = 0; edge < edgeCount(); ++edge) {
-      const std::span<const Use> uses = usesOf(edge);
+      const std::span<const TriangleUse> uses = usesOf(edge);
       if (uses.size() == 2) {
         sets_.unite(uses[0].triangle(), uses[1].triangle());
       } else {
@@ -158,7 +158,7 @@ class PartFinder {
     std::vector<PartKind> kinds(n, PartKind::winding);  // of roots
     const auto worsen = [&](uint32_t root, PartKind kind) { kinds[root] = std::max(kinds[root], kind); };
     for (size_t edge = 0; edge < edgeCount(); ++edge) {
-      const std::span<const Use> uses = usesOf(edge);
+      const std::span<const TriangleUse> uses = usesOf(edge);
       if (uses.size() == 2 && uses[0].sign() == uses[1].sign()) worsen(sets_.find(uses[0].triangle()), PartKind::parity);
     }
     for (const size_t edge : others_) {
@@ -196,11 +196,11 @@ class PartFinder {
   }
 
   const Prepared& prepared_;
-  Csr<Use, TriEdgeId> uses_;
-  DisjointSets sets_;            // of triangles
-  std::vector<uint8_t> copied_;  // per triangle: whether another has its vertices
-  std::vector<size_t> others_;   // edges that have not just two uses
-  std::vector<Use> active_;      // of the edge at hand
+  Csr<TriangleUse, TriEdgeId> uses_;
+  DisjointSets sets_;                // of triangles
+  std::vector<uint8_t> copied_;      // per triangle: whether another has its vertices
+  std::vector<size_t> others_;       // edges that have not just two uses
+  std::vector<TriangleUse> active_;  // of the edge at hand
   std::vector<Share> shares_;
 };
 

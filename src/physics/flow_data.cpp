@@ -33,13 +33,13 @@ std::vector<char> cellsAroundRims(const CellComplex& cells) {
   return result;
 }
 
-struct Pair {
+struct ItemOfCell {
   uint32_t cell, item;
-  auto operator<=>(const Pair&) const = default;
+  auto operator<=>(const ItemOfCell&) const = default;
 };
 
 /// Items of cells, ascending and each once.
-detail::Csr<uint32_t> grouped(size_t cellCount, std::vector<Pair>& pairs) {
+detail::Csr<uint32_t> grouped(size_t cellCount, std::vector<ItemOfCell>& pairs) {
   detail::sortUnique(pairs);
   return detail::groupBy<uint32_t>(
       cellCount, pairs.size(), [&](size_t i) { return size_t(pairs[i].cell); }, [&](size_t i) { return pairs[i].item; });
@@ -65,7 +65,7 @@ void fillFaceVelocities(const CellComplex& cells, const Boundary& boundary, cons
 
 FlowData flowData(const CellComplex& cells, const DualEdges& dual, const Flow& flow) {
   FlowData result;
-  std::vector<Pair> ofCells, neighbors;
+  std::vector<ItemOfCell> ofCells, neighbors;
   const std::vector<char> aroundRim = cellsAroundRims(cells);
   result.cellSize.resize(cells.cellCount());
   const auto join = [&](uint32_t a, uint32_t b, double distance) {

@@ -7,12 +7,12 @@
 namespace mandoline::physics {
 namespace {
 
-struct Pair {
+struct CoupledPair {
   uint32_t a, b;
   double w;
 };
 
-void setCouplings(Level& level, const std::vector<Pair>& pairs) {
+void setCouplings(Level& level, const std::vector<CoupledPair>& pairs) {
   const auto end = [&](size_t i) { return i % 2 ? pairs[i / 2].b : pairs[i / 2].a; };
   level.couplings = detail::groupBy<Level::Coupling>(
       level.held.size(), 2 * pairs.size(), [&](size_t i) { return size_t(end(i)); },
@@ -30,7 +30,7 @@ Level finestLevel(const CellComplex& cells, const DualEdges& dual, std::vector<d
   level.held = std::move(held);
   level.corner = cells.cellCorner;
   for (const uint8_t l : cells.cellLevel) level.size.push_back(double(uint32_t(1) << l));
-  std::vector<Pair> pairs;
+  std::vector<CoupledPair> pairs;
   for (size_t e = 0; e < dual.edges.size(); ++e) {
     const DualEdge& edge = dual.edges[e];
     for (const uint32_t f : dual.faces[e]) pairs.push_back({edge.cell, otherCell(cells, edge, f), cells.faceArea[f] / edge.distance});
@@ -73,7 +73,7 @@ double farther(const Level& fine, double fineSize, double size) { return fine.tw
 
 /// If a node's couplings are together this much weaker than those joined inside it, what comes through them is mostly rounding, which would
 /// be taken for a large step. Such nodes keep their values, and hold their neighbours.
-void holdStill(Level& level, std::vector<Pair>& pairs) {
+void holdStill(Level& level, std::vector<CoupledPair>& pairs) {
   constexpr double kWeakest = 1e-8;
   std::vector<double> total = level.held;
   for (const auto& [a, b, w] : pairs) total[a] += w, total[b] += w;
@@ -85,7 +85,7 @@ void holdStill(Level& level, std::vector<Pair>& pairs) {
   for (uint32_t a = 0; a < level.held.size(); ++a) {
     if (isStill(a)) level.held[a] = 0;
   }
-  std::erase_if(pairs, [&](const Pair& pair) { return isStill(pair.a) || isStill(pair.b); });
+  std::erase_if(pairs, [&](const CoupledPair& pair) { return isStill(pair.a) || isStill(pair.b); });
 }
 
 Level coarserLevel(const Level& fine, uint32_t count, int shift) {
@@ -104,7 +104,7 @@ Level coarserLevel(const Level& fine, uint32_t count, int shift) {
   }
   const auto members = detail::groupBy<uint32_t>(
       count + 1, fine.count(), [&](size_t i) { return size_t(std::min(fine.coarse[i], count)); }, [](size_t i) { return uint32_t(i); });
-  std::vector<Pair> pairs;
+  std::vector<CoupledPair> pairs;
   std::vector<size_t> at(count, ~size_t(0));  // place of a's pair with b
   for (uint32_t a = 0; a < count; ++a) {
     const size_t first = pairs.size();

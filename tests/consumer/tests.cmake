@@ -1,7 +1,8 @@
 # A project that uses the library, in each of the ways there are. All have to get the bits that this build's own library gives.
 #   static, as this build made it:  find_package, pkg-config, a module for Python
 #   from source:                    FetchContent, without optimisation and fast_float, as shared libraries, in a project that hides its symbols
-#                                   and is compiled with -ffast-math -Werror; add_subdirectory, which is not compiled once more
+#                                   and compiles folders as one (CMAKE_UNITY_BUILD) with -ffast-math -Werror; add_subdirectory, which is not
+#                                   compiled once more
 #   shared, as the latter installs: find_package, pkg-config
 add_executable(mandoline-reference consumer/consumer.cpp)
 target_link_libraries(mandoline-reference PRIVATE mandoline_io)
@@ -29,7 +30,7 @@ endfunction()
 
 add_consumer_test(add_subdirectory add_subdirectory)
 string(JOIN "\\;" fetch_options -DBUILD_SHARED_LIBS=ON -DMANDOLINE_INSTALL=ON -DMANDOLINE_BUILD_CLI=ON
-  -DCMAKE_DISABLE_FIND_PACKAGE_FastFloat=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=OFF
+  -DCMAKE_DISABLE_FIND_PACKAGE_FastFloat=ON -DCMAKE_UNITY_BUILD=ON
   "-DCMAKE_CXX_FLAGS=-O0 -ffast-math -Werror -fvisibility=hidden")
 add_consumer_test(FetchContent FetchContent -D MORE_TARGETS=mandoline-cli -D "OPTIONS=${fetch_options}")
 set_tests_properties(consumer_FetchContent PROPERTIES FIXTURES_SETUP shared)

@@ -13,7 +13,7 @@ constexpr size_t kMost = size_t(1) << 31;  // loop entries, vertices
 }
 
 /// What one chunk of triangles makes. Ids of its own vertices count from those of the surface on.
-struct Chunk {
+struct ClippedChunk {
   ClippedTriangles clipped;
   std::vector<Slab> slabs;
   std::vector<TriangleId> parents;
@@ -34,7 +34,7 @@ struct Chunk {
 /// Clips triangles that others don't reach into.
 class Clipper {
  public:
-  Clipper(const Surface& surface, const BrickGrid& bricks, Monitor& monitor, Chunk& chunk)
+  Clipper(const Surface& surface, const BrickGrid& bricks, Monitor& monitor, ClippedChunk& chunk)
       : surface_(surface),
         input_(surface.input),
         vertices_(surface.vertices),
@@ -98,7 +98,7 @@ class Clipper {
   const CutVertices& vertices_;
   const BrickGrid& bricks_;
   Monitor& monitor_;
-  Chunk& chunk_;
+  ClippedChunk& chunk_;
   TriangleId triangle_{0};
   Polygon outline_;
   Dicer<Clipper> dicer_;
@@ -107,7 +107,7 @@ class Clipper {
 /// Dices triangles that others reach into by all planes.
 class WholeDicer {
  public:
-  WholeDicer(const Surface& surface, Monitor& monitor, Chunk& chunk)
+  WholeDicer(const Surface& surface, Monitor& monitor, ClippedChunk& chunk)
       : surface_(surface), input_(surface.input), vertices_(surface.vertices), monitor_(monitor), chunk_(chunk), dicer_(input_, 0, *this) {}
   WholeDicer(const WholeDicer&) = delete;
   ~WholeDicer() { chunk_.predicates.fallbacks += dicer_.predicates.fallbacks; }
@@ -157,7 +157,7 @@ class WholeDicer {
   const Input& input_;
   const CutVertices& vertices_;
   Monitor& monitor_;
-  Chunk& chunk_;
+  ClippedChunk& chunk_;
   TriangleId triangle_{0};
   Polygon outline_;
   std::vector<Corner> onLines_;  // vertices of the arrangement inside of the triangle that lie on grid lines, by slab
@@ -193,15 +193,16 @@ void append(const ClippedTriangles& chunk, VertexId firstInTriangle, uint32_t sh
 ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& run) {
   const Input& input = surface.input;
   CutVertices& vertices = surface.vertices;
-  const auto chunks = forChunks<Chunk>(input.mesh->triangles.size(), run.monitor, [&](Chunk& chunk, size_t begin, size_t end) {
-    Clipper clipper(surface, bricks, run.monitor, chunk);
-    WholeDicer dicer(surface, run.monitor, chunk);
-    for (const TriangleId t : Ids<TriangleId>(begin, end)) {
-      if (input.kept(t) && !dicer.dice(t)) clipper.clip(t);
-    }
-  });
+  const auto chunks =
+      forChunks<ClippedChunk>(input.mesh->triangles.size(), run.monitor, [&](ClippedChunk& chunk, size_t begin, size_t end) {
+        Clipper clipper(surface, bricks, run.monitor, chunk);
+        WholeDicer dicer(surface, run.monitor, chunk);
+        for (const TriangleId t : Ids<TriangleId>(begin, end)) {
+          if (input.kept(t) && !dicer.dice(t)) clipper.clip(t);
+        }
+      });
   size_t entries = 0, made = vertices.size();
-  for (const Chunk& c : chunks) {
+  for (const ClippedChunk& c : chunks) {
     entries += std::max(c.clipped.pieces.items.size(), c.clipped.undivided.loops.items.size());
     made += c.slabs.size();
     run.count(c.predicates);
@@ -209,11 +210,11 @@ ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& r
   if (entries > kMost || made > kMost) failTooLarge(-1);
   ClippedTriangles all;
   uint32_t shift = 0;
-  for (const Chunk& c : chunks) {
+  for (const ClippedChunk& c : chunks) {
     append(c.clipped, vertices.firstInTriangle, shift, all);
     shift += uint32_t(c.slabs.size());
   }
-  for (const Chunk& c : chunks) {
+  for (const ClippedChunk& c : chunks) {
     vertices.slabs.insert(vertices.slabs.end(), c.slabs.begin(), c.slabs.end());
     vertices.parentTriangles.insert(vertices.parentTriangles.end(), c.parents.begin(), c.parents.end());
   }

@@ -15,13 +15,13 @@ struct Piece {
   Link ends;
 };
 
-struct Placed {
+struct PlacedVertex {
   Slab slab;
   VertexId vertex;
 };
 
 /// What one chunk of triangles makes.
-struct Chunk {
+struct DividedChunk {
   TriFaces faces;
   Predicates predicates;
   PlanarGraph graph;
@@ -47,7 +47,7 @@ struct LocalFaces {
 
 class Divider {
  public:
-  Divider(const Surface& surface, const UndividedFaces& undivided, Chunk& chunk)
+  Divider(const Surface& surface, const UndividedFaces& undivided, DividedChunk& chunk)
       : input_(surface.input),
         arrangement_(*surface.input.mesh->arrangement),
         edges_(surface.edges()),
@@ -103,7 +103,8 @@ class Divider {
       }
       add(edges_.ends[e][1]);
     }
-    sortItems(placed_, [](const Placed& a, const Placed& b) { return a.slab != b.slab ? a.slab < b.slab : a.vertex < b.vertex; });
+    sortItems(placed_,
+              [](const PlacedVertex& a, const PlacedVertex& b) { return a.slab != b.slab ? a.slab < b.slab : a.vertex < b.vertex; });
     sortItems(pieces_, [](const Piece& a, const Piece& b) { return a.element != b.element ? a.element < b.element : a.ends < b.ends; });
     sortItems(inPlane_);
   }
@@ -113,8 +114,8 @@ class Divider {
   void forBetween(VertexId u, VertexId v, const F& f) {
     const Slab element = elementBetween(vertices_.slab(u), vertices_.slab(v));
     if (planeCount(element) <= ownPlanes_) return;
-    const auto [first, past] = std::equal_range(placed_.begin(), placed_.end(), Placed{element, {0}},
-                                                [](const Placed& a, const Placed& b) { return a.slab < b.slab; });
+    const auto [first, past] = std::equal_range(placed_.begin(), placed_.end(), PlacedVertex{element, {0}},
+                                                [](const PlacedVertex& a, const PlacedVertex& b) { return a.slab < b.slab; });
     if (first == past) return;
     between_.clear();
     for (auto at = first; at != past; ++at) {
@@ -266,11 +267,11 @@ class Divider {
   const MeshEdges& edges_;
   const CutVertices& vertices_;
   const UndividedFaces& undivided_;
-  Chunk& chunk_;
+  DividedChunk& chunk_;
   TriangleId triangle_{0};
   int axis_ = 0, normal_ = 0;  // an axis that the triangle's plane is not parallel to, and the sign of its normal along it
   int ownPlanes_ = 0;
-  std::vector<Placed> placed_;
+  std::vector<PlacedVertex> placed_;
   std::vector<Piece> pieces_;
   std::vector<Link> inPlane_;  // pieces of inner tri-edges in an axial plane
   std::vector<VertexId> between_, outline_;
@@ -310,9 +311,9 @@ void divideFaces(const Surface& surface, const UndividedFaces& undivided, TriFac
     while (at < undivided.hybridEdges.size() && undivided.hybridTriangles[at] == undivided.triangles[group.firstFace]) ++at;
     group.pastEdge = at;
   }
-  auto chunks = forChunks<Chunk>(
+  auto chunks = forChunks<DividedChunk>(
       groups.size(), run.monitor,
-      [&](Chunk& chunk, size_t begin, size_t end) {
+      [&](DividedChunk& chunk, size_t begin, size_t end) {
         Divider divider(surface, undivided, chunk);
         if (begin < end && chunk.faces.faceLoopOffsets.empty()) chunk.faces.faceLoopOffsets.assign(1, 0);
         for (size_t g = begin; g < end; ++g) {
@@ -322,7 +323,7 @@ void divideFaces(const Surface& surface, const UndividedFaces& undivided, TriFac
       },
       64);
   for (uint32_t f = 0; f <= faces.size(); ++f) faces.faceLoopOffsets.push_back(f);
-  for (const Chunk& chunk : chunks) {
+  for (const DividedChunk& chunk : chunks) {
     if (!chunk.faces.faceLoopOffsets.empty()) append(faces, chunk.faces);
     run.count(chunk.predicates);
   }

@@ -7,7 +7,7 @@ namespace {
 
 /// A cut-vertex on a grid-edge or at a grid vertex.
 template <class Place>
-struct Placed {
+struct LineVertex {
   Place place;
   VertexId vertex;
 };
@@ -18,8 +18,8 @@ class Collector {
   Collector(const BrickSurface& surface, const Stencil& stencil)
       : triFaces_(surface.triFaces), vertices_(surface.vertices), stencil_(stencil) {}
 
-  std::vector<Placed<GridEdgeId>> onEdges;
-  std::vector<Placed<GridVertexId>> onCorners;
+  std::vector<LineVertex<GridEdgeId>> onEdges;
+  std::vector<LineVertex<GridVertexId>> onCorners;
 
   void collect(std::span<const VertexId> seamVertices) {
     for (const GridCellId c : stencil_.cells.ids()) {

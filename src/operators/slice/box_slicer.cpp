@@ -1,11 +1,6 @@
 #include "operators/slice/box_slicer.h"
 
 namespace mandoline::operators {
-namespace {
-
-constexpr uint32_t kNone = ~0u;
-
-}  // namespace
 
 void BoxSlicer::run(const CuttingPlane& plane, Points& points, PolygonWriter& writer) {
   plane_ = &plane;

@@ -33,7 +33,8 @@ class BoxSlicer {
   Points* points_ = nullptr;
   PolygonWriter* writer_ = nullptr;
   std::array<Corner, 8> corners_;  // of a grid cell: bit d is set on the upper plane of axis d
-  std::array<uint32_t, 8> pointOfCorner_;
+  static constexpr uint32_t kNone = ~0u;
+  std::array<uint32_t, 8> pointOfCorner_;  // or kNone
   std::vector<uint32_t> loop_;
 };
 

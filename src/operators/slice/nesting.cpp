@@ -7,11 +7,6 @@
 #include "base/sort.h"
 
 namespace mandoline::operators {
-namespace {
-
-constexpr uint32_t kNone = ~0u;
-
-}  // namespace
 
 const detail::Csr<uint32_t>& Nesting::run(const detail::Csr<uint32_t>& loops, const std::vector<PlanePoint>& at) {
   points_ = &loops;

@@ -23,8 +23,9 @@ class Nesting {
     std::array<uint32_t, 2> longest;  // segment
     PlanePoint sample;                // its middle
     PlanePoint low, high;             // of all points
-    uint32_t outline;                 // of holes
+    uint32_t outline;                 // itself, or that around a hole; kNone if there is none
   };
+  static constexpr uint32_t kNone = ~0u;
 
   Loop measure(std::span<const uint32_t> points) const;
   void decideUnclear();

@@ -6,16 +6,16 @@
 namespace mandoline::validation {
 namespace {
 
-struct Tallies {
+struct FaceTallies {
   Tally faces{"faces"}, planarity{"planarity", kTolerance}, orientation{"orientation", kTolerance};
   Tally halfFaces{"halfFaces"}, isolation{"gridCellIsolation"};
 };
 
 /// The grid cell that a face lies in, on its axis the one above it; -1 on an axis where it is in no single one.
-using Place = std::array<int32_t, 3>;
+using FacePlace = std::array<int32_t, 3>;
 
-Place placeOf(const Context& context, size_t face) {
-  Place place;
+FacePlace placeOf(const Context& context, size_t face) {
+  FacePlace place;
   for (int d = 0; d < 3; ++d) {
     int32_t first = 0, last = INT32_MAX;  // of the grid cells that hold all vertices seen so far
     for (const std::span<const uint32_t> loop : context.cut.loops(face)) {
@@ -30,7 +30,7 @@ Place placeOf(const Context& context, size_t face) {
 }
 
 /// Whether a face is one loop along the sides of the square, through its corners.
-bool isWholeGridFace(const Context& context, size_t face, const Place& place) {
+bool isWholeGridFace(const Context& context, size_t face, const FacePlace& place) {
   if (context.cut.loops(face).size() != 1) return false;
   const std::span<const uint32_t> loop = context.cut.loops(face)[0];
   const int e = (context.cut.faceAxis[face] + 1) % 3, g = (context.cut.faceAxis[face] + 2) % 3;
@@ -60,10 +60,10 @@ bool isWholeGridFace(const Context& context, size_t face, const Place& place) {
 /// One face by itself.
 class FaceCheck {
  public:
-  FaceCheck(const Context& context, Tallies& tallies) : x_(context), found_(tallies) {}
+  FaceCheck(const Context& context, FaceTallies& tallies) : x_(context), found_(tallies) {}
 
   void run(size_t f) {
-    const Place place = placeOf(x_, f);
+    const FacePlace place = placeOf(x_, f);
     checkPlane(f, place);
     checkParents(f);
     checkLoops(f);
@@ -75,7 +75,7 @@ class FaceCheck {
   }
 
  private:
-  void checkPlane(size_t f, const Place& place) {
+  void checkPlane(size_t f, const FacePlace& place) {
     const int axis = x_.cut.faceAxis[f];
     const int32_t plane = x_.cut.facePlane[f];
     if (*std::min_element(place.begin(), place.end()) < 0)
@@ -165,7 +165,7 @@ class FaceCheck {
       found_.halfFaces.violate("face", int64_t(f), "lies inside a grid cell, but one side of it belongs to no cut-cell");
   }
 
-  void checkAxialSides(size_t f, const Place& place) {
+  void checkAxialSides(size_t f, const FacePlace& place) {
     const size_t axis = size_t(x_.cut.faceAxis[f]);
     std::array<int64_t, 3> beyond{place[0], place[1], place[2]};
     if (*std::min_element(place.begin(), place.end()) < 0) return;
@@ -183,7 +183,7 @@ class FaceCheck {
   }
 
   /// A side without cut-cell: outside the grid, or a whole grid-face before an untouched grid cell.
-  void checkOpenSide(size_t f, const Place& place, const std::array<int64_t, 3>& beyond) {
+  void checkOpenSide(size_t f, const FacePlace& place, const std::array<int64_t, 3>& beyond) {
     const int axis = x_.cut.faceAxis[f];
     if (beyond[size_t(axis)] < 0 || beyond[size_t(axis)] >= x_.cut.grid.cells(axis)) return;
     if (x_.runAt(beyond[0], beyond[1], beyond[2]) < 0) {
@@ -196,7 +196,7 @@ class FaceCheck {
   }
 
   const Context& x_;
-  Tallies& found_;
+  FaceTallies& found_;
 };
 
 void checkListings(const Context& context, Tally& tally) {
@@ -229,13 +229,14 @@ void checkIsolation(const Context& context, Tally& tally) {
 }  // namespace
 
 FaceChecks checkFaces(const Context& context, detail::Monitor& monitor) {
-  const auto parts = detail::forChunks<Tallies>(context.cut.faceCount(), monitor, [&](Tallies& tallies, size_t begin, size_t end) {
+  const auto parts = detail::forChunks<FaceTallies>(context.cut.faceCount(), monitor, [&](FaceTallies& tallies, size_t begin, size_t end) {
     FaceCheck check(context, tallies);
     for (size_t f = begin; f < end; ++f) check.run(f);
   });
-  Tallies all;
-  for (const Tallies& part : parts) {
-    for (Tally Tallies::*tally : {&Tallies::faces, &Tallies::planarity, &Tallies::orientation, &Tallies::halfFaces, &Tallies::isolation}) {
+  FaceTallies all;
+  for (const FaceTallies& part : parts) {
+    for (Tally FaceTallies::*tally :
+         {&FaceTallies::faces, &FaceTallies::planarity, &FaceTallies::orientation, &FaceTallies::halfFaces, &FaceTallies::isolation}) {
       (all.*tally).merge(part.*tally);
     }
   }

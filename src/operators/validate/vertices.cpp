@@ -7,7 +7,7 @@
 namespace mandoline::validation {
 namespace {
 
-struct Tallies {
+struct VertexTallies {
   Tally vertices{"vertices"}, positions{"positions", kTolerance};
 };
 
@@ -25,7 +25,7 @@ std::vector<uint32_t> namedBy(const Context& context) {
 /// One vertex by itself.
 class VertexCheck {
  public:
-  VertexCheck(const Context& context, const std::vector<uint32_t>& named, Tallies& tallies)
+  VertexCheck(const Context& context, const std::vector<uint32_t>& named, VertexTallies& tallies)
       : x_(context), named_(named), vertices_(tallies.vertices), positions_(tallies.positions) {}
 
   void run(uint32_t v) {
@@ -150,12 +150,13 @@ void checkInputIsThere(const Context& context, const std::vector<uint32_t>& name
 
 VertexChecks checkVertices(const Context& context, detail::Monitor& monitor) {
   const std::vector<uint32_t> named = namedBy(context);
-  Tallies all;
-  const auto parts = detail::forChunks<Tallies>(context.cut.vertexCount(), monitor, [&](Tallies& tallies, size_t begin, size_t end) {
-    VertexCheck check(context, named, tallies);
-    for (size_t v = begin; v < end; ++v) check.run(uint32_t(v));
-  });
-  for (const Tallies& part : parts) {
+  VertexTallies all;
+  const auto parts =
+      detail::forChunks<VertexTallies>(context.cut.vertexCount(), monitor, [&](VertexTallies& tallies, size_t begin, size_t end) {
+        VertexCheck check(context, named, tallies);
+        for (size_t v = begin; v < end; ++v) check.run(uint32_t(v));
+      });
+  for (const VertexTallies& part : parts) {
     all.vertices.merge(part.vertices);
     all.positions.merge(part.positions);
   }
