@@ -3,6 +3,7 @@ import type { Engine, View } from '../model/types';
 import { firstPicture } from './frames';
 import type { State } from './state';
 import { loadGltfExporter } from './view/export';
+import { loadControls } from './view/layers/gizmo';
 
 /**
  * Once the first picture is drawn, one after another, each when the page has nothing else to do. What can't be loaded is asked for again
@@ -11,7 +12,7 @@ import { loadGltfExporter } from './view/export';
 export async function loadAhead(engine: Engine, state: State, view: View): Promise<void> {
   await firstPicture(state, view);
   state.thumbnails.value = 'seen';
-  for (const load of [() => engine.loadAhead(), loadGltfExporter]) {
+  for (const load of [() => engine.loadAhead(), loadGltfExporter, loadControls]) {
     await idle();
     await load().catch(() => {});
   }

@@ -1,6 +1,6 @@
 // Handles to move the free plane along its normal and to turn it.
 import { Group, Line, Mesh, Object3D, Vector3, type Camera, type ColorRepresentation } from 'three';
-import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
+import type { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
 import type { SliceSettings } from '../../../model/types';
 import type { Layer, Look } from '../layer';
 import { planeOf, reach } from '../../../model/planes';
@@ -9,6 +9,13 @@ import { sceneScale } from '../scene_space';
 const up = new Vector3(0, 0, 1);
 /** Opacity of the handles while the pointer is elsewhere. */
 const idle = 0.35;
+
+type Controls = typeof TransformControls;
+
+/** Loaded when a free plane is first seen, or ahead. */
+export async function loadControls(): Promise<Controls> {
+  return (await import('three/examples/jsm/controls/TransformControls.js')).TransformControls;
+}
 
 /** In scene units, unlike other layers: handles are as large as the screen has them. */
 export class Gizmo implements Layer {
@@ -20,21 +27,44 @@ export class Gizmo implements Layer {
   onDragging: (isDragging: boolean) => void = () => {};
   isDragging = false;
   private readonly handle = new Object3D();
-  private readonly controls: TransformControls[];
+  /** None before they are loaded. */
+  private controls: TransformControls[] = [];
+  private isLoading = false;
+  private color: ColorRepresentation = 0;
   private look: Look | null = null;
 
-  constructor(camera: Camera, canvas: HTMLCanvasElement) {
-    const [move, rotate] = (['translate', 'rotate'] as const).map((mode) => this.makeControls(mode, camera, canvas));
-    for (const key of ['showX', 'showY', 'showXY', 'showYZ', 'showXZ'] as const) move[key] = false;
-    for (const key of ['showZ', 'showE', 'showXYZE'] as const) rotate[key] = false;
-    this.controls = [move, rotate];
-    this.object.add(this.handle, move.getHelper(), rotate.getHelper());
-    this.fade();
+  constructor(
+    private readonly camera: Camera,
+    private readonly canvas: HTMLCanvasElement,
+  ) {
+    this.object.add(this.handle);
     this.hide();
   }
 
-  private makeControls(mode: 'translate' | 'rotate', camera: Camera, canvas: HTMLCanvasElement): TransformControls {
-    const controls = new TransformControls(camera, canvas);
+  /** Once. What can't be loaded now is loaded when the plane is next seen. */
+  private async load(): Promise<void> {
+    if (this.isLoading || this.controls.length > 0) return;
+    this.isLoading = true;
+    try {
+      const Controls = await loadControls();
+      const [move, rotate] = (['translate', 'rotate'] as const).map((mode) => this.makeControls(Controls, mode));
+      for (const key of ['showX', 'showY', 'showXY', 'showYZ', 'showXZ'] as const) move[key] = false;
+      for (const key of ['showZ', 'showE', 'showXYZE'] as const) rotate[key] = false;
+      this.controls = [move, rotate];
+      this.object.add(move.getHelper(), rotate.getHelper());
+      this.setColor(this.color);
+      this.fade();
+      if (this.look) this.setLook(this.look);
+      this.onChange();
+    } catch {
+      // The plane can be moved by its slider and its fields.
+    } finally {
+      this.isLoading = false;
+    }
+  }
+
+  private makeControls(Controls: Controls, mode: 'translate' | 'rotate'): TransformControls {
+    const controls = new Controls(this.camera, this.canvas);
     controls.mode = mode;
     controls.space = 'local';
     controls.size = mode === 'rotate' ? 0.65 : 0.85;
@@ -50,6 +80,7 @@ export class Gizmo implements Layer {
   }
 
   setColor(color: ColorRepresentation): void {
+    this.color = color;
     for (const controls of this.controls) controls.setColors(color, color, color, color);
   }
 
@@ -87,6 +118,7 @@ export class Gizmo implements Layer {
     this.look = look;
     if (!settings.slices.free.on || instead) return this.hide();
     this.object.visible = true;
+    void this.load();
     for (const controls of this.controls) {
       controls.enabled = true;
       controls.attach(this.handle);
