@@ -23,6 +23,7 @@ val coarsenCutMesh(const KeptCutMesh& kept, const val& options) {
     coarsenOptions.progress = progressOf(options);
     coarsenOptions.maxLevel = options["maxLevel"].as<int>();
     coarsenOptions.fineLayers = options["fineLayers"].as<int>();
+    coarsenOptions.layersPerLevel = options["layersPerLevel"].as<int>();
     coarsenOptions.balanceEdges = options["balanceEdges"].as<bool>();
     return success(toObject(coarsen(*cutMesh, coarsenOptions)));
   });

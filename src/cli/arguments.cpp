@@ -190,9 +190,11 @@ class Parser {
   }
 
   void parseCoarsen(const std::string& word) {
-    int levels = 0;
-    if (!parseNumber(word, levels) || levels < 0) throw UsageError("--coarsen needs a number of levels, not '" + word + "'");
-    arguments_.coarsen = levels;
+    const std::vector<int> numbers = parseList<int>(word);
+    if (numbers.empty() || numbers.size() > 2 || std::min(numbers.front(), numbers.back()) < 0)
+      throw UsageError("--coarsen needs a number of levels, or LEVELS,LAYERS, not '" + word + "'");
+    arguments_.coarsen = numbers[0];
+    arguments_.coarsenLayers = numbers.size() > 1 ? numbers[1] : 0;
   }
 
   void parseMerge(const std::string& word) {

@@ -65,6 +65,7 @@ struct Arguments {
   bool stream = false;               ///< cut: a folder of pieces
   bool faces = false;                ///< in .vtu files, instead of cells
   std::optional<int> coarsen;        ///< levels of octree cells; none: untouched grid cells as they are
+  int coarsenLayers = 0;             ///< of cells of each size, before larger ones
   std::optional<double> merge;       ///< fraction of a grid cell below which cells are merged; 0: not
   std::optional<double> uniteWalls;  ///< the angle, in degrees
   OnlyArguments only;

@@ -77,9 +77,13 @@ Options of cut
                          written, oriented out of it
   --inside-threshold T   estimate what is inside of open parts, which divides regions at
                          their holes: from T on (default: 0.5) of a generalized winding number
-  --coarsen LEVELS       merge untouched grid cells into octree cells, up to 2^LEVELS of
+  --coarsen LEVELS[,LAYERS]
+                         merge untouched grid cells into octree cells, up to 2^LEVELS of
                          them on a side, in .vtu files and polyMesh folders; .json files
-                         get all cells as one mesh (CellComplex) instead of the cut-mesh
+                         get all cells as one mesh (CellComplex) instead of the cut-mesh.
+                         There are at least LAYERS layers of cells of each size between
+                         smaller and larger ones (default: 0; neighbours differ by at most
+                         one level in any case)
   --merge FRACTION       merge cells below this fraction of a grid cell's volume (0 to 0.5)
                          with neighbours, in what has octree cells; never across a triangle.
                          0.2 is right for solvers. The report tells how many cells there
@@ -122,7 +126,7 @@ Options of boundary
 Options of flow
   --wind X,Y,Z           the wind's velocity: it blows on the sides of the grid, and nothing
                          passes the mesh, nor either side of a sheet
-  --coarsen LEVELS, --faces, --only WHAT, --inside-threshold T
+  --coarsen LEVELS[,LAYERS], --faces, --only WHAT, --inside-threshold T
                          as of cut; faces have normal_velocity, normal and area
   --merge FRACTION       as of cut (default: 0.2; 0 merges nothing: slivers stay, and velocities
                          near the surface are more accurate in a grid without --coarsen)

@@ -131,7 +131,8 @@ TEST_CASE("Command line: wrong usage exits with 2", "[cli]") {
       {{"cut", mesh, "--only", "region=-1"}, "--only needs cut, inside, outside or region=K"},
       {{"cut", mesh, "--only", "cut", "-o", folder.path("a.json")}, "a.json: .json files always have everything"},
       {{"cut", mesh, "-o", folder.path("{region}.json")}, ".json files always have everything"},
-      {{"cut", mesh, "--coarsen", "x"}, "--coarsen needs a number of levels, not 'x'"},
+      {{"cut", mesh, "--coarsen", "x"}, "--coarsen needs a number of levels, or LEVELS,LAYERS, not 'x'"},
+      {{"cut", mesh, "--coarsen", "2,-1"}, "--coarsen needs a number of levels, or LEVELS,LAYERS, not '2,-1'"},
       {{"cut", mesh, "--faces", "-o", folder.path("a.obj")}, "--faces: only .vtu files have faces instead of cells"},
       {{"cut", mesh, "--coarsen", "2", "-o", folder.path("a.obj")}, "--coarsen: only .vtu and .json files and polyMesh folders have cells"},
       {{"cut", mesh, "-o", "-"}, "-o - needs --format"},
@@ -507,6 +508,9 @@ TEST_CASE("Command line: octree cells, OpenFOAM and saved cut-meshes", "[cli]") 
     CHECK(contains(folder.read(std::string("case/constant/polyMesh/") + name), "FoamFile"));
   }
   CHECK(mandoline::readCutMesh(saved).regionCount == 2);
+  const std::string graded = folder.path("graded.vtu");
+  REQUIRE(run(folder, {"cut", mesh, "--cells", "12", "--coarsen", "2,2", "-o", graded}).exitCode == 0);
+  CHECK(folder.read("graded.vtu").size() > folder.read("a.vtu").size());
   REQUIRE(run(folder, {"cut", mesh, "--only", "outside", "-o", foam}).exitCode == 0);
   CHECK(!std::filesystem::exists(foam + "cellZones"));
 }

@@ -67,6 +67,7 @@ class Reference {
         }
       }
     }
+    if (own > 1 && hasSmallerNear({i, j, k}, own - 1)) return true;
     for (int dz = -1; dz <= 1; ++dz) {
       for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
@@ -75,6 +76,23 @@ class Reference {
           const int64_t x = i + dx, y = j + dy, z = k + dz;
           if (x < 0 || y < 0 || z < 0 || x >= n_[0] || y >= n_[1] || z >= n_[2]) continue;
           if (level(x, y, z) + 1 < own) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// Whether a grid cell below a level lies in the layers of blocks of this level around that of a cell.
+  bool hasSmallerNear(const std::array<int64_t, 3>& cell, int at) const {
+    std::array<int64_t, 3> first{}, past{};
+    for (size_t d = 0; d < 3; ++d) {
+      first[d] = std::max<int64_t>(0, ((cell[d] >> at) - options_.layersPerLevel) << at);
+      past[d] = std::min(n_[d], ((cell[d] >> at) + options_.layersPerLevel + 1) << at);
+    }
+    for (int64_t z = first[2]; z < past[2]; ++z) {
+      for (int64_t y = first[1]; y < past[1]; ++y) {
+        for (int64_t x = first[0]; x < past[0]; ++x) {
+          if (level(x, y, z) < at) return true;
         }
       }
     }
@@ -141,11 +159,13 @@ TEST_CASE("coarsen: the fewest balanced cells, on all cases", "[coarsen]") {
   for (const NamedCase& c : caseList()) {
     CAPTURE(c.name);
     const CutMesh mesh = cutOf(c.mesh, c.grid);
-    for (const auto& [maxLevel, fineLayers, balanceEdges] :
-         {std::tuple(24, 0, false), std::tuple(24, 0, true), std::tuple(2, 1, false), std::tuple(24, 2, true), std::tuple(0, 0, false)}) {
-      CAPTURE(maxLevel, fineLayers, balanceEdges);
+    for (const auto& [maxLevel, fineLayers, layersPerLevel, balanceEdges] :
+         {std::tuple(24, 0, 0, false), std::tuple(24, 0, 0, true), std::tuple(2, 1, 0, false), std::tuple(24, 2, 0, true),
+          std::tuple(0, 0, 0, false), std::tuple(24, 0, 1, false), std::tuple(24, 1, 2, true)}) {
+      CAPTURE(maxLevel, fineLayers, layersPerLevel, balanceEdges);
       CoarsenOptions options;
-      options.maxLevel = maxLevel, options.fineLayers = fineLayers, options.balanceEdges = balanceEdges;
+      options.maxLevel = maxLevel, options.fineLayers = fineLayers;
+      options.layersPerLevel = layersPerLevel, options.balanceEdges = balanceEdges;
       const OctreeCells cells = coarsen(mesh, options);
       requireTiling(mesh, cells);
       REQUIRE(leavesOf(cells) == Reference(mesh, options).leaves());
@@ -157,9 +177,9 @@ TEST_CASE("coarsen: any counts of grid cells", "[coarsen]") {
   const Mesh ball = shapes::icosphere({9, 5, 4}, 2.2, 2);
   for (const auto& [nx, ny, nz] : {std::tuple(33, 10, 7), std::tuple(16, 16, 16), std::tuple(17, 9, 32)}) {
     const CutMesh mesh = cutOf(ball, unitGrid(nx, ny, nz));
-    for (const bool balanceEdges : {false, true}) {
+    for (const auto& [layersPerLevel, balanceEdges] : {std::pair(0, false), std::pair(0, true), std::pair(2, false)}) {
       CoarsenOptions options;
-      options.balanceEdges = balanceEdges;
+      options.layersPerLevel = layersPerLevel, options.balanceEdges = balanceEdges;
       const OctreeCells cells = coarsen(mesh, options);
       requireTiling(mesh, cells);
       REQUIRE(leavesOf(cells) == Reference(mesh, options).leaves());
@@ -190,6 +210,10 @@ TEST_CASE("coarsen: bad options and cancelling", "[coarsen]") {
   REQUIRE_THROWS_AS(coarsen(mesh, options), CallError);
   options.fineLayers = 1 << 30;  // all of the grid
   CHECK(coarsen(mesh, options).cellCount() == UntouchedCells(mesh).count());
+  options.fineLayers = 0, options.layersPerLevel = -1;
+  REQUIRE_THROWS_AS(coarsen(mesh, options), CallError);
+  options.layersPerLevel = 1 << 30;
+  CHECK(*std::max_element(coarsen(mesh, options).cellLevel.begin(), coarsen(mesh, options).cellLevel.end()) <= 1);
   options.progress = [](const Progress&) { return false; };
   try {
     coarsen(mesh, options);

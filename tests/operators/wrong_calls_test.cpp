@@ -135,6 +135,7 @@ class Draw {
     CoarsenOptions options;
     options.maxLevel = kLevels[below(std::size(kLevels))];
     options.fineLayers = below(2) == 0 ? 0 : kLevels[below(std::size(kLevels))];
+    options.layersPerLevel = below(2) == 0 ? 0 : kLevels[below(std::size(kLevels))];
     options.balanceEdges = below(2) == 0;
     return options;
   }

@@ -78,7 +78,10 @@ test('options of coarsen()', () => {
   const { cellLevel } = physics.coarsen(cutMesh, { fineLayers: 3 });
   assert.ok(cellLevel.length > octree.cellLevel.length);
   assert.ok(physics.coarsen(cutMesh, { balanceEdges: true }).cellLevel.length >= octree.cellLevel.length);
-  assert.throws(() => physics.coarsen(cutMesh, { maxLevel: -1 }), { code: 'badOption', stage: 'coarsen' });
+  assert.equal(Math.max(...physics.coarsen(cutMesh, { layersPerLevel: 100 }).cellLevel), 1);
+  for (const options of [{ maxLevel: -1 }, { fineLayers: -1 }, { layersPerLevel: -1 }]) {
+    assert.throws(() => physics.coarsen(cutMesh, options), { code: 'badOption', stage: 'coarsen' });
+  }
 });
 
 test('small cells merged: volumes, members, and what other calls make of them', () => {

@@ -207,7 +207,15 @@ const kinds = {
       () => octree,
     ])(),
   octree: () => pick([() => octree, () => undefined, () => damaged(octree), () => ({ ...octree, gridCells: anything() }), anything])(),
-  coarsening: () => pick([undefined, { maxLevel: 1 }, { maxLevel: anything() }, { fineLayers: anything() }, { balanceEdges: anything() }]),
+  coarsening: () =>
+    pick([
+      undefined,
+      { maxLevel: 1 },
+      { maxLevel: anything() },
+      { fineLayers: anything() },
+      { layersPerLevel: anything() },
+      { balanceEdges: anything() },
+    ]),
   merging: () => pick([undefined, { fraction: 0.3 }, { fraction: 2 }, { fraction: anything() }]),
   uniting: () => pick([undefined, { angle: 10 }, { angle: 1000 }, { angle: anything() }, { groups: anything() }]),
   ids: () => pick([[], [1, 2], [2, 2], [1e5], new Uint32Array([3]), [anything()]]),

@@ -20,7 +20,7 @@ enum class Status : uint8_t {
   nonFiniteCoordinate,  ///< element: the tri-vertex
   badGrid,              ///< no cells on an axis, planes not ascending or not finite; element: the axis
   gridTooLarge,         ///< more than 2^24 cells on an axis (element), or more than 2^28 rows of cells
-  badOption,            ///< out of range: a snapTolerance outside [0, 0.5), a negative maxLevel or fineLayers
+  badOption,            ///< out of range: a snapTolerance outside [0, 0.5), a negative maxLevel or number of layers
   selfIntersection,     ///< element, element2: two triangles that meet other than in a shared vertex or edge
   meshTooLarge,         ///< 2^31 or more triangles, vertices or corners of faces, in the mesh or in the result
   outOfMemory,

@@ -53,10 +53,12 @@ class Coarsener {
   void findDivided() {
     divided_.resize(size_t(options_.maxLevel) + 1);
     if (options_.maxLevel == 0) return;
-    divided_[1] = blocksToDivide();
+    divided_[1] = parentsAround(cut_, 1, options_.fineLayers);
     for (int level = 2; level <= options_.maxLevel; ++level) {
       monitor_.report(size_t(level), size_t(options_.maxLevel));
-      for (const Block& block : divided_[size_t(level) - 1]) addParents(block, level);
+      const Blocks& inside = divided_[size_t(level) - 1];
+      if (options_.layersPerLevel > 0) divided_[size_t(level)] = parentsAround(inside, level, options_.layersPerLevel);
+      for (const Block& block : inside) addParents(block, level);
       detail::sortUnique(divided_[size_t(level)], isBefore);
     }
   }
@@ -76,15 +78,14 @@ class Coarsener {
     }
   }
 
-  /// The blocks of level 1 with grid cells that are cut or in a fine layer.
-  Blocks blocksToDivide() const {
-    Blocks blocks = cut_;
-    const int32_t layers = options_.fineLayers;
-    for (size_t d = 0; d < 3; ++d) {  // numbers of grid cells become numbers of blocks, axis by axis
+  /// The blocks of a level with blocks of the level below that are among these or in a layer around one.
+  Blocks parentsAround(Blocks blocks, int level, int32_t layers) const {
+    for (size_t d = 0; d < 3; ++d) {  // numbers of blocks become numbers of parents, axis by axis
+      const int32_t end = (result_.gridCells[d] - 1) >> (level - 1);
       Blocks spread;
       for (const Block& block : blocks) {
         Block at = block;
-        const int32_t last = (block[d] + std::min(layers, result_.gridCells[d] - 1 - block[d])) >> 1;
+        const int32_t last = (block[d] + std::min(layers, end - block[d])) >> 1;
         for (at[d] = (block[d] - std::min(layers, block[d])) >> 1; at[d] <= last; ++at[d]) spread.push_back(at);
       }
       detail::sortUnique(spread, isBefore);
@@ -157,14 +158,15 @@ int64_t OctreeCells::find(int64_t i, int64_t j, int64_t k) const {
 
 OctreeCells coarsen(const CutMesh& cutMesh, const CoarsenOptions& options) {
   operators::requireCutMesh(cutMesh);
-  if (options.maxLevel < 0 || options.fineLayers < 0) {
-    throw CallError({Status::badOption, -1, -1, "maxLevel and fineLayers can't be negative."});
+  if (options.maxLevel < 0 || options.fineLayers < 0 || options.layersPerLevel < 0) {
+    throw CallError({Status::badOption, -1, -1, "maxLevel, fineLayers and layersPerLevel can't be negative."});
   }
   return detail::runCall("coarsening", [&] {
     detail::Monitor monitor(options, 2);
     OctreeCells result = Coarsener(cutMesh, options, monitor).run();
     detail::Fingerprinter fingerprinter("octree", cutMesh.fingerprint);
-    for (const int option : {options.maxLevel, options.fineLayers, int(options.balanceEdges)}) fingerprinter.add(uint64_t(option));
+    for (const int option : {options.maxLevel, options.fineLayers, options.layersPerLevel, int(options.balanceEdges)})
+      fingerprinter.add(uint64_t(option));
     result.madeFrom = cutMesh.fingerprint;
     result.fingerprint = fingerprinter.get();
     return result;

@@ -39,7 +39,7 @@ export const physicsCalls = {
    */
   coarsen: {
     takes: { cutMesh },
-    options: { maxLevel: int32(24), fineLayers: int32(0), balanceEdges: flag(false), progress },
+    options: { maxLevel: int32(24), fineLayers: int32(0), layersPerLevel: int32(0), balanceEdges: flag(false), progress },
   },
   /**
    * One conforming mesh of all cells. `mesh` is the input that `cutMesh` was made from, and `octree` comes from coarsen(cutMesh); without

@@ -32,6 +32,8 @@ export interface CoarsenOptions extends RunOptions {
   maxLevel?: number;
   /** How many layers of grid cells around each cut one, diagonally too, are not merged. Default 0. */
   fineLayers?: number;
+  /** How many layers of cells of each level above 0 lie at least, diagonally too, between smaller and larger ones. Default 0. */
+  layersPerLevel?: number;
   /** Whether cells that share only an edge also differ by at most one level. Default false. */
   balanceEdges?: boolean;
 }
