@@ -1,6 +1,7 @@
 // Octree cells in place of untouched grid cells, against an octree that divides its blocks until nothing is left to divide.
 #include "mandoline/coarsen.h"
 
+#include <algorithm>
 #include <set>
 
 #include "case_list.h"
