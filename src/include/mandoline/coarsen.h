@@ -10,7 +10,7 @@ struct CoarsenOptions : RunOptions {
   int maxLevel = 24;          ///< octree cells have at most 2^maxLevel grid cells on a side; 0 merges nothing
   int fineLayers = 0;         ///< how many layers of grid cells around each cut one, diagonally too, are not merged
   bool balanceEdges = false;  ///< whether cells that share only an edge also differ by at most one level
-  int layersPerLevel = 0;     ///< how many layers of cells of each level above 0 lie, diagonally too, between smaller and larger ones
+  int layersPerLevel = 0;     ///< least layers of cells of each level above 0, diagonally too, between smaller and larger ones
 };
 
 /// The cells that replace the untouched grid cells. One of level L is a block of 2^L grid cells on a side that begins at multiples of 2^L,

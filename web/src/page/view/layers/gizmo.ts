@@ -54,7 +54,8 @@ export class Gizmo implements Layer {
       this.object.add(move.getHelper(), rotate.getHelper());
       this.setColor(this.color);
       this.fade();
-      if (this.look) this.setLook(this.look);
+      if (this.look && this.object.visible) this.setLook(this.look);
+      else this.hide();
       this.onChange();
     } catch {
       // The plane can be moved by its slider and its fields.
