@@ -5,6 +5,7 @@
 #include <emscripten/bind.h>
 
 #include "cut_meshes.h"
+#include "mandoline/drawing.h"
 #include "mandoline/inspect.h"
 #include "mandoline/locate.h"
 #include "mandoline/measure.h"
@@ -65,8 +66,8 @@ val cutMesh(const val& mesh, const val& grid, const val& options) {
       result = cut(input, readGrid(grid, input), cutOptions);
     }
     if (!result) return failure(result.error, lastStage(result.stats));
-    val value = val::object(), plain = toObject(result.mesh);
-    if (options["gridCellRegion"].as<bool>()) plain.set("gridCellRegion", toArray(result.mesh.gridCellRegion()));
+    val value = val::object(), plain = toObject(result.mesh, options["copy"]);
+    if (options["gridCellRegion"].as<bool>()) plain.set("gridCellRegion", toArray(result.mesh.gridCellRegion(), options["copy"]));
     plain.set("stats", toObject(result.stats));
     value.set("cutMesh", plain);
     if (options["keep"].as<bool>()) value.set("twin", KeptCutMesh(std::move(result.mesh)));
@@ -184,6 +185,13 @@ val triangulateRegionOf(const KeptCutMesh& kept, uint32_t region) {
   return guarded([&, cutMesh = kept.get()] { return success(toArray(triangulateRegion(*cutMesh, region))); });
 }
 
+val drawingOf(const val& mesh, const KeptCutMesh& kept, const val& options) {
+  return guarded([&, cutMesh = kept.get()] {
+    const Mesh input = fromObject<Mesh>(mesh);
+    return success(toObject(cellDrawing(input, *cutMesh, readTriple<double>(options["origin"])), options["copy"]));
+  });
+}
+
 val cellsAtPoints(const KeptCutMesh& kept, const val& points) {
   return guarded([&, cutMesh = kept.get()] {
     std::vector<double> coordinates;
@@ -258,6 +266,7 @@ EMSCRIPTEN_BINDINGS(mandoline) {
   emscripten::function("triangulate", &triangulateAll);
   emscripten::function("triangulateCell", &triangulateOne);
   emscripten::function("triangulateRegion", &triangulateRegionOf);
+  emscripten::function("cellDrawing", &drawingOf);
   emscripten::function("cellsAt", &cellsAtPoints);
   emscripten::function("slice", &sliceCutMesh);
   emscripten::function("slices", &sliceByPlanes);

@@ -21,7 +21,7 @@ void ObjectWriter::setNumber(const char* key, double value) const { set(key, val
 void ObjectWriter::setText(const char* key, const std::string& value) const { set(key, val(value)); }
 
 void ObjectWriter::setArray(const char* key, const char* type, const void* numbers, size_t count) const {
-  set(key, toArray(type, numbers, count));
+  set(key, toArray(type, numbers, count, copy_));
 }
 
 template <>

@@ -47,7 +47,7 @@ struct MemberName {
 /// What is visited becomes a member of an object. The functions that do it are few, and no templates, for the module's size.
 class ObjectWriter {
  public:
-  explicit ObjectWriter(val& object) : object_(object) {}
+  explicit ObjectWriter(val& object, const val& copy) : object_(object), copy_(copy) {}
 
   template <class Field>
   void operator()(MemberName member, const Field& field) const {
@@ -96,6 +96,7 @@ class ObjectWriter {
   void setArray(const char* key, const char* type, const void* numbers, size_t count) const;
 
   val& object_;
+  const val& copy_;
 };
 
 /// What is visited is taken from a member of an object.
@@ -136,11 +137,16 @@ class ObjectReader {
   const val& object_;
 };
 
+/// `copy`: as in toArray(), for the arrays of the struct itself.
+template <class Struct>
+val toObject(const Struct& value, const val& copy) {
+  val result = val::object();
+  Struct::fields(value, ObjectWriter(result, copy));
+  return result;
+}
 template <class Struct>
 val toObject(const Struct& value) {
-  val result = val::object();
-  Struct::fields(value, ObjectWriter(result));
-  return result;
+  return toObject(value, val::undefined());
 }
 
 template <class Struct>

@@ -25,6 +25,7 @@ const words = { 'StageTime.stage': 'Stage', 'Progress.stage': 'Stage | (string &
 
 const arrays = {
   double: 'Float64Array',
+  float: 'Float32Array',
   uint32_t: 'Uint32Array',
   int32_t: 'Int32Array',
   uint8_t: 'Uint8Array',

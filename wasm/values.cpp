@@ -11,7 +11,10 @@ static val viewOf(const char* type, const void* numbers, size_t count) {
   return val::global(type).new_(buffer, reinterpret_cast<uintptr_t>(numbers), count);
 }
 
-val toArray(const char* type, const void* numbers, size_t count) { return viewOf(type, numbers, count).call<val>("slice"); }
+val toArray(const char* type, const void* numbers, size_t count, const val& copy) {
+  const val view = viewOf(type, numbers, count);
+  return copy.isUndefined() ? view.call<val>("slice") : copy(view);
+}
 
 void copyArray(const val& array, const char* type, void* numbers, size_t count) { viewOf(type, numbers, count).call<void>("set", array); }
 

@@ -22,17 +22,18 @@ template <class Number>
 constexpr const char* arrayType() {
   if constexpr (std::is_enum_v<Number>) return arrayType<std::underlying_type_t<Number>>();
   if constexpr (std::is_same_v<Number, double>) return "Float64Array";
+  if constexpr (std::is_same_v<Number, float>) return "Float32Array";
   if constexpr (std::is_same_v<Number, uint32_t>) return "Uint32Array";
   if constexpr (std::is_same_v<Number, int32_t>) return "Int32Array";
   if constexpr (std::is_same_v<Number, int8_t>) return "Int8Array";
   if constexpr (std::is_same_v<Number, uint8_t> || std::is_same_v<Number, char>) return "Uint8Array";
 }
 
-/// A typed array that owns its memory: `count` numbers are copied once.
-val toArray(const char* type, const void* numbers, size_t count);
+/// A typed array that owns its memory: `count` numbers are copied once, by a function of JavaScript if one is given.
+val toArray(const char* type, const void* numbers, size_t count, const val& copy = val::undefined());
 template <class Number>
-val toArray(const std::vector<Number>& items) {
-  return toArray(arrayType<Number>(), items.data(), items.size());
+val toArray(const std::vector<Number>& items, const val& copy = val::undefined()) {
+  return toArray(arrayType<Number>(), items.data(), items.size(), copy);
 }
 
 /// The other way: copies an array's numbers, of any type, to memory.

@@ -77,6 +77,57 @@ test('a cube across eight grid cells', async () => {
   assert.ok(Math.abs(areaOf(cut.positions, surface) - 6) < 1e-12);
 });
 
+test('a drawing has all cut-cells, less the origin', () => {
+  const cut = mandoline.cut(cube, grid);
+  const { positions, normals, vertexCell, triangles, surfaceTriangles, edges, hybridEdges, gridEdges, ...shapes } = mandoline.cellDrawing(
+    cube,
+    cut,
+    { origin: [1, 1, 1] },
+  );
+  assert.equal(vertexCell.length * 3, positions.length);
+  assert.equal(vertexCell.length * 4, normals.length);
+  assert.ok(positions instanceof Float32Array && positions.every((x) => Math.abs(x) <= 1));
+  for (let i = 0; i < 3 * surfaceTriangles; ++i) assert.equal(normals[4 * triangles[i] + 3], 1);
+  assert.equal(areaOf(positions, triangles.subarray(0, 3 * surfaceTriangles)), 2 * 6, 'the surface from both sides');
+  assert.equal(areaOf(positions, triangles), 2 * (6 + 12) + 24);
+  // On each side of the cube two planes make four, each of which has four cells; diagonals and the cube's own edges lie in no plane.
+  assert.equal(hybridEdges, 6 * 4 * 4);
+  assert.ok(gridEdges > 0 && edges.length / 2 > hybridEdges + gridEdges);
+  assert.deepEqual([...new Set(shapes.cellVolume)].sort(), [0.125, 0.875]);
+  assert.equal(shapes.cellCentroid.length, 3 * cut.cellRegion.length);
+  assert.equal(shapes.madeFrom, cut.fingerprint);
+});
+
+test('arrays are written into buffers that are given back', () => {
+  const buffersOf = (result) => Object.values(result).flatMap((array) => (ArrayBuffer.isView(array) ? [array.buffer] : []));
+  const ring = torus(24, 12);
+  const moved = { ...ring, positions: Float64Array.from(ring.positions, (x) => x + 0.0625) };
+  const around = { min: [-2, -2, -1], max: [2, 2, 1], cells: [8, 8, 4] };
+  const wanted = mandoline.cut(moved, around);
+  const wantedDrawing = mandoline.cellDrawing(moved, wanted);
+  const first = mandoline.cut(ring, around, { reuse: [] });
+  const firstDrawing = mandoline.cellDrawing(ring, first, { reuse: [] });
+  const [known, drawn] = [buffersOf(first), buffersOf(firstDrawing)];
+  const second = mandoline.cut(moved, around, { reuse: known });
+  const drawing = mandoline.cellDrawing(moved, second, { reuse: drawn });
+  const { stats: _, ...plain } = second;
+  const { stats: __, ...wantedPlain } = wanted;
+  assert.deepEqual(plain, wantedPlain);
+  assert.deepEqual(drawing, wantedDrawing);
+  const used = buffersOf(second);
+  assert.ok(used.every((buffer) => buffer.byteLength === 0 || known.includes(buffer)));
+  assert.ok(buffersOf(drawing).every((buffer) => drawn.includes(buffer)));
+  assert.equal(new Set(used).size, used.length, 'each once');
+
+  structuredClone(null, { transfer: buffersOf(second) });
+  assert.deepEqual(mandoline.cut(moved, around, { reuse: used }).positions, wanted.positions, 'those that are gone are left out');
+  assert.throws(() => mandoline.cut(cube, grid, { reuse: known[0] }), { code: 'badArgument', message: /^options\.reuse must be an array/ });
+  assert.throws(() => mandoline.cut(cube, grid, { reuse: [wanted.positions] }), {
+    code: 'badArgument',
+    message: /^options\.reuse\[0\] must be an ArrayBuffer, not Float64Array/,
+  });
+});
+
 test('points are found in their cells', () => {
   const cut = mandoline.cut(cube, grid);
   const inside = cut.regionWinding.indexOf(1);

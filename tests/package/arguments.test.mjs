@@ -149,6 +149,7 @@ const calls = {
   measure: (wrong) => mandoline.measure(mesh, wrong),
   cutEdges: (wrong) => mandoline.cutEdges(mesh, wrong),
   adjacency: (wrong) => mandoline.adjacency(wrong),
+  cellDrawing: (wrong) => mandoline.cellDrawing(mesh, wrong),
   triangulate: (wrong) => mandoline.triangulate(wrong),
   'triangulate one cell': (wrong) => mandoline.triangulate(wrong, { cell: 0 }),
   'triangulate one region': (wrong) => mandoline.triangulate(wrong, { region: 0 }),

@@ -1,5 +1,6 @@
 // The calls of a table (see calls.js), on a module that has been started.
 import { readMembers, readOptions, readStart } from './arguments.js';
+import { copierInto } from './buffers.js';
 import { named } from './errors.js';
 import { Host, isResult } from './host.js';
 import { once } from './load.js';
@@ -33,7 +34,8 @@ function makeCall(host, name, call) {
   const { takes, options, keeps, run = (bindings, ...args) => bindings[name](...args) } = call;
   const parameters = Object.entries(takes);
   return (...given) => {
-    const { progress: told, ...what } = readOptions(given[parameters.length], options);
+    const { progress: told, reuse, ...what } = readOptions(given[parameters.length], options);
+    const copy = reuse && copierInto(reuse);
     return withProgress(told, (progress) => {
       const inputs = [];
       const asInput = (taken, value) => {
@@ -44,7 +46,7 @@ function makeCall(host, name, call) {
       const readings = parameters.map(([parameter, taken], i) => readArgument(taken, given[i], parameter, asInput));
       return host.runWith(inputs, (bindings, handles, twins) => {
         const args = readings.map((give) => give(handles));
-        const outcome = run(bindings, ...args, ...(options ? [{ ...what, progress }] : []));
+        const outcome = run(bindings, ...args, ...(options ? [{ ...what, progress, copy }] : []));
         return keeps ? keepTwin(outcome, call, { kind: keeps, ...what }, host, twins) : outcome;
       });
     });

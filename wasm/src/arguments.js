@@ -61,6 +61,15 @@ export const optional =
   (value, name, ...context) =>
     value === undefined ? value : read(value, name, ...context);
 
+/** Undefined, or an array of ArrayBuffers. */
+export function readBuffers(value, name) {
+  if (value === undefined) return value;
+  if (!Array.isArray(value)) throw bad(`${name} must be an array of ArrayBuffers, not ${kindOf(value)}.`);
+  const wrong = value.findIndex((buffer) => tagOf(buffer) !== 'ArrayBuffer');
+  if (wrong >= 0) throw bad(`${name}[${wrong}] must be an ArrayBuffer, not ${kindOf(value[wrong])}.`, 'badArgument', wrong);
+  return value;
+}
+
 export function expectNumber(value, name) {
   if (typeof value !== 'number') throw bad(`${name} must be a number, not ${kindOf(value)}.`);
   return value;

@@ -13,6 +13,26 @@ export function buffersOf(value) {
   return [...buffers];
 }
 
+/** Of what is made where no buffer fits: the next such arrays may be a little longer. */
+const room = 1.25;
+/** A buffer that is larger than this many times an array is left for others. */
+const excess = 4;
+
+/** A function that copies typed arrays, each into the smallest of these buffers that fits and that no other has got. */
+export function copierInto(buffers) {
+  const free = new Set(buffers);
+  return (array) => {
+    const size = array.byteLength;
+    if (size === 0) return array.slice();
+    const fits = ({ byteLength }) => byteLength >= size && byteLength <= Math.max(excess * size, 4096);
+    const smallest = [...free].filter(fits).sort((a, b) => a.byteLength - b.byteLength)[0];
+    free.delete(smallest);
+    const copy = new array.constructor(smallest ?? new ArrayBuffer(8 * Math.ceil((room * size) / 8)), 0, array.length);
+    copy.set(array);
+    return copy;
+  };
+}
+
 /** structuredClone(), also in Node's jsdom, which has none. */
 export function clone(value, transfer) {
   if (typeof structuredClone === 'function') return structuredClone(value, { transfer });

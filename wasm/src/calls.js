@@ -14,6 +14,7 @@ import {
   expectNumber,
   flag,
   numbered,
+  readBuffers,
   readFlags,
   readFunction,
   readGrid,
@@ -33,6 +34,8 @@ import { readFile, readName } from './files.js';
 const cutMesh = { kind: 'cutMesh' };
 
 const progress = readFunction;
+const reuse = readBuffers;
+const readOrigin = (value = [0, 0, 0], name) => readVector(value, name);
 const intersections = numbered(Intersections);
 const rule = numbered(WindingRule);
 const threshold = (value = 0.5, name) => expectNumber(value, name);
@@ -72,7 +75,7 @@ export const cutCalls = {
    */
   cut: {
     takes: { mesh: { kind: 'prepared', otherwise: readMesh }, grid: readGrid },
-    options: { snapTolerance: readSnapTolerance, intersections, gridCellRegion: flag(true), keep: flag(true), progress },
+    options: { snapTolerance: readSnapTolerance, intersections, gridCellRegion: flag(true), keep: flag(true), reuse, progress },
     keeps: 'cutMesh',
     isCut: true,
     run: (bindings, mesh, grid, options) => {
@@ -185,6 +188,12 @@ export const cutCalls = {
       return region === undefined ? bindings.triangulate(handle) : bindings.triangulateRegion(handle, region);
     },
   },
+  /**
+   * Buffers to draw all cut-cells with: indexed triangles with smooth normals, and edges by kind. `mesh` is the input of the cut.
+   *
+   * cellDrawing(mesh: Mesh, cutMesh: CutMeshArrays, options?: DrawingOptions): CellDrawing
+   */
+  cellDrawing: { takes: { mesh: readMesh, cutMesh }, options: { origin: readOrigin, reuse } },
   /**
    * Which cell holds this point; null outside the grid. A point on a face counts to one of the cells beside it.
    *

@@ -71,6 +71,20 @@ export const CutMesh = {
   fingerprint: 'Fingerprint',
 };
 
+export const CellDrawing = {
+  positions: 'Float32Array',
+  normals: 'Int8Array',
+  vertexCell: 'Uint32Array',
+  triangles: 'Uint32Array',
+  surfaceTriangles: 'integer',
+  edges: 'Uint32Array',
+  hybridEdges: 'integer',
+  gridEdges: 'integer',
+  cellVolume: 'Float64Array',
+  cellCentroid: 'Float32Array',
+  madeFrom: 'Fingerprint',
+};
+
 export const InsideRegions = {
   isInside: 'Uint8Array',
   by: 'InsideBy',

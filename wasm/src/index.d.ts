@@ -116,8 +116,17 @@ export interface PrepareOptions extends IntersectionHandling {
   orient?: boolean;
 }
 
+export interface Reusing {
+  /**
+   * Buffers that nobody needs any more, such as those under the arrays of a former result: the arrays of this one are written into them
+   * where they fit, and into slightly larger new ones where not, so that cutting a surface that moves needs no new memory from one frame
+   * to the next. Former results in them are lost. For a worker, list them in `transfer`, too.
+   */
+  reuse?: ArrayBuffer[];
+}
+
 /** `intersections` is not looked at for a mesh that prepare() gave: what prepare() was told holds. */
-export interface CutOptions extends IntersectionHandling {
+export interface CutOptions extends IntersectionHandling, Reusing {
   /** Tri-vertices within this distance of an axial plane (in cells, below 0.5) are moved onto it before cutting. Default 0. */
   snapTolerance?: number;
   /** Whether the result has `gridCellRegion`, which takes 4 bytes per grid cell; the runs say the same in less. Default true. */
@@ -197,6 +206,11 @@ export interface Location {
 export interface Plane {
   normal: Vector3;
   offset: number;
+}
+
+export interface DrawingOptions extends Reusing {
+  /** Subtracted from positions before they are rounded to 32 bits; the middle of the grid's box is best. Default: 0, 0, 0. */
+  origin?: Vector3;
 }
 
 export interface SliceOptions {

@@ -187,6 +187,42 @@ export interface CutMeshArrays {
   fingerprint?: Fingerprint;
 }
 
+/**
+ * Every cut-cell has vertices of its own, so that it can be coloured, moved or hidden by its id. Within a cell, faces share them, except
+ * where the surface has a crease: there, each side has its own. So a face between two cut-cells is drawn for both, and an edge for each of
+ * its cells.
+ */
+export interface CellDrawing {
+  /** 3 per vertex, less the origin. */
+  positions: Float32Array<ArrayBuffer>;
+  /**
+   * 4 per vertex: where pieces of triangles have it, 127 times the unit normal of the surface, made smooth (that of the triangles' fronts,
+   * whichever side the cell is on), and 1; else 0.
+   */
+  normals: Int8Array<ArrayBuffer>;
+  /** Per vertex: the cut-cell. */
+  vertexCell: Uint32Array<ArrayBuffer>;
+
+  /** 3 vertices per triangle, counter-clockwise seen from outside of the cell: first pieces of triangles, then pieces of grid-faces. */
+  triangles: Uint32Array<ArrayBuffer>;
+  /** So many are pieces of triangles. */
+  surfaceTriangles: number;
+  /** 2 vertices per edge: first hybrid edges, then grid-edges, then pieces of tri-edges inside of grid cells. */
+  edges: Uint32Array<ArrayBuffer>;
+  /** Those in one axial plane. */
+  hybridEdges: number;
+  /** Those in two. */
+  gridEdges: number;
+
+  // For sorting, colours and exploding, not for computing: see measure().
+  /** Per cut-cell, from its triangles. */
+  cellVolume: Float64Array<ArrayBuffer>;
+  /** 3 per cut-cell, less the origin; of the thinnest cells, the mean of their faces' corners. */
+  cellCentroid: Float32Array<ArrayBuffer>;
+  /** The fingerprint of the cut-mesh. */
+  madeFrom?: Fingerprint;
+}
+
 /** What insideRegions() says. */
 export interface InsideRegions {
   /** Per region. */

@@ -1,10 +1,12 @@
 // Written by wasm/signatures.mjs from calls.js: change that.
 import type {
   Adjacency,
+  CellDrawing,
   CutEdges,
   CutMesh,
   CutMeshArrays,
   CutOptions,
+  DrawingOptions,
   EstimateOptions,
   FaceTriangles,
   GridInput,
@@ -94,6 +96,8 @@ export interface Calls {
    */
   triangulate(cutMesh: CutMeshArrays, of?: undefined): FaceTriangles;
   triangulate(cutMesh: CutMeshArrays, of: { cell: number } | { region: number }): Uint32Array<ArrayBuffer>;
+  /** Buffers to draw all cut-cells with: indexed triangles with smooth normals, and edges by kind. `mesh` is the input of the cut. */
+  cellDrawing(mesh: Mesh, cutMesh: CutMeshArrays, options?: DrawingOptions): CellDrawing;
   /** Which cell holds this point; null outside the grid. A point on a face counts to one of the cells beside it. */
   cellAt(cutMesh: CutMeshArrays, point: Vector3): Location | null;
   /** Which cell holds each point (3 coordinates per point): one call for many points is far faster than many calls. */
@@ -130,6 +134,7 @@ export interface WorkerCalls {
   adjacency(cutMesh: CutMeshArrays, options?: CallOptions): Promise<Adjacency>;
   triangulate(cutMesh: CutMeshArrays, of?: undefined, options?: CallOptions): Promise<FaceTriangles>;
   triangulate(cutMesh: CutMeshArrays, of: { cell: number } | { region: number }, options?: CallOptions): Promise<Uint32Array<ArrayBuffer>>;
+  cellDrawing(mesh: Mesh, cutMesh: CutMeshArrays, options?: DrawingOptions & CallOptions): Promise<CellDrawing>;
   cellAt(cutMesh: CutMeshArrays, point: Vector3, options?: CallOptions): Promise<Location | null>;
   cellsAt(cutMesh: CutMeshArrays, points: ArrayLike<number>, options?: CallOptions): Promise<Locations>;
   slice(cutMesh: CutMeshArrays, plane: Plane, options?: SliceOptions & CallOptions): Promise<Slice>;

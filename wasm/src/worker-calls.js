@@ -23,7 +23,7 @@ const extra = { options: { progress: readFunction }, isExtra: true };
 
 /** The options of the call itself, read (`what`) and as they were given, if there are any; and those that stay here. */
 function splitOptions(given, readers) {
-  const { signal, transfer, progress, ...what } = readOptions(given, { ...readers, ...callOptions });
+  const { signal, transfer, progress, reuse: _reuse, ...what } = readOptions(given, { ...readers, ...callOptions });
   if (given === undefined) return { what, transfer };
   const { signal: _, transfer: __, progress: ___, ...options } = given;
   return { what, options, signal, transfer, onProgress: progress };

@@ -3,8 +3,9 @@
 // After "Mandoline: Robust Cut-Cell Generation for Arbitrary Triangle Meshes" (Tao, Batty, Fiume, Levin; SIGGRAPH Asia 2019), with
 // exact predicates in place of floating-point decisions. This header has all of the library mandoline::mandoline. grid.h, cut.h and
 // cut_mesh.h are about the cut and its result; mesh.h, prepare.h, intersections.h, resolve.h, inspect.h, orient.h and shapes.h about
-// meshes; measure.h, triangulate.h, locate.h, inside.h, slice.h, coarsen.h, cell_complex.h, merge.h and validate.h work on cut-meshes and
-// see nothing but these public structs. Files are in io.h; operators.h, poisson.h and flow.h, which need Eigen, compute on all cells.
+// meshes; measure.h, triangulate.h, drawing.h, locate.h, inside.h, slice.h, coarsen.h, cell_complex.h, merge.h and validate.h work on
+// cut-meshes and see nothing but these public structs. Files are in io.h; operators.h, poisson.h and flow.h, which need Eigen, compute on
+// all cells.
 //
 //   mandoline::Mesh mesh = mandoline::readMesh("bunny.obj");  // io.h
 //   mandoline::CutResult result = mandoline::cut(mesh, mandoline::Grid::around(mesh, 32));
@@ -16,6 +17,7 @@
 #include "mandoline/cell_complex.h"
 #include "mandoline/coarsen.h"
 #include "mandoline/cut.h"
+#include "mandoline/drawing.h"
 #include "mandoline/for_each_brick.h"
 #include "mandoline/inside.h"
 #include "mandoline/inspect.h"

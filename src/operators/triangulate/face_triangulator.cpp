@@ -61,6 +61,10 @@ View viewOf(const std::vector<double>& positions, const Face& face) {
 }  // namespace
 
 void FaceTriangulator::run(const Face& face, std::vector<uint32_t>& triangles) {
+  if (const auto outer = face.loops[0]; face.loops.size() == 1 && outer.size() == 3) {
+    triangles.insert(triangles.end(), outer.begin(), outer.end());
+    return;
+  }
   const View view = viewOf(positions_, face);
   for (const std::span<const uint32_t> loop : face.loops) {
     polygon_.startLoop();

@@ -36,6 +36,8 @@ export interface Calls {
   loadAhead: { ask: null; answer: void };
   /** Gives a mesh to a thread that took the place of another. */
   keep: { ask: LoadedMesh; answer: void };
+  /** Gives back the buffers of a model, for the next one of a surface that moves. */
+  reuse: { ask: ArrayBuffer[]; answer: void };
   cut: { ask: AboutCut<{ slicing: Slicing }>; answer: Model };
   slice: { ask: AboutCut<{ planes: readonly { normal: Vector3; offset: number }[]; untouched: boolean }>; answer: Slice[] };
   validate: { ask: AboutCut; answer: Checks };

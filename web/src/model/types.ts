@@ -112,6 +112,8 @@ export interface Caps {
 export interface Model {
   /** Counts up with every cut. */
   id: number;
+  /** Whether it is a moment of a motion. Then `triangles` and `edges` are written over once another model is drawn. */
+  isMoving: boolean;
   name: string;
   grid: Grid;
   origin: Vector3;
@@ -244,6 +246,8 @@ export interface Engine {
   /** Loads the readers of files before a file is opened. */
   loadAhead(): Promise<void>;
   cut(cutting: Cutting, slicing: Slicing): Promise<Model>;
+  /** Takes back a model that is not needed any more, to write later ones over it. */
+  reuse(model: Model): void;
   /** Ends the load or cut under way: they reject with an AbortError. */
   cancel(): void;
   onProgress: (progress: { stage: string; fraction: number } | null) => void;
@@ -321,6 +325,8 @@ export interface View {
   setInstead(instead: Instead | null): void;
   /** Draws the other way of this right of the divider, or the model alone. */
   setComparison(comparison: Comparison | null): void;
+  /** Nothing of a former model is needed here any more. */
+  onSpent: (model: Model) => void;
   setPinned(cell: number | null): void;
   /** Taps set the places of this distance from now on, which is drawn; null ends that. */
   setMeasurement(measurement: Measurement | null): void;

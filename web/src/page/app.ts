@@ -62,6 +62,7 @@ export class App {
     engine.onProgress = (progress) => (state.progress.value = progress);
     view.onHover = (cell) => (state.hovered.value = cell);
     view.onPick = (cell) => void this.inspector.pin(cell);
+    view.onSpent = (model) => engine.reuse(model);
     view.onTurned = (axes) => (state.axesSeen.value = axes);
     view.onCamera = (camera) => this.change({ camera }, false);
     this.windTunnel = new WindTunnel(state, engine, view);

@@ -88,6 +88,13 @@ class WorkerEngine implements Engine {
     }
   }
 
+  reuse({ isMoving, triangles, edges }: Model): void {
+    if (!isMoving) return;
+    const arrays = [triangles.position, triangles.normal, triangles.cell, triangles.index, edges.index];
+    const buffers = arrays.map(({ buffer }) => buffer as ArrayBuffer);
+    this.call('reuse', buffers, { transfer: buffers }).catch(() => {}); // then the next cut tells what is wrong
+  }
+
   /** WebAssembly's memory never shrinks: after a cut far smaller than one before, another thread goes on. */
   private giveBackMemory(size: number): void {
     const isFarSmaller = this.largestCut > largeCut && size < this.largestCut / 8;

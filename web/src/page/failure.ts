@@ -8,6 +8,7 @@ const titles: Record<CallName | WindCallName, string> = {
   load: "The mesh can't be read",
   loadAhead: "The readers can't be loaded",
   keep: "The mesh can't be kept",
+  reuse: "Memory can't be used again",
   cut: "The mesh can't be cut",
   slice: "The cells can't be sliced",
   validate: "The cut-mesh can't be validated",

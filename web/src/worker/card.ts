@@ -2,7 +2,7 @@ import type { Adjacency, CutMesh, Mandoline } from 'mandoline-wasm';
 import { cellArrays, cellEdgeArrays, type CellEdgeArrays } from 'mandoline-wasm/three';
 import { pageError } from '../model/failure';
 import type { CellCard } from '../model/types';
-import type { Cut } from './kept';
+import { faceTrianglesOf, type Cut } from './kept';
 
 export function cellCard(mandoline: Mandoline, cut: Cut, cell: number): CellCard {
   const { cutMesh, mesh, origin } = cut;
@@ -12,7 +12,7 @@ export function cellCard(mandoline: Mandoline, cut: Cut, cell: number): CellCard
   const { measures, adjacency } = cut;
   const region = cutMesh.cellRegion[cell];
   const faces = facesOf(cutMesh, cell);
-  const { position, normal, face } = cellArrays(cutMesh, cut.faceTriangles, { cells: [cell], origin });
+  const { position, normal, face } = cellArrays(cutMesh, faceTrianglesOf(mandoline, cut), { cells: [cell], origin });
   const edges = cellEdgeArrays(cutMesh, { cells: [cell], origin });
   return {
     cell,

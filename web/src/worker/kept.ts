@@ -16,7 +16,8 @@ export interface Cut {
   estimateMs: number | null;
   /** The middle of the grid's box. */
   origin: Vector3;
-  faceTriangles: FaceTriangles;
+  /** Made when something asks for them: see faceTrianglesOf(). */
+  faceTriangles: FaceTriangles | null;
   /** Made when a card asks for them. */
   measures: Measures | null;
   adjacency: Adjacency | null;
@@ -63,28 +64,39 @@ function withEstimates(mandoline: Mandoline, mesh: LoadedMesh, cutMesh: CutMesh,
   return Object.assign(mandoline.estimateInside(mesh, cutMesh, { progress }), { stats: cutMesh.stats });
 }
 
+/** While a surface moves, a cut is written over the one before it. */
 export function makeCut(mandoline: Mandoline, recipe: Recipe, tell: (progress: CallProgress) => void): Cut {
-  newest = cutNow(mandoline, recipe, tell);
+  const reuse = recipe.pose ? (newest?.recipe.pose ? buffersUnder(newest.cutMesh) : []) : undefined;
+  newest = null;
+  newest = cutNow(mandoline, recipe, tell, reuse);
   return newest;
 }
 
+function buffersUnder(cutMesh: CutMesh): ArrayBuffer[] {
+  return Object.values(cutMesh).flatMap((array) => (ArrayBuffer.isView(array) ? [array.buffer as ArrayBuffer] : []));
+}
+
 /** A cut that isn't kept. */
-export function cutNow(mandoline: Mandoline, recipe: Recipe, tell: (progress: CallProgress) => void): Cut {
+export function cutNow(mandoline: Mandoline, recipe: Recipe, tell: (progress: CallProgress) => void, reuse?: ArrayBuffer[]): Cut {
   const mesh = posed(mandoline, meshOf(recipe.mesh), recipe.pose);
   checkSize(recipe.grid, mesh.bounds);
   const grid = recipe.pose && !('min' in recipe.grid) ? gridAround(mesh.bounds, recipe.grid.cells) : recipe.grid;
   const exact = mandoline.cut(preparedMesh(mandoline, mesh, recipe), grid as GridInput, {
     snapTolerance: recipe.snapTolerance,
     gridCellRegion: false,
+    reuse,
     progress: telling(tell, 0, 0.5),
   });
   const start = performance.now();
   const cutMesh = withEstimates(mandoline, mesh, exact, telling(tell, 0.5, 0.85));
   const estimateMs = cutMesh === exact ? null : performance.now() - start;
-  tell({ stage: 'triangles', fraction: 0.85 });
   const [x, y, z] = cutMesh.grid.planes.map((planes) => (planes[0] + planes[planes.length - 1]) / 2);
-  const faceTriangles = mandoline.triangulate(cutMesh);
-  return { recipe, mesh, cutMesh, estimateMs, origin: [x, y, z], faceTriangles, measures: null, adjacency: null };
+  return { recipe, mesh, cutMesh, estimateMs, origin: [x, y, z], faceTriangles: null, measures: null, adjacency: null };
+}
+
+export function faceTrianglesOf(mandoline: Mandoline, cut: Cut): FaceTriangles {
+  cut.faceTriangles ??= mandoline.triangulate(cut.cutMesh);
+  return cut.faceTriangles;
 }
 
 /** The cut of a recipe, made again by a thread that took the place of the one that made it. */

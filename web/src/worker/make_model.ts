@@ -1,31 +1,29 @@
 // What the page gets of a cut: ready to be drawn, in arrays of its own.
-import type { CutMesh, InsideRegions, Mandoline } from 'mandoline-wasm';
-import type { LoadedMesh } from '../model/calls';
+import type { CellDrawing, CutMesh, InsideRegions, Mandoline } from 'mandoline-wasm';
 import { flatPlanes, inWorld } from '../model/planes';
 import type { Caps, CellInfo, Model, RegionInfo, Slicing } from '../model/types';
-import { cellBuffers } from './cell_buffers';
-import { cellShapes } from './cell_shapes';
-import { cornerNormals } from './corner_normals';
-import { faceNormals } from './face_normals';
 import type { Cut } from './kept';
 
-/** Normals of a mesh that is cut again and again. */
-const knownCorners = new WeakMap<LoadedMesh, Float32Array>();
+/** Buffers of models that the page does not need any more. */
+let spare: ArrayBuffer[] = [];
 
-function cornersOf(mesh: LoadedMesh): Float32Array {
-  const corners = knownCorners.get(mesh) ?? cornerNormals(mesh);
-  knownCorners.set(mesh, corners);
-  return corners;
+/** The next model of a surface that moves is written into these. */
+export function reuseLater(buffers: ArrayBuffer[]): void {
+  spare = buffers;
 }
 
 export function makeModel(mandoline: Mandoline, cut: Cut, slicing: Slicing): Model {
   const { recipe, mesh, cutMesh, origin, estimateMs } = cut;
   const { planes } = cutMesh.grid;
-  const cells = cellInfo(cut);
+  const isMoving = recipe.pose !== null;
+  const drawing = mandoline.cellDrawing(mesh, cutMesh, { origin, reuse: isMoving ? spare : undefined });
+  spare = [];
+  const cells = cellInfo(cutMesh, drawing);
   const inside = mandoline.insideRegions(cutMesh, { rule: 'nonZero' });
   const regions = regionInfo(cutMesh, inside, cells);
   return {
     id: recipe.id,
+    isMoving,
     name: mesh.name,
     grid: structuredClone(cutMesh.grid),
     origin,
@@ -50,7 +48,7 @@ export function makeModel(mandoline: Mandoline, cut: Cut, slicing: Slicing): Mod
     insideBy: inside.by,
     outsideRegion: regions.find(({ isInside }) => !isInside)?.id ?? null,
     cells,
-    ...cellBuffers(cutMesh, cut.faceTriangles, faceNormals(mesh, cornersOf(mesh), cutMesh), origin),
+    ...drawn(drawing),
     gridCellRegion: gridCellRegion(cutMesh),
     caps: capsOf(mandoline, cut, slicing),
   };
@@ -67,11 +65,15 @@ function capsOf(mandoline: Mandoline, { cutMesh, origin }: Cut, slicing: Slicing
   }
 }
 
-function cellInfo({ cutMesh, faceTriangles, origin }: Cut): CellInfo {
+function cellInfo(cutMesh: CutMesh, { cellVolume, cellCentroid }: CellDrawing): CellInfo {
+  return { region: cutMesh.cellRegion.slice(), volume: cellVolume, centroid: cellCentroid, gridCell: cutMesh.cellGridCell.slice() };
+}
+
+function drawn(drawing: CellDrawing): Pick<Model, 'triangles' | 'edges'> {
+  const { positions, normals, vertexCell, triangles, surfaceTriangles, edges, hybridEdges, gridEdges } = drawing;
   return {
-    region: cutMesh.cellRegion.slice(),
-    ...cellShapes(cutMesh, faceTriangles, origin),
-    gridCell: cutMesh.cellGridCell.slice(),
+    triangles: { position: positions, normal: normals, cell: vertexCell, index: triangles, surfaceEnd: 3 * surfaceTriangles },
+    edges: { index: edges, hybridEnd: 2 * hybridEdges, gridEnd: 2 * (hybridEdges + gridEdges) },
   };
 }
 

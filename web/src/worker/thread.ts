@@ -5,9 +5,9 @@ import { serve } from 'mandoline-wasm/worker-thread';
 import type { CallName, CallProgress, Calls } from '../model/calls';
 import { otherGrid } from '../model/comparison';
 import { loadAhead } from './ahead';
-import { cutNow, cutOf, keep, makeCut } from './kept';
+import { cutNow, cutOf, faceTrianglesOf, keep, makeCut } from './kept';
 import { loadMesh } from './load';
-import { makeModel } from './make_model';
+import { makeModel, reuseLater } from './make_model';
 
 type Tell = (progress: CallProgress) => void;
 type Answering = {
@@ -22,9 +22,10 @@ const calls: Answering = {
   },
   loadAhead,
   keep: (_mandoline, mesh) => keep(mesh),
+  reuse: (_mandoline, buffers) => reuseLater(buffers),
   cut(mandoline, { recipe, slicing }, tell) {
     const cut = makeCut(mandoline, recipe, tell);
-    tell({ stage: 'drawing', fraction: 0.9 });
+    tell({ stage: 'drawing', fraction: 0.85 });
     return makeModel(mandoline, cut, slicing);
   },
   slice(mandoline, { recipe, planes, untouched }) {
@@ -49,8 +50,8 @@ const calls: Answering = {
   },
   async step(mandoline, { recipe, request }) {
     const { stepPicture } = await import('./steps');
-    const { mesh, cutMesh, faceTriangles, origin } = cutOf(mandoline, recipe);
-    return stepPicture(mesh, cutMesh, faceTriangles, request, origin);
+    const cut = cutOf(mandoline, recipe);
+    return stepPicture(cut.mesh, cut.cutMesh, faceTrianglesOf(mandoline, cut), request, cut.origin);
   },
   async compare(mandoline, { recipe, way }) {
     const { comparison } = await import('./compare');

@@ -55,6 +55,7 @@ class ThreeView implements View {
   onHover: View['onHover'] = () => {};
   onPick: View['onPick'] = () => {};
   pictures = 0;
+  onSpent: View['onSpent'] = () => {};
   onTurned: View['onTurned'] = () => {};
   onCamera: View['onCamera'] = () => {};
   onFreePlane: View['onFreePlane'] = () => {};
@@ -92,6 +93,8 @@ class ThreeView implements View {
   private readonly flatCuts: FlatCuts;
   readonly files: Files;
   private model: Model | null = null;
+  /** Models before it that touches and files may still ask for. */
+  private former: Model[] = [];
   private shifts: Float32Array = new Float32Array(0);
   private settings: Settings | null = null;
   private instead: Instead | null = null;
@@ -197,6 +200,7 @@ class ThreeView implements View {
     this.loop.finish();
     if (frame) this.framing.forget();
     else if (this.model) this.framing.keep(this.model, model);
+    if (this.model) this.former.push(this.model);
     this.model = model;
     this.shifts = regionShifts(model);
     this.root.scale.setScalar(sceneScale(model));
@@ -208,8 +212,8 @@ class ThreeView implements View {
   }
 
   clear(): void {
-    this.model = null;
-    this.look = null;
+    this.model = this.look = null;
+    this.former = [];
     this.forgetCells();
     for (const object of [this.modelGroup, this.insteadGroup, this.windTunnel.object, this.ruler.object]) object.visible = false;
     this.gizmo.hide();
@@ -317,6 +321,7 @@ class ThreeView implements View {
       ...this.flatCuts.choose(model, settings),
     };
     this.look = look;
+    for (const former of this.former.splice(0)) this.onSpent(former);
     for (const layer of this.layers) {
       const needs = layer.dependsOn(look);
       const had = this.made.get(layer);

@@ -90,15 +90,16 @@ export class CutCells implements Layer {
       normal: { array: triangles.normal, size: 4, normalized: true },
       cell: { array: triangles.cell, size: 1 },
     };
-    // Nobody needs a model's arrays once another has come, and they are too large to be kept twice.
-    refill(geometry, attributes, triangles.index, true);
+    // Those of models that move are needed elsewhere once another has come. Others' are too large to be kept twice.
+    const mayKeep = !model.isMoving;
+    refill(geometry, attributes, triangles.index, mayKeep);
     geometry.clearGroups();
     geometry.addGroup(0, triangles.surfaceEnd, 0);
     geometry.addGroup(triangles.surfaceEnd, triangles.index.length - triangles.surfaceEnd, 1);
     // What both share is not the lines' to dispose of.
     const lines = this.lines.geometry;
     for (const name of ['position', 'cell']) lines.deleteAttribute(name);
-    refill(lines, {}, edges.index, true);
+    refill(lines, {}, edges.index, mayKeep);
     for (const name of ['position', 'cell']) lines.setAttribute(name, geometry.getAttribute(name));
     const { hybridEnd, gridEnd, index } = edges;
     lines.clearGroups();
