@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/large_array.h"
 #include "base/position_table.h"
 #include "base/run_tasks.h"
 #include "base/sort.h"
@@ -116,24 +117,24 @@ void makeRoom(const Numbers& numbers, CutMesh& out, Monitor& monitor) {
                loops = size_t(total.triLoops) + total.loops;
   const uint32_t loopVertices = total.triLoopVertices + total.loopVertices;
   const std::function<void()> rooms[] = {
-      [&] { out.loopVertices.resize(loopVertices); },
-      [&] { out.positions.resize(3 * vertices); },
-      [&] { out.vertexCell.resize(3 * vertices); },
-      [&] { out.vertexParents.resize(2 * vertices, -1); },
-      [&] { out.cellHalfFaces.resize(total.halfFaces); },
-      [&] { out.loopOffsets.resize(loops + 1, loopVertices); },
-      [&] { out.faceLoopOffsets.resize(faces + 1, uint32_t(loops)); },
-      [&] { out.faceParentOffsets.resize(faces + 1, total.parents); },
-      [&] { out.faceTriangle.resize(faces, -1); },
-      [&] { out.facePlane.resize(faces); },
-      [&] { out.faceParents.resize(total.parents); },
-      [&] { out.vertexTriVertex.resize(vertices, -1); },
-      [&] { out.cellGridCell.resize(3 * size_t(total.cells)); },
-      [&] { out.cellHalfFaceOffsets.resize(size_t(total.cells) + 1, total.halfFaces); },
-      [&] { out.cellRegion.resize(total.cells); },
-      [&] { out.faceAxis.resize(faces, -1); },
-      [&] { out.faceParentSigns.resize(total.parents); },
-      [&] { out.vertexMask.resize(vertices); },
+      [&] { makeLarge(out.loopVertices, loopVertices); },
+      [&] { makeLarge(out.positions, 3 * vertices); },
+      [&] { makeLarge(out.vertexCell, 3 * vertices); },
+      [&] { makeLarge(out.vertexParents, 2 * vertices, -1); },
+      [&] { makeLarge(out.cellHalfFaces, total.halfFaces); },
+      [&] { makeLarge(out.loopOffsets, loops + 1, loopVertices); },
+      [&] { makeLarge(out.faceLoopOffsets, faces + 1, uint32_t(loops)); },
+      [&] { makeLarge(out.faceParentOffsets, faces + 1, total.parents); },
+      [&] { makeLarge(out.faceTriangle, faces, -1); },
+      [&] { makeLarge(out.facePlane, faces); },
+      [&] { makeLarge(out.faceParents, total.parents); },
+      [&] { makeLarge(out.vertexTriVertex, vertices, -1); },
+      [&] { makeLarge(out.cellGridCell, 3 * size_t(total.cells)); },
+      [&] { makeLarge(out.cellHalfFaceOffsets, size_t(total.cells) + 1, total.halfFaces); },
+      [&] { makeLarge(out.cellRegion, total.cells); },
+      [&] { makeLarge(out.faceAxis, faces, -1); },
+      [&] { makeLarge(out.faceParentSigns, total.parents); },
+      [&] { makeLarge(out.vertexMask, vertices); },
   };
   runTasks(rooms, monitor);
 }
