@@ -8,15 +8,35 @@
 
 namespace mandoline::detail {
 
-#ifdef __linux__
-void askForLargePages(void* begin, size_t bytes) {
-  constexpr uintptr_t kPage = uintptr_t(1) << 21;
-  const uintptr_t first = (reinterpret_cast<uintptr_t>(begin) + kPage - 1) & ~(kPage - 1),
-                  past = (reinterpret_cast<uintptr_t>(begin) + bytes) & ~(kPage - 1);
-  if (first < past) madvise(reinterpret_cast<void*>(first), past - first, MADV_HUGEPAGE);
+#if defined(__linux__) && defined(MADV_POPULATE_WRITE)
+
+namespace {
+
+constexpr uintptr_t kPage = uintptr_t(1) << 12, kLargePage = uintptr_t(1) << 21;
+/// Fewer bytes are not worth the call.
+constexpr uintptr_t kFew = 16 * kPage;
+
+void advise(uintptr_t begin, uintptr_t end, int advice) {
+  if (begin + kFew <= end) madvise(reinterpret_cast<void*>(begin), end - begin, advice);
 }
+
+}  // namespace
+
+void getPages(void* begin, size_t bytes) {
+  const auto roundedUp = [](uintptr_t at, uintptr_t page) { return (at + page - 1) & ~(page - 1); };
+  const uintptr_t first = roundedUp(reinterpret_cast<uintptr_t>(begin), kPage),
+                  past = (reinterpret_cast<uintptr_t>(begin) + bytes) & ~(kPage - 1), firstLarge = roundedUp(first, kLargePage),
+                  pastLarge = past & ~(kLargePage - 1);
+  if (firstLarge >= pastLarge) return advise(first, past, MADV_POPULATE_WRITE);
+  advise(firstLarge, pastLarge, MADV_HUGEPAGE);
+  advise(first, firstLarge, MADV_POPULATE_WRITE);
+  advise(pastLarge, past, MADV_POPULATE_WRITE);
+}
+
 #else
-void askForLargePages(void*, size_t) {}
+
+void getPages(void*, size_t) {}
+
 #endif
 
 }  // namespace mandoline::detail

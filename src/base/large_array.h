@@ -1,5 +1,5 @@
-// Room for large arrays. Where the system offers large pages, their memory comes in these: touched for the first time in pages of 4 KB, it
-// takes longer than what is then written into it.
+// Memory of large arrays. Touched for the first time page by page, it takes longer than what is then written into it, above all in virtual
+// machines; so the system is asked for it in large pages, where it has such, and otherwise for many pages at once.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +8,23 @@
 
 namespace mandoline::detail {
 
-/// Asks the system for large pages in a part of memory that has not been touched yet. What can't be had is left as it is.
-void askForLargePages(void* begin, size_t bytes);
+/// Gets memory that is about to be written to. Nothing happens where the system can't.
+void getPages(void* begin, size_t bytes);
 
 /// Makes an empty array that long.
 template <class Item>
 void makeLarge(std::vector<Item>& items, size_t count, std::type_identity_t<Item> fill = {}) {
   items.reserve(count);
-  askForLargePages(items.data(), count * sizeof(Item));
+  getPages(items.data(), count * sizeof(Item));
   items.resize(count, fill);
+}
+
+/// Makes an empty array the same as another one.
+template <class Array>
+void copyLarge(const Array& from, Array& to) {
+  to.reserve(from.size());
+  getPages(to.data(), from.size() * sizeof(typename Array::value_type));
+  to.assign(from.begin(), from.end());
 }
 
 }  // namespace mandoline::detail

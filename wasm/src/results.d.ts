@@ -196,8 +196,8 @@ export interface CellDrawing {
   /** 3 per vertex, less the origin. */
   positions: Float32Array<ArrayBuffer>;
   /**
-   * 4 per vertex: where pieces of triangles have it, 127 times the unit normal of the surface, made smooth (that of the triangles' fronts,
-   * whichever side the cell is on), and 1; else 0.
+   * 4 per vertex: where pieces of triangles have it, 127 times the surface's unit normal, made smooth and on the side of the fronts of
+   * triangles, whichever side the cell is on; and 1. Else 0.
    */
   normals: Int8Array<ArrayBuffer>;
   /** Per vertex: the cut-cell. */
@@ -207,7 +207,7 @@ export interface CellDrawing {
   triangles: Uint32Array<ArrayBuffer>;
   /** So many are pieces of triangles. */
   surfaceTriangles: number;
-  /** 2 vertices per edge: first hybrid edges, then grid-edges, then pieces of tri-edges inside of grid cells. */
+  /** 2 vertices per edge: first hybrid edges, then grid-edges, then pieces of tri-edges that lie in no axial plane. */
   edges: Uint32Array<ArrayBuffer>;
   /** Those in one axial plane. */
   hybridEdges: number;

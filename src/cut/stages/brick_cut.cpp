@@ -3,6 +3,7 @@
 #include <memory>
 #include <numeric>
 
+#include "base/large_array.h"
 #include "base/sort.h"
 
 namespace mandoline::detail {
@@ -106,7 +107,7 @@ class Harvest {
   /// What the stages have room for, and no more.
   template <class T>
   static void copy(const T& from, T& to) {
-    to.assign(from.begin(), from.end());
+    copyLarge(from, to);
   }
   template <class Item, class Group>
   static void copy(const Csr<Item, Group>& from, Csr<Item, Group>& to) {

@@ -13,16 +13,18 @@ namespace MANDOLINE_API mandoline {
 /// its cells.
 struct CellDrawing {
   std::vector<float> positions;  ///< 3 per vertex, less the origin
-  std::vector<int8_t> normals;   ///< 4 per vertex: where pieces of triangles have it, 127 times the unit normal of the surface, made smooth
-                                 ///< (that of the triangles' fronts, whichever side the cell is on), and 1; else 0
+  /// 4 per vertex: where pieces of triangles have it, 127 times the surface's unit normal, made smooth and on the side of the fronts of
+  /// triangles, whichever side the cell is on; and 1. Else 0.
+  std::vector<int8_t> normals;
   std::vector<uint32_t> vertexCell;  ///< per vertex: the cut-cell
 
-  std::vector<uint32_t> triangles;  ///< 3 vertices per triangle, counter-clockwise seen from outside of the cell: first pieces of
-                                    ///< triangles, then pieces of grid-faces
+  /// 3 vertices per triangle, counter-clockwise seen from outside of the cell: first pieces of triangles, then pieces of grid-faces.
+  std::vector<uint32_t> triangles;
   uint32_t surfaceTriangles = 0;  ///< so many are pieces of triangles
-  std::vector<uint32_t> edges;  ///< 2 vertices per edge: first hybrid edges, then grid-edges, then pieces of tri-edges inside of grid cells
-  uint32_t hybridEdges = 0;     ///< those in one axial plane
-  uint32_t gridEdges = 0;       ///< those in two
+  /// 2 vertices per edge: first hybrid edges, then grid-edges, then pieces of tri-edges that lie in no axial plane.
+  std::vector<uint32_t> edges;
+  uint32_t hybridEdges = 0;  ///< those in one axial plane
+  uint32_t gridEdges = 0;    ///< those in two
 
   // For sorting, colours and exploding, not for computing: see measure().
   std::vector<double> cellVolume;   ///< per cut-cell, from its triangles
