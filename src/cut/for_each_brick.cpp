@@ -1,6 +1,7 @@
 #include "mandoline/for_each_brick.h"
 
 #include <bit>
+#include <optional>
 
 #include "cut/brick_triangles.h"
 #include "cut/contradiction.h"
@@ -15,6 +16,8 @@ namespace mandoline {
 namespace detail {
 namespace {
 
+constexpr int kBrickStages = 5;  // of cutInput()
+
 int shiftOf(int64_t cells) {
   constexpr int64_t kMost = int64_t(1) << 24;
   if (cells < 1 || cells > kMost || !std::has_single_bit(uint64_t(cells)))
@@ -22,52 +25,50 @@ int shiftOf(int64_t cells) {
   return std::countr_zero(uint64_t(cells));
 }
 
-class BrickByBrick {
+/// A mesh and a grid, and what each brick has to know of them.
+class BrickSource {
  public:
   /// `mesh` is that of the user, which was prepared with the intersections of `cutOptions`.
-  BrickByBrick(const Prepared& prepared, const MeshView& mesh, const Grid& grid, const CutOptions& cutOptions, Run& run)
-      : prepared_(prepared), mesh_(mesh), grid_(grid), cutOptions_(cutOptions), run_(run) {}
-
-  void run(const std::function<void(CutPiece)>& f, const ForEachBrickOptions& options) {
-    run_.monitor.beginStage("grid", 0);
-    input_ = prepareInput(prepared_, grid_, run_);
+  BrickSource(const Prepared& prepared, const MeshView& mesh, const Grid& grid, const CutOptions& cutOptions,
+              const ForEachBrickOptions& options, Run& run)
+      : prepared_(prepared), mesh_(mesh), grid_(grid), cutOptions_(cutOptions), untouched_(options.untouched) {
+    input_ = prepareInput(prepared_, grid_, run);
     bricks_ = BrickGrid(input_, shiftOf(options.cells));
     triangles_ = findBrickTriangles(input_, bricks_);
-    run_.monitor.beginStage("bricks", 1);
-    const uint64_t all = uint64_t(bricks_.counts[0]) * uint64_t(bricks_.counts[1]) * uint64_t(bricks_.counts[2]);
-    total_ = options.untouched ? all : triangles_.near.keys.size();
-    for (done_ = 0; done_ < total_; ++done_) {
-      CutPiece piece = cut(options.untouched ? done_ : triangles_.near.keys[done_], options);
-      if (options.untouched || piece.cutMesh.cellCount() > 0) callBack(f, std::move(piece));
-    }
   }
 
- private:
-  CutPiece cut(uint64_t key, const ForEachBrickOptions& options) {
+  uint64_t count() const {
+    const uint64_t all = uint64_t(bricks_.counts[0]) * uint64_t(bricks_.counts[1]) * uint64_t(bricks_.counts[2]);
+    return untouched_ ? all : triangles_.near.keys.size();
+  }
+
+  BrickBox boxOf(uint64_t brick) const { return bricks_.boxOf(keyOf(brick)); }
+
+  CutPiece cut(uint64_t brick, const RunOptions& options) const {
+    const uint64_t key = keyOf(brick);
     const Excerpt excerpt(prepared_, triangles_.near[key]);
-    const BrickBox box = withMargin(bricks_, key);
+    const BrickBox margin = withMargin(bricks_, key);
     CutPiece piece;
     takeMesh(excerpt, piece);
-    BrickBox brick = bricks_.boxOf(key);
+    BrickBox box = bricks_.boxOf(key);
     for (size_t d = 0; d < 3; ++d) {
-      piece.first[d] = brick.first[d];
-      brick.first[d] -= box.first[d];
+      piece.first[d] = box.first[d];
+      box.first[d] -= margin.first[d];
     }
-    piece.cutMesh = restrictedTo(brick, cutBox(excerpt, key, piece.mesh, options));
+    piece.cutMesh = restrictedTo(box, cutBox(excerpt, key, piece.mesh, options));
     sign(piece.cutMesh, fingerprintOf(piece.mesh), cutOptions_);
     return piece;
   }
 
+ private:
+  uint64_t keyOf(uint64_t brick) const { return untouched_ ? brick : triangles_.near.keys[brick]; }
+
   /// The brick with its margin.
-  CutMesh cutBox(const Excerpt& excerpt, uint64_t key, const MeshView& mesh, const ForEachBrickOptions& options) {
+  CutMesh cutBox(const Excerpt& excerpt, uint64_t key, const MeshView& mesh, const RunOptions& options) const {
     const BrickBox box = withMargin(bricks_, key);
     std::array<std::vector<double>, 3> planes;
     for (size_t d = 0; d < 3; ++d) planes[d] = planesOf(grid_.planes[d], box, d);
-    RunOptions part{options.threads, {}};
-    if (options.progress)
-      part.progress = [&](const Progress&) { return options.progress({"bricks", 1, 2, size_t(done_), size_t(total_)}); };
-    constexpr int kStages = 1;  // none is told of
-    Monitor monitor(part, kStages);
+    Monitor monitor(options, kBrickStages);
     CutStats stats;
     Clock clock(stats, monitor);
     Run run{stats, monitor};
@@ -76,7 +77,7 @@ class BrickByBrick {
     try {
       return cutInput(state, mesh, Grid::rectilinear(std::move(planes)), clock, run);
     } catch (Failure& failure) {
-      throw Failure{ofWhole(failure.error, excerpt)};
+      throw Failure{ofWhole(failure.error, excerpt, run)};
     }
   }
 
@@ -106,53 +107,93 @@ class BrickByBrick {
   }
 
   /// An error that names triangles of an excerpt.
-  Error ofWhole(Error error, const Excerpt& excerpt) const {
+  Error ofWhole(Error error, const Excerpt& excerpt, Run& run) const {
     for (int64_t* triangle : {&error.element, &error.element2}) {
       if (*triangle >= 0) *triangle = excerpt.triangles[size_t(*triangle)];
     }
     if (error.status != Status::selfIntersection) return error;
-    return explainContradiction(input_, error.element, error.element2, run_);
-  }
-
-  /// What f throws passes through, even if the library throws the same.
-  static void callBack(const std::function<void(CutPiece)>& f, CutPiece piece) {
-    try {
-      f(std::move(piece));
-    } catch (...) {
-      throw ProgressFailed{std::current_exception()};
-    }
+    return explainContradiction(input_, error.element, error.element2, run);
   }
 
   const Prepared& prepared_;
-  const MeshView& mesh_;
+  const MeshView mesh_;
   const Grid& grid_;
-  const CutOptions& cutOptions_;
-  Run& run_;
+  const CutOptions cutOptions_;
+  const bool untouched_;
   Input input_;
   BrickGrid bricks_;
   BrickTriangles triangles_;
-  uint64_t done_ = 0, total_ = 0;
 };
+
+void requireBrick(uint64_t brick, uint64_t count) {
+  if (brick < count) return;
+  const std::string message = "There is no brick " + std::to_string(brick) + ": there are " + std::to_string(count) + ".";
+  throw CallError({Status::badArgument, int64_t(brick), -1, message});
+}
 
 }  // namespace
 }  // namespace detail
 
-void forEachBrick(const PreparedMesh& mesh, const Grid& grid, const std::function<void(CutPiece)>& f, const ForEachBrickOptions& options) {
-  using namespace detail;
+using namespace detail;
+
+struct BrickCutter::Data {
+  PreparedMesh mesh;
+  Grid grid;
+  std::unique_ptr<const Prepared> again;  // where the grid is far larger than the mesh
+  std::optional<BrickSource> source;
+};
+
+BrickCutter::BrickCutter(PreparedMesh mesh, Grid grid, const ForEachBrickOptions& options) {
   runCall("cut", [&] {
-    checkGrid(grid, 0);
-    const MeshView view = mesh.mesh();
-    Monitor monitor(options, 2);
+    auto data = std::make_shared<Data>();
+    data->mesh = std::move(mesh);
+    data->grid = std::move(grid);
+    checkGrid(data->grid, 0);
+    const MeshView view = data->mesh.mesh();
+    Monitor monitor(options, 1);
     CutStats stats;
     Run run{stats, monitor};
-    const PreparedMeshData* data = mesh.data();
+    const PreparedMeshData* prepared = data->mesh.data();
     CutOptions cutOptions;
-    if (data) cutOptions.intersections = data->intersections;
-    std::unique_ptr<const Prepared> again;  // where the grid is far larger than the mesh
-    if (!data || !fits(*data->prepared, grid))
-      again = prepareMesh(view, {largestCoordinate(grid), cutOptions.intersections}, monitor, [](const char*) {});
-    BrickByBrick(again ? *again : *data->prepared, view, grid, cutOptions, run).run(f, options);
+    if (prepared) cutOptions.intersections = prepared->intersections;
+    if (!prepared || !fits(*prepared->prepared, data->grid))
+      data->again = prepareMesh(view, {largestCoordinate(data->grid), cutOptions.intersections}, monitor, [](const char*) {});
+    monitor.beginStage("grid", 0);
+    data->source.emplace(data->again ? *data->again : *prepared->prepared, view, data->grid, cutOptions, options, run);
+    data_ = std::move(data);
   });
+}
+
+uint64_t BrickCutter::count() const { return data_->source->count(); }
+
+std::array<int64_t, 3> BrickCutter::first(uint64_t brick) const {
+  requireBrick(brick, count());
+  const auto [x, y, z] = data_->source->boxOf(brick).first;
+  return {x, y, z};
+}
+
+CutPiece BrickCutter::cut(uint64_t brick, const RunOptions& options) const {
+  requireBrick(brick, count());
+  return runCall("cut", [&] { return data_->source->cut(brick, options); });
+}
+
+void forEachBrick(const PreparedMesh& mesh, const Grid& grid, const std::function<void(CutPiece)>& f, const ForEachBrickOptions& options) {
+  constexpr int kStages = 2;
+  const auto told = [&](Progress progress, int stage) {
+    progress.stageIndex = stage;
+    progress.stageCount = kStages;
+    return options.progress(progress);
+  };
+  ForEachBrickOptions atFirst = options;
+  if (options.progress) atFirst.progress = [&](const Progress& progress) { return told(progress, 0); };
+  const BrickCutter cutter(mesh, grid, atFirst);
+  const uint64_t total = cutter.count();
+  for (uint64_t done = 0; done < total; ++done) {
+    RunOptions part{options.threads, {}};
+    if (options.progress) part.progress = [&](const Progress&) { return told({"bricks", 0, 0, size_t(done), size_t(total)}, 1); };
+    CutPiece piece = cutter.cut(done, part);
+    if (options.untouched || piece.cutMesh.cellCount() > 0) f(std::move(piece));
+  }
 }
 
 }  // namespace mandoline

@@ -1,10 +1,14 @@
 #include "mandoline/for_each_brick.h"
 
+#include <optional>
+#include <thread>
+
 #include "case_list.h"
 #include "catch.h"
 #include "checked_cut.h"
 #include "described_cells.h"
 #include "refusal.h"
+#include "same_bits.h"
 #include "shapes.h"
 
 using namespace mandoline;
@@ -197,4 +201,54 @@ TEST_CASE("What the callbacks throw passes through", "[pieces]") {
   CHECK_THROWS_AS(forEachBrick(
                       prepared, unitGrid(4), [](const CutPiece&) {}, options),
                   int);
+}
+
+TEST_CASE("Bricks are cut in any order, and by several threads at a time", "[pieces]") {
+  const Mesh mesh = shapes::merged({shapes::torus({4.1, 3.9, 4}, 2.5, 0.8, 16, 10), shapes::icosphere({5, 4, 4}, 1.5, 2)});
+  const Grid grid = unitGrid(8);
+  std::optional<BrickCutter> kept;
+  {
+    const PreparedMesh prepared = preparedOf(mesh);
+    kept.emplace(prepared, grid, bricksOf(4));
+  }  // it keeps what it needs
+  const BrickCutter cutter = *kept;
+  kept.reset();
+  REQUIRE(cutter.count() == 8);
+  std::vector<CutPiece> inOrder;
+  forEachBrick(
+      preparedOf(mesh), grid, [&](CutPiece piece) { inOrder.push_back(std::move(piece)); }, bricksOf(4));
+  REQUIRE(inOrder.size() == 8);
+  std::vector<CutPiece> pieces(8);
+  const auto cutFrom = [&](uint64_t first) {
+    for (uint64_t b = first; b < 8; b += 2) pieces[7 - b] = cutter.cut(7 - b, bricksOf(4));
+  };
+#ifdef __EMSCRIPTEN__
+  cutFrom(0);
+  cutFrom(1);
+#else
+  std::thread other([&] { cutFrom(1); });
+  cutFrom(0);
+  other.join();
+#endif
+  for (size_t b = 0; b < 8; ++b) {
+    CHECK(cutter.first(b) == inOrder[b].first);
+    CHECK(pieces[b].first == inOrder[b].first);
+    CHECK((partsOf(pieces[b].cutMesh) == partsOf(inOrder[b].cutMesh)));
+  }
+}
+
+TEST_CASE("Bricks that are not there, that the surface is far from, and that it comes near to but does not touch", "[pieces]") {
+  const Mesh small = shapes::octahedron({1.5, 1.5, 1.5}, 0.75), larger = shapes::octahedron({2.5, 2.5, 2.5}, 0.75);
+  const BrickCutter near(preparedOf(small), unitGrid(8), bricksOf(4)), all(preparedOf(small), unitGrid(8), bricksOf(4, true)),
+      nearer(preparedOf(larger), unitGrid(8), bricksOf(4));
+  REQUIRE(near.count() == 1);
+  REQUIRE(all.count() == 8);
+  REQUIRE(nearer.count() == 8);
+  CHECK(near.cut(0).cutMesh.cellCount() > 0);
+  CHECK(all.cut(7).cutMesh.cellCount() == 0);
+  CHECK(nearer.cut(7).cutMesh.cellCount() == 0);
+  CHECK(all.first(7) == std::array<int64_t, 3>{4, 4, 4});
+  CHECK(refusal([&] { all.cut(8); }) == std::pair{Status::badArgument, int64_t(8)});
+  CHECK(refusal([&] { near.first(1); }) == std::pair{Status::badArgument, int64_t(1)});
+  CHECK(refusal([&] { BrickCutter(preparedOf(small), unitGrid(8), bricksOf(3)); }).first == Status::badOption);
 }

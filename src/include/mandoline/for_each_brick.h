@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "mandoline/prepare.h"
 
@@ -26,10 +27,29 @@ struct ForEachBrickOptions : RunOptions {
   bool untouched = false;  ///< whether bricks come, too, in which the surface touches no grid cell
 };
 
-/// Calls f(piece) for the bricks of the grid, by z, then y, then x, one after the other, on the caller's thread. Needs memory for the
-/// prepared mesh and one piece, and time for the triangles near each brick. Errors are those of cut(), thrown as CallError; only where
-/// Intersections::assumeNone leads to a contradiction, other triangles may be named, or none. What f and options.progress throw passes
-/// through.
+/// Cuts bricks in any order, also several at a time on threads of the caller's, or some here and others elsewhere: each needs nothing of
+/// another. Copies share what they hold, which never changes.
+class BrickCutter {
+ public:
+  /// Finds the triangles near each brick. Throws CallError as cut() has errors.
+  BrickCutter(PreparedMesh mesh, Grid grid, const ForEachBrickOptions& options = {});
+
+  /// The bricks that the surface comes near to, or with `untouched` all, by z, then y, then x.
+  uint64_t count() const;
+  /// The lowest grid cell of a brick. Throws CallError if there is no such brick (element).
+  std::array<int64_t, 3> first(uint64_t brick) const;
+  /// The piece may have no cut-cells. Throws CallError if there is no such brick, and as forEachBrick() does.
+  CutPiece cut(uint64_t brick, const RunOptions& options = {}) const;
+
+ private:
+  struct Data;
+  std::shared_ptr<const Data> data_;
+};
+
+/// Calls f(piece) for the bricks of the grid, by z, then y, then x, one after the other, on the caller's thread; not for those without
+/// cut-cells, unless `untouched`. Needs memory for the prepared mesh and one piece, and time for the triangles near each brick. Errors are
+/// those of cut(), thrown as CallError; only where Intersections::assumeNone leads to a contradiction, other triangles may be named, or
+/// none. What f and options.progress throw passes through.
 void forEachBrick(const PreparedMesh& mesh, const Grid& grid, const std::function<void(CutPiece)>& f,
                   const ForEachBrickOptions& options = {});
 
