@@ -83,6 +83,20 @@ struct Csr {
   }
 };
 
+/// The same in memory of somebody else.
+template <class Item, class Group = size_t>
+struct CsrSpan {
+  std::span<const uint32_t> offsets;
+  std::span<const Item> items;
+
+  std::span<const Item> operator[](Group group) const {
+    const size_t g = indexOf(group);
+    return items.subspan(offsets[g], offsets[g + 1] - offsets[g]);
+  }
+  /// Groups first .. past - 1.
+  Groups<Item> groups(size_t first, size_t past) const { return {offsets.data() + first, past - first, items.data()}; }
+};
+
 /// Groups n items by groupOf(i); itemOf(i) is stored. The order within a group is that of i.
 template <class Item, class Group = size_t, class GroupOf, class ItemOf>
 Csr<Item, Group> groupBy(size_t groups, size_t n, const GroupOf& groupOf, const ItemOf& itemOf) {

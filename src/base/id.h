@@ -4,6 +4,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace mandoline::detail {
@@ -56,6 +57,16 @@ struct IdVector : std::vector<Item> {
   using std::vector<Item>::vector;
 
   Item& operator[](Id id) { return this->data()[id.number]; }
+  const Item& operator[](Id id) const { return this->data()[id.number]; }
+  Ids<Id> ids() const { return Ids<Id>(this->size()); }
+};
+
+/// The same in memory of somebody else.
+template <class Id, class Item>
+struct IdSpan : std::span<const Item> {
+  IdSpan() = default;
+  explicit IdSpan(std::span<const Item> items) : std::span<const Item>(items) {}
+
   const Item& operator[](Id id) const { return this->data()[id.number]; }
   Ids<Id> ids() const { return Ids<Id>(this->size()); }
 };

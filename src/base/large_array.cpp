@@ -12,7 +12,7 @@ namespace mandoline::detail {
 
 namespace {
 
-constexpr uintptr_t kPage = uintptr_t(1) << 12, kLargePage = uintptr_t(1) << 21;
+constexpr uintptr_t kPage = uintptr_t(1) << 12, kLargePage = kPageAlignment;
 /// Fewer bytes are not worth the call.
 constexpr uintptr_t kFew = 16 * kPage;
 

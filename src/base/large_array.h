@@ -8,6 +8,13 @@
 
 namespace mandoline::detail {
 
+/// Where large pages begin, if there are such.
+#ifdef __linux__
+inline constexpr size_t kPageAlignment = size_t(1) << 21;
+#else
+inline constexpr size_t kPageAlignment = 16;
+#endif
+
 /// Gets memory that is about to be written to. Nothing happens where the system can't.
 void getPages(void* begin, size_t bytes);
 

@@ -25,6 +25,14 @@ int shiftOf(int64_t cells) {
   return std::countr_zero(uint64_t(cells));
 }
 
+void requireBrick(uint64_t brick, uint64_t count) {
+  if (brick < count) return;
+  const std::string message = "There is no brick " + std::to_string(brick) + ": there are " + std::to_string(count) + ".";
+  throw CallError({Status::badArgument, int64_t(brick), -1, message});
+}
+
+}  // namespace
+
 /// A mesh and a grid, and what each brick has to know of them.
 class BrickSource {
  public:
@@ -125,13 +133,6 @@ class BrickSource {
   BrickTriangles triangles_;
 };
 
-void requireBrick(uint64_t brick, uint64_t count) {
-  if (brick < count) return;
-  const std::string message = "There is no brick " + std::to_string(brick) + ": there are " + std::to_string(count) + ".";
-  throw CallError({Status::badArgument, int64_t(brick), -1, message});
-}
-
-}  // namespace
 }  // namespace detail
 
 using namespace detail;

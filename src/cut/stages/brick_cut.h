@@ -4,6 +4,7 @@
 // in any order, on any number of threads; none needs to know of another.
 #pragma once
 
+#include "base/arena.h"
 #include "cut/stages/cut_cells.h"
 #include "cut/stages/winding_steps.h"
 
@@ -52,45 +53,44 @@ struct AxialPlane {
   int32_t axis, plane;
 };
 
-struct BrickCut {
-  explicit BrickCut(const CutVertices& surface) : vertices(CutVertices::ofBrick(surface)) {}
-  BrickCut() = default;
+struct InPlane {
+  uint32_t place;  ///< in triOrder
+  AxialPlane plane;
+};
 
+/// Its arrays are in the memory of BrickCuts.
+struct BrickCut {
   CutVertices vertices;
   /// Those on grid lines that are not of the mesh or its edges, by the first cell that has them: at corners, then on grid-edges, there by
   /// triangle.
-  std::vector<VertexId> lineVertices;
+  std::span<const VertexId> lineVertices;
 
   // Tri-cut-faces, and how they are numbered in the result: by cell, inside of it before those in its grid-faces. Those in a grid-face
   // belong to the first cell of the brick that has it.
-  Csr<VertexId> triLoops;
-  std::vector<uint32_t> triFaceLoopOffsets;  ///< empty if every face has one loop
-  IdVector<FaceId, TriangleId> triangles;
-  std::vector<OtherParent> otherParents;
-  std::vector<FaceId> triOrder;
-  struct InPlane {
-    uint32_t place;  ///< in triOrder
-    AxialPlane plane;
-  };
-  std::vector<InPlane> triFacesInPlane;  ///< ascending
+  CsrSpan<VertexId> triLoops;
+  std::span<const uint32_t> triFaceLoopOffsets;  ///< empty if every face has one loop
+  IdSpan<FaceId, TriangleId> triangles;
+  std::span<const OtherParent> otherParents;
+  std::span<const FaceId> triOrder;
+  std::span<const InPlane> triFacesInPlane;  ///< ascending
 
   // Pieces of grid-faces, by the first cell of the brick that has them.
-  Csr<VertexId> loops;
-  std::vector<uint32_t> faceLoopOffsets;
-  std::vector<AxialPlane> pieces;  ///< the planes that they lie in
+  CsrSpan<VertexId> loops;
+  std::span<const uint32_t> faceLoopOffsets;
+  std::span<const AxialPlane> pieces;  ///< the planes that they lie in
 
-  Csr<HalfFace, CellId> halfFaces;
-  IdVector<CellId, uint32_t> gridCells;  ///< in the brick's box, ascending
+  CsrSpan<HalfFace, CellId> halfFaces;
+  IdSpan<CellId, uint32_t> gridCells;  ///< in the brick's box, ascending
   /// Joined through pieces of grid-faces inside of the brick; numbered by their first cells.
-  IdVector<CellId, uint32_t> components;
+  IdSpan<CellId, uint32_t> components;
   uint32_t componentCount = 0;
 
-  std::vector<BrickRow> rows;               ///< ascending, those with touched cells
-  std::vector<BoundaryFace> boundaryFaces;  ///< ascending
-  std::vector<BoundaryHalf> boundaryHalves;
-  std::vector<BoundaryLine> boundaryLines;  ///< ascending
-  std::vector<OpenFace> openFaces;
-  std::vector<WindingStep> steps;  ///< between components
+  std::span<const BrickRow> rows;               ///< ascending, those with touched cells
+  std::span<const BoundaryFace> boundaryFaces;  ///< ascending
+  std::span<const BoundaryHalf> boundaryHalves;
+  std::span<const BoundaryLine> boundaryLines;  ///< ascending
+  std::span<const OpenFace> openFaces;
+  std::span<const WindingStep> steps;  ///< between components
   std::optional<uint32_t>
       componentAtCorner;  ///< that of the point in windingBeside() at the grid's lowest corner, where the brick has that
 
@@ -104,7 +104,13 @@ struct BrickCut {
   }
 };
 
-/// Cuts all bricks.
-IdVector<BrickId, BrickCut> cutBricks(const Surface& surface, const SurfaceParts& parts, Bricks& bricks, Run& run);
+/// Of all bricks, with the memory that holds it.
+struct BrickCuts : IdVector<BrickId, BrickCut> {
+  using IdVector::IdVector;
+
+  std::vector<Arena> memory;
+};
+
+BrickCuts cutBricks(const Surface& surface, const SurfaceParts& parts, Bricks& bricks, Run& run);
 
 }  // namespace mandoline::detail

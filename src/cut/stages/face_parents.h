@@ -8,7 +8,7 @@ namespace mandoline::detail {
 class FaceParents {
  public:
   /// `triangles`, `others`: as of TriFaces.
-  FaceParents(const Input& input, const IdVector<FaceId, TriangleId>& triangles, const std::vector<OtherParent>& others)
+  FaceParents(const Input& input, std::span<const TriangleId> triangles, std::span<const OtherParent> others)
       : input_(input), triangles_(triangles), others_(others) {}
 
   /// Whether each face has one.
@@ -17,7 +17,7 @@ class FaceParents {
   /// Calls f(triangle, whether its normal is the face's): for the one that has the face, then for others in no order.
   template <class F>
   void forEach(FaceId face, const F& f) const {
-    const TriangleId triangle = triangles_[face];
+    const TriangleId triangle = triangles_[face.number];
     f(triangle, true);
     forDuplicates(triangle, true, f);
     if (others_.empty()) return;
@@ -35,8 +35,8 @@ class FaceParents {
   }
 
   const Input& input_;
-  const IdVector<FaceId, TriangleId>& triangles_;
-  const std::vector<OtherParent>& others_;
+  const std::span<const TriangleId> triangles_;
+  const std::span<const OtherParent> others_;
 };
 
 }  // namespace mandoline::detail

@@ -13,7 +13,7 @@ struct CutState {
   Surface surface;
   SurfaceParts parts;
   Bricks bricks;
-  IdVector<BrickId, BrickCut> cuts;
+  BrickCuts cuts;
   UntouchedRuns runs;
   IdVector<BrickId, BrickSeams> seams;
   Regions regions;

@@ -1,0 +1,65 @@
+// Memory for arrays that are made one after the other and given back together: their pages are got in large blocks.
+#pragma once
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "base/large_array.h"
+
+namespace mandoline::detail {
+
+class Arena {
+ public:
+  /// A copy, which stays where it is for as long as the arena.
+  template <class Item>
+  std::span<const Item> copy(std::span<const Item> items) {
+    static_assert(std::is_trivially_copyable_v<Item> && alignof(Item) <= kAlignment);
+    if (items.empty()) return {};
+    void* to = take(items.size_bytes());
+    std::memcpy(to, items.data(), items.size_bytes());
+    return {static_cast<const Item*>(to), items.size()};
+  }
+  template <class Item>
+  std::span<const Item> copy(const std::vector<Item>& items) {
+    return copy(std::span<const Item>(items));
+  }
+
+ private:
+  static constexpr size_t kAlignment = 16, kFirst = size_t(1) << 16, kSecond = size_t(1) << 21, kLargest = size_t(1) << 22;
+
+  struct Free {
+    std::align_val_t alignment;
+    void operator()(void* block) const { ::operator delete(block, alignment); }
+  };
+
+  void* take(size_t bytes) {
+    bytes = (bytes + kAlignment - 1) & ~(kAlignment - 1);
+    if (bytes > left_) addBlock(bytes);
+    std::byte* const taken = next_;
+    next_ += bytes;
+    left_ -= bytes;
+    return taken;
+  }
+
+  /// Small at first, since most cuts are.
+  void addBlock(size_t least) {
+    size_ = std::max(size_ == 0 ? kFirst : std::clamp(2 * size_, kSecond, kLargest), least);
+    const std::align_val_t alignment{size_ < kSecond ? kAlignment : kPageAlignment};
+    blocks_.push_back({::operator new(size_, alignment), Free{alignment}});
+    getPages(blocks_.back().get(), size_);
+    next_ = static_cast<std::byte*>(blocks_.back().get());
+    left_ = size_;
+  }
+
+  std::vector<std::unique_ptr<void, Free>> blocks_;
+  std::byte* next_ = nullptr;
+  size_t left_ = 0, size_ = 0;
+};
+
+}  // namespace mandoline::detail

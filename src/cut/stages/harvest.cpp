@@ -1,0 +1,260 @@
+#include "cut/stages/harvest.h"
+
+#include "base/sort.h"
+
+namespace mandoline::detail {
+namespace {
+
+class Harvest {
+ public:
+  Harvest(const BrickStages& stages, Gathered& gathered, Arena& memory, BrickCut& out)
+      : input_(stages.surface.input),
+        vertices_(stages.surface.vertices),
+        stencil_(stages.stencil),
+        gridEdges_(stages.gridEdges),
+        faces_(stages.faces),
+        cells_(stages.cells),
+        gathered_(gathered),
+        memory_(memory),
+        out_(out) {}
+
+  void run(const std::vector<Counted>& counted) {
+    gathered_.clear();
+    findComponents();
+    listVertices();
+    orderFaces();
+    for (const GridCellId c : cells_.gridCells) gathered_.gridCells.push_back(indexOf(c));
+    listBoundary();
+    findSteps(counted);
+    findCorner();
+    copyAll();
+  }
+
+ private:
+  std::span<const HalfFace> halvesIn(GridFaceId g) const { return faces_.grid.halfFaces[g]; }
+  std::span<const FaceSides> sidesIn(GridFaceId g) const {
+    const auto& offsets = faces_.grid.halfFaces.offsets;
+    return {cells_.ofGridFaces.data() + offsets[g.number], offsets[g.number + 1] - offsets[g.number]};
+  }
+  static bool isInside(const FaceSides& sides) { return sides.cells[0] != FaceSides::kNone && sides.cells[1] != FaceSides::kNone; }
+
+  void findComponents() {
+    IdSets<CellId> sets;
+    sets.reset(cells_.size());
+    for (const GridFaceId g : stencil_.faces.ids()) {
+      for (size_t i = 0; i < halvesIn(g).size(); ++i) {
+        const FaceSides& sides = sidesIn(g)[i];
+        if (!faces_.isTri(halvesIn(g)[i].face()) && isInside(sides)) sets.unite(sides.cells[0], sides.cells[1]);
+      }
+    }
+    gathered_.components.resize(cells_.size());
+    for (const CellId c : gathered_.components.ids()) {
+      const CellId first = sets.find(c);
+      gathered_.components[c] = first == c ? out_.componentCount++ : gathered_.components[first];
+    }
+  }
+
+  uint32_t indexOf(GridCellId cell) const { return stencil_.box.indexOf(stencil_.cells[cell].element); }
+  bool isOnBoundary(const Slab& element) const {
+    bool isOn = false;
+    for (size_t d = 0; d < 3; ++d) {
+      const int32_t first = 2 * stencil_.box.first[d];
+      isOn |= element[d] == first || element[d] == first + 2 * stencil_.box.count[d];
+    }
+    return isOn;
+  }
+
+  void listVertices() {
+    GridVertexId corner{0};
+    GridEdgeId edge{0};
+    for (const GridCellId c : stencil_.cells.ids()) {
+      const Stencil::Cell& cell = stencil_.cells[c];
+      for (uint8_t i = 0; i < 8; ++i) {
+        if (cell.corners[i] != corner) continue;  // a cell before has it
+        ++corner.number;
+        const VertexId v = gridEdges_.corners[cell.corners[i]];
+        addLine(c, i, {&v, 1});
+      }
+      for (uint8_t i = 0; i < 12; ++i) {
+        if (cell.edges[i] != edge) continue;
+        ++edge.number;
+        addLine(c, uint8_t(8 + i), gridEdges_.vertices[cell.edges[i]]);
+      }
+      gathered_.pastVertex.push_back(uint32_t(gathered_.lineVertices.size()));
+    }
+  }
+
+  /// Appends the vertices of a grid-edge or grid vertex that are not of the mesh or its edges.
+  void addLine(GridCellId cell, uint8_t index, std::span<const VertexId> vertices) {
+    std::vector<VertexId>& all = gathered_.lineVertices;
+    const uint32_t first = uint32_t(all.size());
+    for (const VertexId v : vertices) {
+      if (v >= vertices_.firstInTriangle) all.push_back(v);
+    }
+    const uint32_t count = uint32_t(all.size()) - first;
+    if (count == 0) return;
+    if (count > 1) {
+      sortItems(std::span(all).subspan(first), [&](VertexId u, VertexId v) { return vertices_.triangle(u) < vertices_.triangle(v); });
+    }
+    if (isOnBoundary(vertices_.slab(all[first]))) gathered_.boundaryLines.push_back({indexOf(cell), index, {first, count}});
+  }
+
+  void orderFaces() {
+    for (const GridFaceId g : faces_.grid.gridFaces) gathered_.pieces.push_back(planeOf(g));
+    GridFaceId g{0};
+    for (const GridCellId c : stencil_.cells.ids()) {
+      const auto inside = stencil_.triFacesInCell[c];
+      gathered_.triOrder.insert(gathered_.triOrder.end(), inside.begin(), inside.end());
+      for (; g.number < stencil_.faces.size() && stencil_.faces[g].cell == c; ++g.number) {
+        for (const FaceId f : stencil_.triFacesOnFace[g]) {
+          gathered_.triFacesInPlane.push_back({uint32_t(gathered_.triOrder.size()), planeOf(g)});
+          gathered_.triOrder.push_back(f);
+        }
+      }
+    }
+  }
+
+  AxialPlane planeOf(GridFaceId gridFace) const {
+    const Stencil::Face& face = stencil_.faces[gridFace];
+    return {face.axis(), stencil_.cells[face.cell].at(face.axis()) + face.side()};
+  }
+
+  /// Looks at the grid-faces that have a cell of the brick on one side alone, and ends the rows.
+  void listBoundary() {
+    uint32_t piece = 0, triFace = 0, cell = 0;
+    GridFaceId g{0};
+    const uint32_t ny = uint32_t(input_.cells(1));
+    for (const GridCellId c : stencil_.cells.ids()) {
+      triFace += uint32_t(stencil_.triFacesInCell[c].size());
+      for (; g.number < stencil_.faces.size() && stencil_.faces[g].cell == c; ++g.number) {
+        const uint32_t triFaces = uint32_t(stencil_.triFacesOnFace[g].size());
+        uint32_t pieces = 0;
+        for (const HalfFace h : halvesIn(g)) pieces += !faces_.isTri(h.face());
+        addOutside(g, {triFace, triFaces}, {piece, pieces});
+        piece += pieces;
+        triFace += triFaces;
+      }
+      while (cell < cells_.size() && cells_.gridCells[{cell}] == c) ++cell;
+      const uint32_t row = uint32_t(stencil_.cells[c].at(2)) * ny + uint32_t(stencil_.cells[c].at(1));
+      const BrickRow past{row, cell, triFace, piece, gathered_.pastVertex[c.number]};
+      if (gathered_.rows.empty() || gathered_.rows.back().row != row) {
+        gathered_.rows.push_back(past);
+      } else {
+        gathered_.rows.back() = past;
+      }
+    }
+  }
+
+  void addOutside(GridFaceId g, const Range& triFaces, const Range& pieces) {
+    const Stencil::Face& face = stencil_.faces[g];
+    Slab other = stencil_.cells[face.cell].element;
+    other[size_t(face.axis())] += face.side() == 1 ? 2 : -2;
+    if (stencil_.box.has(other)) {
+      if (stencil_.find(other)) return;
+      const FaceSides& sides = sidesIn(g)[0];  // the grid-face is whole
+      const OpenFace open{stencil_.box.indexOf(other), gathered_.components[sides.cells[sides.cells[0] != FaceSides::kNone ? 0 : 1]]};
+      gathered_.openFaces.push_back(open);
+    } else if (input_.inGrid(other)) {
+      const uint32_t first = uint32_t(gathered_.boundaryHalves.size());
+      for (size_t i = 0; i < halvesIn(g).size(); ++i) {
+        gathered_.boundaryHalves.push_back({halvesIn(g)[i], gathered_.components[sidesIn(g)[i].cells[face.side() == 1 ? 0 : 1]]});
+      }
+      const Range halves{first, uint32_t(gathered_.boundaryHalves.size()) - first};
+      gathered_.boundaryFaces.push_back({indexOf(face.cell), face.index, triFaces, pieces, halves});
+    }
+  }
+
+  void findSteps(const std::vector<Counted>& counted) {
+    if (counted.empty()) return;
+    const FaceParents parents(input_, faces_.tri.triangles, faces_.tri.otherParents);
+    const bool areAlike = input_.mesh->closed && parents.areSingle();
+    WindingStep last{~0u, ~0u, {}};
+    const auto add = [&](FaceId face, CellId behind, CellId inFront) {
+      const WindingStep step{gathered_.components[behind], gathered_.components[inFront],
+                             areAlike ? std::array<int32_t, 2>{1, 0} : stepsAt(face, parents, counted)};
+      if (step == last) return;
+      gathered_.steps.push_back(last = step);
+    };
+    for (size_t i = 0; i < cells_.ofTriFaces.size(); ++i) {
+      const auto& [behind, inFront] = cells_.ofTriFaces[i].cells;
+      add(stencil_.triFacesInCell.items[i], behind, inFront);
+    }
+    for (const GridFaceId g : stencil_.faces.ids()) {
+      for (size_t i = 0; i < halvesIn(g).size(); ++i) {
+        const HalfFace h = halvesIn(g)[i];
+        const FaceSides& sides = sidesIn(g)[i];
+        if (faces_.isTri(h.face()) && isInside(sides)) add(h.face(), sides.cells[h.side()], sides.cells[1 - h.side()]);
+      }
+    }
+    sortUnique(gathered_.steps);
+  }
+
+  /// Finds the cell that holds the point of windingBeside() at the grid's lowest corner, if the surface touches its grid cell. The
+  /// grid-face x = x0 holds the point's shadow right beside the y-axis: in the face with the directed edge from the corner along y.
+  void findCorner() {
+    const auto cell = stencil_.find({1, 1, 1});
+    if (!cell) return;
+    const GridFaceId g = stencil_.cells[*cell].faces[size_t(cellFace(0, 0))];
+    const VertexId corner = gridEdges_.corners[stencil_.cells[*cell].corners[0]];
+    const auto along = gridEdges_.vertices[stencil_.cells[*cell].edges[size_t(cellEdge(1, 0, 0))]];
+    const VertexId next = along.empty() ? gridEdges_.corners[stencil_.cells[*cell].corners[2]] : along[0];
+    for (size_t k = 0; k < halvesIn(g).size(); ++k) {
+      const HalfFace fromBelow = halvesIn(g)[k];
+      const auto loop = faces_.loops(fromBelow.face())[0];
+      for (size_t i = 0; i < loop.size(); ++i) {
+        VertexId u = loop[i], v = loop[i + 1 < loop.size() ? i + 1 : 0];
+        if (fromBelow.side() == 1) std::swap(u, v);  // a triangle's face whose normal is -x
+        if (u == corner && v == next) out_.componentAtCorner = gathered_.components[sidesIn(g)[k].cells[1]];
+      }
+    }
+  }
+
+  template <class Item, class Group>
+  CsrSpan<Item, Group> copied(const Csr<Item, Group>& groups) {
+    return {memory_.copy(groups.offsets), memory_.copy(groups.items)};
+  }
+
+  void copyAll() {
+    copyLarge(vertices_.slabs, out_.vertices.slabs);
+    copyLarge(vertices_.parentTriangles, out_.vertices.parentTriangles);
+    const TriFaces& tri = faces_.tri;
+    out_.triLoops = copied(tri.loops);
+    out_.triFaceLoopOffsets = memory_.copy(tri.faceLoopOffsets);
+    out_.triangles = IdSpan<FaceId, TriangleId>(memory_.copy(tri.triangles));
+    out_.otherParents = memory_.copy(tri.otherParents);
+    out_.loops = copied(faces_.grid.loops);
+    out_.faceLoopOffsets = memory_.copy(faces_.grid.faceLoopOffsets);
+    out_.halfFaces = copied(cells_.halfFaces);
+    const auto copy = [&](const auto& from, auto& to) { to = std::remove_reference_t<decltype(to)>(memory_.copy(from)); };
+    copy(gathered_.lineVertices, out_.lineVertices);
+    copy(gathered_.triOrder, out_.triOrder);
+    copy(gathered_.triFacesInPlane, out_.triFacesInPlane);
+    copy(gathered_.pieces, out_.pieces);
+    copy(gathered_.gridCells, out_.gridCells);
+    copy(gathered_.components, out_.components);
+    copy(gathered_.rows, out_.rows);
+    copy(gathered_.boundaryFaces, out_.boundaryFaces);
+    copy(gathered_.boundaryHalves, out_.boundaryHalves);
+    copy(gathered_.boundaryLines, out_.boundaryLines);
+    copy(gathered_.openFaces, out_.openFaces);
+    copy(gathered_.steps, out_.steps);
+  }
+
+  const Input& input_;
+  const CutVertices& vertices_;
+  const Stencil& stencil_;
+  const GridEdges& gridEdges_;
+  const CutFaces& faces_;
+  const CutCells& cells_;
+  Gathered& gathered_;
+  Arena& memory_;
+  BrickCut& out_;
+};
+
+}  // namespace
+
+void harvest(const BrickStages& stages, const std::vector<Counted>& counted, Gathered& gathered, Arena& memory, BrickCut& out) {
+  Harvest(stages, gathered, memory, out).run(counted);
+}
+
+}  // namespace mandoline::detail
