@@ -1,6 +1,9 @@
-// Ids of one kind and the arrays that go by them.
+// Ids of one kind and the arrays that go by them; memory for arrays.
+#include <algorithm>
+#include <array>
 #include <type_traits>
 
+#include "base/arena.h"
 #include "base/csr.h"
 #include "catch.h"
 #include "cut/ids.h"
@@ -64,4 +67,40 @@ TEST_CASE("Items are grouped by id in the order in which they come", "[base]") {
   const PerCell csr = groupBy<int, CellId>(
       4, cells.size(), [&](size_t i) { return cells[i]; }, [](size_t i) { return int(i); });
   CHECK(listOf(csr) == std::vector<std::vector<int>>{{1, 3}, {}, {0, 2, 4}, {}});
+}
+
+TEST_CASE("An arena keeps what was copied into it, also where it is moved", "[base]") {
+  Arena arena;
+  std::vector<std::vector<uint32_t>> originals;
+  std::vector<std::span<const uint32_t>> copies;
+  // From none to more than one block has, so that small ones lie between large ones.
+  for (const size_t size : {0u, 1u, 3u, 1000u, 20'000u, 5u, 600'000u, 0u, 7u, 1'500'000u, 2u, 30'000u}) {
+    originals.emplace_back();
+    for (size_t i = 0; i < size; ++i) originals.back().push_back(uint32_t(31 * size + i));
+    copies.push_back(arena.copy(originals.back()));
+  }
+  const std::array<double, 2> doubles = {0.5, -2};
+  const auto aligned = arena.copy(std::span<const double>(doubles));
+  CHECK(reinterpret_cast<uintptr_t>(aligned.data()) % alignof(double) == 0);
+  const Arena moved = std::move(arena);
+  for (size_t i = 0; i < originals.size(); ++i)
+    CHECK(std::equal(copies[i].begin(), copies[i].end(), originals[i].begin(), originals[i].end()));
+  CHECK((aligned[0] == 0.5 && aligned[1] == -2));
+}
+
+TEST_CASE("Getting pages changes nothing that is there", "[base]") {
+  std::vector<uint32_t> numbers(3'000'000);
+  for (size_t i = 0; i < numbers.size(); ++i) numbers[i] = uint32_t(i);
+  for (const size_t first : {0u, 1u, 1000u, 524'289u}) {
+    for (const size_t count : {0u, 1u, 5000u, 700'000u, 2'000'000u}) getPages(numbers.data() + first, 4 * count);
+  }
+  bool areSame = true;
+  for (size_t i = 0; i < numbers.size(); ++i) areSame &= numbers[i] == uint32_t(i);
+  CHECK(areSame);
+
+  std::vector<int8_t> made, same;
+  makeLarge(made, 5'000'001, -1);
+  CHECK((made.size() == 5'000'001 && std::all_of(made.begin(), made.end(), [](int8_t x) { return x == -1; })));
+  copyLarge(made, same);
+  CHECK((same == made));
 }
