@@ -38,8 +38,12 @@ class BrickSource {
  public:
   /// `mesh` is that of the user, which was prepared with the intersections of `cutOptions`.
   BrickSource(const Prepared& prepared, const MeshView& mesh, const Grid& grid, const CutOptions& cutOptions,
-              const ForEachBrickOptions& options, Run& run)
+              const ForEachBrickOptions& options)
       : prepared_(prepared), mesh_(mesh), grid_(grid), cutOptions_(cutOptions), untouched_(options.untouched) {
+    Monitor monitor(options, 1);
+    monitor.beginStage("grid", 0);
+    CutStats stats;
+    Run run{stats, monitor};
     input_ = prepareInput(prepared_, grid_, run);
     bricks_ = BrickGrid(input_, shiftOf(options.cells));
     triangles_ = findBrickTriangles(input_, bricks_);
@@ -151,16 +155,14 @@ BrickCutter::BrickCutter(PreparedMesh mesh, Grid grid, const ForEachBrickOptions
     data->grid = std::move(grid);
     checkGrid(data->grid, 0);
     const MeshView view = data->mesh.mesh();
-    Monitor monitor(options, 1);
-    CutStats stats;
-    Run run{stats, monitor};
     const PreparedMeshData* prepared = data->mesh.data();
     CutOptions cutOptions;
     if (prepared) cutOptions.intersections = prepared->intersections;
-    if (!prepared || !fits(*prepared->prepared, data->grid))
+    if (!prepared || !fits(*prepared->prepared, data->grid)) {
+      Monitor monitor(options, 1);
       data->again = prepareMesh(view, {largestCoordinate(data->grid), cutOptions.intersections}, monitor, [](const char*) {});
-    monitor.beginStage("grid", 0);
-    data->source.emplace(data->again ? *data->again : *prepared->prepared, view, data->grid, cutOptions, options, run);
+    }
+    data->source.emplace(data->again ? *data->again : *prepared->prepared, view, data->grid, cutOptions, options);
     data_ = std::move(data);
   });
 }
