@@ -41,6 +41,7 @@ test('every call works on the twin, without the arrays', () =>
       cutEdges: [mesh, cutMesh],
       adjacency: [cutMesh],
       triangulate: [cutMesh, { cell: 3 }],
+      cellDrawing: [mesh, cutMesh, { origin: [0, 0, 1] }],
       boundary: [cutMesh, 'nonZero'],
       insideRegions: [cutMesh, { rule: 'odd' }],
       estimateInside: [mesh, cutMesh],

@@ -156,6 +156,18 @@ const kinds = {
     ]),
   of: () =>
     pick([undefined, { cell: random(60) }, { region: random(3) }, { cell: anything() }, { region: anything() }, { cell: 1, region: 1 }]),
+  drawing: () =>
+    pick([
+      undefined,
+      {},
+      { origin: [1, 2, 3] },
+      { origin: anything() },
+      { reuse: [] },
+      { origin: [0, 0, 0], reuse: [new ArrayBuffer(100)] },
+      { reuse: [new ArrayBuffer(random(9000)), new ArrayBuffer(0)] },
+      { reuse: [anything()] },
+      { reuse: anything() },
+    ]),
   point: () =>
     pick([
       [0, 0, 0],
@@ -302,6 +314,7 @@ const parameters = {
   cutEdges: ['mesh', 'cutMesh'],
   adjacency: ['cutMesh'],
   triangulate: ['cutMesh', 'of'],
+  cellDrawing: ['mesh', 'cutMesh', 'drawing'],
   cellAt: ['cutMesh', 'point'],
   cellsAt: ['cutMesh', 'points'],
   slice: ['cutMesh', 'plane', 'options'],
@@ -337,12 +350,12 @@ const parameters = {
   writePolyMesh: ['cutMesh', 'cells', 'written'],
 };
 
-/** Calls one of these at random, a thousand times. Gives how many calls were fine, and how many had each code. */
+/** Calls one of these at random, 1,200 times. Gives how many calls were fine, and how many had each code. */
 async function callAtRandom(calls) {
   const names = Object.keys(calls).filter((name) => typeof calls[name] === 'function');
   for (const name of names) assert.ok(parameters[name], `${name} is not tried`);
   const counts = { fine: 0 };
-  for (let i = 0; i < 1000; ++i) {
+  for (let i = 0; i < 1200; ++i) {
     const name = pick(names);
     const args = parameters[name].map((kind) => (random(6) ? kinds[kind]() : anything()));
     try {
@@ -355,16 +368,16 @@ async function callAtRandom(calls) {
       counts[error.code] = (counts[error.code] ?? 0) + 1;
     }
   }
-  assert.ok(counts.fine > 100 && counts.badArgument > 100);
+  assert.ok(counts.fine > 100 && counts.badArgument > 100, JSON.stringify(counts));
   return counts;
 }
 
-test('1,000 random calls', async (t) => {
+test('1,200 random calls', async (t) => {
   t.diagnostic(JSON.stringify(await callAtRandom(mandoline)));
   assert.equal((await mandoline.validate(mesh, cutMesh)).pass, true);
 });
 
-test('1,000 random calls that compute', async (t) => {
+test('1,200 random calls that compute', async (t) => {
   t.diagnostic(JSON.stringify(await callAtRandom(physics)));
   assert.equal(physics.solvePoisson(cells, { boundary, source: cells.cellVolume }, { balance: true }).status, 'converged');
 });

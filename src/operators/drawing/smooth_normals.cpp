@@ -103,8 +103,9 @@ std::vector<Vector> cornerNormals(const MeshView& mesh, const ScaledMesh& scaled
 }
 
 PackedNormal packed(const Vector& normal) {
-  const double length = std::sqrt(dot(normal, normal)), scale = length > 0 ? 127 / length : 0;
-  const auto byte = [&](size_t d) { return uint32_t(uint8_t(int8_t(int(std::floor(scale * normal[d] + 0.5))))); };
+  const double length = std::sqrt(dot(normal, normal));
+  const bool hasDirection = length > 0 && std::isfinite(length);
+  const auto byte = [&](size_t d) { return hasDirection ? uint32_t(uint8_t(int8_t(std::floor(127 / length * normal[d] + 0.5)))) : 0; };
   return byte(0) | byte(1) << 8 | byte(2) << 16 | uint32_t(1) << 24;
 }
 
