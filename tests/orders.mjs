@@ -1,4 +1,4 @@
-// npm run orders: how Poisson's equation on the cells converges; fails if an order is too low. Arguments go to mandoline-orders, such as --meshes FOLDER.
+// npm run orders: how Poisson's equation on the cells converges, and how a cylinder sheds vortices; fails if an order is too low. Arguments go to mandoline-orders, such as --meshes FOLDER.
 import { setUp } from './set_up.mjs';
 import { build, run } from './steps.mjs';
 

@@ -20,8 +20,6 @@ namespace {
 using namespace mandoline;
 using namespace mandoline::wasm;
 
-val lastStage(const CutStats& stats) { return val(std::string(stats.stages.empty() ? "input" : stats.stages.back().stage)); }
-
 /// What f(prepared mesh) gives.
 template <class F>
 val withPrepared(const val& mesh, const val& options, const F& f) {
@@ -38,10 +36,7 @@ val withPrepared(const val& mesh, const val& options, const F& f) {
 
 val prepareMesh(const val& mesh, const val& options) {
   return withPrepared(mesh, options, [](const PreparedMesh& prepared) {
-    const auto [positions, triangles] = prepared.mesh();
-    const val value = object({{"positions", toArray("Float64Array", positions.data(), positions.size())},
-                              {"triangles", toArray("Uint32Array", triangles.data(), triangles.size())}});
-    return object({{"value", value}, {"twin", val(KeptMesh(prepared))}});
+    return object({{"value", arraysOf(prepared.mesh())}, {"twin", val(KeptMesh(prepared))}});
   });
 }
 
@@ -65,13 +60,7 @@ val cutMesh(const val& mesh, const val& grid, const val& options) {
       const Mesh input = fromObject<Mesh>(mesh);
       result = cut(input, readGrid(grid, input), cutOptions);
     }
-    if (!result) return failure(result.error, lastStage(result.stats));
-    val value = val::object(), plain = toObject(result.mesh, options["copy"]);
-    if (options["gridCellRegion"].as<bool>()) plain.set("gridCellRegion", toArray(result.mesh.gridCellRegion(), options["copy"]));
-    plain.set("stats", toObject(result.stats));
-    value.set("cutMesh", plain);
-    if (options["keep"].as<bool>()) value.set("twin", KeptCutMesh(std::move(result.mesh)));
-    return success(value);
+    return outcomeOf(std::move(result), options);
   });
 }
 

@@ -6,7 +6,20 @@ PoissonProblem readProblem(const val& object, const CellComplex& cells) {
   PoissonProblem result;
   result.boundary = object["boundary"].isUndefined() ? boundaryOf(cells) : fromObject<Boundary>(object["boundary"]);
   if (!object["source"].isUndefined()) readArray(object["source"], result.source);
+  if (!object["faceCoefficient"].isUndefined()) readArray(object["faceCoefficient"], result.faceCoefficient);
+  if (!object["mass"].isUndefined()) readArray(object["mass"], result.mass);
   result.dualPoints = DualPoints(object["dualPoints"].as<int>());
+  return result;
+}
+
+SolveOptions readSolveOptions(const val& options) {
+  SolveOptions result;
+  result.progress = progressOf(options);
+  result.tolerance = options["tolerance"].as<double>();
+  result.maxIterations = options["maxIterations"].as<int>();
+  result.corrections = options["corrections"].as<int>();
+  result.freeConstant = FreeConstant(options["freeConstant"].as<int>());
+  result.balance = options["balance"].as<bool>();
   return result;
 }
 

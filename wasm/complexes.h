@@ -11,6 +11,9 @@ using KeptComplex = Kept<CellComplex>;
 /// If it has no boundary, nothing flows through the boundary.
 PoissonProblem readProblem(const val& object, const CellComplex& cells);
 
+/// How to solve such a problem.
+SolveOptions readSolveOptions(const val& options);
+
 /// By rows.
 template <>
 val toObject(const SparseMatrix& matrix);

@@ -14,6 +14,23 @@ val keepCutMesh(const val& cutMesh, bool isChecked) {
   });
 }
 
+val arraysOf(const MeshView& mesh) {
+  return object({{"positions", toArray("Float64Array", mesh.positions.data(), mesh.positions.size())},
+                 {"triangles", toArray("Uint32Array", mesh.triangles.data(), mesh.triangles.size())}});
+}
+
+val lastStage(const CutStats& stats) { return val(std::string(stats.stages.empty() ? "input" : stats.stages.back().stage)); }
+
+val outcomeOf(CutResult result, const val& options) {
+  if (!result) return failure(result.error, lastStage(result.stats));
+  val value = val::object(), plain = toObject(result.mesh, options["copy"]);
+  if (options["gridCellRegion"].as<bool>()) plain.set("gridCellRegion", toArray(result.mesh.gridCellRegion(), options["copy"]));
+  plain.set("stats", toObject(result.stats));
+  value.set("cutMesh", plain);
+  if (options["keep"].as<bool>()) value.set("twin", KeptCutMesh(std::move(result.mesh)));
+  return success(value);
+}
+
 val dataOf(const KeptCutMesh& kept) {
   return guarded([&, cutMesh = kept.get()] { return success(toObject(*cutMesh)); });
 }

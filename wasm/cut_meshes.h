@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "mandoline/prepare.h"
 #include "mandoline/resolve.h"
 #include "mandoline/validate.h"
 #include "results.h"
@@ -46,6 +47,12 @@ val keepChecked(const val& given, const char* name) {
 
 /// The same of a cut-mesh; one that is to be validated may be damaged, and isn't checked.
 val keepCutMesh(const val& cutMesh, bool isChecked);
+val arraysOf(const MeshView& mesh);
+
+/// The stage that a cut has come to.
+val lastStage(const CutStats& stats);
+/// What a cut gives, with its twin, as the options say: copy, gridCellRegion, keep.
+val outcomeOf(CutResult result, const val& options);
 /// For the other modules.
 val dataOf(const KeptCutMesh& kept);
 

@@ -112,12 +112,19 @@ val operatorsOf(const KeptComplex& kept, const val& names, int dualPoints) {
   });
 }
 
-/// `conditions`: [tag, condition, value] for each tag that is set.
+/// `conditions`: [tag, condition, value, coefficient] for each tag that is set.
 val boundaryOfCells(const KeptComplex& kept, const val& conditions) {
   return guarded([&, cells = kept.get()] {
     Boundary boundary = boundaryOf(*cells);
-    for (const val& set : emscripten::vecFromJSArray<val>(conditions))
-      setBoundary(boundary, *cells, FaceTag(set[0].as<int>()), Condition(set[1].as<int>()), set[2].as<double>());
+    for (const val& set : emscripten::vecFromJSArray<val>(conditions)) {
+      const auto tag = FaceTag(set[0].as<int>());
+      const auto condition = Condition(set[1].as<int>());
+      const double value = set[2].as<double>();
+      if (condition == Condition::robin)
+        setRobin(boundary, *cells, tag, set[3].as<double>(), value);
+      else
+        setBoundary(boundary, *cells, tag, condition, value);
+    }
     return success(toObject(boundary));
   });
 }
@@ -135,15 +142,8 @@ val systemOf(const KeptComplex& kept, const val& problem) {
 }
 
 val solve(const KeptComplex& kept, const val& problem, const val& options) {
-  return guarded([&, cells = kept.get()] {
-    SolveOptions solveOptions;
-    solveOptions.progress = progressOf(options);
-    solveOptions.tolerance = options["tolerance"].as<double>();
-    solveOptions.maxIterations = options["maxIterations"].as<int>();
-    solveOptions.freeConstant = FreeConstant(options["freeConstant"].as<int>());
-    solveOptions.balance = options["balance"].as<bool>();
-    return success(toObject(solvePoisson(*cells, readProblem(problem, *cells), solveOptions)));
-  });
+  return guarded(
+      [&, cells = kept.get()] { return success(toObject(solvePoisson(*cells, readProblem(problem, *cells), readSolveOptions(options)))); });
 }
 
 val flowThrough(const KeptComplex& kept, const val& wind, const val& options) {
@@ -152,6 +152,7 @@ val flowThrough(const KeptComplex& kept, const val& wind, const val& options) {
     flowOptions.progress = progressOf(options);
     flowOptions.tolerance = options["tolerance"].as<double>();
     flowOptions.maxIterations = options["maxIterations"].as<int>();
+    flowOptions.corrections = options["corrections"].as<int>();
     return success(toObject(solveFlow(*cells, readTriple<double>(wind), flowOptions)));
   });
 }

@@ -9,7 +9,9 @@ const packageFolder = dirname(fileURLToPath(import.meta.url));
 const headerFolder = join(dirname(packageFolder), 'src', 'include', 'mandoline');
 
 // Of mandoline-wasm/physics; all others belong to the main entry.
-const physicsHeaders = ['coarsen.h', 'cell_complex.h', 'merge.h', 'operators.h', 'poisson.h', 'flow.h'];
+const physicsHeaders = ['coarsen.h', 'cell_complex.h', 'merge.h', 'operators.h', 'poisson.h', 'flow.h', 'unsteady.h'];
+// JavaScript has no calls that give what they describe.
+const leftOut = ['cut_share.h', 'recut.h'];
 
 // Calls give these with more: their whole is in index.d.ts, or the word means what is put in.
 const names = {
@@ -115,7 +117,7 @@ function readHeader(file) {
 }
 
 const headers = readdirSync(headerFolder)
-  .filter((file) => file.endsWith('.h'))
+  .filter((file) => file.endsWith('.h') && !leftOut.includes(file))
   .sort()
   .map(readHeader);
 const structs = headers.flatMap((header) => header.structs);
@@ -123,12 +125,12 @@ const enums = new Map(headers.flatMap((header) => header.enums).map((one) => [on
 
 /** What comments of C++ say, as those of TypeScript say it: a sentence, or several, in paragraphs. */
 function sentence(lines) {
+  if (!lines.some(Boolean)) return '';
   const text = lines
     .map((line) => line || '\n')
     .join(' ')
     .replace(/ \n /g, '\n')
     .replace(/\b(\w+)::(\w+)/g, (_, type, word) => (enums.has(type) ? `"${word}"` : `${type}.${word}`));
-  if (!text) return '';
   const capital = text.replace(/^./, (letter) => letter.toUpperCase());
   return /[.:]$/.test(capital) ? capital : `${capital}.`;
 }

@@ -18,10 +18,14 @@ function callsIn(table) {
   });
 }
 
+/** Of objects whose state stays in the thread. */
+const keptTypes = ['FlowStepper', 'HeatStepper', 'PoissonSolver'];
+
 function ofWorker(signature) {
   const [, given, result] = signature.match(/^(.*)\): (.*)$/);
   const all = /options\?: \S+$/.test(given) ? `${given} & CallOptions` : `${given}, options?: CallOptions`;
-  return `${all}): ${result.startsWith('Promise<') ? result : `Promise<${result}>`}`;
+  const there = keptTypes.includes(result) ? `OnWorker<${result}>` : result;
+  return `${all}): ${result.startsWith('Promise<') ? result : `Promise<${there}>`}`;
 }
 
 function formatted(text) {
@@ -52,7 +56,7 @@ function typesOf(table, main, worker) {
   const lines = [
     note(table),
     ...imports(calls, main, './index.js'),
-    `import type { CallOptions } from '${worker}';`,
+    `import type { CallOptions${keptTypes.some((type) => textOf(table).includes(`): ${type}\n`)) ? ', OnWorker' : ''} } from '${worker}';`,
     '',
     'export interface Calls {',
     ...calls.flatMap(direct),

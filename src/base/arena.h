@@ -2,7 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdlib>
+#include <cstddef>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -29,6 +29,13 @@ class Arena {
   std::span<const Item> copy(const std::vector<Item>& items) {
     return copy(std::span<const Item>(items));
   }
+  /// Puts f(item) in the place of each item of such a copy.
+  template <class Item, class F>
+  static void rewrite(std::span<const Item> copy, const F& f) {
+    for (Item& item : std::span(const_cast<Item*>(copy.data()), copy.size())) item = f(item);
+  }
+  /// All that were copied.
+  size_t bytes() const { return bytes_; }
 
  private:
   static constexpr size_t kAlignment = 16, kFirst = size_t(1) << 16, kSecond = size_t(1) << 21, kLargest = size_t(1) << 22;
@@ -44,6 +51,7 @@ class Arena {
     std::byte* const taken = next_;
     next_ += bytes;
     left_ -= bytes;
+    bytes_ += bytes;
     return taken;
   }
 
@@ -59,7 +67,7 @@ class Arena {
 
   std::vector<std::unique_ptr<void, Free>> blocks_;
   std::byte* next_ = nullptr;
-  size_t left_ = 0, size_ = 0;
+  size_t left_ = 0, size_ = 0, bytes_ = 0;
 };
 
 }  // namespace mandoline::detail

@@ -1,8 +1,10 @@
 // Offsets + items, filled by count, scan, fill.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/id.h"
@@ -97,16 +99,28 @@ struct CsrSpan {
   Groups<Item> groups(size_t first, size_t past) const { return {offsets.data() + first, past - first, items.data()}; }
 };
 
+/// Turns the numbers of items of groups, and a 0 after them, into offsets. Gives their sum.
+inline uint32_t toOffsets(std::vector<uint32_t>& counts) {
+  uint32_t sum = 0;
+  for (uint32_t& count : counts) sum += std::exchange(count, sum);
+  return sum;
+}
+/// Makes them offsets again after groups were filled, which moved each to the end of its group.
+inline void moveBack(std::vector<uint32_t>& offsets) {
+  std::copy_backward(offsets.begin(), offsets.end() - 1, offsets.end());
+  offsets[0] = 0;
+}
+
 /// Groups n items by groupOf(i); itemOf(i) is stored. The order within a group is that of i.
 template <class Item, class Group = size_t, class GroupOf, class ItemOf>
 Csr<Item, Group> groupBy(size_t groups, size_t n, const GroupOf& groupOf, const ItemOf& itemOf) {
   Csr<Item, Group> csr;
   csr.offsets.assign(groups + 1, 0);
-  for (size_t i = 0; i < n; ++i) ++csr.offsets[indexOf(groupOf(i)) + 1];
-  for (size_t g = 0; g < groups; ++g) csr.offsets[g + 1] += csr.offsets[g];
+  for (size_t i = 0; i < n; ++i) ++csr.offsets[indexOf(groupOf(i))];
+  toOffsets(csr.offsets);
   csr.items.resize(n);
-  std::vector<uint32_t> at(csr.offsets.begin(), csr.offsets.end() - 1);
-  for (size_t i = 0; i < n; ++i) csr.items[at[indexOf(groupOf(i))]++] = itemOf(i);
+  for (size_t i = 0; i < n; ++i) csr.items[csr.offsets[indexOf(groupOf(i))]++] = itemOf(i);
+  moveBack(csr.offsets);
   return csr;
 }
 

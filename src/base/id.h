@@ -65,7 +65,7 @@ struct IdVector : std::vector<Item> {
 template <class Id, class Item>
 struct IdSpan : std::span<const Item> {
   IdSpan() = default;
-  explicit IdSpan(std::span<const Item> items) : std::span<const Item>(items) {}
+  IdSpan(std::span<const Item> items) : std::span<const Item>(items) {}
 
   const Item& operator[](Id id) const { return this->data()[id.number]; }
   Ids<Id> ids() const { return Ids<Id>(this->size()); }

@@ -25,12 +25,9 @@ void advise(uintptr_t begin, uintptr_t end, int advice) {
 void getPages(void* begin, size_t bytes) {
   const auto roundedUp = [](uintptr_t at, uintptr_t page) { return (at + page - 1) & ~(page - 1); };
   const uintptr_t first = roundedUp(reinterpret_cast<uintptr_t>(begin), kPage),
-                  past = (reinterpret_cast<uintptr_t>(begin) + bytes) & ~(kPage - 1), firstLarge = roundedUp(first, kLargePage),
-                  pastLarge = past & ~(kLargePage - 1);
-  if (firstLarge >= pastLarge) return advise(first, past, MADV_POPULATE_WRITE);
-  advise(firstLarge, pastLarge, MADV_HUGEPAGE);
-  advise(first, firstLarge, MADV_POPULATE_WRITE);
-  advise(pastLarge, past, MADV_POPULATE_WRITE);
+                  past = (reinterpret_cast<uintptr_t>(begin) + bytes) & ~(kPage - 1);
+  advise(roundedUp(first, kLargePage), past & ~(kLargePage - 1), MADV_HUGEPAGE);
+  advise(first, past, MADV_POPULATE_WRITE);
 }
 
 #else

@@ -1,29 +1,17 @@
 #include "base/parallel.h"
 
 #include <atomic>
-#include <system_error>
 
 namespace mandoline::detail {
 
 namespace {
-
-/// Runs work(thread) on that many threads, or on fewer where there are no more.
-void runOnThreads(size_t threads, FunctionRef<void(size_t)> work) {
-  std::vector<std::thread> pool;
-  try {
-    for (size_t i = 1; i < threads; ++i) pool.emplace_back([&, i] { work(i); });
-  } catch (const std::system_error&) {  // the existing ones do the work
-  }
-  work(0);
-  for (std::thread& thread : pool) thread.join();
-}
 
 /// What went wrong in a loop on several threads.
 class Failures {
  public:
   /// To be called in a handler, by any thread.
   void note(size_t item) {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard<Mutex> lock(mutex_);
     try {
       throw;
     } catch (const ProgressFailed&) {
@@ -43,7 +31,7 @@ class Failures {
   }
 
  private:
-  std::mutex mutex_;
+  Mutex mutex_;
   std::atomic<size_t> item_{SIZE_MAX};
   bool isProgress_ = false;
   std::exception_ptr exception_;

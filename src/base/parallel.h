@@ -6,12 +6,11 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
-#include <mutex>
-#include <thread>
 #include <vector>
 
 #include "base/function_ref.h"
 #include "base/shared.h"
+#include "base/threads.h"
 
 namespace mandoline::detail {
 
@@ -28,7 +27,7 @@ class Monitor {
   /// `options` are RunOptions, which must outlive the monitor.
   template <class RunOptions>
   Monitor(const RunOptions& options, int stageCount)
-      : stageCount_(stageCount), threads_(std::clamp(options.threads ? options.threads : std::thread::hardware_concurrency(), 1u, 256u)) {
+      : stageCount_(stageCount), threads_(std::clamp(options.threads ? options.threads : coreCount(), 1u, 256u)) {
     if (!options.progress) return;
     callback_ = [&options, this](size_t done, size_t total) { return options.progress({stage_, index_, stageCount_, done, total}); };
   }
@@ -42,7 +41,7 @@ class Monitor {
   /// Tells the callback (calls from several threads take turns); throws Cancelled or ProgressFailed if it wants no more.
   void report(size_t done, size_t total) {
     if (!callback_) return;
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard<Mutex> lock(mutex_);
     if (cancelled_ || !goOn(done, total)) {
       cancelled_ = true;
       throw Cancelled();
@@ -77,7 +76,7 @@ class Monitor {
   }
 
   std::function<bool(size_t, size_t)> callback_;
-  std::mutex mutex_;
+  Mutex mutex_;
   const char* stage_ = "";
   int index_ = 0, stageCount_;
   unsigned threads_;

@@ -65,6 +65,8 @@ class Parser {
         {"--faces", {C::cut, C::flow}, [](Parser& p, const std::string&) { p.arguments_.faces = true; }},
         {"--wind", {C::flow}, [](Parser& p, const std::string& name) { parseWind(p.value(name), p.arguments_.flow); }},
         {"--streamlines", {C::flow}, [](Parser& p, const std::string& name) { parseStreamlines(p.value(name), p.arguments_.flow); }},
+        {"--steps", {C::flow}, [](Parser& p, const std::string& name) { parseSteps(p.value(name), p.arguments_.flow); }},
+        {"--viscosity", {C::flow}, [](Parser& p, const std::string& name) { parseViscosity(p.value(name), p.arguments_.flow); }},
         {"--axis", {C::slice}, [](Parser& p, const std::string& name) { parseAxis(p.value(name), p.arguments_.slice); }},
         {"--normal", {C::slice}, [](Parser& p, const std::string& name) { parseNormal(p.value(name), p.arguments_.slice); }},
         {"--heights", {C::slice}, [](Parser& p, const std::string& name) { parseHeights(p.value(name), p.arguments_.slice); }},
@@ -194,7 +196,7 @@ class Parser {
     if (numbers.empty() || numbers.size() > 2 || std::min(numbers.front(), numbers.back()) < 0)
       throw UsageError("--coarsen needs a number of levels, or LEVELS,LAYERS, not '" + word + "'");
     arguments_.coarsen = numbers[0];
-    arguments_.coarsenLayers = numbers.size() > 1 ? numbers[1] : 0;
+    if (numbers.size() > 1) arguments_.coarsenLayers = numbers[1];
   }
 
   void parseMerge(const std::string& word) {
@@ -227,7 +229,7 @@ class Parser {
     checkGrid(a.grid);
     if (a.command == Command::slice) checkSlice(a.slice, a.only);
     if (a.command == Command::boundary && a.only.cut) throw UsageError("--only cut: a boundary is that of whole regions");
-    if (a.command == Command::flow && !a.flow.wind) throw UsageError("flow needs --wind");
+    if (a.command == Command::flow) checkFlow(a.flow);
     const bool toStandardOutput = std::find(a.outputs.begin(), a.outputs.end(), "-") != a.outputs.end();
     if (toStandardOutput && !a.format) throw UsageError("-o - needs --format, such as --format vtu");
     if (!toStandardOutput && a.format) throw UsageError("--format is for -o -; other files tell by their extension");

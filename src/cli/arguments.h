@@ -50,6 +50,8 @@ struct SliceArguments {
 struct FlowArguments {
   std::optional<std::array<double, 3>> wind;
   std::optional<uint32_t> streamlines;
+  std::optional<uint32_t> steps;  ///< in time; none: the potential flow
+  double viscosity = 0;           ///< in steps
 };
 
 struct Arguments {
@@ -65,7 +67,7 @@ struct Arguments {
   bool stream = false;               ///< cut: a folder of pieces
   bool faces = false;                ///< in .vtu files, instead of cells
   std::optional<int> coarsen;        ///< levels of octree cells; none: untouched grid cells as they are
-  int coarsenLayers = 0;             ///< of cells of each size, before larger ones
+  std::optional<int> coarsenLayers;  ///< of cells of each size, before larger ones; none: as the library does by itself
   std::optional<double> merge;       ///< fraction of a grid cell below which cells are merged; 0: not
   std::optional<double> uniteWalls;  ///< the angle, in degrees
   OnlyArguments only;

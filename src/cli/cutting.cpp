@@ -124,7 +124,7 @@ MergedCells makeCells(const Arguments& arguments, const Input& input, const CutM
   return withProgress(arguments.threads, [&](const RunOptions& run) {
     CoarsenOptions coarsening{run};
     coarsening.maxLevel = arguments.coarsen.value_or(0);
-    coarsening.fineLayers = coarsening.layersPerLevel = arguments.coarsenLayers;
+    if (arguments.coarsenLayers) coarsening.fineLayers = coarsening.layersPerLevel = *arguments.coarsenLayers;
     CellComplex cells = cellComplex(input.mesh, cutMesh, coarsen(cutMesh, coarsening), run);
     const double fraction = mergeFraction(arguments);
     MergedCells made;

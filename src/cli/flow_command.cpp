@@ -3,30 +3,19 @@
 #ifdef MANDOLINE_HAVE_OPERATORS
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "cli/cutting.h"
 #include "cli/files.h"
+#include "cli/flow_steps.h"
 #include "cli/mesh_report.h"
 #include "mandoline/flow.h"
-#include "operators/measure/vector.h"
 
 namespace mandoline::cli {
 namespace {
 
 bool isFlowFormat(FileFormat format) { return format == FileFormat::vtu || format == FileFormat::obj; }
-
-void writeFaces(const Sink& sink, const FlowField& field, const WriteOptions& options) {
-  const Field fields[] = {{"normal_velocity", field.flow.faceVelocity}, {"normal", field.cells.faceNormal}, {"area", field.cells.faceArea}};
-  writeFacesVtu(sink, field.cutMesh, field.cells, fields, options);
-}
-
-void writeCells(const Sink& sink, const FlowField& field, const WriteOptions& options) {
-  const Flow& flow = field.flow;
-  const Field fields[] = {{"phi", flow.phi}, {"velocity", flow.cellVelocity}, {"pressure_coefficient", flow.cellPressure}};
-  writeVtu(sink, field.cutMesh, field.cells, fields, options);
-}
+bool isStepsFormat(FileFormat format) { return format == FileFormat::vtu; }
 
 /// What there is to tell of a flow.
 struct FlowReport {
@@ -42,17 +31,7 @@ struct FlowReport {
 
   size_t iterations() const { return flow().residuals.empty() ? 0 : flow().residuals.size() - 1; }
   double residual() const { return flow().residuals.empty() ? 0 : flow().residuals.back(); }
-  /// NaN if one of them is.
-  double largestSpeed() const {
-    double largest = 0;
-    for (size_t c = 0; c < field.cells.cellCount(); ++c) {
-      const double* v = &flow().cellVelocity[3 * c];
-      const double speed = measuring::length({v[0], v[1], v[2]});
-      if (std::isnan(speed)) return speed;
-      largest = std::max(largest, speed);
-    }
-    return largest;
-  }
+  double largestSpeed() const { return cli::largestSpeed(flow().cellVelocity); }
 
   std::string text() const {
     char text[400];
@@ -81,6 +60,7 @@ bool isVtu(const Arguments& arguments, const std::string& output) { return forma
 
 /// What can be told before there is a mesh.
 void checkFlowOutputs(const Arguments& arguments) {
+  if (arguments.flow.steps) return checkOutputs(arguments, isStepsFormat, "a flow in steps is written as .vtu");
   checkOutputs(arguments, isFlowFormat, "a flow is written as .vtu or .obj");
   const auto writesVtu = [&](const std::string& output) { return isVtu(arguments, output); };
   const bool hasLines = !std::all_of(arguments.outputs.begin(), arguments.outputs.end(), writesVtu);
@@ -92,13 +72,13 @@ void checkFlowOutputs(const Arguments& arguments) {
 
 constexpr uint32_t kStreamlines = 100;
 
-void write(const Arguments& arguments, const std::string& output, const FlowField& field, WriteOptions options) {
+void write(const Arguments& arguments, const std::string& output, const FlowField& field, const WriteOptions& options) {
+  if (isVtu(arguments, output)) {
+    const Flow& flow = field.flow;
+    const Field ofCells[] = {{"phi", flow.phi}, {"velocity", flow.cellVelocity}, {"pressure_coefficient", flow.cellPressure}};
+    return writeFlowVtu(arguments, output, {field.cutMesh, field.cells, ofCells, flow.faceVelocity}, options);
+  }
   withProgress(arguments.threads, [&](const RunOptions& run) {
-    if (isVtu(arguments, output)) {
-      static_cast<RunOptions&>(options) = run;
-      const auto& writeElements = arguments.faces ? writeFaces : writeCells;
-      return writeOutput(output, [&](const Sink& sink) { writeElements(sink, field, options); });
-    }
     const std::vector<double> seeds =
         inflowSeeds(field.cutMesh.grid, *arguments.flow.wind, arguments.flow.streamlines.value_or(kStreamlines));
     const Streamlines lines = streamlines(field, seeds, StreamlineOptions{run});
@@ -123,6 +103,7 @@ int runFlow(const Arguments& arguments) {
   if (arguments.only.any()) requireSelection(options, cut->mesh);
   options.groups = &input.groups;
   const MergedCells merged = makeCells(arguments, input, cut->mesh);
+  if (arguments.flow.steps) return runSteps(arguments, {input, cut->mesh, merged}, options);
   const CellComplex& cells = merged.cells;
   const Flow flow =
       withProgress(arguments.threads, [&](const RunOptions& run) { return solveFlow(cells, *arguments.flow.wind, FlowOptions{run}); });

@@ -82,8 +82,9 @@ Options of cut
                          them on a side, in .vtu files and polyMesh folders; .json files
                          get all cells as one mesh (CellComplex) instead of the cut-mesh.
                          There are at least LAYERS layers of cells of each size between
-                         smaller and larger ones (default: 0; neighbours differ by at most
-                         one level in any case)
+                         smaller and larger ones (default: 1 of grid cells and of others a
+                         32nd of the grid cells along the longest side; with 0 there are the
+                         fewest cells, which solvers are worst on)
   --merge FRACTION       merge cells below this fraction of a grid cell's volume (0 to 0.5)
                          with neighbours, in what has octree cells; never across a triangle.
                          0.2 is right for solvers. The report tells how many cells there
@@ -128,11 +129,16 @@ Options of flow
                          passes the mesh, nor either side of a sheet
   --coarsen LEVELS[,LAYERS], --faces, --only WHAT, --inside-threshold T
                          as of cut; faces have normal_velocity, normal and area
-  --merge FRACTION       as of cut (default: 0.2; 0 merges nothing: slivers stay, and velocities
-                         near the surface are more accurate in a grid without --coarsen)
+  --merge FRACTION       as of cut (default: 0.2; 0 merges nothing)
   --unite-walls DEGREES  as of cut
   --streamlines N        how many lines (default: 100), from where the wind enters
-  -o FILE ...            .vtu all cells with phi, velocity and pressure_coefficient;
+  --steps N              N steps in time instead, which begin with the potential flow; their
+                         length follows from the speed in the cells. Best with
+                         --unite-walls 30
+  --viscosity NU         kinematic, of the steps: the flow sticks to the mesh (default: 0,
+                         and it slips)
+  -o FILE ...            .vtu all cells with phi, velocity and pressure_coefficient, or after
+                         --steps with velocity and pressure, of a fluid of density 1;
                          .obj streamlines, none of which passes a triangle
 
 Options of info
@@ -163,7 +169,10 @@ Options of all but make
                            slice    layers: height, polygons, slits
                            boundary parts, inside, triangles
                            flow     wind, cutCells, cells, merge as of cut, faces, iterations,
-                                    residuals, largestSpeed and throttled (components)
+                                    residuals, largestSpeed and throttled (components);
+                                    with --steps: steps, time, timeStep, iterations,
+                                    largestDivergence, largestSpeed, and forces: per group
+                                    pressure, viscous, moment (of both, about the origin)
                            info     intersections, placeCount, defectCount, and the first
                                     10000 components, places and defects
                            resolve  intersections, remaining, triangles

@@ -145,6 +145,17 @@ void parseStreamlines(const std::string& word, FlowArguments& flow) {
   flow.streamlines = count;
 }
 
+void parseSteps(const std::string& word, FlowArguments& flow) {
+  uint32_t count = 0;
+  if (!parseNumber(word, count) || count < 1) throw UsageError("--steps needs a number of steps of at least 1, not '" + word + "'");
+  flow.steps = count;
+}
+
+void parseViscosity(const std::string& word, FlowArguments& flow) {
+  if (!parseNumber(word, flow.viscosity) || !(flow.viscosity >= 0) || !std::isfinite(flow.viscosity))
+    throw UsageError("--viscosity needs a number of at least 0, not '" + word + "'");
+}
+
 void checkGrid(const GridArguments& grid) {
   if ((grid.box.has_value() + grid.planes.has_value() + (grid.origin || grid.spacing)) > 1) {
     throw UsageError("only one of --box, --planes, and --origin with --spacing");
@@ -155,6 +166,12 @@ void checkGrid(const GridArguments& grid) {
   if (grid.planes && grid.cells) throw UsageError("--planes tells the number of cells, so there can be no --cells");
   if (grid.origin.has_value() != grid.spacing.has_value()) throw UsageError("--origin and --spacing need each other");
   if (grid.origin && !grid.cells) throw UsageError("--origin and --spacing need --cells");
+}
+
+void checkFlow(const FlowArguments& flow) {
+  if (!flow.wind) throw UsageError("flow needs --wind");
+  if (flow.viscosity > 0 && !flow.steps) throw UsageError("--viscosity is for --steps; without them the flow has a potential");
+  if (flow.streamlines && flow.steps) throw UsageError("--streamlines are those of the potential flow, without --steps");
 }
 
 void checkSlice(const SliceArguments& slice, const OnlyArguments& only) {

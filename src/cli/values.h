@@ -46,9 +46,12 @@ void parseHeights(const std::string& word, SliceArguments& slice);
 void parseLayers(const std::string& word, SliceArguments& slice);
 void parseWind(const std::string& word, FlowArguments& flow);
 void parseStreamlines(const std::string& word, FlowArguments& flow);
+void parseSteps(const std::string& word, FlowArguments& flow);
+void parseViscosity(const std::string& word, FlowArguments& flow);
 
 // They throw UsageError for options that don't go together.
 void checkGrid(const GridArguments& grid);
 void checkSlice(const SliceArguments& slice, const OnlyArguments& only);
+void checkFlow(const FlowArguments& flow);
 
 }  // namespace mandoline::cli

@@ -48,7 +48,7 @@ BrickRange touched(const BrickGrid& bricks, size_t axis, const SlabBox& box) {
   const int32_t last = bricks.cells[axis] - 1;
   if (box.greatest[axis] < 0 || box.least[axis] > 2 * last + 2) return {0, -1};
   const int32_t firstCell = ((box.least[axis] - 1) >> 1) - 1, lastCell = (box.greatest[axis] >> 1) + 1;
-  return {std::max(firstCell, 0) >> bricks.shift, std::min(lastCell, last) >> bricks.shift};
+  return {std::max(firstCell, 0) >> bricks.shifts[axis], std::min(lastCell, last) >> bricks.shifts[axis]};
 }
 
 /// Those with a margin whose lowest plane has a slab from least to greatest. That of brick b is b << shift, less 1 unless the grid begins
@@ -56,8 +56,9 @@ BrickRange touched(const BrickGrid& bricks, size_t axis, const SlabBox& box) {
 BrickRange begun(const BrickGrid& bricks, size_t axis, const SlabBox& box) {
   const int32_t least = box.least[axis], greatest = box.greatest[axis];
   if (greatest < 0) return {0, -1};
-  const int32_t past = (1 << bricks.shift) - 1, last = ((greatest >> 1) + 1) >> bricks.shift;
-  return {least <= 0 ? 0 : (((least + 1) >> 1) + 1 + past) >> bricks.shift, std::min(last, bricks.counts[axis] - 1)};
+  const int shift = bricks.shifts[axis];
+  const int32_t past = (1 << shift) - 1, last = ((greatest >> 1) + 1) >> shift;
+  return {least <= 0 ? 0 : (((least + 1) >> 1) + 1 + past) >> shift, std::min(last, bricks.counts[axis] - 1)};
 }
 
 /// Groups what forAll(f) tells, in two rounds, as f(key, triangle).

@@ -18,13 +18,6 @@ bool reachesGrid(const Input& input, TriangleId t) {
   return true;
 }
 
-Box boxOf(const WeldedMesh& input, uint32_t t) {
-  const auto& v = input.triangles[t];
-  Box box{input.points[v[0]], input.points[v[0]]};
-  for (int i = 1; i < 3; ++i) box.include({input.points[v[i]], input.points[v[i]]});
-  return box;
-}
-
 }  // namespace
 
 Error explainContradiction(const Input& input, int64_t blamed, int64_t alsoBlamed, Run& run) {

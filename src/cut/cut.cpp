@@ -1,11 +1,9 @@
 // The driver: Algorithm 1 of the paper, bottom-up. Each stage has its own header, which is its contract.
-#include <chrono>
-
+#include "base/milliseconds.h"
 #include "cut/contradiction.h"
 #include "cut/driver.h"
 #include "cut/stages/divided_faces.h"
 #include "cut/stages/input.h"
-#include "grid/snap.h"
 #include "mandoline/orient.h"
 #include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
@@ -15,9 +13,7 @@ namespace mandoline {
 namespace detail {
 namespace {
 
-double now() { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-constexpr int kOrientStages = 2, kMeshStages = 2, kGridStages = 6;
+constexpr int kOrientStages = 2;
 
 /// Adds the counts of a mesh's preparation.
 void addCounts(const Prepared& prepared, CutStats& stats) {
@@ -33,35 +29,26 @@ void addCounts(const Prepared& prepared, CutStats& stats) {
   stats.intersectionCurves = prepared.arrangement->curves;
 }
 
-/// `mesh` is the one that was prepared.
-CutMesh cutPrepared(const Prepared& prepared, const MeshView& mesh, const Grid& grid, Clock& clock, Run& run) {
-  addCounts(prepared, run.stats);
-  clock.begin("grid");
-  CutState state;
-  state.surface.input = prepareInput(prepared, grid, run);
-  try {
-    return cutInput(state, mesh, grid, clock, run);
-  } catch (const Failure& failure) {
-    if (failure.error.status != Status::selfIntersection) throw;
-    clock.begin("intersections");
-    throw Failure{explainContradiction(state.surface.input, failure.error.element, failure.error.element2, run)};
-  }
-}
-
 }  // namespace
 
 Clock::Clock(CutStats& stats, Monitor& monitor, int before)
-    : stats_(stats), monitor_(monitor), before_(before), start_(now()), last_(start_) {}
+    : stats_(stats), monitor_(monitor), before_(before), start_(milliseconds() - stats.totalMs), last_(milliseconds()) {}
 
 void Clock::begin(const char* stage) {
   end();
+  isInStage_ = true;
   stats_.stages.push_back({stage, 0});
   monitor_.beginStage(stage, before_ + int(stats_.stages.size()) - 1);
 }
 
+void Clock::resume() {
+  isInStage_ = true;
+  last_ -= stats_.stages.back().ms;
+}
+
 void Clock::end() {
-  const double t = now();
-  if (!stats_.stages.empty()) stats_.stages.back().ms = t - last_;
+  const double t = milliseconds();
+  if (isInStage_) stats_.stages.back().ms = t - last_;
   stats_.totalMs = t - start_;
   last_ = t;
 }
@@ -71,7 +58,37 @@ bool fits(const Prepared& prepared, const Grid& grid) {
   return largest == 0 || std::ilogb(largest) + prepared.shift <= Scale::kLargestExponent + Scale::kRoom;
 }
 
-CutMesh cutInput(CutState& state, const MeshView& mesh, const Grid& grid, Clock& clock, Run& run) {
+PreparedForGrid::PreparedForGrid(PreparedMesh mesh, const Grid& grid, const RunOptions& options) : mesh_(std::move(mesh)) {
+  checkGrid(grid, 0);
+  const PreparedMeshData* data = mesh_.data();
+  if (data && fits(*data->prepared, grid)) return;
+  Monitor monitor(options, 1);
+  again_ = prepareMesh(view(), {largestCoordinate(grid), this->options().intersections}, monitor, [](const char*) {});
+}
+
+Fingerprint PreparedForGrid::fingerprint() const { return mesh_.data() ? mesh_.data()->fingerprint : Fingerprint{}; }
+
+CutOptions PreparedForGrid::options() const {
+  CutOptions options;
+  if (mesh_.data()) options.intersections = mesh_.data()->intersections;
+  return options;
+}
+
+void beginCut(const Prepared& prepared, const Grid& grid, CutState& state, Clock& clock, Run& run) {
+  addCounts(prepared, run.stats);
+  clock.begin("grid");
+  state.surface.input = prepareInput(prepared, grid, run);
+}
+
+SnappedInput::SnappedInput(const MeshView& mesh, const Grid& grid, const CutOptions& options, CutStats& stats) : view_(mesh) {
+  if (options.snapTolerance == 0) return;
+  moved_ = snapped(mesh, grid, options.snapTolerance);
+  stats.snappedVertices = moved_.vertices;
+  stats.largestSnap = moved_.largest;
+  view_ = moved_.mesh;
+}
+
+void cutInBricks(CutState& state, const ShareOf& share, Clock& clock, Run& run) {
   Surface& surface = state.surface;
   const Input& input = surface.input;
 
@@ -79,33 +96,58 @@ CutMesh cutInput(CutState& state, const MeshView& mesh, const Grid& grid, Clock&
   cutTriEdges(surface, run);
 
   clock.begin("triFaces");
-  const BrickGrid brickGrid(input, BrickGrid::shiftFor(input, run.monitor.threads()));
+  const BrickGrid brickGrid(input, state.brickShifts ? *state.brickShifts
+                                   : share.count > 1 ? BrickGrid::shiftsForShares(input, share.count)
+                                                     : BrickGrid::shiftsFor(input, run.monitor.threads()));
   state.parts.clipped = clipTriangles(surface, brickGrid, run);
   divideFaces(surface, state.parts.clipped.undivided, state.parts.divided, run);
 
   clock.begin("bricks");
   state.bricks = layOutBricks(surface, state.parts, brickGrid);
-  state.cuts = cutBricks(surface, state.parts, state.bricks, run);
+  if (share.count > 1) state.bricks.here = layersOf(state.bricks, share.index, share.count);
+  state.cuts = cutBricks(surface, state.parts, state.bricks, run, state.keepBricks ? state.keepBricks() : KeptBricks());
+  state.used = findUsed(surface, state.bricks, state.cuts, run);
+}
 
+void joinBricks(CutState& state, Clock& clock, Run& run) {
+  const Input& input = state.surface.input;
   clock.begin("regions");
   state.runs = findUntouchedRuns(input, state.bricks, run.monitor);
   state.seams = findSeams(input, state.bricks, state.runs, state.cuts, run);
   state.regions = findRegions(state.cut());
+}
 
+CutMesh cutInput(CutState& state, const MeshView& mesh, const Grid& grid, Clock& clock, Run& run) {
+  cutInBricks(state, {}, clock, run);
+  joinBricks(state, clock, run);
   clock.begin("output");
-  CutMesh result = makeOutput(mesh, grid, state, run);
-  run.stats.madeVertices = uint32_t(result.madeVertices.size());
-  return result;
+  std::vector<CutPart> whole;
+  whole.push_back(makePart(mesh, grid, state, run));
+  return makeOutput(std::move(whole), state, run);
+}
+
+CutMesh cutPrepared(CutState& state, const MeshView& mesh, const Grid& grid, Clock& clock, Run& run) {
+  try {
+    return cutInput(state, mesh, grid, clock, run);
+  } catch (const Failure& failure) {
+    if (failure.error.status != Status::selfIntersection) throw;
+    clock.begin("intersections");
+    throw Failure{explainContradiction(state.surface.input, failure.error.element, failure.error.element2, run)};
+  }
+}
+
+Fingerprint fingerprintOfCut(Fingerprint mesh, const Grid& grid, const CutOptions& options) {
+  Fingerprinter fingerprinter("cut", mesh);
+  for (const std::vector<double>& planes : grid.planes) fingerprinter.add(planes);
+  fingerprinter.add(options.snapTolerance);
+  fingerprinter.add(uint64_t(options.intersections));
+  return fingerprinter.get();
 }
 
 void sign(CutMesh& cutMesh, Fingerprint mesh, const CutOptions& options) {
-  Fingerprinter fingerprinter("cut", mesh);
-  for (const std::vector<double>& planes : cutMesh.grid.planes) fingerprinter.add(planes);
-  fingerprinter.add(options.snapTolerance);
-  fingerprinter.add(uint64_t(options.intersections));
   cutMesh.snapTolerance = options.snapTolerance;
   cutMesh.madeFrom = mesh;
-  cutMesh.fingerprint = fingerprinter.get();
+  cutMesh.fingerprint = fingerprintOfCut(mesh, cutMesh.grid, options);
 }
 
 }  // namespace detail
@@ -150,7 +192,9 @@ CutResult cut(const PreparedMesh& mesh, const Grid& grid, const CutOptions& opti
     Monitor monitor(options, kGridStages);
     Clock clock(result.stats, monitor);
     Run run{result.stats, monitor};
-    result.mesh = cutPrepared(*data->prepared, data->mesh, grid, clock, run);
+    CutState state;
+    beginCut(*data->prepared, grid, state, clock, run);
+    result.mesh = cutPrepared(state, data->mesh, grid, clock, run);
     sign(result.mesh, data->fingerprint, same);
   });
   return result;
@@ -163,16 +207,12 @@ CutResult cut(const MeshView& mesh, const Grid& grid, const CutOptions& options)
     Clock clock(result.stats, monitor);
     Run run{result.stats, monitor};
     checkGrid(grid, options.snapTolerance);
-    SnappedMesh moved;
-    if (options.snapTolerance > 0) {
-      moved = snapped(mesh, grid, options.snapTolerance);
-      result.stats.snappedVertices = moved.vertices;
-      result.stats.largestSnap = moved.largest;
-    }
-    const MeshView input = options.snapTolerance > 0 ? MeshView(moved.mesh) : mesh;
-    const auto prepared =
-        prepareMesh(input, {largestCoordinate(grid), options.intersections}, monitor, [&](const char* stage) { clock.begin(stage); });
-    result.mesh = cutPrepared(*prepared, input, grid, clock, run);
+    const SnappedInput input(mesh, grid, options, result.stats);
+    const auto prepared = prepareMesh(input.view(), {largestCoordinate(grid), options.intersections}, monitor,
+                                      [&](const char* stage) { clock.begin(stage); });
+    CutState state;
+    beginCut(*prepared, grid, state, clock, run);
+    result.mesh = cutPrepared(state, input.view(), grid, clock, run);
     sign(result.mesh, fingerprintOf(mesh), options);
   });
   return result;

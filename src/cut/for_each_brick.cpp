@@ -1,7 +1,6 @@
 #include "mandoline/for_each_brick.h"
 
 #include <bit>
-#include <optional>
 
 #include "cut/brick_triangles.h"
 #include "cut/contradiction.h"
@@ -15,8 +14,6 @@
 namespace mandoline {
 namespace detail {
 namespace {
-
-constexpr int kBrickStages = 5;  // of cutInput()
 
 int shiftOf(int64_t cells) {
   constexpr int64_t kMost = int64_t(1) << 24;
@@ -45,7 +42,7 @@ class BrickSource {
     CutStats stats;
     Run run{stats, monitor};
     input_ = prepareInput(prepared_, grid_, run);
-    bricks_ = BrickGrid(input_, shiftOf(options.cells));
+    bricks_ = BrickGrid(input_, BrickGrid::same(shiftOf(options.cells)));
     triangles_ = findBrickTriangles(input_, bricks_);
   }
 
@@ -80,7 +77,7 @@ class BrickSource {
     const BrickBox box = withMargin(bricks_, key);
     std::array<std::vector<double>, 3> planes;
     for (size_t d = 0; d < 3; ++d) planes[d] = planesOf(grid_.planes[d], box, d);
-    Monitor monitor(options, kBrickStages);
+    Monitor monitor(options, kInputStages);
     CutStats stats;
     Clock clock(stats, monitor);
     Run run{stats, monitor};
@@ -142,42 +139,31 @@ class BrickSource {
 using namespace detail;
 
 struct BrickCutter::Data {
-  PreparedMesh mesh;
+  Data(PreparedMesh mesh_, Grid grid_, const ForEachBrickOptions& options)
+      : mesh(std::move(mesh_), grid_, options),
+        grid(std::move(grid_)),
+        source(mesh.prepared(), mesh.view(), grid, mesh.options(), options) {}
+
+  PreparedForGrid mesh;
   Grid grid;
-  std::unique_ptr<const Prepared> again;  // where the grid is far larger than the mesh
-  std::optional<BrickSource> source;
+  BrickSource source;
 };
 
 BrickCutter::BrickCutter(PreparedMesh mesh, Grid grid, const ForEachBrickOptions& options) {
-  runCall("cut", [&] {
-    auto data = std::make_shared<Data>();
-    data->mesh = std::move(mesh);
-    data->grid = std::move(grid);
-    checkGrid(data->grid, 0);
-    const MeshView view = data->mesh.mesh();
-    const PreparedMeshData* prepared = data->mesh.data();
-    CutOptions cutOptions;
-    if (prepared) cutOptions.intersections = prepared->intersections;
-    if (!prepared || !fits(*prepared->prepared, data->grid)) {
-      Monitor monitor(options, 1);
-      data->again = prepareMesh(view, {largestCoordinate(data->grid), cutOptions.intersections}, monitor, [](const char*) {});
-    }
-    data->source.emplace(data->again ? *data->again : *prepared->prepared, view, data->grid, cutOptions, options);
-    data_ = std::move(data);
-  });
+  runCall("cut", [&] { data_ = std::make_shared<Data>(std::move(mesh), std::move(grid), options); });
 }
 
-uint64_t BrickCutter::count() const { return data_->source->count(); }
+uint64_t BrickCutter::count() const { return data_->source.count(); }
 
 std::array<int64_t, 3> BrickCutter::first(uint64_t brick) const {
   requireBrick(brick, count());
-  const auto [x, y, z] = data_->source->boxOf(brick).first;
+  const auto [x, y, z] = data_->source.boxOf(brick).first;
   return {x, y, z};
 }
 
 CutPiece BrickCutter::cut(uint64_t brick, const RunOptions& options) const {
   requireBrick(brick, count());
-  return runCall("cut", [&] { return data_->source->cut(brick, options); });
+  return runCall("cut", [&] { return data_->source.cut(brick, options); });
 }
 
 void forEachBrick(const PreparedMesh& mesh, const Grid& grid, const std::function<void(CutPiece)>& f, const ForEachBrickOptions& options) {

@@ -7,16 +7,8 @@ namespace {
 
 /// The axis of the grid line through two vertices, or -1.
 int commonGridLine(const CutMesh& m, uint32_t u, uint32_t v) {
-  int axis = -1, common = 0;
-  for (int d = 0; d < 3; ++d) {
-    const bool onPlane = (m.vertexMask[u] & m.vertexMask[v]) >> d & 1;
-    if (onPlane && m.vertexCell[3 * size_t(u) + d] == m.vertexCell[3 * size_t(v) + d]) {
-      ++common;
-    } else {
-      axis = d;
-    }
-  }
-  return common == 2 ? axis : -1;
+  const uint8_t planes = m.commonPlanes(u, v);
+  return planes == 6 ? 0 : planes == 5 ? 1 : planes == 3 ? 2 : -1;
 }
 
 }  // namespace

@@ -5,8 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "mesh/resolve/contacts.h"
-
 namespace mandoline::detail {
 namespace {
 
@@ -84,18 +82,6 @@ NearTriangles findEdgesAndNear(Prepared& prepared, Monitor& monitor) {
   return *std::move(near);
 }
 
-/// Finds where triangles meet; if any do, the arrangement's vertices and edges take the place of the mesh's.
-void findArrangement(Prepared& prepared, const NearTriangles& near, Monitor& monitor, Predicates& predicates) {
-  auto arrangement = std::make_unique<Arrangement>(arrange(prepared, near, monitor, predicates));
-  if (!arrangement->empty()) {
-    prepared.stitches = arrangement->sides;
-    for (uint32_t v = prepared.triVertices; v < arrangement->points.size(); ++v)
-      prepared.points.push_back(arrangement->points.reference(v));
-    findEdges(prepared, arrangement.get());
-  }
-  prepared.arrangement = std::move(arrangement);
-}
-
 }  // namespace
 
 std::span<const Duplicate> Prepared::duplicatesOf(TriangleId t) const {
@@ -105,14 +91,12 @@ std::span<const Duplicate> Prepared::duplicatesOf(TriangleId t) const {
   return {duplicates.data() + (first - duplicates.begin()), size_t(past - first)};
 }
 
-std::unique_ptr<const Prepared> prepareMesh(const MeshView& mesh, const Preparation& preparation, Monitor& monitor,
-                                            const std::function<void(const char*)>& beginStage) {
-  beginStage("input");
+std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Predicates& predicates) {
   checkArrays(mesh);
   auto prepared = std::make_unique<Prepared>();
   MeshCounts& counts = prepared->counts;
   const std::vector<uint8_t> referenced = referencedVertices(mesh);
-  const double largest = std::max(largestCoordinate(mesh, referenced), preparation.largest);
+  largest = std::max(largest, largestCoordinate(mesh, referenced));
   prepared->shift = largest > 0 ? Scale::kLargestExponent - std::ilogb(largest) : 0;
   const Scale scale(prepared->shift);
   prepared->points.resize(referenced.size());
@@ -128,22 +112,41 @@ std::unique_ptr<const Prepared> prepareMesh(const MeshView& mesh, const Preparat
   for (size_t t = 0; t < prepared->triangles.size(); ++t) {
     for (size_t i = 0; i < 3; ++i) prepared->triangles[t][i] = lowest[mesh.triangles[3 * t + i]];
   }
-  Predicates predicates;
   const std::vector<uint32_t> zeroArea = dropZeroArea(*prepared, predicates);
   counts.zeroAreaTriangles = uint32_t(zeroArea.size());
   if (!zeroArea.empty()) prepared->stitches = findStitches(*prepared, zeroArea);
-  if (preparation.intersections == Intersections::assumeNone) {
-    findEdges(*prepared, nullptr);
-  } else {
-    beginStage("intersections");
-    const NearTriangles near = findEdgesAndNear(*prepared, monitor);
-    if (preparation.intersections == Intersections::refuse) {
-      refuseIntersections(*prepared, near, monitor, predicates);
-    } else {
-      findArrangement(*prepared, near, monitor, predicates);
-    }
+  return prepared;
+}
+
+void findInputEdges(Prepared& prepared) { findEdges(prepared, nullptr); }
+
+void arrangeInput(Prepared& prepared, Contacts contacts, bool keepContacts, Monitor& monitor, Predicates& predicates) {
+  auto arrangement = std::make_unique<Arrangement>(arrange(prepared, contacts, monitor, predicates));
+  if (!arrangement->empty()) {
+    prepared.stitches = arrangement->sides;
+    for (uint32_t v = prepared.triVertices; v < arrangement->points.size(); ++v)
+      prepared.points.push_back(arrangement->points.reference(v));
+    findEdges(prepared, arrangement.get());
   }
-  counts.exactFallbacks = predicates.fallbacks;
+  prepared.arrangement = std::move(arrangement);
+  if (keepContacts) prepared.contacts = std::move(contacts.pairs);
+}
+
+void resolveInput(Prepared& prepared, const Preparation& preparation, Monitor& monitor, Predicates& predicates) {
+  if (preparation.intersections == Intersections::assumeNone) return findEdges(prepared, nullptr);
+  const NearTriangles near = findEdgesAndNear(prepared, monitor);
+  if (preparation.intersections == Intersections::refuse) return refuseIntersections(prepared, near, monitor, predicates);
+  arrangeInput(prepared, findContacts(prepared, near, monitor, predicates), preparation.keepContacts, monitor, predicates);
+}
+
+std::unique_ptr<Prepared> prepareMesh(const MeshView& mesh, const Preparation& preparation, Monitor& monitor,
+                                      const std::function<void(const char*)>& beginStage) {
+  Predicates predicates;
+  beginStage("input");
+  auto prepared = weldInput(mesh, preparation.largest, predicates);
+  if (preparation.intersections != Intersections::assumeNone) beginStage("intersections");
+  resolveInput(*prepared, preparation, monitor, predicates);
+  prepared->counts.exactFallbacks = predicates.fallbacks;
   return prepared;
 }
 

@@ -13,6 +13,7 @@
 #include "mandoline/mesh.h"
 #include "mesh/failure.h"
 #include "mesh/parts.h"
+#include "mesh/resolve/contacts.h"
 
 namespace mandoline::detail {
 
@@ -28,6 +29,7 @@ struct Prepared : WeldedMesh {
   MeshEdges edges;
   /// Where triangles meet, or null if they are assumed or required not to.
   std::unique_ptr<const Arrangement> arrangement;
+  std::vector<PairContact> contacts;  ///< that it was made of, if they were to be kept
   Parts parts;
   MeshCounts counts;
 
@@ -66,10 +68,21 @@ class Scale {
 struct Preparation {
   double largest = 0;  ///< of all coordinates that are to be scaled, beside the mesh's
   Intersections intersections = Intersections::resolve;
+  bool keepContacts = false;
 };
 
-/// `beginStage` is called with "input" and "intersections".
-std::unique_ptr<const Prepared> prepareMesh(const MeshView& mesh, const Preparation& preparation, Monitor& monitor,
-                                            const std::function<void(const char*)>& beginStage);
+/// The first half: the checked and welded mesh, without edges. `largest` as of a Preparation.
+std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Predicates& predicates);
+/// The second: its edges and, unless intersections are assumed to be none, where triangles meet.
+void resolveInput(Prepared& prepared, const Preparation& preparation, Monitor& monitor, Predicates& predicates);
+/// Its parts. The edges of the mesh itself, which triangles are the same, and whether it is closed:
+void findInputEdges(Prepared& prepared);
+/// Once these and the contacts are known: the arrangement, and where any triangles meet its vertices and edges in the place
+/// of the mesh's.
+void arrangeInput(Prepared& prepared, Contacts contacts, bool keepContacts, Monitor& monitor, Predicates& predicates);
+
+/// Both. `beginStage` is called with "input" and "intersections".
+std::unique_ptr<Prepared> prepareMesh(const MeshView& mesh, const Preparation& preparation, Monitor& monitor,
+                                      const std::function<void(const char*)>& beginStage);
 
 }  // namespace mandoline::detail

@@ -15,6 +15,7 @@ Boundary boundaryOf(const CellComplex& cells) {
   }
   boundary.condition.assign(boundary.halfFaces.size(), Condition::neumann);
   boundary.value.assign(boundary.halfFaces.size(), 0);
+  boundary.coefficient.assign(boundary.halfFaces.size(), 0);
   boundary.madeFrom = cells.fingerprint;
   return boundary;
 }
@@ -29,8 +30,8 @@ void physics::requireBoundary(const Boundary& boundary, const CellComplex& cells
       operators::refuse("The boundary has half-face " + std::to_string(h) + ", which is none of the boundary or is out of order.",
                         int64_t(b));
   }
-  if (boundary.condition.size() != n || boundary.value.size() != n)
-    operators::refuse("The boundary has " + std::to_string(n) + " half-faces, but other numbers of conditions or values.");
+  if (boundary.condition.size() != n || boundary.value.size() != n || boundary.coefficient.size() != n)
+    operators::refuse("The boundary has " + std::to_string(n) + " half-faces, but other numbers of conditions, values or coefficients.");
 }
 
 void setBoundary(Boundary& boundary, const CellComplex& cells, FaceTag tag, Condition condition, double value) {
@@ -39,6 +40,14 @@ void setBoundary(Boundary& boundary, const CellComplex& cells, FaceTag tag, Cond
     if (cells.faceTag[boundary.halfFaces[b] / 2] != tag) continue;
     boundary.condition[b] = condition;
     boundary.value[b] = value;
+    boundary.coefficient[b] = 0;
+  }
+}
+
+void setRobin(Boundary& boundary, const CellComplex& cells, FaceTag tag, double coefficient, double value) {
+  setBoundary(boundary, cells, tag, Condition::robin, value);
+  for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {
+    if (cells.faceTag[boundary.halfFaces[b] / 2] == tag) boundary.coefficient[b] = coefficient;
   }
 }
 

@@ -8,7 +8,10 @@ namespace {
 
 class Finder {
  public:
-  Finder(const CellComplex& cells, DualPoints dualPoints) : cells_(cells), points_(pointsOf(cells, dualPoints)) {}
+  Finder(const CellComplex& cells, DualPoints dualPoints, std::vector<double> coefficients)
+      : cells_(cells), points_(pointsOf(cells, dualPoints)) {
+    result_.coefficients = std::move(coefficients);
+  }
 
   DualEdges run() {
     for (size_t f = 0; f < cells_.faceCount(); ++f) {
@@ -52,14 +55,16 @@ class Finder {
     else
       result_.faces.items.insert(result_.faces.items.end(), faces.begin(), faces.end());
     result_.faces.endGroup();
-    DualEdge edge{uint32_t(cell(f, side)), side == 0 ? 1.0 : -1.0, 0, 0};
+    DualEdge edge{uint32_t(cell(f, side)), side == 0 ? 1.0 : -1.0, 0, 0, 0};
     double sum = 0, largest = 0;
     for (const uint32_t face : result_.faces[result_.edges.size()]) {
+      const double flow = result_.flowOf(cells_, face);
       edge.area += cells_.faceArea[face];
-      sum += cells_.faceArea[face] * distance(face);
+      edge.flow += flow;
+      sum += flow * distance(face);
       largest = std::max(largest, distance(face));
     }
-    edge.distance = edge.area > 0 ? std::min(sum / edge.area, largest) : largest;
+    edge.distance = edge.flow > 0 ? std::min(sum / edge.flow, largest) : largest;
     result_.edges.push_back(edge);
   }
 
@@ -99,6 +104,8 @@ class Finder {
 
 }  // namespace
 
-DualEdges dualEdges(const CellComplex& cells, DualPoints dualPoints) { return Finder(cells, dualPoints).run(); }
+DualEdges dualEdges(const CellComplex& cells, DualPoints dualPoints, std::vector<double> coefficients) {
+  return Finder(cells, dualPoints, std::move(coefficients)).run();
+}
 
 }  // namespace mandoline::physics

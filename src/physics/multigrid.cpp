@@ -21,19 +21,21 @@ void setCouplings(Level& level, const std::vector<CoupledPair>& pairs) {
       });
   level.diagonal = level.held;
   for (size_t i = 0; i < level.count(); ++i) {
+    level.diagonal[i] += level.mass[i];
     for (const auto& [j, w] : level.couplings[i]) level.diagonal[i] += w;
   }
 }
 
-Level finestLevel(const CellComplex& cells, const DualEdges& dual, std::vector<double> held) {
+Level finestLevel(const CellComplex& cells, const DualEdges& dual, std::vector<double> held, std::vector<double> mass) {
   Level level;
   level.held = std::move(held);
+  level.mass = std::move(mass);
   level.corner = cells.cellCorner;
   for (const uint8_t l : cells.cellLevel) level.size.push_back(double(uint32_t(1) << l));
   std::vector<CoupledPair> pairs;
   for (size_t e = 0; e < dual.edges.size(); ++e) {
     const DualEdge& edge = dual.edges[e];
-    for (const uint32_t f : dual.faces[e]) pairs.push_back({edge.cell, otherCell(cells, edge, f), cells.faceArea[f] / edge.distance});
+    for (const uint32_t f : dual.faces[e]) pairs.push_back({edge.cell, otherCell(cells, edge, f), dual.flowOf(cells, f) / edge.distance});
   }
   setCouplings(level, pairs);
   level.strength = level.diagonal;
@@ -76,6 +78,7 @@ double farther(const Level& fine, double fineSize, double size) { return fine.tw
 void holdStill(Level& level, std::vector<CoupledPair>& pairs) {
   constexpr double kWeakest = 1e-8;
   std::vector<double> total = level.held;
+  for (uint32_t a = 0; a < total.size(); ++a) total[a] += level.mass[a];
   for (const auto& [a, b, w] : pairs) total[a] += w, total[b] += w;
   const auto isStill = [&](uint32_t a) { return total[a] < kWeakest * level.strength[a]; };
   for (const auto& [a, b, w] : pairs) {
@@ -83,7 +86,7 @@ void holdStill(Level& level, std::vector<CoupledPair>& pairs) {
     if (isStill(b)) level.held[a] += w;
   }
   for (uint32_t a = 0; a < level.held.size(); ++a) {
-    if (isStill(a)) level.held[a] = 0;
+    if (isStill(a)) level.held[a] = level.mass[a] = 0;
   }
   std::erase_if(pairs, [&](const CoupledPair& pair) { return isStill(pair.a) || isStill(pair.b); });
 }
@@ -91,6 +94,7 @@ void holdStill(Level& level, std::vector<CoupledPair>& pairs) {
 Level coarserLevel(const Level& fine, uint32_t count, int shift) {
   Level level;
   level.held.resize(count);
+  level.mass.resize(count);
   level.strength.resize(count);
   level.corner.resize(3 * size_t(count));
   level.size.assign(count, double(uint64_t(1) << shift));
@@ -100,6 +104,7 @@ Level coarserLevel(const Level& fine, uint32_t count, int shift) {
     level.size[a] = std::max(level.size[a], fine.size[i]);
     level.strength[a] = std::max(level.strength[a], fine.strength[i]);
     level.held[a] += fine.held[i] * farther(fine, fine.size[i], level.size[a]);
+    level.mass[a] += fine.mass[i];
     for (size_t d = 0; d < 3; ++d) level.corner[3 * a + d] = fine.corner[3 * i + d] >> shift << shift;
   }
   const auto members = detail::groupBy<uint32_t>(
@@ -122,6 +127,16 @@ Level coarserLevel(const Level& fine, uint32_t count, int shift) {
   return level;
 }
 
+/// Whether mass and what holds nodes outweigh couplings everywhere, so that smoothing alone solves the level.
+bool isDominatedByMass(const Level& level) {
+  bool hasMass = false;
+  for (size_t i = 0; i < level.count(); ++i) {
+    if (level.diagonal[i] > 2 * (level.mass[i] + level.held[i])) return false;
+    hasMass |= level.mass[i] > 0;
+  }
+  return hasMass;
+}
+
 /// One sweep of Gauss-Seidel.
 template <bool forwards>
 void smooth(const Level& level, const std::vector<double>& r, std::vector<double>& x) {
@@ -142,12 +157,13 @@ double residual(const Level& level, const std::vector<double>& r, const std::vec
 
 }  // namespace
 
-Multigrid::Multigrid(const CellComplex& cells, const DualEdges& dual, std::vector<double> held) {
-  levels_.push_back(finestLevel(cells, dual, std::move(held)));
+Multigrid::Multigrid(const CellComplex& cells, const DualEdges& dual, std::vector<double> held, std::vector<double> mass) {
+  levels_.push_back(finestLevel(cells, dual, std::move(held), std::move(mass)));
   int32_t last = 0;
   for (const int32_t corner : cells.cellCorner) last = std::max(last, corner);
   for (int shift = 1; last >> (shift - 1) > 0 && !levels_.back().couplings.items.empty(); ++shift) {
     Level& fine = levels_.back();
+    if (isDominatedByMass(fine)) break;
     const uint32_t count = joinNodes(fine, shift);
     if (count > fine.count() - fine.count() / 16 && last >> shift > 0) continue;  // too few join to be worth a level
     fine.twice = count <= fine.count() / 2;

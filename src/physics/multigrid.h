@@ -14,8 +14,9 @@ struct Level {
     double w;
   };
   detail::Csr<Coupling> couplings;
-  std::vector<double> diagonal;  ///< the sum of a node's couplings and `held`
-  std::vector<double> held;      ///< by Dirichlet conditions
+  std::vector<double> diagonal;  ///< the sum of a node's couplings, `held` and `mass`
+  std::vector<double> held;      ///< by conditions on the boundary
+  std::vector<double> mass;      ///< times volume
   std::vector<int32_t> corner;   ///< 3 per node: lowest grid cell of its block
   std::vector<double> size;      ///< of its block, in grid cells
   std::vector<double> strength;  ///< the largest diagonal of the nodes that it is made of
@@ -28,8 +29,9 @@ struct Level {
 
 class Multigrid {
  public:
-  /// `held` is what Dirichlet conditions add to the diagonal, per cell.
-  Multigrid(const CellComplex& cells, const DualEdges& dual, std::vector<double> held);
+  /// `held` and `mass` are what conditions on the boundary and mass add to the diagonal, per cell. A level where they outweigh
+  /// couplings everywhere is the last one if there is mass.
+  Multigrid(const CellComplex& cells, const DualEdges& dual, std::vector<double> held, std::vector<double> mass);
 
   /// x = B r, where B is symmetric, positive definite and near the matrix's inverse. Nodes whose diagonal is zero get 0.
   void apply(const std::vector<double>& r, std::vector<double>& x);

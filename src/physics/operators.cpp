@@ -37,8 +37,8 @@ void physics::addLaplacian(const CellComplex& cells, const DualEdges& dual, doub
   for (size_t e = 0; e < dual.edges.size(); ++e) {
     const DualEdge& edge = dual.edges[e];
     const auto faces = dual.faces[e];
-    const double all = factor * edge.area / edge.distance;
-    const auto share = [&](uint32_t f) { return shareOf(cells, edge, faces, f); };
+    const double all = factor * edge.flow / edge.distance;
+    const auto share = [&](uint32_t f) { return shareOf(cells, dual, e, f); };
     entries.emplace_back(int(edge.cell), int(edge.cell), -all);
     for (const uint32_t f : faces) {
       const int other = int(otherCell(cells, edge, f));
@@ -58,7 +58,7 @@ SparseMatrix gradient(const CellComplex& cells, DualPoints dualPoints) {
     for (const uint32_t f : dual.faces[e]) {
       entries.emplace_back(int(f), int(edge.cell), -perLength);
       for (const uint32_t other : dual.faces[e]) {
-        const double share = physics::shareOf(cells, edge, dual.faces[e], other);
+        const double share = physics::shareOf(cells, dual, e, other);
         entries.emplace_back(int(f), int(otherCell(cells, edge, other)), share * perLength);
       }
     }

@@ -1,12 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mandoline/poisson.h"
-#include "mesh/run_call.h"
-#include "physics/multigrid.h"
-#include "physics/poisson_problem.h"
+#include "physics/poisson_setup.h"
 
-namespace mandoline {
+namespace mandoline::physics {
 namespace {
 
 using Vector = std::vector<double>;
@@ -17,188 +14,235 @@ double dot(const Vector& a, const Vector& b) {
   return sum;
 }
 
-/// The system's matrix, multiplied by differences of x: except for what Dirichlet conditions add, each row sums to zero. So rounding of a
-/// large constant in x does not drown the rest.
-class Operator {
- public:
-  Operator(const SparseMatrix& matrix, const Vector& held) : matrix_(matrix), held_(held) {}
-
-  double row(const Vector& x, size_t i) const {
-    double sum = held_[i] * x[i];
-    forEachOther(i, [&](size_t j, double value) { sum += value * (x[j] - x[i]); });
-    return sum;
-  }
-  void multiply(const Vector& x, Vector& result) const {
-    for (size_t i = 0; i < x.size(); ++i) result[i] = row(x, i);
-  }
-  /// Gauss-Seidel, forwards and backwards. The smallest cells hardly show in a residual; this adjusts them to their neighbours.
-  void sweep(const Vector& rhs, Vector& x) const {
-    for (size_t k = 0; k < 2 * x.size(); ++k) {
-      const size_t i = k < x.size() ? k : 2 * x.size() - 1 - k;
-      double diagonal = held_[i];
-      forEachOther(i, [&](size_t, double value) { diagonal -= value; });
-      if (diagonal > 0) x[i] += (rhs[i] - row(x, i)) / diagonal;
-    }
-  }
-
- private:
-  /// Symmetric, so that columns are rows.
-  template <class F>
-  void forEachOther(size_t i, const F& f) const {
-    const int *offsets = matrix_.outerIndexPtr(), *columns = matrix_.innerIndexPtr();
-    for (int e = offsets[i]; e < offsets[i + 1]; ++e) {
-      if (size_t(columns[e]) != i) f(size_t(columns[e]), matrix_.valuePtr()[e]);
-    }
-  }
-
-  const SparseMatrix& matrix_;
-  const Vector& held_;
-};
-
 class Solver {
  public:
-  Solver(const CellComplex& cells, const PoissonProblem& problem, const SolveOptions& options, detail::Monitor& monitor)
-      : cells_(cells), problem_(problem), options_(options), monitor_(monitor), system_(poissonSystem(cells, problem)) {}
+  Solver(PoissonSetup& setup, const PoissonData& data, const SolveOptions& options, detail::Monitor& monitor)
+      : setup_(setup), cells_(setup.cells), data_(data), options_(options), monitor_(monitor) {}
 
   Solution run() {
-    monitor_.beginStage("levels", 0);
-    result_.phi.resize(cells_.cellCount());
-    components_ = cellComponents(cells_);
-    held_ = physics::heldComponents(cells_, problem_.boundary, components_);
-    const Vector coefficients = physics::dirichletCoefficients(cells_, problem_);
-    Vector given = absolutes(coefficients);
-    const int exponent = scaleDown(given);
+    PoissonProblem& problem = setup_.problem;
+    problem.source.assign(data_.source.begin(), data_.source.end());
+    problem.boundary.value.assign(data_.boundaryValue.begin(), data_.boundaryValue.end());
+    problem.boundary.value.resize(setup_.terms.size());
+    rhs_ = rightSide(cells_, problem, setup_.terms);
+    Vector given = absolutes();
+    exponent_ = scaleDown(given);
     balance(given);
-    for (double& excess : result_.excess) excess = std::ldexp(excess, exponent);
-    Vector held(cells_.cellCount());
-    for (size_t b = 0; b < coefficients.size(); ++b) held[size_t(cells_.faceCells[problem_.boundary.halfFaces[b]])] += coefficients[b];
-    physics::Multigrid multigrid(cells_, physics::dualEdges(cells_, problem_.dualPoints), held);
-    const Operator matrix(system_.matrix, held);
-    monitor_.beginStage("iterations", 1);
-    iterate(matrix, multigrid);
+    for (double& excess : result_.excess) excess = std::ldexp(excess, exponent_);
+    start();
+    solve();
+    setDerivatives();
     fixConstants();
-    for (double& phi : result_.phi) phi = std::ldexp(phi, exponent);
-    if (!std::all_of(result_.phi.begin(), result_.phi.end(), [](double phi) { return std::isfinite(phi); })) {
-      result_.status = SolveStatus::breakdown;
-    }
+    for (Vector* values : {&result_.phi, &result_.faceDerivative, &result_.boundaryDerivative}) scaleBy(exponent_, *values);
+    if (!areFinite(result_.phi)) result_.status = SolveStatus::breakdown;
     if (result_.status == SolveStatus::converged && !result_.incompatible.empty()) result_.status = SolveStatus::incompatible;
     return std::move(result_);
   }
 
  private:
-  /// Divides the right side by a power of two, so that squares of it are neither too large nor too small for doubles. Returns the exponent.
+  static bool areFinite(const Vector& values) {
+    return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  }
+
+  /// Divides what is given and the right side by a power of two, so that squares of it are neither too large nor too small for doubles.
+  /// Returns the exponent.
   int scaleDown(Vector& given) {
     int exponent = 0;
     std::frexp(given.empty() ? 0 : *std::max_element(given.begin(), given.end()), &exponent);
-    for (double& sum : given) sum = std::ldexp(sum, -exponent);
-    for (double& value : system_.rhs) value = std::ldexp(value, -exponent);
+    for (Vector* values : {&given, &rhs_, &setup_.problem.source, &setup_.problem.boundary.value}) scaleBy(-exponent, *values);
     return exponent;
   }
 
   /// Subtracts the excess from the right side; where it is too large, the component is left with nothing to solve. `given`: absolutes().
   void balance(const Vector& given) {
-    const size_t n = components_.count;
+    const size_t n = setup_.components.count;
     Vector excess = excesses(), absolute(n);
     double all = 0;
     for (size_t c = 0; c < given.size(); ++c) absolute[component(c)] += given[c], all += given[c];
     for (size_t r = 0; r < n; ++r) {
-      if (held_[r] || options_.balance || std::fabs(excess[r]) <= 1e-9 * absolute[r] + 1e-15 * all) continue;
+      if (setup_.held[r] || options_.balance || std::fabs(excess[r]) <= 1e-9 * absolute[r] + 1e-15 * all) continue;
       result_.incompatible.push_back(uint32_t(r));
       result_.excess.push_back(excess[r]);
     }
     for (size_t c = 0; c < given.size(); ++c) {
-      if (isIncompatible(component(c))) system_.rhs[c] = 0;
+      if (isIncompatible(component(c))) rhs_[c] = 0;
     }
     // A rounding error left in the sum would make waves in cells that only the tiniest faces connect.
     for (size_t c = 0; c < given.size(); ++c) {
-      if (std::fabs(system_.rhs[c]) <= kRounding * given[c]) system_.rhs[c] = 0;
+      if (std::fabs(rhs_[c]) <= kRounding * given[c]) rhs_[c] = 0;
     }
     const Vector before = squares();
     constexpr int kPasses = 3;  // each leaves a rounding error of the excess that it subtracts
     for (int pass = 0; pass < kPasses; ++pass) takeAway(excesses());
     const Vector after = squares();
     for (size_t c = 0; c < given.size(); ++c) {  // where only rounding is left beside the excess, there is nothing to solve
-      if (after[component(c)] < 1e-24 * before[component(c)]) system_.rhs[c] = 0;
+      if (after[component(c)] < 1e-24 * before[component(c)]) rhs_[c] = 0;
     }
   }
 
   bool isIncompatible(uint32_t r) const { return std::binary_search(result_.incompatible.begin(), result_.incompatible.end(), r); }
 
   /// Per cell: the terms of the right side, each without its sign.
-  Vector absolutes(const Vector& dirichletCoefficients) const {
+  Vector absolutes() const {
     Vector sums(cells_.cellCount());
-    for (size_t c = 0; c < problem_.source.size(); ++c) sums[c] = std::fabs(problem_.source[c] * cells_.cellVolume[c]);
-    const Boundary& boundary = problem_.boundary;
-    for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {
-      const uint32_t h = boundary.halfFaces[b];
-      const bool isNeumann = boundary.condition[b] == Condition::neumann;
-      sums[size_t(cells_.faceCells[h])] += std::fabs(boundary.value[b] * (isNeumann ? cells_.faceArea[h / 2] : dirichletCoefficients[b]));
-    }
+    const auto& [boundary, source, dualPoints, faceCoefficient, mass] = setup_.problem;
+    for (size_t c = 0; c < source.size(); ++c) sums[c] = std::fabs(source[c] * cells_.cellVolume[c]);
+    for (size_t b = 0; b < setup_.terms.size(); ++b)
+      sums[size_t(cells_.faceCells[boundary.halfFaces[b]])] += std::fabs(boundary.value[b] * setup_.terms[b].perValue);
     return sums;
   }
 
-  /// Per component without a Dirichlet condition the sum of the right side; 0 for others.
+  /// Per component in which phi is held nowhere the sum of the right side; 0 for others.
   Vector excesses() const {
-    Vector sums(components_.count);
+    Vector sums(setup_.components.count);
     for (size_t c = 0; c < cells_.cellCount(); ++c) {
-      if (!held_[component(c)]) sums[component(c)] += system_.rhs[c];
+      if (!setup_.held[component(c)]) sums[component(c)] += rhs_[c];
     }
     return sums;
   }
 
   /// Evenly by volume.
   void takeAway(const Vector& excess) {
-    Vector volume(components_.count);
+    Vector volume(setup_.components.count);
     for (size_t c = 0; c < cells_.cellCount(); ++c) volume[component(c)] += cells_.cellVolume[c];
     for (size_t c = 0; c < cells_.cellCount(); ++c) {
       const uint32_t r = component(c);
-      if (excess[r] != 0 && volume[r] > 0) system_.rhs[c] -= excess[r] * (cells_.cellVolume[c] / volume[r]);
+      if (excess[r] != 0 && volume[r] > 0) rhs_[c] -= excess[r] * (cells_.cellVolume[c] / volume[r]);
     }
   }
 
   /// Per component, of the right side.
   Vector squares() const {
-    Vector sums(components_.count);
-    for (size_t c = 0; c < cells_.cellCount(); ++c) sums[component(c)] += system_.rhs[c] * system_.rhs[c];
+    Vector sums(setup_.components.count);
+    for (size_t c = 0; c < cells_.cellCount(); ++c) sums[component(c)] += rhs_[c] * rhs_[c];
     return sums;
   }
 
-  uint32_t component(size_t c) const { return components_.cellComponent[c]; }
+  uint32_t component(size_t c) const { return setup_.components.cellComponent[c]; }
+
+  /// What iterations start from: 0, unless what is given is nearer to the solution.
+  void start() {
+    result_.phi.assign(data_.start.begin(), data_.start.end());
+    scaleBy(-exponent_, result_.phi);
+    for (size_t c = 0; c < result_.phi.size(); ++c) {
+      if (isIncompatible(component(c))) result_.phi[c] = 0;
+    }
+    norm_ = std::sqrt(dot(rhs_, rhs_));
+    result_.residuals = {norm_ > 0 ? 1.0 : 0.0};
+    isWarm_ = !result_.phi.empty() && norm_ > 0 && residual() <= 1;
+    if (!isWarm_) result_.phi.assign(cells_.cellCount(), 0);
+  }
+
+  void solve() {
+    const Vector rhs = rhs_;
+    const bool isCorrected = options_.corrections > 0 && norm_ > 0;
+    if (!isWarm_ || !isCorrected) iterate(options_.tolerance);
+    if (!isCorrected || result_.status != SolveStatus::converged) return;
+    correct();
+    if (!isWarm_ && corrections_.empty()) return;
+    iterate(options_.tolerance);
+    if (result_.status != SolveStatus::breakdown) return;
+    corrections_.clear();  // better a solution of first order than none
+    rhs_ = rhs;
+    result_.phi.assign(result_.phi.size(), 0);
+    iterate(options_.tolerance);
+  }
+
+  /// Adds what plain derivatives lack to the right side, again and again: the matrix keeps the plain ones. What they lack follows from the
+  /// phi that was found last; a secant through the last two passes (Anderson's acceleration) leaves a tenth of what is still missing.
+  void correct() {
+    const Vector rhs = rhs_;
+    const RunOptions quiet{monitor_.threads(), {}};
+    detail::Monitor unheard(quiet, 1);
+    const Differentiator& differentiator = setup_.differentiator;
+    if (!setup_.fitter) setup_.fitter.emplace(differentiator.fitter(unheard));
+    Vector foundBefore, missingBefore, next(differentiator.size());
+    const Vector plain = differentiator.plain(result_.phi);
+    double enough = 0x1p10 * options_.tolerance * options_.tolerance * differentiator.product(plain, plain), before = 0;
+    const int first = isWarm_ ? 1 : 0;  // the first pass after a solution
+    for (int pass = 0; pass < options_.corrections; ++pass) {
+      Vector found = differentiator.corrections(*setup_.fitter, result_.phi, unheard), missing = found;
+      for (size_t i = 0; i < found.size(); ++i) {
+        if (found[i] != 0 && isIncompatible(component(differentiator.cellOf(i)))) found[i] = 0;
+        missing[i] = found[i] - next[i];
+      }
+      const double size = differentiator.product(missing, missing);
+      if (!(size > enough && (pass <= first || size < before) && std::isfinite(size))) return;
+      if (pass == first) enough = std::max(enough, kEnough * differentiator.product(found, found));
+      before = size;
+      next = found;
+      if (pass > 0) {
+        Vector change = missing;
+        for (size_t i = 0; i < change.size(); ++i) change[i] -= missingBefore[i];
+        const double share = differentiator.product(missing, change) / differentiator.product(change, change);
+        for (size_t i = 0; i < next.size(); ++i) next[i] -= share * (found[i] - foundBefore[i]);
+      }
+      foundBefore = std::move(found), missingBefore = std::move(missing);
+      corrections_ = next;
+      rhs_ = rhs;
+      differentiator.addFlows(next, rhs_);
+      if (isWarm_ && pass + 1 == options_.corrections) return;
+      iterate(std::max(options_.tolerance, kLoose * residual()));
+      if (result_.status != SolveStatus::converged) return;
+    }
+  }
+
+  void setDerivatives() {
+    Vector derivatives = setup_.differentiator.plain(result_.phi);
+    for (size_t i = 0; i < corrections_.size(); ++i) derivatives[i] += corrections_[i];
+    const auto boundary = derivatives.begin() + ptrdiff_t(cells_.faceCount());
+    result_.boundaryDerivative.assign(boundary, derivatives.end());
+    derivatives.erase(boundary, derivatives.end());
+    result_.faceDerivative = std::move(derivatives);
+  }
+
+  static void scaleBy(int exponent, Vector& values) {
+    for (double& value : values) value = std::ldexp(value, exponent);
+  }
+
+  double residual() {
+    Vector r(rhs_.size());
+    return updateResidual(r);
+  }
+
+  /// Sets r to the residual, and returns its size.
+  double updateResidual(Vector& r) {
+    setup_.system.multiply(result_.phi, r);
+    for (size_t i = 0; i < r.size(); ++i) r[i] = rhs_[i] - r[i];
+    return result_.residuals.back() = norm_ > 0 ? std::sqrt(dot(r, r)) / norm_ : 0;
+  }
 
   /// Conjugate gradients update the residual instead of computing it, and where phi has large steps the two drift apart. So the computed
   /// one decides, and while that helps they are started again from the phi that they have found.
-  void iterate(const Operator& matrix, physics::Multigrid& multigrid) {
-    Vector r = system_.rhs;
-    norm_ = std::sqrt(dot(r, r));
-    result_.residuals = {norm_ > 0 ? 1.0 : 0.0};
-    while (!(result_.residuals.back() <= options_.tolerance)) {  // also if it is no number
-      const double before = result_.residuals.back();
-      const SolveStatus status = conjugateGradients(matrix, multigrid, r, std::min(options_.tolerance, before / 10));
-      matrix.sweep(system_.rhs, result_.phi);
-      matrix.multiply(result_.phi, r);
-      for (size_t i = 0; i < r.size(); ++i) r[i] = system_.rhs[i] - r[i];
-      const double now = result_.residuals.back() = std::sqrt(dot(r, r)) / norm_;
-      if (now <= options_.tolerance) return;
+  void iterate(double tolerance) {
+    Vector r(rhs_.size());
+    for (double before = updateResidual(r); !(before <= tolerance);) {  // also if it is no number
+      const SolveStatus status = conjugateGradients(r, std::min(tolerance, before / 10));
+      setup_.system.sweep(rhs_, result_.phi);
+      const double now = updateResidual(r);
+      if (now <= tolerance) return;
       if (status == SolveStatus::iterationLimit || !(now < before / 2)) {
         result_.status = status == SolveStatus::iterationLimit ? status : SolveStatus::breakdown;
         return;
       }
+      before = now;
     }
   }
 
   /// Starts from phi with the residual r and changes both, until the residual as updated is at most `goal`.
-  SolveStatus conjugateGradients(const Operator& matrix, physics::Multigrid& multigrid, Vector& r, double goal) {
+  SolveStatus conjugateGradients(Vector& r, double goal) {
     const size_t n = r.size();
     Vector z(n), p(n), ap(n);
     for (double rz = 0; !(result_.residuals.back() <= goal);) {
       if (int64_t(result_.iterations()) >= options_.maxIterations) return SolveStatus::iterationLimit;
-      monitor_.report(progress(), 1000);
-      multigrid.apply(r, z);
+      progress_ = std::max(progress_, progress());
+      monitor_.report(progress_, 1000);
+      setup_.multigrid.apply(r, z);
       takeMeansOut(z);
       const double newRz = dot(r, z), beta = rz == 0 ? 0 : newRz / rz;
       rz = newRz;
       for (size_t i = 0; i < n; ++i) p[i] = z[i] + beta * p[i];
-      matrix.multiply(p, ap);
+      setup_.system.multiply(p, ap);
       const double alpha = rz / dot(p, ap);
       if (!(alpha > 0 && std::isfinite(alpha))) return SolveStatus::breakdown;
       for (size_t i = 0; i < n; ++i) result_.phi[i] += alpha * p[i], r[i] -= alpha * ap[i];
@@ -209,10 +253,10 @@ class Solver {
 
   /// Removes the constants from x: they are no progress, and the rounding of large ones would drown it.
   void takeMeansOut(Vector& z) const {
-    Vector sum(components_.count), volume(components_.count);
+    Vector sum(setup_.components.count), volume(setup_.components.count);
     for (size_t c = 0; c < z.size(); ++c) sum[component(c)] += z[c] * cells_.cellVolume[c], volume[component(c)] += cells_.cellVolume[c];
     for (size_t c = 0; c < z.size(); ++c) {
-      if (!held_[component(c)] && volume[component(c)] > 0) z[c] -= sum[component(c)] / volume[component(c)];
+      if (!setup_.held[component(c)] && volume[component(c)] > 0) z[c] -= sum[component(c)] / volume[component(c)];
     }
   }
 
@@ -224,40 +268,43 @@ class Solver {
 
   void fixConstants() {
     const bool pinned = options_.freeConstant == FreeConstant::pinned;
-    Vector sum(components_.count), weight(components_.count);
+    Vector sum(setup_.components.count), weight(setup_.components.count);
     for (size_t c = 0; c < cells_.cellCount(); ++c) {
-      const uint32_t r = components_.cellComponent[c];
+      const uint32_t r = setup_.components.cellComponent[c];
       const double w = !pinned ? cells_.cellVolume[c] : weight[r] == 0 ? 1 : 0;
       sum[r] += w * result_.phi[c], weight[r] += w;
     }
     for (size_t c = 0; c < cells_.cellCount(); ++c) {
-      const uint32_t r = components_.cellComponent[c];
-      if (!held_[r] && weight[r] > 0) result_.phi[c] -= sum[r] / weight[r];
+      const uint32_t r = setup_.components.cellComponent[c];
+      if (!setup_.held[r] && weight[r] > 0) result_.phi[c] -= sum[r] / weight[r];
     }
   }
 
   /// A sum smaller than this, relative to the sum of the magnitudes of its terms, is rounding.
   static constexpr double kRounding = 1e-15;
+  /// So loosely is solved what more corrections follow.
+  static constexpr double kLoose = 1e-2;
+  /// Corrections of which less is missing, as a square, relative to the first ones, are good enough.
+  static constexpr double kEnough = 1e-9;
+
+  PoissonSetup& setup_;
   const CellComplex& cells_;
-  const PoissonProblem& problem_;
+  const PoissonData& data_;
   const SolveOptions& options_;
   detail::Monitor& monitor_;
-  PoissonSystem system_;
-  CellComponents components_;
-  std::vector<char> held_;  // per component
-  double norm_ = 0;         // of the right side
+  Vector rhs_;
+  double norm_ = 0;      // of the right side
+  bool isWarm_ = false;  // whether phi to start from is given
+  size_t progress_ = 0;
+  int exponent_ = 0;    // phi and the right side are divided by 2 to it
+  Vector corrections_;  // of derivatives
   Solution result_;
 };
 
 }  // namespace
 
-Solution solvePoisson(const CellComplex& cells, const PoissonProblem& problem, const SolveOptions& options) {
-  if (!(options.tolerance > 0)) throw CallError({Status::badOption, -1, -1, "The tolerance has to be positive."});
-  if (options.maxIterations < 0) throw CallError({Status::badOption, -1, -1, "The number of iterations can't be negative."});
-  return detail::runCall("solution", [&] {
-    detail::Monitor monitor(options, 2);
-    return Solver(cells, problem, options, monitor).run();
-  });
+Solution solve(PoissonSetup& setup, const PoissonData& data, const SolveOptions& options, detail::Monitor& monitor) {
+  return Solver(setup, data, options, monitor).run();
 }
 
-}  // namespace mandoline
+}  // namespace mandoline::physics

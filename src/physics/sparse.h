@@ -17,7 +17,7 @@ inline SparseMatrix assemble(size_t rows, size_t columns, const Triplets& entrie
   return matrix;
 }
 
-/// Adds the Laplacian times a factor.
+/// Adds the Laplacian, div k grad, times a factor.
 void addLaplacian(const CellComplex& cells, const DualEdges& dual, double factor, Triplets& entries);
 
 }  // namespace mandoline::physics

@@ -328,11 +328,12 @@ TEST_CASE("Command line: misspelt options are errors that suggest the name", "[c
   const TemporaryFolder folder;
   const std::string mesh = folder.write("cube.obj", kCube);
   const std::string cut = "cells margin box origin spacing planes snap-tolerance intersections orient threads only report format";
-  const std::pair<std::string, std::string> commands[] = {{"cut", cut + " validate coarsen merge unite-walls faces"},
-                                                          {"slice", cut + " axis normal heights layers"},
-                                                          {"flow", cut + " coarsen merge unite-walls faces wind streamlines"},
-                                                          {"info", "threads report format"},
-                                                          {"resolve", "rule orient threads report format"}};
+  const std::pair<std::string, std::string> commands[] = {
+      {"cut", cut + " validate coarsen merge unite-walls faces"},
+      {"slice", cut + " axis normal heights layers"},
+      {"flow", cut + " coarsen merge unite-walls faces wind streamlines steps viscosity"},
+      {"info", "threads report format"},
+      {"resolve", "rule orient threads report format"}};
   std::mt19937 random(7);
   for (int i = 0; i < 200; ++i) {
     const auto& [command, names] = commands[random() % 5];
@@ -777,6 +778,33 @@ TEST_CASE("Command line: flow writes cells with velocities, and streamlines", "[
   REQUIRE(contains(run(folder, {"flow", mesh, "--wind", "1,0", "-o", folder.path("flow.vtu")}).err, "--wind needs X,Y,Z, not '1,0'"));
   REQUIRE(contains(run(folder, {"flow", mesh, "--wind", "1,0,0", "-o", folder.path("flow.stl")}).err,
                    "flow.stl: a flow is written as .vtu or .obj"));
+}
+
+TEST_CASE("Command line: a flow in steps, with forces per group", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", kCube), vtu = folder.path("flow.vtu");
+  const std::vector<std::string> words = {"flow", mesh, "--wind", "1,0,0", "--cells", "6", "--steps", "3", "-o", vtu};
+  const Outcome o = run(folder, words);
+  CAPTURE(o.err);
+  REQUIRE(o.exitCode == 0);
+  for (const std::string part : {"steps                 3\n", "status                converged\n", "force: of pressure "})
+    CHECK(contains(o.out, part));
+  for (const std::string part : {"velocity", "pressure"}) CHECK(contains(folder.read("flow.vtu"), "Name=\"" + part + "\""));
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), more.begin(), more.end());
+    return run(folder, all);
+  };
+  const Outcome reported = with({"--viscosity", "0.1", "--unite-walls", "30", "--report", "-"});
+  CAPTURE(reported.err);
+  REQUIRE(reported.exitCode == 0);
+  for (const std::string part : {"\"steps\": 3,", "\"largestDivergence\": ", "\"forces\": [", "\"viscous\": [", "\"group\": null"})
+    CHECK(contains(reported.out, part));
+  CHECK(contains(with({"--viscosity", "-1"}).err, "--viscosity needs a number of at least 0"));
+  CHECK(contains(with({"--streamlines", "5"}).err, "without --steps"));
+  CHECK(contains(run(folder, {"flow", mesh, "--wind", "1,0,0", "--steps", "0", "-o", vtu}).err, "--steps needs a number of steps"));
+  CHECK(contains(run(folder, {"flow", mesh, "--wind", "1,0,0", "--viscosity", "1", "-o", vtu}).err, "--viscosity is for --steps"));
+  CHECK(contains(run(folder, {"flow", mesh, "--wind", "1,0,0", "--steps", "2", "-o", folder.path("a.obj")}).err, "written as .vtu"));
 }
 
 TEST_CASE("Command line: wrong outputs of a flow are told before it is solved", "[cli]") {

@@ -9,6 +9,7 @@
 #include "described_cells.h"
 #include "refusal.h"
 #include "same_bits.h"
+#include "seam_meshes.h"
 #include "shapes.h"
 
 using namespace mandoline;
@@ -50,19 +51,9 @@ TEST_CASE("Pieces have the cells of the whole cut, to the bit, for all sizes of 
 }
 
 TEST_CASE("Pieces are the same where seams pass through what is hard", "[pieces]") {
-  using namespace shapes;
-  const Point c = {4, 4, 4};  // on seams of all sizes up to 4
-  const Mesh bubbles = merged({octahedron(c, 1.5), flipped(octahedron(c, 0.75)), octahedron({4, 4, 4.25}, 0.125)});
-  const Mesh tunnel = merged({box({1.5, 1.5, 1.5}, {6.5, 6.5, 6.5}), flipped(box({3.75, 3.75, 1.5}, {4.25, 4.25, 6.5}))});
-  const Mesh overlaps = merged({box({1.5, 1.5, 1.5}, {4, 5.5, 5.5}), box({4, 2.5, 2.5}, {6.5, 6.5, 6.5}), cube(3.5, 4.5)});
-  const Mesh crossing = merged({torus({3.9, 4.2, 4.1}, 2.5, 0.8, 12, 8), torus({4.4, 4, 4.1}, 2.5, 0.8, 8, 12), icosphere(c, 2, 1)});
-  const Mesh sheets = merged({fan({4, 4, 1.5}, 5, {{1, 0}, {0.75, 0.75}, {-0.75, 0.75}, {-1, 0}, {0, -1}}), moebius(c, 2.5, 1.25, 18),
-                              quad({1.5, 1.5, 4}, {6.5, 1.5, 4}, {6.5, 6.5, 4}, {1.5, 6.5, 4})});
-  const Mesh twice = merged({cube(2.5, 5.5), cube(2.5, 5.5), flipped(cube(3, 4))});
-  const Mesh larger = merged({cube(-20, 30), flipped(cube(-3, 4)), box({3, 3, -9}, {4, 4, 17})});
-  for (const Mesh& mesh : {bubbles, tunnel, overlaps, crossing, sheets, twice, larger}) {
+  for (const Mesh& mesh : seamMeshes()) {
     CAPTURE(mesh.triangleCount());
-    for (const int64_t cells : {1, 2, 4, 8, 16}) checkPieces(mesh, unitGrid(8, 9, 7), cells, 1 + unsigned(cells) % 3);
+    for (const int64_t cells : {1, 2, 4, 8, 16}) checkPieces(mesh, seamGrid(), cells, 1 + unsigned(cells) % 3);
   }
 }
 

@@ -5,6 +5,7 @@
 #include "catch.h"
 #include "checked_cut.h"
 #include "conforming_cells.h"
+#include "same_bits.h"
 #include "shapes.h"
 
 using namespace mandoline;
@@ -83,6 +84,26 @@ TEST_CASE("cell complex: a large cell beside smaller ones has their faces and ve
     if (cells.cellVolume[c] == 64) largest = std::max(largest, cells.halfFaces(c).size());
   }
   CHECK(largest == 6 + 3);
+}
+
+TEST_CASE("cell complex: a few octree cells in a large grid", "[cellcomplex]") {
+  checkedComplex(shapes::icosphere({130, 125, 128}, 2.2, 1), unitGrid(256), levels(24));
+}
+
+TEST_CASE("cell complex: the same to the bit for any number of threads", "[cellcomplex]") {
+  const Mesh ball = shapes::icosphere({12, 11, 13}, 6.2, 2);
+  const CutResult result = cut(ball, unitGrid(25));
+  for (const int maxLevel : {0, 24}) {
+    const OctreeCells octree = coarsen(result.mesh, levels(maxLevel));
+    const auto bytesWith = [&](unsigned threads) {
+      RunOptions options;
+      options.threads = threads;
+      return bytesOfFields(cellComplex(ball, result.mesh, octree, options));
+    };
+    const auto one = bytesWith(1);
+    CHECK(bytesWith(2) == one);
+    CHECK(bytesWith(3) == one);
+  }
 }
 
 TEST_CASE("cell complex: what does not belong together is refused", "[cellcomplex]") {

@@ -187,6 +187,20 @@ TEST_CASE("coarsen: any counts of grid cells", "[coarsen]") {
   }
 }
 
+TEST_CASE("coarsen: by default a fine layer, and layers of each size in proportion to the grid cells", "[coarsen]") {
+  for (const auto& [n, layers] : {std::pair(int64_t(20), 1), {64, 2}, {100, 3}}) {
+    const CutMesh mesh = cutOf(shapes::icosphere({6, 5, 4}, 1.5, 2), unitGrid(12, 9, n));
+    CoarsenOptions options;
+    options.fineLayers = 1, options.layersPerLevel = layers;
+    const OctreeCells byDefault = coarsen(mesh);
+    CAPTURE(n);
+    CHECK(byDefault.cellCorner == coarsen(mesh, options).cellCorner);
+    CHECK(byDefault.fingerprint == coarsen(mesh, options).fingerprint);
+    options.layersPerLevel = layers + 1;
+    CHECK(byDefault.fingerprint != coarsen(mesh, options).fingerprint);
+  }
+}
+
 TEST_CASE("coarsen: a grid without cut-cells is one cell", "[coarsen]") {
   const CutMesh mesh = cutOf(shapes::cube(100, 101), unitGrid(5, 4, 8));
   const OctreeCells cells = coarsen(mesh);
@@ -210,7 +224,7 @@ TEST_CASE("coarsen: bad options and cancelling", "[coarsen]") {
   REQUIRE_THROWS_AS(coarsen(mesh, options), CallError);
   options.fineLayers = 1 << 30;  // all of the grid
   CHECK(coarsen(mesh, options).cellCount() == UntouchedCells(mesh).count());
-  options.fineLayers = 0, options.layersPerLevel = -1;
+  options.fineLayers = 0, options.layersPerLevel = -2;
   REQUIRE_THROWS_AS(coarsen(mesh, options), CallError);
   options.layersPerLevel = 1 << 30;
   for (const uint8_t level : coarsen(mesh, options).cellLevel) CHECK(level <= 1);

@@ -14,6 +14,7 @@
 #include "mandoline/resolve.h"
 #include "mesh_folder.h"
 #include "refusal.h"
+#include "same_bits.h"
 #include "shapes.h"
 
 using namespace mandoline;
@@ -23,6 +24,7 @@ namespace {
 CellComplex complexOf(const Mesh& mesh, const CutMesh& cutMesh, int maxLevel = 24) {
   CoarsenOptions options;
   options.maxLevel = maxLevel;
+  options.fineLayers = options.layersPerLevel = 0;
   return cellComplex(mesh, cutMesh, coarsen(cutMesh, options));
 }
 
@@ -494,4 +496,44 @@ TEST_CASE("unite walls: wrong options, and cells of others", "[merge]") {
   const std::vector<uint32_t> tooFew(3);
   CHECK(refusal([&] { uniteWalls(result.mesh, cells, WallOptions{{}, 30, tooFew}); }).first == Status::badArgument);
   CHECK(refusal([&] { uniteWalls(other.mesh, cells); }).first == Status::badArgument);
+}
+
+TEST_CASE("merge, unite walls: the same to the bit for any number of threads", "[merge]") {
+  const Mesh ball = shapes::icosphere({12, 11, 13}, 6.2, 3);
+  const CutResult result = cut(ball, unitGrid(25));
+  for (const int maxLevel : {0, 24}) {
+    const CellComplex before = complexOf(ball, result.mesh, maxLevel);
+    const auto bytesWith = [&](unsigned threads) {
+      MergeOptions options;
+      options.threads = threads;
+      const MergedCells merged = mergeSmallCells(result.mesh, before, options);
+      WallOptions walls;
+      walls.threads = threads;
+      return std::pair(bytesOfFields(merged), bytesOfFields(uniteWalls(result.mesh, merged.cells, walls)));
+    };
+    const auto one = bytesWith(1);
+    CHECK(bytesWith(2) == one);
+    CHECK(bytesWith(3) == one);
+  }
+}
+
+TEST_CASE("merge, unite walls: cancelled at any report", "[merge]") {
+  const Mesh ball = shapes::icosphere({12, 11, 13}, 6.2, 2);
+  const CutResult result = cut(ball, unitGrid(25));
+  const CellComplex before = complexOf(ball, result.mesh, 0);
+  const auto isCancelled = [&](auto options, int reports, const auto& call) {
+    options.threads = 2;
+    options.progress = [&](const Progress&) { return reports-- > 0; };
+    try {
+      call(options);
+    } catch (const CallError& failure) {
+      return failure.error.status == Status::cancelled;
+    }
+    return false;
+  };
+  for (const int reports : {0, 3, 9}) {
+    CAPTURE(reports);
+    CHECK(isCancelled(MergeOptions(), reports, [&](const MergeOptions& options) { mergeSmallCells(result.mesh, before, options); }));
+    CHECK(isCancelled(WallOptions(), reports, [&](const WallOptions& options) { uniteWalls(result.mesh, before, options); }));
+  }
 }

@@ -1,4 +1,4 @@
-// A thread with calls of its own, for worker.test.mjs.
+// A thread with calls of its own, for worker.test.mjs and shares.test.mjs.
 import { MandolineError } from 'mandoline-wasm';
 import { serve } from 'mandoline-wasm/worker-thread';
 
@@ -6,6 +6,7 @@ let kept = 0;
 
 serve({
   volume: (mandoline, [mesh, cells]) => mandoline.measure(mesh, mandoline.cut(mesh, { cells })).regionVolume,
+  cutTogether: (_, [mesh, grids, options], { cut }) => Promise.all(grids.map((grid) => cut(mesh, grid, options))),
   count: () => ++kept,
   later: async (_, [value], { progress }) => {
     for (let i = 0; i < 3; ++i) {

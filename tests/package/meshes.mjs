@@ -111,3 +111,20 @@ export function gut(value) {
   });
   return value;
 }
+
+/** The doubles of the arrays in a .vtu file, by their names. */
+export function readVtu(bytes) {
+  const mark = '<AppendedData encoding="raw">\n_';
+  const start = bytes.indexOf(mark) + mark.length;
+  const heads = bytes
+    .subarray(0, start)
+    .toString()
+    .matchAll(/<DataArray type="Float64" Name="(\w+)" .* offset="(\d+)"\/>/g);
+  return Object.fromEntries(
+    Array.from(heads, ([, name, offset]) => {
+      const at = start + Number(offset);
+      const size = Number(bytes.readBigUInt64LE(at));
+      return [name, new Float64Array(new Uint8Array(bytes.subarray(at + 8, at + 8 + size)).buffer)];
+    }),
+  );
+}

@@ -50,6 +50,8 @@ const given = {
   cellIds: [0],
   region: 0,
   count: 1,
+  heat: { phi: new Float64Array(cells.cellVolume.length), timeStep: 1 },
+  groups: { names: ['a'], triangleGroup: new Uint32Array(12) },
 };
 
 /** What takes an object of names: the names, and a call with that object. */
@@ -62,19 +64,27 @@ const takers = [
   ],
   ['slice, plane', ['normal', 'offset'], (object) => mandoline.slice(cutMesh, object)],
   ['triangulate, of', ['cell', 'region'], (object) => mandoline.triangulate(cutMesh, object)],
-  ['poissonSystem, problem', ['boundary', 'source', 'dualPoints'], (object) => physics.poissonSystem(cells, object)],
-  ['solvePoisson, problem', ['boundary', 'source', 'dualPoints'], (object) => physics.solvePoisson(cells, object)],
+  [
+    'poissonSystem, problem',
+    ['boundary', 'source', 'dualPoints', 'faceCoefficient', 'mass'],
+    (object) => physics.poissonSystem(cells, object),
+  ],
+  [
+    'solvePoisson, problem',
+    ['boundary', 'source', 'dualPoints', 'faceCoefficient', 'mass'],
+    (object) => physics.solvePoisson(cells, object),
+  ],
   ['velocityAt, field', ['mesh', 'cutMesh', 'cells', 'flow'], (object) => physics.velocityAt({ ...field, ...object }, [])],
   [
     'boundaryOf, conditions',
     ['xMin', 'xMax', 'yMin', 'yMax', 'zMin', 'zMax', 'inner', 'surface'],
     (object) => physics.boundaryOf(cells, object),
   ],
-  ['boundaryOf, condition', ['dirichlet', 'neumann'], (object) => physics.boundaryOf(cells, { xMin: object })],
+  ['boundaryOf, condition', ['dirichlet', 'neumann', 'robin', 'coefficient'], (object) => physics.boundaryOf(cells, { xMin: object })],
   ['init', ['wasm', 'filesWasm', 'physicsWasm', 'thread', 'default'], init],
   ['initPhysics', ['wasm', 'filesWasm', 'physicsWasm', 'thread', 'default'], initPhysics],
-  ['createWorker', ['wasm', 'filesWasm', 'physicsWasm', 'thread', 'default'], createWorker],
-  ['createWorker that only cuts', ['wasm', 'filesWasm', 'physicsWasm', 'thread', 'default'], createCutter],
+  ['createWorker', ['wasm', 'filesWasm', 'physicsWasm', 'thread', 'threads', 'default'], createWorker],
+  ['createWorker that only cuts', ['wasm', 'filesWasm', 'physicsWasm', 'thread', 'threads', 'default'], createCutter],
   ['call', ['signal', 'transfer', 'progress'], (object) => worker.call('any', [], object)],
 ];
 for (const [api, table] of [

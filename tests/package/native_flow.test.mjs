@@ -10,7 +10,7 @@ import { gunzipSync } from 'node:zlib';
 import { init } from 'mandoline-wasm';
 import { initPhysics } from 'mandoline-wasm/physics';
 import { meshFolder, meshList, skipWithoutMeshes } from '../mesh_folder.mjs';
-import { box, join, readObj, sheet, torus, waves, writeObj } from './meshes.mjs';
+import { box, join, readObj, readVtu, sheet, torus, waves, writeObj } from './meshes.mjs';
 
 const root = path(dirname(fileURLToPath(import.meta.url)), '..', '..');
 const program = process.env.MANDOLINE_CLI ?? path(root, 'build', 'mandoline');
@@ -31,24 +31,6 @@ function gridAbout({ positions }) {
   return { min: low.map((x) => x - margin), max: high.map((x) => x + margin), cells: [13, 13, 13] };
 }
 
-/** The doubles of the arrays in a .vtu file, by their names. */
-function readVtu(file) {
-  const bytes = readFileSync(file);
-  const mark = '<AppendedData encoding="raw">\n_';
-  const start = bytes.indexOf(mark) + mark.length;
-  const heads = bytes
-    .subarray(0, start)
-    .toString()
-    .matchAll(/<DataArray type="Float64" Name="(\w+)" .* offset="(\d+)"\/>/g);
-  return Object.fromEntries(
-    Array.from(heads, ([, name, offset]) => {
-      const at = start + Number(offset);
-      const size = Number(bytes.readBigUInt64LE(at));
-      return [name, new Float64Array(new Uint8Array(bytes.subarray(at + 8, at + 8 + size)).buffer)];
-    }),
-  );
-}
-
 /** The cells as the program writes them, on three threads. */
 function nativeCells(file, { min, max, cells }, maxLevel, fraction) {
   const json = path(folder, 'cells.json');
@@ -67,7 +49,7 @@ function nativeFlow(file, { min, max, cells }, maxLevel) {
     return [report, vtu, obj].map((name) => readFileSync(name));
   });
   for (const i of [0, 1, 2]) assert.ok(runs[0][i].equals(runs[1][i]), `${file}: one thread and three`);
-  return { report: JSON.parse(readFileSync(report)), arrays: readVtu(vtu), lines: readFileSync(obj, 'utf8') };
+  return { report: JSON.parse(readFileSync(report)), arrays: readVtu(readFileSync(vtu)), lines: readFileSync(obj, 'utf8') };
 }
 
 /** Streamlines as the program writes them. */

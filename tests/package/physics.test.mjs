@@ -79,7 +79,7 @@ test('options of coarsen()', () => {
   assert.ok(cellLevel.length > octree.cellLevel.length);
   assert.ok(physics.coarsen(cutMesh, { balanceEdges: true }).cellLevel.length >= octree.cellLevel.length);
   assert.equal(Math.max(...physics.coarsen(cutMesh, { layersPerLevel: 100 }).cellLevel), 1);
-  for (const options of [{ maxLevel: -1 }, { fineLayers: -1 }, { layersPerLevel: -1 }]) {
+  for (const options of [{ maxLevel: -1 }, { fineLayers: -1 }, { layersPerLevel: -2 }]) {
     assert.throws(() => physics.coarsen(cutMesh, options), { code: 'badOption', stage: 'coarsen' });
   }
 });
@@ -195,6 +195,17 @@ test('conditions by tag', () => {
     tags.map((tag) => (tag === 'xMin' ? 1 : 0)),
   );
   assert.ok(!tags.includes('inner') && tags.includes('zMax'));
+  const robin = physics.boundaryOf(cells, { zMax: { robin: 3, coefficient: 2 } });
+  assert.deepEqual(
+    Array.from(robin.coefficient),
+    tags.map((tag) => (tag === 'zMax' ? 2 : 0)),
+  );
+  const constant = Object.fromEntries(faceTags.map((tag) => [tag, { robin: 3, coefficient: 2 }]));
+  assertNear(
+    physics.solvePoisson(cells, { boundary: physics.boundaryOf(cells, constant) }).phi,
+    new Float64Array(cellCount(cells)).fill(1.5),
+    1e-8,
+  );
   const absent = { xMin: { dirichlet: 3, neumann: undefined }, yMin: undefined, surface: { neumann: 0.5 } };
   assert.deepEqual(physics.boundaryOf(cells, absent), boundary);
   const all = physics.boundaryOf(cells, Object.fromEntries(faceTags.map((tag) => [tag, { dirichlet: 2 }])));
@@ -204,20 +215,51 @@ test('conditions by tag', () => {
 test('the system of a problem, and its solution', () => {
   const problem = { boundary: physics.boundaryOf(cells, { zMin: { dirichlet: 1 } }), source: cells.cellVolume };
   const { matrix, rhs, nullSpace } = physics.poissonSystem(cells, problem);
-  const balanced = physics.solvePoisson(cells, problem, { balance: true, tolerance: 1e-12 });
+  const balanced = physics.solvePoisson(cells, problem, { balance: true, tolerance: 1e-12, corrections: 0 });
   assert.equal(balanced.status, 'converged');
   const { cellComponent, count } = physics.cellComponents(cells);
   assert.deepEqual([count, nullSpace.rows, nullSpace.columns], [2, cellCount(cells), 1]); // the torus is not held
   const residual = times(matrix, balanced.phi).map((value, i) => value - rhs[i]);
   const held = cellComponent.at(-1);
   for (const [cell, value] of residual.entries()) assert.ok(cellComponent[cell] !== held || Math.abs(value) < 1e-10);
-  const { status, incompatible, excess, phi } = physics.solvePoisson(cells, problem);
+  const { status, incompatible, excess, phi } = physics.solvePoisson(cells, problem, { corrections: 0 });
   assert.deepEqual([status, ...incompatible, Math.sign(excess[0])], ['incompatible', 1 - held, -1]);
   const expected = balanced.phi.map((value, cell) => (cellComponent[cell] === held ? value : 0));
   assertNear(phi, expected, 1e-6);
   assert.equal(physics.solvePoisson(cells, problem, { balance: true, maxIterations: 1 }).status, 'iterationLimit');
   const pinned = physics.solvePoisson(cells, problem, { balance: true, freeConstant: 'pinned' });
   assert.equal(pinned.phi[cellComponent.indexOf(1 - held)], 0);
+});
+
+test('a mass holds phi; a coefficient is part of the flux', () => {
+  const [source, mass] = [-6, 2].map((value) => new Float64Array(cellCount(cells)).fill(value));
+  assertNear(physics.solvePoisson(cells, { source, mass }).phi, new Float64Array(cellCount(cells)).fill(3), 1e-8);
+  const { matrix } = physics.poissonSystem(cells);
+  const faceCoefficient = new Float64Array(cells.faceArea.length).fill(4);
+  assert.deepEqual(
+    physics.poissonSystem(cells, { faceCoefficient }).matrix.entryValues,
+    matrix.entryValues.map((value) => 4 * value),
+  );
+});
+
+test('corrections, and derivatives that balance the source', () => {
+  const problem = { boundary: physics.boundaryOf(cells, { zMin: { dirichlet: 1 }, surface: { dirichlet: 0 } }) };
+  const { phi, faceDerivative, boundaryDerivative } = physics.solvePoisson(cells, problem);
+  const plain = physics.solvePoisson(cells, problem, { corrections: 0 });
+  const gradient = times(physics.operators(cells, { only: ['gradient'] }).gradient, plain.phi);
+  assertNear(plain.faceDerivative, gradient, 1e-12);
+  assert.notDeepEqual(phi, plain.phi);
+  const flow = new Float64Array(cellCount(cells));
+  faceDerivative.forEach((derivative, face) => {
+    if (derivative === 0) return;
+    flow[cells.faceCells[2 * face]] += derivative * cells.faceArea[face];
+    flow[cells.faceCells[2 * face + 1]] -= derivative * cells.faceArea[face];
+  });
+  problem.boundary.halfFaces.forEach((halfFace, at) => {
+    flow[cells.faceCells[halfFace]] += boundaryDerivative[at] * cells.faceArea[halfFace >> 1];
+  });
+  assertNear(flow, new Float64Array(flow.length), 1e-7);
+  assert.throws(() => physics.solvePoisson(cells, problem, { corrections: -1 }), { code: 'badOption', stage: 'solvePoisson' });
 });
 
 test('parts', () => {
@@ -358,6 +400,7 @@ const inputs = {
   },
   field: () => ({ mesh, ...inputs.both(), flow }),
 };
+const groups = { names: ['a', 'b'], triangleGroup: Uint32Array.from({ length: cutMesh.triangleCount }, (_, t) => t % 2) };
 /** Of several results, those that have twins. */
 const gutInput = (given) => (given.cells ? { ...given, cutMesh: gut(given.cutMesh), cells: gut(given.cells) } : gut(given));
 const copyInput = (given) => (given.cells ? { ...given, cells: { ...given.cells } } : { ...given });
@@ -376,6 +419,16 @@ const calls = {
   poissonSystem: ['cells', (given) => physics.poissonSystem(given)],
   solveFlow: ['cells', (given) => physics.solveFlow(given, [1, 2, 3])],
   solvePoisson: ['cells', (given) => physics.solvePoisson(given, { source }, { balance: true })],
+  createPoissonSolver: ['cells', (given) => physics.createPoissonSolver(given).solve({ source }, { balance: true })],
+  createHeatStepper: [
+    'cells',
+    (given) => {
+      const stepper = physics.createHeatStepper(given, { phi: source, timeStep: 0.1 });
+      return [stepper.step(), stepper.phi()];
+    },
+  ],
+  createFlowStepper: ['cells', (given) => physics.createFlowStepper(given, [1, 2, 3]).flow()],
+  faceGroups: ['both', (given) => physics.faceGroups(given.cutMesh, given.cells, groups)],
   velocityAt: ['field', (given) => physics.velocityAt(given, cells.cellCentre)],
   streamlines: ['field', (given) => physics.streamlines(given, physics.inflowSeeds(cutMesh.grid, [1, 2, 3], 50))],
   writeCells: ['both', (given) => physics.writeCells(given.cutMesh, given.cells, 'vtu')],
@@ -432,6 +485,8 @@ test('wrong arguments are named', () => {
     [() => physics.operators(cells, { only: 'gradient' }), /^options\.only must be an array of names/],
     [() => physics.operators(cells, { only: ['curl'] }), /^options\.only\[0\] must be "cellFaceIncidence", .*, not "curl"/],
     [() => physics.operators(cells, { dualPoints: 'corners' }), /^options\.dualPoints must be "centres" or "centroids", not "corners"/],
+    [() => physics.solvePoisson(cells, { mass: cells.cellVolume.map((v, c) => (c === 4 ? -1 : v)) }), /^The mass of cell 4 is negative/],
+    [() => physics.solvePoisson(cells, { faceCoefficient: [1, 2] }), /faces, but another number of coefficients/],
     [() => physics.subComplex(cells, 7), /^cellIds must be a Uint32Array or an array, not 7/],
     [() => physics.subComplex(cells, [0.5]), /^cellIds\[0\] must be a whole number/],
     [() => physics.subComplex(cells, new Array(2 ** 32 - 1)), /^cellIds\[0\] must be a whole number|memory for cellIds/, /badArg|outOfMem/],
@@ -440,14 +495,23 @@ test('wrong arguments are named', () => {
     [() => physics.boundaryOf(cells, []), /^conditions must be a plain object, not an array\.$/],
     [() => physics.boundaryOf(cells, new Map([['xMin', { dirichlet: 0 }]])), /^conditions must be a plain object, not a Map\.$/],
     [() => physics.boundaryOf(cells, { xMin: 0 }), /^conditions\.xMin must be an object/],
-    [() => physics.boundaryOf(cells, { xMin: { dirichlet: 0, neumann: 1 } }), /^conditions\.xMin must be \{ dirichlet \} or \{ neumann \}/],
-    [() => physics.boundaryOf(cells, { xMin: {} }), /^conditions\.xMin must be \{ dirichlet \} or \{ neumann \}/],
-    [() => physics.boundaryOf(cells, { xMin: { robin: 1 } }), /^conditions\.xMin has no robin, only neumann and dirichlet\.$/],
+    [
+      () => physics.boundaryOf(cells, { xMin: { dirichlet: 0, neumann: 1 } }),
+      /^conditions\.xMin must be \{ dirichlet \}, \{ neumann \} or \{ robin, coefficient \}/,
+    ],
+    [() => physics.boundaryOf(cells, { xMin: {} }), /^conditions\.xMin must be \{ dirichlet \}, \{ neumann \} or \{ robin, coefficient \}/],
+    [() => physics.boundaryOf(cells, { xMin: { robin: 1 } }), /^conditions\.xMin must be .* or \{ robin, coefficient \}/],
+    [() => physics.boundaryOf(cells, { xMin: { neumann: 1, coefficient: 2 } }), /^conditions\.xMin must be /],
+    [
+      () => physics.boundaryOf(cells, { xMin: { flux: 1 } }),
+      /^conditions\.xMin has no flux, only neumann, dirichlet, robin and coefficient/,
+    ],
+    [() => physics.solvePoisson(cells, { boundary: { ...boundary, coefficient: [1] } }), /coefficients/],
     [() => physics.boundaryOf(cells, { xMin: { neumann: '1' } }), /^conditions\.xMin\.neumann must be a number/],
     [() => physics.outwardNormals({ ...boundary, halfFaces: new Uint32Array([2 ** 30]) }, cells), /^There is no half-face 1073741824/],
     [() => physics.solvePoisson(cells, { boundary: {} }), /^problem\.boundary\.halfFaces must be a Uint32Array/],
     [() => physics.solvePoisson(cells, { boundary: physics.boundaryOf(coarse) }), /boundary/],
-    [() => physics.solvePoisson(cells, { boundary: { ...boundary, condition: new Uint8Array([2]) } }), /condition\[0\] must be 0/],
+    [() => physics.solvePoisson(cells, { boundary: { ...boundary, condition: new Uint8Array([3]) } }), /condition\[0\] must be 0/],
     [() => physics.solvePoisson(cells, { source: [1] }), /source/],
     [() => physics.solvePoisson(cells, {}, { freeConstant: 'none' }), /^options\.freeConstant must be "zeroMean" or "pinned"/],
     [() => physics.solvePoisson(cells, {}, { tolerance: 0 }), /tolerance/, 'badOption'],

@@ -56,6 +56,7 @@ test('every call gives the same, and no arrays are sent', () =>
     gut(cells);
     const boundary = physics.boundaryOf(expected);
     const field = { mesh, cutMesh, cells, flow };
+    const groups = { names: ['all'], triangleGroup: new Uint32Array(cutMesh.triangleCount).fill(1) };
     const calls = {
       mergeSmallCells: [cutMesh, cells],
       uniteWalls: [cutMesh, cells],
@@ -69,6 +70,7 @@ test('every call gives the same, and no arrays are sent', () =>
       poissonSystem: [cells, { source }],
       solvePoisson: [cells, { source }, { balance: true }],
       solveFlow: [cells, [1, 0, 0]],
+      faceGroups: [cutMesh, cells, groups],
       velocityAt: [field, source.subarray(0, 60)],
       streamlines: [field, seeds],
       inflowSeeds: [cutMesh.grid, [1, 0, 0], 20],
@@ -88,7 +90,7 @@ test('every call gives the same, and no arrays are sent', () =>
       Object.keys(physics)
         .filter((name) => !(name in calls))
         .sort(),
-      ['cellComplex', 'coarsen', 'version'],
+      ['cellComplex', 'coarsen', 'createFlowStepper', 'createHeatStepper', 'createPoissonSolver', 'version'],
     );
     assert.deepEqual(
       sent.filter(({ data }) => data.length > 0),

@@ -17,6 +17,10 @@ test('computing', () => {
   assert.match(outputOf(readmeExample('From JavaScript', root)), /cut-cells/);
 });
 
+test('flows in time', () => {
+  assert.match(outputOf(readmeExample('Flows in time')), /^drag \d\.\d\d at time \d\.\d\d, \d{5} cells\n$/);
+});
+
 test('inside', () => {
   assert.match(outputOf(readmeExample('Inside')), /^inside by estimate: 1 of 2 regions\n\d{4} triangles close the surface\n$/);
 });

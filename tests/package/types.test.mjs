@@ -107,6 +107,8 @@ test('results', async () => {
 test('results of mandoline-wasm/physics', async () => {
   const boundary = physics.boundaryOf(cells, { xMin: { dirichlet: 0 } });
   const flow = physics.solveFlow(cells, [1, 0, 0]);
+  const stepper = physics.createFlowStepper(cells, [1, 0, 0]);
+  const heat = physics.createHeatStepper(cells, { problem: { boundary }, phi: cells.cellVolume, timeStep: 0.1 });
   const results = [
     ['OctreeCells', physics.coarsen(cutMesh)],
     ['CellComplex', cells],
@@ -120,6 +122,12 @@ test('results of mandoline-wasm/physics', async () => {
     ['CellComponents', physics.cellComponents(cells)],
     ['PoissonSystem', physics.poissonSystem(cells, { boundary })],
     ['Flow', flow],
+    ['Solution', physics.createPoissonSolver(cells, { boundary }).solve({ source: cells.cellVolume })],
+    ['SolveStatus', heat.step()],
+    ['Float64Array', heat.phi()],
+    ['FlowStep', stepper.step()],
+    ['UnsteadyFlow', stepper.flow()],
+    ['SurfaceForce[]', stepper.forces()],
     ['Float64Array', physics.velocityAt({ mesh, cutMesh, cells, flow }, [1, 1, 1])],
     ['Streamlines', physics.streamlines({ mesh, cutMesh, cells, flow }, [1, 1, 1])],
     ['Float64Array', physics.inflowSeeds(cutMesh.grid, [1, 0, 0], 3)],
@@ -147,6 +155,12 @@ test('results of mandoline-wasm/physics', async () => {
       physics.inflowSeeds({ min: wind, max: [2, 1, 1], cells: wind }, wind, 9);
       const { phi } = await worker.solvePoisson(cells, { boundary }, { signal: AbortSignal.timeout(9) });
       const tag: 'surface' = faceTags[7];
+      using stepper = physics.createFlowStepper(cells, [1, 0, 0], { viscosity: 0.1 });
+      const there = await worker.createFlowStepper(cells, [1, 0, 0], { signal: AbortSignal.timeout(9) });
+      const status: 'converged' | 'iterationLimit' | 'incompatible' | 'breakdown' = (await there.step()).status ?? stepper.step().status;
+      const [{ pressure }] = await there.forces({ centre: [1, 0, 0] });
+      there.free();
+      console.log(status, pressure);
       const follow = (field: FlowField) => physics.streamlines(field, physics.inflowSeeds(field.cutMesh.grid, [1, 0, 0], 9), { maxLength: 3 });
       const end: 'rest' = streamlineEnds[2];
       // @ts-expect-error: around what?

@@ -6,14 +6,11 @@ import { Worker as NodeWorker } from 'node:worker_threads';
 import { MandolineError as CoreError, compiledModule, init } from 'mandoline-wasm';
 import { MandolineError, createWorker, describe } from 'mandoline-wasm/worker';
 import { box, torus } from './meshes.mjs';
-import { rejection, withWorker } from './workers.mjs';
+import { rejection, withWorker, withoutStats } from './workers.mjs';
 
 const cube = box([0, 0, 0], [1, 1, 1]);
 const ring = torus(200, 200);
 const root = new URL('../..', import.meta.url);
-
-/** Times and counters aside. */
-const withoutStats = ({ stats, ...rest }) => rest;
 
 /** Resolves once the cut has begun; `promise` is that of the cut. */
 function begun(worker, mesh, cells, options = {}) {

@@ -21,3 +21,6 @@ export async function rejection(promise) {
   assert.ok(error instanceof MandolineError, `${error?.stack}`);
   return error;
 }
+
+/** A cut-mesh, times and counters aside. */
+export const withoutStats = ({ stats, ...rest }) => rest;

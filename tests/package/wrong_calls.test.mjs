@@ -239,6 +239,7 @@ const kinds = {
       {},
       { xMin: { dirichlet: 1 } },
       { surface: { neumann: anything() } },
+      { surface: { robin: 1, coefficient: pick([2, -1, anything()]) } },
       { [pick(['yMax', 'left'])]: anything() },
       anything(),
     ]),
@@ -251,6 +252,8 @@ const kinds = {
       () => ({ boundary: damaged(boundary) }),
       () => ({ source: cells.cellVolume }),
       () => ({ source: anything() }),
+      () => ({ mass: cells.cellVolume, faceCoefficient: cells.faceArea }),
+      () => ({ [pick(['mass', 'faceCoefficient'])]: anything() }),
       () => ({ dualPoints: anything() }),
       () => ({ boundary: anything() }),
     ])(),
@@ -275,6 +278,15 @@ const kinds = {
       () => ({ ...flowField, flow: damaged(flow) }),
       () => ({ ...flowField, [pick(['mesh', 'cutMesh', 'cells', 'flow'])]: anything() }),
     ])(),
+  stepping: () => pick([undefined, { viscosity: pick([0.1, anything()]) }, { timeStep: anything() }, { courant: anything() }, anything()]),
+  heat: () =>
+    pick([
+      { phi: cells.cellVolume, timeStep: 0.1 },
+      { problem: anything(), phi: cells.cellVolume, timeStep: 0.1 },
+      { phi: anything(), timeStep: anything() },
+      anything(),
+    ]),
+  groups: () => pick([{ names: ['a'], triangleGroup: new Uint32Array(random(300)) }, { names: [], triangleGroup: anything() }, anything()]),
   seeds: () => pick([seeds, seeds, [0, 0, 0, 9, 9, 9], [0, NaN, Infinity], [], [1, 2], anything()]),
   following: () =>
     pick([
@@ -334,6 +346,10 @@ const parameters = {
   uniteWalls: ['cutMesh', 'cells', 'uniting'],
   subComplex: ['cells', 'ids'],
   regionComplex: ['cells', 'region'],
+  createPoissonSolver: ['cells', 'problem'],
+  createHeatStepper: ['cells', 'heat'],
+  createFlowStepper: ['cells', 'vector', 'stepping'],
+  faceGroups: ['cutMesh', 'cells', 'groups'],
   complexEdges: ['cells'],
   operators: ['cells', 'operators'],
   boundaryOf: ['cells', 'conditions'],

@@ -1,8 +1,9 @@
 // Time from a move of the resolution's slider to new buffers, medians of alternating cuts:
-//   node tests/page/speed.mjs [--mesh FILE] [--cells N] [--runs R] [PAGE ...]
+//   node tests/page/speed.mjs [--mesh FILE] [--cells N] [--runs R] [--threads T,...] [PAGE ...]
 // A PAGE is the folder of a built page (by default web/dist) or an address. With several, say today's page and a former one, each cut of
 // one is followed by one of the others, so that other work on the machine slows down all alike; the processor's time of the page's process
-// hardly depends on that. Without a file the mesh is a torus of 69,696 triangles.
+// hardly depends on that. With several numbers of threads each page is opened once with each, as on a machine of so many cores that it may
+// have these. Without a file the mesh is a torus of 69,696 triangles.
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
@@ -14,9 +15,15 @@ import { serveFolder } from '../package/static_server.mjs';
 
 const { values, positionals } = parseArgs({
   allowPositionals: true,
-  options: { mesh: { type: 'string' }, cells: { type: 'string', default: '50' }, runs: { type: 'string', default: '15' } },
+  options: {
+    mesh: { type: 'string' },
+    cells: { type: 'string', default: '50' },
+    runs: { type: 'string', default: '15' },
+    threads: { type: 'string', default: '1' },
+  },
 });
 const cells = Number(values.cells);
+const numbersOfThreads = values.threads.split(',').map(Number);
 const pages = positionals.length > 0 ? positionals : [fileURLToPath(new URL('../../web/dist', import.meta.url))];
 const median = (times) => [...times].sort((a, b) => a - b)[times.length >> 1];
 
@@ -66,18 +73,19 @@ async function timeOfCut({ page, session }, to) {
   return { ms, cpuMs: 1000 * ((await cpu()) - before) };
 }
 
-async function open(name) {
+async function open(name, threads) {
   const browser = await launchChromium({ smooth: true });
   const page = await browser.newPage({ viewport: { width: 1000, height: 600 } });
+  await page.addInitScript((cores) => Object.defineProperty(navigator, 'hardwareConcurrency', { value: cores }), threads + 1);
   const session = await page.context().newCDPSession(page);
   await session.send('Performance.enable', { timeDomain: 'threadTicks' });
   await page.goto(`${await addressOf(name)}#url=${encodeURIComponent(meshUrl)}&n=${cells - 1}`);
-  return { name, browser, page, session, times: [] };
+  return { name: `${name}, threads: ${threads}`, browser, page, session, times: [] };
 }
 
 const opened = [];
 try {
-  for (const name of pages) opened.push(await open(name));
+  for (const name of pages) for (const threads of numbersOfThreads) opened.push(await open(name, threads));
   for (const tab of opened) for (const n of [cells, cells - 1, cells, cells - 1]) await timeOfCut(tab, n); // the engine still compiles
   for (let run = 0; run < Number(values.runs); ++run) {
     for (const tab of opened) {

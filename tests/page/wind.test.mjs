@@ -19,6 +19,7 @@ const { tunnelLines } = await importBundled('worker/wind/lines.ts');
 const { windPicture } = await importBundled('worker/wind/picture.ts');
 const { writeWind } = await importBundled('worker/wind/write.ts');
 const { boundsOf } = await importBundled('model/grid_around.ts');
+const { WindTunnel } = await importBundled('page/wind.ts');
 const program = process.env.MANDOLINE_CLI ?? fileURLToPath(new URL('../../build/mandoline', import.meta.url));
 
 const loaded = (mesh, name = 'a mesh') => ({ ...mesh, id: 1, name, bounds: boundsOf(mesh) });
@@ -36,10 +37,10 @@ test('the flow of a slanted wind is that of winds along the axes combined', asyn
   const combined = await flowOf(pack, tunnel, slanted);
   const solved = physics.solveFlow(tunnel.cells, slanted);
   assert.ok(!('phi' in combined), 'nothing was solved');
-  // The solver's tolerance is 1e-10.
-  assert.ok(largestDifference(combined.cellVelocity, solved.cellVelocity) < 2e-9);
+  // Each solution's corrections end when less than a 30,000th of the first ones is missing.
+  assert.ok(largestDifference(combined.cellVelocity, solved.cellVelocity) < 1e-4);
   const size = tunnel.cutMesh.grid.spacing[0];
-  assert.ok(size * largestDifference(combined.cellGradient, solved.cellGradient) < 2e-9);
+  assert.ok(size * largestDifference(combined.cellGradient, solved.cellGradient) < 1e-4);
 });
 
 test('a wind that a wall holds back is not combined', async () => {
@@ -80,8 +81,9 @@ test('pulses follow the streamlines at the speed of the flow, on a third of thei
       const isDrawn = (k) => k < offsets[line + 1] && Math.hypot(...minus(place(position, k), point)) < 1e-5 * size;
       if (isDrawn(drawn + 1)) ++drawn;
       if (isDrawn(drawn)) {
+        // It may be the point beside the one that is drawn.
         assert.ok(
-          Math.abs(arrival[drawn] - time) < 1e-4 * size && Math.abs(speed[drawn] - all.speeds[at]) < 1e-5,
+          Math.abs(arrival[drawn] - time) < 1e-4 * size && Math.abs(speed[drawn] - all.speeds[at]) < 1e-4,
           `line ${line}, point ${at}`,
         );
         continue;
@@ -185,3 +187,30 @@ for (const direction of [[1, 0, 0], slanted]) {
     rows.forEach((row, cell) => assert.equal(row.at(-1), String(pressures[cell]), `cell ${cell}`));
   });
 }
+
+/** How often a flow is solved ahead when the page, in this state, begins to do so twice. */
+async function countAhead({ triangles = 1, isMoving = false, on = false, smoke = false, turnedOn = false }) {
+  globalThis.window = {};
+  const wind = { on, smoke, direction: [1, 0, 0], show: 'none', cells: 48 };
+  const shown = { wind: null, isWindAwaited: false, smoke: null, playing: null };
+  const values = { mesh: null, model: { isMoving, origin: [0, 0, 0] }, settings: { pose: null, wind }, ...shown };
+  const state = Object.fromEntries(Object.entries(values).map(([name, value]) => [name, { value, peek: () => state[name].value }]));
+  const asked = [];
+  const engine = { windAhead: async (request) => asked.push(request), cancelWind() {}, endSmoke() {}, wind: () => new Promise(() => {}) };
+  const tunnel = new WindTunnel(state, engine, { setWind() {} });
+  state.mesh.value = { triangles };
+  tunnel.beginAhead();
+  tunnel.beginAhead();
+  state.settings.value.wind.on ||= turnedOn;
+  await new Promise((resolve) => setTimeout(resolve, 400)); // nothing tells that nothing comes
+  return asked.length;
+}
+
+test('the flow about a mesh that stands still is solved ahead, once', async () => {
+  assert.equal(await countAhead({}), 1);
+  assert.equal(await countAhead({ isMoving: true }), 0);
+  assert.equal(await countAhead({ triangles: 200_000 }), 0);
+  assert.equal(await countAhead({ on: true }), 0);
+  assert.equal(await countAhead({ smoke: true }), 0);
+  assert.equal(await countAhead({ turnedOn: true }), 0);
+});

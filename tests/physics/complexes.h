@@ -14,6 +14,7 @@ inline mandoline::CellComplex complexOf(const mandoline::Mesh& mesh, const mando
   mandoline::CoarsenOptions options;
   options.maxLevel = maxLevel;
   options.fineLayers = fineLayers;
+  options.layersPerLevel = 0;
   return mandoline::cellComplex(mesh, result.mesh, mandoline::coarsen(result.mesh, options));
 }
 

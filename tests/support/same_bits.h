@@ -1,4 +1,4 @@
-// Compares cut-meshes to the bit: every array, the grid and the counts.
+// Compares results to the bit: of cut-meshes every array, the grid and the counts.
 #pragma once
 
 #include <string>
@@ -10,6 +10,22 @@
 template <class Number>
 std::string bytesOf(const Number* numbers, size_t count) {
   return count == 0 ? std::string() : std::string(reinterpret_cast<const char*>(numbers), count * sizeof(Number));
+}
+
+/// All that a result has.
+template <class Result>
+std::string bytesOfFields(const Result& result) {
+  std::string bytes;
+  Result::fields(result, [&](const char*, const auto& field) {
+    if constexpr (requires { field.fields(field, [](auto&&...) {}); }) {
+      bytes += bytesOfFields(field);
+    } else if constexpr (requires { field.data(); }) {
+      bytes += bytesOf(field.data(), field.size());
+    } else {
+      bytes += bytesOf(&field, 1);
+    }
+  });
+  return bytes;
 }
 
 inline std::vector<std::pair<std::string, std::string>> partsOf(const mandoline::CutMesh& mesh) {

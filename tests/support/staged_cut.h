@@ -45,7 +45,7 @@ struct StagedCut {
     prepareOne(mesh, grid);
     state.surface.input = prepareInput(*prepared, grid, run);
     if (last >= Stage::triEdges) cutTriEdges(state.surface, run);
-    if (last >= Stage::triFaces) clip({state.surface.input, way.brickShift});
+    if (last >= Stage::triFaces) clip({state.surface.input, BrickGrid::same(way.brickShift)});
     if (last == Stage::regions) {
       findRest();
     } else if (last >= Stage::triFaces) {
@@ -80,6 +80,7 @@ struct StagedCut {
   }
   void findRest() {
     state.cuts = cutBricks(state.surface, state.parts, state.bricks, run);
+    state.used = findUsed(state.surface, state.bricks, state.cuts, run);
     state.runs = findUntouchedRuns(state.surface.input, state.bricks, monitor);
     state.seams = findSeams(state.surface.input, state.bricks, state.runs, state.cuts, run);
     state.regions = findRegions(state.cut());
@@ -88,7 +89,9 @@ struct StagedCut {
 
 inline CutMesh cutMeshOf(const Mesh& mesh, const Grid& grid = unitCells(), const Way& way = {}) {
   StagedCut cut(mesh, Stage::regions, way, grid);
-  return makeOutput(mesh, grid, cut.state, cut.run);
+  std::vector<CutPart> whole;
+  whole.push_back(makePart(mesh, grid, cut.state, cut.run));
+  return makeOutput(std::move(whole), cut.state, cut.run);
 }
 
 /// A cut that does not look for triangles that meet.

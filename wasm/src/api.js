@@ -1,9 +1,10 @@
 // The calls of a table (see calls.js), on a module that has been started.
-import { readMembers, readOptions, readStart } from './arguments.js';
+import { bad, readMembers, readOptions, readStart } from './arguments.js';
 import { copierInto } from './buffers.js';
 import { named } from './errors.js';
 import { Host, isResult } from './host.js';
 import { once } from './load.js';
+import { makeObject } from './objects.js';
 import { withProgress } from './progress.js';
 
 /** Returns a function that gives the argument once the handles of twins are there. Values that need a handle are added to `inputs`. */
@@ -30,8 +31,27 @@ function keepTwin({ value: given, error }, { member }, origin, host, twins) {
   return { value };
 }
 
-function makeCall(host, name, call) {
-  const { takes, options, keeps, run = (bindings, ...args) => bindings[name](...args) } = call;
+/** The outcome with an object instead of the handle that a call returned: its methods are those of the handle. */
+function withObject({ value: handle, error }, { gives }, host, bindings) {
+  if (error) return { error };
+  const run =
+    (method) =>
+    (_bindings, ...args) => {
+      if (!host.isCurrent(bindings)) throw bad(`The ${gives.type} is gone with the memory that it was in, since a call failed.`);
+      return handle[method](...args);
+    };
+  const calls = Object.entries(gives.methods).map(([method, call]) => [method, makeCall(host, method, { ...call, run: run(method) })]);
+  const methods = Object.fromEntries(calls.map(([method, call]) => [method, named(method, call)]));
+  const perform = (method, given, expectState) => {
+    named(method, expectState)();
+    return methods[method](...given);
+  };
+  return { value: makeObject(gives, perform, () => host.isCurrent(bindings) && handle.delete()) };
+}
+
+/** A call of a table, on the module of a host. */
+export function makeCall(host, name, call) {
+  const { takes, options, keeps, gives, run = (bindings, ...args) => bindings[name](...args) } = call;
   const parameters = Object.entries(takes);
   return (...given) => {
     const { progress: told, reuse, ...what } = readOptions(given[parameters.length], options);
@@ -47,6 +67,7 @@ function makeCall(host, name, call) {
       return host.runWith(inputs, (bindings, handles, twins) => {
         const args = readings.map((give) => give(handles));
         const outcome = run(bindings, ...args, ...(options ? [{ ...what, progress, copy }] : []));
+        if (gives) return withObject(outcome, call, host, bindings);
         return keeps ? keepTwin(outcome, call, { kind: keeps, ...what }, host, twins) : outcome;
       });
     });

@@ -47,12 +47,24 @@ export function readOptions(options = {}, readers = {}, ...context) {
  * The options that start a module or a worker: `own` has to be there if any of the others is. The inline entries have all of them, and
  * some bundlers add "default" to a module.
  */
-export function readStart(options, own) {
+export function readStart(options, own, more = {}) {
   const asIs = (value) => value;
-  const read = readOptions(options, { wasm: asIs, filesWasm: asIs, physicsWasm: asIs, thread: readFunction, default: asIs });
+  const read = readOptions(options, { wasm: asIs, filesWasm: asIs, physicsWasm: asIs, thread: readFunction, default: asIs, ...more });
   const other = ['wasm', 'physicsWasm'].find((name) => name !== own && read[name] !== undefined);
   if (own && other && read[own] === undefined) throw bad(`options.${other} is not for this: did you mean ${own}?`);
   return read;
+}
+
+const mostThreads = 64;
+
+/** The same of a worker, which may have several threads. */
+export function readWorkerStart(options, own) {
+  const threads = (value = 1, name) => {
+    if (!Number.isInteger(value) || value < 1 || value > mostThreads)
+      throw bad(`${name} must be an integer from 1 to ${mostThreads}, not ${typeof value === 'number' ? value : kindOf(value)}.`);
+    return value;
+  };
+  return readStart(options, own, { threads });
 }
 
 /** A reader that leaves undefined values as they are. */
@@ -171,6 +183,8 @@ export function readVector(value, name, read = expectNumber) {
   if (count !== 3) throw bad(`${name} must have three numbers, not ${count ?? kindOf(value)}.`);
   return [0, 1, 2].map((d) => read(value[d], `${name}[${d}]`));
 }
+
+export const readOrigin = (value = [0, 0, 0], name) => readVector(value, name);
 
 /** The grid of a cut-mesh, or another one given by its planes. */
 function readPlanes(grid, name) {

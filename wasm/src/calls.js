@@ -6,6 +6,7 @@
 // options: their readers.
 // run(bindings, ...arguments, options): calls C++, with handles for arguments that may have twins; by default the binding of that name.
 // keeps: the kind of the call's result, which gets a twin (only its `member`, if that is given); run() then returns { value, twin }.
+// gives: what object its result is, whose state stays in the module (see objects.js); run() then returns its handle.
 // isCut: it goes through the stages of a cut, and errors name the stage.
 // isFile: its only argument is a file, whose bytes and name C++ gets; its reader is given the options.
 // orIn: of a file, the module whose binding of the same name is called where this one gives null.
@@ -21,6 +22,7 @@ import {
   readMaxPairs,
   readMesh,
   readNumbers,
+  readOrigin,
   readPart,
   readPlane,
   readPoints,
@@ -35,7 +37,6 @@ const cutMesh = { kind: 'cutMesh' };
 
 const progress = readFunction;
 const reuse = readBuffers;
-const readOrigin = (value = [0, 0, 0], name) => readVector(value, name);
 const intersections = numbered(Intersections);
 const rule = numbered(WindingRule);
 const threshold = (value = 0.5, name) => expectNumber(value, name);
@@ -53,6 +54,12 @@ function withSize({ value, error }, { kind, cells, planes }) {
   const counts = kind === 'planes' ? planes.map(({ length }) => length - 1) : cells;
   const size = kind === 'around' ? `${cells} cells along the longest side of the mesh` : `${counts.join(' x ')} cells`;
   return { error: { ...error, message: `${error.message} Asked for were ${size}.` } };
+}
+
+/** Calls a binding that takes null for a prepared mesh, whose handle it gets among the options. */
+export function callWithMesh(bindings, name, mesh, grid, options) {
+  const isPrepared = mesh instanceof bindings.KeptMesh;
+  return isPrepared ? bindings[name](null, grid, { ...options, prepared: mesh }) : bindings[name](mesh, grid, options);
 }
 
 /** @param {{ value?: any, error?: any }} outcome */
@@ -79,9 +86,7 @@ export const cutCalls = {
     keeps: 'cutMesh',
     isCut: true,
     run: (bindings, mesh, grid, options) => {
-      const isPrepared = mesh instanceof bindings.KeptMesh;
-      const outcome = isPrepared ? bindings.cut(null, grid, { ...options, prepared: mesh }) : bindings.cut(mesh, grid, options);
-      return mapped(withSize(outcome, grid), ({ cutMesh: value, twin }) => ({ value, twin }));
+      return mapped(withSize(callWithMesh(bindings, 'cut', mesh, grid, options), grid), ({ cutMesh: value, twin }) => ({ value, twin }));
     },
   },
   /**

@@ -1,6 +1,6 @@
 // What the functions of three.js are given, checked: arrays may have been transferred elsewhere, or be those of another cut-mesh.
 // Readers are those of arguments.js with the cut-mesh as one more argument.
-import { bad, expectNumber, expectObject, expectTypedArray, optional, readOptions, readVector, word } from './arguments.js';
+import { bad, expectNumber, expectObject, expectTypedArray, optional, readOptions, readOrigin, word } from './arguments.js';
 import { named } from './errors.js';
 
 function expectArrays(value, arrays, name) {
@@ -79,7 +79,6 @@ const orElse =
     read(value, ...more);
 
 const readColorBy = word(['region', 'winding', 'cell', 'volume']);
-const readOrigin = orElse([0, 0, 0], (value, name) => readVector(value, name));
 
 /** What the functions take between the cut-mesh and their options. */
 const taken = {

@@ -128,6 +128,11 @@ export class Host {
     return this.hasTwin(cutMesh) ? this.run((bindings, twins) => bindings.dataOf(twins.find(cutMesh))) : undefined;
   }
 
+  /** Whether these are still the bindings that calls use. */
+  isCurrent(bindings) {
+    return this.#instance?.bindings === bindings;
+  }
+
   hasTwin(result) {
     return this.#instance?.twins.has(result) ?? false;
   }

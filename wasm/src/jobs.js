@@ -47,6 +47,11 @@ export class JobQueue {
     if (this.#twins.delete(id)) this.#thread.post({ forget: id });
   }
 
+  /** Once all jobs are done that were added before. */
+  freeObject(id) {
+    if (this.#thread) this.add({ call: 'free', message: { free: id }, pack: (message) => ({ message }), resolve() {}, reject() {} });
+  }
+
   /** Rejects the job with the error: it leaves the queue or, if it runs, its thread is replaced. Nothing happens if the job is done. */
   stop(job, error) {
     if (this.#running === job) {

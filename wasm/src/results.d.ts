@@ -3,11 +3,6 @@ import type { Fingerprint, Grid, Stage } from './index.js';
 
 /** How long a stage took. */
 export interface StageTime {
-  /**
-   *
-   *
-   * .
-   */
   stage: Stage;
   /** Milliseconds. */
   ms: number;
@@ -35,11 +30,6 @@ export interface PartCounts {
 export interface CutStats {
   /** In order. */
   stages: StageTime[];
-  /**
-   *
-   *
-   * .
-   */
   totalMs: number;
   /** Signs that needed exact arithmetic. */
   exactFallbacks: number;
@@ -72,11 +62,6 @@ export interface CutStats {
  * array of regions that is not there, as regionWinding without winding numbers, it has a null per region.
  */
 export interface CutMeshArrays {
-  /**
-   *
-   *
-   * .
-   */
   grid: Grid;
 
   // Cut-vertices (paper, 3.2), in this order: tri-vertices; vertices that triangles make by meeting; crossings of axial planes with
@@ -146,11 +131,6 @@ export interface CutMeshArrays {
   runRegion: Uint32Array<ArrayBuffer>;
 
   // Regions: connected components of cut-cells and untouched grid cells, joined through faces that are not pieces of triangles.
-  /**
-   *
-   *
-   * .
-   */
   regionCount: number;
   /**
    * Per region: 1 inside an outward oriented closed surface, 0 outside. Null unless the input is closed and consistently oriented, so that
@@ -264,17 +244,7 @@ export interface MeshInfo {
   duplicateTriangles: number;
   /** Share their position with another one. */
   weldedVertices: number;
-  /**
-   *
-   *
-   * .
-   */
   unreferencedVertices: number;
-  /**
-   *
-   *
-   * .
-   */
   nonFiniteVertices: number;
 
   // The components: triangles that hang together through edges. In the order of their first triangles.
@@ -307,35 +277,10 @@ export interface MeshInfo {
 
 /** How many pairs of triangles meet, by how they do. */
 export interface PairCounts {
-  /**
-   *
-   *
-   * .
-   */
   crossing: number;
-  /**
-   *
-   *
-   * .
-   */
   touching: number;
-  /**
-   *
-   *
-   * .
-   */
   overlapping: number;
-  /**
-   *
-   *
-   * .
-   */
   folded: number;
-  /**
-   *
-   *
-   * .
-   */
   identical: number;
 }
 
@@ -434,11 +379,6 @@ export interface TriangleGroups {
   triangleGroup: Uint32Array<ArrayBuffer>;
 }
 
-/**
- *
- *
- * .
- */
 export interface OrientedMesh {
   /** Vertices and triangles in the order of the input; (a, b, c) turned is (a, c, b). */
   mesh: MeshArrays;
@@ -534,35 +474,10 @@ export interface Outlines {
 
 /** How far a call has come: `done` of `total` items of the stage, and the stage's place among all. */
 export interface Progress {
-  /**
-   *
-   *
-   * .
-   */
   stage: Stage | (string & {});
-  /**
-   *
-   *
-   * .
-   */
   stageIndex: number;
-  /**
-   *
-   *
-   * .
-   */
   stageCount: number;
-  /**
-   *
-   *
-   * .
-   */
   done: number;
-  /**
-   *
-   *
-   * .
-   */
   total: number;
 }
 
@@ -605,11 +520,6 @@ export interface Check {
 export interface Validation {
   /** Whether all do. */
   pass: boolean;
-  /**
-   *
-   *
-   * .
-   */
   checks: Check[];
 }
 

@@ -2,6 +2,7 @@
 import { bad, expectAllAttached, kindOf, readFunction, readOptions } from './arguments.js';
 import { buffersOf, clone } from './buffers.js';
 import { MandolineError, named } from './errors.js';
+import { makeObject } from './objects.js';
 import { valueAt, withValueAt } from './places.js';
 
 const isObject = (value) => typeof value === 'object' && value !== null;
@@ -110,7 +111,7 @@ export class Calls {
   }
 
   async #perform(name, call, args, given) {
-    const { isCut, isFile, keeps, member } = call;
+    const { isCut, isFile, keeps, member, gives, part } = call;
     if (!Array.isArray(args)) throw new MandolineError('badArgument', 'The arguments of a call must be an array.', { stage: name });
     const split = named(isCut ? 'input' : name, splitOptions)(given, call.options);
     if (isFile) split.options = withFileName(split.options, args[0]);
@@ -127,19 +128,31 @@ export class Calls {
         this.#queue.add(Object.assign(job, { resolve, reject }));
       });
       if (kept.includes(message.result)) this.#note(memberOf(value, member), message.result, { kind: keeps, ...split.what });
-      return value;
+      return gives ? this.#object(gives, part, message.object) : value;
     } finally {
       signal?.removeEventListener('abort', abort);
     }
   }
 
+  /** The object of this id in the thread. */
+  #object(gives, part, id) {
+    const perform = async (method, given, expectState) => {
+      named(method, expectState)();
+      const call = { ...gives.methods[method], part, of: { id, type: gives.type } };
+      const count = Object.keys(call.takes).length;
+      return this.#perform(method, call, given.slice(0, count), given[count]);
+    };
+    return makeObject(gives, perform, () => this.#queue.freeObject(id));
+  }
+
   /**
-   * In it: `subjects`, { id, origin, at, data } of each result of this queue that lies at one of these places in the arguments, and
-   * `result`, the id of a new one. Beside it: the results themselves.
+   * In it: `subjects`, { id, origin, at, data } of each result of this queue that lies at one of these places in the arguments; `result`,
+   * the id of a new one; `object`, that of a new object; `of`, the object whose method is called. Beside it: the results themselves.
    */
-  #message(name, { part, isExtra, at = [], keeps, member }, args, { options, transfer, onProgress }) {
-    const message = { call: name, part, isExtra, args, subjects: [], options, progress: onProgress !== undefined };
+  #message(name, { part, isExtra, at = [], keeps, member, gives, of }, args, { options, transfer, onProgress }) {
+    const message = { call: name, part, isExtra, of, args, subjects: [], options, progress: onProgress !== undefined };
     const values = [];
+    if (gives) message.object = this.#queue.newId();
     if (keeps) Object.assign(message, { member, result: this.#queue.newId() });
     for (const place of at) {
       const value = valueAt(args, place);

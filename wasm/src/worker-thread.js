@@ -8,6 +8,7 @@ import { cutModule } from './module.js';
 import { suggestion } from './names.js';
 import { parts } from './parts.js';
 import { withValueAt } from './places.js';
+import { Lead, follow } from './shares.js';
 import { memberOf } from './worker-calls.js';
 
 const extraCalls = new Map();
@@ -66,14 +67,19 @@ class Answering {
   #post;
   #started = new Map(); // by name: { host, calls, shells } of modules
   #awaited = new Map(); // by name: { resolve, reject } of modules that the page was asked for
+  #lead;
+  #objects = new Map(); // of the page's, by the ids that it gives them
 
   constructor(post) {
     this.#post = post;
+    this.#lead = new Lead(() => post({ type: 'share' }));
   }
 
   async answer(job) {
     try {
       if (job.forget !== undefined) for (const { shells } of this.#started.values()) shells.free(job.forget);
+      else if (job.mate !== undefined) this.#takeMate(job);
+      else if (job.free !== undefined) this.#free(job.free);
       else if (job.call === undefined) this.#take(job);
       else if (job.isExtra) this.#send(job, await this.#extra(job));
       else await this.#own(job);
@@ -82,12 +88,33 @@ class Answering {
     }
   }
 
-  /** A module from the page: that of cutting as the first job, others when they were asked for; or why there is none. */
-  #take({ part = 'cut', module, error }) {
+  #free(id) {
+    this.#objects.get(id)?.free();
+    this.#objects.delete(id);
+    this.#post({ type: 'result' });
+  }
+
+  #objectOf({ id, type }) {
+    if (!this.#objects.has(id)) throw new MandolineError('badArgument', `The ${type} is gone with its thread, which was ended.`);
+    return this.#objects.get(id);
+  }
+
+  /** Another thread that takes shares of cuts, or its end. */
+  #takeMate({ mate, port }) {
+    if (port) this.#lead.add(mate, port);
+    else this.#lead.remove(mate);
+  }
+
+  /**
+   * A module from the page: that of cutting as the first job, others when they were asked for; or why there is none. `lead`: the port of the
+   * thread to take shares from.
+   */
+  #take({ part = 'cut', module, error, lead }) {
     const awaited = this.#awaited.get(part);
     if (error) return awaited.reject(new MandolineError(error.code, error.message, error));
     const { host, calls } = startModule(parts.get(part), module, (name) => this.#module(name));
     this.#started.set(part, { host, calls, shells: new Shells(host) });
+    if (lead) follow(lead, host);
     if (awaited) awaited.resolve();
     else this.#post({ type: 'result' });
   }
@@ -105,19 +132,23 @@ class Answering {
   }
 
   async #own(job) {
-    const { part, call, args, options, progress, subjects, result, member } = job;
-    const { host, calls, shells } = await this.#module(part);
+    const { part, call, of, args, options, progress, subjects, result, member, object } = job;
+    const module = await this.#module(part);
+    const { host, calls, shells } = module;
     const found = subjects.map((subject) => this.#find(subject, part));
     const inputs = subjects.reduce((all, { at }, i) => withValueAt(all, at, found[i]), args);
     const given = progress ? { ...options, progress: (value) => this.#post({ type: 'progress', value }) } : options;
     try {
-      const value = await calls[call](...inputs, given);
+      const all = [...inputs, given];
+      const run = of ? this.#objectOf(of)[call] : calls[call];
+      const value = await (call === 'cut' ? this.#lead.cut(module, all) : run(...all));
+      if (object !== undefined) this.#objects.set(object, value);
       const made = result === undefined ? undefined : memberOf(value, member);
       const results = [...subjects.map(({ id }, i) => [id, found[i]]), [result, made]];
       const kept = results.filter(([id, object]) => id !== undefined && host.hasTwin(object));
       this.#send(
         job,
-        value,
+        object === undefined ? value : undefined,
         kept.map(([id]) => id),
       );
       for (const [id, object] of kept) shells.keep(id, object);
@@ -149,7 +180,10 @@ class Answering {
       const says = suggestion(call, [...extraCalls.keys()], 'it serves none');
       throw new MandolineError('badArgument', `The worker's script serves no call ${call}${says}`, { stage: call });
     }
-    return run(this.#calls(), args, { progress: (value) => progress && this.#post({ type: 'progress', value }) });
+    return run(this.#calls(), args, {
+      progress: (value) => progress && this.#post({ type: 'progress', value }),
+      cut: (...given) => this.#lead.cut(this.#started.get('cut'), given),
+    });
   }
 
   /** Those of all modules, for the extra calls; of modules that have not been started as promises. */

@@ -1,4 +1,5 @@
 /** The same calls as promises, in a module worker: the page stays responsive. Browsers and Node. */
+/// <reference lib="esnext.disposable" />
 import type { InitOptions } from './index.js';
 import type { WorkerCalls as FileCalls } from './files/signatures.js';
 import type { WorkerCalls } from './signatures.js';
@@ -11,6 +12,15 @@ export interface CallOptions {
   /** Buffers of the arguments to hand over instead of copying; the caller can't use them afterwards. */
   transfer?: ArrayBuffer[];
 }
+
+/** An object whose state is in the worker's thread: its methods are promises. If a running call is cancelled, the state is lost. */
+export type OnWorker<T> = {
+  [K in keyof T]: K extends 'free' | typeof Symbol.dispose
+    ? T[K]
+    : T[K] extends (...given: infer Given) => infer Value
+      ? (...given: Given) => Promise<Value>
+      : T[K];
+};
 
 export interface ExtraCallOptions extends CallOptions {
   /** Gets what the call tells of its progress; returning false cancels the call. */
@@ -44,6 +54,12 @@ export interface WorkerOptions extends InitOptions {
    * because a call that ran was cancelled or the thread died.
    */
   thread?: () => Thread;
+  /**
+   * How many threads there may be, from 1 (default) to 64: the first large cut starts all but one. They need no shared memory, and so no
+   * headers of the server: each has a copy of the mesh and cuts some layers of the grid. Only cut() is shared, where it is large enough and
+   * has no snapTolerance; the result is the same, to the bit. Calls of a script of your own share it, too (see ExtraCallContext).
+   */
+  threads?: number;
 }
 
 /** Starts a worker that has loaded the module. Code "loadFailed", naming the script that failed, if it can't. */

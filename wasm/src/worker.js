@@ -1,4 +1,4 @@
-import { readStart } from './arguments.js';
+import { readWorkerStart } from './arguments.js';
 import { MandolineError, named } from './errors.js';
 import { ownFileWasm } from './files/own-wasm.js';
 import { openWorker } from './open-worker.js';
@@ -20,6 +20,6 @@ const physics = Object.fromEntries(
 
 /** Starts a worker that has loaded the module. */
 export async function createWorker(options) {
-  const { wasm = ownWasm.source, filesWasm = ownFileWasm.source, thread } = named('init', readStart)(options, 'wasm');
-  return Object.setPrototypeOf(await openWorker({ wasm, filesWasm, thread }, ownThread), physics);
+  const { wasm = ownWasm.source, filesWasm = ownFileWasm.source, thread, threads } = named('init', readWorkerStart)(options, 'wasm');
+  return Object.setPrototypeOf(await openWorker({ wasm, filesWasm, thread, threads }, ownThread), physics);
 }

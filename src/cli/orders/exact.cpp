@@ -30,9 +30,10 @@ Point sphereFlowGradient(const Point& p) {
 
 }  // namespace
 
-const Exact kLinear = {[](const Point& p) { return dot(kField, p); }, [](const Point&) { return kField; }, nothing, false, false};
-const Exact kManufactured = {waves, wavesGradient, [](const Point& p) { return -1.75 * waves(p); }, false, true};
-const Exact kSphereFlow = {sphereFlow, sphereFlowGradient, nothing, true, false};
+const Exact kLinear = {[](const Point& p) { return dot(kField, p); }, [](const Point&) { return kField; }, nothing, false, false, false};
+const Exact kManufactured = {waves, wavesGradient, [](const Point& p) { return -1.75 * waves(p); }, false, true, false};
+const Exact kHeld = {waves, wavesGradient, kManufactured.laplacian, false, true, true};
+const Exact kSphereFlow = {sphereFlow, sphereFlowGradient, nothing, true, false, false};
 
 PoissonProblem problemOf(const CellComplex& cells, const Exact& exact, DualPoints points) {
   PoissonProblem problem;
@@ -45,7 +46,7 @@ PoissonProblem problemOf(const CellComplex& cells, const Exact& exact, DualPoint
     const Point centroid = at(cells.faceCentroid, f);
     const bool onSurface = cells.faceTag[f] == FaceTag::surface;
     if (onSurface && exact.surfaceStops) continue;
-    const bool held = !onSurface && exact.sidesHeld;
+    const bool held = onSurface ? exact.surfaceHeld : exact.sidesHeld;
     boundary.condition[b] = held ? Condition::dirichlet : Condition::neumann;
     boundary.value[b] = held ? exact.phi(centroid) : dot(exact.gradient(centroid), at(normals, b));
   }
@@ -66,12 +67,55 @@ Errors errorsOf(const CellComplex& cells, const Exact& exact, DualPoints points,
   double all = 0;
   for (size_t c = 0; c < phi.size(); ++c) {
     const uint32_t r = components.cellComponent[c];
-    const double e = std::fabs(error[c] - (exact.sidesHeld || !(volume[r] > 0) ? 0 : sum[r] / volume[r]));
+    const double e = std::fabs(error[c] - (exact.sidesHeld || exact.surfaceHeld || !(volume[r] > 0) ? 0 : sum[r] / volume[r]));
     errors.mean += e * cells.cellVolume[c], all += cells.cellVolume[c];
     errors.largest = std::max(errors.largest, e);
   }
   errors.mean /= all;
   return errors;
+}
+
+namespace {
+
+/// Means by area.
+class FaceErrors {
+ public:
+  FaceErrors(const CellComplex& cells, const Exact& exact) : cells_(cells), exact_(exact) {}
+
+  void add(size_t face, const Point& normal, double derivative) {
+    const double area = cells_.faceArea[face];
+    if (!(area > 0)) return;
+    const double error = std::fabs(derivative - dot(exact_.gradient(at(cells_.faceCentroid, face)), normal));
+    sum_ += error * area, area_ += area;
+    largest_ = std::max(largest_, error);
+  }
+  Errors get() const { return {sum_ / area_, largest_}; }
+
+ private:
+  const CellComplex& cells_;
+  const Exact& exact_;
+  double sum_ = 0, area_ = 0, largest_ = 0;
+};
+
+}  // namespace
+
+Errors faceErrorsOf(const CellComplex& cells, const Exact& exact, const Solution& solution) {
+  FaceErrors errors(cells, exact);
+  for (size_t f = 0; f < cells.faceCount(); ++f) {
+    if (cells.faceTag[f] == FaceTag::inner && std::min(cells.faceCells[2 * f], cells.faceCells[2 * f + 1]) >= 0)
+      errors.add(f, at(cells.faceNormal, f), solution.faceDerivative[f]);
+  }
+  return errors.get();
+}
+
+Errors surfaceErrorsOf(const CellComplex& cells, const Exact& exact, const Boundary& boundary, const Solution& solution) {
+  FaceErrors errors(cells, exact);
+  const std::vector<double> normals = outwardNormals(boundary, cells);
+  for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {
+    const size_t f = boundary.halfFaces[b] / 2;
+    if (cells.faceTag[f] == FaceTag::surface) errors.add(f, at(normals, b), solution.boundaryDerivative[b]);
+  }
+  return errors.get();
 }
 
 }  // namespace mandoline::orders

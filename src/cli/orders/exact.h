@@ -14,16 +14,21 @@ struct Exact {
   double (*laplacian)(const Point&);
   bool surfaceStops;  ///< the exact surface has the normal derivative 0, and the triangles are only near it
   bool sidesHeld;     ///< phi is given on the sides of the grid, not its derivative
+  bool surfaceHeld;   ///< phi is given on the surface, not its derivative
 };
 
-extern const Exact kLinear, kManufactured, kSphereFlow;
+extern const Exact kLinear, kManufactured, kHeld, kSphereFlow;
 
 PoissonProblem problemOf(const CellComplex& cells, const Exact& exact, DualPoints points);
 
-/// Of phi at the dual points, less the mean error of each component that has only derivatives.
 struct Errors {
   double mean = 0, largest = 0;
 };
+/// Of phi at the dual points, less the mean error of each component that has only derivatives.
 Errors errorsOf(const CellComplex& cells, const Exact& exact, DualPoints points, const std::vector<double>& phi);
+/// Of the derivatives along normals at the centroids of faces between two cells.
+Errors faceErrorsOf(const CellComplex& cells, const Exact& exact, const Solution& solution);
+/// Of those on the surface.
+Errors surfaceErrorsOf(const CellComplex& cells, const Exact& exact, const Boundary& boundary, const Solution& solution);
 
 }  // namespace mandoline::orders

@@ -4,7 +4,7 @@
 
 #include "base/parallel.h"
 #include "operators/measure/vector.h"
-#include "physics/flow_data.h"
+#include "physics/cell_velocities.h"
 #include "physics/flow_field.h"
 
 namespace mandoline::orders {
@@ -16,10 +16,8 @@ Flow exactlyBounded(const CellComplex& cells, const Exact& exact) {
   options.balance = true;
   Flow flow;
   flow.phi = solvePoisson(cells, problem, options).phi;
-  const physics::DualEdges dual = physics::dualEdges(cells, problem.dualPoints);
-  physics::fillFaceVelocities(cells, problem.boundary, dual, flow);
   detail::Monitor monitor(options, 1);
-  physics::fitVelocities(cells, physics::flowData(cells, dual, flow), monitor, flow);
+  physics::fillVelocities(cells, problem, monitor, flow);
   return flow;
 }
 

@@ -1,7 +1,7 @@
 // What one brick adds to the result: the stages from the tri-cut-faces to the cut-cells on its grid cells.
 //
 // In: SurfaceParts. Out: BrickCut, with numbers of its own, and the grid cells that the surface touches, marked in Bricks. Bricks are cut
-// in any order, on any number of threads; none needs to know of another.
+// in any order, on any number of threads; none needs to know of another. What other processes cut has only what seams and regions need.
 #pragma once
 
 #include "base/arena.h"
@@ -27,6 +27,8 @@ struct BrickRow {
 struct BoundaryHalf {
   HalfFace halfFace;
   uint32_t component;
+  bool isTri;
+  std::array<int32_t, 2> steps;  ///< of a tri-cut-face, as those of a WindingStep
 };
 
 /// A grid-face on the boundary of the brick, by the cell of the brick that has it.
@@ -80,7 +82,7 @@ struct BrickCut {
   std::span<const AxialPlane> pieces;  ///< the planes that they lie in
 
   CsrSpan<HalfFace, CellId> halfFaces;
-  IdSpan<CellId, uint32_t> gridCells;  ///< in the brick's box, ascending
+  IdSpan<CellId, uint32_t> gridCells;  ///< in the brick's box, ascending; elsewhere those of the components' first cells alone
   /// Joined through pieces of grid-faces inside of the brick; numbered by their first cells.
   IdSpan<CellId, uint32_t> components;
   uint32_t componentCount = 0;
@@ -93,6 +95,16 @@ struct BrickCut {
   std::span<const WindingStep> steps;  ///< between components
   std::optional<uint32_t>
       componentAtCorner;  ///< that of the point in windingBeside() at the grid's lowest corner, where the brick has that
+
+  /// Calls f(array) for each that is in the memory of BrickCuts.
+  template <class F>
+  void forArrays(const F& f) {
+    f(lineVertices);
+    f(triLoops.offsets), f(triLoops.items), f(triFaceLoopOffsets), f(triangles), f(otherParents), f(triOrder), f(triFacesInPlane);
+    f(loops.offsets), f(loops.items), f(faceLoopOffsets), f(pieces);
+    f(halfFaces.offsets), f(halfFaces.items), f(gridCells), f(components);
+    f(rows), f(boundaryFaces), f(boundaryHalves), f(boundaryLines), f(openFaces), f(steps);
+  }
 
   bool isTri(FaceId face) const { return face.number < triangles.size(); }
   size_t faceCount() const { return triangles.size() + pieces.size(); }
@@ -111,6 +123,15 @@ struct BrickCuts : IdVector<BrickId, BrickCut> {
   std::vector<Arena> memory;
 };
 
-BrickCuts cutBricks(const Surface& surface, const SurfaceParts& parts, Bricks& bricks, Run& run);
+/// Bricks that need not be cut again.
+struct KeptBricks {
+  BrickCuts cuts;               ///< of all bricks; empty if none is kept
+  std::vector<uint8_t> isKept;  ///< per brick
+
+  bool has(uint32_t brick) const { return !isKept.empty() && isKept[brick] != 0; }
+};
+
+/// Cuts the bricks that are to be cut here, if they are not kept.
+BrickCuts cutBricks(const Surface& surface, const SurfaceParts& parts, Bricks& bricks, Run& run, KeptBricks kept = {});
 
 }  // namespace mandoline::detail

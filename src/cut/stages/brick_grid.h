@@ -48,33 +48,44 @@ struct BrickBox {
 /// How the grid is divided into bricks. Each has a key: its place by z, y, x.
 struct BrickGrid {
   /// Bricks of 32 cells along each side fit into a processor's cache. Smaller ones of a small grid give each thread several.
-  static int shiftFor(const Input& input, unsigned threads) {
+  static std::array<int, 3> shiftsFor(const Input& input, unsigned threads) {
     constexpr int kUsual = 5, kLeast = 3;
     constexpr size_t kEach = 16;
-    const auto count = [&](int shift) {
-      size_t bricks = 1;
-      for (int d = 0; d < 3; ++d) bricks *= size_t((input.cells(d) - 1) >> shift) + 1;
-      return bricks;
-    };
     int shift = kUsual;
-    while (threads > 1 && shift > kLeast && count(shift) < kEach * threads) --shift;
-    return shift;
+    while (threads > 1 && shift > kLeast && countFor(input, shift) < kEach * threads) --shift;
+    return same(shift);
+  }
+  static std::array<int, 3> same(int shift) { return {shift, shift, shift}; }
+  /// Those of a surface that moves are smaller, so that little is cut again.
+  static std::array<int, 3> shiftsForMoving(const Input& input) {
+    constexpr int kUsual = 4, kLeast = 1;
+    constexpr size_t kSeveral = 64;
+    int shift = kUsual;
+    while (shift > kLeast && countFor(input, shift) < kSeveral) --shift;
+    return same(shift);
+  }
+  /// Several shares get some layers of bricks each, which are thinner for that.
+  static std::array<int, 3> shiftsForShares(const Input& input, uint32_t shares) {
+    constexpr size_t kEach = 3;
+    std::array<int, 3> shifts = shiftsFor(input, shares);
+    while (shifts[2] > 0 && countAlong(input, 2, shifts[2]) < kEach * shares) --shifts[2];
+    return shifts;
   }
 
-  int shift = 0;                             ///< 2^shift grid cells along each side of a brick, or what is left of the grid
+  std::array<int, 3> shifts{};               ///< 2^shift grid cells along each side of a brick, or what is left of the grid
   std::array<int32_t, 3> cells{}, counts{};  ///< of grid cells and bricks along each axis
 
   BrickGrid() = default;
-  BrickGrid(const Input& input, int shift_) : shift(shift_) {
+  BrickGrid(const Input& input, const std::array<int, 3>& shifts_) : shifts(shifts_) {
     for (size_t d = 0; d < 3; ++d) {
       cells[d] = input.cells(int(d));
-      counts[d] = ((cells[d] - 1) >> shift) + 1;
+      counts[d] = ((cells[d] - 1) >> shifts[d]) + 1;
     }
   }
 
   /// Of the brick that has a cell of the grid.
   uint64_t keyOf(const Slab& cell) const {
-    const auto at = [&](size_t d) { return uint64_t(cell[d] >> 1 >> shift); };
+    const auto at = [&](size_t d) { return uint64_t(cell[d] >> 1 >> shifts[d]); };
     return (at(2) * uint64_t(counts[1]) + at(1)) * uint64_t(counts[0]) + at(0);
   }
   BrickBox boxOf(uint64_t key) const {
@@ -82,8 +93,8 @@ struct BrickGrid {
     const std::array<uint64_t, 3> at = {key % uint64_t(counts[0]), row % uint64_t(counts[1]), row / uint64_t(counts[1])};
     BrickBox box;
     for (size_t d = 0; d < 3; ++d) {
-      box.first[d] = int32_t(at[d]) << shift;
-      box.count[d] = std::min(int32_t(1) << shift, cells[d] - box.first[d]);
+      box.first[d] = int32_t(at[d]) << shifts[d];
+      box.count[d] = std::min(int32_t(1) << shifts[d], cells[d] - box.first[d]);
     }
     return box;
   }
@@ -97,24 +108,31 @@ struct BrickGrid {
   void forBricks(const Slab& element, const F& f) const {
     findCellAround(element, [&](const Slab& cell) {
       bool isNew = hasCell(cell);
-      for (size_t d = 0; d < 3; ++d) isNew &= cell[d] <= element[d] || (cell[d] >> 1 & ((1 << shift) - 1)) == 0;
+      for (size_t d = 0; d < 3; ++d) isNew &= cell[d] <= element[d] || (cell[d] >> 1 & ((1 << shifts[d]) - 1)) == 0;
       if (isNew) f(cell);
       return false;
     });
   }
   /// Whether an element lies on a plane between bricks.
   bool isOnSeam(const Slab& element) const {
-    const int32_t others = (2 << shift) - 1;
     bool isOn = false;
-    for (size_t d = 0; d < 3; ++d) isOn |= (element[d] & others) == 0 && element[d] > 0 && element[d] < 2 * cells[d];
+    for (size_t d = 0; d < 3; ++d) isOn |= (element[d] & between(d)) == 0 && element[d] > 0 && element[d] < 2 * cells[d];
     return isOn;
   }
   /// Whether some of it may lie there: a slab beside such a plane.
   bool isBesideSeam(const Slab& element) const {
-    const int32_t others = (2 << shift) - 1;
     bool isBeside = false;
-    for (const int32_t slab : element) isBeside |= ((slab + 1) & others) <= 2;
+    for (size_t d = 0; d < 3; ++d) isBeside |= ((element[d] + 1) & between(d)) <= 2;
     return isBeside;
+  }
+  /// What slabs of planes between bricks have no bit of.
+  int32_t between(size_t axis) const { return (2 << shifts[axis]) - 1; }
+
+ private:
+  /// Of bricks, along an axis and in all.
+  static size_t countAlong(const Input& input, int axis, int shift) { return size_t((input.cells(axis) - 1) >> shift) + 1; }
+  static size_t countFor(const Input& input, int shift) {
+    return countAlong(input, 0, shift) * countAlong(input, 1, shift) * countAlong(input, 2, shift);
   }
 };
 

@@ -8,7 +8,13 @@ namespace {
 class SurfaceCutter {
  public:
   SurfaceCutter(const Surface& surface, const SurfaceParts& parts, BrickId brick, Bricks& bricks, BrickSurface& out)
-      : surface_(surface), input_(surface.input), parts_(parts), brick_(brick), bricks_(bricks), out_(out), dicer_(input_, 0, *this) {}
+      : surface_(surface),
+        input_(surface.input),
+        parts_(parts),
+        brick_(brick),
+        bricks_(bricks),
+        out_(out),
+        dicer_(input_, BrickGrid::same(0), *this) {}
   SurfaceCutter(const SurfaceCutter&) = delete;
 
   void run() {

@@ -75,13 +75,14 @@ class Layout {
       bricks.keys.push_back(found_.keys[order[i]]);
       bricks.boxes.push_back(grid_.boxOf(bricks.keys.back()));
       bricks.firstBit.push_back(64 * words);
-      words += (bricks.boxes.back().size() + 63) / 64;
+      words += bricks.wordCount({i});
     }
     bricks.touched.assign(words, 0);
     bricks.parts = grouped(givenParts_);
     bricks.dividedFaces = grouped(givenFaces_);
     bricks.faceEdges = grouped(givenEdges_);
     bricks.seamVertices = grouped(givenVertices_);
+    bricks.here = {{0}, {uint32_t(bricks.size())}, 0, grid_.cells[2], false};
     return bricks;
   }
 
@@ -122,6 +123,34 @@ std::optional<BrickId> Bricks::findTouched(const Slab& cell) const {
   const auto brick = find(cell);
   if (!brick || !isTouched(*brick, boxes[*brick].indexOf(cell))) return {};
   return brick;
+}
+
+BricksHere layersOf(const Bricks& bricks, uint32_t share, uint32_t count) {
+  const BrickGrid& grid = bricks.grid;
+  const uint64_t perLayer = uint64_t(grid.counts[0]) * uint64_t(grid.counts[1]);
+  const auto firstFrom = [&](int32_t layer) {
+    const auto found = std::lower_bound(bricks.keys.begin(), bricks.keys.end(), uint64_t(layer) * perLayer);
+    return BrickId{uint32_t(found - bricks.keys.begin())};
+  };
+  std::vector<uint64_t> before{0};  // the work in the layers before each, and in all
+  for (int32_t layer = 0; layer < grid.counts[2]; ++layer) {
+    uint64_t work = before.back();
+    for (const BrickId b : Ids<BrickId>(firstFrom(layer), firstFrom(layer + 1))) {
+      const uint64_t cells =
+          uint64_t(1) << (grid.shifts[0] + grid.shifts[2]);  // about as many are touched where the surface crosses a brick
+      work += cells + bricks.parts[b].size() + bricks.dividedFaces[b].size();
+    }
+    before.push_back(work);
+  }
+  const auto firstOf = [&](uint32_t at) {
+    const uint64_t target = before.back() * at / count;
+    const auto next = std::lower_bound(before.begin(), before.end(), target);
+    const bool isNearerBelow = next != before.begin() && target - next[-1] < *next - target;
+    return at == count ? grid.counts[2] : int32_t(next - before.begin()) - isNearerBelow;
+  };
+  const int32_t first = firstOf(share), past = firstOf(share + 1);
+  const auto cellsBefore = [&](int32_t layer) { return std::min(layer << grid.shifts[2], grid.cells[2]); };
+  return {firstFrom(first), firstFrom(past), cellsBefore(first), cellsBefore(past), true};
 }
 
 Bricks layOutBricks(const Surface& surface, const SurfaceParts& parts, const BrickGrid& grid) { return Layout(surface, parts, grid).run(); }

@@ -1,9 +1,10 @@
 // Bricks that the surface touches, each with the parts of the surface in its closed box: see brick_grid.h.
 //
-// In: Surface. Out: SurfaceParts, Bricks. Which grid cells are touched is marked by each brick when it is cut.
+// In: Surface. Out: SurfaceParts, Bricks, all of them to be cut here. Which grid cells are touched is marked by each brick when it is cut.
 #pragma once
 
 #include <bit>
+#include <numeric>
 #include <optional>
 #include <span>
 
@@ -20,8 +21,26 @@ struct SurfaceParts {
 /// A cut-edge in a grid-face: those that clipping made come first, then those of divided triangles, then those of tri-edges.
 const FaceEdge& faceEdge(const Surface& surface, const SurfaceParts& parts, uint32_t i);
 
+/// The bricks that this process cuts: all, or one of several shares of a cut (see mandoline/cut_share.h), which are layers of bricks.
+struct BricksHere {
+  BrickId first{0}, past{0};
+  int32_t firstLayer = 0, pastLayer = 0;  ///< of grid cells along z
+  bool isShare = false;                   ///< whether other processes cut, too
+
+  Ids<BrickId> ids() const { return {first, past}; }
+  /// Their numbers, for runItems().
+  std::vector<uint32_t> numbers() const {
+    std::vector<uint32_t> numbers(size());
+    std::iota(numbers.begin(), numbers.end(), first.number);
+    return numbers;
+  }
+  size_t size() const { return past.number - first.number; }
+  bool has(BrickId brick) const { return brick >= first && brick < past; }
+};
+
 struct Bricks {
   BrickGrid grid;
+  BricksHere here;
   IdVector<BrickId, uint64_t> keys;  ///< ascending
   IdVector<BrickId, BrickBox> boxes;
   IdVector<BrickId, size_t> firstBit;  ///< in `touched`
@@ -43,6 +62,10 @@ struct Bricks {
     const size_t bit = firstBit[brick] + index;
     return touched[bit / 64] >> bit % 64 & 1;
   }
+  /// The words of `touched` that a brick has.
+  std::span<const uint64_t> wordsOf(BrickId brick) const { return std::span(touched).subspan(firstBit[brick] / 64, wordCount(brick)); }
+  std::span<uint64_t> wordsOf(BrickId brick) { return std::span(touched).subspan(firstBit[brick] / 64, wordCount(brick)); }
+  size_t wordCount(BrickId brick) const { return (boxes[brick].size() + 63) / 64; }
   /// Marks a cell that a brick has. Bricks write to different words.
   void touch(BrickId brick, const Slab& cell) {
     const size_t bit = firstBit[brick] + boxes[brick].indexOf(cell);
@@ -64,6 +87,9 @@ struct Bricks {
     }
   }
 };
+
+/// The layers of one of several shares, which are alike in work.
+BricksHere layersOf(const Bricks& bricks, uint32_t share, uint32_t count);
 
 /// The axis that a grid-face lies across.
 inline int planeAxis(const Slab& gridFace) { return onPlane(gridFace[0]) ? 0 : onPlane(gridFace[1]) ? 1 : 2; }

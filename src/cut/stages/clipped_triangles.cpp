@@ -41,7 +41,7 @@ class Clipper {
         bricks_(bricks),
         monitor_(monitor),
         chunk_(chunk),
-        dicer_(input_, bricks.shift, *this) {}
+        dicer_(input_, bricks.shifts, *this) {}
   Clipper(const Clipper&) = delete;
   ~Clipper() { chunk_.predicates.fallbacks += dicer_.predicates.fallbacks; }
 
@@ -51,13 +51,12 @@ class Clipper {
     const Slab &a = input_.slabs[t[0]], &b = input_.slabs[t[1]], &c = input_.slabs[t[2]];
     Slab element;
     bool isWhole = true, isBesideSeam = false;
-    const int32_t others = (2 << bricks_.shift) - 1;
     for (size_t d = 0; d < 3; ++d) {
       const int32_t least = std::min({a[d], b[d], c[d]}), greatest = std::max({a[d], b[d], c[d]}), end = 2 * bricks_.cells[d];
       if (greatest < 0 || least > end) return;
       element[d] = slabBetween(least, greatest);
-      isWhole &= least == greatest || (least >= 0 && greatest <= end && isOneBrick(least | 1, greatest - 1));
-      isBesideSeam |= (least & others) == 0 || (greatest & others) == 0;
+      isWhole &= least == greatest || (least >= 0 && greatest <= end && isOneBrick(d, least | 1, greatest - 1));
+      isBesideSeam |= (least & bricks_.between(d)) == 0 || (greatest & bricks_.between(d)) == 0;
     }
     if (!isWhole) {
       outlineOf(surface_, triangle, outline_);
@@ -86,7 +85,9 @@ class Clipper {
     bricks_.forBricks(element, [&](const Slab& cell) { chunk_.clipped.parts.push_back({bricks_.keyOf(cell), triangle_, piece}); });
   }
   /// Whether cells from one to another, as slabs along an axis, are of one brick along it.
-  bool isOneBrick(int32_t first, int32_t last) const { return first >> 1 >> bricks_.shift == last >> 1 >> bricks_.shift; }
+  bool isOneBrick(size_t axis, int32_t first, int32_t last) const {
+    return first >> 1 >> bricks_.shifts[axis] == last >> 1 >> bricks_.shifts[axis];
+  }
   void noteSeamVertices(const Polygon& polygon) {
     for (const Corner& c : polygon) {
       if (planeCount(c.slab) > 1 && bricks_.isOnSeam(c.slab)) chunk_.clipped.seamVertices.push_back(c.id);
@@ -108,7 +109,12 @@ class Clipper {
 class WholeDicer {
  public:
   WholeDicer(const Surface& surface, Monitor& monitor, ClippedChunk& chunk)
-      : surface_(surface), input_(surface.input), vertices_(surface.vertices), monitor_(monitor), chunk_(chunk), dicer_(input_, 0, *this) {}
+      : surface_(surface),
+        input_(surface.input),
+        vertices_(surface.vertices),
+        monitor_(monitor),
+        chunk_(chunk),
+        dicer_(input_, BrickGrid::same(0), *this) {}
   WholeDicer(const WholeDicer&) = delete;
   ~WholeDicer() { chunk_.predicates.fallbacks += dicer_.predicates.fallbacks; }
 

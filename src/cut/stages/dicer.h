@@ -33,8 +33,8 @@ inline void outlineOf(const Surface& surface, TriangleId triangle, Polygon& outl
 template <class Out>
 class Dicer {
  public:
-  /// Cuts by every 2^shift-th plane, and by the last one.
-  Dicer(const Input& input, int shift, Out& out) : input_(input), shift_(shift), out_(out) {}
+  /// Cuts along each axis by every 2^shift-th plane, and by the last one.
+  Dicer(const Input& input, const std::array<int, 3>& shifts, Out& out) : input_(input), shifts_(shifts), out_(out) {}
 
   /// `keepOutside`: pieces outside of the grid as well.
   void dice(TriangleId triangle, const Polygon& polygon, bool keepOutside = false) {
@@ -68,7 +68,7 @@ class Dicer {
 
   /// The first of the planes to cut by that is not below `plane`; beyond all planes if there is none.
   int32_t seamFrom(int axis, int32_t plane) const {
-    const int32_t mask = (1 << shift_) - 1, end = input_.cells(axis);
+    const int32_t mask = (1 << shifts_[size_t(axis)]) - 1, end = input_.cells(axis);
     return plane > end ? plane : std::min((plane + mask) & ~mask, end);
   }
 
@@ -157,7 +157,7 @@ class Dicer {
   }
 
   const Input& input_;
-  const int shift_;
+  const std::array<int, 3> shifts_;
   Out& out_;
   TriangleId triangle_{0};
   bool keepOutside_ = false;

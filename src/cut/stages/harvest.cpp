@@ -7,25 +7,27 @@ namespace {
 
 class Harvest {
  public:
-  Harvest(const BrickStages& stages, Gathered& gathered, Arena& memory, BrickCut& out)
+  Harvest(const BrickStages& stages, const std::vector<Counted>& counted, Gathered& gathered, Arena& memory, BrickCut& out)
       : input_(stages.surface.input),
         vertices_(stages.surface.vertices),
         stencil_(stages.stencil),
         gridEdges_(stages.gridEdges),
         faces_(stages.faces),
         cells_(stages.cells),
+        counted_(counted),
+        steps_(input_, {input_, faces_.tri.triangles, faces_.tri.otherParents}, counted),
         gathered_(gathered),
         memory_(memory),
         out_(out) {}
 
-  void run(const std::vector<Counted>& counted) {
+  void run() {
     gathered_.clear();
     findComponents();
     listVertices();
     orderFaces();
     for (const GridCellId c : cells_.gridCells) gathered_.gridCells.push_back(indexOf(c));
     listBoundary();
-    findSteps(counted);
+    findSteps();
     findCorner();
     copyAll();
   }
@@ -157,21 +159,21 @@ class Harvest {
     } else if (input_.inGrid(other)) {
       const uint32_t first = uint32_t(gathered_.boundaryHalves.size());
       for (size_t i = 0; i < halvesIn(g).size(); ++i) {
-        gathered_.boundaryHalves.push_back({halvesIn(g)[i], gathered_.components[sidesIn(g)[i].cells[face.side() == 1 ? 0 : 1]]});
+        const HalfFace h = halvesIn(g)[i];
+        BoundaryHalf half{h, gathered_.components[sidesIn(g)[i].cells[face.side() == 1 ? 0 : 1]], faces_.isTri(h.face()), {}};
+        if (half.isTri) half.steps = steps_.at(h.face());
+        gathered_.boundaryHalves.push_back(half);
       }
       const Range halves{first, uint32_t(gathered_.boundaryHalves.size()) - first};
       gathered_.boundaryFaces.push_back({indexOf(face.cell), face.index, triFaces, pieces, halves});
     }
   }
 
-  void findSteps(const std::vector<Counted>& counted) {
-    if (counted.empty()) return;
-    const FaceParents parents(input_, faces_.tri.triangles, faces_.tri.otherParents);
-    const bool areAlike = input_.mesh->closed && parents.areSingle();
+  void findSteps() {
+    if (counted_.empty()) return;
     WindingStep last{~0u, ~0u, {}};
     const auto add = [&](FaceId face, CellId behind, CellId inFront) {
-      const WindingStep step{gathered_.components[behind], gathered_.components[inFront],
-                             areAlike ? std::array<int32_t, 2>{1, 0} : stepsAt(face, parents, counted)};
+      const WindingStep step{gathered_.components[behind], gathered_.components[inFront], steps_.at(face)};
       if (step == last) return;
       gathered_.steps.push_back(last = step);
     };
@@ -220,24 +222,23 @@ class Harvest {
     const TriFaces& tri = faces_.tri;
     out_.triLoops = copied(tri.loops);
     out_.triFaceLoopOffsets = memory_.copy(tri.faceLoopOffsets);
-    out_.triangles = IdSpan<FaceId, TriangleId>(memory_.copy(tri.triangles));
+    out_.triangles = memory_.copy(tri.triangles);
     out_.otherParents = memory_.copy(tri.otherParents);
     out_.loops = copied(faces_.grid.loops);
     out_.faceLoopOffsets = memory_.copy(faces_.grid.faceLoopOffsets);
     out_.halfFaces = copied(cells_.halfFaces);
-    const auto copy = [&](const auto& from, auto& to) { to = std::remove_reference_t<decltype(to)>(memory_.copy(from)); };
-    copy(gathered_.lineVertices, out_.lineVertices);
-    copy(gathered_.triOrder, out_.triOrder);
-    copy(gathered_.triFacesInPlane, out_.triFacesInPlane);
-    copy(gathered_.pieces, out_.pieces);
-    copy(gathered_.gridCells, out_.gridCells);
-    copy(gathered_.components, out_.components);
-    copy(gathered_.rows, out_.rows);
-    copy(gathered_.boundaryFaces, out_.boundaryFaces);
-    copy(gathered_.boundaryHalves, out_.boundaryHalves);
-    copy(gathered_.boundaryLines, out_.boundaryLines);
-    copy(gathered_.openFaces, out_.openFaces);
-    copy(gathered_.steps, out_.steps);
+    out_.lineVertices = memory_.copy(gathered_.lineVertices);
+    out_.triOrder = memory_.copy(gathered_.triOrder);
+    out_.triFacesInPlane = memory_.copy(gathered_.triFacesInPlane);
+    out_.pieces = memory_.copy(gathered_.pieces);
+    out_.gridCells = memory_.copy(gathered_.gridCells);
+    out_.components = memory_.copy(gathered_.components);
+    out_.rows = memory_.copy(gathered_.rows);
+    out_.boundaryFaces = memory_.copy(gathered_.boundaryFaces);
+    out_.boundaryHalves = memory_.copy(gathered_.boundaryHalves);
+    out_.boundaryLines = memory_.copy(gathered_.boundaryLines);
+    out_.openFaces = memory_.copy(gathered_.openFaces);
+    out_.steps = memory_.copy(gathered_.steps);
   }
 
   const Input& input_;
@@ -246,6 +247,8 @@ class Harvest {
   const GridEdges& gridEdges_;
   const CutFaces& faces_;
   const CutCells& cells_;
+  const std::vector<Counted>& counted_;
+  const FaceSteps steps_;
   Gathered& gathered_;
   Arena& memory_;
   BrickCut& out_;
@@ -254,7 +257,7 @@ class Harvest {
 }  // namespace
 
 void harvest(const BrickStages& stages, const std::vector<Counted>& counted, Gathered& gathered, Arena& memory, BrickCut& out) {
-  Harvest(stages, gathered, memory, out).run(counted);
+  Harvest(stages, counted, gathered, memory, out).run();
 }
 
 }  // namespace mandoline::detail

@@ -24,17 +24,19 @@ struct Gathered {
   std::vector<uint32_t> pastVertex;  ///< per cell of the stencil: of those that it, or one before it, has first
 
   void clear() {
-    for (auto* ids : {&gridCells, &pastVertex}) ids->clear();
     lineVertices.clear();
     triOrder.clear();
     triFacesInPlane.clear();
     pieces.clear();
+    gridCells.clear();
+    components.clear();
     rows.clear();
     boundaryFaces.clear();
     boundaryHalves.clear();
     boundaryLines.clear();
     openFaces.clear();
     steps.clear();
+    pastVertex.clear();
   }
 };
 

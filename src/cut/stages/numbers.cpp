@@ -1,18 +1,24 @@
 #include "cut/stages/numbers.h"
 
-#include <atomic>
-#include <numeric>
-
 namespace mandoline::detail {
 namespace {
 
+/// A kind of things that a brick lists by its rows: members of BrickRow, BrickSeams and BrickCounts.
+struct Kind {
+  uint32_t BrickRow::*past;
+  SeamRanges BrickSeams::*seams;
+  uint32_t BrickCounts::*count;
+};
+constexpr Kind kTriFaces{&BrickRow::pastTriFace, &BrickSeams::triFaces, &BrickCounts::triFaces};
+constexpr Kind kPieces{&BrickRow::pastPiece, &BrickSeams::pieces, &BrickCounts::pieces};
+constexpr Kind kVertices{&BrickRow::pastVertex, &BrickSeams::vertices, &BrickCounts::vertices};
+
 class Numberer {
  public:
-  Numberer(const Surface& surface, const IdVector<BrickId, BrickCut>& cuts, const IdVector<BrickId, BrickSeams>& seams, Numbers& out)
-      : vertices_(surface.vertices), cuts_(cuts), seams_(seams), out_(out), isUsed_(vertices_.firstInTriangle.number) {
+  Numberer(const CutBricks& cut, Numbers& out) : cut_(cut), vertices_(cut.surface.vertices), cuts_(cut.cuts), seams_(cut.seams), out_(out) {
     out_.ofSurface.assign(vertices_.size(), Numbers::kUnused);
-    out_.ofBrick.resize(cuts.size());
-    out_.faces.resize(cuts.size());
+    out_.ofBrick.resize(cuts_.size());
+    out_.faces.resize(cuts_.size());
   }
 
   /// Where the ranges of all rows begin: rows in order, and in each the bricks along x.
@@ -34,102 +40,134 @@ class Numberer {
       }
     }
     sortByKey(order, last);
-    uint64_t entries = 0, halfFaces = 0, vertices = vertices_.firstInTriangle.number;
     for (const KeyedItem& at : order) {
       const auto& [brick, row] = parts[at.item];
       const BrickCounts& counts = seams_[brick].rows[row];
       out_.rows[brick][row] = out_.total;
       out_.total.add(counts);
-      entries += uint64_t(counts.triLoopVertices) + counts.loopVertices;
-      halfFaces += counts.halfFaces;
-      vertices += counts.vertices;
-      constexpr uint64_t kMost = uint64_t(1) << 31;
-      if (std::max({entries, halfFaces, vertices}) > kMost) {
-        throw Failure{{Status::meshTooLarge, -1, -1, "The cut-mesh would have more than 2^31 vertices, loop entries or half-faces."}};
+      if (cut_.bricks.here.has(brick)) {
+        out_.here.add(counts);
+      } else if (brick < cut_.bricks.here.first) {
+        out_.before.add(counts);
       }
+      requireFew(vertices_.firstInTriangle.number, out_.total);
     }
   }
 
-  /// Notes which vertices of the mesh and its edges the loops of a brick have.
-  void noteUsed(BrickId brick) {
-    for (const auto* loops : {&cuts_[brick].triLoops, &cuts_[brick].loops}) {
-      for (const VertexId v : loops->items) {
-        if (v < vertices_.firstInTriangle) isUsed_[v.number].store(1, std::memory_order_relaxed);
-      }
-    }
-  }
-  void numberSurface() {
-    for (uint32_t v = 0; v < isUsed_.size(); ++v) {
-      if (isUsed_[v].load(std::memory_order_relaxed)) out_.ofSurface[{v}] = out_.surfaceVertices++;
+  void numberSurface(const UsedVertices& used) {
+    for (uint32_t v = 0; v < used.size(); ++v) {
+      if (used[v].load(std::memory_order_relaxed)) out_.ofSurface[{v}] = out_.surfaceVertices++;
     }
   }
 
   void numberOwn(BrickId brick) {
     const BrickCut& cut = cuts_[brick];
-    const BrickSeams& seams = seams_[brick];
-    std::vector<BrickCounts> next = out_.rows[brick];
-    std::vector<uint32_t>& faces = out_.faces[brick];
-    faces.resize(cut.faceCount());
-    forOwn(cut, &BrickRow::pastTriFace, seams.triFaces, [&](uint32_t row, uint32_t first, uint32_t past) {
-      for (uint32_t i = first; i < past; ++i) faces[cut.triOrder[i].number] = next[row].triFaces++;
-    });
-    const uint32_t triFaces = uint32_t(cut.triangles.size());
-    forOwn(cut, &BrickRow::pastPiece, seams.pieces, [&](uint32_t row, uint32_t first, uint32_t past) {
-      for (uint32_t piece = first; piece < past; ++piece) faces[triFaces + piece] = out_.total.triFaces + next[row].pieces++;
-    });
+    out_.faces[brick].resize(cut.faceCount());
     out_.ofBrick[brick].assign(cut.vertices.slabs.size(), Numbers::kUnused);
-    forOwn(cut, &BrickRow::pastVertex, seams.vertices, [&](uint32_t row, uint32_t first, uint32_t past) {
-      for (uint32_t i = first; i < past; ++i) set(brick, cut.lineVertices[i], out_.surfaceVertices + next[row].vertices++);
+    const auto number = [&](const Kind& kind, uint32_t start, const auto& set) {
+      std::vector<BrickCounts> next = out_.rows[brick];
+      forOwn(cut, kind.past, seams_[brick].*kind.seams, [&](uint32_t row, uint32_t first, uint32_t past) {
+        for (uint32_t i = first; i < past; ++i) set(i, start + (next[row].*kind.count)++);
+      });
+    };
+    number(kTriFaces, 0, [&](uint32_t i, uint32_t face) { out_.faces[brick][cut.triOrder[i].number] = face; });
+    number(kPieces, out_.total.triFaces, [&](uint32_t i, uint32_t face) { out_.faces[brick][cut.triangles.size() + i] = face; });
+    number(kVertices, out_.surfaceVertices, [&](uint32_t i, uint32_t vertex) { set(brick, cut.lineVertices[i], vertex); });
+  }
+
+  /// What belongs to other bricks. Vertices of the surface get their numbers from those.
+  void numberOthers(BrickId brick) {
+    const BrickCut& cut = cuts_[brick];
+    forOthersOf(brick, kTriFaces, [&](uint32_t i, BrickId, uint32_t face) { out_.faces[brick][cut.triOrder[i].number] = face; });
+    forOthersOf(brick, kPieces,
+                [&](uint32_t i, BrickId, uint32_t piece) { out_.faces[brick][cut.triangles.size() + i] = out_.total.triFaces + piece; });
+    forOthersOf(brick, kVertices, [&](uint32_t i, BrickId, uint32_t vertex) {
+      if (cut.lineVertices[i] >= cut.vertices.firstOwn) set(brick, cut.lineVertices[i], out_.surfaceVertices + vertex);
     });
   }
 
-  /// Looks up the numbers of what belongs to other bricks.
-  void numberOthers(BrickId brick) {
+  /// The vertices of the surface that get their numbers from bricks that are cut elsewhere.
+  void numberSurfaceFromElsewhere(BrickId brick) {
     const BrickCut& cut = cuts_[brick];
-    forOthers(seams_, brick, &BrickSeams::triFaces, [&](const SeamRange& other, uint32_t first) {
-      for (uint32_t i = 0; i < other.range.count; ++i) {
-        const FaceId mine = cut.triOrder[other.range.first + i], theirs = cuts_[other.owner].triOrder[first + i];
-        out_.faces[brick][mine.number] = out_.faces[other.owner][theirs.number];
-      }
-    });
-    const size_t triFaces = cut.triangles.size();
-    forOthers(seams_, brick, &BrickSeams::pieces, [&](const SeamRange& other, uint32_t first) {
-      const uint32_t* theirs = &out_.faces[other.owner][cuts_[other.owner].triangles.size() + first];
-      std::copy_n(theirs, other.range.count, &out_.faces[brick][triFaces + other.range.first]);
-    });
-    forOthers(seams_, brick, &BrickSeams::vertices, [&](const SeamRange& other, uint32_t first) {
-      for (uint32_t i = 0; i < other.range.count; ++i) {
-        const VertexId v = cut.lineVertices[other.range.first + i];
-        if (v >= cut.vertices.firstOwn) set(brick, v, out_.vertex(other.owner, cuts_[other.owner].lineVertices[first + i]));
-      }
+    forOthersOf(brick, kVertices, [&](uint32_t i, BrickId owner, uint32_t vertex) {
+      if (cut.lineVertices[i] < cut.vertices.firstOwn && !cut_.bricks.here.has(owner))
+        set(brick, cut.lineVertices[i], out_.surfaceVertices + vertex);
     });
   }
 
  private:
+  /// `total`, of which what other processes cut has no lengths of arrays.
+  static void requireFew(uint64_t surfaceVertices, const BrickCounts& total) {
+    const uint64_t entries = uint64_t(total.triLoopVertices) + total.loopVertices, faces = uint64_t(total.triFaces) + total.pieces;
+    requireFewIds(std::max({entries, faces, uint64_t(total.halfFaces), surfaceVertices + total.vertices}));
+  }
+
+  /// Calls f(place, owner, number of that kind) for what a brick has of others.
+  template <class F>
+  void forOthersOf(BrickId brick, const Kind& kind, const F& f) const {
+    forOthers(seams_, brick, kind.seams, [&](const SeamRange& other, uint32_t first) {
+      const uint32_t number = numberAt(other.owner, kind, first);
+      for (uint32_t i = 0; i < other.range.count; ++i) f(other.range.first + i, other.owner, number + i);
+    });
+  }
+
+  /// The number of what a brick owns at a place of its list.
+  uint32_t numberAt(BrickId owner, const Kind& kind, uint32_t place) const {
+    const auto rows = cuts_[owner].rows;
+    const auto row = std::upper_bound(rows.begin(), rows.end(), place, [&](uint32_t at, const BrickRow& r) { return at < r.*kind.past; });
+    const uint32_t first = row == rows.begin() ? 0 : row[-1].*kind.past;
+    const std::vector<SeamRange>& others = (seams_[owner].*kind.seams).others;
+    auto other = std::lower_bound(others.begin(), others.end(), first, [](const SeamRange& r, uint32_t at) { return r.range.first < at; });
+    uint32_t count = place - first;
+    for (; other != others.end() && other->range.first < place; ++other) count -= other->range.count;
+    return out_.rows[owner][size_t(row - rows.begin())].*kind.count + count;
+  }
+
   void set(BrickId brick, VertexId v, uint32_t number) {
     const VertexId firstOwn = cuts_[brick].vertices.firstOwn;
     (v < firstOwn ? out_.ofSurface[v] : out_.ofBrick[brick][v.number - firstOwn.number]) = number;
   }
 
+  const CutBricks& cut_;
   const CutVertices& vertices_;
   const IdVector<BrickId, BrickCut>& cuts_;
   const IdVector<BrickId, BrickSeams>& seams_;
   Numbers& out_;
-  std::vector<std::atomic<uint8_t>> isUsed_;  // per vertex of the mesh and its edges; several bricks may have it
 };
 
 }  // namespace
 
-Numbers makeNumbers(const Surface& surface, const IdVector<BrickId, BrickCut>& cuts, const IdVector<BrickId, BrickSeams>& seams, Run& run) {
+void requireFewIds(uint64_t count) {
+  constexpr uint64_t kMost = uint64_t(1) << 31;
+  if (count <= kMost) return;
+  throw Failure{{Status::meshTooLarge, -1, -1, "The cut-mesh would have more than 2^31 vertices, loop entries or half-faces."}};
+}
+
+UsedVertices findUsed(const Surface& surface, const Bricks& bricks, const IdVector<BrickId, BrickCut>& cuts, Run& run) {
+  const VertexId past = surface.vertices.firstInTriangle;
+  UsedVertices used(past.number);
+  runItems(bricks.here.numbers(), run.monitor, [&](size_t, uint32_t b) {
+    for (const auto* loops : {&cuts[{b}].triLoops, &cuts[{b}].loops}) {
+      for (const VertexId v : loops->items) {
+        if (v < past) used[v.number].store(1, std::memory_order_relaxed);
+      }
+    }
+  });
+  return used;
+}
+
+Numbers makeNumbers(const CutBricks& cut, const UsedVertices& used, Run& run) {
   Numbers numbers;
-  Numberer numberer(surface, cuts, seams, numbers);
-  std::vector<uint32_t> order(cuts.size());
-  std::iota(order.begin(), order.end(), 0u);
+  Numberer numberer(cut, numbers);
   numberer.numberRows();
-  runItems(order, run.monitor, [&](size_t, uint32_t b) { numberer.noteUsed({b}); });
-  numberer.numberSurface();
-  runItems(order, run.monitor, [&](size_t, uint32_t b) { numberer.numberOwn({b}); });
-  runItems(order, run.monitor, [&](size_t, uint32_t b) { numberer.numberOthers({b}); });
+  numberer.numberSurface(used);
+  if (cut.bricks.here.isShare) {
+    for (const BrickId b : cut.bricks.here.ids()) numberer.numberSurfaceFromElsewhere(b);
+  }
+  runItems(cut.bricks.here.numbers(), run.monitor, [&](size_t, uint32_t b) {
+    numberer.numberOwn({b});
+    numberer.numberOthers({b});
+  });
   return numbers;
 }
 

@@ -4,9 +4,17 @@
 // In: BrickCuts, BrickSeams. Out: Numbers. They depend on no size of bricks.
 #pragma once
 
+#include <atomic>
+
 #include "cut/stages/seams.h"
 
 namespace mandoline::detail {
+
+/// Per vertex of the mesh and its edges: whether some loop has it.
+using UsedVertices = std::vector<std::atomic<uint8_t>>;
+
+/// Of the loops in the bricks that are cut here.
+UsedVertices findUsed(const Surface& surface, const Bricks& bricks, const IdVector<BrickId, BrickCut>& cuts, Run& run);
 
 struct Numbers {
   static constexpr uint32_t kUnused = ~0u;
@@ -17,13 +25,23 @@ struct Numbers {
   IdVector<BrickId, std::vector<uint32_t>> faces;    ///< per face of a brick
   IdVector<BrickId, std::vector<BrickCounts>> rows;  ///< per row of a brick: where its ranges begin
   BrickCounts total;
+  // Bricks that are cut here come one after the other: what is before them, and what is theirs.
+  BrickCounts before, here;
 
   /// Of a vertex that a brick sees.
   uint32_t vertex(BrickId brick, VertexId v) const {
     return v.number < ofSurface.size() ? ofSurface[v] : ofBrick[brick][v.number - ofSurface.size()];
   }
+  /// The place of a face among those that are made here: tri-cut-faces, then pieces of grid-faces.
+  uint32_t placeHere(uint32_t face) const {
+    return face < total.triFaces ? face - before.triFaces : face - total.triFaces - before.pieces + here.triFaces;
+  }
 };
 
-Numbers makeNumbers(const Surface& surface, const IdVector<BrickId, BrickCut>& cuts, const IdVector<BrickId, BrickSeams>& seams, Run& run);
+/// Throws Failure{meshTooLarge} if vertices, faces, loop entries or half-faces are too many for their ids.
+void requireFewIds(uint64_t count);
+
+/// `used`: by all bricks.
+Numbers makeNumbers(const CutBricks& cut, const UsedVertices& used, Run& run);
 
 }  // namespace mandoline::detail

@@ -27,7 +27,7 @@ class RegionFinder {
   void uniteBrick(BrickId brick) {
     for (const auto& [component, run] : cut_.seams[brick].joins) nodes_.unite(firstNodes_[brick] + component, firstRun_ + run);
     cut_.forHalves(brick, [&](const BoundaryHalf& below, BrickId owner, const BoundaryHalf& above) {
-      if (cuts_[owner].isTri(below.halfFace.face())) return;
+      if (below.isTri) return;
       nodes_.unite(firstNodes_[owner] + below.component, firstNodes_[brick] + above.component);
     });
   }
@@ -49,8 +49,8 @@ class RegionFinder {
     };
     for (const BrickId b : cuts_.ids()) {
       uint32_t next = 0;
-      for (const CellId c : cuts_[b].components.ids()) {
-        if (cuts_[b].components[c] != next) continue;
+      for (const CellId c : cuts_[b].gridCells.ids()) {
+        if (cut_.bricks.here.has(b) && cuts_[b].components[c] != next) continue;
         const Slab cell = cut_.bricks.boxes[b].cellAt(cuts_[b].gridCells[c]);
         note(runs_.rowOf(cell), uint64_t(cell[0] >> 1), firstNodes_[b] + next++);
       }

@@ -78,19 +78,27 @@ class SeamFinder {
 
   void countRows() {
     out_.rows.resize(cut_.rows.size());
+    for (size_t r = 0; r < cut_.rows.size(); ++r) out_.rows[r].cells = cut_.rows[r].pastCell - (r == 0 ? 0 : cut_.rows[r - 1].pastCell);
+    const auto countOwn = [&](uint32_t BrickRow::*pastInRow, const SeamRanges& seams, uint32_t BrickCounts::*count) {
+      forOwn(cut_, pastInRow, seams, [&](uint32_t row, uint32_t first, uint32_t past) { out_.rows[row].*count += past - first; });
+    };
+    countOwn(&BrickRow::pastVertex, out_.vertices, &BrickCounts::vertices);
+    countOwn(&BrickRow::pastTriFace, out_.triFaces, &BrickCounts::triFaces);
+    countOwn(&BrickRow::pastPiece, out_.pieces, &BrickCounts::pieces);
+    if (bricks_.here.has(brick_)) countArrays();
+  }
+
+  /// What only the process that cuts the brick knows.
+  void countArrays() {
     uint32_t cell = 0;
     for (size_t r = 0; r < cut_.rows.size(); ++r) {
-      out_.rows[r].cells = cut_.rows[r].pastCell - cell;
       out_.rows[r].halfFaces = cut_.halfFaces.offsets[cut_.rows[r].pastCell] - cut_.halfFaces.offsets[cell];
       cell = cut_.rows[r].pastCell;
     }
-    forOwn(cut_, &BrickRow::pastVertex, out_.vertices,
-           [&](uint32_t row, uint32_t first, uint32_t past) { out_.rows[row].vertices += past - first; });
     const FaceParents parents(input_, cut_.triangles, cut_.otherParents);
     const bool areSingle = parents.areSingle();
     forOwn(cut_, &BrickRow::pastTriFace, out_.triFaces, [&](uint32_t row, uint32_t first, uint32_t past) {
       BrickCounts& counts = out_.rows[row];
-      counts.triFaces += past - first;
       for (uint32_t i = first; i < past; ++i) {
         const auto loops = cut_.loopsOf(cut_.triOrder[i]);
         counts.triLoops += uint32_t(loops.size());
@@ -102,7 +110,6 @@ class SeamFinder {
     forOwn(cut_, &BrickRow::pastPiece, out_.pieces, [&](uint32_t row, uint32_t first, uint32_t past) {
       BrickCounts& counts = out_.rows[row];
       const uint32_t firstLoop = cut_.faceLoopOffsets[first], pastLoop = cut_.faceLoopOffsets[past];
-      counts.pieces += past - first;
       counts.loops += pastLoop - firstLoop;
       counts.loopVertices += cut_.loops.offsets[pastLoop] - cut_.loops.offsets[firstLoop];
     });

@@ -24,7 +24,8 @@ struct SeamRanges {
   }
 };
 
-/// How much of the result a part of a brick adds.
+/// How much of the result a part of a brick adds. What other processes cut adds only what ids are counted by: cells, triFaces, pieces and
+/// vertices.
 struct BrickCounts {
   uint32_t cells = 0, halfFaces = 0, triFaces = 0, triLoops = 0, triLoopVertices = 0, parents = 0, pieces = 0, loops = 0, loopVertices = 0,
            vertices = 0;

@@ -64,7 +64,7 @@ std::vector<Statement> listStatements(const CutBricks& all, const Regions& regio
   std::vector<Statement> statements;
   for (const BrickId b : all.cuts.ids()) {
     const BrickCut& cut = all.cuts[b];
-    const FaceParents parents(all.surface.input, cut.triangles, cut.otherParents);
+    const FaceSteps steps(all.surface.input, {all.surface.input, cut.triangles, cut.otherParents}, counted);
     IdVector<FaceId, std::array<CellId, 2>> sides(cut.triangles.size(), {FaceSides::kNone, FaceSides::kNone});
     for (const CellId c : cut.gridCells.ids()) {
       for (const HalfFace h : cut.halfFaces[c]) {
@@ -72,8 +72,7 @@ std::vector<Statement> listStatements(const CutBricks& all, const Regions& regio
       }
     }
     const auto add = [&](FaceId f, CellId cell, uint32_t behind, uint32_t inFront) {
-      Statement statement{
-          cut.triangles[f], all.bricks.boxes[b].cellAt(cut.gridCells[cell]), behind, inFront, stepsAt(f, parents, counted)[kind], {}};
+      Statement statement{cut.triangles[f], all.bricks.boxes[b].cellAt(cut.gridCells[cell]), behind, inFront, steps.at(f)[kind], {}};
       for (const HalfFace h : cut.halfFaces[cell]) {
         if (cut.isTri(h.face()) && cut.triangles[h.face()] != statement.triangle) statement.other = cut.triangles[h.face()];
       }
@@ -87,7 +86,7 @@ std::vector<Statement> listStatements(const CutBricks& all, const Regions& regio
     }
     all.forHalves(b, [&](const BoundaryHalf& below, BrickId owner, const BoundaryHalf& above) {
       const HalfFace h = above.halfFace;  // as the cell below sees it
-      if (!cut.isTri(h.face())) return;
+      if (!above.isTri) return;
       uint32_t behind = regions.ofComponents[owner][below.component], inFront = ofComponents[above.component];
       if (h.side() == 1) std::swap(behind, inFront);
       add(h.face(), sides[h.face()][1 - h.side()], behind, inFront);
@@ -97,11 +96,12 @@ std::vector<Statement> listStatements(const CutBricks& all, const Regions& regio
   return statements;
 }
 
-/// Where steps contradict each other, finds the first face that does, to blame its triangle.
+/// Where steps contradict each other, finds the first face that does, to blame its triangle, if all is known here.
 [[noreturn]] void failAtFirst(const CutBricks& all, const Regions& regions, size_t kind) {
   const Counted counted = countedOf(*all.surface.input.mesh)[kind];
   WindingSets sets(regions.count);
-  for (const Statement& s : listStatements(all, regions, kind)) {
+  const bool isAllHere = all.bricks.here.size() == all.bricks.size();
+  for (const Statement& s : isAllHere ? listStatements(all, regions, kind) : std::vector<Statement>()) {
     if (!sets.setMore(s.behind, s.inFront, s.step, counted)) all.surface.vertices.failSelfIntersection(s.triangle, s.other);
   }
   all.surface.vertices.failSelfIntersection({}, {});
@@ -110,8 +110,7 @@ std::vector<Statement> listStatements(const CutBricks& all, const Regions& regio
 /// Per region the winding number of the counted triangles of a kind.
 std::vector<int32_t> windingOf(const CutBricks& cut, const Regions& regions, size_t kind) {
   const Input& input = cut.surface.input;
-  const std::vector<Counted> allCounted = countedOf(*input.mesh);
-  const Counted& counted = allCounted[kind];
+  const Counted counted = countedOf(*input.mesh)[kind];
   WindingSets sets(regions.count);
   const auto set = [&](uint32_t behind, uint32_t inFront, int32_t step) {
     if (!sets.setMore(behind, inFront, step, counted)) failAtFirst(cut, regions, kind);
@@ -121,13 +120,10 @@ std::vector<int32_t> windingOf(const CutBricks& cut, const Regions& regions, siz
       set(regions.ofComponents[b][s.behind], regions.ofComponents[b][s.inFront], s.steps[kind]);
     }
     cut.forHalves(b, [&](const BoundaryHalf& below, BrickId owner, const BoundaryHalf& above) {
-      const HalfFace h = below.halfFace;
-      const BrickCut& lower = cut.cuts[owner];
-      if (!lower.isTri(h.face())) return;
+      if (!below.isTri) return;
       uint32_t behind = regions.ofComponents[owner][below.component], inFront = regions.ofComponents[b][above.component];
-      if (h.side() == 1) std::swap(behind, inFront);
-      const FaceParents parents(input, lower.triangles, lower.otherParents);
-      set(behind, inFront, stepsAt(h.face(), parents, allCounted)[kind]);
+      if (below.halfFace.side() == 1) std::swap(behind, inFront);
+      set(behind, inFront, below.steps[kind]);
     });
   }
   const uint32_t anchor = regionAtLowestCorner(cut.cuts, regions), root = sets.find(anchor);

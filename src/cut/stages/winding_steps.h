@@ -19,13 +19,25 @@ struct WindingStep {
   }
 };
 
-/// The step at a face, for each of `counted`.
-inline std::array<int32_t, 2> stepsAt(FaceId face, const FaceParents& parents, const std::vector<Counted>& counted) {
-  std::array<int32_t, 2> steps{};
-  parents.forEach(face, [&](TriangleId t, bool sameWay) {
-    for (size_t i = 0; i < counted.size(); ++i) steps[i] += !counted[i].has(t) ? 0 : sameWay ? 1 : -1;
-  });
-  return steps;
-}
+/// The steps at faces, for each of `counted`.
+class FaceSteps {
+ public:
+  FaceSteps(const Input& input, const FaceParents& parents, const std::vector<Counted>& counted)
+      : parents_(parents), counted_(counted), areAlike_(input.mesh->closed && parents.areSingle()) {}
+
+  std::array<int32_t, 2> at(FaceId face) const {
+    if (areAlike_) return {1, 0};
+    std::array<int32_t, 2> steps{};
+    parents_.forEach(face, [&](TriangleId t, bool sameWay) {
+      for (size_t i = 0; i < counted_.size(); ++i) steps[i] += !counted_[i].has(t) ? 0 : sameWay ? 1 : -1;
+    });
+    return steps;
+  }
+
+ private:
+  const FaceParents parents_;
+  const std::vector<Counted>& counted_;
+  const bool areAlike_;
+};
 
 }  // namespace mandoline::detail

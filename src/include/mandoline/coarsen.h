@@ -8,9 +8,13 @@ namespace MANDOLINE_API mandoline {
 
 struct CoarsenOptions : RunOptions {
   int maxLevel = 24;          ///< octree cells have at most 2^maxLevel grid cells on a side; 0 merges nothing
-  int fineLayers = 0;         ///< how many layers of grid cells around each cut one, diagonally too, are not merged
+  int fineLayers = 1;         ///< how many layers of grid cells around each cut one, diagonally too, are not merged
   bool balanceEdges = false;  ///< whether cells that share only an edge also differ by at most one level
-  int layersPerLevel = 0;     ///< least layers of cells of each level above 0, diagonally too, between smaller and larger ones
+  /// Least layers of cells of each level above 0, diagonally too, between smaller and larger ones. kGraded: a 32nd of the grid cells along
+  /// the longest side, but at least one, so that all cells shrink as those of the grid do.
+  int layersPerLevel = kGraded;
+
+  static constexpr int kGraded = -1;
 };
 
 /// The cells that replace the untouched grid cells. One of level L is a block of 2^L grid cells on a side that begins at multiples of 2^L,
@@ -27,7 +31,11 @@ struct OctreeCells {
   size_t cellCount() const { return cellLevel.size(); }
   std::array<int32_t, 3> corner(size_t cell) const { return {cellCorner[3 * cell], cellCorner[3 * cell + 1], cellCorner[3 * cell + 2]}; }
   /// One past its last grid cell, per axis.
-  std::array<int32_t, 3> end(size_t cell) const;
+  std::array<int32_t, 3> end(size_t cell) const {
+    std::array<int32_t, 3> end = corner(cell);
+    for (size_t d = 0; d < 3; ++d) end[d] = end[d] < gridCells[d] - (1 << cellLevel[cell]) ? end[d] + (1 << cellLevel[cell]) : gridCells[d];
+    return end;
+  }
   /// The octree cell that holds a grid cell, or -1 if that is cut or lies outside the grid. Takes logarithmic time.
   int64_t find(int64_t i, int64_t j, int64_t k) const;
 
@@ -41,8 +49,8 @@ struct OctreeCells {
   }
 };
 
-/// Takes time and memory in proportion to the numbers of cut-cells and octree cells. Throws CallError if an option is negative (badOption),
-/// or if cancelled.
+/// Takes time and memory in proportion to the numbers of cut-cells and octree cells. The defaults are for solvers; without fineLayers and
+/// layersPerLevel there are the fewest cells. Throws CallError if an option is negative, but for kGraded (badOption), or if cancelled.
 OctreeCells coarsen(const CutMesh& cutMesh, const CoarsenOptions& options = {});
 
 }  // namespace mandoline

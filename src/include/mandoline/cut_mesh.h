@@ -176,6 +176,14 @@ struct CutMesh {
   std::span<const uint32_t> halfFaces(size_t cell) const {
     return {cellHalfFaces.data() + cellHalfFaceOffsets[cell], cellHalfFaceOffsets[cell + 1] - cellHalfFaceOffsets[cell]};
   }
+  /// The axial planes that two vertices both lie on: a bit per axis.
+  uint8_t commonPlanes(size_t u, size_t v) const {
+    uint8_t planes = vertexMask[u] & vertexMask[v];
+    for (size_t d = 0; d < 3 && planes != 0; ++d) {
+      if (vertexCell[3 * u + d] != vertexCell[3 * v + d]) planes &= uint8_t(~(1 << d));
+    }
+    return planes;
+  }
   /// The cut-cells in a grid cell; none if it is untouched or lies outside the grid.
   IdRange cutCellsAt(int64_t i, int64_t j, int64_t k) const;
   /// The dense form of the runs: region of each grid cell, x fastest; -1 where cut-cells replace it. 4 bytes per grid cell: may throw

@@ -12,6 +12,7 @@ namespace MANDOLINE_API mandoline {
 struct FlowOptions : RunOptions {
   double tolerance = 1e-10;  ///< as in SolveOptions
   int maxIterations = 500;
+  int corrections = 8;  ///< as in SolveOptions
 };
 
 /// A flow without rotation or sources: its velocity is the gradient of phi. Velocities are in the unit of the wind.

@@ -4,8 +4,8 @@
 // exact predicates in place of floating-point decisions. This header has all of the library mandoline::mandoline. grid.h, cut.h and
 // cut_mesh.h are about the cut and its result; mesh.h, prepare.h, intersections.h, resolve.h, inspect.h, orient.h and shapes.h about
 // meshes; measure.h, triangulate.h, drawing.h, locate.h, inside.h, slice.h, coarsen.h, cell_complex.h, merge.h and validate.h work on
-// cut-meshes and see nothing but these public structs. Files are in io.h; operators.h, poisson.h and flow.h, which need Eigen, compute on
-// all cells.
+// cut-meshes and see nothing but these public structs. Files are in io.h; operators.h, poisson.h, flow.h, heat.h and
+// unsteady.h, which need Eigen, compute on all cells.
 //
 //   mandoline::Mesh mesh = mandoline::readMesh("bunny.obj");  // io.h
 //   mandoline::CutResult result = mandoline::cut(mesh, mandoline::Grid::around(mesh, 32));
@@ -17,6 +17,7 @@
 #include "mandoline/cell_complex.h"
 #include "mandoline/coarsen.h"
 #include "mandoline/cut.h"
+#include "mandoline/cut_share.h"
 #include "mandoline/drawing.h"
 #include "mandoline/for_each_brick.h"
 #include "mandoline/inside.h"
@@ -27,6 +28,7 @@
 #include "mandoline/merge.h"
 #include "mandoline/orient.h"
 #include "mandoline/prepare.h"
+#include "mandoline/recut.h"
 #include "mandoline/resolve.h"
 #include "mandoline/shapes.h"
 #include "mandoline/slice.h"

@@ -37,8 +37,8 @@ struct MergedCells {
 /// cells, or on one side of the grid, that lie in one plane become one face where that has one simple loop. Vertices stay as they are; some
 /// are in no face then.
 ///
-/// Lines between dual points are slanted where merged cells meet, which leaves an error of first order there: the potential flow about a
-/// ball has 2 to 3 times the mean error in velocity in uniform grids, and hardly more with octree cells.
+/// Lines between dual points are slanted where merged cells meet, so operators have an error of first order there. solvePoisson() and
+/// solveFlow() correct it: errors are those of cells that are not merged, or smaller.
 ///
 /// The result is the same to the bit for any number of threads. Throws CallError if the fraction is out of range (badOption), if the cells
 /// are not all of the cut-mesh's, or are merged already (badArgument), or if cancelled.

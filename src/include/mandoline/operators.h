@@ -13,7 +13,7 @@ namespace MANDOLINE_API mandoline {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Where a cell's value lies.
+/// Where a cell's value lies. What is said of errors holds for the operators; solvePoisson() corrects them.
 enum class DualPoints : uint8_t {
   /// CellComplex::cellCentre (Azevedo et al. 2016; paper, appendix B). The line between two dual points is normal to the face that they
   /// share, so fluxes of linear fields are exact; merged cells have that of their base, which leaves an error of first order beside them.

@@ -106,7 +106,7 @@ class Nester {
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       if (shellOf(t) >= 0) walls.push_back(t);
     }
-    tree_.build(walls.size(), [&](size_t i) { return BoxTree::Item{boxOf(walls[i]), walls[i]}; });
+    tree_.build(walls.size(), [&](size_t i) { return BoxTree::Item{boxOf(mesh_, walls[i]), walls[i]}; });
   }
 
   /// A patch, by its first triangle on which no other one lies.
@@ -135,12 +135,6 @@ class Nester {
   int32_t shellOf(uint32_t triangle) const {
     if (!patches_.has(triangle) || mesh_.states[triangle] == TriangleState::zeroArea) return -1;
     return shells_.shellOf[patches_.of(triangle)];
-  }
-  Box boxOf(uint32_t triangle) const {
-    const auto& v = mesh_.triangles[triangle];
-    Box box{mesh_.points[v[0]], mesh_.points[v[0]]};
-    for (size_t i = 1; i < 3; ++i) box.include({mesh_.points[v[i]], mesh_.points[v[i]]});
-    return box;
   }
   bool cross(uint32_t s, uint32_t t) const {
     return std::binary_search(crossing_.begin(), crossing_.end(), ShellPair{std::min(s, t), std::max(s, t)});

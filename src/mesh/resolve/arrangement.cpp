@@ -35,20 +35,17 @@ class Arranger {
   Arranger(const WeldedMesh& mesh, Monitor& monitor, Predicates& predicates)
       : mesh_(mesh), monitor_(monitor), predicates_(predicates), result_(mesh) {}
 
-  Arrangement run(const NearTriangles& near) {
-    Contacts contacts = findContacts(mesh_, near, monitor_, predicates_);
-    pairs_ = std::move(contacts.pairs);
+  Arrangement run(const Contacts& contacts) {
     result_.pairs = contacts.counts;
-    if (pairs_.empty()) {
+    if (contacts.pairs.empty()) {
       result_.sides = mesh_.stitches;
       return std::move(result_);
     }
-    addContactPoints();
-    for (const PairContact& pair : pairs_) {
+    addContactPoints(contacts.pairs);
+    for (const PairContact& pair : contacts.pairs) {
       takeApart(pair, 0);
       takeApart(pair, 1);
     }
-    pairs_ = {};
     crossSegments();
     sortUnique(metVertices_);
     placeOf_ = findEqualPoints(result_.points, metVertices_, predicates_);
@@ -83,10 +80,10 @@ class Arranger {
   }
   uint32_t idOf(const PointKey& key) const { return key.kind == PointKey::Kind::vertex ? key.ids[0] : *find(key); }
 
-  void addContactPoints() {
+  void addContactPoints(const std::vector<PairContact>& pairs) {
     for (const Stitch& stitch : mesh_.stitches) metVertices_.insert(metVertices_.end(), stitch.vertices.begin(), stitch.vertices.end());
     std::vector<PointKey> keys;
-    for (const PairContact& pair : pairs_) {
+    for (const PairContact& pair : pairs) {
       for (int i = 0; i < pair.contact.count; ++i) {
         const PointKey& key = pair.contact.corners[size_t(i)].key;
         if (key.kind == PointKey::Kind::vertex) {
@@ -294,7 +291,6 @@ class Arranger {
   Monitor& monitor_;
   Predicates& predicates_;
   Arrangement result_;
-  std::vector<PairContact> pairs_;
   std::vector<std::pair<PointKey, uint32_t>> ids_;  // by key
   std::vector<uint32_t> metVertices_;               // tri-vertices that bound a contact, or that stitching has put on an edge
   std::vector<Segment> segments_;
@@ -313,8 +309,8 @@ const MadeEdge* Arrangement::findMade(uint32_t low, uint32_t high) const {
   return at != madeEdges.end() && at->low == low && at->high == high ? &*at : nullptr;
 }
 
-Arrangement arrange(const WeldedMesh& mesh, const NearTriangles& near, Monitor& monitor, Predicates& predicates) {
-  return Arranger(mesh, monitor, predicates).run(near);
+Arrangement arrange(const WeldedMesh& mesh, const Contacts& contacts, Monitor& monitor, Predicates& predicates) {
+  return Arranger(mesh, monitor, predicates).run(contacts);
 }
 
 }  // namespace mandoline::detail

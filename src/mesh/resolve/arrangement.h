@@ -1,6 +1,6 @@
 // The arrangement of a mesh's triangles: where they meet, cut into vertices and edges that all triangles there share. Grid-independent.
 //
-// In: a welded mesh, NearTriangles. Out: Arrangement. After it, two triangles have nothing in common but vertices and edges of the
+// In: a welded mesh, Contacts. Out: Arrangement. After it, two triangles have nothing in common but vertices and edges of the
 // arrangement, and areas of one plane whose outlines are such edges. Nothing is rounded: a made vertex is a PointKey.
 #pragma once
 
@@ -25,7 +25,7 @@ struct MadeEdge {
   std::array<uint32_t, 2> ends() const { return {low, high}; }
 };
 
-struct NearTriangles;
+struct Contacts;
 
 struct Arrangement {
   explicit Arrangement(const WeldedMesh& mesh) : points(mesh) {}
@@ -47,6 +47,7 @@ struct Arrangement {
 /// How many connected curves edges between vertices below `vertices` make.
 uint32_t countCurves(std::span<const InnerEdge> edges, size_t vertices);
 
-Arrangement arrange(const WeldedMesh& mesh, const NearTriangles& near, Monitor& monitor, Predicates& predicates);
+/// `contacts`: all.
+Arrangement arrange(const WeldedMesh& mesh, const Contacts& contacts, Monitor& monitor, Predicates& predicates);
 
 }  // namespace mandoline::detail

@@ -182,6 +182,17 @@ bool PairTest::meet(uint32_t s, uint32_t t) {
 
 NearTriangles::NearTriangles(SortedMesh sorted) : mesh(std::move(sorted)), tree(treeOf(mesh)) {}
 
+Contacts contactsOf(const WeldedMesh& mesh, std::vector<PairContact> pairs) {
+  Contacts contacts;
+  const Copies copies(mesh);
+  contacts.counts.identical = copies.identicalPairs();
+  for (const PairContact& pair : pairs)
+    countOf(contacts.counts, pair.kind()) += copies.of(pair.triangles[0]) * copies.of(pair.triangles[1]);
+  contacts.pairs = std::move(pairs);
+  sortItems(contacts.pairs);
+  return contacts;
+}
+
 Contacts findContacts(const WeldedMesh& mesh, const NearTriangles& near, Monitor& monitor, Predicates& predicates, size_t most) {
   const SortedMesh& sorted = near.mesh;
   const TriangleTree& tree = near.tree;

@@ -47,6 +47,9 @@ struct NearTriangles {
   explicit NearTriangles(SortedMesh sorted);
 };
 
+/// Counts pairs, which are sorted.
+Contacts contactsOf(const WeldedMesh& mesh, std::vector<PairContact> pairs);
+
 /// Gives the lowest pairs, if there are more than `most`.
 Contacts findContacts(const WeldedMesh& mesh, const NearTriangles& near, Monitor& monitor, Predicates& predicates, size_t most = SIZE_MAX);
 

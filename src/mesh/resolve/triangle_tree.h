@@ -9,6 +9,13 @@ namespace mandoline::detail {
 /// A box in single precision, rounded outwards: half the memory.
 using LooseBox = BoxOf<float>;
 
+inline Box boxOf(const WeldedMesh& mesh, uint32_t triangle) {
+  const auto& v = mesh.triangles[triangle];
+  Box box{mesh.points[v[0]], mesh.points[v[0]]};
+  for (size_t i = 1; i < 3; ++i) box.include({mesh.points[v[i]], mesh.points[v[i]]});
+  return box;
+}
+
 /// A tree of boxes around the triangles of a sorted mesh. Its upper nodes separate groups, its lower ones halve a group in the mesh's
 /// order. Pairs within a group are of no interest.
 class TriangleTree {

@@ -1,7 +1,9 @@
 #include "mandoline/cell_complex.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "base/large_array.h"
 #include "base/run_tasks.h"
 #include "mandoline/measure.h"
 #include "mesh/fingerprints.h"
@@ -10,6 +12,7 @@
 #include "operators/cell_complex/half_faces.h"
 #include "operators/cell_complex/octree_index.h"
 #include "operators/coarsen/morton_order.h"
+#include "operators/measure/owners.h"
 #include "operators/require_cut_mesh.h"
 
 namespace mandoline {
@@ -23,14 +26,14 @@ constexpr const char* kOther = "The octree cells are not those of this cut-mesh.
 
 class Builder {
  public:
-  Builder(const CutMesh& cutMesh, const OctreeCells& octree, detail::Monitor& monitor)
-      : cutMesh_(cutMesh), octree_(octree), monitor_(monitor), index_(octree), corners_(cutMesh, octree) {}
+  Builder(const CutMesh& cutMesh, const OctreeCells& octree, Measures measures, detail::Monitor& monitor)
+      : cutMesh_(cutMesh), octree_(octree), measures_(std::move(measures)), monitor_(monitor) {}
 
-  CellComplex run(Measures measures) {
-    takeFaces(measures);
-    takeCells(measures);
-    addVertices();
+  CellComplex run() {
     monitor_.beginStage("faces", 0);
+    index();
+    takeFaces();
+    takeCells();
     const std::vector<Place> places = placeFaces();
     monitor_.beginStage("cells", 1);
     addFaces(places);
@@ -45,21 +48,23 @@ class Builder {
     size_t face = 0, corner = 0;
   };
 
-  void takeFaces(Measures& measures) {
+  void index() {
+    const std::function<void()> tasks[] = {
+        [&] { corners_.emplace(cutMesh_, octree_); },
+        [&] { index_.emplace(octree_); },
+    };
+    detail::runTasks(tasks, monitor_);
+  }
+
+  void takeFaces() {
     result_.cutFaces = uint32_t(cutMesh_.faceCount());
-    result_.loopOffsets = cutMesh_.loopOffsets;
-    result_.loopVertices = cutMesh_.loopVertices;
-    result_.faceLoopOffsets = cutMesh_.faceLoopOffsets;
-    result_.faceArea = std::move(measures.faceArea);
-    result_.faceNormal = std::move(measures.faceNormal);
-    result_.faceCentroid = std::move(measures.faceCentroid);
-    const Adjacency beside = adjacency(cutMesh_);
-    result_.faceCells = beside.faceCells;
+    result_.faceCells = operators::ownersOf(cutMesh_);
+    const std::vector<int64_t> gridCells = operators::gridCellsBeside(cutMesh_, result_.faceCells);
     const int64_t nx = octree_.gridCells[0], ny = octree_.gridCells[1];
     for (size_t h = 0; h < result_.faceCells.size(); ++h) {
-      const int64_t cell = beside.faceGridCells[h];
+      const int64_t cell = gridCells[h];
       if (cell < 0) continue;
-      const int64_t octreeCell = index_.find({int32_t(cell % nx), int32_t(cell / nx % ny), int32_t(cell / nx / ny)}, 0);
+      const int64_t octreeCell = index_->find({int32_t(cell % nx), int32_t(cell / nx % ny), int32_t(cell / nx / ny)}, 0);
       if (octreeCell < 0) operators::refuse(kOther);
       result_.faceCells[h] = idOf(octreeCell);
     }
@@ -75,64 +80,63 @@ class Builder {
     return FaceTag::inner;
   }
 
-  void takeCells(Measures& measures) {
+  void takeCells() {
     result_.cutCells = uint32_t(cutMesh_.cellCount());
-    result_.cellRegion = cutMesh_.cellRegion;
-    result_.cellVolume = std::move(measures.cellVolume);
-    result_.cellCentroid = std::move(measures.cellCentroid);
-    result_.cellCorner = cutMesh_.cellGridCell;
-    result_.cellLevel.assign(cutMesh_.cellCount(), 0);
-    for (size_t i = 0; i < result_.cellCorner.size(); ++i)
-      result_.cellCentre.push_back(middle(i % 3, result_.cellCorner[i], result_.cellCorner[i] + 1));
+    for (size_t i = 0; i < cutMesh_.cellGridCell.size(); ++i)
+      result_.cellCentre.push_back(middle(i % 3, cutMesh_.cellGridCell[i], cutMesh_.cellGridCell[i] + 1));
   }
 
   void addVertices() {
     result_.cutVertices = uint32_t(cutMesh_.vertexCount());
-    result_.positions.reserve(cutMesh_.positions.size() + 3 * corners_.added().size());
     result_.positions = cutMesh_.positions;
-    for (const GridIndex& corner : corners_.added()) {
-      for (size_t d = 0; d < 3; ++d) result_.positions.push_back(plane(d, corner[d]));
-    }
+    corners_->appendPositions(result_.positions);
   }
 
-  /// Calls f(axis, side, neighbour, tag) for the faces of an octree cell, except those that smaller cells, cut-cells or a cell of its size
-  /// that comes before it have.
-  template <class F>
-  void forSides(size_t c, const F& f) const {
-    const GridIndex corner = octree_.corner(c), end = octree_.end(c);
+  /// The cell across a side of an octree cell, or -1 outside the grid. Nothing if smaller cells, cut-cells, or a cell of its size that
+  /// comes before it, have the faces there.
+  std::optional<int32_t> acrossSide(size_t c, size_t axis, int side) const {
+    GridIndex across = octree_.corner(c);
     const int level = octree_.cellLevel[c];
-    for (size_t axis = 0; axis < 3; ++axis) {
-      for (const int side : {0, 1}) {
-        GridIndex across = corner;
-        across[axis] = side ? end[axis] : corner[axis] - 1;
-        if (across[axis] < 0 || across[axis] >= octree_.gridCells[axis]) {
-          f(axis, side, -1, FaceTag(2 * int(axis) + side));
-          continue;
-        }
-        const int64_t neighbour = index_.find(across, level);
-        if (neighbour < 0) continue;
-        if (octree_.cellLevel[size_t(neighbour)] > level || side == 1) f(axis, side, idOf(neighbour), FaceTag::inner);
-      }
-    }
+    across[axis] += side ? 1 << level : -1;
+    if (across[axis] < 0 || across[axis] >= octree_.gridCells[axis]) return -1;
+    const int64_t neighbour = index_->find(across, level);
+    if (neighbour < 0 || (side == 0 && octree_.cellLevel[size_t(neighbour)] == level)) return {};
+    return idOf(neighbour);
   }
 
-  /// Makes room for the faces of octree cells. Gives where those begin of the first cell of each chunk, as forChunks() makes them.
+  template <class F>
+  static void forSides(const F& f) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      for (const int side : {0, 1}) f(axis, side);
+    }
+  }
+  static constexpr uint8_t kPlain = 1 << 6;  // all sides have four vertices
+  static uint8_t bitOf(size_t axis, int side) { return uint8_t(1 << (2 * axis + size_t(side))); }
+
+  /// Fills sides_ and makes room for the faces of octree cells. Gives where those begin of the first cell of each chunk, as forChunks()
+  /// makes them.
   std::vector<Place> placeFaces() {
     struct Counts {
       Place added;
       std::vector<uint32_t> loop;
     };
+    sides_.resize(octree_.cellCount());
     const auto counts = detail::forChunks<Counts>(octree_.cellCount(), monitor_, [&](Counts& chunk, size_t begin, size_t end) {
       for (size_t c = begin; c < end; ++c) {
-        forSides(c, [&](size_t axis, int side, int32_t, FaceTag) {
+        const GridCorners::OfCell corners = corners_->ofCell(c);
+        const bool isPlain = corners_->hasPlainSides(c, corners);
+        sides_[c] = isPlain ? kPlain : 0;
+        forSides([&](size_t axis, int side) {
+          if (!acrossSide(c, axis, side)) return;
+          sides_[c] |= bitOf(axis, side);
           chunk.loop.clear();
-          corners_.appendSide(c, axis, side, chunk.loop);
+          if (!isPlain) corners_->appendSide(c, corners, axis, side, chunk.loop);
           ++chunk.added.face;
-          chunk.added.corner += chunk.loop.size();
+          chunk.added.corner += isPlain ? 4 : chunk.loop.size();
         });
       }
     });
-    Place next{cutMesh_.faceCount(), result_.loopVertices.size()};
+    Place next{cutMesh_.faceCount(), cutMesh_.loopVertices.size()};
     std::vector<Place> places;
     for (const Counts& chunk : counts) {
       places.push_back(next);
@@ -146,24 +150,35 @@ class Builder {
 
   /// Each array on one thread, since the first touch of memory takes long.
   void makeRoom(const Place& end) {
+    using detail::longer;
+    CellComplex& to = result_;
     const size_t cells = cutMesh_.cellCount() + octree_.cellCount(), loops = cutMesh_.loopCount() + end.face - cutMesh_.faceCount();
     const std::function<void()> rooms[] = {
-        [&] { result_.faceNormal.resize(3 * end.face); },
-        [&] { result_.faceCentroid.resize(3 * end.face); },
-        [&] { result_.loopVertices.resize(end.corner); },
-        [&] { result_.faceArea.resize(end.face); },
-        [&] { result_.faceCells.resize(2 * end.face); },
-        [&] { result_.cellCentre.resize(3 * cells); },
-        [&] { result_.cellCentroid.resize(3 * cells); },
-        [&] { result_.loopOffsets.resize(loops + 1); },
-        [&] { result_.faceLoopOffsets.resize(end.face + 1); },
-        [&] { result_.faceTag.resize(end.face); },
-        [&] { result_.cellCorner.insert(result_.cellCorner.end(), octree_.cellCorner.begin(), octree_.cellCorner.end()); },
-        [&] { result_.cellVolume.resize(cells); },
-        [&] { result_.cellRegion.insert(result_.cellRegion.end(), octree_.cellRegion.begin(), octree_.cellRegion.end()); },
-        [&] { result_.cellLevel.insert(result_.cellLevel.end(), octree_.cellLevel.begin(), octree_.cellLevel.end()); },
+        [&] { to.faceNormal = longer(measures_.faceNormal, 3 * end.face); },
+        [&] { to.faceCentroid = longer(measures_.faceCentroid, 3 * end.face); },
+        [&] { to.loopVertices = longer(cutMesh_.loopVertices, end.corner); },
+        [&] { addVertices(); },
+        [&] { to.faceArea = longer(measures_.faceArea, end.face); },
+        [&] { to.faceCells = longer(to.faceCells, 2 * end.face); },
+        [&] { to.cellCentre = longer(to.cellCentre, 3 * cells); },
+        [&] { to.cellCentroid = longer(measures_.cellCentroid, 3 * cells); },
+        [&] { to.loopOffsets = longer(cutMesh_.loopOffsets, loops + 1); },
+        [&] { to.faceLoopOffsets = longer(cutMesh_.faceLoopOffsets, end.face + 1); },
+        [&] { to.cellCorner = joined(cutMesh_.cellGridCell, octree_.cellCorner); },
+        [&] { to.cellVolume = longer(measures_.cellVolume, cells); },
+        [&] { to.cellRegion = joined(cutMesh_.cellRegion, octree_.cellRegion); },
+        [&] { to.faceTag = longer(to.faceTag, end.face); },
+        [&] { to.cellLevel = joined(std::vector<uint8_t>(cutMesh_.cellCount()), octree_.cellLevel); },
     };
     detail::runTasks(rooms, monitor_);
+    measures_ = {};
+  }
+
+  template <class Item>
+  static std::vector<Item> joined(const std::vector<Item>& a, const std::vector<Item>& b) {
+    std::vector<Item> both = detail::longer(a, a.size() + b.size());
+    std::copy(b.begin(), b.end(), both.begin() + std::ptrdiff_t(a.size()));
+    return both;
   }
 
   /// `places`: those of placeFaces().
@@ -172,28 +187,39 @@ class Builder {
     detail::runChunks(
         octree_.cellCount(), places.size(), monitor_,
         [&](size_t chunk, size_t begin, size_t end) {
-          for (size_t c = begin; c < end; ++c) {
-            forSides(c, [&](size_t axis, int side, int32_t neighbour, FaceTag tag) {
-              Place& at = places[chunk];
-              addFace(at.face, c, axis, side);
-              result_.faceTag[at.face] = tag;
-              result_.faceCells[2 * at.face + size_t(side)] = neighbour;
-              loops[chunk].clear();
-              corners_.appendSide(c, axis, side, loops[chunk]);
-              std::copy(loops[chunk].begin(), loops[chunk].end(), result_.loopVertices.begin() + std::ptrdiff_t(at.corner));
-              at.corner += loops[chunk].size();
-              ++at.face;
-              result_.loopOffsets[cutMesh_.loopCount() + at.face - cutMesh_.faceCount()] = uint32_t(at.corner);
-            });
-          }
+          for (size_t c = begin; c < end; ++c) addFaces(c, places[chunk], loops[chunk]);
         },
         kBlock);
+  }
+
+  /// The sides of an octree cell that are faces of its own. `loop` is room for one.
+  void addFaces(size_t c, Place& at, std::vector<uint32_t>& loop) {
+    if (!(sides_[c] & ~kPlain)) return;
+    const GridCorners::OfCell corners = corners_->ofCell(c);
+    forSides([&](size_t axis, int side) {
+      if (!(sides_[c] & bitOf(axis, side))) return;
+      addFace(at.face, c, axis, side);
+      if (sides_[c] & kPlain) {
+        const auto vertices = GridCorners::ofSide(corners, axis, side);
+        loop.assign(vertices.begin(), vertices.end());
+      } else {
+        loop.clear();
+        corners_->appendSide(c, corners, axis, side, loop);
+      }
+      std::copy(loop.begin(), loop.end(), &result_.loopVertices[at.corner]);
+      at.corner += loop.size();
+      ++at.face;
+      result_.loopOffsets[cutMesh_.loopCount() + at.face - cutMesh_.faceCount()] = uint32_t(at.corner);
+    });
   }
 
   /// The side of an octree cell becomes face f.
   void addFace(size_t f, size_t c, size_t axis, int side) {
     const GridIndex corner = octree_.corner(c), end = octree_.end(c);
     const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const int32_t neighbour = *acrossSide(c, axis, side);
+    result_.faceTag[f] = neighbour < 0 ? FaceTag(2 * int(axis) + side) : FaceTag::inner;
+    result_.faceCells[2 * f + size_t(side)] = neighbour;
     result_.faceCells[2 * f + size_t(1 - side)] = idOf(int64_t(c));
     result_.faceArea[f] = (plane(u, end[u]) - plane(u, corner[u])) * (plane(v, end[v]) - plane(v, corner[v]));
     for (size_t d = 0; d < 3; ++d) {
@@ -231,9 +257,11 @@ class Builder {
 
   const CutMesh& cutMesh_;
   const OctreeCells& octree_;
+  Measures measures_;  // of the cut-mesh
   detail::Monitor& monitor_;
-  OctreeIndex index_;
-  GridCorners corners_;
+  std::optional<OctreeIndex> index_;
+  std::optional<GridCorners> corners_;
+  std::vector<uint8_t> sides_;  // per octree cell: a bit for each side that is a face of its own, and kPlain
   CellComplex result_;
 };
 
@@ -277,7 +305,7 @@ CellComplex cellComplex(const MeshView& mesh, const CutMesh& cutMesh, const Octr
   Measures measures = measure(mesh, cutMesh, options);
   return detail::runCall("assembly of the cells", [&] {
     detail::Monitor monitor(options, 2);
-    CellComplex cells = Builder(cutMesh, octree, monitor).run(std::move(measures));
+    CellComplex cells = Builder(cutMesh, octree, std::move(measures), monitor).run();
     detail::Fingerprinter fingerprinter("cells", cutMesh.fingerprint);
     fingerprinter.add(octree.fingerprint.value);
     cells.madeFrom = cutMesh.fingerprint;

@@ -1,13 +1,15 @@
 #include "operators/cell_complex/grid_corners.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
-#include "base/sort.h"
+#include "base/large_array.h"
 
 namespace mandoline::operators {
 
-GridCorners::GridCorners(const CutMesh& cutMesh, const OctreeCells& octree) : cutMesh_(cutMesh), octree_(octree) {
+GridCorners::GridCorners(const CutMesh& cutMesh, const OctreeCells& octree)
+    : cutMesh_(cutMesh), octree_(octree), places_(numberOf(octree.gridCells) + 1, octree.cellCount()) {
   linkCutVertices();
   const auto forCutCorners = [&](const auto& f) {
     for (size_t v = 0; v < cutMesh.vertexCount(); ++v) {
@@ -25,18 +27,30 @@ GridCorners::GridCorners(const CutMesh& cutMesh, const OctreeCells& octree) : cu
   places_.rank();
 
   constexpr uint32_t kNew = ~0u;
-  ids_.assign(places_.size(), kNew);
+  detail::makeLarge(ids_, places_.size(), kNew);
   forCutCorners([&](uint32_t v, uint64_t number) {
     uint32_t& id = ids_[places_.rankOf(number)];
     id = std::min(id, v);
   });
-  const uint64_t nx = uint64_t(octree.gridCells[0]) + 1, ny = uint64_t(octree.gridCells[1]) + 1;
+  for (uint32_t& id : ids_) {
+    if (id == kNew) id = uint32_t(cutMesh.vertexCount() + added_++);
+  }
+}
+
+void GridCorners::appendPositions(std::vector<double>& positions) const {
+  const auto& planes = cutMesh_.grid.planes;
+  const uint64_t nx = planes[0].size(), ny = planes[1].size();
+  const size_t before = positions.size();
+  positions = detail::longer(positions, before + 3 * added_);
+  double* next = positions.data() + before;
+  uint64_t rowBegin = 0, row = 0;
   uint32_t rank = 0;
   places_.forEach([&](uint64_t number) {
-    uint32_t& id = ids_[rank++];
-    if (id != kNew) return;
-    id = uint32_t(cutMesh.vertexCount() + added_.size());
-    added_.push_back({int32_t(number % nx), int32_t(number / nx % ny), int32_t(number / nx / ny)});
+    if (number >= rowBegin + nx) row = number / nx, rowBegin = row * nx;
+    if (ids_[rank++] < cutMesh_.vertexCount()) return;
+    *next++ = planes[0][number - rowBegin];
+    *next++ = planes[1][row % ny];
+    *next++ = planes[2][row / ny];
   });
 }
 
@@ -46,84 +60,111 @@ uint64_t GridCorners::numberOf(const GridIndex& at) const {
   return (uint64_t(at[2]) * ny + uint64_t(at[1])) * nx + uint64_t(at[0]);
 }
 
-/// Of a grid vertex that is a corner.
-uint32_t GridCorners::idAt(const GridIndex& at) const { return ids_[places_.rankOf(numberOf(at))]; }
-
 /// A surface may touch a grid-edge, and not all four grid cells around it.
 void GridCorners::linkCutVertices() {
   const auto onLine = [&](uint32_t v) {
     const uint8_t mask = cutMesh_.vertexMask[v];
     return mask == 3 || mask == 5 || mask == 6;
   };
+  std::vector<std::array<uint32_t, 2>> links;
   for (size_t l = 0; l < cutMesh_.loopCount(); ++l) {
     const auto loop = cutMesh_.loop(l);
     for (size_t i = 0; i < loop.size(); ++i) {
       const uint32_t a = loop[i], b = loop[i + 1 < loop.size() ? i + 1 : 0];
       if (!onLine(a) && !onLine(b)) continue;
-      const uint8_t planes = cutMesh_.vertexMask[a] & cutMesh_.vertexMask[b];
-      if (planes != 3 && planes != 5 && planes != 6) continue;
-      bool same = true;  // those of two lines share but one plane, except for parallel ones
-      for (size_t d = 0; d < 3; ++d) same &= !(planes >> d & 1) || cutMesh_.vertexCell[3 * a + d] == cutMesh_.vertexCell[3 * b + d];
-      if (same) links_.insert(links_.end(), {{a, b}, {b, a}});
+      // On different grid lines they have one plane in common at most.
+      if (std::popcount(cutMesh_.commonPlanes(a, b)) == 2) links.insert(links.end(), {{a, b}, {b, a}});
     }
   }
-  detail::sortUnique(links_);
+  links_ = detail::groupBy<uint32_t>(
+      cutMesh_.vertexCount(), links.size(), [&](size_t i) { return size_t(links[i][0]); }, [&](size_t i) { return links[i][1]; });
+}
+
+GridCorners::OfCell GridCorners::ofCell(size_t cell) const {
+  const GridIndex low = octree_.corner(cell), high = octree_.end(cell);
+  OfCell corners;
+  for (size_t row = 0; row < 8; row += 2) {
+    const int32_t y = (row & 2 ? high : low)[1], z = (row & 4 ? high : low)[2];
+    const uint32_t rank = places_.rankOf(numberOf({low[0], y, z}));
+    corners[row] = ids_[rank];
+    // Corners next to each other have ranks next to each other.
+    corners[row | 1] = high[0] == low[0] + 1 ? ids_[rank + 1] : idAt({high[0], y, z});
+  }
+  return corners;
 }
 
 /// Appends the cut-vertices inside of a grid-edge.
-void GridCorners::appendCutVertices(const GridIndex& low, size_t axis, std::vector<uint32_t>& ids) const {
-  const uint32_t corner = idAt(low);
-  if (corner >= cutMesh_.vertexCount()) return;
+void GridCorners::appendCutVertices(const Edge& edge, std::vector<uint32_t>& ids) const {
+  if (edge.lowId >= cutMesh_.vertexCount()) return;
   const auto isInside = [&](uint32_t v) {
-    return cutMesh_.vertexMask[v] == (7 & ~(1 << axis)) && cutMesh_.vertexCell[3 * v + axis] == low[axis];
+    return cutMesh_.vertexMask[v] == (7 & ~(1 << edge.axis)) && cutMesh_.vertexCell[3 * v + edge.axis] == edge.low[edge.axis];
   };
-  for (uint32_t from = corner, at = corner;;) {
-    const auto [first, last] = std::equal_range(links_.begin(), links_.end(), std::array<uint32_t, 2>{at, 0},
-                                                [](const auto& a, const auto& b) { return a[0] < b[0]; });
-    const auto next = std::find_if(first, last, [&](const auto& link) { return link[1] != from && isInside(link[1]); });
-    if (next == last) return;
-    ids.push_back((*next)[1]);
-    from = std::exchange(at, (*next)[1]);
+  for (uint32_t from = edge.lowId, at = from;;) {
+    constexpr uint32_t kNone = ~0u;
+    uint32_t next = kNone;
+    for (const uint32_t v : links_[at]) {
+      if (v != from && isInside(v)) next = std::min(next, v);
+    }
+    if (next == kNone) return;
+    ids.push_back(next);
+    from = std::exchange(at, next);
   }
 }
 
-void GridCorners::appendSide(size_t cell, size_t axis, int side, std::vector<uint32_t>& ids) const {
-  const GridIndex corner = octree_.corner(cell), end = octree_.end(cell);
-  const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-  GridIndex low = corner;  // the side's lowest vertex
-  low[axis] = (side ? end : corner)[axis];
-  GridIndex right = low, up = low;
-  right[u] = end[u];
-  up[v] = end[v];
-  const int level = octree_.cellLevel[cell];
-  appendEdge(low, {u, level}, true, ids);
-  appendEdge(right, {v, level}, true, ids);
-  appendEdge(up, {u, level}, false, ids);
-  appendEdge(low, {v, level}, false, ids);
+/// The edge of an octree cell along an axis that begins at a corner.
+GridCorners::Edge GridCorners::edgeOf(size_t cell, const OfCell& corners, size_t axis, size_t corner) const {
+  GridIndex low = octree_.corner(cell);
+  const GridIndex high = octree_.end(cell);
+  for (size_t d = 0; d < 3; ++d) {
+    if (corner >> d & 1) low[d] = high[d];
+  }
+  return {low, corners[corner], axis, octree_.cellLevel[cell]};
 }
 
-/// Appends the vertices of the edge that begins at `low`, except the last. Backwards: from its upper end.
-void GridCorners::appendEdge(const GridIndex& low, const Edge& edge, bool forwards, std::vector<uint32_t>& ids) const {
-  GridIndex high = low;
-  high[edge.axis] = int32_t(std::min(int64_t(low[edge.axis]) + (int64_t(1) << edge.level), int64_t(octree_.gridCells[edge.axis])));
-  ids.push_back(idAt(forwards ? low : high));
+bool GridCorners::hasPlainSides(size_t cell, const OfCell& corners) const {
+  const auto isAdded = [&](uint32_t v) { return v >= cutMesh_.vertexCount(); };
+  if (octree_.cellLevel[cell] == 0 && std::all_of(corners.begin(), corners.end(), isAdded)) return true;
+  std::vector<uint32_t> inside;
+  for (size_t axis = 0; axis < 3 && inside.empty(); ++axis) {
+    for (size_t corner = 0; corner < 8; ++corner) {
+      if (!(corner >> axis & 1)) appendInside(edgeOf(cell, corners, axis, corner), inside);
+    }
+  }
+  return inside.empty();
+}
+
+void GridCorners::appendSide(size_t cell, const OfCell& corners, size_t axis, int side, std::vector<uint32_t>& ids) const {
+  const size_t low = size_t(side) << axis, u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const size_t right = low | size_t(1) << u, up = low | size_t(1) << v;
+  ids.push_back(corners[low]);
+  appendInside(edgeOf(cell, corners, u, low), true, ids);
+  ids.push_back(corners[right]);
+  appendInside(edgeOf(cell, corners, v, right), true, ids);
+  ids.push_back(corners[right | up]);
+  appendInside(edgeOf(cell, corners, u, up), false, ids);
+  ids.push_back(corners[up]);
+  appendInside(edgeOf(cell, corners, v, low), false, ids);
+}
+
+/// Appends the vertices strictly inside of an edge.
+void GridCorners::appendInside(const Edge& edge, bool forwards, std::vector<uint32_t>& ids) const {
   const auto first = std::ptrdiff_t(ids.size());
-  appendInside(low, edge, ids);
+  appendInside(edge, ids);
   if (!forwards) std::reverse(ids.begin() + first, ids.end());
 }
 
-/// Appends the vertices strictly inside, upwards. If smaller cells have corners there, then in the middle, too: octree cells are halved.
-void GridCorners::appendInside(const GridIndex& low, const Edge& edge, std::vector<uint32_t>& ids) const {
-  if (edge.level == 0) return appendCutVertices(low, edge.axis, ids);
-  const Edge half = {edge.axis, edge.level - 1};
-  GridIndex middle = low;
-  middle[edge.axis] += int32_t(1) << half.level;
-  if (middle[edge.axis] >= octree_.gridCells[edge.axis]) return appendInside(low, half, ids);
-  const uint32_t rank = places_.rankOf(numberOf(middle));
+/// The same, upwards. If smaller cells have corners there, then in the middle, too: octree cells are halved.
+void GridCorners::appendInside(const Edge& edge, std::vector<uint32_t>& ids) const {
+  if (edge.level == 0) return appendCutVertices(edge, ids);
+  const Edge lower = {edge.low, edge.lowId, edge.axis, edge.level - 1};
+  Edge upper = lower;
+  upper.low[edge.axis] += int32_t(1) << upper.level;
+  if (upper.low[edge.axis] >= octree_.gridCells[edge.axis]) return appendInside(lower, ids);
+  const uint32_t rank = places_.rankOf(numberOf(upper.low));
   if (rank == places_.kNone) return;
-  appendInside(low, half, ids);
-  ids.push_back(ids_[rank]);
-  appendInside(middle, half, ids);
+  appendInside(lower, ids);
+  ids.push_back(upper.lowId = ids_[rank]);
+  appendInside(upper, ids);
 }
 
 }  // namespace mandoline::operators

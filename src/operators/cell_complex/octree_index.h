@@ -13,7 +13,9 @@ using GridIndex = std::array<int32_t, 3>;
 /// Keeps a reference to the octree cells.
 class OctreeIndex {
  public:
-  explicit OctreeIndex(const OctreeCells& octree) : octree_(octree) {
+  explicit OctreeIndex(const OctreeCells& octree)
+      : octree_(octree),
+        corners_(numberOf({octree.gridCells[0] - 1, octree.gridCells[1] - 1, octree.gridCells[2] - 1}) + 1, octree.cellCount()) {
     for (size_t c = 0; c < octree.cellCount(); ++c) {
       corners_.insert(numberOf(octree.corner(c)));
       highest_ = std::max(highest_, int(octree.cellLevel[c]));

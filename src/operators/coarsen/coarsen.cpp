@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/function_ref.h"
+#include "base/large_array.h"
 #include "base/sort.h"
 #include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
@@ -15,6 +17,8 @@ namespace {
 using Block = std::array<int32_t, 3>;
 using operators::isBefore;
 using Blocks = std::vector<Block>;  // ascending along the Morton curve, each once
+
+constexpr const char* kIncomplete = "The cut-mesh is not valid: it has neither cut-cells nor a run for a grid cell.";
 
 class Coarsener {
  public:
@@ -35,9 +39,12 @@ class Coarsener {
     options_.maxLevel = std::min(options_.maxLevel, top);
     monitor_.beginStage("levels", 0);
     findDivided();
+    const size_t count = countCells(top);
     monitor_.beginStage("cells", 1);
-    next_.assign(size_t(options_.maxLevel) + 1, 0);
-    add({0, 0, 0}, top);
+    detail::reserveLarge(result_.cellCorner, 3 * count);
+    detail::reserveLarge(result_.cellLevel, count);
+    detail::reserveLarge(result_.cellRegion, count);
+    forCells(top, [&](const Block& block, int level) { addCell(block, level); });
     return std::move(result_);
   }
 
@@ -94,26 +101,43 @@ class Coarsener {
     return blocks;
   }
 
-  /// Adds the cells of a block in Morton order, in which all lists of blocks are.
-  void add(const Block& block, int level) {
+  using Visit = detail::FunctionRef<void(const Block&, int)>;
+
+  /// Calls visit(block, level) for all cells, in Morton order, in which all lists of blocks are.
+  void forCells(int top, Visit visit) {
+    next_.assign(size_t(options_.maxLevel) + 1, 0);
+    forCellsIn({0, 0, 0}, top, visit);
+  }
+
+  void forCellsIn(const Block& block, int level, Visit visit) {
     if (level <= options_.maxLevel) {
       const Blocks& divided = level == 0 ? cut_ : divided_[size_t(level)];
       size_t& next = next_[size_t(level)];
-      if (next == divided.size() || divided[next] != block) return addCell(block, level);
+      if (next == divided.size() || divided[next] != block) return visit(block, level);
       ++next;
     }
     if (level == 0) return;
     for (int32_t child = 0; child < 8; ++child) {
       const Block inside = {2 * block[0] + (child & 1), 2 * block[1] + (child >> 1 & 1), 2 * block[2] + (child >> 2)};
-      if (inGrid(inside, level - 1)) add(inside, level - 1);
+      if (inGrid(inside, level - 1)) forCellsIn(inside, level - 1, visit);
     }
+  }
+
+  size_t countCells(int top) {
+    const uint64_t untouched = untouched_.count();
+    size_t count = 0;
+    forCells(top, [&](const Block&, int) {
+      if (++count > untouched) operators::refuse(kIncomplete);  // before there is no end of them
+      if (count % 4096 == 0) monitor_.report(1, 1);
+    });
+    return count;
   }
 
   void addCell(const Block& block, int level) {
     if (result_.cellCount() % 4096 == 0) monitor_.report(next_[0], cut_.size());
     const Block corner = {block[0] << level, block[1] << level, block[2] << level};
     const int64_t region = untouched_.regionAt(corner[0], corner[1], corner[2]);
-    if (region < 0) operators::refuse("The cut-mesh is not valid: it has neither cut-cells nor a run for a grid cell.");
+    if (region < 0) operators::refuse(kIncomplete);
     result_.cellCorner.insert(result_.cellCorner.end(), corner.begin(), corner.end());
     result_.cellLevel.push_back(uint8_t(level));
     result_.cellRegion.push_back(uint32_t(region));
@@ -124,17 +148,11 @@ class Coarsener {
   detail::Monitor& monitor_;
   Blocks cut_;
   std::vector<Blocks> divided_;  // per level
-  std::vector<size_t> next_;     // per level: the first block of divided_ (of cut_ at level 0) that add() has not come to
+  std::vector<size_t> next_;     // per level: the first block of divided_ (of cut_ at level 0) that forCells() has not come to
   OctreeCells result_;
 };
 
 }  // namespace
-
-std::array<int32_t, 3> OctreeCells::end(size_t cell) const {
-  std::array<int32_t, 3> end = corner(cell);
-  for (size_t d = 0; d < 3; ++d) end[d] = int32_t(std::min(int64_t(end[d]) + (int64_t(1) << cellLevel[cell]), int64_t(gridCells[d])));
-  return end;
-}
 
 int64_t OctreeCells::find(int64_t i, int64_t j, int64_t k) const {
   if (i < 0 || j < 0 || k < 0 || i >= gridCells[0] || j >= gridCells[1] || k >= gridCells[2]) return -1;
@@ -158,14 +176,19 @@ int64_t OctreeCells::find(int64_t i, int64_t j, int64_t k) const {
 
 OctreeCells coarsen(const CutMesh& cutMesh, const CoarsenOptions& options) {
   operators::requireCutMesh(cutMesh);
-  if (options.maxLevel < 0 || options.fineLayers < 0 || options.layersPerLevel < 0) {
+  CoarsenOptions meant = options;
+  if (options.layersPerLevel == CoarsenOptions::kGraded) {
+    const auto [x, y, z] = std::array{cutMesh.grid.cells(0), cutMesh.grid.cells(1), cutMesh.grid.cells(2)};
+    meant.layersPerLevel = std::max(1, int(std::max({x, y, z}) / 32));
+  }
+  if (meant.maxLevel < 0 || meant.fineLayers < 0 || meant.layersPerLevel < 0) {
     throw CallError({Status::badOption, -1, -1, "maxLevel, fineLayers and layersPerLevel can't be negative."});
   }
   return detail::runCall("coarsening", [&] {
     detail::Monitor monitor(options, 2);
-    OctreeCells result = Coarsener(cutMesh, options, monitor).run();
+    OctreeCells result = Coarsener(cutMesh, meant, monitor).run();
     detail::Fingerprinter fingerprinter("octree", cutMesh.fingerprint);
-    for (const int option : {options.maxLevel, options.fineLayers, options.layersPerLevel, int(options.balanceEdges)})
+    for (const int option : {meant.maxLevel, meant.fineLayers, meant.layersPerLevel, int(meant.balanceEdges)})
       fingerprinter.add(uint64_t(option));
     result.madeFrom = cutMesh.fingerprint;
     result.fingerprint = fingerprinter.get();

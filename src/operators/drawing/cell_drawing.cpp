@@ -1,4 +1,4 @@
-#include <limits>
+#include <bit>
 
 #include "mandoline/drawing.h"
 #include "operators/cut_input.h"
@@ -125,11 +125,7 @@ class Drawer {
   }
 
   EdgeKind kindOf(uint32_t from, uint32_t to) const {
-    const uint32_t both = cutMesh_.vertexMask[from] & cutMesh_.vertexMask[to];
-    int planes = 0;
-    for (size_t d = 0; d < 3 && both != 0; ++d) {
-      planes += (both >> d & 1) != 0 && cutMesh_.vertexCell[3 * size_t(from) + d] == cutMesh_.vertexCell[3 * size_t(to) + d];
-    }
+    const int planes = std::popcount(cutMesh_.commonPlanes(from, to));
     return planes == 0 ? kTriEdge : planes == 1 ? kHybridEdge : kGridEdge;
   }
 

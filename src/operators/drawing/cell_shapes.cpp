@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "operators/unit_scale.h"
+
 namespace mandoline::drawing {
 
 namespace {
@@ -22,7 +24,7 @@ class LocalPlaces {
       const std::vector<double>& planes = cutMesh.grid.planes[d];
       largest = std::max({largest, std::fabs(origin[d]), std::fabs(planes.front()), std::fabs(planes.back())});
     }
-    if (largest > 0) exponent_ = std::clamp(-std::ilogb(largest), -1000, 1000);
+    exponent_ = operators::unitExponent(largest);
     scale_ = std::ldexp(1, exponent_);
     for (size_t d = 0; d < 3; ++d) origin_[d] = scale_ * origin[d];
     double side = 0;
@@ -40,9 +42,9 @@ class LocalPlaces {
 
  private:
   const double* positions_;
-  int exponent_ = 0;
-  double scale_ = 1, step_ = 1;
-  std::array<double, 3> origin_{};
+  int exponent_;
+  double scale_, step_;
+  std::array<double, 3> origin_;
 };
 
 std::vector<Moments> faceMoments(const CutMesh& cutMesh, const FaceTriangles& faceTriangles, const LocalPlaces& places) {

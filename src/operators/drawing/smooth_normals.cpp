@@ -7,6 +7,7 @@
 #include "base/csr.h"
 #include "base/position_table.h"
 #include "operators/measure/vector.h"
+#include "operators/unit_scale.h"
 
 namespace mandoline::drawing {
 
@@ -31,7 +32,7 @@ class ScaledMesh {
   explicit ScaledMesh(const MeshView& mesh) : mesh_(mesh) {
     double largest = 0;
     for (const double x : mesh.positions) largest = std::max(largest, std::fabs(x));
-    if (largest > 0) scale_ = std::ldexp(1, std::clamp(-std::ilogb(largest), -1000, 1000));
+    scale_ = std::ldexp(1, operators::unitExponent(largest));
   }
 
   uint32_t vertex(size_t corner) const { return mesh_.triangles[corner]; }
@@ -40,7 +41,7 @@ class ScaledMesh {
 
  private:
   const MeshView& mesh_;
-  double scale_ = 1;
+  double scale_;
 };
 
 Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }

@@ -18,17 +18,6 @@ int64_t gridCellAcross(const CutMesh& cutMesh, const Face& face, size_t cell) {
   return at[0] + cutMesh.grid.cells(0) * (at[1] + cutMesh.grid.cells(1) * at[2]);
 }
 
-/// Per half-face: the untouched grid cell, or -1.
-std::vector<int64_t> gridCellsBeside(const CutMesh& cutMesh, const std::vector<int32_t>& owners) {
-  std::vector<int64_t> gridCells(owners.size(), -1);
-  for (size_t h = 0; h < owners.size(); ++h) {
-    const Face face = cutMesh.face(h / 2);
-    const int32_t opposite = owners[h ^ 1];
-    if (owners[h] < 0 && opposite >= 0 && face.axis >= 0) gridCells[h] = gridCellAcross(cutMesh, face, size_t(opposite));
-  }
-  return gridCells;
-}
-
 }  // namespace
 
 std::vector<int32_t> operators::ownersOf(const CutMesh& cutMesh) {
@@ -39,10 +28,20 @@ std::vector<int32_t> operators::ownersOf(const CutMesh& cutMesh) {
   return owners;
 }
 
+std::vector<int64_t> operators::gridCellsBeside(const CutMesh& cutMesh, const std::vector<int32_t>& owners) {
+  std::vector<int64_t> gridCells(owners.size(), -1);
+  for (size_t h = 0; h < owners.size(); ++h) {
+    const Face face = cutMesh.face(h / 2);
+    const int32_t opposite = owners[h ^ 1];
+    if (owners[h] < 0 && opposite >= 0 && face.axis >= 0) gridCells[h] = gridCellAcross(cutMesh, face, size_t(opposite));
+  }
+  return gridCells;
+}
+
 Adjacency adjacency(const CutMesh& cutMesh) {
   Adjacency result;
   result.faceCells = operators::ownersOf(cutMesh);
-  result.faceGridCells = gridCellsBeside(cutMesh, result.faceCells);
+  result.faceGridCells = operators::gridCellsBeside(cutMesh, result.faceCells);
   result.cellCellOffsets.assign(1, 0);
   result.cellCellOffsets.reserve(cutMesh.cellCount() + 1);
   result.cellCells.reserve(cutMesh.cellHalfFaces.size());

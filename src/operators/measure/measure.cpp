@@ -6,6 +6,7 @@
 // double-doubles.
 #include "mandoline/measure.h"
 
+#include "base/large_array.h"
 #include "mesh/run_call.h"
 #include "operators/cut_input.h"
 #include "operators/measure/places.h"
@@ -45,13 +46,13 @@ class Measuring {
 
   Measures run(detail::Monitor& monitor) {
     const size_t faces = cutMesh_.faceCount();
-    measures_.faceArea.resize(faces);
-    measures_.faceNormal.resize(3 * faces);
-    measures_.faceCentroid.resize(3 * faces);
+    detail::makeLarge(measures_.faceArea, faces);
+    detail::makeLarge(measures_.faceNormal, 3 * faces);
+    detail::makeLarge(measures_.faceCentroid, 3 * faces);
     monitor.beginStage("faces", 1);
     forEach(faces, monitor, [&](size_t f) { keep(f, shapeOf(f)); });
-    measures_.cellVolume.resize(cutMesh_.cellCount());
-    measures_.cellCentroid.resize(3 * cutMesh_.cellCount());
+    detail::makeLarge(measures_.cellVolume, cutMesh_.cellCount());
+    detail::makeLarge(measures_.cellCentroid, 3 * cutMesh_.cellCount());
     monitor.beginStage("cells", 2);
     forEach(cutMesh_.cellCount(), monitor, [&](size_t c) { measureCell(c); });
     for (size_t f = 0; f < faces; ++f) {

@@ -1,11 +1,13 @@
 #include "operators/measure/places.h"
 
+#include "base/large_array.h"
+
 namespace mandoline::measuring {
 
 using detail::twoSum;
 
-Places::Places(const MeshView& mesh, const CutMesh& cutMesh, detail::Monitor& monitor)
-    : mesh_(mesh), cutMesh_(cutMesh), places_(cutMesh.vertexCount()) {
+Places::Places(const MeshView& mesh, const CutMesh& cutMesh, detail::Monitor& monitor) : mesh_(mesh), cutMesh_(cutMesh) {
+  detail::makeLarge(places_, cutMesh.vertexCount());
   forEach(places_.size(), monitor, [&](size_t v) { places_[v] = make(v); });
 }
 

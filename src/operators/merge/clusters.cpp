@@ -4,6 +4,7 @@
 #include <numeric>
 #include <queue>
 
+#include "base/large_array.h"
 #include "operators/measure/vector.h"
 
 namespace mandoline::merging {
@@ -31,18 +32,14 @@ struct Waiting {
 }  // namespace
 
 Clusters::Clusters(const CutMesh& cutMesh, const CellComplex& cells, double fraction)
-    : cutMesh_(cutMesh),
-      cells_(cells),
-      fraction_(fraction),
-      most_(1 + kRoom * fraction),
-      clusterOf_(cells.cellCount()),
-      size_(cells.cellCount(), 1),
-      place_(cells.cellCount()),
-      stamp_(cells.cellCount()),
-      separated_(cells.cellCount()) {
+    : cutMesh_(cutMesh), cells_(cells), fraction_(fraction), most_(1 + kRoom * fraction) {
+  const size_t count = cells.cellCount();
+  detail::reserveLarge(clusters_, count);
+  for (auto* array : {&clusterOf_, &size_, &place_, &stamp_, &separated_}) detail::makeLarge(*array, count);
+  std::fill(size_.begin(), size_.end(), 1u);
   std::iota(clusterOf_.begin(), clusterOf_.end(), 0u);
-  next_ = clusterOf_;
-  for (uint32_t c = 0; c < cells.cellCount(); ++c) {
+  detail::copyLarge(clusterOf_, next_);
+  for (uint32_t c = 0; c < count; ++c) {
     Cluster cluster{cells.cellVolume[c], isOctreeCell(c) ? cells.cellVolume[c] : gridCellVolume(c), c, {}, {}, {}};
     for (size_t d = 0; d < 3; ++d) {
       cluster.centroid[d] = cells.cellCentroid[3 * size_t(c) + d];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/large_array.h"
 #include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
 #include "operators/cell_complex/half_faces.h"
@@ -14,7 +15,9 @@ namespace {
 
 using merging::Cluster;
 using merging::Clusters;
+using merging::FaceJoiner;
 using merging::Fate;
+using merging::JoinedFaces;
 
 class Merger {
  public:
@@ -27,7 +30,7 @@ class Merger {
     numberCells();
     takeCells();
     monitor.beginStage("faces", 1);
-    takeFaces();
+    takeFaces(monitor);
     return std::move(result_);
   }
 
@@ -35,7 +38,9 @@ class Merger {
   /// In the order of their first members.
   void numberCells() {
     constexpr uint32_t kNone = ~0u;
-    std::vector<uint32_t> number(cells_.cellCount(), kNone);  // per cluster
+    std::vector<uint32_t> number;  // per cluster
+    detail::makeLarge(number, cells_.cellCount(), kNone);
+    detail::reserveLarge(result_.mergedCell, cells_.cellCount());
     for (uint32_t c = 0; c < cells_.cellCount(); ++c) {
       uint32_t& mine = number[clusters_.clusterOf(c)];
       if (mine == kNone) mine = count_++, result_.cells.cutCells += c < cells_.cutCells;
@@ -47,6 +52,11 @@ class Merger {
     CellComplex& to = result_.cells;
     auto members = detail::groupBy<uint32_t>(
         count_, cells_.cellCount(), [&](size_t c) { return size_t(result_.mergedCell[c]); }, [](size_t c) { return uint32_t(c); });
+    for (auto* array : {&to.cellCentre, &to.cellCentroid}) detail::reserveLarge(*array, 3 * size_t(count_));
+    detail::reserveLarge(to.cellCorner, 3 * size_t(count_));
+    detail::reserveLarge(to.cellVolume, count_);
+    detail::reserveLarge(to.cellRegion, count_);
+    detail::reserveLarge(to.cellLevel, count_);
     for (uint32_t n = 0; n < count_; ++n) {
       const Cluster& cluster = clusters_[clusters_.clusterOf(members[n][0])];
       const size_t base = cluster.base;
@@ -75,13 +85,15 @@ class Merger {
       result_.cells.cellCentroid.push_back(cells_.cellCentroid[3 * base + d] + (volume > 0 ? offset[d] / volume : 0));
   }
 
-  void takeFaces() {
+  void takeFaces(detail::Monitor& monitor) {
     CellComplex& to = result_.cells;
     to.cutVertices = cells_.cutVertices;
-    to.positions = cells_.positions;
+    detail::copyLarge(cells_.positions, to.positions);
     std::vector<Fate> fates;
+    detail::reserveLarge(fates, cells_.faceCount());
     for (size_t f = 0; f < cells_.faceCount(); ++f) fates.push_back(fateOf(f));
-    replaceFaces(cells_, joinFaces(cells_, fates, [&](uint32_t f, uint32_t g) { return areInOnePlane(f, g); }), to);
+    const JoinedFaces faces = FaceJoiner(cells_, fates).join(fates, [&](uint32_t f, uint32_t g) { return areInOnePlane(f, g); });
+    replaceFaces(cells_, faces, to, monitor);
     for (int32_t& cell : to.faceCells) cell = mergedCell(cell);
     operators::gatherHalfFaces(to);
   }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/large_array.h"
 #include "mandoline/merge.h"
 #include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
@@ -11,6 +12,7 @@
 namespace mandoline {
 namespace {
 
+using merging::FaceJoiner;
 using merging::Fate;
 using merging::JoinedFaces;
 
@@ -45,20 +47,23 @@ class WallUniter {
 
   CellComplex run(detail::Monitor& monitor) {
     monitor.beginStage("walls", 0);
-    JoinedFaces faces = join();
-    while (halveMissing(faces)) {
-      monitor.report(0, 1);
-      faces = join();
-    }
+    const JoinedFaces faces = join(monitor);
     CellComplex result = copyOfCells();
-    replaceFaces(cells_, faces, result);
+    replaceFaces(cells_, faces, result, monitor);
     operators::gatherHalfFaces(result);
     return result;
   }
 
  private:
-  JoinedFaces join() const {
-    return joinFaces(cells_, fates_, [&](uint32_t f, uint32_t g) { return mayJoin(f, g); });
+  JoinedFaces join(detail::Monitor& monitor) {
+    FaceJoiner joiner(cells_, fates_);
+    const auto joined = [&] { return joiner.join(fates_, [&](uint32_t f, uint32_t g) { return mayJoin(f, g); }); };
+    JoinedFaces faces = joined();
+    while (halveMissing(faces)) {
+      monitor.report(0, 1);
+      faces = joined();
+    }
+    return faces;
   }
 
   bool mayJoin(size_t f, size_t g) const {
@@ -104,15 +109,16 @@ class WallUniter {
     CellComplex to;
     to.cutVertices = cells_.cutVertices;
     to.cutCells = cells_.cutCells;
-    to.positions = cells_.positions;
-    to.cellCorner = cells_.cellCorner;
-    to.cellLevel = cells_.cellLevel;
-    to.cellCentre = cells_.cellCentre;
-    to.cellRegion = cells_.cellRegion;
-    to.cellVolume = cells_.cellVolume;
-    to.cellCentroid = cells_.cellCentroid;
-    to.cellMemberOffsets = cells_.cellMemberOffsets;
-    to.cellMembers = cells_.cellMembers;
+    using detail::copyLarge;
+    copyLarge(cells_.positions, to.positions);
+    copyLarge(cells_.cellCorner, to.cellCorner);
+    copyLarge(cells_.cellLevel, to.cellLevel);
+    copyLarge(cells_.cellCentre, to.cellCentre);
+    copyLarge(cells_.cellRegion, to.cellRegion);
+    copyLarge(cells_.cellVolume, to.cellVolume);
+    copyLarge(cells_.cellCentroid, to.cellCentroid);
+    copyLarge(cells_.cellMemberOffsets, to.cellMemberOffsets);
+    copyLarge(cells_.cellMembers, to.cellMembers);
     to.madeFrom = cells_.madeFrom;
     return to;
   }

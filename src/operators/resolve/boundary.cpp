@@ -99,9 +99,7 @@ class SolidBoundary {
   void addSides() {
     const OctreeCells octree = coarsen(cutMesh_);
     const operators::GridCorners corners(cutMesh_, octree);
-    for (const operators::GridIndex& corner : corners.added()) {
-      for (size_t d = 0; d < 3; ++d) positions_.push_back(cutMesh_.grid.planes[d][size_t(corner[d])]);
-    }
+    corners.appendPositions(positions_);
     for (size_t c = 0; c < octree.cellCount(); ++c) {
       if (!isInside_[octree.cellRegion[c]]) continue;
       for (size_t axis = 0; axis < 3; ++axis) {
@@ -136,7 +134,7 @@ class SolidBoundary {
   /// A side of an octree cell, whether that is inside or what lies beyond.
   void addSquare(const operators::GridCorners& corners, size_t cell, size_t axis, int side, bool isInside) {
     std::vector<uint32_t> loop;
-    corners.appendSide(cell, axis, side, loop);
+    corners.appendSide(cell, corners.ofCell(cell), axis, side, loop);
     const uint32_t offsets[] = {0, uint32_t(loop.size())};
     triangulator_.runOutwards({-1, int32_t(axis), 0, Loops(offsets, 1, loop.data())}, (side != 0) == isInside ? 0 : 1, triangles_);
   }

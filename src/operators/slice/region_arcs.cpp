@@ -35,13 +35,13 @@ const std::vector<RegionArc>& RegionArcs::run(uint32_t p, Points& points) {
 /// Whether an edge between vertices lies on an edge of the grid that lies on a side of its box.
 bool RegionArcs::liesOnSide(const std::array<uint32_t, 2>& edge, GridEdge& gridEdge) const {
   const int32_t *a = &cutMesh_.vertexCell[3 * size_t(edge[0])], *b = &cutMesh_.vertexCell[3 * size_t(edge[1])];
-  const uint8_t planes = cutMesh_.vertexMask[edge[0]] & cutMesh_.vertexMask[edge[1]];
+  const uint8_t planes = cutMesh_.commonPlanes(edge[0], edge[1]);
   int common = 0;
   bool onSide = false;
   gridEdge.axis = 0;
   for (int d = 0; d < 3; ++d) {
     gridEdge.at[size_t(d)] = std::min(a[d], b[d]);
-    if ((planes >> d & 1) != 0 && a[d] == b[d]) {
+    if ((planes >> d & 1) != 0) {
       ++common;
       onSide |= a[d] == 0 || a[d] == cutMesh_.grid.cells(d) || !cutMesh_.regionInsideness.empty();
     } else {

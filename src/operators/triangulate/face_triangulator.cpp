@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "operators/unit_scale.h"
+
 namespace mandoline::operators {
 namespace {
 
@@ -23,7 +25,7 @@ double factorOf(const std::vector<double>& positions, const Loops& loops) {
       for (size_t d = 0; d < 3; ++d) largest = std::max(largest, std::fabs(positions[3 * size_t(v) + d]));
     }
   }
-  return largest > 0 ? std::ldexp(1.0, -std::clamp(std::ilogb(largest), -1000, 1000)) : 1;
+  return std::ldexp(1.0, unitExponent(largest));
 }
 
 /// Twice the loops' area along each axis.

@@ -45,15 +45,30 @@ TEST_CASE("The result is the same to the bit without short cuts", "[stages][bric
   }
 }
 
+namespace {
+
+/// Of a grid of so many cells along each axis.
+Input inputOf(int64_t cells) {
+  Input input;
+  input.planes.fill(std::vector<double>(size_t(cells) + 1));
+  return input;
+}
+
+}  // namespace
+
 TEST_CASE("Bricks of a small grid are smaller where there are several threads", "[stages][bricks]") {
-  const auto shiftFor = [](int64_t cells, unsigned threads) {
-    Input input;
-    input.planes.fill(std::vector<double>(size_t(cells) + 1));
-    return BrickGrid::shiftFor(input, threads);
-  };
-  CHECK(shiftFor(10, 1) == 5);
-  CHECK(shiftFor(10, 2) == 3);
-  CHECK(shiftFor(50, 2) == 4);
-  CHECK(shiftFor(50, 16) == 3);
-  CHECK(shiftFor(200, 2) == 5);
+  const auto shiftFor = [](int64_t cells, unsigned threads) { return BrickGrid::shiftsFor(inputOf(cells), threads); };
+  CHECK(shiftFor(10, 1) == BrickGrid::same(5));
+  CHECK(shiftFor(10, 2) == BrickGrid::same(3));
+  CHECK(shiftFor(50, 2) == BrickGrid::same(4));
+  CHECK(shiftFor(50, 16) == BrickGrid::same(3));
+  CHECK(shiftFor(200, 2) == BrickGrid::same(5));
+}
+
+TEST_CASE("Bricks are thinner along z where several shares get layers of them", "[stages][bricks]") {
+  const auto shiftsFor = [](int64_t cells, uint32_t shares) { return BrickGrid::shiftsForShares(inputOf(cells), shares); };
+  CHECK(shiftsFor(200, 2) == BrickGrid::same(5));
+  CHECK(shiftsFor(100, 2) == std::array{5, 5, 4});
+  CHECK(shiftsFor(100, 8) == std::array{4, 4, 2});
+  CHECK(shiftsFor(4, 3) == std::array{3, 3, 0});
 }

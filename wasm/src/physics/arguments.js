@@ -67,31 +67,44 @@ export function readOperatorNames(names = operatorNames, name) {
 
 const definedEntries = (object) => Object.entries(object).filter(([, value]) => value !== undefined);
 
-/** { dirichlet } or { neumann } as [condition, value]. */
+/** { dirichlet }, { neumann } or { robin, coefficient } as [condition, value, coefficient]. */
 function readCondition(given, name) {
-  const members = readMembers(given, Object.fromEntries(Condition.map((condition) => [condition, optional(expectNumber)])), name);
+  const numbers = Object.fromEntries([...Condition, 'coefficient'].map((member) => [member, optional(expectNumber)]));
+  const { coefficient, ...members } = readMembers(given, numbers, name);
   const [[condition, value] = [], ...others] = definedEntries(members);
-  if (condition === undefined || others.length > 0) throw bad(`${name} must be { dirichlet } or { neumann }.`);
-  return [Condition.indexOf(condition), value];
+  const isComplete = condition !== undefined && (coefficient !== undefined) === (condition === 'robin');
+  if (!isComplete || others.length > 0) throw bad(`${name} must be { dirichlet }, { neumann } or { robin, coefficient }.`);
+  return [Condition.indexOf(condition), value, coefficient ?? 0];
 }
 
-/** { xMin: { dirichlet: 0 }, ... } as [tag, condition, value] each. */
+/** { xMin: { dirichlet: 0 }, ... } as [tag, condition, value, coefficient] each. */
 export function readConditions(given = {}, name) {
   const members = readMembers(given, Object.fromEntries(faceTags.map((tag) => [tag, optional(readCondition)])), name);
   return definedEntries(members).map(([tag, condition]) => [faceTags.indexOf(tag), ...condition]);
 }
 
 export function readBoundary(boundary, name) {
-  const { value: _, ...fields } = Boundary;
+  const { value: _, coefficient: __, ...fields } = Boundary;
   const { condition, ...others } = readFields(boundary, fields, name);
   const wrong = condition.findIndex((number) => number >= Condition.length);
-  if (wrong >= 0) throw bad(`${name}.condition[${wrong}] must be 0 (neumann) or 1 (dirichlet), not ${condition[wrong]}.`);
-  return { ...others, condition, value: readNumbers(boundary.value, `${name}.value`) };
+  if (wrong >= 0) throw bad(`${name}.condition[${wrong}] must be 0 (neumann), 1 (dirichlet) or 2 (robin), not ${condition[wrong]}.`);
+  const [value, coefficient] = ['value', 'coefficient'].map((member) => readNumbers(boundary[member], `${name}.${member}`));
+  return { ...others, condition, value, coefficient };
 }
 
 export function readProblem(problem = {}, name) {
-  return readMembers(problem, { boundary: optional(readBoundary), source: optional(readNumbers), dualPoints }, name);
+  const numbers = optional(readNumbers);
+  const members = { boundary: optional(readBoundary), source: numbers, dualPoints, faceCoefficient: numbers, mass: numbers };
+  return readMembers(problem, members, name);
 }
+
+/** What a solver is given each time. */
+export function readPoissonData(data = {}, name) {
+  const numbers = optional(readNumbers);
+  return readMembers(data, { source: numbers, boundaryValue: numbers, start: numbers }, name);
+}
+
+export const readHeat = (heat, name) => readMembers(heat, { problem: readProblem, phi: readNumbers, timeStep: expectNumber }, name);
 
 /** As much of a flow as is read again. */
 export function readFlow(flow) {

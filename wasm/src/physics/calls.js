@@ -1,5 +1,19 @@
 // The table of the calls of mandoline-wasm/physics, as in ../calls.js.
-import { bad, flag, numbered, optional, readFlags, readFunction, readId, readMesh, readPoints, readVector } from '../arguments.js';
+import {
+  bad,
+  expectTypedArray,
+  flag,
+  numbered,
+  optional,
+  readFlags,
+  readFunction,
+  readId,
+  readMesh,
+  readNumbers,
+  readOrigin,
+  readPoints,
+  readVector,
+} from '../arguments.js';
 import { FileFormat } from '../fields.js';
 import { format, readGroups } from '../files/arguments.js';
 import { FreeConstant } from './fields.js';
@@ -11,6 +25,8 @@ import {
   readCellIds,
   readConditions,
   readFieldsToWrite,
+  readHeat,
+  readPoissonData,
   readFlow,
   readMaxPoints,
   readOctree,
@@ -28,18 +44,43 @@ const progress = readFunction;
 /** Of writers. */
 const written = { untouched: flag(true), regions: optional(readFlags), groups: optional(readGroups), progress };
 
-/** When a solver stops. */
-const limits = { tolerance: number(1e-10), maxIterations: int32(500) };
+/** When a solver stops, and how often it corrects. */
+const limits = { tolerance: number(1e-10), maxIterations: int32(500), corrections: int32(8) };
+const solving = { ...limits, freeConstant: numbered(FreeConstant), balance: flag(false), progress };
+
+const poissonSolver = { type: 'Poisson solver', methods: { solve: { takes: { data: readPoissonData }, options: solving } } };
+const heatStepper = {
+  type: 'heat stepper',
+  methods: {
+    step: { takes: {}, options: solving },
+    setSource: { takes: { source: readNumbers } },
+    setBoundaryValue: { takes: { boundaryValue: readNumbers } },
+    phi: { takes: {} },
+    time: { takes: {} },
+  },
+};
+
+const faceGroup = optional((value, name) => expectTypedArray(value, 'Uint32Array', name));
+const flowStepper = {
+  type: 'flow stepper',
+  methods: {
+    start: { takes: { cellVelocity: readNumbers } },
+    step: { takes: {} },
+    flow: { takes: {} },
+    forces: { takes: {}, options: { faceGroup, centre: readOrigin } },
+  },
+};
 
 export const physicsCalls = {
   /**
-   * Untouched grid cells merged into octree cells, away from the surface (5.3). Code "badOption" if an option is negative.
+   * Untouched grid cells merged into octree cells, away from the surface (5.3). The defaults are for solvers; with 0 for fineLayers and
+   * layersPerLevel there are the fewest cells. Code "badOption" if an option is negative, but for a layersPerLevel of -1.
    *
    * coarsen(cutMesh: CutMeshArrays, options?: CoarsenOptions): OctreeCells
    */
   coarsen: {
     takes: { cutMesh },
-    options: { maxLevel: int32(24), fineLayers: int32(0), layersPerLevel: int32(0), balanceEdges: flag(false), progress },
+    options: { maxLevel: int32(24), fineLayers: int32(1), layersPerLevel: int32(-1), balanceEdges: flag(false), progress },
   },
   /**
    * One conforming mesh of all cells. `mesh` is the input that `cutMesh` was made from, and `octree` comes from coarsen(cutMesh); without
@@ -121,24 +162,41 @@ export const physicsCalls = {
    */
   cellComponents: { takes: { cells } },
   /**
-   * The system that solvePoisson() solves (appendix B). A Dirichlet condition acts over the distance along the normal between the face's
-   * centroid and the cell's dual point, or, on the surface, the cell's centroid. Code "badArgument" for a boundary that is not that of
-   * `cells`, for arrays of other lengths, for values that are not finite, and if the cells together are smaller than 1e-70 or larger than
+   * The system that solvePoisson() solves (appendix B). Dirichlet conditions hold phi, and so do Robin conditions with a coefficient above
+   * 0, and mass. Conditions act over the distance along the normal between the face's centroid and the cell's dual point, or, on the
+   * surface, the cell's centroid. Code "badArgument" for a boundary that is not that of `cells`, for arrays of other lengths, for values,
+   * sources, coefficients and masses that are not finite or out of range, and if the cells together are smaller than 1e-70 or larger than
    * 1e70.
    *
    * poissonSystem(cells: CellComplex, problem?: PoissonProblem): PoissonSystem
    */
   poissonSystem: { takes: { cells, problem: readProblem } },
   /**
-   * Solves the problem's system by conjugate gradients, preconditioned by a multigrid. Errors as in poissonSystem(); code "badOption" for a
-   * tolerance that is not positive or a negative maxIterations. What can't be solved is told by the solution's status.
+   * Solves the problem's system by conjugate gradients, preconditioned by a multigrid, and corrects it by what the derivatives in its
+   * matrix lack: so phi, and nearly everywhere its derivatives on faces, are of second order, also on merged cells. Errors as in
+   * poissonSystem(); code "badOption" for a tolerance that is not positive, or for negative maxIterations or corrections. What can't be
+   * solved is told by the solution's status.
    *
    * solvePoisson(cells: CellComplex, problem?: PoissonProblem, options?: SolveOptions): Solution
    */
   solvePoisson: {
     takes: { cells, problem: readProblem },
-    options: { ...limits, freeConstant: numbered(FreeConstant), balance: flag(false), progress },
+    options: solving,
   },
+  /**
+   * An object that solves one problem for many sources and boundary values: what does not depend on these is made once. The problem's own
+   * are not used. Errors as in poissonSystem().
+   *
+   * createPoissonSolver(cells: CellComplex, problem?: PoissonProblem): PoissonSolver
+   */
+  createPoissonSolver: { takes: { cells, problem: readProblem }, gives: poissonSolver },
+  /**
+   * An object that solves d phi / dt = div k grad phi - m phi - s in implicit steps of any length, of second order in time. Errors as in
+   * poissonSystem(), "badOption" for a time step that is not positive.
+   *
+   * createHeatStepper(cells: CellComplex, heat: HeatProblem): HeatStepper
+   */
+  createHeatStepper: { takes: { cells, heat: readHeat }, gives: heatStepper },
   /**
    * Potential flow of a wind through the cells and about the surface (appendix B, figure 22): solves div grad phi = 0, where
    * grad phi . N = wind . N on the sides of the box. Nothing flows through the surface, or through faces where a sub-complex was cut off.
@@ -152,6 +210,33 @@ export const physicsCalls = {
    * solveFlow(cells: CellComplex, wind: Vector3, options?: FlowOptions): Flow
    */
   solveFlow: { takes: { cells, wind: readVector }, options: { ...limits, progress } },
+  /**
+   * An object that solves the incompressible Navier-Stokes equations in time, or Euler's without viscosity, from the potential flow of the
+   * wind on: conservative, of second order, without turbulence models. Merge small cells first, or steps are tiny, and unite walls, so that
+   * they are quick. The wind enters through the sides of the box that it blows against, and leaves through those opposite, at pressure 0.
+   * Code "badArgument" as in solveFlow(), "badOption" if an option is out of range.
+   *
+   * createFlowStepper(cells: CellComplex, wind: Vector3, options?: FlowStepperOptions): FlowStepper
+   */
+  createFlowStepper: {
+    takes: { cells, wind: readVector },
+    options: {
+      viscosity: number(0),
+      timeStep: number(0),
+      courant: number(0.5),
+      tolerance: number(1e-10),
+      maxIterations: int32(500),
+      corrections: int32(1),
+    },
+    gives: flowStepper,
+  },
+  /**
+   * Per face: the group of its triangle, 0 for others. `cells` are all of the cut-mesh's, merged or not. Code "badArgument" if these don't
+   * belong together.
+   *
+   * faceGroups(cutMesh: CutMeshArrays, cells: CellComplex, groups: TriangleGroups): Uint32Array<ArrayBuffer>
+   */
+  faceGroups: { takes: { cutMesh, cells, groups: readGroups } },
   /**
    * 3 per point: the velocity there, linear in each cell; NaN outside the grid. Which cell holds a point, and so which side of a sheet it
    * is on, is decided as cellsAt() does. `points`: 3 per point, world units; many points in one call are far faster. Code "badArgument"

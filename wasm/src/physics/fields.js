@@ -80,6 +80,7 @@ export const Boundary = {
   halfFaces: 'Uint32Array',
   condition: 'Uint8Array',
   value: 'Float64Array',
+  coefficient: 'Float64Array',
   madeFrom: 'Fingerprint',
 };
 
@@ -98,8 +99,32 @@ export const Solution = {
   status: 'SolveStatus',
   phi: 'Float64Array',
   residuals: 'Float64Array',
+  faceDerivative: 'Float64Array',
+  boundaryDerivative: 'Float64Array',
   incompatible: 'Uint32Array',
   excess: 'Float64Array',
+};
+
+export const UnsteadyFlow = {
+  time: 'number',
+  faceVelocity: 'Float64Array',
+  cellVelocity: 'Float64Array',
+  cellPressure: 'Float64Array',
+  madeFrom: 'Fingerprint',
+};
+
+export const FlowStep = {
+  status: 'SolveStatus',
+  timeStep: 'number',
+  courant: 'number',
+  divergence: 'number',
+  iterations: 'integer',
+};
+
+export const SurfaceForce = {
+  pressure: 'number[3]',
+  viscous: 'number[3]',
+  moment: 'number[3]',
 };
 
 export const FaceTag = ['xMin', 'xMax', 'yMin', 'yMax', 'zMin', 'zMax', 'inner', 'surface'];
@@ -108,7 +133,7 @@ export const StreamlineEnd = ['side', 'surface', 'rest', 'maxLength', 'maxPoints
 
 export const DualPoints = ['centres', 'centroids'];
 
-export const Condition = ['neumann', 'dirichlet'];
+export const Condition = ['neumann', 'dirichlet', 'robin'];
 
 export const FreeConstant = ['zeroMean', 'pinned'];
 

@@ -17,8 +17,9 @@
  * that cut() gave, as is told at CutMesh: calls that are given that same object neither copy nor check its arrays, and take no notice of
  * what was written into them.
  */
-import type { CutMesh, Mesh, RunOptions, TriangleGroups, WasmSource, WriteOptions } from '../index.js';
-import type { Boundary, CellComplex, FaceTag, Flow } from './results.js';
+/// <reference lib="esnext.disposable" />
+import type { CutMesh, Mesh, RunOptions, TriangleGroups, Vector3, WasmSource, WriteOptions } from '../index.js';
+import type { Boundary, CellComplex, FaceTag, Flow, FlowStep, Solution, SolveStatus, SurfaceForce, UnsteadyFlow } from './results.js';
 import type { Calls } from './signatures.js';
 
 export { type Fingerprint, MandolineError, type TriangleGroups, describe } from '../index.js';
@@ -30,9 +31,12 @@ export const faceTags: readonly ['xMin', 'xMax', 'yMin', 'yMax', 'zMin', 'zMax',
 export interface CoarsenOptions extends RunOptions {
   /** Octree cells have at most 2^maxLevel grid cells on a side; 0 merges nothing. Default 24. */
   maxLevel?: number;
-  /** How many layers of grid cells around each cut one, diagonally too, are not merged. Default 0. */
+  /** How many layers of grid cells around each cut one, diagonally too, are not merged. Default 1. */
   fineLayers?: number;
-  /** How many layers of cells of each level above 0 lie at least, diagonally too, between smaller and larger ones. Default 0. */
+  /**
+   * How many layers of cells of each level above 0 lie at least, diagonally too, between smaller and larger ones. -1 (default): a 32nd of
+   * the grid cells along the longest side, but at least one, so that all cells shrink as those of the grid do.
+   */
   layersPerLevel?: number;
   /** Whether cells that share only an edge also differ by at most one level. Default false. */
   balanceEdges?: boolean;
@@ -119,18 +123,31 @@ export type ChosenOperators<Names extends OperatorNames | undefined> = Names ext
     : Pick<Operators, Names[number]>
   : Operators;
 
-/** What holds on all faces of a tag: one of the two. */
-export type Condition = { readonly dirichlet: number; readonly neumann?: never } | { readonly neumann: number; readonly dirichlet?: never };
+/**
+ * What holds on all faces of a tag: phi, its derivative along the normal that points out of the cell, or (`robin`) that derivative plus
+ * `coefficient`, at least 0, times phi.
+ */
+export type Condition =
+  | { readonly dirichlet: number; readonly neumann?: never; readonly robin?: never; readonly coefficient?: never }
+  | { readonly neumann: number; readonly dirichlet?: never; readonly robin?: never; readonly coefficient?: never }
+  | { readonly robin: number; readonly coefficient: number; readonly dirichlet?: never; readonly neumann?: never };
 export type Conditions = { readonly [Tag in FaceTag]?: Condition };
 
-/** Poisson's equation div grad phi = s. */
+/** Poisson's equation div k grad phi - m phi = s. */
 export interface PoissonProblem {
   /** Default: that of boundaryOf(cells), where nothing passes. */
   boundary?: Boundary;
   /** Per cell: the mean of s in it, e.g. s at its centroid. Default: 0. */
   source?: ArrayLike<number>;
-  /** Default "centres". */
+  /** Default "centres". Where phi is held on the surface, or with a mass, "centroids" need fewer corrections. */
   dualPoints?: DualPoints;
+  /**
+   * Per face: k there, above 0, also on the boundary. It may jump from cell to cell: then a face has what lies between, e.g. the harmonic
+   * mean. Where it differs by more than a half on the faces of a cell, derivatives are of first order. Default: 1.
+   */
+  faceCoefficient?: ArrayLike<number>;
+  /** Per cell: the mean of m in it, at least 0. Default: 0. */
+  mass?: ArrayLike<number>;
 }
 
 export interface FlowOptions extends RunOptions {
@@ -138,19 +155,120 @@ export interface FlowOptions extends RunOptions {
   tolerance?: number;
   /** Default 500. */
   maxIterations?: number;
+  /**
+   * How often at most to solve again with derivatives of second order at cut-cells, at sides of octree cells that meet smaller ones, and
+   * where phi is held, until less than a 30,000th of what they lacked is missing: three to six times. 0: phi solves the system of
+   * poissonSystem(). Default 8.
+   */
+  corrections?: number;
 }
 
 export interface SolveOptions extends FlowOptions {
   /**
-   * What makes phi unique in a component without a Dirichlet condition. "zeroMean" (default): it has the mean zero by volume; "pinned": it
+   * What makes phi unique in a component where it is held nowhere. "zeroMean" (default): it has the mean zero by volume; "pinned": it
    * is zero in the component's first cell.
    */
   freeConstant?: 'zeroMean' | 'pinned';
   /**
-   * In a component without a Dirichlet condition sources and what flows in have to cancel. False (default): they have to cancel up to
+   * In a component where phi is held nowhere sources and what flows in have to cancel. False (default): they have to cancel up to
    * rounding; otherwise the data are incompatible. True: the excess is subtracted, evenly by volume.
    */
   balance?: boolean;
+}
+
+/** What a PoissonSolver solves for. */
+export interface PoissonData {
+  /** As in PoissonProblem. Default: 0. */
+  source?: ArrayLike<number>;
+  /** Per half-face of the boundary, as in Boundary. Default: 0. */
+  boundaryValue?: ArrayLike<number>;
+  /** Per cell: a phi that is near the solution, such as that of the last time step. Default: none. */
+  start?: ArrayLike<number>;
+}
+
+/** An object whose state is in the module's memory, as that of FlowStepper. */
+export interface PoissonSolver {
+  /** Without `start` the same as solvePoisson(), to the bit. */
+  solve(data?: PoissonData, options?: SolveOptions): Solution;
+  /** Gives its memory back. */
+  free(): void;
+  [Symbol.dispose](): void;
+}
+
+/** What a HeatStepper starts from. */
+export interface HeatProblem {
+  /** Conditions, coefficients, and a mass where heat is lost in proportion to phi. */
+  problem?: PoissonProblem;
+  /** Per cell: at time 0, at its dual point. */
+  phi: ArrayLike<number>;
+  timeStep: number;
+}
+
+/** An object whose state is in the module's memory, as that of FlowStepper. */
+export interface HeatStepper {
+  /** Takes a step, and tells how it ended: unless it is "converged", phi stays that of the step before. */
+  step(options?: SolveOptions): SolveStatus;
+  /** From now on; at first it is the problem's. */
+  setSource(source: ArrayLike<number>): void;
+  /** Per half-face of the boundary, from now on. */
+  setBoundaryValue(boundaryValue: ArrayLike<number>): void;
+  /** Per cell, as it is now. */
+  phi(): Float64Array<ArrayBuffer>;
+  time(): number;
+  /** Gives its memory back. */
+  free(): void;
+  [Symbol.dispose](): void;
+}
+
+/** How createFlowStepper() steps. */
+export interface FlowStepperOptions {
+  /** Kinematic. At 0 (default) the flow slips along the surface, otherwise it sticks to it. */
+  viscosity?: number;
+  /** Of all steps. Default 0: it follows from the Courant number. */
+  timeStep?: number;
+  /** In a step, at most this part of what a cell holds flows out of it. Larger numbers than 0.5 (default) need not be stable. */
+  courant?: number;
+  /**
+   * Of the divergence: of what flows into a cell and not out of it, relative to the largest speed of wind and start times the area of a
+   * side of a grid cell. Default 1e-10.
+   */
+  tolerance?: number;
+  /** Of each solution. Default 500. */
+  maxIterations?: number;
+  /** As in FlowOptions, but they begin with what the flow before lacks: default 1. With 0 steps are quicker, and less exact at the surface. */
+  corrections?: number;
+}
+
+export interface ForceOptions {
+  /** Per face: its group, as faceGroups() gives it. Default: one group. */
+  faceGroup?: Uint32Array;
+  /** What moments are about. Default: the origin. */
+  centre?: Vector3;
+}
+
+/**
+ * A flow in time, of a fluid of density 1. Its state is in the module's memory until free() is called, `using` ends its scope, or garbage
+ * is collected that it is part of. If a call of the module runs out of memory, its state is lost. Methods throw code "badArgument" once it
+ * is gone.
+ */
+export interface FlowStepper {
+  /**
+   * Starts again at time 0, from velocities at the cells' centroids, 3 per cell, less what makes them diverge. Code "badArgument" for
+   * another length or a number that is not finite (element: the cell).
+   */
+  start(cellVelocity: ArrayLike<number>): void;
+  /**
+   * Takes a step. If its status is not "converged", the flow is still that before. It is "breakdown" where nothing moves and the step would
+   * have no length, or where steps were too long for a flow to stay finite.
+   */
+  step(): FlowStep;
+  /** The flow as it is now, at first that at time 0. */
+  flow(): UnsteadyFlow;
+  /** Per group: what the flow did to the surface in the last step. */
+  forces(options?: ForceOptions): SurfaceForce[];
+  /** Gives its memory back. */
+  free(): void;
+  [Symbol.dispose](): void;
 }
 
 /** A flow and what it was solved on. */

@@ -77,11 +77,6 @@ export interface CellComplex {
  * there is outside the grid. Members keep the ids that they have in the whole.
  */
 export interface SubComplex {
-  /**
-   *
-   *
-   * .
-   */
   cells: CellComplex;
   /** Per vertex: its id in the whole. */
   wholeVertex: Uint32Array<ArrayBuffer>;
@@ -113,19 +108,9 @@ export interface OctreeCells {
 
 /** A flow without rotation or sources: its velocity is the gradient of phi. Velocities are in the unit of the wind. */
 export interface Flow {
-  /**
-   *
-   *
-   * .
-   */
   status: SolveStatus;
   /** As in Solution. */
   residuals: Float64Array<ArrayBuffer>;
-  /**
-   *
-   *
-   * .
-   */
   wind: [number, number, number];
   /** Per cell, at its centre; its mean by volume is zero in each component of cellComponents(). */
   phi: Float64Array<ArrayBuffer>;
@@ -181,10 +166,12 @@ export interface ComplexEdges {
 export interface Boundary {
   /** Ascending. */
   halfFaces: Uint32Array<ArrayBuffer>;
-  /** Per half-face: ConditionKind as a number (0: neumann, 1: dirichlet). */
+  /** Per half-face: ConditionKind as a number (0: neumann, 1: dirichlet, 2: robin). */
   condition: Uint8Array<ArrayBuffer>;
   /** Per half-face: the mean of what its condition gives on the face. */
   value: Float64Array<ArrayBuffer>;
+  /** Per half-face: that of phi in a Robin condition, at least 0; not read elsewhere. */
+  coefficient: Float64Array<ArrayBuffer>;
   /** The fingerprint of the cell complex. */
   madeFrom?: Fingerprint;
 }
@@ -197,34 +184,75 @@ export interface CellComponents {
   count: number;
 }
 
-/** The system matrix * phi = rhs; both are those of -div grad phi = -s, integrated over cells. */
+/** The system matrix * phi = rhs; both are those of m phi - div k grad phi = -s, integrated over cells. */
 export interface PoissonSystem {
-  /** Cells x cells, symmetric, positive semidefinite: -laplacian(), and more on the diagonal of Dirichlet cells. */
+  /**
+   * Cells x cells, symmetric, positive semidefinite: -laplacian(), and more on the diagonal where phi is held. With a coefficient, the
+   * other value where one cell meets smaller ones is the mean of theirs by area times coefficient.
+   */
   matrix: SparseMatrix;
   /** Per cell. */
   rhs: Float64Array<ArrayBuffer>;
-  /** Cells x components without a Dirichlet condition: 1 for each cell of the component. */
+  /** Cells x components where phi is held nowhere: 1 for each cell of the component. */
   nullSpace: SparseMatrix;
 }
 
 /** What solvePoisson() found. */
 export interface Solution {
-  /**
-   *
-   *
-   * .
-   */
   status: SolveStatus;
   /** Per cell, at its dual point. */
   phi: Float64Array<ArrayBuffer>;
   /** Before each iteration and after the last, relative as in SolveOptions; the last one is that of phi. */
   residuals: Float64Array<ArrayBuffer>;
   /**
+   * Per face of tag inner between two cells: the mean derivative of phi along its normal; 0 for others. With those on the boundary, their
+   * products with areas and coefficients are the fluxes that sources and mass balance in each cell, within the tolerance.
+   */
+  faceDerivative: Float64Array<ArrayBuffer>;
+  /** Per half-face of the boundary: the same along the normal that points out of the cell. */
+  boundaryDerivative: Float64Array<ArrayBuffer>;
+  /**
    * Components of cellComponents(), ascending, in which sources and fluxes do not cancel: phi is 0 there, and the residuals leave them out.
    */
   incompatible: Uint32Array<ArrayBuffer>;
   /** Per incompatible component: the inflow minus the integral of s. */
   excess: Float64Array<ArrayBuffer>;
+}
+
+/** A flow at one time, of a fluid of density 1. */
+export interface UnsteadyFlow {
+  time: number;
+  /** Per face: the mean component along its normal; times faceArea it is the flow through it. */
+  faceVelocity: Float64Array<ArrayBuffer>;
+  /** 3 per cell, at its centroid. */
+  cellVelocity: Float64Array<ArrayBuffer>;
+  /** Per cell, at its centroid: that of fluid of density 1; 0 where the flow leaves the box. */
+  cellPressure: Float64Array<ArrayBuffer>;
+  /** The fingerprint of the cell complex. */
+  madeFrom?: Fingerprint;
+}
+
+/** What a step took. */
+export interface FlowStep {
+  /** If it is another one, the flow is still that before the step. */
+  status: SolveStatus;
+  timeStep: number;
+  /** The largest number of a cell. */
+  courant: number;
+  /** After the step: the largest of a cell, relative as in FlowStepperOptions. */
+  divergence: number;
+  /** Of all solutions. */
+  iterations: number;
+}
+
+/** What the flow does to a part of the surface. */
+export interface SurfaceForce {
+  /** The force of the pressure. */
+  pressure: [number, number, number];
+  /** That of the viscosity. */
+  viscous: [number, number, number];
+  /** Of both, about a point. */
+  moment: [number, number, number];
 }
 
 /** What a face of a cell complex is part of: a side of the grid, or another thing. */
@@ -260,7 +288,9 @@ export type ConditionKind =
   /** The derivative of phi along the normal that points out of the cell is given. */
   | 'neumann'
   /** Phi is given. */
-  | 'dirichlet';
+  | 'dirichlet'
+  /** The same derivative plus a coefficient times phi is given. */
+  | 'robin';
 
 /** How solving ended. */
 export type SolveStatus =

@@ -1,5 +1,5 @@
 // Written by wasm/signatures.mjs from physics/calls.js: change that.
-import type { CutMeshArrays, Grid, GridBox, GridRectilinear, GridRegular, Mesh, RunOptions, Vector3 } from '../index.js';
+import type { CutMeshArrays, Grid, GridBox, GridRectilinear, GridRegular, Mesh, RunOptions, TriangleGroups, Vector3 } from '../index.js';
 import type {
   Boundary,
   CellComplex,
@@ -11,12 +11,17 @@ import type {
   Flow,
   FlowField,
   FlowOptions,
+  FlowStepper,
+  FlowStepperOptions,
+  HeatProblem,
+  HeatStepper,
   MergeOptions,
   MergedCells,
   OctreeCells,
   OperatorNames,
   OperatorOptions,
   PoissonProblem,
+  PoissonSolver,
   PoissonSystem,
   PolyMeshFiles,
   Solution,
@@ -28,10 +33,13 @@ import type {
   WriteCellsOptions,
   WritePolyMeshOptions,
 } from './index.js';
-import type { CallOptions } from '../worker.js';
+import type { CallOptions, OnWorker } from '../worker.js';
 
 export interface Calls {
-  /** Untouched grid cells merged into octree cells, away from the surface (5.3). Code "badOption" if an option is negative. */
+  /**
+   * Untouched grid cells merged into octree cells, away from the surface (5.3). The defaults are for solvers; with 0 for fineLayers and
+   * layersPerLevel there are the fewest cells. Code "badOption" if an option is negative, but for a layersPerLevel of -1.
+   */
   coarsen(cutMesh: CutMeshArrays, options?: CoarsenOptions): OctreeCells;
   /**
    * One conforming mesh of all cells. `mesh` is the input that `cutMesh` was made from, and `octree` comes from coarsen(cutMesh); without
@@ -73,17 +81,30 @@ export interface Calls {
   /** Which cells are connected through inner faces. */
   cellComponents(cells: CellComplex): CellComponents;
   /**
-   * The system that solvePoisson() solves (appendix B). A Dirichlet condition acts over the distance along the normal between the face's
-   * centroid and the cell's dual point, or, on the surface, the cell's centroid. Code "badArgument" for a boundary that is not that of
-   * `cells`, for arrays of other lengths, for values that are not finite, and if the cells together are smaller than 1e-70 or larger than
+   * The system that solvePoisson() solves (appendix B). Dirichlet conditions hold phi, and so do Robin conditions with a coefficient above
+   * 0, and mass. Conditions act over the distance along the normal between the face's centroid and the cell's dual point, or, on the
+   * surface, the cell's centroid. Code "badArgument" for a boundary that is not that of `cells`, for arrays of other lengths, for values,
+   * sources, coefficients and masses that are not finite or out of range, and if the cells together are smaller than 1e-70 or larger than
    * 1e70.
    */
   poissonSystem(cells: CellComplex, problem?: PoissonProblem): PoissonSystem;
   /**
-   * Solves the problem's system by conjugate gradients, preconditioned by a multigrid. Errors as in poissonSystem(); code "badOption" for a
-   * tolerance that is not positive or a negative maxIterations. What can't be solved is told by the solution's status.
+   * Solves the problem's system by conjugate gradients, preconditioned by a multigrid, and corrects it by what the derivatives in its
+   * matrix lack: so phi, and nearly everywhere its derivatives on faces, are of second order, also on merged cells. Errors as in
+   * poissonSystem(); code "badOption" for a tolerance that is not positive, or for negative maxIterations or corrections. What can't be
+   * solved is told by the solution's status.
    */
   solvePoisson(cells: CellComplex, problem?: PoissonProblem, options?: SolveOptions): Solution;
+  /**
+   * An object that solves one problem for many sources and boundary values: what does not depend on these is made once. The problem's own
+   * are not used. Errors as in poissonSystem().
+   */
+  createPoissonSolver(cells: CellComplex, problem?: PoissonProblem): PoissonSolver;
+  /**
+   * An object that solves d phi / dt = div k grad phi - m phi - s in implicit steps of any length, of second order in time. Errors as in
+   * poissonSystem(), "badOption" for a time step that is not positive.
+   */
+  createHeatStepper(cells: CellComplex, heat: HeatProblem): HeatStepper;
   /**
    * Potential flow of a wind through the cells and about the surface (appendix B, figure 22): solves div grad phi = 0, where
    * grad phi . N = wind . N on the sides of the box. Nothing flows through the surface, or through faces where a sub-complex was cut off.
@@ -95,6 +116,18 @@ export interface Calls {
    * "badArgument" if the wind is not finite and as in poissonSystem(), "badOption" as in solvePoisson().
    */
   solveFlow(cells: CellComplex, wind: Vector3, options?: FlowOptions): Flow;
+  /**
+   * An object that solves the incompressible Navier-Stokes equations in time, or Euler's without viscosity, from the potential flow of the
+   * wind on: conservative, of second order, without turbulence models. Merge small cells first, or steps are tiny, and unite walls, so that
+   * they are quick. The wind enters through the sides of the box that it blows against, and leaves through those opposite, at pressure 0.
+   * Code "badArgument" as in solveFlow(), "badOption" if an option is out of range.
+   */
+  createFlowStepper(cells: CellComplex, wind: Vector3, options?: FlowStepperOptions): FlowStepper;
+  /**
+   * Per face: the group of its triangle, 0 for others. `cells` are all of the cut-mesh's, merged or not. Code "badArgument" if these don't
+   * belong together.
+   */
+  faceGroups(cutMesh: CutMeshArrays, cells: CellComplex, groups: TriangleGroups): Uint32Array<ArrayBuffer>;
   /**
    * 3 per point: the velocity there, linear in each cell; NaN outside the grid. Which cell holds a point, and so which side of a sheet it
    * is on, is decided as cellsAt() does. `points`: 3 per point, world units; many points in one call are far faster. Code "badArgument"
@@ -149,7 +182,11 @@ export interface WorkerCalls {
   cellComponents(cells: CellComplex, options?: CallOptions): Promise<CellComponents>;
   poissonSystem(cells: CellComplex, problem?: PoissonProblem, options?: CallOptions): Promise<PoissonSystem>;
   solvePoisson(cells: CellComplex, problem?: PoissonProblem, options?: SolveOptions & CallOptions): Promise<Solution>;
+  createPoissonSolver(cells: CellComplex, problem?: PoissonProblem, options?: CallOptions): Promise<OnWorker<PoissonSolver>>;
+  createHeatStepper(cells: CellComplex, heat: HeatProblem, options?: CallOptions): Promise<OnWorker<HeatStepper>>;
   solveFlow(cells: CellComplex, wind: Vector3, options?: FlowOptions & CallOptions): Promise<Flow>;
+  createFlowStepper(cells: CellComplex, wind: Vector3, options?: FlowStepperOptions & CallOptions): Promise<OnWorker<FlowStepper>>;
+  faceGroups(cutMesh: CutMeshArrays, cells: CellComplex, groups: TriangleGroups, options?: CallOptions): Promise<Uint32Array<ArrayBuffer>>;
   velocityAt(field: FlowField, points: ArrayLike<number>, options?: CallOptions): Promise<Float64Array<ArrayBuffer>>;
   streamlines(field: FlowField, seeds: ArrayLike<number>, options?: StreamlineOptions & CallOptions): Promise<Streamlines>;
   inflowSeeds(

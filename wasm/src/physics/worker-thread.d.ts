@@ -3,4 +3,4 @@
  * `mandoline-wasm/worker-thread`, answers the same calls.
  */
 export { serve } from '../worker-thread.js';
-export type { ExtraCall } from '../worker-thread.js';
+export type { ExtraCall, ExtraCallContext } from '../worker-thread.js';

@@ -1,4 +1,4 @@
-import { readStart } from '../arguments.js';
+import { readWorkerStart } from '../arguments.js';
 import { named } from '../errors.js';
 import { ownFileWasm } from '../files/own-wasm.js';
 import { openWorker } from '../open-worker.js';
@@ -11,7 +11,9 @@ export { MandolineError, describe } from '../errors.js';
 
 /** Starts a worker that has loaded the cutter's module, and loads that of physics when it is first asked to compute. */
 export async function createWorker(options) {
-  const start = named('init', readStart)(options);
-  const { wasm = ownWasm.source, filesWasm = ownFileWasm.source, physicsWasm = ownPhysicsWasm.source, thread } = start;
-  return openWorker({ wasm, filesWasm, thread }, ownPhysicsThread, [{ name: 'physics', calls: physicsCalls, source: physicsWasm }]);
+  const start = named('init', readWorkerStart)(options);
+  const { wasm = ownWasm.source, filesWasm = ownFileWasm.source, physicsWasm = ownPhysicsWasm.source, thread, threads } = start;
+  return openWorker({ wasm, filesWasm, thread, threads }, ownPhysicsThread, [
+    { name: 'physics', calls: physicsCalls, source: physicsWasm },
+  ]);
 }

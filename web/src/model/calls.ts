@@ -5,7 +5,7 @@ import type { Checks } from './checks';
 import type { Comparison, OtherGridWay } from './comparison';
 import type { Bounds } from './grid_around';
 import type { CellCard, Crossings, Cutting, Model, Slicing, Source, StepPicture, StepRequest, Up } from './types';
-import type { Wind, WindFormat, WindRequest } from './wind';
+import type { Smoke, SmokeRequest, SmokeState, Wind, WindFormat, WindRequest } from './wind';
 
 /** A mesh as both sides keep it. */
 export interface LoadedMesh {
@@ -59,8 +59,18 @@ export type CallName = keyof Calls;
 export interface WindCalls {
   keep: { ask: LoadedMesh; answer: void };
   wind: { ask: WindRequest; answer: Wind };
-  /** Loads the module that computes, or solves for another wind, so that this can be turned at once; whether there may be more to do. */
-  windAhead: { ask: null; answer: boolean };
+  /** Loads the modules that compute and write. */
+  loadWind: { ask: null; answer: void };
+  /** Makes a picture that may be asked for next, and keeps what takes long. */
+  windAhead: { ask: WindRequest; answer: void };
+  /** Solves for another wind, so that it can be turned at once; whether there may be more to do. */
+  turnAhead: { ask: null; answer: boolean };
+  /** Begins a flow in time, which takes the place of another one. */
+  smoke: { ask: SmokeRequest; answer: Smoke };
+  /** Its next state. */
+  smokeStep: { ask: null; answer: SmokeState };
+  /** Answered after all that was asked before. */
+  end: { ask: null; answer: void };
   writeWind: { ask: { request: Omit<WindRequest, 'known'>; format: WindFormat }; answer: Uint8Array };
 }
 export type WindCallName = keyof WindCalls;

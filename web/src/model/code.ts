@@ -5,6 +5,7 @@ import { meetsInside, type SlicedModel } from './meets_inside';
 import { activePlanes, inWorld } from './planes';
 import type { Model, Settings, SliceName } from './types';
 import type { Vector3 } from './vector';
+import { smokeBox, smokeFraction, smokeViscosity } from './smoke_box';
 import { windMargin } from './wind';
 
 /** What the code says of a cut beside the settings. */
@@ -69,7 +70,7 @@ function javascript(settings: Settings, model: CodeModel, file: string, sections
   if (model.estimateMs !== null) calls.push('estimateInside');
   if (isInside) calls.push('insideRegions');
   if (sections.length > 0) calls.push('outlines', 'writeOutlines');
-  if (wind.on) calls.push('writeLines');
+  if (wind.on && !wind.smoke) calls.push('writeLines');
   return [
     "import { readFile, writeFile } from 'node:fs/promises';",
     "import { init } from 'mandoline-wasm';",
@@ -80,7 +81,7 @@ function javascript(settings: Settings, model: CodeModel, file: string, sections
     ...cutLines(settings, model),
     ...(isInside ? ['', "const { isInside } = insideRegions(cutMesh, { rule: 'nonZero' });"] : []),
     ...sections.flatMap((section) => sliceLines(section, isInside)),
-    ...(wind.on ? ['', ...flowLines(settings, model)] : []),
+    ...(wind.on ? ['', ...(wind.smoke ? smokeLines(settings, model) : flowLines(settings, model))] : []),
     '',
   ].join('\n');
 }
@@ -129,6 +130,24 @@ function flowLines(settings: Settings, model: CodeModel): string[] {
   ];
 }
 
+/** Without the gust that the page begins with. */
+function smokeLines({ wind: { direction } }: Settings, { meshMin, meshMax }: CodeModel): string[] {
+  const bounds = { min: meshMin, max: meshMax };
+  return [
+    'const { cellComplex, createFlowStepper, mergeSmallCells, uniteWalls, writeCells } = await initPhysics();',
+    `const tunnel = cut(mesh, ${gridObject(smokeBox(bounds, direction))});`,
+    `const merged = mergeSmallCells(tunnel, cellComplex(mesh, tunnel), { fraction: ${smokeFraction} });`,
+    'const cells = uniteWalls(tunnel, merged.cells);',
+    `const stepper = createFlowStepper(cells, ${list(direction)}, { viscosity: ${smokeViscosity(bounds)} });`,
+    `for (let i = 0; i < ${smokeSteps} && stepper.step().status === 'converged'; i++);`,
+    'const { time, cellVelocity, cellPressure } = stepper.flow();',
+    "console.log(cells.cellVolume.length, 'cells in the wind, at time', time);",
+    "await writeFile('flow.vtu', writeCells(tunnel, cells, 'vtu', { fields: { velocity: cellVelocity, pressure: cellPressure } }));",
+  ];
+}
+
+const smokeSteps = 50;
+
 /** Of streamlines: that of the command line. */
 const lineCount = 100;
 /** As many levels as there may be, as in JavaScript. */
@@ -143,9 +162,16 @@ function commandLine(settings: Settings, model: CodeModel, file: string, section
     ...(model.estimateMs === null ? [] : ['--inside-threshold 0.5']),
   ].join(' ');
   const slices = sections.map((section) => `mandoline slice ${mesh} ${options} ${planeOptions(section)} -o slice-${section.name}.svg`);
-  const tunnel = `--wind ${wind.direction.join()} ${gridOptions(tunnelOf(settings, model))} --coarsen ${levels} --merge 0`;
-  const flows = wind.on ? [`mandoline flow ${mesh} ${tunnel} -o flow.vtu streamlines.obj`] : [];
+  const flows = wind.on ? [`mandoline flow ${mesh} --wind ${wind.direction.join()} ${flowOptions(settings, model)}`] : [];
   return [`mandoline cut ${mesh} ${options} -o cells.vtu`, ...slices, ...flows, ''].join('\n');
+}
+
+function flowOptions(settings: Settings, model: CodeModel): string {
+  const { wind } = settings;
+  if (!wind.smoke) return `${gridOptions(tunnelOf(settings, model))} --coarsen ${levels} --merge 0 -o flow.vtu streamlines.obj`;
+  const bounds = { min: model.meshMin, max: model.meshMax };
+  const cells = `${gridOptions(smokeBox(bounds, wind.direction))} --coarsen 0 --merge ${smokeFraction} --unite-walls 30`;
+  return `${cells} --steps ${smokeSteps} --viscosity ${smokeViscosity(bounds)} -o flow.vtu`;
 }
 
 function gridOptions(grid: Settings['grid']): string {

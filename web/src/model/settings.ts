@@ -33,7 +33,7 @@ export function defaultSettings(): Settings {
     volumes: allVolumes,
     up: 'auto',
     camera: null,
-    wind: { on: false, direction: [1, 0, 0], show: 'none', cells: defaultWindCells },
+    wind: { on: false, smoke: false, direction: [1, 0, 0], show: 'none', cells: defaultWindCells },
     compare: { way: 'none', divider: 0.5 },
   };
 }
@@ -60,7 +60,12 @@ function entries(settings: Settings): [string, string][] {
   if (show.region !== null) list.push(['region', String(show.region)]);
   list.push(['volumes', short(settings.volumes)], ['up', up]);
   const { wind } = settings;
-  list.push(['wind', wind.on ? short(wind.direction) : 'off'], ['flow', wind.show], ['tunnel', String(wind.cells)]);
+  list.push(
+    ['wind', wind.on ? short(wind.direction) : 'off'],
+    ['smoke', wind.smoke ? 'on' : 'off'],
+    ['flow', wind.show],
+    ['tunnel', String(wind.cells)],
+  );
   list.push(['compare', settings.compare.way], ['divider', short([settings.compare.divider])]);
   if (camera) list.push(['camera', short([...camera.position, ...camera.target])]);
   return list;
@@ -159,6 +164,11 @@ const readers: Record<string, Reader> = {
     return true;
   },
   wind: readWind,
+  smoke: (settings, text) => {
+    if (text !== 'on' && text !== 'off') return false;
+    settings.wind.smoke = text === 'on';
+    return true;
+  },
   flow: (settings, text) => {
     const show = windColorings.find((name) => name === text);
     if (show) settings.wind.show = show;

@@ -8,7 +8,7 @@ import type { Bounds } from './grid_around';
 import type { Pose } from './motion';
 import type { ViewPlane } from './planes';
 import type { VolumeRange } from './volumes';
-import type { Wind, WindFormat, WindRequest, WindSettings } from './wind';
+import type { Smoke, SmokeRequest, SmokeSource, SmokeState, Wind, WindFormat, WindRequest, WindSettings } from './wind';
 
 /** Where a mesh comes from. A file's bytes are kept by the worker; a link can't restore it. */
 export type Source = { kind: 'gallery'; name: string } | { kind: 'url'; url: string } | { kind: 'file'; name: string };
@@ -269,8 +269,16 @@ export interface Engine {
    * be turned next, which is prepared.
    */
   wind(request: AboutShown<WindRequest>, isTurned?: boolean): Promise<Wind>;
+  /** Prepares that: keeps what takes long of a flow that may be asked for next. */
+  windAhead(request: AboutShown<WindRequest>): Promise<void>;
   /** Ends the flow under way. */
   cancelWind(): void;
+  /** Begins a flow in time about the mesh of the shown model. Of several that are asked for the newest wins, as with wind(). */
+  smoke(request: Pick<SmokeRequest, 'pose' | 'direction'>): Promise<Smoke>;
+  /** Its next state. */
+  smokeStep(): Promise<SmokeState>;
+  /** Ends what is under way of it, and gives back its memory. */
+  endSmoke(): void;
   writeWind(request: AboutShown<WindRequest>, format: WindFormat): Promise<Uint8Array>;
 }
 
@@ -333,6 +341,8 @@ export interface View {
   onMeasured: (place: MeasuredPlace) => void;
   /** Draws this flow, or none. */
   setWind(wind: Wind | null): void;
+  /** Draws this smoke, or none. */
+  setSmoke(smoke: SmokeSource | null): void;
   onHover: (cell: number | null) => void;
   onPick: (cell: number | null) => void;
   /** The camera has turned. */

@@ -8,6 +8,8 @@ export type WindColoring = (typeof windColorings)[number];
 
 export interface WindSettings {
   on: boolean;
+  /** Whether smoke shows a flow in time, instead of lines the one that has a potential. */
+  smoke: boolean;
   /** Unit: where it blows to. */
   direction: Vector3;
   show: WindColoring;
@@ -64,6 +66,62 @@ export interface Wind {
   /** Per plane: the cells in it, with the speed at each point (-1 where nothing can flow) and their outlines, 2 points per line. */
   sections: { plane: WindRequest['planes'][number]; shape: Shape; speed: Float32Array; edges: Float32Array }[];
   stats: WindStats;
+}
+
+export type SmokeRequest = Pick<WindRequest, 'mesh' | 'pose' | 'direction'>;
+
+/** A flow in time of a wind of length 1, about a mesh in a box that reaches far behind it. */
+export interface Smoke {
+  direction: Vector3;
+  /** The middle of the mesh. */
+  origin: Vector3;
+  /** Longest side of the mesh. */
+  size: number;
+  /** Half the extent of the mesh. */
+  half: Vector3;
+  /** The velocities' grid: its lower corner less `origin`, the side of a cell, and how many there are along each axis. */
+  corner: Vector3;
+  side: number;
+  counts: Vector3;
+  cells: number;
+  begin: SmokeState;
+}
+
+/** The flow between two of its states. */
+export interface SmokeMoment {
+  from: SmokeState;
+  to: SmokeState;
+  /** 0 at `from`, 1 at `to`. */
+  share: number;
+  time: number;
+}
+
+/** A flow that goes on while it is drawn. */
+export interface SmokeSource {
+  readonly smoke: Smoke;
+  /** What is drawn this many seconds later. */
+  advance(seconds: number): SmokeMoment;
+}
+
+/** What the page says of it. */
+export interface SmokeNumbers extends Pick<SmokeState, 'time' | 'drag' | 'lift'> {
+  /** In longest sides of the mesh. */
+  time: number;
+  cells: number;
+  counts: Vector3;
+  /** 0 before there were any. */
+  stepsPerSecond: number;
+}
+
+/** The flow at one time. */
+export interface SmokeState {
+  /** The wind covers this distance in it: world units. */
+  time: number;
+  /** 3 per cell of the grid, x first; 0 in bodies. */
+  velocity: Float32Array;
+  /** What the flow does to the mesh, along the wind and across it, relative to half its density, its square speed and the mesh's square size. */
+  drag: number;
+  lift: number;
 }
 
 export interface WindStats {

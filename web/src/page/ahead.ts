@@ -1,28 +1,22 @@
 // What is loaded before it is asked for, so that it is at hand at once, also offline.
 import type { Engine, View } from '../model/types';
-import { firstPicture } from './frames';
+import { firstPicture, idle } from './frames';
 import type { State } from './state';
 import { loadGltfExporter } from './view/export';
 import { loadControls } from './view/layers/gizmo';
+import type { WindTunnel } from './wind';
 
 /**
  * Once the first picture is drawn, one after another, each when the page has nothing else to do. What can't be loaded is asked for again
  * where it is used, and missed there.
  */
-export async function loadAhead(engine: Engine, state: State, view: View): Promise<void> {
+export async function loadAhead(engine: Engine, state: State, view: View, wind: WindTunnel): Promise<void> {
   await firstPicture(state, view);
   state.thumbnails.value = 'seen';
+  wind.beginAhead();
   for (const load of [() => engine.loadAhead(), loadGltfExporter, loadControls]) {
     await idle();
     await load().catch(() => {});
   }
   state.thumbnails.value = 'all';
-}
-
-/** Not every browser tells when it is idle. */
-function idle(): Promise<unknown> {
-  return new Promise((resolve) => {
-    if ('requestIdleCallback' in window) requestIdleCallback(resolve);
-    else setTimeout(resolve, 200);
-  });
 }

@@ -8,13 +8,15 @@ import type { CellCard, Crossings, Cutting, Engine, MeshInfo, Model, PageError }
 import type { Slicing, Source, StepPicture, StepRequest } from '../model/types';
 import type { Checks } from '../model/checks';
 import type { Comparison, OtherGridWay } from '../model/comparison';
-import type { Wind, WindFormat } from '../model/wind';
+import type { Smoke, SmokeState, Wind, WindFormat } from '../model/wind';
 import { pageError } from '../model/failure';
 import { abortError } from './failure';
 import { Newest } from './newest';
 import { Thread, type CallOptions } from './thread';
 import { WindEngine } from './wind_engine';
 
+/** Of those that share a large cut. One of the machine's is left for the page. */
+const threads = Math.min(Math.max(navigator.hardwareConcurrency - 1, 1), 4);
 /** Corners of triangles that are drawn of a cut whose memory is worth getting back. */
 const largeCut = 3_000_000;
 
@@ -38,7 +40,7 @@ class WorkerEngine implements Engine {
   constructor() {
     const meshOf = (id: number) => this.kept.get(id);
     const thread = () => new Worker(new URL('../worker/thread.ts', import.meta.url), { type: 'module' });
-    this.thread = new Thread(() => createWorker({ thread }), meshOf);
+    this.thread = new Thread(() => createWorker({ thread, threads }), meshOf);
     this.tunnel = new WindEngine(meshOf);
     void this.thread.start().catch(() => {}); // The first call tries again and says what is wrong.
   }
@@ -148,8 +150,24 @@ class WorkerEngine implements Engine {
     return this.tunnel.flow({ mesh: this.meshShown(), ...request }, isTurned);
   }
 
+  async windAhead(request: Parameters<Engine['wind']>[0]): Promise<void> {
+    return this.tunnel.flowAhead({ mesh: this.meshShown(), ...request });
+  }
+
   cancelWind(): void {
     this.tunnel.cancel();
+  }
+
+  async smoke(request: Parameters<Engine['smoke']>[0]): Promise<Smoke> {
+    return this.tunnel.smoke({ mesh: this.meshShown(), ...request });
+  }
+
+  smokeStep(): Promise<SmokeState> {
+    return this.tunnel.smokeStep();
+  }
+
+  endSmoke(): void {
+    this.tunnel.endSmoke();
   }
 
   async writeWind(request: Parameters<Engine['wind']>[0], format: WindFormat): Promise<Uint8Array> {

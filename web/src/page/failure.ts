@@ -21,7 +21,11 @@ const titles: Record<CallName | WindCallName, string> = {
   writeMesh: "The mesh can't be written",
   end: "The thread can't be ended",
   wind: "The flow can't be computed",
-  windAhead: "The wind tunnel can't be loaded",
+  loadWind: "The wind tunnel can't be loaded",
+  windAhead: "The flow can't be computed",
+  turnAhead: "The flow can't be computed",
+  smoke: "The smoke can't be computed",
+  smokeStep: "The smoke can't be computed",
   writeWind: "The flow can't be written",
 };
 

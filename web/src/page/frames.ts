@@ -1,4 +1,4 @@
-// Waiting for frames of the screen and for pictures.
+// Waiting for frames of the screen, for pictures, and for nothing to do.
 import type { View } from '../model/types';
 import type { State } from './state';
 
@@ -10,4 +10,12 @@ export function nextFrame(): Promise<number> {
 /** Of a model, if there is one. It may be late: shaders are compiled before it. */
 export async function firstPicture({ model }: State, view: View): Promise<void> {
   while (model.value && view.pictures === 0) await nextFrame();
+}
+
+/** Not every browser tells when it is idle. */
+export function idle(): Promise<unknown> {
+  return new Promise((resolve) => {
+    if ('requestIdleCallback' in window) requestIdleCallback(resolve);
+    else setTimeout(resolve, 200);
+  });
 }

@@ -60,6 +60,6 @@ function start(): void {
   app.checking.begin();
   void followLink(app).then(() => {
     void playOpening(app, engine);
-    return loadAhead(engine, state, view);
+    return loadAhead(engine, state, view, app.windTunnel);
   });
 }

@@ -6,7 +6,7 @@ import type { Checks } from '../model/checks';
 import type { AxesSeen, CellCard, Crossings, Instead, MeshInfo, Model, PageError, StepPicture } from '../model/types';
 import type { Comparison } from '../model/comparison';
 import type { Measurement } from '../model/measurement';
-import type { Wind } from '../model/wind';
+import type { SmokeNumbers, Wind } from '../model/wind';
 
 /** What is said on top of the picture: an alert stays until it is dismissed or cleared, a notice goes away by itself. */
 export interface Message {
@@ -46,6 +46,9 @@ export class State {
   readonly playing = signal<Playing | null>(null);
   /** The flow that is drawn. */
   readonly wind = signal<Wind | null>(null);
+  /** Of the smoke that is drawn. */
+  readonly smoke = signal<SmokeNumbers | null>(null);
+  /** Whether a flow or smoke is on its way. */
   readonly isWindAwaited = signal(false);
   /** What is inside in other ways, of the newest cut or the one before it. */
   readonly comparison = signal<Comparison | null>(null);

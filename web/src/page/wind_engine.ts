@@ -1,7 +1,7 @@
 // Asks the thread of the wind tunnel, which is started when it is first needed.
 import { createWorker } from 'mandoline-wasm/physics/worker';
 import type { LoadedMesh, WindCallName, WindCalls } from '../model/calls';
-import type { Shape, Wind, WindFormat, WindRequest } from '../model/wind';
+import type { Shape, Smoke, SmokeRequest, SmokeState, Wind, WindFormat, WindRequest } from '../model/wind';
 import { Newest } from './newest';
 import { Thread } from './thread';
 
@@ -10,8 +10,11 @@ type Request = Omit<WindRequest, 'known'>;
 export class WindEngine {
   private readonly flows = new Newest<Request, Wind>(
     (request, signal) => this.flowNow(request, signal),
-    () => void this.solveAhead(),
+    () => void this.turnAhead(),
   );
+  private readonly smokes = new Newest<SmokeRequest, Smoke>((request, signal) => this.call('smoke', request, signal));
+  /** Whether the thread may have some. */
+  private hasSmoke = false;
   private readonly thread: Thread;
   /** The surface that came last: the same one is not sent again. */
   private surface: { tunnel: string; shape: Shape } | null = null;
@@ -23,9 +26,13 @@ export class WindEngine {
     this.thread = new Thread(() => createWorker({ thread }), meshOf);
   }
 
-  /** Loads what the first flow would else wait for. */
-  async loadAhead(): Promise<void> {
-    await this.call('windAhead', null);
+  loadAhead(): Promise<void> {
+    return this.call('loadWind', null);
+  }
+
+  /** What the first flow would else wait for. */
+  flowAhead(request: Request): Promise<void> {
+    return this.call('windAhead', { ...request, known: '' });
   }
 
   /** Of several requests under way the newest wins: those before it reject with an AbortError, except the running one. */
@@ -47,12 +54,29 @@ export class WindEngine {
   }
 
   /** Until the wind can be turned at once, or is asked for. */
-  private async solveAhead(): Promise<void> {
-    while (this.isTurned && !this.flows.isRunning && (await this.call('windAhead', null).catch(() => false)));
+  private async turnAhead(): Promise<void> {
+    while (this.isTurned && !this.flows.isRunning && (await this.call('turnAhead', null).catch(() => false)));
   }
 
   write(request: Request, format: WindFormat): Promise<Uint8Array> {
     return this.call('writeWind', { request, format });
+  }
+
+  smoke(request: SmokeRequest): Promise<Smoke> {
+    this.hasSmoke = true;
+    return this.smokes.answer(request);
+  }
+
+  smokeStep(): Promise<SmokeState> {
+    return this.call('smokeStep', null);
+  }
+
+  /** WebAssembly's memory never shrinks: another thread takes its place. */
+  endSmoke(): void {
+    if (!this.hasSmoke) return;
+    this.hasSmoke = false;
+    this.smokes.cancel();
+    this.thread.end();
   }
 
   /** Ends what is under way: it rejects with an AbortError. */

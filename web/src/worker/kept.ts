@@ -1,5 +1,6 @@
 // What the thread keeps between calls: the meshes that the page may ask for, and the newest cut.
 import type { Adjacency, CutMesh, FaceTriangles, GridInput, Mandoline, Measures, Mesh, Progress } from 'mandoline-wasm';
+import type { ExtraCallContext } from 'mandoline-wasm/worker-thread';
 import type { Vector3 } from '../model/vector';
 import type { CallProgress, Lack, LoadedMesh, Outdated, Recipe } from '../model/calls';
 import { pageError } from '../model/failure';
@@ -21,6 +22,13 @@ export interface Cut {
   /** Made when a card asks for them. */
   measures: Measures | null;
   adjacency: Adjacency | null;
+}
+
+/** What the worker does for a call. */
+export interface Context {
+  /** By all of the worker's threads. */
+  cut: ExtraCallContext['cut'];
+  tell: (progress: CallProgress) => void;
 }
 
 /** More untouched grid cells than this can't be told apart on a screen, and fill memory. */
@@ -65,10 +73,13 @@ function withEstimates(mandoline: Mandoline, mesh: LoadedMesh, cutMesh: CutMesh,
 }
 
 /** While a surface moves, a cut is written over the one before it. */
-export function makeCut(mandoline: Mandoline, recipe: Recipe, tell: (progress: CallProgress) => void): Cut {
-  const reuse = recipe.pose ? (newest?.recipe.pose ? buffersUnder(newest.cutMesh) : []) : undefined;
-  newest = null;
-  newest = cutNow(mandoline, recipe, tell, reuse);
+export async function makeCut(mandoline: Mandoline, recipe: Recipe, context: Context): Promise<Cut> {
+  let reuse: ArrayBuffer[] | undefined = recipe.pose ? [] : undefined;
+  if (reuse && newest?.recipe.pose) {
+    reuse = buffersUnder(newest.cutMesh);
+    newest = null;
+  }
+  newest = await cutNow(mandoline, recipe, context, reuse);
   return newest;
 }
 
@@ -77,11 +88,11 @@ function buffersUnder(cutMesh: CutMesh): ArrayBuffer[] {
 }
 
 /** A cut that isn't kept. */
-export function cutNow(mandoline: Mandoline, recipe: Recipe, tell: (progress: CallProgress) => void, reuse?: ArrayBuffer[]): Cut {
+export async function cutNow(mandoline: Mandoline, recipe: Recipe, { cut, tell }: Context, reuse?: ArrayBuffer[]): Promise<Cut> {
   const mesh = posed(mandoline, meshOf(recipe.mesh), recipe.pose);
   checkSize(recipe.grid, mesh.bounds);
   const grid = recipe.pose && !('min' in recipe.grid) ? gridAround(mesh.bounds, recipe.grid.cells) : recipe.grid;
-  const exact = mandoline.cut(preparedMesh(mandoline, mesh, recipe), grid as GridInput, {
+  const exact = await cut(preparedMesh(mandoline, mesh, recipe), grid as GridInput, {
     snapTolerance: recipe.snapTolerance,
     gridCellRegion: false,
     reuse,
@@ -100,10 +111,10 @@ export function faceTrianglesOf(mandoline: Mandoline, cut: Cut): FaceTriangles {
 }
 
 /** The cut of a recipe, made again by a thread that took the place of the one that made it. */
-export function cutOf(mandoline: Mandoline, recipe: Recipe): Cut {
+export async function cutOf(mandoline: Mandoline, recipe: Recipe, { cut }: Context): Promise<Cut> {
   const outdated: Outdated = { outdated: true };
   if (newest && newest.recipe.id > recipe.id) throw outdated;
-  return newest?.recipe.id === recipe.id ? newest : makeCut(mandoline, recipe, () => {});
+  return newest?.recipe.id === recipe.id ? newest : makeCut(mandoline, recipe, { cut, tell: () => {} });
 }
 
 function checkSize(grid: GridSettings, bounds: Bounds): void {

@@ -2,16 +2,15 @@
 // told goes to the page, which owns it then.
 import type { Mandoline } from 'mandoline-wasm';
 import { serve } from 'mandoline-wasm/worker-thread';
-import type { CallName, CallProgress, Calls } from '../model/calls';
+import type { CallName, Calls } from '../model/calls';
 import { otherGrid } from '../model/comparison';
 import { loadAhead } from './ahead';
-import { cutNow, cutOf, faceTrianglesOf, keep, makeCut } from './kept';
+import { cutNow, cutOf, faceTrianglesOf, keep, makeCut, type Context } from './kept';
 import { loadMesh } from './load';
 import { makeModel, reuseLater } from './make_model';
 
-type Tell = (progress: CallProgress) => void;
 type Answering = {
-  [K in CallName]: (mandoline: Mandoline, ask: Calls[K]['ask'], tell: Tell) => Calls[K]['answer'] | Promise<Calls[K]['answer']>;
+  [K in CallName]: (mandoline: Mandoline, ask: Calls[K]['ask'], context: Context) => Calls[K]['answer'] | Promise<Calls[K]['answer']>;
 };
 
 const calls: Answering = {
@@ -23,45 +22,51 @@ const calls: Answering = {
   loadAhead,
   keep: (_mandoline, mesh) => keep(mesh),
   reuse: (_mandoline, buffers) => reuseLater(buffers),
-  cut(mandoline, { recipe, slicing }, tell) {
-    const cut = makeCut(mandoline, recipe, tell);
-    tell({ stage: 'drawing', fraction: 0.85 });
+  async cut(mandoline, { recipe, slicing }, context) {
+    const cut = await makeCut(mandoline, recipe, context);
+    context.tell({ stage: 'drawing', fraction: 0.85 });
     return makeModel(mandoline, cut, slicing);
   },
-  slice(mandoline, { recipe, planes, untouched }) {
-    const { cutMesh } = cutOf(mandoline, recipe);
+  async slice(mandoline, { recipe, planes, untouched }, context) {
+    const { cutMesh } = await cutOf(mandoline, recipe, context);
     return planes.map((plane) => mandoline.slice(cutMesh, plane, { untouched }));
   },
-  async validate(mandoline, { recipe }) {
+  async validate(mandoline, { recipe }, context) {
     const { checksOf } = await import('./checks');
-    return checksOf(mandoline, cutOf(mandoline, recipe));
+    return checksOf(mandoline, await cutOf(mandoline, recipe, context));
   },
-  edges(mandoline, { recipe }) {
-    const { mesh, cutMesh } = cutOf(mandoline, recipe);
+  async edges(mandoline, { recipe }, context) {
+    const { mesh, cutMesh } = await cutOf(mandoline, recipe, context);
     return mandoline.cutEdges(mesh, cutMesh).edgeLength.length;
   },
-  async card(mandoline, { recipe, cell }) {
+  async card(mandoline, { recipe, cell }, context) {
     const { cellCard } = await import('./card');
-    return cellCard(mandoline, cutOf(mandoline, recipe), cell);
+    return cellCard(mandoline, await cutOf(mandoline, recipe, context), cell);
   },
-  async crossings(mandoline, { recipe }) {
+  async crossings(mandoline, { recipe }, context) {
     const { crossingsOf } = await import('./crossings');
-    return crossingsOf(mandoline, cutOf(mandoline, recipe));
+    return crossingsOf(mandoline, await cutOf(mandoline, recipe, context));
   },
-  async step(mandoline, { recipe, request }) {
+  async step(mandoline, { recipe, request }, context) {
     const { stepPicture } = await import('./steps');
-    const cut = cutOf(mandoline, recipe);
+    const cut = await cutOf(mandoline, recipe, context);
     return stepPicture(cut.mesh, cut.cutMesh, faceTrianglesOf(mandoline, cut), request, cut.origin);
   },
-  async compare(mandoline, { recipe, way }) {
+  async compare(mandoline, { recipe, way }, context) {
     const { comparison } = await import('./compare');
-    const cut = cutOf(mandoline, recipe);
-    const other = way && { way, cut: cutNow(mandoline, { ...recipe, grid: otherGrid(recipe.grid, way) }, () => {}) };
+    const cut = await cutOf(mandoline, recipe, context);
+    const other = way && {
+      way,
+      cut: await cutNow(mandoline, { ...recipe, grid: otherGrid(recipe.grid, way) }, { ...context, tell: () => {} }),
+    };
     return comparison(mandoline, cut, other);
   },
-  writeMesh: (mandoline, { recipe }) => mandoline.writeMesh(cutOf(mandoline, recipe).mesh, 'obj'),
-  write(mandoline, { recipe, format }) {
-    const { mesh, cutMesh } = cutOf(mandoline, recipe);
+  async writeMesh(mandoline, { recipe }, context) {
+    const { mesh } = await cutOf(mandoline, recipe, context);
+    return mandoline.writeMesh(mesh, 'obj');
+  },
+  async write(mandoline, { recipe, format }, context) {
+    const { mesh, cutMesh } = await cutOf(mandoline, recipe, context);
     return mandoline.write(mesh, cutMesh, format);
   },
   end() {},
@@ -71,7 +76,7 @@ const calls: Answering = {
 const progressInterval = 50;
 
 /** Passes on now and then what is told. */
-function seldom(tell: (progress: CallProgress) => void): Tell {
+function seldom(tell: Context['tell']): Context['tell'] {
   let last = 0;
   return (progress) => {
     const now = performance.now();
@@ -81,6 +86,6 @@ function seldom(tell: (progress: CallProgress) => void): Tell {
   };
 }
 
-for (const [name, call] of Object.entries(calls) as [CallName, (mandoline: Mandoline, ask: unknown, tell: Tell) => unknown][]) {
-  serve({ [name]: (mandoline, [ask], { progress }) => call(mandoline, ask, seldom(progress)) });
+for (const [name, call] of Object.entries(calls) as [CallName, (mandoline: Mandoline, ask: unknown, context: Context) => unknown][]) {
+  serve({ [name]: (mandoline, [ask], { cut, progress }) => call(mandoline, ask, { cut, tell: seldom(progress) }) });
 }

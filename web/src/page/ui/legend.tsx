@@ -8,6 +8,7 @@ import { isAll, rangeWords } from '../../model/volumes';
 export function Legend({ app: { model, settings, state } }: { app: App }) {
   const wind = state.instead.value ? null : state.wind.value;
   if (wind?.surface) return <WindLegend coloring={settings.wind.show} />;
+  if (state.smoke.value && !state.instead.value) return <WindLegend coloring="speed" />;
   const isNarrowed = model !== null && !state.instead.value && !isAll(settings.volumes);
   const entries = model && !state.instead.value ? entriesOf(model, settings) : [];
   return (

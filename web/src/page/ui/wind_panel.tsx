@@ -1,7 +1,7 @@
 import type { App } from '../app';
 import { integer, milliseconds, real } from '../../model/format';
 import { upOf } from '../../model/up';
-import { mostWindCells, type WindColoring, type WindStats } from '../../model/wind';
+import { mostWindCells, type SmokeNumbers, type WindColoring, type WindStats } from '../../model/wind';
 import { Choice } from './controls/choice';
 import { Direction } from './controls/direction';
 import { NumberField } from './controls/number_field';
@@ -10,7 +10,7 @@ import { Terms } from './controls/terms';
 
 /** The wind tunnel: where the wind blows, what the colours show, and the flow in numbers. */
 export function WindPanel({ app }: { app: App }) {
-  const { direction, show, cells } = app.settings.wind;
+  const { direction, smoke, show, cells } = app.settings.wind;
   return (
     <Section app={app} id="wind" title="Wind">
       <Direction
@@ -21,24 +21,40 @@ export function WindPanel({ app }: { app: App }) {
         onTurn={(to) => app.changeWind({ direction: to })}
       />
       <Choice
-        name="wind-show"
-        legend="Colours"
-        options={colorings}
-        value={show}
-        onChange={(coloring) => app.changeWind({ show: coloring })}
+        name="wind-flow"
+        legend="Flow"
+        options={flows}
+        value={smoke ? 'smoke' : 'lines'}
+        onChange={(flow) => app.changeWind({ smoke: flow === 'smoke' })}
       />
-      <NumberField
-        id="wind-cells"
-        label="Cells along the wind tunnel"
-        min={8}
-        max={mostWindCells}
-        value={cells}
-        onChange={(count) => app.changeWind({ cells: count })}
-      />
+      {!smoke && (
+        <>
+          <Choice
+            name="wind-show"
+            legend="Colours"
+            options={colorings}
+            value={show}
+            onChange={(coloring) => app.changeWind({ show: coloring })}
+          />
+          <NumberField
+            id="wind-cells"
+            label="Cells along the wind tunnel"
+            min={8}
+            max={mostWindCells}
+            value={cells}
+            onChange={(count) => app.changeWind({ cells: count })}
+          />
+        </>
+      )}
       <Numbers app={app} />
     </Section>
   );
 }
+
+const flows = [
+  ['lines', 'lines'],
+  ['smoke', 'smoke'],
+] as const;
 
 const colorings: readonly (readonly [WindColoring, string])[] = [
   ['none', 'cells'],
@@ -48,10 +64,13 @@ const colorings: readonly (readonly [WindColoring, string])[] = [
 
 function Numbers({ app: { state } }: { app: App }) {
   const stats = state.wind.value?.stats;
+  const smoke = state.smoke.value;
   return (
     <div id="wind-numbers" aria-busy={state.isWindAwaited.value}>
-      {state.isWindAwaited.value && !stats && <p class="hint">The flow is being computed.</p>}
+      {state.isWindAwaited.value && !stats && !smoke && <p class="hint">The flow is being computed.</p>}
       {stats && <Terms class="counts" list={termsOf(stats)} />}
+      {smoke && <Terms class="counts" list={smokeTermsOf(smoke)} />}
+      {smoke && <p class="hint">The longest side of the mesh and the wind's speed are 1; drag and lift are those of ½ρv² on its square.</p>}
       {stats?.isThrottled && <p class="hint">The surface divides the wind tunnel, and holds back the wind in parts of it.</p>}
     </div>
   );
@@ -64,5 +83,16 @@ function termsOf({ grid, cells, cutCells, largestSpeed, smallestPressure, times 
     ['largest speed', `${real(largestSpeed)} of the wind`],
     ['least pressure', real(smallestPressure).replace('-', '−')],
     ['time', milliseconds(times.cells + times.flow + times.picture)],
+  ];
+}
+
+function smokeTermsOf({ counts, cells, stepsPerSecond, time, drag, lift }: SmokeNumbers): [string, string][] {
+  return [
+    ['grid', counts.join(' × ')],
+    ['cells', integer(cells)],
+    ['steps', stepsPerSecond > 0 ? `${stepsPerSecond.toFixed(1)} a second` : 'none yet'],
+    ['time', time.toFixed(2)],
+    ['drag', drag.toFixed(3)],
+    ['lift', lift.toFixed(3)],
   ];
 }

@@ -50,7 +50,7 @@ function joined(points: Float32Array, more: readonly number[]): Float32Array {
   return all;
 }
 
-/** In scene units, they span what is shown and the arrow of the wind. */
+/** In scene units, they span what is shown, the arrow of the wind and its wake. */
 export function framedPoints(extent: Extent): Float32Array {
   const points = joined(shownPoints(extent), windPoints(extent));
   const scale = sceneScale(extent.model);
@@ -79,10 +79,14 @@ export function meshPoints(model: Model): Float32Array {
   return Float32Array.from(meshCorners(model), (x) => x * sceneScale(model));
 }
 
+/** From the middle of the mesh to where its wake is seen, in longest sides. */
+const wakeEnd = 1.5;
+
 function windPoints({ model: { meshMin, meshMax, origin }, settings: { wind } }: Extent): number[] {
   if (!wind.on) return [];
   const size = Math.max(...meshMax.map((x, d) => x - meshMin[d]));
-  return arrowEnds.flatMap((end) => meshMin.map((x, d) => (x + meshMax[d]) / 2 - origin[d] - end * size * wind.direction[d]));
+  const ends = [...arrowEnds, ...(wind.smoke ? [-wakeEnd] : [])];
+  return ends.flatMap((end) => meshMin.map((x, d) => (x + meshMax[d]) / 2 - origin[d] - end * size * wind.direction[d]));
 }
 
 /** A vertex of a cut-cell, where the explosions take it. */

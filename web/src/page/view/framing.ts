@@ -55,7 +55,7 @@ export class Framing {
       this.isFramed = true;
       this.camera.place({ position: fromWorld(model, camera.position), target: fromWorld(model, camera.target) });
     }
-    const reach = JSON.stringify([explode, explode.regions > 0 && model?.id, show.outside, wind.on]);
+    const reach = JSON.stringify([explode, explode.regions > 0 && model?.id, show.outside, wind.on, wind.smoke]);
     const isOther = reach !== this.reach;
     this.reach = reach;
     if (!this.isFramed) this.frame();

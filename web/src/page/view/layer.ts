@@ -4,7 +4,7 @@ import type { Slice } from 'mandoline-wasm';
 import type { Instead, Model, Settings } from '../../model/types';
 import type { Comparison } from '../../model/comparison';
 import type { Measurement } from '../../model/measurement';
-import type { Wind } from '../../model/wind';
+import type { SmokeSource, Wind } from '../../model/wind';
 import type { Piece } from './piece';
 import type { ViewPlane } from '../../model/planes';
 
@@ -24,6 +24,8 @@ export interface Look {
   instead: Instead | null;
   /** The flow about the mesh, if there is a wind. */
   wind: Wind | null;
+  /** What its flow in time carries instead, if it has one. */
+  smoke: SmokeSource | null;
   /** The distance that is measured, if one is. */
   measurement: Measurement | null;
   /** What is drawn right of a divider in other ways, if it is. */

@@ -73,8 +73,8 @@ export class Occlusion {
   }
 }
 
-function isModelAlone({ instead, comparison, wind }: Look): boolean {
-  return !instead && !comparison && !wind;
+function isModelAlone({ instead, comparison, wind, smoke }: Look): boolean {
+  return !instead && !comparison && !wind && !smoke;
 }
 
 function nameOf(gl: WebGLRenderingContext | WebGL2RenderingContext): string {

@@ -5,7 +5,7 @@ import type { Engine, Instead, Model, PageError, Settings, View } from '../../mo
 import type { Comparison } from '../../model/comparison';
 import type { Vector3 as ModelVector } from '../../model/vector';
 import type { Measurement } from '../../model/measurement';
-import type { Wind } from '../../model/wind';
+import type { SmokeSource, Wind } from '../../model/wind';
 import { Camera } from './camera';
 import { regionShifts } from './explosion';
 import { Files } from './files';
@@ -99,6 +99,7 @@ class ThreeView implements View {
   private settings: Settings | null = null;
   private instead: Instead | null = null;
   private wind: Wind | null = null;
+  private smoke: SmokeSource | null = null;
   private comparison: Comparison | null = null;
   private measurement: Measurement | null = null;
   private look: Look | null = null;
@@ -175,7 +176,7 @@ class ThreeView implements View {
       this.loop.changed();
       this.onFreePlane(free);
     };
-    this.windTunnel.onChange = () => this.loop.invalidate();
+    this.windTunnel.onChange = () => this.loop.changed();
     this.windTunnel.onDragging = (isDragging) => (this.camera.controls.enabled = !isDragging);
     this.windTunnel.onTurned = (direction) => this.onWind(direction);
     this.flatCuts.onMade = () => this.loop.changed();
@@ -246,6 +247,11 @@ class ThreeView implements View {
     this.loop.changed();
   }
 
+  setSmoke(smoke: SmokeSource | null): void {
+    this.smoke = smoke;
+    this.loop.changed();
+  }
+
   setMeasurement(measurement: Measurement | null): void {
     this.measurement = measurement;
     this.touch.isMeasuring = measurement !== null;
@@ -307,7 +313,7 @@ class ThreeView implements View {
 
   /** Brings what is drawn up to date with the settings. Explosions and slices of whole cells only change uniforms. */
   private prepare(): void {
-    const { model, settings, shifts, instead, wind, comparison, measurement } = this;
+    const { model, settings, shifts, instead, wind, smoke, comparison, measurement } = this;
     if (!model || !settings) return;
     const look = {
       model,
@@ -316,6 +322,7 @@ class ThreeView implements View {
       shifts,
       instead,
       wind,
+      smoke,
       comparison,
       measurement,
       ...this.flatCuts.choose(model, settings),

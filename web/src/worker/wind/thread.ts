@@ -4,7 +4,9 @@ import type { Mandoline } from 'mandoline-wasm';
 import { serve } from 'mandoline-wasm/physics/worker-thread';
 import type { Lack, LoadedMesh, WindCallName, WindCalls } from '../../model/calls';
 import { solveAhead } from './flows';
+import { pageError } from '../../model/failure';
 import type { Package } from './package';
+import type { SmokeFlow } from './smoke';
 import { windPicture } from './picture';
 import { keyOf, makeTunnel, type Site, type Tunnel } from './tunnel';
 import { writeWind } from './write';
@@ -13,12 +15,16 @@ type Answering = { [K in WindCallName]: (pack: Package, ask: WindCalls[K]['ask']
 
 let mesh: LoadedMesh | null = null;
 let tunnel: Tunnel | null = null;
+let smoke: SmokeFlow | null = null;
+
+function meshOf(id: number): LoadedMesh {
+  if (mesh?.id === id) return mesh;
+  const lack: Lack = { lacksMesh: id };
+  throw lack;
+}
 
 async function tunnelFor(pack: Package, site: Site): Promise<Tunnel> {
-  if (mesh?.id !== site.mesh) {
-    const lack: Lack = { lacksMesh: site.mesh };
-    throw lack;
-  }
+  const mesh = meshOf(site.mesh);
   if (tunnel?.key !== keyOf(site)) {
     tunnel = null; // its memory is needed
     tunnel = await makeTunnel(pack, mesh, site);
@@ -32,6 +38,11 @@ async function loadModules({ mandoline, physics }: Package): Promise<void> {
   await mandoline.writeLines({ points: [], offsets: Uint32Array.of(0) });
 }
 
+function endSmoke(): void {
+  smoke?.end();
+  smoke = null;
+}
+
 const calls: Answering = {
   async keep(_pack, newMesh) {
     mesh = newMesh;
@@ -41,11 +52,27 @@ const calls: Answering = {
     const cells = await tunnelFor(pack, request);
     return windPicture(pack, cells, request, performance.now() - start);
   },
-  async windAhead(pack) {
-    if (tunnel) return solveAhead(pack, tunnel);
-    await loadModules(pack);
-    return false;
+  loadWind: loadModules,
+  async windAhead(pack, request) {
+    await windPicture(pack, await tunnelFor(pack, request), request, 0);
   },
+  async turnAhead(pack) {
+    return tunnel !== null && solveAhead(pack, tunnel);
+  },
+  async smoke(pack, request) {
+    const mesh = meshOf(request.mesh);
+    endSmoke();
+    tunnel = null; // its memory is needed
+    const { SmokeFlow } = await import('./smoke');
+    const begun = await SmokeFlow.begin(pack, mesh, request);
+    smoke = begun.flow;
+    return begun.smoke;
+  },
+  async smokeStep() {
+    if (!smoke) throw pageError('There is no smoke', 'It has ended.');
+    return smoke.step();
+  },
+  async end() {}, // by then all that was asked before is answered
   async writeWind(pack, { request, format }) {
     return writeWind(pack, await tunnelFor(pack, request), request.direction, format);
   },

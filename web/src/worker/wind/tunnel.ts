@@ -17,7 +17,7 @@ export interface Tunnel {
   cutMesh: CutMesh;
   cells: CellComplex;
   origin: Vector3;
-  /** Per region: 1 if it reaches a side of the box. Nothing flows in the others. */
+  /** As openRegions() has it: nothing flows in the others. */
   isOpen: Uint8Array;
   /** Flows of winds of length 1 that were solved: along x, y and z, and in the latest direction besides. */
   axes: (Flow | null)[];
@@ -62,7 +62,8 @@ export async function makeTunnel({ mandoline, physics }: Package, loaded: Loaded
 /** Tags of faces below this are the sides of the box. */
 const innerTag = 6;
 
-function openRegions({ faceTag, faceCells, cellRegion }: CellComplex, count: number): Uint8Array {
+/** Per region: 1 if it reaches a side of the box. */
+export function openRegions({ faceTag, faceCells, cellRegion }: CellComplex, count: number): Uint8Array {
   const isOpen = new Uint8Array(count);
   for (let face = 0; face < faceTag.length; face++) {
     if (faceTag[face] < innerTag) isOpen[cellRegion[Math.max(faceCells[2 * face], faceCells[2 * face + 1])]] = 1;

@@ -2,7 +2,6 @@
 import { ConeGeometry, CylinderGeometry, Group, Mesh, Raycaster, ShaderMaterial, Sphere, Vector2, Vector3 } from 'three';
 import type { Color, PerspectiveCamera } from 'three';
 import type { Vector3 as Numbers } from '../../../model/vector';
-import type { Wind } from '../../../model/wind';
 import type { Look } from '../layer';
 import { windLightChunk } from './uniforms';
 
@@ -26,7 +25,7 @@ export class WindHandle {
   /** 1 while it is touched. */
   private readonly glow = { value: 0 };
   private readonly direction = new Vector3(1, 0, 0);
-  private wind: Wind | null = null;
+  private wind: { size: number } | null = null;
   private dragged: number | null = null;
   private isNear = false;
   /** Of the sphere that the arrow is turned on: whether it is grabbed on the side that faces the camera. */
@@ -55,9 +54,9 @@ export class WindHandle {
     return this.dragged !== null || this.isNear;
   }
 
-  setLook({ wind, settings }: Look): void {
+  setLook({ wind, smoke, settings }: Look): void {
     // The opening's wind can't be turned.
-    this.wind = settings.wind.on ? wind : null;
+    this.wind = settings.wind.on ? (smoke?.smoke ?? wind) : null;
     this.arrow.visible = this.wind !== null;
     if (!this.wind) this.isNear = false;
     const [x, y, z] = settings.wind.direction;

@@ -3,7 +3,7 @@
 import { type BufferGeometry, DoubleSide, Group, Mesh, ShaderMaterial, Vector2 } from 'three';
 import type { Wind } from '../../../model/wind';
 import { emptyGeometry, refill } from '../buffers';
-import { windChunk, type WindUniforms } from './uniforms';
+import { ribbonChunk, windChunk, type WindUniforms } from './uniforms';
 
 /** Time in which the undisturbed wind covers the longest side of the mesh, in seconds. */
 const crossingTime = 1.5;
@@ -50,7 +50,7 @@ export class Pulses {
     const { isStill, time } = this.own;
     isStill.value = this.reducedMotion.matches;
     time.value = (seconds / (crossingTime * pulseGap)) % 1;
-    return !isStill.value && this.object.parent?.visible === true;
+    return !isStill.value && this.object.visible && this.object.parent?.visible === true;
   }
 
   setPixelRatio(ratio: number): void {
@@ -103,7 +103,7 @@ varying float vWidth;
 `;
 
 const vertexShader = /* glsl */ `
-uniform vec2 viewport;
+${ribbonChunk}
 uniform float pixelRatio;
 uniform vec3 reach;
 uniform float size;
@@ -119,15 +119,9 @@ void main() {
   // Lines come out of nothing and end in nothing, not at the sides of the tunnel.
   vec3 inward = (reach - abs(position)) / (0.35 * size);
   vFade = smoothstep(0.0, 1.0, min(inward.x, min(inward.y, inward.z)));
-  vec4 seen = modelViewMatrix * vec4(position, 1.0);
-  vec4 here = projectionMatrix * seen;
-  vec4 there = projectionMatrix * (seen + modelViewMatrix * vec4(ahead * 0.1, 0.0));
-  vec2 along = (there.xy / there.w - here.xy / here.w) * viewport;
-  vec2 across = length(along) > 1e-6 ? normalize(vec2(-along.y, along.x)) : vec2(0.0);
   // A pixel more on each side, in which the edge is smoothed.
   vWidth = 0.85 * pixelRatio;
-  here.xy += across * vSide * (vWidth + 1.0) * 2.0 / viewport * here.w;
-  gl_Position = here;
+  gl_Position = besideLine(position, ahead * 0.1, vSide * (vWidth + 1.0));
 }
 `;
 

@@ -1,5 +1,5 @@
 import { Vector3, Vector4 } from 'three';
-import type { Wind } from '../../../model/wind';
+import type { Smoke, Wind } from '../../../model/wind';
 import type { Look } from '../layer';
 import { rampTexture, topSpeed } from './colors';
 
@@ -31,6 +31,26 @@ export function setWindUniforms(uniforms: WindUniforms, { sections, origin, half
   uniforms.reach.value.set(half[0], half[1], half[2]);
   uniforms.size.value = size;
 }
+
+export function setSmokeUniforms(uniforms: WindUniforms, { size }: Smoke): void {
+  uniforms.row.value = uniforms.sectionCount.value = 0;
+  uniforms.size.value = size;
+}
+
+/** In vertex shaders: a point of a ribbon in clip space, so many pixels aside from a line that leads `ahead` there. */
+export const ribbonChunk = /* glsl */ `
+uniform vec2 viewport;
+
+vec4 besideLine(vec3 point, vec3 ahead, float pixels) {
+  vec4 seen = modelViewMatrix * vec4(point, 1.0);
+  vec4 here = projectionMatrix * seen;
+  vec4 there = projectionMatrix * (seen + modelViewMatrix * vec4(ahead, 0.0));
+  vec2 along = (there.xy / there.w - here.xy / here.w) * viewport;
+  vec2 across = length(along) > 1e-6 ? normalize(vec2(-along.y, along.x)) : vec2(0.0);
+  here.xy += across * pixels * 2.0 / viewport * here.w;
+  return here;
+}
+`;
 
 /** In fragment shaders: the colour of a speed, and what lies beyond sections. */
 export const windChunk = /* glsl */ `

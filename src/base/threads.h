@@ -1,0 +1,32 @@
+// Threads, if there are any. In WebAssembly without shared memory there is one, and the library's mutexes and threads would bring along the
+// texts of all errors of the system.
+#pragma once
+
+#include <cstddef>
+#include <mutex>
+
+#include "base/function_ref.h"
+
+#if defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)
+#define MANDOLINE_ONE_THREAD
+#else
+#include <thread>
+#endif
+
+namespace mandoline::detail {
+
+#ifdef MANDOLINE_ONE_THREAD
+struct Mutex {
+  void lock() {}
+  void unlock() {}
+};
+inline unsigned coreCount() { return 1; }
+#else
+using Mutex = std::mutex;
+inline unsigned coreCount() { return std::thread::hardware_concurrency(); }
+#endif
+
+/// Runs work(thread) on that many threads, or on fewer where there are no more.
+void runOnThreads(size_t threads, FunctionRef<void(size_t)> work);
+
+}  // namespace mandoline::detail

@@ -1,0 +1,16 @@
+// What processes that make a cut together tell each other: which grid cells the surface touches, what each brick has at its boundary, how
+// its components hang together, and which vertices of the surface loops have.
+#pragma once
+
+#include "cut/stages/output_part.h"
+
+namespace mandoline::detail {
+
+/// Of the bricks that are cut here. `cut` stands for the mesh, the grid and the options of all shares.
+std::vector<uint32_t> summarize(const CutState& state, const ShareOf& shareOf, Fingerprint cut);
+
+/// Adds what the others found. Throws Failure{badArgument} if these are not the summaries of all shares of the cut (element: the first
+/// that is another).
+void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareOf& shareOf, Fingerprint cut, CutState& state);
+
+}  // namespace mandoline::detail

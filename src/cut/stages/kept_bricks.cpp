@@ -1,0 +1,99 @@
+#include "cut/stages/kept_bricks.h"
+
+#include <algorithm>
+
+#include "cut/stages/surface_map.h"
+
+namespace mandoline::detail {
+namespace {
+
+class Keeper {
+ public:
+  Keeper(const CutBefore& before, const Surface& surface, const SurfaceParts& parts, Bricks& bricks)
+      : before_(before), surface_(surface), parts_(parts), bricks_(bricks), now_(before.surface, surface, before.moved) {}
+
+  KeptBricks run() {
+    KeptBricks kept;
+    if (!now_.isOrdered()) return kept;
+    kept.isKept.assign(bricks_.size(), 0);
+    kept.cuts.resize(bricks_.size());
+    BrickId was{0};
+    for (const BrickId b : bricks_.ids()) {
+      while (was.number < before_.bricks.size() && before_.bricks.keys[was] < bricks_.keys[b]) ++was.number;
+      if (was.number == before_.bricks.size()) break;
+      if (before_.bricks.keys[was] != bricks_.keys[b] || !isSame(was, b)) continue;
+      kept.isKept[b.number] = 1;
+      kept.cuts[b] = renumbered(before_.cuts[was]);
+      const auto touched = before_.bricks.wordsOf(was);
+      std::copy(touched.begin(), touched.end(), bricks_.wordsOf(b).begin());
+    }
+    kept.cuts.memory = std::move(before_.cuts.memory);
+    dropUnused(kept.cuts);
+    return kept;
+  }
+
+ private:
+  bool isSame(BrickId was, BrickId is) const {
+    const auto haveSame = [&](const auto& csrs, const auto& same) {
+      const auto a = (before_.bricks.*csrs)[was];
+      const auto b = (bricks_.*csrs)[is];
+      return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
+    };
+    return haveSame(&Bricks::parts,
+                    [&](uint32_t a, uint32_t b) { return isSamePart(before_.parts.clipped.parts[a], parts_.clipped.parts[b]); }) &&
+           haveSame(&Bricks::dividedFaces, [&](FaceId a, FaceId b) { return isSameFace(a, b); }) &&
+           haveSame(&Bricks::faceEdges,
+                    [&](uint32_t a, uint32_t b) {
+                      return isSameEdge(faceEdge(before_.surface, before_.parts, a), faceEdge(surface_, parts_, b));
+                    }) &&
+           haveSame(&Bricks::seamVertices, [&](VertexId a, VertexId b) { return now_[a] == b; });
+  }
+  bool isSamePart(const ClippedTriangles::Part& a, const ClippedTriangles::Part& b) const {
+    return a.triangle == b.triangle && now_.isSame(a.triangle);
+  }
+  /// Of a divided triangle.
+  bool isSameFace(FaceId was, FaceId is) const {
+    const TriFaces &before = before_.parts.divided, &now = parts_.divided;
+    return before.triangles[was] == now.triangles[is] && now_.isSame(now.triangles[is]) && before.elements[was] == now.elements[is];
+  }
+  bool isSameEdge(const FaceEdge& a, const FaceEdge& b) const {
+    return a.element == b.element && now_[a.from] == b.from && now_[a.to] == b.to;
+  }
+
+  /// Gives back the memory of bricks that are not kept, once that is half of it.
+  static void dropUnused(BrickCuts& cuts) {
+    size_t used = 0, all = 0;
+    for (BrickCut& cut : cuts) cut.forArrays([&](const auto& array) { used += array.size_bytes(); });
+    for (const Arena& arena : cuts.memory) all += arena.bytes();
+    if (all <= 2 * used) return;
+    Arena memory;
+    for (BrickCut& cut : cuts) cut.forArrays([&](auto& array) { array = memory.copy(array); });
+    cuts.memory.clear();
+    cuts.memory.push_back(std::move(memory));
+  }
+
+  BrickCut renumbered(BrickCut& cut) const {
+    BrickCut result = std::move(cut);
+    CutVertices vertices = CutVertices::ofBrick(surface_.vertices);
+    vertices.slabs = std::move(result.vertices.slabs);
+    vertices.parentTriangles = std::move(result.vertices.parentTriangles);
+    result.vertices = std::move(vertices);
+    for (auto* ids : {&result.triLoops.items, &result.loops.items, &result.lineVertices})
+      Arena::rewrite(*ids, [&](VertexId v) { return now_.inBrick(v); });
+    return result;
+  }
+
+  const CutBefore& before_;
+  const Surface& surface_;
+  const SurfaceParts& parts_;
+  Bricks& bricks_;
+  const SurfaceMap now_;
+};
+
+}  // namespace
+
+KeptBricks keepBricks(const CutBefore& before, const Surface& surface, const SurfaceParts& parts, Bricks& bricks) {
+  return Keeper(before, surface, parts, bricks).run();
+}
+
+}  // namespace mandoline::detail

@@ -1,0 +1,42 @@
+// Output, of what is cut here: numbers the vertices, lays the faces and cells of the bricks one after the other, and computes the
+// coordinates.
+//
+// In: all stages before. Out: CutPart, the whole unless other processes cut the rest (see cut_mesh.h for its arrays and their order).
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "cut/stages/numbers.h"
+#include "cut/stages/regions.h"
+#include "mandoline/cut_share.h"
+
+namespace mandoline::detail {
+
+/// What the stages have made so far; each adds its part.
+struct CutState {
+  Surface surface;
+  SurfaceParts parts;
+  Bricks bricks;
+  BrickCuts cuts;
+  UsedVertices used;
+  UntouchedRuns runs;
+  IdVector<BrickId, BrickSeams> seams;
+  Regions regions;
+
+  // Of a surface that moves:
+  std::optional<std::array<int, 3>> brickShifts;  ///< of bricks that have to be the same each time
+  std::function<KeptBricks()> keepBricks;         ///< of those that are laid out
+  CutMesh spare;                                  ///< whose memory the result is written over
+
+  CutBricks cut() const { return {surface, bricks, runs, cuts, seams}; }
+};
+
+/// Vertices of the mesh and its edges come from the share that has them first along z. `mesh` was prepared; coordinates that it and `grid`
+/// have are handed back as they are.
+CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& run);
+
+/// The vertices of the mesh and its edges that loops have, in order.
+std::vector<VertexId> listUsed(const UsedVertices& used);
+
+}  // namespace mandoline::detail

@@ -1,0 +1,87 @@
+#include "mesh/prepare_again.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mandoline::detail {
+namespace {
+
+/// Whether two meshes differ in nothing but coordinates. Not where triangles have no area: they put vertices on the sides of others.
+bool areConnectedAlike(const Prepared& before, const Prepared& now) {
+  return before.counts.zeroAreaTriangles == 0 && now.counts.zeroAreaTriangles == 0 && before.shift == now.shift &&
+         before.triVertices == now.triVertices && before.triangles == now.triangles;
+}
+
+/// States in which only the triangles are kept that lie near those that have moved, these included. Those that these meet are among them.
+std::vector<TriangleState> nearMoved(const Prepared& mesh, const Moved& moved) {
+  Box all{{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+  for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (hasMoved(moved, mesh.triangles[t])) all.include(boxOf(mesh, t));
+  }
+  std::vector<TriangleState> states = mesh.states;
+  for (uint32_t t = 0; t < states.size(); ++t) {
+    if (states[t] == TriangleState::kept && !all.overlaps(boxOf(mesh, t))) states[t] = TriangleState::beside;
+  }
+  return states;
+}
+
+/// The contacts of what has not moved are those before.
+Contacts findContactsAgain(const Prepared& before, const Prepared& now, const Moved& moved, Monitor& monitor, Predicates& predicates) {
+  const auto isNew = [&](const PairContact& pair) {
+    return hasMoved(moved, now.triangles[pair.triangles[0]]) || hasMoved(moved, now.triangles[pair.triangles[1]]);
+  };
+  std::vector<PairContact> pairs = before.contacts;
+  std::erase_if(pairs, isNew);
+  for (const PairContact& pair : findContacts(now, NearTriangles(SortedMesh(now, nearMoved(now, moved))), monitor, predicates).pairs) {
+    if (isNew(pair)) pairs.push_back(pair);
+  }
+  return contactsOf(now, std::move(pairs));
+}
+
+struct Means {
+  Monitor& monitor;
+  Predicates& predicates;
+};
+
+/// As resolveInput(). False if triangles meet that should not.
+bool resolveAgain(const Prepared& before, Prepared& now, const Moved& moved, Intersections intersections, const Means& means) {
+  now.states = before.states;
+  now.duplicates = before.duplicates;
+  now.closed = before.closed;
+  Contacts contacts;
+  if (intersections != Intersections::assumeNone) contacts = findContactsAgain(before, now, moved, means.monitor, means.predicates);
+  if (intersections == Intersections::refuse && contacts.counts.total() > 0) return false;
+  if (!before.hasIntersections()) {
+    now.edges = before.edges;
+    now.parts = before.parts;
+  } else if (contacts.pairs.empty()) {
+    now.states.assign(now.states.size(), TriangleState::kept);
+    now.duplicates.clear();
+    findInputEdges(now);
+  }
+  if (intersections == Intersections::resolve) arrangeInput(now, std::move(contacts), true, means.monitor, means.predicates);
+  return true;
+}
+
+}  // namespace
+
+PreparedAgain prepareAgain(const MeshView& mesh, const Preparation& preparation, const Prepared& before, Monitor& monitor,
+                           const std::function<void(const char*)>& beginStage) {
+  Predicates predicates;
+  beginStage("input");
+  auto now = weldInput(mesh, preparation.largest, predicates);
+  Moved moved;
+  if (areConnectedAlike(before, *now)) {
+    moved.resize(now->points.size());
+    for (const VertexId v : moved.ids()) moved[v] = before.point(v) != now->point(v);
+  }
+  if (preparation.intersections != Intersections::assumeNone) beginStage("intersections");
+  if (moved.empty() || !resolveAgain(before, *now, moved, preparation.intersections, {monitor, predicates})) {
+    moved.clear();
+    resolveInput(*now, preparation, monitor, predicates);
+  }
+  now->counts.exactFallbacks = predicates.fallbacks;
+  return {std::move(now), std::move(moved)};
+}
+
+}  // namespace mandoline::detail

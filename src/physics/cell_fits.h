@@ -1,0 +1,72 @@
+// In each cell phi is fitted by a polynomial of degree two that satisfies its equation: its Laplacian plus slope . gradient is a source.
+#pragma once
+
+#include <variant>
+
+#include "base/parallel.h"
+#include "physics/fit_data.h"
+
+namespace mandoline::physics {
+
+/// The factors of a cell's normal equations. Second derivatives that the data leave open, or nearly, are near zero; so are gradients.
+class FitFactors {
+ public:
+  static constexpr size_t kUnknowns = 8;
+  using Row = std::array<double, kUnknowns>;
+
+  /// `ids`: the cell's data.
+  FitFactors(const CellComplex& cells, const FitData& data, uint32_t cell, std::span<const uint32_t> ids);
+  Row solve(Row right) const;
+
+ private:
+  double& at(size_t i, size_t j) { return lower_[i * (i - 1) / 2 + j]; }
+  double at(size_t i, size_t j) const { return lower_[i * (i - 1) / 2 + j]; }
+
+  std::array<double, kUnknowns*(kUnknowns - 1) / 2> lower_{};  // below the diagonal, which is 1
+  Row pivot_{};
+};
+
+struct CellFits {
+  std::vector<double> gradient;  ///< 3 per cell, at its centroid
+  std::vector<double> second;    ///< 6 per cell: the second derivatives xx, yy, zz, xy, yz, xz
+
+  struct Known {
+    const FitData& data;
+    const std::vector<double>& values;  ///< fitValues()
+    const std::vector<double>& source;  ///< per cell; empty for 0
+  };
+
+  explicit CellFits(size_t cellCount);
+
+  void fit(const CellComplex& cells, const Known& known, uint32_t cell, const FitFactors& factors, std::span<const uint32_t> ids);
+
+  /// The gradient of a cell's polynomial at a point.
+  Point gradientAt(const CellComplex& cells, size_t cell, const Point& point) const {
+    const double *g = &gradient[3 * cell], *s = &second[6 * cell], *centroid = &cells.cellCentroid[3 * cell];
+    const double x = point[0] - centroid[0], y = point[1] - centroid[1], z = point[2] - centroid[2];
+    return {g[0] + s[0] * x + s[3] * y + s[5] * z, g[1] + s[3] * x + s[1] * y + s[4] * z, g[2] + s[5] * x + s[4] * y + s[2] * z};
+  }
+};
+
+/// Fits all cells.
+CellFits fitAll(const CellComplex& cells, const CellFits::Known& known, detail::Monitor& monitor);
+
+/// Fits some cells again and again.
+class CellFitter {
+ public:
+  CellFitter(const CellComplex& cells, FitData data, std::vector<uint32_t> which, detail::Monitor& monitor);
+
+  const FitData& data() const { return data_; }
+
+  /// Those of other cells are zero.
+  CellFits fit(const std::vector<double>& values, const std::vector<double>& source, detail::Monitor& monitor) const;
+
+ private:
+  const CellComplex& cells_;
+  FitData data_;
+  std::vector<uint32_t> which_;
+  detail::Csr<uint32_t> ids_;  // per cell of which_: its data
+  std::vector<FitFactors> factors_;
+};
+
+}  // namespace mandoline::physics

@@ -1,0 +1,49 @@
+// The derivatives of phi along the normals of faces: what passes through them, per area.
+#pragma once
+
+#include "physics/cell_fits.h"
+#include "physics/poisson_problem.h"
+
+namespace mandoline::physics {
+
+/// Makes the derivatives of a problem's phi: per face along its normal, 0 without a dual edge; then per half-face of the boundary along the
+/// normal that points out of the cell.
+class Differentiator {
+ public:
+  /// `terms`: boundaryTerms().
+  Differentiator(const CellComplex& cells, const DualEdges& dual, const PoissonProblem& problem, const std::vector<BoundaryTerm>& terms);
+
+  /// Those that the problem's system has: differences over distances.
+  std::vector<double> plain(const std::vector<double>& phi) const;
+
+  /// What is added to those for second order, from polynomials fitted in the cells on both sides: such a derivative is that of the
+  /// polynomials at the face's centroid, and what they leave of the difference of phi, over the distance. Nothing is added where a cell
+  /// meets smaller ones that are cut, since that need not converge; nor beside cells where the coefficient jumps.
+  std::vector<double> corrections(const CellFitter& fitter, const std::vector<double>& phi, detail::Monitor& monitor) const;
+  CellFitter fitter(detail::Monitor& monitor) const;
+
+  size_t size() const { return cells_.faceCount() + problem_.boundary.halfFaces.size(); }
+  /// A cell beside the face of a derivative.
+  size_t cellOf(size_t derivative) const;
+  /// The sum of products by area and coefficient.
+  double product(const std::vector<double>& a, const std::vector<double>& b) const;
+  /// Adds what flows into each cell.
+  void addFlows(const std::vector<double>& derivatives, std::vector<double>& cellValues) const;
+
+ private:
+  uint32_t halfFaceOf(size_t derivative) const { return problem_.boundary.halfFaces[derivative - cells_.faceCount()]; }
+  double flowOf(size_t derivative) const;
+  bool isCorrected(size_t edge) const;
+  bool isCorrectedOnBoundary(size_t b) const;
+  bool jumps(size_t cell) const { return !coefficients_.jumps.empty() && coefficients_.jumps[cell]; }
+  std::vector<double> sourceOf(const std::vector<double>& phi, const std::vector<double>& cellSize) const;
+
+  const CellComplex& cells_;
+  const DualEdges& dual_;
+  const PoissonProblem& problem_;
+  const std::vector<BoundaryTerm>& terms_;
+  CellCoefficients coefficients_;
+  std::vector<uint32_t> edges_;  // those that are corrected
+};
+
+}  // namespace mandoline::physics

@@ -1,0 +1,38 @@
+// What of a problem is made once for all its sources and values, and one solution of it.
+#pragma once
+
+#include <optional>
+
+#include "physics/derivatives.h"
+#include "physics/multigrid.h"
+#include "physics/system_matrix.h"
+
+namespace mandoline::physics {
+
+struct PoissonSetup {
+  /// Throws CallError{badArgument}.
+  PoissonSetup(const CellComplex& cells_, PoissonProblem problem_);
+  PoissonSetup(const PoissonSetup&) = delete;
+
+  const CellComplex& cells;
+  PoissonProblem problem;  ///< its source and values are those that are solved for
+  CellComponents components;
+  std::vector<char> held;  ///< heldComponents()
+  std::vector<BoundaryTerm> terms;
+  DualEdges dual;
+  std::vector<double> mass;  ///< massTerms()
+  SparseMatrix matrix;
+  std::vector<double> added;  ///< per cell: what conditions and mass add to the diagonal
+  SystemMatrix system;
+  Multigrid multigrid;
+  Differentiator differentiator;
+  std::optional<CellFitter> fitter;  ///< once it is needed
+};
+
+/// Throws CallError{badOption}.
+void requireOptions(const SolveOptions& options);
+
+/// `data` are valid. Tells the monitor of no stage.
+Solution solve(PoissonSetup& setup, const PoissonData& data, const SolveOptions& options, detail::Monitor& monitor);
+
+}  // namespace mandoline::physics

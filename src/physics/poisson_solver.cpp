@@ -1,0 +1,87 @@
+#include "mesh/run_call.h"
+#include "physics/poisson_setup.h"
+
+namespace mandoline {
+namespace physics {
+namespace {
+
+PoissonProblem checked(const CellComplex& cells, PoissonProblem problem) {
+  requireProblem(cells, problem);
+  return problem;
+}
+
+/// Per cell: what conditions on the boundary add to the diagonal.
+std::vector<double> heldBy(const PoissonSetup& setup) {
+  std::vector<double> held(setup.cells.cellCount());
+  for (size_t b = 0; b < setup.terms.size(); ++b)
+    held[size_t(setup.cells.faceCells[setup.problem.boundary.halfFaces[b]])] += setup.terms[b].perPhi;
+  return held;
+}
+
+std::vector<double> sumOf(std::vector<double> a, const std::vector<double>& b) {
+  for (size_t i = 0; i < a.size(); ++i) a[i] += b[i];
+  return a;
+}
+
+void requireData(const CellComplex& cells, const PoissonProblem& problem, const PoissonData& data) {
+  requireSources(cells, data.source);
+  requireValues(problem.boundary, data.boundaryValue);
+  if (!data.start.empty()) requireCellValues(cells, data.start, {"values of phi to start from", "phi", " to start from"});
+}
+
+}  // namespace
+
+PoissonSetup::PoissonSetup(const CellComplex& cells_, PoissonProblem problem_)
+    : cells(cells_),
+      problem(checked(cells_, std::move(problem_))),
+      components(cellComponents(cells)),
+      held(heldComponents(cells, problem, components)),
+      terms(boundaryTerms(cells, problem)),
+      dual(dualEdges(cells, problem.dualPoints, problem.faceCoefficient)),
+      mass(massTerms(cells, problem)),
+      matrix(poissonMatrix(cells, problem.boundary, dual, terms, mass)),
+      added(sumOf(heldBy(*this), mass)),
+      system(matrix, added),
+      multigrid(cells, dual, heldBy(*this), mass),
+      differentiator(cells, dual, problem, terms) {}
+
+void requireOptions(const SolveOptions& options) {
+  if (!(options.tolerance > 0)) throw CallError({Status::badOption, -1, -1, "The tolerance has to be positive."});
+  if (options.maxIterations < 0) throw CallError({Status::badOption, -1, -1, "The number of iterations can't be negative."});
+  if (options.corrections < 0) throw CallError({Status::badOption, -1, -1, "The number of corrections can't be negative."});
+}
+
+}  // namespace physics
+
+Solution solvePoisson(const CellComplex& cells, const PoissonProblem& problem, const SolveOptions& options) {
+  physics::requireOptions(options);
+  return detail::runCall("solution", [&] {
+    detail::Monitor monitor(options, 2);
+    monitor.beginStage("levels", 0);
+    physics::PoissonSetup setup(cells, problem);
+    monitor.beginStage("iterations", 1);
+    return physics::solve(setup, {problem.source, problem.boundary.value, {}}, options, monitor);
+  });
+}
+
+struct PoissonSolver::Setup : physics::PoissonSetup {
+  using PoissonSetup::PoissonSetup;
+};
+
+PoissonSolver::PoissonSolver(const CellComplex& cells, PoissonProblem problem)
+    : setup_(detail::runCall("solver", [&] { return std::make_unique<Setup>(cells, std::move(problem)); })) {}
+PoissonSolver::PoissonSolver(PoissonSolver&&) noexcept = default;
+PoissonSolver& PoissonSolver::operator=(PoissonSolver&&) noexcept = default;
+PoissonSolver::~PoissonSolver() = default;
+
+Solution PoissonSolver::solve(const PoissonData& data, const SolveOptions& options) {
+  physics::requireOptions(options);
+  physics::requireData(setup_->cells, setup_->problem, data);
+  return detail::runCall("solution", [&] {
+    detail::Monitor monitor(options, 1);
+    monitor.beginStage("iterations", 0);
+    return physics::solve(*setup_, data, options, monitor);
+  });
+}
+
+}  // namespace mandoline

@@ -1,0 +1,147 @@
+// Derivatives of second order, which solvePoisson() corrects its system by.
+#include <cmath>
+
+#include "waves.h"
+
+using namespace mandoline;
+
+namespace {
+
+/// With phi given on the surface and the sides, or the Robin condition of this coefficient.
+PoissonProblem heldProblem(const CellComplex& cells, DualPoints points, double coefficient = 0) {
+  PoissonProblem problem;
+  problem.dualPoints = points;
+  problem.boundary = boundaryOf(cells);
+  const std::vector<double> normals = outwardNormals(problem.boundary, cells);
+  for (size_t b = 0; b < problem.boundary.halfFaces.size(); ++b) {
+    const double* x = &cells.faceCentroid[3 * (problem.boundary.halfFaces[b] / 2)];
+    problem.boundary.condition[b] = coefficient > 0 ? Condition::robin : Condition::dirichlet;
+    problem.boundary.coefficient[b] = coefficient;
+    problem.boundary.value[b] = coefficient > 0 ? coefficient * waves(x) + dot(wavesGradient(x), normals, b) : waves(x);
+  }
+  for (size_t c = 0; c < cells.cellCount(); ++c) problem.source.push_back(-1.75 * waves(&cells.cellCentroid[3 * c]));
+  return problem;
+}
+
+Solution solved(const CellComplex& cells, const PoissonProblem& problem, int corrections = SolveOptions().corrections) {
+  SolveOptions options;
+  options.corrections = corrections;
+  Solution solution = solvePoisson(cells, problem, options);
+  REQUIRE(solution.status == SolveStatus::converged);
+  return solution;
+}
+
+}  // namespace
+
+TEST_CASE("corrections: where phi is held on a ball, it and what flows through it are of second order", "[corrections]") {
+  for (const double coefficient : {0.0, 0.3, 5.0}) {
+    for (const Cells way : {Cells{}, Cells{false, true}, Cells{true, true}}) {
+      CAPTURE(coefficient, way.isCoarsened, way.isMerged);
+      std::array<std::array<double, 2>, 2> errors;
+      for (const int i : {0, 1}) {
+        const CellComplex cells = ballCells(way, 12 << i);
+        const PoissonProblem problem = heldProblem(cells, DualPoints::centroids, coefficient);
+        errors[size_t(i)] = wavesErrors(cells, problem, solved(cells, problem));
+        const auto plain = wavesErrors(cells, problem, solved(cells, problem, 0));
+        CHECK(errors[size_t(i)][0] <= plain[0] / 5);
+        CHECK(errors[size_t(i)][1] <= plain[1] / 5);
+      }
+      CAPTURE(errors);
+      const double least = way.isCoarsened ? 0 : 1.8;  // octree cells have the same layers
+      CHECK(std::log2(errors[0][0] / errors[1][0]) >= least);
+      CHECK(std::log2(errors[0][1] / errors[1][1]) >= (way.isCoarsened ? 0.5 : 1));
+    }
+  }
+}
+
+TEST_CASE("corrections: what flows into a cell balances its source", "[corrections]") {
+  for (const auto& [points, coefficient] :
+       {std::pair(DualPoints::centres, 0.0), {DualPoints::centroids, 0.0}, {DualPoints::centroids, 3.0}}) {
+    const CellComplex cells = ballCells({true, true}, 12);
+    const PoissonProblem problem = heldProblem(cells, points, coefficient);
+    const Solution solution = solved(cells, problem);
+    std::vector<double> left(cells.cellCount());
+    double all = 0;
+    const auto add = [&](int32_t cell, double flow) { left[size_t(cell)] += flow, all += std::fabs(flow); };
+    for (size_t c = 0; c < left.size(); ++c) add(int32_t(c), -problem.source[c] * cells.cellVolume[c]);
+    for (size_t f = 0; f < cells.faceCount(); ++f) {
+      const double flow = solution.faceDerivative[f] * cells.faceArea[f];
+      if (flow != 0) add(cells.faceCells[2 * f], flow), add(cells.faceCells[2 * f + 1], -flow);
+    }
+    for (size_t b = 0; b < problem.boundary.halfFaces.size(); ++b) {
+      const uint32_t h = problem.boundary.halfFaces[b];
+      add(cells.faceCells[h], solution.boundaryDerivative[b] * cells.faceArea[h / 2]);
+    }
+    for (size_t c = 0; c < left.size(); ++c) REQUIRE(std::fabs(left[c]) <= 1e-9 * all);
+  }
+}
+
+TEST_CASE("corrections: without them derivatives are those of gradient()", "[corrections]") {
+  const CellComplex cells = ballCells({true, false}, 12);
+  const Solution solution = solved(cells, heldProblem(cells, DualPoints::centres), 0);
+  const Eigen::VectorXd expected = gradient(cells) * vectorOf(solution.phi);
+  CHECK(largest(vectorOf(solution.faceDerivative) - expected) <= 1e-12 * largest(expected));
+}
+
+TEST_CASE("corrections: a linear field on merged cells", "[corrections]") {
+  // Their dual points are those of their bases, so the plain derivatives beside them are not exact.
+  const CellComplex cells = ballCells({false, true}, 12);
+  PoissonProblem problem;
+  problem.boundary = boundaryOf(cells);
+  problem.boundary.value = products({0.75, -1.25, 0.5}, outwardNormals(problem.boundary, cells));
+  const auto error = [&](int corrections) {
+    const Solution solution = solved(cells, problem, corrections);
+    double largest = 0;
+    for (size_t f = 0; f < cells.faceCount(); ++f) {
+      if (solution.faceDerivative[f] == 0 || cells.faceArea[f] < 1e-6) continue;
+      largest = std::max(largest, std::fabs(solution.faceDerivative[f] - dot({0.75, -1.25, 0.5}, cells.faceNormal, f)));
+    }
+    return largest;
+  };
+  const double plain = error(0), corrected = error(SolveOptions().corrections);
+  CAPTURE(plain, corrected);
+  CHECK(plain >= 0.1);
+  CHECK(corrected <= 1e-3 * plain);
+}
+
+TEST_CASE("corrections: octree cells right beside cut-cells do no harm", "[corrections]") {
+  const Mesh mesh = shapes::icosphere({0.1, 0.05, -0.02}, 0.6, 4);
+  const CellComplex cells = complexOf(mesh, Grid::box({-1, -1, -1}, {1, 1, 1}, {32, 32, 32}), 24);
+  const PoissonProblem problem = heldProblem(cells, DualPoints::centroids);
+  CHECK(wavesErrors(cells, problem, solved(cells, problem))[0] <= wavesErrors(cells, problem, solved(cells, problem, 0))[0]);
+}
+
+TEST_CASE("corrections: the same bits for any number of threads", "[corrections]") {
+  const CellComplex cells = ballCells({true, true}, 24);
+  const PoissonProblem problem = heldProblem(cells, DualPoints::centroids);
+  SolveOptions options;
+  options.threads = 1;
+  const Solution one = solvePoisson(cells, problem, options);
+  options.threads = 3;
+  const Solution three = solvePoisson(cells, problem, options);
+  CHECK(one.phi == three.phi);
+  CHECK(one.faceDerivative == three.faceDerivative);
+  CHECK(one.boundaryDerivative == three.boundaryDerivative);
+}
+
+TEST_CASE("corrections: a Robin coefficient of 0 gives what a Neumann condition gives, a negative one is refused", "[corrections]") {
+  const CellComplex cells = ballCells({}, 8);
+  PoissonProblem neumann = heldProblem(cells, DualPoints::centroids), robin = neumann;
+  for (size_t b = 0; b < neumann.boundary.halfFaces.size(); ++b) {
+    if (cells.faceTag[neumann.boundary.halfFaces[b] / 2] != FaceTag::xMin) continue;
+    neumann.boundary.condition[b] = Condition::neumann;
+    robin.boundary.condition[b] = Condition::robin;
+  }
+  CHECK(solved(cells, neumann).phi == solved(cells, robin).phi);
+  setRobin(robin.boundary, cells, FaceTag::xMin, -1, 1);
+  REQUIRE_THROWS_AS(poissonSystem(cells, robin), CallError);
+  setRobin(robin.boundary, cells, FaceTag::xMin, std::nan(""), 1);
+  REQUIRE_THROWS_AS(poissonSystem(cells, robin), CallError);
+}
+
+TEST_CASE("corrections: their number is not negative", "[corrections]") {
+  const CellComplex cells = ballCells({}, 2);
+  SolveOptions options;
+  options.corrections = -1;
+  REQUIRE_THROWS_AS(solvePoisson(cells, heldProblem(cells, DualPoints::centres), options), CallError);
+}
