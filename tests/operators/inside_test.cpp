@@ -277,6 +277,24 @@ TEST_CASE("between two points of a box generalized winding numbers vary by no mo
   CHECK(finite > 1000);
 }
 
+TEST_CASE("how a generalized winding number changes on a way past all triangles is known from the edges that bound them", "[inside]") {
+  const Mesh mesh = withoutEvery(shapes::icosphere({0, 0, 0}, 1, 3), 40);
+  std::vector<uint32_t> all(mesh.triangleCount());
+  for (uint32_t t = 0; t < all.size(); ++t) all[t] = t;
+  const operators::WindingTree tree(mesh, all);
+  std::mt19937 random(11);
+  const auto number = [&] { return 2 * (double(random()) * 0x1p-32) - 1; };
+  for (int i = 0; i < 1000; ++i) {
+    Point p, q;
+    for (size_t d = 0; d < 3; ++d) p[d] = 0.55 * number(), q[d] = 0.55 * number();
+    CHECK(tree.change(p, q) == Approx(tree.at(q) - tree.at(p)).margin(1e-12));
+    CHECK(tree.change(q, p) == Approx(-tree.change(p, q)).margin(1e-12));
+    for (size_t d = 0; d < 3; ++d) q[d] *= 4;
+    const double change = tree.change(p, q), difference = tree.at(q) - tree.at(p);
+    CHECK(change - difference == Approx(std::round(change - difference)).margin(1e-12));
+  }
+}
+
 TEST_CASE("labels that spread from some cells are those that all have", "[inside]") {
   for (const size_t nth : {60, 500}) {
     const Mesh mesh = withoutEvery(shapes::icosphere({2, 2, 2}, 1.6, 4), nth);

@@ -21,9 +21,9 @@ using namespace operators;
 
 constexpr size_t kBlock = 64;              // points between two reports
 constexpr uint32_t kSamplesOfRegion = 16;  // of one that is not divided
-constexpr uint32_t kStrides[] = {64, 8, 1};
+constexpr uint32_t kStrides[] = {4096, 64, 1};
 constexpr int kStages = 3 + int(std::size(kStrides));
-constexpr size_t kShortRim = 16;  // triangles per edge of the rim
+constexpr size_t kShortRim = 12;  // edges of the rim for the square root of the number of triangles
 
 /// The numbers of cut-cells, then octree cells.
 class Estimator {
@@ -78,6 +78,10 @@ class Estimator {
     return samples;
   }
 
+  CellSample sampleOf(uint32_t node, CellSampler& sampler) const {
+    return node < firstOctree() ? sampler.sample(node) : CellSample{centreOf(node - firstOctree()), {}, 0};
+  }
+
   /// Adds the numbers of these cells.
   void evaluate(const WindingTree& tree, const std::vector<uint32_t>& nodes) {
     const size_t first = sampled_.size();
@@ -90,7 +94,7 @@ class Estimator {
           CellSampler sampler(cutMesh_, isOpen_);
           for (size_t i = begin; i < end; ++i) {
             const uint32_t node = nodes[i];
-            const CellSample sample = node < firstOctree() ? sampler.sample(node) : CellSample{centreOf(node - firstOctree()), {}, 0};
+            const CellSample sample = sampleOf(node, sampler);
             const uint32_t region = regionOf(node);
             const int32_t part = cutMesh_.regionPartWinding.empty() ? 0 : cutMesh_.regionPartWinding[region];
             insideness_[first + i] = part + sample.step + tree.at(sample.point, sample.leftOut);
@@ -99,29 +103,32 @@ class Estimator {
         kBlock);
   }
 
-  /// Labels the cells of divided regions by the winding number that their own counts as. Numbers change steeply near the rim alone: where
-  /// that is short, a label spreads from a cell as far as no number can have another one. Cells that none reaches have theirs evaluated.
+  /// Labels the cells of divided regions by the winding number that their own counts as. Numbers change steeply near the rim alone, and
+  /// but for whole numbers they are those of the rim: where that is short, labels spread from cell to cell. Cells that none reaches have
+  /// theirs evaluated.
   void labelDivided(const WindingTree& tree) {
-    const bool spreads = kShortRim * tree.rimSize() < cutMesh_.openTriangles.size();
+    const bool spreads = tree.rimSize() * tree.rimSize() < kShortRim * kShortRim * cutMesh_.openTriangles.size();
     if (spreads) findNeighbours();
     labels_.assign(nodeCount(), 0);
-    std::vector<uint8_t> isLabelled(nodeCount(), 0);
+    isLabelled_.assign(nodeCount(), 0);
     for (size_t round = 0; round < std::size(kStrides); ++round) {
       if (!spreads && kStrides[round] > 1) continue;
       monitor_.beginStage("insideness", 2 + int(round));
       std::vector<uint32_t> seeds;
       uint32_t seen = 0;
       for (uint32_t node = 0; node < nodeCount(); ++node) {
-        if (isDivided_[regionOf(node)] && !isLabelled[node] && seen++ % kStrides[round] == 0) seeds.push_back(node);
+        if (isDivided_[regionOf(node)] && !isLabelled_[node] && seen++ % kStrides[round] == 0) seeds.push_back(node);
       }
-      const size_t first = sampled_.size();
+      const size_t first = sampled_.size(), end = first + seeds.size();
       evaluate(tree, seeds);
-      for (size_t i = first; i < sampled_.size(); ++i) {
-        labels_[sampled_[i]] = roundedWinding(insideness_[i], options_.threshold);
-        isLabelled[sampled_[i]] = 1;
-      }
-      for (size_t i = first; spreads && i < sampled_.size(); ++i) spread(tree, sampled_[i], insideness_[i], isLabelled);
+      for (size_t i = first; i < end; ++i) label(sampled_[i], insideness_[i]);
+      for (size_t i = first; spreads && i < end; ++i) spread(tree, sampled_[i], insideness_[i]);
     }
+  }
+
+  void label(uint32_t node, double number) {
+    labels_[node] = roundedWinding(number, options_.threshold);
+    isLabelled_[node] = 1;
   }
 
   void findNeighbours() {
@@ -135,30 +142,52 @@ class Estimator {
         nodeCount(), pairs.size(), [&](size_t i) { return size_t(pairs[i][0]); }, [&](size_t i) { return pairs[i][1]; });
   }
 
-  /// Breadth first from a cell with this number.
-  void spread(const WindingTree& tree, uint32_t seed, double number, std::vector<uint8_t>& isLabelled) {
-    struct Reached {
-      uint32_t node;
-      double variation;  ///< of the numbers on the way there, at most
-    };
-    std::vector<Reached> reached{{seed, 0}};
+  /// A number, where it was taken, and how much it varies on the way from there to a cell, at most.
+  struct Reached {
+    uint32_t node;
+    detail::Point point;
+    double number, variation;
+  };
+
+  /// Breadth first from a cell with this number, except along the rim. A cell where its label might change gets a number of its own.
+  void spread(const WindingTree& tree, uint32_t seed, double number) {
+    CellSampler sampler(cutMesh_, isOpen_);
+    std::vector<Reached> reached{{seed, sampleOf(seed, sampler).point, number, 0}};
     for (size_t i = 0; i < reached.size(); ++i) {
-      const auto [node, variation] = reached[i];
-      for (const uint32_t next : neighbours_[node]) {
-        if (isLabelled[next]) continue;
-        detail::Box box = boxOf(node);
+      Reached from = reached[i];
+      for (const uint32_t next : neighbours_[from.node]) {
+        if (isLabelled_[next]) continue;
+        detail::Box box = boxOf(from.node);
         box.include(boxOf(next));
-        const double further = variation + tree.variation(box);
-        if (!isSteady(number, further)) continue;
-        labels_[next] = labels_[seed];
-        isLabelled[next] = 1;
-        reached.push_back({next, further});
+        const double further = from.variation + tree.variation(box);
+        if (further == INFINITY) continue;
+        if (isSteady(from.number, further)) {
+          labels_[next] = labels_[from.node];
+          isLabelled_[next] = 1;
+          reached.push_back({next, from.point, from.number, further});
+          continue;
+        }
+        if (from.variation > 0) from = moved(tree, from, from.node, sampler);
+        reached.push_back(moved(tree, from, next, sampler));
+        label(next, reached.back().number);
+        sampled_.push_back(next);
+        insideness_.push_back(reached.back().number);
       }
     }
   }
 
+  /// The number at a cell that was reached, or next to that if its number was taken there.
+  Reached moved(const WindingTree& tree, const Reached& from, uint32_t node, CellSampler& sampler) const {
+    const detail::Point there = sampleOf(node, sampler).point;
+    double change = tree.change(from.point, there);
+    // On a longer way it is but for a whole number what it is on the line.
+    if (from.variation > 0) change -= std::round(change);
+    return {node, there, from.number + change, 0};
+  }
+
+  /// Whether the number varies by less than a half, and its label not at all.
   bool isSteady(double number, double variation) const {
-    if (!(variation < 1)) return false;
+    if (!(variation < 0.5)) return false;
     return roundedWinding(number - variation, options_.threshold) == roundedWinding(number + variation, options_.threshold);
   }
 
@@ -235,6 +264,7 @@ class Estimator {
   std::vector<uint32_t> sampled_;   // nodes whose numbers were evaluated
   std::vector<double> insideness_;  // per sampled node
   std::vector<int32_t> labels_;     // per node; 0 in regions that are not divided
+  std::vector<uint8_t> isLabelled_;
 };
 
 }  // namespace

@@ -45,7 +45,7 @@ struct HalfSolidAngle {
 
 WindingTree::WindingTree(const MeshView& mesh, std::span<const uint32_t> triangles) {
   addTriangles(mesh, triangles);
-  if (!triangles_.empty()) rim_ = addNode(0, uint32_t(triangles_.size()));
+  if (!triangles_.empty()) addRim(addNode(0, uint32_t(triangles_.size())));
 }
 
 void WindingTree::addTriangles(const MeshView& mesh, std::span<const uint32_t> triangles) {
@@ -148,29 +148,56 @@ void WindingTree::addFan(const Node& node, const Point& p, TurnSum& sum) const {
   }
 }
 
-double WindingTree::variation(const detail::Box& box) const {
+void WindingTree::addRim(const std::vector<Edge>& edges) {
+  for (const Edge& edge : edges) {
+    const Point &a = points_[edge.low], &b = points_[edge.high];
+    RimEdge rim{edge, {a, a}, 0};
+    rim.box.include({b, b});
+    double length = 0;
+    for (size_t d = 0; d < 3; ++d) length += (b[d] - a[d]) * (b[d] - a[d]);
+    rim.weight = std::abs(edge.count) * std::sqrt(length);
+    rim_.push_back(rim);
+  }
+}
+
+double WindingTree::variation(const detail::Box& given) const {
   constexpr double kWholeSphere = 12.566370614359172954;
+  detail::Box box;
   double diagonal = 0, steepest = 0;
   for (size_t d = 0; d < 3; ++d) {
-    const double side = (box.high[d] - box.low[d]) * scale_;
-    diagonal += side * side;
+    box.low[d] = given.low[d] * scale_;
+    box.high[d] = given.high[d] * scale_;
+    diagonal += (box.high[d] - box.low[d]) * (box.high[d] - box.low[d]);
   }
-  for (const Edge& edge : rim_) {  // the gradient is an integral over the rim, that of Biot and Savart: at most length / distance^2
-    const Point &a = points_[edge.low], &b = points_[edge.high];
-    double distance = 0, length = 0;
+  for (const RimEdge& rim : rim_) {  // the gradient is an integral over the rim, that of Biot and Savart: at most length / distance^2
+    double distance = 0;
     for (size_t d = 0; d < 3; ++d) {
-      const double gap = std::max({0.0, std::min(a[d], b[d]) - box.high[d] * scale_, box.low[d] * scale_ - std::max(a[d], b[d])});
+      const double gap = std::max({0.0, rim.box.low[d] - box.high[d], box.low[d] - rim.box.high[d]});
       distance += gap * gap;
-      length += (b[d] - a[d]) * (b[d] - a[d]);
     }
-    steepest += std::abs(edge.count) * std::sqrt(length) / distance;
+    steepest += rim.weight / distance;
   }
   const double variation = steepest * std::sqrt(diagonal) / kWholeSphere;
   return variation < INFINITY ? variation : INFINITY;
 }
 
+double WindingTree::change(const Point& from, const Point& to) const {
+  const Point p = scaled(from), q = scaled(to);
+  TurnSum sum;
+  for (const RimEdge& rim : rim_) {  // if the edges moved instead of the point, they would sweep two triangles each
+    const Point &low = points_[rim.edge.low], &high = points_[rim.edge.high];
+    const Ray a(p, low), b(p, high), movedA(q, low), movedB(q, high);
+    const HalfSolidAngle first(a, movedA, movedB), second(a, movedB, b);
+    for (int32_t i = 0; i < std::abs(rim.edge.count); ++i) {
+      sum.add(first.x, rim.edge.count > 0 ? first.y : -first.y);
+      sum.add(second.x, rim.edge.count > 0 ? second.y : -second.y);
+    }
+  }
+  return sum.turns();
+}
+
 double WindingTree::at(const Point& given, std::span<const uint32_t> leftOut) const {
-  const Point p = {given[0] * scale_, given[1] * scale_, given[2] * scale_};
+  const Point p = scaled(given);
   for (const double x : p) {
     if (!(std::fabs(x) < kInfinitelyFar)) return 0;
   }

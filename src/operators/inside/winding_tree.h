@@ -29,12 +29,21 @@ class WindingTree {
   /// How much at() differs at most between two points of a box, but for a whole number: that of the triangles on the line between them.
   /// Infinite if an edge that bounds the triangles may lie in the box. Takes time in proportion to these edges.
   double variation(const detail::Box& box) const;
+  /// How at() changes on the way from one point to another, in a box without edges that bound the triangles, if no triangle is on the way.
+  /// Takes time in proportion to these edges.
+  double change(const detail::Point& from, const detail::Point& to) const;
 
  private:
   /// A directed edge that bounds a node's triangles so often, or against its direction if that is negative.
   struct Edge {
     uint32_t low, high;
     int32_t count;
+  };
+  /// One that bounds all triangles.
+  struct RimEdge {
+    Edge edge;
+    detail::Box box;
+    double weight;  ///< its length times how often it bounds them
   };
   struct Triangle {
     std::array<uint32_t, 3> corners;
@@ -51,6 +60,8 @@ class WindingTree {
   void addTriangles(const MeshView& mesh, std::span<const uint32_t> triangles);
   std::vector<Edge> addNode(uint32_t begin, uint32_t end);
   std::vector<Edge> edgesOf(const Node& leaf) const;
+  void addRim(const std::vector<Edge>& edges);
+  detail::Point scaled(const detail::Point& p) const { return {p[0] * scale_, p[1] * scale_, p[2] * scale_}; }
   bool isFar(const Node& node, const detail::Point& p) const;
   void addFan(const Node& node, const detail::Point& p, TurnSum& sum) const;
 
@@ -59,7 +70,7 @@ class WindingTree {
   std::vector<Triangle> triangles_;  // along a space-filling curve
   std::vector<Node> nodes_;
   std::vector<Edge> edges_;
-  std::vector<Edge> rim_;
+  std::vector<RimEdge> rim_;
 };
 
 }  // namespace mandoline::operators
