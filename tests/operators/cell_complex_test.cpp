@@ -117,7 +117,7 @@ TEST_CASE("cell complex: what does not belong together is refused", "[cellcomple
   REQUIRE_THROWS_AS(cellComplex(mesh, small.mesh, coarsen(small.mesh), options), CallError);
 }
 
-TEST_CASE("cell complex: octree cells out of order, twice or inside each other are refused", "[cellcomplex]") {
+TEST_CASE("cell complex: octree cells that are out of order, there twice, inside each other or lacking are refused", "[cellcomplex]") {
   const Mesh mesh = shapes::cube(1.25, 2.5);
   const CutResult result = cut(mesh, unitGrid(8));
   const OctreeCells octree = coarsen(result.mesh);
@@ -142,5 +142,10 @@ TEST_CASE("cell complex: octree cells out of order, twice or inside each other a
   CHECK(isRefused([&](OctreeCells& cells) { cells.cellLevel[last - 1] = 3; }));
   CHECK(isRefused([&](OctreeCells& cells) { cells.cellCorner[3 * last] = 8; }));
   CHECK(isRefused([&](OctreeCells& cells) { cells.cellCorner[3 * last] = -4; }));
+  CHECK(isRefused([](OctreeCells& cells) {  // away from the surface
+    cells.cellCorner.resize(cells.cellCorner.size() - 3);
+    cells.cellLevel.pop_back();
+    cells.cellRegion.pop_back();
+  }));
   CHECK_FALSE(isRefused([](OctreeCells&) {}));
 }

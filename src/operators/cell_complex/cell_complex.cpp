@@ -295,6 +295,12 @@ void requireOctree(const CutMesh& cutMesh, const OctreeCells& octree) {
   }
   const auto exists = [&](uint32_t region) { return region < cutMesh.regionCount; };
   if (!isOctree(octree) || !std::all_of(octree.cellRegion.begin(), octree.cellRegion.end(), exists)) operators::refuse(kOther);
+  uint64_t held = 0;
+  for (size_t c = 0; c < octree.cellCount(); ++c) {
+    const GridIndex corner = octree.corner(c), end = octree.end(c);
+    held += uint64_t(end[0] - corner[0]) * uint64_t(end[1] - corner[1]) * uint64_t(end[2] - corner[2]);
+  }
+  if (held != UntouchedCells(cutMesh).count()) operators::refuse(kOther);
 }
 
 }  // namespace
