@@ -342,7 +342,7 @@ test('a wind in unbounded space', () => {
     ({ code, element, message }) =>
       code === 'badArgument' && element >= 0 && /may reach a side of the box, but face \d+ does/.test(message),
   );
-  assert.throws(() => physics.solveFlow(cells, [1, 0, 0], { farField: 1 }), /^Error: options\.farField must be/);
+  assert.throws(() => physics.solveFlow(cells, [1, 0, 0], { farField: 1 }), /options\.farField must be true or false/);
 });
 
 test('velocities at points', () => {

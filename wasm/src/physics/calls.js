@@ -277,8 +277,8 @@ export const physicsCalls = {
    */
   inflowSeeds: { takes: { grid: readPlacedGrid, wind: readVector, count: readId } },
   /**
-   * The cells as a file. "vtu": polyhedra for VTK and ParaView, which match face by face, with `options.fields` beside arrays of their own;
-   * "json": every array, always of all cells, and no fields. Code "badArgument" if `cells` are not those of the cut-mesh.
+   * The cells as a file. "vtu": polyhedra and hexahedra for VTK and ParaView, which match face by face, with `options.fields` beside
+   * arrays of their own; "json": every array, always of all cells, and no fields. Code "badArgument" if `cells` are not those of the cut-mesh.
    *
    * writeCells(cutMesh: CutMeshArrays, cells: CellComplex, format: 'json' | 'vtu', options?: WriteCellsOptions): Uint8Array<ArrayBuffer>
    */

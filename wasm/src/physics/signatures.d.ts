@@ -153,8 +153,8 @@ export interface Calls {
    */
   inflowSeeds(grid: Grid | GridBox | GridRegular | GridRectilinear, wind: Vector3, count: number): Float64Array<ArrayBuffer>;
   /**
-   * The cells as a file. "vtu": polyhedra for VTK and ParaView, which match face by face, with `options.fields` beside arrays of their own;
-   * "json": every array, always of all cells, and no fields. Code "badArgument" if `cells` are not those of the cut-mesh.
+   * The cells as a file. "vtu": polyhedra and hexahedra for VTK and ParaView, which match face by face, with `options.fields` beside
+   * arrays of their own; "json": every array, always of all cells, and no fields. Code "badArgument" if `cells` are not those of the cut-mesh.
    */
   writeCells(cutMesh: CutMeshArrays, cells: CellComplex, format: 'json' | 'vtu', options?: WriteCellsOptions): Uint8Array<ArrayBuffer>;
   /**
