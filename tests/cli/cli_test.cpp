@@ -779,7 +779,7 @@ TEST_CASE("Command line: flow writes cells with velocities, and streamlines", "[
   REQUIRE(unbounded.exitCode == 0);
   REQUIRE(folder.read("wide.vtu") != folder.read("flow.vtu"));
   const Outcome reaching =
-      run(folder, {"flow", mesh, "--wind", "2,0,0", "--far-field", "--box", "-2,-2,-2,0.4,2,2", "-o", folder.path("flow.vtu")});
+      run(folder, {"flow", mesh, "--wind", "2,0,0", "--far-field", "--box", "0,0,0,2,4,4", "-o", folder.path("flow.vtu")});
   REQUIRE(reaching.exitCode == 1);
   REQUIRE(contains(reaching.err, "With the far field no wall may reach a side of the box, but face "));
   REQUIRE(contains(run(folder, {"flow", mesh, "-o", folder.path("flow.vtu")}).err, "flow needs --wind"));
