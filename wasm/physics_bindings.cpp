@@ -153,6 +153,7 @@ val flowThrough(const KeptComplex& kept, const val& wind, const val& options) {
     flowOptions.tolerance = options["tolerance"].as<double>();
     flowOptions.maxIterations = options["maxIterations"].as<int>();
     flowOptions.corrections = options["corrections"].as<int>();
+    flowOptions.farField = options["farField"].as<bool>();
     return success(toObject(solveFlow(*cells, readTriple<double>(wind), flowOptions)));
   });
 }

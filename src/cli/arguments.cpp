@@ -64,6 +64,7 @@ class Parser {
         {"--unite-walls", {C::cut, C::flow}, [](Parser& p, const std::string& name) { p.parseUniteWalls(p.value(name)); }},
         {"--faces", {C::cut, C::flow}, [](Parser& p, const std::string&) { p.arguments_.faces = true; }},
         {"--wind", {C::flow}, [](Parser& p, const std::string& name) { parseWind(p.value(name), p.arguments_.flow); }},
+        {"--far-field", {C::flow}, [](Parser& p, const std::string&) { p.arguments_.flow.farField = true; }},
         {"--streamlines", {C::flow}, [](Parser& p, const std::string& name) { parseStreamlines(p.value(name), p.arguments_.flow); }},
         {"--steps", {C::flow}, [](Parser& p, const std::string& name) { parseSteps(p.value(name), p.arguments_.flow); }},
         {"--viscosity", {C::flow}, [](Parser& p, const std::string& name) { parseViscosity(p.value(name), p.arguments_.flow); }},

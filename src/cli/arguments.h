@@ -49,6 +49,7 @@ struct SliceArguments {
 /// Of flow.
 struct FlowArguments {
   std::optional<std::array<double, 3>> wind;
+  bool farField = false;
   std::optional<uint32_t> streamlines;
   std::optional<uint32_t> steps;  ///< in time; none: the potential flow
   double viscosity = 0;           ///< in steps

@@ -105,8 +105,11 @@ int runFlow(const Arguments& arguments) {
   const MergedCells merged = makeCells(arguments, input, cut->mesh);
   if (arguments.flow.steps) return runSteps(arguments, {input, cut->mesh, merged}, options);
   const CellComplex& cells = merged.cells;
-  const Flow flow =
-      withProgress(arguments.threads, [&](const RunOptions& run) { return solveFlow(cells, *arguments.flow.wind, FlowOptions{run}); });
+  const Flow flow = withProgress(arguments.threads, [&](const RunOptions& run) {
+    FlowOptions flowOptions{run};
+    flowOptions.farField = arguments.flow.farField;
+    return solveFlow(cells, *arguments.flow.wind, flowOptions);
+  });
   const FlowField field{mesh, cut->mesh, cells, flow};
   int exitCode = kFine;
   if (flow.status != SolveStatus::converged) {

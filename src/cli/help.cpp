@@ -127,6 +127,9 @@ Options of boundary
 Options of flow
   --wind X,Y,Z           the wind's velocity: it blows on the sides of the grid, and nothing
                          passes the mesh, nor either side of a sheet
+  --far-field            in unbounded space instead of a wind tunnel: through the sides passes
+                         the wind and what the mesh adds to it at a distance. The mesh may
+                         not reach the sides
   --coarsen LEVELS[,LAYERS], --faces, --only WHAT, --inside-threshold T
                          as of cut; faces have normal_velocity, normal and area
   --merge FRACTION       as of cut (default: 0.2; 0 merges nothing)

@@ -171,6 +171,7 @@ void checkGrid(const GridArguments& grid) {
 void checkFlow(const FlowArguments& flow) {
   if (!flow.wind) throw UsageError("flow needs --wind");
   if (flow.viscosity > 0 && !flow.steps) throw UsageError("--viscosity is for --steps; without them the flow has a potential");
+  if (flow.farField && flow.steps) throw UsageError("--far-field is that of the potential flow, without --steps");
   if (flow.streamlines && flow.steps) throw UsageError("--streamlines are those of the potential flow, without --steps");
 }
 

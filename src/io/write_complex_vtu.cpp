@@ -1,4 +1,4 @@
-// Cell complexes as VTK XML unstructured grids: the cells as polyhedra, the faces as polygons.
+// Cell complexes as VTK XML unstructured grids: cells as polyhedra, or as hexahedra where these have the same faces; faces as polygons.
 #include <cstring>
 #include <set>
 
@@ -115,12 +115,13 @@ class CellWriter : ComplexWriter {
       if (c % 4096 == 0) meter_.report();
       if (!hasCell(c)) continue;
       written_.push_back(c);
+      isHexahedron_.push_back(findCorners(c));
       uint64_t size = 1;
       forEachPolygon(c, [&](std::span<const uint32_t> polygon, bool) {
         size += 1 + polygon.size();
         for (const uint32_t v : polygon) use(v);
       });
-      faceOffsets_.push_back(faceOffsets_.back() + size);
+      faceOffsets_.push_back(faceOffsets_.back() + (isHexahedron_.back() ? 0 : size));
       offsets_.push_back(offsets_.back() + verticesOf(c).size());
     }
     numberPoints();
@@ -131,6 +132,26 @@ class CellWriter : ComplexWriter {
     for (const uint32_t h : cells_.halfFaces(c)) {
       polygons_.forEach(h / 2, [&](std::span<const uint32_t> polygon) { visit(polygon, h % 2 != 0); });
     }
+  }
+
+  /// Whether the cell is an untouched grid cell or an octree cell whose faces are its six sides; then corners_ are its vertices in VTK's
+  /// order.
+  bool findCorners(uint32_t c) {
+    constexpr std::array<uint8_t, 8> kPlaces = {0, 1, 3, 2, 4, 5, 7, 6};  // of x, y, z above the centre as bits
+    if (c < cells_.cutCells || cells_.halfFaces(c).size() != 6) return false;
+    corners_.fill(kUnused);
+    bool isBox = true;
+    forEachPolygon(c, [&](std::span<const uint32_t> polygon, bool) {
+      isBox &= polygon.size() == 4;
+      for (const uint32_t v : polygon) {
+        size_t above = 0;
+        for (size_t d = 0; d < 3; ++d) above |= size_t(cells_.positions[3 * size_t(v) + d] > cells_.cellCentre[3 * size_t(c) + d]) << d;
+        uint32_t& corner = corners_[kPlaces[above]];
+        isBox &= corner == kUnused || corner == v;
+        corner = v;
+      }
+    });
+    return isBox && std::find(corners_.begin(), corners_.end(), kUnused) == corners_.end();
   }
 
   /// Each once, until the next call.
@@ -150,13 +171,21 @@ class CellWriter : ComplexWriter {
       };
     };
     visit(double(), "Points", points_, 3, [&](const auto& put) { putPoints(put); });
-    visit(int64_t(), "connectivity", offsets_.back(), 1, perCell([this](uint32_t c, const auto& put) {
-            for (const uint32_t v : verticesOf(c)) put(numbers_[v]);
-          }));
+    visit(int64_t(), "connectivity", offsets_.back(), 1, [&](const auto& put) {
+      for (size_t i = 0; i < n; ++i) putVertices(i, put);
+    });
     visit(int64_t(), "offsets", n, 1, [&](const auto& put) { std::for_each(offsets_.begin() + 1, offsets_.end(), put); });
-    visit(uint8_t(), "types", n, 1, perCell([](uint32_t, const auto& put) { put(kVtkPolyhedron); }));
-    visit(int64_t(), "faces", faceOffsets_.back(), 1, perCell([this](uint32_t c, const auto& put) { this->putPolyhedron(c, put); }));
-    visit(int64_t(), "faceoffsets", n, 1, [&](const auto& put) { std::for_each(faceOffsets_.begin() + 1, faceOffsets_.end(), put); });
+    visit(uint8_t(), "types", n, 1, [&](const auto& put) {
+      for (const bool isHexahedron : isHexahedron_) put(isHexahedron ? kVtkHexahedron : kVtkPolyhedron);
+    });
+    visit(int64_t(), "faces", faceOffsets_.back(), 1, [&](const auto& put) {
+      for (size_t i = 0; i < n; ++i) {
+        if (!isHexahedron_[i]) putPolyhedron(written_[i], put);
+      }
+    });
+    visit(int64_t(), "faceoffsets", n, 1, [&](const auto& put) {
+      for (size_t i = 0; i < n; ++i) put(isHexahedron_[i] ? -1 : int64_t(faceOffsets_[i + 1]));
+    });
     visit(int32_t(), "grid_cell", n, 3, perCell([this](uint32_t c, const auto& put) {
             for (size_t d = 0; d < 3; ++d) put(cells_.cellCorner[3 * size_t(c) + d]);
           }));
@@ -166,6 +195,17 @@ class CellWriter : ComplexWriter {
       visit(Number(), name, n, 1, perCell([&](uint32_t c, const auto& put) { put(numbers[cells_.cellRegion[c]]); }));
     });
     visit(double(), "volume", n, 1, perCell([this](uint32_t c, const auto& put) { put(cells_.cellVolume[c]); }));
+  }
+
+  template <class Put>
+  void putVertices(size_t i, const Put& put) {
+    const uint32_t c = written_[i];
+    if (isHexahedron_[i]) {
+      findCorners(c);
+      for (const uint32_t v : corners_) put(numbers_[v]);
+    } else {
+      for (const uint32_t v : verticesOf(c)) put(numbers_[v]);
+    }
   }
 
   template <class Put>
@@ -180,7 +220,9 @@ class CellWriter : ComplexWriter {
   }
 
   std::vector<uint64_t> offsets_, faceOffsets_;  // per cell written
+  std::vector<bool> isHexahedron_;               // the same
   std::vector<uint32_t> vertices_;
+  std::array<uint32_t, 8> corners_{};
 };
 
 class FaceWriter : ComplexWriter {

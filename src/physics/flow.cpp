@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "mesh/run_call.h"
 #include "operators/measure/vector.h"
 #include "operators/require_cut_mesh.h"
 #include "physics/cell_velocities.h"
+#include "physics/far_field.h"
+#include "physics/secants.h"
 #include "physics/wind.h"
 
 namespace mandoline {
@@ -56,22 +59,67 @@ class FlowSolver {
  private:
   static constexpr int kStages = 3;  // the solver's two and the velocities
 
-  void solve(const PoissonProblem& problem, detail::Monitor& monitor, Flow& flow) const {
-    auto options = monitor.part<SolveOptions>(0, 1);
+  void solve(PoissonProblem& problem, detail::Monitor& monitor, Flow& flow) const {
+    std::optional<physics::FarField> farField;
+    if (options_.farField) farField.emplace(cells_, problem.boundary);
+    monitor.beginStage("levels", 0);
+    PoissonSolver solver(cells_, problem);
+    auto options = monitor.part<SolveOptions>(1, 1);
     options.tolerance = options_.tolerance;
     options.maxIterations = options_.maxIterations;
     options.corrections = options_.corrections;
-    Solution solution = solvePoisson(cells_, problem, options);
+    if (farField && farField->hasDipoles())
+      solveFarField(*farField, solver, options, problem.boundary, flow);
+    else
+      solve(solver, options, problem.boundary, flow);
+  }
+
+  /// What flows through the sides follows from dipoles, and these follow from the flow.
+  void solveFarField(const physics::FarField& farField, PoissonSolver& solver, SolveOptions options, Boundary& boundary, Flow& flow) const {
+    const std::vector<double> ofWind = boundary.value;
+    const auto progress = options.progress;
+    physics::Secants secants(farField.sideWeights());
+    std::vector<double> ofDipoles(ofWind.size());
+    for (int pass = 0;; ++pass) {
+      if (progress) options.progress = [&](const Progress& p) { return progress(partOfPasses(p, pass)); };
+      options.tolerance = pass == 0 ? std::max(options_.tolerance, kLoose) : options_.tolerance;
+      solve(solver, options, boundary, flow);
+      if (flow.status != SolveStatus::converged) return;
+      const double missing = secants.add(ofDipoles, farField.outflowOfDipoles(flow));
+      if (pass > 0 && missing <= kEnough) return;
+      if (pass == kMaxPasses) break;
+      ofDipoles = secants.next();
+      for (size_t b = 0; b < ofWind.size(); ++b) boundary.value[b] = ofWind[b] + ofDipoles[b];
+    }
+    flow.status = SolveStatus::iterationLimit;
+  }
+
+  /// Each pass has half of what is left.
+  static Progress partOfPasses(Progress progress, int pass) {
+    const double left = std::ldexp(1.0, -pass);
+    progress.done = size_t(1000 * (1 - left + left / 2 * double(progress.done) / double(progress.total)));
+    progress.total = 1000;
+    return progress;
+  }
+
+  /// Goes on from the flow's phi, if there is one.
+  void solve(PoissonSolver& solver, const SolveOptions& options, const Boundary& boundary, Flow& flow) const {
+    Solution solution = solver.solve({{}, boundary.value, flow.phi}, options);
     flow.status = solution.status;
     flow.phi = std::move(solution.phi);
-    flow.residuals = std::move(solution.residuals);
+    if (!flow.residuals.empty()) flow.residuals.pop_back();
+    flow.residuals.insert(flow.residuals.end(), solution.residuals.begin(), solution.residuals.end());
     flow.faceVelocity = std::move(solution.faceDerivative);
-    for (size_t b = 0; b < problem.boundary.halfFaces.size(); ++b) {
-      const uint32_t h = problem.boundary.halfFaces[b];
-      const double value = problem.boundary.value[b];
+    for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {
+      const uint32_t h = boundary.halfFaces[b];
+      const double value = boundary.value[b];
       if (value != 0) flow.faceVelocity[h / 2] = h % 2 == 0 ? value : -value;
     }
   }
+
+  static constexpr double kLoose = 1e-3;   ///< the tolerance of the first pass, which only dipoles follow from
+  static constexpr double kEnough = 1e-4;  ///< so much of the wind may be missing on the sides, in the quadratic mean
+  static constexpr int kMaxPasses = 20;
 
   const CellComplex& cells_;
   const FlowOptions& options_;

@@ -6,10 +6,6 @@
 #include "physics/joined_cells.h"
 
 namespace mandoline::physics {
-namespace {
-
-/// The components, divided where cells are connected by slits alone: faces with less than a millionth of the area of other faces of both
-/// cells. A wind that had to pass through those would be absurdly fast.
 CellComponents partsBetweenSlits(const CellComplex& cells) {
   constexpr double kSlit = 1e-6;
   std::vector<double> largest(cells.cellCount());
@@ -21,8 +17,6 @@ CellComponents partsBetweenSlits(const CellComplex& cells) {
     return cells.faceArea[f] >= kSlit * smaller;
   });
 }
-
-}  // namespace
 
 Boundary windBoundary(const CellComplex& cells, const std::array<double, 3>& wind, std::vector<uint32_t>& throttled) {
   Boundary boundary = boundaryOf(cells);

@@ -331,7 +331,7 @@ TEST_CASE("Command line: misspelt options are errors that suggest the name", "[c
   const std::pair<std::string, std::string> commands[] = {
       {"cut", cut + " validate coarsen merge unite-walls faces"},
       {"slice", cut + " axis normal heights layers"},
-      {"flow", cut + " coarsen merge unite-walls faces wind streamlines steps viscosity"},
+      {"flow", cut + " coarsen merge unite-walls faces wind far-field streamlines steps viscosity"},
       {"info", "threads report format"},
       {"resolve", "rule orient threads report format"}};
   std::mt19937 random(7);
@@ -774,6 +774,14 @@ TEST_CASE("Command line: flow writes cells with velocities, and streamlines", "[
     REQUIRE(contains(folder.read("faces.vtu"), "Name=\"" + part + "\""));
   REQUIRE(
       contains(run(folder, {"flow", mesh, "--wind", "2,0,0", "--faces", "-o", folder.path("lines.obj")}).err, "--faces: only .vtu files"));
+  const Outcome unbounded =
+      run(folder, {"flow", mesh, "--wind", "2,0,0", "--far-field", "--report", folder.path("r.json"), "-o", folder.path("flow.vtu")});
+  REQUIRE(unbounded.exitCode == 0);
+  REQUIRE(folder.read("wide.vtu") != folder.read("flow.vtu"));
+  const Outcome reaching =
+      run(folder, {"flow", mesh, "--wind", "2,0,0", "--far-field", "--box", "0,0,0,2,4,4", "-o", folder.path("flow.vtu")});
+  REQUIRE(reaching.exitCode == 1);
+  REQUIRE(contains(reaching.err, "With the far field no wall may reach a side of the box, but face "));
   REQUIRE(contains(run(folder, {"flow", mesh, "-o", folder.path("flow.vtu")}).err, "flow needs --wind"));
   REQUIRE(contains(run(folder, {"flow", mesh, "--wind", "1,0", "-o", folder.path("flow.vtu")}).err, "--wind needs X,Y,Z, not '1,0'"));
   REQUIRE(contains(run(folder, {"flow", mesh, "--wind", "1,0,0", "-o", folder.path("flow.stl")}).err,
@@ -801,7 +809,8 @@ TEST_CASE("Command line: a flow in steps, with forces per group", "[cli]") {
   for (const std::string part : {"\"steps\": 3,", "\"largestDivergence\": ", "\"forces\": [", "\"viscous\": [", "\"group\": null"})
     CHECK(contains(reported.out, part));
   CHECK(contains(with({"--viscosity", "-1"}).err, "--viscosity needs a number of at least 0"));
-  CHECK(contains(with({"--streamlines", "5"}).err, "without --steps"));
+  for (const std::vector<std::string>& of : {std::vector<std::string>{"--streamlines", "5"}, {"--far-field"}})
+    CHECK(contains(with(of).err, "without --steps"));
   CHECK(contains(run(folder, {"flow", mesh, "--wind", "1,0,0", "--steps", "0", "-o", vtu}).err, "--steps needs a number of steps"));
   CHECK(contains(run(folder, {"flow", mesh, "--wind", "1,0,0", "--viscosity", "1", "-o", vtu}).err, "--viscosity is for --steps"));
   CHECK(contains(run(folder, {"flow", mesh, "--wind", "1,0,0", "--steps", "2", "-o", folder.path("a.obj")}).err, "written as .vtu"));

@@ -8,9 +8,11 @@
 #include "case_list.h"
 #include "catch.h"
 #include "mandoline/io.h"
+#include "mandoline/merge.h"
 #include "refusal.h"
 #include "shapes.h"
 #include "temporary_folder.h"
+#include "vtu_files.h"
 
 using namespace mandoline;
 
@@ -173,13 +175,7 @@ std::string vtuOf(const Cells& cells, bool faces, std::span<const Field> fields,
 /// An array of a .vtu file by its name.
 template <class Number>
 std::vector<Number> arrayOf(const std::string& vtu, const std::string& name) {
-  const size_t at = vtu.find("offset=\"", vtu.find("Name=\"" + name + '"')) + 8;
-  const size_t begin = vtu.find("<AppendedData encoding=\"raw\">\n_") + 31 + std::stoull(vtu.substr(at));
-  uint64_t size;
-  std::memcpy(&size, vtu.data() + begin, sizeof size);
-  std::vector<Number> numbers(size / sizeof(Number));
-  std::memcpy(numbers.data(), vtu.data() + begin + sizeof size, size);
-  return numbers;
+  return vtu_files::Vtu(vtu).array<Number>(name);
 }
 
 }  // namespace
@@ -369,6 +365,36 @@ TEST_CASE("cells and faces are written as .vtu with fields", "[cellfiles]") {
   CHECK(faceFile.find("group_names") == std::string::npos);
 
   CHECK(refusal([&] { vtuOf(cells, true, ofCells); }).first == Status::badArgument);
+}
+
+TEST_CASE("untouched grid cells and octree cells with six sides are hexahedra; what meets smaller cells or the surface is a polyhedron",
+          "[cellfiles]") {
+  const Mesh ball = shapes::icosphere({0.1, 0.05, -0.02}, 0.3, 2);
+  const Grid grids[] = {Grid::box({-1, -1, -1}, {1, 1, 1}, {11, 12, 13}),
+                        Grid::rectilinear({std::vector<double>{-1, -0.5, -0.1, 0, 0.3, 1}, {-1, 0, 0.5, 1}, {-1, -0.3, 0.2, 0.9, 1}})};
+  for (const Grid& grid : grids) {
+    for (const int levels : {0, 3}) {
+      Cells cells(ball, grid, levels);
+      for (const bool merged : {false, true}) {
+        if (merged) cells.complex = mergeSmallCells(cells.cutMesh, cells.complex).cells;
+        const vtu_files::Vtu vtu(vtuOf(cells, false, {}));
+        vtu_files::requireMatching(vtu, grid);
+        const auto types = vtu.array<uint8_t>("types");
+        const auto faces = vtu_files::cellFaces(vtu);
+        size_t hexahedra = 0;
+        for (size_t c = 0; c < types.size(); ++c) {
+          CAPTURE(c);
+          const auto isQuad = [](const vtu_files::Polygon& polygon) { return polygon.size() == 4; };
+          const bool isBox = c >= cells.complex.cutCells && faces[c].size() == 6 && std::all_of(faces[c].begin(), faces[c].end(), isQuad);
+          if (c >= cells.complex.cutCells) REQUIRE(faces[c].size() == cells.complex.halfFaces(c).size());
+          REQUIRE(types[c] == (isBox ? 12 : 42));
+          hexahedra += isBox;
+        }
+        CHECK(hexahedra > 5);
+        if (levels > 0 && &grid == grids) CHECK(hexahedra < types.size() - cells.complex.cutCells);
+      }
+    }
+  }
 }
 
 TEST_CASE("fields are refused without a name of their own that XML can hold", "[cellfiles]") {

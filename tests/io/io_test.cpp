@@ -14,6 +14,7 @@
 #include "refusal.h"
 #include "shapes.h"
 #include "temporary_folder.h"
+#include "vtu_files.h"
 
 using mandoline::CallError;
 using mandoline::CutMesh;
@@ -24,6 +25,7 @@ using mandoline::Mesh;
 using mandoline::Progress;
 using mandoline::Status;
 using mandoline::WriteOptions;
+using vtu_files::Vtu;
 
 namespace {
 
@@ -168,134 +170,23 @@ CutMesh cutOrFail(const Mesh& mesh, const Grid& grid) {
 
 Grid unitCells(int64_t n) { return Grid::regular({0, 0, 0}, {1, 1, 1}, {n, n, n}); }
 
-/// A VTU file taken apart again.
-class Vtu {
- public:
-  Vtu(const Mesh& mesh, const CutMesh& cutMesh, const WriteOptions& options = {}) {
-    std::ostringstream out;
-    mandoline::writeVtu(out, mesh, cutMesh, options);
-    text_ = out.str();
-    data_ = text_.find("<AppendedData encoding=\"raw\">\n_");
-    REQUIRE(data_ != std::string::npos);
-    data_ += std::strlen("<AppendedData encoding=\"raw\">\n_");
-  }
-
-  bool has(const std::string& name) const { return text_.find("Name=\"" + name + "\"") < data_; }
-  template <class Scalar>
-  std::vector<Scalar> array(const std::string& name) const {
-    CAPTURE(name);
-    REQUIRE(has(name));
-    const size_t offset = text_.find("offset=\"", text_.find("Name=\"" + name + "\"")) + 8;
-    const size_t place = data_ + size_t(std::strtoull(text_.c_str() + offset, nullptr, 10));
-    uint64_t size = 0;
-    REQUIRE(place + sizeof size <= text_.size());
-    std::memcpy(&size, text_.data() + place, sizeof size);
-    REQUIRE(size % sizeof(Scalar) == 0);
-    REQUIRE(place + sizeof size + size <= text_.size());
-    std::vector<Scalar> values(size / sizeof(Scalar));
-    std::memcpy(values.data(), text_.data() + place + sizeof size, size);
-    return values;
-  }
-
- private:
-  std::string text_;
-  size_t data_ = 0;
-};
-
-using Polygon = std::vector<int64_t>;
-
-/// The polygon from its lowest vertex on.
-Polygon fromLowest(Polygon polygon) {
-  std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
-  return polygon;
+std::string vtuOf(const Mesh& mesh, const CutMesh& cutMesh, const WriteOptions& options = {}) {
+  std::ostringstream out;
+  mandoline::writeVtu(out, mesh, cutMesh, options);
+  return out.str();
 }
 
-std::vector<std::vector<Polygon>> cellFaces(const Vtu& vtu) {
-  constexpr int kHexahedronFaces[6][4] = {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
-  const auto types = vtu.array<uint8_t>("types");
-  const auto connectivity = vtu.array<int64_t>("connectivity"), offsets = vtu.array<int64_t>("offsets");
-  const bool polyhedra = vtu.has("faces");
-  const auto faces = polyhedra ? vtu.array<int64_t>("faces") : std::vector<int64_t>();
-  const auto faceOffsets = polyhedra ? vtu.array<int64_t>("faceoffsets") : std::vector<int64_t>(types.size(), -1);
-  std::vector<std::vector<Polygon>> cells(types.size());
-  size_t next = 0;
-  for (size_t c = 0; c < types.size(); ++c) {
-    const size_t begin = c == 0 ? 0 : size_t(offsets[c - 1]), end = size_t(offsets[c]);
-    if (types[c] == 12) {
-      REQUIRE(end - begin == 8);
-      REQUIRE(faceOffsets[c] == -1);
-      for (const auto& face : kHexahedronFaces) {
-        cells[c].emplace_back();
-        for (const int i : face) cells[c].back().push_back(connectivity[begin + size_t(i)]);
-      }
-      continue;
-    }
-    REQUIRE(types[c] == 42);
-    std::vector<int64_t> used;
-    for (int64_t count = faces.at(next++); count > 0; --count) {
-      const size_t size = size_t(faces.at(next++));
-      cells[c].emplace_back(faces.begin() + int64_t(next), faces.begin() + int64_t(next + size));
-      used.insert(used.end(), cells[c].back().begin(), cells[c].back().end());
-      next += size;
-    }
-    REQUIRE(int64_t(next) == faceOffsets[c]);
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    std::vector<int64_t> listed(connectivity.begin() + int64_t(begin), connectivity.begin() + int64_t(end));
-    std::sort(listed.begin(), listed.end());
-    REQUIRE(listed == used);
-  }
-  return cells;
-}
-
-double signedVolume(const std::vector<Polygon>& faces, const std::vector<double>& positions) {
-  const double* origin = &positions[size_t(3 * faces[0][0])];
-  const auto relative = [&](int64_t v, int d) { return positions[size_t(3 * v + d)] - origin[d]; };
-  double volume = 0;
-  for (const Polygon& face : faces) {
-    for (size_t i = 1; i + 1 < face.size(); ++i) {
-      for (int d = 0; d < 3; ++d) {
-        const int p = (d + 1) % 3, q = (d + 2) % 3;
-        volume +=
-            relative(face[0], d) * (relative(face[i], p) * relative(face[i + 1], q) - relative(face[i], q) * relative(face[i + 1], p)) / 6;
-      }
-    }
-  }
-  return volume;
-}
-
-/// Cells are closed, have the volume that the file says, and match face by face: faces with one side only lie on the box.
+/// See requireMatching(); with so many polyhedra.
 void requireConforming(const Mesh& mesh, const Grid& grid, size_t polyhedra) {
   const CutMesh cutMesh = cutOrFail(mesh, grid);
-  const Vtu vtu(mesh, cutMesh);
-  const auto positions = vtu.array<double>("Points");
-  const auto volumes = vtu.array<double>("volume");
+  const Vtu vtu(vtuOf(mesh, cutMesh));
   const auto types = vtu.array<uint8_t>("types");
-  const auto cells = cellFaces(vtu);
-  REQUIRE(cells.size() == cutMesh.cellCount() + mandoline::UntouchedCells(cutMesh).count());
+  REQUIRE(types.size() == cutMesh.cellCount() + mandoline::UntouchedCells(cutMesh).count());
   REQUIRE(size_t(std::count(types.begin(), types.end(), 42)) == polyhedra);
-  REQUIRE(vtu.array<int32_t>("region").size() == cells.size());
-  REQUIRE(vtu.array<int32_t>("grid_cell").size() == 3 * cells.size());
+  REQUIRE(vtu.array<int32_t>("region").size() == types.size());
+  REQUIRE(vtu.array<int32_t>("grid_cell").size() == 3 * types.size());
   REQUIRE(vtu.has("winding") == cutMesh.hasWinding);
-  std::vector<Polygon> sides;
-  for (size_t c = 0; c < cells.size(); ++c) {
-    REQUIRE(std::fabs(signedVolume(cells[c], positions) - volumes[c]) < 1e-13);
-    for (const Polygon& face : cells[c]) sides.push_back(fromLowest(face));
-  }
-  std::sort(sides.begin(), sides.end());
-  size_t wrong = 0;
-  for (const Polygon& side : sides) {
-    const auto equal = std::equal_range(sides.begin(), sides.end(), side);
-    const auto opposite = std::equal_range(sides.begin(), sides.end(), fromLowest(Polygon(side.rbegin(), side.rend())));
-    bool onBox = false;
-    for (size_t d = 0; d < 3; ++d) {
-      for (const double end : {grid.planes[d].front(), grid.planes[d].back()}) {
-        onBox |= std::all_of(side.begin(), side.end(), [&](int64_t v) { return positions[size_t(3 * v) + d] == end; });
-      }
-    }
-    wrong += equal.second - equal.first != 1 || opposite.second - opposite.first != (onBox ? 0 : 1);
-  }
-  REQUIRE(wrong == 0);
+  vtu_files::requireMatching(vtu, grid);
 }
 
 }  // namespace
@@ -649,9 +540,9 @@ TEST_CASE("VTU of some cells has those, their points and nothing else", "[io]") 
   const Mesh mesh = shapes::merged({shapes::icosphere({2, 2, 2}, 1.4, 1), shapes::cube(1.75, 2.25),
                                     shapes::tetrahedron({4.5, 4, 4}, {4.75, 4.25, 4.25}, {4.25, 4.25, 4.25}, {4.5, 4.25, 4.5})});
   const CutMesh cutMesh = cutOrFail(mesh, unitCells(6));
-  const Vtu whole(mesh, cutMesh);
+  const Vtu whole(vtuOf(mesh, cutMesh));
   const auto wholeRegions = whole.array<int32_t>("region");
-  const auto wholeCells = cellFaces(whole);
+  const auto wholeCells = vtu_files::cellFaces(whole);
   const auto wholePositions = whole.array<double>("Points");
   for (const bool untouched : {false, true}) {
     for (uint32_t kept = 0; kept <= cutMesh.regionCount; ++kept) {
@@ -662,8 +553,8 @@ TEST_CASE("VTU of some cells has those, their points and nothing else", "[io]") 
         options.regions[kept] = 1;
       }
       CAPTURE(untouched, kept);
-      const Vtu some(mesh, cutMesh, options);
-      const auto cells = cellFaces(some);
+      const Vtu some(vtuOf(mesh, cutMesh, options));
+      const auto cells = vtu_files::cellFaces(some);
       const auto positions = some.array<double>("Points");
       std::vector<uint8_t> used(positions.size() / 3, 0);
       size_t next = 0;
@@ -673,7 +564,7 @@ TEST_CASE("VTU of some cells has those, their points and nothing else", "[io]") 
         REQUIRE(next < cells.size());
         REQUIRE(cells[next].size() == wholeCells[c].size());
         for (size_t f = 0; f < wholeCells[c].size(); ++f) {
-          const Polygon &a = wholeCells[c][f], &b = cells[next][f];
+          const vtu_files::Polygon &a = wholeCells[c][f], &b = cells[next][f];
           REQUIRE(a.size() == b.size());
           for (size_t i = 0; i < a.size(); ++i) {
             REQUIRE(std::equal(&wholePositions[size_t(3 * a[i])], &wholePositions[size_t(3 * a[i])] + 3, &positions[size_t(3 * b[i])]));

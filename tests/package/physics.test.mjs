@@ -326,6 +326,25 @@ test('a wind', () => {
   assert.throws(() => physics.solveFlow(cells, [1, NaN, 0]), { code: 'badArgument', stage: 'solveFlow' });
 });
 
+test('a wind in unbounded space', () => {
+  for (const [name, all] of complexes) {
+    const [flow, tunnel] = [true, false].map((farField) => physics.solveFlow(all, [1, 0.2, 0], { farField }));
+    assert.equal(flow.status, 'converged', name);
+    const { divergence } = physics.operators(all, { only: ['divergence'] });
+    assertNear(times(divergence, flow.faceVelocity), new Float64Array(cellCount(all)), 1e-8);
+    const fastest = ({ cellVelocity }) => Math.max(...cellVelocity);
+    assert.ok(fastest(flow) < fastest(tunnel), name);
+  }
+  const box = { min: [-3, -3, 0.05], max: [3, 3, 2.05], cells: [6, 6, 4] };
+  const torn = physics.cellComplex(mesh, cut(mesh, box));
+  assert.throws(
+    () => physics.solveFlow(torn, [1, 0, 0], { farField: true }),
+    ({ code, element, message }) =>
+      code === 'badArgument' && element >= 0 && /may reach a side of the box, but face \d+ does/.test(message),
+  );
+  assert.throws(() => physics.solveFlow(cells, [1, 0, 0], { farField: 1 }), /options\.farField must be true or false/);
+});
+
 test('velocities at points', () => {
   const wind = [0.75, -1.25, 0.5];
   const outside = cut(mesh, { min: [3, 3, 3], max: [4, 4, 4], cells: [3, 3, 3] });

@@ -67,8 +67,9 @@ void writeJson(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cell
 /// The cut-mesh as bytes that readCutMesh() takes, in Mandoline's own format: compressed, with a version and a checksum of each array. The
 /// same cut-mesh always gives the same bytes.
 void writeMcm(const Sink& sink, const CutMesh& cutMesh, const RunOptions& options = {});
-/// VTK XML unstructured grid of polyhedra with cell arrays grid_cell, region, volume and, where they are there, winding, part_winding,
-/// parity and insideness. Faces with holes are split alike on both sides. Takes little memory besides that of the cut-mesh.
+/// VTK XML unstructured grid of polyhedra, and of hexahedra for untouched grid cells, with cell arrays grid_cell, region, volume and, where
+/// they are there, winding, part_winding, parity and insideness. Faces with holes are split alike on both sides. Takes little memory
+/// besides that of the cut-mesh.
 void writeVtu(const Sink& sink, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options = {});
 /// A piece of forEachBrick() as such a file: grid_cell is that of the whole grid, and there is no region, which others of the whole cut
 /// would share.
@@ -78,8 +79,9 @@ struct Field {
   std::string name;  ///< not empty, unique in the file, without control characters and < > & "; else CallError
   std::span<const double> values;
 };
-/// The cells of a cell complex, made from the cut-mesh, as such polyhedra, which match face by face, with cell arrays grid_cell (the lowest
-/// one), level, region, volume, the same about inside, and the fields.
+/// The cells of a cell complex, made from the cut-mesh, as such a grid, in which they match face by face: octree cells are hexahedra, too,
+/// unless they meet smaller cells. Cell arrays are grid_cell (the lowest one), level, region, volume, the same about inside, and the
+/// fields.
 void writeVtu(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, std::span<const Field> cellFields = {},
               const WriteOptions& options = {});
 /// Its faces, those of the cells that the options select, as polygons with cell arrays face, tag (FaceTag), triangle, cells and the fields;

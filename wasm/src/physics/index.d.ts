@@ -161,9 +161,14 @@ export interface FlowOptions extends RunOptions {
    * poissonSystem(). Default 8.
    */
   corrections?: number;
+  /**
+   * False (default): a wind tunnel, through whose sides the wind blows as if nothing were inside. True: unbounded space. Through the sides
+   * passes what would pass there without them: the wind, and what the surface adds to it at a distance. It may not reach the sides.
+   */
+  farField?: boolean;
 }
 
-export interface SolveOptions extends FlowOptions {
+export interface SolveOptions extends Omit<FlowOptions, 'farField'> {
   /**
    * What makes phi unique in a component where it is held nowhere. "zeroMean" (default): it has the mean zero by volume; "pinned": it
    * is zero in the component's first cell.

@@ -109,7 +109,7 @@ export interface OctreeCells {
 /** A flow without rotation or sources: its velocity is the gradient of phi. Velocities are in the unit of the wind. */
 export interface Flow {
   status: SolveStatus;
-  /** As in Solution. */
+  /** As in Solution; with farField, those of all passes one after the other. */
   residuals: Float64Array<ArrayBuffer>;
   wind: [number, number, number];
   /** Per cell, at its centre; its mean by volume is zero in each component of cellComponents(). */

@@ -1,0 +1,169 @@
+#include "physics/far_field.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "operators/measure/vector.h"
+#include "operators/require_cut_mesh.h"
+#include "physics/dual_edges.h"
+#include "physics/wind.h"
+
+namespace mandoline::physics {
+namespace {
+
+/// At most so many blocks along an axis.
+constexpr size_t kMaxBlocks = 16;
+
+void forVerticesOf(const CellComplex& cells, size_t face, const auto& visit) {
+  const Loops loops = cells.loops(face);
+  for (size_t l = 0; l < loops.size(); ++l) {
+    for (const uint32_t v : loops[l]) visit(v);
+  }
+}
+
+/// From one point to another, in a unit of length.
+Point stepBetween(const Point& from, const Point& to, double unit) {
+  return {(to[0] - from[0]) / unit, (to[1] - from[1]) / unit, (to[2] - from[2]) / unit};
+}
+
+/// How many whole edges fit from low to x, if less than `count`.
+size_t rowOf(double x, double low, double edge, size_t count) {
+  const double row = (x - low) / edge;
+  return row >= 1 ? size_t(std::min(row, double(count - 1))) : 0;
+}
+
+}  // namespace
+
+FarField::FarField(const CellComplex& cells, const Boundary& boundary) : cells_(cells), boundarySize_(boundary.halfFaces.size()) {
+  const CellComponents parts = partsBetweenSlits(cells);
+  std::vector<uint32_t> walls;
+  std::vector<char> isOnSide(cells.vertexCount());
+  Box box, wallBox;
+  for (size_t b = 0; b < boundarySize_; ++b) {
+    const uint32_t h = boundary.halfFaces[b], f = h / 2;
+    if (cells.faceTag[f] >= FaceTag::inner) {
+      walls.push_back(h);
+      continue;
+    }
+    Point normal = pointAt(cells.faceNormal, f);
+    for (double& x : normal) x = h % 2 == 0 ? x : -x;
+    sides_.push_back({uint32_t(b), f, parts.cellComponent[size_t(cells.faceCells[h])], normal});
+    forVerticesOf(cells, f, [&](uint32_t v) { isOnSide[v] = 1, box.add(pointAt(cells.positions, v)); });
+  }
+  for (const uint32_t h : walls) {
+    forVerticesOf(cells, h / 2, [&](uint32_t v) {
+      wallBox.add(pointAt(cells.positions, v));
+      if (!isOnSide[v]) return;
+      operators::refuse("With the far field no wall may reach a side of the box, but face " + std::to_string(h / 2) + " does.", h / 2);
+    });
+  }
+  if (walls.empty() || sides_.empty()) return;
+  placeBlocks(box, wallBox);
+  placeDipoles(walls);
+}
+
+/// From a block's own size on, its dipoles and the one in their middle hardly differ: it is half as large as the distance to the sides.
+void FarField::placeBlocks(const Box& box, const Box& wallBox) {
+  double distance = Box::kFar;
+  for (size_t d = 0; d < 3; ++d) {
+    const double length = wallBox.high[d] - wallBox.low[d];
+    size_ = std::max(size_, length);
+    middle_[d] = wallBox.low[d] + length / 2;
+    distance = std::min({distance, wallBox.low[d] - box.low[d], box.high[d] - wallBox.high[d]});
+  }
+  low_ = wallBox.low;
+  edge_ = std::max(distance / 2, size_ / double(kMaxBlocks));
+  for (size_t d = 0; d < 3; ++d) blockCounts_[d] = 1 + rowOf(wallBox.high[d], low_[d], edge_, kMaxBlocks);
+}
+
+/// The one that its centre is in, or is nearest to.
+size_t FarField::blockOf(size_t cell) const {
+  size_t block = 0;
+  for (size_t d = 0; d < 3; ++d) block = block * blockCounts_[d] + rowOf(cells_.cellCentre[3 * cell + d], low_[d], edge_, blockCounts_[d]);
+  return block;
+}
+
+void FarField::placeDipoles(const std::vector<uint32_t>& walls) {
+  const size_t blocks = blockCounts_[0] * blockCounts_[1] * blockCounts_[2];
+  std::vector<double> area(blocks), sums(3 * blocks);
+  for (const uint32_t h : walls) {
+    const size_t block = blockOf(size_t(cells_.faceCells[h]));
+    area[block] += cells_.faceArea[h / 2];
+    for (size_t d = 0; d < 3; ++d) sums[3 * block + d] += cells_.faceArea[h / 2] * (cells_.faceCentroid[3 * (h / 2) + d] - middle_[d]);
+  }
+  std::vector<int32_t> dipole(blocks, -1);
+  for (size_t block = 0; block < blocks; ++block) {
+    if (!(area[block] > 0)) continue;
+    dipole[block] = int32_t(centres_.size() / 3);
+    for (size_t d = 0; d < 3; ++d) centres_.push_back(middle_[d] + sums[3 * block + d] / area[block]);
+  }
+  for (size_t c = 0; c < cells_.cellCount(); ++c) cellDipole_.push_back(dipole[blockOf(c)]);
+}
+
+std::vector<double> FarField::sideWeights() const {
+  std::vector<double> weights(boundarySize_);
+  double sum = 0;
+  for (const Side& side : sides_) sum += cells_.faceArea[side.face];
+  for (const Side& side : sides_) weights[side.at] = sum > 0 ? cells_.faceArea[side.face] / sum : 0;
+  return weights;
+}
+
+/// 3 per dipole, over 4 pi and the cube of `size_`. The integral of phi * normal over the walls of a block is that of phi * normal - x *
+/// (dphi / dn) over its other faces, of either normal: there phi is known better than in cells as thin as cut ones are.
+std::vector<double> FarField::moments(const Flow& flow) const {
+  std::vector<double> sums(centres_.size());
+  for (size_t f = 0; f < cells_.faceCount(); ++f) {
+    if (cells_.faceTag[f] >= FaceTag::inner && !isInner(cells_, f)) continue;
+    const Point normal = pointAt(cells_.faceNormal, f), at = pointAt(cells_.faceCentroid, f);
+    std::array<int32_t, 2> dipoles = {-1, -1};
+    double phi = 0, cellCount = 0;
+    for (size_t side = 0; side < 2; ++side) {
+      const int32_t c = cells_.faceCells[2 * f + side];
+      if (c < 0) continue;
+      dipoles[side] = cellDipole_[size_t(c)];
+      phi +=
+          flow.phi[size_t(c)] / size_ + flow.faceVelocity[f] * dot(stepBetween(pointAt(cells_.cellCentre, size_t(c)), at, size_), normal);
+      ++cellCount;
+    }
+    if (dipoles[0] == dipoles[1]) continue;
+    const Point x = stepBetween(middle_, at, size_);
+    const double share = cells_.faceArea[f] / size_ / size_ / (4 * std::numbers::pi);
+    for (size_t d = 0; d < 3; ++d) {
+      const double part = share * (phi / cellCount * normal[d] - x[d] * flow.faceVelocity[f]);
+      if (dipoles[0] >= 0) sums[3 * size_t(dipoles[0]) + d] += part;
+      if (dipoles[1] >= 0) sums[3 * size_t(dipoles[1]) + d] -= part;
+    }
+  }
+  return sums;
+}
+
+std::vector<double> FarField::outflowOfDipoles(const Flow& flow) const {
+  const std::vector<double> moment = moments(flow);
+  const double nearest = edge_ / size_ / 2;  // what is nearer is inside the block, where one dipole would flow far too fast
+  std::vector<double> outflow(boundarySize_);
+  for (const Side& side : sides_) {
+    const Point at = pointAt(cells_.faceCentroid, side.face);
+    for (size_t k = 0; k < centres_.size() / 3; ++k) {
+      const Point step = stepBetween(pointAt(centres_, k), at, size_), m = pointAt(moment, k);
+      const double r = std::max(measuring::length(step), nearest);
+      outflow[side.at] += (dot(m, side.normal) - 3 * (dot(m, step) / r) * (dot(step, side.normal) / r)) / (r * r * r);
+    }
+  }
+  takeExcess(outflow);
+  return outflow;
+}
+
+/// Evenly by area: sums over faces are not quite the integrals, which are 0.
+void FarField::takeExcess(std::vector<double>& outflow) const {
+  constexpr int kPasses = 2;  // the second takes what the first has rounded
+  for (int pass = 0; pass < kPasses; ++pass) {
+    std::vector<double> excess(cells_.cellCount()), area(cells_.cellCount());  // there are no more parts than cells
+    for (const Side& side : sides_) {
+      excess[side.part] += cells_.faceArea[side.face] * outflow[side.at];
+      area[side.part] += cells_.faceArea[side.face];
+    }
+    for (const Side& side : sides_) outflow[side.at] -= area[side.part] > 0 ? excess[side.part] / area[side.part] : 0;
+  }
+}
+
+}  // namespace mandoline::physics

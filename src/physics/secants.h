@@ -1,0 +1,34 @@
+// The fixed point of a linear map.
+#pragma once
+
+#include <vector>
+
+namespace mandoline::physics {
+
+/// Where x = f(x), for a linear f that takes long: by secants through all x that were tried (Anderson's acceleration with full memory).
+class Secants {
+ public:
+  /// Per number of x, not negative: distances are weighted.
+  explicit Secants(std::vector<double> weights) : weights_(std::move(weights)) {}
+
+  /// Takes f(x). Gives how far it is from x.
+  double add(const std::vector<double>& x, std::vector<double> found);
+
+  /// What to try next.
+  std::vector<double> next() const;
+
+ private:
+  struct Direction {
+    std::vector<double> missing;  ///< of length 1, at right angles to those of other directions
+    std::vector<double> found;
+  };
+
+  double product(const std::vector<double>& a, const std::vector<double>& b) const;
+  void addDirection(std::vector<double> missing, std::vector<double> found);
+
+  std::vector<double> weights_;
+  std::vector<Direction> directions_;
+  std::vector<double> found_, missing_;  ///< f(x), and f(x) - x, of the last x
+};
+
+}  // namespace mandoline::physics
