@@ -17,6 +17,9 @@ inline SparseMatrix assemble(size_t rows, size_t columns, const Triplets& entrie
   return matrix;
 }
 
+/// The same by rows. Entries in one place are added in their order.
+CsrMatrix assembleRows(size_t rows, size_t columns, const Triplets& entries);
+
 /// Adds the Laplacian, div k grad, times a factor.
 void addLaplacian(const CellComplex& cells, const DualEdges& dual, double factor, Triplets& entries);
 
