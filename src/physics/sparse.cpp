@@ -1,6 +1,8 @@
 #include "physics/sparse.h"
 
-#include <algorithm>
+#include <span>
+
+#include "base/sort.h"
 
 namespace mandoline::physics {
 
@@ -19,8 +21,8 @@ CsrMatrix assembleRows(size_t rows, size_t columns, const Triplets& entries) {
   matrix.columns = columns;
   matrix.rowOffsets.reserve(rows + 1);
   for (size_t r = 0, begin = 0; r < rows; begin = ends[r++]) {
-    std::stable_sort(sorted.begin() + ptrdiff_t(begin), sorted.begin() + ptrdiff_t(ends[r]),
-                     [](const Entry& a, const Entry& b) { return a.column < b.column; });
+    detail::sortItems(std::span(sorted.data() + begin, ends[r] - begin),
+                      [](const Entry& a, const Entry& b) { return a.column < b.column; });
     const size_t first = matrix.entryCount();
     for (size_t e = begin; e < ends[r]; ++e) {
       const auto& [column, value] = sorted[e];
@@ -34,6 +36,11 @@ CsrMatrix assembleRows(size_t rows, size_t columns, const Triplets& entries) {
     matrix.rowOffsets.push_back(int64_t(matrix.entryCount()));
   }
   return matrix;
+}
+
+SparseMatrix assemble(size_t rows, size_t columns, const Triplets& entries) {
+  const CsrMatrix matrix = assembleRows(rows, columns, entries);
+  return EigenRows(matrix).map();
 }
 
 }  // namespace mandoline::physics
