@@ -220,6 +220,8 @@ TEST_CASE("poisson solver: bad coefficients, masses and data are refused by name
   CHECK(refusal([&] { solver.solve({perCell, {}, {}}); }) == at(5));
   CHECK(refusal([&] { solver.solve({{}, values, {}}); }) == at(good.boundary.halfFaces[4]));
   CHECK(refusal([&] { solver.solve({{}, {}, perCell}); }) == at(5));
+  CHECK(refusal([&] { solver.rightSide({perCell, {}, {}}); }) == at(5));
+  CHECK(refusal([&] { solver.rightSide({{}, values, {}}); }) == at(good.boundary.halfFaces[4]));
   perCell.pop_back();
   CHECK(refusal([&] { solver.solve({perCell, {}, {}}); }) == at(-1));
   CHECK(refusal([&] { solver.solve({{}, {}, perCell}); }) == at(-1));

@@ -184,10 +184,12 @@ class PoissonSolver {
   PoissonSolver& operator=(PoissonSolver&&) noexcept;
   ~PoissonSolver();
 
-  /// That of poissonSystem(), to the bit, for as long as the solver lives. With 0 corrections solve() finds phi of matrix() * phi =
-  /// rightSide(data), within the tolerance.
+  // The system of poissonSystem(), to the bit, for other solvers. With 0 corrections, solve() finds phi of matrix() * phi =
+  // rightSide(data), within the tolerance.
+
+  /// As long as the solver lives.
   const CsrMatrix& matrix() const;
-  /// The same; `start` is not used. Throws CallError as solve() does.
+  /// `start` is not used. Throws CallError as solve() does.
   std::vector<double> rightSide(const PoissonData& data) const;
   CsrMatrix nullSpace() const;
 
