@@ -1,5 +1,5 @@
-// npm run bench: the README's table, of made meshes and of scans that npm has. Further arguments go to mandoline-bench, such as
-// --repetitions 9, or --meshes FOLDER for those of another folder.
+// npm run bench: the README's table, of made meshes and of scans that npm has, natively and in WebAssembly. Further arguments go to
+// mandoline-bench, such as --repetitions 3, or --meshes FOLDER for those of another folder.
 import { existsSync, mkdirSync, renameSync, writeFileSync } from 'node:fs';
 import { setUp } from './set_up.mjs';
 import { build, path, run } from './steps.mjs';
@@ -23,5 +23,7 @@ async function writeScans() {
 
 setUp('bench');
 build('build', ['-DCMAKE_BUILD_TYPE=Release', '-DMANDOLINE_BUILD_TESTS=OFF'], 'mandoline-bench');
+run('node', 'wasm/build.mjs');
 await writeScans();
-run('build/mandoline-bench', '--markdown', '--meshes', folder, ...process.argv.slice(2));
+const wasm = 'node tests/package/warm_cut.mjs';
+run('build/mandoline-bench', '--markdown', '--repetitions', '9', '--meshes', folder, '--wasm', wasm, ...process.argv.slice(2));

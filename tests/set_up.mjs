@@ -13,7 +13,7 @@ const needs = {
   start: [...native, ...webAssembly],
   build: webAssembly,
   test: [...native, ...webAssembly, 'pkg-config', 'Catch2', 'pybind11', 'Chromium'],
-  bench: [...native, 'the npm packages'],
+  bench: [...native, ...webAssembly],
   orders: [...native, 'Eigen'],
   // Of the continuous integration.
   sources: ['clang-format 14', 'the npm packages'],

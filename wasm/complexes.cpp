@@ -23,18 +23,30 @@ SolveOptions readSolveOptions(const val& options) {
   return result;
 }
 
+namespace {
+
+/// The arrays of a matrix by rows, in integers of any width.
+val toMatrix(size_t columns, const auto& rowOffsets, const auto& entryColumns, const auto& entryValues) {
+  return object({{"rows", val(double(rowOffsets.size() - 1))},
+                 {"columns", val(double(columns))},
+                 {"rowOffsets", toArray(std::vector<uint32_t>(rowOffsets.begin(), rowOffsets.end()))},
+                 {"entryColumns", toArray(std::vector<uint32_t>(entryColumns.begin(), entryColumns.end()))},
+                 {"entryValues", toArray(std::vector<double>(entryValues.begin(), entryValues.end()))}});
+}
+
+}  // namespace
+
+template <>
+val toObject(const CsrMatrix& matrix) {
+  return toMatrix(matrix.columns, matrix.rowOffsets, matrix.entryColumns, matrix.entryValues);
+}
+
 template <>
 val toObject(const SparseMatrix& matrix) {
   const Eigen::SparseMatrix<double, Eigen::RowMajor> byRows = matrix;
-  const size_t rows = size_t(byRows.rows()), entries = size_t(byRows.nonZeros());
-  const std::vector<uint32_t> offsets(byRows.outerIndexPtr(), byRows.outerIndexPtr() + rows + 1);
-  const std::vector<uint32_t> columns(byRows.innerIndexPtr(), byRows.innerIndexPtr() + entries);
-  const std::vector<double> values(byRows.valuePtr(), byRows.valuePtr() + entries);
-  return object({{"rows", val(double(rows))},
-                 {"columns", val(double(matrix.cols()))},
-                 {"rowOffsets", toArray(offsets)},
-                 {"entryColumns", toArray(columns)},
-                 {"entryValues", toArray(values)}});
+  const auto entries = size_t(byRows.nonZeros());
+  return toMatrix(size_t(matrix.cols()), std::span(byRows.outerIndexPtr(), size_t(byRows.rows()) + 1),
+                  std::span(byRows.innerIndexPtr(), entries), std::span(byRows.valuePtr(), entries));
 }
 
 }  // namespace mandoline::wasm

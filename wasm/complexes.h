@@ -14,6 +14,8 @@ PoissonProblem readProblem(const val& object, const CellComplex& cells);
 /// How to solve such a problem.
 SolveOptions readSolveOptions(const val& options);
 
+template <>
+val toObject(const CsrMatrix& matrix);
 /// By rows.
 template <>
 val toObject(const SparseMatrix& matrix);

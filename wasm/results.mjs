@@ -20,6 +20,7 @@ const names = {
   ResolvedMesh: 'ResolvedMeshArrays',
   Measures: 'MeasureArrays',
   Condition: 'ConditionKind',
+  CsrMatrix: 'SparseMatrix',
 };
 
 // Strings that are one of some words.

@@ -12,13 +12,8 @@ struct CoupledPair {
   double w;
 };
 
-void setCouplings(Level& level, const std::vector<CoupledPair>& pairs) {
-  const auto end = [&](size_t i) { return i % 2 ? pairs[i / 2].b : pairs[i / 2].a; };
-  level.couplings = detail::groupBy<Level::Coupling>(
-      level.held.size(), 2 * pairs.size(), [&](size_t i) { return size_t(end(i)); },
-      [&](size_t i) {
-        return Level::Coupling{end(i ^ 1), pairs[i / 2].w};
-      });
+/// `held` plus `mass` plus couplings.
+void setDiagonal(Level& level) {
   level.diagonal = level.held;
   for (size_t i = 0; i < level.count(); ++i) {
     level.diagonal[i] += level.mass[i];
@@ -26,18 +21,31 @@ void setCouplings(Level& level, const std::vector<CoupledPair>& pairs) {
   }
 }
 
-Level finestLevel(const CellComplex& cells, const DualEdges& dual, std::vector<double> held, std::vector<double> mass) {
+void setCouplings(Level& level, const std::vector<CoupledPair>& pairs) {
+  const auto end = [&](size_t i) { return i % 2 ? pairs[i / 2].b : pairs[i / 2].a; };
+  level.couplings = detail::groupBy<Level::Coupling>(
+      level.held.size(), 2 * pairs.size(), [&](size_t i) { return size_t(end(i)); },
+      [&](size_t i) {
+        return Level::Coupling{end(i ^ 1), pairs[i / 2].w};
+      });
+  setDiagonal(level);
+}
+
+Level finestLevel(const CellComplex& cells, const CsrMatrix& matrix, std::vector<double> held, std::vector<double> mass) {
   Level level;
   level.held = std::move(held);
   level.mass = std::move(mass);
   level.corner = cells.cellCorner;
   for (const uint8_t l : cells.cellLevel) level.size.push_back(double(uint32_t(1) << l));
-  std::vector<CoupledPair> pairs;
-  for (size_t e = 0; e < dual.edges.size(); ++e) {
-    const DualEdge& edge = dual.edges[e];
-    for (const uint32_t f : dual.faces[e]) pairs.push_back({edge.cell, otherCell(cells, edge, f), dual.flowOf(cells, f) / edge.distance});
+  for (size_t i = 0; i < matrix.rows(); ++i) {
+    for (auto e = size_t(matrix.rowOffsets[i]); e < size_t(matrix.rowOffsets[i + 1]); ++e) {
+      const auto j = uint32_t(matrix.entryColumns[e]);
+      const double w = -matrix.entryValues[e];
+      if (j != i && w > 0) level.couplings.items.push_back({j, w});
+    }
+    level.couplings.endGroup();
   }
-  setCouplings(level, pairs);
+  setDiagonal(level);
   level.strength = level.diagonal;
   return level;
 }
@@ -157,8 +165,8 @@ double residual(const Level& level, const std::vector<double>& r, const std::vec
 
 }  // namespace
 
-Multigrid::Multigrid(const CellComplex& cells, const DualEdges& dual, std::vector<double> held, std::vector<double> mass) {
-  levels_.push_back(finestLevel(cells, dual, std::move(held), std::move(mass)));
+Multigrid::Multigrid(const CellComplex& cells, const CsrMatrix& matrix, std::vector<double> held, std::vector<double> mass) {
+  levels_.push_back(finestLevel(cells, matrix, std::move(held), std::move(mass)));
   int32_t last = 0;
   for (const int32_t corner : cells.cellCorner) last = std::max(last, corner);
   for (int shift = 1; last >> (shift - 1) > 0 && !levels_.back().couplings.items.empty(); ++shift) {

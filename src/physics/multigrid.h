@@ -3,7 +3,8 @@
 #pragma once
 
 #include "base/csr.h"
-#include "physics/dual_edges.h"
+#include "mandoline/cell_complex.h"
+#include "mandoline/csr_matrix.h"
 
 namespace mandoline::physics {
 
@@ -29,9 +30,10 @@ struct Level {
 
 class Multigrid {
  public:
-  /// `held` and `mass` are what conditions on the boundary and mass add to the diagonal, per cell. A level where they outweigh
+  /// `matrix`: that of the system; its positive entries beside the diagonal, of small cells that share the side of a larger one, are left
+  /// out. `held` and `mass` are what conditions on the boundary and mass add to the diagonal, per cell. A level where they outweigh
   /// couplings everywhere is the last one if there is mass.
-  Multigrid(const CellComplex& cells, const DualEdges& dual, std::vector<double> held, std::vector<double> mass);
+  Multigrid(const CellComplex& cells, const CsrMatrix& matrix, std::vector<double> held, std::vector<double> mass);
 
   /// x = B r, where B is symmetric, positive definite and near the matrix's inverse. Nodes whose diagonal is zero get 0.
   void apply(const std::vector<double>& r, std::vector<double>& x);

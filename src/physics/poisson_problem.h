@@ -39,9 +39,12 @@ std::vector<double> massTerms(const CellComplex& cells, const PoissonProblem& pr
 std::vector<char> heldComponents(const CellComplex& cells, const PoissonProblem& problem, const CellComponents& components);
 
 /// The problem's matrix. `terms` and `mass`: boundaryTerms() and massTerms().
-SparseMatrix poissonMatrix(const CellComplex& cells, const Boundary& boundary, const DualEdges& dual,
-                           const std::vector<BoundaryTerm>& terms, const std::vector<double>& mass);
-/// Its right side.
-std::vector<double> rightSide(const CellComplex& cells, const PoissonProblem& problem, const std::vector<BoundaryTerm>& terms);
+CsrMatrix poissonMatrix(const CellComplex& cells, const Boundary& boundary, const DualEdges& dual, const std::vector<BoundaryTerm>& terms,
+                        const std::vector<double>& mass);
+/// Its right side, for sources and values of the boundary as in PoissonData.
+std::vector<double> rightSide(const CellComplex& cells, const Boundary& boundary, const std::vector<BoundaryTerm>& terms,
+                              const PoissonData& data);
+/// Its null space. `held`: heldComponents().
+CsrMatrix nullSpaceOf(const CellComponents& components, const std::vector<char>& held);
 
 }  // namespace mandoline::physics

@@ -21,7 +21,7 @@ struct PoissonSetup {
   std::vector<BoundaryTerm> terms;
   DualEdges dual;
   std::vector<double> mass;  ///< massTerms()
-  SparseMatrix matrix;
+  CsrMatrix matrix;
   std::vector<double> added;  ///< per cell: what conditions and mass add to the diagonal
   SystemMatrix system;
   Multigrid multigrid;

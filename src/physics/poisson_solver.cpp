@@ -42,7 +42,7 @@ PoissonSetup::PoissonSetup(const CellComplex& cells_, PoissonProblem problem_)
       matrix(poissonMatrix(cells, problem.boundary, dual, terms, mass)),
       added(sumOf(heldBy(*this), mass)),
       system(matrix, added),
-      multigrid(cells, dual, heldBy(*this), mass),
+      multigrid(cells, matrix, heldBy(*this), mass),
       differentiator(cells, dual, problem, terms) {}
 
 void requireOptions(const SolveOptions& options) {
@@ -73,6 +73,15 @@ PoissonSolver::PoissonSolver(const CellComplex& cells, PoissonProblem problem)
 PoissonSolver::PoissonSolver(PoissonSolver&&) noexcept = default;
 PoissonSolver& PoissonSolver::operator=(PoissonSolver&&) noexcept = default;
 PoissonSolver::~PoissonSolver() = default;
+
+const CsrMatrix& PoissonSolver::matrix() const { return setup_->matrix; }
+
+std::vector<double> PoissonSolver::rightSide(const PoissonData& data) const {
+  physics::requireData(setup_->cells, setup_->problem, data);
+  return physics::rightSide(setup_->cells, setup_->problem.boundary, setup_->terms, data);
+}
+
+CsrMatrix PoissonSolver::nullSpace() const { return physics::nullSpaceOf(setup_->components, setup_->held); }
 
 Solution PoissonSolver::solve(const PoissonData& data, const SolveOptions& options) {
   physics::requireOptions(options);

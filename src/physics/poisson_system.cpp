@@ -133,8 +133,8 @@ std::vector<char> heldComponents(const CellComplex& cells, const PoissonProblem&
   return held;
 }
 
-SparseMatrix poissonMatrix(const CellComplex& cells, const Boundary& boundary, const DualEdges& dual,
-                           const std::vector<BoundaryTerm>& terms, const std::vector<double>& mass) {
+CsrMatrix poissonMatrix(const CellComplex& cells, const Boundary& boundary, const DualEdges& dual, const std::vector<BoundaryTerm>& terms,
+                        const std::vector<double>& mass) {
   Triplets entries;
   addLaplacian(cells, dual, -1, entries);
   for (size_t b = 0; b < terms.size(); ++b) {
@@ -144,45 +144,41 @@ SparseMatrix poissonMatrix(const CellComplex& cells, const Boundary& boundary, c
   for (size_t c = 0; c < mass.size(); ++c) {
     if (mass[c] > 0) entries.emplace_back(int(c), int(c), mass[c]);
   }
-  return assemble(cells.cellCount(), cells.cellCount(), entries);
+  return assembleRows(cells.cellCount(), cells.cellCount(), entries);
 }
 
-std::vector<double> rightSide(const CellComplex& cells, const PoissonProblem& problem, const std::vector<BoundaryTerm>& terms) {
+std::vector<double> rightSide(const CellComplex& cells, const Boundary& boundary, const std::vector<BoundaryTerm>& terms,
+                              const PoissonData& data) {
   std::vector<double> rhs(cells.cellCount());
-  for (size_t c = 0; c < problem.source.size(); ++c) rhs[c] = -problem.source[c] * cells.cellVolume[c];
-  const Boundary& boundary = problem.boundary;
-  for (size_t b = 0; b < terms.size(); ++b) rhs[size_t(cells.faceCells[boundary.halfFaces[b]])] += terms[b].perValue * boundary.value[b];
+  for (size_t c = 0; c < data.source.size(); ++c) rhs[c] = -data.source[c] * cells.cellVolume[c];
+  for (size_t b = 0; b < data.boundaryValue.size(); ++b)
+    rhs[size_t(cells.faceCells[boundary.halfFaces[b]])] += terms[b].perValue * data.boundaryValue[b];
   return rhs;
 }
 
-}  // namespace physics
-
-namespace {
-
-SparseMatrix nullSpaceOf(const CellComplex& cells, const PoissonProblem& problem) {
-  const CellComponents components = cellComponents(cells);
-  const std::vector<char> held = physics::heldComponents(cells, problem, components);
-  std::vector<int> column(components.count, -1);
-  int columns = 0;
+CsrMatrix nullSpaceOf(const CellComponents& components, const std::vector<char>& held) {
+  CsrMatrix matrix;
+  std::vector<int32_t> column(components.count);
   for (uint32_t r = 0; r < components.count; ++r) {
-    if (!held[r]) column[r] = columns++;
+    if (!held[r]) column[r] = int32_t(matrix.columns++);
   }
-  physics::Triplets entries;
-  for (size_t c = 0; c < cells.cellCount(); ++c) {
-    const int k = column[components.cellComponent[c]];
-    if (k >= 0) entries.emplace_back(int(c), k, 1);
+  for (const uint32_t r : components.cellComponent) {
+    if (!held[r]) matrix.entryColumns.push_back(column[r]), matrix.entryValues.push_back(1);
+    matrix.rowOffsets.push_back(int64_t(matrix.entryCount()));
   }
-  return physics::assemble(cells.cellCount(), size_t(columns), entries);
+  return matrix;
 }
 
-}  // namespace
+}  // namespace physics
 
 PoissonSystem poissonSystem(const CellComplex& cells, const PoissonProblem& problem) {
   physics::requireProblem(cells, problem);
   const physics::DualEdges dual = physics::dualEdges(cells, problem.dualPoints, problem.faceCoefficient);
   const std::vector<physics::BoundaryTerm> terms = physics::boundaryTerms(cells, problem);
+  const CellComponents components = cellComponents(cells);
   return {physics::poissonMatrix(cells, problem.boundary, dual, terms, physics::massTerms(cells, problem)),
-          physics::rightSide(cells, problem, terms), nullSpaceOf(cells, problem)};
+          physics::rightSide(cells, problem.boundary, terms, {problem.source, problem.boundary.value, {}}),
+          physics::nullSpaceOf(components, physics::heldComponents(cells, problem, components))};
 }
 
 }  // namespace mandoline

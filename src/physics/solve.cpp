@@ -24,7 +24,7 @@ class Solver {
     problem.source.assign(data_.source.begin(), data_.source.end());
     problem.boundary.value.assign(data_.boundaryValue.begin(), data_.boundaryValue.end());
     problem.boundary.value.resize(setup_.terms.size());
-    rhs_ = rightSide(cells_, problem, setup_.terms);
+    rhs_ = rightSide(cells_, problem.boundary, setup_.terms, data_);
     Vector given = absolutes();
     exponent_ = scaleDown(given);
     balance(given);

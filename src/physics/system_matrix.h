@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "mandoline/operators.h"
+#include "mandoline/csr_matrix.h"
 
 namespace mandoline::physics {
 
@@ -12,7 +12,7 @@ namespace mandoline::physics {
 class SystemMatrix {
  public:
   /// `added`: per row, its sum.
-  SystemMatrix(const SparseMatrix& matrix, const std::vector<double>& added) : matrix_(matrix), added_(added) {}
+  SystemMatrix(const CsrMatrix& matrix, const std::vector<double>& added) : matrix_(matrix), added_(added) {}
 
   double row(const std::vector<double>& x, size_t i) const {
     double sum = added_[i] * x[i];
@@ -33,16 +33,15 @@ class SystemMatrix {
   }
 
  private:
-  /// Symmetric, so that columns are rows.
   template <class F>
   void forEachOther(size_t i, const F& f) const {
-    const int *offsets = matrix_.outerIndexPtr(), *columns = matrix_.innerIndexPtr();
-    for (int e = offsets[i]; e < offsets[i + 1]; ++e) {
-      if (size_t(columns[e]) != i) f(size_t(columns[e]), matrix_.valuePtr()[e]);
+    for (auto e = size_t(matrix_.rowOffsets[i]); e < size_t(matrix_.rowOffsets[i + 1]); ++e) {
+      const auto j = size_t(matrix_.entryColumns[e]);
+      if (j != i) f(j, matrix_.entryValues[e]);
     }
   }
 
-  const SparseMatrix& matrix_;
+  const CsrMatrix& matrix_;
   const std::vector<double>& added_;
 };
 

@@ -75,7 +75,7 @@ inline std::string outcome() {
   problem.boundary = mandoline::boundaryOf(cells);
   setBoundary(problem.boundary, cells, mandoline::FaceTag::xMax, mandoline::Condition::dirichlet, 0.3);
   const mandoline::PoissonSystem system = mandoline::poissonSystem(cells, problem);
-  hash.add(system.matrix.valuePtr(), size_t(system.matrix.nonZeros()) * sizeof(double));
+  hash.add(system.matrix.entryValues);
   hash.add(system.rhs);
 #endif
   std::ostringstream out;

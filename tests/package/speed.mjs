@@ -1,10 +1,6 @@
-// Times of cuts in WebAssembly beside those of the native program on one thread, medians of alternating runs:
+// Times of calls in WebAssembly: init(), cuts, fifty slices, the cell at a point, the triangles of a cell, validate(); and the size of the module.
 //   node tests/package/speed.mjs [N] [runs] [MESH ...]
-// By default of the scans that `npm run bench` fetches.
-// Then, in WebAssembly alone, of calls on the cut-mesh: fifty slices, the cell at a point, the triangles of a cell, validate().
-// Also the time of init() and the size of the module. Native runs are fresh processes that tell the time of the cut alone; WebAssembly
-// runs are calls in one process, arrays copied in and out, after a first one that the engine still compiles during.
-import { execFileSync } from 'node:child_process';
+// By default of the scans that `npm run bench` fetches, which has the times of cuts beside native ones.
 import { readFileSync, readdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -12,7 +8,7 @@ import { gzipSync } from 'node:zlib';
 import { init } from 'mandoline-wasm';
 
 const root = join(dirname(fileURLToPath(import.meta.url)), '..', '..');
-const program = process.env.MANDOLINE_CLI ?? join(root, 'build', 'mandoline');
+const withoutDense = { gridCellRegion: false };
 const [cells = '50', runs = '9', ...given] = process.argv.slice(2);
 const scans = join(root, 'build', 'scans');
 const files = given.length > 0 ? given : readdirSync(scans).map((name) => join(scans, name));
@@ -25,12 +21,6 @@ async function timed(f) {
   return performance.now() - start;
 }
 
-function nativeTime(file) {
-  const args = ['cut', file, '--cells', cells, '--threads', '1', '--report', '-'];
-  const report = execFileSync(program, args, { encoding: 'utf8', maxBuffer: 2 ** 28 });
-  return JSON.parse(report).totalMs;
-}
-
 /** Median times of calls on a cut-mesh, of several calls each where one is too short for the clock. */
 async function reportCalls(mesh, cutMesh) {
   const many = 100;
@@ -41,6 +31,7 @@ async function reportCalls(mesh, cutMesh) {
     for (let i = 0; i < many; ++i) f(i);
   };
   const calls = [
+    ['cut()', 1, () => cut(mesh, { cells: Number(cells) }, withoutDense)],
     ['slices() by 50 planes', 1, () => slices(cutMesh, [0, 0, 1], heights)],
     ['cellAt()', many, each((i) => cellAt(cutMesh, cutMesh.positions.subarray(3 * i, 3 * i + 3)))],
     ['triangulate() of a cell', many, each((i) => triangulate(cutMesh, { cell: Math.round((i * last) / many) }))],
@@ -62,22 +53,8 @@ console.log(`mandoline.wasm ${(bytes.length / 1024).toFixed(0)} KB, gzipped ${(p
 
 for (const file of files) {
   const mesh = await readMesh(readFileSync(file), { name: file });
-  const once = () => cut(mesh, { cells: Number(cells) }, { gridCellRegion: false });
-  const first = await timed(once);
-  const native = [];
-  const wasm = [];
-  for (let run = 0; run < Number(runs); ++run) {
-    native.push(nativeTime(file));
-    wasm.push(await timed(once));
-  }
-  console.log(`${file.replace(/.*\//, '')} N = ${cells}, first call ${first.toFixed(1)} ms`);
-  for (const [name, of] of [
-    ['median', median],
-    ['least', (times) => Math.min(...times)],
-  ]) {
-    // the latter for machines with other work
-    const ratio = (of(wasm) / of(native)).toFixed(2);
-    console.log(`  ${name}: native ${of(native).toFixed(1)} ms, WebAssembly ${of(wasm).toFixed(1)} ms, ratio ${ratio}`);
-  }
-  await reportCalls(mesh, once());
+  const before = performance.now();
+  const cutMesh = cut(mesh, { cells: Number(cells) }, withoutDense);
+  console.log(`${file.replace(/.*\//, '')} N = ${cells}, first cut() ${(performance.now() - before).toFixed(1)} ms`);
+  await reportCalls(mesh, cutMesh);
 }

@@ -35,6 +35,9 @@ inline std::vector<double> products(const std::array<double, 3>& u, const std::v
 
 inline double largest(const Eigen::VectorXd& v) { return v.size() == 0 ? 0 : v.cwiseAbs().maxCoeff(); }
 
+/// A copy.
+inline mandoline::SparseMatrix eigenOf(const mandoline::CsrMatrix& matrix) { return mandoline::EigenRows(matrix).map(); }
+
 inline bool isZero(const mandoline::SparseMatrix& matrix) {
   for (Eigen::Index i = 0; i < matrix.nonZeros(); ++i) {
     if (matrix.valuePtr()[i] != 0) return false;

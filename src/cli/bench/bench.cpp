@@ -1,4 +1,4 @@
-// The benchmark: times cuts on one thread and two beside their lower bound, and beside those of another build.
+// The benchmark: times cuts on one thread and two beside their lower bound, and beside those of another build and of WebAssembly.
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kHelp =
     R"(mandoline-bench [MESH N]... [--meshes FOLDER] [--cells N,...] [--repetitions R] [--compare PROGRAM]
-                [--markdown | --json]
+                [--wasm COMMAND] [--markdown | --json]
 
 Cuts meshes with the default grid of N cells along their longest side, on one thread, and prints per mesh and N:
   bound       ms of the lower bound: clip the triangles and sort the pieces by grid cell, in plain doubles
@@ -35,6 +35,8 @@ R fresh processes (default 5), which take turns.
   --cells N,...      default 50,100
   --compare PROGRAM  the mandoline-bench of another build, which takes its turns, too: its ms on one thread, and cut
                      over these
+  --wasm COMMAND     what cuts in WebAssembly takes its turns, too: the command gets MESH N as last words, and prints ms
+                     and the number of cut-cells
   --markdown         the table of the README
   --json             all numbers
 Without MESH N also a few meshes that this program makes. A mesh that can't be cut is left out.
@@ -47,7 +49,7 @@ struct UsageError : std::runtime_error {
 struct Arguments {
   std::vector<Job> jobs;
   std::vector<int64_t> cells = {50, 100};
-  std::string folder, compared;
+  std::string folder, compared, wasm;
   int64_t repetitions = 5;
   void (*print)(const std::vector<Row>&) = printText;
 };
@@ -84,7 +86,7 @@ Arguments parse(const std::vector<std::string>& words) {
       arguments.print = word == "--json" ? printJson : printMarkdown;
       continue;
     }
-    const bool takesValue = word == "--meshes" || word == "--cells" || word == "--repetitions" || word == "--compare";
+    const bool takesValue = word == "--meshes" || word == "--cells" || word == "--repetitions" || word == "--compare" || word == "--wasm";
     if (!takesValue && word.compare(0, 2, "--") == 0) throw UsageError("unknown option " + word);
     if (i + 1 == words.size()) throw UsageError("what follows " + word + " is missing");
     const std::string& value = words[++i];
@@ -92,6 +94,8 @@ Arguments parse(const std::vector<std::string>& words) {
       arguments.folder = value;
     else if (word == "--compare")
       arguments.compared = value;
+    else if (word == "--wasm")
+      arguments.wasm = value;
     else if (word == "--cells")
       arguments.cells = parseCounts(value);
     else if (word == "--repetitions")
@@ -118,13 +122,14 @@ std::vector<Job> jobsOf(const Arguments& arguments, const MadeMeshes& madeMeshes
   return jobs;
 }
 
-Programs findPrograms(const char* asCalled, const std::string& compared) {
+Programs findPrograms(const char* asCalled, const Arguments& arguments) {
   std::error_code problem;
   const fs::path linked = fs::read_symlink("/proc/self/exe", problem);
   const fs::path self = problem ? fs::absolute(asCalled) : linked, lowerBound = self.parent_path() / "mandoline-lower-bound";
   if (!fs::exists(lowerBound)) throw std::runtime_error("the lower bound is missing: " + lowerBound.string());
+  const std::string& compared = arguments.compared;
   if (!compared.empty() && !fs::exists(compared)) throw std::runtime_error("the program to compare with is missing: " + compared);
-  return {self.string(), lowerBound.string(), compared.empty() ? "" : fs::absolute(compared).string()};
+  return {self.string(), lowerBound.string(), compared.empty() ? "" : fs::absolute(compared).string(), arguments.wasm};
 }
 
 int run(const char* asCalled, const std::vector<std::string>& words) {
@@ -137,7 +142,7 @@ int run(const char* asCalled, const std::vector<std::string>& words) {
     return 0;
   }
   const Arguments arguments = parse(words);
-  const Programs programs = findPrograms(asCalled, arguments.compared);
+  const Programs programs = findPrograms(asCalled, arguments);
   const MadeMeshes madeMeshes;
   const std::vector<Job> jobs = jobsOf(arguments, madeMeshes);
   std::vector<Row> rows;

@@ -30,7 +30,7 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-/// What a program prints, given a mesh, N and what follows.
+/// What a program prints, given a mesh, N and what follows. `program`: words for the shell.
 std::istringstream outputOf(const std::string& program, const Job& job, const std::string& more = "") {
   const std::string command = program + ' ' + quoted(job.path) + ' ' + std::to_string(job.n) + more;
   FILE* pipe = popen(command.c_str(), "r");
@@ -67,6 +67,11 @@ Row measureOnce(const Programs& programs, const Job& job) {
   if (!programs.compared.empty()) {
     size_t triangles, cutCells;
     cutBy(programs.compared, "") >> triangles >> cutCells >> row.comparedMs;
+  }
+  if (!programs.wasm.empty()) {
+    size_t cutCells = 0;
+    outputOf(programs.wasm, job) >> row.wasmMs >> cutCells;
+    if (cutCells != row.cutCells) throw std::runtime_error("WebAssembly makes another number of cut-cells: " + std::to_string(cutCells));
   }
   readCut(cutBy(programs.bench, " 2"), onTwo);
   row.wallMsOnTwo = onTwo.wallMs;
@@ -118,7 +123,8 @@ Row measure(const Programs& programs, const Job& job, int64_t repetitions) {
     return median(values);
   };
   Row result = rows[0];
-  for (double Row::*of : {&Row::lowerBoundMs, &Row::cutMs, &Row::wallMs, &Row::wallMsOnTwo, &Row::peakBytes, &Row::comparedMs}) {
+  for (double Row::*of :
+       {&Row::lowerBoundMs, &Row::cutMs, &Row::wallMs, &Row::wallMsOnTwo, &Row::peakBytes, &Row::comparedMs, &Row::wasmMs}) {
     result.*of = medianOf([of](const Row& row) { return row.*of; });
   }
   for (size_t s = 0; s < result.stages.size(); ++s) {

@@ -28,7 +28,8 @@ struct Row {
   Job job;
   size_t triangles = 0, cutCells = 0;
   double lowerBoundMs = 0, cutMs = 0, wallMs = 0, wallMsOnTwo = 0, peakBytes = 0, outputBytes = 0;
-  double comparedMs = 0;  ///< of the program to compare with
+  double comparedMs = 0;  ///< of the program to compare with, if there is one
+  double wasmMs = 0;      ///< in WebAssembly, if that is measured
   std::vector<StageRow> stages;
 
   double ratio() const { return cutMs / lowerBoundMs; }
@@ -41,12 +42,13 @@ inline constexpr const char* kCutOnce = "--cut-once";
 /// Cuts in this process and prints what measure() reads. Throws if the mesh can't be read or cut.
 void cutOnce(const std::string& path, int64_t n, unsigned threads);
 
-/// Paths of this program, of the lower bound, and of another build of this program to compare with, if there is one.
 struct Programs {
-  std::string bench, lowerBound, compared;
+  std::string bench, lowerBound;  ///< paths, of this program and of the lower bound
+  std::string compared;           ///< path of another build of this program to compare with, or empty
+  std::string wasm;               ///< what cuts in WebAssembly, as words for the shell, or empty; see kHelp of bench.cpp
 };
 
-/// Throws if a program fails, with its messages on standard error.
+/// Throws if a program fails, with its messages on standard error, or if WebAssembly makes another number of cut-cells.
 Row measure(const Programs& programs, const Job& job, int64_t repetitions);
 
 }  // namespace mandoline::bench

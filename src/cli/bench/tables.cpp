@@ -49,6 +49,26 @@ std::string rangeOf(const std::vector<double>& values) {
   return fixed(*min, 1) + " to " + fixed(*max, 1);
 }
 
+using Table = std::vector<std::vector<std::string>>;  // rows, the first one of titles
+
+/// As Markdown, in columns of even width: names on the left, numbers on the right.
+void printAligned(const Table& table) {
+  std::vector<size_t> widths(table[0].size(), 3);  // Markdown's least
+  for (size_t c = 0; c < widths.size(); ++c) {
+    for (const auto& row : table) widths[c] = std::max(widths[c], row[c].size());
+  }
+  const auto printLine = [&](const std::vector<std::string>& row) {
+    for (size_t c = 0; c < widths.size(); ++c)
+      std::cout << "| " << std::setw(int(widths[c])) << (c == 0 ? std::left : std::right) << row[c] << ' ';
+    std::cout << "|\n";
+  };
+  std::vector<std::string> rule;
+  for (size_t c = 0; c < widths.size(); ++c) rule.push_back(std::string(widths[c] - 1, '-') + (c == 0 ? '-' : ':'));
+  printLine(table[0]);
+  printLine(rule);
+  for (size_t r = 1; r < table.size(); ++r) printLine(table[r]);
+}
+
 }  // namespace
 
 void printText(const std::vector<Row>& rows) {
@@ -60,9 +80,10 @@ void printText(const std::vector<Row>& rows) {
     for (const std::string& item : items) std::cout << std::setw(width) << item;
     std::cout << '\n';
   };
-  const bool isCompared = rows[0].comparedMs > 0;
+  const bool isCompared = rows[0].comparedMs > 0, hasWasm = rows[0].wasmMs > 0;
   std::vector<std::string> titles = {"triangles", "cut-cells", "bound ms", "cut ms", "ratio", "two ms", "speed-up", "peak MB", "peak/out"};
   if (isCompared) titles.insert(titles.end(), {"other ms", "cut/other"});
+  if (hasWasm) titles.insert(titles.end(), {"wasm ms", "wasm/cut"});
   printLine("mesh", "N", titles);
   for (const Row& row : rows) {
     std::vector<std::string> items = {
@@ -70,6 +91,7 @@ void printText(const std::vector<Row>& rows) {
         fixed(row.cutMs, 2),           fixed(row.ratio(), 2),         fixed(row.wallMsOnTwo, 2),
         fixed(row.speedUp(), 2),       fixed(row.peakBytes / 1e6, 1), fixed(row.peakBytes / row.outputBytes, 2)};
     if (isCompared) items.insert(items.end(), {fixed(row.comparedMs, 2), fixed(row.cutMs / row.comparedMs, 2)});
+    if (hasWasm) items.insert(items.end(), {fixed(row.wasmMs, 2), fixed(row.wasmMs / row.cutMs, 2)});
     printLine(row.job.name, std::to_string(row.job.n), items);
   }
   const auto printStages = [&](const char* title, int digits, const auto& valueOf) {
@@ -93,21 +115,28 @@ void printText(const std::vector<Row>& rows) {
 }
 
 void printMarkdown(const std::vector<Row>& rows) {
-  std::cout << "| mesh | N | triangles | cut-cells | lower bound, ms | cut, ms | ratio | two threads, ms |\n"
-               "|---|--:|--:|--:|--:|--:|--:|--:|\n";
+  const bool hasWasm = rows[0].wasmMs > 0;
+  Table table = {{"mesh", "N", "triangles", "cut-cells", "lower bound, ms", "cut, ms", "ratio", "two threads, ms"}};
+  if (hasWasm) table[0].push_back("WebAssembly, ms");
   for (const Row& row : rows) {
-    std::cout << "| " << row.job.name << " | " << row.job.n << " | " << row.triangles << " | " << row.cutCells << " | "
-              << fixed(row.lowerBoundMs, 1) << " | " << fixed(row.cutMs, 0) << " | " << fixed(row.ratio(), 1) << " | "
-              << fixed(row.wallMsOnTwo, 0) << " |\n";
+    table.push_back({row.job.name, std::to_string(row.job.n), std::to_string(row.triangles), std::to_string(row.cutCells),
+                     fixed(row.lowerBoundMs, 1), fixed(row.cutMs, 0), fixed(row.ratio(), 1), fixed(row.wallMsOnTwo, 0)});
+    if (hasWasm) table.back().push_back(fixed(row.wasmMs, 0));
   }
-  std::vector<double> doubled, memory;
+  printAligned(table);
+  std::vector<double> doubled, memory, wasm;
   for (const Comparison& c : comparisons(rows)) {
     if (c.doubled()) doubled.push_back(c.ratio());
   }
-  for (const Row& row : rows) memory.push_back(row.peakBytes / row.outputBytes);
+  for (const Row& row : rows) {
+    memory.push_back(row.peakBytes / row.outputBytes);
+    wasm.push_back(row.wasmMs / row.cutMs);
+  }
   std::cout << '\n';
   if (!doubled.empty()) std::cout << "Doubling N costs " << rangeOf(doubled) << " times as much. ";
-  std::cout << "Peak memory is " << rangeOf(memory) << " times the size of the result.\n";
+  std::cout << "Peak memory is " << rangeOf(memory) << " times the size of the result.";
+  if (hasWasm) std::cout << " WebAssembly takes " << rangeOf(wasm) << " times as long as one native thread.";
+  std::cout << '\n';
 }
 
 void printJson(const std::vector<Row>& rows) {
@@ -118,6 +147,7 @@ void printJson(const std::vector<Row>& rows) {
     json.member("lowerBoundMs", row.lowerBoundMs).member("cutMs", row.cutMs).member("ratio", row.ratio());
     json.member("wallMs", row.wallMs).member("wallMsOnTwoThreads", row.wallMsOnTwo);
     if (row.comparedMs > 0) json.member("comparedMs", row.comparedMs);
+    if (row.wasmMs > 0) json.member("wasmMs", row.wasmMs);
     json.member("peakMemoryBytes", row.peakBytes).member("outputBytes", row.outputBytes).key("stages").open('[');
     for (const StageRow& stage : row.stages) {
       json.open('{').member("stage", stage.name).member("ms", stage.ms).member("serialMs", stage.serialMs());

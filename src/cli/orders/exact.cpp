@@ -30,12 +30,15 @@ Point sphereFlowGradient(const Point& p) {
 
 }  // namespace
 
-const Exact kLinear = {[](const Point& p) { return dot(kField, p); }, [](const Point&) { return kField; }, nothing, false, false, false};
-const Exact kManufactured = {waves, wavesGradient, [](const Point& p) { return -1.75 * waves(p); }, false, true, false};
-const Exact kHeld = {waves, wavesGradient, kManufactured.laplacian, false, true, true};
-const Exact kSphereFlow = {sphereFlow, sphereFlowGradient, nothing, true, false, false};
+const Exact kLinear = {
+    [](const Point& p) { return dot(kField, p); }, [](const Point&) { return kField; }, nothing, false, false, Condition::neumann};
+const Exact kManufactured = {waves, wavesGradient, [](const Point& p) { return -1.75 * waves(p); }, false, true, Condition::neumann};
+const Exact kHeld = {waves, wavesGradient, kManufactured.laplacian, false, true, Condition::dirichlet};
+const Exact kRobin = {waves, wavesGradient, kManufactured.laplacian, false, true, Condition::robin};
+const Exact kSphereFlow = {sphereFlow, sphereFlowGradient, nothing, true, false, Condition::neumann};
 
 PoissonProblem problemOf(const CellComplex& cells, const Exact& exact, DualPoints points) {
+  constexpr double kCoefficient = 2;
   PoissonProblem problem;
   problem.dualPoints = points;
   Boundary& boundary = problem.boundary;
@@ -46,9 +49,11 @@ PoissonProblem problemOf(const CellComplex& cells, const Exact& exact, DualPoint
     const Point centroid = at(cells.faceCentroid, f);
     const bool onSurface = cells.faceTag[f] == FaceTag::surface;
     if (onSurface && exact.surfaceStops) continue;
-    const bool held = onSurface ? exact.surfaceHeld : exact.sidesHeld;
-    boundary.condition[b] = held ? Condition::dirichlet : Condition::neumann;
-    boundary.value[b] = held ? exact.phi(centroid) : dot(exact.gradient(centroid), at(normals, b));
+    const Condition onSides = exact.sidesHeld ? Condition::dirichlet : Condition::neumann;
+    const Condition condition = boundary.condition[b] = onSurface ? exact.surface : onSides;
+    const double phi = exact.phi(centroid), derivative = dot(exact.gradient(centroid), at(normals, b));
+    if (condition == Condition::robin) boundary.coefficient[b] = kCoefficient;
+    boundary.value[b] = condition == Condition::dirichlet ? phi : derivative + boundary.coefficient[b] * phi;
   }
   for (size_t c = 0; c < cells.cellCount(); ++c) problem.source.push_back(exact.laplacian(at(cells.cellCentroid, c)));
   return problem;
@@ -67,7 +72,8 @@ Errors errorsOf(const CellComplex& cells, const Exact& exact, DualPoints points,
   double all = 0;
   for (size_t c = 0; c < phi.size(); ++c) {
     const uint32_t r = components.cellComponent[c];
-    const double e = std::fabs(error[c] - (exact.sidesHeld || exact.surfaceHeld || !(volume[r] > 0) ? 0 : sum[r] / volume[r]));
+    const double e =
+        std::fabs(error[c] - (exact.sidesHeld || exact.surface != Condition::neumann || !(volume[r] > 0) ? 0 : sum[r] / volume[r]));
     errors.mean += e * cells.cellVolume[c], all += cells.cellVolume[c];
     errors.largest = std::max(errors.largest, e);
   }

@@ -14,11 +14,12 @@ struct Exact {
   double (*laplacian)(const Point&);
   bool surfaceStops;  ///< the exact surface has the normal derivative 0, and the triangles are only near it
   bool sidesHeld;     ///< phi is given on the sides of the grid, not its derivative
-  bool surfaceHeld;   ///< phi is given on the surface, not its derivative
+  Condition surface;  ///< what is given on the surface
 };
 
-extern const Exact kLinear, kManufactured, kHeld, kSphereFlow;
+extern const Exact kLinear, kManufactured, kHeld, kRobin, kSphereFlow;
 
+/// Robin conditions have a coefficient of 2.
 PoissonProblem problemOf(const CellComplex& cells, const Exact& exact, DualPoints points);
 
 struct Errors {

@@ -8,10 +8,32 @@
 #include <Eigen/SparseCore>
 
 #include "mandoline/cell_complex.h"
+#include "mandoline/csr_matrix.h"
+#include "mandoline/status.h"
 
 namespace MANDOLINE_API mandoline {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// A matrix as Eigen sees it, for as long as both live. Columns and values are read where they are; offsets are copied, since Eigen has
+/// them as wide as columns. A matrix of 2^31 entries or more throws CallError{badArgument}.
+class EigenRows {
+ public:
+  using Map = Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>;
+
+  explicit EigenRows(const CsrMatrix& matrix) : matrix_(matrix), offsets_(matrix.rowOffsets.begin(), matrix.rowOffsets.end()) {
+    if (matrix.rowOffsets.back() > INT32_MAX)
+      throw CallError({Status::badArgument, -1, -1, "The matrix has more entries than Eigen counts with 32 bits."});
+  }
+  Map map() const {
+    return {Eigen::Index(matrix_.rows()), Eigen::Index(matrix_.columns), Eigen::Index(matrix_.entryCount()), offsets_.data(),
+            matrix_.entryColumns.data(),  matrix_.entryValues.data()};
+  }
+
+ private:
+  const CsrMatrix& matrix_;
+  std::vector<int32_t> offsets_;
+};
 
 /// Where a cell's value lies. What is said of errors holds for the operators; solvePoisson() corrects them.
 enum class DualPoints : uint8_t {

@@ -71,13 +71,14 @@ struct PoissonProblem {
   std::vector<double> mass;  ///< per cell: the mean of m in it, at least 0; empty for 0
 };
 
-/// The system matrix * phi = rhs; both are those of m phi - div k grad phi = -s, integrated over cells.
+/// The system matrix * phi = rhs; both are those of m phi - div k grad phi = -s, integrated over cells. No cell is left out: what holds phi
+/// is on the diagonal and in rhs.
 struct PoissonSystem {
   /// Cells x cells, symmetric, positive semidefinite: -laplacian(), and more on the diagonal where phi is held. With a coefficient, the
   /// other value where one cell meets smaller ones is the mean of theirs by area times coefficient.
-  SparseMatrix matrix;
+  CsrMatrix matrix;
   std::vector<double> rhs;  ///< per cell
-  SparseMatrix nullSpace;   ///< cells x components where phi is held nowhere: 1 for each cell of the component
+  CsrMatrix nullSpace;      ///< cells x components where phi is held nowhere: 1 for each cell of the component
 
   static void fields(auto& self, const auto& f) {
     f("matrix", self.matrix);
@@ -182,6 +183,15 @@ class PoissonSolver {
   PoissonSolver(PoissonSolver&&) noexcept;
   PoissonSolver& operator=(PoissonSolver&&) noexcept;
   ~PoissonSolver();
+
+  // The system of poissonSystem(), to the bit, for other solvers. With 0 corrections, solve() finds phi of matrix() * phi =
+  // rightSide(data), within the tolerance.
+
+  /// As long as the solver lives.
+  const CsrMatrix& matrix() const;
+  /// `start` is not used. Throws CallError as solve() does.
+  std::vector<double> rightSide(const PoissonData& data) const;
+  CsrMatrix nullSpace() const;
 
   /// Without `start` the same as solvePoisson(), to the bit. Throws CallError like that, and for data that are not finite or of other
   /// lengths (badArgument).

@@ -184,7 +184,10 @@ export interface CellComponents {
   count: number;
 }
 
-/** The system matrix * phi = rhs; both are those of m phi - div k grad phi = -s, integrated over cells. */
+/**
+ * The system matrix * phi = rhs; both are those of m phi - div k grad phi = -s, integrated over cells. No cell is left out: what holds phi
+ * is on the diagonal and in rhs.
+ */
 export interface PoissonSystem {
   /**
    * Cells x cells, symmetric, positive semidefinite: -laplacian(), and more on the diagonal where phi is held. With a coefficient, the
