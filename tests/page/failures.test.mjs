@@ -251,3 +251,16 @@ test('a worker that turns out not to start does not take the place of the one af
   assert.equal(await thread.call('cut', null), 'cells');
   assert.equal(workers.length, 2);
 });
+
+test('where the code can not be written for lack of its module the page says so, and loads it when the panel is opened again', async (t) => {
+  const page = await site.newPage(t, { expectedProblem: /ERR_FAILED/ });
+  await page.route(/\/code-.*\.js/, (route) => route.abort());
+  await page.goto(`${site.url}#mesh=wedge&n=4`);
+  await isReady(page);
+  await openPanel(page, 'code');
+  await eventually(async () => assert.match(await textOf(page, '#code'), /can't be loaded/));
+  await page.unroute(/\/code-.*\.js/);
+  await page.locator('#code-toggle').click();
+  await openPanel(page, 'code');
+  await eventually(async () => assert.match(await textOf(page, '#javascript-text'), /mandoline/));
+});

@@ -1,18 +1,32 @@
 import type { ComponentChildren } from 'preact';
+import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../app';
-import { codeOf, type Code } from '../../model/code';
+import type { Code } from '../../model/code';
 import { saveAs } from './download';
 import { blobOf, useSaving } from './saving';
 import { CopyButton } from './controls/copy_button';
 import { Section } from './controls/section';
 
+type Writer = typeof import('../../model/code');
+
+/** What writes the code, loaded when it is first seen, or ahead. */
+export const loadCode = (): Promise<Writer> => import('../../model/code');
+
 /** What makes the same outside the page. */
 export function CodePanel({ app }: { app: App }) {
   const { model, settings, state } = app;
-  const code = model && state.sections.isOpen('code') && !state.cutError.value ? codeOf(settings, model) : null;
+  const [writer, setWriter] = useState<Writer | 'missing' | null>(null);
+  const isOpen = state.sections.isOpen('code');
+  useEffect(() => {
+    if (isOpen) void loadCode().then(setWriter, () => setWriter('missing'));
+  }, [isOpen]);
+  const isThere = writer !== null && writer !== 'missing';
+  const code = model && isOpen && isThere && !state.cutError.value ? writer.codeOf(settings, model) : null;
   return (
     <Section app={app} id="code" title="Use this in code">
-      {code ? (
+      {writer === 'missing' ? (
+        <p class="hint">What writes the code can't be loaded.</p>
+      ) : code ? (
         <>
           <MeshFile app={app} code={code} />
           <Block name="javascript" title="JavaScript" copy="Copy JavaScript" text={code.javascript}>
@@ -24,7 +38,7 @@ export function CodePanel({ app }: { app: App }) {
           </Block>
         </>
       ) : (
-        <p class="hint">Nothing is cut with these settings.</p>
+        isThere && <p class="hint">Nothing is cut with these settings.</p>
       )}
     </Section>
   );
