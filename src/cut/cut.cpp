@@ -105,7 +105,11 @@ void cutInBricks(CutState& state, const ShareOf& share, Clock& clock, Run& run) 
   clock.begin("bricks");
   state.bricks = layOutBricks(surface, state.parts, brickGrid);
   if (share.count > 1) state.bricks.here = layersOf(state.bricks, share.index, share.count);
-  state.cuts = cutBricks(surface, state.parts, state.bricks, run, state.keepBricks ? state.keepBricks() : KeptBricks());
+  if (CutState* before = state.before) {
+    state.kept =
+        keepBricks({before->surface, before->parts, before->bricks, before->cuts, state.moved}, surface, state.parts, state.bricks);
+  }
+  state.cuts = cutBricks(surface, state.parts, state.bricks, run, state.kept);
   state.used = findUsed(surface, state.bricks, state.cuts, run);
 }
 

@@ -123,15 +123,19 @@ struct BrickCuts : IdVector<BrickId, BrickCut> {
   std::vector<Arena> memory;
 };
 
-/// Bricks that need not be cut again.
+/// Bricks that need not be cut again: see kept_bricks.h.
 struct KeptBricks {
-  BrickCuts cuts;               ///< of all bricks; empty if none is kept
-  std::vector<uint8_t> isKept;  ///< per brick
+  static constexpr BrickId kNone{~0u};
+  static constexpr VertexId kNoVertex{~0u};
 
-  bool has(uint32_t brick) const { return !isKept.empty() && isKept[brick] != 0; }
+  BrickCuts cuts;                         ///< of all bricks; empty if none is kept
+  IdVector<BrickId, BrickId> before;      ///< per brick: which it was; kNone if it is not kept. Empty if none is
+  IdVector<VertexId, VertexId> vertices;  ///< per vertex of the surface before: which it is now; or kNoVertex
+
+  bool has(BrickId brick) const { return !before.empty() && before[brick] != kNone; }
 };
 
-/// Cuts the bricks that are to be cut here, if they are not kept.
-BrickCuts cutBricks(const Surface& surface, const SurfaceParts& parts, Bricks& bricks, Run& run, KeptBricks kept = {});
+/// Cuts the bricks that are to be cut here, if they are not kept. Moves their cuts out of `kept`.
+BrickCuts cutBricks(const Surface& surface, const SurfaceParts& parts, Bricks& bricks, Run& run, KeptBricks& kept);
 
 }  // namespace mandoline::detail

@@ -160,27 +160,40 @@ void makeRoom(const Numbers& numbers, size_t surfaceVertices, CutMesh spare, Cut
 class VertexWriter {
  public:
   /// `mesh` and `grid` are those of the user.
-  VertexWriter(const MeshView& mesh, const Grid& grid, const Input& input, CutMesh& out)
-      : mesh_(mesh), grid_(grid), input_(input), scale_(input.mesh->shift), out_(out) {}
+  VertexWriter(const MeshView& mesh, const Grid& grid, const Input& input, const KeptVertices& kept, CutMesh& out)
+      : mesh_(mesh), grid_(grid), input_(input), kept_(kept), scale_(input.mesh->shift), out_(out) {}
 
   /// Vertex v becomes number i.
   void write(const CutVertices& vertices, VertexId v, size_t i, Predicates& predicates) {
     const Slab& slab = vertices.slab(v);
-    const Point p = vertices.position(v, predicates);
     for (int d = 0; d < 3; ++d) {
       out_.vertexCell[3 * i + d] = slab[d] >> 1;
       if (onPlane(slab[d])) out_.vertexMask[i] |= uint8_t(1 << d);
-      // Coordinates that the input has are handed back as they are, even where scaling flushed them.
-      out_.positions[3 * i + d] = onPlane(slab[d])           ? grid_.planes[d][size_t(slab[d] >> 1)]
-                                  : isTriVertex(vertices, v) ? mesh_.positions[3 * size_t(v.number) + d]
-                                                             : scale_.world(p[d]);
     }
+    writePosition(vertices, v, i, predicates);
     writeParents(vertices, v, i);
   }
 
   CutMesh& out() const { return out_; }
 
  private:
+  /// Coordinates that the input has are handed back as they are, even where scaling flushed them.
+  void writePosition(const CutVertices& vertices, VertexId v, size_t i, Predicates& predicates) {
+    const Slab& slab = vertices.slab(v);
+    double* position = &out_.positions[3 * i];
+    const bool isMeshs = isTriVertex(vertices, v);
+    const double* before = isMeshs ? nullptr : kept_.find(i);
+    if (before) {
+      std::copy_n(before, 3, position);
+      return;
+    }
+    const Point p = isMeshs ? Point() : vertices.position(v, predicates);
+    for (size_t d = 0; d < 3; ++d) {
+      position[d] = onPlane(slab[d]) ? grid_.planes[d][size_t(slab[d] >> 1)]
+                    : isMeshs        ? mesh_.positions[3 * size_t(v.number) + d]
+                                     : scale_.world(p[d]);
+    }
+  }
   bool isTriVertex(const CutVertices& vertices, VertexId v) const { return vertices.isTriVertex(v) && !input_.mesh->isMade(v); }
 
   void writeParents(const CutVertices& vertices, VertexId v, size_t i) {
@@ -200,6 +213,7 @@ class VertexWriter {
   const MeshView& mesh_;
   const Grid& grid_;
   const Input& input_;
+  const KeptVertices& kept_;
   const Scale scale_;
   CutMesh& out_;
 };
@@ -255,15 +269,15 @@ void writeAll(const CutState& state, const Numbers& numbers, const std::vector<V
 
 /// Moves made vertices that rounding put onto another one by a few units in the last place, so that no two have the same position.
 /// Vertices on different grid elements never need it: see CutVertices::position. At a grid vertex there is one; inside of a grid cell there
-/// are those of the mesh alone, unless triangles meet.
-void separate(CutMesh& out, bool doTrianglesMeet) {
-  const uint32_t n = uint32_t(out.vertexMask.size());
+/// are those of the mesh alone, unless triangles meet. Kept vertices have been moved before.
+void separate(CutMesh& out, const KeptVertices& kept, bool doTrianglesMeet) {
   const uint8_t inCell = doTrianglesMeet ? 7 : 0;
-  const auto isAlone = [&](uint8_t mask) { return mask == 7 || mask == inCell; };
-  const auto alone = std::count_if(out.vertexMask.begin(), out.vertexMask.end(), isAlone);
-  PositionTable table(n - size_t(alone), [&](uint32_t v) { return &out.positions[3 * size_t(v)]; });
-  for (uint32_t v = 0; v < n; ++v) {
-    if (isAlone(out.vertexMask[v])) continue;
+  std::vector<uint32_t> mayMeet;
+  for (uint32_t v = 0; v < out.vertexMask.size(); ++v) {
+    if (out.vertexMask[v] != 7 && out.vertexMask[v] != inCell && !kept.find(v)) mayMeet.push_back(v);
+  }
+  PositionTable table(mayMeet.size(), [&](uint32_t v) { return &out.positions[3 * size_t(v)]; });
+  for (const uint32_t v : mayMeet) {
     double* p = &out.positions[3 * size_t(v)];
     uint32_t* slot = &table.find(p);
     const Point original = {p[0], p[1], p[2]};
@@ -296,7 +310,11 @@ std::vector<VertexId> listUsed(const UsedVertices& used) {
 
 CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& run) {
   const Input& input = state.surface.input;
-  const Numbers numbers = makeNumbers(state.cut(), state.used, run);
+  state.numbers = makeNumbers(state.cut(), state.used, run);
+  const Numbers& numbers = state.numbers;
+  KeptVertices kept;
+  if (!state.kept.before.empty())
+    kept = {findKeptVertices(state.cut(), state.kept, state.before->numbers, numbers), state.before->positions};
   CutPart part;
   CutMesh& out = part.cutMesh;
   out.grid = grid;
@@ -304,10 +322,10 @@ CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& r
   const std::vector<VertexId> surface = onLayers(state.bricks.here, state.surface.vertices, used);
   if (state.bricks.here.isShare) part.firstVertices = numbersOf(surface, state, numbers);
   makeRoom(numbers, surface.size(), std::exchange(state.spare, {}), out, run.monitor);
-  VertexWriter writer(mesh, grid, input, out);
+  VertexWriter writer(mesh, grid, input, kept, out);
   writeAll(state, numbers, surface, writer, run);
   const auto isMade = [&](VertexId v) { return state.surface.vertices.isImplicit(v); };
-  separate(out, input.mesh->hasIntersections() && std::any_of(used.begin(), used.end(), isMade));
+  separate(out, kept, input.mesh->hasIntersections() && std::any_of(used.begin(), used.end(), isMade));
   part.triFaces = numbers.here.triFaces;
   return part;
 }
