@@ -106,8 +106,7 @@ void cutInBricks(CutState& state, const ShareOf& share, Clock& clock, Run& run) 
   state.bricks = layOutBricks(surface, state.parts, brickGrid);
   if (share.count > 1) state.bricks.here = layersOf(state.bricks, share.index, share.count);
   if (CutState* before = state.before) {
-    state.kept =
-        keepBricks({before->surface, before->parts, before->bricks, before->cuts, state.moved}, surface, state.parts, state.bricks);
+    state.kept = keepBricks({before->surface, before->parts, before->bricks, before->cuts, state.moved}, surface, state.parts, state.bricks);
   }
   state.cuts = cutBricks(surface, state.parts, state.bricks, run, state.kept);
   state.used = findUsed(surface, state.bricks, state.cuts, run);

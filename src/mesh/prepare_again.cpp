@@ -10,7 +10,8 @@ namespace {
 /// Whether two meshes differ in nothing but coordinates. Not where triangles have no area: they put vertices on the sides of others.
 bool areConnectedAlike(const Prepared& before, const Prepared& now) {
   return before.counts.zeroAreaTriangles == 0 && now.counts.zeroAreaTriangles == 0 && before.shift == now.shift &&
-         before.triVertices == now.triVertices && before.triangles == now.triangles;
+         before.triVertices == now.triVertices && before.triangles.size() == now.triangles.size() &&
+         std::memcmp(before.triangles.data(), now.triangles.data(), sizeof before.triangles[0] * now.triangles.size()) == 0;
 }
 
 /// 0 is not -0: both may be handed on to positions.
