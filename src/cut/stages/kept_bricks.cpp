@@ -79,8 +79,7 @@ class Keeper {
     vertices.slabs = std::move(result.vertices.slabs);
     vertices.parentTriangles = std::move(result.vertices.parentTriangles);
     result.vertices = std::move(vertices);
-    for (auto* ids : {&result.triLoops.items, &result.loops.items, &result.lineVertices})
-      Arena::rewrite(*ids, [&](VertexId v) { return now_.inBrick(v); });
+    for (auto* ids : {&result.surfaceVertices, &result.lineVertices}) Arena::rewrite(*ids, [&](VertexId v) { return now_.inBrick(v); });
     return result;
   }
 

@@ -18,8 +18,9 @@ std::vector<uint32_t> findKeptVertices(const CutBricks& cut, const KeptBricks& k
   // On seams it may have come nearer to one that has moved: see separate() in output_part.cpp.
   for (const BrickId b : cut.bricks.ids()) {
     if (kept.has(b)) continue;
-    for (const auto* loops : {&cut.cuts[b].triLoops, &cut.cuts[b].loops}) {
-      for (const VertexId v : loops->items) result[now.vertex(b, v)] = Numbers::kUnused;
+    for (const VertexId v : cut.cuts[b].surfaceVertices) result[now.ofSurface[v]] = Numbers::kUnused;
+    for (const uint32_t number : now.ofBrick[b]) {
+      if (number != Numbers::kUnused) result[number] = Numbers::kUnused;
     }
   }
   return result;

@@ -21,93 +21,107 @@ struct Block {
   static Block at(size_t block, size_t n) { return {block * kSize, std::min(n, (block + 1) * kSize)}; }
 };
 
-/// Writes what belongs to bricks: tri-cut-faces, pieces of grid-faces, which come after them, and cut-cells.
+/// Writes what belongs to a brick: tri-cut-faces, pieces of grid-faces, which come after them, and cut-cells.
 class BrickWriter {
  public:
-  BrickWriter(const CutState& state, const Numbers& numbers, CutMesh& out) : state_(state), numbers_(numbers), out_(out) {}
+  BrickWriter(const CutState& state, const Numbers& numbers, BrickId brick, CutMesh& out)
+      : state_(state), numbers_(numbers), brick_(brick), cut_(state.cuts[brick]), at_(numbers.rows[brick]), out_(out) {
+    vertices_ = numbers.ofBrick[brick];
+    for (const VertexId v : cut_.surfaceVertices) vertices_.push_back(numbers.ofSurface[v]);
+    for (BrickCounts& at : at_) {  // pieces come after all tri-cut-faces
+      at.loops += numbers.total.triLoops;
+      at.loopVertices += numbers.total.triLoopVertices;
+    }
+  }
 
-  void write(BrickId brick) const {
-    const BrickCut& cut = state_.cuts[brick];
-    const BrickSeams& seams = state_.seams[brick];
-    std::vector<BrickCounts> at = numbers_.rows[brick];  // where what comes next goes
-    const FaceParents parents(state_.surface.input, cut.triangles, cut.otherParents);
-    auto inPlane = cut.triFacesInPlane.begin();
-    forOwn(cut, &BrickRow::pastTriFace, seams.triFaces, [&](uint32_t row, uint32_t first, uint32_t past) {
-      for (uint32_t i = first; i < past; ++i) {
-        const FaceId face = cut.triOrder[i];
-        const uint32_t f = numbers_.placeHere(numbers_.faces[brick][face.number]);
-        out_.faceTriangle[f] = int32_t(cut.triangles[face].number);
-        writeLoops(brick, face, f, at[row].triLoops, at[row].triLoopVertices);
-        writeParents(parents, face, f, at[row].parents);
-        while (inPlane != cut.triFacesInPlane.end() && inPlane->place < i) ++inPlane;  // that of another brick
-        if (inPlane != cut.triFacesInPlane.end() && inPlane->place == i) writePlane(inPlane->plane, f);
-      }
+  void run() {
+    const BrickSeams& seams = state_.seams[brick_];
+    forOwn(cut_, &BrickRow::pastTriFace, seams.triFaces, [&](uint32_t row, uint32_t first, uint32_t past) {
+      const uint32_t f = placeOf(first);
+      for (uint32_t i = first; i < past; ++i) out_.faceTriangle[f + i - first] = int32_t(cut_.triangles[{i}].number);
+      writeLoops(cut_.triLoops, {first, past}, f, {at_[row].triLoops, at_[row].triLoopVertices});
+      writeParents(first, past, f, at_[row].parents);
+      writePlanes(first, past, f);
     });
-    const BrickCounts& total = numbers_.total;
-    forOwn(cut, &BrickRow::pastPiece, seams.pieces, [&](uint32_t row, uint32_t first, uint32_t past) {
-      uint32_t loops = total.triLoops + at[row].loops, loopVertices = total.triLoopVertices + at[row].loopVertices;
-      for (uint32_t i = first; i < past; ++i) {
-        const FaceId face{uint32_t(cut.triangles.size()) + i};
-        const uint32_t f = numbers_.placeHere(numbers_.faces[brick][face.number]);
-        writePlane(cut.pieces[i], f);
-        writeLoops(brick, face, f, loops, loopVertices);
-      }
-      at[row].loops = loops - total.triLoops;
-      at[row].loopVertices = loopVertices - total.triLoopVertices;
+    forOwn(cut_, &BrickRow::pastPiece, seams.pieces, [&](uint32_t row, uint32_t first, uint32_t past) {
+      const uint32_t f = placeOf(uint32_t(cut_.triangles.size()) + first);
+      for (uint32_t i = first; i < past; ++i) writePlane(cut_.pieces[i], f + i - first);
+      writeLoops(cut_.pieceLoops, {first, past}, f, {at_[row].loops, at_[row].loopVertices});
     });
     uint32_t cell = 0;
-    for (uint32_t row = 0; row < cut.rows.size(); ++row) {
-      for (; cell < cut.rows[row].pastCell; ++cell) writeCell(brick, {cell}, at[row]);
+    for (uint32_t row = 0; row < cut_.rows.size(); ++row) {
+      for (; cell < cut_.rows[row].pastCell; ++cell) writeCell({cell}, at_[row]);
     }
   }
 
  private:
-  void writePlane(const AxialPlane& plane, uint32_t f) const {
+  uint32_t placeOf(uint32_t face) const { return numbers_.placeHere(numbers_.faces[brick_][face]); }
+
+  void writePlane(const AxialPlane& plane, uint32_t f) {
     out_.faceAxis[f] = int8_t(plane.axis);
     out_.facePlane[f] = plane.plane;
   }
+  /// Of tri-cut-faces.
+  void writePlanes(uint32_t first, uint32_t past, uint32_t f) {
+    const auto inPlane = cut_.triFacesInPlane;
+    auto at = std::lower_bound(inPlane.begin(), inPlane.end(), first, [](const InPlane& face, uint32_t i) { return face.face < i; });
+    for (; at != inPlane.end() && at->face < past; ++at) writePlane(at->plane, f + at->face - first);
+  }
 
-  void writeLoops(BrickId brick, FaceId face, uint32_t f, uint32_t& loops, uint32_t& loopVertices) const {
-    const VertexId firstOwn = state_.cuts[brick].vertices.firstOwn;
-    const uint32_t *ofSurface = numbers_.ofSurface.data(), *ofBrick = numbers_.ofBrick[brick].data();
-    out_.faceLoopOffsets[f] = loops;
-    for (const auto loop : state_.cuts[brick].loopsOf(face)) {
-      out_.loopOffsets[loops++] = loopVertices;
-      uint32_t* to = &out_.loopVertices[loopVertices];
-      loopVertices += uint32_t(loop.size());
-      for (const VertexId v : loop) *to++ = v < firstOwn ? ofSurface[v.number] : ofBrick[v.number - firstOwn.number];
+  /// Where loops and their vertices go.
+  struct LoopsAt {
+    uint32_t &loops, &vertices;
+  };
+
+  /// Those of faces first .. past - 1; `f` is the first one's place.
+  void writeLoops(const FaceLoops& from, const IdRange& faces, uint32_t f, const LoopsAt& to) {
+    const uint32_t first = uint32_t(faces.begin), past = uint32_t(faces.end), firstLoop = from.firstLoop(first),
+                   pastLoop = from.firstLoop(past), firstVertex = from.loops.offsets[firstLoop];
+    for (uint32_t i = first; i < past; ++i) out_.faceLoopOffsets[f + i - first] = to.loops + from.firstLoop(i) - firstLoop;
+    for (uint32_t l = firstLoop; l < pastLoop; ++l) out_.loopOffsets[to.loops++] = to.vertices + from.loops.offsets[l] - firstVertex;
+    for (uint32_t v = firstVertex; v < from.loops.offsets[pastLoop]; ++v) out_.loopVertices[to.vertices++] = vertices_[from.loops.items[v]];
+  }
+
+  /// The triangles that faces are pieces of, in each ascending.
+  void writeParents(uint32_t first, uint32_t past, uint32_t f, uint32_t& at) {
+    const FaceParents parents(state_.surface.input, cut_.triangles, cut_.otherParents);
+    const auto write = [&](uint32_t place, uint32_t triangle, int8_t sign) {
+      out_.faceParents[place] = triangle;
+      out_.faceParentSigns[place] = sign;
+    };
+    const bool areSingle = parents.areSingle();
+    for (uint32_t i = first; i < past; ++i, ++f) {
+      const uint32_t firstOfFace = out_.faceParentOffsets[f] = at;
+      if (areSingle) {
+        write(at++, cut_.triangles[{i}].number, 1);
+        continue;
+      }
+      parents.forEach({i}, [&](TriangleId t, bool sameWay) {
+        uint32_t place = at++;
+        for (; place > firstOfFace && out_.faceParents[place - 1] > t.number; --place)
+          write(place, out_.faceParents[place - 1], out_.faceParentSigns[place - 1]);
+        write(place, t.number, sameWay ? 1 : -1);
+      });
     }
   }
 
-  /// The triangles that a face is a piece of, ascending.
-  void writeParents(const FaceParents& parents, FaceId face, uint32_t f, uint32_t& at) const {
-    const uint32_t first = at;
-    out_.faceParentOffsets[f] = first;
-    parents.forEach(face, [&](TriangleId t, bool sameWay) {
-      uint32_t place = at++;
-      for (; place > first && out_.faceParents[place - 1] > t.number; --place) {
-        out_.faceParents[place] = out_.faceParents[place - 1];
-        out_.faceParentSigns[place] = out_.faceParentSigns[place - 1];
-      }
-      out_.faceParents[place] = t.number;
-      out_.faceParentSigns[place] = sameWay ? 1 : -1;
-    });
-  }
-
-  void writeCell(BrickId brick, CellId cell, BrickCounts& at) const {
-    const BrickCut& cut = state_.cuts[brick];
+  void writeCell(CellId cell, BrickCounts& at) {
     const uint32_t c = at.cells++ - numbers_.before.cells;
     out_.cellHalfFaceOffsets[c] = at.halfFaces;
-    for (const HalfFace h : cut.halfFaces[cell]) {
-      out_.cellHalfFaces[at.halfFaces++] = HalfFace({numbers_.faces[brick][h.face().number]}, h.side()).number;
+    for (const HalfFace h : cut_.halfFaces[cell]) {
+      out_.cellHalfFaces[at.halfFaces++] = HalfFace({numbers_.faces[brick_][h.face().number]}, h.side()).number;
     }
-    const Slab gridCell = state_.bricks.boxes[brick].cellAt(cut.gridCells[cell]);
+    const Slab gridCell = state_.bricks.boxes[brick_].cellAt(cut_.gridCells[cell]);
     for (size_t d = 0; d < 3; ++d) out_.cellGridCell[3 * size_t(c) + d] = gridCell[d] >> 1;
-    out_.cellRegion[c] = state_.regions.ofComponents[brick][cut.components[cell]];
+    out_.cellRegion[c] = state_.regions.ofComponents[brick_][cut_.components[cell]];
   }
 
   const CutState& state_;
   const Numbers& numbers_;
+  const BrickId brick_;
+  const BrickCut& cut_;
+  std::vector<BrickCounts> at_;     // per row: where what comes next goes
+  std::vector<uint32_t> vertices_;  // per place in loops: the vertex's number
   CutMesh& out_;
 };
 
@@ -243,7 +257,6 @@ std::vector<uint32_t> numbersOf(const std::vector<VertexId>& surface, const CutS
 
 /// Writes vertices, of which those of `surface` come first, faces and cells, whose places are known.
 void writeAll(const CutState& state, const Numbers& numbers, const std::vector<VertexId>& surface, VertexWriter& vertexWriter, Run& run) {
-  const BrickWriter brickWriter(state, numbers, vertexWriter.out());
   const BricksHere& here = state.bricks.here;
   std::vector<uint32_t> tasks(here.size() + Block::count(surface.size()));
   std::iota(tasks.begin(), tasks.end(), here.first.number);
@@ -255,7 +268,7 @@ void writeAll(const CutState& state, const Numbers& numbers, const std::vector<V
       for (size_t i = block.begin; i < block.end; ++i) vertexWriter.write(state.surface.vertices, surface[i], i, predicates[thread]);
       return;
     }
-    brickWriter.write({task});
+    BrickWriter(state, numbers, {task}, vertexWriter.out()).run();
     const BrickCut& cut = state.cuts[{task}];
     forOwn(cut, &BrickRow::pastVertex, state.seams[{task}].vertices, [&](uint32_t, uint32_t first, uint32_t past) {
       for (uint32_t i = first; i < past; ++i) {
