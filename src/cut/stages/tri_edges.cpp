@@ -4,14 +4,14 @@ namespace mandoline::detail {
 namespace {
 
 /// An axial plane that an edge crosses.
-struct AxialPlane {
+struct CrossedPlane {
   int axis;
   double coordinate;
   bool upwards;  ///< whether the edge ascends along the axis
 };
 
 /// P1: order of the crossings of edge a -> b with two planes, by place along the edge.
-int compareCrossings(const Point& a, const Point& b, const AxialPlane& u, const AxialPlane& v, Predicates& predicates) {
+int compareCrossings(const Point& a, const Point& b, const CrossedPlane& u, const CrossedPlane& v, Predicates& predicates) {
   const int d = u.axis, e = v.axis;
   const double x = u.coordinate, y = v.coordinate;
   const double s = (x - a[d]) / (b[d] - a[d]), t = (y - a[e]) / (b[e] - a[e]);
@@ -24,7 +24,7 @@ int compareCrossings(const Point& a, const Point& b, const AxialPlane& u, const 
 }
 
 /// P1 on a line in two triangles' planes.
-int compareCrossings(const WeldedMesh& mesh, const Line& line, const AxialPlane& u, const AxialPlane& v, Predicates& predicates) {
+int compareCrossings(const WeldedMesh& mesh, const Line& line, const CrossedPlane& u, const CrossedPlane& v, Predicates& predicates) {
   const Point r = mesh.points[mesh.triangles[line.a][0]];
   const int beyond = predicates.sign([&](auto number) {  // where the line meets the first plane: against the second, times w
     using Number = decltype(number);
@@ -55,7 +55,7 @@ size_t crossEdge(const Input& input, const std::array<VertexId, 2>& ends, const 
     bool tied[3] = {};
     for (int d = 0; d < 3; ++d) {
       if (!pending(d)) continue;
-      const auto planeOf = [&](int axis) { return AxialPlane{axis, input.planes[axis][next[axis]], step[axis] > 0}; };
+      const auto planeOf = [&](int axis) { return CrossedPlane{axis, input.planes[axis][next[axis]], step[axis] > 0}; };
       const int order = first < 0       ? -1
                         : line.ofPlanes ? compareCrossings(*input.mesh, line, planeOf(d), planeOf(first), predicates)
                                         : compareCrossings(input.mesh->points[line.a], input.mesh->points[line.b], planeOf(d),
