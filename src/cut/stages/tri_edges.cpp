@@ -85,16 +85,18 @@ uint32_t crossingBound(const Slab& a, const Slab& b) {
   return count;
 }
 
-/// Pieces of tri-edges that lie in an axial plane, but not on a grid line.
-void collectInPlane(Surface& surface) {
+bool isInPlane(const Slab& a, const Slab& b) {
+  bool isIn = false;
+  for (size_t d = 0; d < 3; ++d) isIn |= a[d] == b[d] && onPlane(a[d]);
+  return isIn;
+}
+
+/// Pieces of tri-edges that lie in an axial plane, but not on a grid line; `inPlane`: all edges in such a plane.
+void collectInPlane(const std::vector<TriEdgeId>& inPlane, Surface& surface) {
   const Input& input = surface.input;
   const CutVertices& vertices = surface.vertices;
   const MeshEdges& edges = surface.edges();
-  for (const TriEdgeId e : edges.ends.ids()) {
-    const Slab &a = input.slabs[edges.ends[e][0]], &b = input.slabs[edges.ends[e][1]];
-    bool lies = false;
-    for (int d = 0; d < 3; ++d) lies |= a[d] == b[d] && onPlane(a[d]);
-    if (!lies) continue;
+  for (const TriEdgeId e : inPlane) {
     VertexId from = edges.ends[e][0];
     const auto piece = [&](VertexId to) {
       const Slab element = elementBetween(vertices.slab(from), vertices.slab(to));
@@ -110,7 +112,21 @@ void collectInPlane(Surface& surface) {
 
 }  // namespace
 
-void cutTriEdges(Surface& surface, Run& run) {
+CrossingsBefore::CrossingsBefore(const Surface& before, const Surface& now, const Moved& moved) {
+  const MeshEdges &were = before.edges(), &are = now.edges();
+  if (!were.lines.empty() || !are.lines.empty() || were.ends != are.ends) return;
+  before_ = &before;
+  moved_ = &moved;
+}
+
+const Slab* CrossingsBefore::find(TriEdgeId edge) const {
+  if (!before_) return nullptr;
+  const auto& [low, high] = before_->edges().ends[edge];
+  if ((*moved_)[low] || (*moved_)[high]) return nullptr;
+  return &before_->vertices.slabs[(*before_->vertices.crossings(edge).begin()).number];
+}
+
+void cutTriEdges(Surface& surface, Run& run, const CrossingsBefore& before) {
   const Input& input = surface.input;
   const MeshEdges& edges = surface.edges();
   CutVertices& vertices = surface.vertices;
@@ -120,9 +136,12 @@ void cutTriEdges(Surface& surface, Run& run) {
   vertices.firstOnEdge = {uint32_t(input.slabs.size())};
   vertices.crossingOffsets.reserve(edgeCount + 1);
   uint64_t total = input.slabs.size();
+  std::vector<TriEdgeId> inPlane;
   for (const TriEdgeId e : edges.ends.ids()) {
+    const Slab &low = input.slabs[edges.ends[e][0]], &high = input.slabs[edges.ends[e][1]];
+    if (isInPlane(low, high)) inPlane.push_back(e);
     vertices.crossingOffsets.push_back({uint32_t(total)});
-    total += crossingBound(input.slabs[edges.ends[e][0]], input.slabs[edges.ends[e][1]]);
+    total += crossingBound(low, high);
     if (total >= uint64_t(1) << 31) throw Failure{{Status::meshTooLarge, -1, -1, "The cut-mesh would have more than 2^31 vertices."}};
   }
   vertices.crossingOffsets.push_back({uint32_t(total)});
@@ -135,15 +154,19 @@ void cutTriEdges(Surface& surface, Run& run) {
       const Ids<VertexId> crossings = vertices.crossings(e);
       if (crossings.empty()) continue;
       const VertexId first = *crossings.begin();
+      for (const VertexId v : crossings) vertices.parentEdges[v.number - vertices.firstOnEdge.number] = e;
+      if (const Slab* known = before.find(e)) {
+        for (const VertexId v : crossings) vertices.slabs[v.number] = known[v.number - first.number];
+        continue;
+      }
       const size_t count = crossEdge(input, edges.ends[e], edges.line(e), &vertices.slabs[first.number], predicates);
       for (const VertexId v : crossings) {
-        vertices.parentEdges[v.number - vertices.firstOnEdge.number] = e;
         if (v.number >= first.number + count) vertices.slabs[v.number] = {CutVertices::kUnused, 1, 1};
       }
     }
   });
   for (const Predicates& p : chunks) run.count(p);
-  collectInPlane(surface);
+  collectInPlane(inPlane, surface);
 }
 
 }  // namespace mandoline::detail
