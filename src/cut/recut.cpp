@@ -55,6 +55,7 @@ struct Recutter::Data {
     state.positions.clear();
     copyLarge(cutMesh.positions, state.positions);
     state.before = nullptr;
+    state.kept = {};
     last = std::move(now);
     return cutMesh;
   }
