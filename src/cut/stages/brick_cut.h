@@ -60,7 +60,7 @@ struct InPlane {
   AxialPlane plane;
 };
 
-/// The loops of faces, of places of vertices.
+/// The loops of some faces, which hold places of vertices.
 struct FaceLoops {
   CsrSpan<uint32_t> loops;
   std::span<const uint32_t> offsets;  ///< per face its loops; empty if every face has one

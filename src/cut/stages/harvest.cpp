@@ -1,5 +1,8 @@
 #include "cut/stages/harvest.h"
 
+#include <algorithm>
+#include <tuple>
+
 #include "base/sort.h"
 
 namespace mandoline::detail {

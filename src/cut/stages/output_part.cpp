@@ -1,6 +1,7 @@
 #include "cut/stages/output_part.h"
 
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
