@@ -29,6 +29,15 @@ class Arena {
   std::span<const Item> copy(const std::vector<Item>& items) {
     return copy(std::span<const Item>(items));
   }
+  /// As many items as `count`, which f(items) writes.
+  template <class Item, class F>
+  std::span<const Item> make(size_t count, const F& f) {
+    static_assert(std::is_trivially_copyable_v<Item> && alignof(Item) <= kAlignment);
+    if (count == 0) return {};
+    const std::span<Item> items(static_cast<Item*>(take(count * sizeof(Item))), count);
+    f(items);
+    return items;
+  }
   /// Puts f(item) in the place of each item of such a copy.
   template <class Item, class F>
   static void rewrite(std::span<const Item> copy, const F& f) {

@@ -1,4 +1,5 @@
-// The driver: Algorithm 1 of the paper, bottom-up. Each stage has its own header, which is its contract.
+// The driver: Algorithm 1 of the paper, bottom-up. Each stage has its own
+// header, which is its contract.
 #include "base/milliseconds.h"
 #include "cut/contradiction.h"
 #include "cut/driver.h"
@@ -93,7 +94,7 @@ void cutInBricks(CutState& state, const ShareOf& share, Clock& clock, Run& run) 
   const Input& input = surface.input;
 
   clock.begin("triEdges");
-  cutTriEdges(surface, run);
+  cutTriEdges(surface, run, state.before ? CrossingsBefore(state.before->surface, surface, state.moved) : CrossingsBefore());
 
   clock.begin("triFaces");
   const BrickGrid brickGrid(input, state.brickShifts ? *state.brickShifts
@@ -105,7 +106,11 @@ void cutInBricks(CutState& state, const ShareOf& share, Clock& clock, Run& run) 
   clock.begin("bricks");
   state.bricks = layOutBricks(surface, state.parts, brickGrid);
   if (share.count > 1) state.bricks.here = layersOf(state.bricks, share.index, share.count);
-  state.cuts = cutBricks(surface, state.parts, state.bricks, run, state.keepBricks ? state.keepBricks() : KeptBricks());
+  if (CutState* before = state.before) {
+    state.kept =
+        keepBricks({before->surface, before->parts, before->bricks, before->cuts, state.moved}, surface, state.parts, state.bricks);
+  }
+  state.cuts = cutBricks(surface, state.parts, state.bricks, run, state.kept);
   state.used = findUsed(surface, state.bricks, state.cuts, run);
 }
 

@@ -1,11 +1,10 @@
 #include "mandoline/recut.h"
 
-#include <algorithm>
 #include <utility>
 
+#include "base/large_array.h"
 #include "cut/driver.h"
 #include "cut/stages/input.h"
-#include "cut/stages/kept_bricks.h"
 #include "mesh/fingerprints.h"
 #include "mesh/prepare_again.h"
 #include "mesh/run_call.h"
@@ -38,30 +37,25 @@ struct Recutter::Data {
     state.spare = std::move(spare);
     const auto beginStage = [&](const char* stage) { clock.begin(stage); };
     const Preparation preparation{largestCoordinate(grid), options.intersections, true};
-    Counts found;
-    Moved moved;
     if (before.state) {
       PreparedAgain again = prepareAgain(input.view(), preparation, *before.prepared, monitor, beginStage);
       now.prepared = std::move(again.mesh);
-      moved = std::move(again.moved);
+      if (!again.moved.empty()) state.before = before.state.get();
+      state.moved = std::move(again.moved);
     } else {
       now.prepared = prepareMesh(input.view(), preparation, monitor, beginStage);
     }
     beginCut(*now.prepared, grid, state, clock, run);
-    state.brickShifts = moved.empty() ? BrickGrid::shiftsForMoving(state.surface.input) : before.state->bricks.grid.shifts;
-    if (!moved.empty()) {
-      state.keepBricks = [&] {
-        CutState& cut = *before.state;
-        KeptBricks kept = keepBricks({cut.surface, cut.parts, cut.bricks, cut.cuts, moved}, state.surface, state.parts, state.bricks);
-        found.kept = size_t(std::count(kept.isKept.begin(), kept.isKept.end(), 1));
-        return kept;
-      };
-    }
+    state.brickShifts = state.before ? state.before->bricks.grid.shifts : BrickGrid::shiftsForMoving(state.surface.input);
     CutMesh cutMesh = cutPrepared(state, input.view(), grid, clock, run);
     sign(cutMesh, fingerprintOf(mesh), options);
-    found.bricks = state.bricks.size();
-    counts = found;
-    state.keepBricks = nullptr;
+    counts = {state.bricks.size(), 0};
+    for (const BrickId b : state.bricks.ids()) counts.kept += state.kept.has(b);
+    if (state.before) state.positions = std::move(state.before->positions);
+    state.positions.clear();
+    copyLarge(cutMesh.positions, state.positions);
+    state.before = nullptr;
+    state.kept = {};
     last = std::move(now);
     return cutMesh;
   }

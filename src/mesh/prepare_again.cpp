@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace mandoline::detail {
 namespace {
@@ -9,8 +10,14 @@ namespace {
 /// Whether two meshes differ in nothing but coordinates. Not where triangles have no area: they put vertices on the sides of others.
 bool areConnectedAlike(const Prepared& before, const Prepared& now) {
   return before.counts.zeroAreaTriangles == 0 && now.counts.zeroAreaTriangles == 0 && before.shift == now.shift &&
-         before.triVertices == now.triVertices && before.triangles == now.triangles;
+         before.triVertices == now.triVertices && before.triangles.size() == now.triangles.size() &&
+         std::memcmp(before.triangles.data(), now.triangles.data(), sizeof before.triangles[0] * now.triangles.size()) == 0;
 }
+
+/// 0 is not -0: both may be handed on to positions.
+bool areSameBits(const Point& a, const Point& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+/// A coordinate that was flushed may be another one.
+bool hasZero(const Point& p) { return p[0] == 0 || p[1] == 0 || p[2] == 0; }
 
 /// States in which only the triangles are kept that lie near those that have moved, these included. Those that these meet are among them.
 std::vector<TriangleState> nearMoved(const Prepared& mesh, const Moved& moved) {
@@ -73,7 +80,8 @@ PreparedAgain prepareAgain(const MeshView& mesh, const Preparation& preparation,
   Moved moved;
   if (areConnectedAlike(before, *now)) {
     moved.resize(now->points.size());
-    for (const VertexId v : moved.ids()) moved[v] = before.point(v) != now->point(v);
+    const bool areFlushed = before.counts.flushedCoordinates + now->counts.flushedCoordinates > 0;
+    for (const VertexId v : moved.ids()) moved[v] = !areSameBits(before.point(v), now->point(v)) || (areFlushed && hasZero(now->point(v)));
   }
   if (preparation.intersections != Intersections::assumeNone) beginStage("intersections");
   if (moved.empty() || !resolveAgain(before, *now, moved, preparation.intersections, {monitor, predicates})) {

@@ -1,6 +1,7 @@
 // Ids of one kind and the arrays that go by them; memory for arrays.
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <type_traits>
 
 #include "base/arena.h"
@@ -86,6 +87,15 @@ TEST_CASE("An arena keeps what was copied into it, also where it is moved", "[ba
   for (size_t i = 0; i < originals.size(); ++i)
     CHECK(std::equal(copies[i].begin(), copies[i].end(), originals[i].begin(), originals[i].end()));
   CHECK((aligned[0] == 0.5 && aligned[1] == -2));
+}
+
+TEST_CASE("An arena makes arrays that are written in place", "[base]") {
+  Arena arena;
+  CHECK(arena.make<uint32_t>(0, [](std::span<uint32_t>) { FAIL("there is nothing to write"); }).empty());
+  const auto made = arena.make<uint32_t>(5, [](std::span<uint32_t> items) { std::iota(items.begin(), items.end(), 7u); });
+  const std::array<uint32_t, 2> more = {1, 2};
+  arena.copy(std::span<const uint32_t>(more));
+  CHECK(std::vector<uint32_t>(made.begin(), made.end()) == std::vector<uint32_t>{7, 8, 9, 10, 11});
 }
 
 TEST_CASE("Getting pages changes nothing that is there", "[base]") {

@@ -56,6 +56,44 @@ TEST_CASE("recut: a vertex that moves leaves most bricks as they were", "[recut]
   CHECK(differences(again.mesh, cut(mesh, grid).mesh) == std::vector<std::string>());
 }
 
+TEST_CASE("recut: a ball that passes through another one is cut as it would be anew", "[recut]") {
+  const Mesh still = ball(), apart = shapes::merged({still, shapes::translated(still, {6, 1, 0})});
+  const Grid grid = Grid::around(apart, 32);
+  std::vector<Mesh> times;
+  for (int t = 0; t < 8; ++t) times.push_back(shapes::merged({still, shapes::translated(still, {6.5 - t * 0.25, 1, 0.0625 * t})}));
+  REQUIRE(cut(times.front(), grid).mesh.madeVertices.empty());
+  REQUIRE(!cut(times.back(), grid).mesh.madeVertices.empty());
+  size_t kept = 0;
+  CHECK(brokenRecut(times, grid, {}, &kept) == "");
+  CHECK(kept > 0);
+}
+
+TEST_CASE("recut: vertices that rounding puts onto each other stay apart where others move", "[recut]") {
+  // Two edges from one vertex that cross the plane x = 1 next to each other, far from the origin.
+  const double far = 0x1p40, step = 0x1p-12;
+  const Grid grid = Grid::regular({far, far, far}, {1, 1, 1}, {24, 24, 24});
+  const Mesh near = shapes::triangle({far + 1 - step, far + 1.5, far + 1.5}, {far + 2.5, far + 1.5 + step, far + 1.5},
+                                     {far + 2.5, far + 1.5, far + 1.5 + step});
+  std::vector<Mesh> times;
+  for (const double move : {0.0, 0.5, 0.25}) {
+    times.push_back(shapes::merged(
+        {near, shapes::triangle({far + 12, far + 12, far + 12 + move}, {far + 19, far + 12.5, far + 12}, {far + 12, far + 20, far + 13})}));
+  }
+  times.push_back(times.back());
+  times.back().positions[4] += step;  // then one of the near ones
+  times.push_back(times.front());
+  size_t kept = 0;
+  CHECK(brokenRecut(times, grid, {}, &kept) == "");
+  CHECK(kept > 0);
+}
+
+TEST_CASE("recut: coordinates that become -0, or others that scaling flushes, are handed back as they are", "[recut]") {
+  std::vector<Mesh> times;
+  for (const double y : {1e-70, 1e-71, 0.0, -0.0, 1e-70})
+    times.push_back(shapes::triangle({0.5, y, 0.5}, {1.75, 0.5, 0.5}, {0.5, 1.75, 0.5}));
+  for (const double lowest : {0.0, -1.0}) CHECK(brokenRecut(times, Grid::regular({lowest, lowest, lowest}, {1, 1, 1}, {4, 4, 4})) == "");
+}
+
 TEST_CASE("recut: after an error, and after a cut that was cancelled, all is cut anew", "[recut]") {
   const Mesh mesh = ball();
   Mesh bad = mesh;

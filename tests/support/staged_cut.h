@@ -79,7 +79,7 @@ struct StagedCut {
     if (last >= Stage::cutCells) makeCutCells(brick, stencil, faces(), cellScratch, cells);
   }
   void findRest() {
-    state.cuts = cutBricks(state.surface, state.parts, state.bricks, run);
+    state.cuts = cutBricks(state.surface, state.parts, state.bricks, run, state.kept);
     state.used = findUsed(state.surface, state.bricks, state.cuts, run);
     state.runs = findUntouchedRuns(state.surface.input, state.bricks, monitor);
     state.seams = findSeams(state.surface.input, state.bricks, state.runs, state.cuts, run);

@@ -56,29 +56,39 @@ struct AxialPlane {
 };
 
 struct InPlane {
-  uint32_t place;  ///< in triOrder
+  uint32_t face;  ///< of the brick
   AxialPlane plane;
+};
+
+/// The loops of some faces, which hold places of vertices.
+struct FaceLoops {
+  CsrSpan<uint32_t> loops;
+  std::span<const uint32_t> offsets;  ///< per face its loops; empty if every face has one
+
+  uint32_t firstLoop(uint32_t face) const { return offsets.empty() ? face : offsets[face]; }
+  /// The number of loops of some faces, and of their vertices.
+  uint32_t loopCount(uint32_t first, uint32_t past) const { return firstLoop(past) - firstLoop(first); }
+  uint32_t vertexCount(uint32_t first, uint32_t past) const { return loops.offsets[firstLoop(past)] - loops.offsets[firstLoop(first)]; }
 };
 
 /// Its arrays are in the memory of BrickCuts.
 struct BrickCut {
+  /// Those of the brick's own. Their places, in loops, are their numbers in the brick; then come those of surfaceVertices.
   CutVertices vertices;
+  std::span<const VertexId> surfaceVertices;  ///< that loops have, in no order
   /// Those on grid lines that are not of the mesh or its edges, by the first cell that has them: at corners, then on grid-edges, there by
   /// triangle.
   std::span<const VertexId> lineVertices;
 
-  // Tri-cut-faces, and how they are numbered in the result: by cell, inside of it before those in its grid-faces. Those in a grid-face
-  // belong to the first cell of the brick that has it.
-  CsrSpan<VertexId> triLoops;
-  std::span<const uint32_t> triFaceLoopOffsets;  ///< empty if every face has one loop
+  // Tri-cut-faces, in the order of the result: by cell, inside of it before those in its grid-faces. Those in a grid-face belong to the
+  // first cell of the brick that has it.
+  FaceLoops triLoops;
   IdSpan<FaceId, TriangleId> triangles;
   std::span<const OtherParent> otherParents;
-  std::span<const FaceId> triOrder;
   std::span<const InPlane> triFacesInPlane;  ///< ascending
 
-  // Pieces of grid-faces, by the first cell of the brick that has them.
-  CsrSpan<VertexId> loops;
-  std::span<const uint32_t> faceLoopOffsets;
+  // Pieces of grid-faces, which come after them, by the first cell of the brick that has them.
+  FaceLoops pieceLoops;
   std::span<const AxialPlane> pieces;  ///< the planes that they lie in
 
   CsrSpan<HalfFace, CellId> halfFaces;
@@ -99,21 +109,14 @@ struct BrickCut {
   /// Calls f(array) for each that is in the memory of BrickCuts.
   template <class F>
   void forArrays(const F& f) {
-    f(lineVertices);
-    f(triLoops.offsets), f(triLoops.items), f(triFaceLoopOffsets), f(triangles), f(otherParents), f(triOrder), f(triFacesInPlane);
-    f(loops.offsets), f(loops.items), f(faceLoopOffsets), f(pieces);
+    f(surfaceVertices), f(lineVertices), f(triangles), f(otherParents), f(triFacesInPlane), f(pieces);
+    for (FaceLoops* faces : {&triLoops, &pieceLoops}) f(faces->loops.offsets), f(faces->loops.items), f(faces->offsets);
     f(halfFaces.offsets), f(halfFaces.items), f(gridCells), f(components);
     f(rows), f(boundaryFaces), f(boundaryHalves), f(boundaryLines), f(openFaces), f(steps);
   }
 
   bool isTri(FaceId face) const { return face.number < triangles.size(); }
   size_t faceCount() const { return triangles.size() + pieces.size(); }
-  Groups<VertexId> loopsOf(FaceId face) const {
-    const uint32_t triFaces = uint32_t(triangles.size()), piece = face.number - triFaces;
-    if (face.number >= triFaces) return loops.groups(faceLoopOffsets[piece], faceLoopOffsets[piece + 1]);
-    if (triFaceLoopOffsets.empty()) return triLoops.groups(face.number, face.number + 1);
-    return triLoops.groups(triFaceLoopOffsets[face.number], triFaceLoopOffsets[face.number + 1]);
-  }
 };
 
 /// Of all bricks, with the memory that holds it.
@@ -123,15 +126,19 @@ struct BrickCuts : IdVector<BrickId, BrickCut> {
   std::vector<Arena> memory;
 };
 
-/// Bricks that need not be cut again.
+/// Bricks that need not be cut again: see kept_bricks.h.
 struct KeptBricks {
-  BrickCuts cuts;               ///< of all bricks; empty if none is kept
-  std::vector<uint8_t> isKept;  ///< per brick
+  static constexpr BrickId kNone{~0u};
+  static constexpr VertexId kNoVertex{~0u};
 
-  bool has(uint32_t brick) const { return !isKept.empty() && isKept[brick] != 0; }
+  BrickCuts cuts;                         ///< of all bricks; empty if none is kept
+  IdVector<BrickId, BrickId> before;      ///< per brick: which it was; kNone if it is not kept. Empty if none is
+  IdVector<VertexId, VertexId> vertices;  ///< per vertex of the surface before: which it is now; or kNoVertex
+
+  bool has(BrickId brick) const { return !before.empty() && before[brick] != kNone; }
 };
 
-/// Cuts the bricks that are to be cut here, if they are not kept.
-BrickCuts cutBricks(const Surface& surface, const SurfaceParts& parts, Bricks& bricks, Run& run, KeptBricks kept = {});
+/// Cuts the bricks that are to be cut here, if they are not kept. Moves their cuts out of `kept`.
+BrickCuts cutBricks(const Surface& surface, const SurfaceParts& parts, Bricks& bricks, Run& run, KeptBricks& kept);
 
 }  // namespace mandoline::detail

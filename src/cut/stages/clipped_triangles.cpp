@@ -82,6 +82,10 @@ class Clipper {
 
  private:
   void give(const Slab& element, uint32_t piece) {
+    if (planeCount(element) == 0 && bricks_.hasCell(element)) {
+      chunk_.clipped.parts.push_back({bricks_.keyOf(element), triangle_, piece});
+      return;
+    }
     bricks_.forBricks(element, [&](const Slab& cell) { chunk_.clipped.parts.push_back({bricks_.keyOf(cell), triangle_, piece}); });
   }
   /// Whether cells from one to another, as slabs along an axis, are of one brick along it.

@@ -1,5 +1,8 @@
 #include "cut/stages/harvest.h"
 
+#include <algorithm>
+#include <tuple>
+
 #include "base/sort.h"
 
 namespace mandoline::detail {
@@ -114,7 +117,11 @@ class Harvest {
         }
       }
     }
+    gathered_.triNumbers.resize(gathered_.triOrder.size());
+    for (uint32_t i = 0; i < gathered_.triOrder.size(); ++i) gathered_.triNumbers[gathered_.triOrder[i]] = {i};
   }
+  FaceId numberOf(FaceId face) const { return faces_.isTri(face) ? gathered_.triNumbers[face] : face; }
+  HalfFace numbered(HalfFace h) const { return {numberOf(h.face()), h.side()}; }
 
   AxialPlane planeOf(GridFaceId gridFace) const {
     const Stencil::Face& face = stencil_.faces[gridFace];
@@ -160,7 +167,7 @@ class Harvest {
       const uint32_t first = uint32_t(gathered_.boundaryHalves.size());
       for (size_t i = 0; i < halvesIn(g).size(); ++i) {
         const HalfFace h = halvesIn(g)[i];
-        BoundaryHalf half{h, gathered_.components[sidesIn(g)[i].cells[face.side() == 1 ? 0 : 1]], faces_.isTri(h.face()), {}};
+        BoundaryHalf half{numbered(h), gathered_.components[sidesIn(g)[i].cells[face.side() == 1 ? 0 : 1]], faces_.isTri(h.face()), {}};
         if (half.isTri) half.steps = steps_.at(h.face());
         gathered_.boundaryHalves.push_back(half);
       }
@@ -211,26 +218,87 @@ class Harvest {
     }
   }
 
-  template <class Item, class Group>
-  CsrSpan<Item, Group> copied(const Csr<Item, Group>& groups) {
-    return {memory_.copy(groups.offsets), memory_.copy(groups.items)};
+  /// Of a vertex in loops.
+  uint32_t placeOf(VertexId v) {
+    if (v >= vertices_.firstOwn) return v.number - vertices_.firstOwn.number;
+    uint32_t& place = gathered_.places[v];
+    if (place == Gathered::kNoPlace) {
+      place = uint32_t(vertices_.slabs.size() + gathered_.surfaceVertices.size());
+      gathered_.surfaceVertices.push_back(v);
+    }
+    return place;
+  }
+
+  void copyTriLoops() {
+    const TriFaces& tri = faces_.tri;
+    const bool haveOneEach = tri.faceLoopOffsets.empty();
+    out_.triLoops.offsets = memory_.make<uint32_t>(haveOneEach ? 0 : tri.faceLoopOffsets.size(), [&](std::span<uint32_t> offsets) {
+      uint32_t at = 0;
+      for (size_t i = 0; i < tri.size(); ++i) {
+        offsets[i] = at;
+        at += uint32_t(tri.loopsOf(gathered_.triOrder[i]).size());
+      }
+      offsets.back() = at;
+    });
+    out_.triLoops.loops.offsets = memory_.make<uint32_t>(tri.loops.offsets.size(), [&](std::span<uint32_t> offsets) {
+      uint32_t at = 0, loops = 0;
+      for (const FaceId f : gathered_.triOrder) {
+        for (const auto loop : tri.loopsOf(f)) {
+          offsets[loops++] = at;
+          at += uint32_t(loop.size());
+        }
+      }
+      offsets[loops] = at;
+    });
+    out_.triLoops.loops.items = memory_.make<uint32_t>(tri.loops.items.size(), [&](std::span<uint32_t> items) {
+      auto to = items.begin();
+      for (const FaceId f : gathered_.triOrder) {
+        for (const auto loop : tri.loopsOf(f)) {
+          for (const VertexId v : loop) *to++ = placeOf(v);
+        }
+      }
+    });
+  }
+
+  void copyTriFaces() {
+    const TriFaces& tri = faces_.tri;
+    copyTriLoops();
+    out_.triangles = memory_.make<TriangleId>(tri.size(), [&](std::span<TriangleId> triangles) {
+      for (size_t i = 0; i < triangles.size(); ++i) triangles[i] = tri.triangles[gathered_.triOrder[i]];
+    });
+    out_.otherParents = memory_.make<OtherParent>(tri.otherParents.size(), [&](std::span<OtherParent> parents) {
+      std::transform(tri.otherParents.begin(), tri.otherParents.end(), parents.begin(), [&](const OtherParent& o) {
+        return OtherParent{numberOf(o.face), o.triangle, o.sameWay};
+      });
+      sortItems(parents,
+                [](const OtherParent& a, const OtherParent& b) { return std::tie(a.face, a.triangle) < std::tie(b.face, b.triangle); });
+    });
+    out_.triFacesInPlane = memory_.copy(gathered_.triFacesInPlane);
+  }
+
+  void copyPieces() {
+    const auto& loops = faces_.grid.loops;
+    out_.pieceLoops.offsets = memory_.copy(faces_.grid.faceLoopOffsets);
+    out_.pieceLoops.loops.offsets = memory_.copy(loops.offsets);
+    out_.pieceLoops.loops.items = memory_.make<uint32_t>(loops.items.size(), [&](std::span<uint32_t> items) {
+      std::transform(loops.items.begin(), loops.items.end(), items.begin(), [&](VertexId v) { return placeOf(v); });
+    });
+    out_.pieces = memory_.copy(gathered_.pieces);
   }
 
   void copyAll() {
     copyLarge(vertices_.slabs, out_.vertices.slabs);
     copyLarge(vertices_.parentTriangles, out_.vertices.parentTriangles);
-    const TriFaces& tri = faces_.tri;
-    out_.triLoops = copied(tri.loops);
-    out_.triFaceLoopOffsets = memory_.copy(tri.faceLoopOffsets);
-    out_.triangles = memory_.copy(tri.triangles);
-    out_.otherParents = memory_.copy(tri.otherParents);
-    out_.loops = copied(faces_.grid.loops);
-    out_.faceLoopOffsets = memory_.copy(faces_.grid.faceLoopOffsets);
-    out_.halfFaces = copied(cells_.halfFaces);
+    if (gathered_.places.empty()) gathered_.places.assign(vertices_.firstOwn.number, Gathered::kNoPlace);
+    copyTriFaces();
+    copyPieces();
+    out_.surfaceVertices = memory_.copy(gathered_.surfaceVertices);
     out_.lineVertices = memory_.copy(gathered_.lineVertices);
-    out_.triOrder = memory_.copy(gathered_.triOrder);
-    out_.triFacesInPlane = memory_.copy(gathered_.triFacesInPlane);
-    out_.pieces = memory_.copy(gathered_.pieces);
+    const auto& halves = cells_.halfFaces;
+    out_.halfFaces.offsets = memory_.copy(halves.offsets);
+    out_.halfFaces.items = memory_.make<HalfFace>(halves.items.size(), [&](std::span<HalfFace> items) {
+      std::transform(halves.items.begin(), halves.items.end(), items.begin(), [&](HalfFace h) { return numbered(h); });
+    });
     out_.gridCells = memory_.copy(gathered_.gridCells);
     out_.components = memory_.copy(gathered_.components);
     out_.rows = memory_.copy(gathered_.rows);

@@ -9,8 +9,13 @@ namespace mandoline::detail {
 
 /// What a brick's arrays are gathered in, used again for the next one.
 struct Gathered {
+  static constexpr uint32_t kNoPlace = ~0u;
+
   std::vector<VertexId> lineVertices;
-  std::vector<FaceId> triOrder;
+  IdVector<VertexId, uint32_t> places;  ///< per vertex of the surface: its place in loops, or kNoPlace
+  std::vector<VertexId> surfaceVertices;
+  std::vector<FaceId> triOrder;         ///< the tri-cut-faces as they are numbered
+  IdVector<FaceId, FaceId> triNumbers;  ///< per tri-cut-face
   std::vector<InPlane> triFacesInPlane;
   std::vector<AxialPlane> pieces;
   std::vector<uint32_t> gridCells;
@@ -25,6 +30,8 @@ struct Gathered {
 
   void clear() {
     lineVertices.clear();
+    for (const VertexId v : surfaceVertices) places[v] = kNoPlace;
+    surfaceVertices.clear();
     triOrder.clear();
     triFacesInPlane.clear();
     pieces.clear();

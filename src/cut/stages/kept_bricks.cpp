@@ -15,20 +15,21 @@ class Keeper {
   KeptBricks run() {
     KeptBricks kept;
     if (!now_.isOrdered()) return kept;
-    kept.isKept.assign(bricks_.size(), 0);
+    kept.before.assign(bricks_.size(), KeptBricks::kNone);
     kept.cuts.resize(bricks_.size());
     BrickId was{0};
     for (const BrickId b : bricks_.ids()) {
       while (was.number < before_.bricks.size() && before_.bricks.keys[was] < bricks_.keys[b]) ++was.number;
       if (was.number == before_.bricks.size()) break;
       if (before_.bricks.keys[was] != bricks_.keys[b] || !isSame(was, b)) continue;
-      kept.isKept[b.number] = 1;
+      kept.before[b] = was;
       kept.cuts[b] = renumbered(before_.cuts[was]);
       const auto touched = before_.bricks.wordsOf(was);
       std::copy(touched.begin(), touched.end(), bricks_.wordsOf(b).begin());
     }
     kept.cuts.memory = std::move(before_.cuts.memory);
     dropUnused(kept.cuts);
+    kept.vertices = now_.takeVertices();
     return kept;
   }
 
@@ -78,8 +79,7 @@ class Keeper {
     vertices.slabs = std::move(result.vertices.slabs);
     vertices.parentTriangles = std::move(result.vertices.parentTriangles);
     result.vertices = std::move(vertices);
-    for (auto* ids : {&result.triLoops.items, &result.loops.items, &result.lineVertices})
-      Arena::rewrite(*ids, [&](VertexId v) { return now_.inBrick(v); });
+    for (auto* ids : {&result.surfaceVertices, &result.lineVertices}) Arena::rewrite(*ids, [&](VertexId v) { return now_.inBrick(v); });
     return result;
   }
 
@@ -87,7 +87,7 @@ class Keeper {
   const Surface& surface_;
   const SurfaceParts& parts_;
   Bricks& bricks_;
-  const SurfaceMap now_;
+  SurfaceMap now_;
 };
 
 }  // namespace

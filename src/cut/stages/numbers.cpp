@@ -70,7 +70,7 @@ class Numberer {
         for (uint32_t i = first; i < past; ++i) set(i, start + (next[row].*kind.count)++);
       });
     };
-    number(kTriFaces, 0, [&](uint32_t i, uint32_t face) { out_.faces[brick][cut.triOrder[i].number] = face; });
+    number(kTriFaces, 0, [&](uint32_t i, uint32_t face) { out_.faces[brick][i] = face; });
     number(kPieces, out_.total.triFaces, [&](uint32_t i, uint32_t face) { out_.faces[brick][cut.triangles.size() + i] = face; });
     number(kVertices, out_.surfaceVertices, [&](uint32_t i, uint32_t vertex) { set(brick, cut.lineVertices[i], vertex); });
   }
@@ -78,7 +78,7 @@ class Numberer {
   /// What belongs to other bricks. Vertices of the surface get their numbers from those.
   void numberOthers(BrickId brick) {
     const BrickCut& cut = cuts_[brick];
-    forOthersOf(brick, kTriFaces, [&](uint32_t i, BrickId, uint32_t face) { out_.faces[brick][cut.triOrder[i].number] = face; });
+    forOthersOf(brick, kTriFaces, [&](uint32_t i, BrickId, uint32_t face) { out_.faces[brick][i] = face; });
     forOthersOf(brick, kPieces,
                 [&](uint32_t i, BrickId, uint32_t piece) { out_.faces[brick][cut.triangles.size() + i] = out_.total.triFaces + piece; });
     forOthersOf(brick, kVertices, [&](uint32_t i, BrickId, uint32_t vertex) {
@@ -147,10 +147,8 @@ UsedVertices findUsed(const Surface& surface, const Bricks& bricks, const IdVect
   const VertexId past = surface.vertices.firstInTriangle;
   UsedVertices used(past.number);
   runItems(bricks.here.numbers(), run.monitor, [&](size_t, uint32_t b) {
-    for (const auto* loops : {&cuts[{b}].triLoops, &cuts[{b}].loops}) {
-      for (const VertexId v : loops->items) {
-        if (v < past) used[v.number].store(1, std::memory_order_relaxed);
-      }
+    for (const VertexId v : cuts[{b}].surfaceVertices) {
+      if (v < past) used[v.number].store(1, std::memory_order_relaxed);
     }
   });
   return used;

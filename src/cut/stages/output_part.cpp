@@ -1,6 +1,7 @@
 #include "cut/stages/output_part.h"
 
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "base/position_table.h"
 #include "base/run_tasks.h"
 #include "base/sort.h"
+#include "cut/stages/write_brick.h"
 
 namespace mandoline::detail {
 namespace {
@@ -19,96 +21,6 @@ struct Block {
   static constexpr size_t kSize = 8192;
   static size_t count(size_t n) { return (n + kSize - 1) / kSize; }
   static Block at(size_t block, size_t n) { return {block * kSize, std::min(n, (block + 1) * kSize)}; }
-};
-
-/// Writes what belongs to bricks: tri-cut-faces, pieces of grid-faces, which come after them, and cut-cells.
-class BrickWriter {
- public:
-  BrickWriter(const CutState& state, const Numbers& numbers, CutMesh& out) : state_(state), numbers_(numbers), out_(out) {}
-
-  void write(BrickId brick) const {
-    const BrickCut& cut = state_.cuts[brick];
-    const BrickSeams& seams = state_.seams[brick];
-    std::vector<BrickCounts> at = numbers_.rows[brick];  // where what comes next goes
-    const FaceParents parents(state_.surface.input, cut.triangles, cut.otherParents);
-    auto inPlane = cut.triFacesInPlane.begin();
-    forOwn(cut, &BrickRow::pastTriFace, seams.triFaces, [&](uint32_t row, uint32_t first, uint32_t past) {
-      for (uint32_t i = first; i < past; ++i) {
-        const FaceId face = cut.triOrder[i];
-        const uint32_t f = numbers_.placeHere(numbers_.faces[brick][face.number]);
-        out_.faceTriangle[f] = int32_t(cut.triangles[face].number);
-        writeLoops(brick, face, f, at[row].triLoops, at[row].triLoopVertices);
-        writeParents(parents, face, f, at[row].parents);
-        while (inPlane != cut.triFacesInPlane.end() && inPlane->place < i) ++inPlane;  // that of another brick
-        if (inPlane != cut.triFacesInPlane.end() && inPlane->place == i) writePlane(inPlane->plane, f);
-      }
-    });
-    const BrickCounts& total = numbers_.total;
-    forOwn(cut, &BrickRow::pastPiece, seams.pieces, [&](uint32_t row, uint32_t first, uint32_t past) {
-      uint32_t loops = total.triLoops + at[row].loops, loopVertices = total.triLoopVertices + at[row].loopVertices;
-      for (uint32_t i = first; i < past; ++i) {
-        const FaceId face{uint32_t(cut.triangles.size()) + i};
-        const uint32_t f = numbers_.placeHere(numbers_.faces[brick][face.number]);
-        writePlane(cut.pieces[i], f);
-        writeLoops(brick, face, f, loops, loopVertices);
-      }
-      at[row].loops = loops - total.triLoops;
-      at[row].loopVertices = loopVertices - total.triLoopVertices;
-    });
-    uint32_t cell = 0;
-    for (uint32_t row = 0; row < cut.rows.size(); ++row) {
-      for (; cell < cut.rows[row].pastCell; ++cell) writeCell(brick, {cell}, at[row]);
-    }
-  }
-
- private:
-  void writePlane(const AxialPlane& plane, uint32_t f) const {
-    out_.faceAxis[f] = int8_t(plane.axis);
-    out_.facePlane[f] = plane.plane;
-  }
-
-  void writeLoops(BrickId brick, FaceId face, uint32_t f, uint32_t& loops, uint32_t& loopVertices) const {
-    const VertexId firstOwn = state_.cuts[brick].vertices.firstOwn;
-    const uint32_t *ofSurface = numbers_.ofSurface.data(), *ofBrick = numbers_.ofBrick[brick].data();
-    out_.faceLoopOffsets[f] = loops;
-    for (const auto loop : state_.cuts[brick].loopsOf(face)) {
-      out_.loopOffsets[loops++] = loopVertices;
-      uint32_t* to = &out_.loopVertices[loopVertices];
-      loopVertices += uint32_t(loop.size());
-      for (const VertexId v : loop) *to++ = v < firstOwn ? ofSurface[v.number] : ofBrick[v.number - firstOwn.number];
-    }
-  }
-
-  /// The triangles that a face is a piece of, ascending.
-  void writeParents(const FaceParents& parents, FaceId face, uint32_t f, uint32_t& at) const {
-    const uint32_t first = at;
-    out_.faceParentOffsets[f] = first;
-    parents.forEach(face, [&](TriangleId t, bool sameWay) {
-      uint32_t place = at++;
-      for (; place > first && out_.faceParents[place - 1] > t.number; --place) {
-        out_.faceParents[place] = out_.faceParents[place - 1];
-        out_.faceParentSigns[place] = out_.faceParentSigns[place - 1];
-      }
-      out_.faceParents[place] = t.number;
-      out_.faceParentSigns[place] = sameWay ? 1 : -1;
-    });
-  }
-
-  void writeCell(BrickId brick, CellId cell, BrickCounts& at) const {
-    const BrickCut& cut = state_.cuts[brick];
-    const uint32_t c = at.cells++ - numbers_.before.cells;
-    out_.cellHalfFaceOffsets[c] = at.halfFaces;
-    for (const HalfFace h : cut.halfFaces[cell]) {
-      out_.cellHalfFaces[at.halfFaces++] = HalfFace({numbers_.faces[brick][h.face().number]}, h.side()).number;
-    }
-    const Slab gridCell = state_.bricks.boxes[brick].cellAt(cut.gridCells[cell]);
-    for (size_t d = 0; d < 3; ++d) out_.cellGridCell[3 * size_t(c) + d] = gridCell[d] >> 1;
-    out_.cellRegion[c] = state_.regions.ofComponents[brick][cut.components[cell]];
-  }
-
-  const CutState& state_;
-  const Numbers& numbers_;
-  CutMesh& out_;
 };
 
 /// Makes room for all, in the memory that another cut-mesh's arrays have, and ends offsets: each array on one thread, since the first touch
@@ -160,27 +72,40 @@ void makeRoom(const Numbers& numbers, size_t surfaceVertices, CutMesh spare, Cut
 class VertexWriter {
  public:
   /// `mesh` and `grid` are those of the user.
-  VertexWriter(const MeshView& mesh, const Grid& grid, const Input& input, CutMesh& out)
-      : mesh_(mesh), grid_(grid), input_(input), scale_(input.mesh->shift), out_(out) {}
+  VertexWriter(const MeshView& mesh, const Grid& grid, const Input& input, const KeptVertices& kept, CutMesh& out)
+      : mesh_(mesh), grid_(grid), input_(input), kept_(kept), scale_(input.mesh->shift), out_(out) {}
 
   /// Vertex v becomes number i.
   void write(const CutVertices& vertices, VertexId v, size_t i, Predicates& predicates) {
     const Slab& slab = vertices.slab(v);
-    const Point p = vertices.position(v, predicates);
     for (int d = 0; d < 3; ++d) {
       out_.vertexCell[3 * i + d] = slab[d] >> 1;
       if (onPlane(slab[d])) out_.vertexMask[i] |= uint8_t(1 << d);
-      // Coordinates that the input has are handed back as they are, even where scaling flushed them.
-      out_.positions[3 * i + d] = onPlane(slab[d])           ? grid_.planes[d][size_t(slab[d] >> 1)]
-                                  : isTriVertex(vertices, v) ? mesh_.positions[3 * size_t(v.number) + d]
-                                                             : scale_.world(p[d]);
     }
+    writePosition(vertices, v, i, predicates);
     writeParents(vertices, v, i);
   }
 
   CutMesh& out() const { return out_; }
 
  private:
+  /// Coordinates that the input has are handed back as they are, even where scaling flushed them.
+  void writePosition(const CutVertices& vertices, VertexId v, size_t i, Predicates& predicates) {
+    const Slab& slab = vertices.slab(v);
+    double* position = &out_.positions[3 * i];
+    const bool isMeshs = isTriVertex(vertices, v);
+    const double* before = isMeshs ? nullptr : kept_.find(i);
+    if (before) {
+      std::copy_n(before, 3, position);
+      return;
+    }
+    const Point p = isMeshs ? Point() : vertices.position(v, predicates);
+    for (size_t d = 0; d < 3; ++d) {
+      position[d] = onPlane(slab[d]) ? grid_.planes[d][size_t(slab[d] >> 1)]
+                    : isMeshs        ? mesh_.positions[3 * size_t(v.number) + d]
+                                     : scale_.world(p[d]);
+    }
+  }
   bool isTriVertex(const CutVertices& vertices, VertexId v) const { return vertices.isTriVertex(v) && !input_.mesh->isMade(v); }
 
   void writeParents(const CutVertices& vertices, VertexId v, size_t i) {
@@ -200,6 +125,7 @@ class VertexWriter {
   const MeshView& mesh_;
   const Grid& grid_;
   const Input& input_;
+  const KeptVertices& kept_;
   const Scale scale_;
   CutMesh& out_;
 };
@@ -229,7 +155,6 @@ std::vector<uint32_t> numbersOf(const std::vector<VertexId>& surface, const CutS
 
 /// Writes vertices, of which those of `surface` come first, faces and cells, whose places are known.
 void writeAll(const CutState& state, const Numbers& numbers, const std::vector<VertexId>& surface, VertexWriter& vertexWriter, Run& run) {
-  const BrickWriter brickWriter(state, numbers, vertexWriter.out());
   const BricksHere& here = state.bricks.here;
   std::vector<uint32_t> tasks(here.size() + Block::count(surface.size()));
   std::iota(tasks.begin(), tasks.end(), here.first.number);
@@ -241,7 +166,7 @@ void writeAll(const CutState& state, const Numbers& numbers, const std::vector<V
       for (size_t i = block.begin; i < block.end; ++i) vertexWriter.write(state.surface.vertices, surface[i], i, predicates[thread]);
       return;
     }
-    brickWriter.write({task});
+    writeBrick(state, {task}, vertexWriter.out());
     const BrickCut& cut = state.cuts[{task}];
     forOwn(cut, &BrickRow::pastVertex, state.seams[{task}].vertices, [&](uint32_t, uint32_t first, uint32_t past) {
       for (uint32_t i = first; i < past; ++i) {
@@ -255,15 +180,15 @@ void writeAll(const CutState& state, const Numbers& numbers, const std::vector<V
 
 /// Moves made vertices that rounding put onto another one by a few units in the last place, so that no two have the same position.
 /// Vertices on different grid elements never need it: see CutVertices::position. At a grid vertex there is one; inside of a grid cell there
-/// are those of the mesh alone, unless triangles meet.
-void separate(CutMesh& out, bool doTrianglesMeet) {
-  const uint32_t n = uint32_t(out.vertexMask.size());
+/// are those of the mesh alone, unless triangles meet. Kept vertices have been moved before.
+void separate(CutMesh& out, const KeptVertices& kept, bool doTrianglesMeet) {
   const uint8_t inCell = doTrianglesMeet ? 7 : 0;
-  const auto isAlone = [&](uint8_t mask) { return mask == 7 || mask == inCell; };
-  const auto alone = std::count_if(out.vertexMask.begin(), out.vertexMask.end(), isAlone);
-  PositionTable table(n - size_t(alone), [&](uint32_t v) { return &out.positions[3 * size_t(v)]; });
-  for (uint32_t v = 0; v < n; ++v) {
-    if (isAlone(out.vertexMask[v])) continue;
+  std::vector<uint32_t> mayMeet;
+  for (uint32_t v = 0; v < out.vertexMask.size(); ++v) {
+    if (out.vertexMask[v] != 7 && out.vertexMask[v] != inCell && !kept.find(v)) mayMeet.push_back(v);
+  }
+  PositionTable table(mayMeet.size(), [&](uint32_t v) { return &out.positions[3 * size_t(v)]; });
+  for (const uint32_t v : mayMeet) {
     double* p = &out.positions[3 * size_t(v)];
     uint32_t* slot = &table.find(p);
     const Point original = {p[0], p[1], p[2]};
@@ -296,7 +221,11 @@ std::vector<VertexId> listUsed(const UsedVertices& used) {
 
 CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& run) {
   const Input& input = state.surface.input;
-  const Numbers numbers = makeNumbers(state.cut(), state.used, run);
+  state.numbers = makeNumbers(state.cut(), state.used, run);
+  const Numbers& numbers = state.numbers;
+  KeptVertices kept;
+  if (!state.kept.before.empty())
+    kept = {findKeptVertices(state.cut(), state.kept, state.before->numbers, numbers), state.before->positions};
   CutPart part;
   CutMesh& out = part.cutMesh;
   out.grid = grid;
@@ -304,10 +233,10 @@ CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& r
   const std::vector<VertexId> surface = onLayers(state.bricks.here, state.surface.vertices, used);
   if (state.bricks.here.isShare) part.firstVertices = numbersOf(surface, state, numbers);
   makeRoom(numbers, surface.size(), std::exchange(state.spare, {}), out, run.monitor);
-  VertexWriter writer(mesh, grid, input, out);
+  VertexWriter writer(mesh, grid, input, kept, out);
   writeAll(state, numbers, surface, writer, run);
   const auto isMade = [&](VertexId v) { return state.surface.vertices.isImplicit(v); };
-  separate(out, input.mesh->hasIntersections() && std::any_of(used.begin(), used.end(), isMade));
+  separate(out, kept, input.mesh->hasIntersections() && std::any_of(used.begin(), used.end(), isMade));
   part.triFaces = numbers.here.triFaces;
   return part;
 }

@@ -4,10 +4,10 @@
 // In: all stages before. Out: CutPart, the whole unless other processes cut the rest (see cut_mesh.h for its arrays and their order).
 #pragma once
 
-#include <functional>
 #include <optional>
 
-#include "cut/stages/numbers.h"
+#include "cut/stages/kept_bricks.h"
+#include "cut/stages/kept_vertices.h"
 #include "cut/stages/regions.h"
 #include "mandoline/cut_share.h"
 
@@ -23,11 +23,15 @@ struct CutState {
   UntouchedRuns runs;
   IdVector<BrickId, BrickSeams> seams;
   Regions regions;
+  Numbers numbers;
 
   // Of a surface that moves:
   std::optional<std::array<int, 3>> brickShifts;  ///< of bricks that have to be the same each time
-  std::function<KeptBricks()> keepBricks;         ///< of those that are laid out
-  CutMesh spare;                                  ///< whose memory the result is written over
+  CutState* before = nullptr;                     ///< the cut before, if parts of it may be kept; and what has moved since
+  Moved moved;
+  KeptBricks kept;
+  std::vector<double> positions;  ///< of the result, for the next cut
+  CutMesh spare;                  ///< whose memory the result is written over
 
   CutBricks cut() const { return {surface, bricks, runs, cuts, seams}; }
 };

@@ -99,19 +99,18 @@ class SeamFinder {
     const bool areSingle = parents.areSingle();
     forOwn(cut_, &BrickRow::pastTriFace, out_.triFaces, [&](uint32_t row, uint32_t first, uint32_t past) {
       BrickCounts& counts = out_.rows[row];
-      for (uint32_t i = first; i < past; ++i) {
-        const auto loops = cut_.loopsOf(cut_.triOrder[i]);
-        counts.triLoops += uint32_t(loops.size());
-        for (const auto loop : loops) counts.triLoopVertices += uint32_t(loop.size());
-        if (!areSingle) parents.forEach(cut_.triOrder[i], [&](TriangleId, bool) { ++counts.parents; });
+      counts.triLoops += cut_.triLoops.loopCount(first, past);
+      counts.triLoopVertices += cut_.triLoops.vertexCount(first, past);
+      if (areSingle) {
+        counts.parents += past - first;
+        return;
       }
-      if (areSingle) counts.parents += past - first;
+      for (uint32_t i = first; i < past; ++i) parents.forEach({i}, [&](TriangleId, bool) { ++counts.parents; });
     });
     forOwn(cut_, &BrickRow::pastPiece, out_.pieces, [&](uint32_t row, uint32_t first, uint32_t past) {
       BrickCounts& counts = out_.rows[row];
-      const uint32_t firstLoop = cut_.faceLoopOffsets[first], pastLoop = cut_.faceLoopOffsets[past];
-      counts.loops += pastLoop - firstLoop;
-      counts.loopVertices += cut_.loops.offsets[pastLoop] - cut_.loops.offsets[firstLoop];
+      counts.loops += cut_.pieceLoops.loopCount(first, past);
+      counts.loopVertices += cut_.pieceLoops.vertexCount(first, past);
     });
   }
 

@@ -1,7 +1,7 @@
 // What a surface and one before it, which has moved since, have in common.
 #pragma once
 
-#include "cut/stages/tri_edges.h"
+#include "cut/stages/brick_cut.h"
 #include "mesh/prepare_again.h"
 
 namespace mandoline::detail {
@@ -9,7 +9,7 @@ namespace mandoline::detail {
 /// What vertices, tri-edges and triangles before are now. Of two surfaces whose triangles are connected alike.
 class SurfaceMap {
  public:
-  static constexpr VertexId kNone{~0u};
+  static constexpr VertexId kNone = KeptBricks::kNoVertex;
 
   SurfaceMap(const Surface& before, const Surface& now, const Moved& moved);
 
@@ -18,6 +18,8 @@ class SurfaceMap {
   bool isOrdered() const { return isOrdered_; }
   /// kNone of a vertex that lies on something that has moved.
   VertexId operator[](VertexId v) const { return vertices_[v]; }
+  /// Of all vertices, at the end.
+  IdVector<VertexId, VertexId> takeVertices() { return std::move(vertices_); }
   /// Whether a triangle is where it was, and has the same vertices and edges of others on it.
   bool isSame(TriangleId t) const { return same_[t] != 0; }
   /// Of a vertex that a brick sees.

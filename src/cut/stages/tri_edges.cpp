@@ -4,14 +4,14 @@ namespace mandoline::detail {
 namespace {
 
 /// An axial plane that an edge crosses.
-struct AxialPlane {
+struct CrossedPlane {
   int axis;
   double coordinate;
   bool upwards;  ///< whether the edge ascends along the axis
 };
 
 /// P1: order of the crossings of edge a -> b with two planes, by place along the edge.
-int compareCrossings(const Point& a, const Point& b, const AxialPlane& u, const AxialPlane& v, Predicates& predicates) {
+int compareCrossings(const Point& a, const Point& b, const CrossedPlane& u, const CrossedPlane& v, Predicates& predicates) {
   const int d = u.axis, e = v.axis;
   const double x = u.coordinate, y = v.coordinate;
   const double s = (x - a[d]) / (b[d] - a[d]), t = (y - a[e]) / (b[e] - a[e]);
@@ -24,7 +24,7 @@ int compareCrossings(const Point& a, const Point& b, const AxialPlane& u, const 
 }
 
 /// P1 on a line in two triangles' planes.
-int compareCrossings(const WeldedMesh& mesh, const Line& line, const AxialPlane& u, const AxialPlane& v, Predicates& predicates) {
+int compareCrossings(const WeldedMesh& mesh, const Line& line, const CrossedPlane& u, const CrossedPlane& v, Predicates& predicates) {
   const Point r = mesh.points[mesh.triangles[line.a][0]];
   const int beyond = predicates.sign([&](auto number) {  // where the line meets the first plane: against the second, times w
     using Number = decltype(number);
@@ -55,7 +55,7 @@ size_t crossEdge(const Input& input, const std::array<VertexId, 2>& ends, const 
     bool tied[3] = {};
     for (int d = 0; d < 3; ++d) {
       if (!pending(d)) continue;
-      const auto planeOf = [&](int axis) { return AxialPlane{axis, input.planes[axis][next[axis]], step[axis] > 0}; };
+      const auto planeOf = [&](int axis) { return CrossedPlane{axis, input.planes[axis][next[axis]], step[axis] > 0}; };
       const int order = first < 0       ? -1
                         : line.ofPlanes ? compareCrossings(*input.mesh, line, planeOf(d), planeOf(first), predicates)
                                         : compareCrossings(input.mesh->points[line.a], input.mesh->points[line.b], planeOf(d),
@@ -85,16 +85,18 @@ uint32_t crossingBound(const Slab& a, const Slab& b) {
   return count;
 }
 
-/// Pieces of tri-edges that lie in an axial plane, but not on a grid line.
-void collectInPlane(Surface& surface) {
+bool isInPlane(const Slab& a, const Slab& b) {
+  bool isIn = false;
+  for (size_t d = 0; d < 3; ++d) isIn |= a[d] == b[d] && onPlane(a[d]);
+  return isIn;
+}
+
+/// Pieces of tri-edges that lie in an axial plane, but not on a grid line; `inPlane`: all edges in such a plane.
+void collectInPlane(const std::vector<TriEdgeId>& inPlane, Surface& surface) {
   const Input& input = surface.input;
   const CutVertices& vertices = surface.vertices;
   const MeshEdges& edges = surface.edges();
-  for (const TriEdgeId e : edges.ends.ids()) {
-    const Slab &a = input.slabs[edges.ends[e][0]], &b = input.slabs[edges.ends[e][1]];
-    bool lies = false;
-    for (int d = 0; d < 3; ++d) lies |= a[d] == b[d] && onPlane(a[d]);
-    if (!lies) continue;
+  for (const TriEdgeId e : inPlane) {
     VertexId from = edges.ends[e][0];
     const auto piece = [&](VertexId to) {
       const Slab element = elementBetween(vertices.slab(from), vertices.slab(to));
@@ -110,7 +112,21 @@ void collectInPlane(Surface& surface) {
 
 }  // namespace
 
-void cutTriEdges(Surface& surface, Run& run) {
+CrossingsBefore::CrossingsBefore(const Surface& before, const Surface& now, const Moved& moved) {
+  const MeshEdges &were = before.edges(), &are = now.edges();
+  if (!were.lines.empty() || !are.lines.empty() || were.ends != are.ends) return;
+  before_ = &before;
+  moved_ = &moved;
+}
+
+const Slab* CrossingsBefore::find(TriEdgeId edge) const {
+  if (!before_) return nullptr;
+  const auto& [low, high] = before_->edges().ends[edge];
+  if ((*moved_)[low] || (*moved_)[high]) return nullptr;
+  return &before_->vertices.slabs[(*before_->vertices.crossings(edge).begin()).number];
+}
+
+void cutTriEdges(Surface& surface, Run& run, const CrossingsBefore& before) {
   const Input& input = surface.input;
   const MeshEdges& edges = surface.edges();
   CutVertices& vertices = surface.vertices;
@@ -120,9 +136,12 @@ void cutTriEdges(Surface& surface, Run& run) {
   vertices.firstOnEdge = {uint32_t(input.slabs.size())};
   vertices.crossingOffsets.reserve(edgeCount + 1);
   uint64_t total = input.slabs.size();
+  std::vector<TriEdgeId> inPlane;
   for (const TriEdgeId e : edges.ends.ids()) {
+    const Slab &low = input.slabs[edges.ends[e][0]], &high = input.slabs[edges.ends[e][1]];
+    if (isInPlane(low, high)) inPlane.push_back(e);
     vertices.crossingOffsets.push_back({uint32_t(total)});
-    total += crossingBound(input.slabs[edges.ends[e][0]], input.slabs[edges.ends[e][1]]);
+    total += crossingBound(low, high);
     if (total >= uint64_t(1) << 31) throw Failure{{Status::meshTooLarge, -1, -1, "The cut-mesh would have more than 2^31 vertices."}};
   }
   vertices.crossingOffsets.push_back({uint32_t(total)});
@@ -135,15 +154,19 @@ void cutTriEdges(Surface& surface, Run& run) {
       const Ids<VertexId> crossings = vertices.crossings(e);
       if (crossings.empty()) continue;
       const VertexId first = *crossings.begin();
+      for (const VertexId v : crossings) vertices.parentEdges[v.number - vertices.firstOnEdge.number] = e;
+      if (const Slab* known = before.find(e)) {
+        for (const VertexId v : crossings) vertices.slabs[v.number] = known[v.number - first.number];
+        continue;
+      }
       const size_t count = crossEdge(input, edges.ends[e], edges.line(e), &vertices.slabs[first.number], predicates);
       for (const VertexId v : crossings) {
-        vertices.parentEdges[v.number - vertices.firstOnEdge.number] = e;
         if (v.number >= first.number + count) vertices.slabs[v.number] = {CutVertices::kUnused, 1, 1};
       }
     }
   });
   for (const Predicates& p : chunks) run.count(p);
-  collectInPlane(surface);
+  collectInPlane(inPlane, surface);
 }
 
 }  // namespace mandoline::detail

@@ -8,6 +8,7 @@
 
 #include "base/csr.h"
 #include "cut/predicates/cut_vertices.h"
+#include "mesh/prepare_again.h"
 
 namespace mandoline::detail {
 
@@ -29,7 +30,23 @@ struct Surface {
   const MeshEdges& edges() const { return input.mesh->edges; }
 };
 
+/// The crossings of a surface before whose triangles were connected alike.
+class CrossingsBefore {
+ public:
+  /// None.
+  CrossingsBefore() = default;
+  /// None, too, where triangles meet in one of both.
+  CrossingsBefore(const Surface& before, const Surface& now, const Moved& moved);
+
+  /// The slabs of an edge's crossings, or null if they are not known.
+  const Slab* find(TriEdgeId edge) const;
+
+ private:
+  const Surface* before_ = nullptr;
+  const Moved* moved_ = nullptr;
+};
+
 /// Fills in the rest of the surface from `surface.input`.
-void cutTriEdges(Surface& surface, Run& run);
+void cutTriEdges(Surface& surface, Run& run, const CrossingsBefore& before = {});
 
 }  // namespace mandoline::detail

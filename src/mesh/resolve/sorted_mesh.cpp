@@ -8,17 +8,34 @@
 namespace mandoline::detail {
 namespace {
 
+/// The corners of kept triangles, ascending.
+std::vector<uint32_t> cornersOfKept(const WeldedMesh& mesh, const std::vector<TriangleState>& states) {
+  std::vector<uint8_t> isCorner(mesh.points.size(), 0);
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (states[t] != TriangleState::kept) continue;
+    for (const uint32_t v : mesh.triangles[t]) isCorner[v] = 1;
+  }
+  std::vector<uint32_t> corners;
+  for (uint32_t v = 0; v < isCorner.size(); ++v) {
+    if (isCorner[v]) corners.push_back(v);
+  }
+  return corners;
+}
+
 uint32_t lowestOf(const std::array<uint32_t, 3>& corners) { return std::min({corners[0], corners[1], corners[2]}); }
 
 }  // namespace
 
 SortedMesh::SortedMesh(const WeldedMesh& mesh, const std::vector<TriangleState>& states) {
-  const auto order = orderAlongCurve(mesh.points, [](size_t v) { return uint32_t(v); });
-  std::vector<uint32_t> places(order.size());
-  points.reserve(order.size());
-  for (const KeyedItem& vertex : order) {
-    places[vertex.item] = uint32_t(points.size());
-    points.push_back(mesh.points[vertex.item]);
+  const std::vector<uint32_t> corners = cornersOfKept(mesh, states);
+  std::vector<Point> unordered;
+  unordered.reserve(corners.size());
+  for (const uint32_t v : corners) unordered.push_back(mesh.points[v]);
+  std::vector<uint32_t> places(mesh.points.size());
+  points.reserve(corners.size());
+  for (const KeyedItem& corner : orderAlongCurve(unordered, [&](size_t i) { return corners[i]; })) {
+    places[corners[corner.item]] = uint32_t(points.size());
+    points.push_back(unordered[corner.item]);
   }
   const auto cornersOf = [&](size_t t) {
     const auto& v = mesh.triangles[t];

@@ -1,0 +1,22 @@
+// Vertices of the result that lie where they did, with their positions in the cut before.
+//
+// In: KeptBricks, and the Numbers of both cuts. Out: KeptVertices: those that no brick has which is cut again.
+#pragma once
+
+#include "cut/stages/numbers.h"
+
+namespace mandoline::detail {
+
+struct KeptVertices {
+  std::vector<uint32_t> before;       ///< per vertex: its number before, or kUnused. Empty if none is kept
+  std::span<const double> positions;  ///< before
+
+  /// Its coordinates, or null if it is not kept.
+  const double* find(size_t vertex) const {
+    return before.empty() || before[vertex] == Numbers::kUnused ? nullptr : &positions[3 * size_t(before[vertex])];
+  }
+};
+
+std::vector<uint32_t> findKeptVertices(const CutBricks& cut, const KeptBricks& kept, const Numbers& before, const Numbers& now);
+
+}  // namespace mandoline::detail

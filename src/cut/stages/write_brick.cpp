@@ -1,0 +1,124 @@
+#include "cut/stages/write_brick.h"
+
+#include <algorithm>
+
+namespace mandoline::detail {
+namespace {
+
+class BrickWriter {
+ public:
+  BrickWriter(const CutState& state, BrickId brick, CutMesh& out)
+      : state_(state), numbers_(state.numbers), brick_(brick), cut_(state.cuts[brick]), at_(numbers_.rows[brick]), out_(out) {
+    vertices_ = numbers_.ofBrick[brick];
+    for (const VertexId v : cut_.surfaceVertices) vertices_.push_back(numbers_.ofSurface[v]);
+    for (BrickCounts& at : at_) {  // pieces come after all tri-cut-faces
+      at.loops += numbers_.total.triLoops;
+      at.loopVertices += numbers_.total.triLoopVertices;
+    }
+  }
+
+  void run() {
+    const BrickSeams& seams = state_.seams[brick_];
+    forOwn(cut_, &BrickRow::pastTriFace, seams.triFaces, [&](uint32_t row, uint32_t first, uint32_t past) {
+      const uint32_t f = placeOf(first);
+      for (uint32_t i = first; i < past; ++i) out_.faceTriangle[f + i - first] = int32_t(cut_.triangles[{i}].number);
+      writeLoops(cut_.triLoops, {first, past}, f, {at_[row].triLoops, at_[row].triLoopVertices});
+      writeParents(first, past, f, at_[row].parents);
+      writePlanes(first, past, f);
+    });
+    forOwn(cut_, &BrickRow::pastPiece, seams.pieces, [&](uint32_t row, uint32_t first, uint32_t past) {
+      const uint32_t f = placeOf(uint32_t(cut_.triangles.size()) + first);
+      for (uint32_t i = first; i < past; ++i) writePlane(cut_.pieces[i], f + i - first);
+      writeLoops(cut_.pieceLoops, {first, past}, f, {at_[row].loops, at_[row].loopVertices});
+    });
+    uint32_t cell = 0;
+    for (uint32_t row = 0; row < cut_.rows.size(); ++row) {
+      for (; cell < cut_.rows[row].pastCell; ++cell) writeCell({cell}, at_[row]);
+    }
+  }
+
+ private:
+  uint32_t placeOf(uint32_t face) const { return numbers_.placeHere(numbers_.faces[brick_][face]); }
+
+  void writePlane(const AxialPlane& plane, uint32_t f) {
+    out_.faceAxis[f] = int8_t(plane.axis);
+    out_.facePlane[f] = plane.plane;
+  }
+  /// Of tri-cut-faces.
+  void writePlanes(uint32_t first, uint32_t past, uint32_t f) {
+    const auto inPlane = cut_.triFacesInPlane;
+    auto at = std::lower_bound(inPlane.begin(), inPlane.end(), first, [](const InPlane& face, uint32_t i) { return face.face < i; });
+    for (; at != inPlane.end() && at->face < past; ++at) writePlane(at->plane, f + at->face - first);
+  }
+
+  /// Where loops and their vertices go.
+  struct LoopsAt {
+    uint32_t &loops, &vertices;
+  };
+
+  /// Those of faces first .. past - 1; `f` is the first one's place.
+  void writeLoops(const FaceLoops& from, const IdRange& faces, uint32_t f, const LoopsAt& to) {
+    const uint32_t first = uint32_t(faces.begin), past = uint32_t(faces.end), firstLoop = from.firstLoop(first),
+                   loopCount = from.loopCount(first, past), vertexCount = from.vertexCount(first, past);
+    const uint32_t* offsets = &from.loops.offsets[firstLoop];
+    const uint32_t firstVertex = offsets[0], loopShift = to.loops - firstLoop, shift = to.vertices - firstVertex;
+    uint32_t* loops = &out_.faceLoopOffsets[f];
+    for (uint32_t i = first; i < past; ++i) *loops++ = from.firstLoop(i) + loopShift;
+    std::transform(offsets, offsets + loopCount, out_.loopOffsets.begin() + to.loops, [=](uint32_t offset) { return offset + shift; });
+    const uint32_t* places = from.loops.items.data() + firstVertex;
+    const uint32_t* vertices = vertices_.data();
+    std::transform(places, places + vertexCount, out_.loopVertices.begin() + to.vertices, [=](uint32_t place) { return vertices[place]; });
+    to.loops += loopCount;
+    to.vertices += vertexCount;
+  }
+
+  /// The triangles that faces are pieces of, in each ascending.
+  void writeParents(uint32_t first, uint32_t past, uint32_t f, uint32_t& at) {
+    const FaceParents parents(state_.surface.input, cut_.triangles, cut_.otherParents);
+    const auto write = [&](uint32_t place, uint32_t triangle, int8_t sign) {
+      out_.faceParents[place] = triangle;
+      out_.faceParentSigns[place] = sign;
+    };
+    const bool areSingle = parents.areSingle();
+    for (uint32_t i = first; i < past; ++i, ++f) {
+      const uint32_t firstOfFace = out_.faceParentOffsets[f] = at;
+      if (areSingle) {
+        write(at++, cut_.triangles[{i}].number, 1);
+        continue;
+      }
+      parents.forEach({i}, [&](TriangleId t, bool sameWay) {
+        uint32_t place = at++;
+        for (; place > firstOfFace && out_.faceParents[place - 1] > t.number; --place)
+          write(place, out_.faceParents[place - 1], out_.faceParentSigns[place - 1]);
+        write(place, t.number, sameWay ? 1 : -1);
+      });
+    }
+  }
+
+  void writeCell(CellId cell, BrickCounts& at) {
+    const uint32_t c = at.cells++ - numbers_.before.cells;
+    out_.cellHalfFaceOffsets[c] = at.halfFaces;
+    const auto halfFaces = cut_.halfFaces[cell];
+    const uint32_t* faces = numbers_.faces[brick_].data();
+    std::transform(halfFaces.begin(), halfFaces.end(), out_.cellHalfFaces.begin() + at.halfFaces,
+                   [=](HalfFace h) { return HalfFace({faces[h.face().number]}, h.side()).number; });
+    at.halfFaces += uint32_t(halfFaces.size());
+    const Slab gridCell = state_.bricks.boxes[brick_].cellAt(cut_.gridCells[cell]);
+    for (size_t d = 0; d < 3; ++d) out_.cellGridCell[3 * size_t(c) + d] = gridCell[d] >> 1;
+    out_.cellRegion[c] = state_.regions.ofComponents[brick_][cut_.components[cell]];
+  }
+
+  const CutState& state_;
+  const Numbers& numbers_;
+  const BrickId brick_;
+  const BrickCut& cut_;
+  std::vector<BrickCounts> at_;     // per row: where what comes next goes
+  std::vector<uint32_t> vertices_;  // per place in loops: the vertex's number
+  CutMesh& out_;
+};
+
+}  // namespace
+
+void writeBrick(const CutState& state, BrickId brick, CutMesh& out) { BrickWriter(state, brick, out).run(); }
+
+}  // namespace mandoline::detail
