@@ -1,5 +1,4 @@
-// The driver: Algorithm 1 of the paper, bottom-up. Each stage has its own
-// header, which is its contract.
+// The driver: Algorithm 1 of the paper, bottom-up. Each stage has its own header, which is its contract.
 #include "base/milliseconds.h"
 #include "cut/contradiction.h"
 #include "cut/driver.h"
@@ -106,10 +105,7 @@ void cutInBricks(CutState& state, const ShareOf& share, Clock& clock, Run& run) 
   clock.begin("bricks");
   state.bricks = layOutBricks(surface, state.parts, brickGrid);
   if (share.count > 1) state.bricks.here = layersOf(state.bricks, share.index, share.count);
-  if (CutState* before = state.before) {
-    state.kept =
-        keepBricks({before->surface, before->parts, before->bricks, before->cuts, state.moved}, surface, state.parts, state.bricks);
-  }
+  if (state.keepBricks) state.kept = state.keepBricks();
   state.cuts = cutBricks(surface, state.parts, state.bricks, run, state.kept);
   state.used = findUsed(surface, state.bricks, state.cuts, run);
 }

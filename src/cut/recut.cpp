@@ -5,6 +5,7 @@
 #include "base/large_array.h"
 #include "cut/driver.h"
 #include "cut/stages/input.h"
+#include "cut/stages/kept_bricks.h"
 #include "mesh/fingerprints.h"
 #include "mesh/prepare_again.h"
 #include "mesh/run_call.h"
@@ -47,6 +48,11 @@ struct Recutter::Data {
     }
     beginCut(*now.prepared, grid, state, clock, run);
     state.brickShifts = state.before ? state.before->bricks.grid.shifts : BrickGrid::shiftsForMoving(state.surface.input);
+    if (CutState* from = state.before) {
+      state.keepBricks = [from, &state] {
+        return keepBricks({from->surface, from->parts, from->bricks, from->cuts, state.moved}, state.surface, state.parts, state.bricks);
+      };
+    }
     CutMesh cutMesh = cutPrepared(state, input.view(), grid, clock, run);
     sign(cutMesh, fingerprintOf(mesh), options);
     counts = {state.bricks.size(), 0};
@@ -55,6 +61,7 @@ struct Recutter::Data {
     state.positions.clear();
     copyLarge(cutMesh.positions, state.positions);
     state.before = nullptr;
+    state.keepBricks = nullptr;
     state.kept = {};
     last = std::move(now);
     return cutMesh;

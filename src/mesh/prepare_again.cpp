@@ -10,7 +10,7 @@ namespace {
 /// Whether two meshes differ in nothing but coordinates. Not where triangles have no area: they put vertices on the sides of others.
 bool areConnectedAlike(const Prepared& before, const Prepared& now) {
   return before.counts.zeroAreaTriangles == 0 && now.counts.zeroAreaTriangles == 0 && before.shift == now.shift &&
-         before.triVertices == now.triVertices && before.triangles.size() == now.triangles.size() &&
+         before.triVertices == now.triVertices && before.triangles.size() == now.triangles.size() && !now.triangles.empty() &&
          std::memcmp(before.triangles.data(), now.triangles.data(), sizeof before.triangles[0] * now.triangles.size()) == 0;
 }
 

@@ -4,9 +4,9 @@
 // In: all stages before. Out: CutPart, the whole unless other processes cut the rest (see cut_mesh.h for its arrays and their order).
 #pragma once
 
+#include <functional>
 #include <optional>
 
-#include "cut/stages/kept_bricks.h"
 #include "cut/stages/kept_vertices.h"
 #include "cut/stages/regions.h"
 #include "mandoline/cut_share.h"
@@ -29,6 +29,7 @@ struct CutState {
   std::optional<std::array<int, 3>> brickShifts;  ///< of bricks that have to be the same each time
   CutState* before = nullptr;                     ///< the cut before, if parts of it may be kept; and what has moved since
   Moved moved;
+  std::function<KeptBricks()> keepBricks;  ///< of those that are laid out; set where there is one before: others don't link it
   KeptBricks kept;
   std::vector<double> positions;  ///< of the result, for the next cut
   CutMesh spare;                  ///< whose memory the result is written over
