@@ -34,7 +34,7 @@ test('offline, meshes of the gallery and files of every format are opened and sa
   assert.ok(has(first, 'WebGL'), 'three draws the picture');
   assert.ok(!has(first, 'THREE.GLTFLoader') && !has(first, 'THREE.GLTFExporter'), 'the picture does not wait for readers and writers');
   await eventually(async () => {
-    for (const name of [/gltf.*\.js$/, /GLTFExporter.*\.js$/, /files.*\.wasm$/, /physics.*\.wasm$/])
+    for (const name of [/gltf.*\.js$/, /export.*\.js$/, /files.*\.wasm$/, /physics.*\.wasm$/])
       assert.ok(
         loaded.some((url) => name.test(url)),
         String(name),

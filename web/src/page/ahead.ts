@@ -3,7 +3,7 @@ import type { Engine, View } from '../model/types';
 import { firstPicture, idle } from './frames';
 import type { State } from './state';
 import { loadCode } from './ui/code_panel';
-import { loadGltfExporter } from './view/export';
+import { loadExport } from './view/files';
 import { loadControls } from './view/layers/gizmo';
 import type { WindTunnel } from './wind';
 
@@ -15,7 +15,7 @@ export async function loadAhead(engine: Engine, state: State, view: View, wind: 
   await firstPicture(state, view);
   state.thumbnails.value = 'seen';
   wind.beginAhead();
-  for (const load of [() => engine.loadAhead(), loadGltfExporter, loadControls, loadCode]) {
+  for (const load of [() => engine.loadAhead(), loadExport, loadControls, loadCode]) {
     await idle();
     await load().catch(() => {});
   }

@@ -1,5 +1,6 @@
 // What is shown, as a GLB file.
 import { BufferGeometry, Color, Float32BufferAttribute, Group, Mesh, MeshStandardMaterial, Triangle, Vector3 } from 'three';
+import { GLTFExporter } from 'three/examples/jsm/exporters/GLTFExporter.js';
 import { pageError } from '../../model/failure';
 import { integer } from '../../model/format';
 import type { Model, PageError } from '../../model/types';
@@ -7,10 +8,6 @@ import { movedBy } from './explosion';
 import type { Layer, Look } from './layer';
 import type { Piece } from './piece';
 import { isBeyond, type ViewPlane } from '../../model/planes';
-
-export function loadGltfExporter() {
-  return import('three/examples/jsm/exporters/GLTFExporter.js');
-}
 
 /** More nodes than this take programs minutes to open. */
 const mostNodes = 20_000;
@@ -27,7 +24,6 @@ export async function exportGlb(look: Look, layers: readonly Layer[], isByCell: 
   }
   model.position.fromArray(origin);
   model.name = name;
-  const { GLTFExporter } = await loadGltfExporter();
   const bytes = await new GLTFExporter().parseAsync(model, { binary: true });
   return new Blob([bytes as ArrayBuffer], { type: 'model/gltf-binary' });
 }

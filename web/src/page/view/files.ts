@@ -5,7 +5,6 @@ import { inWorld, planeOf } from '../../model/planes';
 import { sliceSvg } from '../../model/slice_svg';
 import type { Engine, Picture, PictureOptions, Recording, SliceName, ViewFiles } from '../../model/types';
 import { upOf } from '../../model/up';
-import { exportGlb } from './export';
 import type { Layer, Look } from './layer';
 import type { Caps } from './layers/caps';
 import type { Gizmo } from './layers/gizmo';
@@ -32,6 +31,9 @@ interface FileParts {
   draw(times: number): void;
 }
 
+/** What writes GLB files, loaded when the first one is saved, or ahead. */
+export const loadExport = () => import('./export');
+
 export class Files implements ViewFiles {
   constructor(private readonly parts: FileParts) {}
 
@@ -52,7 +54,9 @@ export class Files implements ViewFiles {
   }
 
   async glb(isByCell: boolean): Promise<Blob> {
-    return exportGlb(this.look('The mesh'), this.parts.ofModel, isByCell);
+    const look = this.look('The mesh');
+    const { exportGlb } = await loadExport();
+    return exportGlb(look, this.parts.ofModel, isByCell);
   }
 
   async svg(name: SliceName): Promise<Blob> {
