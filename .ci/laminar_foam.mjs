@@ -1,4 +1,4 @@
-// Laminar flow at a Reynolds number of 100 about the walls of a polyMesh, by OpenFOAM's icoFoam and simpleFoam with schemes of second order.
+// Laminar flow at a Reynolds number of 100 about the walls of a polyMesh, by OpenFOAM's icoFoam and simpleFoam, of second order in space.
 import { makeCase, tryFoam, writeControls, writeField, writeInput } from './openfoam.mjs';
 
 const schemes = (ddt, bounded) => `ddtSchemes { default ${ddt}; } gradSchemes { default Gauss linear; }
@@ -53,7 +53,7 @@ export function runIcoFoam(folder, { size, h }) {
   return status === 0 && residuals.every(Number.isFinite) && courant.length === 60 ? Math.max(...courant) : NaN;
 }
 
-/** Until all residuals are at most 1e-4: the iterations, NaN if 300 are not enough, and the drag coefficient for an area of `size` squared. */
+/** Until all residuals are at most 1e-4: iterations, NaN if 300 are not enough, and the drag coefficient for an area of `size` squared. */
 export function runSimpleFoam(folder, { size }) {
   writeWind(folder, size);
   writeInput(folder, 'system', 'fvSchemes', 'dictionary', steady);
