@@ -2,7 +2,7 @@
 import { readFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
 import { fail, run } from '../tests/steps.mjs';
-import { callFoam, makeCase, writeInput } from './openfoam.mjs';
+import { callFoam, makeCase, writeField } from './openfoam.mjs';
 
 // Two cells are as far apart as their centroids are along the normal of their face, as ours with dualPoints "centroids".
 const schemes = `gradSchemes { default Gauss linear; } divSchemes { default Gauss linear; } interpolationSchemes { default linear; }
@@ -12,9 +12,24 @@ potentialFlow { nNonOrthogonalCorrectors 0; }`;
 
 // A wind of speed 1 enters at xMin and leaves at xMax.
 const fields = {
-  U: ['volVectorField', '[0 1 -1 0 0 0 0]', '(0 0 0)', { xMin: 'fixedValue; value uniform (1 0 0)', xMax: 'zeroGradient', '".*"': 'slip' }],
-  Phi: ['volScalarField', '[0 2 -1 0 0 0 0]', '0', { xMax: 'fixedValue; value uniform 0', '".*"': 'zeroGradient' }],
-  p: ['volScalarField', '[0 2 -2 0 0 0 0]', '0', { xMax: 'fixedValue; value uniform 0', '".*"': 'zeroGradient' }],
+  U: {
+    type: 'volVectorField',
+    dimensions: '[0 1 -1 0 0 0 0]',
+    inside: '(0 0 0)',
+    patches: { xMin: 'fixedValue; value uniform (1 0 0)', xMax: 'zeroGradient', '".*"': 'slip' },
+  },
+  Phi: {
+    type: 'volScalarField',
+    dimensions: '[0 2 -1 0 0 0 0]',
+    inside: '0',
+    patches: { xMax: 'fixedValue; value uniform 0', '".*"': 'zeroGradient' },
+  },
+  p: {
+    type: 'volScalarField',
+    dimensions: '[0 2 -2 0 0 0 0]',
+    inside: '0',
+    patches: { xMax: 'fixedValue; value uniform 0', '".*"': 'zeroGradient' },
+  },
 };
 const conditions = { xMin: { neumann: -1 }, xMax: { dirichlet: 0 } };
 
@@ -40,16 +55,7 @@ function theirs(mesh, n) {
   const folder = makeCase({ schemes, solution, precision: 17 });
   const polyMesh = join(folder, 'constant', 'polyMesh');
   run('build/mandoline', 'cut', mesh, '--cells', String(n), '--coarsen', '0', '--report', join(folder, 'report.json'), '-o', polyMesh);
-  for (const [name, [type, dimensions, inside, patches]] of Object.entries(fields)) {
-    const entries = Object.entries(patches).map(([patch, what]) => `${patch} { type ${what}; }`);
-    writeInput(
-      folder,
-      '0',
-      name,
-      type,
-      `dimensions ${dimensions};\ninternalField uniform ${inside};\nboundaryField { ${entries.join(' ')} }`,
-    );
-  }
+  for (const [name, field] of Object.entries(fields)) writeField(folder, name, field);
   callFoam(folder, 'potentialFoam', '-writephi');
   callFoam(folder, 'postProcess', '-func', 'writeCellCentres');
   const [owner, neighbour] = [listIn(polyMesh, 'owner'), listIn(polyMesh, 'neighbour')];
