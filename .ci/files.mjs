@@ -25,6 +25,6 @@ const all = meshFolder
   : [];
 checkPolyMeshes([...made, 'build/groups.obj', ...all.filter((_, i) => i % 9 === 0).map((name) => join(meshFolder, name))]);
 checkVtuFiles([...made, ...scans]);
-// One closed; of the other, a scan, hundreds of edges are open or non-manifold.
+// One is closed. The other, where there is a folder of meshes, is a scan with hundreds of open or non-manifold edges.
 checkCourantNumbers(['build/torus-knot.obj', all.includes(beetle) ? join(meshFolder, beetle) : 'build/groups.obj']);
 await checkPotentialFoam(['build/sphere.obj', 'build/torus-knot.obj', ...scans]);

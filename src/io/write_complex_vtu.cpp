@@ -178,14 +178,16 @@ class CellWriter : ComplexWriter {
     visit(uint8_t(), "types", n, 1, [&](const auto& put) {
       for (const bool isHexahedron : isHexahedron_) put(isHexahedron ? kVtkHexahedron : kVtkPolyhedron);
     });
-    visit(int64_t(), "faces", faceOffsets_.back(), 1, [&](const auto& put) {
-      for (size_t i = 0; i < n; ++i) {
-        if (!isHexahedron_[i]) putPolyhedron(written_[i], put);
-      }
-    });
-    visit(int64_t(), "faceoffsets", n, 1, [&](const auto& put) {
-      for (size_t i = 0; i < n; ++i) put(isHexahedron_[i] ? -1 : int64_t(faceOffsets_[i + 1]));
-    });
+    if (faceOffsets_.back() > 0) {
+      visit(int64_t(), "faces", faceOffsets_.back(), 1, [&](const auto& put) {
+        for (size_t i = 0; i < n; ++i) {
+          if (!isHexahedron_[i]) putPolyhedron(written_[i], put);
+        }
+      });
+      visit(int64_t(), "faceoffsets", n, 1, [&](const auto& put) {
+        for (size_t i = 0; i < n; ++i) put(isHexahedron_[i] ? -1 : int64_t(faceOffsets_[i + 1]));
+      });
+    }
     visit(int32_t(), "grid_cell", n, 3, perCell([this](uint32_t c, const auto& put) {
             for (size_t d = 0; d < 3; ++d) put(cells_.cellCorner[3 * size_t(c) + d]);
           }));

@@ -13,6 +13,9 @@ namespace {
 
 /// At most so many blocks along an axis.
 constexpr size_t kMaxBlocks = 16;
+constexpr detail::Box kNothing = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+
+void include(detail::Box& box, const Point& point) { box.include({point, point}); }
 
 void forVerticesOf(const CellComplex& cells, size_t face, const auto& visit) {
   const Loops loops = cells.loops(face);
@@ -38,7 +41,7 @@ FarField::FarField(const CellComplex& cells, const Boundary& boundary) : cells_(
   const CellComponents parts = partsBetweenSlits(cells);
   std::vector<uint32_t> walls;
   std::vector<char> isOnSide(cells.vertexCount());
-  Box box, wallBox;
+  detail::Box box = kNothing, wallBox = kNothing;
   for (size_t b = 0; b < boundarySize_; ++b) {
     const uint32_t h = boundary.halfFaces[b], f = h / 2;
     if (cells.faceTag[f] >= FaceTag::inner) {
@@ -48,11 +51,11 @@ FarField::FarField(const CellComplex& cells, const Boundary& boundary) : cells_(
     Point normal = pointAt(cells.faceNormal, f);
     for (double& x : normal) x = h % 2 == 0 ? x : -x;
     sides_.push_back({uint32_t(b), f, parts.cellComponent[size_t(cells.faceCells[h])], normal});
-    forVerticesOf(cells, f, [&](uint32_t v) { isOnSide[v] = 1, box.add(pointAt(cells.positions, v)); });
+    forVerticesOf(cells, f, [&](uint32_t v) { isOnSide[v] = 1, include(box, pointAt(cells.positions, v)); });
   }
   for (const uint32_t h : walls) {
     forVerticesOf(cells, h / 2, [&](uint32_t v) {
-      wallBox.add(pointAt(cells.positions, v));
+      include(wallBox, pointAt(cells.positions, v));
       if (!isOnSide[v]) return;
       operators::refuse("With the far field no wall may reach a side of the box, but face " + std::to_string(h / 2) + " does.", h / 2);
     });
@@ -63,8 +66,8 @@ FarField::FarField(const CellComplex& cells, const Boundary& boundary) : cells_(
 }
 
 /// From a block's own size on, its dipoles and the one in their middle hardly differ: it is half as large as the distance to the sides.
-void FarField::placeBlocks(const Box& box, const Box& wallBox) {
-  double distance = Box::kFar;
+void FarField::placeBlocks(const detail::Box& box, const detail::Box& wallBox) {
+  double distance = HUGE_VAL;
   for (size_t d = 0; d < 3; ++d) {
     const double length = wallBox.high[d] - wallBox.low[d];
     size_ = std::max(size_, length);

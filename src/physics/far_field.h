@@ -1,9 +1,7 @@
 // What stands in a wind disturbs it far away as dipoles do.
 #pragma once
 
-#include <algorithm>
-#include <limits>
-
+#include "base/box_tree.h"
 #include "mandoline/flow.h"
 #include "physics/fit_data.h"
 
@@ -26,21 +24,13 @@ class FarField {
   std::vector<double> outflowOfDipoles(const Flow& flow) const;
 
  private:
-  struct Box {
-    static constexpr double kFar = std::numeric_limits<double>::infinity();
-    Point low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
-
-    void add(const Point& point) {
-      for (size_t d = 0; d < 3; ++d) low[d] = std::min(low[d], point[d]), high[d] = std::max(high[d], point[d]);
-    }
-  };
   struct Side {
     uint32_t at, face;  ///< its place in the boundary
     uint32_t part;      ///< of partsBetweenSlits()
     Point normal;       ///< out of the box
   };
 
-  void placeBlocks(const Box& box, const Box& wallBox);
+  void placeBlocks(const detail::Box& box, const detail::Box& wallBox);
   size_t blockOf(size_t cell) const;
   void placeDipoles(const std::vector<uint32_t>& walls);
   std::vector<double> moments(const Flow& flow) const;

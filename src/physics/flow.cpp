@@ -9,6 +9,7 @@
 #include "operators/require_cut_mesh.h"
 #include "physics/cell_velocities.h"
 #include "physics/far_field.h"
+#include "physics/poisson_setup.h"
 #include "physics/secants.h"
 #include "physics/wind.h"
 
@@ -68,6 +69,7 @@ class FlowSolver {
     options.tolerance = options_.tolerance;
     options.maxIterations = options_.maxIterations;
     options.corrections = options_.corrections;
+    physics::requireOptions(options);
     if (farField && farField->hasDipoles())
       solveFarField(*farField, solver, options, problem.boundary, flow);
     else
@@ -87,7 +89,7 @@ class FlowSolver {
       if (flow.status != SolveStatus::converged) return;
       const double missing = secants.add(ofDipoles, farField.outflowOfDipoles(flow));
       if (pass > 0 && missing <= kEnough) return;
-      if (pass == kMaxPasses) break;
+      if (pass + 1 == kMaxPasses) break;
       ofDipoles = secants.next();
       for (size_t b = 0; b < ofWind.size(); ++b) boundary.value[b] = ofWind[b] + ofDipoles[b];
     }

@@ -25,7 +25,7 @@ std::vector<double> Secants::next() const {
   return x;
 }
 
-/// What is nearly known is left out: but for it there are only errors of f.
+/// A direction that others nearly span is left out: what is new in it is mostly the error of f.
 void Secants::addDirection(std::vector<double> missing, std::vector<double> found) {
   constexpr double kNew = 0.02;
   const double lengthBefore = std::sqrt(product(missing, missing));

@@ -1,5 +1,5 @@
-// How matrices are made. All arithmetic is here, so that a program that compiles the same templates of Eigen with other flags can't change
-// it.
+// How matrices are made. Entries are added here and not by Eigen, so that a program that compiles its templates with other flags can't
+// change the sums.
 #pragma once
 
 #include <vector>

@@ -87,6 +87,21 @@ TEST_CASE("recut: vertices that rounding puts onto each other stay apart where o
   CHECK(kept > 0);
 }
 
+TEST_CASE("recut: a vertex on a seam keeps others away that rounding puts onto it in a brick that is cut again", "[recut]") {
+  // Bricks of 4 grid cells. A corner touches the seam x = 4 from below, an edge crosses it next to that.
+  const double far = 0x1p40, step = 0x1p-12;
+  const auto at = [&](double x, double y, double z) { return std::array<double, 3>{far + x, far + y, far + z}; };
+  const Mesh touching = shapes::triangle(at(4, 1.5, 1.5), at(2.5, 0.5, 1.5), at(2.5, 0.5, 1)),
+             crossing = shapes::triangle(at(4 - step, 1.5, 1.5), at(5.5, 1.5 + step, 1.5), at(5.5, 2.5, 2));
+  std::vector<Mesh> times;
+  for (const double move : {0.0, 0.125, 0.25})
+    times.push_back(
+        shapes::merged({touching, crossing, shapes::triangle(at(6.25, 3.25, 3.25), at(6.75, 3.25, 3.25), at(6.5, 3.25, 3.5 + move))}));
+  size_t kept = 0;
+  CHECK(brokenRecut(times, Grid::regular({far, far, far}, {1, 1, 1}, {24, 24, 24}), {}, &kept) == "");
+  CHECK(kept > 0);
+}
+
 TEST_CASE("recut: coordinates that become -0, or others that scaling flushes, are handed back as they are", "[recut]") {
   std::vector<Mesh> times;
   for (const double y : {1e-70, 1e-71, 0.0, -0.0, 1e-70})

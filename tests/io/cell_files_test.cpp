@@ -397,6 +397,16 @@ TEST_CASE("untouched grid cells and octree cells with six sides are hexahedra; w
   }
 }
 
+TEST_CASE("cells that are all hexahedra are written without faces", "[cellfiles]") {
+  const Grid grid = Grid::box({0, 0, 0}, {1, 1, 1}, {3, 2, 4});
+  Cells cells(shapes::cube(5, 6), grid, 0);
+  const vtu_files::Vtu vtu(vtuOf(cells, false, {}));
+  CHECK_FALSE(vtu.has("faces"));
+  CHECK_FALSE(vtu.has("faceoffsets"));
+  CHECK(vtu.array<uint8_t>("types") == std::vector<uint8_t>(24, 12));
+  CHECK(vtu.array<int64_t>("connectivity").size() == 8 * 24);
+}
+
 TEST_CASE("fields are refused without a name of their own that XML can hold", "[cellfiles]") {
   const Cells cells(kShell, Grid::around(kShell, 3), 2);
   const std::vector<double> perCell(cells.complex.cellCount()), perFace(cells.complex.faceCount());

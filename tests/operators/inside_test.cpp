@@ -327,6 +327,14 @@ TEST_CASE("labels that spread from some cells are those that all have", "[inside
   }
 }
 
+TEST_CASE("estimates are cancelled while labels spread", "[inside]") {
+  const Mesh mesh = withoutEvery(shapes::icosphere({2, 2, 2}, 1.6, 4), 60);
+  const CutMesh cutMesh = checkedCut(mesh, Grid::box({0, 0, 0}, {4, 4, 4}, {21, 20, 19})).mesh;
+  EstimateOptions options;
+  options.progress = [](const Progress& progress) { return progress.stageIndex != 3 || progress.done == 0; };
+  CHECK(refusal([&] { estimateInside(mesh, cutMesh, options); }).first == Status::cancelled);
+}
+
 TEST_CASE("wrong calls of estimateInside are refused, and without open parts it changes nothing", "[inside]") {
   const Mesh cube = shapes::cube(0.5, 2.5), open = withoutEvery(cube, 12);
   const CutMesh closed = checkedCut(cube, unitGrid(3)).mesh, cutOpen = checkedCut(open, unitGrid(3)).mesh;

@@ -1,6 +1,6 @@
 // One cut in WebAssembly, timed once the engine has compiled its best code, for `mandoline-bench --wasm 'node tests/package/warm_cut.mjs'`:
 //   node tests/package/warm_cut.mjs MESH N
-// Prints the call's processor time in ms, on one thread and with arrays copied in and out, and the number of cut-cells.
+// Prints the process's time on all processors in ms during the call, with arrays copied in and out, and the number of cut-cells.
 import { readFileSync } from 'node:fs';
 import { init } from 'mandoline-wasm';
 

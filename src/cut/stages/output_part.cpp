@@ -93,16 +93,16 @@ class VertexWriter {
   void writePosition(const CutVertices& vertices, VertexId v, size_t i, Predicates& predicates) {
     const Slab& slab = vertices.slab(v);
     double* position = &out_.positions[3 * i];
-    const bool isMeshs = isTriVertex(vertices, v);
-    const double* before = isMeshs ? nullptr : kept_.find(i);
+    const bool isOfMesh = isTriVertex(vertices, v);
+    const double* before = isOfMesh ? nullptr : kept_.find(i);
     if (before) {
       std::copy_n(before, 3, position);
       return;
     }
-    const Point p = isMeshs ? Point() : vertices.position(v, predicates);
+    const Point p = isOfMesh ? Point() : vertices.position(v, predicates);
     for (size_t d = 0; d < 3; ++d) {
       position[d] = onPlane(slab[d]) ? grid_.planes[d][size_t(slab[d] >> 1)]
-                    : isMeshs        ? mesh_.positions[3 * size_t(v.number) + d]
+                    : isOfMesh       ? mesh_.positions[3 * size_t(v.number) + d]
                                      : scale_.world(p[d]);
     }
   }

@@ -11,8 +11,8 @@ namespace MANDOLINE_API mandoline {
 
 struct FlowOptions : RunOptions {
   double tolerance = 1e-10;  ///< as in SolveOptions
-  int maxIterations = 500;
-  int corrections = 8;  ///< as in SolveOptions
+  int maxIterations = 500;   ///< with farField, of each pass
+  int corrections = 8;       ///< as in SolveOptions
   /// False (default): a wind tunnel, through whose sides the wind blows as if nothing were inside. True: unbounded space. Through the sides
   /// passes what would pass there without them: the wind, and what the surface adds to it at a distance. It may not reach the sides.
   bool farField = false;
@@ -60,8 +60,8 @@ struct Flow {
 /// each block of space; blocks are half as large as the surface's distance from the sides, or a 16th of its longest extent if that is more.
 /// Dipoles follow from phi, and phi from them: the problem is solved in passes, at least two, each from the phi of the last, until on the
 /// sides they agree within 1e-4 of the wind; the status is iterationLimit if 20 do not do. About a ball that keeps half its diameter from
-/// the sides, the fastest flow is within 1 % of that in unbounded space, where a wind tunnel makes it 9 % too fast. Sides are better not
-/// nearer than a tenth of the longest extent. As much flows into the box as out of it, within rounding.
+/// the sides, the fastest flow is within 1 % of that in unbounded space, where a wind tunnel makes it 9 % too fast. Keep the
+/// sides at least a tenth of its longest extent away from the surface. As much flows into the box as out of it, within rounding.
 ///
 /// In a cell the velocity is the gradient of a harmonic polynomial of degree two, fitted to the flow through its faces and those of the
 /// cells beside it, except cells that have both sides of a triangle. A uniform flow is exact.

@@ -25,6 +25,7 @@ class EigenRows {
     if (matrix.rowOffsets.back() > INT32_MAX)
       throw CallError({Status::badArgument, -1, -1, "The matrix has more entries than Eigen counts with 32 bits."});
   }
+  explicit EigenRows(CsrMatrix&&) = delete;
   Map map() const {
     return {Eigen::Index(matrix_.rows()), Eigen::Index(matrix_.columns), Eigen::Index(matrix_.entryCount()), offsets_.data(),
             matrix_.entryColumns.data(),  matrix_.entryValues.data()};

@@ -22,7 +22,7 @@ using namespace operators;
 constexpr size_t kBlock = 64;              // points between two reports
 constexpr uint32_t kSamplesOfRegion = 16;  // of one that is not divided
 constexpr uint32_t kStrides[] = {4096, 64, 1};
-constexpr int kStages = 3 + int(std::size(kStrides));
+constexpr int kStages = 3 + 2 * int(std::size(kStrides));
 constexpr size_t kShortRim = 12;  // edges of the rim for the square root of the number of triangles
 
 /// The numbers of cut-cells, then octree cells.
@@ -104,7 +104,7 @@ class Estimator {
   }
 
   /// Labels the cells of divided regions by the winding number that their own counts as. Numbers change steeply near the rim alone, and
-  /// but for whole numbers they are those of the rim: where that is short, labels spread from cell to cell. Cells that none reaches have
+  /// up to whole numbers they depend on the rim alone: where that is short, labels spread from cell to cell. Cells that none reaches have
   /// theirs evaluated.
   void labelDivided(const WindingTree& tree) {
     const bool spreads = tree.rimSize() * tree.rimSize() < kShortRim * kShortRim * cutMesh_.openTriangles.size();
@@ -113,7 +113,7 @@ class Estimator {
     isLabelled_.assign(nodeCount(), 0);
     for (size_t round = 0; round < std::size(kStrides); ++round) {
       if (!spreads && kStrides[round] > 1) continue;
-      monitor_.beginStage("insideness", 2 + int(round));
+      monitor_.beginStage("insideness", 2 + 2 * int(round));
       std::vector<uint32_t> seeds;
       uint32_t seen = 0;
       for (uint32_t node = 0; node < nodeCount(); ++node) {
@@ -122,13 +122,17 @@ class Estimator {
       const size_t first = sampled_.size(), end = first + seeds.size();
       evaluate(tree, seeds);
       for (size_t i = first; i < end; ++i) label(sampled_[i], insideness_[i]);
-      for (size_t i = first; spreads && i < end; ++i) spread(tree, sampled_[i], insideness_[i]);
+      if (!spreads) continue;
+      monitor_.beginStage("insideness", 3 + 2 * int(round));
+      for (size_t i = first; i < end; ++i) spread(tree, sampled_[i], insideness_[i]);
     }
   }
 
-  void label(uint32_t node, double number) {
-    labels_[node] = roundedWinding(number, options_.threshold);
+  void label(uint32_t node, double number) { setLabel(node, roundedWinding(number, options_.threshold)); }
+  void setLabel(uint32_t node, int32_t label) {
+    labels_[node] = label;
     isLabelled_[node] = 1;
+    ++labelled_;
   }
 
   void findNeighbours() {
@@ -154,6 +158,7 @@ class Estimator {
     CellSampler sampler(cutMesh_, isOpen_);
     std::vector<Reached> reached{{seed, sampleOf(seed, sampler).point, number, 0}};
     for (size_t i = 0; i < reached.size(); ++i) {
+      if (i % kBlock == kBlock - 1) monitor_.report(labelled_, nodeCount());
       Reached from = reached[i];
       for (const uint32_t next : neighbours_[from.node]) {
         if (isLabelled_[next]) continue;
@@ -162,8 +167,7 @@ class Estimator {
         const double further = from.variation + tree.variation(box);
         if (further == INFINITY) continue;
         if (isSteady(from.number, further)) {
-          labels_[next] = labels_[from.node];
-          isLabelled_[next] = 1;
+          setLabel(next, labels_[from.node]);
           reached.push_back({next, from.point, from.number, further});
           continue;
         }
@@ -265,6 +269,7 @@ class Estimator {
   std::vector<double> insideness_;  // per sampled node
   std::vector<int32_t> labels_;     // per node; 0 in regions that are not divided
   std::vector<uint8_t> isLabelled_;
+  size_t labelled_ = 0;  // how often, of those evaluated together once more
 };
 
 }  // namespace

@@ -153,7 +153,7 @@ export interface PoissonProblem {
 export interface FlowOptions extends RunOptions {
   /** Of the residual, relative to the right side, both in the Euclidean norm. Default 1e-10. */
   tolerance?: number;
-  /** Default 500. */
+  /** With `farField`, of each pass. Default 500. */
   maxIterations?: number;
   /**
    * How often at most to solve again with derivatives of second order at cut-cells, at sides of octree cells that meet smaller ones, and

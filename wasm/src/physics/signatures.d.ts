@@ -116,7 +116,7 @@ export interface Calls {
    *
    * With `options.farField` the flow is solved again until it agrees with the dipoles that the surface disturbs the wind by. About a ball
    * that keeps half its diameter from the sides, the fastest flow is within 1 % of that in unbounded space, where a wind tunnel makes it 9 %
-   * too fast. Sides are better not nearer than a tenth of the surface's longest extent.
+   * too fast. Keep the sides at least a tenth of its longest extent away from the surface.
    *
    * Code "badArgument" if the wind is not finite, with farField for a face of the surface (element) that reaches a side, and as in
    * poissonSystem(); "badOption" as in solvePoisson().

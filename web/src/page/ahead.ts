@@ -1,8 +1,8 @@
 // What is loaded before it is asked for, so that it is at hand at once, also offline.
 import type { Engine, View } from '../model/types';
+import { loadCode } from './code';
 import { firstPicture, idle } from './frames';
 import type { State } from './state';
-import { loadCode } from './ui/code_panel';
 import { loadExport } from './view/files';
 import { loadControls } from './view/layers/gizmo';
 import type { WindTunnel } from './wind';

@@ -1,21 +1,17 @@
 import type { ComponentChildren } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../app';
+import { loadCode } from '../code';
 import type { Code } from '../../model/code';
 import { saveAs } from './download';
 import { blobOf, useSaving } from './saving';
 import { CopyButton } from './controls/copy_button';
 import { Section } from './controls/section';
 
-type Writer = typeof import('../../model/code');
-
-/** What writes the code, loaded when it is first seen, or ahead. */
-export const loadCode = (): Promise<Writer> => import('../../model/code');
-
 /** What makes the same outside the page. */
 export function CodePanel({ app }: { app: App }) {
   const { model, settings, state } = app;
-  const [writer, setWriter] = useState<Writer | 'missing' | null>(null);
+  const [writer, setWriter] = useState<Awaited<ReturnType<typeof loadCode>> | 'missing' | null>(null);
   const isOpen = state.sections.isOpen('code');
   useEffect(() => {
     if (isOpen) void loadCode().then(setWriter, () => setWriter('missing'));
@@ -25,7 +21,7 @@ export function CodePanel({ app }: { app: App }) {
   return (
     <Section app={app} id="code" title="Use this in code">
       {writer === 'missing' ? (
-        <p class="hint">What writes the code can't be loaded.</p>
+        <p class="hint">The code can't be shown: a part of the page can't be loaded.</p>
       ) : code ? (
         <>
           <MeshFile app={app} code={code} />
