@@ -60,7 +60,7 @@ test('all that is asked for is there and comes from the same folder', async (t) 
   });
   await eventually(async () =>
     assert.ok(
-      requests.some((url) => url.includes('GLTFExporter')),
+      requests.some((url) => url.includes('/code-')),
       'the last that is loaded',
     ),
   );
