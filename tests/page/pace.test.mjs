@@ -123,8 +123,13 @@ for (const [name, hash] of [
   ['a flat cut', 'mesh=bunny&n=8&z=0.5,1&slice=flat'],
   ['a wind', 'mesh=wedge&wind=1,0,0&flow=speed&tunnel=16'],
 ]) {
-  test(`the page does not wait for shaders of ${name}, nor of its shadow and of what comes later`, async (t) => {
-    const page = await site.open(t, hash, { onNewPage: (made) => made.addInitScript(watchPrograms) });
+  test(`the page does not wait for shaders of ${name}, nor of its shadow and of what comes later, also while its size changes`, async (t) => {
+    const page = await site.newPage(t, { onNewPage: (made) => made.addInitScript(watchPrograms) });
+    await page.goto(`${site.url}#${hash}`);
+    for (let step = 0; step < 60; ++step) {
+      await page.setViewportSize({ width: 1000 - 10 * (step % 2), height: 521 });
+      await page.waitForTimeout(50);
+    }
     if (hash.includes('wind')) await shows(page, '#canvas', { wind: '1,0,0' });
     await shows(page, '#canvas', { shadow: 'drawn' });
     await page.waitForTimeout(1000);

@@ -31,6 +31,8 @@ export class Loop {
   private watched = 0;
   private isStale = true;
   private isWarm = false;
+  /** Whether the GPU may be compiling shaders for as long as it is behind: what uses them then blocks the page. */
+  private isCompiling = false;
   /** Whether what is drawn is up to date and waits for its frame. */
   private isPrepared = false;
   private whenFree: (() => void) | null = null;
@@ -48,6 +50,7 @@ export class Loop {
   private warmUp(): void {
     if (!this.pace.isBehind) {
       if (!this.drawing.warmUp()) return;
+      this.isCompiling = true;
       this.pace.mark(false);
     }
     setTimeout(() => this.warmUp(), pollTime);
@@ -74,8 +77,11 @@ export class Loop {
 
   /** Whether a picture can be drawn at once. If not, it is asked for once more. */
   private hasShaders(): boolean {
-    if (this.drawing.hasShaders()) return true;
-    this.pace.mark(false);
+    if (!this.isCompiling || !this.pace.isBehind) {
+      this.isCompiling = !this.drawing.hasShaders();
+      if (!this.isCompiling) return true;
+      this.pace.mark(false);
+    }
     this.invalidate();
     return false;
   }
