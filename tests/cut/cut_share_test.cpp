@@ -29,14 +29,14 @@ void checkShares(const Mesh& mesh, const Grid& grid, uint32_t count, unsigned th
 
 }  // namespace
 
-TEST_CASE("Shares give the whole cut, to the bit, for any number of them", "[shares]") {
+TEST_CASE("Shares give the whole cut, to the bit, for any number of them", "[shares][seams]") {
   for (const NamedCase& one : casesAndSoups()) {
     CAPTURE(one.name, one.mesh.triangleCount());
     for (const uint32_t count : {1u, 2u, 3u, 7u}) checkShares(one.mesh, one.grid, count, 1 + count % 3);
   }
 }
 
-TEST_CASE("Shares are the same where seams pass through what is hard", "[shares]") {
+TEST_CASE("Shares are the same where seams pass through what is hard", "[shares][seams]") {
   std::vector<Mesh> meshes = seamMeshes();
   meshes.push_back(shapes::cube(20, 30));  // outside of the grid
   for (const Mesh& mesh : meshes) {

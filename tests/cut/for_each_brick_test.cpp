@@ -43,14 +43,14 @@ void checkPieces(const Mesh& mesh, const Grid& grid, int64_t cells, unsigned thr
 
 }  // namespace
 
-TEST_CASE("Pieces have the cells of the whole cut, to the bit, for all sizes of bricks", "[pieces]") {
+TEST_CASE("Pieces have the cells of the whole cut, to the bit, for all sizes of bricks", "[pieces][seams]") {
   for (const NamedCase& one : casesAndSoups()) {
     CAPTURE(one.name, one.mesh.triangleCount());
     for (const int shift : {0, 1, 2}) checkPieces(one.mesh, one.grid, int64_t(1) << shift, 1 + unsigned(shift));  // 1: all are seams
   }
 }
 
-TEST_CASE("Pieces are the same where seams pass through what is hard", "[pieces]") {
+TEST_CASE("Pieces are the same where seams pass through what is hard", "[pieces][seams]") {
   for (const Mesh& mesh : seamMeshes()) {
     CAPTURE(mesh.triangleCount());
     for (const int64_t cells : {1, 2, 4, 8, 16}) checkPieces(mesh, seamGrid(), cells, 1 + unsigned(cells) % 3);

@@ -19,7 +19,7 @@ TEST_CASE("The surface's grid cells are touched, each in one brick", "[stages][b
   CHECK_FALSE(bricks.isTouched({5, 5, 5}));
 }
 
-TEST_CASE("The result is the same to the bit for all sizes of bricks", "[stages][bricks]") {
+TEST_CASE("The result is the same to the bit for all sizes of bricks", "[stages][bricks][seams]") {
   size_t cells = 0;
   for (const NamedCase& one : casesAndSoups()) {
     CAPTURE(one.name, one.mesh.triangleCount());

@@ -450,7 +450,7 @@ TEST_CASE("an unresolved cut that met a contradiction can be cancelled", "[inter
   CHECK(refused == 3);
 }
 
-TEST_CASE("unresolved meshes on a lattice that are refused name a pair that meets", "[intersections]") {
+TEST_CASE("unresolved meshes on a lattice that are refused name a pair that meets", "[intersections][latticesoups]") {
   std::mt19937 random(7);
   size_t refused = 0;
   for (int run = 0; run < 4000; ++run) {
