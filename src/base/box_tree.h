@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "base/function_ref.h"
@@ -16,6 +17,10 @@ template <class Number>
 struct BoxOf {
   std::array<Number, 3> low, high;
 
+  static BoxOf empty() {
+    constexpr Number kFar = std::numeric_limits<Number>::infinity();
+    return {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+  }
   bool overlaps(const BoxOf& other) const {
     int within = 1;  // without branches, which are hard to predict here
     for (size_t d = 0; d < 3; ++d) within &= int(low[d] <= other.high[d]) & int(other.low[d] <= high[d]);

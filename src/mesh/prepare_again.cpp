@@ -21,7 +21,7 @@ bool hasZero(const Point& p) { return p[0] == 0 || p[1] == 0 || p[2] == 0; }
 
 /// States in which only the triangles are kept that lie near those that have moved, these included. Those that these meet are among them.
 std::vector<TriangleState> nearMoved(const Prepared& mesh, const Moved& moved) {
-  Box all{{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+  Box all = Box::empty();
   for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     if (hasMoved(moved, mesh.triangles[t])) all.include(boxOf(mesh, t));
   }

@@ -13,7 +13,6 @@ namespace {
 
 /// At most so many blocks along an axis.
 constexpr size_t kMaxBlocks = 16;
-constexpr detail::Box kNothing = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
 
 void include(detail::Box& box, const Point& point) { box.include({point, point}); }
 
@@ -41,7 +40,7 @@ FarField::FarField(const CellComplex& cells, const Boundary& boundary) : cells_(
   const CellComponents parts = partsBetweenSlits(cells);
   std::vector<uint32_t> walls;
   std::vector<char> isOnSide(cells.vertexCount());
-  detail::Box box = kNothing, wallBox = kNothing;
+  detail::Box box = detail::Box::empty(), wallBox = box;
   for (size_t b = 0; b < boundarySize_; ++b) {
     const uint32_t h = boundary.halfFaces[b], f = h / 2;
     if (cells.faceTag[f] >= FaceTag::inner) {

@@ -36,6 +36,17 @@ Solution plainSolution(PoissonSolver& solver, const PoissonData& data) {
   return solution;
 }
 
+/// A problem, whose system others solve, too, and its phi.
+struct Solved {
+  Solved(const Cells& way, int n) : cells(ballCells(way, n)), problem(mixedProblem(cells)), solver(cells, problem) {}
+
+  CellComplex cells;
+  PoissonProblem problem;
+  PoissonSolver solver;
+  EigenRows rows{solver.matrix()};
+  std::vector<double> rhs = solver.rightSide(dataOf(problem)), phi = plainSolution(solver, dataOf(problem)).phi;
+};
+
 bool areSame(const CsrMatrix& a, const CsrMatrix& b) {
   return a.columns == b.columns && a.rowOffsets == b.rowOffsets && a.entryColumns == b.entryColumns && a.entryValues == b.entryValues;
 }
@@ -76,28 +87,22 @@ TEST_CASE("csr matrix: a solver has the system of poissonSystem(), to the bit", 
 
 TEST_CASE("csr matrix: its product with the solution is the right side", "[csr]") {
   for (const Cells& way : kCells) {
-    const CellComplex cells = ballCells(way, 16);
-    const PoissonProblem problem = mixedProblem(cells);
-    PoissonSolver solver(cells, problem);
-    const std::vector<double> rhs = solver.rightSide(dataOf(problem)), phi = plainSolution(solver, dataOf(problem)).phi;
-    const EigenRows rows(solver.matrix());
-    CHECK((rows.map() * vectorOf(phi) - vectorOf(rhs)).norm() <= 2e-13 * vectorOf(rhs).norm());
+    const Solved solved(way, 16);
+    const auto rhs = vectorOf(solved.rhs);
+    CHECK((solved.rows.map() * vectorOf(solved.phi) - rhs).norm() <= 2e-13 * rhs.norm());
   }
 }
 
 TEST_CASE("csr matrix: factors and conjugate gradients of Eigen find the solver's phi", "[csr]") {
   for (const Cells& way : kCells) {
-    const CellComplex cells = ballCells(way, 12);
-    const PoissonProblem problem = mixedProblem(cells);
-    PoissonSolver solver(cells, problem);
-    const std::vector<double> rhs = solver.rightSide(dataOf(problem)), phi = plainSolution(solver, dataOf(problem)).phi;
-    const EigenRows rows(solver.matrix());
-    const Eigen::SimplicialLDLT<SparseMatrix> factors(SparseMatrix(rows.map()));
+    const Solved solved(way, 12);
+    const auto rhs = vectorOf(solved.rhs), phi = vectorOf(solved.phi);
+    const Eigen::SimplicialLDLT<SparseMatrix> factors(SparseMatrix(solved.rows.map()));
     REQUIRE(factors.info() == Eigen::Success);
-    CHECK(largest(factors.solve(vectorOf(rhs)) - vectorOf(phi)) <= 1e-11 * largest(vectorOf(phi)));
-    Eigen::ConjugateGradient<Eigen::SparseMatrix<double, Eigen::RowMajor>, Eigen::Lower | Eigen::Upper> gradients(rows.map());
+    CHECK(largest(factors.solve(rhs) - phi) <= 1e-11 * largest(phi));
+    Eigen::ConjugateGradient<Eigen::SparseMatrix<double, Eigen::RowMajor>, Eigen::Lower | Eigen::Upper> gradients(solved.rows.map());
     gradients.setTolerance(1e-13);
-    CHECK(largest(gradients.solve(vectorOf(rhs)) - vectorOf(phi)) <= 1e-11 * largest(vectorOf(phi)));
+    CHECK(largest(gradients.solve(rhs) - phi) <= 1e-11 * largest(phi));
   }
 }
 

@@ -2,6 +2,7 @@
 #include "mandoline/heat.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "complexes.h"
 #include "mandoline/merge.h"
@@ -12,7 +13,7 @@ using namespace mandoline;
 
 namespace {
 
-constexpr double kRadius = 0.8, kPi = 3.14159265358979323846, kBegin = 0.04, kEnd = 0.08;
+constexpr double kRadius = 0.8, kPi = std::numbers::pi, kBegin = 0.04, kEnd = 0.08;
 constexpr std::array<double, 3> kCentre = {0.03, 0.02, -0.01};
 
 /// The heat is 1 everywhere at time 0. Steps begin when it is smooth.

@@ -2,6 +2,7 @@
 #include "mandoline/unsteady.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "complexes.h"
 #include "mandoline/io.h"
@@ -14,7 +15,7 @@ using namespace mandoline;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPi = std::numbers::pi;
 
 Mesh nothing() { return shapes::icosphere({99, 99, 99}, 0.5, 0); }
 

@@ -2,17 +2,15 @@
 
 namespace mandoline::detail {
 
-/// Whether a vertex of the surface lies on a seam of a brick that is cut again, which need not have it in a loop.
-static bool isBesideCut(const CutBricks& cut, const KeptBricks& kept, VertexId v) {
-  const Slab& slab = cut.surface.vertices.slab(v);
-  bool isBeside = false;
-  if (cut.bricks.grid.isOnSeam(slab)) {
-    cut.bricks.grid.forBricks(slab, [&](const Slab& cell) {
-      const std::optional<BrickId> brick = cut.bricks.find(cell);
-      isBeside |= brick && !kept.has(*brick);
-    });
-  }
-  return isBeside;
+/// Whether all bricks that have a grid element are kept. So vertices on one element are kept together or not at all: see separate() in
+/// output_part.cpp.
+static bool isKept(const CutBricks& cut, const KeptBricks& kept, const Slab& element) {
+  bool is = true;
+  cut.bricks.grid.forBricks(element, [&](const Slab& cell) {
+    const std::optional<BrickId> brick = cut.bricks.find(cell);
+    is &= !brick || kept.has(*brick);
+  });
+  return is;
 }
 
 std::vector<uint32_t> findKeptVertices(const CutBricks& cut, const KeptBricks& kept, const Numbers& before, const Numbers& now) {
@@ -22,19 +20,14 @@ std::vector<uint32_t> findKeptVertices(const CutBricks& cut, const KeptBricks& k
   };
   for (const VertexId was : kept.vertices.ids()) {
     const VertexId v = kept.vertices[was];
-    if (v != KeptBricks::kNoVertex && !isBesideCut(cut, kept, v)) note(before.ofSurface[was], now.ofSurface[v]);
+    if (v != KeptBricks::kNoVertex && isKept(cut, kept, cut.surface.vertices.slab(v))) note(before.ofSurface[was], now.ofSurface[v]);
   }
   for (const BrickId b : cut.bricks.ids()) {
     if (!kept.has(b)) continue;
     const std::vector<uint32_t>&was = before.ofBrick[kept.before[b]], &is = now.ofBrick[b];
-    for (size_t i = 0; i < is.size(); ++i) note(was[i], is[i]);
-  }
-  // On seams others may be put onto it: see separate() in output_part.cpp.
-  for (const BrickId b : cut.bricks.ids()) {
-    if (kept.has(b)) continue;
-    for (const VertexId v : cut.cuts[b].surfaceVertices) result[now.ofSurface[v]] = Numbers::kUnused;
-    for (const uint32_t number : now.ofBrick[b]) {
-      if (number != Numbers::kUnused) result[number] = Numbers::kUnused;
+    const auto& slabs = cut.cuts[b].vertices.slabs;
+    for (size_t i = 0; i < is.size(); ++i) {
+      if (!cut.bricks.grid.isOnSeam(slabs[i]) || isKept(cut, kept, slabs[i])) note(was[i], is[i]);
     }
   }
   return result;

@@ -1,6 +1,6 @@
 // Vertices of the result that lie where they did, with their positions in the cut before.
 //
-// In: KeptBricks, and the Numbers of both cuts. Out: KeptVertices: those in no brick that is cut again.
+// In: KeptBricks, and the Numbers of both cuts. Out: KeptVertices: those on grid elements that only kept bricks have.
 #pragma once
 
 #include "cut/stages/numbers.h"

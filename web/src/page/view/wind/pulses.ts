@@ -1,9 +1,9 @@
 // Pulses that run along the streamlines. Each point of a line knows when what starts with the wind arrives there; one uniform, the time, moves
 // all of them.
-import { type BufferGeometry, DoubleSide, Group, Mesh, ShaderMaterial, Vector2 } from 'three';
+import { type BufferGeometry, Group, type Mesh, type ShaderMaterial, Vector2 } from 'three';
 import type { Wind } from '../../../model/wind';
 import { emptyGeometry, refill } from '../buffers';
-import { ribbonChunk, windChunk, type WindUniforms } from './uniforms';
+import { makeRibbons, ribbonChunk, windChunk, type WindUniforms } from './uniforms';
 
 /** Time in which the undisturbed wind covers the longest side of the mesh, in seconds. */
 const crossingTime = 1.5;
@@ -27,16 +27,7 @@ export class Pulses {
     shared: WindUniforms,
     private readonly reducedMotion: MediaQueryList,
   ) {
-    const material = new ShaderMaterial({
-      uniforms: { ...shared, ...this.own },
-      vertexShader,
-      fragmentShader,
-      side: DoubleSide,
-      transparent: true,
-      depthWrite: false,
-    });
-    this.ribbons = new Mesh(emptyGeometry(), material);
-    this.ribbons.frustumCulled = false;
+    this.ribbons = makeRibbons(emptyGeometry(), { uniforms: { ...shared, ...this.own }, vertexShader, fragmentShader });
     this.ribbons.onBeforeRender = (renderer) => void renderer.getDrawingBufferSize(this.own.viewport.value);
     this.object.add(this.ribbons);
   }

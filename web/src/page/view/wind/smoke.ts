@@ -1,21 +1,20 @@
 // Smoke: short strokes behind particles that the flow carries. It is loaded when there is smoke for the first time.
 import {
-  DoubleSide,
   DynamicDrawUsage,
   Float32BufferAttribute,
   InstancedBufferAttribute,
   InstancedBufferGeometry,
-  Mesh,
-  ShaderMaterial,
   Vector2,
   Vector3,
   type Color,
   type IUniform,
+  type Mesh,
+  type ShaderMaterial,
   type WebGLRenderer,
 } from 'three';
 import type { SmokeSource } from '../../../model/wind';
 import { longestLife, particles, pasts, Tracer } from './tracer';
-import { ribbonChunk, windChunk, type WindUniforms } from './uniforms';
+import { makeRibbons, ribbonChunk, windChunk, type WindUniforms } from './uniforms';
 
 /** In seconds: the longest time between two pictures that the smoke moves on by. */
 const longestFrame = 0.1;
@@ -50,16 +49,7 @@ export class SmokeCloud {
     private readonly reducedMotion: MediaQueryList,
     private readonly onChange: () => void,
   ) {
-    const material = new ShaderMaterial({
-      uniforms: { ...shared, ...this.own },
-      vertexShader,
-      fragmentShader,
-      side: DoubleSide,
-      transparent: true,
-      depthWrite: false,
-    });
-    this.object = new Mesh(new InstancedBufferGeometry(), material);
-    this.object.frustumCulled = false;
+    this.object = makeRibbons(new InstancedBufferGeometry(), { uniforms: { ...shared, ...this.own }, vertexShader, fragmentShader });
     this.object.onBeforeRender = (renderer) => this.fit(renderer);
   }
 

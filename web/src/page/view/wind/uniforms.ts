@@ -1,4 +1,4 @@
-import { Vector3, Vector4 } from 'three';
+import { DoubleSide, ShaderMaterial, Vector3, Vector4, type BufferGeometry, type IUniform, Mesh } from 'three';
 import type { Smoke, Wind } from '../../../model/wind';
 import type { Look } from '../layer';
 import { rampTexture, topSpeed } from './colors';
@@ -35,6 +35,17 @@ export function setWindUniforms(uniforms: WindUniforms, { sections, origin, half
 export function setSmokeUniforms(uniforms: WindUniforms, { size }: Smoke): void {
   uniforms.row.value = uniforms.sectionCount.value = 0;
   uniforms.size.value = size;
+}
+
+/** Ribbons along the wind, which let through what is behind them, wherever their shader puts them. */
+export function makeRibbons<Geometry extends BufferGeometry>(
+  geometry: Geometry,
+  shader: { uniforms: Record<string, IUniform>; vertexShader: string; fragmentShader: string },
+): Mesh<Geometry, ShaderMaterial> {
+  const material = new ShaderMaterial({ ...shader, side: DoubleSide, transparent: true, depthWrite: false });
+  const ribbons = new Mesh(geometry, material);
+  ribbons.frustumCulled = false;
+  return ribbons;
 }
 
 /** In vertex shaders: a point of a ribbon in clip space, so many pixels aside from a line that leads `ahead` there. */
