@@ -15,20 +15,19 @@ static bool isKept(const CutBricks& cut, const KeptBricks& kept, const Slab& ele
 
 std::vector<uint32_t> findKeptVertices(const CutBricks& cut, const KeptBricks& kept, const Numbers& before, const Numbers& now) {
   std::vector<uint32_t> result(size_t(now.surfaceVertices) + now.total.vertices, Numbers::kUnused);
-  const auto note = [&](uint32_t numberBefore, uint32_t number) {
-    if (numberBefore != Numbers::kUnused && number != Numbers::kUnused) result[number] = numberBefore;
+  const auto note = [&](uint32_t numberBefore, uint32_t number, const Slab& element) {
+    if (numberBefore == Numbers::kUnused || number == Numbers::kUnused) return;  // outside of the grid, for one
+    if (isKept(cut, kept, element)) result[number] = numberBefore;
   };
   for (const VertexId was : kept.vertices.ids()) {
     const VertexId v = kept.vertices[was];
-    if (v != KeptBricks::kNoVertex && isKept(cut, kept, cut.surface.vertices.slab(v))) note(before.ofSurface[was], now.ofSurface[v]);
+    if (v != KeptBricks::kNoVertex) note(before.ofSurface[was], now.ofSurface[v], cut.surface.vertices.slab(v));
   }
   for (const BrickId b : cut.bricks.ids()) {
     if (!kept.has(b)) continue;
     const std::vector<uint32_t>&was = before.ofBrick[kept.before[b]], &is = now.ofBrick[b];
     const auto& slabs = cut.cuts[b].vertices.slabs;
-    for (size_t i = 0; i < is.size(); ++i) {
-      if (!cut.bricks.grid.isOnSeam(slabs[i]) || isKept(cut, kept, slabs[i])) note(was[i], is[i]);
-    }
+    for (size_t i = 0; i < is.size(); ++i) note(was[i], is[i], slabs[i]);
   }
   return result;
 }
