@@ -1,5 +1,8 @@
 #include "base/large_array.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #ifdef __linux__
 #include <sys/mman.h>
 
@@ -34,6 +37,12 @@ void getPages(void* begin, size_t bytes) {
 
 void getPages(void*, size_t) {}
 
+#endif
+
+#ifdef __GLIBC__
+void giveBackFreed() { malloc_trim(0); }
+#else
+void giveBackFreed() {}
 #endif
 
 }  // namespace mandoline::detail

@@ -18,6 +18,9 @@ inline constexpr size_t kPageAlignment = 16;
 /// Gets memory that is about to be written to. Nothing happens where the system can't.
 void getPages(void* begin, size_t bytes);
 
+/// Leaves freed memory to the system that the allocator keeps for later, where it can; takes some milliseconds for each gigabyte.
+void giveBackFreed();
+
 /// Makes room in an empty array: an eighth more in one that has had too little, which is used again and again.
 template <class Array>
 void reserveLarge(Array& items, size_t count) {

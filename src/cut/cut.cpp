@@ -107,6 +107,7 @@ void cutInBricks(CutState& state, const ShareOf& share, Clock& clock, Run& run) 
   if (share.count > 1) state.bricks.here = layersOf(state.bricks, share.index, share.count);
   if (state.keepBricks) state.kept = state.keepBricks();
   state.cuts = cutBricks(surface, state.parts, state.bricks, run, state.kept);
+  if (!state.isNeededAgain) state.parts = {};
   state.used = findUsed(surface, state.bricks, state.cuts, run);
 }
 

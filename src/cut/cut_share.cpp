@@ -25,6 +25,7 @@ struct CutShare::Data {
     Monitor monitor(options, kGridStages);
     Clock clock(stats, monitor);
     Run run{stats, monitor};
+    state.isNeededAgain = true;
     beginCut(mesh.prepared(), grid, state, clock, run);
     cutInBricks(state, shareOf, clock, run);
   }

@@ -35,6 +35,7 @@ struct Recutter::Data {
     const SnappedInput input(mesh, grid, options, stats);
     LastCut now{nullptr, std::make_unique<CutState>()};
     CutState& state = *now.state;
+    state.isNeededAgain = true;
     state.spare = std::move(spare);
     const auto beginStage = [&](const char* stage) { clock.begin(stage); };
     const Preparation preparation{largestCoordinate(grid), options.intersections, true};

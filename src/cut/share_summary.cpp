@@ -125,7 +125,7 @@ void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareO
     if (summary.size() < head.size() || !std::equal(head.begin(), head.end(), summary.begin())) fail(share);
     if (share == shareOf.index) continue;
     state.cuts.memory.emplace_back();
-    Reader from(std::span<const uint32_t>(summary).subspan(head.size()), state.cuts.memory.back());
+    Reader from(std::span<const uint32_t>(summary).subspan(head.size()), state.cuts.memory.back().seams);
     try {
       for (const BrickId b : layersOf(bricks, share, shareOf.count).ids()) readBrick(from, bricks, b, state.cuts[b]);
       const std::span<const uint8_t> used = from.items<uint8_t>();

@@ -29,7 +29,7 @@ class BrickThread {
     return result;
   }
   /// That of all results.
-  Arena& memory() { return memory_; }
+  BrickMemory& memory() { return memory_; }
 
   void count(Run& run) const {
     run.count(brickSurface_.predicates);
@@ -51,7 +51,7 @@ class BrickThread {
   CellScratch cellScratch_;
   CutCells cells_;
   Gathered gathered_;
-  Arena memory_;
+  BrickMemory memory_;
 };
 
 }  // namespace

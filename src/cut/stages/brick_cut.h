@@ -71,6 +71,13 @@ struct FaceLoops {
   uint32_t vertexCount(uint32_t first, uint32_t past) const { return loops.offsets[firstLoop(past)] - loops.offsets[firstLoop(first)]; }
 };
 
+/// The memory that the arrays of bricks are in, by what the output has done with at the same time.
+struct BrickMemory {
+  Arena vertices, faces, cells, seams;
+
+  size_t bytes() const { return vertices.bytes() + faces.bytes() + cells.bytes() + seams.bytes(); }
+};
+
 /// Its arrays are in the memory of BrickCuts.
 struct BrickCut {
   /// Those of the brick's own. Their places, in loops, are their numbers in the brick; then come those of surfaceVertices.
@@ -106,13 +113,16 @@ struct BrickCut {
   std::optional<uint32_t>
       componentAtCorner;  ///< that of the point in windingBeside() at the grid's lowest corner, where the brick has that
 
-  /// Calls f(array) for each that is in the memory of BrickCuts.
+  /// Calls f(array, part of the memory) for each that is in the memory of BrickCuts.
   template <class F>
   void forArrays(const F& f) {
-    f(surfaceVertices), f(lineVertices), f(triangles), f(otherParents), f(triFacesInPlane), f(pieces);
-    for (FaceLoops* faces : {&triLoops, &pieceLoops}) f(faces->loops.offsets), f(faces->loops.items), f(faces->offsets);
-    f(halfFaces.offsets), f(halfFaces.items), f(gridCells), f(components);
-    f(rows), f(boundaryFaces), f(boundaryHalves), f(boundaryLines), f(openFaces), f(steps);
+    const auto forEach = [&](Arena BrickMemory::*memory, auto&... arrays) { (f(arrays, memory), ...); };
+    forEach(&BrickMemory::vertices, surfaceVertices, lineVertices, rows);
+    forEach(&BrickMemory::faces, triangles, otherParents, triFacesInPlane, pieces);
+    for (FaceLoops* loops : {&triLoops, &pieceLoops})
+      forEach(&BrickMemory::faces, loops->loops.offsets, loops->loops.items, loops->offsets);
+    forEach(&BrickMemory::cells, halfFaces.offsets, halfFaces.items, gridCells, components);
+    forEach(&BrickMemory::seams, boundaryFaces, boundaryHalves, boundaryLines, openFaces, steps);
   }
 
   bool isTri(FaceId face) const { return face.number < triangles.size(); }
@@ -123,7 +133,15 @@ struct BrickCut {
 struct BrickCuts : IdVector<BrickId, BrickCut> {
   using IdVector::IdVector;
 
-  std::vector<Arena> memory;
+  std::vector<BrickMemory> memory;
+
+  size_t bytes() const {
+    return std::accumulate(memory.begin(), memory.end(), size_t(0), [](size_t sum, const BrickMemory& of) { return sum + of.bytes(); });
+  }
+  /// Frees a part of it, and so the arrays in it.
+  void free(Arena BrickMemory::*part) {
+    for (BrickMemory& of : memory) of.*part = {};
+  }
 };
 
 /// Bricks that need not be cut again: see kept_bricks.h.

@@ -10,7 +10,7 @@ namespace {
 
 class Harvest {
  public:
-  Harvest(const BrickStages& stages, const std::vector<Counted>& counted, Gathered& gathered, Arena& memory, BrickCut& out)
+  Harvest(const BrickStages& stages, const std::vector<Counted>& counted, Gathered& gathered, BrickMemory& memory, BrickCut& out)
       : input_(stages.surface.input),
         vertices_(stages.surface.vertices),
         stencil_(stages.stencil),
@@ -232,7 +232,7 @@ class Harvest {
   void copyTriLoops() {
     const TriFaces& tri = faces_.tri;
     const bool haveOneEach = tri.faceLoopOffsets.empty();
-    out_.triLoops.offsets = memory_.make<uint32_t>(haveOneEach ? 0 : tri.faceLoopOffsets.size(), [&](std::span<uint32_t> offsets) {
+    out_.triLoops.offsets = memory_.faces.make<uint32_t>(haveOneEach ? 0 : tri.faceLoopOffsets.size(), [&](std::span<uint32_t> offsets) {
       uint32_t at = 0;
       for (size_t i = 0; i < tri.size(); ++i) {
         offsets[i] = at;
@@ -240,7 +240,7 @@ class Harvest {
       }
       offsets.back() = at;
     });
-    out_.triLoops.loops.offsets = memory_.make<uint32_t>(tri.loops.offsets.size(), [&](std::span<uint32_t> offsets) {
+    out_.triLoops.loops.offsets = memory_.faces.make<uint32_t>(tri.loops.offsets.size(), [&](std::span<uint32_t> offsets) {
       uint32_t at = 0, loops = 0;
       for (const FaceId f : gathered_.triOrder) {
         for (const auto loop : tri.loopsOf(f)) {
@@ -250,7 +250,7 @@ class Harvest {
       }
       offsets[loops] = at;
     });
-    out_.triLoops.loops.items = memory_.make<uint32_t>(tri.loops.items.size(), [&](std::span<uint32_t> items) {
+    out_.triLoops.loops.items = memory_.faces.make<uint32_t>(tri.loops.items.size(), [&](std::span<uint32_t> items) {
       auto to = items.begin();
       for (const FaceId f : gathered_.triOrder) {
         for (const auto loop : tri.loopsOf(f)) {
@@ -263,27 +263,27 @@ class Harvest {
   void copyTriFaces() {
     const TriFaces& tri = faces_.tri;
     copyTriLoops();
-    out_.triangles = memory_.make<TriangleId>(tri.size(), [&](std::span<TriangleId> triangles) {
+    out_.triangles = memory_.faces.make<TriangleId>(tri.size(), [&](std::span<TriangleId> triangles) {
       for (size_t i = 0; i < triangles.size(); ++i) triangles[i] = tri.triangles[gathered_.triOrder[i]];
     });
-    out_.otherParents = memory_.make<OtherParent>(tri.otherParents.size(), [&](std::span<OtherParent> parents) {
+    out_.otherParents = memory_.faces.make<OtherParent>(tri.otherParents.size(), [&](std::span<OtherParent> parents) {
       std::transform(tri.otherParents.begin(), tri.otherParents.end(), parents.begin(), [&](const OtherParent& o) {
         return OtherParent{numberOf(o.face), o.triangle, o.sameWay};
       });
       sortItems(parents,
                 [](const OtherParent& a, const OtherParent& b) { return std::tie(a.face, a.triangle) < std::tie(b.face, b.triangle); });
     });
-    out_.triFacesInPlane = memory_.copy(gathered_.triFacesInPlane);
+    out_.triFacesInPlane = memory_.faces.copy(gathered_.triFacesInPlane);
   }
 
   void copyPieces() {
     const auto& loops = faces_.grid.loops;
-    out_.pieceLoops.offsets = memory_.copy(faces_.grid.faceLoopOffsets);
-    out_.pieceLoops.loops.offsets = memory_.copy(loops.offsets);
-    out_.pieceLoops.loops.items = memory_.make<uint32_t>(loops.items.size(), [&](std::span<uint32_t> items) {
+    out_.pieceLoops.offsets = memory_.faces.copy(faces_.grid.faceLoopOffsets);
+    out_.pieceLoops.loops.offsets = memory_.faces.copy(loops.offsets);
+    out_.pieceLoops.loops.items = memory_.faces.make<uint32_t>(loops.items.size(), [&](std::span<uint32_t> items) {
       std::transform(loops.items.begin(), loops.items.end(), items.begin(), [&](VertexId v) { return placeOf(v); });
     });
-    out_.pieces = memory_.copy(gathered_.pieces);
+    out_.pieces = memory_.faces.copy(gathered_.pieces);
   }
 
   void copyAll() {
@@ -292,21 +292,21 @@ class Harvest {
     if (gathered_.places.empty()) gathered_.places.assign(vertices_.firstOwn.number, Gathered::kNoPlace);
     copyTriFaces();
     copyPieces();
-    out_.surfaceVertices = memory_.copy(gathered_.surfaceVertices);
-    out_.lineVertices = memory_.copy(gathered_.lineVertices);
+    out_.surfaceVertices = memory_.vertices.copy(gathered_.surfaceVertices);
+    out_.lineVertices = memory_.vertices.copy(gathered_.lineVertices);
     const auto& halves = cells_.halfFaces;
-    out_.halfFaces.offsets = memory_.copy(halves.offsets);
-    out_.halfFaces.items = memory_.make<HalfFace>(halves.items.size(), [&](std::span<HalfFace> items) {
+    out_.halfFaces.offsets = memory_.cells.copy(halves.offsets);
+    out_.halfFaces.items = memory_.cells.make<HalfFace>(halves.items.size(), [&](std::span<HalfFace> items) {
       std::transform(halves.items.begin(), halves.items.end(), items.begin(), [&](HalfFace h) { return numbered(h); });
     });
-    out_.gridCells = memory_.copy(gathered_.gridCells);
-    out_.components = memory_.copy(gathered_.components);
-    out_.rows = memory_.copy(gathered_.rows);
-    out_.boundaryFaces = memory_.copy(gathered_.boundaryFaces);
-    out_.boundaryHalves = memory_.copy(gathered_.boundaryHalves);
-    out_.boundaryLines = memory_.copy(gathered_.boundaryLines);
-    out_.openFaces = memory_.copy(gathered_.openFaces);
-    out_.steps = memory_.copy(gathered_.steps);
+    out_.gridCells = memory_.cells.copy(gathered_.gridCells);
+    out_.components = memory_.cells.copy(gathered_.components);
+    out_.rows = memory_.vertices.copy(gathered_.rows);
+    out_.boundaryFaces = memory_.seams.copy(gathered_.boundaryFaces);
+    out_.boundaryHalves = memory_.seams.copy(gathered_.boundaryHalves);
+    out_.boundaryLines = memory_.seams.copy(gathered_.boundaryLines);
+    out_.openFaces = memory_.seams.copy(gathered_.openFaces);
+    out_.steps = memory_.seams.copy(gathered_.steps);
   }
 
   const Input& input_;
@@ -318,13 +318,13 @@ class Harvest {
   const std::vector<Counted>& counted_;
   const FaceSteps steps_;
   Gathered& gathered_;
-  Arena& memory_;
+  BrickMemory& memory_;
   BrickCut& out_;
 };
 
 }  // namespace
 
-void harvest(const BrickStages& stages, const std::vector<Counted>& counted, Gathered& gathered, Arena& memory, BrickCut& out) {
+void harvest(const BrickStages& stages, const std::vector<Counted>& counted, Gathered& gathered, BrickMemory& memory, BrickCut& out) {
   Harvest(stages, counted, gathered, memory, out).run();
 }
 

@@ -56,6 +56,6 @@ struct BrickStages {
   const CutCells& cells;
 };
 
-void harvest(const BrickStages& stages, const std::vector<Counted>& counted, Gathered& gathered, Arena& memory, BrickCut& out);
+void harvest(const BrickStages& stages, const std::vector<Counted>& counted, Gathered& gathered, BrickMemory& memory, BrickCut& out);
 
 }  // namespace mandoline::detail

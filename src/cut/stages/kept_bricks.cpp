@@ -63,12 +63,15 @@ class Keeper {
 
   /// Gives back the memory of bricks that are not kept, once that is half of it.
   static void dropUnused(BrickCuts& cuts) {
-    size_t used = 0, all = 0;
-    for (BrickCut& cut : cuts) cut.forArrays([&](const auto& array) { used += array.size_bytes(); });
-    for (const Arena& arena : cuts.memory) all += arena.bytes();
-    if (all <= 2 * used) return;
-    Arena memory;
-    for (BrickCut& cut : cuts) cut.forArrays([&](auto& array) { array = memory.copy(array); });
+    size_t used = 0;
+    for (BrickCut& cut : cuts) {
+      cut.forArrays([&](const auto& array, Arena BrickMemory::*) { used += array.size_bytes(); });
+    }
+    if (cuts.bytes() <= 2 * used) return;
+    BrickMemory memory;
+    for (BrickCut& cut : cuts) {
+      cut.forArrays([&](auto& array, Arena BrickMemory::*part) { array = (memory.*part).copy(array); });
+    }
     cuts.memory.clear();
     cuts.memory.push_back(std::move(memory));
   }

@@ -1,14 +1,13 @@
 #include "cut/stages/output_part.h"
 
-#include <cmath>
 #include <functional>
 #include <numeric>
 #include <utility>
 
 #include "base/large_array.h"
-#include "base/position_table.h"
 #include "base/run_tasks.h"
 #include "base/sort.h"
+#include "cut/stages/separate.h"
 #include "cut/stages/write_brick.h"
 
 namespace mandoline::detail {
@@ -23,50 +22,66 @@ struct Block {
   static Block at(size_t block, size_t n) { return {block * kSize, std::min(n, (block + 1) * kSize)}; }
 };
 
-/// Makes room for all, in the memory that another cut-mesh's arrays have, and ends offsets: each array on one thread, since the first touch
-/// of memory takes long.
-void makeRoom(const Numbers& numbers, size_t surfaceVertices, CutMesh spare, CutMesh& out, Monitor& monitor) {
-  const BrickCounts& total = numbers.here;
-  const size_t vertices = surfaceVertices + total.vertices, faces = size_t(total.triFaces) + total.pieces,
-               loops = size_t(total.triLoops) + total.loops;
-  const uint32_t loopVertices = total.triLoopVertices + total.loopVertices;
-  const auto make = [&](auto array, size_t count) {  // all of which is written to
-    auto& items = out.*array = std::move(spare.*array);
+/// The arrays of a result, in the memory that those of another cut-mesh have. Room is made for what is written next, each array on one
+/// thread, since the first touch of memory takes long; offsets are ended.
+class Rooms {
+ public:
+  Rooms(const Numbers& numbers, CutMesh spare, CutMesh& out, Monitor& monitor)
+      : total_(numbers.here),
+        faces_(size_t(total_.triFaces) + total_.pieces),
+        loops_(size_t(total_.triLoops) + total_.loops),
+        spare_(std::move(spare)),
+        out_(out),
+        monitor_(monitor) {}
+
+  void makeForCells() {
+    const size_t cells = total_.cells;
+    run({[&] { make(&CutMesh::cellHalfFaces, total_.halfFaces); }, [&] { make(&CutMesh::cellGridCell, 3 * cells); },
+         [&] { makeOffsets(&CutMesh::cellHalfFaceOffsets, cells, total_.halfFaces); }, [&] { make(&CutMesh::cellRegion, cells); }});
+  }
+  void makeForFaces() {
+    const uint32_t loopVertices = total_.triLoopVertices + total_.loopVertices;
+    run({[&] { make(&CutMesh::loopVertices, loopVertices); }, [&] { makeOffsets(&CutMesh::loopOffsets, loops_, loopVertices); },
+         [&] { makeOffsets(&CutMesh::faceLoopOffsets, faces_, uint32_t(loops_)); },
+         [&] { fill(&CutMesh::faceParentOffsets, faces_ + 1, total_.parents); }, [&] { fill(&CutMesh::faceTriangle, faces_, -1); },
+         [&] { fill(&CutMesh::facePlane, faces_, 0); }, [&] { make(&CutMesh::faceParents, total_.parents); },
+         [&] { fill(&CutMesh::faceAxis, faces_, int8_t(-1)); }, [&] { make(&CutMesh::faceParentSigns, total_.parents); }});
+  }
+  void makeForVertices(size_t surfaceVertices) {
+    const size_t vertices = surfaceVertices + total_.vertices;
+    run({[&] { make(&CutMesh::positions, 3 * vertices); }, [&] { make(&CutMesh::vertexCell, 3 * vertices); },
+         [&] { fill(&CutMesh::vertexParents, 2 * vertices, -1); }, [&] { fill(&CutMesh::vertexTriVertex, vertices, -1); },
+         [&] { fill(&CutMesh::vertexMask, vertices, uint8_t(0)); }});
+  }
+
+ private:
+  void run(std::initializer_list<std::function<void()>> rooms) { runTasks(rooms, monitor_); }
+
+  /// Of an array all of which is written to.
+  template <class Item>
+  void make(std::vector<Item> CutMesh::*array, size_t count) {
+    std::vector<Item>& items = out_.*array = std::move(spare_.*array);
     if (items.capacity() < count) items.clear();
     reserveLarge(items, count);
     items.resize(count);
-  };
-  const auto fill = [&](auto array, size_t count, auto item) {
-    auto& items = out.*array = std::move(spare.*array);
+  }
+  template <class Item>
+  void fill(std::vector<Item> CutMesh::*array, size_t count, Item item) {
+    std::vector<Item>& items = out_.*array = std::move(spare_.*array);
     items.clear();
     makeLarge(items, count, item);
-  };
-  const auto makeOffsets = [&](auto array, size_t count, uint32_t end) {
+  }
+  void makeOffsets(std::vector<uint32_t> CutMesh::*array, size_t count, uint32_t end) {
     make(array, count + 1);
-    (out.*array).back() = end;
-  };
-  const std::function<void()> rooms[] = {
-      [&] { make(&CutMesh::loopVertices, loopVertices); },
-      [&] { make(&CutMesh::positions, 3 * vertices); },
-      [&] { make(&CutMesh::vertexCell, 3 * vertices); },
-      [&] { fill(&CutMesh::vertexParents, 2 * vertices, -1); },
-      [&] { make(&CutMesh::cellHalfFaces, total.halfFaces); },
-      [&] { makeOffsets(&CutMesh::loopOffsets, loops, loopVertices); },
-      [&] { makeOffsets(&CutMesh::faceLoopOffsets, faces, uint32_t(loops)); },
-      [&] { fill(&CutMesh::faceParentOffsets, faces + 1, total.parents); },
-      [&] { fill(&CutMesh::faceTriangle, faces, -1); },
-      [&] { fill(&CutMesh::facePlane, faces, 0); },
-      [&] { make(&CutMesh::faceParents, total.parents); },
-      [&] { fill(&CutMesh::vertexTriVertex, vertices, -1); },
-      [&] { make(&CutMesh::cellGridCell, 3 * size_t(total.cells)); },
-      [&] { makeOffsets(&CutMesh::cellHalfFaceOffsets, total.cells, total.halfFaces); },
-      [&] { make(&CutMesh::cellRegion, total.cells); },
-      [&] { fill(&CutMesh::faceAxis, faces, int8_t(-1)); },
-      [&] { make(&CutMesh::faceParentSigns, total.parents); },
-      [&] { fill(&CutMesh::vertexMask, vertices, uint8_t(0)); },
-  };
-  runTasks(rooms, monitor);
-}
+    (out_.*array).back() = end;
+  }
+
+  const BrickCounts& total_;
+  const size_t faces_, loops_;
+  CutMesh spare_;
+  CutMesh& out_;
+  Monitor& monitor_;
+};
 
 /// Writes cut-vertices one by one.
 class VertexWriter {
@@ -85,8 +100,6 @@ class VertexWriter {
     writePosition(vertices, v, i, predicates);
     writeParents(vertices, v, i);
   }
-
-  CutMesh& out() const { return out_; }
 
  private:
   /// Coordinates that the input has are handed back as they are, even where scaling flushed them.
@@ -153,9 +166,10 @@ std::vector<uint32_t> numbersOf(const std::vector<VertexId>& surface, const CutS
   return list;
 }
 
-/// Writes vertices, of which those of `surface` come first, faces and cells, whose places are known.
-void writeAll(const CutState& state, const Numbers& numbers, const std::vector<VertexId>& surface, VertexWriter& vertexWriter, Run& run) {
+/// Writes vertices, of which those of `surface` come first.
+void writeVertices(const CutState& state, const std::vector<VertexId>& surface, VertexWriter& writer, Run& run) {
   const BricksHere& here = state.bricks.here;
+  const Numbers& numbers = state.numbers;
   std::vector<uint32_t> tasks(here.size() + Block::count(surface.size()));
   std::iota(tasks.begin(), tasks.end(), here.first.number);
   const uint32_t before = numbers.surfaceVertices + numbers.before.vertices - uint32_t(surface.size());
@@ -163,50 +177,18 @@ void writeAll(const CutState& state, const Numbers& numbers, const std::vector<V
   runItems(tasks, run.monitor, [&](size_t thread, uint32_t task) {
     if (!here.has({task})) {
       const Block block = Block::at(task - here.past.number, surface.size());
-      for (size_t i = block.begin; i < block.end; ++i) vertexWriter.write(state.surface.vertices, surface[i], i, predicates[thread]);
+      for (size_t i = block.begin; i < block.end; ++i) writer.write(state.surface.vertices, surface[i], i, predicates[thread]);
       return;
     }
-    writeBrick(state, {task}, vertexWriter.out());
     const BrickCut& cut = state.cuts[{task}];
     forOwn(cut, &BrickRow::pastVertex, state.seams[{task}].vertices, [&](uint32_t, uint32_t first, uint32_t past) {
       for (uint32_t i = first; i < past; ++i) {
         const VertexId v = cut.lineVertices[i];
-        vertexWriter.write(cut.vertices, v, numbers.vertex({task}, v) - before, predicates[thread]);
+        writer.write(cut.vertices, v, numbers.vertex({task}, v) - before, predicates[thread]);
       }
     });
   });
   for (const Predicates& p : predicates) run.count(p);
-}
-
-/// Moves made vertices that rounding put onto another one by a few units in the last place, so that no two have the same position.
-/// Vertices on different grid elements never need it: see CutVertices::position. At a grid vertex there is one; inside of a grid cell there
-/// are those of the mesh alone, unless triangles meet. Kept vertices have been moved before.
-void separate(CutMesh& out, const KeptVertices& kept, bool doTrianglesMeet) {
-  const uint8_t inCell = doTrianglesMeet ? 7 : 0;
-  std::vector<uint32_t> mayMeet;
-  for (uint32_t v = 0; v < out.vertexMask.size(); ++v) {
-    if (out.vertexMask[v] != 7 && out.vertexMask[v] != inCell && !kept.find(v)) mayMeet.push_back(v);
-  }
-  PositionTable table(mayMeet.size(), [&](uint32_t v) { return &out.positions[3 * size_t(v)]; });
-  for (const uint32_t v : mayMeet) {
-    double* p = &out.positions[3 * size_t(v)];
-    uint32_t* slot = &table.find(p);
-    const Point original = {p[0], p[1], p[2]};
-    for (int steps = 1; *slot != table.kFree && steps < 64; ++steps) {
-      for (int way = 0; way < 6 && *slot != table.kFree; ++way) {
-        const int d = way >> 1, c = out.vertexCell[3 * size_t(v) + d];
-        if (out.vertexMask[v] >> d & 1 || out.vertexTriVertex[v] >= 0) continue;
-        const double toward = out.grid.planes[d][size_t(c) + (way & 1)];
-        double x = original[d];
-        for (int i = 0; i < steps; ++i) x = std::nextafter(x, toward);
-        if (x == toward) continue;
-        std::copy(original.begin(), original.end(), p);
-        p[d] = x;
-        slot = &table.find(p);
-      }
-    }
-    if (*slot == table.kFree) *slot = v;
-  }
 }
 
 }  // namespace
@@ -232,11 +214,37 @@ CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& r
   const std::vector<VertexId> used = listUsed(state.used);
   const std::vector<VertexId> surface = onLayers(state.bricks.here, state.surface.vertices, used);
   if (state.bricks.here.isShare) part.firstVertices = numbersOf(surface, state, numbers);
-  makeRoom(numbers, surface.size(), std::exchange(state.spare, {}), out, run.monitor);
+
+  // One kind after the other, so that what the bricks have of it need not last as long as all of the result.
+  constexpr size_t kMuch = size_t(1) << 30;
+  const bool isMuch = state.cuts.bytes() > kMuch;
+  const auto drop = [&](const auto& free) {
+    if (state.isNeededAgain) return;
+    free();
+    if (isMuch) giveBackFreed();
+  };
+  const std::vector<uint32_t> bricks = state.bricks.here.numbers();
+  Rooms rooms(numbers, std::exchange(state.spare, {}), out, run.monitor);
+  drop([&] { state.cuts.free(&BrickMemory::seams); });
+  rooms.makeForCells();
+  runItems(bricks, run.monitor, [&](size_t, uint32_t b) { writeCells(state, {b}, out); });
+  drop([&] { state.cuts.free(&BrickMemory::cells); });
+  rooms.makeForFaces();
+  runItems(bricks, run.monitor, [&](size_t, uint32_t b) { writeFaces(state, {b}, out); });
+  drop([&] {
+    state.cuts.free(&BrickMemory::faces);
+    state.numbers.faces = {};
+  });
+  rooms.makeForVertices(surface.size());
   VertexWriter writer(mesh, grid, input, kept, out);
-  writeAll(state, numbers, surface, writer, run);
+  writeVertices(state, surface, writer, run);
+  drop([&] {
+    state.cuts = {};
+    state.numbers.ofBrick = {};
+  });
+
   const auto isMade = [&](VertexId v) { return state.surface.vertices.isImplicit(v); };
-  separate(out, kept, input.mesh->hasIntersections() && std::any_of(used.begin(), used.end(), isMade));
+  separate(kept, input.mesh->hasIntersections() && std::any_of(used.begin(), used.end(), isMade), out, run.monitor);
   part.triFaces = numbers.here.triFaces;
   return part;
 }

@@ -25,6 +25,8 @@ struct CutState {
   Regions regions;
   Numbers numbers;
 
+  bool isNeededAgain = false;  ///< once the output is made; otherwise memory is given back on the way
+
   // Of a surface that moves:
   std::optional<std::array<int, 3>> brickShifts;  ///< of bricks that have to be the same each time
   CutState* before = nullptr;                     ///< the cut before, if parts of it may be kept; and what has moved since

@@ -5,9 +5,9 @@
 namespace mandoline::detail {
 namespace {
 
-class BrickWriter {
+class FaceWriter {
  public:
-  BrickWriter(const CutState& state, BrickId brick, CutMesh& out)
+  FaceWriter(const CutState& state, BrickId brick, CutMesh& out)
       : state_(state), numbers_(state.numbers), brick_(brick), cut_(state.cuts[brick]), at_(numbers_.rows[brick]), out_(out) {
     vertices_ = numbers_.ofBrick[brick];
     for (const VertexId v : cut_.surfaceVertices) vertices_.push_back(numbers_.ofSurface[v]);
@@ -31,10 +31,6 @@ class BrickWriter {
       for (uint32_t i = first; i < past; ++i) writePlane(cut_.pieces[i], f + i - first);
       writeLoops(cut_.pieceLoops, {first, past}, f, {at_[row].loops, at_[row].loopVertices});
     });
-    uint32_t cell = 0;
-    for (uint32_t row = 0; row < cut_.rows.size(); ++row) {
-      for (; cell < cut_.rows[row].pastCell; ++cell) writeCell({cell}, at_[row]);
-    }
   }
 
  private:
@@ -95,19 +91,6 @@ class BrickWriter {
     }
   }
 
-  void writeCell(CellId cell, BrickCounts& at) {
-    const uint32_t c = at.cells++ - numbers_.before.cells;
-    out_.cellHalfFaceOffsets[c] = at.halfFaces;
-    const auto halfFaces = cut_.halfFaces[cell];
-    const uint32_t* faces = numbers_.faces[brick_].data();
-    std::transform(halfFaces.begin(), halfFaces.end(), out_.cellHalfFaces.begin() + at.halfFaces,
-                   [=](HalfFace h) { return HalfFace({faces[h.face().number]}, h.side()).number; });
-    at.halfFaces += uint32_t(halfFaces.size());
-    const Slab gridCell = state_.bricks.boxes[brick_].cellAt(cut_.gridCells[cell]);
-    for (size_t d = 0; d < 3; ++d) out_.cellGridCell[3 * size_t(c) + d] = gridCell[d] >> 1;
-    out_.cellRegion[c] = state_.regions.ofComponents[brick_][cut_.components[cell]];
-  }
-
   const CutState& state_;
   const Numbers& numbers_;
   const BrickId brick_;
@@ -119,6 +102,24 @@ class BrickWriter {
 
 }  // namespace
 
-void writeBrick(const CutState& state, BrickId brick, CutMesh& out) { BrickWriter(state, brick, out).run(); }
+void writeFaces(const CutState& state, BrickId brick, CutMesh& out) { FaceWriter(state, brick, out).run(); }
+
+void writeCells(const CutState& state, BrickId brick, CutMesh& out) {
+  const Numbers& numbers = state.numbers;
+  const BrickCut& cut = state.cuts[brick];
+  const BrickBox& box = state.bricks.boxes[brick];
+  const uint32_t *faces = numbers.faces[brick].data(), *regions = state.regions.ofComponents[brick].data();
+  CellId cell{0};
+  for (uint32_t row = 0; row < cut.rows.size(); ++row) {
+    uint32_t c = numbers.rows[brick][row].cells - numbers.before.cells, at = numbers.rows[brick][row].halfFaces;
+    for (; cell.number < cut.rows[row].pastCell; ++cell.number, ++c) {
+      out.cellHalfFaceOffsets[c] = at;
+      for (const HalfFace h : cut.halfFaces[cell]) out.cellHalfFaces[at++] = HalfFace({faces[h.face().number]}, h.side()).number;
+      const Slab gridCell = box.cellAt(cut.gridCells[cell]);
+      for (size_t d = 0; d < 3; ++d) out.cellGridCell[3 * size_t(c) + d] = gridCell[d] >> 1;
+      out.cellRegion[c] = regions[cut.components[cell]];
+    }
+  }
+}
 
 }  // namespace mandoline::detail

@@ -5,7 +5,8 @@
 
 namespace mandoline::detail {
 
-/// Writes what belongs to a brick into the arrays of a result, which are long enough, where state.numbers say.
-void writeBrick(const CutState& state, BrickId brick, CutMesh& out);
+// Each writes what belongs to a brick into the arrays of a result, which are long enough, where state.numbers say.
+void writeFaces(const CutState& state, BrickId brick, CutMesh& out);
+void writeCells(const CutState& state, BrickId brick, CutMesh& out);
 
 }  // namespace mandoline::detail

@@ -1,0 +1,80 @@
+#include "cut/stages/separate.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "base/position_table.h"
+
+namespace mandoline::detail {
+namespace {
+
+class Separator {
+ public:
+  Separator(const KeptVertices& kept, bool doTrianglesMeet, CutMesh& out) : kept_(kept), maskInCell_(doTrianglesMeet ? 7 : 0), out_(out) {
+    const auto hasFewer = [](const auto& a, const auto& b) { return a.size() < b.size(); };
+    axis_ = size_t(std::max_element(out.grid.planes.begin(), out.grid.planes.end(), hasFewer) - out.grid.planes.begin());
+    while (slabCount() >> shift_ > out.vertexCount() / kVertices + 1) ++shift_;
+  }
+
+  void run(Monitor& monitor) {
+    const size_t count = (slabCount() >> shift_) + 1;
+    const auto layers = groupBy<uint32_t>(
+        count + 1, out_.vertexCount(), [&](size_t v) { return mayMeet(v) ? layerOf(v) : count; }, [](size_t v) { return uint32_t(v); });
+    std::vector<uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0u);
+    runItems(order, monitor, [&](size_t, uint32_t layer) { separate(layers[layer]); });
+  }
+
+ private:
+  static constexpr size_t kVertices = 4096;  // about as many as a layer has, at least
+
+  /// Vertices on different grid elements never have the same position: see CutVertices::position. At a grid vertex there is one; inside of
+  /// a grid cell there are those of the mesh alone, unless triangles meet.
+  bool mayMeet(size_t v) const {
+    const uint8_t mask = out_.vertexMask[v];
+    return mask != 7 && mask != maskInCell_ && !kept_.find(v);
+  }
+  size_t slabCount() const { return 2 * out_.grid.planes[axis_].size(); }
+  /// So a layer has all vertices of the grid elements that it has.
+  size_t layerOf(size_t v) const {
+    const size_t slab = 2 * size_t(out_.vertexCell[3 * v + axis_]) + !(out_.vertexMask[v] >> axis_ & 1);
+    return slab >> shift_;
+  }
+
+  void separate(std::span<const uint32_t> layer) {
+    PositionTable table(layer.size(), [&](uint32_t v) { return &out_.positions[3 * size_t(v)]; });
+    for (const uint32_t v : layer) {
+      double* p = &out_.positions[3 * size_t(v)];
+      uint32_t* slot = &table.find(p);
+      const Point original = {p[0], p[1], p[2]};
+      for (int steps = 1; *slot != table.kFree && steps < 64; ++steps) {
+        for (int way = 0; way < 6 && *slot != table.kFree; ++way) {
+          const int d = way >> 1, c = out_.vertexCell[3 * size_t(v) + d];
+          if (out_.vertexMask[v] >> d & 1 || out_.vertexTriVertex[v] >= 0) continue;
+          const double toward = out_.grid.planes[d][size_t(c) + (way & 1)];
+          double x = original[d];
+          for (int i = 0; i < steps; ++i) x = std::nextafter(x, toward);
+          if (x == toward) continue;
+          std::copy(original.begin(), original.end(), p);
+          p[d] = x;
+          slot = &table.find(p);
+        }
+      }
+      if (*slot == table.kFree) *slot = v;
+    }
+  }
+
+  const KeptVertices& kept_;
+  const uint8_t maskInCell_;  // those of vertices inside of grid cells, if these never meet
+  CutMesh& out_;
+  size_t axis_;
+  int shift_ = 0;
+};
+
+}  // namespace
+
+void separate(const KeptVertices& kept, bool doTrianglesMeet, CutMesh& out, Monitor& monitor) {
+  Separator(kept, doTrianglesMeet, out).run(monitor);
+}
+
+}  // namespace mandoline::detail
