@@ -211,7 +211,7 @@ void printBalls(const std::vector<int64_t>& cells, Orders& orders) {
                                   {{{2.1, 2.1, 1.9, 1.9, 1.7, 1.5},
                                     {1.3, 0.4, 1.1, 0.1, 1.8, 1.6},
                                     {2.2, 2.2, 2.0, 1.6, 1.8, 1.2},
-                                    {1.3, 0.5, 1.2, 0.4, 1.8, 1.9}}}),
+                                    {1.3, 0.4, 1.2, 0.4, 1.8, 1.9}}}),
                         offCentre("Robin condition on it", kRobin, false, DualPoints::centroids,
                                   {{{2.0, 2.0, 1.8, 1.9, 2.2, 2.4},
                                     {1.8, 2.2, 1.5, 0.4, 1.4, 1.8},
