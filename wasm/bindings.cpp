@@ -60,7 +60,7 @@ val cutMesh(const val& mesh, const val& grid, const val& options) {
       const Mesh input = fromObject<Mesh>(mesh);
       result = cut(input, readGrid(grid, input), cutOptions);
     }
-    return outcomeOf(std::move(result), options);
+    return outcomeOf(result, options);
   });
 }
 

@@ -125,6 +125,7 @@ async function makeFiles() {
   const modules = [
     ['mandoline', folder],
     ['files', join(folder, 'files')],
+    ['bricks', join(folder, 'bricks')],
   ];
   if (existsSync(join(build, 'wasm', 'physics.wasm'))) modules.push(['physics', join(folder, 'physics')]);
   else leaveOutPhysics(folder);

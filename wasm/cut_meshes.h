@@ -51,8 +51,8 @@ val arraysOf(const MeshView& mesh);
 
 /// The stage that a cut has come to.
 val lastStage(const CutStats& stats);
-/// What a cut gives, with its twin, as the options say: copy, gridCellRegion, keep.
-val outcomeOf(CutResult result, const val& options);
+/// What a cut gives, with its twin, as the options say: copy, gridCellRegion, keep. The mesh is taken for the twin, if there is to be one.
+val outcomeOf(CutResult& result, const val& options);
 /// For the other modules.
 val dataOf(const KeptCutMesh& kept);
 

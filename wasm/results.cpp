@@ -8,6 +8,16 @@ std::function<bool(const Progress&)> progressOf(const val& options) {
   return [callback](const Progress& progress) { return callback(toObject(progress)).as<bool>(); };
 }
 
+std::function<bool(const Progress&)> progressBetween(const val& options, size_t before, int after) {
+  const auto tell = progressOf(options);
+  if (!tell) return {};
+  return [=](Progress progress) {
+    progress.stageIndex += int(before);
+    progress.stageCount += int(before) + after;
+    return tell(progress);
+  };
+}
+
 RunOptions runOptions(const val& options) {
   RunOptions result;
   result.progress = progressOf(options);

@@ -11,6 +11,8 @@ namespace mandoline::wasm {
 
 /// The JavaScript callback, if there is one.
 std::function<bool(const Progress&)> progressOf(const val& options);
+/// The same that tells the progress of some stages of the call, which others come before and after.
+std::function<bool(const Progress&)> progressBetween(const val& options, size_t before, int after);
 RunOptions runOptions(const val& options);
 
 template <class Struct>

@@ -18,17 +18,6 @@ struct KeptShare {
   CutPart part;
 };
 
-/// A callback that tells a call's progress as that of stages between others.
-std::function<bool(const Progress&)> between(const val& options, size_t before, int after) {
-  const auto tell = progressOf(options);
-  if (!tell) return {};
-  return [=](Progress progress) {
-    progress.stageIndex += int(before);
-    progress.stageCount += int(before) + after;
-    return tell(progress);
-  };
-}
-
 /// `mesh` is null where options.prepared is the handle of one.
 val beginShare(const val& mesh, const val& grid, const val& options) {
   return guarded([&] {
@@ -38,7 +27,7 @@ val beginShare(const val& mesh, const val& grid, const val& options) {
       prepared = options["prepared"].as<KeptMesh>().get();
     } else {
       PrepareOptions prepareOptions;
-      prepareOptions.progress = between(options, 0, kCutStages);
+      prepareOptions.progress = progressBetween(options, 0, kCutStages);
       prepareOptions.intersections = Intersections(options["intersections"].as<int>());
       const Mesh input = fromObject<Mesh>(mesh);
       PrepareResult result = prepare(input, prepareOptions);
@@ -47,7 +36,7 @@ val beginShare(const val& mesh, const val& grid, const val& options) {
       stats = std::move(result.stats);
     }
     const ShareOf shareOf{options["index"].as<uint32_t>(), options["count"].as<uint32_t>()};
-    CutShare share(prepared, readGrid(grid, prepared.mesh()), shareOf, {1, between(options, stats.stages.size(), 0)});
+    CutShare share(prepared, readGrid(grid, prepared.mesh()), shareOf, {1, progressBetween(options, stats.stages.size(), 0)});
     const val summary = toArray(share.summary());
     return success(object({{"share", val(KeptShare{std::move(share), std::move(stats), {}})}, {"summary", summary}}));
   });
@@ -56,7 +45,7 @@ val beginShare(const val& mesh, const val& grid, const val& options) {
 CutPart partOf(KeptShare& kept, const val& summaries, const val& options) {
   std::vector<std::vector<uint32_t>> all(summaries["length"].as<uint32_t>());
   for (uint32_t i = 0; i < all.size(); ++i) readArray(summaries[i], all[i]);
-  return kept.share.part(all, {1, between(options, kept.prepared.stages.size(), 0)});
+  return kept.share.part(all, {1, progressBetween(options, kept.prepared.stages.size(), 0)});
 }
 
 val keepPart(KeptShare& kept, const val& summaries, const val& options) {
@@ -83,7 +72,7 @@ val joinParts(KeptShare& kept, const val& others, const val& options) {
     result.stats.stages = std::move(stages);
     result.stats.totalMs += kept.prepared.totalMs;
     result.stats.exactFallbacks += kept.prepared.exactFallbacks;
-    return outcomeOf(std::move(result), options);
+    return outcomeOf(result, options);
   });
 }
 

@@ -19,13 +19,13 @@ function callsIn(table) {
 }
 
 /** Of objects whose state stays in the thread. */
-const keptTypes = ['FlowStepper', 'HeatStepper', 'PoissonSolver'];
+const keptTypes = ['BrickCutter', 'FlowStepper', 'HeatStepper', 'PoissonSolver', 'Recutter'];
 
 function ofWorker(signature) {
   const [, given, result] = signature.match(/^(.*)\): (.*)$/);
   const all = /options\?: \S+$/.test(given) ? `${given} & CallOptions` : `${given}, options?: CallOptions`;
-  const there = keptTypes.includes(result) ? `OnWorker<${result}>` : result;
-  return `${all}): ${result.startsWith('Promise<') ? result : `Promise<${there}>`}`;
+  const value = result.match(/^Promise<(.*)>$/)?.[1] ?? result;
+  return `${all}): Promise<${keptTypes.includes(value) ? `OnWorker<${value}>` : value}>`;
 }
 
 function formatted(text) {
@@ -56,7 +56,7 @@ function typesOf(table, main, worker) {
   const lines = [
     note(table),
     ...imports(calls, main, './index.js'),
-    `import type { CallOptions${keptTypes.some((type) => textOf(table).includes(`): ${type}\n`)) ? ', OnWorker' : ''} } from '${worker}';`,
+    `import type { CallOptions${keptTypes.some((type) => new RegExp(`\\): (Promise<)?${type}>?\n`).test(textOf(table))) ? ', OnWorker' : ''} } from '${worker}';`,
     '',
     'export interface Calls {',
     ...calls.flatMap(direct),
@@ -78,6 +78,7 @@ function namesOf(table) {
 
 const files = {
   'signatures.d.ts': typesOf('calls.js', './index.js', './worker.js'),
+  'bricks/signatures.d.ts': typesOf('bricks/calls.js', '../index.js', '../worker.js'),
   'files/signatures.d.ts': typesOf('files/calls.js', '../index.js', '../worker.js'),
   'physics/signatures.d.ts': typesOf('physics/calls.js', '../index.js', '../worker.js'),
   'physics-names.js': namesOf('physics/calls.js'),

@@ -40,8 +40,11 @@ function withObject({ value: handle, error }, { gives }, host, bindings) {
       if (!host.isCurrent(bindings)) throw bad(`The ${gives.type} is gone with the memory that it was in, since a call failed.`);
       return handle[method](...args);
     };
-  const calls = Object.entries(gives.methods).map(([method, call]) => [method, makeCall(host, method, { ...call, run: run(method) })]);
-  const methods = Object.fromEntries(calls.map(([method, call]) => [method, named(method, call)]));
+  const calls = Object.entries(gives.methods).map(([method, call]) => [
+    method,
+    named(call.isCut ? 'input' : method, makeCall(host, method, { ...call, run: run(method) })),
+  ]);
+  const methods = Object.fromEntries(calls);
   const perform = (method, given, expectState) => {
     named(method, expectState)();
     return methods[method](...given);

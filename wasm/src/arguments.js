@@ -49,7 +49,15 @@ export function readOptions(options = {}, readers = {}, ...context) {
  */
 export function readStart(options, own, more = {}) {
   const asIs = (value) => value;
-  const read = readOptions(options, { wasm: asIs, filesWasm: asIs, physicsWasm: asIs, thread: readFunction, default: asIs, ...more });
+  const read = readOptions(options, {
+    wasm: asIs,
+    filesWasm: asIs,
+    bricksWasm: asIs,
+    physicsWasm: asIs,
+    thread: readFunction,
+    default: asIs,
+    ...more,
+  });
   const other = ['wasm', 'physicsWasm'].find((name) => name !== own && read[name] !== undefined);
   if (own && other && read[own] === undefined) throw bad(`options.${other} is not for this: did you mean ${own}?`);
   return read;
@@ -93,7 +101,7 @@ export function expectInteger(value, name) {
 }
 
 /** Numbers that C++ keeps as 64-bit integers; those beyond are too large for anything. */
-function readCount(value, name) {
+export function readCount(value, name) {
   const most = Number.MAX_SAFE_INTEGER;
   return Math.min(Math.max(expectInteger(value, name), -most), most);
 }
@@ -236,6 +244,13 @@ export function readGrid(grid) {
     [second]: readVector(grid[second], `grid.${second}`),
     cells: readVector(grid.cells, 'grid.cells', readCount),
   };
+}
+
+/** A grid that is none around a mesh. */
+export function readPlacedGrid(grid) {
+  const given = readGrid(grid);
+  if (given.kind === 'around') throw bad('grid must be that of a cut-mesh, or have min and max, origin and spacing, or planes.');
+  return given;
 }
 
 export function readSnapTolerance(snapTolerance = 0, name) {

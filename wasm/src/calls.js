@@ -86,7 +86,7 @@ export const cutCalls = {
     keeps: 'cutMesh',
     isCut: true,
     run: (bindings, mesh, grid, options) => {
-      return mapped(withSize(callWithMesh(bindings, 'cut', mesh, grid, options), grid), ({ cutMesh: value, twin }) => ({ value, twin }));
+      return withSize(callWithMesh(bindings, 'cut', mesh, grid, options), grid);
     },
   },
   /**

@@ -12,16 +12,19 @@
  * there is nothing to delete. Arrays have the names that they have in the C++ library and its JSON dump. Numbers of sections and appendices
  * are the paper's.
  */
+/// <reference lib="esnext.disposable" />
 import type {
   CutMeshArrays,
   CutStats,
   MeasureArrays,
+  MeshArrays,
   Outlines,
   PairCounts,
   Progress,
   ResolvedMeshArrays,
   TriangleGroups,
 } from './results.js';
+import type { Calls as BrickCalls } from './bricks/signatures.js';
 import type { Calls as FileCalls } from './files/signatures.js';
 import type { Calls } from './signatures.js';
 
@@ -66,8 +69,10 @@ export interface GridRegular {
 export interface GridRectilinear {
   planes: readonly [ArrayLike<number>, ArrayLike<number>, ArrayLike<number>];
 }
-/** Which grid to cut with. The `grid` of a result is one, too, and means exactly its planes. */
-export type GridInput = GridAround | GridBox | GridRegular | GridRectilinear | Grid;
+/** A grid that is where it is, whatever the mesh. The `grid` of a result is one, too, and means exactly its planes. */
+export type PlacedGrid = GridBox | GridRegular | GridRectilinear | Grid;
+/** Which grid to cut with. */
+export type GridInput = GridAround | PlacedGrid;
 
 /** The grid of a result: grid cell (i, j, k) spans planes[0][i] .. planes[0][i + 1] and so on. */
 export interface Grid {
@@ -126,16 +131,93 @@ export interface Reusing {
 }
 
 /** `intersections` is not looked at for a mesh that prepare() gave: what prepare() was told holds. */
-export interface CutOptions extends IntersectionHandling, Reusing {
+export interface CutOptions extends RecutOptions, RecutterOptions {}
+
+/** How a mesh is cut, by a Recutter every time. */
+export interface RecutterOptions extends Pick<IntersectionHandling, 'intersections'> {
   /** Tri-vertices within this distance of an axial plane (in cells, below 0.5) are moved onto it before cutting. Default 0. */
   snapTolerance?: number;
-  /** Whether the result has `gridCellRegion`, which takes 4 bytes per grid cell; the runs say the same in less. Default true. */
-  gridCellRegion?: boolean;
+}
+
+export interface Keeping {
   /**
    * Whether the module keeps a copy of the result, its twin, so that calls on the result need not read and check its arrays. Default true.
    * See CutMesh.
    */
   keep?: boolean;
+}
+
+/** What a cut gives. */
+export interface RecutOptions extends RunOptions, Keeping, Reusing {
+  /** Whether the result has `gridCellRegion`, which takes 4 bytes per grid cell; the runs say the same in less. Default true. */
+  gridCellRegion?: boolean;
+}
+
+/**
+ * Cuts meshes one after the other: an object of createRecutter(). Its state, all that the last cut was made of, is in the module's memory
+ * until free() gives that back, `using` ends, or garbage is collected.
+ */
+export interface Recutter {
+  /**
+   * As cut(mesh, grid), to the bit; `stats.exactFallbacks` counts what was cut again. Everything is cut anew the first time, after an
+   * error, when triangles, or vertices that share a position, have changed, when the largest coordinate has passed a power of two, and
+   * while triangles without area are among them. With `keep: false` the memory of one result is that of the next.
+   */
+  cut(mesh: Mesh, options?: RecutOptions): CutMesh;
+  /** Of the last cut. */
+  counts(): RecutCounts;
+  /** Gives its memory back. */
+  free(): void;
+  [Symbol.dispose](): void;
+}
+
+/** The grid is cut in bricks of a few cells along each side. */
+export interface RecutCounts {
+  /** That the surface touches. */
+  bricks: number;
+  /** Of these: not cut again. */
+  kept: number;
+}
+
+export interface BrickCutterOptions extends IntersectionHandling {
+  /** Grid cells along each side of a brick, fewer where the grid ends: a power of two up to 2^24. Default 128. */
+  cells?: number;
+  /** Whether bricks come, too, in which the surface touches no grid cell. Default false. */
+  untouched?: boolean;
+}
+
+/** Cuts bricks, in any order: an object of createBrickCutter(), with its state in the module's memory, as that of Recutter. */
+export interface BrickCutter {
+  /** How many bricks there are: those that the surface comes near to, or with `untouched` all, by z, then y, then x. */
+  count(): number;
+  /** The lowest grid cell of a brick. Code "badArgument" if there is no such brick (`element`). */
+  first(brick: number): [number, number, number];
+  /** The piece may have no cut-cells. Errors as those of first() and cut(). */
+  cut(brick: number, options?: PieceOptions): CutPiece;
+  /** Gives its memory back. */
+  free(): void;
+  [Symbol.dispose](): void;
+}
+
+export interface PieceOptions extends RunOptions, Keeping {}
+
+/**
+ * What a cut has in one brick: the same cells as in the cut of the whole grid, to the bit, as a cut-mesh by itself. `cutMesh` was made from
+ * `mesh`, so all that takes both takes these. (Of validate(), the check of winding numbers is for the whole: here they are those of the whole
+ * mesh, which the triangles near a brick do not tell.) Cells on two sides of a seam between bricks have the same faces there, each in its
+ * own cut-mesh.
+ */
+export interface CutPiece {
+  /** The brick's lowest grid cell. Grid cells, planes and runs of `cutMesh` count from there; its grid has the planes of the brick. */
+  first: [number, number, number];
+  /** Its regions are those of the brick: one of the whole cut may be several here. */
+  cutMesh: CutMeshArrays;
+  /** The triangles near the brick, and those that these meet; welded. Coordinates are those of the whole mesh. */
+  mesh: MeshArrays;
+  /** Per triangle of `mesh` that of the whole mesh, ascending. */
+  triangles: Uint32Array<ArrayBuffer>;
+  /** Per tri-vertex of `mesh` that of the whole mesh (the lowest at its position), ascending. */
+  triVertices: Uint32Array<ArrayBuffer>;
 }
 
 /**
@@ -257,7 +339,7 @@ export interface ReadMeshOptions {
  * Everything that works on meshes and cut-meshes; `init()` gives it. No call changes its arguments. Errors are MandolineErrors, except what
  * a progress callback throws.
  */
-export interface Mandoline extends Calls, FileCalls {
+export interface Mandoline extends Calls, FileCalls, BrickCalls {
   /** Version of the library. */
   readonly version: string;
 }
@@ -270,6 +352,8 @@ export interface InitOptions {
   wasm?: WasmSource | (() => WasmSource | Promise<WasmSource>);
   /** The same of the module that has validate(), the writers and some readers: files.wasm, loaded when one of these is first called. */
   filesWasm?: WasmSource | (() => WasmSource | Promise<WasmSource>);
+  /** The same of the module of createRecutter() and createBrickCutter(): bricks.wasm, loaded when one of these is first called. */
+  bricksWasm?: WasmSource | (() => WasmSource | Promise<WasmSource>);
 }
 export type WasmSource = URL | string | ArrayBuffer | ArrayBufferView | WasmModule;
 

@@ -1,4 +1,6 @@
 import { laterCalls, startModule, starter } from './api.js';
+import { brickModule } from './bricks/module.js';
+import { ownBrickWasm } from './bricks/own-wasm.js';
 import { fileModule } from './files/module.js';
 import { ownFileWasm } from './files/own-wasm.js';
 import { compile, once } from './load.js';
@@ -7,10 +9,12 @@ import { ownWasm } from './own-wasm.js';
 
 export { MandolineError, describe } from './errors.js';
 
-const start = once(async ({ wasm = ownWasm.source, filesWasm = ownFileWasm.source }) => {
+const start = once(async ({ wasm = ownWasm.source, filesWasm = ownFileWasm.source, bricksWasm = ownBrickWasm.source }) => {
   const module = await compile(wasm, 'mandoline.wasm');
   const loadFiles = once(async () => startModule(fileModule, await compile(filesWasm, 'files.wasm')));
-  return { module, api: { ...startModule(cutModule, module, loadFiles).calls, ...laterCalls(fileModule, loadFiles) } };
+  const loadBricks = once(async () => startModule(brickModule, await compile(bricksWasm, 'bricks.wasm')));
+  const later = { ...laterCalls(fileModule, loadFiles), ...laterCalls(brickModule, loadBricks) };
+  return { module, api: { ...startModule(cutModule, module, loadFiles).calls, ...later } };
 });
 
 /**

@@ -15,5 +15,8 @@ export function wasm(): Promise<ArrayBuffer>;
 /** The bytes of files.wasm. */
 export function filesWasm(): Promise<ArrayBuffer>;
 
+/** The bytes of bricks.wasm. */
+export function bricksWasm(): Promise<ArrayBuffer>;
+
 /** Starts the worker's script. In browsers it is a blob, which a content security policy allows by `worker-src blob:`. */
 export function thread(): Thread;

@@ -5,4 +5,6 @@ export const wasm = () => unpack('GZIPPED_MANDOLINE');
 
 export const filesWasm = () => unpack('GZIPPED_FILES');
 
+export const bricksWasm = () => unpack('GZIPPED_BRICKS');
+
 export const thread = () => startScript('WORKER_SCRIPT');

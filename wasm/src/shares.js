@@ -23,10 +23,6 @@ const steps = {
     takes: { share: asIs, others: asIs },
     options: { gridCellRegion: asIs, keep: asIs, reuse: asIs },
     keeps: 'cutMesh',
-    run: (bindings, ...given) => {
-      const { value, error } = bindings.joinParts(...given);
-      return error ? { error } : { value: { value: value.cutMesh, twin: value.twin } };
-    },
   },
   meshOf: { takes: { mesh: { kind: 'prepared' } } },
 };

@@ -1,6 +1,7 @@
 // The worker's side of worker.js, and the script that it starts by default: starts the module that the page has compiled, then answers one
 // job after another. In Node it is a worker thread.
 import { laterCalls, startModule } from './api.js';
+import { brickModule } from './bricks/module.js';
 import { buffersOf } from './buffers.js';
 import { MandolineError } from './errors.js';
 import { fileModule } from './files/module.js';
@@ -60,7 +61,7 @@ class Shells {
   }
 }
 
-for (const module of [cutModule, fileModule]) parts.set(module.name, module);
+for (const module of [cutModule, fileModule, brickModule]) parts.set(module.name, module);
 
 /** Answers jobs through `post`. */
 class Answering {
@@ -141,7 +142,7 @@ class Answering {
     try {
       const all = [...inputs, given];
       const run = of ? this.#objectOf(of)[call] : calls[call];
-      const value = await (call === 'cut' ? this.#lead.cut(module, all) : run(...all));
+      const value = await (run === calls.cut ? this.#lead.cut(module, all) : run(...all));
       if (object !== undefined) this.#objects.set(object, value);
       const made = result === undefined ? undefined : memberOf(value, member);
       const results = [...subjects.map(({ id }, i) => [id, found[i]]), [result, made]];

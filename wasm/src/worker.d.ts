@@ -1,6 +1,7 @@
 /** The same calls as promises, in a module worker: the page stays responsive. Browsers and Node. */
 /// <reference lib="esnext.disposable" />
 import type { InitOptions } from './index.js';
+import type { WorkerCalls as BrickCalls } from './bricks/signatures.js';
 import type { WorkerCalls as FileCalls } from './files/signatures.js';
 import type { WorkerCalls } from './signatures.js';
 
@@ -31,7 +32,7 @@ export interface ExtraCallOptions extends CallOptions {
  * Calls run one after another, in the order they were made. Results are transferred, not copied; the twins of those of cut() and prepare()
  * stay in the thread (see CutMesh).
  */
-export interface MandolineWorker extends WorkerCalls, FileCalls {
+export interface MandolineWorker extends WorkerCalls, FileCalls, BrickCalls {
   /**
    * Runs a call that the thread's own script serves (see `serve` of `mandoline-wasm/worker-thread`) with a copy of the arguments, in the
    * same queue as the others. What it throws is what the promise is rejected with, as a clone.

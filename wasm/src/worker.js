@@ -1,9 +1,7 @@
 import { readWorkerStart } from './arguments.js';
 import { MandolineError, named } from './errors.js';
-import { ownFileWasm } from './files/own-wasm.js';
 import { openWorker } from './open-worker.js';
 import { ownThread } from './own-thread.js';
-import { ownWasm } from './own-wasm.js';
 import { physicsNames } from './physics-names.js';
 
 export { MandolineError, describe } from './errors.js';
@@ -20,6 +18,5 @@ const physics = Object.fromEntries(
 
 /** Starts a worker that has loaded the module. */
 export async function createWorker(options) {
-  const { wasm = ownWasm.source, filesWasm = ownFileWasm.source, thread, threads } = named('init', readWorkerStart)(options, 'wasm');
-  return Object.setPrototypeOf(await openWorker({ wasm, filesWasm, thread, threads }, ownThread), physics);
+  return Object.setPrototypeOf(await openWorker(named('init', readWorkerStart)(options, 'wasm'), ownThread), physics);
 }

@@ -10,7 +10,6 @@ import {
   numbered,
   optional,
   readFields,
-  readGrid,
   readId,
   readInt32,
   readMembers,
@@ -121,11 +120,4 @@ export function readMaxPoints(maxPoints = 10000, name) {
 export function readFieldsToWrite(fields = {}, name) {
   expectObject(fields, name);
   return Object.entries(fields).map(([field, numbers]) => [field, readNumbers(numbers, `${name}.${field}`)]);
-}
-
-/** A grid that is none around a mesh. */
-export function readPlacedGrid(grid) {
-  const given = readGrid(grid);
-  if (given.kind === 'around') throw bad('grid must be that of a cut-mesh, or have min and max, origin and spacing, or planes.');
-  return given;
 }

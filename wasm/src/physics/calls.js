@@ -11,6 +11,7 @@ import {
   readMesh,
   readNumbers,
   readOrigin,
+  readPlacedGrid,
   readPoints,
   readVector,
 } from '../arguments.js';
@@ -31,7 +32,6 @@ import {
   readMaxPoints,
   readOctree,
   readOperatorNames,
-  readPlacedGrid,
   readProblem,
 } from './arguments.js';
 
@@ -273,7 +273,7 @@ export const physicsCalls = {
    * 3 per seed: `count` points on the sides where the wind enters the box of a grid, spread in proportion to the inflow; none without wind.
    * Code "badArgument" if the wind is not finite, "badGrid" if the grid has no cells.
    *
-   * inflowSeeds(grid: Grid | GridBox | GridRegular | GridRectilinear, wind: Vector3, count: number): Float64Array<ArrayBuffer>
+   * inflowSeeds(grid: PlacedGrid, wind: Vector3, count: number): Float64Array<ArrayBuffer>
    */
   inflowSeeds: { takes: { grid: readPlacedGrid, wind: readVector, count: readId } },
   /**

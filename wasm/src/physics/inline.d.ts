@@ -4,7 +4,7 @@
  */
 import type { Thread } from '../worker.js';
 
-export { filesWasm, wasm } from '../inline.js';
+export { bricksWasm, filesWasm, wasm } from '../inline.js';
 
 /** The bytes of physics.wasm. */
 export function physicsWasm(): Promise<ArrayBuffer>;

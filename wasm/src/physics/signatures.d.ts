@@ -1,5 +1,5 @@
 // Written by wasm/signatures.mjs from physics/calls.js: change that.
-import type { CutMeshArrays, Grid, GridBox, GridRectilinear, GridRegular, Mesh, RunOptions, TriangleGroups, Vector3 } from '../index.js';
+import type { CutMeshArrays, Mesh, PlacedGrid, RunOptions, TriangleGroups, Vector3 } from '../index.js';
 import type {
   Boundary,
   CellComplex,
@@ -151,7 +151,7 @@ export interface Calls {
    * 3 per seed: `count` points on the sides where the wind enters the box of a grid, spread in proportion to the inflow; none without wind.
    * Code "badArgument" if the wind is not finite, "badGrid" if the grid has no cells.
    */
-  inflowSeeds(grid: Grid | GridBox | GridRegular | GridRectilinear, wind: Vector3, count: number): Float64Array<ArrayBuffer>;
+  inflowSeeds(grid: PlacedGrid, wind: Vector3, count: number): Float64Array<ArrayBuffer>;
   /**
    * The cells as a file. "vtu": polyhedra and hexahedra for VTK and ParaView, which match face by face, with `options.fields` beside
    * arrays of their own; "json": every array, always of all cells, and no fields. Code "badArgument" if `cells` are not those of the cut-mesh.
@@ -195,12 +195,7 @@ export interface WorkerCalls {
   faceGroups(cutMesh: CutMeshArrays, cells: CellComplex, groups: TriangleGroups, options?: CallOptions): Promise<Uint32Array<ArrayBuffer>>;
   velocityAt(field: FlowField, points: ArrayLike<number>, options?: CallOptions): Promise<Float64Array<ArrayBuffer>>;
   streamlines(field: FlowField, seeds: ArrayLike<number>, options?: StreamlineOptions & CallOptions): Promise<Streamlines>;
-  inflowSeeds(
-    grid: Grid | GridBox | GridRegular | GridRectilinear,
-    wind: Vector3,
-    count: number,
-    options?: CallOptions,
-  ): Promise<Float64Array<ArrayBuffer>>;
+  inflowSeeds(grid: PlacedGrid, wind: Vector3, count: number, options?: CallOptions): Promise<Float64Array<ArrayBuffer>>;
   writeCells(
     cutMesh: CutMeshArrays,
     cells: CellComplex,

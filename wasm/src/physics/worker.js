@@ -1,8 +1,6 @@
 import { readWorkerStart } from '../arguments.js';
 import { named } from '../errors.js';
-import { ownFileWasm } from '../files/own-wasm.js';
 import { openWorker } from '../open-worker.js';
-import { ownWasm } from '../own-wasm.js';
 import { physicsCalls } from './calls.js';
 import { ownPhysicsThread } from './own-thread.js';
 import { ownPhysicsWasm } from './own-wasm.js';
@@ -11,9 +9,6 @@ export { MandolineError, describe } from '../errors.js';
 
 /** Starts a worker that has loaded the cutter's module, and loads that of physics when it is first asked to compute. */
 export async function createWorker(options) {
-  const start = named('init', readWorkerStart)(options);
-  const { wasm = ownWasm.source, filesWasm = ownFileWasm.source, physicsWasm = ownPhysicsWasm.source, thread, threads } = start;
-  return openWorker({ wasm, filesWasm, thread, threads }, ownPhysicsThread, [
-    { name: 'physics', calls: physicsCalls, source: physicsWasm },
-  ]);
+  const { physicsWasm = ownPhysicsWasm.source, ...start } = named('init', readWorkerStart)(options);
+  return openWorker(start, ownPhysicsThread, { name: 'physics', calls: physicsCalls, source: physicsWasm });
 }

@@ -1,5 +1,4 @@
 // Asks the thread of the wind tunnel, which is started when it is first needed.
-import { createWorker } from 'mandoline-wasm/physics/worker';
 import type { LoadedMesh, WindCallName, WindCalls } from '../model/calls';
 import type { Shape, Smoke, SmokeRequest, SmokeState, Wind, WindFormat, WindRequest } from '../model/wind';
 import { Newest } from './newest';
@@ -23,7 +22,8 @@ export class WindEngine {
 
   constructor(meshOf: (id: number) => LoadedMesh | undefined) {
     const thread = () => new Worker(new URL('../worker/wind/thread.ts', import.meta.url), { type: 'module' });
-    this.thread = new Thread(() => createWorker({ thread }), meshOf);
+    // What the package has for it is loaded with it.
+    this.thread = new Thread(async () => (await import('mandoline-wasm/physics/worker')).createWorker({ thread }), meshOf);
   }
 
   loadAhead(): Promise<void> {
