@@ -7,6 +7,10 @@ declare module '*/files.js' {
   const createModule: (options: object) => any;
   export default createModule;
 }
+declare module '*/bricks.js' {
+  const createModule: (options: object) => any;
+  export default createModule;
+}
 declare module '*/physics.js' {
   const createModule: (options: object) => any;
   export default createModule;

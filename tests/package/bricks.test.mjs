@@ -8,7 +8,7 @@ import { runInNewContext } from 'node:vm';
 import { Worker as NodeWorker } from 'node:worker_threads';
 import { init } from 'mandoline-wasm';
 import { meshFolder, skipWithoutMeshes } from '../mesh_folder.mjs';
-import { box, gut, join, readObj, torus } from './meshes.mjs';
+import { box, gut, join, torus } from './meshes.mjs';
 import { rejection, withWorker, withoutStats } from './workers.mjs';
 
 const { createBrickCutter, createRecutter, cut, measure, readMesh, slice, validate } = await init();

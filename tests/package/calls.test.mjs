@@ -4,13 +4,14 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
+import { brickCalls } from '../../wasm/src/bricks/calls.js';
 import { cutCalls } from '../../wasm/src/calls.js';
 import { fileCalls } from '../../wasm/src/files/calls.js';
 import { physicsCalls } from '../../wasm/src/physics/calls.js';
 import { root } from './environments.mjs';
 import { compiler } from './types.mjs';
 
-const tables = { Mandoline: { ...cutCalls, ...fileCalls }, Physics: physicsCalls };
+const tables = { Mandoline: { ...cutCalls, ...fileCalls, ...brickCalls }, Physics: physicsCalls };
 const all = { ...tables.Mandoline, ...physicsCalls };
 const calls = Object.entries(all);
 const source = (name) => readFileSync(join(root, 'wasm', name), 'utf8');
@@ -23,7 +24,7 @@ test('the types of calls are those of the tables', () => {
 });
 
 test('signatures have the names of the arguments', () => {
-  const text = ['', 'files/', 'physics/'].map((folder) => source(`src/${folder}signatures.d.ts`)).join('');
+  const text = ['', 'bricks/', 'files/', 'physics/'].map((folder) => source(`src/${folder}signatures.d.ts`)).join('');
   for (const [name, { takes, options }] of calls) {
     const signatures = [...text.matchAll(new RegExp(`^  ${name}(?:<.*>)?\\(([^;]*)\\): `, 'gm'))].map(([, given]) => given);
     assert.ok(signatures.length >= 2, name);

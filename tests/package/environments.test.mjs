@@ -50,6 +50,7 @@ test('the tarball has the package, and is small', () => {
   const gzipped = (name) => gzipSync(readFileSync(join(dist, name)), { level: 9 }).length;
   assert.ok(gzipped('mandoline.wasm') <= 350_000);
   assert.ok(gzipped('files/files.wasm') <= 250_000);
+  assert.ok(gzipped('bricks/bricks.wasm') <= 250_000);
   assert.ok(gzipped('physics/physics.wasm') <= 400_000);
 });
 
@@ -214,13 +215,17 @@ test('a missing mandoline.wasm is named with what the server answered', async ()
   assert.match(await failureWithout('mandoline.wasm', 'createWorker()'), /answered with 404 Not Found\.$/);
 });
 
-test('a missing files.wasm is named when it is first needed', async () => {
-  const call = 'readGroups(new Uint8Array()))';
-  for (const start of ['init', 'createWorker']) {
-    const message = await failureWithout('files/files.wasm', `${start}().then((mandoline) => mandoline.${call}`);
-    assert.match(message, /answered with 404 Not Found\.$/);
-  }
-});
+for (const [name, call] of [
+  ['files', 'readGroups(new Uint8Array())'],
+  ['bricks', 'createRecutter({ min: [0, 0, 0], max: [1, 1, 1], cells: [1, 1, 1] })'],
+]) {
+  test(`a missing ${name}.wasm is named when it is first needed`, async () => {
+    for (const start of ['init', 'createWorker']) {
+      const message = await failureWithout(`${name}/${name}.wasm`, `${start}().then((mandoline) => mandoline.${call})`);
+      assert.match(message, /answered with 404 Not Found\.$/);
+    }
+  });
+}
 
 test('a server that answers with a page instead of mandoline.wasm is told from one that has it', async () => {
   assert.match(

@@ -6,6 +6,7 @@ import { MandolineError, init } from 'mandoline-wasm';
 import { initPhysics } from 'mandoline-wasm/physics';
 import { createWorker } from 'mandoline-wasm/physics/worker';
 import { createWorker as createCutter } from 'mandoline-wasm/worker';
+import { brickCalls } from '../../wasm/src/bricks/calls.js';
 import { cutCalls } from '../../wasm/src/calls.js';
 import { fileCalls } from '../../wasm/src/files/calls.js';
 import { physicsCalls } from '../../wasm/src/physics/calls.js';
@@ -27,6 +28,7 @@ const field = { mesh, cutMesh, cells, flow };
 const boundary = physics.boundaryOf(cells);
 const source = new TextEncoder().encode('OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n');
 const plane = { normal: [0, 0, 1], offset: 1 };
+const [recutter, brickCutter] = await Promise.all([mandoline.createRecutter(grid), mandoline.createBrickCutter(mesh, grid)]);
 
 /** Right arguments of each name. */
 const given = {
@@ -62,6 +64,9 @@ const takers = [
     ['cells', 'margin', 'min', 'max', 'origin', 'spacing', 'planes'],
     (object) => physics.inflowSeeds(object, [1, 0, 0], 1),
   ],
+  ['createRecutter, grid', ['cells', 'margin', 'min', 'max', 'origin', 'spacing', 'planes'], (object) => mandoline.createRecutter(object)],
+  ['cut of a recutter', ['gridCellRegion', 'keep', 'reuse', 'progress'], (object) => recutter.cut(mesh, object)],
+  ['cut of a brick cutter', ['keep', 'progress'], (object) => brickCutter.cut(0, object)],
   ['slice, plane', ['normal', 'offset'], (object) => mandoline.slice(cutMesh, object)],
   ['triangulate, of', ['cell', 'region'], (object) => mandoline.triangulate(cutMesh, object)],
   [
@@ -81,14 +86,14 @@ const takers = [
     (object) => physics.boundaryOf(cells, object),
   ],
   ['boundaryOf, condition', ['dirichlet', 'neumann', 'robin', 'coefficient'], (object) => physics.boundaryOf(cells, { xMin: object })],
-  ['init', ['wasm', 'filesWasm', 'physicsWasm', 'thread', 'default'], init],
-  ['initPhysics', ['wasm', 'filesWasm', 'physicsWasm', 'thread', 'default'], initPhysics],
-  ['createWorker', ['wasm', 'filesWasm', 'physicsWasm', 'thread', 'threads', 'default'], createWorker],
-  ['createWorker that only cuts', ['wasm', 'filesWasm', 'physicsWasm', 'thread', 'threads', 'default'], createCutter],
+  ['init', ['wasm', 'filesWasm', 'bricksWasm', 'physicsWasm', 'thread', 'default'], init],
+  ['initPhysics', ['wasm', 'filesWasm', 'bricksWasm', 'physicsWasm', 'thread', 'default'], initPhysics],
+  ['createWorker', ['wasm', 'filesWasm', 'bricksWasm', 'physicsWasm', 'thread', 'threads', 'default'], createWorker],
+  ['createWorker that only cuts', ['wasm', 'filesWasm', 'bricksWasm', 'physicsWasm', 'thread', 'threads', 'default'], createCutter],
   ['call', ['signal', 'transfer', 'progress'], (object) => worker.call('any', [], object)],
 ];
 for (const [api, table] of [
-  [mandoline, { ...cutCalls, ...fileCalls }],
+  [mandoline, { ...cutCalls, ...fileCalls, ...brickCalls }],
   [physics, physicsCalls],
 ]) {
   for (const [name, { takes, options = {} }] of Object.entries(table)) {
@@ -174,12 +179,14 @@ test('types have these names, no more and no fewer', () => {
     'poissonSystem, problem': 'PoissonProblem',
     'velocityAt, field': 'FlowField',
     'boundaryOf, conditions': 'Conditions',
+    'cut of a recutter': 'RecutOptions',
+    'cut of a brick cutter': 'PieceOptions',
     call: 'ExtraCallOptions',
     cellArrays: 'DrawOptions',
   };
   const namesOf = (taker) => takers.find(([what]) => what === taker)[1].map((name) => `${name}: 0`);
   assertCompiles(`
-    import type { Plane } from 'mandoline-wasm';
+    import type { PieceOptions, Plane, RecutOptions } from 'mandoline-wasm';
     import type { Conditions, FlowField, PoissonProblem } from 'mandoline-wasm/physics';
     import type { DrawOptions } from 'mandoline-wasm/three';
     import type { ExtraCallOptions } from 'mandoline-wasm/worker';
@@ -242,6 +249,7 @@ test('a module of another kind, or of another package, is told from the one that
   const writing = await createCutter({ filesWasm: await bytesOf('mandoline.wasm') });
   assert.match((await failureOf(() => writing.write(mesh, cutMesh, 'obj'))).message, /: it is mandoline\.wasm, not files\.wasm\.$/);
   assert.equal((await writing.cut(mesh, grid)).regionCount, 2); // the rest works
+  assert.equal(await (await writing.createBrickCutter(mesh, grid)).count(), 1);
   writing.terminate();
 });
 
@@ -260,12 +268,14 @@ function stripped(bytes) {
 
 test('modules that tools have stripped of custom sections work, and are told apart', async () => {
   const bytesOf = async (name) => stripped(await readFile(new URL(import.meta.resolve(`mandoline-wasm/${name}`))));
-  const [wasm, filesWasm, physicsWasm] = await Promise.all(['mandoline.wasm', 'files.wasm', 'physics.wasm'].map(bytesOf));
+  const names = ['mandoline.wasm', 'files.wasm', 'bricks.wasm', 'physics.wasm'];
+  const [wasm, filesWasm, bricksWasm, physicsWasm] = await Promise.all(names.map(bytesOf));
   assert.match((await failureOf(() => createCutter({ wasm: filesWasm }))).message, /: it is files\.wasm, not mandoline\.wasm\.$/);
-  const computing = await createWorker({ wasm, filesWasm, physicsWasm });
+  const computing = await createWorker({ wasm, filesWasm, bricksWasm, physicsWasm });
   const made = await computing.cut(mesh, grid);
   assert.equal((await computing.validate(mesh, made)).pass, true);
   assert.ok((await computing.cellComplex(mesh, made)).cutCells > 0);
+  assert.equal(await (await computing.createBrickCutter(mesh, grid)).count(), 1);
   computing.terminate();
 });
 

@@ -21,6 +21,25 @@ test('flows in time', () => {
   assert.match(outputOf(readmeExample('Flows in time')), /^drag \d\.\d\d at time \d\.\d\d, \d{5} cells\n$/);
 });
 
+test('surfaces that move', () => {
+  const lines = outputOf(readmeExample('Surfaces that move')).trim().split('\n');
+  const found = lines.map((line) =>
+    line
+      .match(/^\d{4} cut-cells, (\d+) of (\d+) bricks kept$/)
+      .slice(1)
+      .map(Number),
+  );
+  assert.deepEqual(
+    found.map(([kept, bricks]) => kept > bricks / 5),
+    [false, true, true],
+  );
+});
+
+test('large grids', () => {
+  const [, cells, bricks] = outputOf(readmeExample('Large grids')).match(/^(\d+) cut-cells in (\d+) bricks, of volume \d\.\d{3}\n$/);
+  assert.ok(cells > 10_000 && bricks > 8, `${cells} in ${bricks}`);
+});
+
 test('inside', () => {
   assert.match(outputOf(readmeExample('Inside')), /^inside by estimate: 1 of 2 regions\n\d{4} triangles close the surface\n$/);
 });

@@ -57,7 +57,7 @@ const cells = physics.cellComplex(mesh, cutMesh);
 /** Declarations of values, with the types of an entry. */
 function declared(results, entry) {
   const checks = results.map(([type, value], i) => `export const result${i}: ${type} = ${literal(value)};`);
-  const names = new Set(results.flatMap(([type]) => type.match(/\w+/g)).filter((name) => name !== 'null' && !/Array$/.test(name)));
+  const names = new Set(results.flatMap(([type]) => type.match(/\w+/g)).filter((name) => !/^(null|number|\w*Array)$/.test(name)));
   const types = `import type { ${[...names].join(', ')} } from '${entry}';`;
   return { types, text: [types, ...checks].join('\n') };
 }
@@ -67,11 +67,17 @@ test('interfaces of results are as the C++ headers have them', () => {
 });
 
 test('results', async () => {
+  const recutter = await mandoline.createRecutter(cutMesh.grid);
+  const cutter = await mandoline.createBrickCutter(mesh, { cells: 3 });
   const results = [
     ['CutMesh', cutMesh],
     ['CutMesh', open],
     ['Progress', states[0]],
     ['Progress', states.at(-1)],
+    ['CutMesh', recutter.cut(mesh)],
+    ['RecutCounts', recutter.counts()],
+    ['[number, number, number]', cutter.first(0)],
+    ['CutPiece', cutter.cut(0)],
     ['MeshArrays', mandoline.prepare(mesh)],
     ['MeshIntersections', mandoline.findIntersections(mesh)],
     ['MeshInfo', mandoline.inspect(mesh)],
@@ -102,6 +108,23 @@ test('results', async () => {
   const { types, text } = declared(results, 'mandoline-wasm');
   assertCompiles(text);
   assert.throws(() => compile(`${types}\nexport const wrong: CutEdges = ${literal({ edgeVertices: new Uint32Array() })};`));
+  assertCompiles(`
+    import type { CutMesh, Mandoline, Mesh } from 'mandoline-wasm';
+    import type { MandolineWorker } from 'mandoline-wasm/worker';
+    export async function use(mandoline: Mandoline, worker: MandolineWorker, mesh: Mesh): Promise<CutMesh[]> {
+      const grid = { min: [0, 0, 0], max: [1, 1, 1], cells: [9, 9, 9] };
+      using recutter = await mandoline.createRecutter(grid, { snapTolerance: 0.1, intersections: 'refuse' });
+      const there = await worker.createRecutter(grid, { signal: AbortSignal.timeout(9) });
+      // @ts-expect-error: around what?
+      mandoline.createRecutter({ cells: 9 });
+      const cutter = await worker.createBrickCutter(mesh, { cells: 9 }, { cells: 8, untouched: true });
+      for (let brick = 0; brick < (await cutter.count()); ++brick) {
+        const { cutMesh, mesh: near } = await cutter.cut(brick, { keep: false });
+        console.log(await worker.measure(near, cutMesh));
+      }
+      cutter.free();
+      return [recutter.cut(mesh, { reuse: [] }), await there.cut(mesh, { gridCellRegion: false, progress: () => false })];
+    }`);
 });
 
 test('results of mandoline-wasm/physics', async () => {

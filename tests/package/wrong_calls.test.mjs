@@ -298,6 +298,9 @@ const kinds = {
       { maxPoints: anything() },
       { progress: () => pick([true, false]) },
     ]),
+  brick: () => pick([0, 1, 2, 3, 99, anything()]),
+  bricks: () =>
+    pick([undefined, { cells: pick([4, 5, anything()]) }, { untouched: pick([true, anything()]) }, { intersections: anything() }]),
   count: () => pick([0, 1, 20, anything()]),
   file: () =>
     pick([
@@ -340,6 +343,12 @@ const parameters = {
   readMesh: ['file', 'options'],
   readGroups: ['file', 'options'],
   readCutMesh: ['file', 'options'],
+  createRecutter: ['grid', 'options'],
+  recut: ['mesh', 'options'],
+  counts: [],
+  cutBrick: ['brick', 'options'],
+  firstOfBrick: ['brick'],
+  createBrickCutter: ['mesh', 'grid', 'bricks'],
   coarsen: ['cutMesh', 'coarsening'],
   cellComplex: ['mesh', 'cutMesh', 'octree', 'options'],
   mergeSmallCells: ['cutMesh', 'cells', 'merging'],
@@ -391,6 +400,23 @@ async function callAtRandom(calls) {
 test('1,200 random calls', async (t) => {
   t.diagnostic(JSON.stringify(await callAtRandom(mandoline)));
   assert.equal((await mandoline.validate(mesh, cutMesh)).pass, true);
+});
+
+test('1,200 random calls of objects that cut', async (t) => {
+  const [recutter, cutter] = [await mandoline.createRecutter(grid), await mandoline.createBrickCutter(mesh, grid, { cells: 2 })];
+  t.diagnostic(
+    JSON.stringify(
+      await callAtRandom({
+        recut: recutter.cut,
+        counts: recutter.counts,
+        cutBrick: cutter.cut,
+        firstOfBrick: cutter.first,
+      }),
+    ),
+  );
+  const { stats: _, ...expected } = cutMesh;
+  const { stats: __, ...found } = recutter.cut(mesh);
+  assert.deepEqual(found, expected);
 });
 
 test('1,200 random calls that compute', async (t) => {

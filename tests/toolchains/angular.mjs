@@ -43,6 +43,7 @@ test('Angular, with a script of its own for workers and the .wasm files as asset
   const assets = [
     { glob: 'mandoline.wasm', input: dist, output: '.' },
     { glob: 'files.wasm', input: `${dist}/files`, output: '.' },
+    { glob: 'bricks.wasm', input: `${dist}/bricks`, output: '.' },
     { glob: 'physics.wasm', input: `${dist}/physics`, output: '.' },
   ];
   assertChecked(await buildAndOpen('angular files', files, { assets, webWorkerTsConfig: 'tsconfig.json' }));

@@ -136,7 +136,7 @@ for (const [name, command] of Object.entries(fileBuilds)) {
   test(`${name}, with the worker's script as an entry and the modules beside it`, async () => {
     const folder = makeProject(`${name} files`, { 'dist/index.html': html('./main.js'), ...asIs });
     assertQuiet(await run(folder, ...command));
-    copyModules(folder, 'mandoline.wasm', 'files/files.wasm');
+    copyModules(folder, 'mandoline.wasm', 'files/files.wasm', 'bricks/bricks.wasm');
     assertPage(await openFolder(join(folder, 'dist')));
   });
 
@@ -156,7 +156,7 @@ test('esbuild, that computes, with the one script for workers as an entry and al
   const folder = makeProject('esbuild physics files', { 'dist/index.html': html('./main.js'), ...files });
   const entries = ['main.js', 'worker-thread=mandoline-wasm/physics/worker-thread'];
   assertQuiet(await run(folder, '.bin/esbuild', ...entries, '--bundle', '--format=esm', '--outdir=dist'));
-  copyModules(folder, 'mandoline.wasm', 'files/files.wasm', 'physics/physics.wasm');
+  copyModules(folder, 'mandoline.wasm', 'files/files.wasm', 'bricks/bricks.wasm', 'physics/physics.wasm');
   assertPage(await openFolder(join(folder, 'dist')));
 });
 
@@ -164,9 +164,10 @@ test('esbuild, with its loader for files', async () => {
   const check = checkModule({
     imports: `import wasm from 'mandoline-wasm/mandoline.wasm';
       import filesWasm from 'mandoline-wasm/files.wasm';
+      import bricksWasm from 'mandoline-wasm/bricks.wasm';
       import { thread } from 'mandoline-wasm/inline';`,
-    options: '{ wasm, filesWasm }',
-    workerOptions: '{ wasm, filesWasm, thread }',
+    options: '{ wasm, filesWasm, bricksWasm }',
+    workerOptions: '{ wasm, filesWasm, bricksWasm, thread }',
   });
   const folder = makeProject('esbuild loader', { 'dist/index.html': html('./main.js'), 'main.js': pageScript, 'check.js': check });
   assertQuiet(await run(folder, '.bin/esbuild', 'main.js', '--bundle', '--format=esm', '--outdir=dist', '--loader:.wasm=file'));

@@ -1,4 +1,4 @@
-// What the projects run: a cut, validated, the same in a worker, and a call of one's own in a worker of one's own; and the cells of all,
+// What the projects run: a cut, validated, and cut again, the same in a worker, and a call of one's own in a worker of one's own; and the cells of all,
 // computed.
 import assert from 'node:assert/strict';
 
@@ -16,13 +16,15 @@ ${imports}
 const mesh = ${mesh};
 
 export async function check() {
-  const { cut, validate } = await init(${options});
+  const { createRecutter, cut, validate } = await init(${options});
   const here = cut(mesh, { cells: 8 });
   const worker = await createWorker(${workerOptions});
   const there = await worker.cut(mesh, { cells: 8 });
   const valid = [await validate(mesh, here), await worker.validate(mesh, there)].map(({ pass }) => pass).join();
+  const recutters = [await createRecutter(here.grid), await worker.createRecutter(here.grid)];
+  const again = [await recutters[0].cut(mesh), await recutters[1].cut(mesh)].map(({ cellRegion }) => cellRegion.length).join();
   worker.terminate();
-  const result = { cells: here.cellRegion.length, same: String(here.positions) === String(there.positions), valid };
+  const result = { cells: here.cellRegion.length, same: String(here.positions) === String(there.positions), valid, again };
   ${more}
   return result;
 }
@@ -78,11 +80,12 @@ export function html(script, { head = '', module = true } = {}) {
 }
 
 /** What has `computed` has to have computed. */
-export function assertChecked({ cells, same, valid, own = cells, computed = '664,664', error }) {
+export function assertChecked({ cells, same, valid, again, own = cells, computed = '664,664', error }) {
   assert.equal(error, undefined);
   assert.equal(cells, 304);
   assert.equal(same, true);
   assert.equal(valid, 'true,true');
+  assert.equal(again, '304,304');
   assert.equal(own, cells);
   assert.equal(computed, '664,664');
 }

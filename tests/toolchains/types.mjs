@@ -54,6 +54,7 @@ test('are the types wrong?', async () => {
     '--exclude-entrypoints',
     './mandoline.wasm',
     './files.wasm',
+    './bricks.wasm',
     './physics.wasm',
   ];
   await run(makeProject('attw', {}), '.bin/attw', ...args);
