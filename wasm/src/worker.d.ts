@@ -14,12 +14,21 @@ export interface CallOptions {
   transfer?: ArrayBuffer[];
 }
 
+/** A method's arguments; its options, where it has some that can tell of progress, may have those of every call, too. */
+type WithCallOptions<Given extends unknown[]> =
+  | Given
+  | (Required<Given> extends [...infer First, infer Own]
+      ? 'progress' extends keyof Own
+        ? [...given: First, options: Own & CallOptions]
+        : never
+      : never);
+
 /** An object whose state is in the worker's thread: its methods are promises. If a running call is cancelled, the state is lost. */
 export type OnWorker<T> = {
   [K in keyof T]: K extends 'free' | typeof Symbol.dispose
     ? T[K]
     : T[K] extends (...given: infer Given) => infer Value
-      ? (...given: Given) => Promise<Value>
+      ? (...given: WithCallOptions<Given>) => Promise<Value>
       : T[K];
 };
 
