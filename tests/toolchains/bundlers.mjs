@@ -63,7 +63,7 @@ for (const mode of ['development', 'production']) {
   });
 }
 
-test('webpack 5, a page that starts no worker, without a script for one, nor the module that computes, and with the one for files beside it', async () => {
+test('webpack 5, a page that starts no worker, without a script for one, nor the module that computes, and with those for files and bricks', async () => {
   const script = `
     import { init } from 'mandoline-wasm';
     init().then(({ version }) => { globalThis.outcome = { version }; }, (error) => { globalThis.outcome = { error: error.message }; });`;
@@ -74,7 +74,7 @@ test('webpack 5, a page that starts no worker, without a script for one, nor the
     built.filter((file) => file.endsWith('.js')),
     ['main.js'],
   );
-  assert.equal(built.filter((file) => file.endsWith('.wasm')).length, 2);
+  assert.equal(built.filter((file) => file.endsWith('.wasm')).length, 3);
   assert.equal((await openFolder(join(folder, 'dist'))).error, undefined);
 });
 
