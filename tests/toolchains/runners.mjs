@@ -6,7 +6,7 @@ import { makeProject, run } from './projects.mjs';
 const suite = (head) => `${head}
 import { check } from './check.js';
 
-test('cut', async () => expect(await check()).toEqual({ cells: 304, same: true, valid: 'true,true' }));
+test('cut', async () => expect(await check()).toEqual({ cells: 304, same: true, valid: 'true,true', again: '304,304' }));
 `;
 const patience = '--testTimeout=60000'; // of a busy machine; both allow 5 s
 const esModules = JSON.stringify({ name: 'consumer', private: true, type: 'module' });
