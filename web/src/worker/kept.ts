@@ -72,7 +72,7 @@ function withEstimates(mandoline: Mandoline, mesh: LoadedMesh, cutMesh: CutMesh,
   return Object.assign(mandoline.estimateInside(mesh, cutMesh, { progress }), { stats: cutMesh.stats });
 }
 
-/** While a surface moves, a cut is written over the one before it. */
+/** While a surface moves, a cut is written over the one before it. A recutter would take longer: most of what moves here moves as a whole. */
 export async function makeCut(mandoline: Mandoline, recipe: Recipe, context: Context): Promise<Cut> {
   let reuse: ArrayBuffer[] | undefined = recipe.pose ? [] : undefined;
   if (reuse && newest?.recipe.pose) {
