@@ -47,6 +47,7 @@ int64_t UntouchedCells::find(int64_t i, int64_t j, int64_t k) const {
   const Grid& grid = cutMesh_.grid;
   if (i < 0 || j < 0 || k < 0 || i >= grid.cells(0) || j >= grid.cells(1) || k >= grid.cells(2)) return -1;
   const size_t row = size_t(k * grid.cells(1) + j);
+  if (row + 1 >= cutMesh_.rowRunOffsets.size()) return -1;
   const auto first = cutMesh_.runEnd.begin() + cutMesh_.rowRunOffsets[row],
              last = cutMesh_.runEnd.begin() + cutMesh_.rowRunOffsets[row + 1];
   const auto run = std::upper_bound(first, last, i);

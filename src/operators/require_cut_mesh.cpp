@@ -7,7 +7,12 @@ namespace mandoline::operators {
 void refuse(const std::string& message, int64_t element) { throw CallError({Status::badArgument, element, -1, message}); }
 
 void requireCutMesh(const CutMesh& cutMesh) {
-  if (cutMesh.rowRunOffsets.empty()) refuse("The cut-mesh is empty: cut() makes one.");
+  requireFaces(cutMesh);
+  if (cutMesh.rowRunOffsets.empty()) refuse("The cut-mesh is that of refined cells, which only functions that take both have a use for.");
+}
+
+void requireFaces(const CutMesh& cutMesh) {
+  if (cutMesh.loopOffsets.empty()) refuse("The cut-mesh is empty: cut() makes one.");
 }
 
 void requireMadeFrom(Fingerprint madeFrom, Fingerprint other, const char* message) {

@@ -53,8 +53,9 @@ Clusters::Clusters(const CutMesh& cutMesh, const CellComplex& cells, double frac
 double Clusters::gridCellVolume(uint32_t cell) const {
   double volume = 1;
   for (size_t d = 0; d < 3; ++d) {
-    const double* plane = &cutMesh_.grid.planes[d][size_t(cells_.cellCorner[3 * size_t(cell) + d])];
-    volume *= plane[1] - plane[0];
+    const std::vector<double>& planes = cutMesh_.grid.planes[d];
+    const size_t first = size_t(cells_.cellCorner[3 * size_t(cell) + d]), past = std::min(size_t(endOf(cell, d)), planes.size() - 1);
+    volume *= planes[past] - planes[first];
   }
   return volume;
 }

@@ -6,6 +6,7 @@
 #include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
 #include "operators/cell_complex/half_faces.h"
+#include "operators/degrees.h"
 #include "operators/merge/face_joiner.h"
 #include "operators/require_cut_mesh.h"
 
@@ -22,15 +23,6 @@ constexpr double kMostMissed = 0.1;
 /// How often the angle is halved.
 constexpr int kHalvings = 2;
 
-/// That of the C library is not the same everywhere.
-double cosineOfDegrees(double angle) {
-  constexpr double kDegree = 0.017453292519943295;
-  const double square = angle * kDegree * angle * kDegree;
-  double term = 1, sum = 1;
-  for (int i = 2; i <= 24; i += 2) sum += term *= -square / double(i * (i - 1));
-  return sum;
-}
-
 class WallUniter {
  public:
   WallUniter(const CutMesh& cutMesh, const CellComplex& cells, const WallOptions& options)
@@ -42,7 +34,7 @@ class WallUniter {
       if (!options.triangleGroup.empty() && first < cutMesh.faceCount() && cutMesh.faceTriangle[first] >= 0)
         groups_[f] = options.triangleGroup[size_t(cutMesh.faceTriangle[first])];
     }
-    for (int i = 0; i <= kHalvings; ++i) cosines_.push_back(cosineOfDegrees(options.angle / double(1 << i)));
+    for (int i = 0; i <= kHalvings; ++i) cosines_.push_back(operators::cosineOfDegrees(options.angle / double(1 << i)));
   }
 
   CellComplex run(detail::Monitor& monitor) {
@@ -135,7 +127,7 @@ class WallUniter {
 CellComplex uniteWalls(const CutMesh& cutMesh, const CellComplex& cells, const WallOptions& options) {
   if (!(options.angle >= 0 && options.angle <= 90))
     throw CallError({Status::badOption, -1, -1, "The angle has to be from 0 to 90 degrees."});
-  operators::requireCutMesh(cutMesh);
+  operators::requireFaces(cutMesh);
   operators::requireCellsOf(cutMesh, cells);
   if (!options.triangleGroup.empty() && options.triangleGroup.size() != cutMesh.triangleCount)
     operators::refuse("There must be a group for each of the " + std::to_string(cutMesh.triangleCount) + " triangles.");

@@ -1,0 +1,64 @@
+// Cells of several sizes at the surface: grid cells divided where the surface bends or where boxes say so, before they are cut.
+#pragma once
+
+#include "mandoline/cell_complex.h"
+#include "mandoline/prepare.h"
+
+namespace MANDOLINE_API mandoline {
+
+/// Grid cells that meet the inside of a box are divided `levels` times.
+struct RefinementBox {
+  std::array<double, 3> min{}, max{};
+  int levels = 0;
+};
+
+struct RefineOptions : RunOptions {
+  /// How often grid cells are divided at most where the surface bends: as long as normals of triangles in the cell are farther from each
+  /// other than `angle`. So they are at edges and corners, in thin parts with both sides in one cell, and where curvature is large.
+  /// Triangles have to be consistently oriented: see PrepareOptions::orient.
+  int levels = 0;
+  double angle = 30;  ///< in degrees, 0 to 180; at 0 all cells with triangles are divided
+  std::vector<RefinementBox> boxes;
+  int layers = 1;                             ///< least layers of cells of each size, diagonally too, between smaller and larger ones; at least 1
+  CoarsenOptions coarsening = uncoarsened();  ///< of untouched grid cells that are not divided; threads and progress are not read
+
+  static CoarsenOptions uncoarsened() {
+    CoarsenOptions options;
+    options.maxLevel = 0;
+    return options;
+  }
+};
+
+/// What refineCells() made.
+struct RefinedCells {
+  /// All cells, as of one cut with cells of several sizes. cellLevel is 0 for the smallest cells; one of level L is 2^L of those on a side,
+  /// also if it is a cut-cell. cellCorner counts the smallest ones.
+  CellComplex cells;
+  /// The cut-vertices, cut-faces and cut-cells of `cells`, for functions that take a cut-mesh together with its cells: writers,
+  /// mergeSmallCells(), uniteWalls(), faceGroups(). Its grid has the planes of the smallest cells. It has no runs, and so is no cut of that
+  /// grid: functions that take a cut-mesh alone, and streamlines(), refuse it. Of a vertex of a larger cell, planes that only smaller
+  /// cells have are left out of vertexMask, and vertexCell is a rounded one along axes without a plane.
+  CutMesh cutMesh;
+  int levels = 0;  ///< how often grid cells were divided at most; those of the grid have this level
+
+  static void fields(auto& self, const auto& f) {
+    f("cells", self.cells);
+    f("cutMesh", self.cutMesh);
+    f("levels", self.levels);
+  }
+};
+
+/// The grid with each cell divided into 2^levels along each axis: that of uniform cells if the grid is.
+Grid dividedGrid(const Grid& grid, int levels);
+
+/// Divides cells of the grid of `cutMesh`, a cut of `mesh` without snapping, and cuts them again where they are divided, and there alone.
+/// Cells that share a part of a face differ by one level at most. Cells and faces are exact, as those of a cut with dividedGrid() are: where
+/// a cell meets smaller ones, its faces are divided like theirs, and the edges of a face have all vertices that lie on them. Regions are
+/// those of any cut, with the same winding numbers.
+///
+/// The result is the same to the bit for any number of threads. Throws CallError if an option is out of range, there are more than 2^24
+/// of the smallest cells along an axis (gridTooLarge) or planes between those of the grid are not apart (badGrid), if the cut-mesh is
+/// not one of the mesh, or snapped (badArgument), if faces have 2^31 corners or more (meshTooLarge), as cut() has errors, or if cancelled.
+RefinedCells refineCells(const PreparedMesh& mesh, const CutMesh& cutMesh, const RefineOptions& options = {});
+
+}  // namespace mandoline

@@ -1,0 +1,227 @@
+#include "operators/refine/finish.h"
+
+#include <algorithm>
+
+#include "base/disjoint_sets.h"
+#include "operators/cell_complex/half_faces.h"
+
+namespace mandoline::refining {
+namespace {
+
+class Finisher {
+ public:
+  Finisher(Assembled assembled, const Sources& sources, Grid grid) : from_(std::move(assembled)), sources_(sources) {
+    cutMesh_.grid = std::move(grid);
+  }
+
+  RefinedCells run() {
+    takeVertices();
+    takeCells();
+    takeFaces();
+    takeRegions();
+    operators::gatherHalfFaces(cells_);
+    fillCutMesh();
+    RefinedCells result;
+    result.cells = std::move(cells_);
+    result.cutMesh = std::move(cutMesh_);
+    return result;
+  }
+
+ private:
+  static constexpr uint32_t kNone = ~0u;
+  double plane(size_t axis, int32_t index) const { return cutMesh_.grid.planes[axis][size_t(index)]; }
+  template <class Item>
+  static void append(const std::vector<Item>& from, std::vector<Item>& to) {
+    to.insert(to.end(), from.begin(), from.end());
+  }
+  template <class Item>
+  static void appendShifted(const std::vector<Item>& from, std::vector<Item>& to) {
+    const Item shift = to.back();
+    for (size_t i = 1; i < from.size(); ++i) to.push_back(from[i] + shift);
+  }
+
+  /// Those of cut-faces first.
+  void takeVertices() {
+    numbers_.assign(sources_.ids.size(), kNone);
+    std::vector<uint32_t> used;
+    for (FaceList* list : {&from_.cut, &from_.plain}) {
+      for (uint32_t& v : list->loopVertices) {
+        if (numbers_[v] == kNone) numbers_[v] = uint32_t(used.size()), used.push_back(v);
+        v = numbers_[v];
+      }
+      if (list == &from_.cut) cells_.cutVertices = uint32_t(used.size());
+    }
+    for (const uint32_t id : used) addVertex(sources_.ids.sourceOf(id));
+  }
+
+  void addVertex(const SharedIds::Source& source) {
+    const bool isCut = cells_.positions.size() < 3 * size_t(cells_.cutVertices);
+    double position[3];
+    int32_t cell[3], parents[2] = {-1, -1}, triVertex = -1;
+    uint8_t mask = 7;
+    for (size_t d = 0; d < 3; ++d) position[d] = plane(d, cell[d] = source.part == kNone ? source.at[d] : 0);
+    if (source.part != kNone) {
+      const Part& part = sources_.parts[source.part];
+      const CutMesh& cutMesh = part.cutMesh();
+      const size_t v = source.vertex;
+      mask = cutMesh.vertexMask[v];
+      triVertex = cutMesh.vertexTriVertex[v];
+      if (triVertex >= 0) triVertex = int32_t(part.triVertex(triVertex));
+      takeParents(part, v, parents);
+      for (size_t d = 0; d < 3; ++d) {
+        position[d] = cutMesh.positions[3 * v + d];
+        const int32_t low = (cutMesh.vertexCell[3 * v + d] + part.first[d]) << part.level;
+        cell[d] = mask >> d & 1 ? low : slabOf(d, position[d], low, low + (1 << part.level));
+      }
+    }
+    cells_.positions.insert(cells_.positions.end(), position, position + 3);
+    if (!isCut) return;
+    cutMesh_.vertexCell.insert(cutMesh_.vertexCell.end(), cell, cell + 3);
+    cutMesh_.vertexMask.push_back(mask);
+    cutMesh_.vertexTriVertex.push_back(triVertex);
+    cutMesh_.vertexParents.insert(cutMesh_.vertexParents.end(), parents, parents + 2);
+  }
+
+  int32_t slabOf(size_t axis, double x, int32_t low, int32_t past) const {
+    const auto first = cutMesh_.grid.planes[axis].begin();
+    return std::clamp(int32_t(std::upper_bound(first + low, first + past, x) - first) - 1, low, past - 1);
+  }
+
+  static void takeParents(const Part& part, size_t v, int32_t* parents) {
+    const int32_t* from = &part.cutMesh().vertexParents[2 * v];
+    if (from[1] >= 0) {
+      for (size_t i = 0; i < 2; ++i) parents[i] = int32_t(part.triVertex(from[i]));
+    } else if (from[0] >= 0) {
+      parents[0] = int32_t(part.triangle(from[0]));
+    }
+  }
+
+  void takeCells() {
+    cells_.cutCells = from_.cutCells;
+    for (const bool cut : {true, false}) {
+      for (size_t leaf = 0; leaf < sources_.leaves.cellCount(); ++leaf) {
+        const BlockCells& block = from_.leafCells[leaf];
+        if (block.isCut() != cut) continue;
+        for (size_t i = 0; i < std::max<size_t>(block.cells.size(), 1); ++i) addCell(leaf, block.cells.begin + i);
+      }
+    }
+  }
+
+  void addCell(size_t leaf, size_t cutCell) {
+    const Block corner = sources_.leaves.corner(leaf), end = sources_.leaves.end(leaf);
+    const BlockCells& block = from_.leafCells[leaf];
+    double volume = 1;
+    for (size_t d = 0; d < 3; ++d) {
+      const double middle = plane(d, corner[d]) / 2 + plane(d, end[d]) / 2;
+      volume *= plane(d, end[d]) - plane(d, corner[d]);
+      cells_.cellCorner.push_back(corner[d]);
+      cells_.cellCentre.push_back(middle);
+      cells_.cellCentroid.push_back(block.isCut() ? block.part->measures.cellCentroid[3 * cutCell + d] : middle);
+    }
+    cells_.cellVolume.push_back(block.isCut() ? block.part->measures.cellVolume[cutCell] : volume);
+    cells_.cellLevel.push_back(sources_.leaves.cellLevel[leaf]);
+  }
+
+  void takeFaces() {
+    cells_.cutFaces = from_.cut.size();
+    cells_.loopOffsets = cells_.faceLoopOffsets = {0};
+    for (const FaceList* list : {&from_.cut, &from_.plain}) {
+      append(list->loopVertices, cells_.loopVertices);
+      appendShifted(list->loopOffsets, cells_.loopOffsets);
+      appendShifted(list->faceLoopOffsets, cells_.faceLoopOffsets);
+      append(list->faceCells, cells_.faceCells);
+      append(list->faceTag, cells_.faceTag);
+      append(list->faceArea, cells_.faceArea);
+      append(list->faceNormal, cells_.faceNormal);
+      append(list->faceCentroid, cells_.faceCentroid);
+    }
+  }
+
+  /// Cells that are joined through faces of the grid. What is known of a region is known of any of its cells that is in a part.
+  void takeRegions() {
+    const size_t count = cells_.cellLevel.size();
+    detail::DisjointSets sets(count);
+    for (size_t f = 0; f < cells_.faceCount(); ++f) {
+      const int32_t a = cells_.faceCells[2 * f], b = cells_.faceCells[2 * f + 1];
+      if (cells_.faceTag[f] != FaceTag::surface && a >= 0 && b >= 0) sets.unite(uint32_t(a), uint32_t(b));
+    }
+    cells_.cellRegion.resize(count);
+    for (uint32_t c = 0; c < count; ++c) {
+      const uint32_t root = sets.find(c);
+      cells_.cellRegion[c] = root == c ? cutMesh_.regionCount++ : cells_.cellRegion[root];
+    }
+    std::vector<const CutMesh*> known(cutMesh_.regionCount);
+    std::vector<uint32_t> regions(cutMesh_.regionCount);
+    for (size_t leaf = 0; leaf < sources_.leaves.cellCount(); ++leaf) {
+      const BlockCells& block = from_.leafCells[leaf];
+      if (block.isCut()) {
+        for (size_t i = 0; i < block.cells.size(); ++i) {
+          const uint32_t region = cells_.cellRegion[from_.firstCells[leaf] + i];
+          known[region] = &block.part->cutMesh();
+          regions[region] = known[region]->cellRegion[block.cells.begin + i];
+        }
+        continue;
+      }
+      const uint32_t region = cells_.cellRegion[from_.firstCells[leaf]];
+      if (known[region]) continue;
+      Block at = sources_.leaves.corner(leaf);
+      const int level = sources_.parts[sources_.parts.size() - 1].level;
+      const int64_t found = UntouchedCells(sources_.whole).regionAt(at[0] >> level, at[1] >> level, at[2] >> level);
+      if (found < 0) continue;
+      known[region] = &sources_.whole;
+      regions[region] = uint32_t(found);
+    }
+    cutMesh_.hasWinding = sources_.whole.hasWinding;
+    for (uint32_t r = 0; r < cutMesh_.regionCount; ++r) takeRegion(known[r], regions[r]);
+  }
+
+  void takeRegion(const CutMesh* from, uint32_t region) {
+    const auto take = [&](auto array) {
+      if ((sources_.whole.*array).empty()) return;
+      (cutMesh_.*array).push_back(from && region < (from->*array).size() ? (from->*array)[region] : 0);
+    };
+    take(&CutMesh::regionWinding);
+    take(&CutMesh::regionPartWinding);
+    take(&CutMesh::regionParity);
+  }
+
+  void fillCutMesh() {
+    FaceList& cut = from_.cut;
+    CutMesh& to = cutMesh_;
+    to.positions.assign(cells_.positions.begin(), cells_.positions.begin() + std::ptrdiff_t(3 * size_t(cells_.cutVertices)));
+    to.loopOffsets = std::move(cut.loopOffsets);
+    to.loopVertices = std::move(cut.loopVertices);
+    to.faceLoopOffsets = std::move(cut.faceLoopOffsets);
+    to.faceTriangle = std::move(cut.faceTriangle);
+    to.faceParentOffsets = std::move(cut.faceParentOffsets);
+    to.faceParents = std::move(cut.faceParents);
+    to.faceParentSigns = std::move(cut.faceParentSigns);
+    to.faceAxis = std::move(cut.faceAxis);
+    to.facePlane = std::move(cut.facePlane);
+    const size_t n = cells_.cutCells;
+    const auto begin = cells_.cellHalfFaceOffsets.begin();
+    to.cellHalfFaceOffsets.assign(begin, begin + std::ptrdiff_t(n + 1));
+    to.cellHalfFaces.assign(cells_.cellHalfFaces.begin(), cells_.cellHalfFaces.begin() + std::ptrdiff_t(to.cellHalfFaceOffsets.back()));
+    to.cellGridCell.assign(cells_.cellCorner.begin(), cells_.cellCorner.begin() + std::ptrdiff_t(3 * n));
+    to.cellRegion.assign(cells_.cellRegion.begin(), cells_.cellRegion.begin() + std::ptrdiff_t(n));
+    to.triangleCount = sources_.whole.triangleCount;
+    to.droppedTriangles = sources_.whole.droppedTriangles;
+    to.parityTriangles = sources_.whole.parityTriangles;
+    to.openTriangles = sources_.whole.openTriangles;
+    to.madeFrom = sources_.whole.madeFrom;
+  }
+
+  Assembled from_;
+  const Sources& sources_;
+  std::vector<uint32_t> numbers_;  // per id
+  CellComplex cells_;
+  CutMesh cutMesh_;
+};
+
+}  // namespace
+
+RefinedCells finish(Assembled assembled, const Sources& sources, Grid grid) {
+  return Finisher(std::move(assembled), sources, std::move(grid)).run();
+}
+
+}  // namespace mandoline::refining

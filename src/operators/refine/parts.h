@@ -1,0 +1,66 @@
+// The cuts of the parts of the grid in which there are blocks of one size.
+#pragma once
+
+#include <memory>
+
+#include "base/parallel.h"
+#include "mandoline/measure.h"
+#include "mandoline/refine.h"
+#include "operators/coarsen/block_tree.h"
+
+namespace mandoline::refining {
+
+using operators::Block;
+
+/// A box of blocks of one level, as a cut-mesh.
+struct Part {
+  int level = 0;
+  Block first{};                    ///< its lowest block
+  CutMesh own;                      ///< its cut-mesh, but for the grid's
+  const CutMesh* grid = nullptr;    ///< that of the whole grid
+  Measures measures;
+  std::vector<int32_t> owners;      ///< per half-face: the cut-cell, or -1
+  std::vector<uint32_t> triangles;  ///< per triangle that of the mesh; empty if it has all
+  std::vector<uint32_t> triVertices;
+
+  const CutMesh& cutMesh() const { return grid ? *grid : own; }
+  uint32_t triangle(int32_t t) const { return grid ? uint32_t(t) : triangles[size_t(t)]; }
+  uint32_t triVertex(int32_t v) const { return grid ? uint32_t(v) : triVertices[size_t(v)]; }
+  IdRange cellsAt(const Block& block) const { return cutMesh().cutCellsAt(block[0] - first[0], block[1] - first[1], block[2] - first[2]); }
+};
+
+/// The cut-cells of a block.
+struct BlockCells {
+  const Part* part = nullptr;
+  size_t number = 0;  ///< of the part
+  IdRange cells{0, 0};
+
+  bool isCut() const { return cells.size() > 0; }
+};
+
+class Parts {
+ public:
+  /// Cuts all parts with leaves, and with blocks beside those. `grids`: per level that of its blocks.
+  Parts(const PreparedMesh& mesh, const CutMesh& cutMesh, const std::vector<Grid>& grids, const OctreeCells& leaves);
+  void cut(detail::Monitor& monitor);
+
+  size_t size() const { return parts_.size(); }
+  /// In ascending order of levels.
+  const Part& operator[](size_t part) const { return parts_[part]; }
+  BlockCells at(int level, const Block& block) const;
+
+ private:
+  static constexpr int kShift = 4;  // 16 blocks along each side of a part
+  struct Wanted;
+  uint64_t keyOf(int level, const Block& block) const;
+  std::vector<uint64_t> wantedAt(int level) const;
+
+  const PreparedMesh& mesh_;
+  const CutMesh& cutMesh_;
+  const std::vector<Grid>& grids_;
+  const OctreeCells& leaves_;
+  std::vector<Part> parts_;
+  std::vector<std::vector<std::pair<uint64_t, uint32_t>>> numbers_;  // per level: keys of parts, ascending, with their numbers
+};
+
+}  // namespace mandoline::refining
