@@ -212,6 +212,7 @@ void Assembly::markLarge(uint32_t id) {
 }
 
 void Assembly::markLarge(const Side& side) {
+  for (const uint32_t v : cornersOf(side)) markLarge(v);
   const BlockCells& own = result_.leafCells[side.leaf];
   forFacesOn(own, side.axis, side.side, [&](uint32_t f, uint32_t, int32_t) {
     for (const auto loop : own.part->cutMesh().loops(f)) {
@@ -289,7 +290,7 @@ void Assembly::addSurfaceEdges(const BlockCells& cells, const Side& side) {
   }
 }
 
-std::vector<uint32_t> Assembly::plainLoop(const Side& side) {
+std::array<uint32_t, 4> Assembly::cornersOf(const Side& side) {
   const Block low = leaves_.corner(side.leaf), high = leaves_.end(side.leaf);
   const size_t u = (side.axis + 1) % 3, v = (side.axis + 2) % 3;
   Block at = low;
@@ -300,8 +301,12 @@ std::vector<uint32_t> Assembly::plainLoop(const Side& side) {
     at[v] = (i >= 2 ? high : low)[v];
     corners[i] = ids_.ofGridVertex(at);
   }
+  return corners;
+}
+
+std::vector<uint32_t> Assembly::plainLoop(const Side& side) {
   std::vector<uint32_t> loop;
-  extras_.append(corners, loop);
+  extras_.append(cornersOf(side), loop);
   return loop;
 }
 

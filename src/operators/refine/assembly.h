@@ -71,6 +71,7 @@ class Assembly {
   void write(const LevelFace& face);
   void writePlain(const LevelFace& face, FaceList& to);
   void writePart(const LevelFace& face, FaceList& to);
+  std::array<uint32_t, 4> cornersOf(const Side& side);
   std::vector<uint32_t> plainLoop(const Side& side);
 
   template <class Visit>
