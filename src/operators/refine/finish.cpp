@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "base/disjoint_sets.h"
 #include "operators/cell_complex/half_faces.h"
+#include "operators/refine/regions.h"
 
 namespace mandoline::refining {
 namespace {
@@ -15,10 +15,11 @@ class Finisher {
   }
 
   RefinedCells run() {
-    takeVertices();
     takeCells();
     takeFaces();
     takeRegions();
+    takeVertices();
+    takeLoops();
     operators::gatherHalfFaces(cells_);
     fillCutMesh();
     RefinedCells result;
@@ -124,11 +125,7 @@ class Finisher {
 
   void takeFaces() {
     cells_.cutFaces = from_.cut.size();
-    cells_.loopOffsets = cells_.faceLoopOffsets = {0};
     for (const FaceList* list : {&from_.cut, &from_.plain}) {
-      append(list->loopVertices, cells_.loopVertices);
-      appendShifted(list->loopOffsets, cells_.loopOffsets);
-      appendShifted(list->faceLoopOffsets, cells_.faceLoopOffsets);
       append(list->faceCells, cells_.faceCells);
       append(list->faceTag, cells_.faceTag);
       append(list->faceArea, cells_.faceArea);
@@ -137,52 +134,23 @@ class Finisher {
     }
   }
 
-  /// Cells that are joined through faces of the grid. What is known of a region is known of any of its cells that is in a part.
-  void takeRegions() {
-    const size_t count = cells_.cellLevel.size();
-    detail::DisjointSets sets(count);
-    for (size_t f = 0; f < cells_.faceCount(); ++f) {
-      const int32_t a = cells_.faceCells[2 * f], b = cells_.faceCells[2 * f + 1];
-      if (cells_.faceTag[f] != FaceTag::surface && a >= 0 && b >= 0) sets.unite(uint32_t(a), uint32_t(b));
+  void takeLoops() {
+    cells_.loopOffsets = cells_.faceLoopOffsets = {0};
+    for (const FaceList* list : {&from_.cut, &from_.plain}) {
+      append(list->loopVertices, cells_.loopVertices);
+      appendShifted(list->loopOffsets, cells_.loopOffsets);
+      appendShifted(list->faceLoopOffsets, cells_.faceLoopOffsets);
     }
-    cells_.cellRegion.resize(count);
-    for (uint32_t c = 0; c < count; ++c) {
-      const uint32_t root = sets.find(c);
-      cells_.cellRegion[c] = root == c ? cutMesh_.regionCount++ : cells_.cellRegion[root];
-    }
-    std::vector<const CutMesh*> known(cutMesh_.regionCount);
-    std::vector<uint32_t> regions(cutMesh_.regionCount);
-    for (size_t leaf = 0; leaf < sources_.leaves.cellCount(); ++leaf) {
-      const BlockCells& block = from_.leafCells[leaf];
-      if (block.isCut()) {
-        for (size_t i = 0; i < block.cells.size(); ++i) {
-          const uint32_t region = cells_.cellRegion[from_.firstCells[leaf] + i];
-          known[region] = &block.part->cutMesh();
-          regions[region] = known[region]->cellRegion[block.cells.begin + i];
-        }
-        continue;
-      }
-      const uint32_t region = cells_.cellRegion[from_.firstCells[leaf]];
-      if (known[region]) continue;
-      Block at = sources_.leaves.corner(leaf);
-      const int level = sources_.parts[sources_.parts.size() - 1].level;
-      const int64_t found = UntouchedCells(sources_.whole).regionAt(at[0] >> level, at[1] >> level, at[2] >> level);
-      if (found < 0) continue;
-      known[region] = &sources_.whole;
-      regions[region] = uint32_t(found);
-    }
-    cutMesh_.hasWinding = sources_.whole.hasWinding;
-    for (uint32_t r = 0; r < cutMesh_.regionCount; ++r) takeRegion(known[r], regions[r]);
   }
 
-  void takeRegion(const CutMesh* from, uint32_t region) {
-    const auto take = [&](auto array) {
-      if ((sources_.whole.*array).empty()) return;
-      (cutMesh_.*array).push_back(from && region < (from->*array).size() ? (from->*array)[region] : 0);
-    };
-    take(&CutMesh::regionWinding);
-    take(&CutMesh::regionPartWinding);
-    take(&CutMesh::regionParity);
+  void takeRegions() {
+    const CutMesh& whole = sources_.whole;
+    cells_.cellRegion = findRegions(cells_, from_, sources_);
+    cutMesh_.regionCount = whole.regionCount;
+    cutMesh_.hasWinding = whole.hasWinding;
+    cutMesh_.regionWinding = whole.regionWinding;
+    cutMesh_.regionPartWinding = whole.regionPartWinding;
+    cutMesh_.regionParity = whole.regionParity;
   }
 
   void fillCutMesh() {
