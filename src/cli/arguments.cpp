@@ -1,6 +1,7 @@
 #include "cli/arguments.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <set>
 
@@ -60,6 +61,8 @@ class Parser {
         {"--validate", {C::cut}, [](Parser& p, const std::string&) { p.arguments_.validate = true; }},
         {"--stream", {C::cut}, [](Parser& p, const std::string&) { p.arguments_.stream = true; }},
         {"--coarsen", {C::cut, C::flow}, [](Parser& p, const std::string& name) { p.parseCoarsen(p.value(name)); }},
+        {"--refine", {C::cut, C::flow}, [](Parser& p, const std::string& name) { p.parseRefine(p.value(name)); }},
+        {"--refine-box", {C::cut, C::flow}, [](Parser& p, const std::string& name) { p.parseRefineBox(p.value(name)); }},
         {"--merge", {C::cut, C::flow}, [](Parser& p, const std::string& name) { p.parseMerge(p.value(name)); }},
         {"--unite-walls", {C::cut, C::flow}, [](Parser& p, const std::string& name) { p.parseUniteWalls(p.value(name)); }},
         {"--faces", {C::cut, C::flow}, [](Parser& p, const std::string&) { p.arguments_.faces = true; }},
@@ -98,7 +101,8 @@ class Parser {
     if (equals != std::string::npos) attached_ = whole.substr(equals + 1);
     const auto option = std::find_if(options().begin(), options().end(), [&](const Option& o) { return word == o.name && belongs(o); });
     if (option != options().end()) {
-      if (!given_.insert(word).second && word != "-o") throw UsageError(word + " is given twice");
+      const bool isRepeatable = word == "-o" || word == "--refine-box";
+      if (!given_.insert(word).second && !isRepeatable) throw UsageError(word + " is given twice");
       option->parse(*this, word);
     } else if (word.empty() || (word[0] == '-' && word != "-")) {
       refuseOption(word);
@@ -200,6 +204,24 @@ class Parser {
     if (numbers.size() > 1) arguments_.coarsenLayers = numbers[1];
   }
 
+  static bool isLevel(double x) { return x >= 0 && x <= 24 && x == std::floor(x); }
+
+  void parseRefine(const std::string& word) {
+    const std::vector<double> numbers = parseList<double>(word);
+    const bool fit = !numbers.empty() && numbers.size() <= 2 && isLevel(numbers[0]);
+    if (!fit || !(numbers.back() >= 0 && numbers.back() <= 180))
+      throw UsageError("--refine needs a number of levels from 0 to 24, or LEVELS,DEGREES up to 180, not '" + word + "'");
+    arguments_.refine = int(numbers[0]);
+    if (numbers.size() > 1) arguments_.refineAngle = numbers[1];
+  }
+
+  void parseRefineBox(const std::string& word) {
+    const std::vector<double> n = parseList<double>(word);
+    if (n.size() != 7 || !(n[0] < n[3] && n[1] < n[4] && n[2] < n[5]) || !isLevel(n[6]))
+      throw UsageError("--refine-box needs X0,Y0,Z0,X1,Y1,Z1,LEVELS with ascending corners and up to 24 levels, not '" + word + "'");
+    arguments_.refineBoxes.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, int(n[6])});
+  }
+
   void parseMerge(const std::string& word) {
     double fraction = 0;
     if (!parseNumber(word, fraction) || !(fraction >= 0 && fraction <= 0.5))
@@ -222,6 +244,12 @@ class Parser {
     arguments_.rule = found->second;
   }
 
+  static void checkRefine(const Arguments& a) {
+    if (!a.refines()) return;
+    if (a.snapTolerance > 0) throw UsageError("--refine and --refine-box do not go with --snap-tolerance");
+    if (a.insideThreshold) throw UsageError("--refine and --refine-box do not go with --inside-threshold");
+  }
+
   void check() const {
     const Arguments& a = arguments_;
     const bool makes = a.command == Command::make;
@@ -231,6 +259,7 @@ class Parser {
     if (a.command == Command::slice) checkSlice(a.slice, a.only);
     if (a.command == Command::boundary && a.only.cut) throw UsageError("--only cut: a boundary is that of whole regions");
     if (a.command == Command::flow) checkFlow(a.flow);
+    checkRefine(a);
     const bool toStandardOutput = std::find(a.outputs.begin(), a.outputs.end(), "-") != a.outputs.end();
     if (toStandardOutput && !a.format) throw UsageError("-o - needs --format, such as --format vtu");
     if (!toStandardOutput && a.format) throw UsageError("--format is for -o -; other files tell by their extension");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mandoline/io.h"
+#include "mandoline/refine.h"
 #include "mandoline/resolve.h"
 
 namespace mandoline::cli {
@@ -69,8 +70,13 @@ struct Arguments {
   bool faces = false;                ///< in .vtu files, instead of cells
   std::optional<int> coarsen;        ///< levels of octree cells; none: untouched grid cells as they are
   std::optional<int> coarsenLayers;  ///< of cells of each size, before larger ones; none: as the library does by itself
+  int refine = 0;                    ///< levels of smaller cells where the surface bends
+  double refineAngle = 30;           ///< by how much, in degrees
+  std::vector<RefinementBox> refineBoxes;
   std::optional<double> merge;       ///< fraction of a grid cell below which cells are merged; 0: not
   std::optional<double> uniteWalls;  ///< the angle, in degrees
+
+  bool refines() const { return refine > 0 || !refineBoxes.empty(); }
   OnlyArguments only;
   std::optional<double> insideThreshold;  ///< of estimates: see InsideOptions
   SliceArguments slice;

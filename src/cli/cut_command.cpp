@@ -33,7 +33,7 @@ void checkOutputs(const Arguments& arguments) {
   if (arguments.coarsen && !hasCells)
     throw UsageError("--coarsen: only .vtu and .json files and polyMesh folders have cells away from the surface");
   for (const auto& [isGiven, option] :
-       {std::pair(arguments.merge.has_value(), "--merge"), {arguments.uniteWalls.has_value(), "--unite-walls"}}) {
+       {std::pair(arguments.merge.has_value(), "--merge"), {arguments.refines(), "--refine"}, {arguments.uniteWalls.has_value(), "--unite-walls"}}) {
     if (isGiven && !hasCells) throw UsageError(std::string(option) + ": only .vtu and .json files and polyMesh folders have all cells");
   }
   if (arguments.faces && !hasVtu) throw UsageError("--faces: only .vtu files have faces instead of cells");
@@ -72,7 +72,7 @@ std::vector<Output> outputsOf(const Arguments& arguments, const CutResult& cut) 
   return outputs;
 }
 
-bool needsComplex(const Arguments& arguments) { return arguments.coarsen || arguments.merge || arguments.uniteWalls; }
+bool needsComplex(const Arguments& arguments) { return arguments.coarsen || arguments.merge || arguments.uniteWalls || arguments.refines(); }
 
 /// Writes a cut-mesh, and its cell complex for those outputs that take one.
 class Writer {
@@ -81,7 +81,7 @@ class Writer {
       : arguments_(arguments), input_(input), cutMesh_(cutMesh) {}
 
   /// Makes the cells unless they are there.
-  const MergedCells& cells() {
+  const MadeCells& cells() {
     if (!cells_) cells_ = makeCells(arguments_, input_, cutMesh_);
     return *cells_;
   }
@@ -92,19 +92,20 @@ class Writer {
     const bool isVtu = format == FileFormat::vtu, isJson = format == FileFormat::json;
     const bool ofComplex = isFolder || (needsComplex(arguments_) && (isVtu || isJson)) || (arguments_.faces && isVtu);
     const CellComplex* const complex = ofComplex ? &cells().cells : nullptr;
+    const CutMesh& cutMesh = ofComplex ? cells().cutMesh(cutMesh_) : cutMesh_;
     withProgress(arguments_.threads, [&](const RunOptions& run) {
       WriteOptions options = output.options;
       static_cast<RunOptions&>(options) = run;
       options.groups = &input_.groups;
       if (isFolder) {
         const DeferInterrupts defer;
-        return writePolyMesh(output.path, cutMesh_, *complex, options);
+        return writePolyMesh(output.path, cutMesh, *complex, options);
       }
       writeOutput(output.path, [&](const Sink& sink) {
-        if (!ofComplex) return writeCutMesh(sink, *format, input_.mesh, cutMesh_, options);
-        if (isJson) return writeJson(sink, cutMesh_, *complex, options);
-        if (arguments_.faces) return writeFacesVtu(sink, cutMesh_, *complex, {}, options);
-        writeVtu(sink, cutMesh_, *complex, {}, options);
+        if (!ofComplex) return writeCutMesh(sink, *format, input_.mesh, cutMesh, options);
+        if (isJson) return writeJson(sink, cutMesh, *complex, options);
+        if (arguments_.faces) return writeFacesVtu(sink, cutMesh, *complex, {}, options);
+        writeVtu(sink, cutMesh, *complex, {}, options);
       });
     });
   }
@@ -113,7 +114,7 @@ class Writer {
   const Arguments& arguments_;
   const Input& input_;
   const CutMesh& cutMesh_;
-  std::optional<MergedCells> cells_;
+  std::optional<MadeCells> cells_;
 };
 
 void complainOf(const Report& report, int& exitCode) {

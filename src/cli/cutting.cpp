@@ -96,7 +96,7 @@ CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const AskedGrid&
     return cut(mesh, asked.grid, {options, arguments.snapTolerance, arguments.intersections});
   });
   result.error = withSize(result.error, arguments, asked);
-  if (!result || !needsInside(arguments)) return result;
+  if (!result || !needsInside(arguments) || arguments.refines()) return result;  // estimates divide regions
   result.mesh = withProgress(arguments.threads, [&](const RunOptions& options) {
     return estimateInside(mesh, result.mesh, {options, arguments.insideThreshold.value_or(kThreshold)});
   });
@@ -120,18 +120,34 @@ std::optional<InsideRegions> insideOf(const Arguments& arguments, const CutMesh&
   return insideOf(cutMesh, arguments.insideThreshold.value_or(kThreshold));
 }
 
-MergedCells makeCells(const Arguments& arguments, const Input& input, const CutMesh& cutMesh) {
+static RefinedCells refine(const Arguments& arguments, const Input& input, const CutMesh& cutMesh, const CoarsenOptions& coarsening) {
+  const PrepareResult prepared = prepare(input.mesh, {{coarsening.threads, coarsening.progress}, arguments.intersections});
+  if (!prepared) throw CallError(prepared.error);
+  RefineOptions options;
+  static_cast<RunOptions&>(options) = coarsening;
+  options.levels = arguments.refine;
+  options.angle = arguments.refineAngle;
+  options.boxes = arguments.refineBoxes;
+  options.coarsening = coarsening;
+  return refineCells(prepared.mesh, cutMesh, options);
+}
+
+MadeCells makeCells(const Arguments& arguments, const Input& input, const CutMesh& whole) {
   return withProgress(arguments.threads, [&](const RunOptions& run) {
     CoarsenOptions coarsening{run};
     coarsening.maxLevel = arguments.coarsen.value_or(0);
     if (arguments.coarsenLayers) coarsening.fineLayers = coarsening.layersPerLevel = *arguments.coarsenLayers;
-    CellComplex cells = cellComplex(input.mesh, cutMesh, coarsen(cutMesh, coarsening), run);
+    MadeCells made;
+    if (arguments.refines()) {
+      RefinedCells refined = refine(arguments, input, whole, coarsening);
+      made.cells = std::move(refined.cells);
+      made.refined = std::move(refined.cutMesh);
+    } else {
+      made.cells = cellComplex(input.mesh, whole, coarsen(whole, coarsening), run);
+    }
+    const CutMesh& cutMesh = made.cutMesh(whole);
     const double fraction = mergeFraction(arguments);
-    MergedCells made;
-    if (fraction > 0)
-      made = mergeSmallCells(cutMesh, cells, MergeOptions{run, fraction});
-    else
-      made.cells = std::move(cells);
+    if (fraction > 0) static_cast<MergedCells&>(made) = mergeSmallCells(cutMesh, made.cells, MergeOptions{run, fraction});
     if (arguments.uniteWalls) made.cells = uniteWalls(cutMesh, made.cells, {run, *arguments.uniteWalls, input.groups.triangleGroup});
     return made;
   });

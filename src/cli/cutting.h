@@ -54,9 +54,17 @@ std::optional<CutResult> cutOrComplain(const Arguments& arguments, const Input& 
 /// The regions inside, by the threshold that was asked for; nothing if nothing is known of any.
 std::optional<InsideRegions> insideOf(const Arguments& arguments, const CutMesh& cutMesh);
 
-/// All cells: untouched ones merged as far as --coarsen says and small ones as --merge does, their walls united as --unite-walls does. With
-/// progress.
-MergedCells makeCells(const Arguments& arguments, const Input& input, const CutMesh& cutMesh);
+/// All cells, merged or not.
+struct MadeCells : MergedCells {
+  std::optional<CutMesh> refined;
+
+  /// That which goes with the cells, of which `whole` is the grid's.
+  const CutMesh& cutMesh(const CutMesh& whole) const { return refined ? *refined : whole; }
+};
+
+/// All cells: refined as --refine and --refine-box say, untouched ones merged as far as --coarsen does and small ones as --merge does, their
+/// walls united as --unite-walls does. With progress.
+MadeCells makeCells(const Arguments& arguments, const Input& input, const CutMesh& cutMesh);
 
 /// --merge, or what it is by default.
 double mergeFraction(const Arguments& arguments);

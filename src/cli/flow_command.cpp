@@ -64,6 +64,7 @@ void checkFlowOutputs(const Arguments& arguments) {
   checkOutputs(arguments, isFlowFormat, "a flow is written as .vtu or .obj");
   const auto writesVtu = [&](const std::string& output) { return isVtu(arguments, output); };
   const bool hasLines = !std::all_of(arguments.outputs.begin(), arguments.outputs.end(), writesVtu);
+  if (arguments.refines() && hasLines) throw UsageError("--refine: streamlines need cells that are not refined");
   if (arguments.flow.streamlines && !hasLines) throw UsageError("--streamlines: only .obj files have streamlines");
   if (std::any_of(arguments.outputs.begin(), arguments.outputs.end(), writesVtu)) return;
   if (arguments.faces) throw UsageError("--faces: only .vtu files have faces instead of cells");
@@ -102,15 +103,15 @@ int runFlow(const Arguments& arguments) {
   WriteOptions options = writeOptions(arguments, *cut);
   if (arguments.only.any()) requireSelection(options, cut->mesh);
   options.groups = &input.groups;
-  const MergedCells merged = makeCells(arguments, input, cut->mesh);
-  if (arguments.flow.steps) return runSteps(arguments, {input, cut->mesh, merged}, options);
+  const MadeCells merged = makeCells(arguments, input, cut->mesh);
+  if (arguments.flow.steps) return runSteps(arguments, {input, merged.cutMesh(cut->mesh), merged}, options);
   const CellComplex& cells = merged.cells;
   const Flow flow = withProgress(arguments.threads, [&](const RunOptions& run) {
     FlowOptions flowOptions{run};
     flowOptions.farField = arguments.flow.farField;
     return solveFlow(cells, *arguments.flow.wind, flowOptions);
   });
-  const FlowField field{mesh, cut->mesh, cells, flow};
+  const FlowField field{mesh, merged.cutMesh(cut->mesh), cells, flow};
   int exitCode = kFine;
   if (flow.status != SolveStatus::converged) {
     complain(input.name + ": the flow was not solved: " + name(flow.status));

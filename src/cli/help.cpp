@@ -85,6 +85,14 @@ Options of cut
                          smaller and larger ones (default: 1 of grid cells and of others a
                          32nd of the grid cells along the longest side; with 0 there are the
                          fewest cells, which solvers are worst on)
+  --refine LEVELS[,DEGREES]
+                         divide grid cells up to LEVELS times where normals of triangles in one
+                         are more than DEGREES apart (default: 30; with 0 all that the mesh
+                         touches), and cut them again there alone, in the same files. Cells
+                         with a common side differ by one level at most
+  --refine-box X0,Y0,Z0,X1,Y1,Z1,LEVELS
+                         divide those that meet the box LEVELS times; may be given several
+                         times, with --refine or without. The report is that of the grid
   --merge FRACTION       merge cells below this fraction of a grid cell's volume (0 to 0.5)
                          with neighbours, in what has octree cells; never across a triangle.
                          0.2 is right for solvers. The report tells how many cells there
@@ -98,8 +106,8 @@ Options of cut
                          each as .vtu into the folder -o, and cut.pvtu, which joins them: the
                          cells of the whole cut, in the memory of one piece and the mesh. With
                          --only cut without untouched grid cells. Not with other parts of
-                         --only, --validate, --coarsen, --merge, --unite-walls, --faces,
-                         --inside-threshold and --snap-tolerance. The report has pieces and
+                         --only, --validate, --coarsen, --refine, --merge, --unite-walls,
+                         --faces, --inside-threshold and --snap-tolerance. The report has pieces and
                          counts of cells
   --format EXTENSION     what -o - writes to standard output; the text of the report then
                          goes to standard error
@@ -132,6 +140,8 @@ Options of flow
                          not reach the sides
   --coarsen LEVELS[,LAYERS], --faces, --only WHAT, --inside-threshold T
                          as of cut; faces have normal_velocity, normal and area
+  --refine LEVELS[,DEGREES], --refine-box X0,Y0,Z0,X1,Y1,Z1,LEVELS
+                         as of cut; not with streamlines
   --merge FRACTION       as of cut (default: 0.2; 0 merges nothing)
   --unite-walls DEGREES  as of cut
   --streamlines N        how many lines (default: 100), from where the wind enters

@@ -58,6 +58,7 @@ void checkArguments(const Arguments& arguments) {
                                                  {arguments.uniteWalls.has_value(), "--unite-walls"},
                                                  {arguments.faces, "--faces"},
                                                  {arguments.insideThreshold.has_value(), "--inside-threshold"},
+                                                 {arguments.refines(), "--refine"},
                                                  {arguments.snapTolerance > 0, "--snap-tolerance"},
                                                  {only.inside || only.outside || !only.regions.empty(), "--only other than cut"}};
   for (const auto& [isGiven, name] : others) {

@@ -29,6 +29,7 @@
 #include "mandoline/orient.h"
 #include "mandoline/prepare.h"
 #include "mandoline/recut.h"
+#include "mandoline/refine.h"
 #include "mandoline/resolve.h"
 #include "mandoline/shapes.h"
 #include "mandoline/slice.h"
