@@ -32,8 +32,9 @@ void checkOutputs(const Arguments& arguments) {
   }
   if (arguments.coarsen && !hasCells)
     throw UsageError("--coarsen: only .vtu and .json files and polyMesh folders have cells away from the surface");
-  for (const auto& [isGiven, option] :
-       {std::pair(arguments.merge.has_value(), "--merge"), {arguments.refines(), "--refine"}, {arguments.uniteWalls.has_value(), "--unite-walls"}}) {
+  for (const auto& [isGiven, option] : {std::pair(arguments.merge.has_value(), "--merge"),
+                                        {arguments.refines(), "--refine"},
+                                        {arguments.uniteWalls.has_value(), "--unite-walls"}}) {
     if (isGiven && !hasCells) throw UsageError(std::string(option) + ": only .vtu and .json files and polyMesh folders have all cells");
   }
   if (arguments.faces && !hasVtu) throw UsageError("--faces: only .vtu files have faces instead of cells");
@@ -72,7 +73,9 @@ std::vector<Output> outputsOf(const Arguments& arguments, const CutResult& cut) 
   return outputs;
 }
 
-bool needsComplex(const Arguments& arguments) { return arguments.coarsen || arguments.merge || arguments.uniteWalls || arguments.refines(); }
+bool needsComplex(const Arguments& arguments) {
+  return arguments.coarsen || arguments.merge || arguments.uniteWalls || arguments.refines();
+}
 
 /// Writes a cut-mesh, and its cell complex for those outputs that take one.
 class Writer {

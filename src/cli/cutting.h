@@ -62,8 +62,8 @@ struct MadeCells : MergedCells {
   const CutMesh& cutMesh(const CutMesh& whole) const { return refined ? *refined : whole; }
 };
 
-/// All cells: refined as --refine and --refine-box say, untouched ones merged as far as --coarsen does and small ones as --merge does, their
-/// walls united as --unite-walls does. With progress.
+/// All cells: refined as --refine and --refine-box say, untouched ones merged as far as --coarsen does and small ones as --merge does,
+/// their walls united as --unite-walls does. With progress.
 MadeCells makeCells(const Arguments& arguments, const Input& input, const CutMesh& cutMesh);
 
 /// --merge, or what it is by default.

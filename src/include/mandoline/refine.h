@@ -19,7 +19,7 @@ struct RefineOptions : RunOptions {
   int levels = 0;
   double angle = 30;  ///< in degrees, 0 to 180; at 0 all cells with triangles are divided
   std::vector<RefinementBox> boxes;
-  int layers = 1;                             ///< least layers of cells of each size, diagonally too, between smaller and larger ones; at least 1
+  int layers = 1;  ///< least layers of cells of each size, diagonally too, between smaller and larger ones; at least 1
   CoarsenOptions coarsening = uncoarsened();  ///< of untouched grid cells that are not divided; threads and progress are not read
 
   static CoarsenOptions uncoarsened() {
@@ -52,13 +52,14 @@ struct RefinedCells {
 Grid dividedGrid(const Grid& grid, int levels);
 
 /// Divides cells of the grid of `cutMesh`, a cut of `mesh` without snapping, and cuts them again where they are divided, and there alone.
-/// Cells that share a part of a face differ by one level at most. Cells and faces are exact, as those of a cut with dividedGrid() are: where
-/// a cell meets smaller ones, its faces are divided like theirs, and the edges of a face have all vertices that lie on them. Regions are
-/// those of `cutMesh`, with their ids.
+/// Cells that share a part of a face differ by one level at most. Cells and faces are exact, as those of a cut with dividedGrid() are:
+/// where a cell meets smaller ones, its faces are divided like theirs, and the edges of a face have all vertices that lie on them. Regions
+/// are those of `cutMesh`, with their ids.
 ///
 /// The result is the same to the bit for any number of threads. Throws CallError if an option is out of range, there are more than 2^24
 /// of the smallest cells along an axis (gridTooLarge) or planes between those of the grid are not apart (badGrid), if the cut-mesh is
-/// not one of the mesh, or was snapped, or its regions are divided by estimateInside() (badArgument), if faces have 2^31 corners or more (meshTooLarge), as cut() has errors, or if cancelled.
+/// not one of the mesh, or was snapped, or its regions are divided by estimateInside() (badArgument), if faces have 2^31 corners or more
+/// (meshTooLarge), as cut() has errors, or if cancelled.
 RefinedCells refineCells(const PreparedMesh& mesh, const CutMesh& cutMesh, const RefineOptions& options = {});
 
 }  // namespace mandoline

@@ -33,7 +33,8 @@ struct BlockTree {
   /// Fills in the levels above `from`, up to the last, around the blocks of that level that are kept as they are or divided.
   void divideAbove(int from, const Blocks& kept, const CoarsenOptions& options, detail::Monitor& monitor);
 
-  /// Calls visit(block, level) for all blocks that are not divided, up to the last level, in Morton order, in which all lists of blocks are.
+  /// Calls visit(block, level) for all blocks that are not divided, up to the last level, in Morton order, in which all lists of blocks
+  /// are.
   using Visit = detail::FunctionRef<void(const Block&, int)>;
   void forLeaves(Visit visit) const;
 

@@ -165,7 +165,9 @@ void Assembly::addSide(const Side& side) {
   const bool isLarger = other >= 0 && leaves_.cellLevel[size_t(other)] > level;
   const BlockCells across = other < 0 ? BlockCells() : isLarger ? blockAt(at, level) : result_.leafCells[size_t(other)];
   const bool isOwn = own.isCut();
-  const int32_t otherWhole = other < 0 ? -1 : result_.leafCells[size_t(other)].isCut() ? kPending : int32_t(result_.firstCells[size_t(other)]);
+  const int32_t otherWhole = other < 0                                  ? -1
+                             : result_.leafCells[size_t(other)].isCut() ? kPending
+                                                                        : int32_t(result_.firstCells[size_t(other)]);
   const size_t before = faces_.size();
   forFacesOn(isOwn ? own : across, side.axis, isOwn ? side.side : 1 - side.side, [&](uint32_t f, uint32_t s, int32_t c) {
     const BlockCells& from = isOwn ? own : across;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "operators/measure/vector.h"
 #include "operators/degrees.h"
+#include "operators/measure/vector.h"
 
 namespace mandoline::refining {
 

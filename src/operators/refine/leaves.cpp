@@ -80,7 +80,9 @@ class Divider {
     for (int level = levels_; level > levels_ - box.levels; --level) {
       Block first, last;
       for (size_t d = 0; d < 3; ++d) {
-        const auto place = [&](double x, auto bound) { return int32_t(bound(planes_[d].begin(), planes_[d].end(), x) - planes_[d].begin()); };
+        const auto place = [&](double x, auto bound) {
+          return int32_t(bound(planes_[d].begin(), planes_[d].end(), x) - planes_[d].begin());
+        };
         first[d] = std::max(place(box.min[d], std::upper_bound<std::vector<double>::const_iterator, double>) - 1, 0) >> level;
         last[d] = (place(box.max[d], std::lower_bound<std::vector<double>::const_iterator, double>) - 1);
         last[d] = last[d] < 0 ? -1 : std::min(last[d], tree_.gridCells[d] - 1) >> level;

@@ -15,9 +15,9 @@ using operators::Block;
 /// A box of blocks of one level, as a cut-mesh.
 struct Part {
   int level = 0;
-  Block first{};                    ///< its lowest block
-  CutMesh own;                      ///< its cut-mesh, but for the grid's
-  const CutMesh* grid = nullptr;    ///< that of the whole grid
+  Block first{};                  ///< its lowest block
+  CutMesh own;                    ///< its cut-mesh, but for the grid's
+  const CutMesh* grid = nullptr;  ///< that of the whole grid
   Measures measures;
   std::vector<int32_t> owners;      ///< per half-face: the cut-cell, or -1
   std::vector<uint32_t> triangles;  ///< per triangle that of the mesh; empty if it has all

@@ -35,7 +35,8 @@ void requireOptions(const RefineOptions& options) {
 void requireCut(const PreparedMesh& mesh, const CutMesh& cutMesh) {
   operators::requireCutMesh(cutMesh);
   if (cutMesh.snapTolerance != 0) operators::refuse("The cut-mesh was made with snapping, which smaller cells can't have.");
-  if (!cutMesh.regionInsideness.empty()) operators::refuse("Cells can't be refined where regions are divided by an estimate of what is inside.");
+  if (!cutMesh.regionInsideness.empty())
+    operators::refuse("Cells can't be refined where regions are divided by an estimate of what is inside.");
   constexpr const char* kOther = "The cut-mesh was not made from this mesh.";
   const MeshView view = mesh.mesh();
   if (!mesh.data() || view.triangles.size() != 3 * size_t(cutMesh.triangleCount)) operators::refuse(kOther);

@@ -45,7 +45,9 @@ class KeyMaker {
 
  private:
   bool isOn(uint32_t v, int d) const { return cutMesh_.vertexMask[v] >> d & 1; }
-  uint64_t plane(uint32_t v, int d) const { return uint64_t(cutMesh_.vertexCell[3 * size_t(v) + size_t(d)] + part_.first[size_t(d)]) << part_.level; }
+  uint64_t plane(uint32_t v, int d) const {
+    return uint64_t(cutMesh_.vertexCell[3 * size_t(v) + size_t(d)] + part_.first[size_t(d)]) << part_.level;
+  }
 
   void add(uint32_t v, Kind kind, uint64_t a, uint64_t b, uint64_t rest = 0) {
     keys_.push_back({a, b, uint64_t(kind) | rest << 3, first_ + v});

@@ -48,13 +48,13 @@ class SideMatcher {
 
   std::vector<Edge> edges_;
   std::vector<LargeEdge> largeEdges_;
-  std::vector<Pair> surface_;       // lower vertex first
-  std::vector<Pair> links_;         // edges that are, or may be, parts of edges of the larger block's faces: both ways
-  std::vector<uint32_t> classes_;   // per face: the number of its parents
-  detail::Csr<uint32_t> kinds_;     // the parents of each number
-  detail::DisjointSets sets_;       // of faces in one of the larger block's
-  std::vector<int32_t> cells_;      // per set
-  std::vector<uint32_t> inside_;    // of the current chain
+  std::vector<Pair> surface_;      // lower vertex first
+  std::vector<Pair> links_;        // edges that are, or may be, parts of edges of the larger block's faces: both ways
+  std::vector<uint32_t> classes_;  // per face: the number of its parents
+  detail::Csr<uint32_t> kinds_;    // the parents of each number
+  detail::DisjointSets sets_;      // of faces in one of the larger block's
+  std::vector<int32_t> cells_;     // per set
+  std::vector<uint32_t> inside_;   // of the current chain
 };
 
 }  // namespace mandoline::refining
