@@ -19,7 +19,7 @@ struct RefineOptions : RunOptions {
   int levels = 0;
   double angle = 30;  ///< in degrees, 0 to 180; at 0 all cells with triangles are divided
   std::vector<RefinementBox> boxes;
-  int layers = 1;  ///< least layers of cells of each size, diagonally too, between smaller and larger ones; at least 1
+  int layers = 1;  ///< least layers of cells of each size, diagonally too, around where the surface bends and smaller ones; at least 1
   CoarsenOptions coarsening = uncoarsened();  ///< of untouched grid cells that are not divided; threads and progress are not read
 
   static CoarsenOptions uncoarsened() {

@@ -74,9 +74,6 @@ class Assembly {
   std::array<uint32_t, 4> cornersOf(const Side& side);
   std::vector<uint32_t> plainLoop(const Side& side);
 
-  template <class Visit>
-  static void forFacesOn(const BlockCells& cells, size_t axis, int side, const Visit& visit);
-
   const OctreeCells& leaves_;
   const Parts& parts_;
   SharedIds& ids_;

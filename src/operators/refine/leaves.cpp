@@ -19,6 +19,7 @@ class Divider {
 
   OctreeCells run(detail::Monitor& monitor) {
     markFeatures(monitor);
+    addLayers();
     for (const RefinementBox& box : options_.boxes) markBox(box, monitor);
     for (int level = 1; level <= levels_; ++level) {
       Blocks& blocks = tree_.divided[size_t(level)];
@@ -47,6 +48,19 @@ class Divider {
       detail::sortUnique(triangles);
       if (c % 1024 == 0) monitor.report(c, cutMesh_.cellCount());
       markIn({at[0], at[1], at[2]}, levels_, triangles, features);
+    }
+  }
+
+  /// The cells in which the surface bends get layers around them of cells of half their size.
+  void addLayers() {
+    for (int level = 1; level <= levels_; ++level) {
+      Blocks& blocks = tree_.divided[size_t(level)];
+      Blocks inside;
+      for (const Block& block : blocks) {
+        for (int32_t child = 0; child < 8; ++child)
+          inside.push_back({2 * block[0] + (child & 1), 2 * block[1] + (child >> 1 & 1), 2 * block[2] + (child >> 2)});
+      }
+      blocks = tree_.parentsAround(std::move(inside), level, options_.layers);
     }
   }
 

@@ -38,6 +38,19 @@ struct BlockCells {
   bool isCut() const { return cells.size() > 0; }
 };
 
+/// Calls visit(face, side of the face, cell) for those of a block's cells on one of its sides.
+template <class Visit>
+void forFacesOn(const BlockCells& cells, size_t axis, int side, const Visit& visit) {
+  if (!cells.isCut()) return;
+  const CutMesh& cutMesh = cells.part->cutMesh();
+  const int32_t plane = cutMesh.cellGridCell[3 * cells.cells.begin + axis] + side;
+  for (size_t c = cells.cells.begin; c < cells.cells.end; ++c) {
+    for (const uint32_t h : cutMesh.halfFaces(c)) {
+      if (size_t(cutMesh.faceAxis[h / 2]) == axis && cutMesh.facePlane[h / 2] == plane) visit(h / 2, h % 2, int32_t(c));
+    }
+  }
+}
+
 class Parts {
  public:
   /// Cuts all parts with leaves, and with blocks beside those. `grids`: per level that of its blocks.
@@ -51,7 +64,6 @@ class Parts {
 
  private:
   static constexpr int kShift = 4;  // 16 blocks along each side of a part
-  struct Wanted;
   uint64_t keyOf(int level, const Block& block) const;
   std::vector<uint64_t> wantedAt(int level) const;
 
