@@ -1,5 +1,6 @@
 #include "io/json_members.h"
 #include "mesh/run_call.h"
+#include "operators/require_cut_mesh.h"
 
 namespace mandoline {
 namespace detail {
@@ -84,6 +85,7 @@ uint64_t countNumbers(const CutMesh& cutMesh) {
 }  // namespace detail
 
 void writeJson(const Sink& sink, const CutMesh& cutMesh, const RunOptions& options) {
+  operators::refuseRefined(cutMesh);
   detail::runCall("writing", [&] {
     detail::Meter meter(sink, options);
     meter.beginStage("write", 0, detail::countNumbers(cutMesh));

@@ -4,6 +4,7 @@
 #include "io/vtu_file.h"
 #include "mandoline/measure.h"
 #include "mesh/run_call.h"
+#include "operators/require_cut_mesh.h"
 
 namespace mandoline {
 namespace detail {
@@ -191,6 +192,7 @@ std::vector<double> cellVolumes(Meter& meter, const MeshView& mesh, const CutMes
 }
 
 void write(const Sink& sink, const MeshView& mesh, const CutMesh& cutMesh, const CutPiece* piece, const WriteOptions& options) {
+  operators::refuseRefined(cutMesh);
   const Selection selection(cutMesh, options);
   runCall("writing", [&] {
     Meter meter(sink, options, VtuWriter::kStages);

@@ -41,7 +41,7 @@ void requireIds(const MeshView& mesh, const CutMesh& cutMesh) {
 
 CutInput::CutInput(const MeshView& mesh, const CutMesh& cutMesh) : mesh_(mesh) {
   requireArrays(mesh);
-  if (!cutMesh.loopOffsets.empty()) requireCutMesh(cutMesh);
+  refuseRefined(cutMesh);
   requireIds(mesh, cutMesh);
   if (cutMesh.madeFrom.isKnown() && detail::fingerprintOf(mesh) != cutMesh.madeFrom) refuseOther("its positions or triangles are others");
   if (cutMesh.snapTolerance > 0) snapped_ = detail::snapped(mesh, cutMesh.grid, cutMesh.snapTolerance);

@@ -8,7 +8,12 @@ void refuse(const std::string& message, int64_t element) { throw CallError({Stat
 
 void requireCutMesh(const CutMesh& cutMesh) {
   requireFaces(cutMesh);
-  if (cutMesh.rowRunOffsets.empty()) refuse("The cut-mesh is that of refined cells, which only functions that take both have a use for.");
+  refuseRefined(cutMesh);
+}
+
+void refuseRefined(const CutMesh& cutMesh) {
+  if (cutMesh.rowRunOffsets.empty() && !cutMesh.loopOffsets.empty())
+    refuse("The cut-mesh is that of refined cells, which only functions that take both have a use for.");
 }
 
 void requireFaces(const CutMesh& cutMesh) {

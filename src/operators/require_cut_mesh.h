@@ -13,8 +13,11 @@ MANDOLINE_SHARED [[noreturn]] void refuse(const std::string& message, int64_t el
 /// Throws CallError for an empty CutMesh, or one that did not come from cut(), but from refineCells(). The arrays of others are trusted.
 MANDOLINE_SHARED void requireCutMesh(const CutMesh& cutMesh);
 
-/// The same for a function that takes the cut-mesh of refined cells, too.
+/// Throws CallError for an empty one alone: for functions that take the cut-mesh of refined cells, too.
 MANDOLINE_SHARED void requireFaces(const CutMesh& cutMesh);
+
+/// Throws CallError for that of refined cells alone.
+MANDOLINE_SHARED void refuseRefined(const CutMesh& cutMesh);
 
 /// Throws CallError with the message where it is known that one thing was not made from the other.
 MANDOLINE_SHARED void requireMadeFrom(Fingerprint madeFrom, Fingerprint other, const char* message);

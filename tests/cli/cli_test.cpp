@@ -133,6 +133,16 @@ TEST_CASE("Command line: wrong usage exits with 2", "[cli]") {
       {{"cut", mesh, "-o", folder.path("{region}.json")}, ".json files always have everything"},
       {{"cut", mesh, "--coarsen", "x"}, "--coarsen needs a number of levels, or LEVELS,LAYERS, not 'x'"},
       {{"cut", mesh, "--coarsen", "2,-1"}, "--coarsen needs a number of levels, or LEVELS,LAYERS, not '2,-1'"},
+      {{"cut", mesh, "--refine", "1.5"}, "--refine needs a number of levels from 0 to 24, or LEVELS,DEGREES up to 180, not '1.5'"},
+      {{"cut", mesh, "--refine", "1,200"}, "--refine needs a number of levels from 0 to 24, or LEVELS,DEGREES up to 180, not '1,200'"},
+      {{"cut", mesh, "--refine-box", "0,0,0,1,1,1"}, "--refine-box needs X0,Y0,Z0,X1,Y1,Z1,LEVELS"},
+      {{"cut", mesh, "--refine-box", "0,0,0,1,0,1,2"}, "--refine-box needs X0,Y0,Z0,X1,Y1,Z1,LEVELS"},
+      {{"cut", mesh, "--refine", "1", "-o", folder.path("a.obj")},
+       "--refine: only .vtu and .json files and polyMesh folders have all cells"},
+      {{"cut", mesh, "--refine", "1", "--snap-tolerance", "0.1"}, "--refine and --refine-box do not go with --snap-tolerance"},
+      {{"cut", mesh, "--refine", "1", "--inside-threshold", "0.4"}, "--refine and --refine-box do not go with --inside-threshold"},
+      {{"flow", mesh, "--wind", "1,0,0", "--refine", "1", "-o", folder.path("a.obj")},
+       "--refine: streamlines need cells that are not refined"},
       {{"cut", mesh, "--faces", "-o", folder.path("a.obj")}, "--faces: only .vtu files have faces instead of cells"},
       {{"cut", mesh, "--coarsen", "2", "-o", folder.path("a.obj")}, "--coarsen: only .vtu and .json files and polyMesh folders have cells"},
       {{"cut", mesh, "-o", "-"}, "-o - needs --format"},
@@ -329,9 +339,9 @@ TEST_CASE("Command line: misspelt options are errors that suggest the name", "[c
   const std::string mesh = folder.write("cube.obj", kCube);
   const std::string cut = "cells margin box origin spacing planes snap-tolerance intersections orient threads only report format";
   const std::pair<std::string, std::string> commands[] = {
-      {"cut", cut + " validate coarsen merge unite-walls faces"},
+      {"cut", cut + " validate coarsen refine refine-box merge unite-walls faces"},
       {"slice", cut + " axis normal heights layers"},
-      {"flow", cut + " coarsen merge unite-walls faces wind far-field streamlines steps viscosity"},
+      {"flow", cut + " coarsen refine refine-box merge unite-walls faces wind far-field streamlines steps viscosity"},
       {"info", "threads report format"},
       {"resolve", "rule orient threads report format"}};
   std::mt19937 random(7);
@@ -514,6 +524,28 @@ TEST_CASE("Command line: octree cells, OpenFOAM and saved cut-meshes", "[cli]") 
   CHECK(folder.read("graded.vtu").size() > folder.read("a.vtu").size());
   REQUIRE(run(folder, {"cut", mesh, "--only", "outside", "-o", foam}).exitCode == 0);
   CHECK(!std::filesystem::exists(foam + "cellZones"));
+}
+
+TEST_CASE("Command line: cells refined where the mesh bends and in boxes", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", kCube), vtu = folder.path("a.vtu"), foam = folder.path("polyMesh");
+  const auto cells = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"flow", mesh, "--wind", "1,0,0", "--cells", "10", "--merge", "0", "-o", vtu, "--report", "-"});
+    const Outcome o = run(folder, words);
+    REQUIRE(o.exitCode == 0);
+    const std::string out = inOneLine(o.out);
+    return std::stoul(out.substr(out.find("\"cells\": ", out.find("\"cutCells\"")) + 9));
+  };
+  const size_t plain = cells({}), bent = cells({"--refine", "1"}), all = cells({"--refine", "1,0"});
+  CHECK(plain < bent);
+  CHECK(bent < all);
+  const size_t inBox = cells({"--refine-box", "0,0,0,1.1,1.1,1.1,2"});
+  CHECK(plain < inBox);
+  CHECK(inBox < cells({"--refine-box", "0,0,0,1.1,1.1,1.1,2", "--refine-box=2,2,2,4,4,4,1"}));
+  const Outcome o = run(folder, {"cut", mesh, "--cells", "8", "--refine", "1", "--coarsen", "1", "--merge", "0.2", "-o", foam, vtu});
+  CHECK(o.err.empty());
+  CHECK(o.exitCode == 0);
+  CHECK(contains(folder.read("polyMesh/faces"), "FoamFile"));
 }
 
 TEST_CASE("Command line: small cells merged, and how many stay small", "[cli]") {

@@ -321,6 +321,7 @@ TEST_CASE("refine: functions that need the cut of a grid refuse that of refined 
   const auto refuses = [](const auto& call) { return refusal(call).first == Status::badArgument; };
   CHECK(refuses([&] { coarsen(refined.cutMesh); }));
   CHECK(refuses([&] { measure(ball, refined.cutMesh); }));
+  CHECK(refuses([&] { adjacency(refined.cutMesh); }));
   CHECK(refuses([&] { cellsAt(refined.cutMesh, std::vector<double>{4, 4, 4}); }));
   CHECK(refuses([&] { estimateInside(ball, refined.cutMesh); }));
   CHECK(refuses([&] { refineCells(prepare(ball).mesh, refined.cutMesh); }));

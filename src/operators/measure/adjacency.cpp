@@ -4,6 +4,7 @@
 #include "base/sort.h"
 #include "mandoline/measure.h"
 #include "operators/measure/owners.h"
+#include "operators/require_cut_mesh.h"
 
 namespace mandoline {
 namespace {
@@ -39,6 +40,7 @@ std::vector<int64_t> operators::gridCellsBeside(const CutMesh& cutMesh, const st
 }
 
 Adjacency adjacency(const CutMesh& cutMesh) {
+  operators::refuseRefined(cutMesh);
   Adjacency result;
   result.faceCells = operators::ownersOf(cutMesh);
   result.faceGridCells = operators::gridCellsBeside(cutMesh, result.faceCells);
