@@ -217,6 +217,11 @@ TEST_CASE("refine: a tip that touches a grid line between sizes", "[refine]") {
   }
 }
 
+TEST_CASE("refine: a tip that touches the line between four parts, with small cells in one of them", "[refine]") {
+  const Mesh tip = shapes::tetrahedron({2.3, 4, 4}, {1.9, 5.2, 5.3}, {2.7, 5.2, 5.3}, {2.3, 5, 5.5});
+  checkedRefinement(tip, unitGrid(8), in({{0, 0, 0}, {8, 4, 4}, 2}));
+}
+
 TEST_CASE("refine: soups on a lattice, whose triangles meet everywhere", "[refine]") {
   size_t done = 0;
   for (const NamedCase& c : casesAndSoups()) {

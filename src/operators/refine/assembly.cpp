@@ -57,7 +57,7 @@ void Assembly::addLevel(int level) {
   isLarge_.resize(ids_.size());
   for (const LevelFace& face : faces_) {
     if (!face.part) {
-      for (const uint32_t v : plainLoop(face.side)) markLarge(v);
+      for (const uint32_t v : plainLoop(face)) markLarge(v);
     } else {
       for (const auto loop : face.part->cutMesh().loops(face.face)) {
         for (const uint32_t v : loop) markLarge(ids_.of(face.number, v));
@@ -115,7 +115,8 @@ void Assembly::addInnerFaces(size_t leaf) {
     for (const uint32_t h : cutMesh.halfFaces(c)) {
       if (h % 2 != 0 || cutMesh.faceAxis[h / 2] >= 0) continue;
       const int32_t other = cells.part->owners[h ^ 1];
-      faces_.push_back({cells.part, uint32_t(cells.number), h / 2, {leaf, 0, 0}, {cellOf(cells, int32_t(c)), cellOf(cells, other)}, false});
+      faces_.push_back(
+          {cells.part, uint32_t(cells.number), h / 2, {leaf, 0, 0}, {cellOf(cells, int32_t(c)), cellOf(cells, other)}, false, {}});
     }
   }
 }
@@ -158,7 +159,7 @@ void Assembly::addSide(const Side& side) {
   const size_t before = faces_.size();
   forFacesOn(isOwn ? own : across, side.axis, isOwn ? side.side : 1 - side.side, [&](uint32_t f, uint32_t s, int32_t c) {
     const BlockCells& from = isOwn ? own : across;
-    LevelFace face{from.part, uint32_t(from.number), f, side, {}, isLarger};
+    LevelFace face{from.part, uint32_t(from.number), f, side, {}, isLarger, {}};
     const size_t mine = isOwn ? s : 1 - s;
     face.cells[mine] = isOwn ? cellOf(own, c) : int32_t(result_.firstCells[side.leaf]);
     face.cells[1 - mine] = isOwn || isLarger ? otherWhole : cellOf(across, c);
@@ -167,7 +168,7 @@ void Assembly::addSide(const Side& side) {
     faces_.push_back(face);
   });
   if (faces_.size() > before) return;
-  LevelFace face{nullptr, kNone, 0, side, {}, isLarger};
+  LevelFace face{nullptr, kNone, 0, side, {}, isLarger, cornersOf(side)};
   face.cells[size_t(1 - side.side)] = int32_t(result_.firstCells[side.leaf]);
   face.cells[size_t(side.side)] = otherWhole;
   faces_.push_back(face);
@@ -208,10 +209,10 @@ std::array<uint32_t, 4> Assembly::cornersOf(const Side& side) {
   return corners;
 }
 
-std::vector<uint32_t> Assembly::plainLoop(const Side& side) {
-  std::vector<uint32_t> loop;
-  extras_.append(cornersOf(side), loop);
-  return loop;
+const std::vector<uint32_t>& Assembly::plainLoop(const LevelFace& face) {
+  loop_.clear();
+  extras_.append(face.corners, loop_);
+  return loop_;
 }
 
 void Assembly::write(const LevelFace& face) {
@@ -232,7 +233,7 @@ void Assembly::writePlain(const LevelFace& face, FaceList& to) {
   const size_t axis = face.side.axis;
   const Block low = leaves_.corner(face.side.leaf), high = leaves_.end(face.side.leaf);
   const int32_t plane = (face.side.side ? high : low)[axis];
-  chains_->append(plainLoop(face.side), to.loopVertices);
+  chains_->append(plainLoop(face), to.loopVertices);
   to.endLoop();
   double area = 1;
   for (size_t d = 0; d < 3; ++d) {

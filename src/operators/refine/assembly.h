@@ -44,6 +44,7 @@ class Assembly {
     Side side;
     std::array<int32_t, 2> cells;
     bool isBesideLarger;
+    std::array<uint32_t, 4> corners;  ///< of a whole side
   };
   /// A face that a larger block is beside.
   struct Beside {
@@ -72,7 +73,7 @@ class Assembly {
   void writePlain(const LevelFace& face, FaceList& to);
   void writePart(const LevelFace& face, FaceList& to);
   std::array<uint32_t, 4> cornersOf(const Side& side);
-  std::vector<uint32_t> plainLoop(const Side& side);
+  const std::vector<uint32_t>& plainLoop(const LevelFace& face);
 
   const OctreeCells& leaves_;
   const Parts& parts_;

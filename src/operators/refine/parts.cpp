@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "base/sort.h"
 #include "mandoline/for_each_brick.h"
@@ -18,7 +19,8 @@ uint64_t Parts::keyOf(int level, const Block& block) const {
   return (at(2) * count(1) + at(1)) * count(0) + at(0);
 }
 
-/// Those that have leaves of a level, or blocks beside them inside of larger ones: faces there are divided as these blocks are.
+/// Those that have leaves of a level, or blocks around these inside of larger ones: faces of larger cells there are divided as such blocks
+/// are, and edges have the vertices where the surface touches them.
 std::vector<uint64_t> Parts::wantedAt(int level) const {
   std::vector<uint64_t> keys;
   for (size_t c = 0; c < leaves_.cellCount(); ++c) {
@@ -27,14 +29,13 @@ std::vector<uint64_t> Parts::wantedAt(int level) const {
     for (int32_t& x : block) x >>= level;
     const uint64_t key = keyOf(level, block);
     if (keys.empty() || keys.back() != key) keys.push_back(key);
-    for (size_t d = 0; d < 3; ++d) {
-      for (const int32_t step : {-1, 1}) {
-        Block beside = block;
-        beside[d] += step;
-        if (beside[d] < 0 || beside[d] >= grids_[size_t(level)].cells(int(d)) || keyOf(level, beside) == key) continue;
-        const int64_t other = leaves_.find(int64_t(beside[0]) << level, int64_t(beside[1]) << level, int64_t(beside[2]) << level);
-        if (other >= 0 && leaves_.cellLevel[size_t(other)] > level) keys.push_back(keyOf(level, beside));
-      }
+    for (int32_t around = 0; around < 27; ++around) {
+      const Block beside = {block[0] + around % 3 - 1, block[1] + around / 3 % 3 - 1, block[2] + around / 9 - 1};
+      bool inGrid = true;
+      for (size_t d = 0; d < 3; ++d) inGrid &= beside[d] >= 0 && beside[d] < grids_[size_t(level)].cells(int(d));
+      if (!inGrid || keyOf(level, beside) == key) continue;
+      const int64_t other = leaves_.find(int64_t(beside[0]) << level, int64_t(beside[1]) << level, int64_t(beside[2]) << level);
+      if (other >= 0 && leaves_.cellLevel[size_t(other)] > level) keys.push_back(keyOf(level, beside));
     }
   }
   detail::sortUnique(keys);
@@ -43,20 +44,17 @@ std::vector<uint64_t> Parts::wantedAt(int level) const {
 
 void Parts::cut(detail::Monitor& monitor) {
   const size_t top = grids_.size() - 1;
-  std::vector<BrickCutter> cutters;
+  std::vector<std::optional<BrickCutter>> cutters(top);
   std::vector<uint64_t> bricks;  // per part
   for (size_t level = 0; level < top; ++level) {
+    const std::vector<uint64_t> wanted = wantedAt(int(level));
+    if (wanted.empty()) continue;
     ForEachBrickOptions options;
     options.threads = monitor.threads();
     options.cells = 1 << kShift;
-    const std::vector<uint64_t> wanted = wantedAt(int(level));
-    if (wanted.empty()) {
-      cutters.emplace_back(cutters.empty() ? BrickCutter(mesh_, grids_[level], options) : cutters.back());
-      continue;
-    }
-    cutters.emplace_back(mesh_, grids_[level], options);
-    for (uint64_t brick = 0; brick < cutters.back().count(); ++brick) {
-      const auto first = cutters.back().first(brick);
+    const BrickCutter& cutter = cutters[level].emplace(mesh_, grids_[level], options);
+    for (uint64_t brick = 0; brick < cutter.count(); ++brick) {
+      const auto first = cutter.first(brick);
       const Block block = {int32_t(first[0]), int32_t(first[1]), int32_t(first[2])};
       const uint64_t key = keyOf(int(level), block);
       if (!std::binary_search(wanted.begin(), wanted.end(), key)) continue;
@@ -73,7 +71,7 @@ void Parts::cut(detail::Monitor& monitor) {
   single.threads = 1;
   detail::runItems(order, monitor, [&](size_t, uint32_t p) {
     Part& part = parts_[p];
-    CutPiece piece = cutters[size_t(part.level)].cut(bricks[p], single);
+    CutPiece piece = cutters[size_t(part.level)]->cut(bricks[p], single);
     part.measures = measure(piece.mesh, piece.cutMesh, single);
     part.own = std::move(piece.cutMesh);
     part.owners = operators::ownersOf(part.own);
