@@ -57,7 +57,8 @@ class Members {
 /// their ids; then come those of the octree cells: cell cutCells + c is octree cell c. Half-face = 2 * face + side; side 0: the face's
 /// normal points out of the cell, side 1: into it.
 ///
-/// mergeSmallCells() and uniteWalls() make others of it, whose cells and faces have these as members.
+/// refineCells() makes those of cells of several sizes, also at the surface. mergeSmallCells() and uniteWalls() make others of any, whose
+/// cells and faces have these as members.
 struct CellComplex {
   uint32_t cutVertices = 0;  ///< how many of the vertices are the cut-mesh's
   uint32_t cutFaces = 0;     ///< how many of the faces are the cut-mesh's, or have one of those as their first member
@@ -78,8 +79,8 @@ struct CellComplex {
 
   std::vector<uint32_t> cellHalfFaceOffsets;  ///< into cellHalfFaces
   std::vector<uint32_t> cellHalfFaces;        ///< half-faces, ascending
-  std::vector<int32_t> cellCorner;            ///< 3 per cell: its grid cell, the lowest one of an octree cell
-  std::vector<uint8_t> cellLevel;             ///< per cell: as in OctreeCells, 0 for a cut-cell
+  std::vector<int32_t> cellCorner;            ///< 3 per cell: its grid cell, the lowest one of larger cells
+  std::vector<uint8_t> cellLevel;             ///< per cell: as in OctreeCells; 0 for a cut-cell, but see refineCells()
   std::vector<double> cellCentre;             ///< 3 per cell: middle of its grid cell or octree cell, which may lie outside a cut-cell
   std::vector<uint32_t> cellRegion;           ///< per cell: region of the cut-mesh
   std::vector<double> cellVolume;             ///< per cell

@@ -25,8 +25,8 @@ struct MergedCells {
 /// Merges small cut-cells with neighbours until no cell is small. `cells` are all of the cut-mesh's, none of them merged.
 ///
 /// A merged cell has at least `fraction` of the volume of a grid cell, and at most 1 + 2.5 * `fraction` of it, which is 1.5 by default:
-/// that of the grid cell, or octree cell, of its base, whose cellCorner, cellLevel and cellCentre it has. The base is its member of the
-/// largest volume, but an octree cell if it has one; none has two.
+/// that of the grid cell, or larger cell (see coarsen() and refineCells()), of its base, whose cellCorner, cellLevel and cellCentre it has.
+/// The base is its member of the largest volume, but an octree cell if it has one; none has two.
 ///
 /// Cells merge through faces of the grid alone, within a region, and never two that a triangle separates: both sides of a triangle belong
 /// to one cell only where they did before. So a cell stays small where the cells around it that it could join are small as a whole, as in a

@@ -7,7 +7,8 @@ import type { Fingerprint, SparseMatrix } from './index.js';
  * ids; then come those of the octree cells: cell cutCells + c is octree cell c. Half-face = 2 * face + side; side 0: the face's normal
  * points out of the cell, side 1: into it.
  *
- * mergeSmallCells() and uniteWalls() make others of it, whose cells and faces have these as members.
+ * refineCells() makes those of cells of several sizes, also at the surface. mergeSmallCells() and uniteWalls() make others of any, whose
+ * cells and faces have these as members.
  */
 export interface CellComplex {
   /** How many of the vertices are the cut-mesh's. */
@@ -43,9 +44,9 @@ export interface CellComplex {
   cellHalfFaceOffsets: Uint32Array<ArrayBuffer>;
   /** Half-faces, ascending. */
   cellHalfFaces: Uint32Array<ArrayBuffer>;
-  /** 3 per cell: its grid cell, the lowest one of an octree cell. */
+  /** 3 per cell: its grid cell, the lowest one of larger cells. */
   cellCorner: Int32Array<ArrayBuffer>;
-  /** Per cell: as in OctreeCells, 0 for a cut-cell. */
+  /** Per cell: as in OctreeCells; 0 for a cut-cell, but see refineCells(). */
   cellLevel: Uint8Array<ArrayBuffer>;
   /** 3 per cell: middle of its grid cell or octree cell, which may lie outside a cut-cell. */
   cellCentre: Float64Array<ArrayBuffer>;
