@@ -20,7 +20,7 @@ struct FaceList {
   std::vector<uint32_t> faceParentOffsets{0}, faceParents;
   std::vector<int8_t> faceParentSigns;
 
-  uint32_t size() const { return uint32_t(faceTag.size()); }
+  uint32_t size() const { return uint32_t(faceAxis.size()); }
   Loops loops(size_t f) const {
     return {loopOffsets.data() + faceLoopOffsets[f], size_t(faceLoopOffsets[f + 1] - faceLoopOffsets[f]), loopVertices.data()};
   }

@@ -31,9 +31,15 @@ class Finisher {
  private:
   static constexpr uint32_t kNone = ~0u;
   double plane(size_t axis, int32_t index) const { return cutMesh_.grid.planes[axis][size_t(index)]; }
+  /// Moves items, so that there is memory for them once.
   template <class Item>
-  static void append(const std::vector<Item>& from, std::vector<Item>& to) {
-    to.insert(to.end(), from.begin(), from.end());
+  static void append(std::vector<Item>& from, std::vector<Item>& to) {
+    if (to.empty()) {
+      to = std::move(from);
+    } else {
+      to.insert(to.end(), from.begin(), from.end());
+    }
+    from = {};
   }
   template <class Item>
   static void appendShifted(const std::vector<Item>& from, std::vector<Item>& to) {
@@ -125,7 +131,7 @@ class Finisher {
 
   void takeFaces() {
     cells_.cutFaces = from_.cut.size();
-    for (const FaceList* list : {&from_.cut, &from_.plain}) {
+    for (FaceList* list : {&from_.cut, &from_.plain}) {
       append(list->faceCells, cells_.faceCells);
       append(list->faceTag, cells_.faceTag);
       append(list->faceArea, cells_.faceArea);
@@ -137,7 +143,7 @@ class Finisher {
   void takeLoops() {
     cells_.loopOffsets = cells_.faceLoopOffsets = {0};
     for (const FaceList* list : {&from_.cut, &from_.plain}) {
-      append(list->loopVertices, cells_.loopVertices);
+      cells_.loopVertices.insert(cells_.loopVertices.end(), list->loopVertices.begin(), list->loopVertices.end());
       appendShifted(list->loopOffsets, cells_.loopOffsets);
       appendShifted(list->faceLoopOffsets, cells_.faceLoopOffsets);
     }
