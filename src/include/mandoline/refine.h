@@ -56,6 +56,9 @@ Grid dividedGrid(const Grid& grid, int levels);
 /// where a cell meets smaller ones, its faces are divided like theirs, and the edges of a face have all vertices that lie on them. Regions
 /// are those of `cutMesh`, with their ids.
 ///
+/// For solvers, boxes should hold parts of the surface as a whole, or end where it is flat: where cut-cells of two sizes meet, errors are
+/// of first order, and after merging some faces may be slanted by more than 90 degrees from the line between centroids.
+///
 /// The result is the same to the bit for any number of threads. Throws CallError if an option is out of range, there are more than 2^24
 /// of the smallest cells along an axis (gridTooLarge) or planes between those of the grid are not apart (badGrid), if the cut-mesh is
 /// not one of the mesh, or was snapped, or its regions are divided by estimateInside() (badArgument), if faces have 2^31 corners or more
