@@ -1,4 +1,5 @@
-# What is installed, for find_package(mandoline) (targets mandoline::mandoline, mandoline::io and, where Eigen was found, mandoline::operators)
+# What is installed, for find_package(mandoline) (targets mandoline::mandoline, mandoline::io and, where Eigen and MPI were found,
+# mandoline::operators and mandoline::mpi)
 # and for pkg-config (modules mandoline, mandoline-io and mandoline-operators). Nothing in it names a place: the installed tree can be moved.
 
 # Shared libraries find each other, and the program finds them, by where they lie.
@@ -12,7 +13,7 @@ foreach(library ${MANDOLINE_INSTALLED})
   set_target_properties(${library} PROPERTIES INSTALL_RPATH ${MANDOLINE_ORIGIN})
 endforeach()
 if(TARGET mandoline-cli)
-  set_target_properties(mandoline-cli PROPERTIES INSTALL_RPATH ${MANDOLINE_ORIGIN}/${MANDOLINE_BIN_TO_LIB})
+  set_target_properties(${MANDOLINE_COMMAND_LINES} PROPERTIES INSTALL_RPATH ${MANDOLINE_ORIGIN}/${MANDOLINE_BIN_TO_LIB})
 endif()
 
 set(MANDOLINE_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/mandoline)
@@ -31,6 +32,9 @@ if(MANDOLINE_STATIC)
 endif()
 if(TARGET mandoline_operators) # those who only cut need no Eigen
   string(APPEND MANDOLINE_CONFIG "find_package(Eigen3 CONFIG QUIET)\n")
+endif()
+if(TARGET mandoline_mpi)
+  string(APPEND MANDOLINE_CONFIG "set(MPI_CXX_SKIP_MPICXX ON)\nfind_package(MPI QUIET COMPONENTS CXX)\n")
 endif()
 file(WRITE ${PROJECT_BINARY_DIR}/mandoline-config.cmake
   "${MANDOLINE_CONFIG}include(\"\${CMAKE_CURRENT_LIST_DIR}/mandoline-targets.cmake\")\n")

@@ -69,4 +69,9 @@ double UntouchedCells::volume() const {
   return sum;
 }
 
+CutCounts countsOf(const CutMesh& cutMesh) {
+  return {cutMesh.cellCount(), UntouchedCells(cutMesh).count(), cutMesh.regionCount, cutMesh.vertexCount(), cutMesh.faceCount(),
+          cutMesh.loopCount()};
+}
+
 }  // namespace mandoline

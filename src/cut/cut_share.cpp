@@ -55,6 +55,19 @@ struct CutShare::Data {
     sign(cutMesh, mesh.fingerprint(), mesh.options());
     return cutMesh;
   }
+  CutResult common(const std::vector<uint8_t>& hasFace) const {
+    if (hasFace.size() != state.surface.input.mesh->triangles.size())
+      throw Failure{{Status::badArgument, -1, -1, "hasFace needs one number per triangle."}};
+    CutResult result;
+    result.stats = stats;
+    const RunOptions options;
+    Monitor monitor(options, kGridStages);
+    Run run{result.stats, monitor};
+    result.mesh = makeCommon(hasFace, state, run);
+    result.mesh.grid = grid;
+    sign(result.mesh, mesh.fingerprint(), mesh.options());
+    return result;
+  }
   Fingerprint fingerprint() const { return fingerprintOfCut(mesh.fingerprint(), grid, mesh.options()); }
 
   PreparedForGrid mesh;
@@ -75,6 +88,15 @@ std::vector<uint32_t> CutShare::summary() const { return summarize(data_->state,
 
 CutPart CutShare::part(std::span<const std::vector<uint32_t>> summaries, const RunOptions& options) {
   return runCall("cut", [&] { return data_->makePartOf(summaries, options); });
+}
+
+std::array<int64_t, 2> CutShare::layers() const {
+  const BricksHere& here = data_->state.bricks.here;
+  return {here.firstLayer, here.pastLayer};
+}
+
+CutResult CutShare::common(const std::vector<uint8_t>& hasFace) const {
+  return runCall("cut", [&] { return data_->common(hasFace); });
 }
 
 CutResult CutShare::join(std::vector<CutPart> parts) {

@@ -2,6 +2,7 @@
 
 #include "base/csr.h"
 #include "base/disjoint_sets.h"
+#include "cut/append.h"
 #include "cut/stages/untouched_runs.h"
 
 namespace mandoline::detail {
@@ -32,10 +33,6 @@ class Kept {
   std::vector<uint32_t> numbers_;
 };
 
-template <class T>
-void append(std::vector<T>& to, const std::vector<T>& from, size_t index, size_t items = 1) {
-  to.insert(to.end(), from.begin() + ptrdiff_t(index * items), from.begin() + ptrdiff_t((index + 1) * items));
-}
 /// If there is such an array.
 template <class T>
 void appendIfAny(std::vector<T>& to, const std::vector<T>& from, size_t index) {
@@ -95,42 +92,22 @@ class Restrictor {
   }
 
   void takeFaces() {
-    out_.loopOffsets.push_back(0);
-    out_.faceLoopOffsets.push_back(0);
-    out_.faceParentOffsets.push_back(0);
+    beginFaces(out_);
     faces_.number([&](uint32_t f) {
-      for (const std::span<const uint32_t> loop : all_.loops(f)) {
-        out_.loopVertices.insert(out_.loopVertices.end(), loop.begin(), loop.end());
-        out_.loopOffsets.push_back(uint32_t(out_.loopVertices.size()));
-      }
-      out_.faceLoopOffsets.push_back(uint32_t(out_.loopOffsets.size() - 1));
-      for (uint32_t i = all_.faceParentOffsets[f]; i < all_.faceParentOffsets[f + 1]; ++i) {
-        append(out_.faceParents, all_.faceParents, i);
-        append(out_.faceParentSigns, all_.faceParentSigns, i);
-      }
-      out_.faceParentOffsets.push_back(uint32_t(out_.faceParents.size()));
-      append(out_.faceTriangle, all_.faceTriangle, f);
-      append(out_.faceAxis, all_.faceAxis, f);
-      const int32_t axis = all_.faceAxis[f];
-      out_.facePlane.push_back(all_.facePlane[f] - (axis < 0 ? 0 : box_.first[size_t(axis)]));
+      appendFace(all_, f, out_);
+      if (const int8_t axis = all_.faceAxis[f]; axis >= 0) out_.facePlane.back() -= box_.first[size_t(axis)];
     });
     for (const uint32_t v : out_.loopVertices) vertices_.keep(v);
   }
 
   void takeVertices() {
     vertices_.number([&](uint32_t v) {
-      append(out_.positions, all_.positions, v, 3);
-      for (size_t d = 0; d < 3; ++d) out_.vertexCell.push_back(all_.vertexCell[3 * size_t(v) + d] - box_.first[d]);
-      append(out_.vertexMask, all_.vertexMask, v);
-      append(out_.vertexTriVertex, all_.vertexTriVertex, v);
-      append(out_.vertexParents, all_.vertexParents, v, 2);
+      appendVertex(all_, v, out_);
+      for (size_t d = 0; d < 3; ++d) out_.vertexCell[out_.vertexCell.size() - 3 + d] -= box_.first[d];
     });
     for (uint32_t& v : out_.loopVertices) v = vertices_[v];
     for (size_t i = 0; i < all_.madeVertices.size(); ++i) {
-      if (!vertices_.has(all_.madeVertices[i])) continue;
-      out_.madeVertices.push_back(vertices_[all_.madeVertices[i]]);
-      append(out_.madeVertexKinds, all_.madeVertexKinds, i);
-      append(out_.madeVertexParents, all_.madeVertexParents, i, 4);
+      if (vertices_.has(all_.madeVertices[i])) appendMade(all_, i, vertices_[all_.madeVertices[i]], out_);
     }
   }
 
@@ -212,11 +189,7 @@ class Restrictor {
     out_.triangleCount = all_.triangleCount;
     out_.parityTriangles = all_.parityTriangles;
     out_.openTriangles = all_.openTriangles;
-    Kept triangles(all_.triangleCount);
-    for (const uint32_t t : out_.faceParents) triangles.keep(t);
-    for (uint32_t t = 0; t < all_.triangleCount; ++t) {
-      if (!triangles.has(t)) out_.droppedTriangles.push_back(t);
-    }
+    listWithoutFace(out_);
   }
 
   const BrickBox& box_;

@@ -22,6 +22,6 @@ auto runCall(const char* noun, const Body& body) {
 }
 
 /// Runs body(). If it fails or memory runs out, `error` says so. Throws nothing but what options.progress throws.
-void catchErrors(Error& error, const char* noun, FunctionRef<void()> body);
+MANDOLINE_SHARED void catchErrors(Error& error, const char* noun, FunctionRef<void()> body);
 
 }  // namespace mandoline::detail

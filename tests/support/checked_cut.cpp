@@ -102,10 +102,6 @@ void atBothOrientations(const Mesh& mesh, const Grid& grid, const std::function<
   body(checkedCut(shapes::flipped(mesh), grid), -1);
 }
 
-Grid unitGrid(int64_t n) { return unitGrid(n, n, n); }
-
-Grid unitGrid(int64_t nx, int64_t ny, int64_t nz) { return Grid::box({0, 0, 0}, {double(nx), double(ny), double(nz)}, {nx, ny, nz}); }
-
 bool near(const std::vector<double>& a, const std::vector<double>& b, double tolerance) {
   const auto close = [&](double x, double y) { return std::abs(x - y) <= tolerance; };
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), close);

@@ -31,8 +31,10 @@ void atBothOrientations(const mandoline::Mesh& mesh, const mandoline::Grid& grid
                         const std::function<void(const CheckedCut&, int orientation)>& body);
 
 /// n x n x n unit cells from the origin.
-mandoline::Grid unitGrid(int64_t n);
-mandoline::Grid unitGrid(int64_t nx, int64_t ny, int64_t nz);
+inline mandoline::Grid unitGrid(int64_t nx, int64_t ny, int64_t nz) {
+  return mandoline::Grid::box({0, 0, 0}, {double(nx), double(ny), double(nz)}, {nx, ny, nz});
+}
+inline mandoline::Grid unitGrid(int64_t n) { return unitGrid(n, n, n); }
 
 /// Whether two ascending lists agree up to rounding.
 bool near(const std::vector<double>& a, const std::vector<double>& b, double tolerance = 1e-12);

@@ -146,11 +146,9 @@ void listMade(const CutState& state, CutMesh& out) {
 }
 
 /// Triangles without a face: those dropped before, and those outside of the grid.
-void listDropped(const Input& input, CutMesh& out, CutStats& stats) {
-  std::vector<uint8_t> has(input.mesh->triangles.size(), 0);
-  for (const uint32_t t : out.faceParents) has[t] = 1;
-  for (uint32_t t = 0; t < has.size(); ++t) {
-    if (has[t]) continue;
+void listDropped(const std::vector<uint8_t>& hasFace, const Input& input, CutMesh& out, CutStats& stats) {
+  for (uint32_t t = 0; t < hasFace.size(); ++t) {
+    if (hasFace[t]) continue;
     out.droppedTriangles.push_back(t);
     if (input.mesh->kept(t)) ++stats.outsideTriangles;
   }
@@ -164,26 +162,44 @@ void listParts(const Parts& parts, CutMesh& out) {
   }
 }
 
-}  // namespace
-
-CutMesh makeOutput(std::vector<CutPart> parts, CutState& state, Run& run) {
-  const Input& input = state.surface.input;
-  CutMesh out = parts.size() == 1 ? std::move(parts.front().cutMesh) : Joiner(parts).run();
+/// What is not made in parts.
+void addCommon(UntouchedRuns runs, Regions regions, const CutState& state, CutMesh& out) {
   listMade(state, out);
-  out.rowRunOffsets = std::move(state.runs.rowOffsets);
-  out.runBegin = std::move(state.runs.begin);
-  out.runEnd = std::move(state.runs.end);
-  Regions& regions = state.regions;
+  out.rowRunOffsets = std::move(runs.rowOffsets);
+  out.runBegin = std::move(runs.begin);
+  out.runEnd = std::move(runs.end);
   out.runRegion = std::move(regions.runRegion);
   out.regionCount = regions.count;
   out.hasWinding = regions.hasWinding;
   out.regionWinding = std::move(regions.winding);
   out.regionPartWinding = std::move(regions.partWinding);
   out.regionParity = std::move(regions.parity);
-  listParts(input.mesh->parts, out);
-  out.triangleCount = uint32_t(input.mesh->triangles.size());
-  listDropped(input, out, run.stats);
-  run.stats.madeVertices = uint32_t(out.madeVertices.size());
+  const Prepared& mesh = *state.surface.input.mesh;
+  listParts(mesh.parts, out);
+  out.triangleCount = uint32_t(mesh.triangles.size());
+}
+
+/// Once the faces are known.
+void finish(const std::vector<uint8_t>& hasFace, const CutState& state, CutMesh& out, CutStats& stats) {
+  listDropped(hasFace, state.surface.input, out, stats);
+  stats.madeVertices = uint32_t(out.madeVertices.size());
+}
+
+}  // namespace
+
+CutMesh makeOutput(std::vector<CutPart> parts, CutState& state, Run& run) {
+  CutMesh out = parts.size() == 1 ? std::move(parts.front().cutMesh) : Joiner(parts).run();
+  addCommon(std::move(state.runs), std::move(state.regions), state, out);
+  std::vector<uint8_t> hasFace(out.triangleCount, 0);
+  for (const uint32_t t : out.faceParents) hasFace[t] = 1;
+  finish(hasFace, state, out, run.stats);
+  return out;
+}
+
+CutMesh makeCommon(const std::vector<uint8_t>& hasFace, const CutState& state, Run& run) {
+  CutMesh out;
+  addCommon(state.runs, state.regions, state, out);
+  finish(hasFace, state, out, run.stats);
   return out;
 }
 

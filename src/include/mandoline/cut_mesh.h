@@ -273,4 +273,10 @@ class UntouchedCells {
   const CutMesh& cutMesh_;
 };
 
+/// How much a cut-mesh has.
+struct CutCounts {
+  uint64_t cutCells = 0, untouchedCells = 0, regions = 0, vertices = 0, faces = 0, loops = 0;
+};
+CutCounts countsOf(const CutMesh& cutMesh);
+
 }  // namespace mandoline

@@ -44,6 +44,12 @@ class CutShare {
   /// `summaries`: of all shares, in their order. Throws CallError as above, and for other summaries (badArgument, element: the first that
   /// is another).
   CutPart part(std::span<const std::vector<uint32_t>> summaries, const RunOptions& options = {});
+  /// The layers of grid cells along z that this share cuts: from the first up to, not including, the second. It may be none.
+  std::array<int64_t, 2> layers() const;
+  /// What all shares know alike of the result, once part() has been made: its grid, made vertices, runs, regions and triangles, without
+  /// vertices, faces and cut-cells; and how the cut went here. `hasFace`: per triangle 1 if some part has a face of it, else 0. Throws
+  /// CallError if there are not as many (badArgument).
+  CutResult common(const std::vector<uint8_t>& hasFace) const;
   /// Of the first share, whose part has been made. `parts`: of all shares, in their order.
   CutResult join(std::vector<CutPart> parts);
 

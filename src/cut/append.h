@@ -1,0 +1,62 @@
+// Elements of one cut-mesh, added to another one.
+#pragma once
+
+#include "mandoline/cut_mesh.h"
+
+namespace mandoline::detail {
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from, size_t index, size_t items = 1) {
+  to.insert(to.end(), from.begin() + ptrdiff_t(index * items), from.begin() + ptrdiff_t((index + 1) * items));
+}
+
+/// Begins the offsets of faces.
+inline void beginFaces(CutMesh& to) {
+  to.loopOffsets.assign(1, 0);
+  to.faceLoopOffsets.assign(1, 0);
+  to.faceParentOffsets.assign(1, 0);
+}
+
+/// Adds a face, which keeps the numbers of its vertices.
+inline void appendFace(const CutMesh& from, size_t f, CutMesh& to) {
+  for (const std::span<const uint32_t> loop : from.loops(f)) {
+    to.loopVertices.insert(to.loopVertices.end(), loop.begin(), loop.end());
+    to.loopOffsets.push_back(uint32_t(to.loopVertices.size()));
+  }
+  to.faceLoopOffsets.push_back(uint32_t(to.loopOffsets.size() - 1));
+  for (uint32_t i = from.faceParentOffsets[f]; i < from.faceParentOffsets[f + 1]; ++i) {
+    append(to.faceParents, from.faceParents, i);
+    append(to.faceParentSigns, from.faceParentSigns, i);
+  }
+  to.faceParentOffsets.push_back(uint32_t(to.faceParents.size()));
+  append(to.faceTriangle, from.faceTriangle, f);
+  append(to.faceAxis, from.faceAxis, f);
+  append(to.facePlane, from.facePlane, f);
+}
+
+/// Adds a vertex. Whether it is a made one is not told.
+inline void appendVertex(const CutMesh& from, size_t v, CutMesh& to) {
+  append(to.positions, from.positions, v, 3);
+  append(to.vertexCell, from.vertexCell, v, 3);
+  append(to.vertexMask, from.vertexMask, v);
+  append(to.vertexTriVertex, from.vertexTriVertex, v);
+  append(to.vertexParents, from.vertexParents, v, 2);
+}
+
+/// Adds a made vertex of `from`, the i-th, as `vertex`.
+inline void appendMade(const CutMesh& from, size_t i, uint32_t vertex, CutMesh& to) {
+  to.madeVertices.push_back(vertex);
+  append(to.madeVertexKinds, from.madeVertexKinds, i);
+  append(to.madeVertexParents, from.madeVertexParents, i, 4);
+}
+
+/// Lists the triangles of which the cut-mesh has no face as dropped.
+inline void listWithoutFace(CutMesh& cutMesh) {
+  std::vector<uint8_t> hasFace(cutMesh.triangleCount, 0);
+  for (const uint32_t t : cutMesh.faceParents) hasFace[t] = 1;
+  for (uint32_t t = 0; t < cutMesh.triangleCount; ++t) {
+    if (!hasFace[t]) cutMesh.droppedTriangles.push_back(t);
+  }
+}
+
+}  // namespace mandoline::detail

@@ -1,0 +1,77 @@
+// A cut that the processes of an MPI communicator make together, which leaves to each of them a piece. Each process has the whole mesh;
+// what is large, the cut-mesh, is held in pieces. In mandoline::mpi, which exists where MPI is found.
+//
+//   DistributedCut cut(MPI_COMM_WORLD, prepare(mesh).mesh, grid);  // in all processes, of the same mesh and grid
+//   RankPiece piece = cut.piece();
+//
+// All calls are collective: all processes of the communicator make them, in the same order. The result does not depend on how many there
+// are: sorted by their global ids, the pieces are the cut-mesh of cut(), to the bit.
+#pragma once
+
+#include <mpi.h>
+
+#include "mandoline/cut_share.h"
+
+namespace MANDOLINE_API mandoline {
+
+/// Thrown by all processes where one of them failed.
+struct RankError : CallError {
+  RankError(Error error_, int rank_) : CallError(std::move(error_)), rank(rank_) {}
+
+  int rank;  ///< the lowest that failed; the error is its own
+};
+
+/// The faces that a piece shares with the cut-cells of another process.
+struct RankSeam {
+  int rank;                     ///< the other process
+  std::vector<uint32_t> faces;  ///< of the piece, ascending. The other process has them in the same order
+  std::vector<uint64_t> cells;  ///< per face: global id of the cut-cell at its other side
+};
+
+/// What one process has of a cut.
+struct RankPiece {
+  /// The cut-cells in layers of grid cells along z, with all faces and vertices that they have, and the untouched grid cells there, as a
+  /// cut-mesh by itself, made from the whole mesh. Its grid and regions are those of the whole, as are triangles and tri-vertices; rows of
+  /// other layers have no runs. droppedTriangles are those without a face in the piece.
+  CutMesh cutMesh;
+  std::array<int64_t, 2> layers{};  ///< from the first up to, not including, the second; it may be none
+
+  // Ids in the cut-mesh of the whole; all ascend.
+  std::vector<uint64_t> vertexIds;  ///< per vertex
+  std::vector<uint64_t> faceIds;    ///< per face
+  std::vector<uint64_t> cellIds;    ///< per cut-cell
+
+  // Each vertex and face belongs to one process; the others have it as a ghost.
+  std::vector<int32_t> vertexRanks;  ///< per vertex: the process that it belongs to
+  std::vector<int32_t> faceRanks;    ///< per face
+
+  std::vector<RankSeam> seams;  ///< by rank
+};
+
+class DistributedCut {
+ public:
+  /// Cuts. Throws RankError, alike in all processes, as CutShare does, or for different meshes or grids (badArgument, element: the first
+  /// rank with another). A process that is cancelled while it waits for others throws CallError (cancelled), and the others wait for it:
+  /// cancel all of them, or end the program.
+  DistributedCut(MPI_Comm comm, PreparedMesh mesh, Grid grid, const RunOptions& options = {});
+
+  /// This process's piece.
+  RankPiece piece() const;
+  /// Those of the whole.
+  CutCounts counts() const;
+  /// Volume of each region, as of regionVolumes(), to the bit. `piece` is that of piece().
+  std::vector<double> regionVolumes(const RankPiece& piece) const;
+  /// What all processes know alike: the cut-mesh without vertices, faces and cut-cells, and how the cut went in this one.
+  /// stats.exactFallbacks is that of all.
+  const CutResult& common() const;
+  /// The whole cut in the process of rank 0, to the bit, and nothing in the others. To be called last.
+  CutResult gather();
+  /// What this process has sent to others so far.
+  uint64_t bytesSent() const;
+
+ private:
+  struct Data;
+  std::shared_ptr<Data> data_;
+};
+
+}  // namespace mandoline

@@ -1,0 +1,145 @@
+#include "mpi/communicator.h"
+
+#include <algorithm>
+#include <chrono>
+#include <climits>
+#include <thread>
+
+#include "mandoline/distributed.h"
+#include "mesh/run_call.h"
+#include "mpi/pack.h"
+
+namespace mandoline::detail {
+namespace {
+
+constexpr int kTag = 1;
+constexpr size_t kMostBytes = size_t(1) << 30;  // of one message
+
+struct PackedError {
+  uint8_t status = 0;
+  int64_t element = -1, element2 = -1;
+  std::string message;
+
+  static void fields(auto& self, const auto& f) {
+    f("status", self.status);
+    f("element", self.element);
+    f("element2", self.element2);
+    f("message", self.message);
+  }
+};
+
+}  // namespace
+
+Communicator::Communicator(MPI_Comm comm, std::function<void()> onWait) : onWait_(std::move(onWait)) {
+  MPI_Comm_dup(comm, &comm_);
+  MPI_Comm_rank(comm_, &rank_);
+  MPI_Comm_size(comm_, &size_);
+}
+
+Communicator::~Communicator() {
+  int isOver = 0;
+  MPI_Finalized(&isOver);
+  if (!isBroken_ && !isOver) MPI_Comm_free(&comm_);
+}
+
+/// MPI's own waiting keeps a core busy, which a process on the same machine may need, and answers no signals.
+void Communicator::wait(MPI_Request* requests, int count) {
+  constexpr int kQuickTests = 200;
+  constexpr auto kShort = std::chrono::microseconds(20), kLong = std::chrono::microseconds(1000);
+  auto pause = kShort;
+  for (int tests = 0;; ++tests) {
+    int isDone = 0;
+    MPI_Testall(count, requests, &isDone, MPI_STATUSES_IGNORE);
+    if (isDone) return;
+    if (tests < kQuickTests) {
+      std::this_thread::yield();
+      continue;
+    }
+    std::this_thread::sleep_for(pause);
+    pause = std::min(2 * pause, kLong);
+    try {
+      if (onWait_) onWait_();
+    } catch (...) {
+      isBroken_ = true;
+      throw;
+    }
+  }
+}
+
+std::vector<uint64_t> Communicator::gatherAll(uint64_t number) {
+  std::vector<uint64_t> numbers(size_t(size_), 0);
+  numbers[size_t(rank_)] = number;
+  reduce(numbers, MPI_SUM);
+  return numbers;
+}
+
+std::vector<std::vector<uint32_t>> Communicator::gatherAll(const std::vector<uint32_t>& numbers) {
+  std::vector<std::vector<uint32_t>> all;
+  for (int from = 0; from < size_; ++from) {
+    Bytes bytes = from == rank_ ? packed(numbers) : Bytes();
+    broadcast(bytes, from);
+    all.push_back(unpacked<std::vector<uint32_t>>(bytes));
+  }
+  return all;
+}
+
+void Communicator::broadcast(Bytes& bytes, int from) {
+  if (size_ == 1) return;
+  uint64_t count = bytes.size();
+  MPI_Request request;
+  MPI_Ibcast(&count, 1, MPI_UINT64_T, from, comm_, &request);
+  wait(request);
+  bytes.resize(count);
+  for (size_t at = 0; at < count; at += kMostBytes) {
+    MPI_Ibcast(bytes.data() + at, int(std::min(kMostBytes, count - at)), MPI_BYTE, from, comm_, &request);
+    wait(request);
+  }
+  if (rank_ == from) bytesSent_ += count * uint64_t(size_ - 1);
+}
+
+void Communicator::startParts(Bytes& bytes, int peer, bool isSent, std::vector<MPI_Request>& requests) {
+  for (size_t at = 0; at < bytes.size(); at += kMostBytes) {
+    const int count = int(std::min(kMostBytes, bytes.size() - at));
+    MPI_Request& request = requests.emplace_back();
+    if (isSent)
+      MPI_Isend(bytes.data() + at, count, MPI_BYTE, peer, kTag, comm_, &request);
+    else
+      MPI_Irecv(bytes.data() + at, count, MPI_BYTE, peer, kTag, comm_, &request);
+  }
+}
+
+Communicator::Bytes Communicator::exchange(const Bytes& bytes, int to, int from) {
+  uint64_t sentCount = bytes.size(), count = 0;
+  std::vector<MPI_Request> requests;
+  if (to >= 0) MPI_Isend(&sentCount, 1, MPI_UINT64_T, to, kTag, comm_, &requests.emplace_back());
+  if (from >= 0) MPI_Irecv(&count, 1, MPI_UINT64_T, from, kTag, comm_, &requests.emplace_back());
+  wait(requests.data(), int(requests.size()));
+  requests.clear();
+  Bytes received(count);
+  if (to >= 0) startParts(const_cast<Bytes&>(bytes), to, true, requests);
+  if (from >= 0) startParts(received, from, false, requests);
+  wait(requests.data(), int(requests.size()));
+  if (to >= 0) bytesSent_ += sentCount;
+  return received;
+}
+
+void Communicator::send(const Bytes& bytes, int to) { exchange(bytes, to, -1); }
+Communicator::Bytes Communicator::receive(int from) { return exchange({}, -1, from); }
+
+void Communicator::agree(const Error& error) {
+  const int failed = reduce(error.status == Status::ok ? INT_MAX : rank_, MPI_MIN);
+  if (failed == INT_MAX) return;
+  Bytes bytes;
+  if (failed == rank_) bytes = packed(PackedError{uint8_t(error.status), error.element, error.element2, error.message});
+  broadcast(bytes, failed);
+  PackedError agreed = unpacked<PackedError>(bytes);
+  throw RankError({Status(agreed.status), agreed.element, agreed.element2, std::move(agreed.message)}, failed);
+}
+
+void Communicator::together(const char* noun, const std::function<void()>& body) {
+  Error error;
+  catchErrors(error, noun, body);
+  agree(error);
+}
+
+}  // namespace mandoline::detail

@@ -1,0 +1,86 @@
+// MPI as this library uses it: whole arrays between processes, waiting that leaves the processor to others and can be given up, and
+// failures that all processes learn of.
+#pragma once
+
+#include <mpi.h>
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "mandoline/status.h"
+
+namespace mandoline::detail {
+
+template <class Number>
+MPI_Datatype typeOf() {
+  if constexpr (std::is_same_v<Number, uint8_t>) return MPI_UINT8_T;
+  if constexpr (std::is_same_v<Number, int>) return MPI_INT;
+  if constexpr (std::is_same_v<Number, int64_t>) return MPI_INT64_T;
+  if constexpr (std::is_same_v<Number, uint64_t>) return MPI_UINT64_T;
+}
+
+/// A communicator of this library's own, with the processes of another. All calls are collective but for send() and receive().
+class Communicator {
+ public:
+  using Bytes = std::vector<std::byte>;
+
+  /// `onWait` is called while a call waits; if it throws, what this process had begun with others can't be finished: then it has to end.
+  Communicator(MPI_Comm comm, std::function<void()> onWait);
+  ~Communicator();
+  Communicator(const Communicator&) = delete;
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  /// What this process has sent to others, each of them counted.
+  uint64_t bytesSent() const { return bytesSent_; }
+
+  /// The numbers of all, entry by entry as one.
+  template <class Number>
+  void reduce(std::vector<Number>& numbers, MPI_Op op) {
+    for (size_t at = 0; at < numbers.size(); at += kMost) {
+      const int count = int(std::min(kMost, numbers.size() - at));
+      MPI_Request request;
+      MPI_Iallreduce(MPI_IN_PLACE, numbers.data() + at, count, typeOf<Number>(), op, comm_, &request);
+      wait(request);
+      if (size_ > 1) bytesSent_ += size_t(count) * sizeof(Number);
+    }
+  }
+  template <class Number>
+  Number reduce(Number number, MPI_Op op) {
+    std::vector<Number> numbers{number};
+    reduce(numbers, op);
+    return numbers[0];
+  }
+  /// One number of each process, by rank.
+  std::vector<uint64_t> gatherAll(uint64_t number);
+  /// One array of each process, by rank.
+  std::vector<std::vector<uint32_t>> gatherAll(const std::vector<uint32_t>& numbers);
+  /// Those of process `from` to all.
+  void broadcast(Bytes& bytes, int from);
+  void send(const Bytes& bytes, int to);
+  Bytes receive(int from);
+  /// Sends and receives at once; -1: nothing to or from there.
+  Bytes exchange(const Bytes& bytes, int to, int from);
+
+  /// Waits for all, and throws RankError if one of them has an error: the same in each, that of the lowest rank.
+  void agree(const Error& error);
+  /// Runs body() in each process, then agrees on whether it failed. `noun` as for runCall().
+  void together(const char* noun, const std::function<void()>& body);
+
+ private:
+  static constexpr size_t kMost = size_t(1) << 26;  // items of one message
+
+  void wait(MPI_Request& request) { wait(&request, 1); }
+  void wait(MPI_Request* requests, int count);
+  void startParts(Bytes& bytes, int peer, bool isSent, std::vector<MPI_Request>& requests);
+
+  MPI_Comm comm_;
+  std::function<void()> onWait_;
+  int rank_, size_;
+  uint64_t bytesSent_ = 0;
+  bool isBroken_ = false;
+};
+
+}  // namespace mandoline::detail

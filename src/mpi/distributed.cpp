@@ -1,0 +1,182 @@
+// A cut by all processes of a communicator: their shares agree by summaries, and number by sums over the ranks before what they have.
+#include "mandoline/distributed.h"
+
+#include "base/parallel.h"
+#include "mesh/fingerprints.h"
+#include "mesh/run_call.h"
+#include "mpi/communicator.h"
+#include "mpi/pack.h"
+#include "mpi/rank_piece.h"
+#include "operators/measure/region_sums.h"
+
+namespace mandoline {
+
+using namespace detail;
+
+namespace {
+
+constexpr const char* kNoun = "cut";
+
+/// Waiting for other processes shows no progress, but can be cancelled.
+std::function<void()> waiterFor(const RunOptions& options) {
+  if (!options.progress) return nullptr;
+  return [progress = options.progress] {
+    if (!progress({"waiting", 0, 1, 0, 1})) throw CallError({Status::cancelled, -1, -1, "The cut was cancelled."});
+  };
+}
+
+}  // namespace
+
+struct DistributedCut::Data {
+  Data(MPI_Comm comm_, PreparedMesh mesh_, Grid grid_, const RunOptions& options)
+      : comm(comm_, waiterFor(options)), mesh(std::move(mesh_)), grid(std::move(grid_)) {
+    requireSame();
+    comm.together(kNoun, [&] { share.emplace(mesh, grid, ShareOf{uint32_t(comm.rank()), uint32_t(comm.size())}, options); });
+    const std::vector<std::vector<uint32_t>> summaries = comm.gatherAll(share->summary());
+    comm.together(kNoun, [&] { part = share->part(summaries, options); });
+    number();
+    findCommon();
+  }
+
+  /// Of another mesh the shares would be those of another cut.
+  void requireSame() {
+    Fingerprinter fingerprinter(kNoun, fingerprintOf(mesh.mesh()));
+    for (const std::vector<double>& planes : grid.planes) fingerprinter.add(planes);
+    const std::vector<uint64_t> all = comm.gatherAll(fingerprinter.get().value);
+    for (size_t rank = 0; rank < all.size(); ++rank) {
+      if (all[rank] == all[0]) continue;
+      const std::string message = "Process " + std::to_string(rank) + " has another mesh or grid than process 0.";
+      throw RankError({Status::badArgument, int64_t(rank), -1, message}, int(rank));
+    }
+  }
+
+  /// Numbers what the part has by what the parts before have.
+  void number() {
+    const CutMesh& m = part.cutMesh;
+    uint64_t surface = 0;
+    for (const uint32_t v : part.firstVertices) surface = v == ~0u ? surface : std::max(surface, uint64_t(v) + 1);
+    surface = comm.reduce(surface, MPI_MAX);
+    uint64_t here[] = {part.triFaces, m.faceCount() - part.triFaces, m.vertexCount() - part.firstVertices.size(), m.cellCount(),
+                       m.loopCount()};
+    uint64_t before[5] = {}, all[5] = {};
+    for (size_t i = 0; i < 5; ++i) {
+      const std::vector<uint64_t> counts = comm.gatherAll(here[i]);
+      for (size_t rank = 0; rank < counts.size(); ++rank) {
+        if (rank < size_t(comm.rank())) before[i] += counts[rank];
+        all[i] += counts[rank];
+      }
+    }
+    numbers = {surface, surface + before[2], before[0], all[0] + before[1], before[3]};
+    counts.vertices = surface + all[2];
+    counts.faces = all[0] + all[1];
+    counts.cutCells = all[3];
+    counts.loops = all[4];
+  }
+
+  void findCommon() {
+    std::vector<uint8_t> hasFace(mesh.mesh().triangleCount(), 0);
+    for (const uint32_t t : part.cutMesh.faceParents) hasFace[t] = 1;
+    comm.reduce(hasFace, MPI_MAX);
+    comm.together(kNoun, [&] { common = share->common(hasFace); });
+    common.stats.exactFallbacks = comm.reduce(uint64_t(part.exactFallbacks), MPI_SUM);
+    counts.regions = common.mesh.regionCount;
+    counts.untouchedCells = UntouchedCells(common.mesh).count();
+  }
+
+  NumberedPart numberedPart() const {
+    return {part, comm.rank(), numbers.surfaceVertices, numbers.firstVertex, numbers.firstTriFace, numbers.firstPiece, numbers.firstCell};
+  }
+
+  /// Ghosts come from the process whose layers lie below, and the seam is told to it.
+  RankPiece makePiece() {
+    const auto [below, above] = neighbours();
+    const NumberedPart numbered = numberedPart();
+    Communicator::Bytes bytes;
+    comm.together(kNoun, [&] {
+      if (above >= 0) bytes = packed(facesInPlane(numbered, int32_t(share->layers()[1])));
+    });
+    bytes = comm.exchange(bytes, above, below);
+    PieceFromBelow made;
+    comm.together(kNoun, [&] {
+      const PlaneFaces faces = below >= 0 ? unpacked<PlaneFaces>(bytes) : PlaneFaces();
+      made = detail::makePiece(numbered, common.mesh, share->layers(), faces);
+    });
+    bytes = comm.exchange(packed(made.forBelow), below, above);
+    comm.together(kNoun, [&] {
+      if (above >= 0) addSeam(unpacked<CellsAbove>(bytes), made.piece);
+    });
+    return std::move(made.piece);
+  }
+
+  /// The processes with the next layers below and above; -1 for none.
+  std::pair<int, int> neighbours() {
+    const auto [first, past] = share->layers();
+    const std::vector<uint64_t> counts = comm.gatherAll(uint64_t(past - first));
+    if (first == past) return {-1, -1};
+    int below = comm.rank() - 1, above = comm.rank() + 1;
+    while (below >= 0 && counts[size_t(below)] == 0) --below;
+    while (above < comm.size() && counts[size_t(above)] == 0) ++above;
+    return {below, above < comm.size() ? above : -1};
+  }
+
+  /// Adds to the sums of the ranks before, in the order of one process; gives all to all.
+  std::vector<DoubleDouble> addInOrder(const std::function<void(std::vector<DoubleDouble>&)>& add, std::vector<DoubleDouble> sums) {
+    Communicator::Bytes bytes;
+    if (comm.rank() > 0) sums = unpacked<std::vector<DoubleDouble>>(comm.receive(comm.rank() - 1));
+    add(sums);
+    if (comm.rank() + 1 < comm.size()) comm.send(packed(sums), comm.rank() + 1);
+    bytes = packed(sums);
+    comm.broadcast(bytes, comm.size() - 1);
+    return unpacked<std::vector<DoubleDouble>>(bytes);
+  }
+
+  std::vector<double> regionVolumes(const RankPiece& piece) {
+    Measures measures;
+    comm.together("measuring", [&] { measures = measure(mesh.mesh(), piece.cutMesh, {1, {}}); });
+    std::vector<DoubleDouble> sums(common.mesh.regionCount);
+    sums = addInOrder([&](auto& all) { addCutCells(piece.cutMesh, measures, all); }, std::move(sums));
+    sums = addInOrder([&](auto& all) { addUntouchedCells(piece.cutMesh, all); }, std::move(sums));
+    std::vector<double> volumes;
+    for (const DoubleDouble& sum : sums) volumes.push_back(double(sum));
+    return volumes;
+  }
+
+  CutResult gather() {
+    CutResult result;
+    std::vector<CutPart> parts;
+    if (comm.rank() > 0) {
+      comm.send(packed(part), 0);
+    } else {
+      parts.push_back(std::move(part));
+      for (int rank = 1; rank < comm.size(); ++rank) parts.push_back(unpacked<CutPart>(comm.receive(rank)));
+      result = share->join(std::move(parts));
+    }
+    comm.agree(result.error);
+    return result;
+  }
+
+  struct Numbers {
+    uint64_t surfaceVertices, firstVertex, firstTriFace, firstPiece, firstCell;
+  };
+
+  Communicator comm;
+  PreparedMesh mesh;
+  Grid grid;
+  std::optional<CutShare> share;
+  CutPart part;
+  Numbers numbers{};
+  CutCounts counts;
+  CutResult common;
+};
+
+DistributedCut::DistributedCut(MPI_Comm comm, PreparedMesh mesh, Grid grid, const RunOptions& options)
+    : data_(std::make_shared<Data>(comm, std::move(mesh), std::move(grid), options)) {}
+
+RankPiece DistributedCut::piece() const { return data_->makePiece(); }
+CutCounts DistributedCut::counts() const { return data_->counts; }
+std::vector<double> DistributedCut::regionVolumes(const RankPiece& piece) const { return data_->regionVolumes(piece); }
+const CutResult& DistributedCut::common() const { return data_->common; }
+CutResult DistributedCut::gather() { return data_->gather(); }
+uint64_t DistributedCut::bytesSent() const { return data_->comm.bytesSent(); }
+
+}  // namespace mandoline

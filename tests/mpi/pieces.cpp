@@ -1,0 +1,227 @@
+// Compares the pieces of distributed cuts with whole ones, to the bit. Run by MPI in any number of processes:
+//
+//   mandoline-mpi-pieces CELLS EVERY
+//
+// cuts made meshes, and of the collection of real ones (see mesh_folder.h) every so many-th of those below 40000 triangles. Each process
+// compares its own piece: what it has is that of the whole under the same ids, and every id belongs to one process.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "case_list.h"
+#include "mandoline/distributed.h"
+#include "mandoline/io.h"
+#include "mandoline/measure.h"
+#include "mandoline/validate.h"
+#include "same_bits.h"
+
+using namespace mandoline;
+
+namespace {
+
+int rankHere() {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+
+/// Throws what is wrong.
+void require(bool holds, const std::string& what, size_t element = 0) {
+  if (!holds) throw std::runtime_error(what + " " + std::to_string(element));
+}
+
+template <class Number>
+bool areSame(const std::vector<Number>& a, size_t i, const std::vector<Number>& b, size_t j, size_t items) {
+  return bytesOf(a.data() + i * items, items) == bytesOf(b.data() + j * items, items);
+}
+
+/// What loops and triangles a face has, by the ids of the whole.
+std::vector<uint64_t> describeFace(const CutMesh& m, size_t f, const std::vector<uint64_t>* vertexIds) {
+  std::vector<uint64_t> all = {uint64_t(m.faceTriangle[f]), uint64_t(m.faceAxis[f]), uint64_t(m.facePlane[f])};
+  for (const auto loop : m.loops(f)) {
+    all.push_back(loop.size());
+    for (const uint32_t v : loop) all.push_back(vertexIds ? (*vertexIds)[v] : v);
+  }
+  for (uint32_t i = m.faceParentOffsets[f]; i < m.faceParentOffsets[f + 1]; ++i) {
+    all.push_back(m.faceParents[i]);
+    all.push_back(uint64_t(m.faceParentSigns[i]));
+  }
+  return all;
+}
+
+std::vector<int32_t> describeMade(const CutMesh& m, uint32_t vertex) {
+  const auto found = std::lower_bound(m.madeVertices.begin(), m.madeVertices.end(), vertex);
+  if (found == m.madeVertices.end() || *found != vertex) return {};
+  const size_t i = size_t(found - m.madeVertices.begin());
+  std::vector<int32_t> all = {m.madeVertexKinds[i]};
+  all.insert(all.end(), &m.madeVertexParents[4 * i], &m.madeVertexParents[4 * i] + 4);
+  return all;
+}
+
+void compareVertices(const RankPiece& piece, const CutMesh& whole) {
+  const CutMesh& m = piece.cutMesh;
+  for (size_t v = 0; v < m.vertexCount(); ++v) {
+    const size_t id = piece.vertexIds[v];
+    require(v == 0 || piece.vertexIds[v - 1] < id, "vertices do not ascend at", id);
+    require(areSame(m.positions, v, whole.positions, id, 3), "positions differ at", id);
+    require(areSame(m.vertexCell, v, whole.vertexCell, id, 3), "vertexCell differs at", id);
+    require(m.vertexMask[v] == whole.vertexMask[id] && m.vertexTriVertex[v] == whole.vertexTriVertex[id], "vertex differs:", id);
+    require(areSame(m.vertexParents, v, whole.vertexParents, id, 2), "vertexParents differ at", id);
+    require(describeMade(m, uint32_t(v)) == describeMade(whole, uint32_t(id)), "made vertex differs:", id);
+  }
+}
+
+void compareCells(const RankPiece& piece, const CutMesh& whole) {
+  const CutMesh& m = piece.cutMesh;
+  for (size_t f = 0; f < m.faceCount(); ++f) {
+    require(f == 0 || piece.faceIds[f - 1] < piece.faceIds[f], "faces do not ascend at", f);
+    require(describeFace(m, f, &piece.vertexIds) == describeFace(whole, piece.faceIds[f], nullptr), "face differs:", piece.faceIds[f]);
+  }
+  for (size_t c = 0; c < m.cellCount(); ++c) {
+    const size_t id = piece.cellIds[c];
+    require(areSame(m.cellGridCell, c, whole.cellGridCell, id, 3) && m.cellRegion[c] == whole.cellRegion[id], "cell differs:", id);
+    const auto here = m.halfFaces(c), there = whole.halfFaces(id);
+    require(here.size() == there.size(), "half-faces differ of cell", id);
+    for (size_t i = 0; i < here.size(); ++i) {
+      require(2 * piece.faceIds[here[i] / 2] + here[i] % 2 == there[i], "half-faces differ of cell", id);
+    }
+  }
+}
+
+void compareRegions(const RankPiece& piece, const CutMesh& whole) {
+  const CutMesh& m = piece.cutMesh;
+  require(m.regionCount == whole.regionCount && m.regionWinding == whole.regionWinding && m.regionParity == whole.regionParity &&
+              m.regionPartWinding == whole.regionPartWinding,
+          "regions differ");
+  require(m.parityTriangles == whole.parityTriangles && m.openTriangles == whole.openTriangles, "triangles of parts differ");
+  UntouchedCells(whole).forEach([&](const UntouchedCells::Run& run) {
+    const bool isHere = run.k >= piece.layers[0] && run.k < piece.layers[1];
+    require(UntouchedCells(m).regionAt(run.begin, run.j, run.k) == (isHere ? int64_t(run.region) : -1), "untouched cell differs in row",
+            size_t(run.k));
+  });
+}
+
+/// What the seams say is at the other side.
+void compareSeams(const RankPiece& piece, const CutMesh& whole) {
+  const Adjacency sides = adjacency(whole);
+  std::vector<int64_t> told(whole.faceCount(), -1);
+  for (const RankSeam& seam : piece.seams) {
+    require(seam.rank != rankHere() && seam.faces.size() == seam.cells.size() && !seam.faces.empty(), "a bad seam");
+    for (size_t i = 0; i < seam.faces.size(); ++i) told[piece.faceIds[seam.faces[i]]] = int64_t(seam.cells[i]);
+  }
+  const auto isHere = [&](int64_t cell) { return std::binary_search(piece.cellIds.begin(), piece.cellIds.end(), uint64_t(cell)); };
+  for (const uint64_t f : piece.faceIds) {
+    int64_t expected = -1;
+    for (size_t side = 0; side < 2; ++side) {
+      const int64_t cell = sides.faceCells[2 * f + side];
+      if (cell >= 0 && !isHere(cell)) expected = cell;
+    }
+    require(told[f] == expected, "a seam differs at face", f);
+  }
+}
+
+/// Per element of the whole how many processes say that it is theirs.
+void requireOneOwner(const std::vector<uint64_t>& ids, const std::vector<int32_t>* ranks, size_t count, const char* what) {
+  std::vector<int> owners(count, 0);
+  for (size_t i = 0; i < ids.size(); ++i) owners[ids[i]] += ranks ? (*ranks)[i] == rankHere() : 1;
+  MPI_Allreduce(MPI_IN_PLACE, owners.data(), int(count), MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+  for (size_t i = 0; i < count; ++i) require(owners[i] == 1, std::string(what) + " has not one owner:", i);
+}
+
+bool areEqual(const CutCounts& a, const CutCounts& b) {
+  return a.cutCells == b.cutCells && a.untouchedCells == b.untouchedCells && a.regions == b.regions && a.vertices == b.vertices &&
+         a.faces == b.faces && a.loops == b.loops;
+}
+
+/// Runs work() in all processes. Whether it did in all; the others tell why not.
+template <class Work>
+bool inAll(const std::string& name, const Work& work) {
+  int failed = 0;
+  try {
+    work();
+  } catch (const std::exception& error) {
+    std::cerr << name << ", process " << rankHere() << ": " << error.what() << std::endl;
+    failed = 1;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  return failed == 0;
+}
+
+bool check(const std::string& name, const PreparedMesh& mesh, const Grid& grid) {
+  const RunOptions oneThread{1, {}};
+  const CutResult whole = cut(mesh, grid, {oneThread});
+  std::optional<DistributedCut> distributed;
+  RankPiece piece;
+  std::vector<double> volumes;
+  const bool isCut = inAll(name, [&] {
+    distributed.emplace(MPI_COMM_WORLD, mesh, grid, oneThread);
+    piece = distributed->piece();
+    volumes = distributed->regionVolumes(piece);
+  });
+  if (!isCut) return false;
+  const bool isSame = inAll(name, [&] {
+    const std::string problem = checkArrays(piece.cutMesh).message;
+    require(problem.empty(), problem);
+    compareVertices(piece, whole.mesh);
+    compareCells(piece, whole.mesh);
+    compareRegions(piece, whole.mesh);
+    compareSeams(piece, whole.mesh);
+    require(areEqual(distributed->counts(), countsOf(whole.mesh)), "the counts differ");
+    require(volumes == regionVolumes(whole.mesh, measure(mesh.mesh(), whole.mesh, oneThread)), "the volumes of regions differ");
+    const CutResult& common = distributed->common();
+    require(common.mesh.droppedTriangles == whole.mesh.droppedTriangles, "dropped triangles differ");
+    require(common.stats.outsideTriangles == whole.stats.outsideTriangles, "triangles outside differ");
+    require(common.stats.madeVertices == whole.stats.madeVertices, "made vertices differ");
+  });
+  if (!isSame) return false;
+  return inAll(name, [&] {
+    requireOneOwner(piece.vertexIds, &piece.vertexRanks, whole.mesh.vertexCount(), "vertex");
+    requireOneOwner(piece.faceIds, &piece.faceRanks, whole.mesh.faceCount(), "face");
+    requireOneOwner(piece.cellIds, nullptr, whole.mesh.cellCount(), "cell");
+    const CutResult gathered = distributed->gather();
+    if (rankHere() == 0) require(differences(gathered.mesh, whole.mesh).empty(), "the gathered cut differs");
+  });
+}
+
+std::vector<std::string> realMeshes(size_t every) {
+  const char* folder = std::getenv("MANDOLINE_MESHES");
+  std::vector<std::string> files;
+  if (!folder || !*folder) return files;
+  std::ifstream in(std::filesystem::path(folder) / "manifest.csv");
+  std::string line;
+  std::getline(in, line);
+  for (size_t i = 0; std::getline(in, line);) {
+    const size_t file = line.find(','), kind = line.find(',', file + 1);
+    if (std::strtoul(line.c_str() + kind + 1, nullptr, 10) > 40000) continue;
+    if (i++ % every == 0) files.push_back((std::filesystem::path(folder) / line.substr(0, file)).string());
+  }
+  return files;
+}
+
+int checkAll(int64_t cells, size_t every) {
+  const PrepareOptions oneThread{{1, {}}};
+  size_t checked = 0, wrong = 0;
+  for (const NamedCase& one : casesAndSoups()) {
+    ++checked;
+    wrong += !check(one.name, prepare(one.mesh, oneThread).mesh, one.grid);
+  }
+  for (const std::string& file : realMeshes(every)) {
+    const Mesh mesh = readMesh(file);
+    ++checked;
+    wrong += !check(file, prepare(mesh, oneThread).mesh, Grid::around(mesh, cells));
+  }
+  if (rankHere() == 0) std::cout << checked << " meshes, of which " << wrong << " differ" << std::endl;
+  return wrong == 0 && checked > 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  const int64_t cells = argc > 1 ? std::atoll(argv[1]) : 13;
+  const size_t every = argc > 2 ? size_t(std::atoll(argv[2])) : 10;
+  const int exitCode = checkAll(cells, std::max<size_t>(every, 1));
+  MPI_Finalize();
+  return exitCode;
+}

@@ -1,0 +1,14 @@
+# Cuts in several processes, also more than there are cores. The processes of the tests share the cores with others: they are not bound.
+add_executable(mandoline-mpi-pieces mpi/pieces.cpp support/case_list.cpp support/lattice.cpp support/shapes.cpp)
+target_compile_options(mandoline-mpi-pieces PRIVATE ${MANDOLINE_COMPILE_OPTIONS})
+target_include_directories(mandoline-mpi-pieces PRIVATE ${PROJECT_SOURCE_DIR}/src support)
+target_link_libraries(mandoline-mpi-pieces PRIVATE mandoline_mpi mandoline_io)
+add_dependencies(mandoline-tests mandoline-mpi)
+
+# Of Open MPI; others do without.
+set(MANDOLINE_MPI_ENVIRONMENT OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+  OMPI_MCA_hwloc_base_binding_policy=none)
+foreach(processes 2 3)
+  add_test(NAME mpi${processes} COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${processes} $<TARGET_FILE:mandoline-mpi-pieces>)
+  set_tests_properties(mpi${processes} PROPERTIES LABELS mpi ENVIRONMENT "${MANDOLINE_MPI_ENVIRONMENT}" PROCESSORS 2)
+endforeach()
