@@ -1,3 +1,5 @@
+#include "cli/cut_command.h"
+
 #include "cli/commands.h"
 #include "cli/cutting.h"
 #include "cli/files.h"
@@ -6,40 +8,6 @@
 
 namespace mandoline::cli {
 namespace {
-
-/// What can be told before there is a mesh.
-void checkOutputs(const Arguments& arguments) {
-  std::vector<NamedFile> files;
-  if (arguments.mesh != "-") files.push_back({"the mesh", arguments.mesh});
-  if (!arguments.report.empty()) files.push_back({"--report", arguments.report});
-  bool hasCells = false, hasVtu = false;
-  for (const std::string& output : arguments.outputs) {
-    if (isPolyMesh(output)) {
-      hasCells = true;
-      files.push_back({"-o", output});
-      continue;
-    }
-    if (output != "-") checkOutput(output);
-    const FileFormat format = formatFor(arguments, output);
-    if (!isCutMeshFormat(format)) throw UsageError(std::string("--format needs json, mcm, vtu, obj, stl or ply, not ") + name(format));
-    const bool hasAll = format == FileFormat::json || format == FileFormat::mcm;
-    if (hasAll && (arguments.only.any() || output.find(kRegionMark) != std::string::npos)) {
-      throw UsageError("-o " + output + ": ." + name(format) + " files always have everything");
-    }
-    hasVtu |= format == FileFormat::vtu;
-    hasCells |= format == FileFormat::vtu || format == FileFormat::json;
-    files.push_back({"-o", output});
-  }
-  if (arguments.coarsen && !hasCells)
-    throw UsageError("--coarsen: only .vtu and .json files and polyMesh folders have cells away from the surface");
-  for (const auto& [isGiven, option] : {std::pair(arguments.merge.has_value(), "--merge"),
-                                        {arguments.refines(), "--refine"},
-                                        {arguments.uniteWalls.has_value(), "--unite-walls"}}) {
-    if (isGiven && !hasCells) throw UsageError(std::string(option) + ": only .vtu and .json files and polyMesh folders have all cells");
-  }
-  if (arguments.faces && !hasVtu) throw UsageError("--faces: only .vtu files have faces instead of cells");
-  requireDifferent(files);
-}
 
 /// A file, and which part of the cut-mesh is written to it.
 struct Output {
@@ -134,20 +102,51 @@ void complainOf(const Report& report, int& exitCode) {
 
 }  // namespace
 
-int runCut(const Arguments& arguments) {
-  checkOutputs(arguments);
-  const Input input = readInput(arguments);
-  const Mesh& mesh = input.mesh;
-  const MeshInfo info = inspect(mesh);
-  const AskedGrid grid = makeGrid(arguments.grid, mesh, info);
-  const CutResult result = cutMesh(arguments, mesh, grid);
+void checkCutOutputs(const Arguments& arguments) {
+  std::vector<NamedFile> files;
+  if (arguments.mesh != "-") files.push_back({"the mesh", arguments.mesh});
+  if (!arguments.report.empty()) files.push_back({"--report", arguments.report});
+  bool hasCells = false, hasVtu = false;
+  for (const std::string& output : arguments.outputs) {
+    if (isPolyMesh(output)) {
+      hasCells = true;
+      files.push_back({"-o", output});
+      continue;
+    }
+    if (output != "-") checkOutput(output);
+    const FileFormat format = formatFor(arguments, output);
+    if (!isCutMeshFormat(format)) throw UsageError(std::string("--format needs json, mcm, vtu, obj, stl or ply, not ") + name(format));
+    const bool hasAll = format == FileFormat::json || format == FileFormat::mcm;
+    if (hasAll && (arguments.only.any() || output.find(kRegionMark) != std::string::npos)) {
+      throw UsageError("-o " + output + ": ." + name(format) + " files always have everything");
+    }
+    hasVtu |= format == FileFormat::vtu;
+    hasCells |= format == FileFormat::vtu || format == FileFormat::json;
+    files.push_back({"-o", output});
+  }
+  if (arguments.coarsen && !hasCells)
+    throw UsageError("--coarsen: only .vtu and .json files and polyMesh folders have cells away from the surface");
+  for (const auto& [isGiven, option] : {std::pair(arguments.merge.has_value(), "--merge"),
+                                        {arguments.refines(), "--refine"},
+                                        {arguments.uniteWalls.has_value(), "--unite-walls"}}) {
+    if (isGiven && !hasCells) throw UsageError(std::string(option) + ": only .vtu and .json files and polyMesh folders have all cells");
+  }
+  if (arguments.faces && !hasVtu) throw UsageError("--faces: only .vtu files have faces instead of cells");
+  requireDifferent(files);
+}
+
+int finishCut(const CutJob& job, const CutResult& result, const std::vector<RankReport>& ranks) {
+  const auto& [arguments, input, info, grid] = job;
   Report report = reportOf(arguments, {input, info, {}}, grid, result);
+  report.ranks = ranks;
   Writer writer(arguments, input, result.mesh);
   if (result) {
-    report.regionVolumes = withProgress(
-        arguments.threads, [&](const RunOptions& options) { return regionVolumes(result.mesh, measure(mesh, result.mesh, options)); });
+    report.regionVolumes = withProgress(arguments.threads, [&](const RunOptions& options) {
+      return regionVolumes(result.mesh, measure(input.mesh, result.mesh, options));
+    });
     if (arguments.validate) {
-      report.validation = withProgress(arguments.threads, [&](const RunOptions& options) { return validate(mesh, result.mesh, options); });
+      report.validation =
+          withProgress(arguments.threads, [&](const RunOptions& options) { return validate(input.mesh, result.mesh, options); });
     }
     if (mergeFraction(arguments) > 0) report.merge = countMerged(writer.cells());
   }
@@ -162,6 +161,14 @@ int runCut(const Arguments& arguments) {
     for (const Output& output : outputsOf(arguments, result)) attempt(exitCode, [&] { writer.write(output); });
   });
   return exitCode;
+}
+
+int runCut(const Arguments& arguments) {
+  checkCutOutputs(arguments);
+  const Input input = readInput(arguments);
+  const MeshInfo info = inspect(input.mesh);
+  const AskedGrid grid = makeGrid(arguments.grid, input.mesh, info);
+  return finishCut({arguments, input, info, grid}, cutMesh(arguments, input.mesh, grid));
 }
 
 }  // namespace mandoline::cli

@@ -96,15 +96,20 @@ CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const AskedGrid&
     return cut(mesh, asked.grid, {options, arguments.snapTolerance, arguments.intersections});
   });
   result.error = withSize(result.error, arguments, asked);
-  if (!result || !needsInside(arguments) || arguments.refines()) return result;  // estimates divide regions
-  result.mesh = withProgress(arguments.threads, [&](const RunOptions& options) {
-    return estimateInside(mesh, result.mesh, {options, arguments.insideThreshold.value_or(kThreshold)});
-  });
+  if (result && needsInside(arguments)) findInside(arguments, mesh, result.mesh);
   return result;
 }
 
+void findInside(const Arguments& arguments, const Mesh& mesh, CutMesh& cutMesh) {
+  if (arguments.refines()) return;  // estimates divide regions
+  cutMesh = withProgress(arguments.threads, [&](const RunOptions& options) {
+    return estimateInside(mesh, cutMesh, {options, arguments.insideThreshold.value_or(kThreshold)});
+  });
+}
+
 Report reportOf(const Arguments& arguments, MeshReport mesh, const AskedGrid& grid, const CutResult& result) {
-  return {std::move(mesh), grid, result, peakMemoryBytes(), {}, {}, arguments.insideThreshold.value_or(kThreshold), {}};
+  return {std::move(mesh),       grid, result, peakMemoryBytes(), {}, {}, arguments.insideThreshold.value_or(kThreshold), {},
+          countsOf(result.mesh), {}};
 }
 
 std::optional<CutResult> cutOrComplain(const Arguments& arguments, const Input& input, const GridArguments& asked) {

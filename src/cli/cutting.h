@@ -45,6 +45,9 @@ bool needsInside(const Arguments& arguments);
 /// Cuts; and where parts are open, estimates what is inside, if the command has to know. With progress.
 CutResult cutMesh(const Arguments& arguments, const Mesh& mesh, const AskedGrid& asked);
 
+/// Estimates what is inside of open parts. With progress.
+void findInside(const Arguments& arguments, const Mesh& mesh, CutMesh& cutMesh);
+
 /// The report of a cut, without the volumes of regions and the validation.
 Report reportOf(const Arguments& arguments, MeshReport mesh, const AskedGrid& grid, const CutResult& result);
 

@@ -1,38 +1,14 @@
 // The command line: reads, cuts, reports, writes. arguments.cpp parses the options.
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <exception>
 #include <iostream>
 #include <new>
 
 #include "cli/commands.h"
 #include "cli/interrupt.h"
-
-// Sanitizers reserve more memory than a machine has. GCC and clang have different macros for them.
-#if defined(__SANITIZE_ADDRESS__)
-#define MANDOLINE_SANITIZED
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define MANDOLINE_SANITIZED
-#endif
-#endif
+#include "cli/limit_memory.h"
 
 namespace mandoline::cli {
 namespace {
-
-/// Lets allocations beyond the machine's memory fail, so that a cut that is too large ends with a status instead of being killed.
-void limitMemory() {
-#if !defined(MANDOLINE_SANITIZED) && defined(_SC_PHYS_PAGES)
-  const long pages = sysconf(_SC_PHYS_PAGES), pageSize = sysconf(_SC_PAGESIZE);
-  rlimit limit{};
-  if (pages <= 0 || pageSize <= 0 || getrlimit(RLIMIT_DATA, &limit) != 0) return;
-  const rlim_t most = rlim_t(pages) / 10 * 9 * rlim_t(pageSize);
-  if (limit.rlim_cur != RLIM_INFINITY && limit.rlim_cur <= most) return;
-  limit.rlim_cur = most;
-  setrlimit(RLIMIT_DATA, &limit);
-#endif
-}
 
 int run(const std::vector<std::string>& words) {
   const Arguments arguments = parseArguments(words);

@@ -10,9 +10,15 @@ namespace {
 
 constexpr auto kInterval = std::chrono::milliseconds(100);
 
+enum class Shown { onTerminal, always, never } shown = Shown::onTerminal;
+
+bool isVisible() { return shown == Shown::onTerminal ? isatty(STDERR_FILENO) != 0 : shown == Shown::always; }
+
 }  // namespace
 
-ProgressBar::ProgressBar() : visible_(isatty(STDERR_FILENO) != 0), next_(std::chrono::steady_clock::now() + kInterval) {}
+void showProgress(bool show) { shown = show ? Shown::always : Shown::never; }
+
+ProgressBar::ProgressBar() : visible_(isVisible()), next_(std::chrono::steady_clock::now() + kInterval) {}
 
 ProgressBar::~ProgressBar() {
   if (drawn_) std::fputs("\r\x1b[K", stderr);

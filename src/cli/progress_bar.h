@@ -9,6 +9,9 @@
 
 namespace mandoline::cli {
 
+/// From now on progress is shown, or not, whether or not standard error is a terminal.
+void showProgress(bool shown);
+
 /// Draws on standard error if that is a terminal. While it lives, Ctrl-C cancels.
 class ProgressBar {
  public:

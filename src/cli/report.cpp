@@ -9,14 +9,14 @@
 namespace mandoline::cli {
 namespace {
 
-std::vector<Count> cutMeshCounts(const CutMesh& m) {
-  return {{"cutCells", "cut-cells", m.cellCount()},
-          {"untouchedCells", "untouched grid cells", UntouchedCells(m).count()},
-          {"cells", "cells in total", m.cellCount() + UntouchedCells(m).count()},
-          {"regions", "regions", m.regionCount},
-          {"vertices", "cut-vertices", m.vertexCount()},
-          {"faces", "cut-faces", m.faceCount()},
-          {"loops", "loops of cut-faces", m.loopCount()}};
+std::vector<Count> cutMeshCounts(const CutCounts& c) {
+  return {{"cutCells", "cut-cells", c.cutCells},
+          {"untouchedCells", "untouched grid cells", c.untouchedCells},
+          {"cells", "cells in total", c.cutCells + c.untouchedCells},
+          {"regions", "regions", c.regions},
+          {"vertices", "cut-vertices", c.vertices},
+          {"faces", "cut-faces", c.faces},
+          {"loops", "loops of cut-faces", c.loops}};
 }
 
 /// What was unusual about the input.
@@ -77,6 +77,7 @@ class TextReport {
       addRegions();
     }
     addStages();
+    if (!report_.ranks.empty()) addRanks();
     if (report_.validation) addValidation(*report_.validation);
     return out_.str();
   }
@@ -93,7 +94,7 @@ class TextReport {
 
   void addCounts() {
     out_ << "\nCounts\n";
-    for (const Count& count : cutMeshCounts(mesh_)) addCount(count);
+    for (const Count& count : cutMeshCounts(report_.counts)) addCount(count);
     const std::vector<Count> unusual = inputCounts(report_.result);
     for (const Count& count : unusual) {
       if (count.value > 0) addCount(count);
@@ -145,6 +146,19 @@ class TextReport {
     out_ << std::defaultfloat << std::setprecision(6);
   }
 
+  void addRanks() {
+    out_ << "\nProcesses\n  " << std::setw(8) << "rank" << std::setw(14) << "cut-cells" << std::setw(14) << "time (ms)" << std::setw(14)
+         << "memory (MB)" << std::setw(14) << "sent (MB)"
+         << "\n"
+         << std::fixed << std::setprecision(2);
+    for (size_t rank = 0; rank < report_.ranks.size(); ++rank) {
+      const RankReport& r = report_.ranks[rank];
+      out_ << "  " << std::setw(8) << rank << std::setw(14) << r.cutCells << std::setw(14) << r.totalMs << std::setw(14)
+           << double(r.peakMemoryBytes) / 1e6 << std::setw(14) << double(r.bytesSent) / 1e6 << "\n";
+    }
+    out_ << std::defaultfloat << std::setprecision(6);
+  }
+
   void addValidation(const Validation& validation) {
     out_ << "\nValidation: " << (validation.pass ? "pass" : "FAIL") << "\n  " << std::left << std::setw(28) << "check" << std::setw(9)
          << "verdict" << std::setw(14) << "worst" << std::setw(14) << "tolerance"
@@ -168,6 +182,15 @@ class TextReport {
   const CutMesh& mesh_;
   std::ostringstream out_;
 };
+
+void addRanks(Json& json, const std::vector<RankReport>& ranks) {
+  json.key("ranks").open('[');
+  for (const RankReport& r : ranks) {
+    json.open('{').member("cutCells", r.cutCells).member("totalMs", r.totalMs).member("peakMemoryBytes", r.peakMemoryBytes);
+    json.member("bytesSent", r.bytesSent).close('}');
+  }
+  json.close(']');
+}
 
 }  // namespace
 
@@ -208,7 +231,7 @@ std::string reportJson(const Report& report) {
   addHead(json, report.result.error, report.mesh);
   addGrid(json, report.grid);
   json.key("counts").open('{');
-  for (const Count& count : cutMeshCounts(report.result.mesh)) json.member(count.key, count.value);
+  for (const Count& count : cutMeshCounts(report.counts)) json.member(count.key, count.value);
   for (const Count& count : inputCounts(report.result)) json.member(count.key, count.value);
   json.close('}').member("largestSnap", stats.largestSnap);
   addIntersections(json, report);
@@ -219,6 +242,7 @@ std::string reportJson(const Report& report) {
   for (const StageTime& stage : stats.stages) json.open('{').member("stage", stage.stage).member("ms", stage.ms).close('}');
   json.close(']').member("totalMs", stats.totalMs).member("exactFallbacks", stats.exactFallbacks);
   json.member("peakMemoryBytes", report.peakMemoryBytes);
+  if (!report.ranks.empty()) addRanks(json, report.ranks);
   addMerge(json, report.merge);
   addValidation(json, report.validation);
   json.close('}');

@@ -19,16 +19,24 @@ MergeCounts countMerged(const MergedCells& merged);
 /// As the member "merge"; null if nothing was to be merged.
 void addMerge(Json& json, const std::optional<MergeCounts>& counts);
 
+/// Of a cut by several processes, what one of them has done.
+struct RankReport {
+  uint64_t cutCells = 0, peakMemoryBytes = 0, bytesSent = 0;
+  double totalMs = 0;
+};
+
 /// Everything there is to tell of a cut; both forms tell the same.
 struct Report {
   MeshReport mesh;
   const AskedGrid& grid;
-  const CutResult& result;
+  const CutResult& result;  ///< of several processes it may be without vertices, faces and cut-cells
   size_t peakMemoryBytes = 0;
   std::vector<double> regionVolumes;     ///< per region
   std::optional<Validation> validation;  ///< if it was asked for and the cut is ok
   double insideThreshold = 0.5;          ///< see InsideOptions
   std::optional<MergeCounts> merge;      ///< if it was asked for
+  CutCounts counts;                      ///< of all processes
+  std::vector<RankReport> ranks;         ///< by rank; empty of one process
 };
 
 std::string reportJson(const Report& report);

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "io/output_file.h"
-#include "io/vtu_file.h"
+#include "io/pvtu.h"
 
 namespace mandoline {
 namespace {
@@ -65,27 +65,6 @@ class Folder {
   std::vector<std::string> files_;
 };
 
-std::string arrayXml(const char* type, const char* name, int components) {
-  return std::string("<PDataArray type=\"") + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" + std::to_string(components) +
-         "\"/>\n";
-}
-
-/// The arrays of all pieces, which are alike.
-std::string arraysXml(const CutMesh& cutMesh) {
-  using detail::vtkTypeName;
-  std::string xml = "<PPoints>\n" + arrayXml(vtkTypeName(double()), "Points", 3) + "</PPoints>\n<PCellData>\n" +
-                    arrayXml(vtkTypeName(int32_t()), "grid_cell", 3);
-  detail::forEachRegionArray(
-      cutMesh, [&]<class Number>(const char* name, const std::vector<Number>&) { xml += arrayXml(vtkTypeName(Number()), name, 1); });
-  return xml + arrayXml(vtkTypeName(double()), "volume", 1) + "</PCellData>\n";
-}
-
-std::string joiningXml(const std::string& arrays, const std::vector<std::string>& files) {
-  std::string xml = detail::vtkHead("PUnstructuredGrid") + "<PUnstructuredGrid GhostLevel=\"0\">\n" + arrays;
-  for (const std::string& file : files) xml += "<Piece Source=\"" + file + "\"/>\n";
-  return xml + "</PUnstructuredGrid>\n</VTKFile>\n";
-}
-
 }  // namespace
 
 PieceCounts writePieces(const std::string& path, const PreparedMesh& mesh, const Grid& grid, const ForEachBrickOptions& options) {
@@ -103,13 +82,13 @@ PieceCounts writePieces(const std::string& path, const PreparedMesh& mesh, const
   std::string arrays;
   const auto write = [&](const CutPiece& piece) {
     folder.add(nameOf(piece), [&](const Sink& sink) { writeVtu(sink, piece, writing); });
-    if (counts.pieces++ == 0) arrays = arraysXml(piece.cutMesh);
+    if (counts.pieces++ == 0) arrays = detail::pvtuArrays(piece.cutMesh, false);
     counts.cutCells += piece.cutMesh.cellCount();
     if (options.untouched) counts.untouchedCells += UntouchedCells(piece.cutMesh).count();
   };
   forEachBrick(mesh, grid, write, cutting);
   if (counts.pieces > 0)
-    folder.add(std::string(kJoining), [&](const Sink& sink) { sink(joiningXml(arrays, std::vector(folder.files()))); });
+    folder.add(std::string(kJoining), [&](const Sink& sink) { sink(detail::pvtuText(arrays, std::vector(folder.files()))); });
   folder.complete();
   return counts;
 }

@@ -76,22 +76,22 @@ std::vector<uint64_t> Communicator::gatherAll(uint64_t number) {
 std::vector<std::vector<uint32_t>> Communicator::gatherAll(const std::vector<uint32_t>& numbers) {
   std::vector<std::vector<uint32_t>> all;
   for (int from = 0; from < size_; ++from) {
-    Bytes bytes = from == rank_ ? packed(numbers) : Bytes();
-    broadcast(bytes, from);
-    all.push_back(unpacked<std::vector<uint32_t>>(bytes));
+    all.push_back(from == rank_ ? numbers : std::vector<uint32_t>());
+    broadcast(all.back(), from);
   }
   return all;
 }
 
-void Communicator::broadcast(Bytes& bytes, int from) {
+uint64_t Communicator::broadcastCount(uint64_t count, int from) {
+  broadcastBytes(&count, sizeof count, from);
+  return count;
+}
+
+void Communicator::broadcastBytes(void* bytes, size_t count, int from) {
   if (size_ == 1) return;
-  uint64_t count = bytes.size();
-  MPI_Request request;
-  MPI_Ibcast(&count, 1, MPI_UINT64_T, from, comm_, &request);
-  wait(request);
-  bytes.resize(count);
   for (size_t at = 0; at < count; at += kMostBytes) {
-    MPI_Ibcast(bytes.data() + at, int(std::min(kMostBytes, count - at)), MPI_BYTE, from, comm_, &request);
+    MPI_Request request;
+    MPI_Ibcast(static_cast<std::byte*>(bytes) + at, int(std::min(kMostBytes, count - at)), MPI_BYTE, from, comm_, &request);
     wait(request);
   }
   if (rank_ == from) bytesSent_ += count * uint64_t(size_ - 1);

@@ -4,11 +4,13 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "base/shared.h"
 #include "mandoline/status.h"
 
 namespace mandoline::detail {
@@ -22,7 +24,7 @@ MPI_Datatype typeOf() {
 }
 
 /// A communicator of this library's own, with the processes of another. All calls are collective but for send() and receive().
-class Communicator {
+class MANDOLINE_SHARED Communicator {
  public:
   using Bytes = std::vector<std::byte>;
 
@@ -58,7 +60,11 @@ class Communicator {
   /// One array of each process, by rank.
   std::vector<std::vector<uint32_t>> gatherAll(const std::vector<uint32_t>& numbers);
   /// Those of process `from` to all.
-  void broadcast(Bytes& bytes, int from);
+  template <class Item>
+  void broadcast(std::vector<Item>& items, int from) {
+    items.resize(broadcastCount(items.size(), from));
+    broadcastBytes(items.data(), items.size() * sizeof(Item), from);
+  }
   void send(const Bytes& bytes, int to);
   Bytes receive(int from);
   /// Sends and receives at once; -1: nothing to or from there.
@@ -74,6 +80,8 @@ class Communicator {
 
   void wait(MPI_Request& request) { wait(&request, 1); }
   void wait(MPI_Request* requests, int count);
+  uint64_t broadcastCount(uint64_t count, int from);
+  void broadcastBytes(void* bytes, size_t count, int from);
   void startParts(Bytes& bytes, int peer, bool isSent, std::vector<MPI_Request>& requests);
 
   MPI_Comm comm_;

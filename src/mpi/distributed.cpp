@@ -67,6 +67,7 @@ struct DistributedCut::Data {
       }
     }
     numbers = {surface, surface + before[2], before[0], all[0] + before[1], before[3]};
+    ownCells = m.cellCount();
     counts.vertices = surface + all[2];
     counts.faces = all[0] + all[1];
     counts.cutCells = all[3];
@@ -166,6 +167,7 @@ struct DistributedCut::Data {
   CutPart part;
   Numbers numbers{};
   CutCounts counts;
+  uint64_t ownCells = 0;
   CutResult common;
 };
 
@@ -174,6 +176,7 @@ DistributedCut::DistributedCut(MPI_Comm comm, PreparedMesh mesh, Grid grid, cons
 
 RankPiece DistributedCut::piece() const { return data_->makePiece(); }
 CutCounts DistributedCut::counts() const { return data_->counts; }
+uint64_t DistributedCut::ownCells() const { return data_->ownCells; }
 std::vector<double> DistributedCut::regionVolumes(const RankPiece& piece) const { return data_->regionVolumes(piece); }
 const CutResult& DistributedCut::common() const { return data_->common; }
 CutResult DistributedCut::gather() { return data_->gather(); }

@@ -59,6 +59,8 @@ class DistributedCut {
   RankPiece piece() const;
   /// Those of the whole.
   CutCounts counts() const;
+  /// How many cut-cells this process has.
+  uint64_t ownCells() const;
   /// Volume of each region, as of regionVolumes(), to the bit. `piece` is that of piece().
   std::vector<double> regionVolumes(const RankPiece& piece) const;
   /// What all processes know alike: the cut-mesh without vertices, faces and cut-cells, and how the cut went in this one.

@@ -1,0 +1,23 @@
+// The command cut, in steps: mandoline-mpi cuts in its own way.
+#pragma once
+
+#include "cli/input.h"
+#include "cli/report.h"
+
+namespace mandoline::cli {
+
+/// What can be told of the outputs before there is a mesh. Throws UsageError, and FileError for one in a folder that does not exist.
+void checkCutOutputs(const Arguments& arguments);
+
+/// What was asked for.
+struct CutJob {
+  const Arguments& arguments;
+  const Input& input;
+  const MeshInfo& info;
+  const AskedGrid& grid;
+};
+
+/// Reports a whole cut and writes its outputs. Gives the exit code. `ranks`: of several processes.
+int finishCut(const CutJob& job, const CutResult& result, const std::vector<RankReport>& ranks = {});
+
+}  // namespace mandoline::cli

@@ -1,0 +1,199 @@
+#include "cli/mpi/distributed_cut.h"
+
+#include "base/milliseconds.h"
+#include "cli/commands.h"
+#include "cli/cut_command.h"
+#include "cli/cutting.h"
+#include "cli/mpi/piece_files.h"
+#include "cli/peak_memory.h"
+#include "io/output_file.h"
+#include "mandoline/distributed.h"
+
+namespace mandoline::cli {
+namespace {
+
+/// The outputs that the first process writes, of the whole cut.
+Arguments ofWhole(const Arguments& arguments) {
+  Arguments whole = arguments;
+  std::erase_if(whole.outputs, isPvtu);
+  return whole;
+}
+
+void checkArguments(const Arguments& arguments) {
+  if (arguments.stream) throw UsageError("--stream: one process alone streams. A .pvtu file has a piece of each process");
+  if (arguments.snapTolerance > 0) throw UsageError("--snap-tolerance: several processes do not snap");
+  const Arguments whole = ofWhole(arguments);
+  checkCutOutputs(whole);
+  const OnlyArguments& only = arguments.only;
+  const std::pair<bool, const char*> others[] = {{arguments.coarsen.has_value(), "--coarsen"},
+                                                 {arguments.merge.has_value(), "--merge"},
+                                                 {arguments.refines(), "--refine"},
+                                                 {arguments.uniteWalls.has_value(), "--unite-walls"},
+                                                 {arguments.faces, "--faces"},
+                                                 {arguments.insideThreshold.has_value(), "--inside-threshold"},
+                                                 {only.inside || only.outside, "--only inside and outside"}};
+  for (const std::string& output : arguments.outputs) {
+    if (!isPvtu(output)) continue;
+    if (output.find(kRegionMark) != std::string::npos) throw UsageError("-o " + output + ": .pvtu files have all regions");
+    for (const auto& [isGiven, name] : others) {
+      if (isGiven) throw UsageError("-o " + output + ": .pvtu files do not go with " + name + ", which need the whole cut");
+    }
+    detail::checkPlace(output);
+  }
+}
+
+/// Whether the first process has to have the whole cut.
+bool needsWhole(const Arguments& arguments) {
+  return !ofWhole(arguments).outputs.empty() || arguments.validate || mergeFraction(arguments) > 0 || arguments.refines() ||
+         needsInside(arguments);
+}
+
+class Run {
+ public:
+  Run(Ranks& ranks, const Arguments& arguments) : ranks_(ranks), arguments_(arguments), start_(detail::milliseconds()) {}
+
+  int run() {
+    read();
+    if (const Error error = cut(); error.status != Status::ok) return fail(error);
+    const RankPiece piece = needsPiece() ? cut_->piece() : RankPiece();
+    for (const std::string& output : arguments_.outputs) {
+      if (isPvtu(output)) writePiece(output, piece);
+    }
+    const int exitCode = needsWhole(arguments_) ? finishWhole() : finishReduced(piece);
+    return ranks_.comm().reduce(exitCode, MPI_MAX);
+  }
+
+ private:
+  bool needsPiece() const { return !needsWhole(arguments_) || std::any_of(arguments_.outputs.begin(), arguments_.outputs.end(), isPvtu); }
+
+  /// The first process reads the mesh, makes the grid, and sends both to the others.
+  void read() {
+    ranks_.inFirst([&] {
+      input_ = readInput(arguments_);
+      info_ = inspect(input_.mesh);
+      grid_ = makeGrid(arguments_.grid, input_.mesh, info_);
+    });
+    detail::Communicator& comm = ranks_.comm();
+    comm.broadcast(input_.mesh.positions, 0);
+    comm.broadcast(input_.mesh.triangles, 0);
+    Grid& grid = grid_.grid;
+    for (std::vector<double>& planes : grid.planes) comm.broadcast(planes, 0);
+    std::vector<double> uniform = {double(grid.uniform)};
+    uniform.insert(uniform.end(), grid.origin.begin(), grid.origin.end());
+    uniform.insert(uniform.end(), grid.spacing.begin(), grid.spacing.end());
+    comm.broadcast(uniform, 0);
+    grid.uniform = uniform[0] != 0;
+    std::copy_n(uniform.begin() + 1, 3, grid.origin.begin());
+    std::copy_n(uniform.begin() + 4, 3, grid.spacing.begin());
+  }
+
+  /// Gives the error, alike in all processes.
+  Error cut() {
+    const RunOptions options{arguments_.threads, [this](const Progress& progress) { return bar_.update(progress); }};
+    try {
+      const PrepareResult prepared = prepare(input_.mesh, {options, arguments_.intersections});
+      stats_ = prepared.stats;
+      ranks_.comm().agree(prepared.error);
+      cut_.emplace(MPI_COMM_WORLD, prepared.mesh, grid_.grid, options);
+    } catch (const RankError& error) {
+      throwIfInterrupted();
+      failed_ = error.rank;
+      return error.error;
+    } catch (const CallError& error) {
+      throwIfInterrupted();
+      throw;
+    }
+    throwIfInterrupted();
+    return {};
+  }
+
+  int fail(const Error& error) {
+    if (ranks_.isFirst()) {
+      CutResult result;
+      result.error = withSize(error, arguments_, grid_);
+      const MeshReport mesh{input_, info_, {}};
+      failWith(arguments_, "rank " + std::to_string(failed_) + ": " + input_.name, result.error,
+               [&] { return reportJson(reportOf(arguments_, mesh, grid_, result)); });
+    }
+    return kNotCut;
+  }
+
+  void writePiece(const std::string& output, const RankPiece& piece) {
+    PieceFiles files(ranks_, output);
+    WriteOptions options;
+    ranks_.together([&] {
+      options = writeOptions(arguments_, cut_->common());
+      options.threads = arguments_.threads;
+      options.progress = [this](const Progress& progress) { return bar_.update(progress); };
+    });
+    files.write(input_.mesh, piece, options);
+  }
+
+  /// What all processes tell of themselves.
+  std::vector<RankReport> ranks() {
+    detail::Communicator& comm = ranks_.comm();
+    const std::vector<uint64_t> cells = comm.gatherAll(cut_->ownCells()), memory = comm.gatherAll(peakMemoryBytes()),
+                                sent = comm.gatherAll(comm.bytesSent() + cut_->bytesSent()),
+                                microseconds = comm.gatherAll(uint64_t(1000 * (detail::milliseconds() - start_)));
+    std::vector<RankReport> reports;
+    for (size_t rank = 0; rank < cells.size(); ++rank)
+      reports.push_back({cells[rank], memory[rank], sent[rank], double(microseconds[rank]) / 1000});
+    return reports;
+  }
+
+  /// Stages of the preparation come before those of the cut.
+  CutStats withPreparation(CutStats stats) const {
+    stats.stages.insert(stats.stages.begin(), stats_.stages.begin(), stats_.stages.end());
+    stats.totalMs += stats_.totalMs;
+    return stats;
+  }
+
+  int finishWhole() {
+    CutResult whole = cut_->gather();
+    const std::vector<RankReport> reports = ranks();
+    int exitCode = kFine;
+    ranks_.inFirst([&] {
+      whole.stats = withPreparation(whole.stats);
+      if (needsInside(arguments_)) findInside(arguments_, input_.mesh, whole.mesh);
+      const Arguments arguments = ofWhole(arguments_);
+      exitCode = finishCut({arguments, input_, info_, grid_}, whole, reports);
+    });
+    return exitCode;
+  }
+
+  int finishReduced(const RankPiece& piece) {
+    std::vector<double> volumes = cut_->regionVolumes(piece);
+    CutResult result = cut_->common();
+    result.stats = withPreparation(result.stats);
+    const std::vector<RankReport> reports = ranks();
+    ranks_.inFirst([&] {
+      Report report = reportOf(arguments_, {input_, info_, {}}, grid_, result);
+      report.counts = cut_->counts();
+      report.regionVolumes = std::move(volumes);
+      report.ranks = reports;
+      deliver(
+          arguments_, [&] { return reportText(report); }, [&] { return reportJson(report); });
+    });
+    return kFine;
+  }
+
+  Ranks& ranks_;
+  const Arguments& arguments_;
+  const double start_;
+  ProgressBar bar_;
+  Input input_;  // of others than the first the mesh alone
+  MeshInfo info_;
+  AskedGrid grid_;
+  CutStats stats_;
+  int failed_ = 0;
+  std::optional<DistributedCut> cut_;
+};
+
+}  // namespace
+
+int runDistributedCut(Ranks& ranks, const Arguments& arguments) {
+  ranks.together([&] { checkArguments(arguments); });
+  return Run(ranks, arguments).run();
+}
+
+}  // namespace mandoline::cli
