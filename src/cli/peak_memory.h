@@ -18,4 +18,12 @@ inline size_t peakMemoryBytes() {
 #endif
 }
 
+/// What the processor has worked for it so far, in milliseconds, of all threads.
+inline double processorMs() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto milliseconds = [](const timeval& time) { return 1e3 * double(time.tv_sec) + 1e-3 * double(time.tv_usec); };
+  return milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime);
+}
+
 }  // namespace mandoline::cli

@@ -147,13 +147,13 @@ class TextReport {
   }
 
   void addRanks() {
-    out_ << "\nProcesses\n  " << std::setw(8) << "rank" << std::setw(14) << "cut-cells" << std::setw(14) << "time (ms)" << std::setw(14)
+    out_ << "\nProcesses\n  " << std::setw(8) << "rank" << std::setw(14) << "cut-cells" << std::setw(14) << "CPU (ms)" << std::setw(14)
          << "memory (MB)" << std::setw(14) << "sent (MB)"
          << "\n"
          << std::fixed << std::setprecision(2);
     for (size_t rank = 0; rank < report_.ranks.size(); ++rank) {
       const RankReport& r = report_.ranks[rank];
-      out_ << "  " << std::setw(8) << rank << std::setw(14) << r.cutCells << std::setw(14) << r.totalMs << std::setw(14)
+      out_ << "  " << std::setw(8) << rank << std::setw(14) << r.cutCells << std::setw(14) << r.processorMs << std::setw(14)
            << double(r.peakMemoryBytes) / 1e6 << std::setw(14) << double(r.bytesSent) / 1e6 << "\n";
     }
     out_ << std::defaultfloat << std::setprecision(6);
@@ -186,7 +186,7 @@ class TextReport {
 void addRanks(Json& json, const std::vector<RankReport>& ranks) {
   json.key("ranks").open('[');
   for (const RankReport& r : ranks) {
-    json.open('{').member("cutCells", r.cutCells).member("totalMs", r.totalMs).member("peakMemoryBytes", r.peakMemoryBytes);
+    json.open('{').member("cutCells", r.cutCells).member("processorMs", r.processorMs).member("peakMemoryBytes", r.peakMemoryBytes);
     json.member("bytesSent", r.bytesSent).close('}');
   }
   json.close(']');

@@ -22,7 +22,7 @@ void addMerge(Json& json, const std::optional<MergeCounts>& counts);
 /// Of a cut by several processes, what one of them has done.
 struct RankReport {
   uint64_t cutCells = 0, peakMemoryBytes = 0, bytesSent = 0;
-  double totalMs = 0;
+  double processorMs = 0;  ///< of all its threads
 };
 
 /// Everything there is to tell of a cut; both forms tell the same.

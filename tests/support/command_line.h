@@ -23,9 +23,9 @@ struct Signal {
   int number;
   std::function<bool()> ready;
 };
-inline Outcome run(const TemporaryFolder& folder, std::vector<std::string> words, const std::string& input = "",
-                   const Signal& signal = {}) {
-  words.insert(words.begin(), MANDOLINE_CLI);
+/// `words`: the program, and its arguments.
+inline Outcome runProgram(const TemporaryFolder& folder, std::vector<std::string> words, const std::string& input = "",
+                          const Signal& signal = {}) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -36,7 +36,7 @@ inline Outcome run(const TemporaryFolder& folder, std::vector<std::string> words
     dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
     dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
     if (signal.number) std::signal(signal.number, SIG_DFL);
-    execv(MANDOLINE_CLI, arguments.data());
+    execvp(arguments[0], arguments.data());
     _exit(127);
   }
   REQUIRE(child > 0);
@@ -47,6 +47,12 @@ inline Outcome run(const TemporaryFolder& folder, std::vector<std::string> words
   }
   waitpid(child, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), folder.read("stdout"), folder.read("stderr")};
+}
+
+inline Outcome run(const TemporaryFolder& folder, std::vector<std::string> words, const std::string& input = "",
+                   const Signal& signal = {}) {
+  words.insert(words.begin(), MANDOLINE_CLI);
+  return runProgram(folder, std::move(words), input, signal);
 }
 
 inline bool contains(const std::string& text, const std::string& part) {

@@ -1,11 +1,11 @@
 #include "cli/mpi/distributed_cut.h"
 
-#include "base/milliseconds.h"
 #include "cli/commands.h"
 #include "cli/cut_command.h"
 #include "cli/cutting.h"
 #include "cli/mpi/piece_files.h"
 #include "cli/peak_memory.h"
+#include "cut/stages/input.h"
 #include "io/output_file.h"
 #include "mandoline/distributed.h"
 
@@ -22,8 +22,6 @@ Arguments ofWhole(const Arguments& arguments) {
 void checkArguments(const Arguments& arguments) {
   if (arguments.stream) throw UsageError("--stream: one process alone streams. A .pvtu file has a piece of each process");
   if (arguments.snapTolerance > 0) throw UsageError("--snap-tolerance: several processes do not snap");
-  const Arguments whole = ofWhole(arguments);
-  checkCutOutputs(whole);
   const OnlyArguments& only = arguments.only;
   const std::pair<bool, const char*> others[] = {{arguments.coarsen.has_value(), "--coarsen"},
                                                  {arguments.merge.has_value(), "--merge"},
@@ -40,6 +38,7 @@ void checkArguments(const Arguments& arguments) {
     }
     detail::checkPlace(output);
   }
+  checkCutOutputs(ofWhole(arguments));
 }
 
 /// Whether the first process has to have the whole cut.
@@ -50,7 +49,7 @@ bool needsWhole(const Arguments& arguments) {
 
 class Run {
  public:
-  Run(Ranks& ranks, const Arguments& arguments) : ranks_(ranks), arguments_(arguments), start_(detail::milliseconds()) {}
+  Run(Ranks& ranks, const Arguments& arguments) : ranks_(ranks), arguments_(arguments) {}
 
   int run() {
     read();
@@ -66,13 +65,17 @@ class Run {
  private:
   bool needsPiece() const { return !needsWhole(arguments_) || std::any_of(arguments_.outputs.begin(), arguments_.outputs.end(), isPvtu); }
 
-  /// The first process reads the mesh, makes the grid, and sends both to the others.
+  /// In the first process.
   void read() {
     ranks_.inFirst([&] {
       input_ = readInput(arguments_);
       info_ = inspect(input_.mesh);
       grid_ = makeGrid(arguments_.grid, input_.mesh, info_);
     });
+  }
+
+  /// The first process sends the mesh and the grid to the others.
+  void send() {
     detail::Communicator& comm = ranks_.comm();
     comm.broadcast(input_.mesh.positions, 0);
     comm.broadcast(input_.mesh.triangles, 0);
@@ -91,6 +94,10 @@ class Run {
   Error cut() {
     const RunOptions options{arguments_.threads, [this](const Progress& progress) { return bar_.update(progress); }};
     try {
+      ranks_.comm().together("cut", [this] {
+        if (ranks_.isFirst()) detail::checkGrid(grid_.grid, 0);
+      });
+      send();
       const PrepareResult prepared = prepare(input_.mesh, {options, arguments_.intersections});
       stats_ = prepared.stats;
       ranks_.comm().agree(prepared.error);
@@ -134,7 +141,7 @@ class Run {
     detail::Communicator& comm = ranks_.comm();
     const std::vector<uint64_t> cells = comm.gatherAll(cut_->ownCells()), memory = comm.gatherAll(peakMemoryBytes()),
                                 sent = comm.gatherAll(comm.bytesSent() + cut_->bytesSent()),
-                                microseconds = comm.gatherAll(uint64_t(1000 * (detail::milliseconds() - start_)));
+                                microseconds = comm.gatherAll(uint64_t(1000 * processorMs()));
     std::vector<RankReport> reports;
     for (size_t rank = 0; rank < cells.size(); ++rank)
       reports.push_back({cells[rank], memory[rank], sent[rank], double(microseconds[rank]) / 1000});
@@ -179,7 +186,6 @@ class Run {
 
   Ranks& ranks_;
   const Arguments& arguments_;
-  const double start_;
   ProgressBar bar_;
   Input input_;  // of others than the first the mesh alone
   MeshInfo info_;

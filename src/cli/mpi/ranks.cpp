@@ -25,9 +25,8 @@ void Ranks::together(const std::function<void()>& work) {
   std::exception_ptr failure;
   try {
     work();
-  } catch (const Interrupted&) {
-    throw;
   } catch (...) {
+    throwIfInterrupted();  // which also cancels calls
     failure = std::current_exception();
   }
   const int failed = comm_.reduce(failure ? rank() : INT_MAX, MPI_MIN);

@@ -3,12 +3,13 @@
 // In: the user's grid, and Prepared. Out: Input, or a Failure that names the offending axis.
 #pragma once
 
+#include "base/shared.h"
 #include "cut/scaled_input.h"
 
 namespace mandoline::detail {
 
 /// Ends the cut where the grid or the options are not usable.
-void checkGrid(const Grid& grid, double snapTolerance);
+MANDOLINE_SHARED void checkGrid(const Grid& grid, double snapTolerance);
 /// The largest coordinate of a plane.
 double largestCoordinate(const Grid& grid);
 /// The planes must fit the mesh's scale: largestCoordinate(grid) * 2^shift < 2^(Scale::kLargestExponent + Scale::kRoom + 1).

@@ -1,0 +1,227 @@
+// mandoline-mpi: the command line in several processes.
+#ifdef MANDOLINE_MPI
+
+#include <cstdlib>
+
+#include "catch.h"
+#include "command_line.h"
+#include "mandoline/io.h"
+#include "shapes.h"
+#include "vtu_files.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What MPI is to take of a test: nothing that takes longer than 10 seconds ends well.
+std::vector<std::string> wordsFor(int processes, const std::vector<std::string>& words) {
+  for (const auto& [name, value] : {std::pair("OMPI_ALLOW_RUN_AS_ROOT", "1"),
+                                    {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
+                                    {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
+                                    {"OMPI_MCA_hwloc_base_binding_policy", "none"}}) {
+    setenv(name, value, 1);
+  }
+  std::vector<std::string> all = {"timeout", "--foreground", "--kill-after=9", "10", MANDOLINE_MPIEXEC, "-n", std::to_string(processes), MANDOLINE_MPI};
+  all.insert(all.end(), words.begin(), words.end());
+  return all;
+}
+
+Outcome runRanks(const TemporaryFolder& folder, int processes, const std::vector<std::string>& words, const Signal& signal = {}) {
+  return runProgram(folder, wordsFor(processes, words), "", signal);
+}
+
+constexpr int kHangs = 124;  // timeout's exit code
+
+std::string meshFile(const TemporaryFolder& folder, const mandoline::Mesh& mesh) {
+  mandoline::writeMesh(folder.path("mesh.ply"), mesh);
+  return folder.path("mesh.ply");
+}
+
+size_t countOf(const std::string& text, const std::string& part) {
+  size_t count = 0;
+  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+/// The files of the folder other than those of the streams.
+std::vector<std::string> names(const TemporaryFolder& folder) {
+  std::vector<std::string> names;
+  for (const fs::directory_entry& file : fs::directory_iterator(folder.path(""))) {
+    const std::string name = file.path().filename().string();
+    if (!name.starts_with("std")) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// What a report tells that does not depend on the machine.
+std::string facts(const std::string& report) {
+  const std::string text = inOneLine(report);
+  const size_t stages = text.find("\"stages\"");
+  REQUIRE(stages != std::string::npos);
+  std::string facts = text.substr(0, stages);
+  const size_t intersections = facts.find("\"ms\"");  // how long finding them took
+  REQUIRE(intersections != std::string::npos);
+  return facts.substr(0, intersections) + facts.substr(facts.find('}', intersections));
+}
+
+using Names = std::vector<std::string>;
+using Cells = std::vector<std::tuple<int32_t, int32_t, int32_t, int32_t, double>>;  ///< grid cell, region, volume
+
+Cells cellsOf(const std::string& text) {
+  const vtu_files::Vtu vtu(text);
+  const auto gridCells = vtu.array<int32_t>("grid_cell"), regions = vtu.array<int32_t>("region");
+  const auto volumes = vtu.array<double>("volume");
+  Cells cells;
+  for (size_t c = 0; c < volumes.size(); ++c)
+    cells.emplace_back(gridCells[3 * c], gridCells[3 * c + 1], gridCells[3 * c + 2], regions[c], volumes[c]);
+  return cells;
+}
+
+/// The process that has a file open for writing, or maps the program and has a word on its command line.
+pid_t findRank(const std::string& word) {
+  for (const fs::directory_entry& process : fs::directory_iterator("/proc")) {
+    const pid_t pid = pid_t(std::atoi(process.path().filename().c_str()));
+    std::error_code error;
+    if (pid <= 0 || fs::read_symlink(process.path() / "exe", error) != fs::canonical(MANDOLINE_MPI)) continue;
+    std::ifstream file(process.path() / "cmdline", std::ios::binary);
+    const std::string line{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    if (line.find(word) != std::string::npos) return pid;
+  }
+  return 0;
+}
+
+}  // namespace
+
+TEST_CASE("Several processes report and write what one does", "[mpi]") {
+  const TemporaryFolder folder;
+  const std::string mesh = meshFile(folder, shapes::merged({shapes::icosphere({0, 0, 0}, 1, 3), shapes::cube(0.5, 1.5)}));
+  REQUIRE(run(folder, {"cut", mesh, "--cells", "20", "--report", folder.path("one.txt"), "-o", folder.path("one.json"),
+                       folder.path("one.mcm"), folder.path("one.vtu")})
+              .exitCode == 0);
+  for (const int processes : {1, 2, 3}) {
+    CAPTURE(processes);
+    const Outcome reduced = runRanks(folder, processes, {"cut", mesh, "--cells", "20", "--report", folder.path("reduced.txt")});
+    CAPTURE(reduced.err);
+    REQUIRE(reduced.exitCode == 0);
+    CHECK(facts(folder.read("reduced.txt")) == facts(folder.read("one.txt")));
+    CHECK(countOf(folder.read("reduced.txt"), "\"bytesSent\"") == size_t(processes));
+    const Outcome whole = runRanks(folder, processes,
+                                   {"cut", mesh, "--cells", "20", "--validate", "--report", folder.path("whole.txt"), "-o",
+                                    folder.path("some.json"), folder.path("some.mcm"), folder.path("some.vtu")});
+    REQUIRE(whole.exitCode == 0);
+    CHECK(facts(folder.read("whole.txt")) == facts(folder.read("one.txt")));
+    CHECK(contains(folder.read("whole.txt"), "\"pass\": true"));
+    for (const char* extension : {".json", ".mcm", ".vtu"}) {
+      const bool areSame = folder.read(std::string("some") + extension) == folder.read(std::string("one") + extension);
+      CHECK(areSame);
+    }
+  }
+}
+
+TEST_CASE("The pieces of several processes have the cells of one, some of them none", "[mpi]") {
+  const TemporaryFolder folder;
+  const std::string mesh = meshFile(folder, shapes::icosphere({0, 0, 0}, 1, 2));
+  for (const std::string cells : {"9", "2"}) {
+    for (const bool onlyCut : {false, true}) {
+      Names words = {"cut", mesh, "--cells", cells, "-o", folder.path("one.vtu")};
+      if (onlyCut) words.insert(words.end(), {"--only", "cut"});
+      REQUIRE(run(folder, words).exitCode == 0);
+      Cells one = cellsOf(folder.read("one.vtu")), several;
+      for (const int processes : {1, 3, 5}) {  // of two layers most get nothing
+        CAPTURE(cells, onlyCut, processes);
+        words[5] = folder.path("some.pvtu");
+        const Outcome outcome = runRanks(folder, processes, words);
+        CAPTURE(outcome.err);
+        REQUIRE(outcome.exitCode == 0);
+        several.clear();
+        const std::string joined = folder.read("some.pvtu");
+        for (int rank = 0; rank < processes; ++rank) {
+          const std::string name = "some_" + std::to_string(rank) + ".vtu";
+          REQUIRE(fs::exists(folder.path(name)) == (joined.find("<Piece Source=\"" + name + "\"/>") != std::string::npos));
+          if (!fs::exists(folder.path(name))) continue;
+          const Cells piece = cellsOf(folder.read(name));
+          several.insert(several.end(), piece.begin(), piece.end());
+          fs::remove(folder.path(name));
+        }
+        std::sort(one.begin(), one.end());
+        std::sort(several.begin(), several.end());
+        const bool areSame = several == one;
+        CHECK(areSame);
+      }
+    }
+  }
+}
+
+TEST_CASE("What several processes can't do is said once", "[mpi]") {
+  const TemporaryFolder folder;
+  const std::string mesh = meshFile(folder, shapes::merged({shapes::cube(0, 2), shapes::cube(1, 3)}));
+  const std::string truncated = folder.write("truncated.ply", folder.read("mesh.ply").substr(0, 400));
+  mandoline::Mesh bad = shapes::cube(0, 1);
+  bad.positions[5] = std::numeric_limits<double>::quiet_NaN();
+  mandoline::writeMesh(folder.path("bad.ply"), bad);
+  const std::string pvtu = folder.path("a.pvtu"), names = "mandoline-mpi: ";
+  const std::tuple<Names, std::string, int> cases[] = {
+      {{}, "a command is missing", 2},
+      {{"info", mesh}, "several processes cut", 2},
+      {{"cut", mesh, "--stream", "-o", folder.path("a")}, "--stream: one process alone streams", 2},
+      {{"cut", mesh, "--snap-tolerance", "0.1"}, "--snap-tolerance: several processes do not snap", 2},
+      {{"cut", mesh, "-o", pvtu, "--merge", "0.2"}, ".pvtu files do not go with --merge", 2},
+      {{"cut", mesh, "-o", pvtu, "--only", "inside"}, ".pvtu files do not go with --only inside", 2},
+      {{"cut", mesh, "-o", pvtu, "--only", "region=9"}, "there is no region 9", 2},
+      {{"cut", mesh, "-o", folder.path("none/a.pvtu")}, "there is no folder", 2},
+      {{"cut", mesh, "--box", "5,5,5,6,6,6", "--cells", "2", "-o", pvtu, "--only", "cut"}, "--only selects nothing", 2},
+      {{"cut", folder.path("none.ply")}, "rank 0: " + folder.path("none.ply"), 2},
+      {{"cut", truncated}, "rank 0: " + truncated, 2},
+      {{"cut", folder.path("bad.ply")}, "rank 0: " + folder.path("bad.ply") + ": nonFiniteCoordinate: ", 1},
+      {{"cut", mesh, "--intersections", "refuse"}, "rank 0: " + mesh + ": selfIntersection: Triangles", 1},
+      {{"cut", mesh, "--cells", "99999999"}, "gridTooLarge", 1},
+  };
+  const Names before = ::names(folder);
+  for (const auto& [words, message, exitCode] : cases) {
+    CAPTURE(message);
+    const Outcome outcome = runRanks(folder, 3, words);
+    CHECK(outcome.exitCode == exitCode);
+    CHECK(contains(outcome.err, message));
+    CHECK(countOf(outcome.err, names) == 1);
+    CHECK(::names(folder) == before);
+  }
+}
+
+TEST_CASE("A disk that is full for one process leaves no pieces", "[mpi]") {
+  const TemporaryFolder folder;
+  const std::string mesh = meshFile(folder, shapes::icosphere({0, 0, 0}, 1, 3));
+  for (const std::string full : {"a_0.vtu", "a_1.vtu", "a.pvtu"}) {
+    CAPTURE(full);
+    fs::create_symlink("/dev/full", folder.path(full));
+    const Outcome outcome = runRanks(folder, 3, {"cut", mesh, "--cells", "12", "-o", folder.path("a.pvtu")});
+    CHECK(outcome.exitCode == 2);
+    const std::string rank = full == "a_1.vtu" ? "rank 1: " : "rank 0: ";
+    CHECK(contains(outcome.err, rank + folder.path(full) + ": can't be written: No space left on device"));
+    CHECK(countOf(outcome.err, "mandoline-mpi: ") == 1);
+    fs::remove(folder.path(full));
+    CHECK(names(folder) == Names{"mesh.ply"});
+  }
+}
+
+TEST_CASE("A process that is killed, or Ctrl-C, ends all and leaves no files", "[mpi]") {
+  const TemporaryFolder folder;
+  const std::string mesh = meshFile(folder, shapes::icosphere({0, 0, 0}, 1, 4)), pvtu = folder.path("a.pvtu");
+  const auto isWriting = [&] { return fs::exists(folder.path("a_0.vtu.part")) || fs::exists(folder.path("a_1.vtu.part")); };
+  for (const bool isKilled : {true, false}) {
+    CAPTURE(isKilled);
+    const auto ready = [&] {
+      if (!isWriting()) return false;
+      if (isKilled) kill(findRank(pvtu), SIGKILL);
+      return true;
+    };
+    // Of a process that was killed mpirun learns by itself: the signal 0 asks whether it is still there.
+    const Signal signal{isKilled ? SIGCHLD : SIGINT, ready};
+    const Outcome outcome = runRanks(folder, 2, {"cut", mesh, "--cells", "150", "-o", pvtu}, signal);
+    CHECK(outcome.exitCode != 0);
+    CHECK(outcome.exitCode != kHangs);
+    CHECK(names(folder) == Names{"mesh.ply"});
+  }
+}
+
+#endif
