@@ -1,5 +1,5 @@
 // What the continuous integration does beyond npm test: the package in every toolchain, what OpenFOAM and VTK say of the files, short
-// functions, the same bits from another compiler, fuzz runs, the suite under sanitizers.
+// functions, several processes, the same bits from another compiler, fuzz runs, the suite under sanitizers.
 import { mkdirSync, readFileSync } from 'node:fs';
 import { setUp } from '../tests/set_up.mjs';
 import { build, fail, jobs, path, run, runTogether } from '../tests/steps.mjs';
@@ -10,6 +10,10 @@ setUp('checks');
 
 // Neither keeps more than one core busy.
 await runTogether(['node', '--test', 'tests/toolchains/toolchains.test.mjs'], ['node', '.ci/files.mjs']);
+
+// Several processes: npm test leaves them out where there is no MPI, which only few need.
+build('build', ['-DMANDOLINE_BUILD_TESTS=ON']);
+run('ctest', '--test-dir', 'build', '--output-on-failure', '-R', '^mpi');
 
 // One build of clang's is the other compiler, the sanitizers and the fuzzers: with assertions, yet fast enough for real meshes. It has the
 // flags of projects that want no exact arithmetic and no warning; only linking with them would change how the processor rounds.

@@ -17,7 +17,7 @@ const needs = {
   orders: [...native, 'Eigen'],
   // Of the continuous integration.
   sources: ['clang-format 14', 'the npm packages'],
-  checks: ['clang-tidy', 'clang with libFuzzer', 'OpenFOAM', "Debian's VTK for Python"],
+  checks: ['clang-tidy', 'clang with libFuzzer', 'OpenFOAM', "Debian's VTK for Python", 'MPI'],
 };
 const all = 'test'; // which needs what any other npm command does
 
@@ -64,6 +64,7 @@ const tools = {
   // The version matters: each formats a little differently.
   'clang-format 14': { has: () => works('clang-format-14', '--version'), packages: ['clang-format-14'] },
   'clang-tidy': { has: () => works('clang-tidy', '--version'), packages: ['clang-tidy'] },
+  MPI: { has: () => works('mpicxx', '--version') && works('mpiexec', '--version'), packages: ['libopenmpi-dev', 'openmpi-bin'] },
   OpenFOAM: { has: () => existsSync('/usr/bin/checkMesh') && existsSync('/usr/share/openfoam'), packages: ['openfoam'] },
   "Debian's VTK for Python": { has: () => works('/usr/bin/python3', '-c', 'import vtk'), packages: ['python3-vtk9'] },
   'clang with libFuzzer': {

@@ -11,7 +11,7 @@ const headerFolder = join(dirname(packageFolder), 'src', 'include', 'mandoline')
 // Of mandoline-wasm/physics; all others belong to the main entry.
 const physicsHeaders = ['coarsen.h', 'cell_complex.h', 'merge.h', 'operators.h', 'poisson.h', 'flow.h', 'unsteady.h'];
 // JavaScript has no calls that give what they describe.
-const leftOut = ['cut_share.h', 'recut.h', 'refine.h'];
+const leftOut = ['cut_share.h', 'distributed.h', 'recut.h', 'refine.h'];
 
 // Calls give these with more: their whole is in index.d.ts, or the word means what is put in.
 const names = {

@@ -6,7 +6,6 @@
 #include "cli/arguments.h"
 #include "cli/files.h"
 #include "io/pvtu.h"
-#include "io/selection.h"
 
 namespace mandoline::cli {
 namespace {
@@ -16,8 +15,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kExtension = ".pvtu";
 
 bool hasCells(const CutMesh& cutMesh, const WriteOptions& options) {
-  const detail::Selection selection(cutMesh, options);
-  const auto isWritten = [&](uint32_t region) { return selection.has(region); };
+  const auto isWritten = [&](uint32_t region) { return options.regions.empty() || options.regions[region] != 0; };
   const auto any = [&](const std::vector<uint32_t>& regions) { return std::any_of(regions.begin(), regions.end(), isWritten); };
   return any(cutMesh.cellRegion) || (options.untouched && any(cutMesh.runRegion));
 }

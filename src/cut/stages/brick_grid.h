@@ -64,9 +64,9 @@ struct BrickGrid {
     while (shift > kLeast && countFor(input, shift) < kSeveral) --shift;
     return same(shift);
   }
-  /// Several shares get some layers of bricks each, which are thinner for that.
+  /// Several shares get some layers of bricks each, which are thinner for that: the more layers, the more alike is the work of the shares.
   static std::array<int, 3> shiftsForShares(const Input& input, uint32_t shares) {
-    constexpr size_t kEach = 3;
+    constexpr size_t kEach = 8;
     std::array<int, 3> shifts = shiftsFor(input, shares);
     while (shifts[2] > 0 && countAlong(input, 2, shifts[2]) < kEach * shares) --shifts[2];
     return shifts;

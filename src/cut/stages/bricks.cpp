@@ -136,9 +136,8 @@ BricksHere layersOf(const Bricks& bricks, uint32_t share, uint32_t count) {
   for (int32_t layer = 0; layer < grid.counts[2]; ++layer) {
     uint64_t work = before.back();
     for (const BrickId b : Ids<BrickId>(firstFrom(layer), firstFrom(layer + 1))) {
-      const uint64_t cells =
-          uint64_t(1) << (grid.shifts[0] + grid.shifts[2]);  // about as many are touched where the surface crosses a brick
-      work += cells + bricks.parts[b].size() + bricks.dividedFaces[b].size();
+      // Cut-edges in grid-faces tell how many grid cells are touched, and take time of their own.
+      work += bricks.parts[b].size() + bricks.dividedFaces[b].size() + 2 * bricks.faceEdges[b].size();
     }
     before.push_back(work);
   }
