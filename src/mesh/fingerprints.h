@@ -26,9 +26,9 @@ class Fingerprinter {
 
   void add(uint64_t number) { sum_ = mixed(sum_, number); }
   /// -0 counts as 0, and what is no number as one and the same, since both change on their way through files and JavaScript.
-  void add(double number);
-  void add(std::span<const double> numbers);
-  void add(std::span<const uint32_t> numbers);
+  MANDOLINE_SHARED void add(double number);
+  MANDOLINE_SHARED void add(std::span<const double> numbers);
+  MANDOLINE_SHARED void add(std::span<const uint32_t> numbers);
 
   /// Unknown if that of the other result is.
   Fingerprint get() const { return {!isKnown_ ? 0 : sum_ == 0 ? 1 : sum_}; }

@@ -21,7 +21,8 @@ std::vector<std::string> wordsFor(int processes, const std::vector<std::string>&
                                     {"OMPI_MCA_hwloc_base_binding_policy", "none"}}) {
     setenv(name, value, 1);
   }
-  std::vector<std::string> all = {"timeout", "--foreground", "--kill-after=9", "10", MANDOLINE_MPIEXEC, "-n", std::to_string(processes), MANDOLINE_MPI};
+  std::vector<std::string> all = {"timeout",         "--foreground", "--kill-after=9",          "10",
+                                  MANDOLINE_MPIEXEC, "-n",           std::to_string(processes), MANDOLINE_MPI};
   all.insert(all.end(), words.begin(), words.end());
   return all;
 }
