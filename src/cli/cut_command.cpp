@@ -136,8 +136,9 @@ void checkCutOutputs(const Arguments& arguments) {
 }
 
 int finishCut(const CutJob& job, const CutResult& result, const std::vector<RankReport>& ranks) {
-  const auto& [arguments, input, info, grid] = job;
-  Report report = reportOf(arguments, {input, info, {}}, grid, result);
+  const Arguments& arguments = job.arguments;
+  const Input& input = job.input;
+  Report report = reportOf(arguments, {input, job.info, {}}, job.grid, result);
   report.ranks = ranks;
   Writer writer(arguments, input, result.mesh);
   if (result) {

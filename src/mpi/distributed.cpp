@@ -1,6 +1,8 @@
 // A cut by all processes of a communicator: their shares agree by summaries, and number by sums over the ranks before what they have.
 #include "mandoline/distributed.h"
 
+#include <tuple>
+
 #include "base/parallel.h"
 #include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
@@ -90,7 +92,8 @@ struct DistributedCut::Data {
 
   /// Ghosts come from the process whose layers lie below, and the seam is told to it.
   RankPiece makePiece() {
-    const auto [below, above] = neighbours();
+    int below = -1, above = -1;
+    std::tie(below, above) = neighbours();
     const NumberedPart numbered = numberedPart();
     Communicator::Bytes bytes;
     comm.together(kNoun, [&] {
