@@ -64,11 +64,14 @@ struct BrickGrid {
     while (shift > kLeast && countFor(input, shift) < kSeveral) --shift;
     return same(shift);
   }
-  /// Several shares get some layers of bricks each, which are thinner for that: the more layers, the more alike is the work of the shares.
+  /// Several shares get some layers of bricks each, which are thinner for that: the more layers, the more alike is the work of the shares,
+  /// but very thin ones are more work.
   static std::array<int, 3> shiftsForShares(const Input& input, uint32_t shares) {
-    constexpr size_t kEach = 8;
+    constexpr size_t kWanted = 8, kNeeded = 3;
+    constexpr int kThin = 2;
     std::array<int, 3> shifts = shiftsFor(input, shares);
-    while (shifts[2] > 0 && countAlong(input, 2, shifts[2]) < kEach * shares) --shifts[2];
+    const auto each = [&] { return shifts[2] > kThin ? kWanted : kNeeded; };
+    while (shifts[2] > 0 && countAlong(input, 2, shifts[2]) < each() * shares) --shifts[2];
     return shifts;
   }
 
