@@ -69,7 +69,7 @@ std::span<const SideMatcher::Pair> SideMatcher::linksOf(uint32_t vertex) const {
   const auto first = std::lower_bound(links_.begin(), links_.end(), Pair{vertex, 0});
   auto past = first;
   while (past != links_.end() && (*past)[0] == vertex) ++past;
-  return {first, past};
+  return {links_.data() + (first - links_.begin()), size_t(past - first)};
 }
 
 /// Follows a line from a vertex of larger cells to the next one: at a vertex of smaller cells alone it goes on, since there it crosses
