@@ -5,7 +5,9 @@ target_compile_options(mandoline-mpi-pieces PRIVATE ${MANDOLINE_COMPILE_OPTIONS}
 target_include_directories(mandoline-mpi-pieces PRIVATE ${PROJECT_SOURCE_DIR}/src support)
 target_link_libraries(mandoline-mpi-pieces PRIVATE mandoline_mpi mandoline_io)
 add_dependencies(mandoline-tests mandoline-mpi)
-target_compile_definitions(mandoline-tests PRIVATE MANDOLINE_MPI="$<TARGET_FILE:mandoline-mpi>" MANDOLINE_MPIEXEC="${MPIEXEC_EXECUTABLE}")
+# Of this source alone: others need not be compiled again once MPI is there.
+set_source_files_properties(cli/mpi_test.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON
+  COMPILE_DEFINITIONS "MANDOLINE_MPI=\"$<TARGET_FILE:mandoline-mpi>\";MANDOLINE_MPIEXEC=\"${MPIEXEC_EXECUTABLE}\"")
 
 # Of Open MPI; others do without.
 set(MANDOLINE_MPI_ENVIRONMENT OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
