@@ -49,10 +49,11 @@ inline Outcome runProgram(const TemporaryFolder& folder, std::vector<std::string
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), folder.read("stdout"), folder.read("stderr")};
 }
 
-inline Outcome run(const TemporaryFolder& folder, std::vector<std::string> words, const std::string& input = "",
+inline Outcome run(const TemporaryFolder& folder, const std::vector<std::string>& words, const std::string& input = "",
                    const Signal& signal = {}) {
-  words.insert(words.begin(), MANDOLINE_CLI);
-  return runProgram(folder, std::move(words), input, signal);
+  std::vector<std::string> all = {MANDOLINE_CLI};
+  all.insert(all.end(), words.begin(), words.end());
+  return runProgram(folder, std::move(all), input, signal);
 }
 
 inline bool contains(const std::string& text, const std::string& part) {
