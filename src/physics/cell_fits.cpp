@@ -1,6 +1,5 @@
 // With the gradient g at the centroid and the symmetric matrix H of second derivatives, whose trace is t = source - slope . g: weighted
-// least squares of n . (g + H r) + S : H - value over the data in and around the cell, where S is the datum's spread and H = t / 3 + a
-// matrix without a trace.
+// least squares of n . (g + H r) - value over the data in and around the cell, where H = t / 3 + a matrix without a trace.
 #include "physics/cell_fits.h"
 
 #include <algorithm>
@@ -36,12 +35,6 @@ inline Equation equationOf(const CellComplex& cells, const FitData& data, uint32
           n[0] * r[1] + n[1] * r[0],
           n[1] * r[2] + n[2] * r[1],
           n[0] * r[2] + n[2] * r[0]};
-  if (datum.spread != FitDatum::kNone) {
-    const std::array<double, 6>& s = data.spreads[size_t(datum.spread)];
-    row[3] += (s[0] - s[2]) / size, row[4] += (s[1] - s[2]) / size;
-    for (size_t j = 3; j < 6; ++j) row[j + 2] += 2 * s[j] / size;
-    along += (s[0] + s[1] + s[2]) / size;
-  }
   for (size_t d = 0; d < 3 && !data.slope.empty(); ++d) row[d] -= along * size * data.slope[3 * cell + d] / 3;
   return {row, along, weight};
 }

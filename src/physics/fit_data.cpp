@@ -93,7 +93,6 @@ class Maker {
       isKnown &= !jumps(other);
     }
     fit_.data.push_back(between(pointAt(points_, edge.cell), others, edge.area));
-    if (dual_.faces[e].size() > 1) addSpread(e, others);
     if (!isKnown) return;
     ofCells_.push_back({edge.cell, id});
     for (const uint32_t f : dual_.faces[e]) {
@@ -101,21 +100,6 @@ class Maker {
       ofCells_.push_back({other, id});
       join(edge.cell, other, edge.distance);
       join(other, edge.cell, edge.distance);
-    }
-  }
-
-  /// Of the last datum.
-  void addSpread(size_t e, const Point& mean) {
-    FitDatum& datum = fit_.data.back();
-    if (!(datum.length > 0)) return;
-    datum.spread = int32_t(fit_.spreads.size());
-    std::array<double, 6>& spread = fit_.spreads.emplace_back();
-    for (const uint32_t f : dual_.faces[e]) {
-      Point p = pointAt(points_, otherCell(cells_, dual_.edges[e], f));
-      for (size_t d = 0; d < 3; ++d) p[d] -= mean[d];
-      const double share = shareOf(cells_, dual_, e, f) / (2 * datum.length);
-      for (size_t d = 0; d < 3; ++d) spread[d] += share * p[d] * p[d];
-      spread[3] += share * p[0] * p[1], spread[4] += share * p[1] * p[2], spread[5] += share * p[0] * p[2];
     }
   }
 

@@ -18,16 +18,10 @@ struct FitDatum {
   Point point, direction;
   double length;  ///< that a difference is divided by
   double weight;
-  int32_t spread = kNone;  ///< in FitData::spreads
-
-  static constexpr int32_t kNone = -1;
 };
 
 struct FitData {
-  std::vector<FitDatum> data;  ///< one per dual edge, then one per half-face of the boundary
-  /// Where a difference is to the mean of phi at several points: half their second moments about the mean point, over the length; xx, yy,
-  /// zz, xy, yz, xz. Times second derivatives of phi they are how much such a mean is more than phi at the mean point.
-  std::vector<std::array<double, 6>> spreads;
+  std::vector<FitDatum> data;           ///< one per dual edge, then one per half-face of the boundary
   detail::Csr<uint32_t> cellData;       ///< per cell, ascending
   detail::Csr<uint32_t> cellNeighbors;  ///< per cell, ascending: those whose data also tell of phi in it
   std::vector<double> cellSize;         ///< per cell: of the distance between dual points
