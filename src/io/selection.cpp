@@ -10,7 +10,7 @@ void requireAll(const WriteOptions& options) {
 }
 
 Selection::Selection(const CutMesh& cutMesh, const WriteOptions& options) : cutMesh_(cutMesh), options_(options) {
-  operators::requireFaces(cutMesh);
+  operators::requireNotEmpty(cutMesh);
   if (!allRegions() && options.regions.size() != cutMesh.regionCount) {
     operators::refuse("regions must have one flag for each of the cut-mesh's " + std::to_string(cutMesh.regionCount) +
                       " regions, but has " + std::to_string(options.regions.size()) + ".");

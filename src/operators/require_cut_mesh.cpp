@@ -7,7 +7,7 @@ namespace mandoline::operators {
 void refuse(const std::string& message, int64_t element) { throw CallError({Status::badArgument, element, -1, message}); }
 
 void requireCutMesh(const CutMesh& cutMesh) {
-  requireFaces(cutMesh);
+  requireNotEmpty(cutMesh);
   refuseRefined(cutMesh);
 }
 
@@ -16,8 +16,8 @@ void refuseRefined(const CutMesh& cutMesh) {
     refuse("The cut-mesh is that of refined cells, which only functions that take both have a use for.");
 }
 
-void requireFaces(const CutMesh& cutMesh) {
-  if (cutMesh.loopOffsets.empty()) refuse("The cut-mesh is empty: cut() makes one.");
+void requireNotEmpty(const CutMesh& cutMesh) {
+  if (cutMesh.loopOffsets.empty() && cutMesh.rowRunOffsets.empty()) refuse("The cut-mesh is empty: cut() makes one.");
 }
 
 void requireMadeFrom(Fingerprint madeFrom, Fingerprint other, const char* message) {

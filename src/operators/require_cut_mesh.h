@@ -14,7 +14,7 @@ MANDOLINE_SHARED [[noreturn]] void refuse(const std::string& message, int64_t el
 MANDOLINE_SHARED void requireCutMesh(const CutMesh& cutMesh);
 
 /// Throws CallError for an empty one alone: for functions that take the cut-mesh of refined cells, too.
-MANDOLINE_SHARED void requireFaces(const CutMesh& cutMesh);
+MANDOLINE_SHARED void requireNotEmpty(const CutMesh& cutMesh);
 
 /// Throws CallError for that of refined cells alone.
 MANDOLINE_SHARED void refuseRefined(const CutMesh& cutMesh);

@@ -56,7 +56,7 @@ class MergeCheck {
   void run() {
     REQUIRE(checkArrays(after_).message.empty());
     requireCells();
-    requireFaces();
+    requireNotEmpty();
     requireClosedCells(after_);
     requireBounds();
     requireNothingLeft();
@@ -100,7 +100,7 @@ class MergeCheck {
 
   /// Every face is part of one, unless it is no triangle and lies inside a cell; and triangles have the same cell on both sides only where
   /// they had before.
-  void requireFaces() {
+  void requireNotEmpty() {
     std::vector<size_t> found(before_.faceCount());
     for (size_t f = 0; f < after_.faceCount(); ++f) {
       CAPTURE(f);

@@ -26,7 +26,7 @@ int32_t endOf(const RefinedCells& refined, size_t cell, size_t d) {
 }
 
 /// Each face lies where the blocks of its cells meet, or in the block that both are in.
-void requireFacesBetweenBlocks(const RefinedCells& refined) {
+void requireNotEmptyBetweenBlocks(const RefinedCells& refined) {
   const CellComplex& cells = refined.cells;
   for (size_t f = 0; f < cells.faceCount(); ++f) {
     const int8_t axis = f < cells.cutFaces ? refined.cutMesh.faceAxis[f]
@@ -81,7 +81,7 @@ RefinedCells checkedRefinement(const Mesh& mesh, const Grid& grid, const RefineO
   REQUIRE(refined.cutMesh.regionWinding == whole.mesh.regionWinding);
   requireClosedCells(refined.cells);
   requireAreasAndVolumes(refined.cells, mesh, whole.mesh);
-  requireFacesBetweenBlocks(refined);
+  requireNotEmptyBetweenBlocks(refined);
   requireTriangleAreas(whole.mesh, measure(mesh, whole.mesh), refined.cutMesh, refined.cells.faceArea);
   return refined;
 }

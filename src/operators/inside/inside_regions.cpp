@@ -4,7 +4,7 @@
 namespace mandoline {
 
 InsideRegions insideRegions(const CutMesh& cutMesh, const InsideOptions& options) {
-  operators::requireFaces(cutMesh);
+  operators::requireNotEmpty(cutMesh);
   operators::requireThreshold(options.threshold);
   InsideRegions result;
   if (cutMesh.hasWinding) {

@@ -128,7 +128,7 @@ class Merger {
 };
 
 void requireUnmerged(const CutMesh& cutMesh, const CellComplex& cells) {
-  operators::requireFaces(cutMesh);
+  operators::requireNotEmpty(cutMesh);
   operators::requireCellsOf(cutMesh, cells);
   if (!cells.cellMemberOffsets.empty()) operators::refuse("The cells are merged already.");
   for (size_t i = 0; i < cells.cellCorner.size(); ++i) {

@@ -127,7 +127,7 @@ class WallUniter {
 CellComplex uniteWalls(const CutMesh& cutMesh, const CellComplex& cells, const WallOptions& options) {
   if (!(options.angle >= 0 && options.angle <= 90))
     throw CallError({Status::badOption, -1, -1, "The angle has to be from 0 to 90 degrees."});
-  operators::requireFaces(cutMesh);
+  operators::requireNotEmpty(cutMesh);
   operators::requireCellsOf(cutMesh, cells);
   if (!options.triangleGroup.empty() && options.triangleGroup.size() != cutMesh.triangleCount)
     operators::refuse("There must be a group for each of the " + std::to_string(cutMesh.triangleCount) + " triangles.");

@@ -6,7 +6,7 @@
 namespace mandoline {
 
 FaceTriangles triangulateFaces(const CutMesh& cutMesh) {
-  operators::requireFaces(cutMesh);
+  operators::requireNotEmpty(cutMesh);
   FaceTriangles result;
   result.faceTriangleOffsets.reserve(cutMesh.faceCount() + 1);
   result.faceTriangleOffsets.push_back(0);
@@ -21,7 +21,7 @@ FaceTriangles triangulateFaces(const CutMesh& cutMesh) {
 }
 
 std::vector<uint32_t> triangulateCell(const CutMesh& cutMesh, size_t cell) {
-  operators::requireFaces(cutMesh);
+  operators::requireNotEmpty(cutMesh);
   if (cell >= cutMesh.cellCount()) {
     operators::refuse("There is no cut-cell " + std::to_string(cell) + ": there are " + std::to_string(cutMesh.cellCount()) + ".",
                       int64_t(cell));
@@ -33,7 +33,7 @@ std::vector<uint32_t> triangulateCell(const CutMesh& cutMesh, size_t cell) {
 }
 
 std::vector<uint32_t> triangulateRegion(const CutMesh& cutMesh, uint32_t region) {
-  operators::requireFaces(cutMesh);
+  operators::requireNotEmpty(cutMesh);
   if (region >= cutMesh.regionCount) {
     operators::refuse("There is no region " + std::to_string(region) + ": there are " + std::to_string(cutMesh.regionCount) + ".", region);
   }
