@@ -1,4 +1,4 @@
-// Elements of one cut-mesh, added to another one.
+// Elements of one cut-mesh, added to another one, and the triangles that faces are of.
 #pragma once
 
 #include "mandoline/cut_mesh.h"
@@ -50,10 +50,16 @@ inline void appendMade(const CutMesh& from, size_t i, uint32_t vertex, CutMesh& 
   append(to.madeVertexParents, from.madeVertexParents, i, 4);
 }
 
+/// Per triangle of the input 1 if the cut-mesh has a face of it, else 0.
+inline std::vector<uint8_t> trianglesWithFace(const CutMesh& cutMesh, size_t triangles) {
+  std::vector<uint8_t> hasFace(triangles, 0);
+  for (const uint32_t t : cutMesh.faceParents) hasFace[t] = 1;
+  return hasFace;
+}
+
 /// Lists the triangles of which the cut-mesh has no face as dropped.
 inline void listWithoutFace(CutMesh& cutMesh) {
-  std::vector<uint8_t> hasFace(cutMesh.triangleCount, 0);
-  for (const uint32_t t : cutMesh.faceParents) hasFace[t] = 1;
+  const std::vector<uint8_t> hasFace = trianglesWithFace(cutMesh, cutMesh.triangleCount);
   for (uint32_t t = 0; t < cutMesh.triangleCount; ++t) {
     if (!hasFace[t]) cutMesh.droppedTriangles.push_back(t);
   }

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "base/parallel.h"
+#include "cut/append.h"
 #include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
 #include "mpi/communicator.h"
@@ -77,8 +78,7 @@ struct DistributedCut::Data {
   }
 
   void findCommon() {
-    std::vector<uint8_t> hasFace(mesh.mesh().triangleCount(), 0);
-    for (const uint32_t t : part.cutMesh.faceParents) hasFace[t] = 1;
+    std::vector<uint8_t> hasFace = trianglesWithFace(part.cutMesh, mesh.mesh().triangleCount());
     comm.reduce(hasFace, MPI_MAX);
     comm.together(kNoun, [&] { common = share->common(hasFace); });
     common.stats.exactFallbacks = comm.reduce(uint64_t(part.exactFallbacks), MPI_SUM);

@@ -1,6 +1,7 @@
 #include "cut/stages/output.h"
 
 #include "base/large_array.h"
+#include "cut/append.h"
 
 namespace mandoline::detail {
 namespace {
@@ -190,9 +191,7 @@ void finish(const std::vector<uint8_t>& hasFace, const CutState& state, CutMesh&
 CutMesh makeOutput(std::vector<CutPart> parts, CutState& state, Run& run) {
   CutMesh out = parts.size() == 1 ? std::move(parts.front().cutMesh) : Joiner(parts).run();
   addCommon(std::move(state.runs), std::move(state.regions), state, out);
-  std::vector<uint8_t> hasFace(out.triangleCount, 0);
-  for (const uint32_t t : out.faceParents) hasFace[t] = 1;
-  finish(hasFace, state, out, run.stats);
+  finish(trianglesWithFace(out, out.triangleCount), state, out, run.stats);
   return out;
 }
 

@@ -76,7 +76,7 @@ void BlockTree::forLeavesIn(const Block& block, int level, std::vector<size_t>& 
   }
   if (level == 0) return;
   for (int32_t child = 0; child < 8; ++child) {
-    const Block inside = {2 * block[0] + (child & 1), 2 * block[1] + (child >> 1 & 1), 2 * block[2] + (child >> 2)};
+    const Block inside = childOf(block, child);
     if (inGrid(inside, level - 1)) forLeavesIn(inside, level - 1, next, visit);
   }
 }

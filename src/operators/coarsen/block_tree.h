@@ -15,6 +15,17 @@ namespace mandoline::operators {
 using Block = std::array<int32_t, 3>;
 using Blocks = std::vector<Block>;  // ascending along the Morton curve, each once
 
+/// One of the eight blocks of half the size in a block, in Morton order.
+inline Block childOf(const Block& block, int32_t child) {
+  return {2 * block[0] + (child & 1), 2 * block[1] + (child >> 1 & 1), 2 * block[2] + (child >> 2)};
+}
+/// An octree cell as the block of its level.
+inline Block blockOf(const OctreeCells& octree, size_t cell) {
+  Block block = octree.corner(cell);
+  for (int32_t& x : block) x >>= octree.cellLevel[cell];
+  return block;
+}
+
 struct BlockTree {
   std::array<int32_t, 3> gridCells{};
   std::vector<Blocks> divided;  ///< per level; those of level 0 are left out

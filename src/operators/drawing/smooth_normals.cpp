@@ -14,6 +14,8 @@ namespace mandoline::drawing {
 namespace {
 
 using measuring::cross;
+using measuring::difference;
+using measuring::dot;
 using Vector = measuring::Vector<double>;
 
 /// The cosine of the sharpest bend that is smoothed, 45 degrees.
@@ -23,8 +25,6 @@ constexpr double kSharpest = 0.70710678118654752;
 constexpr size_t kMostAround = 64;
 /// Sums of differences of bytes below this are small.
 constexpr int kAlike = 24;
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// A mesh scaled by a power of two, so that products of its coordinates are finite.
 class ScaledMesh {
@@ -43,8 +43,6 @@ class ScaledMesh {
   const MeshView& mesh_;
   double scale_;
 };
-
-Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 struct Facets {
   std::vector<Vector> normals;  ///< per triangle: unit; 0 without area

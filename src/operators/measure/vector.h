@@ -15,6 +15,9 @@ Vector<Number> cross(const Vector<Number>& a, const Vector<Number>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+inline Vector<double> difference(const Vector<double>& a, const Vector<double>& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline double dot(const Vector<double>& a, const Vector<double>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
 inline double length(const Vector<double>& v) {
   const double largest = std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
   if (largest == 0) return 0;

@@ -25,10 +25,7 @@ void Assembly::numberCells() {
   cellIds_.resize(parts_.size());
   for (size_t p = 0; p < parts_.size(); ++p) cellIds_[p].assign(parts_[p].cutMesh().cellCount(), -1);
   for (size_t leaf = 0; leaf < leaves_.cellCount(); ++leaf) {
-    const int level = leaves_.cellLevel[leaf];
-    Block block = leaves_.corner(leaf);
-    for (int32_t& x : block) x >>= level;
-    result_.leafCells.push_back(parts_.at(level, block));
+    result_.leafCells.push_back(parts_.at(leaves_.cellLevel[leaf], operators::blockOf(leaves_, leaf)));
     const BlockCells& cells = result_.leafCells.back();
     result_.firstCells.push_back(result_.cutCells);
     for (size_t c = cells.cells.begin; c < cells.cells.end; ++c) cellIds_[cells.number][c] = int32_t(result_.cutCells++);

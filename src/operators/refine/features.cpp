@@ -9,6 +9,8 @@
 namespace mandoline::refining {
 
 using measuring::cross;
+using measuring::difference;
+using measuring::dot;
 using Vector = measuring::Vector<double>;
 
 Features::Features(const MeshView& mesh, double angle) : mesh_(mesh), angle_(angle), cosine_(operators::cosineOfDegrees(angle)) {}
@@ -23,12 +25,9 @@ std::array<Vector, 3> cornersOf(const MeshView& mesh, uint32_t triangle) {
   return corners;
 }
 
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 Vector unitNormal(const MeshView& mesh, uint32_t triangle) {
   const auto [a, b, c] = cornersOf(mesh, triangle);
-  Vector ab = minus(b, a), ac = minus(c, a);
+  Vector ab = difference(b, a), ac = difference(c, a);
   double largest = 0;
   for (size_t d = 0; d < 3; ++d) largest = std::max({largest, std::fabs(ab[d]), std::fabs(ac[d])});
   if (!(largest > 0)) return {};
@@ -66,13 +65,13 @@ std::vector<uint32_t> Features::meeting(const Box& box, const std::vector<uint32
   std::vector<uint32_t> result;
   for (const uint32_t t : triangles) {
     std::array<Vector, 3> p = cornersOf(mesh_, t);
-    for (Vector& corner : p) corner = minus(corner, middle);
+    for (Vector& corner : p) corner = difference(corner, middle);
     const auto separates = [&](const Vector& axis) {
       const double along[] = {dot(p[0], axis), dot(p[1], axis), dot(p[2], axis)};
       const double reach = half[0] * std::fabs(axis[0]) + half[1] * std::fabs(axis[1]) + half[2] * std::fabs(axis[2]);
       return std::min({along[0], along[1], along[2]}) > reach || std::max({along[0], along[1], along[2]}) < -reach;
     };
-    const std::array<Vector, 3> sides = {minus(p[1], p[0]), minus(p[2], p[1]), minus(p[0], p[2])};
+    const std::array<Vector, 3> sides = {difference(p[1], p[0]), difference(p[2], p[1]), difference(p[0], p[2])};
     bool apart = separates(cross(sides[0], sides[1]));
     for (size_t d = 0; d < 3 && !apart; ++d) {
       const Vector axis = {double(d == 0), double(d == 1), double(d == 2)};

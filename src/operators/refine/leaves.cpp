@@ -57,8 +57,7 @@ class Divider {
       Blocks& blocks = tree_.divided[size_t(level)];
       Blocks inside;
       for (const Block& block : blocks) {
-        for (int32_t child = 0; child < 8; ++child)
-          inside.push_back({2 * block[0] + (child & 1), 2 * block[1] + (child >> 1 & 1), 2 * block[2] + (child >> 2)});
+        for (int32_t child = 0; child < 8; ++child) inside.push_back(operators::childOf(block, child));
       }
       blocks = tree_.parentsAround(std::move(inside), level, options_.layers);
     }
@@ -76,7 +75,7 @@ class Divider {
     if (level <= levels_ - options_.levels || !features.bends(triangles)) return;
     tree_.divided[size_t(level)].push_back(block);
     for (int32_t child = 0; child < 8; ++child) {
-      const Block inside = {2 * block[0] + (child & 1), 2 * block[1] + (child >> 1 & 1), 2 * block[2] + (child >> 2)};
+      const Block inside = operators::childOf(block, child);
       markIn(inside, level - 1, features.meeting(boxOf(inside, level - 1), triangles), features);
     }
   }

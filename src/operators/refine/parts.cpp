@@ -25,8 +25,7 @@ std::vector<uint64_t> Parts::wantedAt(int level) const {
   std::vector<uint64_t> keys;
   for (size_t c = 0; c < leaves_.cellCount(); ++c) {
     if (leaves_.cellLevel[c] != level) continue;
-    Block block = leaves_.corner(c);
-    for (int32_t& x : block) x >>= level;
+    const Block block = operators::blockOf(leaves_, c);
     const uint64_t key = keyOf(level, block);
     if (keys.empty() || keys.back() != key) keys.push_back(key);
     for (int32_t around = 0; around < 27; ++around) {
