@@ -23,6 +23,6 @@ if (existsSync(bare)) {
   // Much of their time they wait for packages, or for one core.
   await runTogether(
     [bare, '--suite', 'bookworm', path(), served],
-    [bare, '--suite', 'trixie', '--node', 'none', '--with', packages.split(' ').join(','), path(), native],
+    [bare, '--suite', 'trixie', '--node', 'none', '--with', packages.split(/\s+/).join(','), path(), native],
   );
 }
