@@ -7,12 +7,12 @@ import { makeProject, run } from './projects.mjs';
 
 const module = checkModule() + print;
 const computing = checkModule(physics()) + print;
-const asRequire = (text) => text.replaceAll(/^import (\{.*?\}) from (.*?);$/gm, 'const $1 = require($2);').replace('export ', '');
-const asImport = (text) =>
-  asRequire(text)
-    .replaceAll(/^const (\{.*?\}) = require\((.*?)\);\n/gm, '')
-    .replace('{ cut, validate } = await init', "{ cut, validate } = await (await import('mandoline-wasm')).init")
-    .replace('await createWorker', "await (await import('mandoline-wasm/worker')).createWorker");
+const imports = /^import (\{.*?\}) from (.*?);\n/gm;
+const asRequire = (text) => text.replaceAll(imports, 'const $1 = require($2);\n').replace('export ', '');
+const asImport = (text) => {
+  const awaited = [...text.matchAll(imports)].map(([, names, from]) => `\n  const ${names} = await import(${from});`);
+  return text.replaceAll(imports, '').replace('export async function check() {', `async function check() {${awaited.join('')}`);
+};
 const scripts = {
   'ES modules': ['main.mjs', computing],
   'CommonJS, require()': ['main.cjs', asRequire(module)],
