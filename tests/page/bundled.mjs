@@ -13,7 +13,6 @@ export async function importBundled(path) {
   process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
   await build({
     root: web,
-    configFile: false,
     logLevel: 'error',
     ssr: { noExternal: true },
     build: {
