@@ -5,7 +5,7 @@ import { meshFolder } from '../tests/mesh_folder.mjs';
 import { path, run } from '../tests/steps.mjs';
 import { checkCourantNumbers } from './courant.mjs';
 import { checkPotentialFoam } from './potential_foam.mjs';
-import { checkPolyMeshes, checkVtuFiles } from './readers.mjs';
+import { checkFilters, checkPolyMeshes, checkVtuFiles } from './readers.mjs';
 import { scans } from './scans.mjs';
 
 const made = ['box', 'sphere', 'torus', 'torus-knot'].map((shape) => {
@@ -25,6 +25,9 @@ const all = meshFolder
   : [];
 checkPolyMeshes([...made, 'build/groups.obj', ...all.filter((_, i) => i % 9 === 0).map((name) => join(meshFolder, name))]);
 checkVtuFiles([...made, ...scans]);
+// Two sheets that end in cells.
+writeFileSync(path('build', 'sheets.obj'), 'v 0 0 0\nv 1 0.2 0\nv 0.1 1 0.3\nv 0.5 -0.3 -0.4\nv 0.4 0.3 0.6\nf 1 2 3\nf 1 4 5\n');
+checkFilters(['build/sheets.obj', 'build/torus-knot.obj', ...scans]);
 // One is closed. The other, where there is a folder of meshes, is a scan with hundreds of open or non-manifold edges.
 checkCourantNumbers(['build/torus-knot.obj', all.includes(beetle) ? join(meshFolder, beetle) : 'build/groups.obj']);
 await checkPotentialFoam(['build/sphere.obj', 'build/torus-knot.obj', ...scans]);

@@ -20,6 +20,7 @@ val FileBytes::joined() const {
 Writing::Writing(const val& options) {
   given.progress = progressOf(options);
   given.untouched = !options["untouched"].isFalse();
+  given.simpleCells = options["simpleCells"].isTrue();
   if (!options["regions"].isUndefined()) readArray(options["regions"], given.regions);
   if (options["groups"].isUndefined()) return;
   groups = fromObject<TriangleGroups>(options["groups"]);

@@ -66,6 +66,7 @@ class Parser {
         {"--merge", {C::cut, C::flow}, [](Parser& p, const std::string& name) { p.parseMerge(p.value(name)); }},
         {"--unite-walls", {C::cut, C::flow}, [](Parser& p, const std::string& name) { p.parseUniteWalls(p.value(name)); }},
         {"--faces", {C::cut, C::flow}, [](Parser& p, const std::string&) { p.arguments_.faces = true; }},
+        {"--simple-cells", {C::cut, C::flow}, [](Parser& p, const std::string&) { p.arguments_.simpleCells = true; }},
         {"--wind", {C::flow}, [](Parser& p, const std::string& name) { parseWind(p.value(name), p.arguments_.flow); }},
         {"--far-field", {C::flow}, [](Parser& p, const std::string&) { p.arguments_.flow.farField = true; }},
         {"--streamlines", {C::flow}, [](Parser& p, const std::string& name) { parseStreamlines(p.value(name), p.arguments_.flow); }},
@@ -257,6 +258,7 @@ class Parser {
     if (!makes && a.mesh.empty()) throw UsageError("the mesh is missing");
     checkGrid(a.grid);
     if (a.command == Command::slice) checkSlice(a.slice, a.only);
+    if (a.faces && a.simpleCells) throw UsageError("--simple-cells does not go with --faces, which writes no cells");
     if (a.command == Command::boundary && a.only.cut) throw UsageError("--only cut: a boundary is that of whole regions");
     if (a.command == Command::flow) checkFlow(a.flow);
     checkRefine(a);

@@ -106,10 +106,10 @@ void checkCutOutputs(const Arguments& arguments) {
   std::vector<NamedFile> files;
   if (arguments.mesh != "-") files.push_back({"the mesh", arguments.mesh});
   if (!arguments.report.empty()) files.push_back({"--report", arguments.report});
-  bool hasCells = false, hasVtu = false;
+  bool hasCells = false, hasVtu = false, hasFolder = false;
   for (const std::string& output : arguments.outputs) {
     if (isPolyMesh(output)) {
-      hasCells = true;
+      hasCells = hasFolder = true;
       files.push_back({"-o", output});
       continue;
     }
@@ -132,6 +132,8 @@ void checkCutOutputs(const Arguments& arguments) {
     if (isGiven && !hasCells) throw UsageError(std::string(option) + ": only .vtu and .json files and polyMesh folders have all cells");
   }
   if (arguments.faces && !hasVtu) throw UsageError("--faces: only .vtu files have faces instead of cells");
+  if (arguments.simpleCells && !hasVtu && !hasFolder)
+    throw UsageError("--simple-cells: only .vtu files and polyMesh folders can do without faces inside cells");
   requireDifferent(files);
 }
 

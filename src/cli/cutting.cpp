@@ -174,6 +174,7 @@ WriteOptions writeOptions(const Arguments& arguments, const CutResult& cut) {
   if (isInsideDefault(arguments)) only.inside = any;
   WriteOptions options;
   options.untouched = !only.cut;
+  options.simpleCells = arguments.simpleCells;
   if (!only.inside && !only.outside && only.regions.empty()) return options;
   options.regions.assign(cutMesh.regionCount, only.regions.empty() ? 1 : 0);
   for (const uint32_t r : only.regions) {

@@ -68,6 +68,7 @@ void checkFlowOutputs(const Arguments& arguments) {
   if (arguments.flow.streamlines && !hasLines) throw UsageError("--streamlines: only .obj files have streamlines");
   if (std::any_of(arguments.outputs.begin(), arguments.outputs.end(), writesVtu)) return;
   if (arguments.faces) throw UsageError("--faces: only .vtu files have faces instead of cells");
+  if (arguments.simpleCells) throw UsageError("--simple-cells: only .vtu files have cells");
   if (arguments.only.any()) throw UsageError("--only: only .vtu files have a part of the cells");
 }
 

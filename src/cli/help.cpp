@@ -102,6 +102,9 @@ Options of cut
                          is right for solvers), in the same files; groups stay apart
   --faces                in .vtu files, the faces of all cells as polygons, with tag,
                          triangle, cells and group, instead of cells
+  --simple-cells         in .vtu files and polyMesh folders, leave out faces that have the same
+                         cell at both sides, where a sheet ends in it: VTK cuts and traces
+                         only cells without them, and some of OpenFOAM's solvers stop at them
   --stream               cut bricks of 128 x 128 x 128 grid cells one after the other, and write
                          each as .vtu into the folder -o, and cut.pvtu, which joins them: the
                          cells of the whole cut, in the memory of one piece and the mesh. With
@@ -138,7 +141,7 @@ Options of flow
   --far-field            in unbounded space instead of a wind tunnel: through the sides passes
                          the wind and what the mesh adds to it at a distance. The mesh may
                          not reach the sides
-  --coarsen LEVELS[,LAYERS], --faces, --only WHAT, --inside-threshold T
+  --coarsen LEVELS[,LAYERS], --faces, --simple-cells, --only WHAT, --inside-threshold T
                          as of cut; faces have normal_velocity, normal and area
   --refine LEVELS[,DEGREES], --refine-box X0,Y0,Z0,X1,Y1,Z1,LEVELS
                          as of cut; not with streamlines

@@ -78,8 +78,9 @@ PreparedMesh prepared(const Arguments& arguments, Mesh& mesh) {
 
 PieceCounts writePieces(const Arguments& arguments, const PreparedMesh& mesh, const Grid& grid) {
   return withProgress(arguments.threads, [&](const RunOptions& run) {
-    ForEachBrickOptions options{run};
+    WritePiecesOptions options{{run}};
     options.untouched = !arguments.only.cut;
+    options.simpleCells = arguments.simpleCells;
     return mandoline::writePieces(arguments.outputs[0], mesh, grid, options);
   });
 }

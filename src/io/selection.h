@@ -13,9 +13,10 @@ class Selection {
   /// Throws CallError for options that do not fit the cut-mesh.
   Selection(const CutMesh& cutMesh, const WriteOptions& options);
 
-  bool all() const { return options_.regions.empty() && options_.untouched; }
+  bool all() const { return options_.regions.empty() && options_.untouched && !options_.simpleCells; }
   bool allRegions() const { return options_.regions.empty(); }
   bool has(uint32_t region) const { return allRegions() || options_.regions[region] != 0; }
+  bool simpleCells() const { return options_.simpleCells; }
   bool hasCutCell(size_t cell) const { return has(cutMesh_.cellRegion[cell]); }
 
   /// Calls visit(begin, end, region) for the runs of untouched cells to be written in a row of grid cells.

@@ -1,5 +1,7 @@
 #include "io/vtu_cells.h"
 
+#include <algorithm>
+
 #include "base/sort.h"
 
 namespace mandoline::detail {
@@ -23,12 +25,22 @@ const Polyhedron& VtuCells::polyhedron(const VtuCell& cell) {
   if (cell.cutCell < 0) {
     addGridFaces(cell.gridCell);
   } else {
-    for (const uint32_t h : cutMesh_.halfFaces(size_t(cell.cutCell))) {
-      polygons_.forEach(h / 2, [&](std::span<const uint32_t> polygon) { polyhedron_.addFace(polygon, h % 2 != 0); });
-    }
+    addFaces(cutMesh_.halfFaces(size_t(cell.cutCell)));
   }
   polyhedron_.gatherVertices();
   return polyhedron_;
+}
+
+void VtuCells::addFaces(std::span<const uint32_t> halfFaces) {
+  std::vector<uint32_t> sorted;  // to find a half-face's other side
+  if (selection_.simpleCells()) {
+    sorted.assign(halfFaces.begin(), halfFaces.end());
+    std::sort(sorted.begin(), sorted.end());
+  }
+  for (const uint32_t h : halfFaces) {
+    if (std::binary_search(sorted.begin(), sorted.end(), h ^ 1)) continue;
+    polygons_.forEach(h / 2, [&](std::span<const uint32_t> polygon) { polyhedron_.addFace(polygon, h % 2 != 0); });
+  }
 }
 
 void VtuCells::addGridFaces(const GridVertices::Index& cell) {

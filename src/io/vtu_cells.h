@@ -52,6 +52,7 @@ class VtuCells {
   const GridVertices& vertices() const { return vertices_; }
 
  private:
+  void addFaces(std::span<const uint32_t> halfFaces);
   void addGridFaces(const GridVertices::Index& cell);
 
   const CutMesh& cutMesh_;

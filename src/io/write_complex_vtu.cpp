@@ -130,6 +130,7 @@ class CellWriter : ComplexWriter {
   template <class Visit>
   void forEachPolygon(uint32_t c, const Visit& visit) const {
     for (const uint32_t h : cells_.halfFaces(c)) {
+      if (options_.simpleCells && cells_.faceCells[h] == cells_.faceCells[h ^ 1]) continue;
       polygons_.forEach(h / 2, [&](std::span<const uint32_t> polygon) { visit(polygon, h % 2 != 0); });
     }
   }

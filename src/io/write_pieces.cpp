@@ -67,13 +67,14 @@ class Folder {
 
 }  // namespace
 
-PieceCounts writePieces(const std::string& path, const PreparedMesh& mesh, const Grid& grid, const ForEachBrickOptions& options) {
+PieceCounts writePieces(const std::string& path, const PreparedMesh& mesh, const Grid& grid, const WritePiecesOptions& options) {
   Folder folder(path);
   Progress progress{"", 0, 1, 0, 1};  // of the cut; that of the writers would begin anew with each piece
   ForEachBrickOptions cutting = options;
   WriteOptions writing;
   writing.threads = options.threads;
   writing.untouched = options.untouched;
+  writing.simpleCells = options.simpleCells;
   if (options.progress) {
     cutting.progress = [&](const Progress& now) { return options.progress(progress = now); };
     writing.progress = [&](const Progress&) { return options.progress(progress); };

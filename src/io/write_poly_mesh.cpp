@@ -57,7 +57,8 @@ std::vector<Patch> emptyPatches(const TriangleGroups* groups) {
   return patches;
 }
 
-Sides sort(const CutMesh& cutMesh, const CellComplex& cells, const std::vector<int32_t>& numbers, const TriangleGroups* groups) {
+Sides sort(const CutMesh& cutMesh, const CellComplex& cells, const std::vector<int32_t>& numbers, const TriangleGroups* groups,
+           bool simpleCells) {
   Sides sides;
   sides.patches = emptyPatches(groups);
   for (size_t f = 0; f < cells.faceCount(); ++f) {
@@ -66,6 +67,7 @@ Sides sort(const CutMesh& cutMesh, const CellComplex& cells, const std::vector<i
       const int32_t cell = cells.faceCells[2 * f + side];
       at[side] = cell < 0 ? kLeftOut : numbers[size_t(cell)];
     }
+    if (simpleCells && at[0] == at[1] && at[0] != kLeftOut) continue;
     const bool separates = cells.faceTag[f] == FaceTag::surface;  // also two sides of one cell
     if (!separates && at[0] != kLeftOut && at[1] != kLeftOut) {
       const size_t owner = at[0] < at[1] ? 0 : 1;
@@ -95,7 +97,7 @@ class PolyMeshWriter {
 
   void write() {
     numberCells();
-    sides_ = sort(cutMesh_, cells_, cellNumbers_, groups_);
+    sides_ = sort(cutMesh_, cells_, cellNumbers_, groups_, options_.simpleCells);
     countFaces();
     writeFile("points", "vectorField", points_, [&](OutputBuffer& out) { putPoints(out); });
     writeFile("faces", "faceList", faces_, [&](OutputBuffer& out) { putFaces(out); });

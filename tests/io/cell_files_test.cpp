@@ -397,6 +397,47 @@ TEST_CASE("untouched grid cells and octree cells with six sides are hexahedra; w
   }
 }
 
+TEST_CASE("simple cells lack the faces of a sheet that ends in them, and nothing else", "[cellfiles]") {
+  const Mesh sheet = shapes::quad({0.5, 0.5, 1.5}, {2.5, 0.5, 1.5}, {2.5, 2.5, 1.5}, {0.5, 2.5, 1.5});
+  const Grid grid = Grid::box({0, 0, 0}, {3, 3, 3}, {3, 3, 3});
+  WriteOptions simple;
+  simple.simpleCells = true;
+  const auto mostFacesAtAnEdge = [](const std::vector<std::vector<vtu_files::Polygon>>& cells) {
+    long most = 0;
+    for (const std::vector<vtu_files::Polygon>& faces : cells) {
+      std::map<std::pair<int64_t, int64_t>, long> edges;
+      for (const vtu_files::Polygon& face : faces) {
+        for (size_t i = 0; i < face.size(); ++i) most = std::max(most, ++edges[std::minmax(face[i], face[(i + 1) % face.size()])]);
+      }
+    }
+    return most;
+  };
+  for (const bool merged : {false, true}) {
+    Cells cells(sheet, grid, 2);
+    if (merged) cells.complex = mergeSmallCells(cells.cutMesh, cells.complex).cells;
+    std::string ofCut;
+    writeVtu([&](std::string_view piece) { ofCut += piece; }, sheet, cells.cutMesh, simple);
+    for (const std::string& file : {vtuOf(cells, false, {}, simple), ofCut}) {
+      const vtu_files::Vtu vtu(file);
+      vtu_files::requireMatching(vtu, grid);
+      CHECK(mostFacesAtAnEdge(vtu_files::cellFaces(vtu)) == 2);
+    }
+    CHECK(mostFacesAtAnEdge(vtu_files::cellFaces(vtu_files::Vtu(vtuOf(cells, false, {})))) == 4);
+
+    const PolyMesh polyMesh = writtenPolyMesh(cells, simple), all = writtenPolyMesh(cells);
+    const std::vector<double> found = volumes(polyMesh), expected = volumes(all);
+    REQUIRE(found.size() == expected.size());
+    for (size_t c = 0; c < found.size(); ++c) REQUIRE(found[c] == Approx(expected[c]).epsilon(1e-14));
+    CHECK(polyMesh.neighbour == all.neighbour);
+    size_t separating = 0;
+    for (size_t f = 0; f < cells.complex.faceCount(); ++f)
+      separating += cells.complex.faceTag[f] == FaceTag::surface && cells.complex.faceCells[2 * f] != cells.complex.faceCells[2 * f + 1];
+    CHECK(separating > 0);
+    CHECK(polyMesh.patch("surface").faces == 2 * separating);
+    CHECK(all.patch("surface").faces > 2 * separating);
+  }
+}
+
 TEST_CASE("cells that are all hexahedra are written without faces", "[cellfiles]") {
   const Grid grid = Grid::box({0, 0, 0}, {1, 1, 1}, {3, 2, 4});
   Cells cells(shapes::cube(5, 6), grid, 0);

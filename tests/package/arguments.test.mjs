@@ -290,6 +290,7 @@ test('questions about a cut-mesh', async () => {
     [() => mandoline.write(mesh, cutMesh, 'vtu', { regions: [true] }), /^regions must have one .* 2 regions, but has 1\./],
     [() => mandoline.write(mesh, cutMesh, 'obj', { regions: new Uint8Array(3) }), /^regions must have one flag for each .*, but has 3\./],
     [() => mandoline.write(mesh, cutMesh, 'json', { regions: [true, true] }), /^Files of this format always have everything/],
+    [() => mandoline.write(mesh, cutMesh, 'vtu', { simpleCells: 1 }), /^options\.simpleCells/],
     [() => mandoline.write(mesh, cutMesh, 'mcm', { untouched: false }), /^Files of this format always have everything/],
     [() => mandoline.write(mesh, cutMesh, 'json', { progress: 1 }), /^options\.progress/],
   ];

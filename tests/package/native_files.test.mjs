@@ -106,6 +106,18 @@ test('merged cells', { skip }, async () => {
   await compare(physics, 'writeFaces', [cutMesh, merged, { groups }], faces('faces.vtu'));
 });
 
+test('cells without the faces of sheets that end in them', { skip }, async () => {
+  const simpleCells = true;
+  const written = native('cut', [...gridOptions, '--simple-cells'], ['cut.vtu']);
+  await compare(mandoline, 'write', [mesh, cutMesh, 'vtu', { simpleCells }], written('cut.vtu'));
+  const ofAll = native('cut', [...gridOptions, '--coarsen', '2', '--simple-cells'], ['cells.vtu', 'polyMesh']);
+  await compare(physics, 'writeCells', [cutMesh, cells, 'vtu', { simpleCells }], ofAll('cells.vtu'));
+  for (const [name, bytes] of Object.entries(physics.writePolyMesh(cutMesh, cells, { simpleCells, groups })))
+    assertSame(bytes, ofAll(`polyMesh/${name}`), name);
+  const [simple, whole] = await Promise.all([true, false].map((flag) => mandoline.write(mesh, cutMesh, 'vtu', { simpleCells: flag })));
+  assert.ok(simple.length < whole.length);
+});
+
 test('walls united, by groups', { skip }, async () => {
   const united = physics.uniteWalls(cutMesh, cells, { angle: 40, groups });
   const written = native('cut', [...gridOptions, '--coarsen', '2', '--unite-walls', '40'], ['cells.json', 'polyMesh']);

@@ -311,6 +311,11 @@ export interface WriteMeshOptions extends RunOptions {
 export interface WriteOptions extends WriteOutlinesOptions, WriteMeshOptions {
   /** Whether untouched grid cells are written to a "vtu". Default true. */
   untouched?: boolean;
+  /**
+   * Whether a "vtu" of cells, or a polyMesh, lacks the faces that have the same cell at both sides, where a sheet ends in it: VTK's filters
+   * fail on these. Default false.
+   */
+  simpleCells?: boolean;
 }
 
 /** Outlines in parallel planes, for writeOutlines(). */

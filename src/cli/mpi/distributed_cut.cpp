@@ -38,7 +38,9 @@ void checkArguments(const Arguments& arguments) {
     }
     detail::checkPlace(output);
   }
-  checkCutOutputs(ofWhole(arguments));
+  Arguments whole = ofWhole(arguments);
+  if (whole.outputs.size() < arguments.outputs.size()) whole.simpleCells = false;  // the .pvtu file has them
+  checkCutOutputs(whole);
 }
 
 /// Whether the first process has to have the whole cut.

@@ -39,6 +39,9 @@ bool isOutlineFormat(FileFormat format);
 /// Which parts of a cut-mesh are written, and how.
 struct WriteOptions : RunOptions {
   bool untouched = true;  ///< whether untouched grid cells are written, too (.vtu, polyMesh)
+  /// Whether faces are left out that have the same cell at both sides, where a sheet ends in it, since VTK's filters and some of OpenFOAM's
+  /// solvers fail on these (.vtu of cells, polyMesh).
+  bool simpleCells = false;
   /// Per region of the cut-mesh 1 if it is written, else 0; empty for all. Of cells: those of the region. Of the surface: all that bounds
   /// the region, oriented out of it, while without regions each face is written once, under the region that an outward oriented surface
   /// encloses.
@@ -141,6 +144,9 @@ using FolderSink = std::function<void(const std::string& file, std::string_view 
 /// The same to wherever the sink puts it.
 void writePolyMesh(const FolderSink& sink, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options = {});
 
+struct WritePiecesOptions : ForEachBrickOptions {
+  bool simpleCells = false;  ///< as of WriteOptions
+};
 /// What writePieces() has written.
 struct PieceCounts {
   uint64_t pieces = 0, cutCells = 0, untouchedCells = 0;
@@ -149,7 +155,7 @@ struct PieceCounts {
 /// is made if need be: cut_I_J_K.vtu, where the brick's lowest grid cell is (I, J, K). Then cut.pvtu, which joins them; no file if there
 /// are no pieces. Files of these names that are there already go. Untouched grid cells are written if options.untouched says so. Cells
 /// match face by face within a piece. Throws CallError as forEachBrick() does, and FileError; then none of the files is left.
-PieceCounts writePieces(const std::string& folder, const PreparedMesh& mesh, const Grid& grid, const ForEachBrickOptions& options = {});
+PieceCounts writePieces(const std::string& folder, const PreparedMesh& mesh, const Grid& grid, const WritePiecesOptions& options = {});
 
 /// Throws the FileError that writeCutMesh would meet at once, before there is anything to write: an unknown extension, no such folder.
 void checkOutput(const std::string& path);

@@ -27,7 +27,7 @@ export const fileCalls = {
    */
   write: {
     takes: { mesh: readMesh, cutMesh: { kind: 'cutMesh' }, format: format('json', 'mcm', 'vtu', 'obj', 'stl', 'ply') },
-    options: { untouched: flag(true), regions, groups, progress },
+    options: { untouched: flag(true), simpleCells: flag(false), regions, groups, progress },
   },
   /**
    * A mesh as a file: that of a part, of resolve(), of boundary(). STL and PLY are binary.

@@ -43,6 +43,7 @@ const progress = readFunction;
 
 /** Of writers. */
 const written = { untouched: flag(true), regions: optional(readFlags), groups: optional(readGroups), progress };
+const writtenCells = { ...written, simpleCells: flag(false) };
 
 /** When a solver stops, and how often it corrects. */
 const limits = { tolerance: number(1e-10), maxIterations: int32(500), corrections: int32(8) };
@@ -284,7 +285,7 @@ export const physicsCalls = {
    */
   writeCells: {
     takes: { cutMesh, cells, format: format('json', 'vtu') },
-    options: { ...written, fields: readFieldsToWrite },
+    options: { ...writtenCells, fields: readFieldsToWrite },
     run: (bindings, cutMeshHandle, cellsHandle, number, options) => {
       if (FileFormat[number] === 'json' && options.fields.length)
         throw bad('options.fields is for "vtu": "json" has the arrays of cells alone.');
@@ -295,7 +296,7 @@ export const physicsCalls = {
    * Their faces as polygons of a "vtu", with the tag, the triangle and the cells of each, its group if there are groups, and
    * `options.fields`. Errors as in writeCells().
    *
-   * writeFaces(cutMesh: CutMeshArrays, cells: CellComplex, options?: WriteCellsOptions): Uint8Array<ArrayBuffer>
+   * writeFaces(cutMesh: CutMeshArrays, cells: CellComplex, options?: WriteFacesOptions): Uint8Array<ArrayBuffer>
    */
   writeFaces: { takes: { cutMesh, cells }, options: { ...written, fields: readFieldsToWrite } },
   /**
@@ -305,5 +306,5 @@ export const physicsCalls = {
    *
    * writePolyMesh(cutMesh: CutMeshArrays, cells: CellComplex, options?: WritePolyMeshOptions): PolyMeshFiles
    */
-  writePolyMesh: { takes: { cutMesh, cells }, options: written },
+  writePolyMesh: { takes: { cutMesh, cells }, options: writtenCells },
 };

@@ -307,6 +307,7 @@ export interface WriteCellsOptions extends WritePolyMeshOptions {
   /** Per name 1 or 3 numbers for each cell, or for each face. Names have neither control characters nor < > & ". */
   fields?: { readonly [name: string]: ArrayLike<number> };
 }
+export type WriteFacesOptions = Omit<WriteCellsOptions, 'simpleCells'>;
 
 /** The files of a polyMesh by their names. */
 export interface PolyMeshFiles {

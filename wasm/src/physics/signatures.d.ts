@@ -31,6 +31,7 @@ import type {
   SubComplex,
   WallOptions,
   WriteCellsOptions,
+  WriteFacesOptions,
   WritePolyMeshOptions,
 } from './index.js';
 import type { CallOptions, OnWorker } from '../worker.js';
@@ -161,7 +162,7 @@ export interface Calls {
    * Their faces as polygons of a "vtu", with the tag, the triangle and the cells of each, its group if there are groups, and
    * `options.fields`. Errors as in writeCells().
    */
-  writeFaces(cutMesh: CutMeshArrays, cells: CellComplex, options?: WriteCellsOptions): Uint8Array<ArrayBuffer>;
+  writeFaces(cutMesh: CutMeshArrays, cells: CellComplex, options?: WriteFacesOptions): Uint8Array<ArrayBuffer>;
   /**
    * The cells as a polyMesh of OpenFOAM: the files of the folder constant/polyMesh by their names. Patches are xMin ... zMax, `surface` (a
    * wall), which has both sides of the input's triangles, or with groups a wall for each of them, and `inner` where only one of two
@@ -202,6 +203,6 @@ export interface WorkerCalls {
     format: 'json' | 'vtu',
     options?: WriteCellsOptions & CallOptions,
   ): Promise<Uint8Array<ArrayBuffer>>;
-  writeFaces(cutMesh: CutMeshArrays, cells: CellComplex, options?: WriteCellsOptions & CallOptions): Promise<Uint8Array<ArrayBuffer>>;
+  writeFaces(cutMesh: CutMeshArrays, cells: CellComplex, options?: WriteFacesOptions & CallOptions): Promise<Uint8Array<ArrayBuffer>>;
   writePolyMesh(cutMesh: CutMeshArrays, cells: CellComplex, options?: WritePolyMeshOptions & CallOptions): Promise<PolyMeshFiles>;
 }
