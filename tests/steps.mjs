@@ -16,14 +16,17 @@ export function run(command, ...args) {
   if (status !== 0) process.exit(status ?? 1);
 }
 
-/** Runs commands side by side, each a list of words, else as `run` does. */
+/** Runs commands side by side, each a list of words. Ends the program, once all have ended, if one has failed. */
 export async function runTogether(...commands) {
   const runs = commands.map(async ([command, ...args]) => {
-    console.log(`\n> ${[command, ...args].join(' ')} &`);
+    const text = [command, ...args].join(' ');
+    console.log(`\n> ${text} &`);
     const [status] = await once(spawn(command, args, { cwd: root, stdio: 'inherit' }), 'exit');
-    if (status !== 0) process.exit(status ?? 1);
+    if (status !== 0) console.error(`failed: ${text}`);
+    return status ?? 1;
   });
-  await Promise.all(runs);
+  const failure = (await Promise.all(runs)).find((status) => status !== 0);
+  if (failure !== undefined) process.exit(failure);
 }
 
 export function fail(message) {
