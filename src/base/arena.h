@@ -43,6 +43,14 @@ class Arena {
   static void rewrite(std::span<const Item> copy, const F& f) {
     for (Item& item : std::span(const_cast<Item*>(copy.data()), copy.size())) item = f(item);
   }
+  /// Forgets all that was copied. What is copied next goes into the last of its memory, which is the largest in general.
+  void clear() {
+    if (blocks_.empty()) return;
+    blocks_.erase(blocks_.begin(), blocks_.end() - 1);
+    next_ = static_cast<std::byte*>(blocks_.back().get());
+    left_ = size_;
+    bytes_ = 0;
+  }
   /// All that were copied.
   size_t bytes() const { return bytes_; }
 

@@ -105,7 +105,7 @@ void cutInBricks(CutState& state, const ShareOf& share, Clock& clock, Run& run) 
   clock.begin("bricks");
   state.bricks = layOutBricks(surface, state.parts, brickGrid);
   if (share.count > 1) state.bricks.here = layersOf(state.bricks, share.index, share.count);
-  if (state.keepBricks) state.kept = state.keepBricks();
+  if (state.keeping.bricks) state.kept = state.keeping.bricks();
   state.cuts = cutBricks(surface, state.parts, state.bricks, run, state.kept);
   if (!state.isNeededAgain) state.parts = {};
   state.used = findUsed(surface, state.bricks, state.cuts, run);
@@ -115,7 +115,8 @@ void joinBricks(CutState& state, Clock& clock, Run& run) {
   const Input& input = state.surface.input;
   clock.begin("regions");
   state.runs = findUntouchedRuns(input, state.bricks, run.monitor);
-  state.seams = findSeams(input, state.bricks, state.runs, state.cuts, run);
+  if (state.keeping.seams) state.seams = state.keeping.seams();
+  findSeams(state.cut(), state.kept, state.seams, run);
   state.regions = findRegions(state.cut());
 }
 

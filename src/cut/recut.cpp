@@ -6,6 +6,7 @@
 #include "cut/driver.h"
 #include "cut/stages/input.h"
 #include "cut/stages/kept_bricks.h"
+#include "cut/stages/kept_seams.h"
 #include "mesh/fingerprints.h"
 #include "mesh/prepare_again.h"
 #include "mesh/run_call.h"
@@ -13,6 +14,20 @@
 namespace mandoline {
 
 using namespace detail;
+
+/// What a cut keeps of one before it.
+static Keeping keepingOf(CutState& before, CutState& now) {
+  Keeping keeping;
+  keeping.bricks = [&] {
+    return keepBricks({before.surface, before.parts, before.bricks, before.cuts, now.moved}, now.surface, now.parts, now.bricks);
+  };
+  keeping.seams = [&] { return keepSeams(now.kept, now.runs, before.seams); };
+  keeping.vertices = [&] {
+    if (now.kept.before.empty()) return KeptVertices();
+    return KeptVertices{findKeptVertices(now.cut(), now.kept, before.numbers, now.numbers), before.positions};
+  };
+  return keeping;
+}
 
 struct Recutter::Data {
   /// All of a cut, for the next one.
@@ -49,11 +64,7 @@ struct Recutter::Data {
     }
     beginCut(*now.prepared, grid, state, clock, run);
     state.brickShifts = state.before ? state.before->bricks.grid.shifts : BrickGrid::shiftsForMoving(state.surface.input);
-    if (CutState* from = state.before) {
-      state.keepBricks = [from, &state] {
-        return keepBricks({from->surface, from->parts, from->bricks, from->cuts, state.moved}, state.surface, state.parts, state.bricks);
-      };
-    }
+    if (state.before) state.keeping = keepingOf(*state.before, state);
     CutMesh cutMesh = cutPrepared(state, input.view(), grid, clock, run);
     sign(cutMesh, fingerprintOf(mesh), options);
     counts = {state.bricks.size(), 0};
@@ -62,7 +73,7 @@ struct Recutter::Data {
     state.positions.clear();
     copyLarge(cutMesh.positions, state.positions);
     state.before = nullptr;
-    state.keepBricks = nullptr;
+    state.keeping = {};
     state.kept = {};
     last = std::move(now);
     return cutMesh;

@@ -102,6 +102,19 @@ TEST_CASE("recut: a vertex on a seam keeps others away that rounding puts onto i
   CHECK(kept > 0);
 }
 
+TEST_CASE("recut: a brick is kept while one beside it becomes touched, and untouched again", "[recut]") {
+  // Bricks of 4 grid cells. The cells of both triangles share a grid-face on the seam x = 4 while they are next to each other.
+  const auto at = [](double x) { return shapes::triangle({x + 0.25, 1.25, 1.25}, {x + 0.75, 1.25, 1.25}, {x + 0.5, 1.75, 1.5}); };
+  const Grid grid = Grid::regular({0, 0, 0}, {1, 1, 1}, {24, 24, 24});
+  for (const auto& [still, beside] : {std::pair(3.0, 4.0), std::pair(4.0, 3.0)}) {
+    std::vector<Mesh> times;
+    for (const double x : {9.0, beside, 9.0}) times.push_back(shapes::merged({at(still), at(x)}));
+    size_t kept = 0;
+    CHECK(brokenRecut(times, grid, {}, &kept) == "");
+    CHECK(kept == 2);
+  }
+}
+
 TEST_CASE("recut: coordinates that become -0, or others that scaling flushes, are handed back as they are", "[recut]") {
   std::vector<Mesh> times;
   for (const double y : {1e-70, 1e-71, 0.0, -0.0, 1e-70})

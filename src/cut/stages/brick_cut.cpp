@@ -16,7 +16,8 @@ class BrickThread {
     gridFaceScratch_.onlyGraph = cellScratch_.onlyGeneral = onlyGeneral;
   }
 
-  BrickCut cut(BrickId brick) {
+  /// `memory`: that of all results.
+  BrickCut cut(BrickId brick, BrickMemory& memory) {
     cutBrickSurface(surface_, parts_, brick, bricks_, brickSurface_);
     makeStencil(brickSurface_, bricks_, brick, stencil_);
     cutGridEdges(brickSurface_, stencil_, gridEdges_);
@@ -25,11 +26,9 @@ class BrickThread {
     makeCutCells(brickSurface_, stencil_, faces, cellScratch_, cells_);
     BrickCut result;
     result.vertices = CutVertices::ofBrick(surface_.vertices);
-    harvest({brickSurface_, stencil_, gridEdges_, faces, cells_}, counted_, gathered_, memory_, result);
+    harvest({brickSurface_, stencil_, gridEdges_, faces, cells_}, counted_, gathered_, memory, result);
     return result;
   }
-  /// That of all results.
-  BrickMemory& memory() { return memory_; }
 
   void count(Run& run) const {
     run.count(brickSurface_.predicates);
@@ -51,7 +50,6 @@ class BrickThread {
   CellScratch cellScratch_;
   CutCells cells_;
   Gathered gathered_;
-  BrickMemory memory_;
 };
 
 }  // namespace
@@ -64,14 +62,18 @@ BrickCuts cutBricks(const Surface& surface, const SurfaceParts& parts, Bricks& b
   std::erase_if(order, [&](uint32_t b) { return kept.has({b}); });
   sortItems(order, [&](uint32_t a, uint32_t b) { return weightOf(a) > weightOf(b); });  // the heaviest first
   std::vector<std::unique_ptr<BrickThread>> cutters(run.monitor.threads());
+  std::vector<uint32_t> memory = std::exchange(cuts.freeMemory, {});  // per thread
+  while (memory.size() < cutters.size()) {
+    memory.push_back(uint32_t(cuts.memory.size()));
+    cuts.memory.emplace_back();
+  }
   runItems(order, run.monitor, [&](size_t thread, uint32_t b) {
     if (!cutters[thread]) cutters[thread] = std::make_unique<BrickThread>(surface, parts, bricks, run.onlyGeneral);
-    cuts[{b}] = cutters[thread]->cut({b});
+    cuts[{b}] = cutters[thread]->cut({b}, cuts.memory[memory[thread]]);
+    cuts[{b}].memory = memory[thread];
   });
   for (const auto& cutter : cutters) {
-    if (!cutter) continue;
-    cutter->count(run);
-    cuts.memory.push_back(std::move(cutter->memory()));
+    if (cutter) cutter->count(run);
   }
   return cuts;
 }

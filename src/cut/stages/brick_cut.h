@@ -76,10 +76,14 @@ struct BrickMemory {
   Arena vertices, faces, cells, seams;
 
   size_t bytes() const { return vertices.bytes() + faces.bytes() + cells.bytes() + seams.bytes(); }
+  void clear() {
+    for (Arena* part : {&vertices, &faces, &cells, &seams}) part->clear();
+  }
 };
 
 /// Its arrays are in the memory of BrickCuts.
 struct BrickCut {
+  uint32_t memory = 0;  ///< in which of them
   /// Those of the brick's own. Their places, in loops, are their numbers in the brick; then come those of surfaceVertices.
   CutVertices vertices;
   std::span<const VertexId> surfaceVertices;  ///< that loops have, in no order
@@ -134,6 +138,7 @@ struct BrickCuts : IdVector<BrickId, BrickCut> {
   using IdVector::IdVector;
 
   std::vector<BrickMemory> memory;
+  std::vector<uint32_t> freeMemory;  ///< of these: empty, for bricks that are cut next
 
   size_t bytes() const {
     return std::accumulate(memory.begin(), memory.end(), size_t(0), [](size_t sum, const BrickMemory& of) { return sum + of.bytes(); });
@@ -151,9 +156,11 @@ struct KeptBricks {
 
   BrickCuts cuts;                         ///< of all bricks; empty if none is kept
   IdVector<BrickId, BrickId> before;      ///< per brick: which it was; kNone if it is not kept. Empty if none is
+  IdVector<BrickId, uint8_t> inner;       ///< per brick: whether it and all bricks around it are kept. Empty if none is
   IdVector<VertexId, VertexId> vertices;  ///< per vertex of the surface before: which it is now; or kNoVertex
 
   bool has(BrickId brick) const { return !before.empty() && before[brick] != kNone; }
+  bool isInner(BrickId brick) const { return !inner.empty() && inner[brick]; }
 };
 
 /// Cuts the bricks that are to be cut here, if they are not kept. Moves their cuts out of `kept`.

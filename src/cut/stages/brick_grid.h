@@ -116,6 +116,20 @@ struct BrickGrid {
       return false;
     });
   }
+  /// Calls f(cell) for a brick and those around it, with a cell of each.
+  template <class F>
+  void forAround(const BrickBox& box, const F& f) const {
+    const auto forSides = [&](size_t d, const auto& next) {
+      for (const int32_t at : {box.first[d] - 1, box.first[d], box.first[d] + box.count[d]}) next(2 * at + 1);
+    };
+    forSides(2, [&](int32_t z) {
+      forSides(1, [&](int32_t y) {
+        forSides(0, [&](int32_t x) {
+          if (hasCell({x, y, z})) f(Slab{x, y, z});
+        });
+      });
+    });
+  }
   /// Whether an element lies on a plane between bricks.
   bool isOnSeam(const Slab& element) const {
     bool isOn = false;

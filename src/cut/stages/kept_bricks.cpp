@@ -16,19 +16,28 @@ class Keeper {
     KeptBricks kept;
     if (!now_.isOrdered()) return kept;
     kept.before.assign(bricks_.size(), KeptBricks::kNone);
+    kept.inner.assign(bricks_.size(), 1);
     kept.cuts.resize(bricks_.size());
+    IdVector<BrickId, uint8_t> isKept(before_.bricks.size(), 0);
     BrickId was{0};
     for (const BrickId b : bricks_.ids()) {
       while (was.number < before_.bricks.size() && before_.bricks.keys[was] < bricks_.keys[b]) ++was.number;
       if (was.number == before_.bricks.size()) break;
       if (before_.bricks.keys[was] != bricks_.keys[b] || !isSame(was, b)) continue;
       kept.before[b] = was;
+      isKept[was] = 1;
       kept.cuts[b] = renumbered(before_.cuts[was]);
       const auto touched = before_.bricks.wordsOf(was);
       std::copy(touched.begin(), touched.end(), bricks_.wordsOf(b).begin());
     }
+    for (const BrickId b : bricks_.ids()) {
+      if (!kept.has(b)) noteAround(bricks_.boxes[b], kept.inner);
+    }
+    for (const BrickId b : isKept.ids()) {
+      if (!isKept[b]) noteAround(before_.bricks.boxes[b], kept.inner);
+    }
     kept.cuts.memory = std::move(before_.cuts.memory);
-    dropUnused(kept.cuts);
+    dropUnused(kept);
     kept.vertices = now_.takeVertices();
     return kept;
   }
@@ -61,18 +70,36 @@ class Keeper {
     return a.element == b.element && now_[a.from] == b.from && now_[a.to] == b.to;
   }
 
-  /// Gives back the memory of bricks that are not kept, once that is half of it.
-  static void dropUnused(BrickCuts& cuts) {
+  /// Notes that not all bricks are kept around those about one, itself included.
+  void noteAround(const BrickBox& box, IdVector<BrickId, uint8_t>& inner) const {
+    bricks_.grid.forAround(box, [&](const Slab& cell) {
+      if (const std::optional<BrickId> brick = bricks_.find(cell)) inner[*brick] = 0;
+    });
+  }
+
+  /// Gives back the memory of bricks that are not kept, once that is half of it. What no other bricks are in is used again.
+  static void dropUnused(KeptBricks& kept) {
+    BrickCuts& cuts = kept.cuts;
     size_t used = 0;
-    for (BrickCut& cut : cuts) {
-      cut.forArrays([&](const auto& array, Arena BrickMemory::*) { used += array.size_bytes(); });
+    std::vector<uint8_t> isUsed(cuts.memory.size(), 0);
+    for (const BrickId b : cuts.ids()) {
+      if (!kept.has(b)) continue;
+      isUsed[cuts[b].memory] = 1;
+      cuts[b].forArrays([&](const auto& array, Arena BrickMemory::*) { used += array.size_bytes(); });
+    }
+    for (uint32_t i = 0; i < isUsed.size(); ++i) {
+      if (isUsed[i]) continue;
+      cuts.memory[i].clear();
+      cuts.freeMemory.push_back(i);
     }
     if (cuts.bytes() <= 2 * used) return;
     BrickMemory memory;
     for (BrickCut& cut : cuts) {
       cut.forArrays([&](auto& array, Arena BrickMemory::*part) { array = (memory.*part).copy(array); });
+      cut.memory = 0;
     }
     cuts.memory.clear();
+    cuts.freeMemory.clear();
     cuts.memory.push_back(std::move(memory));
   }
 

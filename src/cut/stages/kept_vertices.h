@@ -17,6 +17,7 @@ struct KeptVertices {
   }
 };
 
+/// KeptVertices::before.
 std::vector<uint32_t> findKeptVertices(const CutBricks& cut, const KeptBricks& kept, const Numbers& before, const Numbers& now);
 
 }  // namespace mandoline::detail

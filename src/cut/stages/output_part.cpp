@@ -109,7 +109,7 @@ class VertexWriter {
     const bool isOfMesh = isTriVertex(vertices, v);
     const double* before = isOfMesh ? nullptr : kept_.find(i);
     if (before) {
-      std::copy_n(before, 3, position);
+      for (size_t d = 0; d < 3; ++d) position[d] = before[d];
       return;
     }
     const Point p = isOfMesh ? Point() : vertices.position(v, predicates);
@@ -205,9 +205,7 @@ CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& r
   const Input& input = state.surface.input;
   state.numbers = makeNumbers(state.cut(), state.used, run);
   const Numbers& numbers = state.numbers;
-  KeptVertices kept;
-  if (!state.kept.before.empty())
-    kept = {findKeptVertices(state.cut(), state.kept, state.before->numbers, numbers), state.before->positions};
+  const KeptVertices kept = state.keeping.vertices ? state.keeping.vertices() : KeptVertices();
   CutPart part;
   CutMesh& out = part.cutMesh;
   out.grid = grid;

@@ -13,6 +13,13 @@
 
 namespace mandoline::detail {
 
+/// What is kept of the cut before, each once it can be told. Set where there is one: other cuts don't link it.
+struct Keeping {
+  std::function<KeptBricks()> bricks;  ///< of those that are laid out
+  std::function<IdVector<BrickId, BrickSeams>()> seams;
+  std::function<KeptVertices()> vertices;
+};
+
 /// What the stages have made so far; each adds its part.
 struct CutState {
   Surface surface;
@@ -31,7 +38,7 @@ struct CutState {
   std::optional<std::array<int, 3>> brickShifts;  ///< of bricks that have to be the same each time
   CutState* before = nullptr;                     ///< the cut before, if parts of it may be kept; and what has moved since
   Moved moved;
-  std::function<KeptBricks()> keepBricks;  ///< of those that are laid out; set where there is one before: others don't link it
+  Keeping keeping;
   KeptBricks kept;
   std::vector<double> positions;  ///< of the result, for the next cut
   CutMesh spare;                  ///< whose memory the result is written over

@@ -25,7 +25,7 @@ class RegionFinder {
 
  private:
   void uniteBrick(BrickId brick) {
-    for (const auto& [component, run] : cut_.seams[brick].joins) nodes_.unite(firstNodes_[brick] + component, firstRun_ + run);
+    for (const SeamJoin& join : cut_.seams[brick].joins) nodes_.unite(firstNodes_[brick] + join.component, firstRun_ + join.run);
     cut_.forHalves(brick, [&](const BoundaryHalf& below, BrickId owner, const BoundaryHalf& above) {
       if (below.isTri) return;
       nodes_.unite(firstNodes_[owner] + below.component, firstNodes_[brick] + above.component);

@@ -1,14 +1,18 @@
 #include "cut/stages/seams.h"
 
-#include <numeric>
-
 namespace mandoline::detail {
 namespace {
 
 class SeamFinder {
  public:
-  SeamFinder(const Input& input, const Bricks& bricks, const UntouchedRuns& runs, BrickId brick, const BrickCut& cut, BrickSeams& out)
-      : input_(input), bricks_(bricks), runs_(runs), brick_(brick), box_(bricks.boxes[brick]), cut_(cut), out_(out) {}
+  SeamFinder(const CutBricks& cut, BrickId brick, BrickSeams& out)
+      : input_(cut.surface.input),
+        bricks_(cut.bricks),
+        runs_(cut.runs),
+        brick_(brick),
+        box_(bricks_.boxes[brick]),
+        cut_(cut.cuts[brick]),
+        out_(out) {}
 
   void run() {
     for (const OpenFace& open : cut_.openFaces) join(open.component, box_.cellAt(open.cell));
@@ -71,9 +75,10 @@ class SeamFinder {
   /// Leaves out most of those that are known: runs along a surface are met again and again.
   void join(uint32_t component, const Slab& untouched) {
     constexpr size_t kLast = 16;
-    const std::array<uint32_t, 2> join{component, runs_.at(untouched)};
+    const uint32_t run = runs_.at(untouched);
+    const auto isSame = [&](const SeamJoin& join) { return join.component == component && join.run == run; };
     const auto end = out_.joins.end(), begin = end - ptrdiff_t(std::min(kLast, out_.joins.size()));
-    if (std::find(begin, end, join) == end) out_.joins.push_back(join);
+    if (std::none_of(begin, end, isSame)) out_.joins.push_back({component, run, untouched});
   }
 
   void countRows() {
@@ -138,13 +143,13 @@ void BrickCounts::add(const BrickCounts& more) {
   vertices += more.vertices;
 }
 
-IdVector<BrickId, BrickSeams> findSeams(const Input& input, const Bricks& bricks, const UntouchedRuns& runs,
-                                        const IdVector<BrickId, BrickCut>& cuts, Run& run) {
-  IdVector<BrickId, BrickSeams> seams(cuts.size());
-  std::vector<uint32_t> order(cuts.size());
-  std::iota(order.begin(), order.end(), 0u);
-  runItems(order, run.monitor, [&](size_t, uint32_t b) { SeamFinder(input, bricks, runs, {b}, cuts[{b}], seams[{b}]).run(); });
-  return seams;
+void findSeams(const CutBricks& cut, const KeptBricks& kept, IdVector<BrickId, BrickSeams>& seams, Run& run) {
+  seams.resize(cut.cuts.size());
+  std::vector<uint32_t> order;
+  for (const BrickId b : seams.ids()) {
+    if (!kept.isInner(b)) order.push_back(b.number);
+  }
+  runItems(order, run.monitor, [&](size_t, uint32_t b) { SeamFinder(cut, {b}, seams[{b}]).run(); });
 }
 
 }  // namespace mandoline::detail

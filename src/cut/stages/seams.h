@@ -1,6 +1,7 @@
 // Seams: what bricks have in common, by the brick that owns it (brick_grid.h), and how much of the result belongs to each row of a brick.
 //
-// In: BrickCuts, and the runs of untouched grid cells. Out: BrickSeams. Both bricks of a seam have the same there, in the same order.
+// In: BrickCuts, and the runs of untouched grid cells. Out: BrickSeams. Both bricks of a seam have the same there, in the same order. Those
+// of inner KeptBricks are known: see kept_seams.h.
 #pragma once
 
 #include "cut/stages/brick_cut.h"
@@ -33,10 +34,16 @@ struct BrickCounts {
   void add(const BrickCounts& more);
 };
 
+/// A component of a brick and a run of untouched grid cells that lie beside each other.
+struct SeamJoin {
+  uint32_t component, run;
+  Slab cell;  ///< one of the run that lies beside the component, in the brick or beside it
+};
+
 struct BrickSeams {
   SeamRanges triFaces, pieces, halves, vertices;
-  std::vector<BrickCounts> rows;               ///< per row of the brick, of what it owns
-  std::vector<std::array<uint32_t, 2>> joins;  ///< component, run: what lies beside each other
+  std::vector<BrickCounts> rows;  ///< per row of the brick, of what it owns
+  std::vector<SeamJoin> joins;
 };
 
 /// Calls f(row, first, past) for what a brick owns of a list: ranges of it, ascending, each in one row. `past` is the member of BrickRow
@@ -67,9 +74,6 @@ void forOthers(const IdVector<BrickId, BrickSeams>& seams, BrickId brick, SeamRa
   }
 }
 
-IdVector<BrickId, BrickSeams> findSeams(const Input& input, const Bricks& bricks, const UntouchedRuns& runs,
-                                        const IdVector<BrickId, BrickCut>& cuts, Run& run);
-
 /// All that bricks have found.
 struct CutBricks {
   const Surface& surface;
@@ -88,5 +92,8 @@ struct CutBricks {
     });
   }
 };
+
+/// Adds those of bricks that are not inner ones of `kept` to `seams`, which are those of `cut`.
+void findSeams(const CutBricks& cut, const KeptBricks& kept, IdVector<BrickId, BrickSeams>& seams, Run& run);
 
 }  // namespace mandoline::detail

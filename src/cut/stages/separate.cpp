@@ -17,9 +17,13 @@ class Separator {
   }
 
   void run(Monitor& monitor) {
+    std::vector<uint32_t> vertices;
+    for (uint32_t v = 0; v < out_.vertexCount(); ++v) {
+      if (mayMeet(v)) vertices.push_back(v);
+    }
     const size_t count = (slabCount() >> shift_) + 1;
     const auto layers = groupBy<uint32_t>(
-        count + 1, out_.vertexCount(), [&](size_t v) { return mayMeet(v) ? layerOf(v) : count; }, [](size_t v) { return uint32_t(v); });
+        count, vertices.size(), [&](size_t i) { return layerOf(vertices[i]); }, [&](size_t i) { return vertices[i]; });
     std::vector<uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0u);
     runItems(order, monitor, [&](size_t, uint32_t layer) { separate(layers[layer]); });
