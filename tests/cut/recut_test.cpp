@@ -108,7 +108,7 @@ TEST_CASE("recut: a brick is kept while one beside it becomes touched, and untou
   const Grid grid = Grid::regular({0, 0, 0}, {1, 1, 1}, {24, 24, 24});
   for (const auto& [still, beside] : {std::pair(3.0, 4.0), std::pair(4.0, 3.0)}) {
     std::vector<Mesh> times;
-    for (const double x : {9.0, beside, 9.0}) times.push_back(shapes::merged({at(still), at(x)}));
+    for (const double x : {17.0, beside, 17.0}) times.push_back(shapes::merged({at(still), at(x)}));
     size_t kept = 0;
     CHECK(brokenRecut(times, grid, {}, &kept) == "");
     CHECK(kept == 2);
