@@ -104,7 +104,7 @@ void cutInBricks(CutState& state, const ShareOf& share, Clock& clock, Run& run) 
 
   clock.begin("bricks");
   state.bricks = layOutBricks(surface, state.parts, brickGrid);
-  if (share.count > 1) state.bricks.here = layersOf(state.bricks, share.index, share.count);
+  if (share.count > 1) state.bricks.here = bricksOf(state.bricks, LayerShares(workOfLayers(state.bricks), share.count), share.index);
   if (state.keeping.bricks) state.kept = state.keeping.bricks();
   state.cuts = cutBricks(surface, state.parts, state.bricks, run, state.kept);
   if (!state.isNeededAgain) state.parts = {};

@@ -102,6 +102,12 @@ void readBrick(Reader& from, Bricks& bricks, BrickId b, BrickCut& cut) {
 
 }  // namespace
 
+size_t summaryBytes(const CutState& state, BrickId brick) {
+  Writer to;
+  addBrick(state.bricks, brick, state.cuts[brick], to);
+  return to.words.size() * sizeof to.words[0];
+}
+
 std::vector<uint32_t> summarize(const CutState& state, const ShareOf& shareOf, Fingerprint cut) {
   Writer to;
   to.words = headOf(state, shareOf, cut);
@@ -119,6 +125,7 @@ void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareO
   };
   if (summaries.size() != shareOf.count) fail(std::min(summaries.size(), size_t(shareOf.count) - 1));
   Bricks& bricks = state.bricks;
+  const LayerShares shares(workOfLayers(bricks), shareOf.count);
   for (uint32_t share = 0; share < shareOf.count; ++share) {
     const std::vector<uint32_t>& summary = summaries[share];
     const std::vector<uint32_t> head = headOf(state, {share, shareOf.count}, cut);
@@ -127,7 +134,7 @@ void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareO
     state.cuts.memory.emplace_back();
     Reader from(std::span<const uint32_t>(summary).subspan(head.size()), state.cuts.memory.back().seams);
     try {
-      for (const BrickId b : layersOf(bricks, share, shareOf.count).ids()) readBrick(from, bricks, b, state.cuts[b]);
+      for (const BrickId b : bricksOf(bricks, shares, share).ids()) readBrick(from, bricks, b, state.cuts[b]);
       const std::span<const uint8_t> used = from.items<uint8_t>();
       if (used.size() != (state.used.size() + 7) / 8 || !from.isAtEnd()) throw BadSummary();
       for (size_t v = 0; v < state.used.size(); ++v) {

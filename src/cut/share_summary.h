@@ -9,6 +9,9 @@ namespace mandoline::detail {
 /// Of the bricks that are cut here. `cut` stands for the mesh, the grid and the options of all shares.
 std::vector<uint32_t> summarize(const CutState& state, const ShareOf& shareOf, Fingerprint cut);
 
+/// How much of it is of one brick.
+size_t summaryBytes(const CutState& state, BrickId brick);
+
 /// Adds what the others found. Throws Failure{badArgument} if these are not the summaries of all shares of the cut (element: the first
 /// that is another).
 void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareOf& shareOf, Fingerprint cut, CutState& state);

@@ -66,6 +66,15 @@ std::string facts(const std::string& report) {
   return facts.substr(0, intersections) + facts.substr(facts.find('}', intersections));
 }
 
+/// The numbers that a report has under a name.
+std::vector<double> numbersOf(const std::string& report, const std::string& name) {
+  std::vector<double> numbers;
+  const std::string key = "\"" + name + "\": ";
+  for (size_t at = report.find(key); at != std::string::npos; at = report.find(key, at + 1))
+    numbers.push_back(std::strtod(report.c_str() + at + key.size(), nullptr));
+  return numbers;
+}
+
 using Names = std::vector<std::string>;
 using Cells = std::vector<std::tuple<int32_t, int32_t, int32_t, int32_t, double>>;  ///< grid cell, region, volume
 
@@ -151,6 +160,59 @@ TEST_CASE("The pieces of several processes have the cells of one, some of them n
         CHECK(areSame);
       }
     }
+  }
+}
+
+TEST_CASE("A plan tells what the processes of a cut then have", "[mpi]") {
+  const TemporaryFolder folder;
+  const std::string mesh = meshFile(folder, shapes::icosphere({0, 0, 0}, 1, 6));
+  const std::string planned = folder.path("plan.txt"), cut = folder.path("cut.txt");
+  REQUIRE(runRanks(folder, 1, {"plan", mesh, "--cells", "60", "--threads", "1", "--ranks", "1,2,4,8", "--report", planned}).exitCode == 0);
+  const auto plan = [&](const std::string& name, size_t i) { return numbersOf(folder.read("plan.txt"), name).at(i); };
+  for (size_t i = 0; i < 4; ++i) {
+    const int processes = 1 << i;
+    CAPTURE(processes);
+    REQUIRE(runRanks(folder, processes, {"cut", mesh, "--cells", "60", "--threads", "1", "--report", cut}).exitCode == 0);
+    std::string report = folder.read("cut.txt");
+    report = report.substr(report.find("\"ranks\""));
+    const auto most = [&](const std::string& name) {
+      const std::vector<double> numbers = numbersOf(report, name);
+      REQUIRE(numbers.size() == size_t(processes));
+      return *std::max_element(numbers.begin(), numbers.end());
+    };
+    CHECK(plan("ranks", i) == processes);
+    CHECK(plan("ranksWithWork", i) == processes);
+    CHECK(plan("cutCells", i) == most("cutCells"));
+    CHECK(std::fabs(plan("bytesSent", i) - most("bytesSent")) <= 0.15 * most("bytesSent"));
+    CHECK(std::fabs(plan("memoryBytes", i) - most("peakMemoryBytes")) <= 0.15 * most("peakMemoryBytes"));
+  }
+}
+
+TEST_CASE("A plan for more processes than there are layers says that some have no work", "[mpi]") {
+  const TemporaryFolder folder;
+  const std::string mesh = meshFile(folder, shapes::icosphere({0, 0, 0}, 1, 3));
+  const Outcome outcome = runRanks(folder, 1, {"plan", mesh, "--cells", "20", "--ranks=3,100000"});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.exitCode == 0);
+  CHECK(contains(outcome.out, "have no work"));
+  REQUIRE(runRanks(folder, 2, {"plan", mesh, "--cells", "20", "--ranks", "3,100000", "--report", folder.path("plan.txt")}).exitCode == 0);
+  CHECK(numbersOf(folder.read("plan.txt"), "ranksWithWork") == std::vector<double>{3, 20});
+  const std::pair<Names, std::string> bad[] = {
+      {{}, "--ranks is missing"},
+      {{"--ranks", "0"}, "--ranks needs numbers of processes from 1 to 100000, not '0'"},
+      {{"--ranks", "2,x"}, "--ranks needs numbers"},
+      {{"--ranks", "100001"}, "--ranks needs numbers"},
+      {{"--ranks", "2", "--ranks=3"}, "--ranks is given twice"},
+      {{"--ranks", "2", "--merge", "0.2"}, "--merge and --unite-walls: a plan is that of cut alone"},
+      {{"--ranks", "2", "-o", folder.path("a.vtu")}, "-o: a plan is that of cut alone"}};
+  for (const auto& [more, message] : bad) {
+    Names words = {"plan", mesh, "--cells", "20"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome refused = runRanks(folder, 2, words);
+    CAPTURE(message, refused.err);
+    CHECK(refused.exitCode == 2);
+    CHECK(contains(refused.err, message));
+    CHECK(countOf(refused.err, "mandoline-mpi: ") == 1);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "case_list.h"
+#include "cut/share_plan.h"
 #include "mandoline/distributed.h"
 #include "mandoline/io.h"
 #include "mandoline/measure.h"
@@ -129,6 +130,21 @@ void requireOneOwner(const std::vector<uint64_t>& ids, const std::vector<int32_t
   for (size_t i = 0; i < count; ++i) require(owners[i] == 1, std::string(what) + " has not one owner:", i);
 }
 
+/// What was planned for this process.
+void comparePlan(const RankPiece& piece, const PreparedMesh& mesh, const Grid& grid) {
+  int ranks = 0;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  const RunOptions oneThread{1, {}};
+  const detail::ShareLoad load = detail::SharePlanner(mesh, grid, oneThread).loads(uint32_t(ranks), oneThread)[size_t(rankHere())];
+  size_t seamFaces = 0;
+  for (const RankSeam& seam : piece.seams) seamFaces += seam.faces.size();
+  require(load.cutCells == piece.cellIds.size(), "another number of cut-cells is planned:", load.cutCells);
+  require(load.faces == uint64_t(std::count(piece.faceRanks.begin(), piece.faceRanks.end(), rankHere())),
+          "another number of faces is planned:", load.faces);
+  require(load.seamFaces == seamFaces, "another number of faces on seams is planned, not " + std::to_string(seamFaces) + ":",
+          load.seamFaces);
+}
+
 bool areEqual(const CutCounts& a, const CutCounts& b) {
   return a.cutCells == b.cutCells && a.untouchedCells == b.untouchedCells && a.regions == b.regions && a.vertices == b.vertices &&
          a.faces == b.faces && a.loops == b.loops;
@@ -167,6 +183,7 @@ bool check(const std::string& name, const PreparedMesh& mesh, const Grid& grid) 
     compareCells(piece, whole.mesh);
     compareRegions(piece, whole.mesh);
     compareSeams(piece, whole.mesh);
+    comparePlan(piece, mesh, grid);
     require(areEqual(distributed->counts(), countsOf(whole.mesh)), "the counts differ");
     require(volumes == regionVolumes(whole.mesh, measure(mesh.mesh(), whole.mesh, oneThread)), "the volumes of regions differ");
     const CutResult& common = distributed->common();

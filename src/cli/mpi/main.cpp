@@ -2,6 +2,7 @@
 #include <mpi.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
 #include <thread>
 
@@ -9,6 +10,7 @@
 #include "cli/interrupt.h"
 #include "cli/limit_memory.h"
 #include "cli/mpi/distributed_cut.h"
+#include "cli/mpi/plan_command.h"
 #include "cli/progress_bar.h"
 #include "mandoline/distributed.h"
 
@@ -19,6 +21,7 @@ constexpr const char* kMpiHelp =
     R"(Cuts a triangle mesh with a grid in several processes, each of which keeps its piece.
 
   mpirun -n P mandoline-mpi cut MESH [options of mandoline cut] [--progress] [-o FILE ...]
+  mandoline-mpi plan MESH --ranks P[,P...] [options of the grid] [--report FILE]
 
 The result is that of mandoline cut, to the bit, for any P; see mandoline --help for the
 options. Each process has the whole mesh and cuts some layers of the grid.
@@ -30,7 +33,11 @@ options. Each process has the whole mesh and cuts some layers of the grid.
   --threads T            of each process (default: the cores of its machine, shared out)
   --progress             show how far the first process has come, on standard error
 
-Not with --stream and --snap-tolerance. The report has the cut-cells, time, peak memory
+plan tells what the busiest of P processes, up to 100000, would have of a cut: cut-cells,
+faces and how many of these it shares with others, memory, and what it sends. One process
+cuts all for that, once for each size of bricks, and keeps no result.
+
+cut is not with --stream and --snap-tolerance. The report has the cut-cells, time, peak memory
 and bytes sent of each process, in JSON as ranks.
 )";
 
@@ -42,6 +49,8 @@ void takeProgress(std::vector<std::string>& words, bool isFirst) {
 
 int run(Ranks& ranks, std::vector<std::string> words) {
   takeProgress(words, ranks.isFirst());
+  const bool asksForHelp = std::count(words.begin(), words.end(), "--help") + std::count(words.begin(), words.end(), "-h") > 0;
+  if (!words.empty() && words[0] == "plan" && !asksForHelp) return runPlan(ranks, {words.begin() + 1, words.end()});
   Arguments arguments;
   ranks.together([&] { arguments = parseArguments(words); });
   switch (arguments.command) {

@@ -86,6 +86,9 @@ struct BrickGrid {
     }
   }
 
+  /// Bricks of a layer along z, and the grid cells along z before it.
+  uint64_t perLayer() const { return uint64_t(counts[0]) * uint64_t(counts[1]); }
+  int32_t cellsBefore(int32_t layer) const { return std::min(layer << shifts[2], cells[2]); }
   /// Of the brick that has a cell of the grid.
   uint64_t keyOf(const Slab& cell) const {
     const auto at = [&](size_t d) { return uint64_t(cell[d] >> 1 >> shifts[d]); };

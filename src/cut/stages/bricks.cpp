@@ -125,31 +125,35 @@ std::optional<BrickId> Bricks::findTouched(const Slab& cell) const {
   return brick;
 }
 
-BricksHere layersOf(const Bricks& bricks, uint32_t share, uint32_t count) {
+LayerShares::LayerShares(const std::vector<uint64_t>& work, uint32_t count) : before_{0}, count_(count) {
+  for (const uint64_t more : work) before_.push_back(before_.back() + more);
+}
+
+int32_t LayerShares::first(uint32_t share) const {
+  if (share == count_) return int32_t(before_.size()) - 1;
+  const uint64_t target = before_.back() * share / count_;
+  const auto next = std::lower_bound(before_.begin(), before_.end(), target);
+  const bool isNearerBelow = next != before_.begin() && target - next[-1] < *next - target;
+  return int32_t(next - before_.begin()) - isNearerBelow;
+}
+
+std::vector<uint64_t> workOfLayers(const Bricks& bricks) {
+  std::vector<uint64_t> work(size_t(bricks.grid.counts[2]), 0);
+  for (const BrickId b : bricks.ids()) {
+    // Cut-edges in grid-faces tell how many grid cells are touched, and take time of their own.
+    work[size_t(bricks.layerOf(b))] += bricks.parts[b].size() + bricks.dividedFaces[b].size() + 2 * bricks.faceEdges[b].size();
+  }
+  return work;
+}
+
+BricksHere bricksOf(const Bricks& bricks, const LayerShares& shares, uint32_t share) {
   const BrickGrid& grid = bricks.grid;
-  const uint64_t perLayer = uint64_t(grid.counts[0]) * uint64_t(grid.counts[1]);
   const auto firstFrom = [&](int32_t layer) {
-    const auto found = std::lower_bound(bricks.keys.begin(), bricks.keys.end(), uint64_t(layer) * perLayer);
+    const auto found = std::lower_bound(bricks.keys.begin(), bricks.keys.end(), uint64_t(layer) * grid.perLayer());
     return BrickId{uint32_t(found - bricks.keys.begin())};
   };
-  std::vector<uint64_t> before{0};  // the work in the layers before each, and in all
-  for (int32_t layer = 0; layer < grid.counts[2]; ++layer) {
-    uint64_t work = before.back();
-    for (const BrickId b : Ids<BrickId>(firstFrom(layer), firstFrom(layer + 1))) {
-      // Cut-edges in grid-faces tell how many grid cells are touched, and take time of their own.
-      work += bricks.parts[b].size() + bricks.dividedFaces[b].size() + 2 * bricks.faceEdges[b].size();
-    }
-    before.push_back(work);
-  }
-  const auto firstOf = [&](uint32_t at) {
-    const uint64_t target = before.back() * at / count;
-    const auto next = std::lower_bound(before.begin(), before.end(), target);
-    const bool isNearerBelow = next != before.begin() && target - next[-1] < *next - target;
-    return at == count ? grid.counts[2] : int32_t(next - before.begin()) - isNearerBelow;
-  };
-  const int32_t first = firstOf(share), past = firstOf(share + 1);
-  const auto cellsBefore = [&](int32_t layer) { return std::min(layer << grid.shifts[2], grid.cells[2]); };
-  return {firstFrom(first), firstFrom(past), cellsBefore(first), cellsBefore(past), true};
+  const int32_t first = shares.first(share), past = shares.first(share + 1);
+  return {firstFrom(first), firstFrom(past), grid.cellsBefore(first), grid.cellsBefore(past), true};
 }
 
 Bricks layOutBricks(const Surface& surface, const SurfaceParts& parts, const BrickGrid& grid) { return Layout(surface, parts, grid).run(); }

@@ -1,0 +1,197 @@
+#include "cut/share_plan.h"
+
+#include <map>
+
+#include "base/double_double.h"
+#include "cut/driver.h"
+#include "cut/share_summary.h"
+#include "mesh/run_call.h"
+
+namespace mandoline::detail {
+
+/// What a layer of bricks adds to the process that cuts it.
+struct LayerLoad {
+  BrickCounts counts;
+  uint64_t surfaceVertices = 0;
+  uint64_t facesAbove = 0, seamFacesAbove = 0;  ///< in the plane above: those of its cells, and of these those that others have, too
+  uint64_t summaryBytes = 0, brickBytes = 0;
+
+  void add(const LayerLoad& more) {
+    counts.add(more.counts);
+    surfaceVertices += more.surfaceVertices;
+    summaryBytes += more.summaryBytes;
+    brickBytes += more.brickBytes;
+    facesAbove = more.facesAbove;
+    seamFacesAbove = more.seamFacesAbove;
+  }
+};
+
+/// All layers of a size of bricks.
+struct LayerLoads {
+  std::vector<LayerLoad> layers;
+  std::vector<uint64_t> work;
+  uint64_t commonBytes = 0;  ///< what all processes have: the surface, seams, untouched grid cells
+  uint64_t usedBytes = 0;    ///< in each summary: which vertices of the surface loops have
+  uint64_t regions = 0;
+};
+
+namespace {
+
+template <class... Arrays>
+uint64_t bytesOf(const Arrays&... arrays) {
+  return (0 + ... + uint64_t(arrays.size() * sizeof(*arrays.begin())));
+}
+
+uint64_t bytesOfBrick(BrickCut& cut) {
+  uint64_t bytes = bytesOf(cut.vertices.slabs, cut.vertices.parentTriangles);
+  cut.forArrays([&](const auto& array, auto) { bytes += array.size() * sizeof(*array.begin()); });
+  return bytes;
+}
+
+uint64_t bytesOfSeams(const CutState& state) {
+  uint64_t bytes = bytesOf(state.runs.rowOffsets, state.runs.begin, state.runs.end, state.regions.runRegion);
+  for (const BrickSeams& brick : state.seams) {
+    bytes += 2 * bytesOf(brick.rows) + bytesOf(brick.joins);  // of the rows also where their numbers begin
+    for (const SeamRanges* seams : {&brick.triFaces, &brick.pieces, &brick.halves, &brick.vertices})
+      bytes += bytesOf(seams->own, seams->others);
+  }
+  return bytes;
+}
+
+uint64_t bytesOfSurface(const CutState& state) {
+  const CutVertices& vertices = state.surface.vertices;
+  const ClippedTriangles& clipped = state.parts.clipped;
+  const TriFaces& divided = state.parts.divided;
+  const Bricks& bricks = state.bricks;
+  return bytesOf(vertices.slabs, vertices.parentEdges, vertices.crossingOffsets, vertices.parentTriangles, clipped.parts,
+                 clipped.pieces.items, clipped.pieces.offsets, clipped.hybridEdges, divided.loops.items, divided.elements,
+                 divided.hybridEdges, bricks.parts.items, bricks.faceEdges.items, bricks.dividedFaces.items, bricks.touched, state.used);
+}
+
+constexpr uint64_t kSeamFaceBytes = 150;  // of a message: a face in a plane, with its share of the vertices there
+
+uint64_t facesOf(const BrickCounts& counts) { return uint64_t(counts.triFaces) + counts.pieces; }
+
+/// What a process has of its layers when it has most: the bricks, its part of the output, its piece, and the measures of that.
+uint64_t memoryOf(const LayerLoad& load) {
+  const BrickCounts& n = load.counts;
+  const uint64_t cells = n.cells, faces = facesOf(n), vertices = n.vertices + load.surfaceVertices;
+  const uint64_t loops = uint64_t(n.triLoops) + n.loops, loopVertices = uint64_t(n.triLoopVertices) + n.loopVertices;
+  const uint64_t output = 4 * n.halfFaces + 20 * cells + 17 * faces + 4 * (loops + loopVertices) + 5 * n.parents + 49 * vertices;
+  const uint64_t ids = 8 * cells + 12 * (faces + vertices), numbers = 4 * (faces + vertices);
+  const uint64_t measures = 32 * cells + 56 * faces + 48 * vertices;
+  return load.brickBytes + load.summaryBytes + numbers + 2 * output + output / 4 + ids + measures;  // the piece grows as it is made
+}
+
+/// Counts what a finished cut has in each layer of bricks.
+LayerLoads loadsOf(CutState& state) {
+  const Bricks& bricks = state.bricks;
+  LayerLoads all;
+  all.work = workOfLayers(bricks);
+  all.layers.resize(all.work.size());
+  all.commonBytes = bytesOfSurface(state) + bytesOfSeams(state);
+  all.usedBytes = (state.used.size() + 7) / 8;
+  all.regions = state.regions.count;
+  const uint32_t above = uint32_t(cellFace(2, 1));
+  for (const BrickId b : bricks.ids()) {
+    LayerLoad& layer = all.layers[size_t(bricks.layerOf(b))];
+    for (const BrickCounts& row : state.seams[b].rows) layer.counts.add(row);
+    layer.summaryBytes += summaryBytes(state, b);
+    layer.brickBytes += bytesOfBrick(state.cuts[b]);
+    for (const BoundaryFace& face : state.cuts[b].boundaryFaces) {
+      if (face.index == above) layer.facesAbove += face.triFaces.count + face.pieces.count;
+    }
+    for (const SeamRanges* seams : {&state.seams[b].triFaces, &state.seams[b].pieces}) {
+      for (const SeamRange& own : seams->own) {
+        if (own.key % 32 == above) layer.seamFacesAbove += own.range.count;
+      }
+    }
+  }
+  for (const VertexId v : listUsed(state.used)) {
+    const int32_t z = std::clamp(state.surface.vertices.slab(v)[2] >> 1, 0, bricks.grid.cells[2] - 1);
+    ++all.layers[size_t(z >> bricks.grid.shifts[2])].surfaceVertices;
+  }
+  return all;
+}
+
+}  // namespace
+
+struct SharePlanner::Data {
+  Data(PreparedMesh mesh_, Grid grid_, const RunOptions& options) : mesh(std::move(mesh_), grid_, options), grid(std::move(grid_)) {
+    CutStats stats;
+    Monitor monitor(options, kGridStages);
+    Clock clock(stats, monitor);
+    Run run{stats, monitor};
+    CutState state;
+    beginCut(mesh.prepared(), grid, state, clock, run);
+    input = std::move(state.surface.input);
+  }
+
+  /// Of bricks as they are for so many processes.
+  const LayerLoads& layersFor(uint32_t ranks, const RunOptions& options) {
+    const std::array<int, 3> shifts = BrickGrid::shiftsForShares(input, ranks);
+    const auto known = bySize.find(shifts);
+    if (known != bySize.end()) return known->second;
+    CutStats stats;
+    Monitor monitor(options, kGridStages);
+    Clock clock(stats, monitor);
+    Run run{stats, monitor};
+    CutState state;
+    state.isNeededAgain = true;
+    state.surface.input = input;
+    state.brickShifts = shifts;
+    cutInBricks(state, {}, clock, run);
+    joinBricks(state, clock, run);
+    return bySize.emplace(shifts, loadsOf(state)).first->second;
+  }
+
+  std::vector<ShareLoad> loads(uint32_t ranks, const RunOptions& options) {
+    const LayerLoads& all = layersFor(ranks, options);
+    const LayerShares shares(all.work, ranks);
+    std::vector<LayerLoad> sums(ranks);
+    uint64_t summaries = 0;
+    for (uint32_t rank = 0; rank < ranks; ++rank) {
+      for (int32_t layer = shares.first(rank); layer < shares.first(rank + 1); ++layer) sums[rank].add(all.layers[size_t(layer)]);
+      sums[rank].summaryBytes += all.usedBytes;
+      summaries += sums[rank].summaryBytes;
+    }
+    std::vector<ShareLoad> loads(ranks);
+    uint64_t seamBelow = 0;
+    for (uint32_t rank = 0; rank < ranks; ++rank) {
+      const LayerLoad& sum = sums[rank];
+      const bool hasLayers = shares.first(rank) < shares.first(rank + 1);
+      ShareLoad& load = loads[rank];
+      load.cutCells = sum.counts.cells;
+      load.faces = facesOf(sum.counts);
+      load.seamFaces = hasLayers ? seamBelow + sum.seamFacesAbove : 0;
+      load.bytesSent = ranks == 1 ? 0 : sentBy(rank, ranks, sum, hasLayers ? seamBelow : 0, all);
+      load.memoryBytes = all.commonBytes + memoryOf(sum) + summaries;
+      if (hasLayers) seamBelow = sum.seamFacesAbove;
+    }
+    return loads;
+  }
+
+  uint64_t sentBy(uint32_t rank, uint32_t ranks, const LayerLoad& sum, uint64_t seamBelow, const LayerLoads& all) const {
+    const MeshView view = mesh.view();
+    const uint64_t others = ranks - 1, numbers = 11 * sizeof(uint64_t) * ranks, sums = all.regions * sizeof(DoubleDouble);
+    uint64_t bytes = others * sum.summaryBytes + numbers + view.triangleCount();
+    if (rank == 0) bytes += others * (view.positions.size_bytes() + view.triangles.size_bytes());
+    bytes += 2 * sums * (rank + 1 < ranks ? 1 : others);
+    return bytes + kSeamFaceBytes * sum.facesAbove + 2 * sizeof(uint64_t) * seamBelow;
+  }
+
+  PreparedForGrid mesh;
+  Grid grid;
+  Input input;
+  std::map<std::array<int, 3>, LayerLoads> bySize;
+};
+
+SharePlanner::SharePlanner(PreparedMesh mesh, Grid grid, const RunOptions& options) {
+  runCall("cut", [&] { data_ = std::make_shared<Data>(std::move(mesh), std::move(grid), options); });
+}
+
+std::vector<ShareLoad> SharePlanner::loads(uint32_t ranks, const RunOptions& options) {
+  return runCall("cut", [&] { return data_->loads(ranks, options); });
+}
+
+}  // namespace mandoline::detail

@@ -1,0 +1,33 @@
+// What the processes of a distributed cut would have, counted by one process that cuts all bricks and makes no result: so that one can
+// choose how many processes there are to be.
+#pragma once
+
+#include "base/shared.h"
+#include "mandoline/prepare.h"
+
+namespace mandoline::detail {
+
+/// What one process has of a cut, what it sends to others on the way to the volumes of regions, and its memory.
+struct ShareLoad {
+  uint64_t cutCells = 0;
+  uint64_t faces = 0;        ///< that belong to it
+  uint64_t seamFaces = 0;    ///< that it shares with others
+  uint64_t bytesSent = 0;    ///< to each of the others, but for a few numbers
+  uint64_t memoryBytes = 0;  ///< beside the prepared mesh and the program
+};
+
+class MANDOLINE_SHARED SharePlanner {
+ public:
+  /// Throws CallError as cut() has errors.
+  SharePlanner(PreparedMesh mesh, Grid grid, const RunOptions& options);
+
+  /// Those of a cut by so many processes, by rank. What they have depends on their number alone, as do the sizes of bricks: the grid is cut
+  /// once for each size. Throws CallError as the constructor.
+  std::vector<ShareLoad> loads(uint32_t ranks, const RunOptions& options);
+
+ private:
+  struct Data;
+  std::shared_ptr<Data> data_;
+};
+
+}  // namespace mandoline::detail
