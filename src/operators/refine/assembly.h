@@ -1,95 +1,83 @@
-// One complex of the leaves: level by level, from the smallest blocks on, so that faces of smaller cells are known where larger ones meet
+// The faces of the leaves: level by level, from the smallest blocks on, so that faces of smaller cells are known where larger ones meet
 // them.
 #pragma once
 
-#include <optional>
-
 #include "operators/cell_complex/octree_index.h"
-#include "operators/refine/face_list.h"
-#include "operators/refine/shared_ids.h"
+#include "operators/refine/level_faces.h"
 #include "operators/refine/side_matcher.h"
 
 namespace mandoline::refining {
 
-/// What the leaves' cells and faces are, in ids of SharedIds.
+/// What the leaves' cells and faces are.
 struct Assembled {
-  std::vector<BlockCells> leafCells;  ///< per leaf; none if it is untouched
-  std::vector<uint32_t> firstCells;   ///< per leaf: its only or first cell
+  static constexpr uint32_t kNone = ~0u;
+
+  /// The cut-cells of a leaf.
+  struct LeafCells {
+    uint32_t part = kNone;  ///< kNone if it is untouched
+    uint32_t begin = 0, end = 0;
+  };
+  std::vector<LeafCells> leafCells;
+  std::vector<uint32_t> firstCells;  ///< per leaf: its only or first cell
   uint32_t cutCells = 0, cells = 0;
-  FaceList cut;    ///< of cut-cells
-  FaceList plain;  ///< between untouched blocks
+  std::vector<LevelFaces> levels;
+
+  BlockCells cellsOf(const Parts& parts, size_t leaf) const {
+    const LeafCells& cells = leafCells[leaf];
+    if (cells.part == kNone) return {};
+    return {&parts[cells.part], cells.part, {cells.begin, cells.end}};
+  }
 };
 
 class Assembly {
  public:
-  /// `planes`: those of the smallest cells.
-  Assembly(const OctreeCells& leaves, const Parts& parts, SharedIds& ids, const std::array<std::vector<double>, 3>& planes);
-  Assembled run(detail::Monitor& monitor);
+  Assembly(const Sources& sources, detail::Monitor& monitor);
+  Assembled run();
 
  private:
   static constexpr int32_t kPending = -2;  // a larger block's cell that is found later
   static constexpr uint32_t kNone = SharedIds::kNone;
 
-  struct Side {
-    size_t leaf, axis;
-    int side;
-
-    uint64_t key() const { return 6 * uint64_t(leaf) + 2 * axis + uint64_t(side); }
+  /// What some leaves have.
+  struct Found {
+    std::vector<LevelFace> faces;
+    std::vector<Side> sides;  // that smaller blocks are beside
   };
-  /// A face of the current level: of a part, or a whole side of a leaf.
-  struct LevelFace {
-    const Part* part;
-    uint32_t number;  ///< of the part
-    uint32_t face;
-    Side side;
-    std::array<int32_t, 2> cells;
-    bool isBesideLarger;
-    std::array<uint32_t, 4> corners;  ///< of a whole side
-  };
-  /// A face that a larger block is beside.
-  struct Beside {
-    uint64_t side;
-    uint32_t face;
-    bool isPlain;
-    bool operator<(const Beside& b) const { return side < b.side; }
+  /// What some sides that smaller blocks are beside have.
+  struct Matched {
+    ChainList chains;
+    SideMatcher matcher;
+    std::vector<size_t> besides;  // faces of smaller blocks on the current side
   };
 
   void numberCells();
-  void addLevel(int level);
-  void addExtras(int level);
-  void addInnerFaces(size_t leaf);
-  void addSide(const Side& side);
-  void addFacesOf(const Side& side, const BlockCells& from, int64_t other);
+  void addLevel(int level, std::span<const uint32_t> leaves);
+  void addExtras(int level, Chains& extras) const;
+  void addExtras(size_t part, ChainList& extras) const;
+  void addInnerFaces(uint32_t leaf, Found& found) const;
+  void addSide(const Side& side, Found& found) const;
   int32_t cellAcross(const LevelFace& face, const BlockCells& own, const BlockCells& other) const;
   int32_t cellOf(const BlockCells& cells, int32_t cell) const;
+  BlockCells cellsOf(size_t leaf) const { return result_.cellsOf(parts_, leaf); }
   Block neighbour(const Side& side) const;
   int64_t leafAt(const Block& at) const;
   BlockCells blockAt(const Block& at, int level) const;
-  void markLarge(const Side& side);
-  void markLarge(uint32_t id);
-  void matchSide(const Side& side);
-  void addSurfaceEdges(const BlockCells& cells, const Side& side);
-  void write(const LevelFace& face);
-  void writePlain(const LevelFace& face, FaceList& to);
-  void writePart(const LevelFace& face, FaceList& to);
-  std::array<uint32_t, 4> cornersOf(const Side& side);
-  const std::vector<uint32_t>& plainLoop(const LevelFace& face);
 
+  // Where blocks meet smaller ones.
+  void matchLevel(const std::vector<Side>& sides);
+  std::vector<uint8_t> largeVertices(const std::vector<Side>& sides) const;
+  void matchSide(const Side& side, const std::vector<uint8_t>& isLarge, Matched& matched);
+  void addSmallFaces(const Side& side, Matched& matched) const;
+  void addLargeFaces(const Side& side, Matched& matched) const;
+  void addSurfaceEdges(const BlockCells& cells, const Side& side, SideMatcher& matcher) const;
+
+  const Sources& sources_;
   const OctreeCells& leaves_;
   const Parts& parts_;
-  SharedIds& ids_;
-  const std::array<std::vector<double>, 3>& planes_;
+  const SharedIds& ids_;
+  detail::Monitor& monitor_;
   operators::OctreeIndex index_;
   std::vector<std::vector<int32_t>> cellIds_;  // per part and cut-cell: its id, or -1
-  std::vector<LevelFace> faces_;               // of the current level
-  std::vector<Side> sides_;                    // of the current level, that smaller blocks are beside
-  std::vector<Beside> besides_, nextBesides_;  // of the level before, and of the current one
-  std::vector<uint8_t> isLarge_;               // per vertex: whether faces of the current level have it
-  std::vector<uint32_t> large_;                // these
-  Chains extras_;                              // vertices on the edges of blocks of the current level, where these are untouched
-  std::optional<Chains> chains_;               // those of smaller cells
-  SideMatcher matcher_;
-  std::vector<uint32_t> loop_;
   Assembled result_;
 };
 

@@ -9,18 +9,14 @@
 
 namespace mandoline::refining {
 
+/// Chains one after the other, each with its ends.
+using ChainList = detail::Csr<uint32_t>;
+
 class Chains {
  public:
-  /// The vertices strictly between two, from the first on. Of several chains between the same two, which are the same, the first counts.
-  void add(uint32_t from, uint32_t to, std::span<const uint32_t> inside) {
-    if (numbers_.add(keyOf(from, to)) != inside_.size()) return;
-    inside_.items.insert(inside_.items.end(), inside.begin(), inside.end());
-    inside_.endGroup();
-    if (from > to) std::reverse(inside_.items.end() - std::ptrdiff_t(inside.size()), inside_.items.end());
-    for (const uint32_t end : {from, to}) {
-      if (isEnd_.size() <= end) isEnd_.resize(size_t(end) + 1);
-      isEnd_[end] = 1;
-    }
+  /// Of several chains between the same two vertices, which are the same, the first counts.
+  void add(const ChainList& list) {
+    for (size_t i = 0; i < list.size(); ++i) add(list[i]);
   }
 
   /// Appends a loop with all vertices on its edges.
@@ -33,6 +29,18 @@ class Chains {
   }
 
  private:
+  void add(std::span<const uint32_t> chain) {
+    const uint32_t from = chain.front(), to = chain.back();
+    if (numbers_.add(keyOf(from, to)) != inside_.size()) return;
+    inside_.items.insert(inside_.items.end(), chain.begin() + 1, chain.end() - 1);
+    inside_.endGroup();
+    if (from > to) std::reverse(inside_.items.end() - std::ptrdiff_t(chain.size() - 2), inside_.items.end());
+    for (const uint32_t end : {from, to}) {
+      if (isEnd_.size() <= end) isEnd_.resize(size_t(end) + 1);
+      isEnd_[end] = 1;
+    }
+  }
+
   static uint64_t keyOf(uint32_t a, uint32_t b) { return uint64_t(std::min(a, b)) << 32 | std::max(a, b); }
   bool isEnd(uint32_t v) const { return v < isEnd_.size() && isEnd_[v]; }
 

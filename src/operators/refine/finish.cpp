@@ -2,25 +2,33 @@
 
 #include <algorithm>
 
+#include "base/large_array.h"
+#include "base/run_tasks.h"
 #include "operators/cell_complex/half_faces.h"
+#include "operators/refine/face_writer.h"
 #include "operators/refine/regions.h"
 
 namespace mandoline::refining {
 namespace {
 
+struct Nothing {};
+
 class Finisher {
  public:
-  Finisher(Assembled assembled, const Sources& sources, Grid grid) : from_(std::move(assembled)), sources_(sources) {
+  Finisher(Assembled assembled, const Sources& sources, Grid grid, detail::Monitor& monitor)
+      : from_(std::move(assembled)), sources_(sources), monitor_(monitor) {
     cutMesh_.grid = std::move(grid);
   }
 
   RefinedCells run() {
+    writeFaces(from_, sources_, monitor_, cells_, cutMesh_);
+    from_.levels = {};
     takeCells();
-    takeFaces();
     takeRegions();
-    takeVertices();
-    takeLoops();
-    operators::gatherHalfFaces(cells_);
+    std::vector<uint32_t> ids;
+    const std::function<void()> tasks[] = {[&] { operators::gatherHalfFaces(cells_); }, [&] { ids = numberVertices(); }};
+    detail::runTasks(tasks, monitor_);
+    takeVertices(ids);
     fillCutMesh();
     RefinedCells result;
     result.cells = std::move(cells_);
@@ -31,62 +39,52 @@ class Finisher {
  private:
   static constexpr uint32_t kNone = ~0u;
   double plane(size_t axis, int32_t index) const { return cutMesh_.grid.planes[axis][size_t(index)]; }
-  /// Moves items, so that there is memory for them once.
-  template <class Item>
-  static void append(std::vector<Item>& from, std::vector<Item>& to) {
-    if (to.empty()) {
-      to = std::move(from);
-    } else {
-      to.insert(to.end(), from.begin(), from.end());
+
+  /// Those of cut-faces first. Gives their ids.
+  std::vector<uint32_t> numberVertices() {
+    std::vector<uint32_t> numbers(sources_.ids.size(), kNone), used;
+    const size_t corners = cells_.loopVertices.size(), cutCorners = cells_.loopOffsets[cells_.faceLoopOffsets[cells_.cutFaces]];
+    for (size_t i = 0; i < corners; ++i) {
+      uint32_t& v = cells_.loopVertices[i];
+      if (numbers[v] == kNone) numbers[v] = uint32_t(used.size()), used.push_back(v);
+      v = numbers[v];
+      if (i + 1 == cutCorners) cells_.cutVertices = uint32_t(used.size());
     }
-    from = {};
-  }
-  template <class Item>
-  static void appendShifted(const std::vector<Item>& from, std::vector<Item>& to) {
-    const Item shift = to.back();
-    for (size_t i = 1; i < from.size(); ++i) to.push_back(from[i] + shift);
+    return used;
   }
 
-  /// Those of cut-faces first.
-  void takeVertices() {
-    numbers_.assign(sources_.ids.size(), kNone);
-    std::vector<uint32_t> used;
-    for (FaceList* list : {&from_.cut, &from_.plain}) {
-      for (uint32_t& v : list->loopVertices) {
-        if (numbers_[v] == kNone) numbers_[v] = uint32_t(used.size()), used.push_back(v);
-        v = numbers_[v];
-      }
-      if (list == &from_.cut) cells_.cutVertices = uint32_t(used.size());
-    }
-    for (const uint32_t id : used) addVertex(sources_.ids.sourceOf(id));
+  void takeVertices(const std::vector<uint32_t>& ids) {
+    detail::makeLarge(cells_.positions, 3 * ids.size());
+    cutMesh_.vertexCell.resize(3 * size_t(cells_.cutVertices));
+    cutMesh_.vertexMask.resize(cells_.cutVertices);
+    cutMesh_.vertexTriVertex.resize(cells_.cutVertices);
+    cutMesh_.vertexParents.resize(2 * size_t(cells_.cutVertices));
+    detail::forChunks<Nothing>(ids.size(), monitor_, [&](Nothing&, size_t begin, size_t end) {
+      for (size_t v = begin; v < end; ++v) takeVertex(v, sources_.ids.sourceOf(ids[v]));
+    });
   }
 
-  void addVertex(const SharedIds::Source& source) {
-    const bool isCut = cells_.positions.size() < 3 * size_t(cells_.cutVertices);
-    double position[3];
-    int32_t cell[3], parents[2] = {-1, -1}, triVertex = -1;
-    uint8_t mask = 7;
-    for (size_t d = 0; d < 3; ++d) position[d] = plane(d, cell[d] = source.part == kNone ? source.at[d] : 0);
-    if (source.part != kNone) {
-      const Part& part = sources_.parts[source.part];
-      const CutMesh& cutMesh = part.cutMesh();
-      const size_t v = source.vertex;
-      mask = cutMesh.vertexMask[v];
-      triVertex = cutMesh.vertexTriVertex[v];
-      if (triVertex >= 0) triVertex = int32_t(part.triVertex(triVertex));
-      takeParents(part, v, parents);
-      for (size_t d = 0; d < 3; ++d) {
-        position[d] = cutMesh.positions[3 * v + d];
-        const int32_t low = (cutMesh.vertexCell[3 * v + d] + part.first[d]) << part.level;
-        cell[d] = mask >> d & 1 ? low : slabOf(d, position[d], low, low + (1 << part.level));
-      }
-    }
-    cells_.positions.insert(cells_.positions.end(), position, position + 3);
+  void takeVertex(size_t v, const SharedIds::Source& source) {
+    const bool isCut = v < cells_.cutVertices;
+    for (size_t d = 0; d < 3; ++d)
+      cells_.positions[3 * v + d] =
+          source.part == kNone ? plane(d, source.at[d]) : sources_.parts[source.part].cutMesh().positions[3 * size_t(source.vertex) + d];
     if (!isCut) return;
-    cutMesh_.vertexCell.insert(cutMesh_.vertexCell.end(), cell, cell + 3);
-    cutMesh_.vertexMask.push_back(mask);
-    cutMesh_.vertexTriVertex.push_back(triVertex);
-    cutMesh_.vertexParents.insert(cutMesh_.vertexParents.end(), parents, parents + 2);
+    int32_t *cell = &cutMesh_.vertexCell[3 * v], *parents = &cutMesh_.vertexParents[2 * v];
+    std::copy_n(source.at.begin(), 3, cell);
+    parents[0] = parents[1] = cutMesh_.vertexTriVertex[v] = -1;
+    cutMesh_.vertexMask[v] = 7;
+    if (source.part == kNone) return;
+    const Part& part = sources_.parts[source.part];
+    const CutMesh& from = part.cutMesh();
+    const uint8_t mask = cutMesh_.vertexMask[v] = from.vertexMask[source.vertex];
+    const int32_t triVertex = from.vertexTriVertex[source.vertex];
+    if (triVertex >= 0) cutMesh_.vertexTriVertex[v] = int32_t(part.triVertex(triVertex));
+    takeParents(part, source.vertex, parents);
+    for (size_t d = 0; d < 3; ++d) {
+      const int32_t low = (from.vertexCell[3 * size_t(source.vertex) + d] + part.first[d]) << part.level;
+      cell[d] = mask >> d & 1 ? low : slabOf(d, cells_.positions[3 * v + d], low, low + (1 << part.level));
+    }
   }
 
   int32_t slabOf(size_t axis, double x, int32_t low, int32_t past) const {
@@ -105,53 +103,38 @@ class Finisher {
 
   void takeCells() {
     cells_.cutCells = from_.cutCells;
-    for (const bool cut : {true, false}) {
-      for (size_t leaf = 0; leaf < sources_.leaves.cellCount(); ++leaf) {
-        const BlockCells& block = from_.leafCells[leaf];
-        if (block.isCut() != cut) continue;
-        for (size_t i = 0; i < std::max<size_t>(block.cells.size(), 1); ++i) addCell(leaf, block.cells.begin + i);
+    const size_t count = from_.cells;
+    cells_.cellCorner.resize(3 * count);
+    detail::makeLarge(cells_.cellCentre, 3 * count);
+    detail::makeLarge(cells_.cellCentroid, 3 * count);
+    detail::makeLarge(cells_.cellVolume, count);
+    cells_.cellLevel.resize(count);
+    detail::forChunks<Nothing>(sources_.leaves.cellCount(), monitor_, [&](Nothing&, size_t begin, size_t end) {
+      for (size_t leaf = begin; leaf < end; ++leaf) {
+        const BlockCells block = from_.cellsOf(sources_.parts, leaf);
+        for (size_t i = 0; i < std::max<size_t>(block.cells.size(), 1); ++i) takeCell(leaf, block, i);
       }
-    }
+    });
   }
 
-  void addCell(size_t leaf, size_t cutCell) {
+  void takeCell(size_t leaf, const BlockCells& block, size_t i) {
     const Block corner = sources_.leaves.corner(leaf), end = sources_.leaves.end(leaf);
-    const BlockCells& block = from_.leafCells[leaf];
+    const size_t cell = from_.firstCells[leaf] + i, cutCell = block.cells.begin + i;
     double volume = 1;
     for (size_t d = 0; d < 3; ++d) {
       const double middle = plane(d, corner[d]) / 2 + plane(d, end[d]) / 2;
       volume *= plane(d, end[d]) - plane(d, corner[d]);
-      cells_.cellCorner.push_back(corner[d]);
-      cells_.cellCentre.push_back(middle);
-      cells_.cellCentroid.push_back(block.isCut() ? block.part->measures.cellCentroid[3 * cutCell + d] : middle);
+      cells_.cellCorner[3 * cell + d] = corner[d];
+      cells_.cellCentre[3 * cell + d] = middle;
+      cells_.cellCentroid[3 * cell + d] = block.isCut() ? block.part->measures.cellCentroid[3 * cutCell + d] : middle;
     }
-    cells_.cellVolume.push_back(block.isCut() ? block.part->measures.cellVolume[cutCell] : volume);
-    cells_.cellLevel.push_back(sources_.leaves.cellLevel[leaf]);
-  }
-
-  void takeFaces() {
-    cells_.cutFaces = from_.cut.size();
-    for (FaceList* list : {&from_.cut, &from_.plain}) {
-      append(list->faceCells, cells_.faceCells);
-      append(list->faceTag, cells_.faceTag);
-      append(list->faceArea, cells_.faceArea);
-      append(list->faceNormal, cells_.faceNormal);
-      append(list->faceCentroid, cells_.faceCentroid);
-    }
-  }
-
-  void takeLoops() {
-    cells_.loopOffsets = cells_.faceLoopOffsets = {0};
-    for (const FaceList* list : {&from_.cut, &from_.plain}) {
-      cells_.loopVertices.insert(cells_.loopVertices.end(), list->loopVertices.begin(), list->loopVertices.end());
-      appendShifted(list->loopOffsets, cells_.loopOffsets);
-      appendShifted(list->faceLoopOffsets, cells_.faceLoopOffsets);
-    }
+    cells_.cellVolume[cell] = block.isCut() ? block.part->measures.cellVolume[cutCell] : volume;
+    cells_.cellLevel[cell] = sources_.leaves.cellLevel[leaf];
   }
 
   void takeRegions() {
     const CutMesh& whole = sources_.whole;
-    cells_.cellRegion = findRegions(cells_, from_, sources_);
+    cells_.cellRegion = findRegions(cells_, cutMesh_, from_, sources_);
     cutMesh_.regionCount = whole.regionCount;
     cutMesh_.hasWinding = whole.hasWinding;
     cutMesh_.regionWinding = whole.regionWinding;
@@ -160,24 +143,19 @@ class Finisher {
   }
 
   void fillCutMesh() {
-    FaceList& cut = from_.cut;
     CutMesh& to = cutMesh_;
-    to.positions.assign(cells_.positions.begin(), cells_.positions.begin() + std::ptrdiff_t(3 * size_t(cells_.cutVertices)));
-    to.loopOffsets = std::move(cut.loopOffsets);
-    to.loopVertices = std::move(cut.loopVertices);
-    to.faceLoopOffsets = std::move(cut.faceLoopOffsets);
-    to.faceTriangle = std::move(cut.faceTriangle);
-    to.faceParentOffsets = std::move(cut.faceParentOffsets);
-    to.faceParents = std::move(cut.faceParents);
-    to.faceParentSigns = std::move(cut.faceParentSigns);
-    to.faceAxis = std::move(cut.faceAxis);
-    to.facePlane = std::move(cut.facePlane);
+    const auto copyFirst = [](const auto& from, size_t count, auto& items) {
+      items.assign(from.begin(), from.begin() + std::ptrdiff_t(count));
+    };
+    copyFirst(cells_.positions, 3 * size_t(cells_.cutVertices), to.positions);
+    copyFirst(cells_.faceLoopOffsets, size_t(cells_.cutFaces) + 1, to.faceLoopOffsets);
+    copyFirst(cells_.loopOffsets, size_t(to.faceLoopOffsets.back()) + 1, to.loopOffsets);
+    copyFirst(cells_.loopVertices, to.loopOffsets.back(), to.loopVertices);
     const size_t n = cells_.cutCells;
-    const auto begin = cells_.cellHalfFaceOffsets.begin();
-    to.cellHalfFaceOffsets.assign(begin, begin + std::ptrdiff_t(n + 1));
-    to.cellHalfFaces.assign(cells_.cellHalfFaces.begin(), cells_.cellHalfFaces.begin() + std::ptrdiff_t(to.cellHalfFaceOffsets.back()));
-    to.cellGridCell.assign(cells_.cellCorner.begin(), cells_.cellCorner.begin() + std::ptrdiff_t(3 * n));
-    to.cellRegion.assign(cells_.cellRegion.begin(), cells_.cellRegion.begin() + std::ptrdiff_t(n));
+    copyFirst(cells_.cellHalfFaceOffsets, n + 1, to.cellHalfFaceOffsets);
+    copyFirst(cells_.cellHalfFaces, to.cellHalfFaceOffsets.back(), to.cellHalfFaces);
+    copyFirst(cells_.cellCorner, 3 * n, to.cellGridCell);
+    copyFirst(cells_.cellRegion, n, to.cellRegion);
     to.triangleCount = sources_.whole.triangleCount;
     to.droppedTriangles = sources_.whole.droppedTriangles;
     to.parityTriangles = sources_.whole.parityTriangles;
@@ -187,15 +165,15 @@ class Finisher {
 
   Assembled from_;
   const Sources& sources_;
-  std::vector<uint32_t> numbers_;  // per id
+  detail::Monitor& monitor_;
   CellComplex cells_;
   CutMesh cutMesh_;
 };
 
 }  // namespace
 
-RefinedCells finish(Assembled assembled, const Sources& sources, Grid grid) {
-  return Finisher(std::move(assembled), sources, std::move(grid)).run();
+RefinedCells finish(Assembled assembled, const Sources& sources, Grid grid, detail::Monitor& monitor) {
+  return Finisher(std::move(assembled), sources, std::move(grid), monitor).run();
 }
 
 }  // namespace mandoline::refining

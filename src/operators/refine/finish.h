@@ -6,6 +6,6 @@
 namespace mandoline::refining {
 
 /// But for fingerprints. `grid`: that of the smallest cells.
-RefinedCells finish(Assembled assembled, const Sources& sources, Grid grid);
+RefinedCells finish(Assembled assembled, const Sources& sources, Grid grid, detail::Monitor& monitor);
 
 }  // namespace mandoline::refining

@@ -1,37 +1,66 @@
 // The part of the assembly where blocks meet smaller ones.
-#include <algorithm>
-
 #include "mesh/failure.h"
 #include "operators/refine/assembly.h"
 
 namespace mandoline::refining {
 
-void Assembly::markLarge(uint32_t id) {
-  if (id >= isLarge_.size()) isLarge_.resize(ids_.size());
-  if (!isLarge_[id]) large_.push_back(id);
-  isLarge_[id] = 1;
+/// Sides of the last level that was added, with the faces of the level before.
+void Assembly::matchLevel(const std::vector<Side>& sides) {
+  const std::vector<uint8_t> isLarge = largeVertices(sides);
+  constexpr size_t kBlock = 64;
+  const auto match = [&](Matched& matched, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) matchSide(sides[i], isLarge, matched);
+  };
+  for (const Matched& matched : detail::forChunks<Matched>(sides.size(), monitor_, match, kBlock))
+    result_.levels.back().chains.add(matched.chains);
 }
 
-void Assembly::markLarge(const Side& side) {
-  for (const uint32_t v : cornersOf(side)) markLarge(v);
-  const BlockCells& own = result_.leafCells[side.leaf];
-  forFacesOn(own, side.axis, side.side, [&](uint32_t f, uint32_t, int32_t) {
-    for (const auto loop : own.part->cutMesh().loops(f)) {
-      for (const uint32_t v : loop) markLarge(ids_.of(own.number, v));
-    }
-  });
+/// Per vertex: whether faces of the last level have it, or sides that smaller blocks are beside.
+std::vector<uint8_t> Assembly::largeVertices(const std::vector<Side>& sides) const {
+  std::vector<uint8_t> isLarge(ids_.size());
+  LoopMaker loops(sources_, result_.levels.back());
+  for (const LevelFace& face : result_.levels.back().faces) {
+    loops.forLargeLoops(face, [&](std::span<const uint32_t> loop) {
+      for (const uint32_t v : loop) isLarge[v] = 1;
+    });
+  }
+  for (const Side& side : sides) {
+    for (const uint32_t v : cornersOf(sources_, side)) isLarge[v] = 1;
+    const BlockCells own = cellsOf(side.leaf);
+    forFacesOn(own, side.axis, side.side, [&](uint32_t f, uint32_t, int32_t) {
+      for (const auto loop : own.part->cutMesh().loops(f)) {
+        for (const uint32_t v : loop) isLarge[ids_.of(own.number, v)] = 1;
+      }
+    });
+  }
+  return isLarge;
 }
 
 /// The faces of smaller blocks on a side: their cells behind it, and chains on the edges of its faces.
-void Assembly::matchSide(const Side& side) {
-  const BlockCells& own = result_.leafCells[side.leaf];
+void Assembly::matchSide(const Side& side, const std::vector<uint8_t>& isLarge, Matched& matched) {
+  matched.matcher.clear();
+  matched.besides.clear();
+  addSmallFaces(side, matched);
+  addLargeFaces(side, matched);
+  matched.matcher.run(isLarge, matched.chains);
+  std::vector<LevelFace>& faces = result_.levels[result_.levels.size() - 2].faces;
+  for (size_t i = 0; i < matched.besides.size(); ++i) {
+    for (int32_t& cell : faces[matched.besides[i]].cells) {
+      if (cell != kPending) continue;
+      cell = matched.matcher.cellBehind(i);
+      if (cell < 0) throw detail::Failure{{Status::internalError, -1, -1, "A face of a smaller cell has no larger one behind it."}};
+    }
+  }
+}
+
+void Assembly::addSmallFaces(const Side& side, Matched& matched) const {
+  const LevelFaces& small = result_.levels[result_.levels.size() - 2];
+  const bool isCut = cellsOf(side.leaf).isCut();
   const int level = leaves_.cellLevel[side.leaf] - 1;
   const Block low = neighbour(side), corner = leaves_.corner(side.leaf);
-  std::vector<Beside> besides;
-  matcher_.clear();
   for (int quarter = 0; quarter < 4; ++quarter) {
     Block at = low, behind = corner;
-    const size_t u = (side.axis + 1) % 3, v = (side.axis + 2) % 3;
+    const size_t u = (side.axis + 1u) % 3, v = (side.axis + 2u) % 3;
     at[u] += (quarter & 1) << level;
     at[v] += (quarter >> 1) << level;
     behind[u] = at[u];
@@ -39,42 +68,42 @@ void Assembly::matchSide(const Side& side) {
     if (side.side) behind[side.axis] = leaves_.end(side.leaf)[side.axis] - 1;
     const int64_t leaf = leafAt(at);
     if (leaf < 0) continue;
-    const Side facing{size_t(leaf), side.axis, 1 - side.side};
-    const auto range = std::equal_range(besides_.begin(), besides_.end(), Beside{facing.key(), 0, false});
-    besides.insert(besides.end(), range.first, range.second);
-    if (!own.isCut()) continue;
-    addSurfaceEdges(result_.leafCells[size_t(leaf)], facing);
-    addSurfaceEdges(blockAt(behind, level), {size_t(leaf), side.axis, side.side});
-  }
-  for (const Beside& beside : besides) {
-    const FaceList& list = beside.isPlain ? result_.plain : result_.cut;
-    matcher_.addFace(list.parents(beside.face));
-    forEdges(list.loops(beside.face), [&](uint32_t a, uint32_t b) { matcher_.addEdge(a, b); });
-  }
-  forFacesOn(own, side.axis, side.side, [&](uint32_t f, uint32_t, int32_t c) {
-    const CutMesh& cutMesh = own.part->cutMesh();
-    std::vector<uint32_t> parents;
-    for (uint32_t i = cutMesh.faceParentOffsets[f]; i < cutMesh.faceParentOffsets[f + 1]; ++i)
-      parents.push_back(own.part->triangle(int32_t(cutMesh.faceParents[i])));
-    forEdges(cutMesh.loops(f), [&](uint32_t a, uint32_t b) {
-      matcher_.addLargeEdge(ids_.of(own.number, a), ids_.of(own.number, b), parents, cellOf(own, c));
-    });
-  });
-  isLarge_.resize(std::max(isLarge_.size(), ids_.size()));
-  matcher_.run(isLarge_, *chains_);
-  for (size_t i = 0; i < besides.size(); ++i) {
-    FaceList& list = besides[i].isPlain ? result_.plain : result_.cut;
-    for (const size_t s : {size_t(0), size_t(1)}) {
-      int32_t& cell = list.faceCells[2 * size_t(besides[i].face) + s];
-      if (cell != kPending) continue;
-      cell = matcher_.cellBehind(i);
-      if (cell < 0) throw detail::Failure{{Status::internalError, -1, -1, "A face of a smaller cell has no larger one behind it."}};
+    const Side facing{uint32_t(leaf), side.axis, uint8_t(1 - side.side)};
+    const auto [begin, end] = small.on(facing);
+    for (size_t f = begin; f < end; ++f) {
+      if (small.faces[f].isBesideLarger) matched.besides.push_back(f);
     }
+    if (!isCut) continue;
+    addSurfaceEdges(cellsOf(size_t(leaf)), facing, matched.matcher);
+    addSurfaceEdges(blockAt(behind, level), {uint32_t(leaf), side.axis, side.side}, matched.matcher);
+  }
+  LoopMaker loops(sources_, small);
+  std::vector<uint32_t> parents;
+  for (const size_t f : matched.besides) {
+    const LevelFace& face = small.faces[f];
+    parents.clear();
+    if (!face.isWhole()) parts_[face.part].appendParents(face.face, parents);
+    matched.matcher.addFace(parents);
+    loops.forLoops(face, [&](std::span<const uint32_t> loop) {
+      forEdges(std::span(&loop, 1), [&](uint32_t a, uint32_t b) { matched.matcher.addEdge(a, b); });
+    });
   }
 }
 
+void Assembly::addLargeFaces(const Side& side, Matched& matched) const {
+  const BlockCells own = cellsOf(side.leaf);
+  std::vector<uint32_t> parents;
+  forFacesOn(own, side.axis, side.side, [&](uint32_t f, uint32_t, int32_t c) {
+    parents.clear();
+    own.part->appendParents(f, parents);
+    forEdges(own.part->cutMesh().loops(f), [&](uint32_t a, uint32_t b) {
+      matched.matcher.addLargeEdge(ids_.of(own.number, a), ids_.of(own.number, b), parents, cellOf(own, c));
+    });
+  });
+}
+
 /// The edges of triangles that lie in a side of a block of the level below, but for triangles that lie there themselves.
-void Assembly::addSurfaceEdges(const BlockCells& cells, const Side& side) {
+void Assembly::addSurfaceEdges(const BlockCells& cells, const Side& side, SideMatcher& matcher) const {
   if (!cells.isCut()) return;
   const CutMesh& cutMesh = cells.part->cutMesh();
   const size_t d = side.axis;
@@ -85,7 +114,7 @@ void Assembly::addSurfaceEdges(const BlockCells& cells, const Side& side) {
       const size_t f = h / 2;
       if (cutMesh.faceTriangle[f] < 0 || (size_t(cutMesh.faceAxis[f]) == d && cutMesh.facePlane[f] == plane)) continue;
       forEdges(cutMesh.loops(f), [&](uint32_t a, uint32_t b) {
-        if (isOn(a) && isOn(b)) matcher_.addSurfaceEdge(ids_.of(cells.number, a), ids_.of(cells.number, b));
+        if (isOn(a) && isOn(b)) matcher.addSurfaceEdge(ids_.of(cells.number, a), ids_.of(cells.number, b));
       });
     }
   }

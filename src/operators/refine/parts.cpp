@@ -19,24 +19,38 @@ uint64_t Parts::keyOf(int level, const Block& block) const {
   return (at(2) * count(1) + at(1)) * count(0) + at(0);
 }
 
+/// Whether all blocks around are in the same part.
+bool Parts::isInside(const Block& block) {
+  bool isInside = true;
+  for (const int32_t x : block) isInside &= (x - 1) >> kShift == (x + 1) >> kShift;
+  return isInside;
+}
+
 /// Those that have leaves of a level, or blocks around these inside of larger ones: faces of larger cells there are divided as such blocks
 /// are, and edges have the vertices where the surface touches them.
 std::vector<uint64_t> Parts::wantedAt(int level) const {
   std::vector<uint64_t> keys;
-  for (size_t c = 0; c < leaves_.cellCount(); ++c) {
-    if (leaves_.cellLevel[c] != level) continue;
-    const Block block = operators::blockOf(leaves_, c);
+  const auto forLeaves = [&](const auto& visit) {
+    for (size_t c = 0; c < leaves_.cellCount(); ++c) {
+      if (leaves_.cellLevel[c] == level) visit(operators::blockOf(leaves_, c));
+    }
+  };
+  forLeaves([&](const Block& block) {
     const uint64_t key = keyOf(level, block);
     if (keys.empty() || keys.back() != key) keys.push_back(key);
-    for (int32_t around = 0; around < 27; ++around) {
+  });
+  detail::sortUnique(keys);
+  const std::vector<uint64_t> own = keys;
+  forLeaves([&](const Block& block) {
+    for (int32_t around = 0; around < 27 && !isInside(block); ++around) {
       const Block beside = {block[0] + around % 3 - 1, block[1] + around / 3 % 3 - 1, block[2] + around / 9 - 1};
       bool inGrid = true;
       for (size_t d = 0; d < 3; ++d) inGrid &= beside[d] >= 0 && beside[d] < grids_[size_t(level)].cells(int(d));
-      if (!inGrid || keyOf(level, beside) == key) continue;
+      if (!inGrid || std::binary_search(own.begin(), own.end(), keyOf(level, beside))) continue;
       const int64_t other = leaves_.find(int64_t(beside[0]) << level, int64_t(beside[1]) << level, int64_t(beside[2]) << level);
       if (other >= 0 && leaves_.cellLevel[size_t(other)] > level) keys.push_back(keyOf(level, beside));
     }
-  }
+  });
   detail::sortUnique(keys);
   return keys;
 }
@@ -73,6 +87,9 @@ void Parts::cut(detail::Monitor& monitor) {
     CutPiece piece = cutters[size_t(part.level)]->cut(bricks[p], single);
     part.measures = measure(piece.mesh, piece.cutMesh, single);
     part.own = std::move(piece.cutMesh);
+    CutMesh::fields(part.own, [](const auto&, auto&& array) {
+      if constexpr (requires { array.shrink_to_fit(); }) array.shrink_to_fit();
+    });
     part.owners = operators::ownersOf(part.own);
     part.triangles = std::move(piece.triangles);
     part.triVertices = std::move(piece.triVertices);

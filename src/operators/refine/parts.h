@@ -26,6 +26,12 @@ struct Part {
   const CutMesh& cutMesh() const { return grid ? *grid : own; }
   uint32_t triangle(int32_t t) const { return grid ? uint32_t(t) : triangles[size_t(t)]; }
   uint32_t triVertex(int32_t v) const { return grid ? uint32_t(v) : triVertices[size_t(v)]; }
+  /// The mesh's triangles that a face is a piece of.
+  void appendParents(size_t face, std::vector<uint32_t>& to) const {
+    const CutMesh& from = cutMesh();
+    for (uint32_t i = from.faceParentOffsets[face]; i < from.faceParentOffsets[face + 1]; ++i)
+      to.push_back(triangle(int32_t(from.faceParents[i])));
+  }
   IdRange cellsAt(const Block& block) const { return cutMesh().cutCellsAt(block[0] - first[0], block[1] - first[1], block[2] - first[2]); }
 };
 
@@ -64,6 +70,7 @@ class Parts {
 
  private:
   static constexpr int kShift = 4;  // 16 blocks along each side of a part
+  static bool isInside(const Block& block);
   uint64_t keyOf(int level, const Block& block) const;
   std::vector<uint64_t> wantedAt(int level) const;
 

@@ -79,10 +79,10 @@ RefinedCells refine(const PreparedMesh& mesh, const CutMesh& cutMesh, const Refi
   Parts parts(mesh, cutMesh, grids, leaves);
   parts.cut(monitor);
   monitor.beginStage("vertices", 2);
-  SharedIds ids(mesh.mesh(), parts, leaves.gridCells);
+  const SharedIds ids(mesh.mesh(), parts, leaves, monitor);
   monitor.beginStage("faces", 3);
-  Assembled assembled = Assembly(leaves, parts, ids, grids[0].planes).run(monitor);
-  RefinedCells result = finish(std::move(assembled), {leaves, parts, ids, cutMesh}, grids[0]);
+  const Sources sources{leaves, parts, ids, cutMesh};
+  RefinedCells result = finish(Assembly(sources, monitor).run(), sources, grids[0], monitor);
   result.levels = levels;
   return result;
 }

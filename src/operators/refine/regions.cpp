@@ -22,8 +22,8 @@ struct Corner {
 
 class RegionFinder {
  public:
-  RegionFinder(const CellComplex& cells, const Assembled& assembled, const Sources& sources)
-      : cells_(cells), assembled_(assembled), sources_(sources), whole_(sources.parts[sources.parts.size() - 1]) {}
+  RegionFinder(const CellComplex& cells, const CutMesh& cutMesh, const Assembled& assembled, const Sources& sources)
+      : cells_(cells), cutMesh_(cutMesh), assembled_(assembled), sources_(sources), whole_(sources.parts[sources.parts.size() - 1]) {}
 
   std::vector<uint32_t> run() {
     joinCells();
@@ -61,7 +61,7 @@ class RegionFinder {
   void takeUndivided() {
     const UntouchedCells untouched(sources_.whole);
     for (size_t leaf = 0; leaf < sources_.leaves.cellCount(); ++leaf) {
-      const BlockCells& block = assembled_.leafCells[leaf];
+      const BlockCells block = assembled_.cellsOf(sources_.parts, leaf);
       const uint32_t first = assembled_.firstCells[leaf];
       if (block.isCut()) {
         for (size_t i = 0; i < block.cells.size() && block.part == &whole_; ++i)
@@ -88,13 +88,13 @@ class RegionFinder {
       }
     }
     detail::sortUnique(corners);
-    for (size_t f = 0; f < assembled_.cut.size(); ++f) {
-      const int32_t triangle = assembled_.cut.faceTriangle[f];
+    for (size_t f = 0; f < cells_.cutFaces; ++f) {
+      const int32_t triangle = cutMesh_.faceTriangle[f];
       if (triangle < 0) continue;
       for (const uint32_t side : {0u, 1u}) {
         const int32_t cell = cells_.faceCells[2 * f + side];
         if (cell < 0 || ofWhole_[regions_[size_t(cell)]] != kNone) continue;
-        for (const auto loop : assembled_.cut.loops(f)) {
+        for (const auto loop : cells_.loops(f)) {
           for (const uint32_t v : loop) takeCorner({uint32_t(triangle), v, side, 0}, corners, regions_[size_t(cell)]);
         }
       }
@@ -132,6 +132,7 @@ class RegionFinder {
   }
 
   const CellComplex& cells_;
+  const CutMesh& cutMesh_;
   const Assembled& assembled_;
   const Sources& sources_;
   const Part& whole_;
@@ -142,8 +143,8 @@ class RegionFinder {
 
 }  // namespace
 
-std::vector<uint32_t> findRegions(const CellComplex& cells, const Assembled& assembled, const Sources& sources) {
-  return RegionFinder(cells, assembled, sources).run();
+std::vector<uint32_t> findRegions(const CellComplex& cells, const CutMesh& cutMesh, const Assembled& assembled, const Sources& sources) {
+  return RegionFinder(cells, cutMesh, assembled, sources).run();
 }
 
 }  // namespace mandoline::refining

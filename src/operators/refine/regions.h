@@ -5,15 +5,8 @@
 
 namespace mandoline::refining {
 
-/// What there is of the leaves.
-struct Sources {
-  const OctreeCells& leaves;
-  const Parts& parts;
-  const SharedIds& ids;
-  const CutMesh& whole;  ///< the cut of the grid
-};
-
-/// Per cell: its region in the grid's cut. `cells` has faces and volumes.
-std::vector<uint32_t> findRegions(const CellComplex& cells, const Assembled& assembled, const Sources& sources);
+/// Per cell: its region in the grid's cut. `cells` has faces, with loops in ids of SharedIds, and volumes; `cutMesh` the triangles of
+/// faces.
+std::vector<uint32_t> findRegions(const CellComplex& cells, const CutMesh& cutMesh, const Assembled& assembled, const Sources& sources);
 
 }  // namespace mandoline::refining

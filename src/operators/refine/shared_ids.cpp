@@ -126,14 +126,26 @@ class KeyMaker {
 
 }  // namespace
 
-SharedIds::SharedIds(const MeshView& mesh, const Parts& parts, const std::array<int32_t, 3>& gridCells) : gridCells_(gridCells) {
+SharedIds::SharedIds(const MeshView& mesh, const Parts& parts, const OctreeCells& leaves, detail::Monitor& monitor)
+    : gridCells_(leaves.gridCells), gridVertices_(numberOf(gridCells_) + 1, leaves.cellCount()) {
+  unite(mesh, parts, monitor);
+  numberGridVertices(parts, leaves);
+}
+
+void SharedIds::unite(const MeshView& mesh, const Parts& parts, detail::Monitor& monitor) {
   size_t count = 0;
-  std::vector<Key> keys;
   for (size_t p = 0; p < parts.size(); ++p) {
     firstVertices_.push_back(count);
     count += parts[p].cutMesh().vertexCount();
     if (count >> 31 != 0) throw detail::Failure{{Status::meshTooLarge, -1, -1, "The parts of the grid have more than 2^31 vertices."}};
-    KeyMaker(mesh, parts[p], uint32_t(firstVertices_[p]), keys).run();
+  }
+  const auto made = [&](std::vector<Key>& keys, size_t begin, size_t end) {
+    for (size_t p = begin; p < end; ++p) KeyMaker(mesh, parts[p], uint32_t(firstVertices_[p]), keys).run();
+  };
+  std::vector<Key> keys;
+  for (std::vector<Key>& chunk : detail::forChunks<std::vector<Key>>(parts.size(), monitor, made, 1)) {
+    keys.insert(keys.end(), chunk.begin(), chunk.end());
+    chunk = {};
   }
   detail::sortItems(keys);
   detail::DisjointSets sets(count);
@@ -144,18 +156,39 @@ SharedIds::SharedIds(const MeshView& mesh, const Parts& parts, const std::array<
   for (uint32_t p = 0, i = 0; p < parts.size(); ++p) {
     for (uint32_t v = 0; v < parts[p].cutMesh().vertexCount(); ++v, ++i) {
       const uint32_t root = sets.find(i);
-      if (root == i) {
-        ids_[i] = uint32_t(sources_.size());
-        sources_.push_back({p, v, {}});
-      } else {
-        ids_[i] = ids_[root];
-      }
-      if (parts[p].cutMesh().vertexMask[v] != 7) continue;
-      Block at;
-      for (size_t d = 0; d < 3; ++d) at[d] = (parts[p].cutMesh().vertexCell[3 * size_t(v) + d] + parts[p].first[d]) << parts[p].level;
-      if (gridVertices_.add(numberOf(at)) == gridIds_.size()) gridIds_.push_back(ids_[i]);
+      ids_[i] = root == i ? uint32_t(sources_.size()) : ids_[root];
+      if (root == i) sources_.push_back({p, v});
     }
   }
+}
+
+void SharedIds::numberGridVertices(const Parts& parts, const OctreeCells& leaves) {
+  for (size_t leaf = 0; leaf < leaves.cellCount(); ++leaf) {
+    const Block low = leaves.corner(leaf), high = leaves.end(leaf);
+    for (int i = 0; i < 8; ++i) gridVertices_.insert(numberOf({(i & 1 ? high : low)[0], (i & 2 ? high : low)[1], (i & 4 ? high : low)[2]}));
+  }
+  const auto forCut = [&](const auto& visit) {
+    for (size_t p = 0, i = 0; p < parts.size(); ++p) {
+      const CutMesh& cutMesh = parts[p].cutMesh();
+      for (size_t v = 0; v < cutMesh.vertexCount(); ++v, ++i) {
+        if (cutMesh.vertexMask[v] != 7) continue;
+        Block at;
+        for (size_t d = 0; d < 3; ++d) at[d] = (cutMesh.vertexCell[3 * v + d] + parts[p].first[d]) << parts[p].level;
+        visit(numberOf(at), ids_[i]);
+      }
+    }
+  };
+  forCut([&](uint64_t number, uint32_t) { gridVertices_.insert(number); });
+  gridVertices_.rank();
+  gridIds_.assign(gridVertices_.size(), kNone);
+  forCut([&](uint64_t number, uint32_t id) { gridIds_[gridVertices_.rankOf(number)] = id; });
+  size_t rank = 0;
+  gridVertices_.forEach([&](uint64_t number) {
+    uint32_t& id = gridIds_[rank++];
+    if (id != kNone) return;
+    id = uint32_t(size());
+    numbers_.push_back(number);
+  });
 }
 
 uint64_t SharedIds::numberOf(const Block& at) const {
@@ -163,13 +196,10 @@ uint64_t SharedIds::numberOf(const Block& at) const {
   return (uint64_t(at[2]) * ny + uint64_t(at[1])) * nx + uint64_t(at[0]);
 }
 
-uint32_t SharedIds::ofGridVertex(const Block& at) {
-  const uint32_t number = gridVertices_.add(numberOf(at));
-  if (number == gridIds_.size()) {
-    gridIds_.push_back(uint32_t(sources_.size()));
-    sources_.push_back({kNone, 0, at});
-  }
-  return gridIds_[number];
+SharedIds::Source SharedIds::sourceOf(uint32_t id) const {
+  if (id < sources_.size()) return {sources_[id].part, sources_[id].vertex, {}};
+  const uint64_t number = numbers_[id - sources_.size()], nx = uint64_t(gridCells_[0]) + 1, ny = uint64_t(gridCells_[1]) + 1;
+  return {kNone, 0, {int32_t(number % nx), int32_t(number / nx % ny), int32_t(number / nx / ny)}};
 }
 
 }  // namespace mandoline::refining

@@ -31,7 +31,7 @@ void SideMatcher::addLargeEdge(uint32_t from, uint32_t to, std::span<const uint3
   largeEdges_.push_back({from, to, kindOf(parents), cell});
 }
 
-void SideMatcher::run(const std::vector<uint8_t>& isLarge, Chains& chains) {
+void SideMatcher::run(const std::vector<uint8_t>& isLarge, ChainList& chains) {
   detail::sortItems(edges_);
   detail::sortItems(largeEdges_);
   detail::sortUnique(surface_);
@@ -74,19 +74,23 @@ std::span<const SideMatcher::Pair> SideMatcher::linksOf(uint32_t vertex) const {
 
 /// Follows a line from a vertex of larger cells to the next one: at a vertex of smaller cells alone it goes on, since there it crosses
 /// nothing but planes of theirs.
-void SideMatcher::trace(uint32_t from, uint32_t next, const std::vector<uint8_t>& isLarge, Chains& chains) {
-  inside_.clear();
+void SideMatcher::trace(uint32_t from, uint32_t next, const std::vector<uint8_t>& isLarge, ChainList& chains) {
+  chain_.assign(1, from);
   uint32_t before = from, at = next;
   while (!isLarge[at]) {
     const std::span<const Pair> links = linksOf(at);
-    if (links.size() != 2 || inside_.size() > links_.size()) return;
-    inside_.push_back(at);
+    if (links.size() != 2 || chain_.size() > links_.size()) return;
+    chain_.push_back(at);
     const uint32_t after = links[0][1] == before ? links[1][1] : links[0][1];
     before = at;
     at = after;
   }
   if (at == from) return;
-  if (!inside_.empty()) chains.add(from, at, inside_);
+  if (chain_.size() > 1) {
+    chain_.push_back(at);
+    chains.items.insert(chains.items.end(), chain_.begin(), chain_.end());
+    chains.endGroup();
+  }
   match(from, next, at);
 }
 

@@ -23,7 +23,7 @@ class SideMatcher {
   void addSurfaceEdge(uint32_t a, uint32_t b) { surface_.push_back({std::min(a, b), std::max(a, b)}); }
 
   /// `isLarge`: per vertex whether it is one of larger cells. Adds chains between those.
-  void run(const std::vector<uint8_t>& isLarge, Chains& chains);
+  void run(const std::vector<uint8_t>& isLarge, ChainList& chains);
   /// The larger block's cell behind a face of smaller ones; -1 if there is no edge of the larger block's faces around it.
   int32_t cellBehind(size_t face) { return cells_[sets_.find(uint32_t(face))]; }
 
@@ -43,7 +43,7 @@ class SideMatcher {
   void joinFaces();
   bool joinAcross(const Edge& edge);
   std::span<const Pair> linksOf(uint32_t vertex) const;
-  void trace(uint32_t from, uint32_t next, const std::vector<uint8_t>& isLarge, Chains& chains);
+  void trace(uint32_t from, uint32_t next, const std::vector<uint8_t>& isLarge, ChainList& chains);
   void match(uint32_t from, uint32_t next, uint32_t to);
 
   std::vector<Edge> edges_;
@@ -54,7 +54,7 @@ class SideMatcher {
   detail::Csr<uint32_t> kinds_;    // the parents of each number
   detail::DisjointSets sets_;      // of faces in one of the larger block's
   std::vector<int32_t> cells_;     // per set
-  std::vector<uint32_t> inside_;   // of the current chain
+  std::vector<uint32_t> chain_;    // the current one
 };
 
 }  // namespace mandoline::refining
