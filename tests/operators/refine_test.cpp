@@ -189,6 +189,37 @@ TEST_CASE("refine: a cube is divided at its edges alone, a ball by its curvature
   CHECK(*std::min_element(coarse.cells.cellLevel.begin(), coarse.cells.cellLevel.end()) == 2);  // a half turns by 17 degrees at most
 }
 
+TEST_CASE("refine: cells are divided where a function says so, which is asked of all of them", "[refine]") {
+  const Mesh ball = shapes::icosphere({4, 4, 4}, 2.3, 2);
+  const Grid grid = unitGrid(8);
+  size_t asked = 0;
+  RefineOptions options;
+  options.rule.levels = 2;
+  options.rule.divides = [&](const std::array<double, 3>& min, const std::array<double, 3>& max, int depth) {
+    ++asked;
+    for (size_t d = 0; d < 3; ++d) REQUIRE(max[d] - min[d] == std::ldexp(1, -depth));
+    return max[0] <= (depth == 0 ? 4 : 2) && max[1] <= 4;  // in twos
+  };
+  const RefinedCells refined = checkedRefinement(ball, grid, options);
+  CHECK(asked == 8 * 8 * 8 + 8 * 4 * 4 * 8);
+  CHECK(refined.levels == 2);
+  RefineOptions boxes;
+  boxes.boxes = {{{0, 0, 0}, {4, 4, 8}, 1}, {{0, 0, 0}, {2, 4, 8}, 2}};
+  const RefinedCells same = checkedRefinement(ball, grid, boxes);
+  CHECK(refined.cells.cellCorner == same.cells.cellCorner);
+  CHECK(refined.cells.cellVolume == same.cells.cellVolume);
+
+  const PreparedMesh prepared = prepare(ball).mesh;
+  const CutMesh whole = cut(ball, grid).mesh;
+  options.rule.divides = [](const auto&, const auto&, int) { return true; };
+  const RefinedCells all = refineCells(prepared, whole, options);
+  CHECK(all.cells.cellCount() > 32 * 32 * 32);
+  CHECK(all.cells.fingerprint != refined.cells.fingerprint);
+  CHECK(all.cutMesh.fingerprint != refined.cutMesh.fingerprint);
+  options.rule.divides = [](const auto&, const auto&, int) -> bool { throw std::string("mine"); };
+  CHECK_THROWS_AS(refineCells(prepared, whole, options), std::string);
+}
+
 TEST_CASE("refine: layers of each size", "[refine]") {
   const Mesh ball = shapes::icosphere({8, 8, 8}, 0.7, 1);
   RefineOptions options = in({{7.1, 7.1, 7.1}, {8.9, 8.9, 8.9}, 2});
@@ -300,6 +331,13 @@ TEST_CASE("refine: calls that can't be", "[refine]") {
   CHECK(status(bending(1, -1)) == Status::badOption);
   CHECK(status(bending(1, std::nan(""))) == Status::badOption);
   CHECK(status(bending(22)) == Status::gridTooLarge);
+  RefineOptions ruled;
+  ruled.rule.levels = 1;
+  CHECK(status(ruled) == Status::badOption);
+  ruled.rule = {[](const auto&, const auto&, int) { return true; }, 0};
+  CHECK(status(ruled) == Status::badOption);
+  ruled.rule.levels = 25;
+  CHECK(status(ruled) == Status::badOption);
   CHECK(status(in({{0, 0, 0}, {1, 0, 1}, 1})) == Status::badOption);
   CHECK(status(in({{0, 0, 0}, {1, INFINITY, 1}, 1})) == Status::badOption);
   CHECK(status(in({{0, 0, 0}, {1, 1, 1}, -1})) == Status::badOption);

@@ -1,5 +1,8 @@
-// Cells of several sizes at the surface: grid cells divided where the surface bends or where boxes say so, before they are cut.
+// Cells of several sizes at the surface: grid cells divided where the surface bends, or where boxes or a function say so, before they are
+// cut.
 #pragma once
+
+#include <functional>
 
 #include "mandoline/cell_complex.h"
 #include "mandoline/prepare.h"
@@ -12,6 +15,14 @@ struct RefinementBox {
   int levels = 0;
 };
 
+/// Grid cells are divided where a function says so.
+struct RefinementRule {
+  /// Whether a cell with these corners is divided, which is the outcome of `depth` divisions of a grid cell: asked of all grid cells, by z,
+  /// then y, then x, and of those that it divided them into, one after the other on the caller's thread. What it throws passes through.
+  std::function<bool(const std::array<double, 3>& min, const std::array<double, 3>& max, int depth)> divides;
+  int levels = 0;  ///< how often it divides a grid cell at most, 1 to 24; 0 without a function
+};
+
 struct RefineOptions : RunOptions {
   /// How often grid cells are divided at most where the surface bends: as long as normals of triangles in the cell are farther from each
   /// other than `angle`. So they are at edges and corners, in thin parts with both sides in one cell, and where curvature is large.
@@ -19,6 +30,7 @@ struct RefineOptions : RunOptions {
   int levels = 0;
   double angle = 30;  ///< in degrees, 0 to 180; at 0 all cells with triangles are divided
   std::vector<RefinementBox> boxes;
+  RefinementRule rule;
   int layers = 1;  ///< least layers of cells of each size, diagonally too, around where the surface bends and smaller ones; at least 1
   CoarsenOptions coarsening = uncoarsened();  ///< of untouched grid cells that are not divided; threads and progress are not read
 
@@ -56,8 +68,8 @@ Grid dividedGrid(const Grid& grid, int levels);
 /// where a cell meets smaller ones, its faces are divided like theirs, and the edges of a face have all vertices that lie on them. Regions
 /// are those of `cutMesh`, with their ids.
 ///
-/// For solvers, boxes should hold parts of the surface as a whole, or end where it is flat: where cut-cells of two sizes meet, errors are
-/// of first order, and after merging some faces may be slanted by more than 90 degrees from the line between centroids.
+/// For solvers, boxes and rules should take parts of the surface as a whole, or end where it is flat: where cut-cells of two sizes meet,
+/// errors are of first order, and after merging some faces may be slanted by more than 90 degrees from the line between centroids.
 ///
 /// The result is the same to the bit for any number of threads. Throws CallError if an option is out of range, there are more than 2^24
 /// of the smallest cells along an axis (gridTooLarge) or planes between those of the grid are not apart (badGrid), if the cut-mesh is

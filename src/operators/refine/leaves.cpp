@@ -21,6 +21,7 @@ class Divider {
     markFeatures(monitor);
     addLayers();
     for (const RefinementBox& box : options_.boxes) markBox(box, monitor);
+    if (options_.rule.divides) askOfAll(monitor);
     for (int level = 1; level <= levels_; ++level) {
       Blocks& blocks = tree_.divided[size_t(level)];
       if (level > 1) append(tree_.parentsAround(tree_.divided[size_t(level) - 1], level, options_.layers), blocks);
@@ -111,6 +112,32 @@ class Divider {
     }
   }
 
+  void askOfAll(detail::Monitor& monitor) {
+    Block block{}, cells;
+    for (size_t d = 0; d < 3; ++d) cells[d] = tree_.gridCells[d] >> levels_;
+    for (block[2] = 0; block[2] < cells[2]; ++block[2]) {
+      for (block[1] = 0; block[1] < cells[1]; ++block[1]) {
+        for (block[0] = 0; block[0] < cells[0]; ++block[0]) askOf(block, levels_);
+        monitor.report(size_t(block[2]), size_t(cells[2]));
+      }
+    }
+  }
+
+  void askOf(const Block& block, int level) {
+    if (level <= levels_ - options_.rule.levels || !divides(block, level)) return;
+    tree_.divided[size_t(level)].push_back(block);
+    for (int32_t child = 0; child < 8; ++child) askOf(operators::childOf(block, child), level - 1);
+  }
+
+  bool divides(const Block& block, int level) const {
+    const Box box = boxOf(block, level);
+    try {
+      return options_.rule.divides(box.low, box.high, levels_ - level);
+    } catch (...) {
+      throw detail::ProgressFailed{std::current_exception()};
+    }
+  }
+
   OctreeCells leaves(detail::Monitor& monitor) const {
     OctreeCells result;
     result.gridCells = tree_.gridCells;
@@ -133,7 +160,7 @@ class Divider {
 }  // namespace
 
 int mostLevels(const RefineOptions& options) {
-  int levels = options.levels;
+  int levels = std::max(options.levels, options.rule.levels);
   for (const RefinementBox& box : options.boxes) levels = std::max(levels, box.levels);
   return levels;
 }

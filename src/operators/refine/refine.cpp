@@ -25,6 +25,8 @@ void requireOptions(const RefineOptions& options) {
   if (!isLevel(options.levels)) refuseOption("levels has to be from 0 to 24.");
   if (!(options.angle >= 0 && options.angle <= 180)) refuseOption("The angle has to be from 0 to 180 degrees.");
   if (options.layers < 1) refuseOption("There has to be at least one layer of cells of each size.");
+  if (!isLevel(options.rule.levels) || (options.rule.levels > 0) != bool(options.rule.divides))
+    refuseOption("A rule has to have a function and from 1 to 24 levels.");
   for (const RefinementBox& box : options.boxes) {
     bool isBox = isLevel(box.levels);
     for (size_t d = 0; d < 3; ++d) isBox &= std::isfinite(box.min[d]) && std::isfinite(box.max[d]) && box.min[d] < box.max[d];
@@ -53,7 +55,8 @@ void requireFewCells(const Grid& grid, int levels) {
   if (all >= 9e18) throw CallError({Status::gridTooLarge, 0, -1, "There would be more than 2^63 of the smallest cells in the grid."});
 }
 
-Fingerprint fingerprintOf(const CutMesh& cutMesh, const RefineOptions& options, std::string_view kind) {
+/// A function tells nothing of what it will say: the cells do.
+Fingerprint fingerprintOf(const CutMesh& cutMesh, const RefineOptions& options, const CellComplex& cells, std::string_view kind) {
   detail::Fingerprinter fingerprinter(kind, cutMesh.fingerprint);
   const CoarsenOptions coarsening = operators::meantFor(cutMesh.grid, options.coarsening);
   for (const int option : {options.levels, options.layers, coarsening.maxLevel, coarsening.fineLayers, coarsening.layersPerLevel,
@@ -64,6 +67,10 @@ Fingerprint fingerprintOf(const CutMesh& cutMesh, const RefineOptions& options, 
     fingerprinter.add(std::span<const double>(box.min));
     fingerprinter.add(std::span<const double>(box.max));
     fingerprinter.add(uint64_t(box.levels));
+  }
+  if (options.rule.divides) {
+    for (const int32_t x : cells.cellCorner) fingerprinter.add(uint64_t(x));
+    for (const uint8_t level : cells.cellLevel) fingerprinter.add(uint64_t(level));
   }
   return fingerprinter.get();
 }
@@ -130,11 +137,10 @@ RefinedCells refineCells(const PreparedMesh& mesh, const CutMesh& cutMesh, const
   requireOptions(options);
   requireCut(mesh, cutMesh);
   requireFewCells(cutMesh.grid, mostLevels(options));
-  const Fingerprint ofCut = fingerprintOf(cutMesh, options, "refined cut"), ofCells = fingerprintOf(cutMesh, options, "refined cells");
   return detail::runCall("refinement", [&] {
     RefinedCells result = refine(mesh, cutMesh, options);
-    result.cutMesh.fingerprint = result.cells.madeFrom = ofCut;
-    result.cells.fingerprint = ofCells;
+    result.cutMesh.fingerprint = result.cells.madeFrom = fingerprintOf(cutMesh, options, result.cells, "refined cut");
+    result.cells.fingerprint = fingerprintOf(cutMesh, options, result.cells, "refined cells");
     return result;
   });
 }
