@@ -8,6 +8,7 @@
 #include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
 #include "mpi/communicator.h"
+#include "mpi/make_rank_complex.h"
 #include "mpi/pack.h"
 #include "mpi/rank_piece.h"
 #include "operators/measure/region_sums.h"
@@ -178,6 +179,9 @@ DistributedCut::DistributedCut(MPI_Comm comm, PreparedMesh mesh, Grid grid, cons
     : data_(std::make_shared<Data>(comm, std::move(mesh), std::move(grid), options)) {}
 
 RankPiece DistributedCut::piece() const { return data_->makePiece(); }
+RankComplex DistributedCut::cellComplex(const RankPiece& piece, int ghostLayers) const {
+  return makeRankComplex(data_->comm, {data_->mesh.mesh(), data_->common.mesh, data_->counts}, piece, ghostLayers);
+}
 CutCounts DistributedCut::counts() const { return data_->counts; }
 uint64_t DistributedCut::ownCells() const { return data_->ownCells; }
 std::vector<double> DistributedCut::regionVolumes(const RankPiece& piece) const { return data_->regionVolumes(piece); }

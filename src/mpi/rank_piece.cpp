@@ -32,21 +32,40 @@ std::vector<uint32_t> cellsOfFaces(const NumberedPart& numbered) {
   return cells;
 }
 
+/// The untouched cells of the layers.
+void takeRuns(const CutMesh& common, const std::array<int64_t, 2>& layers, CutMesh& out) {
+  const size_t ny = size_t(common.grid.cells(1)), first = size_t(layers[0]) * ny, past = size_t(layers[1]) * ny;
+  const uint32_t begin = common.rowRunOffsets[first], end = common.rowRunOffsets[past];
+  const auto take = [&](auto array) { (out.*array).assign((common.*array).begin() + begin, (common.*array).begin() + end); };
+  take(&CutMesh::runBegin);
+  take(&CutMesh::runEnd);
+  take(&CutMesh::runRegion);
+  out.rowRunOffsets.reserve(common.rowRunOffsets.size());
+  for (const uint32_t offset : common.rowRunOffsets) out.rowRunOffsets.push_back(std::clamp(offset, begin, end) - begin);
+}
+
+/// The made vertices among those of the piece.
+void takeMade(const CutMesh& common, RankPiece& piece) {
+  const std::vector<uint64_t>& ids = piece.vertexIds;
+  uint32_t v = 0;
+  for (size_t i = 0; i < common.madeVertices.size(); ++i) {
+    while (v < ids.size() && ids[v] < common.madeVertices[i]) ++v;
+    if (v < ids.size() && ids[v] == common.madeVertices[i]) appendMade(common, i, v, piece.cutMesh);
+  }
+}
+
 class PieceMaker {
  public:
   PieceMaker(const NumberedPart& numbered, const CutMesh& common, const PlaneFaces& below)
       : numbered_(numbered), part_(numbered.part.cutMesh), common_(common), below_(below) {}
 
   PieceFromBelow make(const std::array<int64_t, 2>& layers) {
-    out().grid = common_.grid;
     made_.piece.layers = layers;
     findGhostFaces();
     takeFaces();
     takeVertices();
     takeCells();
-    takeRuns(layers);
-    takeRegions();
-    takeMade();
+    takeCommon(common_, made_.piece);
     return std::move(made_);
   }
 
@@ -165,38 +184,6 @@ class PieceMaker {
     for (uint64_t c = 0; c < part_.cellCount(); ++c) made_.piece.cellIds.push_back(numbered_.firstCell + c);
   }
 
-  /// The untouched cells of the layers.
-  void takeRuns(const std::array<int64_t, 2>& layers) {
-    const size_t ny = size_t(common_.grid.cells(1)), first = size_t(layers[0]) * ny, past = size_t(layers[1]) * ny;
-    const uint32_t begin = common_.rowRunOffsets[first], end = common_.rowRunOffsets[past];
-    const auto take = [&](auto array) { (out().*array).assign((common_.*array).begin() + begin, (common_.*array).begin() + end); };
-    take(&CutMesh::runBegin);
-    take(&CutMesh::runEnd);
-    take(&CutMesh::runRegion);
-    out().rowRunOffsets.reserve(common_.rowRunOffsets.size());
-    for (const uint32_t offset : common_.rowRunOffsets) out().rowRunOffsets.push_back(std::clamp(offset, begin, end) - begin);
-  }
-
-  void takeRegions() {
-    const auto take = [&](auto... arrays) { ((out().*arrays = common_.*arrays), ...); };
-    take(&CutMesh::regionCount, &CutMesh::hasWinding, &CutMesh::regionWinding, &CutMesh::regionPartWinding, &CutMesh::regionParity,
-         &CutMesh::parityTriangles, &CutMesh::openTriangles, &CutMesh::triangleCount, &CutMesh::snapTolerance, &CutMesh::madeFrom);
-    listWithoutFace(out());
-    Fingerprinter fingerprinter("piece", common_.fingerprint);
-    for (const int64_t layer : made_.piece.layers) fingerprinter.add(uint64_t(layer));
-    out().fingerprint = fingerprinter.get();
-  }
-
-  /// The made vertices among those of the piece.
-  void takeMade() {
-    const std::vector<uint64_t>& ids = made_.piece.vertexIds;
-    uint32_t v = 0;
-    for (size_t i = 0; i < common_.madeVertices.size(); ++i) {
-      while (v < ids.size() && ids[v] < common_.madeVertices[i]) ++v;
-      if (v < ids.size() && ids[v] == common_.madeVertices[i]) appendMade(common_, i, v, out());
-    }
-  }
-
   const NumberedPart& numbered_;
   const CutMesh& part_;
   const CutMesh& common_;
@@ -240,6 +227,20 @@ PlaneFaces facesInPlane(const NumberedPart& numbered, int32_t plane) {
     found.isUsed.push_back(id >= numbered.surfaceVertices || isSurfaceUsed[id]);
   }
   return found;
+}
+
+void takeCommon(const CutMesh& common, RankPiece& piece) {
+  CutMesh& out = piece.cutMesh;
+  out.grid = common.grid;
+  takeRuns(common, piece.layers, out);
+  const auto take = [&](auto... arrays) { ((out.*arrays = common.*arrays), ...); };
+  take(&CutMesh::regionCount, &CutMesh::hasWinding, &CutMesh::regionWinding, &CutMesh::regionPartWinding, &CutMesh::regionParity,
+       &CutMesh::parityTriangles, &CutMesh::openTriangles, &CutMesh::triangleCount, &CutMesh::snapTolerance, &CutMesh::madeFrom);
+  listWithoutFace(out);
+  Fingerprinter fingerprinter("piece", common.fingerprint);
+  for (const int64_t layer : piece.layers) fingerprinter.add(uint64_t(layer));
+  out.fingerprint = fingerprinter.get();
+  takeMade(common, piece);
 }
 
 PieceFromBelow makePiece(const NumberedPart& numbered, const CutMesh& common, const std::array<int64_t, 2>& layers,

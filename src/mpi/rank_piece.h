@@ -68,6 +68,9 @@ struct PieceFromBelow {
 PieceFromBelow makePiece(const NumberedPart& numbered, const CutMesh& common, const std::array<int64_t, 2>& layers,
                          const PlaneFaces& below);
 
+/// Adds what all processes know alike to a piece that has its layers, vertices, faces and cut-cells. `common` is that of the share.
+void takeCommon(const CutMesh& common, RankPiece& piece);
+
 /// Adds the seam to the process above.
 void addSeam(const CellsAbove& above, RankPiece& piece);
 

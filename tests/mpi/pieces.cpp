@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "case_list.h"
+#include "compare_complex.h"
 #include "cut/share_plan.h"
 #include "mandoline/distributed.h"
 #include "mandoline/io.h"
@@ -164,6 +165,12 @@ bool inAll(const std::string& name, const Work& work) {
   return failed == 0;
 }
 
+CellComplex uncoarsened(const MeshView& mesh, const CutMesh& cutMesh) {
+  CoarsenOptions options;
+  options.maxLevel = 0;
+  return cellComplex(mesh, cutMesh, coarsen(cutMesh, options));
+}
+
 bool check(const std::string& name, const PreparedMesh& mesh, const Grid& grid) {
   const RunOptions oneThread{1, {}};
   const CutResult whole = cut(mesh, grid, {oneThread});
@@ -192,6 +199,10 @@ bool check(const std::string& name, const PreparedMesh& mesh, const Grid& grid) 
     require(common.stats.madeVertices == whole.stats.madeVertices, "made vertices differ");
   });
   if (!isSame) return false;
+  RankComplex complex;
+  const bool areCells = inAll(name, [&] { complex = distributed->cellComplex(piece, 1 + int(name.size() % 2)); }) &&
+                        inAll(name, [&] { compareComplex(complex, uncoarsened(mesh.mesh(), whole.mesh)); });
+  if (!areCells) return false;
   return inAll(name, [&] {
     requireOneOwner(piece.vertexIds, &piece.vertexRanks, whole.mesh.vertexCount(), "vertex");
     requireOneOwner(piece.faceIds, &piece.faceRanks, whole.mesh.faceCount(), "face");

@@ -1,5 +1,5 @@
 # Cuts in several processes, also more than there are cores. The processes of the tests share the cores with others: they are not bound.
-add_executable(mandoline-mpi-pieces mpi/pieces.cpp support/case_list.cpp support/lattice.cpp support/shapes.cpp)
+add_executable(mandoline-mpi-pieces mpi/pieces.cpp mpi/compare_complex.cpp support/case_list.cpp support/lattice.cpp support/shapes.cpp)
 set_target_properties(mandoline-mpi-pieces PROPERTIES UNITY_BUILD OFF)
 target_compile_options(mandoline-mpi-pieces PRIVATE ${MANDOLINE_COMPILE_OPTIONS})
 target_include_directories(mandoline-mpi-pieces PRIVATE ${PROJECT_SOURCE_DIR}/src support)

@@ -11,6 +11,7 @@
 #include <mpi.h>
 
 #include "mandoline/cut_share.h"
+#include "mandoline/rank_complex.h"
 
 namespace MANDOLINE_API mandoline {
 
@@ -57,6 +58,9 @@ class DistributedCut {
 
   /// This process's piece.
   RankPiece piece() const;
+  /// This process's cells, the untouched grid cells among them, and as many layers of ghosts on each side, as far as the grid goes. `piece`
+  /// is that of piece(). Without layers of its own it has no ghosts. Throws CallError for fewer than one layer of ghosts (badOption).
+  RankComplex cellComplex(const RankPiece& piece, int ghostLayers = 1) const;
   /// Those of the whole.
   CutCounts counts() const;
   /// How many cut-cells this process has.

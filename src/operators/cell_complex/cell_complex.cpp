@@ -10,6 +10,7 @@
 #include "mesh/run_call.h"
 #include "operators/cell_complex/grid_corners.h"
 #include "operators/cell_complex/half_faces.h"
+#include "operators/cell_complex/in_layers.h"
 #include "operators/cell_complex/octree_index.h"
 #include "operators/coarsen/morton_order.h"
 #include "operators/measure/owners.h"
@@ -26,8 +27,10 @@ constexpr const char* kOther = "The octree cells are not those of this cut-mesh.
 
 class Builder {
  public:
-  Builder(const CutMesh& cutMesh, const OctreeCells& octree, Measures measures, detail::Monitor& monitor)
-      : cutMesh_(cutMesh), octree_(octree), measures_(std::move(measures)), monitor_(monitor) {}
+  /// `layers`: those that there are cells of, along z.
+  Builder(const CutMesh& cutMesh, const OctreeCells& octree, const std::array<int64_t, 2>& layers, Measures measures,
+          detail::Monitor& monitor)
+      : cutMesh_(cutMesh), octree_(octree), layers_(layers), measures_(std::move(measures)), monitor_(monitor) {}
 
   CellComplex run() {
     monitor_.beginStage("faces", 0);
@@ -63,7 +66,7 @@ class Builder {
     const int64_t nx = octree_.gridCells[0], ny = octree_.gridCells[1];
     for (size_t h = 0; h < result_.faceCells.size(); ++h) {
       const int64_t cell = gridCells[h];
-      if (cell < 0) continue;
+      if (cell < 0 || !isInLayers(int32_t(cell / nx / ny))) continue;
       const int64_t octreeCell = index_->find({int32_t(cell % nx), int32_t(cell / nx % ny), int32_t(cell / nx / ny)}, 0);
       if (octreeCell < 0) operators::refuse(kOther);
       result_.faceCells[h] = idOf(octreeCell);
@@ -73,11 +76,20 @@ class Builder {
 
   int32_t idOf(int64_t octreeCell) const { return int32_t(int64_t(cutMesh_.cellCount()) + octreeCell); }
 
+  bool isInLayers(int32_t k) const { return k >= layers_[0] && k < layers_[1]; }
+
   FaceTag tagOf(size_t f) const {
     if (cutMesh_.faceTriangle[f] >= 0) return FaceTag::surface;
-    if (result_.faceCells[2 * f] < 0) return FaceTag(2 * cutMesh_.faceAxis[f]);
-    if (result_.faceCells[2 * f + 1] < 0) return FaceTag(2 * cutMesh_.faceAxis[f] + 1);
+    const size_t axis = size_t(cutMesh_.faceAxis[f]);
+    for (const size_t side : {0, 1}) {
+      if (result_.faceCells[2 * f + side] < 0) return tagOf(axis, int(side), cutMesh_.facePlane[f]);
+    }
     return FaceTag::inner;
+  }
+
+  /// That of a face with nothing on one side.
+  FaceTag tagOf(size_t axis, int side, int32_t plane) const {
+    return plane == (side ? octree_.gridCells[axis] : 0) ? FaceTag(2 * int(axis) + side) : FaceTag::inner;
   }
 
   void takeCells() {
@@ -92,13 +104,13 @@ class Builder {
     corners_->appendPositions(result_.positions);
   }
 
-  /// The cell across a side of an octree cell, or -1 outside the grid. Nothing if smaller cells, cut-cells, or a cell of its size that
-  /// comes before it, have the faces there.
+  /// The cell across a side of an octree cell, or -1 outside the grid or the layers. Nothing if smaller cells, cut-cells, or a cell of its
+  /// size that comes before it, have the faces there.
   std::optional<int32_t> acrossSide(size_t c, size_t axis, int side) const {
     GridIndex across = octree_.corner(c);
     const int level = octree_.cellLevel[c];
     across[axis] += side ? 1 << level : -1;
-    if (across[axis] < 0 || across[axis] >= octree_.gridCells[axis]) return -1;
+    if (across[axis] < 0 || across[axis] >= octree_.gridCells[axis] || !isInLayers(across[2])) return -1;
     const int64_t neighbour = index_->find(across, level);
     if (neighbour < 0 || (side == 0 && octree_.cellLevel[size_t(neighbour)] == level)) return {};
     return idOf(neighbour);
@@ -218,7 +230,7 @@ class Builder {
     const GridIndex corner = octree_.corner(c), end = octree_.end(c);
     const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
     const int32_t neighbour = *acrossSide(c, axis, side);
-    result_.faceTag[f] = neighbour < 0 ? FaceTag(2 * int(axis) + side) : FaceTag::inner;
+    result_.faceTag[f] = neighbour < 0 ? tagOf(axis, side, (side ? end : corner)[axis]) : FaceTag::inner;
     result_.faceCells[2 * f + size_t(side)] = neighbour;
     result_.faceCells[2 * f + size_t(1 - side)] = idOf(int64_t(c));
     result_.faceArea[f] = (plane(u, end[u]) - plane(u, corner[u])) * (plane(v, end[v]) - plane(v, corner[v]));
@@ -257,6 +269,7 @@ class Builder {
 
   const CutMesh& cutMesh_;
   const OctreeCells& octree_;
+  const std::array<int64_t, 2> layers_;
   Measures measures_;  // of the cut-mesh
   detail::Monitor& monitor_;
   std::optional<OctreeIndex> index_;
@@ -308,10 +321,15 @@ void requireOctree(const CutMesh& cutMesh, const OctreeCells& octree) {
 CellComplex cellComplex(const MeshView& mesh, const CutMesh& cutMesh, const OctreeCells& octree, const RunOptions& options) {
   operators::requireCutMesh(cutMesh);
   requireOctree(cutMesh, octree);
+  return operators::cellComplexInLayers(mesh, cutMesh, octree, {0, octree.gridCells[2]}, options);
+}
+
+CellComplex operators::cellComplexInLayers(const MeshView& mesh, const CutMesh& cutMesh, const OctreeCells& octree,
+                                           const std::array<int64_t, 2>& layers, const RunOptions& options) {
   Measures measures = measure(mesh, cutMesh, options);
   return detail::runCall("assembly of the cells", [&] {
     detail::Monitor monitor(options, 2);
-    CellComplex cells = Builder(cutMesh, octree, std::move(measures), monitor).run();
+    CellComplex cells = Builder(cutMesh, octree, layers, std::move(measures), monitor).run();
     detail::Fingerprinter fingerprinter("cells", cutMesh.fingerprint);
     fingerprinter.add(octree.fingerprint.value);
     cells.madeFrom = cutMesh.fingerprint;

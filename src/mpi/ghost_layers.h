@@ -1,0 +1,19 @@
+// Pieces of a cut with layers of others' cells.
+#pragma once
+
+#include "mandoline/distributed.h"
+
+namespace mandoline::detail {
+
+class Communicator;
+
+/// The layers of each process, by rank.
+using RankLayers = std::vector<std::array<int64_t, 2>>;
+/// The next process with layers below (-1) or above (1); -1 for none, and for one without layers itself.
+int neighbourOf(const RankLayers& layers, int rank, int direction);
+
+/// Collective. The piece with so many layers of grid cells more below and above, as far as the grid goes, in which ranks and seams are left
+/// out. `common` is that of the share.
+RankPiece withGhostLayers(Communicator& comm, const RankLayers& layers, const CutMesh& common, const RankPiece& piece, int count);
+
+}  // namespace mandoline::detail
