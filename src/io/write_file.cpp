@@ -1,6 +1,7 @@
 #include <list>
 
 #include "io/output_file.h"
+#include "io/poly_mesh.h"
 
 namespace mandoline {
 namespace {
@@ -36,9 +37,9 @@ void writeMesh(const std::string& path, const MeshView& mesh, const RunOptions& 
   writeFile(path, [&](const Sink& sink) { writeMesh(sink, *format, mesh, options, groups); });
 }
 
-void writePolyMesh(const std::string& folder, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options) {
+void detail::writeFolder(const std::string& folder, FunctionRef<void(const FolderSink&)> write) {
   constexpr const char* kZones = "cellZones";  // not of every mesh
-  std::list<detail::OutputFile> files;
+  std::list<OutputFile> files;
   std::string last;
   const FolderSink sink = [&](const std::string& file, std::string_view piece) {
     if (files.empty()) fs::create_directories(folder);
@@ -47,12 +48,16 @@ void writePolyMesh(const std::string& folder, const CutMesh& cutMesh, const Cell
     files.back().write(piece);
   };
   try {
-    writePolyMesh(sink, cutMesh, cells, options);
-    for (detail::OutputFile& file : files) file.commit();
+    write(sink);
+    for (OutputFile& file : files) file.commit();
     if (last != kZones) fs::remove(fs::path(folder) / kZones);  // of a mesh that was here before
   } catch (const fs::filesystem_error& error) {
     throw FileError(folder + ": can't be written: " + error.code().message());
   }
+}
+
+void writePolyMesh(const std::string& folder, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options) {
+  detail::writeFolder(folder, [&](const FolderSink& sink) { writePolyMesh(sink, cutMesh, cells, options); });
 }
 
 }  // namespace mandoline

@@ -3,6 +3,8 @@
 #include "cli/commands.h"
 #include "cli/cut_command.h"
 #include "cli/cutting.h"
+#include "cli/files.h"
+#include "cli/mpi/case_files.h"
 #include "cli/mpi/piece_files.h"
 #include "cli/peak_memory.h"
 #include "cut/stages/input.h"
@@ -12,35 +14,49 @@
 namespace mandoline::cli {
 namespace {
 
+bool isInPieces(const std::string& output) { return isPvtu(output) || isPolyMesh(output); }
+
 /// The outputs that the first process writes, of the whole cut.
 Arguments ofWhole(const Arguments& arguments) {
   Arguments whole = arguments;
-  std::erase_if(whole.outputs, isPvtu);
+  std::erase_if(whole.outputs, isInPieces);
   return whole;
+}
+
+/// Refuses what pieces do not go with. A case has all grid cells as they are, which some options may ask for.
+void checkPieces(const Arguments& arguments, const std::string& output) {
+  const OnlyArguments& only = arguments.only;
+  const bool isCase = isPolyMesh(output);
+  const std::pair<bool, const char*> others[] = {{arguments.coarsen.value_or(0) > 0 || (arguments.coarsen && !isCase), "--coarsen"},
+                                                 {arguments.merge.value_or(0) > 0 || (arguments.merge && !isCase), "--merge"},
+                                                 {arguments.refines(), "--refine"},
+                                                 {arguments.uniteWalls.has_value(), "--unite-walls"},
+                                                 {arguments.faces, "--faces"},
+                                                 {arguments.insideThreshold.has_value(), "--inside-threshold"},
+                                                 {only.inside || only.outside, "--only inside and outside"},
+                                                 {isCase && only.any(), "--only"}};
+  const std::string kind = isCase ? "polyMeshes of several processes" : ".pvtu files";
+  if (output.find(kRegionMark) != std::string::npos) throw UsageError("-o " + output + ": " + kind + " have all regions");
+  for (const auto& [isGiven, name] : others) {
+    if (isGiven) throw UsageError("-o " + output + ": " + kind + " do not go with " + name + ", which need the whole cut");
+  }
 }
 
 void checkArguments(const Arguments& arguments) {
   if (arguments.stream) throw UsageError("--stream: one process alone streams. A .pvtu file has a piece of each process");
   if (arguments.snapTolerance > 0) throw UsageError("--snap-tolerance: several processes do not snap");
-  const OnlyArguments& only = arguments.only;
-  const std::pair<bool, const char*> others[] = {{arguments.coarsen.has_value(), "--coarsen"},
-                                                 {arguments.merge.has_value(), "--merge"},
-                                                 {arguments.refines(), "--refine"},
-                                                 {arguments.uniteWalls.has_value(), "--unite-walls"},
-                                                 {arguments.faces, "--faces"},
-                                                 {arguments.insideThreshold.has_value(), "--inside-threshold"},
-                                                 {only.inside || only.outside, "--only inside and outside"}};
   for (const std::string& output : arguments.outputs) {
-    if (!isPvtu(output)) continue;
-    if (output.find(kRegionMark) != std::string::npos) throw UsageError("-o " + output + ": .pvtu files have all regions");
-    for (const auto& [isGiven, name] : others) {
-      if (isGiven) throw UsageError("-o " + output + ": .pvtu files do not go with " + name + ", which need the whole cut");
-    }
-    detail::checkPlace(output);
+    if (!isInPieces(output)) continue;
+    checkPieces(arguments, output);
+    if (isPvtu(output))
+      detail::checkPlace(output);
+    else
+      checkCase(output);
   }
-  Arguments whole = ofWhole(arguments);
-  if (whole.outputs.size() < arguments.outputs.size()) whole.simpleCells = false;  // the .pvtu file has them
-  checkCutOutputs(whole);
+  Arguments others = arguments;
+  std::erase_if(others.outputs, isPvtu);
+  if (others.outputs.size() < arguments.outputs.size()) others.simpleCells = false;  // the .pvtu file has them
+  checkCutOutputs(others);
 }
 
 /// Whether the first process has to have the whole cut.
@@ -59,13 +75,16 @@ class Run {
     const RankPiece piece = needsPiece() ? cut_->piece() : RankPiece();
     for (const std::string& output : arguments_.outputs) {
       if (isPvtu(output)) writePiece(output, piece);
+      if (isPolyMesh(output)) writeCase(output, piece);
     }
     const int exitCode = needsWhole(arguments_) ? finishWhole() : finishReduced(piece);
     return ranks_.comm().reduce(exitCode, MPI_MAX);
   }
 
  private:
-  bool needsPiece() const { return !needsWhole(arguments_) || std::any_of(arguments_.outputs.begin(), arguments_.outputs.end(), isPvtu); }
+  bool needsPiece() const {
+    return !needsWhole(arguments_) || std::any_of(arguments_.outputs.begin(), arguments_.outputs.end(), isInPieces);
+  }
 
   /// In the first process.
   void read() {
@@ -132,10 +151,36 @@ class Run {
     WriteOptions options;
     ranks_.together([&] {
       options = writeOptions(arguments_, cut_->common());
-      options.threads = arguments_.threads;
-      options.progress = [this](const Progress& progress) { return bar_.update(progress); };
+      static_cast<RunOptions&>(options) = writingOptions();
     });
     files.write(input_.mesh, piece, options);
+  }
+
+  void writeCase(const std::string& output, const RankPiece& piece) {
+    sendGroups();
+    WriteOptions options{writingOptions()};
+    options.simpleCells = arguments_.simpleCells;
+    options.groups = &input_.groups;
+    CaseFiles(ranks_, output).write(cut_->cellComplex(piece), cut_->common().mesh, options);
+  }
+
+  /// The first process sends the groups of triangles to the others.
+  void sendGroups() {
+    detail::Communicator& comm = ranks_.comm();
+    std::vector<char> names;  // each ends with a zero
+    for (const std::string& name : input_.groups.names) names.insert(names.end(), name.c_str(), name.c_str() + name.size() + 1);
+    comm.broadcast(names, 0);
+    comm.broadcast(input_.groups.triangleGroup, 0);
+    input_.groups.names.clear();
+    for (auto at = names.begin(); at != names.end();) {
+      const auto end = std::find(at, names.end(), '\0');
+      input_.groups.names.emplace_back(at, end);
+      at = end + 1;
+    }
+  }
+
+  RunOptions writingOptions() {
+    return {arguments_.threads, [this](const Progress& progress) { return bar_.update(progress); }};
   }
 
   /// What all processes tell of themselves.
