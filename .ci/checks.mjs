@@ -14,6 +14,7 @@ await runTogether(['node', '--test', 'tests/toolchains/toolchains.test.mjs'], ['
 // Several processes: npm test leaves them out where there is no MPI, which only few need.
 build('build', ['-DMANDOLINE_BUILD_TESTS=ON']);
 run('ctest', '--test-dir', 'build', '--output-on-failure', '-R', '^mpi');
+run('node', '.ci/decomposed.mjs');
 
 // One build of clang's is the other compiler, the sanitizers and the fuzzers: with assertions, yet fast enough for real meshes. It has the
 // flags of projects that want no exact arithmetic and no warning; only linking with them would change how the processor rounds.

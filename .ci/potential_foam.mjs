@@ -5,13 +5,13 @@ import { fail, run } from '../tests/steps.mjs';
 import { callFoam, makeCase, writeField } from './openfoam.mjs';
 
 // Two cells are as far apart as their centroids are along the normal of their face, as ours with dualPoints "centroids".
-const schemes = `gradSchemes { default Gauss linear; } divSchemes { default Gauss linear; } interpolationSchemes { default linear; }
+export const schemes = `gradSchemes { default Gauss linear; } divSchemes { default Gauss linear; } interpolationSchemes { default linear; }
 laplacianSchemes { default Gauss linear uncorrected; } snGradSchemes { default uncorrected; }`;
-const solution = `solvers { Phi { solver PCG; preconditioner none; tolerance 1e-12; relTol 0; maxIter 5000; } }
+export const solution = `solvers { Phi { solver PCG; preconditioner none; tolerance 1e-12; relTol 0; maxIter 5000; } }
 potentialFlow { nNonOrthogonalCorrectors 0; }`;
 
 // A wind of speed 1 enters at xMin and leaves at xMax.
-const fields = {
+export const fields = {
   U: {
     type: 'volVectorField',
     dimensions: '[0 1 -1 0 0 0 0]',
@@ -34,7 +34,7 @@ const fields = {
 const conditions = { xMin: { neumann: -1 }, xMax: { dirichlet: 0 } };
 
 /** The first list of a file of OpenFOAM, all its numbers. */
-function listIn(...parts) {
+export function listIn(...parts) {
   const text = readFileSync(join(...parts), 'utf8');
   const [list] = /^\d+\s*\n\(\n[\s\S]*?\n\)/m.exec(text);
   return Float64Array.from(list.replace(/^\d+/, '').replace(/[()]/g, ' ').trim().split(/\s+/), Number);

@@ -2,6 +2,8 @@
 #ifdef MANDOLINE_MPI
 
 #include <cstdlib>
+#include <map>
+#include <sstream>
 
 #include "catch.h"
 #include "command_line.h"
@@ -223,7 +225,7 @@ TEST_CASE("What several processes can't do is said once", "[mpi]") {
   mandoline::Mesh bad = shapes::cube(0, 1);
   bad.positions[5] = std::numeric_limits<double>::quiet_NaN();
   mandoline::writeMesh(folder.path("bad.ply"), bad);
-  const std::string pvtu = folder.path("a.pvtu"), names = "mandoline-mpi: ";
+  const std::string pvtu = folder.path("a.pvtu"), polyMesh = folder.path("case/constant/polyMesh"), names = "mandoline-mpi: ";
   const std::tuple<Names, std::string, int> cases[] = {
       {{}, "a command is missing", 2},
       {{"info", mesh}, "several processes cut", 2},
@@ -233,6 +235,10 @@ TEST_CASE("What several processes can't do is said once", "[mpi]") {
       {{"cut", mesh, "-o", pvtu, "--only", "inside"}, ".pvtu files do not go with --only inside", 2},
       {{"cut", mesh, "-o", pvtu, "--only", "region=9"}, "there is no region 9", 2},
       {{"cut", mesh, "-o", folder.path("none/a.pvtu")}, "there is no folder", 2},
+      {{"cut", mesh, "-o", folder.path("polyMesh")}, "several processes write CASE/constant/polyMesh", 2},
+      {{"cut", mesh, "-o", polyMesh, "--coarsen", "1"}, "polyMeshes of several processes do not go with --coarsen", 2},
+      {{"cut", mesh, "-o", polyMesh, "--merge", "0.2"}, "polyMeshes of several processes do not go with --merge", 2},
+      {{"cut", mesh, "-o", polyMesh, "--only", "cut"}, "polyMeshes of several processes do not go with --only", 2},
       {{"cut", mesh, "--box", "5,5,5,6,6,6", "--cells", "2", "-o", pvtu, "--only", "cut"}, "--only selects nothing", 2},
       {{"cut", folder.path("none.ply")}, "rank 0: " + folder.path("none.ply"), 2},
       {{"cut", truncated}, "rank 0: " + truncated, 2},
@@ -285,6 +291,117 @@ TEST_CASE("A process that is killed, or Ctrl-C, ends all and leaves no files", "
     CHECK(outcome.exitCode != kHangs);
     CHECK(names(folder) == Names{"mesh.ply"});
   }
+}
+
+namespace {
+
+/// The items of a list in a polyMesh: a line each.
+Names itemsIn(const TemporaryFolder& folder, const std::string& file) {
+  std::istringstream lines(folder.read(file));
+  Names items;
+  bool isBegun = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (isBegun && line != ")") items.push_back(line);
+    isBegun |= line == "(";
+  }
+  return items;
+}
+std::vector<int64_t> numbersIn(const TemporaryFolder& folder, const std::string& file) {
+  std::vector<int64_t> numbers;
+  for (const std::string& item : itemsIn(folder, file)) numbers.push_back(std::stoll(item));
+  return numbers;
+}
+std::vector<std::vector<int64_t>> facesIn(const TemporaryFolder& folder, const std::string& file) {
+  std::vector<std::vector<int64_t>> faces;
+  for (const std::string& item : itemsIn(folder, file)) {
+    std::istringstream numbers(item.substr(item.find('(') + 1));
+    faces.emplace_back();
+    for (int64_t number = 0; numbers >> number;) faces.back().push_back(number);
+  }
+  return faces;
+}
+
+/// A polyMesh put together from those of several processes, by their addressing.
+struct WholeMesh {
+  std::map<int64_t, std::string> points;
+  std::map<int64_t, std::vector<int64_t>> faces;
+  std::map<int64_t, int64_t> owners, neighbours;
+  std::map<int64_t, int> cells;  ///< how many processes have it
+
+  void add(const TemporaryFolder& folder, const std::string& part) {
+    const auto numbers = [&](const std::string& file) { return numbersIn(folder, part + file); };
+    const std::vector<int64_t> pointsOf = numbers("pointProcAddressing"), facesOf = numbers("faceProcAddressing"),
+                               cellsOf = numbers("cellProcAddressing"), owner = numbers("owner"), neighbour = numbers("neighbour");
+    const Names positions = itemsIn(folder, part + "points");
+    auto loops = facesIn(folder, part + "faces");
+    REQUIRE(positions.size() == pointsOf.size());
+    REQUIRE(loops.size() == facesOf.size());
+    for (size_t p = 0; p < positions.size(); ++p) REQUIRE(points.try_emplace(pointsOf[p], positions[p]).first->second == positions[p]);
+    for (const int64_t cell : cellsOf) ++cells[cell];
+    for (size_t f = 0; f < loops.size(); ++f) {
+      const int64_t face = std::abs(facesOf[f]) - 1;
+      for (int64_t& v : loops[f]) v = pointsOf[size_t(v)];
+      if (facesOf[f] < 0) std::reverse(loops[f].begin() + 1, loops[f].end());  // seen from the other side, with the same first vertex
+      REQUIRE(faces.try_emplace(face, loops[f]).first->second == loops[f]);
+      (facesOf[f] < 0 ? neighbours : owners)[face] = cellsOf[size_t(owner[f])];
+      if (f < neighbour.size()) neighbours[face] = cellsOf[size_t(neighbour[f])];
+    }
+  }
+};
+
+template <class Item>
+std::vector<Item> inOrder(const std::map<int64_t, Item>& items) {
+  std::vector<Item> all;
+  for (const auto& [number, item] : items) {
+    REQUIRE(number == int64_t(all.size()));
+    all.push_back(item);
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("Decomposed cases are the polyMesh of one process, by their addressing", "[mpi]") {
+  const TemporaryFolder folder;
+  const std::string one = "one/constant/polyMesh/", pieces = "pieces/constant/polyMesh";
+  // The ball lies in planes of the grid, and has a hole and a slit; the cube makes vertices.
+  mandoline::Mesh mesh = shapes::merged({shapes::icosphere({0, 0, 0}, 1, 2), shapes::cube(0, 1.5), shapes::cube(-0.5, 0.5)});
+  mesh.triangles.resize(mesh.triangles.size() - 3);
+  const std::string file = meshFile(folder, mesh);
+  for (const std::string cells : {"2", "5", "8"}) {
+    REQUIRE(run(folder, {"cut", file, "--cells", cells, "--margin", "0", "-o", folder.path(one)}).exitCode == 0);
+    for (const int processes : {1, 2, 3, 4}) {  // of two layers some get nothing
+      CAPTURE(cells, processes);
+      const Outcome outcome = runRanks(folder, processes, {"cut", file, "--cells", cells, "--margin", "0", "-o", folder.path(pieces)});
+      CAPTURE(outcome.err);
+      REQUIRE(outcome.exitCode == 0);
+      WholeMesh whole;
+      for (int rank = 0; rank < processes; ++rank) whole.add(folder, "pieces/processor" + std::to_string(rank) + "/constant/polyMesh/");
+      CHECK(inOrder(whole.points) == itemsIn(folder, one + "points"));
+      CHECK(inOrder(whole.faces) == facesIn(folder, one + "faces"));
+      CHECK(inOrder(whole.owners) == numbersIn(folder, one + "owner"));
+      CHECK(inOrder(whole.neighbours) == numbersIn(folder, one + "neighbour"));
+      for (const int count : inOrder(whole.cells)) REQUIRE(count == 1);
+      if (processes == 3) {  // those of a finer case are in the way of a coarser one
+        const Outcome coarser = runRanks(folder, 2, {"cut", file, "--cells", cells, "-o", folder.path(pieces)});
+        CHECK(coarser.exitCode == 2);
+        CHECK(contains(coarser.err, "processor2: is there already, of a case in more parts"));
+      }
+      fs::remove_all(folder.path("pieces"));
+    }
+  }
+}
+
+TEST_CASE("A disk that is full for one process leaves no case", "[mpi]") {
+  const TemporaryFolder folder;
+  const std::string mesh = meshFile(folder, shapes::icosphere({0, 0, 0}, 1, 3)), full = "case/processor1/constant/polyMesh/faces";
+  fs::create_directories(fs::path(folder.path(full)).parent_path());
+  fs::create_symlink("/dev/full", folder.path(full));
+  const Outcome outcome = runRanks(folder, 3, {"cut", mesh, "--cells", "12", "-o", folder.path("case/constant/polyMesh")});
+  CHECK(outcome.exitCode == 2);
+  CHECK(contains(outcome.err, "rank 1: " + folder.path(full) + ": can't be written: No space left on device"));
+  CHECK(countOf(outcome.err, "mandoline-mpi: ") == 1);
+  CHECK(fs::is_empty(folder.path("case")));
 }
 
 #endif

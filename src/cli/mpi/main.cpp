@@ -27,7 +27,10 @@ The result is that of mandoline cut, to the bit, for any P; see mandoline --help
 options. Each process has the whole mesh and cuts some layers of the grid.
 
   -o FILE.pvtu           a .vtu file of each process, FILE_0.vtu and so on, and FILE.pvtu,
-                         which joins them; with --only also cut and region=K. Other files
+                         which joins them; with --only also cut and region=K
+  -o CASE/constant/polyMesh
+                         a decomposed case of OpenFOAM: CASE/processor0/constant/polyMesh
+                         and so on, with all grid cells as they are. Other files
                          are written by the first process, which then has to hold the
                          whole cut, as it has to for --validate, --merge and --only inside
   --threads T            of each process (default: the cores of its machine, shared out)
