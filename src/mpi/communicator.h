@@ -21,6 +21,7 @@ MPI_Datatype typeOf() {
   if constexpr (std::is_same_v<Number, int>) return MPI_INT;
   if constexpr (std::is_same_v<Number, int64_t>) return MPI_INT64_T;
   if constexpr (std::is_same_v<Number, uint64_t>) return MPI_UINT64_T;
+  if constexpr (std::is_same_v<Number, double>) return MPI_DOUBLE;
 }
 
 /// A communicator of this library's own, with the processes of another. All calls are collective but for send() and receive().

@@ -1,6 +1,7 @@
 // Pieces of a cut with layers of others' cells.
 #pragma once
 
+#include "base/shared.h"
 #include "mandoline/distributed.h"
 
 namespace mandoline::detail {
@@ -10,7 +11,7 @@ class Communicator;
 /// The layers of each process, by rank.
 using RankLayers = std::vector<std::array<int64_t, 2>>;
 /// The next process with layers below (-1) or above (1); -1 for none, and for one without layers itself.
-int neighbourOf(const RankLayers& layers, int rank, int direction);
+MANDOLINE_SHARED int neighbourOf(const RankLayers& layers, int rank, int direction);
 
 /// Collective. The piece with so many layers of grid cells more below and above, as far as the grid goes, in which ranks and seams are left
 /// out. `common` is that of the share.

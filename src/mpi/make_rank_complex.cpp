@@ -38,6 +38,7 @@ class ComplexMaker {
   void makeCells() {
     const UntouchedOrder order = untouchedOrder(whole_.common, result_.allLayers);
     result_.wholeCutCells = whole_.counts.cutCells;
+    result_.wholeFaces = whole_.counts.faces + order.all.faces();
     result_.wholeCells = whole_.counts.cutCells + order.all.cells;
     if (isEmpty()) return;
     result_.cells = operators::cellComplexInLayers(whole_.mesh, result_.cutMesh, order.cells, result_.allLayers, {1, {}});

@@ -18,30 +18,59 @@ CellComponents partsBetweenSlits(const CellComplex& cells) {
   });
 }
 
-Boundary windBoundary(const CellComplex& cells, const std::array<double, 3>& wind, std::vector<uint32_t>& throttled) {
+Boundary freeWind(const CellComplex& cells, const std::array<double, 3>& wind) {
   Boundary boundary = boundaryOf(cells);
-  const CellComponents parts = partsBetweenSlits(cells), components = cellComponents(cells);
   const std::vector<double> normals = outwardNormals(boundary, cells);
-  std::vector<double> in(parts.count), out(parts.count), all(components.count), lost(components.count);
-  const auto cellOf = [&](size_t b) { return size_t(cells.faceCells[boundary.halfFaces[b]]); };
   for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {
-    const uint32_t face = boundary.halfFaces[b] / 2;
-    if (cells.faceTag[face] >= FaceTag::inner) continue;
+    if (cells.faceTag[boundary.halfFaces[b] / 2] >= FaceTag::inner) continue;
     for (size_t d = 0; d < 3; ++d) boundary.value[b] += wind[d] * normals[3 * b + d];
-    (boundary.value[b] < 0 ? in : out)[parts.cellComponent[cellOf(b)]] += std::fabs(boundary.value[b]) * cells.faceArea[face];
   }
+  return boundary;
+}
+
+template <class Visit>
+static void forWind(const CellComplex& cells, const Boundary& boundary, const Visit& visit) {
   for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {
-    const uint32_t p = parts.cellComponent[cellOf(b)], r = components.cellComponent[cellOf(b)];
-    const double mine = boundary.value[b] < 0 ? in[p] : out[p],
-                 flux = std::fabs(boundary.value[b]) * cells.faceArea[boundary.halfFaces[b] / 2];
-    if (!(mine > 0)) continue;
-    const double kept = std::min(in[p], out[p]) / mine;
+    const uint32_t h = boundary.halfFaces[b];
+    visit(b, size_t(cells.faceCells[h]), std::fabs(boundary.value[b]) * cells.faceArea[h / 2]);
+  }
+}
+
+WindThrough windThrough(const CellComplex& cells, const Boundary& boundary, std::span<const uint32_t> cellPart, uint32_t parts) {
+  WindThrough wind{std::vector<double>(parts), std::vector<double>(parts)};
+  forWind(cells, boundary, [&](size_t b, size_t cell, double flux) {
+    if (cellPart[cell] < parts) (boundary.value[b] < 0 ? wind.in : wind.out)[cellPart[cell]] += flux;
+  });
+  return wind;
+}
+
+WindLost throttle(const CellComplex& cells, const WindThrough& wind, std::span<const uint32_t> cellPart, const CellComponents& components,
+                  Boundary& boundary) {
+  WindLost result{std::vector<double>(components.count), std::vector<double>(components.count)};
+  forWind(cells, boundary, [&](size_t b, size_t cell, double flux) {
+    const uint32_t p = cellPart[cell], r = components.cellComponent[cell];
+    const double mine = p >= wind.in.size() ? 0 : boundary.value[b] < 0 ? wind.in[p] : wind.out[p];
+    if (!(mine > 0)) return;
+    const double kept = std::min(wind.in[p], wind.out[p]) / mine;
     boundary.value[b] *= kept;
-    all[r] += flux, lost[r] += flux * (1 - kept);
+    result.all[r] += flux, result.lost[r] += flux * (1 - kept);
+  });
+  return result;
+}
+
+std::vector<uint32_t> WindLost::throttled() const {
+  std::vector<uint32_t> components;
+  for (uint32_t r = 0; r < all.size(); ++r) {
+    if (lost[r] > 1e-9 * all[r]) components.push_back(r);  // more than rounding
   }
-  for (uint32_t r = 0; r < components.count; ++r) {
-    if (lost[r] > 1e-9 * all[r]) throttled.push_back(r);  // more than rounding
-  }
+  return components;
+}
+
+Boundary windBoundary(const CellComplex& cells, const std::array<double, 3>& wind, std::vector<uint32_t>& throttled) {
+  Boundary boundary = freeWind(cells, wind);
+  const CellComponents parts = partsBetweenSlits(cells);
+  const WindThrough through = windThrough(cells, boundary, parts.cellComponent, parts.count);
+  throttled = throttle(cells, through, parts.cellComponent, cellComponents(cells), boundary).throttled();
   return boundary;
 }
 

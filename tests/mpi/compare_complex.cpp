@@ -127,6 +127,7 @@ void compareComplex(const RankComplex& mine, const CellComplex& whole) {
     compareCells(mine, whole);
     compareFaces(mine, whole);
     require(mine.wholeVertices == whole.vertexCount(), "the whole has other vertices:", mine.wholeVertices);
+    require(mine.wholeFaces == whole.faceCount(), "the whole has other faces:", mine.wholeFaces);
     require(mine.wholeCells == whole.cellCount() && mine.wholeCutCells == whole.cutCells, "the whole has other cells:", mine.wholeCells);
   } catch (const std::runtime_error& error) {
     problem = error.what();

@@ -5,6 +5,15 @@ target_compile_options(mandoline-mpi-pieces PRIVATE ${MANDOLINE_COMPILE_OPTIONS}
 target_include_directories(mandoline-mpi-pieces PRIVATE ${PROJECT_SOURCE_DIR}/src support)
 target_link_libraries(mandoline-mpi-pieces PRIVATE mandoline_mpi mandoline_io)
 add_dependencies(mandoline-tests mandoline-mpi)
+set(MANDOLINE_MPI_PROGRAMS mandoline-mpi-pieces)
+if(TARGET mandoline_rank_flow)
+  add_executable(mandoline-mpi-flows mpi/flows.cpp support/shapes.cpp)
+  set_target_properties(mandoline-mpi-flows PROPERTIES UNITY_BUILD OFF)
+  target_compile_options(mandoline-mpi-flows PRIVATE ${MANDOLINE_COMPILE_OPTIONS})
+  target_include_directories(mandoline-mpi-flows PRIVATE ${PROJECT_SOURCE_DIR}/src support)
+  target_link_libraries(mandoline-mpi-flows PRIVATE mandoline_rank_flow mandoline_io)
+  list(APPEND MANDOLINE_MPI_PROGRAMS mandoline-mpi-flows)
+endif()
 # Of this source alone: others need not be compiled again once MPI is there.
 set_source_files_properties(cli/mpi_test.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON
   COMPILE_DEFINITIONS "MANDOLINE_MPI=\"$<TARGET_FILE:mandoline-mpi>\";MANDOLINE_MPIEXEC=\"${MPIEXEC_EXECUTABLE}\"")

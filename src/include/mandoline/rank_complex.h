@@ -29,6 +29,7 @@ struct RankComplex {
   std::vector<int32_t> cellRanks;  ///< per cell: the process that it belongs to
   std::vector<ComplexSeam> seams;  ///< by rank
   uint64_t wholeVertices = 0;      ///< how many the whole has
+  uint64_t wholeFaces = 0;         ///< the same of faces
   uint64_t wholeCutCells = 0;      ///< how many of the whole's cells are cut-cells, which come first
   uint64_t wholeCells = 0;         ///< how many the whole has
 };

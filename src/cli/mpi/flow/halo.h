@@ -1,0 +1,59 @@
+// Values of cells that processes tell each other.
+#pragma once
+
+#include "mandoline/distributed.h"
+#include "mpi/communicator.h"
+#include "mpi/ghost_layers.h"
+#include "mpi/pack.h"
+
+namespace mandoline::cli {
+
+class Halo {
+ public:
+  /// `ghostLayers`: as many as the complex was made with. Collective; keeps references to both.
+  Halo(detail::Communicator& comm, const RankComplex& complex, int ghostLayers) : comm_(comm), complex_(complex), count_(ghostLayers) {
+    const std::vector<uint64_t> first = comm.gatherAll(uint64_t(complex.layers[0])), past = comm.gatherAll(uint64_t(complex.layers[1]));
+    detail::RankLayers layers;
+    for (size_t rank = 0; rank < first.size(); ++rank) layers.push_back({int64_t(first[rank]), int64_t(past[rank])});
+    below_ = detail::neighbourOf(layers, comm.rank(), -1);
+    above_ = detail::neighbourOf(layers, comm.rank(), 1);
+    cells_.resize(size_t(complex.allLayers[1] - complex.allLayers[0]));
+    for (uint32_t c = 0; c < complex.cells.cellCount(); ++c)
+      cells_[size_t(complex.cells.cellCorner[3 * size_t(c) + 2] - complex.allLayers[0])].push_back(c);
+  }
+
+  /// Sets the values of ghosts to those that their processes have. Collective.
+  template <class Value>
+  void update(std::vector<Value>& values) const {
+    for (int i = 0; i < count_; ++i) {
+      move(complex_.layers[1] - 1 - i, above_, complex_.layers[0] - 1 - i, below_, values);
+      move(complex_.layers[0] + i, below_, complex_.layers[1] + i, above_, values);
+    }
+  }
+
+ private:
+  /// Sends the values of a layer, and gets those of another one.
+  template <class Value>
+  void move(int64_t sent, int to, int64_t received, int from, std::vector<Value>& values) const {
+    std::vector<Value> items;
+    for (const uint32_t c : cellsIn(sent)) items.push_back(values[c]);
+    const detail::Communicator::Bytes bytes = comm_.exchange(detail::packed(items), to, from);
+    if (from < 0) return;
+    items = detail::unpacked<std::vector<Value>>(bytes);
+    const std::span<const uint32_t> cells = cellsIn(received);
+    for (size_t i = 0; i < cells.size(); ++i) values[cells[i]] = items.at(i);
+  }
+
+  std::span<const uint32_t> cellsIn(int64_t layer) const {
+    if (layer < complex_.allLayers[0] || layer >= complex_.allLayers[1]) return {};
+    return cells_[size_t(layer - complex_.allLayers[0])];
+  }
+
+  detail::Communicator& comm_;
+  const RankComplex& complex_;
+  const int count_;
+  int below_, above_;
+  std::vector<std::vector<uint32_t>> cells_;  // by layer
+};
+
+}  // namespace mandoline::cli
