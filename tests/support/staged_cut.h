@@ -82,7 +82,7 @@ struct StagedCut {
     state.cuts = cutBricks(state.surface, state.parts, state.bricks, run, state.kept);
     state.used = findUsed(state.surface, state.bricks, state.cuts, run);
     state.runs = findUntouchedRuns(state.surface.input, state.bricks, monitor);
-    state.seams = findSeams(state.surface.input, state.bricks, state.runs, state.cuts, run);
+    findSeams(state.cut(), state.kept, state.seams, run);
     state.regions = findRegions(state.cut());
   }
 };

@@ -158,7 +158,8 @@ class Run {
 
   void writeCase(const std::string& output, const RankPiece& piece) {
     sendGroups();
-    WriteOptions options{writingOptions()};
+    WriteOptions options;
+    static_cast<RunOptions&>(options) = writingOptions();
     options.simpleCells = arguments_.simpleCells;
     options.groups = &input_.groups;
     CaseFiles(ranks_, output).write(cut_->cellComplex(piece), cut_->common().mesh, options);
