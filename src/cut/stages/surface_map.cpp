@@ -20,7 +20,8 @@ SurfaceMap::SurfaceMap(const Surface& before, const Surface& now, const Moved& m
   isOrdered_ = meshBefore().parts.kinds == meshNow().parts.kinds;
   checkOrder();
   if (!isOrdered_) return;
-  mapEdges();
+  areEdgesSame_ = !meshBefore().hasIntersections() && !meshNow().hasIntersections();
+  areEdgesSame_ ? mapSameEdges() : mapEdges();
   findSameTriangles();
   mapInTriangles();
 }
@@ -88,6 +89,15 @@ void SurfaceMap::mapEdges() {
   }
 }
 
+void SurfaceMap::mapSameEdges() {
+  for (const TriEdgeId e : now_.edges->ends.ids()) {
+    const auto& [low, high] = now_.edges->ends[e];
+    if (moved_[low] || moved_[high]) continue;
+    VertexId crossing = *now_.crossings(e).begin();
+    for (const VertexId v : before_.crossings(e)) vertices_[v] = VertexId{crossing.number++};
+  }
+}
+
 bool SurfaceMap::areSame(std::span<const TriEdgeId> before, std::span<const TriEdgeId> now) const {
   return std::equal(before.begin(), before.end(), now.begin(), now.end(),
                     [&](TriEdgeId a, TriEdgeId b) { return edges_[a.number] == b.number; });
@@ -102,6 +112,7 @@ bool SurfaceMap::isSameSide(uint32_t before, uint32_t now) const {
 
 bool SurfaceMap::isSameTriangle(TriangleId t) const {
   if (hasMoved(t) || !meshNow().kept(t)) return false;
+  if (areEdgesSame_) return true;
   for (size_t side = 3 * size_t(t.number); side < 3 * size_t(t.number) + 3; ++side) {
     if (!isSameSide(before_.edges->sideEdges[side], now_.edges->sideEdges[side])) return false;
   }

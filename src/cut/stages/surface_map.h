@@ -40,6 +40,7 @@ class SurfaceMap {
   void mapMadeVertices();
   void checkOrder();
   void mapEdges();
+  void mapSameEdges();
   void findSameTriangles();
   void mapInTriangles();
 
@@ -49,6 +50,7 @@ class SurfaceMap {
   std::vector<uint32_t> edges_;  // per tri-edge before
   IdVector<TriangleId, uint8_t> same_;
   bool isOrdered_ = true;
+  bool areEdgesSame_;  ///< both surfaces have the same tri-edges, and nothing inside of triangles
 };
 
 }  // namespace mandoline::detail
