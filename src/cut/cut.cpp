@@ -93,7 +93,7 @@ void cutInBricks(CutState& state, const ShareOf& share, Clock& clock, Run& run) 
   const Input& input = surface.input;
 
   clock.begin("triEdges");
-  cutTriEdges(surface, run, state.before ? CrossingsBefore(state.before->surface, surface, state.moved) : CrossingsBefore());
+  cutTriEdges(surface, run, state.keeping ? state.keeping->crossings() : CrossingsBefore());
 
   clock.begin("triFaces");
   const BrickGrid brickGrid(input, state.brickShifts ? *state.brickShifts
@@ -105,7 +105,7 @@ void cutInBricks(CutState& state, const ShareOf& share, Clock& clock, Run& run) 
   clock.begin("bricks");
   state.bricks = layOutBricks(surface, state.parts, brickGrid);
   if (share.count > 1) state.bricks.here = bricksOf(state.bricks, LayerShares(workOfLayers(state.bricks), share.count), share.index);
-  if (state.keeping.bricks) state.kept = state.keeping.bricks();
+  if (state.keeping) state.kept = &state.keeping->bricks();
   state.cuts = cutBricks(surface, state.parts, state.bricks, run, state.kept);
   if (!state.isNeededAgain) state.parts = {};
   state.used = findUsed(surface, state.bricks, state.cuts, run);
@@ -115,7 +115,7 @@ void joinBricks(CutState& state, Clock& clock, Run& run) {
   const Input& input = state.surface.input;
   clock.begin("regions");
   state.runs = findUntouchedRuns(input, state.bricks, run.monitor);
-  if (state.keeping.seams) state.seams = state.keeping.seams();
+  if (state.keeping) state.seams = state.keeping->seams();
   findSeams(state.cut(), state.kept, state.seams, run);
   state.regions = findRegions(state.cut());
 }

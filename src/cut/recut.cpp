@@ -15,27 +15,48 @@ namespace mandoline {
 
 using namespace detail;
 
+namespace {
+
+/// All of a cut, for the next one.
+struct LastCut {
+  std::unique_ptr<Prepared> prepared;
+  std::unique_ptr<CutState> state;
+  std::vector<double> positions;  ///< of the result
+};
+
 /// What a cut keeps of one before it.
-static Keeping keepingOf(CutState& before, CutState& now) {
-  Keeping keeping;
-  keeping.bricks = [&] {
-    return keepBricks({before.surface, before.parts, before.bricks, before.cuts, now.moved}, now.surface, now.parts, now.bricks);
-  };
-  keeping.seams = [&] { return keepSeams(now.kept, now.runs, before.seams); };
-  keeping.vertices = [&] {
-    if (now.kept.before.empty()) return KeptVertices();
-    return KeptVertices{findKeptVertices(now.cut(), now.kept, before.numbers, now.numbers), before.positions};
-  };
-  return keeping;
-}
+class KeepingOf : public Keeping {
+ public:
+  KeepingOf(LastCut& before, CutState& now, const Moved& moved)
+      : before_(*before.state), positions_(before.positions), now_(now), moved_(moved) {}
+
+  CrossingsBefore crossings() override { return {before_.surface, now_.surface, moved_}; }
+  KeptBricks& bricks() override {
+    kept_ = keepBricks({before_.surface, before_.parts, before_.bricks, before_.cuts, moved_}, now_.surface, now_.parts, now_.bricks);
+    return kept_;
+  }
+  IdVector<BrickId, BrickSeams> seams() override { return keepSeams(kept_, now_.runs, before_.seams); }
+  KeptVertices vertices() override {
+    if (kept_.before.empty()) return {};
+    return {findKeptVertices(now_.cut(), kept_, before_.numbers, now_.numbers), positions_};
+  }
+  size_t brickCount() const {
+    size_t count = 0;
+    for (const BrickId b : kept_.before.ids()) count += kept_.has(b);
+    return count;
+  }
+
+ private:
+  CutState& before_;
+  const std::vector<double>& positions_;
+  CutState& now_;
+  const Moved& moved_;
+  KeptBricks kept_;
+};
+
+}  // namespace
 
 struct Recutter::Data {
-  /// All of a cut, for the next one.
-  struct LastCut {
-    std::unique_ptr<Prepared> prepared;
-    std::unique_ptr<CutState> state;
-  };
-
   Grid grid;
   CutOptions options;
   LastCut last;  ///< empty after an error
@@ -48,33 +69,32 @@ struct Recutter::Data {
     LastCut before = std::exchange(last, {});
     checkGrid(grid, options.snapTolerance);
     const SnappedInput input(mesh, grid, options, stats);
-    LastCut now{nullptr, std::make_unique<CutState>()};
+    LastCut now{nullptr, std::make_unique<CutState>(), {}};
     CutState& state = *now.state;
     state.isNeededAgain = true;
     state.spare = std::move(spare);
     const auto beginStage = [&](const char* stage) { clock.begin(stage); };
     const Preparation preparation{largestCoordinate(grid), options.intersections, true};
+    PreparedAgain again;
+    std::optional<KeepingOf> keeping;
     if (before.state) {
-      PreparedAgain again = prepareAgain(input.view(), preparation, *before.prepared, monitor, beginStage);
-      now.prepared = std::move(again.mesh);
-      if (!again.moved.empty()) state.before = before.state.get();
-      state.moved = std::move(again.moved);
+      again = prepareAgain(input.view(), preparation, *before.prepared, monitor, beginStage);
+      if (!again.moved.empty()) keeping.emplace(before, state, again.moved);
     } else {
-      now.prepared = prepareMesh(input.view(), preparation, monitor, beginStage);
+      again.mesh = prepareMesh(input.view(), preparation, monitor, beginStage);
     }
+    now.prepared = std::move(again.mesh);
     beginCut(*now.prepared, grid, state, clock, run);
-    state.brickShifts = state.before ? state.before->bricks.grid.shifts : BrickGrid::shiftsForMoving(state.surface.input);
-    if (state.before) state.keeping = keepingOf(*state.before, state);
+    state.brickShifts = keeping ? before.state->bricks.grid.shifts : BrickGrid::shiftsForMoving(state.surface.input);
+    state.keeping = keeping ? &*keeping : nullptr;
     CutMesh cutMesh = cutPrepared(state, input.view(), grid, clock, run);
     sign(cutMesh, fingerprintOf(mesh), options);
-    counts = {state.bricks.size(), 0};
-    for (const BrickId b : state.bricks.ids()) counts.kept += state.kept.has(b);
-    if (state.before) state.positions = std::move(state.before->positions);
-    state.positions.clear();
-    copyLarge(cutMesh.positions, state.positions);
-    state.before = nullptr;
-    state.keeping = {};
-    state.kept = {};
+    counts = {state.bricks.size(), keeping ? keeping->brickCount() : 0};
+    now.positions = std::move(before.positions);
+    now.positions.clear();
+    copyLarge(cutMesh.positions, now.positions);
+    state.keeping = nullptr;
+    state.kept = nullptr;
     last = std::move(now);
     return cutMesh;
   }

@@ -54,12 +54,13 @@ class BrickThread {
 
 }  // namespace
 
-BrickCuts cutBricks(const Surface& surface, const SurfaceParts& parts, Bricks& bricks, Run& run, KeptBricks& kept) {
-  BrickCuts cuts = std::move(kept.cuts);
+BrickCuts cutBricks(const Surface& surface, const SurfaceParts& parts, Bricks& bricks, Run& run, KeptBricks* kept) {
+  BrickCuts cuts;
+  if (kept) cuts = std::move(kept->cuts);
   cuts.resize(bricks.size());
   const auto weightOf = [&](uint32_t b) { return bricks.parts[{b}].size() + bricks.dividedFaces[{b}].size(); };
   std::vector<uint32_t> order = bricks.here.numbers();
-  std::erase_if(order, [&](uint32_t b) { return kept.has({b}); });
+  if (kept) std::erase_if(order, [&](uint32_t b) { return kept->has({b}); });
   sortItems(order, [&](uint32_t a, uint32_t b) { return weightOf(a) > weightOf(b); });  // the heaviest first
   std::vector<std::unique_ptr<BrickThread>> cutters(run.monitor.threads());
   std::vector<uint32_t> memory = std::exchange(cuts.freeMemory, {});  // per thread

@@ -163,7 +163,7 @@ struct KeptBricks {
   bool isInner(BrickId brick) const { return !inner.empty() && inner[brick]; }
 };
 
-/// Cuts the bricks that are to be cut here, if they are not kept. Moves their cuts out of `kept`.
-BrickCuts cutBricks(const Surface& surface, const SurfaceParts& parts, Bricks& bricks, Run& run, KeptBricks& kept);
+/// Cuts the bricks that are to be cut here, if they are not kept. Moves their cuts out of `kept`, if there is one.
+BrickCuts cutBricks(const Surface& surface, const SurfaceParts& parts, Bricks& bricks, Run& run, KeptBricks* kept);
 
 }  // namespace mandoline::detail

@@ -205,7 +205,7 @@ CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& r
   const Input& input = state.surface.input;
   state.numbers = makeNumbers(state.cut(), state.used, run);
   const Numbers& numbers = state.numbers;
-  const KeptVertices kept = state.keeping.vertices ? state.keeping.vertices() : KeptVertices();
+  const KeptVertices kept = state.keeping ? state.keeping->vertices() : KeptVertices();
   CutPart part;
   CutMesh& out = part.cutMesh;
   out.grid = grid;

@@ -4,7 +4,6 @@
 // In: all stages before. Out: CutPart, the whole unless other processes cut the rest (see cut_mesh.h for its arrays and their order).
 #pragma once
 
-#include <functional>
 #include <optional>
 
 #include "cut/stages/kept_vertices.h"
@@ -13,11 +12,16 @@
 
 namespace mandoline::detail {
 
-/// What is kept of the cut before, each once it can be told. Set where there is one: other cuts don't link it.
-struct Keeping {
-  std::function<KeptBricks()> bricks;  ///< of those that are laid out
-  std::function<IdVector<BrickId, BrickSeams>()> seams;
-  std::function<KeptVertices()> vertices;
+/// What a cut keeps of the one before it, each asked for as soon as it can be told. An interface: other cuts don't link what finds it.
+class Keeping {
+ public:
+  virtual CrossingsBefore crossings() = 0;
+  virtual KeptBricks& bricks() = 0;  ///< of those that are laid out
+  virtual IdVector<BrickId, BrickSeams> seams() = 0;
+  virtual KeptVertices vertices() = 0;
+
+ protected:
+  ~Keeping() = default;
 };
 
 /// What the stages have made so far; each adds its part.
@@ -36,12 +40,9 @@ struct CutState {
 
   // Of a surface that moves:
   std::optional<std::array<int, 3>> brickShifts;  ///< of bricks that have to be the same each time
-  CutState* before = nullptr;                     ///< the cut before, if parts of it may be kept; and what has moved since
-  Moved moved;
-  Keeping keeping;
-  KeptBricks kept;
-  std::vector<double> positions;  ///< of the result, for the next cut
-  CutMesh spare;                  ///< whose memory the result is written over
+  Keeping* keeping = nullptr;                     ///< of the cut before, if parts of it may be kept
+  KeptBricks* kept = nullptr;                     ///< of it
+  CutMesh spare;                                  ///< whose memory the result is written over
 
   CutBricks cut() const { return {surface, bricks, runs, cuts, seams}; }
 };

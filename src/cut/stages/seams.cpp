@@ -143,11 +143,11 @@ void BrickCounts::add(const BrickCounts& more) {
   vertices += more.vertices;
 }
 
-void findSeams(const CutBricks& cut, const KeptBricks& kept, IdVector<BrickId, BrickSeams>& seams, Run& run) {
+void findSeams(const CutBricks& cut, const KeptBricks* kept, IdVector<BrickId, BrickSeams>& seams, Run& run) {
   seams.resize(cut.cuts.size());
   std::vector<uint32_t> order;
   for (const BrickId b : seams.ids()) {
-    if (!kept.isInner(b)) order.push_back(b.number);
+    if (!kept || !kept->isInner(b)) order.push_back(b.number);
   }
   runItems(order, run.monitor, [&](size_t, uint32_t b) { SeamFinder(cut, {b}, seams[{b}]).run(); });
 }

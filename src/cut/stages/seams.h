@@ -93,7 +93,7 @@ struct CutBricks {
   }
 };
 
-/// Adds those of bricks that are not inner ones of `kept` to `seams`, which are those of `cut`.
-void findSeams(const CutBricks& cut, const KeptBricks& kept, IdVector<BrickId, BrickSeams>& seams, Run& run);
+/// Adds those of bricks that are not inner ones of `kept`, if there is one, to `seams`, which are those of `cut`.
+void findSeams(const CutBricks& cut, const KeptBricks* kept, IdVector<BrickId, BrickSeams>& seams, Run& run);
 
 }  // namespace mandoline::detail
