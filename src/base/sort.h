@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -35,6 +36,20 @@ void sortItems(Items&& items, const IsBefore& isBefore = {}) {
     for (; j > 0 && isBefore(item, first[j - 1]); --j) first[j] = first[j - 1];
     first[j] = item;
   }
+}
+
+/// The same by keyOf(item) first, a number below `keys`. Quicker where few items have the same.
+template <class Item, class KeyOf, class IsBefore>
+void sortByKeys(std::vector<Item>& items, size_t keys, const KeyOf& keyOf, const IsBefore& isBefore) {
+  std::vector<size_t> starts(keys + 1, 0);
+  for (const Item& item : items) ++starts[keyOf(item) + 1];
+  for (size_t key = 0; key < keys; ++key) starts[key + 1] += starts[key];
+  std::vector<Item> sorted(items.size());
+  for (const Item& item : items) sorted[starts[keyOf(item)]++] = item;  // now they are where the next key starts
+  for (size_t key = 0, begin = 0; key < keys; begin = starts[key++]) {
+    if (starts[key] - begin > 1) sortItems(std::span<Item>(sorted.data() + begin, starts[key] - begin), isBefore);
+  }
+  items = std::move(sorted);
 }
 
 /// Sorts a vector and keeps each of equal items once.

@@ -88,7 +88,7 @@ SnappedInput::SnappedInput(const MeshView& mesh, const Grid& grid, const CutOpti
   view_ = moved_.mesh;
 }
 
-void cutInBricks(CutState& state, const ShareOf& share, Clock& clock, Run& run) {
+void cutInBricks(CutState& state, Clock& clock, Run& run) {
   Surface& surface = state.surface;
   const Input& input = surface.input;
 
@@ -96,15 +96,14 @@ void cutInBricks(CutState& state, const ShareOf& share, Clock& clock, Run& run) 
   cutTriEdges(surface, run, state.keeping ? state.keeping->crossings() : CrossingsBefore());
 
   clock.begin("triFaces");
-  const BrickGrid brickGrid(input, state.brickShifts ? *state.brickShifts
-                                   : share.count > 1 ? BrickGrid::shiftsForShares(input, share.count)
-                                                     : BrickGrid::shiftsFor(input, run.monitor.threads()));
+  BrickGrid brickGrid(input, state.brickShifts ? *state.brickShifts : BrickGrid::shiftsFor(input, run.monitor.threads()));
+  if (state.layersHere) brickGrid.here = *state.layersHere;
   state.parts.clipped = clipTriangles(surface, brickGrid, run);
   divideFaces(surface, state.parts.clipped.undivided, state.parts.divided, run);
 
   clock.begin("bricks");
   state.bricks = layOutBricks(surface, state.parts, brickGrid);
-  if (share.count > 1) state.bricks.here = bricksOf(state.bricks, LayerShares(workOfLayers(state.bricks), share.count), share.index);
+  state.bricks.here.isShare = state.layersHere.has_value();
   if (state.keeping) state.kept = &state.keeping->bricks();
   state.cuts = cutBricks(surface, state.parts, state.bricks, run, state.kept);
   if (!state.isNeededAgain) state.parts = {};
@@ -121,7 +120,7 @@ void joinBricks(CutState& state, Clock& clock, Run& run) {
 }
 
 CutMesh cutInput(CutState& state, const MeshView& mesh, const Grid& grid, Clock& clock, Run& run) {
-  cutInBricks(state, {}, clock, run);
+  cutInBricks(state, clock, run);
   joinBricks(state, clock, run);
   clock.begin("output");
   std::vector<CutPart> whole;

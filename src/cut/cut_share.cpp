@@ -27,14 +27,19 @@ struct CutShare::Data {
     Run run{stats, monitor};
     state.isNeededAgain = true;
     beginCut(mesh.prepared(), grid, state, clock, run);
-    cutInBricks(state, shareOf, clock, run);
+    if (shareOf.count > 1) {
+      layers.emplace(state.surface.input, workOfLayers(state.surface.input), shareOf.count);
+      takeLayers(*layers, shareOf.index, state);
+    }
+    cutInBricks(state, clock, run);
+    state.parts = {};
   }
 
   CutPart makePartOf(std::span<const std::vector<uint32_t>> summaries, const RunOptions& options) {
     Monitor monitor(options, kGridStages);
     Clock clock(stats, monitor);
     Run run{stats, monitor};
-    if (shareOf.count > 1) addSummaries(summaries, shareOf, fingerprint(), state);
+    if (shareOf.count > 1) addSummaries(summaries, {shareOf, *layers, fingerprint()}, state);
     joinBricks(state, clock, run);
     clock.begin("output");
     CutPart part = makePart(mesh.view(), grid, state, run);
@@ -74,6 +79,7 @@ struct CutShare::Data {
   Grid grid;
   ShareOf shareOf;
   CutStats stats;
+  std::optional<ShareLayers> layers;  ///< of all shares; none of one alone
   CutState state;
 };
 

@@ -75,8 +75,8 @@ constexpr int kGridStages = 1 + kInputStages;  ///< of a cut of a prepared mesh
 /// The stage "grid", of a mesh that lasts.
 void beginCut(const Prepared& prepared, const Grid& grid, CutState& state, Clock& clock, Run& run);
 
-/// The stages after "grid" up to "bricks"; those of the bricks that are a share's.
-void cutInBricks(CutState& state, const ShareOf& share, Clock& clock, Run& run);
+/// The stages after "grid" up to "bricks".
+void cutInBricks(CutState& state, Clock& clock, Run& run);
 /// The stage "regions", once it is known what all bricks found.
 void joinBricks(CutState& state, Clock& clock, Run& run);
 

@@ -29,7 +29,6 @@ struct LayerLoad {
 /// All layers of a size of bricks.
 struct LayerLoads {
   std::vector<LayerLoad> layers;
-  std::vector<uint64_t> work;
   uint64_t commonBytes = 0;  ///< what all processes have: the surface, seams, untouched grid cells
   uint64_t usedBytes = 0;    ///< in each summary: which vertices of the surface loops have
   uint64_t regions = 0;
@@ -60,12 +59,9 @@ uint64_t bytesOfSeams(const CutState& state) {
 
 uint64_t bytesOfSurface(const CutState& state) {
   const CutVertices& vertices = state.surface.vertices;
-  const ClippedTriangles& clipped = state.parts.clipped;
-  const TriFaces& divided = state.parts.divided;
-  const Bricks& bricks = state.bricks;
-  return bytesOf(vertices.slabs, vertices.parentEdges, vertices.crossingOffsets, vertices.parentTriangles, clipped.parts,
-                 clipped.pieces.items, clipped.pieces.offsets, clipped.hybridEdges, divided.loops.items, divided.elements,
-                 divided.hybridEdges, bricks.parts.items, bricks.faceEdges.items, bricks.dividedFaces.items, bricks.touched, state.used);
+  const Prepared& mesh = *state.surface.input.mesh;
+  return bytesOf(vertices.slabs, vertices.parentEdges, vertices.crossingOffsets, state.used) + mesh.triangles.size() +
+         mesh.edges.ends.size();
 }
 
 constexpr uint64_t kSeamFaceBytes = 150;  // of a message: a face in a plane, with its share of the vertices there
@@ -87,14 +83,12 @@ uint64_t memoryOf(const LayerLoad& load) {
 LayerLoads loadsOf(CutState& state) {
   const Bricks& bricks = state.bricks;
   LayerLoads all;
-  all.work = workOfLayers(bricks);
-  all.layers.resize(all.work.size());
+  all.layers.resize(size_t(bricks.grid.counts[2]));
   all.commonBytes = bytesOfSurface(state) + bytesOfSeams(state);
-  all.usedBytes = (state.used.size() + 7) / 8;
   all.regions = state.regions.count;
   const uint32_t above = uint32_t(cellFace(2, 1));
   for (const BrickId b : bricks.ids()) {
-    LayerLoad& layer = all.layers[size_t(bricks.layerOf(b))];
+    LayerLoad& layer = all.layers[size_t(bricks.boxes[b].first[2] >> bricks.grid.shifts[2])];
     for (const BrickCounts& row : state.seams[b].rows) layer.counts.add(row);
     layer.summaryBytes += summaryBytes(state, b);
     layer.brickBytes += bytesOfBrick(state.cuts[b]);
@@ -125,11 +119,11 @@ struct SharePlanner::Data {
     CutState state;
     beginCut(mesh.prepared(), grid, state, clock, run);
     input = std::move(state.surface.input);
+    work = workOfLayers(input);
   }
 
-  /// Of bricks as they are for so many processes.
-  const LayerLoads& layersFor(uint32_t ranks, const RunOptions& options) {
-    const std::array<int, 3> shifts = BrickGrid::shiftsForShares(input, ranks);
+  /// Of a size of bricks.
+  const LayerLoads& layersFor(const std::array<int, 3>& shifts, const RunOptions& options) {
     const auto known = bySize.find(shifts);
     if (known != bySize.end()) return known->second;
     CutStats stats;
@@ -140,19 +134,23 @@ struct SharePlanner::Data {
     state.isNeededAgain = true;
     state.surface.input = input;
     state.brickShifts = shifts;
-    cutInBricks(state, {}, clock, run);
+    cutInBricks(state, clock, run);
     joinBricks(state, clock, run);
+    if (bySize.empty()) {
+      for (const VertexId v : listUsed(state.used)) used.push_back({v.number, state.surface.vertices.slab(v)[2]});
+    }
     return bySize.emplace(shifts, loadsOf(state)).first->second;
   }
 
   std::vector<ShareLoad> loads(uint32_t ranks, const RunOptions& options) {
-    const LayerLoads& all = layersFor(ranks, options);
-    const LayerShares shares(all.work, ranks);
+    const ShareLayers shares(input, work, ranks);
+    const LayerLoads& all = layersFor(shares.shifts(), options);
     std::vector<LayerLoad> sums(ranks);
+    addUsed(shares, sums);
     uint64_t summaries = 0;
     for (uint32_t rank = 0; rank < ranks; ++rank) {
-      for (int32_t layer = shares.first(rank); layer < shares.first(rank + 1); ++layer) sums[rank].add(all.layers[size_t(layer)]);
-      sums[rank].summaryBytes += all.usedBytes;
+      const auto [first, past] = shares.of(rank);
+      for (int32_t z = first; z < past; z += 1 << shares.shifts()[2]) sums[rank].add(all.layers[size_t(z >> shares.shifts()[2])]);
       summaries += sums[rank].summaryBytes;
     }
     std::vector<ShareLoad> loads(ranks);
@@ -171,6 +169,21 @@ struct SharePlanner::Data {
     return loads;
   }
 
+  /// Which vertices of the surface loops have, as summaries tell it.
+  void addUsed(const ShareLayers& shares, std::vector<LayerLoad>& sums) const {
+    constexpr uint64_t kWordBytes = 8;
+    std::vector<uint32_t> rankOf;  // per layer of grid cells
+    for (uint32_t rank = 0; rank < sums.size(); ++rank) rankOf.resize(size_t(shares.of(rank).past), rank);
+    std::vector<uint32_t> last(sums.size(), ~0u);
+    const auto add = [&](uint32_t rank, uint32_t word) {
+      if (std::exchange(last[rank], word) != word) sums[rank].summaryBytes += kWordBytes;
+    };
+    for (const auto& [vertex, z] : used) {
+      add(rankOf[size_t(std::clamp(z >> 1, 0, input.cells(2) - 1))], vertex / 32);
+      if (onPlane(z) && z > 0) add(rankOf[size_t((z - 1) >> 1)], vertex / 32);
+    }
+  }
+
   uint64_t sentBy(uint32_t rank, uint32_t ranks, const LayerLoad& sum, uint64_t seamBelow, const LayerLoads& all) const {
     const MeshView view = mesh.view();
     const uint64_t others = ranks - 1, numbers = 11 * sizeof(uint64_t) * ranks, sums = all.regions * sizeof(DoubleDouble);
@@ -183,6 +196,12 @@ struct SharePlanner::Data {
   PreparedForGrid mesh;
   Grid grid;
   Input input;
+  std::vector<uint64_t> work;  // of layers of grid cells
+  struct UsedVertex {
+    uint32_t id;
+    int32_t z;  // its slab
+  };
+  std::vector<UsedVertex> used;
   std::map<std::array<int, 3>, LayerLoads> bySize;
 };
 

@@ -1,6 +1,8 @@
 #include "cut/share_summary.h"
 
+#include <bit>
 #include <cstring>
+#include <iterator>
 
 namespace mandoline::detail {
 namespace {
@@ -79,18 +81,28 @@ std::vector<uint32_t> firstCells(const BrickCut& cut) {
 }
 
 std::vector<uint32_t> headOf(const CutState& state, const ShareOf& shareOf, Fingerprint cut) {
-  return {uint32_t(cut.value >> 32),     uint32_t(cut.value),        shareOf.count, shareOf.index,
-          uint32_t(state.bricks.size()), uint32_t(state.used.size())};
+  return {uint32_t(cut.value >> 32), uint32_t(cut.value), shareOf.count, shareOf.index, uint32_t(state.used.size())};
 }
 
 void addBrick(const Bricks& bricks, BrickId b, const BrickCut& cut, Writer& to) {
+  to.add(uint32_t(bricks.keys[b] >> 32));
+  to.add(uint32_t(bricks.keys[b]));
   to.add(bricks.wordsOf(b));
   to.add(std::span<const uint32_t>(firstCells(cut)));
   to.add(cut.componentAtCorner.value_or(~0u));
   forArrays(cut, [&](const auto& array) { to.add(array); });
 }
 
-void readBrick(Reader& from, Bricks& bricks, BrickId b, BrickCut& cut) {
+/// Appends it to the bricks and their cuts.
+void readBrick(Reader& from, const CellLayers& layers, Bricks& bricks, BrickCuts& cuts) {
+  const uint64_t high = from.number(), key = high << 32 | from.number();
+  const bool ascends = bricks.size() == 0 || bricks.keys.back() < key;
+  const auto [nx, ny, nz] = bricks.grid.counts;
+  if (!ascends || key >= uint64_t(nx) * uint64_t(ny) * uint64_t(nz)) throw BadSummary();
+  const BrickBox box = bricks.grid.boxOf(key);
+  if (box.first[2] < layers.first || box.first[2] >= layers.past) throw BadSummary();
+  const BrickId b = bricks.add(key);
+  BrickCut& cut = cuts.emplace_back();
   const std::span<const uint64_t> touched = from.items<uint64_t>();
   if (touched.size() != bricks.wordCount(b)) throw BadSummary();
   std::copy(touched.begin(), touched.end(), bricks.wordsOf(b).begin());
@@ -98,6 +110,32 @@ void readBrick(Reader& from, Bricks& bricks, BrickId b, BrickCut& cut) {
   cut.componentCount = uint32_t(cut.gridCells.size());
   if (const uint32_t corner = from.number(); corner != ~0u) cut.componentAtCorner = corner;
   forArrays(cut, [&](auto& array) { array = from.items<typename std::remove_cvref_t<decltype(array)>::value_type>(); });
+}
+
+/// The vertices of the mesh and its edges that loops have: places of words that are not 0, and these words.
+void addUsed(const UsedVertices& used, Writer& to) {
+  std::vector<uint32_t> places, words;
+  for (size_t first = 0; first < used.size(); first += 32) {
+    uint32_t word = 0;
+    for (size_t v = first; v < std::min(first + 32, used.size()); ++v) word |= uint32_t(used[v].load(std::memory_order_relaxed)) << v % 32;
+    if (word == 0) continue;
+    places.push_back(uint32_t(first / 32));
+    words.push_back(word);
+  }
+  to.add(std::span<const uint32_t>(places));
+  to.add(std::span<const uint32_t>(words));
+}
+
+void readUsed(Reader& from, UsedVertices& used) {
+  const std::span<const uint32_t> places = from.items<uint32_t>(), words = from.items<uint32_t>();
+  if (places.size() != words.size()) throw BadSummary();
+  for (size_t i = 0; i < places.size(); ++i) {
+    for (uint32_t word = words[i]; word != 0; word &= word - 1) {
+      const size_t v = 32 * size_t(places[i]) + size_t(std::countr_zero(word));
+      if (v >= used.size()) throw BadSummary();
+      used[v].store(1, std::memory_order_relaxed);
+    }
+  }
 }
 
 }  // namespace
@@ -111,39 +149,53 @@ size_t summaryBytes(const CutState& state, BrickId brick) {
 std::vector<uint32_t> summarize(const CutState& state, const ShareOf& shareOf, Fingerprint cut) {
   Writer to;
   to.words = headOf(state, shareOf, cut);
+  to.add(uint32_t(state.bricks.here.size()));
   for (const BrickId b : state.bricks.here.ids()) addBrick(state.bricks, b, state.cuts[b], to);
-  std::vector<uint8_t> used((state.used.size() + 7) / 8);
-  for (size_t v = 0; v < state.used.size(); ++v) used[v / 8] |= uint8_t(state.used[v].load(std::memory_order_relaxed) << v % 8);
-  to.add(std::span<const uint8_t>(used));
+  addUsed(state.used, to);
   return std::move(to.words);
 }
 
-void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareOf& shareOf, Fingerprint cut, CutState& state) {
+void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareContext& context, CutState& state) {
+  const auto& [shareOf, layers, cut] = context;
   const auto fail = [](size_t share) {
     const std::string message = "summaries[" + std::to_string(share) + "] is not that of this share of the same cut.";
     throw Failure{{Status::badArgument, int64_t(share), -1, message}};
   };
   if (summaries.size() != shareOf.count) fail(std::min(summaries.size(), size_t(shareOf.count) - 1));
-  Bricks& bricks = state.bricks;
-  const LayerShares shares(workOfLayers(bricks), shareOf.count);
+  Bricks bricks;
+  bricks.grid = state.bricks.grid;
+  BrickCuts cuts;
+  BricksHere here = state.bricks.here;
   for (uint32_t share = 0; share < shareOf.count; ++share) {
     const std::vector<uint32_t>& summary = summaries[share];
     const std::vector<uint32_t> head = headOf(state, {share, shareOf.count}, cut);
     if (summary.size() < head.size() || !std::equal(head.begin(), head.end(), summary.begin())) fail(share);
-    if (share == shareOf.index) continue;
-    state.cuts.memory.emplace_back();
-    Reader from(std::span<const uint32_t>(summary).subspan(head.size()), state.cuts.memory.back().seams);
-    try {
-      for (const BrickId b : bricksOf(bricks, shares, share).ids()) readBrick(from, bricks, b, state.cuts[b]);
-      const std::span<const uint8_t> used = from.items<uint8_t>();
-      if (used.size() != (state.used.size() + 7) / 8 || !from.isAtEnd()) throw BadSummary();
-      for (size_t v = 0; v < state.used.size(); ++v) {
-        if (used[v / 8] >> v % 8 & 1) state.used[v].store(1, std::memory_order_relaxed);
+    if (share == shareOf.index) {
+      here.first = {uint32_t(bricks.size())};
+      for (const BrickId b : state.bricks.here.ids()) {
+        const std::span<const uint64_t> touched = state.bricks.wordsOf(b);
+        std::copy(touched.begin(), touched.end(), bricks.wordsOf(bricks.add(state.bricks.keys[b])).begin());
+        cuts.push_back({});
       }
+      here.past = {uint32_t(bricks.size())};
+      continue;
+    }
+    cuts.memory.emplace_back();
+    Reader from(std::span<const uint32_t>(summary).subspan(head.size()), cuts.memory.back().seams);
+    try {
+      for (uint32_t count = from.number(); count > 0; --count) readBrick(from, layers.of(share), bricks, cuts);
+      readUsed(from, state.used);
+      if (!from.isAtEnd()) throw BadSummary();
     } catch (const BadSummary&) {
       fail(share);
     }
   }
+  for (const BrickId b : state.bricks.here.ids())
+    cuts[{here.first.number + b.number - state.bricks.here.first.number}] = std::move(state.cuts[b]);
+  std::move(state.cuts.memory.begin(), state.cuts.memory.end(), std::back_inserter(cuts.memory));
+  bricks.here = here;
+  state.bricks = std::move(bricks);
+  state.cuts = std::move(cuts);
 }
 
 }  // namespace mandoline::detail

@@ -2,7 +2,7 @@
 // its components hang together, and which vertices of the surface loops have.
 #pragma once
 
-#include "cut/stages/output_part.h"
+#include "cut/share_layers.h"
 
 namespace mandoline::detail {
 
@@ -12,8 +12,15 @@ std::vector<uint32_t> summarize(const CutState& state, const ShareOf& shareOf, F
 /// How much of it is of one brick.
 size_t summaryBytes(const CutState& state, BrickId brick);
 
-/// Adds what the others found. Throws Failure{badArgument} if these are not the summaries of all shares of the cut (element: the first
-/// that is another).
-void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareOf& shareOf, Fingerprint cut, CutState& state);
+/// A share among others.
+struct ShareContext {
+  const ShareOf& shareOf;
+  const ShareLayers& layers;  ///< of all shares
+  Fingerprint cut;
+};
+
+/// Adds the bricks of the others, and which vertices they use. Throws Failure{badArgument} if these are not the summaries of all shares of
+/// the cut (element: the first that is another).
+void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareContext& context, CutState& state);
 
 }  // namespace mandoline::detail

@@ -25,8 +25,8 @@ struct EdgeUse {
   bool sameEdge(const EdgeUse& other) const { return low == other.low && high == other.high; }
 };
 
-/// Those of all triangles with three different vertices; ascending by edge, then by side.
-inline std::vector<EdgeUse> edgeUses(const std::vector<Corners>& triangles) {
+/// Those of all triangles with three different vertices, of so many; ascending by edge, then by side.
+inline std::vector<EdgeUse> edgeUses(const std::vector<Corners>& triangles, size_t vertices) {
   std::vector<EdgeUse> uses;
   uses.reserve(3 * triangles.size());
   for (uint32_t t = 0; t < triangles.size(); ++t) {
@@ -36,7 +36,8 @@ inline std::vector<EdgeUse> edgeUses(const std::vector<Corners>& triangles) {
       uses.push_back({std::min(a, b), std::max(a, b), 3 * t + i, a < b});
     }
   }
-  sortItems(uses, [](const EdgeUse& a, const EdgeUse& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
+  sortByKeys(
+      uses, vertices, [](const EdgeUse& use) { return use.low; }, [](const EdgeUse& a, const EdgeUse& b) { return a.high < b.high; });
   return uses;
 }
 

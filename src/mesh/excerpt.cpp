@@ -96,21 +96,6 @@ class ExcerptMaker {
     if (members_.size() > kept_.size()) sortUnique(members_);
   }
 
-  /// Calls f(tri-edge) for those of a triangle.
-  template <class F>
-  void forEdges(uint32_t t, const F& f) const {
-    const MeshEdges& edges = whole_.edges;
-    for (size_t side = 0; side < 3; ++side) {
-      const uint32_t edge = edges.sideEdges[3 * size_t(t) + side];
-      if (edge < MeshEdges::kStitched) {
-        f(TriEdgeId{edge});
-      } else {
-        for (const TriEdgeId e : edges.stitched[edge - MeshEdges::kStitched]) f(e);
-      }
-    }
-    for (const TriEdgeId e : edges.innerOf({t})) f(e);
-  }
-
   /// The made vertices of members, and the triangles in whose planes these and tri-edges lie.
   void findMade() {
     const auto add = [&](uint32_t v) {
@@ -118,7 +103,7 @@ class ExcerptMaker {
     };
     for (const uint32_t t : members_) {
       for (const uint32_t v : whole_.arrangement->innerVertices[t]) add(v);
-      forEdges(t, [&](TriEdgeId e) {
+      whole_.edges.forTriangle({t}, [&](TriEdgeId e) {
         for (const VertexId v : whole_.edges.ends[e]) add(v.number);
         const Line line = whole_.edges.line(e);
         if (line.ofPlanes) namedTriangles_.insert(namedTriangles_.end(), {line.a, line.b});

@@ -18,9 +18,10 @@ bool isFinite(const MeshView& mesh, size_t v) {
   return std::isfinite(mesh.positions[3 * v]) && std::isfinite(mesh.positions[3 * v + 1]) && std::isfinite(mesh.positions[3 * v + 2]);
 }
 
-size_t countDuplicates(std::vector<Corners> triangles) {
+size_t countDuplicates(std::vector<Corners> triangles, size_t vertices) {
   for (Corners& t : triangles) detail::sortItems(t);
-  detail::sortItems(triangles);
+  detail::sortByKeys(
+      triangles, vertices, [](const Corners& t) { return t[0]; }, std::less<>());
   size_t count = 0;
   for (size_t t = 1; t < triangles.size(); ++t) count += hasThreeVertices(triangles[t]) && triangles[t] == triangles[t - 1];
   return count;
@@ -92,7 +93,7 @@ MeshInfo inspect(const MeshView& mesh) {
   }
   detail::inspectEdges(mesh, triangles, info);
   info.zeroAreaTriangles = countZeroArea(mesh, triangles);
-  info.duplicateTriangles = countDuplicates(std::move(triangles));
+  info.duplicateTriangles = countDuplicates(std::move(triangles), info.vertices);
   return info;
 }
 

@@ -87,7 +87,7 @@ void findPlaces(const MeshView& mesh, MeshInfo& info) {
 }  // namespace
 
 void inspectEdges(const MeshView& mesh, const std::vector<Corners>& triangles, MeshInfo& info) {
-  std::vector<EdgeUse> uses = edgeUses(triangles);
+  std::vector<EdgeUse> uses = edgeUses(triangles, mesh.vertexCount());
   findComponents(triangles, uses, info);
   inspectEach(uses, info);
   findPlaces(mesh, info);

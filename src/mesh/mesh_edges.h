@@ -19,6 +19,19 @@ struct MeshEdges {
     if (inner.size() == 0) return {};
     return inner[triangle];
   }
+  /// Calls f(tri-edge) for those of a triangle, inner ones too.
+  template <class F>
+  void forTriangle(TriangleId triangle, const F& f) const {
+    for (size_t side = 0; side < 3; ++side) {
+      const uint32_t edge = sideEdges[3 * size_t(triangle.number) + side];
+      if (edge < kStitched) {
+        f(TriEdgeId{edge});
+      } else {
+        for (const TriEdgeId e : stitched[edge - kStitched]) f(e);
+      }
+    }
+    for (const TriEdgeId e : innerOf(triangle)) f(e);
+  }
   /// The line that a tri-edge lies on.
   Line line(TriEdgeId edge) const { return lines.empty() ? Line{ends[edge][0].number, ends[edge][1].number, false} : lines[edge]; }
   bool hasStitchedSide(TriangleId triangle) const {

@@ -15,7 +15,8 @@
 namespace mandoline::detail {
 
 struct CutVertices {
-  static constexpr int32_t kUnused = INT32_MIN;  ///< slab(v)[0] of an id that no vertex has
+  static constexpr int32_t kUnused = INT32_MIN;      ///< slab(v)[0] of an id that no vertex has
+  static constexpr Slab kNone{kUnused, 1, kUnused};  ///< slab(v) of it
   static constexpr TriangleId kNoTriangle{~0u};
 
   const Input* input = nullptr;

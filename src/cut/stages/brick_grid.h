@@ -45,6 +45,11 @@ struct BrickBox {
   uint32_t size() const { return uint32_t(count[0]) * uint32_t(count[1]) * uint32_t(count[2]); }
 };
 
+/// Layers of grid cells along z, from the first up to, not including, the second.
+struct CellLayers {
+  int32_t first = 0, past = 0;
+};
+
 /// How the grid is divided into bricks. Each has a key: its place by z, y, x.
 struct BrickGrid {
   /// Bricks of 32 cells along each side fit into a processor's cache. Smaller ones of a small grid give each thread several.
@@ -64,19 +69,10 @@ struct BrickGrid {
     while (shift > kLeast && countFor(input, shift) < kSeveral) --shift;
     return same(shift);
   }
-  /// Several shares get some layers of bricks each, which are thinner for that: the more layers, the more alike is the work of the shares,
-  /// but very thin ones are more work.
-  static std::array<int, 3> shiftsForShares(const Input& input, uint32_t shares) {
-    constexpr size_t kWanted = 8, kNeeded = 3;
-    constexpr int kThin = 2;
-    std::array<int, 3> shifts = shiftsFor(input, shares);
-    const auto each = [&] { return shifts[2] > kThin ? kWanted : kNeeded; };
-    while (shifts[2] > 0 && countAlong(input, 2, shifts[2]) < each() * shares) --shifts[2];
-    return shifts;
-  }
 
   std::array<int, 3> shifts{};               ///< 2^shift grid cells along each side of a brick, or what is left of the grid
   std::array<int32_t, 3> cells{}, counts{};  ///< of grid cells and bricks along each axis
+  CellLayers here;                           ///< that are cut: all, or those of one of several processes
 
   BrickGrid() = default;
   BrickGrid(const Input& input, const std::array<int, 3>& shifts_) : shifts(shifts_) {
@@ -84,11 +80,9 @@ struct BrickGrid {
       cells[d] = input.cells(int(d));
       counts[d] = ((cells[d] - 1) >> shifts[d]) + 1;
     }
+    here.past = cells[2];
   }
 
-  /// Bricks of a layer along z, and the grid cells along z before it.
-  uint64_t perLayer() const { return uint64_t(counts[0]) * uint64_t(counts[1]); }
-  int32_t cellsBefore(int32_t layer) const { return std::min(layer << shifts[2], cells[2]); }
   /// Of the brick that has a cell of the grid.
   uint64_t keyOf(const Slab& cell) const {
     const auto at = [&](size_t d) { return uint64_t(cell[d] >> 1 >> shifts[d]); };
@@ -104,12 +98,12 @@ struct BrickGrid {
     }
     return box;
   }
+  /// Whether a cell is one of the grid that is cut here.
   bool hasCell(const Slab& cell) const {
-    bool inside = true;
-    for (size_t d = 0; d < 3; ++d) inside &= uint32_t(cell[d] >> 1) < uint32_t(cells[d]);
-    return inside;
+    const int32_t z = cell[2] >> 1;
+    return uint32_t(cell[0] >> 1) < uint32_t(cells[0]) && uint32_t(cell[1] >> 1) < uint32_t(cells[1]) && z >= here.first && z < here.past;
   }
-  /// Calls f(cell) for the cells of the grid that have a grid element, one of each brick.
+  /// Calls f(cell) for the cells that are cut here and have a grid element, one of each brick.
   template <class F>
   void forBricks(const Slab& element, const F& f) const {
     findCellAround(element, [&](const Slab& cell) {
@@ -149,10 +143,10 @@ struct BrickGrid {
   int32_t between(size_t axis) const { return (2 << shifts[axis]) - 1; }
 
  private:
-  /// Of bricks, along an axis and in all.
-  static size_t countAlong(const Input& input, int axis, int shift) { return size_t((input.cells(axis) - 1) >> shift) + 1; }
+  /// Of bricks.
   static size_t countFor(const Input& input, int shift) {
-    return countAlong(input, 0, shift) * countAlong(input, 1, shift) * countAlong(input, 2, shift);
+    const auto along = [&](int axis) { return size_t((input.cells(axis) - 1) >> shift) + 1; };
+    return along(0) * along(1) * along(2);
   }
 };
 

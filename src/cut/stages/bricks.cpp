@@ -69,20 +69,12 @@ class Layout {
     newIds_.resize(order.size());
     Bricks bricks;
     bricks.grid = grid_;
-    size_t words = 0;
-    for (uint32_t i = 0; i < order.size(); ++i) {
-      newIds_[order[i]] = {i};
-      bricks.keys.push_back(found_.keys[order[i]]);
-      bricks.boxes.push_back(grid_.boxOf(bricks.keys.back()));
-      bricks.firstBit.push_back(64 * words);
-      words += bricks.wordCount({i});
-    }
-    bricks.touched.assign(words, 0);
+    for (uint32_t i = 0; i < order.size(); ++i) newIds_[order[i]] = bricks.add(found_.keys[order[i]]);
     bricks.parts = grouped(givenParts_);
     bricks.dividedFaces = grouped(givenFaces_);
     bricks.faceEdges = grouped(givenEdges_);
     bricks.seamVertices = grouped(givenVertices_);
-    bricks.here = {{0}, {uint32_t(bricks.size())}, 0, grid_.cells[2], false};
+    bricks.here = {{0}, {uint32_t(bricks.size())}, grid_.here.first, grid_.here.past, false};
     return bricks;
   }
 
@@ -112,6 +104,15 @@ const FaceEdge& faceEdge(const Surface& surface, const SurfaceParts& parts, uint
   return surface.edgesInPlane[i - clipped.size() - divided.size()];
 }
 
+BrickId Bricks::add(uint64_t key) {
+  const BrickId brick{uint32_t(size())};
+  keys.push_back(key);
+  boxes.push_back(grid.boxOf(key));
+  firstBit.push_back(64 * touched.size());
+  touched.resize(touched.size() + wordCount(brick), 0);
+  return brick;
+}
+
 std::optional<BrickId> Bricks::find(const Slab& cell) const {
   const uint64_t key = grid.keyOf(cell);
   const auto found = std::lower_bound(keys.begin(), keys.end(), key);
@@ -123,37 +124,6 @@ std::optional<BrickId> Bricks::findTouched(const Slab& cell) const {
   const auto brick = find(cell);
   if (!brick || !isTouched(*brick, boxes[*brick].indexOf(cell))) return {};
   return brick;
-}
-
-LayerShares::LayerShares(const std::vector<uint64_t>& work, uint32_t count) : before_{0}, count_(count) {
-  for (const uint64_t more : work) before_.push_back(before_.back() + more);
-}
-
-int32_t LayerShares::first(uint32_t share) const {
-  if (share == count_) return int32_t(before_.size()) - 1;
-  const uint64_t target = before_.back() * share / count_;
-  const auto next = std::lower_bound(before_.begin(), before_.end(), target);
-  const bool isNearerBelow = next != before_.begin() && target - next[-1] < *next - target;
-  return int32_t(next - before_.begin()) - isNearerBelow;
-}
-
-std::vector<uint64_t> workOfLayers(const Bricks& bricks) {
-  std::vector<uint64_t> work(size_t(bricks.grid.counts[2]), 0);
-  for (const BrickId b : bricks.ids()) {
-    // Cut-edges in grid-faces tell how many grid cells are touched, and take time of their own.
-    work[size_t(bricks.layerOf(b))] += bricks.parts[b].size() + bricks.dividedFaces[b].size() + 2 * bricks.faceEdges[b].size();
-  }
-  return work;
-}
-
-BricksHere bricksOf(const Bricks& bricks, const LayerShares& shares, uint32_t share) {
-  const BrickGrid& grid = bricks.grid;
-  const auto firstFrom = [&](int32_t layer) {
-    const auto found = std::lower_bound(bricks.keys.begin(), bricks.keys.end(), uint64_t(layer) * grid.perLayer());
-    return BrickId{uint32_t(found - bricks.keys.begin())};
-  };
-  const int32_t first = shares.first(share), past = shares.first(share + 1);
-  return {firstFrom(first), firstFrom(past), grid.cellsBefore(first), grid.cellsBefore(past), true};
 }
 
 Bricks layOutBricks(const Surface& surface, const SurfaceParts& parts, const BrickGrid& grid) { return Layout(surface, parts, grid).run(); }

@@ -53,8 +53,8 @@ struct Bricks {
 
   size_t size() const { return keys.size(); }
   Ids<BrickId> ids() const { return keys.ids(); }
-  /// Along z.
-  int32_t layerOf(BrickId brick) const { return boxes[brick].first[2] >> grid.shifts[2]; }
+  /// Appends one, of which no cell is touched so far.
+  BrickId add(uint64_t key);
   /// The brick that has a cell of the grid.
   std::optional<BrickId> find(const Slab& cell) const;
   /// The brick that has a cell of the grid, if the cell belongs to the stencil.
@@ -89,24 +89,6 @@ struct Bricks {
     }
   }
 };
-
-/// Which layers of bricks several shares have, so that they are alike in work.
-class LayerShares {
- public:
-  /// `work`: of each layer.
-  LayerShares(const std::vector<uint64_t>& work, uint32_t count);
-
-  /// The first layer of a share, where those of the share before end.
-  int32_t first(uint32_t share) const;
-
- private:
-  std::vector<uint64_t> before_;  // the work in the layers before each, and in all
-  uint32_t count_;
-};
-
-std::vector<uint64_t> workOfLayers(const Bricks& bricks);
-
-BricksHere bricksOf(const Bricks& bricks, const LayerShares& shares, uint32_t share);
 
 /// The axis that a grid-face lies across.
 inline int planeAxis(const Slab& gridFace) { return onPlane(gridFace[0]) ? 0 : onPlane(gridFace[1]) ? 1 : 2; }

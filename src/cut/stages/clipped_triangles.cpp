@@ -208,7 +208,7 @@ ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& r
         Clipper clipper(surface, bricks, run.monitor, chunk);
         WholeDicer dicer(surface, run.monitor, chunk);
         for (const TriangleId t : Ids<TriangleId>(begin, end)) {
-          if (input.kept(t) && !dicer.dice(t)) clipper.clip(t);
+          if (input.kept(t) && surface.here.has(t) && !dicer.dice(t)) clipper.clip(t);
         }
       });
   size_t entries = 0, made = vertices.size();

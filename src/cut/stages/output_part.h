@@ -36,6 +36,8 @@ struct CutState {
   Regions regions;
   Numbers numbers;
 
+  std::optional<CellLayers> layersHere;  ///< of one of several processes, with surface.here
+
   bool isNeededAgain = false;  ///< once the output is made; otherwise memory is given back on the way
 
   // Of a surface that moves:

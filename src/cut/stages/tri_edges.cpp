@@ -139,7 +139,7 @@ void cutTriEdges(Surface& surface, Run& run, const CrossingsBefore& before) {
   std::vector<TriEdgeId> inPlane;
   for (const TriEdgeId e : edges.ends.ids()) {
     const Slab &low = input.slabs[edges.ends[e][0]], &high = input.slabs[edges.ends[e][1]];
-    if (isInPlane(low, high)) inPlane.push_back(e);
+    if (surface.here.has(e) && isInPlane(low, high)) inPlane.push_back(e);
     vertices.crossingOffsets.push_back({uint32_t(total)});
     total += crossingBound(low, high);
     if (total >= uint64_t(1) << 31) throw Failure{{Status::meshTooLarge, -1, -1, "The cut-mesh would have more than 2^31 vertices."}};
@@ -159,9 +159,10 @@ void cutTriEdges(Surface& surface, Run& run, const CrossingsBefore& before) {
         for (const VertexId v : crossings) vertices.slabs[v.number] = known[v.number - first.number];
         continue;
       }
-      const size_t count = crossEdge(input, edges.ends[e], edges.line(e), &vertices.slabs[first.number], predicates);
+      const size_t count =
+          !surface.here.has(e) ? 0 : crossEdge(input, edges.ends[e], edges.line(e), &vertices.slabs[first.number], predicates);
       for (const VertexId v : crossings) {
-        if (v.number >= first.number + count) vertices.slabs[v.number] = {CutVertices::kUnused, 1, 1};
+        if (v.number >= first.number + count) vertices.slabs[v.number] = CutVertices::kNone;
       }
     }
   });

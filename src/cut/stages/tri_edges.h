@@ -18,9 +18,18 @@ struct FaceEdge {
   VertexId from, to;
 };
 
+/// What processes that cut together leave to others: all of the surface but the triangles that a process cuts, and their edges.
+struct SurfaceHere {
+  std::vector<uint8_t> triangles, edges;  ///< per triangle and tri-edge whether it is cut here; empty: all are
+
+  bool has(TriangleId t) const { return triangles.empty() || triangles[t.number] != 0; }
+  bool has(TriEdgeId e) const { return edges.empty() || edges[e.number] != 0; }
+};
+
 /// The surface and the cut-vertices on it. They refer to its other members, so it can't be moved or copied.
 struct Surface {
   Input input;
+  SurfaceHere here;
   CutVertices vertices;
   std::vector<FaceEdge> edgesInPlane;  ///< pieces of tri-edges that lie in a grid-face
 

@@ -72,7 +72,7 @@ OrientedMesh orient(const MeshView& mesh, const RunOptions& options) {
     const auto prepared =
         prepareMesh(mesh, {0, Intersections::assumeNone}, monitor, [&](const char* stage) { monitor.beginStage(stage, 0); });
     monitor.beginStage("orient", 1);
-    std::vector<EdgeUse> uses = edgeUses(prepared->triangles);
+    std::vector<EdgeUse> uses = edgeUses(prepared->triangles, prepared->points.size());
     Patches patches = findPatches(prepared->triangles, uses);
     const Shells shells = findShells(patches, uses);
     Predicates predicates;

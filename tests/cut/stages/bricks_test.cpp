@@ -64,12 +64,3 @@ TEST_CASE("Bricks of a small grid are smaller where there are several threads", 
   CHECK(shiftFor(50, 16) == BrickGrid::same(3));
   CHECK(shiftFor(200, 2) == BrickGrid::same(5));
 }
-
-TEST_CASE("Bricks are thinner along z where several shares get layers of them", "[stages][bricks]") {
-  const auto shiftsFor = [](int64_t cells, uint32_t shares) { return BrickGrid::shiftsForShares(inputOf(cells), shares); };
-  CHECK(shiftsFor(1000, 2) == BrickGrid::same(5));
-  CHECK(shiftsFor(200, 2) == std::array{5, 5, 3});
-  CHECK(shiftsFor(100, 2) == std::array{5, 5, 2});
-  CHECK(shiftsFor(100, 8) == std::array{4, 4, 2});
-  CHECK(shiftsFor(4, 3) == std::array{3, 3, 0});
-}

@@ -1,0 +1,32 @@
+// Which layers of the grid each of several processes cuts: they are to be alike in work, as far as that is known from where the triangles
+// lie, before anything is cut.
+#pragma once
+
+#include "cut/stages/output_part.h"
+
+namespace mandoline::detail {
+
+/// About how much work triangles are, per layer of grid cells along z: as many faces as they may have part in. The same in all processes.
+std::vector<uint64_t> workOfLayers(const Input& input);
+
+/// The layers of `count` shares, which begin where bricks do.
+class ShareLayers {
+ public:
+  /// `work`: that of workOfLayers(input).
+  ShareLayers(const Input& input, const std::vector<uint64_t>& work, uint32_t count);
+
+  /// Of bricks, as a BrickGrid has them.
+  const std::array<int, 3>& shifts() const { return shifts_; }
+  /// The first layer of grid cells of a share, where those of the share before end.
+  int32_t first(uint32_t share) const { return first_[share]; }
+  CellLayers of(uint32_t share) const { return {first_[share], first_[share + 1]}; }
+
+ private:
+  std::array<int, 3> shifts_;
+  std::vector<int32_t> first_;  // per share, and where the last ends
+};
+
+/// Leaves to a state that has its input only what lies in some layers.
+void takeLayers(const ShareLayers& shares, uint32_t share, CutState& state);
+
+}  // namespace mandoline::detail
