@@ -69,6 +69,7 @@ class Parser {
         {"--simple-cells", {C::cut, C::flow}, [](Parser& p, const std::string&) { p.arguments_.simpleCells = true; }},
         {"--wind", {C::flow}, [](Parser& p, const std::string& name) { parseWind(p.value(name), p.arguments_.flow); }},
         {"--far-field", {C::flow}, [](Parser& p, const std::string&) { p.arguments_.flow.farField = true; }},
+        {"--corrections", {C::flow}, [](Parser& p, const std::string& name) { parseCorrections(p.value(name), p.arguments_.flow); }},
         {"--streamlines", {C::flow}, [](Parser& p, const std::string& name) { parseStreamlines(p.value(name), p.arguments_.flow); }},
         {"--steps", {C::flow}, [](Parser& p, const std::string& name) { parseSteps(p.value(name), p.arguments_.flow); }},
         {"--viscosity", {C::flow}, [](Parser& p, const std::string& name) { parseViscosity(p.value(name), p.arguments_.flow); }},

@@ -51,6 +51,7 @@ struct SliceArguments {
 struct FlowArguments {
   std::optional<std::array<double, 3>> wind;
   bool farField = false;
+  std::optional<int> corrections;  ///< at most; none: as the library does by itself
   std::optional<uint32_t> streamlines;
   std::optional<uint32_t> steps;  ///< in time; none: the potential flow
   double viscosity = 0;           ///< in steps

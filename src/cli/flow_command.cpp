@@ -7,9 +7,9 @@
 
 #include "cli/cutting.h"
 #include "cli/files.h"
+#include "cli/flow_command.h"
 #include "cli/flow_steps.h"
 #include "cli/mesh_report.h"
-#include "mandoline/flow.h"
 
 namespace mandoline::cli {
 namespace {
@@ -22,6 +22,7 @@ struct FlowReport {
   const MeshReport& mesh;
   const FlowField& field;
   std::optional<MergeCounts> merge;
+  const std::vector<RankReport>& ranks;
 
   Outcome outcome() const {
     const SolveStatus status = flow().status;
@@ -39,7 +40,7 @@ struct FlowReport {
                   "cells                 %zu\nstatus                %s\niterations            %zu\nresidual              %.2g\n"
                   "largest speed         %.6g\nthrottled components  %zu\n",
                   field.cells.cellCount(), name(flow().status), iterations(), residual(), largestSpeed(), flow().throttled.size());
-    return headline(mesh) + text;
+    return headline(mesh) + text + ranksText(ranks);
   }
 
   std::string json() const {
@@ -49,6 +50,7 @@ struct FlowReport {
     addMerge(json, merge);
     json.member("faces", field.cells.faceCount()).member("iterations", iterations()).key("residuals").values(flow().residuals);
     json.member("largestSpeed", largestSpeed()).key("throttled").values(flow().throttled);
+    if (!ranks.empty()) addRanks(json, ranks);
     return json.close('}').text();
   }
 
@@ -57,20 +59,6 @@ struct FlowReport {
 };
 
 bool isVtu(const Arguments& arguments, const std::string& output) { return formatFor(arguments, output) == FileFormat::vtu; }
-
-/// What can be told before there is a mesh.
-void checkFlowOutputs(const Arguments& arguments) {
-  if (arguments.flow.steps) return checkOutputs(arguments, isStepsFormat, "a flow in steps is written as .vtu");
-  checkOutputs(arguments, isFlowFormat, "a flow is written as .vtu or .obj");
-  const auto writesVtu = [&](const std::string& output) { return isVtu(arguments, output); };
-  const bool hasLines = !std::all_of(arguments.outputs.begin(), arguments.outputs.end(), writesVtu);
-  if (arguments.refines() && hasLines) throw UsageError("--refine: streamlines need cells that are not refined");
-  if (arguments.flow.streamlines && !hasLines) throw UsageError("--streamlines: only .obj files have streamlines");
-  if (std::any_of(arguments.outputs.begin(), arguments.outputs.end(), writesVtu)) return;
-  if (arguments.faces) throw UsageError("--faces: only .vtu files have faces instead of cells");
-  if (arguments.simpleCells) throw UsageError("--simple-cells: only .vtu files have cells");
-  if (arguments.only.any()) throw UsageError("--only: only .vtu files have a part of the cells");
-}
 
 constexpr uint32_t kStreamlines = 100;
 
@@ -88,38 +76,38 @@ void write(const Arguments& arguments, const std::string& output, const FlowFiel
   });
 }
 
-/// Of the wind tunnel, in longest sides of the mesh.
-constexpr double kMargin = 0.5;
-
 }  // namespace
 
-int runFlow(const Arguments& arguments) {
-  checkFlowOutputs(arguments);
-  const Input input = readInput(arguments);
-  const Mesh& mesh = input.mesh;
-  GridArguments grid = arguments.grid;
-  if (!grid.margin) grid.margin = kMargin;
-  const std::optional<CutResult> cut = cutOrComplain(arguments, input, grid);
-  if (!cut) return kNotCut;
-  WriteOptions options = writeOptions(arguments, *cut);
-  if (arguments.only.any()) requireSelection(options, cut->mesh);
+void checkFlowOutputs(const Arguments& arguments) {
+  if (arguments.flow.steps) return checkOutputs(arguments, isStepsFormat, "a flow in steps is written as .vtu");
+  checkOutputs(arguments, isFlowFormat, "a flow is written as .vtu or .obj");
+  const auto writesVtu = [&](const std::string& output) { return isVtu(arguments, output); };
+  const bool hasLines = !std::all_of(arguments.outputs.begin(), arguments.outputs.end(), writesVtu);
+  if (arguments.refines() && hasLines) throw UsageError("--refine: streamlines need cells that are not refined");
+  if (arguments.flow.streamlines && !hasLines) throw UsageError("--streamlines: only .obj files have streamlines");
+  if (std::any_of(arguments.outputs.begin(), arguments.outputs.end(), writesVtu)) return;
+  if (arguments.faces) throw UsageError("--faces: only .vtu files have faces instead of cells");
+  if (arguments.simpleCells) throw UsageError("--simple-cells: only .vtu files have cells");
+  if (arguments.only.any()) throw UsageError("--only: only .vtu files have a part of the cells");
+}
+
+int finishFlow(const FlowJob& job, const SolveCells& solve, const std::vector<RankReport>& ranks) {
+  const Arguments& arguments = job.arguments;
+  const Input& input = job.input;
+  WriteOptions options = writeOptions(arguments, job.cut);
+  if (arguments.only.any()) requireSelection(options, job.cut.mesh);
   options.groups = &input.groups;
-  const MadeCells merged = makeCells(arguments, input, cut->mesh);
-  if (arguments.flow.steps) return runSteps(arguments, {input, merged.cutMesh(cut->mesh), merged}, options);
-  const CellComplex& cells = merged.cells;
-  const Flow flow = withProgress(arguments.threads, [&](const RunOptions& run) {
-    FlowOptions flowOptions{run};
-    flowOptions.farField = arguments.flow.farField;
-    return solveFlow(cells, *arguments.flow.wind, flowOptions);
-  });
-  const FlowField field{mesh, merged.cutMesh(cut->mesh), cells, flow};
+  const MadeCells merged = makeCells(arguments, input, job.cut.mesh);
+  if (arguments.flow.steps) return runSteps(arguments, {input, merged.cutMesh(job.cut.mesh), merged}, options);
+  const Flow flow = withProgress(arguments.threads, [&](const RunOptions& run) { return solve(merged.cells, run); });
+  const FlowField field{input.mesh, merged.cutMesh(job.cut.mesh), merged.cells, flow};
   int exitCode = kFine;
   if (flow.status != SolveStatus::converged) {
     complain(input.name + ": the flow was not solved: " + name(flow.status));
     exitCode = kNotCut;
   }
-  const MeshReport meshReport{input, inspect(mesh), {}};
-  FlowReport report{meshReport, field, {}};
+  const MeshReport meshReport{input, inspect(input.mesh), {}};
+  FlowReport report{meshReport, field, {}, ranks};
   if (mergeFraction(arguments) > 0) report.merge = countMerged(merged);
   attempt(exitCode, [&] {
     deliver(
@@ -127,6 +115,19 @@ int runFlow(const Arguments& arguments) {
   });
   return writeOutputs(
       arguments, [&](const std::string& output) { write(arguments, output, field, options); }, exitCode);
+}
+
+int runFlow(const Arguments& arguments) {
+  checkFlowOutputs(arguments);
+  const Input input = readInput(arguments);
+  const std::optional<CutResult> cut = cutOrComplain(arguments, input, flowGrid(arguments.grid));
+  if (!cut) return kNotCut;
+  return finishFlow({arguments, input, *cut}, [&](const CellComplex& cells, const RunOptions& run) {
+    FlowOptions options{run};
+    options.farField = arguments.flow.farField;
+    options.corrections = arguments.flow.corrections.value_or(options.corrections);
+    return solveFlow(cells, *arguments.flow.wind, options);
+  });
 }
 
 }  // namespace mandoline::cli

@@ -147,6 +147,8 @@ Options of flow
                          as of cut; not with streamlines
   --merge FRACTION       as of cut (default: 0.2; 0 merges nothing)
   --unite-walls DEGREES  as of cut
+  --corrections N        how often at most the solution is corrected beside cut-cells (default:
+                         8, of which three to six are needed; 0: it is of first order there)
   --streamlines N        how many lines (default: 100), from where the wind enters
   --steps N              N steps in time instead, which begin with the potential flow; their
                          length follows from the speed in the cells. Best with

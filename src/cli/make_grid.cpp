@@ -63,4 +63,10 @@ AskedGrid makeGrid(const GridArguments& arguments, const Mesh& mesh, const MeshI
   return {Grid::box(low, high, cells), cells};
 }
 
+GridArguments flowGrid(GridArguments grid) {
+  constexpr double kMargin = 0.5;  // in longest sides of the mesh
+  if (!grid.margin) grid.margin = kMargin;
+  return grid;
+}
+
 }  // namespace mandoline::cli

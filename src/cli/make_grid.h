@@ -14,4 +14,7 @@ struct AskedGrid {
 /// `info` is that of the mesh.
 AskedGrid makeGrid(const GridArguments& arguments, const Mesh& mesh, const MeshInfo& info);
 
+/// With the margin that makes a wind tunnel, unless another one is given.
+GridArguments flowGrid(GridArguments grid);
+
 }  // namespace mandoline::cli

@@ -77,7 +77,7 @@ class TextReport {
       addRegions();
     }
     addStages();
-    if (!report_.ranks.empty()) addRanks();
+    out_ << ranksText(report_.ranks);
     if (report_.validation) addValidation(*report_.validation);
     return out_.str();
   }
@@ -146,19 +146,6 @@ class TextReport {
     out_ << std::defaultfloat << std::setprecision(6);
   }
 
-  void addRanks() {
-    out_ << "\nProcesses\n  " << std::setw(8) << "rank" << std::setw(14) << "cut-cells" << std::setw(14) << "CPU (ms)" << std::setw(14)
-         << "memory (MB)" << std::setw(14) << "sent (MB)"
-         << "\n"
-         << std::fixed << std::setprecision(2);
-    for (size_t rank = 0; rank < report_.ranks.size(); ++rank) {
-      const RankReport& r = report_.ranks[rank];
-      out_ << "  " << std::setw(8) << rank << std::setw(14) << r.cutCells << std::setw(14) << r.processorMs << std::setw(14)
-           << double(r.peakMemoryBytes) / 1e6 << std::setw(14) << double(r.bytesSent) / 1e6 << "\n";
-    }
-    out_ << std::defaultfloat << std::setprecision(6);
-  }
-
   void addValidation(const Validation& validation) {
     out_ << "\nValidation: " << (validation.pass ? "pass" : "FAIL") << "\n  " << std::left << std::setw(28) << "check" << std::setw(9)
          << "verdict" << std::setw(14) << "worst" << std::setw(14) << "tolerance"
@@ -183,6 +170,8 @@ class TextReport {
   std::ostringstream out_;
 };
 
+}  // namespace
+
 void addRanks(Json& json, const std::vector<RankReport>& ranks) {
   json.key("ranks").open('[');
   for (const RankReport& r : ranks) {
@@ -192,7 +181,20 @@ void addRanks(Json& json, const std::vector<RankReport>& ranks) {
   json.close(']');
 }
 
-}  // namespace
+std::string ranksText(const std::vector<RankReport>& ranks) {
+  if (ranks.empty()) return "";
+  std::ostringstream out;
+  out << "\nProcesses\n  " << std::setw(8) << "rank" << std::setw(14) << "cut-cells" << std::setw(14) << "CPU (ms)" << std::setw(14)
+      << "memory (MB)" << std::setw(14) << "sent (MB)"
+      << "\n"
+      << std::fixed << std::setprecision(2);
+  for (size_t rank = 0; rank < ranks.size(); ++rank) {
+    const RankReport& r = ranks[rank];
+    out << "  " << std::setw(8) << rank << std::setw(14) << r.cutCells << std::setw(14) << r.processorMs << std::setw(14)
+        << double(r.peakMemoryBytes) / 1e6 << std::setw(14) << double(r.bytesSent) / 1e6 << "\n";
+  }
+  return out.str();
+}
 
 MergeCounts countMerged(const MergedCells& merged) { return {merged.mergedCell.size(), merged.cells.cellCount(), merged.pockets.size()}; }
 

@@ -25,6 +25,10 @@ struct RankReport {
   double processorMs = 0;  ///< of all its threads
 };
 
+/// A table of them, and as the member "ranks"; nothing if there are none.
+std::string ranksText(const std::vector<RankReport>& ranks);
+void addRanks(Json& json, const std::vector<RankReport>& ranks);
+
 /// Everything there is to tell of a cut; both forms tell the same.
 struct Report {
   MeshReport mesh;

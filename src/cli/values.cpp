@@ -145,6 +145,12 @@ void parseStreamlines(const std::string& word, FlowArguments& flow) {
   flow.streamlines = count;
 }
 
+void parseCorrections(const std::string& word, FlowArguments& flow) {
+  int count = 0;
+  if (!parseNumber(word, count) || count < 0) throw UsageError("--corrections needs a number of at least 0, not '" + word + "'");
+  flow.corrections = count;
+}
+
 void parseSteps(const std::string& word, FlowArguments& flow) {
   uint32_t count = 0;
   if (!parseNumber(word, count) || count < 1) throw UsageError("--steps needs a number of steps of at least 1, not '" + word + "'");
@@ -172,6 +178,7 @@ void checkFlow(const FlowArguments& flow) {
   if (!flow.wind) throw UsageError("flow needs --wind");
   if (flow.viscosity > 0 && !flow.steps) throw UsageError("--viscosity is for --steps; without them the flow has a potential");
   if (flow.farField && flow.steps) throw UsageError("--far-field is that of the potential flow, without --steps");
+  if (flow.corrections && flow.steps) throw UsageError("--corrections are those of the potential flow, without --steps");
   if (flow.streamlines && flow.steps) throw UsageError("--streamlines are those of the potential flow, without --steps");
 }
 

@@ -46,6 +46,7 @@ void parseHeights(const std::string& word, SliceArguments& slice);
 void parseLayers(const std::string& word, SliceArguments& slice);
 void parseWind(const std::string& word, FlowArguments& flow);
 void parseStreamlines(const std::string& word, FlowArguments& flow);
+void parseCorrections(const std::string& word, FlowArguments& flow);
 void parseSteps(const std::string& word, FlowArguments& flow);
 void parseViscosity(const std::string& word, FlowArguments& flow);
 

@@ -9,12 +9,20 @@
 #include "operators/require_cut_mesh.h"
 #include "physics/cell_velocities.h"
 #include "physics/far_field.h"
+#include "physics/flow_of_phi.h"
 #include "physics/poisson_setup.h"
 #include "physics/secants.h"
 #include "physics/wind.h"
 
 namespace mandoline {
 namespace {
+
+std::array<double, 3> unitOf(const std::array<double, 3>& wind) {
+  const double length = measuring::length(wind);
+  std::array<double, 3> unit{};
+  for (size_t d = 0; d < 3 && length > 0; ++d) unit[d] = wind[d] / length;
+  return unit;
+}
 
 /// Turns the flow of a wind of length 1 into that of a wind of the given length.
 void scale(Flow& flow, double length) {
@@ -30,6 +38,26 @@ bool isFinite(const Flow& flow) {
   return areFinite(flow.phi) && areFinite(flow.faceVelocity) && areFinite(flow.cellVelocity) && areFinite(flow.cellGradient);
 }
 
+void setOnBoundary(const Boundary& boundary, Flow& flow) {
+  for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {
+    const uint32_t h = boundary.halfFaces[b];
+    const double value = boundary.value[b];
+    if (value != 0) flow.faceVelocity[h / 2] = h % 2 == 0 ? value : -value;
+  }
+}
+
+/// What follows from phi and the velocities on faces of a wind of length 1; then all for one of the given length.
+void complete(const CellComplex& cells, const PoissonProblem& problem, double length, detail::Monitor& monitor, Flow& flow) {
+  physics::fillVelocities(cells, problem, monitor, flow);
+  for (size_t c = 0; c < cells.cellCount(); ++c) {
+    double square = 0;
+    for (size_t d = 0; d < 3; ++d) square += flow.cellVelocity[3 * c + d] * flow.cellVelocity[3 * c + d];
+    flow.cellPressure.push_back(length > 0 ? 1 - square : 0);
+  }
+  scale(flow, length);
+  if (!isFinite(flow)) flow.status = SolveStatus::breakdown;
+}
+
 class FlowSolver {
  public:
   FlowSolver(const CellComplex& cells, const FlowOptions& options) : cells_(cells), options_(options) {}
@@ -39,21 +67,12 @@ class FlowSolver {
     flow.madeFrom = cells_.fingerprint;
     flow.wind = wind;
     const double length = measuring::length(wind);
-    std::array<double, 3> unit{};
-    for (size_t d = 0; d < 3 && length > 0; ++d) unit[d] = wind[d] / length;
     PoissonProblem problem;
-    problem.boundary = physics::windBoundary(cells_, unit, flow.throttled);
+    problem.boundary = physics::windBoundary(cells_, unitOf(wind), flow.throttled);
     detail::Monitor monitor(options_, kStages);
     solve(problem, monitor, flow);
     monitor.beginStage("velocities", kStages - 1);
-    physics::fillVelocities(cells_, problem, monitor, flow);
-    for (size_t c = 0; c < cells_.cellCount(); ++c) {
-      double square = 0;
-      for (size_t d = 0; d < 3; ++d) square += flow.cellVelocity[3 * c + d] * flow.cellVelocity[3 * c + d];
-      flow.cellPressure.push_back(length > 0 ? 1 - square : 0);
-    }
-    scale(flow, length);
-    if (!isFinite(flow)) flow.status = SolveStatus::breakdown;
+    complete(cells_, problem, length, monitor, flow);
     return flow;
   }
 
@@ -112,11 +131,7 @@ class FlowSolver {
     if (!flow.residuals.empty()) flow.residuals.pop_back();
     flow.residuals.insert(flow.residuals.end(), solution.residuals.begin(), solution.residuals.end());
     flow.faceVelocity = std::move(solution.faceDerivative);
-    for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {
-      const uint32_t h = boundary.halfFaces[b];
-      const double value = boundary.value[b];
-      if (value != 0) flow.faceVelocity[h / 2] = h % 2 == 0 ? value : -value;
-    }
+    setOnBoundary(boundary, flow);
   }
 
   static constexpr double kLoose = 1e-3;   ///< the tolerance of the first pass, which only dipoles follow from
@@ -128,6 +143,28 @@ class FlowSolver {
 };
 
 }  // namespace
+
+Flow physics::flowOfPhi(const CellComplex& cells, const std::array<double, 3>& wind, std::vector<double> phi, const RunOptions& options) {
+  return detail::runCall("flow", [&] {
+    Flow flow;
+    flow.madeFrom = cells.fingerprint;
+    flow.wind = wind;
+    flow.phi = std::move(phi);
+    const double length = measuring::length(wind);
+    for (double& value : flow.phi) value = length > 0 ? value / length : 0;
+    PoissonProblem problem;
+    problem.boundary = windBoundary(cells, unitOf(wind), flow.throttled);
+    const DualEdges dual = dualEdges(cells, problem.dualPoints);
+    const std::vector<BoundaryTerm> terms = boundaryTerms(cells, problem);
+    flow.faceVelocity = Differentiator(cells, dual, problem, terms).plain(flow.phi);
+    flow.faceVelocity.resize(cells.faceCount());
+    setOnBoundary(problem.boundary, flow);
+    detail::Monitor monitor(options, 1);
+    monitor.beginStage("velocities", 0);
+    complete(cells, problem, length, monitor, flow);
+    return flow;
+  });
+}
 
 Flow solveFlow(const CellComplex& cells, const std::array<double, 3>& wind, const FlowOptions& options) {
   const bool isNumber = std::isfinite(wind[0]) && std::isfinite(wind[1]) && std::isfinite(wind[2]);

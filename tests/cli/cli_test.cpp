@@ -344,7 +344,7 @@ TEST_CASE("Command line: misspelt options are errors that suggest the name", "[c
   const std::pair<std::string, std::string> commands[] = {
       {"cut", cut + " validate coarsen refine refine-box merge unite-walls faces"},
       {"slice", cut + " axis normal heights layers"},
-      {"flow", cut + " coarsen refine refine-box merge unite-walls faces wind far-field streamlines steps viscosity"},
+      {"flow", cut + " coarsen refine refine-box merge unite-walls faces wind far-field corrections streamlines steps viscosity"},
       {"info", "threads report format"},
       {"resolve", "rule orient threads report format"}};
   std::mt19937 random(7);

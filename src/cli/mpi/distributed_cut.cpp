@@ -11,6 +11,10 @@
 #include "io/output_file.h"
 #include "mandoline/distributed.h"
 
+#ifdef MANDOLINE_HAVE_PETSC
+#include "cli/mpi/distributed_flow.h"
+#endif
+
 namespace mandoline::cli {
 namespace {
 
@@ -42,9 +46,18 @@ void checkPieces(const Arguments& arguments, const std::string& output) {
   }
 }
 
+void checkFlow([[maybe_unused]] const Arguments& arguments) {
+#ifdef MANDOLINE_HAVE_PETSC
+  checkDistributedFlow(arguments);
+#else
+  throw UsageError("this program was built without PETSc or Eigen, which flow needs in several processes");
+#endif
+}
+
 void checkArguments(const Arguments& arguments) {
   if (arguments.stream) throw UsageError("--stream: one process alone streams. A .pvtu file has a piece of each process");
   if (arguments.snapTolerance > 0) throw UsageError("--snap-tolerance: several processes do not snap");
+  if (arguments.command == Command::flow) return checkFlow(arguments);
   for (const std::string& output : arguments.outputs) {
     if (!isInPieces(output)) continue;
     checkPieces(arguments, output);
@@ -72,6 +85,7 @@ class Run {
   int run() {
     read();
     if (const Error error = cut(); error.status != Status::ok) return fail(error);
+    if (arguments_.command == Command::flow) return ranks_.comm().reduce(finishFlow(), MPI_MAX);
     const RankPiece piece = needsPiece() ? cut_->piece() : RankPiece();
     for (const std::string& output : arguments_.outputs) {
       if (isPvtu(output)) writePiece(output, piece);
@@ -91,7 +105,8 @@ class Run {
     ranks_.inFirst([&] {
       input_ = readInput(arguments_);
       info_ = inspect(input_.mesh);
-      grid_ = makeGrid(arguments_.grid, input_.mesh, info_);
+      const bool isFlow = arguments_.command == Command::flow;
+      grid_ = makeGrid(isFlow ? flowGrid(arguments_.grid) : arguments_.grid, input_.mesh, info_);
     });
   }
 
@@ -215,6 +230,23 @@ class Run {
     });
     return exitCode;
   }
+
+#ifdef MANDOLINE_HAVE_PETSC
+  /// The first process gathers the whole cut, and phi.
+  int finishFlow() {
+    const SolveCells solve = solveDistributed(ranks_, arguments_, *cut_);
+    CutResult whole = cut_->gather();
+    const std::vector<RankReport> reports = ranks();
+    int exitCode = kFine;
+    ranks_.inFirst([&] {
+      if (needsInside(arguments_)) findInside(arguments_, input_.mesh, whole.mesh);
+      exitCode = cli::finishFlow({arguments_, input_, whole}, solve, reports);
+    });
+    return exitCode;
+  }
+#else
+  int finishFlow() { return kNotCut; }  // checkArguments() has refused it
+#endif
 
   int finishReduced(const RankPiece& piece) {
     std::vector<double> volumes = cut_->regionVolumes(piece);

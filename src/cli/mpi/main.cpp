@@ -64,9 +64,10 @@ int run(Ranks& ranks, std::vector<std::string> words) {
       if (ranks.isFirst()) std::cout << "mandoline-mpi " << MANDOLINE_VERSION << "\n";
       return kFine;
     case Command::cut:
+    case Command::flow:
       break;
     default:
-      ranks.inFirst([] { throw UsageError("several processes cut; mandoline has the other commands"); });
+      ranks.inFirst([] { throw UsageError("several processes cut and solve flows; mandoline has the other commands"); });
   }
   const int here = ranks.onThisMachine();
   limitMemory(here);
