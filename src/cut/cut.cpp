@@ -93,7 +93,7 @@ void cutInBricks(CutState& state, Clock& clock, Run& run) {
   const Input& input = surface.input;
 
   clock.begin("triEdges");
-  cutTriEdges(surface, run, state.keeping ? state.keeping->crossings() : CrossingsBefore());
+  cutTriEdges(surface, run, state.keeping ? &state.keeping->crossings() : nullptr);
 
   clock.begin("triFaces");
   BrickGrid brickGrid(input, state.brickShifts ? *state.brickShifts : BrickGrid::shiftsFor(input, run.monitor.threads()));

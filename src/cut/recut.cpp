@@ -30,7 +30,7 @@ class KeepingOf : public Keeping {
   KeepingOf(LastCut& before, CutState& now, const Moved& moved)
       : before_(*before.state), positions_(before.positions), now_(now), moved_(moved) {}
 
-  CrossingsBefore crossings() override { return {before_.surface, now_.surface, moved_}; }
+  const KnownCrossings& crossings() override { return crossings_.emplace(before_.surface, now_.surface, moved_); }
   KeptBricks& bricks() override {
     kept_ = keepBricks({before_.surface, before_.parts, before_.bricks, before_.cuts, moved_}, now_.surface, now_.parts, now_.bricks);
     return kept_;
@@ -51,6 +51,7 @@ class KeepingOf : public Keeping {
   const std::vector<double>& positions_;
   CutState& now_;
   const Moved& moved_;
+  std::optional<CrossingsBefore> crossings_;
   KeptBricks kept_;
 };
 

@@ -60,7 +60,6 @@ BrickCuts cutBricks(const Surface& surface, const SurfaceParts& parts, Bricks& b
   cuts.resize(bricks.size());
   const auto weightOf = [&](uint32_t b) { return bricks.parts[{b}].size() + bricks.dividedFaces[{b}].size(); };
   std::vector<uint32_t> order = bricks.here.numbers();
-  if (kept) std::erase_if(order, [&](uint32_t b) { return kept->has({b}); });
   sortItems(order, [&](uint32_t a, uint32_t b) { return weightOf(a) > weightOf(b); });  // the heaviest first
   std::vector<std::unique_ptr<BrickThread>> cutters(run.monitor.threads());
   std::vector<uint32_t> memory = std::exchange(cuts.freeMemory, {});  // per thread
@@ -69,6 +68,7 @@ BrickCuts cutBricks(const Surface& surface, const SurfaceParts& parts, Bricks& b
     cuts.memory.emplace_back();
   }
   runItems(order, run.monitor, [&](size_t thread, uint32_t b) {
+    if (kept && kept->has({b})) return;
     if (!cutters[thread]) cutters[thread] = std::make_unique<BrickThread>(surface, parts, bricks, run.onlyGeneral);
     cuts[{b}] = cutters[thread]->cut({b}, cuts.memory[memory[thread]]);
     cuts[{b}].memory = memory[thread];

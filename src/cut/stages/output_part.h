@@ -15,7 +15,7 @@ namespace mandoline::detail {
 /// What a cut keeps of the one before it, each asked for as soon as it can be told. An interface: other cuts don't link what finds it.
 class Keeping {
  public:
-  virtual CrossingsBefore crossings() = 0;
+  virtual const KnownCrossings& crossings() = 0;
   virtual KeptBricks& bricks() = 0;  ///< of those that are laid out
   virtual IdVector<BrickId, BrickSeams> seams() = 0;
   virtual KeptVertices vertices() = 0;

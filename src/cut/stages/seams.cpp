@@ -1,5 +1,7 @@
 #include "cut/stages/seams.h"
 
+#include <numeric>
+
 namespace mandoline::detail {
 namespace {
 
@@ -78,7 +80,7 @@ class SeamFinder {
     const uint32_t run = runs_.at(untouched);
     const auto isSame = [&](const SeamJoin& join) { return join.component == component && join.run == run; };
     const auto end = out_.joins.end(), begin = end - ptrdiff_t(std::min(kLast, out_.joins.size()));
-    if (std::none_of(begin, end, isSame)) out_.joins.push_back({component, run, untouched});
+    if (std::none_of(begin, end, isSame)) out_.joins.push_back({untouched, component, run});
   }
 
   void countRows() {
@@ -145,11 +147,11 @@ void BrickCounts::add(const BrickCounts& more) {
 
 void findSeams(const CutBricks& cut, const KeptBricks* kept, IdVector<BrickId, BrickSeams>& seams, Run& run) {
   seams.resize(cut.cuts.size());
-  std::vector<uint32_t> order;
-  for (const BrickId b : seams.ids()) {
-    if (!kept || !kept->isInner(b)) order.push_back(b.number);
-  }
-  runItems(order, run.monitor, [&](size_t, uint32_t b) { SeamFinder(cut, {b}, seams[{b}]).run(); });
+  std::vector<uint32_t> order(seams.size());
+  std::iota(order.begin(), order.end(), 0u);
+  runItems(order, run.monitor, [&](size_t, uint32_t b) {
+    if (!kept || !kept->isInner({b})) SeamFinder(cut, {b}, seams[{b}]).run();
+  });
 }
 
 }  // namespace mandoline::detail

@@ -36,8 +36,8 @@ struct BrickCounts {
 
 /// A component of a brick and a run of untouched grid cells that lie beside each other.
 struct SeamJoin {
-  uint32_t component, run;
   Slab cell;  ///< one of the run that lies beside the component, in the brick or beside it
+  uint32_t component, run;
 };
 
 struct BrickSeams {

@@ -126,7 +126,7 @@ const Slab* CrossingsBefore::find(TriEdgeId edge) const {
   return &before_->vertices.slabs[(*before_->vertices.crossings(edge).begin()).number];
 }
 
-void cutTriEdges(Surface& surface, Run& run, const CrossingsBefore& before) {
+void cutTriEdges(Surface& surface, Run& run, const KnownCrossings* known) {
   const Input& input = surface.input;
   const MeshEdges& edges = surface.edges();
   CutVertices& vertices = surface.vertices;
@@ -155,8 +155,8 @@ void cutTriEdges(Surface& surface, Run& run, const CrossingsBefore& before) {
       if (crossings.empty()) continue;
       const VertexId first = *crossings.begin();
       for (const VertexId v : crossings) vertices.parentEdges[v.number - vertices.firstOnEdge.number] = e;
-      if (const Slab* known = before.find(e)) {
-        for (const VertexId v : crossings) vertices.slabs[v.number] = known[v.number - first.number];
+      if (const Slab* slabs = known ? known->find(e) : nullptr) {
+        for (const VertexId v : crossings) vertices.slabs[v.number] = slabs[v.number - first.number];
         continue;
       }
       const size_t count =

@@ -39,23 +39,30 @@ struct Surface {
   const MeshEdges& edges() const { return input.mesh->edges; }
 };
 
-/// The crossings of a surface before whose triangles were connected alike.
-class CrossingsBefore {
+/// Crossings that are known beforehand. An interface: other cuts don't link what finds them.
+class KnownCrossings {
  public:
-  /// None.
-  CrossingsBefore() = default;
+  /// The slabs of an edge's crossings, or null if they are not known.
+  virtual const Slab* find(TriEdgeId edge) const = 0;
+
+ protected:
+  ~KnownCrossings() = default;
+};
+
+/// The crossings of a surface before whose triangles were connected alike.
+class CrossingsBefore final : public KnownCrossings {
+ public:
   /// None, too, where triangles meet in one of both.
   CrossingsBefore(const Surface& before, const Surface& now, const Moved& moved);
 
-  /// The slabs of an edge's crossings, or null if they are not known.
-  const Slab* find(TriEdgeId edge) const;
+  const Slab* find(TriEdgeId edge) const override;
 
  private:
   const Surface* before_ = nullptr;
   const Moved* moved_ = nullptr;
 };
 
-/// Fills in the rest of the surface from `surface.input`.
-void cutTriEdges(Surface& surface, Run& run, const CrossingsBefore& before = {});
+/// Fills in the rest of the surface from `surface.input`. `known` may be null.
+void cutTriEdges(Surface& surface, Run& run, const KnownCrossings* known = nullptr);
 
 }  // namespace mandoline::detail
