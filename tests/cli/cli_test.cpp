@@ -844,7 +844,7 @@ TEST_CASE("Command line: a flow in steps, with forces per group", "[cli]") {
   for (const std::string part : {"\"steps\": 3,", "\"largestDivergence\": ", "\"forces\": [", "\"viscous\": [", "\"group\": null"})
     CHECK(contains(reported.out, part));
   CHECK(contains(with({"--viscosity", "-1"}).err, "--viscosity needs a number of at least 0"));
-  for (const std::vector<std::string>& of : {std::vector<std::string>{"--streamlines", "5"}, {"--far-field"}})
+  for (const std::vector<std::string>& of : {std::vector<std::string>{"--streamlines", "5"}, {"--far-field"}, {"--corrections", "0"}})
     CHECK(contains(with(of).err, "without --steps"));
   CHECK(contains(run(folder, {"flow", mesh, "--wind", "1,0,0", "--steps", "0", "-o", vtu}).err, "--steps needs a number of steps"));
   CHECK(contains(run(folder, {"flow", mesh, "--wind", "1,0,0", "--viscosity", "1", "-o", vtu}).err, "--viscosity is for --steps"));
@@ -867,6 +867,7 @@ TEST_CASE("Command line: wrong outputs of a flow are told before it is solved", 
   CHECK(contains(message({flow, "--streamlines", "5"}), "--streamlines: only .obj files have streamlines"));
   CHECK(
       contains(message({folder.path("lines.obj"), "--streamlines", "0"}), "--streamlines needs a number of lines of at least 1, not '0'"));
+  CHECK(contains(message({flow, "--corrections", "-1"}), "--corrections needs a number of at least 0, not '-1'"));
   CHECK(contains(message({folder.path("lines.obj"), "--only", "inside"}), "--only: only .vtu files have a part of the cells"));
 }
 

@@ -404,4 +404,81 @@ TEST_CASE("A disk that is full for one process leaves no case", "[mpi]") {
   CHECK(fs::is_empty(folder.path("case")));
 }
 
+#ifdef MANDOLINE_MPI_FLOWS
+
+TEST_CASE("A flow of several processes is that of one without corrections", "[mpi]") {
+  const TemporaryFolder folder;
+  const std::string mesh = meshFile(folder, shapes::merged({shapes::icosphere({0, 0, 0}, 1, 2), shapes::cube(0.5, 1.5)}));
+  Names words = {"flow",
+                 mesh,
+                 "--wind",
+                 "2,1,0",
+                 "--cells",
+                 "9",
+                 "--merge",
+                 "0",
+                 "--corrections",
+                 "0",
+                 "--report",
+                 folder.path("one.json"),
+                 "-o",
+                 folder.path("one.vtu")};
+  REQUIRE(run(folder, words).exitCode == 0);
+  const vtu_files::Vtu one(folder.read("one.vtu"));
+  const auto expected = one.array<double>("phi"), velocity = one.array<double>("velocity");
+  words[11] = folder.path("some.json"), words[13] = folder.path("some.vtu");
+  for (const int processes : {1, 2, 3}) {
+    CAPTURE(processes);
+    const Outcome outcome = runRanks(folder, processes, words);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.exitCode == 0);
+    const vtu_files::Vtu some(folder.read("some.vtu"));
+    const auto phi = some.array<double>("phi"), speeds = some.array<double>("velocity");
+    REQUIRE(phi.size() == expected.size());
+    double off = 0, largest = 0, speedOff = 0;
+    for (size_t c = 0; c < phi.size(); ++c) {
+      off = std::max(off, std::fabs(phi[c] - expected[c]));
+      largest = std::max(largest, std::fabs(expected[c]));
+    }
+    for (size_t i = 0; i < velocity.size(); ++i) speedOff = std::max(speedOff, std::fabs(velocity[i] - speeds[i]));
+    CHECK(off <= 1e-9 * largest);
+    CHECK(speedOff <= 1e-8);
+    CHECK(contains(folder.read("some.json"), "\"status\": \"ok\""));
+    CHECK(countOf(folder.read("some.json"), "\"bytesSent\"") == size_t(processes));
+  }
+}
+
+TEST_CASE("What a flow of several processes has not is said once", "[mpi]") {
+  const TemporaryFolder folder;
+  const std::string mesh = meshFile(folder, shapes::cube(0, 2));
+  const Names flow = {"flow", mesh, "--wind", "1,0,0", "--cells", "6", "-o", folder.path("a.vtu")};
+  const std::pair<Names, std::string> cases[] = {
+      {{"--merge", "0"}, "several processes solve without corrections: --corrections 0"},
+      {{"--corrections", "0"}, "several processes do not merge cells: --merge 0"},
+      {{"--corrections", "0", "--merge", "0", "--coarsen", "2"}, "--coarsen: a flow of several processes has none"},
+      {{"--corrections", "0", "--merge", "0", "--far-field"}, "--far-field: a flow of several processes has none"},
+  };
+  for (const auto& [options, message] : cases) {
+    Names words = flow;
+    words.insert(words.end(), options.begin(), options.end());
+    const Outcome outcome = runRanks(folder, 2, words);
+    CAPTURE(message, outcome.err);
+    CHECK(outcome.exitCode == 2);
+    CHECK(contains(outcome.err, message));
+    CHECK(countOf(outcome.err, "mandoline-mpi: ") == 1);
+  }
+}
+
+#else
+
+TEST_CASE("Without PETSc several processes say that flows need it", "[mpi]") {
+  const TemporaryFolder folder;
+  const std::string mesh = meshFile(folder, shapes::cube(0, 2));
+  const Outcome outcome = runRanks(folder, 2, {"flow", mesh, "--wind", "1,0,0", "-o", folder.path("a.vtu")});
+  CHECK(outcome.exitCode == 2);
+  CHECK(contains(outcome.err, "this program was built without PETSc or Eigen, which flow needs in several processes"));
+}
+
+#endif
+
 #endif

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 
 #include "cli/mpi/flow/rank_flow.h"
 #include "mandoline/io.h"
+#include "real_meshes.h"
 #include "shapes.h"
 
 using namespace mandoline;
@@ -73,21 +73,6 @@ bool check(detail::Communicator& comm, const std::string& name, const Mesh& mesh
     std::cerr << name << ", process " << comm.rank() << ": " << problem << std::endl;
   }
   return comm.reduce(problem.empty() ? 0 : 1, MPI_MAX) == 0;
-}
-
-std::vector<std::string> realMeshes(size_t every) {
-  const char* folder = std::getenv("MANDOLINE_MESHES");
-  std::vector<std::string> files;
-  if (!folder || !*folder) return files;
-  std::ifstream in(std::filesystem::path(folder) / "manifest.csv");
-  std::string line;
-  std::getline(in, line);
-  for (size_t i = 0; std::getline(in, line);) {
-    const size_t file = line.find(','), kind = line.find(',', file + 1);
-    if (std::strtoul(line.c_str() + kind + 1, nullptr, 10) > 40000) continue;
-    if (i++ % every == 0) files.push_back((std::filesystem::path(folder) / line.substr(0, file)).string());
-  }
-  return files;
 }
 
 int checkAll(int64_t n, size_t every) {

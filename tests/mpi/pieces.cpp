@@ -6,7 +6,6 @@
 // compares its own piece: what it has is that of the whole under the same ids, and every id belongs to one process.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 
 #include "case_list.h"
@@ -16,6 +15,7 @@
 #include "mandoline/io.h"
 #include "mandoline/measure.h"
 #include "mandoline/validate.h"
+#include "real_meshes.h"
 #include "same_bits.h"
 
 using namespace mandoline;
@@ -210,21 +210,6 @@ bool check(const std::string& name, const PreparedMesh& mesh, const Grid& grid) 
     const CutResult gathered = distributed->gather();
     if (rankHere() == 0) require(differences(gathered.mesh, whole.mesh).empty(), "the gathered cut differs");
   });
-}
-
-std::vector<std::string> realMeshes(size_t every) {
-  const char* folder = std::getenv("MANDOLINE_MESHES");
-  std::vector<std::string> files;
-  if (!folder || !*folder) return files;
-  std::ifstream in(std::filesystem::path(folder) / "manifest.csv");
-  std::string line;
-  std::getline(in, line);
-  for (size_t i = 0; std::getline(in, line);) {
-    const size_t file = line.find(','), kind = line.find(',', file + 1);
-    if (std::strtoul(line.c_str() + kind + 1, nullptr, 10) > 40000) continue;
-    if (i++ % every == 0) files.push_back((std::filesystem::path(folder) / line.substr(0, file)).string());
-  }
-  return files;
 }
 
 int checkAll(int64_t cells, size_t every) {

@@ -13,15 +13,20 @@ if(TARGET mandoline_rank_flow)
   target_include_directories(mandoline-mpi-flows PRIVATE ${PROJECT_SOURCE_DIR}/src support)
   target_link_libraries(mandoline-mpi-flows PRIVATE mandoline_rank_flow mandoline_io)
   list(APPEND MANDOLINE_MPI_PROGRAMS mandoline-mpi-flows)
+  set(MANDOLINE_MPI_DEFINITIONS MANDOLINE_MPI_FLOWS)
 endif()
 # Of this source alone: others need not be compiled again once MPI is there.
 set_source_files_properties(cli/mpi_test.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON
-  COMPILE_DEFINITIONS "MANDOLINE_MPI=\"$<TARGET_FILE:mandoline-mpi>\";MANDOLINE_MPIEXEC=\"${MPIEXEC_EXECUTABLE}\"")
+  COMPILE_DEFINITIONS "MANDOLINE_MPI=\"$<TARGET_FILE:mandoline-mpi>\";MANDOLINE_MPIEXEC=\"${MPIEXEC_EXECUTABLE}\";${MANDOLINE_MPI_DEFINITIONS}")
 
 # Of Open MPI; others do without.
 set(MANDOLINE_MPI_ENVIRONMENT OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
   OMPI_MCA_hwloc_base_binding_policy=none)
 foreach(processes 2 3)
-  add_test(NAME mpi${processes} COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${processes} $<TARGET_FILE:mandoline-mpi-pieces>)
-  set_tests_properties(mpi${processes} PROPERTIES LABELS mpi ENVIRONMENT "${MANDOLINE_MPI_ENVIRONMENT}" PROCESSORS 2)
+  foreach(program ${MANDOLINE_MPI_PROGRAMS})
+    string(REPLACE mandoline-mpi-pieces mpi${processes} name ${program})
+    string(REPLACE mandoline-mpi-flows mpi${processes}flows name ${name})
+    add_test(NAME ${name} COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${processes} $<TARGET_FILE:${program}>)
+    set_tests_properties(${name} PROPERTIES LABELS mpi ENVIRONMENT "${MANDOLINE_MPI_ENVIRONMENT}" PROCESSORS 2)
+  endforeach()
 endforeach()
