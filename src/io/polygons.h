@@ -1,6 +1,7 @@
 // Faces as the simple polygons that file formats want, without holes and without slits.
 #pragma once
 
+#include "base/shared.h"
 #include "mandoline/triangulate.h"
 
 namespace mandoline::detail {
@@ -8,7 +9,7 @@ namespace mandoline::detail {
 /// A face that is one simple loop stays a polygon; any other is split into its triangles. Both cells at a face see the same polygons.
 class Polygons {
  public:
-  explicit Polygons(const CutMesh& cutMesh);
+  MANDOLINE_SHARED explicit Polygons(const CutMesh& cutMesh);
 
   /// Calls visit(std::span<const uint32_t> vertices) for each polygon of a face, counter-clockwise about the face's normal.
   template <class Visit>
