@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <cstring>
-#include <iterator>
 
 namespace mandoline::detail {
 namespace {
@@ -80,7 +79,8 @@ std::vector<uint32_t> firstCells(const BrickCut& cut) {
   return first;
 }
 
-std::vector<uint32_t> headOf(const CutState& state, const ShareOf& shareOf, Fingerprint cut) {
+constexpr size_t kHead = 5;
+std::array<uint32_t, kHead> headOf(const CutState& state, const ShareOf& shareOf, Fingerprint cut) {
   return {uint32_t(cut.value >> 32), uint32_t(cut.value), shareOf.count, shareOf.index, uint32_t(state.used.size())};
 }
 
@@ -93,7 +93,7 @@ void addBrick(const Bricks& bricks, BrickId b, const BrickCut& cut, Writer& to) 
   forArrays(cut, [&](const auto& array) { to.add(array); });
 }
 
-/// Appends it to the bricks and their cuts.
+/// Appends it to the bricks; its cut has a place already.
 void readBrick(Reader& from, const CellLayers& layers, Bricks& bricks, BrickCuts& cuts) {
   const uint64_t high = from.number(), key = high << 32 | from.number();
   const bool ascends = bricks.size() == 0 || bricks.keys.back() < key;
@@ -101,8 +101,9 @@ void readBrick(Reader& from, const CellLayers& layers, Bricks& bricks, BrickCuts
   if (!ascends || key >= uint64_t(nx) * uint64_t(ny) * uint64_t(nz)) throw BadSummary();
   const BrickBox box = bricks.grid.boxOf(key);
   if (box.first[2] < layers.first || box.first[2] >= layers.past) throw BadSummary();
+  if (bricks.size() == cuts.size()) throw BadSummary();
   const BrickId b = bricks.add(key);
-  BrickCut& cut = cuts.emplace_back();
+  BrickCut& cut = cuts[b];
   const std::span<const uint64_t> touched = from.items<uint64_t>();
   if (touched.size() != bricks.wordCount(b)) throw BadSummary();
   std::copy(touched.begin(), touched.end(), bricks.wordsOf(b).begin());
@@ -148,7 +149,8 @@ size_t summaryBytes(const CutState& state, BrickId brick) {
 
 std::vector<uint32_t> summarize(const CutState& state, const ShareOf& shareOf, Fingerprint cut) {
   Writer to;
-  to.words = headOf(state, shareOf, cut);
+  const auto head = headOf(state, shareOf, cut);
+  to.words.assign(head.begin(), head.end());
   to.add(uint32_t(state.bricks.here.size()));
   for (const BrickId b : state.bricks.here.ids()) addBrick(state.bricks, b, state.cuts[b], to);
   addUsed(state.used, to);
@@ -162,28 +164,31 @@ void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareC
     throw Failure{{Status::badArgument, int64_t(share), -1, message}};
   };
   if (summaries.size() != shareOf.count) fail(std::min(summaries.size(), size_t(shareOf.count) - 1));
+  size_t count = 0;
+  for (uint32_t share = 0; share < shareOf.count; ++share) {
+    const auto head = headOf(state, {share, shareOf.count}, cut);
+    if (summaries[share].size() <= kHead || !std::equal(head.begin(), head.end(), summaries[share].begin())) fail(share);
+    count += std::min<size_t>(summaries[share][kHead], summaries[share].size());  // more there can't be
+  }
   Bricks bricks;
   bricks.grid = state.bricks.grid;
   BrickCuts cuts;
+  cuts.resize(count);
+  BrickMemory memory;
   BricksHere here = state.bricks.here;
   for (uint32_t share = 0; share < shareOf.count; ++share) {
-    const std::vector<uint32_t>& summary = summaries[share];
-    const std::vector<uint32_t> head = headOf(state, {share, shareOf.count}, cut);
-    if (summary.size() < head.size() || !std::equal(head.begin(), head.end(), summary.begin())) fail(share);
     if (share == shareOf.index) {
       here.first = {uint32_t(bricks.size())};
       for (const BrickId b : state.bricks.here.ids()) {
         const std::span<const uint64_t> touched = state.bricks.wordsOf(b);
         std::copy(touched.begin(), touched.end(), bricks.wordsOf(bricks.add(state.bricks.keys[b])).begin());
-        cuts.push_back({});
       }
       here.past = {uint32_t(bricks.size())};
       continue;
     }
-    cuts.memory.emplace_back();
-    Reader from(std::span<const uint32_t>(summary).subspan(head.size()), cuts.memory.back().seams);
+    Reader from(std::span<const uint32_t>(summaries[share]).subspan(kHead), memory.seams);
     try {
-      for (uint32_t count = from.number(); count > 0; --count) readBrick(from, layers.of(share), bricks, cuts);
+      for (uint32_t left = from.number(); left > 0; --left) readBrick(from, layers.of(share), bricks, cuts);
       readUsed(from, state.used);
       if (!from.isAtEnd()) throw BadSummary();
     } catch (const BadSummary&) {
@@ -192,7 +197,8 @@ void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareC
   }
   for (const BrickId b : state.bricks.here.ids())
     cuts[{here.first.number + b.number - state.bricks.here.first.number}] = std::move(state.cuts[b]);
-  std::move(state.cuts.memory.begin(), state.cuts.memory.end(), std::back_inserter(cuts.memory));
+  cuts.memory = std::move(state.cuts.memory);
+  cuts.memory.push_back(std::move(memory));
   bricks.here = here;
   state.bricks = std::move(bricks);
   state.cuts = std::move(cuts);
