@@ -83,7 +83,6 @@ void checkFlowOutputs(const Arguments& arguments) {
   checkOutputs(arguments, isFlowFormat, "a flow is written as .vtu or .obj");
   const auto writesVtu = [&](const std::string& output) { return isVtu(arguments, output); };
   const bool hasLines = !std::all_of(arguments.outputs.begin(), arguments.outputs.end(), writesVtu);
-  if (arguments.refines() && hasLines) throw UsageError("--refine: streamlines need cells that are not refined");
   if (arguments.flow.streamlines && !hasLines) throw UsageError("--streamlines: only .obj files have streamlines");
   if (std::any_of(arguments.outputs.begin(), arguments.outputs.end(), writesVtu)) return;
   if (arguments.faces) throw UsageError("--faces: only .vtu files have faces instead of cells");

@@ -144,7 +144,7 @@ Options of flow
   --coarsen LEVELS[,LAYERS], --faces, --simple-cells, --only WHAT, --inside-threshold T
                          as of cut; faces have normal_velocity, normal and area
   --refine LEVELS[,DEGREES], --refine-box X0,Y0,Z0,X1,Y1,Z1,LEVELS
-                         as of cut; not with streamlines
+                         as of cut
   --merge FRACTION       as of cut (default: 0.2; 0 merges nothing)
   --unite-walls DEGREES  as of cut
   --corrections N        how often at most the solution is corrected beside cut-cells (default:

@@ -39,9 +39,9 @@ void requireIds(const MeshView& mesh, const CutMesh& cutMesh) {
 
 }  // namespace
 
-CutInput::CutInput(const MeshView& mesh, const CutMesh& cutMesh) : mesh_(mesh) {
+CutInput::CutInput(const MeshView& mesh, const CutMesh& cutMesh, bool mayBeRefined) : mesh_(mesh) {
   requireArrays(mesh);
-  refuseRefined(cutMesh);
+  if (!mayBeRefined) refuseRefined(cutMesh);
   requireIds(mesh, cutMesh);
   if (cutMesh.madeFrom.isKnown() && detail::fingerprintOf(mesh) != cutMesh.madeFrom) refuseOther("its positions or triangles are others");
   if (cutMesh.snapTolerance > 0) snapped_ = detail::snapped(mesh, cutMesh.grid, cutMesh.snapTolerance);

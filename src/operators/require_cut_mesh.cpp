@@ -12,8 +12,7 @@ void requireCutMesh(const CutMesh& cutMesh) {
 }
 
 void refuseRefined(const CutMesh& cutMesh) {
-  if (cutMesh.rowRunOffsets.empty() && !cutMesh.loopOffsets.empty())
-    refuse("The cut-mesh is that of refined cells, which only functions that take both have a use for.");
+  if (isRefined(cutMesh)) refuse("The cut-mesh is that of refined cells, which only functions that take both have a use for.");
 }
 
 void requireNotEmpty(const CutMesh& cutMesh) {

@@ -16,6 +16,8 @@ MANDOLINE_SHARED void requireCutMesh(const CutMesh& cutMesh);
 /// Throws CallError for an empty one alone: for functions that take the cut-mesh of refined cells, too.
 MANDOLINE_SHARED void requireNotEmpty(const CutMesh& cutMesh);
 
+inline bool isRefined(const CutMesh& cutMesh) { return cutMesh.rowRunOffsets.empty() && !cutMesh.loopOffsets.empty(); }
+
 /// Throws CallError for that of refined cells alone.
 MANDOLINE_SHARED void refuseRefined(const CutMesh& cutMesh);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mandoline/locate.h"
+#include "base/sort.h"
 #include "operators/require_cut_mesh.h"
 
 namespace mandoline {
@@ -13,8 +13,8 @@ static constexpr const char* kOtherCells = "The flow is one of other cells.";
 
 operators::CutInput requireField(const FlowField& field, std::span<const double> points) {
   const auto& [mesh, cutMesh, cells, flow] = field;
-  operators::requireCutMesh(cutMesh);
-  operators::CutInput input(mesh, cutMesh);
+  operators::requireNotEmpty(cutMesh);
+  operators::CutInput input(mesh, cutMesh, true);
   operators::requireCellsOf(cutMesh, cells);
   const size_t n = cells.cellCount();
   for (size_t i = 0; i < 3 * n; ++i) {
@@ -30,37 +30,98 @@ operators::CutInput requireField(const FlowField& field, std::span<const double>
   return input;
 }
 
-FieldMembers membersOf(const FlowField& field) {
+FieldMembers::FieldMembers(const FlowField& field) : cutCells_(field.cutMesh.cellCount()) {
   constexpr uint32_t kNone = ~0u;
-  const CellComplex& cells = field.cells;
-  const size_t cutCells = field.cutMesh.cellCount();
-  FieldMembers members;
-  members.cellOf.assign(std::max(cells.cellCount(), cells.cellMembers.size()), kNone);
+  const auto& [mesh, cutMesh, cells, flow] = field;
+  cellOf_.assign(std::max(cells.cellCount(), cells.cellMembers.size()), kNone);
   for (uint32_t c = 0; c < cells.cellCount(); ++c) {
     for (const uint32_t m : cells.membersOfCell(c)) {
-      if (m >= members.cellOf.size() || members.cellOf[m] != kNone) operators::refuseCells();
-      members.cellOf[m] = c;
+      if (m >= cellOf_.size() || cellOf_[m] != kNone) operators::refuseCells();
+      cellOf_[m] = c;
     }
   }
-  OctreeCells& octree = members.octree;
-  for (size_t d = 0; d < 3; ++d) octree.gridCells[d] = int32_t(field.cutMesh.grid.cells(int(d)));
-  for (size_t m = cutCells; m < members.cellOf.size(); ++m) {
-    const size_t c = members.cellOf[m];
-    for (size_t d = 0; d < 3; ++d) octree.cellCorner.push_back(cells.cellCorner[3 * c + d]);
-    octree.cellLevel.push_back(cells.cellLevel[c]);
-    octree.cellRegion.push_back(cells.cellRegion[c]);
+  for (size_t d = 0; d < 3; ++d) blocks_.gridCells[d] = int32_t(cutMesh.grid.cells(int(d)));
+  for (size_t m = 0; m < cellOf_.size(); ++m) {
+    const size_t c = cellOf_[m];
+    if (c == kNone) operators::refuseCells();
+    const int32_t* at = isCut(m) ? &cutMesh.cellGridCell[3 * m] : &cells.cellCorner[3 * c];
+    if (m == 0 || !isCut(m) || !std::equal(at, at + 3, at - 3)) {
+      blocks_.cellCorner.insert(blocks_.cellCorner.end(), at, at + 3);
+      blocks_.cellLevel.push_back(isCut(m) ? 0 : cells.cellLevel[c]);
+      firstMembers_.push_back(uint32_t(m));
+    }
+    blocksOf_.push_back(uint32_t(blocks_.cellCount() - 1));
   }
-  return members;
+  firstMembers_.push_back(uint32_t(cellOf_.size()));
+  if (operators::isRefined(cutMesh)) findLevels();
+  index_.emplace(blocks_);
+}
+
+/// Of the blocks with cut-cells, which may have merged with cells of other sizes. Blocks fill the grid: so one is as large as it can be
+/// without those that begin beside it, half-way along its edges.
+void FieldMembers::findLevels() {
+  constexpr int kMostLevels = 24;
+  const auto& size = blocks_.gridCells;
+  const auto numberOf = [&](const operators::GridCell& at) {
+    return (uint64_t(at[2]) * uint64_t(size[1]) + uint64_t(at[1])) * uint64_t(size[0]) + uint64_t(at[0]);
+  };
+  detail::RankedSet corners(numberOf({size[0] - 1, size[1] - 1, size[2] - 1}) + 1, blocks_.cellCount());
+  for (size_t b = 0; b < blocks_.cellCount(); ++b) corners.insert(numberOf(blocks_.corner(b)));
+  corners.rank();
+  const auto fills = [&](const operators::GridCell& corner, int level) {
+    bool isAlone = true, isInGrid = false;
+    for (size_t d = 0; d < 3; ++d) {
+      operators::GridCell beside = corner;
+      beside[d] += 1 << (level - 1);
+      isAlone &= corner[d] % (1 << level) == 0;
+      if (beside[d] >= size[d]) continue;
+      isInGrid = true;
+      isAlone &= corners.rankOf(numberOf(beside)) == detail::RankedSet::kNone;
+    }
+    return isAlone && isInGrid;
+  };
+  for (size_t b = 0; b < blocks_.cellCount() && isCut(firstMembers_[b]); ++b) {
+    uint8_t& level = blocks_.cellLevel[b];
+    while (level < kMostLevels && fills(blocks_.corner(b), level + 1)) ++level;
+  }
+}
+
+IdRange FieldMembers::in(const operators::GridCell& at) const {
+  const int64_t block = index_->find(at, 0);
+  if (block < 0) return {0, 0};
+  return {firstMembers_[size_t(block)], firstMembers_[size_t(block) + 1]};
 }
 
 std::vector<int64_t> membersAt(const FlowField& field, const FieldMembers& members, std::span<const double> points) {
-  const Locations found = cellsAt(field.cutMesh, points);
-  std::vector<int64_t> result(found.cell.begin(), found.cell.end());
+  struct PointInCut {
+    uint32_t firstMember, point;
+  };
+  const Grid& grid = field.cutMesh.grid;
+  std::vector<int64_t> result(points.size() / 3, -1);
+  std::vector<PointInCut> inCut;
   for (size_t i = 0; i < result.size(); ++i) {
-    if (result[i] >= 0 || found.gridCell[3 * i] < 0) continue;
-    const int64_t n = members.octree.find(found.gridCell[3 * i], found.gridCell[3 * i + 1], found.gridCell[3 * i + 2]);
-    if (n < 0) operators::refuseCells();
-    result[i] = int64_t(field.cutMesh.cellCount()) + n;
+    operators::GridCell at;
+    if (!operators::findGridCell(grid, &points[3 * i], at)) continue;
+    const IdRange range = members.in(at);
+    if (range.size() == 0) operators::refuseCells();
+    result[i] = int64_t(range.begin);
+    if (members.isCut(range.begin)) inCut.push_back({uint32_t(range.begin), uint32_t(i)});
+  }
+  detail::sortItems(inCut, [](const PointInCut& a, const PointInCut& b) { return a.firstMember < b.firstMember; });
+  const operators::ScaledSpace space(grid);
+  operators::Walls walls(field.cutMesh, space);
+  std::vector<operators::ScaledPoint> scaled;
+  for (size_t begin = 0, end; begin < inCut.size(); begin = end) {
+    const uint32_t first = inCut[begin].firstMember;
+    const IdRange range = members.in(members.cornerOf(first));
+    scaled.clear();
+    for (end = begin; end < inCut.size() && inCut[end].firstMember == first; ++end)
+      scaled.push_back(space.scaled(&points[3 * size_t(inCut[end].point)]));
+    walls.load(range, members.blockSize(first), scaled);
+    for (size_t i = begin; i < end; ++i) {
+      const uint32_t place = walls.cellAt(scaled[i - begin]);
+      result[inCut[i].point] = place == operators::Walls::kNone ? -1 : int64_t(range.begin + place);
+    }
   }
   return result;
 }
@@ -69,12 +130,12 @@ std::vector<int64_t> membersAt(const FlowField& field, const FieldMembers& membe
 
 std::vector<double> velocityAt(const FlowField& field, std::span<const double> points) {
   physics::requireField(field, points);
-  const physics::FieldMembers members = physics::membersOf(field);
+  const physics::FieldMembers members(field);
   const std::vector<int64_t> found = physics::membersAt(field, members, points);
   std::vector<double> result(points.size(), NAN);
   for (size_t i = 0; i < found.size(); ++i) {
     if (found[i] < 0) continue;
-    const auto v = physics::velocityIn(field.cells, field.flow, members.cellOf[size_t(found[i])], &points[3 * i]);
+    const auto v = physics::velocityIn(field.cells, field.flow, members.cellOf(size_t(found[i])), &points[3 * i]);
     std::copy(v.begin(), v.end(), &result[3 * i]);
   }
   return result;

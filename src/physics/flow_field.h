@@ -1,8 +1,12 @@
 // A flow's cells: which one holds a point, and the velocity in it.
 #pragma once
 
+#include <optional>
+
 #include "mandoline/flow.h"
+#include "operators/cell_complex/octree_index.h"
 #include "operators/cut_input.h"
+#include "operators/locate/walls.h"
 
 namespace mandoline::physics {
 
@@ -10,14 +14,35 @@ namespace mandoline::physics {
 /// multiple of 3.
 operators::CutInput requireField(const FlowField& field, std::span<const double> points);
 
-/// The cells before any were merged: cut-cells, then octree cells.
-struct FieldMembers {
-  OctreeCells octree;
-  std::vector<uint32_t> cellOf;  ///< per member: the cell that it belongs to
-};
+/// The cells before any were merged, and the blocks that they fill: grid cells, octree cells, or those of refined cells.
+class FieldMembers {
+ public:
+  /// Throws CallError{badArgument} if the members are not those of the cut-mesh.
+  explicit FieldMembers(const FlowField& field);
+  FieldMembers(const FieldMembers&) = delete;
 
-/// Throws CallError{badArgument} if the members are not those of the cut-mesh.
-FieldMembers membersOf(const FlowField& field);
+  /// The members in the block that holds a grid cell: cut-cells, or one that is untouched; none if the arrays are damaged.
+  IdRange in(const operators::GridCell& at) const;
+  bool isCut(size_t member) const { return member < cutCells_; }
+  /// The block of a member: its lowest grid cell, and one past its last.
+  operators::GridCell cornerOf(size_t member) const { return blocks_.corner(blocksOf_[member]); }
+  operators::GridCell endOf(size_t member) const { return blocks_.end(blocksOf_[member]); }
+  /// Along each axis, of one with cut-cells.
+  int32_t blockSize(size_t member) const { return 1 << blocks_.cellLevel[blocksOf_[member]]; }
+  /// The cell that a member belongs to.
+  uint32_t cellOf(size_t member) const { return cellOf_[member]; }
+
+ private:
+  void addBlock(const int32_t* corner, uint8_t level, size_t firstMember);
+  void findLevels();
+
+  size_t cutCells_;
+  OctreeCells blocks_;
+  std::vector<uint32_t> firstMembers_;  // per block, and the number of all
+  std::vector<uint32_t> blocksOf_;      // per member
+  std::vector<uint32_t> cellOf_;        // per member
+  std::optional<operators::OctreeIndex> index_;
+};
 
 /// Per point: the member that holds it, or -1 outside the grid.
 std::vector<int64_t> membersAt(const FlowField& field, const FieldMembers& members, std::span<const double> points);

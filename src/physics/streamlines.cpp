@@ -24,7 +24,7 @@ void append(const Streamlines& more, Streamlines& lines) {
 Streamlines traced(const FlowField& field, const MeshView& mesh, std::span<const double> seeds, const StreamlineOptions& options) {
   detail::Monitor monitor(options, 2);
   monitor.beginStage("seeds", 0);
-  const physics::FieldMembers members = physics::membersOf(field);
+  const physics::FieldMembers members(field);
   const std::vector<int64_t> starts = physics::membersAt(field, members, seeds);
   const physics::Obstacles obstacles(mesh, field.cutMesh.grid);
   monitor.beginStage("streamlines", 1);

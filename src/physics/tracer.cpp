@@ -42,14 +42,8 @@ void Tracer::trace(const Point& seed, size_t member, Streamlines& lines) {
 
 void Tracer::enter(size_t member) {
   member_ = member;
-  cell_ = members_.cellOf[member];
-  if (isCut(member)) {
-    const int32_t* corner = &field_.cutMesh.cellGridCell[3 * member];
-    for (size_t d = 0; d < 3; ++d) corner_[d] = corner[d], past_[d] = corner[d] + 1;
-  } else {
-    const size_t n = member - field_.cutMesh.cellCount();
-    corner_ = members_.octree.corner(n), past_ = members_.octree.end(n);
-  }
+  cell_ = members_.cellOf(member);
+  corner_ = members_.cornerOf(member), past_ = members_.endOf(member);
   size_ = 0;
   for (size_t d = 0; d < 3; ++d) {
     low_[d] = field_.cutMesh.grid.planes[d][size_t(corner_[d])];
@@ -97,14 +91,14 @@ bool Tracer::meetSide(size_t axis, const Point& v) {
 }
 
 bool Tracer::cross(const Side& side) {
-  GridIndex at;
+  operators::GridCell at;
   for (size_t d = 0; d < 3; ++d) {
     const std::vector<double>& planes = field_.cutMesh.grid.planes[d];
     const auto next = std::upper_bound(planes.begin() + corner_[d] + 1, planes.begin() + past_[d], at_[d]);
     at[d] = int32_t(next - planes.begin()) - 1;
   }
   at[side.axis] = side.upper ? past_[side.axis] : corner_[side.axis] - 1;
-  if (at[side.axis] < 0 || at[side.axis] >= members_.octree.gridCells[side.axis]) return end(StreamlineEnd::side);
+  if (at[side.axis] < 0 || at[side.axis] >= field_.cutMesh.grid.cells(int(side.axis))) return end(StreamlineEnd::side);
   const int64_t next = memberAcross(side, at);
   if (next < 0) return end(StreamlineEnd::surface);
   enter(size_t(next));
@@ -112,17 +106,17 @@ bool Tracer::cross(const Side& side) {
 }
 
 /// The member in a grid cell across a side that the current one is joined with at this point; -1 if triangles lie between, by rounding.
-int64_t Tracer::memberAcross(const Side& side, const GridIndex& at) {
-  const int64_t whole = members_.octree.find(at[0], at[1], at[2]);
-  if (whole >= 0) return int64_t(field_.cutMesh.cellCount()) + whole;
-  const IdRange range = field_.cutMesh.cutCellsAt(at[0], at[1], at[2]);
+int64_t Tracer::memberAcross(const Side& side, const operators::GridCell& at) {
+  const IdRange range = members_.in(at);
+  if (range.size() == 0) return -1;
+  if (!members_.isCut(range.begin)) return int64_t(range.begin);
   const std::vector<size_t> joined = joinedAcross(side, range);
   if (joined.empty()) return -1;
   if (joined.size() == 1) return int64_t(joined[0]);
   Point p = at_;
   p[side.axis] = field_.cutMesh.grid.planes[side.axis][size_t(side.upper ? at[side.axis] : at[side.axis] + 1)];
   const operators::ScaledPoint scaled = space_.scaled(p.data());
-  walls_.load(range, {scaled});
+  walls_.load(range, members_.blockSize(range.begin), {scaled});
   const uint32_t place = walls_.cellAt(scaled);
   if (place == operators::Walls::kNone || std::find(joined.begin(), joined.end(), range.begin + place) == joined.end()) return -1;
   return int64_t(range.begin + place);
@@ -136,12 +130,14 @@ std::vector<size_t> Tracer::joinedAcross(const Side& side, const IdRange& range)
     return cutMesh.faceTriangle[h / 2] < 0 && size_t(cutMesh.faceAxis[h / 2]) == side.axis && cutMesh.facePlane[h / 2] == plane;
   };
   std::vector<uint32_t> own;  // half-faces seen from across
-  if (isCut(member_)) {
+  if (members_.isCut(member_)) {
     for (const uint32_t h : cutMesh.halfFaces(member_)) {
       if (isThere(h)) own.push_back(h ^ 1);
     }
   }
-  const auto isJoined = [&](uint32_t h) { return isThere(h) && (!isCut(member_) || std::find(own.begin(), own.end(), h) != own.end()); };
+  const auto isJoined = [&](uint32_t h) {
+    return isThere(h) && (!members_.isCut(member_) || std::find(own.begin(), own.end(), h) != own.end());
+  };
   std::vector<size_t> joined;
   for (size_t c = range.begin; c < range.end; ++c) {
     const auto halfFaces = cutMesh.halfFaces(c);

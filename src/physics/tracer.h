@@ -1,7 +1,7 @@
 // Follows a flow from cell to cell.
 //
-// In a cell the velocity is linear, and a step ends where it meets a side of a member's grid cell or octree cell: points on it have the
-// plane's coordinate exactly. Only triangles divide a grid cell, and no step meets one, so the member stays the same until then. Where the
+// In a cell the velocity is linear, and a step ends where it meets a side of the block that holds the member: points on it have the
+// plane's coordinate exactly. Only triangles divide a block, and no step meets one, so the member stays the same until then. Where the
 // velocities of two cells both point at the side between them, the line slides along it.
 #pragma once
 
@@ -20,7 +20,6 @@ class Tracer {
   void trace(const Point& seed, size_t member, Streamlines& lines);
 
  private:
-  using GridIndex = std::array<int32_t, 3>;
   /// A side of the member's box: the lower or upper one across an axis.
   struct Side {
     size_t axis;
@@ -36,9 +35,8 @@ class Tracer {
   bool isOutward(size_t axis, const Point& v) const;
   bool meetSide(size_t axis, const Point& v);
   bool cross(const Side& side);
-  int64_t memberAcross(const Side& side, const GridIndex& at);
+  int64_t memberAcross(const Side& side, const operators::GridCell& at);
   std::vector<size_t> joinedAcross(const Side& side, const IdRange& range) const;
-  bool isCut(size_t member) const { return member < field_.cutMesh.cellCount(); }
   Point velocity(const Point& p) const;
   Step stepOf(double time) const;
   bool move(const Point& v);
@@ -63,7 +61,7 @@ class Tracer {
   Streamlines* lines_ = nullptr;
   StreamlineEnd end_{};
   size_t member_ = 0, cell_ = 0;
-  GridIndex corner_{}, past_{};  ///< of the member's box
+  operators::GridCell corner_{}, past_{};  ///< of the member's box
   Point low_{}, high_{};
   double size_ = 0;  ///< the box's longest side
   Point at_{};

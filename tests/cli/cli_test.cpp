@@ -141,8 +141,6 @@ TEST_CASE("Command line: wrong usage exits with 2", "[cli]") {
        "--refine: only .vtu and .json files and polyMesh folders have all cells"},
       {{"cut", mesh, "--refine", "1", "--snap-tolerance", "0.1"}, "--refine and --refine-box do not go with --snap-tolerance"},
       {{"cut", mesh, "--refine", "1", "--inside-threshold", "0.4"}, "--refine and --refine-box do not go with --inside-threshold"},
-      {{"flow", mesh, "--wind", "1,0,0", "--refine", "1", "-o", folder.path("a.obj")},
-       "--refine: streamlines need cells that are not refined"},
       {{"cut", mesh, "--faces", "-o", folder.path("a.obj")}, "--faces: only .vtu files have faces instead of cells"},
       {{"cut", mesh, "--simple-cells", "-o", folder.path("a.obj")}, "--simple-cells: only .vtu files and polyMesh folders"},
       {{"flow", mesh, "--wind", "1,0,0", "--simple-cells", "-o", folder.path("a.obj")}, "--simple-cells: only .vtu files have cells"},
@@ -549,6 +547,9 @@ TEST_CASE("Command line: cells refined where the mesh bends and in boxes", "[cli
   CHECK(o.err.empty());
   CHECK(o.exitCode == 0);
   CHECK(contains(folder.read("polyMesh/faces"), "FoamFile"));
+  const std::string obj = folder.path("lines.obj");
+  CHECK(run(folder, {"flow", mesh, "--wind", "1,0,0", "--cells", "8", "--refine", "1", "--streamlines", "9", "-o", obj}).exitCode == 0);
+  CHECK(contains(folder.read("lines.obj"), "\nl "));
 }
 
 TEST_CASE("Command line: small cells merged, and how many stay small", "[cli]") {

@@ -47,9 +47,10 @@ struct RefinedCells {
   /// also if it is a cut-cell. cellCorner counts the smallest ones.
   CellComplex cells;
   /// The cut-vertices, cut-faces and cut-cells of `cells`, for functions that take a cut-mesh together with its cells: writers,
-  /// mergeSmallCells(), uniteWalls(), faceGroups(). Its grid has the planes of the smallest cells. It has no runs and no made vertices, and
-  /// so is no cut of that grid: functions that need one, such as measure(), coarsen() and streamlines(), refuse it. Of a vertex of a larger
-  /// cell, planes that only smaller cells have are left out of vertexMask, and vertexCell is a rounded one along axes without a plane.
+  /// mergeSmallCells(), uniteWalls(), faceGroups(), streamlines(). Its grid has the planes of the smallest cells. It has no runs and no
+  /// made vertices, and so is no cut of that grid: functions that need one, such as measure(), coarsen() and cellsAt(), refuse it. Of a
+  /// vertex of a larger cell, planes that only smaller cells have are left out of vertexMask, and vertexCell is a rounded one along axes
+  /// without a plane.
   CutMesh cutMesh;
   int levels = 0;  ///< how often grid cells were divided at most; those of the grid have this level
 

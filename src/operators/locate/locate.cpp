@@ -9,18 +9,7 @@
 namespace mandoline {
 namespace {
 
-using GridCell = std::array<int32_t, 3>;
-
-/// The grid cell of a point; false outside the grid.
-bool findGridCell(const Grid& grid, const double* point, GridCell& gridCell) {
-  for (size_t d = 0; d < 3; ++d) {
-    const std::vector<double>& planes = grid.planes[d];
-    if (!(point[d] >= planes.front() && point[d] <= planes.back())) return false;
-    const auto next = std::upper_bound(planes.begin(), planes.end() - 1, point[d]);
-    gridCell[d] = int32_t(next - planes.begin()) - 1;
-  }
-  return true;
-}
+using operators::GridCell;
 
 class Locator {
  public:
@@ -53,7 +42,7 @@ class Locator {
     std::vector<uint32_t> inCut;
     for (size_t i = 0; i < count; ++i) {
       GridCell at;
-      if (!findGridCell(cutMesh_.grid, &points_[3 * i], at)) continue;
+      if (!operators::findGridCell(cutMesh_.grid, &points_[3 * i], at)) continue;
       std::copy(at.begin(), at.end(), &result_.gridCell[3 * i]);
       result_.region[i] = int32_t(untouched.regionAt(at[0], at[1], at[2]));
       if (result_.region[i] < 0) inCut.push_back(uint32_t(i));
@@ -69,7 +58,7 @@ class Locator {
     if (cells.size() == 0) return;  // the cut-mesh is not valid
     scaled_.clear();
     for (const uint32_t i : group) scaled_.push_back(space_.scaled(&points_[3 * size_t(i)]));
-    walls_.load(cells, scaled_);
+    walls_.load(cells, 1, scaled_);
     for (size_t n = 0; n < group.size(); ++n) {
       const uint32_t place = walls_.cellAt(scaled_[n]);
       if (place == operators::Walls::kNone) continue;

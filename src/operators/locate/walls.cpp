@@ -47,11 +47,11 @@ int windingOf(const Wall& wall, const MovedPoint& p, detail::Predicates& predica
 
 }  // namespace
 
-void Walls::load(const IdRange& cells, const std::vector<ScaledPoint>& points) {
+void Walls::load(const IdRange& cells, int32_t blockSize, const std::vector<ScaledPoint>& points) {
   const int32_t* gridCell = &cutMesh_.cellGridCell[3 * cells.begin];
   for (size_t d = 0; d < 3; ++d) {
-    gridCell_.low[d] = space_.scaled(cutMesh_.grid.planes[d][size_t(gridCell[d])]);
-    gridCell_.high[d] = space_.scaled(cutMesh_.grid.planes[d][size_t(gridCell[d]) + 1]);
+    block_.low[d] = space_.scaled(cutMesh_.grid.planes[d][size_t(gridCell[d])]);
+    block_.high[d] = space_.scaled(cutMesh_.grid.planes[d][size_t(gridCell[d] + blockSize)]);
   }
   points_ = {points[0], points[0]};
   for (const ScaledPoint& p : points) {
@@ -67,7 +67,7 @@ void Walls::load(const IdRange& cells, const std::vector<ScaledPoint>& points) {
 
 uint32_t Walls::cellAt(const ScaledPoint& point) {
   MovedPoint p = {point, {}};
-  for (size_t d = 0; d < 3; ++d) p.move[d] = p.at[d] == gridCell_.high[d] ? -1 : 1;
+  for (size_t d = 0; d < 3; ++d) p.move[d] = p.at[d] == block_.high[d] ? -1 : 1;
   for (const uint32_t w : bins_[binOf(p.at, kRight) + size_t(binCount_) * binOf(p.at, kUp)]) {
     const int winding = windingOf(walls_[w], p, predicates_);
     if (winding == 0) continue;
@@ -133,7 +133,7 @@ void Walls::addWalls(uint32_t face, const std::array<uint32_t, 2>& places) {
 }
 
 uint32_t Walls::binOf(const ScaledPoint& p, int axis) const {
-  const double low = gridCell_.low[size_t(axis)], high = gridCell_.high[size_t(axis)];
+  const double low = block_.low[size_t(axis)], high = block_.high[size_t(axis)];
   return uint32_t(std::clamp((p[size_t(axis)] - low) / (high - low) * binCount_, 0.0, binCount_ - 1.0));
 }
 

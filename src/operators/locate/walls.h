@@ -9,6 +9,8 @@
 // rounded positions let cells overlap.
 #pragma once
 
+#include <algorithm>
+
 #include "base/csr.h"
 #include "base/shared.h"
 #include "grid/scaled_space.h"
@@ -22,15 +24,29 @@ struct Wall {
   std::array<uint32_t, 2> places;
 };
 
-/// The triangles of a grid cell's cut-cells that the rays of some points may meet, in square bins, seen along the rays.
+using GridCell = std::array<int32_t, 3>;
+
+/// The grid cell of a point; false outside the grid.
+inline bool findGridCell(const Grid& grid, const double* point, GridCell& gridCell) {
+  for (size_t d = 0; d < 3; ++d) {
+    const std::vector<double>& planes = grid.planes[d];
+    if (!(point[d] >= planes.front() && point[d] <= planes.back())) return false;
+    const auto next = std::upper_bound(planes.begin(), planes.end() - 1, point[d]);
+    gridCell[d] = int32_t(next - planes.begin()) - 1;
+  }
+  return true;
+}
+
+/// The triangles of a grid cell's cut-cells, or those of a block of refined ones, that the rays of some points may meet, in square bins,
+/// seen along the rays.
 class Walls {
  public:
   static constexpr uint32_t kNone = ~0u;
 
   Walls(const CutMesh& cutMesh, const ScaledSpace& space) : cutMesh_(cutMesh), space_(space), triangulator_(cutMesh.positions) {}
 
-  /// Loads what lies around the cut-cells, which are all of a grid cell, to be asked about some points of it.
-  MANDOLINE_SHARED void load(const IdRange& cells, const std::vector<ScaledPoint>& points);
+  /// Loads what lies around the cut-cells, which are all of a block of so many grid cells on a side, to be asked about some points of it.
+  MANDOLINE_SHARED void load(const IdRange& cells, int32_t blockSize, const std::vector<ScaledPoint>& points);
   /// The place of the cut-cell that holds one of the points; kNone only if the cut-mesh is not valid.
   MANDOLINE_SHARED uint32_t cellAt(const ScaledPoint& point);
 
@@ -56,7 +72,7 @@ class Walls {
   const ScaledSpace& space_;
   FaceTriangulator triangulator_;
   detail::Predicates predicates_;
-  Box gridCell_{}, points_{};
+  Box block_{}, points_{};
   std::vector<HalfFace> halfFaces_;
   std::vector<uint32_t> triangles_;
   std::vector<Wall> walls_;
