@@ -15,49 +15,45 @@ namespace mandoline {
 
 using namespace detail;
 
-namespace {
-
-/// All of a cut, for the next one.
-struct LastCut {
-  std::unique_ptr<Prepared> prepared;
-  std::unique_ptr<CutState> state;
-  std::vector<double> positions;  ///< of the result
-};
-
-/// What a cut keeps of one before it.
-class KeepingOf : public Keeping {
- public:
-  KeepingOf(LastCut& before, CutState& now, const Moved& moved)
-      : before_(*before.state), positions_(before.positions), now_(now), moved_(moved) {}
-
-  const KnownCrossings& crossings() override { return crossings_.emplace(before_.surface, now_.surface, moved_); }
-  KeptBricks& bricks() override {
-    kept_ = keepBricks({before_.surface, before_.parts, before_.bricks, before_.cuts, moved_}, now_.surface, now_.parts, now_.bricks);
-    return kept_;
-  }
-  IdVector<BrickId, BrickSeams> seams() override { return keepSeams(kept_, now_.runs, before_.seams); }
-  KeptVertices vertices() override {
-    if (kept_.before.empty()) return {};
-    return {findKeptVertices(now_.cut(), kept_, before_.numbers, now_.numbers), positions_};
-  }
-  size_t brickCount() const {
-    size_t count = 0;
-    for (const BrickId b : kept_.before.ids()) count += kept_.has(b);
-    return count;
-  }
-
- private:
-  CutState& before_;
-  const std::vector<double>& positions_;
-  CutState& now_;
-  const Moved& moved_;
-  std::optional<CrossingsBefore> crossings_;
-  KeptBricks kept_;
-};
-
-}  // namespace
-
 struct Recutter::Data {
+  /// All of a cut, for the next one.
+  struct LastCut {
+    std::unique_ptr<Prepared> prepared;
+    std::unique_ptr<CutState> state;
+    std::vector<double> positions;  ///< of the result
+  };
+
+  /// What a cut keeps of one before it.
+  class KeepingOf : public Keeping {
+   public:
+    KeepingOf(LastCut& before, CutState& now, const Moved& moved)
+        : before_(*before.state), positions_(before.positions), now_(now), moved_(moved) {}
+
+    const KnownCrossings& crossings() override { return crossings_.emplace(before_.surface, now_.surface, moved_); }
+    KeptBricks& bricks() override {
+      kept_ = keepBricks({before_.surface, before_.parts, before_.bricks, before_.cuts, moved_}, now_.surface, now_.parts, now_.bricks);
+      return kept_;
+    }
+    IdVector<BrickId, BrickSeams> seams() override { return keepSeams(kept_, now_.runs, before_.seams); }
+    KeptVertices vertices() override {
+      if (kept_.before.empty()) return {};
+      return {findKeptVertices(now_.cut(), kept_, before_.numbers, now_.numbers), positions_};
+    }
+    size_t brickCount() const {
+      size_t count = 0;
+      for (const BrickId b : kept_.before.ids()) count += kept_.has(b);
+      return count;
+    }
+
+   private:
+    CutState& before_;
+    const std::vector<double>& positions_;
+    CutState& now_;
+    const Moved& moved_;
+    std::optional<CrossingsBefore> crossings_;
+    KeptBricks kept_;
+  };
+
   Grid grid;
   CutOptions options;
   LastCut last;  ///< empty after an error
