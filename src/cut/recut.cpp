@@ -24,7 +24,7 @@ struct Recutter::Data {
   };
 
   /// What a cut keeps of one before it.
-  class KeepingOf : public Keeping {
+  class KeepingOf final : public Keeping {
    public:
     KeepingOf(LastCut& before, CutState& now, const Moved& moved)
         : before_(*before.state), positions_(before.positions), now_(now), moved_(moved) {}

@@ -19,8 +19,7 @@ struct RankFlow {
 };
 
 /// As solveFlow() without corrections; phi is that within the tolerance. `complex` has kFlowGhosts layers. Collective. Throws RankError,
-/// and as PetscSolver does; `onIteration` is
-/// for that.
+/// and as PetscSolver does, whose onIteration is as well.
 RankFlow solveRankFlow(detail::Communicator& comm, const RankComplex& complex, const std::array<double, 3>& wind,
                        const std::function<void()>& onIteration = nullptr);
 
