@@ -69,7 +69,7 @@ struct Arguments {
   bool validate = false;
   bool stream = false;               ///< cut: a folder of pieces
   bool faces = false;                ///< in .vtu files, instead of cells
-  bool simpleCells = false;          ///< in .vtu files
+  bool simpleCells = false;          ///< in .vtu files and polyMesh folders
   std::optional<int> coarsen;        ///< levels of octree cells; none: untouched grid cells as they are
   std::optional<int> coarsenLayers;  ///< of cells of each size, before larger ones; none: as the library does by itself
   int refine = 0;                    ///< levels of smaller cells where the surface bends

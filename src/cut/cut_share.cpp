@@ -97,8 +97,8 @@ CutPart CutShare::part(std::span<const std::vector<uint32_t>> summaries, const R
 }
 
 std::array<int64_t, 2> CutShare::layers() const {
-  const BricksHere& here = data_->state.bricks.here;
-  return {here.firstLayer, here.pastLayer};
+  const CellLayers& here = data_->state.bricks.grid.here;
+  return {here.first, here.past};
 }
 
 CutResult CutShare::common(const std::vector<uint8_t>& hasFace) const {

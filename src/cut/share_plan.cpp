@@ -30,7 +30,6 @@ struct LayerLoad {
 struct LayerLoads {
   std::vector<LayerLoad> layers;
   uint64_t commonBytes = 0;  ///< what all processes have: the surface, seams, untouched grid cells
-  uint64_t usedBytes = 0;    ///< in each summary: which vertices of the surface loops have
   uint64_t regions = 0;
 };
 

@@ -68,8 +68,7 @@ PolyMesh makePolyMesh(const CutMesh& cutMesh, const CellComplex& cells, const Tr
   numberCells(cells, isWritten, mesh);
   mesh.patches = emptyPatches(groups);
   addSides(cutMesh, cells, groups, simpleCells, mesh);
-  sortItems(mesh.inner,
-            [](const PolySide& a, const PolySide& b) { return a.owner != b.owner ? a.owner < b.owner : a.neighbour < b.neighbour; });
+  sortItems(mesh.inner, isUpperBefore);
   const auto inner = mesh.patches.begin() + ptrdiff_t(FaceTag::inner);
   if (inner->sides.empty()) mesh.patches.erase(inner);
   return mesh;

@@ -27,6 +27,11 @@ struct PolySide {
   }
 };
 
+/// The upper triangular order of inner faces.
+inline constexpr auto isUpperBefore = [](const auto& a, const auto& b) {
+  return a.owner != b.owner ? a.owner < b.owner : a.neighbour < b.neighbour;
+};
+
 struct PolyPatch {
   std::string name;
   const char* type;

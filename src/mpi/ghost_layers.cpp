@@ -123,6 +123,13 @@ IdRange allCells(const RankPiece& piece) { return {0, piece.cutMesh.cellCount()}
 
 }  // namespace
 
+RankLayers layersOfAll(Communicator& comm, const std::array<int64_t, 2>& here) {
+  const std::vector<uint64_t> first = comm.gatherAll(uint64_t(here[0])), past = comm.gatherAll(uint64_t(here[1]));
+  RankLayers layers;
+  for (size_t rank = 0; rank < first.size(); ++rank) layers.push_back({int64_t(first[rank]), int64_t(past[rank])});
+  return layers;
+}
+
 int neighbourOf(const RankLayers& layers, int rank, int direction) {
   const auto isEmpty = [&](int r) { return layers[size_t(r)][0] == layers[size_t(r)][1]; };
   if (isEmpty(rank)) return -1;

@@ -10,6 +10,8 @@ class Communicator;
 
 /// The layers of each process, by rank.
 using RankLayers = std::vector<std::array<int64_t, 2>>;
+/// Collective; `here`: those of this process.
+MANDOLINE_SHARED RankLayers layersOfAll(Communicator& comm, const std::array<int64_t, 2>& here);
 /// The next process with layers below (-1) or above (1); -1 for none, and for one without layers itself.
 MANDOLINE_SHARED int neighbourOf(const RankLayers& layers, int rank, int direction);
 

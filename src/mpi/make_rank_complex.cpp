@@ -122,10 +122,7 @@ RankComplex makeRankComplex(Communicator& comm, const WholeCut& whole, const Ran
   comm.together(kNoun, [&] {
     if (ghostLayers < 1) throw CallError({Status::badOption, -1, -1, "A cell complex in pieces needs a layer of ghosts."});
   });
-  const std::vector<uint64_t> first = comm.gatherAll(uint64_t(piece.layers[0])), past = comm.gatherAll(uint64_t(piece.layers[1]));
-  RankLayers layers;
-  for (size_t rank = 0; rank < first.size(); ++rank) layers.push_back({int64_t(first[rank]), int64_t(past[rank])});
-  return ComplexMaker(comm, whole, std::move(layers)).make(piece, ghostLayers);
+  return ComplexMaker(comm, whole, layersOfAll(comm, piece.layers)).make(piece, ghostLayers);
 }
 
 }  // namespace mandoline::detail

@@ -66,8 +66,7 @@ class Numberer {
       if (cells_.faceTag[f] == FaceTag::inner && a >= 0 && b >= 0 && isOwn(std::min(a, b)))
         inner_.push_back({std::min(a, b), std::max(a, b), f});
     }
-    detail::sortItems(inner_,
-                      [](const Inner& a, const Inner& b) { return a.owner != b.owner ? a.owner < b.owner : a.neighbour < b.neighbour; });
+    detail::sortItems(inner_, detail::isUpperBefore);
   }
 
   /// Those of cut-cells, process by process, then those between untouched cells.

@@ -47,7 +47,7 @@ plan tells what the busiest of P processes, up to 100000, would have of a cut: c
 faces and how many of these it shares with others, memory, and what it sends. One process
 cuts all for that, once for each size of bricks, and keeps no result.
 
-cut is not with --stream and --snap-tolerance. The report has the cut-cells, time, peak memory
+cut does not go with --stream and --snap-tolerance. The report has the cut-cells, time, peak memory
 and bytes sent of each process, in JSON as ranks.
 )";
 

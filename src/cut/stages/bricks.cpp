@@ -74,7 +74,7 @@ class Layout {
     bricks.dividedFaces = grouped(givenFaces_);
     bricks.faceEdges = grouped(givenEdges_);
     bricks.seamVertices = grouped(givenVertices_);
-    bricks.here = {{0}, {uint32_t(bricks.size())}, grid_.here.first, grid_.here.past, false};
+    bricks.here = {{0}, {uint32_t(bricks.size())}, false};
     return bricks;
   }
 

@@ -24,8 +24,7 @@ const FaceEdge& faceEdge(const Surface& surface, const SurfaceParts& parts, uint
 /// The bricks that this process cuts: all, or one of several shares of a cut (see mandoline/cut_share.h), which are layers of bricks.
 struct BricksHere {
   BrickId first{0}, past{0};
-  int32_t firstLayer = 0, pastLayer = 0;  ///< of grid cells along z
-  bool isShare = false;                   ///< whether other processes cut, too
+  bool isShare = false;  ///< whether other processes cut, too
 
   Ids<BrickId> ids() const { return {first, past}; }
   /// Their numbers, for runItems().

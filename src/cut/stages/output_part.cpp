@@ -144,19 +144,19 @@ class VertexWriter {
 };
 
 /// Those of the vertices of the mesh and its edges that lie in the layers that are cut here.
-std::vector<VertexId> onLayers(const BricksHere& here, const CutVertices& vertices, const std::vector<VertexId>& used) {
+std::vector<VertexId> onLayers(const CellLayers& here, const CutVertices& vertices, const std::vector<VertexId>& used) {
   std::vector<VertexId> on;
   on.reserve(used.size());
   for (const VertexId v : used) {
     const int32_t z = vertices.slab(v)[2];
-    if (z >= 2 * here.firstLayer && z <= 2 * here.pastLayer) on.push_back(v);
+    if (z >= 2 * here.first && z <= 2 * here.past) on.push_back(v);
   }
   return on;
 }
 
 /// Their numbers, where no share before has them.
 std::vector<uint32_t> numbersOf(const std::vector<VertexId>& surface, const CutState& state, const Numbers& numbers) {
-  const int32_t first = state.bricks.here.firstLayer;
+  const int32_t first = state.bricks.grid.here.first;
   std::vector<uint32_t> list;
   list.reserve(surface.size());
   for (const VertexId v : surface) {
@@ -210,7 +210,7 @@ CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& r
   CutMesh& out = part.cutMesh;
   out.grid = grid;
   const std::vector<VertexId> used = listUsed(state.used);
-  const std::vector<VertexId> surface = onLayers(state.bricks.here, state.surface.vertices, used);
+  const std::vector<VertexId> surface = onLayers(state.bricks.grid.here, state.surface.vertices, used);
   if (state.bricks.here.isShare) part.firstVertices = numbersOf(surface, state, numbers);
 
   // One kind after the other, so that what the bricks have of it need not last as long as all of the result.

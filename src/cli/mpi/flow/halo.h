@@ -12,9 +12,7 @@ class Halo {
  public:
   /// `ghostLayers`: as many as the complex was made with. Collective; keeps references to both.
   Halo(detail::Communicator& comm, const RankComplex& complex, int ghostLayers) : comm_(comm), complex_(complex), count_(ghostLayers) {
-    const std::vector<uint64_t> first = comm.gatherAll(uint64_t(complex.layers[0])), past = comm.gatherAll(uint64_t(complex.layers[1]));
-    detail::RankLayers layers;
-    for (size_t rank = 0; rank < first.size(); ++rank) layers.push_back({int64_t(first[rank]), int64_t(past[rank])});
+    const detail::RankLayers layers = detail::layersOfAll(comm, complex.layers);
     below_ = detail::neighbourOf(layers, comm.rank(), -1);
     above_ = detail::neighbourOf(layers, comm.rank(), 1);
     cells_.resize(size_t(complex.allLayers[1] - complex.allLayers[0]));
