@@ -2,100 +2,13 @@
 
 #include <algorithm>
 
-#include "base/sort.h"
-#include "cut/append.h"
 #include "mpi/communicator.h"
 #include "mpi/pack.h"
 #include "mpi/rank_piece.h"
+#include "operators/join/join_cells.h"
 
 namespace mandoline::detail {
 namespace {
-
-/// Some cut-cells of a piece.
-struct Cells {
-  const RankPiece& piece;
-  IdRange range;
-};
-
-/// A face or vertex of one of several pieces.
-struct PlaceOf {
-  uint64_t id;
-  uint32_t piece, item;
-
-  bool operator<(const PlaceOf& other) const { return id < other.id; }
-  bool operator==(const PlaceOf& other) const { return id == other.id; }
-};
-
-uint32_t placeIn(const std::vector<uint64_t>& ids, uint64_t id) {
-  return uint32_t(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
-}
-
-/// Cells of pieces that follow each other, with their faces and vertices, each once.
-class Joiner {
- public:
-  explicit Joiner(const std::vector<Cells>& cells) : cells_(cells) {}
-
-  RankPiece run() {
-    takeFaces();
-    takeVertices();
-    takeCells();
-    return std::move(result_);
-  }
-
- private:
-  const RankPiece& piece(uint32_t i) const { return cells_[i].piece; }
-
-  void takeFaces() {
-    for (uint32_t i = 0; i < cells_.size(); ++i) {
-      for (size_t c = cells_[i].range.begin; c < cells_[i].range.end; ++c) {
-        for (const uint32_t h : piece(i).cutMesh.halfFaces(c)) faces_.push_back({piece(i).faceIds[h / 2], i, h / 2});
-      }
-    }
-    sortUnique(faces_);
-    beginFaces(result_.cutMesh);
-    for (const PlaceOf& face : faces_) {
-      appendFace(piece(face.piece).cutMesh, face.item, result_.cutMesh);
-      result_.faceIds.push_back(face.id);
-    }
-  }
-
-  void takeVertices() {
-    std::vector<PlaceOf> corners;
-    for (const PlaceOf& face : faces_) {
-      const RankPiece& from = piece(face.piece);
-      for (const auto loop : from.cutMesh.loops(face.item)) {
-        for (const uint32_t v : loop) corners.push_back({from.vertexIds[v], face.piece, v});
-      }
-    }
-    std::vector<PlaceOf> vertices = corners;
-    sortUnique(vertices);
-    for (const PlaceOf& vertex : vertices) {
-      appendVertex(piece(vertex.piece).cutMesh, vertex.item, result_.cutMesh);
-      result_.vertexIds.push_back(vertex.id);
-    }
-    for (size_t i = 0; i < corners.size(); ++i) result_.cutMesh.loopVertices[i] = placeIn(result_.vertexIds, corners[i].id);
-  }
-
-  void takeCells() {
-    CutMesh& to = result_.cutMesh;
-    to.cellHalfFaceOffsets.assign(1, 0);
-    for (const Cells& cells : cells_) {
-      const CutMesh& from = cells.piece.cutMesh;
-      for (size_t c = cells.range.begin; c < cells.range.end; ++c) {
-        append(to.cellGridCell, from.cellGridCell, c, 3);
-        append(to.cellRegion, from.cellRegion, c);
-        append(result_.cellIds, cells.piece.cellIds, c);
-        for (const uint32_t h : from.halfFaces(c))
-          to.cellHalfFaces.push_back(2 * placeIn(result_.faceIds, cells.piece.faceIds[h / 2]) + h % 2);
-        to.cellHalfFaceOffsets.push_back(uint32_t(to.cellHalfFaces.size()));
-      }
-    }
-  }
-
-  const std::vector<Cells>& cells_;
-  std::vector<PlaceOf> faces_;
-  RankPiece result_;
-};
 
 RankPiece layerOf(const RankPiece& piece, int64_t layer) {
   const std::vector<int32_t>& at = piece.cutMesh.cellGridCell;
@@ -104,7 +17,8 @@ RankPiece layerOf(const RankPiece& piece, int64_t layer) {
     if (at[3 * c + 2] < layer) ++range.begin;
     if (at[3 * c + 2] <= layer) ++range.end;
   }
-  return Joiner({{piece, range}}).run();
+  const operators::PieceCells cells[] = {{piece, range}};
+  return operators::joinCells(cells);
 }
 
 /// A layer as a message.
@@ -155,11 +69,11 @@ RankPiece withGhostLayers(Communicator& comm, const RankLayers& layers, const Cu
     const RankPiece upper = exchange(piece.layers[0] + added, below, above);
     comm.together("cut", [&] {
       const bool hasLower = below >= 0 && grown.layers[0] > 0, hasUpper = above >= 0 && grown.layers[1] < common.grid.cells(2);
-      std::vector<Cells> parts;
+      std::vector<operators::PieceCells> parts;
       if (hasLower) parts.push_back({lower, allCells(lower)});
       parts.push_back({grown, allCells(grown)});
       if (hasUpper) parts.push_back({upper, allCells(upper)});
-      RankPiece joined = Joiner(parts).run();
+      RankPiece joined = operators::joinCells(parts);
       joined.layers = {grown.layers[0] - hasLower, grown.layers[1] + hasUpper};
       takeCommon(common, joined);
       grown = std::move(joined);

@@ -237,7 +237,8 @@ void takeCommon(const CutMesh& common, RankPiece& piece) {
   take(&CutMesh::regionCount, &CutMesh::hasWinding, &CutMesh::regionWinding, &CutMesh::regionPartWinding, &CutMesh::regionParity,
        &CutMesh::parityTriangles, &CutMesh::openTriangles, &CutMesh::triangleCount, &CutMesh::snapTolerance, &CutMesh::madeFrom);
   listWithoutFace(out);
-  Fingerprinter fingerprinter("piece", common.fingerprint);
+  piece.whole = common.fingerprint;
+  Fingerprinter fingerprinter("piece", piece.whole);
   for (const int64_t layer : piece.layers) fingerprinter.add(uint64_t(layer));
   out.fingerprint = fingerprinter.get();
   takeMade(common, piece);

@@ -8,6 +8,7 @@
 #include "catch.h"
 #include "command_line.h"
 #include "mandoline/io.h"
+#include "same_bits.h"
 #include "shapes.h"
 #include "vtu_files.h"
 
@@ -165,6 +166,45 @@ TEST_CASE("The pieces of several processes have the cells of one, some of them n
   }
 }
 
+TEST_CASE("A folder of the pieces of several processes is read as the whole, or refused", "[mpi]") {
+  const TemporaryFolder folder;
+  const std::string mesh = meshFile(folder, shapes::merged({shapes::icosphere({0, 0, 0}, 1, 2), shapes::cube(0.5, 1.5)}));
+  REQUIRE(run(folder, {"cut", mesh, "--cells", "9", "-o", folder.path("one.mcm")}).exitCode == 0);
+  const mandoline::CutMesh one = mandoline::readCutMesh(folder.path("one.mcm"));
+  const std::string pieces = folder.path("a.mcm/");
+  const auto refusal = [&] {
+    try {
+      mandoline::readCutMesh(pieces);
+    } catch (const mandoline::FileError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const int processes : {1, 3, 20}) {  // of nine layers most get nothing
+    CAPTURE(processes);
+    const Outcome outcome = runRanks(folder, processes, {"cut", mesh, "--cells", "9", "-o", pieces, folder.path("some.mcm")});
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.exitCode == 0);
+    CHECK(differences(mandoline::readCutMesh(pieces), one).empty());
+    const bool areSame = folder.read("some.mcm") == folder.read("one.mcm");
+    CHECK(areSame);
+  }
+  CHECK(mandoline::readRankPiece(folder.path("a.mcm/piece_19.mcm")).cutMesh.cellCount() <= one.cellCount());
+  const Outcome fewer = runRanks(folder, 3, {"cut", mesh, "--cells", "9", "-o", pieces});
+  CHECK(fewer.exitCode == 2);
+  CHECK(contains(fewer.err, "a.mcm/piece_3.mcm: is there already, of a cut in more pieces"));
+  fs::remove_all(pieces);
+  REQUIRE(runRanks(folder, 3, {"cut", mesh, "--cells", "9", "-o", pieces}).exitCode == 0);
+  fs::rename(folder.path("a.mcm/piece_1.mcm"), folder.path("b.mcm"));
+  CHECK(contains(refusal(), "a.mcm/piece_2.mcm: Layers "));
+  CHECK(contains(refusal(), " of the grid are in no piece."));
+  CHECK(mandoline::readCutMesh(folder.path("b.mcm")).cellCount() < one.cellCount());
+  fs::copy(folder.path("one.mcm"), folder.path("a.mcm/piece_1.mcm"));
+  CHECK(contains(refusal(), "a.mcm/piece_1.mcm: has a whole cut-mesh, not a piece of one"));
+  fs::remove_all(pieces);
+  CHECK(contains(refusal(), "a.mcm"));
+}
+
 TEST_CASE("A plan tells what the processes of a cut then have", "[mpi]") {
   const TemporaryFolder folder;
   const std::string mesh = meshFile(folder, shapes::icosphere({0, 0, 0}, 1, 6));
@@ -236,6 +276,10 @@ TEST_CASE("What several processes can't do is said once", "[mpi]") {
       {{"cut", mesh, "-o", pvtu, "--only", "region=9"}, "there is no region 9", 2},
       {{"cut", mesh, "-o", folder.path("none/a.pvtu")}, "there is no folder", 2},
       {{"cut", mesh, "-o", folder.path("polyMesh")}, "several processes write CASE/constant/polyMesh", 2},
+      {{"cut", mesh, "-o", folder.path("a.mcm/"), "--only", "cut"}, ".mcm files always have everything", 2},
+      {{"cut", mesh, "-o", folder.path("a.mcm/"), "--inside-threshold", "0.5"}, "pieces do not go with --inside-threshold", 2},
+      {{"cut", mesh, "-o", folder.path("a.mcm/"), "--coarsen", "1"}, "--coarsen: only .vtu and .json files", 2},
+      {{"cut", mesh, "-o", mesh + "/a.mcm/"}, mesh + "/a.mcm/: can't be written: Not a directory", 2},
       {{"cut", mesh, "-o", polyMesh, "--coarsen", "1"}, "polyMeshes of several processes do not go with --coarsen", 2},
       {{"cut", mesh, "-o", polyMesh, "--merge", "0.2"}, "polyMeshes of several processes do not go with --merge", 2},
       {{"cut", mesh, "-o", polyMesh, "--only", "cut"}, "polyMeshes of several processes do not go with --only", 2},
@@ -260,12 +304,14 @@ TEST_CASE("What several processes can't do is said once", "[mpi]") {
 TEST_CASE("A disk that is full for one process leaves no pieces", "[mpi]") {
   const TemporaryFolder folder;
   const std::string mesh = meshFile(folder, shapes::icosphere({0, 0, 0}, 1, 3));
-  for (const std::string full : {"a_0.vtu", "a_1.vtu", "a.pvtu"}) {
+  for (const std::string full : {"a_0.vtu", "a_1.vtu", "a.pvtu", "a.mcm/piece_0.mcm", "a.mcm/piece_1.mcm"}) {
     CAPTURE(full);
+    const bool isMcm = full.ends_with(".mcm");
+    if (isMcm) fs::create_directory(folder.path("a.mcm"));
     fs::create_symlink("/dev/full", folder.path(full));
-    const Outcome outcome = runRanks(folder, 3, {"cut", mesh, "--cells", "12", "-o", folder.path("a.pvtu")});
+    const Outcome outcome = runRanks(folder, 3, {"cut", mesh, "--cells", "12", "-o", folder.path(isMcm ? "a.mcm/" : "a.pvtu")});
     CHECK(outcome.exitCode == 2);
-    const std::string rank = full == "a_1.vtu" ? "rank 1: " : "rank 0: ";
+    const std::string rank = contains(full, "_1.") ? "rank 1: " : "rank 0: ";
     CHECK(contains(outcome.err, rank + folder.path(full) + ": can't be written: No space left on device"));
     CHECK(countOf(outcome.err, "mandoline-mpi: ") == 1);
     fs::remove(folder.path(full));

@@ -131,6 +131,24 @@ void requireOneOwner(const std::vector<uint64_t>& ids, const std::vector<int32_t
   for (size_t i = 0; i < count; ++i) require(owners[i] == 1, std::string(what) + " has not one owner:", i);
 }
 
+/// The whole from the files of all pieces, in the process of rank 0, the last piece first.
+CutMesh joinFiles(const RankPiece& piece) {
+  std::string bytes;
+  writeMcm([&](std::string_view more) { bytes += more; }, piece);
+  int ranks = 0;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  std::vector<int> lengths(size_t(ranks), 0), starts(size_t(ranks) + 1, 0);
+  const int length = int(bytes.size());
+  MPI_Allgather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  for (size_t i = 0; i < lengths.size(); ++i) starts[i + 1] = starts[i] + lengths[i];
+  std::string all(size_t(starts.back()), '\0');
+  MPI_Gatherv(bytes.data(), length, MPI_CHAR, all.data(), lengths.data(), starts.data(), MPI_CHAR, 0, MPI_COMM_WORLD);
+  if (rankHere() != 0) return {};
+  std::vector<RankPiece> pieces;
+  for (size_t i = lengths.size(); i-- > 0;) pieces.push_back(readRankPiece({all.data() + starts[i], size_t(lengths[i])}, "a.mcm"));
+  return joinPieces(pieces);
+}
+
 /// What was planned for this process.
 void comparePlan(const RankPiece& piece, const PreparedMesh& mesh, const Grid& grid) {
   int ranks = 0;
@@ -207,6 +225,8 @@ bool check(const std::string& name, const PreparedMesh& mesh, const Grid& grid) 
     requireOneOwner(piece.vertexIds, &piece.vertexRanks, whole.mesh.vertexCount(), "vertex");
     requireOneOwner(piece.faceIds, &piece.faceRanks, whole.mesh.faceCount(), "face");
     requireOneOwner(piece.cellIds, nullptr, whole.mesh.cellCount(), "cell");
+    const CutMesh joined = joinFiles(piece);
+    if (rankHere() == 0) require(differences(joined, whole.mesh).empty(), "the joined pieces differ");
     const CutResult gathered = distributed->gather();
     if (rankHere() == 0) require(differences(gathered.mesh, whole.mesh).empty(), "the gathered cut differs");
   });

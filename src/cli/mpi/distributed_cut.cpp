@@ -5,6 +5,7 @@
 #include "cli/cutting.h"
 #include "cli/files.h"
 #include "cli/mpi/case_files.h"
+#include "cli/mpi/mcm_folder.h"
 #include "cli/mpi/piece_files.h"
 #include "cli/peak_memory.h"
 #include "cut/stages/input.h"
@@ -18,7 +19,7 @@
 namespace mandoline::cli {
 namespace {
 
-bool isInPieces(const std::string& output) { return isPvtu(output) || isPolyMesh(output); }
+bool isInPieces(const std::string& output) { return isPvtu(output) || isPolyMesh(output) || isMcmFolder(output); }
 
 /// The outputs that the first process writes, of the whole cut.
 Arguments ofWhole(const Arguments& arguments) {
@@ -46,6 +47,12 @@ void checkPieces(const Arguments& arguments, const std::string& output) {
   }
 }
 
+/// A folder of pieces has all of the cut, as any .mcm file, and nothing that is made of it.
+void checkMcmFolder(const Arguments& arguments, const std::string& output) {
+  if (arguments.only.any()) throw UsageError("-o " + output + ": .mcm files always have everything");
+  if (arguments.insideThreshold) throw UsageError("-o " + output + ": pieces do not go with --inside-threshold, which needs the whole cut");
+}
+
 void checkFlow([[maybe_unused]] const Arguments& arguments) {
 #ifdef MANDOLINE_HAVE_PETSC
   checkDistributedFlow(arguments);
@@ -60,6 +67,10 @@ void checkArguments(const Arguments& arguments) {
   if (arguments.command == Command::flow) return checkFlow(arguments);
   for (const std::string& output : arguments.outputs) {
     if (!isInPieces(output)) continue;
+    if (isMcmFolder(output)) {
+      checkMcmFolder(arguments, output);
+      continue;
+    }
     checkPieces(arguments, output);
     if (isPvtu(output))
       detail::checkPlace(output);
@@ -67,8 +78,8 @@ void checkArguments(const Arguments& arguments) {
       checkCase(output);
   }
   Arguments others = arguments;
-  std::erase_if(others.outputs, isPvtu);
-  if (others.outputs.size() < arguments.outputs.size()) others.simpleCells = false;  // the .pvtu file has them
+  if (std::erase_if(others.outputs, isPvtu) > 0) others.simpleCells = false;  // the .pvtu file has them
+  std::erase_if(others.outputs, isMcmFolder);
   checkCutOutputs(others);
 }
 
@@ -90,6 +101,7 @@ class Run {
     for (const std::string& output : arguments_.outputs) {
       if (isPvtu(output)) writePiece(output, piece);
       if (isPolyMesh(output)) writeCase(output, piece);
+      if (isMcmFolder(output)) McmFolder(ranks_, output).write(piece, writingOptions());
     }
     const int exitCode = needsWhole(arguments_) ? finishWhole() : finishReduced(piece);
     return ranks_.comm().reduce(exitCode, MPI_MAX);

@@ -32,9 +32,12 @@ options. Each process has the whole mesh and cuts some layers of the grid.
                          which joins them; with --only also cut and region=K
   -o CASE/constant/polyMesh
                          a decomposed case of OpenFOAM: CASE/processor0/constant/polyMesh
-                         and so on, with all grid cells as they are. Other files
-                         are written by the first process, which then has to hold the
-                         whole cut, as it has to for --validate, --merge and --only inside
+                         and so on, with all grid cells as they are
+  -o FOLDER.mcm/         a .mcm file of each process, FOLDER.mcm/piece_0.mcm and so on;
+                         readCutMesh() takes each of them, or the folder for the whole.
+                         Other files are written by the first process, which then has to
+                         hold the whole cut, as it has to for --validate, --merge and
+                         --only inside
   --threads T            of each process (default: the cores of its machine, shared out)
   --progress             show how far the first process has come, on standard error
 

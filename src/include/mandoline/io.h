@@ -11,6 +11,7 @@
 #include "mandoline/cell_complex.h"
 #include "mandoline/mandoline.h"
 #include "mandoline/mesh_files.h"
+#include "mandoline/rank_piece.h"
 #include "mandoline/slice.h"
 
 namespace MANDOLINE_API mandoline {
@@ -70,6 +71,8 @@ void writeJson(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cell
 /// The cut-mesh as bytes that readCutMesh() takes, in Mandoline's own format: compressed, with a version and a checksum of each array. The
 /// same cut-mesh always gives the same bytes.
 void writeMcm(const Sink& sink, const CutMesh& cutMesh, const RunOptions& options = {});
+/// A piece of a cut of several processes as such a file, which also has its ids in the whole, ranks and seams.
+void writeMcm(const Sink& sink, const RankPiece& piece, const RunOptions& options = {});
 /// VTK XML unstructured grid of polyhedra, and of hexahedra for untouched grid cells, with cell arrays grid_cell, region, volume and, where
 /// they are there, winding, part_winding, parity and insideness. Faces with holes are split alike on both sides. Takes little memory
 /// besides that of the cut-mesh.
@@ -160,10 +163,14 @@ PieceCounts writePieces(const std::string& folder, const PreparedMesh& mesh, con
 /// Throws the FileError that writeCutMesh would meet at once, before there is anything to write: an unknown extension, no such folder.
 void checkOutput(const std::string& path);
 
-/// Reads a .mcm file: every array and the grid, to the bit. What it returns passes checkArrays(), so that all functions can take it; some
-/// also need its input. Throws FileError for anything else, which names the byte and the array.
+/// Reads a .mcm file: every array and the grid, to the bit; of a piece its cut-mesh. Of a folder of pieces it reads all .mcm files, and
+/// gives the whole, as joinPieces() does. What it returns passes checkArrays(), so that all functions can take it; some also need its
+/// input. Throws FileError for anything else, which names the byte and the array, or the layers of the grid that are missing.
 CutMesh readCutMesh(const std::string& path);
 /// The same from the bytes of a file. `name` stands for the path in messages.
 CutMesh readCutMesh(std::span<const char> bytes, const std::string& name);
+/// Reads the .mcm file of a piece alone. Throws FileError, also for a whole cut-mesh.
+RankPiece readRankPiece(const std::string& path);
+RankPiece readRankPiece(std::span<const char> bytes, const std::string& name);
 
 }  // namespace mandoline

@@ -28,6 +28,7 @@
 #include "mandoline/merge.h"
 #include "mandoline/orient.h"
 #include "mandoline/prepare.h"
+#include "mandoline/rank_piece.h"
 #include "mandoline/recut.h"
 #include "mandoline/refine.h"
 #include "mandoline/resolve.h"
