@@ -126,7 +126,7 @@ class FlowSolver {
   /// Goes on from the flow's phi, if there is one.
   void solve(PoissonSolver& solver, const SolveOptions& options, const Boundary& boundary, Flow& flow) const {
     Solution solution = solver.solve({{}, boundary.value, flow.phi}, options);
-    flow.status = solution.status;
+    flow.status = isSolved(solution.status) ? SolveStatus::converged : solution.status;  // what flows is known
     flow.phi = std::move(solution.phi);
     if (!flow.residuals.empty()) flow.residuals.pop_back();
     flow.residuals.insert(flow.residuals.end(), solution.residuals.begin(), solution.residuals.end());

@@ -37,7 +37,7 @@ SolveStatus HeatStepper::step(const SolveOptions& options) {
     if (source.empty()) source.resize(phi_.size());
     for (size_t c = 0; c < source.size() && c < phi_.size(); ++c) source[c] -= mass * from[c];
     Solution solution = solver_.solve({source, boundaryValue_, start}, options);
-    if (solution.status != SolveStatus::converged) return solution.status;
+    if (!isSolved(solution.status)) return solution.status;
     // From phi the second stage goes on with what the first one found of d phi / dt, for the rest of the step.
     for (size_t c = 0; c < phi_.size() && stage == 0; ++c) from[c] += (1 - kStage) / kStage * (solution.phi[c] - phi_[c]);
     start = solution.phi;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "physics/poisson_setup.h"
+#include "physics/unresolved_cells.h"
 
 namespace mandoline::physics {
 namespace {
@@ -33,9 +34,11 @@ class Solver {
     solve();
     setDerivatives();
     fixConstants();
+    findUnresolved();
     for (Vector* values : {&result_.phi, &result_.faceDerivative, &result_.boundaryDerivative}) scaleBy(exponent_, *values);
     if (!areFinite(result_.phi)) result_.status = SolveStatus::breakdown;
-    if (result_.status == SolveStatus::converged && !result_.incompatible.empty()) result_.status = SolveStatus::incompatible;
+    if (result_.status == SolveStatus::converged && !result_.unresolved.empty()) result_.status = SolveStatus::unresolved;
+    if (isSolved(result_.status) && !result_.incompatible.empty()) result_.status = SolveStatus::incompatible;
     return std::move(result_);
   }
 
@@ -280,6 +283,14 @@ class Solver {
     }
   }
 
+  void findUnresolved() {
+    if (result_.status != SolveStatus::converged || result_.phi.empty()) return;
+    const auto [low, high] = std::minmax_element(result_.phi.begin(), result_.phi.end());
+    result_.unresolved = unresolvedCells(setup_, kUnresolved * (*high - *low));
+  }
+
+  /// So wrong, relative to the range of phi, it is not resolved.
+  static constexpr double kUnresolved = 1e-6;
   /// A sum smaller than this, relative to the sum of the magnitudes of its terms, is rounding.
   static constexpr double kRounding = 1e-15;
   /// So loosely is solved what more corrections follow.

@@ -184,9 +184,9 @@ bool FlowStepper::State::addViscosity(double rate, Vector& velocity, FlowStep& r
     for (size_t c = 0; c < n; ++c) source[c] = -mass * velocity[3 * c + d], start[c] = flow_.cellVelocity[3 * c + d];
     if (!areFinite(source)) return false;
     Solution solution = viscosity_[d].solve({source, boundary_.velocities(d), start}, solving(kTolerance));
-    report.status = solution.status;
+    report.status = isSolved(solution.status) ? SolveStatus::converged : solution.status;
     report.iterations += solution.iterations();
-    if (solution.status != SolveStatus::converged) return false;
+    if (!isSolved(solution.status)) return false;
     for (size_t c = 0; c < n; ++c) velocity[3 * c + d] = solution.phi[c];
     derivative[d] = std::move(solution.boundaryDerivative);
   }
@@ -242,9 +242,9 @@ bool FlowStepper::State::project(double rate, Vector& velocity, UnsteadyFlow& ne
   const bool isFirst = timeStepBefore_ == 0;  // so that no pressure is known
   if (isFirst) options.corrections = SolveOptions().corrections;
   const Solution solution = pressure_.solve({source, values, isFirst ? Vector() : flow_.cellPressure}, options);
-  report.status = solution.status;
+  report.status = isSolved(solution.status) ? SolveStatus::converged : solution.status;
   report.iterations += solution.iterations();
-  if (solution.status != SolveStatus::converged) return false;
+  if (!isSolved(solution.status)) return false;
   for (const physics::FlowFace& face : flowCells_.faces()) next.faceVelocity[face.face] -= solution.faceDerivative[face.face] / rate;
   Vector outlet;
   for (size_t i = 0; i < boundary_.outlets.size(); ++i) {

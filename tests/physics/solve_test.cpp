@@ -50,6 +50,23 @@ double linearError(const CellComplex& cells, const std::vector<double>& phi, con
   return largest;
 }
 
+/// The same in the cells that are not named as unresolved.
+double linearErrorElsewhere(const CellComplex& cells, const Solution& solution) {
+  std::vector<double> phi = solution.phi;
+  const CellComponents components = cellComponents(cells);
+  std::vector<double> sum(components.count), volume(components.count);
+  for (size_t c = 0; c < phi.size(); ++c) {
+    if (std::binary_search(solution.unresolved.begin(), solution.unresolved.end(), c)) continue;
+    sum[components.cellComponent[c]] += cells.cellVolume[c] * (phi[c] - dot(kField, cells.cellCentre, c));
+    volume[components.cellComponent[c]] += cells.cellVolume[c];
+  }
+  for (const uint32_t c : solution.unresolved) {
+    const uint32_t r = components.cellComponent[c];
+    phi[c] = dot(kField, cells.cellCentre, c) + (volume[r] > 0 ? sum[r] / volume[r] : 0);
+  }
+  return linearError(cells, phi, kField);
+}
+
 /// phi = sin(x) cos(y) exp(z / 2) outside of a ball: its values on the grid's sides, its normal derivative on the ball. Errors, mean and
 /// largest.
 std::array<double, 2> errorsOutsideOfBall(int64_t n, int maxLevel) {
@@ -161,6 +178,30 @@ TEST_CASE("solve: cells that only the tiniest faces connect", "[solve]") {
   }
 }
 
+TEST_CASE("solve: cells that rounding leaves open are named", "[solve]") {
+  // A box ends three units of rounding beyond a plane, where octree cells meet four slivers at once: only the mean of their phi is held.
+  const Mesh box = shapes::box({1.3, 1.3, 1.3}, {6 + 0x3p-50, 6.7, 6.7});
+  std::vector<uint32_t> slivers;
+  for (const int fineLayers : {0, 1}) {
+    const CellComplex cells = complexOf(box, unitGrid(8), 24, fineLayers);
+    const Solution solution = solvePoisson(cells, windThrough(cells, kField), within(1e-13));
+    CAPTURE(fineLayers, solution.residuals);
+    CHECK(solution.status == (fineLayers == 0 ? SolveStatus::unresolved : SolveStatus::converged));
+    CHECK(solution.unresolved.empty() == (fineLayers > 0));
+    for (const uint32_t c : solution.unresolved) CHECK(cells.cellVolume[c] < 1e-14);
+    CHECK(linearErrorElsewhere(cells, solution) <= 1e-10 * 8);
+  }
+}
+
+TEST_CASE("solve: of a pocket that is open at nearly no area, phi is named as a whole", "[solve]") {
+  // A plate of a thickness of 1e-13: what flows in on one side and out on the other is rounded by as much as its cells exchange.
+  const CellComplex cells = complexOf(shapes::box({1.3, 1.4, 3.5}, {6.6, 6.7, 3.5 + 1e-13}), unitGrid(8));
+  const Solution solution = solvePoisson(cells, windThrough(cells, kField), within(1e-13));
+  CHECK(solution.status == SolveStatus::unresolved);
+  CHECK(linearErrorElsewhere(cells, solution) <= 1e-5);
+  CHECK(solvePoisson(cells, windAround(cells, kField), within(1e-13)).status == SolveStatus::converged);  // nothing flows in
+}
+
 TEST_CASE("solve: in any unit of length", "[solve]") {
   const auto phi = [](double unit) {
     const Mesh mesh = shapes::icosphere({3.3 * unit, 3.1 * unit, 2.9 * unit}, 1.7 * unit, 2);
@@ -210,7 +251,7 @@ TEST_CASE("solve: where a dead end behind a slit of nearly no area is fed, resid
     CAPTURE(name(solution.status), solution.residuals, found);
     REQUIRE_FALSE(solution.residuals.empty());
     CHECK(std::fabs(found - solution.residuals.back()) <= 1e-12 + 1e-3 * found);
-    CHECK((solution.status == SolveStatus::converged) == (found <= 1e-10));
+    CHECK(isSolved(solution.status) == (found <= 1e-10));
   }
 }
 

@@ -250,7 +250,7 @@ double linearError(const Mesh& mesh, const Grid& grid, const Discretisation& way
   SolveOptions options;
   options.tolerance = 1e-13;
   const Solution solution = solvePoisson(cells, problemOf(cells, kLinear, DualPoints::centres), options);
-  if (solution.status != SolveStatus::converged) return HUGE_VAL;
+  if (!isSolved(solution.status)) return HUGE_VAL;
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (size_t c = 0; c < cells.cellCount(); ++c) {
     const double phi = kLinear.phi({cells.cellCentre[3 * c], cells.cellCentre[3 * c + 1], cells.cellCentre[3 * c + 2]});

@@ -114,19 +114,23 @@ struct SolveOptions : RunOptions {
   bool balance = false;
 };
 
-/// How solving ended.
+/// How solving ended. Flows and steps are not unresolved: what passes through faces is known also where phi is not.
 enum class SolveStatus : uint8_t {
   converged,
   iterationLimit,  ///< the residual is above the tolerance after maxIterations
   incompatible,    ///< in some components sources and fluxes do not cancel, so nothing solves the system there; elsewhere it is solved
+  unresolved,      ///< solved, but rounding errors of what is given may make more than a millionth of the range of phi in some cells
   breakdown        ///< numbers, or the differences between them, are too large or too small for doubles; phi is the last that was found
 };
 
 /// The status as the word above.
 inline const char* name(SolveStatus status) {
-  constexpr const char* kNames[] = {"converged", "iterationLimit", "incompatible", "breakdown"};
+  constexpr const char* kNames[] = {"converged", "iterationLimit", "incompatible", "unresolved", "breakdown"};
   return kNames[size_t(status)];
 }
+
+/// Whether phi solves the system in all components.
+inline bool isSolved(SolveStatus status) { return status == SolveStatus::converged || status == SolveStatus::unresolved; }
 
 /// What solvePoisson() found.
 struct Solution {
@@ -141,6 +145,10 @@ struct Solution {
   /// out.
   std::vector<uint32_t> incompatible;
   std::vector<double> excess;  ///< per incompatible component: the inflow minus the integral of s
+  /// Cells, ascending, in which phi may be wrong by more than a millionth of its range: much flows into them through their faces on the
+  /// boundary and out again, and they exchange so little with others that rounding of the difference decides. Thin slivers between
+  /// triangles are such, where fluxes through the surface are given that do not vanish; mergeSmallCells() leaves fewer.
+  std::vector<uint32_t> unresolved;
 
   size_t iterations() const { return residuals.empty() ? 0 : residuals.size() - 1; }
 
@@ -152,6 +160,7 @@ struct Solution {
     f("boundaryDerivative", self.boundaryDerivative);
     f("incompatible", self.incompatible);
     f("excess", self.excess);
+    f("unresolved", self.unresolved);
   }
 };
 

@@ -103,6 +103,7 @@ export const Solution = {
   boundaryDerivative: 'Float64Array',
   incompatible: 'Uint32Array',
   excess: 'Float64Array',
+  unresolved: 'Uint32Array',
 };
 
 export const UnsteadyFlow = {
@@ -137,4 +138,4 @@ export const Condition = ['neumann', 'dirichlet', 'robin'];
 
 export const FreeConstant = ['zeroMean', 'pinned'];
 
-export const SolveStatus = ['converged', 'iterationLimit', 'incompatible', 'breakdown'];
+export const SolveStatus = ['converged', 'iterationLimit', 'incompatible', 'unresolved', 'breakdown'];

@@ -221,6 +221,12 @@ export interface Solution {
   incompatible: Uint32Array<ArrayBuffer>;
   /** Per incompatible component: the inflow minus the integral of s. */
   excess: Float64Array<ArrayBuffer>;
+  /**
+   * Cells, ascending, in which phi may be wrong by more than a millionth of its range: much flows into them through their faces on the
+   * boundary and out again, and they exchange so little with others that rounding of the difference decides. Thin slivers between triangles
+   * are such, where fluxes through the surface are given that do not vanish; mergeSmallCells() leaves fewer.
+   */
+  unresolved: Uint32Array<ArrayBuffer>;
 }
 
 /** A flow at one time, of a fluid of density 1. */
@@ -296,12 +302,14 @@ export type ConditionKind =
   /** The same derivative plus a coefficient times phi is given. */
   | 'robin';
 
-/** How solving ended. */
+/** How solving ended. Flows and steps are not unresolved: what passes through faces is known also where phi is not. */
 export type SolveStatus =
   | 'converged'
   /** The residual is above the tolerance after maxIterations. */
   | 'iterationLimit'
   /** In some components sources and fluxes do not cancel, so nothing solves the system there; elsewhere it is solved. */
   | 'incompatible'
+  /** Solved, but rounding errors of what is given may make more than a millionth of the range of phi in some cells. */
+  | 'unresolved'
   /** Numbers, or the differences between them, are too large or too small for doubles; phi is the last that was found. */
   | 'breakdown';

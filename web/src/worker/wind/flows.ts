@@ -66,6 +66,7 @@ function combined(tunnel: Tunnel, direction: Vector3): Velocities | null {
 const reasons: Record<Exclude<SolveStatus, 'converged'>, string> = {
   iterationLimit: 'the solver did not come to an end',
   incompatible: 'as much as flows in can not flow out',
+  unresolved: 'rounding decides what it is in some cells',
   breakdown: 'its numbers, or the differences between them, are too large or too small',
 };
 

@@ -88,6 +88,7 @@ export class SmokeFlow {
 const reasons: Record<Exclude<SolveStatus, 'converged'>, string> = {
   iterationLimit: 'The solver did not come to an end.',
   incompatible: 'As much as flows in can not flow out.',
+  unresolved: 'Rounding decides what it is in some cells.',
   breakdown: 'The flow came to rest, or its numbers became too large or too small.',
 };
 
