@@ -1,5 +1,5 @@
-// The calls that bricks/calls.js has: surfaces that move are cut again, grids are cut brick by brick. As in bindings.cpp nothing is decided
-// here. A module of its own, which is loaded when the first of them is made.
+// The calls that bricks/calls.js has: surfaces that move are cut again, grids are cut brick by brick, cells are refined. As in bindings.cpp
+// nothing is decided here. A module of its own, which is loaded when the first of them is made.
 #include <emscripten/bind.h>
 
 #include <utility>
@@ -7,6 +7,7 @@
 #include "cut_meshes.h"
 #include "mandoline/for_each_brick.h"
 #include "mandoline/recut.h"
+#include "mandoline/refine.h"
 
 namespace {
 
@@ -106,6 +107,35 @@ val brickCutterOf(const val& mesh, const val& grid, const val& options) {
   });
 }
 
+/// A rule whose function gives null ends the call.
+RefinementRule readRule(const val& rule) {
+  if (rule.isUndefined()) return {};
+  const auto divides = [callback = rule["divides"]](const std::array<double, 3>& min, const std::array<double, 3>& max, int depth) {
+    const val answer = callback(min[0], min[1], min[2], max[0], max[1], max[2], depth);
+    if (answer.isNull()) throw CallError({Status::cancelled, -1, -1, "The rule threw."});
+    return answer.isTrue();
+  };
+  return {divides, rule["levels"].as<int>()};
+}
+
+val refinedOf(const val& mesh, const KeptCutMesh& kept, const val& options) {
+  return guarded([&, cutMesh = kept.get()] {
+    RefineOptions refineOptions;
+    refineOptions.progress = progressOf(options);
+    refineOptions.levels = options["levels"].as<int>();
+    refineOptions.angle = options["angle"].as<double>();
+    refineOptions.rule = readRule(options["rule"]);
+    refineOptions.layers = options["layers"].as<int>();
+    refineOptions.coarsening = readCoarsening(options["coarsening"]);
+    for (const val& box : emscripten::vecFromJSArray<val>(options["boxes"]))
+      refineOptions.boxes.push_back({readTriple<double>(box["min"]), readTriple<double>(box["max"]), box["levels"].as<int>()});
+    const Mesh input = fromObject<Mesh>(mesh);
+    const PrepareResult prepared = prepare(input, {runOptions(options), Intersections(options["intersections"].as<int>())});
+    if (!prepared) throw CallError(prepared.error);
+    return success(object({{"value", toObject(refineCells(prepared.mesh, *cutMesh, refineOptions))}}));
+  });
+}
+
 std::string version() { return MANDOLINE_VERSION; }
 
 }  // namespace
@@ -120,6 +150,7 @@ EMSCRIPTEN_BINDINGS(bricks) {
   emscripten::function("version", &version);
   emscripten::function("keepCutMesh", &keepCutMesh);
   emscripten::function("dataOf", &dataOf);
+  emscripten::function("refineCells", &refinedOf);
   emscripten::function("createRecutter", &recutterOf);
   emscripten::function("createBrickCutter", &brickCutterOf);
 }

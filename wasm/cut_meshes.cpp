@@ -35,6 +35,15 @@ val dataOf(const KeptCutMesh& kept) {
   return guarded([&, cutMesh = kept.get()] { return success(toObject(*cutMesh)); });
 }
 
+CoarsenOptions readCoarsening(const val& options) {
+  CoarsenOptions result;
+  result.maxLevel = options["maxLevel"].as<int>();
+  result.fineLayers = options["fineLayers"].as<int>();
+  result.layersPerLevel = options["layersPerLevel"].as<int>();
+  result.balanceEdges = options["balanceEdges"].as<bool>();
+  return result;
+}
+
 Grid readGrid(const val& grid, const MeshView& mesh) {
   const std::string kind = grid["kind"].as<std::string>();
   if (kind == "planes") return fromObject<Grid>(grid);

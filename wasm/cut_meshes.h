@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "mandoline/coarsen.h"
 #include "mandoline/prepare.h"
 #include "mandoline/resolve.h"
 #include "mandoline/validate.h"
@@ -55,6 +56,9 @@ val lastStage(const CutStats& stats);
 val outcomeOf(CutResult& result, const val& options);
 /// For the other modules.
 val dataOf(const KeptCutMesh& kept);
+
+/// Without progress.
+CoarsenOptions readCoarsening(const val& options);
 
 /// A grid of any kind.
 Grid readGrid(const val& grid, const MeshView& mesh);

@@ -13,18 +13,27 @@ namespace {
 using namespace mandoline;
 using namespace mandoline::wasm;
 
+/// As keepCutMesh(), but also that of refined cells. It has no runs, which the check asks for.
+val keepAnyCutMesh(const val& given, bool isChecked) {
+  return guarded([&] {
+    CutMesh cutMesh = fromObject<CutMesh>(given);
+    const bool isRefined = cutMesh.rowRunOffsets.empty() && !cutMesh.loopOffsets.empty();
+    if (isRefined) cutMesh.rowRunOffsets.assign(size_t(cutMesh.grid.cells(1) * cutMesh.grid.cells(2)) + 1, 0);
+    const Check check = isChecked ? checkArrays(cutMesh) : Check();
+    if (isChecked && !check.pass) return failure("badArgument", "The arrays of cutMesh don't fit together: " + check.message);
+    if (isRefined) cutMesh.rowRunOffsets = {};
+    return success(val(KeptCutMesh(std::move(cutMesh))));
+  });
+}
+
 val keepComplex(const val& cells) {
   return guarded([&] { return keepChecked<CellComplex>(cells, "cells"); });
 }
 
 val coarsenCutMesh(const KeptCutMesh& kept, const val& options) {
   return guarded([&, cutMesh = kept.get()] {
-    CoarsenOptions coarsenOptions;
+    CoarsenOptions coarsenOptions = readCoarsening(options);
     coarsenOptions.progress = progressOf(options);
-    coarsenOptions.maxLevel = options["maxLevel"].as<int>();
-    coarsenOptions.fineLayers = options["fineLayers"].as<int>();
-    coarsenOptions.layersPerLevel = options["layersPerLevel"].as<int>();
-    coarsenOptions.balanceEdges = options["balanceEdges"].as<bool>();
     return success(toObject(coarsen(*cutMesh, coarsenOptions)));
   });
 }
@@ -247,7 +256,7 @@ EMSCRIPTEN_BINDINGS(physics) {
   emscripten::class_<KeptCutMesh>("KeptCutMesh").function("bytes", &KeptCutMesh::bytes);
   emscripten::class_<KeptComplex>("KeptComplex").function("bytes", &KeptComplex::bytes);
   emscripten::function("version", &version);
-  emscripten::function("keepCutMesh", &keepCutMesh);
+  emscripten::function("keepCutMesh", &keepAnyCutMesh);
   emscripten::function("dataOf", &dataOf);
   emscripten::function("keepComplex", &keepComplex);
   emscripten::function("coarsen", &coarsenCutMesh);

@@ -9,9 +9,9 @@ const packageFolder = dirname(fileURLToPath(import.meta.url));
 const headerFolder = join(dirname(packageFolder), 'src', 'include', 'mandoline');
 
 // Of mandoline-wasm/physics; all others belong to the main entry.
-const physicsHeaders = ['coarsen.h', 'cell_complex.h', 'merge.h', 'operators.h', 'poisson.h', 'flow.h', 'unsteady.h'];
+const physicsHeaders = ['coarsen.h', 'cell_complex.h', 'refine.h', 'merge.h', 'operators.h', 'poisson.h', 'flow.h', 'unsteady.h'];
 // JavaScript has no calls that give what they describe.
-const leftOut = ['cut_share.h', 'distributed.h', 'recut.h', 'refine.h'];
+const leftOut = ['cut_share.h', 'distributed.h', 'recut.h'];
 
 // Calls give these with more: their whole is in index.d.ts, or the word means what is put in.
 const names = {

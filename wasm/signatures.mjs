@@ -35,7 +35,7 @@ function formatted(text) {
 
 const builtIn = /^(\w+Array|Array\w+|Blob|Promise|Names)$/;
 
-/** Imports of the types that these calls use: from `main` those that its files declare, and the others from `own`. */
+/** Imports of the types that these calls use: from `main` those that its files declare, and the others from `own`, the entry that has them. */
 function imports(calls, main, own) {
   const used = new Set(calls.flatMap(({ signatures }) => signatures.join(' ').match(/\b[A-Z]\w*/g)).filter((name) => !builtIn.test(name)));
   const declared = `${textOf('index.d.ts')}${textOf('results.d.ts')}`;
@@ -48,14 +48,14 @@ function imports(calls, main, own) {
 
 const note = (table) => `// Written by wasm/signatures.mjs from ${table}: change that.`;
 
-function typesOf(table, main, worker) {
+function typesOf(table, main, worker, own = './index.js') {
   const calls = callsIn(textOf(table));
   const comment = (says) => (says.length === 1 ? [`  /**${says[0].slice('   *'.length)} */`] : ['  /**', ...says, '   */']);
   const direct = ({ says, signatures }) => [...comment(says), ...signatures.map((signature) => `  ${signature};`)];
   const promised = ({ signatures }) => signatures.map((signature) => `  ${ofWorker(signature)};`);
   const lines = [
     note(table),
-    ...imports(calls, main, './index.js'),
+    ...imports(calls, main, own),
     `import type { CallOptions${keptTypes.some((type) => new RegExp(`\\): (Promise<)?${type}>?\n`).test(textOf(table))) ? ', OnWorker' : ''} } from '${worker}';`,
     '',
     'export interface Calls {',
@@ -78,7 +78,7 @@ function namesOf(table) {
 
 const files = {
   'signatures.d.ts': typesOf('calls.js', './index.js', './worker.js'),
-  'bricks/signatures.d.ts': typesOf('bricks/calls.js', '../index.js', '../worker.js'),
+  'bricks/signatures.d.ts': typesOf('bricks/calls.js', '../index.js', '../worker.js', '../physics/index.js'),
   'files/signatures.d.ts': typesOf('files/calls.js', '../index.js', '../worker.js'),
   'physics/signatures.d.ts': typesOf('physics/calls.js', '../index.js', '../worker.js'),
   'physics-names.js': namesOf('physics/calls.js'),

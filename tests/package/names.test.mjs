@@ -67,6 +67,13 @@ const takers = [
   ['createRecutter, grid', ['cells', 'margin', 'min', 'max', 'origin', 'spacing', 'planes'], (object) => mandoline.createRecutter(object)],
   ['cut of a recutter', ['gridCellRegion', 'keep', 'reuse', 'progress'], (object) => recutter.cut(mesh, object)],
   ['cut of a brick cutter', ['keep', 'progress'], (object) => brickCutter.cut(0, object)],
+  ['refineCells, box', ['min', 'max', 'levels'], (object) => mandoline.refineCells(mesh, cutMesh, { boxes: [object] })],
+  ['refineCells, rule', ['divides', 'levels'], (object) => mandoline.refineCells(mesh, cutMesh, { rule: object })],
+  [
+    'refineCells, coarsening',
+    ['maxLevel', 'fineLayers', 'layersPerLevel', 'balanceEdges'],
+    (object) => mandoline.refineCells(mesh, cutMesh, { coarsening: object }),
+  ],
   ['slice, plane', ['normal', 'offset'], (object) => mandoline.slice(cutMesh, object)],
   ['triangulate, of', ['cell', 'region'], (object) => mandoline.triangulate(cutMesh, object)],
   [
@@ -179,6 +186,8 @@ test('types have these names, no more and no fewer', () => {
     'poissonSystem, problem': 'PoissonProblem',
     'velocityAt, field': 'FlowField',
     'boundaryOf, conditions': 'Conditions',
+    'refineCells, box': 'RefinementBox',
+    'refineCells, rule': 'RefinementRule',
     'cut of a recutter': 'RecutOptions',
     'cut of a brick cutter': 'PieceOptions',
     call: 'ExtraCallOptions',
@@ -187,7 +196,7 @@ test('types have these names, no more and no fewer', () => {
   const namesOf = (taker) => takers.find(([what]) => what === taker)[1].map((name) => `${name}: 0`);
   assertCompiles(`
     import type { PieceOptions, Plane, RecutOptions } from 'mandoline-wasm';
-    import type { Conditions, FlowField, PoissonProblem } from 'mandoline-wasm/physics';
+    import type { Conditions, FlowField, PoissonProblem, RefinementBox, RefinementRule } from 'mandoline-wasm/physics';
     import type { DrawOptions } from 'mandoline-wasm/three';
     import type { ExtraCallOptions } from 'mandoline-wasm/worker';
     ${Object.entries(types)

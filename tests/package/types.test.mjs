@@ -137,6 +137,7 @@ test('results of mandoline-wasm/physics', async () => {
   const results = [
     ['OctreeCells', physics.coarsen(cutMesh)],
     ['CellComplex', cells],
+    ['RefinedCells', await mandoline.refineCells(mesh, cutMesh, { levels: 1 })],
     ['MergedCells', physics.mergeSmallCells(cutMesh, cells)],
     ['SubComplex', physics.regionComplex(cells, 0)],
     ['SubComplex', physics.subComplex(cells, [0])],

@@ -51,6 +51,7 @@ test('every call works on the twin, without the arrays', () =>
       slices: [cutMesh, [1, 2, 3], [0, 0.1]],
       outlines: [cutMesh, [0, 0, 1], [0.05]],
       write: [mesh, cutMesh, 'vtu'],
+      refineCells: [mesh, cutMesh, { levels: 1 }],
     };
     for (const [name, args] of Object.entries(calls)) {
       assert.deepEqual(await worker[name](...args), await here[name](...args.map((arg) => (arg === cutMesh ? expected : arg))), name);

@@ -5,7 +5,7 @@ import { named } from './errors.js';
 import { Host, isResult } from './host.js';
 import { once } from './load.js';
 import { makeObject } from './objects.js';
-import { withProgress } from './progress.js';
+import { withCallbacks } from './callbacks.js';
 
 /** Returns a function that gives the argument once the handles of twins are there. Values that need a handle are added to `inputs`. */
 function readArgument(taken, value, name, asInput) {
@@ -19,15 +19,16 @@ function readArgument(taken, value, name, asInput) {
   return (handles) => Object.fromEntries(members.map(([key, give]) => [key, give(handles)]));
 }
 
-/** Keeps the twin that a call returned, and gives the call's outcome without it. */
+/**
+ * Keeps the twin that a call returned, and gives the call's outcome without it. Without one, the result is to get it where it is first read,
+ * unless the call was told not to keep any.
+ */
 function keepTwin({ value: given, error }, { member }, origin, host, twins) {
   if (error) return { error };
   const { value, twin } = given;
-  if (twin) {
-    const result = member ? value[member] : value;
-    host.adopt(result, origin);
-    twins.keep(result, twin);
-  }
+  const result = member ? value[member] : value;
+  if (origin.keep !== false) host.adopt(result, origin);
+  if (twin) twins.keep(result, twin);
   return { value };
 }
 
@@ -57,9 +58,9 @@ export function makeCall(host, name, call) {
   const { takes, options, keeps, gives, run = (bindings, ...args) => bindings[name](...args) } = call;
   const parameters = Object.entries(takes);
   return (...given) => {
-    const { progress: told, reuse, ...what } = readOptions(given[parameters.length], options);
+    const { progress: told, rule: givenRule, reuse, ...what } = readOptions(given[parameters.length], options);
     const copy = reuse && copierInto(reuse);
-    return withProgress(told, (progress) => {
+    return withCallbacks({ progress: told, rule: givenRule }, ({ progress, rule }) => {
       const inputs = [];
       const asInput = (taken, value) => {
         if (taken.otherwise && !isResult(value) && !taken.fits?.(value)) return undefined;
@@ -69,7 +70,7 @@ export function makeCall(host, name, call) {
       const readings = parameters.map(([parameter, taken], i) => readArgument(taken, given[i], parameter, asInput));
       return host.runWith(inputs, (bindings, handles, twins) => {
         const args = readings.map((give) => give(handles));
-        const outcome = run(bindings, ...args, ...(options ? [{ ...what, progress, copy }] : []));
+        const outcome = run(bindings, ...args, ...(options ? [{ ...what, progress, rule, copy }] : []));
         if (gives) return withObject(outcome, call, host, bindings);
         return keeps ? keepTwin(outcome, call, { kind: keeps, ...what }, host, twins) : outcome;
       });

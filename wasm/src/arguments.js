@@ -297,9 +297,19 @@ export function readFlags(value, name) {
   return collect(Uint8Array, value, name, Boolean);
 }
 
-export const readFunction = optional((value, name) => {
+export function expectFunction(value, name) {
   if (typeof value !== 'function') throw bad(`${name} must be a function, not ${kindOf(value)}.`);
   return value;
+}
+
+export const readFunction = optional(expectFunction);
+
+/** Readers of the options of coarsen(). */
+export const coarsening = (maxLevel) => ({
+  maxLevel: int32(maxLevel),
+  fineLayers: int32(1),
+  layersPerLevel: int32(-1),
+  balanceEdges: flag(false),
 });
 
 /** An id; whether there is such an element is up to C++. */
@@ -342,6 +352,12 @@ function withParents(cutMesh) {
 export function readInt32(value, name) {
   return Math.min(Math.max(expectInteger(value, name), -(2 ** 31)), 2 ** 31 - 1);
 }
+
+/** A reader of such numbers that may be left out. */
+export const int32 =
+  (fallback) =>
+  (value = fallback, name) =>
+    readInt32(value, name);
 
 function readGridOf(grid, name) {
   expectObject(grid, name);

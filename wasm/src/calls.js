@@ -5,7 +5,8 @@
 //   members. A value that is not a result is read by `otherwise`, if that is given, unless `fits` says that it is of the kind.
 // options: their readers.
 // run(bindings, ...arguments, options): calls C++, with handles for arguments that may have twins; by default the binding of that name.
-// keeps: the kind of the call's result, which gets a twin (only its `member`, if that is given); run() then returns { value, twin }.
+// keeps: the kind of the call's result, which gets a twin (only its `member`, if that is given); run() then returns { value, twin }, or
+//   { value } where calls of other modules take the result, which keep one of their own.
 // gives: what object its result is, whose state stays in the module (see objects.js); run() then returns its handle.
 // isCut: it goes through the stages of a cut, and errors name the stage.
 // isFile: its only argument is a file, whose bytes and name C++ gets; its reader is given the options.

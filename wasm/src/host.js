@@ -7,7 +7,7 @@ import { Twins } from './twins.js';
 const makers = {
   prepared: 'prepare()',
   cutMesh: 'cut()',
-  cells: 'cellComplex(), mergeSmallCells(), uniteWalls(), subComplex() or regionComplex()',
+  cells: 'cellComplex(), refineCells(), mergeSmallCells(), uniteWalls(), subComplex() or regionComplex()',
 };
 
 /** What calls of any of the package's modules gave: { host, kind }. Each module may have a twin of a cut-mesh. */

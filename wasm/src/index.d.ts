@@ -357,7 +357,7 @@ export interface InitOptions {
   wasm?: WasmSource | (() => WasmSource | Promise<WasmSource>);
   /** The same of the module that has validate(), the writers and some readers: files.wasm, loaded when one of these is first called. */
   filesWasm?: WasmSource | (() => WasmSource | Promise<WasmSource>);
-  /** The same of the module of createRecutter() and createBrickCutter(): bricks.wasm, loaded when one of these is first called. */
+  /** The same of the module of createRecutter(), createBrickCutter() and refineCells(): bricks.wasm, loaded when one of these is first called. */
   bricksWasm?: WasmSource | (() => WasmSource | Promise<WasmSource>);
 }
 export type WasmSource = URL | string | ArrayBuffer | ArrayBufferView | WasmModule;

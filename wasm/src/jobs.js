@@ -145,7 +145,7 @@ export class JobQueue {
 
   #resolve(job, value, kept = []) {
     for (const id of kept) this.#twins.add(id);
-    job.resolve({ value, kept });
+    job.resolve(value);
   }
 
   /** After the thread gave the message back, because it no longer has twins that this names by these ids. */

@@ -85,7 +85,7 @@ export class Calls {
     return Object.fromEntries(calls.map(([name, call]) => [name, (...given) => this.#own(name, call, given)]));
   }
 
-  /** Marks a value as a result. */
+  /** Marks a value as a result, whether or not a twin of it is in the thread yet. */
   #note(value, id, origin) {
     this.#results.set(value, { id, origin });
     this.#collected.register(value, id);
@@ -124,10 +124,10 @@ export class Calls {
     const abort = () => this.#queue.stop(job, cancellation());
     signal?.addEventListener('abort', abort);
     try {
-      const { value, kept } = await new Promise((resolve, reject) => {
+      const value = await new Promise((resolve, reject) => {
         this.#queue.add(Object.assign(job, { resolve, reject }));
       });
-      if (kept.includes(message.result)) this.#note(memberOf(value, member), message.result, { kind: keeps, ...split.what });
+      if (keeps && split.what.keep !== false) this.#note(memberOf(value, member), message.result, { kind: keeps, ...split.what });
       return gives ? this.#object(gives, part, message.object) : value;
     } finally {
       signal?.removeEventListener('abort', abort);

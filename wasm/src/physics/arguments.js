@@ -11,7 +11,6 @@ import {
   optional,
   readFields,
   readId,
-  readInt32,
   readMembers,
   readNumbers,
   word,
@@ -41,10 +40,6 @@ export const number =
   (fallback) =>
   (value = fallback, name) =>
     expectNumber(value, name);
-export const int32 =
-  (fallback) =>
-  (value = fallback, name) =>
-    readInt32(value, name);
 
 export const dualPoints = numbered(DualPoints);
 

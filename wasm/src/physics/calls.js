@@ -1,8 +1,10 @@
 // The table of the calls of mandoline-wasm/physics, as in ../calls.js.
 import {
   bad,
+  coarsening,
   expectTypedArray,
   flag,
+  int32,
   numbered,
   optional,
   readFlags,
@@ -20,7 +22,6 @@ import { format, readGroups } from '../files/arguments.js';
 import { FreeConstant } from './fields.js';
 import {
   dualPoints,
-  int32,
   number,
   readBoundary,
   readCellIds,
@@ -81,7 +82,7 @@ export const physicsCalls = {
    */
   coarsen: {
     takes: { cutMesh },
-    options: { maxLevel: int32(24), fineLayers: int32(1), layersPerLevel: int32(-1), balanceEdges: flag(false), progress },
+    options: { ...coarsening(24), progress },
   },
   /**
    * One conforming mesh of all cells. `mesh` is the input that `cutMesh` was made from, and `octree` comes from coarsen(cutMesh); without

@@ -106,6 +106,12 @@ export const Solution = {
   unresolved: 'Uint32Array',
 };
 
+export const RefinedCells = {
+  cells: 'CellComplex',
+  cutMesh: 'CutMeshArrays',
+  levels: 'integer',
+};
+
 export const UnsteadyFlow = {
   time: 'number',
   faceVelocity: 'Float64Array',

@@ -13,12 +13,12 @@
  * Arrays and calls have the names that they have in the C++ library, and like in index.d.ts all arrays are flat, all ids count from 0, and
  * every offsets array starts with 0 and has one more entry than there are items.
  *
- * The module keeps a twin of what cellComplex(), mergeSmallCells(), uniteWalls(), subComplex() and regionComplex() give, and of cut-meshes
- * that cut() gave, as is told at CutMesh: calls that are given that same object neither copy nor check its arrays, and take no notice of
- * what was written into them.
+ * The module keeps a twin of the cells that cellComplex(), mergeSmallCells(), uniteWalls(), subComplex() and regionComplex() give, and of
+ * those that refineCells() and cut-meshes that cut() gave, as is told at CutMesh: calls that are given that same object neither copy nor
+ * check its arrays, and take no notice of what was written into them.
  */
 /// <reference lib="esnext.disposable" />
-import type { CutMesh, Mesh, RunOptions, TriangleGroups, Vector3, WasmSource, WriteOptions } from '../index.js';
+import type { CutMesh, IntersectionHandling, Mesh, RunOptions, TriangleGroups, Vector3, WasmSource, WriteOptions } from '../index.js';
 import type { Boundary, CellComplex, FaceTag, Flow, FlowStep, Solution, SolveStatus, SurfaceForce, UnsteadyFlow } from './results.js';
 import type { Calls } from './signatures.js';
 
@@ -40,6 +40,43 @@ export interface CoarsenOptions extends RunOptions {
   layersPerLevel?: number;
   /** Whether cells that share only an edge also differ by at most one level. Default false. */
   balanceEdges?: boolean;
+}
+
+/** Grid cells that meet the inside of a box are divided `levels` times, 0 to 24. */
+export interface RefinementBox {
+  min: Vector3;
+  max: Vector3;
+  levels: number;
+}
+
+/** Grid cells are divided where a function says so. Not in a worker, to which functions can't be sent: "badArgument". */
+export interface RefinementRule {
+  /**
+   * Whether a cell with these corners is divided, which is the outcome of `depth` divisions of a grid cell: asked of all grid cells, by z,
+   * then y, then x, and of those that it divided them into. What it throws is thrown by the call.
+   */
+  divides: (min: [number, number, number], max: [number, number, number], depth: number) => boolean;
+  /** How often it divides a grid cell at most, 1 to 24. */
+  levels: number;
+}
+
+/** `intersections` is what the cut was made with. */
+export interface RefineOptions extends IntersectionHandling {
+  /**
+   * How often grid cells are divided at most where the surface bends: as long as normals of triangles in the cell are farther from each
+   * other than `angle`. Triangles have to be consistently oriented. 0 to 24, default 0.
+   */
+  levels?: number;
+  /** In degrees, 0 to 180; at 0 all cells with triangles are divided. Default 30. */
+  angle?: number;
+  /** For solvers, these should hold parts of the surface as a whole, or end where it is flat. */
+  boxes?: readonly RefinementBox[];
+  /** As for boxes. */
+  rule?: RefinementRule;
+  /** Least layers of cells of each size, diagonally too, around where the surface bends and smaller ones. At least 1, the default. */
+  layers?: number;
+  /** Of untouched grid cells that are not divided, as in coarsen(), but with 0 for maxLevel by default. */
+  coarsening?: Omit<CoarsenOptions, 'progress'>;
 }
 
 export interface MergeOptions extends RunOptions {

@@ -1,4 +1,5 @@
 // Written by wasm/results.mjs from the headers in src/include/mandoline: change those.
+import type { CutMeshArrays } from '../index.js';
 import type { Fingerprint, SparseMatrix } from './index.js';
 
 /**
@@ -227,6 +228,25 @@ export interface Solution {
    * are such, where fluxes through the surface are given that do not vanish; mergeSmallCells() leaves fewer.
    */
   unresolved: Uint32Array<ArrayBuffer>;
+}
+
+/** What refineCells() made. */
+export interface RefinedCells {
+  /**
+   * All cells, as of one cut with cells of several sizes. cellLevel is 0 for the smallest cells; one of level L is 2^L of those on a side,
+   * also if it is a cut-cell. cellCorner counts the smallest ones.
+   */
+  cells: CellComplex;
+  /**
+   * The cut-vertices, cut-faces and cut-cells of `cells`, for functions that take a cut-mesh together with its cells: writers,
+   * mergeSmallCells(), uniteWalls(), faceGroups(), streamlines(). Its grid has the planes of the smallest cells. It has no runs and no made
+   * vertices, and so is no cut of that grid: functions that need one, such as measure(), coarsen() and cellsAt(), refuse it. Of a vertex of
+   * a larger cell, planes that only smaller cells have are left out of vertexMask, and vertexCell is a rounded one along axes without a
+   * plane.
+   */
+  cutMesh: CutMeshArrays;
+  /** How often grid cells were divided at most; those of the grid have this level. */
+  levels: number;
 }
 
 /** A flow at one time, of a fluid of density 1. */
