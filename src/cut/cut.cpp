@@ -98,7 +98,7 @@ void cutInBricks(CutState& state, Clock& clock, Run& run) {
   clock.begin("triFaces");
   BrickGrid brickGrid(input, state.brickShifts ? *state.brickShifts : BrickGrid::shiftsFor(input, run.monitor.threads()));
   if (state.layersHere) brickGrid.here = *state.layersHere;
-  state.parts.clipped = clipTriangles(surface, brickGrid, run);
+  state.parts.clipped = clipTriangles(surface, brickGrid, run, state.keeping ? &state.keeping->clips() : nullptr);
   divideFaces(surface, state.parts.clipped.undivided, state.parts.divided, run);
 
   clock.begin("bricks");

@@ -6,6 +6,7 @@
 #include "cut/driver.h"
 #include "cut/stages/input.h"
 #include "cut/stages/kept_bricks.h"
+#include "cut/stages/kept_clips.h"
 #include "cut/stages/kept_seams.h"
 #include "mesh/fingerprints.h"
 #include "mesh/prepare_again.h"
@@ -30,8 +31,13 @@ struct Recutter::Data {
         : before_(*before.state), positions_(before.positions), now_(now), moved_(moved) {}
 
     const KnownCrossings& crossings() override { return crossings_.emplace(before_.surface, now_.surface, moved_); }
+    KnownClips& clips() override {
+      map_.emplace(before_.surface, now_.surface, moved_);
+      return clips_.emplace(before_.surface, before_.parts.clipped, *map_);
+    }
     KeptBricks& bricks() override {
-      kept_ = keepBricks({before_.surface, before_.parts, before_.bricks, before_.cuts, moved_}, now_.surface, now_.parts, now_.bricks);
+      kept_ = keepBricks({before_.surface, before_.parts, before_.bricks, before_.cuts}, std::move(*map_), now_.surface, now_.parts,
+                         now_.bricks);
       return kept_;
     }
     IdVector<BrickId, BrickSeams> seams() override { return keepSeams(kept_, now_.runs, before_.seams); }
@@ -51,6 +57,8 @@ struct Recutter::Data {
     CutState& now_;
     const Moved& moved_;
     std::optional<CrossingsBefore> crossings_;
+    std::optional<SurfaceMap> map_;
+    std::optional<ClipsBefore> clips_;
     KeptBricks kept_;
   };
 

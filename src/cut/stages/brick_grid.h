@@ -63,7 +63,7 @@ struct BrickGrid {
   static std::array<int, 3> same(int shift) { return {shift, shift, shift}; }
   /// Those of a surface that moves are smaller, so that little is cut again.
   static std::array<int, 3> shiftsForMoving(const Input& input) {
-    constexpr int kUsual = 4, kLeast = 1;
+    constexpr int kUsual = 3, kLeast = 1;
     constexpr size_t kSeveral = 64;
     int shift = kUsual;
     while (shift > kLeast && countFor(input, shift) < kSeveral) --shift;

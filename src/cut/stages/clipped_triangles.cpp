@@ -70,7 +70,10 @@ class Clipper {
 
   // For the dicer.
   VertexId addVertex(const Slab& slab) { return chunk_.addVertex(slab, triangle_, vertices_); }
-  void addHybridEdge(const FaceEdge& edge) { chunk_.clipped.hybridEdges.push_back(edge); }
+  void addHybridEdge(const FaceEdge& edge) {
+    chunk_.clipped.hybridEdges.push_back(edge);
+    chunk_.clipped.hybridTriangles.push_back(triangle_);
+  }
   void addPiece(const Polygon& polygon, const Slab& element) {
     Csr<Corner>& pieces = chunk_.clipped.pieces;
     give(element, uint32_t(pieces.size()));
@@ -94,7 +97,9 @@ class Clipper {
   }
   void noteSeamVertices(const Polygon& polygon) {
     for (const Corner& c : polygon) {
-      if (planeCount(c.slab) > 1 && bricks_.isOnSeam(c.slab)) chunk_.clipped.seamVertices.push_back(c.id);
+      if (planeCount(c.slab) < 2 || !bricks_.isOnSeam(c.slab)) continue;
+      chunk_.clipped.seamVertices.push_back(c.id);
+      chunk_.clipped.seamTriangles.push_back(triangle_);
     }
   }
 
@@ -174,6 +179,11 @@ class WholeDicer {
   Dicer<WholeDicer> dicer_;
 };
 
+template <class Item>
+void appendItems(const std::vector<Item>& more, std::vector<Item>& all) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
 /// Appends what a chunk made, whose own vertices get `shift` added.
 void append(const ClippedTriangles& chunk, VertexId firstInTriangle, uint32_t shift, ClippedTriangles& all) {
   const auto shifted = [&](VertexId v) { return v < firstInTriangle ? v : VertexId{v.number + shift}; };
@@ -186,21 +196,23 @@ void append(const ClippedTriangles& chunk, VertexId firstInTriangle, uint32_t sh
   }
   all.pieces.append(chunk.pieces, [&](const Corner& c) { return Corner{shifted(c.id), c.slab}; });
   appendEdges(chunk.hybridEdges, all.hybridEdges);
+  appendItems(chunk.hybridTriangles, all.hybridTriangles);
   for (const VertexId v : chunk.seamVertices) all.seamVertices.push_back(shifted(v));
+  appendItems(chunk.seamTriangles, all.seamTriangles);
 
   const UndividedFaces& more = chunk.undivided;
   UndividedFaces& faces = all.undivided;
   faces.loops.append(more.loops, shifted);
   faces.triangles.insert(faces.triangles.end(), more.triangles.begin(), more.triangles.end());
   faces.elements.insert(faces.elements.end(), more.elements.begin(), more.elements.end());
-  faces.touchesLine.insert(faces.touchesLine.end(), more.touchesLine.begin(), more.touchesLine.end());
+  appendItems(more.touchesLine, faces.touchesLine);
   appendEdges(more.hybridEdges, faces.hybridEdges);
-  faces.hybridTriangles.insert(faces.hybridTriangles.end(), more.hybridTriangles.begin(), more.hybridTriangles.end());
+  appendItems(more.hybridTriangles, faces.hybridTriangles);
 }
 
 }  // namespace
 
-ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& run) {
+ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& run, KnownClips* known) {
   const Input& input = surface.input;
   CutVertices& vertices = surface.vertices;
   const auto chunks =
@@ -208,6 +220,7 @@ ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& r
         Clipper clipper(surface, bricks, run.monitor, chunk);
         WholeDicer dicer(surface, run.monitor, chunk);
         for (const TriangleId t : Ids<TriangleId>(begin, end)) {
+          if (known && known->has(t)) continue;
           if (input.kept(t) && surface.here.has(t) && !dicer.dice(t)) clipper.clip(t);
         }
       });
@@ -225,9 +238,10 @@ ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& r
     shift += uint32_t(c.slabs.size());
   }
   for (const ClippedChunk& c : chunks) {
-    vertices.slabs.insert(vertices.slabs.end(), c.slabs.begin(), c.slabs.end());
-    vertices.parentTriangles.insert(vertices.parentTriangles.end(), c.parents.begin(), c.parents.end());
+    appendItems(c.slabs, vertices.slabs);
+    appendItems(c.parents, vertices.parentTriangles);
   }
+  if (known) known->addTo(all, vertices);
   return all;
 }
 

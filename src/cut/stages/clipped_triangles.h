@@ -22,11 +22,25 @@ struct ClippedTriangles {
   };
   std::vector<Part> parts;  ///< ascending by triangle
   Csr<Corner> pieces;
-  std::vector<FaceEdge> hybridEdges;   ///< cut hybrid edges in the planes that clip
-  std::vector<VertexId> seamVertices;  ///< of parts, on grid lines that several bricks have; some repeatedly
+  std::vector<FaceEdge> hybridEdges;        ///< cut hybrid edges in the planes that clip
+  std::vector<TriangleId> hybridTriangles;  ///< per hybrid edge, ascending
+  std::vector<VertexId> seamVertices;       ///< of parts, on grid lines that several bricks have; some repeatedly
+  std::vector<TriangleId> seamTriangles;    ///< per seam vertex, ascending
   UndividedFaces undivided;
 };
 
-ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& run);
+/// What is known of some triangles beforehand. An interface: other cuts don't link what finds it.
+class KnownClips {
+ public:
+  virtual bool has(TriangleId triangle) const = 0;
+  /// Adds them to those of all others, and their vertices.
+  virtual void addTo(ClippedTriangles& others, CutVertices& vertices) = 0;
+
+ protected:
+  ~KnownClips() = default;
+};
+
+/// `known` may be null.
+ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& run, KnownClips* known = nullptr);
 
 }  // namespace mandoline::detail

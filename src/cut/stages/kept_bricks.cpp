@@ -2,15 +2,13 @@
 
 #include <algorithm>
 
-#include "cut/stages/surface_map.h"
-
 namespace mandoline::detail {
 namespace {
 
 class Keeper {
  public:
-  Keeper(const CutBefore& before, const Surface& surface, const SurfaceParts& parts, Bricks& bricks)
-      : before_(before), surface_(surface), parts_(parts), bricks_(bricks), now_(before.surface, surface, before.moved) {}
+  Keeper(const CutBefore& before, SurfaceMap now, const Surface& surface, const SurfaceParts& parts, Bricks& bricks)
+      : before_(before), surface_(surface), parts_(parts), bricks_(bricks), now_(std::move(now)) {}
 
   KeptBricks run() {
     KeptBricks kept;
@@ -122,8 +120,8 @@ class Keeper {
 
 }  // namespace
 
-KeptBricks keepBricks(const CutBefore& before, const Surface& surface, const SurfaceParts& parts, Bricks& bricks) {
-  return Keeper(before, surface, parts, bricks).run();
+KeptBricks keepBricks(const CutBefore& before, SurfaceMap now, const Surface& surface, const SurfaceParts& parts, Bricks& bricks) {
+  return Keeper(before, std::move(now), surface, parts, bricks).run();
 }
 
 }  // namespace mandoline::detail

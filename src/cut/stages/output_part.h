@@ -16,6 +16,7 @@ namespace mandoline::detail {
 class Keeping {
  public:
   virtual const KnownCrossings& crossings() = 0;
+  virtual KnownClips& clips() = 0;
   virtual KeptBricks& bricks() = 0;  ///< of those that are laid out
   virtual IdVector<BrickId, BrickSeams> seams() = 0;
   virtual KeptVertices vertices() = 0;

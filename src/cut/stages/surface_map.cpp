@@ -23,7 +23,6 @@ SurfaceMap::SurfaceMap(const Surface& before, const Surface& now, const Moved& m
   areEdgesSame_ = !meshBefore().hasIntersections() && !meshNow().hasIntersections();
   areEdgesSame_ ? mapSameEdges() : mapEdges();
   findSameTriangles();
-  mapInTriangles();
 }
 
 bool SurfaceMap::hasMoved(TriangleId t) const { return detail::hasMoved(moved_, meshBefore().triangles[t.number]); }
@@ -140,6 +139,7 @@ void SurfaceMap::findSameTriangles() {
 
 /// Both lists ascend by triangle.
 void SurfaceMap::mapInTriangles() {
+  if (!isOrdered_) return;
   const std::vector<TriangleId>&before = before_.parentTriangles, &now = now_.parentTriangles;
   size_t at = 0;
   for (size_t i = 0; i < before.size(); ++i) {

@@ -11,11 +11,16 @@ class SurfaceMap {
  public:
   static constexpr VertexId kNone = KeptBricks::kNoVertex;
 
+  /// Once the tri-edges of both are cut.
   SurfaceMap(const Surface& before, const Surface& now, const Moved& moved);
+  /// Maps the vertices in triangles, once those are clipped.
+  void mapInTriangles();
 
   /// Whether vertices keep their order, so that what depends on it stays the same, and whether the same parts of the mesh have an inside.
   /// If not, nothing is the same.
   bool isOrdered() const { return isOrdered_; }
+  /// Whether both surfaces have the same tri-edges, and nothing inside of triangles.
+  bool areEdgesSame() const { return areEdgesSame_; }
   /// kNone of a vertex that lies on something that has moved.
   VertexId operator[](VertexId v) const { return vertices_[v]; }
   /// Of all vertices, at the end.
@@ -42,7 +47,6 @@ class SurfaceMap {
   void mapEdges();
   void mapSameEdges();
   void findSameTriangles();
-  void mapInTriangles();
 
   const CutVertices &before_, &now_;
   const Moved& moved_;
@@ -50,7 +54,7 @@ class SurfaceMap {
   std::vector<uint32_t> edges_;  // per tri-edge before
   IdVector<TriangleId, uint8_t> same_;
   bool isOrdered_ = true;
-  bool areEdgesSame_;  ///< both surfaces have the same tri-edges, and nothing inside of triangles
+  bool areEdgesSame_ = false;
 };
 
 }  // namespace mandoline::detail
