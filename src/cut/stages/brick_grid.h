@@ -106,12 +106,20 @@ struct BrickGrid {
   /// Calls f(cell) for the cells that are cut here and have a grid element, one of each brick.
   template <class F>
   void forBricks(const Slab& element, const F& f) const {
-    findCellAround(element, [&](const Slab& cell) {
-      bool isNew = hasCell(cell);
-      for (size_t d = 0; d < 3; ++d) isNew &= cell[d] <= element[d] || (cell[d] >> 1 & ((1 << shifts[d]) - 1)) == 0;
-      if (isNew) f(cell);
-      return false;
-    });
+    Slab first, last;
+    for (size_t d = 0; d < 3; ++d) {
+      const bool isBetween = (element[d] & between(d)) == 0;
+      first[d] = element[d] - (onPlane(element[d]) && element[d] > 0);
+      last[d] = isBetween ? element[d] + 1 : first[d];
+      first[d] |= 1;
+    }
+    for (int32_t z = first[2]; z <= last[2]; z += 2) {
+      for (int32_t y = first[1]; y <= last[1]; y += 2) {
+        for (int32_t x = first[0]; x <= last[0]; x += 2) {
+          if (hasCell({x, y, z})) f(Slab{x, y, z});
+        }
+      }
+    }
   }
   /// Calls f(cell) for a brick and those around it, with a cell of each.
   template <class F>

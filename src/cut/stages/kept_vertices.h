@@ -11,10 +11,9 @@ struct KeptVertices {
   std::vector<uint32_t> before;       ///< per vertex: its number before, or kUnused. Empty if none is kept
   std::span<const double> positions;  ///< before
 
+  bool has(size_t vertex) const { return !before.empty() && before[vertex] != Numbers::kUnused; }
   /// Its coordinates, or null if it is not kept.
-  const double* find(size_t vertex) const {
-    return before.empty() || before[vertex] == Numbers::kUnused ? nullptr : &positions[3 * size_t(before[vertex])];
-  }
+  const double* find(size_t vertex) const { return has(vertex) ? &positions[3 * size_t(before[vertex])] : nullptr; }
 };
 
 /// KeptVertices::before.

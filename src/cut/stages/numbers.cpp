@@ -1,5 +1,7 @@
 #include "cut/stages/numbers.h"
 
+#include <numeric>
+
 namespace mandoline::detail {
 namespace {
 
@@ -64,18 +66,17 @@ class Numberer {
     const BrickCut& cut = cuts_[brick];
     out_.faces[brick].resize(cut.faceCount());
     out_.ofBrick[brick].assign(cut.vertices.slabs.size(), Numbers::kUnused);
-    const auto number = [&](const Kind& kind, uint32_t start, const auto& set) {
-      std::vector<BrickCounts> next = out_.rows[brick];
-      forOwn(cut, kind.past, seams_[brick].*kind.seams, [&](uint32_t row, uint32_t first, uint32_t past) {
-        for (uint32_t i = first; i < past; ++i) set(i, start + (next[row].*kind.count)++);
-      });
-    };
-    number(kTriFaces, 0, [&](uint32_t i, uint32_t face) { out_.faces[brick][i] = face; });
-    number(kPieces, out_.total.triFaces, [&](uint32_t i, uint32_t face) { out_.faces[brick][cut.triangles.size() + i] = face; });
-    number(kVertices, out_.surfaceVertices, [&](uint32_t i, uint32_t vertex) { set(brick, cut.lineVertices[i], vertex); });
+    uint32_t* faces = out_.faces[brick].data();
+    number(brick, kTriFaces, 0, [&](uint32_t first, uint32_t past, uint32_t face) { std::iota(faces + first, faces + past, face); });
+    faces += cut.triangles.size();
+    number(brick, kPieces, out_.total.triFaces,
+           [&](uint32_t first, uint32_t past, uint32_t face) { std::iota(faces + first, faces + past, face); });
+    number(brick, kVertices, out_.surfaceVertices, [&](uint32_t first, uint32_t past, uint32_t vertex) {
+      for (uint32_t i = first; i < past; ++i) set(brick, cut.lineVertices[i], vertex++);
+    });
   }
 
-  /// What belongs to other bricks. Vertices of the surface get their numbers from those.
+  /// What belongs to other bricks, once all have numbered their own. Vertices of the surface get their numbers from those.
   void numberOthers(BrickId brick) {
     const BrickCut& cut = cuts_[brick];
     forOthersOf(brick, kTriFaces, [&](uint32_t i, BrickId, uint32_t face) { out_.faces[brick][i] = face; });
@@ -96,6 +97,19 @@ class Numberer {
   }
 
  private:
+  /// Calls f(first, past, number of the first) for ranges of a kind that a brick owns; numbers count from `start` on.
+  template <class F>
+  void number(BrickId brick, const Kind& kind, uint32_t start, const F& f) const {
+    const std::vector<BrickCounts>& rows = out_.rows[brick];
+    uint32_t lastRow = ~0u, next = 0;
+    forOwn(cuts_[brick], kind.past, seams_[brick].*kind.seams, [&](uint32_t row, uint32_t first, uint32_t past) {
+      if (row != lastRow) next = start + rows[row].*kind.count;
+      lastRow = row;
+      f(first, past, next);
+      next += past - first;
+    });
+  }
+
   /// `total`, of which what other processes cut has no lengths of arrays.
   static void requireFew(uint64_t surfaceVertices, const BrickCounts& total) {
     const uint64_t entries = uint64_t(total.triLoopVertices) + total.loopVertices, faces = uint64_t(total.triFaces) + total.pieces;
@@ -113,6 +127,14 @@ class Numberer {
 
   /// The number of what a brick owns at a place of its list.
   uint32_t numberAt(BrickId owner, const Kind& kind, uint32_t place) const {
+    return cut_.bricks.here.has(owner) ? numberHere(owner, kind, place) : numberElsewhere(owner, kind, place);
+  }
+  uint32_t numberHere(BrickId owner, const Kind& kind, uint32_t place) const {
+    if (kind.seams == kVertices.seams) return out_.vertex(owner, cuts_[owner].lineVertices[place]) - out_.surfaceVertices;
+    if (kind.seams == kTriFaces.seams) return out_.faces[owner][place];
+    return out_.faces[owner][cuts_[owner].triangles.size() + place] - out_.total.triFaces;
+  }
+  uint32_t numberElsewhere(BrickId owner, const Kind& kind, uint32_t place) const {
     const auto rows = cuts_[owner].rows;
     const auto row = std::upper_bound(rows.begin(), rows.end(), place, [&](uint32_t at, const BrickRow& r) { return at < r.*kind.past; });
     const uint32_t first = row == rows.begin() ? 0 : row[-1].*kind.past;
@@ -159,13 +181,12 @@ Numbers makeNumbers(const CutBricks& cut, const UsedVertices& used, Run& run) {
   Numberer numberer(cut, numbers);
   numberer.numberRows();
   numberer.numberSurface(used);
+  const std::vector<uint32_t> bricks = cut.bricks.here.numbers();
+  runItems(bricks, run.monitor, [&](size_t, uint32_t b) { numberer.numberOwn({b}); });
   if (cut.bricks.here.isShare) {
     for (const BrickId b : cut.bricks.here.ids()) numberer.numberSurfaceFromElsewhere(b);
   }
-  runItems(cut.bricks.here.numbers(), run.monitor, [&](size_t, uint32_t b) {
-    numberer.numberOwn({b});
-    numberer.numberOthers({b});
-  });
+  runItems(bricks, run.monitor, [&](size_t, uint32_t b) { numberer.numberOthers({b}); });
   return numbers;
 }
 

@@ -50,8 +50,8 @@ class Rooms {
   void makeForVertices(size_t surfaceVertices) {
     const size_t vertices = surfaceVertices + total_.vertices;
     run({[&] { make(&CutMesh::positions, 3 * vertices); }, [&] { make(&CutMesh::vertexCell, 3 * vertices); },
-         [&] { fill(&CutMesh::vertexParents, 2 * vertices, -1); }, [&] { fill(&CutMesh::vertexTriVertex, vertices, -1); },
-         [&] { fill(&CutMesh::vertexMask, vertices, uint8_t(0)); }});
+         [&] { make(&CutMesh::vertexParents, 2 * vertices); }, [&] { make(&CutMesh::vertexTriVertex, vertices); },
+         [&] { make(&CutMesh::vertexMask, vertices); }});
   }
 
  private:
@@ -90,49 +90,61 @@ class VertexWriter {
   VertexWriter(const MeshView& mesh, const Grid& grid, const Input& input, const KeptVertices& kept, CutMesh& out)
       : mesh_(mesh), grid_(grid), input_(input), kept_(kept), scale_(input.mesh->shift), out_(out) {}
 
-  /// Vertex v becomes number i.
-  void write(const CutVertices& vertices, VertexId v, size_t i, Predicates& predicates) {
-    const Slab& slab = vertices.slab(v);
-    for (int d = 0; d < 3; ++d) {
-      out_.vertexCell[3 * i + d] = slab[d] >> 1;
-      if (onPlane(slab[d])) out_.vertexMask[i] |= uint8_t(1 << d);
+  /// Vertex v of the mesh or its edges becomes number i.
+  void writeOnEdges(const CutVertices& vertices, VertexId v, size_t i, Predicates& predicates) {
+    const Slab& slab = vertices.slabs[v.number];
+    if (vertices.isTriVertex(v) && !input_.mesh->isMade(v)) {
+      writeParents(i, int32_t(v.number), {int32_t(v.number), int32_t(v.number)});
+      writeCoordinates(i, slab, [&](size_t d) { return mesh_.positions[3 * size_t(v.number) + d]; });
+    } else {
+      writeParents(i, -1, vertices.isOnEdge(v) ? endsOf(vertices.edges->line(vertices.triEdge(v))) : kNone);
+      writePosition(i, vertices, v, predicates);
     }
-    writePosition(vertices, v, i, predicates);
-    writeParents(vertices, v, i);
+    writePlace(i, slab);
+  }
+  /// Another one.
+  void writeOther(const CutVertices& vertices, VertexId v, size_t i, Predicates& predicates) {
+    const TriangleId triangle = vertices.triangle(v);
+    writeParents(i, -1, {triangle == CutVertices::kNoTriangle ? -1 : int32_t(triangle.number), -1});
+    writePosition(i, vertices, v, predicates);
+    writePlace(i, vertices.slab(v));
   }
 
  private:
-  /// Coordinates that the input has are handed back as they are, even where scaling flushed them.
-  void writePosition(const CutVertices& vertices, VertexId v, size_t i, Predicates& predicates) {
-    const Slab& slab = vertices.slab(v);
-    double* position = &out_.positions[3 * i];
-    const bool isOfMesh = isTriVertex(vertices, v);
-    const double* before = isOfMesh ? nullptr : kept_.find(i);
-    if (before) {
+  using Parents = std::array<int32_t, 2>;
+  static constexpr Parents kNone{-1, -1};
+
+  static Parents endsOf(const Line& line) {
+    if (line.ofPlanes) return kNone;
+    return {int32_t(std::min(line.a, line.b)), int32_t(std::max(line.a, line.b))};
+  }
+
+  void writeParents(size_t i, int32_t triVertex, const Parents& parents) {
+    out_.vertexTriVertex[i] = triVertex;
+    int32_t* to = &out_.vertexParents[2 * i];
+    for (size_t k = 0; k < 2; ++k) to[k] = parents[k];
+  }
+
+  void writePlace(size_t i, const Slab& slab) {
+    int32_t* cell = &out_.vertexCell[3 * i];
+    for (size_t d = 0; d < 3; ++d) cell[d] = slab[d] >> 1;
+    out_.vertexMask[i] = uint8_t(onPlane(slab[0]) | onPlane(slab[1]) << 1 | onPlane(slab[2]) << 2);
+  }
+
+  void writePosition(size_t i, const CutVertices& vertices, VertexId v, Predicates& predicates) {
+    if (const double* before = kept_.find(i)) {
+      double* position = &out_.positions[3 * i];
       for (size_t d = 0; d < 3; ++d) position[d] = before[d];
-      return;
-    }
-    const Point p = isOfMesh ? Point() : vertices.position(v, predicates);
-    for (size_t d = 0; d < 3; ++d) {
-      position[d] = onPlane(slab[d]) ? grid_.planes[d][size_t(slab[d] >> 1)]
-                    : isOfMesh       ? mesh_.positions[3 * size_t(v.number) + d]
-                                     : scale_.world(p[d]);
+    } else {
+      const Point p = vertices.position(v, predicates);
+      writeCoordinates(i, vertices.slab(v), [&](size_t d) { return scale_.world(p[d]); });
     }
   }
-  bool isTriVertex(const CutVertices& vertices, VertexId v) const { return vertices.isTriVertex(v) && !input_.mesh->isMade(v); }
-
-  void writeParents(const CutVertices& vertices, VertexId v, size_t i) {
-    int32_t* parents = &out_.vertexParents[2 * i];
-    if (isTriVertex(vertices, v)) {
-      out_.vertexTriVertex[i] = parents[0] = parents[1] = int32_t(v.number);
-    } else if (vertices.isOnEdge(v)) {
-      const Line line = vertices.edges->line(vertices.triEdge(v));
-      if (line.ofPlanes) return;
-      parents[0] = int32_t(std::min(line.a, line.b));
-      parents[1] = int32_t(std::max(line.a, line.b));
-    } else if (vertices.isInTriangle(v)) {
-      parents[0] = int32_t(vertices.triangle(v).number);
-    }
+  /// Coordinates that the input has are handed back as they are, even where scaling flushed them; `coordinate(axis)`: others.
+  template <class Coordinate>
+  void writeCoordinates(size_t i, const Slab& slab, const Coordinate& coordinate) {
+    double* position = &out_.positions[3 * i];
+    for (size_t d = 0; d < 3; ++d) position[d] = onPlane(slab[d]) ? grid_.planes[d][size_t(slab[d] >> 1)] : coordinate(d);
   }
 
   const MeshView& mesh_;
@@ -177,14 +189,14 @@ void writeVertices(const CutState& state, const std::vector<VertexId>& surface, 
   runItems(tasks, run.monitor, [&](size_t thread, uint32_t task) {
     if (!here.has({task})) {
       const Block block = Block::at(task - here.past.number, surface.size());
-      for (size_t i = block.begin; i < block.end; ++i) writer.write(state.surface.vertices, surface[i], i, predicates[thread]);
+      for (size_t i = block.begin; i < block.end; ++i) writer.writeOnEdges(state.surface.vertices, surface[i], i, predicates[thread]);
       return;
     }
     const BrickCut& cut = state.cuts[{task}];
     forOwn(cut, &BrickRow::pastVertex, state.seams[{task}].vertices, [&](uint32_t, uint32_t first, uint32_t past) {
       for (uint32_t i = first; i < past; ++i) {
         const VertexId v = cut.lineVertices[i];
-        writer.write(cut.vertices, v, numbers.vertex({task}, v) - before, predicates[thread]);
+        writer.writeOther(cut.vertices, v, numbers.vertex({task}, v) - before, predicates[thread]);
       }
     });
   });
@@ -210,8 +222,12 @@ CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& r
   CutMesh& out = part.cutMesh;
   out.grid = grid;
   const std::vector<VertexId> used = listUsed(state.used);
-  const std::vector<VertexId> surface = onLayers(state.bricks.grid.here, state.surface.vertices, used);
-  if (state.bricks.here.isShare) part.firstVertices = numbersOf(surface, state, numbers);
+  std::vector<VertexId> ofShare;
+  if (state.bricks.here.isShare) {
+    ofShare = onLayers(state.bricks.grid.here, state.surface.vertices, used);
+    part.firstVertices = numbersOf(ofShare, state, numbers);
+  }
+  const std::vector<VertexId>& surface = state.bricks.here.isShare ? ofShare : used;
 
   // One kind after the other, so that what the bricks have of it need not last as long as all of the result.
   constexpr size_t kMuch = size_t(1) << 30;

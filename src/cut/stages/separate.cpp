@@ -18,8 +18,9 @@ class Separator {
 
   void run(Monitor& monitor) {
     std::vector<uint32_t> vertices;
-    for (uint32_t v = 0; v < out_.vertexCount(); ++v) {
-      if (mayMeet(v)) vertices.push_back(v);
+    const uint32_t vertexCount = uint32_t(out_.vertexCount());
+    for (uint32_t v = 0; v < vertexCount; ++v) {
+      if (!kept_.has(v) && mayMeet(v)) vertices.push_back(v);
     }
     const size_t count = (slabCount() >> shift_) + 1;
     const auto layers = groupBy<uint32_t>(
@@ -36,7 +37,7 @@ class Separator {
   /// a grid cell there are those of the mesh alone, unless triangles meet.
   bool mayMeet(size_t v) const {
     const uint8_t mask = out_.vertexMask[v];
-    return mask != 7 && mask != maskInCell_ && !kept_.find(v);
+    return mask != 7 && mask != maskInCell_;
   }
   size_t slabCount() const { return 2 * out_.grid.planes[axis_].size(); }
   /// So a layer has all vertices of the grid elements that it has.

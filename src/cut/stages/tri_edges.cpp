@@ -77,12 +77,12 @@ size_t crossEdge(const Input& input, const std::array<VertexId, 2>& ends, const 
 }
 
 uint32_t crossingBound(const Slab& a, const Slab& b) {
-  uint32_t count = 0;
-  for (int d = 0; d < 3; ++d) {
+  int32_t count = 0;
+  for (size_t d = 0; d < 3; ++d) {
     const int32_t first = firstPlaneAfter(std::min(a[d], b[d])), last = lastPlaneBefore(std::max(a[d], b[d]));
-    if (last >= first) count += uint32_t(last - first + 1);
+    count += std::max(last - first + 1, 0);
   }
-  return count;
+  return uint32_t(count);
 }
 
 bool isInPlane(const Slab& a, const Slab& b) {
@@ -134,17 +134,17 @@ void cutTriEdges(Surface& surface, Run& run, const KnownCrossings* known) {
   vertices.input = &input;
   vertices.edges = &edges;
   vertices.firstOnEdge = {uint32_t(input.slabs.size())};
-  vertices.crossingOffsets.reserve(edgeCount + 1);
+  vertices.crossingOffsets.resize(edgeCount + 1);
   uint64_t total = input.slabs.size();
   std::vector<TriEdgeId> inPlane;
   for (const TriEdgeId e : edges.ends.ids()) {
     const Slab &low = input.slabs[edges.ends[e][0]], &high = input.slabs[edges.ends[e][1]];
     if (surface.here.has(e) && isInPlane(low, high)) inPlane.push_back(e);
-    vertices.crossingOffsets.push_back({uint32_t(total)});
+    vertices.crossingOffsets[e.number] = {uint32_t(total)};
     total += crossingBound(low, high);
     if (total >= uint64_t(1) << 31) throw Failure{{Status::meshTooLarge, -1, -1, "The cut-mesh would have more than 2^31 vertices."}};
   }
-  vertices.crossingOffsets.push_back({uint32_t(total)});
+  vertices.crossingOffsets[edgeCount] = {uint32_t(total)};
   vertices.firstInTriangle = {uint32_t(total)};
   vertices.slabs.assign(input.slabs.begin(), input.slabs.end());
   vertices.slabs.resize(total);

@@ -1,6 +1,7 @@
 #include "cut/stages/write_brick.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace mandoline::detail {
 namespace {
@@ -8,7 +9,13 @@ namespace {
 class FaceWriter {
  public:
   FaceWriter(const CutState& state, BrickId brick, CutMesh& out)
-      : state_(state), numbers_(state.numbers), brick_(brick), cut_(state.cuts[brick]), at_(numbers_.rows[brick]), out_(out) {
+      : state_(state),
+        numbers_(state.numbers),
+        brick_(brick),
+        cut_(state.cuts[brick]),
+        parents_(state.surface.input, cut_.triangles, cut_.otherParents),
+        at_(numbers_.rows[brick]),
+        out_(out) {
     vertices_ = numbers_.ofBrick[brick];
     for (const VertexId v : cut_.surfaceVertices) vertices_.push_back(numbers_.ofSurface[v]);
     for (BrickCounts& at : at_) {  // pieces come after all tri-cut-faces
@@ -21,9 +28,13 @@ class FaceWriter {
     const BrickSeams& seams = state_.seams[brick_];
     forOwn(cut_, &BrickRow::pastTriFace, seams.triFaces, [&](uint32_t row, uint32_t first, uint32_t past) {
       const uint32_t f = placeOf(first);
-      for (uint32_t i = first; i < past; ++i) out_.faceTriangle[f + i - first] = int32_t(cut_.triangles[{i}].number);
+      copyTriangles(first, past, &out_.faceTriangle[f]);
       writeLoops(cut_.triLoops, {first, past}, f, {at_[row].triLoops, at_[row].triLoopVertices});
-      writeParents(first, past, f, at_[row].parents);
+      if (parents_.areSingle()) {
+        writeSingleParents(first, past, f, at_[row].parents);
+      } else {
+        writeParents(first, past, f, at_[row].parents);
+      }
       writePlanes(first, past, f);
     });
     forOwn(cut_, &BrickRow::pastPiece, seams.pieces, [&](uint32_t row, uint32_t first, uint32_t past) {
@@ -59,7 +70,11 @@ class FaceWriter {
     const uint32_t* offsets = &from.loops.offsets[firstLoop];
     const uint32_t firstVertex = offsets[0], loopShift = to.loops - firstLoop, shift = to.vertices - firstVertex;
     uint32_t* loops = &out_.faceLoopOffsets[f];
-    for (uint32_t i = first; i < past; ++i) *loops++ = from.firstLoop(i) + loopShift;
+    if (from.offsets.empty()) {
+      std::iota(loops, loops + (past - first), to.loops);
+    } else {
+      for (uint32_t i = first; i < past; ++i) *loops++ = from.firstLoop(i) + loopShift;
+    }
     std::transform(offsets, offsets + loopCount, out_.loopOffsets.begin() + to.loops, [=](uint32_t offset) { return offset + shift; });
     const uint32_t* places = from.loops.items.data() + firstVertex;
     const uint32_t* vertices = vertices_.data();
@@ -68,21 +83,29 @@ class FaceWriter {
     to.vertices += vertexCount;
   }
 
+  template <class Number>
+  void copyTriangles(uint32_t first, uint32_t past, Number* to) const {
+    const TriangleId* triangles = cut_.triangles.data();
+    std::transform(triangles + first, triangles + past, to, [](TriangleId t) { return Number(t.number); });
+  }
+
+  void writeSingleParents(uint32_t first, uint32_t past, uint32_t f, uint32_t& at) {
+    const uint32_t count = past - first;
+    std::iota(&out_.faceParentOffsets[f], &out_.faceParentOffsets[f] + count, at);
+    copyTriangles(first, past, &out_.faceParents[at]);
+    std::fill_n(&out_.faceParentSigns[at], count, int8_t(1));
+    at += count;
+  }
+
   /// The triangles that faces are pieces of, in each ascending.
   void writeParents(uint32_t first, uint32_t past, uint32_t f, uint32_t& at) {
-    const FaceParents parents(state_.surface.input, cut_.triangles, cut_.otherParents);
     const auto write = [&](uint32_t place, uint32_t triangle, int8_t sign) {
       out_.faceParents[place] = triangle;
       out_.faceParentSigns[place] = sign;
     };
-    const bool areSingle = parents.areSingle();
     for (uint32_t i = first; i < past; ++i, ++f) {
       const uint32_t firstOfFace = out_.faceParentOffsets[f] = at;
-      if (areSingle) {
-        write(at++, cut_.triangles[{i}].number, 1);
-        continue;
-      }
-      parents.forEach({i}, [&](TriangleId t, bool sameWay) {
+      parents_.forEach({i}, [&](TriangleId t, bool sameWay) {
         uint32_t place = at++;
         for (; place > firstOfFace && out_.faceParents[place - 1] > t.number; --place)
           write(place, out_.faceParents[place - 1], out_.faceParentSigns[place - 1]);
@@ -95,6 +118,7 @@ class FaceWriter {
   const Numbers& numbers_;
   const BrickId brick_;
   const BrickCut& cut_;
+  const FaceParents parents_;
   std::vector<BrickCounts> at_;     // per row: where what comes next goes
   std::vector<uint32_t> vertices_;  // per place in loops: the vertex's number
   CutMesh& out_;
@@ -109,12 +133,16 @@ void writeCells(const CutState& state, BrickId brick, CutMesh& out) {
   const BrickCut& cut = state.cuts[brick];
   const BrickBox& box = state.bricks.boxes[brick];
   const uint32_t *faces = numbers.faces[brick].data(), *regions = state.regions.ofComponents[brick].data();
+  const auto offsets = cut.halfFaces.offsets;
+  const HalfFace* halfFaces = cut.halfFaces.items.data();
   CellId cell{0};
   for (uint32_t row = 0; row < cut.rows.size(); ++row) {
-    uint32_t c = numbers.rows[brick][row].cells - numbers.before.cells, at = numbers.rows[brick][row].halfFaces;
-    for (; cell.number < cut.rows[row].pastCell; ++cell.number, ++c) {
-      out.cellHalfFaceOffsets[c] = at;
-      for (const HalfFace h : cut.halfFaces[cell]) out.cellHalfFaces[at++] = HalfFace({faces[h.face().number]}, h.side()).number;
+    const uint32_t past = cut.rows[row].pastCell, at = numbers.rows[brick][row].halfFaces, shift = at - offsets[cell.number];
+    uint32_t c = numbers.rows[brick][row].cells - numbers.before.cells;
+    std::transform(halfFaces + offsets[cell.number], halfFaces + offsets[past], out.cellHalfFaces.begin() + at,
+                   [=](HalfFace h) { return HalfFace({faces[h.face().number]}, h.side()).number; });
+    std::transform(&offsets[cell.number], &offsets[past], out.cellHalfFaceOffsets.begin() + c, [=](uint32_t o) { return o + shift; });
+    for (; cell.number < past; ++cell.number, ++c) {
       const Slab gridCell = box.cellAt(cut.gridCells[cell]);
       for (size_t d = 0; d < 3; ++d) out.cellGridCell[3 * size_t(c) + d] = gridCell[d] >> 1;
       out.cellRegion[c] = regions[cut.components[cell]];
