@@ -7,10 +7,10 @@
 namespace mandoline::detail {
 namespace {
 
-/// Whether two meshes differ in nothing but coordinates. Not where triangles have no area: they put vertices on the sides of others.
+/// Whether two meshes differ in nothing but coordinates. Not where triangles had no area: they put vertices on the sides of others.
 bool areConnectedAlike(const Prepared& before, const Prepared& now) {
-  return before.counts.zeroAreaTriangles == 0 && now.counts.zeroAreaTriangles == 0 && before.shift == now.shift &&
-         before.triVertices == now.triVertices && before.triangles.size() == now.triangles.size() && !now.triangles.empty() &&
+  return before.counts.zeroAreaTriangles == 0 && before.shift == now.shift && before.triVertices == now.triVertices &&
+         before.triangles.size() == now.triangles.size() && !now.triangles.empty() &&
          std::memcmp(before.triangles.data(), now.triangles.data(), sizeof before.triangles[0] * now.triangles.size()) == 0;
 }
 
@@ -18,6 +18,16 @@ bool areConnectedAlike(const Prepared& before, const Prepared& now) {
 bool areSameBits(const Point& a, const Point& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 /// A coordinate that was flushed may be another one.
 bool hasZero(const Point& p) { return p[0] == 0 || p[1] == 0 || p[2] == 0; }
+
+/// Empty if nothing is known.
+Moved findMoved(const Prepared& before, const Prepared& now) {
+  Moved moved;
+  if (!areConnectedAlike(before, now)) return moved;
+  moved.resize(now.points.size());
+  const bool areFlushed = before.counts.flushedCoordinates + now.counts.flushedCoordinates > 0;
+  for (const VertexId v : moved.ids()) moved[v] = !areSameBits(before.point(v), now.point(v)) || (areFlushed && hasZero(now.point(v)));
+  return moved;
+}
 
 /// States in which only the triangles are kept that lie near those that have moved, these included. Those that these meet are among them.
 std::vector<TriangleState> nearMoved(const Prepared& mesh, const Moved& moved) {
@@ -76,13 +86,10 @@ PreparedAgain prepareAgain(const MeshView& mesh, const Preparation& preparation,
                            const std::function<void(const char*)>& beginStage) {
   Predicates predicates;
   beginStage("input");
-  auto now = weldInput(mesh, preparation.largest, predicates);
-  Moved moved;
-  if (areConnectedAlike(before, *now)) {
-    moved.resize(now->points.size());
-    const bool areFlushed = before.counts.flushedCoordinates + now->counts.flushedCoordinates > 0;
-    for (const VertexId v : moved.ids()) moved[v] = !areSameBits(before.point(v), now->point(v)) || (areFlushed && hasZero(now->point(v)));
-  }
+  auto now = weldInput(mesh, preparation.largest);
+  Moved moved = findMoved(before, *now);
+  dropFlat(*now, moved.empty() ? nullptr : &moved, predicates);
+  if (now->counts.zeroAreaTriangles > 0) moved.clear();
   if (preparation.intersections != Intersections::assumeNone) beginStage("intersections");
   if (moved.empty() || !resolveAgain(before, *now, moved, preparation.intersections, {monitor, predicates})) {
     moved.clear();

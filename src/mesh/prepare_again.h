@@ -6,13 +6,6 @@
 
 namespace mandoline::detail {
 
-/// Per tri-vertex: whether it is elsewhere than before.
-using Moved = IdVector<VertexId, uint8_t>;
-
-inline bool hasMoved(const Moved& moved, const std::array<uint32_t, 3>& triangle) {
-  return moved[{triangle[0]}] || moved[{triangle[1]}] || moved[{triangle[2]}];
-}
-
 struct PreparedAgain {
   std::unique_ptr<Prepared> mesh;  ///< as prepareMesh() gives it
   Moved moved;                     ///< empty if nothing is known. If it isn't, the triangles, their states and the scale are as before

@@ -91,7 +91,7 @@ std::span<const Duplicate> Prepared::duplicatesOf(TriangleId t) const {
   return {duplicates.data() + (first - duplicates.begin()), size_t(past - first)};
 }
 
-std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Predicates& predicates) {
+std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest) {
   checkArrays(mesh);
   auto prepared = std::make_unique<Prepared>();
   MeshCounts& counts = prepared->counts;
@@ -112,10 +112,13 @@ std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Predic
   for (size_t t = 0; t < prepared->triangles.size(); ++t) {
     for (size_t i = 0; i < 3; ++i) prepared->triangles[t][i] = lowest[mesh.triangles[3 * t + i]];
   }
-  const std::vector<uint32_t> zeroArea = dropZeroArea(*prepared, predicates);
-  counts.zeroAreaTriangles = uint32_t(zeroArea.size());
-  if (!zeroArea.empty()) prepared->stitches = findStitches(*prepared, zeroArea);
   return prepared;
+}
+
+void dropFlat(Prepared& prepared, const Moved* moved, Predicates& predicates) {
+  const std::vector<uint32_t> zeroArea = dropZeroArea(prepared, moved, predicates);
+  prepared.counts.zeroAreaTriangles = uint32_t(zeroArea.size());
+  if (!zeroArea.empty()) prepared.stitches = findStitches(prepared, zeroArea);
 }
 
 void findInputEdges(Prepared& prepared) { findEdges(prepared, nullptr); }
@@ -143,7 +146,8 @@ std::unique_ptr<Prepared> prepareMesh(const MeshView& mesh, const Preparation& p
                                       const std::function<void(const char*)>& beginStage) {
   Predicates predicates;
   beginStage("input");
-  auto prepared = weldInput(mesh, preparation.largest, predicates);
+  auto prepared = weldInput(mesh, preparation.largest);
+  dropFlat(*prepared, nullptr, predicates);
   if (preparation.intersections != Intersections::assumeNone) beginStage("intersections");
   resolveInput(*prepared, preparation, monitor, predicates);
   prepared->counts.exactFallbacks = predicates.fallbacks;

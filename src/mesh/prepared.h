@@ -71,9 +71,11 @@ struct Preparation {
   bool keepContacts = false;
 };
 
-/// The first half: the checked and welded mesh, without edges. `largest` as of a Preparation.
-std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Predicates& predicates);
-/// The second: its edges and, unless intersections are assumed to be none, where triangles meet.
+/// The first third: the checked and welded mesh. `largest` as of a Preparation.
+std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest);
+/// The second: drops triangles without area; `moved` as of dropZeroArea().
+void dropFlat(Prepared& prepared, const Moved* moved, Predicates& predicates);
+/// The third: its edges and, unless intersections are assumed to be none, where triangles meet.
 void resolveInput(Prepared& prepared, const Preparation& preparation, Monitor& monitor, Predicates& predicates);
 /// Its parts. The edges of the mesh itself, which triangles are the same, and whether it is closed:
 void findInputEdges(Prepared& prepared);
@@ -81,7 +83,7 @@ void findInputEdges(Prepared& prepared);
 /// of the mesh's.
 void arrangeInput(Prepared& prepared, Contacts contacts, bool keepContacts, Monitor& monitor, Predicates& predicates);
 
-/// Both. `beginStage` is called with "input" and "intersections".
+/// All. `beginStage` is called with "input" and "intersections".
 std::unique_ptr<Prepared> prepareMesh(const MeshView& mesh, const Preparation& preparation, Monitor& monitor,
                                       const std::function<void(const char*)>& beginStage);
 

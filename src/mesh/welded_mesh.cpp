@@ -28,9 +28,10 @@ std::vector<uint32_t> weld(const std::vector<uint8_t>& referenced, const std::ve
       points.size(), [&](uint32_t v) { return points[v].data(); }, [&](uint32_t v) { return referenced[v] != 0; });
 }
 
-std::vector<uint32_t> dropZeroArea(WeldedMesh& mesh, Predicates& predicates) {
+std::vector<uint32_t> dropZeroArea(WeldedMesh& mesh, const Moved* moved, Predicates& predicates) {
   std::vector<uint32_t> dropped;
   for (const TriangleId t : mesh.triangleIds()) {
+    if (moved && !hasMoved(*moved, mesh.triangles[t.number])) continue;
     if (normalSign(mesh, t, 0, predicates) || normalSign(mesh, t, 1, predicates) || normalSign(mesh, t, 2, predicates)) continue;
     mesh.states[t.number] = TriangleState::zeroArea;
     dropped.push_back(t.number);

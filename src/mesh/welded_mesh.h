@@ -68,8 +68,15 @@ int normalSign(const WeldedMesh& mesh, TriangleId triangle, int axis, Predicates
 /// Per tri-vertex the lowest one at its position; itself unless `referenced`.
 std::vector<uint32_t> weld(const std::vector<uint8_t>& referenced, const std::vector<Point>& points);
 
-/// Marks the triangles without area, exactly, and returns them.
-std::vector<uint32_t> dropZeroArea(WeldedMesh& mesh, Predicates& predicates);
+/// Per tri-vertex: whether it is elsewhere than before, in a mesh whose triangles were connected alike.
+using Moved = IdVector<VertexId, uint8_t>;
+
+inline bool hasMoved(const Moved& moved, const std::array<uint32_t, 3>& triangle) {
+  return moved[{triangle[0]}] || moved[{triangle[1]}] || moved[{triangle[2]}];
+}
+
+/// Marks the triangles without area, exactly, and returns them. Triangles that have not moved are known to have one; null: all may have.
+std::vector<uint32_t> dropZeroArea(WeldedMesh& mesh, const Moved* moved, Predicates& predicates);
 
 /// The vertices that dropped triangles without area put on edges. Such triangles that share an edge lie on one line; each of their edges
 /// gets all their vertices that lie inside it.

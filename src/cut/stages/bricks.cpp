@@ -18,6 +18,8 @@ class Layout {
       : surface_(surface), parts_(parts), grid_(grid), seamVertices_(parts.clipped.seamVertices) {}
 
   Bricks run() {
+    givenParts_.reserve(parts_.clipped.parts.size());
+    givenEdges_.reserve(2 * parts_.clipped.hybridEdges.size());
     for (uint32_t i = 0; i < parts_.clipped.parts.size(); ++i) givenParts_.push_back({found_.add(parts_.clipped.parts[i].brick), i});
     for (const FaceId f : parts_.divided.ids()) placeDivided(f);
     placeEdges();

@@ -29,6 +29,9 @@ class ClipJoiner {
   /// Once `now` has the vertices.
   ClippedTriangles joinRest() {
     joinParts();
+    const size_t edges = before_.hybridEdges.size() + others_.hybridEdges.size();
+    all_.hybridEdges.reserve(edges);
+    all_.hybridTriangles.reserve(edges);
     joinTagged(before_.hybridTriangles, others_.hybridTriangles, all_.hybridTriangles,
                [&](const ClippedTriangles& from, size_t i, auto id) {
                  const FaceEdge& edge = from.hybridEdges[i];
@@ -43,14 +46,17 @@ class ClipJoiner {
   /// Calls addBefore(place) for the entries of `before` whose triangles are the same, and addOther(place) for all of `others`.
   template <class List, class TriangleIn, class Before, class Other>
   void join(const List& before, const List& others, const TriangleIn& triangleIn, const Before& addBefore, const Other& addOther) const {
-    size_t other = 0;
-    for (size_t i = 0; i < before.size(); ++i) {
-      const TriangleId t = triangleIn(before, i);
-      if (!now_.isSame(t)) continue;
-      while (other < others.size() && triangleIn(others, other) < t) addOther(other++);
-      addBefore(i);
+    size_t i = 0;
+    const auto addBeforeUntil = [&](TriangleId past) {
+      for (; i < before.size() && triangleIn(before, i) < past; ++i) {
+        if (now_.isSame(triangleIn(before, i))) addBefore(i);
+      }
+    };
+    for (size_t other = 0; other < others.size(); ++other) {
+      addBeforeUntil(triangleIn(others, other));
+      addOther(other);
     }
-    while (other < others.size()) addOther(other++);
+    addBeforeUntil({~0u});
   }
 
   VertexId idNow(VertexId other) const { return other < firstOther_ ? other : otherIds_[other.number - firstOther_.number]; }
@@ -85,6 +91,7 @@ class ClipJoiner {
       all_.parts.push_back(part);
     };
     all_.parts.reserve(before_.parts.size() + others_.parts.size());
+    all_.pieces.offsets.reserve(before_.pieces.offsets.size() + others_.pieces.offsets.size());
     all_.pieces.items.reserve(before_.pieces.items.size() + others_.pieces.items.size());
     join(
         before_.parts, others_.parts, [](const auto& list, size_t i) { return list[i].triangle; },

@@ -43,9 +43,9 @@ class Rooms {
     const uint32_t loopVertices = total_.triLoopVertices + total_.loopVertices;
     run({[&] { make(&CutMesh::loopVertices, loopVertices); }, [&] { makeOffsets(&CutMesh::loopOffsets, loops_, loopVertices); },
          [&] { makeOffsets(&CutMesh::faceLoopOffsets, faces_, uint32_t(loops_)); },
-         [&] { fill(&CutMesh::faceParentOffsets, faces_ + 1, total_.parents); }, [&] { fill(&CutMesh::faceTriangle, faces_, -1); },
-         [&] { fill(&CutMesh::facePlane, faces_, 0); }, [&] { make(&CutMesh::faceParents, total_.parents); },
-         [&] { fill(&CutMesh::faceAxis, faces_, int8_t(-1)); }, [&] { make(&CutMesh::faceParentSigns, total_.parents); }});
+         [&] { makeForPieces(&CutMesh::faceParentOffsets, 1, total_.parents); }, [&] { makeForPieces(&CutMesh::faceTriangle, 0, -1); },
+         [&] { makeForTriFaces(&CutMesh::facePlane, 0); }, [&] { make(&CutMesh::faceParents, total_.parents); },
+         [&] { makeForTriFaces(&CutMesh::faceAxis, int8_t(-1)); }, [&] { make(&CutMesh::faceParentSigns, total_.parents); }});
   }
   void makeForVertices(size_t surfaceVertices) {
     const size_t vertices = surfaceVertices + total_.vertices;
@@ -65,11 +65,17 @@ class Rooms {
     reserveLarge(items, count);
     items.resize(count);
   }
+  /// Of one in which all tri-cut-faces have the same.
   template <class Item>
-  void fill(std::vector<Item> CutMesh::*array, size_t count, Item item) {
-    std::vector<Item>& items = out_.*array = std::move(spare_.*array);
-    items.clear();
-    makeLarge(items, count, item);
+  void makeForTriFaces(std::vector<Item> CutMesh::*array, Item item) {
+    make(array, faces_);
+    std::fill_n((out_.*array).begin(), total_.triFaces, item);
+  }
+  /// Of one in which all pieces of grid-faces have the same, and `more` after them.
+  template <class Item>
+  void makeForPieces(std::vector<Item> CutMesh::*array, size_t more, Item item) {
+    make(array, faces_ + more);
+    std::fill((out_.*array).begin() + total_.triFaces, (out_.*array).end(), item);
   }
   void makeOffsets(std::vector<uint32_t> CutMesh::*array, size_t count, uint32_t end) {
     make(array, count + 1);
@@ -207,6 +213,7 @@ void writeVertices(const CutState& state, const std::vector<VertexId>& surface, 
 
 std::vector<VertexId> listUsed(const UsedVertices& used) {
   std::vector<VertexId> list;
+  list.reserve(used.size());
   for (uint32_t v = 0; v < used.size(); ++v) {
     if (used[v].load(std::memory_order_relaxed)) list.push_back({v});
   }

@@ -76,19 +76,20 @@ size_t crossEdge(const Input& input, const std::array<VertexId, 2>& ends, const 
   }
 }
 
-uint32_t crossingBound(const Slab& a, const Slab& b) {
-  int32_t count = 0;
+struct PlanesBetween {
+  uint32_t count;  ///< strictly between two slabs, along all axes
+  bool hasBoth;    ///< whether one has both slabs
+};
+
+PlanesBetween planesBetween(const Slab& a, const Slab& b) {
+  uint32_t count = 0, both = 0;
   for (size_t d = 0; d < 3; ++d) {
     const int32_t first = firstPlaneAfter(std::min(a[d], b[d])), last = lastPlaneBefore(std::max(a[d], b[d]));
-    count += std::max(last - first + 1, 0);
+    const uint32_t isBoth = uint32_t(a[d] == b[d]) & uint32_t(onPlane(a[d]));
+    count += uint32_t(last - first + 1) + isBoth;  // for which last is first - 2
+    both |= isBoth;
   }
-  return uint32_t(count);
-}
-
-bool isInPlane(const Slab& a, const Slab& b) {
-  bool isIn = false;
-  for (size_t d = 0; d < 3; ++d) isIn |= a[d] == b[d] && onPlane(a[d]);
-  return isIn;
+  return {count, both != 0};
 }
 
 /// Pieces of tri-edges that lie in an axial plane, but not on a grid line; `inPlane`: all edges in such a plane.
@@ -139,9 +140,10 @@ void cutTriEdges(Surface& surface, Run& run, const KnownCrossings* known) {
   std::vector<TriEdgeId> inPlane;
   for (const TriEdgeId e : edges.ends.ids()) {
     const Slab &low = input.slabs[edges.ends[e][0]], &high = input.slabs[edges.ends[e][1]];
-    if (surface.here.has(e) && isInPlane(low, high)) inPlane.push_back(e);
+    const PlanesBetween between = planesBetween(low, high);
+    if (between.hasBoth && surface.here.has(e)) inPlane.push_back(e);
     vertices.crossingOffsets[e.number] = {uint32_t(total)};
-    total += crossingBound(low, high);
+    total += between.count;
     if (total >= uint64_t(1) << 31) throw Failure{{Status::meshTooLarge, -1, -1, "The cut-mesh would have more than 2^31 vertices."}};
   }
   vertices.crossingOffsets[edgeCount] = {uint32_t(total)};

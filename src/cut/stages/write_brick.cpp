@@ -16,8 +16,12 @@ class FaceWriter {
         parents_(state.surface.input, cut_.triangles, cut_.otherParents),
         at_(numbers_.rows[brick]),
         out_(out) {
-    vertices_ = numbers_.ofBrick[brick];
-    for (const VertexId v : cut_.surfaceVertices) vertices_.push_back(numbers_.ofSurface[v]);
+    const std::vector<uint32_t>& own = numbers_.ofBrick[brick];
+    vertices_.reserve(own.size() + cut_.surfaceVertices.size());
+    vertices_.assign(own.begin(), own.end());
+    vertices_.resize(own.size() + cut_.surfaceVertices.size());
+    std::transform(cut_.surfaceVertices.begin(), cut_.surfaceVertices.end(), vertices_.begin() + ptrdiff_t(own.size()),
+                   [&](VertexId v) { return numbers_.ofSurface[v]; });
     for (BrickCounts& at : at_) {  // pieces come after all tri-cut-faces
       at.loops += numbers_.total.triLoops;
       at.loopVertices += numbers_.total.triLoopVertices;
