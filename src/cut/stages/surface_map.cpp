@@ -21,7 +21,7 @@ SurfaceMap::SurfaceMap(const Surface& before, const Surface& now, const Moved& m
   checkOrder();
   if (!isOrdered_) return;
   areEdgesSame_ = !meshBefore().hasIntersections() && !meshNow().hasIntersections();
-  areEdgesSame_ ? mapSameEdges() : mapEdges();
+  areEdgesSame_ ? mapSameEdges(CrossingsBefore(before, now, moved)) : mapEdges();
   findSameTriangles();
 }
 
@@ -88,12 +88,14 @@ void SurfaceMap::mapEdges() {
   }
 }
 
-void SurfaceMap::mapSameEdges() {
-  for (const TriEdgeId e : now_.edges->ends.ids()) {
-    const auto& [low, high] = now_.edges->ends[e];
-    if (moved_[low] || moved_[high]) continue;
-    VertexId crossing = *now_.crossings(e).begin();
-    for (const VertexId v : before_.crossings(e)) vertices_[v] = VertexId{crossing.number++};
+void SurfaceMap::mapSameEdges(const KnownCrossings& known) {
+  const TriEdgeId past{uint32_t(now_.edges->ends.size())};
+  for (TriEdgeId e{0}; e < past; ++e.number) {
+    const TriEdgeId pastKnown = known.pastKnown(e, past);
+    VertexId crossing = now_.crossingOffsets[e.number];
+    for (const VertexId v : Ids<VertexId>(before_.crossingOffsets[e.number], before_.crossingOffsets[pastKnown.number]))
+      vertices_[v] = VertexId{crossing.number++};
+    e = pastKnown;  // which is not known
   }
 }
 

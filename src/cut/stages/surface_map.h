@@ -45,7 +45,7 @@ class SurfaceMap {
   void mapMadeVertices();
   void checkOrder();
   void mapEdges();
-  void mapSameEdges();
+  void mapSameEdges(const KnownCrossings& known);
   void findSameTriangles();
 
   const CutVertices &before_, &now_;

@@ -92,12 +92,86 @@ PlanesBetween planesBetween(const Slab& a, const Slab& b) {
   return {count, both != 0};
 }
 
-/// Pieces of tri-edges that lie in an axial plane, but not on a grid line; `inPlane`: all edges in such a plane.
-void collectInPlane(const std::vector<TriEdgeId>& inPlane, Surface& surface) {
+/// Ids for the crossings of all tri-edges, and which of these lie in an axial plane.
+class CrossingLayout {
+ public:
+  CrossingLayout(Surface& surface, const KnownCrossings* known) : surface_(surface), vertices_(surface.vertices), known_(known) {}
+
+  void run() {
+    const TriEdgeId past{uint32_t(surface_.edges().ends.size())};
+    vertices_.crossingOffsets.resize(past.number + 1);
+    total_ = surface_.input.slabs.size();
+    for (TriEdgeId e{0}; e < past;) {
+      const TriEdgeId pastKnown = known_ ? known_->pastKnown(e, past) : e;
+      if (e < pastKnown) {
+        layOutKnown(e, pastKnown);
+        e = pastKnown;
+      } else {
+        layOut(e);
+        ++e.number;
+      }
+      if (total_ >= uint64_t(1) << 31) throw Failure{{Status::meshTooLarge, -1, -1, "The cut-mesh would have more than 2^31 vertices."}};
+    }
+    vertices_.crossingOffsets[past.number] = vertices_.firstInTriangle = {uint32_t(total_)};
+  }
+
+ private:
+  void layOut(TriEdgeId e) {
+    const auto& [low, high] = surface_.edges().ends[e];
+    const PlanesBetween between = planesBetween(surface_.input.slabs[low], surface_.input.slabs[high]);
+    if (between.hasBoth && surface_.here.has(e)) surface_.inPlane.push_back(e);
+    vertices_.crossingOffsets[e.number] = {uint32_t(total_)};
+    total_ += between.count;
+  }
+
+  void layOutKnown(TriEdgeId first, TriEdgeId past) {
+    const Surface& known = known_->surface();
+    const VertexId* offsets = known.vertices.crossingOffsets.data();
+    const uint32_t shift = uint32_t(total_) - offsets[first.number].number;
+    VertexId* to = vertices_.crossingOffsets.data();
+    for (uint32_t e = first.number; e < past.number; ++e) to[e] = {offsets[e].number + shift};
+    total_ += offsets[past.number].number - offsets[first.number].number;
+    while (inPlane_ < known.inPlane.size() && known.inPlane[inPlane_] < first) ++inPlane_;
+    while (inPlane_ < known.inPlane.size() && known.inPlane[inPlane_] < past) surface_.inPlane.push_back(known.inPlane[inPlane_++]);
+  }
+
+  Surface& surface_;
+  CutVertices& vertices_;
+  const KnownCrossings* known_;
+  uint64_t total_ = 0;
+  size_t inPlane_ = 0;  // in the list of `known_`
+};
+
+void cutEdge(TriEdgeId e, Surface& surface, Predicates& predicates) {
+  CutVertices& vertices = surface.vertices;
+  const Ids<VertexId> crossings = vertices.crossings(e);
+  if (crossings.empty()) return;
+  const VertexId first = *crossings.begin();
+  const size_t count = !surface.here.has(e) ? 0
+                                            : crossEdge(surface.input, surface.edges().ends[e], surface.edges().line(e),
+                                                        &vertices.slabs[first.number], predicates);
+  for (const VertexId v : crossings) {
+    vertices.parentEdges[v.number - vertices.firstOnEdge.number] = e;
+    if (v.number >= first.number + count) vertices.slabs[v.number] = CutVertices::kNone;
+  }
+}
+
+/// Those of tri-edges first .. past - 1.
+void copyCrossings(const CutVertices& known, TriEdgeId first, TriEdgeId past, CutVertices& vertices) {
+  const size_t from = known.crossingOffsets[first.number].number, end = known.crossingOffsets[past.number].number,
+               to = vertices.crossingOffsets[first.number].number;
+  std::copy(known.slabs.begin() + ptrdiff_t(from), known.slabs.begin() + ptrdiff_t(end), vertices.slabs.begin() + ptrdiff_t(to));
+  const auto parents = known.parentEdges.begin() - ptrdiff_t(known.firstOnEdge.number);
+  std::copy(parents + ptrdiff_t(from), parents + ptrdiff_t(end),
+            vertices.parentEdges.begin() + ptrdiff_t(to - vertices.firstOnEdge.number));
+}
+
+/// Pieces of tri-edges that lie in an axial plane, but not on a grid line.
+void collectInPlane(Surface& surface) {
   const Input& input = surface.input;
   const CutVertices& vertices = surface.vertices;
   const MeshEdges& edges = surface.edges();
-  for (const TriEdgeId e : inPlane) {
+  for (const TriEdgeId e : surface.inPlane) {
     VertexId from = edges.ends[e][0];
     const auto piece = [&](VertexId to) {
       const Slab element = elementBetween(vertices.slab(from), vertices.slab(to));
@@ -113,63 +187,45 @@ void collectInPlane(const std::vector<TriEdgeId>& inPlane, Surface& surface) {
 
 }  // namespace
 
-CrossingsBefore::CrossingsBefore(const Surface& before, const Surface& now, const Moved& moved) {
-  const MeshEdges &were = before.edges(), &are = now.edges();
-  if (!were.lines.empty() || !are.lines.empty() || were.ends != are.ends) return;
-  before_ = &before;
-  moved_ = &moved;
-}
+CrossingsBefore::CrossingsBefore(const Surface& before, const Surface& now, const Moved& moved)
+    : before_(before),
+      moved_(moved),
+      areKnown_(before.edges().lines.empty() && now.edges().lines.empty() && before.edges().ends == now.edges().ends) {}
 
-const Slab* CrossingsBefore::find(TriEdgeId edge) const {
-  if (!before_) return nullptr;
-  const auto& [low, high] = before_->edges().ends[edge];
-  if ((*moved_)[low] || (*moved_)[high]) return nullptr;
-  return &before_->vertices.slabs[(*before_->vertices.crossings(edge).begin()).number];
+TriEdgeId CrossingsBefore::pastKnown(TriEdgeId first, TriEdgeId past) const {
+  if (!areKnown_) return first;
+  const auto* ends = before_.edges().ends.data();
+  const uint8_t* moved = moved_.data();
+  while (first < past && !(moved[ends[first.number][0].number] | moved[ends[first.number][1].number])) ++first.number;
+  return first;
 }
 
 void cutTriEdges(Surface& surface, Run& run, const KnownCrossings* known) {
   const Input& input = surface.input;
-  const MeshEdges& edges = surface.edges();
   CutVertices& vertices = surface.vertices;
-  const size_t edgeCount = edges.ends.size();
   vertices.input = &input;
-  vertices.edges = &edges;
+  vertices.edges = &surface.edges();
   vertices.firstOnEdge = {uint32_t(input.slabs.size())};
-  vertices.crossingOffsets.resize(edgeCount + 1);
-  uint64_t total = input.slabs.size();
-  std::vector<TriEdgeId> inPlane;
-  for (const TriEdgeId e : edges.ends.ids()) {
-    const Slab &low = input.slabs[edges.ends[e][0]], &high = input.slabs[edges.ends[e][1]];
-    const PlanesBetween between = planesBetween(low, high);
-    if (between.hasBoth && surface.here.has(e)) inPlane.push_back(e);
-    vertices.crossingOffsets[e.number] = {uint32_t(total)};
-    total += between.count;
-    if (total >= uint64_t(1) << 31) throw Failure{{Status::meshTooLarge, -1, -1, "The cut-mesh would have more than 2^31 vertices."}};
-  }
-  vertices.crossingOffsets[edgeCount] = {uint32_t(total)};
-  vertices.firstInTriangle = {uint32_t(total)};
+  CrossingLayout(surface, known).run();
   vertices.slabs.assign(input.slabs.begin(), input.slabs.end());
-  vertices.slabs.resize(total);
-  vertices.parentEdges.resize(total - input.slabs.size());
-  const auto chunks = forChunks<Predicates>(edgeCount, run.monitor, [&](Predicates& predicates, size_t begin, size_t end) {
-    for (const TriEdgeId e : Ids<TriEdgeId>(begin, end)) {
-      const Ids<VertexId> crossings = vertices.crossings(e);
-      if (crossings.empty()) continue;
-      const VertexId first = *crossings.begin();
-      for (const VertexId v : crossings) vertices.parentEdges[v.number - vertices.firstOnEdge.number] = e;
-      if (const Slab* slabs = known ? known->find(e) : nullptr) {
-        for (const VertexId v : crossings) vertices.slabs[v.number] = slabs[v.number - first.number];
-        continue;
-      }
-      const size_t count =
-          !surface.here.has(e) ? 0 : crossEdge(input, edges.ends[e], edges.line(e), &vertices.slabs[first.number], predicates);
-      for (const VertexId v : crossings) {
-        if (v.number >= first.number + count) vertices.slabs[v.number] = CutVertices::kNone;
-      }
-    }
-  });
+  vertices.slabs.resize(vertices.firstInTriangle.number);
+  vertices.parentEdges.resize(vertices.firstInTriangle.number - input.slabs.size());
+  const auto chunks =
+      forChunks<Predicates>(surface.edges().ends.size(), run.monitor, [&](Predicates& predicates, size_t begin, size_t end) {
+        const TriEdgeId past{uint32_t(end)};
+        for (TriEdgeId e{uint32_t(begin)}; e < past;) {
+          const TriEdgeId pastKnown = known ? known->pastKnown(e, past) : e;
+          if (e < pastKnown) {
+            copyCrossings(known->surface().vertices, e, pastKnown, vertices);
+            e = pastKnown;
+          } else {
+            cutEdge(e, surface, predicates);
+            ++e.number;
+          }
+        }
+      });
   for (const Predicates& p : chunks) run.count(p);
-  collectInPlane(inPlane, surface);
+  collectInPlane(surface);
 }
 
 }  // namespace mandoline::detail

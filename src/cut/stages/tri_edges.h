@@ -31,7 +31,8 @@ struct Surface {
   Input input;
   SurfaceHere here;
   CutVertices vertices;
-  std::vector<FaceEdge> edgesInPlane;  ///< pieces of tri-edges that lie in a grid-face
+  std::vector<TriEdgeId> inPlane;      ///< tri-edges that lie in an axial plane, ascending
+  std::vector<FaceEdge> edgesInPlane;  ///< pieces of them that lie in a grid-face
 
   Surface() = default;
   Surface(const Surface&) = delete;
@@ -42,8 +43,10 @@ struct Surface {
 /// Crossings that are known beforehand. An interface: other cuts don't link what finds them.
 class KnownCrossings {
  public:
-  /// The slabs of an edge's crossings, or null if they are not known.
-  virtual const Slab* find(TriEdgeId edge) const = 0;
+  /// The edge after those, from `first` on and before `past`, whose crossings are known.
+  virtual TriEdgeId pastKnown(TriEdgeId first, TriEdgeId past) const = 0;
+  /// Whose they are, under the same ids of edges.
+  virtual const Surface& surface() const = 0;
 
  protected:
   ~KnownCrossings() = default;
@@ -55,11 +58,13 @@ class CrossingsBefore final : public KnownCrossings {
   /// None, too, where triangles meet in one of both.
   CrossingsBefore(const Surface& before, const Surface& now, const Moved& moved);
 
-  const Slab* find(TriEdgeId edge) const override;
+  TriEdgeId pastKnown(TriEdgeId first, TriEdgeId past) const override;
+  const Surface& surface() const override { return before_; }
 
  private:
-  const Surface* before_ = nullptr;
-  const Moved* moved_ = nullptr;
+  const Surface& before_;
+  const Moved& moved_;
+  const bool areKnown_;
 };
 
 /// Fills in the rest of the surface from `surface.input`. `known` may be null.
