@@ -53,6 +53,26 @@ void Clock::end() {
   last_ = t;
 }
 
+int stagesBefore(const PrepareOptions& options) { return options.orient ? kOrientStages : 0; }
+
+std::shared_ptr<PreparedMeshData> meshToPrepare(const MeshView& mesh, const PrepareOptions& options, Monitor& monitor) {
+  auto data = std::make_shared<PreparedMeshData>();
+  if (options.orient) {
+    data->mesh = orient(mesh, monitor.part<RunOptions>(0, kMeshStages)).mesh;
+  } else {
+    data->mesh = {{mesh.positions.begin(), mesh.positions.end()}, {mesh.triangles.begin(), mesh.triangles.end()}};
+  }
+  data->fingerprint = fingerprintOf(data->mesh);
+  data->intersections = options.intersections;
+  return data;
+}
+
+void finishPreparing(std::shared_ptr<PreparedMeshData> data, std::unique_ptr<Prepared> prepared, PrepareResult& result) {
+  addCounts(*prepared, result.stats);
+  data->prepared = std::move(prepared);
+  result.mesh = PreparedMesh(std::move(data));
+}
+
 bool fits(const Prepared& prepared, const Grid& grid) {
   const double largest = largestCoordinate(grid);
   return largest == 0 || std::ilogb(largest) + prepared.shift <= Scale::kLargestExponent + Scale::kRoom;
@@ -161,20 +181,11 @@ MeshView PreparedMesh::mesh() const { return data_ ? MeshView(data_->mesh) : Mes
 PrepareResult prepare(const MeshView& mesh, const PrepareOptions& options) {
   PrepareResult result;
   catchErrors(result.error, "preparation", [&] {
-    const int before = options.orient ? kOrientStages : 0;
-    Monitor monitor(options, before + kMeshStages);
-    auto data = std::make_shared<PreparedMeshData>();
-    if (options.orient) {
-      data->mesh = orient(mesh, monitor.part<RunOptions>(0, kMeshStages)).mesh;
-    } else {
-      data->mesh = {{mesh.positions.begin(), mesh.positions.end()}, {mesh.triangles.begin(), mesh.triangles.end()}};
-    }
-    Clock clock(result.stats, monitor, before);
-    data->intersections = options.intersections;
-    data->prepared = prepareMesh(data->mesh, {0, options.intersections}, monitor, [&](const char* stage) { clock.begin(stage); });
-    data->fingerprint = fingerprintOf(data->mesh);
-    addCounts(*data->prepared, result.stats);
-    result.mesh = PreparedMesh(std::move(data));
+    Monitor monitor(options, stagesBefore(options) + kMeshStages);
+    std::shared_ptr<PreparedMeshData> data = meshToPrepare(mesh, options, monitor);
+    Clock clock(result.stats, monitor, stagesBefore(options));
+    auto prepared = prepareMesh(data->mesh, {0, options.intersections}, monitor, [&](const char* stage) { clock.begin(stage); });
+    finishPreparing(std::move(data), std::move(prepared), result);
   });
   return result;
 }

@@ -15,6 +15,12 @@ struct PreparedMeshData {
   std::unique_ptr<const Prepared> prepared;
 };
 
+/// How prepare() begins, and how it ends: with the mesh, and with what of it was prepared.
+std::shared_ptr<PreparedMeshData> meshToPrepare(const MeshView& mesh, const PrepareOptions& options, Monitor& monitor);
+void finishPreparing(std::shared_ptr<PreparedMeshData> data, std::unique_ptr<Prepared> prepared, PrepareResult& result);
+/// How many stages these have before that of prepareMesh().
+int stagesBefore(const PrepareOptions& options);
+
 /// Names the stages for progress and takes their times.
 class Clock {
  public:

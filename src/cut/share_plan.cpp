@@ -184,10 +184,8 @@ struct SharePlanner::Data {
   }
 
   uint64_t sentBy(uint32_t rank, uint32_t ranks, const LayerLoad& sum, uint64_t seamBelow, const LayerLoads& all) const {
-    const MeshView view = mesh.view();
     const uint64_t others = ranks - 1, numbers = 11 * sizeof(uint64_t) * ranks, sums = all.regions * sizeof(DoubleDouble);
-    uint64_t bytes = others * sum.summaryBytes + numbers + view.triangleCount();
-    if (rank == 0) bytes += others * (view.positions.size_bytes() + view.triangles.size_bytes());
+    uint64_t bytes = others * sum.summaryBytes + numbers + mesh.view().triangleCount() / 8;
     bytes += 2 * sums * (rank + 1 < ranks ? 1 : others);
     return bytes + kSeamFaceBytes * sum.facesAbove + 2 * sizeof(uint64_t) * seamBelow;
   }

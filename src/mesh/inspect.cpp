@@ -54,30 +54,32 @@ size_t countZeroArea(const MeshView& mesh, const std::vector<Corners>& triangles
   return count;
 }
 
-void findBox(const MeshView& mesh, MeshInfo& info) {
-  info.min.fill(INFINITY);
-  info.max.fill(-INFINITY);
+}  // namespace
+
+MeshBox boxOf(const MeshView& mesh) {
+  detail::requireArrays(mesh);
+  MeshBox box;
+  box.min.fill(INFINITY);
+  box.max.fill(-INFINITY);
   for (const uint32_t v : mesh.triangles) {
     for (size_t d = 0; d < 3; ++d) {
       const double x = mesh.positions[3 * size_t(v) + d];
       if (!std::isfinite(x)) continue;
-      info.min[d] = std::min(info.min[d], x);
-      info.max[d] = std::max(info.max[d], x);
+      box.min[d] = std::min(box.min[d], x);
+      box.max[d] = std::max(box.max[d], x);
     }
   }
   for (size_t d = 0; d < 3; ++d) {
-    if (!(info.min[d] <= info.max[d])) info.min[d] = info.max[d] = 0;
+    if (!(box.min[d] <= box.max[d])) box.min[d] = box.max[d] = 0;
   }
+  return box;
 }
 
-}  // namespace
-
 MeshInfo inspect(const MeshView& mesh) {
-  detail::requireArrays(mesh);
   MeshInfo info;
+  static_cast<MeshBox&>(info) = boxOf(mesh);
   info.vertices = mesh.vertexCount();
   info.triangles = mesh.triangleCount();
-  findBox(mesh, info);
   const std::vector<uint32_t> lowest = detail::lowestAtPosition(
       info.vertices, [&](uint32_t v) { return mesh.positions.data() + 3 * size_t(v); }, [&](uint32_t v) { return isFinite(mesh, v); });
   std::vector<uint8_t> referenced(info.vertices, 0);

@@ -50,8 +50,7 @@ double largestCoordinate(const MeshView& mesh, const std::vector<uint8_t>& refer
 }
 
 /// Fails if any triangles meet: says which first, and how many pairs do.
-void refuseIntersections(const Prepared& prepared, const NearTriangles& near, Monitor& monitor, Predicates& predicates) {
-  const Contacts contacts = findContacts(prepared, near, monitor, predicates, 1);
+void refuseIntersections(const Prepared& prepared, const Contacts& contacts) {
   const uint64_t total = contacts.counts.total();
   if (total == 0) return;
   std::array<uint32_t, 2> first{~0u, ~0u};
@@ -69,9 +68,9 @@ void findEdges(Prepared& prepared, const Arrangement* arrangement) {
 }
 
 /// The edges and the triangles that may meet, side by side: neither needs the other.
-NearTriangles findEdgesAndNear(Prepared& prepared, Monitor& monitor) {
+/// `states` are those of the search: the edges change the mesh's.
+NearTriangles findEdgesAndNear(Prepared& prepared, const std::vector<TriangleState>& states, Monitor& monitor) {
   std::optional<NearTriangles> near;
-  const std::vector<TriangleState> states = prepared.states;  // which the edges change
   runItems({0, 1}, monitor, [&](size_t, uint32_t task) {
     if (task == 0) {
       findEdges(prepared, nullptr);
@@ -137,9 +136,31 @@ void arrangeInput(Prepared& prepared, Contacts contacts, bool keepContacts, Moni
 
 void resolveInput(Prepared& prepared, const Preparation& preparation, Monitor& monitor, Predicates& predicates) {
   if (preparation.intersections == Intersections::assumeNone) return findEdges(prepared, nullptr);
-  const NearTriangles near = findEdgesAndNear(prepared, monitor);
-  if (preparation.intersections == Intersections::refuse) return refuseIntersections(prepared, near, monitor, predicates);
+  const NearTriangles near = findEdgesAndNear(prepared, std::vector<TriangleState>(prepared.states), monitor);
+  if (preparation.intersections == Intersections::refuse) {
+    return refuseIntersections(prepared, findContacts(prepared, near, monitor, predicates, 1));
+  }
   arrangeInput(prepared, findContacts(prepared, near, monitor, predicates), preparation.keepContacts, monitor, predicates);
+}
+
+std::vector<TrianglePair> findEdgesAndPairs(Prepared& prepared, const ShareOf& shareOf, Monitor& monitor, Predicates& predicates) {
+  std::vector<TrianglePair> pairs;
+  if (shareOf.index >= shareOf.count) {
+    findEdges(prepared, nullptr);
+    return pairs;
+  }
+  const SearchBand band(prepared, shareOf);
+  for (const PairContact& pair : findContacts(prepared, findEdgesAndNear(prepared, band.states(), monitor), monitor, predicates).pairs) {
+    if (band.has(pair.triangles)) pairs.push_back(pair.triangles);
+  }
+  return pairs;
+}
+
+void resolvePairs(Prepared& prepared, const std::vector<TrianglePair>& pairs, const Preparation& preparation, Monitor& monitor,
+                  Predicates& predicates) {
+  Contacts contacts = contactsOfPairs(prepared, pairs, monitor, predicates);
+  if (preparation.intersections == Intersections::refuse) return refuseIntersections(prepared, contacts);
+  arrangeInput(prepared, std::move(contacts), preparation.keepContacts, monitor, predicates);
 }
 
 std::unique_ptr<Prepared> prepareMesh(const MeshView& mesh, const Preparation& preparation, Monitor& monitor,

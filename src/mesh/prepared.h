@@ -13,7 +13,7 @@
 #include "mandoline/mesh.h"
 #include "mesh/failure.h"
 #include "mesh/parts.h"
-#include "mesh/resolve/contacts.h"
+#include "mesh/resolve/search_share.h"
 
 namespace mandoline::detail {
 
@@ -77,6 +77,11 @@ std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest);
 void dropFlat(Prepared& prepared, const Moved* moved, Predicates& predicates);
 /// The third: its edges and, unless intersections are assumed to be none, where triangles meet.
 void resolveInput(Prepared& prepared, const Preparation& preparation, Monitor& monitor, Predicates& predicates);
+/// The same in two steps, of which several processes share the search: a share's edges and pairs that meet, and what becomes of the pairs
+/// of all. A share that is not below the count searches nothing.
+std::vector<TrianglePair> findEdgesAndPairs(Prepared& prepared, const ShareOf& shareOf, Monitor& monitor, Predicates& predicates);
+void resolvePairs(Prepared& prepared, const std::vector<TrianglePair>& pairs, const Preparation& preparation, Monitor& monitor,
+                  Predicates& predicates);
 /// Its parts. The edges of the mesh itself, which triangles are the same, and whether it is closed:
 void findInputEdges(Prepared& prepared);
 /// Once these and the contacts are known: the arrangement, and where any triangles meet its vertices and edges in the place

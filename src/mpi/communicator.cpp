@@ -66,6 +66,13 @@ void Communicator::wait(MPI_Request* requests, int count) {
   }
 }
 
+void Communicator::uniteFlags(std::vector<uint8_t>& flags) {
+  std::vector<uint8_t> bits((flags.size() + 7) / 8, 0);
+  for (size_t i = 0; i < flags.size(); ++i) bits[i / 8] |= uint8_t(flags[i] << i % 8);
+  reduce(bits, MPI_BOR);
+  for (size_t i = 0; i < flags.size(); ++i) flags[i] = bits[i / 8] >> i % 8 & 1;
+}
+
 std::vector<uint64_t> Communicator::gatherAll(uint64_t number) {
   std::vector<uint64_t> numbers(size_t(size_), 0);
   numbers[size_t(rank_)] = number;
@@ -126,6 +133,15 @@ Communicator::Bytes Communicator::exchange(const Bytes& bytes, int to, int from)
 void Communicator::send(const Bytes& bytes, int to) { exchange(bytes, to, -1); }
 Communicator::Bytes Communicator::receive(int from) { return exchange({}, -1, from); }
 
+void Communicator::requireSame(uint64_t number, const char* what) {
+  const std::vector<uint64_t> all = gatherAll(number);
+  for (size_t rank = 0; rank < all.size(); ++rank) {
+    if (all[rank] == all[0]) continue;
+    const std::string message = "Process " + std::to_string(rank) + " has another " + what + " than process 0.";
+    throw RankError({Status::badArgument, int64_t(rank), -1, message}, int(rank));
+  }
+}
+
 void Communicator::agree(const Error& error) {
   const int failed = reduce(error.status == Status::ok ? INT_MAX : rank_, MPI_MIN);
   if (failed == INT_MAX) return;
@@ -140,6 +156,13 @@ void Communicator::together(const char* noun, const std::function<void()>& body)
   Error error;
   catchErrors(error, noun, body);
   agree(error);
+}
+
+std::function<void()> waiterFor(const char* noun, const RunOptions& options) {
+  if (!options.progress) return nullptr;
+  return [noun, progress = options.progress] {
+    if (!progress({"waiting", 0, 1, 0, 1})) throw CallError({Status::cancelled, -1, -1, std::string("The ") + noun + " was cancelled."});
+  };
 }
 
 }  // namespace mandoline::detail

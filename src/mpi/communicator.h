@@ -56,6 +56,8 @@ class MANDOLINE_SHARED Communicator {
     reduce(numbers, op);
     return numbers[0];
   }
+  /// Sets flags, which are 0 or 1, that any process has set.
+  void uniteFlags(std::vector<uint8_t>& flags);
   /// One number of each process, by rank.
   std::vector<uint64_t> gatherAll(uint64_t number);
   /// One array of each process, by rank.
@@ -71,6 +73,8 @@ class MANDOLINE_SHARED Communicator {
   /// Sends and receives at once; -1: nothing to or from there.
   Bytes exchange(const Bytes& bytes, int to, int from);
 
+  /// Throws RankError (badArgument) where a process has another number than the first, alike in all: `what` it stands for.
+  void requireSame(uint64_t number, const char* what);
   /// Waits for all, and throws RankError if one of them has an error: the same in each, that of the lowest rank.
   void agree(const Error& error);
   /// Runs body() in each process, then agrees on whether it failed. `noun` as for runCall().
@@ -91,5 +95,8 @@ class MANDOLINE_SHARED Communicator {
   uint64_t bytesSent_ = 0;
   bool isBroken_ = false;
 };
+
+/// Waiting for other processes shows no progress, but can be cancelled. `noun` as for runCall().
+std::function<void()> waiterFor(const char* noun, const RunOptions& options);
 
 }  // namespace mandoline::detail

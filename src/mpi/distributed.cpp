@@ -17,23 +17,11 @@ namespace mandoline {
 
 using namespace detail;
 
-namespace {
-
 constexpr const char* kNoun = "cut";
-
-/// Waiting for other processes shows no progress, but can be cancelled.
-std::function<void()> waiterFor(const RunOptions& options) {
-  if (!options.progress) return nullptr;
-  return [progress = options.progress] {
-    if (!progress({"waiting", 0, 1, 0, 1})) throw CallError({Status::cancelled, -1, -1, "The cut was cancelled."});
-  };
-}
-
-}  // namespace
 
 struct DistributedCut::Data {
   Data(MPI_Comm comm_, PreparedMesh mesh_, Grid grid_, const RunOptions& options)
-      : comm(comm_, waiterFor(options)), mesh(std::move(mesh_)), grid(std::move(grid_)) {
+      : comm(comm_, waiterFor(kNoun, options)), mesh(std::move(mesh_)), grid(std::move(grid_)) {
     requireSame();
     comm.together(kNoun, [&] { share.emplace(mesh, grid, ShareOf{uint32_t(comm.rank()), uint32_t(comm.size())}, options); });
     const std::vector<std::vector<uint32_t>> summaries = comm.gatherAll(share->summary());
@@ -46,12 +34,7 @@ struct DistributedCut::Data {
   void requireSame() {
     Fingerprinter fingerprinter(kNoun, fingerprintOf(mesh.mesh()));
     for (const std::vector<double>& planes : grid.planes) fingerprinter.add(planes);
-    const std::vector<uint64_t> all = comm.gatherAll(fingerprinter.get().value);
-    for (size_t rank = 0; rank < all.size(); ++rank) {
-      if (all[rank] == all[0]) continue;
-      const std::string message = "Process " + std::to_string(rank) + " has another mesh or grid than process 0.";
-      throw RankError({Status::badArgument, int64_t(rank), -1, message}, int(rank));
-    }
+    comm.requireSame(fingerprinter.get().value, "mesh or grid");
   }
 
   /// Numbers what the part has by what the parts before have.
@@ -80,7 +63,7 @@ struct DistributedCut::Data {
 
   void findCommon() {
     std::vector<uint8_t> hasFace = trianglesWithFace(part.cutMesh, mesh.mesh().triangleCount());
-    comm.reduce(hasFace, MPI_MAX);
+    comm.uniteFlags(hasFace);
     comm.together(kNoun, [&] { common = share->common(hasFace); });
     common.stats.exactFallbacks = comm.reduce(uint64_t(part.exactFallbacks), MPI_SUM);
     counts.regions = common.mesh.regionCount;

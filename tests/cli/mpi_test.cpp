@@ -21,7 +21,8 @@ std::vector<std::string> wordsFor(int processes, const std::vector<std::string>&
   for (const auto& [name, value] : {std::pair("OMPI_ALLOW_RUN_AS_ROOT", "1"),
                                     {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
                                     {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
-                                    {"OMPI_MCA_hwloc_base_binding_policy", "none"}}) {
+                                    {"OMPI_MCA_hwloc_base_binding_policy", "none"},
+                                    {"OMPI_MCA_odls_base_sigkill_timeout", "9"}}) {  // a busy machine needs more than the usual second
     setenv(name, value, 1);
   }
   std::vector<std::string> all = {"timeout",         "--foreground", "--kill-after=9",          "120",
@@ -205,6 +206,42 @@ TEST_CASE("A folder of the pieces of several processes is read as the whole, or 
   CHECK(contains(refusal(), "a.mcm"));
 }
 
+TEST_CASE("Each process reads a binary mesh, and the first sends one that others can't read", "[mpi]") {
+  const TemporaryFolder folder;
+  for (const char* place : {"here", "there"}) fs::create_directories(folder.path(place));
+  const mandoline::Mesh mesh = shapes::merged({shapes::icosphere({0, 0, 0}, 1, 3), shapes::cube(0.5, 1.5)});
+  const mandoline::Mesh another = shapes::cube(0, 1);
+  for (const std::string name : {"mesh.ply", "mesh.stl", "mesh.obj"}) {
+    CAPTURE(name);
+    const std::string here = folder.path("here/" + name), there = folder.path("there/" + name);
+    const auto runBoth = [&](const std::string& report) {
+      std::vector<std::string> words = wordsFor(1, {});
+      words.pop_back();
+      for (const char* place : {"here", "there"}) {
+        words.insert(words.end(), {"-wdir", folder.path(place), MANDOLINE_MPI, "cut", name, "--cells", "9", "--report", report});
+        if (place == std::string("here")) words.insert(words.end(), {":", "-n", "1"});
+      }
+      return runProgram(folder, words);
+    };
+    mandoline::writeMesh(here, mesh);
+    mandoline::writeMesh(there, mesh);
+    REQUIRE(runBoth(folder.path("both.txt")).exitCode == 0);
+    fs::remove(there);
+    REQUIRE(runBoth(folder.path("first.txt")).exitCode == 0);
+    CHECK(facts(folder.read("both.txt")) == facts(folder.read("first.txt")));
+    const double sent = numbersOf(folder.read("first.txt"), "bytesSent").at(0) - numbersOf(folder.read("both.txt"), "bytesSent").at(0);
+    const mandoline::Mesh read = mandoline::readMesh(here);
+    const size_t bytes = sizeof(double) * read.positions.size() + sizeof(uint32_t) * read.triangles.size();
+    CHECK((sent >= double(bytes)) == (name != "mesh.obj"));  // which is sent in any case
+    if (name == "mesh.obj") continue;
+    mandoline::writeMesh(there, another);
+    const Outcome other = runBoth(folder.path("other.txt"));
+    CHECK(other.exitCode == 1);
+    CHECK(contains(other.err, "rank 1: mesh." + name.substr(5) + ": badArgument: Process 1 has another mesh than process 0."));
+    CHECK(countOf(other.err, "mandoline-mpi: ") == 1);
+  }
+}
+
 TEST_CASE("A plan tells what the processes of a cut then have", "[mpi]") {
   const TemporaryFolder folder;
   const std::string mesh = meshFile(folder, shapes::icosphere({0, 0, 0}, 1, 6));
@@ -262,6 +299,9 @@ TEST_CASE("What several processes can't do is said once", "[mpi]") {
   const TemporaryFolder folder;
   const std::string mesh = meshFile(folder, shapes::merged({shapes::cube(0, 2), shapes::cube(1, 3)}));
   const std::string truncated = folder.write("truncated.ply", folder.read("mesh.ply").substr(0, 400));
+  const mandoline::Mesh cube = shapes::cube(0, 1);
+  mandoline::writeMesh(folder.path("mesh.stl"), cube);
+  const std::string shortened = folder.write("short.stl", folder.read("mesh.stl").substr(0, 300));
   mandoline::Mesh bad = shapes::cube(0, 1);
   bad.positions[5] = std::numeric_limits<double>::quiet_NaN();
   mandoline::writeMesh(folder.path("bad.ply"), bad);
@@ -286,6 +326,7 @@ TEST_CASE("What several processes can't do is said once", "[mpi]") {
       {{"cut", mesh, "--box", "5,5,5,6,6,6", "--cells", "2", "-o", pvtu, "--only", "cut"}, "--only selects nothing", 2},
       {{"cut", folder.path("none.ply")}, "rank 0: " + folder.path("none.ply"), 2},
       {{"cut", truncated}, "rank 0: " + truncated, 2},
+      {{"cut", shortened}, "rank 0: " + shortened, 2},
       {{"cut", folder.path("bad.ply")}, "rank 0: " + folder.path("bad.ply") + ": nonFiniteCoordinate: ", 1},
       {{"cut", mesh, "--intersections", "refuse"}, "rank 0: " + mesh + ": selfIntersection: Triangles", 1},
       {{"cut", mesh, "--cells", "99999999"}, "gridTooLarge", 1},
@@ -315,6 +356,24 @@ TEST_CASE("A disk that is full for one process leaves no pieces", "[mpi]") {
     CHECK(contains(outcome.err, rank + folder.path(full) + ": can't be written: No space left on device"));
     CHECK(countOf(outcome.err, "mandoline-mpi: ") == 1);
     fs::remove(folder.path(full));
+    CHECK(names(folder) == Names{"mesh.ply"});
+  }
+}
+
+TEST_CASE("A process that is killed while it reads, prepares or cuts ends all", "[mpi]") {
+  const TemporaryFolder folder;
+  const std::string mesh = meshFile(folder, shapes::icosphere({0, 0, 0}, 1, 7)), pvtu = folder.path("a.pvtu");
+  for (const int milliseconds : {0, 50, 100, 200, 400}) {
+    CAPTURE(milliseconds);
+    const auto ready = [&] {
+      if (findRank(pvtu) == 0) return false;
+      usleep(useconds_t(1000 * milliseconds));
+      kill(findRank(pvtu), SIGKILL);
+      return true;
+    };
+    const Outcome outcome = runRanks(folder, 3, {"cut", mesh, "--cells", "200", "-o", pvtu}, {SIGCHLD, ready});
+    CHECK(outcome.exitCode != 0);
+    CHECK(outcome.exitCode != kHangs);
     CHECK(names(folder) == Names{"mesh.ply"});
   }
 }
@@ -450,6 +509,22 @@ TEST_CASE("A disk that is full for one process leaves no case", "[mpi]") {
   CHECK(fs::is_empty(folder.path("case")));
 }
 
+TEST_CASE("Without PETSc several processes cut, and say that flows need it", "[mpi]") {
+  const TemporaryFolder folder;
+  const std::string mesh = meshFile(folder, shapes::cube(0, 2));
+  const auto runWithout = [&](const Names& words) {
+    Names all = wordsFor(2, words);
+    *std::find(all.begin(), all.end(), MANDOLINE_MPI) = MANDOLINE_MPI_WITHOUT_PETSC;
+    return runProgram(folder, all);
+  };
+  const Outcome flow = runWithout({"flow", mesh, "--wind", "1,0,0", "-o", folder.path("a.vtu")});
+  CHECK(flow.exitCode == 2);
+  CHECK(contains(flow.err, "this program was built without PETSc or Eigen, which flow needs in several processes"));
+  CHECK(countOf(flow.err, "mandoline-mpi: ") == 1);
+  CHECK(runWithout({"cut", mesh, "--cells", "6", "-o", folder.path("a.pvtu")}).exitCode == 0);
+  CHECK(names(folder) == Names{"a.pvtu", "a_0.vtu", "a_1.vtu", "mesh.ply"});
+}
+
 #ifdef MANDOLINE_MPI_FLOWS
 
 TEST_CASE("A flow of several processes is that of one without corrections", "[mpi]") {
@@ -513,16 +588,6 @@ TEST_CASE("What a flow of several processes has not is said once", "[mpi]") {
     CHECK(contains(outcome.err, message));
     CHECK(countOf(outcome.err, "mandoline-mpi: ") == 1);
   }
-}
-
-#else
-
-TEST_CASE("Without PETSc several processes say that flows need it", "[mpi]") {
-  const TemporaryFolder folder;
-  const std::string mesh = meshFile(folder, shapes::cube(0, 2));
-  const Outcome outcome = runRanks(folder, 2, {"flow", mesh, "--wind", "1,0,0", "-o", folder.path("a.vtu")});
-  CHECK(outcome.exitCode == 2);
-  CHECK(contains(outcome.err, "this program was built without PETSc or Eigen, which flow needs in several processes"));
 }
 
 #endif

@@ -189,9 +189,25 @@ CellComplex uncoarsened(const MeshView& mesh, const CutMesh& cutMesh) {
   return cellComplex(mesh, cutMesh, coarsen(cutMesh, options));
 }
 
-bool check(const std::string& name, const PreparedMesh& mesh, const Grid& grid) {
+/// Prepared by all processes together.
+PreparedTogether preparedTogether(const std::string& name, const Mesh& mesh, const PrepareResult& alone) {
+  size_t calls = 0;
+  std::function<void()> inFirst;
+  if (name.size() % 2 == 0) inFirst = [&] { ++calls; };
+  PreparedTogether together = prepareTogether(MPI_COMM_WORLD, mesh, {{1, {}}}, inFirst);
+  require(calls == size_t(inFirst && rankHere() == 0), "the first process has not done its work once", calls);
+  require(bytesOf(&together.stats.intersections, 1) == bytesOf(&alone.stats.intersections, 1), "other intersections were found");
+  require(together.stats.duplicateTriangles == alone.stats.duplicateTriangles, "other duplicates were found");
+  require(together.stats.intersectionCurves == alone.stats.intersectionCurves, "other curves were found");
+  return together;
+}
+
+bool check(const std::string& name, const Mesh& wholeMesh, const Grid& grid) {
   const RunOptions oneThread{1, {}};
-  const CutResult whole = cut(mesh, grid, {oneThread});
+  const PrepareResult alone = prepare(wholeMesh, {oneThread});
+  const CutResult whole = cut(alone.mesh, grid, {oneThread});
+  PreparedMesh mesh;
+  if (!inAll(name, [&] { mesh = preparedTogether(name, wholeMesh, alone).mesh; })) return false;
   std::optional<DistributedCut> distributed;
   RankPiece piece;
   std::vector<double> volumes;
@@ -233,16 +249,15 @@ bool check(const std::string& name, const PreparedMesh& mesh, const Grid& grid) 
 }
 
 int checkAll(int64_t cells, size_t every) {
-  const PrepareOptions oneThread{{1, {}}};
   size_t checked = 0, wrong = 0;
   for (const NamedCase& one : casesAndSoups()) {
     ++checked;
-    wrong += !check(one.name, prepare(one.mesh, oneThread).mesh, one.grid);
+    wrong += !check(one.name, one.mesh, one.grid);
   }
   for (const std::string& file : realMeshes(every)) {
     const Mesh mesh = readMesh(file);
     ++checked;
-    wrong += !check(file, prepare(mesh, oneThread).mesh, Grid::around(mesh, cells));
+    wrong += !check(file, mesh, Grid::around(mesh, cells));
   }
   if (rankHere() == 0) std::cout << checked << " meshes, of which " << wrong << " differ" << std::endl;
   return wrong == 0 && checked > 0 ? 0 : 1;

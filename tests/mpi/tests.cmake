@@ -6,7 +6,16 @@ target_include_directories(mandoline-mpi-pieces PRIVATE ${PROJECT_SOURCE_DIR}/sr
 target_link_libraries(mandoline-mpi-pieces PRIVATE mandoline_mpi mandoline_io)
 add_dependencies(mandoline-tests mandoline-mpi)
 set(MANDOLINE_MPI_PROGRAMS mandoline-mpi-pieces)
+set(MANDOLINE_MPI_WITHOUT_PETSC mandoline-mpi)
 if(TARGET mandoline_rank_flow)
+  # The program as it is where PETSc is not found.
+  set(MANDOLINE_MPI_WITHOUT_PETSC mandoline-mpi-without-petsc)
+  add_executable(mandoline-mpi-without-petsc ${MANDOLINE_MPI_CLI_SOURCES})
+  target_compile_definitions(mandoline-mpi-without-petsc PRIVATE MANDOLINE_VERSION="${PROJECT_VERSION}" MANDOLINE_HAVE_OPERATORS)
+  target_compile_options(mandoline-mpi-without-petsc PRIVATE ${MANDOLINE_COMPILE_OPTIONS})
+  target_include_directories(mandoline-mpi-without-petsc PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(mandoline-mpi-without-petsc PRIVATE mandoline_mpi mandoline_commands mandoline_operators)
+  add_dependencies(mandoline-tests mandoline-mpi-without-petsc)
   add_executable(mandoline-mpi-flows mpi/flows.cpp support/shapes.cpp)
   set_target_properties(mandoline-mpi-flows PROPERTIES UNITY_BUILD OFF)
   target_compile_options(mandoline-mpi-flows PRIVATE ${MANDOLINE_COMPILE_OPTIONS})
@@ -17,7 +26,7 @@ if(TARGET mandoline_rank_flow)
 endif()
 # Of this source alone: others need not be compiled again once MPI is there.
 set_source_files_properties(cli/mpi_test.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON
-  COMPILE_DEFINITIONS "MANDOLINE_MPI=\"$<TARGET_FILE:mandoline-mpi>\";MANDOLINE_MPIEXEC=\"${MPIEXEC_EXECUTABLE}\";${MANDOLINE_MPI_DEFINITIONS}")
+  COMPILE_DEFINITIONS "MANDOLINE_MPI=\"$<TARGET_FILE:mandoline-mpi>\";MANDOLINE_MPIEXEC=\"${MPIEXEC_EXECUTABLE}\";MANDOLINE_MPI_WITHOUT_PETSC=\"$<TARGET_FILE:${MANDOLINE_MPI_WITHOUT_PETSC}>\";${MANDOLINE_MPI_DEFINITIONS}")
 
 # Of Open MPI; others do without.
 set(MANDOLINE_MPI_ENVIRONMENT OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1

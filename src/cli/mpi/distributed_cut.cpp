@@ -11,6 +11,7 @@
 #include "cut/stages/input.h"
 #include "io/output_file.h"
 #include "mandoline/distributed.h"
+#include "mesh/read/load_file.h"
 
 #ifdef MANDOLINE_HAVE_PETSC
 #include "cli/mpi/distributed_flow.h"
@@ -112,21 +113,28 @@ class Run {
     return !needsWhole(arguments_) || std::any_of(arguments_.outputs.begin(), arguments_.outputs.end(), isInPieces);
   }
 
-  /// In the first process.
+  /// Each process reads a file that it can read quickly, the first one others.
   void read() {
+    isReadByAll_ = ranks_.comm().reduce(int(detail::isBinaryMesh(arguments_.mesh)), MPI_MIN) != 0;
+    ranks_.together([&] {
+      if (!ranks_.isFirst() && !isReadByAll_) return;
+      Arguments arguments = arguments_;
+      if (!ranks_.isFirst()) arguments.report.clear();  // the first one says what is wrong
+      input_ = readInput(arguments);
+    });
     ranks_.inFirst([&] {
-      input_ = readInput(arguments_);
-      info_ = inspect(input_.mesh);
       const bool isFlow = arguments_.command == Command::flow;
-      grid_ = makeGrid(isFlow ? flowGrid(arguments_.grid) : arguments_.grid, input_.mesh, info_);
+      grid_ = makeGrid(isFlow ? flowGrid(arguments_.grid) : arguments_.grid, input_.mesh, boxOf(input_.mesh));
     });
   }
 
-  /// The first process sends the mesh and the grid to the others.
+  /// The first process sends the grid to the others, and the mesh if need be.
   void send() {
     detail::Communicator& comm = ranks_.comm();
-    comm.broadcast(input_.mesh.positions, 0);
-    comm.broadcast(input_.mesh.triangles, 0);
+    if (!isReadByAll_) {
+      comm.broadcast(input_.mesh.positions, 0);
+      comm.broadcast(input_.mesh.triangles, 0);
+    }
     Grid& grid = grid_.grid;
     for (std::vector<double>& planes : grid.planes) comm.broadcast(planes, 0);
     std::vector<double> uniform = {double(grid.uniform)};
@@ -146,9 +154,10 @@ class Run {
         if (ranks_.isFirst()) detail::checkGrid(grid_.grid, 0);
       });
       send();
-      const PrepareResult prepared = prepare(input_.mesh, {options, arguments_.intersections});
+      const PreparedTogether prepared =
+          prepareTogether(MPI_COMM_WORLD, input_.mesh, {options, arguments_.intersections}, [this] { info_ = inspect(input_.mesh); });
       stats_ = prepared.stats;
-      ranks_.comm().agree(prepared.error);
+      sentPreparing_ = prepared.bytesSent;
       cut_.emplace(MPI_COMM_WORLD, prepared.mesh, grid_.grid, options);
     } catch (const RankError& error) {
       throwIfInterrupted();
@@ -166,7 +175,7 @@ class Run {
     if (ranks_.isFirst()) {
       CutResult result;
       result.error = withSize(error, arguments_, grid_);
-      const MeshReport mesh{input_, info_, {}};
+      const MeshReport mesh{input_, inspect(input_.mesh), {}};
       failWith(arguments_, "rank " + std::to_string(failed_) + ": " + input_.name, result.error,
                [&] { return reportJson(reportOf(arguments_, mesh, grid_, result)); });
     }
@@ -215,7 +224,7 @@ class Run {
   std::vector<RankReport> ranks() {
     detail::Communicator& comm = ranks_.comm();
     const std::vector<uint64_t> cells = comm.gatherAll(cut_->ownCells()), memory = comm.gatherAll(peakMemoryBytes()),
-                                sent = comm.gatherAll(comm.bytesSent() + cut_->bytesSent()),
+                                sent = comm.gatherAll(comm.bytesSent() + sentPreparing_ + cut_->bytesSent()),
                                 microseconds = comm.gatherAll(uint64_t(1000 * processorMs()));
     std::vector<RankReport> reports;
     for (size_t rank = 0; rank < cells.size(); ++rank)
@@ -280,9 +289,11 @@ class Run {
   const Arguments& arguments_;
   ProgressBar bar_;
   Input input_;  // of others than the first the mesh alone
+  bool isReadByAll_ = false;
   MeshInfo info_;
   AskedGrid grid_;
   CutStats stats_;
+  uint64_t sentPreparing_ = 0;
   int failed_ = 0;
   std::optional<DistributedCut> cut_;
 };

@@ -11,6 +11,7 @@
 #include "cli/peak_memory.h"
 #include "cli/values.h"
 #include "cut/share_plan.h"
+#include "mesh/read/load_file.h"
 
 namespace mandoline::cli {
 namespace {
@@ -117,6 +118,11 @@ struct PlanReport {
   }
 };
 
+/// What the first process sends of the mesh to each of the others.
+uint64_t sentMeshBytes(const Arguments& arguments, const MeshView& mesh) {
+  return detail::isBinaryMesh(arguments.mesh) ? 0 : mesh.positions.size_bytes() + mesh.triangles.size_bytes();
+}
+
 int plan(const Arguments& arguments, const std::vector<uint32_t>& ranks) {
   const Input input = readInput(arguments);
   const MeshReport mesh{input, inspect(input.mesh), {}};
@@ -129,8 +135,12 @@ int plan(const Arguments& arguments, const std::vector<uint32_t>& ranks) {
     if (!prepared) return;
     try {
       detail::SharePlanner planner(prepared.mesh, grid.grid, options);
-      const uint64_t programBytes = peakMemoryBytes();
-      for (const uint32_t count : ranks) report.plans.push_back({planner.loads(count, options), programBytes});
+      const uint64_t programBytes = peakMemoryBytes(), meshBytes = sentMeshBytes(arguments, input.mesh);
+      for (const uint32_t count : ranks) {
+        std::vector<detail::ShareLoad> loads = planner.loads(count, options);
+        loads[0].bytesSent += (count - 1) * meshBytes;
+        report.plans.push_back({loads, programBytes});
+      }
     } catch (const CallError& failed) {
       error = failed.error;
     }

@@ -1,7 +1,8 @@
 // A cut that the processes of an MPI communicator make together, which leaves to each of them a piece. Each process has the whole mesh;
 // what is large, the cut-mesh, is held in pieces. In mandoline::mpi, which exists where MPI is found.
 //
-//   DistributedCut cut(MPI_COMM_WORLD, prepare(mesh).mesh, grid);  // in all processes, of the same mesh and grid
+//   PreparedMesh prepared = prepareTogether(MPI_COMM_WORLD, mesh).mesh;  // in all processes, of the same mesh and grid
+//   DistributedCut cut(MPI_COMM_WORLD, prepared, grid);
 //   RankPiece piece = cut.piece();
 //
 // All calls are collective: all processes of the communicator make them, in the same order. The result does not depend on how many there
@@ -22,6 +23,18 @@ struct RankError : CallError {
 
   int rank;  ///< the lowest that failed; the error is its own
 };
+
+struct PreparedTogether {
+  PreparedMesh mesh;
+  CutStats stats;          ///< of the stages so far
+  uint64_t bytesSent = 0;  ///< by this process to others
+};
+
+/// What prepare() gives, to the bit: the processes divide the search for triangles that meet. Throws RankError, alike in all processes, as
+/// prepare() has errors, or for different meshes (badArgument, element: the first rank with another). `inFirst`: what the process of rank
+/// 0 does meanwhile; it then searches only if it is alone.
+PreparedTogether prepareTogether(MPI_Comm comm, const MeshView& mesh, const PrepareOptions& options = {},
+                                 const std::function<void()>& inFirst = {});
 
 class DistributedCut {
  public:

@@ -23,11 +23,15 @@ inline const char* name(EdgeDefect defect) {
   return kNames[size_t(defect)];
 }
 
+/// The bounding box of a mesh's finite coordinates in use; all zero if there are none.
+struct MeshBox {
+  std::array<double, 3> min{}, max{};
+};
+
 /// What a mesh has. Vertices at one position count as one, except in the number of vertices. Edges are those of triangles with three
 /// different vertices.
-struct MeshInfo {
+struct MeshInfo : MeshBox {
   size_t vertices = 0, triangles = 0;  ///< as they were given
-  std::array<double, 3> min{}, max{};  ///< bounding box of the finite coordinates in use; all zero if there are none
   bool closed = false;                 ///< every edge has an even number of triangles
   bool oriented = false;               ///< every edge is traversed equally often both ways, so that there are winding numbers
   size_t openEdges = 0;                ///< with one triangle
@@ -89,6 +93,8 @@ struct MeshInfo {
   }
 };
 
+/// Throws CallError as inspect() does.
+MeshBox boxOf(const MeshView& mesh);
 /// Throws CallError if the length of an array is not a multiple of 3 (badArrays), or for a triangle that names a vertex that does not exist
 /// (badIndex; element: the triangle).
 MeshInfo inspect(const MeshView& mesh);

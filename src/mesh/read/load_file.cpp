@@ -8,7 +8,20 @@
 #include <memory>
 #include <new>
 
+#include "mesh/read/readers.h"
+
 namespace mandoline {
+
+bool detail::isBinaryMesh(const std::string& path) {
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(path, failed)) return false;
+  const auto size = std::filesystem::file_size(path, failed);
+  const std::unique_ptr<FILE, int (*)(FILE*)> file(failed ? nullptr : std::fopen(path.c_str(), "rb"), std::fclose);
+  if (!file) return false;
+  char bytes[512];
+  const std::string_view head(bytes, std::fread(bytes, 1, sizeof bytes, file.get()));
+  return looksLikePly(head) ? head.find("format binary_") != head.npos : isBinaryStl(head, size);
+}
 
 std::string detail::loadFile(const std::string& path) {
   std::error_code ignored;

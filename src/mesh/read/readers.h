@@ -25,6 +25,8 @@ bool looksLikeOff(std::string_view bytes);
 bool looksLikePly(std::string_view bytes);
 bool looksLikeStl(std::string_view bytes);
 
+/// Whether a binary STL file of so many bytes may begin so.
+bool isBinaryStl(std::string_view head, uint64_t size);
 /// Whether an STL file is text, which has names.
 bool isTextStl(std::string_view bytes);
 

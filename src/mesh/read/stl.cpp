@@ -10,9 +10,7 @@ constexpr size_t kHeaderSize = 84, kTriangleSize = 50;  // 80 bytes of anything 
 
 size_t binaryCount(std::string_view bytes) { return loadScalar<uint32_t>(bytes.data() + 80, ByteOrder::little); }
 
-bool isBinaryBySize(std::string_view bytes) {
-  return bytes.size() >= kHeaderSize && bytes.size() == kHeaderSize + kTriangleSize * binaryCount(bytes);
-}
+bool isBinaryBySize(std::string_view bytes) { return isBinaryStl(bytes, bytes.size()); }
 
 /// Begins with "solid" and is text. Many binary files begin with "solid" too; they have zero bytes early.
 bool isText(std::string_view bytes) {
@@ -93,6 +91,10 @@ Mesh readBinary(const FileBytes& file) {
 }
 
 }  // namespace
+
+bool isBinaryStl(std::string_view head, uint64_t size) {
+  return head.size() >= kHeaderSize && size == kHeaderSize + kTriangleSize * binaryCount(head);
+}
 
 bool looksLikeStl(std::string_view bytes) { return isBinaryBySize(bytes) || isText(bytes); }
 

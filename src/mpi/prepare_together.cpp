@@ -1,0 +1,45 @@
+// Preparing a mesh in all processes of a communicator: what each of them finds of where triangles meet, all learn.
+#include "cut/prepare_share.h"
+#include "mandoline/distributed.h"
+#include "mpi/communicator.h"
+
+namespace mandoline {
+
+using namespace detail;
+
+PreparedTogether prepareTogether(MPI_Comm comm_, const MeshView& mesh, const PrepareOptions& options,
+                                 const std::function<void()>& inFirst) {
+  constexpr const char* kNoun = "preparation";
+  Communicator comm(comm_, waiterFor(kNoun, options));
+  PrepareResult result;
+  if (comm.size() == 1) {
+    comm.together(kNoun, [&] {
+      if (inFirst) inFirst();
+      result = prepare(mesh, options);
+    });
+    comm.agree(result.error);
+    return {std::move(result.mesh), std::move(result.stats)};
+  }
+  const int searching = inFirst ? comm.size() - 1 : comm.size();  // from the last on
+  const int share = comm.size() - 1 - comm.rank();
+  PrepareShare preparing({uint32_t(share), uint32_t(searching)}, options);
+  std::vector<TrianglePair> pairs;
+  comm.together(kNoun, [&] {
+    if (inFirst && comm.rank() == 0) inFirst();
+    pairs = preparing.findPairs(mesh);
+  });
+  comm.requireSame(preparing.fingerprint().value, "mesh");
+  std::vector<uint32_t> ids;
+  for (const TrianglePair& pair : pairs) ids.insert(ids.end(), pair.begin(), pair.end());
+  const std::vector<std::vector<uint32_t>> all = comm.gatherAll(ids);
+  comm.together(kNoun, [&] {
+    pairs.clear();
+    for (const std::vector<uint32_t>& some : all) {
+      for (size_t i = 0; i < some.size(); i += 2) pairs.push_back({some[i], some[i + 1]});
+    }
+    result = preparing.resolve(pairs);
+  });
+  return {std::move(result.mesh), std::move(result.stats), comm.bytesSent()};
+}
+
+}  // namespace mandoline
