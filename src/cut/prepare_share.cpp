@@ -9,7 +9,8 @@ std::vector<TrianglePair> PrepareShare::findPairs(const MeshView& mesh) {
   data_ = meshToPrepare(mesh, options_, monitor_);
   clock_.emplace(result_.stats, monitor_, stagesBefore(options_));
   clock_->begin("input");
-  prepared_ = weldInput(data_->mesh, 0, predicates_);
+  prepared_ = weldInput(data_->mesh, 0);
+  dropFlat(*prepared_, nullptr, predicates_);
   if (options_.intersections == Intersections::assumeNone) return {};
   clock_->begin("intersections");
   return findEdgesAndPairs(*prepared_, shareOf_, monitor_, predicates_);
