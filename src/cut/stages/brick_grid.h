@@ -57,17 +57,18 @@ struct BrickGrid {
     constexpr int kUsual = 5, kLeast = 3;
     constexpr size_t kEach = 16;
     int shift = kUsual;
-    while (threads > 1 && shift > kLeast && countFor(input, shift) < kEach * threads) --shift;
+    while (threads > 1 && shift > kLeast && countFor(input, same(shift)) < kEach * threads) --shift;
     return same(shift);
   }
   static std::array<int, 3> same(int shift) { return {shift, shift, shift}; }
-  /// Those of a surface that moves are smaller, so that little is cut again.
+  /// Those of a surface that moves are smaller, so that little is cut again, and long along x, so that rows have few parts.
   static std::array<int, 3> shiftsForMoving(const Input& input) {
     constexpr int kUsual = 3, kLeast = 1;
     constexpr size_t kSeveral = 64;
     int shift = kUsual;
-    while (shift > kLeast && countFor(input, shift) < kSeveral) --shift;
-    return same(shift);
+    const auto longAlongX = [&] { return std::array<int, 3>{shift + 2, shift, shift}; };
+    while (shift > kLeast && countFor(input, longAlongX()) < kSeveral) --shift;
+    return longAlongX();
   }
 
   std::array<int, 3> shifts{};               ///< 2^shift grid cells along each side of a brick, or what is left of the grid
@@ -152,8 +153,8 @@ struct BrickGrid {
 
  private:
   /// Of bricks.
-  static size_t countFor(const Input& input, int shift) {
-    const auto along = [&](int axis) { return size_t((input.cells(axis) - 1) >> shift) + 1; };
+  static size_t countFor(const Input& input, const std::array<int, 3>& shifts) {
+    const auto along = [&](int axis) { return size_t((input.cells(axis) - 1) >> shifts[size_t(axis)]) + 1; };
     return along(0) * along(1) * along(2);
   }
 };

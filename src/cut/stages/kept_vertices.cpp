@@ -22,8 +22,8 @@ std::vector<uint32_t> findKeptVertices(const CutBricks& cut, const KeptBricks& k
   std::vector<uint32_t> result(size_t(now.surfaceVertices) + now.total.vertices, Numbers::kUnused);
   for (const VertexId was : kept.vertices.ids()) {
     const VertexId v = kept.vertices[was];
-    if (v == KeptBricks::kNoVertex || now.ofSurface[v] == Numbers::kUnused) continue;
-    result[now.ofSurface[v]] = before.ofSurface[was];
+    const uint32_t number = v == KeptBricks::kNoVertex ? Numbers::kUnused : now.ofSurface[v];
+    if (number != Numbers::kUnused) result[number] = before.ofSurface[was];
   }
   const auto isElementKept = [&](const Slab& element) { return isKept(cut.bricks, kept, element); };
   for (const BrickId b : cut.bricks.ids()) {

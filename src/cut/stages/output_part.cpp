@@ -94,7 +94,16 @@ class VertexWriter {
  public:
   /// `mesh` and `grid` are those of the user.
   VertexWriter(const MeshView& mesh, const Grid& grid, const Input& input, const KeptVertices& kept, CutMesh& out)
-      : mesh_(mesh), grid_(grid), input_(input), kept_(kept), scale_(input.mesh->shift), out_(out) {}
+      : mesh_(mesh),
+        grid_(grid),
+        input_(input),
+        kept_(kept),
+        scale_(input.mesh->shift),
+        positions_(out.positions.data()),
+        cells_(out.vertexCell.data()),
+        triVertices_(out.vertexTriVertex.data()),
+        parents_(out.vertexParents.data()),
+        masks_(out.vertexMask.data()) {}
 
   /// Vertex v of the mesh or its edges becomes number i.
   void writeOnEdges(const CutVertices& vertices, VertexId v, size_t i, Predicates& predicates) {
@@ -126,20 +135,20 @@ class VertexWriter {
   }
 
   void writeParents(size_t i, int32_t triVertex, const Parents& parents) {
-    out_.vertexTriVertex[i] = triVertex;
-    int32_t* to = &out_.vertexParents[2 * i];
+    triVertices_[i] = triVertex;
+    int32_t* to = parents_ + 2 * i;
     for (size_t k = 0; k < 2; ++k) to[k] = parents[k];
   }
 
   void writePlace(size_t i, const Slab& slab) {
-    int32_t* cell = &out_.vertexCell[3 * i];
+    int32_t* cell = cells_ + 3 * i;
     for (size_t d = 0; d < 3; ++d) cell[d] = slab[d] >> 1;
-    out_.vertexMask[i] = uint8_t(onPlane(slab[0]) | onPlane(slab[1]) << 1 | onPlane(slab[2]) << 2);
+    masks_[i] = uint8_t(onPlane(slab[0]) | onPlane(slab[1]) << 1 | onPlane(slab[2]) << 2);
   }
 
   void writePosition(size_t i, const CutVertices& vertices, VertexId v, Predicates& predicates) {
     if (const double* before = kept_.find(i)) {
-      double* position = &out_.positions[3 * i];
+      double* position = positions_ + 3 * i;
       for (size_t d = 0; d < 3; ++d) position[d] = before[d];
     } else {
       const Point p = vertices.position(v, predicates);
@@ -149,7 +158,7 @@ class VertexWriter {
   /// Coordinates that the input has are handed back as they are, even where scaling flushed them; `coordinate(axis)`: others.
   template <class Coordinate>
   void writeCoordinates(size_t i, const Slab& slab, const Coordinate& coordinate) {
-    double* position = &out_.positions[3 * i];
+    double* position = positions_ + 3 * i;
     for (size_t d = 0; d < 3; ++d) position[d] = onPlane(slab[d]) ? grid_.planes[d][size_t(slab[d] >> 1)] : coordinate(d);
   }
 
@@ -158,7 +167,9 @@ class VertexWriter {
   const Input& input_;
   const KeptVertices& kept_;
   const Scale scale_;
-  CutMesh& out_;
+  double* const positions_;
+  int32_t *const cells_, *const triVertices_, *const parents_;
+  uint8_t* const masks_;
 };
 
 /// Those of the vertices of the mesh and its edges that lie in the layers that are cut here.
