@@ -9,7 +9,7 @@ struct Interrupted {
 };
 
 /// From now on SIGINT, SIGTERM and SIGHUP end the program with exit code 128 + signal, unless they are ignored already, as in background
-/// jobs.
+/// jobs. A file that reaches a limit of its size is then one that can't be written, as on a full disk, and no signal.
 void handleInterrupts();
 
 /// While one lives, the first signal is only remembered, so that unfinished files can be removed. The second one ends the program.

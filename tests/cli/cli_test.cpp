@@ -272,6 +272,17 @@ TEST_CASE("Command line: a file that can't be written does not keep others from 
   }
 }
 
+TEST_CASE("Command line: a file that would be larger than the system allows is not left unfinished", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", kCube), file = folder.path("a.vtu");
+  const Outcome o = runProgram(folder, {"sh", "-c", "ulimit -f 16; exec \"$0\" \"$@\"", MANDOLINE_CLI, "cut", mesh, "-o", file});
+  CAPTURE(o.err);
+  CHECK(o.exitCode == 2);
+  CHECK(contains(o.err, "mandoline: " + file + ": can't be written: File too large"));
+  CHECK_FALSE(std::filesystem::exists(file));
+  CHECK_FALSE(std::filesystem::exists(file + ".part"));
+}
+
 TEST_CASE("Command line: grids by box, origin and planes", "[cli]") {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("cube.obj", kCube);
