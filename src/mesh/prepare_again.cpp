@@ -29,15 +29,29 @@ Moved findMoved(const Prepared& before, const Prepared& now) {
   return moved;
 }
 
+/// Per point a bit for each side of a box that it lies beyond.
+std::vector<uint8_t> sidesBeyond(const Box& box, const std::vector<Point>& points) {
+  std::vector<uint8_t> sides(points.size());
+  for (size_t i = 0; i < points.size(); ++i) {
+    int beyond = 0;
+    for (size_t d = 0; d < 3; ++d) beyond |= (int(points[i][d] < box.low[d]) | int(points[i][d] > box.high[d]) << 1) << 2 * d;
+    sides[i] = uint8_t(beyond);
+  }
+  return sides;
+}
+
 /// States in which only the triangles are kept that lie near those that have moved, these included. Those that these meet are among them.
 std::vector<TriangleState> nearMoved(const Prepared& mesh, const Moved& moved) {
   Box all = Box::empty();
   for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     if (hasMoved(moved, mesh.triangles[t])) all.include(boxOf(mesh, t));
   }
+  const std::vector<uint8_t> beyond = sidesBeyond(all, mesh.points);
   std::vector<TriangleState> states = mesh.states;
   for (uint32_t t = 0; t < states.size(); ++t) {
-    if (states[t] == TriangleState::kept && !all.overlaps(boxOf(mesh, t))) states[t] = TriangleState::beside;
+    const auto& v = mesh.triangles[t];
+    const bool isBeside = (beyond[v[0]] & beyond[v[1]] & beyond[v[2]]) != 0;  // its box doesn't overlap
+    if (states[t] == TriangleState::kept && isBeside) states[t] = TriangleState::beside;
   }
   return states;
 }

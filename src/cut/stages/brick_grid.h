@@ -63,12 +63,14 @@ struct BrickGrid {
   static std::array<int, 3> same(int shift) { return {shift, shift, shift}; }
   /// Those of a surface that moves are smaller, so that little is cut again, and long along x, so that rows have few parts.
   static std::array<int, 3> shiftsForMoving(const Input& input) {
-    constexpr int kUsual = 3, kLeast = 1;
+    constexpr int kLeast = 1;
     constexpr size_t kSeveral = 64;
-    int shift = kUsual;
-    const auto longAlongX = [&] { return std::array<int, 3>{shift + 2, shift, shift}; };
-    while (shift > kLeast && countFor(input, longAlongX()) < kSeveral) --shift;
-    return longAlongX();
+    std::array<int, 3> shifts{5, 3, 3};
+    while (countFor(input, shifts) < kSeveral && shifts[0] > kLeast) {
+      const int less = shifts[0] - 1;
+      shifts = {less, std::min(less, shifts[1]), std::min(less, shifts[2])};
+    }
+    return shifts;
   }
 
   std::array<int, 3> shifts{};               ///< 2^shift grid cells along each side of a brick, or what is left of the grid
