@@ -63,6 +63,14 @@ uint64_t bytesOfSurface(const CutState& state) {
          mesh.edges.ends.size();
 }
 
+/// The mesh, prepared and in two copies: the caller's and that of the preparation.
+uint64_t bytesOfMesh(const MeshView& view, const Input& input) {
+  const Prepared& mesh = *input.mesh;
+  uint64_t bytes = 2 * bytesOf(view.positions, view.triangles) + bytesOf(mesh.points, mesh.triangles, mesh.states, mesh.parts.kinds);
+  bytes += bytesOf(mesh.edges.ends, mesh.edges.sideEdges, mesh.edges.lines, mesh.edges.stitched.items, mesh.edges.inner.items);
+  return bytes + bytesOf(input.slabs);
+}
+
 constexpr uint64_t kSeamFaceBytes = 150;  // of a message: a face in a plane, with its share of the vertices there
 
 uint64_t facesOf(const BrickCounts& counts) { return uint64_t(counts.triFaces) + counts.pieces; }
@@ -162,7 +170,7 @@ struct SharePlanner::Data {
       load.faces = facesOf(sum.counts);
       load.seamFaces = hasLayers ? seamBelow + sum.seamFacesAbove : 0;
       load.bytesSent = ranks == 1 ? 0 : sentBy(rank, ranks, sum, hasLayers ? seamBelow : 0, all);
-      load.memoryBytes = all.commonBytes + memoryOf(sum) + summaries;
+      load.memoryBytes = bytesOfMesh(mesh.view(), input) + all.commonBytes + memoryOf(sum) + summaries;
       if (hasLayers) seamBelow = sum.seamFacesAbove;
     }
     return loads;

@@ -124,6 +124,7 @@ uint64_t sentMeshBytes(const Arguments& arguments, const MeshView& mesh) {
 }
 
 int plan(const Arguments& arguments, const std::vector<uint32_t>& ranks) {
+  const uint64_t programBytes = peakMemoryBytes();
   const Input input = readInput(arguments);
   const MeshReport mesh{input, inspect(input.mesh), {}};
   const AskedGrid grid = makeGrid(arguments.grid, input.mesh, mesh.info);
@@ -135,7 +136,7 @@ int plan(const Arguments& arguments, const std::vector<uint32_t>& ranks) {
     if (!prepared) return;
     try {
       detail::SharePlanner planner(prepared.mesh, grid.grid, options);
-      const uint64_t programBytes = peakMemoryBytes(), meshBytes = sentMeshBytes(arguments, input.mesh);
+      const uint64_t meshBytes = sentMeshBytes(arguments, input.mesh);
       for (const uint32_t count : ranks) {
         std::vector<detail::ShareLoad> loads = planner.loads(count, options);
         loads[0].bytesSent += (count - 1) * meshBytes;
