@@ -1,6 +1,9 @@
 #include "physics/derivatives.h"
 
+#include <algorithm>
+
 #include "base/sort.h"
+#include "physics/face_box.h"
 
 namespace mandoline::physics {
 namespace {
@@ -18,6 +21,14 @@ Said saidOf(const CellComplex& cells, const CellFits& fits, size_t cell, const P
   Point middle, step;
   for (size_t d = 0; d < 3; ++d) middle[d] = (at.from[d] + at.to[d]) / 2, step[d] = at.to[d] - at.from[d];
   return {dot(fits.gradientAt(cells, cell, middle), step), dot(fits.gradientAt(cells, cell, at.centroid), at.normal)};
+}
+
+/// How much more than at its centroid a function is in the mean on a rectangle, per second derivative along each axis.
+Point spreadOf(const CellComplex& cells, size_t f) {
+  const FaceBox box = faceBox(cells, f);
+  Point spread;
+  for (size_t d = 0; d < 3; ++d) spread[d] = (box.high[d] - box.low[d]) * (box.high[d] - box.low[d]) / 24;
+  return spread;
 }
 
 }  // namespace
@@ -43,7 +54,15 @@ CellFitter Differentiator::fitter(detail::Monitor& monitor) const {
   return {cells_, fitData(cells_, dual_, problem_, coefficients_), std::move(fitted), monitor};
 }
 
-/// Between grid cells or octree cells of one size, plain derivatives are of second order already.
+/// Octree cells of one size, larger than grid cells.
+bool Differentiator::isBetweenEqual(size_t edge) const {
+  const DualEdge& e = dual_.edges[edge];
+  const uint32_t other = otherCell(cells_, e, dual_.faces[edge][0]);
+  return std::min(e.cell, other) >= cells_.cutCells && cells_.cellLevel[e.cell] > 0 && cells_.cellLevel[other] == cells_.cellLevel[e.cell];
+}
+
+/// Between grid cells plain derivatives are of second order already, and so they are between larger cells of one size; but of these each
+/// makes a larger error.
 bool Differentiator::isCorrected(size_t edge) const {
   const DualEdge& e = dual_.edges[edge];
   bool isCut = e.cell < cells_.cutCells, isLarger = false, areOthersCut = false;
@@ -54,7 +73,7 @@ bool Differentiator::isCorrected(size_t edge) const {
     isLarger |= cells_.cellLevel[e.cell] > cells_.cellLevel[other];
     areOthersCut |= other < cells_.cutCells;
   }
-  return isLarger ? !areOthersCut : isCut || areOthersCut;
+  return isLarger ? !areOthersCut : isCut || areOthersCut || isBetweenEqual(edge);
 }
 
 bool Differentiator::isCorrectedOnBoundary(size_t b) const {
@@ -115,20 +134,39 @@ std::vector<double> Differentiator::sourceOf(const std::vector<double>& phi, con
   return source;
 }
 
+/// Of a dual edge between octree cells of one size: what third derivatives add, to the mean on the face. These are how second ones change
+/// across it.
+double Differentiator::addedByThirds(size_t e, const CellFits& fits) const {
+  const DualEdge& edge = dual_.edges[e];
+  const size_t f = dual_.faces[e][0], other = otherCell(cells_, edge, f);
+  const Point spread = spreadOf(cells_, f);
+  double sum = 0;
+  for (size_t d = 0; d < 3; ++d) {
+    double factor = spread[d];
+    if (cells_.faceNormal[3 * f + d] != 0) {
+      const double at = cells_.faceCentroid[3 * f + d], a = cells_.cellCentre[3 * edge.cell + d] - at,
+                   b = cells_.cellCentre[3 * other + d] - at;
+      factor = (a + b) * (a + b) / 8 - (a - b) * (a - b) / 24;  // the first part is 0 where the face is half-way
+    }
+    sum += factor * (fits.second[6 * other + d] - fits.second[6 * edge.cell + d]) / edge.distance;
+  }
+  return sum;
+}
+
 std::vector<double> Differentiator::corrections(const CellFitter& fitter, const std::vector<double>& phi, detail::Monitor& monitor) const {
   const std::vector<double>& points = pointsOf(cells_, problem_.dualPoints);
   const CellFits fits = fitter.fit(fitValues(cells_, dual_, problem_, fitter.data(), phi), sourceOf(phi, fitter.data().cellSize), monitor);
   std::vector<double> result(size());
   for (const uint32_t e : edges_) {
     const DualEdge& edge = dual_.edges[e];
-    const double plain = differenceAt(cells_, dual_, e, phi);
+    const double plain = differenceAt(cells_, dual_, e, phi), added = isBetweenEqual(e) ? addedByThirds(e, fits) : 0;
     for (const uint32_t f : dual_.faces[e]) {
       const uint32_t other = otherCell(cells_, edge, f);
       Places at{pointAt(points, edge.cell), pointAt(points, other), pointAt(cells_.faceCentroid, f), pointAt(cells_.faceNormal, f)};
       for (double& x : at.normal) x *= edge.sign;
       const Said a = saidOf(cells_, fits, edge.cell, at), b = saidOf(cells_, fits, other, at);
       const double left = phi[other] - phi[edge.cell] - plain - (a.difference + b.difference) / 2;
-      result[f] = edge.sign * ((a.derivative + b.derivative) / 2 + left / edge.distance);
+      result[f] = edge.sign * ((a.derivative + b.derivative) / 2 + left / edge.distance + added);
     }
   }
   for (size_t b = 0; b < terms_.size(); ++b) {

@@ -17,7 +17,8 @@ class Differentiator {
   std::vector<double> plain(const std::vector<double>& phi) const;
 
   /// What is added to those for second order, from polynomials fitted in the cells on both sides: such a derivative is that of the
-  /// polynomials at the face's centroid, and what they leave of the difference of phi, over the distance. Nothing is added where a cell
+  /// polynomials at the face's centroid, and what they leave of the difference of phi, over the distance; between octree cells of one size
+  /// also what third derivatives add to the mean on the face, for fourth order. Nothing is added where a cell
   /// meets smaller ones that are cut, since that need not converge; nor beside cells where the coefficient jumps.
   std::vector<double> corrections(const CellFitter& fitter, const std::vector<double>& phi, detail::Monitor& monitor) const;
   CellFitter fitter(detail::Monitor& monitor) const;
@@ -35,6 +36,8 @@ class Differentiator {
   double flowOf(size_t derivative) const;
   bool isCorrected(size_t edge) const;
   bool isCorrectedOnBoundary(size_t b) const;
+  bool isBetweenEqual(size_t edge) const;
+  double addedByThirds(size_t edge, const CellFits& fits) const;
   bool jumps(size_t cell) const { return !coefficients_.jumps.empty() && coefficients_.jumps[cell]; }
   std::vector<double> sourceOf(const std::vector<double>& phi, const std::vector<double>& cellSize) const;
 

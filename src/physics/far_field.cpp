@@ -6,6 +6,7 @@
 #include "operators/measure/vector.h"
 #include "operators/require_cut_mesh.h"
 #include "physics/dual_edges.h"
+#include "physics/face_box.h"
 #include "physics/wind.h"
 
 namespace mandoline::physics {
@@ -139,16 +140,37 @@ std::vector<double> FarField::moments(const Flow& flow) const {
   return sums;
 }
 
+/// Points of equal weight: Gauss' on the rectangles of octree cells, which may be large, the centroid of others.
+std::vector<Point> FarField::quadratureOn(size_t face) const {
+  Point at = pointAt(cells_.faceCentroid, face);
+  if (face < cells_.cutFaces) return {at};
+  const FaceBox box = faceBox(cells_, face);
+  const size_t normal = cells_.faceNormal[3 * face] != 0 ? 0 : cells_.faceNormal[3 * face + 1] != 0 ? 1 : 2;
+  const size_t across[] = {(normal + 1) % 3, (normal + 2) % 3};
+  const double shares[] = {(1 - 1 / std::sqrt(3.0)) / 2, (1 + 1 / std::sqrt(3.0)) / 2};
+  std::vector<Point> points;
+  for (size_t i = 0; i < 4; ++i) {
+    for (size_t j = 0; j < 2; ++j) {
+      const size_t d = across[j];
+      at[d] = box.low[d] + shares[i >> j & 1] * (box.high[d] - box.low[d]);
+    }
+    points.push_back(at);
+  }
+  return points;
+}
+
 std::vector<double> FarField::outflowOfDipoles(const Flow& flow) const {
   const std::vector<double> moment = moments(flow);
   const double nearest = edge_ / size_ / 2;  // what is nearer is inside the block, where one dipole would flow far too fast
   std::vector<double> outflow(boundarySize_);
   for (const Side& side : sides_) {
-    const Point at = pointAt(cells_.faceCentroid, side.face);
-    for (size_t k = 0; k < centres_.size() / 3; ++k) {
-      const Point step = stepBetween(pointAt(centres_, k), at, size_), m = pointAt(moment, k);
+    const std::vector<Point> points = quadratureOn(side.face);
+    for (size_t i = 0; i < points.size() * (centres_.size() / 3); ++i) {
+      const size_t k = i / points.size();
+      const Point step = stepBetween(pointAt(centres_, k), points[i % points.size()], size_), m = pointAt(moment, k);
       const double r = std::max(measuring::length(step), nearest);
-      outflow[side.at] += (dot(m, side.normal) - 3 * (dot(m, step) / r) * (dot(step, side.normal) / r)) / (r * r * r);
+      const double flow = (dot(m, side.normal) - 3 * (dot(m, step) / r) * (dot(step, side.normal) / r)) / (r * r * r);
+      outflow[side.at] += flow / double(points.size());
     }
   }
   takeExcess(outflow);

@@ -34,6 +34,7 @@ class FarField {
   size_t blockOf(size_t cell) const;
   void placeDipoles(const std::vector<uint32_t>& walls);
   std::vector<double> moments(const Flow& flow) const;
+  std::vector<Point> quadratureOn(size_t face) const;
   void takeExcess(std::vector<double>& outflow) const;
 
   const CellComplex& cells_;

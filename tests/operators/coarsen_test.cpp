@@ -85,9 +85,10 @@ class Reference {
   /// Whether a grid cell below a level lies in the layers of blocks of this level around that of a cell.
   bool hasSmallerNear(const std::array<int64_t, 3>& cell, int at) const {
     std::array<int64_t, 3> first{}, past{};
+    const int layers = at == 1 && options_.layersPerLevel > 2 ? std::max(2, options_.layersPerLevel / 2) : options_.layersPerLevel;
     for (size_t d = 0; d < 3; ++d) {
-      first[d] = std::max<int64_t>(0, ((cell[d] >> at) - options_.layersPerLevel) << at);
-      past[d] = std::min(n_[d], ((cell[d] >> at) + options_.layersPerLevel + 1) << at);
+      first[d] = std::max<int64_t>(0, ((cell[d] >> at) - layers) << at);
+      past[d] = std::min(n_[d], ((cell[d] >> at) + layers + 1) << at);
     }
     for (int64_t z = first[2]; z < past[2]; ++z) {
       for (int64_t y = first[1]; y < past[1]; ++y) {
@@ -161,7 +162,8 @@ TEST_CASE("coarsen: the fewest balanced cells, on all cases", "[coarsen]") {
     const CutMesh mesh = cutOf(c.mesh, c.grid);
     for (const auto& [maxLevel, fineLayers, layersPerLevel, balanceEdges] :
          {std::tuple(24, 0, 0, false), std::tuple(24, 0, 0, true), std::tuple(2, 1, 0, false), std::tuple(24, 2, 0, true),
-          std::tuple(0, 0, 0, false), std::tuple(24, 0, 1, false), std::tuple(24, 1, 2, true)}) {
+          std::tuple(0, 0, 0, false), std::tuple(24, 0, 1, false), std::tuple(24, 1, 2, true), std::tuple(24, 0, 3, false),
+          std::tuple(24, 0, 5, false)}) {
       CAPTURE(maxLevel, fineLayers, layersPerLevel, balanceEdges);
       CoarsenOptions options;
       options.maxLevel = maxLevel, options.fineLayers = fineLayers;
@@ -188,7 +190,7 @@ TEST_CASE("coarsen: any counts of grid cells", "[coarsen]") {
 }
 
 TEST_CASE("coarsen: by default a fine layer, and layers of each size in proportion to the grid cells", "[coarsen]") {
-  for (const auto& [n, layers] : {std::pair(int64_t(20), 1), {64, 2}, {100, 3}}) {
+  for (const auto& [n, layers] : {std::pair(int64_t(20), 1), {64, 2}, {100, 4}}) {
     const CutMesh mesh = cutOf(shapes::icosphere({6, 5, 4}, 1.5, 2), unitGrid(12, 9, n));
     CoarsenOptions options;
     options.fineLayers = 1, options.layersPerLevel = layers;

@@ -104,6 +104,33 @@ TEST_CASE("corrections: a linear field on merged cells", "[corrections]") {
   CHECK(corrected <= 1e-3 * plain);
 }
 
+TEST_CASE("corrections: between octree cells of one size a derivative's mean on the face is of fourth order", "[corrections]") {
+  // No surface, and one size: what errs is only how derivatives are found.
+  const auto error = [](int64_t n) {
+    const CellComplex cells = complexOf(shapes::cube(9, 10), Grid::box({-1, -1, -1}, {1, 1, 1}, {2 * n, 2 * n, 2 * n}), 1);
+    PoissonProblem problem;
+    problem.boundary = boundaryOf(cells);
+    const std::vector<double> normals = outwardNormals(problem.boundary, cells);
+    const double size = 2 / double(n), mean = std::sin(size / 2) / (size / 2);  // of a sine along one axis, to its value in the middle
+    for (size_t b = 0; b < problem.boundary.halfFaces.size(); ++b) {
+      const double *p = &cells.faceCentroid[3 * (problem.boundary.halfFaces[b] / 2)], *normal = &normals[3 * b];
+      const double along = normal[0] * std::cos(p[0]) * std::sin(p[1]) + normal[1] * std::sin(p[0]) * std::cos(p[1]);
+      problem.boundary.value[b] = mean * along;
+    }
+    for (size_t c = 0; c < cells.cellCount(); ++c)
+      problem.source.push_back(-2 * mean * mean * std::sin(cells.cellCentre[3 * c]) * std::sin(cells.cellCentre[3 * c + 1]));
+    const Solution solution = solved(cells, problem);
+    double sum = 0;
+    for (size_t c = 0; c < cells.cellCount(); ++c)
+      sum += std::fabs(solution.phi[c] - std::sin(cells.cellCentre[3 * c]) * std::sin(cells.cellCentre[3 * c + 1]));
+    return sum / double(cells.cellCount());
+  };
+  const double coarse = error(8), fine = error(16);
+  CAPTURE(coarse, fine);
+  CHECK(std::log2(coarse / fine) >= 3);
+  CHECK(coarse <= 1e-4);
+}
+
 TEST_CASE("corrections: octree cells right beside cut-cells do no harm", "[corrections]") {
   const Mesh mesh = shapes::icosphere({0.1, 0.05, -0.02}, 0.6, 4);
   const CellComplex cells = complexOf(mesh, Grid::box({-1, -1, -1}, {1, 1, 1}, {32, 32, 32}), 24);

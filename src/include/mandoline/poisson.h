@@ -166,9 +166,11 @@ struct Solution {
 
 /// Solves the problem's system by conjugate gradients, preconditioned by a multigrid, and corrects its right side by what the derivatives
 /// in the matrix lack: so phi, and nearly everywhere its derivatives on faces, are of second order also on cut-cells, merged or not, and
-/// where octree cells meet smaller ones, unless these are cut (keep a fine layer, see CoarsenOptions). What lacks follows from polynomials
-/// of degree two, fitted in the cells on both sides of a face. Where coefficients on the faces of a cell differ by more than a half,
-/// as they do where k jumps, nothing is corrected on these faces, and the polynomials beside them know nothing of what is behind.
+/// where octree cells meet smaller ones, unless these are cut (keep a fine layer, see CoarsenOptions). Between octree cells of one size,
+/// larger than grid cells, derivatives are of fourth order, if sources and derivatives on the boundary are given as means. What lacks
+/// follows from polynomials of degree two, fitted in the cells on both sides of a face. Where coefficients on the faces of a cell differ by
+/// more than a half, as they do where k jumps, nothing is corrected on these faces, and the polynomials beside them know nothing of what is
+/// behind.
 ///
 /// The result has the same bits for any number of threads. Throws CallError as poissonSystem() does (badArgument), for a tolerance that is
 /// not positive or for negative maxIterations or corrections (badOption), or if cancelled.
