@@ -1,32 +1,13 @@
-// three.js without what this page never draws, since it is part of what the first picture needs: shaders of other materials than those below,
-// and of features that these don't use; headsets, shadow maps, morph targets, groups of uniforms, buffers of other types, and light from surroundings.
+// three.js without the shaders of materials and features that this page never draws, which its first picture would wait for.
 import type { Plugin } from 'vite';
 
-/** Shaders, by their names in three.js, of the background and the materials that are drawn with. */
+/** By their names in three.js: of the background and the materials that are drawn with. */
 const drawn = ['background', 'meshbasic', 'meshlambert', 'meshnormal', 'points'].flatMap((name) => [`${name}_vert`, `${name}_frag`]);
 /** What the page's own shaders, those of GTAOPass and three.js itself include. */
 const included = ['colorspace_fragment', 'colorspace_pars_fragment', 'common', 'packing'];
 /** Of features that no material here has: such a chunk is left out if all of it has that condition. */
 const unused =
   /^(alphahash|alphamap|alphatest|aomap|batching|bumpmap|cube|displacementmap|emissivemap|envmap|fog|iridescence|lightmap|lightprobes|lights_fragment_maps|morph|normalmap|roughnessmap|shadowm|skin|specularmap|tonemapping)/;
-
-/** A class or function of three.js by another with the same name. */
-const replacements = {
-  'class WebXRManager extends EventDispatcher {': `class WebXRManager extends EventDispatcher {
-	enabled = false;
-	isPresenting = false;
-	setAnimationLoop() {}
-	dispose() {}
-	getEnvironmentBlendMode() {}
-}`,
-  'class PMREMGenerator {': 'class PMREMGenerator {}',
-  'function getDFGLUT() {': 'function getDFGLUT() {}',
-  'function WebGLMorphtargets( gl, capabilities, textures ) {': 'function WebGLMorphtargets() {}',
-  'function WebGLOutput( type, width, height, antialias, depth, stencil ) {': 'function WebGLOutput() {}',
-  'function WebGLUniformsGroups( gl, info, capabilities, state ) {': 'function WebGLUniformsGroups() { this.dispose = () => {}; }',
-  'function WebGLShadowMap( renderer, objects, capabilities ) {':
-    'function WebGLShadowMap() { this.enabled = false; this.render = () => {}; }',
-};
 
 /** Comments and indentation left out. */
 function compact(shader: string): string {
@@ -69,19 +50,13 @@ function withCompactShaders(code: string): string {
   return code;
 }
 
-/** The build fails if three.js no longer has what is replaced. */
+/** The build fails if three.js no longer has a shader that is kept. */
 export function smallThree(): Plugin {
   return {
     name: 'small-three',
     apply: 'build',
     transform(code, id) {
       if (!/\/three\/build\/three\.module\.js$/.test(id)) return undefined;
-      for (const [start, replacement] of Object.entries(replacements)) {
-        const from = code.indexOf(`\n${start}`);
-        const end = code.indexOf('\n}\n', from);
-        if (from < 0 || end < 0) throw new Error(`three.js has no ${start}`);
-        code = `${code.slice(0, from)}\n${replacement}${code.slice(end + 2)}`;
-      }
       return { code: withCompactShaders(code), map: null };
     },
   };
