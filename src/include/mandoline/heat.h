@@ -22,8 +22,8 @@ class HeatStepper {
   HeatStepper(const CellComplex& cells, HeatProblem problem);
 
   /// One step, during which sources and boundary values are those of `problem`; setSource() and setBoundaryValue() change them from one
-  /// step to the next. If a solution is neither converged nor unresolved, its status is returned and
-  /// phi stays that of the step before. Throws CallError as PoissonSolver::solve() does.
+  /// step to the next. If a solution is neither converged nor unresolved, its status is returned and phi stays that of the step before.
+  /// Throws CallError as PoissonSolver::solve() does.
   SolveStatus step(const SolveOptions& options = {});
 
   void setSource(std::vector<double> source) { source_ = std::move(source); }
