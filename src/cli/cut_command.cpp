@@ -170,7 +170,7 @@ int runCut(const Arguments& arguments) {
   checkCutOutputs(arguments);
   const Input input = readInput(arguments);
   const MeshInfo info = inspect(input.mesh);
-  const AskedGrid grid = makeGrid(arguments.grid, input.mesh, info);
+  const AskedGrid grid = makeGrid(arguments.grid, input.mesh);
   return finishCut({arguments, input, info, grid}, cutMesh(arguments, input.mesh, grid));
 }
 

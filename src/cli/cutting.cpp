@@ -114,7 +114,7 @@ Report reportOf(const Arguments& arguments, MeshReport mesh, const AskedGrid& gr
 
 std::optional<CutResult> cutOrComplain(const Arguments& arguments, const Input& input, const GridArguments& asked) {
   const MeshReport mesh{input, inspect(input.mesh), {}};
-  const AskedGrid grid = makeGrid(asked, input.mesh, mesh.info);
+  const AskedGrid grid = makeGrid(asked, input.mesh);
   CutResult result = cutMesh(arguments, input.mesh, grid);
   if (result) return result;
   failWith(arguments, input.name, result.error, [&] { return reportJson(reportOf(arguments, mesh, grid, result)); });

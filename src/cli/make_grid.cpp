@@ -20,7 +20,8 @@ std::array<int64_t, 3> nearlyCubic(const std::array<Vector, 2>& box, int64_t n) 
   return cells;
 }
 
-std::array<Vector, 2> grownBox(const MeshBox& meshBox, double margin) {
+std::array<Vector, 2> grownBox(const Mesh& mesh, double margin) {
+  const MeshBox meshBox = boxOf(mesh);
   std::array<Vector, 2> box = {meshBox.min, meshBox.max};
   double longest = 0;
   for (size_t d = 0; d < 3; ++d) longest = std::max(longest, box[1][d] - box[0][d]);
@@ -37,9 +38,9 @@ AskedGrid withItsCells(Grid&& grid) {
   return {std::move(grid), cells};
 }
 
-AskedGrid makeAround(const Mesh& mesh, const MeshBox& meshBox, int64_t n, double margin) {
+AskedGrid makeAround(const Mesh& mesh, int64_t n, double margin) {
   AskedGrid asked = withItsCells(Grid::around(mesh, n, margin));
-  const auto [low, high] = grownBox(meshBox, margin);
+  const auto [low, high] = grownBox(mesh, margin);
   for (size_t d = 0; d < 3; ++d) {
     if (asked.cells[d] <= kMostCells) continue;
     const double count = std::ceil((high[d] - low[d]) / asked.grid.spacing[d]);
@@ -50,15 +51,15 @@ AskedGrid makeAround(const Mesh& mesh, const MeshBox& meshBox, int64_t n, double
 
 }  // namespace
 
-AskedGrid makeGrid(const GridArguments& arguments, const Mesh& mesh, const MeshBox& meshBox) {
+AskedGrid makeGrid(const GridArguments& arguments, const Mesh& mesh) {
   constexpr int64_t kDefaultCells = 32;
   if (arguments.planes) return withItsCells(Grid::rectilinear(*arguments.planes));
   if (arguments.origin) return {Grid::regular(*arguments.origin, *arguments.spacing, *arguments.cells), *arguments.cells};
   const bool oneNumber = arguments.oneNumber || !arguments.cells;
   const int64_t n = arguments.cells ? (*arguments.cells)[0] : kDefaultCells;
   const double margin = arguments.margin.value_or(0.05);
-  if (oneNumber && !arguments.box) return makeAround(mesh, meshBox, n, margin);
-  const auto [low, high] = arguments.box.value_or(grownBox(meshBox, margin));
+  if (oneNumber && !arguments.box) return makeAround(mesh, n, margin);
+  const auto [low, high] = arguments.box.value_or(grownBox(mesh, margin));
   const std::array<int64_t, 3> cells = oneNumber ? nearlyCubic({low, high}, n) : *arguments.cells;
   return {Grid::box(low, high, cells), cells};
 }

@@ -11,8 +11,7 @@ struct AskedGrid {
   std::array<int64_t, 3> cells;  ///< along each axis, as they were asked for: a grid that is too large does not have them
 };
 
-/// `meshBox` is that of the mesh.
-AskedGrid makeGrid(const GridArguments& arguments, const Mesh& mesh, const MeshBox& meshBox);
+AskedGrid makeGrid(const GridArguments& arguments, const Mesh& mesh);
 
 /// With the margin that makes a wind tunnel, unless another one is given.
 GridArguments flowGrid(GridArguments grid);

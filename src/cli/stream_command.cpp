@@ -92,7 +92,7 @@ int runStream(const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   Input input = readInput(arguments);
   const MeshReport mesh{input, inspect(input.mesh), {}};
-  const AskedGrid grid = makeGrid(arguments.grid, input.mesh, mesh.info);
+  const AskedGrid grid = makeGrid(arguments.grid, input.mesh);
   StreamReport report{mesh, grid, {}, {}, 0};
   try {
     report.counts = writePieces(arguments, prepared(arguments, input.mesh), grid.grid);

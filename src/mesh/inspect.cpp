@@ -77,7 +77,9 @@ MeshBox boxOf(const MeshView& mesh) {
 
 MeshInfo inspect(const MeshView& mesh) {
   MeshInfo info;
-  static_cast<MeshBox&>(info) = boxOf(mesh);
+  const MeshBox box = boxOf(mesh);
+  info.min = box.min;
+  info.max = box.max;
   info.vertices = mesh.vertexCount();
   info.triangles = mesh.triangleCount();
   const std::vector<uint32_t> lowest = detail::lowestAtPosition(

@@ -58,19 +58,19 @@ export function makeCall(host, name, call) {
   const { takes, options, keeps, gives, run = (bindings, ...args) => bindings[name](...args) } = call;
   const parameters = Object.entries(takes);
   return (...given) => {
-    const { progress: told, rule: givenRule, reuse, ...what } = readOptions(given[parameters.length], options);
+    const { reuse, ...what } = readOptions(given[parameters.length], options);
     const copy = reuse && copierInto(reuse);
-    return withCallbacks({ progress: told, rule: givenRule }, ({ progress, rule }) => {
+    return withCallbacks(what, (safe) => {
       const inputs = [];
       const asInput = (taken, value) => {
         if (taken.otherwise && !isResult(value) && !taken.fits?.(value)) return undefined;
-        const place = inputs.push(host.input(taken, value, progress)) - 1;
+        const place = inputs.push(host.input(taken, value, safe.progress)) - 1;
         return (handles) => handles[place];
       };
       const readings = parameters.map(([parameter, taken], i) => readArgument(taken, given[i], parameter, asInput));
       return host.runWith(inputs, (bindings, handles, twins) => {
         const args = readings.map((give) => give(handles));
-        const outcome = run(bindings, ...args, ...(options ? [{ ...what, progress, rule, copy }] : []));
+        const outcome = run(bindings, ...args, ...(options ? [{ ...safe, copy }] : []));
         if (gives) return withObject(outcome, call, host, bindings);
         return keeps ? keepTwin(outcome, call, { kind: keeps, ...what }, host, twins) : outcome;
       });

@@ -124,7 +124,7 @@ class Run {
     });
     ranks_.inFirst([&] {
       const bool isFlow = arguments_.command == Command::flow;
-      grid_ = makeGrid(isFlow ? flowGrid(arguments_.grid) : arguments_.grid, input_.mesh, boxOf(input_.mesh));
+      grid_ = makeGrid(isFlow ? flowGrid(arguments_.grid) : arguments_.grid, input_.mesh);
     });
   }
 

@@ -127,7 +127,7 @@ int plan(const Arguments& arguments, const std::vector<uint32_t>& ranks) {
   const uint64_t programBytes = peakMemoryBytes();
   const Input input = readInput(arguments);
   const MeshReport mesh{input, inspect(input.mesh), {}};
-  const AskedGrid grid = makeGrid(arguments.grid, input.mesh, mesh.info);
+  const AskedGrid grid = makeGrid(arguments.grid, input.mesh);
   PlanReport report{arguments, mesh, grid, {}};
   Error error;
   withProgress(arguments.threads, [&](const RunOptions& options) {

@@ -23,15 +23,16 @@ inline const char* name(EdgeDefect defect) {
   return kNames[size_t(defect)];
 }
 
-/// The bounding box of a mesh's finite coordinates in use; all zero if there are none.
+/// A mesh's bounding box, as MeshInfo has it.
 struct MeshBox {
   std::array<double, 3> min{}, max{};
 };
 
 /// What a mesh has. Vertices at one position count as one, except in the number of vertices. Edges are those of triangles with three
 /// different vertices.
-struct MeshInfo : MeshBox {
+struct MeshInfo {
   size_t vertices = 0, triangles = 0;  ///< as they were given
+  std::array<double, 3> min{}, max{};  ///< bounding box of the finite coordinates in use; all zero if there are none
   bool closed = false;                 ///< every edge has an even number of triangles
   bool oriented = false;               ///< every edge is traversed equally often both ways, so that there are winding numbers
   size_t openEdges = 0;                ///< with one triangle
