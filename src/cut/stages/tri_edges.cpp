@@ -161,9 +161,8 @@ void copyCrossings(const CutVertices& known, TriEdgeId first, TriEdgeId past, Cu
   const size_t from = known.crossingOffsets[first.number].number, end = known.crossingOffsets[past.number].number,
                to = vertices.crossingOffsets[first.number].number;
   std::copy(known.slabs.begin() + ptrdiff_t(from), known.slabs.begin() + ptrdiff_t(end), vertices.slabs.begin() + ptrdiff_t(to));
-  const auto parents = known.parentEdges.begin() - ptrdiff_t(known.firstOnEdge.number);
-  std::copy(parents + ptrdiff_t(from), parents + ptrdiff_t(end),
-            vertices.parentEdges.begin() + ptrdiff_t(to - vertices.firstOnEdge.number));
+  const auto parents = known.parentEdges.begin() + ptrdiff_t(from - known.firstOnEdge.number);
+  std::copy(parents, parents + ptrdiff_t(end - from), vertices.parentEdges.begin() + ptrdiff_t(to - vertices.firstOnEdge.number));
 }
 
 /// Pieces of tri-edges that lie in an axial plane, but not on a grid line.
