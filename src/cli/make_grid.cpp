@@ -59,7 +59,7 @@ AskedGrid makeGrid(const GridArguments& arguments, const Mesh& mesh) {
   const int64_t n = arguments.cells ? (*arguments.cells)[0] : kDefaultCells;
   const double margin = arguments.margin.value_or(0.05);
   if (oneNumber && !arguments.box) return makeAround(mesh, n, margin);
-  const auto [low, high] = arguments.box.value_or(grownBox(mesh, margin));
+  const auto [low, high] = arguments.box ? *arguments.box : grownBox(mesh, margin);
   const std::array<int64_t, 3> cells = oneNumber ? nearlyCubic({low, high}, n) : *arguments.cells;
   return {Grid::box(low, high, cells), cells};
 }

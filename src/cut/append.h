@@ -50,6 +50,14 @@ inline void appendMade(const CutMesh& from, size_t i, uint32_t vertex, CutMesh& 
   append(to.madeVertexParents, from.madeVertexParents, i, 4);
 }
 
+/// Copies what all pieces of a cut have alike: the grid, what is known of the regions, and of the input.
+inline void copyCommon(const CutMesh& from, CutMesh& to) {
+  const auto copy = [&](auto... members) { ((to.*members = from.*members), ...); };
+  copy(&CutMesh::grid, &CutMesh::regionCount, &CutMesh::hasWinding, &CutMesh::regionWinding, &CutMesh::regionPartWinding,
+       &CutMesh::regionParity, &CutMesh::parityTriangles, &CutMesh::openTriangles, &CutMesh::triangleCount, &CutMesh::snapTolerance,
+       &CutMesh::madeFrom);
+}
+
 /// Per triangle of the input 1 if the cut-mesh has a face of it, else 0.
 inline std::vector<uint8_t> trianglesWithFace(const CutMesh& cutMesh, size_t triangles) {
   std::vector<uint8_t> hasFace(triangles, 0);

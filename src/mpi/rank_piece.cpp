@@ -231,11 +231,8 @@ PlaneFaces facesInPlane(const NumberedPart& numbered, int32_t plane) {
 
 void takeCommon(const CutMesh& common, RankPiece& piece) {
   CutMesh& out = piece.cutMesh;
-  out.grid = common.grid;
+  copyCommon(common, out);
   takeRuns(common, piece.layers, out);
-  const auto take = [&](auto... arrays) { ((out.*arrays = common.*arrays), ...); };
-  take(&CutMesh::regionCount, &CutMesh::hasWinding, &CutMesh::regionWinding, &CutMesh::regionPartWinding, &CutMesh::regionParity,
-       &CutMesh::parityTriangles, &CutMesh::openTriangles, &CutMesh::triangleCount, &CutMesh::snapTolerance, &CutMesh::madeFrom);
   listWithoutFace(out);
   piece.whole = common.fingerprint;
   Fingerprinter fingerprinter("piece", piece.whole);

@@ -60,28 +60,20 @@ class WholeMaker {
     RankPiece joined = joinCells(cells);
     for (const auto* ids : {&joined.vertexIds, &joined.faceIds, &joined.cellIds}) requireWithoutGaps(*ids);
     whole_ = std::move(joined.cutMesh);
-    takeCommon();
+    const RankPiece& first = pieces_[order_[0]];
+    detail::copyCommon(first.cutMesh, whole_);
+    whole_.fingerprint = first.whole;
+    detail::listWithoutFace(whole_);
     takeMade();
     takeRuns();
     return std::move(whole_);
   }
 
  private:
-  const RankPiece& first() const { return pieces_[order_[0]]; }
-
   static void requireWithoutGaps(const std::vector<uint64_t>& ids) {
     for (uint64_t i = 0; i < ids.size(); ++i) {
       if (ids[i] != i) refuse("The pieces are damaged: their ids are not those of one cut.");
     }
-  }
-
-  void takeCommon() {
-    const auto take = [&](auto... members) { ((whole_.*members = first().cutMesh.*members), ...); };
-    take(&CutMesh::grid, &CutMesh::regionCount, &CutMesh::hasWinding, &CutMesh::regionWinding, &CutMesh::regionPartWinding,
-         &CutMesh::regionParity, &CutMesh::parityTriangles, &CutMesh::openTriangles, &CutMesh::triangleCount, &CutMesh::snapTolerance,
-         &CutMesh::madeFrom);
-    whole_.fingerprint = first().whole;
-    detail::listWithoutFace(whole_);
   }
 
   void takeMade() {
