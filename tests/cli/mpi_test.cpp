@@ -193,6 +193,7 @@ TEST_CASE("A folder of the pieces of several processes is read as the whole, or 
   const Outcome fewer = runRanks(folder, 3, {"cut", mesh, "--cells", "9", "-o", pieces});
   CHECK(fewer.exitCode == 2);
   CHECK(contains(fewer.err, "a.mcm/piece_3.mcm: is there already, of a cut in more pieces"));
+  CHECK(differences(mandoline::readCutMesh(pieces), one).empty());
   fs::remove_all(pieces);
   REQUIRE(runRanks(folder, 3, {"cut", mesh, "--cells", "9", "-o", pieces}).exitCode == 0);
   fs::rename(folder.path("a.mcm/piece_1.mcm"), folder.path("b.mcm"));
@@ -493,6 +494,8 @@ TEST_CASE("Decomposed cases are the polyMesh of one process, by their addressing
         const Outcome coarser = runRanks(folder, 2, {"cut", file, "--cells", cells, "-o", folder.path(pieces)});
         CHECK(coarser.exitCode == 2);
         CHECK(contains(coarser.err, "processor2: is there already, of a case in more parts"));
+        for (int rank = 0; rank < 3; ++rank)
+          CHECK(fs::exists(folder.path("pieces/processor" + std::to_string(rank) + "/constant/polyMesh/points")));
       }
       fs::remove_all(folder.path("pieces"));
     }

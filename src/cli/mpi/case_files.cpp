@@ -78,7 +78,9 @@ void checkCase(const std::string& path) {
     throw UsageError("-o " + path + ": several processes write CASE/constant/polyMesh, as CASE/processor0 and so on");
 }
 
-CaseFiles::CaseFiles(Ranks& ranks, const std::string& path) : ranks_(ranks), case_(folderAt(path).parent_path().parent_path().string()) {}
+CaseFiles::CaseFiles(Ranks& ranks, const std::string& path) : ranks_(ranks), case_(folderAt(path).parent_path().parent_path().string()) {
+  ranks_.inFirst([&] { refuseOthers(); });
+}
 
 /// Those of all processes: one that was killed has left what it was writing.
 CaseFiles::~CaseFiles() {
@@ -133,7 +135,6 @@ void CaseFiles::addSeams(const RankComplex& complex, PolyMesh& mesh) const {
 }
 
 void CaseFiles::write(const RankComplex& complex, const CutMesh& common, const WriteOptions& options) {
-  ranks_.inFirst([&] { refuseOthers(); });
   std::optional<detail::ComplexPolygons> polygons;
   PolyMesh mesh;
   std::optional<detail::PolyFiles> files;

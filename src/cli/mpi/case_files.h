@@ -14,7 +14,7 @@ void checkCase(const std::string& path);
 /// The files CASE/processorN/constant/polyMesh, as decomposePar writes them. They go unless all are written.
 class CaseFiles {
  public:
-  /// `path` is one that checkCase() takes.
+  /// `path` is one that checkCase() takes. Collective. Throws Stopped where there is a case in more parts.
   CaseFiles(Ranks& ranks, const std::string& path);
   ~CaseFiles();
   CaseFiles(const CaseFiles&) = delete;

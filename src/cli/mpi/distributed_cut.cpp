@@ -102,7 +102,7 @@ class Run {
     for (const std::string& output : arguments_.outputs) {
       if (isPvtu(output)) writePiece(output, piece);
       if (isPolyMesh(output)) writeCase(output, piece);
-      if (isMcmFolder(output)) McmFolder(ranks_, output).write(piece, writingOptions());
+      if (isMcmFolder(output)) writeMcmFolder(ranks_, output, piece, writingOptions());
     }
     const int exitCode = needsWhole(arguments_) ? finishWhole() : finishReduced(piece);
     return ranks_.comm().reduce(exitCode, MPI_MAX);
@@ -183,13 +183,12 @@ class Run {
   }
 
   void writePiece(const std::string& output, const RankPiece& piece) {
-    PieceFiles files(ranks_, output);
     WriteOptions options;
     ranks_.together([&] {
       options = writeOptions(arguments_, cut_->common());
       static_cast<RunOptions&>(options) = writingOptions();
     });
-    files.write(input_.mesh, piece, options);
+    writePvtu(ranks_, output, input_.mesh, piece, options);
   }
 
   void writeCase(const std::string& output, const RankPiece& piece) {

@@ -5,6 +5,7 @@
 
 #include "cli/arguments.h"
 #include "cli/files.h"
+#include "cli/mpi/rank_files.h"
 #include "io/pvtu.h"
 
 namespace mandoline::cli {
@@ -24,37 +25,23 @@ bool hasCells(const CutMesh& cutMesh, const WriteOptions& options) {
 
 bool isPvtu(const std::string& path) { return path.ends_with(kExtension); }
 
-PieceFiles::PieceFiles(Ranks& ranks, std::string path) : ranks_(ranks), path_(std::move(path)) {}
-
-/// Those of all processes: one that was killed has left what it was writing.
-PieceFiles::~PieceFiles() {
-  if (isComplete_) return;
-  std::error_code ignored;
-  for (int rank = 0; rank < ranks_.size(); ++rank) {
-    fs::remove(pieceName(rank), ignored);
-    fs::remove(pieceName(rank) + ".part", ignored);
-  }
-}
-
-std::string PieceFiles::pieceName(int rank) const {
-  return path_.substr(0, path_.size() - kExtension.size()) + '_' + std::to_string(rank) + ".vtu";
-}
-
-void PieceFiles::write(const MeshView& mesh, const RankPiece& piece, const WriteOptions& options) {
+void writePvtu(Ranks& ranks, const std::string& path, const MeshView& mesh, const RankPiece& piece, const WriteOptions& options) {
+  const auto nameOf = [stem = path.substr(0, path.size() - kExtension.size())](int rank) {
+    return stem + '_' + std::to_string(rank) + ".vtu";
+  };
+  RankFiles pieces(ranks, nameOf);
   const bool isWritten = hasCells(piece.cutMesh, options);
-  ranks_.together([&] {
-    if (isWritten) writeOutput(pieceName(ranks_.rank()), [&](const Sink& sink) { writeVtu(sink, mesh, piece.cutMesh, options); });
-  });
-  const std::vector<uint64_t> written = ranks_.comm().gatherAll(isWritten);
-  ranks_.inFirst([&] {
+  pieces.write(isWritten, [&](const Sink& sink) { writeVtu(sink, mesh, piece.cutMesh, options); });
+  const std::vector<uint64_t> written = ranks.comm().gatherAll(isWritten);
+  ranks.inFirst([&] {
     std::vector<std::string> files;
     for (size_t rank = 0; rank < written.size(); ++rank) {
-      if (written[rank]) files.push_back(fs::path(pieceName(int(rank))).filename().string());
+      if (written[rank]) files.push_back(fs::path(nameOf(int(rank))).filename().string());
     }
     if (files.empty()) throw UsageError("--only selects nothing");
-    writeOutput(path_, [&](const Sink& sink) { sink(detail::pvtuText(detail::pvtuArrays(piece.cutMesh, true), files)); });
+    writeOutput(path, [&](const Sink& sink) { sink(detail::pvtuText(detail::pvtuArrays(piece.cutMesh, true), files)); });
   });
-  isComplete_ = true;
+  pieces.complete();
 }
 
 }  // namespace mandoline::cli
