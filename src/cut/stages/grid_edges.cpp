@@ -5,80 +5,84 @@
 namespace mandoline::detail {
 namespace {
 
-/// A cut-vertex on a grid-edge or at a grid vertex.
-template <class Place>
-struct LineVertex {
-  Place place;
-  VertexId vertex;
-};
-
-/// Finds all cut-vertices of the surface on grid-edges and grid vertices of a brick, each as often as a loop passes it.
+/// Finds all cut-vertices of the surface on grid-edges and grid vertices of a brick: those of its own once and in order, after others.
 class Collector {
  public:
-  Collector(const BrickSurface& surface, const Stencil& stencil)
-      : triFaces_(surface.triFaces), vertices_(surface.vertices), stencil_(stencil) {}
+  Collector(const BrickSurface& surface, const Stencil& stencil, GridEdges& gridEdges)
+      : surface_(surface), vertices_(surface.vertices), stencil_(stencil), gridEdges_(gridEdges) {
+    gridEdges.onEdges.clear();
+    gridEdges.onCorners.clear();
+  }
 
-  std::vector<LineVertex<GridEdgeId>> onEdges;
-  std::vector<LineVertex<GridVertexId>> onCorners;
-
-  void collect(std::span<const VertexId> seamVertices) {
-    for (const GridCellId c : stencil_.cells.ids()) {
-      for (const FaceId f : stencil_.triFacesInCell[c]) {
-        if (triFaces_.touchesLine[f]) placeLoops(stencil_.cells[c], f);
+  void collect() {
+    const TriFaces& triFaces = surface_.triFaces;
+    for (const FaceId f : triFaces.ids()) {
+      if (!triFaces.touchesLine[f]) continue;
+      for (const auto loop : triFaces.loopsOf(f)) {
+        for (const VertexId v : loop) placeOther(v);
       }
     }
-    for (const GridFaceId g : stencil_.faces.ids()) {
-      const Stencil::Cell& cell = stencil_.cells[stencil_.faces[g].cell];
-      for (const FaceId f : stencil_.triFacesOnFace[g]) placeLoops(cell, f);
-      for (const FaceEdge& e : stencil_.edgesOnFace[g]) {  // tri-edges in the grid-face of a triangle without a face beside it
-        place(cell, e.from);
-        place(cell, e.to);
-      }
+    for (const FaceEdge& e : surface_.faceEdges) {  // tri-edges in the grid-face of a triangle without a face beside it
+      placeOther(e.from);
+      placeOther(e.to);
     }
-    for (const VertexId v : seamVertices) {
-      if (const auto cell = stencil_.cellBeside(vertices_.slab(v))) place(stencil_.cells[*cell], v);
-    }
+    for (const VertexId v : surface_.seamVertices) placeOther(v);
+    for (const VertexId v : vertices_.ownIds()) place(v, vertices_.slab(v));  // of each, some loop has it
   }
 
  private:
-  void placeLoops(const Stencil::Cell& cell, FaceId f) {
-    for (const auto loop : triFaces_.loopsOf(f)) {
-      for (const VertexId v : loop) place(cell, v);
-    }
+  void placeOther(VertexId v) {
+    if (v >= vertices_.firstOwn) return;
+    const Slab& slab = vertices_.slab(v);
+    if (planeCount(slab) > 1) place(v, slab);
   }
 
-  void place(const Stencil::Cell& cell, VertexId v) {
-    const Slab& slab = vertices_.slab(v);
-    if (planeCount(slab) < 2) return;
-    int side[3], along = -1;
+  /// On a grid line that a cell of the stencil has, unless it is a seam's.
+  void place(VertexId v, const Slab& slab) {
+    int along = -1;
     for (int d = 0; d < 3; ++d) {
-      side[d] = slab[d] > cell.element[d];
       if (!onPlane(slab[d])) along = d;
     }
-    if (along < 0) {
-      onCorners.push_back({cell.corners[side[0] + 2 * side[1] + 4 * side[2]], v});
-    } else {
-      onEdges.push_back({cell.edges[cellEdge(along, side[(along + 1) % 3], side[(along + 2) % 3])], v});
+    if (along < 0) return placeAtCorner(v, slab);
+    const int p = (along + 1) % 3, q = (along + 2) % 3;
+    for (int i = 0; i < 4; ++i) {
+      const uint32_t cell = cellBelow(slab, (i & 1) << p | (i >> 1) << q);
+      if (cell != Stencil::kNone) return gridEdges_.onEdges.add(stencil_.cells[{cell}].edges[size_t(cellEdge(along, i & 1, i >> 1))], v);
     }
   }
+  void placeAtCorner(VertexId v, const Slab& slab) {
+    for (int i = 0; i < 8; ++i) {
+      const uint32_t cell = cellBelow(slab, i);
+      if (cell != Stencil::kNone) return gridEdges_.onCorners.add(stencil_.cells[{cell}].corners[size_t(i)], v);
+    }
+  }
+  /// A cell that has an element: below it along the axes that have their bits in `axes`.
+  uint32_t cellBelow(const Slab& element, int axes) const {
+    ptrdiff_t place = stencil_.placeOf(element);
+    for (size_t d = 0; d < 3; ++d) place -= axes >> d & 1 ? stencil_.steps[d] : 0;
+    return stencil_.numberAt(place);
+  }
 
-  const TriFaces& triFaces_;
+  const BrickSurface& surface_;
   const CutVertices& vertices_;
   const Stencil& stencil_;
+  GridEdges& gridEdges_;
 };
 
 /// The cut-vertex of each grid vertex: those where the surface passes have one already.
-void setCorners(const Collector& found, const Stencil& stencil, CutVertices& vertices, GridEdges& gridEdges) {
+void setCorners(const Stencil& stencil, CutVertices& vertices, GridEdges& gridEdges) {
   constexpr VertexId kNone{~0u};
+  const OnGridLines<GridVertexId>& found = gridEdges.onCorners;
   auto& corners = gridEdges.corners;
   corners.assign(stencil.cornerCount, kNone);
-  for (const auto& [place, vertex] : found.onCorners) {
-    if (corners[place] != kNone && corners[place] != vertex) vertices.failSelfIntersectionAt(corners[place], vertex);
-    corners[place] = vertex;
+  for (size_t i = 0; i < found.places.size(); ++i) {
+    VertexId& corner = corners[found.places[i]];
+    if (corner != kNone && corner != found.vertices[i]) vertices.failSelfIntersectionAt(corner, found.vertices[i]);
+    corner = found.vertices[i];
   }
   for (const Stencil::Cell& cell : stencil.cells) {
     for (int i = 0; i < 8; ++i) {
-      VertexId& corner = corners[cell.corners[i]];
+      VertexId& corner = corners[cell.corners[size_t(i)]];
       if (corner != kNone) continue;
       const Slab slab = {cell.element[0] - 1 + 2 * (i & 1), cell.element[1] - 1 + 2 * (i >> 1 & 1), cell.element[2] - 1 + 2 * (i >> 2)};
       corner = vertices.add(slab, CutVertices::kNoTriangle);
@@ -86,34 +90,42 @@ void setCorners(const Collector& found, const Stencil& stencil, CutVertices& ver
   }
 }
 
+/// Puts the vertices on a grid-edge in order, each once. Gives their number.
+size_t putInOrder(std::span<VertexId> onEdge, const CutVertices& vertices, Predicates& predicates) {
+  sortItems(onEdge);
+  const size_t count = size_t(std::unique(onEdge.begin(), onEdge.end()) - onEdge.begin());
+  if (count < 2) return count;
+  const Slab& slab = vertices.slab(onEdge[0]);
+  const int along = !onPlane(slab[0]) ? 0 : !onPlane(slab[1]) ? 1 : 2;
+  sortItems(onEdge.first(count), [&](VertexId u, VertexId v) { return vertices.compare(u, v, along, predicates) < 0; });
+  for (size_t i = 1; i < count; ++i) {
+    if (vertices.compare(onEdge[i - 1], onEdge[i], along, predicates) == 0) vertices.failSelfIntersectionAt(onEdge[i - 1], onEdge[i]);
+  }
+  return count;
+}
+
 }  // namespace
 
 void cutGridEdges(BrickSurface& surface, const Stencil& stencil, GridEdges& gridEdges) {
   CutVertices& vertices = surface.vertices;
-  Collector found(surface, stencil);
-  found.collect(surface.seamVertices);
-  setCorners(found, stencil, vertices, gridEdges);
+  Collector(surface, stencil, gridEdges).collect();
+  setCorners(stencil, vertices, gridEdges);
 
-  const auto& onEdges = found.onEdges;
-  auto groups = groupBy<VertexId, GridEdgeId>(
-      stencil.edgeCount, onEdges.size(), [&](size_t i) { return onEdges[i].place; }, [&](size_t i) { return onEdges[i].vertex; });
-  Predicates& predicates = gridEdges.predicates;
-  gridEdges.vertices.clear();
-  for (const GridEdgeId e : Ids<GridEdgeId>(stencil.edgeCount)) {
-    const std::span<VertexId> group = groups[e];
-    sortItems(group);
-    const size_t count = size_t(std::unique(group.begin(), group.end()) - group.begin());
-    if (count > 1) {
-      const Slab& slab = vertices.slab(group[0]);
-      const int along = !onPlane(slab[0]) ? 0 : !onPlane(slab[1]) ? 1 : 2;
-      sortItems(group.first(count), [&](VertexId u, VertexId v) { return vertices.compare(u, v, along, predicates) < 0; });
-      for (size_t i = 1; i < count; ++i) {
-        if (vertices.compare(group[i - 1], group[i], along, predicates) == 0) vertices.failSelfIntersectionAt(group[i - 1], group[i]);
-      }
-    }
-    gridEdges.vertices.items.insert(gridEdges.vertices.items.end(), group.begin(), group.begin() + count);
-    gridEdges.vertices.endGroup();
+  auto& [offsets, items] = gridEdges.vertices;
+  const std::vector<VertexId>& found = gridEdges.onEdges.vertices;
+  groupByPlace(
+      stencil.edgeCount, gridEdges.onEdges.places, [&](uint32_t i) { return found[i]; }, gridEdges.vertices);
+  uint32_t begin = 0, end = 0;  // of a grid-edge's, and what remains of those before
+  for (size_t e = 0; e < stencil.edgeCount; ++e) {
+    const uint32_t past = offsets[e + 1];
+    size_t count = past - begin;
+    if (count > 1) count = putInOrder({items.data() + begin, count}, vertices, gridEdges.predicates);
+    if (end != begin) std::copy_n(items.begin() + begin, count, items.begin() + end);
+    end += uint32_t(count);
+    offsets[e + 1] = end;
+    begin = past;
   }
+  items.resize(end);
 }
 
 }  // namespace mandoline::detail

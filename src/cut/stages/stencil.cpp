@@ -1,7 +1,22 @@
 #include "cut/stages/stencil.h"
 
+#include <utility>
+
+#include "base/appender.h"
+
 namespace mandoline::detail {
 namespace {
+
+/// Some of a cell's grid-faces, grid-edges and corners, a bit for each.
+struct Elements {
+  uint32_t faces = 0, edges = 0, corners = 0;
+
+  constexpr void add(const Elements& more) {
+    faces |= more.faces;
+    edges |= more.edges;
+    corners |= more.corners;
+  }
+};
 
 /// What a cell has in common with one of the neighbours that come before it in the order by z, y, x.
 struct Neighbour {
@@ -21,10 +36,11 @@ struct Neighbour {
   int shift[3] = {};
   List<1> faces;
   List<4> edges, corners;
+  Elements has;  ///< those, in the cell
 };
 
 constexpr Neighbour neighbourAt(int dx, int dy, int dz) {
-  Neighbour n{{dx, dy, dz}, {}, {}, {}};
+  Neighbour n{{dx, dy, dz}, {}, {}, {}, {}};
   // A side of the cell is shared if the neighbour lies towards it or level with it; it is then the opposite or the same side there.
   const auto isShared = [&](int d, int side) { return n.shift[d] == 0 || (n.shift[d] > 0) == (side == 1); };
   const auto there = [&](int d, int side) { return n.shift[d] == 0 ? side : 1 - side; };
@@ -43,6 +59,9 @@ constexpr Neighbour neighbourAt(int dx, int dy, int dz) {
     const int x = i & 1, y = i >> 1 & 1, z = i >> 2;
     if (isShared(0, x) && isShared(1, y) && isShared(2, z)) n.corners.add(i, there(0, x) + 2 * there(1, y) + 4 * there(2, z));
   }
+  for (const auto& shared : n.faces) n.has.faces |= 1u << shared.here;
+  for (const auto& shared : n.edges) n.has.edges |= 1u << shared.here;
+  for (const auto& shared : n.corners) n.has.corners |= 1u << shared.here;
   return n;
 }
 
@@ -55,96 +74,90 @@ constexpr auto kEarlier = [] {
 
 /// The touched cells of a brick, ascending.
 void listCells(const Bricks& bricks, BrickId brick, Stencil& stencil) {
-  for (const Stencil::Cell& cell : stencil.cells) stencil.table[stencil.placeOf(cell.element)] = Stencil::kNone;
+  for (const Stencil::Cell& cell : stencil.cells) stencil.table[size_t(stencil.placeOf(cell.element))] = Stencil::kNone;
   stencil.cells.clear();
   stencil.box = bricks.boxes[brick];
-  const auto& count = stencil.box.count;
-  const size_t size = size_t(count[0] + 2) * size_t(count[1] + 2) * size_t(count[2] + 2);
+  const auto& [first, count] = stencil.box;
+  stencil.steps = {1, count[0] + 2, ptrdiff_t(count[0] + 2) * (count[1] + 2)};
+  stencil.placeOfFirst = 0;
+  for (size_t d = 0; d < 3; ++d) stencil.placeOfFirst += (1 - first[d]) * stencil.steps[d];
+  const size_t size = size_t(stencil.steps[2]) * size_t(count[2] + 2);
   if (stencil.table.size() < size) stencil.table.resize(size, Stencil::kNone);
+  Slab row = {0, 2 * first[1] + 1, 2 * first[2] + 1};  // of cells
+  uint32_t begin = 0;                                  // of the row
   bricks.forTouched(brick, [&](uint32_t index) {
-    stencil.cells.push_back({stencil.box.cellAt(index), {}, {}, {}});
-    stencil.table[stencil.placeOf(stencil.cells.back().element)] = uint32_t(stencil.cells.size() - 1);
+    for (; index - begin >= uint32_t(count[0]); begin += uint32_t(count[0])) {
+      row[1] += 2;
+      if (row[1] < 2 * (first[1] + count[1])) continue;
+      row[1] = 2 * first[1] + 1;
+      row[2] += 2;
+    }
+    stencil.cells.push_back({{2 * (first[0] + int32_t(index - begin)) + 1, row[1], row[2]}, {}, {}, {}});
+    stencil.table[size_t(stencil.placeOf(stencil.cells.back().element))] = uint32_t(stencil.cells.size() - 1);
   });
 }
 
 /// Ids of grid-faces, grid-edges and grid vertices: a cell takes over those that an earlier neighbour shares.
-void numberElements(Stencil& stencil) {
-  std::array<size_t, kEarlier.size()> distances;  // in the table, to earlier cells
-  for (size_t i = 0; i < kEarlier.size(); ++i) {
-    const auto& [x, y, z] = kEarlier[i].shift;
-    distances[i] = size_t(-((ptrdiff_t(z) * (stencil.box.count[1] + 2) + y) * (stencil.box.count[0] + 2) + x));
+class Numbering {
+ public:
+  explicit Numbering(Stencil& stencil) : stencil_(stencil), faces_(stencil.faces, 6 * stencil.cells.size()) {
+    stencil.edgeCount = stencil.cornerCount = 0;
   }
-  stencil.faces.clear();
-  stencil.edgeCount = stencil.cornerCount = 0;
-  for (const GridCellId c : stencil.cells.ids()) {
-    Stencil::Cell& cell = stencil.cells[c];
-    constexpr uint32_t kNew = ~0u;
-    cell.faces.fill({kNew});
-    cell.edges.fill({kNew});
-    cell.corners.fill({kNew});
-    const uint32_t* at = &stencil.table[stencil.placeOf(cell.element)];
-    for (size_t i = 0; i < kEarlier.size(); ++i) {
-      const uint32_t n = *(at - distances[i]);
-      if (n == Stencil::kNone) continue;
-      const Stencil::Cell& other = stencil.cells[GridCellId{n}];
-      for (const auto [here, there] : kEarlier[i].faces) cell.faces[here] = other.faces[there];
-      for (const auto [here, there] : kEarlier[i].edges) cell.edges[here] = other.edges[there];
-      for (const auto [here, there] : kEarlier[i].corners) cell.corners[here] = other.corners[there];
-    }
-    for (uint8_t i = 0; i < 6; ++i) {
-      if (cell.faces[i].number != kNew) continue;
-      cell.faces[i] = {uint32_t(stencil.faces.size())};
-      stencil.faces.push_back({c, i});
-    }
-    for (GridEdgeId& edge : cell.edges) {
-      if (edge.number == kNew) edge = {stencil.edgeCount++};
-    }
-    for (GridVertexId& corner : cell.corners) {
-      if (corner.number == kNew) corner = {stencil.cornerCount++};
-    }
-  }
-}
 
-template <class Item, class Place>
-struct Placed {
-  Item item;
-  Place place;
+  void run() {
+    for (const GridCellId c : stencil_.cells.ids()) {
+      Stencil::Cell& cell = stencil_.cells[c];
+      const uint32_t* at = &stencil_.table[size_t(stencil_.placeOf(cell.element))];
+      const Elements known = takeOver(at, cell, std::make_index_sequence<kEarlier.size()>());
+      forOthers<6>(known.faces, [&](uint32_t i) {
+        cell.faces[i] = {uint32_t(faces_.size())};
+        faces_.add({c, uint8_t(i)});
+      });
+      forOthers<12>(known.edges, [&](uint32_t i) { cell.edges[i] = {stencil_.edgeCount++}; });
+      forOthers<8>(known.corners, [&](uint32_t i) { cell.corners[i] = {stencil_.cornerCount++}; });
+    }
+  }
+
+ private:
+  /// `at`: the cell in the table. Gives what it took over.
+  template <size_t... kNeighbours>
+  Elements takeOver(const uint32_t* at, Stencil::Cell& cell, std::index_sequence<kNeighbours...>) const {
+    Elements known;
+    (takeOverFrom<kNeighbours>(at, cell, known), ...);
+    return known;
+  }
+  template <size_t kNeighbour>
+  void takeOverFrom(const uint32_t* at, Stencil::Cell& cell, Elements& known) const {
+    constexpr Neighbour neighbour = kEarlier[kNeighbour];
+    const auto& [x, y, z] = neighbour.shift;
+    const uint32_t n = at[x + y * stencil_.steps[1] + z * stencil_.steps[2]];
+    if (n == Stencil::kNone) return;
+    const Stencil::Cell& other = stencil_.cells[GridCellId{n}];
+    for (const auto [here, there] : neighbour.faces) cell.faces[here] = other.faces[there];
+    for (const auto [here, there] : neighbour.edges) cell.edges[here] = other.edges[there];
+    for (const auto [here, there] : neighbour.corners) cell.corners[here] = other.corners[there];
+    known.add(neighbour.has);
+  }
+  template <uint32_t kCount, class F>
+  static void forOthers(uint32_t known, const F& f) {
+    for (uint32_t rest = known ^ ((1u << kCount) - 1); rest != 0; rest &= rest - 1) f(uint32_t(std::countr_zero(rest)));
+  }
+
+  Stencil& stencil_;
+  Appender<Stencil::Face> faces_;
 };
-
-template <class Item, class Place>
-Csr<Item, Place> grouped(size_t places, const std::vector<Placed<Item, Place>>& placed) {
-  return groupBy<Item, Place>(
-      places, placed.size(), [&](size_t i) { return placed[i].place; }, [&](size_t i) { return placed[i].item; });
-}
 
 /// A grid-face that a cell of the stencil has.
 GridFaceId faceAt(const Stencil& stencil, const Slab& gridFace) {
   const int axis = planeAxis(gridFace);
-  Slab cell = gridFace;
-  --cell[size_t(axis)];
-  uint32_t number = stencil.table[stencil.placeOf(cell)];
+  const ptrdiff_t above = stencil.placeOf(gridFace);
+  uint32_t number = stencil.numberAt(above - stencil.steps[size_t(axis)]);
   const bool isBelow = number != Stencil::kNone;
-  if (!isBelow) {
-    cell[size_t(axis)] += 2;
-    number = stencil.table[stencil.placeOf(cell)];
-  }
+  if (!isBelow) number = stencil.numberAt(above);
   return stencil.cells[{number}].faces[size_t(cellFace(axis, isBelow))];
 }
 
 }  // namespace
-
-std::array<GridVertexId, 4> Stencil::cornersOf(const Face& face) const {
-  const Cell& cell = cells[face.cell];
-  const int d = face.axis(), base = face.side() << d, p = 1 << (d + 1) % 3, q = 1 << (d + 2) % 3;
-  return {cell.corners[base], cell.corners[base + p], cell.corners[base + p + q], cell.corners[base + q]};
-}
-
-std::array<GridEdgeId, 4> Stencil::edgesOf(const Face& face) const {
-  const Cell& cell = cells[face.cell];
-  const int d = face.axis(), side = face.side(), p = (d + 1) % 3, q = (d + 2) % 3;
-  return {cell.edges[cellEdge(p, 0, side)], cell.edges[cellEdge(q, side, 1)], cell.edges[cellEdge(p, 1, side)],
-          cell.edges[cellEdge(q, side, 0)]};
-}
 
 std::optional<GridCellId> Stencil::find(const Slab& cell) const {
   if (!box.has(cell)) return {};
@@ -153,34 +166,34 @@ std::optional<GridCellId> Stencil::find(const Slab& cell) const {
   return GridCellId{number};
 }
 
-std::optional<GridCellId> Stencil::cellBeside(const Slab& element) const {
-  std::optional<GridCellId> found;
-  findCellAround(element, [&](const Slab& cell) { return (found = find(cell)).has_value(); });
-  return found;
-}
-
 void makeStencil(const BrickSurface& surface, const Bricks& bricks, BrickId brick, Stencil& stencil) {
   listCells(bricks, brick, stencil);
-  numberElements(stencil);
+  Numbering(stencil).run();
 
   const TriFaces& triFaces = surface.triFaces;
-  std::vector<Placed<FaceId, GridCellId>> inCell;
-  std::vector<Placed<FaceId, GridFaceId>> onFace;
-  std::vector<Placed<FaceEdge, GridFaceId>> edges;
-  inCell.reserve(triFaces.size());
+  std::vector<GridCellId>& cells = stencil.cellOf;
+  std::vector<GridFaceId>& faces = stencil.faceOf;
+  std::vector<FaceId> inPlane;
+  cells.resize(triFaces.size());
+  faces.clear();
   for (const FaceId f : triFaces.ids()) {
     const Slab& element = triFaces.elements[f];
     if (planeCount(element) == 0) {
-      inCell.push_back({f, {stencil.table[stencil.placeOf(element)]}});
+      cells[f.number] = {stencil.numberAt(stencil.placeOf(element))};
     } else {
-      onFace.push_back({f, faceAt(stencil, element)});
+      cells[f.number] = {Stencil::kNone};
+      faces.push_back(faceAt(stencil, element));
+      inPlane.push_back(f);
     }
   }
-  edges.reserve(surface.faceEdges.size());
-  for (const FaceEdge& edge : surface.faceEdges) edges.push_back({edge, faceAt(stencil, edge.element)});
-  stencil.triFacesInCell = grouped(stencil.cells.size(), inCell);
-  stencil.triFacesOnFace = grouped(stencil.faces.size(), onFace);
-  stencil.edgesOnFace = grouped(stencil.faces.size(), edges);
+  groupByPlace(
+      stencil.cells.size(), cells, [](uint32_t i) { return FaceId{i}; }, stencil.triFacesInCell);
+  groupByPlace(
+      stencil.faces.size(), faces, [&](uint32_t i) { return inPlane[i]; }, stencil.triFacesOnFace);
+  faces.resize(surface.faceEdges.size());
+  for (size_t i = 0; i < faces.size(); ++i) faces[i] = faceAt(stencil, surface.faceEdges[i].element);
+  groupByPlace(
+      stencil.faces.size(), faces, [&](uint32_t i) { return surface.faceEdges[i]; }, stencil.edgesOnFace);
 }
 
 }  // namespace mandoline::detail

@@ -16,6 +16,20 @@ namespace mandoline::detail {
 constexpr int cellFace(int axis, int side) { return 2 * axis + side; }
 constexpr int cellEdge(int axis, int side1, int side2) { return 4 * axis + side1 + 2 * side2; }
 
+/// The corners of a grid-face of a cell, counter-clockwise about its axis, and the grid-edge from each to the next. Edges 2 and 3 run
+/// against their axis.
+struct Outline {
+  std::array<uint8_t, 4> corners, edges;
+};
+constexpr Outline cellOutline(int axis, int side) {
+  const int base = side << axis, p = (axis + 1) % 3, q = (axis + 2) % 3;
+  const auto corner = [&](int atP, int atQ) { return uint8_t(base + (atP << p) + (atQ << q)); };
+  return {{corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)},
+          {uint8_t(cellEdge(p, 0, side)), uint8_t(cellEdge(q, side, 1)), uint8_t(cellEdge(p, 1, side)), uint8_t(cellEdge(q, side, 0))}};
+}
+inline constexpr std::array<Outline, 6> kOutlines = {cellOutline(0, 0), cellOutline(0, 1), cellOutline(1, 0),
+                                                     cellOutline(1, 1), cellOutline(2, 0), cellOutline(2, 1)};
+
 struct Stencil {
   struct Cell {
     Slab element;  ///< all odd
@@ -42,24 +56,51 @@ struct Stencil {
   Csr<FaceId, GridFaceId> triFacesOnFace;  ///< tri-cut-faces that lie in each grid-face
   Csr<FaceEdge, GridFaceId> edgesOnFace;   ///< cut-edges inside of each grid-face
 
-  /// The corners of a grid-face, counter-clockwise about its axis, and the grid-edge from each to the next. Edges 2 and 3 run against their
-  /// axis.
-  std::array<GridVertexId, 4> cornersOf(const Face& face) const;
-  std::array<GridEdgeId, 4> edgesOf(const Face& face) const;
+  /// As of an Outline.
+  std::array<GridVertexId, 4> cornersOf(const Face& face) const {
+    const auto& [a, b, c, d] = kOutlines[face.index].corners;
+    const auto& corners = cells[face.cell].corners;
+    return {corners[a], corners[b], corners[c], corners[d]};
+  }
+  std::array<GridEdgeId, 4> edgesOf(const Face& face) const {
+    const auto& [a, b, c, d] = kOutlines[face.index].edges;
+    const auto& edges = cells[face.cell].edges;
+    return {edges[a], edges[b], edges[c], edges[d]};
+  }
   /// A grid cell of the brick, if it belongs to the stencil.
   std::optional<GridCellId> find(const Slab& cell) const;
-  /// A cell that has a grid element, and lies in the brick.
-  std::optional<GridCellId> cellBeside(const Slab& element) const;
 
   /// Numbers of cells in the brick with a margin of one cell; kNone for those that are not touched.
   std::vector<uint32_t> table;
   static constexpr uint32_t kNone = ~0u;
+  std::array<ptrdiff_t, 3> steps{};  ///< in the table, to the next cell along each axis
+  ptrdiff_t placeOfFirst = 0;        ///< of the grid's first cell, were it there
 
-  size_t placeOf(const Slab& cell) const {
-    const auto at = [&](size_t d) { return size_t((cell[d] >> 1) - box.first[d] + 1); };
-    return (at(2) * size_t(box.count[1] + 2) + at(1)) * size_t(box.count[0] + 2) + at(0);
+  /// Of a cell; of another element that of the cell above the planes it lies on.
+  ptrdiff_t placeOf(const Slab& element) const {
+    return (element[0] >> 1) + (element[1] >> 1) * steps[1] + (element[2] >> 1) * steps[2] + placeOfFirst;
   }
+  uint32_t numberAt(ptrdiff_t place) const { return table[size_t(place)]; }
+
+  // Scratch.
+  std::vector<GridCellId> cellOf;  ///< per tri-cut-face
+  std::vector<GridFaceId> faceOf;  ///< per tri-cut-face in a grid-face, then per cut-edge
 };
+
+/// Groups those items that have a place: placeOf[i] of the i-th, or Stencil::kNone. Replaces `csr`, whose memory is used again.
+template <class Item, class Place, class ItemOf>
+void groupByPlace(size_t places, const std::vector<Place>& placeOf, const ItemOf& itemOf, Csr<Item, Place>& csr) {
+  constexpr Place kNone{Stencil::kNone};
+  csr.offsets.assign(places + 1, 0);
+  for (const Place place : placeOf) {
+    if (place != kNone) ++csr.offsets[place.number];
+  }
+  csr.items.resize(toOffsets(csr.offsets));
+  for (uint32_t i = 0; i < placeOf.size(); ++i) {
+    if (placeOf[i] != kNone) csr.items[csr.offsets[placeOf[i].number]++] = itemOf(i);
+  }
+  moveBack(csr.offsets);
+}
 
 /// Replaces `stencil`, whose memory is used again.
 void makeStencil(const BrickSurface& surface, const Bricks& bricks, BrickId brick, Stencil& stencil);

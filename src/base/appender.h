@@ -1,0 +1,35 @@
+// Items appended to an array that is made long enough before, so that appending is one store.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace mandoline::detail {
+
+/// Overwrites a vector, which gets its length when the appender is destroyed.
+template <class Item>
+class Appender {
+ public:
+  /// `most`: how many items may come.
+  Appender(std::vector<Item>& items, size_t most) : items_(items) {
+    if (items.size() < most) items.resize(most);
+    end_ = items.data();
+  }
+  Appender(const Appender&) = delete;
+  ~Appender() { items_.resize(size()); }
+
+  size_t size() const { return size_t(end_ - items_.data()); }
+  void add(const Item& item) { *end_++ = item; }
+  template <class Iterator>
+  void add(Iterator from, Iterator past) {
+    Item* end = end_;
+    for (; from != past; ++from) *end++ = *from;
+    end_ = end;
+  }
+
+ private:
+  std::vector<Item>& items_;
+  Item* end_;
+};
+
+}  // namespace mandoline::detail
