@@ -1,7 +1,23 @@
 #include "cut/stages/grid_faces.h"
 
+#include "base/appender.h"
+#include "cut/stages/one_chain.h"
+
 namespace mandoline::detail {
 namespace {
+
+/// How much there may be at most: each cut-edge adds a piece or a loop at most, and has one vertex of loops on either side.
+struct Most {
+  size_t gridFaces, faces, loopVertices, beside;
+
+  Most(const Stencil& stencil, const GridEdges& gridEdges) {
+    const size_t edges = stencil.edgesOnFace.items.size();
+    gridFaces = stencil.faces.size();
+    faces = gridFaces + edges;
+    loopVertices = 4 * (gridFaces + gridEdges.vertices.items.size()) + 2 * edges;  // a grid-edge has four grid-faces
+    beside = loopVertices + 5 * gridFaces;
+  }
+};
 
 class FaceCutter {
  public:
@@ -12,66 +28,118 @@ class FaceCutter {
         triFaces_(surface.triFaces),
         vertices_(surface.vertices),
         scratch_(scratch),
-        faces_(faces) {}
+        faces_(faces),
+        most_(stencil, gridEdges),
+        loopVertices_(faces.loops.items, most_.loopVertices),
+        pastLoopVertex_(faces.loops.offsets, most_.faces + 1),
+        pastLoop_(faces.faceLoopOffsets, most_.faces + 1),
+        gridFaceOf_(faces.gridFaces, most_.faces),
+        halfFaces_(faces.halfFaces.items, most_.faces + stencil.triFacesOnFace.items.size()),
+        pastHalfFace_(faces.halfFaces.offsets, most_.gridFaces + 1),
+        pastSlit_(faces.slits.offsets, most_.gridFaces + 1),
+        beside_(faces.beside.items, most_.beside),
+        pastBeside_(faces.beside.offsets, most_.gridFaces + 1),
+        kinds_(faces.kinds, most_.gridFaces) {
+    for (Appender<uint32_t>* offsets : {&pastLoopVertex_, &pastLoop_, &pastHalfFace_, &pastSlit_, &pastBeside_}) offsets->add(0);
+    faces.slits.items.clear();
+    scratch.outline.resize(4 + gridEdges.vertices.items.size());
+  }
 
   void cut(GridFaceId gridFace) {
-    findOutline(stencil_.faces[gridFace]);
-    if (stencil_.edgesOnFace[gridFace].empty() && stencil_.triFacesOnFace[gridFace].empty()) {
-      addWhole(gridFace);
-    } else {
-      cutByGraph(gridFace);
-    }
-    faces_.halfFaces.endGroup();
-    faces_.slits.endGroup();
-    faces_.beside.endGroup();
+    kinds_.add(cutAs(gridFace));
+    pastHalfFace_.add(uint32_t(halfFaces_.size()));
+    pastSlit_.add(uint32_t(faces_.slits.items.size()));
+    pastBeside_.add(uint32_t(beside_.size()));
   }
 
  private:
+  GridFaceKind cutAs(GridFaceId gridFace) {
+    const auto edges = stencil_.edgesOnFace[gridFace];
+    const auto triFaces = stencil_.triFacesOnFace[gridFace];
+    const std::span<const VertexId> outline = findOutline(stencil_.faces[gridFace]);
+    if (edges.empty() && triFaces.empty()) {
+      addPiece(gridFace, [&](const auto& add) { add(outline.begin(), outline.end()); });
+      return GridFaceKind::whole;
+    }
+    const bool mayChain = !scratch_.onlyGraph && triFaces.empty();
+    if (mayChain && chain_.find(outline, edges)) {
+      addChained(gridFace, outline, edges.size());
+      return GridFaceKind::chains;
+    }
+    PlanarGraph& graph = scratch_.graph;
+    graph.begin(vertices_, stencil_.faces[gridFace].axis());
+    graph.setOutline(outline);
+    for (const FaceEdge& e : edges) graph.addEdge(e.from, e.to);
+    if (mayChain && graph.traceChains(scratch_.chains)) {
+      addChained(gridFace, outline.size());
+      return GridFaceKind::chains;
+    }
+    cutByGraph(gridFace);
+    return GridFaceKind::graph;
+  }
+
   /// The vertices on the sides, counter-clockwise about the axis.
-  void findOutline(const Stencil::Face& face) {
+  std::span<const VertexId> findOutline(const Stencil::Face& face) {
     const auto corners = stencil_.cornersOf(face);
     const auto edges = stencil_.edgesOf(face);
-    std::vector<VertexId>& outline = scratch_.outline;
-    outline.clear();
-    for (int i = 0; i < 4; ++i) {
-      scratch_.sides[size_t(i)] = uint32_t(outline.size());
-      outline.push_back(gridEdges_.corners[corners[i]]);
+    VertexId *const begin = scratch_.outline.data(), *end = begin;
+    for (size_t i = 0; i < 4; ++i) {
+      scratch_.sides[i] = uint32_t(end - begin);
+      *end++ = gridEdges_.corners[corners[i]];
       const auto inside = gridEdges_.vertices[edges[i]];
-      if (i < 2) {
-        outline.insert(outline.end(), inside.begin(), inside.end());
-      } else {
-        outline.insert(outline.end(), inside.rbegin(), inside.rend());
-      }
+      for (size_t k = 0; k < inside.size(); ++k) *end++ = inside[i < 2 ? k : inside.size() - 1 - k];
     }
-    scratch_.sides[4] = uint32_t(outline.size());
+    scratch_.sides[4] = uint32_t(end - begin);
+    return {begin, end};
   }
 
   FaceId beginFace(GridFaceId gridFace) {
-    faces_.gridFaces.push_back(gridFace);
-    return {uint32_t(triFaces_.size() + faces_.size() - 1)};
+    gridFaceOf_.add(gridFace);
+    return {uint32_t(triFaces_.size() + gridFaceOf_.size() - 1)};
   }
+  void endLoop() { pastLoopVertex_.add(uint32_t(loopVertices_.size())); }
   void endFace(FaceId id) {
-    faces_.faceLoopOffsets.push_back(uint32_t(faces_.loops.size()));
-    faces_.halfFaces.items.push_back(HalfFace(id, 0));
+    pastLoop_.add(uint32_t(pastLoopVertex_.size() - 1));
+    halfFaces_.add(HalfFace(id, 0));
+  }
+  /// One with one loop, of which addParts(add) calls add(from, past) for the parts.
+  template <class F>
+  void addPiece(GridFaceId gridFace, const F& addParts) {
+    const FaceId id = beginFace(gridFace);
+    addParts([&](auto from, auto past) { loopVertices_.add(from, past); });
+    endLoop();
+    endFace(id);
   }
 
-  void addWhole(GridFaceId gridFace) {
-    faces_.kinds.push_back(GridFaceKind::whole);
-    const FaceId id = beginFace(gridFace);
-    Csr<VertexId>& loops = faces_.loops;
-    loops.items.insert(loops.items.end(), scratch_.outline.begin(), scratch_.outline.end());
-    loops.endGroup();
-    endFace(id);
+  /// Where chain_ parts it.
+  void addChained(GridFaceId gridFace, std::span<const VertexId> outline, size_t edges) {
+    for (uint32_t piece = 0; piece < 2; ++piece) addPiece(gridFace, [&](const auto& add) { chain_.forLoop(piece, outline, edges, add); });
+    beside_.add(scratch_.sides.begin(), scratch_.sides.end());
+    for (uint32_t side = 0; side < outline.size(); ++side)
+      beside_.add(side >= chain_.first && side < chain_.last ? chain_.between() : chain_.other());
+    for (size_t e = 0; e < edges; ++e) {
+      const uint32_t left = chain_.runsToLast[e] ? chain_.other() : chain_.between();
+      beside_.add(left);
+      beside_.add(1 - left);
+    }
+  }
+  /// Where scratch_.chains do.
+  void addChained(GridFaceId gridFace, size_t sides) {
+    for (size_t piece = 0; piece < scratch_.chains.loops.size(); ++piece) {
+      const FaceId id = beginFace(gridFace);
+      for (const GraphVertex v : scratch_.chains.loops[piece]) loopVertices_.add(scratch_.graph.vertex(v));
+      endLoop();
+      endFace(id);
+    }
+    const std::vector<uint32_t>& found = scratch_.chains.beside;
+    beside_.add(scratch_.sides.begin(), scratch_.sides.end());
+    for (size_t side = 0; side < sides; ++side) beside_.add(found[2 * side]);
+    beside_.add(found.begin() + ptrdiff_t(2 * sides), found.end());
   }
 
   void cutByGraph(GridFaceId gridFace) {
     PlanarGraph& graph = scratch_.graph;
     const int axis = stencil_.faces[gridFace].axis();
-    graph.begin(vertices_, axis);
-    graph.setOutline(scratch_.outline);
-    for (const FaceEdge& e : stencil_.edgesOnFace[gridFace]) graph.addEdge(e.from, e.to);
-    if (!scratch_.onlyGraph && stencil_.triFacesOnFace[gridFace].empty() && graph.traceChains(scratch_.chains)) return addChained(gridFace);
-    faces_.kinds.push_back(GridFaceKind::graph);
     graph.build(scratch_.predicates);
 
     auto& seen = scratch_.seen;
@@ -81,7 +149,7 @@ class FaceCutter {
       std::optional<HalfFace>& halfFace = seen[faceOfTriFace(f, down)];
       if (halfFace) vertices_.failSelfIntersection(triangleOf(*halfFace), triFaces_.triangles[f]);
       halfFace = HalfFace(f, down ? 1 : 0);
-      faces_.halfFaces.items.push_back(*halfFace);
+      halfFaces_.add(*halfFace);
     }
     for (size_t l = 0; l < graph.loopStarts.size();) {
       const PlanarGraph::Face face = graph.loopFaces[l];
@@ -100,29 +168,13 @@ class FaceCutter {
     addSlits();
   }
 
-  void addChained(GridFaceId gridFace) {
-    Csr<VertexId>& loops = faces_.loops;
-    for (size_t face = 0; face < scratch_.chains.loops.size(); ++face) {
-      const FaceId id = beginFace(gridFace);
-      for (const GraphVertex v : scratch_.chains.loops[face]) loops.items.push_back(scratch_.graph.vertex(v));
-      loops.endGroup();
-      endFace(id);
-    }
-    faces_.kinds.push_back(GridFaceKind::chains);
-    std::vector<uint32_t>& beside = faces_.beside.items;
-    const std::vector<uint32_t>& found = scratch_.chains.beside;
-    const size_t sides = scratch_.outline.size();
-    beside.insert(beside.end(), scratch_.sides.begin(), scratch_.sides.end());
-    for (size_t side = 0; side < sides; ++side) beside.push_back(found[2 * side]);
-    beside.insert(beside.end(), found.begin() + ptrdiff_t(2 * sides), found.end());
-  }
-
   void addLoop(PlanarGraph::HalfEdge start) {
-    std::vector<VertexId>& vertices = faces_.loops.items;
-    const size_t first = vertices.size();
-    scratch_.graph.appendLoop(start, vertices);
-    if (vertices.size() - first < 3) vertices_.failSelfIntersectionAt(vertices[first], vertices.back());  // two cut-edges on each other
-    faces_.loops.endGroup();
+    std::vector<VertexId>& loop = scratch_.loop;
+    loop.clear();
+    scratch_.graph.appendLoop(start, loop);
+    if (loop.size() < 3) vertices_.failSelfIntersectionAt(loop.front(), loop.back());  // two cut-edges on each other
+    loopVertices_.add(loop.begin(), loop.end());
+    endLoop();
   }
 
   /// The graph's face that a tri-cut-face in the plane is: its loop must be that face's only boundary.
@@ -194,23 +246,20 @@ class FaceCutter {
   const CutVertices& vertices_;
   GridFaceScratch& scratch_;
   GridFaces& faces_;
+  const Most most_;
+  Appender<VertexId> loopVertices_;
+  Appender<uint32_t> pastLoopVertex_, pastLoop_;
+  Appender<GridFaceId> gridFaceOf_;
+  Appender<HalfFace> halfFaces_;
+  Appender<uint32_t> pastHalfFace_, pastSlit_, beside_, pastBeside_;
+  Appender<GridFaceKind> kinds_;
+  OneChain chain_;
 };
 
 }  // namespace
 
-void GridFaces::clear() {
-  loops.clear();
-  faceLoopOffsets.assign(1, 0);
-  gridFaces.clear();
-  halfFaces.clear();
-  slits.clear();
-  kinds.clear();
-  beside.clear();
-}
-
 void cutGridFaces(const BrickSurface& surface, const Stencil& stencil, const GridEdges& gridEdges, GridFaceScratch& scratch,
                   GridFaces& faces) {
-  faces.clear();
   FaceCutter cutter(surface, stencil, gridEdges, scratch, faces);
   for (const GridFaceId g : stencil.faces.ids()) cutter.cut(g);
 }

@@ -33,7 +33,6 @@ struct GridFaces {
   Csr<uint32_t, GridFaceId> beside;
 
   size_t size() const { return gridFaces.size(); }
-  void clear();
 };
 
 /// What cutting grid-faces needs room for; the same for all bricks of a thread.

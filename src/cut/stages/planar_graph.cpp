@@ -23,7 +23,7 @@ GraphVertex PlanarGraph::localOf(VertexId id) {
   return local;
 }
 
-void PlanarGraph::setOutline(const std::vector<VertexId>& outline) {
+void PlanarGraph::setOutline(std::span<const VertexId> outline) {
   sides_ = outline.size();
   for (const VertexId id : outline) localOf(id);
   for (uint32_t i = 0; i < sides_; ++i) {

@@ -29,7 +29,7 @@ class PlanarGraph {
   /// Empties the graph for a grid-face across `axis`.
   void begin(const CutVertices& vertices, int axis);
   /// The outline; call before addEdge.
-  void setOutline(const std::vector<VertexId>& outline);
+  void setOutline(std::span<const VertexId> outline);
   /// A cut-edge inside of the square.
   void addEdge(VertexId from, VertexId to);
 

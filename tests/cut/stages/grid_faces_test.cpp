@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <random>
 
 #include "case_list.h"
 #include "catch.h"
 #include "cut/stages/chains.h"
+#include "cut/stages/one_chain.h"
 #include "staged_cut.h"
 
 using namespace stages;
@@ -117,4 +119,53 @@ TEST_CASE("Chains say where they are not enough", "[stages][gridFaces]") {
   CHECK_FALSE(areChains({{0, 2}, {0, 3}}, chains));                  // share a vertex of the outline
   CHECK_FALSE(areChains({{0, 4}, {4, 2}, {4, 3}}, chains));          // meet inside
   CHECK_FALSE(areChains({{0, 1}}, chains));                          // along the outline
+}
+
+TEST_CASE("One chain gives what chains give, or is not found", "[stages][gridFaces]") {
+  const std::vector<VertexId> outline{{70}, {6}, {2}, {9}, {66}};  // some with the same bits below 64, as with vertices inside
+  constexpr uint32_t kFirstInside = 128;
+  std::mt19937 random(1);
+  std::array<size_t, OneChain::kMostEdges + 1> found{};
+  size_t others = 0;
+  for (int round = 0; round < 20000; ++round) {
+    const uint32_t most = random() % 5, sides = uint32_t(outline.size());
+    std::vector<uint32_t> way{uint32_t(random() % sides)};  // numbers as in a PlanarGraph: mostly a chain
+    uint32_t inside = 0;
+    for (uint32_t i = 0; i < most; ++i) way.push_back(sides + (random() % 16 > 0 || inside == 0 ? inside++ : random() % inside));
+    way.push_back(random() % 16 > 0 || inside == 0 ? random() % sides : sides);
+    std::vector<std::array<uint32_t, 2>> edges;
+    for (size_t i = 1; i < way.size(); ++i) edges.push_back({way[i - 1], way[i]});
+    if (random() % 16 == 0) edges.push_back({uint32_t(random() % sides), uint32_t(random() % sides)});
+    std::shuffle(edges.begin(), edges.end(), random);
+    std::vector<GraphVertex> ends;
+    std::vector<FaceEdge> faceEdges;
+    for (uint32_t i = 0; i < sides; ++i) ends.insert(ends.end(), {{i}, {(i + 1) % sides}});
+    const auto idOf = [&](uint32_t v) { return v < sides ? outline[v] : VertexId{kFirstInside + v}; };
+    for (auto& [a, b] : edges) {
+      if (random() % 2 == 0) std::swap(a, b);
+      ends.insert(ends.end(), {{a}, {b}});
+      faceEdges.push_back({{}, idOf(a), idOf(b)});
+    }
+    OneChain one;
+    Chains chains;
+    const bool isOne = one.find(outline, faceEdges), areMany = chains.trace(sides, ends, sides + inside);
+    if (!isOne) {
+      others += areMany && chains.loops.size() == 2;
+      continue;
+    }
+    REQUIRE(areMany);
+    REQUIRE(chains.loops.size() == 2);
+    ++found[edges.size()];
+    for (uint32_t piece = 0; piece < 2; ++piece) {
+      std::vector<VertexId> loop, expected;
+      one.forLoop(piece, outline, edges.size(), [&](auto from, auto past) { loop.insert(loop.end(), from, past); });
+      for (const GraphVertex v : chains.loops[piece]) expected.push_back(idOf(v.number));
+      REQUIRE(loop == expected);
+    }
+    for (uint32_t side = 0; side < sides; ++side)
+      REQUIRE(chains.beside[2 * side] == (side >= one.first && side < one.last ? one.between() : one.other()));
+    for (size_t e = 0; e < edges.size(); ++e) REQUIRE(chains.beside[2 * (sides + e)] == (one.runsToLast[e] ? one.other() : one.between()));
+  }
+  CHECK(others == 0);
+  for (size_t edges = 1; edges <= 5; ++edges) CHECK(found[edges] > 1000);
 }

@@ -1,0 +1,92 @@
+// A grid-face that one chain of cut-edges parts in two, as most are that are not whole: neither a graph nor numbers of its vertices are
+// needed. Else see chains.h.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <iterator>
+#include <span>
+
+#include "cut/stages/tri_edges.h"
+
+namespace mandoline::detail {
+
+struct OneChain {
+  static constexpr size_t kMostEdges = 16;
+
+  uint32_t first, last;                             ///< where it meets the outline, ascending
+  std::array<VertexId, kMostEdges> inside;          ///< its other vertices, from the first end to the last
+  std::array<bool, kMostEdges> runsToLast;          ///< per edge
+  uint32_t between() const { return first > 0; }    ///< of the pieces: that with the part of the outline between the ends
+  uint32_t other() const { return 1 - between(); }  ///< that with the rest; to the left of the way from the first end to the last
+
+  /// False unless the edges are one chain between two vertices of the outline that meets it nowhere else, and each of the pieces has three
+  /// vertices or more. Pieces are in the order of Chains.
+  bool find(std::span<const VertexId> outline, std::span<const FaceEdge> edges) {
+    return !edges.empty() && edges.size() <= kMostEdges && findEnds(outline, edges) && walk(outline, edges) &&
+           last - first + edges.size() > 2 && outline.size() - (last - first) + edges.size() > 2;
+  }
+
+  /// Calls add(from, past), with iterators, for the parts of a piece's loop.
+  template <class F>
+  void forLoop(uint32_t piece, std::span<const VertexId> outline, size_t edges, const F& add) const {
+    const VertexId *line = outline.data(), *forth = inside.data(), *back = forth + edges - 1;
+    const auto addBack = [&] { add(std::reverse_iterator(back), std::reverse_iterator(forth)); };
+    if (piece == between()) {
+      add(line + first, line + last + 1);
+      addBack();
+    } else if (first > 0) {
+      add(line, line + first + 1);
+      add(forth, back);
+      add(line + last, line + outline.size());
+    } else {
+      add(line + last, line + outline.size());
+      add(line, line + 1);
+      add(forth, back);
+    }
+  }
+
+ private:
+  bool findEnds(std::span<const VertexId> outline, std::span<const FaceEdge> edges) {
+    uint64_t maybe = 0;  // a bit for each vertex of the outline, and a few others
+    for (const VertexId v : outline) maybe |= bitOf(v);
+    uint32_t found = 0, at[2];
+    const auto note = [&](VertexId v) {
+      if (!(maybe & bitOf(v))) return true;
+      const auto place = std::find(outline.begin(), outline.end(), v);
+      if (place == outline.end()) return true;
+      if (found == 2) return false;
+      at[found++] = uint32_t(place - outline.begin());
+      return true;
+    };
+    for (const FaceEdge& e : edges) {
+      if (!note(e.from) || !note(e.to)) return false;
+    }
+    if (found < 2 || at[0] == at[1]) return false;
+    first = std::min(at[0], at[1]);
+    last = std::max(at[0], at[1]);
+    return true;
+  }
+  static uint64_t bitOf(VertexId v) { return uint64_t(1) << v.number % 64; }
+
+  /// From the first end to the last. False unless it takes all edges and finds one at each vertex.
+  bool walk(std::span<const VertexId> outline, std::span<const FaceEdge> edges) {
+    VertexId at = outline[first];
+    uint32_t rest = (uint32_t(1) << edges.size()) - 1;
+    for (size_t step = 0; rest != 0; ++step) {
+      uint32_t here = 0;
+      for (uint32_t e = 0; e < edges.size(); ++e) here |= uint32_t(edges[e].from == at || edges[e].to == at) << e;
+      here &= rest;
+      if (here == 0 || (here & (here - 1)) != 0) return false;
+      rest ^= here;
+      const size_t e = size_t(std::countr_zero(here));
+      runsToLast[e] = edges[e].from == at;
+      at = runsToLast[e] ? edges[e].to : edges[e].from;
+      inside[step] = at;
+    }
+    return at == outline[last];
+  }
+};
+
+}  // namespace mandoline::detail
