@@ -82,8 +82,8 @@ struct CutVertices {
     double low, high;
   };
   Range range(VertexId v, int axis, Predicates& predicates) const;
-  /// The coordinates as doubles, rounded but within the vertex's slabs.
-  Point position(VertexId v, Predicates& predicates) const;
+  /// The coordinates as doubles, rounded but within the vertex's slabs. `onlyGeneral`: without the quick ways, which give the same.
+  Point position(VertexId v, Predicates& predicates, bool onlyGeneral = false) const;
 
   /// Some triangle that the vertex lies on, to blame.
   std::optional<TriangleId> triangleAt(VertexId v) const;
@@ -96,6 +96,10 @@ struct CutVertices {
   const CutVertices& ofSurface() const { return surface ? *surface : *this; }
   template <class Number>
   Homogeneous<Number> pointOfPlanes(VertexId v, const Line& line, const Point& reference) const;
+  bool placeQuickly(VertexId v, Point& p) const;
+  bool placeOnLine(const Slab& slab, const Line& line, const Point& reference, Point& p) const;
+  bool placeInTriangle(const Slab& slab, TriangleId triangle, Point& p) const;
+  void placeExactly(VertexId v, Point& p, Predicates& predicates) const;
 };
 
 /// A crossing of the line that two triangles' planes have in common.

@@ -105,6 +105,8 @@ class VertexWriter {
         parents_(out.vertexParents.data()),
         masks_(out.vertexMask.data()) {}
 
+  bool onlyGeneral = false;  ///< without the quick ways to positions
+
   /// Vertex v of the mesh or its edges becomes number i.
   void writeOnEdges(const CutVertices& vertices, VertexId v, size_t i, Predicates& predicates) {
     const Slab& slab = vertices.slabs[v.number];
@@ -119,10 +121,15 @@ class VertexWriter {
   }
   /// Another one.
   void writeOther(const CutVertices& vertices, VertexId v, size_t i, Predicates& predicates) {
-    const TriangleId triangle = vertices.triangle(v);
-    writeParents(i, -1, {triangle == CutVertices::kNoTriangle ? -1 : int32_t(triangle.number), -1});
-    writePosition(i, vertices, v, predicates);
-    writePlace(i, vertices.slab(v));
+    const Slab& slab = vertices.slab(v);
+    writeParents(i, -1, {int32_t(vertices.triangle(v).number), -1});
+    static_assert(int32_t(CutVertices::kNoTriangle.number) == -1);
+    if (planeCount(slab) == 3) {
+      writeCoordinates(i, slab, [](size_t) { return 0; });
+    } else {
+      writePosition(i, vertices, v, predicates);
+    }
+    writePlace(i, slab);
   }
 
  private:
@@ -151,7 +158,7 @@ class VertexWriter {
       double* position = positions_ + 3 * i;
       for (size_t d = 0; d < 3; ++d) position[d] = before[d];
     } else {
-      const Point p = vertices.position(v, predicates);
+      const Point p = vertices.position(v, predicates, onlyGeneral);
       writeCoordinates(i, vertices.slab(v), [&](size_t d) { return scale_.world(p[d]); });
     }
   }
@@ -211,10 +218,8 @@ void writeVertices(const CutState& state, const std::vector<VertexId>& surface, 
     }
     const BrickCut& cut = state.cuts[{task}];
     forOwn(cut, &BrickRow::pastVertex, state.seams[{task}].vertices, [&](uint32_t, uint32_t first, uint32_t past) {
-      for (uint32_t i = first; i < past; ++i) {
-        const VertexId v = cut.lineVertices[i];
-        writer.writeOther(cut.vertices, v, numbers.vertex({task}, v) - before, predicates[thread]);
-      }
+      size_t number = numbers.vertex({task}, cut.lineVertices[first]) - before;
+      for (uint32_t i = first; i < past; ++i) writer.writeOther(cut.vertices, cut.lineVertices[i], number++, predicates[thread]);
     });
   });
   for (const Predicates& p : predicates) run.count(p);
@@ -269,6 +274,7 @@ CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& r
   });
   rooms.makeForVertices(surface.size());
   VertexWriter writer(mesh, grid, input, kept, out);
+  writer.onlyGeneral = run.onlyGeneral;
   writeVertices(state, surface, writer, run);
   drop([&] {
     state.cuts = {};
