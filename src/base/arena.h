@@ -77,7 +77,7 @@ class Arena {
     size_ = std::max(size_ == 0 ? kFirst : std::clamp(2 * size_, kSecond, kLargest), least);
     const std::align_val_t alignment{size_ < kSecond ? kAlignment : kPageAlignment};
     blocks_.push_back({::operator new(size_, alignment), Free{alignment}});
-    getPages(blocks_.back().get(), size_);
+    preferLargePages(blocks_.back().get(), size_);
     next_ = static_cast<std::byte*>(blocks_.back().get());
     left_ = size_;
   }

@@ -19,22 +19,28 @@ constexpr uintptr_t kPage = uintptr_t(1) << 12, kLargePage = kPageAlignment;
 /// Fewer bytes are not worth the call.
 constexpr uintptr_t kFew = 16 * kPage;
 
+uintptr_t roundedUp(uintptr_t at, uintptr_t page) { return (at + page - 1) & ~(page - 1); }
+
 void advise(uintptr_t begin, uintptr_t end, int advice) {
   if (begin + kFew <= end) madvise(reinterpret_cast<void*>(begin), end - begin, advice);
 }
 
 }  // namespace
 
+void preferLargePages(void* begin, size_t bytes) {
+  const uintptr_t at = reinterpret_cast<uintptr_t>(begin);
+  advise(roundedUp(at, kLargePage), (at + bytes) & ~(kLargePage - 1), MADV_HUGEPAGE);
+}
+
 void getPages(void* begin, size_t bytes) {
-  const auto roundedUp = [](uintptr_t at, uintptr_t page) { return (at + page - 1) & ~(page - 1); };
-  const uintptr_t first = roundedUp(reinterpret_cast<uintptr_t>(begin), kPage),
-                  past = (reinterpret_cast<uintptr_t>(begin) + bytes) & ~(kPage - 1);
-  advise(roundedUp(first, kLargePage), past & ~(kLargePage - 1), MADV_HUGEPAGE);
-  advise(first, past, MADV_POPULATE_WRITE);
+  const uintptr_t at = reinterpret_cast<uintptr_t>(begin);
+  preferLargePages(begin, bytes);
+  advise(roundedUp(at, kPage), (at + bytes) & ~(kPage - 1), MADV_POPULATE_WRITE);
 }
 
 #else
 
+void preferLargePages(void*, size_t) {}
 void getPages(void*, size_t) {}
 
 #endif

@@ -2,6 +2,7 @@
 // machines; so the system is asked for it in large pages, where it has such, and otherwise for many pages at once.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <type_traits>
 #include <vector>
@@ -15,18 +16,40 @@ inline constexpr size_t kPageAlignment = size_t(1) << 21;
 inline constexpr size_t kPageAlignment = 16;
 #endif
 
-/// Gets memory that is about to be written to. Nothing happens where the system can't.
+/// Asks for large pages in memory that is going to be written to. Nothing happens where the system can't.
+void preferLargePages(void* begin, size_t bytes);
+/// The same, and gets all of its pages. Meanwhile no thread gets other memory from the system: where many threads do, touch it instead.
 void getPages(void* begin, size_t bytes);
 
 /// Leaves freed memory to the system that the allocator keeps for later, where it can; takes some milliseconds for each gigabyte.
 void giveBackFreed();
 
-/// Makes room in an empty array: an eighth more in one that has had too little, which is used again and again.
+/// Makes room in an empty array: an eighth more in one that has had too little, which is used again and again. Its pages are got later.
+template <class Array>
+void reserveUntouched(Array& items, size_t count) {
+  items.reserve(items.capacity() > 0 ? count + count / 8 : count);
+  preferLargePages(items.data(), count * sizeof(typename Array::value_type));
+}
+
+/// The same with its pages, where there is too little room.
 template <class Array>
 void reserveLarge(Array& items, size_t count) {
   if (items.capacity() >= count) return;
-  items.reserve(items.capacity() > 0 ? count + count / 8 : count);
+  reserveUntouched(items, count);
   getPages(items.data(), count * sizeof(typename Array::value_type));
+}
+
+/// Lengthens an array that has room for that many items, whose pages are got a few at a time, so that what is written into them here finds
+/// them in the cache.
+template <class Item>
+void resizeInRoom(std::vector<Item>& items, size_t count) {
+  constexpr size_t kStep = (size_t(1) << 18) / sizeof(Item);
+  while (items.size() < count) {
+    const size_t more = std::min(kStep, count - items.size());
+    getPages(items.data() + items.size(), more * sizeof(Item));
+    items.resize(items.size() + more);
+  }
+  items.resize(count);
 }
 
 /// Makes an empty array that long.

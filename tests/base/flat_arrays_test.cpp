@@ -98,6 +98,19 @@ TEST_CASE("An arena makes arrays that are written in place", "[base]") {
   CHECK(std::vector<uint32_t>(made.begin(), made.end()) == std::vector<uint32_t>{7, 8, 9, 10, 11});
 }
 
+TEST_CASE("An array that is lengthened in its room keeps what it has, and one that is too long is cut", "[base]") {
+  constexpr size_t kLong = 300000;  // several steps
+  std::vector<int> items = {1, 2, 3};
+  reserveUntouched(items, kLong);
+  const int* const room = items.data();
+  resizeInRoom(items, kLong);
+  CHECK((items.data() == room && items.size() == kLong));
+  CHECK((items[0] == 1 && items[2] == 3));
+  CHECK(std::count(items.begin() + 3, items.end(), 0) == ptrdiff_t(kLong - 3));
+  resizeInRoom(items, 2);
+  CHECK(items == std::vector<int>{1, 2});
+}
+
 TEST_CASE("Getting pages changes nothing that is there", "[base]") {
   std::vector<uint32_t> numbers(3'000'000);
   for (size_t i = 0; i < numbers.size(); ++i) numbers[i] = uint32_t(i);

@@ -287,8 +287,8 @@ class Harvest {
   }
 
   void copyAll() {
-    copyLarge(vertices_.slabs, out_.vertices.slabs);
-    copyLarge(vertices_.parentTriangles, out_.vertices.parentTriangles);
+    out_.vertices.slabs = vertices_.slabs;
+    out_.vertices.parentTriangles = vertices_.parentTriangles;
     if (gathered_.places.empty()) gathered_.places.assign(vertices_.firstOwn.number, Gathered::kNoPlace);
     copyTriFaces();
     copyPieces();

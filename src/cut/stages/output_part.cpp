@@ -22,8 +22,8 @@ struct Block {
   static Block at(size_t block, size_t n) { return {block * kSize, std::min(n, (block + 1) * kSize)}; }
 };
 
-/// The arrays of a result, in the memory that those of another cut-mesh have. Room is made for what is written next, each array on one
-/// thread, since the first touch of memory takes long; offsets are ended.
+/// The arrays of a result, in the memory that those of another cut-mesh have. Memory for what is written next is asked for at once; then
+/// it is touched, which takes longer, each array on one thread; offsets are ended.
 class Rooms {
  public:
   Rooms(const Numbers& numbers, CutMesh spare, CutMesh& out, Monitor& monitor)
@@ -36,57 +36,75 @@ class Rooms {
 
   void makeForCells() {
     const size_t cells = total_.cells;
-    run({[&] { make(&CutMesh::cellHalfFaces, total_.halfFaces); }, [&] { make(&CutMesh::cellGridCell, 3 * cells); },
-         [&] { makeOffsets(&CutMesh::cellHalfFaceOffsets, cells, total_.halfFaces); }, [&] { make(&CutMesh::cellRegion, cells); }});
+    make(&CutMesh::cellHalfFaces, total_.halfFaces);
+    make(&CutMesh::cellGridCell, 3 * cells);
+    makeOffsets(&CutMesh::cellHalfFaceOffsets, cells, total_.halfFaces);
+    make(&CutMesh::cellRegion, cells);
+    touch();
   }
   void makeForFaces() {
     const uint32_t loopVertices = total_.triLoopVertices + total_.loopVertices;
-    run({[&] { make(&CutMesh::loopVertices, loopVertices); }, [&] { makeOffsets(&CutMesh::loopOffsets, loops_, loopVertices); },
-         [&] { makeOffsets(&CutMesh::faceLoopOffsets, faces_, uint32_t(loops_)); },
-         [&] { makeForPieces(&CutMesh::faceParentOffsets, 1, total_.parents); }, [&] { makeForPieces(&CutMesh::faceTriangle, 0, -1); },
-         [&] { makeForTriFaces(&CutMesh::facePlane, 0); }, [&] { make(&CutMesh::faceParents, total_.parents); },
-         [&] { makeForTriFaces(&CutMesh::faceAxis, int8_t(-1)); }, [&] { make(&CutMesh::faceParentSigns, total_.parents); }});
+    make(&CutMesh::loopVertices, loopVertices);
+    makeOffsets(&CutMesh::loopOffsets, loops_, loopVertices);
+    makeOffsets(&CutMesh::faceLoopOffsets, faces_, uint32_t(loops_));
+    makeForPieces(&CutMesh::faceParentOffsets, 1, total_.parents);
+    makeForPieces(&CutMesh::faceTriangle, 0, -1);
+    makeForTriFaces(&CutMesh::facePlane, 0);
+    make(&CutMesh::faceParents, total_.parents);
+    makeForTriFaces(&CutMesh::faceAxis, int8_t(-1));
+    make(&CutMesh::faceParentSigns, total_.parents);
+    touch();
   }
   void makeForVertices(size_t surfaceVertices) {
     const size_t vertices = surfaceVertices + total_.vertices;
-    run({[&] { make(&CutMesh::positions, 3 * vertices); }, [&] { make(&CutMesh::vertexCell, 3 * vertices); },
-         [&] { make(&CutMesh::vertexParents, 2 * vertices); }, [&] { make(&CutMesh::vertexTriVertex, vertices); },
-         [&] { make(&CutMesh::vertexMask, vertices); }});
+    make(&CutMesh::positions, 3 * vertices);
+    make(&CutMesh::vertexCell, 3 * vertices);
+    make(&CutMesh::vertexParents, 2 * vertices);
+    make(&CutMesh::vertexTriVertex, vertices);
+    make(&CutMesh::vertexMask, vertices);
+    touch();
   }
 
  private:
-  void run(std::initializer_list<std::function<void()>> rooms) { runTasks(rooms, monitor_); }
-
-  /// Of an array all of which is written to.
+  /// Of an array all of which is written to; `fill(array)` begins that.
+  template <class Item, class Fill>
+  void make(std::vector<Item> CutMesh::*array, size_t count, const Fill& fill) {
+    std::vector<Item>& items = out_.*array = std::move(spare_.*array);
+    if (items.capacity() < count) {
+      items.clear();
+      reserveUntouched(items, count);
+    }
+    untouched_.push_back([&items, count, fill] {
+      resizeInRoom(items, count);
+      fill(items);
+    });
+  }
   template <class Item>
   void make(std::vector<Item> CutMesh::*array, size_t count) {
-    std::vector<Item>& items = out_.*array = std::move(spare_.*array);
-    if (items.capacity() < count) items.clear();
-    reserveLarge(items, count);
-    items.resize(count);
+    make(array, count, [](std::vector<Item>&) {});
   }
   /// Of one in which all tri-cut-faces have the same.
   template <class Item>
   void makeForTriFaces(std::vector<Item> CutMesh::*array, Item item) {
-    make(array, faces_);
-    std::fill_n((out_.*array).begin(), total_.triFaces, item);
+    make(array, faces_, [this, item](std::vector<Item>& items) { std::fill_n(items.begin(), total_.triFaces, item); });
   }
   /// Of one in which all pieces of grid-faces have the same, and `more` after them.
   template <class Item>
   void makeForPieces(std::vector<Item> CutMesh::*array, size_t more, Item item) {
-    make(array, faces_ + more);
-    std::fill((out_.*array).begin() + total_.triFaces, (out_.*array).end(), item);
+    make(array, faces_ + more, [this, item](std::vector<Item>& items) { std::fill(items.begin() + total_.triFaces, items.end(), item); });
   }
   void makeOffsets(std::vector<uint32_t> CutMesh::*array, size_t count, uint32_t end) {
-    make(array, count + 1);
-    (out_.*array).back() = end;
+    make(array, count + 1, [end](std::vector<uint32_t>& items) { items.back() = end; });
   }
+
+  void touch() { runTasks(std::exchange(untouched_, {}), monitor_); }
 
   const BrickCounts& total_;
   const size_t faces_, loops_;
   CutMesh spare_;
   CutMesh& out_;
   Monitor& monitor_;
+  std::vector<std::function<void()>> untouched_;
 };
 
 /// Writes cut-vertices one by one.
