@@ -184,6 +184,22 @@ void appendItems(const std::vector<Item>& more, std::vector<Item>& all) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
+/// Makes room for what all chunks made.
+void reserve(const std::vector<ClippedChunk>& chunks, ClippedTriangles& all) {
+  const auto make = [&](const auto& arrayOf) {
+    size_t count = 0;
+    for (const ClippedChunk& chunk : chunks) count += arrayOf(chunk.clipped).size();
+    arrayOf(all).reserve(count + 1);
+  };
+  make([](auto& clipped) -> auto& { return clipped.parts; });
+  make([](auto& clipped) -> auto& { return clipped.pieces.offsets; });
+  make([](auto& clipped) -> auto& { return clipped.pieces.items; });
+  make([](auto& clipped) -> auto& { return clipped.hybridEdges; });
+  make([](auto& clipped) -> auto& { return clipped.hybridTriangles; });
+  make([](auto& clipped) -> auto& { return clipped.seamVertices; });
+  make([](auto& clipped) -> auto& { return clipped.seamTriangles; });
+}
+
 /// Appends what a chunk made, whose own vertices get `shift` added.
 void append(const ClippedTriangles& chunk, VertexId firstInTriangle, uint32_t shift, ClippedTriangles& all) {
   const auto shifted = [&](VertexId v) { return v < firstInTriangle ? v : VertexId{v.number + shift}; };
@@ -232,6 +248,7 @@ ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& r
   }
   if (entries > kMost || made > kMost) failTooLarge(-1);
   ClippedTriangles all;
+  reserve(chunks, all);
   uint32_t shift = 0;
   for (const ClippedChunk& c : chunks) {
     append(c.clipped, vertices.firstInTriangle, shift, all);

@@ -97,49 +97,69 @@ class CrossingLayout {
  public:
   CrossingLayout(Surface& surface, const KnownCrossings* known) : surface_(surface), vertices_(surface.vertices), known_(known) {}
 
-  void run() {
-    const TriEdgeId past{uint32_t(surface_.edges().ends.size())};
-    vertices_.crossingOffsets.resize(past.number + 1);
-    total_ = surface_.input.slabs.size();
-    for (TriEdgeId e{0}; e < past;) {
-      const TriEdgeId pastKnown = known_ ? known_->pastKnown(e, past) : e;
-      if (e < pastKnown) {
-        layOutKnown(e, pastKnown);
-        e = pastKnown;
-      } else {
-        layOut(e);
-        ++e.number;
-      }
-      if (total_ >= uint64_t(1) << 31) throw Failure{{Status::meshTooLarge, -1, -1, "The cut-mesh would have more than 2^31 vertices."}};
+  void run(Monitor& monitor) {
+    const size_t edges = surface_.edges().ends.size();
+    vertices_.crossingOffsets.resize(edges + 1);
+    const auto chunks = forChunks<Chunk>(edges, monitor, [&](Chunk& chunk, size_t begin, size_t end) {
+      layOut({uint32_t(begin)}, {uint32_t(end)}, chunk);
+      chunk.past = end;
+    });
+    uint64_t total = surface_.input.slabs.size();
+    VertexId* const offsets = vertices_.crossingOffsets.data();
+    size_t e = 0;
+    for (const Chunk& chunk : chunks) {
+      for (; e < chunk.past; ++e) offsets[e].number += uint32_t(total);
+      total += chunk.crossings;
+      surface_.inPlane.insert(surface_.inPlane.end(), chunk.inPlane.begin(), chunk.inPlane.end());
     }
-    vertices_.crossingOffsets[past.number] = vertices_.firstInTriangle = {uint32_t(total_)};
+    if (total >= uint64_t(1) << 31) throw Failure{{Status::meshTooLarge, -1, -1, "The cut-mesh would have more than 2^31 vertices."}};
+    offsets[edges] = vertices_.firstInTriangle = {uint32_t(total)};
   }
 
  private:
-  void layOut(TriEdgeId e) {
-    const auto& [low, high] = surface_.edges().ends[e];
-    const PlanesBetween between = planesBetween(surface_.input.slabs[low], surface_.input.slabs[high]);
-    if (between.hasBoth && surface_.here.has(e)) surface_.inPlane.push_back(e);
-    vertices_.crossingOffsets[e.number] = {uint32_t(total_)};
-    total_ += between.count;
+  /// Of some tri-edges, whose offsets count from the first of them on until it is known what comes before.
+  struct Chunk {
+    size_t past = 0;  ///< the edge after them
+    uint64_t crossings = 0;
+    std::vector<TriEdgeId> inPlane;
+  };
+
+  void layOut(TriEdgeId e, TriEdgeId past, Chunk& chunk) {
+    while (e < past) {
+      const TriEdgeId pastKnown = known_ ? known_->pastKnown(e, past) : e;
+      if (e < pastKnown) {
+        layOutKnown(e, pastKnown, chunk);
+        e = pastKnown;
+      } else {
+        layOut(e, chunk);
+        ++e.number;
+      }
+    }
   }
 
-  void layOutKnown(TriEdgeId first, TriEdgeId past) {
+  void layOut(TriEdgeId e, Chunk& chunk) {
+    const auto& [low, high] = surface_.edges().ends[e];
+    const PlanesBetween between = planesBetween(surface_.input.slabs[low], surface_.input.slabs[high]);
+    if (between.hasBoth && surface_.here.has(e)) chunk.inPlane.push_back(e);
+    vertices_.crossingOffsets[e.number] = {uint32_t(chunk.crossings)};
+    chunk.crossings += between.count;
+  }
+
+  void layOutKnown(TriEdgeId first, TriEdgeId past, Chunk& chunk) {
     const Surface& known = known_->surface();
     const VertexId* offsets = known.vertices.crossingOffsets.data();
-    const uint32_t shift = uint32_t(total_) - offsets[first.number].number;
+    const uint32_t shift = uint32_t(chunk.crossings) - offsets[first.number].number;
     VertexId* to = vertices_.crossingOffsets.data();
     for (uint32_t e = first.number; e < past.number; ++e) to[e] = {offsets[e].number + shift};
-    total_ += offsets[past.number].number - offsets[first.number].number;
-    while (inPlane_ < known.inPlane.size() && known.inPlane[inPlane_] < first) ++inPlane_;
-    while (inPlane_ < known.inPlane.size() && known.inPlane[inPlane_] < past) surface_.inPlane.push_back(known.inPlane[inPlane_++]);
+    chunk.crossings += offsets[past.number].number - offsets[first.number].number;
+    const auto begin = std::lower_bound(known.inPlane.begin(), known.inPlane.end(), first),
+               end = std::lower_bound(begin, known.inPlane.end(), past);
+    chunk.inPlane.insert(chunk.inPlane.end(), begin, end);
   }
 
   Surface& surface_;
   CutVertices& vertices_;
   const KnownCrossings* known_;
-  uint64_t total_ = 0;
-  size_t inPlane_ = 0;  // in the list of `known_`
 };
 
 void cutEdge(TriEdgeId e, Surface& surface, Predicates& predicates) {
@@ -205,7 +225,8 @@ void cutTriEdges(Surface& surface, Run& run, const KnownCrossings* known) {
   vertices.input = &input;
   vertices.edges = &surface.edges();
   vertices.firstOnEdge = {uint32_t(input.slabs.size())};
-  CrossingLayout(surface, known).run();
+  CrossingLayout(surface, known).run(run.monitor);
+  vertices.slabs.reserve(vertices.firstInTriangle.number + vertices.firstInTriangle.number / 16);  // and for those on seams
   vertices.slabs.assign(input.slabs.begin(), input.slabs.end());
   vertices.slabs.resize(vertices.firstInTriangle.number);
   vertices.parentEdges.resize(vertices.firstInTriangle.number - input.slabs.size());
