@@ -13,9 +13,11 @@ using Slab = std::array<int32_t, 3>;
 
 inline bool onPlane(int32_t slab) { return (slab & 1) == 0; }
 inline int planeCount(const Slab& s) { return onPlane(s[0]) + onPlane(s[1]) + onPlane(s[2]); }
+/// Whether it lies on a grid line: on two planes or three.
+inline bool onLine(const Slab& s) { return onPlane((s[0] | s[1]) & (s[0] | s[2]) & (s[1] | s[2])); }
 
 /// The slab that holds the inside of a segment or convex piece whose least and greatest slabs are given; they lie in one closed slab.
-inline int32_t slabBetween(int32_t least, int32_t greatest) { return least == greatest ? least : least | 1; }
+inline int32_t slabBetween(int32_t least, int32_t greatest) { return least | int32_t(least != greatest); }
 /// Whether both lie in one closed slab.
 inline bool inOneSlab(int32_t least, int32_t greatest) { return greatest <= (least | 1) + 1; }
 /// The grid element of the inside of a segment that crosses no plane.

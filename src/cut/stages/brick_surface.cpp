@@ -36,14 +36,17 @@ class SurfaceCutter {
   VertexId addVertex(const Slab& slab) { return out_.vertices.add(slab, triangle_); }
   void addHybridEdge(const FaceEdge& edge) { out_.faceEdges.push_back(edge); }
   /// A loop begins with its lowest vertex of the mesh, or of a tri-edge; without one, with that of the lowest slabs.
-  void addPiece(const Polygon& polygon, const Slab& element) {
-    const VertexId past = out_.vertices.firstInTriangle;
+  void addPiece(Polygon polygon, const Slab& element) {
     size_t first = 0;
     bool touchesLine = false;
     for (size_t i = 0; i < polygon.size(); ++i) {
-      const Corner &a = polygon[i], &b = polygon[first];
-      touchesLine |= planeCount(a.slab) > 1;
-      if (std::min(a.id, past) != std::min(b.id, past) ? a.id < b.id : a.id >= past && a.slab < b.slab) first = i;
+      touchesLine |= onLine(polygon[i].slab);
+      if (polygon[i].id < polygon[first].id) first = i;
+    }
+    if (polygon[first].id >= out_.vertices.firstInTriangle) {
+      const auto lowest =
+          std::min_element(polygon.begin(), polygon.end(), [](const Corner& a, const Corner& b) { return a.slab < b.slab; });
+      first = size_t(lowest - polygon.begin());
     }
     std::vector<VertexId>& loop = out_.triFaces.loops.items;
     for (size_t i = first; i < polygon.size(); ++i) loop.push_back(polygon[i].id);
@@ -52,29 +55,24 @@ class SurfaceCutter {
   }
 
  private:
+  static constexpr bool kInGrid = true;  // nothing of a part lies outside
+
   void cut(const ClippedTriangles::Part& part) {
     triangle_ = part.triangle;
     if (part.piece != ClippedTriangles::kWhole) {
-      const auto piece = parts_.clipped.pieces[part.piece];
-      polygon_.assign(piece.begin(), piece.end());
-      return dicer_.dice(triangle_, polygon_);
+      const Polygon piece = parts_.clipped.pieces[part.piece];
+      return dicer_.dice(triangle_, piece, Extent::of(piece), kInGrid);
     }
     const auto t = input_.verticesOf(triangle_);
     const Slab &a = input_.slabs[t[0]], &b = input_.slabs[t[1]], &c = input_.slabs[t[2]];
-    Slab element;
-    bool oneCell = !surface_.edges().hasStitchedSide(triangle_);
-    for (size_t d = 0; d < 3; ++d) {
-      const int32_t least = std::min({a[d], b[d], c[d]}), greatest = std::max({a[d], b[d], c[d]});
-      oneCell &= inOneSlab(least, greatest);
-      element[d] = slabBetween(least, greatest);
-    }
-    if (!oneCell) {
-      outlineOf(surface_, triangle_, polygon_);
-      return dicer_.dice(triangle_, polygon_);
+    const Extent extent = Extent::of(a, b, c);
+    if (!extent.isOneElement() || surface_.edges().hasStitchedSide(triangle_)) {
+      outlineOf(surface_, triangle_, outline_);
+      return dicer_.dice(triangle_, outline_.all(), extent, kInGrid);
     }
     std::vector<VertexId>& loop = out_.triFaces.loops.items;
-    loop.insert(loop.end(), t.begin(), t.end());
-    endFace(element, planeCount(a) > 1 || planeCount(b) > 1 || planeCount(c) > 1);
+    for (const VertexId v : t) loop.push_back(v);
+    endFace(extent.element(), onLine(a) || onLine(b) || onLine(c));
   }
 
   void endFace(const Slab& element, bool touchesLine) {
@@ -99,7 +97,7 @@ class SurfaceCutter {
   Bricks& bricks_;
   BrickSurface& out_;
   TriangleId triangle_{0};
-  Polygon polygon_;
+  Corners outline_;
   Dicer<SurfaceCutter> dicer_;
 };
 

@@ -48,24 +48,22 @@ class Clipper {
   void clip(TriangleId triangle) {
     triangle_ = triangle;
     const auto t = input_.verticesOf(triangle);
-    const Slab &a = input_.slabs[t[0]], &b = input_.slabs[t[1]], &c = input_.slabs[t[2]];
-    Slab element;
+    const Extent extent = Extent::of(input_.slabs[t[0]], input_.slabs[t[1]], input_.slabs[t[2]]);
     bool isWhole = true, isBesideSeam = false;
     for (size_t d = 0; d < 3; ++d) {
-      const int32_t least = std::min({a[d], b[d], c[d]}), greatest = std::max({a[d], b[d], c[d]}), end = 2 * bricks_.cells[d];
+      const int32_t least = extent.least[d], greatest = extent.greatest[d], end = 2 * bricks_.cells[d];
       if (greatest < 0 || least > end) return;
-      element[d] = slabBetween(least, greatest);
       isWhole &= least == greatest || (least >= 0 && greatest <= end && isOneBrick(d, least | 1, greatest - 1));
       isBesideSeam |= (least & bricks_.between(d)) == 0 || (greatest & bricks_.between(d)) == 0;
     }
     if (!isWhole) {
       outlineOf(surface_, triangle, outline_);
-      return dicer_.dice(triangle, outline_);
+      return dicer_.dice(triangle, outline_.all(), extent);
     }
-    give(element, ClippedTriangles::kWhole);
+    give(extent.element(), ClippedTriangles::kWhole);
     if (!isBesideSeam) return;
     outlineOf(surface_, triangle, outline_);
-    noteSeamVertices(outline_);
+    noteSeamVertices(outline_.all());
   }
 
   // For the dicer.
@@ -74,7 +72,7 @@ class Clipper {
     chunk_.clipped.hybridEdges.push_back(edge);
     chunk_.clipped.hybridTriangles.push_back(triangle_);
   }
-  void addPiece(const Polygon& polygon, const Slab& element) {
+  void addPiece(Polygon polygon, const Slab& element) {
     Csr<Corner>& pieces = chunk_.clipped.pieces;
     give(element, uint32_t(pieces.size()));
     pieces.items.insert(pieces.items.end(), polygon.begin(), polygon.end());
@@ -95,7 +93,7 @@ class Clipper {
   bool isOneBrick(size_t axis, int32_t first, int32_t last) const {
     return first >> 1 >> bricks_.shifts[axis] == last >> 1 >> bricks_.shifts[axis];
   }
-  void noteSeamVertices(const Polygon& polygon) {
+  void noteSeamVertices(Polygon polygon) {
     for (const Corner& c : polygon) {
       if (planeCount(c.slab) < 2 || !bricks_.isOnSeam(c.slab)) continue;
       chunk_.clipped.seamVertices.push_back(c.id);
@@ -110,7 +108,7 @@ class Clipper {
   Monitor& monitor_;
   ClippedChunk& chunk_;
   TriangleId triangle_{0};
-  Polygon outline_;
+  Corners outline_;
   Dicer<Clipper> dicer_;
 };
 
@@ -145,7 +143,7 @@ class WholeDicer {
     }
     sortItems(onLines_, [](const Corner& a, const Corner& b) { return a.slab < b.slab; });
     outlineOf(surface_, triangle, outline_);
-    dicer_.dice(triangle, outline_, overlaps);
+    dicer_.dice(triangle, outline_.all(), Extent::of(outline_.all()), overlaps);
     return true;
   }
 
@@ -159,7 +157,7 @@ class WholeDicer {
     chunk_.clipped.undivided.hybridEdges.push_back(edge);
     chunk_.clipped.undivided.hybridTriangles.push_back(triangle_);
   }
-  void addPiece(const Polygon& polygon, const Slab& element) {
+  void addPiece(Polygon polygon, const Slab& element) {
     TriFaces& faces = chunk_.clipped.undivided;
     for (const Corner& c : polygon) faces.loops.items.push_back(c.id);
     faces.loops.endGroup();
@@ -174,7 +172,7 @@ class WholeDicer {
   Monitor& monitor_;
   ClippedChunk& chunk_;
   TriangleId triangle_{0};
-  Polygon outline_;
+  Corners outline_;
   std::vector<Corner> onLines_;  // vertices of the arrangement inside of the triangle that lie on grid lines, by slab
   Dicer<WholeDicer> dicer_;
 };

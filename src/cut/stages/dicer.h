@@ -10,36 +10,83 @@
 namespace mandoline::detail {
 
 /// The outline of a triangle, with all vertices on its sides.
-inline void outlineOf(const Surface& surface, TriangleId triangle, Polygon& outline) {
+inline void outlineOf(const Surface& surface, TriangleId triangle, Corners& outline) {
   const CutVertices& vertices = surface.vertices;
+  const Slab* slabs = vertices.slabs.data();
   outline.clear();
-  const auto add = [&](VertexId v) { outline.push_back({v, vertices.slab(v)}); };
   const auto t = surface.input.verticesOf(triangle);
   for (int side = 0; side < 3; ++side) {
     VertexId from = t[size_t(side)];
     surface.edges().forSide(*surface.input.mesh, triangle, side, [&](TriEdgeId edge, bool forward) {
-      add(from);
-      const size_t first = outline.size();
-      for (const VertexId v : vertices.crossings(edge)) {
-        if (vertices.isUsed(v)) add(v);
+      const uint32_t first = vertices.crossingOffsets[edge.number].number;
+      uint32_t past = vertices.crossingOffsets[edge.number + 1].number;
+      outline.makeRoom(past - first + 1);
+      outline.add({from, slabs[from.number]});
+      while (past > first && slabs[past - 1][0] == CutVertices::kUnused) --past;
+      if (forward) {
+        for (uint32_t v = first; v < past; ++v) outline.add({{v}, slabs[v]});
+      } else {
+        for (uint32_t v = past; v-- > first;) outline.add({{v}, slabs[v]});
       }
-      if (!forward) std::reverse(outline.begin() + std::ptrdiff_t(first), outline.end());
       from = surface.edges().ends[edge][forward ? 1 : 0];
     });
   }
 }
+
+/// The least and the greatest slabs of something.
+struct Extent {
+  Slab least, greatest;
+
+  /// Whether it lies in one closed grid element, which is element().
+  bool isOneElement() const {
+    bool isOne = true;
+    for (size_t d = 0; d < 3; ++d) isOne &= inOneSlab(least[d], greatest[d]);
+    return isOne;
+  }
+  Slab element() const {
+    Slab element;
+    for (size_t d = 0; d < 3; ++d) element[d] = slabBetween(least[d], greatest[d]);
+    return element;
+  }
+
+  static Extent of(const Slab& a, const Slab& b, const Slab& c) {
+    Extent extent;
+    for (size_t d = 0; d < 3; ++d) {
+      extent.least[d] = std::min({a[d], b[d], c[d]});
+      extent.greatest[d] = std::max({a[d], b[d], c[d]});
+    }
+    return extent;
+  }
+  static Extent of(Polygon polygon) {
+    Extent extent{polygon[0].slab, polygon[0].slab};
+    for (const Corner& c : polygon) {
+      for (size_t d = 0; d < 3; ++d) {
+        extent.least[d] = std::min(extent.least[d], c.slab[d]);
+        extent.greatest[d] = std::max(extent.greatest[d], c.slab[d]);
+      }
+    }
+    return extent;
+  }
+};
 
 /// Hands what it makes to an `Out`, with addVertex(slab), which gives its id, addHybridEdge(edge) and addPiece(polygon, grid element).
 template <class Out>
 class Dicer {
  public:
   /// Cuts along each axis by every 2^shift-th plane, and by the last one.
-  Dicer(const Input& input, const std::array<int, 3>& shifts, Out& out) : input_(input), shifts_(shifts), out_(out) {}
+  Dicer(const Input& input, const std::array<int, 3>& shifts, Out& out) : input_(input), out_(out) {
+    for (size_t d = 0; d < 3; ++d) between_[d] = (1 << shifts[d]) - 1;
+  }
 
-  /// `keepOutside`: pieces outside of the grid as well.
-  void dice(TriangleId triangle, const Polygon& polygon, bool keepOutside = false) {
+  /// `extent`: the polygon's. `keepOutside`: pieces outside of the grid as well.
+  void dice(TriangleId triangle, Polygon polygon, const Extent& extent, bool keepOutside = false) {
     triangle_ = triangle;
     keepOutside_ = keepOutside;
+    for (size_t d = 0; d < 3; ++d) {
+      const int32_t least = extent.least[d], greatest = extent.greatest[d];
+      isCut_[d] = seamFrom(d, firstPlaneAfter(least)) <= lastPlaneBefore(greatest);
+      if (!isCut_[d] && !enter(d, slabBetween(least, greatest))) return;
+    }
     split(0, polygon);
   }
 
@@ -47,55 +94,69 @@ class Dicer {
 
  private:
   /// Cuts a convex polygon by the planes of `axis` and of those after it.
-  void split(int axis, const Polygon& polygon) {
-    if (axis == 3) return out_.addPiece(polygon, element_);
-    const auto [least, greatest] = extent(polygon, axis);
-    int32_t plane = seamFrom(axis, firstPlaneAfter(least));
-    const int32_t last = lastPlaneBefore(greatest);
-    if (plane > last) return splitOn(axis, slabBetween(least, greatest), polygon);
-    Sweep sweep(polygon, axis, least, piece_[axis], floor_[axis]);
+  void split(size_t axis, Polygon polygon) {
+    for (; axis < 3; ++axis) {
+      if (!isCut_[axis]) continue;
+      int32_t least = polygon[0].slab[axis], greatest = least;
+      for (const Corner& c : polygon) {
+        least = std::min(least, c.slab[axis]);
+        greatest = std::max(greatest, c.slab[axis]);
+      }
+      const int32_t plane = seamFrom(axis, firstPlaneAfter(least)), last = lastPlaneBefore(greatest);
+      if (plane <= last) return sweep({axis, plane, last}, polygon, least);
+      if (!enter(axis, slabBetween(least, greatest))) return;
+    }
+    out_.addPiece(polygon, element_);
+  }
+
+  struct Planes {
+    size_t axis;
+    int32_t first, last;
+  };
+  /// The same where some of these planes cut it, from its lowest slab up.
+  void sweep(const Planes& planes, Polygon polygon, int32_t least) {
+    const size_t axis = planes.axis;
+    Sweep sweep(polygon, axis, least, rooms_[axis]);
     int32_t above = 0;
-    for (; plane <= last; plane = seamFrom(axis, plane + 1)) {
+    for (int32_t plane = planes.first; plane <= planes.last; plane = seamFrom(axis, plane + 1)) {
       sweep.climb(2 * plane);
-      makeLine(axis, plane, sweep.up(), sweep.down());
-      addHybridEdges(sweep.up(), sweep.down());
-      splitOn(axis, 2 * plane - 1, sweep.below(line_));
+      makeLine(axis, plane, sweep);
+      sweep.close();
+      addHybridEdges(axis, sweep.line());
+      if (enter(axis, 2 * plane - 1)) split(axis + 1, sweep.piece());
       sweep.beginAbove();
       above = 2 * plane + 1;
     }
-    splitOn(axis, above, sweep.rest());
+    sweep.closeLast();
+    if (enter(axis, above)) split(axis + 1, sweep.piece());
   }
 
   /// The first of the planes to cut by that is not below `plane`; beyond all planes if there is none.
-  int32_t seamFrom(int axis, int32_t plane) const {
-    const int32_t mask = (1 << shifts_[size_t(axis)]) - 1, end = input_.cells(axis);
-    return plane > end ? plane : std::min((plane + mask) & ~mask, end);
+  int32_t seamFrom(size_t axis, int32_t plane) const {
+    const int32_t between = between_[axis];
+    if (between == 0) return plane;
+    const int32_t end = input_.cells(int(axis));
+    return plane > end ? plane : std::min((plane + between) & ~between, end);
   }
 
-  /// Goes on with a polygon that lies between two planes of the axis, or on one; `slab` is one of the slabs there.
-  void splitOn(int axis, int32_t slab, const Polygon& polygon) {
-    if (!keepOutside_ && (slab < 0 || slab > 2 * input_.cells(axis))) return;
-    element_[size_t(axis)] = slab;
-    split(axis + 1, polygon);
+  /// Goes on with what lies between two planes of the axis, or on one, in one of the slabs there. False if it is left out.
+  bool enter(size_t axis, int32_t slab) {
+    element_[axis] = slab;
+    return keepOutside_ || (slab >= 0 && slab <= 2 * input_.cells(int(axis)));
   }
 
-  static std::pair<int32_t, int32_t> extent(const Polygon& polygon, int axis) {
-    int32_t least = polygon[0].slab[size_t(axis)], greatest = least;
-    for (const Corner& c : polygon) {
-      least = std::min(least, c.slab[size_t(axis)]);
-      greatest = std::max(greatest, c.slab[size_t(axis)]);
-    }
-    return {least, greatest};
-  }
+  static constexpr std::array<size_t, 5> kAxes{0, 1, 2, 0, 1};
 
-  /// The pieces of a hybrid edge, whose inner vertices have been made.
-  void addHybridEdges(const Corner& a, const Corner& b) {
-    const Corner* from = &a;
-    for (size_t i = 0; i <= line_.size(); ++i) {
-      const Corner* to = i < line_.size() ? &line_[i] : &b;
-      const Slab element = elementBetween(from->slab, to->slab);
-      if (planeCount(element) == 1 && (keepOutside_ || input_.inGrid(element))) out_.addHybridEdge({element, from->id, to->id});
-      from = to;
+  /// The pieces of a hybrid edge between its vertices, which lies in a plane across the axis.
+  void addHybridEdges(size_t axis, Polygon line) {
+    const size_t d = kAxes[axis + 1], e = kAxes[axis + 2];
+    for (size_t i = 1; i < line.size(); ++i) {
+      const Corner &from = line[i - 1], &to = line[i];
+      Slab element = from.slab;
+      element[d] = between(from.slab[d], to.slab[d]);
+      element[e] = between(from.slab[e], to.slab[e]);
+      if (onPlane(element[d] & element[e])) continue;  // it lies on a grid line
+      if (keepOutside_ || input_.inGrid(element)) out_.addHybridEdge({element, from.id, to.id});
     }
   }
 
@@ -107,30 +168,40 @@ class Dicer {
     for (int32_t i = step > 0 ? firstPlaneAfter(from) : lastPlaneBefore(from); step > 0 ? i < past : i > past; i += step) f(i, step);
   }
 
-  /// The vertices inside of the hybrid edge a -> b, which lies in the plane: its crossings with planes across the next axis, at heights
-  /// along the one after that, which are up to P2; and with planes across that one in between.
-  void makeLine(int axis, int32_t plane, const Corner& a, const Corner& b) {
-    line_.clear();
-    const size_t along = size_t(axis + 1) % 3, height = size_t(axis + 2) % 3;
+  /// Adds the vertices inside of the hybrid edge that the sweep is at, which lies in the plane: its crossings with planes across the next
+  /// axis, at heights along the one after that, which are up to P2; and with planes across that one in between.
+  void makeLine(size_t axis, int32_t plane, Sweep& sweep) {
+    const size_t along = kAxes[axis + 1], height = kAxes[axis + 2];
+    const Corner &a = sweep.up(), &b = sweep.down();
+    const size_t most = planesTo(a.slab[along], b.slab[along]) + planesTo(a.slab[height], b.slab[height]);
+    if (most == 0) return;
+    Corners& line = sweep.makeLine(most);
     Corner at = a;
     forPlanes(a.slab[along], b.slab[along], [&](int32_t j, int step) {
       Slab slab;
-      slab[size_t(axis)] = 2 * plane;
+      slab[axis] = 2 * plane;
       slab[along] = 2 * j;
       slab[height] = heightOf(slab, height, step, at.slab[height], b.slab[height]);
-      climb(at, slab, height);
+      climb(at, slab, height, line);
       at = {out_.addVertex(slab), slab};
-      line_.push_back(at);
+      line.add(at);
     });
-    climb(at, b.slab, height);
+    climb(at, b.slab, height, line);
+  }
+
+  /// The slab inside of a segment that crosses no plane, along an axis.
+  static int32_t between(int32_t a, int32_t b) { return slabBetween(std::min(a, b), std::max(a, b)); }
+  /// The number of planes strictly between two slabs.
+  static size_t planesTo(int32_t a, int32_t b) {
+    return size_t(std::max(lastPlaneBefore(std::max(a, b)) + 1 - firstPlaneAfter(std::min(a, b)), 0));
   }
 
   /// Appends the crossings with planes across `height` strictly between two points of a hybrid edge that has no other crossings there.
-  void climb(const Corner& from, const Slab& to, size_t height) {
+  void climb(const Corner& from, const Slab& to, size_t height, Corners& line) {
     Slab slab = elementBetween(from.slab, to);
     forPlanes(from.slab[height], to[height], [&](int32_t k, int) {
       slab[height] = 2 * k;
-      line_.push_back({out_.addVertex(slab), slab});
+      line.add({out_.addVertex(slab), slab});
     });
   }
 
@@ -138,7 +209,7 @@ class Dicer {
   /// slabs of the hybrid edge in one of these planes (or all are the same); the edge runs upwards across the other one, by `step`, where
   /// the triangle's normal points up along `height`.
   int32_t heightOf(const Slab& line, size_t height, int step, int32_t from, int32_t to) {
-    if (inOneSlab(std::min(from, to), std::max(from, to))) return slabBetween(std::min(from, to), std::max(from, to));
+    if (inOneSlab(std::min(from, to), std::max(from, to))) return between(from, to);
     const auto t = input_.verticesOf(triangle_);
     const int way = to > from ? 1 : -1;
     Point p;
@@ -157,13 +228,13 @@ class Dicer {
   }
 
   const Input& input_;
-  const std::array<int, 3> shifts_;
+  std::array<int32_t, 3> between_;  // bits that numbers of planes to cut by don't have, but for the last one
   Out& out_;
   TriangleId triangle_{0};
   bool keepOutside_ = false;
-  Slab element_{};  // of the piece, for the axes by which it has been cut
-  Polygon line_;
-  Polygon piece_[3], floor_[3];  // per axis
+  std::array<bool, 3> isCut_{};     // whether planes across an axis cut the polygon
+  Slab element_{};                  // of the piece, for the axes by which it has been cut
+  std::array<PieceRoom, 3> rooms_;  // per axis
 };
 
 }  // namespace mandoline::detail

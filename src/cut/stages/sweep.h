@@ -1,7 +1,9 @@
-// A piece of a triangle while it is diced (tri_faces.h): a convex polygon, taken apart by the planes of one axis.
+// A piece of a triangle while it is diced (dicer.h): a convex polygon, taken apart by the planes of one axis.
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <vector>
 
 #include "cut/ids.h"
@@ -13,63 +15,104 @@ struct Corner {
   VertexId id;
   Slab slab;
 };
-using Polygon = std::vector<Corner>;
+using Polygon = std::span<const Corner>;
+
+/// Corners in a row. Room for them is made beforehand, not corner by corner.
+class Corners {
+ public:
+  Corners() = default;
+  Corners(const Corners&) = delete;
+
+  void clear() { end_ = memory_.data(); }
+  void makeRoom(size_t more) {
+    if (more > size_t(limit_ - end_)) grow(more);
+  }
+  void add(const Corner& corner) { *end_++ = corner; }
+
+  size_t size() const { return size_t(end_ - memory_.data()); }
+  Polygon all() const { return {memory_.data(), size()}; }
+
+ private:
+  void grow(size_t more) {
+    const size_t count = size();
+    memory_.resize(2 * (count + more));
+    end_ = memory_.data() + count;
+    limit_ = memory_.data() + memory_.size();
+  }
+
+  std::vector<Corner> memory_;
+  Corner *end_ = nullptr, *limit_ = nullptr;
+};
+
+/// What pieces of a polygon are made in, one after the other.
+using PieceRoom = std::array<Corners, 2>;
 
 /// A convex polygon that is cut along an axis, from its lowest vertices up. Its outline ascends from there on two sides, which are walked
 /// once for all planes: so a polygon across many planes costs what its pieces cost.
+///
+/// For each plane: climb(), then the vertices of the polygon's line in the plane are added to makeLine(), then close(), beginAbove().
 class Sweep {
  public:
-  Sweep(const Polygon& polygon, int axis, int32_t least, Polygon& piece, Polygon& floor)
-      : polygon_(polygon), axis_(axis), piece_(piece), floor_(floor) {
+  Sweep(Polygon polygon, size_t axis, int32_t least, PieceRoom& room)
+      : begin_(polygon.data()), end_(begin_ + polygon.size()), axis_(axis), piece_(&room[0]), next_(&room[1]), up_(begin_) {
     while (slab(up_) != least || slab(after(up_)) == least) ++up_;
     down_ = up_;
     while (slab(before(down_)) == least) down_ = before(down_);
-    piece_.clear();
-    for (size_t i = down_; i != up_; i = after(i)) take(i);
-    take(up_);
+    piece_->clear();
+    piece_->makeRoom(polygon.size());
+    for (const Corner* c = down_; c != up_; c = after(c)) piece_->add(*c);
+    piece_->add(*up_);
   }
 
   /// Where the outline leaves the last plane upwards, counter-clockwise, and where it comes back.
-  const Corner& up() const { return polygon_[up_]; }
-  const Corner& down() const { return polygon_[down_]; }
+  const Corner& up() const { return *up_; }
+  const Corner& down() const { return *down_; }
 
   /// Goes on to a plane, which the polygon has been cut at along its outline.
   void climb(int32_t slabOfPlane) {
-    while (slab(up_) != slabOfPlane) take(up_ = after(up_));
+    do piece_->add(*(up_ = after(up_)));
+    while (slab(up_) != slabOfPlane);
+    lineFirst_ = piece_->size() - 1;
     base_ = down_;
-    while (slab(down_) != slabOfPlane) down_ = before(down_);
+    do down_ = before(down_);
+    while (slab(down_) != slabOfPlane);
   }
-  /// The piece below that plane, whose line in the plane has these vertices from up() to down() inside of it.
-  const Polygon& below(const Polygon& line) {
-    piece_.insert(piece_.end(), line.begin(), line.end());
-    for (size_t i = down_; i != base_; i = after(i)) take(i);
-    floor_.assign(line.rbegin(), line.rend());
-    return piece_;
+  /// Where to add the vertices inside of that line from up() to down(), at most so many.
+  Corners& makeLine(size_t most) {
+    piece_->makeRoom(most + size_t(end_ - begin_));
+    return *piece_;
   }
-  /// The piece above that line; what climbs on begins there.
+  /// Closes the piece below that plane.
+  void close() {
+    lineSize_ = piece_->size() - lineFirst_ + 1;
+    for (const Corner* c = down_; c != base_; c = after(c)) piece_->add(*c);
+  }
+  /// The vertices of the line, its ends too.
+  Polygon line() const { return piece().subspan(lineFirst_, lineSize_); }
+  Polygon piece() const { return piece_->all(); }
+  /// Begins the piece above that line; what climbs on goes on with it.
   void beginAbove() {
-    piece_.clear();
-    take(down_);
-    piece_.insert(piece_.end(), floor_.begin(), floor_.end());
-    take(up_);
+    next_->clear();
+    next_->makeRoom(lineSize_ + size_t(end_ - begin_));
+    const Corner* const first = line().data();
+    for (const Corner* c = first + lineSize_; c != first;) next_->add(*--c);
+    std::swap(piece_, next_);
   }
-  /// The piece above the last plane.
-  const Polygon& rest() {
-    for (size_t i = after(up_); i != down_; i = after(i)) take(i);
-    return piece_;
+  /// Closes the piece above the last plane.
+  void closeLast() {
+    for (const Corner* c = after(up_); c != down_; c = after(c)) piece_->add(*c);
   }
 
  private:
-  int32_t slab(size_t i) const { return polygon_[i].slab[axis_]; }
-  size_t after(size_t i) const { return i + 1 < polygon_.size() ? i + 1 : 0; }
-  size_t before(size_t i) const { return i > 0 ? i - 1 : polygon_.size() - 1; }
+  int32_t slab(const Corner* c) const { return c->slab[axis_]; }
+  const Corner* after(const Corner* c) const { return c + 1 != end_ ? c + 1 : begin_; }
+  const Corner* before(const Corner* c) const { return (c != begin_ ? c : end_) - 1; }
 
-  void take(size_t i) { piece_.push_back(polygon_[i]); }
-
-  const Polygon& polygon_;
-  const int axis_;
-  Polygon &piece_, &floor_;
-  size_t up_ = 0, down_ = 0, base_ = 0;
+  const Corner *const begin_, *const end_;  // of the polygon
+  const size_t axis_;
+  Corners *piece_, *next_;
+  const Corner *up_, *down_ = nullptr, *base_ = nullptr;
+  size_t lineFirst_ = 0, lineSize_ = 0;  // in the piece
 };
 
 }  // namespace mandoline::detail
