@@ -45,7 +45,9 @@ struct Prepared : WeldedMesh {
 /// A power of two that brings coordinates into the range of exact arithmetic.
 class Scale {
  public:
-  explicit Scale(int shift) : factor_{std::ldexp(1.0, shift / 2), std::ldexp(1.0, shift - shift / 2)} {}  // a double can't hold 2^1194
+  explicit Scale(int shift)
+      : factor_{std::ldexp(1.0, shift / 2), std::ldexp(1.0, shift - shift / 2)},  // a double can't hold 2^1194
+        inverse_{1 / factor_[0], 1 / factor_[1]} {}
 
   /// Counts coordinates that are too small, and takes them as 0.
   double scaled(double x, uint32_t& flushed) const {
@@ -54,7 +56,7 @@ class Scale {
     ++flushed;
     return 0.0;
   }
-  double world(double x) const { return x * (1 / factor_[0]) * (1 / factor_[1]); }
+  double world(double x) const { return x * inverse_[0] * inverse_[1]; }
 
   /// Scaled coordinates of a mesh are below 2^121 and multiples of 2^-133, or 0: degree 7 stays within 2^860 and 2^-931. Planes may be as
   /// much as 2^kRoom larger.
@@ -62,7 +64,7 @@ class Scale {
 
  private:
   static constexpr double kFlushBelow = 0x1p-80;
-  double factor_[2];
+  double factor_[2], inverse_[2];
 };
 
 struct Preparation {

@@ -79,8 +79,8 @@ class SeamFinder {
     constexpr size_t kLast = 16;
     const uint32_t run = runs_.at(untouched);
     const auto isSame = [&](const SeamJoin& join) { return join.component == component && join.run == run; };
-    const auto end = out_.joins.end(), begin = end - ptrdiff_t(std::min(kLast, out_.joins.size()));
-    if (std::none_of(begin, end, isSame)) out_.joins.push_back({untouched, component, run});
+    const auto last = out_.joins.rbegin(), past = last + ptrdiff_t(std::min(kLast, out_.joins.size()));
+    if (std::none_of(last, past, isSame)) out_.joins.push_back({untouched, component, run});
   }
 
   void countRows() {

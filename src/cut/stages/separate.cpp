@@ -17,14 +17,13 @@ class Separator {
   }
 
   void run(Monitor& monitor) {
-    std::vector<uint32_t> vertices;
-    const uint32_t vertexCount = uint32_t(out_.vertexCount());
-    for (uint32_t v = 0; v < vertexCount; ++v) {
-      if (!kept_.has(v) && mayMeet(v)) vertices.push_back(v);
-    }
     const size_t count = (slabCount() >> shift_) + 1;
-    const auto layers = groupBy<uint32_t>(
-        count, vertices.size(), [&](size_t i) { return layerOf(vertices[i]); }, [&](size_t i) { return vertices[i]; });
+    Csr<uint32_t> layers;
+    layers.offsets.assign(count + 1, 0);
+    forThoseThatMayMeet([&](uint32_t, size_t layer) { ++layers.offsets[layer]; });
+    layers.items.resize(toOffsets(layers.offsets));
+    forThoseThatMayMeet([&](uint32_t v, size_t layer) { layers.items[layers.offsets[layer]++] = v; });
+    moveBack(layers.offsets);
     std::vector<uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0u);
     runItems(order, monitor, [&](size_t, uint32_t layer) { separate(layers[layer]); });
@@ -33,18 +32,21 @@ class Separator {
  private:
   static constexpr size_t kVertices = 4096;  // about as many as a layer has, at least
 
-  /// Vertices on different grid elements never have the same position: see CutVertices::position. At a grid vertex there is one; inside of
-  /// a grid cell there are those of the mesh alone, unless triangles meet.
-  bool mayMeet(size_t v) const {
-    const uint8_t mask = out_.vertexMask[v];
-    return mask != 7 && mask != maskInCell_;
+  /// Calls f(vertex, layer). Vertices on different grid elements never have the same position: see CutVertices::position. At a grid vertex
+  /// there is one; inside of a grid cell there are those of the mesh alone, unless triangles meet. A layer has all vertices of the grid
+  /// elements that it has.
+  template <class F>
+  void forThoseThatMayMeet(const F& f) const {
+    const uint32_t count = uint32_t(out_.vertexCount());
+    const uint8_t* const masks = out_.vertexMask.data();
+    const int32_t* const cells = out_.vertexCell.data() + axis_;
+    for (uint32_t v = 0; v < count; ++v) {
+      const uint8_t mask = masks[v];
+      if (mask == 7 || mask == maskInCell_ || kept_.has(v)) continue;
+      f(v, (2 * size_t(cells[3 * size_t(v)]) + !(mask >> axis_ & 1)) >> shift_);
+    }
   }
   size_t slabCount() const { return 2 * out_.grid.planes[axis_].size(); }
-  /// So a layer has all vertices of the grid elements that it has.
-  size_t layerOf(size_t v) const {
-    const size_t slab = 2 * size_t(out_.vertexCell[3 * v + axis_]) + !(out_.vertexMask[v] >> axis_ & 1);
-    return slab >> shift_;
-  }
 
   void separate(std::span<const uint32_t> layer) {
     PositionTable table(layer.size(), [&](uint32_t v) { return &out_.positions[3 * size_t(v)]; });
