@@ -64,6 +64,7 @@ class ExcerptMaker {
   void run() {
     mesh_.shift = whole_.shift;
     mesh_.closed = whole_.closed;
+    mesh_.oriented = whole_.oriented;
     mesh_.parts.counts = whole_.parts.counts;
     listMembers();
     std::vector<uint32_t> triangles = members_;

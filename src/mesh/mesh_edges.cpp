@@ -139,7 +139,7 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
   }
   std::vector<TriEdgeId> extraEdges(sides.extras.size());
   edges.ends.reserve(offsets.back() / 2 + 16);
-  bool closed = true;
+  bool closed = true, oriented = true;
   for (const VertexId low : Ids<VertexId>(vertices)) {
     const std::span<SideUse> bucket(uses.get() + offsets[low.number], offsets[low.number + 1] - offsets[low.number]);
     sortItems(bucket, [](const SideUse& a, const SideUse& b) { return a.high() < b.high(); });  // slots ascend already
@@ -151,6 +151,7 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
         net += bucket[end].forward() ? 1 : -1;
       }
       closed &= net == 0;
+      oriented &= end - i != 2 || net == 0;
       edges.ends.push_back({low, bucket[i].high()});
       if (end - i > 1) dropDuplicates(mesh, bucket.subspan(i, end - i), sides);
     }
@@ -160,6 +161,7 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
   edges.stitched.items.assign(extraEdges.begin(), firstInner);
   if (!arrangement) {
     mesh.closed = closed;
+    mesh.oriented = oriented;
     sortItems(mesh.duplicates);
     return edges;
   }

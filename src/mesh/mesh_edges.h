@@ -57,7 +57,7 @@ struct MeshEdges {
   }
 };
 
-/// Without an arrangement: drops duplicate triangles (paper, Appendix A) on the way, and finds whether the mesh is closed.
+/// Without an arrangement: drops duplicate triangles (paper, Appendix A) on the way, and finds whether the mesh is closed and oriented.
 MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement);
 
 }  // namespace mandoline::detail

@@ -79,6 +79,7 @@ bool resolveAgain(const Prepared& before, Prepared& now, const Moved& moved, Int
   now.states = before.states;
   now.duplicates = before.duplicates;
   now.closed = before.closed;
+  now.oriented = before.oriented;
   Contacts contacts;
   if (intersections != Intersections::assumeNone) contacts = findContactsAgain(before, now, moved, means.monitor, means.predicates);
   if (intersections == Intersections::refuse && contacts.counts.total() > 0) return false;

@@ -42,6 +42,7 @@ struct WeldedMesh {
   std::vector<Stitch> stitches;                    ///< sorted by (low, high)
   std::vector<Duplicate> duplicates;               ///< ascending by the triangle they are copies of
   bool closed = false;                             ///< every tri-edge is traversed equally often in both directions, counting duplicates
+  bool oriented = false;                           ///< two triangles alone at a tri-edge traverse it in opposite directions
 
   bool kept(size_t triangle) const { return states[triangle] == TriangleState::kept; }
   bool kept(TriangleId t) const { return kept(t.number); }

@@ -20,6 +20,7 @@ class SurfaceCutter {
   void run() {
     for (const uint32_t i : bricks_.parts[brick_]) cut(parts_.clipped.parts[i]);
     for (const FaceId f : bricks_.dividedFaces[brick_]) {
+      out_.specialFaces.push_back({uint32_t(out_.triFaces.size())});
       out_.triFaces.append(parts_.divided, f);
       touch(parts_.divided.elements[f]);
     }
@@ -37,13 +38,16 @@ class SurfaceCutter {
   void addHybridEdge(const FaceEdge& edge) { out_.faceEdges.push_back(edge); }
   /// A loop begins with its lowest vertex of the mesh, or of a tri-edge; without one, with that of the lowest slabs.
   void addPiece(Polygon polygon, const Slab& element) {
+    const CutVertices& vertices = out_.vertices;
     size_t first = 0;
-    bool touchesLine = false;
+    bool touchesLine = false, isSpecial = false;
     for (size_t i = 0; i < polygon.size(); ++i) {
-      touchesLine |= onLine(polygon[i].slab);
+      const int planes = planeCount(polygon[i].slab);
+      touchesLine |= planes > 1;
+      isSpecial |= planes > (polygon[i].id >= vertices.firstOnEdge) + (polygon[i].id >= vertices.firstInTriangle);
       if (polygon[i].id < polygon[first].id) first = i;
     }
-    if (polygon[first].id >= out_.vertices.firstInTriangle) {
+    if (polygon[first].id >= vertices.firstInTriangle) {
       const auto lowest =
           std::min_element(polygon.begin(), polygon.end(), [](const Corner& a, const Corner& b) { return a.slab < b.slab; });
       first = size_t(lowest - polygon.begin());
@@ -51,7 +55,7 @@ class SurfaceCutter {
     std::vector<VertexId>& loop = out_.triFaces.loops.items;
     for (size_t i = first; i < polygon.size(); ++i) loop.push_back(polygon[i].id);
     for (size_t i = 0; i < first; ++i) loop.push_back(polygon[i].id);
-    endFace(element, touchesLine);
+    endFace(element, touchesLine, isSpecial);
   }
 
  private:
@@ -72,11 +76,13 @@ class SurfaceCutter {
     }
     std::vector<VertexId>& loop = out_.triFaces.loops.items;
     for (const VertexId v : t) loop.push_back(v);
-    endFace(extent.element(), onLine(a) || onLine(b) || onLine(c));
+    const int planes = std::max({planeCount(a), planeCount(b), planeCount(c)});
+    endFace(extent.element(), planes > 1, planes > 0);
   }
 
-  void endFace(const Slab& element, bool touchesLine) {
+  void endFace(const Slab& element, bool touchesLine, bool isSpecial) {
     out_.triFaces.loops.endGroup();
+    if (isSpecial) out_.specialFaces.push_back({uint32_t(out_.triFaces.size())});
     out_.triFaces.endFace(triangle_, element, touchesLine);
     touch(element);
   }
@@ -107,6 +113,7 @@ void cutBrickSurface(const Surface& surface, const SurfaceParts& parts, BrickId 
   brickSurface.vertices.slabs.clear();
   brickSurface.vertices.parentTriangles.clear();
   brickSurface.triFaces.clear();
+  brickSurface.specialFaces.clear();
   brickSurface.faceEdges.clear();
   SurfaceCutter(surface, parts, brick, bricks, brickSurface).run();
 }

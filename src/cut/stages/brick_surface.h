@@ -16,6 +16,7 @@ struct BrickSurface {
   const Input& input;
   CutVertices vertices;
   TriFaces triFaces;                       ///< ascending by triangle, those of divided triangles last
+  std::vector<FaceId> specialFaces;        ///< of divided triangles, or with a vertex on more planes than all of its kind are; ascending
   std::vector<FaceEdge> faceEdges;         ///< cut-edges that lie in a grid-face: in each by triangle, those of tri-edges last
   std::span<const VertexId> seamVertices;  ///< see Bricks
   Predicates predicates;

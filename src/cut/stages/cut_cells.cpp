@@ -15,6 +15,7 @@ class CellMaker {
       : surface_(surface), vertices_(surface.vertices), stencil_(stencil), faces_(faces), scratch_(scratch), cells_(cells) {}
 
   void make(GridCellId gridCell) {
+    if (!scratch_.onlyGeneral && scratch_.parted.find(surface_, stencil_, faces_.grid, gridCell)) return emitParted(gridCell);
     collectHalves(gridCell);
     scratch_.shells.reset(scratch_.halves.halfFaces.size());
     if (scratch_.onlyGeneral || !scratch_.plain.link({surface_, stencil_, faces_, scratch_.halves}, scratch_.shells)) {
@@ -239,6 +240,35 @@ class CellMaker {
     return false;
   }
 
+  /// The cut-cells behind the sheet that parts the cell, and in front.
+  void emitParted(GridCellId gridCell) {
+    const auto triFaces = stencil_.triFacesInCell[gridCell];
+    const auto sides = scratch_.parted.sides();
+    const CellId cells[2] = {{uint32_t(cells_.size())}, {uint32_t(cells_.size() + 1)}};
+    size_t sizes[2] = {triFaces.size(), triFaces.size()};
+    for (const uint8_t side : sides) ++sizes[side == PartedCell::inFront];
+    auto& out = cells_.halfFaces;
+    const size_t first = out.items.size();
+    out.items.resize(first + sizes[0] + sizes[1]);
+    HalfFace* to[2] = {&out.items[first], &out.items[first + sizes[0]]};
+    for (const size_t i : {0, 1}) {
+      cells_.gridCells.push_back(gridCell);
+      out.offsets.push_back(out.offsets.back() + uint32_t(sizes[i]));
+      for (const FaceId f : triFaces) *to[i]++ = HalfFace(f, uint32_t(i));
+    }
+    cells_.ofTriFaces.insert(cells_.ofTriFaces.end(), triFaces.size(), {{cells[0], cells[1]}});
+    auto side = sides.begin();
+    for (int i = 0; i < 6; ++i) {
+      const auto& halfFaces = faces_.grid.halfFaces;
+      const size_t g = stencil_.cells[gridCell].faces[size_t(i)].number;
+      for (uint32_t at = halfFaces.offsets[g]; at < halfFaces.offsets[g + 1]; ++at, ++side) {
+        const bool inFront = *side == PartedCell::inFront;
+        *to[inFront]++ = seenFrom(i & 1, halfFaces.items[at]);
+        cells_.ofGridFaces[at].cells[i & 1 ? 0 : 1] = cells[inFront];
+      }
+    }
+  }
+
   /// Cut-cells in the order of their first local half-face.
   void emit() {
     const CellHalves& cell = scratch_.halves;
@@ -300,6 +330,7 @@ void makeCutCells(const BrickSurface& surface, const Stencil& stencil, const Cut
   cells.gridCells.clear();
   cells.ofTriFaces.clear();
   cells.ofGridFaces.assign(faces.grid.halfFaces.items.size(), {});
+  scratch.parted.begin(surface, stencil);
   CellMaker maker(surface, stencil, faces, scratch, cells);
   for (const GridCellId c : stencil.cells.ids()) maker.make(c);
 }

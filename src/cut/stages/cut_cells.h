@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cut/stages/edge_table.h"
+#include "cut/stages/parted_cell.h"
 #include "cut/stages/plain_links.h"
 
 namespace mandoline::detail {
@@ -34,8 +35,9 @@ struct CellScratch {
   EdgeTable table;
   Shells shells;
   std::vector<EdgeTable::Use> around;
+  PartedCell parted;
   PlainLinks plain;
-  bool onlyGeneral = false;               ///< without plain_links.h
+  bool onlyGeneral = false;               ///< without parted_cell.h and plain_links.h
   IdVector<LocalHalf, uint8_t> anchored;  ///< per root: whether a half-face of a grid-face is joined to it
   IdVector<LocalHalf, uint32_t> cellOf;   ///< among the cut-cells of the grid cell
   std::vector<uint32_t> ends;             ///< per cut-cell: number of its half-faces, then where the next one goes

@@ -77,7 +77,7 @@ void listCells(const Bricks& bricks, BrickId brick, Stencil& stencil) {
   for (const Stencil::Cell& cell : stencil.cells) stencil.table[size_t(stencil.placeOf(cell.element))] = Stencil::kNone;
   stencil.cells.clear();
   stencil.box = bricks.boxes[brick];
-  const auto& [first, count] = stencil.box;
+  const auto &first = stencil.box.first, &count = stencil.box.count;
   stencil.steps = {1, count[0] + 2, ptrdiff_t(count[0] + 2) * (count[1] + 2)};
   stencil.placeOfFirst = 0;
   for (size_t d = 0; d < 3; ++d) stencil.placeOfFirst += (1 - first[d]) * stencil.steps[d];

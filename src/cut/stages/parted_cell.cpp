@@ -1,0 +1,152 @@
+#include "cut/stages/parted_cell.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace mandoline::detail {
+namespace {
+
+/// The corners of each grid-face of a cell, as of Stencil::cornersOf().
+constexpr auto kCornersOfFace = [] {
+  std::array<std::array<uint8_t, 4>, 6> corners{};
+  for (int d = 0; d < 3; ++d) {
+    for (int side = 0; side < 2; ++side) {
+      const int base = side << d, p = 1 << (d + 1) % 3, q = 1 << (d + 2) % 3;
+      corners[size_t(cellFace(d, side))] = {uint8_t(base), uint8_t(base + p), uint8_t(base + p + q), uint8_t(base + q)};
+    }
+  }
+  return corners;
+}();
+
+}  // namespace
+
+void PartedCell::begin(const BrickSurface& surface, const Stencil& stencil) {
+  const Prepared& mesh = *surface.input.mesh;
+  canTell_ = mesh.oriented && mesh.duplicates.empty();
+  if (!canTell_) return;
+  isSpecial_.assign(stencil.cells.size(), 0);
+  for (const FaceId f : surface.specialFaces) {
+    const auto cell = stencil.find(surface.triFaces.elements[f]);  // none of a face in an axial plane
+    if (cell) isSpecial_[*cell] = 1;
+  }
+}
+
+bool PartedCell::find(const BrickSurface& surface, const Stencil& stencil, const GridFaces& grid, GridCellId cell) {
+  return canTell_ && !isSpecial_[cell] && isOneSheet(surface, stencil.triFacesInCell[cell]) &&
+         findSides(stencil, grid, cell, surface.vertices.firstInTriangle);
+}
+
+/// A tri-cut-face without stitched sides has six ends of tri-edges at most, so that a quarter of the slots stays free.
+void PartedCell::clearTable(size_t faces) {
+  mask_ = 63;
+  while (mask_ < 8 * faces) mask_ = 2 * mask_ + 1;
+  if (slots_.size() <= mask_ || ++stamp_ == 0) {
+    slots_.assign(mask_ + 1, {0, 0, 0});
+    stamp_ = 1;
+  }
+}
+
+/// Whether a vertex is an end of tri-edges of the sheet on a grid-face.
+bool PartedCell::has(VertexId v) const {
+  size_t at = firstPlaceOf(v.number);
+  while (slots_[at & mask_].stamp == stamp_ && slots_[at & mask_].key != v.number) ++at;
+  return slots_[at & mask_].stamp == stamp_;
+}
+
+/// Whether two faces meet at each tri-edge, and all are connected so. As none is special, each has one loop, of its own number.
+bool PartedCell::isOneSheet(const BrickSurface& surface, std::span<const FaceId> faces) {
+  const VertexId firstOnEdge = surface.vertices.firstOnEdge, firstInTriangle = surface.vertices.firstInTriangle;
+  clearTable(faces.size());
+  if (sheets_.size() < faces.size()) sheets_.resize(faces.size());
+  Slot* const slots = slots_.data();
+  uint32_t* const sheets = sheets_.data();
+  const uint32_t stamp = stamp_;
+  const size_t mask = mask_;
+  size_t apart = faces.size(), open = 0;
+  const auto sheetOf = [=](uint32_t face) {
+    while (sheets[face] != face) face = sheets[face] = sheets[sheets[face]];
+    return face;
+  };
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    sheets[f] = f;
+    const auto loop = surface.triFaces.loops[faces[f].number];
+    VertexId u = loop.back();
+    for (const VertexId v : loop) {
+      const VertexId before = std::exchange(u, v);
+      if (v >= firstInTriangle) continue;
+      uint64_t key = v.number;
+      if (v < firstOnEdge) {
+        if (before >= firstOnEdge) continue;
+        key = uint64_t(std::min(before, v).number) << 32 | std::max(before, v).number;
+      }
+      size_t at = firstPlaceOf(key);
+      while (slots[at & mask].stamp == stamp && slots[at & mask].key != key) ++at;
+      Slot& slot = slots[at & mask];
+      if (slot.stamp != stamp) {
+        slot = {key, stamp, f};
+        ++open;
+        continue;
+      }
+      if (slot.face == kBoth) return false;
+      const uint32_t a = sheetOf(slot.face), b = sheetOf(f);
+      sheets[std::max(a, b)] = std::min(a, b);
+      apart -= a != b;
+      slot.face = kBoth;
+      --open;
+    }
+  }
+  return open == 0 && apart == 1;
+}
+
+/// False also where a grid-face has tri-edges, whose faces may all be in another cell: these come last, and an end of the sheet's hybrid
+/// edges is in a triangle, or connects others of its faces.
+bool PartedCell::findSides(const Stencil& stencil, const GridFaces& grid, GridCellId cell, VertexId firstInTriangle) {
+  const auto& gridFaces = stencil.cells[cell].faces;
+  corners_.fill(unknown);
+  std::array<std::array<uint8_t, 2>, 6> wholeFaces;
+  size_t wholeCount = 0;
+  uint32_t count = 0;
+  for (size_t i = 0; i < 6; ++i) {
+    const GridFaceId g = gridFaces[i];
+    const GridFaceKind kind = grid.kinds[g];
+    if (kind == GridFaceKind::whole && count < kMostPieces) {
+      wholeFaces[wholeCount++] = {uint8_t(i), uint8_t(count++)};
+      continue;
+    }
+    const uint32_t pieces = uint32_t(grid.halfFaces[g].size());
+    const auto edges = stencil.edgesOnFace[g];
+    if (kind != GridFaceKind::chains || count + pieces > kMostPieces) return false;
+    if (edges.back().from < firstInTriangle && !has(edges.back().from)) return false;
+    uint8_t* const sides = &sides_[count];
+    std::fill(sides, sides + pieces, unknown);
+    const uint32_t* const outline = grid.beside[g].data();
+    const uint32_t* beside = outline + 5 + outline[4];
+    for (size_t e = 0; e < edges.size(); ++e, beside += 2) {
+      sides[beside[0]] |= inFront;
+      sides[beside[1]] |= behind;
+    }
+    for (size_t c = 0; c < 4; ++c) corners_[kCornersOfFace[i][c]] |= sides[outline[5 + outline[c]]];
+    count += pieces;
+  }
+  pieceCount_ = count;
+  const auto isFound = [](uint8_t side) { return side == behind || side == inFront; };
+  return findSidesOfWhole({wholeFaces.data(), wholeCount}) && std::all_of(sides_.begin(), sides_.begin() + count, isFound) &&
+         std::all_of(corners_.begin(), corners_.end(), isFound);
+}
+
+/// `wholeFaces`: the place of each in the cell, and that of its piece. They lie where grid-faces beside them do.
+bool PartedCell::findSidesOfWhole(std::span<const std::array<uint8_t, 2>> wholeFaces) {
+  for (size_t found = 0, before = 0; found < wholeFaces.size(); before = found) {
+    found = 0;
+    for (const auto& [face, piece] : wholeFaces) {
+      const auto& [a, b, c, d] = kCornersOfFace[face];
+      const uint8_t side = corners_[a] | corners_[b] | corners_[c] | corners_[d];
+      corners_[a] = corners_[b] = corners_[c] = corners_[d] = sides_[piece] = side;
+      found += side != unknown;
+    }
+    if (found == before) return false;
+  }
+  return true;
+}
+
+}  // namespace mandoline::detail

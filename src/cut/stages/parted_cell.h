@@ -1,0 +1,55 @@
+// A grid cell that one sheet of the surface parts in two, as nearly all are: one cut-cell lies behind it, one in front. There nothing has
+// to be joined edge by edge. Tri-cut-faces are one sheet if their tri-edges connect them; a hybrid edge has the piece of its grid-face that
+// lies in front of the sheet on its left, since so it leaves the dicer; and a grid-face without any lies where its corners do.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "cut/stages/cut_faces.h"
+
+namespace mandoline::detail {
+
+class PartedCell {
+ public:
+  enum Side : uint8_t { unknown = 0, behind = 1, inFront = 2 };
+
+  /// Begins with the cells of a brick.
+  void begin(const BrickSurface& surface, const Stencil& stencil);
+
+  /// Finds the side of each piece of the cell's grid-faces. False, without sides to use, unless it is one sheet that parts the cell, and
+  /// no vertex of the sheet is in a special position.
+  bool find(const BrickSurface& surface, const Stencil& stencil, const GridFaces& grid, GridCellId cell);
+
+  /// By the cell's grid-faces, then as GridFaces has their half-faces.
+  std::span<const uint8_t> sides() const { return {sides_.data(), pieceCount_}; }
+
+ private:
+  /// Where two tri-cut-faces are connected: an end of a piece of a tri-edge on a grid-face, or a whole tri-edge inside of the cell. Of a
+  /// hash table that is emptied by counting up a stamp.
+  struct Slot {
+    uint64_t key;
+    uint32_t stamp, face;  ///< the one that has come so far, or kBoth
+  };
+  static constexpr uint32_t kBoth = ~0u;
+  static constexpr size_t kMostPieces = 64;
+
+  void clearTable(size_t faces);
+  static size_t firstPlaceOf(uint64_t key) { return size_t((key * 0x9e3779b97f4a7c15u) >> 40); }
+  bool has(VertexId v) const;
+  bool isOneSheet(const BrickSurface& surface, std::span<const FaceId> faces);
+  bool findSides(const Stencil& stencil, const GridFaces& grid, GridCellId cell, VertexId firstInTriangle);
+  bool findSidesOfWhole(std::span<const std::array<uint8_t, 2>> wholeFaces);
+
+  bool canTell_ = false;
+  IdVector<GridCellId, uint8_t> isSpecial_;
+  std::vector<Slot> slots_;
+  uint32_t stamp_ = 0;
+  size_t mask_ = 0;
+  std::vector<uint32_t> sheets_;  // per tri-cut-face of the cell: one before it in its sheet, or itself
+  std::array<uint8_t, kMostPieces> sides_;
+  uint32_t pieceCount_ = 0;
+  std::array<uint8_t, 8> corners_;  // the sides that have been found to reach each
+};
+
+}  // namespace mandoline::detail
