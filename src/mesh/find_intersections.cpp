@@ -108,7 +108,7 @@ MeshIntersections findIntersections(const MeshView& mesh, const IntersectionOpti
         prepareMesh(mesh, {0, Intersections::assumeNone}, monitor, [&](const char* stage) { monitor.beginStage(stage, 0); });
     monitor.beginStage("intersections", 1);
     Predicates predicates;
-    const Contacts contacts = findContacts(*prepared, NearTriangles(*prepared), monitor, predicates, options.maxPairs);
+    const Contacts contacts = findContacts(*prepared, findNear(SortedMesh(*prepared), monitor), monitor, predicates, options.maxPairs);
     MeshIntersections result;
     result.counts = contacts.counts;
     Lister(mesh, *prepared, options.maxPairs).list(contacts.pairs, result);

@@ -63,7 +63,7 @@ Contacts findContactsAgain(const Prepared& before, const Prepared& now, const Mo
   };
   std::vector<PairContact> pairs = before.contacts;
   std::erase_if(pairs, isNew);
-  for (const PairContact& pair : findContacts(now, NearTriangles(SortedMesh(now, nearMoved(now, moved))), monitor, predicates).pairs) {
+  for (const PairContact& pair : findContacts(now, findNear(SortedMesh(now, nearMoved(now, moved)), monitor), monitor, predicates).pairs) {
     if (isNew(pair)) pairs.push_back(pair);
   }
   return contactsOf(now, std::move(pairs));

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "base/run_tasks.h"
+
 namespace mandoline::detail {
 namespace {
 
@@ -62,22 +64,35 @@ void refuseIntersections(const Prepared& prepared, const Contacts& contacts) {
                      (total == 1 ? "the only pair that does." : "the first of " + std::to_string(total) + " pairs that do.")}};
 }
 
-void findEdges(Prepared& prepared, const Arrangement* arrangement) {
-  prepared.edges = findMeshEdges(prepared, arrangement);
+void findPartsOfOpen(Prepared& prepared) {
   if (!prepared.closed) prepared.parts = findParts(prepared);
 }
 
-/// The edges and the triangles that may meet, side by side: neither needs the other.
+void findEdges(Prepared& prepared, const Arrangement* arrangement) {
+  prepared.edges = findMeshEdges(prepared, arrangement);
+  findPartsOfOpen(prepared);
+}
+
+/// The edges and the triangles that may meet, side by side: neither needs the other. Whoever is done first helps with the charts.
 /// `states` are those of the search: the edges change the mesh's.
 NearTriangles findEdgesAndNear(Prepared& prepared, const std::vector<TriangleState>& states, Monitor& monitor) {
+  const auto both = [&](const std::function<void()>& first, const std::function<void()>& second) {
+    runTasks(std::array{first, second}, monitor);
+  };
+  std::optional<SortedMesh> sorted;
+  ChartFinder charts;
+  both(
+      [&] {
+        prepared.edges = findMeshEdges(prepared, nullptr);
+        charts.help();
+      },
+      [&] {
+        sorted.emplace(prepared, states);
+        charts.begin(*sorted);
+        charts.help();
+      });
   std::optional<NearTriangles> near;
-  runItems({0, 1}, monitor, [&](size_t, uint32_t task) {
-    if (task == 0) {
-      findEdges(prepared, nullptr);
-    } else {
-      near.emplace(SortedMesh(prepared, states));
-    }
-  });
+  both([&] { findPartsOfOpen(prepared); }, [&] { near.emplace(*std::move(sorted), charts.take()); });
   return *std::move(near);
 }
 

@@ -186,7 +186,7 @@ std::vector<ShellPair> crossingShells(const WeldedMesh& mesh, const Patches& pat
                                       Predicates& predicates) {
   std::vector<ShellPair> pairs;
   if (shells.count() < 2) return pairs;
-  for (const PairContact& pair : findContacts(mesh, NearTriangles(mesh), monitor, predicates).pairs) {
+  for (const PairContact& pair : findContacts(mesh, findNear(SortedMesh(mesh), monitor), monitor, predicates).pairs) {
     const int32_t s = shells.shellOf[patches.of(pair.triangles[0])], t = shells.shellOf[patches.of(pair.triangles[1])];
     if (s >= 0 && t >= 0 && s != t && pair.kind() == IntersectionKind::crossing)
       pairs.push_back({uint32_t(std::min(s, t)), uint32_t(std::max(s, t))});

@@ -7,6 +7,10 @@
 // on smoothly discretized surface animations using geometrical shape regularity", look for such parts, too.)
 #pragma once
 
+#include <atomic>
+#include <span>
+
+#include "base/parallel.h"
 #include "mesh/resolve/sorted_mesh.h"
 
 namespace mandoline::detail {
@@ -16,7 +20,29 @@ struct Charts {
   std::vector<uint32_t> chartOf;  ///< each triangle; numbered in the order of their first ones
 };
 
-/// Two triangles of a chart have nothing in common but shared vertices and whole shared sides.
-Charts findCharts(const SortedMesh& mesh);
+/// Finds charts on several threads. Two triangles of one have nothing in common but shared vertices and whole shared sides. They end with
+/// ranges of triangles, so that they are the same for any number of threads.
+class ChartFinder {
+ public:
+  /// Any thread may call this, once: from then on there is something to do.
+  void begin(const SortedMesh& mesh);
+  /// Looks at ranges until no other is left; does nothing if the mesh is not there yet. The thread that began has to call it.
+  void help();
+  /// Once all calls have returned.
+  Charts take();
+
+ private:
+  /// The charts of the triangles of a range, which are near each other.
+  std::span<uint32_t> rangeOf(size_t r);
+
+  const SortedMesh* mesh_ = nullptr;
+  Charts charts_{0, {}};
+  std::vector<uint32_t> counts_;  // of charts, per range
+  std::atomic<size_t> next_{0};
+  std::atomic<bool> hasBegun_{false};
+};
+
+/// All at once.
+Charts findCharts(const SortedMesh& mesh, Monitor& monitor);
 
 }  // namespace mandoline::detail

@@ -4,7 +4,6 @@
 
 #include "base/keep_lowest.h"
 #include "base/sort.h"
-#include "mesh/resolve/charts.h"
 
 namespace mandoline::detail {
 namespace {
@@ -148,11 +147,6 @@ struct Chunk {
   uint64_t fallbacks = 0;
 };
 
-TriangleTree treeOf(const SortedMesh& mesh) {
-  const Charts charts = findCharts(mesh);
-  return {mesh, charts.chartOf, charts.count};
-}
-
 }  // namespace
 
 IntersectionKind PairContact::kind() const {
@@ -180,7 +174,13 @@ bool PairTest::meet(uint32_t s, uint32_t t) {
   return a == b || find(s, t, pair);
 }
 
-NearTriangles::NearTriangles(SortedMesh sorted) : mesh(std::move(sorted)), tree(treeOf(mesh)) {}
+NearTriangles::NearTriangles(SortedMesh sorted, const Charts& charts)
+    : mesh(std::move(sorted)), tree(mesh, charts.chartOf, charts.count), leaves(tree.overlappingLeaves()) {}
+
+NearTriangles findNear(SortedMesh mesh, Monitor& monitor) {
+  const Charts charts = findCharts(mesh, monitor);
+  return {std::move(mesh), charts};
+}
 
 Contacts contactsOf(const WeldedMesh& mesh, std::vector<PairContact> pairs) {
   Contacts contacts;
@@ -196,7 +196,7 @@ Contacts contactsOf(const WeldedMesh& mesh, std::vector<PairContact> pairs) {
 Contacts findContacts(const WeldedMesh& mesh, const NearTriangles& near, Monitor& monitor, Predicates& predicates, size_t most) {
   const SortedMesh& sorted = near.mesh;
   const TriangleTree& tree = near.tree;
-  const std::vector<TriangleTree::LeafPair> leaves = tree.overlappingLeaves();
+  const std::vector<TriangleTree::LeafPair>& leaves = near.leaves;
   const Copies copies(mesh);
   const auto chunks = forChunks<Chunk>(
       leaves.size(), monitor,

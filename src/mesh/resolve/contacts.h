@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "mandoline/intersections.h"
+#include "mesh/resolve/charts.h"
 #include "mesh/resolve/contact.h"
 #include "mesh/resolve/triangle_tree.h"
 
@@ -42,10 +43,11 @@ struct Contacts {
 struct NearTriangles {
   SortedMesh mesh;
   TriangleTree tree;
+  std::vector<TriangleTree::LeafPair> leaves;
 
-  explicit NearTriangles(const WeldedMesh& welded) : NearTriangles(SortedMesh(welded)) {}
-  explicit NearTriangles(SortedMesh sorted);
+  NearTriangles(SortedMesh sorted, const Charts& charts);
 };
+NearTriangles findNear(SortedMesh mesh, Monitor& monitor);
 
 /// Counts pairs, which are sorted.
 Contacts contactsOf(const WeldedMesh& mesh, std::vector<PairContact> pairs);

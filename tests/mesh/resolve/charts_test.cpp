@@ -27,7 +27,7 @@ const Grid kGrid = Grid::regular({-64, -64, -64}, {32, 32, 32}, {4, 4, 4});
 struct Unresolved : stages::StagedCut {
   const Prepared& welded = *prepared;
   const SortedMesh sorted{welded};
-  const Charts charts = findCharts(sorted);
+  const Charts charts = findCharts(sorted, monitor);
 
   explicit Unresolved(const Mesh& mesh) : StagedCut(mesh, stages::Stage::input, stages::unresolved(), kGrid) {}
 };
@@ -102,6 +102,23 @@ TEST_CASE("charts: triangles of one have nothing in common but shared vertices a
   CHECK(meeting > 4000);
 }
 
+TEST_CASE("charts: large meshes have the same for any number of threads", "[charts]") {
+  const auto flat = [](int i, int j) { return shapes::Point{double(i), double(j), 0}; };
+  const Unresolved sheet(shapes::sheet(160, 160, flat)), ball(shapes::icosphere({0, 0, 0}, 1, 6));
+  CHECK(sheet.charts.count < 20);  // of 51200 triangles, in two ranges
+  CHECK(ball.charts.count < 400);  // of 81920, in three
+  for (const Unresolved* mesh : {&sheet, &ball}) {
+    for (const unsigned threads : {1u, 2u, 3u}) {
+      CutOptions options;
+      options.threads = threads;
+      Monitor monitor(options, 1);
+      const Charts charts = findCharts(mesh->sorted, monitor);
+      CHECK(charts.count == mesh->charts.count);
+      CHECK(charts.chartOf == mesh->charts.chartOf);
+    }
+  }
+}
+
 TEST_CASE("charts: a smooth or flat surface has few", "[charts]") {
   CHECK(Unresolved(shapes::icosphere({0, 0, 0}, 1, 4)).charts.count < 40);  // of 5120 triangles
   CHECK(Unresolved(shapes::sheet(40, 40, [](int i, int j) { return shapes::Point{double(i), double(j), 0}; })).charts.count == 1);
@@ -146,7 +163,7 @@ TEST_CASE("contacts: the pairs that are found are all that meet", "[charts]") {
     CutOptions options;
     Monitor monitor(options, 1);
     Predicates predicates;
-    for (const PairContact& contact : findContacts(welded, NearTriangles(welded), monitor, predicates).pairs) {
+    for (const PairContact& contact : findContacts(welded, findNear(SortedMesh(welded), monitor), monitor, predicates).pairs) {
       CHECK(found.insert({contact.triangles[0], contact.triangles[1]}).second);
     }
     REQUIRE(found == expected);
