@@ -6,8 +6,10 @@
 
 #include "base/arena.h"
 #include "base/csr.h"
+#include "base/group_numbers.h"
 #include "catch.h"
 #include "cut/ids.h"
+#include "mandoline/cut.h"
 
 using namespace mandoline::detail;
 
@@ -68,6 +70,26 @@ TEST_CASE("Items are grouped by id in the order in which they come", "[base]") {
   const PerCell csr = groupBy<int, CellId>(
       4, cells.size(), [&](size_t i) { return cells[i]; }, [](size_t i) { return int(i); });
   CHECK(listOf(csr) == std::vector<std::vector<int>>{{1, 3}, {}, {0, 2, 4}, {}});
+}
+
+TEST_CASE("Numbers are grouped alike by any number of threads, and those without a group are left out", "[base]") {
+  constexpr size_t kCount = 20000, kGroups = 7;
+  const auto groupOf = [](size_t i) { return i % 3 == 0 ? kNoGroup : uint32_t(i * i % kGroups); };
+  std::vector<uint32_t> grouped;
+  for (uint32_t i = 0; i < kCount; ++i) {
+    if (groupOf(i) != kNoGroup) grouped.push_back(i);
+  }
+  const auto expected = groupBy<uint32_t>(
+      kGroups, grouped.size(), [&](size_t i) { return groupOf(grouped[i]); }, [&](size_t i) { return grouped[i]; });
+  for (const unsigned threads : {1u, 2u, 3u}) {
+    mandoline::CutOptions options;
+    options.threads = threads;
+    Monitor monitor(options, 1);
+    const auto found = groupNumbers(kGroups, kCount, monitor, groupOf);
+    CHECK(found.offsets == expected.offsets);
+    CHECK(found.items == expected.items);
+    CHECK(groupNumbers(kGroups, 0, monitor, groupOf).offsets == std::vector<uint32_t>(kGroups + 1, 0));
+  }
 }
 
 TEST_CASE("An arena keeps what was copied into it, also where it is moved", "[base]") {

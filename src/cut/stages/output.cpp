@@ -1,6 +1,9 @@
 #include "cut/stages/output.h"
 
+#include <array>
+
 #include "base/large_array.h"
+#include "base/run_tasks.h"
 #include "cut/append.h"
 
 namespace mandoline::detail {
@@ -190,8 +193,11 @@ void finish(const std::vector<uint8_t>& hasFace, const CutState& state, CutMesh&
 
 CutMesh makeOutput(std::vector<CutPart> parts, CutState& state, Run& run) {
   CutMesh out = parts.size() == 1 ? std::move(parts.front().cutMesh) : Joiner(parts).run();
-  addCommon(std::move(state.runs), std::move(state.regions), state, out);
-  finish(trianglesWithFace(out, out.triangleCount), state, out, run.stats);
+  std::vector<uint8_t> hasFace;
+  const std::array<std::function<void()>, 2> tasks{[&] { hasFace = trianglesWithFace(out, state.surface.input.mesh->triangles.size()); },
+                                                   [&] { addCommon(std::move(state.runs), std::move(state.regions), state, out); }};
+  runTasks(tasks, run.monitor);
+  finish(hasFace, state, out, run.stats);
   return out;
 }
 

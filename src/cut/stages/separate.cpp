@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/group_numbers.h"
 #include "base/position_table.h"
 
 namespace mandoline::detail {
@@ -18,12 +19,7 @@ class Separator {
 
   void run(Monitor& monitor) {
     const size_t count = (slabCount() >> shift_) + 1;
-    Csr<uint32_t> layers;
-    layers.offsets.assign(count + 1, 0);
-    forThoseThatMayMeet([&](uint32_t, size_t layer) { ++layers.offsets[layer]; });
-    layers.items.resize(toOffsets(layers.offsets));
-    forThoseThatMayMeet([&](uint32_t v, size_t layer) { layers.items[layers.offsets[layer]++] = v; });
-    moveBack(layers.offsets);
+    const auto layers = groupNumbers(count, out_.vertexCount(), monitor, [&](size_t v) { return layerOf(uint32_t(v)); });
     std::vector<uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0u);
     runItems(order, monitor, [&](size_t, uint32_t layer) { separate(layers[layer]); });
@@ -32,19 +28,13 @@ class Separator {
  private:
   static constexpr size_t kVertices = 4096;  // about as many as a layer has, at least
 
-  /// Calls f(vertex, layer). Vertices on different grid elements never have the same position: see CutVertices::position. At a grid vertex
-  /// there is one; inside of a grid cell there are those of the mesh alone, unless triangles meet. A layer has all vertices of the grid
+  /// Vertices on different grid elements never have the same position: see CutVertices::position. At a grid vertex there is one; inside of
+  /// a grid cell there are those of the mesh alone, unless triangles meet. None of these has a layer; a layer has all others of the grid
   /// elements that it has.
-  template <class F>
-  void forThoseThatMayMeet(const F& f) const {
-    const uint32_t count = uint32_t(out_.vertexCount());
-    const uint8_t* const masks = out_.vertexMask.data();
-    const int32_t* const cells = out_.vertexCell.data() + axis_;
-    for (uint32_t v = 0; v < count; ++v) {
-      const uint8_t mask = masks[v];
-      if (mask == 7 || mask == maskInCell_ || kept_.has(v)) continue;
-      f(v, (2 * size_t(cells[3 * size_t(v)]) + !(mask >> axis_ & 1)) >> shift_);
-    }
+  uint32_t layerOf(uint32_t v) const {
+    const uint8_t mask = out_.vertexMask[v];
+    if (mask == 7 || mask == maskInCell_ || kept_.has(v)) return kNoGroup;
+    return uint32_t((2 * size_t(out_.vertexCell[3 * size_t(v) + axis_]) + !(mask >> axis_ & 1)) >> shift_);
   }
   size_t slabCount() const { return 2 * out_.grid.planes[axis_].size(); }
 

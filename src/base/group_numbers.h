@@ -1,0 +1,48 @@
+// Groups of numbers, found on all threads.
+#pragma once
+
+#include "base/csr.h"
+#include "base/parallel.h"
+
+namespace mandoline::detail {
+
+inline constexpr uint32_t kNoGroup = ~0u;
+
+/// Groups the numbers below n by groupOf(number), ascending in each group; those with kNoGroup are left out.
+template <class GroupOf>
+Csr<uint32_t> groupNumbers(size_t groups, size_t n, Monitor& monitor, const GroupOf& groupOf) {
+  struct Chunk {
+    std::vector<uint32_t> numbers, groupOf;
+    std::vector<uint32_t> at;  // per group: how many there are, then where the next one goes
+  };
+  auto chunks = forChunks<Chunk>(n, monitor, [&](Chunk& chunk, size_t begin, size_t end) {
+    chunk.at.resize(groups, 0);
+    for (size_t i = begin; i < end; ++i) {
+      const uint32_t group = groupOf(i);
+      if (group == kNoGroup) continue;
+      chunk.numbers.push_back(uint32_t(i));
+      chunk.groupOf.push_back(group);
+      ++chunk.at[group];
+    }
+  });
+  Csr<uint32_t> result;
+  result.offsets.resize(groups + 1);
+  uint32_t total = 0;
+  for (size_t group = 0; group < groups; ++group) {
+    for (Chunk& chunk : chunks) {
+      if (!chunk.at.empty()) total += std::exchange(chunk.at[group], total);
+    }
+    result.offsets[group + 1] = total;
+  }
+  result.items.resize(total);
+  runChunks(
+      chunks.size(), chunks.size(), monitor,
+      [&](size_t c, size_t, size_t) {
+        Chunk& chunk = chunks[c];
+        for (size_t i = 0; i < chunk.numbers.size(); ++i) result.items[chunk.at[chunk.groupOf[i]]++] = chunk.numbers[i];
+      },
+      1);
+  return result;
+}
+
+}  // namespace mandoline::detail
