@@ -5,7 +5,7 @@
 #include <span>
 
 #include "cut/stages/brick_grid.h"
-#include "cut/stages/sweep.h"
+#include "cut/stages/polygon.h"
 
 namespace mandoline::detail {
 

@@ -13,6 +13,8 @@ using Slab = std::array<int32_t, 3>;
 
 inline bool onPlane(int32_t slab) { return (slab & 1) == 0; }
 inline int planeCount(const Slab& s) { return 3 - (s[0] & 1) - (s[1] & 1) - (s[2] & 1); }
+/// Whether it lies on no plane.
+inline bool isCell(const Slab& s) { return !onPlane(s[0] & s[1] & s[2]); }
 
 /// The slab that holds the inside of a segment or convex piece whose least and greatest slabs are given; they lie in one closed slab.
 inline int32_t slabBetween(int32_t least, int32_t greatest) { return least | int32_t(least != greatest); }

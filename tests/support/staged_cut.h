@@ -69,6 +69,7 @@ struct StagedCut {
   void cutFirstBrick(Stage last) {
     brick.vertices = CutVertices::ofBrick(state.surface.vertices);
     if (state.bricks.size() == 0) return;
+    brick.onlySweep = run.onlyGeneral;
     cutBrickSurface(state.surface, state.parts, {0}, state.bricks, brick);
     if (last >= Stage::stencil) makeStencil(brick, state.bricks, {0}, stencil);
     if (last >= Stage::gridEdges) cutGridEdges(brick, stencil, gridEdges);

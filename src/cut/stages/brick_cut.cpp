@@ -13,7 +13,7 @@ class BrickThread {
  public:
   BrickThread(const Surface& surface, const SurfaceParts& parts, Bricks& bricks, bool onlyGeneral)
       : surface_(surface), parts_(parts), bricks_(bricks), counted_(countedOf(*surface.input.mesh)), brickSurface_(surface) {
-    gridFaceScratch_.onlyGraph = cellScratch_.onlyGeneral = onlyGeneral;
+    brickSurface_.onlySweep = gridFaceScratch_.onlyGraph = cellScratch_.onlyGeneral = onlyGeneral;
   }
 
   /// `memory`: that of all results.

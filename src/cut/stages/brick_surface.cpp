@@ -14,11 +14,15 @@ class SurfaceCutter {
         brick_(brick),
         bricks_(bricks),
         out_(out),
-        dicer_(input_, BrickGrid::same(0), *this) {}
+        faces_(out.triFaces, 2 * bricks.parts[brick].size()),
+        dicer_(input_, BrickGrid::same(0), *this) {
+    dicer_.onlySweep = out.onlySweep;
+  }
   SurfaceCutter(const SurfaceCutter&) = delete;
 
   void run() {
     for (const uint32_t i : bricks_.parts[brick_]) cut(parts_.clipped.parts[i]);
+    faces_.end();
     for (const FaceId f : bricks_.dividedFaces[brick_]) {
       out_.specialFaces.push_back({uint32_t(out_.triFaces.size())});
       out_.triFaces.append(parts_.divided, f);
@@ -39,23 +43,24 @@ class SurfaceCutter {
   /// A loop begins with its lowest vertex of the mesh, or of a tri-edge; without one, with that of the lowest slabs.
   void addPiece(Polygon polygon, const Slab& element) {
     const CutVertices& vertices = out_.vertices;
-    size_t first = 0;
+    uint64_t lowest = ~uint64_t(0);  // with its place in the lower bits
     bool touchesLine = false, isSpecial = false;
     for (size_t i = 0; i < polygon.size(); ++i) {
+      const VertexId v = polygon[i].id;
       const int planes = planeCount(polygon[i].slab);
+      lowest = std::min(lowest, uint64_t(v.number) << 32 | i);
       touchesLine |= planes > 1;
-      isSpecial |= planes > (polygon[i].id >= vertices.firstOnEdge) + (polygon[i].id >= vertices.firstInTriangle);
-      if (polygon[i].id < polygon[first].id) first = i;
+      isSpecial |= planes > (v >= vertices.firstOnEdge) + (v >= vertices.firstInTriangle);
     }
+    size_t first = uint32_t(lowest);
     if (polygon[first].id >= vertices.firstInTriangle) {
-      const auto lowest =
-          std::min_element(polygon.begin(), polygon.end(), [](const Corner& a, const Corner& b) { return a.slab < b.slab; });
-      first = size_t(lowest - polygon.begin());
+      const auto bySlab = [](const Corner& a, const Corner& b) { return a.slab < b.slab; };
+      first = size_t(std::min_element(polygon.begin(), polygon.end(), bySlab) - polygon.begin());
     }
-    std::vector<VertexId>& loop = out_.triFaces.loops.items;
-    for (size_t i = first; i < polygon.size(); ++i) loop.push_back(polygon[i].id);
-    for (size_t i = 0; i < first; ++i) loop.push_back(polygon[i].id);
-    endFace(element, touchesLine, isSpecial);
+    VertexId* const loop = faces_.makeLoop(polygon.size());
+    writeIds(&polygon[first], polygon.size() - first, loop);
+    writeIds(&polygon[0], first, loop + (polygon.size() - first));
+    endFace(polygon.size(), element, touchesLine, isSpecial);
   }
 
  private:
@@ -65,7 +70,10 @@ class SurfaceCutter {
     triangle_ = part.triangle;
     if (part.piece != ClippedTriangles::kWhole) {
       const Polygon piece = parts_.clipped.pieces[part.piece];
-      return dicer_.dice(triangle_, piece, Extent::of(piece), kInGrid);
+      outline_.clear();
+      outline_.makeRoom(piece.size());
+      for (const Corner& c : piece) outline_.add(c);
+      return dicer_.dice(triangle_, outline_.all(), Extent::of(piece), kInGrid);
     }
     const auto t = input_.verticesOf(triangle_);
     const Slab &a = input_.slabs[t[0]], &b = input_.slabs[t[1]], &c = input_.slabs[t[2]];
@@ -74,22 +82,30 @@ class SurfaceCutter {
       outlineOf(surface_, triangle_, outline_);
       return dicer_.dice(triangle_, outline_.all(), extent, kInGrid);
     }
-    std::vector<VertexId>& loop = out_.triFaces.loops.items;
-    for (const VertexId v : t) loop.push_back(v);
+    std::copy_n(t.data(), 3, faces_.makeLoop(3));
     const int planes = std::max({planeCount(a), planeCount(b), planeCount(c)});
-    endFace(extent.element(), planes > 1, planes > 0);
+    endFace(3, extent.element(), planes > 1, planes > 0);
   }
 
-  void endFace(const Slab& element, bool touchesLine, bool isSpecial) {
-    out_.triFaces.loops.endGroup();
-    if (isSpecial) out_.specialFaces.push_back({uint32_t(out_.triFaces.size())});
-    out_.triFaces.endFace(triangle_, element, touchesLine);
+  /// Block by block, since how many there are can't be foretold.
+  static void writeIds(const Corner* corners, size_t count, VertexId* to) {
+    static_assert(Corners::kBlock == TriFaceWriter::kBlock);
+    size_t i = 0;
+    do {
+      for (size_t k = i; k < i + Corners::kBlock; ++k) to[k] = corners[k].id;
+      i += Corners::kBlock;
+    } while (i < count);
+  }
+
+  void endFace(size_t vertices, const Slab& element, bool touchesLine, bool isSpecial) {
+    const FaceId face = faces_.endFace(vertices, triangle_, element, touchesLine);
+    if (isSpecial) out_.specialFaces.push_back(face);
     touch(element);
   }
 
   /// The cells that have a grid element, of those in the brick.
   void touch(const Slab& element) {
-    if (planeCount(element) == 0) return bricks_.touch(brick_, element);
+    if (isCell(element)) return bricks_.touch(brick_, element);
     findCellAround(element, [&](const Slab& cell) {
       if (bricks_.boxes[brick_].has(cell)) bricks_.touch(brick_, cell);
       return false;
@@ -102,6 +118,7 @@ class SurfaceCutter {
   const BrickId brick_;
   Bricks& bricks_;
   BrickSurface& out_;
+  TriFaceWriter faces_;
   TriangleId triangle_{0};
   Corners outline_;
   Dicer<SurfaceCutter> dicer_;

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "cut/stages/bricks.h"
-#include "cut/stages/sweep.h"
+#include "cut/stages/polygon.h"
 
 namespace mandoline::detail {
 
@@ -20,6 +20,7 @@ struct BrickSurface {
   std::vector<FaceEdge> faceEdges;         ///< cut-edges that lie in a grid-face: in each by triangle, those of tri-edges last
   std::span<const VertexId> seamVertices;  ///< see Bricks
   Predicates predicates;
+  bool onlySweep = false;  ///< for tests: how triangles are diced, see Dicer
 
   const MeshEdges& edges() const { return input.mesh->edges; }
 };

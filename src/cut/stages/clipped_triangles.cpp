@@ -34,14 +34,16 @@ struct ClippedChunk {
 /// Clips triangles that others don't reach into.
 class Clipper {
  public:
-  Clipper(const Surface& surface, const BrickGrid& bricks, Monitor& monitor, ClippedChunk& chunk)
+  Clipper(const Surface& surface, const BrickGrid& bricks, Run& run, ClippedChunk& chunk)
       : surface_(surface),
         input_(surface.input),
         vertices_(surface.vertices),
         bricks_(bricks),
-        monitor_(monitor),
+        monitor_(run.monitor),
         chunk_(chunk),
-        dicer_(input_, bricks.shifts, *this) {}
+        dicer_(input_, bricks.shifts, *this) {
+    dicer_.onlySweep = run.onlyGeneral;
+  }
   Clipper(const Clipper&) = delete;
   ~Clipper() { chunk_.predicates.fallbacks += dicer_.predicates.fallbacks; }
 
@@ -121,7 +123,9 @@ class WholeDicer {
         vertices_(surface.vertices),
         monitor_(monitor),
         chunk_(chunk),
-        dicer_(input_, BrickGrid::same(0), *this) {}
+        dicer_(input_, BrickGrid::same(0), *this) {
+    dicer_.onlySweep = true;  // loops begin where it begins
+  }
   WholeDicer(const WholeDicer&) = delete;
   ~WholeDicer() { chunk_.predicates.fallbacks += dicer_.predicates.fallbacks; }
 
@@ -231,7 +235,7 @@ ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& r
   CutVertices& vertices = surface.vertices;
   const auto chunks =
       forChunks<ClippedChunk>(input.mesh->triangles.size(), run.monitor, [&](ClippedChunk& chunk, size_t begin, size_t end) {
-        Clipper clipper(surface, bricks, run.monitor, chunk);
+        Clipper clipper(surface, bricks, run, chunk);
         WholeDicer dicer(surface, run.monitor, chunk);
         for (const TriangleId t : Ids<TriangleId>(begin, end)) {
           if (known && known->has(t)) continue;

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "cut/stages/brick_grid.h"
-#include "cut/stages/sweep.h"
+#include "cut/stages/polygon.h"
 #include "cut/stages/tri_faces.h"
 
 namespace mandoline::detail {

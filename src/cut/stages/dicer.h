@@ -4,6 +4,7 @@
 // and what two of them have in common is the same to both.
 #pragma once
 
+#include "cut/stages/polygon_halves.h"
 #include "cut/stages/sweep.h"
 #include "cut/stages/tri_edges.h"
 
@@ -23,11 +24,9 @@ inline void outlineOf(const Surface& surface, TriangleId triangle, Corners& outl
       outline.makeRoom(past - first + 1);
       outline.add({from, slabs[from.number]});
       while (past > first && slabs[past - 1][0] == CutVertices::kUnused) --past;
-      if (forward) {
-        for (uint32_t v = first; v < past; ++v) outline.add({{v}, slabs[v]});
-      } else {
-        for (uint32_t v = past; v-- > first;) outline.add({{v}, slabs[v]});
-      }
+      const uint32_t step = forward ? 1 : ~0u;
+      uint32_t v = forward ? first : past - 1;
+      for (uint32_t left = past - first; left > 0; --left, v += step) outline.add({{v}, slabs[v]});
       from = surface.edges().ends[edge][forward ? 1 : 0];
     });
   }
@@ -82,28 +81,31 @@ class Dicer {
   void dice(TriangleId triangle, Polygon polygon, const Extent& extent, bool keepOutside = false) {
     triangle_ = triangle;
     keepOutside_ = keepOutside;
-    for (size_t d = 0; d < 3; ++d) {
+    size_t next = kNoAxis;
+    for (size_t d = 3; d-- > 0;) {
       const int32_t least = extent.least[d], greatest = extent.greatest[d];
-      isCut_[d] = seamFrom(d, firstPlaneAfter(least)) <= lastPlaneBefore(greatest);
-      if (!isCut_[d] && !enter(d, slabBetween(least, greatest))) return;
+      nextAxis_[d] = next;
+      if (seamFrom(d, firstPlaneAfter(least)) <= lastPlaneBefore(greatest)) {
+        next = d;
+      } else if (!enter(d, slabBetween(least, greatest))) {
+        return;
+      }
     }
-    split(0, polygon);
+    split(next, polygon, room_);
   }
 
   Predicates predicates;
+  bool onlySweep = false;  ///< without polygon_halves.h: pieces are the same, but may begin elsewhere
 
  private:
+  static constexpr size_t kNoAxis = 3;
+
   /// Cuts a convex polygon by the planes of `axis` and of those after it.
-  void split(size_t axis, Polygon polygon) {
-    for (; axis < 3; ++axis) {
-      if (!isCut_[axis]) continue;
-      int32_t least = polygon[0].slab[axis], greatest = least;
-      for (const Corner& c : polygon) {
-        least = std::min(least, c.slab[axis]);
-        greatest = std::max(greatest, c.slab[axis]);
-      }
-      const int32_t plane = seamFrom(axis, firstPlaneAfter(least)), last = lastPlaneBefore(greatest);
-      if (plane <= last) return sweep({axis, plane, last}, polygon, least);
+  void split(size_t axis, Polygon polygon, HalvesRoom& room) {
+    for (; axis != kNoAxis; axis = nextAxis_[axis]) {
+      const auto [least, greatest] = extent(polygon, axis);
+      const int32_t first = seamFrom(axis, firstPlaneAfter(least)), last = lastPlaneBefore(greatest);
+      if (first <= last) return splitBy({axis, first, last}, polygon, room);
       if (!enter(axis, slabBetween(least, greatest))) return;
     }
     out_.addPiece(polygon, element_);
@@ -113,22 +115,46 @@ class Dicer {
     size_t axis;
     int32_t first, last;
   };
-  /// The same where some of these planes cut it, from its lowest slab up.
-  void sweep(const Planes& planes, Polygon polygon, int32_t least) {
+  /// The same where some of these planes cut it, the first one among them.
+  void splitBy(const Planes& planes, Polygon polygon, HalvesRoom& room) {
+    if (polygon.size() > PolygonHalves::kMostCorners || onlySweep) return sweep(planes, polygon, room);
+    const auto [axis, plane, last] = planes;
+    const PolygonHalves halves(polygon, axis, 2 * plane);
+    room.line.clear();
+    makeLine(axis, plane, halves.up(), halves.down(), room.line, 0);
+    addHybridEdges(axis, room.line.all());
+    const auto [below, above] = halves.pieces(room);
+    HalvesRoom& deeper = room.deeper();
+    if (enter(axis, 2 * plane - 1)) split(nextAxis_[axis], below, deeper);
+    const int32_t next = seamFrom(axis, plane + 1);
+    if (next <= last) return splitBy({axis, next, last}, above, deeper);
+    if (enter(axis, 2 * plane + 1)) split(nextAxis_[axis], above, deeper);
+  }
+  void sweep(const Planes& planes, Polygon polygon, HalvesRoom& room) {
     const size_t axis = planes.axis;
-    Sweep sweep(polygon, axis, least, rooms_[axis]);
+    Sweep sweep(polygon, axis, extent(polygon, axis).first, sweepRooms_[axis]);
     int32_t above = 0;
     for (int32_t plane = planes.first; plane <= planes.last; plane = seamFrom(axis, plane + 1)) {
       sweep.climb(2 * plane);
-      makeLine(axis, plane, sweep);
+      makeLine(axis, plane, sweep.up(), sweep.down(), sweep.unfinished(), polygon.size());
       sweep.close();
       addHybridEdges(axis, sweep.line());
-      if (enter(axis, 2 * plane - 1)) split(axis + 1, sweep.piece());
+      if (enter(axis, 2 * plane - 1)) split(nextAxis_[axis], sweep.piece(), room);
       sweep.beginAbove();
       above = 2 * plane + 1;
     }
     sweep.closeLast();
-    if (enter(axis, above)) split(axis + 1, sweep.piece());
+    if (enter(axis, above)) split(nextAxis_[axis], sweep.piece(), room);
+  }
+
+  /// The least slab along an axis, and the greatest.
+  static std::pair<int32_t, int32_t> extent(Polygon polygon, size_t axis) {
+    int32_t least = polygon[0].slab[axis], greatest = least;
+    for (const Corner& c : polygon) {
+      least = std::min(least, c.slab[axis]);
+      greatest = std::max(greatest, c.slab[axis]);
+    }
+    return {least, greatest};
   }
 
   /// The first of the planes to cut by that is not below `plane`; beyond all planes if there is none.
@@ -168,25 +194,27 @@ class Dicer {
     for (int32_t i = step > 0 ? firstPlaneAfter(from) : lastPlaneBefore(from); step > 0 ? i < past : i > past; i += step) f(i, step);
   }
 
-  /// Adds the vertices inside of the hybrid edge that the sweep is at, which lies in the plane: its crossings with planes across the next
-  /// axis, at heights along the one after that, which are up to P2; and with planes across that one in between.
-  void makeLine(size_t axis, int32_t plane, Sweep& sweep) {
+  /// Adds the vertices of a hybrid edge a -> b, which lies in the plane: its crossings with planes across the next axis, at heights along
+  /// the one after that, which are up to P2; and with planes across that one in between. Makes room for some more.
+  void makeLine(size_t axis, int32_t plane, const Corner& a, const Corner& b, Corners& line, size_t more) {
     const size_t along = kAxes[axis + 1], height = kAxes[axis + 2];
-    const Corner &a = sweep.up(), &b = sweep.down();
     const size_t most = planesTo(a.slab[along], b.slab[along]) + planesTo(a.slab[height], b.slab[height]);
-    if (most == 0) return;
-    Corners& line = sweep.makeLine(most);
-    Corner at = a;
-    forPlanes(a.slab[along], b.slab[along], [&](int32_t j, int step) {
-      Slab slab;
-      slab[axis] = 2 * plane;
-      slab[along] = 2 * j;
-      slab[height] = heightOf(slab, height, step, at.slab[height], b.slab[height]);
-      climb(at, slab, height, line);
-      at = {out_.addVertex(slab), slab};
-      line.add(at);
-    });
-    climb(at, b.slab, height, line);
+    line.makeRoom(most + more + 2);
+    line.add(a);
+    if (most > 0) {
+      Corner at = a;
+      forPlanes(a.slab[along], b.slab[along], [&](int32_t j, int step) {
+        Slab slab;
+        slab[axis] = 2 * plane;
+        slab[along] = 2 * j;
+        slab[height] = heightOf(slab, height, step, at.slab[height], b.slab[height]);
+        climb(at, slab, height, line);
+        at = {out_.addVertex(slab), slab};
+        line.add(at);
+      });
+      climb(at, b.slab, height, line);
+    }
+    line.add(b);
   }
 
   /// The slab inside of a segment that crosses no plane, along an axis.
@@ -232,9 +260,10 @@ class Dicer {
   Out& out_;
   TriangleId triangle_{0};
   bool keepOutside_ = false;
-  std::array<bool, 3> isCut_{};     // whether planes across an axis cut the polygon
-  Slab element_{};                  // of the piece, for the axes by which it has been cut
-  std::array<PieceRoom, 3> rooms_;  // per axis
+  std::array<size_t, 3> nextAxis_{};  // after an axis: across which planes cut the polygon
+  Slab element_{};                    // of the piece, for the axes by which it has been cut
+  HalvesRoom room_;
+  std::array<SweepRoom, 3> sweepRooms_;  // per axis
 };
 
 }  // namespace mandoline::detail

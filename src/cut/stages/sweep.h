@@ -1,59 +1,22 @@
-// A piece of a triangle while it is diced (dicer.h): a convex polygon, taken apart by the planes of one axis.
+// A polygon, however large, is taken apart by the planes of one axis.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <span>
-#include <vector>
+#include <utility>
 
-#include "cut/ids.h"
-#include "grid/slab.h"
+#include "cut/stages/polygon.h"
 
 namespace mandoline::detail {
 
-struct Corner {
-  VertexId id;
-  Slab slab;
-};
-using Polygon = std::span<const Corner>;
-
-/// Corners in a row. Room for them is made beforehand, not corner by corner.
-class Corners {
- public:
-  Corners() = default;
-  Corners(const Corners&) = delete;
-
-  void clear() { end_ = memory_.data(); }
-  void makeRoom(size_t more) {
-    if (more > size_t(limit_ - end_)) grow(more);
-  }
-  void add(const Corner& corner) { *end_++ = corner; }
-
-  size_t size() const { return size_t(end_ - memory_.data()); }
-  Polygon all() const { return {memory_.data(), size()}; }
-
- private:
-  void grow(size_t more) {
-    const size_t count = size();
-    memory_.resize(2 * (count + more));
-    end_ = memory_.data() + count;
-    limit_ = memory_.data() + memory_.size();
-  }
-
-  std::vector<Corner> memory_;
-  Corner *end_ = nullptr, *limit_ = nullptr;
-};
-
 /// What pieces of a polygon are made in, one after the other.
-using PieceRoom = std::array<Corners, 2>;
+using SweepRoom = std::array<Corners, 2>;
 
 /// A convex polygon that is cut along an axis, from its lowest vertices up. Its outline ascends from there on two sides, which are walked
 /// once for all planes: so a polygon across many planes costs what its pieces cost.
 ///
-/// For each plane: climb(), then the vertices of the polygon's line in the plane are added to makeLine(), then close(), beginAbove().
+/// For each plane: climb(), then the vertices of the polygon's line in the plane are added to unfinished(), then close(), beginAbove().
 class Sweep {
  public:
-  Sweep(Polygon polygon, size_t axis, int32_t least, PieceRoom& room)
+  Sweep(Polygon polygon, size_t axis, int32_t least, SweepRoom& room)
       : begin_(polygon.data()), end_(begin_ + polygon.size()), axis_(axis), piece_(&room[0]), next_(&room[1]), up_(begin_) {
     while (slab(up_) != least || slab(after(up_)) == least) ++up_;
     down_ = up_;
@@ -70,22 +33,19 @@ class Sweep {
 
   /// Goes on to a plane, which the polygon has been cut at along its outline.
   void climb(int32_t slabOfPlane) {
-    do piece_->add(*(up_ = after(up_)));
-    while (slab(up_) != slabOfPlane);
-    lineFirst_ = piece_->size() - 1;
+    while (slab(up_ = after(up_)) != slabOfPlane) piece_->add(*up_);
+    lineFirst_ = piece_->size();
     base_ = down_;
     do down_ = before(down_);
     while (slab(down_) != slabOfPlane);
   }
-  /// Where to add the vertices inside of that line from up() to down(), at most so many.
-  Corners& makeLine(size_t most) {
-    piece_->makeRoom(most + size_t(end_ - begin_));
-    return *piece_;
-  }
-  /// Closes the piece below that plane.
+  /// The piece below that plane, to which all vertices of its line in the plane are to be added, from up() to down(). There must be room
+  /// for as many more as the polygon has.
+  Corners& unfinished() { return *piece_; }
+  /// Closes it.
   void close() {
-    lineSize_ = piece_->size() - lineFirst_ + 1;
-    for (const Corner* c = down_; c != base_; c = after(c)) piece_->add(*c);
+    lineSize_ = piece_->size() - lineFirst_;
+    for (const Corner* c = after(down_); c != base_; c = after(c)) piece_->add(*c);
   }
   /// The vertices of the line, its ends too.
   Polygon line() const { return piece().subspan(lineFirst_, lineSize_); }

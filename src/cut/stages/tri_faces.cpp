@@ -33,4 +33,23 @@ void TriFaces::append(const TriFaces& others, FaceId face) {
   endFace(others.triangles[face], others.elements[face], others.touchesLine[face] != 0);
 }
 
+TriFaceWriter::TriFaceWriter(TriFaces& out, size_t faces) : out_(out), face_(out.size()), item_(out.loops.items.size()) {
+  resize(face_ + faces, item_ + kBlock * faces);
+}
+
+void TriFaceWriter::end() { resize(face_, item_); }
+
+void TriFaceWriter::grow(size_t vertices) {
+  constexpr size_t kFew = 64;
+  resize(2 * face_ + kFew, 2 * (item_ + vertices) + kBlock * kFew);
+}
+
+void TriFaceWriter::resize(size_t faces, size_t items) {
+  out_.loops.items.resize(items);
+  out_.loops.offsets.resize(faces + 1);
+  out_.triangles.resize(faces);
+  out_.elements.resize(faces);
+  out_.touchesLine.resize(faces);
+}
+
 }  // namespace mandoline::detail

@@ -35,6 +35,37 @@ struct TriFaces {
   void append(const TriFaces& others, FaceId face);
 };
 
+/// Adds faces of one loop each to others of that kind. Until end(), arrays are longer than what has been added.
+class TriFaceWriter {
+ public:
+  static constexpr size_t kBlock = 4;
+
+  /// `faces`: about how many.
+  TriFaceWriter(TriFaces& out, size_t faces);
+
+  /// Where to write the loop of the next face, and kBlock more ids.
+  VertexId* makeLoop(size_t vertices) {
+    if (face_ == out_.size() || item_ + vertices + kBlock > out_.loops.items.size()) grow(vertices);
+    return out_.loops.items.data() + item_;
+  }
+  FaceId endFace(size_t vertices, TriangleId triangle, const Slab& element, bool touchesLine) {
+    out_.triangles.data()[face_] = triangle;
+    out_.elements.data()[face_] = element;
+    out_.touchesLine.data()[face_] = touchesLine;
+    item_ += vertices;
+    out_.loops.offsets[++face_] = uint32_t(item_);
+    return {uint32_t(face_ - 1)};
+  }
+  void end();
+
+ private:
+  void grow(size_t vertices);
+  void resize(size_t faces, size_t items);
+
+  TriFaces& out_;
+  size_t face_, item_;  // the next ones
+};
+
 /// Faces of triangles whose inside others reach into, not yet divided by those: see divideFaces().
 struct UndividedFaces : TriFaces {
   std::vector<TriangleId> hybridTriangles;  ///< per hybrid edge

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <map>
+#include <random>
 #include <set>
 
 #include "catch.h"
@@ -59,4 +61,36 @@ TEST_CASE("Pieces outside the grid are left out", "[stages][triFaces]") {
   REQUIRE(cut.brick.triFaces.size() == 1);
   CHECK(cut.brick.triFaces.elements[{0}] == Slab{1, 1, 1});
   CHECK(cut.brick.triFaces.loopsOf({0})[0].size() == 4);
+}
+
+TEST_CASE("A triangle is cut alike in halves, plane by plane, and by sweeps", "[stages][triFaces]") {
+  const int cells = GENERATE(2, 5, 40);  // across 40 planes, a triangle has more corners than are cut in halves
+  const int shift = GENERATE(1, 10);     // small bricks get pieces
+  CAPTURE(cells, shift);
+  std::mt19937 random(1);
+  const auto lattice = [&] { return double(random() % 13) / 4; };  // often in planes and on grid lines
+  const double h = 3.0 / cells;
+  const Grid grid = Grid::regular({0, 0, 0}, {h, h, h}, {cells, cells, cells});
+  Way sweeps;
+  sweeps.onlyGeneral = true;
+  Way halves;
+  halves.brickShift = sweeps.brickShift = shift;
+  size_t faces = 0;
+  for (int i = 0; i < 40; ++i) {
+    const auto corner = [&] { return Point{lattice(), lattice(), lattice()}; };
+    const Point a = corner(), b = corner(), c = corner();
+    const StagedCut one(shapes::triangle(a, b, c), Stage::triFaces, halves, grid);
+    const StagedCut other(shapes::triangle(a, b, c), Stage::triFaces, sweeps, grid);
+    const auto &ours = one.brick.triFaces, &theirs = other.brick.triFaces;
+    CHECK(ours.loops.items == theirs.loops.items);
+    CHECK(ours.loops.offsets == theirs.loops.offsets);
+    CHECK(ours.elements == theirs.elements);
+    CHECK(ours.touchesLine == theirs.touchesLine);
+    CHECK(one.brick.vertices.slabs == other.brick.vertices.slabs);
+    CHECK(one.state.surface.vertices.slabs == other.state.surface.vertices.slabs);
+    CHECK(std::equal(one.brick.faceEdges.begin(), one.brick.faceEdges.end(), other.brick.faceEdges.begin(), other.brick.faceEdges.end(),
+                     [](const FaceEdge& e, const FaceEdge& f) { return e.element == f.element && e.from == f.from && e.to == f.to; }));
+    faces += ours.size();
+  }
+  CHECK(faces > 40);
 }

@@ -1,0 +1,59 @@
+// Convex polygons: pieces of triangles while they are diced (dicer.h).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "cut/ids.h"
+#include "grid/slab.h"
+
+namespace mandoline::detail {
+
+struct Corner {
+  VertexId id;
+  Slab slab;
+};
+using Polygon = std::span<const Corner>;
+
+/// Corners in a row. Room for them is made beforehand, not corner by corner; kBlock more may be read and written behind it.
+class Corners {
+ public:
+  static constexpr size_t kBlock = 4;
+
+  Corners() = default;
+  Corners(const Corners&) = delete;
+
+  /// Forgets all, and makes room for so many.
+  void begin(size_t count) {
+    clear();
+    makeRoom(count);
+  }
+  void clear() { end_ = memory_.data(); }
+  void makeRoom(size_t more) {
+    if (more > size_t(limit_ - end_)) grow(more);
+  }
+  void add(const Corner& corner) { *end_++ = corner; }
+  /// Adds some that are in another such row: block by block, since how many they are can't be foretold.
+  void addBlocks(const Corner* from, size_t count) {
+    for (size_t i = 0; i < count; i += kBlock) std::copy_n(from + i, kBlock, end_ + i);
+    end_ += count;
+  }
+
+  size_t size() const { return size_t(end_ - memory_.data()); }
+  Polygon all() const { return {memory_.data(), size()}; }
+
+ private:
+  void grow(size_t more) {
+    const size_t count = size();
+    memory_.resize(2 * (count + more) + kBlock);
+    end_ = memory_.data() + count;
+    limit_ = memory_.data() + memory_.size() - kBlock;
+  }
+
+  std::vector<Corner> memory_;
+  Corner *end_ = nullptr, *limit_ = nullptr;
+};
+
+}  // namespace mandoline::detail
