@@ -21,9 +21,11 @@ struct Mutex {
   void unlock() {}
 };
 inline unsigned coreCount() { return 1; }
+inline void yieldThread() {}
 #else
 using Mutex = std::mutex;
 inline unsigned coreCount() { return std::thread::hardware_concurrency(); }
+inline void yieldThread() { std::this_thread::yield(); }
 #endif
 
 /// Runs work(thread) on that many threads, or on fewer where there are no more.

@@ -4,23 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "base/sort.h"
+#include "physics/node_loops.h"
 
 namespace mandoline::physics {
 namespace {
 
-using Row = FitFactors::Row;  // g; xx, yy, xy, yz, xz of H without its trace, times the cell's size
-constexpr size_t kUnknowns = FitFactors::kUnknowns;
-
-/// What a datum tells of a cell's polynomial: row * unknowns + along * size * (a third of the source) = value.
-struct Equation {
-  Row row;
-  double along, weight;
-};
+using Row = FitEquation::Row;
+constexpr size_t kUnknowns = FitEquation::kUnknowns;
 
 /// Inline, since fits are a tenth quicker so.
-inline Equation equationOf(const CellComplex& cells, const FitData& data, uint32_t id, size_t cell) {
+inline FitEquation equationOf(const CellComplex& cells, const FitData& data, uint32_t id, size_t cell) {
   const FitDatum& datum = data.data[id];
   const double *centroid = &cells.cellCentroid[3 * cell], size = data.cellSize[cell];
   const Point& n = datum.direction;
@@ -36,23 +31,65 @@ inline Equation equationOf(const CellComplex& cells, const FitData& data, uint32
           n[1] * r[2] + n[2] * r[1],
           n[0] * r[2] + n[2] * r[0]};
   for (size_t d = 0; d < 3 && !data.slope.empty(); ++d) row[d] -= along * size * data.slope[3 * cell + d] / 3;
-  return {row, along, weight};
+  return {row, along, weight, id};
 }
 
-void gatherData(const FitData& data, uint32_t cell, std::vector<uint32_t>& ids) {
-  ids.assign(data.cellData[cell].begin(), data.cellData[cell].end());
-  for (const uint32_t n : data.cellNeighbors[cell]) ids.insert(ids.end(), data.cellData[n].begin(), data.cellData[n].end());
-  detail::sortUnique(ids);
+/// What is known of one cell after the other.
+class Equations {
+ public:
+  Equations(const CellComplex& cells, const FitData& data) : cells_(cells), data_(data) {}
+
+  /// The cell's data, ascending.
+  const std::vector<uint32_t>& gather(uint32_t cell) {
+    isGathered_.resize(data_.data.size());
+    ids_.clear();
+    add(cell);
+    for (const uint32_t n : data_.cellNeighbors[cell]) add(n);
+    for (const uint32_t id : ids_) isGathered_[id] = false;
+    return ids_;
+  }
+  const std::vector<FitEquation>& of(uint32_t cell, std::span<const uint32_t> ids) {
+    equations_.clear();
+    for (const uint32_t id : ids) equations_.push_back(equationOf(cells_, data_, id, cell));
+    return equations_;
+  }
+
+ private:
+  void add(uint32_t cell) {
+    for (const uint32_t id : data_.cellData[cell]) {
+      if (isGathered_[id]) continue;
+      isGathered_[id] = true;
+      ids_.push_back(id);
+    }
+  }
+
+  const CellComplex& cells_;
+  const FitData& data_;
+  std::vector<bool> isGathered_;  // per datum
+  std::vector<uint32_t> ids_;
+  std::vector<FitEquation> equations_;
+};
+
+/// Runs f(equations, i) for 0..n on all threads.
+template <class F>
+void forCells(const CellComplex& cells, const FitData& data, size_t n, detail::Monitor& monitor, const F& f) {
+  std::vector<uint32_t> blocks(blockCount(n));
+  std::iota(blocks.begin(), blocks.end(), 0u);
+  std::vector<Equations> equations(monitor.threads(), Equations(cells, data));
+  detail::runItems(blocks, monitor, [&](size_t thread, uint32_t block) {
+    for (size_t i = block * kBlock; i < std::min((block + 1) * kBlock, n); ++i) f(equations[thread], i);
+  });
 }
 
 }  // namespace
 
-FitFactors::FitFactors(const CellComplex& cells, const FitData& data, uint32_t cell, std::span<const uint32_t> ids) {
+FitFactors::FitFactors(std::span<const FitEquation> equations) {
   std::array<Row, kUnknowns> matrix{};  // lower triangle
-  for (const uint32_t id : ids) {
-    const auto [row, along, weight] = equationOf(cells, data, id, cell);
+  for (const FitEquation& equation : equations) {
+    const Row& row = equation.row;
     for (size_t i = 0; i < kUnknowns; ++i) {
-      for (size_t j = 0; j <= i; ++j) matrix[i][j] += weight * row[i] * row[j];
+      const double factor = equation.weight * row[i];
+      for (size_t j = 0; j <= (i | 1); ++j) matrix[i][j] += factor * row[j];  // in pairs, as processors add
     }
   }
   constexpr double kTowardsZero = 1e-4;
@@ -82,13 +119,12 @@ FitFactors::Row FitFactors::solve(Row x) const {
 
 CellFits::CellFits(size_t cellCount) : gradient(3 * cellCount), second(6 * cellCount) {}
 
-void CellFits::fit(const CellComplex& cells, const Known& known, uint32_t c, const FitFactors& factors, std::span<const uint32_t> ids) {
+void CellFits::fit(const Known& known, uint32_t c, const FitFactors& factors, std::span<const FitEquation> equations) {
   const double size = known.data.cellSize[c];
   double mean = known.source.empty() ? 0 : known.source[c] / 3;
   Row right{};
-  for (const uint32_t id : ids) {
-    const auto [row, along, weight] = equationOf(cells, known.data, id, c);
-    const double value = weight * (known.values[id] - mean * size * along);
+  for (const auto& [row, along, weight, datum] : equations) {
+    const double value = weight * (known.values[datum] - mean * size * along);
     for (size_t i = 0; i < kUnknowns; ++i) right[i] += row[i] * value;
   }
   const Row x = factors.solve(right);
@@ -100,45 +136,36 @@ void CellFits::fit(const CellComplex& cells, const Known& known, uint32_t c, con
 
 CellFits fitAll(const CellComplex& cells, const CellFits::Known& known, detail::Monitor& monitor) {
   CellFits fits(cells.cellCount());
-  detail::forChunks<std::vector<uint32_t>>(cells.cellCount(), monitor, [&](std::vector<uint32_t>& ids, size_t begin, size_t end) {
-    for (size_t c = begin; c < end; ++c) {
-      if (!(known.data.cellSize[c] > 0)) continue;
-      gatherData(known.data, uint32_t(c), ids);
-      fits.fit(cells, known, uint32_t(c), FitFactors(cells, known.data, uint32_t(c), ids), ids);
-    }
+  forCells(cells, known.data, cells.cellCount(), monitor, [&](Equations& equations, size_t i) {
+    const auto c = uint32_t(i);
+    if (!(known.data.cellSize[c] > 0)) return;
+    const std::vector<FitEquation>& ofCell = equations.of(c, equations.gather(c));
+    fits.fit(known, c, FitFactors(ofCell), ofCell);
   });
   return fits;
 }
 
 CellFitter::CellFitter(const CellComplex& cells, FitData data, std::vector<uint32_t> which, detail::Monitor& monitor)
-    : cells_(cells), data_(std::move(data)) {
+    : cells_(cells), data_(std::move(data)), fits_(cells.cellCount()) {
   std::erase_if(which, [&](uint32_t c) { return !(data_.cellSize[c] > 0); });
   which_ = std::move(which);
-  struct Part {
-    detail::Csr<uint32_t> ids;
-    std::vector<FitFactors> factors;
-    std::vector<uint32_t> gathered;
-  };
-  const auto parts = detail::forChunks<Part>(which_.size(), monitor, [&](Part& part, size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) {
-      gatherData(data_, which_[i], part.gathered);
-      part.factors.emplace_back(cells, data_, which_[i], part.gathered);
-      part.ids.items.insert(part.ids.items.end(), part.gathered.begin(), part.gathered.end());
-      part.ids.endGroup();
-    }
+  std::vector<std::vector<uint32_t>> ids(which_.size());
+  factors_.resize(which_.size());
+  forCells(cells, data_, which_.size(), monitor, [&](Equations& equations, size_t i) {
+    ids[i] = equations.gather(which_[i]);
+    factors_[i] = FitFactors(equations.of(which_[i], ids[i]));
   });
-  for (const Part& part : parts) {
-    ids_.append(part.ids);
-    factors_.insert(factors_.end(), part.factors.begin(), part.factors.end());
+  for (const std::vector<uint32_t>& ofCell : ids) {
+    ids_.items.insert(ids_.items.end(), ofCell.begin(), ofCell.end());
+    ids_.endGroup();
   }
 }
 
-CellFits CellFitter::fit(const std::vector<double>& values, const std::vector<double>& source, detail::Monitor& monitor) const {
-  CellFits fits(cells_.cellCount());
-  detail::forChunks<std::monostate>(which_.size(), monitor, [&](std::monostate&, size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) fits.fit(cells_, {data_, values, source}, which_[i], factors_[i], ids_[i]);
+const CellFits& CellFitter::fit(const std::vector<double>& values, const std::vector<double>& source, detail::Monitor& monitor) {
+  forCells(cells_, data_, which_.size(), monitor, [&](Equations& equations, size_t i) {
+    fits_.fit({data_, values, source}, which_[i], factors_[i], equations.of(which_[i], ids_[i]));
   });
-  return fits;
+  return fits_;
 }
 
 }  // namespace mandoline::physics

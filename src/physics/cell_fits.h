@@ -1,21 +1,29 @@
 // In each cell phi is fitted by a polynomial of degree two that satisfies its equation: its Laplacian plus slope . gradient is a source.
 #pragma once
 
-#include <variant>
-
 #include "base/parallel.h"
 #include "physics/fit_data.h"
 
 namespace mandoline::physics {
 
+/// What a datum tells of a cell's polynomial: row * unknowns + along * size * (a third of the source) = value of the datum.
+struct FitEquation {
+  static constexpr size_t kUnknowns = 8;
+  using Row =
+      std::array<double, kUnknowns>;  ///< gradient; xx, yy, xy, yz, xz of the second derivatives without their trace, times the size
+  Row row;
+  double along, weight;
+  uint32_t datum;
+};
+
 /// The factors of a cell's normal equations. Second derivatives that the data leave open, or nearly, are near zero; so are gradients.
 class FitFactors {
  public:
-  static constexpr size_t kUnknowns = 8;
-  using Row = std::array<double, kUnknowns>;
+  static constexpr size_t kUnknowns = FitEquation::kUnknowns;
+  using Row = FitEquation::Row;
 
-  /// `ids`: the cell's data.
-  FitFactors(const CellComplex& cells, const FitData& data, uint32_t cell, std::span<const uint32_t> ids);
+  FitFactors() = default;
+  explicit FitFactors(std::span<const FitEquation> equations);
   Row solve(Row right) const;
 
  private:
@@ -38,7 +46,7 @@ struct CellFits {
 
   explicit CellFits(size_t cellCount);
 
-  void fit(const CellComplex& cells, const Known& known, uint32_t cell, const FitFactors& factors, std::span<const uint32_t> ids);
+  void fit(const Known& known, uint32_t cell, const FitFactors& factors, std::span<const FitEquation> equations);
 
   /// The gradient of a cell's polynomial at a point.
   Point gradientAt(const CellComplex& cells, size_t cell, const Point& point) const {
@@ -54,12 +62,13 @@ CellFits fitAll(const CellComplex& cells, const CellFits::Known& known, detail::
 /// Fits some cells again and again.
 class CellFitter {
  public:
+  /// `data`: those of `which`, at least.
   CellFitter(const CellComplex& cells, FitData data, std::vector<uint32_t> which, detail::Monitor& monitor);
 
   const FitData& data() const { return data_; }
 
-  /// Those of other cells are zero.
-  CellFits fit(const std::vector<double>& values, const std::vector<double>& source, detail::Monitor& monitor) const;
+  /// Those of other cells are zero. Valid until the next call.
+  const CellFits& fit(const std::vector<double>& values, const std::vector<double>& source, detail::Monitor& monitor);
 
  private:
   const CellComplex& cells_;
@@ -67,6 +76,7 @@ class CellFitter {
   std::vector<uint32_t> which_;
   detail::Csr<uint32_t> ids_;  // per cell of which_: its data
   std::vector<FitFactors> factors_;
+  CellFits fits_;
 };
 
 }  // namespace mandoline::physics

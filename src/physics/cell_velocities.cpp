@@ -5,9 +5,10 @@
 namespace mandoline::physics {
 
 void fillVelocities(const CellComplex& cells, const PoissonProblem& problem, detail::Monitor& monitor, Flow& flow) {
-  const DualEdges dual = dualEdges(cells, problem.dualPoints);
-  const FitData data = fitData(cells, dual, problem);
-  CellFits fits = fitAll(cells, {data, fitValues(cells, dual, problem, data, flow.phi), problem.source}, monitor);
+  const DualEdges dual = dualEdges(cells, problem.dualPoints, {}, monitor.threads());
+  const FitSource source{cells, dual, problem};
+  const FitData data = fitData(source, nullptr, {}, monitor.threads());
+  CellFits fits = fitAll(cells, {data, fitValues(source, data, flow.phi, monitor.threads()), problem.source}, monitor);
   flow.cellVelocity = std::move(fits.gradient);
   flow.cellGradient = std::move(fits.second);
 }

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "base/large_array.h"
 #include "base/sort.h"
+#include "physics/cell_edges.h"
 #include "physics/face_box.h"
+#include "physics/node_loops.h"
 
 namespace mandoline::physics {
 namespace {
@@ -34,24 +37,43 @@ Point spreadOf(const CellComplex& cells, size_t f) {
 }  // namespace
 
 Differentiator::Differentiator(const CellComplex& cells, const DualEdges& dual, const PoissonProblem& problem,
-                               const std::vector<BoundaryTerm>& terms)
-    : cells_(cells), dual_(dual), problem_(problem), terms_(terms), coefficients_(cellCoefficients(cells, dual, problem.boundary)) {
-  for (size_t e = 0; e < dual.edges.size(); ++e) {
-    if (isCorrected(e)) edges_.push_back(uint32_t(e));
+                               const std::vector<BoundaryTerm>& terms, unsigned threads)
+    : cells_(cells),
+      dual_(dual),
+      problem_(problem),
+      terms_(terms),
+      threads_(threads),
+      coefficients_(cellCoefficients(cells, dual, problem.boundary)) {
+  struct FaceOfEdge {
+    uint32_t face, edge;
+  };
+  std::vector<FaceOfEdge> all;
+  const auto edges = rowsOf(blockCount(dual.edges.size()), threads, [&](size_t block, std::vector<uint32_t>& row) {
+    for (size_t e = block * kBlock; e < std::min((block + 1) * kBlock, dual.edges.size()); ++e) {
+      if (isCorrected(e)) row.push_back(uint32_t(e));
+    }
+  });
+  for (const uint32_t e : edges.items) {
+    for (const uint32_t f : dual.faces[e]) all.push_back({f, e});
+  }
+  detail::sortItems(all, [](const FaceOfEdge& a, const FaceOfEdge& b) { return a.face < b.face; });
+  for (const auto& [face, edge] : all) corrected_.push_back(face), edges_.push_back(edge);
+  for (size_t b = 0; b < terms_.size(); ++b) {
+    if (isCorrectedOnBoundary(b)) corrected_.push_back(uint32_t(cells.faceCount() + b));
   }
 }
 
 CellFitter Differentiator::fitter(detail::Monitor& monitor) const {
+  std::vector<char> isFitted(cells_.cellCount());
+  for (size_t i = 0; i < corrected_.size(); ++i) {
+    isFitted[cellOf(corrected_[i])] = 1;
+    if (i < edges_.size()) isFitted[size_t(cells_.faceCells[2 * corrected_[i] + 1])] = 1;
+  }
   std::vector<uint32_t> fitted;
-  for (const uint32_t e : edges_) {
-    fitted.push_back(dual_.edges[e].cell);
-    for (const uint32_t f : dual_.faces[e]) fitted.push_back(otherCell(cells_, dual_.edges[e], f));
+  for (uint32_t c = 0; c < isFitted.size(); ++c) {
+    if (isFitted[c]) fitted.push_back(c);
   }
-  for (size_t b = 0; b < terms_.size(); ++b) {
-    if (isCorrectedOnBoundary(b)) fitted.push_back(uint32_t(cells_.faceCells[problem_.boundary.halfFaces[b]]));
-  }
-  detail::sortUnique(fitted);
-  return {cells_, fitData(cells_, dual_, problem_, coefficients_), std::move(fitted), monitor};
+  return {cells_, fitData({cells_, dual_, problem_}, &fitted, coefficients_, threads_), fitted, monitor};
 }
 
 /// Octree cells of one size, larger than grid cells.
@@ -90,32 +112,50 @@ size_t Differentiator::cellOf(size_t derivative) const {
 
 double Differentiator::product(const std::vector<double>& a, const std::vector<double>& b) const {
   double sum = 0;
-  for (size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i] * flowOf(i);
+  for (size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i] * flowOf(corrected_[i]);
   return sum;
 }
 
-void Differentiator::addFlows(const std::vector<double>& derivatives, std::vector<double>& cellValues) const {
-  for (size_t i = 0; i < derivatives.size(); ++i) {
-    if (derivatives[i] == 0) continue;
-    const double flow = derivatives[i] * flowOf(i);
-    cellValues[cellOf(i)] += flow;
-    if (i < cells_.faceCount()) cellValues[size_t(cells_.faceCells[2 * i + 1])] -= flow;
+void Differentiator::addFlows(const std::vector<double>& corrections, std::vector<double>& cellValues) const {
+  for (size_t i = 0; i < corrections.size(); ++i) {
+    const double flow = corrections[i] * flowOf(corrected_[i]);
+    cellValues[cellOf(corrected_[i])] += flow;
+    if (i < edges_.size()) cellValues[size_t(cells_.faceCells[2 * corrected_[i] + 1])] -= flow;
   }
 }
 
+/// Along the normals of the edge's faces.
+double Differentiator::plainAt(size_t e, const std::vector<double>& phi) const {
+  return dual_.edges[e].sign * differenceAt(cells_, dual_, e, phi) / dual_.edges[e].distance;
+}
+
+double Differentiator::plainOnBoundary(size_t b, const std::vector<double>& phi) const {
+  const auto& [perPhi, perValue, distance, all] = terms_[b];
+  const double flow = perValue * problem_.boundary.value[b] - (perPhi > 0 ? perPhi * phi[cellOf(cells_.faceCount() + b)] : 0);
+  return all > 0 ? flow / all : 0;
+}
+
 std::vector<double> Differentiator::plain(const std::vector<double>& phi) const {
-  std::vector<double> result(size());
-  for (size_t e = 0; e < dual_.edges.size(); ++e) {
-    const double derivative = dual_.edges[e].sign * differenceAt(cells_, dual_, e, phi) / dual_.edges[e].distance;
-    for (const uint32_t f : dual_.faces[e]) result[f] = derivative;
-  }
-  for (size_t b = 0; b < terms_.size(); ++b) {
-    const size_t i = cells_.faceCount() + b;
-    const auto& [perPhi, perValue, distance, all] = terms_[b];
-    const double flow = perValue * problem_.boundary.value[b] - (perPhi > 0 ? perPhi * phi[cellOf(i)] : 0);
-    result[i] = all > 0 ? flow / all : 0;
-  }
+  std::vector<double> result;
+  detail::makeLarge(result, cells_.faceCount() + terms_.size());
+  forBlocks(dual_.edges.size(), threads_, [&](size_t begin, size_t end) {
+    for (size_t e = begin; e < end; ++e) {
+      const double derivative = plainAt(e, phi);
+      for (const uint32_t f : dual_.faces[e]) result[f] = derivative;
+    }
+  });
+  for (size_t b = 0; b < terms_.size(); ++b) result[cells_.faceCount() + b] = plainOnBoundary(b, phi);
   return result;
+}
+
+double Differentiator::squareOfPlain(const std::vector<double>& phi) const {
+  double onBoundary = 0;
+  for (size_t b = 0; b < terms_.size(); ++b) onBoundary += plainOnBoundary(b, phi) * plainOnBoundary(b, phi) * terms_[b].flow;
+  return onBoundary + sumOfBlocks(dual_.edges.size(), threads_, [&](size_t begin, size_t end) {
+           double sum = 0;
+           for (size_t e = begin; e < end; ++e) sum += plainAt(e, phi) * plainAt(e, phi) * dual_.edges[e].flow;
+           return sum;
+         });
 }
 
 /// What the Laplacian of phi plus slope . gradient is, per cell.
@@ -153,31 +193,38 @@ double Differentiator::addedByThirds(size_t e, const CellFits& fits) const {
   return sum;
 }
 
-std::vector<double> Differentiator::corrections(const CellFitter& fitter, const std::vector<double>& phi, detail::Monitor& monitor) const {
+double Differentiator::correctionOf(size_t e, size_t f, const CellFits& fits, const std::vector<double>& phi) const {
   const std::vector<double>& points = pointsOf(cells_, problem_.dualPoints);
-  const CellFits fits = fitter.fit(fitValues(cells_, dual_, problem_, fitter.data(), phi), sourceOf(phi, fitter.data().cellSize), monitor);
-  std::vector<double> result(size());
-  for (const uint32_t e : edges_) {
-    const DualEdge& edge = dual_.edges[e];
-    const double plain = differenceAt(cells_, dual_, e, phi), added = isBetweenEqual(e) ? addedByThirds(e, fits) : 0;
-    for (const uint32_t f : dual_.faces[e]) {
-      const uint32_t other = otherCell(cells_, edge, f);
-      Places at{pointAt(points, edge.cell), pointAt(points, other), pointAt(cells_.faceCentroid, f), pointAt(cells_.faceNormal, f)};
-      for (double& x : at.normal) x *= edge.sign;
-      const Said a = saidOf(cells_, fits, edge.cell, at), b = saidOf(cells_, fits, other, at);
-      const double left = phi[other] - phi[edge.cell] - plain - (a.difference + b.difference) / 2;
-      result[f] = edge.sign * ((a.derivative + b.derivative) / 2 + left / edge.distance + added);
+  const DualEdge& edge = dual_.edges[e];
+  const double plain = differenceAt(cells_, dual_, e, phi), added = isBetweenEqual(e) ? addedByThirds(e, fits) : 0;
+  const uint32_t other = otherCell(cells_, edge, f);
+  Places at{pointAt(points, edge.cell), pointAt(points, other), pointAt(cells_.faceCentroid, f), pointAt(cells_.faceNormal, f)};
+  for (double& x : at.normal) x *= edge.sign;
+  const Said a = saidOf(cells_, fits, edge.cell, at), b = saidOf(cells_, fits, other, at);
+  const double left = phi[other] - phi[edge.cell] - plain - (a.difference + b.difference) / 2;
+  return edge.sign * ((a.derivative + b.derivative) / 2 + left / edge.distance + added);
+}
+
+double Differentiator::correctionOnBoundary(size_t b, const CellFits& fits) const {
+  const size_t i = cells_.faceCount() + b, cell = cellOf(i);
+  const uint32_t h = halfFaceOf(i), f = h / 2;
+  Places at{pointAt(pointsOf(cells_, problem_.dualPoints), cell), pointAt(cells_.faceCentroid, f), pointAt(cells_.faceCentroid, f),
+            pointAt(cells_.faceNormal, f)};
+  for (double& x : at.normal) x *= h % 2 == 0 ? 1 : -1;
+  const Said said = saidOf(cells_, fits, cell, at);
+  return (said.derivative * terms_[b].distance - said.difference) * (terms_[b].perPhi / flowOf(i));
+}
+
+std::vector<double> Differentiator::corrections(CellFitter& fitter, const std::vector<double>& phi, detail::Monitor& monitor) const {
+  const std::vector<double> values = fitValues({cells_, dual_, problem_}, fitter.data(), phi, threads_);
+  const CellFits& fits = fitter.fit(values, sourceOf(phi, fitter.data().cellSize), monitor);
+  std::vector<double> result(corrected_.size());
+  forBlocks(result.size(), threads_, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      result[i] = i < edges_.size() ? correctionOf(edges_[i], corrected_[i], fits, phi)
+                                    : correctionOnBoundary(corrected_[i] - cells_.faceCount(), fits);
     }
-  }
-  for (size_t b = 0; b < terms_.size(); ++b) {
-    if (!isCorrectedOnBoundary(b)) continue;
-    const size_t i = cells_.faceCount() + b, cell = cellOf(i);
-    const uint32_t h = halfFaceOf(i), f = h / 2;
-    Places at{pointAt(points, cell), pointAt(cells_.faceCentroid, f), pointAt(cells_.faceCentroid, f), pointAt(cells_.faceNormal, f)};
-    for (double& x : at.normal) x *= h % 2 == 0 ? 1 : -1;
-    const Said said = saidOf(cells_, fits, cell, at);
-    result[i] = (said.derivative * terms_[b].distance - said.difference) * (terms_[b].perPhi / flowOf(i));
-  }
+  });
   return result;
 }
 

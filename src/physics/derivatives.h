@@ -11,25 +11,29 @@ namespace mandoline::physics {
 class Differentiator {
  public:
   /// `terms`: boundaryTerms().
-  Differentiator(const CellComplex& cells, const DualEdges& dual, const PoissonProblem& problem, const std::vector<BoundaryTerm>& terms);
+  Differentiator(const CellComplex& cells, const DualEdges& dual, const PoissonProblem& problem, const std::vector<BoundaryTerm>& terms,
+                 unsigned threads);
 
   /// Those that the problem's system has: differences over distances.
   std::vector<double> plain(const std::vector<double>& phi) const;
+  /// The sum of their squares by area and coefficient.
+  double squareOfPlain(const std::vector<double>& phi) const;
 
-  /// What is added to those for second order, from polynomials fitted in the cells on both sides: such a derivative is that of the
+  /// What is added to some of those for second order, from polynomials fitted in the cells on both sides: such a derivative is that of the
   /// polynomials at the face's centroid, and what they leave of the difference of phi, over the distance; between octree cells of one size
   /// also what third derivatives add to the mean on the face, for fourth order. Nothing is added where a cell
   /// meets smaller ones that are cut, since that need not converge; nor beside cells where the coefficient jumps.
-  std::vector<double> corrections(const CellFitter& fitter, const std::vector<double>& phi, detail::Monitor& monitor) const;
+  std::vector<double> corrections(CellFitter& fitter, const std::vector<double>& phi, detail::Monitor& monitor) const;
   CellFitter fitter(detail::Monitor& monitor) const;
 
-  size_t size() const { return cells_.faceCount() + problem_.boundary.halfFaces.size(); }
+  /// Per correction the derivative that it is added to, ascending.
+  const std::vector<uint32_t>& corrected() const { return corrected_; }
   /// A cell beside the face of a derivative.
   size_t cellOf(size_t derivative) const;
-  /// The sum of products by area and coefficient.
+  /// The sum of products of corrections by area and coefficient.
   double product(const std::vector<double>& a, const std::vector<double>& b) const;
-  /// Adds what flows into each cell.
-  void addFlows(const std::vector<double>& derivatives, std::vector<double>& cellValues) const;
+  /// Adds what flows into each cell by corrections.
+  void addFlows(const std::vector<double>& corrections, std::vector<double>& cellValues) const;
 
  private:
   uint32_t halfFaceOf(size_t derivative) const { return problem_.boundary.halfFaces[derivative - cells_.faceCount()]; }
@@ -37,7 +41,11 @@ class Differentiator {
   bool isCorrected(size_t edge) const;
   bool isCorrectedOnBoundary(size_t b) const;
   bool isBetweenEqual(size_t edge) const;
+  double plainAt(size_t edge, const std::vector<double>& phi) const;
+  double plainOnBoundary(size_t b, const std::vector<double>& phi) const;
   double addedByThirds(size_t edge, const CellFits& fits) const;
+  double correctionOf(size_t edge, size_t face, const CellFits& fits, const std::vector<double>& phi) const;
+  double correctionOnBoundary(size_t b, const CellFits& fits) const;
   bool jumps(size_t cell) const { return !coefficients_.jumps.empty() && coefficients_.jumps[cell]; }
   std::vector<double> sourceOf(const std::vector<double>& phi, const std::vector<double>& cellSize) const;
 
@@ -45,8 +53,10 @@ class Differentiator {
   const DualEdges& dual_;
   const PoissonProblem& problem_;
   const std::vector<BoundaryTerm>& terms_;
+  const unsigned threads_;
   CellCoefficients coefficients_;
-  std::vector<uint32_t> edges_;  // those that are corrected
+  std::vector<uint32_t> corrected_;  // derivatives
+  std::vector<uint32_t> edges_;      // of those of faces, the dual edge
 };
 
 }  // namespace mandoline::physics

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/large_array.h"
+#include "base/parallel.h"
+#include "mandoline/status.h"
+
 namespace mandoline::physics {
 namespace {
 
@@ -13,34 +17,71 @@ class Finder {
     result_.coefficients = std::move(coefficients);
   }
 
-  DualEdges run() {
-    for (size_t f = 0; f < cells_.faceCount(); ++f) {
-      if (!isInner(cells_, f)) continue;
-      const size_t side = level(f, 1) > level(f, 0) ? 1 : 0;  // that of the one cell
-      if (level(f, side) == level(f, 1 - side))
-        add(f, side, {});
-      else if (f == firstBeside(f, side))
-        add(f, side, besides_);
+  /// Counts, makes room and fills.
+  DualEdges run(detail::Monitor& monitor) {
+    struct Part {
+      size_t edges = 0, faces = 0;
+      std::vector<uint32_t> besides;
+    };
+    std::vector<Part> parts = detail::forChunks<Part>(cells_.faceCount(), monitor, [&](Part& part, size_t begin, size_t end) {
+      forEdges(begin, end, part.besides, [&](size_t, std::span<const uint32_t> faces) { ++part.edges, part.faces += faces.size(); });
+    });
+    size_t edges = 0, faces = 0;
+    for (Part& part : parts) {
+      std::swap(edges, part.edges), std::swap(faces, part.faces);  // where it begins, and how much it adds
+      edges += part.edges, faces += part.faces;
     }
+    detail::makeLarge(result_.edges, edges);
+    detail::makeLarge(result_.faces.items, faces);
+    result_.faces.offsets.clear();
+    detail::makeLarge(result_.faces.offsets, edges + 1);
+    detail::runChunks(
+        cells_.faceCount(), parts.size(), monitor,
+        [&](size_t chunk, size_t begin, size_t end) {
+          Part& part = parts[chunk];
+          forEdges(begin, end, part.besides, [&](size_t side, std::span<const uint32_t> ofEdge) {
+            std::copy(ofEdge.begin(), ofEdge.end(), result_.faces.items.begin() + ptrdiff_t(part.faces));
+            part.faces += ofEdge.size();
+            result_.edges[part.edges++] = edgeOf(side, ofEdge);
+            result_.faces.offsets[part.edges] = uint32_t(part.faces);
+          });
+        },
+        kBlock);
     return std::move(result_);
   }
 
  private:
+  static constexpr size_t kBlock = 2048;  // faces
+
+  /// f(side, faces) for each dual edge whose first face is one of those. `besides` is room.
+  template <class F>
+  void forEdges(size_t begin, size_t end, std::vector<uint32_t>& besides, const F& f) const {
+    for (auto face = uint32_t(begin); face < end; ++face) {
+      if (!isInner(cells_, face)) continue;
+      const size_t side = level(face, 1) > level(face, 0) ? 1 : 0;  // that of the one cell
+      if (level(face, side) == level(face, 1 - side)) {
+        f(side, std::span(&face, 1));
+      } else {
+        findBesides(face, side, besides);
+        if (besides.front() == face) f(side, besides);
+      }
+    }
+  }
+
   uint8_t level(size_t f, size_t side) const { return cells_.cellLevel[cell(f, side)]; }
   size_t cell(size_t f, size_t side) const { return size_t(cells_.faceCells[2 * f + side]); }
 
-  /// Finds the faces on the side of the larger cell that face f is on. Their first one.
-  size_t firstBeside(size_t f, size_t side) {
-    besides_.clear();
+  /// Finds the faces on the side of the larger cell that face f is on.
+  void findBesides(size_t f, size_t side, std::vector<uint32_t>& besides) const {
+    besides.clear();
     const size_t axis = axisOf(f);
     const double plane = placeOf(f, axis);
     for (const uint32_t h : cells_.halfFaces(cell(f, side))) {
       const size_t other = h / 2;
       if (h % 2 == side && isInner(cells_, other) && level(other, 1 - side) < level(other, side) && axisOf(other) == axis &&
           placeOf(other, axis) == plane)
-        besides_.push_back(uint32_t(other));
+        besides.push_back(uint32_t(other));
     }
-    return besides_.front();
   }
   size_t axisOf(size_t f) const {
     const double* n = &cells_.faceNormal[3 * f];
@@ -49,23 +90,18 @@ class Finder {
   /// Merged cells have several sides across one axis.
   double placeOf(size_t f, size_t axis) const { return cells_.positions[3 * size_t(cells_.loops(f)[0][0]) + axis]; }
 
-  void add(size_t f, size_t side, const std::vector<uint32_t>& faces) {
-    if (faces.empty())
-      result_.faces.items.push_back(uint32_t(f));
-    else
-      result_.faces.items.insert(result_.faces.items.end(), faces.begin(), faces.end());
-    result_.faces.endGroup();
-    DualEdge edge{uint32_t(cell(f, side)), side == 0 ? 1.0 : -1.0, 0, 0, 0};
+  DualEdge edgeOf(size_t side, std::span<const uint32_t> faces) const {
+    DualEdge edge{uint32_t(cell(faces[0], side)), side == 0 ? 1.0 : -1.0, 0, 0, 0};
     double sum = 0, largest = 0;
-    for (const uint32_t face : result_.faces[result_.edges.size()]) {
-      const double flow = result_.flowOf(cells_, face);
+    for (const uint32_t face : faces) {
+      const double flow = result_.flowOf(cells_, face), length = distance(face);
       edge.area += cells_.faceArea[face];
       edge.flow += flow;
-      sum += flow * distance(face);
-      largest = std::max(largest, distance(face));
+      sum += flow * length;
+      largest = std::max(largest, length);
     }
     edge.distance = edge.flow > 0 ? std::min(sum / edge.flow, largest) : largest;
-    result_.edges.push_back(edge);
+    return edge;
   }
 
   /// Along the normal. Inner faces lie in axial planes between the cells' dual points. Centroids of slivers may round onto the plane;
@@ -98,14 +134,15 @@ class Finder {
 
   const CellComplex& cells_;
   const std::vector<double>& points_;
-  std::vector<uint32_t> besides_;
   DualEdges result_;
 };
 
 }  // namespace
 
-DualEdges dualEdges(const CellComplex& cells, DualPoints dualPoints, std::vector<double> coefficients) {
-  return Finder(cells, dualPoints, std::move(coefficients)).run();
+DualEdges dualEdges(const CellComplex& cells, DualPoints dualPoints, std::vector<double> coefficients, unsigned threads) {
+  const RunOptions quiet{threads, {}};
+  detail::Monitor monitor(quiet, 1);
+  return Finder(cells, dualPoints, std::move(coefficients)).run(monitor);
 }
 
 }  // namespace mandoline::physics

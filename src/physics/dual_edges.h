@@ -28,7 +28,8 @@ struct DualEdges {
 };
 
 /// In the order of their first faces.
-MANDOLINE_SHARED DualEdges dualEdges(const CellComplex& cells, DualPoints dualPoints, std::vector<double> coefficients = {});
+MANDOLINE_SHARED DualEdges dualEdges(const CellComplex& cells, DualPoints dualPoints, std::vector<double> coefficients = {},
+                                     unsigned threads = 1);
 
 inline bool isInner(const CellComplex& cells, size_t f) {
   return cells.faceTag[f] == FaceTag::inner && cells.faceCells[2 * f] >= 0 && cells.faceCells[2 * f + 1] >= 0;

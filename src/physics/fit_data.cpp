@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/sort.h"
+#include "base/large_array.h"
+#include "physics/cell_edges.h"
+#include "physics/node_loops.h"
 
 namespace mandoline::physics {
 namespace {
@@ -46,73 +48,133 @@ FitDatum sumOf(const FitDatum& derivative, const FitDatum& difference, double co
 
 class Maker {
  public:
-  Maker(const CellComplex& cells, const DualEdges& dual, const PoissonProblem& problem, const CellCoefficients& coefficients)
-      : cells_(cells), dual_(dual), problem_(problem), points_(pointsOf(cells, problem.dualPoints)), jumps_(coefficients.jumps) {
+  Maker(const FitSource& source, const CellCoefficients& coefficients, unsigned threads)
+      : cells_(source.cells),
+        dual_(source.dual),
+        problem_(source.problem),
+        points_(pointsOf(cells_, problem_.dualPoints)),
+        jumps_(coefficients.jumps),
+        threads_(threads) {
     fit_.slope = coefficients.slope;
   }
 
-  FitData run() {
-    findRims();
-    fit_.cellSize.resize(cells_.cellCount());
-    for (size_t e = 0; e < dual_.edges.size(); ++e) addEdge(e);
-    for (size_t b = 0; b < problem_.boundary.halfFaces.size(); ++b) addBoundary(b);
-    fit_.cellData = grouped(ofCells_);
-    fit_.cellNeighbors = grouped(neighbors_);
-    for (size_t c = 0; c < cells_.cellCount(); ++c) {
-      if (fit_.cellSize[c] > 0) continue;
-      double area = 0;
-      for (const uint32_t d : fit_.cellData[c]) area += fit_.data[d].weight;
-      fit_.cellSize[c] = std::sqrt(area / 6);
-    }
+  FitData run(const std::vector<uint32_t>* which) {
+    const detail::Csr<uint32_t> edges = cellEdges(cells_, dual_, threads_);
+    setNeighbors(edges, which);
+    setCellData(edges);
+    numberData();
+    setSizes();
+    detail::makeLarge(fit_.data, fit_.ids.size());
+    forBlocks(fit_.ids.size(), threads_, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) fit_.data[i] = isEdge(i) ? edgeDatum(fit_.ids[i]) : boundaryDatum(fit_.ids[i] - edgeCount());
+    });
+    setOtherSizes();
     return std::move(fit_);
   }
 
  private:
-  struct ItemOfCell {
-    uint32_t cell, item;
-    auto operator<=>(const ItemOfCell&) const = default;
-  };
+  size_t edgeCount() const { return dual_.edges.size(); }
+  bool isEdge(size_t datum) const { return fit_.ids[datum] < edgeCount(); }
+  bool jumps(size_t cell) const { return !jumps_.empty() && jumps_[cell]; }
 
-  /// Notes the cells that have both sides of a triangle.
-  void findRims() {
-    aroundRim_.resize(cells_.cellCount());
-    for (size_t f = 0; f < cells_.faceCount(); ++f) {
-      const int32_t cell = cells_.faceCells[2 * f];
-      if (cell >= 0 && cell == cells_.faceCells[2 * f + 1]) aroundRim_[size_t(cell)] = 1;
+  /// Whether none of a dual edge's cells is one where the coefficient jumps.
+  bool isKnown(size_t e) const {
+    bool isKnown = !jumps(dual_.edges[e].cell);
+    for (const uint32_t f : dual_.faces[e]) isKnown &= !jumps(otherCell(cells_, dual_.edges[e], f));
+    return isKnown;
+  }
+
+  /// Whether a cell has both sides of a triangle.
+  bool isAroundRim(uint32_t cell) const {
+    const auto halfFaces = cells_.halfFaces(cell);
+    return std::any_of(halfFaces.begin(), halfFaces.end(), [&](uint32_t h) { return cells_.faceCells[h ^ 1] == int32_t(cell); });
+  }
+
+  /// Also finds out which cells' data are wanted.
+  void setNeighbors(const detail::Csr<uint32_t>& edges, const std::vector<uint32_t>* which) {
+    isWanted_.assign(cells_.cellCount(), !which);
+    for (size_t i = 0; which && i < which->size(); ++i) isWanted_[(*which)[i]] = 1;
+    fit_.cellNeighbors = rowsOf(cells_.cellCount(), threads_, [&](size_t c, std::vector<uint32_t>& row) {
+      const auto add = [&](uint32_t cell) {
+        if (!isAroundRim(cell)) row.push_back(cell);
+      };
+      if (!isWanted_[c]) return;
+      for (const uint32_t e : edges[c]) {
+        if (!isKnown(e)) continue;
+        for (const uint32_t f : dual_.faces[e]) {
+          const uint32_t other = otherCell(cells_, dual_.edges[e], f);
+          if (dual_.edges[e].cell == c) add(other);
+          if (other == c) add(dual_.edges[e].cell);
+        }
+      }
+    });
+    if (!which) return;
+    for (const uint32_t cell : fit_.cellNeighbors.items) isWanted_[cell] = 1;
+  }
+
+  /// By their ids.
+  void setCellData(const detail::Csr<uint32_t>& edges) {
+    const Boundary& boundary = problem_.boundary;
+    const auto ofBoundary = detail::groupBy<uint32_t>(
+        cells_.cellCount(), boundary.halfFaces.size(), [&](size_t b) { return size_t(cells_.faceCells[boundary.halfFaces[b]]); },
+        [](size_t b) { return uint32_t(b); });
+    fit_.cellData = rowsOf(cells_.cellCount(), threads_, [&](size_t c, std::vector<uint32_t>& row) {
+      if (!isWanted_[c]) return;
+      for (const uint32_t e : edges[c]) {
+        if (isKnown(e)) row.push_back(e);
+      }
+      for (const uint32_t b : ofBoundary[c]) row.push_back(uint32_t(edgeCount() + b));
+    });
+  }
+
+  /// In the order of their ids.
+  void numberData() {
+    std::vector<uint32_t> numbers(edgeCount() + problem_.boundary.halfFaces.size());
+    for (const uint32_t id : fit_.cellData.items) numbers[id] = 1;
+    for (uint32_t id = 0; id < numbers.size(); ++id) {
+      if (numbers[id] == 0) continue;
+      numbers[id] = uint32_t(fit_.ids.size());
+      fit_.ids.push_back(id);
+    }
+    forBlocks(fit_.cellData.items.size(), threads_, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) fit_.cellData.items[i] = numbers[fit_.cellData.items[i]];
+    });
+  }
+
+  /// The largest distance to a neighbour.
+  void setSizes() {
+    fit_.cellSize.resize(cells_.cellCount());
+    forBlocks(cells_.cellCount(), threads_, [&](size_t begin, size_t end) {
+      for (size_t c = begin; c < end; ++c) {
+        for (const uint32_t i : fit_.cellData[c]) {
+          if (isEdge(i)) fit_.cellSize[c] = std::max(fit_.cellSize[c], dual_.edges[fit_.ids[i]].distance);
+        }
+      }
+    });
+  }
+
+  /// Those of cells without neighbours.
+  void setOtherSizes() {
+    for (size_t c = 0; c < cells_.cellCount(); ++c) {
+      if (fit_.cellSize[c] > 0) continue;
+      double area = 0;
+      for (const uint32_t i : fit_.cellData[c]) area += fit_.data[i].weight;
+      fit_.cellSize[c] = std::sqrt(area / 6);
     }
   }
 
-  void addEdge(size_t e) {
+  FitDatum edgeDatum(size_t e) const {
     const DualEdge& edge = dual_.edges[e];
-    const uint32_t id = uint32_t(fit_.data.size());
     Point others{};
-    bool isKnown = !jumps(edge.cell);
     for (const uint32_t f : dual_.faces[e]) {
       const uint32_t other = otherCell(cells_, edge, f);
       for (size_t d = 0; d < 3; ++d) others[d] += shareOf(cells_, dual_, e, f) * points_[3 * other + d];
-      isKnown &= !jumps(other);
     }
-    fit_.data.push_back(between(pointAt(points_, edge.cell), others, edge.area));
-    if (!isKnown) return;
-    ofCells_.push_back({edge.cell, id});
-    for (const uint32_t f : dual_.faces[e]) {
-      const uint32_t other = otherCell(cells_, edge, f);
-      ofCells_.push_back({other, id});
-      join(edge.cell, other, edge.distance);
-      join(other, edge.cell, edge.distance);
-    }
+    return between(pointAt(points_, edge.cell), others, edge.area);
   }
 
-  bool jumps(size_t cell) const { return !jumps_.empty() && jumps_[cell]; }
-
-  void join(uint32_t a, uint32_t b, double distance) {
-    if (!aroundRim_[b]) neighbors_.push_back({a, b});
-    fit_.cellSize[a] = std::max(fit_.cellSize[a], distance);
-  }
-
-  void addBoundary(size_t b) {
+  FitDatum boundaryDatum(size_t b) const {
     const uint32_t h = problem_.boundary.halfFaces[b], f = h / 2, cell = uint32_t(cells_.faceCells[h]);
-    ofCells_.push_back({cell, uint32_t(fit_.data.size())});
     const Point centroid = pointAt(cells_.faceCentroid, f);
     const double weight = kBoundaryWeight * cells_.faceArea[f];
     FitDatum datum{centroid, pointAt(cells_.faceNormal, f), 1, weight};
@@ -120,20 +182,13 @@ class Maker {
       for (double& x : datum.direction) x = -x;
     }
     const Condition condition = problem_.boundary.condition[b];
-    if (condition != Condition::neumann) {
-      const FitDatum difference = between(pointAt(points_, cell), centroid, weight);
-      const double coefficient = problem_.boundary.coefficient[b];
-      datum = condition == Condition::dirichlet ? difference : sumOf(datum, difference, coefficient);
-      const double reach = difference.length + (condition == Condition::dirichlet ? 0 : 1 / coefficient), size = fit_.cellSize[cell];
-      if (reach < size) datum.weight *= reach * reach / (size * size);
-    }
-    fit_.data.push_back(datum);
-  }
-
-  detail::Csr<uint32_t> grouped(std::vector<ItemOfCell>& pairs) const {
-    detail::sortUnique(pairs);
-    return detail::groupBy<uint32_t>(
-        cells_.cellCount(), pairs.size(), [&](size_t i) { return size_t(pairs[i].cell); }, [&](size_t i) { return pairs[i].item; });
+    if (condition == Condition::neumann) return datum;
+    const FitDatum difference = between(pointAt(points_, cell), centroid, weight);
+    const double coefficient = problem_.boundary.coefficient[b];
+    datum = condition == Condition::dirichlet ? difference : sumOf(datum, difference, coefficient);
+    const double reach = difference.length + (condition == Condition::dirichlet ? 0 : 1 / coefficient), size = fit_.cellSize[cell];
+    if (reach < size) datum.weight *= reach * reach / (size * size);
+    return datum;
   }
 
   const CellComplex& cells_;
@@ -141,35 +196,35 @@ class Maker {
   const PoissonProblem& problem_;
   const std::vector<double>& points_;
   const std::vector<char>& jumps_;
-  std::vector<char> aroundRim_;  // per cell
-  std::vector<ItemOfCell> ofCells_, neighbors_;
+  const unsigned threads_;
+  std::vector<char> isWanted_;  // per cell
   FitData fit_;
 };
 
 }  // namespace
 
-FitData fitData(const CellComplex& cells, const DualEdges& dual, const PoissonProblem& problem, const CellCoefficients& coefficients) {
-  return Maker(cells, dual, problem, coefficients).run();
+FitData fitData(const FitSource& source, const std::vector<uint32_t>* which, const CellCoefficients& coefficients, unsigned threads) {
+  return Maker(source, coefficients, threads).run(which);
 }
 
-std::vector<double> fitValues(const CellComplex& cells, const DualEdges& dual, const PoissonProblem& problem, const FitData& fit,
-                              const std::vector<double>& phi) {
-  std::vector<double> values;
-  values.reserve(fit.data.size());
-  const auto add = [&](double difference) {
-    const double length = fit.data[values.size()].length;
-    values.push_back(length > 0 ? difference / length : 0);
-  };
-  for (size_t e = 0; e < dual.edges.size(); ++e) add(differenceAt(cells, dual, e, phi));
+std::vector<double> fitValues(const FitSource& source, const FitData& fit, const std::vector<double>& phi, unsigned threads) {
+  const auto& [cells, dual, problem] = source;
   const Boundary& boundary = problem.boundary;
-  for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {
+  const auto differenceOf = [&](uint32_t id) {
+    if (id < dual.edges.size()) return differenceAt(cells, dual, id, phi);
+    const size_t b = id - dual.edges.size();
+    if (boundary.condition[b] == Condition::neumann) return boundary.value[b];
     const double own = phi[size_t(cells.faceCells[boundary.halfFaces[b]])];
-    if (boundary.condition[b] == Condition::neumann) {
-      add(boundary.value[b]);
-    } else {
-      add(boundary.value[b] - (boundary.condition[b] == Condition::dirichlet ? 1 : boundary.coefficient[b]) * own);
+    return boundary.value[b] - (boundary.condition[b] == Condition::dirichlet ? 1 : boundary.coefficient[b]) * own;
+  };
+  std::vector<double> values;
+  detail::makeLarge(values, fit.data.size());
+  forBlocks(values.size(), threads, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const double length = fit.data[i].length;
+      values[i] = length > 0 ? differenceOf(fit.ids[i]) / length : 0;
     }
-  }
+  });
   return values;
 }
 

@@ -21,18 +21,26 @@ struct FitDatum {
 };
 
 struct FitData {
-  std::vector<FitDatum> data;           ///< one per dual edge, then one per half-face of the boundary
+  std::vector<uint32_t> ids;            ///< per datum, ascending: its dual edge, or the number of these plus its half-face of the boundary
+  std::vector<FitDatum> data;           ///< those of some cells and their neighbours
   detail::Csr<uint32_t> cellData;       ///< per cell, ascending
-  detail::Csr<uint32_t> cellNeighbors;  ///< per cell, ascending: those whose data also tell of phi in it
+  detail::Csr<uint32_t> cellNeighbors;  ///< per such cell: those whose data also tell of phi in it; a few may be named twice
   std::vector<double> cellSize;         ///< per cell: of the distance between dual points
   std::vector<double> slope;            ///< as in CellCoefficients
 };
 
-/// Nothing is known along the dual edges of cells where the coefficient jumps.
-FitData fitData(const CellComplex& cells, const DualEdges& dual, const PoissonProblem& problem, const CellCoefficients& coefficients = {});
+/// What a problem is made of, as data are found in it.
+struct FitSource {
+  const CellComplex& cells;
+  const DualEdges& dual;
+  const PoissonProblem& problem;
+};
+
+/// Those of the cells in `which`, ascending, or of all if it is null. Nothing is known along the dual edges of cells where the coefficient
+/// jumps.
+FitData fitData(const FitSource& source, const std::vector<uint32_t>* which, const CellCoefficients& coefficients, unsigned threads);
 
 /// The derivatives, per datum.
-std::vector<double> fitValues(const CellComplex& cells, const DualEdges& dual, const PoissonProblem& problem, const FitData& fit,
-                              const std::vector<double>& phi);
+std::vector<double> fitValues(const FitSource& source, const FitData& fit, const std::vector<double>& phi, unsigned threads);
 
 }  // namespace mandoline::physics

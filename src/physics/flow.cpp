@@ -83,7 +83,7 @@ class FlowSolver {
     std::optional<physics::FarField> farField;
     if (options_.farField) farField.emplace(cells_, problem.boundary);
     monitor.beginStage("levels", 0);
-    PoissonSolver solver(cells_, problem);
+    PoissonSolver solver(cells_, problem, monitor.threads());
     auto options = monitor.part<SolveOptions>(1, 1);
     options.tolerance = options_.tolerance;
     options.maxIterations = options_.maxIterations;
@@ -154,12 +154,12 @@ Flow physics::flowOfPhi(const CellComplex& cells, const std::array<double, 3>& w
     for (double& value : flow.phi) value = length > 0 ? value / length : 0;
     PoissonProblem problem;
     problem.boundary = windBoundary(cells, unitOf(wind), flow.throttled);
-    const DualEdges dual = dualEdges(cells, problem.dualPoints);
+    detail::Monitor monitor(options, 1);
+    const DualEdges dual = dualEdges(cells, problem.dualPoints, {}, monitor.threads());
     const std::vector<BoundaryTerm> terms = boundaryTerms(cells, problem);
-    flow.faceVelocity = Differentiator(cells, dual, problem, terms).plain(flow.phi);
+    flow.faceVelocity = Differentiator(cells, dual, problem, terms, monitor.threads()).plain(flow.phi);
     flow.faceVelocity.resize(cells.faceCount());
     setOnBoundary(problem.boundary, flow);
-    detail::Monitor monitor(options, 1);
     monitor.beginStage("velocities", 0);
     complete(cells, problem, length, monitor, flow);
     return flow;

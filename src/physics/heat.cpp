@@ -22,8 +22,8 @@ PoissonProblem stageProblem(const CellComplex& cells, const HeatProblem& heat) {
 
 }  // namespace
 
-HeatStepper::HeatStepper(const CellComplex& cells, HeatProblem heat)
-    : solver_(cells, stageProblem(cells, heat)),
+HeatStepper::HeatStepper(const CellComplex& cells, HeatProblem heat, unsigned threads)
+    : solver_(cells, stageProblem(cells, heat), threads),
       source_(std::move(heat.problem.source)),
       boundaryValue_(std::move(heat.problem.boundary.value)),
       phi_(std::move(heat.phi)),

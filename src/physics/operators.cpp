@@ -33,22 +33,6 @@ SparseMatrix diagonalOfFaces(const CellComplex& cells, DualPoints dualPoints, co
 
 }  // namespace
 
-void physics::addLaplacian(const CellComplex& cells, const DualEdges& dual, double factor, Triplets& entries) {
-  for (size_t e = 0; e < dual.edges.size(); ++e) {
-    const DualEdge& edge = dual.edges[e];
-    const auto faces = dual.faces[e];
-    const double all = factor * edge.flow / edge.distance;
-    const auto share = [&](uint32_t f) { return shareOf(cells, dual, e, f); };
-    entries.emplace_back(int(edge.cell), int(edge.cell), -all);
-    for (const uint32_t f : faces) {
-      const int other = int(otherCell(cells, edge, f));
-      entries.emplace_back(int(edge.cell), other, share(f) * all);
-      entries.emplace_back(other, int(edge.cell), share(f) * all);
-      for (const uint32_t g : faces) entries.emplace_back(other, int(otherCell(cells, edge, g)), -share(f) * share(g) * all);
-    }
-  }
-}
-
 SparseMatrix gradient(const CellComplex& cells, DualPoints dualPoints) {
   const DualEdges dual = dualEdges(cells, dualPoints);
   Triplets entries;
@@ -75,9 +59,8 @@ SparseMatrix divergence(const CellComplex& cells) {
 }
 
 SparseMatrix laplacian(const CellComplex& cells, DualPoints dualPoints) {
-  Triplets entries;
-  physics::addLaplacian(cells, dualEdges(cells, dualPoints), 1, entries);
-  return assemble(cells.cellCount(), cells.cellCount(), entries);
+  const CsrMatrix matrix = physics::laplacianRows(cells, dualEdges(cells, dualPoints), 1, {}, 1);
+  return EigenRows(matrix).map();
 }
 
 SparseMatrix cellMass(const CellComplex& cells) { return diagonal(cells.cellVolume); }

@@ -38,9 +38,10 @@ std::vector<double> massTerms(const CellComplex& cells, const PoissonProblem& pr
 /// Per component whether phi is held anywhere.
 std::vector<char> heldComponents(const CellComplex& cells, const PoissonProblem& problem, const CellComponents& components);
 
-/// The problem's matrix. `terms` and `mass`: boundaryTerms() and massTerms().
-CsrMatrix poissonMatrix(const CellComplex& cells, const Boundary& boundary, const DualEdges& dual, const std::vector<BoundaryTerm>& terms,
-                        const std::vector<double>& mass);
+/// Per cell: what conditions on the boundary add to the diagonal. `terms`: boundaryTerms().
+std::vector<double> heldTerms(const CellComplex& cells, const Boundary& boundary, const std::vector<BoundaryTerm>& terms);
+/// The sum of both, per cell: `held`: heldTerms(), `mass`: massTerms().
+std::vector<double> addedTerms(std::vector<double> held, const std::vector<double>& mass);
 /// Its right side, for sources and values of the boundary as in PoissonData.
 std::vector<double> rightSide(const CellComplex& cells, const Boundary& boundary, const std::vector<BoundaryTerm>& terms,
                               const PoissonData& data);

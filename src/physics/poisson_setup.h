@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "physics/derivatives.h"
+#include "physics/free_means.h"
 #include "physics/multigrid.h"
 #include "physics/system_matrix.h"
 
@@ -11,7 +12,7 @@ namespace mandoline::physics {
 
 struct PoissonSetup {
   /// Throws CallError{badArgument}.
-  PoissonSetup(const CellComplex& cells_, PoissonProblem problem_);
+  PoissonSetup(const CellComplex& cells_, PoissonProblem problem_, unsigned threads);
   PoissonSetup(const PoissonSetup&) = delete;
 
   const CellComplex& cells;
@@ -20,10 +21,12 @@ struct PoissonSetup {
   std::vector<char> held;  ///< heldComponents()
   std::vector<BoundaryTerm> terms;
   DualEdges dual;
-  std::vector<double> mass;  ///< massTerms()
-  CsrMatrix matrix;
+  std::vector<double> mass;   ///< massTerms()
   std::vector<double> added;  ///< per cell: what conditions and mass add to the diagonal
+  CsrMatrix matrix;
+  SweepOrder order;  ///< sweepOrderOf(matrix)
   SystemMatrix system;
+  FreeMeans means;
   Multigrid multigrid;
   Differentiator differentiator;
   std::optional<CellFitter> fitter;  ///< once it is needed

@@ -1,5 +1,6 @@
 #include "mesh/run_call.h"
 #include "physics/poisson_setup.h"
+#include "physics/sparse.h"
 
 namespace mandoline {
 namespace physics {
@@ -10,19 +11,6 @@ PoissonProblem checked(const CellComplex& cells, PoissonProblem problem) {
   return problem;
 }
 
-/// Per cell: what conditions on the boundary add to the diagonal.
-std::vector<double> heldBy(const PoissonSetup& setup) {
-  std::vector<double> held(setup.cells.cellCount());
-  for (size_t b = 0; b < setup.terms.size(); ++b)
-    held[size_t(setup.cells.faceCells[setup.problem.boundary.halfFaces[b]])] += setup.terms[b].perPhi;
-  return held;
-}
-
-std::vector<double> sumOf(std::vector<double> a, const std::vector<double>& b) {
-  for (size_t i = 0; i < a.size(); ++i) a[i] += b[i];
-  return a;
-}
-
 void requireData(const CellComplex& cells, const PoissonProblem& problem, const PoissonData& data) {
   requireSources(cells, data.source);
   requireValues(problem.boundary, data.boundaryValue);
@@ -31,19 +19,21 @@ void requireData(const CellComplex& cells, const PoissonProblem& problem, const 
 
 }  // namespace
 
-PoissonSetup::PoissonSetup(const CellComplex& cells_, PoissonProblem problem_)
+PoissonSetup::PoissonSetup(const CellComplex& cells_, PoissonProblem problem_, unsigned threads)
     : cells(cells_),
       problem(checked(cells_, std::move(problem_))),
       components(cellComponents(cells)),
       held(heldComponents(cells, problem, components)),
       terms(boundaryTerms(cells, problem)),
-      dual(dualEdges(cells, problem.dualPoints, problem.faceCoefficient)),
+      dual(dualEdges(cells, problem.dualPoints, problem.faceCoefficient, threads)),
       mass(massTerms(cells, problem)),
-      matrix(poissonMatrix(cells, problem.boundary, dual, terms, mass)),
-      added(sumOf(heldBy(*this), mass)),
-      system(matrix, added),
-      multigrid(cells, matrix, heldBy(*this), mass),
-      differentiator(cells, dual, problem, terms) {}
+      added(addedTerms(heldTerms(cells, problem.boundary, terms), mass)),
+      matrix(laplacianRows(cells, dual, -1, added, threads)),
+      order(sweepOrderOf(matrix)),
+      system(matrix, added, order),
+      means(cells, components, held),
+      multigrid(multigridLevels(cells, matrix, order, heldTerms(cells, problem.boundary, terms), mass, threads)),
+      differentiator(cells, dual, problem, terms, threads) {}
 
 void requireOptions(const SolveOptions& options) {
   if (!(options.tolerance > 0)) throw CallError({Status::badOption, -1, -1, "The tolerance has to be positive."});
@@ -58,7 +48,7 @@ Solution solvePoisson(const CellComplex& cells, const PoissonProblem& problem, c
   return detail::runCall("solution", [&] {
     detail::Monitor monitor(options, 2);
     monitor.beginStage("levels", 0);
-    physics::PoissonSetup setup(cells, problem);
+    physics::PoissonSetup setup(cells, problem, monitor.threads());
     monitor.beginStage("iterations", 1);
     return physics::solve(setup, {problem.source, problem.boundary.value, {}}, options, monitor);
   });
@@ -68,8 +58,10 @@ struct PoissonSolver::Setup : physics::PoissonSetup {
   using PoissonSetup::PoissonSetup;
 };
 
-PoissonSolver::PoissonSolver(const CellComplex& cells, PoissonProblem problem)
-    : setup_(detail::runCall("solver", [&] { return std::make_unique<Setup>(cells, std::move(problem)); })) {}
+PoissonSolver::PoissonSolver(const CellComplex& cells, PoissonProblem problem, unsigned threads)
+    : setup_(detail::runCall("solver", [&] {
+        return std::make_unique<Setup>(cells, std::move(problem), detail::Monitor(RunOptions{threads, {}}, 1).threads());
+      })) {}
 PoissonSolver::PoissonSolver(PoissonSolver&&) noexcept = default;
 PoissonSolver& PoissonSolver::operator=(PoissonSolver&&) noexcept = default;
 PoissonSolver::~PoissonSolver() = default;

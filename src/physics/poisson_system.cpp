@@ -133,18 +133,15 @@ std::vector<char> heldComponents(const CellComplex& cells, const PoissonProblem&
   return held;
 }
 
-CsrMatrix poissonMatrix(const CellComplex& cells, const Boundary& boundary, const DualEdges& dual, const std::vector<BoundaryTerm>& terms,
-                        const std::vector<double>& mass) {
-  Triplets entries;
-  addLaplacian(cells, dual, -1, entries);
-  for (size_t b = 0; b < terms.size(); ++b) {
-    const int32_t c = cells.faceCells[boundary.halfFaces[b]];
-    if (terms[b].perPhi > 0) entries.emplace_back(c, c, terms[b].perPhi);
-  }
-  for (size_t c = 0; c < mass.size(); ++c) {
-    if (mass[c] > 0) entries.emplace_back(int(c), int(c), mass[c]);
-  }
-  return assembleRows(cells.cellCount(), cells.cellCount(), entries);
+std::vector<double> heldTerms(const CellComplex& cells, const Boundary& boundary, const std::vector<BoundaryTerm>& terms) {
+  std::vector<double> held(cells.cellCount());
+  for (size_t b = 0; b < terms.size(); ++b) held[size_t(cells.faceCells[boundary.halfFaces[b]])] += terms[b].perPhi;
+  return held;
+}
+
+std::vector<double> addedTerms(std::vector<double> held, const std::vector<double>& mass) {
+  for (size_t c = 0; c < held.size(); ++c) held[c] += mass[c];
+  return held;
 }
 
 std::vector<double> rightSide(const CellComplex& cells, const Boundary& boundary, const std::vector<BoundaryTerm>& terms,
@@ -176,7 +173,9 @@ PoissonSystem poissonSystem(const CellComplex& cells, const PoissonProblem& prob
   const physics::DualEdges dual = physics::dualEdges(cells, problem.dualPoints, problem.faceCoefficient);
   const std::vector<physics::BoundaryTerm> terms = physics::boundaryTerms(cells, problem);
   const CellComponents components = cellComponents(cells);
-  return {physics::poissonMatrix(cells, problem.boundary, dual, terms, physics::massTerms(cells, problem)),
+  const std::vector<double> added =
+      physics::addedTerms(physics::heldTerms(cells, problem.boundary, terms), physics::massTerms(cells, problem));
+  return {physics::laplacianRows(cells, dual, -1, added, 1),
           physics::rightSide(cells, problem.boundary, terms, {problem.source, problem.boundary.value, {}}),
           physics::nullSpaceOf(components, physics::heldComponents(cells, problem, components))};
 }

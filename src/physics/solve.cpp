@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/node_loops.h"
 #include "physics/poisson_setup.h"
 #include "physics/unresolved_cells.h"
 
@@ -8,12 +9,6 @@ namespace mandoline::physics {
 namespace {
 
 using Vector = std::vector<double>;
-
-double dot(const Vector& a, const Vector& b) {
-  double sum = 0;
-  for (size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
 
 class Solver {
  public:
@@ -159,14 +154,13 @@ class Solver {
     detail::Monitor unheard(quiet, 1);
     const Differentiator& differentiator = setup_.differentiator;
     if (!setup_.fitter) setup_.fitter.emplace(differentiator.fitter(unheard));
-    Vector foundBefore, missingBefore, next(differentiator.size());
-    const Vector plain = differentiator.plain(result_.phi);
-    double enough = 0x1p10 * options_.tolerance * options_.tolerance * differentiator.product(plain, plain), before = 0;
+    Vector foundBefore, missingBefore, next(differentiator.corrected().size());
+    double enough = 0x1p10 * options_.tolerance * options_.tolerance * differentiator.squareOfPlain(result_.phi), before = 0;
     const int first = isWarm_ ? 1 : 0;  // the first pass after a solution
     for (int pass = 0; pass < options_.corrections; ++pass) {
       Vector found = differentiator.corrections(*setup_.fitter, result_.phi, unheard), missing = found;
       for (size_t i = 0; i < found.size(); ++i) {
-        if (found[i] != 0 && isIncompatible(component(differentiator.cellOf(i)))) found[i] = 0;
+        if (found[i] != 0 && isIncompatible(component(differentiator.cellOf(differentiator.corrected()[i])))) found[i] = 0;
         missing[i] = found[i] - next[i];
       }
       const double size = differentiator.product(missing, missing);
@@ -192,7 +186,7 @@ class Solver {
 
   void setDerivatives() {
     Vector derivatives = setup_.differentiator.plain(result_.phi);
-    for (size_t i = 0; i < corrections_.size(); ++i) derivatives[i] += corrections_[i];
+    for (size_t i = 0; i < corrections_.size(); ++i) derivatives[setup_.differentiator.corrected()[i]] += corrections_[i];
     const auto boundary = derivatives.begin() + ptrdiff_t(cells_.faceCount());
     result_.boundaryDerivative.assign(boundary, derivatives.end());
     derivatives.erase(boundary, derivatives.end());
@@ -200,28 +194,43 @@ class Solver {
   }
 
   static void scaleBy(int exponent, Vector& values) {
-    for (double& value : values) value = std::ldexp(value, exponent);
+    const double factor = std::ldexp(1.0, exponent);
+    for (double& value : values) value = std::isnormal(factor) ? value * factor : std::ldexp(value, exponent);
   }
 
+  double sumOver(detail::FunctionRef<double(size_t, size_t)> f) const { return sumOfBlocks(rhs_.size(), threads(), f); }
+  double dot(const Vector& a, const Vector& b) const {
+    return sumOver([&](size_t begin, size_t end) {
+      double sum = 0;
+      for (size_t i = begin; i < end; ++i) sum += a[i] * b[i];
+      return sum;
+    });
+  }
+  unsigned threads() const { return monitor_.threads(); }
+
   double residual() {
-    Vector r(rhs_.size());
-    return updateResidual(r);
+    r_.resize(rhs_.size());
+    return updateResidual(r_);
   }
 
   /// Sets r to the residual, and returns its size.
   double updateResidual(Vector& r) {
-    setup_.system.multiply(result_.phi, r);
-    for (size_t i = 0; i < r.size(); ++i) r[i] = rhs_[i] - r[i];
-    return result_.residuals.back() = norm_ > 0 ? std::sqrt(dot(r, r)) / norm_ : 0;
+    const double square = sumOver([&](size_t begin, size_t end) {
+      double sum = 0;
+      for (size_t i = begin; i < end; ++i) r[i] = rhs_[i] - setup_.system.row(result_.phi, i), sum += r[i] * r[i];
+      return sum;
+    });
+    return result_.residuals.back() = norm_ > 0 ? std::sqrt(square) / norm_ : 0;
   }
 
   /// Conjugate gradients update the residual instead of computing it, and where phi has large steps the two drift apart. So the computed
   /// one decides, and while that helps they are started again from the phi that they have found.
   void iterate(double tolerance) {
-    Vector r(rhs_.size());
+    Vector& r = r_;
+    r.resize(rhs_.size());
     for (double before = updateResidual(r); !(before <= tolerance);) {  // also if it is no number
       const SolveStatus status = conjugateGradients(r, std::min(tolerance, before / 10));
-      setup_.system.sweep(rhs_, result_.phi);
+      setup_.system.sweep(rhs_, result_.phi, threads());
       const double now = updateResidual(r);
       if (now <= tolerance) return;
       if (status == SolveStatus::iterationLimit || !(now < before / 2)) {
@@ -235,32 +244,37 @@ class Solver {
   /// Starts from phi with the residual r and changes both, until the residual as updated is at most `goal`.
   SolveStatus conjugateGradients(Vector& r, double goal) {
     const size_t n = r.size();
-    Vector z(n), p(n), ap(n);
+    Vector &z = z_, &p = p_, &ap = ap_;
+    for (Vector* values : {&z, &ap}) values->resize(n);
+    p.assign(n, 0);
     for (double rz = 0; !(result_.residuals.back() <= goal);) {
       if (int64_t(result_.iterations()) >= options_.maxIterations) return SolveStatus::iterationLimit;
       progress_ = std::max(progress_, progress());
       monitor_.report(progress_, 1000);
-      setup_.multigrid.apply(r, z);
-      takeMeansOut(z);
-      const double newRz = dot(r, z), beta = rz == 0 ? 0 : newRz / rz;
+      setup_.multigrid.apply(r, z, threads());
+      const double newRz = setup_.means.takeOut(r, z, threads()), beta = rz == 0 ? 0 : newRz / rz;
       rz = newRz;
-      for (size_t i = 0; i < n; ++i) p[i] = z[i] + beta * p[i];
-      setup_.system.multiply(p, ap);
-      const double alpha = rz / dot(p, ap);
+      forBlocks(n, threads(), [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) p[i] = z[i] + beta * p[i];
+      });
+      const double alpha = rz / sumOver([&](size_t begin, size_t end) {
+                             double sum = 0;
+                             for (size_t i = begin; i < end; ++i) ap[i] = setup_.system.row(p, i), sum += p[i] * ap[i];
+                             return sum;
+                           });
       if (!(alpha > 0 && std::isfinite(alpha))) return SolveStatus::breakdown;
-      for (size_t i = 0; i < n; ++i) result_.phi[i] += alpha * p[i], r[i] -= alpha * ap[i];
-      result_.residuals.push_back(std::sqrt(dot(r, r)) / norm_);
+      const double square = sumOver([&](size_t begin, size_t end) {
+        double sum = 0;
+        for (size_t i = begin; i < end; ++i) {
+          result_.phi[i] += alpha * p[i];
+          r[i] -= alpha * ap[i];
+          sum += r[i] * r[i];
+        }
+        return sum;
+      });
+      result_.residuals.push_back(std::sqrt(square) / norm_);
     }
     return SolveStatus::converged;
-  }
-
-  /// Removes the constants from x: they are no progress, and the rounding of large ones would drown it.
-  void takeMeansOut(Vector& z) const {
-    Vector sum(setup_.components.count), volume(setup_.components.count);
-    for (size_t c = 0; c < z.size(); ++c) sum[component(c)] += z[c] * cells_.cellVolume[c], volume[component(c)] += cells_.cellVolume[c];
-    for (size_t c = 0; c < z.size(); ++c) {
-      if (!setup_.held[component(c)] && volume[component(c)] > 0) z[c] -= sum[component(c)] / volume[component(c)];
-    }
   }
 
   /// In thousandths: residuals fall by a factor per iteration.
@@ -307,8 +321,9 @@ class Solver {
   double norm_ = 0;      // of the right side
   bool isWarm_ = false;  // whether phi to start from is given
   size_t progress_ = 0;
-  int exponent_ = 0;    // phi and the right side are divided by 2 to it
-  Vector corrections_;  // of derivatives
+  int exponent_ = 0;       // phi and the right side are divided by 2 to it
+  Vector corrections_;     // of derivatives
+  Vector r_, z_, p_, ap_;  // room for conjugate gradients
   Solution result_;
 };
 

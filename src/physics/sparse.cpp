@@ -1,16 +1,75 @@
 #include "physics/sparse.h"
 
+#include <numeric>
 #include <span>
 
+#include "base/large_array.h"
 #include "base/sort.h"
+#include "physics/cell_edges.h"
 
 namespace mandoline::physics {
 
+namespace {
+
+struct Entry {
+  int32_t column;
+  double value;
+};
+
+/// Appends a row. Entries in one place are added in their order.
+void appendRow(std::span<Entry> entries, CsrMatrix& matrix) {
+  detail::sortItems(entries, [](const Entry& a, const Entry& b) { return a.column < b.column; });
+  const size_t first = matrix.entryCount();
+  for (const auto& [column, value] : entries) {
+    if (matrix.entryCount() > first && matrix.entryColumns.back() == column) {
+      matrix.entryValues.back() += value;
+      continue;
+    }
+    matrix.entryColumns.push_back(column);
+    matrix.entryValues.push_back(value);
+  }
+  matrix.rowOffsets.push_back(int64_t(matrix.entryCount()));
+}
+
+/// f(row, column, value) for each entry that a dual edge adds to the Laplacian times a factor.
+template <class F>
+void forEntries(const CellComplex& cells, const DualEdges& dual, size_t e, double factor, const F& f) {
+  const DualEdge& edge = dual.edges[e];
+  const double all = factor * edge.flow / edge.distance;
+  const auto share = [&](uint32_t face) { return shareOf(cells, dual, e, face); };
+  f(edge.cell, edge.cell, -all);
+  for (const uint32_t face : dual.faces[e]) {
+    const uint32_t other = otherCell(cells, edge, face);
+    f(edge.cell, other, share(face) * all);
+    f(other, edge.cell, share(face) * all);
+    for (const uint32_t g : dual.faces[e]) f(other, otherCell(cells, edge, g), -share(face) * share(g) * all);
+  }
+}
+
+/// The rows of all, on all threads.
+CsrMatrix joined(std::span<const CsrMatrix> parts, size_t columns, detail::Monitor& monitor) {
+  CsrMatrix matrix;
+  matrix.columns = columns;
+  std::vector<size_t> begins;  // entries
+  for (const CsrMatrix& part : parts) {
+    const auto begin = size_t(matrix.rowOffsets.back());
+    begins.push_back(begin);
+    for (size_t r = 1; r <= part.rows(); ++r) matrix.rowOffsets.push_back(int64_t(begin) + part.rowOffsets[r]);
+  }
+  detail::makeLarge(matrix.entryColumns, size_t(matrix.rowOffsets.back()));
+  detail::makeLarge(matrix.entryValues, size_t(matrix.rowOffsets.back()));
+  std::vector<uint32_t> order(parts.size());
+  std::iota(order.begin(), order.end(), 0u);
+  detail::runItems(order, monitor, [&](size_t, uint32_t p) {
+    std::copy(parts[p].entryColumns.begin(), parts[p].entryColumns.end(), matrix.entryColumns.begin() + ptrdiff_t(begins[p]));
+    std::copy(parts[p].entryValues.begin(), parts[p].entryValues.end(), matrix.entryValues.begin() + ptrdiff_t(begins[p]));
+  });
+  return matrix;
+}
+
+}  // namespace
+
 CsrMatrix assembleRows(size_t rows, size_t columns, const Triplets& entries) {
-  struct Entry {
-    int32_t column;
-    double value;
-  };
   std::vector<size_t> ends(rows + 1);  // first where the next entry of a row goes
   for (const auto& entry : entries) ++ends[size_t(entry.row()) + 1];
   for (size_t r = 0; r < rows; ++r) ends[r + 1] += ends[r];
@@ -20,27 +79,39 @@ CsrMatrix assembleRows(size_t rows, size_t columns, const Triplets& entries) {
   CsrMatrix matrix;
   matrix.columns = columns;
   matrix.rowOffsets.reserve(rows + 1);
-  for (size_t r = 0, begin = 0; r < rows; begin = ends[r++]) {
-    detail::sortItems(std::span(sorted.data() + begin, ends[r] - begin),
-                      [](const Entry& a, const Entry& b) { return a.column < b.column; });
-    const size_t first = matrix.entryCount();
-    for (size_t e = begin; e < ends[r]; ++e) {
-      const auto& [column, value] = sorted[e];
-      if (matrix.entryCount() > first && matrix.entryColumns.back() == column) {
-        matrix.entryValues.back() += value;
-        continue;
-      }
-      matrix.entryColumns.push_back(column);
-      matrix.entryValues.push_back(value);
-    }
-    matrix.rowOffsets.push_back(int64_t(matrix.entryCount()));
-  }
+  for (size_t r = 0, begin = 0; r < rows; begin = ends[r++]) appendRow(std::span(sorted.data() + begin, ends[r] - begin), matrix);
   return matrix;
 }
 
 SparseMatrix assemble(size_t rows, size_t columns, const Triplets& entries) {
   const CsrMatrix matrix = assembleRows(rows, columns, entries);
   return EigenRows(matrix).map();
+}
+
+CsrMatrix laplacianRows(const CellComplex& cells, const DualEdges& dual, double factor, const std::vector<double>& added,
+                        unsigned threads) {
+  struct Part {
+    CsrMatrix rows;
+    std::vector<Entry> row;
+  };
+  const RunOptions quiet{threads, {}};
+  detail::Monitor monitor(quiet, 1);
+  const detail::Csr<uint32_t> edges = cellEdges(cells, dual, threads);
+  std::vector<Part> parts = detail::forChunks<Part>(cells.cellCount(), monitor, [&](Part& part, size_t begin, size_t end) {
+    for (size_t c = begin; c < end; ++c) {
+      part.row.clear();
+      for (const uint32_t e : edges[c]) {
+        forEntries(cells, dual, e, factor, [&](uint32_t row, uint32_t column, double value) {
+          if (row == c) part.row.push_back({int32_t(column), value});
+        });
+      }
+      if (!added.empty() && added[c] > 0) part.row.push_back({int32_t(c), added[c]});
+      appendRow(part.row, part.rows);
+    }
+  });
+  std::vector<CsrMatrix> rows;
+  for (Part& part : parts) rows.push_back(std::move(part.rows));
+  return joined(rows, cells.cellCount(), monitor);
 }
 
 }  // namespace mandoline::physics

@@ -14,7 +14,7 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 CsrMatrix assembleRows(size_t rows, size_t columns, const Triplets& entries);
 SparseMatrix assemble(size_t rows, size_t columns, const Triplets& entries);
 
-/// Adds the Laplacian, div k grad, times a factor.
-void addLaplacian(const CellComplex& cells, const DualEdges& dual, double factor, Triplets& entries);
+/// The Laplacian, div k grad, times a factor, plus what is added to the diagonal (per row; empty for nothing).
+CsrMatrix laplacianRows(const CellComplex& cells, const DualEdges& dual, double factor, const std::vector<double>& added, unsigned threads);
 
 }  // namespace mandoline::physics

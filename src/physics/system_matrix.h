@@ -4,32 +4,43 @@
 #include <vector>
 
 #include "mandoline/csr_matrix.h"
+#include "physics/sweep_order.h"
 
 namespace mandoline::physics {
+
+inline SweepOrder sweepOrderOf(const CsrMatrix& matrix) {
+  return {matrix.rows(), [&](size_t i, const auto& visit) {
+            for (auto e = size_t(matrix.rowOffsets[i]); e < size_t(matrix.rowOffsets[i + 1]) && size_t(matrix.entryColumns[e]) < i; ++e)
+              visit(size_t(matrix.entryColumns[e]));
+          }};
+}
 
 /// The system's matrix, multiplied by differences of x: except for what conditions and mass add, each row sums to zero. So rounding of a
 /// large constant in x does not drown the rest.
 class SystemMatrix {
  public:
-  /// `added`: per row, its sum.
-  SystemMatrix(const CsrMatrix& matrix, const std::vector<double>& added) : matrix_(matrix), added_(added) {}
+  /// `added`: per row, its sum. `order`: sweepOrderOf(matrix).
+  SystemMatrix(const CsrMatrix& matrix, const std::vector<double>& added, const SweepOrder& order)
+      : matrix_(matrix), added_(added), order_(order) {}
 
   double row(const std::vector<double>& x, size_t i) const {
     double sum = added_[i] * x[i];
     forEachOther(i, [&](size_t j, double value) { sum += value * (x[j] - x[i]); });
     return sum;
   }
-  void multiply(const std::vector<double>& x, std::vector<double>& result) const {
-    for (size_t i = 0; i < x.size(); ++i) result[i] = row(x, i);
-  }
   /// Gauss-Seidel, forwards and backwards. The smallest cells hardly show in a residual; this adjusts them to their neighbours.
-  void sweep(const std::vector<double>& rhs, std::vector<double>& x) const {
-    for (size_t k = 0; k < 2 * x.size(); ++k) {
-      const size_t i = k < x.size() ? k : 2 * x.size() - 1 - k;
+  void sweep(const std::vector<double>& rhs, std::vector<double>& x, unsigned threads) const {
+    const auto adjust = [&](size_t i) {
       double diagonal = added_[i];
       forEachOther(i, [&](size_t, double value) { diagonal -= value; });
       if (diagonal > 0) x[i] += (rhs[i] - row(x, i)) / diagonal;
-    }
+    };
+    order_.forwards(threads, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) adjust(i);
+    });
+    order_.backwards(threads, [&](size_t begin, size_t end) {
+      for (size_t i = end; i-- > begin;) adjust(i);
+    });
   }
 
  private:
@@ -43,6 +54,7 @@ class SystemMatrix {
 
   const CsrMatrix& matrix_;
   const std::vector<double>& added_;
+  const SweepOrder& order_;
 };
 
 }  // namespace mandoline::physics

@@ -47,7 +47,7 @@ FlowStepper::State::State(const CellComplex& cells, const std::array<double, 3>&
       boundary_(cells, wind),
       flowCells_(cells, options.viscosity > 0 ? std::span<const uint32_t>(boundary_.surface) : std::span<const uint32_t>(),
                  boundary_.outlets),
-      pressure_(cells, pressureProblem(boundary_)),
+      pressure_(cells, pressureProblem(boundary_), options.threads),
       area_(sideArea(cells)) {
   flow_.madeFrom = cells.fingerprint;
   start(windAtStart());
@@ -174,7 +174,7 @@ bool FlowStepper::State::addViscosity(double rate, Vector& velocity, FlowStep& r
       problem.boundary = boundary_.ofVelocity(cells_, d);
       problem.dualPoints = DualPoints::centroids;
       problem.mass.assign(n, mass);
-      viscosity_.emplace_back(cells_, std::move(problem));
+      viscosity_.emplace_back(cells_, std::move(problem), options_.threads);
     }
     viscousRate_ = mass;
   }

@@ -176,6 +176,22 @@ TEST_CASE("poisson solver: used again it finds the bits that it finds once, on a
   CHECK(areSame(moved.solve({}), solvePoisson(cells, problem)));
 }
 
+TEST_CASE("poisson solver: the same bits on any number of threads where there are cells for them", "[poisson]") {
+  for (const bool isCoarsened : {false, true}) {
+    const CellComplex cells = ballCells({.isCoarsened = isCoarsened, .isMerged = true}, isCoarsened ? 56 : 32);
+    REQUIRE(cells.cellCount() > 18'000);
+    const PoissonProblem problem = wavesProblem(cells);
+    SolveOptions options;
+    options.threads = 1;
+    const Solution one = solvePoisson(cells, problem, options);
+    CHECK(one.status == SolveStatus::converged);
+    for (const unsigned threads : {2u, 3u}) {
+      options.threads = threads;
+      CHECK(areSame(PoissonSolver(cells, problem, threads).solve({problem.source, problem.boundary.value, {}}, options), one));
+    }
+  }
+}
+
 TEST_CASE("poisson solver: started from a phi nearby it needs less, and finds the same", "[poisson]") {
   const CellComplex cells = ballCells({.isMerged = true}, 12);
   const PoissonProblem problem = wavesProblem(cells);

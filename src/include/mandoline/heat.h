@@ -19,7 +19,7 @@ class HeatStepper {
  public:
   /// `cells` have to outlive the stepper. Throws CallError as poissonSystem() does, for a phi that is not finite (element: the cell) or of
   /// another length, or for a time step that is not positive (badOption).
-  HeatStepper(const CellComplex& cells, HeatProblem problem);
+  HeatStepper(const CellComplex& cells, HeatProblem problem, unsigned threads = 0);
 
   /// One step, during which sources and boundary values are those of `problem`; setSource() and setBoundaryValue() change them from one
   /// step to the next. If a solution is neither converged nor unresolved, its status is returned and phi stays that of the step before.

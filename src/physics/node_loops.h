@@ -1,0 +1,23 @@
+// Loops over the nodes of a system on all threads. Their blocks do not depend on how many threads there are, so neither do sums.
+#pragma once
+
+#include <cstddef>
+
+#include "base/function_ref.h"
+
+namespace mandoline::physics {
+
+inline constexpr size_t kBlock = 2048;  ///< nodes
+
+inline size_t blockCount(size_t nodes) { return (nodes + kBlock - 1) / kBlock; }
+
+/// How many threads are worth starting for so many nodes: so few of them are done before another thread has started.
+unsigned threadsFor(size_t nodes, unsigned threads);
+
+/// Runs f(begin, end), which must not throw, for each block of nodes.
+void forBlocks(size_t nodes, unsigned threads, detail::FunctionRef<void(size_t, size_t)> f);
+
+/// The sum of f(begin, end) over the blocks, added in their order.
+double sumOfBlocks(size_t nodes, unsigned threads, detail::FunctionRef<double(size_t, size_t)> f);
+
+}  // namespace mandoline::physics
