@@ -24,9 +24,9 @@ inline void outlineOf(const Surface& surface, TriangleId triangle, Corners& outl
       outline.makeRoom(past - first + 1);
       outline.add({from, slabs[from.number]});
       while (past > first && slabs[past - 1][0] == CutVertices::kUnused) --past;
-      const uint32_t step = forward ? 1 : ~0u;
-      uint32_t v = forward ? first : past - 1;
-      for (uint32_t left = past - first; left > 0; --left, v += step) outline.add({{v}, slabs[v]});
+      const uint32_t count = past - first, isBackward = uint32_t(!forward);
+      uint32_t v = first + (count - 1) * isBackward;  // no branch on what can't be foretold
+      for (uint32_t i = 0; i < count; ++i, v += 1 - 2 * isBackward) outline.add({{v}, slabs[v]});
       from = surface.edges().ends[edge][forward ? 1 : 0];
     });
   }

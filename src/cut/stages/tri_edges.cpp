@@ -41,20 +41,20 @@ size_t crossEdge(const Input& input, const std::array<VertexId, 2>& ends, const 
   const Slab &from = input.slabs[ends[0]], &to = input.slabs[ends[1]];
   Slab at = from;  // slabs just before the next crossing
   int step[3];
-  int32_t next[3], last[3];
+  int32_t next[3], left[3];  // planes
   for (int d = 0; d < 3; ++d) {
+    const int32_t first = firstPlaneAfter(std::min(from[d], to[d])), last = lastPlaneBefore(std::max(from[d], to[d]));
     step[d] = (to[d] > from[d]) - (to[d] < from[d]);
-    next[d] = step[d] > 0 ? firstPlaneAfter(from[d]) : lastPlaneBefore(from[d]);
-    last[d] = step[d] > 0 ? lastPlaneBefore(to[d]) : firstPlaneAfter(to[d]);
+    next[d] = step[d] > 0 ? first : last;
+    left[d] = last - first + 1;  // not positive if there are none
     if (onPlane(from[d])) at[d] += step[d];
   }
-  const auto pending = [&](int d) { return step[d] > 0 ? next[d] <= last[d] : step[d] < 0 && next[d] >= last[d]; };
   size_t count = 0;
   for (;;) {
     int first = -1;
     bool tied[3] = {};
     for (int d = 0; d < 3; ++d) {
-      if (!pending(d)) continue;
+      if (left[d] <= 0) continue;
       const auto planeOf = [&](int axis) { return CrossedPlane{axis, input.planes[axis][next[axis]], step[axis] > 0}; };
       const int order = first < 0       ? -1
                         : line.ofPlanes ? compareCrossings(*input.mesh, line, planeOf(d), planeOf(first), predicates)
@@ -71,6 +71,7 @@ size_t crossEdge(const Input& input, const std::array<VertexId, 2>& ends, const 
       crossing[d] = 2 * next[d];
       at[d] = crossing[d] + step[d];
       next[d] += step[d];
+      --left[d];
     }
     out[count++] = crossing;
   }
