@@ -121,7 +121,7 @@ class Dicer {
     const auto [axis, plane, last] = planes;
     const PolygonHalves halves(polygon, axis, 2 * plane);
     room.line.clear();
-    makeLine(axis, plane, halves.up(), halves.down(), room.line, 0);
+    makeLine(axis, halves.up(), halves.down(), room.line, 0);
     addHybridEdges(axis, room.line.all());
     const auto [below, above] = halves.pieces(room);
     HalvesRoom& deeper = room.deeper();
@@ -136,7 +136,7 @@ class Dicer {
     int32_t above = 0;
     for (int32_t plane = planes.first; plane <= planes.last; plane = seamFrom(axis, plane + 1)) {
       sweep.climb(2 * plane);
-      makeLine(axis, plane, sweep.up(), sweep.down(), sweep.unfinished(), polygon.size());
+      makeLine(axis, sweep.up(), sweep.down(), sweep.unfinished(), polygon.size());
       sweep.close();
       addHybridEdges(axis, sweep.line());
       if (enter(axis, 2 * plane - 1)) split(nextAxis_[axis], sweep.piece(), room);
@@ -194,9 +194,9 @@ class Dicer {
     for (int32_t i = step > 0 ? firstPlaneAfter(from) : lastPlaneBefore(from); step > 0 ? i < past : i > past; i += step) f(i, step);
   }
 
-  /// Adds the vertices of a hybrid edge a -> b, which lies in the plane: its crossings with planes across the next axis, at heights along
-  /// the one after that, which are up to P2; and with planes across that one in between. Makes room for some more.
-  void makeLine(size_t axis, int32_t plane, const Corner& a, const Corner& b, Corners& line, size_t more) {
+  /// Adds the vertices of a hybrid edge a -> b, which lies in a plane across the axis: its crossings with planes across the next axis, at
+  /// heights along the one after that, which are up to P2; and with planes across that one in between. Makes room for some more.
+  void makeLine(size_t axis, const Corner& a, const Corner& b, Corners& line, size_t more) {
     const size_t along = kAxes[axis + 1], height = kAxes[axis + 2];
     const size_t most = planesTo(a.slab[along], b.slab[along]) + planesTo(a.slab[height], b.slab[height]);
     line.makeRoom(most + more + 2);
@@ -205,7 +205,7 @@ class Dicer {
       Corner at = a;
       forPlanes(a.slab[along], b.slab[along], [&](int32_t j, int step) {
         Slab slab;
-        slab[axis] = 2 * plane;
+        slab[axis] = a.slab[axis];
         slab[along] = 2 * j;
         slab[height] = heightOf(slab, height, step, at.slab[height], b.slab[height]);
         climb(at, slab, height, line);
