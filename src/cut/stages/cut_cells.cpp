@@ -1,5 +1,6 @@
 #include "cut/stages/cut_cells.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "base/sort.h"
@@ -244,30 +245,31 @@ class CellMaker {
   void emitParted(GridCellId gridCell) {
     const auto triFaces = stencil_.triFacesInCell[gridCell];
     const auto sides = scratch_.parted.sides();
+    const size_t front = size_t(std::count(sides.begin(), sides.end(), PartedCell::inFront));
     const CellId cells[2] = {{uint32_t(cells_.size())}, {uint32_t(cells_.size() + 1)}};
-    size_t sizes[2] = {triFaces.size(), triFaces.size()};
-    for (const uint8_t side : sides) ++sizes[side == PartedCell::inFront];
-    auto& out = cells_.halfFaces;
-    const size_t first = out.items.size();
-    out.items.resize(first + sizes[0] + sizes[1]);
-    HalfFace* to[2] = {&out.items[first], &out.items[first + sizes[0]]};
+    const size_t sizes[2] = {triFaces.size() + sides.size() - front, triFaces.size() + front};
+    HalfFace* to[2] = {nextHalfFace(), nextHalfFace() + sizes[0]};
     for (const size_t i : {0, 1}) {
       cells_.gridCells.push_back(gridCell);
-      out.offsets.push_back(out.offsets.back() + uint32_t(sizes[i]));
-      for (const FaceId f : triFaces) *to[i]++ = HalfFace(f, uint32_t(i));
+      cells_.halfFaces.offsets.push_back(cells_.halfFaces.offsets.back() + uint32_t(sizes[i]));
+      to[i] = std::transform(triFaces.begin(), triFaces.end(), to[i], [=](FaceId f) { return HalfFace(f, uint32_t(i)); });
     }
-    cells_.ofTriFaces.insert(cells_.ofTriFaces.end(), triFaces.size(), {{cells[0], cells[1]}});
-    auto side = sides.begin();
+    std::fill_n(sidesOfTriFaces(gridCell), triFaces.size(), FaceSides{{cells[0], cells[1]}});
+    const uint8_t* side = sides.data();
+    const std::array<GridFaceId, 6> gridFaces = stencil_.cells[gridCell].faces;
     for (int i = 0; i < 6; ++i) {
-      const auto& halfFaces = faces_.grid.halfFaces;
-      const size_t g = stencil_.cells[gridCell].faces[size_t(i)].number;
-      for (uint32_t at = halfFaces.offsets[g]; at < halfFaces.offsets[g + 1]; ++at, ++side) {
-        const bool inFront = *side == PartedCell::inFront;
-        *to[inFront]++ = seenFrom(i & 1, halfFaces.items[at]);
+      const uint32_t* const offsets = &faces_.grid.halfFaces.offsets[gridFaces[size_t(i)].number];
+      for (uint32_t at = offsets[0], past = offsets[1]; at < past; ++at) {
+        const bool inFront = *side++ == PartedCell::inFront;
+        *to[inFront]++ = seenFrom(i & 1, faces_.grid.halfFaces.items[at]);
         cells_.ofGridFaces[at].cells[i & 1 ? 0 : 1] = cells[inFront];
       }
     }
   }
+
+  /// Where those of the next cut-cell go: there is room for all of the brick.
+  HalfFace* nextHalfFace() { return cells_.halfFaces.items.data() + cells_.halfFaces.offsets.back(); }
+  FaceSides* sidesOfTriFaces(GridCellId gridCell) { return &cells_.ofTriFaces[stencil_.triFacesInCell.offsets[gridCell.number]]; }
 
   /// Cut-cells in the order of their first local half-face.
   void emit() {
@@ -287,8 +289,7 @@ class CellMaker {
       ++ends[cellOf[h]];
     }
     auto& out = cells_.halfFaces;
-    uint32_t at = uint32_t(out.items.size());
-    out.items.resize(at + cell.halfFaces.size());
+    uint32_t at = out.offsets.back();
     for (uint32_t& end : ends) {
       const uint32_t size = end;
       end = at;
@@ -303,7 +304,8 @@ class CellMaker {
   void noteSides(uint32_t first) {
     const CellHalves& cell = scratch_.halves;
     const auto cellOf = [&](LocalHalf h) { return CellId{first + scratch_.cellOf[h]}; };
-    for (const LocalFace f : cell.localFaces()) cells_.ofTriFaces.push_back({{cellOf(sideOf(f, 0)), cellOf(sideOf(f, 1))}});
+    FaceSides* ofTriFaces = sidesOfTriFaces(cell.gridCell);
+    for (const LocalFace f : cell.localFaces()) *ofTriFaces++ = {{cellOf(sideOf(f, 0)), cellOf(sideOf(f, 1))}};
     auto half = cell.gridHalves().begin();
     for (size_t i = 0; i < 6; ++i) {
       const auto& offsets = faces_.grid.halfFaces.offsets;
@@ -328,11 +330,14 @@ class CellMaker {
 void makeCutCells(const BrickSurface& surface, const Stencil& stencil, const CutFaces& faces, CellScratch& scratch, CutCells& cells) {
   cells.halfFaces.clear();
   cells.gridCells.clear();
-  cells.ofTriFaces.clear();
-  cells.ofGridFaces.assign(faces.grid.halfFaces.items.size(), {});
+  const size_t triFaces = stencil.triFacesInCell.items.size(), ofGridFaces = faces.grid.halfFaces.items.size();
+  cells.halfFaces.items.resize(2 * triFaces + 2 * ofGridFaces);
+  cells.ofTriFaces.resize(triFaces);
+  cells.ofGridFaces.assign(ofGridFaces, {});
   scratch.parted.begin(surface, stencil);
   CellMaker maker(surface, stencil, faces, scratch, cells);
   for (const GridCellId c : stencil.cells.ids()) maker.make(c);
+  cells.halfFaces.items.resize(cells.halfFaces.offsets.back());
 }
 
 }  // namespace mandoline::detail

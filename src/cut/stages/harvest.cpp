@@ -8,6 +8,21 @@
 namespace mandoline::detail {
 namespace {
 
+/// The sides of a brick's box that a corner or grid-edge of a cell lies on where its cell does, as bits by cellFace(): those of corners,
+/// then those of grid-edges, as of BoundaryLine.
+constexpr auto kSidesOfLine = [] {
+  std::array<uint8_t, 20> sides{};
+  for (int i = 0; i < 8; ++i) {
+    for (int d = 0; d < 3; ++d) sides[size_t(i)] |= uint8_t(1 << cellFace(d, i >> d & 1));
+  }
+  for (int d = 0; d < 3; ++d) {
+    for (int i = 0; i < 4; ++i) {
+      sides[size_t(8 + cellEdge(d, i & 1, i >> 1))] = uint8_t(1 << cellFace((d + 1) % 3, i & 1) | 1 << cellFace((d + 2) % 3, i >> 1));
+    }
+  }
+  return sides;
+}();
+
 class Harvest {
  public:
   Harvest(const BrickStages& stages, const std::vector<Counted>& counted, Gathered& gathered, BrickMemory& memory, BrickCut& out)
@@ -46,11 +61,10 @@ class Harvest {
   void findComponents() {
     IdSets<CellId> sets;
     sets.reset(cells_.size());
-    for (const GridFaceId g : stencil_.faces.ids()) {
-      for (size_t i = 0; i < halvesIn(g).size(); ++i) {
-        const FaceSides& sides = sidesIn(g)[i];
-        if (!faces_.isTri(halvesIn(g)[i].face()) && isInside(sides)) sets.unite(sides.cells[0], sides.cells[1]);
-      }
+    const auto& halves = faces_.grid.halfFaces.items;
+    for (size_t i = 0; i < halves.size(); ++i) {
+      const FaceSides& sides = cells_.ofGridFaces[i];
+      if (!faces_.isTri(halves[i].face()) && isInside(sides)) sets.unite(sides.cells[0], sides.cells[1]);
     }
     gathered_.components.resize(cells_.size());
     for (const CellId c : gathered_.components.ids()) {
@@ -60,13 +74,14 @@ class Harvest {
   }
 
   uint32_t indexOf(GridCellId cell) const { return stencil_.box.indexOf(stencil_.cells[cell].element); }
-  bool isOnBoundary(const Slab& element) const {
-    bool isOn = false;
-    for (size_t d = 0; d < 3; ++d) {
-      const int32_t first = 2 * stencil_.box.first[d];
-      isOn |= element[d] == first || element[d] == first + 2 * stencil_.box.count[d];
+  /// The sides of the brick's box that a cell lies at, as bits by cellFace().
+  uint8_t sidesAt(const Slab& cell) const {
+    int sides = 0;
+    for (int d = 0; d < 3; ++d) {
+      const int32_t at = (cell[size_t(d)] >> 1) - stencil_.box.first[size_t(d)];
+      sides |= (at == 0) << cellFace(d, 0) | (at + 1 == stencil_.box.count[size_t(d)]) << cellFace(d, 1);
     }
-    return isOn;
+    return uint8_t(sides);
   }
 
   void listVertices() {
@@ -74,38 +89,46 @@ class Harvest {
     GridEdgeId edge{0};
     for (const GridCellId c : stencil_.cells.ids()) {
       const Stencil::Cell& cell = stencil_.cells[c];
+      const uint8_t sides = sidesAt(cell.element);
       for (uint8_t i = 0; i < 8; ++i) {
         if (cell.corners[i] != corner) continue;  // a cell before has it
+        addLine(c, i, sides, {&gridEdges_.corners[corner], 1});
         ++corner.number;
-        const VertexId v = gridEdges_.corners[cell.corners[i]];
-        addLine(c, i, {&v, 1});
       }
       for (uint8_t i = 0; i < 12; ++i) {
         if (cell.edges[i] != edge) continue;
+        const auto vertices = gridEdges_.vertices[edge];
+        if (!vertices.empty()) addLine(c, uint8_t(8 + i), sides, vertices);
         ++edge.number;
-        addLine(c, uint8_t(8 + i), gridEdges_.vertices[cell.edges[i]]);
       }
       gathered_.pastVertex.push_back(uint32_t(gathered_.lineVertices.size()));
     }
   }
 
-  /// Appends the vertices of a grid-edge or grid vertex that are not of the mesh or its edges.
-  void addLine(GridCellId cell, uint8_t index, std::span<const VertexId> vertices) {
+  /// Appends the vertices of a grid-edge or grid vertex that are not of the mesh or its edges. `sides`: those that the cell lies at.
+  void addLine(GridCellId cell, uint8_t index, uint8_t sides, std::span<const VertexId> vertices) {
     std::vector<VertexId>& all = gathered_.lineVertices;
     const uint32_t first = uint32_t(all.size());
     for (const VertexId v : vertices) {
       if (v >= vertices_.firstInTriangle) all.push_back(v);
     }
     const uint32_t count = uint32_t(all.size()) - first;
-    if (count == 0) return;
     if (count > 1) {
       sortItems(std::span(all).subspan(first), [&](VertexId u, VertexId v) { return vertices_.triangle(u) < vertices_.triangle(v); });
     }
-    if (isOnBoundary(vertices_.slab(all[first]))) gathered_.boundaryLines.push_back({indexOf(cell), index, {first, count}});
+    if (count > 0 && (sides & kSidesOfLine[index]) != 0) gathered_.boundaryLines.push_back({indexOf(cell), index, {first, count}});
   }
 
   void orderFaces() {
-    for (const GridFaceId g : faces_.grid.gridFaces) gathered_.pieces.push_back(planeOf(g));
+    if (stencil_.triFacesOnFace.items.empty()) {
+      gathered_.triOrder = stencil_.triFacesInCell.items;
+    } else {
+      orderWithThoseInPlanes();
+    }
+    gathered_.triNumbers.resize(gathered_.triOrder.size());
+    for (uint32_t i = 0; i < gathered_.triOrder.size(); ++i) gathered_.triNumbers[gathered_.triOrder[i]] = {i};
+  }
+  void orderWithThoseInPlanes() {
     GridFaceId g{0};
     for (const GridCellId c : stencil_.cells.ids()) {
       const auto inside = stencil_.triFacesInCell[c];
@@ -117,8 +140,6 @@ class Harvest {
         }
       }
     }
-    gathered_.triNumbers.resize(gathered_.triOrder.size());
-    for (uint32_t i = 0; i < gathered_.triOrder.size(); ++i) gathered_.triNumbers[gathered_.triOrder[i]] = {i};
   }
   FaceId numberOf(FaceId face) const { return faces_.isTri(face) ? gathered_.triNumbers[face] : face; }
   HalfFace numbered(HalfFace h) const { return {numberOf(h.face()), h.side()}; }
@@ -137,8 +158,7 @@ class Harvest {
       triFace += uint32_t(stencil_.triFacesInCell[c].size());
       for (; g.number < stencil_.faces.size() && stencil_.faces[g].cell == c; ++g.number) {
         const uint32_t triFaces = uint32_t(stencil_.triFacesOnFace[g].size());
-        uint32_t pieces = 0;
-        for (const HalfFace h : halvesIn(g)) pieces += !faces_.isTri(h.face());
+        const uint32_t pieces = uint32_t(halvesIn(g).size()) - triFaces;
         addOutside(g, {triFace, triFaces}, {piece, pieces});
         piece += pieces;
         triFace += triFaces;
@@ -155,11 +175,11 @@ class Harvest {
   }
 
   void addOutside(GridFaceId g, const Range& triFaces, const Range& pieces) {
+    if (isInside(sidesIn(g)[0])) return;
     const Stencil::Face& face = stencil_.faces[g];
     Slab other = stencil_.cells[face.cell].element;
     other[size_t(face.axis())] += face.side() == 1 ? 2 : -2;
     if (stencil_.box.has(other)) {
-      if (stencil_.find(other)) return;
       const FaceSides& sides = sidesIn(g)[0];  // the grid-face is whole
       const OpenFace open{stencil_.box.indexOf(other), gathered_.components[sides.cells[sides.cells[0] != FaceSides::kNone ? 0 : 1]]};
       gathered_.openFaces.push_back(open);
@@ -179,7 +199,11 @@ class Harvest {
   void findSteps() {
     if (counted_.empty()) return;
     WindingStep last{~0u, ~0u, {}};
+    CellId lastBehind = FaceSides::kNone, lastInFront = FaceSides::kNone;
     const auto add = [&](FaceId face, CellId behind, CellId inFront) {
+      if (steps_.areAlike() && behind == lastBehind && inFront == lastInFront) return;
+      lastBehind = behind;
+      lastInFront = inFront;
       const WindingStep step{gathered_.components[behind], gathered_.components[inFront], steps_.at(face)};
       if (step == last) return;
       gathered_.steps.push_back(last = step);
@@ -218,17 +242,6 @@ class Harvest {
     }
   }
 
-  /// Of a vertex in loops.
-  uint32_t placeOf(VertexId v) {
-    if (v >= vertices_.firstOwn) return v.number - vertices_.firstOwn.number;
-    uint32_t& place = gathered_.places[v];
-    if (place == Gathered::kNoPlace) {
-      place = uint32_t(vertices_.slabs.size() + gathered_.surfaceVertices.size());
-      gathered_.surfaceVertices.push_back(v);
-    }
-    return place;
-  }
-
   void copyTriLoops() {
     const TriFaces& tri = faces_.tri;
     const bool haveOneEach = tri.faceLoopOffsets.empty();
@@ -241,22 +254,17 @@ class Harvest {
       offsets.back() = at;
     });
     out_.triLoops.loops.offsets = memory_.faces.make<uint32_t>(tri.loops.offsets.size(), [&](std::span<uint32_t> offsets) {
-      uint32_t at = 0, loops = 0;
-      for (const FaceId f : gathered_.triOrder) {
-        for (const auto loop : tri.loopsOf(f)) {
-          offsets[loops++] = at;
-          at += uint32_t(loop.size());
+      out_.triLoops.loops.items = memory_.faces.make<uint32_t>(tri.loops.items.size(), [&](std::span<uint32_t> items) {
+        const VertexPlaces places(vertices_, gathered_.places, gathered_.surfaceVertices);
+        uint32_t *offset = offsets.data(), *item = items.data();
+        for (const FaceId f : gathered_.triOrder) {
+          for (const auto loop : tri.loopsOf(f)) {
+            *offset++ = uint32_t(item - items.data());
+            for (const VertexId v : loop) *item++ = places.of(v);
+          }
         }
-      }
-      offsets[loops] = at;
-    });
-    out_.triLoops.loops.items = memory_.faces.make<uint32_t>(tri.loops.items.size(), [&](std::span<uint32_t> items) {
-      auto to = items.begin();
-      for (const FaceId f : gathered_.triOrder) {
-        for (const auto loop : tri.loopsOf(f)) {
-          for (const VertexId v : loop) *to++ = placeOf(v);
-        }
-      }
+        *offset = uint32_t(items.size());
+      });
     });
   }
 
@@ -281,15 +289,20 @@ class Harvest {
     out_.pieceLoops.offsets = memory_.faces.copy(faces_.grid.faceLoopOffsets);
     out_.pieceLoops.loops.offsets = memory_.faces.copy(loops.offsets);
     out_.pieceLoops.loops.items = memory_.faces.make<uint32_t>(loops.items.size(), [&](std::span<uint32_t> items) {
-      std::transform(loops.items.begin(), loops.items.end(), items.begin(), [&](VertexId v) { return placeOf(v); });
+      const VertexPlaces places(vertices_, gathered_.places, gathered_.surfaceVertices);
+      std::transform(loops.items.begin(), loops.items.end(), items.begin(), [=](VertexId v) { return places.of(v); });
     });
-    out_.pieces = memory_.faces.copy(gathered_.pieces);
+    const auto& gridFaces = faces_.grid.gridFaces;
+    out_.pieces = memory_.faces.make<AxialPlane>(gridFaces.size(), [&](std::span<AxialPlane> planes) {
+      for (size_t i = 0; i < planes.size(); ++i)
+        planes[i] = i > 0 && gridFaces[i] == gridFaces[i - 1] ? planes[i - 1] : planeOf(gridFaces[i]);
+    });
   }
 
   void copyAll() {
     out_.vertices.slabs = vertices_.slabs;
     out_.vertices.parentTriangles = vertices_.parentTriangles;
-    if (gathered_.places.empty()) gathered_.places.assign(vertices_.firstOwn.number, Gathered::kNoPlace);
+    if (gathered_.places.empty()) gathered_.places.assign(vertices_.firstOwn.number, VertexPlaces::kNone);
     copyTriFaces();
     copyPieces();
     out_.surfaceVertices = memory_.vertices.copy(gathered_.surfaceVertices);
@@ -297,7 +310,10 @@ class Harvest {
     const auto& halves = cells_.halfFaces;
     out_.halfFaces.offsets = memory_.cells.copy(halves.offsets);
     out_.halfFaces.items = memory_.cells.make<HalfFace>(halves.items.size(), [&](std::span<HalfFace> items) {
-      std::transform(halves.items.begin(), halves.items.end(), items.begin(), [&](HalfFace h) { return numbered(h); });
+      const FaceId* const numbers = gathered_.triNumbers.data();
+      const size_t pastTri = faces_.tri.size();
+      std::transform(halves.items.begin(), halves.items.end(), items.begin(),
+                     [=](HalfFace h) { return h.face().number < pastTri ? HalfFace(numbers[h.face().number], h.side()) : h; });
     });
     out_.gridCells = memory_.cells.copy(gathered_.gridCells);
     out_.components = memory_.cells.copy(gathered_.components);

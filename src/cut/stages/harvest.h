@@ -4,20 +4,18 @@
 #pragma once
 
 #include "cut/stages/brick_cut.h"
+#include "cut/stages/vertex_places.h"
 
 namespace mandoline::detail {
 
 /// What a brick's arrays are gathered in, used again for the next one.
 struct Gathered {
-  static constexpr uint32_t kNoPlace = ~0u;
-
   std::vector<VertexId> lineVertices;
-  IdVector<VertexId, uint32_t> places;  ///< per vertex of the surface: its place in loops, or kNoPlace
+  IdVector<VertexId, uint32_t> places;  ///< per vertex of the surface: its place in loops, or VertexPlaces::kNone
   std::vector<VertexId> surfaceVertices;
   std::vector<FaceId> triOrder;         ///< the tri-cut-faces as they are numbered
   IdVector<FaceId, FaceId> triNumbers;  ///< per tri-cut-face
   std::vector<InPlane> triFacesInPlane;
-  std::vector<AxialPlane> pieces;
   std::vector<uint32_t> gridCells;
   IdVector<CellId, uint32_t> components;
   std::vector<BrickRow> rows;
@@ -30,11 +28,10 @@ struct Gathered {
 
   void clear() {
     lineVertices.clear();
-    for (const VertexId v : surfaceVertices) places[v] = kNoPlace;
+    for (const VertexId v : surfaceVertices) places[v] = VertexPlaces::kNone;
     surfaceVertices.clear();
     triOrder.clear();
     triFacesInPlane.clear();
-    pieces.clear();
     gridCells.clear();
     components.clear();
     rows.clear();

@@ -101,8 +101,8 @@ bool PartedCell::isOneSheet(const BrickSurface& surface, std::span<const FaceId>
 /// False also where a grid-face has tri-edges, whose faces may all be in another cell: these come last, and an end of the sheet's hybrid
 /// edges is in a triangle, or connects others of its faces.
 bool PartedCell::findSides(const Stencil& stencil, const GridFaces& grid, GridCellId cell, VertexId firstInTriangle) {
-  const auto& gridFaces = stencil.cells[cell].faces;
-  corners_.fill(unknown);
+  const std::array<GridFaceId, 6> gridFaces = stencil.cells[cell].faces;
+  Sides found{};
   std::array<std::array<uint8_t, 2>, 6> wholeFaces;
   size_t wholeCount = 0;
   uint32_t count = 0;
@@ -113,38 +113,39 @@ bool PartedCell::findSides(const Stencil& stencil, const GridFaces& grid, GridCe
       wholeFaces[wholeCount++] = {uint8_t(i), uint8_t(count++)};
       continue;
     }
-    const uint32_t pieces = uint32_t(grid.halfFaces[g].size());
+    const uint32_t first = count;
     const auto edges = stencil.edgesOnFace[g];
-    if (kind != GridFaceKind::chains || count + pieces > kMostPieces) return false;
+    count += uint32_t(grid.halfFaces[g].size());
+    if (kind != GridFaceKind::chains || count > kMostPieces) return false;
     if (edges.back().from < firstInTriangle && !has(edges.back().from)) return false;
-    uint8_t* const sides = &sides_[count];
-    std::fill(sides, sides + pieces, unknown);
     const uint32_t* const outline = grid.beside[g].data();
     const uint32_t* beside = outline + 5 + outline[4];
-    for (size_t e = 0; e < edges.size(); ++e, beside += 2) {
-      sides[beside[0]] |= inFront;
-      sides[beside[1]] |= behind;
+    for (const uint32_t* const past = beside + 2 * edges.size(); beside != past; beside += 2) {
+      found.ofPieces[first + beside[0]] |= inFront;
+      found.ofPieces[first + beside[1]] |= behind;
     }
-    for (size_t c = 0; c < 4; ++c) corners_[kCornersOfFace[i][c]] |= sides[outline[5 + outline[c]]];
-    count += pieces;
+    for (size_t c = 0; c < 4; ++c) found.atCorners[kCornersOfFace[i][c]] |= found.ofPieces[first + outline[5 + outline[c]]];
   }
-  pieceCount_ = count;
+  if (!findSidesOfWhole({wholeFaces.data(), wholeCount}, found)) return false;
   const auto isFound = [](uint8_t side) { return side == behind || side == inFront; };
-  return findSidesOfWhole({wholeFaces.data(), wholeCount}) && std::all_of(sides_.begin(), sides_.begin() + count, isFound) &&
-         std::all_of(corners_.begin(), corners_.end(), isFound);
+  sides_ = found.ofPieces;
+  pieceCount_ = count;
+  return std::all_of(sides_.begin(), sides_.begin() + count, isFound) &&
+         std::all_of(found.atCorners.begin(), found.atCorners.end(), isFound);
 }
 
 /// `wholeFaces`: the place of each in the cell, and that of its piece. They lie where grid-faces beside them do.
-bool PartedCell::findSidesOfWhole(std::span<const std::array<uint8_t, 2>> wholeFaces) {
-  for (size_t found = 0, before = 0; found < wholeFaces.size(); before = found) {
-    found = 0;
+bool PartedCell::findSidesOfWhole(std::span<const std::array<uint8_t, 2>> wholeFaces, Sides& found) {
+  for (size_t count = 0, before = 0; count < wholeFaces.size(); before = count) {
+    count = 0;
     for (const auto& [face, piece] : wholeFaces) {
       const auto& [a, b, c, d] = kCornersOfFace[face];
-      const uint8_t side = corners_[a] | corners_[b] | corners_[c] | corners_[d];
-      corners_[a] = corners_[b] = corners_[c] = corners_[d] = sides_[piece] = side;
-      found += side != unknown;
+      auto& corners = found.atCorners;
+      const uint8_t side = corners[a] | corners[b] | corners[c] | corners[d];
+      corners[a] = corners[b] = corners[c] = corners[d] = found.ofPieces[piece] = side;
+      count += side != unknown;
     }
-    if (found == before) return false;
+    if (count == before) return false;
   }
   return true;
 }

@@ -33,13 +33,18 @@ class PartedCell {
   };
   static constexpr uint32_t kBoth = ~0u;
   static constexpr size_t kMostPieces = 64;
+  /// That have been found so far.
+  struct Sides {
+    std::array<uint8_t, kMostPieces> ofPieces;
+    std::array<uint8_t, 8> atCorners;
+  };
 
   void clearTable(size_t faces);
   static size_t firstPlaceOf(uint64_t key) { return size_t((key * 0x9e3779b97f4a7c15u) >> 40); }
   bool has(VertexId v) const;
   bool isOneSheet(const BrickSurface& surface, std::span<const FaceId> faces);
   bool findSides(const Stencil& stencil, const GridFaces& grid, GridCellId cell, VertexId firstInTriangle);
-  bool findSidesOfWhole(std::span<const std::array<uint8_t, 2>> wholeFaces);
+  static bool findSidesOfWhole(std::span<const std::array<uint8_t, 2>> wholeFaces, Sides& found);
 
   bool canTell_ = false;
   IdVector<GridCellId, uint8_t> isSpecial_;
@@ -49,7 +54,6 @@ class PartedCell {
   std::vector<uint32_t> sheets_;  // per tri-cut-face of the cell: one before it in its sheet, or itself
   std::array<uint8_t, kMostPieces> sides_;
   uint32_t pieceCount_ = 0;
-  std::array<uint8_t, 8> corners_;  // the sides that have been found to reach each
 };
 
 }  // namespace mandoline::detail

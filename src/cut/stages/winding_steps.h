@@ -25,6 +25,8 @@ class FaceSteps {
   FaceSteps(const Input& input, const FaceParents& parents, const std::vector<Counted>& counted)
       : parents_(parents), counted_(counted), areAlike_(input.mesh->closed && parents.areSingle()) {}
 
+  /// Whether they are the same for all faces.
+  bool areAlike() const { return areAlike_; }
   std::array<int32_t, 2> at(FaceId face) const {
     if (areAlike_) return {1, 0};
     std::array<int32_t, 2> steps{};
