@@ -13,12 +13,12 @@ class Appender {
   /// `most`: how many items may come.
   Appender(std::vector<Item>& items, size_t most) : items_(items) {
     if (items.size() < most) items.resize(most);
-    end_ = items.data();
+    begin_ = end_ = items.data();
   }
   Appender(const Appender&) = delete;
   ~Appender() { items_.resize(size()); }
 
-  size_t size() const { return size_t(end_ - items_.data()); }
+  size_t size() const { return size_t(end_ - begin_); }
   void add(const Item& item) { *end_++ = item; }
   template <class Iterator>
   void add(Iterator from, Iterator past) {
@@ -29,7 +29,7 @@ class Appender {
 
  private:
   std::vector<Item>& items_;
-  Item* end_;
+  Item *begin_, *end_;
 };
 
 }  // namespace mandoline::detail

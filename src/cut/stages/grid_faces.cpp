@@ -69,7 +69,7 @@ class FaceCutter {
     PlanarGraph& graph = scratch_.graph;
     graph.begin(vertices_, stencil_.faces[gridFace].axis());
     graph.setOutline(outline);
-    for (const FaceEdge& e : edges) graph.addEdge(e.from, e.to);
+    for (const EdgeOnFace& e : edges) graph.addEdge(e.from, e.to);
     if (mayChain && graph.traceChains(scratch_.chains)) {
       addChained(gridFace, outline.size());
       return GridFaceKind::chains;
@@ -116,9 +116,9 @@ class FaceCutter {
     for (uint32_t piece = 0; piece < 2; ++piece) addPiece(gridFace, [&](const auto& add) { chain_.forLoop(piece, outline, edges, add); });
     beside_.add(scratch_.sides.begin(), scratch_.sides.end());
     for (uint32_t side = 0; side < outline.size(); ++side)
-      beside_.add(side >= chain_.first && side < chain_.last ? chain_.between() : chain_.other());
+      beside_.add(side >= chain_.first && side < chain_.last ? chain_.between : chain_.other);
     for (size_t e = 0; e < edges; ++e) {
-      const uint32_t left = chain_.runsToLast[e] ? chain_.other() : chain_.between();
+      const uint32_t left = chain_.runsToLast[e] ? chain_.other : chain_.between;
       beside_.add(left);
       beside_.add(1 - left);
     }

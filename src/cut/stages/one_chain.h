@@ -8,22 +8,22 @@
 #include <iterator>
 #include <span>
 
-#include "cut/stages/tri_edges.h"
+#include "cut/stages/stencil.h"
 
 namespace mandoline::detail {
 
 struct OneChain {
   static constexpr size_t kMostEdges = 16;
 
-  uint32_t first, last;                             ///< where it meets the outline, ascending
-  std::array<VertexId, kMostEdges> inside;          ///< its other vertices, from the first end to the last
-  std::array<bool, kMostEdges> runsToLast;          ///< per edge
-  uint32_t between() const { return first > 0; }    ///< of the pieces: that with the part of the outline between the ends
-  uint32_t other() const { return 1 - between(); }  ///< that with the rest; to the left of the way from the first end to the last
+  uint32_t first, last;                     ///< where it meets the outline, ascending
+  std::array<VertexId, kMostEdges> inside;  ///< its other vertices, from the first end to the last
+  std::array<bool, kMostEdges> runsToLast;  ///< per edge
+  uint32_t between;                         ///< of the pieces: that with the part of the outline between the ends
+  uint32_t other;                           ///< that with the rest; to the left of the way from the first end to the last
 
   /// False unless the edges are one chain between two vertices of the outline that meets it nowhere else, and each of the pieces has three
   /// vertices or more. Pieces are in the order of Chains.
-  bool find(std::span<const VertexId> outline, std::span<const FaceEdge> edges) {
+  bool find(std::span<const VertexId> outline, std::span<const EdgeOnFace> edges) {
     return !edges.empty() && edges.size() <= kMostEdges && findEnds(outline, edges) && walk(outline, edges) &&
            last - first + edges.size() > 2 && outline.size() - (last - first) + edges.size() > 2;
   }
@@ -33,7 +33,7 @@ struct OneChain {
   void forLoop(uint32_t piece, std::span<const VertexId> outline, size_t edges, const F& add) const {
     const VertexId *line = outline.data(), *forth = inside.data(), *back = forth + edges - 1;
     const auto addBack = [&] { add(std::reverse_iterator(back), std::reverse_iterator(forth)); };
-    if (piece == between()) {
+    if (piece == between) {
       add(line + first, line + last + 1);
       addBack();
     } else if (first > 0) {
@@ -48,7 +48,7 @@ struct OneChain {
   }
 
  private:
-  bool findEnds(std::span<const VertexId> outline, std::span<const FaceEdge> edges) {
+  bool findEnds(std::span<const VertexId> outline, std::span<const EdgeOnFace> edges) {
     uint64_t maybe = 0;  // a bit for each vertex of the outline, and a few others
     for (const VertexId v : outline) maybe |= bitOf(v);
     uint32_t found = 0, at[2];
@@ -60,18 +60,20 @@ struct OneChain {
       at[found++] = uint32_t(place - outline.begin());
       return true;
     };
-    for (const FaceEdge& e : edges) {
+    for (const EdgeOnFace& e : edges) {
       if (!note(e.from) || !note(e.to)) return false;
     }
     if (found < 2 || at[0] == at[1]) return false;
     first = std::min(at[0], at[1]);
     last = std::max(at[0], at[1]);
+    between = first > 0;
+    other = 1 - between;
     return true;
   }
   static uint64_t bitOf(VertexId v) { return uint64_t(1) << v.number % 64; }
 
   /// From the first end to the last. False unless it takes all edges and finds one at each vertex.
-  bool walk(std::span<const VertexId> outline, std::span<const FaceEdge> edges) {
+  bool walk(std::span<const VertexId> outline, std::span<const EdgeOnFace> edges) {
     VertexId at = outline[first];
     uint32_t rest = (uint32_t(1) << edges.size()) - 1;
     for (size_t step = 0; rest != 0; ++step) {

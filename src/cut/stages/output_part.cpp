@@ -168,7 +168,7 @@ class VertexWriter {
   void writePlace(size_t i, const Slab& slab) {
     int32_t* cell = cells_ + 3 * i;
     for (size_t d = 0; d < 3; ++d) cell[d] = slab[d] >> 1;
-    masks_[i] = uint8_t(onPlane(slab[0]) | onPlane(slab[1]) << 1 | onPlane(slab[2]) << 2);
+    masks_[i] = uint8_t(7 - (slab[0] & 1) - 2 * (slab[1] & 1) - 4 * (slab[2] & 1));
   }
 
   void writePosition(size_t i, const CutVertices& vertices, VertexId v, Predicates& predicates) {

@@ -191,9 +191,9 @@ void makeStencil(const BrickSurface& surface, const Bricks& bricks, BrickId bric
   groupByPlace(
       stencil.faces.size(), faces, [&](uint32_t i) { return inPlane[i]; }, stencil.triFacesOnFace);
   faces.resize(surface.faceEdges.size());
+  const auto edgeOf = [&](uint32_t i) { return EdgeOnFace{surface.faceEdges[i].from, surface.faceEdges[i].to}; };
   for (size_t i = 0; i < faces.size(); ++i) faces[i] = faceAt(stencil, surface.faceEdges[i].element);
-  groupByPlace(
-      stencil.faces.size(), faces, [&](uint32_t i) { return surface.faceEdges[i]; }, stencil.edgesOnFace);
+  groupByPlace(stencil.faces.size(), faces, edgeOf, stencil.edgesOnFace);
 }
 
 }  // namespace mandoline::detail

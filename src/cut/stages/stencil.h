@@ -30,6 +30,11 @@ constexpr Outline cellOutline(int axis, int side) {
 inline constexpr std::array<Outline, 6> kOutlines = {cellOutline(0, 0), cellOutline(0, 1), cellOutline(1, 0),
                                                      cellOutline(1, 1), cellOutline(2, 0), cellOutline(2, 1)};
 
+/// A cut-edge inside of a grid-face.
+struct EdgeOnFace {
+  VertexId from, to;
+};
+
 struct Stencil {
   struct Cell {
     Slab element;  ///< all odd
@@ -52,9 +57,9 @@ struct Stencil {
   IdVector<GridCellId, Cell> cells;  ///< ascending by z, then y, then x
   IdVector<GridFaceId, Face> faces;
   uint32_t edgeCount = 0, cornerCount = 0;
-  Csr<FaceId, GridCellId> triFacesInCell;  ///< tri-cut-faces inside of each cell
-  Csr<FaceId, GridFaceId> triFacesOnFace;  ///< tri-cut-faces that lie in each grid-face
-  Csr<FaceEdge, GridFaceId> edgesOnFace;   ///< cut-edges inside of each grid-face
+  Csr<FaceId, GridCellId> triFacesInCell;   ///< tri-cut-faces inside of each cell
+  Csr<FaceId, GridFaceId> triFacesOnFace;   ///< tri-cut-faces that lie in each grid-face
+  Csr<EdgeOnFace, GridFaceId> edgesOnFace;  ///< cut-edges inside of each grid-face
 
   /// As of an Outline.
   std::array<GridVertexId, 4> cornersOf(const Face& face) const {

@@ -138,17 +138,17 @@ TEST_CASE("One chain gives what chains give, or is not found", "[stages][gridFac
     if (random() % 16 == 0) edges.push_back({uint32_t(random() % sides), uint32_t(random() % sides)});
     std::shuffle(edges.begin(), edges.end(), random);
     std::vector<GraphVertex> ends;
-    std::vector<FaceEdge> faceEdges;
+    std::vector<EdgeOnFace> onFace;
     for (uint32_t i = 0; i < sides; ++i) ends.insert(ends.end(), {{i}, {(i + 1) % sides}});
     const auto idOf = [&](uint32_t v) { return v < sides ? outline[v] : VertexId{kFirstInside + v}; };
     for (auto& [a, b] : edges) {
       if (random() % 2 == 0) std::swap(a, b);
       ends.insert(ends.end(), {{a}, {b}});
-      faceEdges.push_back({{}, idOf(a), idOf(b)});
+      onFace.push_back({idOf(a), idOf(b)});
     }
     OneChain one;
     Chains chains;
-    const bool isOne = one.find(outline, faceEdges), areMany = chains.trace(sides, ends, sides + inside);
+    const bool isOne = one.find(outline, onFace), areMany = chains.trace(sides, ends, sides + inside);
     if (!isOne) {
       others += areMany && chains.loops.size() == 2;
       continue;
@@ -163,8 +163,8 @@ TEST_CASE("One chain gives what chains give, or is not found", "[stages][gridFac
       REQUIRE(loop == expected);
     }
     for (uint32_t side = 0; side < sides; ++side)
-      REQUIRE(chains.beside[2 * side] == (side >= one.first && side < one.last ? one.between() : one.other()));
-    for (size_t e = 0; e < edges.size(); ++e) REQUIRE(chains.beside[2 * (sides + e)] == (one.runsToLast[e] ? one.other() : one.between()));
+      REQUIRE(chains.beside[2 * side] == (side >= one.first && side < one.last ? one.between : one.other));
+    for (size_t e = 0; e < edges.size(); ++e) REQUIRE(chains.beside[2 * (sides + e)] == (one.runsToLast[e] ? one.other : one.between));
   }
   CHECK(others == 0);
   for (size_t edges = 1; edges <= 5; ++edges) CHECK(found[edges] > 1000);
