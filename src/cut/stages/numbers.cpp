@@ -1,6 +1,9 @@
 #include "cut/stages/numbers.h"
 
+#include <array>
 #include <numeric>
+
+#include "base/run_tasks.h"
 
 namespace mandoline::detail {
 namespace {
@@ -57,9 +60,11 @@ class Numberer {
   }
 
   void numberSurface(const UsedVertices& used) {
+    uint32_t next = 0;
     for (uint32_t v = 0; v < used.size(); ++v) {
-      if (used[v].load(std::memory_order_relaxed)) out_.ofSurface[{v}] = out_.surfaceVertices++;
+      if (used[v].load(std::memory_order_relaxed)) out_.ofSurface[{v}] = next++;
     }
+    out_.surfaceVertices = next;
   }
 
   void numberOwn(BrickId brick) {
@@ -179,8 +184,8 @@ UsedVertices findUsed(const Surface& surface, const Bricks& bricks, const IdVect
 Numbers makeNumbers(const CutBricks& cut, const UsedVertices& used, Run& run) {
   Numbers numbers;
   Numberer numberer(cut, numbers);
-  numberer.numberRows();
-  numberer.numberSurface(used);
+  const std::array<std::function<void()>, 2> both{[&] { numberer.numberRows(); }, [&] { numberer.numberSurface(used); }};
+  runTasks(both, run.monitor);
   const std::vector<uint32_t> bricks = cut.bricks.here.numbers();
   runItems(bricks, run.monitor, [&](size_t, uint32_t b) { numberer.numberOwn({b}); });
   if (cut.bricks.here.isShare) {
