@@ -1,6 +1,10 @@
 // Elements of one cut-mesh, added to another one, and the triangles that faces are of.
 #pragma once
 
+#include <algorithm>
+#include <initializer_list>
+
+#include "base/sort.h"
 #include "mandoline/cut_mesh.h"
 
 namespace mandoline::detail {
@@ -8,6 +12,24 @@ namespace mandoline::detail {
 template <class T>
 void append(std::vector<T>& to, const std::vector<T>& from, size_t index, size_t items = 1) {
   to.insert(to.end(), from.begin() + ptrdiff_t(index * items), from.begin() + ptrdiff_t((index + 1) * items));
+}
+
+/// Makes room for arrays of all of `from`.
+template <class... Items>
+void reserveFor(std::initializer_list<const CutMesh*> from, CutMesh& to, std::vector<Items> CutMesh::*... arrays) {
+  const auto reserve = [&](auto array) {
+    size_t count = 1;  // where offsets begin
+    for (const CutMesh* one : from) count += (one->*array).size();
+    (to.*array).reserve(count);
+  };
+  (reserve(arrays), ...);
+}
+inline void reserveFaces(std::initializer_list<const CutMesh*> from, CutMesh& to) {
+  reserveFor(from, to, &CutMesh::loopVertices, &CutMesh::loopOffsets, &CutMesh::faceLoopOffsets, &CutMesh::faceParents,
+             &CutMesh::faceParentSigns, &CutMesh::faceParentOffsets, &CutMesh::faceTriangle, &CutMesh::faceAxis, &CutMesh::facePlane);
+}
+inline void reserveVertices(std::initializer_list<const CutMesh*> from, CutMesh& to) {
+  reserveFor(from, to, &CutMesh::positions, &CutMesh::vertexCell, &CutMesh::vertexMask, &CutMesh::vertexTriVertex, &CutMesh::vertexParents);
 }
 
 /// Begins the offsets of faces.
@@ -50,6 +72,20 @@ inline void appendMade(const CutMesh& from, size_t i, uint32_t vertex, CutMesh& 
   append(to.madeVertexParents, from.madeVertexParents, i, 4);
 }
 
+/// Adds the made vertices of parts of a cut-mesh, whose ids are those of the whole.
+inline void joinMade(const std::vector<const CutMesh*>& parts, CutMesh& to) {
+  struct Place {
+    uint32_t vertex, part, index;
+  };
+  std::vector<Place> places;
+  for (uint32_t part = 0; part < parts.size(); ++part) {
+    const std::vector<uint32_t>& made = parts[part]->madeVertices;
+    for (uint32_t i = 0; i < made.size(); ++i) places.push_back({made[i], part, i});
+  }
+  sortItems(places, [](const Place& a, const Place& b) { return a.vertex < b.vertex; });
+  for (const Place& at : places) appendMade(*parts[at.part], at.index, at.vertex, to);
+}
+
 /// Copies what all pieces of a cut have alike: the grid, what is known of the regions, and of the input.
 inline void copyCommon(const CutMesh& from, CutMesh& to) {
   const auto copy = [&](auto... members) { ((to.*members = from.*members), ...); };
@@ -68,6 +104,7 @@ inline std::vector<uint8_t> trianglesWithFace(const CutMesh& cutMesh, size_t tri
 /// Lists the triangles of which the cut-mesh has no face as dropped.
 inline void listWithoutFace(CutMesh& cutMesh) {
   const std::vector<uint8_t> hasFace = trianglesWithFace(cutMesh, cutMesh.triangleCount);
+  cutMesh.droppedTriangles.reserve(size_t(std::count(hasFace.begin(), hasFace.end(), 0)));
   for (uint32_t t = 0; t < cutMesh.triangleCount; ++t) {
     if (!hasFace[t]) cutMesh.droppedTriangles.push_back(t);
   }

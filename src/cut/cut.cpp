@@ -55,14 +55,17 @@ void Clock::end() {
 
 int stagesBefore(const PrepareOptions& options) { return options.orient ? kOrientStages : 0; }
 
-std::shared_ptr<PreparedMeshData> meshToPrepare(const MeshView& mesh, const PrepareOptions& options, Monitor& monitor) {
+std::shared_ptr<PreparedMeshData> beginPreparing(const MeshToPrepare& mesh, const PrepareOptions& options, Monitor& monitor) {
   auto data = std::make_shared<PreparedMeshData>();
+  const auto& [positions, triangles] = mesh.view;
   if (options.orient) {
-    data->mesh = orient(mesh, monitor.part<RunOptions>(0, kMeshStages)).mesh;
+    data->mesh = std::make_shared<Mesh>(orient(mesh.view, monitor.part<RunOptions>(0, kMeshStages)).mesh);
+  } else if (mesh.shared) {
+    data->mesh = mesh.shared;
   } else {
-    data->mesh = {{mesh.positions.begin(), mesh.positions.end()}, {mesh.triangles.begin(), mesh.triangles.end()}};
+    data->mesh = std::make_shared<Mesh>(Mesh{{positions.begin(), positions.end()}, {triangles.begin(), triangles.end()}});
   }
-  data->fingerprint = fingerprintOf(data->mesh);
+  data->fingerprint = fingerprintOf(*data->mesh);
   data->intersections = options.intersections;
   return data;
 }
@@ -71,6 +74,18 @@ void finishPreparing(std::shared_ptr<PreparedMeshData> data, std::unique_ptr<Pre
   addCounts(*prepared, result.stats);
   data->prepared = std::move(prepared);
   result.mesh = PreparedMesh(std::move(data));
+}
+
+PrepareResult prepareThis(const MeshToPrepare& mesh, const PrepareOptions& options) {
+  PrepareResult result;
+  catchErrors(result.error, "preparation", [&] {
+    Monitor monitor(options, stagesBefore(options) + kMeshStages);
+    std::shared_ptr<PreparedMeshData> data = beginPreparing(mesh, options, monitor);
+    Clock clock(result.stats, monitor, stagesBefore(options));
+    auto prepared = prepareMesh(*data->mesh, {0, options.intersections}, monitor, [&](const char* stage) { clock.begin(stage); });
+    finishPreparing(std::move(data), std::move(prepared), result);
+  });
+  return result;
 }
 
 bool fits(const Prepared& prepared, const Grid& grid) {
@@ -176,19 +191,9 @@ void sign(CutMesh& cutMesh, Fingerprint mesh, const CutOptions& options) {
 
 using namespace detail;
 
-MeshView PreparedMesh::mesh() const { return data_ ? MeshView(data_->mesh) : MeshView({}, {}); }
+MeshView PreparedMesh::mesh() const { return data_ ? MeshView(*data_->mesh) : MeshView({}, {}); }
 
-PrepareResult prepare(const MeshView& mesh, const PrepareOptions& options) {
-  PrepareResult result;
-  catchErrors(result.error, "preparation", [&] {
-    Monitor monitor(options, stagesBefore(options) + kMeshStages);
-    std::shared_ptr<PreparedMeshData> data = meshToPrepare(mesh, options, monitor);
-    Clock clock(result.stats, monitor, stagesBefore(options));
-    auto prepared = prepareMesh(data->mesh, {0, options.intersections}, monitor, [&](const char* stage) { clock.begin(stage); });
-    finishPreparing(std::move(data), std::move(prepared), result);
-  });
-  return result;
-}
+PrepareResult prepare(const MeshView& mesh, const PrepareOptions& options) { return prepareThis(mesh, options); }
 
 CutResult cut(const PreparedMesh& mesh, const Grid& grid, const CutOptions& options) {
   const PreparedMeshData* data = mesh.data();
@@ -199,7 +204,7 @@ CutResult cut(const PreparedMesh& mesh, const Grid& grid, const CutOptions& opti
     CutOptions same = options;
     same.intersections = data->intersections;
     if (options.snapTolerance > 0 || !fits(*data->prepared, grid)) {
-      result = cut(data->mesh, grid, same);
+      result = cut(*data->mesh, grid, same);
       return;
     }
     Monitor monitor(options, kGridStages);
@@ -207,7 +212,7 @@ CutResult cut(const PreparedMesh& mesh, const Grid& grid, const CutOptions& opti
     Run run{result.stats, monitor};
     CutState state;
     beginCut(*data->prepared, grid, state, clock, run);
-    result.mesh = cutPrepared(state, data->mesh, grid, clock, run);
+    result.mesh = cutPrepared(state, *data->mesh, grid, clock, run);
     sign(result.mesh, data->fingerprint, same);
   });
   return result;

@@ -1,5 +1,6 @@
 #include "mandoline/cut_share.h"
 
+#include "base/large_array.h"
 #include "cut/driver.h"
 #include "cut/share_summary.h"
 #include "cut/stages/input.h"
@@ -20,31 +21,69 @@ void requireShare(const ShareOf& shareOf) {
 }  // namespace
 
 struct CutShare::Data {
-  Data(PreparedMesh mesh_, Grid grid_, const ShareOf& shareOf_, const RunOptions& options)
-      : mesh(std::move(mesh_), grid_, options), grid(std::move(grid_)), shareOf(shareOf_) {
+  Data(PreparedMesh mesh_, Grid grid_, const ShareOf& shareOf_, const RunOptions& options, TakeExcerpt* takeExcerpt)
+      : mesh(std::in_place, std::move(mesh_), grid_, options),
+        grid(std::move(grid_)),
+        shareOf(shareOf_),
+        madeFrom(mesh->fingerprint()),
+        cutOptions(mesh->options()) {
     Monitor monitor(options, kGridStages);
     Clock clock(stats, monitor);
     Run run{stats, monitor};
-    state.isNeededAgain = true;
-    beginCut(mesh.prepared(), grid, state, clock, run);
-    if (shareOf.count > 1) {
-      layers.emplace(state.surface.input, workOfLayers(state.surface.input), shareOf.count);
-      takeLayers(*layers, shareOf.index, state);
+    state->isNeededAgain = !takeExcerpt;
+    beginCut(mesh->prepared(), grid, *state, clock, run);
+    if (shareOf.count > 1) takeShare(takeExcerpt);
+    nameByWhole([&] { cutInBricks(*state, clock, run); });
+    state->parts = {};
+    if (!state->isNeededAgain) giveBackFreed();
+  }
+
+  void takeShare(TakeExcerpt* takeExcerpt) {
+    layers.emplace(state->surface.input, workOfLayers(state->surface.input), shareOf.count);
+    state->brickShifts = layers->shifts();
+    state->layersHere = layers->of(shareOf.index);
+    if (!takeExcerpt) return takeSurface(*state);
+    excerpt = takeExcerpt(mesh->view(), *state);
+    mesh.reset();
+    giveBackFreed();
+  }
+
+  /// What fails names triangles of the whole mesh.
+  template <class Body>
+  void nameByWhole(const Body& body) {
+    try {
+      body();
+    } catch (Failure& failure) {
+      if (excerpt) excerpt->nameByWhole(failure.error);
+      throw;
     }
-    cutInBricks(state, clock, run);
-    state.parts = {};
   }
 
   CutPart makePartOf(std::span<const std::vector<uint32_t>> summaries, const RunOptions& options) {
     Monitor monitor(options, kGridStages);
     Clock clock(stats, monitor);
     Run run{stats, monitor};
-    if (shareOf.count > 1) addSummaries(summaries, {shareOf, *layers, fingerprint()}, state);
-    joinBricks(state, clock, run);
+    if (shareOf.count > 1) addSummaries(summaries, context(), *layers, *state);
+    nameByWhole([&] { joinBricks(*state, clock, run); });
     clock.begin("output");
-    CutPart part = makePart(mesh.view(), grid, state, run);
+    CutPart part = makePart(excerpt ? MeshView(excerpt->positions, {}) : mesh->view(), grid, *state, run);
     part.exactFallbacks = stats.exactFallbacks;
+    if (excerpt) excerpt->nameByWhole(part.cutMesh);
+    if (!state->isNeededAgain) keepCommon();
     return part;
+  }
+
+  /// Frees all but what common() and join() need.
+  void keepCommon() {
+    auto rest = std::make_unique<CutState>();
+    rest->bricks.grid = state->bricks.grid;
+    rest->runs = std::move(state->runs);
+    rest->regions = std::move(state->regions);
+    rest->wholeTriangles = excerpt ? std::move(state->wholeTriangles) : WholeTriangles(mesh->prepared());
+    state = std::move(rest);
+    excerpt.reset();
+    mesh.reset();
+    giveBackFreed();
   }
   CutMesh join(std::vector<CutPart> parts) {
     if (shareOf.index != 0 || parts.size() != shareOf.count)
@@ -56,48 +95,51 @@ struct CutShare::Data {
     Run run{stats, monitor};
     stats.exactFallbacks = 0;
     for (const CutPart& part : parts) stats.exactFallbacks += part.exactFallbacks;
-    CutMesh cutMesh = makeOutput(std::move(parts), state, run);
-    sign(cutMesh, mesh.fingerprint(), mesh.options());
+    CutMesh cutMesh = makeOutput(std::move(parts), *state, run);
+    sign(cutMesh, madeFrom, cutOptions);
     return cutMesh;
   }
   CutResult common(const std::vector<uint8_t>& hasFace) const {
-    if (hasFace.size() != state.surface.input.mesh->triangles.size())
+    if (hasFace.size() != (state->wholeTriangles ? state->wholeTriangles->count : state->surface.input.mesh->triangles.size()))
       throw Failure{{Status::badArgument, -1, -1, "hasFace needs one number per triangle."}};
     CutResult result;
     result.stats = stats;
     const RunOptions options;
     Monitor monitor(options, kGridStages);
     Run run{result.stats, monitor};
-    result.mesh = makeCommon(hasFace, state, run);
+    result.mesh = makeCommon(hasFace, *state, run);
     result.mesh.grid = grid;
-    sign(result.mesh, mesh.fingerprint(), mesh.options());
+    sign(result.mesh, madeFrom, cutOptions);
     return result;
   }
-  Fingerprint fingerprint() const { return fingerprintOfCut(mesh.fingerprint(), grid, mesh.options()); }
+  ShareContext context() const { return {shareOf, fingerprintOfCut(madeFrom, grid, cutOptions), excerpt.get()}; }
 
-  PreparedForGrid mesh;
+  std::optional<PreparedForGrid> mesh;    ///< unless there is an excerpt
+  std::unique_ptr<ShareExcerpt> excerpt;  ///< of the mesh, if the share has no more of it
   Grid grid;
   ShareOf shareOf;
+  Fingerprint madeFrom;
+  CutOptions cutOptions;
   CutStats stats;
   std::optional<ShareLayers> layers;  ///< of all shares; none of one alone
-  CutState state;
+  std::unique_ptr<CutState> state = std::make_unique<CutState>();
 };
 
-CutShare::CutShare(PreparedMesh mesh, Grid grid, const ShareOf& shareOf, const RunOptions& options) {
+CutShare::CutShare(PreparedMesh mesh, Grid grid, const ShareOf& shareOf, const RunOptions& options, TakeExcerpt* takeExcerpt) {
   runCall("cut", [&] {
     requireShare(shareOf);
-    data_ = std::make_shared<Data>(std::move(mesh), std::move(grid), shareOf, options);
+    data_ = std::make_shared<Data>(std::move(mesh), std::move(grid), shareOf, options, takeExcerpt);
   });
 }
 
-std::vector<uint32_t> CutShare::summary() const { return summarize(data_->state, data_->shareOf, data_->fingerprint()); }
+std::vector<uint32_t> CutShare::summary() const { return summarize(*data_->state, data_->context()); }
 
 CutPart CutShare::part(std::span<const std::vector<uint32_t>> summaries, const RunOptions& options) {
   return runCall("cut", [&] { return data_->makePartOf(summaries, options); });
 }
 
 std::array<int64_t, 2> CutShare::layers() const {
-  const CellLayers& here = data_->state.bricks.grid.here;
+  const CellLayers& here = data_->state->bricks.grid.here;
   return {here.first, here.past};
 }
 

@@ -7,16 +7,27 @@
 
 namespace mandoline::detail {
 
-/// A copy of a mesh, and the result of preparing it.
+/// A mesh that stays as it is, and the result of preparing it.
 struct PreparedMeshData {
-  Mesh mesh;
+  std::shared_ptr<const Mesh> mesh;
   Fingerprint fingerprint;
   Intersections intersections;
   std::unique_ptr<const Prepared> prepared;
 };
 
-/// How prepare() begins, and how it ends: with the mesh, and with what of it was prepared.
-std::shared_ptr<PreparedMeshData> meshToPrepare(const MeshView& mesh, const PrepareOptions& options, Monitor& monitor);
+/// A mesh to be prepared: that of a shared pointer is kept, another one copied.
+struct MeshToPrepare {
+  MeshView view;
+  std::shared_ptr<const Mesh> shared;
+
+  MeshToPrepare(const MeshView& view_) : view(view_) {}
+  MeshToPrepare(std::shared_ptr<const Mesh> shared_) : view(*shared_), shared(std::move(shared_)) {}
+};
+
+/// What prepare() does.
+PrepareResult prepareThis(const MeshToPrepare& mesh, const PrepareOptions& options);
+/// How it begins, and how it ends: with the mesh, and with what of it was prepared.
+std::shared_ptr<PreparedMeshData> beginPreparing(const MeshToPrepare& mesh, const PrepareOptions& options, Monitor& monitor);
 void finishPreparing(std::shared_ptr<PreparedMeshData> data, std::unique_ptr<Prepared> prepared, PrepareResult& result);
 /// How many stages these have before that of prepareMesh().
 int stagesBefore(const PrepareOptions& options);

@@ -5,11 +5,11 @@ namespace mandoline::detail {
 PrepareShare::PrepareShare(const ShareOf& shareOf, const PrepareOptions& options)
     : shareOf_(shareOf), options_(options), monitor_(options_, stagesBefore(options) + kMeshStages) {}
 
-std::vector<TrianglePair> PrepareShare::findPairs(const MeshView& mesh) {
-  data_ = meshToPrepare(mesh, options_, monitor_);
+std::vector<TrianglePair> PrepareShare::findPairs(const MeshToPrepare& mesh) {
+  data_ = beginPreparing(mesh, options_, monitor_);
   clock_.emplace(result_.stats, monitor_, stagesBefore(options_));
   clock_->begin("input");
-  prepared_ = weldInput(data_->mesh, 0);
+  prepared_ = weldInput(*data_->mesh, 0);
   dropFlat(*prepared_, nullptr, predicates_);
   if (options_.intersections == Intersections::assumeNone) return {};
   clock_->begin("intersections");

@@ -12,7 +12,7 @@ class MANDOLINE_SHARED PrepareShare {
   PrepareShare(const ShareOf& shareOf, const PrepareOptions& options);
 
   /// The first step: gives the pairs that this share finds, to be told to all. A share that is not below the count finds none.
-  std::vector<TrianglePair> findPairs(const MeshView& mesh);
+  std::vector<TrianglePair> findPairs(const MeshToPrepare& mesh);
   /// That of the mesh, after the first step.
   Fingerprint fingerprint() const { return data_->fingerprint; }
   /// The second, of the pairs of all shares in any order. To be called once. Both fail as prepare() does.

@@ -90,18 +90,19 @@ ShareLayers::ShareLayers(const Input& input, const std::vector<uint64_t>& work, 
   }
 }
 
-void takeLayers(const ShareLayers& shares, uint32_t share, CutState& state) {
+bool isInLayers(const Input& input, TriangleId t, const CellLayers& layers) {
+  const auto [least, greatest] = slabsOf(input, t, 2);
+  return layers.first < layers.past && least <= 2 * layers.past && greatest >= 2 * layers.first;
+}
+
+void takeSurface(CutState& state) {
   const Input& input = state.surface.input;
   const Prepared& mesh = *input.mesh;
-  const CellLayers layers = shares.of(share);
-  state.brickShifts = shares.shifts();
-  state.layersHere = layers;
   SurfaceHere& here = state.surface.here;
   here.triangles.assign(mesh.triangles.size(), 0);
   here.edges.assign(mesh.edges.ends.size(), 0);
   for (const TriangleId t : input.triangleIds()) {
-    const auto [least, greatest] = slabsOf(input, t, 2);
-    if (layers.first == layers.past || !input.kept(t) || least > 2 * layers.past || greatest < 2 * layers.first) continue;
+    if (!input.kept(t) || !isInLayers(input, t, *state.layersHere)) continue;
     here.triangles[t.number] = 1;
     mesh.edges.forTriangle(t, [&](TriEdgeId e) { here.edges[e.number] = 1; });
   }

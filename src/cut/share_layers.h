@@ -26,7 +26,10 @@ class ShareLayers {
   std::vector<int32_t> first_;  // per share, and where the last ends
 };
 
-/// Leaves to a state that has its input only what lies in some layers.
-void takeLayers(const ShareLayers& shares, uint32_t share, CutState& state);
+/// Whether a kept triangle reaches into layers, or to their boundary.
+bool isInLayers(const Input& input, TriangleId t, const CellLayers& layers);
+
+/// Leaves to a state that has its input, and whose layers are known, only what lies in these.
+void takeSurface(CutState& state);
 
 }  // namespace mandoline::detail

@@ -1,6 +1,9 @@
 #include "cut/share_plan.h"
 
+#include <algorithm>
 #include <map>
+#include <numeric>
+#include <optional>
 
 #include "base/double_double.h"
 #include "cut/driver.h"
@@ -29,7 +32,8 @@ struct LayerLoad {
 /// All layers of a size of bricks.
 struct LayerLoads {
   std::vector<LayerLoad> layers;
-  uint64_t commonBytes = 0;  ///< what all processes have: the surface, seams, untouched grid cells
+  uint64_t surfaceBytes = 0;  ///< of all crossings
+  uint64_t seamBytes = 0;     ///< which all processes have, with untouched grid cells
   uint64_t regions = 0;
 };
 
@@ -58,32 +62,62 @@ uint64_t bytesOfSeams(const CutState& state) {
 
 uint64_t bytesOfSurface(const CutState& state) {
   const CutVertices& vertices = state.surface.vertices;
-  const Prepared& mesh = *state.surface.input.mesh;
-  return bytesOf(vertices.slabs, vertices.parentEdges, vertices.crossingOffsets, state.used) + mesh.triangles.size() +
-         mesh.edges.ends.size();
+  return bytesOf(vertices.slabs, vertices.parentEdges, vertices.crossingOffsets, state.used);
 }
 
-/// The mesh, prepared and in two copies: the caller's and that of the preparation.
-uint64_t bytesOfMesh(const MeshView& view, const Input& input) {
-  const Prepared& mesh = *input.mesh;
-  uint64_t bytes = 2 * bytesOf(view.positions, view.triangles) + bytesOf(mesh.points, mesh.triangles, mesh.states, mesh.parts.kinds);
-  bytes += bytesOf(mesh.edges.ends, mesh.edges.sideEdges, mesh.edges.lines, mesh.edges.stitched.items, mesh.edges.inner.items);
-  return bytes + bytesOf(input.slabs);
+uint64_t bytesOfPrepared(const Prepared& mesh) {
+  const uint64_t bytes = bytesOf(mesh.points, mesh.triangles, mesh.states, mesh.parts.kinds);
+  return bytes + bytesOf(mesh.edges.ends, mesh.edges.sideEdges, mesh.edges.lines, mesh.edges.stitched.items, mesh.edges.inner.items);
 }
+
+}  // namespace
+
+/// How much of a surface reaches into layers.
+class Reach {
+ public:
+  explicit Reach(const Input& input) {
+    begun_.resize(2 * size_t(input.cells(2)) + 4, 0);
+    ended_ = begun_;
+    for (const TriangleId t : input.triangleIds()) {
+      if (!input.kept(t)) continue;
+      const auto v = input.verticesOf(t);
+      const auto [least, greatest] = std::minmax({input.slabs[v[0]][2], input.slabs[v[1]][2], input.slabs[v[2]][2]});
+      ++begun_[size_t(least + 2)];
+      ++ended_[size_t(greatest + 2)];
+    }
+    for (std::vector<uint64_t>* counts : {&begun_, &ended_}) std::partial_sum(counts->begin(), counts->end(), counts->begin());
+  }
+
+  /// The fraction of the triangles.
+  double of(const CellLayers& layers) const {
+    if (layers.first == layers.past || begun_.back() == 0) return 0;
+    return double(begun_[size_t(2 * layers.past + 2)] - ended_[size_t(2 * layers.first + 1)]) / double(begun_.back());
+  }
+
+ private:
+  std::vector<uint64_t> begun_, ended_;  // at which slabs from -1 on, or before
+};
+
+namespace {
+
+constexpr uint64_t kPreparingBytes = 48;  // per triangle, beside the prepared mesh: uses of edges, boxes
 
 constexpr uint64_t kSeamFaceBytes = 150;  // of a message: a face in a plane, with its share of the vertices there
 
 uint64_t facesOf(const BrickCounts& counts) { return uint64_t(counts.triFaces) + counts.pieces; }
 
-/// What a process has of its layers when it has most: the bricks, its part of the output, its piece, and the measures of that.
-uint64_t memoryOf(const LayerLoad& load) {
+/// What a process has of its layers while it writes its part of the output, and when it measures the piece that it made of that.
+struct LayerMemory {
+  uint64_t writing, measuring;
+};
+LayerMemory memoryOf(const LayerLoad& load) {
   const BrickCounts& n = load.counts;
   const uint64_t cells = n.cells, faces = facesOf(n), vertices = n.vertices + load.surfaceVertices;
   const uint64_t loops = uint64_t(n.triLoops) + n.loops, loopVertices = uint64_t(n.triLoopVertices) + n.loopVertices;
   const uint64_t output = 4 * n.halfFaces + 20 * cells + 17 * faces + 4 * (loops + loopVertices) + 5 * n.parents + 49 * vertices;
   const uint64_t ids = 8 * cells + 12 * (faces + vertices), numbers = 4 * (faces + vertices);
   const uint64_t measures = 32 * cells + 56 * faces + 48 * vertices;
-  return load.brickBytes + load.summaryBytes + numbers + 2 * output + output / 4 + ids + measures;  // the piece grows as it is made
+  return {load.brickBytes + numbers + output, 2 * output + ids + measures};
 }
 
 /// Counts what a finished cut has in each layer of bricks.
@@ -91,7 +125,8 @@ LayerLoads loadsOf(CutState& state) {
   const Bricks& bricks = state.bricks;
   LayerLoads all;
   all.layers.resize(size_t(bricks.grid.counts[2]));
-  all.commonBytes = bytesOfSurface(state) + bytesOfSeams(state);
+  all.surfaceBytes = bytesOfSurface(state);
+  all.seamBytes = bytesOfSeams(state);
   all.regions = state.regions.count;
   const uint32_t above = uint32_t(cellFace(2, 1));
   for (const BrickId b : bricks.ids()) {
@@ -127,6 +162,7 @@ struct SharePlanner::Data {
     beginCut(mesh.prepared(), grid, state, clock, run);
     input = std::move(state.surface.input);
     work = workOfLayers(input);
+    reach.emplace(input);
   }
 
   /// Of a size of bricks.
@@ -170,10 +206,23 @@ struct SharePlanner::Data {
       load.faces = facesOf(sum.counts);
       load.seamFaces = hasLayers ? seamBelow + sum.seamFacesAbove : 0;
       load.bytesSent = ranks == 1 ? 0 : sentBy(rank, ranks, sum, hasLayers ? seamBelow : 0, all);
-      load.memoryBytes = bytesOfMesh(mesh.view(), input) + all.commonBytes + memoryOf(sum) + summaries;
+      load.memoryBytes = memoryOf(ranks, shares.of(rank), sum, all, summaries);
       if (hasLayers) seamBelow = sum.seamFacesAbove;
     }
     return loads;
+  }
+
+  uint64_t bytesOfView() const { return bytesOf(mesh.view().positions, mesh.view().triangles); }
+  uint64_t memoryPreparing() const {
+    return bytesOfView() + bytesOfPrepared(mesh.prepared()) + kPreparingBytes * mesh.view().triangleCount();
+  }
+  /// Once the output is written, a process has the user's mesh and its part. A few arrays are as long as the mesh.
+  uint64_t memoryOf(uint32_t ranks, const CellLayers& layers, const LayerLoad& sum, const LayerLoads& all, uint64_t summaries) const {
+    const uint64_t made = bytesOfPrepared(mesh.prepared()) + bytesOf(input.slabs) + all.surfaceBytes;
+    const uint64_t excerpt = ranks == 1 ? made : uint64_t(reach->of(layers) * double(made));
+    const auto [writing, measuring] = detail::memoryOf(sum);
+    const uint64_t cutting = excerpt + all.seamBytes + summaries + writing, withoutFace = 5 * mesh.view().triangleCount();
+    return std::max(memoryPreparing(), bytesOfView() + std::max(cutting, withoutFace + measuring));
   }
 
   /// Which vertices of the surface loops have, as summaries tell it.
@@ -202,6 +251,7 @@ struct SharePlanner::Data {
   Grid grid;
   Input input;
   std::vector<uint64_t> work;  // of layers of grid cells
+  std::optional<Reach> reach;
   struct UsedVertex {
     uint32_t id;
     int32_t z;  // its slab

@@ -3,6 +3,8 @@
 #include <bit>
 #include <cstring>
 
+#include "base/sort.h"
+
 namespace mandoline::detail {
 namespace {
 
@@ -80,8 +82,8 @@ std::vector<uint32_t> firstCells(const BrickCut& cut) {
 }
 
 constexpr size_t kHead = 5;
-std::array<uint32_t, kHead> headOf(const CutState& state, const ShareOf& shareOf, Fingerprint cut) {
-  return {uint32_t(cut.value >> 32), uint32_t(cut.value), shareOf.count, shareOf.index, uint32_t(state.used.size())};
+std::array<uint32_t, kHead> headOf(const ShareOf& shareOf, Fingerprint cut, uint32_t vertices) {
+  return {uint32_t(cut.value >> 32), uint32_t(cut.value), shareOf.count, shareOf.index, vertices};
 }
 
 void addBrick(const Bricks& bricks, BrickId b, const BrickCut& cut, Writer& to) {
@@ -113,30 +115,70 @@ void readBrick(Reader& from, const CellLayers& layers, Bricks& bricks, BrickCuts
   forArrays(cut, [&](auto& array) { array = from.items<typename std::remove_cvref_t<decltype(array)>::value_type>(); });
 }
 
-/// The vertices of the mesh and its edges that loops have: places of words that are not 0, and these words.
-void addUsed(const UsedVertices& used, Writer& to) {
+/// Which vertices of the mesh and its edges loops have, by the whole's ids: words of 32 of them, each with its place, ascending.
+using UsedWords = std::vector<KeyedItem>;
+
+/// The whole's id of a vertex of the mesh or its edges.
+uint32_t wholeId(const CutState& state, const ShareExcerpt* excerpt, VertexId v) {
+  return excerpt ? excerpt->wholeId(state.surface.vertices, v) : v.number;
+}
+uint32_t wholeVertices(const CutState& state, const ShareExcerpt* excerpt) {
+  return excerpt ? excerpt->wholeVertices : uint32_t(state.used.size());
+}
+
+UsedWords usedHere(const CutState& state, const ShareExcerpt* excerpt) {
+  UsedWords used;
+  for (const VertexId v : listUsed(state.used)) {
+    const uint32_t id = wholeId(state, excerpt, v);
+    if (used.empty() || used.back().key != id / 32) used.push_back({id / 32, 0});
+    used.back().item |= 1u << id % 32;
+  }
+  return used;
+}
+
+void addUsed(const UsedWords& used, Writer& to) {
   std::vector<uint32_t> places, words;
-  for (size_t first = 0; first < used.size(); first += 32) {
-    uint32_t word = 0;
-    for (size_t v = first; v < std::min(first + 32, used.size()); ++v) word |= uint32_t(used[v].load(std::memory_order_relaxed)) << v % 32;
-    if (word == 0) continue;
-    places.push_back(uint32_t(first / 32));
+  for (const auto& [place, word] : used) {
+    places.push_back(uint32_t(place));
     words.push_back(word);
   }
   to.add(std::span<const uint32_t>(places));
   to.add(std::span<const uint32_t>(words));
 }
 
-void readUsed(Reader& from, UsedVertices& used) {
+/// Appends those of another share.
+void readUsed(Reader& from, uint32_t vertices, UsedWords& used) {
   const std::span<const uint32_t> places = from.items<uint32_t>(), words = from.items<uint32_t>();
   if (places.size() != words.size()) throw BadSummary();
   for (size_t i = 0; i < places.size(); ++i) {
-    for (uint32_t word = words[i]; word != 0; word &= word - 1) {
-      const size_t v = 32 * size_t(places[i]) + size_t(std::countr_zero(word));
-      if (v >= used.size()) throw BadSummary();
-      used[v].store(1, std::memory_order_relaxed);
-    }
+    if (words[i] == 0 || uint64_t(places[i]) * 32 + uint64_t(std::bit_width(words[i])) > vertices) throw BadSummary();
+    used.push_back({places[i], words[i]});
   }
+}
+
+/// Numbers what all shares use, in the order of the whole's ids, and notes what of it is here. `used`: of all, in no order.
+void numberUsed(UsedWords used, const ShareExcerpt* excerpt, CutState& state) {
+  sortByKey(used, wholeVertices(state, excerpt) / 32);
+  SurfaceNumbers& numbers = state.surfaceNumbers.emplace();
+  size_t at = 0;
+  uint32_t word = 0;  // of all shares, that at a place
+  uint64_t place = 0;
+  const auto next = [&] {
+    numbers.count += uint32_t(std::popcount(word));
+    word = 0;
+    place = at < used.size() ? used[at].key : ~uint64_t(0);
+    for (; at < used.size() && used[at].key == place; ++at) word |= used[at].item;
+  };
+  next();
+  for (uint32_t v = 0; v < state.used.size(); ++v) {
+    const uint32_t id = wholeId(state, excerpt, {v});
+    while (place < id / 32) next();
+    const uint32_t bit = 1u << id % 32;
+    if (place > id / 32 || (word & bit) == 0) continue;
+    state.used[v].store(1, std::memory_order_relaxed);
+    numbers.ofUsed.push_back(numbers.count + uint32_t(std::popcount(word & (bit - 1))));
+  }
+  while (place != ~uint64_t(0)) next();
 }
 
 }  // namespace
@@ -147,18 +189,20 @@ size_t summaryBytes(const CutState& state, BrickId brick) {
   return to.words.size() * sizeof to.words[0];
 }
 
-std::vector<uint32_t> summarize(const CutState& state, const ShareOf& shareOf, Fingerprint cut) {
+std::vector<uint32_t> summarize(const CutState& state, const ShareContext& context) {
   Writer to;
-  const auto head = headOf(state, shareOf, cut);
+  const auto head = headOf(context.shareOf, context.cut, wholeVertices(state, context.excerpt));
   to.words.assign(head.begin(), head.end());
   to.add(uint32_t(state.bricks.here.size()));
   for (const BrickId b : state.bricks.here.ids()) addBrick(state.bricks, b, state.cuts[b], to);
-  addUsed(state.used, to);
+  addUsed(usedHere(state, context.excerpt), to);
   return std::move(to.words);
 }
 
-void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareContext& context, CutState& state) {
-  const auto& [shareOf, layers, cut] = context;
+void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareContext& context, const ShareLayers& layers,
+                  CutState& state) {
+  const auto& [shareOf, cut, excerpt] = context;
+  const uint32_t vertices = wholeVertices(state, excerpt);
   const auto fail = [](size_t share) {
     const std::string message = "summaries[" + std::to_string(share) + "] is not that of this share of the same cut.";
     throw Failure{{Status::badArgument, int64_t(share), -1, message}};
@@ -166,7 +210,7 @@ void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareC
   if (summaries.size() != shareOf.count) fail(std::min(summaries.size(), size_t(shareOf.count) - 1));
   size_t count = 0;
   for (uint32_t share = 0; share < shareOf.count; ++share) {
-    const auto head = headOf(state, {share, shareOf.count}, cut);
+    const auto head = headOf({share, shareOf.count}, cut, vertices);
     if (summaries[share].size() <= kHead || !std::equal(head.begin(), head.end(), summaries[share].begin())) fail(share);
     count += std::min<size_t>(summaries[share][kHead], summaries[share].size());  // more there can't be
   }
@@ -175,6 +219,7 @@ void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareC
   BrickCuts cuts;
   cuts.resize(count);
   BrickMemory memory;
+  UsedWords used = usedHere(state, excerpt);
   BricksHere here = state.bricks.here;
   for (uint32_t share = 0; share < shareOf.count; ++share) {
     if (share == shareOf.index) {
@@ -189,7 +234,7 @@ void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareC
     Reader from(std::span<const uint32_t>(summaries[share]).subspan(kHead), memory.seams);
     try {
       for (uint32_t left = from.number(); left > 0; --left) readBrick(from, layers.of(share), bricks, cuts);
-      readUsed(from, state.used);
+      readUsed(from, vertices, used);
       if (!from.isAtEnd()) throw BadSummary();
     } catch (const BadSummary&) {
       fail(share);
@@ -202,6 +247,7 @@ void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareC
   bricks.here = here;
   state.bricks = std::move(bricks);
   state.cuts = std::move(cuts);
+  numberUsed(std::move(used), excerpt, state);
 }
 
 }  // namespace mandoline::detail

@@ -1,5 +1,8 @@
 #include "mesh/excerpt.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "base/csr.h"
 #include "base/sort.h"
 #include "mesh/resolve/arrangement.h"
@@ -10,7 +13,12 @@ namespace {
 /// Places with ids of the whole mesh, until these are known to be all.
 class References {
  public:
-  void add(uint32_t& id) { places_.push_back(&id); }
+  void add(uint32_t& id) {
+    if (!places_.empty() && places_.back().data() + places_.back().size() == &id)
+      places_.back() = {places_.back().data(), places_.back().size() + 1};
+    else
+      places_.push_back({&id, 1});
+  }
   template <class Items>
   void addAll(Items& ids) {
     for (auto& id : ids) {
@@ -24,24 +32,50 @@ class References {
 
   /// Puts numbers in order in place of the ids. Gives the ids, ascending.
   std::vector<uint32_t> number() {
-    std::vector<KeyedItem> uses;
-    uses.reserve(places_.size());
-    uint32_t last = 0;
-    for (uint32_t i = 0; i < places_.size(); ++i) {
-      uses.push_back({*places_[i], i});
-      last = std::max(last, *places_[i]);
+    size_t count = 0;
+    uint32_t past = 0;
+    forAll([&](uint32_t id) {
+      past = std::max(past, id + 1);
+      ++count;
+    });
+    constexpr uint32_t kMany = 8;
+    return past / kMany < count ? numberByTable(past) : numberBySorting(past);
+  }
+
+ private:
+  template <class F>
+  void forAll(const F& f) {
+    for (const std::span<uint32_t>& some : places_) {
+      for (uint32_t& id : some) f(id);
     }
-    sortByKey(uses, last);
+  }
+  /// For many of the ids below `past`.
+  std::vector<uint32_t> numberByTable(uint32_t past) {
+    std::vector<uint32_t> ids, numbers(past, 0);
+    forAll([&](uint32_t id) { numbers[id] = 1; });
+    for (uint32_t id = 0; id < past; ++id) {
+      if (std::exchange(numbers[id], uint32_t(ids.size()))) ids.push_back(id);
+    }
+    forAll([&](uint32_t& id) { id = numbers[id]; });
+    return ids;
+  }
+  std::vector<uint32_t> numberBySorting(uint32_t past) {
+    std::vector<uint32_t*> places;
+    std::vector<KeyedItem> uses;
+    forAll([&](uint32_t& id) {
+      uses.push_back({id, uint32_t(places.size())});
+      places.push_back(&id);
+    });
+    sortByKey(uses, past);
     std::vector<uint32_t> ids;
     for (const auto& [id, place] : uses) {
       if (ids.empty() || ids.back() != id) ids.push_back(uint32_t(id));
-      *places_[place] = uint32_t(ids.size() - 1);
+      *places[place] = uint32_t(ids.size() - 1);
     }
     return ids;
   }
 
- private:
-  std::vector<uint32_t*> places_;
+  std::vector<std::span<uint32_t>> places_;
 };
 
 constexpr uint32_t kNone = ~0u;
@@ -159,7 +193,8 @@ class ExcerptMaker {
     }
     references.addAll(edges_.stitched.items);
     references.addAll(edges_.inner.items);
-    for (const uint32_t e : references.number()) {
+    out_.edges = references.number();
+    for (const uint32_t e : out_.edges) {
       edges_.ends.push_back(whole_.edges.ends[{e}]);
       if (!whole_.edges.lines.empty()) edges_.lines.push_back(whole_.edges.lines[{e}]);
     }

@@ -14,6 +14,7 @@ struct Excerpt {
   Prepared mesh;
   std::vector<uint32_t> triangles;  ///< per triangle its id in the whole mesh, ascending
   std::vector<uint32_t> vertices;   ///< per tri-vertex and made vertex, likewise
+  std::vector<uint32_t> edges;      ///< per tri-edge, likewise
 
   /// `kept`: ids of kept triangles, ascending.
   Excerpt(const Prepared& whole, std::span<const uint32_t> kept);

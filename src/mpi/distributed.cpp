@@ -5,6 +5,8 @@
 
 #include "base/parallel.h"
 #include "cut/append.h"
+#include "cut/driver.h"
+#include "cut/share_excerpt.h"
 #include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
 #include "mpi/communicator.h"
@@ -21,9 +23,11 @@ constexpr const char* kNoun = "cut";
 
 struct DistributedCut::Data {
   Data(MPI_Comm comm_, PreparedMesh mesh_, Grid grid_, const RunOptions& options)
-      : comm(comm_, waiterFor(kNoun, options)), mesh(std::move(mesh_)), grid(std::move(grid_)) {
+      : comm(comm_, waiterFor(kNoun, options)), grid(std::move(grid_)) {
+    if (mesh_.data()) mesh = mesh_.data()->mesh;
     requireSame();
-    comm.together(kNoun, [&] { share.emplace(mesh, grid, ShareOf{uint32_t(comm.rank()), uint32_t(comm.size())}, options); });
+    const ShareOf shareOf{uint32_t(comm.rank()), uint32_t(comm.size())};
+    comm.together(kNoun, [&] { share.emplace(std::move(mesh_), grid, shareOf, options, takeExcerpt); });
     const std::vector<std::vector<uint32_t>> summaries = comm.gatherAll(share->summary());
     comm.together(kNoun, [&] { part = share->part(summaries, options); });
     number();
@@ -32,10 +36,12 @@ struct DistributedCut::Data {
 
   /// Of another mesh the shares would be those of another cut.
   void requireSame() {
-    Fingerprinter fingerprinter(kNoun, fingerprintOf(mesh.mesh()));
+    Fingerprinter fingerprinter(kNoun, fingerprintOf(view()));
     for (const std::vector<double>& planes : grid.planes) fingerprinter.add(planes);
     comm.requireSame(fingerprinter.get().value, "mesh or grid");
   }
+
+  MeshView view() const { return mesh ? MeshView(*mesh) : MeshView({}, {}); }
 
   /// Numbers what the part has by what the parts before have.
   void number() {
@@ -62,12 +68,38 @@ struct DistributedCut::Data {
   }
 
   void findCommon() {
-    std::vector<uint8_t> hasFace = trianglesWithFace(part.cutMesh, mesh.mesh().triangleCount());
+    std::vector<uint8_t> hasFace = trianglesWithFace(part.cutMesh, view().triangleCount());
     comm.uniteFlags(hasFace);
     comm.together(kNoun, [&] { common = share->common(hasFace); });
+    findMade();
     common.stats.exactFallbacks = comm.reduce(uint64_t(part.exactFallbacks), MPI_SUM);
     counts.regions = common.mesh.regionCount;
     counts.untouchedCells = UntouchedCells(common.mesh).count();
+  }
+
+  /// The made vertices of all parts.
+  void findMade() {
+    constexpr size_t kWords = 6;  // of each
+    const CutMesh& m = part.cutMesh;
+    std::vector<uint32_t> words;
+    for (size_t i = 0; i < m.madeVertices.size(); ++i) {
+      words.insert(words.end(), {m.madeVertices[i], m.madeVertexKinds[i]});
+      for (size_t k = 0; k < 4; ++k) words.push_back(uint32_t(m.madeVertexParents[4 * i + k]));
+    }
+    const std::vector<std::vector<uint32_t>> all = comm.gatherAll(words);
+    std::vector<CutMesh> made(all.size());
+    std::vector<const CutMesh*> parts;
+    for (size_t rank = 0; rank < all.size(); ++rank) {
+      for (size_t at = 0; at < all[rank].size(); at += kWords) {
+        const uint32_t* from = &all[rank][at];
+        made[rank].madeVertices.push_back(from[0]);
+        made[rank].madeVertexKinds.push_back(uint8_t(from[1]));
+        for (size_t k = 2; k < kWords; ++k) made[rank].madeVertexParents.push_back(int32_t(from[k]));
+      }
+      parts.push_back(&made[rank]);
+    }
+    joinMade(parts, common.mesh);
+    common.stats.madeVertices = uint32_t(common.mesh.madeVertices.size());
   }
 
   NumberedPart numberedPart() const {
@@ -120,7 +152,7 @@ struct DistributedCut::Data {
 
   std::vector<double> regionVolumes(const RankPiece& piece) {
     Measures measures;
-    comm.together("measuring", [&] { measures = measure(mesh.mesh(), piece.cutMesh, {1, {}}); });
+    comm.together("measuring", [&] { measures = measure(view(), piece.cutMesh, {1, {}}); });
     std::vector<DoubleDouble> sums(common.mesh.regionCount);
     sums = addInOrder([&](auto& all) { addCutCells(piece.cutMesh, measures, all); }, std::move(sums));
     sums = addInOrder([&](auto& all) { addUntouchedCells(piece.cutMesh, all); }, std::move(sums));
@@ -148,7 +180,7 @@ struct DistributedCut::Data {
   };
 
   Communicator comm;
-  PreparedMesh mesh;
+  std::shared_ptr<const Mesh> mesh;
   Grid grid;
   std::optional<CutShare> share;
   CutPart part;
@@ -163,7 +195,7 @@ DistributedCut::DistributedCut(MPI_Comm comm, PreparedMesh mesh, Grid grid, cons
 
 RankPiece DistributedCut::piece() const { return data_->makePiece(); }
 RankComplex DistributedCut::cellComplex(const RankPiece& piece, int ghostLayers) const {
-  return makeRankComplex(data_->comm, {data_->mesh.mesh(), data_->common.mesh, data_->counts}, piece, ghostLayers);
+  return makeRankComplex(data_->comm, {data_->view(), data_->common.mesh, data_->counts}, piece, ghostLayers);
 }
 CutCounts DistributedCut::counts() const { return data_->counts; }
 uint64_t DistributedCut::ownCells() const { return data_->ownCells; }

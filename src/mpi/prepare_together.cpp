@@ -7,15 +7,17 @@ namespace mandoline {
 
 using namespace detail;
 
-PreparedTogether prepareTogether(MPI_Comm comm_, const MeshView& mesh, const PrepareOptions& options,
-                                 const std::function<void()>& inFirst) {
+namespace {
+
+PreparedTogether prepareAll(MPI_Comm comm_, const MeshToPrepare& mesh, const PrepareOptions& options,
+                            const std::function<void()>& inFirst) {
   constexpr const char* kNoun = "preparation";
   Communicator comm(comm_, waiterFor(kNoun, options));
   PrepareResult result;
   if (comm.size() == 1) {
     comm.together(kNoun, [&] {
       if (inFirst) inFirst();
-      result = prepare(mesh, options);
+      result = prepareThis(mesh, options);
     });
     comm.agree(result.error);
     return {std::move(result.mesh), std::move(result.stats)};
@@ -40,6 +42,16 @@ PreparedTogether prepareTogether(MPI_Comm comm_, const MeshView& mesh, const Pre
     result = preparing.resolve(pairs);
   });
   return {std::move(result.mesh), std::move(result.stats), comm.bytesSent()};
+}
+
+}  // namespace
+
+PreparedTogether prepareTogether(MPI_Comm comm, const MeshView& mesh, const PrepareOptions& options, const std::function<void()>& inFirst) {
+  return prepareAll(comm, mesh, options, inFirst);
+}
+PreparedTogether prepareTogether(MPI_Comm comm, std::shared_ptr<const Mesh> mesh, const PrepareOptions& options,
+                                 const std::function<void()>& inFirst) {
+  return prepareAll(comm, std::move(mesh), options, inFirst);
 }
 
 }  // namespace mandoline

@@ -91,6 +91,9 @@ class PieceMaker {
     newFaces_.resize(part_.faceCount());
     newGhosts_.resize(below_.faceIds.size());
     const uint32_t triFaces = numbered_.part.triFaces;
+    reserveFaces({&part_, &below_.cutMesh}, out());
+    made_.piece.faceIds.reserve(newFaces_.size() + newGhosts_.size());
+    made_.piece.faceRanks.reserve(newFaces_.size() + newGhosts_.size());
     uint32_t ghost = 0;
     const auto takeGhosts = [&](bool ofTriangles) {
       for (; ghost < below_.faceIds.size() && (below_.cutMesh.faceTriangle[ghost] >= 0) == ofTriangles; ++ghost) {
@@ -141,6 +144,9 @@ class PieceMaker {
       return ghosts[ghostOf(id)];
     };
     for (const uint32_t v : out().loopVertices) placeOf(v) = 0;
+    reserveVertices({&part_, &below_.cutMesh}, out());
+    made_.piece.vertexIds.reserve(own + ghosts.size());
+    made_.piece.vertexRanks.reserve(own + ghosts.size());
     std::vector<uint32_t> ownOfSurface(numbered_.surfaceVertices, kNone);
     for (uint32_t v = 0; v < ownFirst; ++v) {
       if (numbered_.part.firstVertices[v] != kNone) ownOfSurface[numbered_.part.firstVertices[v]] = v;

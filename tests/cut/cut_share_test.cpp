@@ -3,6 +3,7 @@
 #include "case_list.h"
 #include "catch.h"
 #include "checked_cut.h"
+#include "cut/share_excerpt.h"
 #include "same_bits.h"
 #include "seam_meshes.h"
 #include "shared_cut.h"
@@ -18,13 +19,24 @@ void checkShares(const Mesh& mesh, const Grid& grid, uint32_t count, unsigned th
   REQUIRE(whole);
   RunOptions options;
   options.threads = threads;
-  const CutResult result = cutInShares(prepared, grid, count, options);
-  CAPTURE(result.error.message);
-  REQUIRE(result);
-  CHECK(differences(result.mesh, whole.mesh) == std::vector<std::string>());
-  CHECK(result.stats.madeVertices == whole.stats.madeVertices);
-  CHECK(result.stats.outsideTriangles == whole.stats.outsideTriangles);
-  CHECK(result.stats.stages.size() == whole.stats.stages.size());
+  for (detail::TakeExcerpt* takeExcerpt : {static_cast<detail::TakeExcerpt*>(nullptr), detail::takeExcerpt}) {
+    CAPTURE(takeExcerpt != nullptr);
+    const CutResult result = cutInShares(prepared, grid, count, options, takeExcerpt);
+    CAPTURE(result.error.message);
+    REQUIRE(result);
+    CHECK(differences(result.mesh, whole.mesh) == std::vector<std::string>());
+    CHECK(result.stats.madeVertices == whole.stats.madeVertices);
+    CHECK(result.stats.outsideTriangles == whole.stats.outsideTriangles);
+    CHECK(result.stats.stages.size() == whole.stats.stages.size());
+  }
+}
+
+size_t trianglesOfExcerpts = 0;
+
+std::unique_ptr<detail::ShareExcerpt> countedExcerpt(const MeshView& mesh, detail::CutState& state) {
+  auto excerpt = detail::takeExcerpt(mesh, state);
+  trianglesOfExcerpts += excerpt->excerpt.triangles.size();
+  return excerpt;
 }
 
 }  // namespace
@@ -34,6 +46,32 @@ TEST_CASE("Shares give the whole cut, to the bit, for any number of them", "[sha
     CAPTURE(one.name, one.mesh.triangleCount());
     for (const uint32_t count : {1u, 2u, 3u, 7u}) checkShares(one.mesh, one.grid, count, 1 + count % 3);
   }
+}
+
+TEST_CASE("An excerpt has the triangles in the layers of its share alone", "[shares]") {
+  const Mesh mesh = shapes::icosphere({0, 0, 0}, 1, 4);
+  const PreparedMesh prepared = prepare(mesh).mesh;
+  trianglesOfExcerpts = 0;
+  REQUIRE(cutInShares(prepared, Grid::around(mesh, 32), 4, {1, {}}, countedExcerpt));
+  CHECK(trianglesOfExcerpts > mesh.triangleCount());  // those on planes between layers come twice
+  CHECK(trianglesOfExcerpts < mesh.triangleCount() * 5 / 4);
+}
+
+TEST_CASE("A contradiction that a share finds in an excerpt names triangles of the whole mesh", "[shares]") {
+  const Mesh below = shapes::icosphere({4, 4, 1}, 0.9, 3);
+  const Mesh mesh = shapes::merged({below, shapes::cube(5.25, 6.5), shapes::box({5.75, 5.25, 5.25}, {7, 6.5, 6.5})});
+  const PreparedMesh prepared = prepare(mesh, {{1, {}}, Intersections::assumeNone}).mesh;
+  size_t named = 0;
+  for (uint32_t share = 0; share < 4; ++share) {
+    try {
+      const CutShare cut(prepared, unitGrid(8), {share, 4}, {1, {}}, detail::takeExcerpt);
+    } catch (const CallError& failure) {
+      ++named;
+      CHECK(failure.error.status == Status::selfIntersection);
+      CHECK(failure.error.element >= int64_t(below.triangleCount()));
+    }
+  }
+  CHECK(named > 0);
 }
 
 TEST_CASE("Shares are the same where seams pass through what is hard", "[shares][seams]") {

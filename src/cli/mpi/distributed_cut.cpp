@@ -154,11 +154,12 @@ class Run {
         if (ranks_.isFirst()) detail::checkGrid(grid_.grid, 0);
       });
       send();
-      const PreparedTogether prepared =
-          prepareTogether(MPI_COMM_WORLD, input_.mesh, {options, arguments_.intersections}, [this] { info_ = inspect(input_.mesh); });
+      const std::shared_ptr<const Mesh> mesh(std::shared_ptr<void>(), &input_.mesh);  // which outlives the cut
+      PreparedTogether prepared =
+          prepareTogether(MPI_COMM_WORLD, mesh, {options, arguments_.intersections}, [this] { info_ = inspect(input_.mesh); });
       stats_ = prepared.stats;
       sentPreparing_ = prepared.bytesSent;
-      cut_.emplace(MPI_COMM_WORLD, prepared.mesh, grid_.grid, options);
+      cut_.emplace(MPI_COMM_WORLD, std::move(prepared.mesh), grid_.grid, options);
     } catch (const RankError& error) {
       throwIfInterrupted();
       failed_ = error.rank;

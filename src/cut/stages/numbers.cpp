@@ -59,12 +59,14 @@ class Numberer {
     }
   }
 
-  void numberSurface(const UsedVertices& used) {
+  void numberSurface(const UsedVertices& used, const SurfaceNumbers* ofAll) {
     uint32_t next = 0;
     for (uint32_t v = 0; v < used.size(); ++v) {
-      if (used[v].load(std::memory_order_relaxed)) out_.ofSurface[{v}] = next++;
+      if (!used[v].load(std::memory_order_relaxed)) continue;
+      out_.ofSurface[{v}] = ofAll ? ofAll->ofUsed[next] : next;
+      ++next;
     }
-    out_.surfaceVertices = next;
+    out_.surfaceVertices = ofAll ? ofAll->count : next;
   }
 
   void numberOwn(BrickId brick) {
@@ -181,10 +183,10 @@ UsedVertices findUsed(const Surface& surface, const Bricks& bricks, const IdVect
   return used;
 }
 
-Numbers makeNumbers(const CutBricks& cut, const UsedVertices& used, Run& run) {
+Numbers makeNumbers(const CutBricks& cut, const UsedVertices& used, const SurfaceNumbers* ofAll, Run& run) {
   Numbers numbers;
   Numberer numberer(cut, numbers);
-  const std::array<std::function<void()>, 2> both{[&] { numberer.numberRows(); }, [&] { numberer.numberSurface(used); }};
+  const std::array<std::function<void()>, 2> both{[&] { numberer.numberRows(); }, [&] { numberer.numberSurface(used, ofAll); }};
   runTasks(both, run.monitor);
   const std::vector<uint32_t> bricks = cut.bricks.here.numbers();
   runItems(bricks, run.monitor, [&](size_t, uint32_t b) { numberer.numberOwn({b}); });

@@ -16,6 +16,12 @@ using UsedVertices = std::vector<std::atomic<uint8_t>>;
 /// Of the loops in the bricks that are cut here.
 UsedVertices findUsed(const Surface& surface, const Bricks& bricks, const IdVector<BrickId, BrickCut>& cuts, Run& run);
 
+/// Numbers of such vertices, where several processes give them.
+struct SurfaceNumbers {
+  std::vector<uint32_t> ofUsed;  ///< of those that are used, in order
+  uint32_t count = 0;            ///< of all processes
+};
+
 struct Numbers {
   static constexpr uint32_t kUnused = ~0u;
 
@@ -41,7 +47,7 @@ struct Numbers {
 /// Throws Failure{meshTooLarge} if vertices, faces, loop entries or half-faces are too many for their ids.
 void requireFewIds(uint64_t count);
 
-/// `used`: by all bricks.
-Numbers makeNumbers(const CutBricks& cut, const UsedVertices& used, Run& run);
+/// `used`: by all bricks. `ofAll`: null where no other process cuts.
+Numbers makeNumbers(const CutBricks& cut, const UsedVertices& used, const SurfaceNumbers* ofAll, Run& run);
 
 }  // namespace mandoline::detail

@@ -19,6 +19,9 @@ class Joiner {
     joinVertices();
     joinFaces();
     joinCells();
+    std::vector<const CutMesh*> made;
+    for (const CutPart& part : parts_) made.push_back(&part.cutMesh);
+    joinMade(made, out_);
     return std::move(out_);
   }
 
@@ -121,54 +124,18 @@ class Joiner {
   CutMesh out_;
 };
 
-/// The vertices that triangles make by meeting.
-void listMade(const CutState& state, CutMesh& out) {
-  const Prepared& mesh = *state.surface.input.mesh;
-  if (!mesh.hasIntersections()) return;
-  const CutVertices& vertices = state.surface.vertices;
-  const std::vector<VertexId> used = listUsed(state.used);
-  for (uint32_t i = 0; i < used.size(); ++i) {
-    if (!vertices.isImplicit(used[i])) continue;
-    out.madeVertices.push_back(i);
-    int32_t parents[4] = {-1, -1, -1, -1};
-    MadeVertex kind = MadeVertex::trianglesPlane;
-    if (vertices.isTriVertex(used[i])) {
-      const PointKey& key = mesh.arrangement->points.key(used[i].number);
-      const int count = key.kind == PointKey::Kind::edgeEdge ? 4 : 3;
-      for (int k = 0; k < count; ++k) parents[k] = int32_t(key.ids[size_t(k)]);
-      kind = key.kind == PointKey::Kind::edgeEdge       ? MadeVertex::edgeEdge
-             : key.kind == PointKey::Kind::edgeTriangle ? MadeVertex::edgeTriangle
-                                                        : MadeVertex::triangles;
-    } else {
-      const Line line = vertices.edges->line(vertices.triEdge(used[i]));
-      parents[0] = int32_t(std::min(line.a, line.b));
-      parents[1] = int32_t(std::max(line.a, line.b));
-    }
-    out.madeVertexKinds.push_back(uint8_t(kind));
-    out.madeVertexParents.insert(out.madeVertexParents.end(), parents, parents + 4);
-  }
-}
-
 /// Triangles without a face: those dropped before, and those outside of the grid.
-void listDropped(const std::vector<uint8_t>& hasFace, const Input& input, CutMesh& out, CutStats& stats) {
+void listDropped(const std::vector<uint8_t>& hasFace, const WholeTriangles& triangles, CutMesh& out, CutStats& stats) {
   for (uint32_t t = 0; t < hasFace.size(); ++t) {
-    if (hasFace[t]) continue;
-    out.droppedTriangles.push_back(t);
-    if (input.mesh->kept(t)) ++stats.outsideTriangles;
+    if (!hasFace[t]) out.droppedTriangles.push_back(t);
   }
-}
-
-/// Triangles of parts without winding numbers.
-void listParts(const Parts& parts, CutMesh& out) {
-  for (uint32_t t = 0; t < parts.kinds.size(); ++t) {
-    if (parts.kinds[t] == PartKind::parity) out.parityTriangles.push_back(t);
-    if (parts.kinds[t] == PartKind::open) out.openTriangles.push_back(t);
-  }
+  const auto isDropped = [&](uint32_t t) { return !hasFace[t]; };
+  const auto before = std::count_if(triangles.dropped.begin(), triangles.dropped.end(), isDropped);
+  stats.outsideTriangles = uint32_t(out.droppedTriangles.size() - size_t(before));
 }
 
 /// What is not made in parts.
-void addCommon(UntouchedRuns runs, Regions regions, const CutState& state, CutMesh& out) {
-  listMade(state, out);
+void addCommon(UntouchedRuns runs, Regions regions, const WholeTriangles& triangles, CutMesh& out) {
   out.rowRunOffsets = std::move(runs.rowOffsets);
   out.runBegin = std::move(runs.begin);
   out.runEnd = std::move(runs.end);
@@ -178,33 +145,31 @@ void addCommon(UntouchedRuns runs, Regions regions, const CutState& state, CutMe
   out.regionWinding = std::move(regions.winding);
   out.regionPartWinding = std::move(regions.partWinding);
   out.regionParity = std::move(regions.parity);
-  const Prepared& mesh = *state.surface.input.mesh;
-  listParts(mesh.parts, out);
-  out.triangleCount = uint32_t(mesh.triangles.size());
+  out.parityTriangles = triangles.parity;
+  out.openTriangles = triangles.open;
+  out.triangleCount = triangles.count;
 }
 
-/// Once the faces are known.
-void finish(const std::vector<uint8_t>& hasFace, const CutState& state, CutMesh& out, CutStats& stats) {
-  listDropped(hasFace, state.surface.input, out, stats);
-  stats.madeVertices = uint32_t(out.madeVertices.size());
+WholeTriangles trianglesOf(const CutState& state) {
+  return state.wholeTriangles ? *state.wholeTriangles : WholeTriangles(*state.surface.input.mesh);
 }
 
 }  // namespace
 
 CutMesh makeOutput(std::vector<CutPart> parts, CutState& state, Run& run) {
   CutMesh out = parts.size() == 1 ? std::move(parts.front().cutMesh) : Joiner(parts).run();
-  std::vector<uint8_t> hasFace;
-  const std::array<std::function<void()>, 2> tasks{[&] { hasFace = trianglesWithFace(out, state.surface.input.mesh->triangles.size()); },
-                                                   [&] { addCommon(std::move(state.runs), std::move(state.regions), state, out); }};
-  runTasks(tasks, run.monitor);
-  finish(hasFace, state, out, run.stats);
+  const WholeTriangles triangles = trianglesOf(state);
+  addCommon(std::move(state.runs), std::move(state.regions), triangles, out);
+  listDropped(trianglesWithFace(out, out.triangleCount), triangles, out, run.stats);
+  run.stats.madeVertices = uint32_t(out.madeVertices.size());
   return out;
 }
 
 CutMesh makeCommon(const std::vector<uint8_t>& hasFace, const CutState& state, Run& run) {
   CutMesh out;
-  addCommon(state.runs, state.regions, state, out);
-  finish(hasFace, state, out, run.stats);
+  const WholeTriangles triangles = trianglesOf(state);
+  addCommon(state.runs, state.regions, triangles, out);
+  listDropped(hasFace, triangles, out, run.stats);
   return out;
 }
 

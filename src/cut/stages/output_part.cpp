@@ -200,6 +200,7 @@ class VertexWriter {
 /// Those of the vertices of the mesh and its edges that lie in the layers that are cut here.
 std::vector<VertexId> onLayers(const CellLayers& here, const CutVertices& vertices, const std::vector<VertexId>& used) {
   std::vector<VertexId> on;
+  if (here.first == here.past) return on;
   on.reserve(used.size());
   for (const VertexId v : used) {
     const int32_t z = vertices.slab(v)[2];
@@ -243,7 +244,46 @@ void writeVertices(const CutState& state, const std::vector<VertexId>& surface, 
   for (const Predicates& p : predicates) run.count(p);
 }
 
+/// The vertices that triangles make by meeting. `surface`: those that are written, which have the numbers `ids`, or numbers in order.
+void listMade(const CutState& state, const std::vector<VertexId>& surface, const std::vector<uint32_t>& ids, CutMesh& out) {
+  const Prepared& mesh = *state.surface.input.mesh;
+  if (!mesh.hasIntersections()) return;
+  const CutVertices& vertices = state.surface.vertices;
+  for (uint32_t i = 0; i < surface.size(); ++i) {
+    const VertexId v = surface[i];
+    const uint32_t id = ids.empty() ? i : ids[i];
+    if (!vertices.isImplicit(v) || id == Numbers::kUnused) continue;
+    out.madeVertices.push_back(id);
+    int32_t parents[4] = {-1, -1, -1, -1};
+    MadeVertex kind = MadeVertex::trianglesPlane;
+    if (vertices.isTriVertex(v)) {
+      const PointKey& key = mesh.arrangement->points.key(v.number);
+      const int count = key.kind == PointKey::Kind::edgeEdge ? 4 : 3;
+      for (int k = 0; k < count; ++k) parents[k] = int32_t(key.ids[size_t(k)]);
+      kind = key.kind == PointKey::Kind::edgeEdge       ? MadeVertex::edgeEdge
+             : key.kind == PointKey::Kind::edgeTriangle ? MadeVertex::edgeTriangle
+                                                        : MadeVertex::triangles;
+    } else {
+      const Line line = vertices.edges->line(vertices.triEdge(v));
+      parents[0] = int32_t(std::min(line.a, line.b));
+      parents[1] = int32_t(std::max(line.a, line.b));
+    }
+    out.madeVertexKinds.push_back(uint8_t(kind));
+    out.madeVertexParents.insert(out.madeVertexParents.end(), parents, parents + 4);
+  }
+}
+
 }  // namespace
+
+WholeTriangles::WholeTriangles(const Prepared& mesh) : count(uint32_t(mesh.triangles.size())) {
+  for (uint32_t t = 0; t < count; ++t) {
+    if (!mesh.kept(size_t(t))) dropped.push_back(t);
+  }
+  for (uint32_t t = 0; t < mesh.parts.kinds.size(); ++t) {
+    if (mesh.parts.kinds[t] == PartKind::parity) parity.push_back(t);
+    if (mesh.parts.kinds[t] == PartKind::open) open.push_back(t);
+  }
+}
 
 std::vector<VertexId> listUsed(const UsedVertices& used) {
   std::vector<VertexId> list;
@@ -256,7 +296,7 @@ std::vector<VertexId> listUsed(const UsedVertices& used) {
 
 CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& run) {
   const Input& input = state.surface.input;
-  state.numbers = makeNumbers(state.cut(), state.used, run);
+  state.numbers = makeNumbers(state.cut(), state.used, state.surfaceNumbers ? &*state.surfaceNumbers : nullptr, run);
   const Numbers& numbers = state.numbers;
   const KeptVertices kept = state.keeping ? state.keeping->vertices() : KeptVertices();
   CutPart part;
@@ -294,6 +334,7 @@ CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& r
   VertexWriter writer(mesh, grid, input, kept, out);
   writer.onlyGeneral = run.onlyGeneral;
   writeVertices(state, surface, writer, run);
+  listMade(state, surface, part.firstVertices, out);
   drop([&] {
     state.cuts = {};
     state.numbers.ofBrick = {};

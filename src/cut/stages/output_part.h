@@ -25,6 +25,15 @@ class Keeping {
   ~Keeping() = default;
 };
 
+/// What the result tells of all triangles of a mesh.
+struct WholeTriangles {
+  uint32_t count;
+  std::vector<uint32_t> dropped;       ///< those that are not kept; ascending, as are the others
+  std::vector<uint32_t> parity, open;  ///< of parts without winding numbers
+
+  explicit WholeTriangles(const Prepared& mesh);
+};
+
 /// What the stages have made so far; each adds its part.
 struct CutState {
   Surface surface;
@@ -37,7 +46,10 @@ struct CutState {
   Regions regions;
   Numbers numbers;
 
-  std::optional<CellLayers> layersHere;  ///< of one of several processes, with surface.here
+  // Of one of several processes:
+  std::optional<CellLayers> layersHere;
+  std::optional<SurfaceNumbers> surfaceNumbers;  ///< once those of all are known
+  std::optional<WholeTriangles> wholeTriangles;  ///< if it has an excerpt of the mesh, with ids of its own
 
   bool isNeededAgain = false;  ///< once the output is made; otherwise memory is given back on the way
 
@@ -50,8 +62,8 @@ struct CutState {
   CutBricks cut() const { return {surface, bricks, runs, cuts, seams}; }
 };
 
-/// Vertices of the mesh and its edges come from the share that has them first along z. `mesh` was prepared; coordinates that it and `grid`
-/// have are handed back as they are.
+/// Vertices of the mesh and its edges come from the share that has them first along z, and it tells which of them are made. `mesh` was
+/// prepared; coordinates that it and `grid` have are handed back as they are.
 CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& run);
 
 /// The vertices of the mesh and its edges that loops have, in order.

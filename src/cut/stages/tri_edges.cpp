@@ -113,7 +113,7 @@ class CrossingLayout {
       total += chunk.crossings;
       surface_.inPlane.insert(surface_.inPlane.end(), chunk.inPlane.begin(), chunk.inPlane.end());
     }
-    if (total >= uint64_t(1) << 31) throw Failure{{Status::meshTooLarge, -1, -1, "The cut-mesh would have more than 2^31 vertices."}};
+    requireFewVertices(total);
     offsets[edges] = vertices_.firstInTriangle = {uint32_t(total)};
   }
 
@@ -218,6 +218,12 @@ TriEdgeId CrossingsBefore::pastKnown(TriEdgeId first, TriEdgeId past) const {
   const uint8_t* moved = moved_.data();
   while (first < past && !(moved[ends[first.number][0].number] | moved[ends[first.number][1].number])) ++first.number;
   return first;
+}
+
+uint32_t crossingIds(const Slab& low, const Slab& high) { return planesBetween(low, high).count; }
+
+void requireFewVertices(uint64_t count) {
+  if (count >= uint64_t(1) << 31) throw Failure{{Status::meshTooLarge, -1, -1, "The cut-mesh would have more than 2^31 vertices."}};
 }
 
 void cutTriEdges(Surface& surface, Run& run, const KnownCrossings* known) {

@@ -67,6 +67,11 @@ class CrossingsBefore final : public KnownCrossings {
   const bool areKnown_;
 };
 
+/// How many ids the crossings of a tri-edge have, by the slabs of its ends.
+uint32_t crossingIds(const Slab& low, const Slab& high);
+/// Throws Failure{meshTooLarge} if these are too many for their ids.
+void requireFewVertices(uint64_t count);
+
 /// Fills in the rest of the surface from `surface.input`. `known` may be null.
 void cutTriEdges(Surface& surface, Run& run, const KnownCrossings* known = nullptr);
 

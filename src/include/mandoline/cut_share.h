@@ -11,6 +11,12 @@
 
 namespace MANDOLINE_API mandoline {
 
+namespace detail {
+struct CutState;
+struct ShareExcerpt;
+using TakeExcerpt = std::unique_ptr<ShareExcerpt>(const MeshView& mesh, CutState& state);
+}  // namespace detail
+
 /// One of `count` shares.
 struct ShareOf {
   uint32_t index = 0, count = 1;
@@ -19,7 +25,7 @@ struct ShareOf {
 /// What one process found of a cut-mesh.
 struct CutPart {
   /// Its vertices, faces and cut-cells. Offsets are those of the part; ids in loopVertices, cellHalfFaces and cellRegion those of the
-  /// whole. Arrays of rows, runs, regions, triangles and made vertices are left out.
+  /// whole, as those of the made vertices among the first vertices. Arrays of rows, runs, regions and triangles are left out.
   CutMesh cutMesh;
   std::vector<uint32_t> firstVertices;  ///< the ids of its first vertices, or 2^32 - 1 for one that another part has; the rest follow on
   uint32_t triFaces = 0;                ///< how many of its faces are pieces of triangles, which come first
@@ -37,7 +43,10 @@ class CutShare {
  public:
   /// Cuts its layers. Throws CallError as cut() has errors, and for an index that is not below the count (badArgument); only where
   /// Intersections::assumeNone leads to a contradiction, other triangles may be named, or none.
-  CutShare(PreparedMesh mesh, Grid grid, const ShareOf& shareOf, const RunOptions& options = {});
+  /// `takeExcerpt`: detail::takeExcerpt where one of several shares is to keep no more of the mesh than it needs, and frees the rest on the
+  /// way; summary() and part() are then to be called once.
+  CutShare(PreparedMesh mesh, Grid grid, const ShareOf& shareOf, const RunOptions& options = {},
+           detail::TakeExcerpt* takeExcerpt = nullptr);
 
   /// What the other processes have to know of this share, in the form of this version of the library.
   std::vector<uint32_t> summary() const;
@@ -46,8 +55,8 @@ class CutShare {
   CutPart part(std::span<const std::vector<uint32_t>> summaries, const RunOptions& options = {});
   /// The layers of grid cells along z that this share cuts: from the first up to, not including, the second. It may be none.
   std::array<int64_t, 2> layers() const;
-  /// What all shares know alike of the result, once part() has been made: its grid, made vertices, runs, regions and triangles, without
-  /// vertices, faces and cut-cells; and how the cut went here. `hasFace`: per triangle 1 if some part has a face of it, else 0. Throws
+  /// What all shares know alike of the result, once part() has been made: its grid, runs, regions and triangles, without vertices, faces
+  /// and cut-cells; and how the cut went here. `hasFace`: per triangle 1 if some part has a face of it, else 0. Throws
   /// CallError if there are not as many (badArgument).
   CutResult common(const std::vector<uint8_t>& hasFace) const;
   /// Of the first share, whose part has been made. `parts`: of all shares, in their order.

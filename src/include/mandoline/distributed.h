@@ -1,8 +1,8 @@
-// A cut that the processes of an MPI communicator make together, which leaves to each of them a piece. Each process has the whole mesh;
-// what is large, the cut-mesh, is held in pieces. In mandoline::mpi, which exists where MPI is found.
+// A cut that the processes of an MPI communicator make together, which leaves to each of them a piece. Each process has the whole mesh,
+// and prepares it; what is made of it, to the cut-mesh, is held in pieces. In mandoline::mpi, which exists where MPI is found.
 //
 //   PreparedMesh prepared = prepareTogether(MPI_COMM_WORLD, mesh).mesh;  // in all processes, of the same mesh and grid
-//   DistributedCut cut(MPI_COMM_WORLD, prepared, grid);
+//   DistributedCut cut(MPI_COMM_WORLD, std::move(prepared), grid);
 //   RankPiece piece = cut.piece();
 //
 // All calls are collective: all processes of the communicator make them, in the same order. The result does not depend on how many there
@@ -35,12 +35,16 @@ struct PreparedTogether {
 /// 0 does meanwhile; it then searches only if it is alone.
 PreparedTogether prepareTogether(MPI_Comm comm, const MeshView& mesh, const PrepareOptions& options = {},
                                  const std::function<void()>& inFirst = {});
+/// The same, of a mesh that is kept in the place of a copy.
+PreparedTogether prepareTogether(MPI_Comm comm, std::shared_ptr<const Mesh> mesh, const PrepareOptions& options = {},
+                                 const std::function<void()>& inFirst = {});
 
 class DistributedCut {
  public:
   /// Cuts. Throws RankError, alike in all processes, as CutShare does, or for different meshes or grids (badArgument, element: the first
   /// rank with another). A process that is cancelled while it waits for others throws CallError (cancelled), and the others wait for it:
-  /// cancel all of them, or end the program.
+  /// cancel all of them, or end the program. Of the prepared mesh a process keeps what lies in its layers: the rest is freed if the caller
+  /// has no copy. The mesh itself stays.
   DistributedCut(MPI_Comm comm, PreparedMesh mesh, Grid grid, const RunOptions& options = {});
 
   /// This process's piece.
