@@ -81,17 +81,19 @@ class Dicer {
   void dice(TriangleId triangle, Polygon polygon, const Extent& extent, bool keepOutside = false) {
     triangle_ = triangle;
     keepOutside_ = keepOutside;
-    size_t next = kNoAxis;
+    Planes planes{kNoAxis, 0, 0};  // across the first axis of which some cut it
     for (size_t d = 3; d-- > 0;) {
       const int32_t least = extent.least[d], greatest = extent.greatest[d];
-      nextAxis_[d] = next;
-      if (seamFrom(d, firstPlaneAfter(least)) <= lastPlaneBefore(greatest)) {
-        next = d;
+      nextAxis_[d] = planes.axis;
+      const Planes across = {d, seamFrom(d, firstPlaneAfter(least)), lastPlaneBefore(greatest)};
+      if (across.first <= across.last) {
+        planes = across;
       } else if (!enter(d, slabBetween(least, greatest))) {
         return;
       }
     }
-    split(next, polygon, room_);
+    if (planes.axis == kNoAxis) return out_.addPiece(polygon, element_);
+    splitBy(planes, polygon, room_);
   }
 
   Predicates predicates;
@@ -99,6 +101,10 @@ class Dicer {
 
  private:
   static constexpr size_t kNoAxis = 3;
+  struct Planes {
+    size_t axis;
+    int32_t first, last;  // the polygon is cut by the first one
+  };
 
   /// Cuts a convex polygon by the planes of `axis` and of those after it.
   void split(size_t axis, Polygon polygon, HalvesRoom& room) {
@@ -111,11 +117,7 @@ class Dicer {
     out_.addPiece(polygon, element_);
   }
 
-  struct Planes {
-    size_t axis;
-    int32_t first, last;
-  };
-  /// The same where some of these planes cut it, the first one among them.
+  /// The same where some of these planes cut it.
   void splitBy(const Planes& planes, Polygon polygon, HalvesRoom& room) {
     if (polygon.size() > PolygonHalves::kMostCorners || onlySweep) return sweep(planes, polygon, room);
     const auto [axis, plane, last] = planes;

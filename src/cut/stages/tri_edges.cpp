@@ -77,6 +77,17 @@ size_t crossEdge(const Input& input, const std::array<VertexId, 2>& ends, const 
   }
 }
 
+/// The same where it crosses one plane alone.
+Slab crossOnePlane(const Input& input, const std::array<VertexId, 2>& ends) {
+  const Slab &from = input.slabs[ends[0]], &to = input.slabs[ends[1]];
+  Slab crossing;
+  for (size_t d = 0; d < 3; ++d) {
+    const int32_t least = std::min(from[d], to[d]), greatest = std::max(from[d], to[d]);
+    crossing[d] = inOneSlab(least, greatest) ? slabBetween(least, greatest) : 2 * firstPlaneAfter(least);
+  }
+  return crossing;
+}
+
 struct PlanesBetween {
   uint32_t count;  ///< strictly between two slabs, along all axes
   bool hasBoth;    ///< whether one has both slabs
@@ -163,18 +174,20 @@ class CrossingLayout {
   const KnownCrossings* known_;
 };
 
-void cutEdge(TriEdgeId e, Surface& surface, Predicates& predicates) {
+void cutEdge(TriEdgeId e, Surface& surface, bool onlyGeneral, Predicates& predicates) {
   CutVertices& vertices = surface.vertices;
-  const Ids<VertexId> crossings = vertices.crossings(e);
-  if (crossings.empty()) return;
-  const VertexId first = *crossings.begin();
-  const size_t count = !surface.here.has(e) ? 0
-                                            : crossEdge(surface.input, surface.edges().ends[e], surface.edges().line(e),
-                                                        &vertices.slabs[first.number], predicates);
-  for (const VertexId v : crossings) {
-    vertices.parentEdges[v.number - vertices.firstOnEdge.number] = e;
-    if (v.number >= first.number + count) vertices.slabs[v.number] = CutVertices::kNone;
+  const uint32_t first = vertices.crossingOffsets[e.number].number, past = vertices.crossingOffsets[e.number + 1].number;
+  if (first == past) return;
+  Slab* const slabs = &vertices.slabs[first];
+  const std::array<VertexId, 2>& ends = surface.edges().ends[e];
+  size_t count = 0;
+  if (past - first == 1 && surface.here.has(e) && !onlyGeneral) {
+    slabs[count++] = crossOnePlane(surface.input, ends);
+  } else if (surface.here.has(e)) {
+    count = crossEdge(surface.input, ends, surface.edges().line(e), slabs, predicates);
   }
+  for (uint32_t v = first; v < past; ++v) vertices.parentEdges[v - vertices.firstOnEdge.number] = e;
+  for (size_t i = count; i < past - first; ++i) slabs[i] = CutVertices::kNone;
 }
 
 /// Those of tri-edges first .. past - 1.
@@ -246,7 +259,7 @@ void cutTriEdges(Surface& surface, Run& run, const KnownCrossings* known) {
             copyCrossings(known->surface().vertices, e, pastKnown, vertices);
             e = pastKnown;
           } else {
-            cutEdge(e, surface, predicates);
+            cutEdge(e, surface, run.onlyGeneral, predicates);
             ++e.number;
           }
         }
