@@ -1,5 +1,6 @@
-// A grid cell without anything special, as nearly all are: triangles meet in it two by two, and each hybrid edge parts its grid-face. There
-// half-faces are joined by what lies beside each edge: only the edges of tri-cut-faces have to be looked up.
+// A grid cell that several sheets part, or one of triangles that disagree about their sides (else see parted_cell.h): triangles meet in it
+// two by two, and each hybrid edge parts its grid-face. There half-faces are joined by what lies beside each edge: only the edges of
+// tri-cut-faces have to be looked up.
 #pragma once
 
 #include <vector>
