@@ -58,7 +58,7 @@ class Collector {
   }
   /// A cell that has an element: below it along the axes that have their bits in `axes`.
   uint32_t cellBelow(const Slab& element, int axes) const {
-    ptrdiff_t place = stencil_.placeOf(element);
+    size_t place = stencil_.placeOf(element);
     for (size_t d = 0; d < 3; ++d) place -= axes >> d & 1 ? stencil_.steps[d] : 0;
     return stencil_.numberAt(place);
   }

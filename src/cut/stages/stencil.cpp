@@ -74,14 +74,14 @@ constexpr auto kEarlier = [] {
 
 /// The touched cells of a brick, ascending.
 void listCells(const Bricks& bricks, BrickId brick, Stencil& stencil) {
-  for (const Stencil::Cell& cell : stencil.cells) stencil.table[size_t(stencil.placeOf(cell.element))] = Stencil::kNone;
+  for (const Stencil::Cell& cell : stencil.cells) stencil.table[stencil.placeOf(cell.element)] = Stencil::kNone;
   stencil.cells.clear();
   stencil.box = bricks.boxes[brick];
   const auto &first = stencil.box.first, &count = stencil.box.count;
-  stencil.steps = {1, count[0] + 2, ptrdiff_t(count[0] + 2) * (count[1] + 2)};
+  stencil.steps = {1, size_t(count[0] + 2), size_t(count[0] + 2) * size_t(count[1] + 2)};
   stencil.placeOfFirst = 0;
-  for (size_t d = 0; d < 3; ++d) stencil.placeOfFirst += (1 - first[d]) * stencil.steps[d];
-  const size_t size = size_t(stencil.steps[2]) * size_t(count[2] + 2);
+  for (size_t d = 0; d < 3; ++d) stencil.placeOfFirst += size_t(ptrdiff_t(1 - first[d])) * stencil.steps[d];
+  const size_t size = stencil.steps[2] * size_t(count[2] + 2);
   if (stencil.table.size() < size) stencil.table.resize(size, Stencil::kNone);
   Slab row = {0, 2 * first[1] + 1, 2 * first[2] + 1};  // of cells
   uint32_t begin = 0;                                  // of the row
@@ -93,7 +93,7 @@ void listCells(const Bricks& bricks, BrickId brick, Stencil& stencil) {
       row[2] += 2;
     }
     stencil.cells.push_back({{2 * (first[0] + int32_t(index - begin)) + 1, row[1], row[2]}, {}, {}, {}});
-    stencil.table[size_t(stencil.placeOf(stencil.cells.back().element))] = uint32_t(stencil.cells.size() - 1);
+    stencil.table[stencil.placeOf(stencil.cells.back().element)] = uint32_t(stencil.cells.size() - 1);
   });
 }
 
@@ -107,7 +107,7 @@ class Numbering {
   void run() {
     for (const GridCellId c : stencil_.cells.ids()) {
       Stencil::Cell& cell = stencil_.cells[c];
-      const uint32_t* at = &stencil_.table[size_t(stencil_.placeOf(cell.element))];
+      const uint32_t* at = &stencil_.table[stencil_.placeOf(cell.element)];
       const Elements known = takeOver(at, cell, std::make_index_sequence<kEarlier.size()>());
       forOthers<6>(known.faces, [&](uint32_t i) {
         cell.faces[i] = {uint32_t(faces_.size())};
@@ -130,7 +130,7 @@ class Numbering {
   void takeOverFrom(const uint32_t* at, Stencil::Cell& cell, Elements& known) const {
     constexpr Neighbour neighbour = kEarlier[kNeighbour];
     const auto& [x, y, z] = neighbour.shift;
-    const uint32_t n = at[x + y * stencil_.steps[1] + z * stencil_.steps[2]];
+    const uint32_t n = at[x + y * ptrdiff_t(stencil_.steps[1]) + z * ptrdiff_t(stencil_.steps[2])];
     if (n == Stencil::kNone) return;
     const Stencil::Cell& other = stencil_.cells[GridCellId{n}];
     for (const auto [here, there] : neighbour.faces) cell.faces[here] = other.faces[there];
@@ -150,7 +150,7 @@ class Numbering {
 /// A grid-face that a cell of the stencil has.
 GridFaceId faceAt(const Stencil& stencil, const Slab& gridFace) {
   const int axis = planeAxis(gridFace);
-  const ptrdiff_t above = stencil.placeOf(gridFace);
+  const size_t above = stencil.placeOf(gridFace);
   uint32_t number = stencil.numberAt(above - stencil.steps[size_t(axis)]);
   const bool isBelow = number != Stencil::kNone;
   if (!isBelow) number = stencil.numberAt(above);

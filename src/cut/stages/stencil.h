@@ -78,14 +78,16 @@ struct Stencil {
   /// Numbers of cells in the brick with a margin of one cell; kNone for those that are not touched.
   std::vector<uint32_t> table;
   static constexpr uint32_t kNone = ~0u;
-  std::array<ptrdiff_t, 3> steps{};  ///< in the table, to the next cell along each axis
-  ptrdiff_t placeOfFirst = 0;        ///< of the grid's first cell, were it there
+  // In the table, all modulo its type, which is too small for some grids as a whole:
+  std::array<size_t, 3> steps{};  ///< to the next cell along each axis
+  size_t placeOfFirst = 0;        ///< of the grid's first cell, were it there
 
   /// Of a cell; of another element that of the cell above the planes it lies on.
-  ptrdiff_t placeOf(const Slab& element) const {
-    return (element[0] >> 1) + (element[1] >> 1) * steps[1] + (element[2] >> 1) * steps[2] + placeOfFirst;
+  size_t placeOf(const Slab& element) const {
+    const auto at = [&](size_t d) { return size_t(ptrdiff_t(element[d] >> 1)); };
+    return at(0) + at(1) * steps[1] + at(2) * steps[2] + placeOfFirst;
   }
-  uint32_t numberAt(ptrdiff_t place) const { return table[size_t(place)]; }
+  uint32_t numberAt(size_t place) const { return table[place]; }
 
   // Scratch.
   std::vector<GridCellId> cellOf;  ///< per tri-cut-face
