@@ -1,12 +1,15 @@
 #include "base/large_array.h"
 
+#include <algorithm>
+#include <cstdint>
+
+#include "base/threads.h"
+
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 #ifdef __linux__
 #include <sys/mman.h>
-
-#include <cstdint>
 #endif
 
 namespace mandoline::detail {
@@ -44,6 +47,16 @@ void preferLargePages(void*, size_t) {}
 void getPages(void*, size_t) {}
 
 #endif
+
+void getPages(void* begin, size_t bytes, unsigned threads) {
+  constexpr size_t kSlice = 8 * kPageAlignment;
+  const auto first = reinterpret_cast<uintptr_t>(begin), past = first + bytes;
+  const size_t slices = past / kSlice - first / kSlice + 1;
+  runOnParts(slices, unsigned(std::min<size_t>(slices, threads)), [&](size_t slice) {
+    const uintptr_t from = std::max(first, (first / kSlice + slice) * kSlice), to = std::min(past, (first / kSlice + slice + 1) * kSlice);
+    getPages(reinterpret_cast<void*>(from), to - from);
+  });
+}
 
 #ifdef __GLIBC__
 void giveBackFreed() { malloc_trim(0); }

@@ -20,6 +20,8 @@ inline constexpr size_t kPageAlignment = 16;
 void preferLargePages(void* begin, size_t bytes);
 /// The same, and gets all of its pages. Meanwhile no thread gets other memory from the system: where many threads do, touch it instead.
 void getPages(void* begin, size_t bytes);
+/// The same on several threads.
+void getPages(void* begin, size_t bytes, unsigned threads);
 
 /// Leaves freed memory to the system that the allocator keeps for later, where it can; takes some milliseconds for each gigabyte.
 void giveBackFreed();
@@ -57,6 +59,14 @@ template <class Item>
 void makeLarge(std::vector<Item>& items, size_t count, std::type_identity_t<Item> fill = {}) {
   reserveLarge(items, count);
   items.resize(count, fill);
+}
+
+/// The same where several threads will fill it: they also get the memory.
+template <class Item>
+void makeLargeOnThreads(std::vector<Item>& items, size_t count, unsigned threads) {
+  items.reserve(count);
+  getPages(items.data(), count * sizeof(Item), threads);
+  items.resize(count);
 }
 
 /// Makes an empty array the same as another one.

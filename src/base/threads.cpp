@@ -1,5 +1,6 @@
 #include "base/threads.h"
 
+#include <atomic>
 #include <system_error>
 #include <vector>
 
@@ -18,5 +19,12 @@ void runOnThreads(size_t threads, FunctionRef<void(size_t)> work) {
   for (std::thread& thread : pool) thread.join();
 }
 #endif
+
+void runOnParts(size_t parts, size_t threads, FunctionRef<void(size_t)> work) {
+  std::atomic<size_t> next{0};
+  runOnThreads(threads, [&](size_t) {
+    for (size_t part; (part = next++) < parts;) work(part);
+  });
+}
 
 }  // namespace mandoline::detail

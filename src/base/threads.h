@@ -31,4 +31,7 @@ inline void yieldThread() { std::this_thread::yield(); }
 /// Runs work(thread) on that many threads, or on fewer where there are no more.
 void runOnThreads(size_t threads, FunctionRef<void(size_t)> work);
 
+/// Runs work(part), which must not throw, for each of that many parts.
+void runOnParts(size_t parts, size_t threads, FunctionRef<void(size_t)> work);
+
 }  // namespace mandoline::detail

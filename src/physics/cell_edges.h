@@ -1,9 +1,11 @@
 // Which dual edges the cells have, and other rows of ids that are found on all threads.
 #pragma once
 
+#include "base/large_array.h"
 #include "base/parallel.h"
 #include "mandoline/status.h"
 #include "physics/dual_edges.h"
+#include "physics/node_loops.h"
 
 namespace mandoline::physics {
 
@@ -24,8 +26,15 @@ detail::Csr<uint32_t> rowsOf(size_t rows, unsigned threads, const F& f) {
       part.rows.endGroup();
     }
   });
-  detail::Csr<uint32_t> all = std::move(parts[0].rows);
-  for (size_t p = 1; p < parts.size(); ++p) all.append(parts[p].rows);
+  if (parts.size() == 1) return std::move(parts[0].rows);
+  detail::Csr<uint32_t> all;
+  size_t count = 0;
+  for (const Part& part : parts) count += part.rows.items.size();
+  all.offsets.reserve(rows + 1);
+  all.items.reserve(count);
+  detail::getPages(all.offsets.data(), (rows + 1) * sizeof(uint32_t), threads);
+  detail::getPages(all.items.data(), count * sizeof(uint32_t), threads);
+  for (const Part& part : parts) all.append(part.rows);
   return all;
 }
 

@@ -36,10 +36,11 @@ Point spreadOf(const CellComplex& cells, size_t f) {
 
 }  // namespace
 
-Differentiator::Differentiator(const CellComplex& cells, const DualEdges& dual, const PoissonProblem& problem,
-                               const std::vector<BoundaryTerm>& terms, unsigned threads)
+Differentiator::Differentiator(const CellComplex& cells, const DualEdges& dual, const detail::Csr<uint32_t>& edgesOfCells,
+                               const PoissonProblem& problem, const std::vector<BoundaryTerm>& terms, unsigned threads)
     : cells_(cells),
       dual_(dual),
+      edgesOfCells_(edgesOfCells),
       problem_(problem),
       terms_(terms),
       threads_(threads),
@@ -73,7 +74,7 @@ CellFitter Differentiator::fitter(detail::Monitor& monitor) const {
   for (uint32_t c = 0; c < isFitted.size(); ++c) {
     if (isFitted[c]) fitted.push_back(c);
   }
-  return {cells_, fitData({cells_, dual_, problem_}, &fitted, coefficients_, threads_), fitted, monitor};
+  return {cells_, fitData({cells_, dual_, edgesOfCells_, problem_}, &fitted, coefficients_, threads_), fitted, monitor};
 }
 
 /// Octree cells of one size, larger than grid cells.
@@ -137,7 +138,7 @@ double Differentiator::plainOnBoundary(size_t b, const std::vector<double>& phi)
 
 std::vector<double> Differentiator::plain(const std::vector<double>& phi) const {
   std::vector<double> result;
-  detail::makeLarge(result, cells_.faceCount() + terms_.size());
+  detail::makeLargeOnThreads(result, cells_.faceCount() + terms_.size(), threads_);
   forBlocks(dual_.edges.size(), threads_, [&](size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {
       const double derivative = plainAt(e, phi);
@@ -216,7 +217,7 @@ double Differentiator::correctionOnBoundary(size_t b, const CellFits& fits) cons
 }
 
 std::vector<double> Differentiator::corrections(CellFitter& fitter, const std::vector<double>& phi, detail::Monitor& monitor) const {
-  const std::vector<double> values = fitValues({cells_, dual_, problem_}, fitter.data(), phi, threads_);
+  const std::vector<double> values = fitValues({cells_, dual_, edgesOfCells_, problem_}, fitter.data(), phi, threads_);
   const CellFits& fits = fitter.fit(values, sourceOf(phi, fitter.data().cellSize), monitor);
   std::vector<double> result(corrected_.size());
   forBlocks(result.size(), threads_, [&](size_t begin, size_t end) {

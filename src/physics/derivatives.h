@@ -10,9 +10,9 @@ namespace mandoline::physics {
 /// normal that points out of the cell.
 class Differentiator {
  public:
-  /// `terms`: boundaryTerms().
-  Differentiator(const CellComplex& cells, const DualEdges& dual, const PoissonProblem& problem, const std::vector<BoundaryTerm>& terms,
-                 unsigned threads);
+  /// `edgesOfCells`: cellEdges(), `terms`: boundaryTerms().
+  Differentiator(const CellComplex& cells, const DualEdges& dual, const detail::Csr<uint32_t>& edgesOfCells, const PoissonProblem& problem,
+                 const std::vector<BoundaryTerm>& terms, unsigned threads);
 
   /// Those that the problem's system has: differences over distances.
   std::vector<double> plain(const std::vector<double>& phi) const;
@@ -51,6 +51,7 @@ class Differentiator {
 
   const CellComplex& cells_;
   const DualEdges& dual_;
+  const detail::Csr<uint32_t>& edgesOfCells_;
   const PoissonProblem& problem_;
   const std::vector<BoundaryTerm>& terms_;
   const unsigned threads_;

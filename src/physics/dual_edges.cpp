@@ -6,6 +6,7 @@
 #include "base/large_array.h"
 #include "base/parallel.h"
 #include "mandoline/status.h"
+#include "physics/node_loops.h"
 
 namespace mandoline::physics {
 namespace {
@@ -31,10 +32,10 @@ class Finder {
       std::swap(edges, part.edges), std::swap(faces, part.faces);  // where it begins, and how much it adds
       edges += part.edges, faces += part.faces;
     }
-    detail::makeLarge(result_.edges, edges);
-    detail::makeLarge(result_.faces.items, faces);
+    detail::makeLargeOnThreads(result_.edges, edges, monitor.threads());
+    detail::makeLargeOnThreads(result_.faces.items, faces, monitor.threads());
     result_.faces.offsets.clear();
-    detail::makeLarge(result_.faces.offsets, edges + 1);
+    detail::makeLargeOnThreads(result_.faces.offsets, edges + 1, monitor.threads());
     detail::runChunks(
         cells_.faceCount(), parts.size(), monitor,
         [&](size_t chunk, size_t begin, size_t end) {
@@ -51,8 +52,6 @@ class Finder {
   }
 
  private:
-  static constexpr size_t kBlock = 2048;  // faces
-
   /// f(side, faces) for each dual edge whose first face is one of those. `besides` is room.
   template <class F>
   void forEdges(size_t begin, size_t end, std::vector<uint32_t>& besides, const F& f) const {

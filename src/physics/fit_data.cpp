@@ -51,6 +51,7 @@ class Maker {
   Maker(const FitSource& source, const CellCoefficients& coefficients, unsigned threads)
       : cells_(source.cells),
         dual_(source.dual),
+        edges_(source.edgesOfCells),
         problem_(source.problem),
         points_(pointsOf(cells_, problem_.dualPoints)),
         jumps_(coefficients.jumps),
@@ -59,12 +60,11 @@ class Maker {
   }
 
   FitData run(const std::vector<uint32_t>* which) {
-    const detail::Csr<uint32_t> edges = cellEdges(cells_, dual_, threads_);
-    setNeighbors(edges, which);
-    setCellData(edges);
+    setNeighbors(which);
+    setCellData();
     numberData();
     setSizes();
-    detail::makeLarge(fit_.data, fit_.ids.size());
+    detail::makeLargeOnThreads(fit_.data, fit_.ids.size(), threads_);
     forBlocks(fit_.ids.size(), threads_, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) fit_.data[i] = isEdge(i) ? edgeDatum(fit_.ids[i]) : boundaryDatum(fit_.ids[i] - edgeCount());
     });
@@ -91,7 +91,7 @@ class Maker {
   }
 
   /// Also finds out which cells' data are wanted.
-  void setNeighbors(const detail::Csr<uint32_t>& edges, const std::vector<uint32_t>* which) {
+  void setNeighbors(const std::vector<uint32_t>* which) {
     isWanted_.assign(cells_.cellCount(), !which);
     for (size_t i = 0; which && i < which->size(); ++i) isWanted_[(*which)[i]] = 1;
     fit_.cellNeighbors = rowsOf(cells_.cellCount(), threads_, [&](size_t c, std::vector<uint32_t>& row) {
@@ -99,7 +99,7 @@ class Maker {
         if (!isAroundRim(cell)) row.push_back(cell);
       };
       if (!isWanted_[c]) return;
-      for (const uint32_t e : edges[c]) {
+      for (const uint32_t e : edges_[c]) {
         if (!isKnown(e)) continue;
         for (const uint32_t f : dual_.faces[e]) {
           const uint32_t other = otherCell(cells_, dual_.edges[e], f);
@@ -113,14 +113,14 @@ class Maker {
   }
 
   /// By their ids.
-  void setCellData(const detail::Csr<uint32_t>& edges) {
+  void setCellData() {
     const Boundary& boundary = problem_.boundary;
     const auto ofBoundary = detail::groupBy<uint32_t>(
         cells_.cellCount(), boundary.halfFaces.size(), [&](size_t b) { return size_t(cells_.faceCells[boundary.halfFaces[b]]); },
         [](size_t b) { return uint32_t(b); });
     fit_.cellData = rowsOf(cells_.cellCount(), threads_, [&](size_t c, std::vector<uint32_t>& row) {
       if (!isWanted_[c]) return;
-      for (const uint32_t e : edges[c]) {
+      for (const uint32_t e : edges_[c]) {
         if (isKnown(e)) row.push_back(e);
       }
       for (const uint32_t b : ofBoundary[c]) row.push_back(uint32_t(edgeCount() + b));
@@ -129,7 +129,8 @@ class Maker {
 
   /// In the order of their ids.
   void numberData() {
-    std::vector<uint32_t> numbers(edgeCount() + problem_.boundary.halfFaces.size());
+    std::vector<uint32_t> numbers;
+    detail::makeLargeOnThreads(numbers, edgeCount() + problem_.boundary.halfFaces.size(), threads_);
     for (const uint32_t id : fit_.cellData.items) numbers[id] = 1;
     for (uint32_t id = 0; id < numbers.size(); ++id) {
       if (numbers[id] == 0) continue;
@@ -143,7 +144,7 @@ class Maker {
 
   /// The largest distance to a neighbour.
   void setSizes() {
-    fit_.cellSize.resize(cells_.cellCount());
+    detail::makeLargeOnThreads(fit_.cellSize, cells_.cellCount(), threads_);
     forBlocks(cells_.cellCount(), threads_, [&](size_t begin, size_t end) {
       for (size_t c = begin; c < end; ++c) {
         for (const uint32_t i : fit_.cellData[c]) {
@@ -193,6 +194,7 @@ class Maker {
 
   const CellComplex& cells_;
   const DualEdges& dual_;
+  const detail::Csr<uint32_t>& edges_;  // per cell
   const PoissonProblem& problem_;
   const std::vector<double>& points_;
   const std::vector<char>& jumps_;
@@ -208,7 +210,7 @@ FitData fitData(const FitSource& source, const std::vector<uint32_t>* which, con
 }
 
 std::vector<double> fitValues(const FitSource& source, const FitData& fit, const std::vector<double>& phi, unsigned threads) {
-  const auto& [cells, dual, problem] = source;
+  const auto& [cells, dual, edgesOfCells, problem] = source;
   const Boundary& boundary = problem.boundary;
   const auto differenceOf = [&](uint32_t id) {
     if (id < dual.edges.size()) return differenceAt(cells, dual, id, phi);
@@ -218,7 +220,7 @@ std::vector<double> fitValues(const FitSource& source, const FitData& fit, const
     return boundary.value[b] - (boundary.condition[b] == Condition::dirichlet ? 1 : boundary.coefficient[b]) * own;
   };
   std::vector<double> values;
-  detail::makeLarge(values, fit.data.size());
+  detail::makeLargeOnThreads(values, fit.data.size(), threads);
   forBlocks(values.size(), threads, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const double length = fit.data[i].length;

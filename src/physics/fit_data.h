@@ -33,6 +33,7 @@ struct FitData {
 struct FitSource {
   const CellComplex& cells;
   const DualEdges& dual;
+  const detail::Csr<uint32_t>& edgesOfCells;  ///< cellEdges()
   const PoissonProblem& problem;
 };
 

@@ -7,6 +7,7 @@
 #include "mesh/run_call.h"
 #include "operators/measure/vector.h"
 #include "operators/require_cut_mesh.h"
+#include "physics/cell_edges.h"
 #include "physics/cell_velocities.h"
 #include "physics/far_field.h"
 #include "physics/flow_of_phi.h"
@@ -157,7 +158,8 @@ Flow physics::flowOfPhi(const CellComplex& cells, const std::array<double, 3>& w
     detail::Monitor monitor(options, 1);
     const DualEdges dual = dualEdges(cells, problem.dualPoints, {}, monitor.threads());
     const std::vector<BoundaryTerm> terms = boundaryTerms(cells, problem);
-    flow.faceVelocity = Differentiator(cells, dual, problem, terms, monitor.threads()).plain(flow.phi);
+    flow.faceVelocity =
+        Differentiator(cells, dual, cellEdges(cells, dual, monitor.threads()), problem, terms, monitor.threads()).plain(flow.phi);
     flow.faceVelocity.resize(cells.faceCount());
     setOnBoundary(problem.boundary, flow);
     monitor.beginStage("velocities", 0);

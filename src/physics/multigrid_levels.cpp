@@ -17,8 +17,8 @@ struct CoupledPair {
 
 /// Fills in the diagonal: `held` plus `mass` plus couplings.
 void setDiagonal(Level& level, unsigned threads) {
-  detail::makeLarge(level.diagonal, level.held.size());
-  detail::makeLarge(level.inverse, level.held.size());
+  detail::makeLargeOnThreads(level.diagonal, level.held.size(), threads);
+  detail::makeLargeOnThreads(level.inverse, level.held.size(), threads);
   forBlocks(level.count(), threads, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       double sum = level.held[i] + level.mass[i];
@@ -36,8 +36,8 @@ void setCouplings(Level& level, const std::vector<CoupledPair>& pairs, unsigned 
     rows.offsets.assign(count + 1, 0);
     for (const CoupledPair& pair : pairs) ++rows.offsets[rowOf(pair)];
     detail::toOffsets(rows.offsets);
-    detail::makeLarge(rows.nodes, n);
-    detail::makeLarge(rows.weights, n);
+    detail::makeLargeOnThreads(rows.nodes, n, threads);
+    detail::makeLargeOnThreads(rows.weights, n, threads);
     for (size_t i = 0; i < n; ++i) {
       const CoupledPair& pair = pairs[isReversed ? n - 1 - i : i];
       const uint32_t at = rows.offsets[rowOf(pair)]++;
@@ -68,8 +68,8 @@ void takeEntries(const CsrMatrix& matrix, const IsOnSide& isOnSide, bool isRever
     for (size_t i = begin; i < end; ++i) forEntries(i, [&](size_t) { ++rows.offsets[i]; });
   });
   const size_t count = detail::toOffsets(rows.offsets);
-  detail::makeLarge(rows.nodes, count);
-  detail::makeLarge(rows.weights, count);
+  detail::makeLargeOnThreads(rows.nodes, count, threads);
+  detail::makeLargeOnThreads(rows.weights, count, threads);
   forBlocks(matrix.rows(), threads, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       size_t at = rows.offsets[i];

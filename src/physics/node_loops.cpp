@@ -1,7 +1,6 @@
 #include "physics/node_loops.h"
 
 #include <algorithm>
-#include <atomic>
 #include <vector>
 
 #include "base/threads.h"
@@ -14,10 +13,8 @@ unsigned threadsFor(size_t nodes, unsigned threads) {
 }
 
 void forBlocks(size_t nodes, unsigned threads, detail::FunctionRef<void(size_t, size_t)> f) {
-  std::atomic<size_t> next{0};
-  detail::runOnThreads(threadsFor(nodes, threads), [&](size_t) {
-    for (size_t begin; (begin = kBlock * next++) < nodes;) f(begin, std::min(begin + kBlock, nodes));
-  });
+  detail::runOnParts(blockCount(nodes), threadsFor(nodes, threads),
+                     [&](size_t block) { f(kBlock * block, std::min(kBlock * (block + 1), nodes)); });
 }
 
 double sumOfBlocks(size_t nodes, unsigned threads, detail::FunctionRef<double(size_t, size_t)> f) {

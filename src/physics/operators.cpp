@@ -1,5 +1,6 @@
 #include "mandoline/operators.h"
 
+#include "physics/cell_edges.h"
 #include "physics/dual_edges.h"
 #include "physics/sparse.h"
 
@@ -59,7 +60,8 @@ SparseMatrix divergence(const CellComplex& cells) {
 }
 
 SparseMatrix laplacian(const CellComplex& cells, DualPoints dualPoints) {
-  const CsrMatrix matrix = physics::laplacianRows(cells, dualEdges(cells, dualPoints), 1, {}, 1);
+  const DualEdges dual = dualEdges(cells, dualPoints);
+  const CsrMatrix matrix = physics::laplacianRows(cells, dual, physics::cellEdges(cells, dual, 1), 1, {}, 1);
   return EigenRows(matrix).map();
 }
 

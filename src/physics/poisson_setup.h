@@ -21,8 +21,9 @@ struct PoissonSetup {
   std::vector<char> held;  ///< heldComponents()
   std::vector<BoundaryTerm> terms;
   DualEdges dual;
-  std::vector<double> mass;   ///< massTerms()
-  std::vector<double> added;  ///< per cell: what conditions and mass add to the diagonal
+  detail::Csr<uint32_t> edgesOfCells;  ///< cellEdges()
+  std::vector<double> mass;            ///< massTerms()
+  std::vector<double> added;           ///< per cell: what conditions and mass add to the diagonal
   CsrMatrix matrix;
   SweepOrder order;  ///< sweepOrderOf(matrix)
   SystemMatrix system;

@@ -1,4 +1,5 @@
 #include "mesh/run_call.h"
+#include "physics/cell_edges.h"
 #include "physics/poisson_setup.h"
 #include "physics/sparse.h"
 
@@ -26,14 +27,15 @@ PoissonSetup::PoissonSetup(const CellComplex& cells_, PoissonProblem problem_, u
       held(heldComponents(cells, problem, components)),
       terms(boundaryTerms(cells, problem)),
       dual(dualEdges(cells, problem.dualPoints, problem.faceCoefficient, threads)),
+      edgesOfCells(cellEdges(cells, dual, threads)),
       mass(massTerms(cells, problem)),
       added(addedTerms(heldTerms(cells, problem.boundary, terms), mass)),
-      matrix(laplacianRows(cells, dual, -1, added, threads)),
+      matrix(laplacianRows(cells, dual, edgesOfCells, -1, added, threads)),
       order(sweepOrderOf(matrix)),
       system(matrix, added, order),
       means(cells, components, held),
       multigrid(multigridLevels(cells, matrix, order, heldTerms(cells, problem.boundary, terms), mass, threads)),
-      differentiator(cells, dual, problem, terms, threads) {}
+      differentiator(cells, dual, edgesOfCells, problem, terms, threads) {}
 
 void requireOptions(const SolveOptions& options) {
   if (!(options.tolerance > 0)) throw CallError({Status::badOption, -1, -1, "The tolerance has to be positive."});

@@ -56,8 +56,8 @@ CsrMatrix joined(std::span<const CsrMatrix> parts, size_t columns, detail::Monit
     begins.push_back(begin);
     for (size_t r = 1; r <= part.rows(); ++r) matrix.rowOffsets.push_back(int64_t(begin) + part.rowOffsets[r]);
   }
-  detail::makeLarge(matrix.entryColumns, size_t(matrix.rowOffsets.back()));
-  detail::makeLarge(matrix.entryValues, size_t(matrix.rowOffsets.back()));
+  detail::makeLargeOnThreads(matrix.entryColumns, size_t(matrix.rowOffsets.back()), monitor.threads());
+  detail::makeLargeOnThreads(matrix.entryValues, size_t(matrix.rowOffsets.back()), monitor.threads());
   std::vector<uint32_t> order(parts.size());
   std::iota(order.begin(), order.end(), 0u);
   detail::runItems(order, monitor, [&](size_t, uint32_t p) {
@@ -88,19 +88,18 @@ SparseMatrix assemble(size_t rows, size_t columns, const Triplets& entries) {
   return EigenRows(matrix).map();
 }
 
-CsrMatrix laplacianRows(const CellComplex& cells, const DualEdges& dual, double factor, const std::vector<double>& added,
-                        unsigned threads) {
+CsrMatrix laplacianRows(const CellComplex& cells, const DualEdges& dual, const detail::Csr<uint32_t>& edgesOfCells, double factor,
+                        const std::vector<double>& added, unsigned threads) {
   struct Part {
     CsrMatrix rows;
     std::vector<Entry> row;
   };
   const RunOptions quiet{threads, {}};
   detail::Monitor monitor(quiet, 1);
-  const detail::Csr<uint32_t> edges = cellEdges(cells, dual, threads);
   std::vector<Part> parts = detail::forChunks<Part>(cells.cellCount(), monitor, [&](Part& part, size_t begin, size_t end) {
     for (size_t c = begin; c < end; ++c) {
       part.row.clear();
-      for (const uint32_t e : edges[c]) {
+      for (const uint32_t e : edgesOfCells[c]) {
         forEntries(cells, dual, e, factor, [&](uint32_t row, uint32_t column, double value) {
           if (row == c) part.row.push_back({int32_t(column), value});
         });

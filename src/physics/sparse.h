@@ -15,6 +15,8 @@ CsrMatrix assembleRows(size_t rows, size_t columns, const Triplets& entries);
 SparseMatrix assemble(size_t rows, size_t columns, const Triplets& entries);
 
 /// The Laplacian, div k grad, times a factor, plus what is added to the diagonal (per row; empty for nothing).
-CsrMatrix laplacianRows(const CellComplex& cells, const DualEdges& dual, double factor, const std::vector<double>& added, unsigned threads);
+/// `edgesOfCells`: cellEdges().
+CsrMatrix laplacianRows(const CellComplex& cells, const DualEdges& dual, const detail::Csr<uint32_t>& edgesOfCells, double factor,
+                        const std::vector<double>& added, unsigned threads);
 
 }  // namespace mandoline::physics

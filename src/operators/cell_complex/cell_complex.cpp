@@ -40,8 +40,8 @@ class Builder {
     const std::vector<Place> places = placeFaces();
     monitor_.beginStage("cells", 1);
     addFaces(places);
-    addCells();
-    operators::gatherHalfFaces(result_);
+    inChunks(octree_.cellCount(), [&](size_t c) { addCell(c); });
+    operators::gatherHalfFaces(result_, monitor_.threads());
     return std::move(result_);
   }
 
@@ -53,9 +53,11 @@ class Builder {
 
   void index() {
     const std::function<void()> tasks[] = {
-        [&] { corners_.emplace(cutMesh_, octree_); },
+        [&] { corners_->setPlaces(); },
+        [&] { corners_->linkCutVertices(); },
         [&] { index_.emplace(octree_); },
     };
+    corners_.emplace(cutMesh_, octree_);
     detail::runTasks(tasks, monitor_);
   }
 
@@ -64,14 +66,18 @@ class Builder {
     result_.faceCells = operators::ownersOf(cutMesh_);
     const std::vector<int64_t> gridCells = operators::gridCellsBeside(cutMesh_, result_.faceCells);
     const int64_t nx = octree_.gridCells[0], ny = octree_.gridCells[1];
-    for (size_t h = 0; h < result_.faceCells.size(); ++h) {
+    const auto take = [&](size_t h) {
       const int64_t cell = gridCells[h];
-      if (cell < 0 || !isInLayers(int32_t(cell / nx / ny))) continue;
+      if (cell < 0 || !isInLayers(int32_t(cell / nx / ny))) return;
       const int64_t octreeCell = index_->find({int32_t(cell % nx), int32_t(cell / nx % ny), int32_t(cell / nx / ny)}, 0);
       if (octreeCell < 0) operators::refuse(kOther);
       result_.faceCells[h] = idOf(octreeCell);
-    }
-    for (size_t f = 0; f < cutMesh_.faceCount(); ++f) result_.faceTag.push_back(tagOf(f));
+    };
+    result_.faceTag.resize(cutMesh_.faceCount());
+    inChunks(cutMesh_.faceCount(), [&](size_t f) {
+      take(2 * f), take(2 * f + 1);
+      result_.faceTag[f] = tagOf(f);
+    });
   }
 
   int32_t idOf(int64_t octreeCell) const { return int32_t(int64_t(cutMesh_.cellCount()) + octreeCell); }
@@ -241,16 +247,18 @@ class Builder {
     result_.faceLoopOffsets[f + 1] = uint32_t(cutMesh_.loopCount() + f + 1 - cutMesh_.faceCount());
   }
 
-  /// Of octree cells, what is not yet known.
-  void addCells() {
+  /// Runs f(i) for 0..n.
+  template <class F>
+  void inChunks(size_t n, const F& f) {
     detail::runChunks(
-        octree_.cellCount(), detail::chunkCount(octree_.cellCount(), monitor_, kBlock), monitor_,
+        n, detail::chunkCount(n, monitor_, kBlock), monitor_,
         [&](size_t, size_t begin, size_t end) {
-          for (size_t c = begin; c < end; ++c) addCell(c);
+          for (size_t i = begin; i < end; ++i) f(i);
         },
         kBlock);
   }
 
+  /// Of an octree cell, what is not yet known.
   void addCell(size_t c) {
     const GridIndex corner = octree_.corner(c), end = octree_.end(c);
     const size_t id = cutMesh_.cellCount() + c;

@@ -9,17 +9,18 @@
 namespace mandoline::operators {
 
 GridCorners::GridCorners(const CutMesh& cutMesh, const OctreeCells& octree)
-    : cutMesh_(cutMesh), octree_(octree), places_(numberOf(octree.gridCells) + 1, octree.cellCount()) {
-  linkCutVertices();
+    : cutMesh_(cutMesh), octree_(octree), places_(numberOf(octree.gridCells) + 1, octree.cellCount()) {}
+
+void GridCorners::setPlaces() {
   const auto forCutCorners = [&](const auto& f) {
-    for (size_t v = 0; v < cutMesh.vertexCount(); ++v) {
-      const int32_t* at = &cutMesh.vertexCell[3 * v];
-      if (cutMesh.vertexMask[v] == 7) f(uint32_t(v), numberOf({at[0], at[1], at[2]}));
+    for (size_t v = 0; v < cutMesh_.vertexCount(); ++v) {
+      const int32_t* at = &cutMesh_.vertexCell[3 * v];
+      if (cutMesh_.vertexMask[v] == 7) f(uint32_t(v), numberOf({at[0], at[1], at[2]}));
     }
   };
   forCutCorners([&](uint32_t, uint64_t number) { places_.insert(number); });
-  for (size_t c = 0; c < octree.cellCount(); ++c) {
-    const GridIndex low = octree.corner(c), high = octree.end(c);
+  for (size_t c = 0; c < octree_.cellCount(); ++c) {
+    const GridIndex low = octree_.corner(c), high = octree_.end(c);
     for (int which = 0; which < 8; ++which) {
       places_.insert(numberOf({(which & 1 ? high : low)[0], (which & 2 ? high : low)[1], (which & 4 ? high : low)[2]}));
     }
@@ -33,7 +34,7 @@ GridCorners::GridCorners(const CutMesh& cutMesh, const OctreeCells& octree)
     id = std::min(id, v);
   });
   for (uint32_t& id : ids_) {
-    if (id == kNew) id = uint32_t(cutMesh.vertexCount() + added_++);
+    if (id == kNew) id = uint32_t(cutMesh_.vertexCount() + added_++);
   }
 }
 

@@ -11,6 +11,10 @@ class GridCorners {
  public:
   GridCorners(const CutMesh& cutMesh, const OctreeCells& octree);
 
+  // To be called before the rest, in any order or at once.
+  void setPlaces();
+  void linkCutVertices();
+
   /// Appends the positions of those that are not cut-vertices, whose ids follow those of the cut-vertices.
   void appendPositions(std::vector<double>& positions) const;
 
@@ -39,7 +43,6 @@ class GridCorners {
     size_t axis;
     int level;
   };
-  void linkCutVertices();
   uint64_t numberOf(const GridIndex& at) const;
   uint32_t idAt(const GridIndex& at) const { return ids_[places_.rankOf(numberOf(at))]; }
   Edge edgeOf(size_t cell, const OfCell& corners, size_t axis, size_t corner) const;
