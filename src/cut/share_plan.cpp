@@ -100,7 +100,9 @@ class Reach {
 
 namespace {
 
-constexpr uint64_t kPreparingBytes = 48;  // per triangle, beside the prepared mesh: uses of edges, boxes
+// Per triangle, as measured: beside the prepared mesh in the process that inspects the mesh and in others; and of what has been freed when
+// a piece is measured.
+constexpr uint64_t kInspectingBytes = 68, kPreparingBytes = 48, kFreedBytes = 20;
 
 constexpr uint64_t kSeamFaceBytes = 150;  // of a message: a face in a plane, with its share of the vertices there
 
@@ -206,23 +208,24 @@ struct SharePlanner::Data {
       load.faces = facesOf(sum.counts);
       load.seamFaces = hasLayers ? seamBelow + sum.seamFacesAbove : 0;
       load.bytesSent = ranks == 1 ? 0 : sentBy(rank, ranks, sum, hasLayers ? seamBelow : 0, all);
-      load.memoryBytes = memoryOf(ranks, shares.of(rank), sum, all, summaries);
+      load.memoryBytes = std::max(memoryPreparing(rank), memoryOf(ranks, shares.of(rank), sum, all, summaries));
       if (hasLayers) seamBelow = sum.seamFacesAbove;
     }
     return loads;
   }
 
   uint64_t bytesOfView() const { return bytesOf(mesh.view().positions, mesh.view().triangles); }
-  uint64_t memoryPreparing() const {
-    return bytesOfView() + bytesOfPrepared(mesh.prepared()) + kPreparingBytes * mesh.view().triangleCount();
+  uint64_t memoryPreparing(uint32_t rank) const {
+    const uint64_t each = rank == 0 ? kInspectingBytes : kPreparingBytes;
+    return bytesOfView() + bytesOfPrepared(mesh.prepared()) + each * mesh.view().triangleCount();
   }
-  /// Once the output is written, a process has the user's mesh and its part. A few arrays are as long as the mesh.
+  /// Once the output is written, a process has the user's mesh and its part.
   uint64_t memoryOf(uint32_t ranks, const CellLayers& layers, const LayerLoad& sum, const LayerLoads& all, uint64_t summaries) const {
     const uint64_t made = bytesOfPrepared(mesh.prepared()) + bytesOf(input.slabs) + all.surfaceBytes;
     const uint64_t excerpt = ranks == 1 ? made : uint64_t(reach->of(layers) * double(made));
     const auto [writing, measuring] = detail::memoryOf(sum);
-    const uint64_t cutting = excerpt + all.seamBytes + summaries + writing, withoutFace = 5 * mesh.view().triangleCount();
-    return std::max(memoryPreparing(), bytesOfView() + std::max(cutting, withoutFace + measuring));
+    const uint64_t cutting = excerpt + all.seamBytes + summaries + writing, freed = kFreedBytes * mesh.view().triangleCount();
+    return bytesOfView() + std::max(cutting, measuring + freed);
   }
 
   /// Which vertices of the surface loops have, as summaries tell it.
