@@ -25,7 +25,7 @@ struct MeshToPrepare {
 };
 
 /// What prepare() does.
-PrepareResult prepareThis(const MeshToPrepare& mesh, const PrepareOptions& options);
+MANDOLINE_SHARED PrepareResult prepareThis(const MeshToPrepare& mesh, const PrepareOptions& options);
 /// How it begins, and how it ends: with the mesh, and with what of it was prepared.
 std::shared_ptr<PreparedMeshData> beginPreparing(const MeshToPrepare& mesh, const PrepareOptions& options, Monitor& monitor);
 void finishPreparing(std::shared_ptr<PreparedMeshData> data, std::unique_ptr<Prepared> prepared, PrepareResult& result);
