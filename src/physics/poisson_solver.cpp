@@ -32,7 +32,7 @@ PoissonSetup::PoissonSetup(const CellComplex& cells_, PoissonProblem problem_, u
       added(addedTerms(heldTerms(cells, problem.boundary, terms), mass)),
       matrix(laplacianRows(cells, dual, edgesOfCells, -1, added, threads)),
       order(sweepOrderOf(matrix)),
-      system(matrix, added, order),
+      system(matrix, added),
       means(cells, components, held),
       multigrid(multigridLevels(cells, matrix, order, heldTerms(cells, problem.boundary, terms), mass, threads)),
       differentiator(cells, dual, edgesOfCells, problem, terms, threads) {}

@@ -230,7 +230,7 @@ class Solver {
     r.resize(rhs_.size());
     for (double before = updateResidual(r); !(before <= tolerance);) {  // also if it is no number
       const SolveStatus status = conjugateGradients(r, std::min(tolerance, before / 10));
-      setup_.system.sweep(rhs_, result_.phi, threads());
+      setup_.system.sweep(setup_.order, rhs_, result_.phi, threads());
       const double now = updateResidual(r);
       if (now <= tolerance) return;
       if (status == SolveStatus::iterationLimit || !(now < before / 2)) {

@@ -19,9 +19,8 @@ inline SweepOrder sweepOrderOf(const CsrMatrix& matrix) {
 /// large constant in x does not drown the rest.
 class SystemMatrix {
  public:
-  /// `added`: per row, its sum. `order`: sweepOrderOf(matrix).
-  SystemMatrix(const CsrMatrix& matrix, const std::vector<double>& added, const SweepOrder& order)
-      : matrix_(matrix), added_(added), order_(order) {}
+  /// `added`: per row, its sum.
+  SystemMatrix(const CsrMatrix& matrix, const std::vector<double>& added) : matrix_(matrix), added_(added) {}
 
   double row(const std::vector<double>& x, size_t i) const {
     double sum = added_[i] * x[i];
@@ -29,16 +28,17 @@ class SystemMatrix {
     return sum;
   }
   /// Gauss-Seidel, forwards and backwards. The smallest cells hardly show in a residual; this adjusts them to their neighbours.
-  void sweep(const std::vector<double>& rhs, std::vector<double>& x, unsigned threads) const {
+  /// `order`: sweepOrderOf(the matrix).
+  void sweep(const SweepOrder& order, const std::vector<double>& rhs, std::vector<double>& x, unsigned threads) const {
     const auto adjust = [&](size_t i) {
       double diagonal = added_[i];
       forEachOther(i, [&](size_t, double value) { diagonal -= value; });
       if (diagonal > 0) x[i] += (rhs[i] - row(x, i)) / diagonal;
     };
-    order_.forwards(threads, [&](size_t begin, size_t end) {
+    order.forwards(threads, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) adjust(i);
     });
-    order_.backwards(threads, [&](size_t begin, size_t end) {
+    order.backwards(threads, [&](size_t begin, size_t end) {
       for (size_t i = end; i-- > begin;) adjust(i);
     });
   }
@@ -54,7 +54,6 @@ class SystemMatrix {
 
   const CsrMatrix& matrix_;
   const std::vector<double>& added_;
-  const SweepOrder& order_;
 };
 
 }  // namespace mandoline::physics

@@ -89,11 +89,11 @@ class SurfaceCutter {
 
   /// Block by block, since how many there are can't be foretold.
   static void writeIds(const Corner* corners, size_t count, VertexId* to) {
-    static_assert(Corners::kBlock == TriFaceWriter::kBlock);
+    static_assert(CornerRow::kBlock == TriFaceWriter::kBlock);
     size_t i = 0;
     do {
-      for (size_t k = i; k < i + Corners::kBlock; ++k) to[k] = corners[k].id;
-      i += Corners::kBlock;
+      for (size_t k = i; k < i + CornerRow::kBlock; ++k) to[k] = corners[k].id;
+      i += CornerRow::kBlock;
     } while (i < count);
   }
 
@@ -120,7 +120,7 @@ class SurfaceCutter {
   BrickSurface& out_;
   TriFaceWriter faces_;
   TriangleId triangle_{0};
-  Corners outline_;
+  CornerRow outline_;
   Dicer<SurfaceCutter> dicer_;
 };
 

@@ -110,7 +110,7 @@ class Clipper {
   Monitor& monitor_;
   ClippedChunk& chunk_;
   TriangleId triangle_{0};
-  Corners outline_;
+  CornerRow outline_;
   Dicer<Clipper> dicer_;
 };
 
@@ -176,7 +176,7 @@ class WholeDicer {
   Monitor& monitor_;
   ClippedChunk& chunk_;
   TriangleId triangle_{0};
-  Corners outline_;
+  CornerRow outline_;
   std::vector<Corner> onLines_;  // vertices of the arrangement inside of the triangle that lie on grid lines, by slab
   Dicer<WholeDicer> dicer_;
 };

@@ -11,7 +11,7 @@
 namespace mandoline::detail {
 
 /// The outline of a triangle, with all vertices on its sides.
-inline void outlineOf(const Surface& surface, TriangleId triangle, Corners& outline) {
+inline void outlineOf(const Surface& surface, TriangleId triangle, CornerRow& outline) {
   const CutVertices& vertices = surface.vertices;
   const Slab* slabs = vertices.slabs.data();
   outline.clear();
@@ -198,7 +198,7 @@ class Dicer {
 
   /// Adds the vertices of a hybrid edge a -> b, which lies in a plane across the axis: its crossings with planes across the next axis, at
   /// heights along the one after that, which are up to P2; and with planes across that one in between. Makes room for some more.
-  void makeLine(size_t axis, const Corner& a, const Corner& b, Corners& line, size_t more) {
+  void makeLine(size_t axis, const Corner& a, const Corner& b, CornerRow& line, size_t more) {
     const size_t along = kAxes[axis + 1], height = kAxes[axis + 2];
     const size_t most = planesTo(a.slab[along], b.slab[along]) + planesTo(a.slab[height], b.slab[height]);
     line.makeRoom(most + more + 2);
@@ -227,7 +227,7 @@ class Dicer {
   }
 
   /// Appends the crossings with planes across `height` strictly between two points of a hybrid edge that has no other crossings there.
-  void climb(const Corner& from, const Slab& to, size_t height, Corners& line) {
+  void climb(const Corner& from, const Slab& to, size_t height, CornerRow& line) {
     Slab slab = elementBetween(from.slab, to);
     forPlanes(from.slab[height], to[height], [&](int32_t k, int) {
       slab[height] = 2 * k;

@@ -18,12 +18,12 @@ struct Corner {
 using Polygon = std::span<const Corner>;
 
 /// Corners in a row. Room for them is made beforehand, not corner by corner; kBlock more may be read and written behind it.
-class Corners {
+class CornerRow {
  public:
   static constexpr size_t kBlock = 4;
 
-  Corners() = default;
-  Corners(const Corners&) = delete;
+  CornerRow() = default;
+  CornerRow(const CornerRow&) = delete;
 
   /// Forgets all, and makes room for so many.
   void begin(size_t count) {

@@ -10,7 +10,7 @@ namespace mandoline::detail {
 
 /// What pieces are made in.
 struct HalvesRoom {
-  Corners inner, outer, line;
+  CornerRow inner, outer, line;
   std::unique_ptr<HalvesRoom> next;
 
   /// For pieces of the pieces.
@@ -57,7 +57,7 @@ class PolygonHalves {
   }
 
  private:
-  static void join(Polygon line, Corners& below, Corners& above) {
+  static void join(Polygon line, CornerRow& below, CornerRow& above) {
     for (size_t i = 1; i + 1 < line.size(); ++i) {
       below.add(line[i]);
       above.add(line[line.size() - 1 - i]);

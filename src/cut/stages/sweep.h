@@ -8,7 +8,7 @@
 namespace mandoline::detail {
 
 /// What pieces of a polygon are made in, one after the other.
-using SweepRoom = std::array<Corners, 2>;
+using SweepRoom = std::array<CornerRow, 2>;
 
 /// A convex polygon that is cut along an axis, from its lowest vertices up. Its outline ascends from there on two sides, which are walked
 /// once for all planes: so a polygon across many planes costs what its pieces cost.
@@ -41,7 +41,7 @@ class Sweep {
   }
   /// The piece below that plane, to which all vertices of its line in the plane are to be added, from up() to down(). There must be room
   /// for as many more as the polygon has.
-  Corners& unfinished() { return *piece_; }
+  CornerRow& unfinished() { return *piece_; }
   /// Closes it.
   void close() {
     lineSize_ = piece_->size() - lineFirst_;
@@ -70,7 +70,7 @@ class Sweep {
 
   const Corner *const begin_, *const end_;  // of the polygon
   const size_t axis_;
-  Corners *piece_, *next_;
+  CornerRow *piece_, *next_;
   const Corner *up_, *down_ = nullptr, *base_ = nullptr;
   size_t lineFirst_ = 0, lineSize_ = 0;  // in the piece
 };
