@@ -7,6 +7,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/shared.h"
+
 namespace mandoline::detail {
 
 /// Where large pages begin, if there are such.
@@ -17,11 +19,11 @@ inline constexpr size_t kPageAlignment = 16;
 #endif
 
 /// Asks for large pages in memory that is going to be written to. Nothing happens where the system can't.
-void preferLargePages(void* begin, size_t bytes);
+MANDOLINE_SHARED void preferLargePages(void* begin, size_t bytes);
 /// The same, and gets all of its pages. Meanwhile no thread gets other memory from the system: where many threads do, touch it instead.
-void getPages(void* begin, size_t bytes);
+MANDOLINE_SHARED void getPages(void* begin, size_t bytes);
 /// The same on several threads.
-void getPages(void* begin, size_t bytes, unsigned threads);
+MANDOLINE_SHARED void getPages(void* begin, size_t bytes, unsigned threads);
 
 /// Leaves freed memory to the system that the allocator keeps for later, where it can; takes some milliseconds for each gigabyte.
 void giveBackFreed();

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "base/function_ref.h"
+#include "base/shared.h"
 
 #if defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)
 #define MANDOLINE_ONE_THREAD
@@ -29,9 +30,9 @@ inline void yieldThread() { std::this_thread::yield(); }
 #endif
 
 /// Runs work(thread) on that many threads, or on fewer where there are no more.
-void runOnThreads(size_t threads, FunctionRef<void(size_t)> work);
+MANDOLINE_SHARED void runOnThreads(size_t threads, FunctionRef<void(size_t)> work);
 
 /// Runs work(part), which must not throw, for each of that many parts.
-void runOnParts(size_t parts, size_t threads, FunctionRef<void(size_t)> work);
+MANDOLINE_SHARED void runOnParts(size_t parts, size_t threads, FunctionRef<void(size_t)> work);
 
 }  // namespace mandoline::detail

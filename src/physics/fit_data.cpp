@@ -210,8 +210,9 @@ FitData fitData(const FitSource& source, const std::vector<uint32_t>* which, con
 }
 
 std::vector<double> fitValues(const FitSource& source, const FitData& fit, const std::vector<double>& phi, unsigned threads) {
-  const auto& [cells, dual, edgesOfCells, problem] = source;
-  const Boundary& boundary = problem.boundary;
+  const CellComplex& cells = source.cells;
+  const DualEdges& dual = source.dual;
+  const Boundary& boundary = source.problem.boundary;
   const auto differenceOf = [&](uint32_t id) {
     if (id < dual.edges.size()) return differenceAt(cells, dual, id, phi);
     const size_t b = id - dual.edges.size();

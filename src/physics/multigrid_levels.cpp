@@ -158,7 +158,8 @@ std::vector<CoupledPair> pairsOf(const Level& fine, const Level& level, unsigned
   const RunOptions quiet{threadsFor(count, threads), {}};
   detail::Monitor monitor(quiet, 1);
   std::vector<Part> parts = detail::forChunks<Part>(count, monitor, [&](Part& part, size_t begin, size_t end) {
-    auto& [pairs, at] = part;
+    std::vector<CoupledPair>& pairs = part.pairs;
+    std::vector<size_t>& at = part.at;
     at.resize(count, ~size_t(0));
     for (size_t a = begin; a < end; ++a) {
       const size_t first = pairs.size();

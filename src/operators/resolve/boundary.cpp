@@ -98,7 +98,9 @@ class SolidBoundary {
   /// regions.
   void addSides() {
     const OctreeCells octree = coarsen(cutMesh_);
-    const operators::GridCorners corners(cutMesh_, octree);
+    operators::GridCorners corners(cutMesh_, octree);
+    corners.setPlaces();
+    corners.linkCutVertices();
     corners.appendPositions(positions_);
     for (size_t c = 0; c < octree.cellCount(); ++c) {
       if (!isInside_[octree.cellRegion[c]]) continue;
