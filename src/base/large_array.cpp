@@ -41,13 +41,6 @@ void getPages(void* begin, size_t bytes) {
   advise(roundedUp(at, kPage), (at + bytes) & ~(kPage - 1), MADV_POPULATE_WRITE);
 }
 
-#else
-
-void preferLargePages(void*, size_t) {}
-void getPages(void*, size_t) {}
-
-#endif
-
 void getPages(void* begin, size_t bytes, unsigned threads) {
   constexpr size_t kSlice = 8 * kPageAlignment;
   const auto first = reinterpret_cast<uintptr_t>(begin), past = first + bytes;
@@ -57,6 +50,14 @@ void getPages(void* begin, size_t bytes, unsigned threads) {
     getPages(reinterpret_cast<void*>(from), to - from);
   });
 }
+
+#else
+
+void preferLargePages(void*, size_t) {}
+void getPages(void*, size_t) {}
+void getPages(void*, size_t, unsigned) {}
+
+#endif
 
 #ifdef __GLIBC__
 void giveBackFreed() { malloc_trim(0); }

@@ -39,7 +39,7 @@ class Equations {
  public:
   Equations(const CellComplex& cells, const FitData& data) : cells_(cells), data_(data) {}
 
-  /// The cell's data, ascending.
+  /// The cell's data, each once: its own, then those of its neighbours.
   const std::vector<uint32_t>& gather(uint32_t cell) {
     isGathered_.resize(data_.data.size());
     ids_.clear();

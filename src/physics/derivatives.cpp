@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/large_array.h"
+#include "base/parallel.h"
 #include "base/sort.h"
 #include "physics/cell_edges.h"
 #include "physics/face_box.h"
@@ -43,19 +44,22 @@ Differentiator::Differentiator(const CellComplex& cells, const DualEdges& dual, 
       edgesOfCells_(edgesOfCells),
       problem_(problem),
       terms_(terms),
-      threads_(threads),
       coefficients_(cellCoefficients(cells, dual, problem.boundary)) {
   struct FaceOfEdge {
     uint32_t face, edge;
   };
   std::vector<FaceOfEdge> all;
-  const auto edges = rowsOf(blockCount(dual.edges.size()), threads, [&](size_t block, std::vector<uint32_t>& row) {
-    for (size_t e = block * kBlock; e < std::min((block + 1) * kBlock, dual.edges.size()); ++e) {
-      if (isCorrected(e)) row.push_back(uint32_t(e));
+  const RunOptions quiet{threads, {}};
+  detail::Monitor monitor(quiet, 1);
+  const auto parts = detail::forChunks<std::vector<uint32_t>>(dual.edges.size(), monitor, [&](auto& edges, size_t begin, size_t end) {
+    for (size_t e = begin; e < end; ++e) {
+      if (isCorrected(e)) edges.push_back(uint32_t(e));
     }
   });
-  for (const uint32_t e : edges.items) {
-    for (const uint32_t f : dual.faces[e]) all.push_back({f, e});
+  for (const std::vector<uint32_t>& part : parts) {
+    for (const uint32_t e : part) {
+      for (const uint32_t f : dual.faces[e]) all.push_back({f, e});
+    }
   }
   detail::sortItems(all, [](const FaceOfEdge& a, const FaceOfEdge& b) { return a.face < b.face; });
   for (const auto& [face, edge] : all) corrected_.push_back(face), edges_.push_back(edge);
@@ -74,7 +78,7 @@ CellFitter Differentiator::fitter(detail::Monitor& monitor) const {
   for (uint32_t c = 0; c < isFitted.size(); ++c) {
     if (isFitted[c]) fitted.push_back(c);
   }
-  return {cells_, fitData({cells_, dual_, edgesOfCells_, problem_}, &fitted, coefficients_, threads_), fitted, monitor};
+  return {cells_, fitData({cells_, dual_, edgesOfCells_, problem_}, &fitted, coefficients_, monitor.threads()), fitted, monitor};
 }
 
 /// Octree cells of one size, larger than grid cells.
@@ -136,10 +140,10 @@ double Differentiator::plainOnBoundary(size_t b, const std::vector<double>& phi)
   return all > 0 ? flow / all : 0;
 }
 
-std::vector<double> Differentiator::plain(const std::vector<double>& phi) const {
+std::vector<double> Differentiator::plain(const std::vector<double>& phi, unsigned threads) const {
   std::vector<double> result;
-  detail::makeLargeOnThreads(result, cells_.faceCount() + terms_.size(), threads_);
-  forBlocks(dual_.edges.size(), threads_, [&](size_t begin, size_t end) {
+  detail::makeLargeOnThreads(result, cells_.faceCount() + terms_.size(), threads);
+  forBlocks(dual_.edges.size(), threads, [&](size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {
       const double derivative = plainAt(e, phi);
       for (const uint32_t f : dual_.faces[e]) result[f] = derivative;
@@ -149,10 +153,10 @@ std::vector<double> Differentiator::plain(const std::vector<double>& phi) const 
   return result;
 }
 
-double Differentiator::squareOfPlain(const std::vector<double>& phi) const {
+double Differentiator::squareOfPlain(const std::vector<double>& phi, unsigned threads) const {
   double onBoundary = 0;
   for (size_t b = 0; b < terms_.size(); ++b) onBoundary += plainOnBoundary(b, phi) * plainOnBoundary(b, phi) * terms_[b].flow;
-  return onBoundary + sumOfBlocks(dual_.edges.size(), threads_, [&](size_t begin, size_t end) {
+  return onBoundary + sumOfBlocks(dual_.edges.size(), threads, [&](size_t begin, size_t end) {
            double sum = 0;
            for (size_t e = begin; e < end; ++e) sum += plainAt(e, phi) * plainAt(e, phi) * dual_.edges[e].flow;
            return sum;
@@ -217,10 +221,10 @@ double Differentiator::correctionOnBoundary(size_t b, const CellFits& fits) cons
 }
 
 std::vector<double> Differentiator::corrections(CellFitter& fitter, const std::vector<double>& phi, detail::Monitor& monitor) const {
-  const std::vector<double> values = fitValues({cells_, dual_, edgesOfCells_, problem_}, fitter.data(), phi, threads_);
+  const std::vector<double> values = fitValues({cells_, dual_, edgesOfCells_, problem_}, fitter.data(), phi, monitor.threads());
   const CellFits& fits = fitter.fit(values, sourceOf(phi, fitter.data().cellSize), monitor);
   std::vector<double> result(corrected_.size());
-  forBlocks(result.size(), threads_, [&](size_t begin, size_t end) {
+  forBlocks(result.size(), monitor.threads(), [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       result[i] = i < edges_.size() ? correctionOf(edges_[i], corrected_[i], fits, phi)
                                     : correctionOnBoundary(corrected_[i] - cells_.faceCount(), fits);

@@ -15,9 +15,9 @@ class Differentiator {
                  const std::vector<BoundaryTerm>& terms, unsigned threads);
 
   /// Those that the problem's system has: differences over distances.
-  std::vector<double> plain(const std::vector<double>& phi) const;
+  std::vector<double> plain(const std::vector<double>& phi, unsigned threads) const;
   /// The sum of their squares by area and coefficient.
-  double squareOfPlain(const std::vector<double>& phi) const;
+  double squareOfPlain(const std::vector<double>& phi, unsigned threads) const;
 
   /// What is added to some of those for second order, from polynomials fitted in the cells on both sides: such a derivative is that of the
   /// polynomials at the face's centroid, and what they leave of the difference of phi, over the distance; between octree cells of one size
@@ -54,7 +54,6 @@ class Differentiator {
   const detail::Csr<uint32_t>& edgesOfCells_;
   const PoissonProblem& problem_;
   const std::vector<BoundaryTerm>& terms_;
-  const unsigned threads_;
   CellCoefficients coefficients_;
   std::vector<uint32_t> corrected_;  // derivatives
   std::vector<uint32_t> edges_;      // of those of faces, the dual edge

@@ -1,6 +1,7 @@
 #include "physics/multigrid_levels.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/disjoint_sets.h"
 #include "base/large_array.h"
@@ -151,30 +152,36 @@ void holdStill(Level& level, std::vector<CoupledPair>& pairs) {
 /// How the nodes of the next level are coupled, in the order of a.
 std::vector<CoupledPair> pairsOf(const Level& fine, const Level& level, unsigned threads) {
   const size_t count = level.held.size();
-  struct Part {
-    std::vector<CoupledPair> pairs;
-    std::vector<size_t> at;  // place of a's pair with b
+  struct Place {
+    uint32_t a = ~0u, pair;  // that of a with b, among those of a
   };
   const RunOptions quiet{threadsFor(count, threads), {}};
   detail::Monitor monitor(quiet, 1);
-  std::vector<Part> parts = detail::forChunks<Part>(count, monitor, [&](Part& part, size_t begin, size_t end) {
-    std::vector<CoupledPair>& pairs = part.pairs;
-    std::vector<size_t>& at = part.at;
-    at.resize(count, ~size_t(0));
-    for (size_t a = begin; a < end; ++a) {
+  std::vector<std::vector<Place>> placesOfThreads(monitor.threads());  // per b
+  std::vector<std::vector<CoupledPair>> parts(blockCount(count));
+  std::vector<uint32_t> blocks(parts.size());
+  std::iota(blocks.begin(), blocks.end(), 0u);
+  detail::runItems(blocks, monitor, [&](size_t thread, uint32_t block) {
+    std::vector<Place>& places = placesOfThreads[thread];
+    places.resize(count);
+    std::vector<CoupledPair>& pairs = parts[block];
+    for (uint32_t a = uint32_t(block * kBlock); a < std::min(count, (block + 1) * kBlock); ++a) {
       const size_t first = pairs.size();
       for (const uint32_t i : fine.members[a]) {
         fine.forCouplings(i, [&](uint32_t j, double w) {
           const uint32_t b = fine.coarse[j];
           if (b >= a) return;
-          if (at[b] == ~size_t(0) || at[b] < first) at[b] = pairs.size(), pairs.push_back({uint32_t(a), b, 0});
-          pairs[at[b]].w += w * farther(fine, fine.size[i] + fine.size[j], level.size[a] + level.size[b]);
+          if (places[b].a != a) places[b] = {a, uint32_t(pairs.size() - first)}, pairs.push_back({a, b, 0});
+          pairs[first + places[b].pair].w += w * farther(fine, fine.size[i] + fine.size[j], level.size[a] + level.size[b]);
         });
       }
     }
   });
-  std::vector<CoupledPair> pairs = std::move(parts[0].pairs);
-  for (size_t p = 1; p < parts.size(); ++p) pairs.insert(pairs.end(), parts[p].pairs.begin(), parts[p].pairs.end());
+  std::vector<CoupledPair> pairs;
+  size_t total = 0;
+  for (const auto& part : parts) total += part.size();
+  pairs.reserve(total);
+  for (const auto& part : parts) pairs.insert(pairs.end(), part.begin(), part.end());
   return pairs;
 }
 

@@ -11,7 +11,8 @@ inline constexpr size_t kBlock = 2048;  ///< nodes
 
 inline size_t blockCount(size_t nodes) { return (nodes + kBlock - 1) / kBlock; }
 
-/// How many threads are worth starting for so many nodes: so few of them are done before another thread has started.
+/// How many threads are worth starting for so many nodes, at most `threads`, which is at least 1: starting one takes as long as some
+/// blocks.
 unsigned threadsFor(size_t nodes, unsigned threads);
 
 /// Runs f(begin, end), which must not throw, for each block of nodes.

@@ -155,7 +155,7 @@ class Solver {
     const Differentiator& differentiator = setup_.differentiator;
     if (!setup_.fitter) setup_.fitter.emplace(differentiator.fitter(unheard));
     Vector foundBefore, missingBefore, next(differentiator.corrected().size());
-    double enough = 0x1p10 * options_.tolerance * options_.tolerance * differentiator.squareOfPlain(result_.phi), before = 0;
+    double enough = 0x1p10 * options_.tolerance * options_.tolerance * differentiator.squareOfPlain(result_.phi, threads()), before = 0;
     const int first = isWarm_ ? 1 : 0;  // the first pass after a solution
     for (int pass = 0; pass < options_.corrections; ++pass) {
       Vector found = differentiator.corrections(*setup_.fitter, result_.phi, unheard), missing = found;
@@ -185,7 +185,7 @@ class Solver {
   }
 
   void setDerivatives() {
-    Vector derivatives = setup_.differentiator.plain(result_.phi);
+    Vector derivatives = setup_.differentiator.plain(result_.phi, threads());
     for (size_t i = 0; i < corrections_.size(); ++i) derivatives[setup_.differentiator.corrected()[i]] += corrections_[i];
     const auto boundary = derivatives.begin() + ptrdiff_t(cells_.faceCount());
     result_.boundaryDerivative.assign(boundary, derivatives.end());

@@ -47,9 +47,11 @@ void forEntries(const CellComplex& cells, const DualEdges& dual, size_t e, doubl
 }
 
 /// The rows of all, on all threads.
-CsrMatrix joined(std::span<const CsrMatrix> parts, size_t columns, detail::Monitor& monitor) {
+CsrMatrix joined(std::vector<CsrMatrix> parts, size_t columns, detail::Monitor& monitor) {
   CsrMatrix matrix;
+  if (parts.size() == 1) matrix = std::move(parts[0]);
   matrix.columns = columns;
+  if (parts.size() == 1) return matrix;
   std::vector<size_t> begins;  // entries
   for (const CsrMatrix& part : parts) {
     const auto begin = size_t(matrix.rowOffsets.back());
@@ -110,7 +112,7 @@ CsrMatrix laplacianRows(const CellComplex& cells, const DualEdges& dual, const d
   });
   std::vector<CsrMatrix> rows;
   for (Part& part : parts) rows.push_back(std::move(part.rows));
-  return joined(rows, cells.cellCount(), monitor);
+  return joined(std::move(rows), cells.cellCount(), monitor);
 }
 
 }  // namespace mandoline::physics

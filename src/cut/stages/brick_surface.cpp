@@ -44,7 +44,7 @@ class SurfaceCutter {
   void addPiece(Polygon polygon, const Slab& element) {
     const CutVertices& vertices = out_.vertices;
     uint64_t lowest = ~uint64_t(0);  // with its place in the lower bits
-    bool touchesLine = false, isSpecial = false;
+    bool touchesLine = false, isSpecial = isStitched_;
     for (size_t i = 0; i < polygon.size(); ++i) {
       const VertexId v = polygon[i].id;
       const int planes = planeCount(polygon[i].slab);
@@ -68,6 +68,7 @@ class SurfaceCutter {
 
   void cut(const ClippedTriangles::Part& part) {
     triangle_ = part.triangle;
+    isStitched_ = surface_.edges().hasStitchedSide(triangle_);
     if (part.piece != ClippedTriangles::kWhole) {
       const Polygon piece = parts_.clipped.pieces[part.piece];
       outline_.clear();
@@ -78,7 +79,7 @@ class SurfaceCutter {
     const auto t = input_.verticesOf(triangle_);
     const Slab &a = input_.slabs[t[0]], &b = input_.slabs[t[1]], &c = input_.slabs[t[2]];
     const Extent extent = Extent::of(a, b, c);
-    if (!extent.isOneElement() || surface_.edges().hasStitchedSide(triangle_)) {
+    if (!extent.isOneElement() || isStitched_) {
       outlineOf(surface_, triangle_, outline_);
       return dicer_.dice(triangle_, outline_.all(), extent, kInGrid);
     }
@@ -120,6 +121,7 @@ class SurfaceCutter {
   BrickSurface& out_;
   TriFaceWriter faces_;
   TriangleId triangle_{0};
+  bool isStitched_ = false;  // whether vertices are stitched into its sides
   CornerRow outline_;
   Dicer<SurfaceCutter> dicer_;
 };

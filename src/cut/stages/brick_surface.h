@@ -16,7 +16,7 @@ struct BrickSurface {
   const Input& input;
   CutVertices vertices;
   TriFaces triFaces;                 ///< ascending by triangle, those of divided triangles last
-  std::vector<FaceId> specialFaces;  ///< of divided triangles, or with a vertex on more planes than all of its kind are; ascending
+  std::vector<FaceId> specialFaces;  ///< see PartedCell; ascending
   std::vector<FaceEdge> faceEdges;   ///< cut-edges that lie in a grid-face: in each by triangle, those of tri-edges last. Counter-clockwise
                                      ///< about its axis, the front of a hybrid edge's triangle is on the left
   std::span<const VertexId> seamVertices;  ///< see Bricks

@@ -43,7 +43,7 @@ struct GridFaceScratch {
   std::vector<VertexId> outline, loop;
   std::array<uint32_t, 5> sides;                              ///< where they begin in the outline, and where the last ends
   IdVector<PlanarGraph::Face, std::optional<HalfFace>> seen;  ///< per face of the graph: what the cell below the plane sees
-  bool onlyGraph = false;                                     ///< without chains.h
+  bool onlyGraph = false;                                     ///< without one_chain.h and chains.h
 };
 
 /// Replaces `faces`, whose memory is used again.

@@ -254,6 +254,7 @@ class Harvest {
       offsets.back() = at;
     });
     out_.triLoops.loops.offsets = memory_.faces.make<uint32_t>(tri.loops.offsets.size(), [&](std::span<uint32_t> offsets) {
+      offsets.back() = uint32_t(tri.loops.items.size());
       out_.triLoops.loops.items = memory_.faces.make<uint32_t>(tri.loops.items.size(), [&](std::span<uint32_t> items) {
         const VertexPlaces places(vertices_, gathered_.places, gathered_.surfaceVertices);
         uint32_t *offset = offsets.data(), *item = items.data();
@@ -263,7 +264,6 @@ class Harvest {
             for (const VertexId v : loop) *item++ = places.of(v);
           }
         }
-        *offset = uint32_t(items.size());
       });
     });
   }

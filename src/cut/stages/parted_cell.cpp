@@ -4,21 +4,6 @@
 #include <utility>
 
 namespace mandoline::detail {
-namespace {
-
-/// The corners of each grid-face of a cell, as of Stencil::cornersOf().
-constexpr auto kCornersOfFace = [] {
-  std::array<std::array<uint8_t, 4>, 6> corners{};
-  for (int d = 0; d < 3; ++d) {
-    for (int side = 0; side < 2; ++side) {
-      const int base = side << d, p = 1 << (d + 1) % 3, q = 1 << (d + 2) % 3;
-      corners[size_t(cellFace(d, side))] = {uint8_t(base), uint8_t(base + p), uint8_t(base + p + q), uint8_t(base + q)};
-    }
-  }
-  return corners;
-}();
-
-}  // namespace
 
 void PartedCell::begin(const BrickSurface& surface, const Stencil& stencil) {
   const Prepared& mesh = *surface.input.mesh;
@@ -26,17 +11,18 @@ void PartedCell::begin(const BrickSurface& surface, const Stencil& stencil) {
   if (!canTell_) return;
   isSpecial_.assign(stencil.cells.size(), 0);
   for (const FaceId f : surface.specialFaces) {
-    const auto cell = stencil.find(surface.triFaces.elements[f]);  // none of a face in an axial plane
+    const auto cell = stencil.find(surface.triFaces.elements[f]);  // the one above a face in an axial plane, which has a graph anyway
     if (cell) isSpecial_[*cell] = 1;
   }
 }
 
 bool PartedCell::find(const BrickSurface& surface, const Stencil& stencil, const GridFaces& grid, GridCellId cell) {
-  return canTell_ && !isSpecial_[cell] && isOneSheet(surface, stencil.triFacesInCell[cell]) &&
+  const auto faces = stencil.triFacesInCell[cell];
+  return canTell_ && !isSpecial_[cell] && faces.size() <= kMostFaces && isOneSheet(surface, faces) &&
          findSides(stencil, grid, cell, surface.vertices.firstInTriangle);
 }
 
-/// A tri-cut-face without stitched sides has six ends of tri-edges at most, so that a quarter of the slots stays free.
+/// A tri-cut-face that is not special has six ends of tri-edges at most, so that a quarter of the slots stays free.
 void PartedCell::clearTable(size_t faces) {
   mask_ = 63;
   while (mask_ < 8 * faces) mask_ = 2 * mask_ + 1;
@@ -124,7 +110,7 @@ bool PartedCell::findSides(const Stencil& stencil, const GridFaces& grid, GridCe
       found.ofPieces[first + beside[0]] |= inFront;
       found.ofPieces[first + beside[1]] |= behind;
     }
-    for (size_t c = 0; c < 4; ++c) found.atCorners[kCornersOfFace[i][c]] |= found.ofPieces[first + outline[5 + outline[c]]];
+    for (size_t c = 0; c < 4; ++c) found.atCorners[kOutlines[i].corners[c]] |= found.ofPieces[first + outline[5 + outline[c]]];
   }
   if (!findSidesOfWhole({wholeFaces.data(), wholeCount}, found)) return false;
   const auto isFound = [](uint8_t side) { return side == behind || side == inFront; };
@@ -139,7 +125,7 @@ bool PartedCell::findSidesOfWhole(std::span<const std::array<uint8_t, 2>> wholeF
   for (size_t count = 0, before = 0; count < wholeFaces.size(); before = count) {
     count = 0;
     for (const auto& [face, piece] : wholeFaces) {
-      const auto& [a, b, c, d] = kCornersOfFace[face];
+      const auto& [a, b, c, d] = kOutlines[face].corners;
       auto& corners = found.atCorners;
       const uint8_t side = corners[a] | corners[b] | corners[c] | corners[d];
       corners[a] = corners[b] = corners[c] = corners[d] = found.ofPieces[piece] = side;

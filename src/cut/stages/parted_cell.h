@@ -17,8 +17,9 @@ class PartedCell {
   /// Begins with the cells of a brick.
   void begin(const BrickSurface& surface, const Stencil& stencil);
 
-  /// Finds the side of each piece of the cell's grid-faces. False, without sides to use, unless it is one sheet that parts the cell, and
-  /// no vertex of the sheet is in a special position.
+  /// Finds the side of each piece of the cell's grid-faces. False, without sides to use, unless it is one sheet of few faces that parts the
+  /// cell, none of them special. Special are faces of divided triangles and of those with stitched sides, and faces with a vertex on more
+  /// planes than its kind needs: none for those of the mesh, one on tri-edges, two in triangles.
   bool find(const BrickSurface& surface, const Stencil& stencil, const GridFaces& grid, GridCellId cell);
 
   /// By the cell's grid-faces, then as GridFaces has their half-faces.
@@ -32,7 +33,7 @@ class PartedCell {
     uint32_t stamp, face;  ///< the one that has come so far, or kBoth
   };
   static constexpr uint32_t kBoth = ~0u;
-  static constexpr size_t kMostPieces = 64;
+  static constexpr size_t kMostFaces = size_t(1) << 16, kMostPieces = 64;
   /// That have been found so far.
   struct Sides {
     std::array<uint8_t, kMostPieces> ofPieces;

@@ -43,8 +43,8 @@ class DistributedCut {
  public:
   /// Cuts. Throws RankError, alike in all processes, as CutShare does, or for different meshes or grids (badArgument, element: the first
   /// rank with another). A process that is cancelled while it waits for others throws CallError (cancelled), and the others wait for it:
-  /// cancel all of them, or end the program. Of the prepared mesh a process keeps what lies in its layers: the rest is freed if the caller
-  /// has no copy. The mesh itself stays.
+  /// cancel all of them, or end the program. The prepared mesh is freed on the way, if the caller has no copy; the mesh itself
+  /// stays.
   DistributedCut(MPI_Comm comm, PreparedMesh mesh, Grid grid, const RunOptions& options = {});
 
   /// This process's piece.

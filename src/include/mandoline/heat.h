@@ -17,8 +17,8 @@ struct HeatProblem {
 /// (1977), of second order in time and L-stable, so that what is rough is damped at once. Both stages have one matrix, which is made once.
 class HeatStepper {
  public:
-  /// `cells` have to outlive the stepper. Throws CallError as poissonSystem() does, for a phi that is not finite (element: the cell) or of
-  /// another length, or for a time step that is not positive (badOption).
+  /// `cells` have to outlive the stepper; `threads` as in PoissonSolver. Throws CallError as poissonSystem() does, for a phi that is not
+  /// finite (element: the cell) or of another length, or for a time step that is not positive (badOption).
   HeatStepper(const CellComplex& cells, HeatProblem problem, unsigned threads = 0);
 
   /// One step, during which sources and boundary values are those of `problem`; setSource() and setBoundaryValue() change them from one

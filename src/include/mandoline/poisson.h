@@ -189,8 +189,8 @@ struct PoissonData {
 /// made once. Not to be used by two threads at once.
 class PoissonSolver {
  public:
-  /// The problem's source and boundary values are not used. `cells` have to outlive the solver. `threads`: as in RunOptions. Throws
-  /// CallError as poissonSystem() does.
+  /// The problem's source and boundary values are not used. `cells` have to outlive the solver. `threads`: as in RunOptions, of
+  /// what is made here; solve() has its own. Throws CallError as poissonSystem() does.
   PoissonSolver(const CellComplex& cells, PoissonProblem problem, unsigned threads = 0);
   PoissonSolver(PoissonSolver&&) noexcept;
   PoissonSolver& operator=(PoissonSolver&&) noexcept;

@@ -151,7 +151,7 @@ void ChartFinder::begin(const SortedMesh& mesh) {
 }
 
 void ChartFinder::help() {
-  if (!hasBegun_) return;
+  if (!hasBegun_ || next_ >= counts_.size()) return;
   ChartGrower grower(*mesh_);
   const std::span<const Corners> triangles(mesh_->triangles);
   for (size_t r; (r = next_++) < counts_.size();) {

@@ -27,10 +27,10 @@ size_t partedCells(const StagedCut& cut) {
 }
 size_t partedCells(const Mesh& mesh) { return partedCells(StagedCut(mesh, Stage::gridFaces)); }
 
-void checkSameAsGeneral(const Mesh& mesh) {
-  Way onlyGeneral(unresolved());
+void checkSameAsGeneral(const Mesh& mesh, const CutOptions& options = unresolved()) {
+  Way onlyGeneral(options);
   onlyGeneral.onlyGeneral = true;
-  CHECK(differences(cutMeshOf(mesh, unitCells(), onlyGeneral), cutMeshOf(mesh, unitCells(), unresolved())).empty());
+  CHECK(differences(cutMeshOf(mesh, unitCells(), onlyGeneral), cutMeshOf(mesh, unitCells(), options)).empty());
 }
 
 }  // namespace
@@ -105,4 +105,24 @@ TEST_CASE("A ridge that touches a grid-face from its other side is not taken for
     CHECK_FALSE(isParted(StagedCut(mesh, Stage::gridFaces, unresolved()), {3, 3, 3}));
     checkSameAsGeneral(mesh);
   }
+}
+
+TEST_CASE("A side with many stitched vertices is special", "[stages][partedCell]") {
+  constexpr uint32_t kStitched = 70;
+  Mesh mesh = shapes::triangle({1.25, 1.25, 1.5}, {1.75, 1.25, 1.5}, {1.5, 1.75, 1.5});
+  for (uint32_t i = 0; i < kStitched; ++i) {  // and a fan of triangles without area along the first side
+    mesh.positions.insert(mesh.positions.end(), {1.25 + (i + 1) / 256.0, 1.25, 1.5});
+    mesh.triangles.insert(mesh.triangles.end(), {0, 3 + i, i + 1 < kStitched ? 4 + i : 1});
+  }
+  CHECK(partedCells(mesh) == 0);
+  checkSameAsGeneral(mesh);
+}
+
+TEST_CASE("A triangle turned the other way in a hole of a sheet, whose sides meet where triangles do, parts no cell",
+          "[stages][partedCell]") {
+  Mesh mesh;
+  mesh.positions = {-5,  -4,  1.5,  9,   -3,  1.5,  1,   12,    1.5, 1.25, 1.25,  1.5, 1.75, 1.25,
+                    1.5, 1.5, 1.75, 1.5, 1.5, 1.25, 1.5, 1.625, 1.5, 1.5,  1.375, 1.5, 1.5};
+  mesh.triangles = {0, 1, 3, 1, 4, 6, 1, 6, 3, 1, 2, 4, 2, 5, 7, 2, 7, 4, 2, 0, 5, 0, 3, 8, 0, 8, 5, 3, 5, 4};
+  checkSameAsGeneral(mesh, {});
 }
