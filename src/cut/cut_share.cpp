@@ -60,7 +60,7 @@ struct CutShare::Data {
   }
 
   CutPart makePartOf(std::span<const std::vector<uint32_t>> summaries, const RunOptions& options) {
-    if (!mesh) throw CallError({Status::badArgument, -1, -1, "This share has given its part."});
+    if (!mesh && !excerpt) throw CallError({Status::badArgument, -1, -1, "This share has given its part."});
     Monitor monitor(options, kGridStages);
     Clock clock(stats, monitor);
     Run run{stats, monitor};
