@@ -37,34 +37,33 @@ Point spreadOf(const CellComplex& cells, size_t f) {
 
 }  // namespace
 
-Differentiator::Differentiator(const CellComplex& cells, const DualEdges& dual, const detail::Csr<uint32_t>& edgesOfCells,
-                               const PoissonProblem& problem, const std::vector<BoundaryTerm>& terms, unsigned threads)
-    : cells_(cells),
-      dual_(dual),
-      edgesOfCells_(edgesOfCells),
-      problem_(problem),
+Differentiator::Differentiator(const FitSource& source, const std::vector<BoundaryTerm>& terms, unsigned threads)
+    : cells_(source.cells),
+      dual_(source.dual),
+      edgesOfCells_(source.edgesOfCells),
+      problem_(source.problem),
       terms_(terms),
-      coefficients_(cellCoefficients(cells, dual, problem.boundary)) {
+      coefficients_(cellCoefficients(cells_, dual_, problem_.boundary)) {
   struct FaceOfEdge {
     uint32_t face, edge;
   };
   std::vector<FaceOfEdge> all;
   const RunOptions quiet{threads, {}};
   detail::Monitor monitor(quiet, 1);
-  const auto parts = detail::forChunks<std::vector<uint32_t>>(dual.edges.size(), monitor, [&](auto& edges, size_t begin, size_t end) {
+  const auto parts = detail::forChunks<std::vector<uint32_t>>(dual_.edges.size(), monitor, [&](auto& edges, size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {
       if (isCorrected(e)) edges.push_back(uint32_t(e));
     }
   });
   for (const std::vector<uint32_t>& part : parts) {
     for (const uint32_t e : part) {
-      for (const uint32_t f : dual.faces[e]) all.push_back({f, e});
+      for (const uint32_t f : dual_.faces[e]) all.push_back({f, e});
     }
   }
   detail::sortItems(all, [](const FaceOfEdge& a, const FaceOfEdge& b) { return a.face < b.face; });
   for (const auto& [face, edge] : all) corrected_.push_back(face), edges_.push_back(edge);
   for (size_t b = 0; b < terms_.size(); ++b) {
-    if (isCorrectedOnBoundary(b)) corrected_.push_back(uint32_t(cells.faceCount() + b));
+    if (isCorrectedOnBoundary(b)) corrected_.push_back(uint32_t(cells_.faceCount() + b));
   }
 }
 

@@ -10,9 +10,8 @@ namespace mandoline::physics {
 /// normal that points out of the cell.
 class Differentiator {
  public:
-  /// `edgesOfCells`: cellEdges(), `terms`: boundaryTerms().
-  Differentiator(const CellComplex& cells, const DualEdges& dual, const detail::Csr<uint32_t>& edgesOfCells, const PoissonProblem& problem,
-                 const std::vector<BoundaryTerm>& terms, unsigned threads);
+  /// `terms`: boundaryTerms().
+  Differentiator(const FitSource& source, const std::vector<BoundaryTerm>& terms, unsigned threads);
 
   /// Those that the problem's system has: differences over distances.
   std::vector<double> plain(const std::vector<double>& phi, unsigned threads) const;

@@ -158,8 +158,8 @@ Flow physics::flowOfPhi(const CellComplex& cells, const std::array<double, 3>& w
     detail::Monitor monitor(options, 1);
     const DualEdges dual = dualEdges(cells, problem.dualPoints, {}, monitor.threads());
     const std::vector<BoundaryTerm> terms = boundaryTerms(cells, problem);
-    flow.faceVelocity = Differentiator(cells, dual, cellEdges(cells, dual, monitor.threads()), problem, terms, monitor.threads())
-                            .plain(flow.phi, monitor.threads());
+    const detail::Csr<uint32_t> edges = cellEdges(cells, dual, monitor.threads());
+    flow.faceVelocity = Differentiator({cells, dual, edges, problem}, terms, monitor.threads()).plain(flow.phi, monitor.threads());
     flow.faceVelocity.resize(cells.faceCount());
     setOnBoundary(problem.boundary, flow);
     monitor.beginStage("velocities", 0);

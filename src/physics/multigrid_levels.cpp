@@ -82,19 +82,19 @@ void takeEntries(const CsrMatrix& matrix, const IsOnSide& isOnSide, bool isRever
   });
 }
 
-Level finestLevel(const CellComplex& cells, const CsrMatrix& matrix, const SweepOrder& order, std::vector<double> held,
-                  std::vector<double> mass, unsigned threads) {
+Level finestLevel(const CellComplex& cells, const OrderedMatrix& system, std::vector<double> held, std::vector<double> mass,
+                  unsigned threads) {
   Level level;
   level.held = std::move(held);
   level.mass = std::move(mass);
   level.corner = cells.cellCorner;
-  level.order = order;
+  level.order = system.order;
   detail::reserveLarge(level.size, cells.cellCount());
   for (const uint8_t l : cells.cellLevel) level.size.push_back(double(uint32_t(1) << l));
   takeEntries(
-      matrix, [](size_t j, size_t i) { return j < i; }, false, threads, level.lower);
+      system.matrix, [](size_t j, size_t i) { return j < i; }, false, threads, level.lower);
   takeEntries(
-      matrix, [](size_t j, size_t i) { return j > i; }, true, threads, level.higher);
+      system.matrix, [](size_t j, size_t i) { return j > i; }, true, threads, level.higher);
   setDiagonal(level, threads);
   level.strength = level.diagonal;
   return level;
@@ -222,10 +222,10 @@ bool isDominatedByMass(const Level& level) {
 
 }  // namespace
 
-std::vector<Level> multigridLevels(const CellComplex& cells, const CsrMatrix& matrix, const SweepOrder& order, std::vector<double> held,
+std::vector<Level> multigridLevels(const CellComplex& cells, const OrderedMatrix& system, std::vector<double> held,
                                    std::vector<double> mass, unsigned threads) {
   std::vector<Level> levels;
-  levels.push_back(finestLevel(cells, matrix, order, std::move(held), std::move(mass), threads));
+  levels.push_back(finestLevel(cells, system, std::move(held), std::move(mass), threads));
   int32_t last = 0;
   for (const int32_t corner : cells.cellCorner) last = std::max(last, corner);
   for (int shift = 1; last >> (shift - 1) > 0 && !levels.back().lower.nodes.empty(); ++shift) {

@@ -51,10 +51,15 @@ struct Level {
   }
 };
 
-/// `matrix`: that of the system; its positive entries beside the diagonal, of small cells that share the side of a larger one, are left
-/// out. `order`: of its rows. `held` and `mass` are what conditions on the boundary and mass add to the diagonal, per cell. A level where
-/// they outweigh couplings everywhere is the last one if there is mass.
-std::vector<Level> multigridLevels(const CellComplex& cells, const CsrMatrix& matrix, const SweepOrder& order, std::vector<double> held,
+struct OrderedMatrix {
+  const CsrMatrix& matrix;
+  const SweepOrder& order;  ///< of its rows
+};
+
+/// `system`: its positive entries beside the diagonal, of small cells that share the side of a larger one, are left out. `held` and `mass`
+/// are what conditions on the boundary and mass add to the diagonal, per cell. A level where they outweigh couplings everywhere is the last
+/// one if there is mass.
+std::vector<Level> multigridLevels(const CellComplex& cells, const OrderedMatrix& system, std::vector<double> held,
                                    std::vector<double> mass, unsigned threads);
 
 }  // namespace mandoline::physics

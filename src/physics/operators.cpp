@@ -61,7 +61,7 @@ SparseMatrix divergence(const CellComplex& cells) {
 
 SparseMatrix laplacian(const CellComplex& cells, DualPoints dualPoints) {
   const DualEdges dual = dualEdges(cells, dualPoints);
-  const CsrMatrix matrix = physics::laplacianRows(cells, dual, physics::cellEdges(cells, dual, 1), 1, {}, 1);
+  const CsrMatrix matrix = physics::laplacianRows(cells, dual, physics::cellEdges(cells, dual, 1), {1, {}}, 1);
   return EigenRows(matrix).map();
 }
 

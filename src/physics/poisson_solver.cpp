@@ -30,12 +30,12 @@ PoissonSetup::PoissonSetup(const CellComplex& cells_, PoissonProblem problem_, u
       edgesOfCells(cellEdges(cells, dual, threads)),
       mass(massTerms(cells, problem)),
       added(addedTerms(heldTerms(cells, problem.boundary, terms), mass)),
-      matrix(laplacianRows(cells, dual, edgesOfCells, -1, added, threads)),
+      matrix(laplacianRows(cells, dual, edgesOfCells, {-1, added}, threads)),
       order(sweepOrderOf(matrix)),
       system(matrix, added),
       means(cells, components, held),
-      multigrid(multigridLevels(cells, matrix, order, heldTerms(cells, problem.boundary, terms), mass, threads)),
-      differentiator(cells, dual, edgesOfCells, problem, terms, threads) {}
+      multigrid(multigridLevels(cells, {matrix, order}, heldTerms(cells, problem.boundary, terms), mass, threads)),
+      differentiator({cells, dual, edgesOfCells, problem}, terms, threads) {}
 
 void requireOptions(const SolveOptions& options) {
   if (!(options.tolerance > 0)) throw CallError({Status::badOption, -1, -1, "The tolerance has to be positive."});

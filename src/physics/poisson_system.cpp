@@ -175,7 +175,7 @@ PoissonSystem poissonSystem(const CellComplex& cells, const PoissonProblem& prob
   const CellComponents components = cellComponents(cells);
   const std::vector<double> added =
       physics::addedTerms(physics::heldTerms(cells, problem.boundary, terms), physics::massTerms(cells, problem));
-  return {physics::laplacianRows(cells, dual, physics::cellEdges(cells, dual, 1), -1, added, 1),
+  return {physics::laplacianRows(cells, dual, physics::cellEdges(cells, dual, 1), {-1, added}, 1),
           physics::rightSide(cells, problem.boundary, terms, {problem.source, problem.boundary.value, {}}),
           physics::nullSpaceOf(components, physics::heldComponents(cells, problem, components))};
 }

@@ -90,8 +90,8 @@ SparseMatrix assemble(size_t rows, size_t columns, const Triplets& entries) {
   return EigenRows(matrix).map();
 }
 
-CsrMatrix laplacianRows(const CellComplex& cells, const DualEdges& dual, const detail::Csr<uint32_t>& edgesOfCells, double factor,
-                        const std::vector<double>& added, unsigned threads) {
+CsrMatrix laplacianRows(const CellComplex& cells, const DualEdges& dual, const detail::Csr<uint32_t>& edgesOfCells,
+                        const LaplacianTerms& terms, unsigned threads) {
   struct Part {
     CsrMatrix rows;
     std::vector<Entry> row;
@@ -102,11 +102,11 @@ CsrMatrix laplacianRows(const CellComplex& cells, const DualEdges& dual, const d
     for (size_t c = begin; c < end; ++c) {
       part.row.clear();
       for (const uint32_t e : edgesOfCells[c]) {
-        forEntries(cells, dual, e, factor, [&](uint32_t row, uint32_t column, double value) {
+        forEntries(cells, dual, e, terms.factor, [&](uint32_t row, uint32_t column, double value) {
           if (row == c) part.row.push_back({int32_t(column), value});
         });
       }
-      if (!added.empty() && added[c] > 0) part.row.push_back({int32_t(c), added[c]});
+      if (!terms.added.empty() && terms.added[c] > 0) part.row.push_back({int32_t(c), terms.added[c]});
       appendRow(part.row, part.rows);
     }
   });

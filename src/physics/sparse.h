@@ -2,6 +2,7 @@
 // change the sums.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "physics/dual_edges.h"
@@ -14,9 +15,13 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 CsrMatrix assembleRows(size_t rows, size_t columns, const Triplets& entries);
 SparseMatrix assemble(size_t rows, size_t columns, const Triplets& entries);
 
-/// The Laplacian, div k grad, times a factor, plus what is added to the diagonal (per row; empty for nothing).
-/// `edgesOfCells`: cellEdges().
-CsrMatrix laplacianRows(const CellComplex& cells, const DualEdges& dual, const detail::Csr<uint32_t>& edgesOfCells, double factor,
-                        const std::vector<double>& added, unsigned threads);
+struct LaplacianTerms {
+  double factor;
+  std::span<const double> added;  ///< per row: what is added to the diagonal; empty for nothing
+};
+
+/// The Laplacian, div k grad, times a factor, plus what is added. `edgesOfCells`: cellEdges().
+CsrMatrix laplacianRows(const CellComplex& cells, const DualEdges& dual, const detail::Csr<uint32_t>& edgesOfCells,
+                        const LaplacianTerms& terms, unsigned threads);
 
 }  // namespace mandoline::physics
