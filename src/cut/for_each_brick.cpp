@@ -117,9 +117,7 @@ class BrickSource {
 
   /// An error that names triangles of an excerpt.
   Error ofWhole(Error error, const Excerpt& excerpt, Run& run) const {
-    for (int64_t* triangle : {&error.element, &error.element2}) {
-      if (*triangle >= 0) *triangle = excerpt.triangles[size_t(*triangle)];
-    }
+    excerpt.nameByWhole(error);
     if (error.status != Status::selfIntersection) return error;
     return explainContradiction(input_, error.element, error.element2, run);
   }

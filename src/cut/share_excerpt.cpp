@@ -70,10 +70,7 @@ void ShareExcerpt::nameByWhole(CutMesh& cutMesh) const {
 }
 
 void ShareExcerpt::nameByWhole(Error& error) const {
-  if (error.status != Status::selfIntersection && error.status != Status::meshTooLarge) return;
-  for (int64_t* triangle : {&error.element, &error.element2}) {
-    if (*triangle >= 0) *triangle = excerpt.triangles[size_t(*triangle)];
-  }
+  if (error.status == Status::selfIntersection || error.status == Status::meshTooLarge) excerpt.nameByWhole(error);
 }
 
 }  // namespace mandoline::detail

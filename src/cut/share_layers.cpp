@@ -3,16 +3,6 @@
 namespace mandoline::detail {
 namespace {
 
-struct SlabRange {
-  int32_t least, greatest;
-};
-
-SlabRange slabsOf(const Input& input, TriangleId t, size_t axis) {
-  const auto v = input.verticesOf(t);
-  const int32_t a = input.slabs[v[0]][axis], b = input.slabs[v[1]][axis], c = input.slabs[v[2]][axis];
-  return {std::min({a, b, c}), std::max({a, b, c})};
-}
-
 /// Twice the areas of a triangle seen along the axes, in quarters of a side of a grid cell; beyond the grid it ends at once.
 uint64_t areaOf(const Input& input, TriangleId t) {
   const auto v = input.verticesOf(t);
@@ -40,6 +30,12 @@ std::vector<int32_t> divided(const std::vector<uint64_t>& before, uint32_t count
 }
 
 }  // namespace
+
+SlabRange slabsOf(const Input& input, TriangleId t, size_t axis) {
+  const auto v = input.verticesOf(t);
+  const int32_t a = input.slabs[v[0]][axis], b = input.slabs[v[1]][axis], c = input.slabs[v[2]][axis];
+  return {std::min({a, b, c}), std::max({a, b, c})};
+}
 
 std::vector<uint64_t> workOfLayers(const Input& input) {
   const int32_t layers = input.cells(2);

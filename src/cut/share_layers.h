@@ -6,6 +6,12 @@
 
 namespace mandoline::detail {
 
+struct SlabRange {
+  int32_t least, greatest;
+};
+/// The slabs of a triangle's corners along an axis.
+SlabRange slabsOf(const Input& input, TriangleId t, size_t axis);
+
 /// About how much work triangles are, per layer of grid cells along z: as many faces as they may have part in. The same in all processes.
 std::vector<uint64_t> workOfLayers(const Input& input);
 

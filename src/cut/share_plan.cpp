@@ -80,8 +80,7 @@ class Reach {
     ended_ = begun_;
     for (const TriangleId t : input.triangleIds()) {
       if (!input.kept(t)) continue;
-      const auto v = input.verticesOf(t);
-      const auto [least, greatest] = std::minmax({input.slabs[v[0]][2], input.slabs[v[1]][2], input.slabs[v[2]][2]});
+      const auto [least, greatest] = slabsOf(input, t, 2);
       ++begun_[size_t(least + 2)];
       ++ended_[size_t(greatest + 2)];
     }
@@ -95,7 +94,7 @@ class Reach {
   }
 
  private:
-  std::vector<uint64_t> begun_, ended_;  // at which slabs from -1 on, or before
+  std::vector<uint64_t> begun_, ended_;  // at which slabs from -2 on, or before
 };
 
 namespace {

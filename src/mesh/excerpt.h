@@ -18,6 +18,13 @@ struct Excerpt {
 
   /// `kept`: ids of kept triangles, ascending.
   Excerpt(const Prepared& whole, std::span<const uint32_t> kept);
+
+  /// The triangles that an error names here become those of the whole mesh.
+  void nameByWhole(Error& error) const {
+    for (int64_t* triangle : {&error.element, &error.element2}) {
+      if (*triangle >= 0) *triangle = triangles[size_t(*triangle)];
+    }
+  }
 };
 
 }  // namespace mandoline::detail
