@@ -269,7 +269,7 @@ class CellMaker {
 
   /// Where those of the next cut-cell go: there is room for all of the brick.
   HalfFace* nextHalfFace() { return cells_.halfFaces.items.data() + cells_.halfFaces.offsets.back(); }
-  FaceSides* sidesOfTriFaces(GridCellId gridCell) { return &cells_.ofTriFaces[stencil_.triFacesInCell.offsets[gridCell.number]]; }
+  FaceSides* sidesOfTriFaces(GridCellId gridCell) { return cells_.ofTriFaces.data() + stencil_.triFacesInCell.offsets[gridCell.number]; }
 
   /// Cut-cells in the order of their first local half-face.
   void emit() {
