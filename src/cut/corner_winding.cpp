@@ -6,8 +6,8 @@ int32_t windingBeside(const Point& corner, const Prepared& mesh, const Counted& 
   const Point& o = corner;
   const auto v = mesh.verticesOf(triangle);
   const Point &a = mesh.point(v[0]), &b = mesh.point(v[1]), &c = mesh.point(v[2]);
-  const auto least = [&](size_t d) { return std::min({a[d], b[d], c[d]}); };
-  const auto greatest = [&](size_t d) { return std::max({a[d], b[d], c[d]}); };
+  const auto least = [&](size_t d) { return std::min(std::min(a[d], b[d]), c[d]); };
+  const auto greatest = [&](size_t d) { return std::max(std::max(a[d], b[d]), c[d]); };
   if (least(1) > o[1] || greatest(1) <= o[1] || least(2) > o[2] || greatest(2) < o[2] || least(0) > o[0]) return 0;
   const int32_t copies = counted.signSum(triangle);
   if (copies == 0) return 0;

@@ -3,18 +3,26 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/csr.h"
 #include "base/sort.h"
 
 namespace mandoline::detail {
 namespace {
 
-/// One use of a tri-edge by a side of a triangle, kept in the bucket of its lower end.
-struct SideUse {
-  uint32_t highAndWay;  ///< 2 * the higher end, + 1 if the triangle runs through the side from its lower end
-  uint32_t slot;        ///< 3 * triangle + side, or beyond: see Sides
+/// One use of a tri-edge by a side of a triangle, kept in the bucket of its lower end: a number that sorts by the higher end, then by slot.
+class SideUse {
+ public:
+  /// `slot`: 3 * triangle + side, or beyond: see Sides. `forward`: whether the triangle runs through the side from its lower end.
+  SideUse(VertexId high, uint32_t slot, bool forward) : bits_(uint64_t(high.number) << 33 | uint64_t(slot) << 1 | uint64_t(forward)) {}
+  SideUse() = default;
 
-  VertexId high() const { return {highAndWay / 2}; }
-  bool forward() const { return highAndWay % 2 != 0; }
+  VertexId high() const { return {uint32_t(bits_ >> 33)}; }
+  uint32_t slot() const { return uint32_t(bits_ >> 1); }
+  bool forward() const { return bits_ % 2 != 0; }
+  auto operator<=>(const SideUse&) const = default;
+
+ private:
+  uint64_t bits_;
 };
 
 /// Sides that are stitched count as several; slots beyond the 3 T sides are theirs.
@@ -35,7 +43,7 @@ void forPlainSides(const WeldedMesh& mesh, const F& f) {
     const auto v = mesh.verticesOf(t);
     for (uint32_t i = 0; i < 3; ++i) {
       const VertexId a = v[i], b = v[i == 2 ? 0 : i + 1];
-      f(std::min(a, b), SideUse{2 * std::max(a, b).number + (a < b), 3 * t.number + i});
+      f(std::min(a, b), SideUse(std::max(a, b), 3 * t.number + i, a < b));
     }
   }
 }
@@ -50,7 +58,7 @@ bool sameWay(const std::array<VertexId, 3>& a, const std::array<VertexId, 3>& b)
 void dropDuplicates(WeldedMesh& mesh, std::span<const SideUse> users, const Sides& sides) {
   const auto triangleOf = [&](const SideUse& use) {
     const size_t plain = 3 * mesh.triangles.size();
-    return use.slot < plain ? TriangleId{use.slot / 3} : sides.extras[use.slot - plain].triangle;
+    return use.slot() < plain ? TriangleId{use.slot() / 3} : sides.extras[use.slot() - plain].triangle;
   };
   const auto corners = [&](TriangleId t) {
     auto v = mesh.verticesOf(t);
@@ -63,11 +71,6 @@ void dropDuplicates(WeldedMesh& mesh, std::span<const SideUse> users, const Side
     state = TriangleState::duplicate;
     mesh.duplicates.push_back({std::min(s, t).number, std::max(s, t).number, sameWay(mesh.verticesOf(s), mesh.verticesOf(t))});
   };
-  if (users.size() == 2 && users[1].slot < 3 * mesh.triangles.size()) {
-    const auto opposite = [&](const SideUse& use) { return mesh.triangles[use.slot / 3][(use.slot % 3 + 2) % 3]; };
-    if (opposite(users[0]) == opposite(users[1])) drop(triangleOf(users[0]), triangleOf(users[1]));
-    return;
-  }
   std::vector<TriangleId> triangles;
   for (const SideUse& use : users) triangles.push_back(triangleOf(use));
   sortItems(triangles, [&](TriangleId s, TriangleId t) {
@@ -87,11 +90,11 @@ Sides findStitchedSides(const WeldedMesh& mesh, const Arrangement* arrangement, 
     forPlainSides(mesh, [&](VertexId low, const SideUse& use) {
       const Stitch* stitch = mesh.findStitch(low.number, use.high().number);
       if (!stitch) return;
-      edges.sideEdges[use.slot] = MeshEdges::kStitched + uint32_t(sides.stitchedOffsets.size() - 1);
+      edges.sideEdges[use.slot()] = MeshEdges::kStitched + uint32_t(sides.stitchedOffsets.size() - 1);
       VertexId from = low;
       for (size_t i = 0; i <= stitch->vertices.size(); ++i) {
         const VertexId to = i < stitch->vertices.size() ? VertexId{stitch->vertices[i]} : use.high();
-        sides.extras.push_back({std::min(from, to), std::max(from, to), TriangleId{use.slot / 3}, use.forward() == (from < to)});
+        sides.extras.push_back({std::min(from, to), std::max(from, to), TriangleId{use.slot() / 3}, use.forward() == (from < to)});
         from = to;
       }
       sides.stitchedOffsets.push_back(uint32_t(sides.extras.size()));
@@ -101,6 +104,19 @@ Sides findStitchedSides(const WeldedMesh& mesh, const Arrangement* arrangement, 
     for (const InnerEdge& e : arrangement->innerEdges[t]) sides.extras.push_back({{e.low}, {e.high}, {uint32_t(t)}, true});
   }
   return sides;
+}
+
+/// Moves the edges of what lies beyond the plain sides to where they belong.
+void takeExtras(const Sides& sides, const Arrangement* arrangement, MeshEdges& edges) {
+  std::vector<TriEdgeId>& stitched = edges.stitched.items;
+  std::vector<TriEdgeId>& inner = edges.inner.items;
+  const size_t plain = edges.sideEdges.size() - sides.extras.size(), firstInner = plain + sides.stitchedOffsets.back();
+  for (size_t slot = plain; slot < edges.sideEdges.size(); ++slot) {
+    (slot < firstInner ? stitched : inner).push_back({edges.sideEdges[slot]});
+  }
+  edges.stitched.offsets = sides.stitchedOffsets;
+  if (arrangement && arrangement->innerEdges.size() > 0) edges.inner.offsets = arrangement->innerEdges.offsets;
+  edges.sideEdges.resize(plain);
 }
 
 /// The lines that tri-edges with made ends lie on.
@@ -118,58 +134,62 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
   MeshEdges edges;
   edges.sideEdges.assign(3 * mesh.triangles.size(), 0);
   const Sides sides = findStitchedSides(mesh, arrangement, edges);
+  const bool anyStitched = !mesh.stitches.empty();
   const auto forUses = [&](const auto& f) {
     forPlainSides(mesh, [&](VertexId low, const SideUse& use) {
-      if (edges.sideEdges[use.slot] < MeshEdges::kStitched) f(low, use);
+      if (!anyStitched || edges.sideEdges[use.slot()] < MeshEdges::kStitched) f(low, use);
     });
     for (size_t i = 0; i < sides.extras.size(); ++i) {
       const auto& [low, high, triangle, forward] = sides.extras[i];
-      f(low, SideUse{2 * high.number + forward, uint32_t(3 * mesh.triangles.size() + i)});
+      f(low, SideUse(high, uint32_t(3 * mesh.triangles.size() + i), forward));
     }
   };
 
   const size_t vertices = arrangement ? arrangement->points.size() : mesh.points.size();
   std::vector<uint32_t> offsets(vertices + 1, 0);
-  forUses([&](VertexId low, const SideUse&) { ++offsets[low.number + 1]; });
-  for (size_t v = 0; v + 1 < offsets.size(); ++v) offsets[v + 1] += offsets[v];
-  const std::unique_ptr<SideUse[]> uses(new SideUse[offsets.back()]);
-  {
-    std::vector<uint32_t> at(offsets.begin(), offsets.end() - 1);
-    forUses([&](VertexId low, const SideUse& use) { uses[at[low.number]++] = use; });
-  }
-  std::vector<TriEdgeId> extraEdges(sides.extras.size());
+  forUses([&](VertexId low, const SideUse&) { ++offsets[low.number]; });
+  const std::unique_ptr<SideUse[]> uses(new SideUse[toOffsets(offsets)]);
+  forUses([&](VertexId low, const SideUse& use) { uses[offsets[low.number]++] = use; });  // now they are where the next bucket starts
+  edges.sideEdges.resize(3 * mesh.triangles.size() + sides.extras.size());
   edges.ends.reserve(offsets.back() / 2 + 16);
   bool closed = true, oriented = true;
+  uint32_t* const edgeOf = edges.sideEdges.data();
+  const auto sumOfCorners = [corners = mesh.triangles.data()](const SideUse& use) {  // whatever its carry
+    const auto& [a, b, c] = corners[use.slot() / 3];
+    return a + b + c;
+  };
+  /// Whether some triangles at an edge may have the same vertices: two have if their third ones are equal.
+  const auto mayHaveSame = [&, plain = 3 * mesh.triangles.size()](const SideUse* first, const SideUse* past) {
+    return past - first > 2 || first[1].slot() >= plain || sumOfCorners(first[0]) == sumOfCorners(first[1]);
+  };
+  size_t begin = 0;
   for (const VertexId low : Ids<VertexId>(vertices)) {
-    const std::span<SideUse> bucket(uses.get() + offsets[low.number], offsets[low.number + 1] - offsets[low.number]);
-    sortItems(bucket, [](const SideUse& a, const SideUse& b) { return a.high() < b.high(); });  // slots ascend already
-    for (size_t i = 0, end; i < bucket.size(); i = end) {
-      int net = 0;
-      for (end = i; end < bucket.size() && bucket[end].high() == bucket[i].high(); ++end) {
-        const size_t slot = bucket[end].slot, plain = edges.sideEdges.size();
-        (slot < plain ? edges.sideEdges[slot] : extraEdges[slot - plain].number) = uint32_t(edges.ends.size());
-        net += bucket[end].forward() ? 1 : -1;
+    const std::span<SideUse> bucket(uses.get() + begin, offsets[low.number] - begin);
+    begin = offsets[low.number];
+    sortItems(bucket);
+    for (SideUse *use = bucket.data(), *const past = use + bucket.size(); use != past;) {
+      SideUse* const first = use;
+      const VertexId high = use->high();
+      const uint32_t edge = uint32_t(edges.ends.size());
+      ptrdiff_t forwards = 0;
+      for (; use != past && use->high() == high; ++use) {
+        edgeOf[use->slot()] = edge;
+        forwards += use->forward();
       }
-      closed &= net == 0;
-      oriented &= end - i != 2 || net == 0;
-      edges.ends.push_back({low, bucket[i].high()});
-      if (end - i > 1) dropDuplicates(mesh, bucket.subspan(i, end - i), sides);
+      closed &= 2 * forwards == use - first;
+      oriented &= use - first != 2 || forwards == 1;
+      edges.ends.push_back({low, high});
+      if (use - first > 1 && mayHaveSame(first, use)) dropDuplicates(mesh, {first, use}, sides);
     }
   }
-  const auto firstInner = extraEdges.begin() + sides.stitchedOffsets.back();
-  edges.stitched.offsets = sides.stitchedOffsets;
-  edges.stitched.items.assign(extraEdges.begin(), firstInner);
+  takeExtras(sides, arrangement, edges);
   if (!arrangement) {
     mesh.closed = closed;
     mesh.oriented = oriented;
     sortItems(mesh.duplicates);
-    return edges;
+  } else if (!arrangement->madeEdges.empty()) {
+    findLines(*arrangement, edges);
   }
-  if (arrangement->innerEdges.size() > 0) {
-    edges.inner.offsets = arrangement->innerEdges.offsets;
-    edges.inner.items.assign(firstInner, extraEdges.end());
-  }
-  if (!arrangement->madeEdges.empty()) findLines(*arrangement, edges);
   return edges;
 }
 

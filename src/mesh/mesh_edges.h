@@ -42,13 +42,14 @@ struct MeshEdges {
   template <class F>
   void forSide(const WeldedMesh& mesh, TriangleId triangle, int side, const F& f) const {
     const auto v = mesh.verticesOf(triangle);
-    const bool forward = v[side] < v[(side + 1) % 3];
+    const VertexId from = v[size_t(side)], to = v[side == 2 ? 0 : size_t(side) + 1];
+    const bool forward = from < to;
     const uint32_t edge = sideEdges[3 * size_t(triangle.number) + side];
     if (edge < kStitched) return f(TriEdgeId{edge}, forward);
     const auto edges = stitched[edge - kStitched];
     for (size_t i = 0; i < edges.size(); ++i) {
       const size_t at = forward ? i : edges.size() - 1 - i;
-      const bool sameWay = (ends[edges[at]][0] == (at == 0 ? std::min(v[side], v[(side + 1) % 3]) : commonEnd(edges[at - 1], edges[at])));
+      const bool sameWay = (ends[edges[at]][0] == (at == 0 ? std::min(from, to) : commonEnd(edges[at - 1], edges[at])));
       f(edges[at], forward == sameWay);
     }
   }

@@ -23,6 +23,21 @@ int normalSign(const WeldedMesh& mesh, TriangleId triangle, int axis, Predicates
   return predicates.orient2d({a[p], a[q]}, {b[p], b[q]}, {c[p], c[q]});
 }
 
+namespace {
+
+/// Whether it is sure, in doubles, that a triangle has area.
+bool surelyHasArea(const WeldedMesh& mesh, const std::array<uint32_t, 3>& triangle) {
+  const Point &a = mesh.points[triangle[0]], &b = mesh.points[triangle[1]], &c = mesh.points[triangle[2]];
+  for (size_t d = 0; d < 3; ++d) {
+    const size_t p = (d + 1) % 3, q = (d + 2) % 3;
+    const Point2 x{a[p], a[q]}, y{b[p], b[q]}, z{c[p], c[q]};
+    if (surelyTurnsLeft(x, y, z) || surelyTurnsLeft(y, x, z)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 std::vector<uint32_t> weld(const std::vector<uint8_t>& referenced, const std::vector<Point>& points) {
   return lowestAtPosition(
       points.size(), [&](uint32_t v) { return points[v].data(); }, [&](uint32_t v) { return referenced[v] != 0; });
@@ -32,6 +47,7 @@ std::vector<uint32_t> dropZeroArea(WeldedMesh& mesh, const Moved* moved, Predica
   std::vector<uint32_t> dropped;
   for (const TriangleId t : mesh.triangleIds()) {
     if (moved && !hasMoved(*moved, mesh.triangles[t.number])) continue;
+    if (surelyHasArea(mesh, mesh.triangles[t.number])) continue;
     if (normalSign(mesh, t, 0, predicates) || normalSign(mesh, t, 1, predicates) || normalSign(mesh, t, 2, predicates)) continue;
     mesh.states[t.number] = TriangleState::zeroArea;
     dropped.push_back(t.number);

@@ -51,8 +51,8 @@ struct Extent {
   static Extent of(const Slab& a, const Slab& b, const Slab& c) {
     Extent extent;
     for (size_t d = 0; d < 3; ++d) {
-      extent.least[d] = std::min({a[d], b[d], c[d]});
-      extent.greatest[d] = std::max({a[d], b[d], c[d]});
+      extent.least[d] = std::min(std::min(a[d], b[d]), c[d]);
+      extent.greatest[d] = std::max(std::max(a[d], b[d]), c[d]);
     }
     return extent;
   }

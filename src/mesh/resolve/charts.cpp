@@ -12,8 +12,8 @@ constexpr uint32_t kNone = ~0u;
 
 using Corners = std::array<uint32_t, 3>;
 
-/// Finds the charts of one range of triangles after the other, on one thread. Triangles and sides, 3 per triangle, count from those of the
-/// range on.
+/// Finds the charts of one range of triangles after the other, on one thread. Triangles count from the first of the range on; side 4 t + i
+/// of triangle t leads from its corner i to the next.
 class ChartGrower {
  public:
   explicit ChartGrower(const SortedMesh& mesh) : points_(mesh.points), firstOpen_(mesh.points.size(), kNone) {}
@@ -21,9 +21,15 @@ class ChartGrower {
   /// Gives their number; they are numbered by their first triangles.
   uint32_t run(std::span<const Corners> triangles, std::span<uint32_t> charts) {
     constexpr uint32_t kApart = 256;  // the first seeds: charts that start beside each other hinder each other
-    triangles_ = triangles;
     charts_ = charts;
     chart_ = 0;
+    corners_.resize(4 * triangles.size());
+    for (size_t t = 0; t < triangles.size(); ++t) {
+      const auto& [a, b, c] = triangles[t];
+      corners_[4 * t] = corners_[4 * t + 3] = a;
+      corners_[4 * t + 1] = b;
+      corners_[4 * t + 2] = c;
+    }
     findTwins();
     std::fill(charts_.begin(), charts_.end(), kNone);
     for (uint32_t first = 0; first < kApart; ++first) {
@@ -39,31 +45,27 @@ class ChartGrower {
   /// crowded vertices may have none.
   void findTwins() {
     constexpr int kMostLooks = 32;
-    const uint32_t sides = uint32_t(3 * triangles_.size());
-    twins_.resize(sides);  // sides without twins, by where they start, are chained in it
-    for (uint32_t side = 0; side < sides; ++side) {
-      const auto endsOf = [&](uint32_t s) {
-        const uint32_t i = s % 3;
-        const Corners& v = triangles_[s / 3];
-        return std::array{v[i], v[i == 2 ? 0 : i + 1]};
-      };
-      const auto [from, to] = endsOf(side);
-      uint32_t* link = &firstOpen_[to];
-      for (int i = 0; i < kMostLooks && *link != kNone && endsOf(*link)[1] != from; ++i) link = &twins_[*link];
-      const uint32_t other = *link;
-      if (other != kNone && endsOf(other)[1] == from) {
-        *link = twins_[other];
-        twins_[other] = side;
-        twins_[side] = other;
-      } else {
-        twins_[side] = firstOpen_[from];
-        firstOpen_[from] = side;
+    twins_.resize(corners_.size());
+    const uint32_t* const corners = corners_.data();
+    uint32_t *const twins = twins_.data(), *const firstOpen = firstOpen_.data();  // sides without twins are chained, by where they start
+    for (uint32_t first = 0; first < corners_.size(); first += 4) {
+      for (uint32_t side = first; side < first + 3; ++side) {
+        const uint32_t from = corners[side], to = corners[side + 1];
+        uint32_t* link = &firstOpen[to];
+        for (int i = 0; i < kMostLooks && *link != kNone && corners[*link + 1] != from; ++i) link = &twins[*link];
+        const uint32_t other = *link;
+        if (other != kNone && corners[other + 1] == from) {
+          *link = twins[other];
+          twins[other] = side;
+          twins[side] = other;
+        } else {
+          twins[side] = firstOpen[from];
+          firstOpen[from] = side;
+        }
       }
     }
-    for (const Corners& v : triangles_) {
-      for (const uint32_t from : v) {
-        for (uint32_t open = std::exchange(firstOpen_[from], kNone); open != kNone;) open = std::exchange(twins_[open], kNone);
-      }
+    for (const uint32_t from : corners_) {
+      for (uint32_t open = std::exchange(firstOpen[from], kNone); open != kNone;) open = std::exchange(twins[open], kNone);
     }
   }
 
@@ -82,8 +84,9 @@ class ChartGrower {
     if (look(seed)) {
       grown_.assign(1, seed);
       for (size_t i = 0; i < grown_.size(); ++i) {
-        for (uint32_t side = 3 * grown_[i]; side < 3 * grown_[i] + 3; ++side) {
-          if (twins_[side] != kNone) add(twins_[side]);
+        const uint32_t first = 4 * grown_[i];
+        for (uint32_t side = first; side < first + 3; ++side) {
+          if (twins_[side] != kNone && charts_[twins_[side] / 4] == kNone) add(twins_[side]);
         }
       }
     }
@@ -92,7 +95,7 @@ class ChartGrower {
 
   /// Chooses how to look at a triangle, and its middle for the centre; false if rounding blurs it.
   bool look(uint32_t seed) {
-    const Corners& v = triangles_[seed];
+    const uint32_t* v = &corners_[4 * seed];
     const Point &a = points_[v[0]], &b = points_[v[1]], &c = points_[v[2]];
     double largest = 0;
     for (size_t d = 0; d < 3; ++d) {
@@ -108,16 +111,14 @@ class ChartGrower {
     return surelyTurnsLeft(x, y, centre_) && surelyTurnsLeft(y, z, centre_) && surelyTurnsLeft(z, x, centre_);
   }
 
-  /// Adds the triangle of a side whose twin is in the outline, if the outline stays as it has to be.
+  /// Adds the triangle of a side whose twin is in the outline, which is of no chart so far, if the outline stays as it has to be.
   void add(uint32_t joining) {
-    const uint32_t triangle = joining / 3;
-    if (charts_[triangle] != kNone) return;
+    const uint32_t triangle = joining / 4;
     const auto corners = cornersOf(triangle);
     if (!surelyTurnsLeft(corners[0], corners[1], corners[2])) return;
-    for (size_t i = 0; i < 3; ++i) {
-      if (3 * triangle + i == joining) continue;
-      const uint32_t twin = twins_[3 * triangle + i];
-      const bool joins = twin != kNone && charts_[twin / 3] == chart_;
+    for (uint32_t i = 0; i < 3; ++i) {
+      const uint32_t twin = twins_[4 * triangle + i];
+      const bool joins = twin != kNone && charts_[twin / 4] == chart_;  // as that of the side that joins does
       if (!joins && !surelyTurnsLeft(corners[i], corners[i == 2 ? 0 : i + 1], centre_)) return;
     }
     charts_[triangle] = chart_;
@@ -125,16 +126,18 @@ class ChartGrower {
   }
 
   std::array<Point2, 3> cornersOf(uint32_t triangle) const {
-    const Corners& v = triangles_[triangle];
+    const uint32_t* v = &corners_[4 * triangle];
     const auto seen = [&](uint32_t corner) { return Point2{points_[corner][axes_[0]], points_[corner][axes_[1]]}; };
     return {seen(v[0]), seen(v[1]), seen(v[2])};
   }
 
   const std::vector<Point>& points_;
   std::vector<uint32_t> firstOpen_;  // per point: a side that starts there and has no twin so far
-  std::span<const Corners> triangles_;
   std::span<uint32_t> charts_;
-  std::vector<uint32_t> twins_, grown_, numbers_;  // grown_: the triangles of the chart
+  std::vector<uint32_t> corners_;  // per side: where it starts; behind the sides of a triangle, where the last one ends
+  std::vector<uint32_t> twins_;    // per side
+  std::vector<uint32_t> grown_;    // the triangles of the chart
+  std::vector<uint32_t> numbers_;  // per chart, in the order in which they grew
   uint32_t chart_ = 0;
   std::array<size_t, 2> axes_{};  // seen as x and y
   Point2 centre_{};

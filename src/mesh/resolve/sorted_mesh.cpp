@@ -22,7 +22,7 @@ std::vector<uint32_t> cornersOfKept(const WeldedMesh& mesh, const std::vector<Tr
   return corners;
 }
 
-uint32_t lowestOf(const std::array<uint32_t, 3>& corners) { return std::min({corners[0], corners[1], corners[2]}); }
+uint32_t lowestOf(const std::array<uint32_t, 3>& corners) { return std::min(std::min(corners[0], corners[1]), corners[2]); }
 
 }  // namespace
 
@@ -58,28 +58,33 @@ SortedMesh::SortedMesh(const WeldedMesh& mesh, const std::vector<TriangleState>&
     triangles[place] = v;
     ids[place] = uint32_t(t);
   }
-  dropDuplicates();
+  dropDuplicates(at);
 }
 
-/// Triangles with the same lowest corner are beside each other, ascending by id: of those with the same corners the first is kept.
-void SortedMesh::dropDuplicates() {
-  struct Corners {
-    std::array<uint32_t, 3> sorted;
-    size_t place;
+/// Triangles with the same lowest corner are beside each other, ascending by id, up to where `ends` says: of those with the same corners
+/// the first is kept.
+void SortedMesh::dropDuplicates(const std::vector<uint32_t>& ends) {
+  struct Others {
+    uint64_t corners;  ///< but the lowest: the highest, then the third one
+    uint32_t place;
   };
-  std::vector<Corners> group;
+  std::vector<Others> group;
   std::vector<uint8_t> isDuplicate;  // empty if there is none
-  for (size_t begin = 0; begin < triangles.size(); begin += group.size()) {
+  uint32_t place = 0;
+  for (size_t lowest = 0; lowest < points.size(); ++lowest) {
+    if (ends[lowest] - place < 2) {
+      place = ends[lowest];
+      continue;
+    }
     group.clear();
-    do {
-      const size_t place = begin + group.size();
-      group.push_back({triangles[place], place});
-      sortItems(group.back().sorted);
-    } while (begin + group.size() < triangles.size() && lowestOf(triangles[begin + group.size()]) == group[0].sorted[0]);
-    if (group.size() == 1) continue;
-    sortItems(group, [](const Corners& a, const Corners& b) { return a.sorted < b.sorted; });
+    for (; place < ends[lowest]; ++place) {
+      const auto& [a, b, c] = triangles[place];
+      const uint32_t highest = std::max(std::max(a, b), c), third = a + b + c - highest - uint32_t(lowest);
+      group.push_back({uint64_t(highest) << 32 | third, place});
+    }
+    sortItems(group, [](const Others& a, const Others& b) { return a.corners < b.corners; });
     for (size_t i = 1; i < group.size(); ++i) {
-      if (group[i].sorted != group[i - 1].sorted) continue;
+      if (group[i].corners != group[i - 1].corners) continue;
       isDuplicate.resize(triangles.size(), 0);
       isDuplicate[group[i].place] = 1;
     }

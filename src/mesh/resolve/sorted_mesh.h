@@ -15,7 +15,7 @@ struct SortedMesh {
   SortedMesh(const WeldedMesh& mesh, const std::vector<TriangleState>& states);
 
  private:
-  void dropDuplicates();
+  void dropDuplicates(const std::vector<uint32_t>& ends);
 };
 
 }  // namespace mandoline::detail
