@@ -22,11 +22,12 @@ inline void outlineOf(const Surface& surface, TriangleId triangle, CornerRow& ou
       const uint32_t first = vertices.crossingOffsets[edge.number].number;
       uint32_t past = vertices.crossingOffsets[edge.number + 1].number;
       outline.makeRoom(past - first + 1);
-      outline.add({from, slabs[from.number]});
       while (past > first && slabs[past - 1][0] == CutVertices::kUnused) --past;
       const uint32_t count = past - first, isBackward = uint32_t(!forward);
+      Corner* to = outline.lengthen(count + 1);
+      *to++ = {from, slabs[from.number]};
       uint32_t v = first + (count - 1) * isBackward;  // no branch on what can't be foretold
-      for (uint32_t i = 0; i < count; ++i, v += 1 - 2 * isBackward) outline.add({{v}, slabs[v]});
+      for (uint32_t i = 0; i < count; ++i, v += 1 - 2 * isBackward) *to++ = {{v}, slabs[v]};
       from = surface.edges().ends[edge][forward ? 1 : 0];
     });
   }
@@ -123,8 +124,12 @@ class Dicer {
     const auto [axis, plane, last] = planes;
     const PolygonHalves halves(polygon, axis, 2 * plane);
     room.line.clear();
-    makeLine(axis, halves.up(), halves.down(), room.line, 0);
-    addHybridEdges(axis, room.line.all());
+    if (crossesPlanes(axis, halves.up(), halves.down())) {
+      makeLine(axis, halves.up(), halves.down(), room.line, 0);
+      addHybridEdges(axis, room.line.all());
+    } else {
+      addHybridEdge(axis, halves.up(), halves.down());
+    }
     const auto [below, above] = halves.pieces(room);
     HalvesRoom& deeper = room.deeper();
     if (enter(axis, 2 * plane - 1)) split(nextAxis_[axis], below, deeper);
@@ -177,15 +182,21 @@ class Dicer {
 
   /// The pieces of a hybrid edge between its vertices, which lies in a plane across the axis.
   void addHybridEdges(size_t axis, Polygon line) {
+    for (size_t i = 1; i < line.size(); ++i) addHybridEdge(axis, line[i - 1], line[i]);
+  }
+  void addHybridEdge(size_t axis, const Corner& from, const Corner& to) {
     const size_t d = kAxes[axis + 1], e = kAxes[axis + 2];
-    for (size_t i = 1; i < line.size(); ++i) {
-      const Corner &from = line[i - 1], &to = line[i];
-      Slab element = from.slab;
-      element[d] = between(from.slab[d], to.slab[d]);
-      element[e] = between(from.slab[e], to.slab[e]);
-      if (onPlane(element[d] & element[e])) continue;  // it lies on a grid line
-      if (keepOutside_ || input_.inGrid(element)) out_.addHybridEdge({element, from.id, to.id});
-    }
+    Slab element = from.slab;
+    element[d] = between(from.slab[d], to.slab[d]);
+    element[e] = between(from.slab[e], to.slab[e]);
+    if (onPlane(element[d] & element[e])) return;  // it lies on a grid line
+    if (keepOutside_ || input_.inGrid(element)) out_.addHybridEdge({element, from.id, to.id});
+  }
+
+  /// Whether a segment in a plane across the axis crosses others.
+  static bool crossesPlanes(size_t axis, const Corner& from, const Corner& to) {
+    const auto crosses = [&](size_t d) { return !inOneSlab(std::min(from.slab[d], to.slab[d]), std::max(from.slab[d], to.slab[d])); };
+    return crosses(kAxes[axis + 1]) || crosses(kAxes[axis + 2]);
   }
 
   /// Calls f(plane, step) for the planes strictly between two slabs, in order.

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cut/ids.h"
@@ -35,9 +37,11 @@ class CornerRow {
     if (more > size_t(limit_ - end_)) grow(more);
   }
   void add(const Corner& corner) { *end_++ = corner; }
+  /// Adds some that are to be written where it says.
+  Corner* lengthen(size_t count) { return std::exchange(end_, end_ + count); }
   /// Adds some that are in another such row: block by block, since how many they are can't be foretold.
   void addBlocks(const Corner* from, size_t count) {
-    for (size_t i = 0; i < count; i += kBlock) std::copy_n(from + i, kBlock, end_ + i);
+    for (size_t i = 0; i < count; i += kBlock) std::memcpy(end_ + i, from + i, kBlock * sizeof(Corner));
     end_ += count;
   }
 

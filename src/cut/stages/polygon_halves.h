@@ -40,7 +40,7 @@ class PolygonHalves {
   struct Pieces {
     Polygon below, above;
   };
-  /// The pieces beside the line in the room, which leads from up() to down().
+  /// The pieces beside the line in the room, which leads from up() to down(), or has nothing if there is nothing between.
   Pieces pieces(HalvesRoom& room) const {
     const Polygon line = room.line.all();
     room.outer.begin(polygon_.size() + line.size());
