@@ -17,8 +17,10 @@ struct BrickSurface {
   CutVertices vertices;
   TriFaces triFaces;                 ///< ascending by triangle, those of divided triangles last
   std::vector<FaceId> specialFaces;  ///< see PartedCell; ascending
+  std::vector<FaceId> onGridLines;   ///< those with a vertex of the surface on a grid line, ascending
   std::vector<FaceEdge> faceEdges;   ///< cut-edges that lie in a grid-face: in each by triangle, those of tri-edges last. Counter-clockwise
                                      ///< about its axis, the front of a hybrid edge's triangle is on the left
+  size_t firstTriEdge = 0;           ///< of faceEdges: the first that is of a tri-edge
   std::span<const VertexId> seamVertices;  ///< see Bricks
   Predicates predicates;
   bool onlySweep = false;  ///< for tests: how triangles are diced, see Dicer

@@ -63,15 +63,10 @@ struct Bricks {
     const size_t bit = firstBit[brick] + index;
     return touched[bit / 64] >> bit % 64 & 1;
   }
-  /// The words of `touched` that a brick has.
+  /// The words of `touched` that a brick has: others have none of them.
   std::span<const uint64_t> wordsOf(BrickId brick) const { return std::span(touched).subspan(firstBit[brick] / 64, wordCount(brick)); }
   std::span<uint64_t> wordsOf(BrickId brick) { return std::span(touched).subspan(firstBit[brick] / 64, wordCount(brick)); }
   size_t wordCount(BrickId brick) const { return (boxes[brick].size() + 63) / 64; }
-  /// Marks a cell that a brick has. Bricks write to different words.
-  void touch(BrickId brick, const Slab& cell) {
-    const size_t bit = firstBit[brick] + boxes[brick].indexOf(cell);
-    touched[bit / 64] |= uint64_t(1) << bit % 64;
-  }
   /// Bits for the cells from one on, up to 64 of them: whether they are touched.
   uint64_t touchedFrom(BrickId brick, uint32_t index, uint32_t count) const {
     const size_t bit = firstBit[brick] + index;
@@ -90,7 +85,7 @@ struct Bricks {
 };
 
 /// The axis that a grid-face lies across.
-inline int planeAxis(const Slab& gridFace) { return onPlane(gridFace[0]) ? 0 : onPlane(gridFace[1]) ? 1 : 2; }
+inline int planeAxis(const Slab& gridFace) { return int(onPlane(gridFace[1])) + 2 * int(onPlane(gridFace[2])); }
 
 Bricks layOutBricks(const Surface& surface, const SurfaceParts& parts, const BrickGrid& grid);
 

@@ -16,15 +16,14 @@ class Collector {
 
   void collect() {
     const TriFaces& triFaces = surface_.triFaces;
-    for (const FaceId f : triFaces.ids()) {
-      if (!triFaces.touchesLine[f]) continue;
+    for (const FaceId f : surface_.onGridLines) {
       for (const auto loop : triFaces.loopsOf(f)) {
         for (const VertexId v : loop) placeOther(v);
       }
     }
-    for (const FaceEdge& e : surface_.faceEdges) {  // tri-edges in the grid-face of a triangle without a face beside it
-      placeOther(e.from);
-      placeOther(e.to);
+    for (size_t i = surface_.firstTriEdge; i < surface_.faceEdges.size(); ++i) {  // some lie in grid-faces that no face has
+      placeOther(surface_.faceEdges[i].from);
+      placeOther(surface_.faceEdges[i].to);
     }
     for (const VertexId v : surface_.seamVertices) placeOther(v);
     for (const VertexId v : vertices_.ownIds()) place(v, vertices_.slab(v));  // of each, some loop has it

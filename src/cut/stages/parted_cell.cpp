@@ -10,16 +10,19 @@ void PartedCell::begin(const BrickSurface& surface, const Stencil& stencil) {
   canTell_ = mesh.oriented && mesh.duplicates.empty();
   if (!canTell_) return;
   isSpecial_.assign(stencil.cells.size(), 0);
-  for (const FaceId f : surface.specialFaces) {
-    const auto cell = stencil.find(surface.triFaces.elements[f]);  // the one above a face in an axial plane, which has a graph anyway
+  const auto add = [&](const Slab& gridCell) {
+    const auto cell = stencil.find(gridCell);
     if (cell) isSpecial_[*cell] = 1;
-  }
+    return false;
+  };
+  for (const FaceId f : surface.specialFaces)
+    add(surface.triFaces.elements[f]);  // beside a face in an axial plane, grid-faces have a graph
+  for (size_t i = surface.firstTriEdge; i < surface.faceEdges.size(); ++i) findCellAround(surface.faceEdges[i].element, add);
 }
 
 bool PartedCell::find(const BrickSurface& surface, const Stencil& stencil, const GridFaces& grid, GridCellId cell) {
   const auto faces = stencil.triFacesInCell[cell];
-  return canTell_ && !isSpecial_[cell] && faces.size() <= kMostFaces && isOneSheet(surface, faces) &&
-         findSides(stencil, grid, cell, surface.vertices.firstInTriangle);
+  return canTell_ && !isSpecial_[cell] && faces.size() <= kMostFaces && findSides(stencil, grid, cell) && isOneSheet(surface, faces);
 }
 
 /// A tri-cut-face that is not special has six ends of tri-edges at most, so that a quarter of the slots stays free.
@@ -32,16 +35,10 @@ void PartedCell::clearTable(size_t faces) {
   }
 }
 
-/// Whether a vertex is an end of tri-edges of the sheet on a grid-face.
-bool PartedCell::has(VertexId v) const {
-  size_t at = firstPlaceOf(v.number);
-  while (slots_[at & mask_].stamp == stamp_ && slots_[at & mask_].key != v.number) ++at;
-  return slots_[at & mask_].stamp == stamp_;
-}
-
-/// Whether two faces meet at each tri-edge, and all are connected so. As none is special, each has one loop, of its own number.
+/// Whether two faces meet at each tri-edge, and all are connected so. As none is special, each has one loop, of its own number, that begins
+/// with its lowest vertex. With one curve, those at it are connected, and two meet at each tri-edge that ends there.
 bool PartedCell::isOneSheet(const BrickSurface& surface, std::span<const FaceId> faces) {
-  const VertexId firstOnEdge = surface.vertices.firstOnEdge, firstInTriangle = surface.vertices.firstInTriangle;
+  const VertexId firstOnEdge = surface.vertices.firstOnEdge, pastKeys = isOneCurve_ ? firstOnEdge : surface.vertices.firstInTriangle;
   clearTable(faces.size());
   if (sheets_.size() < faces.size()) sheets_.resize(faces.size());
   Slot* const slots = slots_.data();
@@ -53,13 +50,23 @@ bool PartedCell::isOneSheet(const BrickSurface& surface, std::span<const FaceId>
     while (sheets[face] != face) face = sheets[face] = sheets[sheets[face]];
     return face;
   };
+  uint32_t atCurve = kBoth;  // some face, if there is one curve
   for (uint32_t f = 0; f < faces.size(); ++f) {
     sheets[f] = f;
     const auto loop = surface.triFaces.loops[faces[f].number];
+    if (isOneCurve_) {
+      const bool hasFirst = loop[1] < firstOnEdge, hasLast = loop.back() < firstOnEdge;  // whole tri-edges beside its lowest vertex
+      if (loop.size() > 3 || !hasFirst || !hasLast) {
+        if (atCurve == kBoth) atCurve = f;
+        apart -= atCurve != f;
+        sheets[f] = atCurve;
+      }
+      if (!hasFirst && !hasLast) continue;
+    }
     VertexId u = loop.back();
     for (const VertexId v : loop) {
       const VertexId before = std::exchange(u, v);
-      if (v >= firstInTriangle) continue;
+      if (v >= pastKeys) continue;
       uint64_t key = v.number;
       if (v < firstOnEdge) {
         if (before >= firstOnEdge) continue;
@@ -84,14 +91,14 @@ bool PartedCell::isOneSheet(const BrickSurface& surface, std::span<const FaceId>
   return open == 0 && apart == 1;
 }
 
-/// False also where a grid-face has tri-edges, whose faces may all be in another cell: these come last, and an end of the sheet's hybrid
-/// edges is in a triangle, or connects others of its faces.
-bool PartedCell::findSides(const Stencil& stencil, const GridFaces& grid, GridCellId cell, VertexId firstInTriangle) {
+/// Finds also whether there is one curve: if there are two, and none crosses a grid-edge twice, then each is in three grid-faces or more.
+bool PartedCell::findSides(const Stencil& stencil, const GridFaces& grid, GridCellId cell) {
   const std::array<GridFaceId, 6> gridFaces = stencil.cells[cell].faces;
   Sides found{};
   std::array<std::array<uint8_t, 2>, 6> wholeFaces;
   size_t wholeCount = 0;
   uint32_t count = 0;
+  bool partsCorners = true;
   for (size_t i = 0; i < 6; ++i) {
     const GridFaceId g = gridFaces[i];
     const GridFaceKind kind = grid.kinds[g];
@@ -103,15 +110,21 @@ bool PartedCell::findSides(const Stencil& stencil, const GridFaces& grid, GridCe
     const auto edges = stencil.edgesOnFace[g];
     count += uint32_t(grid.halfFaces[g].size());
     if (kind != GridFaceKind::chains || count > kMostPieces) return false;
-    if (edges.back().from < firstInTriangle && !has(edges.back().from)) return false;
     const uint32_t* const outline = grid.beside[g].data();
     const uint32_t* beside = outline + 5 + outline[4];
     for (const uint32_t* const past = beside + 2 * edges.size(); beside != past; beside += 2) {
       found.ofPieces[first + beside[0]] |= inFront;
       found.ofPieces[first + beside[1]] |= behind;
     }
-    for (size_t c = 0; c < 4; ++c) found.atCorners[kOutlines[i].corners[c]] |= found.ofPieces[first + outline[5 + outline[c]]];
+    uint32_t piecesAtCorners = 0;  // a bit for each
+    for (size_t c = 0; c < 4; ++c) {
+      const uint32_t piece = outline[5 + outline[c]];
+      piecesAtCorners |= 1u << (piece % 32);
+      found.atCorners[kOutlines[i].corners[c]] |= found.ofPieces[first + piece];
+    }
+    partsCorners &= count == first + 2 && piecesAtCorners == 3;
   }
+  isOneCurve_ = partsCorners && wholeCount > 0;
   if (!findSidesOfWhole({wholeFaces.data(), wholeCount}, found)) return false;
   const auto isFound = [](uint8_t side) { return side == behind || side == inFront; };
   sides_ = found.ofPieces;

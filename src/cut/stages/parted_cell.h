@@ -1,6 +1,9 @@
 // A grid cell that one sheet of the surface parts in two, as nearly all are: one cut-cell lies behind it, one in front. There nothing has
 // to be joined edge by edge. Tri-cut-faces are one sheet if their tri-edges connect them; a hybrid edge has the piece of its grid-face that
 // lies in front of the sheet on its left, since so it leaves the dicer; and a grid-face without any lies where its corners do.
+//
+// Hybrid edges are closed curves around the cell, each of one sheet: two of them that follow each other have a tri-cut-face in common, or
+// two that meet at a tri-edge. Nearly always there is one curve, and only whole triangles inside of the cell may not belong to its sheet.
 #pragma once
 
 #include <array>
@@ -18,8 +21,8 @@ class PartedCell {
   void begin(const BrickSurface& surface, const Stencil& stencil);
 
   /// Finds the side of each piece of the cell's grid-faces. False, without sides to use, unless it is one sheet of few faces that parts the
-  /// cell, none of them special. Special are faces of divided triangles and of those with stitched sides, and faces with a vertex on more
-  /// planes than its kind needs: none for those of the mesh, one on tri-edges, two in triangles.
+  /// cell, none of them special, and no tri-edge lies in its grid-faces. Special are faces of divided triangles and of those with stitched
+  /// sides, and faces with a vertex on more planes than its kind needs: none for those of the mesh, one on tri-edges, two in triangles.
   bool find(const BrickSurface& surface, const Stencil& stencil, const GridFaces& grid, GridCellId cell);
 
   /// By the cell's grid-faces, then as GridFaces has their half-faces.
@@ -42,9 +45,8 @@ class PartedCell {
 
   void clearTable(size_t faces);
   static size_t firstPlaceOf(uint64_t key) { return size_t((key * 0x9e3779b97f4a7c15u) >> 40); }
-  bool has(VertexId v) const;
   bool isOneSheet(const BrickSurface& surface, std::span<const FaceId> faces);
-  bool findSides(const Stencil& stencil, const GridFaces& grid, GridCellId cell, VertexId firstInTriangle);
+  bool findSides(const Stencil& stencil, const GridFaces& grid, GridCellId cell);
   static bool findSidesOfWhole(std::span<const std::array<uint8_t, 2>> wholeFaces, Sides& found);
 
   bool canTell_ = false;
@@ -53,6 +55,7 @@ class PartedCell {
   uint32_t stamp_ = 0;
   size_t mask_ = 0;
   std::vector<uint32_t> sheets_;  // per tri-cut-face of the cell: one before it in its sheet, or itself
+  bool isOneCurve_ = false;       // whether it is known that there is one
   std::array<uint8_t, kMostPieces> sides_;
   uint32_t pieceCount_ = 0;
 };

@@ -218,6 +218,14 @@ void collectInPlane(Surface& surface) {
   }
 }
 
+/// Whether Surface::isPlain. Not where some ids of crossings are unused.
+bool isPlain(const CutVertices& vertices, Monitor& monitor) {
+  const auto chunks = forChunks<uint8_t>(vertices.slabs.size(), monitor, [&](uint8_t& isOther, size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) isOther |= planeCount(vertices.slabs[v]) != int(v >= vertices.firstOnEdge.number);
+  });
+  return std::count(chunks.begin(), chunks.end(), 0) == std::ptrdiff_t(chunks.size());
+}
+
 }  // namespace
 
 CrossingsBefore::CrossingsBefore(const Surface& before, const Surface& now, const Moved& moved)
@@ -265,6 +273,7 @@ void cutTriEdges(Surface& surface, Run& run, const KnownCrossings* known) {
         }
       });
   for (const Predicates& p : chunks) run.count(p);
+  surface.isPlain = isPlain(vertices, run.monitor);
   collectInPlane(surface);
 }
 

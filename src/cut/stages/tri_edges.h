@@ -33,6 +33,7 @@ struct Surface {
   CutVertices vertices;
   std::vector<TriEdgeId> inPlane;      ///< tri-edges that lie in an axial plane, ascending
   std::vector<FaceEdge> edgesInPlane;  ///< pieces of them that lie in a grid-face
+  bool isPlain = false;                ///< no vertex of the mesh lies on a plane, and those on tri-edges lie on one each
 
   Surface() = default;
   Surface(const Surface&) = delete;

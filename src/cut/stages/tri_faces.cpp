@@ -2,16 +2,6 @@
 
 namespace mandoline::detail {
 
-void TriFaces::clear() {
-  loops.clear();
-  faceLoopOffsets.clear();
-  triangles.clear();
-  elements.clear();
-  touchesLine.clear();
-  hybridEdges.clear();
-  otherParents.clear();
-}
-
 void TriFaces::endFace(TriangleId triangle, const Slab& element, bool touches) {
   triangles.push_back(triangle);
   elements.push_back(element);
@@ -33,16 +23,21 @@ void TriFaces::append(const TriFaces& others, FaceId face) {
   endFace(others.triangles[face], others.elements[face], others.touchesLine[face] != 0);
 }
 
-TriFaceWriter::TriFaceWriter(TriFaces& out, size_t faces) : out_(out), face_(out.size()), item_(out.loops.items.size()) {
-  resize(face_ + faces, item_ + kBlock * faces);
+TriFaceWriter::TriFaceWriter(TriFaces& out, size_t faces) : out_(out) {
+  out.faceLoopOffsets.clear();
+  out.hybridEdges.clear();
+  out.otherParents.clear();
+  lengthen(faces, kBlock * faces);
 }
 
 void TriFaceWriter::end() { resize(face_, item_); }
 
 void TriFaceWriter::grow(size_t vertices) {
   constexpr size_t kFew = 64;
-  resize(2 * face_ + kFew, 2 * (item_ + vertices) + kBlock * kFew);
+  lengthen(2 * face_ + kFew, 2 * (item_ + vertices) + kBlock * kFew);
 }
+
+void TriFaceWriter::lengthen(size_t faces, size_t items) { resize(std::max(out_.size(), faces), std::max(out_.loops.items.size(), items)); }
 
 void TriFaceWriter::resize(size_t faces, size_t items) {
   out_.loops.items.resize(items);

@@ -28,14 +28,13 @@ struct TriFaces {
   Ids<FaceId> ids() const { return triangles.ids(); }
   uint32_t firstLoop(FaceId f) const { return faceLoopOffsets.empty() ? f.number : faceLoopOffsets[f.number]; }
   Groups<VertexId> loopsOf(FaceId f) const { return loops.groups(firstLoop(f), firstLoop({f.number + 1})); }
-  void clear();
   /// Ends a face, whose loops have been appended.
   void endFace(TriangleId triangle, const Slab& element, bool touches);
   /// Appends a face of others; vertices keep their ids.
   void append(const TriFaces& others, FaceId face);
 };
 
-/// Adds faces of one loop each to others of that kind. Until end(), arrays are longer than what has been added.
+/// Writes faces of one loop each over others, whose memory is used again. Until end(), arrays are longer than what has been written.
 class TriFaceWriter {
  public:
   static constexpr size_t kBlock = 4;
@@ -60,10 +59,11 @@ class TriFaceWriter {
 
  private:
   void grow(size_t vertices);
+  void lengthen(size_t faces, size_t items);
   void resize(size_t faces, size_t items);
 
   TriFaces& out_;
-  size_t face_, item_;  // the next ones
+  size_t face_ = 0, item_ = 0;  // the next ones
 };
 
 /// Faces of triangles whose inside others reach into, not yet divided by those: see divideFaces().

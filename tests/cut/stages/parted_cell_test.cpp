@@ -70,6 +70,26 @@ TEST_CASE("Two sheets, a bubble and a rim do not part a cell in two", "[stages][
   CHECK(partedCells(fan) > 0);
 }
 
+TEST_CASE("Sheets with a curve each are not taken for one", "[stages][partedCell]") {
+  // At corners of the cell, where each curve is in three grid-faces, and at grid-edges, where it begins and ends on one side of each.
+  const Mesh atCorners = shapes::merged({shapes::octahedron({1.03, 1.02, 0.99}, 0.4), shapes::octahedron({2.03, 2.02, 1.99}, 0.4)});
+  const Mesh atEdges = shapes::merged({shapes::octahedron({1.5, 1.03, 1.02}, 0.3), shapes::octahedron({1.5, 1.97, 1.98}, 0.3)});
+  for (const Mesh& mesh : {atCorners, atEdges}) {
+    const StagedCut cut(mesh, Stage::gridFaces);
+    CHECK_FALSE(isParted(cut, {3, 3, 3}));
+    CHECK(partedCells(cut) == cut.stencil.cells.size() - 1);
+    checkSameAsGeneral(mesh);
+  }
+}
+
+TEST_CASE("A bubble beside a sheet with one curve is a sheet of its own", "[stages][partedCell]") {
+  const Mesh mesh = shapes::merged({largeTriangle(1.5), shapes::octahedron({1.5, 1.5, 1.75}, 0.125)});
+  const StagedCut cut(mesh, Stage::gridFaces);
+  CHECK_FALSE(isParted(cut, {3, 3, 3}));
+  CHECK(partedCells(cut) == 8);
+  checkSameAsGeneral(mesh);
+}
+
 TEST_CASE("Triangles that disagree about their sides part no cell", "[stages][partedCell]") {
   Mesh sheet = shapes::quad({-1, -1.1, 1.5}, {4, -1, 1.5}, {4.2, 4, 1.5}, {-1, 4.4, 1.5});
   CHECK(partedCells(sheet) > 0);
