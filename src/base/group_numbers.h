@@ -8,21 +8,22 @@ namespace mandoline::detail {
 
 inline constexpr uint32_t kNoGroup = ~0u;
 
-/// Groups the numbers below n by groupOf(number), ascending in each group; those with kNoGroup are left out.
+/// Groups the numbers below n by groupOf(number), which is asked twice, ascending in each group; those with kNoGroup are left out.
 template <class GroupOf>
 Csr<uint32_t> groupNumbers(size_t groups, size_t n, Monitor& monitor, const GroupOf& groupOf) {
   struct Chunk {
-    std::vector<uint32_t> numbers, groupOf;
+    size_t begin = 0, end = 0;
     std::vector<uint32_t> at;  // per group: how many there are, then where the next one goes
   };
   auto chunks = forChunks<Chunk>(n, monitor, [&](Chunk& chunk, size_t begin, size_t end) {
-    chunk.at.resize(groups, 0);
+    if (chunk.at.empty()) {
+      chunk.begin = begin;
+      chunk.at.resize(groups, 0);
+    }
+    chunk.end = end;
     for (size_t i = begin; i < end; ++i) {
       const uint32_t group = groupOf(i);
-      if (group == kNoGroup) continue;
-      chunk.numbers.push_back(uint32_t(i));
-      chunk.groupOf.push_back(group);
-      ++chunk.at[group];
+      if (group != kNoGroup) ++chunk.at[group];
     }
   });
   Csr<uint32_t> result;
@@ -39,7 +40,10 @@ Csr<uint32_t> groupNumbers(size_t groups, size_t n, Monitor& monitor, const Grou
       chunks.size(), chunks.size(), monitor,
       [&](size_t c, size_t, size_t) {
         Chunk& chunk = chunks[c];
-        for (size_t i = 0; i < chunk.numbers.size(); ++i) result.items[chunk.at[chunk.groupOf[i]]++] = chunk.numbers[i];
+        for (size_t i = chunk.begin; i < chunk.end; ++i) {
+          const uint32_t group = groupOf(i);
+          if (group != kNoGroup) result.items[chunk.at[group]++] = uint32_t(i);
+        }
       },
       1);
   return result;
