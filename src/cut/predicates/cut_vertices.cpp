@@ -4,6 +4,59 @@
 #include <cmath>
 
 namespace mandoline::detail {
+namespace {
+
+// Coordinates that are not on planes are a reference's plus a quotient. The quick ways do in doubles what point<Bounded>() does to the
+// values, in the same order, and bound its errors all at once: if their bound, in units of kRoundoff, is below the one of placeExactly(),
+// so are those, and both give the same. A difference of coordinates is off by 1 of itself at most, a product by what both are off, and 1.
+
+/// Products are off by 3, their sum by 4 of their magnitudes, the quotient by 5.
+bool placeOnLine(const Input& input, const Slab& slab, const Line& line, const Point& reference, Point& p) {
+  const Point *low = &input.point({line.a}), *high = &input.point({line.b});
+  size_t across = 3;  // as in point()
+  for (size_t d = 0; d < 3; ++d) {
+    const auto extent = [&](size_t e) { return std::fabs((*high)[e] - (*low)[e]); };
+    if (onPlane(slab[d]) && (across == 3 || extent(d) > extent(across))) across = d;
+  }
+  if ((*low)[across] > (*high)[across]) std::swap(low, high);
+  const double width = (*high)[across] - (*low)[across], way = p[across] - (*low)[across];
+  bool isSure = true;
+  for (size_t d = 0; d < 3; ++d) {
+    if (onPlane(slab[d])) continue;
+    const double toLow = ((*low)[d] - reference[d]) * width, along = way * ((*high)[d] - (*low)[d]);
+    const double x = reference[d] + (toLow + along) / width;
+    isSure &= std::fabs(toLow) + std::fabs(along) <= 1.5 * width * std::max(std::fabs(reference[d]), std::fabs(x));
+    p[d] = x;
+  }
+  return isSure;
+}
+
+/// The normal is off by 4 of its products' magnitudes, the numerator by 8 of these times the ways to the planes.
+bool placeInTriangle(const Input& input, const Slab& slab, TriangleId triangle, Point& p) {
+  const auto t = input.verticesOf(triangle);
+  const Point &a = input.point(t[0]), &b = input.point(t[1]), &c = input.point(t[2]);
+  const size_t g = !onPlane(slab[0]) ? 0 : !onPlane(slab[1]) ? 1 : 2, e = (g + 1) % 3, f = (g + 2) % 3;  // the grid line runs along g
+  const double be = b[e] - a[e], bf = b[f] - a[f], bg = b[g] - a[g], ce = c[e] - a[e], cf = c[f] - a[f], cg = c[g] - a[g];
+  const double g0 = be * cf, g1 = bf * ce, e0 = bf * cg, e1 = bg * cf, f0 = bg * ce, f1 = be * cg;
+  const auto magnitude = [](double x, double y) { return std::fabs(x) + std::fabs(y); };
+  const double toE = p[e] - a[e], toF = p[f] - a[f], normal = g0 - g1, normalMagnitude = magnitude(g0, g1);
+  const double offset = -((e0 - e1) * toE + (f0 - f1) * toF) / normal, x = a[g] + offset;
+  const double terms = magnitude(e0, e1) * std::fabs(toE) + magnitude(f0, f1) * std::fabs(toF);
+  p[g] = x;
+  return std::fabs(normal) > 0x1p-40 * normalMagnitude &&
+         terms + 0.5 * std::fabs(offset) * normalMagnitude <= 0.99 * std::fabs(normal) * std::max(std::fabs(a[g]), std::fabs(x));
+}
+
+bool placeQuickly(const CutVertices& vertices, VertexId v, Point& p) {
+  const Input& input = *vertices.input;
+  if (vertices.isTriVertex(v)) return false;
+  if (!vertices.isOnEdge(v)) return placeInTriangle(input, vertices.slab(v), vertices.triangle(v), p);
+  const TriEdgeId edge = vertices.triEdge(v);
+  const Line line = vertices.edges->line(edge);
+  return !line.ofPlanes && placeOnLine(input, vertices.slab(v), line, input.point(vertices.edges->ends[edge][0]), p);
+}
+
+}  // namespace
 
 CutVertices CutVertices::ofBrick(const CutVertices& surface) {
   CutVertices vertices;
@@ -72,55 +125,6 @@ CutVertices::Range CutVertices::range(VertexId v, int axis, Predicates& predicat
   return {x - error, x + error};
 }
 
-// Coordinates that are not on planes are a reference's plus a quotient. The quick ways do in doubles what point<Bounded>() does to the
-// values, in the same order, and bound its errors all at once: if their bound, in units of kRoundoff, is below the one of placeExactly(),
-// so are those, and both give the same. A difference of coordinates is off by 1 of itself at most, a product by what both are off, and 1.
-
-bool CutVertices::placeQuickly(VertexId v, Point& p) const {
-  if (isTriVertex(v)) return false;
-  if (!isOnEdge(v)) return placeInTriangle(slab(v), triangle(v), p);
-  const TriEdgeId edge = triEdge(v);
-  const Line line = edges->line(edge);
-  return !line.ofPlanes && placeOnLine(slab(v), line, input->point(edges->ends[edge][0]), p);
-}
-
-/// Products are off by 3, their sum by 4 of their magnitudes, the quotient by 5.
-bool CutVertices::placeOnLine(const Slab& slab, const Line& line, const Point& reference, Point& p) const {
-  const Point *low = &input->point({line.a}), *high = &input->point({line.b});
-  size_t across = 3;  // as in point()
-  for (size_t d = 0; d < 3; ++d) {
-    const auto extent = [&](size_t e) { return std::fabs((*high)[e] - (*low)[e]); };
-    if (onPlane(slab[d]) && (across == 3 || extent(d) > extent(across))) across = d;
-  }
-  if ((*low)[across] > (*high)[across]) std::swap(low, high);
-  const double width = (*high)[across] - (*low)[across], way = p[across] - (*low)[across];
-  bool isSure = true;
-  for (size_t d = 0; d < 3; ++d) {
-    if (onPlane(slab[d])) continue;
-    const double toLow = ((*low)[d] - reference[d]) * width, along = way * ((*high)[d] - (*low)[d]);
-    const double x = reference[d] + (toLow + along) / width;
-    isSure &= std::fabs(toLow) + std::fabs(along) <= 1.5 * width * std::max(std::fabs(reference[d]), std::fabs(x));
-    p[d] = x;
-  }
-  return isSure;
-}
-
-/// The normal is off by 4 of its products' magnitudes, the numerator by 8 of these times the ways to the planes.
-bool CutVertices::placeInTriangle(const Slab& slab, TriangleId triangle, Point& p) const {
-  const auto t = input->verticesOf(triangle);
-  const Point &a = input->point(t[0]), &b = input->point(t[1]), &c = input->point(t[2]);
-  const size_t g = !onPlane(slab[0]) ? 0 : !onPlane(slab[1]) ? 1 : 2, e = (g + 1) % 3, f = (g + 2) % 3;  // the grid line runs along g
-  const double be = b[e] - a[e], bf = b[f] - a[f], bg = b[g] - a[g], ce = c[e] - a[e], cf = c[f] - a[f], cg = c[g] - a[g];
-  const double g0 = be * cf, g1 = bf * ce, e0 = bf * cg, e1 = bg * cf, f0 = bg * ce, f1 = be * cg;
-  const auto magnitude = [](double x, double y) { return std::fabs(x) + std::fabs(y); };
-  const double toE = p[e] - a[e], toF = p[f] - a[f], normal = g0 - g1, normalMagnitude = magnitude(g0, g1);
-  const double offset = -((e0 - e1) * toE + (f0 - f1) * toF) / normal, x = a[g] + offset;
-  const double terms = magnitude(e0, e1) * std::fabs(toE) + magnitude(f0, f1) * std::fabs(toF);
-  p[g] = x;
-  return std::fabs(normal) > 0x1p-40 * normalMagnitude &&
-         terms + 0.5 * std::fabs(offset) * normalMagnitude <= 0.99 * std::fabs(normal) * std::max(std::fabs(a[g]), std::fabs(x));
-}
-
 void CutVertices::placeExactly(VertexId v, Point& p, Predicates& predicates) const {
   const Point r = reference(v);
   const auto h = point<Bounded>(v, r, predicates);
@@ -143,15 +147,19 @@ void CutVertices::placeExactly(VertexId v, Point& p, Predicates& predicates) con
 Point CutVertices::position(VertexId v, Predicates& predicates, bool onlyGeneral) const {
   if (isTriVertex(v) && !input->mesh->isMade(v)) return input->point(v);
   const Slab& of = slab(v);
-  Point p;
-  for (size_t d = 0; d < 3; ++d) p[d] = input->planes[d][size_t(std::max(of[d] >> 1, 0))];
+  Point p, low, high;  // the planes around it
+  for (size_t d = 0; d < 3; ++d) {
+    const double* planes = &input->planes[d][size_t(std::max(of[d] >> 1, 0))];
+    p[d] = low[d] = planes[0];
+    high[d] = onPlane(of[d]) ? low[d] : planes[1];
+  }
   if (planeCount(of) == 3) return p;
-  if (onlyGeneral || !placeQuickly(v, p)) placeExactly(v, p, predicates);
+  if (onlyGeneral || !placeQuickly(*this, v, p)) placeExactly(v, p, predicates);
   for (size_t d = 0; d < 3; ++d) {
     if (onPlane(of[d])) continue;
     // Strictly inside of the slab, so that vertices on different grid elements have different positions.
-    const double *planes = &input->planes[d][size_t(of[d] >> 1)], low = planes[0], high = planes[1], x = p[d];
-    if (!(x > low && x < high)) p[d] = x <= low ? std::min(std::nextafter(low, high), high) : std::max(std::nextafter(high, low), low);
+    if (p[d] > low[d] && p[d] < high[d]) continue;
+    p[d] = p[d] <= low[d] ? std::min(std::nextafter(low[d], high[d]), high[d]) : std::max(std::nextafter(high[d], low[d]), low[d]);
   }
   return p;
 }

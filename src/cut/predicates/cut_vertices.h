@@ -96,9 +96,6 @@ struct CutVertices {
   const CutVertices& ofSurface() const { return surface ? *surface : *this; }
   template <class Number>
   Homogeneous<Number> pointOfPlanes(VertexId v, const Line& line, const Point& reference) const;
-  bool placeQuickly(VertexId v, Point& p) const;
-  bool placeOnLine(const Slab& slab, const Line& line, const Point& reference, Point& p) const;
-  bool placeInTriangle(const Slab& slab, TriangleId triangle, Point& p) const;
   void placeExactly(VertexId v, Point& p, Predicates& predicates) const;
 };
 
