@@ -20,6 +20,9 @@ class Appender {
 
   size_t size() const { return size_t(end_ - begin_); }
   void add(const Item& item) { *end_++ = item; }
+  void fill(size_t count, const Item& item) {
+    for (Item* const past = end_ + count; end_ != past; ++end_) *end_ = item;
+  }
   template <class Iterator>
   void add(Iterator from, Iterator past) {
     Item* end = end_;

@@ -328,7 +328,7 @@ class CellMaker {
 }  // namespace
 
 void makeCutCells(const BrickSurface& surface, const Stencil& stencil, const CutFaces& faces, CellScratch& scratch, CutCells& cells) {
-  cells.halfFaces.clear();
+  cells.halfFaces.offsets.assign(1, 0);
   cells.gridCells.clear();
   const size_t triFaces = stencil.triFacesInCell.items.size(), ofGridFaces = faces.grid.halfFaces.items.size();
   cells.halfFaces.items.resize(2 * triFaces + 2 * ofGridFaces);

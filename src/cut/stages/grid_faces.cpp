@@ -80,14 +80,15 @@ class FaceCutter {
 
   /// The vertices on the sides, counter-clockwise about the axis.
   std::span<const VertexId> findOutline(const Stencil::Face& face) {
-    const auto corners = stencil_.cornersOf(face);
-    const auto edges = stencil_.edgesOf(face);
+    const Stencil::Cell& cell = stencil_.cells[face.cell];
+    const Outline& outline = kOutlines[face.index];
     VertexId *const begin = scratch_.outline.data(), *end = begin;
     for (size_t i = 0; i < 4; ++i) {
       scratch_.sides[i] = uint32_t(end - begin);
-      *end++ = gridEdges_.corners[corners[i]];
-      const auto inside = gridEdges_.vertices[edges[i]];
-      for (size_t k = 0; k < inside.size(); ++k) *end++ = inside[i < 2 ? k : inside.size() - 1 - k];
+      *end++ = gridEdges_.corners[cell.corners[outline.corners[i]]];
+      const auto inside = gridEdges_.vertices[cell.edges[outline.edges[i]]];
+      for (size_t k = 0; i < 2 && k < inside.size(); ++k) *end++ = inside[k];
+      for (size_t k = inside.size(); i >= 2 && k > 0; --k) *end++ = inside[k - 1];
     }
     scratch_.sides[4] = uint32_t(end - begin);
     return {begin, end};
@@ -115,8 +116,9 @@ class FaceCutter {
   void addChained(GridFaceId gridFace, std::span<const VertexId> outline, size_t edges) {
     for (uint32_t piece = 0; piece < 2; ++piece) addPiece(gridFace, [&](const auto& add) { chain_.forLoop(piece, outline, edges, add); });
     beside_.add(scratch_.sides.begin(), scratch_.sides.end());
-    for (uint32_t side = 0; side < outline.size(); ++side)
-      beside_.add(side >= chain_.first && side < chain_.last ? chain_.between : chain_.other);
+    beside_.fill(chain_.first, chain_.other);
+    beside_.fill(chain_.last - chain_.first, chain_.between);
+    beside_.fill(outline.size() - chain_.last, chain_.other);
     for (size_t e = 0; e < edges; ++e) {
       const uint32_t left = chain_.runsToLast[e] ? chain_.other : chain_.between;
       beside_.add(left);

@@ -159,7 +159,7 @@ class Harvest {
       for (; g.number < stencil_.faces.size() && stencil_.faces[g].cell == c; ++g.number) {
         const uint32_t triFaces = uint32_t(stencil_.triFacesOnFace[g].size());
         const uint32_t pieces = uint32_t(halvesIn(g).size()) - triFaces;
-        addOutside(g, {triFace, triFaces}, {piece, pieces});
+        if (!isInside(sidesIn(g)[0])) addOutside(g, {triFace, triFaces}, {piece, pieces});
         piece += pieces;
         triFace += triFaces;
       }
@@ -175,7 +175,6 @@ class Harvest {
   }
 
   void addOutside(GridFaceId g, const Range& triFaces, const Range& pieces) {
-    if (isInside(sidesIn(g)[0])) return;
     const Stencil::Face& face = stencil_.faces[g];
     Slab other = stencil_.cells[face.cell].element;
     other[size_t(face.axis())] += face.side() == 1 ? 2 : -2;

@@ -12,7 +12,7 @@ LocalHalf after(LocalFace face, bool ascending) { return sideOf(face, ascending 
 /// The edges on one side of a grid-face, in the direction of their axis, and the half-face beside each.
 class Side {
  public:
-  /// `side`: as of Stencil::edgesOf(), where edges 2 and 3 run against their axis. `first`: of the grid-face's half-faces.
+  /// `side`: as of an Outline, where edges 2 and 3 run against their axis. `first`: of the grid-face's half-faces.
   Side(const GridFaces& faces, GridFaceId gridFace, size_t side, LocalHalf first) : first_(first) {
     if (faces.kinds[gridFace] == GridFaceKind::whole) return;
     const auto beside = faces.beside[gridFace];

@@ -174,22 +174,22 @@ void makeStencil(const BrickSurface& surface, const Bricks& bricks, BrickId bric
   std::vector<GridCellId>& cells = stencil.cellOf;
   std::vector<GridFaceId>& faces = stencil.faceOf;
   std::vector<FaceId> inPlane;
+  std::vector<GridFaceId> planes;  // that these lie in
   cells.resize(triFaces.size());
-  faces.clear();
   for (const FaceId f : triFaces.ids()) {
     const Slab& element = triFaces.elements[f];
-    if (planeCount(element) == 0) {
+    if (isCell(element)) {
       cells[f.number] = {stencil.numberAt(stencil.placeOf(element))};
     } else {
       cells[f.number] = {Stencil::kNone};
-      faces.push_back(faceAt(stencil, element));
+      planes.push_back(faceAt(stencil, element));
       inPlane.push_back(f);
     }
   }
   groupByPlace(
       stencil.cells.size(), cells, [](uint32_t i) { return FaceId{i}; }, stencil.triFacesInCell);
   groupByPlace(
-      stencil.faces.size(), faces, [&](uint32_t i) { return inPlane[i]; }, stencil.triFacesOnFace);
+      stencil.faces.size(), planes, [&](uint32_t i) { return inPlane[i]; }, stencil.triFacesOnFace);
   faces.resize(surface.faceEdges.size());
   const auto edgeOf = [&](uint32_t i) { return EdgeOnFace{surface.faceEdges[i].from, surface.faceEdges[i].to}; };
   for (size_t i = 0; i < faces.size(); ++i) faces[i] = faceAt(stencil, surface.faceEdges[i].element);

@@ -61,17 +61,6 @@ struct Stencil {
   Csr<FaceId, GridFaceId> triFacesOnFace;   ///< tri-cut-faces that lie in each grid-face
   Csr<EdgeOnFace, GridFaceId> edgesOnFace;  ///< cut-edges inside of each grid-face
 
-  /// As of an Outline.
-  std::array<GridVertexId, 4> cornersOf(const Face& face) const {
-    const auto& [a, b, c, d] = kOutlines[face.index].corners;
-    const auto& corners = cells[face.cell].corners;
-    return {corners[a], corners[b], corners[c], corners[d]};
-  }
-  std::array<GridEdgeId, 4> edgesOf(const Face& face) const {
-    const auto& [a, b, c, d] = kOutlines[face.index].edges;
-    const auto& edges = cells[face.cell].edges;
-    return {edges[a], edges[b], edges[c], edges[d]};
-  }
   /// A grid cell of the brick, if it belongs to the stencil.
   std::optional<GridCellId> find(const Slab& cell) const;
 
@@ -91,7 +80,7 @@ struct Stencil {
 
   // Scratch.
   std::vector<GridCellId> cellOf;  ///< per tri-cut-face
-  std::vector<GridFaceId> faceOf;  ///< per tri-cut-face in a grid-face, then per cut-edge
+  std::vector<GridFaceId> faceOf;  ///< per cut-edge in a grid-face
 };
 
 /// Groups those items that have a place: placeOf[i] of the i-th, or Stencil::kNone. Replaces `csr`, whose memory is used again.

@@ -48,9 +48,9 @@ TEST_CASE("Corners of a grid-face run counter-clockwise, each edge from one to t
   const Stencil& stencil = cut.stencil;
   const CutVertices& vertices = cut.brick.vertices;
   for (const Stencil::Face& face : stencil.faces) {
-    const auto corners = stencil.cornersOf(face);
+    const auto& corners = stencil.cells[face.cell].corners;
     std::array<VertexId, 4> v;
-    for (size_t i = 0; i < 4; ++i) v[i] = cut.gridEdges.corners[corners[i]];
+    for (size_t i = 0; i < 4; ++i) v[i] = cut.gridEdges.corners[corners[kOutlines[face.index].corners[i]]];
     Predicates predicates;
     for (size_t i = 0; i < 4; ++i) CHECK(vertices.orient(v[i], v[(i + 1) % 4], v[(i + 2) % 4], face.axis(), predicates) > 0);
   }
