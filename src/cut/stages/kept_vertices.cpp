@@ -1,46 +1,136 @@
 #include "cut/stages/kept_vertices.h"
 
+#include "base/csr.h"
+
 namespace mandoline::detail {
 
 namespace {
 
-/// Whether all bricks that have a grid element are kept, one of which is. So vertices on one element are kept together or not at all: see
-/// separate.h.
-bool isKept(const Bricks& bricks, const KeptBricks& kept, const Slab& element) {
-  if (!bricks.grid.isOnSeam(element)) return true;
-  bool is = true;
-  bricks.grid.forBricks(element, [&](const Slab& cell) {
-    const std::optional<BrickId> brick = bricks.find(cell);
-    is &= !brick || kept.has(*brick);
-  });
-  return is;
-}
+class Finder {
+ public:
+  Finder(const VerticesBefore& before, const KeptBricks& kept, const CutBricks& cut, const Numbers& numbers)
+      : before_(before), kept_(kept), cut_(cut), numbers_(numbers) {}
+
+  std::vector<KeptVertices::Run> run() {
+    addOfSurface();
+    for (const BrickId b : cut_.bricks.ids()) {
+      if (kept_.isInner(b)) {
+        addRows(b);
+      } else if (kept_.has(b)) {
+        addSomeOf(b);
+      }
+    }
+    return sorted();
+  }
+
+ private:
+  using Run = KeptVertices::Run;
+
+  void add(uint32_t number, uint32_t before, uint32_t count) {
+    if (count == 0) return;
+    Run* const last = runs_.empty() ? nullptr : &runs_.back();
+    if (last && last->past() == number && last->before + last->count == before) {
+      last->count += count;
+    } else {
+      runs_.push_back({number, before, count});
+    }
+  }
+
+  /// Whether all bricks that have a grid element are kept. So vertices on one element are kept together or not at all: see separate.h.
+  bool isKept(const Slab& element) const {
+    if (!cut_.bricks.grid.isOnSeam(element)) return true;
+    bool is = true;
+    cut_.bricks.grid.forBricks(element, [&](const Slab& cell) {
+      const std::optional<BrickId> brick = cut_.bricks.find(cell);
+      is &= brick ? kept_.has(*brick) : !before_.bricks.find(cell);
+    });
+    return is;
+  }
+
+  void addOfSurface() {
+    const CutVertices& vertices = cut_.surface.vertices;
+    std::vector<uint8_t> isOut(vertices.size(), 0);
+    for (const BrickId b : cut_.bricks.ids()) {
+      if (kept_.isInner(b)) continue;
+      for (const VertexId v : cut_.cuts[b].surfaceVertices) isOut[v.number] |= !kept_.has(b) || !isKept(vertices.slab(v));
+    }
+    const uint32_t past = vertices.firstInTriangle.number;  // bricks own the others
+    const uint32_t *numbers = numbers_.ofSurface.data(), *before = before_.numbers.ofSurface.data();
+    Run run{0, 0, 0};
+    uint32_t was = 0;
+    for (const VertexId v : kept_.vertices) {
+      const uint32_t numberBefore = before[was++];
+      if (v == KeptBricks::kNoVertex) continue;
+      if (v.number >= past) break;
+      const uint32_t number = numbers[v.number];
+      if (number == Numbers::kUnused || isOut[v.number]) continue;
+      if (number != run.past() || numberBefore != run.before + run.count) {
+        add(run.first, run.before, run.count);
+        run = {number, numberBefore, 0};
+      }
+      ++run.count;
+    }
+    add(run.first, run.before, run.count);
+  }
+
+  /// All vertices that an inner brick owns, which are in the order in which they were.
+  void addRows(BrickId brick) {
+    const std::vector<BrickCounts>&before = before_.numbers.rows[kept_.before[brick]], &now = numbers_.rows[brick];
+    for (size_t row = 0; row < now.size(); ++row)
+      add(numbers_.surfaceVertices + now[row].vertices, before_.numbers.surfaceVertices + before[row].vertices,
+          cut_.seams[brick].rows[row].vertices);
+  }
+
+  /// Those that a brick owned and owns, of the others.
+  void addSomeOf(BrickId brick) {
+    const BrickCut& cut = cut_.cuts[brick];
+    const BrickId was = kept_.before[brick];
+    numbersBefore_.assign(cut.lineVertices.size(), Numbers::kUnused);
+    forNumbers(before_.numbers, was, before_.seams[was].vertices, cut, [&](uint32_t i, uint32_t number) { numbersBefore_[i] = number; });
+    forNumbers(numbers_, brick, cut_.seams[brick].vertices, cut, [&](uint32_t i, uint32_t number) {
+      if (numbersBefore_[i] != Numbers::kUnused && isKept(cut.vertices.slab(cut.lineVertices[i]))) add(number, numbersBefore_[i], 1);
+    });
+  }
+
+  std::vector<Run> sorted() {
+    std::vector<KeyedItem> order;
+    order.reserve(runs_.size());
+    uint32_t last = 0;
+    for (const Run& run : runs_) {
+      order.push_back({run.first, uint32_t(order.size())});
+      last = std::max(last, run.first);
+    }
+    sortByKey(order, last);
+    std::vector<Run> sorted;
+    sorted.reserve(runs_.size());
+    for (const KeyedItem& at : order) sorted.push_back(runs_[at.item]);
+    return sorted;
+  }
+
+  /// Calls f(place, number) for the line vertices that a brick owns.
+  template <class F>
+  static void forNumbers(const Numbers& numbers, BrickId brick, const SeamRanges& seams, const BrickCut& cut, const F& f) {
+    uint32_t lastRow = ~0u, next = 0;
+    forOwn(cut, &BrickRow::pastVertex, seams, [&](uint32_t row, uint32_t first, uint32_t past) {
+      if (row != lastRow) next = numbers.surfaceVertices + numbers.rows[brick][row].vertices;
+      lastRow = row;
+      for (uint32_t i = first; i < past; ++i) f(i, next++);
+    });
+  }
+
+  const VerticesBefore& before_;
+  const KeptBricks& kept_;
+  const CutBricks& cut_;
+  const Numbers& numbers_;
+  std::vector<Run> runs_;
+  std::vector<uint32_t> numbersBefore_;  // of a brick's line vertices
+};
 
 }  // namespace
 
-std::vector<uint32_t> findKeptVertices(const CutBricks& cut, const KeptBricks& kept, const Numbers& before, const Numbers& now) {
-  std::vector<uint32_t> result(size_t(now.surfaceVertices) + now.total.vertices, Numbers::kUnused);
-  for (const VertexId was : kept.vertices.ids()) {
-    const VertexId v = kept.vertices[was];
-    const uint32_t number = v == KeptBricks::kNoVertex ? Numbers::kUnused : now.ofSurface[v];
-    if (number != Numbers::kUnused) result[number] = before.ofSurface[was];
-  }
-  const auto isElementKept = [&](const Slab& element) { return isKept(cut.bricks, kept, element); };
-  for (const BrickId b : cut.bricks.ids()) {
-    const bool isBrickKept = kept.has(b), isInner = kept.isInner(b);
-    if (!isInner) {
-      for (const VertexId v : cut.cuts[b].surfaceVertices) {
-        if (!isBrickKept || !isElementKept(cut.surface.vertices.slab(v))) result[now.ofSurface[v]] = Numbers::kUnused;
-      }
-    }
-    if (!isBrickKept) continue;
-    const std::vector<uint32_t>&was = before.ofBrick[kept.before[b]], &is = now.ofBrick[b];
-    const auto& slabs = cut.cuts[b].vertices.slabs;
-    for (size_t i = 0; i < is.size(); ++i) {
-      if (is[i] != Numbers::kUnused && (isInner || isElementKept(slabs[i]))) result[is[i]] = was[i];
-    }
-  }
-  return result;
+std::vector<KeptVertices::Run> findKeptVertices(const VerticesBefore& before, const KeptBricks& kept, const CutBricks& cut,
+                                                const Numbers& numbers) {
+  return Finder(before, kept, cut, numbers).run();
 }
 
 }  // namespace mandoline::detail

@@ -1,7 +1,6 @@
 #include "cut/stages/output_part.h"
 
 #include <functional>
-#include <numeric>
 #include <utility>
 
 #include "base/large_array.h"
@@ -9,18 +8,10 @@
 #include "base/sort.h"
 #include "cut/stages/separate.h"
 #include "cut/stages/write_brick.h"
+#include "cut/stages/write_vertices.h"
 
 namespace mandoline::detail {
 namespace {
-
-/// A part of something that is written by several threads.
-struct Block {
-  size_t begin, end;
-
-  static constexpr size_t kSize = 8192;
-  static size_t count(size_t n) { return (n + kSize - 1) / kSize; }
-  static Block at(size_t block, size_t n) { return {block * kSize, std::min(n, (block + 1) * kSize)}; }
-};
 
 /// The arrays of a result, in the memory that those of another cut-mesh have. Memory for what is written next is asked for at once; then
 /// it is touched, which takes longer, each array on one thread; offsets are ended.
@@ -57,11 +48,7 @@ class Rooms {
   }
   void makeForVertices(size_t surfaceVertices) {
     const size_t vertices = surfaceVertices + total_.vertices;
-    make(&CutMesh::positions, 3 * vertices);
-    make(&CutMesh::vertexCell, 3 * vertices);
-    make(&CutMesh::vertexParents, 2 * vertices);
-    make(&CutMesh::vertexTriVertex, vertices);
-    make(&CutMesh::vertexMask, vertices);
+    forVertexArrays([&](auto array, size_t stride) { make(array, stride * vertices); });
     touch();
   }
 
@@ -107,96 +94,6 @@ class Rooms {
   std::vector<std::function<void()>> untouched_;
 };
 
-/// Writes cut-vertices one by one.
-class VertexWriter {
- public:
-  /// `mesh` and `grid` are those of the user.
-  VertexWriter(const MeshView& mesh, const Grid& grid, const Input& input, const KeptVertices& kept, CutMesh& out)
-      : mesh_(mesh),
-        grid_(grid),
-        input_(input),
-        kept_(kept),
-        scale_(input.mesh->shift),
-        positions_(out.positions.data()),
-        cells_(out.vertexCell.data()),
-        triVertices_(out.vertexTriVertex.data()),
-        parents_(out.vertexParents.data()),
-        masks_(out.vertexMask.data()) {}
-
-  bool onlyGeneral = false;  ///< without the quick ways to positions
-
-  /// Vertex v of the mesh or its edges becomes number i.
-  void writeOnEdges(const CutVertices& vertices, VertexId v, size_t i, Predicates& predicates) {
-    const Slab& slab = vertices.slabs[v.number];
-    if (vertices.isTriVertex(v) && !input_.mesh->isMade(v)) {
-      writeParents(i, int32_t(v.number), {int32_t(v.number), int32_t(v.number)});
-      writeCoordinates(i, slab, [&](size_t d) { return mesh_.positions[3 * size_t(v.number) + d]; });
-    } else {
-      writeParents(i, -1, vertices.isOnEdge(v) ? endsOf(vertices.edges->line(vertices.triEdge(v))) : kNone);
-      writePosition(i, vertices, v, predicates);
-    }
-    writePlace(i, slab);
-  }
-  /// Another one.
-  void writeOther(const CutVertices& vertices, VertexId v, size_t i, Predicates& predicates) {
-    const Slab& slab = vertices.slab(v);
-    writeParents(i, -1, {int32_t(vertices.triangle(v).number), -1});
-    static_assert(int32_t(CutVertices::kNoTriangle.number) == -1);
-    if (planeCount(slab) == 3) {
-      writeCoordinates(i, slab, [](size_t) { return 0; });
-    } else {
-      writePosition(i, vertices, v, predicates);
-    }
-    writePlace(i, slab);
-  }
-
- private:
-  using Parents = std::array<int32_t, 2>;
-  static constexpr Parents kNone{-1, -1};
-
-  static Parents endsOf(const Line& line) {
-    if (line.ofPlanes) return kNone;
-    return {int32_t(std::min(line.a, line.b)), int32_t(std::max(line.a, line.b))};
-  }
-
-  void writeParents(size_t i, int32_t triVertex, const Parents& parents) {
-    triVertices_[i] = triVertex;
-    int32_t* to = parents_ + 2 * i;
-    for (size_t k = 0; k < 2; ++k) to[k] = parents[k];
-  }
-
-  void writePlace(size_t i, const Slab& slab) {
-    int32_t* cell = cells_ + 3 * i;
-    for (size_t d = 0; d < 3; ++d) cell[d] = slab[d] >> 1;
-    masks_[i] = uint8_t(7 - (slab[0] & 1) - 2 * (slab[1] & 1) - 4 * (slab[2] & 1));
-  }
-
-  void writePosition(size_t i, const CutVertices& vertices, VertexId v, Predicates& predicates) {
-    if (const double* before = kept_.find(i)) {
-      double* position = positions_ + 3 * i;
-      for (size_t d = 0; d < 3; ++d) position[d] = before[d];
-    } else {
-      const Point p = vertices.position(v, predicates, onlyGeneral);
-      writeCoordinates(i, vertices.slab(v), [&](size_t d) { return scale_.world(p[d]); });
-    }
-  }
-  /// Coordinates that the input has are handed back as they are, even where scaling flushed them; `coordinate(axis)`: others.
-  template <class Coordinate>
-  void writeCoordinates(size_t i, const Slab& slab, const Coordinate& coordinate) {
-    double* position = positions_ + 3 * i;
-    for (size_t d = 0; d < 3; ++d) position[d] = onPlane(slab[d]) ? grid_.planes[d][size_t(slab[d] >> 1)] : coordinate(d);
-  }
-
-  const MeshView& mesh_;
-  const Grid& grid_;
-  const Input& input_;
-  const KeptVertices& kept_;
-  const Scale scale_;
-  double* const positions_;
-  int32_t *const cells_, *const triVertices_, *const parents_;
-  uint8_t* const masks_;
-};
-
 /// Those of the vertices of the mesh and its edges that lie in the layers that are cut here.
 std::vector<VertexId> onLayers(const CellLayers& here, const CutVertices& vertices, const std::vector<VertexId>& used) {
   std::vector<VertexId> on;
@@ -219,29 +116,6 @@ std::vector<uint32_t> numbersOf(const std::vector<VertexId>& surface, const CutS
     list.push_back(isOthers ? Numbers::kUnused : numbers.ofSurface[v]);
   }
   return list;
-}
-
-/// Writes vertices, of which those of `surface` come first.
-void writeVertices(const CutState& state, const std::vector<VertexId>& surface, VertexWriter& writer, Run& run) {
-  const BricksHere& here = state.bricks.here;
-  const Numbers& numbers = state.numbers;
-  std::vector<uint32_t> tasks(here.size() + Block::count(surface.size()));
-  std::iota(tasks.begin(), tasks.end(), here.first.number);
-  const uint32_t before = numbers.surfaceVertices + numbers.before.vertices - uint32_t(surface.size());
-  std::vector<Predicates> predicates(run.monitor.threads());
-  runItems(tasks, run.monitor, [&](size_t thread, uint32_t task) {
-    if (!here.has({task})) {
-      const Block block = Block::at(task - here.past.number, surface.size());
-      for (size_t i = block.begin; i < block.end; ++i) writer.writeOnEdges(state.surface.vertices, surface[i], i, predicates[thread]);
-      return;
-    }
-    const BrickCut& cut = state.cuts[{task}];
-    forOwn(cut, &BrickRow::pastVertex, state.seams[{task}].vertices, [&](uint32_t, uint32_t first, uint32_t past) {
-      size_t number = numbers.vertex({task}, cut.lineVertices[first]) - before;
-      for (uint32_t i = first; i < past; ++i) writer.writeOther(cut.vertices, cut.lineVertices[i], number++, predicates[thread]);
-    });
-  });
-  for (const Predicates& p : predicates) run.count(p);
 }
 
 /// The vertices that triangles make by meeting. `surface`: those that are written, which have the numbers `ids`, or numbers in order.
@@ -331,9 +205,7 @@ CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& r
     state.numbers.faces = {};
   });
   rooms.makeForVertices(surface.size());
-  VertexWriter writer(mesh, grid, input, kept, out);
-  writer.onlyGeneral = run.onlyGeneral;
-  writeVertices(state, surface, writer, run);
+  writeVertices(mesh, state, {surface, kept}, out, run);
   listMade(state, surface, part.firstVertices, out);
   drop([&] {
     state.cuts = {};

@@ -19,7 +19,9 @@ class Separator {
 
   void run(Monitor& monitor) {
     const size_t count = (slabCount() >> shift_) + 1;
-    const auto layers = groupNumbers(count, out_.vertexCount(), monitor, [&](size_t v) { return layerOf(uint32_t(v)); });
+    const auto layers = kept_.runs.empty()
+                            ? groupNumbers(count, out_.vertexCount(), monitor, [&](size_t v) { return layerOf(uint32_t(v)); })
+                            : groupOthers(count, monitor);
     std::vector<uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0u);
     runItems(order, monitor, [&](size_t, uint32_t layer) { separate(layers[layer]); });
@@ -28,12 +30,23 @@ class Separator {
  private:
   static constexpr size_t kVertices = 4096;  // about as many as a layer has, at least
 
+  /// Groups vertices that are not kept.
+  Csr<uint32_t> groupOthers(size_t count, Monitor& monitor) const {
+    std::vector<uint32_t> others;
+    kept_.forOthers(0, out_.vertexCount(), [&](size_t first, size_t past) {
+      for (size_t v = first; v < past; ++v) others.push_back(uint32_t(v));
+    });
+    auto layers = groupNumbers(count, others.size(), monitor, [&](size_t i) { return layerOf(others[i]); });
+    for (uint32_t& item : layers.items) item = others[item];
+    return layers;
+  }
+
   /// Vertices on different grid elements never have the same position: see CutVertices::position. At a grid vertex there is one; inside of
   /// a grid cell there are those of the mesh alone, unless triangles meet. None of these has a layer; a layer has all others of the grid
   /// elements that it has.
   uint32_t layerOf(uint32_t v) const {
     const uint8_t mask = out_.vertexMask[v];
-    if (mask == 7 || mask == maskInCell_ || kept_.has(v)) return kNoGroup;
+    if (mask == 7 || mask == maskInCell_) return kNoGroup;
     return uint32_t((2 * size_t(out_.vertexCell[3 * size_t(v) + axis_]) + !(mask >> axis_ & 1)) >> shift_);
   }
   size_t slabCount() const { return 2 * out_.grid.planes[axis_].size(); }
