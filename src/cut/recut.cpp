@@ -21,14 +21,14 @@ struct Recutter::Data {
   struct LastCut {
     std::unique_ptr<Prepared> prepared;
     std::unique_ptr<CutState> state;
-    CutMesh vertices;  ///< of the result: its arrays of vertices, and no others
+    std::vector<double> positions;  ///< of the result
   };
 
   /// What a cut keeps of one before it.
   class KeepingOf final : public Keeping {
    public:
     KeepingOf(LastCut& before, CutState& now, const Moved& moved)
-        : before_(*before.state), vertices_(before.vertices), now_(now), moved_(moved) {}
+        : before_(*before.state), positions_(before.positions), now_(now), moved_(moved) {}
 
     const KnownCrossings& crossings() override { return crossings_.emplace(before_.surface, now_.surface, moved_); }
     KnownClips& clips() override {
@@ -43,7 +43,7 @@ struct Recutter::Data {
     IdVector<BrickId, BrickSeams> seams() override { return keepSeams(kept_, now_.runs, before_.seams); }
     KeptVertices vertices() override {
       if (kept_.before.empty()) return {};
-      return {findKeptVertices({before_.bricks, before_.seams, before_.numbers}, kept_, now_.cut(), now_.numbers), &vertices_};
+      return {findKeptVertices({before_.bricks, before_.seams, before_.numbers}, kept_, now_.cut(), now_.numbers), positions_};
     }
     size_t brickCount() const {
       size_t count = 0;
@@ -53,7 +53,7 @@ struct Recutter::Data {
 
    private:
     CutState& before_;
-    const CutMesh& vertices_;
+    const std::vector<double>& positions_;
     CutState& now_;
     const Moved& moved_;
     std::optional<CrossingsBefore> crossings_;
@@ -95,11 +95,9 @@ struct Recutter::Data {
     CutMesh cutMesh = cutPrepared(state, input.view(), grid, clock, run);
     sign(cutMesh, fingerprintOf(mesh), options);
     counts = {state.bricks.size(), keeping ? keeping->brickCount() : 0};
-    now.vertices = std::move(before.vertices);
-    forVertexArrays([&](auto array, size_t) {
-      (now.vertices.*array).clear();
-      copyLarge(cutMesh.*array, now.vertices.*array);
-    });
+    now.positions = std::move(before.positions);
+    now.positions.clear();
+    copyLarge(cutMesh.positions, now.positions);
     state.numbers.faces = {};
     state.numbers.ofBrick = {};
     state.keeping = nullptr;

@@ -1,4 +1,4 @@
-// Vertices of the result that lie where they did, with what the cut before has of them.
+// Vertices of the result that lie where they did, with their positions in the cut before.
 //
 // In: KeptBricks, and the Numbers of both cuts. Out: KeptVertices: those on grid elements that only kept bricks have.
 #pragma once
@@ -14,8 +14,8 @@ struct KeptVertices {
 
     uint32_t past() const { return first + count; }
   };
-  std::vector<Run> runs;            ///< ascending, apart from each other. Empty if no vertex is kept
-  const CutMesh* before = nullptr;  ///< the arrays of vertices before
+  std::vector<Run> runs;              ///< ascending, apart from each other. Empty if no vertex is kept
+  std::span<const double> positions;  ///< before
 
   /// Calls f(first, past) for the parts of a range of numbers that are not kept.
   template <class F>
@@ -28,16 +28,6 @@ struct KeptVertices {
     if (first < past) f(first, past);
   }
 };
-
-/// Calls f(array, entries per vertex) for the arrays of a cut-mesh that have its vertices.
-template <class F>
-void forVertexArrays(const F& f) {
-  f(&CutMesh::positions, size_t(3));
-  f(&CutMesh::vertexCell, size_t(3));
-  f(&CutMesh::vertexParents, size_t(2));
-  f(&CutMesh::vertexTriVertex, size_t(1));
-  f(&CutMesh::vertexMask, size_t(1));
-}
 
 /// Of the cut before: what is left of it once bricks and seams are kept.
 struct VerticesBefore {

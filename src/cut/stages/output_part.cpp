@@ -48,7 +48,11 @@ class Rooms {
   }
   void makeForVertices(size_t surfaceVertices) {
     const size_t vertices = surfaceVertices + total_.vertices;
-    forVertexArrays([&](auto array, size_t stride) { make(array, stride * vertices); });
+    make(&CutMesh::positions, 3 * vertices);
+    make(&CutMesh::vertexCell, 3 * vertices);
+    make(&CutMesh::vertexParents, 2 * vertices);
+    make(&CutMesh::vertexTriVertex, vertices);
+    make(&CutMesh::vertexMask, vertices);
     touch();
   }
 

@@ -16,6 +16,19 @@ struct Block {
   }
 };
 
+/// CutVertices::slab() of many vertices.
+class SlabsOf {
+ public:
+  explicit SlabsOf(const CutVertices& vertices)
+      : own_(vertices.slabs.data()), surface_(vertices.surface ? vertices.surface->slabs.data() : nullptr), firstOwn_(vertices.firstOwn) {}
+
+  const Slab& operator[](VertexId v) const { return v < firstOwn_ ? surface_[v.number] : own_[v.number - firstOwn_.number]; }
+
+ private:
+  const Slab *const own_, *const surface_;
+  const VertexId firstOwn_;
+};
+
 /// Writes vertices in a row, array by array.
 class VertexWriter {
  public:
@@ -26,81 +39,69 @@ class VertexWriter {
 
   /// Vertices of the mesh and its edges, ascending. The first one becomes number i.
   void writeOnEdges(const CutVertices& vertices, List list, size_t i, Predicates& predicates) {
+    writePlaces(vertices, list, i);
     const auto isOfMesh = [&](VertexId v) { return vertices.isTriVertex(v) && !input_.mesh->isMade(v); };
     const size_t count = size_t(std::partition_point(list.begin(), list.end(), isOfMesh) - list.begin());
-    kept_.forOthers(i, i + count, [&](size_t first, size_t past) { writeOfMesh(vertices, partOf(list, i, first, past), first); });
-    writeCoordinatesOfMesh(vertices, list.first(count), i);
-    kept_.forOthers(i + count, i + list.size(), [&](size_t first, size_t past) {
-      writeMade(vertices, partOf(list, i, first, past), first, predicates,
-                [&](VertexId v) { return vertices.isOnEdge(v) ? endsOf(vertices.edges->line(vertices.triEdge(v))) : kNone; });
+    writeOfMesh(vertices, list.first(count), i);
+    list = list.subspan(count);
+    i += count;
+    writeParents(list, i, [&](VertexId v) {
+      return vertices.isOnEdge(v) ? endsOf(vertices.edges->line(vertices.triEdge(v))) : Parents{-1, -1};
     });
+    writePositions(vertices, list, i, predicates);
   }
-  /// Others.
-  void writeOthers(const CutVertices& vertices, List list, size_t i, Predicates& predicates) {
+
+  /// Others, without positions.
+  void writeOthers(const CutVertices& vertices, List list, size_t i) {
+    writePlaces(vertices, list, i);
     static_assert(int32_t(CutVertices::kNoTriangle.number) == -1);
-    kept_.forOthers(i, i + list.size(), [&](size_t first, size_t past) {
-      writeMade(vertices, partOf(list, i, first, past), first, predicates, [&](VertexId v) {
-        return Parents{int32_t(vertices.triangle(v).number), -1};
-      });
-    });
+    writeParents(list, i, [&](VertexId v) { return Parents{int32_t(vertices.triangle(v).number), -1}; });
   }
-  /// Some of those that are kept, before others are written.
-  void copyKept(std::span<const KeptVertices::Run> runs) {
-    forVertexArrays([&](auto array, size_t stride) {
-      const auto* from = (kept_.before->*array).data();
-      auto* to = (out_.*array).data();
-      for (const KeptVertices::Run& run : runs) std::copy_n(from + stride * run.before, stride * run.count, to + stride * run.first);
+
+  /// Of those that are not kept.
+  void writePositions(const CutVertices& vertices, List list, size_t i, Predicates& predicates) {
+    kept_.forOthers(i, i + list.size(), [&](size_t first, size_t past) {
+      for (size_t at = first; at < past; ++at) writePosition(vertices, list[at - i], at, predicates);
     });
   }
 
  private:
   using Parents = std::array<int32_t, 2>;
-  static constexpr Parents kNone{-1, -1};
 
   static Parents endsOf(const Line& line) {
-    if (line.ofPlanes) return kNone;
+    if (line.ofPlanes) return {-1, -1};
     return {int32_t(std::min(line.a, line.b)), int32_t(std::max(line.a, line.b))};
-  }
-
-  /// Those with numbers first .. past - 1 of a list that has numbers from i on.
-  static List partOf(List list, size_t i, size_t first, size_t past) { return list.subspan(first - i, past - first); }
-
-  /// All but coordinates.
-  void writeOfMesh(const CutVertices& vertices, List list, size_t i) {
-    writePlaces(vertices, list, i);
-    for (const VertexId v : list) {
-      out_.vertexTriVertex[i] = int32_t(v.number);
-      writeParents(i++, {int32_t(v.number), int32_t(v.number)});
-    }
-  }
-  /// Those of kept vertices, too: others may have become the same by scaling.
-  void writeCoordinatesOfMesh(const CutVertices& vertices, List list, size_t i) {
-    for (const VertexId v : list)
-      writeCoordinates(vertices.slab(v), i++, [&](size_t d) { return mesh_.positions[3 * size_t(v.number) + d]; });
-  }
-  template <class ParentsOf>
-  void writeMade(const CutVertices& vertices, List list, size_t i, Predicates& predicates, const ParentsOf& parentsOf) {
-    writePlaces(vertices, list, i);
-    std::fill_n(out_.vertexTriVertex.begin() + ptrdiff_t(i), list.size(), -1);
-    for (const VertexId v : list) {
-      writeParents(i, parentsOf(v));
-      writePosition(vertices, v, i++, predicates);
-    }
-  }
-  void writeParents(size_t i, const Parents& parents) {
-    for (size_t k = 0; k < 2; ++k) out_.vertexParents[2 * i + k] = parents[k];
   }
 
   void writePlaces(const CutVertices& vertices, List list, size_t i) {
     int32_t* cells = out_.vertexCell.data() + 3 * i;
-    uint8_t* const masks = out_.vertexMask.data() + i;
-    for (size_t k = 0; k < list.size(); ++k) {
-      const Slab slab = vertices.slab(list[k]);
+    uint8_t* masks = out_.vertexMask.data() + i;
+    const SlabsOf slabs(vertices);
+    for (const VertexId v : list) {
+      const Slab& slab = slabs[v];
       for (size_t d = 0; d < 3; ++d) *cells++ = slab[d] >> 1;
-      masks[k] = uint8_t(7 - (slab[0] & 1) - 2 * (slab[1] & 1) - 4 * (slab[2] & 1));
+      *masks++ = uint8_t(7 - (slab[0] & 1) - 2 * (slab[1] & 1) - 4 * (slab[2] & 1));
     }
   }
-
+  void writeOfMesh(const CutVertices& vertices, List list, size_t i) {
+    int32_t* triVertices = out_.vertexTriVertex.data() + i;
+    int32_t* parents = out_.vertexParents.data() + 2 * i;
+    for (const VertexId v : list) {
+      *triVertices++ = int32_t(v.number);
+      for (int k = 0; k < 2; ++k) *parents++ = int32_t(v.number);
+      writeCoordinates(vertices.slab(v), i++, [&](size_t d) { return mesh_.positions[3 * size_t(v.number) + d]; });
+    }
+  }
+  /// Of vertices that are not of the mesh.
+  template <class ParentsOf>
+  void writeParents(List list, size_t i, const ParentsOf& parentsOf) {
+    std::fill_n(out_.vertexTriVertex.begin() + ptrdiff_t(i), list.size(), -1);
+    int32_t* parents = out_.vertexParents.data() + 2 * i;
+    for (const VertexId v : list) {
+      const Parents of = parentsOf(v);
+      for (int k = 0; k < 2; ++k) *parents++ = of[size_t(k)];
+    }
+  }
   void writePosition(const CutVertices& vertices, VertexId v, size_t i, Predicates& predicates) {
     const Slab& slab = vertices.slab(v);
     if (planeCount(slab) == 3) return writeCoordinates(slab, i, [](size_t) { return 0; });
@@ -122,6 +123,12 @@ class VertexWriter {
   CutMesh& out_;
 };
 
+/// Of some vertices that are kept.
+void copyPositions(const KeptVertices& kept, std::span<const KeptVertices::Run> runs, CutMesh& out) {
+  for (const KeptVertices::Run& run : runs)
+    std::copy_n(kept.positions.data() + 3 * size_t(run.before), 3 * size_t(run.count), out.positions.data() + 3 * size_t(run.first));
+}
+
 }  // namespace
 
 void writeVertices(const MeshView& mesh, const CutState& state, const VerticesToWrite& vertices, CutMesh& out, Run& run) {
@@ -132,7 +139,7 @@ void writeVertices(const MeshView& mesh, const CutState& state, const VerticesTo
   const std::span<const KeptVertices::Run> runs = vertices.kept.runs;
   std::vector<uint32_t> tasks(Block::count(runs.size()));
   std::iota(tasks.begin(), tasks.end(), 0u);
-  runItems(tasks, run.monitor, [&](size_t, uint32_t task) { writer.copyKept(Block::of(runs, task)); });
+  runItems(tasks, run.monitor, [&](size_t, uint32_t task) { copyPositions(vertices.kept, Block::of(runs, task), out); });
   tasks.resize(here.size() + Block::count(surface.size()));
   std::iota(tasks.begin(), tasks.end(), here.first.number);
   const uint32_t before = numbers.surfaceVertices + numbers.before.vertices - uint32_t(surface.size());
@@ -142,11 +149,13 @@ void writeVertices(const MeshView& mesh, const CutState& state, const VerticesTo
       const size_t block = task - here.past.number;
       return writer.writeOnEdges(state.surface.vertices, Block::of(surface, block), block * Block::kSize, predicates[thread]);
     }
-    if (state.kept && state.kept->isInner({task})) return;  // all of them are kept
+    const bool areKept = state.kept && state.kept->isInner({task});
     const BrickCut& cut = state.cuts[{task}];
     forOwn(cut, &BrickRow::pastVertex, state.seams[{task}].vertices, [&](uint32_t, uint32_t first, uint32_t past) {
       const size_t number = numbers.vertex({task}, cut.lineVertices[first]) - before;
-      writer.writeOthers(cut.vertices, cut.lineVertices.subspan(first, past - first), number, predicates[thread]);
+      const auto list = cut.lineVertices.subspan(first, past - first);
+      writer.writeOthers(cut.vertices, list, number);
+      if (!areKept) writer.writePositions(cut.vertices, list, number, predicates[thread]);
     });
   });
   for (const Predicates& p : predicates) run.count(p);
