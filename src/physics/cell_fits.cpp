@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/large_array.h"
 #include "physics/node_loops.h"
 
 namespace mandoline::physics {
@@ -14,24 +15,11 @@ namespace {
 using Row = FitEquation::Row;
 constexpr size_t kUnknowns = FitEquation::kUnknowns;
 
-/// Inline, since fits are a tenth quicker so.
 inline FitEquation equationOf(const CellComplex& cells, const FitData& data, uint32_t id, size_t cell) {
-  const FitDatum& datum = data.data[id];
-  const double *centroid = &cells.cellCentroid[3 * cell], size = data.cellSize[cell];
-  const Point& n = datum.direction;
-  double r[3], square = 0, along = 0;
-  for (size_t d = 0; d < 3; ++d) r[d] = (datum.point[d] - centroid[d]) / size, square += r[d] * r[d], along += n[d] * r[d];
-  const double nearness = 1 / (0.25 + square), weight = datum.weight / (size * size) * nearness * nearness;
-  Row row{n[0],
-          n[1],
-          n[2],
-          n[0] * r[0] - n[2] * r[2],
-          n[1] * r[1] - n[2] * r[2],
-          n[0] * r[1] + n[1] * r[0],
-          n[1] * r[2] + n[2] * r[1],
-          n[0] * r[2] + n[2] * r[0]};
-  for (size_t d = 0; d < 3 && !data.slope.empty(); ++d) row[d] -= along * size * data.slope[3 * cell + d] / 3;
-  return {row, along, weight, id};
+  const double size = data.cellSize[cell];
+  FitEquation equation = equationOf(data.data[id], &cells.cellCentroid[3 * cell], size, id);
+  for (size_t d = 0; d < 3 && !data.slope.empty(); ++d) equation.row[d] -= equation.along * size * data.slope[3 * cell + d] / 3;
+  return equation;
 }
 
 /// What is known of one cell after the other.
@@ -117,7 +105,16 @@ FitFactors::Row FitFactors::solve(Row x) const {
   return x;
 }
 
-CellFits::CellFits(size_t cellCount) : gradient(3 * cellCount), second(6 * cellCount) {}
+CellFits::CellFits(size_t cellCount, unsigned threads) {
+  detail::makeLargeOnThreads(gradient, 3 * cellCount, threads);
+  detail::makeLargeOnThreads(second, 6 * cellCount, threads);
+}
+
+void CellFits::set(size_t cell, const Row& x, double size, double mean) {
+  std::copy(x.begin(), x.begin() + 3, &gradient[3 * cell]);
+  const double found[6] = {x[3], x[4], -x[3] - x[4], x[5], x[6], x[7]};
+  for (size_t j = 0; j < 6; ++j) second[6 * cell + j] = found[j] / size + (j < 3 ? mean : 0);
+}
 
 void CellFits::fit(const Known& known, uint32_t c, const FitFactors& factors, std::span<const FitEquation> equations) {
   const double size = known.data.cellSize[c];
@@ -128,25 +125,22 @@ void CellFits::fit(const Known& known, uint32_t c, const FitFactors& factors, st
     for (size_t i = 0; i < kUnknowns; ++i) right[i] += row[i] * value;
   }
   const Row x = factors.solve(right);
-  std::copy(x.begin(), x.begin() + 3, &gradient[3 * c]);
   for (size_t d = 0; d < 3 && !known.data.slope.empty(); ++d) mean -= x[d] * known.data.slope[3 * c + d] / 3;
-  const double found[6] = {x[3], x[4], -x[3] - x[4], x[5], x[6], x[7]};
-  for (size_t j = 0; j < 6; ++j) second[6 * c + j] = found[j] / size + (j < 3 ? mean : 0);
+  set(c, x, size, mean);
 }
 
-CellFits fitAll(const CellComplex& cells, const CellFits::Known& known, detail::Monitor& monitor) {
-  CellFits fits(cells.cellCount());
-  forCells(cells, known.data, cells.cellCount(), monitor, [&](Equations& equations, size_t i) {
-    const auto c = uint32_t(i);
+void fitCells(const CellComplex& cells, std::span<const uint32_t> which, const CellFits::Known& known, detail::Monitor& monitor,
+              CellFits& fits) {
+  forCells(cells, known.data, which.size(), monitor, [&](Equations& equations, size_t i) {
+    const uint32_t c = which[i];
     if (!(known.data.cellSize[c] > 0)) return;
     const std::vector<FitEquation>& ofCell = equations.of(c, equations.gather(c));
     fits.fit(known, c, FitFactors(ofCell), ofCell);
   });
-  return fits;
 }
 
 CellFitter::CellFitter(const CellComplex& cells, FitData data, std::vector<uint32_t> which, detail::Monitor& monitor)
-    : cells_(cells), data_(std::move(data)), fits_(cells.cellCount()) {
+    : cells_(cells), data_(std::move(data)), fits_(cells.cellCount(), monitor.threads()) {
   std::erase_if(which, [&](uint32_t c) { return !(data_.cellSize[c] > 0); });
   which_ = std::move(which);
   std::vector<std::vector<uint32_t>> ids(which_.size());

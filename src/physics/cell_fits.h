@@ -16,6 +16,19 @@ struct FitEquation {
   uint32_t datum;
 };
 
+/// That of a cell with this centroid and size. Inline, since fits are a tenth quicker so.
+inline FitEquation equationOf(const FitDatum& datum, const double* centroid, double size, uint32_t id) {
+  const Point& n = datum.direction;
+  double r[3], square = 0, along = 0;
+  for (size_t d = 0; d < 3; ++d) r[d] = (datum.point[d] - centroid[d]) / size, square += r[d] * r[d], along += n[d] * r[d];
+  const double nearness = 1 / (0.25 + square), weight = datum.weight / (size * size) * nearness * nearness;
+  return {{n[0], n[1], n[2], n[0] * r[0] - n[2] * r[2], n[1] * r[1] - n[2] * r[2], n[0] * r[1] + n[1] * r[0], n[1] * r[2] + n[2] * r[1],
+           n[0] * r[2] + n[2] * r[0]},
+          along,
+          weight,
+          id};
+}
+
 /// The factors of a cell's normal equations. Second derivatives that the data leave open, or nearly, are near zero; so are gradients.
 class FitFactors {
  public:
@@ -44,8 +57,10 @@ struct CellFits {
     const std::vector<double>& source;  ///< per cell; empty for 0
   };
 
-  explicit CellFits(size_t cellCount);
+  CellFits(size_t cellCount, unsigned threads);
 
+  /// From what the equations of a cell of this size have found; `mean`: a third of its Laplacian.
+  void set(size_t cell, const FitEquation::Row& unknowns, double size, double mean);
   void fit(const Known& known, uint32_t cell, const FitFactors& factors, std::span<const FitEquation> equations);
 
   /// The gradient of a cell's polynomial at a point.
@@ -56,8 +71,9 @@ struct CellFits {
   }
 };
 
-/// Fits all cells.
-CellFits fitAll(const CellComplex& cells, const CellFits::Known& known, detail::Monitor& monitor);
+/// Fits the cells in `which`.
+void fitCells(const CellComplex& cells, std::span<const uint32_t> which, const CellFits::Known& known, detail::Monitor& monitor,
+              CellFits& fits);
 
 /// Fits some cells again and again.
 class CellFitter {

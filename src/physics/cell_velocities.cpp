@@ -1,16 +1,23 @@
 #include "physics/cell_velocities.h"
 
 #include "physics/cell_edges.h"
-#include "physics/cell_fits.h"
+#include "physics/uniform_fits.h"
 
 namespace mandoline::physics {
 
 void fillVelocities(const CellComplex& cells, const PoissonProblem& problem, detail::Monitor& monitor, Flow& flow) {
   const DualEdges dual = dualEdges(cells, problem.dualPoints, {}, monitor.threads());
-  const detail::Csr<uint32_t> edgesOfCells = cellEdges(cells, dual, monitor.threads());
-  const FitSource source{cells, dual, edgesOfCells, problem};
-  const FitData data = fitData(source, nullptr, {}, monitor.threads());
-  CellFits fits = fitAll(cells, {data, fitValues(source, data, flow.phi, monitor.threads()), problem.source}, monitor);
+  fillVelocities({cells, dual, cellEdges(cells, dual, monitor.threads()), problem}, monitor, flow);
+}
+
+void fillVelocities(const FitSource& source, detail::Monitor& monitor, Flow& flow) {
+  const unsigned threads = monitor.threads();
+  CellFits fits(source.cells.cellCount(), threads);
+  const UniformFits uniform(source, threads);
+  const std::vector<uint32_t> others = uniform.otherCells();
+  const FitData data = fitData(source, &others, {}, threads);
+  fitCells(source.cells, others, {data, fitValues(source, data, flow.phi, threads), source.problem.source}, monitor, fits);
+  uniform.fit(flow.phi, threads, fits);
   flow.cellVelocity = std::move(fits.gradient);
   flow.cellGradient = std::move(fits.second);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/large_array.h"
 #include "mesh/run_call.h"
 #include "operators/measure/vector.h"
 #include "operators/require_cut_mesh.h"
@@ -11,6 +12,7 @@
 #include "physics/cell_velocities.h"
 #include "physics/far_field.h"
 #include "physics/flow_of_phi.h"
+#include "physics/node_loops.h"
 #include "physics/poisson_setup.h"
 #include "physics/secants.h"
 #include "physics/wind.h"
@@ -48,13 +50,16 @@ void setOnBoundary(const Boundary& boundary, Flow& flow) {
 }
 
 /// What follows from phi and the velocities on faces of a wind of length 1; then all for one of the given length.
-void complete(const CellComplex& cells, const PoissonProblem& problem, double length, detail::Monitor& monitor, Flow& flow) {
-  physics::fillVelocities(cells, problem, monitor, flow);
-  for (size_t c = 0; c < cells.cellCount(); ++c) {
-    double square = 0;
-    for (size_t d = 0; d < 3; ++d) square += flow.cellVelocity[3 * c + d] * flow.cellVelocity[3 * c + d];
-    flow.cellPressure.push_back(length > 0 ? 1 - square : 0);
-  }
+void complete(const physics::FitSource& source, double length, detail::Monitor& monitor, Flow& flow) {
+  physics::fillVelocities(source, monitor, flow);
+  detail::makeLargeOnThreads(flow.cellPressure, source.cells.cellCount(), monitor.threads());
+  physics::forBlocks(flow.cellPressure.size(), monitor.threads(), [&](size_t begin, size_t end) {
+    for (size_t c = begin; c < end; ++c) {
+      double square = 0;
+      for (size_t d = 0; d < 3; ++d) square += flow.cellVelocity[3 * c + d] * flow.cellVelocity[3 * c + d];
+      flow.cellPressure[c] = length > 0 ? 1 - square : 0;
+    }
+  });
   scale(flow, length);
   if (!isFinite(flow)) flow.status = SolveStatus::breakdown;
 }
@@ -71,33 +76,41 @@ class FlowSolver {
     PoissonProblem problem;
     problem.boundary = physics::windBoundary(cells_, unitOf(wind), flow.throttled);
     detail::Monitor monitor(options_, kStages);
-    solve(problem, monitor, flow);
+    const KnownEdges known = solve(problem, monitor, flow);
     monitor.beginStage("velocities", kStages - 1);
-    complete(cells_, problem, length, monitor, flow);
+    complete({cells_, known.dual, known.ofCells, problem}, length, monitor, flow);
     return flow;
   }
 
  private:
   static constexpr int kStages = 3;  // the solver's two and the velocities
 
-  void solve(PoissonProblem& problem, detail::Monitor& monitor, Flow& flow) const {
+  /// What the solver has found and the velocities need again.
+  struct KnownEdges {
+    physics::DualEdges dual;
+    detail::Csr<uint32_t> ofCells;
+  };
+
+  KnownEdges solve(PoissonProblem& problem, detail::Monitor& monitor, Flow& flow) const {
     std::optional<physics::FarField> farField;
     if (options_.farField) farField.emplace(cells_, problem.boundary);
     monitor.beginStage("levels", 0);
-    PoissonSolver solver(cells_, problem, monitor.threads());
+    physics::PoissonSetup setup(cells_, problem, monitor.threads());
     auto options = monitor.part<SolveOptions>(1, 1);
     options.tolerance = options_.tolerance;
     options.maxIterations = options_.maxIterations;
     options.corrections = options_.corrections;
     physics::requireOptions(options);
     if (farField && farField->hasDipoles())
-      solveFarField(*farField, solver, options, problem.boundary, flow);
+      solveFarField(*farField, setup, options, problem.boundary, flow);
     else
-      solve(solver, options, problem.boundary, flow);
+      solve(setup, options, problem.boundary, flow);
+    return {std::move(setup.dual), std::move(setup.edgesOfCells)};
   }
 
   /// What flows through the sides follows from dipoles, and these follow from the flow.
-  void solveFarField(const physics::FarField& farField, PoissonSolver& solver, SolveOptions options, Boundary& boundary, Flow& flow) const {
+  void solveFarField(const physics::FarField& farField, physics::PoissonSetup& setup, SolveOptions options, Boundary& boundary,
+                     Flow& flow) const {
     const std::vector<double> ofWind = boundary.value;
     const auto progress = options.progress;
     physics::Secants secants(farField.sideWeights());
@@ -105,7 +118,7 @@ class FlowSolver {
     for (int pass = 0;; ++pass) {
       if (progress) options.progress = [&](const Progress& p) { return progress(partOfPasses(p, pass)); };
       options.tolerance = pass == 0 ? std::max(options_.tolerance, kLoose) : options_.tolerance;
-      solve(solver, options, boundary, flow);
+      solve(setup, options, boundary, flow);
       if (flow.status != SolveStatus::converged) return;
       const double missing = secants.add(ofDipoles, farField.outflowOfDipoles(flow));
       if (pass > 0 && missing <= kEnough) return;
@@ -125,8 +138,10 @@ class FlowSolver {
   }
 
   /// Goes on from the flow's phi, if there is one.
-  void solve(PoissonSolver& solver, const SolveOptions& options, const Boundary& boundary, Flow& flow) const {
-    Solution solution = solver.solve({{}, boundary.value, flow.phi}, options);
+  void solve(physics::PoissonSetup& setup, const SolveOptions& options, const Boundary& boundary, Flow& flow) const {
+    detail::Monitor monitor(options, 1);
+    monitor.beginStage("iterations", 0);
+    Solution solution = physics::solve(setup, {{}, boundary.value, flow.phi}, options, monitor);
     flow.status = isSolved(solution.status) ? SolveStatus::converged : solution.status;  // what flows is known
     flow.phi = std::move(solution.phi);
     if (!flow.residuals.empty()) flow.residuals.pop_back();
@@ -163,7 +178,7 @@ Flow physics::flowOfPhi(const CellComplex& cells, const std::array<double, 3>& w
     flow.faceVelocity.resize(cells.faceCount());
     setOnBoundary(problem.boundary, flow);
     monitor.beginStage("velocities", 0);
-    complete(cells, problem, length, monitor, flow);
+    complete({cells, dual, edges, problem}, length, monitor, flow);
     return flow;
   });
 }
