@@ -18,10 +18,10 @@ FreeMeans::FreeMeans(const CellComplex& cells, const CellComponents& components,
   runs_.endGroup();
 }
 
-std::vector<double> FreeMeans::meansOf(const std::vector<double>& z, unsigned threads) const {
+std::vector<double> FreeMeans::meansOf(const std::vector<double>& z, const detail::Team& team) const {
   std::vector<double> means(volume_.size()), sums(runs_.items.size());
   if (std::all_of(volume_.begin(), volume_.end(), [](double volume) { return !(volume > 0); })) return means;
-  forBlocks(z.size(), threads, [&](size_t begin, size_t) {
+  forBlocks(z.size(), team, [&](size_t begin, size_t) {
     for (uint32_t r = runs_.offsets[begin / kBlock]; r < runs_.offsets[begin / kBlock + 1]; ++r) {
       const Run& run = runs_.items[r];
       for (size_t c = run.begin; c < run.end; ++c) sums[r] += z[c] * cells_.cellVolume[c];
@@ -32,9 +32,9 @@ std::vector<double> FreeMeans::meansOf(const std::vector<double>& z, unsigned th
   return means;
 }
 
-double FreeMeans::takeOut(const std::vector<double>& r, std::vector<double>& z, unsigned threads) const {
-  const std::vector<double> means = meansOf(z, threads);
-  return sumOfBlocks(z.size(), threads, [&](size_t begin, size_t) {
+double FreeMeans::takeOut(const std::vector<double>& r, std::vector<double>& z, const detail::Team& team) const {
+  const std::vector<double> means = meansOf(z, team);
+  return sumOfBlocks(z.size(), team, [&](size_t begin, size_t) {
     double sum = 0;
     for (const Run& run : runs_[begin / kBlock]) {
       for (size_t c = run.begin; c < run.end; ++c) z[c] -= means[run.component], sum += r[c] * z[c];

@@ -12,7 +12,7 @@ class Multigrid {
   explicit Multigrid(std::vector<Level> levels);
 
   /// x = B r, where B is symmetric, positive definite and near the matrix's inverse. Nodes whose diagonal is zero get 0.
-  void apply(const std::vector<double>& r, std::vector<double>& x, unsigned threads);
+  void apply(const std::vector<double>& r, std::vector<double>& x, const detail::Team& team);
 
  private:
   struct Vectors {
@@ -22,8 +22,8 @@ class Multigrid {
   void correct(size_t level, std::vector<double>& x);
 
   std::vector<Level> levels_;
-  std::vector<Vectors> vectors_;  // per level
-  unsigned threads_ = 1;
+  std::vector<Vectors> vectors_;        // per level
+  const detail::Team* team_ = nullptr;  // while it is applied
 };
 
 }  // namespace mandoline::physics

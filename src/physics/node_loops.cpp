@@ -1,9 +1,8 @@
 #include "physics/node_loops.h"
 
 #include <algorithm>
+#include <atomic>
 #include <vector>
-
-#include "base/threads.h"
 
 namespace mandoline::physics {
 
@@ -12,14 +11,17 @@ unsigned threadsFor(size_t nodes, unsigned threads) {
   return unsigned(std::clamp<size_t>(blockCount(nodes) / kLeast, 1, threads));
 }
 
-void forBlocks(size_t nodes, unsigned threads, detail::FunctionRef<void(size_t, size_t)> f) {
-  detail::runOnParts(blockCount(nodes), threadsFor(nodes, threads),
-                     [&](size_t block) { f(kBlock * block, std::min(kBlock * (block + 1), nodes)); });
+void forBlocks(size_t nodes, const detail::Team& team, detail::FunctionRef<void(size_t, size_t)> f) {
+  const size_t blocks = blockCount(nodes);
+  std::atomic<size_t> next{0};
+  team.run(threadsFor(nodes, team.size()), [&] {
+    for (size_t block; (block = next++) < blocks;) f(kBlock * block, std::min(kBlock * (block + 1), nodes));
+  });
 }
 
-double sumOfBlocks(size_t nodes, unsigned threads, detail::FunctionRef<double(size_t, size_t)> f) {
+double sumOfBlocks(size_t nodes, const detail::Team& team, detail::FunctionRef<double(size_t, size_t)> f) {
   std::vector<double> sums(blockCount(nodes));
-  forBlocks(nodes, threads, [&](size_t begin, size_t end) { sums[begin / kBlock] = f(begin, end); });
+  forBlocks(nodes, team, [&](size_t begin, size_t end) { sums[begin / kBlock] = f(begin, end); });
   double sum = 0;
   for (const double s : sums) sum += s;
   return sum;

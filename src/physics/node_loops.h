@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "base/function_ref.h"
+#include "base/team.h"
 
 namespace mandoline::physics {
 
@@ -11,14 +11,13 @@ inline constexpr size_t kBlock = 2048;  ///< nodes
 
 inline size_t blockCount(size_t nodes) { return (nodes + kBlock - 1) / kBlock; }
 
-/// How many threads are worth starting for so many nodes, at most `threads`, which is at least 1: starting one takes as long as some
-/// blocks.
+/// How many threads are worth calling for so many nodes, at most `threads`, which is at least 1: to call one takes as long as some blocks.
 unsigned threadsFor(size_t nodes, unsigned threads);
 
 /// Runs f(begin, end), which must not throw, for each block of nodes.
-void forBlocks(size_t nodes, unsigned threads, detail::FunctionRef<void(size_t, size_t)> f);
+void forBlocks(size_t nodes, const detail::Team& team, detail::FunctionRef<void(size_t, size_t)> f);
 
 /// The sum of f(begin, end) over the blocks, added in their order.
-double sumOfBlocks(size_t nodes, unsigned threads, detail::FunctionRef<double(size_t, size_t)> f);
+double sumOfBlocks(size_t nodes, const detail::Team& team, detail::FunctionRef<double(size_t, size_t)> f);
 
 }  // namespace mandoline::physics

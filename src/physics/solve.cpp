@@ -13,7 +13,7 @@ using Vector = std::vector<double>;
 class Solver {
  public:
   Solver(PoissonSetup& setup, const PoissonData& data, const SolveOptions& options, detail::Monitor& monitor)
-      : setup_(setup), cells_(setup.cells), data_(data), options_(options), monitor_(monitor) {}
+      : setup_(setup), cells_(setup.cells), data_(data), options_(options), monitor_(monitor), team_(monitor.threads()) {}
 
   Solution run() {
     PoissonProblem& problem = setup_.problem;
@@ -198,7 +198,7 @@ class Solver {
     for (double& value : values) value = std::isnormal(factor) ? value * factor : std::ldexp(value, exponent);
   }
 
-  double sumOver(detail::FunctionRef<double(size_t, size_t)> f) const { return sumOfBlocks(rhs_.size(), threads(), f); }
+  double sumOver(detail::FunctionRef<double(size_t, size_t)> f) const { return sumOfBlocks(rhs_.size(), team_, f); }
   double dot(const Vector& a, const Vector& b) const {
     return sumOver([&](size_t begin, size_t end) {
       double sum = 0;
@@ -230,7 +230,7 @@ class Solver {
     r.resize(rhs_.size());
     for (double before = updateResidual(r); !(before <= tolerance);) {  // also if it is no number
       const SolveStatus status = conjugateGradients(r, std::min(tolerance, before / 10));
-      setup_.system.sweep(setup_.order, rhs_, result_.phi, threads());
+      setup_.system.sweep(setup_.order, rhs_, result_.phi, team_);
       const double now = updateResidual(r);
       if (now <= tolerance) return;
       if (status == SolveStatus::iterationLimit || !(now < before / 2)) {
@@ -251,10 +251,10 @@ class Solver {
       if (int64_t(result_.iterations()) >= options_.maxIterations) return SolveStatus::iterationLimit;
       progress_ = std::max(progress_, progress());
       monitor_.report(progress_, 1000);
-      setup_.multigrid.apply(r, z, threads());
-      const double newRz = setup_.means.takeOut(r, z, threads()), beta = rz == 0 ? 0 : newRz / rz;
+      setup_.multigrid.apply(r, z, team_);
+      const double newRz = setup_.means.takeOut(r, z, team_), beta = rz == 0 ? 0 : newRz / rz;
       rz = newRz;
-      forBlocks(n, threads(), [&](size_t begin, size_t end) {
+      forBlocks(n, team_, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) p[i] = z[i] + beta * p[i];
       });
       const double alpha = rz / sumOver([&](size_t begin, size_t end) {
@@ -317,6 +317,7 @@ class Solver {
   const PoissonData& data_;
   const SolveOptions& options_;
   detail::Monitor& monitor_;
+  const detail::Team team_;
   Vector rhs_;
   double norm_ = 0;      // of the right side
   bool isWarm_ = false;  // whether phi to start from is given

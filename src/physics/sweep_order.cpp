@@ -3,43 +3,34 @@
 #include <algorithm>
 #include <atomic>
 
-#include "base/threads.h"
-
 namespace mandoline::physics {
 
-void SweepOrder::setOrder() {
-  const size_t blocks = lower_.size();
-  std::vector<uint32_t> block, depth(blocks);  // per coupling of blocks: the higher one; per block: how many wait for each other before it
-  uint32_t depths = 0;
-  for (uint32_t b = 0; b < blocks; ++b) {
-    for (const uint32_t lower : lower_[b]) {
-      block.push_back(b);
-      depth[b] = std::max(depth[b], depth[lower] + 1);
-    }
-    depths = std::max(depths, depth[b] + 1);
-  }
+void SweepOrder::setHigher() {
+  std::vector<uint32_t> higher;  // per coupling of blocks
+  for (uint32_t b = 0; b < lower_.size(); ++b) higher.insert(higher.end(), lower_[b].size(), b);
   higher_ = detail::groupBy<uint32_t>(
-      blocks, block.size(), [&](size_t i) { return size_t(lower_.items[i]); }, [&](size_t i) { return block[i]; });
-  order_ = detail::groupBy<uint32_t>(
-               depths, blocks, [&](size_t b) { return size_t(depth[b]); }, [](size_t b) { return uint32_t(b); })
-               .items;
+      lower_.size(), higher.size(), [&](size_t i) { return size_t(lower_.items[i]); }, [&](size_t i) { return higher[i]; });
 }
 
-void SweepOrder::run(const detail::Csr<uint32_t>& waitsFor, bool isReversed, unsigned threads,
-                     detail::FunctionRef<void(size_t, size_t)> f) const {
-  const size_t started = threadsFor(nodes_, threads);
-  if (started == 1) return f(0, nodes_);
-  const size_t blocks = order_.size();
-  std::vector<std::atomic<bool>> isDone(blocks);
-  std::atomic<size_t> next{0};
-  detail::runOnThreads(started, [&](size_t) {
-    for (size_t k; (k = next++) < blocks;) {
-      const uint32_t b = order_[isReversed ? blocks - 1 - k : k];
-      for (const uint32_t before : waitsFor[b]) {
-        while (!isDone[before].load(std::memory_order_acquire)) detail::yieldThread();
-      }
+void SweepOrder::run(const Sides& sides, const detail::Team& team, detail::FunctionRef<void(size_t, size_t)> f) const {
+  const size_t threads = threadsFor(nodes_, team.size());
+  if (threads == 1) return f(0, nodes_);
+  constexpr uint32_t kNone = ~uint32_t(0);
+  const size_t blocks = lower_.size();
+  std::vector<std::atomic<uint32_t>> left(blocks), ready(blocks);  // per block: how many it still waits for; blocks that need not wait
+  std::atomic<size_t> made{0}, taken{0};                           // of those
+  for (uint32_t b = 0; b < blocks; ++b) left[b] = uint32_t(sides.before[b].size()), ready[b] = kNone;
+  for (uint32_t b = 0; b < blocks; ++b) {
+    if (left[b] == 0) ready[made++] = b;
+  }
+  team.run(threads, [&] {
+    for (size_t k; (k = taken++) < blocks;) {
+      uint32_t b;
+      while ((b = ready[k].load(std::memory_order_acquire)) == kNone) detail::yieldThread();
       f(b * kBlock, std::min((b + 1) * kBlock, nodes_));
-      isDone[b].store(true, std::memory_order_release);
+      for (const uint32_t after : sides.after[b]) {
+        if (--left[after] == 0) ready[made++].store(after, std::memory_order_release);
+      }
     }
   });
 }

@@ -1,5 +1,5 @@
 // Sweeps of Gauss-Seidel on all threads. Where nodes are coupled, that which comes first in the sweep is done first: so its result is that
-// of one thread, to the bit.
+// of one thread, to the bit. Threads take blocks in the order in which these become ready, so that none waits while there is one.
 #pragma once
 
 #include "base/csr.h"
@@ -28,20 +28,23 @@ class SweepOrder {
       }
       lower_.endGroup();
     }
-    setOrder();
+    setHigher();
   }
 
   /// Runs f(begin, end), which must not throw, for ranges of nodes.
-  void forwards(unsigned threads, detail::FunctionRef<void(size_t, size_t)> f) const { run(lower_, false, threads, f); }
-  void backwards(unsigned threads, detail::FunctionRef<void(size_t, size_t)> f) const { run(higher_, true, threads, f); }
+  void forwards(const detail::Team& team, detail::FunctionRef<void(size_t, size_t)> f) const { run({lower_, higher_}, team, f); }
+  void backwards(const detail::Team& team, detail::FunctionRef<void(size_t, size_t)> f) const { run({higher_, lower_}, team, f); }
 
  private:
-  void setOrder();
-  void run(const detail::Csr<uint32_t>& waitsFor, bool isReversed, unsigned threads, detail::FunctionRef<void(size_t, size_t)> f) const;
+  /// Blocks that each one waits for, and those that wait for it.
+  struct Sides {
+    const detail::Csr<uint32_t>&before, &after;
+  };
+  void setHigher();
+  void run(const Sides& sides, const detail::Team& team, detail::FunctionRef<void(size_t, size_t)> f) const;
 
   size_t nodes_ = 0;
   detail::Csr<uint32_t> lower_, higher_;  // per block: those that it is coupled with
-  std::vector<uint32_t> order_;           // of blocks: next to each other are such as need not wait for each other
 };
 
 }  // namespace mandoline::physics

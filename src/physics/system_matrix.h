@@ -29,16 +29,16 @@ class SystemMatrix {
   }
   /// Gauss-Seidel, forwards and backwards. The smallest cells hardly show in a residual; this adjusts them to their neighbours.
   /// `order`: sweepOrderOf(the matrix).
-  void sweep(const SweepOrder& order, const std::vector<double>& rhs, std::vector<double>& x, unsigned threads) const {
+  void sweep(const SweepOrder& order, const std::vector<double>& rhs, std::vector<double>& x, const detail::Team& team) const {
     const auto adjust = [&](size_t i) {
       double diagonal = added_[i];
       forEachOther(i, [&](size_t, double value) { diagonal -= value; });
       if (diagonal > 0) x[i] += (rhs[i] - row(x, i)) / diagonal;
     };
-    order.forwards(threads, [&](size_t begin, size_t end) {
+    order.forwards(team, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) adjust(i);
     });
-    order.backwards(threads, [&](size_t begin, size_t end) {
+    order.backwards(team, [&](size_t begin, size_t end) {
       for (size_t i = end; i-- > begin;) adjust(i);
     });
   }

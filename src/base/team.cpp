@@ -1,0 +1,97 @@
+#include "base/team.h"
+
+#ifndef MANDOLINE_ONE_THREAD
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <system_error>
+#include <vector>
+#endif
+
+namespace mandoline::detail {
+
+#ifdef MANDOLINE_ONE_THREAD
+struct Team::Crew {};
+Team::Team(unsigned) : size_(1) {}
+void Team::run(size_t, FunctionRef<void()> work) const { work(); }
+#else
+/// The other threads.
+struct Team::Crew {
+  std::mutex mutex;
+  std::condition_variable called, left;
+  std::vector<std::thread> threads;
+  const FunctionRef<void()>* work = nullptr;
+  std::atomic<size_t> wanted{0};  ///< how many more may begin
+  std::atomic<size_t> inside{0};  ///< how many are at work
+  bool isOver = false;
+
+  ~Crew() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      isOver = true;
+    }
+    called.notify_all();
+    for (std::thread& thread : threads) thread.join();
+  }
+
+  /// Looks for a short time whether the next loop, or the end of one, comes at once, which is quicker than to sleep.
+  template <class IsSo>
+  static void watch(const IsSo& isSo) {
+    constexpr int kLooks = 100;
+    for (int i = 0; i < kLooks && !isSo(); ++i) yieldThread();
+  }
+
+  void help() {
+    for (;;) {
+      watch([&] { return wanted > 0; });
+      const FunctionRef<void()>* mine;
+      {
+        std::unique_lock<std::mutex> lock(mutex);
+        called.wait(lock, [&] { return isOver || wanted > 0; });
+        if (isOver) return;
+        --wanted, ++inside;
+        mine = work;
+      }
+      (*mine)();
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (--inside == 0) left.notify_one();
+    }
+  }
+
+  void start(size_t count) {
+    try {
+      while (threads.size() < count) threads.emplace_back([this] { help(); });
+    } catch (const std::system_error&) {  // the existing ones do the work
+    }
+  }
+
+  void run(size_t others, const FunctionRef<void()>& ofAll) {
+    start(others);
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      work = &ofAll;
+      wanted = others;
+    }
+    called.notify_all();
+    ofAll();
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      wanted = 0;
+    }
+    watch([&] { return inside == 0; });
+    std::unique_lock<std::mutex> lock(mutex);
+    left.wait(lock, [&] { return inside == 0; });
+  }
+};
+
+Team::Team(unsigned threads) : size_(threads), crew_(threads > 1 ? std::make_unique<Crew>() : nullptr) {}
+
+void Team::run(size_t threads, FunctionRef<void()> work) const {
+  if (std::min<size_t>(threads, size_) <= 1) return work();
+  crew_->run(std::min<size_t>(threads, size_) - 1, work);
+}
+#endif
+
+Team::~Team() = default;
+
+}  // namespace mandoline::detail

@@ -1,0 +1,30 @@
+// Threads that many short loops share one after the other: starting threads for each would take as long as some of the loops.
+#pragma once
+
+#include <memory>
+
+#include "base/threads.h"
+
+namespace mandoline::detail {
+
+class Team {
+ public:
+  /// So many threads, at least 1: the caller's and others, which are started once they are needed. Implicit, so that what takes a team for
+  /// its loops can also be called with a number of threads.
+  Team(unsigned threads);  // NOLINT
+  Team(const Team&) = delete;
+  ~Team();
+
+  unsigned size() const { return size_; }
+
+  /// Runs work(), which must not throw, here and on others of at most `threads` of them in all. Once it has returned here there must be
+  /// nothing left to begin: those which have not begun by then are not waited for. No two calls at once.
+  void run(size_t threads, FunctionRef<void()> work) const;
+
+ private:
+  struct Crew;
+  unsigned size_;
+  std::unique_ptr<Crew> crew_;
+};
+
+}  // namespace mandoline::detail

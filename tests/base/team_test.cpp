@@ -1,0 +1,39 @@
+// Threads that short loops share.
+#include "base/team.h"
+
+#include <atomic>
+#include <vector>
+
+#include "catch.h"
+
+using namespace mandoline;
+
+TEST_CASE("team: loops one after the other, each of whose items is done once, on any number of threads") {
+  for (const unsigned threads : {1u, 2u, 3u, 8u}) {
+    const detail::Team team(threads);
+    CHECK(team.size() == threads);
+    std::vector<uint64_t> sums(100);
+    uint64_t expected = 0;
+    for (uint64_t loop = 0; loop < 2000; ++loop) {  // without locks: one loop must see what the one before has written
+      std::atomic<size_t> next{0};
+      team.run(1 + loop % (threads + 1), [&] {
+        for (size_t i; (i = next++) < sums.size();) sums[i] += loop * i;
+      });
+      expected += loop;
+    }
+    for (size_t i = 0; i < sums.size(); ++i) REQUIRE(sums[i] == expected * i);
+  }
+}
+
+TEST_CASE("team: who has begun is waited for") {
+  const detail::Team team(4);
+  for (int loop = 0; loop < 200; ++loop) {
+    std::atomic<int> begun{0}, done{0};
+    team.run(4, [&] {
+      const int mine = begun++;
+      for (int i = 0; mine > 0 && i < 100; ++i) detail::yieldThread();
+      ++done;
+    });
+    CHECK(done == begun);
+  }
+}
