@@ -23,7 +23,8 @@ struct Team::Crew {
   const FunctionRef<void()>* work = nullptr;
   std::atomic<size_t> wanted{0};  ///< how many more may begin
   std::atomic<size_t> inside{0};  ///< how many are at work
-  bool isOver = false;
+  std::atomic<bool> isOver{false};
+  bool canStart = true;  ///< as far as is known
 
   ~Crew() {
     {
@@ -43,7 +44,7 @@ struct Team::Crew {
 
   void help() {
     for (;;) {
-      watch([&] { return wanted > 0; });
+      watch([&] { return wanted > 0 || isOver; });
       const FunctionRef<void()>* mine;
       {
         std::unique_lock<std::mutex> lock(mutex);
@@ -60,8 +61,9 @@ struct Team::Crew {
 
   void start(size_t count) {
     try {
-      while (threads.size() < count) threads.emplace_back([this] { help(); });
+      while (canStart && threads.size() < count) threads.emplace_back([this] { help(); });
     } catch (const std::system_error&) {  // the existing ones do the work
+      canStart = false;
     }
   }
 

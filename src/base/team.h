@@ -3,11 +3,12 @@
 
 #include <memory>
 
+#include "base/shared.h"
 #include "base/threads.h"
 
 namespace mandoline::detail {
 
-class Team {
+class MANDOLINE_SHARED Team {
  public:
   /// So many threads, at least 1: the caller's and others, which are started once they are needed. Implicit, so that what takes a team for
   /// its loops can also be called with a number of threads.
@@ -15,6 +16,7 @@ class Team {
   Team(const Team&) = delete;
   ~Team();
 
+  /// 1 where there are no threads.
   unsigned size() const { return size_; }
 
   /// Runs work(), which must not throw, here and on others of at most `threads` of them in all. Once it has returned here there must be
