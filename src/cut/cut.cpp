@@ -112,7 +112,7 @@ CutOptions PreparedForGrid::options() const {
 void beginCut(const Prepared& prepared, const Grid& grid, CutState& state, Clock& clock, Run& run) {
   addCounts(prepared, run.stats);
   clock.begin("grid");
-  state.surface.input = prepareInput(prepared, grid, run);
+  state.surface.input = prepareInput(prepared, grid, run, state.keeping ? state.keeping->slabs() : nullptr);
 }
 
 SnappedInput::SnappedInput(const MeshView& mesh, const Grid& grid, const CutOptions& options, CutStats& stats) : view_(mesh) {

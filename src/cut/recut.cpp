@@ -28,8 +28,9 @@ struct Recutter::Data {
   class KeepingOf final : public Keeping {
    public:
     KeepingOf(LastCut& before, CutState& now, const Moved& moved)
-        : before_(*before.state), positions_(before.positions), now_(now), moved_(moved) {}
+        : before_(*before.state), positions_(before.positions), now_(now), moved_(moved), slabs_{before_.surface.input, moved} {}
 
+    const KnownSlabs* slabs() override { return &slabs_; }
     const KnownCrossings& crossings() override { return crossings_.emplace(before_.surface, now_.surface, moved_); }
     KnownClips& clips() override {
       map_.emplace(before_.surface, now_.surface, moved_);
@@ -56,6 +57,7 @@ struct Recutter::Data {
     const std::vector<double>& positions_;
     CutState& now_;
     const Moved& moved_;
+    const KnownSlabs slabs_;
     std::optional<CrossingsBefore> crossings_;
     std::optional<SurfaceMap> map_;
     std::optional<ClipsBefore> clips_;
@@ -89,9 +91,9 @@ struct Recutter::Data {
       again.mesh = prepareMesh(input.view(), preparation, monitor, beginStage);
     }
     now.prepared = std::move(again.mesh);
+    state.keeping = keeping ? &*keeping : nullptr;
     beginCut(*now.prepared, grid, state, clock, run);
     state.brickShifts = keeping ? before.state->bricks.grid.shifts : BrickGrid::shiftsForMoving(state.surface.input);
-    state.keeping = keeping ? &*keeping : nullptr;
     CutMesh cutMesh = cutPrepared(state, input.view(), grid, clock, run);
     sign(cutMesh, fingerprintOf(mesh), options);
     counts = {state.bricks.size(), keeping ? keeping->brickCount() : 0};

@@ -77,7 +77,7 @@ double largestCoordinate(const Grid& grid) {
   return largest;
 }
 
-Input prepareInput(const Prepared& mesh, const Grid& grid, Run& run) {
+Input prepareInput(const Prepared& mesh, const Grid& grid, Run& run, const KnownSlabs* known) {
   Input input;
   input.mesh = &mesh;
   const Scale scale(mesh.shift);
@@ -87,6 +87,10 @@ Input prepareInput(const Prepared& mesh, const Grid& grid, Run& run) {
   input.slabs.resize(mesh.points.size());
   const auto chunks = forChunks<Predicates>(mesh.points.size(), run.monitor, [&](Predicates& predicates, size_t begin, size_t end) {
     for (const VertexId v : Ids<VertexId>(begin, end)) {
+      if (known && !mesh.isMade(v) && !known->moved[v]) {
+        input.slabs[v] = known->input.slabs[v];
+        continue;
+      }
       for (int d = 0; d < 3; ++d) {
         input.slabs[v][size_t(d)] = mesh.isMade(v) ? locateMade(mesh.arrangement->points, v, d, input.planes[size_t(d)], predicates)
                                                    : locate(input.planes[size_t(d)], perCell[d], mesh.point(v)[size_t(d)]);

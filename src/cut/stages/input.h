@@ -12,7 +12,14 @@ namespace mandoline::detail {
 MANDOLINE_SHARED void checkGrid(const Grid& grid, double snapTolerance);
 /// The largest coordinate of a plane.
 double largestCoordinate(const Grid& grid);
-/// The planes must fit the mesh's scale: largestCoordinate(grid) * 2^shift < 2^(Scale::kLargestExponent + Scale::kRoom + 1).
-Input prepareInput(const Prepared& mesh, const Grid& grid, Run& run);
+/// The slabs of an input before, of a mesh with the same scale in the same grid.
+struct KnownSlabs {
+  const Input& input;
+  const Moved& moved;  ///< since then
+};
+
+/// `known` may be null. The planes must fit the mesh's scale: largestCoordinate(grid) * 2^shift < 2^(Scale::kLargestExponent + Scale::kRoom
+/// + 1).
+Input prepareInput(const Prepared& mesh, const Grid& grid, Run& run, const KnownSlabs* known = nullptr);
 
 }  // namespace mandoline::detail

@@ -19,11 +19,17 @@ class ClipJoiner {
     vertices.parentTriangles.clear();
     vertices.slabs.reserve(vertices.slabs.size() + before.parentTriangles.size() + slabs.size());
     vertices.parentTriangles.reserve(before.parentTriangles.size() + slabs.size());
-    const Slab* slabsBefore = before.slabs.data() + before.firstInTriangle.number;
-    const auto triangleIn = [](const std::vector<TriangleId>& list, size_t i) { return list[i]; };
+    const auto add = [&](const Slab* from, const std::vector<TriangleId>& triangles, const IdRange& range) {
+      vertices.slabs.insert(vertices.slabs.end(), from + range.begin, from + range.end);
+      append(triangles, range, vertices.parentTriangles);
+    };
     join(
-        before.parentTriangles, parents, triangleIn, [&](size_t i) { vertices.add(slabsBefore[i], before.parentTriangles[i]); },
-        [&](size_t i) { otherIds_.push_back(vertices.add(slabs[i], parents[i])); });
+        before.parentTriangles, parents, [](TriangleId t) { return t; },
+        [&](const IdRange& range) { add(before.slabs.data() + before.firstInTriangle.number, before.parentTriangles, range); },
+        [&](const IdRange& range) {
+          for (size_t i = 0; i < range.size(); ++i) otherIds_.push_back({uint32_t(vertices.size() + i)});
+          add(slabs.data(), parents, range);
+        });
   }
 
   /// Once `now` has the vertices.
@@ -32,71 +38,92 @@ class ClipJoiner {
     const size_t edges = before_.hybridEdges.size() + others_.hybridEdges.size();
     all_.hybridEdges.reserve(edges);
     all_.hybridTriangles.reserve(edges);
-    joinTagged(before_.hybridTriangles, others_.hybridTriangles, all_.hybridTriangles,
-               [&](const ClippedTriangles& from, size_t i, auto id) {
-                 const FaceEdge& edge = from.hybridEdges[i];
-                 all_.hybridEdges.push_back({edge.element, id(edge.from), id(edge.to)});
-               });
-    joinTagged(before_.seamTriangles, others_.seamTriangles, all_.seamTriangles,
-               [&](const ClippedTriangles& from, size_t i, auto id) { all_.seamVertices.push_back(id(from.seamVertices[i])); });
+    joinTagged(&ClippedTriangles::hybridTriangles, [&](const ClippedTriangles& from, const IdRange& range, const auto& id) {
+      for (size_t i = range.begin; i < range.end; ++i) {
+        const FaceEdge& edge = from.hybridEdges[i];
+        all_.hybridEdges.push_back({edge.element, id(edge.from), id(edge.to)});
+      }
+    });
+    joinTagged(&ClippedTriangles::seamTriangles, [&](const ClippedTriangles& from, const IdRange& range, const auto& id) {
+      for (size_t i = range.begin; i < range.end; ++i) all_.seamVertices.push_back(id(from.seamVertices[i]));
+    });
     return std::move(all_);
   }
 
  private:
-  /// Calls addBefore(place) for the entries of `before` whose triangles are the same, and addOther(place) for all of `others`.
-  template <class List, class TriangleIn, class Before, class Other>
-  void join(const List& before, const List& others, const TriangleIn& triangleIn, const Before& addBefore, const Other& addOther) const {
+  template <class Item>
+  static void append(const std::vector<Item>& from, const IdRange& range, std::vector<Item>& to) {
+    to.insert(to.end(), from.begin() + ptrdiff_t(range.begin), from.begin() + ptrdiff_t(range.end));
+  }
+
+  /// Calls addBefore(places) for the entries of `before` whose triangles are the same, and addOther(places) for all of `others`.
+  template <class Item, class TriangleOf, class Before, class Other>
+  void join(const std::vector<Item>& before, const std::vector<Item>& others, const TriangleOf& triangleOf, const Before& addBefore,
+            const Other& addOther) const {
     size_t i = 0;
     const auto addBeforeUntil = [&](TriangleId past) {
-      for (; i < before.size() && triangleIn(before, i) < past; ++i) {
-        if (now_.isSame(triangleIn(before, i))) addBefore(i);
+      while (i < before.size() && triangleOf(before[i]) < past) {
+        const size_t first = i;
+        while (i < before.size() && triangleOf(before[i]) < past && now_.isSame(triangleOf(before[i]))) ++i;
+        if (first < i) addBefore(IdRange{first, i});
+        while (i < before.size() && triangleOf(before[i]) < past && !now_.isSame(triangleOf(before[i]))) ++i;
       }
     };
-    for (size_t other = 0; other < others.size(); ++other) {
-      addBeforeUntil(triangleIn(others, other));
-      addOther(other);
+    for (size_t other = 0; other < others.size();) {
+      const size_t first = other;
+      const TriangleId triangle = triangleOf(others[first]);
+      addBeforeUntil(triangle);
+      while (other < others.size() && triangleOf(others[other]) == triangle) ++other;
+      addOther(IdRange{first, other});
     }
     addBeforeUntil({~0u});
   }
 
   VertexId idNow(VertexId other) const { return other < firstOther_ ? other : otherIds_[other.number - firstOther_.number]; }
 
-  /// Of lists whose triangles are in one of their own: add(of whom, place, id now of their vertices).
+  /// Of lists whose triangles are in one of their own: add(of whom, places, id now of their vertices).
   template <class Add>
-  void joinTagged(const std::vector<TriangleId>& before, const std::vector<TriangleId>& others, std::vector<TriangleId>& triangles,
-                  const Add& add) {
+  void joinTagged(std::vector<TriangleId> ClippedTriangles::*triangles, const Add& add) {
+    const auto addFrom = [&](const ClippedTriangles& from, const IdRange& range, const auto& id) {
+      append(from.*triangles, range, all_.*triangles);
+      add(from, range, id);
+    };
     join(
-        before, others, [](const std::vector<TriangleId>& list, size_t i) { return list[i]; },
-        [&](size_t i) {
-          triangles.push_back(before[i]);
-          add(before_, i, [&](VertexId v) { return now_[v]; });
-        },
-        [&](size_t i) {
-          triangles.push_back(others[i]);
-          add(others_, i, [&](VertexId v) { return idNow(v); });
-        });
+        before_.*triangles, others_.*triangles, [](TriangleId t) { return t; },
+        [&](const IdRange& range) { addFrom(before_, range, [&](VertexId v) { return now_[v]; }); },
+        [&](const IdRange& range) { addFrom(others_, range, [&](VertexId v) { return idNow(v); }); });
   }
 
   void joinParts() {
-    const auto addPart = [&](const ClippedTriangles& from, size_t i, const auto& id) {
-      ClippedTriangles::Part part = from.parts[i];
-      if (part.piece != ClippedTriangles::kWhole) {
-        const bool isNew = i == 0 || from.parts[i - 1].piece != part.piece;  // bricks beside each other may have the same one
-        if (isNew) {
-          for (const Corner& c : from.pieces[part.piece]) all_.pieces.items.push_back({id(c.id), c.slab});
-          all_.pieces.endGroup();
-        }
-        part.piece = uint32_t(all_.pieces.size()) - 1;
-      }
-      all_.parts.push_back(part);
-    };
     all_.parts.reserve(before_.parts.size() + others_.parts.size());
     all_.pieces.offsets.reserve(before_.pieces.offsets.size() + others_.pieces.offsets.size());
     all_.pieces.items.reserve(before_.pieces.items.size() + others_.pieces.items.size());
     join(
-        before_.parts, others_.parts, [](const auto& list, size_t i) { return list[i].triangle; },
-        [&](size_t i) { addPart(before_, i, [&](VertexId v) { return now_[v]; }); },
-        [&](size_t i) { addPart(others_, i, [&](VertexId v) { return idNow(v); }); });
+        before_.parts, others_.parts, [](const ClippedTriangles::Part& part) { return part.triangle; },
+        [&](const IdRange& range) { addParts(before_, range, [&](VertexId v) { return now_[v]; }); },
+        [&](const IdRange& range) { addParts(others_, range, [&](VertexId v) { return idNow(v); }); });
+  }
+  /// All parts of some triangles, whose pieces follow each other.
+  template <class IdNow>
+  void addParts(const ClippedTriangles& from, const IdRange& range, const IdNow& id) {
+    const size_t at = all_.parts.size();
+    append(from.parts, range, all_.parts);
+    std::optional<uint32_t> first;
+    uint32_t past = 0;
+    for (ClippedTriangles::Part& part : std::span(all_.parts).subspan(at)) {
+      if (part.piece == ClippedTriangles::kWhole) continue;
+      if (!first) first = part.piece;
+      past = part.piece + 1;
+      part.piece += uint32_t(all_.pieces.size()) - *first;
+    }
+    if (!first) return;
+    const std::vector<uint32_t>& offsets = from.pieces.offsets;
+    const uint32_t shift = all_.pieces.offsets.back() - offsets[*first];
+    for (uint32_t piece = *first; piece < past; ++piece) all_.pieces.offsets.push_back(offsets[piece + 1] + shift);
+    for (uint32_t i = offsets[*first]; i < offsets[past]; ++i) {
+      const Corner& corner = from.pieces.items[i];
+      all_.pieces.items.push_back({id(corner.id), corner.slab});
+    }
   }
 
   const ClippedTriangles &before_, &others_;

@@ -6,6 +6,52 @@ namespace mandoline::detail {
 
 namespace {
 
+/// Which bricks are kept, of one and those around it.
+class KeptAround {
+ public:
+  KeptAround(const VerticesBefore& before, const KeptBricks& kept, const CutBricks& cut, BrickId brick) : box_(cut.bricks.boxes[brick]) {
+    forSides({0, 0, 0}, {2, 2, 2}, [&](size_t i, const std::array<size_t, 3>& side) {
+      Slab cell;
+      for (size_t d = 0; d < 3; ++d) cell[d] = 2 * (box_.first[d] + (side[d] == 0 ? -1 : side[d] == 1 ? 0 : box_.count[d])) + 1;
+      if (!cut.bricks.grid.hasCell(cell)) return;
+      const std::optional<BrickId> at = cut.bricks.find(cell);
+      areKept_[i] = at ? kept.has(*at) : !before.bricks.find(cell);
+    });
+  }
+
+  /// Whether all that have a grid element of the brick are. So vertices on one element are kept together or not at all: see separate.h.
+  bool haveKept(const Slab& element) const {
+    std::array<size_t, 3> first, last;
+    for (size_t d = 0; d < 3; ++d) {
+      first[d] = element[d] > 2 * box_.first[d];
+      last[d] = element[d] < 2 * (box_.first[d] + box_.count[d]) ? 1 : 2;
+    }
+    bool are = true;
+    forSides(first, last, [&](size_t i, const std::array<size_t, 3>&) { are &= areKept_[i]; });
+    return are;
+  }
+
+ private:
+  /// Calls f(number, sides along each axis): 0 stands for below the brick, 1 for within, 2 for above.
+  template <class F>
+  static void forSides(const std::array<size_t, 3>& first, const std::array<size_t, 3>& last, const F& f) {
+    for (size_t z = first[2]; z <= last[2]; ++z) {
+      for (size_t y = first[1]; y <= last[1]; ++y) {
+        for (size_t x = first[0]; x <= last[0]; ++x) f((3 * z + y) * 3 + x, std::array<size_t, 3>{x, y, z});
+      }
+    }
+  }
+
+  const BrickBox& box_;
+  std::array<bool, 27> areKept_ = filled();
+
+  static std::array<bool, 27> filled() {
+    std::array<bool, 27> all;
+    all.fill(true);
+    return all;
+  }
+};
+
 class Finder {
  public:
   Finder(const VerticesBefore& before, const KeptBricks& kept, const CutBricks& cut, const Numbers& numbers)
@@ -36,23 +82,13 @@ class Finder {
     }
   }
 
-  /// Whether all bricks that have a grid element are kept. So vertices on one element are kept together or not at all: see separate.h.
-  bool isKept(const Slab& element) const {
-    if (!cut_.bricks.grid.isOnSeam(element)) return true;
-    bool is = true;
-    cut_.bricks.grid.forBricks(element, [&](const Slab& cell) {
-      const std::optional<BrickId> brick = cut_.bricks.find(cell);
-      is &= brick ? kept_.has(*brick) : !before_.bricks.find(cell);
-    });
-    return is;
-  }
-
   void addOfSurface() {
     const CutVertices& vertices = cut_.surface.vertices;
     std::vector<uint8_t> isOut(vertices.size(), 0);
     for (const BrickId b : cut_.bricks.ids()) {
       if (kept_.isInner(b)) continue;
-      for (const VertexId v : cut_.cuts[b].surfaceVertices) isOut[v.number] |= !kept_.has(b) || !isKept(vertices.slab(v));
+      const KeptAround around(before_, kept_, cut_, b);
+      for (const VertexId v : cut_.cuts[b].surfaceVertices) isOut[v.number] |= !kept_.has(b) || !around.haveKept(vertices.slab(v));
     }
     const uint32_t past = vertices.firstInTriangle.number;  // bricks own the others
     const uint32_t *numbers = numbers_.ofSurface.data(), *before = before_.numbers.ofSurface.data();
@@ -85,10 +121,12 @@ class Finder {
   void addSomeOf(BrickId brick) {
     const BrickCut& cut = cut_.cuts[brick];
     const BrickId was = kept_.before[brick];
+    const KeptAround around(before_, kept_, cut_, brick);
     numbersBefore_.assign(cut.lineVertices.size(), Numbers::kUnused);
     forNumbers(before_.numbers, was, before_.seams[was].vertices, cut, [&](uint32_t i, uint32_t number) { numbersBefore_[i] = number; });
     forNumbers(numbers_, brick, cut_.seams[brick].vertices, cut, [&](uint32_t i, uint32_t number) {
-      if (numbersBefore_[i] != Numbers::kUnused && isKept(cut.vertices.slab(cut.lineVertices[i]))) add(number, numbersBefore_[i], 1);
+      if (numbersBefore_[i] != Numbers::kUnused && around.haveKept(cut.vertices.slab(cut.lineVertices[i])))
+        add(number, numbersBefore_[i], 1);
     });
   }
 

@@ -164,11 +164,13 @@ WholeTriangles::WholeTriangles(const Prepared& mesh) : count(uint32_t(mesh.trian
 }
 
 std::vector<VertexId> listUsed(const UsedVertices& used) {
-  std::vector<VertexId> list;
-  list.reserve(used.size());
+  std::vector<VertexId> list(used.size());
+  size_t count = 0;
   for (uint32_t v = 0; v < used.size(); ++v) {
-    if (used[v].load(std::memory_order_relaxed)) list.push_back({v});
+    list[count] = {v};
+    count += used[v].load(std::memory_order_relaxed);
   }
+  list.resize(count);
   return list;
 }
 

@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "cut/stages/input.h"
 #include "cut/stages/kept_vertices.h"
 #include "cut/stages/regions.h"
 #include "mandoline/cut_share.h"
@@ -15,6 +16,7 @@ namespace mandoline::detail {
 /// What a cut keeps of the one before it, each asked for as soon as it can be told. An interface: other cuts don't link what finds it.
 class Keeping {
  public:
+  virtual const KnownSlabs* slabs() = 0;
   virtual const KnownCrossings& crossings() = 0;
   virtual KnownClips& clips() = 0;
   virtual KeptBricks& bricks() = 0;  ///< of those that are laid out
