@@ -73,40 +73,29 @@ class Finder {
   using Run = KeptVertices::Run;
 
   void add(uint32_t number, uint32_t before, uint32_t count) {
-    if (count == 0) return;
-    Run* const last = runs_.empty() ? nullptr : &runs_.back();
-    if (last && last->past() == number && last->before + last->count == before) {
-      last->count += count;
-    } else {
+    if (!runs_.empty() && runs_.back().past() == number && runs_.back().before + runs_.back().count == before) {
+      runs_.back().count += count;
+    } else if (count > 0) {
       runs_.push_back({number, before, count});
     }
   }
 
   void addOfSurface() {
     const CutVertices& vertices = cut_.surface.vertices;
-    std::vector<uint8_t> isOut(vertices.size(), 0);
+    IdVector<VertexId, uint32_t> numbers = numbers_.ofSurface;  // of those that are kept
     for (const BrickId b : cut_.bricks.ids()) {
       if (kept_.isInner(b)) continue;
       const KeptAround around(before_, kept_, cut_, b);
-      for (const VertexId v : cut_.cuts[b].surfaceVertices) isOut[v.number] |= !kept_.has(b) || !around.haveKept(vertices.slab(v));
-    }
-    const uint32_t past = vertices.firstInTriangle.number;  // bricks own the others
-    const uint32_t *numbers = numbers_.ofSurface.data(), *before = before_.numbers.ofSurface.data();
-    Run run{0, 0, 0};
-    uint32_t was = 0;
-    for (const VertexId v : kept_.vertices) {
-      const uint32_t numberBefore = before[was++];
-      if (v == KeptBricks::kNoVertex) continue;
-      if (v.number >= past) break;
-      const uint32_t number = numbers[v.number];
-      if (number == Numbers::kUnused || isOut[v.number]) continue;
-      if (number != run.past() || numberBefore != run.before + run.count) {
-        add(run.first, run.before, run.count);
-        run = {number, numberBefore, 0};
+      for (const VertexId v : cut_.cuts[b].surfaceVertices) {
+        if (!kept_.has(b) || !around.haveKept(vertices.slab(v))) numbers[v] = Numbers::kUnused;
       }
-      ++run.count;
     }
-    add(run.first, run.before, run.count);
+    for (const VertexId was : kept_.vertices.ids()) {
+      const VertexId v = kept_.vertices[was];
+      if (v == KeptBricks::kNoVertex) continue;
+      if (v >= vertices.firstInTriangle) break;  // bricks own the others
+      if (numbers[v] != Numbers::kUnused) add(numbers[v], before_.numbers.ofSurface[was], 1);
+    }
   }
 
   /// All vertices that an inner brick owns, which are in the order in which they were.

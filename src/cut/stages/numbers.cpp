@@ -126,10 +126,10 @@ class Numberer {
   /// Calls f(place, owner, number of that kind) for what a brick has of others.
   template <class F>
   void forOthersOf(BrickId brick, const Kind& kind, const F& f) const {
-    forOthers(seams_, brick, kind.seams, [&](const SeamRange& other, uint32_t first) {
-      const uint32_t number = numberAt(other.owner, kind, first);
+    for (const SeamRange& other : (seams_[brick].*kind.seams).others) {
+      const uint32_t number = numberAt(other.owner, kind, other.there);
       for (uint32_t i = 0; i < other.range.count; ++i) f(other.range.first + i, other.owner, number + i);
-    });
+    }
   }
 
   /// The number of what a brick owns at a place of its list.

@@ -130,6 +130,18 @@ class SeamFinder {
   BrickSeams& out_;
 };
 
+/// Finds what a brick has of others in the lists of these.
+void findThere(IdVector<BrickId, BrickSeams>& seams, BrickId brick) {
+  for (SeamRanges BrickSeams::*kind : {&BrickSeams::triFaces, &BrickSeams::pieces, &BrickSeams::halves, &BrickSeams::vertices}) {
+    for (SeamRange& other : (seams[brick].*kind).others) {
+      const std::vector<SeamRange>& own = (seams[other.owner].*kind).own;
+      const auto at =
+          std::lower_bound(own.begin(), own.end(), other.key, [](const SeamRange& range, uint32_t key) { return range.key < key; });
+      other.there = at->range.first;
+    }
+  }
+}
+
 }  // namespace
 
 void BrickCounts::add(const BrickCounts& more) {
@@ -149,9 +161,13 @@ void findSeams(const CutBricks& cut, const KeptBricks* kept, IdVector<BrickId, B
   seams.resize(cut.cuts.size());
   std::vector<uint32_t> order(seams.size());
   std::iota(order.begin(), order.end(), 0u);
-  runItems(order, run.monitor, [&](size_t, uint32_t b) {
-    if (!kept || !kept->isInner({b})) SeamFinder(cut, {b}, seams[{b}]).run();
-  });
+  const auto forFound = [&](const auto& f) {
+    runItems(order, run.monitor, [&](size_t, uint32_t b) {
+      if (!kept || !kept->isInner({b})) f(BrickId{b});
+    });
+  };
+  forFound([&](BrickId b) { SeamFinder(cut, b, seams[b]).run(); });
+  forFound([&](BrickId b) { findThere(seams, b); });
 }
 
 }  // namespace mandoline::detail

@@ -14,6 +14,7 @@ struct SeamRange {
   BrickId owner;
   uint32_t key;  ///< 32 * index of the owning cell in its brick + number of the element in the cell
   Range range;
+  uint32_t there = 0;  ///< of what another brick owns: where it begins in that one's list
 };
 
 struct SeamRanges {
@@ -63,17 +64,6 @@ void forOwn(const BrickCut& cut, uint32_t BrickRow::*past, const SeamRanges& sea
   }
 }
 
-/// Calls f(other, where its range begins in the owner's list) for what a brick has of others. `member`: one of the SeamRanges.
-template <class F>
-void forOthers(const IdVector<BrickId, BrickSeams>& seams, BrickId brick, SeamRanges BrickSeams::*member, const F& f) {
-  for (const SeamRange& other : (seams[brick].*member).others) {
-    const std::vector<SeamRange>& own = (seams[other.owner].*member).own;
-    const auto at =
-        std::lower_bound(own.begin(), own.end(), other.key, [](const SeamRange& range, uint32_t key) { return range.key < key; });
-    f(other, at->range.first);
-  }
-}
-
 /// All that bricks have found.
 struct CutBricks {
   const Surface& surface;
@@ -86,10 +76,10 @@ struct CutBricks {
   /// and the brick have of it.
   template <class F>
   void forHalves(BrickId brick, const F& f) const {
-    forOthers(seams, brick, &BrickSeams::halves, [&](const SeamRange& other, uint32_t first) {
-      const BoundaryHalf *below = &cuts[other.owner].boundaryHalves[first], *above = &cuts[brick].boundaryHalves[other.range.first];
+    for (const SeamRange& other : seams[brick].halves.others) {
+      const BoundaryHalf *below = &cuts[other.owner].boundaryHalves[other.there], *above = &cuts[brick].boundaryHalves[other.range.first];
       for (uint32_t i = 0; i < other.range.count; ++i) f(below[i], other.owner, above[i]);
-    });
+    }
   }
 };
 
