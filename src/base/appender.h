@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
 #include <vector>
 
 namespace mandoline::detail {
+
+inline constexpr size_t kAppendedBlock = 4;  ///< of items
 
 /// Overwrites a vector, which gets its length when the appender is destroyed.
 template <class Item>
@@ -28,6 +31,11 @@ class Appender {
     Item* end = end_;
     for (; from != past; ++from) *end++ = *from;
     end_ = end;
+  }
+  /// Items in memory, block by block, since how many they are can't be foretold: a block more may be read, and needs room.
+  void addBlocks(const Item* from, size_t count) {
+    for (size_t i = 0; i < count; i += kAppendedBlock) std::memcpy(end_ + i, from + i, kAppendedBlock * sizeof(Item));
+    end_ += count;
   }
 
  private:

@@ -30,7 +30,7 @@ class FaceCutter {
         scratch_(scratch),
         faces_(faces),
         most_(stencil, gridEdges),
-        loopVertices_(faces.loops.items, most_.loopVertices),
+        loopVertices_(faces.loops.items, most_.loopVertices + kAppendedBlock),
         pastLoopVertex_(faces.loops.offsets, most_.faces + 1),
         pastLoop_(faces.faceLoopOffsets, most_.faces + 1),
         gridFaceOf_(faces.gridFaces, most_.faces),
@@ -42,7 +42,7 @@ class FaceCutter {
         kinds_(faces.kinds, most_.gridFaces) {
     for (Appender<uint32_t>* offsets : {&pastLoopVertex_, &pastLoop_, &pastHalfFace_, &pastSlit_, &pastBeside_}) offsets->add(0);
     faces.slits.items.clear();
-    scratch.outline.resize(4 + gridEdges.vertices.items.size());
+    scratch.outline.resize(4 + gridEdges.vertices.items.size() + kAppendedBlock);
   }
 
   void cut(GridFaceId gridFace) {
@@ -58,11 +58,12 @@ class FaceCutter {
     const auto triFaces = stencil_.triFacesOnFace[gridFace];
     const std::span<const VertexId> outline = findOutline(stencil_.faces[gridFace]);
     if (edges.empty() && triFaces.empty()) {
-      addPiece(gridFace, [&](const auto& add) { add(outline.begin(), outline.end()); });
+      addPiece(gridFace, [&](const auto& add) { add(outline.data(), outline.size()); });
       return GridFaceKind::whole;
     }
     const bool mayChain = !scratch_.onlyGraph && triFaces.empty();
-    if (mayChain && chain_.find(outline, edges)) {
+    const bool hasTwo = outline.size() == 4 + betweenCorners_.size();
+    if (mayChain && ((hasTwo && chain_.findBetween(betweenCorners_, outline, edges)) || chain_.find(outline, edges))) {
       addChained(gridFace, outline, edges.size());
       return GridFaceKind::chains;
     }
@@ -87,8 +88,10 @@ class FaceCutter {
       scratch_.sides[i] = uint32_t(end - begin);
       *end++ = gridEdges_.corners[cell.corners[outline.corners[i]]];
       const auto inside = gridEdges_.vertices[cell.edges[outline.edges[i]]];
-      for (size_t k = 0; i < 2 && k < inside.size(); ++k) *end++ = inside[k];
-      for (size_t k = inside.size(); i >= 2 && k > 0; --k) *end++ = inside[k - 1];
+      for (size_t k = 0; k < inside.size(); ++k) {
+        betweenCorners_ = {betweenCorners_[1], uint32_t(end - begin)};
+        *end++ = inside[i < 2 ? k : inside.size() - 1 - k];
+      }
     }
     scratch_.sides[4] = uint32_t(end - begin);
     return {begin, end};
@@ -103,11 +106,11 @@ class FaceCutter {
     pastLoop_.add(uint32_t(pastLoopVertex_.size() - 1));
     halfFaces_.add(HalfFace(id, 0));
   }
-  /// One with one loop, of which addParts(add) calls add(from, past) for the parts.
+  /// One with one loop, of which addParts(add) calls add(from, count) for the parts, after each of which a block can be read.
   template <class F>
   void addPiece(GridFaceId gridFace, const F& addParts) {
     const FaceId id = beginFace(gridFace);
-    addParts([&](auto from, auto past) { loopVertices_.add(from, past); });
+    addParts([&](const VertexId* from, size_t count) { loopVertices_.addBlocks(from, count); });
     endLoop();
     endFace(id);
   }
@@ -256,6 +259,7 @@ class FaceCutter {
   Appender<uint32_t> pastHalfFace_, pastSlit_, beside_, pastBeside_;
   Appender<GridFaceKind> kinds_;
   OneChain chain_;
+  std::array<uint32_t, 2> betweenCorners_{};  // the places in the outline of the last two vertices that are not at corners
 };
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <iterator>
 #include <span>
 
+#include "base/appender.h"
 #include "cut/stages/stencil.h"
 
 namespace mandoline::detail {
@@ -15,8 +15,9 @@ namespace mandoline::detail {
 struct OneChain {
   static constexpr size_t kMostEdges = 16;
 
-  uint32_t first, last;                     ///< where it meets the outline, ascending
-  std::array<VertexId, kMostEdges> inside;  ///< its other vertices, from the first end to the last
+  uint32_t first, last;  ///< where it meets the outline, ascending
+  // Its other vertices, from the first end to the last, and back, with room for a block more.
+  std::array<VertexId, kMostEdges + kAppendedBlock> inside{}, back{};
   std::array<bool, kMostEdges> runsToLast;  ///< per edge
   uint32_t between;                         ///< of the pieces: that with the part of the outline between the ends
   uint32_t other;                           ///< that with the rest; to the left of the way from the first end to the last
@@ -25,25 +26,31 @@ struct OneChain {
   /// vertices or more. Pieces are in the order of Chains.
   bool find(std::span<const VertexId> outline, std::span<const EdgeOnFace> edges) {
     return !edges.empty() && edges.size() <= kMostEdges && findEnds(outline, edges) && walk(outline, edges) &&
-           last - first + edges.size() > 2 && outline.size() - (last - first) + edges.size() > 2;
+           areLarge(outline.size(), edges.size());
   }
 
-  /// Calls add(from, past), with iterators, for the parts of a piece's loop.
+  /// The same if it is between two vertices of the outline: those at these places, ascending.
+  bool findBetween(std::array<uint32_t, 2> ends, std::span<const VertexId> outline, std::span<const EdgeOnFace> edges) {
+    if (edges.empty() || edges.size() > kMostEdges) return false;
+    setEnds(ends[0], ends[1]);
+    return walk(outline, edges) && isInside(outline, edges.size() - 1) && areLarge(outline.size(), edges.size());
+  }
+
+  /// Calls add(from, count) for the parts of a piece's loop.
   template <class F>
   void forLoop(uint32_t piece, std::span<const VertexId> outline, size_t edges, const F& add) const {
-    const VertexId *line = outline.data(), *forth = inside.data(), *back = forth + edges - 1;
-    const auto addBack = [&] { add(std::reverse_iterator(back), std::reverse_iterator(forth)); };
+    const VertexId* line = outline.data();
     if (piece == between) {
-      add(line + first, line + last + 1);
-      addBack();
+      add(line + first, last + 1 - first);
+      add(back.data(), edges - 1);
     } else if (first > 0) {
-      add(line, line + first + 1);
-      add(forth, back);
-      add(line + last, line + outline.size());
+      add(line, first + 1);
+      add(inside.data(), edges - 1);
+      add(line + last, outline.size() - last);
     } else {
-      add(line + last, line + outline.size());
-      add(line, line + 1);
-      add(forth, back);
+      add(line + last, outline.size() - last);
+      add(line, 1);
+      add(inside.data(), edges - 1);
     }
   }
 
@@ -64,11 +71,24 @@ struct OneChain {
       if (!note(e.from) || !note(e.to)) return false;
     }
     if (found < 2 || at[0] == at[1]) return false;
-    first = std::min(at[0], at[1]);
-    last = std::max(at[0], at[1]);
+    setEnds(std::min(at[0], at[1]), std::max(at[0], at[1]));
+    return true;
+  }
+  void setEnds(uint32_t atFirst, uint32_t atLast) {
+    first = atFirst;
+    last = atLast;
     between = first > 0;
     other = 1 - between;
-    return true;
+  }
+  /// Whether each piece has three vertices or more.
+  bool areLarge(size_t outline, size_t edges) const { return last - first + edges > 2 && outline - (last - first) + edges > 2; }
+  /// Whether none of the vertices between the ends, which are so many, is on the outline.
+  bool isInside(std::span<const VertexId> outline, size_t count) const {
+    bool isOn = false;  // no branches on what can't be foretold
+    for (size_t i = 0; i < count; ++i) {
+      for (const VertexId v : outline) isOn |= v == inside[i];
+    }
+    return !isOn;
   }
   static uint64_t bitOf(VertexId v) { return uint64_t(1) << v.number % 64; }
 
@@ -86,6 +106,7 @@ struct OneChain {
       runsToLast[e] = edges[e].from == at;
       at = runsToLast[e] ? edges[e].to : edges[e].from;
       inside[step] = at;
+      back[(edges.size() + kMostEdges - 2 - step) % kMostEdges] = at;  // that of the last end, which comes last, is left over
     }
     return at == outline[last];
   }

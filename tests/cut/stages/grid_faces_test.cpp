@@ -151,14 +151,18 @@ TEST_CASE("One chain gives what chains give, or is not found", "[stages][gridFac
     const bool isOne = one.find(outline, onFace), areMany = chains.trace(sides, ends, sides + inside);
     if (!isOne) {
       others += areMany && chains.loops.size() == 2;
+      for (uint32_t last = 1; last < sides; ++last) REQUIRE_FALSE(one.findBetween({uint32_t(random() % last), last}, outline, onFace));
       continue;
     }
+    const std::array<uint32_t, 2> places{one.first, one.last};
+    REQUIRE_FALSE(one.findBetween({places[0], places[1] - 1}, outline, onFace));
+    REQUIRE(one.findBetween(places, outline, onFace));
     REQUIRE(areMany);
     REQUIRE(chains.loops.size() == 2);
     ++found[edges.size()];
     for (uint32_t piece = 0; piece < 2; ++piece) {
       std::vector<VertexId> loop, expected;
-      one.forLoop(piece, outline, edges.size(), [&](auto from, auto past) { loop.insert(loop.end(), from, past); });
+      one.forLoop(piece, outline, edges.size(), [&](const VertexId* from, size_t count) { loop.insert(loop.end(), from, from + count); });
       for (const GraphVertex v : chains.loops[piece]) expected.push_back(idOf(v.number));
       REQUIRE(loop == expected);
     }
