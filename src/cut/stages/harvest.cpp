@@ -90,19 +90,21 @@ class Harvest {
     for (const GridCellId c : stencil_.cells.ids()) {
       const Stencil::Cell& cell = stencil_.cells[c];
       const uint8_t sides = sidesAt(cell.element);
-      for (uint8_t i = 0; i < 8; ++i) {
-        if (cell.corners[i] != corner) continue;  // a cell before has it
-        addLine(c, i, sides, {&gridEdges_.corners[corner], 1});
-        ++corner.number;
-      }
-      for (uint8_t i = 0; i < 12; ++i) {
-        if (cell.edges[i] != edge) continue;
+      forNew(cell.corners, corner, [&](uint8_t i) { addLine(c, i, sides, {&gridEdges_.corners[corner], 1}); });
+      forNew(cell.edges, edge, [&](uint8_t i) {
         const auto vertices = gridEdges_.vertices[edge];
         if (!vertices.empty()) addLine(c, uint8_t(8 + i), sides, vertices);
-        ++edge.number;
-      }
+      });
       gathered_.pastVertex.push_back(uint32_t(gathered_.lineVertices.size()));
     }
+  }
+
+  /// Calls f(index) for those of a cell's that no cell before has: these are numbered from `next` on, which counts up with them.
+  template <class Id, size_t kCount, class F>
+  static void forNew(const std::array<Id, kCount>& ofCell, Id& next, const F& f) {
+    uint32_t isNew = 0;  // a bit for each
+    for (size_t i = 0; i < kCount; ++i) isNew |= uint32_t(ofCell[i] >= next) << i;
+    for (; isNew != 0; isNew &= isNew - 1, ++next.number) f(uint8_t(std::countr_zero(isNew)));
   }
 
   /// Appends the vertices of a grid-edge or grid vertex that are not of the mesh or its edges. `sides`: those that the cell lies at.
@@ -301,7 +303,6 @@ class Harvest {
   void copyAll() {
     out_.vertices.slabs = vertices_.slabs;
     out_.vertices.parentTriangles = vertices_.parentTriangles;
-    if (gathered_.places.empty()) gathered_.places.assign(vertices_.firstOwn.number, VertexPlaces::kNone);
     copyTriFaces();
     copyPieces();
     out_.surfaceVertices = memory_.vertices.copy(gathered_.surfaceVertices);

@@ -11,7 +11,7 @@ namespace mandoline::detail {
 /// What a brick's arrays are gathered in, used again for the next one.
 struct Gathered {
   std::vector<VertexId> lineVertices;
-  IdVector<VertexId, uint32_t> places;  ///< per vertex of the surface: its place in loops, or VertexPlaces::kNone
+  IdVector<VertexId, uint32_t> places;  ///< see VertexPlaces
   std::vector<VertexId> surfaceVertices;
   std::vector<FaceId> triOrder;         ///< the tri-cut-faces as they are numbered
   IdVector<FaceId, FaceId> triNumbers;  ///< per tri-cut-face

@@ -11,15 +11,16 @@ class VertexPlaces {
  public:
   static constexpr uint32_t kNone = ~0u;
 
-  /// `places`: per vertex of the surface, kNone at first. `surfaceVertices` gets those that come.
+  /// `places`: per vertex of the surface, kNone at first; and of those of bricks so far. `surfaceVertices` gets those that come.
   VertexPlaces(const CutVertices& vertices, IdVector<VertexId, uint32_t>& places, std::vector<VertexId>& surfaceVertices)
-      : firstOwn_(vertices.firstOwn.number),
-        ownCount_(uint32_t(vertices.slabs.size())),
-        places_(places.data()),
-        surfaceVertices_(surfaceVertices) {}
+      : ownCount_(uint32_t(vertices.slabs.size())), surfaceVertices_(surfaceVertices) {
+    const uint32_t firstOwn = vertices.firstOwn.number;
+    if (places.empty()) places.assign(firstOwn, kNone);
+    while (places.size() < vertices.size()) places.push_back(uint32_t(places.size()) - firstOwn);
+    places_ = places.data();
+  }
 
   uint32_t of(VertexId v) const {
-    if (v.number >= firstOwn_) return v.number - firstOwn_;
     const uint32_t place = places_[v.number];
     return place != kNone ? place : add(v);
   }
@@ -31,8 +32,8 @@ class VertexPlaces {
     return places_[v.number] = place;
   }
 
-  const uint32_t firstOwn_, ownCount_;
-  uint32_t* const places_;
+  const uint32_t ownCount_;
+  uint32_t* places_;
   std::vector<VertexId>& surfaceVertices_;
 };
 
