@@ -9,21 +9,29 @@ namespace {
 // Coordinates that are not on planes are a reference's plus a quotient. The quick ways do in doubles what point<Bounded>() does to the
 // values, in the same order, and bound its errors all at once: if their bound, in units of kRoundoff, is below the one of placeExactly(),
 // so are those, and both give the same. A difference of coordinates is off by 1 of itself at most, a product by what both are off, and 1.
+// Which axes a vertex is on a plane of can't be foretold, so there are few branches on that.
+
+constexpr std::array<size_t, 5> kAxes{0, 1, 2, 0, 1};
 
 /// Products are off by 3, their sum by 4 of their magnitudes, the quotient by 5.
 bool placeOnLine(const Input& input, const Slab& slab, const Line& line, const Point& reference, Point& p) {
-  const Point *low = &input.point({line.a}), *high = &input.point({line.b});
-  size_t across = 3;  // as in point()
-  for (size_t d = 0; d < 3; ++d) {
-    const auto extent = [&](size_t e) { return std::fabs((*high)[e] - (*low)[e]); };
-    if (onPlane(slab[d]) && (across == 3 || extent(d) > extent(across))) across = d;
+  const Point* const ends[2] = {&input.point({line.a}), &input.point({line.b})};
+  const auto extent = [&](size_t d) { return std::fabs((*ends[1])[d] - (*ends[0])[d]); };
+  size_t across = size_t(onPlane(slab[1])) + 2 * size_t(onPlane(slab[2]));
+  if (planeCount(slab) > 1) {  // as in point()
+    across = onPlane(slab[0]) ? 0 : 1;
+    for (size_t d = across + 1; d < 3; ++d) {
+      if (onPlane(slab[d]) && extent(d) > extent(across)) across = d;
+    }
   }
-  if ((*low)[across] > (*high)[across]) std::swap(low, high);
-  const double width = (*high)[across] - (*low)[across], way = p[across] - (*low)[across];
+  const bool descends = (*ends[0])[across] > (*ends[1])[across];
+  const Point &low = *ends[descends], &high = *ends[!descends];
+  const double width = high[across] - low[across], way = p[across] - low[across];
   bool isSure = true;
-  for (size_t d = 0; d < 3; ++d) {
+  for (size_t i = 1; i < 3; ++i) {
+    const size_t d = kAxes[across + i];
     if (onPlane(slab[d])) continue;
-    const double toLow = ((*low)[d] - reference[d]) * width, along = way * ((*high)[d] - (*low)[d]);
+    const double toLow = (low[d] - reference[d]) * width, along = way * (high[d] - low[d]);
     const double x = reference[d] + (toLow + along) / width;
     isSure &= std::fabs(toLow) + std::fabs(along) <= 1.5 * width * std::max(std::fabs(reference[d]), std::fabs(x));
     p[d] = x;
@@ -35,7 +43,7 @@ bool placeOnLine(const Input& input, const Slab& slab, const Line& line, const P
 bool placeInTriangle(const Input& input, const Slab& slab, TriangleId triangle, Point& p) {
   const auto t = input.verticesOf(triangle);
   const Point &a = input.point(t[0]), &b = input.point(t[1]), &c = input.point(t[2]);
-  const size_t g = !onPlane(slab[0]) ? 0 : !onPlane(slab[1]) ? 1 : 2, e = (g + 1) % 3, f = (g + 2) % 3;  // the grid line runs along g
+  const size_t g = size_t(!onPlane(slab[1])) + 2 * size_t(!onPlane(slab[2])), e = kAxes[g + 1], f = kAxes[g + 2];  // along the grid line: g
   const double be = b[e] - a[e], bf = b[f] - a[f], bg = b[g] - a[g], ce = c[e] - a[e], cf = c[f] - a[f], cg = c[g] - a[g];
   const double g0 = be * cf, g1 = bf * ce, e0 = bf * cg, e1 = bg * cf, f0 = bg * ce, f1 = be * cg;
   const auto magnitude = [](double x, double y) { return std::fabs(x) + std::fabs(y); };
@@ -151,14 +159,14 @@ Point CutVertices::position(VertexId v, Predicates& predicates, bool onlyGeneral
   for (size_t d = 0; d < 3; ++d) {
     const double* planes = &input->planes[d][size_t(std::max(of[d] >> 1, 0))];
     p[d] = low[d] = planes[0];
-    high[d] = onPlane(of[d]) ? low[d] : planes[1];
+    high[d] = planes[of[d] & 1];
   }
   if (planeCount(of) == 3) return p;
   if (onlyGeneral || !placeQuickly(*this, v, p)) placeExactly(v, p, predicates);
   for (size_t d = 0; d < 3; ++d) {
-    if (onPlane(of[d])) continue;
     // Strictly inside of the slab, so that vertices on different grid elements have different positions.
-    if (p[d] > low[d] && p[d] < high[d]) continue;
+    const bool isInside = int(p[d] > low[d]) & int(p[d] < high[d]);
+    if (int(isInside) | int(onPlane(of[d]))) continue;
     p[d] = p[d] <= low[d] ? std::min(std::nextafter(low[d], high[d]), high[d]) : std::max(std::nextafter(high[d], low[d]), low[d]);
   }
   return p;
