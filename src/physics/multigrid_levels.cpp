@@ -33,24 +33,23 @@ void setDiagonal(Level& level, unsigned threads) {
 /// `pairs` are in the order of a.
 void setCouplings(Level& level, const std::vector<CoupledPair>& pairs, unsigned threads) {
   const size_t count = level.held.size(), n = pairs.size();
-  const auto setRows = [&](Couplings& rows, const auto& rowOf, const auto& nodeOf, bool isReversed) {
+  const auto setRows = [&](Couplings& rows, bool isLower) {
+    const auto rowOf = [&](const CoupledPair& pair) { return level.order.isBefore(pair.b, pair.a) == isLower ? pair.a : pair.b; };
     rows.offsets.assign(count + 1, 0);
     for (const CoupledPair& pair : pairs) ++rows.offsets[rowOf(pair)];
     detail::toOffsets(rows.offsets);
     detail::makeLargeOnThreads(rows.nodes, n, threads);
     detail::makeLargeOnThreads(rows.weights, n, threads);
     for (size_t i = 0; i < n; ++i) {
-      const CoupledPair& pair = pairs[isReversed ? n - 1 - i : i];
-      const uint32_t at = rows.offsets[rowOf(pair)]++;
-      rows.nodes[at] = nodeOf(pair);
+      const CoupledPair& pair = pairs[isLower ? i : n - 1 - i];
+      const uint32_t row = rowOf(pair), at = rows.offsets[row]++;
+      rows.nodes[at] = row == pair.a ? pair.b : pair.a;
       rows.weights[at] = pair.w;
     }
     detail::moveBack(rows.offsets);
   };
-  const auto a = [](const CoupledPair& pair) { return pair.a; };
-  const auto b = [](const CoupledPair& pair) { return pair.b; };
-  setRows(level.lower, a, b, false);
-  setRows(level.higher, b, a, true);
+  setRows(level.lower, true);
+  setRows(level.higher, false);
   setDiagonal(level, threads);
 }
 
@@ -92,9 +91,9 @@ Level finestLevel(const CellComplex& cells, const OrderedMatrix& system, std::ve
   detail::reserveLarge(level.size, cells.cellCount());
   for (const uint8_t l : cells.cellLevel) level.size.push_back(double(uint32_t(1) << l));
   takeEntries(
-      system.matrix, [](size_t j, size_t i) { return j < i; }, false, threads, level.lower);
+      system.matrix, [&](size_t j, size_t i) { return level.order.isBefore(j, i); }, false, threads, level.lower);
   takeEntries(
-      system.matrix, [](size_t j, size_t i) { return j > i; }, true, threads, level.higher);
+      system.matrix, [&](size_t j, size_t i) { return level.order.isBefore(i, j); }, true, threads, level.higher);
   setDiagonal(level, threads);
   level.strength = level.diagonal;
   return level;
@@ -205,8 +204,11 @@ Level coarserLevel(const Level& fine, uint32_t count, int shift, unsigned thread
   });
   std::vector<CoupledPair> pairs = pairsOf(fine, level, threads);
   holdStill(level, pairs);
+  size_t next = 0;  // pair
+  level.order = SweepOrder(count, [&](size_t a, const auto& visit) {
+    for (; next < pairs.size() && pairs[next].a == a; ++next) visit(pairs[next].b);
+  });
   setCouplings(level, pairs, threads);
-  level.order = SweepOrder(count, [&](size_t i, const auto& visit) { level.lower.forEach(i, [&](uint32_t j, double) { visit(j); }); });
   return level;
 }
 

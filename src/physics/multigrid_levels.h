@@ -28,7 +28,7 @@ struct Couplings {
 
 /// Nodes with symmetric positive couplings w: row i of the matrix is diagonal[i] x[i] - sum of w x[j].
 struct Level {
-  Couplings lower, higher;        ///< with j < i, and with j > i
+  Couplings lower, higher;        ///< with nodes before this one in the order of sweeps, and with those after it
   std::vector<double> diagonal;   ///< the sum of a node's couplings, `held` and `mass`
   std::vector<double> inverse;    ///< of the diagonal, or 0
   std::vector<double> held;       ///< by conditions on the boundary
