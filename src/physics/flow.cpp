@@ -27,18 +27,16 @@ std::array<double, 3> unitOf(const std::array<double, 3>& wind) {
   return unit;
 }
 
-/// Turns the flow of a wind of length 1 into that of a wind of the given length.
-void scale(Flow& flow, double length) {
+/// Turns the flow of a wind of length 1 into that of a wind of the given length. Returns whether all is finite.
+bool scale(Flow& flow, double length, const detail::Team& team) {
+  bool isFinite = true;
   for (std::vector<double>* values : {&flow.phi, &flow.faceVelocity, &flow.cellVelocity, &flow.cellGradient}) {
-    for (double& value : *values) value *= length;
+    physics::forBlocks(values->size(), team, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) (*values)[i] *= length;
+    });
+    isFinite &= physics::areFinite(*values, team);
   }
-}
-
-bool isFinite(const Flow& flow) {
-  const auto areFinite = [](const std::vector<double>& values) {
-    return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
-  };
-  return areFinite(flow.phi) && areFinite(flow.faceVelocity) && areFinite(flow.cellVelocity) && areFinite(flow.cellGradient);
+  return isFinite;
 }
 
 void setOnBoundary(const Boundary& boundary, Flow& flow) {
@@ -60,8 +58,7 @@ void complete(const physics::FitSource& source, double length, detail::Monitor& 
       flow.cellPressure[c] = length > 0 ? 1 - square : 0;
     }
   });
-  scale(flow, length);
-  if (!isFinite(flow)) flow.status = SolveStatus::breakdown;
+  if (!scale(flow, length, monitor.threads())) flow.status = SolveStatus::breakdown;
 }
 
 class FlowSolver {

@@ -2,32 +2,26 @@
 
 #include <algorithm>
 
-#include "physics/node_loops.h"
-
 namespace mandoline::physics {
 
-FreeMeans::FreeMeans(const CellComplex& cells, const CellComponents& components, const std::vector<char>& held)
-    : cells_(cells), volume_(components.count) {
-  const std::vector<uint32_t>& component = components.cellComponent;
-  for (uint32_t c = 0; c < component.size(); ++c) {
-    if (!held[component[c]]) volume_[component[c]] += cells.cellVolume[c];
-    if (c > 0 && c % kBlock == 0) runs_.endGroup();
-    if (c % kBlock == 0 || component[c] != component[c - 1]) runs_.items.push_back({component[c], c, c});
-    runs_.items.back().end = c + 1;
+FreeMeans::FreeMeans(const CellComplex& cells, const ComponentRuns& runs, const std::vector<char>& held, const detail::Team& team)
+    : cells_(cells), runs_(runs), volume_(runs.sums(team, [&](size_t begin, size_t end) {
+        double sum = 0;
+        for (size_t c = begin; c < end; ++c) sum += cells.cellVolume[c];
+        return sum;
+      })) {
+  for (size_t k = 0; k < volume_.size(); ++k) {
+    if (held[k]) volume_[k] = 0;
   }
-  runs_.endGroup();
 }
 
 std::vector<double> FreeMeans::meansOf(const std::vector<double>& z, const detail::Team& team) const {
-  std::vector<double> means(volume_.size()), sums(runs_.items.size());
-  if (std::all_of(volume_.begin(), volume_.end(), [](double volume) { return !(volume > 0); })) return means;
-  forBlocks(z.size(), team, [&](size_t begin, size_t) {
-    for (uint32_t r = runs_.offsets[begin / kBlock]; r < runs_.offsets[begin / kBlock + 1]; ++r) {
-      const Run& run = runs_.items[r];
-      for (size_t c = run.begin; c < run.end; ++c) sums[r] += z[c] * cells_.cellVolume[c];
-    }
+  if (std::all_of(volume_.begin(), volume_.end(), [](double volume) { return !(volume > 0); })) return std::vector<double>(volume_.size());
+  std::vector<double> means = runs_.sums(team, [&](size_t begin, size_t end) {
+    double sum = 0;
+    for (size_t c = begin; c < end; ++c) sum += z[c] * cells_.cellVolume[c];
+    return sum;
   });
-  for (size_t r = 0; r < sums.size(); ++r) means[runs_.items[r].component] += sums[r];
   for (size_t k = 0; k < means.size(); ++k) means[k] = volume_[k] > 0 ? means[k] / volume_[k] : 0;
   return means;
 }
@@ -36,7 +30,7 @@ double FreeMeans::takeOut(const std::vector<double>& r, std::vector<double>& z, 
   const std::vector<double> means = meansOf(z, team);
   return sumOfBlocks(z.size(), team, [&](size_t begin, size_t) {
     double sum = 0;
-    for (const Run& run : runs_[begin / kBlock]) {
+    for (const ComponentRuns::Run& run : runs_.ofBlock(begin / kBlock)) {
       for (size_t c = run.begin; c < run.end; ++c) z[c] -= means[run.component], sum += r[c] * z[c];
     }
     return sum;

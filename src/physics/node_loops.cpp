@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <vector>
 
 namespace mandoline::physics {
@@ -25,6 +26,14 @@ double sumOfBlocks(size_t nodes, const detail::Team& team, detail::FunctionRef<d
   double sum = 0;
   for (const double s : sums) sum += s;
   return sum;
+}
+
+bool areFinite(std::span<const double> values, const detail::Team& team) {
+  return sumOfBlocks(values.size(), team, [&](size_t begin, size_t end) {
+           return std::all_of(values.begin() + ptrdiff_t(begin), values.begin() + ptrdiff_t(end), [](double x) { return std::isfinite(x); })
+                      ? 0.0
+                      : 1.0;
+         }) == 0;
 }
 
 }  // namespace mandoline::physics

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "base/team.h"
 
@@ -19,5 +20,7 @@ void forBlocks(size_t nodes, const detail::Team& team, detail::FunctionRef<void(
 
 /// The sum of f(begin, end) over the blocks, added in their order.
 double sumOfBlocks(size_t nodes, const detail::Team& team, detail::FunctionRef<double(size_t, size_t)> f);
+
+bool areFinite(std::span<const double> values, const detail::Team& team);
 
 }  // namespace mandoline::physics

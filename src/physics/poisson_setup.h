@@ -27,6 +27,7 @@ struct PoissonSetup {
   CsrMatrix matrix;
   SweepOrder order;  ///< sweepOrderOf(matrix)
   SystemMatrix system;
+  ComponentRuns runs;
   FreeMeans means;
   Multigrid multigrid;
   Differentiator differentiator;

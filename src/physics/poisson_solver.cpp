@@ -33,7 +33,8 @@ PoissonSetup::PoissonSetup(const CellComplex& cells_, PoissonProblem problem_, u
       matrix(laplacianRows(cells, dual, edgesOfCells, {-1, added}, threads)),
       order(sweepOrderOf(matrix)),
       system(matrix, added),
-      means(cells, components, held),
+      runs(components),
+      means(cells, runs, held, threads),
       multigrid(multigridLevels(cells, {matrix, order}, heldTerms(cells, problem.boundary, terms), mass, threads)),
       differentiator({cells, dual, edgesOfCells, problem}, terms, threads) {}
 

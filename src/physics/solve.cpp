@@ -31,17 +31,13 @@ class Solver {
     fixConstants();
     findUnresolved();
     for (Vector* values : {&result_.phi, &result_.faceDerivative, &result_.boundaryDerivative}) scaleBy(exponent_, *values);
-    if (!areFinite(result_.phi)) result_.status = SolveStatus::breakdown;
+    if (!areFinite(result_.phi, team_)) result_.status = SolveStatus::breakdown;
     if (result_.status == SolveStatus::converged && !result_.unresolved.empty()) result_.status = SolveStatus::unresolved;
     if (isSolved(result_.status) && !result_.incompatible.empty()) result_.status = SolveStatus::incompatible;
     return std::move(result_);
   }
 
  private:
-  static bool areFinite(const Vector& values) {
-    return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
-  }
-
   /// Divides what is given and the right side by a power of two, so that squares of it are neither too large nor too small for doubles.
   /// Returns the exponent.
   int scaleDown(Vector& given) {
@@ -53,29 +49,43 @@ class Solver {
 
   /// Subtracts the excess from the right side; where it is too large, the component is left with nothing to solve. `given`: absolutes().
   void balance(const Vector& given) {
-    const size_t n = setup_.components.count;
-    Vector excess = excesses(), absolute(n);
+    const Vector excess = excesses(), absolute = sumsOf([&](size_t c) { return given[c]; });
     double all = 0;
-    for (size_t c = 0; c < given.size(); ++c) absolute[component(c)] += given[c], all += given[c];
-    for (size_t r = 0; r < n; ++r) {
+    for (const double sum : absolute) all += sum;
+    for (size_t r = 0; r < absolute.size(); ++r) {
       if (setup_.held[r] || options_.balance || std::fabs(excess[r]) <= 1e-9 * absolute[r] + 1e-15 * all) continue;
       result_.incompatible.push_back(uint32_t(r));
       result_.excess.push_back(excess[r]);
     }
-    for (size_t c = 0; c < given.size(); ++c) {
-      if (isIncompatible(component(c))) rhs_[c] = 0;
-    }
     // A rounding error left in the sum would make waves in cells that only the tiniest faces connect.
-    for (size_t c = 0; c < given.size(); ++c) {
-      if (std::fabs(rhs_[c]) <= kRounding * given[c]) rhs_[c] = 0;
-    }
-    const Vector before = squares();
+    forCells([&](size_t c) {
+      if (isIncompatible(component(c)) || std::fabs(rhs_[c]) <= kRounding * given[c]) rhs_[c] = 0;
+    });
+    const auto squares = [&] { return sumsOf([&](size_t c) { return rhs_[c] * rhs_[c]; }); };
+    const Vector before = squares(), volume = sumsOf([&](size_t c) { return cells_.cellVolume[c]; });
     constexpr int kPasses = 3;  // each leaves a rounding error of the excess that it subtracts
-    for (int pass = 0; pass < kPasses; ++pass) takeAway(excesses());
+    for (int pass = 0; pass < kPasses; ++pass) takeAway(excesses(), volume);
     const Vector after = squares();
-    for (size_t c = 0; c < given.size(); ++c) {  // where only rounding is left beside the excess, there is nothing to solve
+    forCells([&](size_t c) {  // where only rounding is left beside the excess, there is nothing to solve
       if (after[component(c)] < 1e-24 * before[component(c)]) rhs_[c] = 0;
-    }
+    });
+  }
+
+  /// f(cell) for all.
+  template <class F>
+  void forCells(const F& f) const {
+    forBlocks(cells_.cellCount(), team_, [&](size_t begin, size_t end) {
+      for (size_t c = begin; c < end; ++c) f(c);
+    });
+  }
+  /// Per component.
+  template <class F>
+  Vector sumsOf(const F& f) const {
+    return setup_.runs.sums(team_, [&](size_t begin, size_t end) {
+      double sum = 0;
+      for (size_t c = begin; c < end; ++c) sum += f(c);
+      return sum;
+    });
   }
 
   bool isIncompatible(uint32_t r) const { return std::binary_search(result_.incompatible.begin(), result_.incompatible.end(), r); }
@@ -83,8 +93,9 @@ class Solver {
   /// Per cell: the terms of the right side, each without its sign.
   Vector absolutes() const {
     Vector sums(cells_.cellCount());
-    const auto& [boundary, source, dualPoints, faceCoefficient, mass] = setup_.problem;
-    for (size_t c = 0; c < source.size(); ++c) sums[c] = std::fabs(source[c] * cells_.cellVolume[c]);
+    const Vector& source = setup_.problem.source;
+    const Boundary& boundary = setup_.problem.boundary;
+    if (!source.empty()) forCells([&](size_t c) { sums[c] = std::fabs(source[c] * cells_.cellVolume[c]); });
     for (size_t b = 0; b < setup_.terms.size(); ++b)
       sums[size_t(cells_.faceCells[boundary.halfFaces[b]])] += std::fabs(boundary.value[b] * setup_.terms[b].perValue);
     return sums;
@@ -92,28 +103,19 @@ class Solver {
 
   /// Per component in which phi is held nowhere the sum of the right side; 0 for others.
   Vector excesses() const {
-    Vector sums(setup_.components.count);
-    for (size_t c = 0; c < cells_.cellCount(); ++c) {
-      if (!setup_.held[component(c)]) sums[component(c)] += rhs_[c];
+    Vector sums = sumsOf([&](size_t c) { return rhs_[c]; });
+    for (size_t r = 0; r < sums.size(); ++r) {
+      if (setup_.held[r]) sums[r] = 0;
     }
     return sums;
   }
 
   /// Evenly by volume.
-  void takeAway(const Vector& excess) {
-    Vector volume(setup_.components.count);
-    for (size_t c = 0; c < cells_.cellCount(); ++c) volume[component(c)] += cells_.cellVolume[c];
-    for (size_t c = 0; c < cells_.cellCount(); ++c) {
+  void takeAway(const Vector& excess, const Vector& volume) {
+    forCells([&](size_t c) {
       const uint32_t r = component(c);
       if (excess[r] != 0 && volume[r] > 0) rhs_[c] -= excess[r] * (cells_.cellVolume[c] / volume[r]);
-    }
-  }
-
-  /// Per component, of the right side.
-  Vector squares() const {
-    Vector sums(setup_.components.count);
-    for (size_t c = 0; c < cells_.cellCount(); ++c) sums[component(c)] += rhs_[c] * rhs_[c];
-    return sums;
+    });
   }
 
   uint32_t component(size_t c) const { return setup_.components.cellComponent[c]; }
@@ -193,9 +195,12 @@ class Solver {
     result_.faceDerivative = std::move(derivatives);
   }
 
-  static void scaleBy(int exponent, Vector& values) {
+  void scaleBy(int exponent, Vector& values) const {
+    if (exponent == 0) return;
     const double factor = std::ldexp(1.0, exponent);
-    for (double& value : values) value = std::isnormal(factor) ? value * factor : std::ldexp(value, exponent);
+    forBlocks(values.size(), team_, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) values[i] = std::isnormal(factor) ? values[i] * factor : std::ldexp(values[i], exponent);
+    });
   }
 
   double sumOver(detail::FunctionRef<double(size_t, size_t)> f) const { return sumOfBlocks(rhs_.size(), team_, f); }
@@ -285,22 +290,19 @@ class Solver {
 
   void fixConstants() {
     const bool pinned = options_.freeConstant == FreeConstant::pinned;
-    Vector sum(setup_.components.count), weight(setup_.components.count);
-    for (size_t c = 0; c < cells_.cellCount(); ++c) {
-      const uint32_t r = setup_.components.cellComponent[c];
-      const double w = !pinned ? cells_.cellVolume[c] : weight[r] == 0 ? 1 : 0;
-      sum[r] += w * result_.phi[c], weight[r] += w;
-    }
-    for (size_t c = 0; c < cells_.cellCount(); ++c) {
-      const uint32_t r = setup_.components.cellComponent[c];
-      if (!setup_.held[r] && weight[r] > 0) result_.phi[c] -= sum[r] / weight[r];
-    }
+    Vector shift = sumsOf([&](size_t c) { return pinned ? 0 : cells_.cellVolume[c] * result_.phi[c]; });
+    const Vector volume = sumsOf([&](size_t c) { return cells_.cellVolume[c]; });
+    for (size_t r = 0; r < shift.size(); ++r) shift[r] = volume[r] > 0 ? shift[r] / volume[r] : 0;
+    for (size_t c = cells_.cellCount(); pinned && c-- > 0;) shift[component(c)] = result_.phi[c];  // of the first cell
+    forCells([&](size_t c) {
+      if (!setup_.held[component(c)]) result_.phi[c] -= shift[component(c)];
+    });
   }
 
   void findUnresolved() {
     if (result_.status != SolveStatus::converged || result_.phi.empty()) return;
     const auto [low, high] = std::minmax_element(result_.phi.begin(), result_.phi.end());
-    result_.unresolved = unresolvedCells(setup_, kUnresolved * (*high - *low));
+    result_.unresolved = unresolvedCells(setup_, kUnresolved * (*high - *low), team_);
   }
 
   /// So wrong, relative to the range of phi, it is not resolved.

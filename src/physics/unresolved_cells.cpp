@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/disjoint_sets.h"
+#include "base/parallel.h"
 #include "operators/measure/vector.h"
 
 namespace mandoline::physics {
@@ -17,7 +18,7 @@ struct Link {
 };
 
 /// Per cell, of what flows into it through the boundary.
-std::vector<double> roundingErrors(const PoissonSetup& setup) {
+std::vector<double> roundingErrors(const PoissonSetup& setup, const detail::Team& team) {
   constexpr double kRounding = 1e-15;
   const CellComplex& cells = setup.cells;
   const Boundary& boundary = setup.problem.boundary;
@@ -29,29 +30,30 @@ std::vector<double> roundingErrors(const PoissonSetup& setup) {
     sum[c] += flow;
     if (area > 0) largest[c] = std::max(largest[c], flow / area);
   }
-  for (size_t c = 0; c < sum.size(); ++c) {
-    if (sum[c] == 0) continue;
-    Point open{};  // the sum of area vectors, zero but for rounding of positions
-    for (const uint32_t h : cells.halfFaces(c)) {
-      for (size_t d = 0; d < 3; ++d) open[d] += (h % 2 == 0 ? 1 : -1) * cells.faceArea[h / 2] * cells.faceNormal[3 * (h / 2) + d];
+  forBlocks(sum.size(), team, [&](size_t begin, size_t end) {
+    for (size_t c = begin; c < end; ++c) {
+      if (sum[c] == 0) continue;
+      Point open{};  // the sum of area vectors, zero but for rounding of positions
+      for (const uint32_t h : cells.halfFaces(c)) {
+        for (size_t d = 0; d < 3; ++d) open[d] += (h % 2 == 0 ? 1 : -1) * cells.faceArea[h / 2] * cells.faceNormal[3 * (h / 2) + d];
+      }
+      sum[c] = kRounding * sum[c] + largest[c] * measuring::length(open);
     }
-    sum[c] = kRounding * sum[c] + largest[c] * measuring::length(open);
-  }
+  });
   return sum;
 }
 
 class Joiner {
  public:
-  Joiner(const PoissonSetup& setup, double limit) : setup_(setup), cells_(setup.cells), limit_(limit) {}
+  Joiner(const PoissonSetup& setup, double limit, const detail::Team& team)
+      : setup_(setup), cells_(setup.cells), limit_(limit), team_(team) {}
 
   std::vector<uint32_t> run() {
-    error_ = roundingErrors(setup_);
+    error_ = roundingErrors(setup_, team_);
     ownStrength_ = ownStrengths();
     double all = 0;
     for (const double error : error_) all += error;
-    forLinks([&](const Link& link) {
-      if (link.strength * limit_ < all) weak_.push_back(link);
-    });
+    findWeak(all);
     if (weak_.empty()) return {};
     joinStrong(all);
     std::sort(weak_.begin(), weak_.end(), [](const Link& a, const Link& b) {
@@ -65,39 +67,58 @@ class Joiner {
   /// What each cell exchanges with others, but for those larger ones that it meets beside smaller ones.
   std::vector<double> ownStrengths() const {
     std::vector<double> sum = setup_.added;
-    for (size_t e = 0; e < setup_.dual.edges.size(); ++e) {
-      const DualEdge& edge = setup_.dual.edges[e];
-      sum[edge.cell] += edge.flow / edge.distance;
-      if (setup_.dual.faces[e].size() == 1) sum[otherCell(cells_, edge, setup_.dual.faces[e][0])] += edge.flow / edge.distance;
-    }
+    forBlocks(sum.size(), team_, [&](size_t begin, size_t end) {
+      for (size_t c = begin; c < end; ++c) {
+        for (const uint32_t e : setup_.edgesOfCells[c]) {
+          const DualEdge& edge = setup_.dual.edges[e];
+          if (edge.cell == c || setup_.dual.faces[e].size() == 1) sum[c] += edge.flow / edge.distance;
+        }
+      }
+    });
     return sum;
   }
 
-  /// Also to the ground, which is numbered after all cells. Where a cell meets several smaller ones, that links it to the largest of them,
-  /// as well as this is held itself: of all of them it holds only the mean.
-  template <class F>
-  void forLinks(const F& f) const {
-    for (size_t e = 0; e < setup_.dual.edges.size(); ++e) {
-      const DualEdge& edge = setup_.dual.edges[e];
-      uint32_t largest = otherCell(cells_, edge, setup_.dual.faces[e][0]);
-      for (const uint32_t face : setup_.dual.faces[e]) {
-        const uint32_t other = otherCell(cells_, edge, face);
-        if (cells_.cellVolume[other] > cells_.cellVolume[largest]) largest = other;
-      }
-      const double strength = edge.flow / edge.distance;
-      f(Link{setup_.dual.faces[e].size() == 1 ? strength : std::min(strength, ownStrength_[largest]), edge.cell, largest});
+  /// Where a cell meets several smaller ones, a dual edge links it to the largest of them, as well as this is held itself: of all of them
+  /// it holds only the mean.
+  Link linkOf(size_t e) const {
+    const DualEdge& edge = setup_.dual.edges[e];
+    uint32_t largest = otherCell(cells_, edge, setup_.dual.faces[e][0]);
+    for (const uint32_t face : setup_.dual.faces[e]) {
+      const uint32_t other = otherCell(cells_, edge, face);
+      if (cells_.cellVolume[other] > cells_.cellVolume[largest]) largest = other;
     }
+    const double strength = edge.flow / edge.distance;
+    return {setup_.dual.faces[e].size() == 1 ? strength : std::min(strength, ownStrength_[largest]), edge.cell, largest};
+  }
+  /// To the ground, which is numbered after all cells.
+  template <class F>
+  void forLinksToGround(const F& f) const {
     for (uint32_t c = 0; c < cells_.cellCount(); ++c) {
       if (setup_.added[c] > 0) f(Link{setup_.added[c], c, ground()});
     }
   }
   uint32_t ground() const { return uint32_t(cells_.cellCount()); }
 
+  void findWeak(double all) {
+    const RunOptions quiet{team_.size(), {}};
+    detail::Monitor monitor(quiet, 1);
+    const auto add = [&](const Link& link, std::vector<Link>& weak) {
+      if (link.strength * limit_ < all) weak.push_back(link);
+    };
+    const auto parts = detail::forChunks<std::vector<Link>>(setup_.dual.edges.size(), monitor, [&](auto& weak, size_t begin, size_t end) {
+      for (size_t e = begin; e < end; ++e) add(linkOf(e), weak);
+    });
+    for (const std::vector<Link>& part : parts) weak_.insert(weak_.end(), part.begin(), part.end());
+    forLinksToGround([&](const Link& link) { add(link, weak_); });
+  }
+
   void joinStrong(double all) {
     sets_.reset(cells_.cellCount() + 1);
-    forLinks([&](const Link& link) {
+    const auto join = [&](const Link& link) {
       if (link.strength * limit_ >= all) sets_.unite(link.a, link.b);
-    });
+    };
+    for (size_t e = 0; e < setup_.dual.edges.size(); ++e) join(linkOf(e));
+    forLinksToGround(join);
     error_.push_back(0);
     volume_ = cells_.cellVolume;
     volume_.push_back(HUGE_VAL);
@@ -139,6 +160,7 @@ class Joiner {
   const PoissonSetup& setup_;
   const CellComplex& cells_;
   double limit_;
+  const detail::Team& team_;
   std::vector<double> ownStrength_;
   std::vector<Link> weak_;
   detail::DisjointSets sets_;              // of cells that are joined
@@ -150,6 +172,8 @@ class Joiner {
 
 }  // namespace
 
-std::vector<uint32_t> unresolvedCells(const PoissonSetup& setup, double limit) { return Joiner(setup, limit).run(); }
+std::vector<uint32_t> unresolvedCells(const PoissonSetup& setup, double limit, const detail::Team& team) {
+  return Joiner(setup, limit, team).run();
+}
 
 }  // namespace mandoline::physics
