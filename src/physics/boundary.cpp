@@ -61,8 +61,6 @@ std::vector<double> outwardNormals(const Boundary& boundary, const CellComplex& 
   return normals;
 }
 
-CellComponents cellComponents(const CellComplex& cells) {
-  return physics::joinedCells(cells, [](size_t) { return true; });
-}
+CellComponents cellComponents(const CellComplex& cells) { return physics::componentsOf(cells, 1); }
 
 }  // namespace mandoline

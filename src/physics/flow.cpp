@@ -71,8 +71,8 @@ class FlowSolver {
     flow.wind = wind;
     const double length = measuring::length(wind);
     PoissonProblem problem;
-    problem.boundary = physics::windBoundary(cells_, unitOf(wind), flow.throttled);
     detail::Monitor monitor(options_, kStages);
+    problem.boundary = physics::windBoundary(cells_, unitOf(wind), flow.throttled, monitor.threads());
     const KnownEdges known = solve(problem, monitor, flow);
     monitor.beginStage("velocities", kStages - 1);
     complete({cells_, known.dual, known.ofCells, problem}, length, monitor, flow);
@@ -166,8 +166,8 @@ Flow physics::flowOfPhi(const CellComplex& cells, const std::array<double, 3>& w
     const double length = measuring::length(wind);
     for (double& value : flow.phi) value = length > 0 ? value / length : 0;
     PoissonProblem problem;
-    problem.boundary = windBoundary(cells, unitOf(wind), flow.throttled);
     detail::Monitor monitor(options, 1);
+    problem.boundary = windBoundary(cells, unitOf(wind), flow.throttled, monitor.threads());
     const DualEdges dual = dualEdges(cells, problem.dualPoints, {}, monitor.threads());
     const std::vector<BoundaryTerm> terms = boundaryTerms(cells, problem);
     const detail::Csr<uint32_t> edges = cellEdges(cells, dual, monitor.threads());

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "base/disjoint_sets.h"
 #include "base/large_array.h"
 #include "base/parallel.h"
+#include "base/shared_sets.h"
 #include "mandoline/status.h"
 
 namespace mandoline::physics {
@@ -100,19 +100,21 @@ Level finestLevel(const CellComplex& cells, const OrderedMatrix& system, std::ve
 }
 
 /// Finds the nodes of the next level: those that are coupled within blocks of 2^shift grid cells. Returns how many there are.
-uint32_t joinNodes(Level& level, int shift) {
+uint32_t joinNodes(Level& level, int shift, unsigned threads) {
   const auto sameBlock = [&](size_t i, size_t j) {
     for (size_t d = 0; d < 3; ++d) {
       if (level.corner[3 * i + d] >> shift != level.corner[3 * j + d] >> shift) return false;
     }
     return true;
   };
-  detail::DisjointSets sets(level.count());
-  for (uint32_t i = 0; i < level.count(); ++i) {
-    level.lower.forEach(i, [&](uint32_t j, double) {
-      if (sameBlock(i, j)) sets.unite(i, j);
-    });
-  }
+  detail::SharedSets sets(level.count());
+  forBlocks(level.count(), threads, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      level.lower.forEach(i, [&](uint32_t j, double) {
+        if (sameBlock(i, j)) sets.unite(uint32_t(i), j);
+      });
+    }
+  });
   uint32_t count = 0;
   level.coarse.resize(level.count());
   for (uint32_t i = 0; i < level.count(); ++i) {
@@ -233,7 +235,7 @@ std::vector<Level> multigridLevels(const CellComplex& cells, const OrderedMatrix
   for (int shift = 1; last >> (shift - 1) > 0 && !levels.back().lower.nodes.empty(); ++shift) {
     Level& fine = levels.back();
     if (isDominatedByMass(fine)) break;
-    const uint32_t count = joinNodes(fine, shift);
+    const uint32_t count = joinNodes(fine, shift, threads);
     if (count > fine.count() - fine.count() / 16 && last >> shift > 0) continue;  // too few join to be worth a level
     fine.twice = count <= fine.count() / 2;
     fine.members = detail::groupBy<uint32_t>(

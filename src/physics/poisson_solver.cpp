@@ -1,5 +1,6 @@
 #include "mesh/run_call.h"
 #include "physics/cell_edges.h"
+#include "physics/joined_cells.h"
 #include "physics/poisson_setup.h"
 #include "physics/sparse.h"
 
@@ -23,7 +24,7 @@ void requireData(const CellComplex& cells, const PoissonProblem& problem, const 
 PoissonSetup::PoissonSetup(const CellComplex& cells_, PoissonProblem problem_, unsigned threads)
     : cells(cells_),
       problem(checked(cells_, std::move(problem_))),
-      components(cellComponents(cells)),
+      components(componentsOf(cells, threads)),
       held(heldComponents(cells, problem, components)),
       terms(boundaryTerms(cells, problem)),
       dual(dualEdges(cells, problem.dualPoints, problem.faceCoefficient, threads)),

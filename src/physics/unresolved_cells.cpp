@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/disjoint_sets.h"
 #include "base/parallel.h"
+#include "base/shared_sets.h"
 #include "operators/measure/vector.h"
 
 namespace mandoline::physics {
@@ -113,11 +113,13 @@ class Joiner {
   }
 
   void joinStrong(double all) {
-    sets_.reset(cells_.cellCount() + 1);
+    sets_ = detail::SharedSets(cells_.cellCount() + 1);
     const auto join = [&](const Link& link) {
       if (link.strength * limit_ >= all) sets_.unite(link.a, link.b);
     };
-    for (size_t e = 0; e < setup_.dual.edges.size(); ++e) join(linkOf(e));
+    forBlocks(setup_.dual.edges.size(), team_, [&](size_t begin, size_t end) {
+      for (size_t e = begin; e < end; ++e) join(linkOf(e));
+    });
     forLinksToGround(join);
     error_.push_back(0);
     volume_ = cells_.cellVolume;
@@ -163,7 +165,7 @@ class Joiner {
   const detail::Team& team_;
   std::vector<double> ownStrength_;
   std::vector<Link> weak_;
-  detail::DisjointSets sets_;              // of cells that are joined
+  detail::SharedSets sets_;                // of cells that are joined
   std::vector<double> error_, volume_;     // per set, by its root
   std::vector<uint32_t> part_;             // per set: the last part of the tree
   std::vector<uint32_t> strong_, parent_;  // per cell: the set that strong links join it to; per part: that which it joined

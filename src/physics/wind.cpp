@@ -6,13 +6,15 @@
 #include "physics/joined_cells.h"
 
 namespace mandoline::physics {
-CellComponents partsBetweenSlits(const CellComplex& cells) {
+CellComponents partsBetweenSlits(const CellComplex& cells, const detail::Team& team) {
   constexpr double kSlit = 1e-6;
   std::vector<double> largest(cells.cellCount());
-  for (size_t c = 0; c < cells.cellCount(); ++c) {
-    for (const uint32_t h : cells.halfFaces(c)) largest[c] = std::max(largest[c], cells.faceArea[h / 2]);
-  }
-  return joinedCells(cells, [&](size_t f) {
+  forBlocks(cells.cellCount(), team, [&](size_t begin, size_t end) {
+    for (size_t c = begin; c < end; ++c) {
+      for (const uint32_t h : cells.halfFaces(c)) largest[c] = std::max(largest[c], cells.faceArea[h / 2]);
+    }
+  });
+  return joinedCells(cells, team, [&](size_t f) {
     const double smaller = std::min(largest[size_t(cells.faceCells[2 * f])], largest[size_t(cells.faceCells[2 * f + 1])]);
     return cells.faceArea[f] >= kSlit * smaller;
   });
@@ -66,11 +68,12 @@ std::vector<uint32_t> WindLost::throttled() const {
   return components;
 }
 
-Boundary windBoundary(const CellComplex& cells, const std::array<double, 3>& wind, std::vector<uint32_t>& throttled) {
+Boundary windBoundary(const CellComplex& cells, const std::array<double, 3>& wind, std::vector<uint32_t>& throttled,
+                      const detail::Team& team) {
   Boundary boundary = freeWind(cells, wind);
-  const CellComponents parts = partsBetweenSlits(cells);
+  const CellComponents parts = partsBetweenSlits(cells, team);
   const WindThrough through = windThrough(cells, boundary, parts.cellComponent, parts.count);
-  throttled = throttle(cells, through, parts.cellComponent, cellComponents(cells), boundary).throttled();
+  throttled = throttle(cells, through, parts.cellComponent, componentsOf(cells, team), boundary).throttled();
   return boundary;
 }
 

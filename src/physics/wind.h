@@ -2,13 +2,14 @@
 #pragma once
 
 #include "base/shared.h"
+#include "base/team.h"
 #include "mandoline/poisson.h"
 
 namespace mandoline::physics {
 
 /// The components, divided where cells are connected by slits alone: faces with less than a millionth of the area of other faces of both
 /// cells. A wind that had to pass through those would be absurdly fast.
-MANDOLINE_SHARED CellComponents partsBetweenSlits(const CellComplex& cells);
+MANDOLINE_SHARED CellComponents partsBetweenSlits(const CellComplex& cells, const detail::Team& team = 1);
 
 // The steps of windBoundary(), for cells that several processes have a part of each.
 
@@ -35,6 +36,7 @@ MANDOLINE_SHARED WindLost throttle(const CellComplex& cells, const WindThrough& 
 
 /// Conditions for the potential of a wind that blows through the sides of the box, as much into each of these parts as out of it.
 /// `throttled` gets the components that the wind is scaled down in.
-Boundary windBoundary(const CellComplex& cells, const std::array<double, 3>& wind, std::vector<uint32_t>& throttled);
+Boundary windBoundary(const CellComplex& cells, const std::array<double, 3>& wind, std::vector<uint32_t>& throttled,
+                      const detail::Team& team = 1);
 
 }  // namespace mandoline::physics
