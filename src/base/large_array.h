@@ -82,9 +82,9 @@ void copyLarge(const Array& from, Array& to) {
 template <class Item>
 std::vector<Item> longer(const std::vector<Item>& items, size_t count) {
   std::vector<Item> result;
-  reserveLarge(result, count);
+  reserveUntouched(result, count);
   result.assign(items.begin(), items.end());
-  result.resize(count);
+  resizeInRoom(result, count);
   return result;
 }
 
