@@ -106,6 +106,16 @@ struct BrickGrid {
     const int32_t z = cell[2] >> 1;
     return uint32_t(cell[0] >> 1) < uint32_t(cells[0]) && uint32_t(cell[1] >> 1) < uint32_t(cells[1]) && z >= here.first && z < here.past;
   }
+  /// Whether the inside of one brick has all slabs from one to another.
+  bool isInsideOne(const Slab& least, const Slab& greatest) const {
+    int isInside = 1;  // without branches, which are hard to predict here
+    for (size_t d = 0; d < 3; ++d) {
+      const int32_t in = between(d);
+      isInside &= int(((least[d] ^ greatest[d]) & ~in) == 0) & int((least[d] & in) != 0);
+      isInside &= int(least[d] >= 0) & int(greatest[d] < 2 * cells[d]);
+    }
+    return isInside != 0;
+  }
   /// Calls f(cell) for the cells that are cut here and have a grid element, one of each brick.
   template <class F>
   void forBricks(const Slab& element, const F& f) const {

@@ -51,6 +51,7 @@ class Clipper {
     triangle_ = triangle;
     const auto t = input_.verticesOf(triangle);
     const Extent extent = Extent::of(input_.slabs[t[0]], input_.slabs[t[1]], input_.slabs[t[2]]);
+    if (bricks_.isInsideOne(extent.least, extent.greatest)) return giveBrick(extent.least, ClippedTriangles::kWhole);
     bool isWhole = true, isBesideSeam = false;
     for (size_t d = 0; d < 3; ++d) {
       const int32_t least = extent.least[d], greatest = extent.greatest[d], end = 2 * bricks_.cells[d];
@@ -85,11 +86,11 @@ class Clipper {
 
  private:
   void give(const Slab& element, uint32_t piece) {
-    if (planeCount(element) == 0 && bricks_.hasCell(element)) {
-      chunk_.clipped.parts.push_back({bricks_.keyOf(element), triangle_, piece});
-      return;
-    }
-    bricks_.forBricks(element, [&](const Slab& cell) { chunk_.clipped.parts.push_back({bricks_.keyOf(cell), triangle_, piece}); });
+    bricks_.forBricks(element, [&](const Slab& cell) { giveBrick(cell, piece); });
+  }
+  /// The brick that has a cell, or an element that lies inside of it.
+  void giveBrick(const Slab& cell, uint32_t piece) {
+    if (bricks_.hasCell(cell)) chunk_.clipped.parts.push_back({bricks_.keyOf(cell), triangle_, piece});
   }
   /// Whether cells from one to another, as slabs along an axis, are of one brick along it.
   bool isOneBrick(size_t axis, int32_t first, int32_t last) const {
@@ -228,20 +229,28 @@ void append(const ClippedTriangles& chunk, VertexId firstInTriangle, uint32_t sh
   appendItems(more.hybridTriangles, faces.hybridTriangles);
 }
 
+void appendAll(const std::vector<ClippedChunk>& chunks, VertexId firstInTriangle, ClippedTriangles& all) {
+  reserve(chunks, all);
+  uint32_t shift = 0;
+  for (const ClippedChunk& c : chunks) {
+    append(c.clipped, firstInTriangle, shift, all);
+    shift += uint32_t(c.slabs.size());
+  }
+}
+
 }  // namespace
 
 ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& run, KnownClips* known) {
   const Input& input = surface.input;
   CutVertices& vertices = surface.vertices;
-  const auto chunks =
-      forChunks<ClippedChunk>(input.mesh->triangles.size(), run.monitor, [&](ClippedChunk& chunk, size_t begin, size_t end) {
-        Clipper clipper(surface, bricks, run, chunk);
-        WholeDicer dicer(surface, run.monitor, chunk);
-        for (const TriangleId t : Ids<TriangleId>(begin, end)) {
-          if (known && known->has(t)) continue;
-          if (input.kept(t) && surface.here.has(t) && !dicer.dice(t)) clipper.clip(t);
-        }
-      });
+  auto chunks = forChunks<ClippedChunk>(input.mesh->triangles.size(), run.monitor, [&](ClippedChunk& chunk, size_t begin, size_t end) {
+    Clipper clipper(surface, bricks, run, chunk);
+    WholeDicer dicer(surface, run.monitor, chunk);
+    for (const TriangleId t : Ids<TriangleId>(begin, end)) {
+      if (known && known->has(t)) continue;
+      if (input.kept(t) && surface.here.has(t) && !dicer.dice(t)) clipper.clip(t);
+    }
+  });
   size_t entries = 0, made = vertices.size();
   for (const ClippedChunk& c : chunks) {
     entries += std::max(c.clipped.pieces.items.size(), c.clipped.undivided.loops.items.size());
@@ -250,11 +259,10 @@ ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& r
   }
   if (entries > kMost || made > kMost) failTooLarge(-1);
   ClippedTriangles all;
-  reserve(chunks, all);
-  uint32_t shift = 0;
-  for (const ClippedChunk& c : chunks) {
-    append(c.clipped, vertices.firstInTriangle, shift, all);
-    shift += uint32_t(c.slabs.size());
+  if (chunks.size() == 1) {
+    all = std::move(chunks[0].clipped);
+  } else {
+    appendAll(chunks, vertices.firstInTriangle, all);
   }
   for (const ClippedChunk& c : chunks) {
     appendItems(c.slabs, vertices.slabs);

@@ -50,6 +50,15 @@ int32_t locateMade(const MeshPoints& points, VertexId v, int axis, const std::ve
   return 2 * plane - 1;
 }
 
+/// Whether all vertices lie beyond the lowest plane of an axis: then nothing winds around the grid's lowest corner.
+bool areBeyondLowest(const IdVector<VertexId, Slab>& slabs) {
+  Slab least{1, 1, 1};
+  for (const Slab& slab : slabs) {
+    for (size_t d = 0; d < 3; ++d) least[d] = std::min(least[d], slab[d]);
+  }
+  return least[0] > 0 || least[1] > 0 || least[2] > 0;
+}
+
 }  // namespace
 
 void checkGrid(const Grid& grid, double snapTolerance) {
@@ -98,6 +107,10 @@ Input prepareInput(const Prepared& mesh, const Grid& grid, Run& run, const Known
     }
   });
   for (const Predicates& p : chunks) run.count(p);
+  if (areBeyondLowest(input.slabs)) {
+    input.cornerWinding.assign(countedOf(mesh).size(), 0);
+    return input;
+  }
   Predicates predicates;
   input.cornerWinding = windingsBeside({input.planes[0][0], input.planes[1][0], input.planes[2][0]}, mesh, input.triangleIds(), predicates);
   run.count(predicates);

@@ -143,18 +143,26 @@ class CrossingLayout {
         layOutKnown(e, pastKnown, chunk);
         e = pastKnown;
       } else {
-        layOut(e, chunk);
-        ++e.number;
+        const TriEdgeId pastNew = known_ ? TriEdgeId{e.number + 1} : past;
+        layOutNew(e, pastNew, chunk);
+        e = pastNew;
       }
     }
   }
 
-  void layOut(TriEdgeId e, Chunk& chunk) {
-    const auto& [low, high] = surface_.edges().ends[e];
-    const PlanesBetween between = planesBetween(surface_.input.slabs[low], surface_.input.slabs[high]);
-    if (between.hasBoth && surface_.here.has(e)) chunk.inPlane.push_back(e);
-    vertices_.crossingOffsets[e.number] = {uint32_t(chunk.crossings)};
-    chunk.crossings += between.count;
+  void layOutNew(TriEdgeId first, TriEdgeId past, Chunk& chunk) {
+    const std::array<VertexId, 2>* ends = surface_.edges().ends.data();
+    const Slab* slabs = surface_.input.slabs.data();
+    VertexId* offsets = vertices_.crossingOffsets.data();
+    uint64_t crossings = chunk.crossings;
+    for (const TriEdgeId e : Ids<TriEdgeId>(first, past)) {
+      const auto& [low, high] = ends[e.number];
+      const PlanesBetween between = planesBetween(slabs[low.number], slabs[high.number]);
+      if (between.hasBoth && surface_.here.has(e)) chunk.inPlane.push_back(e);
+      offsets[e.number] = {uint32_t(crossings)};
+      crossings += between.count;
+    }
+    chunk.crossings = crossings;
   }
 
   void layOutKnown(TriEdgeId first, TriEdgeId past, Chunk& chunk) {
