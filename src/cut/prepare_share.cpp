@@ -9,8 +9,8 @@ std::vector<TrianglePair> PrepareShare::findPairs(const MeshToPrepare& mesh) {
   data_ = beginPreparing(mesh, options_, monitor_);
   clock_.emplace(result_.stats, monitor_, stagesBefore(options_));
   clock_->begin("input");
-  prepared_ = weldInput(*data_->mesh, 0);
-  dropFlat(*prepared_, nullptr, predicates_);
+  prepared_ = weldInput(*data_->mesh, 0, monitor_);
+  dropFlat(*prepared_, nullptr, monitor_, predicates_);
   if (options_.intersections == Intersections::assumeNone) return {};
   clock_->begin("intersections");
   return findEdgesAndPairs(*prepared_, shareOf_, monitor_, predicates_);

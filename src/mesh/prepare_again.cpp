@@ -101,9 +101,9 @@ PreparedAgain prepareAgain(const MeshView& mesh, const Preparation& preparation,
                            const std::function<void(const char*)>& beginStage) {
   Predicates predicates;
   beginStage("input");
-  auto now = weldInput(mesh, preparation.largest);
+  auto now = weldInput(mesh, preparation.largest, monitor);
   Moved moved = findMoved(before, *now);
-  dropFlat(*now, moved.empty() ? nullptr : &moved, predicates);
+  dropFlat(*now, moved.empty() ? nullptr : &moved, monitor, predicates);
   if (now->counts.zeroAreaTriangles > 0) moved.clear();
   if (preparation.intersections != Intersections::assumeNone) beginStage("intersections");
   if (moved.empty() || !resolveAgain(before, *now, moved, preparation.intersections, {monitor, predicates})) {

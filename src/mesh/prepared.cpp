@@ -10,6 +10,8 @@
 namespace mandoline::detail {
 namespace {
 
+constexpr size_t kBlock = 2048;  // triangles that are worth a thread
+
 [[noreturn]] void fail(Status status, int64_t element, const std::string& message) { throw Failure{{status, element, -1, message}}; }
 
 void checkArrays(const MeshView& mesh) {
@@ -64,36 +66,27 @@ void refuseIntersections(const Prepared& prepared, const Contacts& contacts) {
                      (total == 1 ? "the only pair that does." : "the first of " + std::to_string(total) + " pairs that do.")}};
 }
 
-void findPartsOfOpen(Prepared& prepared) {
+void findEdges(Prepared& prepared, const Arrangement* arrangement) {
+  prepared.edges = findMeshEdges(prepared, arrangement);
   if (!prepared.closed) prepared.parts = findParts(prepared);
 }
 
-void findEdges(Prepared& prepared, const Arrangement* arrangement) {
-  prepared.edges = findMeshEdges(prepared, arrangement);
-  findPartsOfOpen(prepared);
-}
-
-/// The edges and the triangles that may meet, side by side: neither needs the other. Whoever is done first helps with the charts.
+/// The edges, and the triangles that may meet: neither needs the other, and whoever is done first helps with the charts.
 /// `states` are those of the search: the edges change the mesh's.
 NearTriangles findEdgesAndNear(Prepared& prepared, const std::vector<TriangleState>& states, Monitor& monitor) {
-  const auto both = [&](const std::function<void()>& first, const std::function<void()>& second) {
-    runTasks(std::array{first, second}, monitor);
-  };
   std::optional<SortedMesh> sorted;
   ChartFinder charts;
-  both(
-      [&] {
-        prepared.edges = findMeshEdges(prepared, nullptr);
-        charts.help();
-      },
-      [&] {
-        sorted.emplace(prepared, states);
-        charts.begin(*sorted);
-        charts.help();
-      });
-  std::optional<NearTriangles> near;
-  both([&] { findPartsOfOpen(prepared); }, [&] { near.emplace(*std::move(sorted), charts.take()); });
-  return *std::move(near);
+  const std::function<void()> tasks[] = {[&] {
+                                           findEdges(prepared, nullptr);
+                                           charts.help();
+                                         },
+                                         [&] {
+                                           sorted.emplace(prepared, states);
+                                           charts.begin(*sorted);
+                                           charts.help();
+                                         }};
+  runTasks(tasks, monitor);
+  return {*std::move(sorted), charts.take(), monitor};
 }
 
 }  // namespace
@@ -105,7 +98,7 @@ std::span<const Duplicate> Prepared::duplicatesOf(TriangleId t) const {
   return {duplicates.data() + (first - duplicates.begin()), size_t(past - first)};
 }
 
-std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest) {
+std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monitor& monitor) {
   checkArrays(mesh);
   auto prepared = std::make_unique<Prepared>();
   MeshCounts& counts = prepared->counts;
@@ -114,23 +107,31 @@ std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest) {
   prepared->shift = largest > 0 ? Scale::kLargestExponent - std::ilogb(largest) : 0;
   const Scale scale(prepared->shift);
   prepared->points.resize(referenced.size());
-  for (size_t v = 0; v < referenced.size(); ++v) {
-    for (int d = 0; d < 3 && referenced[v]; ++d)
-      prepared->points[v][d] = scale.scaled(mesh.positions[3 * v + d], counts.flushedCoordinates);
-  }
+  const auto flushed = forChunks<uint32_t>(referenced.size(), monitor, [&](uint32_t& count, size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) {
+      for (size_t d = 0; d < 3 && referenced[v]; ++d) prepared->points[v][d] = scale.scaled(mesh.positions[3 * v + d], count);
+    }
+  });
+  for (const uint32_t count : flushed) counts.flushedCoordinates += count;
   prepared->triVertices = uint32_t(prepared->points.size());
   const std::vector<uint32_t> lowest = weld(referenced, prepared->points);
   for (uint32_t v = 0; v < lowest.size(); ++v) counts.weldedVertices += lowest[v] != v;
   prepared->triangles.resize(mesh.triangleCount());
   prepared->states.assign(mesh.triangleCount(), TriangleState::kept);
-  for (size_t t = 0; t < prepared->triangles.size(); ++t) {
-    for (size_t i = 0; i < 3; ++i) prepared->triangles[t][i] = lowest[mesh.triangles[3 * t + i]];
-  }
+  const size_t triangles = mesh.triangleCount();
+  runChunks(
+      triangles, chunkCount(triangles, monitor, kBlock), monitor,
+      [&](size_t, size_t begin, size_t end) {
+        for (size_t t = begin; t < end; ++t) {
+          for (size_t i = 0; i < 3; ++i) prepared->triangles[t][i] = lowest[mesh.triangles[3 * t + i]];
+        }
+      },
+      kBlock);
   return prepared;
 }
 
-void dropFlat(Prepared& prepared, const Moved* moved, Predicates& predicates) {
-  const std::vector<uint32_t> zeroArea = dropZeroArea(prepared, moved, predicates);
+void dropFlat(Prepared& prepared, const Moved* moved, Monitor& monitor, Predicates& predicates) {
+  const std::vector<uint32_t> zeroArea = dropZeroArea(prepared, moved, monitor, predicates);
   prepared.counts.zeroAreaTriangles = uint32_t(zeroArea.size());
   if (!zeroArea.empty()) prepared.stitches = findStitches(prepared, zeroArea);
 }
@@ -182,8 +183,8 @@ std::unique_ptr<Prepared> prepareMesh(const MeshView& mesh, const Preparation& p
                                       const std::function<void(const char*)>& beginStage) {
   Predicates predicates;
   beginStage("input");
-  auto prepared = weldInput(mesh, preparation.largest);
-  dropFlat(*prepared, nullptr, predicates);
+  auto prepared = weldInput(mesh, preparation.largest, monitor);
+  dropFlat(*prepared, nullptr, monitor, predicates);
   if (preparation.intersections != Intersections::assumeNone) beginStage("intersections");
   resolveInput(*prepared, preparation, monitor, predicates);
   prepared->counts.exactFallbacks = predicates.fallbacks;

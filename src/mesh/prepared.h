@@ -74,9 +74,9 @@ struct Preparation {
 };
 
 /// The first third: the checked and welded mesh. `largest` as of a Preparation.
-std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest);
+std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monitor& monitor);
 /// The second: drops triangles without area; `moved` as of dropZeroArea().
-void dropFlat(Prepared& prepared, const Moved* moved, Predicates& predicates);
+void dropFlat(Prepared& prepared, const Moved* moved, Monitor& monitor, Predicates& predicates);
 /// The third: its edges and, unless intersections are assumed to be none, where triangles meet.
 void resolveInput(Prepared& prepared, const Preparation& preparation, Monitor& monitor, Predicates& predicates);
 /// The same in two steps, of which several processes share the search: a share's edges and pairs that meet, and what becomes of the pairs

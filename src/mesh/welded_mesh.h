@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/exact.h"
+#include "base/parallel.h"
 #include "base/point.h"
 #include "mesh/ids.h"
 
@@ -77,7 +78,7 @@ inline bool hasMoved(const Moved& moved, const std::array<uint32_t, 3>& triangle
 }
 
 /// Marks the triangles without area, exactly, and returns them. Triangles that have not moved are known to have one; null: all may have.
-std::vector<uint32_t> dropZeroArea(WeldedMesh& mesh, const Moved* moved, Predicates& predicates);
+std::vector<uint32_t> dropZeroArea(WeldedMesh& mesh, const Moved* moved, Monitor& monitor, Predicates& predicates);
 
 /// The vertices that dropped triangles without area put on edges. Such triangles that share an edge lie on one line; each of their edges
 /// gets all their vertices that lie inside it.

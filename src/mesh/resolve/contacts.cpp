@@ -174,12 +174,12 @@ bool PairTest::meet(uint32_t s, uint32_t t) {
   return a == b || find(s, t, pair);
 }
 
-NearTriangles::NearTriangles(SortedMesh sorted, const Charts& charts)
-    : mesh(std::move(sorted)), tree(mesh, charts.chartOf, charts.count), leaves(tree.overlappingLeaves()) {}
+NearTriangles::NearTriangles(SortedMesh sorted, const Charts& charts, Monitor& monitor)
+    : mesh(std::move(sorted)), tree(mesh, charts.chartOf, charts.count, monitor), leaves(tree.overlappingLeaves(monitor)) {}
 
 NearTriangles findNear(SortedMesh mesh, Monitor& monitor) {
   const Charts charts = findCharts(mesh, monitor);
-  return {std::move(mesh), charts};
+  return {std::move(mesh), charts, monitor};
 }
 
 Contacts contactsOf(const WeldedMesh& mesh, std::vector<PairContact> pairs) {

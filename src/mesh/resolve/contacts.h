@@ -45,7 +45,7 @@ struct NearTriangles {
   TriangleTree tree;
   std::vector<TriangleTree::LeafPair> leaves;
 
-  NearTriangles(SortedMesh sorted, const Charts& charts);
+  NearTriangles(SortedMesh sorted, const Charts& charts, Monitor& monitor);
 };
 NearTriangles findNear(SortedMesh mesh, Monitor& monitor);
 

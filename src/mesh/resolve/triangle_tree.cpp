@@ -8,6 +8,8 @@ namespace mandoline::detail {
 
 namespace {
 
+constexpr size_t kBlock = 2048;  // triangles that are worth a thread
+
 /// Scaled coordinates are 0 or between 2^-80 and 2^122 (see Scale), so that single precision holds them all, rounded.
 LooseBox boxOf(const SortedMesh& mesh, size_t triangle) {
   const auto& v = mesh.triangles[triangle];
@@ -24,14 +26,20 @@ LooseBox boxOf(const SortedMesh& mesh, size_t triangle) {
 
 }  // namespace
 
-TriangleTree::TriangleTree(const SortedMesh& mesh, const std::vector<uint32_t>& groupOf, size_t groups) {
+TriangleTree::TriangleTree(const SortedMesh& mesh, const std::vector<uint32_t>& groupOf, size_t groups, Monitor& monitor) {
   const size_t triangles = mesh.triangles.size();
-  Csr<Item> byGroup = groupBy<Item>(
-      groups, triangles, [&](size_t t) { return groupOf[t]; },
-      [&](size_t t) {
-        return Item{boxOf(mesh, t), groupOf[t], uint32_t(t)};
-      });
-  items_ = std::move(byGroup.items);
+  Csr<uint32_t> byGroup = groupBy<uint32_t>(
+      groups, triangles, [&](size_t t) { return groupOf[t]; }, [](size_t t) { return uint32_t(t); });
+  items_.resize(triangles);
+  runChunks(
+      triangles, chunkCount(triangles, monitor, kBlock), monitor,
+      [&](size_t, size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+          const uint32_t t = byGroup.items[i];
+          items_[i] = {boxOf(mesh, t), groupOf[t], t};
+        }
+      },
+      kBlock);
   starts_ = std::move(byGroup.offsets);
   nodes_.reserve(triangles / 4 + 1);
   if (triangles > 0) addNode(0, uint32_t(triangles));
@@ -62,27 +70,42 @@ uint32_t TriangleTree::middleOf(uint32_t begin, uint32_t end) const {
   return first > begin && (past >= end || middle - first <= past - middle) ? first : past;
 }
 
-std::vector<TriangleTree::LeafPair> TriangleTree::overlappingLeaves() const {
-  std::vector<LeafPair> pairs, open;  // open: pairs of nodes still to be looked into
-  if (!nodes_.empty()) open.push_back({0, 0});
-  while (!open.empty()) {
-    const auto [a, b] = open.back();
-    open.pop_back();
-    if (inOneGroup(a, b) || (a != b && !nodes_[a].box.overlaps(nodes_[b].box))) continue;
-    if (isLeaf(a) && isLeaf(b)) {
-      pairs.push_back({a, b});
-    } else if (a == b) {
-      open.push_back({a + 1, a + 1});
-      open.push_back({a + 1, nodes_[a + 1].past});
-      open.push_back({nodes_[a + 1].past, nodes_[a + 1].past});
-    } else {
-      const bool halveA = !isLeaf(a) && (isLeaf(b) || nodes_[a].end - nodes_[a].begin >= nodes_[b].end - nodes_[b].begin);
-      const uint32_t halved = halveA ? a : b, other = halveA ? b : a;
-      open.push_back({halved + 1, other});
-      open.push_back({nodes_[halved + 1].past, other});
-    }
+std::vector<TriangleTree::LeafPair> TriangleTree::overlappingLeaves(Monitor& monitor) const {
+  constexpr size_t kSeveral = 32;  // for each thread: pairs differ much in what they hold
+  std::vector<LeafPair> pairs, open, next;
+  if (!nodes_.empty()) (isLeaf(0) ? pairs : open).push_back({0, 0});
+  while (!open.empty() && open.size() < kSeveral * monitor.threads()) {
+    next.clear();
+    for (const LeafPair& nodes : open) divide(nodes, pairs, next);
+    open.swap(next);
   }
+  const auto chunks = forChunks<std::vector<LeafPair>>(
+      open.size(), monitor,
+      [&](std::vector<LeafPair>& found, size_t begin, size_t end) {
+        std::vector<LeafPair> rest(open.begin() + ptrdiff_t(begin), open.begin() + ptrdiff_t(end));
+        while (!rest.empty()) {
+          const LeafPair nodes = rest.back();
+          rest.pop_back();
+          divide(nodes, found, rest);
+        }
+      },
+      kSeveral);
+  for (const std::vector<LeafPair>& found : chunks) pairs.insert(pairs.end(), found.begin(), found.end());
   return pairs;
+}
+
+/// Halves the larger node of a pair, or both if it is one twice. Adds the pairs that come of it, if they may be of interest.
+void TriangleTree::divide(const LeafPair& nodes, std::vector<LeafPair>& leaves, std::vector<LeafPair>& open) const {
+  const auto add = [&](uint32_t s, uint32_t t) {
+    if (inOneGroup(s, t) || (s != t && !nodes_[s].box.overlaps(nodes_[t].box))) return;
+    (isLeaf(s) && isLeaf(t) ? leaves : open).push_back({s, t});
+  };
+  const auto [a, b] = nodes;
+  const bool halveA = !isLeaf(a) && (isLeaf(b) || nodes_[a].end - nodes_[a].begin >= nodes_[b].end - nodes_[b].begin);
+  const uint32_t low = (halveA ? a : b) + 1, high = nodes_[low].past, other = a == b ? high : halveA ? b : a;
+  if (a == b) add(low, low);
+  add(low, other);
+  add(high, other);
 }
 
 TriangleTree::Reaching TriangleTree::reaching(const Node& leaf, const LooseBox& box) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/box_tree.h"
+#include "base/parallel.h"
 #include "mesh/resolve/sorted_mesh.h"
 
 namespace mandoline::detail {
@@ -21,11 +22,11 @@ inline Box boxOf(const WeldedMesh& mesh, uint32_t triangle) {
 class TriangleTree {
  public:
   /// `groupOf` each triangle is from 0 to groups - 1.
-  TriangleTree(const SortedMesh& mesh, const std::vector<uint32_t>& groupOf, size_t groups);
+  TriangleTree(const SortedMesh& mesh, const std::vector<uint32_t>& groupOf, size_t groups, Monitor& monitor);
 
   /// Pairs of leaves, or a leaf twice, that hold all pairs of triangles in different groups whose boxes overlap.
   using LeafPair = std::array<uint32_t, 2>;
-  std::vector<LeafPair> overlappingLeaves() const;
+  std::vector<LeafPair> overlappingLeaves(Monitor& monitor) const;
 
   /// Calls f(i, j) for the pairs of triangles in two leaves that are in different groups and whose boxes overlap, or would if they were a
   /// rounding larger.
@@ -54,6 +55,7 @@ class TriangleTree {
   void addNode(uint32_t begin, uint32_t end);
   uint32_t middleOf(uint32_t begin, uint32_t end) const;
   bool isLeaf(uint32_t node) const { return nodes_[node].past == node + 1; }
+  void divide(const LeafPair& nodes, std::vector<LeafPair>& leaves, std::vector<LeafPair>& open) const;
   bool inOneGroup(uint32_t a, uint32_t b) const { return nodes_[a].group == nodes_[b].group && nodes_[a].group != kMixed; }
   Reaching reaching(const Node& leaf, const LooseBox& box) const;
 

@@ -196,12 +196,18 @@ TEST_CASE("triangle tree: gives all pairs of different groups whose boxes overla
         if (boxOf(i, 0x1p-22).overlaps(boxOf(j, 0x1p-22))) allowed.insert({i, j});
       }
     }
-    const TriangleTree tree(sorted, groupOf, groups);
-    for (const TriangleTree::LeafPair& leaves : tree.overlappingLeaves()) {
-      tree.forOverlapping(leaves, [&](uint32_t i, uint32_t j) { CHECK(found.insert(ascending(i, j)).second); });
+    for (const unsigned threads : {1u, 3u}) {
+      RunOptions options;
+      options.threads = threads;
+      Monitor monitor(options, 1);
+      const TriangleTree tree(sorted, groupOf, groups, monitor);
+      found.clear();
+      for (const TriangleTree::LeafPair& leaves : tree.overlappingLeaves(monitor)) {
+        tree.forOverlapping(leaves, [&](uint32_t i, uint32_t j) { CHECK(found.insert(ascending(i, j)).second); });
+      }
+      CHECK(std::includes(found.begin(), found.end(), expected.begin(), expected.end()));
+      CHECK(std::includes(allowed.begin(), allowed.end(), found.begin(), found.end()));
     }
-    CHECK(std::includes(found.begin(), found.end(), expected.begin(), expected.end()));
-    CHECK(std::includes(allowed.begin(), allowed.end(), found.begin(), found.end()));
     CHECK((groups == 1 || !expected.empty()));
   }
 }
