@@ -252,18 +252,18 @@ class CellMaker {
     for (const size_t i : {0, 1}) {
       cells_.gridCells.push_back(gridCell);
       cells_.halfFaces.offsets.push_back(cells_.halfFaces.offsets.back() + uint32_t(sizes[i]));
-      to[i] = std::transform(triFaces.begin(), triFaces.end(), to[i], [=](FaceId f) { return HalfFace(f, uint32_t(i)); });
     }
-    std::fill_n(sidesOfTriFaces(gridCell), triFaces.size(), FaceSides{{cells[0], cells[1]}});
-    const uint8_t* side = sides.data();
-    const std::array<GridFaceId, 6> gridFaces = stencil_.cells[gridCell].faces;
-    for (int i = 0; i < 6; ++i) {
-      const uint32_t* const offsets = &faces_.grid.halfFaces.offsets[gridFaces[size_t(i)].number];
-      for (uint32_t at = offsets[0], past = offsets[1]; at < past; ++at) {
-        const bool inFront = *side++ == PartedCell::inFront;
-        *to[inFront]++ = seenFrom(i & 1, faces_.grid.halfFaces.items[at]);
-        cells_.ofGridFaces[at].cells[i & 1 ? 0 : 1] = cells[inFront];
-      }
+    FaceSides* ofTriFaces = sidesOfTriFaces(gridCell);
+    for (const FaceId f : triFaces) {
+      for (const size_t i : {0, 1}) *to[i]++ = HalfFace(f, uint32_t(i));
+      *ofTriFaces++ = {{cells[0], cells[1]}};
+    }
+    const auto places = scratch_.parted.places();
+    for (size_t piece = 0; piece < places.size(); ++piece) {
+      const auto [at, side] = places[piece];
+      const bool inFront = sides[piece] == PartedCell::inFront;
+      *to[inFront]++ = seenFrom(side, faces_.grid.halfFaces.items[at]);
+      cells_.ofGridFaces[at].cells[1 - side] = cells[inFront];
     }
   }
 

@@ -102,7 +102,9 @@ bool PartedCell::findSides(const Stencil& stencil, const GridFaces& grid, GridCe
   for (size_t i = 0; i < 6; ++i) {
     const GridFaceId g = gridFaces[i];
     const GridFaceKind kind = grid.kinds[g];
+    const uint32_t firstHalf = grid.halfFaces.offsets[g.number];
     if (kind == GridFaceKind::whole && count < kMostPieces) {
+      places_[count] = {firstHalf, int(i & 1)};
       wholeFaces[wholeCount++] = {uint8_t(i), uint8_t(count++)};
       continue;
     }
@@ -110,6 +112,7 @@ bool PartedCell::findSides(const Stencil& stencil, const GridFaces& grid, GridCe
     const auto edges = stencil.edgesOnFace[g];
     count += uint32_t(grid.halfFaces[g].size());
     if (kind != GridFaceKind::chains || count > kMostPieces) return false;
+    for (uint32_t piece = first; piece < count; ++piece) places_[piece] = {firstHalf + piece - first, int(i & 1)};
     const uint32_t* const outline = grid.beside[g].data();
     const uint32_t* beside = outline + 5 + outline[4];
     for (const uint32_t* const past = beside + 2 * edges.size(); beside != past; beside += 2) {

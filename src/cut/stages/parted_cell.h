@@ -27,6 +27,12 @@ class PartedCell {
 
   /// By the cell's grid-faces, then as GridFaces has their half-faces.
   std::span<const uint8_t> sides() const { return {sides_.data(), pieceCount_}; }
+  /// Of a piece: among all half-faces of GridFaces, and on which side of the cell its grid-face is.
+  struct Place {
+    uint32_t halfFace;
+    int side;
+  };
+  std::span<const Place> places() const { return {places_.data(), pieceCount_}; }
 
  private:
   /// Where two tri-cut-faces are connected: an end of a piece of a tri-edge on a grid-face, or a whole tri-edge inside of the cell. Of a
@@ -57,6 +63,7 @@ class PartedCell {
   std::vector<uint32_t> sheets_;  // per tri-cut-face of the cell: one before it in its sheet, or itself
   bool isOneCurve_ = false;       // whether it is known that there is one
   std::array<uint8_t, kMostPieces> sides_;
+  std::array<Place, kMostPieces> places_;
   uint32_t pieceCount_ = 0;
 };
 
