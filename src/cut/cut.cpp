@@ -11,11 +11,9 @@
 namespace mandoline {
 
 namespace detail {
-namespace {
 
 constexpr int kOrientStages = 2;
 
-/// Adds the counts of a mesh's preparation.
 void addCounts(const Prepared& prepared, CutStats& stats) {
   stats.weldedVertices = prepared.counts.weldedVertices;
   stats.zeroAreaTriangles = prepared.counts.zeroAreaTriangles;
@@ -28,8 +26,6 @@ void addCounts(const Prepared& prepared, CutStats& stats) {
   if (prepared.arrangement->empty()) return;
   stats.intersectionCurves = prepared.arrangement->curves;
 }
-
-}  // namespace
 
 Clock::Clock(CutStats& stats, Monitor& monitor, int before)
     : stats_(stats), monitor_(monitor), before_(before), start_(milliseconds() - stats.totalMs), last_(milliseconds()) {}
@@ -88,15 +84,15 @@ PrepareResult prepareThis(const MeshToPrepare& mesh, const PrepareOptions& optio
   return result;
 }
 
-bool fits(const Prepared& prepared, const Grid& grid) {
+bool fits(int shift, const Grid& grid) {
   const double largest = largestCoordinate(grid);
-  return largest == 0 || std::ilogb(largest) + prepared.shift <= Scale::kLargestExponent + Scale::kRoom;
+  return largest == 0 || std::ilogb(largest) + shift <= Scale::kLargestExponent + Scale::kRoom;
 }
 
 PreparedForGrid::PreparedForGrid(PreparedMesh mesh, const Grid& grid, const RunOptions& options) : mesh_(std::move(mesh)) {
   checkGrid(grid, 0);
   const PreparedMeshData* data = mesh_.data();
-  if (data && fits(*data->prepared, grid)) return;
+  if (data && fits(data->prepared->shift, grid)) return;
   Monitor monitor(options, 1);
   again_ = prepareMesh(view(), {largestCoordinate(grid), this->options().intersections}, monitor, [](const char*) {});
 }
@@ -203,7 +199,7 @@ CutResult cut(const PreparedMesh& mesh, const Grid& grid, const CutOptions& opti
     checkGrid(grid, options.snapTolerance);
     CutOptions same = options;
     same.intersections = data->intersections;
-    if (options.snapTolerance > 0 || !fits(*data->prepared, grid)) {
+    if (options.snapTolerance > 0 || !fits(data->prepared->shift, grid)) {
       result = cut(*data->mesh, grid, same);
       return;
     }

@@ -33,15 +33,37 @@ struct CutShare::Data {
     state->isNeededAgain = !takeExcerpt;
     beginCut(mesh->prepared(), grid, *state, clock, run);
     if (shareOf.count > 1) takeShare(takeExcerpt);
+    cutHere(clock, run);
+  }
+
+  Data(std::unique_ptr<ShareInput> input, Grid grid_, const ShareOf& shareOf_, const RunOptions& options)
+      : grid(std::move(grid_)), shareOf(shareOf_), madeFrom(input->fingerprint), stats(std::move(input->stats)), layers(input->layers) {
+    cutOptions.intersections = input->intersections;
+    Monitor monitor(options, kGridStages);
+    Clock clock(stats, monitor);
+    Run run{stats, monitor};
+    clock.begin("grid");
+    takeLayers();
+    excerpt = takeInputExcerpt(*input, *state);
+    input.reset();
+    giveBackFreed();
+    cutHere(clock, run);
+  }
+
+  void cutHere(Clock& clock, Run& run) {
     nameByWhole([&] { cutInBricks(*state, clock, run); });
     state->parts = {};
     if (!state->isNeededAgain) giveBackFreed();
   }
 
-  void takeShare(TakeExcerpt* takeExcerpt) {
-    layers.emplace(state->surface.input, workOfLayers(state->surface.input), shareOf.count);
+  void takeLayers() {
     state->brickShifts = layers->shifts();
     state->layersHere = layers->of(shareOf.index);
+  }
+
+  void takeShare(TakeExcerpt* takeExcerpt) {
+    layers.emplace(state->surface.input, workOfLayers(state->surface.input), shareOf.count);
+    takeLayers();
     if (!takeExcerpt) return takeSurface(*state);
     excerpt = takeExcerpt(mesh->view(), *state);
     mesh.reset();
@@ -131,6 +153,10 @@ CutShare::CutShare(PreparedMesh mesh, Grid grid, const ShareOf& shareOf, const R
     requireShare(shareOf);
     data_ = std::make_shared<Data>(std::move(mesh), std::move(grid), shareOf, options, takeExcerpt);
   });
+}
+
+CutShare::CutShare(std::unique_ptr<ShareInput> input, Grid grid, const ShareOf& shareOf, const RunOptions& options) {
+  runCall("cut", [&] { data_ = std::make_shared<Data>(std::move(input), std::move(grid), shareOf, options); });
 }
 
 std::vector<uint32_t> CutShare::summary() const { return summarize(*data_->state, data_->context()); }

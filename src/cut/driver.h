@@ -32,6 +32,9 @@ void finishPreparing(std::shared_ptr<PreparedMeshData> data, std::unique_ptr<Pre
 /// How many stages these have before that of prepareMesh().
 int stagesBefore(const PrepareOptions& options);
 
+/// Adds the counts of a mesh's preparation.
+void addCounts(const Prepared& prepared, CutStats& stats);
+
 /// Names the stages for progress and takes their times.
 class Clock {
  public:
@@ -53,8 +56,8 @@ class Clock {
   bool isInStage_ = false;
 };
 
-/// Whether a grid's planes are not so large that a mesh has to be scaled for them.
-bool fits(const Prepared& prepared, const Grid& grid);
+/// Whether a grid's planes are not so large that a mesh, scaled by 2^shift, has to be scaled for them.
+bool fits(int shift, const Grid& grid);
 
 /// A prepared mesh as a grid needs it: prepared once more where the planes are far larger.
 class PreparedForGrid {

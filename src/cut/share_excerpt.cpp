@@ -22,6 +22,16 @@ void numberCrossings(const Input& whole, ShareExcerpt& out) {
   out.wholeVertices = uint32_t(next);
 }
 
+std::vector<uint32_t> trianglesInLayers(const CutState& state) {
+  const Input& input = state.surface.input;
+  std::vector<uint32_t> kept;
+  for (const TriangleId t : input.triangleIds()) {
+    if (input.kept(t) && isInLayers(input, t, *state.layersHere)) kept.push_back(t.number);
+  }
+  return kept;
+}
+
+/// Of the state's input, by whose ids the excerpt still goes.
 void takeInput(const ShareExcerpt& from, Input& input) {
   input.mesh = &from.excerpt.mesh;
   IdVector<VertexId, Slab> slabs;
@@ -30,23 +40,40 @@ void takeInput(const ShareExcerpt& from, Input& input) {
   input.slabs = std::move(slabs);
 }
 
+void takePositions(const MeshView& mesh, ShareExcerpt& out) {
+  out.positions.reserve(3 * size_t(out.excerpt.mesh.triVertices));
+  for (size_t i = 0; i < out.excerpt.mesh.triVertices; ++i) {
+    const double* p = &mesh.positions[3 * size_t(out.excerpt.vertices[i])];
+    out.positions.insert(out.positions.end(), p, p + 3);
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<ShareExcerpt> takeExcerpt(const MeshView& mesh, CutState& state) {
   Input& input = state.surface.input;
   state.wholeTriangles.emplace(*input.mesh);
-  std::vector<uint32_t> kept;
-  for (const TriangleId t : input.triangleIds()) {
-    if (input.kept(t) && isInLayers(input, t, *state.layersHere)) kept.push_back(t.number);
-  }
-  auto out = std::make_unique<ShareExcerpt>(*input.mesh, kept);
+  auto out = std::make_unique<ShareExcerpt>(*input.mesh, trianglesInLayers(state));
   numberCrossings(input, *out);
-  out->positions.reserve(3 * size_t(out->excerpt.mesh.triVertices));
-  for (size_t i = 0; i < out->excerpt.mesh.triVertices; ++i) {
-    const double* p = &mesh.positions[3 * size_t(out->excerpt.vertices[i])];
-    out->positions.insert(out->positions.end(), p, p + 3);
-  }
   takeInput(*out, input);
+  takePositions(mesh, *out);
+  return out;
+}
+
+std::unique_ptr<ShareExcerpt> takeInputExcerpt(ShareInput& from, CutState& state) {
+  MeshBand& band = *from.band;
+  state.surface.input = std::move(from.input);
+  state.wholeTriangles = std::move(from.triangles);
+  std::vector<uint32_t> kept = trianglesInLayers(state);
+  std::erase_if(kept, [&](uint32_t t) { return !band.isWithin[t]; });
+  auto out = std::make_unique<ShareExcerpt>(band.mesh, kept);
+  Excerpt& excerpt = out->excerpt;
+  takeInput(*out, state.surface.input);
+  for (const uint32_t e : excerpt.edges) out->firstCrossings.push_back(from.firstCrossings[e]);
+  out->wholeVertices = from.wholeVertices;
+  for (uint32_t& t : excerpt.triangles) t = band.triangles[t];
+  for (uint32_t& v : excerpt.vertices) v = band.vertices[v];
+  takePositions(*from.mesh, *out);
   return out;
 }
 

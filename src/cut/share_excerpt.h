@@ -2,7 +2,7 @@
 // whole mesh has for what is in it. Numbers, which all processes have alike, go by these.
 #pragma once
 
-#include "cut/share_layers.h"
+#include "cut/share_input.h"
 #include "mandoline/cut_share.h"
 #include "mesh/excerpt.h"
 
@@ -30,5 +30,7 @@ struct ShareExcerpt {
 /// Leaves to a state, whose layers are known and which has its input only, an excerpt of the mesh; what the result tells of all triangles
 /// is noted. After that the whole mesh is not needed. `mesh` is that of the user.
 MANDOLINE_SHARED std::unique_ptr<ShareExcerpt> takeExcerpt(const MeshView& mesh, CutState& state);
+/// The same for a share that has no more of the mesh than its input, which is not needed after that.
+std::unique_ptr<ShareExcerpt> takeInputExcerpt(ShareInput& from, CutState& state);
 
 }  // namespace mandoline::detail

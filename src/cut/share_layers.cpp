@@ -4,9 +4,7 @@ namespace mandoline::detail {
 namespace {
 
 /// Twice the areas of a triangle seen along the axes, in quarters of a side of a grid cell; beyond the grid it ends at once.
-uint64_t areaOf(const Input& input, TriangleId t) {
-  const auto v = input.verticesOf(t);
-  const Slab &a = input.slabs[v[0]], &b = input.slabs[v[1]], &c = input.slabs[v[2]];
+uint64_t areaOf(const Slab& a, const Slab& b, const Slab& c) {
   uint64_t area = 0;
   for (size_t d = 0; d < 3; ++d) {
     const size_t p = (d + 1) % 3, q = (d + 2) % 3;
@@ -37,31 +35,40 @@ SlabRange slabsOf(const Input& input, TriangleId t, size_t axis) {
   return {std::min({a, b, c}), std::max({a, b, c})};
 }
 
-std::vector<uint64_t> workOfLayers(const Input& input) {
-  const int32_t layers = input.cells(2);
-  std::vector<int64_t> changes(size_t(layers) + 1, 0);  // of the work from a layer to the next
-  for (const TriangleId t : input.triangleIds()) {
-    if (!input.kept(t)) continue;
-    uint64_t crossed = 0;  // planes
-    bool isOutside = false;
-    for (size_t d = 0; d < 3; ++d) {
-      const auto [least, greatest] = slabsOf(input, t, d);
-      isOutside |= greatest < 0 || least > 2 * input.cells(int(d));
-      crossed += uint64_t(greatest - least) / 2;
-    }
-    if (isOutside) continue;
-    const auto [least, greatest] = slabsOf(input, t, 2);
-    const int32_t first = std::clamp(least >> 1, 0, layers - 1), last = std::clamp((greatest - 1) >> 1, first, layers - 1);
-    // A face of the triangle's own in each cell, and three more of the cell; a cell has an area of 8 such quarters.
-    constexpr uint64_t kMost = uint64_t(1) << 31;  // so that sums of all stay within 64 bits
-    const int64_t each = int64_t(std::min(kMost, (8 * (1 + crossed) + 4 * areaOf(input, t)) / uint64_t(last - first + 1)));
-    changes[size_t(first)] += each;
-    changes[size_t(last) + 1] -= each;
+LayerWork::LayerWork(const Input& input) : cells_{input.cells(0), input.cells(1), input.cells(2)}, changes_(size_t(cells_[2]) + 1, 0) {}
+
+void LayerWork::add(const Slab& a, const Slab& b, const Slab& c) {
+  uint64_t crossed = 0;  // planes
+  SlabRange range{};     // along z at last
+  for (size_t d = 0; d < 3; ++d) {
+    range = {std::min({a[d], b[d], c[d]}), std::max({a[d], b[d], c[d]})};
+    if (range.greatest < 0 || range.least > 2 * cells_[d]) return;
+    crossed += uint64_t(range.greatest - range.least) / 2;
   }
+  const int32_t layers = cells_[2];
+  const int32_t first = std::clamp(range.least >> 1, 0, layers - 1), last = std::clamp((range.greatest - 1) >> 1, first, layers - 1);
+  // A face of the triangle's own in each cell, and three more of the cell; a cell has an area of 8 such quarters.
+  constexpr uint64_t kMost = uint64_t(1) << 31;  // so that sums of all stay within 64 bits
+  const int64_t each = int64_t(std::min(kMost, (8 * (1 + crossed) + 4 * areaOf(a, b, c)) / uint64_t(last - first + 1)));
+  changes_[size_t(first)] += each;
+  changes_[size_t(last) + 1] -= each;
+}
+
+std::vector<uint64_t> LayerWork::perLayer() const {
   std::vector<uint64_t> work;
   int64_t now = 0;
-  for (int32_t layer = 0; layer < layers; ++layer) work.push_back(uint64_t(now += changes[size_t(layer)]));
+  for (int32_t layer = 0; layer < cells_[2]; ++layer) work.push_back(uint64_t(now += changes_[size_t(layer)]));
   return work;
+}
+
+std::vector<uint64_t> workOfLayers(const Input& input) {
+  LayerWork work(input);
+  for (const TriangleId t : input.triangleIds()) {
+    if (!input.kept(t)) continue;
+    const auto v = input.verticesOf(t);
+    work.add(input.slabs[v[0]], input.slabs[v[1]], input.slabs[v[2]]);
+  }
+  return work.perLayer();
 }
 
 /// Thinner bricks make shares more alike in work, but are more work: about so many percent.

@@ -12,13 +12,26 @@ struct SlabRange {
 /// The slabs of a triangle's corners along an axis.
 SlabRange slabsOf(const Input& input, TriangleId t, size_t axis);
 
-/// About how much work triangles are, per layer of grid cells along z: as many faces as they may have part in. The same in all processes.
+/// About how much work triangles are, per layer of grid cells along z: as many faces as they may have part in.
+class LayerWork {
+ public:
+  /// Of the input its planes.
+  explicit LayerWork(const Input& input);
+  /// A triangle by the slabs of its corners.
+  void add(const Slab& a, const Slab& b, const Slab& c);
+  std::vector<uint64_t> perLayer() const;
+
+ private:
+  std::array<int32_t, 3> cells_;
+  std::vector<int64_t> changes_;  // of the work from a layer to the next
+};
+/// That of all triangles: the same in all processes.
 std::vector<uint64_t> workOfLayers(const Input& input);
 
 /// The layers of `count` shares, which begin where bricks do.
 class ShareLayers {
  public:
-  /// `work`: that of workOfLayers(input).
+  /// `work`: that of workOfLayers(input), of which its planes are enough here.
   ShareLayers(const Input& input, const std::vector<uint64_t>& work, uint32_t count);
 
   /// Of bricks, as a BrickGrid has them.

@@ -15,13 +15,14 @@ namespace mandoline::detail {
 /// What a layer of bricks adds to the process that cuts it.
 struct LayerLoad {
   BrickCounts counts;
-  uint64_t surfaceVertices = 0;
+  uint64_t surfaceVertices = 0, made = 0;       ///< of the mesh and its edges; made ones of these
   uint64_t facesAbove = 0, seamFacesAbove = 0;  ///< in the plane above: those of its cells, and of these those that others have, too
   uint64_t summaryBytes = 0, brickBytes = 0;
 
   void add(const LayerLoad& more) {
     counts.add(more.counts);
     surfaceVertices += more.surfaceVertices;
+    made += more.made;
     summaryBytes += more.summaryBytes;
     brickBytes += more.brickBytes;
     facesAbove = more.facesAbove;
@@ -90,10 +91,14 @@ class Reach {
   /// The fraction of the triangles.
   double of(const CellLayers& layers) const {
     if (layers.first == layers.past || begun_.back() == 0) return 0;
-    return double(begun_[size_t(2 * layers.past + 2)] - ended_[size_t(2 * layers.first + 1)]) / double(begun_.back());
+    return double(between(2 * layers.first, 2 * layers.past)) / double(begun_.back());
   }
+  /// How many triangles reach to a plane.
+  uint64_t to(int32_t plane) const { return between(2 * plane, 2 * plane); }
 
  private:
+  uint64_t between(int32_t least, int32_t greatest) const { return begun_[size_t(greatest + 2)] - ended_[size_t(least + 1)]; }
+
   std::vector<uint64_t> begun_, ended_;  // at which slabs from -2 on, or before
 };
 
@@ -104,6 +109,8 @@ namespace {
 constexpr uint64_t kInspectingBytes = 68, kPreparingBytes = 48, kFreedBytes = 20;
 
 constexpr uint64_t kSeamFaceBytes = 150;  // of a message: a face in a plane, with its share of the vertices there
+
+constexpr uint64_t kMadeBytes = 24;  // of a message
 
 uint64_t facesOf(const BrickCounts& counts) { return uint64_t(counts.triFaces) + counts.pieces; }
 
@@ -146,9 +153,22 @@ LayerLoads loadsOf(CutState& state) {
   }
   for (const VertexId v : listUsed(state.used)) {
     const int32_t z = std::clamp(state.surface.vertices.slab(v)[2] >> 1, 0, bricks.grid.cells[2] - 1);
-    ++all.layers[size_t(z >> bricks.grid.shifts[2])].surfaceVertices;
+    LayerLoad& layer = all.layers[size_t(z >> bricks.grid.shifts[2])];
+    ++layer.surfaceVertices;
+    layer.made += state.surface.vertices.isImplicit(v);
   }
   return all;
+}
+
+/// Whether processes that have such a mesh each prepare only what they cut: see mesh_band.h.
+bool isPreparedInShares(const Prepared& mesh) {
+  if (mesh.counts.zeroAreaTriangles + mesh.counts.flushedCoordinates > 0 || !mesh.duplicates.empty() || mesh.hasIntersections())
+    return false;
+  if (mesh.closed) return true;
+  std::vector<uint8_t> uses(mesh.edges.ends.size(), 0);
+  bool haveAtMostTwo = true;
+  for (const TriangleId t : mesh.triangleIds()) mesh.edges.forTriangle(t, [&](TriEdgeId e) { haveAtMostTwo &= uses[e.number]++ < 2; });
+  return haveAtMostTwo;
 }
 
 }  // namespace
@@ -164,6 +184,7 @@ struct SharePlanner::Data {
     input = std::move(state.surface.input);
     work = workOfLayers(input);
     reach.emplace(input);
+    isInShares = isPreparedInShares(mesh.prepared());
   }
 
   /// Of a size of bricks.
@@ -206,7 +227,7 @@ struct SharePlanner::Data {
       load.cutCells = sum.counts.cells;
       load.faces = facesOf(sum.counts);
       load.seamFaces = hasLayers ? seamBelow + sum.seamFacesAbove : 0;
-      load.bytesSent = ranks == 1 ? 0 : sentBy(rank, ranks, sum, hasLayers ? seamBelow : 0, all);
+      if (ranks > 1) load.bytesSent = sentBy(rank, ranks, sum, hasLayers ? seamBelow : 0, all) + sentPreparing(ranks, shares.of(rank));
       load.memoryBytes = std::max(memoryPreparing(rank), memoryOf(ranks, shares.of(rank), sum, all, summaries));
       if (hasLayers) seamBelow = sum.seamFacesAbove;
     }
@@ -246,12 +267,29 @@ struct SharePlanner::Data {
     const uint64_t others = ranks - 1, numbers = 11 * sizeof(uint64_t) * ranks, sums = all.regions * sizeof(DoubleDouble);
     uint64_t bytes = others * sum.summaryBytes + numbers + mesh.view().triangleCount() / 8;
     bytes += 2 * sums * (rank + 1 < ranks ? 1 : others);
+    bytes += others * kMadeBytes * sum.made;
     return bytes + kSeamFaceBytes * sum.facesAbove + 2 * sizeof(uint64_t) * seamBelow;
+  }
+
+  /// Each process tells how many crossings each vertex begins, and of meshes with parts which triangles are of which; the triangles that
+  /// others have, too, with the sets they belong to.
+  uint64_t sentPreparing(uint32_t ranks, const CellLayers& layers) const {
+    const Prepared& prepared = mesh.prepared();
+    if (!isInShares) return 0;
+    uint64_t bytes = mesh.view().vertexCount() + work.size() * sizeof(uint64_t);
+    if (prepared.closed) return bytes;
+    const PartCounts& parts = prepared.parts.counts;
+    bytes += uint64_t((parts.parity > 0) + (parts.open > 0)) * mesh.view().triangleCount() / 8;
+    if (layers.first == layers.past) return bytes;
+    uint64_t shared = 0;
+    for (const int32_t plane : {layers.first, layers.past}) shared += plane > 0 && plane < input.cells(2) ? reach->to(plane) : 0;
+    return bytes + (ranks - 1) * 2 * sizeof(uint32_t) * shared;
   }
 
   PreparedForGrid mesh;
   Grid grid;
   Input input;
+  bool isInShares = false;     // prepared so by several processes
   std::vector<uint64_t> work;  // of layers of grid cells
   std::optional<Reach> reach;
   struct UsedVertex {

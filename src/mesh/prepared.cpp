@@ -72,12 +72,16 @@ void findEdges(Prepared& prepared, const Arrangement* arrangement) {
 }
 
 /// The edges, and the triangles that may meet: neither needs the other, and whoever is done first helps with the charts.
-/// `states` are those of the search: the edges change the mesh's.
-NearTriangles findEdgesAndNear(Prepared& prepared, const std::vector<TriangleState>& states, Monitor& monitor) {
+/// `states` are those of the search: the edges change the mesh's. `isWhole`: whether the mesh has parts of its own.
+NearTriangles findEdgesAndNear(Prepared& prepared, const std::vector<TriangleState>& states, bool isWhole, Monitor& monitor) {
   std::optional<SortedMesh> sorted;
   ChartFinder charts;
   const std::function<void()> tasks[] = {[&] {
-                                           findEdges(prepared, nullptr);
+                                           if (isWhole) {
+                                             findEdges(prepared, nullptr);
+                                           } else {
+                                             prepared.edges = findMeshEdges(prepared, nullptr);
+                                           }
                                            charts.help();
                                          },
                                          [&] {
@@ -98,13 +102,19 @@ std::span<const Duplicate> Prepared::duplicatesOf(TriangleId t) const {
   return {duplicates.data() + (first - duplicates.begin()), size_t(past - first)};
 }
 
-std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monitor& monitor) {
+CheckedMesh checkInput(const MeshView& mesh, double largest) {
   checkArrays(mesh);
+  CheckedMesh checked{referencedVertices(mesh), 0};
+  largest = std::max(largest, largestCoordinate(mesh, checked.referenced));
+  if (largest > 0) checked.shift = Scale::kLargestExponent - std::ilogb(largest);
+  return checked;
+}
+
+std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monitor& monitor) {
+  const auto [referenced, shift] = checkInput(mesh, largest);
   auto prepared = std::make_unique<Prepared>();
   MeshCounts& counts = prepared->counts;
-  const std::vector<uint8_t> referenced = referencedVertices(mesh);
-  largest = std::max(largest, largestCoordinate(mesh, referenced));
-  prepared->shift = largest > 0 ? Scale::kLargestExponent - std::ilogb(largest) : 0;
+  prepared->shift = shift;
   const Scale scale(prepared->shift);
   prepared->points.resize(referenced.size());
   const auto flushed = forChunks<uint32_t>(referenced.size(), monitor, [&](uint32_t& count, size_t begin, size_t end) {
@@ -152,7 +162,7 @@ void arrangeInput(Prepared& prepared, Contacts contacts, bool keepContacts, Moni
 
 void resolveInput(Prepared& prepared, const Preparation& preparation, Monitor& monitor, Predicates& predicates) {
   if (preparation.intersections == Intersections::assumeNone) return findEdges(prepared, nullptr);
-  const NearTriangles near = findEdgesAndNear(prepared, std::vector<TriangleState>(prepared.states), monitor);
+  const NearTriangles near = findEdgesAndNear(prepared, std::vector<TriangleState>(prepared.states), true, monitor);
   if (preparation.intersections == Intersections::refuse) {
     return refuseIntersections(prepared, findContacts(prepared, near, monitor, predicates, 1));
   }
@@ -166,10 +176,21 @@ std::vector<TrianglePair> findEdgesAndPairs(Prepared& prepared, const ShareOf& s
     return pairs;
   }
   const SearchBand band(prepared, shareOf);
-  for (const PairContact& pair : findContacts(prepared, findEdgesAndNear(prepared, band.states(), monitor), monitor, predicates).pairs) {
+  for (const PairContact& pair :
+       findContacts(prepared, findEdgesAndNear(prepared, band.states(), true, monitor), monitor, predicates).pairs) {
     if (band.has(pair.triangles)) pairs.push_back(pair.triangles);
   }
   return pairs;
+}
+
+bool findEdgesIfPlain(Prepared& prepared, const std::vector<TriangleState>& states, Intersections intersections, Monitor& monitor,
+                      Predicates& predicates) {
+  if (intersections == Intersections::assumeNone || prepared.triangles.empty()) {
+    prepared.edges = findMeshEdges(prepared, nullptr);
+    return prepared.duplicates.empty();
+  }
+  const NearTriangles near = findEdgesAndNear(prepared, states, false, monitor);
+  return prepared.duplicates.empty() && findContacts(prepared, near, monitor, predicates, 1).pairs.empty();
 }
 
 void resolvePairs(Prepared& prepared, const std::vector<TrianglePair>& pairs, const Preparation& preparation, Monitor& monitor,

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 
+#include "base/shared.h"
 #include "mandoline/intersections.h"
 #include "mandoline/mesh.h"
 #include "mesh/failure.h"
@@ -73,6 +74,13 @@ struct Preparation {
   bool keepContacts = false;
 };
 
+/// The input of a cut, checked, and how it is scaled.
+struct CheckedMesh {
+  std::vector<uint8_t> referenced;  ///< per tri-vertex
+  int shift;                        ///< see Prepared
+};
+/// `largest` as of a Preparation.
+MANDOLINE_SHARED CheckedMesh checkInput(const MeshView& mesh, double largest);
 /// The first third: the checked and welded mesh. `largest` as of a Preparation.
 std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monitor& monitor);
 /// The second: drops triangles without area; `moved` as of dropZeroArea().
@@ -84,6 +92,9 @@ void resolveInput(Prepared& prepared, const Preparation& preparation, Monitor& m
 std::vector<TrianglePair> findEdgesAndPairs(Prepared& prepared, const ShareOf& shareOf, Monitor& monitor, Predicates& predicates);
 void resolvePairs(Prepared& prepared, const std::vector<TrianglePair>& pairs, const Preparation& preparation, Monitor& monitor,
                   Predicates& predicates);
+/// Of a part of a mesh: finds its edges, but no parts, and whether no triangles are the same and none of those that `states` keep meet.
+bool findEdgesIfPlain(Prepared& prepared, const std::vector<TriangleState>& states, Intersections intersections, Monitor& monitor,
+                      Predicates& predicates);
 /// Its parts. The edges of the mesh itself, which triangles are the same, and whether it is closed:
 void findInputEdges(Prepared& prepared);
 /// Once these and the contacts are known: the arrangement, and where any triangles meet its vertices and edges in the place

@@ -2,6 +2,7 @@
 #include "mandoline/distributed.h"
 
 #include <tuple>
+#include <utility>
 
 #include "base/parallel.h"
 #include "cut/append.h"
@@ -12,6 +13,7 @@
 #include "mpi/communicator.h"
 #include "mpi/make_rank_complex.h"
 #include "mpi/pack.h"
+#include "mpi/prepare_shares.h"
 #include "mpi/rank_piece.h"
 #include "operators/measure/region_sums.h"
 
@@ -24,10 +26,37 @@ constexpr const char* kNoun = "cut";
 struct DistributedCut::Data {
   Data(MPI_Comm comm_, PreparedMesh mesh_, Grid grid_, const RunOptions& options)
       : comm(comm_, waiterFor(kNoun, options)), grid(std::move(grid_)) {
-    if (mesh_.data()) mesh = mesh_.data()->mesh;
+    takePrepared(std::move(mesh_), options);
+    finish(options);
+  }
+
+  Data(MPI_Comm comm_, std::shared_ptr<const Mesh> mesh_, Grid grid_, const PrepareOptions& options, std::function<void()> inFirst)
+      : comm(comm_, waiterFor(kNoun, options)), mesh(std::move(mesh_)), grid(std::move(grid_)) {
     requireSame();
-    const ShareOf shareOf{uint32_t(comm.rank()), uint32_t(comm.size())};
-    comm.together(kNoun, [&] { share.emplace(std::move(mesh_), grid, shareOf, options, takeExcerpt); });
+    std::unique_ptr<ShareInput> input;
+    if (comm.size() > 1) input = prepareShares(comm, mesh, grid, options, inFirst);
+    if (input) {
+      isPreparedInShares = true;
+      preparation = std::move(input->preparation);
+      comm.together(kNoun, [&] { share.emplace(std::move(input), grid, shareOf(), options); });
+    } else {
+      PreparedTogether prepared = prepareTogether(comm_, std::exchange(mesh, nullptr), options, inFirst);
+      preparation = std::move(prepared.stats);
+      sentPreparing = prepared.bytesSent;
+      takePrepared(std::move(prepared.mesh), options);
+    }
+    finish(options);
+  }
+
+  ShareOf shareOf() const { return {uint32_t(comm.rank()), uint32_t(comm.size())}; }
+
+  void takePrepared(PreparedMesh prepared, const RunOptions& options) {
+    if (prepared.data()) mesh = prepared.data()->mesh;
+    requireSame();
+    comm.together(kNoun, [&] { share.emplace(std::move(prepared), grid, shareOf(), options, takeExcerpt); });
+  }
+
+  void finish(const RunOptions& options) {
     const std::vector<std::vector<uint32_t>> summaries = comm.gatherAll(share->summary());
     comm.together(kNoun, [&] { part = share->part(summaries, options); });
     number();
@@ -186,12 +215,17 @@ struct DistributedCut::Data {
   CutPart part;
   Numbers numbers{};
   CutCounts counts;
-  uint64_t ownCells = 0;
+  uint64_t ownCells = 0, sentPreparing = 0;
+  CutStats preparation;
+  bool isPreparedInShares = false;
   CutResult common;
 };
 
 DistributedCut::DistributedCut(MPI_Comm comm, PreparedMesh mesh, Grid grid, const RunOptions& options)
     : data_(std::make_shared<Data>(comm, std::move(mesh), std::move(grid), options)) {}
+DistributedCut::DistributedCut(MPI_Comm comm, std::shared_ptr<const Mesh> mesh, Grid grid, const PrepareOptions& options,
+                               std::function<void()> inFirst)
+    : data_(std::make_shared<Data>(comm, std::move(mesh), std::move(grid), options, std::move(inFirst))) {}
 
 RankPiece DistributedCut::piece() const { return data_->makePiece(); }
 RankComplex DistributedCut::cellComplex(const RankPiece& piece, int ghostLayers) const {
@@ -202,6 +236,8 @@ uint64_t DistributedCut::ownCells() const { return data_->ownCells; }
 std::vector<double> DistributedCut::regionVolumes(const RankPiece& piece) const { return data_->regionVolumes(piece); }
 const CutResult& DistributedCut::common() const { return data_->common; }
 CutResult DistributedCut::gather() { return data_->gather(); }
-uint64_t DistributedCut::bytesSent() const { return data_->comm.bytesSent(); }
+const CutStats& DistributedCut::preparation() const { return data_->preparation; }
+bool DistributedCut::isPreparedInShares() const { return data_->isPreparedInShares; }
+uint64_t DistributedCut::bytesSent() const { return data_->comm.bytesSent() + data_->sentPreparing; }
 
 }  // namespace mandoline

@@ -155,11 +155,8 @@ class Run {
       });
       send();
       const std::shared_ptr<const Mesh> mesh(std::shared_ptr<void>(), &input_.mesh);  // which outlives the cut
-      PreparedTogether prepared =
-          prepareTogether(MPI_COMM_WORLD, mesh, {options, arguments_.intersections}, [this] { info_ = inspect(input_.mesh); });
-      stats_ = prepared.stats;
-      sentPreparing_ = prepared.bytesSent;
-      cut_.emplace(MPI_COMM_WORLD, std::move(prepared.mesh), grid_.grid, options);
+      cut_.emplace(MPI_COMM_WORLD, mesh, grid_.grid, PrepareOptions{options, arguments_.intersections},
+                   [this] { info_ = inspect(input_.mesh); });
     } catch (const RankError& error) {
       throwIfInterrupted();
       failed_ = error.rank;
@@ -224,7 +221,7 @@ class Run {
   std::vector<RankReport> ranks() {
     detail::Communicator& comm = ranks_.comm();
     const std::vector<uint64_t> cells = comm.gatherAll(cut_->ownCells()), memory = comm.gatherAll(peakMemoryBytes()),
-                                sent = comm.gatherAll(comm.bytesSent() + sentPreparing_ + cut_->bytesSent()),
+                                sent = comm.gatherAll(comm.bytesSent() + cut_->bytesSent()),
                                 microseconds = comm.gatherAll(uint64_t(1000 * processorMs()));
     std::vector<RankReport> reports;
     for (size_t rank = 0; rank < cells.size(); ++rank)
@@ -234,8 +231,9 @@ class Run {
 
   /// Stages of the preparation come before those of the cut.
   CutStats withPreparation(CutStats stats) const {
-    stats.stages.insert(stats.stages.begin(), stats_.stages.begin(), stats_.stages.end());
-    stats.totalMs += stats_.totalMs;
+    const CutStats& before = cut_->preparation();
+    stats.stages.insert(stats.stages.begin(), before.stages.begin(), before.stages.end());
+    stats.totalMs += before.totalMs;
     return stats;
   }
 
@@ -292,8 +290,6 @@ class Run {
   bool isReadByAll_ = false;
   MeshInfo info_;
   AskedGrid grid_;
-  CutStats stats_;
-  uint64_t sentPreparing_ = 0;
   int failed_ = 0;
   std::optional<DistributedCut> cut_;
 };

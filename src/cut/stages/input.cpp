@@ -61,6 +61,20 @@ bool areBeyondLowest(const IdVector<VertexId, Slab>& slabs) {
 
 }  // namespace
 
+std::array<std::vector<double>, 3> scaledPlanes(const Grid& grid, const Scale& scale, uint32_t& flushed) {
+  return {scalePlanes(grid, 0, scale, flushed), scalePlanes(grid, 1, scale, flushed), scalePlanes(grid, 2, scale, flushed)};
+}
+
+SlabFinder::SlabFinder(const std::array<std::vector<double>, 3>& planes) : planes_(planes) {
+  for (size_t d = 0; d < 3; ++d) perCell_[d] = cellsPerUnit(planes[d]);
+}
+
+Slab SlabFinder::find(const Point& p) const {
+  Slab slab;
+  for (size_t d = 0; d < 3; ++d) slab[d] = locate(planes_[d], perCell_[d], p[d]);
+  return slab;
+}
+
 void checkGrid(const Grid& grid, double snapTolerance) {
   if (!(snapTolerance >= 0 && snapTolerance < 0.5)) fail(Status::badOption, -1, "snapTolerance must be at least 0 and below 0.5.");
   for (int d = 0; d < 3; ++d) {
@@ -89,21 +103,17 @@ double largestCoordinate(const Grid& grid) {
 Input prepareInput(const Prepared& mesh, const Grid& grid, Run& run, const KnownSlabs* known) {
   Input input;
   input.mesh = &mesh;
-  const Scale scale(mesh.shift);
-  for (int d = 0; d < 3; ++d) input.planes[size_t(d)] = scalePlanes(grid, d, scale, run.stats.flushedCoordinates);
-  double perCell[3];
-  for (size_t d = 0; d < 3; ++d) perCell[d] = cellsPerUnit(input.planes[d]);
+  input.planes = scaledPlanes(grid, Scale(mesh.shift), run.stats.flushedCoordinates);
+  const SlabFinder finder(input.planes);
   input.slabs.resize(mesh.points.size());
   const auto chunks = forChunks<Predicates>(mesh.points.size(), run.monitor, [&](Predicates& predicates, size_t begin, size_t end) {
     for (const VertexId v : Ids<VertexId>(begin, end)) {
-      if (known && !mesh.isMade(v) && !known->moved[v]) {
-        input.slabs[v] = known->input.slabs[v];
+      if (!mesh.isMade(v)) {
+        input.slabs[v] = known && !known->moved[v] ? known->input.slabs[v] : finder.find(mesh.point(v));
         continue;
       }
-      for (int d = 0; d < 3; ++d) {
-        input.slabs[v][size_t(d)] = mesh.isMade(v) ? locateMade(mesh.arrangement->points, v, d, input.planes[size_t(d)], predicates)
-                                                   : locate(input.planes[size_t(d)], perCell[d], mesh.point(v)[size_t(d)]);
-      }
+      for (int d = 0; d < 3; ++d)
+        input.slabs[v][size_t(d)] = locateMade(mesh.arrangement->points, v, d, input.planes[size_t(d)], predicates);
     }
   });
   for (const Predicates& p : chunks) run.count(p);

@@ -18,6 +18,18 @@ struct KnownSlabs {
   const Moved& moved;  ///< since then
 };
 
+/// The grid's planes. Throws Failure{badGrid} where scaling brings some together.
+std::array<std::vector<double>, 3> scaledPlanes(const Grid& grid, const Scale& scale, uint32_t& flushed);
+/// Finds slabs of points among scaled planes, which must outlive it.
+class SlabFinder {
+ public:
+  explicit SlabFinder(const std::array<std::vector<double>, 3>& planes);
+  Slab find(const Point& p) const;
+
+ private:
+  const std::array<std::vector<double>, 3>& planes_;
+  double perCell_[3];
+};
 /// `known` may be null. The planes must fit the mesh's scale: largestCoordinate(grid) * 2^shift < 2^(Scale::kLargestExponent + Scale::kRoom
 /// + 1).
 Input prepareInput(const Prepared& mesh, const Grid& grid, Run& run, const KnownSlabs* known = nullptr);

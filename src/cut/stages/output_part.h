@@ -34,6 +34,8 @@ struct WholeTriangles {
   std::vector<uint32_t> parity, open;  ///< of parts without winding numbers
 
   explicit WholeTriangles(const Prepared& mesh);
+  /// All kept, and of parts with winding numbers.
+  explicit WholeTriangles(uint32_t count_) : count(count_) {}
 };
 
 /// What the stages have made so far; each adds its part.

@@ -14,6 +14,7 @@ namespace MANDOLINE_API mandoline {
 namespace detail {
 struct CutState;
 struct ShareExcerpt;
+struct ShareInput;
 using TakeExcerpt = std::unique_ptr<ShareExcerpt>(const MeshView& mesh, CutState& state);
 }  // namespace detail
 
@@ -47,6 +48,8 @@ class CutShare {
   /// way; summary() and part() are then to be called once.
   CutShare(PreparedMesh mesh, Grid grid, const ShareOf& shareOf, const RunOptions& options = {},
            detail::TakeExcerpt* takeExcerpt = nullptr);
+  /// The same of one of several shares that has prepared only what it cuts; summary() and part() are then to be called once.
+  CutShare(std::unique_ptr<detail::ShareInput> input, Grid grid, const ShareOf& shareOf, const RunOptions& options = {});
 
   /// What the other processes have to know of this share, in the form of this version of the library.
   std::vector<uint32_t> summary() const;

@@ -1,8 +1,7 @@
-// A cut that the processes of an MPI communicator make together, which leaves to each of them a piece. Each process has the whole mesh,
-// and prepares it; what is made of it, to the cut-mesh, is held in pieces. In mandoline::mpi, which exists where MPI is found.
+// A cut that the processes of an MPI communicator make together, which leaves to each of them a piece. Each process has the whole mesh;
+// what is made of it is held in pieces. In mandoline::mpi, which exists where MPI is found.
 //
-//   PreparedMesh prepared = prepareTogether(MPI_COMM_WORLD, mesh).mesh;  // in all processes, of the same mesh and grid
-//   DistributedCut cut(MPI_COMM_WORLD, std::move(prepared), grid);
+//   DistributedCut cut(MPI_COMM_WORLD, mesh, grid);  // in all processes, of the same mesh and grid
 //   RankPiece piece = cut.piece();
 //
 // All calls are collective: all processes of the communicator make them, in the same order. The result does not depend on how many there
@@ -46,6 +45,11 @@ class DistributedCut {
   /// cancel all of them, or end the program. The prepared mesh is freed on the way, if the caller has no copy; the mesh itself
   /// stays.
   DistributedCut(MPI_Comm comm, PreparedMesh mesh, Grid grid, const RunOptions& options = {});
+  /// Prepares the mesh and cuts. Each process prepares only what it cuts, where all triangles have area and differ, none meet, and the mesh
+  /// is closed or no edge has more than two triangles; other meshes each process prepares as a whole, as prepareTogether() does, with the
+  /// same errors. `mesh` is not null; `inFirst` as there.
+  DistributedCut(MPI_Comm comm, std::shared_ptr<const Mesh> mesh, Grid grid, const PrepareOptions& options = {},
+                 std::function<void()> inFirst = {});
 
   /// This process's piece.
   RankPiece piece() const;
@@ -63,6 +67,10 @@ class DistributedCut {
   const CutResult& common() const;
   /// The whole cut in the process of rank 0, to the bit, and nothing in the others. To be called last.
   CutResult gather();
+  /// Of the stages that the mesh was prepared in, if the cut has done that.
+  const CutStats& preparation() const;
+  /// Whether each process has prepared only what it cuts.
+  bool isPreparedInShares() const;
   /// What this process has sent to others so far.
   uint64_t bytesSent() const;
 

@@ -1,0 +1,83 @@
+// The input of one of several processes that cut together, of which each prepares only what it cuts: of a plain mesh, see mesh_band.h,
+// that all of them have.
+//
+//   ShareInputMaker maker(mesh, grid, {index, count}, options);  // in each, of the same mesh and grid
+//   maker.begin(work), maker.prepare(work)                       // work: between them its sums over all
+//   maker.join(whole, setOf, parts)                              // whole: what all found(); parts: those of all, unless it is closed
+//   maker.take({...})                                            // with the sums of all that join() gave, ...
+#pragma once
+
+#include "cut/driver.h"
+#include "cut/share_layers.h"
+#include "mesh/mesh_band.h"
+
+namespace mandoline::detail {
+
+struct ShareInput {
+  std::shared_ptr<const Mesh> mesh;
+  Fingerprint fingerprint;  ///< of it
+  Intersections intersections = Intersections::resolve;
+  std::unique_ptr<MeshBand> band;
+  Input input;  ///< of the band
+  std::optional<ShareLayers> layers;
+  std::optional<WholeTriangles> triangles;
+  std::vector<uint32_t> firstCrossings;  ///< per tri-edge of the band: see ShareExcerpt
+  uint32_t wholeVertices = 0;            ///< likewise
+  CutStats preparation;                  ///< of the stages so far
+  CutStats stats;                        ///< those that the stages of the cut begin with
+};
+
+/// How many ids the crossings of tri-edges have, by their lower ends.
+struct CrossingCounts {
+  static constexpr uint8_t kMany = 255;
+
+  std::vector<uint8_t> counts;  ///< per tri-vertex of the whole: 0 where that is not known here, at most kMany
+  std::vector<uint32_t> many;   ///< 2 per vertex with at least kMany: its id and the number, ascending
+};
+
+/// What a share finds of its band, or what all have found.
+struct BandFindings {
+  BandEdges edges;
+  uint64_t weldedVertices = 0;
+};
+
+/// What all know once they have told each other.
+struct SharedFindings {
+  std::vector<int64_t> cornerWinding;  ///< see Input
+  CrossingCounts crossings;
+  std::vector<uint8_t> inParity, inOpen;  ///< per triangle of the whole whether it is of such a part; empty if none is
+};
+
+class MANDOLINE_SHARED ShareInputMaker {
+ public:
+  ShareInputMaker(std::shared_ptr<const Mesh> mesh, const Grid& grid, const ShareOf& shareOf, const PrepareOptions& options);
+
+  /// Gives the work of layers that some of the triangles are, of all shares all. False where the mesh is to be prepared as a whole, which
+  /// also tells what is wrong with it.
+  bool begin(std::vector<uint64_t>& work);
+  /// Prepares what it cuts. False as above.
+  bool prepare(const std::vector<uint64_t>& work);
+  BandFindings found() const { return {inspectEdges(*in_->band), in_->band->weldedVertices}; }
+  BandParts parts() const { return findBandParts(*in_->band); }
+  /// Gives the winding numbers at the lowest corner of the grid, as far as they are counted here.
+  std::vector<int64_t> join(const BandFindings& whole, const std::vector<uint32_t>& setOf, std::span<const BandParts> parts);
+  const PartCounts& partCounts() const { return in_->band->mesh.parts.counts; }
+  /// Per triangle of the whole whether it is here, and of such a part.
+  std::vector<uint8_t> trianglesOf(PartKind kind) const;
+  CrossingCounts crossings() const;
+  std::unique_ptr<ShareInput> take(const SharedFindings& all);
+
+ private:
+  void numberCrossings(const CrossingCounts& all);
+
+  const Grid& grid_;
+  const ShareOf shareOf_;
+  const PrepareOptions options_;
+  Monitor monitor_;
+  Predicates predicates_;
+  std::unique_ptr<ShareInput> in_ = std::make_unique<ShareInput>();
+  std::optional<Clock> clock_;
+  CheckedMesh checked_;
+};
+
+}  // namespace mandoline::detail

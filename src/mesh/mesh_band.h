@@ -1,0 +1,57 @@
+// What lies between two heights of a mesh, prepared by itself: several processes that have the mesh each prepare only what they cut.
+//
+// Triangles are within the band, or beside it: those share a vertex with one within. So everything that triangles within have at their
+// vertices and edges is there. Ids are in the order of the whole mesh's.
+//
+// Only of plain meshes: all of their triangles have area and differ, and none meet. Others have to be prepared as a whole.
+#pragma once
+
+#include "base/shared.h"
+#include "mesh/prepared.h"
+
+namespace mandoline::detail {
+
+/// Heights are along z, scaled as the mesh is; infinite at the ends of the mesh. Bands that meet have the triangles there in common.
+struct Band {
+  double low, high;
+
+  bool reaches(double least, double greatest) const { return least <= high && greatest >= low; }
+  /// Of each height one of the bands that divide space says so.
+  bool owns(double height) const { return height >= low && height < high; }
+};
+
+struct MeshBand {
+  Band band;
+  Prepared mesh;                    ///< closed, oriented and parts are for those to say who know the whole
+  std::vector<uint32_t> triangles;  ///< per triangle its id in the whole mesh, ascending
+  std::vector<uint32_t> vertices;   ///< per tri-vertex, likewise
+  std::vector<uint8_t> isWithin;    ///< per triangle
+  std::vector<uint8_t> isComplete;  ///< per tri-vertex: whether all its triangles are here, because one is within
+  uint32_t weldedVertices = 0;      ///< as of MeshCounts, of those that the band owns
+};
+
+/// Welds what is in a band.
+std::unique_ptr<MeshBand> weldBand(const MeshView& mesh, CheckedMesh checked, const Band& band);
+/// Finds its tri-edges, and whether what is within is plain.
+bool findPlainEdges(MeshBand& band, Intersections intersections, Monitor& monitor, Predicates& predicates);
+
+/// What there is at the tri-edges of which all triangles are here.
+struct BandEdges {
+  bool closed = true, oriented = true;  ///< as of a WeldedMesh
+  bool haveAtMostTwo = true;            ///< triangles
+};
+BandEdges inspectEdges(const MeshBand& band);
+
+/// What all have to know of the triangles within each band to find the parts of a mesh of which no tri-edge has more than two triangles.
+/// Sets of triangles that hang together within the band are named by a triangle of theirs, by the whole's ids.
+struct BandParts {
+  std::vector<uint32_t> setOf;      ///< per triangle; those beside are sets of their own
+  std::vector<uint32_t> kinds;      ///< 2 per set: its name and its PartKind
+  std::vector<uint32_t> shared;     ///< 2 per triangle that is in another band, too: its id and the name of its set
+  std::vector<uint32_t> openEdges;  ///< 2 per tri-edge with one triangle: the ends, by the whole's ids
+};
+BandParts findBandParts(const MeshBand& band);
+/// The parts of the whole, and of which kind those of each triangle within are: of `own`, which is one of `all`, without setOf.
+Parts joinParts(const MeshBand& band, const std::vector<uint32_t>& setOf, std::span<const BandParts> all);
+
+}  // namespace mandoline::detail

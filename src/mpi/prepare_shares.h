@@ -1,0 +1,14 @@
+// Preparing a mesh in all processes of a communicator so that each has only what it cuts.
+#pragma once
+
+#include "cut/share_input.h"
+#include "mpi/communicator.h"
+
+namespace mandoline::detail {
+
+/// The input of this process's share. Null, alike in all processes, for a mesh that has to be prepared as a whole, which also tells what is
+/// wrong with it. `inFirst`: what the process of rank 0 does meanwhile; none is left if it has.
+std::unique_ptr<ShareInput> prepareShares(Communicator& comm, const std::shared_ptr<const Mesh>& mesh, const Grid& grid,
+                                          const PrepareOptions& options, std::function<void()>& inFirst);
+
+}  // namespace mandoline::detail
