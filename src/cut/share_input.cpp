@@ -76,7 +76,9 @@ std::vector<int64_t> ShareInputMaker::join(const BandFindings& whole, const std:
   mesh.closed = whole.edges.closed;
   mesh.oriented = whole.edges.oriented;
   mesh.counts.weldedVertices = uint32_t(whole.weldedVertices);
-  if (!mesh.closed) mesh.parts = joinParts(*in_->band, setOf, parts);
+  Parts joined = joinParts(*in_->band, setOf, parts);
+  partCounts_ = joined.counts;
+  if (!mesh.closed) mesh.parts = std::move(joined);
   if (in_->intersections == Intersections::resolve) arrangeInput(mesh, {}, false, monitor_, predicates_);
   Run run{in_->stats, monitor_};
   in_->input = prepareInput(mesh, grid_, run);

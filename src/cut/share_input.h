@@ -3,13 +3,13 @@
 //
 //   ShareInputMaker maker(mesh, grid, {index, count}, options);  // in each, of the same mesh and grid
 //   maker.begin(work), maker.prepare(work)                       // work: between them its sums over all
-//   maker.join(whole, setOf, parts)                              // whole: what all found(); parts: those of all, unless it is closed
+//   maker.join(whole, setOf, parts)                              // whole: what all found(); parts: those of all, if need be
 //   maker.take({...})                                            // with the sums of all that join() gave, ...
 #pragma once
 
 #include "cut/driver.h"
 #include "cut/share_layers.h"
-#include "mesh/mesh_band.h"
+#include "mesh/inspect_plain.h"
 
 namespace mandoline::detail {
 
@@ -35,12 +35,6 @@ struct CrossingCounts {
   std::vector<uint32_t> many;   ///< 2 per vertex with at least kMany: its id and the number, ascending
 };
 
-/// What a share finds of its band, or what all have found.
-struct BandFindings {
-  BandEdges edges;
-  uint64_t weldedVertices = 0;
-};
-
 /// What all know once they have told each other.
 struct SharedFindings {
   std::vector<int64_t> cornerWinding;  ///< see Input
@@ -59,9 +53,10 @@ class MANDOLINE_SHARED ShareInputMaker {
   bool prepare(const std::vector<uint64_t>& work);
   BandFindings found() const { return {inspectEdges(*in_->band), in_->band->weldedVertices}; }
   BandParts parts() const { return findBandParts(*in_->band); }
-  /// Gives the winding numbers at the lowest corner of the grid, as far as they are counted here.
+  /// `parts` are needed where the whole is not closed, and where partCounts() are to be known. Gives the winding numbers at the lowest
+  /// corner of the grid, as far as they are counted here.
   std::vector<int64_t> join(const BandFindings& whole, const std::vector<uint32_t>& setOf, std::span<const BandParts> parts);
-  const PartCounts& partCounts() const { return in_->band->mesh.parts.counts; }
+  const PartCounts& partCounts() const { return partCounts_; }
   /// Per triangle of the whole whether it is here, and of such a part.
   std::vector<uint8_t> trianglesOf(PartKind kind) const;
   CrossingCounts crossings() const;
@@ -78,6 +73,7 @@ class MANDOLINE_SHARED ShareInputMaker {
   std::unique_ptr<ShareInput> in_ = std::make_unique<ShareInput>();
   std::optional<Clock> clock_;
   CheckedMesh checked_;
+  PartCounts partCounts_;
 };
 
 }  // namespace mandoline::detail

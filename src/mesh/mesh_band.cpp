@@ -208,10 +208,13 @@ bool findPlainEdges(MeshBand& band, Intersections intersections, Monitor& monito
 
 BandEdges inspectEdges(const MeshBand& band) {
   BandEdges found;
-  forCompleteEdges(band, [&](TriEdgeId, const Uses& uses) {
+  forCompleteEdges(band, [&](TriEdgeId edge, const Uses& uses) {
     found.closed &= uses.net == 0;
     found.oriented &= uses.count != 2 || uses.net == 0;
     found.haveAtMostTwo &= uses.count <= 2;
+    if (uses.net == 0 || !band.band.owns(band.mesh.point(band.mesh.edges.ends[edge][0])[2])) return;
+    found.open += uses.count == 1;
+    found.inconsistent += uses.count == 2;
   });
   return found;
 }

@@ -39,6 +39,7 @@ bool findPlainEdges(MeshBand& band, Intersections intersections, Monitor& monito
 struct BandEdges {
   bool closed = true, oriented = true;  ///< as of a WeldedMesh
   bool haveAtMostTwo = true;            ///< triangles
+  uint64_t open = 0, inconsistent = 0;  ///< how many are so, as of a MeshInfo; of those whose lower end the band owns
 };
 BandEdges inspectEdges(const MeshBand& band);
 

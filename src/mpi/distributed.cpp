@@ -30,17 +30,18 @@ struct DistributedCut::Data {
     finish(options);
   }
 
-  Data(MPI_Comm comm_, std::shared_ptr<const Mesh> mesh_, Grid grid_, const PrepareOptions& options, std::function<void()> inFirst)
+  Data(MPI_Comm comm_, std::shared_ptr<const Mesh> mesh_, Grid grid_, const PrepareOptions& options, MeshInfo* info)
       : comm(comm_, waiterFor(kNoun, options)), mesh(std::move(mesh_)), grid(std::move(grid_)) {
     requireSame();
     std::unique_ptr<ShareInput> input;
-    if (comm.size() > 1) input = prepareShares(comm, mesh, grid, options, inFirst);
+    if (comm.size() > 1) input = prepareShares(comm, mesh, grid, options, info);
     if (input) {
       isPreparedInShares = true;
       preparation = std::move(input->preparation);
       comm.together(kNoun, [&] { share.emplace(std::move(input), grid, shareOf(), options); });
     } else {
-      PreparedTogether prepared = prepareTogether(comm_, std::exchange(mesh, nullptr), options, inFirst);
+      const auto inspectMesh = [info, &whole = *mesh] { *info = inspect(whole); };
+      PreparedTogether prepared = prepareTogether(comm_, mesh, options, info ? std::function<void()>(inspectMesh) : nullptr);
       preparation = std::move(prepared.stats);
       sentPreparing = prepared.bytesSent;
       takePrepared(std::move(prepared.mesh), options);
@@ -223,9 +224,8 @@ struct DistributedCut::Data {
 
 DistributedCut::DistributedCut(MPI_Comm comm, PreparedMesh mesh, Grid grid, const RunOptions& options)
     : data_(std::make_shared<Data>(comm, std::move(mesh), std::move(grid), options)) {}
-DistributedCut::DistributedCut(MPI_Comm comm, std::shared_ptr<const Mesh> mesh, Grid grid, const PrepareOptions& options,
-                               std::function<void()> inFirst)
-    : data_(std::make_shared<Data>(comm, std::move(mesh), std::move(grid), options, std::move(inFirst))) {}
+DistributedCut::DistributedCut(MPI_Comm comm, std::shared_ptr<const Mesh> mesh, Grid grid, const PrepareOptions& options, MeshInfo* info)
+    : data_(std::make_shared<Data>(comm, std::move(mesh), std::move(grid), options, info)) {}
 
 RankPiece DistributedCut::piece() const { return data_->makePiece(); }
 RankComplex DistributedCut::cellComplex(const RankPiece& piece, int ghostLayers) const {

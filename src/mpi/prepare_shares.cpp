@@ -9,25 +9,25 @@ constexpr const char* kPreparation = "preparation";
 
 class SharesPreparer {
  public:
-  SharesPreparer(Communicator& comm, const std::shared_ptr<const Mesh>& mesh, const Grid& grid, const PrepareOptions& options)
-      : comm_(comm), maker_(mesh, grid, {uint32_t(comm.rank()), uint32_t(comm.size())}, options) {}
+  SharesPreparer(Communicator& comm, const std::shared_ptr<const Mesh>& mesh, const Grid& grid, const PrepareOptions& options,
+                 MeshInfo* info)
+      : comm_(comm), mesh_(*mesh), info_(info), maker_(mesh, grid, {uint32_t(comm.rank()), uint32_t(comm.size())}, options) {}
 
-  std::unique_ptr<ShareInput> run(std::function<void()>& inFirst) {
+  std::unique_ptr<ShareInput> run() {
     std::vector<uint64_t> work;
     if (!allGoOn([&] { return maker_.begin(work); })) return nullptr;
     comm_.reduce(work, MPI_SUM);
-    const bool isPlain = allGoOn([&] {
-      if (inFirst && comm_.rank() == 0) inFirst();
-      return maker_.prepare(work);
-    });
-    inFirst = nullptr;
-    if (!isPlain || !findWhole()) return nullptr;
+    if (!allGoOn([&] { return maker_.prepare(work); }) || !findWhole()) return nullptr;
     joinParts();
     comm_.reduce(all_.cornerWinding, MPI_SUM);
     uniteTriangles();
     uniteCrossings();
     std::unique_ptr<ShareInput> input;
-    comm_.together(kPreparation, [&] { input = maker_.take(all_); });
+    comm_.together(kPreparation, [&] {
+      if (info_ && comm_.rank() == 0)
+        *info_ = whole_.edges.haveAtMostTwo ? inspectPlain(mesh_, whole_, maker_.partCounts()) : inspect(mesh_);
+      input = maker_.take(all_);
+    });
     return input;
   }
 
@@ -45,15 +45,17 @@ class SharesPreparer {
     BandEdges& edges = whole_.edges;
     std::vector<int> flags = {edges.closed, edges.oriented, edges.haveAtMostTwo};
     comm_.reduce(flags, MPI_MIN);
-    edges = {flags[0] != 0, flags[1] != 0, flags[2] != 0};
-    whole_.weldedVertices = comm_.reduce(whole_.weldedVertices, MPI_SUM);
+    std::vector<uint64_t> counts = {edges.open, edges.inconsistent, whole_.weldedVertices};
+    comm_.reduce(counts, MPI_SUM);
+    edges = {flags[0] != 0, flags[1] != 0, flags[2] != 0, counts[0], counts[1]};
+    whole_.weldedVertices = counts[2];
     return edges.closed || edges.haveAtMostTwo;
   }
 
   void joinParts() {
     BandParts own;
     std::vector<BandParts> all(size_t(comm_.size()));
-    if (!whole_.edges.closed) {
+    if (!whole_.edges.closed || info_) {
       comm_.together(kPreparation, [&] { own = maker_.parts(); });
       for (const auto member : {&BandParts::kinds, &BandParts::shared, &BandParts::openEdges}) {
         std::vector<std::vector<uint32_t>> told = comm_.gatherAll(own.*member);
@@ -87,6 +89,8 @@ class SharesPreparer {
   }
 
   Communicator& comm_;
+  const Mesh& mesh_;
+  MeshInfo* const info_;
   ShareInputMaker maker_;
   BandFindings whole_;
   SharedFindings all_;
@@ -95,8 +99,8 @@ class SharesPreparer {
 }  // namespace
 
 std::unique_ptr<ShareInput> prepareShares(Communicator& comm, const std::shared_ptr<const Mesh>& mesh, const Grid& grid,
-                                          const PrepareOptions& options, std::function<void()>& inFirst) {
-  return SharesPreparer(comm, mesh, grid, options).run(inFirst);
+                                          const PrepareOptions& options, MeshInfo* info) {
+  return SharesPreparer(comm, mesh, grid, options, info).run();
 }
 
 }  // namespace mandoline::detail

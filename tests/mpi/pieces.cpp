@@ -206,14 +206,25 @@ bool areEqual(const PartCounts& a, const PartCounts& b) {
   return a.winding == b.winding && a.parity == b.parity && a.open == b.open && a.openEdges == b.openEdges && a.holes == b.holes;
 }
 
+/// All but the arrays.
+void compareInfo(const MeshInfo& a, const MeshInfo& b) {
+  MeshInfo::fields(a, [&](const auto& field, const auto& value) {
+    MeshInfo::fields(b, [&](const auto& other, const auto& expected) {
+      if constexpr (std::is_same_v<decltype(value), decltype(expected)>) {
+        if constexpr (!detail::isVector<std::remove_cvref_t<decltype(value)>>)
+          require(std::string(field) != other || value == expected, std::string("the inspection differs in ") + field);
+      }
+    });
+  });
+}
+
 size_t preparedInShares = 0;
 
 /// The cut of a mesh that is not prepared before: its pieces are the same.
 bool checkUnprepared(const std::string& name, const Mesh& mesh, const Grid& grid, const CutResult& whole) {
   return inAll(name + " unprepared", [&] {
-    size_t calls = 0;
-    DistributedCut cut(MPI_COMM_WORLD, std::make_shared<Mesh>(mesh), grid, {{1, {}}}, [&] { ++calls; });
-    require(calls == size_t(rankHere() == 0), "the first process has not done its work once", calls);
+    MeshInfo info;
+    DistributedCut cut(MPI_COMM_WORLD, std::make_shared<Mesh>(mesh), grid, {{1, {}}}, name.size() % 3 == 0 ? nullptr : &info);
     preparedInShares += cut.isPreparedInShares();
     const RankPiece piece = cut.piece();
     const CutResult& common = cut.common();
@@ -222,6 +233,7 @@ bool checkUnprepared(const std::string& name, const Mesh& mesh, const Grid& grid
     compareVertices(piece, whole.mesh);
     compareCells(piece, whole.mesh);
     compareRegions(piece, whole.mesh);
+    if (rankHere() == 0 && name.size() % 3 != 0) compareInfo(info, inspect(mesh));
     require(areEqual(cut.counts(), countsOf(whole.mesh)), "the counts differ");
     require(volumes == regionVolumes(whole.mesh, measure(mesh, whole.mesh, {1, {}})), "the volumes of regions differ");
     require(areEqual(common.stats.parts, whole.stats.parts), "other parts were found");

@@ -155,8 +155,7 @@ class Run {
       });
       send();
       const std::shared_ptr<const Mesh> mesh(std::shared_ptr<void>(), &input_.mesh);  // which outlives the cut
-      cut_.emplace(MPI_COMM_WORLD, mesh, grid_.grid, PrepareOptions{options, arguments_.intersections},
-                   [this] { info_ = inspect(input_.mesh); });
+      cut_.emplace(MPI_COMM_WORLD, mesh, grid_.grid, PrepareOptions{options, arguments_.intersections}, &info_);
     } catch (const RankError& error) {
       throwIfInterrupted();
       failed_ = error.rank;

@@ -11,6 +11,7 @@
 #include <mpi.h>
 
 #include "mandoline/cut_share.h"
+#include "mandoline/inspect.h"
 #include "mandoline/rank_complex.h"
 #include "mandoline/rank_piece.h"
 
@@ -47,9 +48,9 @@ class DistributedCut {
   DistributedCut(MPI_Comm comm, PreparedMesh mesh, Grid grid, const RunOptions& options = {});
   /// Prepares the mesh and cuts. Each process prepares only what it cuts, where all triangles have area and differ, none meet, and the mesh
   /// is closed or no edge has more than two triangles; other meshes each process prepares as a whole, as prepareTogether() does, with the
-  /// same errors. `mesh` is not null; `inFirst` as there.
-  DistributedCut(MPI_Comm comm, std::shared_ptr<const Mesh> mesh, Grid grid, const PrepareOptions& options = {},
-                 std::function<void()> inFirst = {});
+  /// same errors. `mesh` is not null. `info`, which is null in all processes or in none, becomes what inspect() gives in the process of
+  /// rank 0; of its arrays there may be none.
+  DistributedCut(MPI_Comm comm, std::shared_ptr<const Mesh> mesh, Grid grid, const PrepareOptions& options = {}, MeshInfo* info = nullptr);
 
   /// This process's piece.
   RankPiece piece() const;

@@ -1,0 +1,19 @@
+// What inspect() counts, from what is known of a plain mesh: see mesh_band.h.
+#pragma once
+
+#include "base/shared.h"
+#include "mandoline/inspect.h"
+#include "mesh/mesh_band.h"
+
+namespace mandoline::detail {
+
+/// What all bands have found together.
+struct BandFindings {
+  BandEdges edges;
+  uint64_t weldedVertices = 0;
+};
+
+/// Without the arrays of components and defects, of a mesh of which no tri-edge has more than two triangles.
+MANDOLINE_SHARED MeshInfo inspectPlain(const MeshView& mesh, const BandFindings& found, const PartCounts& parts);
+
+}  // namespace mandoline::detail
