@@ -70,6 +70,9 @@ bool ShareInputMaker::prepare(const std::vector<uint64_t>& work) {
   });
 }
 
+BandFindings ShareInputMaker::found() const { return {inspectEdges(*in_->band), in_->band->weldedVertices}; }
+BandParts ShareInputMaker::parts() const { return findBandParts(*in_->band); }
+
 std::vector<int64_t> ShareInputMaker::join(const BandFindings& whole, const std::vector<uint32_t>& setOf,
                                            std::span<const BandParts> parts) {
   Prepared& mesh = in_->band->mesh;

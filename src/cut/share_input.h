@@ -51,8 +51,8 @@ class MANDOLINE_SHARED ShareInputMaker {
   bool begin(std::vector<uint64_t>& work);
   /// Prepares what it cuts. False as above.
   bool prepare(const std::vector<uint64_t>& work);
-  BandFindings found() const { return {inspectEdges(*in_->band), in_->band->weldedVertices}; }
-  BandParts parts() const { return findBandParts(*in_->band); }
+  BandFindings found() const;
+  BandParts parts() const;
   /// `parts` are needed where the whole is not closed, and where partCounts() are to be known. Gives the winding numbers at the lowest
   /// corner of the grid, as far as they are counted here.
   std::vector<int64_t> join(const BandFindings& whole, const std::vector<uint32_t>& setOf, std::span<const BandParts> parts);

@@ -104,8 +104,8 @@ class Reach {
 
 namespace {
 
-// Per triangle, as measured: beside the prepared mesh in the process that inspects the mesh and in others; and of what has been freed when
-// a piece is measured.
+// Per triangle, as measured: beside the prepared mesh in the process that inspects the mesh meanwhile and in others; and of what has been
+// freed when a piece is measured.
 constexpr uint64_t kInspectingBytes = 68, kPreparingBytes = 48, kFreedBytes = 20;
 
 constexpr uint64_t kSeamFaceBytes = 150;  // of a message: a face in a plane, with its share of the vertices there
@@ -228,16 +228,19 @@ struct SharePlanner::Data {
       load.faces = facesOf(sum.counts);
       load.seamFaces = hasLayers ? seamBelow + sum.seamFacesAbove : 0;
       if (ranks > 1) load.bytesSent = sentBy(rank, ranks, sum, hasLayers ? seamBelow : 0, all) + sentPreparing(ranks, shares.of(rank));
-      load.memoryBytes = std::max(memoryPreparing(rank), memoryOf(ranks, shares.of(rank), sum, all, summaries));
+      load.memoryBytes = std::max(memoryPreparing(rank, ranks, shares.of(rank)), memoryOf(ranks, shares.of(rank), sum, all, summaries));
       if (hasLayers) seamBelow = sum.seamFacesAbove;
     }
     return loads;
   }
 
   uint64_t bytesOfView() const { return bytesOf(mesh.view().positions, mesh.view().triangles); }
-  uint64_t memoryPreparing(uint32_t rank) const {
-    const uint64_t each = rank == 0 ? kInspectingBytes : kPreparingBytes;
-    return bytesOfView() + bytesOfPrepared(mesh.prepared()) + each * mesh.view().triangleCount();
+  uint64_t memoryPreparing(uint32_t rank, uint32_t ranks, const CellLayers& layers) const {
+    constexpr uint64_t kVertexBytes = 5;  // of all vertices, to find those of a band
+    const bool isShare = isInShares && ranks > 1;
+    const uint64_t each = rank == 0 && !isShare ? kInspectingBytes : kPreparingBytes;
+    const uint64_t whole = bytesOfPrepared(mesh.prepared()) + each * mesh.view().triangleCount();
+    return bytesOfView() + (isShare ? uint64_t(reach->of(layers) * double(whole)) + kVertexBytes * mesh.view().vertexCount() : whole);
   }
   /// Once the output is written, a process has the user's mesh and its part.
   uint64_t memoryOf(uint32_t ranks, const CellLayers& layers, const LayerLoad& sum, const LayerLoads& all, uint64_t summaries) const {

@@ -66,9 +66,10 @@ struct DistributedCut::Data {
 
   /// Of another mesh the shares would be those of another cut.
   void requireSame() {
-    Fingerprinter fingerprinter(kNoun, fingerprintOf(view()));
+    comm.requireSame(fingerprintOf(view()).value, "mesh");
+    Fingerprinter fingerprinter(kNoun);
     for (const std::vector<double>& planes : grid.planes) fingerprinter.add(planes);
-    comm.requireSame(fingerprinter.get().value, "mesh or grid");
+    comm.requireSame(fingerprinter.get().value, "grid");
   }
 
   MeshView view() const { return mesh ? MeshView(*mesh) : MeshView({}, {}); }
