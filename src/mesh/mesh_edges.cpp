@@ -111,6 +111,8 @@ void takeExtras(const Sides& sides, const Arrangement* arrangement, MeshEdges& e
   std::vector<TriEdgeId>& stitched = edges.stitched.items;
   std::vector<TriEdgeId>& inner = edges.inner.items;
   const size_t plain = edges.sideEdges.size() - sides.extras.size(), firstInner = plain + sides.stitchedOffsets.back();
+  stitched.reserve(firstInner - plain);
+  inner.reserve(edges.sideEdges.size() - firstInner);
   for (size_t slot = plain; slot < edges.sideEdges.size(); ++slot) {
     (slot < firstInner ? stitched : inner).push_back({edges.sideEdges[slot]});
   }
@@ -150,6 +152,7 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
   forUses([&](VertexId low, const SideUse&) { ++offsets[low.number]; });
   const std::unique_ptr<SideUse[]> uses(new SideUse[toOffsets(offsets)]);
   forUses([&](VertexId low, const SideUse& use) { uses[offsets[low.number]++] = use; });  // now they are where the next bucket starts
+  edges.sideEdges.reserve(3 * mesh.triangles.size() + sides.extras.size());               // no more: it is kept
   edges.sideEdges.resize(3 * mesh.triangles.size() + sides.extras.size());
   edges.ends.reserve(offsets.back() / 2 + 16);
   bool closed = true, oriented = true;

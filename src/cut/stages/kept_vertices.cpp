@@ -112,10 +112,14 @@ class Finder {
     const BrickId was = kept_.before[brick];
     const KeptAround around(before_, kept_, cut_, brick);
     numbersBefore_.assign(cut.lineVertices.size(), Numbers::kUnused);
-    forNumbers(before_.numbers, was, before_.seams[was].vertices, cut, [&](uint32_t i, uint32_t number) { numbersBefore_[i] = number; });
-    forNumbers(numbers_, brick, cut_.seams[brick].vertices, cut, [&](uint32_t i, uint32_t number) {
-      if (numbersBefore_[i] != Numbers::kUnused && around.haveKept(cut.vertices.slab(cut.lineVertices[i])))
-        add(number, numbersBefore_[i], 1);
+    forOwnNumbers(cut, before_.seams[was], before_.numbers.rows[was], kVertexRows, [&](uint32_t first, uint32_t past, uint32_t number) {
+      for (uint32_t i = first; i < past; ++i) numbersBefore_[i] = before_.numbers.surfaceVertices + number++;
+    });
+    forOwnNumbers(cut, cut_.seams[brick], numbers_.rows[brick], kVertexRows, [&](uint32_t first, uint32_t past, uint32_t number) {
+      for (uint32_t i = first; i < past; ++i, ++number) {
+        if (numbersBefore_[i] != Numbers::kUnused && around.haveKept(cut.vertices.slab(cut.lineVertices[i])))
+          add(numbers_.surfaceVertices + number, numbersBefore_[i], 1);
+      }
     });
   }
 
@@ -132,17 +136,6 @@ class Finder {
     sorted.reserve(runs_.size());
     for (const KeyedItem& at : order) sorted.push_back(runs_[at.item]);
     return sorted;
-  }
-
-  /// Calls f(place, number) for the line vertices that a brick owns.
-  template <class F>
-  static void forNumbers(const Numbers& numbers, BrickId brick, const SeamRanges& seams, const BrickCut& cut, const F& f) {
-    uint32_t lastRow = ~0u, next = 0;
-    forOwn(cut, &BrickRow::pastVertex, seams, [&](uint32_t row, uint32_t first, uint32_t past) {
-      if (row != lastRow) next = numbers.surfaceVertices + numbers.rows[brick][row].vertices;
-      lastRow = row;
-      for (uint32_t i = first; i < past; ++i) f(i, next++);
-    });
   }
 
   const VerticesBefore& before_;

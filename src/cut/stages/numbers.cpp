@@ -8,16 +8,6 @@
 namespace mandoline::detail {
 namespace {
 
-/// A kind of things that a brick lists by its rows: members of BrickRow, BrickSeams and BrickCounts.
-struct Kind {
-  uint32_t BrickRow::*past;
-  SeamRanges BrickSeams::*seams;
-  uint32_t BrickCounts::*count;
-};
-constexpr Kind kTriFaces{&BrickRow::pastTriFace, &BrickSeams::triFaces, &BrickCounts::triFaces};
-constexpr Kind kPieces{&BrickRow::pastPiece, &BrickSeams::pieces, &BrickCounts::pieces};
-constexpr Kind kVertices{&BrickRow::pastVertex, &BrickSeams::vertices, &BrickCounts::vertices};
-
 class Numberer {
  public:
   Numberer(const CutBricks& cut, Numbers& out) : cut_(cut), vertices_(cut.surface.vertices), cuts_(cut.cuts), seams_(cut.seams), out_(out) {
@@ -74,22 +64,23 @@ class Numberer {
     out_.faces[brick].resize(cut.faceCount());
     out_.ofBrick[brick].assign(cut.vertices.slabs.size(), Numbers::kUnused);
     uint32_t* faces = out_.faces[brick].data();
-    number(brick, kTriFaces, 0, [&](uint32_t first, uint32_t past, uint32_t face) { std::iota(faces + first, faces + past, face); });
+    const auto forOwnOf = [&](const RowKind& kind, const auto& f) { forOwnNumbers(cut, seams_[brick], out_.rows[brick], kind, f); };
+    forOwnOf(kTriFaceRows, [&](uint32_t first, uint32_t past, uint32_t face) { std::iota(faces + first, faces + past, face); });
     faces += cut.triangles.size();
-    number(brick, kPieces, out_.total.triFaces,
-           [&](uint32_t first, uint32_t past, uint32_t face) { std::iota(faces + first, faces + past, face); });
-    number(brick, kVertices, out_.surfaceVertices, [&](uint32_t first, uint32_t past, uint32_t vertex) {
-      for (uint32_t i = first; i < past; ++i) set(brick, cut.lineVertices[i], vertex++);
+    forOwnOf(kPieceRows,
+             [&](uint32_t first, uint32_t past, uint32_t piece) { std::iota(faces + first, faces + past, out_.total.triFaces + piece); });
+    forOwnOf(kVertexRows, [&](uint32_t first, uint32_t past, uint32_t vertex) {
+      for (uint32_t i = first; i < past; ++i) set(brick, cut.lineVertices[i], out_.surfaceVertices + vertex++);
     });
   }
 
   /// What belongs to other bricks, once all have numbered their own. Vertices of the surface get their numbers from those.
   void numberOthers(BrickId brick) {
     const BrickCut& cut = cuts_[brick];
-    forOthersOf(brick, kTriFaces, [&](uint32_t i, BrickId, uint32_t face) { out_.faces[brick][i] = face; });
-    forOthersOf(brick, kPieces,
+    forOthersOf(brick, kTriFaceRows, [&](uint32_t i, BrickId, uint32_t face) { out_.faces[brick][i] = face; });
+    forOthersOf(brick, kPieceRows,
                 [&](uint32_t i, BrickId, uint32_t piece) { out_.faces[brick][cut.triangles.size() + i] = out_.total.triFaces + piece; });
-    forOthersOf(brick, kVertices, [&](uint32_t i, BrickId, uint32_t vertex) {
+    forOthersOf(brick, kVertexRows, [&](uint32_t i, BrickId, uint32_t vertex) {
       if (cut.lineVertices[i] >= cut.vertices.firstOwn) set(brick, cut.lineVertices[i], out_.surfaceVertices + vertex);
     });
   }
@@ -97,26 +88,13 @@ class Numberer {
   /// The vertices of the surface that get their numbers from bricks that are cut elsewhere.
   void numberSurfaceFromElsewhere(BrickId brick) {
     const BrickCut& cut = cuts_[brick];
-    forOthersOf(brick, kVertices, [&](uint32_t i, BrickId owner, uint32_t vertex) {
+    forOthersOf(brick, kVertexRows, [&](uint32_t i, BrickId owner, uint32_t vertex) {
       if (cut.lineVertices[i] < cut.vertices.firstOwn && !cut_.bricks.here.has(owner))
         set(brick, cut.lineVertices[i], out_.surfaceVertices + vertex);
     });
   }
 
  private:
-  /// Calls f(first, past, number of the first) for ranges of a kind that a brick owns; numbers count from `start` on.
-  template <class F>
-  void number(BrickId brick, const Kind& kind, uint32_t start, const F& f) const {
-    const std::vector<BrickCounts>& rows = out_.rows[brick];
-    uint32_t lastRow = ~0u, next = 0;
-    forOwn(cuts_[brick], kind.past, seams_[brick].*kind.seams, [&](uint32_t row, uint32_t first, uint32_t past) {
-      if (row != lastRow) next = start + rows[row].*kind.count;
-      lastRow = row;
-      f(first, past, next);
-      next += past - first;
-    });
-  }
-
   /// `total`, of which what other processes cut has no lengths of arrays.
   static void requireFew(uint64_t surfaceVertices, const BrickCounts& total) {
     const uint64_t entries = uint64_t(total.triLoopVertices) + total.loopVertices, faces = uint64_t(total.triFaces) + total.pieces;
@@ -125,7 +103,7 @@ class Numberer {
 
   /// Calls f(place, owner, number of that kind) for what a brick has of others.
   template <class F>
-  void forOthersOf(BrickId brick, const Kind& kind, const F& f) const {
+  void forOthersOf(BrickId brick, const RowKind& kind, const F& f) const {
     for (const SeamRange& other : (seams_[brick].*kind.seams).others) {
       const uint32_t number = numberAt(other.owner, kind, other.there);
       for (uint32_t i = 0; i < other.range.count; ++i) f(other.range.first + i, other.owner, number + i);
@@ -133,15 +111,15 @@ class Numberer {
   }
 
   /// The number of what a brick owns at a place of its list.
-  uint32_t numberAt(BrickId owner, const Kind& kind, uint32_t place) const {
+  uint32_t numberAt(BrickId owner, const RowKind& kind, uint32_t place) const {
     return cut_.bricks.here.has(owner) ? numberHere(owner, kind, place) : numberElsewhere(owner, kind, place);
   }
-  uint32_t numberHere(BrickId owner, const Kind& kind, uint32_t place) const {
-    if (kind.seams == kVertices.seams) return out_.vertex(owner, cuts_[owner].lineVertices[place]) - out_.surfaceVertices;
-    if (kind.seams == kTriFaces.seams) return out_.faces[owner][place];
+  uint32_t numberHere(BrickId owner, const RowKind& kind, uint32_t place) const {
+    if (kind.seams == kVertexRows.seams) return out_.vertex(owner, cuts_[owner].lineVertices[place]) - out_.surfaceVertices;
+    if (kind.seams == kTriFaceRows.seams) return out_.faces[owner][place];
     return out_.faces[owner][cuts_[owner].triangles.size() + place] - out_.total.triFaces;
   }
-  uint32_t numberElsewhere(BrickId owner, const Kind& kind, uint32_t place) const {
+  uint32_t numberElsewhere(BrickId owner, const RowKind& kind, uint32_t place) const {
     const auto rows = cuts_[owner].rows;
     const auto row = std::upper_bound(rows.begin(), rows.end(), place, [&](uint32_t at, const BrickRow& r) { return at < r.*kind.past; });
     const uint32_t first = row == rows.begin() ? 0 : row[-1].*kind.past;

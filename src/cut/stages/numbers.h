@@ -10,6 +10,28 @@
 
 namespace mandoline::detail {
 
+/// A kind of things that a brick lists by its rows: members of BrickRow, BrickSeams and BrickCounts.
+struct RowKind {
+  uint32_t BrickRow::*past;
+  SeamRanges BrickSeams::*seams;
+  uint32_t BrickCounts::*count;
+};
+constexpr RowKind kTriFaceRows{&BrickRow::pastTriFace, &BrickSeams::triFaces, &BrickCounts::triFaces};
+constexpr RowKind kPieceRows{&BrickRow::pastPiece, &BrickSeams::pieces, &BrickCounts::pieces};
+constexpr RowKind kVertexRows{&BrickRow::pastVertex, &BrickSeams::vertices, &BrickCounts::vertices};
+
+/// Calls f(first, past, number of the first) for ranges of a kind that a brick owns. `rows`: where those of each row begin.
+template <class F>
+void forOwnNumbers(const BrickCut& cut, const BrickSeams& seams, const std::vector<BrickCounts>& rows, const RowKind& kind, const F& f) {
+  uint32_t lastRow = ~0u, next = 0;
+  forOwn(cut, kind.past, seams.*kind.seams, [&](uint32_t row, uint32_t first, uint32_t past) {
+    if (row != lastRow) next = rows[row].*kind.count;
+    lastRow = row;
+    f(first, past, next);
+    next += past - first;
+  });
+}
+
 /// Per vertex of the mesh and its edges: whether some loop has it.
 using UsedVertices = std::vector<std::atomic<uint8_t>>;
 

@@ -36,7 +36,7 @@ void PartedCell::clearTable(size_t faces) {
 }
 
 /// Whether two faces meet at each tri-edge, and all are connected so. As none is special, each has one loop, of its own number, that begins
-/// with its lowest vertex. With one curve, those at it are connected, and two meet at each tri-edge that ends there.
+/// with its lowest vertex or is a whole triangle. With one curve, those at it are connected, and two meet at each tri-edge that ends there.
 bool PartedCell::isOneSheet(const BrickSurface& surface, std::span<const FaceId> faces) {
   const VertexId firstOnEdge = surface.vertices.firstOnEdge, pastKeys = isOneCurve_ ? firstOnEdge : surface.vertices.firstInTriangle;
   clearTable(faces.size());

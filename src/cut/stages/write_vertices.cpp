@@ -123,10 +123,15 @@ class VertexWriter {
   CutMesh& out_;
 };
 
-/// Of some vertices that are kept.
-void copyPositions(const KeptVertices& kept, std::span<const KeptVertices::Run> runs, CutMesh& out) {
-  for (const KeptVertices::Run& run : runs)
+void copyPositions(const KeptVertices& kept, Monitor& monitor, CutMesh& out) {
+  if (kept.runs.empty()) return;
+  const auto copy = [&](const KeptVertices::Run& run) {
     std::copy_n(kept.positions.data() + 3 * size_t(run.before), 3 * size_t(run.count), out.positions.data() + 3 * size_t(run.first));
+  };
+  const size_t count = out.vertexCount();
+  runChunks(
+      count, chunkCount(count, monitor, Block::kSize), monitor, [&](size_t, size_t begin, size_t end) { kept.forKept(begin, end, copy); },
+      Block::kSize);
 }
 
 }  // namespace
@@ -136,11 +141,8 @@ void writeVertices(const MeshView& mesh, const CutState& state, const VerticesTo
   const Numbers& numbers = state.numbers;
   const std::span<const VertexId> surface = vertices.surface;
   VertexWriter writer(mesh, state.surface.input, vertices.kept, run.onlyGeneral, out);
-  const std::span<const KeptVertices::Run> runs = vertices.kept.runs;
-  std::vector<uint32_t> tasks(Block::count(runs.size()));
-  std::iota(tasks.begin(), tasks.end(), 0u);
-  runItems(tasks, run.monitor, [&](size_t, uint32_t task) { copyPositions(vertices.kept, Block::of(runs, task), out); });
-  tasks.resize(here.size() + Block::count(surface.size()));
+  copyPositions(vertices.kept, run.monitor, out);
+  std::vector<uint32_t> tasks(here.size() + Block::count(surface.size()));
   std::iota(tasks.begin(), tasks.end(), here.first.number);
   const uint32_t before = numbers.surfaceVertices + numbers.before.vertices - uint32_t(surface.size());
   std::vector<Predicates> predicates(run.monitor.threads());
