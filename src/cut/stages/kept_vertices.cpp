@@ -15,7 +15,7 @@ class KeptAround {
       for (size_t d = 0; d < 3; ++d) cell[d] = 2 * (box_.first[d] + (side[d] == 0 ? -1 : side[d] == 1 ? 0 : box_.count[d])) + 1;
       if (!cut.bricks.grid.hasCell(cell)) return;
       const std::optional<BrickId> at = cut.bricks.find(cell);
-      areKept_[i] = at ? kept.has(*at) : !before.bricks.find(cell);
+      areLost_[i] = at ? !kept.has(*at) : before.bricks.find(cell).has_value();
     });
   }
 
@@ -26,9 +26,9 @@ class KeptAround {
       first[d] = element[d] > 2 * box_.first[d];
       last[d] = element[d] < 2 * (box_.first[d] + box_.count[d]) ? 1 : 2;
     }
-    bool are = true;
-    forSides(first, last, [&](size_t i, const std::array<size_t, 3>&) { are &= areKept_[i]; });
-    return are;
+    bool isAnyLost = false;
+    forSides(first, last, [&](size_t i, const std::array<size_t, 3>&) { isAnyLost |= areLost_[i]; });
+    return !isAnyLost;
   }
 
  private:
@@ -43,13 +43,7 @@ class KeptAround {
   }
 
   const BrickBox& box_;
-  std::array<bool, 27> areKept_ = filled();
-
-  static std::array<bool, 27> filled() {
-    std::array<bool, 27> all;
-    all.fill(true);
-    return all;
-  }
+  std::array<bool, 27> areLost_{};
 };
 
 class Finder {
