@@ -197,7 +197,7 @@ std::unique_ptr<MeshBand> weldBand(const MeshView& mesh, CheckedMesh checked, co
 bool findPlainEdges(MeshBand& band, Intersections intersections, Monitor& monitor, Predicates& predicates) {
   Prepared& mesh = band.mesh;
   if (mesh.counts.flushedCoordinates > 0) return false;  // which may bring positions together
-  dropFlat(mesh, nullptr, predicates);
+  dropFlat(mesh, nullptr, monitor, predicates);
   if (mesh.counts.zeroAreaTriangles > 0) return false;
   std::vector<TriangleState> searched = mesh.states;
   for (size_t t = 0; t < searched.size(); ++t) {
