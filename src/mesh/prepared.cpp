@@ -10,8 +10,6 @@
 namespace mandoline::detail {
 namespace {
 
-constexpr size_t kBlock = 2048;  // triangles that are worth a thread
-
 [[noreturn]] void fail(Status status, int64_t element, const std::string& message) { throw Failure{{status, element, -1, message}}; }
 
 void checkArrays(const MeshView& mesh) {
@@ -111,17 +109,21 @@ CheckedMesh checkInput(const MeshView& mesh, double largest) {
 }
 
 std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monitor& monitor) {
+  constexpr size_t kBlock = 1 << 14;  // vertices or triangles that are worth a thread: little is done with each
   const auto [referenced, shift] = checkInput(mesh, largest);
   auto prepared = std::make_unique<Prepared>();
   MeshCounts& counts = prepared->counts;
   prepared->shift = shift;
   const Scale scale(prepared->shift);
   prepared->points.resize(referenced.size());
-  const auto flushed = forChunks<uint32_t>(referenced.size(), monitor, [&](uint32_t& count, size_t begin, size_t end) {
-    for (size_t v = begin; v < end; ++v) {
-      for (size_t d = 0; d < 3 && referenced[v]; ++d) prepared->points[v][d] = scale.scaled(mesh.positions[3 * v + d], count);
-    }
-  });
+  const auto flushed = forChunks<uint32_t>(
+      referenced.size(), monitor,
+      [&](uint32_t& count, size_t begin, size_t end) {
+        for (size_t v = begin; v < end; ++v) {
+          for (size_t d = 0; d < 3 && referenced[v]; ++d) prepared->points[v][d] = scale.scaled(mesh.positions[3 * v + d], count);
+        }
+      },
+      kBlock);
   for (const uint32_t count : flushed) counts.flushedCoordinates += count;
   prepared->triVertices = uint32_t(prepared->points.size());
   const std::vector<uint32_t> lowest = weld(referenced, prepared->points);

@@ -44,20 +44,24 @@ std::vector<uint32_t> weld(const std::vector<uint8_t>& referenced, const std::ve
 }
 
 std::vector<uint32_t> dropZeroArea(WeldedMesh& mesh, const Moved* moved, Monitor& monitor, Predicates& predicates) {
+  constexpr size_t kBlock = 1 << 13;  // triangles that are worth a thread
   struct Chunk {
     std::vector<uint32_t> dropped;
     Predicates predicates;
   };
-  const auto chunks = forChunks<Chunk>(mesh.triangles.size(), monitor, [&](Chunk& chunk, size_t begin, size_t end) {
-    Predicates& exact = chunk.predicates;
-    for (const TriangleId t : Ids<TriangleId>(begin, end)) {
-      if (moved && !hasMoved(*moved, mesh.triangles[t.number])) continue;
-      if (surelyHasArea(mesh, mesh.triangles[t.number])) continue;
-      if (normalSign(mesh, t, 0, exact) || normalSign(mesh, t, 1, exact) || normalSign(mesh, t, 2, exact)) continue;
-      mesh.states[t.number] = TriangleState::zeroArea;
-      chunk.dropped.push_back(t.number);
-    }
-  });
+  const auto chunks = forChunks<Chunk>(
+      mesh.triangles.size(), monitor,
+      [&](Chunk& chunk, size_t begin, size_t end) {
+        Predicates& exact = chunk.predicates;
+        for (const TriangleId t : Ids<TriangleId>(begin, end)) {
+          if (moved && !hasMoved(*moved, mesh.triangles[t.number])) continue;
+          if (surelyHasArea(mesh, mesh.triangles[t.number])) continue;
+          if (normalSign(mesh, t, 0, exact) || normalSign(mesh, t, 1, exact) || normalSign(mesh, t, 2, exact)) continue;
+          mesh.states[t.number] = TriangleState::zeroArea;
+          chunk.dropped.push_back(t.number);
+        }
+      },
+      kBlock);
   std::vector<uint32_t> dropped;
   for (const Chunk& chunk : chunks) {
     dropped.insert(dropped.end(), chunk.dropped.begin(), chunk.dropped.end());

@@ -8,8 +8,6 @@ namespace mandoline::detail {
 
 namespace {
 
-constexpr size_t kBlock = 2048;  // triangles that are worth a thread
-
 /// Scaled coordinates are 0 or between 2^-80 and 2^122 (see Scale), so that single precision holds them all, rounded.
 LooseBox boxOf(const SortedMesh& mesh, size_t triangle) {
   const auto& v = mesh.triangles[triangle];
@@ -27,6 +25,7 @@ LooseBox boxOf(const SortedMesh& mesh, size_t triangle) {
 }  // namespace
 
 TriangleTree::TriangleTree(const SortedMesh& mesh, const std::vector<uint32_t>& groupOf, size_t groups, Monitor& monitor) {
+  constexpr size_t kBlock = 1 << 13;  // triangles that are worth a thread
   const size_t triangles = mesh.triangles.size();
   Csr<uint32_t> byGroup = groupBy<uint32_t>(
       groups, triangles, [&](size_t t) { return groupOf[t]; }, [](size_t t) { return uint32_t(t); });
