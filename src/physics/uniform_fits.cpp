@@ -9,8 +9,8 @@
 namespace mandoline::physics {
 namespace {
 
-/// So much may steps between cells differ, relative to them: little more than they are rounded.
-constexpr double kRounding = 1e-11;
+/// So much may steps between cells differ, relative to them and to where the cells are: little more than both are rounded.
+constexpr double kRounding = 1e-11, kRoundingOfCentres = 1e-15;
 
 double signOf(size_t side) { return side % 2 == 1 ? 1 : -1; }
 
@@ -54,8 +54,8 @@ bool UniformFits::isStep(size_t cell, size_t other, size_t side) const {
   const double size = std::ldexp(1.0, cells_.cellLevel[cell]);
   for (size_t d = 0; d < 3; ++d) {
     const double step = d == side / 2 ? signOf(side) * size * step_[d] : 0;
-    const double difference = cells_.cellCentre[3 * other + d] - cells_.cellCentre[3 * cell + d] - step;
-    if (!(std::fabs(difference) <= kRounding * size * step_[side / 2])) return false;
+    const double centre = cells_.cellCentre[3 * cell + d], difference = cells_.cellCentre[3 * other + d] - centre - step;
+    if (!(std::fabs(difference) <= kRounding * size * step_[side / 2] + kRoundingOfCentres * std::fabs(centre))) return false;
   }
   return true;
 }

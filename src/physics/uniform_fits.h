@@ -12,7 +12,7 @@ class UniformFits {
 
   /// The cells elsewhere, ascending.
   std::vector<uint32_t> otherCells() const;
-  /// Fits those of the uniform grid, to the others' rounding as fitAll() does.
+  /// Fits those of the uniform grid, to their rounding as fitCells() does.
   void fit(const std::vector<double>& phi, unsigned threads, CellFits& fits) const;
 
  private:

@@ -172,6 +172,22 @@ TEST_CASE("flow: twice the wind, twice the flow; no wind, no flow; any magnitude
   CHECK(storm.cellPressure == solveFlow(cells, {1, 0, 0}).cellPressure);
 }
 
+TEST_CASE("flow: the same bits on any number of threads where there are cells for them", "[flow]") {
+  const CellComplex cells = complexOf(shapes::icosphere({13.3, 13.1, 12.9}, 4.7, 2), unitGrid(27));
+  REQUIRE(cells.cellCount() > 18'000);
+  FlowOptions options;
+  options.threads = 1;
+  const Flow one = solveFlow(cells, kWind, options);
+  CHECK(one.status == SolveStatus::converged);
+  for (const unsigned threads : {2u, 3u}) {
+    options.threads = threads;
+    const Flow more = solveFlow(cells, kWind, options);
+    CHECK(more.phi == one.phi);
+    CHECK(more.cellVelocity == one.cellVelocity);
+    CHECK(more.cellGradient == one.cellGradient);
+  }
+}
+
 TEST_CASE("flow: the same bits for any number of threads; progress, cancelling and wrong options", "[flow]") {
   const CellComplex cells = complexOf(shapes::icosphere({6.3, 6.1, 5.9}, 3.7, 2), unitGrid(13));
   FlowOptions options;
@@ -189,6 +205,13 @@ TEST_CASE("flow: the same bits for any number of threads; progress, cancelling a
   CHECK(last == 2);
   CHECK(one.cellVelocity == three.cellVelocity);
   CHECK(one.cellGradient == three.cellGradient);
+  for (int stage = 0; stage < 3; ++stage) {
+    options.progress = [&](const Progress& p) {
+      if (p.stageIndex == stage) throw std::runtime_error("mine");
+      return true;
+    };
+    CHECK_THROWS_AS(solveFlow(cells, kWind, options), std::runtime_error);
+  }
   options.progress = [](const Progress& p) { return p.stageIndex < 2; };
   CHECK(refusal([&] { solveFlow(cells, kWind, options); }).first == Status::cancelled);
   options = {};
