@@ -110,10 +110,11 @@ CheckedMesh checkInput(const MeshView& mesh, double largest) {
 
 std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monitor& monitor) {
   constexpr size_t kBlock = 1 << 14;  // vertices or triangles that are worth a thread: little is done with each
-  const auto [referenced, shift] = checkInput(mesh, largest);
+  const CheckedMesh checked = checkInput(mesh, largest);
+  const std::vector<uint8_t>& referenced = checked.referenced;
   auto prepared = std::make_unique<Prepared>();
   MeshCounts& counts = prepared->counts;
-  prepared->shift = shift;
+  prepared->shift = checked.shift;
   const Scale scale(prepared->shift);
   prepared->points.resize(referenced.size());
   const auto flushed = forChunks<uint32_t>(
