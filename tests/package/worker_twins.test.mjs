@@ -164,9 +164,11 @@ test('a prepared mesh whose twin is gone is sent and prepared once more, as it w
     await rejection(worker.cut(mesh, { cells: 99 }, { progress: () => false })); // in a new thread
     for (let i = 0; i < 2; ++i) assert.equal((await again()).intersections.touching, 0);
     assert.equal(sent.filter(wasSent).length, 1);
-    for (let i = 0; i < 20; ++i) await worker.cut(mesh, { cells: 3 }); // which it gives way to
+    const others = []; // which it gives way to: their twins are freed no sooner than they are
+    for (let i = 0; i < 20; ++i) others.push(await worker.cut(mesh, { cells: 3 }));
     for (let i = 0; i < 2; ++i) assert.equal((await again()).stages[0].stage, 'grid');
     assert.equal(sent.filter(wasSent).length, 2);
+    assert.equal(others.length, 20);
     assert.ok((await worker.cut({ ...prepared }, { cells: 4 })).stats.intersections.touching > 0); // a copy is data
   }));
 
