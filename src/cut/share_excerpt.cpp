@@ -64,9 +64,7 @@ std::unique_ptr<ShareExcerpt> takeInputExcerpt(ShareInput& from, CutState& state
   MeshBand& band = *from.band;
   state.surface.input = std::move(from.input);
   state.wholeTriangles = std::move(from.triangles);
-  std::vector<uint32_t> kept = trianglesInLayers(state);
-  std::erase_if(kept, [&](uint32_t t) { return !band.isWithin[t]; });
-  auto out = std::make_unique<ShareExcerpt>(band.mesh, kept);
+  auto out = std::make_unique<ShareExcerpt>(band.mesh, trianglesInLayers(state));
   Excerpt& excerpt = out->excerpt;
   takeInput(*out, state.surface.input);
   for (const uint32_t e : excerpt.edges) out->firstCrossings.push_back(from.firstCrossings[e]);

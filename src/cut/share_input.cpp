@@ -102,14 +102,15 @@ std::vector<uint8_t> ShareInputMaker::trianglesOf(PartKind kind) const {
 CrossingCounts ShareInputMaker::crossings() const {
   const MeshBand& band = *in_->band;
   const auto& slabs = in_->input.slabs;
-  std::vector<uint32_t> counts(band.vertices.size(), 0);
+  std::vector<uint64_t> counts(band.vertices.size(), 0);
   for (const auto& ends : band.mesh.edges.ends) counts[ends[0].number] += crossingIds(slabs[ends[0]], slabs[ends[1]]);
   CrossingCounts known;
   known.counts.assign(in_->mesh->vertexCount(), 0);
   for (size_t v = 0; v < counts.size(); ++v) {
     if (!band.isComplete[v]) continue;
-    known.counts[band.vertices[v]] = uint8_t(std::min<uint32_t>(counts[v], known.kMany));
-    if (counts[v] >= known.kMany) known.many.insert(known.many.end(), {band.vertices[v], counts[v]});
+    requireFewVertices(counts[v]);
+    known.counts[band.vertices[v]] = uint8_t(std::min<uint64_t>(counts[v], known.kMany));
+    if (counts[v] >= known.kMany) known.many.insert(known.many.end(), {band.vertices[v], uint32_t(counts[v])});
   }
   return known;
 }

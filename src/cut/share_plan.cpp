@@ -93,6 +93,13 @@ class Reach {
     if (layers.first == layers.past || begun_.back() == 0) return 0;
     return double(between(2 * layers.first, 2 * layers.past)) / double(begun_.back());
   }
+  /// The fraction that is prepared for layers: the lowest and the highest ones have what lies outside of the grid, too.
+  double prepared(const CellLayers& layers) const {
+    if (layers.first == layers.past || begun_.back() == 0) return 0;
+    const int32_t last = int32_t(begun_.size()) - 3;  // above the grid
+    const int32_t least = layers.first == 0 ? -1 : 2 * layers.first, greatest = 2 * layers.past + 1 == last ? last : 2 * layers.past;
+    return double(between(least, greatest)) / double(begun_.back());
+  }
   /// How many triangles reach to a plane.
   uint64_t to(int32_t plane) const { return between(2 * plane, 2 * plane); }
 
@@ -240,7 +247,7 @@ struct SharePlanner::Data {
     const bool isShare = isInShares && ranks > 1;
     const uint64_t each = rank == 0 && !isShare ? kInspectingBytes : kPreparingBytes;
     const uint64_t whole = bytesOfPrepared(mesh.prepared()) + each * mesh.view().triangleCount();
-    return bytesOfView() + (isShare ? uint64_t(reach->of(layers) * double(whole)) + kVertexBytes * mesh.view().vertexCount() : whole);
+    return bytesOfView() + (isShare ? uint64_t(reach->prepared(layers) * double(whole)) + kVertexBytes * mesh.view().vertexCount() : whole);
   }
   /// Once the output is written, a process has the user's mesh and its part.
   uint64_t memoryOf(uint32_t ranks, const CellLayers& layers, const LayerLoad& sum, const LayerLoads& all, uint64_t summaries) const {

@@ -52,7 +52,7 @@ struct BandParts {
   std::vector<uint32_t> openEdges;  ///< 2 per tri-edge with one triangle: the ends, by the whole's ids
 };
 BandParts findBandParts(const MeshBand& band);
-/// The parts of the whole, and of which kind those of each triangle within are: of `own`, which is one of `all`, without setOf.
+/// The parts of the whole, and of which kind those of each triangle of a band are. `setOf`: the band's; `all`: of all bands.
 Parts joinParts(const MeshBand& band, const std::vector<uint32_t>& setOf, std::span<const BandParts> all);
 
 }  // namespace mandoline::detail
