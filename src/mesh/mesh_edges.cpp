@@ -83,6 +83,15 @@ void dropDuplicates(WeldedMesh& mesh, std::span<const SideUse> users, const Side
   }
 }
 
+/// Whether some triangles at an edge may have the same vertices: two have if their third ones are equal.
+bool mayHaveSame(const WeldedMesh& mesh, std::span<const SideUse> users) {
+  const auto sumOfCorners = [&](const SideUse& use) {  // whatever its carry
+    const auto& [a, b, c] = mesh.triangles.data()[use.slot() / 3];
+    return a + b + c;
+  };
+  return users.size() > 2 || users[1].slot() >= 3 * mesh.triangles.size() || sumOfCorners(users[0]) == sumOfCorners(users[1]);
+}
+
 /// Divides the stitched sides, and adds the inner edges.
 Sides findStitchedSides(const WeldedMesh& mesh, const Arrangement* arrangement, MeshEdges& edges) {
   Sides sides;
@@ -157,14 +166,6 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
   edges.ends.reserve(offsets.back() / 2 + 16);
   bool closed = true, oriented = true;
   uint32_t* const edgeOf = edges.sideEdges.data();
-  const auto sumOfCorners = [corners = mesh.triangles.data()](const SideUse& use) {  // whatever its carry
-    const auto& [a, b, c] = corners[use.slot() / 3];
-    return a + b + c;
-  };
-  /// Whether some triangles at an edge may have the same vertices: two have if their third ones are equal.
-  const auto mayHaveSame = [&, plain = 3 * mesh.triangles.size()](const SideUse* first, const SideUse* past) {
-    return past - first > 2 || first[1].slot() >= plain || sumOfCorners(first[0]) == sumOfCorners(first[1]);
-  };
   size_t begin = 0;
   for (const VertexId low : Ids<VertexId>(vertices)) {
     const std::span<SideUse> bucket(uses.get() + begin, offsets[low.number] - begin);
@@ -182,7 +183,7 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
       closed &= 2 * forwards == use - first;
       oriented &= use - first != 2 || forwards == 1;
       edges.ends.push_back({low, high});
-      if (use - first > 1 && mayHaveSame(first, use)) dropDuplicates(mesh, {first, use}, sides);
+      if (use - first > 1 && mayHaveSame(mesh, {first, use})) dropDuplicates(mesh, {first, use}, sides);
     }
   }
   takeExtras(sides, arrangement, edges);
