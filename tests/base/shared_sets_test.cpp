@@ -20,7 +20,7 @@ TEST_CASE("shared sets: those that one thread finds, with the lowest item for ea
       detail::DisjointSets expected(count);
       for (const auto& [i, j] : pairs) expected.unite(i, j);
       detail::SharedSets sets(count);
-      detail::runOnThreads(threads, [&](size_t thread) {
+      detail::runOnParts(threads, threads, [&](size_t thread) {
         for (size_t k = thread; k < pairs.size(); k += threads) sets.unite(pairs[k][0], pairs[k][1]);
       });
       for (uint32_t i = 0; i < count; ++i) REQUIRE(sets.find(i) == expected.find(i));
