@@ -3,6 +3,8 @@
 namespace mandoline::detail {
 namespace {
 
+SlabRange rangeOf(int32_t a, int32_t b, int32_t c) { return {std::min({a, b, c}), std::max({a, b, c})}; }
+
 /// Twice the areas of a triangle seen along the axes, in quarters of a side of a grid cell; beyond the grid it ends at once.
 uint64_t areaOf(const Slab& a, const Slab& b, const Slab& c) {
   uint64_t area = 0;
@@ -31,8 +33,7 @@ std::vector<int32_t> divided(const std::vector<uint64_t>& before, uint32_t count
 
 SlabRange slabsOf(const Input& input, TriangleId t, size_t axis) {
   const auto v = input.verticesOf(t);
-  const int32_t a = input.slabs[v[0]][axis], b = input.slabs[v[1]][axis], c = input.slabs[v[2]][axis];
-  return {std::min({a, b, c}), std::max({a, b, c})};
+  return rangeOf(input.slabs[v[0]][axis], input.slabs[v[1]][axis], input.slabs[v[2]][axis]);
 }
 
 LayerWork::LayerWork(const Input& input) : cells_{input.cells(0), input.cells(1), input.cells(2)}, changes_(size_t(cells_[2]) + 1, 0) {}
@@ -41,7 +42,7 @@ void LayerWork::add(const Slab& a, const Slab& b, const Slab& c) {
   uint64_t crossed = 0;  // planes
   SlabRange range{};     // along z at last
   for (size_t d = 0; d < 3; ++d) {
-    range = {std::min({a[d], b[d], c[d]}), std::max({a[d], b[d], c[d]})};
+    range = rangeOf(a[d], b[d], c[d]);
     if (range.greatest < 0 || range.least > 2 * cells_[d]) return;
     crossed += uint64_t(range.greatest - range.least) / 2;
   }

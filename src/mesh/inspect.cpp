@@ -6,17 +6,14 @@
 #include "base/exact.h"
 #include "base/position_table.h"
 #include "base/sort.h"
+#include "mesh/inspect_arrays.h"
 #include "mesh/inspect_edges.h"
 #include "mesh/require_arrays.h"
 
 namespace mandoline {
 namespace {
 
-using detail::Corners, detail::hasThreeVertices;
-
-bool isFinite(const MeshView& mesh, size_t v) {
-  return std::isfinite(mesh.positions[3 * v]) && std::isfinite(mesh.positions[3 * v + 1]) && std::isfinite(mesh.positions[3 * v + 2]);
-}
+using detail::Corners, detail::hasThreeVertices, detail::isFinite;
 
 size_t countDuplicates(std::vector<Corners> triangles, size_t vertices) {
   for (Corners& t : triangles) detail::sortItems(t);
@@ -76,12 +73,7 @@ MeshBox boxOf(const MeshView& mesh) {
 }
 
 MeshInfo inspect(const MeshView& mesh) {
-  MeshInfo info;
-  const MeshBox box = boxOf(mesh);
-  info.min = box.min;
-  info.max = box.max;
-  info.vertices = mesh.vertexCount();
-  info.triangles = mesh.triangleCount();
+  MeshInfo info = detail::inspectArrays(mesh);
   const std::vector<uint32_t> lowest = detail::lowestAtPosition(
       info.vertices, [&](uint32_t v) { return mesh.positions.data() + 3 * size_t(v); }, [&](uint32_t v) { return isFinite(mesh, v); });
   std::vector<uint8_t> referenced(info.vertices, 0);

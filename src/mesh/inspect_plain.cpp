@@ -1,9 +1,9 @@
 #include "mesh/inspect_plain.h"
 
-#include <cmath>
 #include <utility>
 
 #include "base/position_table.h"
+#include "mesh/inspect_arrays.h"
 
 namespace mandoline::detail {
 namespace {
@@ -17,10 +17,11 @@ void addUnreferenced(const MeshView& mesh, MeshInfo& info) {
   for (uint32_t v = 0; v < referenced.size(); ++v) {
     if (referenced[v]) continue;
     ++info.unreferencedVertices;
-    const double* p = at(v);
-    const bool isFinite = std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-    info.nonFiniteVertices += !isFinite;
-    if (isFinite) others.push_back(v);
+    if (isFinite(mesh, v)) {
+      others.push_back(v);
+    } else {
+      ++info.nonFiniteVertices;
+    }
   }
   if (others.empty()) return;
   PositionTable places(others.size(), at);
@@ -40,12 +41,7 @@ void addUnreferenced(const MeshView& mesh, MeshInfo& info) {
 }  // namespace
 
 MeshInfo inspectPlain(const MeshView& mesh, const BandFindings& found, const PartCounts& parts) {
-  MeshInfo info;
-  const MeshBox box = boxOf(mesh);
-  info.min = box.min;
-  info.max = box.max;
-  info.vertices = mesh.vertexCount();
-  info.triangles = mesh.triangleCount();
+  MeshInfo info = inspectArrays(mesh);
   info.closed = found.edges.open == 0;
   info.oriented = found.edges.closed;
   info.openEdges = found.edges.open;

@@ -136,11 +136,7 @@ class FlowSolver {
 
   /// Goes on from the flow's phi, if there is one.
   void solve(physics::PoissonSetup& setup, const SolveOptions& options, const Boundary& boundary, Flow& flow) const {
-    Solution solution = detail::runCall("flow", [&] {
-      detail::Monitor monitor(options, 1);
-      monitor.beginStage("iterations", 0);
-      return physics::solve(setup, {{}, boundary.value, flow.phi}, options, monitor);
-    });
+    Solution solution = physics::solveOnly(setup, {{}, boundary.value, flow.phi}, options, "flow");
     flow.status = isSolved(solution.status) ? SolveStatus::converged : solution.status;  // what flows is known
     flow.phi = std::move(solution.phi);
     if (!flow.residuals.empty()) flow.residuals.pop_back();

@@ -39,5 +39,7 @@ void requireOptions(const SolveOptions& options);
 
 /// `data` are valid. Tells the monitor of no stage.
 Solution solve(PoissonSetup& setup, const PoissonData& data, const SolveOptions& options, detail::Monitor& monitor);
+/// As the only stage of a call; `noun` names it as of runCall().
+Solution solveOnly(PoissonSetup& setup, const PoissonData& data, const SolveOptions& options, const char* noun);
 
 }  // namespace mandoline::physics

@@ -39,6 +39,14 @@ PoissonSetup::PoissonSetup(const CellComplex& cells_, PoissonProblem problem_, u
       multigrid(multigridLevels(cells, {matrix, order}, heldTerms(cells, problem.boundary, terms), mass, threads)),
       differentiator({cells, dual, edgesOfCells, problem}, terms, threads) {}
 
+Solution solveOnly(PoissonSetup& setup, const PoissonData& data, const SolveOptions& options, const char* noun) {
+  return detail::runCall(noun, [&] {
+    detail::Monitor monitor(options, 1);
+    monitor.beginStage("iterations", 0);
+    return solve(setup, data, options, monitor);
+  });
+}
+
 void requireOptions(const SolveOptions& options) {
   if (!(options.tolerance > 0)) throw CallError({Status::badOption, -1, -1, "The tolerance has to be positive."});
   if (options.maxIterations < 0) throw CallError({Status::badOption, -1, -1, "The number of iterations can't be negative."});
@@ -82,11 +90,7 @@ CsrMatrix PoissonSolver::nullSpace() const { return physics::nullSpaceOf(setup_-
 Solution PoissonSolver::solve(const PoissonData& data, const SolveOptions& options) {
   physics::requireOptions(options);
   physics::requireData(setup_->cells, setup_->problem, data);
-  return detail::runCall("solution", [&] {
-    detail::Monitor monitor(options, 1);
-    monitor.beginStage("iterations", 0);
-    return physics::solve(*setup_, data, options, monitor);
-  });
+  return physics::solveOnly(*setup_, data, options, "solution");
 }
 
 }  // namespace mandoline
