@@ -164,7 +164,7 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
   edges.sideEdges.reserve(3 * mesh.triangles.size() + sides.extras.size());               // no more: it is kept
   edges.sideEdges.resize(3 * mesh.triangles.size() + sides.extras.size());
   edges.ends.reserve(offsets.back() / 2 + 16);
-  bool closed = true, oriented = true;
+  bool closed = true, oriented = true, paired = true;
   uint32_t* const edgeOf = edges.sideEdges.data();
   size_t begin = 0;
   for (const VertexId low : Ids<VertexId>(vertices)) {
@@ -182,6 +182,7 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
       }
       closed &= 2 * forwards == use - first;
       oriented &= use - first != 2 || forwards == 1;
+      paired &= use - first == 2;
       edges.ends.push_back({low, high});
       if (use - first > 1 && mayHaveSame(mesh, {first, use})) dropDuplicates(mesh, {first, use}, sides);
     }
@@ -191,6 +192,7 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
     mesh.closed = closed;
     mesh.oriented = oriented;
     sortItems(mesh.duplicates);
+    edges.arePaired = paired && mesh.duplicates.empty();
   } else if (!arrangement->madeEdges.empty()) {
     findLines(*arrangement, edges);
   }

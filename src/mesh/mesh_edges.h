@@ -11,6 +11,7 @@ struct MeshEdges {
   Csr<TriEdgeId> stitched;           ///< tri-edges that together make a stitched side, from its lower tri-vertex to its higher
   Csr<TriEdgeId, TriangleId> inner;  ///< per triangle: tri-edges in its inside, ascending; no groups if there are none at all
   IdVector<TriEdgeId, Line> lines;   ///< that they lie on, directed from the lower end to the higher; empty if those are tri-vertices all
+  bool arePaired = false;            ///< whether it is known that each has two triangles and no more
 
   static constexpr uint32_t kStitched = 1u << 31;
 

@@ -1,5 +1,7 @@
 #include "cut/stages/brick_surface.h"
 
+#include "base/disjoint_sets.h"
+#include "base/prefetch.h"
 #include "cut/stages/dicer.h"
 
 namespace mandoline::detail {
@@ -10,6 +12,7 @@ class SurfaceCutter {
   SurfaceCutter(const Surface& surface, const SurfaceParts& parts, BrickId brick, Bricks& bricks, BrickSurface& out)
       : surface_(surface),
         input_(surface.input),
+        slabs_(surface.vertices.slabs.data()),
         parts_(parts),
         brick_(brick),
         bricks_(bricks),
@@ -23,8 +26,17 @@ class SurfaceCutter {
   SurfaceCutter(const SurfaceCutter&) = delete;
 
   void run() {
-    for (const uint32_t i : bricks_.parts[brick_]) cut(parts_.clipped.parts[i]);
+    const auto parts = bricks_.parts[brick_];
+    const ClippedTriangles::Part* const all = parts_.clipped.parts.data();
+    for (size_t i = 0; i < parts.size(); ++i) {
+      if (i + 4 * kAhead < parts.size()) prefetch(all + parts[i + 4 * kAhead]);
+      if (i + 3 * kAhead < parts.size()) prefetchTriangle(all[parts[i + 3 * kAhead]].triangle);
+      if (i + 2 * kAhead < parts.size()) prefetchCorners(all[parts[i + 2 * kAhead]].triangle);
+      if (i + kAhead < parts.size()) prefetchCrossings(all[parts[i + kAhead]].triangle);
+      cut(all[parts[i]]);
+    }
     faces_.end();
+    out_.inner.listFloating(out_.specialFaces);
     for (const FaceId f : bricks_.dividedFaces[brick_]) {
       out_.specialFaces.push_back({uint32_t(out_.triFaces.size())});
       if (parts_.divided.touchesLine[f]) out_.onGridLines.push_back(out_.specialFaces.back());
@@ -59,7 +71,7 @@ class SurfaceCutter {
     VertexId* const loop = faces_.makeLoop(polygon.size());
     writeIds(&polygon[first], polygon.size() - first, loop);
     writeIds(&polygon[0], first, loop + (polygon.size() - first));
-    const bool isPlain = isPlain_ && !isStitched_;
+    const bool isPlain = isPlain_ && !isSpecial_;
     endFace(polygon.size(), element, isPlain ? OnPlanes{highest >= firstInTriangle} : onPlanes(polygon));
   }
 
@@ -70,29 +82,55 @@ class SurfaceCutter {
     bool isSpecial = false;                                ///< see PartedCell
   };
   static constexpr bool kInGrid = true;  // nothing of a part lies outside
+  static constexpr size_t kAhead = 4;    // parts, while what is known of one comes from memory
+
+  void prefetchTriangle(TriangleId triangle) const {
+    prefetch(&input_.mesh->triangles[triangle.number]);
+    prefetch(&surface_.edges().sideEdges[3 * size_t(triangle.number)]);
+  }
+  void prefetchCorners(TriangleId triangle) const {
+    for (const VertexId v : input_.verticesOf(triangle)) prefetch(&slabs_[v.number]);
+    forSides(triangle, [&](const VertexId* offset) { prefetch(offset); });
+  }
+  void prefetchCrossings(TriangleId triangle) const {
+    forSides(triangle, [&](const VertexId* offset) { prefetch(slabs_ + offset->number); });
+  }
+  /// Calls f(offset) for those of the crossings on its sides, but for stitched ones.
+  template <class F>
+  void forSides(TriangleId triangle, const F& f) const {
+    const uint32_t* sides = &surface_.edges().sideEdges[3 * size_t(triangle.number)];
+    const VertexId* offsets = surface_.vertices.crossingOffsets.data();
+    for (size_t i = 0; i < 3; ++i) {
+      if (sides[i] < MeshEdges::kStitched) f(offsets + sides[i]);
+    }
+  }
 
   void cut(const ClippedTriangles::Part& part) {
     triangle_ = part.triangle;
-    isStitched_ = surface_.edges().hasStitchedSide(triangle_);
+    const bool isStitched = surface_.edges().hasStitchedSide(triangle_);
+    isSpecial_ = isStitched || (!surface_.unpaired.empty() && surface_.unpaired[triangle_] != 0);
     if (part.piece != ClippedTriangles::kWhole) {
       const Polygon piece = parts_.clipped.pieces[part.piece];
       outline_.clear();
       outline_.makeRoom(piece.size());
       for (const Corner& c : piece) outline_.add(c);
       isPlain_ = false;
+      out_.inner.addOther(triangle_);
       return dicer_.dice(triangle_, outline_.all(), Extent::of(piece), kInGrid);
     }
     const auto t = input_.verticesOf(triangle_);
-    const Slab &a = input_.slabs[t[0]], &b = input_.slabs[t[1]], &c = input_.slabs[t[2]];
+    const Slab &a = slabs_[t[0].number], &b = slabs_[t[1].number], &c = slabs_[t[2].number];
     const Extent extent = Extent::of(a, b, c);
-    if (!extent.isOneElement() || isStitched_) {
+    if (!extent.isOneElement() || isStitched) {
+      out_.inner.addOther(triangle_);
       outlineOf(surface_, triangle_, outline_);
       isPlain_ = surface_.isPlain || isPlain(outline_.all());
       return dicer_.dice(triangle_, outline_.all(), extent, kInGrid);
     }
     std::copy_n(t.data(), 3, faces_.makeLoop(3));
     const int planes = std::max({planeCount(a), planeCount(b), planeCount(c)});
-    endFace(3, extent.element(), {planes > 1, planes > 1, planes > 0});
+    const FaceId face = endFace(3, extent.element(), {planes > 1, planes > 1, planes > 0 || isSpecial_});
+    if (!isSpecial_) out_.inner.add(face, triangle_);
   }
 
   /// Whether those of the outline that are of the mesh lie on no plane, and the others, on tri-edges, on one each.
@@ -108,7 +146,7 @@ class SurfaceCutter {
   OnPlanes onPlanes(Polygon polygon) const {
     const CutVertices& vertices = out_.vertices;
     OnPlanes on;
-    on.isSpecial = isStitched_;
+    on.isSpecial = isSpecial_;
     for (const Corner& c : polygon) {
       const int planes = planeCount(c.slab);
       on.touchesLine |= planes > 1;
@@ -138,11 +176,12 @@ class SurfaceCutter {
     } while (i < count);
   }
 
-  void endFace(size_t vertices, const Slab& element, const OnPlanes& on) {
+  FaceId endFace(size_t vertices, const Slab& element, const OnPlanes& on) {
     const FaceId face = faces_.endFace(vertices, triangle_, element, on.touchesLine);
     if (on.isSpecial) out_.specialFaces.push_back(face);
     if (on.surfaceTouchesLine) out_.onGridLines.push_back(face);
     touch(element);
+    return face;
   }
 
   /// The cells that have a grid element, of those in the brick.
@@ -160,6 +199,7 @@ class SurfaceCutter {
 
   const Surface& surface_;
   const Input& input_;
+  const Slab* const slabs_;  // of the surface's vertices
   const SurfaceParts& parts_;
   const BrickId brick_;
   const Bricks& bricks_;
@@ -168,13 +208,66 @@ class SurfaceCutter {
   BrickSurface& out_;
   TriFaceWriter faces_;
   TriangleId triangle_{0};
-  bool isStitched_ = false;  // whether vertices are stitched into its sides
-  bool isPlain_ = false;     // whether all its vertices so far lie on the planes that they are made by alone, and all in it are the brick's
+  bool isSpecial_ = false;  // whether vertices are stitched into its sides, or it is unpaired
+  bool isPlain_ = false;    // whether all its vertices so far lie on the planes that they are made by alone, and all in it are the brick's
   CornerRow outline_;
   Dicer<SurfaceCutter> dicer_;
 };
 
 }  // namespace
+
+void InnerTriangles::addOther(TriangleId triangle) {
+  if (isReached_.empty()) isReached_.resize(edges_.ends.size());
+  const uint32_t* sides = &edges_.sideEdges[3 * size_t(triangle.number)];
+  for (size_t i = 0; i < 3; ++i) {
+    if (sides[i] < MeshEdges::kStitched) isReached_[{sides[i]}] = 1;
+  }
+}
+
+void InnerTriangles::listFloating(std::vector<FaceId>& faces) {
+  if (isReached_.empty()) isReached_.resize(edges_.ends.size());
+  size_t before;
+  do {
+    before = items_.size();
+    dropNear();
+  } while (items_.size() < before / 2);
+  if (!items_.empty()) dropConnected();
+  for (const Item& item : items_) faces.push_back(item.face);
+}
+
+/// Those that have a tri-edge that is reached.
+void InnerTriangles::dropNear() {
+  uint8_t* const isReached = isReached_.data();
+  size_t left = 0;
+  for (const Item item : items_) {
+    const auto [a, b, c] = std::array{item.sides[0], item.sides[1], item.sides[2]};
+    const uint8_t reached = isReached[a] | isReached[b] | isReached[c];
+    isReached[a] = isReached[b] = isReached[c] = reached;
+    items_[left] = item;  // no branch on what can't be foretold
+    left += 1 - reached;
+  }
+  items_.resize(left);
+}
+
+void InnerTriangles::dropConnected() {
+  if (firstItem_.empty()) firstItem_.resize(edges_.ends.size(), kNone);
+  IdSets<Id<Item>> sets;
+  sets.reset(items_.size() + 1);
+  const Id<Item> reached{uint32_t(items_.size())};
+  for (uint32_t i = 0; i < items_.size(); ++i) {
+    for (size_t side = 0; side < 3; ++side) {
+      const TriEdgeId e{items_[i].sides[side]};
+      if (isReached_[e]) sets.unite({i}, reached);
+      if (firstItem_[e] == kNone) firstItem_[e] = i;
+      sets.unite({i}, {firstItem_[e]});
+    }
+  }
+  size_t left = 0;
+  for (uint32_t i = 0; i < items_.size(); ++i) {
+    if (sets.find({i}) != sets.find(reached)) items_[left++] = items_[i];
+  }
+  items_.resize(left);
+}
 
 void cutBrickSurface(const Surface& surface, const SurfaceParts& parts, BrickId brick, Bricks& bricks, BrickSurface& brickSurface) {
   brickSurface.vertices.slabs.clear();
@@ -182,6 +275,7 @@ void cutBrickSurface(const Surface& surface, const SurfaceParts& parts, BrickId 
   brickSurface.specialFaces.clear();
   brickSurface.onGridLines.clear();
   brickSurface.faceEdges.clear();
+  brickSurface.inner.clear();
   SurfaceCutter(surface, parts, brick, bricks, brickSurface).run();
 }
 

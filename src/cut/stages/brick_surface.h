@@ -9,20 +9,54 @@
 
 namespace mandoline::detail {
 
+/// Triangles of a brick that each lie inside of a grid cell: which of them are connected, tri-edge by tri-edge, to some that leave the
+/// cell?
+class InnerTriangles {
+ public:
+  explicit InnerTriangles(const MeshEdges& edges) : edges_(edges) {}
+
+  /// Begins with another brick.
+  void clear() { items_.clear(); }
+  /// One that lies inside of a cell, without stitched sides.
+  void add(FaceId face, TriangleId triangle) { items_.push_back({face, &edges_.sideEdges[3 * size_t(triangle.number)]}); }
+  /// One that leaves a cell.
+  void addOther(TriangleId triangle);
+  /// Appends the faces of those that are not connected to such.
+  void listFloating(std::vector<FaceId>& faces);
+
+ private:
+  struct Item {
+    FaceId face;
+    const uint32_t* sides;
+  };
+  static constexpr uint32_t kNone = ~0u;
+
+  void dropNear();
+  void dropConnected();
+
+  const MeshEdges& edges_;
+  std::vector<Item> items_;  // those that are left
+  // Of a tri-edge inside of a cell, which one brick has and no other:
+  IdVector<TriEdgeId, uint8_t> isReached_;   // whether it is of a triangle that leaves the cell, or is connected to one
+  IdVector<TriEdgeId, uint32_t> firstItem_;  // that has it
+};
+
 /// All of it that the later stages see. Ids of vertices from vertices.firstOwn on and of faces are numbers in the brick.
 struct BrickSurface {
-  explicit BrickSurface(const Surface& surface) : input(surface.input), vertices(CutVertices::ofBrick(surface.vertices)) {}
+  explicit BrickSurface(const Surface& surface)
+      : input(surface.input), vertices(CutVertices::ofBrick(surface.vertices)), inner(surface.edges()) {}
 
   const Input& input;
   CutVertices vertices;
   TriFaces triFaces;                 ///< ascending by triangle, those of divided triangles last
-  std::vector<FaceId> specialFaces;  ///< see PartedCell; ascending
+  std::vector<FaceId> specialFaces;  ///< see PartedCell
   std::vector<FaceId> onGridLines;   ///< those with a vertex of the surface on a grid line, ascending
   std::vector<FaceEdge> faceEdges;   ///< cut-edges that lie in a grid-face: in each by triangle, those of tri-edges last. Counter-clockwise
                                      ///< about its axis, the front of a hybrid edge's triangle is on the left
   size_t firstTriEdge = 0;           ///< of faceEdges: the first that is of a tri-edge
   std::span<const VertexId> seamVertices;  ///< see Bricks
   Predicates predicates;
+  InnerTriangles inner;
   bool onlySweep = false;  ///< for tests: how triangles are diced, see Dicer
 
   const MeshEdges& edges() const { return input.mesh->edges; }

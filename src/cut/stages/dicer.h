@@ -10,25 +10,43 @@
 
 namespace mandoline::detail {
 
-/// The outline of a triangle, with all vertices on its sides.
-inline void outlineOf(const Surface& surface, TriangleId triangle, CornerRow& outline) {
+/// Appends a vertex and the crossings of a tri-edge that leads on from it, in the direction in which it is traversed.
+inline void appendEdge(const Surface& surface, VertexId from, TriEdgeId edge, bool forward, CornerRow& outline) {
   const CutVertices& vertices = surface.vertices;
   const Slab* slabs = vertices.slabs.data();
+  const VertexId* offsets = vertices.crossingOffsets.data() + edge.number;
+  const uint32_t first = offsets[0].number;
+  uint32_t past = offsets[1].number;
+  outline.makeRoom(past - first + 1);
+  if (!surface.isPlain) {
+    while (past > first && slabs[past - 1][0] == CutVertices::kUnused) --past;
+  }
+  const uint32_t count = past - first, last = uint32_t(vertices.slabs.size() - 1), step = forward ? 1 : ~0u;
+  Corner* to = outline.lengthen(count + 1);
+  *to++ = {from, slabs[from.number]};
+  // Nearly always there are two at most, but how many can't be foretold: so these are written, and overwritten by what comes next.
+  static_assert(CornerRow::kBlock >= 2);
+  uint32_t v = forward ? first : past - 1;
+  for (uint32_t i = 0; i < 2; ++i, v += step) *to++ = {{v}, slabs[std::min(v, last)]};
+  for (uint32_t i = 2; i < count; ++i, v += step) *to++ = {{v}, slabs[v]};
+}
+
+/// The outline of a triangle, with all vertices on its sides.
+inline void outlineOf(const Surface& surface, TriangleId triangle, CornerRow& outline) {
   outline.clear();
+  const MeshEdges& edges = surface.edges();
   const auto t = surface.input.verticesOf(triangle);
+  if (!edges.hasStitchedSide(triangle)) {
+    const uint32_t* sides = &edges.sideEdges[3 * size_t(triangle.number)];
+    appendEdge(surface, t[0], {sides[0]}, t[0] < t[1], outline);
+    appendEdge(surface, t[1], {sides[1]}, t[1] < t[2], outline);
+    return appendEdge(surface, t[2], {sides[2]}, t[2] < t[0], outline);
+  }
   for (int side = 0; side < 3; ++side) {
     VertexId from = t[size_t(side)];
-    surface.edges().forSide(*surface.input.mesh, triangle, side, [&](TriEdgeId edge, bool forward) {
-      const uint32_t first = vertices.crossingOffsets[edge.number].number;
-      uint32_t past = vertices.crossingOffsets[edge.number + 1].number;
-      outline.makeRoom(past - first + 1);
-      while (past > first && slabs[past - 1][0] == CutVertices::kUnused) --past;
-      const uint32_t count = past - first, isBackward = uint32_t(!forward);
-      Corner* to = outline.lengthen(count + 1);
-      *to++ = {from, slabs[from.number]};
-      uint32_t v = first + (count - 1) * isBackward;  // no branch on what can't be foretold
-      for (uint32_t i = 0; i < count; ++i, v += 1 - 2 * isBackward) *to++ = {{v}, slabs[v]};
-      from = surface.edges().ends[edge][forward ? 1 : 0];
+    edges.forSide(*surface.input.mesh, triangle, side, [&](TriEdgeId edge, bool forward) {
+      appendEdge(surface, from, edge, forward, outline);
+      from = edges.ends[edge][forward ? 1 : 0];
     });
   }
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "base/appender.h"
+#include "base/prefetch.h"
 #include "base/sort.h"
 
 namespace mandoline::detail {
@@ -51,6 +53,8 @@ class Harvest {
   }
 
  private:
+  static constexpr size_t kAhead = 8;  // tri-cut-faces, while where the loop of one is comes from memory
+
   std::span<const HalfFace> halvesIn(GridFaceId g) const { return faces_.grid.halfFaces[g]; }
   std::span<const FaceSides> sidesIn(GridFaceId g) const {
     const auto& offsets = faces_.grid.halfFaces.offsets;
@@ -243,6 +247,28 @@ class Harvest {
     }
   }
 
+  /// Lists the vertices of the loops of tri-cut-faces as these are numbered, and where each loop begins.
+  void listTriLoops(uint32_t* offset) {
+    const Csr<VertexId>& loops = faces_.tri.loops;
+    std::vector<VertexId>& list = gathered_.triLoopVertices;
+    if (list.size() < loops.items.size() + kAppendedBlock) list.resize(loops.items.size() + kAppendedBlock);
+    const VertexId* const end = loops.items.data() + loops.items.size();
+    VertexId* to = list.data();
+    const std::vector<FaceId>& order = gathered_.triOrder;
+    for (size_t i = 0; i < order.size(); ++i) {
+      if (i + 2 * kAhead < order.size()) prefetch(&loops.offsets[faces_.tri.firstLoop(order[i + 2 * kAhead])]);
+      if (i + kAhead < order.size()) prefetch(loops.items.data() + loops.offsets[faces_.tri.firstLoop(order[i + kAhead])]);
+      for (const auto loop : faces_.tri.loopsOf(order[i])) {
+        *offset++ = uint32_t(to - list.data());
+        if (size_t(end - loop.data()) >= loop.size() + kAppendedBlock) {
+          copyBlocks(loop.data(), loop.size(), to);
+        } else {
+          std::copy(loop.begin(), loop.end(), to);
+        }
+        to += loop.size();
+      }
+    }
+  }
   void copyTriLoops() {
     const TriFaces& tri = faces_.tri;
     const bool haveOneEach = tri.faceLoopOffsets.empty();
@@ -257,14 +283,9 @@ class Harvest {
     out_.triLoops.loops.offsets = memory_.faces.make<uint32_t>(tri.loops.offsets.size(), [&](std::span<uint32_t> offsets) {
       offsets.back() = uint32_t(tri.loops.items.size());
       out_.triLoops.loops.items = memory_.faces.make<uint32_t>(tri.loops.items.size(), [&](std::span<uint32_t> items) {
-        const VertexPlaces places(vertices_, gathered_.places, gathered_.surfaceVertices);
-        uint32_t *offset = offsets.data(), *item = items.data();
-        for (const FaceId f : gathered_.triOrder) {
-          for (const auto loop : tri.loopsOf(f)) {
-            *offset++ = uint32_t(item - items.data());
-            for (const VertexId v : loop) *item++ = places.of(v);
-          }
-        }
+        VertexPlaces places(vertices_, gathered_.places, gathered_.surfaceVertices);
+        listTriLoops(offsets.data());
+        places.of(std::span(gathered_.triLoopVertices).first(items.size()), items.data());
       });
     });
   }
@@ -290,8 +311,8 @@ class Harvest {
     out_.pieceLoops.offsets = memory_.faces.copy(faces_.grid.faceLoopOffsets);
     out_.pieceLoops.loops.offsets = memory_.faces.copy(loops.offsets);
     out_.pieceLoops.loops.items = memory_.faces.make<uint32_t>(loops.items.size(), [&](std::span<uint32_t> items) {
-      const VertexPlaces places(vertices_, gathered_.places, gathered_.surfaceVertices);
-      std::transform(loops.items.begin(), loops.items.end(), items.begin(), [=](VertexId v) { return places.of(v); });
+      VertexPlaces places(vertices_, gathered_.places, gathered_.surfaceVertices);
+      places.of(loops.items, items.data());
     });
     const auto& gridFaces = faces_.grid.gridFaces;
     out_.pieces = memory_.faces.make<AxialPlane>(gridFaces.size(), [&](std::span<AxialPlane> planes) {

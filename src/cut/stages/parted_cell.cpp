@@ -22,7 +22,8 @@ void PartedCell::begin(const BrickSurface& surface, const Stencil& stencil) {
 
 bool PartedCell::find(const BrickSurface& surface, const Stencil& stencil, const GridFaces& grid, GridCellId cell) {
   const auto faces = stencil.triFacesInCell[cell];
-  return canTell_ && !isSpecial_[cell] && faces.size() <= kMostFaces && findSides(stencil, grid, cell) && isOneSheet(surface, faces);
+  return canTell_ && !isSpecial_[cell] && faces.size() <= kMostFaces && findSides(stencil, grid, cell) &&
+         (isOneCurve_ || isOneSheet(surface, faces));
 }
 
 /// A tri-cut-face that is not special has six ends of tri-edges at most, so that a quarter of the slots stays free.
@@ -36,9 +37,9 @@ void PartedCell::clearTable(size_t faces) {
 }
 
 /// Whether two faces meet at each tri-edge, and all are connected so. As none is special, each has one loop, of its own number, that begins
-/// with its lowest vertex or is a whole triangle. With one curve, those at it are connected, and two meet at each tri-edge that ends there.
+/// with its lowest vertex or is a whole triangle.
 bool PartedCell::isOneSheet(const BrickSurface& surface, std::span<const FaceId> faces) {
-  const VertexId firstOnEdge = surface.vertices.firstOnEdge, pastKeys = isOneCurve_ ? firstOnEdge : surface.vertices.firstInTriangle;
+  const VertexId firstOnEdge = surface.vertices.firstOnEdge, firstInTriangle = surface.vertices.firstInTriangle;
   clearTable(faces.size());
   if (sheets_.size() < faces.size()) sheets_.resize(faces.size());
   Slot* const slots = slots_.data();
@@ -50,23 +51,13 @@ bool PartedCell::isOneSheet(const BrickSurface& surface, std::span<const FaceId>
     while (sheets[face] != face) face = sheets[face] = sheets[sheets[face]];
     return face;
   };
-  uint32_t atCurve = kBoth;  // some face, if there is one curve
   for (uint32_t f = 0; f < faces.size(); ++f) {
     sheets[f] = f;
     const auto loop = surface.triFaces.loops[faces[f].number];
-    if (isOneCurve_) {
-      const bool hasFirst = loop[1] < firstOnEdge, hasLast = loop.back() < firstOnEdge;  // whole tri-edges beside its lowest vertex
-      if (loop.size() > 3 || !hasFirst || !hasLast) {
-        if (atCurve == kBoth) atCurve = f;
-        apart -= atCurve != f;
-        sheets[f] = atCurve;
-      }
-      if (!hasFirst && !hasLast) continue;
-    }
     VertexId u = loop.back();
     for (const VertexId v : loop) {
       const VertexId before = std::exchange(u, v);
-      if (v >= pastKeys) continue;
+      if (v >= firstInTriangle) continue;
       uint64_t key = v.number;
       if (v < firstOnEdge) {
         if (before >= firstOnEdge) continue;
@@ -92,6 +83,7 @@ bool PartedCell::isOneSheet(const BrickSurface& surface, std::span<const FaceId>
 }
 
 /// Finds also whether there is one curve: if there are two, and none crosses a grid-edge twice, then each is in three grid-faces or more.
+/// If these are all six, each curve parts one corner from the others, and both corners lie on the same side.
 bool PartedCell::findSides(const Stencil& stencil, const GridFaces& grid, GridCellId cell) {
   const std::array<GridFaceId, 6> gridFaces = stencil.cells[cell].faces;
   Sides found{};
@@ -127,11 +119,12 @@ bool PartedCell::findSides(const Stencil& stencil, const GridFaces& grid, GridCe
     }
     partsCorners &= count == first + 2 && piecesAtCorners == 3;
   }
-  isOneCurve_ = partsCorners && wholeCount > 0;
   if (!findSidesOfWhole({wholeFaces.data(), wholeCount}, found)) return false;
   const auto isFound = [](uint8_t side) { return side == behind || side == inFront; };
   sides_ = found.ofPieces;
   pieceCount_ = count;
+  const auto cornersInFront = std::count(found.atCorners.begin(), found.atCorners.end(), uint8_t(inFront));
+  isOneCurve_ = partsCorners && (wholeCount > 0 || cornersInFront == 4);
   return std::all_of(sides_.begin(), sides_.begin() + count, isFound) &&
          std::all_of(found.atCorners.begin(), found.atCorners.end(), isFound);
 }

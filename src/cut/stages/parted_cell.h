@@ -3,7 +3,8 @@
 // lies in front of the sheet on its left, since so it leaves the dicer; and a grid-face without any lies where its corners do.
 //
 // Hybrid edges are closed curves around the cell, each of one sheet: two of them that follow each other have a tri-cut-face in common, or
-// two that meet at a tri-edge. Nearly always there is one curve, and only whole triangles inside of the cell may not belong to its sheet.
+// two that meet at a tri-edge. Nearly always there is one curve. Then all tri-cut-faces at it are one sheet, and so are triangles inside of
+// the cell that are connected to these: see InnerTriangles.
 #pragma once
 
 #include <array>
@@ -21,8 +22,9 @@ class PartedCell {
   void begin(const BrickSurface& surface, const Stencil& stencil);
 
   /// Finds the side of each piece of the cell's grid-faces. False, without sides to use, unless it is one sheet of few faces that parts the
-  /// cell, none of them special, and no tri-edge lies in its grid-faces. Special are faces of divided triangles and of those with stitched
-  /// sides, and faces with a vertex on more planes than its kind needs: none for those of the mesh, one on tri-edges, two in triangles.
+  /// cell, none of them special, and no tri-edge lies in its grid-faces. Special are faces of divided triangles, of those with stitched
+  /// sides, and of those with a tri-edge that is not of two triangles; triangles inside of the cell that are not connected to others; and
+  /// faces with a vertex on more planes than its kind needs: none for those of the mesh, one on tri-edges, two in triangles.
   bool find(const BrickSurface& surface, const Stencil& stencil, const GridFaces& grid, GridCellId cell);
 
   /// By the cell's grid-faces, then as GridFaces has their half-faces.
@@ -61,7 +63,7 @@ class PartedCell {
   uint32_t stamp_ = 0;
   size_t mask_ = 0;
   std::vector<uint32_t> sheets_;  // per tri-cut-face of the cell: one before it in its sheet, or itself
-  bool isOneCurve_ = false;       // whether it is known that there is one
+  bool isOneCurve_ = false;       // whether it is known that there is one curve
   std::array<uint8_t, kMostPieces> sides_;
   std::array<Place, kMostPieces> places_;
   uint32_t pieceCount_ = 0;

@@ -234,6 +234,23 @@ bool isPlain(const CutVertices& vertices, Monitor& monitor) {
   return std::count(chunks.begin(), chunks.end(), 0) == std::ptrdiff_t(chunks.size());
 }
 
+/// Surface::unpaired.
+IdVector<TriangleId, uint8_t> findUnpaired(const Input& input) {
+  const MeshEdges& edges = input.mesh->edges;
+  IdVector<TriangleId, uint8_t> unpaired;
+  if (edges.arePaired) return unpaired;
+  IdVector<TriEdgeId, uint8_t> uses(edges.ends.size(), 0);
+  unpaired.resize(input.mesh->triangles.size());
+  const auto forKept = [&](const auto& f) {
+    for (const TriangleId t : unpaired.ids()) {
+      if (input.kept(t)) edges.forTriangle(t, [&](TriEdgeId e) { f(t, uses[e]); });
+    }
+  };
+  forKept([](TriangleId, uint8_t& count) { count += count < 3; });
+  forKept([&](TriangleId t, uint8_t count) { unpaired[t] |= count != 2; });
+  return unpaired;
+}
+
 }  // namespace
 
 CrossingsBefore::CrossingsBefore(const Surface& before, const Surface& now, const Moved& moved)
@@ -282,6 +299,7 @@ void cutTriEdges(Surface& surface, Run& run, const KnownCrossings* known) {
       });
   for (const Predicates& p : chunks) run.count(p);
   surface.isPlain = isPlain(vertices, run.monitor);
+  surface.unpaired = findUnpaired(input);
   collectInPlane(surface);
 }
 

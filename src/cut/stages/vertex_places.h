@@ -1,8 +1,10 @@
 // The places that a brick's loops have in the place of vertices: those of its own by number, then the surface's as they come.
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "base/prefetch.h"
 #include "cut/predicates/cut_vertices.h"
 
 namespace mandoline::detail {
@@ -20,17 +22,24 @@ class VertexPlaces {
     places_ = places.data();
   }
 
-  uint32_t of(VertexId v) const {
-    const uint32_t place = places_[v.number];
-    return place != kNone ? place : add(v);
+  /// Writes the places of some. Which of them are new can't be foretold, so there is no branch on it.
+  void of(std::span<const VertexId> vertices, uint32_t* places) {
+    size_t count = surfaceVertices_.size();
+    surfaceVertices_.resize(count + vertices.size());
+    VertexId* const list = surfaceVertices_.data();
+    for (size_t i = 0; i < vertices.size(); ++i) {
+      if (i + kAhead < vertices.size()) prefetch(places_ + vertices[i + kAhead].number);
+      const VertexId v = vertices[i];
+      const bool isNew = places_[v.number] == kNone;
+      list[count] = v;
+      places[i] = places_[v.number] = isNew ? ownCount_ + uint32_t(count) : places_[v.number];
+      count += isNew;
+    }
+    surfaceVertices_.resize(count);
   }
 
  private:
-  uint32_t add(VertexId v) const {
-    const uint32_t place = ownCount_ + uint32_t(surfaceVertices_.size());
-    surfaceVertices_.push_back(v);
-    return places_[v.number] = place;
-  }
+  static constexpr size_t kAhead = 16;
 
   const uint32_t ownCount_;
   uint32_t* places_;

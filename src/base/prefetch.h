@@ -1,0 +1,13 @@
+// Memory that is read soon at places that can't be foretold: asked for before.
+#pragma once
+
+namespace mandoline::detail {
+
+inline void prefetch([[maybe_unused]] const void* at) {
+#ifdef __GNUC__
+  __builtin_prefetch(at);
+  asm volatile("");  // without it GCC takes the function for one that has no effect, and leaves out its calls
+#endif
+}
+
+}  // namespace mandoline::detail
