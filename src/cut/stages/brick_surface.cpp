@@ -276,6 +276,11 @@ void cutBrickSurface(const Surface& surface, const SurfaceParts& parts, BrickId 
   brickSurface.onGridLines.clear();
   brickSurface.faceEdges.clear();
   brickSurface.inner.clear();
+  if (brickSurface.faceEdges.capacity() == 0) {  // about as many, of the first brick, which is the heaviest
+    brickSurface.faceEdges.reserve(3 * bricks.parts[brick].size());
+    brickSurface.vertices.slabs.reserve(bricks.parts[brick].size());
+    brickSurface.vertices.parentTriangles.reserve(bricks.parts[brick].size());
+  }
   SurfaceCutter(surface, parts, brick, bricks, brickSurface).run();
 }
 

@@ -1,5 +1,6 @@
 #include "cut/stages/clipped_triangles.h"
 
+#include "base/prefetch.h"
 #include "base/sort.h"
 #include "cut/stages/dicer.h"
 
@@ -246,7 +247,11 @@ ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& r
   auto chunks = forChunks<ClippedChunk>(input.mesh->triangles.size(), run.monitor, [&](ClippedChunk& chunk, size_t begin, size_t end) {
     Clipper clipper(surface, bricks, run, chunk);
     WholeDicer dicer(surface, run.monitor, chunk);
+    constexpr uint32_t kAhead = 16;  // triangles, whose corners are all over memory
     for (const TriangleId t : Ids<TriangleId>(begin, end)) {
+      if (t.number + kAhead < end) {
+        for (const VertexId v : input.verticesOf({t.number + kAhead})) prefetch(&input.slabs[v]);
+      }
       if (known && known->has(t)) continue;
       if (input.kept(t) && surface.here.has(t) && !dicer.dice(t)) clipper.clip(t);
     }

@@ -247,26 +247,31 @@ class Harvest {
     }
   }
 
-  /// Lists the vertices of the loops of tri-cut-faces as these are numbered, and where each loop begins.
-  void listTriLoops(uint32_t* offset) {
+  /// Writes the vertices of the loops of tri-cut-faces as these are numbered, and where each loop begins.
+  void writeTriLoops(std::span<uint32_t> vertices, uint32_t* offset) const {
     const Csr<VertexId>& loops = faces_.tri.loops;
-    std::vector<VertexId>& list = gathered_.triLoopVertices;
-    if (list.size() < loops.items.size() + kAppendedBlock) list.resize(loops.items.size() + kAppendedBlock);
-    const VertexId* const end = loops.items.data() + loops.items.size();
-    VertexId* to = list.data();
     const std::vector<FaceId>& order = gathered_.triOrder;
+    uint32_t at = 0;
     for (size_t i = 0; i < order.size(); ++i) {
       if (i + 2 * kAhead < order.size()) prefetch(&loops.offsets[faces_.tri.firstLoop(order[i + 2 * kAhead])]);
       if (i + kAhead < order.size()) prefetch(loops.items.data() + loops.offsets[faces_.tri.firstLoop(order[i + kAhead])]);
       for (const auto loop : faces_.tri.loopsOf(order[i])) {
-        *offset++ = uint32_t(to - list.data());
-        if (size_t(end - loop.data()) >= loop.size() + kAppendedBlock) {
-          copyBlocks(loop.data(), loop.size(), to);
-        } else {
-          std::copy(loop.begin(), loop.end(), to);
-        }
-        to += loop.size();
+        *offset++ = at;
+        writeLoop(loop, vertices.subspan(at));
+        at += uint32_t(loop.size());
       }
+    }
+  }
+  /// Writes ids of vertices as numbers, block by block if there is room for it.
+  void writeLoop(std::span<const VertexId> loop, std::span<uint32_t> to) const {
+    const std::vector<VertexId>& all = faces_.tri.loops.items;
+    const size_t pastLoop = size_t(loop.data() - all.data()) + loop.size();
+    if (all.size() >= pastLoop + kAppendedBlock && to.size() >= loop.size() + kAppendedBlock) {
+      for (size_t i = 0; i < loop.size(); i += kAppendedBlock) {
+        for (size_t k = i; k < i + kAppendedBlock; ++k) to.data()[k] = loop.data()[k].number;
+      }
+    } else {
+      for (size_t i = 0; i < loop.size(); ++i) to[i] = loop[i].number;
     }
   }
   void copyTriLoops() {
@@ -284,8 +289,9 @@ class Harvest {
       offsets.back() = uint32_t(tri.loops.items.size());
       out_.triLoops.loops.items = memory_.faces.make<uint32_t>(tri.loops.items.size(), [&](std::span<uint32_t> items) {
         VertexPlaces places(vertices_, gathered_.places, gathered_.surfaceVertices);
-        listTriLoops(offsets.data());
-        places.of(std::span(gathered_.triLoopVertices).first(items.size()), items.data());
+        writeTriLoops(items, offsets.data());  // all of them first, since how long a loop is can't be foretold
+        places.of(
+            items.size(), [=](size_t i) { return VertexId{items[i]}; }, items.data());
       });
     });
   }
@@ -312,7 +318,8 @@ class Harvest {
     out_.pieceLoops.loops.offsets = memory_.faces.copy(loops.offsets);
     out_.pieceLoops.loops.items = memory_.faces.make<uint32_t>(loops.items.size(), [&](std::span<uint32_t> items) {
       VertexPlaces places(vertices_, gathered_.places, gathered_.surfaceVertices);
-      places.of(loops.items, items.data());
+      places.of(
+          items.size(), [&](size_t i) { return loops.items[i]; }, items.data());
     });
     const auto& gridFaces = faces_.grid.gridFaces;
     out_.pieces = memory_.faces.make<AxialPlane>(gridFaces.size(), [&](std::span<AxialPlane> planes) {

@@ -13,9 +13,8 @@ struct Gathered {
   std::vector<VertexId> lineVertices;
   IdVector<VertexId, uint32_t> places;  ///< see VertexPlaces
   std::vector<VertexId> surfaceVertices;
-  std::vector<FaceId> triOrder;           ///< the tri-cut-faces as they are numbered
-  IdVector<FaceId, FaceId> triNumbers;    ///< per tri-cut-face
-  std::vector<VertexId> triLoopVertices;  ///< of all their loops in that order; maybe longer
+  std::vector<FaceId> triOrder;         ///< the tri-cut-faces as they are numbered
+  IdVector<FaceId, FaceId> triNumbers;  ///< per tri-cut-face
   std::vector<InPlane> triFacesInPlane;
   std::vector<uint32_t> gridCells;
   IdVector<CellId, uint32_t> components;

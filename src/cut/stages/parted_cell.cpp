@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/prefetch.h"
+
 namespace mandoline::detail {
 
 void PartedCell::begin(const BrickSurface& surface, const Stencil& stencil) {
@@ -42,6 +44,9 @@ bool PartedCell::isOneSheet(const BrickSurface& surface, std::span<const FaceId>
   const VertexId firstOnEdge = surface.vertices.firstOnEdge, firstInTriangle = surface.vertices.firstInTriangle;
   clearTable(faces.size());
   if (sheets_.size() < faces.size()) sheets_.resize(faces.size());
+  const Csr<VertexId>& loops = surface.triFaces.loops;
+  for (const FaceId f : faces) prefetch(&loops.offsets[f.number]);
+  for (const FaceId f : faces) prefetch(loops[f.number].data());
   Slot* const slots = slots_.data();
   uint32_t* const sheets = sheets_.data();
   const uint32_t stamp = stamp_;
@@ -53,7 +58,7 @@ bool PartedCell::isOneSheet(const BrickSurface& surface, std::span<const FaceId>
   };
   for (uint32_t f = 0; f < faces.size(); ++f) {
     sheets[f] = f;
-    const auto loop = surface.triFaces.loops[faces[f].number];
+    const auto loop = loops[faces[f].number];
     VertexId u = loop.back();
     for (const VertexId v : loop) {
       const VertexId before = std::exchange(u, v);

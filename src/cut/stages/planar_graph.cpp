@@ -11,7 +11,7 @@ void PlanarGraph::begin(const CutVertices& vertices, int axis) {
   axis_ = axis;
   ids_.clear();
   ends_.clear();
-  if (localTable_.size() < vertices.size()) localTable_.resize(vertices.size());
+  if (localTable_.size() < vertices.size()) localTable_.resize(vertices.size() + vertices.slabs.size() / 4);
 }
 
 GraphVertex PlanarGraph::localOf(VertexId id) {

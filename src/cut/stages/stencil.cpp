@@ -76,6 +76,9 @@ constexpr auto kEarlier = [] {
 void listCells(const Bricks& bricks, BrickId brick, Stencil& stencil) {
   for (const Stencil::Cell& cell : stencil.cells) stencil.table[stencil.placeOf(cell.element)] = Stencil::kNone;
   stencil.cells.clear();
+  size_t touched = 0;
+  for (const uint64_t word : bricks.wordsOf(brick)) touched += size_t(std::popcount(word));
+  stencil.cells.reserve(touched);
   stencil.box = bricks.boxes[brick];
   const auto &first = stencil.box.first, &count = stencil.box.count;
   stencil.steps = {1, size_t(count[0] + 2), size_t(count[0] + 2) * size_t(count[1] + 2)};

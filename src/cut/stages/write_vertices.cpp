@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "base/prefetch.h"
+
 namespace mandoline::detail {
 namespace {
 
@@ -61,7 +63,12 @@ class VertexWriter {
   /// Of those that are not kept.
   void writePositions(const CutVertices& vertices, List list, size_t i, Predicates& predicates) {
     kept_.forOthers(i, i + list.size(), [&](size_t first, size_t past) {
-      for (size_t at = first; at < past; ++at) writePosition(vertices, list[at - i], at, predicates);
+      constexpr size_t kBatch = 32;
+      for (size_t begin = first; begin < past; begin += kBatch) {
+        const size_t end = std::min(past, begin + kBatch);
+        prefetchPoints(begin, end);
+        for (size_t at = begin; at < end; ++at) writePosition(vertices, list[at - i], at, predicates);
+      }
     });
   }
 
@@ -100,6 +107,20 @@ class VertexWriter {
     for (const VertexId v : list) {
       const Parents of = parentsOf(v);
       for (int k = 0; k < 2; ++k) *parents++ = of[size_t(k)];
+    }
+  }
+  /// Of the parents of vertices first .. past - 1, on edges or in triangles: they are all over memory.
+  void prefetchPoints(size_t first, size_t past) const {
+    const Prepared& mesh = *input_.mesh;
+    for (size_t i = first; i < past; ++i) {
+      const int32_t *parents = out_.vertexParents.data() + 2 * i, a = parents[0], b = parents[1];
+      if (a < 0) continue;
+      if (b < 0) {
+        for (const VertexId v : mesh.verticesOf(TriangleId{uint32_t(a)})) prefetch(&mesh.point(v));
+      } else {
+        prefetch(&mesh.point({uint32_t(a)}));
+        prefetch(&mesh.point({uint32_t(b)}));
+      }
     }
   }
   void writePosition(const CutVertices& vertices, VertexId v, size_t i, Predicates& predicates) {
