@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
+#include <new>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/shared.h"
@@ -77,6 +80,45 @@ void copyLarge(const Array& from, Array& to) {
   reserveLarge(to, from.size());
   to.assign(from.begin(), from.end());
 }
+
+/// Allocator for arrays that are soon given back, and are written to before they are read: what is large comes in large pages, and items
+/// start without a value.
+template <class Item>
+struct LargePages {
+  using value_type = Item;
+
+  LargePages() = default;
+  template <class Other>
+  LargePages(const LargePages<Other>&) {}
+
+  Item* allocate(size_t count) {
+    if (!isLarge(count)) return std::allocator<Item>().allocate(count);
+    const size_t bytes = (count * sizeof(Item) + kPageAlignment - 1) / kPageAlignment * kPageAlignment;
+    void* const items = ::operator new (bytes, std::align_val_t{kPageAlignment});
+    preferLargePages(items, bytes);
+    return static_cast<Item*>(items);
+  }
+  void deallocate(Item* items, size_t count) {
+    if (!isLarge(count)) return std::allocator<Item>().deallocate(items, count);
+    ::operator delete (items, std::align_val_t{kPageAlignment});
+  }
+  template <class Other>
+  void construct(Other* item) {
+    ::new (static_cast<void*>(item)) Other;
+  }
+  template <class Other, class... Arguments>
+  void construct(Other* item, Arguments&&... arguments) {
+    ::new (static_cast<void*>(item)) Other(std::forward<Arguments>(arguments)...);
+  }
+  bool operator==(const LargePages&) const { return true; }
+
+ private:
+  /// Half a page is quicker got as a whole one than bit by bit.
+  static bool isLarge(size_t count) { return kPageAlignment > 16 && count >= kPageAlignment / 2 / sizeof(Item); }
+};
+
+template <class Item>
+using LargeVector = std::vector<Item, LargePages<Item>>;
 
 /// An array that long, which begins with these items.
 template <class Item>

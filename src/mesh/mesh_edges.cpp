@@ -1,9 +1,9 @@
 #include "mesh/mesh_edges.h"
 
 #include <algorithm>
-#include <memory>
 
 #include "base/csr.h"
+#include "base/large_array.h"
 #include "base/sort.h"
 
 namespace mandoline::detail {
@@ -40,10 +40,10 @@ template <class F>
 void forPlainSides(const WeldedMesh& mesh, const F& f) {
   for (const TriangleId t : mesh.triangleIds()) {
     if (!mesh.kept(t)) continue;
-    const auto v = mesh.verticesOf(t);
+    const auto& v = mesh.triangles.data()[t.number];
     for (uint32_t i = 0; i < 3; ++i) {
-      const VertexId a = v[i], b = v[i == 2 ? 0 : i + 1];
-      f(std::min(a, b), SideUse(std::max(a, b), 3 * t.number + i, a < b));
+      const uint32_t a = v[i], b = v[i == 2 ? 0 : i + 1], low = std::min(a, b);  // numbers: without branches, hard to predict
+      f(VertexId{low}, SideUse(VertexId{std::max(a, b)}, 3 * t.number + i, a == low));
     }
   }
 }
@@ -83,14 +83,29 @@ void dropDuplicates(WeldedMesh& mesh, std::span<const SideUse> users, const Side
   }
 }
 
-/// Whether some triangles at an edge may have the same vertices: two have if their third ones are equal.
-bool mayHaveSame(const WeldedMesh& mesh, std::span<const SideUse> users) {
-  const auto sumOfCorners = [&](const SideUse& use) {  // whatever its carry
-    const auto& [a, b, c] = mesh.triangles.data()[use.slot() / 3];
-    return a + b + c;
-  };
-  return users.size() > 2 || users[1].slot() >= 3 * mesh.triangles.size() || sumOfCorners(users[0]) == sumOfCorners(users[1]);
-}
+/// Finds edges at which triangles may have the same vertices, without a look at the triangles, which are far apart in memory.
+class SameTriangles {
+ public:
+  /// `plain`: how many sides are plain ones.
+  explicit SameTriangles(size_t plain) : plain_(plain) {}
+
+  /// What follows are the edges with another lower end.
+  void beginBucket() { pairs_ = 0; }
+  /// The users of the next edge. Two triangles that are the same are the only ones at none or several edges with their lowest corner.
+  bool mayBeAmong(std::span<const SideUse> users) {
+    if (users.size() != 2) return users.size() > 2;
+    if (users[1].slot() >= plain_) return true;
+    const uint32_t pair = (users[0].slot() / 3) * 0x9e3779b1u ^ (users[1].slot() / 3) * 0x85ebca6bu;  // mixed: some others look the same
+    const uint64_t bit = uint64_t(1) << (pair >> 26);
+    const bool isKnown = (pairs_ & bit) != 0;
+    pairs_ |= bit;
+    return isKnown;
+  }
+
+ private:
+  size_t plain_;
+  uint64_t pairs_ = 0;  // of triangles that are the only ones at an edge of the bucket
+};
 
 /// Divides the stitched sides, and adds the inner edges.
 Sides findStitchedSides(const WeldedMesh& mesh, const Arrangement* arrangement, MeshEdges& edges) {
@@ -159,18 +174,20 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
   const size_t vertices = arrangement ? arrangement->points.size() : mesh.points.size();
   std::vector<uint32_t> offsets(vertices + 1, 0);
   forUses([&](VertexId low, const SideUse&) { ++offsets[low.number]; });
-  const std::unique_ptr<SideUse[]> uses(new SideUse[toOffsets(offsets)]);
+  LargeVector<SideUse> uses(toOffsets(offsets));
   forUses([&](VertexId low, const SideUse& use) { uses[offsets[low.number]++] = use; });  // now they are where the next bucket starts
   edges.sideEdges.reserve(3 * mesh.triangles.size() + sides.extras.size());               // no more: it is kept
   edges.sideEdges.resize(3 * mesh.triangles.size() + sides.extras.size());
   edges.ends.reserve(offsets.back() / 2 + 16);
   bool closed = true, oriented = true, paired = true;
   uint32_t* const edgeOf = edges.sideEdges.data();
+  SameTriangles same(3 * mesh.triangles.size());
   size_t begin = 0;
   for (const VertexId low : Ids<VertexId>(vertices)) {
-    const std::span<SideUse> bucket(uses.get() + begin, offsets[low.number] - begin);
+    const std::span<SideUse> bucket(uses.data() + begin, offsets[low.number] - begin);
     begin = offsets[low.number];
     sortItems(bucket);
+    same.beginBucket();
     for (SideUse *use = bucket.data(), *const past = use + bucket.size(); use != past;) {
       SideUse* const first = use;
       const VertexId high = use->high();
@@ -184,7 +201,7 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
       oriented &= use - first != 2 || forwards == 1;
       paired &= use - first == 2;
       edges.ends.push_back({low, high});
-      if (use - first > 1 && mayHaveSame(mesh, {first, use})) dropDuplicates(mesh, {first, use}, sides);
+      if (same.mayBeAmong({first, use})) dropDuplicates(mesh, {first, use}, sides);
     }
   }
   takeExtras(sides, arrangement, edges);

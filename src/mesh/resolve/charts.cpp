@@ -131,7 +131,7 @@ class ChartGrower {
     return {seen(v[0]), seen(v[1]), seen(v[2])};
   }
 
-  const std::vector<Point>& points_;
+  const LargeVector<Point>& points_;
   std::vector<uint32_t> firstOpen_;  // per point: a side that starts there and has no twin so far
   std::span<uint32_t> charts_;
   std::vector<uint32_t> corners_;  // per side: where it starts; behind the sides of a triangle, where the last one ends

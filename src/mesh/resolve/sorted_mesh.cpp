@@ -8,18 +8,14 @@
 namespace mandoline::detail {
 namespace {
 
-/// The corners of kept triangles, ascending.
-std::vector<uint32_t> cornersOfKept(const WeldedMesh& mesh, const std::vector<TriangleState>& states) {
+/// Marks the corners of kept triangles.
+std::vector<uint8_t> cornersOfKept(const WeldedMesh& mesh, const std::vector<TriangleState>& states) {
   std::vector<uint8_t> isCorner(mesh.points.size(), 0);
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (states[t] != TriangleState::kept) continue;
     for (const uint32_t v : mesh.triangles[t]) isCorner[v] = 1;
   }
-  std::vector<uint32_t> corners;
-  for (uint32_t v = 0; v < isCorner.size(); ++v) {
-    if (isCorner[v]) corners.push_back(v);
-  }
-  return corners;
+  return isCorner;
 }
 
 uint32_t lowestOf(const std::array<uint32_t, 3>& corners) { return std::min(std::min(corners[0], corners[1]), corners[2]); }
@@ -27,14 +23,21 @@ uint32_t lowestOf(const std::array<uint32_t, 3>& corners) { return std::min(std:
 }  // namespace
 
 SortedMesh::SortedMesh(const WeldedMesh& mesh, const std::vector<TriangleState>& states) {
-  const std::vector<uint32_t> corners = cornersOfKept(mesh, states);
-  std::vector<Point> unordered;
-  unordered.reserve(corners.size());
-  for (const uint32_t v : corners) unordered.push_back(mesh.points[v]);
+  const std::vector<uint8_t> isCorner = cornersOfKept(mesh, states);
+  std::vector<uint32_t> corners;
+  std::vector<Point> some;
+  const bool isEach = std::find(isCorner.begin(), isCorner.end(), 0) == isCorner.end();  // else those that are, ascending
+  for (uint32_t v = 0; v < isCorner.size() && !isEach; ++v) {
+    if (!isCorner[v]) continue;
+    corners.push_back(v);
+    some.push_back(mesh.points[v]);
+  }
+  const std::span<const Point> unordered = isEach ? mesh.points : some;
+  const auto idOf = [&](size_t i) { return isEach ? uint32_t(i) : corners[i]; };
   std::vector<uint32_t> places(mesh.points.size());
-  points.reserve(corners.size());
-  for (const KeyedItem& corner : orderAlongCurve(unordered, [&](size_t i) { return corners[i]; })) {
-    places[corners[corner.item]] = uint32_t(points.size());
+  points.reserve(unordered.size());
+  for (const KeyedItem& corner : orderAlongCurve(unordered, idOf)) {
+    places[idOf(corner.item)] = uint32_t(points.size());
     points.push_back(unordered[corner.item]);
   }
   const auto cornersOf = [&](size_t t) {
@@ -70,16 +73,20 @@ void SortedMesh::dropDuplicates(const std::vector<uint32_t>& ends) {
   };
   std::vector<Others> group;
   std::vector<uint8_t> isDuplicate;  // empty if there is none
-  uint32_t place = 0;
-  for (size_t lowest = 0; lowest < points.size(); ++lowest) {
-    if (ends[lowest] - place < 2) {
-      place = ends[lowest];
-      continue;
-    }
-    group.clear();
-    for (; place < ends[lowest]; ++place) {
+  for (uint32_t lowest = 0, first = 0; lowest < points.size(); first = ends[lowest++]) {
+    uint64_t sums = 0;  // of corners, mixed to one of 64 bits: triangles with different ones differ
+    bool mayBeSame = false;
+    for (uint32_t place = first; place < ends[lowest]; ++place) {
       const auto& [a, b, c] = triangles[place];
-      const uint32_t highest = std::max(std::max(a, b), c), third = a + b + c - highest - uint32_t(lowest);
+      const uint64_t bit = uint64_t(1) << ((a + b + c) * 0x9e3779b1u >> 26);
+      mayBeSame |= (sums & bit) != 0;
+      sums |= bit;
+    }
+    if (!mayBeSame) continue;
+    group.clear();
+    for (uint32_t place = first; place < ends[lowest]; ++place) {
+      const auto& [a, b, c] = triangles[place];
+      const uint32_t highest = std::max(std::max(a, b), c), third = a + b + c - highest - lowest;
       group.push_back({uint64_t(highest) << 32 | third, place});
     }
     sortItems(group, [](const Others& a, const Others& b) { return a.corners < b.corners; });

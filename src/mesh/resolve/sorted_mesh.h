@@ -1,14 +1,15 @@
 // The kept triangles of a mesh, each once, reordered so that neighbours are mostly near each other in memory.
 #pragma once
 
+#include "base/large_array.h"
 #include "mesh/welded_mesh.h"
 
 namespace mandoline::detail {
 
 struct SortedMesh {
-  std::vector<Point> points;                       ///< along a space-filling curve
-  std::vector<std::array<uint32_t, 3>> triangles;  ///< places in `points`; ascending by the lowest of them
-  std::vector<uint32_t> ids;                       ///< of the triangles
+  LargeVector<Point> points;                       ///< along a space-filling curve
+  LargeVector<std::array<uint32_t, 3>> triangles;  ///< places in `points`; ascending by the lowest of them
+  LargeVector<uint32_t> ids;                       ///< of the triangles
 
   explicit SortedMesh(const WeldedMesh& mesh) : SortedMesh(mesh, mesh.states) {}
   /// With other states than the mesh's own. Duplicates need not be known yet.

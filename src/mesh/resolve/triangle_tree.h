@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/box_tree.h"
+#include "base/large_array.h"
 #include "base/parallel.h"
 #include "mesh/resolve/sorted_mesh.h"
 
@@ -59,9 +60,9 @@ class TriangleTree {
   bool inOneGroup(uint32_t a, uint32_t b) const { return nodes_[a].group == nodes_[b].group && nodes_[a].group != kMixed; }
   Reaching reaching(const Node& leaf, const LooseBox& box) const;
 
-  std::vector<Item> items_;       // by group, in the mesh's order
+  LargeVector<Item> items_;       // by group, in the mesh's order
   std::vector<uint32_t> starts_;  // per group: where its items start
-  std::vector<Node> nodes_;
+  LargeVector<Node> nodes_;
 };
 
 template <class F>
