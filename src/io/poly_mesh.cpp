@@ -74,6 +74,17 @@ PolyMesh makePolyMesh(const CutMesh& cutMesh, const CellComplex& cells, const Tr
   return mesh;
 }
 
+void dropEmptySides(PolyMesh& mesh, const ComplexPolygons& polygons) {
+  const auto drop = [&](std::vector<PolySide>& sides) {
+    sides.erase(std::remove_if(sides.begin(), sides.end(), [&](const PolySide& side) { return polygons.isEmpty(side.halfFace / 2); }),
+                sides.end());
+  };
+  drop(mesh.inner);
+  for (PolyPatch& patch : mesh.patches) drop(patch.sides);
+  const auto inner = mesh.patches.begin() + ptrdiff_t(FaceTag::inner);
+  if (inner->name == kBoxPatches[size_t(FaceTag::inner)] && inner->sides.empty()) mesh.patches.erase(inner);
+}
+
 void countFaces(PolyFiles& files) {
   constexpr uint32_t kUsed = 0;
   PolyMesh& mesh = files.mesh;

@@ -69,6 +69,9 @@ struct PolyMesh {
 MANDOLINE_SHARED PolyMesh makePolyMesh(const CutMesh& cutMesh, const CellComplex& cells, const TriangleGroups* groups, bool simpleCells,
                                        FunctionRef<bool(size_t cell)> isWritten);
 
+/// Drops the sides of faces that have no polygons, and the patch `inner` if it has no others.
+MANDOLINE_SHARED void dropEmptySides(PolyMesh& mesh, const ComplexPolygons& polygons);
+
 /// A list of numbers that is a file beside the others.
 struct PolyList {
   const char* name;

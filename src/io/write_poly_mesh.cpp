@@ -1,3 +1,4 @@
+#include "io/flat_polygons.h"
 #include "io/groups.h"
 #include "io/output_buffer.h"
 #include "io/poly_mesh.h"
@@ -154,10 +155,14 @@ void writePolyMesh(const FolderSink& sink, const CutMesh& cutMesh, const CellCom
   const detail::Selection selection(cutMesh, options);
   detail::runCall("writing", [&] {
     const TriangleGroups* const groups = detail::checkedGroups(options.groups, cutMesh.triangleCount);
-    const detail::ComplexPolygons polygons(cutMesh, cells);
+    detail::ComplexPolygons polygons(cutMesh, cells);
+    const bool isMerged = !cells.cellMemberOffsets.empty();
+    if (isMerged) detail::collapseFlatPolygons(cells, polygons);
     detail::PolyMesh mesh = detail::makePolyMesh(cutMesh, cells, groups, options.simpleCells, [&](size_t cell) {
-      return selection.has(cells.cellRegion[cell]) && (options.untouched || cell < cells.cutCells);
+      return selection.has(cells.cellRegion[cell]) && (options.untouched || cell < cells.cutCells) &&
+             !(isMerged && detail::isEnclosedByWalls(cells, polygons, cell));
     });
+    if (isMerged) detail::dropEmptySides(mesh, polygons);
     detail::PolyFiles files{cells, polygons, mesh};
     detail::countFaces(files);
     detail::writeFiles(sink, files, options);

@@ -195,6 +195,92 @@ TEST_CASE("polyMesh: sound and of the right volumes on all cases", "[cellfiles]"
   }
 }
 
+namespace {
+
+/// Merged cells, and which of them have a side that is no wall.
+struct Merged : Cells {
+  std::vector<uint32_t> open;
+
+  Merged(const Mesh& mesh, const Grid& grid, int levels) : Cells(mesh, grid, levels) {
+    complex = mergeSmallCells(cutMesh, complex).cells;
+    for (uint32_t c = 0; c < complex.cellCount(); ++c) {
+      const auto sides = complex.halfFaces(c);
+      if (std::any_of(sides.begin(), sides.end(), [&](uint32_t h) { return complex.faceTag[h / 2] != FaceTag::surface; }))
+        open.push_back(c);
+    }
+  }
+};
+
+double areaOf(const PolyMesh& mesh, size_t face) {
+  std::array<double, 3> sum{};
+  const auto& polygon = mesh.faces[face];
+  const auto& a = mesh.points[polygon[0]];
+  for (size_t i = 2; i < polygon.size(); ++i) {
+    const auto &b = mesh.points[polygon[i - 1]], &c = mesh.points[polygon[i]];
+    for (size_t d = 0; d < 3; ++d) {
+      const size_t e = (d + 1) % 3, f = (d + 2) % 3;
+      sum[d] += ((b[e] - a[e]) * (c[f] - a[f]) - (b[f] - a[f]) * (c[e] - a[e])) / 2;
+    }
+  }
+  return std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+}
+
+}  // namespace
+
+TEST_CASE("polyMesh: merged cells are sound and of the right volumes on all cases, but for those enclosed by walls", "[cellfiles]") {
+  for (const NamedCase& c : caseList()) {
+    for (const int levels : {0, 24}) {
+      INFO(c.name << " with levels " << levels);
+      const Merged cells(c.mesh, c.grid, levels);
+      const PolyMesh mesh = writtenPolyMesh(cells);
+      const std::vector<double> found = volumes(mesh);
+      REQUIRE(found.size() == cells.open.size());
+      double all = 0;
+      for (const double v : cells.complex.cellVolume) all += v;
+      for (size_t i = 0; i < found.size(); ++i) REQUIRE(std::fabs(found[i] - cells.complex.cellVolume[cells.open[i]]) <= 1e-9 * all);
+    }
+  }
+}
+
+TEST_CASE("polyMesh: of merged cells, no face is only as wide as rounding, where sheets pass planes by that much", "[cellfiles]") {
+  const double below = 4 - 0x1p-50, above = 4 + 0x1p-50;
+  const std::pair<const char*, Mesh> sheets[] = {
+      {"over an edge", shapes::quad({1.5, 4.25, below}, {6.5, 4.25, below}, {6.5, 4.25, 6.5}, {1.5, 4.25, 6.5})},
+      {"over a corner", shapes::quad({below, 4.25, below}, {6.5, 4.25, below}, {6.5, 4.25, 6.5}, {below, 4.25, 6.5})},
+      {"over both sides", shapes::quad({1.5, below, below}, {6.5, above, below}, {6.5, below, 6.5}, {1.5, above, 6.5})},
+      {"slanted", shapes::quad({1.5, below, 1.25}, {6.5, above, 1.75}, {6.25, above, 6.5}, {1.75, below, 6.25})},
+  };
+  for (const auto& [name, sheet] : sheets) {
+    CAPTURE(name);
+    const Merged cells(sheet, Grid::box({0, 0, 0}, {8, 8, 8}, {8, 8, 8}), 0);
+    const auto isFlat = [](double area) { return area < 1e-12; };
+    CHECK(std::count_if(cells.complex.faceArea.begin(), cells.complex.faceArea.end(), isFlat) > 0);
+    const PolyMesh mesh = writtenPolyMesh(cells);
+    double walls = 0, volume = 0;
+    for (size_t f = 0; f < mesh.faces.size(); ++f) {
+      CHECK(!isFlat(areaOf(mesh, f)));
+      if (f >= mesh.patch("surface").start) walls += areaOf(mesh, f);
+    }
+    for (const double v : volumes(mesh)) volume += v;
+    CHECK(volume == Approx(512).epsilon(1e-12));
+    double sides = 0;
+    for (size_t f = 0; f < cells.complex.faceCount(); ++f)
+      sides += cells.complex.faceTag[f] == FaceTag::surface ? 2 * cells.complex.faceArea[f] : 0;
+    CHECK(walls == Approx(sides).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("polyMesh: of merged cells, one that is enclosed by walls is left out", "[cellfiles]") {
+  const Mesh pocket = shapes::cube(1.25, 1.75);
+  const Grid grid = Grid::box({0, 0, 0}, {4, 4, 4}, {4, 4, 4});
+  CHECK(writtenPolyMesh(Cells(pocket, grid, 0)).cellCount() == 65);
+  const PolyMesh mesh = writtenPolyMesh(Merged(pocket, grid, 0));
+  CHECK(mesh.cellCount() == 64);
+  CHECK(mesh.patches.back().name == "surface");
+  // Only what is outside has walls.
+  CHECK(mesh.patches.back().faces == 12);
+}
+
 TEST_CASE("polyMesh: patches of the box's sides and of both sides of the surface", "[cellfiles]") {
   const Cells cells(shapes::quad({0.5, 0.5, 1.5}, {2.5, 0.5, 1.5}, {2.5, 2.5, 1.5}, {0.5, 2.5, 1.5}),
                     Grid::box({0, 0, 0}, {3, 3, 3}, {3, 3, 3}), 0);

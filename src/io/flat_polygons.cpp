@@ -1,0 +1,177 @@
+#include "io/flat_polygons.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "operators/measure/vector.h"
+
+namespace mandoline::detail {
+namespace {
+
+/// Of the largest coordinate: what several roundings may add up to.
+constexpr double kRounding = 0x1p-48;
+
+/// How many times as far apart as a flat polygon is wide its vertices are at least. Then each but the ends of its longest edge is nearer
+/// to both of these than they are to each other.
+constexpr double kApart = 4;
+
+class Collapser {
+ public:
+  Collapser(const CellComplex& cells, ComplexPolygons& polygons) : cells_(cells), polygons_(polygons) {
+    double largest = 0;
+    for (const double x : cells.positions) largest = std::max(largest, std::fabs(x));
+    width_ = kRounding * largest;
+  }
+
+  /// Ends, since vertices become fewer, or edges shorter.
+  void run() {
+    std::vector<uint32_t> faces(cells_.faceCount());
+    for (uint32_t f = 0; f < faces.size(); ++f) faces[f] = f;
+    while (findChanges(faces)) faces = change();
+  }
+
+ private:
+  using Vector = measuring::Vector<double>;
+  using Edge = std::pair<uint32_t, uint32_t>;  ///< the lower vertex first
+  static Edge edgeOf(uint32_t a, uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+  Vector position(uint32_t v) const {
+    return {cells_.positions[3 * size_t(v)], cells_.positions[3 * size_t(v) + 1], cells_.positions[3 * size_t(v) + 2]};
+  }
+  double distance(uint32_t a, uint32_t b) const { return measuring::length(measuring::difference(position(b), position(a))); }
+
+  /// What becomes of the flat polygons of some faces: vertices that become one, or else edges that get a vertex. Whether there is anything.
+  bool findChanges(std::span<const uint32_t> faces) {
+    same_.clear();
+    added_.clear();
+    flat_.clear();
+    for (const uint32_t f : faces) {
+      polygons_.forEach(f, [&](std::span<const uint32_t> polygon) {
+        if (!isFlat(polygon)) return;
+        if (flat_.empty() || flat_.back() != f) flat_.push_back(f);
+        if (!joinVertices(polygon)) addVertex(polygon);
+      });
+    }
+    if (!same_.empty()) added_.clear();
+    return !same_.empty() || !added_.empty();
+  }
+
+  /// Whether the area of its triangles is not more than that of a strip along the longest edge.
+  bool isFlat(std::span<const uint32_t> polygon) const {
+    double longest = 0, area = 0;
+    for (size_t i = 0; i < polygon.size(); ++i) longest = std::max(longest, distance(polygon[i], polygon[(i + 1) % polygon.size()]));
+    const Vector first = position(polygon[0]);
+    for (size_t i = 1; i + 1 < polygon.size() && area <= width_ * longest; ++i) {
+      const Vector a = measuring::difference(position(polygon[i]), first);
+      area += measuring::length(measuring::cross(a, measuring::difference(position(polygon[i + 1]), first))) / 2;
+    }
+    return area <= width_ * longest;
+  }
+
+  bool joinVertices(std::span<const uint32_t> polygon) {
+    bool any = false;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      for (size_t j = i + 1; j < polygon.size(); ++j) {
+        if (distance(polygon[i], polygon[j]) > kApart * width_) continue;
+        const Edge roots = edgeOf(root(polygon[i]), root(polygon[j]));
+        if (roots.first != roots.second) same_[roots.second] = roots.first;
+        any = true;
+      }
+    }
+    return any;
+  }
+
+  uint32_t root(uint32_t v) const {
+    for (auto lower = same_.find(v); lower != same_.end(); lower = same_.find(v)) v = lower->second;
+    return v;
+  }
+
+  /// To the longest edge, the vertex that is nearest to its middle.
+  void addVertex(std::span<const uint32_t> polygon) {
+    double longest = -1;
+    Edge edge;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const Edge next = edgeOf(polygon[i], polygon[(i + 1) % polygon.size()]);
+      const double length = distance(next.first, next.second);
+      if (length > longest || (length == longest && next < edge)) longest = length, edge = next;
+    }
+    double least = longest;
+    uint32_t middle = kNone;
+    for (const uint32_t v : polygon) {
+      const double farther = std::max(distance(edge.first, v), distance(edge.second, v));
+      if (farther < least) least = farther, middle = v;
+    }
+    if (middle != kNone) added_.emplace(edge, middle);
+  }
+
+  /// All faces; gives those that changed or have flat polygons, ascending.
+  std::vector<uint32_t> change() {
+    std::vector<uint8_t> isNear(cells_.vertexCount());
+    for (const auto& [high, low] : same_) isNear[high] = 1;
+    for (const auto& [edge, middle] : added_) isNear[edge.first] = 1;
+    std::vector<uint32_t> changed;
+    for (uint32_t f = 0; f < cells_.faceCount(); ++f) {
+      if (changeFace(f, isNear)) changed.push_back(f);
+    }
+    std::vector<uint32_t> all;
+    std::set_union(changed.begin(), changed.end(), flat_.begin(), flat_.end(), std::back_inserter(all));
+    return all;
+  }
+
+  bool changeFace(uint32_t face, const std::vector<uint8_t>& isNear) {
+    bool any = false;
+    polygons_.forEach(face, [&](std::span<const uint32_t> polygon) {
+      any |= std::any_of(polygon.begin(), polygon.end(), [&](uint32_t v) { return isNear[v] != 0; });
+    });
+    if (!any) return false;
+    ComplexPolygons::Replacement now;
+    bool isChanged = false;
+    polygons_.forEach(face, [&](std::span<const uint32_t> polygon) {
+      std::vector<uint32_t> loop;
+      for (size_t i = 0; i < polygon.size(); ++i) {
+        loop.push_back(root(polygon[i]));
+        const auto added = added_.find(edgeOf(polygon[i], polygon[(i + 1) % polygon.size()]));
+        if (added != added_.end()) loop.push_back(added->second);
+      }
+      isChanged |= !std::equal(loop.begin(), loop.end(), polygon.begin(), polygon.end());
+      addSimpleLoops(loop, now);
+    });
+    if (isChanged) polygons_.replace(face, std::move(now));
+    return isChanged;
+  }
+
+  /// Those that a loop has between the same vertex and itself; edges that it goes back cancel.
+  static void addSimpleLoops(std::span<const uint32_t> loop, ComplexPolygons::Replacement& loops) {
+    std::vector<uint32_t> path;
+    const auto add = [&](auto begin) {
+      if (path.end() - begin >= 3) loops.emplace_back(begin, path.end());
+      path.erase(begin, path.end());
+    };
+    for (const uint32_t v : loop) {
+      add(std::find(path.begin(), path.end(), v));
+      path.push_back(v);
+    }
+    add(path.begin());
+  }
+
+  static constexpr uint32_t kNone = ~0u;
+  const CellComplex& cells_;
+  ComplexPolygons& polygons_;
+  double width_ = 0;
+  std::map<uint32_t, uint32_t> same_;  // per vertex that becomes another: a lower one
+  std::map<Edge, uint32_t> added_;     // per edge: the vertex that it gets
+  std::vector<uint32_t> flat_;         // faces, ascending
+};
+
+}  // namespace
+
+void collapseFlatPolygons(const CellComplex& cells, ComplexPolygons& polygons) { Collapser(cells, polygons).run(); }
+
+bool isEnclosedByWalls(const CellComplex& cells, const ComplexPolygons& polygons, size_t cell) {
+  const auto sides = cells.halfFaces(cell);
+  return std::all_of(sides.begin(), sides.end(),
+                     [&](uint32_t h) { return cells.faceTag[h / 2] == FaceTag::surface || polygons.isEmpty(h / 2); });
+}
+
+}  // namespace mandoline::detail

@@ -1,0 +1,17 @@
+// Polygons that have no area, since they are no wider than what rounding makes of coordinates: OpenFOAM divides by areas and heights.
+#pragma once
+
+#include "base/shared.h"
+#include "io/complex_polygons.h"
+
+namespace mandoline::detail {
+
+/// Takes them away. The edges of a flat polygon that lie on others get its vertices, in all polygons that have them, and vertices that are
+/// one but for rounding become one; then what is left of its boundary cancels. So the polygons of a cell fit together as before, and move
+/// by rounding alone. A face may then have several polygons, or none.
+MANDOLINE_SHARED void collapseFlatPolygons(const CellComplex& cells, ComplexPolygons& polygons);
+
+/// Whether a cell has no faces but walls, so that nothing flows into it.
+MANDOLINE_SHARED bool isEnclosedByWalls(const CellComplex& cells, const ComplexPolygons& polygons, size_t cell);
+
+}  // namespace mandoline::detail
