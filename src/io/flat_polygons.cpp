@@ -9,8 +9,8 @@
 namespace mandoline::detail {
 namespace {
 
-/// Of the largest coordinate: what several roundings may add up to.
-constexpr double kRounding = 0x1p-48;
+/// What several roundings may add up to, where the largest coordinate is between a half and 1.
+constexpr double kWidth = 0x1p-48;
 
 /// How many times as far apart as a flat polygon is wide its vertices are at least. Then each but the ends of its longest edge is nearer
 /// to both of these than they are to each other.
@@ -21,7 +21,9 @@ class Collapser {
   Collapser(const CellComplex& cells, ComplexPolygons& polygons) : cells_(cells), polygons_(polygons) {
     double largest = 0;
     for (const double x : cells.positions) largest = std::max(largest, std::fabs(x));
-    width_ = kRounding * largest;
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    scale_ = std::ldexp(1, std::min(-exponent, 1000));
   }
 
   /// Ends, since vertices become fewer, or edges shorter.
@@ -36,10 +38,15 @@ class Collapser {
   using Edge = std::pair<uint32_t, uint32_t>;  ///< the lower vertex first
   static Edge edgeOf(uint32_t a, uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
-  Vector position(uint32_t v) const {
-    return {cells_.positions[3 * size_t(v)], cells_.positions[3 * size_t(v) + 1], cells_.positions[3 * size_t(v) + 2]};
+  Vector vectorTo(uint32_t v, uint32_t from) const {
+    Vector vector;
+    for (size_t d = 0; d < 3; ++d) vector[d] = scale_ * (cells_.positions[3 * size_t(v) + d] - cells_.positions[3 * size_t(from) + d]);
+    return vector;
   }
-  double distance(uint32_t a, uint32_t b) const { return measuring::length(measuring::difference(position(b), position(a))); }
+  double squareOf(uint32_t a, uint32_t b) const {
+    const Vector vector = vectorTo(b, a);
+    return measuring::dot(vector, vector);
+  }
 
   /// What becomes of the flat polygons of some faces: vertices that become one, or else edges that get a vertex. Whether there is anything.
   bool findChanges(std::span<const uint32_t> faces) {
@@ -59,21 +66,25 @@ class Collapser {
 
   /// Whether the area of its triangles is not more than that of a strip along the longest edge.
   bool isFlat(std::span<const uint32_t> polygon) const {
+    constexpr double kLongest = 12;  // square of the diagonal, where coordinates are from -1 to 1
+    if (squareOfTwice(polygon, 1) > 4 * kWidth * kWidth * kLongest) return false;
     double longest = 0, area = 0;
-    for (size_t i = 0; i < polygon.size(); ++i) longest = std::max(longest, distance(polygon[i], polygon[(i + 1) % polygon.size()]));
-    const Vector first = position(polygon[0]);
-    for (size_t i = 1; i + 1 < polygon.size() && area <= width_ * longest; ++i) {
-      const Vector a = measuring::difference(position(polygon[i]), first);
-      area += measuring::length(measuring::cross(a, measuring::difference(position(polygon[i + 1]), first))) / 2;
-    }
-    return area <= width_ * longest;
+    for (size_t i = 0; i < polygon.size(); ++i) longest = std::max(longest, squareOf(polygon[i], polygon[(i + 1) % polygon.size()]));
+    for (size_t i = 1; i + 1 < polygon.size(); ++i) area += std::sqrt(squareOfTwice(polygon, i));
+    return area * area <= 4 * kWidth * kWidth * longest;
+  }
+
+  /// Of the area of a triangle at the first vertex.
+  double squareOfTwice(std::span<const uint32_t> polygon, size_t i) const {
+    const Vector normal = measuring::cross(vectorTo(polygon[i], polygon[0]), vectorTo(polygon[i + 1], polygon[0]));
+    return measuring::dot(normal, normal);
   }
 
   bool joinVertices(std::span<const uint32_t> polygon) {
     bool any = false;
     for (size_t i = 0; i < polygon.size(); ++i) {
       for (size_t j = i + 1; j < polygon.size(); ++j) {
-        if (distance(polygon[i], polygon[j]) > kApart * width_) continue;
+        if (squareOf(polygon[i], polygon[j]) > kApart * kApart * kWidth * kWidth) continue;
         const Edge roots = edgeOf(root(polygon[i]), root(polygon[j]));
         if (roots.first != roots.second) same_[roots.second] = roots.first;
         any = true;
@@ -93,13 +104,13 @@ class Collapser {
     Edge edge;
     for (size_t i = 0; i < polygon.size(); ++i) {
       const Edge next = edgeOf(polygon[i], polygon[(i + 1) % polygon.size()]);
-      const double length = distance(next.first, next.second);
+      const double length = squareOf(next.first, next.second);
       if (length > longest || (length == longest && next < edge)) longest = length, edge = next;
     }
     double least = longest;
     uint32_t middle = kNone;
     for (const uint32_t v : polygon) {
-      const double farther = std::max(distance(edge.first, v), distance(edge.second, v));
+      const double farther = std::max(squareOf(edge.first, v), squareOf(edge.second, v));
       if (farther < least) least = farther, middle = v;
     }
     if (middle != kNone) added_.emplace(edge, middle);
@@ -158,7 +169,7 @@ class Collapser {
   static constexpr uint32_t kNone = ~0u;
   const CellComplex& cells_;
   ComplexPolygons& polygons_;
-  double width_ = 0;
+  double scale_ = 1;
   std::map<uint32_t, uint32_t> same_;  // per vertex that becomes another: a lower one
   std::map<Edge, uint32_t> added_;     // per edge: the vertex that it gets
   std::vector<uint32_t> flat_;         // faces, ascending
