@@ -40,10 +40,10 @@ void takeInput(const ShareExcerpt& from, Input& input) {
   input.slabs = std::move(slabs);
 }
 
-void takePositions(const MeshView& mesh, ShareExcerpt& out) {
+void takePositions(const NamedMesh& mesh, ShareExcerpt& out) {
   out.positions.reserve(3 * size_t(out.excerpt.mesh.triVertices));
   for (size_t i = 0; i < out.excerpt.mesh.triVertices; ++i) {
-    const double* p = &mesh.positions[3 * size_t(out.excerpt.vertices[i])];
+    const double* p = mesh.vertex(out.excerpt.vertices[i]);
     out.positions.insert(out.positions.end(), p, p + 3);
   }
 }
@@ -71,7 +71,7 @@ std::unique_ptr<ShareExcerpt> takeInputExcerpt(ShareInput& from, CutState& state
   out->wholeVertices = from.wholeVertices;
   for (uint32_t& t : excerpt.triangles) t = band.triangles[t];
   for (uint32_t& v : excerpt.vertices) v = band.vertices[v];
-  takePositions(*from.mesh, *out);
+  takePositions(*from.surface, *out);
   return out;
 }
 

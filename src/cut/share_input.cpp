@@ -21,16 +21,15 @@ bool goesOn(const Body& body) {
 }  // namespace
 
 ShareInputMaker::ShareInputMaker(std::shared_ptr<const Mesh> mesh, const Grid& grid, const ShareOf& shareOf, const PrepareOptions& options)
-    : grid_(grid), shareOf_(shareOf), options_(options), monitor_(options_, kMeshStages) {
-  in_->mesh = std::move(mesh);
+    : mesh_(std::move(mesh)), grid_(grid), shareOf_(shareOf), options_(options), monitor_(options_, kMeshStages) {
   in_->intersections = options.intersections;
   clock_.emplace(in_->preparation, monitor_);
 }
 
 bool ShareInputMaker::begin(std::vector<uint64_t>& work) {
-  if (!in_->mesh || options_.orient) return false;
+  if (!mesh_ || options_.orient) return false;
   clock_->begin("input");
-  const Mesh& mesh = *in_->mesh;
+  const Mesh& mesh = *mesh_;
   return goesOn([&] {
     checkGrid(grid_, 0);
     checked_ = checkInput(mesh, 0);
@@ -64,7 +63,7 @@ bool ShareInputMaker::prepare(const std::vector<uint64_t>& work) {
     band.high = layers.past == in_->input.cells(2) ? kFar : planes[size_t(layers.past)];
   }
   return goesOn([&] {
-    in_->band = weldBand(*in_->mesh, std::move(checked_), band);
+    in_->band = weldBand(*mesh_, std::move(checked_), band);
     if (in_->intersections != Intersections::assumeNone) clock_->begin("intersections");
     return findPlainEdges(*in_->band, in_->intersections, monitor_, predicates_);
   });
@@ -92,7 +91,7 @@ std::vector<int64_t> ShareInputMaker::join(const BandFindings& whole, const std:
 
 std::vector<uint8_t> ShareInputMaker::trianglesOf(PartKind kind) const {
   const MeshBand& band = *in_->band;
-  std::vector<uint8_t> flags(in_->mesh->triangleCount(), 0);
+  std::vector<uint8_t> flags(mesh_->triangleCount(), 0);
   for (size_t t = 0; t < band.triangles.size(); ++t) {
     if (band.isWithin[t] && band.mesh.parts.kinds[t] == kind) flags[band.triangles[t]] = 1;
   }
@@ -105,7 +104,7 @@ CrossingCounts ShareInputMaker::crossings() const {
   std::vector<uint64_t> counts(band.vertices.size(), 0);
   for (const auto& ends : band.mesh.edges.ends) counts[ends[0].number] += crossingIds(slabs[ends[0]], slabs[ends[1]]);
   CrossingCounts known;
-  known.counts.assign(in_->mesh->vertexCount(), 0);
+  known.counts.assign(mesh_->vertexCount(), 0);
   for (size_t v = 0; v < counts.size(); ++v) {
     if (!band.isComplete[v]) continue;
     requireFewVertices(counts[v]);
@@ -144,11 +143,25 @@ void ShareInputMaker::numberCrossings(const CrossingCounts& all) {
   in_->wholeVertices = uint32_t(next);
 }
 
+/// With the tri-vertices that stand for several.
+void ShareInputMaker::takeSurface() {
+  const MeshBand& band = *in_->band;
+  std::vector<uint32_t> triangles, vertices;
+  for (size_t t = 0; t < band.triangles.size(); ++t) {
+    if (band.isWithin[t]) triangles.push_back(band.triangles[t]);
+  }
+  for (size_t v = 0; v < band.vertices.size(); ++v) {
+    if (band.isComplete[v]) vertices.push_back(band.vertices[v]);
+  }
+  in_->surface = std::make_shared<MeshPart>(takePart(MeshView(*mesh_), std::move(triangles), std::move(vertices)));
+}
+
 std::unique_ptr<ShareInput> ShareInputMaker::take(const SharedFindings& all) {
   MeshBand& band = *in_->band;
   in_->input.cornerWinding.assign(all.cornerWinding.begin(), all.cornerWinding.end());
   numberCrossings(all.crossings);
-  WholeTriangles& triangles = in_->triangles.emplace(uint32_t(in_->mesh->triangleCount()));
+  takeSurface();
+  WholeTriangles& triangles = in_->triangles.emplace(uint32_t(mesh_->triangleCount()));
   for (uint32_t t = 0; t < all.inParity.size(); ++t) {
     if (all.inParity[t]) triangles.parity.push_back(t);
   }

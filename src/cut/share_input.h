@@ -10,12 +10,13 @@
 #include "cut/driver.h"
 #include "cut/share_layers.h"
 #include "mesh/inspect_plain.h"
+#include "mesh/mesh_part.h"
 
 namespace mandoline::detail {
 
 struct ShareInput {
-  std::shared_ptr<const Mesh> mesh;
-  Fingerprint fingerprint;  ///< of it
+  std::shared_ptr<const MeshPart> surface;  ///< the triangles within the band
+  Fingerprint fingerprint;                  ///< of the mesh
   Intersections intersections = Intersections::resolve;
   std::unique_ptr<MeshBand> band;
   Input input;  ///< of the band
@@ -64,7 +65,9 @@ class MANDOLINE_SHARED ShareInputMaker {
 
  private:
   void numberCrossings(const CrossingCounts& all);
+  void takeSurface();
 
+  const std::shared_ptr<const Mesh> mesh_;
   const Grid& grid_;
   const ShareOf shareOf_;
   const PrepareOptions options_;

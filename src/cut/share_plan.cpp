@@ -249,13 +249,14 @@ struct SharePlanner::Data {
     const uint64_t whole = bytesOfPrepared(mesh.prepared()) + each * mesh.view().triangleCount();
     return bytesOfView() + (isShare ? uint64_t(reach->prepared(layers) * double(whole)) + kVertexBytes * mesh.view().vertexCount() : whole);
   }
-  /// Once the output is written, a process has the user's mesh and its part.
+  /// Once the output is written, a process has its part, and what it keeps of the user's mesh.
   uint64_t memoryOf(uint32_t ranks, const CellLayers& layers, const LayerLoad& sum, const LayerLoads& all, uint64_t summaries) const {
     const uint64_t made = bytesOfPrepared(mesh.prepared()) + bytesOf(input.slabs) + all.surfaceBytes;
     const uint64_t excerpt = ranks == 1 ? made : uint64_t(reach->of(layers) * double(made));
     const auto [writing, measuring] = detail::memoryOf(sum);
     const uint64_t cutting = excerpt + all.seamBytes + summaries + writing, freed = kFreedBytes * mesh.view().triangleCount();
-    return bytesOfView() + std::max(cutting, measuring + freed);
+    const uint64_t view = ranks == 1 ? bytesOfView() : uint64_t(reach->of(layers) * double(bytesOfView()));
+    return view + std::max(cutting, measuring + freed);
   }
 
   /// Which vertices of the surface loops have, as summaries tell it.

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/shared.h"
-#include "mandoline/cut_mesh.h"
+#include "mandoline/io.h"
 
 namespace mandoline::detail {
 
@@ -13,5 +13,8 @@ namespace mandoline::detail {
 MANDOLINE_SHARED std::string pvtuArrays(const CutMesh& piece, bool hasRegion);
 /// The file. `pieces`: relative to its folder.
 MANDOLINE_SHARED std::string pvtuText(const std::string& arrays, const std::vector<std::string>& pieces);
+
+/// One of the pieces, as writeVtu() writes it. `cellVolume`: per cut-cell.
+MANDOLINE_SHARED void writeVtuPiece(const Sink& sink, const CutMesh& cutMesh, std::vector<double> cellVolume, const WriteOptions& options);
 
 }  // namespace mandoline::detail

@@ -1,5 +1,6 @@
 // Cut-meshes as VTK XML unstructured grids: the cells are counted first, then walked through once for each array, and only a buffer of it
 // is ever kept.
+#include "io/pvtu.h"
 #include "io/vtu_cells.h"
 #include "io/vtu_file.h"
 #include "mandoline/measure.h"
@@ -201,6 +202,15 @@ void write(const Sink& sink, const MeshView& mesh, const CutMesh& cutMesh, const
 }
 
 }  // namespace
+
+void writeVtuPiece(const Sink& sink, const CutMesh& cutMesh, std::vector<double> cellVolume, const WriteOptions& options) {
+  const Selection selection(cutMesh, options);
+  runCall("writing", [&] {
+    Meter meter(sink, options, VtuWriter::kStages);
+    VtuWriter(meter, selection, std::move(cellVolume), nullptr).write();
+  });
+}
+
 }  // namespace detail
 
 void writeVtu(const Sink& sink, const MeshView& mesh, const CutMesh& cutMesh, const WriteOptions& options) {

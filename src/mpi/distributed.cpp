@@ -15,6 +15,7 @@
 #include "mpi/pack.h"
 #include "mpi/prepare_shares.h"
 #include "mpi/rank_piece.h"
+#include "operators/measure/measure_part.h"
 #include "operators/measure/region_sums.h"
 
 namespace mandoline {
@@ -38,6 +39,9 @@ struct DistributedCut::Data {
     if (input) {
       isPreparedInShares = true;
       preparation = std::move(input->preparation);
+      surface = input->surface;
+      triangles = mesh->triangleCount();
+      mesh.reset();
       comm.together(kNoun, [&] { share.emplace(std::move(input), grid, shareOf(), options); });
     } else {
       const auto inspectMesh = [info, &whole = *mesh] { *info = inspect(whole); };
@@ -54,12 +58,16 @@ struct DistributedCut::Data {
   void takePrepared(PreparedMesh prepared, const RunOptions& options) {
     if (prepared.data()) mesh = prepared.data()->mesh;
     requireSame();
+    triangles = view().triangleCount();
     comm.together(kNoun, [&] { share.emplace(std::move(prepared), grid, shareOf(), options, takeExcerpt); });
   }
 
   void finish(const RunOptions& options) {
     const std::vector<std::vector<uint32_t>> summaries = comm.gatherAll(share->summary());
-    comm.together(kNoun, [&] { part = share->part(summaries, options); });
+    comm.together(kNoun, [&] {
+      part = share->part(summaries, options);
+      takeSurface();
+    });
     number();
     findCommon();
   }
@@ -73,6 +81,16 @@ struct DistributedCut::Data {
   }
 
   MeshView view() const { return mesh ? MeshView(*mesh) : MeshView({}, {}); }
+
+  /// What there is of the mesh.
+  NamedMesh named() const { return surface ? NamedMesh(*surface) : NamedMesh(view()); }
+
+  /// Leaves of the mesh what measuring the part takes; one process alone needs all.
+  void takeSurface() {
+    if (comm.size() == 1) return;
+    surface = std::make_shared<MeshPart>(measuring::partMeasuredBy(part.cutMesh, named()));
+    mesh.reset();
+  }
 
   /// Numbers what the part has by what the parts before have.
   void number() {
@@ -99,7 +117,7 @@ struct DistributedCut::Data {
   }
 
   void findCommon() {
-    std::vector<uint8_t> hasFace = trianglesWithFace(part.cutMesh, view().triangleCount());
+    std::vector<uint8_t> hasFace = trianglesWithFace(part.cutMesh, triangles);
     comm.uniteFlags(hasFace);
     comm.together(kNoun, [&] { common = share->common(hasFace); });
     findMade();
@@ -144,13 +162,17 @@ struct DistributedCut::Data {
     const NumberedPart numbered = numberedPart();
     Communicator::Bytes bytes;
     comm.together(kNoun, [&] {
-      if (above >= 0) bytes = packed(facesInPlane(numbered, int32_t(share->layers()[1])));
+      if (above < 0) return;
+      PlaneFaces faces = facesInPlane(numbered, int32_t(share->layers()[1]));
+      faces.surface = measuring::partMeasuredBy(faces.cutMesh, named());
+      bytes = packed(faces);
     });
     bytes = comm.exchange(bytes, above, below);
     PieceFromBelow made;
     comm.together(kNoun, [&] {
       const PlaneFaces faces = below >= 0 ? unpacked<PlaneFaces>(bytes) : PlaneFaces();
       made = detail::makePiece(numbered, common.mesh, share->layers(), faces);
+      if (below >= 0) surface = std::make_shared<MeshPart>(united(*surface, faces.surface));
     });
     bytes = comm.exchange(packed(made.forBelow), below, above);
     comm.together(kNoun, [&] {
@@ -181,11 +203,15 @@ struct DistributedCut::Data {
     return unpacked<std::vector<DoubleDouble>>(bytes);
   }
 
+  Measures measures(const RankPiece& piece, const RunOptions& options) const {
+    return measuring::measureBy(named(), piece.cutMesh, options);
+  }
+
   std::vector<double> regionVolumes(const RankPiece& piece) {
-    Measures measures;
-    comm.together("measuring", [&] { measures = measure(view(), piece.cutMesh, {1, {}}); });
+    Measures measured;
+    comm.together("measuring", [&] { measured = measures(piece, {1, {}}); });
     std::vector<DoubleDouble> sums(common.mesh.regionCount);
-    sums = addInOrder([&](auto& all) { addCutCells(piece.cutMesh, measures, all); }, std::move(sums));
+    sums = addInOrder([&](auto& all) { addCutCells(piece.cutMesh, measured, all); }, std::move(sums));
     sums = addInOrder([&](auto& all) { addUntouchedCells(piece.cutMesh, all); }, std::move(sums));
     std::vector<double> volumes;
     for (const DoubleDouble& sum : sums) volumes.push_back(double(sum));
@@ -211,9 +237,11 @@ struct DistributedCut::Data {
   };
 
   Communicator comm;
-  std::shared_ptr<const Mesh> mesh;
+  std::shared_ptr<const Mesh> mesh;         // until it is cut
+  std::shared_ptr<const MeshPart> surface;  // what is known of it from then on
   Grid grid;
   std::optional<CutShare> share;
+  size_t triangles = 0;  // of the whole mesh
   CutPart part;
   Numbers numbers{};
   CutCounts counts;
@@ -230,10 +258,11 @@ DistributedCut::DistributedCut(MPI_Comm comm, std::shared_ptr<const Mesh> mesh, 
 
 RankPiece DistributedCut::piece() const { return data_->makePiece(); }
 RankComplex DistributedCut::cellComplex(const RankPiece& piece, int ghostLayers) const {
-  return makeRankComplex(data_->comm, {data_->view(), data_->common.mesh, data_->counts}, piece, ghostLayers);
+  return makeRankComplex(data_->comm, {data_->named(), data_->common.mesh, data_->counts}, piece, ghostLayers);
 }
 CutCounts DistributedCut::counts() const { return data_->counts; }
 uint64_t DistributedCut::ownCells() const { return data_->ownCells; }
+Measures DistributedCut::measures(const RankPiece& piece, const RunOptions& options) const { return data_->measures(piece, options); }
 std::vector<double> DistributedCut::regionVolumes(const RankPiece& piece) const { return data_->regionVolumes(piece); }
 const CutResult& DistributedCut::common() const { return data_->common; }
 CutResult DistributedCut::gather() { return data_->gather(); }

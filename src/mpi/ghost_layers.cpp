@@ -6,6 +6,7 @@
 #include "mpi/pack.h"
 #include "mpi/rank_piece.h"
 #include "operators/join/join_cells.h"
+#include "operators/measure/measure_part.h"
 
 namespace mandoline::detail {
 namespace {
@@ -24,14 +25,22 @@ RankPiece layerOf(const RankPiece& piece, int64_t layer) {
 /// A layer as a message.
 struct Layer {
   RankPiece piece;
+  MeshPart surface;
 
   static void fields(auto& self, const auto& f) {
     f("cutMesh", self.piece.cutMesh);
     f("vertexIds", self.piece.vertexIds);
     f("faceIds", self.piece.faceIds);
     f("cellIds", self.piece.cellIds);
+    f("surface", self.surface);
   }
 };
+
+Layer layerToSend(const PieceToMeasure& from, int64_t layer) {
+  Layer sent{layerOf(from.piece, layer), {}};
+  sent.surface = measuring::partMeasuredBy(sent.piece.cutMesh, from.surface);
+  return sent;
+}
 
 IdRange allCells(const RankPiece& piece) { return {0, piece.cutMesh.cellCount()}; }
 
@@ -52,31 +61,33 @@ int neighbourOf(const RankLayers& layers, int rank, int direction) {
   return size_t(at) < layers.size() ? at : -1;
 }
 
-RankPiece withGhostLayers(Communicator& comm, const RankLayers& layers, const CutMesh& common, const RankPiece& piece, int count) {
+PieceToMeasure withGhostLayers(Communicator& comm, const RankLayers& layers, const CutMesh& common, PieceToMeasure grown, int count) {
   const int below = neighbourOf(layers, comm.rank(), -1), above = neighbourOf(layers, comm.rank(), 1);
-  RankPiece grown = piece;
+  const std::array<int64_t, 2> own = grown.piece.layers;
   /// Sends the layer to one neighbour and gets one of the other.
   const auto exchange = [&](int64_t layer, int to, int from) {
     Communicator::Bytes bytes;
     comm.together("cut", [&] {
-      if (to >= 0) bytes = packed(Layer{layerOf(grown, layer)});
+      if (to >= 0) bytes = packed(layerToSend(grown, layer));
     });
     bytes = comm.exchange(bytes, to, from);
-    return from >= 0 ? unpacked<Layer>(bytes).piece : RankPiece();
+    return from >= 0 ? unpacked<Layer>(bytes) : Layer();
   };
   for (int added = 0; added < count; ++added) {
-    const RankPiece lower = exchange(piece.layers[1] - 1 - added, above, below);
-    const RankPiece upper = exchange(piece.layers[0] + added, below, above);
+    const Layer lower = exchange(own[1] - 1 - added, above, below);
+    const Layer upper = exchange(own[0] + added, below, above);
     comm.together("cut", [&] {
-      const bool hasLower = below >= 0 && grown.layers[0] > 0, hasUpper = above >= 0 && grown.layers[1] < common.grid.cells(2);
+      RankPiece& piece = grown.piece;
+      const bool hasLower = below >= 0 && piece.layers[0] > 0, hasUpper = above >= 0 && piece.layers[1] < common.grid.cells(2);
       std::vector<operators::PieceCells> parts;
-      if (hasLower) parts.push_back({lower, allCells(lower)});
-      parts.push_back({grown, allCells(grown)});
-      if (hasUpper) parts.push_back({upper, allCells(upper)});
+      if (hasLower) parts.push_back({lower.piece, allCells(lower.piece)});
+      parts.push_back({piece, allCells(piece)});
+      if (hasUpper) parts.push_back({upper.piece, allCells(upper.piece)});
       RankPiece joined = operators::joinCells(parts);
-      joined.layers = {grown.layers[0] - hasLower, grown.layers[1] + hasUpper};
+      joined.layers = {piece.layers[0] - hasLower, piece.layers[1] + hasUpper};
       takeCommon(common, joined);
-      grown = std::move(joined);
+      piece = std::move(joined);
+      grown.surface = united(grown.surface, united(lower.surface, upper.surface));
     });
   }
   return grown;

@@ -3,6 +3,7 @@
 
 #include "base/shared.h"
 #include "mandoline/distributed.h"
+#include "mesh/mesh_part.h"
 
 namespace mandoline::detail {
 
@@ -15,8 +16,14 @@ MANDOLINE_SHARED RankLayers layersOfAll(Communicator& comm, const std::array<int
 /// The next process with layers below (-1) or above (1); -1 for none, and for one without layers itself.
 MANDOLINE_SHARED int neighbourOf(const RankLayers& layers, int rank, int direction);
 
-/// Collective. The piece with so many layers of grid cells more below and above, as far as the grid goes, in which ranks and seams are left
-/// out. `common` is that of the share.
-RankPiece withGhostLayers(Communicator& comm, const RankLayers& layers, const CutMesh& common, const RankPiece& piece, int count);
+/// A piece, and what measuring its cells takes of the mesh.
+struct PieceToMeasure {
+  RankPiece piece;
+  MeshPart surface;
+};
+
+/// Collective. Adds so many layers of grid cells below and above, as far as the grid goes; ranks and seams are left out. `common` is that
+/// of the share.
+PieceToMeasure withGhostLayers(Communicator& comm, const RankLayers& layers, const CutMesh& common, PieceToMeasure grown, int count);
 
 }  // namespace mandoline::detail

@@ -6,6 +6,7 @@
 #include "mpi/ghost_layers.h"
 #include "mpi/untouched_order.h"
 #include "operators/cell_complex/in_layers.h"
+#include "operators/measure/measure_part.h"
 
 namespace mandoline::detail {
 namespace {
@@ -17,7 +18,10 @@ class ComplexMaker {
   ComplexMaker(Communicator& comm, const WholeCut& whole, RankLayers layers) : comm_(comm), whole_(whole), layers_(std::move(layers)) {}
 
   RankComplex make(const RankPiece& piece, int ghostLayers) {
-    RankPiece grown = withGhostLayers(comm_, layers_, whole_.common, piece, ghostLayers);
+    PieceToMeasure toGrow{piece, {}};
+    comm_.together(kNoun, [&] { toGrow.surface = measuring::partMeasuredBy(piece.cutMesh, whole_.surface); });
+    PieceToMeasure toMeasure = withGhostLayers(comm_, layers_, whole_.common, std::move(toGrow), ghostLayers);
+    RankPiece& grown = toMeasure.piece;
     result_.layers = piece.layers;
     result_.allLayers = grown.layers;
     result_.vertexIds = std::move(grown.vertexIds);
@@ -25,7 +29,7 @@ class ComplexMaker {
     result_.cellIds = std::move(grown.cellIds);
     result_.cutMesh = std::move(grown.cutMesh);
     comm_.together(kNoun, [&] {
-      makeCells();
+      makeCells(toMeasure.surface);
       findSeams();
     });
     numberCorners();
@@ -35,13 +39,15 @@ class ComplexMaker {
  private:
   bool isEmpty() const { return result_.layers[0] == result_.layers[1]; }
 
-  void makeCells() {
+  void makeCells(const MeshPart& surface) {
     const UntouchedOrder order = untouchedOrder(whole_.common, result_.allLayers);
     result_.wholeCutCells = whole_.counts.cutCells;
     result_.wholeFaces = whole_.counts.faces + order.all.faces();
     result_.wholeCells = whole_.counts.cutCells + order.all.cells;
     if (isEmpty()) return;
-    result_.cells = operators::cellComplexInLayers(whole_.mesh, result_.cutMesh, order.cells, result_.allLayers, {1, {}});
+    const RunOptions oneThread{1, {}};
+    Measures measures = measuring::measureBy(surface, result_.cutMesh, oneThread);
+    result_.cells = operators::cellComplexInLayers(std::move(measures), result_.cutMesh, order.cells, result_.allLayers, oneThread);
     for (const UntouchedCounts& before : order.before) result_.cellIds.push_back(whole_.counts.cutCells + before.cells);
     numberFaces(order);
     std::vector<int32_t> rankOfLayer;

@@ -2,15 +2,16 @@
 #pragma once
 
 #include "mandoline/distributed.h"
+#include "mesh/mesh_part.h"
 
 namespace mandoline::detail {
 
 class Communicator;
 
-/// What all processes know alike.
+/// What a process knows of the whole.
 struct WholeCut {
-  const MeshView mesh;
-  const CutMesh& common;  ///< that of the share
+  const NamedMesh surface;  ///< has what measuring the piece takes
+  const CutMesh& common;    ///< that of the share
   const CutCounts& counts;
 };
 

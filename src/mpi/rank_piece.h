@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "mandoline/distributed.h"
+#include "mesh/mesh_part.h"
 
 namespace mandoline::detail {
 
@@ -30,6 +31,7 @@ struct PlaneFaces {
   std::vector<uint64_t> vertexIds, faceIds;
   std::vector<uint8_t> isUsed;  ///< per vertex: whether a face of the lower process has it. If not, it is left to the upper one
   std::vector<uint64_t> cells;  ///< per face: id of the cut-cell below, or kNoCell
+  MeshPart surface;             ///< what measuring these takes of the mesh
 
   static constexpr uint64_t kNoCell = ~uint64_t(0);
 
@@ -40,6 +42,7 @@ struct PlaneFaces {
     f("faceIds", self.faceIds);
     f("isUsed", self.isUsed);
     f("cells", self.cells);
+    f("surface", self.surface);
   }
 };
 

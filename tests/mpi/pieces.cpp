@@ -29,6 +29,12 @@ int rankHere() {
   return rank;
 }
 
+int ranksHere() {
+  int ranks = 0;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  return ranks;
+}
+
 /// Throws what is wrong.
 void require(bool holds, const std::string& what, size_t element = 0) {
   if (!holds) throw std::runtime_error(what + " " + std::to_string(element));
@@ -92,6 +98,20 @@ void compareCells(const RankPiece& piece, const CutMesh& whole) {
   }
 }
 
+void compareMeasures(const Measures& measures, const RankPiece& piece, const Measures& whole) {
+  for (size_t f = 0; f < piece.faceIds.size(); ++f) {
+    const size_t id = piece.faceIds[f];
+    require(areSame(measures.faceArea, f, whole.faceArea, id, 1) && areSame(measures.faceNormal, f, whole.faceNormal, id, 3) &&
+                areSame(measures.faceCentroid, f, whole.faceCentroid, id, 3),
+            "the measures differ of face", id);
+  }
+  for (size_t c = 0; c < piece.cellIds.size(); ++c) {
+    const size_t id = piece.cellIds[c];
+    require(areSame(measures.cellVolume, c, whole.cellVolume, id, 1) && areSame(measures.cellCentroid, c, whole.cellCentroid, id, 3),
+            "the measures differ of cell", id);
+  }
+}
+
 void compareRegions(const RankPiece& piece, const CutMesh& whole) {
   const CutMesh& m = piece.cutMesh;
   require(m.regionCount == whole.regionCount && m.regionWinding == whole.regionWinding && m.regionParity == whole.regionParity &&
@@ -136,8 +156,7 @@ void requireOneOwner(const std::vector<uint64_t>& ids, const std::vector<int32_t
 CutMesh joinFiles(const RankPiece& piece) {
   std::string bytes;
   writeMcm([&](std::string_view more) { bytes += more; }, piece);
-  int ranks = 0;
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  const int ranks = ranksHere();
   std::vector<int> lengths(size_t(ranks), 0), starts(size_t(ranks) + 1, 0);
   const int length = int(bytes.size());
   MPI_Allgather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, MPI_COMM_WORLD);
@@ -152,10 +171,8 @@ CutMesh joinFiles(const RankPiece& piece) {
 
 /// What was planned for this process.
 void comparePlan(const RankPiece& piece, const PreparedMesh& mesh, const Grid& grid) {
-  int ranks = 0;
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   const RunOptions oneThread{1, {}};
-  const detail::ShareLoad load = detail::SharePlanner(mesh, grid, oneThread).loads(uint32_t(ranks), oneThread)[size_t(rankHere())];
+  const detail::ShareLoad load = detail::SharePlanner(mesh, grid, oneThread).loads(uint32_t(ranksHere()), oneThread)[size_t(rankHere())];
   size_t seamFaces = 0;
   for (const RankSeam& seam : piece.seams) seamFaces += seam.faces.size();
   require(load.cutCells == piece.cellIds.size(), "another number of cut-cells is planned:", load.cutCells);
@@ -225,7 +242,10 @@ size_t preparedInShares = 0;
 bool checkUnprepared(const std::string& name, const Mesh& mesh, const Grid& grid, const CutResult& whole) {
   return inAll(name + " unprepared", [&] {
     MeshInfo info;
-    DistributedCut cut(MPI_COMM_WORLD, std::make_shared<Mesh>(mesh), grid, {{1, {}}}, name.size() % 3 == 0 ? nullptr : &info);
+    auto given = std::make_shared<const Mesh>(mesh);
+    const std::weak_ptr<const Mesh> left = given;
+    DistributedCut cut(MPI_COMM_WORLD, std::move(given), grid, {{1, {}}}, name.size() % 3 == 0 ? nullptr : &info);
+    require(left.expired() || ranksHere() == 1, "the mesh has not been freed");
     preparedInShares += cut.isPreparedInShares();
     const RankPiece piece = cut.piece();
     const CutResult& common = cut.common();
@@ -236,7 +256,9 @@ bool checkUnprepared(const std::string& name, const Mesh& mesh, const Grid& grid
     compareRegions(piece, whole.mesh);
     if (rankHere() == 0 && name.size() % 3 != 0) compareInfo(info, inspect(mesh));
     require(areEqual(cut.counts(), countsOf(whole.mesh)), "the counts differ");
-    require(volumes == regionVolumes(whole.mesh, measure(mesh, whole.mesh, {1, {}})), "the volumes of regions differ");
+    const Measures measures = measure(mesh, whole.mesh, {1, {}});
+    require(volumes == regionVolumes(whole.mesh, measures), "the volumes of regions differ");
+    compareMeasures(cut.measures(piece, {1, {}}), piece, measures);
     require(areEqual(common.stats.parts, whole.stats.parts), "other parts were found");
     require(common.stats.weldedVertices == whole.stats.weldedVertices, "other vertices were welded");
     require(common.stats.zeroAreaTriangles == whole.stats.zeroAreaTriangles, "other triangles have no area");
@@ -325,9 +347,7 @@ int checkAll(int64_t cells, size_t every) {
   }
   if (rankHere() == 0)
     std::cout << checked << " meshes, of which " << wrong << " differ; " << preparedInShares << " were prepared in shares" << std::endl;
-  int ranks = 0;
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  return wrong == 0 && checked > 0 && (preparedInShares > 0 || ranks == 1) ? 0 : 1;
+  return wrong == 0 && checked > 0 && (preparedInShares > 0 || ranksHere() == 1) ? 0 : 1;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "cut/stages/input.h"
 #include "io/output_file.h"
 #include "mandoline/distributed.h"
+#include "mesh/inspect_arrays.h"
 #include "mesh/read/load_file.h"
 
 #ifdef MANDOLINE_HAVE_PETSC
@@ -154,8 +155,7 @@ class Run {
         if (ranks_.isFirst()) detail::checkGrid(grid_.grid, 0);
       });
       send();
-      const std::shared_ptr<const Mesh> mesh(std::shared_ptr<void>(), &input_.mesh);  // which outlives the cut
-      cut_.emplace(MPI_COMM_WORLD, mesh, grid_.grid, PrepareOptions{options, arguments_.intersections}, &info_);
+      cut_.emplace(MPI_COMM_WORLD, takeMesh(), grid_.grid, PrepareOptions{options, arguments_.intersections}, &info_);
     } catch (const RankError& error) {
       throwIfInterrupted();
       failed_ = error.rank;
@@ -168,11 +168,21 @@ class Run {
     return {};
   }
 
+  /// The mesh for the cut, which frees it on the way. It stays where the whole is written, or what is inside is to be found.
+  std::shared_ptr<const Mesh> takeMesh() {
+    const bool isFlow = arguments_.command == Command::flow;
+    if (ranks_.isFirst() && (isFlow || needsWhole(arguments_)))
+      return std::shared_ptr<const Mesh>(std::shared_ptr<void>(), &input_.mesh);  // which outlives the cut
+    if (ranks_.isFirst()) info_ = detail::inspectArrays(input_.mesh);
+    return std::make_shared<const Mesh>(std::exchange(input_.mesh, {}));
+  }
+
+  /// The mesh may be gone: the cut has inspected it first, unless the processes have different ones.
   int fail(const Error& error) {
     if (ranks_.isFirst()) {
       CutResult result;
       result.error = withSize(error, arguments_, grid_);
-      const MeshReport mesh{input_, inspect(input_.mesh), {}};
+      const MeshReport mesh{input_, input_.mesh.triangles.empty() ? info_ : inspect(input_.mesh), {}};
       failWith(arguments_, "rank " + std::to_string(failed_) + ": " + input_.name, result.error,
                [&] { return reportJson(reportOf(arguments_, mesh, grid_, result)); });
     }
@@ -185,7 +195,7 @@ class Run {
       options = writeOptions(arguments_, cut_->common());
       static_cast<RunOptions&>(options) = writingOptions();
     });
-    writePvtu(ranks_, output, input_.mesh, piece, options);
+    writePvtu(ranks_, output, *cut_, piece, options);
   }
 
   void writeCase(const std::string& output, const RankPiece& piece) {

@@ -25,13 +25,15 @@ bool hasCells(const CutMesh& cutMesh, const WriteOptions& options) {
 
 bool isPvtu(const std::string& path) { return path.ends_with(kExtension); }
 
-void writePvtu(Ranks& ranks, const std::string& path, const MeshView& mesh, const RankPiece& piece, const WriteOptions& options) {
+void writePvtu(Ranks& ranks, const std::string& path, const DistributedCut& cut, const RankPiece& piece, const WriteOptions& options) {
   const auto nameOf = [stem = path.substr(0, path.size() - kExtension.size())](int rank) {
     return stem + '_' + std::to_string(rank) + ".vtu";
   };
   RankFiles pieces(ranks, nameOf);
   const bool isWritten = hasCells(piece.cutMesh, options);
-  pieces.write(isWritten, [&](const Sink& sink) { writeVtu(sink, mesh, piece.cutMesh, options); });
+  pieces.write(isWritten, [&](const Sink& sink) {
+    detail::writeVtuPiece(sink, piece.cutMesh, cut.measures(piece, {options.threads, {}}).cellVolume, options);
+  });
   const std::vector<uint64_t> written = ranks.comm().gatherAll(isWritten);
   ranks.inFirst([&] {
     std::vector<std::string> files;

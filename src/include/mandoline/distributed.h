@@ -1,5 +1,5 @@
-// A cut that the processes of an MPI communicator make together, which leaves to each of them a piece. Each process has the whole mesh;
-// what is made of it is held in pieces. In mandoline::mpi, which exists where MPI is found.
+// A cut that the processes of an MPI communicator make together, which leaves to each of them a piece. Each process begins with the whole
+// mesh; what is made of it is held in pieces. In mandoline::mpi, which exists where MPI is found.
 //
 //   DistributedCut cut(MPI_COMM_WORLD, mesh, grid);  // in all processes, of the same mesh and grid
 //   RankPiece piece = cut.piece();
@@ -12,6 +12,7 @@
 
 #include "mandoline/cut_share.h"
 #include "mandoline/inspect.h"
+#include "mandoline/measure.h"
 #include "mandoline/rank_complex.h"
 #include "mandoline/rank_piece.h"
 
@@ -43,13 +44,12 @@ class DistributedCut {
  public:
   /// Cuts. Throws RankError, alike in all processes, as CutShare does, or for different meshes or grids (badArgument, element: the first
   /// rank with another). A process that is cancelled while it waits for others throws CallError (cancelled), and the others wait for it:
-  /// cancel all of them, or end the program. The prepared mesh is freed on the way, if the caller has no copy; the mesh itself
-  /// stays.
+  /// cancel all of them, or end the program. The mesh, prepared and as it was, is freed on the way, if the caller has no copy.
   DistributedCut(MPI_Comm comm, PreparedMesh mesh, Grid grid, const RunOptions& options = {});
   /// Prepares the mesh and cuts. Each process prepares only what it cuts, where all triangles have area and differ, none meet, and the mesh
   /// is closed or no edge has more than two triangles; other meshes each process prepares as a whole, as prepareTogether() does, with the
-  /// same errors. `mesh` is not null. `info`, which is null in all processes or in none, becomes what inspect() gives in the process of
-  /// rank 0; of its arrays there may be none.
+  /// same errors. `mesh` is not null; it is freed as soon as it is not needed whole, if the caller has no copy. `info`, which is null in
+  /// all processes or in none, becomes what inspect() gives in the process of rank 0; of its arrays there may be none.
   DistributedCut(MPI_Comm comm, std::shared_ptr<const Mesh> mesh, Grid grid, const PrepareOptions& options = {}, MeshInfo* info = nullptr);
 
   /// This process's piece.
@@ -61,6 +61,9 @@ class DistributedCut {
   CutCounts counts() const;
   /// How many cut-cells this process has.
   uint64_t ownCells() const;
+  /// Of this process's piece, as of measure(), to the bit, for which there is no need of the mesh. `piece` is that of piece(). Not
+  /// collective.
+  Measures measures(const RankPiece& piece, const RunOptions& options = {}) const;
   /// Volume of each region, as of regionVolumes(), to the bit. `piece` is that of piece().
   std::vector<double> regionVolumes(const RankPiece& piece) const;
   /// What all processes know alike: the cut-mesh without vertices, faces and cut-cells, and how the cut went in this one.

@@ -329,12 +329,11 @@ void requireOctree(const CutMesh& cutMesh, const OctreeCells& octree) {
 CellComplex cellComplex(const MeshView& mesh, const CutMesh& cutMesh, const OctreeCells& octree, const RunOptions& options) {
   operators::requireCutMesh(cutMesh);
   requireOctree(cutMesh, octree);
-  return operators::cellComplexInLayers(mesh, cutMesh, octree, {0, octree.gridCells[2]}, options);
+  return operators::cellComplexInLayers(measure(mesh, cutMesh, options), cutMesh, octree, {0, octree.gridCells[2]}, options);
 }
 
-CellComplex operators::cellComplexInLayers(const MeshView& mesh, const CutMesh& cutMesh, const OctreeCells& octree,
+CellComplex operators::cellComplexInLayers(Measures measures, const CutMesh& cutMesh, const OctreeCells& octree,
                                            const std::array<int64_t, 2>& layers, const RunOptions& options) {
-  Measures measures = measure(mesh, cutMesh, options);
   return detail::runCall("assembly of the cells", [&] {
     detail::Monitor monitor(options, 2);
     CellComplex cells = Builder(cutMesh, octree, layers, std::move(measures), monitor).run();

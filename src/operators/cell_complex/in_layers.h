@@ -3,13 +3,14 @@
 
 #include "base/shared.h"
 #include "mandoline/cell_complex.h"
+#include "mandoline/measure.h"
 
 namespace mandoline::operators {
 
 /// As cellComplex(), of a cut-mesh and octree cells of level 0 that are complete in these layers of grid cells along z, from the first up
-/// to, not including, the second, and have nothing elsewhere. Towards other layers, faces have one cell and the tag inner. Arguments are
-/// not checked.
-MANDOLINE_SHARED CellComplex cellComplexInLayers(const MeshView& mesh, const CutMesh& cutMesh, const OctreeCells& octree,
+/// to, not including, the second, and have nothing elsewhere. Towards other layers, faces have one cell and the tag inner. `measures`:
+/// those of the cut-mesh. Arguments are not checked.
+MANDOLINE_SHARED CellComplex cellComplexInLayers(Measures measures, const CutMesh& cutMesh, const OctreeCells& octree,
                                                  const std::array<int64_t, 2>& layers, const RunOptions& options);
 
 }  // namespace mandoline::operators

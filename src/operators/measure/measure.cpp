@@ -9,6 +9,7 @@
 #include "base/large_array.h"
 #include "mesh/run_call.h"
 #include "operators/cut_input.h"
+#include "operators/measure/measure_part.h"
 #include "operators/measure/places.h"
 
 namespace mandoline {
@@ -231,16 +232,38 @@ class Measuring {
 
 }  // namespace
 
-Measures measure(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions& options) {
-  const operators::CutInput input(mesh, cutMesh);
+Measures measuring::measureBy(const detail::NamedMesh& mesh, const CutMesh& cutMesh, const RunOptions& options) {
   return detail::runCall("measuring", [&] {
     detail::Monitor monitor(options, 3);
     monitor.beginStage("vertices", 0);
-    const Places places(input.mesh(), cutMesh, monitor);
+    const Places places(mesh, cutMesh, monitor);
     Measures measures = Measuring(cutMesh, places).run(monitor);
     measures.madeFrom = cutMesh.fingerprint;
     return measures;
   });
+}
+
+Measures measure(const MeshView& mesh, const CutMesh& cutMesh, const RunOptions& options) {
+  const operators::CutInput input(mesh, cutMesh);
+  return measuring::measureBy(input.mesh(), cutMesh, options);
+}
+
+/// Places and normals: see Places.
+detail::MeshPart measuring::partMeasuredBy(const CutMesh& cutMesh, const detail::NamedMesh& mesh) {
+  std::vector<uint32_t> triangles, vertices;
+  for (const int32_t t : cutMesh.faceTriangle) {
+    if (t >= 0) triangles.push_back(uint32_t(t));
+  }
+  for (size_t v = 0; v < cutMesh.vertexCount(); ++v) {
+    const int32_t a = cutMesh.vertexParents[2 * v], b = cutMesh.vertexParents[2 * v + 1];
+    if (a < 0 || cutMesh.vertexTriVertex[v] >= 0) continue;
+    if (b < 0) {
+      triangles.push_back(uint32_t(a));
+    } else {
+      vertices.insert(vertices.end(), {uint32_t(a), uint32_t(b)});
+    }
+  }
+  return takePart(mesh, std::move(triangles), std::move(vertices));
 }
 
 }  // namespace mandoline

@@ -6,13 +6,13 @@ namespace mandoline::measuring {
 
 using detail::twoSum;
 
-Places::Places(const MeshView& mesh, const CutMesh& cutMesh, detail::Monitor& monitor) : mesh_(mesh), cutMesh_(cutMesh) {
+Places::Places(const detail::NamedMesh& mesh, const CutMesh& cutMesh, detail::Monitor& monitor) : mesh_(mesh), cutMesh_(cutMesh) {
   detail::makeLarge(places_, cutMesh.vertexCount());
   forEach(places_.size(), monitor, [&](size_t v) { places_[v] = make(v); });
 }
 
 Vector<DoubleDouble> Places::triangleNormal(size_t t) const {
-  const double *a = corner(t, 0), *b = corner(t, 1), *c = corner(t, 2);
+  const double *a = mesh_.corner(t, 0), *b = mesh_.corner(t, 1), *c = mesh_.corner(t, 2);
   return cross<DoubleDouble>({twoSum(b[0], -a[0]), twoSum(b[1], -a[1]), twoSum(b[2], -a[2])},
                              {twoSum(c[0], -a[0]), twoSum(c[1], -a[1]), twoSum(c[2], -a[2])});
 }
@@ -25,7 +25,7 @@ Vector<DoubleDouble> Places::make(size_t v) const {
   if (q < 0) {
     placeInTriangle(v, size_t(p), place);
   } else {
-    placeOnEdge(v, triVertex(size_t(p)), triVertex(size_t(q)), place);
+    placeOnEdge(v, mesh_.vertex(size_t(p)), mesh_.vertex(size_t(q)), place);
   }
   return place;
 }
@@ -46,7 +46,7 @@ void Places::placeOnEdge(size_t v, const double* a, const double* b, Vector<Doub
 /// A crossing of a triangle's plane with a grid line.
 void Places::placeInTriangle(size_t v, size_t triangle, Vector<DoubleDouble>& place) const {
   const int w = onPlane(v, 0) ? (onPlane(v, 1) ? 2 : 1) : 0, p = (w + 1) % 3, q = (w + 2) % 3;
-  const double* a = corner(triangle, 0);
+  const double* a = mesh_.corner(triangle, 0);
   const Vector<DoubleDouble> normal = triangleNormal(triangle);
   if (normal[w].high == 0) return;
   const DoubleDouble slope = normal[p] * twoSum(plane(v, p), -a[p]) + normal[q] * twoSum(plane(v, q), -a[q]);

@@ -6,6 +6,7 @@
 #include "base/double_double.h"
 #include "base/parallel.h"
 #include "mandoline/cut_mesh.h"
+#include "mesh/mesh_part.h"
 #include "operators/measure/vector.h"
 
 namespace mandoline::measuring {
@@ -13,10 +14,10 @@ namespace mandoline::measuring {
 using detail::DoubleDouble;
 
 /// Coordinates of all vertices, as double-doubles made from their provenance: the tri-edge or triangle and the exact planes that they lie
-/// on. `mesh` is that of CutInput.
+/// on. `mesh` is that of CutInput, or a part of it.
 class Places {
  public:
-  Places(const MeshView& mesh, const CutMesh& cutMesh, detail::Monitor& monitor);
+  Places(const detail::NamedMesh& mesh, const CutMesh& cutMesh, detail::Monitor& monitor);
 
   const Vector<DoubleDouble>& operator[](size_t v) const { return places_[v]; }
 
@@ -31,15 +32,13 @@ class Places {
   Vector<DoubleDouble> triangleNormal(size_t t) const;
 
  private:
-  const double* triVertex(size_t v) const { return &mesh_.positions[3 * v]; }
-  const double* corner(size_t t, size_t i) const { return triVertex(mesh_.triangles[3 * t + i]); }
   bool onPlane(size_t v, int d) const { return (cutMesh_.vertexMask[v] >> d & 1) != 0; }
   double plane(size_t v, int d) const { return cutMesh_.grid.planes[size_t(d)][size_t(cutMesh_.vertexCell[3 * v + size_t(d)])]; }
   Vector<DoubleDouble> make(size_t v) const;
   void placeOnEdge(size_t v, const double* a, const double* b, Vector<DoubleDouble>& place) const;
   void placeInTriangle(size_t v, size_t triangle, Vector<DoubleDouble>& place) const;
 
-  const MeshView mesh_;
+  const detail::NamedMesh mesh_;
   const CutMesh& cutMesh_;
   std::vector<Vector<DoubleDouble>> places_;
 };

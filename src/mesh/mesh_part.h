@@ -1,0 +1,56 @@
+// Some vertices and triangles of a mesh, which keep the ids of the whole: what one of several processes has of the user's mesh.
+#pragma once
+
+#include "base/shared.h"
+#include "mandoline/mesh.h"
+
+namespace mandoline::detail {
+
+struct MeshPart {
+  std::vector<uint32_t> vertices;   ///< ids, ascending
+  std::vector<uint32_t> triangles;  ///< likewise
+  std::vector<double> positions;    ///< 3 per vertex
+  std::vector<uint32_t> corners;    ///< 3 per triangle: which vertices of the part
+
+  static void fields(auto& self, const auto& f) {
+    f("vertices", self.vertices);
+    f("triangles", self.triangles);
+    f("positions", self.positions);
+    f("corners", self.corners);
+  }
+};
+
+/// A mesh, or a part of one, which has to outlive this, by the ids of the whole. Throws Failure for what a part does not have
+/// (internalError).
+class NamedMesh {
+ public:
+  NamedMesh(const MeshView& mesh) : positions_(mesh.positions), corners_(mesh.triangles) {}
+  NamedMesh(const MeshPart& part)
+      : positions_(part.positions), corners_(part.corners), vertices_(&part.vertices), triangles_(&part.triangles) {}
+  NamedMesh(const MeshPart&&) = delete;
+
+  const double* vertex(size_t v) const { return at(vertices_ ? indexOf(v, *vertices_) : v); }
+  const double* corner(size_t triangle, size_t i) const { return at(cornerIndex(triangle, i)); }
+  uint32_t cornerId(size_t triangle, size_t i) const {
+    const uint32_t index = cornerIndex(triangle, i);
+    return vertices_ ? (*vertices_)[index] : index;
+  }
+
+ private:
+  MANDOLINE_SHARED static size_t indexOf(size_t id, const std::vector<uint32_t>& ids);
+  const double* at(size_t vertex) const { return positions_.data() + 3 * vertex; }
+  uint32_t cornerIndex(size_t triangle, size_t i) const {
+    return corners_[3 * (triangles_ ? indexOf(triangle, *triangles_) : triangle) + i];
+  }
+
+  std::span<const double> positions_;
+  std::span<const uint32_t> corners_;
+  const std::vector<uint32_t>*vertices_ = nullptr, *triangles_ = nullptr;  // null: all, in their order
+};
+
+/// Triangles with their vertices, and other vertices; ids in any order, also more than once.
+MANDOLINE_SHARED MeshPart takePart(const NamedMesh& mesh, std::vector<uint32_t> triangles, std::vector<uint32_t> vertices);
+/// What either of two parts of a mesh has.
+MANDOLINE_SHARED MeshPart united(const MeshPart& a, const MeshPart& b);
+
+}  // namespace mandoline::detail
