@@ -16,12 +16,15 @@ class Keeper {
     kept.before.assign(bricks_.size(), KeptBricks::kNone);
     kept.inner.assign(bricks_.size(), 1);
     kept.cuts.resize(bricks_.size());
+    const IdVector<BrickId, uint8_t> haveOthersBefore = findOthers(before_.parts, before_.bricks),
+                                     haveOthersNow = findOthers(parts_, bricks_);
     IdVector<BrickId, uint8_t> isKept(before_.bricks.size(), 0);
     BrickId was{0};
     for (const BrickId b : bricks_.ids()) {
       while (was.number < before_.bricks.size() && before_.bricks.keys[was] < bricks_.keys[b]) ++was.number;
       if (was.number == before_.bricks.size()) break;
-      if (before_.bricks.keys[was] != bricks_.keys[b] || !isSame(was, b)) continue;
+      if (before_.bricks.keys[was] != bricks_.keys[b]) continue;
+      if (haveOthersBefore[was] || haveOthersNow[b] || !isSame(was, b)) continue;
       kept.before[b] = was;
       isKept[was] = 1;
       kept.cuts[b] = renumbered(before_.cuts[was]);
@@ -41,23 +44,31 @@ class Keeper {
   }
 
  private:
+  /// Per brick: whether it has parts of triangles that are not the same.
+  IdVector<BrickId, uint8_t> findOthers(const SurfaceParts& parts, const Bricks& bricks) const {
+    IdVector<BrickId, uint8_t> haveOthers(bricks.size(), 0);
+    for (const ClippedTriangles::Part& part : parts.clipped.parts) {
+      if (now_.isSame(part.triangle)) continue;
+      const auto found = std::lower_bound(bricks.keys.begin(), bricks.keys.end(), part.brick);
+      haveOthers[{uint32_t(found - bricks.keys.begin())}] = 1;
+    }
+    return haveOthers;
+  }
+
+  /// Of bricks with parts of triangles that are the same alone: so these are as many if they are the same.
   bool isSame(BrickId was, BrickId is) const {
     const auto haveSame = [&](const auto& csrs, const auto& same) {
       const auto a = (before_.bricks.*csrs)[was];
       const auto b = (bricks_.*csrs)[is];
       return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
     };
-    return haveSame(&Bricks::parts,
-                    [&](uint32_t a, uint32_t b) { return isSamePart(before_.parts.clipped.parts[a], parts_.clipped.parts[b]); }) &&
+    return before_.bricks.parts[was].size() == bricks_.parts[is].size() &&
            haveSame(&Bricks::dividedFaces, [&](FaceId a, FaceId b) { return isSameFace(a, b); }) &&
            haveSame(&Bricks::faceEdges,
                     [&](uint32_t a, uint32_t b) {
                       return isSameEdge(faceEdge(before_.surface, before_.parts, a), faceEdge(surface_, parts_, b));
                     }) &&
            haveSame(&Bricks::seamVertices, [&](VertexId a, VertexId b) { return now_[a] == b; });
-  }
-  bool isSamePart(const ClippedTriangles::Part& a, const ClippedTriangles::Part& b) const {
-    return a.triangle == b.triangle && now_.isSame(a.triangle);
   }
   /// Of a divided triangle.
   bool isSameFace(FaceId was, FaceId is) const {

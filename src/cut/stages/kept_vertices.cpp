@@ -75,21 +75,26 @@ class Finder {
   }
 
   void addOfSurface() {
-    const CutVertices& vertices = cut_.surface.vertices;
-    IdVector<VertexId, uint32_t> numbers = numbers_.ofSurface;  // of those that are kept
-    for (const BrickId b : cut_.bricks.ids()) {
-      if (kept_.isInner(b)) continue;
-      const KeptAround around(before_, kept_, cut_, b);
-      for (const VertexId v : cut_.cuts[b].surfaceVertices) {
-        if (!kept_.has(b) || !around.haveKept(vertices.slab(v))) numbers[v] = Numbers::kUnused;
-      }
-    }
+    const IdVector<VertexId, uint8_t> areLost = findLostOfSurface();
     for (const VertexId was : kept_.vertices.ids()) {
       const VertexId v = kept_.vertices[was];
       if (v == KeptBricks::kNoVertex) continue;
-      if (v >= vertices.firstInTriangle) break;  // bricks own the others
-      if (numbers[v] != Numbers::kUnused) add(numbers[v], before_.numbers.ofSurface[was], 1);
+      if (v >= cut_.surface.vertices.firstInTriangle) break;  // bricks own the others
+      if (areLost[v]) continue;
+      const uint32_t number = numbers_.ofSurface[v];
+      if (number != Numbers::kUnused) add(number, before_.numbers.ofSurface[was], 1);
     }
+  }
+  /// Per vertex of the mesh and its edges: whether a brick has it that is not kept, or may have.
+  IdVector<VertexId, uint8_t> findLostOfSurface() const {
+    IdVector<VertexId, uint8_t> areLost(cut_.surface.vertices.size(), 0);
+    for (const BrickId b : cut_.bricks.ids()) {
+      if (kept_.isInner(b)) continue;
+      const KeptAround around(before_, kept_, cut_, b);
+      for (const VertexId v : cut_.cuts[b].surfaceVertices)
+        areLost[v] |= uint8_t(!kept_.has(b) || !around.haveKept(cut_.surface.vertices.slab(v)));
+    }
+    return areLost;
   }
 
   /// All vertices that an inner brick owns, which are in the order in which they were.
