@@ -141,14 +141,20 @@ void writeCells(const CutState& state, BrickId brick, CutMesh& out) {
   const HalfFace* halfFaces = cut.halfFaces.items.data();
   CellId cell{0};
   for (uint32_t row = 0; row < cut.rows.size(); ++row) {
-    const uint32_t past = cut.rows[row].pastCell, at = numbers.rows[brick][row].halfFaces, shift = at - offsets[cell.number];
+    const uint32_t past = cut.rows[row].pastCell;
+    if (cell.number == past) continue;
+    const uint32_t at = numbers.rows[brick][row].halfFaces, shift = at - offsets[cell.number];
     uint32_t c = numbers.rows[brick][row].cells - numbers.before.cells;
     std::transform(halfFaces + offsets[cell.number], halfFaces + offsets[past], out.cellHalfFaces.begin() + at,
                    [=](HalfFace h) { return HalfFace({faces[h.face().number]}, h.side()).number; });
     std::transform(&offsets[cell.number], &offsets[past], out.cellHalfFaceOffsets.begin() + c, [=](uint32_t o) { return o + shift; });
+    const uint32_t firstIndex = cut.gridCells[cell];
+    const Slab first = box.cellAt(firstIndex);  // the others lie beside it, along x
+    int32_t* gridCells = &out.cellGridCell[3 * size_t(c)];
     for (; cell.number < past; ++cell.number, ++c) {
-      const Slab gridCell = box.cellAt(cut.gridCells[cell]);
-      for (size_t d = 0; d < 3; ++d) out.cellGridCell[3 * size_t(c) + d] = gridCell[d] >> 1;
+      *gridCells++ = (first[0] >> 1) + int32_t(cut.gridCells[cell] - firstIndex);
+      *gridCells++ = first[1] >> 1;
+      *gridCells++ = first[2] >> 1;
       out.cellRegion[c] = regions[cut.components[cell]];
     }
   }

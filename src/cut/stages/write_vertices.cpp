@@ -31,6 +31,24 @@ class SlabsOf {
   const VertexId firstOwn_;
 };
 
+/// CutVertices::triangle() of many vertices.
+class TrianglesOf {
+ public:
+  explicit TrianglesOf(const CutVertices& vertices)
+      : own_(vertices.parentTriangles.data()),
+        surface_(vertices.surface ? vertices.surface->parentTriangles.data() : nullptr),
+        firstOwn_(vertices.firstOwn),
+        firstInTriangle_(vertices.firstInTriangle.number),
+        firstOfOwn_(std::max(vertices.firstInTriangle, vertices.firstOwn).number) {}
+
+  TriangleId operator[](VertexId v) const { return v < firstOwn_ ? surface_[v.number - firstInTriangle_] : own_[v.number - firstOfOwn_]; }
+
+ private:
+  const TriangleId *const own_, *const surface_;
+  const VertexId firstOwn_;
+  const uint32_t firstInTriangle_, firstOfOwn_;
+};
+
 /// Writes vertices in a row, array by array.
 class VertexWriter {
  public:
@@ -47,9 +65,8 @@ class VertexWriter {
     writeOfMesh(vertices, list.first(count), i);
     list = list.subspan(count);
     i += count;
-    writeParents(list, i, [&](VertexId v) {
-      return vertices.isOnEdge(v) ? endsOf(vertices.edges->line(vertices.triEdge(v))) : Parents{-1, -1};
-    });
+    const bool areOnEdges = list.empty() || list.front() >= vertices.firstOnEdge;
+    areOnEdges&& vertices.edges->lines.empty() ? writeEnds(vertices, list, i) : writeEndsOfLines(vertices, list, i);
     writePositions(vertices, list, i, predicates);
   }
 
@@ -57,7 +74,8 @@ class VertexWriter {
   void writeOthers(const CutVertices& vertices, List list, size_t i) {
     writePlaces(vertices, list, i);
     static_assert(int32_t(CutVertices::kNoTriangle.number) == -1);
-    writeParents(list, i, [&](VertexId v) { return Parents{int32_t(vertices.triangle(v).number), -1}; });
+    const TrianglesOf triangles(vertices);
+    writeParents(list, i, [=](VertexId v) { return Parents{int32_t(triangles[v].number), -1}; });
   }
 
   /// Of those that are not kept.
@@ -98,6 +116,21 @@ class VertexWriter {
       for (int k = 0; k < 2; ++k) *parents++ = int32_t(v.number);
       writeCoordinates(vertices.slab(v), i++, [&](size_t d) { return mesh_.positions[3 * size_t(v.number) + d]; });
     }
+  }
+  /// Of vertices on tri-edges that run between vertices of the mesh.
+  void writeEnds(const CutVertices& vertices, List list, size_t i) {
+    const TriEdgeId* const edges = vertices.parentEdges.data();
+    const std::array<VertexId, 2>* const ends = vertices.edges->ends.data();
+    const uint32_t first = vertices.firstOnEdge.number;
+    writeParents(list, i, [=](VertexId v) {
+      const auto& [low, high] = ends[edges[v.number - first].number];
+      return Parents{int32_t(low.number), int32_t(high.number)};
+    });
+  }
+  void writeEndsOfLines(const CutVertices& vertices, List list, size_t i) {
+    writeParents(list, i, [&](VertexId v) {
+      return vertices.isOnEdge(v) ? endsOf(vertices.edges->line(vertices.triEdge(v))) : Parents{-1, -1};
+    });
   }
   /// Of vertices that are not of the mesh.
   template <class ParentsOf>
