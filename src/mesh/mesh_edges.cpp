@@ -54,12 +54,13 @@ bool sameWay(const std::array<VertexId, 3>& a, const std::array<VertexId, 3>& b)
   return b[(at + 1) % 3] == a[1];
 }
 
+TriangleId triangleOf(const WeldedMesh& mesh, const Sides& sides, const SideUse& use) {
+  const size_t plain = 3 * mesh.triangles.size();
+  return use.slot() < plain ? TriangleId{use.slot() / 3} : sides.extras[use.slot() - plain].triangle;
+}
+
 /// Marks the higher one of two triangles with the same vertices among the users of one tri-edge.
 void dropDuplicates(WeldedMesh& mesh, std::span<const SideUse> users, const Sides& sides) {
-  const auto triangleOf = [&](const SideUse& use) {
-    const size_t plain = 3 * mesh.triangles.size();
-    return use.slot() < plain ? TriangleId{use.slot() / 3} : sides.extras[use.slot() - plain].triangle;
-  };
   const auto corners = [&](TriangleId t) {
     auto v = mesh.verticesOf(t);
     sortItems(v);
@@ -72,7 +73,7 @@ void dropDuplicates(WeldedMesh& mesh, std::span<const SideUse> users, const Side
     mesh.duplicates.push_back({std::min(s, t).number, std::max(s, t).number, sameWay(mesh.verticesOf(s), mesh.verticesOf(t))});
   };
   std::vector<TriangleId> triangles;
-  for (const SideUse& use : users) triangles.push_back(triangleOf(use));
+  for (const SideUse& use : users) triangles.push_back(triangleOf(mesh, sides, use));
   sortItems(triangles, [&](TriangleId s, TriangleId t) {
     const auto a = corners(s), b = corners(t);
     return a != b ? a < b : s < t;
@@ -179,7 +180,8 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
   edges.sideEdges.reserve(3 * mesh.triangles.size() + sides.extras.size());               // no more: it is kept
   edges.sideEdges.resize(3 * mesh.triangles.size() + sides.extras.size());
   edges.ends.reserve(offsets.back() / 2 + 16);
-  bool closed = true, oriented = true, paired = true;
+  bool closed = true, oriented = true;
+  std::vector<TriangleId> unpaired;
   uint32_t* const edgeOf = edges.sideEdges.data();
   SameTriangles same(3 * mesh.triangles.size());
   size_t begin = 0;
@@ -199,7 +201,9 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
       }
       closed &= 2 * forwards == use - first;
       oriented &= use - first != 2 || forwards == 1;
-      paired &= use - first == 2;
+      if (use - first != 2 && !arrangement) {
+        for (const SideUse* of = first; of != use; ++of) unpaired.push_back(triangleOf(mesh, sides, *of));
+      }
       edges.ends.push_back({low, high});
       if (same.mayBeAmong({first, use})) dropDuplicates(mesh, {first, use}, sides);
     }
@@ -209,7 +213,7 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
     mesh.closed = closed;
     mesh.oriented = oriented;
     sortItems(mesh.duplicates);
-    edges.arePaired = paired && mesh.duplicates.empty();
+    edges.unpaired = std::move(unpaired);
   } else if (!arrangement->madeEdges.empty()) {
     findLines(*arrangement, edges);
   }

@@ -1,6 +1,8 @@
 // Unique tri-edges: those of the kept triangles of a mesh and, where triangles meet, of their arrangement.
 #pragma once
 
+#include <optional>
+
 #include "mesh/resolve/arrangement.h"
 
 namespace mandoline::detail {
@@ -11,7 +13,8 @@ struct MeshEdges {
   Csr<TriEdgeId> stitched;           ///< tri-edges that together make a stitched side, from its lower tri-vertex to its higher
   Csr<TriEdgeId, TriangleId> inner;  ///< per triangle: tri-edges in its inside, ascending; no groups if there are none at all
   IdVector<TriEdgeId, Line> lines;   ///< that they lie on, directed from the lower end to the higher; empty if those are tri-vertices all
-  bool arePaired = false;            ///< whether it is known that each has two triangles and no more
+  /// The triangles with a tri-edge that is not of two triangles, in no order, maybe several times; if they are known.
+  std::optional<std::vector<TriangleId>> unpaired;
 
   static constexpr uint32_t kStitched = 1u << 31;
 

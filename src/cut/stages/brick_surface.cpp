@@ -19,7 +19,7 @@ class SurfaceCutter {
         box_(bricks.boxes[brick]),
         touched_(bricks.wordsOf(brick)),
         out_(out),
-        faces_(out.triFaces, 2 * bricks.parts[brick].size()),
+        faces_(out.triFaces, aboutAsMany(surface, bricks.parts[brick].size())),
         dicer_(input_, BrickGrid::same(0), *this) {
     dicer_.onlySweep = out.onlySweep;
   }
@@ -31,8 +31,8 @@ class SurfaceCutter {
     for (size_t i = 0; i < parts.size(); ++i) {
       if (i + 4 * kAhead < parts.size()) prefetch(all + parts[i + 4 * kAhead]);
       if (i + 3 * kAhead < parts.size()) prefetchTriangle(all[parts[i + 3 * kAhead]].triangle);
-      if (i + 2 * kAhead < parts.size()) prefetchCorners(all[parts[i + 2 * kAhead]].triangle);
-      if (i + kAhead < parts.size()) prefetchCrossings(all[parts[i + kAhead]].triangle);
+      if (i + 2 * kAhead < parts.size()) prefetchCorners(all[parts[i + 2 * kAhead]]);
+      if (i + kAhead < parts.size()) prefetchCrossings(all[parts[i + kAhead]]);
       cut(all[parts[i]]);
     }
     faces_.end();
@@ -76,6 +76,13 @@ class SurfaceCutter {
   }
 
  private:
+  /// The number of tri-cut-faces of so many triangles, as far as the surface's crossings tell it.
+  static size_t aboutAsMany(const Surface& surface, size_t triangles) {
+    const double edges = double(surface.edges().ends.size());
+    const double crossings = double(surface.vertices.firstInTriangle.number - surface.vertices.firstOnEdge.number) / std::max(edges, 1.0);
+    return size_t(double(triangles) * std::min(1 + 2 * crossings, 16.0));
+  }
+
   /// What a tri-cut-face has on axial planes.
   struct OnPlanes {
     bool touchesLine = false, surfaceTouchesLine = false;  ///< whether a vertex lies on a grid line, and one that is not the brick's own
@@ -88,12 +95,19 @@ class SurfaceCutter {
     prefetch(&input_.mesh->triangles[triangle.number]);
     prefetch(&surface_.edges().sideEdges[3 * size_t(triangle.number)]);
   }
-  void prefetchCorners(TriangleId triangle) const {
-    for (const VertexId v : input_.verticesOf(triangle)) prefetch(&slabs_[v.number]);
-    forSides(triangle, [&](const VertexId* offset) { prefetch(offset); });
+  void prefetchCorners(const ClippedTriangles::Part& part) const {
+    if (part.piece != ClippedTriangles::kWhole) return prefetch(&parts_.clipped.pieces.offsets[part.piece]);
+    for (const VertexId v : input_.verticesOf(part.triangle)) prefetch(&slabs_[v.number]);
+    forSides(part.triangle, [&](const VertexId* offset) { prefetch(offset); });
   }
-  void prefetchCrossings(TriangleId triangle) const {
-    forSides(triangle, [&](const VertexId* offset) { prefetch(slabs_ + offset->number); });
+  void prefetchCrossings(const ClippedTriangles::Part& part) const {
+    if (part.piece == ClippedTriangles::kWhole) {
+      forSides(part.triangle, [&](const VertexId* offset) { prefetch(slabs_ + offset->number); });
+    } else {
+      const Polygon piece = parts_.clipped.pieces[part.piece];
+      prefetch(&piece.front());
+      prefetch(&piece.back());
+    }
   }
   /// Calls f(offset) for those of the crossings on its sides, but for stitched ones.
   template <class F>

@@ -5,6 +5,7 @@
 
 #include "base/group_numbers.h"
 #include "base/position_table.h"
+#include "base/prefetch.h"
 
 namespace mandoline::detail {
 namespace {
@@ -29,6 +30,7 @@ class Separator {
 
  private:
   static constexpr size_t kVertices = 4096;  // about as many as a layer has, at least
+  static constexpr size_t kAhead = 16;       // vertices of a layer, whose positions are all over memory
 
   /// Groups vertices that are not kept.
   Csr<uint32_t> groupOthers(size_t count, Monitor& monitor) const {
@@ -53,7 +55,9 @@ class Separator {
 
   void separate(std::span<const uint32_t> layer) {
     PositionTable table(layer.size(), [&](uint32_t v) { return &out_.positions[3 * size_t(v)]; });
-    for (const uint32_t v : layer) {
+    for (size_t i = 0; i < layer.size(); ++i) {
+      if (i + kAhead < layer.size()) prefetch(&out_.positions[3 * size_t(layer[i + kAhead])]);
+      const uint32_t v = layer[i];
       double* p = &out_.positions[3 * size_t(v)];
       uint32_t* slot = &table.find(p);
       const Point original = {p[0], p[1], p[2]};
@@ -63,7 +67,7 @@ class Separator {
           if (out_.vertexMask[v] >> d & 1 || out_.vertexTriVertex[v] >= 0) continue;
           const double toward = out_.grid.planes[d][size_t(c) + (way & 1)];
           double x = original[d];
-          for (int i = 0; i < steps; ++i) x = std::nextafter(x, toward);
+          for (int k = 0; k < steps; ++k) x = std::nextafter(x, toward);
           if (x == toward) continue;
           std::copy(original.begin(), original.end(), p);
           p[d] = x;

@@ -238,7 +238,11 @@ bool isPlain(const CutVertices& vertices, Monitor& monitor) {
 IdVector<TriangleId, uint8_t> findUnpaired(const Input& input) {
   const MeshEdges& edges = input.mesh->edges;
   IdVector<TriangleId, uint8_t> unpaired;
-  if (edges.arePaired) return unpaired;
+  if (edges.unpaired) {
+    if (!edges.unpaired->empty()) unpaired.resize(input.mesh->triangles.size());
+    for (const TriangleId t : *edges.unpaired) unpaired[t] = 1;
+    return unpaired;
+  }
   IdVector<TriEdgeId, uint8_t> uses(edges.ends.size(), 0);
   unpaired.resize(input.mesh->triangles.size());
   const auto forKept = [&](const auto& f) {

@@ -27,7 +27,7 @@ TriFaceWriter::TriFaceWriter(TriFaces& out, size_t faces) : out_(out) {
   out.faceLoopOffsets.clear();
   out.hybridEdges.clear();
   out.otherParents.clear();
-  lengthen(faces, kBlock * faces);
+  lengthen(faces, kBlock * faces + faces / 2);
 }
 
 void TriFaceWriter::end() { resize(face_, item_); }

@@ -11,7 +11,7 @@ namespace mandoline::detail {
 
 class VertexPlaces {
  public:
-  static constexpr uint32_t kNone = ~0u;
+  static constexpr uint32_t kNone = ~0u;  // of() relies on all bits
 
   /// `places`: per vertex of the surface, kNone at first; and of those of bricks so far. `surfaceVertices` gets those that come.
   VertexPlaces(const CutVertices& vertices, IdVector<VertexId, uint32_t>& places, std::vector<VertexId>& surfaceVertices)
@@ -39,7 +39,8 @@ class VertexPlaces {
         uint32_t& place = places_[v.number];
         const bool isNew = place == kNone;
         list[known] = v;
-        places[i] = place = isNew ? ownCount_ + uint32_t(known) : place;
+        place &= (ownCount_ + uint32_t(known)) | (uint32_t(isNew) - 1);
+        places[i] = place;
         known += isNew;
       }
       surfaceVertices_.resize(known);

@@ -75,7 +75,11 @@ class VertexWriter {
     writePlaces(vertices, list, i);
     static_assert(int32_t(CutVertices::kNoTriangle.number) == -1);
     const TrianglesOf triangles(vertices);
-    writeParents(list, i, [=](VertexId v) { return Parents{int32_t(triangles[v].number), -1}; });
+    writeParents(list, i, [=, this](VertexId v) {
+      const TriangleId triangle = triangles[v];
+      if (triangle != CutVertices::kNoTriangle) prefetch(&input_.mesh->triangles[triangle.number]);  // for positions
+      return Parents{int32_t(triangle.number), -1};
+    });
   }
 
   /// Of those that are not kept.
@@ -102,8 +106,10 @@ class VertexWriter {
     int32_t* cells = out_.vertexCell.data() + 3 * i;
     uint8_t* masks = out_.vertexMask.data() + i;
     const SlabsOf slabs(vertices);
-    for (const VertexId v : list) {
-      const Slab& slab = slabs[v];
+    constexpr size_t kAhead = 16;
+    for (size_t k = 0; k < list.size(); ++k) {
+      if (k + kAhead < list.size()) prefetch(&slabs[list[k + kAhead]]);
+      const Slab& slab = slabs[list[k]];
       for (size_t d = 0; d < 3; ++d) *cells++ = slab[d] >> 1;
       *masks++ = uint8_t(7 - (slab[0] & 1) - 2 * (slab[1] & 1) - 4 * (slab[2] & 1));
     }
