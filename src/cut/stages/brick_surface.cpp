@@ -71,7 +71,7 @@ class SurfaceCutter {
     VertexId* const loop = faces_.makeLoop(polygon.size());
     writeIds(&polygon[first], polygon.size() - first, loop);
     writeIds(&polygon[0], first, loop + (polygon.size() - first));
-    const bool isPlain = isPlain_ && !isSpecial_;
+    const bool isPlain = isPlain_ && !isStitched_ && !isUnpaired_;
     endFace(polygon.size(), element, isPlain ? OnPlanes{highest >= firstInTriangle} : onPlanes(polygon));
   }
 
@@ -121,8 +121,8 @@ class SurfaceCutter {
 
   void cut(const ClippedTriangles::Part& part) {
     triangle_ = part.triangle;
-    const bool isStitched = surface_.edges().hasStitchedSide(triangle_);
-    isSpecial_ = isStitched || (!surface_.unpaired.empty() && surface_.unpaired[triangle_] != 0);
+    isStitched_ = surface_.edges().hasStitchedSide(triangle_);
+    isUnpaired_ = !surface_.unpaired.empty() && surface_.unpaired[triangle_] != 0;
     if (part.piece != ClippedTriangles::kWhole) {
       const Polygon piece = parts_.clipped.pieces[part.piece];
       outline_.clear();
@@ -135,7 +135,7 @@ class SurfaceCutter {
     const auto t = input_.verticesOf(triangle_);
     const Slab &a = slabs_[t[0].number], &b = slabs_[t[1].number], &c = slabs_[t[2].number];
     const Extent extent = Extent::of(a, b, c);
-    if (!extent.isOneElement() || isStitched) {
+    if (!extent.isOneElement() || isStitched_) {
       out_.inner.addOther(triangle_);
       outlineOf(surface_, triangle_, outline_);
       isPlain_ = surface_.isPlain || isPlain(outline_.all());
@@ -143,8 +143,8 @@ class SurfaceCutter {
     }
     std::copy_n(t.data(), 3, faces_.makeLoop(3));
     const int planes = std::max({planeCount(a), planeCount(b), planeCount(c)});
-    const FaceId face = endFace(3, extent.element(), {planes > 1, planes > 1, planes > 0 || isSpecial_});
-    if (!isSpecial_) out_.inner.add(face, triangle_);
+    const FaceId face = endFace(3, extent.element(), {planes > 1, planes > 1, planes > 0 || isUnpaired_});
+    if (!isUnpaired_) out_.inner.add(face, triangle_);
   }
 
   /// Whether those of the outline that are of the mesh lie on no plane, and the others, on tri-edges, on one each.
@@ -157,10 +157,18 @@ class SurfaceCutter {
     return onPlanes == onEdges;
   }
 
+  bool hasWholeEdge(Polygon polygon) const {
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const VertexId next = polygon[i + 1 < polygon.size() ? i + 1 : 0].id;
+      if (std::max(polygon[i].id, next) < out_.vertices.firstOnEdge) return true;
+    }
+    return false;
+  }
+
   OnPlanes onPlanes(Polygon polygon) const {
     const CutVertices& vertices = out_.vertices;
     OnPlanes on;
-    on.isSpecial = isSpecial_;
+    on.isSpecial = isStitched_ || (isUnpaired_ && hasWholeEdge(polygon));
     for (const Corner& c : polygon) {
       const int planes = planeCount(c.slab);
       on.touchesLine |= planes > 1;
@@ -222,8 +230,9 @@ class SurfaceCutter {
   BrickSurface& out_;
   TriFaceWriter faces_;
   TriangleId triangle_{0};
-  bool isSpecial_ = false;  // whether vertices are stitched into its sides, or it is unpaired
-  bool isPlain_ = false;    // whether all its vertices so far lie on the planes that they are made by alone, and all in it are the brick's
+  bool isStitched_ = false;  // whether vertices are stitched into its sides
+  bool isUnpaired_ = false;  // see Surface
+  bool isPlain_ = false;     // whether all its vertices so far lie on the planes that they are made by alone, and all in it are the brick's
   CornerRow outline_;
   Dicer<SurfaceCutter> dicer_;
 };
@@ -231,15 +240,13 @@ class SurfaceCutter {
 }  // namespace
 
 void InnerTriangles::addOther(TriangleId triangle) {
-  if (isReached_.empty()) isReached_.resize(edges_.ends.size());
-  const uint32_t* sides = &edges_.sideEdges[3 * size_t(triangle.number)];
+  const uint32_t* sides = &edges_->sideEdges[3 * size_t(triangle.number)];
   for (size_t i = 0; i < 3; ++i) {
     if (sides[i] < MeshEdges::kStitched) isReached_[{sides[i]}] = 1;
   }
 }
 
 void InnerTriangles::listFloating(std::vector<FaceId>& faces) {
-  if (isReached_.empty()) isReached_.resize(edges_.ends.size());
   size_t before;
   do {
     before = items_.size();
@@ -264,7 +271,7 @@ void InnerTriangles::dropNear() {
 }
 
 void InnerTriangles::dropConnected() {
-  if (firstItem_.empty()) firstItem_.resize(edges_.ends.size(), kNone);
+  if (firstItem_.empty()) firstItem_.resize(edges_->ends.size(), kNone);
   IdSets<Id<Item>> sets;
   sets.reset(items_.size() + 1);
   const Id<Item> reached{uint32_t(items_.size())};
@@ -289,7 +296,7 @@ void cutBrickSurface(const Surface& surface, const SurfaceParts& parts, BrickId 
   brickSurface.specialFaces.clear();
   brickSurface.onGridLines.clear();
   brickSurface.faceEdges.clear();
-  brickSurface.inner.clear();
+  brickSurface.inner.begin(surface.edges());
   if (brickSurface.faceEdges.capacity() == 0) {  // about as many, of the first brick, which is the heaviest
     brickSurface.faceEdges.reserve(3 * bricks.parts[brick].size());
     brickSurface.vertices.slabs.reserve(bricks.parts[brick].size());

@@ -13,12 +13,14 @@ namespace mandoline::detail {
 /// cell?
 class InnerTriangles {
  public:
-  explicit InnerTriangles(const MeshEdges& edges) : edges_(edges) {}
-
-  /// Begins with another brick.
-  void clear() { items_.clear(); }
+  /// Begins with another brick of the same surface.
+  void begin(const MeshEdges& edges) {
+    edges_ = &edges;
+    items_.clear();
+    isReached_.resize(edges.ends.size());
+  }
   /// One that lies inside of a cell, without stitched sides.
-  void add(FaceId face, TriangleId triangle) { items_.push_back({face, &edges_.sideEdges[3 * size_t(triangle.number)]}); }
+  void add(FaceId face, TriangleId triangle) { items_.push_back({face, &edges_->sideEdges[3 * size_t(triangle.number)]}); }
   /// One that leaves a cell.
   void addOther(TriangleId triangle);
   /// Appends the faces of those that are not connected to such.
@@ -34,7 +36,7 @@ class InnerTriangles {
   void dropNear();
   void dropConnected();
 
-  const MeshEdges& edges_;
+  const MeshEdges* edges_ = nullptr;
   std::vector<Item> items_;  // those that are left
   // Of a tri-edge inside of a cell, which one brick has and no other:
   IdVector<TriEdgeId, uint8_t> isReached_;   // whether it is of a triangle that leaves the cell, or is connected to one
@@ -43,8 +45,7 @@ class InnerTriangles {
 
 /// All of it that the later stages see. Ids of vertices from vertices.firstOwn on and of faces are numbers in the brick.
 struct BrickSurface {
-  explicit BrickSurface(const Surface& surface)
-      : input(surface.input), vertices(CutVertices::ofBrick(surface.vertices)), inner(surface.edges()) {}
+  explicit BrickSurface(const Surface& surface) : input(surface.input), vertices(CutVertices::ofBrick(surface.vertices)) {}
 
   const Input& input;
   CutVertices vertices;

@@ -22,9 +22,10 @@ class PartedCell {
   void begin(const BrickSurface& surface, const Stencil& stencil);
 
   /// Finds the side of each piece of the cell's grid-faces. False, without sides to use, unless it is one sheet of few faces that parts the
-  /// cell, none of them special, and no tri-edge lies in its grid-faces. Special are faces of divided triangles, of those with stitched
-  /// sides, and of those with a tri-edge that is not of two triangles; triangles inside of the cell that are not connected to others; and
-  /// faces with a vertex on more planes than its kind needs: none for those of the mesh, one on tri-edges, two in triangles.
+  /// cell, none of them special, and no tri-edge lies in its grid-faces. Special are faces of divided triangles and of those with stitched
+  /// sides; faces that have a whole tri-edge, of triangles one of whose tri-edges is not of two; triangles inside of the cell that are not
+  /// connected to others; and faces with a vertex on more planes than its kind needs: none for those of the mesh, one on tri-edges, two in
+  /// triangles.
   bool find(const BrickSurface& surface, const Stencil& stencil, const GridFaces& grid, GridCellId cell);
 
   /// By the cell's grid-faces, then as GridFaces has their half-faces.
