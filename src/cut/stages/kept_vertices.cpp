@@ -76,13 +76,21 @@ class Finder {
 
   void addOfSurface() {
     const IdVector<VertexId, uint8_t> areLost = findLostOfSurface();
-    for (const VertexId was : kept_.vertices.ids()) {
-      const VertexId v = kept_.vertices[was];
-      if (v == KeptBricks::kNoVertex) continue;
-      if (v >= cut_.surface.vertices.firstInTriangle) break;  // bricks own the others
-      if (areLost[v]) continue;
-      const uint32_t number = numbers_.ofSurface[v];
-      if (number != Numbers::kUnused) add(number, before_.numbers.ofSurface[was], 1);
+    const VertexId *const nows = kept_.vertices.data(), firstInTriangle = cut_.surface.vertices.firstInTriangle;
+    const uint32_t *const numbers = numbers_.ofSurface.data(), *const numbersBefore = before_.numbers.ofSurface.data();
+    for (uint32_t was = 0, past = uint32_t(kept_.vertices.size()); was < past;) {
+      const uint32_t first = was++, v = nows[first].number;
+      if (nows[first] == KeptBricks::kNoVertex) continue;
+      if (nows[first] >= firstInTriangle) break;  // bricks own the others
+      const uint32_t number = numbers[v], numberBefore = numbersBefore[first];
+      if (number == Numbers::kUnused || areLost[{v}]) continue;
+      const auto isNext = [&](uint32_t at) {
+        const uint32_t next = v + (at - first);
+        return nows[at].number == next && nows[at] < firstInTriangle && !areLost[{next}] && numbers[next] == number + (at - first) &&
+               numbersBefore[at] == numberBefore + (at - first);
+      };
+      while (was < past && isNext(was)) ++was;
+      add(number, numberBefore, was - first);
     }
   }
   /// Per vertex of the mesh and its edges: whether a brick has it that is not kept, or may have.

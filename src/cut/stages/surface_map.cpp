@@ -113,7 +113,6 @@ bool SurfaceMap::isSameSide(uint32_t before, uint32_t now) const {
 
 bool SurfaceMap::isSameTriangle(TriangleId t) const {
   if (hasMoved(t) || !meshNow().kept(t)) return false;
-  if (areEdgesSame_) return true;
   for (size_t side = 3 * size_t(t.number); side < 3 * size_t(t.number) + 3; ++side) {
     if (!isSameSide(before_.edges->sideEdges[side], now_.edges->sideEdges[side])) return false;
   }
@@ -136,7 +135,17 @@ bool SurfaceMap::haveSameOnThem(TriangleId t) const {
 
 void SurfaceMap::findSameTriangles() {
   same_.resize(meshBefore().triangles.size());
-  for (const TriangleId t : same_.ids()) same_[t] = isSameTriangle(t);
+  if (!areEdgesSame_) {
+    for (const TriangleId t : same_.ids()) same_[t] = isSameTriangle(t);
+    return;
+  }
+  const auto* triangles = meshBefore().triangles.data();
+  const TriangleState* states = meshNow().states.data();
+  const uint8_t* moved = moved_.data();
+  for (size_t t = 0; t < same_.size(); ++t) {
+    const auto& [a, b, c] = triangles[t];
+    same_.data()[t] = uint8_t(!(moved[a] | moved[b] | moved[c]) & (states[t] == TriangleState::kept));
+  }
 }
 
 /// Both lists ascend by triangle.

@@ -226,12 +226,34 @@ void collectInPlane(Surface& surface) {
   }
 }
 
-/// Whether Surface::isPlain. Not where some ids of crossings are unused.
-bool isPlain(const CutVertices& vertices, Monitor& monitor) {
-  const auto chunks = forChunks<uint8_t>(vertices.slabs.size(), monitor, [&](uint8_t& isOther, size_t begin, size_t end) {
-    for (size_t v = begin; v < end; ++v) isOther |= planeCount(vertices.slabs[v]) != int(v >= vertices.firstOnEdge.number);
-  });
-  return std::count(chunks.begin(), chunks.end(), 0) == std::ptrdiff_t(chunks.size());
+/// Whether vertices lie on as many planes each.
+bool areOn(int planes, const Slab* slabs, size_t first, size_t past) {
+  bool isAnyOther = false;
+  for (size_t v = first; v < past; ++v) isAnyOther |= planeCount(slabs[v]) != planes;
+  return !isAnyOther;
+}
+
+/// Cuts tri-edges first .. past - 1. Whether their crossings lie on one plane each; not where some ids of crossings are unused.
+template <class CutEdge>
+bool cutEdges(TriEdgeId first, TriEdgeId past, Surface& surface, const KnownCrossings* known, const CutEdge& cutNew) {
+  CutVertices& vertices = surface.vertices;
+  const auto areOnOne = [&](TriEdgeId begin, TriEdgeId end) {
+    return areOn(1, vertices.slabs.data(), vertices.crossingOffsets[begin.number].number, vertices.crossingOffsets[end.number].number);
+  };
+  bool areAll = true;
+  for (TriEdgeId e = first; e < past;) {
+    const TriEdgeId pastKnown = known ? known->pastKnown(e, past) : e;
+    if (e < pastKnown) {
+      copyCrossings(known->surface().vertices, e, pastKnown, vertices);
+      areAll = areAll && (known->surface().isPlain || areOnOne(e, pastKnown));
+      e = pastKnown;
+    } else {
+      cutNew(e);
+      areAll = areAll && areOnOne(e, {e.number + 1});
+      ++e.number;
+    }
+  }
+  return areAll;
 }
 
 /// Surface::unpaired.
@@ -287,22 +309,19 @@ void cutTriEdges(Surface& surface, Run& run, const KnownCrossings* known) {
   vertices.slabs.assign(input.slabs.begin(), input.slabs.end());
   vertices.slabs.resize(vertices.firstInTriangle.number);
   vertices.parentEdges.resize(vertices.firstInTriangle.number - input.slabs.size());
-  const auto chunks =
-      forChunks<Predicates>(surface.edges().ends.size(), run.monitor, [&](Predicates& predicates, size_t begin, size_t end) {
-        const TriEdgeId past{uint32_t(end)};
-        for (TriEdgeId e{uint32_t(begin)}; e < past;) {
-          const TriEdgeId pastKnown = known ? known->pastKnown(e, past) : e;
-          if (e < pastKnown) {
-            copyCrossings(known->surface().vertices, e, pastKnown, vertices);
-            e = pastKnown;
-          } else {
-            cutEdge(e, surface, run.onlyGeneral, predicates);
-            ++e.number;
-          }
-        }
-      });
-  for (const Predicates& p : chunks) run.count(p);
-  surface.isPlain = isPlain(vertices, run.monitor);
+  struct Chunk {
+    Predicates predicates;
+    bool areOnOne = true;
+  };
+  const auto chunks = forChunks<Chunk>(surface.edges().ends.size(), run.monitor, [&](Chunk& chunk, size_t begin, size_t end) {
+    const auto cutNew = [&](TriEdgeId e) { cutEdge(e, surface, run.onlyGeneral, chunk.predicates); };
+    chunk.areOnOne &= cutEdges({uint32_t(begin)}, {uint32_t(end)}, surface, known, cutNew);
+  });
+  surface.isPlain = areOn(0, vertices.slabs.data(), 0, vertices.firstOnEdge.number);
+  for (const Chunk& chunk : chunks) {
+    run.count(chunk.predicates);
+    surface.isPlain = surface.isPlain && chunk.areOnOne;
+  }
   surface.unpaired = findUnpaired(input);
   collectInPlane(surface);
 }
