@@ -33,7 +33,7 @@ struct Recutter::Data {
     const KnownSlabs* slabs() override { return &slabs_; }
     const KnownCrossings& crossings() override { return crossings_.emplace(before_.surface, now_.surface, moved_); }
     KnownClips& clips() override {
-      map_.emplace(before_.surface, now_.surface, moved_);
+      map_.emplace(*crossings_, now_.surface, moved_);
       return clips_.emplace(before_.surface, before_.parts.clipped, *map_);
     }
     KeptBricks& bricks() override {

@@ -43,7 +43,7 @@ class Rooms {
     makeForTriFaces(&CutMesh::facePlane, 0);
     make(&CutMesh::faceParents, total_.parents);
     makeForTriFaces(&CutMesh::faceAxis, int8_t(-1));
-    make(&CutMesh::faceParentSigns, total_.parents);
+    makeFilled(&CutMesh::faceParentSigns, total_.parents, int8_t(1));
     touch();
   }
   void makeForVertices(size_t surfaceVertices) {
@@ -51,7 +51,7 @@ class Rooms {
     make(&CutMesh::positions, 3 * vertices);
     make(&CutMesh::vertexCell, 3 * vertices);
     make(&CutMesh::vertexParents, 2 * vertices);
-    make(&CutMesh::vertexTriVertex, vertices);
+    makeFilled(&CutMesh::vertexTriVertex, vertices, -1);
     make(&CutMesh::vertexMask, vertices);
     touch();
   }
@@ -73,6 +73,11 @@ class Rooms {
   template <class Item>
   void make(std::vector<Item> CutMesh::*array, size_t count) {
     make(array, count, [](std::vector<Item>&) {});
+  }
+  /// Of one in which most have the same.
+  template <class Item>
+  void makeFilled(std::vector<Item> CutMesh::*array, size_t count, Item item) {
+    make(array, count, [item](std::vector<Item>& items) { std::fill(items.begin(), items.end(), item); });
   }
   /// Of one in which all tri-cut-faces have the same.
   template <class Item>

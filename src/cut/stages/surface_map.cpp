@@ -11,8 +11,8 @@ constexpr uint32_t kNoEdge = ~0u;
 
 }  // namespace
 
-SurfaceMap::SurfaceMap(const Surface& before, const Surface& now, const Moved& moved)
-    : before_(before.vertices), now_(now.vertices), moved_(moved), vertices_(before.vertices.size(), kNone) {
+SurfaceMap::SurfaceMap(const CrossingsBefore& crossings, const Surface& now, const Moved& moved)
+    : before_(crossings.surface().vertices), now_(now.vertices), moved_(moved), vertices_(before_.size(), kNone) {
   for (const VertexId v : moved.ids()) {
     if (!moved[v]) vertices_[v] = v;
   }
@@ -21,7 +21,7 @@ SurfaceMap::SurfaceMap(const Surface& before, const Surface& now, const Moved& m
   checkOrder();
   if (!isOrdered_) return;
   areEdgesSame_ = !meshBefore().hasIntersections() && !meshNow().hasIntersections();
-  areEdgesSame_ ? mapSameEdges(CrossingsBefore(before, now, moved)) : mapEdges();
+  areEdgesSame_ ? mapSameEdges(crossings) : mapEdges();
   findSameTriangles();
 }
 

@@ -11,8 +11,8 @@ class SurfaceMap {
  public:
   static constexpr VertexId kNone = KeptBricks::kNoVertex;
 
-  /// Once the tri-edges of both are cut.
-  SurfaceMap(const Surface& before, const Surface& now, const Moved& moved);
+  /// Once the tri-edges of both are cut; `crossings`: of the surface before, known of the one now.
+  SurfaceMap(const CrossingsBefore& crossings, const Surface& now, const Moved& moved);
   /// Maps the vertices in triangles, once those are clipped.
   void mapInTriangles();
 

@@ -93,11 +93,11 @@ class FaceWriter {
     std::transform(triangles + first, triangles + past, to, [](TriangleId t) { return Number(t.number); });
   }
 
+  /// Whose signs are 1, as they all are at first.
   void writeSingleParents(uint32_t first, uint32_t past, uint32_t f, uint32_t& at) {
     const uint32_t count = past - first;
     std::iota(&out_.faceParentOffsets[f], &out_.faceParentOffsets[f] + count, at);
     copyTriangles(first, past, &out_.faceParents[at]);
-    std::fill_n(&out_.faceParentSigns[at], count, int8_t(1));
     at += count;
   }
 

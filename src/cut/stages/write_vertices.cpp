@@ -138,10 +138,9 @@ class VertexWriter {
       return vertices.isOnEdge(v) ? endsOf(vertices.edges->line(vertices.triEdge(v))) : Parents{-1, -1};
     });
   }
-  /// Of vertices that are not of the mesh.
+  /// Of vertices that are not of the mesh. So they are no tri-vertex, as they all are not at first.
   template <class ParentsOf>
   void writeParents(List list, size_t i, const ParentsOf& parentsOf) {
-    std::fill_n(out_.vertexTriVertex.begin() + ptrdiff_t(i), list.size(), -1);
     int32_t* parents = out_.vertexParents.data() + 2 * i;
     for (const VertexId v : list) {
       const Parents of = parentsOf(v);
