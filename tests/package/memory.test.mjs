@@ -55,6 +55,23 @@ test('1,000 cuts with breaks, half of them kept, leave the memory flat', async (
 /** Rows of untouched grid cells take 16 bytes each. */
 const rows = (n) => ({ min: [0, 0, 0], max: [1, 1, 1], cells: [1, n, n] });
 
+test('large cuts in a row soon take the memory of those before', () => {
+  const sizes = [];
+  for (let i = 0; i < 8; ++i) {
+    mandoline.cut(small, rows(2 ** 10), { gridCellRegion: false }); // 16 MB
+    sizes.push(memorySize());
+  }
+  assert.deepEqual(new Set(sizes.slice(3)), new Set([sizes[3]]));
+});
+
+test('a prepared mesh does not give way to the large cuts made of it', () => {
+  const prepared = mandoline.prepare(small);
+  for (let i = 0; i < 3; ++i) {
+    const { stats } = mandoline.cut(prepared, rows(2 ** 11), { gridCellRegion: false }); // 64 MB
+    assert.equal(stats.stages[0].stage, 'grid'); // else the mesh would be prepared once more
+  }
+});
+
 test('twins of results that are gone are freed', async () => {
   setFlagsFromString('--expose-gc');
   const collectGarbage = runInNewContext('gc');

@@ -21,14 +21,14 @@ function readArgument(taken, value, name, asInput) {
 
 /**
  * Keeps the twin that a call returned, and gives the call's outcome without it. Without one, the result is to get it where it is first read,
- * unless the call was told not to keep any.
+ * unless the call was told not to keep any. Twins that the call used, by these handles, don't give way to it.
  */
-function keepTwin({ value: given, error }, { member }, origin, host, twins) {
+function keepTwin({ value: given, error }, { member }, { origin, host, twins, handles = [] }) {
   if (error) return { error };
   const { value, twin } = given;
   const result = member ? value[member] : value;
   if (origin.keep !== false) host.adopt(result, origin);
-  if (twin) twins.keep(result, twin);
+  if (twin) twins.keep(result, twin, [...handles, twin]);
   return { value };
 }
 
@@ -72,7 +72,7 @@ export function makeCall(host, name, call) {
         const args = readings.map((give) => give(handles));
         const outcome = run(bindings, ...args, ...(options ? [{ ...safe, copy }] : []));
         if (gives) return withObject(outcome, call, host, bindings);
-        return keeps ? keepTwin(outcome, call, { kind: keeps, ...what }, host, twins) : outcome;
+        return keeps ? keepTwin(outcome, call, { origin: { kind: keeps, ...what }, host, twins, handles }) : outcome;
       });
     });
   };
@@ -85,7 +85,7 @@ function makeFileCall(host, name, call, load) {
     const callIn = (one) =>
       one.run((bindings, twins) => {
         const outcome = bindings[name](bytes, fileName);
-        return keeps ? keepTwin(outcome, call, { kind: keeps }, one, twins) : outcome;
+        return keeps ? keepTwin(outcome, call, { origin: { kind: keeps }, host: one, twins }) : outcome;
       });
     return callIn(host) ?? callIn((await load(orIn)).host);
   };

@@ -1,5 +1,9 @@
 const mostTwins = 16;
-const mostBytes = 2 ** 28;
+/**
+ * With one more of the latest's size, which the next call may make. Not much, since memory that was freed is faster than memory that is new
+ * to the system.
+ */
+const mostBytes = 2 ** 26;
 
 /**
  * The cut-meshes that stay in an instance of the module, each found by the result that it is the twin of. Collecting garbage frees the
@@ -25,7 +29,7 @@ export class Twins {
     this.#handles.set(id, handle);
     this.#bytes += handle.bytes();
     for (const [oldest, other] of this.#handles) {
-      if (inUse.includes(other) || (this.#handles.size <= mostTwins && this.#bytes <= mostBytes)) break;
+      if (inUse.includes(other) || (this.#handles.size <= mostTwins && this.#bytes + handle.bytes() <= mostBytes)) break;
       this.#free(oldest);
     }
   }
