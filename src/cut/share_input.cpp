@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "cut/stages/input.h"
-#include "mesh/fingerprints.h"
 
 namespace mandoline::detail {
 namespace {
@@ -20,53 +19,67 @@ bool goesOn(const Body& body) {
 
 }  // namespace
 
-ShareInputMaker::ShareInputMaker(std::shared_ptr<const Mesh> mesh, const Grid& grid, const ShareOf& shareOf, const PrepareOptions& options)
-    : mesh_(std::move(mesh)), grid_(grid), shareOf_(shareOf), options_(options), monitor_(options_, kMeshStages) {
+ShareInputMaker::ShareInputMaker(const MeshFacts& facts, const Grid& grid, const ShareOf& shareOf, const PrepareOptions& options)
+    : facts_(facts), grid_(grid), shareOf_(shareOf), options_(options), monitor_(options_, kMeshStages) {
   in_->intersections = options.intersections;
+  in_->fingerprint = facts.fingerprint;
   clock_.emplace(in_->preparation, monitor_);
 }
 
-bool ShareInputMaker::begin(std::vector<uint64_t>& work) {
-  if (!mesh_ || options_.orient) return false;
+bool ShareInputMaker::begin(const MeshPart& some, std::vector<uint64_t>& work) {
   clock_->begin("input");
-  const Mesh& mesh = *mesh_;
   return goesOn([&] {
     checkGrid(grid_, 0);
-    checked_ = checkInput(mesh, 0);
-    if (!fits(checked_.shift, grid_)) return false;
-    in_->fingerprint = fingerprintOf(mesh);
-    const Scale scale(checked_.shift);
+    if (!fits(facts_.shift, grid_)) return false;
+    const Scale scale(facts_.shift);
     uint32_t flushed = 0;
     in_->input.planes = scaledPlanes(grid_, scale, flushed);
     const SlabFinder finder(in_->input.planes);
     LayerWork layerWork(in_->input);
     const auto slab = [&](uint32_t v) {
-      const double* p = &mesh.positions[3 * size_t(v)];
+      const double* p = &some.positions[3 * size_t(v)];
       return finder.find({scale.scaled(p[0], flushed), scale.scaled(p[1], flushed), scale.scaled(p[2], flushed)});
     };
-    const uint64_t count = mesh.triangleCount();
-    for (size_t t = count * shareOf_.index / shareOf_.count; t < count * (shareOf_.index + 1) / shareOf_.count; ++t)
-      layerWork.add(slab(mesh.triangles[3 * t]), slab(mesh.triangles[3 * t + 1]), slab(mesh.triangles[3 * t + 2]));
+    for (size_t i = 0; i < some.corners.size(); i += 3)
+      layerWork.add(slab(some.corners[i]), slab(some.corners[i + 1]), slab(some.corners[i + 2]));
     work = layerWork.perLayer();
     return true;
   });
 }
 
-bool ShareInputMaker::prepare(const std::vector<uint64_t>& work) {
+void ShareInputMaker::makeBands(const std::vector<uint64_t>& work) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   in_->layers.emplace(in_->input, work, shareOf_.count);
-  const CellLayers layers = in_->layers->of(shareOf_.index);
   const std::vector<double>& planes = in_->input.planes[2];
-  Band band{kFar, -kFar};  // of no layers
-  if (layers.first < layers.past) {
+  for (uint32_t share = 0; share < shareOf_.count; ++share) {
+    const CellLayers layers = in_->layers->of(share);
+    Band& band = bands_.emplace_back(Band{kFar, -kFar});  // of no layers
+    if (layers.first == layers.past) continue;
     band.low = layers.first == 0 ? -kFar : planes[size_t(layers.first)];
     band.high = layers.past == in_->input.cells(2) ? kFar : planes[size_t(layers.past)];
   }
+}
+
+bool ShareInputMaker::prepare(BandTriangles triangles) {
   return goesOn([&] {
-    in_->band = weldBand(*mesh_, std::move(checked_), band);
+    in_->band = weldBand(triangles, facts_.shift, band());
+    keepSurface(triangles);
+    triangles = {};
     if (in_->intersections != Intersections::assumeNone) clock_->begin("intersections");
     return findPlainEdges(*in_->band, in_->intersections, monitor_, predicates_);
   });
+}
+
+/// What lies within the band, with the tri-vertices that stand for several.
+void ShareInputMaker::keepSurface(const BandTriangles& from) {
+  std::vector<uint32_t> triangles, vertices;
+  for (size_t t = 0; t < from.isWithin.size(); ++t) {
+    if (from.isWithin[t]) triangles.push_back(from.part.triangles[t]);
+  }
+  for (size_t v = 0; v < in_->band->vertices.size(); ++v) {
+    if (in_->band->isComplete[v]) vertices.push_back(in_->band->vertices[v]);
+  }
+  in_->surface = std::make_shared<MeshPart>(takePart(from.part, std::move(triangles), std::move(vertices)));
 }
 
 BandFindings ShareInputMaker::found() const { return {inspectEdges(*in_->band), in_->band->weldedVertices}; }
@@ -91,7 +104,7 @@ std::vector<int64_t> ShareInputMaker::join(const BandFindings& whole, const std:
 
 std::vector<uint8_t> ShareInputMaker::trianglesOf(PartKind kind) const {
   const MeshBand& band = *in_->band;
-  std::vector<uint8_t> flags(mesh_->triangleCount(), 0);
+  std::vector<uint8_t> flags(facts_.triangles, 0);
   for (size_t t = 0; t < band.triangles.size(); ++t) {
     if (band.isWithin[t] && band.mesh.parts.kinds[t] == kind) flags[band.triangles[t]] = 1;
   }
@@ -104,7 +117,7 @@ CrossingCounts ShareInputMaker::crossings() const {
   std::vector<uint64_t> counts(band.vertices.size(), 0);
   for (const auto& ends : band.mesh.edges.ends) counts[ends[0].number] += crossingIds(slabs[ends[0]], slabs[ends[1]]);
   CrossingCounts known;
-  known.counts.assign(mesh_->vertexCount(), 0);
+  known.counts.assign(facts_.vertices, 0);
   for (size_t v = 0; v < counts.size(); ++v) {
     if (!band.isComplete[v]) continue;
     requireFewVertices(counts[v]);
@@ -143,25 +156,11 @@ void ShareInputMaker::numberCrossings(const CrossingCounts& all) {
   in_->wholeVertices = uint32_t(next);
 }
 
-/// With the tri-vertices that stand for several.
-void ShareInputMaker::takeSurface() {
-  const MeshBand& band = *in_->band;
-  std::vector<uint32_t> triangles, vertices;
-  for (size_t t = 0; t < band.triangles.size(); ++t) {
-    if (band.isWithin[t]) triangles.push_back(band.triangles[t]);
-  }
-  for (size_t v = 0; v < band.vertices.size(); ++v) {
-    if (band.isComplete[v]) vertices.push_back(band.vertices[v]);
-  }
-  in_->surface = std::make_shared<MeshPart>(takePart(MeshView(*mesh_), std::move(triangles), std::move(vertices)));
-}
-
 std::unique_ptr<ShareInput> ShareInputMaker::take(const SharedFindings& all) {
   MeshBand& band = *in_->band;
   in_->input.cornerWinding.assign(all.cornerWinding.begin(), all.cornerWinding.end());
   numberCrossings(all.crossings);
-  takeSurface();
-  WholeTriangles& triangles = in_->triangles.emplace(uint32_t(mesh_->triangleCount()));
+  WholeTriangles& triangles = in_->triangles.emplace(uint32_t(facts_.triangles));
   for (uint32_t t = 0; t < all.inParity.size(); ++t) {
     if (all.inParity[t]) triangles.parity.push_back(t);
   }

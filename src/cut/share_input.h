@@ -1,10 +1,12 @@
 // The input of one of several processes that cut together, of which each prepares only what it cuts: of a plain mesh, see mesh_band.h,
-// that all of them have.
+// of
+// which each has some triangles at first.
 //
-//   ShareInputMaker maker(mesh, grid, {index, count}, options);  // in each, of the same mesh and grid
-//   maker.begin(work), maker.prepare(work)                       // work: between them its sums over all
-//   maker.join(whole, setOf, parts)                              // whole: what all found(); parts: those of all, if need be
-//   maker.take({...})                                            // with the sums of all that join() gave, ...
+//   ShareInputMaker maker(facts, grid, {index, count}, options);  // in each, of the same mesh and grid
+//   maker.begin(some, work), maker.makeBands(work)                // work: between them its sums over all
+//   maker.prepare(triangles)                                      // those of this one of bands()
+//   maker.join(whole, setOf, parts)                               // whole: what all found(); parts: those of all, if need be
+//   maker.take({...})                                             // with the sums of all that join() gave, ...
 #pragma once
 
 #include "cut/driver.h"
@@ -43,15 +45,28 @@ struct SharedFindings {
   std::vector<uint8_t> inParity, inOpen;  ///< per triangle of the whole whether it is of such a part; empty if none is
 };
 
+/// What all processes know of a mesh.
+struct MeshFacts {
+  uint64_t vertices = 0, triangles = 0;
+  Fingerprint fingerprint;
+  int shift = 0;  ///< see Prepared
+};
+
 class MANDOLINE_SHARED ShareInputMaker {
  public:
-  ShareInputMaker(std::shared_ptr<const Mesh> mesh, const Grid& grid, const ShareOf& shareOf, const PrepareOptions& options);
+  ShareInputMaker(const MeshFacts& facts, const Grid& grid, const ShareOf& shareOf, const PrepareOptions& options);
 
   /// Gives the work of layers that some of the triangles are, of all shares all. False where the mesh is to be prepared as a whole, which
   /// also tells what is wrong with it.
-  bool begin(std::vector<uint64_t>& work);
+  bool begin(const MeshPart& some, std::vector<uint64_t>& work);
+  void makeBands(const std::vector<uint64_t>& work);
+  /// Of all shares.
+  const std::vector<Band>& bands() const { return bands_; }
+  const Band& band() const { return bands_[shareOf_.index]; }
   /// Prepares what it cuts. False as above.
-  bool prepare(const std::vector<uint64_t>& work);
+  bool prepare(BandTriangles triangles);
+  /// The triangles within its band.
+  const MeshPart& surface() const { return *in_->surface; }
   BandFindings found() const;
   BandParts parts() const;
   /// `parts` are needed where the whole is not closed, and where partCounts() are to be known. Gives the winding numbers at the lowest
@@ -65,9 +80,8 @@ class MANDOLINE_SHARED ShareInputMaker {
 
  private:
   void numberCrossings(const CrossingCounts& all);
-  void takeSurface();
-
-  const std::shared_ptr<const Mesh> mesh_;
+  void keepSurface(const BandTriangles& from);
+  const MeshFacts facts_;
   const Grid& grid_;
   const ShareOf shareOf_;
   const PrepareOptions options_;
@@ -75,7 +89,7 @@ class MANDOLINE_SHARED ShareInputMaker {
   Predicates predicates_;
   std::unique_ptr<ShareInput> in_ = std::make_unique<ShareInput>();
   std::optional<Clock> clock_;
-  CheckedMesh checked_;
+  std::vector<Band> bands_;
   PartCounts partCounts_;
 };
 

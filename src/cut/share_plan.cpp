@@ -243,11 +243,14 @@ struct SharePlanner::Data {
 
   uint64_t bytesOfView() const { return bytesOf(mesh.view().positions, mesh.view().triangles); }
   uint64_t memoryPreparing(uint32_t rank, uint32_t ranks, const CellLayers& layers) const {
-    constexpr uint64_t kVertexBytes = 5;  // of all vertices, to find those of a band
+    constexpr uint64_t kVertexBytes = 1;  // of all vertices: how many crossings begin there
     const bool isShare = isInShares && ranks > 1;
     const uint64_t each = rank == 0 && !isShare ? kInspectingBytes : kPreparingBytes;
     const uint64_t whole = bytesOfPrepared(mesh.prepared()) + each * mesh.view().triangleCount();
-    return bytesOfView() + (isShare ? uint64_t(reach->prepared(layers) * double(whole)) + kVertexBytes * mesh.view().vertexCount() : whole);
+    if (!isShare) return bytesOfView() + whole;
+    // The slice, with its triangles' vertices, and what is sent; then what comes from others.
+    const uint64_t slice = 3 * bytesOfView() / ranks, known = kVertexBytes * mesh.view().vertexCount();
+    return known + std::max(slice, uint64_t(reach->prepared(layers) * double(whole + bytesOfView())));
   }
   /// Once the output is written, a process has its part, and what it keeps of the user's mesh.
   uint64_t memoryOf(uint32_t ranks, const CellLayers& layers, const LayerLoad& sum, const LayerLoads& all, uint64_t summaries) const {
@@ -282,12 +285,15 @@ struct SharePlanner::Data {
     return bytes + kSeamFaceBytes * sum.facesAbove + 2 * sizeof(uint64_t) * seamBelow;
   }
 
-  /// Each process tells how many crossings each vertex begins, and of meshes with parts which triangles are of which; the triangles that
+  /// Each process gives the triangles of its slice to those who cut them, and of meshes that are prepared as a whole the slice to all. It
+  /// tells how many crossings each vertex begins, and of meshes with parts which triangles are of which; the triangles that
   /// others have, too, with the sets they belong to.
   uint64_t sentPreparing(uint32_t ranks, const CellLayers& layers) const {
+    constexpr uint64_t kTriangleBytes = 16, kVertexBytes = 56;  // of a slice, whose vertices may be those of others
     const Prepared& prepared = mesh.prepared();
-    if (!isInShares) return 0;
-    uint64_t bytes = mesh.view().vertexCount() + work.size() * sizeof(uint64_t);
+    uint64_t bytes = (kTriangleBytes * mesh.view().triangleCount() + kVertexBytes * mesh.view().vertexCount()) / ranks;
+    if (!isInShares) return bytes + bytesOfView() * (ranks - 1) / ranks;
+    bytes += mesh.view().vertexCount() + work.size() * sizeof(uint64_t);
     if (prepared.closed) return bytes;
     const PartCounts& parts = prepared.parts.counts;
     bytes += uint64_t((parts.parity > 0) + (parts.open > 0)) * mesh.view().triangleCount() / 8;

@@ -24,6 +24,14 @@ class Fingerprinter {
     isKnown_ = from.isKnown();
   }
 
+  /// From what another has come to, which knows of no other result.
+  static Fingerprinter goingOn(uint64_t state) {
+    Fingerprinter fingerprinter("");
+    fingerprinter.sum_ = state;
+    return fingerprinter;
+  }
+  uint64_t state() const { return sum_; }
+
   void add(uint64_t number) { sum_ = mixed(sum_, number); }
   /// -0 counts as 0, and what is no number as one and the same, since both change on their way through files and JavaScript.
   MANDOLINE_SHARED void add(double number);

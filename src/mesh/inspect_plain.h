@@ -13,7 +13,8 @@ struct BandFindings {
   uint64_t weldedVertices = 0;
 };
 
-/// Without the arrays of components and defects, of a mesh of which no tri-edge has more than two triangles.
-MANDOLINE_SHARED MeshInfo inspectPlain(const MeshView& mesh, const BandFindings& found, const PartCounts& parts);
+/// Without the arrays of components and defects, of a mesh of which no tri-edge has more than two triangles. `arrays`: its box and counts,
+/// and what is to be said of vertices that no triangle has, which bands leave out.
+MANDOLINE_SHARED MeshInfo inspectPlain(MeshInfo arrays, const BandFindings& found, const PartCounts& parts);
 
 }  // namespace mandoline::detail

@@ -10,6 +10,7 @@
 namespace mandoline::detail {
 namespace {
 
+/// The vertices of a part by their place in it.
 struct PositionOf {
   const double* positions;
 
@@ -17,120 +18,35 @@ struct PositionOf {
 };
 using Places = PositionTable<PositionOf>;
 
-class BandMaker {
- public:
-  BandMaker(const MeshView& mesh, CheckedMesh checked, const Band& band)
-      : mesh_(mesh), at_{mesh.positions.data()}, marks_(std::move(checked.referenced)), scale_(checked.shift) {
-    out_->band = band;
-    out_->mesh.shift = checked.shift;
+/// The lowest vertices at the positions of those that takesPart(v).
+template <class TakesPart>
+Places placesOf(const MeshPart& part, const TakesPart& takesPart) {
+  const PositionOf at{part.positions.data()};
+  Places places(part.vertices.size(), at);
+  for (uint32_t v = 0; v < part.vertices.size(); ++v) {
+    if (!takesPart(v)) continue;
+    uint32_t& place = places.find(at(v));
+    if (place == Places::kFree) place = v;
   }
+  return places;
+}
 
-  std::unique_ptr<MeshBand> make() {
-    listWithin();
-    const Places within = markEqual(kWithin);
-    listAll();
-    const Places beside = markEqual(kBeside);
-    numberVertices(within, beside);
-    takeTriangles();
-    return std::move(out_);
-  }
+std::array<double, 2> rangeOf(const MeshPart& part, const std::vector<double>& heights, size_t triangle) {
+  const uint32_t* v = &part.corners[3 * triangle];
+  return {std::min({heights[v[0]], heights[v[1]], heights[v[2]]}), std::max({heights[v[0]], heights[v[1]], heights[v[2]]})};
+}
+
+/// Numbers some ids of the whole, ascending.
+class Named {
+ public:
+  explicit Named(std::vector<uint32_t> ids) : ids_(std::move(ids)) { sortUnique(ids_); }
+
+  size_t size() const { return ids_.size(); }
+  const std::vector<uint32_t>& ids() const { return ids_; }
+  uint32_t operator()(uint32_t id) const { return uint32_t(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin()); }
 
  private:
-  enum Mark : uint8_t { kReferenced = 1, kBeside, kWithin };
-
-  double height(uint32_t v) const {
-    uint32_t ignored = 0;
-    return scale_.scaled(mesh_.positions[3 * size_t(v) + 2], ignored);
-  }
-
-  void listWithin() {
-    for (size_t t = 0; t < mesh_.triangleCount(); ++t) {
-      const uint32_t* v = &mesh_.triangles[3 * t];
-      const double a = height(v[0]), b = height(v[1]), c = height(v[2]);
-      if (!out_->band.reaches(std::min({a, b, c}), std::max({a, b, c}))) continue;
-      out_->triangles.push_back(uint32_t(t));
-      for (size_t i = 0; i < 3; ++i) marks_[v[i]] = kWithin;
-    }
-  }
-
-  /// Adds those beside, and marks their vertices.
-  void listAll() {
-    const std::vector<uint32_t> within = std::move(out_->triangles);
-    out_->triangles = {};
-    for (uint32_t t = 0, at = 0; t < mesh_.triangleCount(); ++t) {
-      const bool isWithin = at < within.size() && within[at] == t;
-      at += isWithin;
-      const uint32_t* v = &mesh_.triangles[3 * size_t(t)];
-      if (marks_[v[0]] != kWithin && marks_[v[1]] != kWithin && marks_[v[2]] != kWithin) continue;
-      out_->triangles.push_back(t);
-      out_->isWithin.push_back(isWithin);
-      for (size_t i = 0; i < 3; ++i) marks_[v[i]] = std::max(marks_[v[i]], uint8_t(kBeside));
-    }
-  }
-
-  /// Marks the other vertices at the positions of marked ones, and gives the lowest vertices there.
-  Places markEqual(Mark mark) {
-    Box box = Box::empty();
-    size_t count = 0;
-    const auto pointOf = [&](uint32_t v) { return Point{at_(v)[0], at_(v)[1], at_(v)[2]}; };
-    for (uint32_t v = 0; v < marks_.size(); ++v) {
-      if (marks_[v] != mark) continue;
-      box.include({pointOf(v), pointOf(v)});
-      ++count;
-    }
-    Places places(count, at_);
-    for (uint32_t v = 0; v < marks_.size(); ++v) {
-      if (marks_[v] != mark) continue;
-      uint32_t& lowest = places.find(at_(v));
-      lowest = std::min(lowest, v);
-    }
-    for (uint32_t v = 0; v < marks_.size(); ++v) {
-      if (marks_[v] != kReferenced || !box.overlaps({pointOf(v), pointOf(v)})) continue;
-      uint32_t& lowest = places.find(at_(v));
-      if (lowest == Places::kFree) continue;
-      lowest = std::min(lowest, v);
-      marks_[v] = mark;
-    }
-    return places;
-  }
-
-  void numberVertices(Places within, Places beside) {
-    Prepared& mesh = out_->mesh;
-    numbers_.resize(marks_.size());
-    for (uint32_t v = 0; v < marks_.size(); ++v) {
-      if (marks_[v] < kBeside) continue;
-      const bool isWithin = marks_[v] == kWithin;
-      const uint32_t lowest = (isWithin ? within : beside).find(at_(v));
-      if (lowest != v) {
-        numbers_[v] = numbers_[lowest];
-        out_->weldedVertices += isWithin && out_->band.owns(height(v));
-        continue;
-      }
-      numbers_[v] = uint32_t(out_->vertices.size());
-      out_->vertices.push_back(v);
-      out_->isComplete.push_back(isWithin);
-      Point& point = mesh.points.emplace_back();
-      for (size_t d = 0; d < 3; ++d) point[d] = scale_.scaled(at_(v)[d], mesh.counts.flushedCoordinates);
-    }
-    mesh.triVertices = uint32_t(mesh.points.size());
-  }
-
-  void takeTriangles() {
-    Prepared& mesh = out_->mesh;
-    mesh.states.assign(out_->triangles.size(), TriangleState::kept);
-    mesh.triangles.reserve(out_->triangles.size());
-    for (const uint32_t t : out_->triangles) {
-      const uint32_t* v = &mesh_.triangles[3 * size_t(t)];
-      mesh.triangles.push_back({numbers_[v[0]], numbers_[v[1]], numbers_[v[2]]});
-    }
-  }
-
-  const MeshView& mesh_;
-  const PositionOf at_;
-  std::vector<uint8_t> marks_;     // per vertex of the whole
-  std::vector<uint32_t> numbers_;  // likewise, where it is marked: in the band
-  const Scale scale_;
-  std::unique_ptr<MeshBand> out_ = std::make_unique<MeshBand>();
+  std::vector<uint32_t> ids_;
 };
 
 /// The triangles at a tri-edge.
@@ -160,18 +76,6 @@ void forCompleteEdges(const MeshBand& band, const F& f) {
   }
 }
 
-/// Numbers some ids of the whole, ascending.
-class Named {
- public:
-  explicit Named(std::vector<uint32_t> ids) : ids_(std::move(ids)) { sortUnique(ids_); }
-
-  size_t size() const { return ids_.size(); }
-  uint32_t operator()(uint32_t id) const { return uint32_t(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin()); }
-
- private:
-  std::vector<uint32_t> ids_;
-};
-
 /// The connected sets of open edges, each of which several bands may tell.
 void countOpenEdges(std::span<const BandParts> all, PartCounts& counts) {
   std::vector<std::array<uint32_t, 2>> edges;
@@ -190,8 +94,127 @@ void countOpenEdges(std::span<const BandParts> all, PartCounts& counts) {
 
 }  // namespace
 
-std::unique_ptr<MeshBand> weldBand(const MeshView& mesh, CheckedMesh checked, const Band& band) {
-  return BandMaker(mesh, std::move(checked), band).make();
+BandFinder::BandFinder(std::span<const Band> bands) : bands_(bands) {
+  for (size_t b = 0; b < bands.size(); ++b) {
+    if (bands[b].low < bands[b].high) filled_.push_back(b);
+  }
+}
+
+size_t BandFinder::owner(double height) const {
+  return *(std::partition_point(filled_.begin(), filled_.end(), [&](size_t b) { return bands_[b].low <= height; }) - 1);
+}
+
+std::vector<double> heightsOf(const MeshPart& part, const Scale& scale) {
+  std::vector<double> heights;
+  heights.reserve(part.vertices.size());
+  uint32_t ignored = 0;
+  for (size_t v = 0; v < part.vertices.size(); ++v) heights.push_back(scale.scaled(part.positions[3 * v + 2], ignored));
+  return heights;
+}
+
+std::vector<MeshPart> trianglesOfBands(const MeshPart& part, const std::vector<double>& heights, const BandFinder& finder) {
+  std::vector<std::vector<uint32_t>> triangles(finder.count());
+  for (size_t t = 0; t < part.triangles.size(); ++t) {
+    const auto [least, greatest] = rangeOf(part, heights, t);
+    finder.forReached(least, greatest, [&, id = part.triangles[t]](size_t band) { triangles[band].push_back(id); });
+  }
+  std::vector<MeshPart> parts;
+  for (std::vector<uint32_t>& some : triangles) parts.push_back(takePart(part, std::move(some), {}));
+  return parts;
+}
+
+std::vector<std::vector<double>> positionsElsewhere(const MeshPart& part, const std::vector<double>& heights,
+                                                    const std::vector<uint8_t>& asked, const BandFinder& finder, const Band& here) {
+  std::vector<std::vector<double>> positions(finder.count());
+  const auto isAsked = [&](uint32_t v) { return asked[v] && !here.reaches(heights[v], heights[v]); };
+  Places places = placesOf(part, isAsked);
+  for (uint32_t v = 0; v < part.vertices.size(); ++v) {
+    const double* p = &part.positions[3 * size_t(v)];
+    if (!isAsked(v) || places.find(p) != v) continue;
+    const size_t band = finder.owner(heights[v]);
+    positions[band].insert(positions[band].end(), p, p + 3);
+  }
+  return positions;
+}
+
+MeshPart trianglesAt(const std::vector<double>& positions, const MeshPart& part, const std::vector<double>& heights, const Band& there) {
+  Places asked(positions.size() / 3, PositionOf{positions.data()});
+  for (uint32_t i = 0; i < positions.size() / 3; ++i) asked.find(&positions[3 * size_t(i)]) = i;
+  std::vector<uint32_t> triangles;
+  for (size_t t = 0; t < part.triangles.size() && !positions.empty(); ++t) {
+    const auto isAsked = [&](uint32_t v) { return asked.find(&part.positions[3 * size_t(v)]) != Places::kFree; };
+    const auto [least, greatest] = rangeOf(part, heights, t);
+    const uint32_t* v = &part.corners[3 * t];
+    if (!there.reaches(least, greatest) && (isAsked(v[0]) || isAsked(v[1]) || isAsked(v[2]))) triangles.push_back(part.triangles[t]);
+  }
+  return takePart(part, std::move(triangles), {});
+}
+
+std::vector<uint32_t> lowestAt(const std::vector<double>& positions, const MeshPart& part) {
+  std::vector<uint32_t> lowest;
+  if (positions.empty()) return lowest;
+  Places places = placesOf(part, [](uint32_t) { return true; });
+  for (size_t i = 0; i < positions.size(); i += 3) {
+    const uint32_t v = places.find(&positions[i]);
+    lowest.push_back(v == Places::kFree ? v : part.vertices[v]);
+  }
+  return lowest;
+}
+
+void takeLowest(const std::vector<std::vector<double>>& asked, const std::vector<std::vector<uint32_t>>& told, BandTriangles& triangles) {
+  const MeshPart& part = triangles.part;
+  Places places = placesOf(part, [](uint32_t) { return true; });
+  for (uint32_t v = 0; v < part.vertices.size(); ++v) {
+    const uint32_t place = places.find(&part.positions[3 * size_t(v)]);
+    triangles.lowest.push_back(place == v ? part.vertices[v] : triangles.lowest[place]);
+  }
+  std::vector<uint32_t> lowest = triangles.lowest;  // per place
+  for (size_t band = 0; band < asked.size(); ++band) {
+    for (size_t i = 0; i < told[band].size(); ++i) lowest[places.find(&asked[band][3 * i])] = told[band][i];
+  }
+  for (uint32_t v = 0; v < part.vertices.size(); ++v) triangles.lowest[v] = lowest[places.find(&part.positions[3 * size_t(v)])];
+}
+
+std::vector<uint8_t> verticesWithin(const BandTriangles& triangles) {
+  const MeshPart& part = triangles.part;
+  std::vector<uint8_t> within(part.vertices.size(), 0);
+  for (size_t t = 0; t < part.triangles.size(); ++t) {
+    for (size_t i = 0; i < 3 && triangles.isWithin[t]; ++i) within[part.corners[3 * t + i]] = 1;
+  }
+  Places places = placesOf(part, [&](uint32_t v) { return within[v] != 0; });
+  for (uint32_t v = 0; v < within.size(); ++v) within[v] = places.find(&part.positions[3 * size_t(v)]) != Places::kFree;
+  return within;
+}
+
+std::unique_ptr<MeshBand> weldBand(const BandTriangles& triangles, int shift, const Band& band) {
+  const MeshPart& part = triangles.part;
+  const Scale scale(shift);
+  auto out = std::make_unique<MeshBand>();
+  Prepared& mesh = out->mesh;
+  out->band = band;
+  mesh.shift = shift;
+  const Named named(triangles.lowest);
+  out->vertices = named.ids();
+  out->isComplete.resize(named.size());
+  mesh.points.resize(named.size());
+  mesh.triVertices = uint32_t(named.size());
+  const std::vector<uint8_t> within = verticesWithin(triangles);
+  std::vector<uint32_t> numbers;
+  for (size_t v = 0; v < part.vertices.size(); ++v) {
+    const uint32_t number = numbers.emplace_back(named(triangles.lowest[v]));
+    out->isComplete[number] = within[v];
+    for (size_t d = 0; d < 3; ++d) mesh.points[number][d] = scale.scaled(part.positions[3 * v + d], mesh.counts.flushedCoordinates);
+    out->weldedVertices += within[v] && triangles.lowest[v] != part.vertices[v] && band.owns(mesh.points[number][2]);
+  }
+  mesh.states.assign(part.triangles.size(), TriangleState::kept);
+  mesh.triangles.reserve(part.triangles.size());
+  for (size_t t = 0; t < part.triangles.size(); ++t) {
+    const uint32_t* v = &part.corners[3 * t];
+    mesh.triangles.push_back({numbers[v[0]], numbers[v[1]], numbers[v[2]]});
+  }
+  out->triangles = part.triangles;
+  out->isWithin = triangles.isWithin;
+  return out;
 }
 
 bool findPlainEdges(MeshBand& band, Intersections intersections, Monitor& monitor, Predicates& predicates) {

@@ -1,4 +1,4 @@
-// What lies between two heights of a mesh, prepared by itself: several processes that have the mesh each prepare only what they cut.
+// What lies between two heights of a mesh, prepared by itself: several processes each prepare only what they cut.
 //
 // Triangles are within the band, or beside it: those share a vertex with one within. So everything that triangles within have at their
 // vertices and edges is there. Ids are in the order of the whole mesh's.
@@ -6,7 +6,10 @@
 // Only of plain meshes: all of their triangles have area and differ, and none meet. Others have to be prepared as a whole.
 #pragma once
 
+#include <algorithm>
+
 #include "base/shared.h"
+#include "mesh/mesh_part.h"
 #include "mesh/prepared.h"
 
 namespace mandoline::detail {
@@ -20,6 +23,48 @@ struct Band {
   bool owns(double height) const { return height >= low && height < high; }
 };
 
+/// Which of the bands that divide space, ascending and some of them empty, have what.
+class BandFinder {
+ public:
+  explicit BandFinder(std::span<const Band> bands);
+
+  size_t count() const { return bands_.size(); }
+  /// The one that owns a height.
+  size_t owner(double height) const;
+  /// Calls f(band) for those that reach from the one height to the other.
+  template <class F>
+  void forReached(double least, double greatest, const F& f) const {
+    auto at = std::partition_point(filled_.begin(), filled_.end(), [&](size_t b) { return bands_[b].high < least; });
+    for (; at != filled_.end() && bands_[*at].low <= greatest; ++at) f(*at);
+  }
+
+ private:
+  std::span<const Band> bands_;
+  std::vector<size_t> filled_;  // those that are not empty
+};
+
+/// What a band has of a mesh.
+struct BandTriangles {
+  MeshPart part;                  ///< triangles within and beside the band
+  std::vector<uint8_t> isWithin;  ///< per triangle
+  std::vector<uint32_t> lowest;   ///< per vertex of the part: the id of the lowest one of the whole at its position that a triangle has
+};
+/// Heights of the vertices of a part, scaled.
+std::vector<double> heightsOf(const MeshPart& part, const Scale& scale);
+/// Per band the triangles within it.
+std::vector<MeshPart> trianglesOfBands(const MeshPart& part, const std::vector<double>& heights, const BandFinder& finder);
+/// Per band, of the vertices that are `asked`, the positions that it owns and `here` does not reach.
+std::vector<std::vector<double>> positionsElsewhere(const MeshPart& part, const std::vector<double>& heights,
+                                                    const std::vector<uint8_t>& asked, const BandFinder& finder, const Band& here);
+/// The triangles at some positions which `there` does not reach.
+MeshPart trianglesAt(const std::vector<double>& positions, const MeshPart& part, const std::vector<double>& heights, const Band& there);
+/// Per position the id of the lowest vertex there, or 2^32 - 1.
+std::vector<uint32_t> lowestAt(const std::vector<double>& positions, const MeshPart& part);
+/// Takes what positionsElsewhere() has been told by lowestAt(); the part itself has the lowest of the others.
+void takeLowest(const std::vector<std::vector<double>>& asked, const std::vector<std::vector<uint32_t>>& told, BandTriangles& triangles);
+/// Per vertex whether a triangle within the band has one at its position.
+std::vector<uint8_t> verticesWithin(const BandTriangles& triangles);
+
 struct MeshBand {
   Band band;
   Prepared mesh;                    ///< closed, oriented and parts are for those to say who know the whole
@@ -31,7 +76,7 @@ struct MeshBand {
 };
 
 /// Welds what is in a band.
-std::unique_ptr<MeshBand> weldBand(const MeshView& mesh, CheckedMesh checked, const Band& band);
+std::unique_ptr<MeshBand> weldBand(const BandTriangles& triangles, int shift, const Band& band);
 /// Finds its tri-edges, and whether what is within is plain.
 bool findPlainEdges(MeshBand& band, Intersections intersections, Monitor& monitor, Predicates& predicates);
 

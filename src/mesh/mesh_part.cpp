@@ -1,19 +1,13 @@
 #include "mesh/mesh_part.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "base/sort.h"
 #include "mesh/failure.h"
 
 namespace mandoline::detail {
 namespace {
-
-std::vector<uint32_t> unitedIds(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {
-  std::vector<uint32_t> ids;
-  ids.reserve(a.size() + b.size());
-  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(ids));
-  return ids;
-}
 
 /// Where ids are among ascending ones.
 class IndexOf {
@@ -34,23 +28,13 @@ class IndexOf {
   std::vector<uint32_t> table_;
 };
 
-/// Adds the vertices and triangles of which only the ids are known yet. Both functions give the mesh that has an id.
-template <class MeshOfVertex, class MeshOfTriangle>
-void fill(const MeshOfVertex& meshOfVertex, const MeshOfTriangle& meshOfTriangle, MeshPart& part) {
-  part.positions.reserve(3 * part.vertices.size());
-  for (const uint32_t v : part.vertices) {
-    const double* p = meshOfVertex(v).vertex(v);
-    part.positions.insert(part.positions.end(), p, p + 3);
-  }
-  const IndexOf indexOf(part.vertices);
-  part.corners.reserve(3 * part.triangles.size());
-  for (const uint32_t t : part.triangles) {
-    const NamedMesh& mesh = meshOfTriangle(t);
-    for (size_t i = 0; i < 3; ++i) part.corners.push_back(indexOf(mesh.cornerId(t, i)));
-  }
+std::vector<uint32_t> unitedIds(std::span<const MeshPart> parts, std::vector<uint32_t> MeshPart::*member) {
+  std::vector<uint32_t> ids;
+  for (const MeshPart& part : parts) ids.insert(ids.end(), (part.*member).begin(), (part.*member).end());
+  if (std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>()) != ids.end()) sortUnique(ids);
+  ids.shrink_to_fit();
+  return ids;
 }
-
-bool hasId(const std::vector<uint32_t>& ids, uint32_t id) { return std::binary_search(ids.begin(), ids.end(), id); }
 
 }  // namespace
 
@@ -59,6 +43,14 @@ size_t NamedMesh::indexOf(size_t id, const std::vector<uint32_t>& ids) {
   if (at == ids.end() || *at != id)
     throw Failure{{Status::internalError, -1, -1, "A process lacks a vertex or a triangle of the mesh that its cells name."}};
   return size_t(at - ids.begin());
+}
+
+std::vector<uint32_t> indicesAmong(const std::vector<uint32_t>& ascending, std::span<const uint32_t> ids) {
+  const IndexOf indexOf(ascending);
+  std::vector<uint32_t> indices;
+  indices.reserve(ids.size());
+  for (const uint32_t id : ids) indices.push_back(indexOf(id));
+  return indices;
 }
 
 MeshPart takePart(const NamedMesh& mesh, std::vector<uint32_t> triangles, std::vector<uint32_t> vertices) {
@@ -70,17 +62,33 @@ MeshPart takePart(const NamedMesh& mesh, std::vector<uint32_t> triangles, std::v
   }
   sortUnique(part.vertices);
   part.vertices.shrink_to_fit();
-  const auto only = [&](uint32_t) -> const NamedMesh& { return mesh; };
-  fill(only, only, part);
+  part.positions.reserve(3 * part.vertices.size());
+  for (const uint32_t v : part.vertices) {
+    const double* p = mesh.vertex(v);
+    part.positions.insert(part.positions.end(), p, p + 3);
+  }
+  const IndexOf indexOf(part.vertices);
+  part.corners.reserve(3 * part.triangles.size());
+  for (const uint32_t t : part.triangles) {
+    for (size_t i = 0; i < 3; ++i) part.corners.push_back(indexOf(mesh.cornerId(t, i)));
+  }
   return part;
 }
 
-MeshPart united(const MeshPart& a, const MeshPart& b) {
-  MeshPart part{unitedIds(a.vertices, b.vertices), unitedIds(a.triangles, b.triangles), {}, {}};
-  const NamedMesh first(a), second(b);
-  fill([&](uint32_t v) -> const NamedMesh& { return hasId(a.vertices, v) ? first : second; },
-       [&](uint32_t t) -> const NamedMesh& { return hasId(a.triangles, t) ? first : second; }, part);
-  return part;
+MeshPart united(std::span<const MeshPart> parts) {
+  MeshPart all{unitedIds(parts, &MeshPart::vertices), unitedIds(parts, &MeshPart::triangles), {}, {}};
+  all.positions.resize(3 * all.vertices.size());
+  all.corners.resize(3 * all.triangles.size());
+  const IndexOf vertexOf(all.vertices), triangleOf(all.triangles);
+  for (const MeshPart& part : parts) {
+    for (size_t v = 0; v < part.vertices.size(); ++v)
+      std::copy_n(&part.positions[3 * v], 3, &all.positions[3 * size_t(vertexOf(part.vertices[v]))]);
+    for (size_t t = 0; t < part.triangles.size(); ++t) {
+      const size_t to = 3 * size_t(triangleOf(part.triangles[t]));
+      for (size_t i = 0; i < 3; ++i) all.corners[to + i] = vertexOf(part.vertices[part.corners[3 * t + i]]);
+    }
+  }
+  return all;
 }
 
 }  // namespace mandoline::detail

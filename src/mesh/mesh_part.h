@@ -48,9 +48,11 @@ class NamedMesh {
   const std::vector<uint32_t>*vertices_ = nullptr, *triangles_ = nullptr;  // null: all, in their order
 };
 
+/// Per id its place among ascending ones, which have it.
+MANDOLINE_SHARED std::vector<uint32_t> indicesAmong(const std::vector<uint32_t>& ascending, std::span<const uint32_t> ids);
 /// Triangles with their vertices, and other vertices; ids in any order, also more than once.
 MANDOLINE_SHARED MeshPart takePart(const NamedMesh& mesh, std::vector<uint32_t> triangles, std::vector<uint32_t> vertices);
-/// What either of two parts of a mesh has.
-MANDOLINE_SHARED MeshPart united(const MeshPart& a, const MeshPart& b);
+/// What any of some parts of a mesh has.
+MANDOLINE_SHARED MeshPart united(std::span<const MeshPart> parts);
 
 }  // namespace mandoline::detail

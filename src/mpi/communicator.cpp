@@ -104,15 +104,24 @@ void Communicator::broadcastBytes(void* bytes, size_t count, int from) {
   if (rank_ == from) bytesSent_ += count * uint64_t(size_ - 1);
 }
 
-void Communicator::startParts(Bytes& bytes, int peer, bool isSent, std::vector<MPI_Request>& requests) {
-  for (size_t at = 0; at < bytes.size(); at += kMostBytes) {
-    const int count = int(std::min(kMostBytes, bytes.size() - at));
+void Communicator::startParts(void* bytes, size_t count, int peer, bool isSent, std::vector<MPI_Request>& requests) {
+  for (size_t at = 0; at < count; at += kMostBytes) {
+    std::byte* const from = static_cast<std::byte*>(bytes) + at;
+    const int some = int(std::min(kMostBytes, count - at));
     MPI_Request& request = requests.emplace_back();
     if (isSent)
-      MPI_Isend(bytes.data() + at, count, MPI_BYTE, peer, kTag, comm_, &request);
+      MPI_Isend(from, some, MPI_BYTE, peer, kTag, comm_, &request);
     else
-      MPI_Irecv(bytes.data() + at, count, MPI_BYTE, peer, kTag, comm_, &request);
+      MPI_Irecv(from, some, MPI_BYTE, peer, kTag, comm_, &request);
   }
+}
+
+std::vector<uint64_t> Communicator::exchangeCounts(const std::vector<uint64_t>& sent) {
+  std::vector<uint64_t> received(sent.size());
+  MPI_Request request;
+  MPI_Ialltoall(sent.data(), 1, MPI_UINT64_T, received.data(), 1, MPI_UINT64_T, comm_, &request);
+  wait(request);
+  return received;
 }
 
 Communicator::Bytes Communicator::exchange(const Bytes& bytes, int to, int from) {
@@ -123,8 +132,8 @@ Communicator::Bytes Communicator::exchange(const Bytes& bytes, int to, int from)
   wait(requests.data(), int(requests.size()));
   requests.clear();
   Bytes received(count);
-  if (to >= 0) startParts(const_cast<Bytes&>(bytes), to, true, requests);
-  if (from >= 0) startParts(received, from, false, requests);
+  if (to >= 0) startParts(const_cast<std::byte*>(bytes.data()), bytes.size(), to, true, requests);
+  if (from >= 0) startParts(received.data(), received.size(), from, false, requests);
   wait(requests.data(), int(requests.size()));
   if (to >= 0) bytesSent_ += sentCount;
   return received;

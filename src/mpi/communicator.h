@@ -34,6 +34,7 @@ class MANDOLINE_SHARED Communicator {
   ~Communicator();
   Communicator(const Communicator&) = delete;
 
+  MPI_Comm handle() const { return comm_; }
   int rank() const { return rank_; }
   int size() const { return size_; }
   /// What this process has sent to others, each of them counted.
@@ -73,6 +74,30 @@ class MANDOLINE_SHARED Communicator {
   /// Sends and receives at once; -1: nothing to or from there.
   Bytes exchange(const Bytes& bytes, int to, int from);
 
+  /// An array for each process, by rank; gives those of each for this one. What a process has for itself it gets.
+  template <class Item>
+  std::vector<std::vector<Item>> exchangeAll(const std::vector<std::vector<Item>>& sent) {
+    std::vector<std::vector<Item>> received(sent.size());
+    const std::vector<uint64_t> counts = exchangeCounts(sent);
+    together("exchange", [&] {
+      for (size_t peer = 0; peer < received.size(); ++peer) received[peer].resize(counts[peer]);
+    });
+    std::vector<MPI_Request> requests;
+    for (int peer = 0; peer < size_; ++peer) {
+      std::vector<Item>& from = received[size_t(peer)];
+      const std::vector<Item>& to = sent[size_t(peer)];
+      if (peer == rank_) {
+        std::copy(to.begin(), to.end(), from.begin());
+        continue;
+      }
+      startParts(const_cast<Item*>(to.data()), to.size() * sizeof(Item), peer, true, requests);
+      startParts(from.data(), from.size() * sizeof(Item), peer, false, requests);
+      bytesSent_ += to.size() * sizeof(Item);
+    }
+    wait(requests.data(), int(requests.size()));
+    return received;
+  }
+
   /// Throws RankError (badArgument) where a process has another number than the first, alike in all: `what` it stands for.
   void requireSame(uint64_t number, const char* what);
   /// Waits for all, and throws RankError if one of them has an error: the same in each, that of the lowest rank.
@@ -87,7 +112,14 @@ class MANDOLINE_SHARED Communicator {
   void wait(MPI_Request* requests, int count);
   uint64_t broadcastCount(uint64_t count, int from);
   void broadcastBytes(void* bytes, size_t count, int from);
-  void startParts(Bytes& bytes, int peer, bool isSent, std::vector<MPI_Request>& requests);
+  void startParts(void* bytes, size_t count, int peer, bool isSent, std::vector<MPI_Request>& requests);
+  template <class Item>
+  std::vector<uint64_t> exchangeCounts(const std::vector<std::vector<Item>>& sent) {
+    std::vector<uint64_t> counts;
+    for (const std::vector<Item>& items : sent) counts.push_back(items.size());
+    return exchangeCounts(counts);
+  }
+  std::vector<uint64_t> exchangeCounts(const std::vector<uint64_t>& sent);
 
   MPI_Comm comm_;
   std::function<void()> onWait_;

@@ -15,6 +15,7 @@
 #include "mpi/pack.h"
 #include "mpi/prepare_shares.h"
 #include "mpi/rank_piece.h"
+#include "mpi/sliced_mesh.h"
 #include "operators/measure/measure_part.h"
 #include "operators/measure/region_sums.h"
 
@@ -35,22 +36,43 @@ struct DistributedCut::Data {
       : comm(comm_, waiterFor(kNoun, options)), mesh(std::move(mesh_)), grid(std::move(grid_)) {
     requireSame();
     std::unique_ptr<ShareInput> input;
-    if (comm.size() > 1) input = prepareShares(comm, mesh, grid, options, info);
+    if (comm.size() > 1) {
+      std::shared_ptr<const Mesh> slice;
+      comm.together(kNoun, [&] { slice = std::make_shared<const Mesh>(sliceOf(*mesh, shareOf())); });
+      input = prepareShares(comm, *sliced(comm, std::move(slice)), grid, options, info);
+    }
+    makeShare(std::move(input), options, info);
+    finish(options);
+  }
+
+  Data(MPI_Comm comm_, SlicedMesh slices, Grid grid_, const PrepareOptions& options, MeshInfo* info)
+      : comm(comm_, waiterFor(kNoun, options)), grid(std::move(grid_)), sentPreparing(slices.data()->bytesSent) {
+    requireSame();
+    triangles = slices.triangleCount();
+    std::unique_ptr<ShareInput> input;
+    if (comm.size() > 1) input = prepareShares(comm, *slices.data(), grid, options, info);
+    if (!input) mesh = gathered(comm, *slices.data(), true);
+    { const SlicedMesh freed = std::move(slices); }
+    makeShare(std::move(input), options, info);
+    finish(options);
+  }
+
+  /// Of what this process has prepared, or else of the mesh, which it has.
+  void makeShare(std::unique_ptr<ShareInput> input, const PrepareOptions& options, MeshInfo* info) {
     if (input) {
       isPreparedInShares = true;
       preparation = std::move(input->preparation);
       surface = input->surface;
-      triangles = mesh->triangleCount();
+      triangles = input->triangles->count;
       mesh.reset();
       comm.together(kNoun, [&] { share.emplace(std::move(input), grid, shareOf(), options); });
     } else {
       const auto inspectMesh = [info, &whole = *mesh] { *info = inspect(whole); };
-      PreparedTogether prepared = prepareTogether(comm_, mesh, options, info ? std::function<void()>(inspectMesh) : nullptr);
+      PreparedTogether prepared = prepareTogether(comm.handle(), mesh, options, info ? std::function<void()>(inspectMesh) : nullptr);
       preparation = std::move(prepared.stats);
-      sentPreparing = prepared.bytesSent;
+      sentPreparing += prepared.bytesSent;
       takePrepared(std::move(prepared.mesh), options);
     }
-    finish(options);
   }
 
   ShareOf shareOf() const { return {uint32_t(comm.rank()), uint32_t(comm.size())}; }
@@ -155,8 +177,23 @@ struct DistributedCut::Data {
     return {part, comm.rank(), numbers.surfaceVertices, numbers.firstVertex, numbers.firstTriFace, numbers.firstPiece, numbers.firstCell};
   }
 
+  void requirePart() {
+    comm.together(kNoun, [&] {
+      if (isPartTaken) throw CallError({Status::badArgument, -1, -1, "This cut has given its piece away."});
+    });
+  }
+
+  RankPiece takePiece() {
+    RankPiece piece = makePiece();
+    part = {};
+    isPartTaken = true;
+    giveBackFreed();
+    return piece;
+  }
+
   /// Ghosts come from the process whose layers lie below, and the seam is told to it.
   RankPiece makePiece() {
+    requirePart();
     int below = -1, above = -1;
     std::tie(below, above) = neighbours();
     const NumberedPart numbered = numberedPart();
@@ -170,9 +207,9 @@ struct DistributedCut::Data {
     bytes = comm.exchange(bytes, above, below);
     PieceFromBelow made;
     comm.together(kNoun, [&] {
-      const PlaneFaces faces = below >= 0 ? unpacked<PlaneFaces>(bytes) : PlaneFaces();
+      PlaneFaces faces = below >= 0 ? unpacked<PlaneFaces>(bytes) : PlaneFaces();
       made = detail::makePiece(numbered, common.mesh, share->layers(), faces);
-      if (below >= 0) surface = std::make_shared<MeshPart>(united(*surface, faces.surface));
+      if (below >= 0) surface = std::make_shared<MeshPart>(united(std::array{*surface, std::move(faces.surface)}));
     });
     bytes = comm.exchange(packed(made.forBelow), below, above);
     comm.together(kNoun, [&] {
@@ -219,6 +256,7 @@ struct DistributedCut::Data {
   }
 
   CutResult gather() {
+    requirePart();
     CutResult result;
     std::vector<CutPart> parts;
     if (comm.rank() > 0) {
@@ -247,7 +285,7 @@ struct DistributedCut::Data {
   CutCounts counts;
   uint64_t ownCells = 0, sentPreparing = 0;
   CutStats preparation;
-  bool isPreparedInShares = false;
+  bool isPreparedInShares = false, isPartTaken = false;
   CutResult common;
 };
 
@@ -255,6 +293,17 @@ DistributedCut::DistributedCut(MPI_Comm comm, PreparedMesh mesh, Grid grid, cons
     : data_(std::make_shared<Data>(comm, std::move(mesh), std::move(grid), options)) {}
 DistributedCut::DistributedCut(MPI_Comm comm, std::shared_ptr<const Mesh> mesh, Grid grid, const PrepareOptions& options, MeshInfo* info)
     : data_(std::make_shared<Data>(comm, std::move(mesh), std::move(grid), options, info)) {}
+
+DistributedCut::DistributedCut(MPI_Comm comm, SlicedMesh mesh, Grid grid, const PrepareOptions& options, MeshInfo* info)
+    : data_(std::make_shared<Data>(comm, std::move(mesh), std::move(grid), options, info)) {}
+
+SlicedMesh::SlicedMesh(MPI_Comm comm_, Mesh slice) {
+  Communicator comm(comm_, nullptr);
+  data_ = sliced(comm, std::make_shared<const Mesh>(std::move(slice)));
+}
+uint64_t SlicedMesh::vertexCount() const { return data_->vertices(); }
+uint64_t SlicedMesh::triangleCount() const { return data_->triangles(); }
+MeshBox SlicedMesh::box() const { return data_->box; }
 
 RankPiece DistributedCut::piece() const { return data_->makePiece(); }
 RankComplex DistributedCut::cellComplex(const RankPiece& piece, int ghostLayers) const {
@@ -265,6 +314,7 @@ uint64_t DistributedCut::ownCells() const { return data_->ownCells; }
 Measures DistributedCut::measures(const RankPiece& piece, const RunOptions& options) const { return data_->measures(piece, options); }
 std::vector<double> DistributedCut::regionVolumes(const RankPiece& piece) const { return data_->regionVolumes(piece); }
 const CutResult& DistributedCut::common() const { return data_->common; }
+RankPiece DistributedCut::takePiece() { return data_->takePiece(); }
 CutResult DistributedCut::gather() { return data_->gather(); }
 const CutStats& DistributedCut::preparation() const { return data_->preparation; }
 bool DistributedCut::isPreparedInShares() const { return data_->isPreparedInShares; }

@@ -87,7 +87,7 @@ PieceToMeasure withGhostLayers(Communicator& comm, const RankLayers& layers, con
       joined.layers = {piece.layers[0] - hasLower, piece.layers[1] + hasUpper};
       takeCommon(common, joined);
       piece = std::move(joined);
-      grown.surface = united(grown.surface, united(lower.surface, upper.surface));
+      grown.surface = united(std::array{std::move(grown.surface), lower.surface, upper.surface});
     });
   }
   return grown;

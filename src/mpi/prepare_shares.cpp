@@ -1,6 +1,11 @@
 #include "mpi/prepare_shares.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/sort.h"
+#include "mpi/pack.h"
+#include "mpi/sliced_mesh.h"
 
 namespace mandoline::detail {
 namespace {
@@ -9,25 +14,23 @@ constexpr const char* kPreparation = "preparation";
 
 class SharesPreparer {
  public:
-  SharesPreparer(Communicator& comm, const std::shared_ptr<const Mesh>& mesh, const Grid& grid, const PrepareOptions& options,
-                 MeshInfo* info)
-      : comm_(comm), mesh_(*mesh), info_(info), maker_(mesh, grid, {uint32_t(comm.rank()), uint32_t(comm.size())}, options) {}
+  SharesPreparer(Communicator& comm, const SlicedMeshData& mesh, const MeshFacts& facts, const Grid& grid, const PrepareOptions& options)
+      : comm_(comm), mesh_(mesh), maker_(facts, grid, {uint32_t(comm.rank()), uint32_t(comm.size())}, options), scale_(facts.shift) {}
 
-  std::unique_ptr<ShareInput> run() {
+  std::unique_ptr<ShareInput> run(MeshInfo* info) {
     std::vector<uint64_t> work;
-    if (!allGoOn([&] { return maker_.begin(work); })) return nullptr;
+    if (!allGoOn([&] { return maker_.begin(mesh_.part, work); })) return nullptr;
     comm_.reduce(work, MPI_SUM);
-    if (!allGoOn([&] { return maker_.prepare(work); }) || !findWhole()) return nullptr;
-    joinParts();
+    comm_.together(kPreparation, [&] { maker_.makeBands(work); });
+    BandTriangles triangles = gather();
+    if (!allGoOn([&] { return maker_.prepare(std::move(triangles)); }) || !findWhole()) return nullptr;
+    joinParts(info != nullptr);
     comm_.reduce(all_.cornerWinding, MPI_SUM);
     uniteTriangles();
     uniteCrossings();
+    if (info) inspectMesh(*info);
     std::unique_ptr<ShareInput> input;
-    comm_.together(kPreparation, [&] {
-      if (info_ && comm_.rank() == 0)
-        *info_ = whole_.edges.haveAtMostTwo ? inspectPlain(mesh_, whole_, maker_.partCounts()) : inspect(mesh_);
-      input = maker_.take(all_);
-    });
+    comm_.together(kPreparation, [&] { input = maker_.take(all_); });
     return input;
   }
 
@@ -37,6 +40,76 @@ class SharesPreparer {
     bool goesOn = false;
     comm_.together(kPreparation, [&] { goesOn = body(); });
     return comm_.reduce(int(goesOn), MPI_MIN) != 0;
+  }
+
+  /// In the first process.
+  void inspectMesh(MeshInfo& info) {
+    MeshInfo found;
+    if (whole_.edges.haveAtMostTwo) {
+      found = inspectPlain(inspectArrays(comm_, mesh_, maker_.surface()), whole_, maker_.partCounts());
+    } else {
+      const std::shared_ptr<const Mesh> mesh = gathered(comm_, mesh_, false);
+      comm_.together(kPreparation, [&] {
+        if (comm_.rank() == 0) found = inspect(*mesh);
+      });
+    }
+    if (comm_.rank() == 0) info = std::move(found);
+  }
+
+  /// Parts for others, and those that come from them, as one.
+  MeshPart exchange(const std::vector<MeshPart>& parts, MeshPart own) {
+    std::vector<Communicator::Bytes> bytes(size_t(comm_.size()));
+    comm_.together(kPreparation, [&] {
+      for (size_t rank = 0; rank < parts.size(); ++rank) bytes[rank] = packed(parts[rank]);
+    });
+    bytes = comm_.exchangeAll(bytes);
+    MeshPart all;
+    comm_.together(kPreparation, [&] {
+      std::vector<MeshPart> told{std::move(own)};
+      for (const Communicator::Bytes& some : bytes) told.push_back(unpacked<MeshPart>(some));
+      all = united(told);
+    });
+    return all;
+  }
+
+  /// For each process what it asks of the others, and gives of what it has to those who ask.
+  using Positions = std::vector<std::vector<double>>;
+  Positions ask(const MeshPart& part, const std::vector<uint8_t>& isAsked) {
+    Positions asked;
+    comm_.together(kPreparation,
+                   [&] { asked = positionsElsewhere(part, heightsOf(part, scale_), isAsked, BandFinder(maker_.bands()), maker_.band()); });
+    return asked;
+  }
+
+  /// What this process's band has of the mesh.
+  BandTriangles gather() {
+    const size_t count = size_t(comm_.size());
+    std::vector<MeshPart> parts;
+    comm_.together(kPreparation, [&] { parts = trianglesOfBands(mesh_.part, heightsOf(mesh_.part, scale_), BandFinder(maker_.bands())); });
+    const MeshPart within = exchange(parts, {});
+    Positions told = comm_.exchangeAll(ask(within, std::vector<uint8_t>(within.vertices.size(), 1)));
+    comm_.together(kPreparation, [&] {
+      const std::vector<double> heights = heightsOf(within, scale_);
+      for (size_t rank = 0; rank < count; ++rank) parts[rank] = trianglesAt(told[rank], within, heights, maker_.bands()[rank]);
+    });
+    BandTriangles triangles;
+    triangles.part = exchange(parts, within);
+    std::vector<uint8_t> isFar;  // not within
+    comm_.together(kPreparation, [&] {
+      const std::vector<uint32_t>& ids = within.triangles;
+      for (const uint32_t t : triangles.part.triangles) triangles.isWithin.push_back(std::binary_search(ids.begin(), ids.end(), t));
+      isFar = verticesWithin(triangles);
+      for (uint8_t& flag : isFar) flag = !flag;
+    });
+    const Positions asked = ask(triangles.part, isFar);
+    told = comm_.exchangeAll(asked);
+    std::vector<std::vector<uint32_t>> lowest(count);
+    comm_.together(kPreparation, [&] {
+      for (size_t rank = 0; rank < count; ++rank) lowest[rank] = lowestAt(told[rank], within);
+    });
+    lowest = comm_.exchangeAll(lowest);
+    comm_.together(kPreparation, [&] { takeLowest(asked, lowest, triangles); });
+    return triangles;
   }
 
   /// False if the mesh has parts that take more than what each band knows.
@@ -52,10 +125,10 @@ class SharesPreparer {
     return edges.closed || edges.haveAtMostTwo;
   }
 
-  void joinParts() {
+  void joinParts(bool areCounted) {
     BandParts own;
     std::vector<BandParts> all(size_t(comm_.size()));
-    if (!whole_.edges.closed || info_) {
+    if (!whole_.edges.closed || areCounted) {
       comm_.together(kPreparation, [&] { own = maker_.parts(); });
       for (const auto member : {&BandParts::kinds, &BandParts::shared, &BandParts::openEdges}) {
         std::vector<std::vector<uint32_t>> told = comm_.gatherAll(own.*member);
@@ -89,18 +162,23 @@ class SharesPreparer {
   }
 
   Communicator& comm_;
-  const Mesh& mesh_;
-  MeshInfo* const info_;
+  const SlicedMeshData& mesh_;
   ShareInputMaker maker_;
+  const Scale scale_;
   BandFindings whole_;
   SharedFindings all_;
 };
 
 }  // namespace
 
-std::unique_ptr<ShareInput> prepareShares(Communicator& comm, const std::shared_ptr<const Mesh>& mesh, const Grid& grid,
-                                          const PrepareOptions& options, MeshInfo* info) {
-  return SharesPreparer(comm, mesh, grid, options, info).run();
+std::unique_ptr<ShareInput> prepareShares(Communicator& comm, const SlicedMeshData& mesh, const Grid& grid, const PrepareOptions& options,
+                                          MeshInfo* info) {
+  if (!mesh.isFit || options.orient) return nullptr;
+  const double largest = largestCoordinate(comm, mesh);
+  if (!std::isfinite(largest)) return nullptr;
+  const int shift = largest > 0 ? Scale::kLargestExponent - std::ilogb(largest) : 0;
+  const MeshFacts facts{mesh.vertices(), mesh.triangles(), fingerprintOf(comm, mesh), shift};
+  return SharesPreparer(comm, mesh, facts, grid, options).run(info);
 }
 
 }  // namespace mandoline::detail

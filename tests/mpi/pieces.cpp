@@ -5,6 +5,7 @@
 // cuts made meshes, and of the collection of real ones (see mesh_folder.h) every so many-th of those below 40000 triangles. Each process
 // compares its own piece: what it has is that of the whole under the same ids, and every id belongs to one process.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 
@@ -238,19 +239,48 @@ void compareInfo(const MeshInfo& a, const MeshInfo& b) {
 
 size_t preparedInShares = 0;
 
+/// What this process has of a mesh in slices, which are uneven: the first may have nothing.
+Mesh unevenSlice(const Mesh& mesh) {
+  const auto some = [](const auto& numbers) {
+    const auto at = [&](size_t rank) {
+      return numbers.begin() + ptrdiff_t(numbers.size() / 3 * rank * rank / size_t(ranksHere() * ranksHere()) * 3);
+    };
+    return std::vector(at(size_t(rankHere())), at(size_t(rankHere()) + 1));
+  };
+  return {some(mesh.positions), some(mesh.triangles)};
+}
+
+/// Cuts a mesh that all processes have, or each a slice of.
+DistributedCut cutUnprepared(const Mesh& mesh, const Grid& grid, bool inSlices, MeshInfo* info) {
+  if (inSlices) {
+    SlicedMesh slices(MPI_COMM_WORLD, unevenSlice(mesh));
+    const MeshBox box = slices.box(), expected = boxOf(mesh);
+    require(box.min == expected.min && box.max == expected.max, "the box of slices differs");
+    require(slices.vertexCount() == mesh.vertexCount() && slices.triangleCount() == mesh.triangleCount(), "slices differ in size");
+    return DistributedCut(MPI_COMM_WORLD, std::move(slices), grid, {{1, {}}}, info);
+  }
+  auto given = std::make_shared<const Mesh>(mesh);
+  const std::weak_ptr<const Mesh> left = given;
+  DistributedCut cut(MPI_COMM_WORLD, std::move(given), grid, {{1, {}}}, info);
+  require(left.expired() || ranksHere() == 1, "the mesh has not been freed");
+  return cut;
+}
+
 /// The cut of a mesh that is not prepared before: its pieces are the same.
-bool checkUnprepared(const std::string& name, const Mesh& mesh, const Grid& grid, const CutResult& whole) {
-  return inAll(name + " unprepared", [&] {
+bool checkUnprepared(const std::string& name, const Mesh& mesh, const Grid& grid, const CutResult& whole, bool inSlices) {
+  return inAll(name + (inSlices ? " in slices" : " unprepared"), [&] {
     MeshInfo info;
-    auto given = std::make_shared<const Mesh>(mesh);
-    const std::weak_ptr<const Mesh> left = given;
-    DistributedCut cut(MPI_COMM_WORLD, std::move(given), grid, {{1, {}}}, name.size() % 3 == 0 ? nullptr : &info);
-    require(left.expired() || ranksHere() == 1, "the mesh has not been freed");
+    DistributedCut cut = cutUnprepared(mesh, grid, inSlices, name.size() % 3 == 0 ? nullptr : &info);
     preparedInShares += cut.isPreparedInShares();
     const RankPiece piece = cut.piece();
     const CutResult& common = cut.common();
     const std::vector<double> volumes = cut.regionVolumes(piece);
-    const CutResult gathered = cut.gather();
+    if (inSlices) {
+      const RankPiece taken = cut.takePiece();
+      require(taken.faceIds == piece.faceIds && taken.vertexIds == piece.vertexIds, "the taken piece differs");
+      require(cut.regionVolumes(taken) == volumes, "the volumes differ once the piece is taken");
+    }
+    const CutResult gathered = inSlices ? CutResult() : cut.gather();
     compareVertices(piece, whole.mesh);
     compareCells(piece, whole.mesh);
     compareRegions(piece, whole.mesh);
@@ -265,7 +295,7 @@ bool checkUnprepared(const std::string& name, const Mesh& mesh, const Grid& grid
     require(common.stats.duplicateTriangles == whole.stats.duplicateTriangles, "other duplicates were found");
     require(common.mesh.droppedTriangles == whole.mesh.droppedTriangles, "dropped triangles differ");
     require(common.stats.outsideTriangles == whole.stats.outsideTriangles, "triangles outside differ");
-    if (rankHere() == 0) require(differences(gathered.mesh, whole.mesh).empty(), "the gathered cut differs");
+    if (rankHere() == 0 && !inSlices) require(differences(gathered.mesh, whole.mesh).empty(), "the gathered cut differs");
   });
 }
 
@@ -273,7 +303,7 @@ bool check(const std::string& name, const Mesh& wholeMesh, const Grid& grid) {
   const RunOptions oneThread{1, {}};
   const PrepareResult alone = prepare(wholeMesh, {oneThread});
   const CutResult whole = cut(alone.mesh, grid, {oneThread});
-  if (!checkUnprepared(name, wholeMesh, grid, whole)) return false;
+  if (!checkUnprepared(name, wholeMesh, grid, whole, false) || !checkUnprepared(name, wholeMesh, grid, whole, true)) return false;
   PreparedMesh mesh;
   if (!inAll(name, [&] { mesh = preparedTogether(name, wholeMesh, alone).mesh; })) return false;
   std::optional<DistributedCut> distributed;
@@ -317,7 +347,8 @@ bool check(const std::string& name, const Mesh& wholeMesh, const Grid& grid) {
 }
 
 /// Meshes that tell whether what processes find of their own layers adds up: triangles that reach into the layers of all, around the lowest
-/// corner of the grid; separate vertices at the same positions; sheets and closed parts that come in several layers.
+/// corner of the grid; separate vertices at the same positions; sheets and closed parts that come in several layers; vertices that no
+/// triangle has, some at positions of others; closed ones of which four triangles have an edge.
 std::vector<NamedCase> meshesInAllLayers() {
   const Mesh ball = shapes::icosphere({0.5, 0.5, 0.5}, 0.4, 3), box = shapes::cube(-5, 6);
   Mesh sheets = shapes::merged({ball, box}), loose = sheets;
@@ -328,8 +359,17 @@ std::vector<NamedCase> meshesInAllLayers() {
     loose.positions.insert(loose.positions.end(), p, p + 3);
     loose.triangles[i] = uint32_t(loose.vertexCount() - 1);
   }
+  Mesh spare = sheets;
+  spare.positions.insert(spare.positions.begin(), {7, 8, 9, 0.5, 0.5, 0.9, 7, 8, 9, 0.5, 0.5, INFINITY, 6, 6, 6, -5, 6, -0.0});
+  for (uint32_t& v : spare.triangles) v += 6;
+  const Mesh hinged = {{0.2, 0.5, 0.1, 0.3, 0.5, 0.9, 0.8, 0.2, 0.3, 0.9, 0.4, 0.6, 0.1, 0.8, 0.4, 0.1, 0.9, 0.8},
+                       {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3, 0, 4, 1, 0, 1, 5, 0, 5, 4, 1, 4, 5}};
   const Grid grid = Grid::box({0, 0, 0}, {1, 1, 1}, {9, 10, 11});
-  return {{"a ball in a box", shapes::merged({ball, box}), grid}, {"the same with holes", sheets, grid}, {"loose triangles", loose, grid}};
+  return {{"spare vertices", spare, grid},
+          {"two at an edge", hinged, grid},
+          {"a ball in a box", shapes::merged({ball, box}), grid},
+          {"the same with holes", sheets, grid},
+          {"loose triangles", loose, grid}};
 }
 
 int checkAll(int64_t cells, size_t every) {

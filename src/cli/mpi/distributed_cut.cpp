@@ -13,6 +13,7 @@
 #include "mandoline/distributed.h"
 #include "mesh/inspect_arrays.h"
 #include "mesh/read/load_file.h"
+#include "mpi/sliced_mesh.h"
 
 #ifdef MANDOLINE_HAVE_PETSC
 #include "cli/mpi/distributed_flow.h"
@@ -99,7 +100,7 @@ class Run {
     read();
     if (const Error error = cut(); error.status != Status::ok) return fail(error);
     if (arguments_.command == Command::flow) return ranks_.comm().reduce(finishFlow(), MPI_MAX);
-    const RankPiece piece = needsPiece() ? cut_->piece() : RankPiece();
+    const RankPiece piece = !needsPiece() ? RankPiece() : needsWhole(arguments_) ? cut_->piece() : cut_->takePiece();
     for (const std::string& output : arguments_.outputs) {
       if (isPvtu(output)) writePiece(output, piece);
       if (isPolyMesh(output)) writeCase(output, piece);
@@ -114,28 +115,62 @@ class Run {
     return !needsWhole(arguments_) || std::any_of(arguments_.outputs.begin(), arguments_.outputs.end(), isInPieces);
   }
 
-  /// Each process reads a file that it can read quickly, the first one others.
+  /// Each process reads a file that it can read quickly, its slice if that can be found; the first one others, as it does where it needs
+  /// the whole.
   void read() {
-    isReadByAll_ = ranks_.comm().reduce(int(detail::isBinaryMesh(arguments_.mesh)), MPI_MIN) != 0;
+    const bool inSlices = ranks_.size() > 1 && readSlice();
+    isReadByAll_ = inSlices || ranks_.comm().reduce(int(detail::isBinaryMesh(arguments_.mesh)), MPI_MIN) != 0;
     ranks_.together([&] {
-      if (!ranks_.isFirst() && !isReadByAll_) return;
+      if (inSlices ? !needsMesh() : !ranks_.isFirst() && !isReadByAll_) return;
       Arguments arguments = arguments_;
       if (!ranks_.isFirst()) arguments.report.clear();  // the first one says what is wrong
       input_ = readInput(arguments);
     });
+    if (inSlices) makeSlices();
+    input_.name = nameOf(arguments_.mesh);
     ranks_.inFirst([&] {
       const bool isFlow = arguments_.command == Command::flow;
-      grid_ = makeGrid(isFlow ? flowGrid(arguments_.grid) : arguments_.grid, input_.mesh);
+      const Mesh likeIt = input_.mesh.triangles.empty() ? meshWithBox() : Mesh();
+      grid_ = makeGrid(isFlow ? flowGrid(arguments_.grid) : arguments_.grid, input_.mesh.triangles.empty() ? likeIt : input_.mesh);
     });
   }
 
-  /// The first process sends the grid to the others, and the mesh if need be.
+  /// Whether the first process needs the mesh for what it writes or finds.
+  bool needsMesh() const { return ranks_.isFirst() && (arguments_.command == Command::flow || needsWhole(arguments_)); }
+
+  /// False, alike in all processes, if it can't be found.
+  bool readSlice() {
+    std::optional<Mesh> slice;
+    ranks_.together([&] {
+      if (!arguments_.orient) slice = detail::readMeshSlice(arguments_.mesh, uint32_t(ranks_.rank()), uint32_t(ranks_.size()));
+    });
+    if (ranks_.comm().reduce(int(slice.has_value()), MPI_MIN) == 0) return false;
+    slice_ = *std::move(slice);
+    return true;
+  }
+
+  void makeSlices() {
+    slices_.emplace(MPI_COMM_WORLD, std::exchange(slice_, {}));
+    const MeshBox box = slices_->box();
+    info_.min = box.min;
+    info_.max = box.max;
+    info_.vertices = slices_->vertexCount();
+    info_.triangles = slices_->triangleCount();
+  }
+
+  /// That of the slices.
+  Mesh meshWithBox() const {
+    Mesh mesh;
+    if (info_.triangles == 0) return mesh;
+    for (const auto& corner : {info_.min, info_.max}) mesh.positions.insert(mesh.positions.end(), corner.begin(), corner.end());
+    mesh.triangles = {0, 1, 1};
+    return mesh;
+  }
+
+  /// The first process sends the grid to the others, and their slices if need be.
   void send() {
     detail::Communicator& comm = ranks_.comm();
-    if (!isReadByAll_) {
-      comm.broadcast(input_.mesh.positions, 0);
-      comm.broadcast(input_.mesh.triangles, 0);
-    }
+    if (!slices_ && ranks_.size() > 1 && !isReadByAll_) sendSlices();
     Grid& grid = grid_.grid;
     for (std::vector<double>& planes : grid.planes) comm.broadcast(planes, 0);
     std::vector<double> uniform = {double(grid.uniform)};
@@ -147,6 +182,25 @@ class Run {
     std::copy_n(uniform.begin() + 4, 3, grid.spacing.begin());
   }
 
+  /// From the first process, which keeps the mesh if it needs it.
+  void sendSlices() {
+    detail::Communicator& comm = ranks_.comm();
+    std::vector<std::vector<double>> positions(size_t(ranks_.size()));
+    std::vector<std::vector<uint32_t>> triangles(positions.size());
+    ranks_.inFirst([&] {
+      for (uint32_t rank = 0; rank < positions.size(); ++rank) {
+        Mesh slice = detail::sliceOf(input_.mesh, {rank, uint32_t(positions.size())});
+        positions[rank] = std::move(slice.positions);
+        triangles[rank] = std::move(slice.triangles);
+      }
+      if (!needsMesh()) input_.mesh = {};
+    });
+    positions = comm.exchangeAll(positions);
+    triangles = comm.exchangeAll(triangles);
+    slice_ = {std::move(positions[0]), std::move(triangles[0])};
+    makeSlices();
+  }
+
   /// Gives the error, alike in all processes.
   Error cut() {
     const RunOptions options{arguments_.threads, [this](const Progress& progress) { return bar_.update(progress); }};
@@ -155,7 +209,14 @@ class Run {
         if (ranks_.isFirst()) detail::checkGrid(grid_.grid, 0);
       });
       send();
-      cut_.emplace(MPI_COMM_WORLD, takeMesh(), grid_.grid, PrepareOptions{options, arguments_.intersections}, &info_);
+      const PrepareOptions preparing{options, arguments_.intersections};
+      if (slices_) {
+        SlicedMesh slices = *std::move(slices_);
+        slices_.reset();
+        cut_.emplace(MPI_COMM_WORLD, std::move(slices), grid_.grid, preparing, &info_);
+      } else {
+        cut_.emplace(MPI_COMM_WORLD, takeMesh(), grid_.grid, preparing, &info_);
+      }
     } catch (const RankError& error) {
       throwIfInterrupted();
       failed_ = error.rank;
@@ -170,9 +231,7 @@ class Run {
 
   /// The mesh for the cut, which frees it on the way. It stays where the whole is written, or what is inside is to be found.
   std::shared_ptr<const Mesh> takeMesh() {
-    const bool isFlow = arguments_.command == Command::flow;
-    if (ranks_.isFirst() && (isFlow || needsWhole(arguments_)))
-      return std::shared_ptr<const Mesh>(std::shared_ptr<void>(), &input_.mesh);  // which outlives the cut
+    if (needsMesh()) return std::shared_ptr<const Mesh>(std::shared_ptr<void>(), &input_.mesh);  // which outlives the cut
     if (ranks_.isFirst()) info_ = detail::inspectArrays(input_.mesh);
     return std::make_shared<const Mesh>(std::exchange(input_.mesh, {}));
   }
@@ -295,8 +354,10 @@ class Run {
   Ranks& ranks_;
   const Arguments& arguments_;
   ProgressBar bar_;
-  Input input_;  // of others than the first the mesh alone
+  Input input_;  // of others than the first the name and at most the mesh
   bool isReadByAll_ = false;
+  Mesh slice_;                        // until it is one of slices_
+  std::optional<SlicedMesh> slices_;  // in the place of the mesh, until it is cut
   MeshInfo info_;
   AskedGrid grid_;
   int failed_ = 0;

@@ -26,7 +26,7 @@ constexpr const char* kMpiHelp =
   mandoline-mpi plan MESH --ranks P[,P...] [options of the grid] [--report FILE]
 
 The result is that of mandoline cut, to the bit, for any P; see mandoline --help for the
-options. Each process reads the whole mesh and cuts some layers of the grid.
+options. Each process reads its share of the mesh and cuts some layers of the grid.
 
   -o FILE.pvtu           a .vtu file of each process, FILE_0.vtu and so on, and FILE.pvtu,
                          which joins them; with --only also cut and region=K

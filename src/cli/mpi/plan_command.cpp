@@ -118,7 +118,7 @@ struct PlanReport {
   }
 };
 
-/// What the first process sends of the mesh to each of the others.
+/// What the first process sends of the mesh to all others together, if these were many.
 uint64_t sentMeshBytes(const Arguments& arguments, const MeshView& mesh) {
   return detail::isBinaryMesh(arguments.mesh) ? 0 : mesh.positions.size_bytes() + mesh.triangles.size_bytes();
 }
@@ -139,7 +139,7 @@ int plan(const Arguments& arguments, const std::vector<uint32_t>& ranks) {
       const uint64_t meshBytes = sentMeshBytes(arguments, input.mesh);
       for (const uint32_t count : ranks) {
         std::vector<detail::ShareLoad> loads = planner.loads(count, options);
-        loads[0].bytesSent += (count - 1) * meshBytes;
+        loads[0].bytesSent += meshBytes * (count - 1) / count;
         report.plans.push_back({loads, programBytes});
       }
     } catch (const CallError& failed) {

@@ -1,5 +1,5 @@
 // A cut that the processes of an MPI communicator make together, which leaves to each of them a piece. Each process begins with the whole
-// mesh; what is made of it is held in pieces. In mandoline::mpi, which exists where MPI is found.
+// mesh or a slice of it; what is made of it is held in pieces. In mandoline::mpi, which exists where MPI is found.
 //
 //   DistributedCut cut(MPI_COMM_WORLD, mesh, grid);  // in all processes, of the same mesh and grid
 //   RankPiece piece = cut.piece();
@@ -10,6 +10,8 @@
 
 #include <mpi.h>
 
+#include <memory>
+
 #include "mandoline/cut_share.h"
 #include "mandoline/inspect.h"
 #include "mandoline/measure.h"
@@ -17,6 +19,10 @@
 #include "mandoline/rank_piece.h"
 
 namespace MANDOLINE_API mandoline {
+
+namespace detail {
+struct SlicedMeshData;
+}
 
 /// Thrown by all processes where one of them failed.
 struct RankError : CallError {
@@ -40,6 +46,24 @@ PreparedTogether prepareTogether(MPI_Comm comm, const MeshView& mesh, const Prep
 PreparedTogether prepareTogether(MPI_Comm comm, std::shared_ptr<const Mesh> mesh, const PrepareOptions& options = {},
                                  const std::function<void()>& inFirst = {});
 
+/// A mesh of which each process has only a slice. To make it is collective.
+class SlicedMesh {
+ public:
+  /// `slice`: vertices that follow those of the processes of lower ranks, and likewise triangles, which name vertices by their ids in the
+  /// whole, from 0. Any of these may be few or none. Throws RankError, alike in all processes, where one of them fails.
+  SlicedMesh(MPI_Comm comm, Mesh slice);
+
+  uint64_t vertexCount() const;    ///< of the whole
+  uint64_t triangleCount() const;  ///< likewise
+  /// As boxOf() the whole, unless arrays are wrong, as DistributedCut will say.
+  MeshBox box() const;
+
+  const std::shared_ptr<const detail::SlicedMeshData>& data() const { return data_; }
+
+ private:
+  std::shared_ptr<const detail::SlicedMeshData> data_;
+};
+
 class DistributedCut {
  public:
   /// Cuts. Throws RankError, alike in all processes, as CutShare does, or for different meshes or grids (badArgument, element: the first
@@ -52,8 +76,14 @@ class DistributedCut {
   /// all processes or in none, becomes what inspect() gives in the process of rank 0; of its arrays there may be none.
   DistributedCut(MPI_Comm comm, std::shared_ptr<const Mesh> mesh, Grid grid, const PrepareOptions& options = {}, MeshInfo* info = nullptr);
 
+  /// The same of a mesh in slices, which are freed on the way if the caller has no copy. Only if a mesh has to be prepared as a whole, or
+  /// to be inspected for edges with more than two triangles, do all processes gather it, or the first.
+  DistributedCut(MPI_Comm comm, SlicedMesh mesh, Grid grid, const PrepareOptions& options = {}, MeshInfo* info = nullptr);
+
   /// This process's piece.
   RankPiece piece() const;
+  /// The same, and frees what it was made of: after that there is no piece() and no gather().
+  RankPiece takePiece();
   /// This process's cells, the untouched grid cells among them, and as many layers of ghosts on each side, as far as the grid goes. `piece`
   /// is that of piece(). Without layers of its own it has no ghosts. Throws CallError for fewer than one layer of ghosts (badOption).
   RankComplex cellComplex(const RankPiece& piece, int ghostLayers = 1) const;

@@ -23,6 +23,32 @@ bool detail::isBinaryMesh(const std::string& path) {
   return looksLikePly(head) ? head.find("format binary_") != head.npos : isBinaryStl(head, size);
 }
 
+detail::PartlyRead::PartlyRead(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+  if (!file_) throw FileError(path + ": " + std::strerror(errno));
+  size_ = std::filesystem::file_size(path);
+}
+
+std::string detail::PartlyRead::read(uint64_t offset, size_t count) const {
+  std::string bytes(count, '\0');
+  if (!file_.seekg(std::streamoff(offset)) || !file_.read(bytes.data(), std::streamsize(count)))
+    throw FileError(path_ + ": byte " + std::to_string(offset) + ": can't be read");
+  return bytes;
+}
+
+std::optional<Mesh> detail::readMeshSlice(const std::string& path, uint32_t index, uint32_t count) {
+  try {
+    if (!isBinaryMesh(path)) return std::nullopt;
+    const PartlyRead file(path);
+    const std::string head = file.read(0, size_t(std::min<uint64_t>(file.size(), 512)));
+    if (isGzipped(head) || looksLikeOff(head)) return std::nullopt;
+    return looksLikePly(head) ? readPlyPart(file, {index, count}) : readStlPart(file, {index, count});
+  } catch (const FileError&) {
+    return std::nullopt;
+  } catch (const std::filesystem::filesystem_error&) {
+    return std::nullopt;
+  }
+}
+
 std::string detail::loadFile(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw FileError(path + ": is a directory");

@@ -1,6 +1,7 @@
 // Files by their path.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "base/shared.h"
@@ -14,5 +15,10 @@ std::string loadFile(const std::string& path);
 /// Whether a file begins as one of binary PLY or STL does, not packed: such ones are read so quickly that several processes can each read
 /// them. False also for what can't be opened.
 MANDOLINE_SHARED bool isBinaryMesh(const std::string& path);
+
+/// One of `count` slices of a mesh, which several processes read each: vertices and triangles, by the ids of the whole. Nothing, at least
+/// in one of them, where the file is not of binary PLY or STL with a known place for each, or something is wrong with it: then it is to be
+/// read as a whole, which also tells what is wrong.
+MANDOLINE_SHARED std::optional<Mesh> readMeshSlice(const std::string& path, uint32_t index, uint32_t count);
 
 }  // namespace mandoline::detail

@@ -1,7 +1,9 @@
 // The readers behind readMesh(), one per format. Each takes the unpacked bytes of a file and throws FileError.
 #pragma once
 
+#include <fstream>
 #include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,6 +21,33 @@ Mesh readObj(const FileBytes& file);
 Mesh readOff(const FileBytes& file);
 Mesh readPly(const FileBytes& file);
 Mesh readStl(const FileBytes& file);
+
+/// A file of which some bytes are read.
+class PartlyRead {
+ public:
+  /// Throws FileError for what can't be read; it is to be a regular file.
+  explicit PartlyRead(const std::string& path);
+
+  const std::string& path() const { return path_; }
+  uint64_t size() const { return size_; }
+  std::string read(uint64_t offset, size_t count) const;
+
+ private:
+  std::string path_;
+  mutable std::ifstream file_;
+  uint64_t size_ = 0;
+};
+/// One of the parts, as even as can be, that a count of items is divided into.
+struct PartOf {
+  uint32_t index, count;
+
+  uint64_t begin(uint64_t items) const { return items * index / count; }
+  uint64_t size(uint64_t items) const { return items * (index + 1) / count - begin(items); }
+};
+/// A part of the vertices and of the triangles, which name vertices of the whole; nothing where records differ in size, or the file is not
+/// binary.
+std::optional<Mesh> readPlyPart(const PartlyRead& file, const PartOf& part);
+std::optional<Mesh> readStlPart(const PartlyRead& file, const PartOf& part);
 
 bool looksLikeObj(std::string_view bytes);
 bool looksLikeOff(std::string_view bytes);

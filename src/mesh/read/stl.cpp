@@ -69,6 +69,19 @@ class TextStlReader {
   Mesh mesh_;
 };
 
+/// `first`: the number of the first of these triangles in the file.
+Mesh readTriangles(std::string_view bytes, size_t count, size_t first) {
+  Mesh mesh;
+  mesh.positions.resize(9 * count);
+  mesh.triangles.resize(3 * count);
+  for (size_t t = 0; t < count; ++t) {
+    const char* corners = bytes.data() + kTriangleSize * t + 12;
+    for (size_t i = 0; i < 9; ++i) mesh.positions[9 * t + i] = double(loadScalar<float>(corners + 4 * i, ByteOrder::little));
+    for (size_t i = 0; i < 3; ++i) mesh.triangles[3 * t + i] = uint32_t(3 * (first + t) + i);
+  }
+  return mesh;
+}
+
 Mesh readBinary(const FileBytes& file) {
   const auto& [path, bytes] = file;
   if (bytes.size() < kHeaderSize) {
@@ -79,21 +92,21 @@ Mesh readBinary(const FileBytes& file) {
     throw FileError(path + ": byte 80: the header of the binary STL file promises " + std::to_string(count) +
                     " triangles, but the file holds " + std::to_string(room));
   }
-  Mesh mesh;
-  mesh.positions.resize(9 * count);
-  mesh.triangles.resize(3 * count);
-  for (size_t t = 0; t < count; ++t) {
-    const char* corners = bytes.data() + kHeaderSize + kTriangleSize * t + 12;
-    for (size_t i = 0; i < 9; ++i) mesh.positions[9 * t + i] = double(loadScalar<float>(corners + 4 * i, ByteOrder::little));
-    for (size_t i = 0; i < 3; ++i) mesh.triangles[3 * t + i] = uint32_t(3 * t + i);
-  }
-  return mesh;
+  return readTriangles(bytes.substr(kHeaderSize), count, 0);
 }
 
 }  // namespace
 
 bool isBinaryStl(std::string_view head, uint64_t size) {
   return head.size() >= kHeaderSize && size == kHeaderSize + kTriangleSize * binaryCount(head);
+}
+
+std::optional<Mesh> readStlPart(const PartlyRead& file, const PartOf& part) {
+  constexpr size_t kMost = ~uint32_t(0) / 3;  // so that vertices have ids
+  const std::string head = file.read(0, size_t(std::min<uint64_t>(file.size(), kHeaderSize)));
+  if (!isBinaryStl(head, file.size()) || binaryCount(head) > kMost) return std::nullopt;
+  const size_t count = binaryCount(head), first = size_t(part.begin(count)), some = size_t(part.size(count));
+  return readTriangles(file.read(kHeaderSize + kTriangleSize * uint64_t(first), kTriangleSize * some), some, first);
 }
 
 bool looksLikeStl(std::string_view bytes) { return isBinaryBySize(bytes) || isText(bytes); }

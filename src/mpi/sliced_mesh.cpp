@@ -1,0 +1,277 @@
+#include "mpi/sliced_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "base/position_table.h"
+#include "base/sort.h"
+#include "mesh/fingerprints.h"
+#include "mpi/pack.h"
+
+namespace mandoline::detail {
+namespace {
+
+constexpr const char* kSlicing = "distribution of the mesh";
+
+using IdList = std::vector<uint32_t>;
+
+std::vector<uint64_t> sumsBefore(const std::vector<uint64_t>& counts) {
+  std::vector<uint64_t> sums{0};
+  for (const uint64_t count : counts) sums.push_back(sums.back() + count);
+  return sums;
+}
+
+/// Finds the vertices of a slice's triangles, of which other processes have some.
+class CornerFinder {
+ public:
+  CornerFinder(Communicator& comm, SlicedMeshData& mesh) : comm_(comm), mesh_(mesh), own_(size_t(comm.rank())) {}
+
+  void find() {
+    bool isFit = false;
+    std::vector<IdList> asked(size_t(comm_.size()));
+    comm_.together(kSlicing, [&] {
+      isFit = areFit();
+      if (isFit) listCorners(asked);
+    });
+    mesh_.isFit = comm_.reduce(int(isFit), MPI_MIN) != 0;
+    if (!mesh_.isFit) return;
+    std::vector<IdList> told = comm_.exchangeAll(asked);
+    std::vector<std::vector<double>> positions(told.size());
+    comm_.together(kSlicing, [&] {
+      for (size_t rank = 0; rank < told.size(); ++rank) positions[rank] = positionsOf(told[rank]);
+    });
+    positions = comm_.exchangeAll(positions);
+    comm_.together(kSlicing, [&] { takeCorners(positions); });
+  }
+
+ private:
+  bool areFit() const {
+    constexpr uint64_t kMost = uint64_t(1) << 31;
+    const Mesh& slice = *mesh_.slice;
+    if (slice.positions.size() % 3 != 0 || slice.triangles.size() % 3 != 0) return false;
+    if (mesh_.triangles() == 0 || mesh_.triangles() >= kMost || mesh_.vertices() >= kMost) return false;
+    return std::all_of(slice.triangles.begin(), slice.triangles.end(), [&](uint32_t v) { return v < mesh_.vertices(); });
+  }
+
+  void listCorners(std::vector<IdList>& asked) {
+    mesh_.isReferenced.assign(mesh_.slice->vertexCount(), 0);
+    mesh_.part.vertices = mesh_.slice->triangles;
+    sortUnique(mesh_.part.vertices);
+    size_t rank = 0;
+    for (const uint32_t v : mesh_.part.vertices) {
+      while (v >= mesh_.firstVertex[rank + 1]) ++rank;
+      if (rank != own_) asked[rank].push_back(v);
+    }
+  }
+
+  /// Of a vertex of the slice that a triangle has.
+  const double* positionOf(uint32_t v) {
+    const size_t at = size_t(v - mesh_.firstVertex[own_]);
+    mesh_.isReferenced[at] = 1;
+    return &mesh_.slice->positions[3 * at];
+  }
+
+  std::vector<double> positionsOf(const IdList& vertices) {
+    std::vector<double> positions;
+    positions.reserve(3 * vertices.size());
+    for (const uint32_t v : vertices) {
+      const double* p = positionOf(v);
+      positions.insert(positions.end(), p, p + 3);
+    }
+    return positions;
+  }
+
+  /// Those of other processes come in the order in which they are asked for.
+  void takeCorners(const std::vector<std::vector<double>>& told) {
+    MeshPart& part = mesh_.part;
+    std::vector<size_t> at(told.size(), 0);
+    size_t rank = 0;
+    part.positions.reserve(3 * part.vertices.size());
+    for (const uint32_t v : part.vertices) {
+      while (v >= mesh_.firstVertex[rank + 1]) ++rank;
+      const double* p = rank == own_ ? positionOf(v) : &told[rank][at[rank]];
+      at[rank] += 3;
+      part.positions.insert(part.positions.end(), p, p + 3);
+    }
+    const IdList& corners = mesh_.slice->triangles;
+    for (size_t t = 0; t < corners.size() / 3; ++t) part.triangles.push_back(uint32_t(mesh_.firstTriangle[own_] + t));
+    part.corners = indicesAmong(part.vertices, corners);
+  }
+
+  Communicator& comm_;
+  SlicedMeshData& mesh_;
+  const size_t own_;  // this process's rank
+};
+
+uint64_t bitsOf(double x) {
+  uint64_t bits = 0;
+  std::memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
+double fromBits(uint64_t bits) {
+  double x = 0;
+  std::memcpy(&x, &bits, sizeof x);
+  return x;
+}
+
+/// In the order of the triangles, which tells 0 from -0.
+MeshBox boxOfAll(Communicator& comm, const MeshPart& part) {
+  constexpr size_t kWords = 7;  // of each process
+  std::vector<uint64_t> words(kWords * size_t(comm.size()), 0);
+  MeshBox here;
+  uint64_t* own = &words[kWords * size_t(comm.rank())];
+  comm.together(kSlicing, [&] { here = boxOf(MeshView(part.positions, part.corners)); });
+  const auto isKnown = [](const double x) { return std::isfinite(x); };
+  own[6] = std::any_of(part.positions.begin(), part.positions.end(), isKnown);
+  for (size_t d = 0; d < 3; ++d) own[d] = bitsOf(here.min[d]), own[3 + d] = bitsOf(here.max[d]);
+  comm.reduce(words, MPI_SUM);
+  MeshBox box;
+  bool isFirst = true;
+  for (size_t at = 0; at < words.size(); at += kWords) {
+    if (words[at + 6] == 0) continue;
+    for (size_t d = 0; d < 3; ++d) {
+      const double low = fromBits(words[at + d]), high = fromBits(words[at + 3 + d]);
+      box.min[d] = isFirst ? low : std::min(box.min[d], low);
+      box.max[d] = isFirst ? high : std::max(box.max[d], high);
+    }
+    isFirst = false;
+  }
+  return box;
+}
+
+struct Sum {
+  uint64_t state = 0;
+  IdList odd;  ///< a number that waits for the next
+
+  static void fields(auto& self, const auto& f) {
+    f("state", self.state);
+    f("odd", self.odd);
+  }
+};
+
+/// Each process adds to what those before it have come to. Gives the last one's to all.
+template <class Add>
+Sum addInOrder(Communicator& comm, Sum sum, const Add& add) {
+  if (comm.rank() > 0) sum = unpacked<Sum>(comm.receive(comm.rank() - 1));
+  add(sum);
+  if (comm.rank() + 1 < comm.size()) comm.send(packed(sum), comm.rank() + 1);
+  Communicator::Bytes bytes = packed(sum);
+  comm.broadcast(bytes, comm.size() - 1);
+  return unpacked<Sum>(bytes);
+}
+
+}  // namespace
+
+std::shared_ptr<const SlicedMeshData> sliced(Communicator& comm, std::shared_ptr<const Mesh> slice) {
+  auto mesh = std::make_shared<SlicedMeshData>();
+  mesh->slice = std::move(slice);
+  mesh->firstVertex = sumsBefore(comm.gatherAll(uint64_t(mesh->slice->vertexCount())));
+  mesh->firstTriangle = sumsBefore(comm.gatherAll(uint64_t(mesh->slice->triangleCount())));
+  CornerFinder(comm, *mesh).find();
+  if (mesh->isFit) mesh->box = boxOfAll(comm, mesh->part);
+  mesh->bytesSent = comm.bytesSent();
+  return mesh;
+}
+
+Mesh sliceOf(const MeshView& mesh, const ShareOf& shareOf) {
+  const auto some = [&](const auto& numbers, size_t count, size_t items) {
+    const size_t begin = count * shareOf.index / shareOf.count, end = count * (shareOf.index + 1) / shareOf.count;
+    const bool isLast = shareOf.index + 1 == shareOf.count;  // with what is left where a length is wrong
+    return std::vector(numbers.begin() + ptrdiff_t(begin * items), isLast ? numbers.end() : numbers.begin() + ptrdiff_t(end * items));
+  };
+  return {some(mesh.positions, mesh.vertexCount(), 3), some(mesh.triangles, mesh.triangleCount(), 3)};
+}
+
+Fingerprint fingerprintOf(Communicator& comm, const SlicedMeshData& mesh) {
+  Fingerprinter first("mesh");
+  first.add(3 * mesh.vertices());
+  Sum sum = addInOrder(comm, {first.state(), {}}, [&](Sum& all) {
+    Fingerprinter fingerprinter = Fingerprinter::goingOn(all.state);
+    for (const double x : mesh.slice->positions) fingerprinter.add(x);
+    all.state = fingerprinter.state();
+  });
+  Fingerprinter second = Fingerprinter::goingOn(sum.state);
+  second.add(3 * mesh.triangles());
+  sum = addInOrder(comm, {second.state(), {}}, [&](Sum& all) {
+    Fingerprinter fingerprinter = Fingerprinter::goingOn(all.state);
+    for (const uint32_t v : mesh.slice->triangles) {
+      if (all.odd.empty()) {
+        all.odd.push_back(v);
+      } else {
+        fingerprinter.add(uint64_t(all.odd[0]) << 32 | v);
+        all.odd.clear();
+      }
+    }
+    all.state = fingerprinter.state();
+  });
+  Fingerprinter last = Fingerprinter::goingOn(sum.state);
+  if (!sum.odd.empty()) last.add(uint64_t(sum.odd[0]));
+  return last.get();
+}
+
+double largestCoordinate(Communicator& comm, const SlicedMeshData& mesh) {
+  double largest = 0;
+  for (const double x : mesh.part.positions) largest = std::max(largest, std::isfinite(x) ? std::fabs(x) : INFINITY);
+  return comm.reduce(largest, MPI_MAX);
+}
+
+MeshInfo inspectArrays(Communicator& comm, const SlicedMeshData& mesh, const MeshPart& surface) {
+  MeshInfo info;
+  info.min = mesh.box.min;
+  info.max = mesh.box.max;
+  info.vertices = mesh.vertices();
+  info.triangles = mesh.triangles();
+  std::vector<double> others;
+  uint64_t counts[2] = {};  // of those without triangles: all, and not finite
+  comm.together(kSlicing, [&] {
+    for (size_t v = 0; v < mesh.isReferenced.size(); ++v) {
+      if (mesh.isReferenced[v]) continue;
+      const double* p = &mesh.slice->positions[3 * v];
+      const bool isFinite = std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+      ++counts[0];
+      counts[1] += !isFinite;
+      if (isFinite) others.insert(others.end(), p, p + 3);
+    }
+  });
+  info.unreferencedVertices = comm.reduce(counts[0], MPI_SUM);
+  info.nonFiniteVertices = comm.reduce(counts[1], MPI_SUM);
+  if (info.unreferencedVertices == info.nonFiniteVertices) return info;
+  const std::vector<std::vector<double>> told = comm.exchangeAll(std::vector(size_t(comm.size()), others));
+  std::vector<uint8_t> isShared;  // per place whether a vertex that a triangle has is there, too
+  comm.together(kSlicing, [&] {
+    std::vector<double> all;
+    for (const std::vector<double>& some : told) all.insert(all.end(), some.begin(), some.end());
+    const auto at = [&](uint32_t v) { return &all[3 * size_t(v)]; };
+    const std::vector<uint32_t> lowest = lowestAtPosition(all.size() / 3, at, [](uint32_t) { return true; });
+    isShared.assign(lowest.size(), 0);
+    const std::vector<uint32_t> here = lowestAt(all, surface);
+    for (uint32_t v = 0; v < lowest.size(); ++v) {
+      info.weldedVertices += lowest[v] != v;
+      isShared[v] = lowest[v] == v && here[v] != ~0u;
+    }
+  });
+  comm.uniteFlags(isShared);
+  info.weldedVertices += size_t(std::count(isShared.begin(), isShared.end(), 1));
+  return info;
+}
+
+std::shared_ptr<const Mesh> gathered(Communicator& comm, const SlicedMeshData& mesh, bool inAll) {
+  auto whole = std::make_shared<Mesh>();
+  const auto gather = [&](auto Mesh::*member) {
+    std::vector<std::remove_cvref_t<decltype(whole.get()->*member)>> slices(size_t(comm.size()));
+    comm.together(kSlicing, [&] {
+      for (size_t rank = 0; rank < (inAll ? slices.size() : 1); ++rank) slices[rank] = (*mesh.slice).*member;
+    });
+    slices = comm.exchangeAll(slices);
+    comm.together(kSlicing, [&] {
+      auto& all = (*whole).*member;
+      for (const auto& slice : slices) all.insert(all.end(), slice.begin(), slice.end());
+    });
+  };
+  gather(&Mesh::positions);
+  gather(&Mesh::triangles);
+  return whole;
+}
+
+}  // namespace mandoline::detail
