@@ -66,6 +66,8 @@ class PreparedForGrid {
 
   MeshView view() const { return mesh_.mesh(); }
   const Prepared& prepared() const { return again_ ? *again_ : *mesh_.data()->prepared; }
+  /// Whether it has been.
+  bool isPreparedAgain() const { return again_ != nullptr; }
   Fingerprint fingerprint() const;
   /// Those of a cut that has no others than the preparation.
   CutOptions options() const;

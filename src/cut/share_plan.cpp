@@ -191,7 +191,7 @@ struct SharePlanner::Data {
     input = std::move(state.surface.input);
     work = workOfLayers(input);
     reach.emplace(input);
-    isInShares = isPreparedInShares(mesh.prepared());
+    isInShares = !mesh.isPreparedAgain() && isPreparedInShares(mesh.prepared());
   }
 
   /// Of a size of bricks.
@@ -286,8 +286,8 @@ struct SharePlanner::Data {
   }
 
   /// Each process gives the triangles of its slice to those who cut them, and of meshes that are prepared as a whole the slice to all. It
-  /// tells how many crossings each vertex begins, and of meshes with parts which triangles are of which; the triangles that
-  /// others have, too, with the sets they belong to.
+  /// tells how many crossings each vertex begins, and of meshes with parts which triangles are of which; the sets of triangles, those that
+  /// others have, too, and the open tri-edges.
   uint64_t sentPreparing(uint32_t ranks, const CellLayers& layers) const {
     constexpr uint64_t kTriangleBytes = 16, kVertexBytes = 56;  // of a slice, whose vertices may be those of others
     const Prepared& prepared = mesh.prepared();
@@ -300,7 +300,8 @@ struct SharePlanner::Data {
     if (layers.first == layers.past) return bytes;
     uint64_t shared = 0;
     for (const int32_t plane : {layers.first, layers.past}) shared += plane > 0 && plane < input.cells(2) ? reach->to(plane) : 0;
-    return bytes + (ranks - 1) * 2 * sizeof(uint32_t) * shared;
+    const uint64_t told = uint64_t(parts.winding) + parts.parity + parts.open + parts.openEdges;  // sets of triangles, and edges
+    return bytes + (ranks - 1) * 2 * sizeof(uint32_t) * (shared + uint64_t(reach->prepared(layers) * double(told)));
   }
 
   PreparedForGrid mesh;

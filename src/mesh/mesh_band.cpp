@@ -175,11 +175,10 @@ void takeLowest(const std::vector<std::vector<double>>& asked, const std::vector
   for (uint32_t v = 0; v < part.vertices.size(); ++v) triangles.lowest[v] = lowest[places.find(&part.positions[3 * size_t(v)])];
 }
 
-std::vector<uint8_t> verticesWithin(const BandTriangles& triangles) {
-  const MeshPart& part = triangles.part;
+std::vector<uint8_t> verticesWithin(const MeshPart& part, const std::vector<uint8_t>& isWithin) {
   std::vector<uint8_t> within(part.vertices.size(), 0);
   for (size_t t = 0; t < part.triangles.size(); ++t) {
-    for (size_t i = 0; i < 3 && triangles.isWithin[t]; ++i) within[part.corners[3 * t + i]] = 1;
+    for (size_t i = 0; i < 3 && isWithin[t]; ++i) within[part.corners[3 * t + i]] = 1;
   }
   Places places = placesOf(part, [&](uint32_t v) { return within[v] != 0; });
   for (uint32_t v = 0; v < within.size(); ++v) within[v] = places.find(&part.positions[3 * size_t(v)]) != Places::kFree;
@@ -198,7 +197,7 @@ std::unique_ptr<MeshBand> weldBand(const BandTriangles& triangles, int shift, co
   out->isComplete.resize(named.size());
   mesh.points.resize(named.size());
   mesh.triVertices = uint32_t(named.size());
-  const std::vector<uint8_t> within = verticesWithin(triangles);
+  const std::vector<uint8_t>& within = triangles.isComplete;
   std::vector<uint32_t> numbers;
   for (size_t v = 0; v < part.vertices.size(); ++v) {
     const uint32_t number = numbers.emplace_back(named(triangles.lowest[v]));

@@ -45,9 +45,10 @@ class BandFinder {
 
 /// What a band has of a mesh.
 struct BandTriangles {
-  MeshPart part;                  ///< triangles within and beside the band
-  std::vector<uint8_t> isWithin;  ///< per triangle
-  std::vector<uint32_t> lowest;   ///< per vertex of the part: the id of the lowest one of the whole at its position that a triangle has
+  MeshPart part;                    ///< triangles within and beside the band
+  std::vector<uint8_t> isWithin;    ///< per triangle
+  std::vector<uint8_t> isComplete;  ///< per vertex of the part: as of verticesWithin()
+  std::vector<uint32_t> lowest;     ///< per vertex of the part: the id of the lowest one of the whole at its position that a triangle has
 };
 /// Heights of the vertices of a part, scaled.
 std::vector<double> heightsOf(const MeshPart& part, const Scale& scale);
@@ -63,7 +64,7 @@ std::vector<uint32_t> lowestAt(const std::vector<double>& positions, const MeshP
 /// Takes what positionsElsewhere() has been told by lowestAt(); the part itself has the lowest of the others.
 void takeLowest(const std::vector<std::vector<double>>& asked, const std::vector<std::vector<uint32_t>>& told, BandTriangles& triangles);
 /// Per vertex whether a triangle within the band has one at its position.
-std::vector<uint8_t> verticesWithin(const BandTriangles& triangles);
+std::vector<uint8_t> verticesWithin(const MeshPart& part, const std::vector<uint8_t>& isWithin);
 
 struct MeshBand {
   Band band;

@@ -60,13 +60,17 @@ class SharesPreparer {
   MeshPart exchange(const std::vector<MeshPart>& parts, MeshPart own) {
     std::vector<Communicator::Bytes> bytes(size_t(comm_.size()));
     comm_.together(kPreparation, [&] {
-      for (size_t rank = 0; rank < parts.size(); ++rank) bytes[rank] = packed(parts[rank]);
+      for (size_t rank = 0; rank < parts.size(); ++rank) {
+        if (!parts[rank].triangles.empty()) bytes[rank] = packed(parts[rank]);
+      }
     });
     bytes = comm_.exchangeAll(bytes);
     MeshPart all;
     comm_.together(kPreparation, [&] {
       std::vector<MeshPart> told{std::move(own)};
-      for (const Communicator::Bytes& some : bytes) told.push_back(unpacked<MeshPart>(some));
+      for (const Communicator::Bytes& some : bytes) {
+        if (!some.empty()) told.push_back(unpacked<MeshPart>(some));
+      }
       all = united(told);
     });
     return all;
@@ -94,12 +98,12 @@ class SharesPreparer {
     });
     BandTriangles triangles;
     triangles.part = exchange(parts, within);
-    std::vector<uint8_t> isFar;  // not within
+    std::vector<uint8_t> isFar;  // per vertex
     comm_.together(kPreparation, [&] {
       const std::vector<uint32_t>& ids = within.triangles;
       for (const uint32_t t : triangles.part.triangles) triangles.isWithin.push_back(std::binary_search(ids.begin(), ids.end(), t));
-      isFar = verticesWithin(triangles);
-      for (uint8_t& flag : isFar) flag = !flag;
+      triangles.isComplete = verticesWithin(triangles.part, triangles.isWithin);
+      for (const uint8_t flag : triangles.isComplete) isFar.push_back(!flag);
     });
     const Positions asked = ask(triangles.part, isFar);
     told = comm_.exchangeAll(asked);

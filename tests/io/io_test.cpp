@@ -11,6 +11,7 @@
 #include "mandoline/inspect.h"
 #include "mandoline/measure.h"
 #include "mandoline/slice.h"
+#include "mesh/read/load_file.h"
 #include "refusal.h"
 #include "shapes.h"
 #include "temporary_folder.h"
@@ -273,6 +274,75 @@ TEST_CASE("STL in binary, even where it begins with solid", "[io]") {
   }
   // A few bytes behind the last triangle do no harm.
   REQUIRE(readText("padded.stl", binaryStl("solid exported", 2, corners) + std::string(16, '\0')).triangleCount() == 2);
+}
+
+namespace {
+
+/// What the slices of a file make up, or nothing if one of them can't be read by itself.
+std::optional<Mesh> readInSlices(const std::string& path, uint32_t count) {
+  Mesh whole;
+  uint64_t sample = 0;
+  for (uint32_t index = 0; index < count; ++index) {
+    const auto slice = mandoline::detail::readMeshSlice(path, index, count);
+    if (!slice) return std::nullopt;
+    CHECK(slice->mesh.triangleCount() <= 7 / count + 1);
+    CHECK((index == 0 || slice->sample == sample));
+    sample = slice->sample;
+    whole.positions.insert(whole.positions.end(), slice->mesh.positions.begin(), slice->mesh.positions.end());
+    whole.triangles.insert(whole.triangles.end(), slice->mesh.triangles.begin(), slice->mesh.triangles.end());
+  }
+  return whole;
+}
+
+/// Of triangles, unless one is a square.
+std::string coloredPly(bool bigEndian, int triangles, int square) {
+  std::string file = std::string("ply\nformat binary_") + (bigEndian ? "big" : "little") +
+                     "_endian 1.0\ncomment 1\nelement vertex 5\nproperty uchar red\nproperty double y\nproperty float x\n"
+                     "property short z\nelement face " +
+                     std::to_string(triangles) + "\nproperty ushort flag\nproperty list int uchar vertex_indices\nend_header\n";
+  const auto add = [&](auto value) { file += bytes(value, bigEndian); };
+  for (int v = 0; v < 5; ++v) add(uint8_t(v)), add(0.1 * v), add(float(v * v)), add(int16_t(3 - v));
+  for (int t = 0; t < triangles; ++t) {
+    const int corners = t == square ? 4 : 3;
+    add(uint16_t(3)), add(int32_t(corners));
+    for (int i = 0; i < corners; ++i) add(uint8_t((t + i) % 5));
+  }
+  return file;
+}
+
+}  // namespace
+
+TEST_CASE("Slices of binary files of triangles make up the whole; other files have none", "[io]") {
+  const TemporaryFolder folder;
+  std::vector<float> corners;
+  for (int i = 0; i < 9 * 7; ++i) corners.push_back(float(i * i % 11));
+  const std::string files[] = {folder.write("little.ply", coloredPly(false, 7, -1)), folder.write("big.ply", coloredPly(true, 7, -1)),
+                               folder.write("a.stl", binaryStl("solid", 7, corners))};
+  for (const std::string& file : files) {
+    const Mesh whole = mandoline::readMesh(file);
+    for (const uint32_t count : {1u, 2u, 3u, 12u}) {
+      CAPTURE(file, count);
+      const std::optional<Mesh> made = readInSlices(file, count);
+      REQUIRE(made);
+      CHECK(made->positions == whole.positions);
+      CHECK(made->triangles == whole.triangles);
+    }
+  }
+  std::string damaged = coloredPly(false, 7, -1);
+  damaged.back() = 9;  // no vertex
+  const std::string others[] = {folder.write("square.ply", coloredPly(false, 7, 4)),
+                                folder.write("last.ply", coloredPly(true, 7, 6)),
+                                folder.write("short.ply", coloredPly(false, 7, -1).substr(0, 300)),
+                                folder.write("damaged.ply", damaged),
+                                folder.write("text.stl", kAsciiStl),
+                                folder.write("lists.ply", binaryPly(false)),
+                                folder.write("empty.ply", ""),
+                                folder.path("none.ply")};
+  for (const std::string& file : others) {
+    CAPTURE(file);
+    CHECK_FALSE(readInSlices(file, 3));
+  }
+  CHECK(mandoline::detail::readMeshSlice(files[0], 0, 2)->sample != mandoline::detail::readMeshSlice(files[1], 0, 2)->sample);
 }
 
 TEST_CASE("Doubles are kept", "[io]") {

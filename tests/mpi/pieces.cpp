@@ -299,11 +299,41 @@ bool checkUnprepared(const std::string& name, const Mesh& mesh, const Grid& grid
   });
 }
 
+/// Where triangles are refused or assumed not to meet: the pieces are those of the whole, or the error is. What meets although it is
+/// assumed not to may be contradictory, of which errors tell something else.
+bool checkOtherModes(const std::string& name, const Mesh& mesh, const Grid& grid) {
+  for (const Intersections intersections : {Intersections::refuse, Intersections::assumeNone}) {
+    const PrepareOptions options{{1, {}}, intersections};
+    const PrepareResult alone = prepare(mesh, options);
+    if (intersections == Intersections::assumeNone && prepare(mesh, {{1, {}}, Intersections::refuse}).error.status != Status::ok) continue;
+    const bool isRight = inAll(name + (intersections == Intersections::refuse ? " refused" : " assumed"), [&] {
+      Error error;
+      std::optional<DistributedCut> cut;
+      try {
+        cut.emplace(MPI_COMM_WORLD, SlicedMesh(MPI_COMM_WORLD, unevenSlice(mesh)), grid, options);
+      } catch (const RankError& failed) {
+        error = failed.error;
+      }
+      require(error.status == alone.error.status && error.message == alone.error.message, "the error differs: " + error.message);
+      if (!cut) return;
+      const CutResult whole = mandoline::cut(alone.mesh, grid, {{1, {}}});
+      const RankPiece piece = cut->takePiece();
+      compareVertices(piece, whole.mesh);
+      compareCells(piece, whole.mesh);
+      compareRegions(piece, whole.mesh);
+      require(piece.whole == whole.mesh.fingerprint, "the fingerprint differs");
+    });
+    if (!isRight) return false;
+  }
+  return true;
+}
+
 bool check(const std::string& name, const Mesh& wholeMesh, const Grid& grid) {
   const RunOptions oneThread{1, {}};
   const PrepareResult alone = prepare(wholeMesh, {oneThread});
   const CutResult whole = cut(alone.mesh, grid, {oneThread});
   if (!checkUnprepared(name, wholeMesh, grid, whole, false) || !checkUnprepared(name, wholeMesh, grid, whole, true)) return false;
+  if (!checkOtherModes(name, wholeMesh, grid)) return false;
   PreparedMesh mesh;
   if (!inAll(name, [&] { mesh = preparedTogether(name, wholeMesh, alone).mesh; })) return false;
   std::optional<DistributedCut> distributed;

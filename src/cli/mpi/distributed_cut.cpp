@@ -140,12 +140,13 @@ class Run {
 
   /// False, alike in all processes, if it can't be found.
   bool readSlice() {
-    std::optional<Mesh> slice;
+    std::optional<detail::FileSlice> slice;
     ranks_.together([&] {
       if (!arguments_.orient) slice = detail::readMeshSlice(arguments_.mesh, uint32_t(ranks_.rank()), uint32_t(ranks_.size()));
     });
     if (ranks_.comm().reduce(int(slice.has_value()), MPI_MIN) == 0) return false;
-    slice_ = *std::move(slice);
+    slice_ = std::move(slice->mesh);
+    sample_ = slice->sample;
     return true;
   }
 
@@ -205,6 +206,7 @@ class Run {
   Error cut() {
     const RunOptions options{arguments_.threads, [this](const Progress& progress) { return bar_.update(progress); }};
     try {
+      ranks_.comm().requireSame(sample_, "mesh");
       ranks_.comm().together("cut", [this] {
         if (ranks_.isFirst()) detail::checkGrid(grid_.grid, 0);
       });
@@ -357,6 +359,7 @@ class Run {
   Input input_;  // of others than the first the name and at most the mesh
   bool isReadByAll_ = false;
   Mesh slice_;                        // until it is one of slices_
+  uint64_t sample_ = 0;               // of the file that it is read from
   std::optional<SlicedMesh> slices_;  // in the place of the mesh, until it is cut
   MeshInfo info_;
   AskedGrid grid_;

@@ -8,6 +8,7 @@
 #include <memory>
 #include <new>
 
+#include "mesh/fingerprints.h"
 #include "mesh/read/readers.h"
 
 namespace mandoline {
@@ -35,13 +36,34 @@ std::string detail::PartlyRead::read(uint64_t offset, size_t count) const {
   return bytes;
 }
 
-std::optional<Mesh> detail::readMeshSlice(const std::string& path, uint32_t index, uint32_t count) {
+namespace detail {
+namespace {
+
+/// Its size and some bytes at even distances.
+uint64_t sampleOf(const PartlyRead& file) {
+  constexpr uint64_t kPlaces = 64, kBytes = 64;
+  Fingerprinter fingerprinter("file");
+  fingerprinter.add(file.size());
+  for (uint64_t place = 0; place < kPlaces; ++place) {
+    const uint64_t count = std::min(file.size(), kBytes);
+    for (const char byte : file.read((file.size() - count) * place / (kPlaces - 1), size_t(count)))
+      fingerprinter.add(uint64_t(uint8_t(byte)));
+  }
+  return fingerprinter.get().value;
+}
+
+}  // namespace
+}  // namespace detail
+
+std::optional<detail::FileSlice> detail::readMeshSlice(const std::string& path, uint32_t index, uint32_t count) {
   try {
     if (!isBinaryMesh(path)) return std::nullopt;
     const PartlyRead file(path);
     const std::string head = file.read(0, size_t(std::min<uint64_t>(file.size(), 512)));
     if (isGzipped(head) || looksLikeOff(head)) return std::nullopt;
-    return looksLikePly(head) ? readPlyPart(file, {index, count}) : readStlPart(file, {index, count});
+    std::optional<Mesh> mesh = looksLikePly(head) ? readPlyPart(file, {index, count}) : readStlPart(file, {index, count});
+    if (!mesh) return std::nullopt;
+    return FileSlice{*std::move(mesh), sampleOf(file)};
   } catch (const FileError&) {
     return std::nullopt;
   } catch (const std::filesystem::filesystem_error&) {
