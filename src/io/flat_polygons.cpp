@@ -16,13 +16,20 @@ constexpr double kWidth = 0x1p-48;
 /// to both of these than they are to each other.
 constexpr double kApart = 4;
 
+/// As little of the largest coordinate is what a centroid is off by.
+constexpr double kCentroidError = 0x1p-40;
+
+double largestCoordinate(const CellComplex& cells) {
+  double largest = 0;
+  for (const double x : cells.positions) largest = std::max(largest, std::fabs(x));
+  return largest;
+}
+
 class Collapser {
  public:
   Collapser(const CellComplex& cells, ComplexPolygons& polygons) : cells_(cells), polygons_(polygons) {
-    double largest = 0;
-    for (const double x : cells.positions) largest = std::max(largest, std::fabs(x));
     int exponent = 0;
-    std::frexp(largest, &exponent);
+    std::frexp(largestCoordinate(cells), &exponent);
     scale_ = std::ldexp(1, std::min(-exponent, 1000));
   }
 
@@ -178,6 +185,18 @@ class Collapser {
 }  // namespace
 
 void collapseFlatPolygons(const CellComplex& cells, ComplexPolygons& polygons) { Collapser(cells, polygons).run(); }
+
+void dropWallsThroughCentroids(const CellComplex& cells, ComplexPolygons& polygons) {
+  const double most = kCentroidError * largestCoordinate(cells);
+  for (size_t f = 0; f < cells.faceCount(); ++f) {
+    const int32_t cell = cells.faceCells[2 * f];
+    if (cells.faceTag[f] != FaceTag::surface || cell < 0 || cell != cells.faceCells[2 * f + 1]) continue;
+    double height = 0;
+    for (size_t d = 0; d < 3; ++d)
+      height += cells.faceNormal[3 * f + d] * (cells.faceCentroid[3 * f + d] - cells.cellCentroid[3 * size_t(cell) + d]);
+    if (std::fabs(height) <= most) polygons.replace(f, {});
+  }
+}
 
 bool isEnclosedByWalls(const CellComplex& cells, const ComplexPolygons& polygons, size_t cell) {
   const auto sides = cells.halfFaces(cell);

@@ -11,6 +11,10 @@ namespace mandoline::detail {
 /// by rounding alone. A face may then have several polygons, or none.
 MANDOLINE_SHARED void collapseFlatPolygons(const CellComplex& cells, ComplexPolygons& polygons);
 
+/// Takes away walls that have the same cell at both sides and lie in a plane with its centroid, but for rounding, as those of a flat sheet
+/// do that ends in the middle of a cell: OpenFOAM divides by how far they are from it.
+MANDOLINE_SHARED void dropWallsThroughCentroids(const CellComplex& cells, ComplexPolygons& polygons);
+
 /// Whether a cell has no faces but walls, so that nothing flows into it.
 MANDOLINE_SHARED bool isEnclosedByWalls(const CellComplex& cells, const ComplexPolygons& polygons, size_t cell);
 

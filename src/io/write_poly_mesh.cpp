@@ -157,7 +157,10 @@ void writePolyMesh(const FolderSink& sink, const CutMesh& cutMesh, const CellCom
     const TriangleGroups* const groups = detail::checkedGroups(options.groups, cutMesh.triangleCount);
     detail::ComplexPolygons polygons(cutMesh, cells);
     const bool isMerged = !cells.cellMemberOffsets.empty();
-    if (isMerged) detail::collapseFlatPolygons(cells, polygons);
+    if (isMerged) {
+      detail::dropWallsThroughCentroids(cells, polygons);
+      detail::collapseFlatPolygons(cells, polygons);
+    }
     detail::PolyMesh mesh = detail::makePolyMesh(cutMesh, cells, groups, options.simpleCells, [&](size_t cell) {
       return selection.has(cells.cellRegion[cell]) && (options.untouched || cell < cells.cutCells) &&
              !(isMerged && detail::isEnclosedByWalls(cells, polygons, cell));

@@ -270,6 +270,19 @@ TEST_CASE("polyMesh: of merged cells, no face is only as wide as rounding, where
   }
 }
 
+TEST_CASE("polyMesh: of merged cells, a flat sheet has no walls in cells in the middle of which it ends", "[cellfiles]") {
+  const auto wallsOf = [](double z) {
+    const Merged cells(shapes::quad({0.5, 0.5, z}, {3.5, 0.5, z}, {3.5, 3.5, z}, {0.5, 3.5, z}), Grid::box({0, 0, 0}, {4, 4, 4}, {4, 4, 4}),
+                       0);
+    const PolyMesh mesh = writtenPolyMesh(cells);
+    double area = 0;
+    for (size_t f = mesh.patch("surface").start; f < mesh.faces.size(); ++f) area += areaOf(mesh, f);
+    return area;
+  };
+  CHECK(wallsOf(1.5) == 2 * 4);
+  CHECK(wallsOf(1.375) == 2 * 9);
+}
+
 TEST_CASE("polyMesh: of merged cells, one that is enclosed by walls is left out", "[cellfiles]") {
   const Mesh pocket = shapes::cube(1.25, 1.75);
   const Grid grid = Grid::box({0, 0, 0}, {4, 4, 4}, {4, 4, 4});
@@ -484,7 +497,7 @@ TEST_CASE("untouched grid cells and octree cells with six sides are hexahedra; w
 }
 
 TEST_CASE("simple cells lack the faces of a sheet that ends in them, and nothing else", "[cellfiles]") {
-  const Mesh sheet = shapes::quad({0.5, 0.5, 1.5}, {2.5, 0.5, 1.5}, {2.5, 2.5, 1.5}, {0.5, 2.5, 1.5});
+  const Mesh sheet = shapes::quad({0.5, 0.5, 1.375}, {2.5, 0.5, 1.375}, {2.5, 2.5, 1.375}, {0.5, 2.5, 1.375});
   const Grid grid = Grid::box({0, 0, 0}, {3, 3, 3}, {3, 3, 3});
   WriteOptions simple;
   simple.simpleCells = true;
