@@ -143,8 +143,9 @@ class SurfaceCutter {
     }
     std::copy_n(t.data(), 3, faces_.makeLoop(3));
     const int planes = std::max({planeCount(a), planeCount(b), planeCount(c)});
-    const FaceId face = endFace(3, extent.element(), {planes > 1, planes > 1, planes > 0 || isUnpaired_});
-    if (!isUnpaired_) out_.inner.add(face, triangle_);
+    const bool isSpecial = planes > 0 || isUnpaired_;
+    const FaceId face = endFace(3, extent.element(), {planes > 1, planes > 1, isSpecial});
+    if (!isSpecial) out_.inner.add(face, triangle_);
   }
 
   /// Whether those of the outline that are of the mesh lie on no plane, and the others, on tri-edges, on one each.

@@ -19,7 +19,7 @@ class InnerTriangles {
     items_.clear();
     isReached_.resize(edges.ends.size());
   }
-  /// One that lies inside of a cell, without stitched sides.
+  /// One that lies inside of a cell and touches none of its grid-faces, without stitched sides.
   void add(FaceId face, TriangleId triangle) { items_.push_back({face, &edges_->sideEdges[3 * size_t(triangle.number)]}); }
   /// One that leaves a cell.
   void addOther(TriangleId triangle);
