@@ -90,6 +90,26 @@ TEST_CASE("A bubble beside a sheet with one curve is a sheet of its own", "[stag
   checkSameAsGeneral(mesh);
 }
 
+TEST_CASE("Triangles far inside of a cell belong to the sheet that leaves it, and those of a bubble do not", "[stages][partedCell]") {
+  const Mesh dense = shapes::icosphere({1.52, 1.47, 1.55}, 1.2, 5);
+  CHECK(partedCells(dense) == 26);
+  const Mesh mesh = shapes::merged({dense, shapes::icosphere({1.52, 1.47, 1.55}, 0.3, 4), shapes::icosphere({1.5, 1.5, 0.6}, 0.1, 3)});
+  const StagedCut cut(mesh, Stage::gridFaces);
+  CHECK(cut.stencil.cells.size() == 27);
+  CHECK(partedCells(cut) == 25);  // not the one around the first bubble, and not the one with the second
+  checkSameAsGeneral(mesh);
+}
+
+TEST_CASE("A rim parts no cell that has a whole edge of it, but those that its triangles reach into", "[stages][partedCell]") {
+  Mesh fan;  // around a hole inside of a cell, closed elsewhere outside of the grid
+  fan.positions = {-5, -4, 1.5, 9, -3, 1.5, 1, 12, 1.5, 1.4, 1.4, 1.5, 1.6, 1.4, 1.6, 1.5, 1.6, 1.5};
+  fan.triangles = {0, 1, 3, 1, 4, 3, 1, 2, 4, 2, 5, 4, 2, 0, 5, 0, 3, 5};
+  const StagedCut cut(fan, Stage::gridFaces);
+  CHECK_FALSE(isParted(cut, {3, 3, 3}));
+  CHECK(partedCells(cut) == cut.stencil.cells.size() - 1);
+  checkSameAsGeneral(fan);
+}
+
 TEST_CASE("Triangles that disagree about their sides part no cell", "[stages][partedCell]") {
   Mesh sheet = shapes::quad({-1, -1.1, 1.5}, {4, -1, 1.5}, {4.2, 4, 1.5}, {-1, 4.4, 1.5});
   CHECK(partedCells(sheet) > 0);
