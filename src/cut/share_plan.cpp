@@ -121,7 +121,7 @@ constexpr uint64_t kMadeBytes = 24;  // of a message
 
 uint64_t facesOf(const BrickCounts& counts) { return uint64_t(counts.triFaces) + counts.pieces; }
 
-/// What a process has of its layers while it writes its part of the output, and when it measures the piece that it made of that.
+/// What a process has of its layers while it writes its part of the output, and while it makes the piece of that or measures the piece.
 struct LayerMemory {
   uint64_t writing, measuring;
 };
@@ -132,7 +132,7 @@ LayerMemory memoryOf(const LayerLoad& load) {
   const uint64_t output = 4 * n.halfFaces + 20 * cells + 17 * faces + 4 * (loops + loopVertices) + 5 * n.parents + 49 * vertices;
   const uint64_t ids = 8 * cells + 12 * (faces + vertices), numbers = 4 * (faces + vertices);
   const uint64_t measures = 32 * cells + 56 * faces + 48 * vertices;
-  return {load.brickBytes + numbers + output, 2 * output + ids + measures};
+  return {load.brickBytes + numbers + output, output + ids + std::max(output, measures)};
 }
 
 /// Counts what a finished cut has in each layer of bricks.
@@ -289,9 +289,10 @@ struct SharePlanner::Data {
   /// tells how many crossings each vertex begins, and of meshes with parts which triangles are of which; the sets of triangles, those that
   /// others have, too, and the open tri-edges.
   uint64_t sentPreparing(uint32_t ranks, const CellLayers& layers) const {
-    constexpr uint64_t kTriangleBytes = 16, kVertexBytes = 56;  // of a slice, whose vertices may be those of others
+    constexpr uint64_t kTriangleBytes = 16, kVertexBytes = 64;  // of a slice, as measured: vertices are asked for, and in several parts
     const Prepared& prepared = mesh.prepared();
-    uint64_t bytes = (kTriangleBytes * mesh.view().triangleCount() + kVertexBytes * mesh.view().vertexCount()) / ranks;
+    const uint64_t slice = (kTriangleBytes * mesh.view().triangleCount() + kVertexBytes * mesh.view().vertexCount()) / ranks;
+    uint64_t bytes = slice * (ranks - 1) / ranks;
     if (!isInShares) return bytes + bytesOfView() * (ranks - 1) / ranks;
     bytes += mesh.view().vertexCount() + work.size() * sizeof(uint64_t);
     if (prepared.closed) return bytes;

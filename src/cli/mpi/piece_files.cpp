@@ -29,11 +29,13 @@ void writePvtu(Ranks& ranks, const std::string& path, const DistributedCut& cut,
   const auto nameOf = [stem = path.substr(0, path.size() - kExtension.size())](int rank) {
     return stem + '_' + std::to_string(rank) + ".vtu";
   };
-  RankFiles pieces(ranks, nameOf);
   const bool isWritten = hasCells(piece.cutMesh, options);
-  pieces.write(isWritten, [&](const Sink& sink) {
-    detail::writeVtuPiece(sink, piece.cutMesh, cut.measures(piece, {options.threads, {}}).cellVolume, options);
+  std::vector<double> cellVolume;
+  ranks.together([&] {
+    if (isWritten) cellVolume = cut.measures(piece, options).cellVolume;
   });
+  RankFiles pieces(ranks, nameOf);
+  pieces.write(isWritten, [&](const Sink& sink) { detail::writeVtuPiece(sink, piece.cutMesh, std::move(cellVolume), options); });
   const std::vector<uint64_t> written = ranks.comm().gatherAll(isWritten);
   ranks.inFirst([&] {
     std::vector<std::string> files;
