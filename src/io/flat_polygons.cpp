@@ -16,8 +16,8 @@ constexpr double kWidth = 0x1p-48;
 /// to both of these than they are to each other.
 constexpr double kApart = 4;
 
-/// As little of the largest coordinate is what a centroid is off by.
-constexpr double kCentroidError = 0x1p-40;
+/// How far from a centroid a wall is moved, of the largest coordinate. Nearer than half of it is too near: rounding is less.
+constexpr double kFromCentroid = 0x1p-44;
 
 double largestCoordinate(const CellComplex& cells) {
   double largest = 0;
@@ -186,16 +186,33 @@ class Collapser {
 
 void collapseFlatPolygons(const CellComplex& cells, ComplexPolygons& polygons) { Collapser(cells, polygons).run(); }
 
-void dropWallsThroughCentroids(const CellComplex& cells, ComplexPolygons& polygons) {
-  const double most = kCentroidError * largestCoordinate(cells);
+MovedVertices movedOffCentroids(const CellComplex& cells, const ComplexPolygons& polygons) {
+  const double far = kFromCentroid * largestCoordinate(cells);
+  MovedVertices moved;
+  const auto alongNormal = [&](size_t face, const double* a, const double* b) {
+    double sum = 0;
+    for (size_t d = 0; d < 3; ++d) sum += cells.faceNormal[3 * face + d] * (a[d] - b[d]);
+    return sum;
+  };
   for (size_t f = 0; f < cells.faceCount(); ++f) {
-    const int32_t cell = cells.faceCells[2 * f];
-    if (cells.faceTag[f] != FaceTag::surface || cell < 0 || cell != cells.faceCells[2 * f + 1]) continue;
-    double height = 0;
-    for (size_t d = 0; d < 3; ++d)
-      height += cells.faceNormal[3 * f + d] * (cells.faceCentroid[3 * f + d] - cells.cellCentroid[3 * size_t(cell) + d]);
-    if (std::fabs(height) <= most) polygons.replace(f, {});
+    if (cells.faceTag[f] != FaceTag::surface) continue;
+    const auto isNear = [&](int32_t cell) {
+      return cell >= 0 && std::fabs(alongNormal(f, &cells.faceCentroid[3 * f], &cells.cellCentroid[3 * size_t(cell)])) <= far / 2;
+    };
+    if (!isNear(cells.faceCells[2 * f]) && !isNear(cells.faceCells[2 * f + 1])) continue;
+    const double* const normal = &cells.faceNormal[3 * f];
+    const size_t axis = size_t(measuring::largestAxis({normal[0], normal[1], normal[2]}));
+    const double shift = normal[axis] < 0 ? -far : far;  // the same way, however those of one plane are oriented
+    polygons.forEach(f, [&](std::span<const uint32_t> polygon) {
+      for (const uint32_t v : polygon) {
+        const double* const before = &cells.positions[3 * size_t(v)];
+        std::array<double, 3>& now = moved.try_emplace(v, std::array{before[0], before[1], before[2]}).first->second;
+        if (std::fabs(alongNormal(f, now.data(), before)) > far / 2) continue;
+        for (size_t d = 0; d < 3; ++d) now[d] += shift * normal[d];
+      }
+    });
   }
+  return moved;
 }
 
 bool isEnclosedByWalls(const CellComplex& cells, const ComplexPolygons& polygons, size_t cell) {

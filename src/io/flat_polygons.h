@@ -1,6 +1,9 @@
 // Polygons that have no area, since they are no wider than what rounding makes of coordinates: OpenFOAM divides by areas and heights.
 #pragma once
 
+#include <array>
+#include <map>
+
 #include "base/shared.h"
 #include "io/complex_polygons.h"
 
@@ -11,9 +14,12 @@ namespace mandoline::detail {
 /// by rounding alone. A face may then have several polygons, or none.
 MANDOLINE_SHARED void collapseFlatPolygons(const CellComplex& cells, ComplexPolygons& polygons);
 
-/// Takes away walls that have the same cell at both sides and lie in a plane with its centroid, but for rounding, as those of a flat sheet
-/// do that ends in the middle of a cell: OpenFOAM divides by how far they are from it.
-MANDOLINE_SHARED void dropWallsThroughCentroids(const CellComplex& cells, ComplexPolygons& polygons);
+/// Where vertices are written instead of where they are, if not there.
+using MovedVertices = std::map<uint32_t, std::array<double, 3>>;
+
+/// Moves walls that lie in a plane with the centroid of a cell beside them, but for rounding, as those of a flat sheet do that ends in the
+/// middle of a cell: OpenFOAM divides by how far they are from it. They move by more than rounding, and by 2^-44 of the largest coordinate.
+MANDOLINE_SHARED MovedVertices movedOffCentroids(const CellComplex& cells, const ComplexPolygons& polygons);
 
 /// Whether a cell has no faces but walls, so that nothing flows into it.
 MANDOLINE_SHARED bool isEnclosedByWalls(const CellComplex& cells, const ComplexPolygons& polygons, size_t cell);

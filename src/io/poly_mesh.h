@@ -7,6 +7,7 @@
 #include "base/function_ref.h"
 #include "base/shared.h"
 #include "io/complex_polygons.h"
+#include "io/flat_polygons.h"
 #include "mandoline/io.h"
 
 namespace mandoline::detail {
@@ -83,6 +84,7 @@ struct PolyFiles {
   const ComplexPolygons& polygons;
   PolyMesh& mesh;
   std::vector<PolyList> lists = {};
+  MovedVertices moved = {};
 };
 /// Which vertices the mesh has, and how many faces; then all sides have to be there.
 MANDOLINE_SHARED void countFaces(PolyFiles& files);

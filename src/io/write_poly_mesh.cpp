@@ -1,4 +1,3 @@
-#include "io/flat_polygons.h"
 #include "io/groups.h"
 #include "io/output_buffer.h"
 #include "io/poly_mesh.h"
@@ -64,9 +63,11 @@ class PolyMeshWriter {
   void putPoints(OutputBuffer& out) const {
     for (size_t v = 0; v < mesh_.pointNumbers.size(); ++v) {
       if (mesh_.pointNumbers[v] == PolyMesh::kUnused) continue;
+      const auto moved = files_.moved.find(uint32_t(v));
+      const double* const point = moved == files_.moved.end() ? &files_.cells.positions[3 * v] : moved->second.data();
       for (size_t d = 0; d < 3; ++d) {
         out.character(d == 0 ? '(' : ' ');
-        out.number(files_.cells.positions[3 * v + d]);
+        out.number(point[d]);
       }
       out.text(")\n");
       out.advance();
@@ -157,16 +158,14 @@ void writePolyMesh(const FolderSink& sink, const CutMesh& cutMesh, const CellCom
     const TriangleGroups* const groups = detail::checkedGroups(options.groups, cutMesh.triangleCount);
     detail::ComplexPolygons polygons(cutMesh, cells);
     const bool isMerged = !cells.cellMemberOffsets.empty();
-    if (isMerged) {
-      detail::dropWallsThroughCentroids(cells, polygons);
-      detail::collapseFlatPolygons(cells, polygons);
-    }
+    if (isMerged) detail::collapseFlatPolygons(cells, polygons);
     detail::PolyMesh mesh = detail::makePolyMesh(cutMesh, cells, groups, options.simpleCells, [&](size_t cell) {
       return selection.has(cells.cellRegion[cell]) && (options.untouched || cell < cells.cutCells) &&
              !(isMerged && detail::isEnclosedByWalls(cells, polygons, cell));
     });
     if (isMerged) detail::dropEmptySides(mesh, polygons);
     detail::PolyFiles files{cells, polygons, mesh};
+    if (isMerged) files.moved = detail::movedOffCentroids(cells, polygons);
     detail::countFaces(files);
     detail::writeFiles(sink, files, options);
   });

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <map>
 #include <numeric>
+#include <set>
 #include <sstream>
 
 #include "case_list.h"
@@ -270,17 +271,23 @@ TEST_CASE("polyMesh: of merged cells, no face is only as wide as rounding, where
   }
 }
 
-TEST_CASE("polyMesh: of merged cells, a flat sheet has no walls in cells in the middle of which it ends", "[cellfiles]") {
-  const auto wallsOf = [](double z) {
-    const Merged cells(shapes::quad({0.5, 0.5, z}, {3.5, 0.5, z}, {3.5, 3.5, z}, {0.5, 3.5, z}), Grid::box({0, 0, 0}, {4, 4, 4}, {4, 4, 4}),
-                       0);
+TEST_CASE("polyMesh: of merged cells, a flat sheet that ends in the middle of cells is moved off their centroids", "[cellfiles]") {
+  const auto heightsOf = [](double z, bool isFlipped) {
+    const Mesh sheet = shapes::quad({0.5, 0.5, z}, {3.5, 0.5, z}, {3.5, 3.5, z}, {0.5, 3.5, z});
+    const Merged cells(isFlipped ? shapes::flipped(sheet) : sheet, Grid::box({0, 0, 0}, {4, 4, 4}, {4, 4, 4}), 0);
     const PolyMesh mesh = writtenPolyMesh(cells);
     double area = 0;
-    for (size_t f = mesh.patch("surface").start; f < mesh.faces.size(); ++f) area += areaOf(mesh, f);
-    return area;
+    std::set<double> heights;
+    for (size_t f = mesh.patch("surface").start; f < mesh.faces.size(); ++f) {
+      area += areaOf(mesh, f);
+      for (const size_t v : mesh.faces[f]) heights.insert(mesh.points[v][2]);
+    }
+    CHECK(area == Approx(2 * 9));
+    return heights;
   };
-  CHECK(wallsOf(1.5) == 2 * 4);
-  CHECK(wallsOf(1.375) == 2 * 9);
+  CHECK(heightsOf(1.5, false) == std::set<double>{1.5, 1.5 + 0x1p-42});  // the middle of the sheet stays
+  CHECK(heightsOf(1.5, true) == std::set<double>{1.5, 1.5 + 0x1p-42});
+  CHECK(heightsOf(1.375, false) == std::set<double>{1.375});
 }
 
 TEST_CASE("polyMesh: of merged cells, one that is enclosed by walls is left out", "[cellfiles]") {
@@ -497,7 +504,7 @@ TEST_CASE("untouched grid cells and octree cells with six sides are hexahedra; w
 }
 
 TEST_CASE("simple cells lack the faces of a sheet that ends in them, and nothing else", "[cellfiles]") {
-  const Mesh sheet = shapes::quad({0.5, 0.5, 1.375}, {2.5, 0.5, 1.375}, {2.5, 2.5, 1.375}, {0.5, 2.5, 1.375});
+  const Mesh sheet = shapes::quad({0.5, 0.5, 1.5}, {2.5, 0.5, 1.5}, {2.5, 2.5, 1.5}, {0.5, 2.5, 1.5});
   const Grid grid = Grid::box({0, 0, 0}, {3, 3, 3}, {3, 3, 3});
   WriteOptions simple;
   simple.simpleCells = true;
