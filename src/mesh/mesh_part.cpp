@@ -75,6 +75,13 @@ MeshPart takePart(const NamedMesh& mesh, std::vector<uint32_t> triangles, std::v
   return part;
 }
 
+bool hasAll(const MeshPart& part, const MeshPart& other) {
+  const auto has = [](const std::vector<uint32_t>& ids, const std::vector<uint32_t>& others) {
+    return std::includes(ids.begin(), ids.end(), others.begin(), others.end());
+  };
+  return has(part.vertices, other.vertices) && has(part.triangles, other.triangles);
+}
+
 MeshPart united(std::span<const MeshPart> parts) {
   MeshPart all{unitedIds(parts, &MeshPart::vertices), unitedIds(parts, &MeshPart::triangles), {}, {}};
   all.positions.resize(3 * all.vertices.size());

@@ -52,6 +52,8 @@ class NamedMesh {
 MANDOLINE_SHARED std::vector<uint32_t> indicesAmong(const std::vector<uint32_t>& ascending, std::span<const uint32_t> ids);
 /// Triangles with their vertices, and other vertices; ids in any order, also more than once.
 MANDOLINE_SHARED MeshPart takePart(const NamedMesh& mesh, std::vector<uint32_t> triangles, std::vector<uint32_t> vertices);
+/// Whether a part has all that another one of the mesh has.
+MANDOLINE_SHARED bool hasAll(const MeshPart& part, const MeshPart& other);
 /// What any of some parts of a mesh has.
 MANDOLINE_SHARED MeshPart united(std::span<const MeshPart> parts);
 

@@ -107,9 +107,10 @@ struct DistributedCut::Data {
   /// What there is of the mesh.
   NamedMesh named() const { return surface ? NamedMesh(*surface) : NamedMesh(view()); }
 
-  /// Leaves of the mesh what measuring the part takes; one process alone needs all.
+  /// Leaves of the mesh what measuring the part takes; one process alone needs all. Where the mesh is prepared in shares there is hardly
+  /// more.
   void takeSurface() {
-    if (comm.size() == 1) return;
+    if (comm.size() == 1 || surface) return;
     surface = std::make_shared<MeshPart>(measuring::partMeasuredBy(part.cutMesh, named()));
     mesh.reset();
   }
@@ -209,7 +210,8 @@ struct DistributedCut::Data {
     comm.together(kNoun, [&] {
       PlaneFaces faces = below >= 0 ? unpacked<PlaneFaces>(bytes) : PlaneFaces();
       made = detail::makePiece(numbered, common.mesh, share->layers(), faces);
-      if (below >= 0) surface = std::make_shared<MeshPart>(united(std::array{*surface, std::move(faces.surface)}));
+      if (below >= 0 && !hasAll(*surface, faces.surface))
+        surface = std::make_shared<MeshPart>(united(std::array{*surface, std::move(faces.surface)}));
     });
     bytes = comm.exchange(packed(made.forBelow), below, above);
     comm.together(kNoun, [&] {
