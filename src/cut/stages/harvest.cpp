@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
-#include "base/appender.h"
-#include "base/prefetch.h"
 #include "base/sort.h"
+#include "cut/stages/ordered_loops.h"
 
 namespace mandoline::detail {
 namespace {
@@ -53,8 +52,6 @@ class Harvest {
   }
 
  private:
-  static constexpr size_t kAhead = 8;  // tri-cut-faces, while where the loop of one is comes from memory
-
   std::span<const HalfFace> halvesIn(GridFaceId g) const { return faces_.grid.halfFaces[g]; }
   std::span<const FaceSides> sidesIn(GridFaceId g) const {
     const auto& offsets = faces_.grid.halfFaces.offsets;
@@ -247,33 +244,6 @@ class Harvest {
     }
   }
 
-  /// Writes the vertices of the loops of tri-cut-faces as these are numbered, and where each loop begins.
-  void writeTriLoops(std::span<uint32_t> vertices, uint32_t* offset) const {
-    const Csr<VertexId>& loops = faces_.tri.loops;
-    const std::vector<FaceId>& order = gathered_.triOrder;
-    uint32_t at = 0;
-    for (size_t i = 0; i < order.size(); ++i) {
-      if (i + 2 * kAhead < order.size()) prefetch(&loops.offsets[faces_.tri.firstLoop(order[i + 2 * kAhead])]);
-      if (i + kAhead < order.size()) prefetch(loops.items.data() + loops.offsets[faces_.tri.firstLoop(order[i + kAhead])]);
-      for (const auto loop : faces_.tri.loopsOf(order[i])) {
-        *offset++ = at;
-        writeLoop(loop, vertices.subspan(at));
-        at += uint32_t(loop.size());
-      }
-    }
-  }
-  /// Writes ids of vertices as numbers, block by block if there is room for it.
-  void writeLoop(std::span<const VertexId> loop, std::span<uint32_t> to) const {
-    const std::vector<VertexId>& all = faces_.tri.loops.items;
-    const size_t pastLoop = size_t(loop.data() - all.data()) + loop.size();
-    if (all.size() >= pastLoop + kAppendedBlock && to.size() >= loop.size() + kAppendedBlock) {
-      for (size_t i = 0; i < loop.size(); i += kAppendedBlock) {
-        for (size_t k = i; k < i + kAppendedBlock; ++k) to.data()[k] = loop.data()[k].number;
-      }
-    } else {
-      for (size_t i = 0; i < loop.size(); ++i) to[i] = loop[i].number;
-    }
-  }
   void copyTriLoops() {
     const TriFaces& tri = faces_.tri;
     const bool haveOneEach = tri.faceLoopOffsets.empty();
@@ -289,7 +259,7 @@ class Harvest {
       offsets.back() = uint32_t(tri.loops.items.size());
       out_.triLoops.loops.items = memory_.faces.make<uint32_t>(tri.loops.items.size(), [&](std::span<uint32_t> items) {
         VertexPlaces places(vertices_, gathered_.places, gathered_.surfaceVertices);
-        writeTriLoops(items, offsets.data());  // all of them first, since how long a loop is can't be foretold
+        writeOrderedLoops(tri, gathered_.triOrder, items, offsets.data());  // all of them first, since how long a loop is can't be foretold
         places.of(
             items.size(), [=](size_t i) { return VertexId{items[i]}; }, items.data());
       });
