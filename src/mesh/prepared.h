@@ -62,9 +62,10 @@ class Scale {
   /// Scaled coordinates of a mesh are below 2^121 and multiples of 2^-133, or 0: degree 7 stays within 2^860 and 2^-931. Planes may be as
   /// much as 2^kRoom larger.
   static constexpr int kLargestExponent = 120, kRoom = 2;
+  /// Smaller ones are taken as 0.
+  static constexpr double kFlushBelow = 0x1p-80;
 
  private:
-  static constexpr double kFlushBelow = 0x1p-80;
   double factor_[2], inverse_[2];
 };
 

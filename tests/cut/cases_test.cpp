@@ -1068,3 +1068,25 @@ TEST_CASE("progress is told in order and can cancel anywhere", "[cases]") {
     CHECK(call == stopAt);
   }
 }
+
+TEST_CASE("a vertex beside a plane through 0 does not lie on it in the user's units", "[cases]") {
+  // One side passes the z-axis closer than doubles can tell.
+  const Mesh mesh{{0x1.5e5b2dd8c4df6p-3, 0x1.0d92442e1117bp-1, 0x1.b8445315475a9p-3, -0x1.5e5b2dd8c4df4p-3, 0x1.0d92442e1117cp-1,
+                   -0x1.b8445315475a5p-3, 0.3, 0.9, 0.1},
+                  {0, 1, 2}};
+  for (const double scale : {0x1p-60, 1.0, 0x1p60}) {
+    Mesh scaled = mesh;
+    for (double& x : scaled.positions) x *= scale;
+    const double h = 0.5 * scale;
+    const Grid grid = Grid::regular({-2 * scale, -2 * scale, -2 * scale}, {h, h, h}, {8, 8, 8});
+    const CutResult result = cut(scaled, grid);
+    REQUIRE(result);
+    for (size_t v = 0; v < result.mesh.vertexCount(); ++v) {
+      for (size_t d = 0; d < 3; ++d) {
+        const double low = -2 * scale + h * result.mesh.vertexCell[3 * v + d], x = result.mesh.positions[3 * v + d];
+        const bool isOnPlane = result.mesh.vertexMask[v] >> d & 1;
+        CHECK((isOnPlane ? x == low : x > low && x < low + h));
+      }
+    }
+  }
+}

@@ -152,6 +152,12 @@ void CutVertices::placeExactly(VertexId v, Point& p, Predicates& predicates) con
   }
 }
 
+/// A number beside a plane, toward another one. Next to 0, one that is still a number besides 0 in the user's units, and read again.
+static double beside(double plane, double toward) {
+  if (plane != 0) return std::nextafter(plane, toward);
+  return std::copysign(std::min(Scale::kFlushBelow, std::fabs(toward) / 2), toward);
+}
+
 Point CutVertices::position(VertexId v, Predicates& predicates, bool onlyGeneral) const {
   if (isTriVertex(v) && !input->mesh->isMade(v)) return input->point(v);
   const Slab& of = slab(v);
@@ -167,7 +173,7 @@ Point CutVertices::position(VertexId v, Predicates& predicates, bool onlyGeneral
     // Strictly inside of the slab, so that vertices on different grid elements have different positions.
     const bool isInside = int(p[d] > low[d]) & int(p[d] < high[d]);
     if (int(isInside) | int(onPlane(of[d]))) continue;
-    p[d] = p[d] <= low[d] ? std::min(std::nextafter(low[d], high[d]), high[d]) : std::max(std::nextafter(high[d], low[d]), low[d]);
+    p[d] = p[d] <= low[d] ? std::min(beside(low[d], high[d]), high[d]) : std::max(beside(high[d], low[d]), low[d]);
   }
   return p;
 }
