@@ -113,7 +113,7 @@ struct LargePages {
   bool operator==(const LargePages&) const { return true; }
 
  private:
-  /// Half a page is quicker got as a whole one than bit by bit.
+  /// From half a large page on, a whole one comes sooner than small ones.
   static bool isLarge(size_t count) { return kPageAlignment > 16 && count >= kPageAlignment / 2 / sizeof(Item); }
 };
 

@@ -1,6 +1,5 @@
 // The input of one of several processes that cut together, of which each prepares only what it cuts: of a plain mesh, see mesh_band.h,
-// of
-// which each has some triangles at first.
+// of which each has some triangles at first.
 //
 //   ShareInputMaker maker(facts, grid, {index, count}, options);  // in each, of the same mesh and grid
 //   maker.begin(some, work), maker.makeBands(work)                // work: between them its sums over all

@@ -67,7 +67,8 @@ uint64_t bytesOfSurface(const CutState& state) {
 }
 
 uint64_t bytesOfPrepared(const Prepared& mesh) {
-  const uint64_t bytes = bytesOf(mesh.points, mesh.triangles, mesh.states, mesh.parts.kinds);
+  uint64_t bytes = bytesOf(mesh.points, mesh.triangles, mesh.states, mesh.parts.kinds);
+  if (mesh.edges.unpaired) bytes += bytesOf(*mesh.edges.unpaired);
   return bytes + bytesOf(mesh.edges.ends, mesh.edges.sideEdges, mesh.edges.lines, mesh.edges.stitched.items, mesh.edges.inner.items);
 }
 

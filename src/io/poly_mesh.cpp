@@ -81,8 +81,7 @@ void dropEmptySides(PolyMesh& mesh, const ComplexPolygons& polygons) {
   };
   drop(mesh.inner);
   for (PolyPatch& patch : mesh.patches) drop(patch.sides);
-  const auto inner = mesh.patches.begin() + ptrdiff_t(FaceTag::inner);
-  if (inner->name == kBoxPatches[size_t(FaceTag::inner)] && inner->sides.empty()) mesh.patches.erase(inner);
+  std::erase_if(mesh.patches, [](const PolyPatch& p) { return p.name == kBoxPatches[size_t(FaceTag::inner)] && p.sides.empty(); });
 }
 
 void countFaces(PolyFiles& files) {

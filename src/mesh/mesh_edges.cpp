@@ -92,11 +92,12 @@ class SameTriangles {
 
   /// What follows are the edges with another lower end.
   void beginBucket() { pairs_ = 0; }
-  /// The users of the next edge. Two triangles that are the same are the only ones at none or several edges with their lowest corner.
+  /// The users of the next edge. Two triangles that are the same share both edges at their lowest corner: unless one of these has more
+  /// users, the same pair comes twice.
   bool mayBeAmong(std::span<const SideUse> users) {
     if (users.size() != 2) return users.size() > 2;
     if (users[1].slot() >= plain_) return true;
-    const uint32_t pair = (users[0].slot() / 3) * 0x9e3779b1u ^ (users[1].slot() / 3) * 0x85ebca6bu;  // mixed: some others look the same
+    const uint32_t pair = (users[0].slot() / 3) * 0x9e3779b1u ^ (users[1].slot() / 3) * 0x85ebca6bu;  // a collision costs a look
     const uint64_t bit = uint64_t(1) << (pair >> 26);
     const bool isKnown = (pairs_ & bit) != 0;
     pairs_ |= bit;
@@ -106,6 +107,24 @@ class SameTriangles {
  private:
   size_t plain_;
   uint64_t pairs_ = 0;  // of triangles that are the only ones at an edge of the bucket
+};
+
+/// What the users of all edges tell.
+struct AllUsers {
+  bool closed = true, oriented = true;
+  IdVector<TriangleId, uint8_t> unpaired;  // see MeshEdges
+
+  void add(const WeldedMesh& mesh, const Sides& sides, std::span<const SideUse> users) {
+    size_t forwards = 0;
+    for (const SideUse& use : users) forwards += use.forward();
+    closed &= 2 * forwards == users.size();
+    if (users.size() == 2) {
+      oriented &= forwards == 1;
+      return;
+    }
+    if (unpaired.empty()) unpaired.resize(mesh.triangles.size());
+    for (const SideUse& use : users) unpaired[triangleOf(mesh, sides, use)] = 1;
+  }
 };
 
 /// Divides the stitched sides, and adds the inner edges.
@@ -180,8 +199,7 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
   edges.sideEdges.reserve(3 * mesh.triangles.size() + sides.extras.size());               // no more: it is kept
   edges.sideEdges.resize(3 * mesh.triangles.size() + sides.extras.size());
   edges.ends.reserve(offsets.back() / 2 + 16);
-  bool closed = true, oriented = true;
-  std::vector<TriangleId> unpaired;
+  AllUsers found;
   uint32_t* const edgeOf = edges.sideEdges.data();
   SameTriangles same(3 * mesh.triangles.size());
   size_t begin = 0;
@@ -194,26 +212,18 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
       SideUse* const first = use;
       const VertexId high = use->high();
       const uint32_t edge = uint32_t(edges.ends.size());
-      ptrdiff_t forwards = 0;
-      for (; use != past && use->high() == high; ++use) {
-        edgeOf[use->slot()] = edge;
-        forwards += use->forward();
-      }
-      closed &= 2 * forwards == use - first;
-      oriented &= use - first != 2 || forwards == 1;
-      if (use - first != 2 && !arrangement) {
-        for (const SideUse* of = first; of != use; ++of) unpaired.push_back(triangleOf(mesh, sides, *of));
-      }
+      for (; use != past && use->high() == high; ++use) edgeOf[use->slot()] = edge;
+      found.add(mesh, sides, {first, use});
       edges.ends.push_back({low, high});
       if (same.mayBeAmong({first, use})) dropDuplicates(mesh, {first, use}, sides);
     }
   }
   takeExtras(sides, arrangement, edges);
+  edges.unpaired = std::move(found.unpaired);
   if (!arrangement) {
-    mesh.closed = closed;
-    mesh.oriented = oriented;
+    mesh.closed = found.closed;
+    mesh.oriented = found.oriented;
     sortItems(mesh.duplicates);
-    edges.unpaired = std::move(unpaired);
   } else if (!arrangement->madeEdges.empty()) {
     findLines(*arrangement, edges);
   }

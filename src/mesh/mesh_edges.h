@@ -13,8 +13,8 @@ struct MeshEdges {
   Csr<TriEdgeId> stitched;           ///< tri-edges that together make a stitched side, from its lower tri-vertex to its higher
   Csr<TriEdgeId, TriangleId> inner;  ///< per triangle: tri-edges in its inside, ascending; no groups if there are none at all
   IdVector<TriEdgeId, Line> lines;   ///< that they lie on, directed from the lower end to the higher; empty if those are tri-vertices all
-  /// The triangles with a tri-edge that is not of two triangles, in no order, maybe several times; if they are known.
-  std::optional<std::vector<TriangleId>> unpaired;
+  /// Whether a triangle has a tri-edge that is not of two triangles; empty if none has. If they are known.
+  std::optional<IdVector<TriangleId, uint8_t>> unpaired;
 
   static constexpr uint32_t kStitched = 1u << 31;
 

@@ -117,25 +117,24 @@ double fromBits(uint64_t bits) {
 
 /// In the order of the triangles, which tells 0 from -0.
 MeshBox boxOfAll(Communicator& comm, const MeshPart& part) {
-  constexpr size_t kWords = 7;  // of each process
+  constexpr size_t kWords = 9;  // of each process: least, greatest, and whether they are known
   std::vector<uint64_t> words(kWords * size_t(comm.size()), 0);
   MeshBox here;
   uint64_t* own = &words[kWords * size_t(comm.rank())];
   comm.together(kSlicing, [&] { here = boxOf(MeshView(part.positions, part.corners)); });
-  const auto isKnown = [](const double x) { return std::isfinite(x); };
-  own[6] = std::any_of(part.positions.begin(), part.positions.end(), isKnown);
+  for (size_t i = 0; i < part.positions.size(); ++i) own[6 + i % 3] |= uint64_t(std::isfinite(part.positions[i]));
   for (size_t d = 0; d < 3; ++d) own[d] = bitsOf(here.min[d]), own[3 + d] = bitsOf(here.max[d]);
   comm.reduce(words, MPI_SUM);
   MeshBox box;
-  bool isFirst = true;
+  std::array<bool, 3> isFirst{true, true, true};
   for (size_t at = 0; at < words.size(); at += kWords) {
-    if (words[at + 6] == 0) continue;
     for (size_t d = 0; d < 3; ++d) {
+      if (words[at + 6 + d] == 0) continue;
       const double low = fromBits(words[at + d]), high = fromBits(words[at + 3 + d]);
-      box.min[d] = isFirst ? low : std::min(box.min[d], low);
-      box.max[d] = isFirst ? high : std::max(box.max[d], high);
+      box.min[d] = isFirst[d] ? low : std::min(box.min[d], low);
+      box.max[d] = isFirst[d] ? high : std::max(box.max[d], high);
+      isFirst[d] = false;
     }
-    isFirst = false;
   }
   return box;
 }

@@ -26,7 +26,7 @@ function expectKind(kind, value) {
 }
 
 /** If less than this is kept, a new instance has no more free memory than the one that ran out of it. */
-const muchKept = 2 ** 27;
+const muchKept = 2 ** 25;
 
 /**
  * Keeps an instance of a module and the twins in it, and takes a new one, without twins, after a failure that may have left it broken or

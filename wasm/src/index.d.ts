@@ -227,9 +227,9 @@ export interface CutPiece {
  * they don't read its arrays, so they also work when these were transferred elsewhere, and take no notice of what was written into them.
  * (The functions of mandoline-wasm/three do read the arrays.) A copy (`{ ...cutMesh }`, a clone, what another worker gave) is data of its
  * own, read and checked by every call. Twins go with their results when garbage is collected; those used longest ago also when there are
- * more than 16 of them or more than 256 MB, and all when the module runs out of memory. A result whose twin is gone is read once more and
- * then has one again. `cut(..., { keep: false })` keeps none. In a worker, twins are in its thread, and the arrays are sent back to it only
- * where the twin is gone.
+ * more than 16 of them, or more than 64 MB with room for one more as large as the latest, and all when the module runs out of memory. A
+ * result whose twin is gone is read once more and then has one again. `cut(..., { keep: false })` keeps none. In a worker, twins are in its
+ * thread, and the arrays are sent back to it only where the twin is gone.
  */
 export interface CutMesh extends CutMeshArrays {
   /** Region of each grid cell, x fastest; -1 where cut-cells replace it: what the runs say, in a dense form. Absent if the options said so. */

@@ -7,6 +7,13 @@
 namespace mandoline::detail {
 namespace {
 
+/// The number of tri-cut-faces of so many triangles, as far as the surface's crossings tell it.
+size_t aboutAsMany(const Surface& surface, size_t triangles) {
+  const double edges = double(surface.edges().ends.size());
+  const double crossings = double(surface.vertices.firstInTriangle.number - surface.vertices.firstOnEdge.number) / std::max(edges, 1.0);
+  return size_t(double(triangles) * std::min(1 + 2 * crossings, 16.0));
+}
+
 class SurfaceCutter {
  public:
   SurfaceCutter(const Surface& surface, const SurfaceParts& parts, BrickId brick, Bricks& bricks, BrickSurface& out)
@@ -76,13 +83,6 @@ class SurfaceCutter {
   }
 
  private:
-  /// The number of tri-cut-faces of so many triangles, as far as the surface's crossings tell it.
-  static size_t aboutAsMany(const Surface& surface, size_t triangles) {
-    const double edges = double(surface.edges().ends.size());
-    const double crossings = double(surface.vertices.firstInTriangle.number - surface.vertices.firstOnEdge.number) / std::max(edges, 1.0);
-    return size_t(double(triangles) * std::min(1 + 2 * crossings, 16.0));
-  }
-
   /// What a tri-cut-face has on axial planes.
   struct OnPlanes {
     bool touchesLine = false, surfaceTouchesLine = false;  ///< whether a vertex lies on a grid line, and one that is not the brick's own
@@ -241,7 +241,7 @@ class SurfaceCutter {
 }  // namespace
 
 void InnerTriangles::addOther(TriangleId triangle) {
-  const uint32_t* sides = &edges_->sideEdges[3 * size_t(triangle.number)];
+  const uint32_t* sides = sidesOf(triangle);
   for (size_t i = 0; i < 3; ++i) {
     if (sides[i] < MeshEdges::kStitched) isReached_[{sides[i]}] = 1;
   }
@@ -262,7 +262,8 @@ void InnerTriangles::dropNear() {
   uint8_t* const isReached = isReached_.data();
   size_t left = 0;
   for (const Item item : items_) {
-    const auto [a, b, c] = std::array{item.sides[0], item.sides[1], item.sides[2]};
+    const uint32_t* sides = sidesOf(item.triangle);
+    const uint32_t a = sides[0], b = sides[1], c = sides[2];
     const uint8_t reached = isReached[a] | isReached[b] | isReached[c];
     isReached[a] = isReached[b] = isReached[c] = reached;
     items_[left] = item;  // no branch on what can't be foretold
@@ -272,17 +273,21 @@ void InnerTriangles::dropNear() {
 }
 
 void InnerTriangles::dropConnected() {
-  if (firstItem_.empty()) firstItem_.resize(edges_->ends.size(), kNone);
+  struct Use {
+    uint32_t edge;
+    Id<Item> item;
+  };
   IdSets<Id<Item>> sets;
   sets.reset(items_.size() + 1);
   const Id<Item> reached{uint32_t(items_.size())};
+  std::vector<Use> uses;
   for (uint32_t i = 0; i < items_.size(); ++i) {
-    for (size_t side = 0; side < 3; ++side) {
-      const TriEdgeId e{items_[i].sides[side]};
-      if (isReached_[e]) sets.unite({i}, reached);
-      if (firstItem_[e] == kNone) firstItem_[e] = i;
-      sets.unite({i}, {firstItem_[e]});
-    }
+    for (size_t side = 0; side < 3; ++side) uses.push_back({sidesOf(items_[i].triangle)[side], {i}});
+  }
+  sortItems(uses, [](const Use& a, const Use& b) { return a.edge < b.edge; });
+  for (size_t k = 0; k < uses.size(); ++k) {
+    if (isReached_[{uses[k].edge}]) sets.unite(uses[k].item, reached);
+    if (k > 0 && uses[k - 1].edge == uses[k].edge) sets.unite(uses[k - 1].item, uses[k].item);
   }
   size_t left = 0;
   for (uint32_t i = 0; i < items_.size(); ++i) {
@@ -299,9 +304,10 @@ void cutBrickSurface(const Surface& surface, const SurfaceParts& parts, BrickId 
   brickSurface.faceEdges.clear();
   brickSurface.inner.begin(surface.edges());
   if (brickSurface.faceEdges.capacity() == 0) {  // about as many, of the first brick, which is the heaviest
-    brickSurface.faceEdges.reserve(3 * bricks.parts[brick].size());
-    brickSurface.vertices.slabs.reserve(bricks.parts[brick].size());
-    brickSurface.vertices.parentTriangles.reserve(bricks.parts[brick].size());
+    const size_t triangles = bricks.parts[brick].size(), cutOff = aboutAsMany(surface, triangles) - triangles;
+    brickSurface.faceEdges.reserve(2 * cutOff);
+    brickSurface.vertices.slabs.reserve(cutOff);
+    brickSurface.vertices.parentTriangles.reserve(cutOff);
   }
   SurfaceCutter(surface, parts, brick, bricks, brickSurface).run();
 }

@@ -10,7 +10,7 @@
 namespace mandoline::detail {
 
 /// Triangles of a brick that each lie inside of a grid cell: which of them are connected, tri-edge by tri-edge, to some that leave the
-/// cell?
+/// cell? Each brick of a surface is asked once, since what is known of tri-edges stays.
 class InnerTriangles {
  public:
   /// Begins with another brick of the same surface.
@@ -20,27 +20,25 @@ class InnerTriangles {
     isReached_.resize(edges.ends.size());
   }
   /// One that lies inside of a cell and touches none of its grid-faces, without stitched sides.
-  void add(FaceId face, TriangleId triangle) { items_.push_back({face, &edges_->sideEdges[3 * size_t(triangle.number)]}); }
+  void add(FaceId face, TriangleId triangle) { items_.push_back({face, triangle}); }
   /// One that leaves a cell.
   void addOther(TriangleId triangle);
-  /// Appends the faces of those that are not connected to such.
+  /// Appends the faces of those that are connected to none that leaves its cell.
   void listFloating(std::vector<FaceId>& faces);
 
  private:
   struct Item {
     FaceId face;
-    const uint32_t* sides;
+    TriangleId triangle;
   };
-  static constexpr uint32_t kNone = ~0u;
-
+  const uint32_t* sidesOf(TriangleId triangle) const { return edges_->sideEdges.data() + 3 * size_t(triangle.number); }
   void dropNear();
   void dropConnected();
 
   const MeshEdges* edges_ = nullptr;
   std::vector<Item> items_;  // those that are left
-  // Of a tri-edge inside of a cell, which one brick has and no other:
-  IdVector<TriEdgeId, uint8_t> isReached_;   // whether it is of a triangle that leaves the cell, or is connected to one
-  IdVector<TriEdgeId, uint32_t> firstItem_;  // that has it
+  /// Whether a tri-edge inside of a cell, which one brick has and no other, is of a triangle that leaves the cell, or of one connected to it.
+  IdVector<TriEdgeId, uint8_t> isReached_;
 };
 
 /// All of it that the later stages see. Ids of vertices from vertices.firstOwn on and of faces are numbers in the brick.

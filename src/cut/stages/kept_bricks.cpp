@@ -55,7 +55,7 @@ class Keeper {
     return haveOthers;
   }
 
-  /// Of bricks with parts of triangles that are the same alone: so these are as many if they are the same.
+  /// Of bricks all of whose triangles are the same: if there are as many parts, they are, too.
   bool isSame(BrickId was, BrickId is) const {
     const auto haveSame = [&](const auto& csrs, const auto& same) {
       const auto a = (before_.bricks.*csrs)[was];

@@ -78,7 +78,7 @@ void listCells(const Bricks& bricks, BrickId brick, Stencil& stencil) {
   stencil.cells.clear();
   size_t touched = 0;
   for (const uint64_t word : bricks.wordsOf(brick)) touched += size_t(std::popcount(word));
-  stencil.cells.reserve(touched);
+  if (stencil.cells.capacity() < touched) stencil.cells.reserve(touched + touched / 4);
   stencil.box = bricks.boxes[brick];
   const auto &first = stencil.box.first, &count = stencil.box.count;
   stencil.steps = {1, size_t(count[0] + 2), size_t(count[0] + 2) * size_t(count[1] + 2)};

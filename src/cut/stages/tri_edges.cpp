@@ -226,7 +226,7 @@ void collectInPlane(Surface& surface) {
   }
 }
 
-/// Whether vertices lie on as many planes each.
+/// Whether each of vertices first .. past - 1 lies on so many planes.
 bool areOn(int planes, const Slab* slabs, size_t first, size_t past) {
   bool isAnyOther = false;
   for (size_t v = first; v < past; ++v) isAnyOther |= planeCount(slabs[v]) != planes;
@@ -259,14 +259,9 @@ bool cutEdges(TriEdgeId first, TriEdgeId past, Surface& surface, const KnownCros
 /// Surface::unpaired.
 IdVector<TriangleId, uint8_t> findUnpaired(const Input& input) {
   const MeshEdges& edges = input.mesh->edges;
-  IdVector<TriangleId, uint8_t> unpaired;
-  if (edges.unpaired) {
-    if (!edges.unpaired->empty()) unpaired.resize(input.mesh->triangles.size());
-    for (const TriangleId t : *edges.unpaired) unpaired[t] = 1;
-    return unpaired;
-  }
+  if (edges.unpaired) return *edges.unpaired;
   IdVector<TriEdgeId, uint8_t> uses(edges.ends.size(), 0);
-  unpaired.resize(input.mesh->triangles.size());
+  IdVector<TriangleId, uint8_t> unpaired(input.mesh->triangles.size());
   const auto forKept = [&](const auto& f) {
     for (const TriangleId t : unpaired.ids()) {
       if (input.kept(t)) edges.forTriangle(t, [&](TriEdgeId e) { f(t, uses[e]); });

@@ -34,7 +34,7 @@ struct Surface {
   std::vector<TriEdgeId> inPlane;          ///< tri-edges that lie in an axial plane, ascending
   std::vector<FaceEdge> edgesInPlane;      ///< pieces of them that lie in a grid-face
   bool isPlain = false;                    ///< no vertex of the mesh lies on a plane, and those on tri-edges lie on one each
-  IdVector<TriangleId, uint8_t> unpaired;  ///< whether it has a tri-edge that is not of two triangles; empty if none has
+  IdVector<TriangleId, uint8_t> unpaired;  ///< whether it has a tri-edge that is not of two triangles; may be empty if none has
 
   Surface() = default;
   Surface(const Surface&) = delete;

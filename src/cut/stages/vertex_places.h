@@ -11,7 +11,7 @@ namespace mandoline::detail {
 
 class VertexPlaces {
  public:
-  static constexpr uint32_t kNone = ~0u;  // of() relies on all bits
+  static constexpr uint32_t kNone = ~0u;  // of() relies on all bits being set
 
   /// `places`: per vertex of the surface, kNone at first; and of those of bricks so far. `surfaceVertices` gets those that come.
   VertexPlaces(const CutVertices& vertices, IdVector<VertexId, uint32_t>& places, std::vector<VertexId>& surfaceVertices)

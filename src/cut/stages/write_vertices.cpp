@@ -65,8 +65,8 @@ class VertexWriter {
     writeOfMesh(vertices, list.first(count), i);
     list = list.subspan(count);
     i += count;
-    const bool areOnEdges = list.empty() || list.front() >= vertices.firstOnEdge;
-    areOnEdges&& vertices.edges->lines.empty() ? writeEnds(vertices, list, i) : writeEndsOfLines(vertices, list, i);
+    const bool areBetweenTriVertices = vertices.edges->lines.empty() && (list.empty() || list.front() >= vertices.firstOnEdge);
+    areBetweenTriVertices ? writeEnds(vertices, list, i) : writeEndsOfLines(vertices, list, i);
     writePositions(vertices, list, i, predicates);
   }
 
@@ -138,7 +138,7 @@ class VertexWriter {
       return vertices.isOnEdge(v) ? endsOf(vertices.edges->line(vertices.triEdge(v))) : Parents{-1, -1};
     });
   }
-  /// Of vertices that are not of the mesh. So they are no tri-vertex, as they all are not at first.
+  /// Of vertices that are not of the mesh. They are no tri-vertices, which is what the array says at first.
   template <class ParentsOf>
   void writeParents(List list, size_t i, const ParentsOf& parentsOf) {
     int32_t* parents = out_.vertexParents.data() + 2 * i;

@@ -46,7 +46,7 @@ PreparedTogether prepareTogether(MPI_Comm comm, const MeshView& mesh, const Prep
 PreparedTogether prepareTogether(MPI_Comm comm, std::shared_ptr<const Mesh> mesh, const PrepareOptions& options = {},
                                  const std::function<void()>& inFirst = {});
 
-/// A mesh of which each process has only a slice. To make it is collective.
+/// A mesh of which each process has only a slice. To make it is collective, and can't be cancelled.
 class SlicedMesh {
  public:
   /// `slice`: vertices that follow those of the processes of lower ranks, and likewise triangles, which name vertices by their ids in the

@@ -8,7 +8,8 @@
 namespace MANDOLINE_API mandoline {
 
 /// Cuts meshes one after the other with the same grid. If a mesh differs from the one before in positions alone, only those parts of the
-/// grid are cut again in which something has moved. Each result is that of cut(), to the bit.
+/// grid are cut again in which something has moved. Each result is that of cut(), to the bit; only where
+/// Intersections::assumeNone leads to a contradiction, other triangles may be named.
 ///
 ///   Recutter recutter(grid);
 ///   CutMesh cutMesh;
