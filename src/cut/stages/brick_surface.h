@@ -37,7 +37,7 @@ class InnerTriangles {
 
   const MeshEdges* edges_ = nullptr;
   std::vector<Item> items_;  // those that are left
-  /// Whether a tri-edge inside of a cell, which one brick has and no other, is of a triangle that leaves the cell, or of one connected to it.
+  /// Whether a tri-edge inside of a cell, which one brick alone has, is of a triangle that leaves the cell or is connected to such.
   IdVector<TriEdgeId, uint8_t> isReached_;
 };
 
