@@ -9,12 +9,6 @@ namespace mandoline::detail {
 
 inline constexpr size_t kAppendedBlock = 4;  ///< of items
 
-/// Copies block by block, where it can't be foretold how many items there are: a block more may be read and written, and needs room.
-template <class Item>
-void copyBlocks(const Item* from, size_t count, Item* to) {
-  for (size_t i = 0; i < count; i += kAppendedBlock) std::memcpy(to + i, from + i, kAppendedBlock * sizeof(Item));
-}
-
 /// Overwrites a vector, which gets its length when the appender is destroyed.
 template <class Item>
 class Appender {
@@ -38,9 +32,9 @@ class Appender {
     for (; from != past; ++from) *end++ = *from;
     end_ = end;
   }
-  /// Items in memory, by copyBlocks().
+  /// Items in memory, block by block, since how many they are can't be foretold: a block more may be read, and needs room.
   void addBlocks(const Item* from, size_t count) {
-    copyBlocks(from, count, end_);
+    for (size_t i = 0; i < count; i += kAppendedBlock) std::memcpy(end_ + i, from + i, kAppendedBlock * sizeof(Item));
     end_ += count;
   }
 

@@ -60,6 +60,10 @@ void addSides(const CutMesh& cutMesh, const CellComplex& cells, const TriangleGr
   }
 }
 
+void dropInnerIfEmpty(PolyMesh& mesh) {
+  std::erase_if(mesh.patches, [](const PolyPatch& p) { return p.name == kBoxPatches[size_t(FaceTag::inner)] && p.sides.empty(); });
+}
+
 }  // namespace
 
 PolyMesh makePolyMesh(const CutMesh& cutMesh, const CellComplex& cells, const TriangleGroups* groups, bool simpleCells,
@@ -69,19 +73,17 @@ PolyMesh makePolyMesh(const CutMesh& cutMesh, const CellComplex& cells, const Tr
   mesh.patches = emptyPatches(groups);
   addSides(cutMesh, cells, groups, simpleCells, mesh);
   sortItems(mesh.inner, isUpperBefore);
-  const auto inner = mesh.patches.begin() + ptrdiff_t(FaceTag::inner);
-  if (inner->sides.empty()) mesh.patches.erase(inner);
+  dropInnerIfEmpty(mesh);
   return mesh;
 }
 
 void dropEmptySides(PolyMesh& mesh, const ComplexPolygons& polygons) {
   const auto drop = [&](std::vector<PolySide>& sides) {
-    sides.erase(std::remove_if(sides.begin(), sides.end(), [&](const PolySide& side) { return polygons.isEmpty(side.halfFace / 2); }),
-                sides.end());
+    std::erase_if(sides, [&](const PolySide& side) { return polygons.isEmpty(side.halfFace / 2); });
   };
   drop(mesh.inner);
   for (PolyPatch& patch : mesh.patches) drop(patch.sides);
-  std::erase_if(mesh.patches, [](const PolyPatch& p) { return p.name == kBoxPatches[size_t(FaceTag::inner)] && p.sides.empty(); });
+  dropInnerIfEmpty(mesh);
 }
 
 void countFaces(PolyFiles& files) {

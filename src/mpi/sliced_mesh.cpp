@@ -1,8 +1,8 @@
 #include "mpi/sliced_mesh.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 
 #include "base/position_table.h"
 #include "base/sort.h"
@@ -104,17 +104,6 @@ class CornerFinder {
   const size_t own_;  // this process's rank
 };
 
-uint64_t bitsOf(double x) {
-  uint64_t bits = 0;
-  std::memcpy(&bits, &x, sizeof bits);
-  return bits;
-}
-double fromBits(uint64_t bits) {
-  double x = 0;
-  std::memcpy(&x, &bits, sizeof x);
-  return x;
-}
-
 /// In the order of the triangles, which tells 0 from -0.
 MeshBox boxOfAll(Communicator& comm, const MeshPart& part) {
   constexpr size_t kWords = 9;  // of each process: least, greatest, and whether they are known
@@ -123,14 +112,14 @@ MeshBox boxOfAll(Communicator& comm, const MeshPart& part) {
   uint64_t* own = &words[kWords * size_t(comm.rank())];
   comm.together(kSlicing, [&] { here = boxOf(MeshView(part.positions, part.corners)); });
   for (size_t i = 0; i < part.positions.size(); ++i) own[6 + i % 3] |= uint64_t(std::isfinite(part.positions[i]));
-  for (size_t d = 0; d < 3; ++d) own[d] = bitsOf(here.min[d]), own[3 + d] = bitsOf(here.max[d]);
+  for (size_t d = 0; d < 3; ++d) own[d] = std::bit_cast<uint64_t>(here.min[d]), own[3 + d] = std::bit_cast<uint64_t>(here.max[d]);
   comm.reduce(words, MPI_SUM);
   MeshBox box;
   std::array<bool, 3> isFirst{true, true, true};
   for (size_t at = 0; at < words.size(); at += kWords) {
     for (size_t d = 0; d < 3; ++d) {
       if (words[at + 6 + d] == 0) continue;
-      const double low = fromBits(words[at + d]), high = fromBits(words[at + 3 + d]);
+      const double low = std::bit_cast<double>(words[at + d]), high = std::bit_cast<double>(words[at + 3 + d]);
       box.min[d] = isFirst[d] ? low : std::min(box.min[d], low);
       box.max[d] = isFirst[d] ? high : std::max(box.max[d], high);
       isFirst[d] = false;
@@ -175,7 +164,7 @@ std::shared_ptr<const SlicedMeshData> sliced(Communicator& comm, std::shared_ptr
 
 Mesh sliceOf(const MeshView& mesh, const ShareOf& shareOf) {
   const auto some = [&](const auto& numbers, size_t count, size_t items) {
-    const size_t begin = count * shareOf.index / shareOf.count, end = count * (shareOf.index + 1) / shareOf.count;
+    const size_t begin = shareOf.begin(count), end = shareOf.end(count);
     const bool isLast = shareOf.index + 1 == shareOf.count;  // with what is left where a length is wrong
     return std::vector(numbers.begin() + ptrdiff_t(begin * items), isLast ? numbers.end() : numbers.begin() + ptrdiff_t(end * items));
   };

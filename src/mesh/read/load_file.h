@@ -21,9 +21,8 @@ struct FileSlice {
   Mesh mesh;
   uint64_t sample = 0;  ///< of the whole file: files that differ in size or in most of their bytes have other ones
 };
-/// One of `count` slices of a mesh, which several processes read each. Nothing, at least
-/// in one of them, where the file is not of binary PLY or STL with a known place for each, or something is wrong with it: then it is to be
-/// read as a whole, which also tells what is wrong.
+/// One of `count` slices of a mesh, which several processes read each. Nothing, at least in one of them, where the file is not of binary
+/// PLY or STL with a known place for each, or something is wrong with it: then it is to be read as a whole, which also tells what is wrong.
 MANDOLINE_SHARED std::optional<FileSlice> readMeshSlice(const std::string& path, uint32_t index, uint32_t count);
 
 }  // namespace mandoline::detail

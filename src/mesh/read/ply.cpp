@@ -202,7 +202,7 @@ static std::optional<size_t> itemSize(const Element& element, size_t corners) {
 }
 
 /// Where each triangle of a file is known if all faces are triangles. If those of all parts are, the faces of each part begin there.
-std::optional<Mesh> readPlyPart(const PartlyRead& file, const PartOf& part) {
+std::optional<Mesh> readPlyPart(const PartlyRead& file, const ShareOf& shareOf) {
   constexpr size_t kMostHeader = size_t(1) << 16;
   const std::string head = file.read(0, size_t(std::min<uint64_t>(file.size(), kMostHeader)));
   if (!looksLikePly(head) || head.find("end_header") == head.npos) return std::nullopt;
@@ -219,15 +219,16 @@ std::optional<Mesh> readPlyPart(const PartlyRead& file, const PartOf& part) {
     if (!size || *size == 0 || element.count > (file.size() - offset) / *size) return std::nullopt;
     Header some = header;
     some.elements = {element};
-    some.elements[0].count = part.size(element.count);
-    const std::string bytes = file.read(offset + *size * part.begin(element.count), size_t(*size * part.size(element.count)));
+    const uint64_t begin = shareOf.begin(element.count), count = shareOf.end(element.count) - begin;
+    some.elements[0].count = count;
+    const std::string bytes = file.read(offset + *size * begin, size_t(*size * count));
     const FileBytes items{file.path(), bytes};
     Mesh read = DataReader(BinarySource(items, 0, order), some, cursor).read();
     if (element.name == "vertex") mesh.positions = std::move(read.positions);
     if (element.name == "face") mesh.triangles = std::move(read.triangles);
     offset += *size * element.count;
   }
-  if (mesh.triangles.size() != 3 * part.size(elements[1].count)) return std::nullopt;
+  if (mesh.triangles.size() != 3 * (shareOf.end(elements[1].count) - shareOf.begin(elements[1].count))) return std::nullopt;
   return mesh;
 }
 

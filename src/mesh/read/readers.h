@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "mandoline/cut_share.h"
 #include "mandoline/mesh_files.h"
 
 namespace mandoline::detail {
@@ -37,17 +38,10 @@ class PartlyRead {
   mutable std::ifstream file_;
   uint64_t size_ = 0;
 };
-/// One of the parts, as even as can be, that a count of items is divided into.
-struct PartOf {
-  uint32_t index, count;
-
-  uint64_t begin(uint64_t items) const { return items * index / count; }
-  uint64_t size(uint64_t items) const { return items * (index + 1) / count - begin(items); }
-};
-/// A part of the vertices and of the triangles, which name vertices of the whole; nothing where records differ in size, or the file is not
+/// A share of the vertices and of the triangles, which name vertices of the whole; nothing where records differ in size, or the file is not
 /// binary.
-std::optional<Mesh> readPlyPart(const PartlyRead& file, const PartOf& part);
-std::optional<Mesh> readStlPart(const PartlyRead& file, const PartOf& part);
+std::optional<Mesh> readPlyPart(const PartlyRead& file, const ShareOf& shareOf);
+std::optional<Mesh> readStlPart(const PartlyRead& file, const ShareOf& shareOf);
 
 bool looksLikeObj(std::string_view bytes);
 bool looksLikeOff(std::string_view bytes);

@@ -101,11 +101,11 @@ bool isBinaryStl(std::string_view head, uint64_t size) {
   return head.size() >= kHeaderSize && size == kHeaderSize + kTriangleSize * binaryCount(head);
 }
 
-std::optional<Mesh> readStlPart(const PartlyRead& file, const PartOf& part) {
+std::optional<Mesh> readStlPart(const PartlyRead& file, const ShareOf& shareOf) {
   constexpr size_t kMost = ~uint32_t(0) / 3;  // so that vertices have ids
   const std::string head = file.read(0, size_t(std::min<uint64_t>(file.size(), kHeaderSize)));
   if (!isBinaryStl(head, file.size()) || binaryCount(head) > kMost) return std::nullopt;
-  const size_t count = binaryCount(head), first = size_t(part.begin(count)), some = size_t(part.size(count));
+  const size_t count = binaryCount(head), first = size_t(shareOf.begin(count)), some = size_t(shareOf.end(count)) - first;
   return readTriangles(file.read(kHeaderSize + kTriangleSize * uint64_t(first), kTriangleSize * some), some, first);
 }
 
