@@ -174,9 +174,32 @@ void findLines(const Arrangement& arrangement, MeshEdges& edges) {
   }
 }
 
+/// The uses by sides of triangles, of which duplicates are here if they were not dropped before. `slots`: how many slots sides have, those
+/// of stitched ones included. `ends`: where the bucket of each vertex ends.
+EdgeUses usesOfSides(const WeldedMesh& mesh, const Sides& sides, const LargeVector<SideUse>& all, std::span<const uint32_t> ends,
+                     size_t slots, bool hasDuplicates) {
+  EdgeUses uses;
+  uses.items.reserve(all.size());
+  uses.offsets.reserve(all.size() / 2 + 16);
+  const SideUse* use = all.data();
+  for (const uint32_t end : ends) {
+    for (const SideUse* const past = all.data() + end; use != past;) {
+      for (const VertexId high = use->high(); use != past && use->high() == high; ++use) {
+        if (use->slot() >= slots) continue;
+        const TriangleId t = triangleOf(mesh, sides, *use);
+        uses.items.push_back({2 * t.number + use->forward()});
+        if (hasDuplicates) continue;
+        for (const Duplicate& d : mesh.duplicatesOf(t)) uses.items.push_back({2 * d.triangle + (use->forward() == d.sameWay)});
+      }
+      uses.endGroup();
+    }
+  }
+  return uses;
+}
+
 }  // namespace
 
-MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
+MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement, EdgeUses* usesIfOpen) {
   MeshEdges edges;
   edges.sideEdges.assign(3 * mesh.triangles.size(), 0);
   const Sides sides = findStitchedSides(mesh, arrangement, edges);
@@ -218,15 +241,18 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement) {
       if (same.mayBeAmong({first, use})) dropDuplicates(mesh, {first, use}, sides);
     }
   }
-  takeExtras(sides, arrangement, edges);
-  edges.unpaired = std::move(found.unpaired);
   if (!arrangement) {
     mesh.closed = found.closed;
     mesh.oriented = found.oriented;
     sortItems(mesh.duplicates);
-  } else if (!arrangement->madeEdges.empty()) {
-    findLines(*arrangement, edges);
   }
+  if (usesIfOpen && !mesh.closed) {
+    const std::span<const uint32_t> ends(offsets.data(), vertices);
+    *usesIfOpen = usesOfSides(mesh, sides, uses, ends, 3 * mesh.triangles.size() + sides.stitchedOffsets.back(), !arrangement);
+  }
+  takeExtras(sides, arrangement, edges);
+  edges.unpaired = std::move(found.unpaired);
+  if (arrangement && !arrangement->madeEdges.empty()) findLines(*arrangement, edges);
   return edges;
 }
 

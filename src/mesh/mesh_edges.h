@@ -62,7 +62,18 @@ struct MeshEdges {
   }
 };
 
+/// One use of a tri-edge by a side of a triangle.
+struct TriangleUse {
+  uint32_t triangleAndWay;  ///< 2 * triangle, + 1 if it runs through the edge from the lower end
+
+  uint32_t triangle() const { return triangleAndWay / 2; }
+  int32_t sign() const { return triangleAndWay % 2 != 0 ? 1 : -1; }
+};
+
+using EdgeUses = Csr<TriangleUse, TriEdgeId>;
+
 /// Without an arrangement: drops duplicate triangles (paper, Appendix A) on the way, and finds whether the mesh is closed and oriented.
-MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement);
+/// `uses`, if given: gets those by sides of triangles, duplicates too, per edge, unless the mesh is closed.
+MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement, EdgeUses* uses);
 
 }  // namespace mandoline::detail

@@ -24,7 +24,7 @@ struct Parts {
   PartCounts counts;
 };
 
-/// Of the mesh as it was resolved.
-Parts findParts(const Prepared& prepared);
+/// Of the mesh as it was resolved, whose tri-edges have those uses.
+Parts findParts(const Prepared& prepared, const EdgeUses& uses);
 
 }  // namespace mandoline::detail

@@ -65,8 +65,9 @@ void refuseIntersections(const Prepared& prepared, const Contacts& contacts) {
 }
 
 void findEdges(Prepared& prepared, const Arrangement* arrangement) {
-  prepared.edges = findMeshEdges(prepared, arrangement);
-  if (!prepared.closed) prepared.parts = findParts(prepared);
+  EdgeUses uses;
+  prepared.edges = findMeshEdges(prepared, arrangement, &uses);
+  if (!prepared.closed) prepared.parts = findParts(prepared, uses);
 }
 
 /// The edges, and the triangles that may meet: neither needs the other, and whoever is done first helps with the charts.
@@ -78,7 +79,7 @@ NearTriangles findEdgesAndNear(Prepared& prepared, const std::vector<TriangleSta
                                            if (isWhole) {
                                              findEdges(prepared, nullptr);
                                            } else {
-                                             prepared.edges = findMeshEdges(prepared, nullptr);
+                                             prepared.edges = findMeshEdges(prepared, nullptr, nullptr);
                                            }
                                            charts.help();
                                          },
@@ -92,13 +93,6 @@ NearTriangles findEdgesAndNear(Prepared& prepared, const std::vector<TriangleSta
 }
 
 }  // namespace
-
-std::span<const Duplicate> Prepared::duplicatesOf(TriangleId t) const {
-  if (duplicates.empty()) return {};
-  const auto [first, past] = std::equal_range(duplicates.begin(), duplicates.end(), Duplicate{t.number, 0, false},
-                                              [](const Duplicate& a, const Duplicate& b) { return a.original < b.original; });
-  return {duplicates.data() + (first - duplicates.begin()), size_t(past - first)};
-}
 
 CheckedMesh checkInput(const MeshView& mesh, double largest) {
   checkArrays(mesh);
@@ -189,7 +183,7 @@ std::vector<TrianglePair> findEdgesAndPairs(Prepared& prepared, const ShareOf& s
 bool findEdgesIfPlain(Prepared& prepared, const std::vector<TriangleState>& states, Intersections intersections, Monitor& monitor,
                       Predicates& predicates) {
   if (intersections == Intersections::assumeNone || prepared.triangles.empty()) {
-    prepared.edges = findMeshEdges(prepared, nullptr);
+    prepared.edges = findMeshEdges(prepared, nullptr, nullptr);
     return prepared.duplicates.empty();
   }
   const NearTriangles near = findEdgesAndNear(prepared, states, false, monitor);

@@ -39,8 +39,6 @@ struct Prepared : WeldedMesh {
 
   bool isMade(VertexId v) const { return v.number >= triVertices; }
   bool hasIntersections() const { return arrangement && !arrangement->empty(); }
-  /// The triangles with the same three vertices.
-  std::span<const Duplicate> duplicatesOf(TriangleId t) const;
 };
 
 /// A power of two that brings coordinates into the range of exact arithmetic.

@@ -8,6 +8,13 @@
 
 namespace mandoline::detail {
 
+std::span<const Duplicate> WeldedMesh::duplicatesOf(TriangleId t) const {
+  if (duplicates.empty()) return {};
+  const auto [first, past] = std::equal_range(duplicates.begin(), duplicates.end(), Duplicate{t.number, 0, false},
+                                              [](const Duplicate& a, const Duplicate& b) { return a.original < b.original; });
+  return {duplicates.data() + (first - duplicates.begin()), size_t(past - first)};
+}
+
 const Stitch* WeldedMesh::findStitch(uint32_t low, uint32_t high) const {
   const auto at =
       std::lower_bound(stitches.begin(), stitches.end(), std::array<uint32_t, 2>{low, high}, [](const Stitch& s, const auto& key) {

@@ -60,6 +60,8 @@ struct WeldedMesh {
     return {low, high};
   }
   Ids<TriangleId> triangleIds() const { return Ids<TriangleId>(triangles.size()); }
+  /// The triangles with the same three vertices.
+  std::span<const Duplicate> duplicatesOf(TriangleId t) const;
   /// The stitch on an edge, or null.
   const Stitch* findStitch(uint32_t low, uint32_t high) const;
 };
