@@ -42,7 +42,7 @@ class Failures {
 void runChunks(size_t n, size_t chunks, Monitor& monitor, FunctionRef<void(size_t, size_t, size_t)> f, size_t block) {
   Failures failures;
   std::atomic<size_t> nextChunk{0}, done{0};
-  runOnThreads(chunks > 1 ? monitor.threads() : 1, [&](size_t) {
+  monitor.team().run(chunks, [&] {
     for (size_t c; (c = nextChunk++) < chunks && !failures.isBehind(c);) {
       try {
         for (size_t begin = n * c / chunks, end = n * (c + 1) / chunks; begin < end;) {
@@ -61,8 +61,9 @@ void runChunks(size_t n, size_t chunks, Monitor& monitor, FunctionRef<void(size_
 
 void runItems(const std::vector<uint32_t>& order, Monitor& monitor, FunctionRef<void(size_t, uint32_t)> f) {
   Failures failures;
-  std::atomic<size_t> next{0}, done{0};
-  runOnThreads(std::min<size_t>(monitor.threads(), order.size()), [&](size_t thread) {
+  std::atomic<size_t> next{0}, done{0}, nextThread{0};
+  monitor.team().run(order.size(), [&] {
+    const size_t thread = nextThread++;
     for (size_t i; (i = next++) < order.size();) {
       const uint32_t item = order[i];
       if (failures.isBehind(item)) continue;  // those before the first that failed have yet to show whether they do

@@ -10,7 +10,7 @@
 
 #include "base/function_ref.h"
 #include "base/shared.h"
-#include "base/threads.h"
+#include "base/team.h"
 
 namespace mandoline::detail {
 
@@ -27,7 +27,7 @@ class Monitor {
   /// `options` are RunOptions, which must outlive the monitor.
   template <class RunOptions>
   Monitor(const RunOptions& options, int stageCount)
-      : stageCount_(stageCount), threads_(std::clamp(options.threads ? options.threads : coreCount(), 1u, 256u)) {
+      : stageCount_(stageCount), team_(std::clamp(options.threads ? options.threads : coreCount(), 1u, 256u)) {
     if (!options.progress) return;
     callback_ = [&options, this](size_t done, size_t total) { return options.progress({stage_, index_, stageCount_, done, total}); };
   }
@@ -47,14 +47,16 @@ class Monitor {
       throw Cancelled();
     }
   }
-  unsigned threads() const { return threads_; }
+  unsigned threads() const { return team_.size(); }
+  /// Those of all loops.
+  const Team& team() const { return team_; }
 
   /// The options for one of the calls that this call is made of, which must not outlive the monitor. The stages of that call come after
   /// `before` others and before `after`.
   template <class Options>
   Options part(int before, int after) {
     Options options;
-    options.threads = threads_;
+    options.threads = threads();
     if (!callback_) return options;
     options.progress = [this, before, after](const auto& progress) {
       stage_ = progress.stage;
@@ -79,7 +81,7 @@ class Monitor {
   Mutex mutex_;
   const char* stage_ = "";
   int index_ = 0, stageCount_;
-  unsigned threads_;
+  const Team team_;
   bool cancelled_ = false;
 };
 
@@ -97,9 +99,15 @@ MANDOLINE_SHARED void runChunks(size_t n, size_t chunks, Monitor& monitor, Funct
 /// worth a thread. Of several failures the first in item order is thrown, but ProgressFailed before any other.
 template <class State, class F>
 std::vector<State> forChunks(size_t n, Monitor& monitor, const F& f, size_t block = 2048) {
-  std::vector<State> states(chunkCount(n, monitor, block));
+  struct alignas(128) Apart {  // in cache lines of their own: threads write to states beside each other at the same time
+    State state{};
+  };
+  std::vector<Apart> apart(chunkCount(n, monitor, block));
   runChunks(
-      n, states.size(), monitor, [&](size_t chunk, size_t begin, size_t end) { f(states[chunk], begin, end); }, block);
+      n, apart.size(), monitor, [&](size_t chunk, size_t begin, size_t end) { f(apart[chunk].state, begin, end); }, block);
+  std::vector<State> states;
+  states.reserve(apart.size());
+  for (Apart& of : apart) states.push_back(std::move(of.state));
   return states;
 }
 

@@ -24,6 +24,7 @@ struct Team::Crew {
   std::atomic<size_t> wanted{0};  ///< how many more may begin
   std::atomic<size_t> inside{0};  ///< how many are at work
   std::atomic<bool> isOver{false};
+  std::atomic<bool> isCalled{false};
   bool canStart = true;  ///< as far as is known
 
   ~Crew() {
@@ -38,7 +39,7 @@ struct Team::Crew {
   /// Looks for a short time whether the next loop, or the end of one, comes at once, which is quicker than to sleep.
   template <class IsSo>
   static void watch(const IsSo& isSo) {
-    constexpr int kLooks = 100;
+    constexpr int kLooks = 1000;
     for (int i = 0; i < kLooks && !isSo(); ++i) yieldThread();
   }
 
@@ -68,6 +69,7 @@ struct Team::Crew {
   }
 
   void run(size_t others, const FunctionRef<void()>& ofAll) {
+    if (isCalled.exchange(true)) return ofAll();
     start(others);
     {
       const std::lock_guard<std::mutex> lock(mutex);
@@ -83,6 +85,7 @@ struct Team::Crew {
     watch([&] { return inside == 0; });
     std::unique_lock<std::mutex> lock(mutex);
     left.wait(lock, [&] { return inside == 0; });
+    isCalled = false;
   }
 };
 

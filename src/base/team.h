@@ -20,7 +20,7 @@ class MANDOLINE_SHARED Team {
   unsigned size() const { return size_; }
 
   /// Runs work(), which must not throw, here and on others of at most `threads` of them in all. Once it has returned here there must be
-  /// nothing left to begin: those which have not begun by then are not waited for. No two calls at once.
+  /// nothing left to begin: those which have not begun by then are not waited for. A call during another one has none of the others.
   void run(size_t threads, FunctionRef<void()> work) const;
 
  private:

@@ -41,3 +41,18 @@ TEST_CASE("team: who has begun is waited for") {
     CHECK(done == begun);
   }
 }
+
+TEST_CASE("team: a call during another one is done by who calls") {
+  const detail::Team team(3);
+  for (int loop = 0; loop < 200; ++loop) {
+    std::atomic<int> next{0}, inner{0}, calls{0};
+    team.run(3, [&] {
+      while (next++ < 4) {
+        ++calls;
+        team.run(3, [&] { ++inner; });
+      }
+    });
+    CHECK(calls == 4);
+    CHECK(inner == 4);
+  }
+}
