@@ -52,13 +52,15 @@ struct CellLayers {
 
 /// How the grid is divided into bricks. Each has a key: its place by z, y, x.
 struct BrickGrid {
-  /// Bricks of 32 cells along each side fit into a processor's cache. Smaller ones of a small grid give each thread several.
+  /// Bricks of 32 cells along each side fit into a processor's cache. Of a small grid each thread has several, smaller along z first: what
+  /// lies in a seam is cut on both sides.
   static std::array<int, 3> shiftsFor(const Input& input, unsigned threads) {
     constexpr int kUsual = 5, kLeast = 3;
-    constexpr size_t kEach = 16;
-    int shift = kUsual;
-    while (threads > 1 && shift > kLeast && countFor(input, same(shift)) < kEach * threads) --shift;
-    return same(shift);
+    constexpr size_t kEach = 8;
+    std::array<int, 3> shifts = same(kUsual);
+    const auto areFew = [&] { return threads > 1 && countFor(input, shifts) < kEach * threads; };
+    for (size_t d = 2; areFew() && shifts[0] > kLeast; d = (d + 2) % 3) --shifts[d];
+    return shifts;
   }
   static std::array<int, 3> same(int shift) { return {shift, shift, shift}; }
   /// Those of a surface that moves are smaller, so that little is cut again, and long along x, so that rows have few parts.
