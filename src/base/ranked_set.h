@@ -46,6 +46,7 @@ class RankedSet {
       if (!w) return kNone;
       at = *w;
     }
+    if (at >= words_.size()) return kNone;
     const Word& word = words_[at];
     if (!(word.bits & bitOf(number))) return kNone;
     return word.first + uint32_t(std::popcount(word.bits & (bitOf(number) - 1)));

@@ -4,19 +4,11 @@
 #include <cmath>
 
 #include "base/disjoint_sets.h"
-#include "base/position_table.h"
 #include "base/sort.h"
+#include "mesh/places.h"
 
 namespace mandoline::detail {
 namespace {
-
-/// The vertices of a part by their place in it.
-struct PositionOf {
-  const double* positions;
-
-  const double* operator()(uint32_t v) const { return positions + 3 * size_t(v); }
-};
-using Places = PositionTable<PositionOf>;
 
 /// The lowest vertices at the positions of those that takesPart(v).
 template <class TakesPart>
@@ -35,19 +27,6 @@ std::array<double, 2> rangeOf(const MeshPart& part, const std::vector<double>& h
   const uint32_t* v = &part.corners[3 * triangle];
   return {std::min({heights[v[0]], heights[v[1]], heights[v[2]]}), std::max({heights[v[0]], heights[v[1]], heights[v[2]]})};
 }
-
-/// Numbers some ids of the whole, ascending.
-class Named {
- public:
-  explicit Named(std::vector<uint32_t> ids) : ids_(std::move(ids)) { sortUnique(ids_); }
-
-  size_t size() const { return ids_.size(); }
-  const std::vector<uint32_t>& ids() const { return ids_; }
-  uint32_t operator()(uint32_t id) const { return uint32_t(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin()); }
-
- private:
-  std::vector<uint32_t> ids_;
-};
 
 /// The triangles at a tri-edge.
 struct Uses {
@@ -85,9 +64,9 @@ void countOpenEdges(std::span<const BandParts> all, PartCounts& counts) {
     for (size_t i = 0; i < band.openEdges.size(); i += 2) edges.push_back({band.openEdges[i], band.openEdges[i + 1]});
   }
   sortUnique(edges);
-  const Named named(std::move(ends));
+  const RankedSet named = rankedIds(ends);
   DisjointSets chains(named.size());
-  for (const auto& [low, high] : edges) chains.unite(named(low), named(high));
+  for (const auto& [low, high] : edges) chains.unite(named.rankOf(low), named.rankOf(high));
   counts.openEdges = uint32_t(edges.size());
   for (uint32_t v = 0; v < named.size(); ++v) counts.holes += chains.find(v) == v;
 }
@@ -119,7 +98,8 @@ std::vector<MeshPart> trianglesOfBands(const MeshPart& part, const std::vector<d
     finder.forReached(least, greatest, [&, id = part.triangles[t]](size_t band) { triangles[band].push_back(id); });
   }
   std::vector<MeshPart> parts;
-  for (std::vector<uint32_t>& some : triangles) parts.push_back(takePart(part, std::move(some), {}));
+  const NamedMesh named(part);
+  for (std::vector<uint32_t>& some : triangles) parts.push_back(takePart(named, std::move(some), {}));
   return parts;
 }
 
@@ -138,11 +118,11 @@ std::vector<std::vector<double>> positionsElsewhere(const MeshPart& part, const 
 }
 
 MeshPart trianglesAt(const std::vector<double>& positions, const MeshPart& part, const std::vector<double>& heights, const Band& there) {
-  Places asked(positions.size() / 3, PositionOf{positions.data()});
-  for (uint32_t i = 0; i < positions.size() / 3; ++i) asked.find(&positions[3 * size_t(i)]) = i;
+  if (positions.empty()) return {};
+  FirstAt asked(positions);
   std::vector<uint32_t> triangles;
-  for (size_t t = 0; t < part.triangles.size() && !positions.empty(); ++t) {
-    const auto isAsked = [&](uint32_t v) { return asked.find(&part.positions[3 * size_t(v)]) != Places::kFree; };
+  for (size_t t = 0; t < part.triangles.size(); ++t) {
+    const auto isAsked = [&](uint32_t v) { return asked.has(&part.positions[3 * size_t(v)]); };
     const auto [least, greatest] = rangeOf(part, heights, t);
     const uint32_t* v = &part.corners[3 * t];
     if (!there.reaches(least, greatest) && (isAsked(v[0]) || isAsked(v[1]) || isAsked(v[2]))) triangles.push_back(part.triangles[t]);
@@ -151,38 +131,37 @@ MeshPart trianglesAt(const std::vector<double>& positions, const MeshPart& part,
 }
 
 std::vector<uint32_t> lowestAt(const std::vector<double>& positions, const MeshPart& part) {
-  std::vector<uint32_t> lowest;
-  if (positions.empty()) return lowest;
-  Places places = placesOf(part, [](uint32_t) { return true; });
-  for (size_t i = 0; i < positions.size(); i += 3) {
-    const uint32_t v = places.find(&positions[i]);
-    lowest.push_back(v == Places::kFree ? v : part.vertices[v]);
-  }
-  return lowest;
+  if (positions.empty()) return {};
+  FirstAt places(positions);
+  for (size_t v = 0; v < part.vertices.size(); ++v) places.add(part.vertices[v], &part.positions[3 * v]);
+  return places.first();
 }
 
-void takeLowest(const std::vector<std::vector<double>>& asked, const std::vector<std::vector<uint32_t>>& told, BandTriangles& triangles) {
+void findLowest(BandTriangles& triangles) {
   const MeshPart& part = triangles.part;
-  Places places = placesOf(part, [](uint32_t) { return true; });
-  for (uint32_t v = 0; v < part.vertices.size(); ++v) {
-    const uint32_t place = places.find(&part.positions[3 * size_t(v)]);
-    triangles.lowest.push_back(place == v ? part.vertices[v] : triangles.lowest[place]);
+  const size_t count = part.vertices.size();
+  std::vector<uint32_t>& lowest = triangles.lowest;
+  lowest = lowestAtPosition(count, PositionOf{part.positions.data()}, [](uint32_t) { return true; });
+  std::vector<uint8_t>& isComplete = triangles.isComplete;
+  isComplete.assign(count, 0);
+  for (size_t t = 0; t < part.triangles.size(); ++t) {
+    for (size_t i = 0; i < 3 && triangles.isWithin[t]; ++i) isComplete[lowest[part.corners[3 * t + i]]] = 1;
   }
-  std::vector<uint32_t> lowest = triangles.lowest;  // per place
-  for (size_t band = 0; band < asked.size(); ++band) {
-    for (size_t i = 0; i < told[band].size(); ++i) lowest[places.find(&asked[band][3 * i])] = told[band][i];
+  for (size_t v = 0; v < count; ++v) {
+    isComplete[v] = isComplete[lowest[v]];
+    lowest[v] = part.vertices[lowest[v]];
   }
-  for (uint32_t v = 0; v < part.vertices.size(); ++v) triangles.lowest[v] = lowest[places.find(&part.positions[3 * size_t(v)])];
 }
 
-std::vector<uint8_t> verticesWithin(const MeshPart& part, const std::vector<uint8_t>& isWithin) {
-  std::vector<uint8_t> within(part.vertices.size(), 0);
-  for (size_t t = 0; t < part.triangles.size(); ++t) {
-    for (size_t i = 0; i < 3 && isWithin[t]; ++i) within[part.corners[3 * t + i]] = 1;
+void takeLowest(const std::vector<double>& asked, const std::vector<uint32_t>& told, BandTriangles& triangles) {
+  const MeshPart& part = triangles.part;
+  Places places(told.size(), PositionOf{asked.data()});
+  for (uint32_t i = 0; i < told.size(); ++i) places.find(&asked[3 * size_t(i)]) = i;
+  for (size_t v = 0; v < part.vertices.size() && !told.empty(); ++v) {
+    if (triangles.isComplete[v]) continue;
+    const uint32_t at = places.find(&part.positions[3 * v]);
+    if (at != Places::kFree) triangles.lowest[v] = told[at];
   }
-  Places places = placesOf(part, [&](uint32_t v) { return within[v] != 0; });
-  for (uint32_t v = 0; v < within.size(); ++v) within[v] = places.find(&part.positions[3 * size_t(v)]) != Places::kFree;
-  return within;
 }
 
 std::unique_ptr<MeshBand> weldBand(const BandTriangles& triangles, int shift, const Band& band) {
@@ -192,15 +171,16 @@ std::unique_ptr<MeshBand> weldBand(const BandTriangles& triangles, int shift, co
   Prepared& mesh = out->mesh;
   out->band = band;
   mesh.shift = shift;
-  const Named named(triangles.lowest);
-  out->vertices = named.ids();
+  const RankedSet named = rankedIds(triangles.lowest);
+  out->vertices = idsOf(named);
   out->isComplete.resize(named.size());
   mesh.points.resize(named.size());
   mesh.triVertices = uint32_t(named.size());
   const std::vector<uint8_t>& within = triangles.isComplete;
   std::vector<uint32_t> numbers;
+  numbers.reserve(part.vertices.size());
   for (size_t v = 0; v < part.vertices.size(); ++v) {
-    const uint32_t number = numbers.emplace_back(named(triangles.lowest[v]));
+    const uint32_t number = numbers.emplace_back(named.rankOf(triangles.lowest[v]));
     out->isComplete[number] = within[v];
     for (size_t d = 0; d < 3; ++d) mesh.points[number][d] = scale.scaled(part.positions[3 * v + d], mesh.counts.flushedCoordinates);
     out->weldedVertices += within[v] && triangles.lowest[v] != part.vertices[v] && band.owns(mesh.points[number][2]);
@@ -278,15 +258,15 @@ Parts joinParts(const MeshBand& band, const std::vector<uint32_t>& setOf, std::s
     for (size_t i = 0; i < one.kinds.size(); i += 2) ids.push_back(one.kinds[i]);
     ids.insert(ids.end(), one.shared.begin(), one.shared.end());
   }
-  const Named named(std::move(ids));
+  const RankedSet named = rankedIds(ids);
   DisjointSets sets(named.size());
   std::vector<PartKind> kinds(named.size(), PartKind::winding);
   for (const BandParts& one : all) {
-    for (size_t i = 0; i < one.shared.size(); i += 2) sets.unite(named(one.shared[i]), named(one.shared[i + 1]));
+    for (size_t i = 0; i < one.shared.size(); i += 2) sets.unite(named.rankOf(one.shared[i]), named.rankOf(one.shared[i + 1]));
   }
   for (const BandParts& one : all) {
     for (size_t i = 0; i < one.kinds.size(); i += 2) {
-      PartKind& kind = kinds[sets.find(named(one.kinds[i]))];
+      PartKind& kind = kinds[sets.find(named.rankOf(one.kinds[i]))];
       kind = std::max(kind, PartKind(one.kinds[i + 1]));
     }
   }
@@ -299,7 +279,7 @@ Parts joinParts(const MeshBand& band, const std::vector<uint32_t>& setOf, std::s
   if (counts.open > 0) countOpenEdges(all, counts);
   result.kinds.assign(setOf.size(), PartKind::none);
   for (size_t t = 0; t < setOf.size(); ++t) {
-    if (band.isWithin[t]) result.kinds[t] = kinds[sets.find(named(setOf[t]))];
+    if (band.isWithin[t]) result.kinds[t] = kinds[sets.find(named.rankOf(setOf[t]))];
   }
   return result;
 }

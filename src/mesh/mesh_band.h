@@ -10,6 +10,7 @@
 
 #include "base/shared.h"
 #include "mesh/mesh_part.h"
+#include "mesh/mesh_source.h"
 #include "mesh/prepared.h"
 
 namespace mandoline::detail {
@@ -47,7 +48,7 @@ class BandFinder {
 struct BandTriangles {
   MeshPart part;                    ///< triangles within and beside the band
   std::vector<uint8_t> isWithin;    ///< per triangle
-  std::vector<uint8_t> isComplete;  ///< per vertex of the part: as of verticesWithin()
+  std::vector<uint8_t> isComplete;  ///< per vertex of the part whether a triangle within the band has one at its position
   std::vector<uint32_t> lowest;     ///< per vertex of the part: the id of the lowest one of the whole at its position that a triangle has
 };
 /// Heights of the vertices of a part, scaled.
@@ -61,10 +62,14 @@ std::vector<std::vector<double>> positionsElsewhere(const MeshPart& part, const 
 MeshPart trianglesAt(const std::vector<double>& positions, const MeshPart& part, const std::vector<double>& heights, const Band& there);
 /// Per position the id of the lowest vertex there, or 2^32 - 1.
 std::vector<uint32_t> lowestAt(const std::vector<double>& positions, const MeshPart& part);
-/// Takes what positionsElsewhere() has been told by lowestAt(); the part itself has the lowest of the others.
-void takeLowest(const std::vector<std::vector<double>>& asked, const std::vector<std::vector<uint32_t>>& told, BandTriangles& triangles);
-/// Per vertex whether a triangle within the band has one at its position.
-std::vector<uint8_t> verticesWithin(const MeshPart& part, const std::vector<uint8_t>& isWithin);
+/// Finds which vertices are complete, and the lowest ones at their positions: those of the part, which are those of the whole where they
+/// are complete.
+void findLowest(BandTriangles& triangles);
+/// Takes what lowestAt() has told of positions of vertices that are not complete.
+void takeLowest(const std::vector<double>& asked, const std::vector<uint32_t>& told, BandTriangles& triangles);
+
+/// What a band has of a mesh, which is gone through several times, so that nothing else of it is ever held but a byte for each vertex.
+MANDOLINE_SHARED BandTriangles readBand(const MeshSource& mesh, const Scale& scale, const Band& band);
 
 struct MeshBand {
   Band band;

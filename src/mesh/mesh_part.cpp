@@ -1,77 +1,67 @@
 #include "mesh/mesh_part.h"
 
 #include <algorithm>
-#include <functional>
 
-#include "base/sort.h"
 #include "mesh/failure.h"
 
 namespace mandoline::detail {
 namespace {
 
-/// Where ids are among ascending ones.
-class IndexOf {
- public:
-  explicit IndexOf(const std::vector<uint32_t>& ids) : ids_(ids) {
-    constexpr size_t kSparse = 8;  // a table would be mostly empty
-    if (ids.empty() || ids.back() / kSparse > ids.size()) return;
-    table_.resize(size_t(ids.back()) + 1);
-    for (size_t i = 0; i < ids.size(); ++i) table_[ids[i]] = uint32_t(i);
-  }
-
-  uint32_t operator()(uint32_t id) const {
-    return !table_.empty() ? table_[id] : uint32_t(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin());
-  }
-
- private:
-  const std::vector<uint32_t>& ids_;
-  std::vector<uint32_t> table_;
-};
-
-std::vector<uint32_t> unitedIds(std::span<const MeshPart> parts, std::vector<uint32_t> MeshPart::*member) {
+RankedSet unitedIds(std::span<const MeshPart> parts, std::vector<uint32_t> MeshPart::*member) {
   std::vector<uint32_t> ids;
   for (const MeshPart& part : parts) ids.insert(ids.end(), (part.*member).begin(), (part.*member).end());
-  if (std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>()) != ids.end()) sortUnique(ids);
-  ids.shrink_to_fit();
-  return ids;
+  return rankedIds(ids);
 }
 
 }  // namespace
 
-size_t NamedMesh::indexOf(size_t id, const std::vector<uint32_t>& ids) {
-  const auto at = std::lower_bound(ids.begin(), ids.end(), id);
-  if (at == ids.end() || *at != id)
-    throw Failure{{Status::internalError, -1, -1, "A process lacks a vertex or a triangle of the mesh that its cells name."}};
-  return size_t(at - ids.begin());
+RankedSet rankedIds(std::span<const uint32_t> ids) {
+  const uint64_t limit = ids.empty() ? 0 : uint64_t(*std::max_element(ids.begin(), ids.end())) + 1;
+  RankedSet set(limit, ids.size() + 1);
+  for (const uint32_t id : ids) set.insert(id);
+  set.rank();
+  return set;
 }
 
-std::vector<uint32_t> indicesAmong(const std::vector<uint32_t>& ascending, std::span<const uint32_t> ids) {
-  const IndexOf indexOf(ascending);
-  std::vector<uint32_t> indices;
-  indices.reserve(ids.size());
-  for (const uint32_t id : ids) indices.push_back(indexOf(id));
-  return indices;
+std::vector<uint32_t> idsOf(const RankedSet& set) {
+  std::vector<uint32_t> ids;
+  ids.reserve(set.size());
+  set.forEach([&](uint64_t id) { ids.push_back(uint32_t(id)); });
+  return ids;
+}
+
+NamedMesh::NamedMesh(const MeshPart& part)
+    : positions_(part.positions),
+      corners_(part.corners),
+      ids_(&part.vertices),
+      vertices_(rankedIds(part.vertices)),
+      triangles_(rankedIds(part.triangles)) {}
+
+size_t NamedMesh::indexOf(size_t id, const RankedSet& ids) {
+  const uint32_t index = ids.rankOf(id);
+  if (index == RankedSet::kNone)
+    throw Failure{{Status::internalError, -1, -1, "A process lacks a vertex or a triangle of the mesh that its cells name."}};
+  return index;
 }
 
 MeshPart takePart(const NamedMesh& mesh, std::vector<uint32_t> triangles, std::vector<uint32_t> vertices) {
-  MeshPart part{std::move(vertices), std::move(triangles), {}, {}};
-  sortUnique(part.triangles);
-  part.vertices.reserve(part.vertices.size() + 3 * part.triangles.size());
+  MeshPart part;
+  part.triangles = idsOf(rankedIds(triangles));
+  triangles = {};
+  part.corners.reserve(3 * part.triangles.size());
   for (const uint32_t t : part.triangles) {
-    for (size_t i = 0; i < 3; ++i) part.vertices.push_back(mesh.cornerId(t, i));
+    for (size_t i = 0; i < 3; ++i) part.corners.push_back(mesh.cornerId(t, i));
   }
-  sortUnique(part.vertices);
-  part.vertices.shrink_to_fit();
+  vertices.insert(vertices.end(), part.corners.begin(), part.corners.end());
+  const RankedSet set = rankedIds(vertices);
+  vertices = {};
+  part.vertices = idsOf(set);
   part.positions.reserve(3 * part.vertices.size());
   for (const uint32_t v : part.vertices) {
     const double* p = mesh.vertex(v);
     part.positions.insert(part.positions.end(), p, p + 3);
   }
-  const IndexOf indexOf(part.vertices);
-  part.corners.reserve(3 * part.triangles.size());
-  for (const uint32_t t : part.triangles) {
-    for (size_t i = 0; i < 3; ++i) part.corners.push_back(indexOf(mesh.cornerId(t, i)));
-  }
+  for (uint32_t& corner : part.corners) corner = set.rankOf(corner);
   return part;
 }
 
@@ -83,16 +73,16 @@ bool hasAll(const MeshPart& part, const MeshPart& other) {
 }
 
 MeshPart united(std::span<const MeshPart> parts) {
-  MeshPart all{unitedIds(parts, &MeshPart::vertices), unitedIds(parts, &MeshPart::triangles), {}, {}};
+  const RankedSet vertices = unitedIds(parts, &MeshPart::vertices), triangles = unitedIds(parts, &MeshPart::triangles);
+  MeshPart all{idsOf(vertices), idsOf(triangles), {}, {}};
   all.positions.resize(3 * all.vertices.size());
   all.corners.resize(3 * all.triangles.size());
-  const IndexOf vertexOf(all.vertices), triangleOf(all.triangles);
   for (const MeshPart& part : parts) {
     for (size_t v = 0; v < part.vertices.size(); ++v)
-      std::copy_n(&part.positions[3 * v], 3, &all.positions[3 * size_t(vertexOf(part.vertices[v]))]);
+      std::copy_n(&part.positions[3 * v], 3, &all.positions[3 * size_t(vertices.rankOf(part.vertices[v]))]);
     for (size_t t = 0; t < part.triangles.size(); ++t) {
-      const size_t to = 3 * size_t(triangleOf(part.triangles[t]));
-      for (size_t i = 0; i < 3; ++i) all.corners[to + i] = vertexOf(part.vertices[part.corners[3 * t + i]]);
+      const size_t to = 3 * size_t(triangles.rankOf(part.triangles[t]));
+      for (size_t i = 0; i < 3; ++i) all.corners[to + i] = vertices.rankOf(part.vertices[part.corners[3 * t + i]]);
     }
   }
   return all;

@@ -1,6 +1,7 @@
 // Some vertices and triangles of a mesh, which keep the ids of the whole: what one of several processes has of the user's mesh.
 #pragma once
 
+#include "base/ranked_set.h"
 #include "base/shared.h"
 #include "mandoline/mesh.h"
 
@@ -20,36 +21,36 @@ struct MeshPart {
   }
 };
 
+/// A set of ids, to be had in ascending order and found among these.
+MANDOLINE_SHARED RankedSet rankedIds(std::span<const uint32_t> ids);
+MANDOLINE_SHARED std::vector<uint32_t> idsOf(const RankedSet& set);
+
 /// A mesh, or a part of one, which has to outlive this, by the ids of the whole. Throws Failure for what a part does not have
 /// (internalError).
 class NamedMesh {
  public:
   NamedMesh(const MeshView& mesh) : positions_(mesh.positions), corners_(mesh.triangles) {}
-  NamedMesh(const MeshPart& part)
-      : positions_(part.positions), corners_(part.corners), vertices_(&part.vertices), triangles_(&part.triangles) {}
+  MANDOLINE_SHARED NamedMesh(const MeshPart& part);
   NamedMesh(const MeshPart&&) = delete;
 
-  const double* vertex(size_t v) const { return at(vertices_ ? indexOf(v, *vertices_) : v); }
+  const double* vertex(size_t v) const { return at(ids_ ? indexOf(v, vertices_) : v); }
   const double* corner(size_t triangle, size_t i) const { return at(cornerIndex(triangle, i)); }
   uint32_t cornerId(size_t triangle, size_t i) const {
     const uint32_t index = cornerIndex(triangle, i);
-    return vertices_ ? (*vertices_)[index] : index;
+    return ids_ ? (*ids_)[index] : index;
   }
 
  private:
-  MANDOLINE_SHARED static size_t indexOf(size_t id, const std::vector<uint32_t>& ids);
+  MANDOLINE_SHARED static size_t indexOf(size_t id, const RankedSet& ids);
   const double* at(size_t vertex) const { return positions_.data() + 3 * vertex; }
-  uint32_t cornerIndex(size_t triangle, size_t i) const {
-    return corners_[3 * (triangles_ ? indexOf(triangle, *triangles_) : triangle) + i];
-  }
+  uint32_t cornerIndex(size_t triangle, size_t i) const { return corners_[3 * (ids_ ? indexOf(triangle, triangles_) : triangle) + i]; }
 
   std::span<const double> positions_;
   std::span<const uint32_t> corners_;
-  const std::vector<uint32_t>*vertices_ = nullptr, *triangles_ = nullptr;  // null: all, in their order
+  const std::vector<uint32_t>* ids_ = nullptr;  // of a part's vertices; null for all, in their order
+  RankedSet vertices_, triangles_;              // of a part
 };
 
-/// Per id its place among ascending ones, which have it.
-MANDOLINE_SHARED std::vector<uint32_t> indicesAmong(const std::vector<uint32_t>& ascending, std::span<const uint32_t> ids);
 /// Triangles with their vertices, and other vertices; ids in any order, also more than once.
 MANDOLINE_SHARED MeshPart takePart(const NamedMesh& mesh, std::vector<uint32_t> triangles, std::vector<uint32_t> vertices);
 /// Whether a part has all that another one of the mesh has.

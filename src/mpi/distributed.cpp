@@ -39,7 +39,7 @@ struct DistributedCut::Data {
     if (comm.size() > 1) {
       std::shared_ptr<const Mesh> slice;
       comm.together(kNoun, [&] { slice = std::make_shared<const Mesh>(sliceOf(*mesh, shareOf())); });
-      input = prepareShares(comm, *sliced(comm, std::move(slice)), grid, options, info);
+      input = prepareShares(comm, *sliced(comm, std::move(slice), std::make_shared<ArraySource>(mesh)), grid, options, info);
     }
     makeShare(std::move(input), options, info);
     finish(options);
@@ -299,9 +299,9 @@ DistributedCut::DistributedCut(MPI_Comm comm, std::shared_ptr<const Mesh> mesh, 
 DistributedCut::DistributedCut(MPI_Comm comm, SlicedMesh mesh, Grid grid, const PrepareOptions& options, MeshInfo* info)
     : data_(std::make_shared<Data>(comm, std::move(mesh), std::move(grid), options, info)) {}
 
-SlicedMesh::SlicedMesh(MPI_Comm comm_, Mesh slice) {
+SlicedMesh::SlicedMesh(MPI_Comm comm_, Mesh slice, std::shared_ptr<const MeshSource> whole) {
   Communicator comm(comm_, nullptr);
-  data_ = sliced(comm, std::make_shared<const Mesh>(std::move(slice)));
+  data_ = sliced(comm, std::make_shared<const Mesh>(std::move(slice)), std::move(whole));
 }
 uint64_t SlicedMesh::vertexCount() const { return data_->vertices(); }
 uint64_t SlicedMesh::triangleCount() const { return data_->triangles(); }

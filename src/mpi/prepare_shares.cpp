@@ -87,6 +87,13 @@ class SharesPreparer {
 
   /// What this process's band has of the mesh.
   BandTriangles gather() {
+    BandTriangles triangles;
+    if (!mesh_.whole) return gatherFromOthers();
+    comm_.together(kPreparation, [&] { triangles = readBand(*mesh_.whole, scale_, maker_.band()); });
+    return triangles;
+  }
+
+  BandTriangles gatherFromOthers() {
     const size_t count = size_t(comm_.size());
     std::vector<MeshPart> parts;
     comm_.together(kPreparation, [&] { parts = trianglesOfBands(mesh_.part, heightsOf(mesh_.part, scale_), BandFinder(maker_.bands())); });
@@ -102,7 +109,7 @@ class SharesPreparer {
     comm_.together(kPreparation, [&] {
       const std::vector<uint32_t>& ids = within.triangles;
       for (const uint32_t t : triangles.part.triangles) triangles.isWithin.push_back(std::binary_search(ids.begin(), ids.end(), t));
-      triangles.isComplete = verticesWithin(triangles.part, triangles.isWithin);
+      findLowest(triangles);
       for (const uint8_t flag : triangles.isComplete) isFar.push_back(!flag);
     });
     const Positions asked = ask(triangles.part, isFar);
@@ -112,7 +119,9 @@ class SharesPreparer {
       for (size_t rank = 0; rank < count; ++rank) lowest[rank] = lowestAt(told[rank], within);
     });
     lowest = comm_.exchangeAll(lowest);
-    comm_.together(kPreparation, [&] { takeLowest(asked, lowest, triangles); });
+    comm_.together(kPreparation, [&] {
+      for (size_t rank = 0; rank < count; ++rank) takeLowest(asked[rank], lowest[rank], triangles);
+    });
     return triangles;
   }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/position_table.h"
-#include "base/sort.h"
 #include "mesh/fingerprints.h"
 #include "mpi/pack.h"
 
@@ -29,13 +28,39 @@ class CornerFinder {
 
   void find() {
     bool isFit = false;
-    std::vector<IdList> asked(size_t(comm_.size()));
     comm_.together(kSlicing, [&] {
       isFit = areFit();
-      if (isFit) listCorners(asked);
+      if (isFit) listCorners();
     });
     mesh_.isFit = comm_.reduce(int(isFit), MPI_MIN) != 0;
     if (!mesh_.isFit) return;
+    if (mesh_.whole) {
+      readCorners();
+    } else {
+      askForCorners();
+    }
+  }
+
+ private:
+  void readCorners() {
+    MeshPart& part = mesh_.part;
+    std::vector<uint8_t> isReferenced;
+    comm_.together(kSlicing, [&] {
+      isReferenced.resize(size_t(mesh_.vertices()));
+      for (const uint32_t v : part.vertices) isReferenced[v] = 1;
+      part.positions.reserve(3 * part.vertices.size());
+      forPositions(*mesh_.whole, [&](uint32_t v, const double* p) {
+        if (isReferenced[v] != 0) part.positions.insert(part.positions.end(), p, p + 3);
+      });
+    });
+    comm_.uniteFlags(isReferenced);
+    const auto at = [&](uint64_t vertex) { return isReferenced.begin() + ptrdiff_t(vertex); };
+    std::copy(at(mesh_.firstVertex[own_]), at(mesh_.firstVertex[own_ + 1]), mesh_.isReferenced.begin());
+  }
+
+  void askForCorners() {
+    std::vector<IdList> asked(size_t(comm_.size()));
+    comm_.together(kSlicing, [&] { listAsked(asked); });
     std::vector<IdList> told = comm_.exchangeAll(asked);
     std::vector<std::vector<double>> positions(told.size());
     comm_.together(kSlicing, [&] {
@@ -45,7 +70,6 @@ class CornerFinder {
     comm_.together(kSlicing, [&] { takeCorners(positions); });
   }
 
- private:
   bool areFit() const {
     constexpr uint64_t kMost = uint64_t(1) << 31;
     const Mesh& slice = *mesh_.slice;
@@ -54,10 +78,18 @@ class CornerFinder {
     return std::all_of(slice.triangles.begin(), slice.triangles.end(), [&](uint32_t v) { return v < mesh_.vertices(); });
   }
 
-  void listCorners(std::vector<IdList>& asked) {
+  void listCorners() {
     mesh_.isReferenced.assign(mesh_.slice->vertexCount(), 0);
-    mesh_.part.vertices = mesh_.slice->triangles;
-    sortUnique(mesh_.part.vertices);
+    const IdList& corners = mesh_.slice->triangles;
+    const RankedSet vertices = rankedIds(corners);
+    MeshPart& part = mesh_.part;
+    part.vertices = idsOf(vertices);
+    part.corners.reserve(corners.size());
+    for (const uint32_t v : corners) part.corners.push_back(vertices.rankOf(v));
+    for (size_t t = 0; t < corners.size() / 3; ++t) part.triangles.push_back(uint32_t(mesh_.firstTriangle[own_] + t));
+  }
+
+  void listAsked(std::vector<IdList>& asked) {
     size_t rank = 0;
     for (const uint32_t v : mesh_.part.vertices) {
       while (v >= mesh_.firstVertex[rank + 1]) ++rank;
@@ -94,9 +126,6 @@ class CornerFinder {
       at[rank] += 3;
       part.positions.insert(part.positions.end(), p, p + 3);
     }
-    const IdList& corners = mesh_.slice->triangles;
-    for (size_t t = 0; t < corners.size() / 3; ++t) part.triangles.push_back(uint32_t(mesh_.firstTriangle[own_] + t));
-    part.corners = indicesAmong(part.vertices, corners);
   }
 
   Communicator& comm_;
@@ -151,8 +180,10 @@ Sum addInOrder(Communicator& comm, Sum sum, const Add& add) {
 
 }  // namespace
 
-std::shared_ptr<const SlicedMeshData> sliced(Communicator& comm, std::shared_ptr<const Mesh> slice) {
+std::shared_ptr<const SlicedMeshData> sliced(Communicator& comm, std::shared_ptr<const Mesh> slice,
+                                             std::shared_ptr<const MeshSource> whole) {
   auto mesh = std::make_shared<SlicedMeshData>();
+  mesh->whole = std::move(whole);
   mesh->slice = std::move(slice);
   mesh->firstVertex = sumsBefore(comm.gatherAll(uint64_t(mesh->slice->vertexCount())));
   mesh->firstTriangle = sumsBefore(comm.gatherAll(uint64_t(mesh->slice->triangleCount())));
@@ -246,6 +277,12 @@ MeshInfo inspectArrays(Communicator& comm, const SlicedMeshData& mesh, const Mes
 
 std::shared_ptr<const Mesh> gathered(Communicator& comm, const SlicedMeshData& mesh, bool inAll) {
   auto whole = std::make_shared<Mesh>();
+  if (mesh.whole) {
+    comm.together(kSlicing, [&] {
+      if (inAll || comm.rank() == 0) *whole = readAll(*mesh.whole);
+    });
+    return whole;
+  }
   const auto gather = [&](auto Mesh::*member) {
     std::vector<std::remove_cvref_t<decltype(whole.get()->*member)>> slices(size_t(comm.size()));
     comm.together(kSlicing, [&] {

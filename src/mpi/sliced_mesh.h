@@ -6,6 +6,7 @@
 #include "mandoline/distributed.h"
 #include "mesh/inspect_plain.h"
 #include "mesh/mesh_part.h"
+#include "mesh/mesh_source.h"
 #include "mpi/communicator.h"
 
 namespace mandoline::detail {
@@ -13,6 +14,7 @@ namespace mandoline::detail {
 /// What all processes know of it, and this one's slice.
 struct SlicedMeshData {
   std::shared_ptr<const Mesh> slice;                 ///< triangles by the ids of the whole
+  std::shared_ptr<const MeshSource> whole;           ///< if each process can read all; else they tell each other
   std::vector<uint64_t> firstVertex, firstTriangle;  ///< per process, and how many there are
   MeshPart part;                                     ///< this one's triangles with their vertices, if it isFit
   std::vector<uint8_t> isReferenced;                 ///< per vertex of the slice whether a triangle of the whole has it
@@ -25,7 +27,8 @@ struct SlicedMeshData {
 };
 
 // All but sliceOf() are collective.
-std::shared_ptr<const SlicedMeshData> sliced(Communicator& comm, std::shared_ptr<const Mesh> slice);
+std::shared_ptr<const SlicedMeshData> sliced(Communicator& comm, std::shared_ptr<const Mesh> slice,
+                                             std::shared_ptr<const MeshSource> whole = nullptr);
 /// A slice of a mesh that all processes have, as one of those of all.
 MANDOLINE_SHARED Mesh sliceOf(const MeshView& mesh, const ShareOf& shareOf);
 /// fingerprintOf() the whole.

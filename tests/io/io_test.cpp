@@ -283,7 +283,7 @@ std::optional<Mesh> readInSlices(const std::string& path, uint32_t count) {
   Mesh whole;
   uint64_t sample = 0;
   for (uint32_t index = 0; index < count; ++index) {
-    const auto slice = mandoline::detail::readMeshSlice(path, index, count);
+    const auto slice = mandoline::detail::readMeshSlice(path, {index, count});
     if (!slice) return std::nullopt;
     CHECK(slice->mesh.triangleCount() <= 7 / count + 1);
     CHECK((index == 0 || slice->sample == sample));
@@ -342,7 +342,7 @@ TEST_CASE("Slices of binary files of triangles make up the whole; other files ha
     CAPTURE(file);
     CHECK_FALSE(readInSlices(file, 3));
   }
-  CHECK(mandoline::detail::readMeshSlice(files[0], 0, 2)->sample != mandoline::detail::readMeshSlice(files[1], 0, 2)->sample);
+  CHECK(mandoline::detail::readMeshSlice(files[0], {0, 2})->sample != mandoline::detail::readMeshSlice(files[1], {0, 2})->sample);
 }
 
 TEST_CASE("Doubles are kept", "[io]") {

@@ -72,16 +72,17 @@ class Run {
   bool readSlice() {
     std::optional<detail::FileSlice> slice;
     ranks_.together([&] {
-      if (!arguments_.orient) slice = detail::readMeshSlice(arguments_.mesh, uint32_t(ranks_.rank()), uint32_t(ranks_.size()));
+      if (!arguments_.orient) slice = detail::readMeshSlice(arguments_.mesh, {uint32_t(ranks_.rank()), uint32_t(ranks_.size())});
     });
     if (ranks_.comm().reduce(int(slice.has_value()), MPI_MIN) == 0) return false;
     slice_ = std::move(slice->mesh);
+    whole_ = std::move(slice->whole);
     sample_ = slice->sample;
     return true;
   }
 
   void makeSlices() {
-    slices_.emplace(MPI_COMM_WORLD, std::exchange(slice_, {}));
+    slices_.emplace(MPI_COMM_WORLD, std::exchange(slice_, {}), std::move(whole_));
     const MeshBox box = slices_->box();
     info_.min = box.min;
     info_.max = box.max;
@@ -288,9 +289,10 @@ class Run {
   ProgressBar bar_;
   Input input_;  // of others than the first the name and at most the mesh
   bool isReadByAll_ = false;
-  Mesh slice_;                        // until it is one of slices_
-  uint64_t sample_ = 0;               // of the file that it is read from
-  std::optional<SlicedMesh> slices_;  // in the place of the mesh, until it is cut
+  Mesh slice_;                                       // until it is one of slices_
+  std::shared_ptr<const detail::MeshSource> whole_;  // likewise, if each process reads what it needs of the file
+  uint64_t sample_ = 0;                              // of the file that it is read from
+  std::optional<SlicedMesh> slices_;                 // in the place of the mesh, until it is cut
   MeshInfo info_;
   AskedGrid grid_;
   int failed_ = 0;

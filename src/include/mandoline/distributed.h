@@ -21,8 +21,9 @@
 namespace MANDOLINE_API mandoline {
 
 namespace detail {
+struct MeshSource;
 struct SlicedMeshData;
-}
+}  // namespace detail
 
 /// Thrown by all processes where one of them failed.
 struct RankError : CallError {
@@ -50,8 +51,9 @@ PreparedTogether prepareTogether(MPI_Comm comm, std::shared_ptr<const Mesh> mesh
 class SlicedMesh {
  public:
   /// `slice`: vertices that follow those of the processes of lower ranks, and likewise triangles, which name vertices by their ids in the
-  /// whole, from 0. Any of these may be few or none. Throws RankError, alike in all processes, where one of them fails.
-  SlicedMesh(MPI_Comm comm, Mesh slice);
+  /// whole, from 0. Any of these may be few or none. Throws RankError, alike in all processes, where one of them fails. `whole`: where
+  /// each process can read all of the mesh in pieces, of which then little has to be sent; in all processes or in none.
+  SlicedMesh(MPI_Comm comm, Mesh slice, std::shared_ptr<const detail::MeshSource> whole = nullptr);
 
   uint64_t vertexCount() const;    ///< of the whole
   uint64_t triangleCount() const;  ///< likewise

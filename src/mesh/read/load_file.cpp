@@ -55,15 +55,21 @@ uint64_t sampleOf(const PartlyRead& file) {
 }  // namespace
 }  // namespace detail
 
-std::optional<detail::FileSlice> detail::readMeshSlice(const std::string& path, uint32_t index, uint32_t count) {
+std::optional<detail::FileSlice> detail::readMeshSlice(const std::string& path, const ShareOf& shareOf) {
   try {
     if (!isBinaryMesh(path)) return std::nullopt;
-    const PartlyRead file(path);
+    PartlyRead file(path);
     const std::string head = file.read(0, size_t(std::min<uint64_t>(file.size(), 512)));
     if (isGzipped(head) || looksLikeOff(head)) return std::nullopt;
-    std::optional<Mesh> mesh = looksLikePly(head) ? readPlyPart(file, {index, count}) : readStlPart(file, {index, count});
-    if (!mesh) return std::nullopt;
-    return FileSlice{*std::move(mesh), sampleOf(file)};
+    const uint64_t sample = sampleOf(file);
+    FileSlice slice{{}, looksLikePly(head) ? openPly(std::move(file)) : openStl(std::move(file)), sample};
+    if (!slice.whole) return std::nullopt;
+    const uint64_t firstVertex = shareOf.begin(slice.whole->vertices), firstTriangle = shareOf.begin(slice.whole->triangles);
+    slice.mesh.positions.resize(3 * size_t(shareOf.end(slice.whole->vertices) - firstVertex));
+    slice.mesh.triangles.resize(3 * size_t(shareOf.end(slice.whole->triangles) - firstTriangle));
+    slice.whole->readPositions(firstVertex, slice.mesh.positions);
+    slice.whole->readCorners(firstTriangle, slice.mesh.triangles);
+    return slice;
   } catch (const FileError&) {
     return std::nullopt;
   } catch (const std::filesystem::filesystem_error&) {

@@ -5,7 +5,9 @@
 #include <string>
 
 #include "base/shared.h"
+#include "mandoline/cut_share.h"
 #include "mandoline/mesh_files.h"
+#include "mesh/mesh_source.h"
 
 namespace mandoline::detail {
 
@@ -19,10 +21,11 @@ MANDOLINE_SHARED bool isBinaryMesh(const std::string& path);
 /// Vertices and triangles of a mesh, by the ids of the whole.
 struct FileSlice {
   Mesh mesh;
-  uint64_t sample = 0;  ///< of the whole file: files that differ in size or in most of their bytes have other ones
+  std::shared_ptr<const MeshSource> whole;  ///< which throws FileError where something is wrong elsewhere
+  uint64_t sample = 0;                      ///< of the whole file: files that differ in size or in most of their bytes have other ones
 };
-/// One of `count` slices of a mesh, which several processes read each. Nothing, at least in one of them, where the file is not of binary
-/// PLY or STL with a known place for each, or something is wrong with it: then it is to be read as a whole, which also tells what is wrong.
-MANDOLINE_SHARED std::optional<FileSlice> readMeshSlice(const std::string& path, uint32_t index, uint32_t count);
+/// One of the slices of a mesh, which several processes read each. Nothing, at least in one of them, where the file is not of binary PLY or
+/// STL with a known place for each, or something is wrong with it: then it is to be read as a whole, which also tells what is wrong.
+MANDOLINE_SHARED std::optional<FileSlice> readMeshSlice(const std::string& path, const ShareOf& shareOf);
 
 }  // namespace mandoline::detail

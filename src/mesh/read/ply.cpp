@@ -191,45 +191,4 @@ Mesh readPly(const FileBytes& file) {
   return DataReader(BinarySource(file, file.bytes.size() - cursor.remaining(), order), header, cursor).read();
 }
 
-/// Bytes of an item, if all have as many: `corners` in each list of vertices, and no other lists.
-static std::optional<size_t> itemSize(const Element& element, size_t corners) {
-  size_t size = 0;
-  for (const Property& p : element.properties) {
-    if (p.isList && p.role != Role::corners) return std::nullopt;
-    size += p.isList ? p.countType.size + corners * p.type.size : p.type.size;
-  }
-  return size;
-}
-
-/// Where each triangle of a file is known if all faces are triangles. If those of all parts are, the faces of each part begin there.
-std::optional<Mesh> readPlyPart(const PartlyRead& file, const ShareOf& shareOf) {
-  constexpr size_t kMostHeader = size_t(1) << 16;
-  const std::string head = file.read(0, size_t(std::min<uint64_t>(file.size(), kMostHeader)));
-  if (!looksLikePly(head) || head.find("end_header") == head.npos) return std::nullopt;
-  TextCursor cursor(file.path(), head);
-  const Header header = readHeader(cursor);
-  const std::vector<Element>& elements = header.elements;
-  if (header.encoding == Encoding::text || elements.size() != 2 || elements[0].name != "vertex" || elements[1].name != "face")
-    return std::nullopt;
-  const ByteOrder order = header.encoding == Encoding::binaryLittle ? ByteOrder::little : ByteOrder::big;
-  uint64_t offset = head.size() - cursor.remaining();
-  Mesh mesh;
-  for (const Element& element : elements) {
-    const std::optional<size_t> size = itemSize(element, 3);
-    if (!size || *size == 0 || element.count > (file.size() - offset) / *size) return std::nullopt;
-    Header some = header;
-    some.elements = {element};
-    const uint64_t begin = shareOf.begin(element.count), count = shareOf.end(element.count) - begin;
-    some.elements[0].count = count;
-    const std::string bytes = file.read(offset + *size * begin, size_t(*size * count));
-    const FileBytes items{file.path(), bytes};
-    Mesh read = DataReader(BinarySource(items, 0, order), some, cursor).read();
-    if (element.name == "vertex") mesh.positions = std::move(read.positions);
-    if (element.name == "face") mesh.triangles = std::move(read.triangles);
-    offset += *size * element.count;
-  }
-  if (mesh.triangles.size() != 3 * (shareOf.end(elements[1].count) - shareOf.begin(elements[1].count))) return std::nullopt;
-  return mesh;
-}
-
 }  // namespace mandoline::detail

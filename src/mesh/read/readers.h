@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "mandoline/cut_share.h"
 #include "mandoline/mesh_files.h"
+#include "mesh/mesh_source.h"
 
 namespace mandoline::detail {
 
@@ -38,10 +38,9 @@ class PartlyRead {
   mutable std::ifstream file_;
   uint64_t size_ = 0;
 };
-/// A share of the vertices and of the triangles, which name vertices of the whole; nothing where records differ in size, or the file is not
-/// binary.
-std::optional<Mesh> readPlyPart(const PartlyRead& file, const ShareOf& shareOf);
-std::optional<Mesh> readStlPart(const PartlyRead& file, const ShareOf& shareOf);
+/// Nothing where records differ in size, or the file is not binary.
+std::shared_ptr<const MeshSource> openPly(PartlyRead file);
+std::shared_ptr<const MeshSource> openStl(PartlyRead file);
 
 bool looksLikeObj(std::string_view bytes);
 bool looksLikeOff(std::string_view bytes);

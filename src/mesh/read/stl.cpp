@@ -1,4 +1,6 @@
 // STL, in text or binary. Every triangle has its own three vertices, as in the file; cut() welds them.
+#include <numeric>
+
 #include "mesh/read/readers.h"
 #include "mesh/read/scalar.h"
 #include "mesh/read/text_cursor.h"
@@ -69,17 +71,11 @@ class TextStlReader {
   Mesh mesh_;
 };
 
-/// `first`: the number of the first of these triangles in the file.
-Mesh readTriangles(std::string_view bytes, size_t count, size_t first) {
-  Mesh mesh;
-  mesh.positions.resize(9 * count);
-  mesh.triangles.resize(3 * count);
-  for (size_t t = 0; t < count; ++t) {
+void readCornerPositions(std::string_view bytes, std::span<double> positions) {
+  for (size_t t = 0; t < positions.size() / 9; ++t) {
     const char* corners = bytes.data() + kTriangleSize * t + 12;
-    for (size_t i = 0; i < 9; ++i) mesh.positions[9 * t + i] = double(loadScalar<float>(corners + 4 * i, ByteOrder::little));
-    for (size_t i = 0; i < 3; ++i) mesh.triangles[3 * t + i] = uint32_t(3 * (first + t) + i);
+    for (size_t i = 0; i < 9; ++i) positions[9 * t + i] = double(loadScalar<float>(corners + 4 * i, ByteOrder::little));
   }
-  return mesh;
 }
 
 Mesh readBinary(const FileBytes& file) {
@@ -92,8 +88,36 @@ Mesh readBinary(const FileBytes& file) {
     throw FileError(path + ": byte 80: the header of the binary STL file promises " + std::to_string(count) +
                     " triangles, but the file holds " + std::to_string(room));
   }
-  return readTriangles(bytes.substr(kHeaderSize), count, 0);
+  Mesh mesh;
+  mesh.positions.resize(9 * count);
+  mesh.triangles.resize(3 * count);
+  readCornerPositions(bytes.substr(kHeaderSize), mesh.positions);
+  std::iota(mesh.triangles.begin(), mesh.triangles.end(), 0u);
+  return mesh;
 }
+
+/// Vertices are read with the triangles that have them.
+class StlSource : public MeshSource {
+ public:
+  StlSource(PartlyRead file, uint64_t count) : file_(std::move(file)) {
+    vertices = 3 * count;
+    triangles = count;
+  }
+
+  void readPositions(uint64_t first, std::span<double> positions) const override {
+    const uint64_t begin = first / 3, end = (first + positions.size() / 3 + 2) / 3;
+    const std::string bytes = file_.read(kHeaderSize + kTriangleSize * begin, size_t(kTriangleSize * (end - begin)));
+    std::vector<double> all(9 * size_t(end - begin));
+    readCornerPositions(bytes, all);
+    std::copy_n(all.begin() + ptrdiff_t(3 * (first % 3)), positions.size(), positions.begin());
+  }
+  void readCorners(uint64_t first, std::span<uint32_t> corners) const override {
+    std::iota(corners.begin(), corners.end(), uint32_t(3 * first));
+  }
+
+ private:
+  const PartlyRead file_;
+};
 
 }  // namespace
 
@@ -101,12 +125,11 @@ bool isBinaryStl(std::string_view head, uint64_t size) {
   return head.size() >= kHeaderSize && size == kHeaderSize + kTriangleSize * binaryCount(head);
 }
 
-std::optional<Mesh> readStlPart(const PartlyRead& file, const ShareOf& shareOf) {
+std::shared_ptr<const MeshSource> openStl(PartlyRead file) {
   constexpr size_t kMost = ~uint32_t(0) / 3;  // so that vertices have ids
   const std::string head = file.read(0, size_t(std::min<uint64_t>(file.size(), kHeaderSize)));
-  if (!isBinaryStl(head, file.size()) || binaryCount(head) > kMost) return std::nullopt;
-  const size_t count = binaryCount(head), first = size_t(shareOf.begin(count)), some = size_t(shareOf.end(count)) - first;
-  return readTriangles(file.read(kHeaderSize + kTriangleSize * uint64_t(first), kTriangleSize * some), some, first);
+  if (!isBinaryStl(head, file.size()) || binaryCount(head) > kMost) return nullptr;
+  return std::make_shared<const StlSource>(std::move(file), binaryCount(head));
 }
 
 bool looksLikeStl(std::string_view bytes) { return isBinaryBySize(bytes) || isText(bytes); }
