@@ -46,7 +46,6 @@ struct CutShare::Data {
     takeLayers();
     excerpt = takeInputExcerpt(*input, *state);
     input.reset();
-    giveBackFreed();
     cutHere(clock, run);
   }
 

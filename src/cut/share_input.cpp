@@ -36,12 +36,14 @@ bool ShareInputMaker::begin(const MeshPart& some, std::vector<uint64_t>& work) {
     in_->input.planes = scaledPlanes(grid_, scale, flushed);
     const SlabFinder finder(in_->input.planes);
     LayerWork layerWork(in_->input);
-    const auto slab = [&](uint32_t v) {
-      const double* p = &some.positions[3 * size_t(v)];
-      return finder.find({scale.scaled(p[0], flushed), scale.scaled(p[1], flushed), scale.scaled(p[2], flushed)});
-    };
+    std::vector<Slab> slabs;
+    slabs.reserve(some.vertices.size());
+    for (size_t i = 0; i < some.positions.size(); i += 3) {
+      const double* p = &some.positions[i];
+      slabs.push_back(finder.find({scale.scaled(p[0], flushed), scale.scaled(p[1], flushed), scale.scaled(p[2], flushed)}));
+    }
     for (size_t i = 0; i < some.corners.size(); i += 3)
-      layerWork.add(slab(some.corners[i]), slab(some.corners[i + 1]), slab(some.corners[i + 2]));
+      layerWork.add(slabs[some.corners[i]], slabs[some.corners[i + 1]], slabs[some.corners[i + 2]]);
     work = layerWork.perLayer();
     return true;
   });
@@ -72,14 +74,9 @@ bool ShareInputMaker::prepare(BandTriangles triangles) {
 
 /// What lies within the band, with the tri-vertices that stand for several.
 void ShareInputMaker::keepSurface(const BandTriangles& from) {
-  std::vector<uint32_t> triangles, vertices;
-  for (size_t t = 0; t < from.isWithin.size(); ++t) {
-    if (from.isWithin[t]) triangles.push_back(from.part.triangles[t]);
-  }
-  for (size_t v = 0; v < in_->band->vertices.size(); ++v) {
-    if (in_->band->isComplete[v]) vertices.push_back(in_->band->vertices[v]);
-  }
-  in_->surface = std::make_shared<MeshPart>(takePart(from.part, std::move(triangles), std::move(vertices)));
+  std::vector<uint8_t> takesVertex(from.part.vertices.size(), 0);
+  for (size_t v = 0; v < takesVertex.size(); ++v) takesVertex[v] = from.isComplete[v] && from.lowest[v] == from.part.vertices[v];
+  in_->surface = std::make_shared<MeshPart>(takeFlagged(from.part, from.isWithin, std::move(takesVertex)));
 }
 
 BandFindings ShareInputMaker::found() const { return {inspectEdges(*in_->band), in_->band->weldedVertices}; }

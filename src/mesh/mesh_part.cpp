@@ -65,6 +65,26 @@ MeshPart takePart(const NamedMesh& mesh, std::vector<uint32_t> triangles, std::v
   return part;
 }
 
+MeshPart takeFlagged(const MeshPart& part, const std::vector<uint8_t>& takesTriangle, std::vector<uint8_t> takesVertex) {
+  MeshPart taken;
+  taken.triangles.reserve(size_t(std::count_if(takesTriangle.begin(), takesTriangle.end(), [](uint8_t takes) { return takes != 0; })));
+  taken.corners.reserve(3 * taken.triangles.capacity());
+  for (size_t t = 0; t < takesTriangle.size(); ++t) {
+    if (!takesTriangle[t]) continue;
+    taken.triangles.push_back(part.triangles[t]);
+    for (size_t i = 0; i < 3; ++i) takesVertex[taken.corners.emplace_back(part.corners[3 * t + i])] = 1;
+  }
+  std::vector<uint32_t> numbers(takesVertex.size());
+  for (size_t v = 0; v < takesVertex.size(); ++v) {
+    if (!takesVertex[v]) continue;
+    numbers[v] = uint32_t(taken.vertices.size());
+    taken.vertices.push_back(part.vertices[v]);
+    taken.positions.insert(taken.positions.end(), &part.positions[3 * v], &part.positions[3 * v] + 3);
+  }
+  for (uint32_t& corner : taken.corners) corner = numbers[corner];
+  return taken;
+}
+
 bool hasAll(const MeshPart& part, const MeshPart& other) {
   const auto has = [](const std::vector<uint32_t>& ids, const std::vector<uint32_t>& others) {
     return std::includes(ids.begin(), ids.end(), others.begin(), others.end());

@@ -53,6 +53,8 @@ class NamedMesh {
 
 /// Triangles with their vertices, and other vertices; ids in any order, also more than once.
 MANDOLINE_SHARED MeshPart takePart(const NamedMesh& mesh, std::vector<uint32_t> triangles, std::vector<uint32_t> vertices);
+/// The triangles that are flagged, with their vertices, and the vertices that are.
+MANDOLINE_SHARED MeshPart takeFlagged(const MeshPart& part, const std::vector<uint8_t>& takesTriangle, std::vector<uint8_t> takesVertex);
 /// Whether a part has all that another one of the mesh has.
 MANDOLINE_SHARED bool hasAll(const MeshPart& part, const MeshPart& other);
 /// What any of some parts of a mesh has.

@@ -40,7 +40,11 @@ class BandReader {
   }
 
   void findWithin() {
-    forCorners(mesh_, [&](uint32_t, const uint32_t* v) { mark(v, isWithin(v) ? kWithin | kReferenced : kReferenced); });
+    forCorners(mesh_, [&](uint32_t, const uint32_t* v) {
+      const bool within = isWithin(v);
+      within_ += within;
+      mark(v, within ? kWithin | kReferenced : kReferenced);
+    });
   }
 
   /// All triangles at vertices in the band are within it.
@@ -58,6 +62,10 @@ class BandReader {
   }
 
   void takeTriangles() {
+    const size_t room = within_ + within_ / 64;  // for those beside, mostly
+    out_.part.triangles.reserve(room);
+    out_.part.corners.reserve(3 * room);
+    out_.isWithin.reserve(room);
     forCorners(mesh_, [&](uint32_t t, const uint32_t* v) {
       const bool within = isWithin(v);
       if (!within && ((flags_[v[0]] | flags_[v[1]] | flags_[v[2]]) & kAtWithin) == 0) return;
@@ -70,6 +78,8 @@ class BandReader {
 
   void takeVertices() {
     MeshPart& part = out_.part;
+    part.vertices.reserve(size_t(std::count_if(flags_.begin(), flags_.end(), [](uint8_t flags) { return (flags & kTaken) != 0; })));
+    part.positions.reserve(3 * part.vertices.capacity());
     forPositions(mesh_, [&](uint32_t v, const double* p) {
       if ((flags_[v] & kTaken) == 0) return;
       part.vertices.push_back(v);
@@ -98,6 +108,7 @@ class BandReader {
   const Scale& scale_;
   const Band& band_;
   std::vector<uint8_t> flags_;
+  size_t within_ = 0;  // triangles
   BandTriangles out_;
 };
 

@@ -279,7 +279,7 @@ std::shared_ptr<const Mesh> gathered(Communicator& comm, const SlicedMeshData& m
   auto whole = std::make_shared<Mesh>();
   if (mesh.whole) {
     comm.together(kSlicing, [&] {
-      if (inAll || comm.rank() == 0) *whole = readAll(*mesh.whole);
+      if (inAll || comm.rank() == 0) *whole = readShare(*mesh.whole);
     });
     return whole;
   }

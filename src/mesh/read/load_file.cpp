@@ -64,11 +64,7 @@ std::optional<detail::FileSlice> detail::readMeshSlice(const std::string& path, 
     const uint64_t sample = sampleOf(file);
     FileSlice slice{{}, looksLikePly(head) ? openPly(std::move(file)) : openStl(std::move(file)), sample};
     if (!slice.whole) return std::nullopt;
-    const uint64_t firstVertex = shareOf.begin(slice.whole->vertices), firstTriangle = shareOf.begin(slice.whole->triangles);
-    slice.mesh.positions.resize(3 * size_t(shareOf.end(slice.whole->vertices) - firstVertex));
-    slice.mesh.triangles.resize(3 * size_t(shareOf.end(slice.whole->triangles) - firstTriangle));
-    slice.whole->readPositions(firstVertex, slice.mesh.positions);
-    slice.whole->readCorners(firstTriangle, slice.mesh.triangles);
+    slice.mesh = readShare(*slice.whole, shareOf);
     return slice;
   } catch (const FileError&) {
     return std::nullopt;
