@@ -235,6 +235,7 @@ struct SharePlanner::Data {
       load.cutCells = sum.counts.cells;
       load.faces = facesOf(sum.counts);
       load.seamFaces = hasLayers ? seamBelow + sum.seamFacesAbove : 0;
+      if (ranks > 1) load.sliceBytes = sliceSent(ranks);
       if (ranks > 1) load.bytesSent = sentBy(rank, ranks, sum, hasLayers ? seamBelow : 0, all) + sentPreparing(ranks, shares.of(rank));
       load.memoryBytes = std::max(memoryPreparing(rank, ranks, shares.of(rank)), memoryOf(ranks, shares.of(rank), sum, all, summaries));
       if (hasLayers) seamBelow = sum.seamFacesAbove;
@@ -286,15 +287,19 @@ struct SharePlanner::Data {
     return bytes + kSeamFaceBytes * sum.facesAbove + 2 * sizeof(uint64_t) * seamBelow;
   }
 
-  /// Each process gives the triangles of its slice to those who cut them, and of meshes that are prepared as a whole the slice to all. It
-  /// tells how many crossings each vertex begins, and of meshes with parts which triangles are of which; the sets of triangles, those that
-  /// others have, too, and the open tri-edges.
-  uint64_t sentPreparing(uint32_t ranks, const CellLayers& layers) const {
-    constexpr uint64_t kTriangleBytes = 16, kVertexBytes = 64;  // of a slice, as measured: vertices are asked for, and in several parts
-    const Prepared& prepared = mesh.prepared();
+  /// Each process gives the triangles of its slice to those who cut them, and of meshes that are prepared as a whole the slice to all.
+  uint64_t sliceSent(uint32_t ranks) const {
+    constexpr uint64_t kTriangleBytes = 16, kVertexBytes = 64;  // as measured: vertices are asked for, and in several parts
     const uint64_t slice = (kTriangleBytes * mesh.view().triangleCount() + kVertexBytes * mesh.view().vertexCount()) / ranks;
-    uint64_t bytes = slice * (ranks - 1) / ranks;
-    if (!isInShares) return bytes + bytesOfView() * (ranks - 1) / ranks;
+    return slice * (ranks - 1) / ranks + (isInShares ? 0 : bytesOfView() * (ranks - 1) / ranks);
+  }
+
+  /// Which vertices are referenced; how many crossings each begins, and of meshes with parts which triangles are of which; the sets of
+  /// triangles, those that others have, too, and the open tri-edges.
+  uint64_t sentPreparing(uint32_t ranks, const CellLayers& layers) const {
+    const Prepared& prepared = mesh.prepared();
+    uint64_t bytes = mesh.view().vertexCount() / 8;
+    if (!isInShares) return bytes;
     bytes += mesh.view().vertexCount() + work.size() * sizeof(uint64_t);
     if (prepared.closed) return bytes;
     const PartCounts& parts = prepared.parts.counts;

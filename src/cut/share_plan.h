@@ -13,6 +13,7 @@ struct ShareLoad {
   uint64_t faces = 0;        ///< that belong to it
   uint64_t seamFaces = 0;    ///< that it shares with others
   uint64_t bytesSent = 0;    ///< to each of the others, but for the mesh and a few numbers
+  uint64_t sliceBytes = 0;   ///< what it sends beside that of its slice of the mesh, if processes do not read what they need themselves
   uint64_t memoryBytes = 0;  ///< beside the program
 };
 

@@ -76,7 +76,7 @@ class Run {
     });
     if (ranks_.comm().reduce(int(slice.has_value()), MPI_MIN) == 0) return false;
     slice_ = std::move(slice->mesh);
-    whole_ = std::move(slice->whole);
+    if (readsFileInAll(size_t(ranks_.size()))) whole_ = std::move(slice->whole);
     sample_ = slice->sample;
     return true;
   }

@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/cutting.h"
 #include "cli/files.h"
+#include "cli/mpi/distributed_cut.h"
 #include "cli/peak_memory.h"
 #include "cli/values.h"
 #include "cut/share_plan.h"
@@ -118,9 +119,11 @@ struct PlanReport {
   }
 };
 
-/// What the first process sends of the mesh to all others together, if these were many.
-uint64_t sentMeshBytes(const Arguments& arguments, const MeshView& mesh) {
-  return detail::isBinaryMesh(arguments.mesh) ? 0 : mesh.positions.size_bytes() + mesh.triangles.size_bytes();
+/// Adds what is sent of the mesh: by the first process to all others together if these do not read the file, and of slices.
+void addMesh(bool isBinary, const MeshView& mesh, std::vector<detail::ShareLoad>& loads) {
+  if (!isBinary) loads[0].bytesSent += (mesh.positions.size_bytes() + mesh.triangles.size_bytes()) * (loads.size() - 1) / loads.size();
+  if (isBinary && readsFileInAll(loads.size())) return;
+  for (detail::ShareLoad& load : loads) load.bytesSent += load.sliceBytes;
 }
 
 int plan(const Arguments& arguments, const std::vector<uint32_t>& ranks) {
@@ -136,10 +139,10 @@ int plan(const Arguments& arguments, const std::vector<uint32_t>& ranks) {
     if (!prepared) return;
     try {
       detail::SharePlanner planner(prepared.mesh, grid.grid, options);
-      const uint64_t meshBytes = sentMeshBytes(arguments, input.mesh);
+      const bool isBinary = detail::isBinaryMesh(arguments.mesh);
       for (const uint32_t count : ranks) {
         std::vector<detail::ShareLoad> loads = planner.loads(count, options);
-        loads[0].bytesSent += meshBytes * (count - 1) / count;
+        addMesh(isBinary, input.mesh, loads);
         report.plans.push_back({loads, programBytes});
       }
     } catch (const CallError& failed) {
