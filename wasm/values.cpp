@@ -13,7 +13,7 @@ static val viewOf(const char* type, const void* numbers, size_t count) {
 
 val toArray(const char* type, const void* numbers, size_t count, const val& copy) {
   const val view = viewOf(type, numbers, count);
-  return copy.isUndefined() ? view.call<val>("slice") : copy(view);
+  return copy.isUndefined() ? val::global(type).new_(view) : copy(view);  // slice() would fill its copy with zeros first
 }
 
 void copyArray(const val& array, const char* type, void* numbers, size_t count) { viewOf(type, numbers, count).call<void>("set", array); }
