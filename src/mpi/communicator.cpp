@@ -67,7 +67,8 @@ void Communicator::wait(MPI_Request* requests, int count) {
 }
 
 void Communicator::uniteFlags(std::vector<uint8_t>& flags) {
-  std::vector<uint8_t> bits((flags.size() + 7) / 8, 0);
+  std::vector<uint8_t> bits;
+  together("exchange", [&] { bits.assign((flags.size() + 7) / 8, 0); });
   for (size_t i = 0; i < flags.size(); ++i) bits[i / 8] |= uint8_t(flags[i] << i % 8);
   reduce(bits, MPI_BOR);
   for (size_t i = 0; i < flags.size(); ++i) flags[i] = bits[i / 8] >> i % 8 & 1;
@@ -81,11 +82,13 @@ std::vector<uint64_t> Communicator::gatherAll(uint64_t number) {
 }
 
 std::vector<std::vector<uint32_t>> Communicator::gatherAll(const std::vector<uint32_t>& numbers) {
-  std::vector<std::vector<uint32_t>> all;
-  for (int from = 0; from < size_; ++from) {
-    all.push_back(from == rank_ ? numbers : std::vector<uint32_t>());
-    broadcast(all.back(), from);
-  }
+  const std::vector<uint64_t> counts = gatherAll(uint64_t(numbers.size()));
+  std::vector<std::vector<uint32_t>> all(counts.size());
+  together("exchange", [&] {
+    for (size_t from = 0; from < all.size(); ++from) all[from].resize(counts[from]);
+    all[size_t(rank_)] = numbers;
+  });
+  for (int from = 0; from < size_; ++from) broadcastBytes(all[size_t(from)].data(), all[size_t(from)].size() * sizeof numbers[0], from);
   return all;
 }
 

@@ -85,7 +85,10 @@ struct DistributedCut::Data {
   }
 
   void finish(const RunOptions& options) {
-    const std::vector<std::vector<uint32_t>> summaries = comm.gatherAll(share->summary());
+    std::vector<uint32_t> summary;
+    comm.together(kNoun, [&] { summary = share->summary(); });
+    const std::vector<std::vector<uint32_t>> summaries = comm.gatherAll(summary);
+    summary = {};
     comm.together(kNoun, [&] {
       part = share->part(summaries, options);
       takeSurface();
@@ -140,7 +143,8 @@ struct DistributedCut::Data {
   }
 
   void findCommon() {
-    std::vector<uint8_t> hasFace = trianglesWithFace(part.cutMesh, triangles);
+    std::vector<uint8_t> hasFace;
+    comm.together(kNoun, [&] { hasFace = trianglesWithFace(part.cutMesh, triangles); });
     comm.uniteFlags(hasFace);
     comm.together(kNoun, [&] { common = share->common(hasFace); });
     findMade();
@@ -151,14 +155,21 @@ struct DistributedCut::Data {
 
   /// The made vertices of all parts.
   void findMade() {
-    constexpr size_t kWords = 6;  // of each
-    const CutMesh& m = part.cutMesh;
     std::vector<uint32_t> words;
-    for (size_t i = 0; i < m.madeVertices.size(); ++i) {
-      words.insert(words.end(), {m.madeVertices[i], m.madeVertexKinds[i]});
-      for (size_t k = 0; k < 4; ++k) words.push_back(uint32_t(m.madeVertexParents[4 * i + k]));
-    }
+    comm.together(kNoun, [&] {
+      const CutMesh& m = part.cutMesh;
+      for (size_t i = 0; i < m.madeVertices.size(); ++i) {
+        words.insert(words.end(), {m.madeVertices[i], m.madeVertexKinds[i]});
+        for (size_t k = 0; k < 4; ++k) words.push_back(uint32_t(m.madeVertexParents[4 * i + k]));
+      }
+    });
     const std::vector<std::vector<uint32_t>> all = comm.gatherAll(words);
+    comm.together(kNoun, [&] { joinMadeOf(all); });
+  }
+
+  /// `all`: words of each process, 6 per made vertex.
+  void joinMadeOf(const std::vector<std::vector<uint32_t>>& all) {
+    constexpr size_t kWords = 6;
     std::vector<CutMesh> made(all.size());
     std::vector<const CutMesh*> parts;
     for (size_t rank = 0; rank < all.size(); ++rank) {

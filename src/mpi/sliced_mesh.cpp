@@ -256,7 +256,9 @@ MeshInfo inspectArrays(Communicator& comm, const SlicedMeshData& mesh, const Mes
   info.unreferencedVertices = comm.reduce(counts[0], MPI_SUM);
   info.nonFiniteVertices = comm.reduce(counts[1], MPI_SUM);
   if (info.unreferencedVertices == info.nonFiniteVertices) return info;
-  const std::vector<std::vector<double>> told = comm.exchangeAll(std::vector(size_t(comm.size()), others));
+  std::vector<std::vector<double>> forEach;
+  comm.together(kSlicing, [&] { forEach.assign(size_t(comm.size()), others); });
+  const std::vector<std::vector<double>> told = comm.exchangeAll(forEach);
   std::vector<uint8_t> isShared;  // per place whether a vertex that a triangle has is there, too
   comm.together(kSlicing, [&] {
     std::vector<double> all;
