@@ -25,7 +25,7 @@ struct Band {
 };
 
 /// Which of the bands that divide space, ascending and some of them empty, have what.
-class BandFinder {
+class MANDOLINE_SHARED BandFinder {
  public:
   explicit BandFinder(std::span<const Band> bands);
 
@@ -52,21 +52,23 @@ struct BandTriangles {
   std::vector<uint32_t> lowest;     ///< per vertex of the part: the id of the lowest one of the whole at its position that a triangle has
 };
 /// Heights of the vertices of a part, scaled.
-std::vector<double> heightsOf(const MeshPart& part, const Scale& scale);
+MANDOLINE_SHARED std::vector<double> heightsOf(const MeshPart& part, const Scale& scale);
 /// Per band the triangles within it.
-std::vector<MeshPart> trianglesOfBands(const MeshPart& part, const std::vector<double>& heights, const BandFinder& finder);
+MANDOLINE_SHARED std::vector<MeshPart> trianglesOfBands(const MeshPart& part, const std::vector<double>& heights, const BandFinder& finder);
 /// Per band, of the vertices that are `asked`, the positions that it owns and `here` does not reach.
-std::vector<std::vector<double>> positionsElsewhere(const MeshPart& part, const std::vector<double>& heights,
-                                                    const std::vector<uint8_t>& asked, const BandFinder& finder, const Band& here);
+MANDOLINE_SHARED std::vector<std::vector<double>> positionsElsewhere(const MeshPart& part, const std::vector<double>& heights,
+                                                                     const std::vector<uint8_t>& asked, const BandFinder& finder,
+                                                                     const Band& here);
 /// The triangles at some positions which `there` does not reach.
-MeshPart trianglesAt(const std::vector<double>& positions, const MeshPart& part, const std::vector<double>& heights, const Band& there);
+MANDOLINE_SHARED MeshPart trianglesAt(const std::vector<double>& positions, const MeshPart& part, const std::vector<double>& heights,
+                                      const Band& there);
 /// Per position the id of the lowest vertex there, or 2^32 - 1.
-std::vector<uint32_t> lowestAt(const std::vector<double>& positions, const MeshPart& part);
+MANDOLINE_SHARED std::vector<uint32_t> lowestAt(const std::vector<double>& positions, const MeshPart& part);
 /// Finds which vertices are complete, and the lowest ones at their positions: those of the part, which are those of the whole where they
 /// are complete.
-void findLowest(BandTriangles& triangles);
+MANDOLINE_SHARED void findLowest(BandTriangles& triangles);
 /// Takes what lowestAt() has told of positions of vertices that are not complete.
-void takeLowest(const std::vector<double>& asked, const std::vector<uint32_t>& told, BandTriangles& triangles);
+MANDOLINE_SHARED void takeLowest(const std::vector<double>& asked, const std::vector<uint32_t>& told, BandTriangles& triangles);
 
 /// What a band has of a mesh, which is gone through several times, so that nothing else of it is ever held but a byte for each vertex.
 MANDOLINE_SHARED BandTriangles readBand(const MeshSource& mesh, const Scale& scale, const Band& band);
