@@ -3,6 +3,7 @@
 
 namespace mandoline::detail {
 
+/// In WebAssembly it is read: it has to be in an array, or at its end.
 inline void prefetch([[maybe_unused]] const void* at) {
 #ifdef __wasm__
   // It has no instruction for this, but the processor goes on while it waits for what it reads, so that waits of several overlap.
