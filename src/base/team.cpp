@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
-#include <system_error>
+#include <exception>
 #include <vector>
 #endif
 
@@ -63,7 +63,7 @@ struct Team::Crew {
   void start(size_t count) {
     try {
       while (canStart && threads.size() < count) threads.emplace_back([this] { help(); });
-    } catch (const std::system_error&) {  // the existing ones do the work
+    } catch (const std::exception&) {  // of the system or memory: the existing ones do the work
       canStart = false;
     }
   }

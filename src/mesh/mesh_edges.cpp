@@ -174,10 +174,11 @@ void findLines(const Arrangement& arrangement, MeshEdges& edges) {
   }
 }
 
-/// The uses by sides of triangles, of which duplicates are here if they were not dropped before. `slots`: how many slots sides have, those
-/// of stitched ones included. `ends`: where the bucket of each vertex ends.
+/// The uses by sides of triangles. `ends`: where the bucket of each vertex ends. `hasDuplicates`: whether those of duplicates are among
+/// them.
 EdgeUses usesOfSides(const WeldedMesh& mesh, const Sides& sides, const LargeVector<SideUse>& all, std::span<const uint32_t> ends,
-                     size_t slots, bool hasDuplicates) {
+                     bool hasDuplicates) {
+  const size_t slots = 3 * mesh.triangles.size() + sides.stitchedOffsets.back();  // then come those of inner edges
   EdgeUses uses;
   uses.items.reserve(all.size());
   uses.offsets.reserve(all.size() / 2 + 16);
@@ -247,8 +248,7 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement, EdgeUs
     sortItems(mesh.duplicates);
   }
   if (usesIfOpen && !mesh.closed) {
-    const std::span<const uint32_t> ends(offsets.data(), vertices);
-    *usesIfOpen = usesOfSides(mesh, sides, uses, ends, 3 * mesh.triangles.size() + sides.stitchedOffsets.back(), !arrangement);
+    *usesIfOpen = usesOfSides(mesh, sides, uses, std::span(offsets).first(vertices), !arrangement);
   }
   takeExtras(sides, arrangement, edges);
   edges.unpaired = std::move(found.unpaired);

@@ -76,8 +76,9 @@ class Run {
     });
     if (ranks_.comm().reduce(int(slice.has_value()), MPI_MIN) == 0) return false;
     slice_ = std::move(slice->mesh);
-    if (readsFileInAll(size_t(ranks_.size()))) whole_ = std::move(slice->whole);
     sample_ = slice->sample;
+    const bool areSame = ranks_.comm().reduce(sample_, MPI_MIN) == ranks_.comm().reduce(sample_, MPI_MAX);  // else cut() says so
+    if (areSame && readsFileInAll(size_t(ranks_.size()))) whole_ = std::move(slice->whole);
     return true;
   }
 
