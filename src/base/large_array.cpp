@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "base/threads.h"
+#include "base/team.h"
 
 #ifdef __GLIBC__
 #include <malloc.h>

@@ -1,8 +1,9 @@
 #include "base/team.h"
 
+#include <atomic>
+
 #ifndef MANDOLINE_ONE_THREAD
 #include <algorithm>
-#include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <vector>
@@ -98,5 +99,12 @@ void Team::run(size_t threads, FunctionRef<void()> work) const {
 #endif
 
 Team::~Team() = default;
+
+void runOnParts(size_t parts, unsigned threads, FunctionRef<void(size_t)> work) {
+  std::atomic<size_t> next{0};
+  Team(threads).run(parts, [&] {
+    for (size_t part; (part = next++) < parts;) work(part);
+  });
+}
 
 }  // namespace mandoline::detail

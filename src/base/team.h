@@ -1,8 +1,10 @@
 // Threads that many short loops share one after the other: starting threads for each would take as long as some of the loops.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
+#include "base/function_ref.h"
 #include "base/shared.h"
 #include "base/threads.h"
 
@@ -28,5 +30,8 @@ class MANDOLINE_SHARED Team {
   unsigned size_;
   std::unique_ptr<Crew> crew_;
 };
+
+/// Runs work(part), which must not throw, for each of that many parts, on that many threads of its own.
+MANDOLINE_SHARED void runOnParts(size_t parts, unsigned threads, FunctionRef<void(size_t)> work);
 
 }  // namespace mandoline::detail

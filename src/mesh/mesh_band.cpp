@@ -10,19 +10,6 @@
 namespace mandoline::detail {
 namespace {
 
-/// The lowest vertices at the positions of those that takesPart(v).
-template <class TakesPart>
-Places placesOf(const MeshPart& part, const TakesPart& takesPart) {
-  const PositionOf at{part.positions.data()};
-  Places places(part.vertices.size(), at);
-  for (uint32_t v = 0; v < part.vertices.size(); ++v) {
-    if (!takesPart(v)) continue;
-    uint32_t& place = places.find(at(v));
-    if (place == Places::kFree) place = v;
-  }
-  return places;
-}
-
 std::array<double, 2> rangeOf(const MeshPart& part, const std::vector<double>& heights, size_t triangle) {
   const uint32_t* v = &part.corners[3 * triangle];
   return {std::min({heights[v[0]], heights[v[1]], heights[v[2]]}), std::max({heights[v[0]], heights[v[1]], heights[v[2]]})};
@@ -107,7 +94,7 @@ std::vector<std::vector<double>> positionsElsewhere(const MeshPart& part, const 
                                                     const std::vector<uint8_t>& asked, const BandFinder& finder, const Band& here) {
   std::vector<std::vector<double>> positions(finder.count());
   const auto isAsked = [&](uint32_t v) { return asked[v] && !here.reaches(heights[v], heights[v]); };
-  Places places = placesOf(part, isAsked);
+  Places places = placesOf(part.positions, isAsked);
   for (uint32_t v = 0; v < part.vertices.size(); ++v) {
     const double* p = &part.positions[3 * size_t(v)];
     if (!isAsked(v) || places.find(p) != v) continue;
@@ -155,8 +142,7 @@ void findLowest(BandTriangles& triangles) {
 
 void takeLowest(const std::vector<double>& asked, const std::vector<uint32_t>& told, BandTriangles& triangles) {
   const MeshPart& part = triangles.part;
-  Places places(told.size(), PositionOf{asked.data()});
-  for (uint32_t i = 0; i < told.size(); ++i) places.find(&asked[3 * size_t(i)]) = i;
+  Places places = placesOf(asked);
   for (size_t v = 0; v < part.vertices.size() && !told.empty(); ++v) {
     if (triangles.isComplete[v]) continue;
     const uint32_t at = places.find(&part.positions[3 * v]);

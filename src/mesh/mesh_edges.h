@@ -73,7 +73,7 @@ struct TriangleUse {
 using EdgeUses = Csr<TriangleUse, TriEdgeId>;
 
 /// Without an arrangement: drops duplicate triangles (paper, Appendix A) on the way, and finds whether the mesh is closed and oriented.
-/// `uses`, if given: gets those by sides of triangles, duplicates too, per edge, unless the mesh is closed.
-MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement, EdgeUses* uses);
+/// `usesIfOpen`, if given: gets those by sides of triangles, duplicates too, per edge, unless the mesh is closed.
+MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement, EdgeUses* usesIfOpen);
 
 }  // namespace mandoline::detail

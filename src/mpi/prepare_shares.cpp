@@ -87,8 +87,8 @@ class SharesPreparer {
 
   /// What this process's band has of the mesh.
   BandTriangles gather() {
-    BandTriangles triangles;
     if (!mesh_.whole) return gatherFromOthers();
+    BandTriangles triangles;
     comm_.together(kPreparation, [&] { triangles = readBand(*mesh_.whole, scale_, maker_.band()); });
     return triangles;
   }

@@ -2,7 +2,7 @@
 #include "base/shared_sets.h"
 
 #include "base/disjoint_sets.h"
-#include "base/threads.h"
+#include "base/team.h"
 #include "catch.h"
 
 using namespace mandoline;

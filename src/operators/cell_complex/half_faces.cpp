@@ -2,7 +2,7 @@
 
 #include "base/csr.h"
 #include "base/large_array.h"
-#include "base/threads.h"
+#include "base/team.h"
 
 namespace mandoline::operators {
 namespace {
