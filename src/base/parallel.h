@@ -99,15 +99,22 @@ MANDOLINE_SHARED void runChunks(size_t n, size_t chunks, Monitor& monitor, Funct
 /// worth a thread. Of several failures the first in item order is thrown, but ProgressFailed before any other.
 template <class State, class F>
 std::vector<State> forChunks(size_t n, Monitor& monitor, const F& f, size_t block = 2048) {
+  const size_t chunks = chunkCount(n, monitor, block);
+#ifdef MANDOLINE_ONE_THREAD
+  std::vector<State> states(chunks);
+  runChunks(
+      n, chunks, monitor, [&](size_t chunk, size_t begin, size_t end) { f(states[chunk], begin, end); }, block);
+#else
   struct alignas(128) Apart {  // in cache lines of their own: threads write to states beside each other at the same time
     State state{};
   };
-  std::vector<Apart> apart(chunkCount(n, monitor, block));
+  std::vector<Apart> apart(chunks);
   runChunks(
-      n, apart.size(), monitor, [&](size_t chunk, size_t begin, size_t end) { f(apart[chunk].state, begin, end); }, block);
+      n, chunks, monitor, [&](size_t chunk, size_t begin, size_t end) { f(apart[chunk].state, begin, end); }, block);
   std::vector<State> states;
-  states.reserve(apart.size());
+  states.reserve(chunks);
   for (Apart& of : apart) states.push_back(std::move(of.state));
+#endif
   return states;
 }
 
