@@ -90,14 +90,16 @@ test('on a slow machine pictures come all along a drag, from one worker', async 
 });
 
 /**
- * Runs in the page before its scripts: lists what is asked about programs before the GPU is known to have linked them, which waits for it.
- * Before there is a model, three.js draws the background alone, with a small program of its own.
+ * Runs in the page before its scripts: lists what is asked about programs before the GPU is known to have linked them, which waits for it:
+ * what their shaders define, and who asks. Before there is a model, three.js draws the background alone, with a small program of its own.
  */
 function watchPrograms() {
   window.askedEarly = [];
+  Error.stackTraceLimit = 30;
   const { prototype } = WebGL2RenderingContext;
   const linkedAt = new WeakMap();
   const fencedAt = new WeakMap();
+  const definesIn = new WeakMap();
   let [time, done] = [0, 0];
   const watch = (name, after) => {
     const call = prototype[name];
@@ -107,6 +109,8 @@ function watchPrograms() {
       return result;
     };
   };
+  watch('shaderSource', (_, shader, source) => definesIn.set(shader, source.match(/(?<=#define )[A-Z_]{4,}/g)?.join(' ')));
+  watch('attachShader', (_, program, shader) => definesIn.set(program, definesIn.get(program) ?? definesIn.get(shader)));
   watch('linkProgram', (_, program) => linkedAt.set(program, ++time));
   watch('fenceSync', (fence) => fencedAt.set(fence, ++time));
   watch('clientWaitSync', (state, fence) => {
@@ -114,7 +118,7 @@ function watchPrograms() {
   });
   watch('getProgramParameter', (_, program) => {
     const isEarly = linkedAt.get(program) > done;
-    if (isEarly && document.getElementById('canvas').dataset.model) window.askedEarly.push(new Error().stack);
+    if (isEarly && document.getElementById('canvas').dataset.model) window.askedEarly.push(new Error(definesIn.get(program)).stack);
   });
 }
 
@@ -123,11 +127,12 @@ for (const [name, hash] of [
   ['a flat cut', 'mesh=bunny&n=8&z=0.5,1&slice=flat'],
   ['a wind', 'mesh=wedge&wind=1,0,0&flow=speed&tunnel=16'],
 ]) {
-  test(`the page does not wait for shaders of ${name}, nor of its shadow and of what comes later, also while its size changes`, async (t) => {
+  test(`the page does not wait for shaders of ${name}, nor of its shadow and of what comes later, also while its size changes and a pointer moves over it`, async (t) => {
     const page = await site.newPage(t, { onNewPage: (made) => made.addInitScript(watchPrograms) });
     await page.goto(`${site.url}#${hash}`);
     for (let step = 0; step < 60; ++step) {
       await page.setViewportSize({ width: 1000 - 10 * (step % 2), height: 521 });
+      await page.mouse.move(500 + (step % 7), 260);
       await page.waitForTimeout(50);
     }
     if (hash.includes('wind')) await shows(page, '#canvas', { wind: '1,0,0' });

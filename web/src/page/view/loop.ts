@@ -12,6 +12,8 @@ export interface Drawing {
   isWaiting(): boolean;
   /** Whether the GPU has the shaders of what has been prepared. If not, does a part of what is missing. */
   hasShaders(): boolean;
+  /** The same of what is drawn beside pictures. */
+  hasShadersBeside(): boolean;
   /** Draws, with this share of the screen's pixels per side. Gives whether something goes on moving by itself. */
   draw(seconds: number, share: number): boolean;
   /** A picture that took so long, in ms, has stood for a moment. Gives whether a model is in it. */
@@ -75,10 +77,10 @@ export class Loop {
     if (this.hasShaders()) this.render(1);
   }
 
-  /** Whether a picture can be drawn at once. If not, it is asked for once more. */
-  private hasShaders(): boolean {
+  /** Whether a picture, or what is drawn beside it, can be drawn at once. If not, it is asked for once more. */
+  private hasShaders(isBeside = false): boolean {
     if (!this.isCompiling || !this.pace.isBehind) {
-      this.isCompiling = !this.drawing.hasShaders();
+      this.isCompiling = !(isBeside ? this.drawing.hasShadersBeside() : this.drawing.hasShaders());
       if (!this.isCompiling) return true;
       this.pace.mark(false);
     }
@@ -98,17 +100,20 @@ export class Loop {
     this.isStale = false;
   }
 
-  /** Has the GPU do something else as soon as it has caught up. Of several such tasks the last one wins. */
+  /** Has the GPU draw something else as soon as it has caught up and has the shaders. Of several such tasks the last one wins. */
   soon(task: () => void): void {
     this.whenFree = task;
     if (this.pace.isBehind) this.invalidate();
     else this.runTask();
   }
 
-  private runTask(): void {
+  /** Gives whether there was one that can be run. */
+  private runTask(): boolean {
     const task = this.whenFree;
+    if (!task || !this.hasShaders(true)) return false;
     this.whenFree = null;
-    task?.();
+    task();
+    return true;
   }
 
   /** With a new graphics context nothing is left to wait for. */
@@ -118,11 +123,8 @@ export class Loop {
 
   private tick(): void {
     this.asked = 0;
-    if (this.pace.isBehind) this.invalidate();
-    else if (this.whenFree) {
-      this.runTask();
-      this.invalidate();
-    } else if (this.isStale && !this.isPrepared) {
+    if (this.pace.isBehind || this.runTask()) this.invalidate();
+    else if (this.isStale && !this.isPrepared) {
       const begin = performance.now();
       this.prepare();
       this.isPrepared = true;

@@ -47,6 +47,10 @@ export class Shaders {
     return this.prepare([{ scene, target: null }, ...(shadow.isDue ? shadow.passes : [])], false);
   }
 
+  areReadyToPick(): boolean {
+    return this.prepare([this.passes.picker.pass], false);
+  }
+
   /** The same of all pictures that may come, or of what the first one is sure to show. */
   areReadyAhead(isAll: boolean): boolean {
     const { scene, first, shadow, picker } = this.passes;

@@ -20,7 +20,7 @@ interface TouchParts {
   picker: Picker;
   halves: Halves;
   ofModel: readonly Layer[];
-  /** What is drawn, if it is the model. */
+  /** What is drawn, if it is the model and there is a picture of it. */
   look(): Look | null;
   /** Whether a handle is under the pointer. */
   isTaken(): boolean;
@@ -36,10 +36,12 @@ export class Touch {
 
   constructor(private readonly parts: TouchParts) {
     const pointer = new Pointer(parts.canvas, parts.isTaken);
-    // A GPU that is behind is asked once it has caught up.
-    pointer.onHover = (at) => {
+    pointer.onHover = (pointed) => {
+      const at = parts.look() && pointed;
       this.hoverAt = at;
-      parts.loop.soon(() => void this.hover(at));
+      // A GPU that is behind is asked once it has caught up.
+      if (at) parts.loop.soon(() => void this.hover(at));
+      else void this.hover(null);
     };
     pointer.onTap = (at) => void (this.isMeasuring ? this.measure(at) : this.cellAt(at).then((cell) => this.onPick(cell)));
     pointer.onDoubleTap = (at) => {

@@ -136,6 +136,7 @@ class ThreeView implements View {
     this.loop = new Loop(this.renderer.getContext() as WebGL2RenderingContext, {
       warmUp: () => !this.shaders.areReadyAhead(this.pictures > 0),
       hasShaders: () => this.shaders.areReady(),
+      hasShadersBeside: () => this.shaders.areReadyToPick(),
       prepare: () => this.prepare(),
       isWaiting: () => this.flatCuts.isAwaited,
       draw: (seconds, share) => this.draw(seconds, share),
@@ -147,7 +148,7 @@ class ThreeView implements View {
     const { renderer, scene, loop, ofModel, caps, shadow, gizmo, windTunnel, uniforms, camera, framing, picker, halves } = this;
     this.touch = new Touch({
       ...{ canvas, uniforms, camera, framing, loop, picker, halves, ofModel },
-      look: () => (this.modelGroup.visible ? this.look : null),
+      look: () => (this.modelGroup.visible && this.pictures > 0 ? this.look : null),
       isTaken: () => gizmo.isTouched || windTunnel.isTouched,
     });
     this.files = new Files({
