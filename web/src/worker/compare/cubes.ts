@@ -1,6 +1,6 @@
 import type { CutMesh } from 'mandoline-wasm';
-import type { InsideAt, Surface } from '.';
 import { gridPoints } from './grid_points';
+import type { InsideAt, Surface } from './inside';
 import { cubeCases, cubeEdges } from './marching_cubes';
 
 /** Grid-edges that cross the surface, each as its low end and axis, 3 * vertex + axis; all grid vertices, and from one to the next by axis. */

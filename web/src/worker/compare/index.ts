@@ -4,16 +4,8 @@ import type { Comparison, Extent, GridPlanes, Inside, OtherGridWay, OtherSurface
 import type { Vector3 } from '../../model/vector';
 import type { Cut } from '../kept';
 import { marchingCubes } from './cubes';
+import type { InsideAt, Surface } from './inside';
 import { voxels } from './voxels';
-
-/** A surface in world units. */
-export interface Surface {
-  positions: Float64Array;
-  triangles: Uint32Array;
-}
-
-/** Per point, 3 numbers each: whether it is inside; not outside the grid. */
-export type InsideAt = (points: Float64Array) => Uint8Array;
 
 /** A cut of the same mesh with another grid. */
 export interface OtherCut {

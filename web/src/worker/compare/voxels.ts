@@ -1,6 +1,6 @@
 import type { CutMesh } from 'mandoline-wasm';
-import type { InsideAt, Surface } from '.';
 import { gridPoints, middles, Welder } from './grid_points';
+import type { InsideAt, Surface } from './inside';
 
 /** The sides between grid cells whose middle is inside and others, and how many those are. */
 export function voxels({ grid }: CutMesh, insideAt: InsideAt): Surface & { untouched: number } {

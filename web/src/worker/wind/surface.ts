@@ -5,19 +5,7 @@ import type { Shape, Wind } from '../../model/wind';
 import type { Velocities } from './flows';
 import type { Package } from './package';
 import { speedIn } from './speeds';
-import type { Tunnel } from './tunnel';
-
-/** Triangles of the surface, seen from the cells beside it. A cell's points are its own. */
-export interface Surface {
-  /** Of the cut-mesh, per point. */
-  vertex: Uint32Array;
-  /** Per point. */
-  cell: Uint32Array;
-  /** Per point: the side of a triangle of the input that it is seen from, 0 or 1. */
-  side: Uint8Array;
-  /** 3 points per triangle. */
-  index: Uint32Array;
-}
+import type { Surface, Tunnel } from './tunnel';
 
 /** With the points if they are wanted. */
 export function surfaceSpeeds({ mandoline }: Package, tunnel: Tunnel, flow: Velocities, withShape: boolean): NonNullable<Wind['surface']> {

@@ -8,7 +8,18 @@ import type { Vector3 } from '../../model/vector';
 import { mostWindCells, windMargin, type WindRequest } from '../../model/wind';
 import { posed } from '../posed';
 import type { Package } from './package';
-import type { Surface } from './surface';
+
+/** Triangles of the surface, seen from the cells beside it. A cell's points are its own. */
+export interface Surface {
+  /** Of the cut-mesh, per point. */
+  vertex: Uint32Array;
+  /** Per point. */
+  cell: Uint32Array;
+  /** Per point: the side of a triangle of the input that it is seen from, 0 or 1. */
+  side: Uint8Array;
+  /** 3 points per triangle. */
+  index: Uint32Array;
+}
 
 export interface Tunnel {
   /** Of the mesh, its pose and the size. */
