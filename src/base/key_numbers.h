@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace mandoline::detail {
@@ -16,6 +17,8 @@ class KeyNumbers {
 
   /// The number of a key, which gets the next one if it has none yet.
   uint32_t add(uint64_t key) {
+    if (!keys.empty() && keys[last_] == key) return last_;
+    std::swap(last_, secondLast_);  // two often take turns
     if (!keys.empty() && keys[last_] == key) return last_;
     const size_t slot = slotOf(key);
     if (slots_[slot] != kFree) return last_ = slots_[slot];
@@ -43,7 +46,7 @@ class KeyNumbers {
   }
 
   std::vector<uint32_t> slots_;  // a hash table of numbers by key
-  uint32_t last_ = 0;
+  uint32_t last_ = 0, secondLast_ = 0;
 };
 
 }  // namespace mandoline::detail

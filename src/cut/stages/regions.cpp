@@ -26,9 +26,12 @@ class RegionFinder {
  private:
   void uniteBrick(BrickId brick) {
     for (const SeamJoin& join : cut_.seams[brick].joins) nodes_.unite(firstNodes_[brick] + join.component, firstRun_ + join.run);
+    std::array<uint32_t, 2> last{~0u, ~0u};  // what lies beside each other often does so again and again
     cut_.forHalves(brick, [&](const BoundaryHalf& below, BrickId owner, const BoundaryHalf& above) {
       if (below.isTri) return;
-      nodes_.unite(firstNodes_[owner] + below.component, firstNodes_[brick] + above.component);
+      const std::array<uint32_t, 2> pair{firstNodes_[owner] + below.component, firstNodes_[brick] + above.component};
+      if (pair != last) nodes_.unite(pair[0], pair[1]);
+      last = pair;
     });
   }
 
@@ -50,6 +53,7 @@ class RegionFinder {
     for (const BrickId b : cuts_.ids()) {
       uint32_t next = 0;
       for (const CellId c : cuts_[b].gridCells.ids()) {
+        if (next == cuts_[b].componentCount) break;
         if (cut_.bricks.here.has(b) && cuts_[b].components[c] != next) continue;
         const Slab cell = cut_.bricks.boxes[b].cellAt(cuts_[b].gridCells[c]);
         note(runs_.rowOf(cell), uint64_t(cell[0] >> 1), firstNodes_[b] + next++);
