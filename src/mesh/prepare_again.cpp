@@ -75,7 +75,7 @@ struct Means {
 };
 
 /// As resolveInput(). False if triangles meet that should not.
-bool resolveAgain(const Prepared& before, Prepared& now, const Moved& moved, Intersections intersections, const Means& means) {
+bool resolveAgain(Prepared& before, Prepared& now, const Moved& moved, Intersections intersections, const Means& means) {
   now.states = before.states;
   now.duplicates = before.duplicates;
   now.closed = before.closed;
@@ -84,7 +84,11 @@ bool resolveAgain(const Prepared& before, Prepared& now, const Moved& moved, Int
   if (intersections != Intersections::assumeNone) contacts = findContactsAgain(before, now, moved, means.monitor, means.predicates);
   if (intersections == Intersections::refuse && contacts.counts.total() > 0) return false;
   if (!before.hasIntersections()) {
-    now.edges = before.edges;
+    if (contacts.pairs.empty() && before.duplicates.empty()) {
+      now.edges = std::move(before.edges);  // which arrangeInput() leaves
+    } else {
+      now.edges = before.edges;
+    }
     now.parts = before.parts;
   } else if (contacts.pairs.empty()) {
     now.states.assign(now.states.size(), TriangleState::kept);
@@ -97,7 +101,7 @@ bool resolveAgain(const Prepared& before, Prepared& now, const Moved& moved, Int
 
 }  // namespace
 
-PreparedAgain prepareAgain(const MeshView& mesh, const Preparation& preparation, const Prepared& before, Monitor& monitor,
+PreparedAgain prepareAgain(const MeshView& mesh, const Preparation& preparation, Prepared& before, Monitor& monitor,
                            const std::function<void(const char*)>& beginStage) {
   Predicates predicates;
   beginStage("input");

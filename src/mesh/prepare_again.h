@@ -11,8 +11,8 @@ struct PreparedAgain {
   Moved moved;                     ///< empty if nothing is known. If it isn't, the triangles, their states and the scale are as before
 };
 
-/// `before` was prepared with the same preparation, its contacts kept.
-PreparedAgain prepareAgain(const MeshView& mesh, const Preparation& preparation, const Prepared& before, Monitor& monitor,
+/// `before` was prepared with the same preparation, its contacts kept. If no triangles meet in both, its edges are moved out of it.
+PreparedAgain prepareAgain(const MeshView& mesh, const Preparation& preparation, Prepared& before, Monitor& monitor,
                            const std::function<void(const char*)>& beginStage);
 
 }  // namespace mandoline::detail

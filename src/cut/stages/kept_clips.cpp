@@ -120,10 +120,10 @@ class ClipJoiner {
     const std::vector<uint32_t>& offsets = from.pieces.offsets;
     const uint32_t shift = all_.pieces.offsets.back() - offsets[*first];
     for (uint32_t piece = *first; piece < past; ++piece) all_.pieces.offsets.push_back(offsets[piece + 1] + shift);
-    for (uint32_t i = offsets[*first]; i < offsets[past]; ++i) {
-      const Corner& corner = from.pieces.items[i];
-      all_.pieces.items.push_back({id(corner.id), corner.slab});
-    }
+    const size_t count = offsets[past] - offsets[*first], end = all_.pieces.items.size();
+    all_.pieces.items.resize(end + count);
+    const Corner* const corners = from.pieces.items.data() + offsets[*first];
+    std::transform(corners, corners + count, all_.pieces.items.data() + end, [&](const Corner& c) { return Corner{id(c.id), c.slab}; });
   }
 
   const ClippedTriangles &before_, &others_;

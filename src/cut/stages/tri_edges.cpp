@@ -1,5 +1,7 @@
 #include "cut/stages/tri_edges.h"
 
+#include <cstring>
+
 namespace mandoline::detail {
 namespace {
 
@@ -276,15 +278,21 @@ IdVector<TriangleId, uint8_t> findUnpaired(const Input& input) {
 
 CrossingsBefore::CrossingsBefore(const Surface& before, const Surface& now, const Moved& moved)
     : before_(before),
-      moved_(moved),
-      areKnown_(before.edges().lines.empty() && now.edges().lines.empty() && before.edges().ends == now.edges().ends) {}
+      areKnown_(before.edges().lines.empty() && now.edges().lines.empty() &&
+                (before.edges().ends.empty() || before.edges().ends == now.edges().ends)) {
+  if (!areKnown_) return;
+  haveMoved_.resize(now.edges().ends.size());
+  for (const TriEdgeId e : haveMoved_.ids()) {
+    const auto& [low, high] = now.edges().ends[e];
+    haveMoved_[e] = moved[low] | moved[high];
+  }
+}
 
 TriEdgeId CrossingsBefore::pastKnown(TriEdgeId first, TriEdgeId past) const {
-  if (!areKnown_) return first;
-  const auto* ends = before_.edges().ends.data();
-  const uint8_t* moved = moved_.data();
-  while (first < past && !(moved[ends[first.number][0].number] | moved[ends[first.number][1].number])) ++first.number;
-  return first;
+  if (!areKnown_ || first == past) return first;
+  const uint8_t* const edges = haveMoved_.data();
+  const void* const found = std::memchr(edges + first.number, 1, past.number - first.number);
+  return found ? TriEdgeId{uint32_t(static_cast<const uint8_t*>(found) - edges)} : past;
 }
 
 uint32_t crossingIds(const Slab& low, const Slab& high) { return planesBetween(low, high).count; }

@@ -57,7 +57,7 @@ class KnownCrossings {
 /// The crossings of a surface before whose triangles were connected alike.
 class CrossingsBefore final : public KnownCrossings {
  public:
-  /// None, too, where triangles meet in one of both.
+  /// None where triangles meet in one of both. The edges before may have been moved into those now.
   CrossingsBefore(const Surface& before, const Surface& now, const Moved& moved);
 
   TriEdgeId pastKnown(TriEdgeId first, TriEdgeId past) const override;
@@ -65,8 +65,8 @@ class CrossingsBefore final : public KnownCrossings {
 
  private:
   const Surface& before_;
-  const Moved& moved_;
   const bool areKnown_;
+  IdVector<TriEdgeId, uint8_t> haveMoved_;  // if they are known, otherwise
 };
 
 /// How many ids the crossings of a tri-edge have, by the slabs of its ends.
