@@ -146,6 +146,34 @@ TEST_CASE("recut: after an error, and after a cut that was cancelled, all is cut
   CHECK(recutter.counts().kept == recutter.counts().bricks);
 }
 
+TEST_CASE("recut: a result that is kept is written over in place, through errors and cuts that it doesn't keep", "[recut]") {
+  const Mesh mesh = ball();
+  Mesh moved = mesh, bad = mesh;
+  moved.positions[0] += 0.01;
+  bad.positions[1] = NAN;
+  const Grid grid = Grid::around(mesh, 64);
+  Recutter recutter(grid);
+  const auto check = [&](const Mesh& next, bool areKept) {
+    const CutResult& result = recutter.recut(next);
+    REQUIRE(result);
+    CHECK((recutter.counts().kept > 0) == areKept);
+    CHECK(differences(result.mesh, cut(next, grid).mesh) == std::vector<std::string>());
+  };
+  check(mesh, false);
+  const CutResult& result = recutter.recut(mesh);
+  const double* const positions = result.mesh.positions.data();
+  const uint32_t* const loops = result.mesh.loopVertices.data();
+  check(moved, true);
+  CHECK(result.mesh.positions.data() == positions);
+  CHECK(result.mesh.loopVertices.data() == loops);
+  REQUIRE(recutter.cut(mesh));
+  check(moved, true);
+  CHECK(recutter.recut(bad).error.status == Status::nonFiniteCoordinate);
+  CHECK(result.mesh.positions.empty());
+  check(mesh, false);
+  check(moved, true);
+}
+
 TEST_CASE("recut: a grid that can't be used is an error each time", "[recut]") {
   const Mesh mesh = ball();
   Recutter recutter(Grid{});

@@ -31,24 +31,32 @@ inline std::vector<mandoline::Mesh> movingMesh(const mandoline::Mesh& mesh, uint
   return times;
 }
 
-/// Empty if each time's cut is that of cut(), to the bit, and fails alike. Adds the bricks that are kept.
+/// Empty if a result is that of cut(), to the bit, or fails alike.
+inline std::string brokenAgain(const mandoline::CutResult& again, const mandoline::CutResult& anew) {
+  using namespace mandoline;
+  if (again.error.status != anew.error.status || again.error.element != anew.error.element || again.error.message != anew.error.message)
+    return "another error: " + again.error.message;
+  for (const std::string& array : differences(again.mesh, anew.mesh)) return array + " differs";
+  CutStats stats = again.stats;
+  stats.stages = anew.stats.stages;
+  stats.totalMs = anew.stats.totalMs;
+  stats.exactFallbacks = anew.stats.exactFallbacks;
+  return bytesOfFields(stats) == bytesOfFields(anew.stats) ? "" : "other counts";
+}
+
+/// Empty if that is so each time, of cut(), of recut(), and of both in turns. Adds the bricks that are kept.
 inline std::string brokenRecut(const std::vector<mandoline::Mesh>& times, const mandoline::Grid& grid,
                                const mandoline::CutOptions& options = {}, size_t* kept = nullptr) {
   using namespace mandoline;
-  Recutter recutter(grid, options);
+  Recutter recutter(grid, options), inPlace(grid, options), inTurns(grid, options);
   CutMesh last;
   for (size_t t = 0; t < times.size(); ++t) {
-    const std::string when = " at time " + std::to_string(t);
     const CutResult anew = cut(times[t], grid, options);
     CutResult again = recutter.cut(times[t], std::move(last));
-    if (again.error.status != anew.error.status || again.error.element != anew.error.element || again.error.message != anew.error.message)
-      return "another error" + when + ": " + again.error.message;
-    for (const std::string& array : differences(again.mesh, anew.mesh)) return array + " differs" + when;
-    CutStats stats = again.stats;
-    stats.stages = anew.stats.stages;
-    stats.totalMs = anew.stats.totalMs;
-    stats.exactFallbacks = anew.stats.exactFallbacks;
-    if (bytesOfFields(stats) != bytesOfFields(anew.stats)) return "other counts" + when;
+    std::string broken = brokenAgain(again, anew);
+    if (broken.empty()) broken = brokenAgain(inPlace.recut(times[t]), anew);
+    if (broken.empty()) broken = brokenAgain(t % 3 == 2 ? inTurns.cut(times[t]) : inTurns.recut(times[t]), anew);
+    if (!broken.empty()) return broken + " at time " + std::to_string(t);
     if (kept) *kept += recutter.counts().kept;
     last = std::move(again.mesh);
   }

@@ -21,6 +21,8 @@ class KeptAround {
 
   /// Whether all that have a grid element of the brick are. So vertices on one element are kept together or not at all: see separate.h.
   bool haveKept(const Slab& element) const {
+    const auto isInside = [&](size_t d) { return element[d] > 2 * box_.first[d] && element[d] < 2 * (box_.first[d] + box_.count[d]); };
+    if (isInside(0) && isInside(1) && isInside(2)) return !areLost_[kWithin];
     std::array<size_t, 3> first, last;
     for (size_t d = 0; d < 3; ++d) {
       first[d] = element[d] > 2 * box_.first[d];
@@ -42,6 +44,7 @@ class KeptAround {
     }
   }
 
+  static constexpr size_t kWithin = 13;
   const BrickBox& box_;
   std::array<bool, 27> areLost_{};
 };
@@ -51,7 +54,7 @@ class Finder {
   Finder(const VerticesBefore& before, const KeptBricks& kept, const CutBricks& cut, const Numbers& numbers)
       : before_(before), kept_(kept), cut_(cut), numbers_(numbers) {}
 
-  std::vector<KeptVertices::Run> run() {
+  KeptRuns run() {
     addOfSurface();
     for (const BrickId b : cut_.bricks.ids()) {
       if (kept_.isInner(b)) {
@@ -60,11 +63,11 @@ class Finder {
         addSomeOf(b);
       }
     }
-    return sorted();
+    return {sorted()};
   }
 
  private:
-  using Run = KeptVertices::Run;
+  using Run = KeptRuns::Run;
 
   void add(uint32_t number, uint32_t before, uint32_t count) {
     if (!runs_.empty() && runs_.back().past() == number && runs_.back().before + runs_.back().count == before) {
@@ -74,24 +77,24 @@ class Finder {
     }
   }
 
+  /// Bricks own those in triangles.
   void addOfSurface() {
     const IdVector<VertexId, uint8_t> areLost = findLostOfSurface();
     const VertexId *const nows = kept_.vertices.data(), firstInTriangle = cut_.surface.vertices.firstInTriangle;
     const uint32_t *const numbers = numbers_.ofSurface.data(), *const numbersBefore = before_.numbers.ofSurface.data();
-    for (uint32_t was = 0, past = uint32_t(kept_.vertices.size()); was < past;) {
-      const uint32_t first = was++, v = nows[first].number;
-      if (nows[first] == KeptBricks::kNoVertex) continue;
-      if (nows[first] >= firstInTriangle) break;  // bricks own the others
-      const uint32_t number = numbers[v], numberBefore = numbersBefore[first];
-      if (number == Numbers::kUnused || areLost[{v}]) continue;
-      const auto isNext = [&](uint32_t at) {
-        const uint32_t next = v + (at - first);
-        return nows[at].number == next && nows[at] < firstInTriangle && !areLost[{next}] && numbers[next] == number + (at - first) &&
-               numbersBefore[at] == numberBefore + (at - first);
-      };
-      while (was < past && isNext(was)) ++was;
-      add(number, numberBefore, was - first);
+    Run last{0, 0, 0};
+    for (uint32_t was = 0; was < uint32_t(kept_.vertices.size()); ++was) {
+      const VertexId now = nows[was];
+      if (now >= firstInTriangle) continue;  // as kNoVertex is
+      const uint32_t number = numbers[now.number], before = numbersBefore[was];
+      if (number == Numbers::kUnused || areLost[now]) continue;
+      if (number != last.past() || before != last.before + last.count) {
+        add(last.first, last.before, last.count);
+        last = {number, before, 0};
+      }
+      ++last.count;
     }
+    add(last.first, last.before, last.count);
   }
   /// Per vertex of the mesh and its edges: whether a brick has it that is not kept, or may have.
   IdVector<VertexId, uint8_t> findLostOfSurface() const {
@@ -155,8 +158,7 @@ class Finder {
 
 }  // namespace
 
-std::vector<KeptVertices::Run> findKeptVertices(const VerticesBefore& before, const KeptBricks& kept, const CutBricks& cut,
-                                                const Numbers& numbers) {
+KeptRuns findKeptVertices(const VerticesBefore& before, const KeptBricks& kept, const CutBricks& cut, const Numbers& numbers) {
   return Finder(before, kept, cut, numbers).run();
 }
 

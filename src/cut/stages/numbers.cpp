@@ -161,17 +161,16 @@ UsedVertices findUsed(const Surface& surface, const Bricks& bricks, const IdVect
   return used;
 }
 
-Numbers makeNumbers(const CutBricks& cut, const UsedVertices& used, const SurfaceNumbers* ofAll, Run& run) {
+Numbers makeNumbers(const CutBricks& cut, const BricksToNumber& bricks, const UsedVertices& used, const SurfaceNumbers* ofAll, Run& run) {
   Numbers numbers;
   Numberer numberer(cut, numbers);
   const std::array<std::function<void()>, 2> both{[&] { numberer.numberRows(); }, [&] { numberer.numberSurface(used, ofAll); }};
   runTasks(both, run.monitor);
-  const std::vector<uint32_t> bricks = cut.bricks.here.numbers();
-  runItems(bricks, run.monitor, [&](size_t, uint32_t b) { numberer.numberOwn({b}); });
+  runItems(bricks.own, run.monitor, [&](size_t, uint32_t b) { numberer.numberOwn({b}); });
   if (cut.bricks.here.isShare) {
     for (const BrickId b : cut.bricks.here.ids()) numberer.numberSurfaceFromElsewhere(b);
   }
-  runItems(bricks, run.monitor, [&](size_t, uint32_t b) { numberer.numberOthers({b}); });
+  runItems(bricks.others, run.monitor, [&](size_t, uint32_t b) { numberer.numberOthers({b}); });
   return numbers;
 }
 

@@ -69,7 +69,12 @@ struct Numbers {
 /// Throws Failure{meshTooLarge} if vertices, faces, loop entries or half-faces are too many for their ids.
 void requireFewIds(uint64_t count);
 
+/// Of which bricks what they own, and what others own, gets numbers by itself. The rows of all do.
+struct BricksToNumber {
+  std::vector<uint32_t> own, others;
+};
+
 /// `used`: by all bricks. `ofAll`: null where no other process cuts.
-Numbers makeNumbers(const CutBricks& cut, const UsedVertices& used, const SurfaceNumbers* ofAll, Run& run);
+Numbers makeNumbers(const CutBricks& cut, const BricksToNumber& bricks, const UsedVertices& used, const SurfaceNumbers* ofAll, Run& run);
 
 }  // namespace mandoline::detail

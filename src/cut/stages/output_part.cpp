@@ -13,19 +13,21 @@
 namespace mandoline::detail {
 namespace {
 
-/// The arrays of a result, in the memory that those of another cut-mesh have. Memory for what is written next is asked for at once; then
-/// it is touched, which takes longer, each array on one thread; offsets are ended.
+/// The arrays of a result, in the memory that those of another cut-mesh have; `kept`: of that one, or null. Memory for what is written next
+/// is asked for at once; then it is touched, which takes longer, each array on one thread; offsets are ended.
 class Rooms {
  public:
-  Rooms(const Numbers& numbers, CutMesh spare, CutMesh& out, Monitor& monitor)
+  Rooms(const Numbers& numbers, CutMesh spare, const KeptArrays* kept, CutMesh& out, Monitor& monitor)
       : total_(numbers.here),
         faces_(size_t(total_.triFaces) + total_.pieces),
         loops_(size_t(total_.triLoops) + total_.loops),
         spare_(std::move(spare)),
+        kept_(kept),
         out_(out),
         monitor_(monitor) {}
 
   void makeForCells() {
+    if (kept_) return kept_->placeCells(arrays());
     const size_t cells = total_.cells;
     make(&CutMesh::cellHalfFaces, total_.halfFaces);
     make(&CutMesh::cellGridCell, 3 * cells);
@@ -34,6 +36,7 @@ class Rooms {
     touch();
   }
   void makeForFaces() {
+    if (kept_) return kept_->placeFaces(arrays());
     const uint32_t loopVertices = total_.triLoopVertices + total_.loopVertices;
     make(&CutMesh::loopVertices, loopVertices);
     makeOffsets(&CutMesh::loopOffsets, loops_, loopVertices);
@@ -48,6 +51,7 @@ class Rooms {
   }
   void makeForVertices(size_t surfaceVertices) {
     const size_t vertices = surfaceVertices + total_.vertices;
+    if (kept_) return kept_->placeVertices(arrays(), vertices);
     make(&CutMesh::positions, 3 * vertices);
     make(&CutMesh::vertexCell, 3 * vertices);
     make(&CutMesh::vertexParents, 2 * vertices);
@@ -57,6 +61,8 @@ class Rooms {
   }
 
  private:
+  KeptArrays::Arrays arrays() { return {spare_, out_, monitor_}; }
+
   /// Of an array all of which is written to; `fill(array)` begins that.
   template <class Item, class Fill>
   void make(std::vector<Item> CutMesh::*array, size_t count, const Fill& fill) {
@@ -98,6 +104,7 @@ class Rooms {
   const BrickCounts& total_;
   const size_t faces_, loops_;
   CutMesh spare_;
+  const KeptArrays* const kept_;
   CutMesh& out_;
   Monitor& monitor_;
   std::vector<std::function<void()>> untouched_;
@@ -181,7 +188,10 @@ std::vector<VertexId> listUsed(const UsedVertices& used) {
 
 CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& run) {
   const Input& input = state.surface.input;
-  state.numbers = makeNumbers(state.cut(), state.used, state.surfaceNumbers ? &*state.surfaceNumbers : nullptr, run);
+  const std::vector<uint32_t> bricks = state.bricks.here.numbers();
+  KeptArrays* const keptArrays = state.keeping ? state.keeping->arrays() : nullptr;
+  state.numbers = makeNumbers(state.cut(), keptArrays ? keptArrays->bricksToNumber(state) : BricksToNumber{bricks, bricks}, state.used,
+                              state.surfaceNumbers ? &*state.surfaceNumbers : nullptr, run);
   const Numbers& numbers = state.numbers;
   const KeptVertices kept = state.keeping ? state.keeping->vertices() : KeptVertices();
   CutPart part;
@@ -203,14 +213,19 @@ CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& r
     free();
     if (isMuch) giveBackFreed();
   };
-  const std::vector<uint32_t> bricks = state.bricks.here.numbers();
-  Rooms rooms(numbers, std::exchange(state.spare, {}), out, run.monitor);
+  Rooms rooms(numbers, std::exchange(state.spare, {}), keptArrays, out, run.monitor);
   drop([&] { state.cuts.free(&BrickMemory::seams); });
+  const auto isKept = [&](uint32_t b) { return keptArrays && state.kept->isInner({b}); };
   rooms.makeForCells();
-  runItems(bricks, run.monitor, [&](size_t, uint32_t b) { writeCells(state, {b}, out); });
+  runItems(bricks, run.monitor, [&](size_t, uint32_t b) {
+    if (!isKept(b)) writeCells(state, {b}, out);
+    writeRegions(state, {b}, out);
+  });
   drop([&] { state.cuts.free(&BrickMemory::cells); });
   rooms.makeForFaces();
-  runItems(bricks, run.monitor, [&](size_t, uint32_t b) { writeFaces(state, {b}, out); });
+  runItems(bricks, run.monitor, [&](size_t, uint32_t b) {
+    if (!isKept(b)) writeFaces(state, {b}, out);
+  });
   drop([&] {
     state.cuts.free(&BrickMemory::faces);
     state.numbers.faces = {};

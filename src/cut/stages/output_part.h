@@ -13,6 +13,27 @@
 
 namespace mandoline::detail {
 
+struct CutState;
+
+/// What is kept in the arrays of the cut before, which the result is written over. An interface: only who does so links what does it.
+class KeptArrays {
+ public:
+  struct Arrays {
+    CutMesh &spare, &out;  ///< those before are moved from one to the other
+    Monitor& monitor;
+  };
+  virtual BricksToNumber bricksToNumber(const CutState& state) const = 0;
+  /// Once all have numbers.
+  virtual void begin(const VerticesBefore& before, const CutState& state, const KeptRuns& vertices) = 0;
+  // Each brings what is kept to where it is now, and leaves room for the rest.
+  virtual void placeCells(const Arrays& arrays) const = 0;
+  virtual void placeFaces(const Arrays& arrays) const = 0;
+  virtual void placeVertices(const Arrays& arrays, size_t count) const = 0;
+
+ protected:
+  ~KeptArrays() = default;
+};
+
 /// What a cut keeps of the one before it, each asked for as soon as it can be told. An interface: other cuts don't link what finds it.
 class Keeping {
  public:
@@ -21,6 +42,7 @@ class Keeping {
   virtual KnownClips& clips() = 0;
   virtual KeptBricks& bricks() = 0;  ///< of those that are laid out
   virtual IdVector<BrickId, BrickSeams> seams() = 0;
+  virtual KeptArrays* arrays() = 0;  ///< null unless the result is written over that of the cut before
   virtual KeptVertices vertices() = 0;
 
  protected:

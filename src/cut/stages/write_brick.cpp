@@ -136,7 +136,7 @@ void writeCells(const CutState& state, BrickId brick, CutMesh& out) {
   const Numbers& numbers = state.numbers;
   const BrickCut& cut = state.cuts[brick];
   const BrickBox& box = state.bricks.boxes[brick];
-  const uint32_t *faces = numbers.faces[brick].data(), *regions = state.regions.ofComponents[brick].data();
+  const uint32_t* faces = numbers.faces[brick].data();
   const auto offsets = cut.halfFaces.offsets;
   const HalfFace* halfFaces = cut.halfFaces.items.data();
   CellId cell{0};
@@ -155,8 +155,18 @@ void writeCells(const CutState& state, BrickId brick, CutMesh& out) {
       *gridCells++ = (first[0] >> 1) + int32_t(cut.gridCells[cell] - firstIndex);
       *gridCells++ = first[1] >> 1;
       *gridCells++ = first[2] >> 1;
-      out.cellRegion[c] = regions[cut.components[cell]];
     }
+  }
+}
+
+void writeRegions(const CutState& state, BrickId brick, CutMesh& out) {
+  const Numbers& numbers = state.numbers;
+  const BrickCut& cut = state.cuts[brick];
+  const uint32_t* regions = state.regions.ofComponents[brick].data();
+  CellId cell{0};
+  for (uint32_t row = 0; row < cut.rows.size(); ++row) {
+    uint32_t c = numbers.rows[brick][row].cells - numbers.before.cells;
+    for (; cell.number < cut.rows[row].pastCell; ++cell.number) out.cellRegion[c++] = regions[cut.components[cell]];
   }
 }
 

@@ -7,6 +7,7 @@ namespace mandoline::detail {
 
 // Each writes what belongs to a brick into the arrays of a result, which are long enough, where state.numbers say.
 void writeFaces(const CutState& state, BrickId brick, CutMesh& out);
-void writeCells(const CutState& state, BrickId brick, CutMesh& out);
+void writeCells(const CutState& state, BrickId brick, CutMesh& out);  ///< without regions
+void writeRegions(const CutState& state, BrickId brick, CutMesh& out);
 
 }  // namespace mandoline::detail

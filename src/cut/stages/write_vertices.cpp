@@ -59,26 +59,29 @@ class VertexWriter {
 
   /// Vertices of the mesh and its edges, ascending. The first one becomes number i.
   void writeOnEdges(const CutVertices& vertices, List list, size_t i, Predicates& predicates) {
-    writePlaces(vertices, list, i);
+    forNew(list, i, [&](List part, size_t at) { writePlaces(vertices, part, at); });
     const auto isOfMesh = [&](VertexId v) { return vertices.isTriVertex(v) && !input_.mesh->isMade(v); };
     const size_t count = size_t(std::partition_point(list.begin(), list.end(), isOfMesh) - list.begin());
     writeOfMesh(vertices, list.first(count), i);
     list = list.subspan(count);
     i += count;
     const bool areBetweenTriVertices = vertices.edges->lines.empty() && (list.empty() || list.front() >= vertices.firstOnEdge);
-    areBetweenTriVertices ? writeEnds(vertices, list, i) : writeEndsOfLines(vertices, list, i);
+    forNew(list, i,
+           [&](List part, size_t at) { areBetweenTriVertices ? writeEnds(vertices, part, at) : writeEndsOfLines(vertices, part, at); });
     writePositions(vertices, list, i, predicates);
   }
 
   /// Others, without positions.
   void writeOthers(const CutVertices& vertices, List list, size_t i) {
-    writePlaces(vertices, list, i);
     static_assert(int32_t(CutVertices::kNoTriangle.number) == -1);
     const TrianglesOf triangles(vertices);
-    writeParents(list, i, [=, this](VertexId v) {
-      const TriangleId triangle = triangles[v];
-      if (triangle != CutVertices::kNoTriangle) prefetch(&input_.mesh->triangles[triangle.number]);  // for positions
-      return Parents{int32_t(triangle.number), -1};
+    forNew(list, i, [&](List part, size_t at) {
+      writePlaces(vertices, part, at);
+      writeParents(part, at, [&](VertexId v) {
+        const TriangleId triangle = triangles[v];
+        if (triangle != CutVertices::kNoTriangle) prefetch(&input_.mesh->triangles[triangle.number]);  // for positions
+        return Parents{int32_t(triangle.number), -1};
+      });
     });
   }
 
@@ -100,6 +103,13 @@ class VertexWriter {
   static Parents endsOf(const Line& line) {
     if (line.ofPlanes) return {-1, -1};
     return {int32_t(std::min(line.a, line.b)), int32_t(std::max(line.a, line.b))};
+  }
+
+  /// Calls f(part, number of its first) for what has to be written of a list whose first vertex becomes number i.
+  template <class F>
+  void forNew(List list, size_t i, const F& f) const {
+    if (!kept_.areInPlace) return f(list, i);
+    kept_.forOthers(i, i + list.size(), [&](size_t first, size_t past) { f(list.subspan(first - i, past - first), first); });
   }
 
   void writePlaces(const CutVertices& vertices, List list, size_t i) {
@@ -183,7 +193,7 @@ class VertexWriter {
 };
 
 void copyPositions(const KeptVertices& kept, Monitor& monitor, CutMesh& out) {
-  if (kept.runs.empty()) return;
+  if (kept.runs.empty() || kept.areInPlace) return;
   const auto copy = [&](const KeptVertices::Run& run) {
     std::copy_n(kept.positions.data() + 3 * size_t(run.before), 3 * size_t(run.count), out.positions.data() + 3 * size_t(run.first));
   };
@@ -211,6 +221,7 @@ void writeVertices(const MeshView& mesh, const CutState& state, const VerticesTo
       return writer.writeOnEdges(state.surface.vertices, Block::of(surface, block), block * Block::kSize, predicates[thread]);
     }
     const bool areKept = state.kept && state.kept->isInner({task});
+    if (areKept && vertices.kept.areInPlace) return;
     const BrickCut& cut = state.cuts[{task}];
     forOwn(cut, &BrickRow::pastVertex, state.seams[{task}].vertices, [&](uint32_t, uint32_t first, uint32_t past) {
       const size_t number = numbers.vertex({task}, cut.lineVertices[first]) - before;

@@ -12,8 +12,10 @@ namespace MANDOLINE_API mandoline {
 /// Intersections::assumeNone leads to a contradiction, other triangles may be named.
 ///
 ///   Recutter recutter(grid);
-///   CutMesh cutMesh;
-///   for (...) cutMesh = recutter.cut(mesh, std::move(cutMesh)).mesh;
+///   for (...) {
+///     const CutResult& result = recutter.recut(mesh);
+///     ...
+///   }
 ///
 /// Everything is cut anew the first time, after an error, when triangles, or vertices that share a position, have changed, when the largest
 /// coordinate has passed a power of two, and while triangles without area are among them. A cut-cell is found again in the next result by
@@ -30,6 +32,10 @@ class Recutter {
   /// As cut(mesh, grid, options), of which exactFallbacks counts what was cut again. The result is written over the memory of `spare`, such
   /// as the one before, since getting new memory takes long.
   CutResult cut(const MeshView& mesh, CutMesh spare = {});
+
+  /// The same, of which the result stays here and is valid until the next call: what has not changed is not written anew, which takes
+  /// less time.
+  const CutResult& recut(const MeshView& mesh);
 
   /// The grid is cut in bricks of a few cells along each side.
   struct Counts {

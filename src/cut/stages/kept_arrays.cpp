@@ -1,0 +1,123 @@
+#include "cut/stages/kept_arrays.h"
+
+#include <functional>
+#include <utility>
+
+#include "base/run_tasks.h"
+
+namespace mandoline::detail {
+namespace {
+
+/// Places several arrays at once.
+class Placer {
+ public:
+  explicit Placer(const KeptArrays::Arrays& arrays) : spare_(arrays.spare), out_(arrays.out), monitor_(arrays.monitor) {}
+
+  void placeCells(const KeptRows& kept) {
+    const BrickCounts& total = kept.total;
+    const KeptRuns cells = kept.of(&BrickCounts::cells), halfFaces = kept.of(&BrickCounts::halfFaces);
+    keep(&CutMesh::cellHalfFaces, [&](std::vector<uint32_t>& items) {
+      halfFaces.place(items, 1, total.halfFaces, [&](std::span<uint32_t> moved, size_t) {
+        for (uint32_t& h : moved) h = HalfFace({kept.facesNow[HalfFace(h).face().number]}, HalfFace(h).side()).number;
+      });
+    });
+    keep(&CutMesh::cellGridCell, [&](std::vector<int32_t>& items) { cells.place(items, 3, total.cells); });
+    keep(&CutMesh::cellRegion, [&](std::vector<uint32_t>& items) { cells.place(items, 1, total.cells); });
+    keepOffsets(&CutMesh::cellHalfFaceOffsets, {cells, halfFaces}, total.cells, total.halfFaces);
+    run();
+  }
+  void placeFaces(const KeptRows& kept, const uint32_t* verticesNow) {
+    const BrickCounts& total = kept.total;
+    const uint32_t triFaces = total.triFaces, faceCount = triFaces + total.pieces, loopCount = total.triLoops + total.loops,
+                   loopVertices = total.triLoopVertices + total.loopVertices;
+    const KeptRuns ofTri = kept.of(&BrickCounts::triFaces), ofParents = kept.of(&BrickCounts::parents),
+                   faces = kept.ofFaces(&BrickCounts::triFaces, &BrickCounts::pieces),
+                   loops = kept.ofFaces(&BrickCounts::triLoops, &BrickCounts::loops),
+                   vertices = kept.ofFaces(&BrickCounts::triLoopVertices, &BrickCounts::loopVertices);
+    keep(&CutMesh::loopVertices, [&](std::vector<uint32_t>& items) {
+      vertices.place(items, 1, loopVertices, [&](std::span<uint32_t> moved, size_t) {
+        for (uint32_t& v : moved) v = verticesNow[v];
+      });
+    });
+    keepOffsets(&CutMesh::loopOffsets, {loops, vertices}, loopCount, loopVertices);
+    keepOffsets(&CutMesh::faceLoopOffsets, {faces, loops}, faceCount, loopCount);
+    keepOffsets(&CutMesh::faceParentOffsets, {ofTri, ofParents}, faceCount, total.parents);
+    keep(&CutMesh::faceTriangle, [&](std::vector<int32_t>& items) { ofTri.place(items, 1, faceCount); });
+    keep(&CutMesh::facePlane, [&](std::vector<int32_t>& items) { faces.placeAndFill(items, faceCount, 0); });
+    keep(&CutMesh::faceAxis, [&](std::vector<int8_t>& items) { faces.placeAndFill(items, faceCount, int8_t(-1)); });
+    keep(&CutMesh::faceParents, [&](std::vector<uint32_t>& items) { ofParents.place(items, 1, total.parents); });
+    keep(&CutMesh::faceParentSigns, [&](std::vector<int8_t>& items) { ofParents.placeAndFill(items, total.parents, int8_t(1)); });
+    run();
+    std::fill(out_.faceTriangle.begin() + triFaces, out_.faceTriangle.end(), -1);
+    std::fill(out_.faceParentOffsets.begin() + triFaces, out_.faceParentOffsets.end(), total.parents);
+  }
+  void placeVertices(size_t count, const KeptRuns& kept) {
+    keep(&CutMesh::positions, [&, count](std::vector<double>& items) { kept.place(items, 3, count); });
+    keep(&CutMesh::vertexCell, [&, count](std::vector<int32_t>& items) { kept.place(items, 3, count); });
+    keep(&CutMesh::vertexParents, [&, count](std::vector<int32_t>& items) { kept.place(items, 2, count); });
+    keep(&CutMesh::vertexMask, [&, count](std::vector<uint8_t>& items) { kept.place(items, 1, count); });
+    keep(&CutMesh::vertexTriVertex, [&, count](std::vector<int32_t>& items) { kept.placeAndFill(items, count, -1); });
+    run();
+  }
+
+ private:
+  /// Of an array of the cut before; `place(array)` brings what is kept of it to where it is now.
+  template <class Item, class Place>
+  void keep(std::vector<Item> CutMesh::*array, const Place& place) {
+    std::vector<Item>& items = out_.*array = std::move(spare_.*array);
+    tasks_.push_back([&items, place] { place(items); });
+  }
+  struct KeptOffsets {
+    const KeptRuns &groups, &items;
+  };
+  void keepOffsets(std::vector<uint32_t> CutMesh::*array, const KeptOffsets& kept, size_t count, uint32_t end) {
+    keep(array, [kept, count, end](std::vector<uint32_t>& offsets) {
+      kept.groups.place(offsets, 1, count + 1, [&](std::span<uint32_t> moved, size_t run) {
+        const uint32_t shift = kept.items.runs[run].first - kept.items.runs[run].before;
+        for (uint32_t& offset : moved) offset += shift;
+      });
+      offsets.back() = end;
+    });
+  }
+  void run() { runTasks(std::exchange(tasks_, {}), monitor_); }
+
+  CutMesh &spare_, &out_;
+  Monitor& monitor_;
+  std::vector<std::function<void()>> tasks_;
+};
+
+}  // namespace
+
+/// Inner kept bricks are not written. Others beside them have to know some of their numbers.
+BricksToNumber ArraysBefore::bricksToNumber(const CutState& state) const {
+  const Bricks& bricks = state.bricks;
+  IdVector<BrickId, uint8_t> areNeeded(bricks.size(), 0);
+  BricksToNumber result;
+  for (const BrickId b : bricks.ids()) {
+    if (state.kept->isInner(b)) continue;
+    result.others.push_back(b.number);
+    areNeeded[b] = 1;
+    bricks.grid.forAround(bricks.boxes[b], [&](const Slab& cell) {
+      if (const std::optional<BrickId> beside = bricks.find(cell)) areNeeded[*beside] = 1;
+    });
+  }
+  for (const BrickId b : bricks.ids()) {
+    if (areNeeded[b]) result.own.push_back(b.number);
+  }
+  return result;
+}
+
+void ArraysBefore::begin(const VerticesBefore& before, const CutState& state, const KeptRuns& vertices) {
+  vertices_ = vertices;
+  rows_ = findKeptRows(before, *state.kept, state.cut(), state.numbers);
+}
+
+void ArraysBefore::placeCells(const Arrays& arrays) const { Placer(arrays).placeCells(rows_); }
+
+void ArraysBefore::placeFaces(const Arrays& arrays) const {
+  Placer(arrays).placeFaces(rows_, vertices_.numbersNow(arrays.spare.vertexCount()).get());
+}
+
+void ArraysBefore::placeVertices(const Arrays& arrays, size_t count) const { Placer(arrays).placeVertices(count, vertices_); }
+
+}  // namespace mandoline::detail
