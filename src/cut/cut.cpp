@@ -32,8 +32,9 @@ Clock::Clock(CutStats& stats, Monitor& monitor, int before)
 
 void Clock::begin(const char* stage) {
   end();
-  isInStage_ = true;
+  isInStage_ = false;  // should there be no memory for the next
   stats_.stages.push_back({stage, 0});
+  isInStage_ = true;
   monitor_.beginStage(stage, before_ + int(stats_.stages.size()) - 1);
 }
 

@@ -3,29 +3,31 @@
 #include <algorithm>
 #include <chrono>
 #include <climits>
+#include <new>
+#include <string_view>
 #include <thread>
 
 #include "mandoline/distributed.h"
+#include "mandoline/mesh_files.h"
 #include "mesh/run_call.h"
-#include "mpi/pack.h"
 
 namespace mandoline::detail {
 namespace {
 
 constexpr int kTag = 1;
-constexpr size_t kMostBytes = size_t(1) << 30;  // of one message
-
-struct PackedError {
-  uint8_t status = 0;
+/// As a message, for which there has to be memory at all times: what is longer is cut off.
+struct PlainError {
+  Status status = Status::ok;
   int64_t element = -1, element2 = -1;
-  std::string message;
+  uint64_t length = 0;
+  char message[4096] = {};
 
-  static void fields(auto& self, const auto& f) {
-    f("status", self.status);
-    f("element", self.element);
-    f("element2", self.element2);
-    f("message", self.message);
+  explicit PlainError(const Error& error) : status(error.status), element(error.element), element2(error.element2) { say(error.message); }
+  void say(std::string_view text) {
+    length = std::min(text.size(), sizeof message);
+    std::copy_n(text.data(), length, message);
   }
+  Error get() const { return {status, element, element2, std::string(message, length)}; }
 };
 
 }  // namespace
@@ -36,10 +38,29 @@ Communicator::Communicator(MPI_Comm comm, std::function<void()> onWait) : onWait
   MPI_Comm_size(comm_, &size_);
 }
 
+Communicator::Communicator(MPI_Comm comm, const char* noun, const RunOptions& options) : Communicator(comm, nullptr) {
+  together(noun, [&] {
+    if (!options.progress) return;
+    onWait_ = [noun, progress = options.progress] {
+      if (!progress({"waiting", 0, 1, 0, 1})) throw CallError({Status::cancelled, -1, -1, std::string("The ") + noun + " was cancelled."});
+    };
+  });
+}
+
 Communicator::~Communicator() {
   int isOver = 0;
   MPI_Finalized(&isOver);
-  if (!isBroken_ && !isOver) MPI_Comm_free(&comm_);
+  if (comm_ != MPI_COMM_NULL && !isBroken_ && !isOver) MPI_Comm_free(&comm_);
+}
+
+Communicator& Communicator::operator=(Communicator&& other) noexcept {
+  std::swap(comm_, other.comm_);
+  std::swap(onWait_, other.onWait_);
+  std::swap(rank_, other.rank_);
+  std::swap(size_, other.size_);
+  std::swap(bytesSent_, other.bytesSent_);
+  std::swap(isBroken_, other.isBroken_);
+  return *this;
 }
 
 /// MPI's own waiting keeps a core busy, which a process on the same machine may need, and answers no signals.
@@ -68,14 +89,15 @@ void Communicator::wait(MPI_Request* requests, int count) {
 
 void Communicator::uniteFlags(std::vector<uint8_t>& flags) {
   std::vector<uint8_t> bits;
-  together("exchange", [&] { bits.assign((flags.size() + 7) / 8, 0); });
+  together(kExchange, [&] { bits.assign((flags.size() + 7) / 8, 0); });
   for (size_t i = 0; i < flags.size(); ++i) bits[i / 8] |= uint8_t(flags[i] << i % 8);
   reduce(bits, MPI_BOR);
   for (size_t i = 0; i < flags.size(); ++i) flags[i] = bits[i / 8] >> i % 8 & 1;
 }
 
 std::vector<uint64_t> Communicator::gatherAll(uint64_t number) {
-  std::vector<uint64_t> numbers(size_t(size_), 0);
+  std::vector<uint64_t> numbers;
+  together(kExchange, [&] { numbers.assign(size_t(size_), 0); });
   numbers[size_t(rank_)] = number;
   reduce(numbers, MPI_SUM);
   return numbers;
@@ -83,8 +105,9 @@ std::vector<uint64_t> Communicator::gatherAll(uint64_t number) {
 
 std::vector<std::vector<uint32_t>> Communicator::gatherAll(const std::vector<uint32_t>& numbers) {
   const std::vector<uint64_t> counts = gatherAll(uint64_t(numbers.size()));
-  std::vector<std::vector<uint32_t>> all(counts.size());
-  together("exchange", [&] {
+  std::vector<std::vector<uint32_t>> all;
+  together(kExchange, [&] {
+    all.resize(counts.size());
     for (size_t from = 0; from < all.size(); ++from) all[from].resize(counts[from]);
     all[size_t(rank_)] = numbers;
   });
@@ -119,31 +142,38 @@ void Communicator::startParts(void* bytes, size_t count, int peer, bool isSent, 
   }
 }
 
-std::vector<uint64_t> Communicator::exchangeCounts(const std::vector<uint64_t>& sent) {
-  std::vector<uint64_t> received(sent.size());
+void Communicator::exchangeCounts(std::vector<uint64_t>& counts) {
+  std::vector<uint64_t> received;
+  together(kExchange, [&] { received.resize(counts.size()); });
   MPI_Request request;
-  MPI_Ialltoall(sent.data(), 1, MPI_UINT64_T, received.data(), 1, MPI_UINT64_T, comm_, &request);
+  MPI_Ialltoall(counts.data(), 1, MPI_UINT64_T, received.data(), 1, MPI_UINT64_T, comm_, &request);
   wait(request);
-  return received;
+  counts = std::move(received);
 }
 
 Communicator::Bytes Communicator::exchange(const Bytes& bytes, int to, int from) {
-  uint64_t sentCount = bytes.size(), count = 0;
-  std::vector<MPI_Request> requests;
-  if (to >= 0) MPI_Isend(&sentCount, 1, MPI_UINT64_T, to, kTag, comm_, &requests.emplace_back());
-  if (from >= 0) MPI_Irecv(&count, 1, MPI_UINT64_T, from, kTag, comm_, &requests.emplace_back());
-  wait(requests.data(), int(requests.size()));
-  requests.clear();
-  Bytes received(count);
-  if (to >= 0) startParts(const_cast<std::byte*>(bytes.data()), bytes.size(), to, true, requests);
-  if (from >= 0) startParts(received.data(), received.size(), from, false, requests);
-  wait(requests.data(), int(requests.size()));
-  if (to >= 0) bytesSent_ += sentCount;
+  const uint64_t sentCount = bytes.size();
+  uint64_t count = 0;
+  exchange(std::as_bytes(std::span(&sentCount, 1)), to, std::as_writable_bytes(std::span(&count, 1)), from);
+  Bytes received;
+  together(kExchange, [&] { received.resize(count); });
+  exchange(std::span(bytes), to, std::span(received), from);
   return received;
 }
 
-void Communicator::send(const Bytes& bytes, int to) { exchange(bytes, to, -1); }
-Communicator::Bytes Communicator::receive(int from) { return exchange({}, -1, from); }
+void Communicator::exchange(std::span<const std::byte> sent, int to, std::span<std::byte> received, int from) {
+  if (to < 0) sent = {};
+  if (from < 0) received = {};
+  for (size_t at = 0; at < std::max(sent.size(), received.size()); at += kMostBytes) {
+    const auto some = [&](size_t bytes) { return int(std::min(kMostBytes, bytes - at)); };
+    MPI_Request requests[2];
+    int count = 0;
+    if (at < sent.size()) MPI_Isend(sent.data() + at, some(sent.size()), MPI_BYTE, to, kTag, comm_, &requests[count++]);
+    if (at < received.size()) MPI_Irecv(received.data() + at, some(received.size()), MPI_BYTE, from, kTag, comm_, &requests[count++]);
+    wait(requests, count);
+  }
+  bytesSent_ += sent.size();
+}
 
 void Communicator::requireSame(uint64_t number, const char* what) {
   const std::vector<uint64_t> all = gatherAll(number);
@@ -157,24 +187,41 @@ void Communicator::requireSame(uint64_t number, const char* what) {
 void Communicator::agree(const Error& error) {
   const int failed = reduce(error.status == Status::ok ? INT_MAX : rank_, MPI_MIN);
   if (failed == INT_MAX) return;
-  Bytes bytes;
-  if (failed == rank_) bytes = packed(PackedError{uint8_t(error.status), error.element, error.element2, error.message});
-  broadcast(bytes, failed);
-  PackedError agreed = unpacked<PackedError>(bytes);
-  throw RankError({Status(agreed.status), agreed.element, agreed.element2, std::move(agreed.message)}, failed);
+  PlainError agreed(error);  // without a message, there was no memory for one
+  if (agreed.length == 0) agreed.say("There is not enough memory.");
+  broadcastBytes(&agreed, sizeof agreed, failed);
+  throw RankError(agreed.get(), failed);
 }
 
-void Communicator::together(const char* noun, const std::function<void()>& body) {
+/// Gives what is to be thrown on in this process.
+std::exception_ptr Communicator::catchAll(Error& error, const char* noun, FunctionRef<void()> body) {
+  std::exception_ptr own;
+  try {
+    try {
+      catchErrors(error, noun, body);
+    } catch (const FileError& failure) {  // of a mesh that is read in pieces
+      error = {Status::badArgument, -1, -1, failure.what()};
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (...) {
+      own = std::current_exception();
+      error = {Status::cancelled, -1, -1, std::string("The ") + noun + " was cancelled."};
+    }
+  } catch (...) {
+    error.status = Status::outOfMemory;
+  }
+  return own;
+}
+
+void Communicator::together(const char* noun, FunctionRef<void()> body) {
   Error error;
-  catchErrors(error, noun, body);
-  agree(error);
-}
-
-std::function<void()> waiterFor(const char* noun, const RunOptions& options) {
-  if (!options.progress) return nullptr;
-  return [noun, progress = options.progress] {
-    if (!progress({"waiting", 0, 1, 0, 1})) throw CallError({Status::cancelled, -1, -1, std::string("The ") + noun + " was cancelled."});
-  };
+  const std::exception_ptr own = catchAll(error, noun, body);
+  try {
+    agree(error);
+  } catch (const RankError&) {
+    if (own) std::rethrow_exception(own);
+    throw;
+  }
 }
 
 }  // namespace mandoline::detail

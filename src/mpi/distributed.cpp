@@ -26,27 +26,40 @@ using namespace detail;
 constexpr const char* kNoun = "cut";
 
 struct DistributedCut::Data {
-  Data(MPI_Comm comm_, PreparedMesh mesh_, Grid grid_, const RunOptions& options)
-      : comm(comm_, waiterFor(kNoun, options)), grid(std::move(grid_)) {
+  /// Nothing as yet.
+  static std::shared_ptr<Data> begun(MPI_Comm comm, Grid grid, const RunOptions& options) {
+    Communicator own(comm, kNoun, options);
+    std::shared_ptr<Data> data;
+    own.together(kNoun, [&] { data = std::make_shared<Data>(); });
+    data->comm = std::move(own);
+    data->grid = std::move(grid);
+    return data;
+  }
+
+  void cutPrepared(PreparedMesh mesh_, const RunOptions& options) {
     takePrepared(std::move(mesh_), options);
     finish(options);
   }
 
-  Data(MPI_Comm comm_, std::shared_ptr<const Mesh> mesh_, Grid grid_, const PrepareOptions& options, MeshInfo* info)
-      : comm(comm_, waiterFor(kNoun, options)), mesh(std::move(mesh_)), grid(std::move(grid_)) {
+  void cutMesh(std::shared_ptr<const Mesh> mesh_, const PrepareOptions& options, MeshInfo* info) {
+    mesh = std::move(mesh_);
     requireSame();
     std::unique_ptr<ShareInput> input;
     if (comm.size() > 1) {
       std::shared_ptr<const Mesh> slice;
-      comm.together(kNoun, [&] { slice = std::make_shared<const Mesh>(sliceOf(*mesh, shareOf())); });
-      input = prepareShares(comm, *sliced(comm, std::move(slice), std::make_shared<ArraySource>(mesh)), grid, options, info);
+      std::shared_ptr<const MeshSource> whole;
+      comm.together(kNoun, [&] {
+        slice = std::make_shared<const Mesh>(sliceOf(*mesh, shareOf()));
+        whole = std::make_shared<ArraySource>(mesh);
+      });
+      input = prepareShares(comm, *sliced(comm, std::move(slice), std::move(whole)), grid, options, info);
     }
     makeShare(std::move(input), options, info);
     finish(options);
   }
 
-  Data(MPI_Comm comm_, SlicedMesh slices, Grid grid_, const PrepareOptions& options, MeshInfo* info)
-      : comm(comm_, waiterFor(kNoun, options)), grid(std::move(grid_)), sentPreparing(slices.data()->bytesSent) {
+  void cutSlices(SlicedMesh slices, const PrepareOptions& options, MeshInfo* info) {
+    sentPreparing = slices.data()->bytesSent;
     requireSame();
     triangles = slices.triangleCount();
     std::unique_ptr<ShareInput> input;
@@ -224,7 +237,8 @@ struct DistributedCut::Data {
       if (below >= 0 && !hasAll(*surface, faces.surface))
         surface = std::make_shared<MeshPart>(united(std::array{*surface, std::move(faces.surface)}));
     });
-    bytes = comm.exchange(packed(made.forBelow), below, above);
+    comm.together(kNoun, [&] { bytes = packed(made.forBelow); });
+    bytes = comm.exchange(bytes, below, above);
     comm.together(kNoun, [&] {
       if (above >= 0) addSeam(unpacked<CellsAbove>(bytes), made.piece);
     });
@@ -242,28 +256,22 @@ struct DistributedCut::Data {
     return {below, above < comm.size() ? above : -1};
   }
 
-  /// Adds to the sums of the ranks before, in the order of one process; gives all to all.
-  std::vector<DoubleDouble> addInOrder(const std::function<void(std::vector<DoubleDouble>&)>& add, std::vector<DoubleDouble> sums) {
-    Communicator::Bytes bytes;
-    if (comm.rank() > 0) sums = unpacked<std::vector<DoubleDouble>>(comm.receive(comm.rank() - 1));
-    add(sums);
-    if (comm.rank() + 1 < comm.size()) comm.send(packed(sums), comm.rank() + 1);
-    bytes = packed(sums);
-    comm.broadcast(bytes, comm.size() - 1);
-    return unpacked<std::vector<DoubleDouble>>(bytes);
-  }
-
   Measures measures(const RankPiece& piece, const RunOptions& options) const {
     return measuring::measureBy(named(), piece.cutMesh, options);
   }
 
   std::vector<double> regionVolumes(const RankPiece& piece) {
+    constexpr const char* kMeasuring = "measuring";
     Measures measured;
-    comm.together("measuring", [&] { measured = measures(piece, {1, {}}); });
-    std::vector<DoubleDouble> sums(common.mesh.regionCount);
-    sums = addInOrder([&](auto& all) { addCutCells(piece.cutMesh, measured, all); }, std::move(sums));
-    sums = addInOrder([&](auto& all) { addUntouchedCells(piece.cutMesh, all); }, std::move(sums));
+    std::vector<DoubleDouble> sums;
     std::vector<double> volumes;
+    comm.together(kMeasuring, [&] {
+      measured = measures(piece, {1, {}});
+      sums.resize(common.mesh.regionCount);
+      volumes.reserve(sums.size());
+    });
+    comm.addInOrder(kMeasuring, std::span(sums), [&] { addCutCells(piece.cutMesh, measured, sums); });
+    comm.addInOrder(kMeasuring, std::span(sums), [&] { addUntouchedCells(piece.cutMesh, sums); });
     for (const DoubleDouble& sum : sums) volumes.push_back(double(sum));
     return volumes;
   }
@@ -272,13 +280,21 @@ struct DistributedCut::Data {
     requirePart();
     CutResult result;
     std::vector<CutPart> parts;
-    if (comm.rank() > 0) {
-      comm.send(packed(part), 0);
-    } else {
-      parts.push_back(std::move(part));
-      for (int rank = 1; rank < comm.size(); ++rank) parts.push_back(unpacked<CutPart>(comm.receive(rank)));
-      result = share->join(std::move(parts));
+    for (int rank = 1; rank < comm.size(); ++rank) {
+      Communicator::Bytes bytes;
+      comm.together(kNoun, [&] {
+        if (comm.rank() == rank) bytes = packed(part);
+      });
+      bytes = comm.exchange(bytes, comm.rank() == rank ? 0 : -1, comm.rank() == 0 ? rank : -1);
+      comm.together(kNoun, [&] {
+        if (comm.rank() == 0) parts.push_back(unpacked<CutPart>(bytes));
+      });
     }
+    comm.together(kNoun, [&] {
+      if (comm.rank() > 0) return;
+      parts.insert(parts.begin(), std::move(part));
+      result = share->join(std::move(parts));
+    });
     comm.agree(result.error);
     return result;
   }
@@ -303,16 +319,23 @@ struct DistributedCut::Data {
 };
 
 DistributedCut::DistributedCut(MPI_Comm comm, PreparedMesh mesh, Grid grid, const RunOptions& options)
-    : data_(std::make_shared<Data>(comm, std::move(mesh), std::move(grid), options)) {}
+    : data_(Data::begun(comm, std::move(grid), options)) {
+  data_->cutPrepared(std::move(mesh), options);
+}
 DistributedCut::DistributedCut(MPI_Comm comm, std::shared_ptr<const Mesh> mesh, Grid grid, const PrepareOptions& options, MeshInfo* info)
-    : data_(std::make_shared<Data>(comm, std::move(mesh), std::move(grid), options, info)) {}
-
+    : data_(Data::begun(comm, std::move(grid), options)) {
+  data_->cutMesh(std::move(mesh), options, info);
+}
 DistributedCut::DistributedCut(MPI_Comm comm, SlicedMesh mesh, Grid grid, const PrepareOptions& options, MeshInfo* info)
-    : data_(std::make_shared<Data>(comm, std::move(mesh), std::move(grid), options, info)) {}
+    : data_(Data::begun(comm, std::move(grid), options)) {
+  data_->cutSlices(std::move(mesh), options, info);
+}
 
 SlicedMesh::SlicedMesh(MPI_Comm comm_, Mesh slice, std::shared_ptr<const MeshSource> whole) {
   Communicator comm(comm_, nullptr);
-  data_ = sliced(comm, std::make_shared<const Mesh>(std::move(slice)), std::move(whole));
+  std::shared_ptr<const Mesh> kept;
+  comm.together(kNoun, [&] { kept = std::make_shared<const Mesh>(std::move(slice)); });
+  data_ = sliced(comm, std::move(kept), std::move(whole));
 }
 uint64_t SlicedMesh::vertexCount() const { return data_->vertices(); }
 uint64_t SlicedMesh::triangleCount() const { return data_->triangles(); }

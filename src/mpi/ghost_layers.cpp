@@ -49,7 +49,9 @@ IdRange allCells(const RankPiece& piece) { return {0, piece.cutMesh.cellCount()}
 RankLayers layersOfAll(Communicator& comm, const std::array<int64_t, 2>& here) {
   const std::vector<uint64_t> first = comm.gatherAll(uint64_t(here[0])), past = comm.gatherAll(uint64_t(here[1]));
   RankLayers layers;
-  for (size_t rank = 0; rank < first.size(); ++rank) layers.push_back({int64_t(first[rank]), int64_t(past[rank])});
+  comm.together("cut", [&] {
+    for (size_t rank = 0; rank < first.size(); ++rank) layers.push_back({int64_t(first[rank]), int64_t(past[rank])});
+  });
   return layers;
 }
 
@@ -65,13 +67,17 @@ PieceToMeasure withGhostLayers(Communicator& comm, const RankLayers& layers, con
   const int below = neighbourOf(layers, comm.rank(), -1), above = neighbourOf(layers, comm.rank(), 1);
   const std::array<int64_t, 2> own = grown.piece.layers;
   /// Sends the layer to one neighbour and gets one of the other.
-  const auto exchange = [&](int64_t layer, int to, int from) {
+  const auto exchange = [&](int64_t sent, int to, int from) {
     Communicator::Bytes bytes;
     comm.together("cut", [&] {
-      if (to >= 0) bytes = packed(layerToSend(grown, layer));
+      if (to >= 0) bytes = packed(layerToSend(grown, sent));
     });
     bytes = comm.exchange(bytes, to, from);
-    return from >= 0 ? unpacked<Layer>(bytes) : Layer();
+    Layer layer;
+    comm.together("cut", [&] {
+      if (from >= 0) layer = unpacked<Layer>(bytes);
+    });
+    return layer;
   };
   for (int added = 0; added < count; ++added) {
     const Layer lower = exchange(own[1] - 1 - added, above, below);

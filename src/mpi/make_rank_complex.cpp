@@ -18,8 +18,8 @@ class ComplexMaker {
   ComplexMaker(Communicator& comm, const WholeCut& whole, RankLayers layers) : comm_(comm), whole_(whole), layers_(std::move(layers)) {}
 
   RankComplex make(const RankPiece& piece, int ghostLayers) {
-    PieceToMeasure toGrow{piece, {}};
-    comm_.together(kNoun, [&] { toGrow.surface = measuring::partMeasuredBy(piece.cutMesh, whole_.surface); });
+    PieceToMeasure toGrow;
+    comm_.together(kNoun, [&] { toGrow = {piece, measuring::partMeasuredBy(piece.cutMesh, whole_.surface)}; });
     PieceToMeasure toMeasure = withGhostLayers(comm_, layers_, whole_.common, std::move(toGrow), ghostLayers);
     RankPiece& grown = toMeasure.piece;
     result_.layers = piece.layers;
@@ -83,7 +83,11 @@ class ComplexMaker {
   /// Corners of untouched cells follow the cut-vertices of the whole, plane by plane along z; each plane is counted by the process below.
   void numberCorners() {
     const CellComplex& cells = result_.cells;
-    std::vector<uint64_t> first(whole_.common.grid.planes[2].size() + 1, 0);
+    std::vector<uint64_t> first;
+    comm_.together(kNoun, [&] {
+      first.assign(whole_.common.grid.planes[2].size() + 1, 0);
+      result_.vertexIds.reserve(cells.vertexCount());
+    });
     for (size_t v = cells.cutVertices; v < cells.vertexCount(); ++v) {
       const size_t plane = planeOf(v);
       const int64_t layer = std::max<int64_t>(int64_t(plane) - 1, 0);

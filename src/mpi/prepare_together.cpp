@@ -12,7 +12,7 @@ namespace {
 PreparedTogether prepareAll(MPI_Comm comm_, const MeshToPrepare& mesh, const PrepareOptions& options,
                             const std::function<void()>& inFirst) {
   constexpr const char* kNoun = "preparation";
-  Communicator comm(comm_, waiterFor(kNoun, options));
+  Communicator comm(comm_, kNoun, options);
   PrepareResult result;
   if (comm.size() == 1) {
     comm.together(kNoun, [&] {
@@ -24,22 +24,23 @@ PreparedTogether prepareAll(MPI_Comm comm_, const MeshToPrepare& mesh, const Pre
   }
   const int searching = inFirst ? comm.size() - 1 : comm.size();  // from the last on
   const int share = comm.size() - 1 - comm.rank();
-  PrepareShare preparing({uint32_t(share), uint32_t(searching)}, options);
+  std::optional<PrepareShare> preparing;
   std::vector<TrianglePair> pairs;
+  std::vector<uint32_t> ids;
   comm.together(kNoun, [&] {
     if (inFirst && comm.rank() == 0) inFirst();
-    pairs = preparing.findPairs(mesh);
+    preparing.emplace(ShareOf{uint32_t(share), uint32_t(searching)}, options);
+    pairs = preparing->findPairs(mesh);
+    for (const TrianglePair& pair : pairs) ids.insert(ids.end(), pair.begin(), pair.end());
   });
-  comm.requireSame(preparing.fingerprint().value, "mesh");
-  std::vector<uint32_t> ids;
-  for (const TrianglePair& pair : pairs) ids.insert(ids.end(), pair.begin(), pair.end());
+  comm.requireSame(preparing->fingerprint().value, "mesh");
   const std::vector<std::vector<uint32_t>> all = comm.gatherAll(ids);
   comm.together(kNoun, [&] {
     pairs.clear();
     for (const std::vector<uint32_t>& some : all) {
       for (size_t i = 0; i < some.size(); i += 2) pairs.push_back({some[i], some[i + 1]});
     }
-    result = preparing.resolve(pairs);
+    result = preparing->resolve(pairs);
   });
   return {std::move(result.mesh), std::move(result.stats), comm.bytesSent()};
 }

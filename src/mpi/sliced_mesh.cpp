@@ -59,11 +59,15 @@ class CornerFinder {
   }
 
   void askForCorners() {
-    std::vector<IdList> asked(size_t(comm_.size()));
-    comm_.together(kSlicing, [&] { listAsked(asked); });
-    std::vector<IdList> told = comm_.exchangeAll(asked);
-    std::vector<std::vector<double>> positions(told.size());
+    std::vector<IdList> asked;
     comm_.together(kSlicing, [&] {
+      asked.resize(size_t(comm_.size()));
+      listAsked(asked);
+    });
+    std::vector<IdList> told = comm_.exchangeAll(asked);
+    std::vector<std::vector<double>> positions;
+    comm_.together(kSlicing, [&] {
+      positions.resize(told.size());
       for (size_t rank = 0; rank < told.size(); ++rank) positions[rank] = positionsOf(told[rank]);
     });
     positions = comm_.exchangeAll(positions);
@@ -136,10 +140,13 @@ class CornerFinder {
 /// In the order of the triangles, which tells 0 from -0.
 MeshBox boxOfAll(Communicator& comm, const MeshPart& part) {
   constexpr size_t kWords = 9;  // of each process: least, greatest, and whether they are known
-  std::vector<uint64_t> words(kWords * size_t(comm.size()), 0);
+  std::vector<uint64_t> words;
   MeshBox here;
+  comm.together(kSlicing, [&] {
+    words.assign(kWords * size_t(comm.size()), 0);
+    here = boxOf(MeshView(part.positions, part.corners));
+  });
   uint64_t* own = &words[kWords * size_t(comm.rank())];
-  comm.together(kSlicing, [&] { here = boxOf(MeshView(part.positions, part.corners)); });
   for (size_t i = 0; i < part.positions.size(); ++i) own[6 + i % 3] |= uint64_t(std::isfinite(part.positions[i]));
   for (size_t d = 0; d < 3; ++d) own[d] = std::bit_cast<uint64_t>(here.min[d]), own[3 + d] = std::bit_cast<uint64_t>(here.max[d]);
   comm.reduce(words, MPI_SUM);
@@ -157,36 +164,26 @@ MeshBox boxOfAll(Communicator& comm, const MeshPart& part) {
   return box;
 }
 
+/// Of a fingerprint.
 struct Sum {
   uint64_t state = 0;
-  IdList odd;  ///< a number that waits for the next
-
-  static void fields(auto& self, const auto& f) {
-    f("state", self.state);
-    f("odd", self.odd);
-  }
+  uint32_t odd = 0, hasOdd = 0;  // a number that waits for the next
 };
-
-/// Each process adds to what those before it have come to. Gives the last one's to all.
-template <class Add>
-Sum addInOrder(Communicator& comm, Sum sum, const Add& add) {
-  if (comm.rank() > 0) sum = unpacked<Sum>(comm.receive(comm.rank() - 1));
-  add(sum);
-  if (comm.rank() + 1 < comm.size()) comm.send(packed(sum), comm.rank() + 1);
-  Communicator::Bytes bytes = packed(sum);
-  comm.broadcast(bytes, comm.size() - 1);
-  return unpacked<Sum>(bytes);
-}
 
 }  // namespace
 
 std::shared_ptr<const SlicedMeshData> sliced(Communicator& comm, std::shared_ptr<const Mesh> slice,
                                              std::shared_ptr<const MeshSource> whole) {
-  auto mesh = std::make_shared<SlicedMeshData>();
-  mesh->whole = std::move(whole);
-  mesh->slice = std::move(slice);
-  mesh->firstVertex = sumsBefore(comm.gatherAll(uint64_t(mesh->slice->vertexCount())));
-  mesh->firstTriangle = sumsBefore(comm.gatherAll(uint64_t(mesh->slice->triangleCount())));
+  const std::vector<uint64_t> vertices = comm.gatherAll(uint64_t(slice->vertexCount())),
+                              triangles = comm.gatherAll(uint64_t(slice->triangleCount()));
+  std::shared_ptr<SlicedMeshData> mesh;
+  comm.together(kSlicing, [&] {
+    mesh = std::make_shared<SlicedMeshData>();
+    mesh->whole = std::move(whole);
+    mesh->slice = std::move(slice);
+    mesh->firstVertex = sumsBefore(vertices);
+    mesh->firstTriangle = sumsBefore(triangles);
+  });
   CornerFinder(comm, *mesh).find();
   if (mesh->isFit) mesh->box = boxOfAll(comm, mesh->part);
   mesh->bytesSent = comm.bytesSent();
@@ -202,31 +199,32 @@ Mesh sliceOf(const MeshView& mesh, const ShareOf& shareOf) {
   return {some(mesh.positions, mesh.vertexCount(), 3), some(mesh.triangles, mesh.triangleCount(), 3)};
 }
 
-Fingerprint fingerprintOf(Communicator& comm, const SlicedMeshData& mesh) {
+MeshSums sumsOf(Communicator& comm, const SlicedMeshData& mesh) {
   Fingerprinter first("mesh");
   first.add(3 * mesh.vertices());
-  Sum sum = addInOrder(comm, {first.state(), {}}, [&](Sum& all) {
-    Fingerprinter fingerprinter = Fingerprinter::goingOn(all.state);
+  Sum sum{first.state()};
+  comm.addInOrder(kSlicing, std::span(&sum, 1), [&] {
+    Fingerprinter fingerprinter = Fingerprinter::goingOn(sum.state);
     for (const double x : mesh.slice->positions) fingerprinter.add(x);
-    all.state = fingerprinter.state();
+    sum.state = fingerprinter.state();
   });
+  MeshSums sums{sum.state, {}};
   Fingerprinter second = Fingerprinter::goingOn(sum.state);
   second.add(3 * mesh.triangles());
-  sum = addInOrder(comm, {second.state(), {}}, [&](Sum& all) {
-    Fingerprinter fingerprinter = Fingerprinter::goingOn(all.state);
+  sum.state = second.state();
+  comm.addInOrder(kSlicing, std::span(&sum, 1), [&] {
+    Fingerprinter fingerprinter = Fingerprinter::goingOn(sum.state);
     for (const uint32_t v : mesh.slice->triangles) {
-      if (all.odd.empty()) {
-        all.odd.push_back(v);
-      } else {
-        fingerprinter.add(uint64_t(all.odd[0]) << 32 | v);
-        all.odd.clear();
-      }
+      if (sum.hasOdd != 0) fingerprinter.add(uint64_t(sum.odd) << 32 | v);
+      sum.odd = v;
+      sum.hasOdd ^= 1;
     }
-    all.state = fingerprinter.state();
+    sum.state = fingerprinter.state();
   });
   Fingerprinter last = Fingerprinter::goingOn(sum.state);
-  if (!sum.odd.empty()) last.add(uint64_t(sum.odd[0]));
-  return last.get();
+  if (sum.hasOdd != 0) last.add(uint64_t(sum.odd));
+  sums.whole = last.get();
+  return sums;
 }
 
 double largestCoordinate(Communicator& comm, const SlicedMeshData& mesh) {
@@ -235,8 +233,7 @@ double largestCoordinate(Communicator& comm, const SlicedMeshData& mesh) {
   return comm.reduce(largest, MPI_MAX);
 }
 
-MeshInfo inspectArrays(Communicator& comm, const SlicedMeshData& mesh, const MeshPart& surface) {
-  MeshInfo info;
+void inspectArrays(Communicator& comm, const SlicedMeshData& mesh, const MeshPart& surface, MeshInfo& info) {
   info.min = mesh.box.min;
   info.max = mesh.box.max;
   info.vertices = mesh.vertices();
@@ -255,7 +252,7 @@ MeshInfo inspectArrays(Communicator& comm, const SlicedMeshData& mesh, const Mes
   });
   info.unreferencedVertices = comm.reduce(counts[0], MPI_SUM);
   info.nonFiniteVertices = comm.reduce(counts[1], MPI_SUM);
-  if (info.unreferencedVertices == info.nonFiniteVertices) return info;
+  if (info.unreferencedVertices == info.nonFiniteVertices) return;
   std::vector<std::vector<double>> forEach;
   comm.together(kSlicing, [&] { forEach.assign(size_t(comm.size()), others); });
   const std::vector<std::vector<double>> told = comm.exchangeAll(forEach);
@@ -274,20 +271,19 @@ MeshInfo inspectArrays(Communicator& comm, const SlicedMeshData& mesh, const Mes
   });
   comm.uniteFlags(isShared);
   info.weldedVertices += size_t(std::count(isShared.begin(), isShared.end(), 1));
-  return info;
 }
 
 std::shared_ptr<const Mesh> gathered(Communicator& comm, const SlicedMeshData& mesh, bool inAll) {
-  auto whole = std::make_shared<Mesh>();
-  if (mesh.whole) {
-    comm.together(kSlicing, [&] {
-      if (inAll || comm.rank() == 0) *whole = readShare(*mesh.whole);
-    });
-    return whole;
-  }
+  std::shared_ptr<Mesh> whole;
+  comm.together(kSlicing, [&] {
+    whole = std::make_shared<Mesh>();
+    if (mesh.whole && (inAll || comm.rank() == 0)) *whole = readShare(*mesh.whole);
+  });
+  if (mesh.whole) return whole;
   const auto gather = [&](auto Mesh::*member) {
-    std::vector<std::remove_cvref_t<decltype(whole.get()->*member)>> slices(size_t(comm.size()));
+    std::vector<std::remove_cvref_t<decltype(whole.get()->*member)>> slices;
     comm.together(kSlicing, [&] {
+      slices.resize(size_t(comm.size()));
       for (size_t rank = 0; rank < (inAll ? slices.size() : 1); ++rank) slices[rank] = (*mesh.slice).*member;
     });
     slices = comm.exchangeAll(slices);

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "mandoline/distributed.h"
+#include "mesh/checked_source.h"
 #include "mesh/inspect_plain.h"
 #include "mesh/mesh_part.h"
 #include "mesh/mesh_source.h"
@@ -31,12 +32,12 @@ std::shared_ptr<const SlicedMeshData> sliced(Communicator& comm, std::shared_ptr
                                              std::shared_ptr<const MeshSource> whole = nullptr);
 /// A slice of a mesh that all processes have, as one of those of all.
 MANDOLINE_SHARED Mesh sliceOf(const MeshView& mesh, const ShareOf& shareOf);
-/// fingerprintOf() the whole.
-Fingerprint fingerprintOf(Communicator& comm, const SlicedMeshData& mesh);
+/// With the whole's fingerprintOf().
+MeshSums sumsOf(Communicator& comm, const SlicedMeshData& mesh);
 /// The largest coordinate of a vertex that a triangle has; infinite if one of them is not finite.
 double largestCoordinate(Communicator& comm, const SlicedMeshData& mesh);
 /// The box, counts, and what inspect() tells of vertices that no triangle has. `surfaces`, one in each process, have the others.
-MeshInfo inspectArrays(Communicator& comm, const SlicedMeshData& mesh, const MeshPart& surface);
+void inspectArrays(Communicator& comm, const SlicedMeshData& mesh, const MeshPart& surface, MeshInfo& info);
 /// The whole in each process, or in the first alone.
 std::shared_ptr<const Mesh> gathered(Communicator& comm, const SlicedMeshData& mesh, bool inAll);
 

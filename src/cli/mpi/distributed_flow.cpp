@@ -23,20 +23,28 @@ struct Values {
 
 /// phi by the ids of the whole, in the first process.
 std::vector<double> gather(detail::Communicator& comm, const RankComplex& complex, const std::vector<double>& phi) {
-  Values own;
-  for (size_t c = 0; c < phi.size(); ++c) {
-    if (complex.cellRanks[c] != comm.rank()) continue;
-    own.cells.push_back(complex.cellIds[c]);
-    own.phi.push_back(phi[c]);
-  }
-  if (comm.rank() > 0) {
-    comm.send(detail::packed(own), 0);
-    return {};
-  }
-  std::vector<double> whole(complex.wholeCells);
+  constexpr const char* kNoun = "flow";
+  std::vector<double> whole;
+  detail::Communicator::Bytes own;
+  comm.together(kNoun, [&] {
+    Values values;
+    for (size_t c = 0; c < phi.size(); ++c) {
+      if (complex.cellRanks[c] != comm.rank()) continue;
+      values.cells.push_back(complex.cellIds[c]);
+      values.phi.push_back(phi[c]);
+    }
+    own = detail::packed(values);
+    if (comm.rank() == 0) whole.resize(complex.wholeCells);
+  });
   for (int rank = 0; rank < comm.size(); ++rank) {
-    if (rank > 0) own = detail::unpacked<Values>(comm.receive(rank));
-    for (size_t i = 0; i < own.cells.size(); ++i) whole.at(own.cells[i]) = own.phi[i];
+    const bool isSent = rank > 0;
+    const detail::Communicator::Bytes told =
+        comm.exchange(own, isSent && comm.rank() == rank ? 0 : -1, isSent && comm.rank() == 0 ? rank : -1);
+    comm.together(kNoun, [&] {
+      if (comm.rank() > 0) return;
+      const Values values = detail::unpacked<Values>(isSent ? told : own);
+      for (size_t i = 0; i < values.cells.size(); ++i) whole.at(values.cells[i]) = values.phi[i];
+    });
   }
   return whole;
 }

@@ -121,8 +121,12 @@ class Numberer {
       for (const ComplexSeam& seam : mine_.complex.seams)
         (seam.rank > comm_.rank() ? (direction > 0 ? to : from) : (direction > 0 ? from : to)) = seam.rank;
       std::vector<uint64_t> numbers;
-      for (const uint32_t h : seamHalfFaces(to)) numbers.push_back(first_[h]);
-      const detail::Communicator::Bytes bytes = comm_.exchange(detail::packed(numbers), to, from);
+      detail::Communicator::Bytes bytes;
+      comm_.together("writing", [&] {
+        for (const uint32_t h : seamHalfFaces(to)) numbers.push_back(first_[h]);
+        bytes = detail::packed(numbers);
+      });
+      bytes = comm_.exchange(bytes, to, from);
       comm_.together("writing", [&] {
         if (from < 0) return;
         numbers = detail::unpacked<std::vector<uint64_t>>(bytes);

@@ -21,7 +21,7 @@ int Ranks::onThisMachine() const {
   return count;
 }
 
-void Ranks::together(const std::function<void()>& work) {
+void Ranks::together(detail::FunctionRef<void()> work) {
   std::exception_ptr failure;
   try {
     work();
@@ -40,7 +40,7 @@ void Ranks::together(const std::function<void()>& work) {
   throw Stopped{comm_.reduce(exitCode, MPI_MAX)};
 }
 
-void Ranks::inFirst(const std::function<void()>& work) {
+void Ranks::inFirst(detail::FunctionRef<void()> work) {
   together([&] {
     if (isFirst()) work();
   });

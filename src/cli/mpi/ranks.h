@@ -23,9 +23,9 @@ class Ranks {
   detail::Communicator& comm() { return comm_; }
 
   /// Runs work() in all. If that fails in some, the lowest of them says why, and all throw Stopped.
-  void together(const std::function<void()>& work);
+  void together(detail::FunctionRef<void()> work);
   /// The same in the first alone.
-  void inFirst(const std::function<void()>& work);
+  void inFirst(detail::FunctionRef<void()> work);
 
  private:
   detail::Communicator comm_;

@@ -4,7 +4,6 @@
 #include "mandoline/distributed.h"
 #include "mpi/communicator.h"
 #include "mpi/ghost_layers.h"
-#include "mpi/pack.h"
 
 namespace mandoline::cli {
 
@@ -33,13 +32,11 @@ class Halo {
   /// Sends the values of a layer, and gets those of another one.
   template <class Value>
   void move(int64_t sent, int to, int64_t received, int from, std::vector<Value>& values) const {
-    std::vector<Value> items;
+    const std::span<const uint32_t> cells = cellsIn(received);  // as many as the other process sends
+    std::vector<Value> items, told(from >= 0 ? cells.size() : 0);
     for (const uint32_t c : cellsIn(sent)) items.push_back(values[c]);
-    const detail::Communicator::Bytes bytes = comm_.exchange(detail::packed(items), to, from);
-    if (from < 0) return;
-    items = detail::unpacked<std::vector<Value>>(bytes);
-    const std::span<const uint32_t> cells = cellsIn(received);
-    for (size_t i = 0; i < cells.size(); ++i) values[cells[i]] = items.at(i);
+    comm_.exchange(std::as_bytes(std::span(items)), to, std::as_writable_bytes(std::span(told)), from);
+    for (size_t i = 0; i < told.size(); ++i) values[cells[i]] = told[i];
   }
 
   std::span<const uint32_t> cellsIn(int64_t layer) const {
