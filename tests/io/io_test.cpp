@@ -345,6 +345,42 @@ TEST_CASE("Slices of binary files of triangles make up the whole; other files ha
   CHECK(mandoline::detail::readMeshSlice(files[0], {0, 2})->sample != mandoline::detail::readMeshSlice(files[1], {0, 2})->sample);
 }
 
+TEST_CASE("Slices of PLY files are found after headers of any length", "[io]") {
+  constexpr size_t kBlock = size_t(1) << 16;
+  const TemporaryFolder folder;
+  const std::string plain = coloredPly(false, 7, -1), end = "end_header\n";
+  const size_t at = plain.find(end);
+  for (const std::string lineEnd : {"\n", "\r\n", "\r"}) {
+    for (const size_t length :
+         {kBlock - 2, kBlock - 1, kBlock, kBlock + 1, kBlock + 2, kBlock + 3, kBlock + 11, kBlock + 12, 16 * kBlock, 20 * kBlock}) {
+      const std::string ending = "end_header" + lineEnd, comment = "comment ";
+      const std::string filling(length - at - ending.size() - comment.size() - 1, 'c');
+      const std::string file =
+          folder.write("long.ply", plain.substr(0, at) + comment + filling + "\n" + ending + plain.substr(at + end.size()));
+      CAPTURE(ending, length);
+      const Mesh whole = mandoline::readMesh(file);
+      const std::optional<Mesh> made = readInSlices(file, 2);
+      REQUIRE(made);
+      CHECK(made->positions == whole.positions);
+      CHECK(made->triangles == whole.triangles);
+    }
+  }
+}
+
+TEST_CASE("Slices of files that end too early are not read", "[io]") {
+  const TemporaryFolder folder;
+  std::vector<float> corners;
+  for (int i = 0; i < 9 * 7; ++i) corners.push_back(float(i * i % 11));
+  for (const std::string& whole : {coloredPly(false, 7, -1), binaryStl("solid", 7, corners)}) {
+    for (size_t length = 0; length < whole.size(); ++length) {
+      CAPTURE(length, whole.size());
+      const std::string file = folder.write("short", whole.substr(0, length));
+      for (const uint32_t count : {1u, 2u, 3u}) CHECK_FALSE(readInSlices(file, count));
+      if (length > 1) CHECK_THROWS_AS(mandoline::readMesh(file), mandoline::FileError);  // of one letter, it may be OBJ
+    }
+  }
+}
+
 TEST_CASE("Doubles are kept", "[io]") {
   const std::vector<double> values = {0.1, 1.0 / 3, 5e-324, 1.7976931348623157e308, -2.2250738585072014e-308, 0.30000000000000004};
   std::string obj, off = "OFF\n2 0 0\n";

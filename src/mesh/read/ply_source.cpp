@@ -112,11 +112,23 @@ class PlySource : public MeshSource {
   const Records vertices_, faces_;
 };
 
+/// The beginning of a file with all of its header and what ends its last line, which may be two characters; or nothing if that is not
+/// found.
+std::string headOf(const PartlyRead& file) {
+  constexpr uint64_t kLeast = uint64_t(1) << 16, kMost = uint64_t(1) << 24;
+  for (uint64_t size = kLeast; size <= kMost; size *= 16) {
+    std::string head = file.read(0, size_t(std::min(file.size(), size)));
+    const size_t lineEnd = head.find_first_of("\r\n", head.find("end_header"));
+    const bool isComplete = lineEnd != head.npos && lineEnd + 1 < head.size();
+    if (isComplete || head.size() == file.size()) return head;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::shared_ptr<const MeshSource> openPly(PartlyRead file) {
-  constexpr size_t kMostHeader = size_t(1) << 16;
-  const std::string head = file.read(0, size_t(std::min<uint64_t>(file.size(), kMostHeader)));
+  const std::string head = headOf(file);
   if (!looksLikePly(head) || head.find("end_header") == head.npos) return nullptr;
   TextCursor cursor(file.path(), head);
   const Header header = readHeader(cursor);
