@@ -8,6 +8,9 @@
 namespace mandoline::detail {
 namespace {
 
+template <class Item>
+using WordsOf = std::array<uint32_t, sizeof(Item) / sizeof(uint32_t)>;
+
 class Writer {
  public:
   template <class Item>
@@ -16,6 +19,24 @@ class Writer {
     addBytes(std::as_bytes(items));
   }
   void add(uint32_t number) { words.push_back(number); }
+  /// Items that are like those before them: of each word of theirs the difference, in as few bytes as it needs. The lowest bit is the sign.
+  template <class Item>
+  void addDifferences(std::span<const Item> items) {
+    WordsOf<Item> before{};
+    bytes_.clear();
+    for (const Item& item : items) {
+      const auto now = std::bit_cast<WordsOf<Item>>(item);
+      for (size_t i = 0; i < now.size(); ++i) {
+        const uint32_t difference = now[i] - before[i];
+        uint32_t left = difference << 1 ^ (0 - (difference >> 31));
+        for (; left >= 128; left >>= 7) bytes_.push_back(std::byte(left % 128 + 128));
+        bytes_.push_back(std::byte(left));
+      }
+      before = now;
+    }
+    add(uint32_t(items.size()));
+    addBytes(bytes_);
+  }
 
   std::vector<uint32_t> words;
 
@@ -26,6 +47,8 @@ class Writer {
     words.resize(at + (bytes.size() + 3) / 4);
     if (!bytes.empty()) std::memcpy(&words[at], bytes.data(), bytes.size());
   }
+
+  std::vector<std::byte> bytes_;  // of differences
 };
 
 struct BadSummary {};
@@ -47,9 +70,39 @@ class Reader {
     if (bytes % sizeof(Item) != 0) throw BadSummary();
     return {static_cast<const Item*>(copied((bytes + 3) / 4)), bytes / sizeof(Item)};
   }
+  /// Likewise, of addDifferences().
+  template <class Item>
+  std::span<const Item> itemsOfDifferences() {
+    const size_t count = number(), bytes = number(), size = (bytes + 3) / 4;
+    if (size > words_.size() || count > bytes / std::tuple_size_v<WordsOf<Item>>) throw BadSummary();
+    std::span<const std::byte> left = std::as_bytes(words_).first(bytes);
+    words_ = words_.subspan(size);
+    const std::span<const Item> made = memory_.make<Item>(count, [&](std::span<Item> items) {
+      WordsOf<Item> now{};
+      for (Item& item : items) {
+        for (uint32_t& word : now) word += differenceFrom(left);
+        std::memcpy(static_cast<void*>(&item), now.data(), sizeof item);
+      }
+    });
+    if (!left.empty()) throw BadSummary();
+    return made;
+  }
   bool isAtEnd() const { return words_.empty(); }
 
  private:
+  static uint32_t differenceFrom(std::span<const std::byte>& bytes) {
+    constexpr uint32_t kMostBits = 32;
+    uint32_t sum = 0;
+    for (uint32_t shift = 0; shift < kMostBits; shift += 7) {
+      if (bytes.empty()) break;
+      const uint32_t byte = uint32_t(bytes.front());
+      bytes = bytes.subspan(1);
+      sum |= byte % 128 << shift;
+      if (byte < 128) return sum >> 1 ^ (0 - (sum & 1));
+    }
+    throw BadSummary();
+  }
+
   const void* copied(size_t words) {
     if (words > words_.size()) throw BadSummary();
     const void* copy = memory_.copy(words_.first(words)).data();
@@ -90,9 +143,9 @@ void addBrick(const Bricks& bricks, BrickId b, const BrickCut& cut, Writer& to) 
   to.add(uint32_t(bricks.keys[b] >> 32));
   to.add(uint32_t(bricks.keys[b]));
   to.add(bricks.wordsOf(b));
-  to.add(std::span<const uint32_t>(firstCells(cut)));
+  to.addDifferences(std::span<const uint32_t>(firstCells(cut)));
   to.add(cut.componentAtCorner.value_or(~0u));
-  forArrays(cut, [&](const auto& array) { to.add(array); });
+  forArrays(cut, [&](const auto& array) { to.addDifferences(array); });
 }
 
 /// Appends it to the bricks; its cut has a place already.
@@ -109,10 +162,10 @@ void readBrick(Reader& from, const CellLayers& layers, Bricks& bricks, BrickCuts
   const std::span<const uint64_t> touched = from.items<uint64_t>();
   if (touched.size() != bricks.wordCount(b)) throw BadSummary();
   std::copy(touched.begin(), touched.end(), bricks.wordsOf(b).begin());
-  cut.gridCells = from.items<uint32_t>();
+  cut.gridCells = from.itemsOfDifferences<uint32_t>();
   cut.componentCount = uint32_t(cut.gridCells.size());
   if (const uint32_t corner = from.number(); corner != ~0u) cut.componentAtCorner = corner;
-  forArrays(cut, [&](auto& array) { array = from.items<typename std::remove_cvref_t<decltype(array)>::value_type>(); });
+  forArrays(cut, [&](auto& array) { array = from.itemsOfDifferences<typename std::remove_cvref_t<decltype(array)>::value_type>(); });
 }
 
 /// Which vertices of the mesh and its edges loops have, by the whole's ids: words of 32 of them, each with its place, ascending.
@@ -142,13 +195,13 @@ void addUsed(const UsedWords& used, Writer& to) {
     places.push_back(uint32_t(place));
     words.push_back(word);
   }
-  to.add(std::span<const uint32_t>(places));
+  to.addDifferences(std::span<const uint32_t>(places));
   to.add(std::span<const uint32_t>(words));
 }
 
 /// Appends those of another share.
 void readUsed(Reader& from, uint32_t vertices, UsedWords& used) {
-  const std::span<const uint32_t> places = from.items<uint32_t>(), words = from.items<uint32_t>();
+  const std::span<const uint32_t> places = from.itemsOfDifferences<uint32_t>(), words = from.items<uint32_t>();
   if (places.size() != words.size()) throw BadSummary();
   for (size_t i = 0; i < places.size(); ++i) {
     if (words[i] == 0 || uint64_t(places[i]) * 32 + uint64_t(std::bit_width(words[i])) > vertices) throw BadSummary();

@@ -82,3 +82,33 @@ TEST_CASE("Shares are the same where seams pass through what is hard", "[shares]
     for (const uint32_t count : {2u, 3u, 4u, 7u, 20u}) checkShares(mesh, seamGrid(), count);
   }
 }
+
+TEST_CASE("What shares tell each other takes few bytes for each of their cut-cells", "[shares]") {
+  const Mesh mesh = shapes::icosphere({0, 0, 0}, 1, 5);
+  const PreparedMesh prepared = prepare(mesh).mesh;
+  const Grid grid = Grid::around(mesh, 100);
+  size_t words = 0;
+  for (uint32_t share = 0; share < 2; ++share) words += CutShare(prepared, grid, {share, 2}).summary().size();
+  CHECK(words * sizeof(uint32_t) < 20 * cut(prepared, grid).mesh.cellCount());
+}
+
+TEST_CASE("A summary of another share that ends too early, or goes on, is refused", "[shares]") {
+  const Mesh mesh = shapes::icosphere({0, 0, 0}, 1, 1);
+  const PreparedMesh prepared = prepare(mesh).mesh;
+  const Grid grid = Grid::around(mesh, 4);
+  const std::vector<uint32_t> first = CutShare(prepared, grid, {0, 2}).summary(), second = CutShare(prepared, grid, {1, 2}).summary();
+  for (size_t length = 0; length < first.size() + 2; ++length) {
+    CAPTURE(length, first.size());
+    std::vector<uint32_t> told = first;
+    told.resize(length);
+    CutShare share(prepared, grid, {1, 2});
+    Status status = Status::ok;
+    try {
+      share.part(std::array{told, second});
+    } catch (const CallError& failure) {
+      status = failure.error.status;
+      CHECK(failure.error.element == 0);
+    }
+    CHECK(status == (length == first.size() ? Status::ok : Status::badArgument));
+  }
+}
