@@ -58,8 +58,14 @@ class Arena {
   static constexpr size_t kAlignment = 16, kFirst = size_t(1) << 16, kSecond = size_t(1) << 21, kLargest = size_t(1) << 22;
 
   struct Free {
-    std::align_val_t alignment;
-    void operator()(void* block) const { ::operator delete(block, alignment); }
+    size_t bytes;
+    void operator()(void* block) const {
+      if (bytes < kSecond) {
+        ::operator delete (block, std::align_val_t{kAlignment});
+      } else {
+        giveBackLargePages(block, bytes);
+      }
+    }
   };
 
   void* take(size_t bytes) {
@@ -75,9 +81,9 @@ class Arena {
   /// Small at first, since most cuts are.
   void addBlock(size_t least) {
     size_ = std::max(size_ == 0 ? kFirst : std::clamp(2 * size_, kSecond, kLargest), least);
-    const std::align_val_t alignment{size_ < kSecond ? kAlignment : kPageAlignment};
-    blocks_.push_back({::operator new(size_, alignment), Free{alignment}});
-    preferLargePages(blocks_.back().get(), size_);
+    if (size_ >= kSecond) size_ = (size_ + kPageAlignment - 1) / kPageAlignment * kPageAlignment;
+    blocks_.reserve(blocks_.size() + 1);
+    blocks_.push_back({size_ < kSecond ? ::operator new (size_, std::align_val_t{kAlignment}) : takeLargePages(size_), Free{size_}});
     next_ = static_cast<std::byte*>(blocks_.back().get());
     left_ = size_;
   }

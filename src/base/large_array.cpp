@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 
 #include "base/team.h"
 
@@ -51,11 +52,44 @@ void getPages(void* begin, size_t bytes, unsigned threads) {
   });
 }
 
+void* takeLargePages(size_t bytes) {
+  void* const mapped = mmap(nullptr, bytes + kLargePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (mapped == MAP_FAILED) throw std::bad_alloc();
+  const uintptr_t at = reinterpret_cast<uintptr_t>(mapped), pages = roundedUp(at, kLargePage), past = pages + bytes;
+  if (pages > at) munmap(mapped, pages - at);
+  if (past < at + bytes + kLargePage) munmap(reinterpret_cast<void*>(past), at + kLargePage - pages);
+  preferLargePages(reinterpret_cast<void*>(pages), bytes);
+  return reinterpret_cast<void*>(pages);
+}
+
+void giveBackLargePages(void* pages, size_t bytes) { munmap(pages, bytes); }
+
 #else
 
 void preferLargePages(void*, size_t) {}
 void getPages(void*, size_t) {}
 void getPages(void*, size_t, unsigned) {}
+void* takeLargePages(size_t bytes) { return ::operator new (bytes, std::align_val_t{kPageAlignment}); }
+void giveBackLargePages(void* pages, size_t) { ::operator delete (pages, std::align_val_t{kPageAlignment}); }
+
+#endif
+
+#if defined(__GLIBC__) && defined(MADV_POPULATE_WRITE)
+
+void makeRoomInHeap() {
+  constexpr size_t kRoom = size_t(31) << 20;  // what is larger never lies in the heap
+  // The first one comes from the system, but once that is freed the next lies in the heap, and, when it is freed, stays at the heap's end.
+  for (int i = 0; i < 2; ++i) {
+    void* const room = std::malloc(kRoom);
+    if (!room) return;
+    preferLargePages(room, kRoom);
+    std::free(room);
+  }
+}
+
+#else
+
+void makeRoomInHeap() {}
 
 #endif
 

@@ -28,6 +28,15 @@ MANDOLINE_SHARED void getPages(void* begin, size_t bytes);
 /// The same on several threads.
 MANDOLINE_SHARED void getPages(void* begin, size_t bytes, unsigned threads);
 
+/// Makes room at the end of this thread's heap, in large pages, which are got once they are touched: small and middling arrays that come
+/// next lie there. Nothing happens where the system can't.
+MANDOLINE_SHARED void makeRoomInHeap();
+
+/// That much memory, of which large pages come first, and which goes back to the system at once: in the heap, holes of that size would
+/// stay. `bytes` are a multiple of kPageAlignment.
+MANDOLINE_SHARED void* takeLargePages(size_t bytes);
+MANDOLINE_SHARED void giveBackLargePages(void* pages, size_t bytes);
+
 /// Leaves freed memory to the system that the allocator keeps for later, where it can; takes some milliseconds for each gigabyte.
 void giveBackFreed();
 
@@ -93,14 +102,11 @@ struct LargePages {
 
   Item* allocate(size_t count) {
     if (!isLarge(count)) return std::allocator<Item>().allocate(count);
-    const size_t bytes = (count * sizeof(Item) + kPageAlignment - 1) / kPageAlignment * kPageAlignment;
-    void* const items = ::operator new (bytes, std::align_val_t{kPageAlignment});
-    preferLargePages(items, bytes);
-    return static_cast<Item*>(items);
+    return static_cast<Item*>(takeLargePages(bytesOf(count)));
   }
   void deallocate(Item* items, size_t count) {
     if (!isLarge(count)) return std::allocator<Item>().deallocate(items, count);
-    ::operator delete (items, std::align_val_t{kPageAlignment});
+    giveBackLargePages(items, bytesOf(count));
   }
   template <class Other>
   void construct(Other* item) {
@@ -115,6 +121,7 @@ struct LargePages {
  private:
   /// From half a large page on, a whole one comes sooner than small ones.
   static bool isLarge(size_t count) { return kPageAlignment > 16 && count >= kPageAlignment / 2 / sizeof(Item); }
+  static size_t bytesOf(size_t count) { return (count * sizeof(Item) + kPageAlignment - 1) / kPageAlignment * kPageAlignment; }
 };
 
 template <class Item>

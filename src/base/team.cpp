@@ -7,6 +7,8 @@
 #include <condition_variable>
 #include <exception>
 #include <vector>
+
+#include "base/large_array.h"
 #endif
 
 namespace mandoline::detail {
@@ -14,6 +16,7 @@ namespace mandoline::detail {
 #ifdef MANDOLINE_ONE_THREAD
 struct Team::Crew {};
 Team::Team(unsigned) : size_(1) {}
+void Team::makeRoomInHeaps() const {}
 void Team::run(size_t, FunctionRef<void()> work) const { work(); }
 #else
 /// The other threads.
@@ -27,6 +30,7 @@ struct Team::Crew {
   std::atomic<bool> isOver{false};
   std::atomic<bool> isCalled{false};
   bool canStart = true;  ///< as far as is known
+  std::atomic<bool> needsRoom{false};
 
   ~Crew() {
     {
@@ -45,6 +49,7 @@ struct Team::Crew {
   }
 
   void help() {
+    if (needsRoom) makeRoomInHeap();
     for (;;) {
       watch([&] { return wanted > 0 || isOver; });
       const FunctionRef<void()>* mine;
@@ -91,6 +96,10 @@ struct Team::Crew {
 };
 
 Team::Team(unsigned threads) : size_(threads), crew_(threads > 1 ? std::make_unique<Crew>() : nullptr) {}
+
+void Team::makeRoomInHeaps() const {
+  if (crew_) crew_->needsRoom = true;
+}
 
 void Team::run(size_t threads, FunctionRef<void()> work) const {
   if (std::min<size_t>(threads, size_) <= 1) return work();

@@ -207,6 +207,7 @@ CutResult cut(const PreparedMesh& mesh, const Grid& grid, const CutOptions& opti
     Monitor monitor(options, kGridStages);
     Clock clock(result.stats, monitor);
     Run run{result.stats, monitor};
+    makeRoomFor(data->mesh->triangleCount(), monitor);
     CutState state;
     beginCut(*data->prepared, grid, state, clock, run);
     result.mesh = cutPrepared(state, *data->mesh, grid, clock, run);
@@ -223,12 +224,13 @@ CutResult cut(const MeshView& mesh, const Grid& grid, const CutOptions& options)
     Run run{result.stats, monitor};
     checkGrid(grid, options.snapTolerance);
     const SnappedInput input(mesh, grid, options, result.stats);
-    const auto prepared = prepareMesh(input.view(), {largestCoordinate(grid), options.intersections}, monitor,
-                                      [&](const char* stage) { clock.begin(stage); });
+    Fingerprint fingerprint;
+    const Preparation preparation{largestCoordinate(grid), options.intersections, false, [&] { fingerprint = fingerprintOf(mesh); }};
+    const auto prepared = prepareMesh(input.view(), preparation, monitor, [&](const char* stage) { clock.begin(stage); });
     CutState state;
     beginCut(*prepared, grid, state, clock, run);
     result.mesh = cutPrepared(state, input.view(), grid, clock, run);
-    sign(result.mesh, fingerprintOf(mesh), options);
+    sign(result.mesh, fingerprint, options);
   });
   return result;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/large_array.h"
 #include "base/run_tasks.h"
 
 namespace mandoline::detail {
@@ -72,10 +73,14 @@ void findEdges(Prepared& prepared, const Arrangement* arrangement) {
 
 /// The edges, and the triangles that may meet: neither needs the other, and whoever is done first helps with the charts.
 /// `states` are those of the search: the edges change the mesh's. `isWhole`: whether the mesh has parts of its own.
-NearTriangles findEdgesAndNear(Prepared& prepared, const std::vector<TriangleState>& states, bool isWhole, Monitor& monitor) {
+NearTriangles findEdgesAndNear(Prepared& prepared, const std::vector<TriangleState>& states, bool isWhole, Monitor& monitor,
+                               const std::function<void()>& meanwhile = {}) {
   std::optional<SortedMesh> sorted;
   ChartFinder charts;
   const std::function<void()> tasks[] = {[&] {
+                                           if (meanwhile) meanwhile();
+                                         },
+                                         [&] {
                                            if (isWhole) {
                                              findEdges(prepared, nullptr);
                                            } else {
@@ -94,6 +99,13 @@ NearTriangles findEdgesAndNear(Prepared& prepared, const std::vector<TriangleSta
 
 }  // namespace
 
+void makeRoomFor(size_t triangles, const Monitor& monitor) {
+  constexpr size_t kMany = 1000;
+  if (triangles < kMany) return;
+  makeRoomInHeap();
+  monitor.team().makeRoomInHeaps();
+}
+
 CheckedMesh checkInput(const MeshView& mesh, double largest) {
   checkArrays(mesh);
   CheckedMesh checked{referencedVertices(mesh), 0};
@@ -104,6 +116,7 @@ CheckedMesh checkInput(const MeshView& mesh, double largest) {
 
 std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monitor& monitor) {
   constexpr size_t kBlock = 1 << 14;  // vertices or triangles that are worth a thread: little is done with each
+  makeRoomFor(mesh.triangleCount(), monitor);
   const CheckedMesh checked = checkInput(mesh, largest);
   const std::vector<uint8_t>& referenced = checked.referenced;
   auto prepared = std::make_unique<Prepared>();
@@ -158,8 +171,11 @@ void arrangeInput(Prepared& prepared, Contacts contacts, bool keepContacts, Moni
 }
 
 void resolveInput(Prepared& prepared, const Preparation& preparation, Monitor& monitor, Predicates& predicates) {
-  if (preparation.intersections == Intersections::assumeNone) return findEdges(prepared, nullptr);
-  const NearTriangles near = findEdgesAndNear(prepared, std::vector<TriangleState>(prepared.states), true, monitor);
+  if (preparation.intersections == Intersections::assumeNone) {
+    if (preparation.meanwhile) preparation.meanwhile();
+    return findEdges(prepared, nullptr);
+  }
+  const NearTriangles near = findEdgesAndNear(prepared, std::vector<TriangleState>(prepared.states), true, monitor, preparation.meanwhile);
   if (preparation.intersections == Intersections::refuse) {
     return refuseIntersections(prepared, findContacts(prepared, near, monitor, predicates, 1));
   }

@@ -71,7 +71,12 @@ struct Preparation {
   double largest = 0;  ///< of all coordinates that are to be scaled, beside the mesh's
   Intersections intersections = Intersections::resolve;
   bool keepContacts = false;
+  std::function<void()> meanwhile = {};  ///< what a thread of its own can do beside the search for edges
 };
+
+/// Makes room in the heaps of all threads that work on such a mesh, if it is large: in a small one's, most of a large page would not be
+/// used.
+void makeRoomFor(size_t triangles, const Monitor& monitor);
 
 /// The input of a cut, checked, and how it is scaled.
 struct CheckedMesh {

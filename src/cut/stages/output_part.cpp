@@ -206,13 +206,14 @@ CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& r
   const std::vector<VertexId>& surface = state.bricks.here.isShare ? ofShare : used;
 
   // One kind after the other, so that what the bricks have of it need not last as long as all of the result.
-  constexpr size_t kMuch = size_t(1) << 30;
+  constexpr size_t kMuch = size_t(1) << 30, kLargePages = size_t(1) << 20;
   const bool isMuch = state.cuts.bytes() > kMuch;
   const auto drop = [&](const auto& free) {
     if (state.isNeededAgain) return;
     free();
     if (isMuch) giveBackFreed();
   };
+  if (state.cuts.bytes() >= kLargePages) makeRoomInHeap();
   Rooms rooms(numbers, std::exchange(state.spare, {}), keptArrays, out, run.monitor);
   drop([&] { state.cuts.free(&BrickMemory::seams); });
   const auto isKept = [&](uint32_t b) { return keptArrays && state.kept->isInner({b}); };
