@@ -1,7 +1,11 @@
 // Ids of one kind and the arrays that go by them; memory for arrays.
 #include <algorithm>
 #include <array>
+#include <cstdio>
+#include <fstream>
 #include <numeric>
+#include <string>
+#include <thread>
 #include <type_traits>
 
 #include "base/arena.h"
@@ -149,3 +153,56 @@ TEST_CASE("Getting pages changes nothing that is there", "[base]") {
   copyLarge(made, same);
   CHECK((same == made));
 }
+
+TEST_CASE("Large arrays begin where large pages do, also once they have grown", "[base]") {
+  LargeVector<uint64_t> items;
+  for (uint64_t i = 0; i < 1'000'000; ++i) items.push_back(i * i);
+  CHECK(reinterpret_cast<uintptr_t>(items.data()) % kPageAlignment == 0);
+  LargeVector<uint64_t> copy = items;
+  items = {};
+  bool isSame = true;
+  for (uint64_t i = 0; i < copy.size(); ++i) isSame = isSame && copy[i] == i * i;
+  CHECK(isSame);
+}
+
+// What watches memory has a heap of its own.
+#ifdef __has_feature
+#define MANDOLINE_SANITIZED (__has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer))
+#else
+#define MANDOLINE_SANITIZED 0
+#endif
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !MANDOLINE_SANITIZED
+
+namespace {
+
+/// The flags of the mapping in which an address lies: "hg" is among them where large pages are preferred.
+std::string mappingFlags(const void* address) {
+  std::ifstream file("/proc/self/smaps");
+  const auto at = reinterpret_cast<uintptr_t>(address);
+  bool isThere = false;
+  for (std::string line; std::getline(file, line);) {
+    uintptr_t begin = 0, end = 0;
+    if (std::sscanf(line.c_str(), "%lx-%lx ", &begin, &end) == 2) isThere = begin <= at && at < end;
+    if (isThere && line.starts_with("VmFlags:")) return line + " ";
+  }
+  return "";
+}
+
+/// Of an array that is made once there is room, in its middle.
+std::string flagsInRoom() {
+  makeRoomInHeap();
+  const std::vector<char> array(size_t(12) << 20, 'x');
+  return mappingFlags(array.data() + array.size() / 2);
+}
+
+}  // namespace
+
+TEST_CASE("Arrays lie in large pages of the heap once there is room, on any thread", "[base]") {
+  std::string here = flagsInRoom(), there;
+  if (here.empty()) return;  // the system doesn't tell
+  std::thread([&] { there = flagsInRoom(); }).join();
+  CHECK(here.find(" hg ") != here.npos);
+  CHECK(there.find(" hg ") != there.npos);
+}
+
+#endif
