@@ -35,12 +35,10 @@ class SurfaceCutter {
   void run() {
     const auto parts = bricks_.parts[brick_];
     const ClippedTriangles::Part* const all = parts_.clipped.parts.data();
-    for (size_t i = 0; i < parts.size(); ++i) {
-      if (i + 4 * kAhead < parts.size()) prefetch(all + parts[i + 4 * kAhead]);
-      if (i + 3 * kAhead < parts.size()) prefetchTriangle(all[parts[i + 3 * kAhead]].triangle);
-      if (i + 2 * kAhead < parts.size()) prefetchCorners(all[parts[i + 2 * kAhead]]);
-      if (i + kAhead < parts.size()) prefetchCrossings(all[parts[i + kAhead]]);
-      cut(all[parts[i]]);
+    for (size_t begin = 0; begin < parts.size(); begin += kAhead) {
+      const size_t past = std::min(begin + kAhead, parts.size());
+      for (size_t i = begin; i < past; ++i) prefetchOf(parts, i);
+      for (size_t i = begin; i < past; ++i) cut(all[parts[i]]);
     }
     faces_.end();
     out_.inner.listFloating(out_.specialFaces);
@@ -89,8 +87,17 @@ class SurfaceCutter {
     bool isSpecial = false;                                ///< see PartedCell
   };
   static constexpr bool kInGrid = true;  // nothing of a part lies outside
-  static constexpr size_t kAhead = 4;    // parts, while what is known of one comes from memory
+  static constexpr size_t kAhead = 16;   // parts, while what is known of one comes from memory
 
+  /// What later ones need, each time a step further. Of many in a row, since WebAssembly waits for what it reads, but for several at once.
+  template <class Parts>
+  void prefetchOf(const Parts& parts, size_t i) const {
+    const ClippedTriangles::Part* const all = parts_.clipped.parts.data();
+    if (i + 4 * kAhead < parts.size()) prefetch(all + parts[i + 4 * kAhead]);
+    if (i + 3 * kAhead < parts.size()) prefetchTriangle(all[parts[i + 3 * kAhead]].triangle);
+    if (i + 2 * kAhead < parts.size()) prefetchCorners(all[parts[i + 2 * kAhead]]);
+    if (i + kAhead < parts.size()) prefetchCrossings(all[parts[i + kAhead]]);
+  }
   void prefetchTriangle(TriangleId triangle) const {
     prefetch(&input_.mesh->triangles[triangle.number]);
     prefetch(&surface_.edges().sideEdges[3 * size_t(triangle.number)]);
