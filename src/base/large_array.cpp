@@ -53,7 +53,7 @@ void getPages(void* begin, size_t bytes, unsigned threads) {
 }
 
 void* takeLargePages(size_t bytes) {
-  void* const mapped = mmap(nullptr, bytes + kLargePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  void* const mapped = mmap(nullptr, bytes + kLargePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (mapped == MAP_FAILED) throw std::bad_alloc();
   const uintptr_t at = reinterpret_cast<uintptr_t>(mapped), pages = roundedUp(at, kLargePage), past = pages + bytes;
   if (pages > at) munmap(mapped, pages - at);

@@ -73,14 +73,10 @@ void findEdges(Prepared& prepared, const Arrangement* arrangement) {
 
 /// The edges, and the triangles that may meet: neither needs the other, and whoever is done first helps with the charts.
 /// `states` are those of the search: the edges change the mesh's. `isWhole`: whether the mesh has parts of its own.
-NearTriangles findEdgesAndNear(Prepared& prepared, const std::vector<TriangleState>& states, bool isWhole, Monitor& monitor,
-                               const std::function<void()>& meanwhile = {}) {
+NearTriangles findEdgesAndNear(Prepared& prepared, const std::vector<TriangleState>& states, bool isWhole, Monitor& monitor) {
   std::optional<SortedMesh> sorted;
   ChartFinder charts;
   const std::function<void()> tasks[] = {[&] {
-                                           if (meanwhile) meanwhile();
-                                         },
-                                         [&] {
                                            if (isWhole) {
                                              findEdges(prepared, nullptr);
                                            } else {
@@ -114,7 +110,7 @@ CheckedMesh checkInput(const MeshView& mesh, double largest) {
   return checked;
 }
 
-std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monitor& monitor) {
+std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monitor& monitor, const std::function<void()>& meanwhile) {
   constexpr size_t kBlock = 1 << 14;  // vertices or triangles that are worth a thread: little is done with each
   makeRoomFor(mesh.triangleCount(), monitor);
   const CheckedMesh checked = checkInput(mesh, largest);
@@ -134,7 +130,9 @@ std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monito
       kBlock);
   for (const uint32_t count : flushed) counts.flushedCoordinates += count;
   prepared->triVertices = uint32_t(prepared->points.size());
-  const std::vector<uint32_t> lowest = weld(referenced, prepared->points);
+  std::vector<uint32_t> lowest;
+  const std::function<void()> tasks[] = {[&] { lowest = weld(referenced, prepared->points); }, meanwhile};
+  runTasks(std::span(tasks).first(meanwhile ? 2 : 1), monitor);
   for (uint32_t v = 0; v < lowest.size(); ++v) counts.weldedVertices += lowest[v] != v;
   prepared->triangles.resize(mesh.triangleCount());
   prepared->states.assign(mesh.triangleCount(), TriangleState::kept);
@@ -171,11 +169,8 @@ void arrangeInput(Prepared& prepared, Contacts contacts, bool keepContacts, Moni
 }
 
 void resolveInput(Prepared& prepared, const Preparation& preparation, Monitor& monitor, Predicates& predicates) {
-  if (preparation.intersections == Intersections::assumeNone) {
-    if (preparation.meanwhile) preparation.meanwhile();
-    return findEdges(prepared, nullptr);
-  }
-  const NearTriangles near = findEdgesAndNear(prepared, std::vector<TriangleState>(prepared.states), true, monitor, preparation.meanwhile);
+  if (preparation.intersections == Intersections::assumeNone) return findEdges(prepared, nullptr);
+  const NearTriangles near = findEdgesAndNear(prepared, std::vector<TriangleState>(prepared.states), true, monitor);
   if (preparation.intersections == Intersections::refuse) {
     return refuseIntersections(prepared, findContacts(prepared, near, monitor, predicates, 1));
   }
@@ -217,7 +212,7 @@ std::unique_ptr<Prepared> prepareMesh(const MeshView& mesh, const Preparation& p
                                       const std::function<void(const char*)>& beginStage) {
   Predicates predicates;
   beginStage("input");
-  auto prepared = weldInput(mesh, preparation.largest, monitor);
+  auto prepared = weldInput(mesh, preparation.largest, monitor, preparation.meanwhile);
   dropFlat(*prepared, nullptr, monitor, predicates);
   if (preparation.intersections != Intersections::assumeNone) beginStage("intersections");
   resolveInput(*prepared, preparation, monitor, predicates);

@@ -71,7 +71,7 @@ struct Preparation {
   double largest = 0;  ///< of all coordinates that are to be scaled, beside the mesh's
   Intersections intersections = Intersections::resolve;
   bool keepContacts = false;
-  std::function<void()> meanwhile = {};  ///< what a thread of its own can do beside the search for edges
+  std::function<void()> meanwhile = {};  ///< what a thread of its own can do while vertices are welded
 };
 
 /// Makes room in the heaps of all threads that work on such a mesh, if it is large: in a small one's, most of a large page would not be
@@ -85,8 +85,8 @@ struct CheckedMesh {
 };
 /// `largest` as of a Preparation.
 MANDOLINE_SHARED CheckedMesh checkInput(const MeshView& mesh, double largest);
-/// The first third: the checked and welded mesh. `largest` as of a Preparation.
-std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monitor& monitor);
+/// The first third: the checked and welded mesh. `largest` and `meanwhile` as of a Preparation.
+std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monitor& monitor, const std::function<void()>& meanwhile = {});
 /// The second: drops triangles without area; `moved` as of dropZeroArea().
 void dropFlat(Prepared& prepared, const Moved* moved, Monitor& monitor, Predicates& predicates);
 /// The third: its edges and, unless intersections are assumed to be none, where triangles meet.
