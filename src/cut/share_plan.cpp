@@ -116,7 +116,7 @@ namespace {
 // freed when a piece is measured.
 constexpr uint64_t kInspectingBytes = 68, kPreparingBytes = 48, kFreedBytes = 20;
 
-constexpr uint64_t kSeamFaceBytes = 150;  // of a message: a face in a plane, with its share of the vertices there
+constexpr uint64_t kSeamFaceBytes = 235;  // of a message: a face in a plane, with its share of the vertices there
 
 constexpr uint64_t kMadeBytes = 24;  // of a message
 
@@ -266,7 +266,7 @@ struct SharePlanner::Data {
 
   /// Which vertices of the surface loops have, as summaries tell it.
   void addUsed(const ShareLayers& shares, std::vector<LayerLoad>& sums) const {
-    constexpr uint64_t kWordBytes = 8;
+    constexpr uint64_t kWordBytes = 5;
     std::vector<uint32_t> rankOf;  // per layer of grid cells
     for (uint32_t rank = 0; rank < sums.size(); ++rank) rankOf.resize(size_t(shares.of(rank).past), rank);
     std::vector<uint32_t> last(sums.size(), ~0u);

@@ -22,6 +22,7 @@ class Writer {
   /// Items that are like those before them: of each word of theirs the difference, in as few bytes as it needs. The lowest bit is the sign.
   template <class Item>
   void addDifferences(std::span<const Item> items) {
+    static_assert(std::has_unique_object_representations_v<Item>);  // all bytes of it are known
     WordsOf<Item> before{};
     bytes_.clear();
     for (const Item& item : items) {

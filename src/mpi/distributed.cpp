@@ -226,7 +226,8 @@ struct DistributedCut::Data {
     comm.together(kNoun, [&] {
       if (above < 0) return;
       PlaneFaces faces = facesInPlane(numbered, int32_t(share->layers()[1]));
-      faces.surface = measuring::partMeasuredBy(faces.cutMesh, named());
+      // Bands have the triangles between them in common.
+      if (!isPreparedInShares) faces.surface = measuring::partMeasuredBy(faces.cutMesh, named());
       bytes = packed(faces);
     });
     bytes = comm.exchange(bytes, above, below);

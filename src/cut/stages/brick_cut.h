@@ -27,21 +27,21 @@ struct BrickRow {
 struct BoundaryHalf {
   HalfFace halfFace;
   uint32_t component;
-  bool isTri;
+  uint32_t isTri;                ///< or 0; there are no bytes between, since other processes are told all
   std::array<int32_t, 2> steps;  ///< of a tri-cut-face, as those of a WindingStep
 };
 
 /// A grid-face on the boundary of the brick, by the cell of the brick that has it.
 struct BoundaryFace {
-  uint32_t cell;  ///< in the brick's box
-  uint8_t index;  ///< in the cell
+  uint32_t cell;   ///< in the brick's box
+  uint32_t index;  ///< in the cell
   Range triFaces, pieces, halves;
 };
 
 /// A grid-edge or grid vertex on the boundary of the brick, by its first cell there, with what is in its part of lineVertices.
 struct BoundaryLine {
   uint32_t cell;
-  uint8_t index;  ///< of a corner, or 8 + that of a grid-edge
+  uint32_t index;  ///< of a corner, or 8 + that of a grid-edge
   Range vertices;
 };
 

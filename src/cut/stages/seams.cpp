@@ -57,7 +57,7 @@ class SeamFinder {
   }
 
   /// The grid vertex or grid-edge of a cell, and its number there.
-  static Slab elementOf(const Slab& cell, uint8_t index) {
+  static Slab elementOf(const Slab& cell, uint32_t index) {
     Slab element = cell;
     for (size_t d = 0; d < 3 && index < 8; ++d) element[d] += index >> d & 1 ? 1 : -1;
     if (index < 8) return element;
