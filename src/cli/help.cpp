@@ -82,9 +82,9 @@ Options of cut
                          them on a side, in .vtu files and polyMesh folders; .json files
                          get all cells as one mesh (CellComplex) instead of the cut-mesh.
                          There are at least LAYERS layers of cells of each size between
-                         smaller and larger ones; of those with 2 grid cells on a side half as
-                         many, if these are 2 or more (default: 1 of grid cells, and of others
-                         a 24th of the grid cells along the longest side; with 0 there are the
+                         smaller and larger ones; of those with 2 grid cells on a side a quarter
+                         as many, but 2 if there are (default: 1 of grid cells, and of others
+                         a twelfth of the grid cells along the longest side; with 0 there are the
                          fewest cells, which solvers are worst on)
   --refine LEVELS[,DEGREES]
                          divide grid cells up to LEVELS times where normals of triangles in one

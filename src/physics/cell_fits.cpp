@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/large_array.h"
+#include "physics/cell_fitter.h"
 #include "physics/node_loops.h"
 
 namespace mandoline::physics {
@@ -71,40 +72,6 @@ void forCells(const CellComplex& cells, const FitData& data, size_t n, detail::M
 
 }  // namespace
 
-FitFactors::FitFactors(std::span<const FitEquation> equations) {
-  std::array<Row, kUnknowns> matrix{};  // lower triangle
-  for (const FitEquation& equation : equations) {
-    const Row& row = equation.row;
-    for (size_t i = 0; i < kUnknowns; ++i) {
-      const double factor = equation.weight * row[i];
-      for (size_t j = 0; j <= (i | 1); ++j) matrix[i][j] += factor * row[j];  // in pairs, as processors add
-    }
-  }
-  constexpr double kTowardsZero = 1e-4;
-  double trace = 0;
-  for (size_t i = 0; i < kUnknowns; ++i) trace += matrix[i][i];
-  for (size_t i = 3; i < kUnknowns; ++i) matrix[i][i] += kTowardsZero * trace;
-  for (size_t j = 0; j < kUnknowns; ++j) {  // Cholesky: matrix = L D L^T
-    const bool isOpen = !(matrix[j][j] > 1e-13 * trace);
-    pivot_[j] = isOpen ? 0 : 1 / matrix[j][j];
-    for (size_t i = j + 1; i < kUnknowns; ++i) {
-      const double factor = at(i, j) = matrix[i][j] * pivot_[j];
-      for (size_t k = j + 1; k <= i; ++k) matrix[i][k] -= factor * matrix[k][j];
-    }
-  }
-}
-
-FitFactors::Row FitFactors::solve(Row x) const {
-  for (size_t j = 0; j < kUnknowns; ++j) {
-    for (size_t i = j + 1; i < kUnknowns; ++i) x[i] -= at(i, j) * x[j];
-  }
-  for (size_t j = kUnknowns; j-- > 0;) {
-    x[j] *= pivot_[j];
-    for (size_t i = j + 1; i < kUnknowns; ++i) x[j] -= at(i, j) * x[i];
-  }
-  return x;
-}
-
 CellFits::CellFits(size_t cellCount, unsigned threads) {
   detail::makeLargeOnThreads(gradient, 3 * cellCount, threads);
   detail::makeLargeOnThreads(second, 6 * cellCount, threads);
@@ -139,13 +106,17 @@ void fitCells(const CellComplex& cells, std::span<const uint32_t> which, const C
   });
 }
 
-CellFitter::CellFitter(const CellComplex& cells, FitData data, std::vector<uint32_t> which, detail::Monitor& monitor)
-    : cells_(cells), data_(std::move(data)), fits_(cells.cellCount(), monitor.threads()) {
-  std::erase_if(which, [&](uint32_t c) { return !(data_.cellSize[c] > 0); });
+CellFitter::CellFitter(const FitSource& source, FitData data, std::vector<uint32_t> which, std::vector<uint32_t> cubic,
+                       detail::Monitor& monitor)
+    : cells_(source.cells),
+      data_(std::move(data)),
+      cubic_(source, data_, cubic, true, monitor),
+      fits_(cells_.cellCount(), monitor.threads()) {
+  std::erase_if(which, [&](uint32_t c) { return !(data_.cellSize[c] > 0) || std::binary_search(cubic.begin(), cubic.end(), c); });
   which_ = std::move(which);
   std::vector<std::vector<uint32_t>> ids(which_.size());
   factors_.resize(which_.size());
-  forCells(cells, data_, which_.size(), monitor, [&](Equations& equations, size_t i) {
+  forCells(cells_, data_, which_.size(), monitor, [&](Equations& equations, size_t i) {
     ids[i] = equations.gather(which_[i]);
     factors_[i] = FitFactors(equations.of(which_[i], ids[i]));
   });
@@ -159,6 +130,7 @@ const CellFits& CellFitter::fit(const std::vector<double>& values, const std::ve
   forCells(cells_, data_, which_.size(), monitor, [&](Equations& equations, size_t i) {
     fits_.fit({data_, values, source}, which_[i], factors_[i], equations.of(which_[i], ids_[i]));
   });
+  cubic_.fit({data_, values, source}, monitor, fits_);
   return fits_;
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "physics/fit_data.h"
+#include "physics/least_squares.h"
 
 namespace mandoline::physics {
 
@@ -19,33 +20,42 @@ struct FitEquation {
 /// That of a cell with this centroid and size. Inline, since fits are a tenth quicker so.
 inline FitEquation equationOf(const FitDatum& datum, const double* centroid, double size, uint32_t id) {
   const Point& n = datum.direction;
-  double r[3], square = 0, along = 0;
-  for (size_t d = 0; d < 3; ++d) r[d] = (datum.point[d] - centroid[d]) / size, square += r[d] * r[d], along += n[d] * r[d];
+  double r[3], square = 0;
+  for (size_t d = 0; d < 3; ++d) r[d] = (datum.point[d] - centroid[d]) / size, square += r[d] * r[d];
   const double nearness = 1 / (0.25 + square), weight = datum.weight / (size * size) * nearness * nearness;
-  return {{n[0], n[1], n[2], n[0] * r[0] - n[2] * r[2], n[1] * r[1] - n[2] * r[2], n[0] * r[1] + n[1] * r[0], n[1] * r[2] + n[2] * r[1],
-           n[0] * r[2] + n[2] * r[0]},
-          along,
-          weight,
-          id};
+  std::array<double, 6> s = datum.spread;
+  for (size_t d = 0; d < 3; ++d)
+    s[d] = s[d] / size + n[d] * r[d], s[3 + d] = s[3 + d] / size + n[d] * r[(d + 1) % 3] + n[(d + 1) % 3] * r[d];
+  return {{n[0], n[1], n[2], s[0] - s[2], s[1] - s[2], s[3], s[4], s[5]}, s[0] + s[1] + s[2], weight, id};
 }
 
 /// The factors of a cell's normal equations. Second derivatives that the data leave open, or nearly, are near zero; so are gradients.
-class FitFactors {
+class FitFactors : public SquareFactors<FitEquation::kUnknowns> {
  public:
-  static constexpr size_t kUnknowns = FitEquation::kUnknowns;
-  using Row = FitEquation::Row;
-
   FitFactors() = default;
-  explicit FitFactors(std::span<const FitEquation> equations);
-  Row solve(Row right) const;
-
- private:
-  double& at(size_t i, size_t j) { return lower_[i * (i - 1) / 2 + j]; }
-  double at(size_t i, size_t j) const { return lower_[i * (i - 1) / 2 + j]; }
-
-  std::array<double, kUnknowns*(kUnknowns - 1) / 2> lower_{};  // below the diagonal, which is 1
-  Row pivot_{};
+  explicit FitFactors(std::span<const FitEquation> equations) : SquareFactors(equations, 1e-4) {}
 };
+
+/// The third derivatives xxx, yyy, zzz, xxy, yyz, zzx, xxz, yyx, zzy, xyz.
+using Thirds = std::array<double, 10>;
+
+/// What each of them is multiplied by in the sum over i, j and k of a_i b_j c_k times the derivative ijk.
+inline Thirds productOf(const Point& a, const Point& b, const Point& c) {
+  Thirds product;
+  const auto twice = [&](size_t i, size_t j) { return a[i] * b[i] * c[j] + a[i] * b[j] * c[i] + a[j] * b[i] * c[i]; };
+  for (size_t d = 0; d < 3; ++d) {
+    product[d] = a[d] * b[d] * c[d];
+    product[3 + d] = twice(d, (d + 1) % 3);
+    product[6 + d] = twice(d, (d + 2) % 3);
+  }
+  product[9] = a[0] * (b[1] * c[2] + b[2] * c[1]) + a[1] * (b[0] * c[2] + b[2] * c[0]) + a[2] * (b[0] * c[1] + b[1] * c[0]);
+  return product;
+}
+inline double sumOf(const Thirds& thirds, const Thirds& product) {
+  double sum = 0;
+  for (size_t i = 0; i < thirds.size(); ++i) sum += thirds[i] * product[i];
+  return sum;
+}
 
 struct CellFits {
   std::vector<double> gradient;  ///< 3 per cell, at its centroid
@@ -63,7 +73,13 @@ struct CellFits {
   void set(size_t cell, const FitEquation::Row& unknowns, double size, double mean);
   void fit(const Known& known, uint32_t cell, const FitFactors& factors, std::span<const FitEquation> equations);
 
-  /// The gradient of a cell's polynomial at a point.
+  /// What is known of third derivatives, of some cells.
+  std::vector<Thirds> third;
+  std::vector<uint32_t> thirdOf;  ///< per cell: its number among these, or kNoThirds; empty if there are none
+  const Thirds* thirdsOf(size_t cell) const { return thirdOf.empty() || thirdOf[cell] == kNoThirds ? nullptr : &third[thirdOf[cell]]; }
+  static constexpr uint32_t kNoThirds = ~uint32_t(0);
+
+  /// The gradient of a cell's polynomial of degree two at a point.
   Point gradientAt(const CellComplex& cells, size_t cell, const Point& point) const {
     const double *g = &gradient[3 * cell], *s = &second[6 * cell], *centroid = &cells.cellCentroid[3 * cell];
     const double x = point[0] - centroid[0], y = point[1] - centroid[1], z = point[2] - centroid[2];
@@ -74,25 +90,5 @@ struct CellFits {
 /// Fits the cells in `which`.
 void fitCells(const CellComplex& cells, std::span<const uint32_t> which, const CellFits::Known& known, detail::Monitor& monitor,
               CellFits& fits);
-
-/// Fits some cells again and again.
-class CellFitter {
- public:
-  /// `data`: those of `which`, at least.
-  CellFitter(const CellComplex& cells, FitData data, std::vector<uint32_t> which, detail::Monitor& monitor);
-
-  const FitData& data() const { return data_; }
-
-  /// Those of other cells are zero. Valid until the next call.
-  const CellFits& fit(const std::vector<double>& values, const std::vector<double>& source, detail::Monitor& monitor);
-
- private:
-  const CellComplex& cells_;
-  FitData data_;
-  std::vector<uint32_t> which_;
-  detail::Csr<uint32_t> ids_;  // per cell of which_: its data
-  std::vector<FitFactors> factors_;
-  CellFits fits_;
-};
 
 }  // namespace mandoline::physics

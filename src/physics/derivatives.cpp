@@ -19,20 +19,23 @@ struct Said {
 
 struct Places {
   Point from, to, centroid, normal;
+  Point spread{};  ///< of the face, as of spreadOf()
 };
+
+Point differenceOf(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 Said saidOf(const CellComplex& cells, const CellFits& fits, size_t cell, const Places& at) {
   Point middle, step;
   for (size_t d = 0; d < 3; ++d) middle[d] = (at.from[d] + at.to[d]) / 2, step[d] = at.to[d] - at.from[d];
-  return {dot(fits.gradientAt(cells, cell, middle), step), dot(fits.gradientAt(cells, cell, at.centroid), at.normal)};
-}
-
-/// How much more than at its centroid a function is in the mean on a rectangle, per second derivative along each axis.
-Point spreadOf(const CellComplex& cells, size_t f) {
-  const FaceBox box = faceBox(cells, f);
-  Point spread;
-  for (size_t d = 0; d < 3; ++d) spread[d] = (box.high[d] - box.low[d]) * (box.high[d] - box.low[d]) / 24;
-  return spread;
+  Said said{dot(fits.gradientAt(cells, cell, middle), step), dot(fits.gradientAt(cells, cell, at.centroid), at.normal)};
+  if (const Thirds* thirds = fits.thirdsOf(cell)) {
+    const Point centroid = pointAt(cells.cellCentroid, cell), toMiddle = differenceOf(middle, centroid),
+                toFace = differenceOf(at.centroid, centroid);
+    said.difference += sumOf(*thirds, productOf(step, toMiddle, toMiddle)) / 2 + sumOf(*thirds, productOf(step, step, step)) / 24;
+    said.derivative += sumOf(*thirds, productOf(at.normal, toFace, toFace)) / 2;
+    for (size_t d = 0; d < 3; ++d) said.derivative += at.spread[d] * sumOf(*thirds, productOf(at.normal, kAxes[d], kAxes[d]));
+  }
+  return said;
 }
 
 }  // namespace
@@ -77,7 +80,10 @@ CellFitter Differentiator::fitter(detail::Monitor& monitor) const {
   for (uint32_t c = 0; c < isFitted.size(); ++c) {
     if (isFitted[c]) fitted.push_back(c);
   }
-  return {cells_, fitData({cells_, dual_, edgesOfCells_, problem_}, &fitted, coefficients_, monitor.threads()), fitted, monitor};
+  const FitSource source{cells_, dual_, edgesOfCells_, problem_};
+  std::vector<uint32_t> cubic;
+  if (coefficients_.value.empty()) cubic = cubicCells(source, fitted, false);
+  return {source, fitData(source, &fitted, coefficients_, monitor.threads()), fitted, cubic, monitor};
 }
 
 /// Octree cells of one size, larger than grid cells.
@@ -200,10 +206,13 @@ double Differentiator::addedByThirds(size_t e, const CellFits& fits) const {
 double Differentiator::correctionOf(size_t e, size_t f, const CellFits& fits, const std::vector<double>& phi) const {
   const std::vector<double>& points = pointsOf(cells_, problem_.dualPoints);
   const DualEdge& edge = dual_.edges[e];
-  const double plain = differenceAt(cells_, dual_, e, phi), added = isBetweenEqual(e) ? addedByThirds(e, fits) : 0;
+  const double plain = differenceAt(cells_, dual_, e, phi);
   const uint32_t other = otherCell(cells_, edge, f);
+  const bool areCubic = fits.thirdsOf(edge.cell) && fits.thirdsOf(other);
+  const double added = isBetweenEqual(e) && !areCubic ? addedByThirds(e, fits) : 0;
   Places at{pointAt(points, edge.cell), pointAt(points, other), pointAt(cells_.faceCentroid, f), pointAt(cells_.faceNormal, f)};
   for (double& x : at.normal) x *= edge.sign;
+  if (areCubic) at.spread = spreadOf(cells_, f);
   const Said a = saidOf(cells_, fits, edge.cell, at), b = saidOf(cells_, fits, other, at);
   const double left = phi[other] - phi[edge.cell] - plain - (a.difference + b.difference) / 2;
   return edge.sign * ((a.derivative + b.derivative) / 2 + left / edge.distance + added);
@@ -215,6 +224,7 @@ double Differentiator::correctionOnBoundary(size_t b, const CellFits& fits) cons
   Places at{pointAt(pointsOf(cells_, problem_.dualPoints), cell), pointAt(cells_.faceCentroid, f), pointAt(cells_.faceCentroid, f),
             pointAt(cells_.faceNormal, f)};
   for (double& x : at.normal) x *= h % 2 == 0 ? 1 : -1;
+  if (fits.thirdsOf(cell)) at.spread = spreadOf(cells_, f);
   const Said said = saidOf(cells_, fits, cell, at);
   return (said.derivative * terms_[b].distance - said.difference) * (terms_[b].perPhi / flowOf(i));
 }

@@ -20,4 +20,12 @@ inline FaceBox faceBox(const CellComplex& cells, size_t face) {
   return box;
 }
 
+/// How much more than at its centroid a function is in the mean on a rectangle, per second derivative along each axis.
+inline Point spreadOf(const CellComplex& cells, size_t face) {
+  const FaceBox box = faceBox(cells, face);
+  Point spread;
+  for (size_t d = 0; d < 3; ++d) spread[d] = (box.high[d] - box.low[d]) * (box.high[d] - box.low[d]) / 24;
+  return spread;
+}
+
 }  // namespace mandoline::physics

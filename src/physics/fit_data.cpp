@@ -171,14 +171,30 @@ class Maker {
       const uint32_t other = otherCell(cells_, edge, f);
       for (size_t d = 0; d < 3; ++d) others[d] += shareOf(cells_, dual_, e, f) * points_[3 * other + d];
     }
-    return between(pointAt(points_, edge.cell), others, edge.area);
+    FitDatum datum = between(pointAt(points_, edge.cell), others, edge.area);
+    if (dual_.faces[e].size() > 1 && datum.length > 0) addSpread(e, others, datum);
+    return datum;
+  }
+
+  /// Half the second moments of the points of a dual edge's other cells about their mean.
+  void addSpread(size_t e, const Point& mean, FitDatum& datum) const {
+    for (const uint32_t f : dual_.faces[e]) {
+      const uint32_t other = otherCell(cells_, dual_.edges[e], f);
+      const double share = shareOf(cells_, dual_, e, f) / datum.length;
+      Point r = pointAt(points_, other);
+      for (size_t d = 0; d < 3; ++d) r[d] -= mean[d];
+      for (size_t d = 0; d < 3; ++d) {
+        datum.spread[d] += share * r[d] * r[d] / 2;
+        datum.spread[3 + d] += share * r[d] * r[(d + 1) % 3];
+      }
+    }
   }
 
   FitDatum boundaryDatum(size_t b) const {
     const uint32_t h = problem_.boundary.halfFaces[b], f = h / 2, cell = uint32_t(cells_.faceCells[h]);
     const Point centroid = pointAt(cells_.faceCentroid, f);
     const double weight = kBoundaryWeight * cells_.faceArea[f];
-    FitDatum datum{centroid, pointAt(cells_.faceNormal, f), 1, weight};
+    FitDatum datum{centroid, pointAt(cells_.faceNormal, f), 1, weight, {}};
     if (h % 2 == 1) {
       for (double& x : datum.direction) x = -x;
     }

@@ -9,6 +9,8 @@ namespace mandoline::physics {
 
 using Point = std::array<double, 3>;
 
+inline constexpr Point kAxes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
 inline Point pointAt(const std::vector<double>& points, size_t i) { return {points[3 * i], points[3 * i + 1], points[3 * i + 2]}; }
 
 inline double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -18,6 +20,7 @@ struct FitDatum {
   Point point, direction;
   double length;  ///< that a difference is divided by
   double weight;
+  std::array<double, 6> spread;  ///< of the mean of several points: what second derivatives xx, yy, zz, xy, yz, xz add, per length
 };
 
 struct FitData {

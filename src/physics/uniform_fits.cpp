@@ -104,7 +104,7 @@ void UniformFits::findWeights() {
   std::vector<double> lengths;
   const auto add = [&](Point at, size_t side, Ends of) {
     const size_t axis = side / 2;
-    FitDatum datum{at, {}, step_[axis], step_[(axis + 1) % 3] * step_[(axis + 2) % 3]};
+    FitDatum datum{at, {}, step_[axis], step_[(axis + 1) % 3] * step_[(axis + 2) % 3], {}};
     datum.direction[axis] = signOf(side);
     datum.point[axis] += signOf(side) * step_[axis] / 2;
     equations.push_back(equationOf(datum, origin, size, uint32_t(ends.size())));

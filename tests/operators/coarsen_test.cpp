@@ -85,7 +85,7 @@ class Reference {
   /// Whether a grid cell below a level lies in the layers of blocks of this level around that of a cell.
   bool hasSmallerNear(const std::array<int64_t, 3>& cell, int at) const {
     std::array<int64_t, 3> first{}, past{};
-    const int layers = at == 1 && options_.layersPerLevel > 2 ? std::max(2, options_.layersPerLevel / 2) : options_.layersPerLevel;
+    const int layers = at == 1 && options_.layersPerLevel > 2 ? std::max(2, options_.layersPerLevel / 4) : options_.layersPerLevel;
     for (size_t d = 0; d < 3; ++d) {
       first[d] = std::max<int64_t>(0, ((cell[d] >> at) - layers) << at);
       past[d] = std::min(n_[d], ((cell[d] >> at) + layers + 1) << at);
@@ -190,7 +190,7 @@ TEST_CASE("coarsen: any counts of grid cells", "[coarsen]") {
 }
 
 TEST_CASE("coarsen: by default a fine layer, and layers of each size in proportion to the grid cells", "[coarsen]") {
-  for (const auto& [n, layers] : {std::pair(int64_t(20), 1), {64, 2}, {100, 4}}) {
+  for (const auto& [n, layers] : {std::pair(int64_t(20), 1), {64, 5}, {100, 8}}) {
     const CutMesh mesh = cutOf(shapes::icosphere({6, 5, 4}, 1.5, 2), unitGrid(12, 9, n));
     CoarsenOptions options;
     options.fineLayers = 1, options.layersPerLevel = layers;

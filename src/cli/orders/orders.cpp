@@ -195,29 +195,29 @@ void printBalls(const std::vector<int64_t>& cells, Orders& orders) {
                          2,
                          false,
                          DualPoints::centres,
-                         {{{1.9, 2.3, 1.8, 1.2}, {1.8, 2.3, 1.0, 1.2}, {1.8, 1.6, 1.8, 1.1}, {1.8, 1.6, 1.0, 1.1}}}},
+                         {{{1.9, 2.3, 1.8, 1.2}, {1.8, 2.3, 1.8, 1.2}, {1.8, 1.6, 1.8, 1.1}, {1.8, 1.6, 1.79, 1.1}}}},
                         offCentre("derivative given on it", kManufactured, false, DualPoints::centres,
-                                  {{{2.4, 2.4, 1.9, 1.7}, {0.2, 0.2, 0.4, 0.0}, {2.4, 2.1, 1.9, 1.7}, {0.2, 1.0, 0.5, 0.3}}}),
+                                  {{{2.4, 2.4, 1.9, 1.7}, {1.8, 2.1, 2.1, 1.8}, {2.4, 2.1, 1.9, 1.7}, {1.8, 2.8, 2.2, 2.0}}}),
                         offCentre("value given on it", kHeld, false, DualPoints::centroids,
                                   {{{2.0, 2.0, 1.8, 1.4, 2.1, 1.8},
-                                    {0.3, 0.2, 0.4, -0.1, 1.8, 1.8},
+                                    {1.8, 0.6, 2.1, 1.5, 2.1, 1.8},
                                     {2.0, 2.0, 1.8, 1.7, 2.0, 1.8},
-                                    {0.3, 0.3, 0.5, 0.3, 1.8, 1.8}}}),
+                                    {1.9, 2.8, 2.1, 1.9, 2.0, 1.9}}}),
                         offCentre("value given on it, inside", kHeld, true, DualPoints::centroids,
                                   {{{2.1, 2.1, 1.9, 1.9, 1.7, 1.5},
-                                    {1.0, 0.1, 0.9, 0.1, 1.7, 1.5},
+                                    {2.8, 2.0, 2.2, 1.9, 1.7, 1.5},
                                     {2.2, 2.2, 2.0, 1.6, 1.8, 1.2},
-                                    {1.1, 0.1, 1.0, 0.2, 1.8, 1.2}}}),
+                                    {2.7, 2.2, 2.2, 1.6, 1.8, 1.2}}}),
                         offCentre("Robin condition on it", kRobin, false, DualPoints::centroids,
                                   {{{2.0, 2.0, 1.8, 1.9, 2.2, 2.4},
-                                    {0.2, 0.2, 0.4, -0.1, 1.2, 0.8},
+                                    {1.8, 1.0, 2.1, 1.8, 2.2, 2.8},
                                     {2.0, 1.8, 1.8, 1.8, 2.3, 2.3},
-                                    {0.3, 0.6, 0.6, 0.3, 1.3, 1.8}}}),
+                                    {1.8, 2.8, 2.2, 2.0, 2.4, 2.9}}}),
                         offCentre("Robin condition on it, inside", kRobin, true, DualPoints::centroids,
                                   {{{1.9, 1.9, 1.9, 1.2, 2.1, 2.5},
-                                    {1.0, 0.4, 0.7, 0.1, 1.4, 1.6},
+                                    {2.7, 2.5, 2.1, 1.2, 2.7, 2.7},
                                     {1.9, 1.9, 2.0, 1.6, 2.3, 2.4},
-                                    {1.0, 0.4, 0.8, 0.2, 1.6, 1.9}}})};
+                                    {2.8, 2.3, 2.2, 1.6, 2.8, 2.5}}})};
   for (const Ball& ball : balls) {
     for (size_t way = 0; way < kWays; ++way) printErrors(ball, way, cells, orders);
   }
@@ -227,7 +227,7 @@ void printSpeeds(const std::vector<int64_t>& cells, Orders& orders) {
   std::printf("\n| velocities of the potential flow | N | mean error | order | largest speed on the surface (exact: 1.5) |\n");
   std::printf("|---|---|---|---|---|\n");
   const Mesh mesh = makeSphere({0, 0, 0}, 1, 7);
-  constexpr double kLeast[kWays] = {1.9, 0.6, 1.9, 0.6};
+  constexpr double kLeast[kWays] = {1.9, 1.9, 1.9, 1.9};
   for (size_t way = 0; way < kWays; ++way) {
     const Discretisation& d = kDiscretisations[way];
     double before = 0;

@@ -11,8 +11,8 @@ struct CoarsenOptions : RunOptions {
   int fineLayers = 1;         ///< how many layers of grid cells around each cut one, diagonally too, are not merged
   bool balanceEdges = false;  ///< whether cells that share only an edge also differ by at most one level
   /// Least layers of cells of each level above 0, diagonally too, between smaller and larger ones; of level 1, which are the most cells,
-  /// half as many do where these are at least two. kGraded: a 24th of the grid cells along the longest side, but at least one, so that all
-  /// cells shrink as those of the grid do.
+  /// a quarter as many do, but two where there are so many. kGraded: a twelfth of the grid cells along the longest side, but at least one,
+  /// so that all cells shrink as those of the grid do.
   int layersPerLevel = kGraded;
 
   static constexpr int kGraded = -1;

@@ -25,7 +25,7 @@ void BlockTree::divideAbove(int from, const Blocks& kept, const CoarsenOptions& 
   for (int level = from + 2; level <= last; ++level) {
     monitor.report(size_t(level - from), size_t(last - from));
     const Blocks& inside = divided[size_t(level) - 1];
-    const int most = options.layersPerLevel, layers = level == from + 2 ? std::min(most, std::max(2, most / 2)) : most;
+    const int most = options.layersPerLevel, layers = level == from + 2 ? std::min(most, std::max(2, most / 4)) : most;
     if (layers > 0) divided[size_t(level)] = parentsAround(inside, level, layers);
     for (const Block& block : inside) addParents(block, level, options.balanceEdges);
     detail::sortUnique(divided[size_t(level)], isBefore);
@@ -95,7 +95,7 @@ Blocks cutBlocks(const CutMesh& cutMesh) {
 
 CoarsenOptions meantFor(const Grid& grid, CoarsenOptions options) {
   if (options.layersPerLevel == CoarsenOptions::kGraded)
-    options.layersPerLevel = std::max(1, int(std::max({grid.cells(0), grid.cells(1), grid.cells(2)}) / 24));
+    options.layersPerLevel = std::max(1, int(std::max({grid.cells(0), grid.cells(1), grid.cells(2)}) / 12));
   if (options.maxLevel < 0 || options.fineLayers < 0 || options.layersPerLevel < 0)
     throw CallError({Status::badOption, -1, -1, "maxLevel, fineLayers and layersPerLevel can't be negative."});
   return options;

@@ -97,7 +97,9 @@ class SolidBoundary {
   /// The grid's sides where untouched grid cells are, in squares as large as octree cells, and those of their other sides that lie between
   /// regions.
   void addSides() {
-    const OctreeCells octree = coarsen(cutMesh_);
+    CoarsenOptions coarsening;
+    coarsening.layersPerLevel = 1;  // more are for what computes on the cells, and here only make more squares
+    const OctreeCells octree = coarsen(cutMesh_, coarsening);
     operators::GridCorners corners(cutMesh_, octree);
     corners.setPlaces();
     corners.linkCutVertices();

@@ -35,8 +35,8 @@ export interface CoarsenOptions extends RunOptions {
   fineLayers?: number;
   /**
    * How many layers of cells of each level above 0 lie at least, diagonally too, between smaller and larger ones; of level 1, which are
-   * the most cells, half as many do where these are at least two. -1 (default): a 24th of the grid cells along the longest side, but at
-   * least one, so that all cells shrink as those of the grid do.
+   * the most cells, a quarter as many do, but two where there are so many. -1 (default): a twelfth of the grid cells along the longest
+   * side, but at least one, so that all cells shrink as those of the grid do.
    */
   layersPerLevel?: number;
   /** Whether cells that share only an edge also differ by at most one level. Default false. */

@@ -1,0 +1,29 @@
+// Polynomials of cells, fitted to one phi after another.
+#pragma once
+
+#include "physics/cubic_fits.h"
+
+namespace mandoline::physics {
+
+/// Fits some cells again and again.
+class CellFitter {
+ public:
+  /// `data`: those of `which`, at least; `cubic`: those of them whose polynomials are of degree three, ascending.
+  CellFitter(const FitSource& source, FitData data, std::vector<uint32_t> which, std::vector<uint32_t> cubic, detail::Monitor& monitor);
+
+  const FitData& data() const { return data_; }
+
+  /// Those of other cells are zero. Valid until the next call.
+  const CellFits& fit(const std::vector<double>& values, const std::vector<double>& source, detail::Monitor& monitor);
+
+ private:
+  const CellComplex& cells_;
+  FitData data_;
+  std::vector<uint32_t> which_;
+  detail::Csr<uint32_t> ids_;  // per cell of which_: its data
+  std::vector<FitFactors> factors_;
+  CubicFitter cubic_;
+  CellFits fits_;
+};
+
+}  // namespace mandoline::physics
