@@ -18,12 +18,14 @@ struct LayerLoad {
   uint64_t surfaceVertices = 0, made = 0;       ///< of the mesh and its edges; made ones of these
   uint64_t facesAbove = 0, seamFacesAbove = 0;  ///< in the plane above: those of its cells, and of these those that others have, too
   uint64_t summaryBytes = 0, brickBytes = 0;
+  uint64_t toldBytes = 0;  ///< of what summaries tell, once it is arrays again
 
   void add(const LayerLoad& more) {
     counts.add(more.counts);
     surfaceVertices += more.surfaceVertices;
     made += more.made;
     summaryBytes += more.summaryBytes;
+    toldBytes += more.toldBytes;
     brickBytes += more.brickBytes;
     facesAbove = more.facesAbove;
     seamFacesAbove = more.seamFacesAbove;
@@ -148,7 +150,9 @@ LayerLoads loadsOf(CutState& state) {
   for (const BrickId b : bricks.ids()) {
     LayerLoad& layer = all.layers[size_t(bricks.boxes[b].first[2] >> bricks.grid.shifts[2])];
     for (const BrickCounts& row : state.seams[b].rows) layer.counts.add(row);
+    const BrickCut& cut = state.cuts[b];
     layer.summaryBytes += summaryBytes(state, b);
+    layer.toldBytes += bytesOf(cut.rows, cut.boundaryFaces, cut.boundaryHalves, cut.boundaryLines, cut.openFaces, cut.steps);
     layer.brickBytes += bytesOfBrick(state.cuts[b]);
     for (const BoundaryFace& face : state.cuts[b].boundaryFaces) {
       if (face.index == above) layer.facesAbove += face.triFaces.count + face.pieces.count;
@@ -224,7 +228,7 @@ struct SharePlanner::Data {
     for (uint32_t rank = 0; rank < ranks; ++rank) {
       const auto [first, past] = shares.of(rank);
       for (int32_t z = first; z < past; z += 1 << shares.shifts()[2]) sums[rank].add(all.layers[size_t(z >> shares.shifts()[2])]);
-      summaries += sums[rank].summaryBytes;
+      summaries += sums[rank].summaryBytes + sums[rank].toldBytes;
     }
     std::vector<ShareLoad> loads(ranks);
     uint64_t seamBelow = 0;
