@@ -46,6 +46,8 @@ class CornerFinder {
     MeshPart& part = mesh_.part;
     std::vector<uint8_t> isReferenced;
     comm_.together(kSlicing, [&] {
+      if (mesh_.whole->vertices != mesh_.vertices() || mesh_.whole->triangles != mesh_.triangles())
+        throw CallError({Status::badArgument, -1, -1, "What a process can read of the mesh is not that of the slices."});
       isReferenced.resize(size_t(mesh_.vertices()));
       for (const uint32_t v : part.vertices) isReferenced[v] = 1;
       part.positions.reserve(3 * part.vertices.size());

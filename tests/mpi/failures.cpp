@@ -213,6 +213,24 @@ class ChangingSource : public detail::MeshSource {
   mutable bool isOther_ = false;
 };
 
+/// A process finds a longer or a shorter mesh than that of the slices.
+size_t changeLengths(const Mesh& mesh) {
+  size_t tried = 0;
+  for (const int changing : {0, ranksHere() - 1}) {
+    for (const bool isLonger : {false, true}) {
+      current = std::string(isLonger ? "longer" : "shorter") + " mesh of process " + std::to_string(changing);
+      alarm(kSeconds);
+      const Mesh other = isLonger ? shapes::merged({mesh, mesh}) : shapes::cube(0, 1);
+      const auto source =
+          std::make_shared<const ChangingSource>(rankHere() == changing ? other : mesh, ChangingSource::Change::moved, 1000);
+      const Outcome outcome = outcomeOf([&] { SlicedMesh(MPI_COMM_WORLD, sliceHere(mesh), source); });
+      require(outcome.rank == changing && outcome.status == int(Status::badArgument), outcome);
+      ++tried;
+    }
+  }
+  return tried;
+}
+
 size_t changeMeshes(const Mesh& mesh, const Grid& grid) {
   using Change = ChangingSource::Change;
   size_t tried = 0;
@@ -256,7 +274,8 @@ int main(int argc, char** argv) {
       allocations += failAllocations(what, step, [&, &m = mesh] { cutAll(m, grid, given); });
     }
   }
-  const size_t changes = changeMeshes(shapes::merged({shapes::icosphere({0, 0, 0}, 1, 4), shapes::cube(1, 2)}), Grid::around(ball, 9));
+  const size_t changes =
+      changeLengths(ball) + changeMeshes(shapes::merged({shapes::icosphere({0, 0, 0}, 1, 4), shapes::cube(1, 2)}), Grid::around(ball, 9));
   alarm(0);
   const int anyWrong = all(int(wrong), MPI_MAX);
   if (rankHere() == 0) std::cout << allocations << " allocations and " << changes << " readings have failed" << std::endl;
