@@ -1,6 +1,6 @@
 #include "cut/share_summary.h"
 
-#include <bit>
+#include <array>
 #include <cstring>
 
 #include "base/sort.h"
@@ -26,7 +26,8 @@ class Writer {
     WordsOf<Item> before{};
     bytes_.clear();
     for (const Item& item : items) {
-      const auto now = std::bit_cast<WordsOf<Item>>(item);
+      WordsOf<Item> now;
+      std::memcpy(&now, &item, sizeof now);
       for (size_t i = 0; i < now.size(); ++i) {
         const uint32_t difference = now[i] - before[i];
         uint32_t left = difference << 1 ^ (0 - (difference >> 31));

@@ -1,7 +1,7 @@
 #include "physics/cubic_fits.h"
 
 #include <algorithm>
-#include <bit>
+#include <cstring>
 #include <cmath>
 #include <unordered_map>
 
@@ -69,7 +69,12 @@ void CubicFitter::gather(const FitData& data, uint32_t cell, std::vector<uint32_
 
 /// Cells with the same equations, but for rounding, get the same number, and have them in the same order.
 uint64_t CubicFitter::sortByEquation(const FitData& data, uint32_t cell, std::vector<uint32_t>& items) const {
-  const auto add = [](uint64_t& sum, double x) { sum = detail::mixed(sum, std::bit_cast<uint64_t>(std::floor(x * 0x1p36 + 0.5) + 0.0)); };
+  const auto add = [](uint64_t& sum, double x) {
+    const double rounded = std::floor(x * 0x1p36 + 0.5) + 0.0;
+    uint64_t bits;
+    std::memcpy(&bits, &rounded, sizeof bits);
+    sum = detail::mixed(sum, bits);
+  };
   std::vector<std::pair<uint64_t, uint32_t>> numbered;
   for (const uint32_t item : items) {
     const Equation equation = equationOf(data, item, cell);
