@@ -1,8 +1,8 @@
 #include "physics/cubic_fits.h"
 
 #include <algorithm>
-#include <cstring>
 #include <cmath>
+#include <cstring>
 #include <unordered_map>
 
 #include "base/mix.h"
