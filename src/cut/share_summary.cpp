@@ -8,8 +8,15 @@
 namespace mandoline::detail {
 namespace {
 
+constexpr size_t kMostWords = 8;  // of an item
+
+/// Of which all bytes are known.
 template <class Item>
-using WordsOf = std::array<uint32_t, sizeof(Item) / sizeof(uint32_t)>;
+constexpr size_t wordsOf() {
+  static_assert(std::is_trivially_copyable_v<Item> && std::has_unique_object_representations_v<Item>);
+  static_assert(sizeof(Item) <= kMostWords * sizeof(uint32_t));
+  return sizeof(Item) / sizeof(uint32_t);
+}
 
 class Writer {
  public:
@@ -22,27 +29,28 @@ class Writer {
   /// Items that are like those before them: of each word of theirs the difference, in as few bytes as it needs. The lowest bit is the sign.
   template <class Item>
   void addDifferences(std::span<const Item> items) {
-    static_assert(std::has_unique_object_representations_v<Item>);  // all bytes of it are known
-    WordsOf<Item> before{};
-    bytes_.clear();
-    for (const Item& item : items) {
-      WordsOf<Item> now;
-      std::memcpy(&now, &item, sizeof now);
-      for (size_t i = 0; i < now.size(); ++i) {
-        const uint32_t difference = now[i] - before[i];
-        uint32_t left = difference << 1 ^ (0 - (difference >> 31));
-        for (; left >= 128; left >>= 7) bytes_.push_back(std::byte(left % 128 + 128));
-        bytes_.push_back(std::byte(left));
-      }
-      before = now;
-    }
-    add(uint32_t(items.size()));
-    addBytes(bytes_);
+    addDifferences(std::as_bytes(items), wordsOf<Item>());
   }
 
   std::vector<uint32_t> words;
 
  private:
+  void addDifferences(std::span<const std::byte> items, size_t wordsOfOne) {
+    const size_t count = items.size() / sizeof(uint32_t);
+    uint32_t before[kMostWords]{};
+    bytes_.clear();
+    for (size_t i = 0; i < count; ++i) {
+      uint32_t now, &last = before[i % wordsOfOne];
+      std::memcpy(&now, &items[i * sizeof now], sizeof now);
+      const uint32_t difference = now - last;
+      uint32_t left = difference << 1 ^ (0 - (difference >> 31));
+      for (; left >= 128; left >>= 7) bytes_.push_back(std::byte(left % 128 + 128));
+      bytes_.push_back(std::byte(left));
+      last = now;
+    }
+    add(uint32_t(count / wordsOfOne));
+    addBytes(bytes_);
+  }
   void addBytes(std::span<const std::byte> bytes) {
     words.push_back(uint32_t(bytes.size()));
     const size_t at = words.size();
@@ -75,23 +83,29 @@ class Reader {
   /// Likewise, of addDifferences().
   template <class Item>
   std::span<const Item> itemsOfDifferences() {
-    const size_t count = number(), bytes = number(), size = (bytes + 3) / 4;
-    if (size > words_.size() || count > bytes / std::tuple_size_v<WordsOf<Item>>) throw BadSummary();
-    std::span<const std::byte> left = std::as_bytes(words_).first(bytes);
-    words_ = words_.subspan(size);
-    const std::span<const Item> made = memory_.make<Item>(count, [&](std::span<Item> items) {
-      WordsOf<Item> now{};
-      for (Item& item : items) {
-        for (uint32_t& word : now) word += differenceFrom(left);
-        std::memcpy(static_cast<void*>(&item), now.data(), sizeof item);
-      }
-    });
-    if (!left.empty()) throw BadSummary();
-    return made;
+    const size_t count = number();
+    const std::span<const std::byte> bytes = differences(count, wordsOf<Item>());
+    return memory_.make<Item>(count, [&](std::span<Item> items) { addUp(bytes, std::as_writable_bytes(items), wordsOf<Item>()); });
   }
   bool isAtEnd() const { return words_.empty(); }
 
  private:
+  std::span<const std::byte> differences(size_t count, size_t wordsOfOne) {
+    const size_t bytes = number(), size = (bytes + 3) / 4;
+    if (size > words_.size() || count > bytes / wordsOfOne) throw BadSummary();
+    const std::span<const std::byte> differences = std::as_bytes(words_).first(bytes);
+    words_ = words_.subspan(size);
+    return differences;
+  }
+  static void addUp(std::span<const std::byte> differences, std::span<std::byte> items, size_t wordsOfOne) {
+    uint32_t now[kMostWords]{};
+    for (size_t i = 0; i < items.size() / sizeof *now; ++i) {
+      uint32_t& word = now[i % wordsOfOne];
+      word += differenceFrom(differences);
+      std::memcpy(&items[i * sizeof word], &word, sizeof word);
+    }
+    if (!differences.empty()) throw BadSummary();
+  }
   static uint32_t differenceFrom(std::span<const std::byte>& bytes) {
     constexpr uint32_t kMostBits = 32;
     uint32_t sum = 0;
