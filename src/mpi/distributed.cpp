@@ -332,16 +332,6 @@ DistributedCut::DistributedCut(MPI_Comm comm, SlicedMesh mesh, Grid grid, const 
   data_->cutSlices(std::move(mesh), options, info);
 }
 
-SlicedMesh::SlicedMesh(MPI_Comm comm_, Mesh slice, std::shared_ptr<const MeshSource> whole) {
-  Communicator comm(comm_, nullptr);
-  std::shared_ptr<const Mesh> kept;
-  comm.together(kNoun, [&] { kept = std::make_shared<const Mesh>(std::move(slice)); });
-  data_ = sliced(comm, std::move(kept), std::move(whole));
-}
-uint64_t SlicedMesh::vertexCount() const { return data_->vertices(); }
-uint64_t SlicedMesh::triangleCount() const { return data_->triangles(); }
-MeshBox SlicedMesh::box() const { return data_->box; }
-
 RankPiece DistributedCut::piece() const { return data_->makePiece(); }
 RankComplex DistributedCut::cellComplex(const RankPiece& piece, int ghostLayers) const {
   return makeRankComplex(data_->comm, {data_->named(), data_->common.mesh, data_->counts}, piece, ghostLayers);

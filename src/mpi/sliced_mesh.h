@@ -12,6 +12,9 @@
 
 namespace mandoline::detail {
 
+/// What is at work, as for runCall().
+constexpr const char* kSlicing = "distribution of the mesh";
+
 /// What all processes know of it, and this one's slice.
 struct SlicedMeshData {
   std::shared_ptr<const Mesh> slice;                 ///< triangles by the ids of the whole
