@@ -82,8 +82,9 @@ class Arena {
   void addBlock(size_t least) {
     size_ = std::max(size_ == 0 ? kFirst : std::clamp(2 * size_, kSecond, kLargest), least);
     if (size_ >= kSecond) size_ = (size_ + kPageAlignment - 1) / kPageAlignment * kPageAlignment;
-    blocks_.reserve(blocks_.size() + 1);
-    blocks_.push_back({size_ < kSecond ? ::operator new (size_, std::align_val_t{kAlignment}) : takeLargePages(size_), Free{size_}});
+    std::unique_ptr<void, Free> block(size_ < kSecond ? ::operator new (size_, std::align_val_t{kAlignment}) : takeLargePages(size_),
+                                      Free{size_});
+    blocks_.push_back(std::move(block));
     next_ = static_cast<std::byte*>(blocks_.back().get());
     left_ = size_;
   }
