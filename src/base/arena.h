@@ -81,7 +81,7 @@ class Arena {
   /// Small at first, since most cuts are.
   void addBlock(size_t least) {
     size_ = std::max(size_ == 0 ? kFirst : std::clamp(2 * size_, kSecond, kLargest), least);
-    if (size_ >= kSecond) size_ = (size_ + kPageAlignment - 1) / kPageAlignment * kPageAlignment;
+    if (size_ >= kSecond) size_ = inWholePages(size_);
     std::unique_ptr<void, Free> block(size_ < kSecond ? ::operator new (size_, std::align_val_t{kAlignment}) : takeLargePages(size_),
                                       Free{size_});
     blocks_.push_back(std::move(block));

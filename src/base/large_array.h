@@ -32,6 +32,9 @@ MANDOLINE_SHARED void getPages(void* begin, size_t bytes, unsigned threads);
 /// next lie there. Nothing happens where the system can't.
 MANDOLINE_SHARED void makeRoomInHeap();
 
+/// As much, or more, as a multiple of kPageAlignment.
+constexpr size_t inWholePages(size_t bytes) { return (bytes + kPageAlignment - 1) / kPageAlignment * kPageAlignment; }
+
 /// That much memory, of which large pages come first, and which goes back to the system at once: in the heap, holes of that size would
 /// stay. `bytes` are a multiple of kPageAlignment.
 MANDOLINE_SHARED void* takeLargePages(size_t bytes);
@@ -121,7 +124,7 @@ struct LargePages {
  private:
   /// From half a large page on, a whole one comes sooner than small ones.
   static bool isLarge(size_t count) { return kPageAlignment > 16 && count >= kPageAlignment / 2 / sizeof(Item); }
-  static size_t bytesOf(size_t count) { return (count * sizeof(Item) + kPageAlignment - 1) / kPageAlignment * kPageAlignment; }
+  static size_t bytesOf(size_t count) { return inWholePages(count * sizeof(Item)); }
 };
 
 template <class Item>

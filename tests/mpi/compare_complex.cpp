@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "ranks_here.h"
 #include "same_bits.h"
 
 using namespace mandoline;
@@ -89,9 +90,7 @@ void compareFaces(const RankComplex& mine, const CellComplex& whole) {
 
 /// By other process, the ids of faces, as both processes have to list them.
 void compareSeams(const RankComplex& mine) {
-  int rank = 0, size = 1;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  const int rank = rankHere(), size = ranksHere();
   std::vector<std::vector<uint64_t>> lists(static_cast<size_t>(size));
   for (const ComplexSeam& seam : mine.seams) {
     for (const uint32_t f : seam.faces) lists[size_t(seam.rank)].push_back(mine.faceIds[f]);

@@ -16,6 +16,7 @@
 #include "mandoline/distributed.h"
 #include "mandoline/mesh_files.h"
 #include "mesh/mesh_source.h"
+#include "ranks_here.h"
 #include "shapes.h"
 
 using namespace mandoline;
@@ -62,16 +63,6 @@ void operator delete[](void* at, size_t, std::align_val_t) noexcept { std::free(
 
 namespace {
 
-int rankHere() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-int ranksHere() {
-  int ranks = 0;
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  return ranks;
-}
 int all(int number, MPI_Op op) {
   MPI_Allreduce(MPI_IN_PLACE, &number, 1, MPI_INT, op, MPI_COMM_WORLD);
   return number;

@@ -16,6 +16,7 @@
 #include "mandoline/io.h"
 #include "mandoline/measure.h"
 #include "mandoline/validate.h"
+#include "ranks_here.h"
 #include "real_meshes.h"
 #include "same_bits.h"
 #include "shapes.h"
@@ -23,18 +24,6 @@
 using namespace mandoline;
 
 namespace {
-
-int rankHere() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-
-int ranksHere() {
-  int ranks = 0;
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  return ranks;
-}
 
 /// Throws what is wrong.
 void require(bool holds, const std::string& what, size_t element = 0) {
