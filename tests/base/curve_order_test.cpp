@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 #include <vector>
@@ -45,7 +46,7 @@ TEST_CASE("equal points, and such that differ in their last bits alone, are pass
     if (item.item >= 100) equal.push_back(item.item);
   }
   CHECK(equal.size() == 50);
-  CHECK(std::ranges::is_sorted(equal, std::greater<>()));
+  CHECK(std::is_sorted(equal.begin(), equal.end(), std::greater<>()));
 }
 
 TEST_CASE("coordinates that are not finite are passed where 0 is, and each point once", "[curve]") {
@@ -57,7 +58,7 @@ TEST_CASE("coordinates that are not finite are passed where 0 is, and each point
   }
   std::vector<uint32_t> order = orderOf(points);
   CHECK(order == orderOf(zeros));
-  std::ranges::sort(order);
+  std::sort(order.begin(), order.end());
   for (uint32_t i = 0; i < order.size(); ++i) REQUIRE(order[i] == i);
 }
 
