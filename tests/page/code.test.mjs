@@ -12,7 +12,7 @@ import { importBundled } from './bundled.mjs';
 import { galleryMesh, mandoline } from './reference.mjs';
 
 const { codeOf } = await importBundled('model/code.ts');
-const { fromHash } = await importBundled('model/settings.ts');
+const { fromHash } = await importBundled('model/hash.ts');
 const { boundsOf } = await importBundled('model/grid_around.ts');
 const { keep, makeCut } = await importBundled('worker/kept.ts');
 const { makeModel } = await importBundled('worker/make_model.ts');

@@ -5,7 +5,8 @@ import { importBundled } from './bundled.mjs';
 import { dataOf, eventually, shows, startSite } from './page_helpers.mjs';
 
 const { lookAt, momentAt, openingSeconds } = await importBundled('model/opening.ts');
-const { defaultSettings, toHash } = await importBundled('model/settings.ts');
+const { defaultSettings } = await importBundled('model/settings.ts');
+const { toHash } = await importBundled('model/hash.ts');
 
 const times = Array.from({ length: 401 }, (_, at) => (at * openingSeconds) / 400);
 const moments = times.map((seconds) => ({ seconds, ...momentAt(seconds) }));

@@ -6,7 +6,7 @@ import { octahedronFiles } from './mesh_files.mjs';
 import { dataOf, eventually, isReady, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
 
 const { presetOf } = await importBundled('model/gallery/preset.ts');
-const { fromHash } = await importBundled('model/settings.ts');
+const { fromHash } = await importBundled('model/hash.ts');
 const site = await startSite();
 after(() => site.close());
 

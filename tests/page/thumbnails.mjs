@@ -6,7 +6,7 @@ import { importBundled } from './bundled.mjs';
 import { download, isReady, shows, startSite } from './page_helpers.mjs';
 
 const { gallery } = await importBundled('model/gallery/list.ts');
-const { toHash } = await importBundled('model/settings.ts');
+const { toHash } = await importBundled('model/hash.ts');
 const { readPreset } = await importBundled('model/gallery/preset.ts');
 const folder = path('web', 'public', 'thumbnails');
 const size = { width: 128, height: 96 };

@@ -4,7 +4,10 @@ import type { Vector3 } from './vector';
 import type { Checks } from './checks';
 import type { Comparison, OtherGridWay } from './comparison';
 import type { Bounds } from './grid_around';
-import type { CellCard, Crossings, Cutting, Model, Slicing, Source, StepPicture, StepRequest, Up } from './types';
+import type { CellCard, Model } from './cut_model';
+import type { Crossings, StepPicture, StepRequest } from './instead';
+import type { Cutting, Slicing, Source } from './settings';
+import type { Up } from './up';
 import type { Smoke, SmokeRequest, SmokeState, Wind, WindFormat, WindRequest } from './wind';
 
 /** A mesh as both sides keep it. */

@@ -2,8 +2,10 @@
 import { inFileName, stemOf } from './formats';
 import { gridAround } from './grid_around';
 import { meetsInside, type SlicedModel } from './meets_inside';
+import type { Model } from './cut_model';
 import { activePlanes, inWorld } from './planes';
-import type { Model, Settings, SliceName } from './types';
+import type { Settings } from './settings';
+import type { SliceName } from './slices';
 import type { Vector3 } from './vector';
 import { smokeBox, smokeFraction, smokeViscosity } from './smoke_box';
 import { windMargin } from './wind';

@@ -1,4 +1,4 @@
-import type { GridSettings } from './types';
+import type { GridSettings } from './grid_around';
 import type { Vector3 } from './vector';
 
 /** What a mesh becomes with the same grid elsewhere: grid cells that are inside or not, or what marching cubes make of their corners. */

@@ -1,4 +1,8 @@
-import type { PageError } from './types';
+/** An error to show: what is wrong and where. */
+export interface PageError {
+  title: string;
+  detail: string;
+}
 
 export function pageError(title: string, detail: string): PageError {
   return { title, detail };

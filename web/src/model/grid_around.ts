@@ -6,6 +6,9 @@ export interface Bounds {
   max: Vector3;
 }
 
+/** Cubic cells around the mesh, `cells` along its longest side; or a box with its own counts. */
+export type GridSettings = { cells: number } | { min: Vector3; max: Vector3; cells: Vector3 };
+
 /** The box around all triangles; the origin if there is none. */
 export function boundsOf({ positions, triangles }: Mesh): Bounds {
   const min: [number, number, number] = [Infinity, Infinity, Infinity];

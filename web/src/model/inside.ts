@@ -1,7 +1,7 @@
 // What is inside, in the words of the command line.
 import type { InsideBy } from 'mandoline-wasm';
 import { real, winding } from './format';
-import type { Model } from './types';
+import type { Model } from './cut_model';
 
 export const insideWords: Record<InsideBy, string> = { winding: 'by winding numbers', parity: 'by parity', estimate: 'by an estimate' };
 

@@ -1,6 +1,6 @@
 // Which planes have something to show of a cut.
-import type { ViewPlane } from './planes';
-import type { Model } from './types';
+import type { Model } from './cut_model';
+import type { ViewPlane } from './slices';
 
 /** What a plane may meet. */
 export type SlicedModel = Pick<Model, 'grid' | 'origin' | 'regions' | 'gridCellRegion'> & {

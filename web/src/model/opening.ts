@@ -1,5 +1,5 @@
 // What a visit without a link begins with: the surface alone, the grid that sweeps through it, cells that come apart, and wind.
-import type { Settings } from './types';
+import type { Settings } from './settings';
 
 /** A moment of the opening. */
 export interface Moment {

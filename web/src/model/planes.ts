@@ -1,15 +1,9 @@
-import { sliceNames } from './settings';
-import type { Model, Settings, SliceName, Slicing } from './types';
+import type { Model } from './cut_model';
+import type { Settings, Slicing } from './settings';
+import { sliceNames, type SliceName, type ViewPlane } from './slices';
 import type { Vector3 } from './vector';
 
 type Gridded = Pick<Model, 'grid'>;
-
-/** A slice plane normal . x = offset, less the model's origin. What lies beyond it is hidden. */
-export interface ViewPlane {
-  name: SliceName;
-  normal: readonly [number, number, number];
-  offset: number;
-}
 
 /** Half the extent of the grid's box along a direction. */
 export function reach({ grid }: Gridded, normal: readonly number[]): number {

@@ -1,6 +1,8 @@
 // What of a model the settings show, slices aside, and what suits it.
 import { isOutside } from './inside';
-import type { ColorBy, Model, RegionInfo, Settings } from './types';
+import type { Model, RegionInfo } from './cut_model';
+import type { ColorBy, Settings } from './settings';
+import type { Up } from './up';
 
 /** Per region: 1 if it is shown. A region that is picked is shown even if it is outside. */
 export function shownRegions(model: Model, { show }: Settings): Uint8Array {
@@ -36,4 +38,9 @@ export function isSheet(model: Model): boolean {
 export function usualColoring({ regions, insideBy }: Model): ColorBy {
   const inside = regions.filter(({ isInside }) => isInside);
   return inside.length > 1 && insideBy !== 'estimate' ? 'region' : 'kind';
+}
+
+/** As set, or as the mesh seems to stand. */
+export function upOf({ up }: Settings, model: Model | null): Up {
+  return up === 'auto' ? (model?.up ?? 'y') : up;
 }

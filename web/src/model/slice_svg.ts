@@ -1,8 +1,7 @@
 // A slice as a drawing: a path for each polygon of a cell, in the units of the mesh, with the plane's normal towards the viewer.
 import type { Slice } from 'mandoline-wasm';
 import { escaped } from './markup';
-import { fromUpright } from './up';
-import type { Up } from './types';
+import { fromUpright, type Up } from './up';
 import { cross, dot, unit, type Vector3 } from './vector';
 
 export interface Drawing {

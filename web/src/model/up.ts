@@ -1,11 +1,8 @@
 // Models that stand along y or along z.
-import type { Model, Settings, Up } from './types';
 import type { Vector3 } from './vector';
 
-/** As set, or as the mesh seems to stand. */
-export function upOf({ up }: Settings, model: Model | null): Up {
-  return up === 'auto' ? (model?.up ?? 'y') : up;
-}
+/** The axis of a mesh that points upwards. */
+export type Up = 'x' | 'y' | 'z';
 
 /** Which axes, and which way along them, point to the right, up, and to the viewer, who looks at the front. */
 const frames: Record<Up, readonly (readonly [axis: number, sign: 1 | -1])[]> = {

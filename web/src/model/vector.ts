@@ -25,3 +25,9 @@ export function cross(a: Vector3, b: Vector3): Triple {
 export function unit(a: Vector3): Triple {
   return scale(1 / Math.hypot(...a), a);
 }
+
+/** A unit vector, also of numbers whose squares are too large or too small. */
+export function direction(values: readonly number[]): Vector3 {
+  const largest = Math.max(...values.map(Math.abs));
+  return unit(values.map((x) => x / largest));
+}

@@ -1,5 +1,5 @@
 // Volumes of cut-cells as shares of their grid cells, on a logarithmic axis: how slivers are found.
-import type { Model } from './types';
+import type { Model } from './cut_model';
 
 /** Powers of ten: those from the first on, below the second. At an end of the axis there is no limit. */
 export type VolumeRange = readonly [number, number];

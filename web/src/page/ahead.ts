@@ -1,5 +1,6 @@
 // What is loaded before it is asked for, so that it is at hand at once, also offline.
-import type { Engine, View } from '../model/types';
+import type { Engine } from '../model/engine';
+import type { View } from '../model/view';
 import { loadCode } from './code';
 import { firstPicture, idle } from './frames';
 import type { State } from './state';

@@ -1,11 +1,16 @@
 // The actions on the state of the page. Panels call them and read the state.
 import { batch } from '@preact/signals';
 import { presetOf, withoutPreset } from '../model/gallery/preset';
-import { axes, axisNormal, defaultSettings, defaultSource } from '../model/settings';
+import type { Model } from '../model/cut_model';
+import type { Engine, MeshInfo } from '../model/engine';
+import { isAbort, pageError, type PageError } from '../model/failure';
+import type { GridSettings } from '../model/grid_around';
+import { defaultSettings, defaultSource, type Cutting, type Settings, type Source } from '../model/settings';
+import { axes, axisNormal, type Axis, type SliceName, type SliceSettings } from '../model/slices';
+import type { View } from '../model/view';
 import { isOutside } from '../model/inside';
 import { same } from '../model/same';
 import { isSheet, usualColoring } from '../model/shown';
-import { isAbort, pageError } from '../model/failure';
 import type { Pose } from '../model/motion';
 import { ask } from './ask';
 import { Checking } from './checking';
@@ -18,20 +23,6 @@ import { Player } from './player';
 import type { State } from './state';
 import { WindTunnel } from './wind';
 import { Work } from './work';
-import type {
-  Axis,
-  Cutting,
-  Engine,
-  GridSettings,
-  MeshInfo,
-  Model,
-  PageError,
-  Settings,
-  SliceName,
-  SliceSettings,
-  Source,
-  View,
-} from '../model/types';
 
 export class App {
   readonly player: Player;

@@ -2,7 +2,8 @@
 import { effect } from '@preact/signals';
 import { checksSentence, mostFacesUnasked, type Checks } from '../model/checks';
 import { pageError } from '../model/failure';
-import type { Engine, Model } from '../model/types';
+import type { Model } from '../model/cut_model';
+import type { Engine } from '../model/engine';
 import { ask } from './ask';
 import type { State } from './state';
 

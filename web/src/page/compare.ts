@@ -3,7 +3,9 @@ import { computed, effect } from '@preact/signals';
 import { otherGridWay, type Comparison, type OtherGridWay } from '../model/comparison';
 import { isOutside } from '../model/inside';
 import { isSheet } from '../model/shown';
-import type { Engine, Model, View } from '../model/types';
+import type { Model } from '../model/cut_model';
+import type { Engine } from '../model/engine';
+import type { View } from '../model/view';
 import { ask } from './ask';
 import type { State } from './state';
 

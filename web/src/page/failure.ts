@@ -1,8 +1,7 @@
 // What went wrong, as the page shows it.
 import { describe, MandolineError } from 'mandoline-wasm/worker';
 import type { CallName, WindCallName } from '../model/calls';
-import { isPageError, pageError } from '../model/failure';
-import type { PageError } from '../model/types';
+import { isPageError, pageError, type PageError } from '../model/failure';
 
 const titles: Record<CallName | WindCallName, string> = {
   load: "The mesh can't be read",

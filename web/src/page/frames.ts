@@ -1,5 +1,5 @@
 // Waiting for frames of the screen, for pictures, and for nothing to do.
-import type { View } from '../model/types';
+import type { View } from '../model/view';
 import type { State } from './state';
 
 /** Resolves to when it comes, in ms. */

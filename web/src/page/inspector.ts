@@ -1,5 +1,7 @@
 // What is looked at closely: a pinned cell, or what is drawn instead of the model.
-import type { Engine, Instead, StepRequest, View } from '../model/types';
+import type { Engine } from '../model/engine';
+import type { Instead, StepRequest } from '../model/instead';
+import type { View } from '../model/view';
 import { ask } from './ask';
 import type { State } from './state';
 

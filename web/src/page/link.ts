@@ -1,7 +1,7 @@
 import { computed } from '@preact/signals';
 import type { App } from './app';
-import { fromHash, toHash } from '../model/settings';
-import type { Settings } from '../model/types';
+import { fromHash, toHash } from '../model/hash';
+import type { Settings } from '../model/settings';
 
 /** What sliders and handles change, step by step. */
 const continuous = ['n', 'box', 'snap', 'x', 'y', 'z', 'free', 'explode', 'pose', 'divider', 'volumes'];

@@ -1,7 +1,8 @@
 // Measures a distance between two places of the model, which are touched in the picture, typed, or the middle of the pinned cell.
 import { effect } from '@preact/signals';
 import type { Measurement, MeasuredPlace } from '../model/measurement';
-import type { Model, View } from '../model/types';
+import type { Model } from '../model/cut_model';
+import type { View } from '../model/view';
 import type { Vector3 } from '../model/vector';
 import type { State } from './state';
 

@@ -1,6 +1,7 @@
 // Which mesh is loaded, and the files that meshes came from.
 import { isAbort } from '../model/failure';
-import type { Engine, MeshInfo, Source } from '../model/types';
+import type { Engine, MeshInfo } from '../model/engine';
+import type { Source } from '../model/settings';
 import { asPageError } from './failure';
 import type { State } from './state';
 import type { Work } from './work';

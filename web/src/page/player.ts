@@ -1,10 +1,11 @@
-// What moves by itself: the surface, or how it is sliced, pulled apart, and how finely it is cut.
-import { motions, type Motion } from '../model/motion';
-import type { App } from './app';
+// Plays what moves by itself.
+import type { GridSettings } from '../model/grid_around';
+import type { Pose } from '../model/motion';
+import { isCut, isMotion, type Play } from '../model/plays';
+import type { Settings } from '../model/settings';
+import type { SliceSettings } from '../model/slices';
 import { nextFrame } from './frames';
-
-export const plays = [...motions, 'slice', 'explode', 'cells'] as const;
-export type Play = (typeof plays)[number];
+import type { State } from './state';
 
 /** Seconds for a period of a motion, or for once there and back. */
 const periods: Record<Play, number> = { wave: 2.5, turn: 8, pass: 6, slice: 6, explode: 5, cells: 12 };
@@ -13,34 +14,40 @@ const cellRange = [2, 64] as const;
 /** The rate is that of the cuts in this time, in ms. */
 const rateTime = 1000;
 
-export interface Playing {
-  /** Cuts a second; null for what is not cut again. */
-  rate: number | null;
+/** The actions of the page that it takes. */
+interface Page {
+  readonly state: Pick<State, 'mesh' | 'play' | 'playing'>;
+  readonly settings: Settings;
+  change(part: Pick<Settings, 'explode'>): void;
+  changeSlice(name: 'free', part: Partial<SliceSettings>): void;
+  /** Both resolve to false if it can't be shown. */
+  setGrid(grid: GridSettings): Promise<boolean>;
+  setPose(pose: Pose): Promise<boolean>;
 }
 
 export class Player {
   private runs = 0;
 
-  constructor(private readonly app: App) {
+  constructor(private readonly page: Page) {
     // Another mesh is a new beginning.
-    app.state.mesh.subscribe(() => this.pause());
+    page.state.mesh.subscribe(() => this.pause());
   }
 
   /** Goes on from where the page stands, until it is paused or can't go on. */
   async play(): Promise<void> {
     const run = ++this.runs;
-    const { app } = this;
-    const { playing } = app.state;
-    const play = app.state.play.value;
+    const { page } = this;
+    const { playing } = page.state;
+    const play = page.state.play.value;
     playing.value = { rate: isCut(play) ? 0 : null };
-    let phase = phaseOf(app, play);
+    let phase = phaseOf(page, play);
     let before = performance.now();
     let frame = nextFrame();
     const cuts: number[] = [];
-    let shown = show(app, play, phase);
+    let shown = show(page, play, phase);
     while (run === this.runs) {
       // The worker goes on with the next cut while this one is taken and drawn. None runs further ahead.
-      const next = isCut(play) ? show(app, play, phase) : null;
+      const next = isCut(play) ? show(page, play, phase) : null;
       if (!(await shown)) break;
       await frame;
       frame = nextFrame();
@@ -48,7 +55,7 @@ export class Player {
       if (run !== this.runs) return;
       phase += (now - before) / (1000 * periods[play]);
       before = now;
-      shown = next ?? show(app, play, phase);
+      shown = next ?? show(page, play, phase);
       if (!isCut(play)) continue;
       cuts.push(now);
       while (cuts[0] < now - rateTime) cuts.shift();
@@ -59,16 +66,8 @@ export class Player {
 
   pause(): void {
     this.runs++;
-    this.app.state.playing.value = null;
+    this.page.state.playing.value = null;
   }
-}
-
-function isCut(play: Play): boolean {
-  return play !== 'slice' && play !== 'explode';
-}
-
-export function isMotion(play: Play): play is Motion {
-  return motions.some((motion) => motion === play);
 }
 
 /** 0 to 1 and back in a period. */
@@ -77,7 +76,7 @@ function swing(phase: number): number {
 }
 
 /** The phase in which the page stands. */
-function phaseOf({ settings }: App, play: Play): number {
+function phaseOf({ settings }: Page, play: Play): number {
   const { pose, slices, explode, grid } = settings;
   if (isMotion(play)) return pose?.motion === play ? pose.phase : 0;
   if (play === 'slice') return slices.free.on ? slices.free.position / 2 : 0.5;
@@ -88,13 +87,13 @@ function phaseOf({ settings }: App, play: Play): number {
 }
 
 /** Shows this phase. Resolves to false if it can't be shown. */
-async function show(app: App, play: Play, phase: number): Promise<boolean> {
-  if (isMotion(play)) return app.setPose({ motion: play, phase });
+async function show(page: Page, play: Play, phase: number): Promise<boolean> {
+  if (isMotion(play)) return page.setPose({ motion: play, phase });
   if (play === 'cells') {
     const [least, most] = cellRange;
-    return app.setGrid({ cells: Math.round(least * (most / least) ** swing(phase)) });
+    return page.setGrid({ cells: Math.round(least * (most / least) ** swing(phase)) });
   }
-  if (play === 'slice') app.changeSlice('free', { on: true, position: swing(phase) });
-  else app.change({ explode: { ...app.settings.explode, cells: swing(phase) } });
+  if (play === 'slice') page.changeSlice('free', { on: true, position: swing(phase) });
+  else page.change({ explode: { ...page.settings.explode, cells: swing(phase) } });
   return true;
 }

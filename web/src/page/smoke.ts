@@ -1,6 +1,6 @@
 // Smoke that is carried by a flow in time. The flow is stepped ahead of what is drawn, as fast as that needs; without frames there are no
 // steps.
-import type { Engine } from '../model/types';
+import type { Engine } from '../model/engine';
 import type { Smoke, SmokeMoment, SmokeSource, SmokeState } from '../model/wind';
 
 /** In seconds: how far ahead states are wanted, and how soon the pace follows them. */

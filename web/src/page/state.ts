@@ -1,9 +1,13 @@
 import { computed, signal } from '@preact/signals';
+import type { CellCard, Model } from '../model/cut_model';
+import type { MeshInfo } from '../model/engine';
+import type { PageError } from '../model/failure';
+import type { Crossings, Instead, StepPicture } from '../model/instead';
 import { defaultSettings } from '../model/settings';
-import type { Play, Playing } from './player';
+import type { AxesSeen } from '../model/view';
+import type { Play, Playing } from '../model/plays';
 import { Sections } from './sections';
 import type { Checks } from '../model/checks';
-import type { AxesSeen, CellCard, Crossings, Instead, MeshInfo, Model, PageError, StepPicture } from '../model/types';
 import type { Comparison } from '../model/comparison';
 import type { Measurement } from '../model/measurement';
 import type { SmokeNumbers, Wind } from '../model/wind';

@@ -1,6 +1,10 @@
 // Shows the flow or the smoke that the settings ask for, whenever that is another one.
 import { effect } from '@preact/signals';
-import type { Engine, Model, Settings, View } from '../model/types';
+import type { Model } from '../model/cut_model';
+import type { Engine } from '../model/engine';
+import { activePlanes, inWorld } from '../model/planes';
+import type { Settings } from '../model/settings';
+import type { View } from '../model/view';
 import type { Smoke, SmokeState, Wind, WindFormat } from '../model/wind';
 import { isAbort } from '../model/failure';
 import { ask } from './ask';
@@ -8,7 +12,6 @@ import { asPageError } from './failure';
 import { idle } from './frames';
 import type { SmokeClock } from './smoke';
 import type { State } from './state';
-import { activePlanes, inWorld } from '../model/planes';
 
 type Request = Parameters<Engine['wind']>[0];
 type SmokeRequest = Parameters<Engine['smoke']>[0];

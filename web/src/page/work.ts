@@ -1,5 +1,5 @@
 // What is under way, and what became of it.
-import type { PageError } from '../model/types';
+import type { PageError } from '../model/failure';
 import type { State } from './state';
 
 type Kind = NonNullable<State['work']['value']>;

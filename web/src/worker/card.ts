@@ -1,7 +1,7 @@
 import type { Adjacency, CutMesh, Mandoline } from 'mandoline-wasm';
 import { cellArrays, cellEdgeArrays, type CellEdgeArrays } from 'mandoline-wasm/three';
 import { pageError } from '../model/failure';
-import type { CellCard } from '../model/types';
+import type { CellCard } from '../model/cut_model';
 import { faceTrianglesOf, type Cut } from './kept';
 
 export function cellCard(mandoline: Mandoline, cut: Cut, cell: number): CellCard {

@@ -1,7 +1,7 @@
 // Where the surface meets itself: exactly what findIntersections() gives, as segments.
 import type { Mandoline, MeshIntersections } from 'mandoline-wasm';
 import { boundsOf, type Bounds } from '../model/grid_around';
-import type { Crossings } from '../model/types';
+import type { Crossings } from '../model/instead';
 import type { Cut } from './kept';
 
 /** More can't be told apart on a screen, and fill memory. */

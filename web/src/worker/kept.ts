@@ -5,8 +5,7 @@ import type { Vector3 } from '../model/vector';
 import type { CallProgress, Lack, LoadedMesh, Outdated, Recipe } from '../model/calls';
 import { pageError } from '../model/failure';
 import { checkExtent } from './extent';
-import { gridAround, type Bounds } from '../model/grid_around';
-import type { GridSettings } from '../model/types';
+import { gridAround, type Bounds, type GridSettings } from '../model/grid_around';
 import { posed } from './posed';
 
 export interface Cut {

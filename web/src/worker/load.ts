@@ -5,7 +5,7 @@ import { checkExtent } from './extent';
 import { fileError, isPageError, pageError } from '../model/failure';
 import { boundsOf } from '../model/grid_around';
 import { galleryMesh, type MeshArrays } from '../model/gallery';
-import type { Source } from '../model/types';
+import type { Source } from '../model/settings';
 import { guessUp } from './up';
 
 type MeshFile = MeshArrays & Pick<LoadedMesh, 'isReadHere'>;

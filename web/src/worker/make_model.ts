@@ -1,7 +1,8 @@
 // What the page gets of a cut: ready to be drawn, in arrays of its own.
 import type { CellDrawing, CutMesh, InsideRegions, Mandoline } from 'mandoline-wasm';
+import type { Caps, CellInfo, Model, RegionInfo } from '../model/cut_model';
 import { flatPlanes, inWorld } from '../model/planes';
-import type { Caps, CellInfo, Model, RegionInfo, Slicing } from '../model/types';
+import type { Slicing } from '../model/settings';
 import type { Cut } from './kept';
 
 /** Buffers of models that the page does not need any more. */

@@ -1,7 +1,7 @@
 // Which axis of a mesh points upwards. Files don't say, and programs disagree; glTF alone has a rule.
 import type { Mesh } from 'mandoline-wasm';
 import type { Bounds } from '../model/grid_around';
-import type { Up } from '../model/types';
+import type { Up } from '../model/up';
 
 /** What is thinner than this, beside its other two extents, lies on its flat side. */
 const flat = 0.29;

@@ -1,6 +1,6 @@
 import { same } from '../same';
-import { defaultSettings, fromHash } from '../settings';
-import type { Settings, Source } from '../types';
+import { fromHash } from '../hash';
+import { defaultSettings, type Settings, type Source } from '../settings';
 import { gallery, type GalleryEntry } from './list';
 
 /** All settings with which an entry opens, read as those of a link are. */

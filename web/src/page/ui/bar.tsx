@@ -1,6 +1,5 @@
 import type { App } from '../app';
-import { colorings } from '../../model/settings';
-import type { ColorBy } from '../../model/types';
+import { colorings, type ColorBy } from '../../model/settings';
 import { Icon } from './controls/icon';
 import { NumberField } from './controls/number_field';
 import { Select } from './controls/select';

@@ -1,6 +1,6 @@
 import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import type { App } from '../app';
-import type { CellCard as Card } from '../../model/types';
+import type { CellCard as Card } from '../../model/cut_model';
 import { CellViewer } from './cell_viewer';
 import { Terms } from './controls/terms';
 import { integer, plural, real, winding } from '../../model/format';

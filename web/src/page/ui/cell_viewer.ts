@@ -16,7 +16,7 @@ import {
   WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import type { CellCard } from '../../model/types';
+import type { CellCard } from '../../model/cut_model';
 import { gridFaceColor, surfaceColor, type Rgb } from '../view/colors';
 
 const linear = ([red, green, blue]: Rgb) => new Color().setRGB(red / 255, green / 255, blue / 255, SRGBColorSpace);

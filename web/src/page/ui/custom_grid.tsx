@@ -1,7 +1,6 @@
 import type { App } from '../app';
-import { gridAround } from '../../model/grid_around';
-import { axes } from '../../model/settings';
-import type { GridSettings } from '../../model/types';
+import { gridAround, type GridSettings } from '../../model/grid_around';
+import { axes } from '../../model/slices';
 import { NumberField } from './controls/number_field';
 
 type Grid = Extract<GridSettings, { min: unknown }>;

@@ -1,6 +1,6 @@
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../app';
-import type { Model } from '../../model/types';
+import type { Model } from '../../model/cut_model';
 import { integer, milliseconds, plural, real, words } from '../../model/format';
 import { Terms } from './controls/terms';
 

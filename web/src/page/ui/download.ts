@@ -1,5 +1,5 @@
 import { inFileName } from '../../model/formats';
-import type { Model } from '../../model/types';
+import type { Model } from '../../model/cut_model';
 
 /** Saves a file that is named for the model, and for its grid or what else it is about. */
 export function download(blob: Blob, { name, grid }: Model, extension: string, about = grid.cells.join('x')): void {

@@ -1,5 +1,5 @@
 import type { App } from '../app';
-import type { Model } from '../../model/types';
+import type { Model } from '../../model/cut_model';
 import { milliseconds, plural, real } from '../../model/format';
 import { insideOf } from '../../model/inside';
 import { CheckLine } from './check_line';

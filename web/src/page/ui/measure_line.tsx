@@ -1,7 +1,7 @@
 import type { App } from '../app';
 import { real } from '../../model/format';
 import { distance, type Measurement } from '../../model/measurement';
-import { axes } from '../../model/settings';
+import { axes } from '../../model/slices';
 
 /** What is to be done next, or the distance that was measured, on top of the picture. */
 export function MeasureLine({ app }: { app: App }) {

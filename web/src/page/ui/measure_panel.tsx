@@ -1,7 +1,7 @@
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../app';
 import type { MeasuredPlace } from '../../model/measurement';
-import { axes } from '../../model/settings';
+import { axes } from '../../model/slices';
 import { NumberField } from './controls/number_field';
 import { Section } from './controls/section';
 

@@ -1,8 +1,8 @@
 import { useState } from 'preact/hooks';
 import type { App } from '../app';
 import { asPageError } from '../failure';
-import { isMotion, plays, type Play } from '../player';
-import type { Recording } from '../../model/types';
+import { isMotion, plays, type Play } from '../../model/plays';
+import type { Recording } from '../../model/view';
 import { Section } from './controls/section';
 import { Select } from './controls/select';
 import { Slider } from './controls/slider';

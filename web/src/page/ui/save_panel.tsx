@@ -3,7 +3,7 @@ import type { App } from '../app';
 import { ask } from '../ask';
 import { escaped } from '../../model/markup';
 import { activePlanes } from '../../model/planes';
-import type { PictureOptions } from '../../model/types';
+import type { PictureOptions } from '../../model/view';
 import type { WindFormat } from '../../model/wind';
 import { addressOf } from '../link';
 import { download } from './download';

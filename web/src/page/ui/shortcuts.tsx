@@ -1,7 +1,6 @@
 import { useEffect, useRef } from 'preact/hooks';
 import type { App } from '../app';
-import { axes } from '../../model/settings';
-import type { Axis } from '../../model/types';
+import { axes, type Axis } from '../../model/slices';
 import { Terms } from './controls/terms';
 
 const help: [string, string][] = [

@@ -1,5 +1,5 @@
 import type { App } from '../app';
-import type { SliceName } from '../../model/types';
+import type { SliceName } from '../../model/slices';
 import { Check } from './controls/check';
 import { Icon } from './controls/icon';
 import { Slider } from './controls/slider';

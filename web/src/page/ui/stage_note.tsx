@@ -1,5 +1,6 @@
 import type { App } from '../app';
-import type { Model, PageError } from '../../model/types';
+import type { Model } from '../../model/cut_model';
+import type { PageError } from '../../model/failure';
 import { plural } from '../../model/format';
 import { isOutside } from '../../model/inside';
 

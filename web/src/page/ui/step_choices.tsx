@@ -1,7 +1,7 @@
 import { useRef } from 'preact/hooks';
 import type { App } from '../app';
-import type { StepRequest } from '../../model/types';
-import { axes } from '../../model/settings';
+import type { StepRequest } from '../../model/instead';
+import { axes } from '../../model/slices';
 import { Choice } from './controls/choice';
 import { NumberField } from './controls/number_field';
 import { Slider } from './controls/slider';

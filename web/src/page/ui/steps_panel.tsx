@@ -1,5 +1,5 @@
 import type { App } from '../app';
-import type { StepKind } from '../../model/types';
+import type { StepKind } from '../../model/instead';
 import { Section } from './controls/section';
 import { StepChoices } from './step_choices';
 

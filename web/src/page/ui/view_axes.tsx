@@ -1,6 +1,6 @@
 import { useRef, useState } from 'preact/hooks';
 import type { App } from '../app';
-import { axes, axisNormal } from '../../model/settings';
+import { axes, axisNormal } from '../../model/slices';
 
 /** Half the width of the picture, and the length of an axis in it, in CSS pixels. */
 const [half, reach] = [48, 34];

@@ -1,6 +1,8 @@
 import type { App } from '../app';
-import { axes, layers, ups } from '../../model/settings';
-import type { Model, Settings } from '../../model/types';
+import type { Model } from '../../model/cut_model';
+import { layers, ups, type Settings } from '../../model/settings';
+import { upOf } from '../../model/shown';
+import { axes } from '../../model/slices';
 import { Check } from './controls/check';
 import { Choice } from './controls/choice';
 import { Direction } from './controls/direction';
@@ -10,7 +12,6 @@ import { Select } from './controls/select';
 import { Explosion } from './explosion';
 import { SliceRow } from './slice_row';
 import { insideOf, isOutside } from '../../model/inside';
-import { upOf } from '../../model/up';
 import { plural, real } from '../../model/format';
 
 const layerNames: Record<(typeof layers)[number], string> = {

@@ -1,7 +1,7 @@
 import { useMemo } from 'preact/hooks';
 import type { App } from '../app';
 import { integer, plural } from '../../model/format';
-import type { Model } from '../../model/types';
+import type { Model } from '../../model/cut_model';
 import {
   allVolumes,
   barWidth,

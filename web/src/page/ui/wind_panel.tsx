@@ -1,6 +1,6 @@
 import type { App } from '../app';
 import { integer, milliseconds, real } from '../../model/format';
-import { upOf } from '../../model/up';
+import { upOf } from '../../model/shown';
 import { mostWindCells, type SmokeNumbers, type WindColoring, type WindStats } from '../../model/wind';
 import { Choice } from './controls/choice';
 import { Direction } from './controls/direction';

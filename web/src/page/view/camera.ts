@@ -1,7 +1,8 @@
 // The camera, moved by mouse, touch and keys. In scene units: the grid's box has a diagonal of 2 and lies around 0.
 import { MathUtils, PerspectiveCamera, Quaternion, Vector3 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import type { AxesSeen, Up } from '../../model/types';
+import type { Up } from '../../model/up';
+import type { AxesSeen } from '../../model/view';
 import { placeBetween, type Place } from './flight';
 import { firstDirection, fit, uprightAxes } from './fit';
 

@@ -3,7 +3,8 @@ import { idColor, kindColors, outsideColor, regionColor as paletteColor, volumeC
 import { insideWords, isOutside, nearestWinding } from '../../model/inside';
 import { hasWhole, shareOf } from '../../model/volumes';
 import { isAnythingShown } from '../../model/shown';
-import type { ColorBy, Model, Settings } from '../../model/types';
+import type { Model } from '../../model/cut_model';
+import type { ColorBy, Settings } from '../../model/settings';
 
 export type Rgb = readonly [number, number, number];
 

@@ -1,6 +1,6 @@
 // How explosions move what is drawn.
 import { isOutside } from '../../model/inside';
-import type { Model } from '../../model/types';
+import type { Model } from '../../model/cut_model';
 import type { Look } from './layer';
 
 type Exploded = Pick<Look, 'settings' | 'shifts'>;

@@ -1,13 +1,14 @@
 // What is shown, as a GLB file.
 import { BufferGeometry, Color, Float32BufferAttribute, Group, Mesh, MeshStandardMaterial, Triangle, Vector3 } from 'three';
 import { GLTFExporter } from 'three/examples/jsm/exporters/GLTFExporter.js';
-import { pageError } from '../../model/failure';
 import { integer } from '../../model/format';
-import type { Model, PageError } from '../../model/types';
+import type { Model } from '../../model/cut_model';
+import { pageError, type PageError } from '../../model/failure';
+import { isBeyond } from '../../model/planes';
+import type { ViewPlane } from '../../model/slices';
 import { movedBy } from './explosion';
 import type { Layer, Look } from './layer';
 import type { Piece } from './piece';
-import { isBeyond, type ViewPlane } from '../../model/planes';
 
 /** More nodes than this take programs minutes to open. */
 const mostNodes = 20_000;

@@ -1,5 +1,6 @@
 // What the camera has to see of a model: points, 3 numbers each, less the model's origin.
-import type { Instead, Model } from '../../model/types';
+import type { Model } from '../../model/cut_model';
+import type { Instead } from '../../model/instead';
 import { boxCorners, boxPoints } from './box';
 import { shiftAlong } from './explosion';
 import type { Look } from './layer';

@@ -1,10 +1,12 @@
 // What can be saved of the view: pictures, meshes, drawings, films.
 import type { Scene, WebGLRenderer } from 'three';
 import { pageError } from '../../model/failure';
+import type { Engine } from '../../model/engine';
 import { inWorld, planeOf } from '../../model/planes';
+import { upOf } from '../../model/shown';
+import type { SliceName } from '../../model/slices';
+import type { Picture, PictureOptions, Recording, ViewFiles } from '../../model/view';
 import { sliceSvg } from '../../model/slice_svg';
-import type { Engine, Picture, PictureOptions, Recording, SliceName, ViewFiles } from '../../model/types';
-import { upOf } from '../../model/up';
 import type { Layer, Look } from './layer';
 import type { Caps } from './layers/caps';
 import type { Gizmo } from './layers/gizmo';

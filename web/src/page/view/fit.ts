@@ -1,7 +1,6 @@
 // Where a camera has to be so that points fill its picture.
 import { Vector3 } from 'three';
-import { fromUpright } from '../../model/up';
-import type { Up } from '../../model/types';
+import { fromUpright, type Up } from '../../model/up';
 
 /** What the camera first looks from: how far to the right, up, and to the front. */
 const first = { right: 0.42, up: 0.36, front: 1 };

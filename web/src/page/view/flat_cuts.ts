@@ -1,8 +1,11 @@
 // What fills cells that are cut flat: it comes with the model; when planes move, the worker slices again, one request at a time.
-import { isAbort } from '../../model/failure';
-import type { Caps, Engine, Model, PageError, Settings } from '../../model/types';
+import type { Caps, Model } from '../../model/cut_model';
+import type { Engine } from '../../model/engine';
+import { isAbort, type PageError } from '../../model/failure';
+import { activePlanes, inWorld } from '../../model/planes';
+import type { Settings } from '../../model/settings';
+import type { ViewPlane } from '../../model/slices';
 import type { Look } from './layer';
-import { activePlanes, inWorld, type ViewPlane } from '../../model/planes';
 
 /** The answer to a request for slices. */
 interface Slices extends Caps {

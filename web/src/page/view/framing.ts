@@ -1,8 +1,10 @@
 // Where the camera stands: where the settings have it, around all that is shown, or at what is drawn instead of the model.
 import type { Vector3 } from 'three';
-import { shownRegions } from '../../model/shown';
-import type { Instead, Model, Settings, View } from '../../model/types';
-import { upOf } from '../../model/up';
+import type { Model } from '../../model/cut_model';
+import type { Instead } from '../../model/instead';
+import type { Settings } from '../../model/settings';
+import { shownRegions, upOf } from '../../model/shown';
+import type { View } from '../../model/view';
 import type { Camera } from './camera';
 import { cellPoints, framedPoints, insteadPoints, type Extent } from './extent';
 import type { Look } from './layer';

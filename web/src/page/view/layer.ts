@@ -1,12 +1,14 @@
 // What the view is made of. To add something that is drawn, add a layer.
 import type { Object3D } from 'three';
 import type { Slice } from 'mandoline-wasm';
-import type { Instead, Model, Settings } from '../../model/types';
+import type { Model } from '../../model/cut_model';
+import type { Instead } from '../../model/instead';
+import type { Settings } from '../../model/settings';
+import type { ViewPlane } from '../../model/slices';
 import type { Comparison } from '../../model/comparison';
 import type { Measurement } from '../../model/measurement';
 import type { SmokeSource, Wind } from '../../model/wind';
 import type { Piece } from './piece';
-import type { ViewPlane } from '../../model/planes';
 
 /** All that decides what is drawn. */
 export interface Look {

@@ -1,7 +1,7 @@
 // The picture as a PNG file, as fine as wanted.
 import type { Scene, WebGLRenderer } from 'three';
 import { pageError } from '../../model/failure';
-import type { Picture, PictureOptions } from '../../model/types';
+import type { Picture, PictureOptions } from '../../model/view';
 
 /** With what smooth edges need beside its colour, the GPU keeps some 36 bytes for each pixel. */
 const mostPixels = 25e6;

@@ -1,5 +1,5 @@
 import { pageError } from '../../model/failure';
-import type { Recording } from '../../model/types';
+import type { Recording } from '../../model/view';
 
 /** In frames a second. */
 const rate = 30;

@@ -1,6 +1,5 @@
 import { WebGLRenderer } from 'three';
-import { pageError } from '../../model/failure';
-import type { PageError } from '../../model/types';
+import { pageError, type PageError } from '../../model/failure';
 
 /** Throws a PageError where there is no WebGL 2. */
 export function makeRenderer(canvas: HTMLCanvasElement): WebGLRenderer {

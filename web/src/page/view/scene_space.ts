@@ -1,6 +1,6 @@
 // Coordinates of the scene: the grid's box has a diagonal of 2 and lies around 0.
 import { Vector3 } from 'three';
-import type { Model } from '../../model/types';
+import type { Model } from '../../model/cut_model';
 
 export function sceneScale(model: Model): number {
   return 2 / model.diagonal;

@@ -1,7 +1,12 @@
 // The 3D view: puts the layers together, and draws when something has changed.
 import { Group, Scene, Vector3, type Object3D, type WebGLRenderer } from 'three';
 import { shownRegions } from '../../model/shown';
-import type { Engine, Instead, Model, PageError, Settings, View } from '../../model/types';
+import type { Model } from '../../model/cut_model';
+import type { Engine } from '../../model/engine';
+import type { PageError } from '../../model/failure';
+import type { Instead } from '../../model/instead';
+import type { Settings } from '../../model/settings';
+import type { View } from '../../model/view';
 import type { Comparison } from '../../model/comparison';
 import type { Vector3 as ModelVector } from '../../model/vector';
 import type { Measurement } from '../../model/measurement';

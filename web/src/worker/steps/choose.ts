@@ -1,7 +1,7 @@
 // Which item a step shows: the one asked for, or one on which much can be seen.
 import type { CutMesh } from 'mandoline-wasm';
 import type { Vector3 } from '../../model/vector';
-import type { StepRequest } from '../../model/types';
+import type { StepRequest } from '../../model/instead';
 
 function isIndex(value: number | undefined, count: number): value is number {
   return value !== undefined && Number.isInteger(value) && value >= 0 && value < count;

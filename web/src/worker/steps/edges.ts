@@ -1,5 +1,5 @@
 // The first two steps: tri-edges with their crossings, and hybrid edges.
-import type { StepPicture, StepRequest } from '../../model/types';
+import type { StepPicture, StepRequest } from '../../model/instead';
 import type { Vector3 } from '../../model/vector';
 import { plural } from '../../model/format';
 import { axisColors, crossingColors, outlineColor, triEdgeColor } from './colors';

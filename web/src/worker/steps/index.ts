@@ -7,7 +7,7 @@
 import type { CutMesh, FaceTriangles } from 'mandoline-wasm';
 import type { Vector3 } from '../../model/vector';
 import type { MeshArrays } from '../../model/gallery/mesh';
-import type { StepKind, StepPicture, StepRequest } from '../../model/types';
+import type { StepKind, StepPicture, StepRequest } from '../../model/instead';
 import { axialPlane, gridCell, triangleFaces } from './pieces';
 import { hybridEdges, triEdges } from './edges';
 import type { Subject } from './picture';

@@ -2,7 +2,7 @@ import type { CutMesh, FaceTriangles, Grid } from 'mandoline-wasm';
 import type { Bounds } from '../../model/grid_around';
 import type { Vector3 } from '../../model/vector';
 import type { MeshArrays } from '../../model/gallery/mesh';
-import type { StepPicture, StepRequest } from '../../model/types';
+import type { StepPicture, StepRequest } from '../../model/instead';
 import type { Color } from './colors';
 
 /** What every step works on. */

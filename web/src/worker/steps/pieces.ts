@@ -1,7 +1,7 @@
 // The last three steps: cut-faces of a triangle, faces of an axial plane, cut-cells of a grid cell.
 import type { Vector3 } from '../../model/vector';
-import { axes } from '../../model/settings';
-import type { StepPicture, StepRequest } from '../../model/types';
+import type { StepPicture, StepRequest } from '../../model/instead';
+import { axes } from '../../model/slices';
 import { plural } from '../../model/format';
 import { chosenGridCell, chosenPlane, chosenTriangle } from './choose';
 import { coplanarColor, gridColor, outlineColor, pieceColor, shaded, type Color } from './colors';

@@ -1,5 +1,4 @@
-import type { Up } from '../../../model/types';
-import { fromUpright, toUpright } from '../../../model/up';
+import { fromUpright, toUpright, type Up } from '../../../model/up';
 import type { Vector3 } from '../../../model/vector';
 import { Slider } from './slider';
 

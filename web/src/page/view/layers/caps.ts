@@ -1,7 +1,8 @@
 // The filled polygons where slice planes cut cells flat.
-import { type BufferGeometry, Group, LineSegments, Mesh } from 'three';
+import { Group, LineSegments, Mesh, type BufferGeometry } from 'three';
 import type { Slice } from 'mandoline-wasm';
-import type { Model, Settings } from '../../../model/types';
+import type { Model } from '../../../model/cut_model';
+import type { Settings } from '../../../model/settings';
 import { emptyGeometry, refill } from '../buffers';
 import { insideColor, untouchedColors, type Rgb } from '../colors';
 import type { Layer, Look } from '../layer';

@@ -2,13 +2,14 @@
 import { Group, LineSegments, Mesh, Vector3 } from 'three';
 import type { BufferGeometry, ShaderMaterial } from 'three';
 import { isSheet } from '../../../model/shown';
-import type { Model } from '../../../model/types';
+import type { Model } from '../../../model/cut_model';
+import { isBeyond, isBoxBeyond } from '../../../model/planes';
+import type { ViewPlane } from '../../../model/slices';
 import { emptyGeometry, refill, Table } from '../buffers';
 import { cutCellColors, gridFaceColor, type Rgb } from '../colors';
 import type { Layer, Look } from '../layer';
 import { gridStroke, makeMaterial, stroke, type Purpose, type Uniforms } from '../material';
 import { paler, type Piece } from '../piece';
-import { isBeyond, isBoxBeyond, type ViewPlane } from '../../../model/planes';
 import { isAll, isWithin, shareOf } from '../../../model/volumes';
 
 /** Drawn in two groups: pieces of triangles, and pieces of grid-faces. */

@@ -1,7 +1,7 @@
 import { BufferGeometry, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments } from 'three';
-import type { Model, SliceName } from '../../../model/types';
+import type { Model } from '../../../model/cut_model';
+import type { SliceName, ViewPlane } from '../../../model/slices';
 import type { Layer, Look } from '../layer';
-import type { ViewPlane } from '../../../model/planes';
 
 const colors: Record<SliceName, number> = { x: 0xd9534f, y: 0x4fae5a, z: 0x3f83d6, free: 0xd78f1f };
 

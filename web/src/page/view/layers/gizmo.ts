@@ -1,9 +1,9 @@
 // Handles to move the free plane along its normal and to turn it.
 import { Group, Line, Mesh, Object3D, Vector3, type Camera, type ColorRepresentation } from 'three';
 import type { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
-import type { SliceSettings } from '../../../model/types';
-import type { Layer, Look } from '../layer';
 import { planeOf, reach } from '../../../model/planes';
+import type { SliceSettings } from '../../../model/slices';
+import type { Layer, Look } from '../layer';
 import { sceneScale } from '../scene_space';
 
 const up = new Vector3(0, 0, 1);

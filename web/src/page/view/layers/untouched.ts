@@ -1,7 +1,7 @@
 // The untouched grid cells as boxes. Their corners are worked out in the shader from a table of boxes; the buffers only say which corners
 // make triangles and lines, and are the same for all models. (Instances of a mesh as small as a box are slow.)
 import { BufferAttribute, BufferGeometry, Group, LineSegments, Mesh } from 'three';
-import type { Model } from '../../../model/types';
+import type { Model } from '../../../model/cut_model';
 import { boxEdges } from '../box';
 import { Table } from '../buffers';
 import { untouchedColors, type Rgb } from '../colors';
