@@ -16,8 +16,10 @@ namespace mandoline::detail {
 
 /// Where large pages begin, if there are such.
 #ifdef __linux__
+inline constexpr bool kHasLargePages = true;
 inline constexpr size_t kPageAlignment = size_t(1) << 21;
 #else
+inline constexpr bool kHasLargePages = false;
 inline constexpr size_t kPageAlignment = 16;
 #endif
 
@@ -123,7 +125,7 @@ struct LargePages {
 
  private:
   /// From half a large page on, a whole one comes sooner than small ones.
-  static bool isLarge(size_t count) { return kPageAlignment > 16 && count >= kPageAlignment / 2 / sizeof(Item); }
+  static bool isLarge(size_t count) { return kHasLargePages && count >= kPageAlignment / 2 / sizeof(Item); }
   static size_t bytesOf(size_t count) { return inWholePages(count * sizeof(Item)); }
 };
 
