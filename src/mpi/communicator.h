@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
@@ -79,6 +80,26 @@ class MANDOLINE_SHARED Communicator {
     const uint64_t count = broadcastCount(items.size(), from);
     together(kExchange, [&] { items.resize(count); });
     broadcastBytes(items.data(), items.size() * sizeof(Item), from);
+  }
+  /// Those of each process one after the other, in all processes or in the first alone, straight to where they stay.
+  template <class Item>
+  std::vector<Item> gather(const std::vector<Item>& items, bool inAll) {
+    const std::vector<uint64_t> counts = gatherAll(uint64_t(items.size()));
+    std::vector<Item> whole;
+    together(kExchange, [&] {
+      if (inAll || rank_ == 0) whole.resize(size_t(std::accumulate(counts.begin(), counts.end(), uint64_t(0))));
+    });
+    std::span<Item> left(whole);
+    for (int from = 0; from < size_; ++from) {
+      const std::span<Item> part = left.empty() ? left : left.first(counts[size_t(from)]);
+      left = left.subspan(part.size());
+      if (from == rank_) std::copy(items.begin(), items.begin() + ptrdiff_t(part.size()), part.begin());
+      if (inAll)
+        broadcastBytes(part.data(), part.size_bytes(), from);
+      else if (from > 0)
+        exchange(std::as_bytes(std::span(items)), rank_ == from ? 0 : -1, std::as_writable_bytes(part), rank_ == 0 ? from : -1);
+    }
+    return whole;
   }
   /// Sends and receives at once; -1: nothing to or from there.
   Bytes exchange(const Bytes& bytes, int to, int from);

@@ -161,20 +161,8 @@ std::shared_ptr<const Mesh> gathered(Communicator& comm, const SlicedMeshData& m
     if (mesh.whole && (inAll || comm.rank() == 0)) *whole = readShare(*mesh.whole);
   });
   if (mesh.whole) return whole;
-  const auto gather = [&](auto Mesh::*member) {
-    std::vector<std::remove_cvref_t<decltype(whole.get()->*member)>> slices;
-    comm.together(kSlicing, [&] {
-      slices.resize(size_t(comm.size()));
-      for (size_t rank = 0; rank < (inAll ? slices.size() : 1); ++rank) slices[rank] = (*mesh.slice).*member;
-    });
-    slices = comm.exchangeAll(slices);
-    comm.together(kSlicing, [&] {
-      auto& all = (*whole).*member;
-      for (const auto& slice : slices) all.insert(all.end(), slice.begin(), slice.end());
-    });
-  };
-  gather(&Mesh::positions);
-  gather(&Mesh::triangles);
+  whole->positions = comm.gather(mesh.slice->positions, inAll);
+  whole->triangles = comm.gather(mesh.slice->triangles, inAll);
   return whole;
 }
 

@@ -3,10 +3,14 @@
 //   mandoline-mpi-failures STEP
 //
 // lets one allocation after the other fail in a process, by STEP percent more of them each time, and has a mesh change, or end, while a
-// process reads it. All have to report that alike, and none may wait for more than ten seconds.
+// process reads it. All have to report that alike, and none may wait for more than ten seconds. Where threads can't be started, the others
+// do all. And gathering a mesh takes memory for it once.
+#include <dlfcn.h>
+#include <pthread.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
@@ -16,6 +20,8 @@
 #include "mandoline/distributed.h"
 #include "mandoline/mesh_files.h"
 #include "mesh/mesh_source.h"
+#include "mpi/pack.h"
+#include "mpi/sliced_mesh.h"
 #include "ranks_here.h"
 #include "shapes.h"
 
@@ -27,6 +33,9 @@ namespace {
 std::atomic<int64_t> allocationsLeft{-1};
 bool failsFromThenOn = false;
 
+/// Threads of this process that can still be started, negative where all can; and how many were not.
+std::atomic<int> threadsLeft{-1}, threadsRefused{0};
+
 bool failsNow() {
   if (allocationsLeft.load(std::memory_order_relaxed) < 0) return false;
   if (allocationsLeft.fetch_sub(1) > 0) return false;
@@ -34,19 +43,34 @@ bool failsNow() {
   return true;
 }
 
+/// In all so far.
+std::atomic<size_t> bytesAllocated{0};
+
 void* allocate(size_t bytes) {
+  bytesAllocated += bytes;
   void* const found = failsNow() ? nullptr : std::malloc(bytes > 0 ? bytes : 1);
   if (!found) throw std::bad_alloc();
   return found;
 }
 void* allocateAligned(size_t bytes, std::align_val_t alignment) {
   const size_t unit = size_t(alignment);
+  bytesAllocated += bytes;
   void* const found = failsNow() ? nullptr : std::aligned_alloc(unit, (bytes + unit - 1) / unit * unit);
   if (!found) throw std::bad_alloc();
   return found;
 }
 
 }  // namespace
+
+extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*), void* argument) noexcept {
+  if (threadsLeft >= 0 && threadsLeft-- <= 0) {
+    threadsLeft = 0;
+    ++threadsRefused;
+    return EAGAIN;
+  }
+  const auto create = reinterpret_cast<decltype(&pthread_create)>(dlsym(RTLD_NEXT, "pthread_create"));
+  return create(thread, attributes, start, argument);
+}
 
 void* operator new(size_t bytes) { return allocate(bytes); }
 void* operator new[](size_t bytes) { return allocate(bytes); }
@@ -248,6 +272,48 @@ size_t changeMeshes(const Mesh& mesh, const Grid& grid) {
   return tried;
 }
 
+/// Of so many threads of each process some, or none, can be started in one of them. Gives how many could not.
+size_t refuseThreads(const Mesh& mesh, const Grid& grid) {
+  constexpr unsigned kThreads = 4;
+  const auto cutByThreads = [&] {
+    const DistributedCut cut(MPI_COMM_WORLD, std::make_shared<const Mesh>(mesh), grid, PrepareOptions{{kThreads, {}}});
+    return detail::packed(cut.piece().cutMesh);
+  };
+  current = "threads";
+  alarm(kSeconds);
+  const std::vector<std::byte> expected = cutByThreads();
+  for (const int failing : {0, ranksHere() - 1}) {
+    for (int left = 0; left + 1 < int(kThreads); ++left) {
+      current = std::to_string(left) + " threads of process " + std::to_string(failing);
+      alarm(kSeconds);
+      threadsRefused = 0;
+      if (rankHere() == failing) threadsLeft = left;
+      bool isSame = false;
+      const Outcome outcome = outcomeOf([&] { isSame = cutByThreads() == expected; });
+      threadsLeft = -1;
+      require(isSame && (threadsRefused > 0) == (rankHere() == failing), outcome);
+    }
+  }
+  return size_t(2 * (kThreads - 1));
+}
+
+/// Slices come to where they stay.
+void gatherOnce(const Mesh& mesh) {
+  detail::Communicator comm(MPI_COMM_WORLD, nullptr);
+  for (const bool inAll : {false, true}) {
+    current = std::string("gathering in ") + (inAll ? "all" : "the first");
+    alarm(kSeconds);
+    const SlicedMesh slices(MPI_COMM_WORLD, sliceHere(mesh));
+    std::shared_ptr<const Mesh> whole;
+    const size_t before = bytesAllocated;
+    const Outcome outcome = outcomeOf([&] { whole = detail::gathered(comm, *slices.data(), inAll); });
+    const size_t taken = bytesAllocated - before, bytes = sizeof(double) * mesh.positions.size() + sizeof(uint32_t) * mesh.triangles.size();
+    const Mesh expected = inAll || rankHere() == 0 ? mesh : Mesh();
+    const bool isWhole = whole && whole->positions == expected.positions && whole->triangles == expected.triangles;
+    require(isWhole && taken < bytes + bytes / 10, outcome);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -267,9 +333,12 @@ int main(int argc, char** argv) {
   }
   const size_t changes =
       changeLengths(ball) + changeMeshes(shapes::merged({shapes::icosphere({0, 0, 0}, 1, 4), shapes::cube(1, 2)}), Grid::around(ball, 9));
+  const size_t threads = refuseThreads(shapes::icosphere({0, 0, 0}, 1, 5), Grid::around(ball, 65));
+  gatherOnce(shapes::icosphere({0, 0, 0}, 1, 5));
   alarm(0);
   const int anyWrong = all(int(wrong), MPI_MAX);
-  if (rankHere() == 0) std::cout << allocations << " allocations and " << changes << " readings have failed" << std::endl;
+  if (rankHere() == 0)
+    std::cout << allocations << " allocations and " << changes << " readings have failed, and " << threads << " times threads" << std::endl;
   MPI_Finalize();
   return anyWrong == 0 && allocations > 0 && changes > 0 ? 0 : 1;
 }
