@@ -532,7 +532,8 @@ TEST_CASE("Without PETSc several processes cut, and say that flows need it", "[m
 
 #ifdef MANDOLINE_MPI_FLOWS
 
-TEST_CASE("A flow of several processes is that of one without corrections", "[mpi]") {
+TEST_CASE("A flow of several processes is that of one without corrections, of cells as they are and merged", "[mpi]") {
+  const std::string fraction = GENERATE(as<std::string>{}, "0", "0.2");
   const TemporaryFolder folder;
   const std::string mesh = meshFile(folder, shapes::merged({shapes::icosphere({0, 0, 0}, 1, 2), shapes::cube(0.5, 1.5)}));
   Names words = {"flow",
@@ -542,7 +543,7 @@ TEST_CASE("A flow of several processes is that of one without corrections", "[mp
                  "--cells",
                  "9",
                  "--merge",
-                 "0",
+                 fraction,
                  "--corrections",
                  "0",
                  "--report",
@@ -580,8 +581,7 @@ TEST_CASE("What a flow of several processes has not is said once", "[mpi]") {
   const Names flow = {"flow", mesh, "--wind", "1,0,0", "--cells", "6", "-o", folder.path("a.vtu")};
   const std::pair<Names, std::string> cases[] = {
       {{"--merge", "0"}, "several processes solve without corrections: --corrections 0"},
-      {{"--corrections", "0"}, "several processes do not merge cells: --merge 0"},
-      {{"--corrections", "0", "--merge", "0", "--coarsen", "2"}, "--coarsen: a flow of several processes has none"},
+      {{"--corrections", "0", "--coarsen", "2"}, "--coarsen: a flow of several processes has none"},
       {{"--corrections", "0", "--merge", "0", "--far-field"}, "--far-field: a flow of several processes has none"},
   };
   for (const auto& [options, message] : cases) {

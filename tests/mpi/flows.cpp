@@ -2,15 +2,18 @@
 //
 //   mandoline-mpi-flows CELLS EVERY
 //
-// as mandoline-mpi-pieces. Both solve the same system; they differ by what their solvers leave of the residual.
+// as mandoline-mpi-pieces, of cells as they are and merged. Both solve the same system; they differ by what their solvers leave of the
+// residual.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 
+#include "cli/mpi/flow/merged_ranks.h"
 #include "cli/mpi/flow/rank_flow.h"
 #include "mandoline/io.h"
+#include "mandoline/merge.h"
 #include "real_meshes.h"
 #include "shapes.h"
 
@@ -26,17 +29,44 @@ struct Found {
   cli::RankFlow flow;
 };
 
-Found compare(detail::Communicator& comm, const Mesh& mesh, const Grid& grid) {
+/// Own cells and their faces are those of the whole.
+void requireCells(const RankComplex& mine, int rank, const CellComplex& cells) {
+  if (mine.wholeCells != cells.cellCount() || mine.wholeCutCells != cells.cutCells) throw std::runtime_error("other cells in all");
+  const auto require = [](bool isSo, const char* what) {
+    if (!isSo) throw std::runtime_error(std::string("another ") + what);
+  };
+  for (size_t c = 0; c < mine.cells.cellCount(); ++c) {
+    if (mine.cellRanks[c] != rank) continue;
+    const size_t id = mine.cellIds[c];
+    require(mine.cells.cellVolume[c] == cells.cellVolume[id] && mine.cells.cellRegion[c] == cells.cellRegion[id], "cell");
+    for (size_t d = 0; d < 3; ++d) {
+      require(mine.cells.cellCentroid[3 * c + d] == cells.cellCentroid[3 * id + d], "centroid");
+      require(mine.cells.cellCorner[3 * c + d] == cells.cellCorner[3 * id + d], "base");
+    }
+    const auto here = mine.cells.halfFaces(c), whole = cells.halfFaces(id);
+    require(here.size() == whole.size(), "number of faces");
+    for (size_t i = 0; i < here.size(); ++i) {
+      const int32_t across = mine.cells.faceCells[here[i] ^ 1], other = cells.faceCells[whole[i] ^ 1];
+      require(mine.cells.faceArea[here[i] / 2] == cells.faceArea[whole[i] / 2], "area");
+      require(across < 0 ? other < 0 : other >= 0 && mine.cellIds[size_t(across)] == uint64_t(other), "neighbour");
+    }
+  }
+}
+
+Found compare(detail::Communicator& comm, const Mesh& mesh, const Grid& grid, double fraction) {
   const PreparedMesh prepared = prepare(mesh, {{1, {}}}).mesh;
   const std::array<double, 3> wind{2, 0.5, 0.25};
   const DistributedCut distributed(MPI_COMM_WORLD, prepared, grid, {1, {}});
-  const RankComplex mine = distributed.cellComplex(distributed.piece(), cli::kFlowGhosts);
+  const RankComplex mine = cli::mergedComplex(comm, distributed, fraction);
   Found found;
   found.flow = cli::solveRankFlow(comm, mine, wind);
   const CutResult whole = cut(prepared, grid, {{1, {}}});
   CoarsenOptions coarsening;
   coarsening.maxLevel = 0;
-  const CellComplex cells = cellComplex(mesh, whole.mesh, coarsen(whole.mesh, coarsening));
+  MergeOptions merging;
+  merging.fraction = fraction;
+  const CellComplex cells = mergeSmallCells(whole.mesh, cellComplex(mesh, whole.mesh, coarsen(whole.mesh, coarsening)), merging).cells;
+  comm.together("comparison", [&] { requireCells(mine, comm.rank(), cells); });
   FlowOptions options;
   options.corrections = 0;
   options.tolerance = 1e-13;
@@ -57,16 +87,16 @@ Found compare(detail::Communicator& comm, const Mesh& mesh, const Grid& grid) {
   return found;
 }
 
-bool check(detail::Communicator& comm, const std::string& name, const Mesh& mesh, const Grid& grid) {
+bool check(detail::Communicator& comm, const std::string& name, const Mesh& mesh, const Grid& grid, double fraction) {
   std::string problem;
   try {
-    const Found found = compare(comm, mesh, grid);
+    const Found found = compare(comm, mesh, grid, fraction);
     const Flow& flow = found.flow.flow;
     const bool isGood = flow.status == SolveStatus::converged && found.off <= kMostOff && found.flow.imbalance <= kMostSpilt;
     if (comm.rank() == 0)
-      std::printf("%-28s %s: phi off by %.1e, velocities by %.1e, imbalance %.1e, residual %.1e, %d iterations\n",
-                  std::filesystem::path(name).filename().c_str(), isGood ? "as one" : "WRONG", found.off, found.speedOff,
-                  found.flow.imbalance, flow.residuals.back(), found.flow.iterations);
+      std::printf("%-28s %s %s: phi off by %.1e, velocities by %.1e, imbalance %.1e, residual %.1e, %d iterations\n",
+                  std::filesystem::path(name).filename().c_str(), fraction > 0 ? "merged" : "as it is", isGood ? "as one" : "WRONG",
+                  found.off, found.speedOff, found.flow.imbalance, flow.residuals.back(), found.flow.iterations);
     if (!isGood) return false;
   } catch (const std::exception& error) {
     problem = error.what();
@@ -80,7 +110,11 @@ int checkAll(int64_t n, size_t every) {
   size_t checked = 0, wrong = 0;
   const auto add = [&](const std::string& name, const Mesh& mesh) {
     ++checked;
-    wrong += !check(comm, name, mesh, Grid::around(mesh, n, 0.3));
+    for (const double fraction : {0.0, 0.2, 0.5}) {
+      if (check(comm, name, mesh, Grid::around(mesh, n, 0.3), fraction)) continue;
+      ++wrong;
+      break;
+    }
   };
   add("ball", shapes::icosphere({0, 0, 0}, 1, 3));
   add("cube", shapes::cube(0, 1));

@@ -3,6 +3,7 @@
 #include "cli/mpi/distributed_flow.h"
 
 #include "cli/interrupt.h"
+#include "cli/mpi/flow/merged_ranks.h"
 #include "cli/mpi/flow/rank_flow.h"
 #include "mpi/pack.h"
 #include "physics/flow_of_phi.h"
@@ -55,7 +56,6 @@ void checkDistributedFlow(const Arguments& arguments) {
   checkFlowOutputs(arguments);
   if (arguments.flow.corrections.value_or(1) > 0)
     throw UsageError("several processes solve without corrections: --corrections 0 says that this is what is wanted");
-  if (mergeFraction(arguments) > 0) throw UsageError("several processes do not merge cells: --merge 0 says that this is what is wanted");
   const std::pair<bool, const char*> others[] = {{arguments.coarsen.value_or(0) > 0, "--coarsen"},
                                                  {arguments.refines(), "--refine"},
                                                  {arguments.uniteWalls.has_value(), "--unite-walls"},
@@ -68,7 +68,7 @@ void checkDistributedFlow(const Arguments& arguments) {
 
 SolveCells solveDistributed(Ranks& ranks, const Arguments& arguments, const DistributedCut& cut) {
   detail::Communicator& comm = ranks.comm();
-  const RankComplex complex = cut.cellComplex(cut.piece(), kFlowGhosts);
+  const RankComplex complex = mergedComplex(comm, cut, mergeFraction(arguments));
   const std::array<double, 3> wind = *arguments.flow.wind;
   const RankFlow found = solveRankFlow(comm, complex, wind, throwIfInterrupted);
   std::vector<double> phi = gather(comm, complex, found.flow.phi);

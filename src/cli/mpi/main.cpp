@@ -21,7 +21,7 @@ constexpr const char* kMpiHelp =
     R"(Cuts a triangle mesh with a grid in several processes, each of which keeps its piece.
 
   mpirun -n P mandoline-mpi cut MESH [options of mandoline cut] [--progress] [-o FILE ...]
-  mpirun -n P mandoline-mpi flow MESH --wind X,Y,Z --corrections 0 --merge 0
+  mpirun -n P mandoline-mpi flow MESH --wind X,Y,Z --corrections 0
                               [options of mandoline flow] -o FILE ...
   mandoline-mpi plan MESH --ranks P[,P...] [options of the grid] [--report FILE]
 
@@ -42,9 +42,9 @@ options. Each process reads its share of the mesh and cuts some layers of the gr
   --progress             show how far the first process has come, on standard error
 
 flow solves the potential flow by PETSc, where the program was built with it, on all grid
-cells as they are and without corrections, which --corrections 0 and --merge 0 have to say;
-the first process gathers the whole and writes it. PETSC_OPTIONS chooses other solvers.
-Not with --coarsen, --refine, --unite-walls, --far-field and --steps.
+cells, with small ones merged as mandoline flow does, and without corrections, which
+--corrections 0 has to say; the first process gathers the whole and writes it. PETSC_OPTIONS
+chooses other solvers. Not with --coarsen, --refine, --unite-walls, --far-field and --steps.
 
 plan tells what the busiest of P processes, up to 100000, would have of a cut: cut-cells,
 faces and how many of these it shares with others, memory, and what it sends. One process

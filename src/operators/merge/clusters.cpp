@@ -90,6 +90,12 @@ void Clusters::join(detail::Monitor& monitor) {
   joinSmall(false, monitor);
 }
 
+void Clusters::join(std::span<const std::array<uint32_t, 2>> pairs) {
+  for (const auto& [a, b] : pairs) {
+    if (clusterOf_[a] != clusterOf_[b]) unite(clusterOf_[a], clusterOf_[b]);
+  }
+}
+
 /// One round, the smallest first: with large clusters beside their bases alone, or with any. Whether some have joined.
 bool Clusters::joinSmall(bool onlyLarge, detail::Monitor& monitor) {
   std::priority_queue<Waiting> queue;

@@ -23,6 +23,8 @@ class Clusters {
 
   /// Joins small clusters with others until none is small, or none of those can join another.
   void join(detail::Monitor& monitor);
+  /// Joins these, whatever they are like, in the place of that.
+  void join(std::span<const std::array<uint32_t, 2>> pairs);
 
   uint32_t clusterOf(uint32_t cell) const { return clusterOf_[cell]; }
   const Cluster& operator[](uint32_t cluster) const { return clusters_[cluster]; }

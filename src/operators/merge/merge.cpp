@@ -8,6 +8,7 @@
 #include "operators/cell_complex/half_faces.h"
 #include "operators/merge/clusters.h"
 #include "operators/merge/face_joiner.h"
+#include "operators/merge/merge_parts.h"
 #include "operators/require_cut_mesh.h"
 
 namespace mandoline {
@@ -27,6 +28,17 @@ class Merger {
   MergedCells run(detail::Monitor& monitor) {
     monitor.beginStage("cells", 0);
     clusters_.join(monitor);
+    return take(monitor);
+  }
+
+  MergedCells run(std::span<const std::array<uint32_t, 2>> pairs, detail::Monitor& monitor) {
+    monitor.beginStage("cells", 0);
+    clusters_.join(pairs);
+    return take(monitor);
+  }
+
+ private:
+  MergedCells take(detail::Monitor& monitor) {
     numberCells();
     takeCells();
     monitor.beginStage("faces", 1);
@@ -34,7 +46,6 @@ class Merger {
     return std::move(result_);
   }
 
- private:
   /// In the order of their first members.
   void numberCells() {
     constexpr uint32_t kNone = ~0u;
@@ -151,6 +162,34 @@ MergedCells mergeSmallCells(const CutMesh& cutMesh, const CellComplex& cells, co
     merged.cells.fingerprint = fingerprinter.get();
     return merged;
   });
+}
+
+double operators::largestGridCell(const Grid& grid) {
+  double volume = 1;
+  for (const std::vector<double>& planes : grid.planes) {
+    double most = 0;
+    for (size_t i = 1; i < planes.size(); ++i) most = std::max(most, planes[i] - planes[i - 1]);
+    volume *= most;  // in the order in which the volume of one cell is made, so that none is larger by rounding
+  }
+  return volume;
+}
+
+std::vector<uint32_t> operators::mergedWith(const CutMesh& cutMesh, const CellComplex& cells, const MergeOptions& options) {
+  detail::Monitor monitor(options, 1);
+  Clusters clusters(cutMesh, cells, options.fraction);
+  clusters.join(monitor);
+  std::vector<uint32_t> first(cells.cellCount()), ofCluster(cells.cellCount(), ~0u);
+  for (uint32_t c = 0; c < cells.cellCount(); ++c) {
+    uint32_t& least = ofCluster[clusters.clusterOf(c)];
+    first[c] = least = std::min(least, c);
+  }
+  return first;
+}
+
+MergedCells operators::mergePairs(const CutMesh& cutMesh, const CellComplex& cells, std::span<const std::array<uint32_t, 2>> pairs,
+                                  const MergeOptions& options) {
+  detail::Monitor monitor(options, 2);
+  return Merger(cutMesh, cells, options).run(pairs, monitor);
 }
 
 }  // namespace mandoline

@@ -182,13 +182,15 @@ double imbalanceOf(detail::Communicator& comm, const RankComplex& complex, const
   const CellComplex& cells = complex.cells;
   Vector sums(cells.cellCount());
   double largest = 0;
+  const auto isOwn = [&](size_t c) { return complex.cellRanks[c] == comm.rank(); };
   const physics::DualEdges dual = physics::dualEdges(cells, DualPoints::centres);
   for (size_t e = 0; e < dual.edges.size(); ++e) {
     const double derivative = dual.edges[e].sign * physics::differenceAt(cells, dual, e, phi) / dual.edges[e].distance;
     for (const uint32_t f : dual.faces[e]) {
       const double flux = derivative * cells.faceArea[f];
-      largest = std::max(largest, std::fabs(flux));
-      sums[size_t(cells.faceCells[2 * size_t(f)])] += flux, sums[size_t(cells.faceCells[2 * size_t(f) + 1])] -= flux;
+      const auto a = size_t(cells.faceCells[2 * size_t(f)]), b = size_t(cells.faceCells[2 * size_t(f) + 1]);
+      if (isOwn(a) || isOwn(b)) largest = std::max(largest, std::fabs(flux));
+      sums[a] += flux, sums[b] -= flux;
     }
   }
   for (size_t b = 0; b < wind.boundary.halfFaces.size(); ++b) {
@@ -197,7 +199,7 @@ double imbalanceOf(detail::Communicator& comm, const RankComplex& complex, const
   }
   double worst = 0;
   for (size_t c = 0; c < sums.size(); ++c) {
-    if (complex.cellRanks[c] == comm.rank()) worst = std::max(worst, std::fabs(sums[c]));
+    if (isOwn(c)) worst = std::max(worst, std::fabs(sums[c]));
   }
   largest = comm.reduce(largest, MPI_MAX), worst = comm.reduce(worst, MPI_MAX);
   return largest > 0 ? worst / largest : 0;
@@ -211,7 +213,7 @@ RankFlow solveRankFlow(detail::Communicator& comm, const RankComplex& complex, c
   const double length = measuring::length(wind);
   std::array<double, 3> unit{};
   for (size_t d = 0; d < 3 && length > 0; ++d) unit[d] = wind[d] / length;
-  const Halo halo(comm, complex, kFlowGhosts);
+  const Halo halo(comm, complex);
   const RankWind through = rankWind(comm, complex, halo, unit);
   RankSolver solver(comm, complex, halo, through);
   result.flow = solver.run(onIteration);

@@ -7,8 +7,6 @@
 
 namespace mandoline::cli {
 
-constexpr int kFlowGhosts = 2;  ///< layers that velocities of own cells follow from
-
 /// A process's part of a flow.
 struct RankFlow {
   /// phi and cellVelocity are per cell of the process, ghosts among them, whose velocities are none. The rest but madeFrom, faceVelocity,
@@ -18,8 +16,8 @@ struct RankFlow {
   double imbalance = 0;  ///< the largest sum of the flow through the faces of a cell, relative to the largest flow through a face
 };
 
-/// As solveFlow() without corrections; phi is that within the tolerance. `complex` has kFlowGhosts layers. Collective. Throws RankError,
-/// and as PetscSolver does, whose onIteration is as well.
+/// As solveFlow() without corrections; phi is that within the tolerance. `complex` is that of mergedComplex(). Collective. Throws
+/// RankError, and as PetscSolver does, whose onIteration is as well.
 RankFlow solveRankFlow(detail::Communicator& comm, const RankComplex& complex, const std::array<double, 3>& wind,
                        const std::function<void()>& onIteration = nullptr);
 

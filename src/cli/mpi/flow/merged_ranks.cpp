@@ -1,0 +1,302 @@
+#include "cli/mpi/flow/merged_ranks.h"
+
+#include <algorithm>
+
+#include "base/sort.h"
+#include "mpi/ghost_layers.h"
+#include "operators/cell_complex/half_faces.h"
+#include "operators/merge/merge_parts.h"
+
+namespace mandoline::cli {
+namespace {
+
+constexpr const char* kMerging = "merging of cells";
+
+// What the first process learns of cells that may join others, and of those around them, by the ids of the whole.
+
+struct KnownCell {
+  uint64_t id;
+  double volume;
+  std::array<double, 3> centroid;
+  std::array<int32_t, 3> corner;
+  uint32_t region;
+};
+
+struct KnownFace {
+  uint64_t id;
+  std::array<uint64_t, 2> cells;
+  double area;
+  std::array<double, 3> normal;
+  uint64_t isSurface;
+};
+
+/// A cell that is not the first of those that it becomes one with.
+struct Absorbed {
+  uint64_t cell, first;
+  int64_t layer;  ///< of the first one
+};
+
+MergeOptions optionsOf(double fraction) {
+  MergeOptions options;
+  options.threads = 1;
+  options.fraction = fraction;
+  return options;
+}
+
+template <class Item>
+void sortById(std::vector<Item>& items) {
+  detail::sortItems(items, [](const Item& a, const Item& b) { return a.id < b.id; });
+  items.erase(std::unique(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.id == b.id; }), items.end());
+}
+
+/// Of a process's own cells.
+struct Known {
+  std::vector<KnownCell> cells;
+  std::vector<KnownFace> faces;
+
+  Known(const RankComplex& complex, int rank, double fraction) {
+    const CellComplex& of = complex.cells;
+    const double most = operators::largestGridCell(complex.cutMesh.grid);
+    std::vector<uint8_t> isTold(of.cellCount(), 0);
+    for (uint32_t f = 0; f < of.faceCount(); ++f) {
+      const int32_t a = of.faceCells[2 * size_t(f)], b = of.faceCells[2 * size_t(f) + 1];
+      if (a < 0 || b < 0 || a == b) continue;
+      const auto mayJoin = [&](int32_t c) {
+        return complex.cellRanks[size_t(c)] == rank && operators::mayJoin(of, size_t(c), most, fraction);
+      };
+      if (!mayJoin(a) && !mayJoin(b)) continue;
+      isTold[size_t(a)] = isTold[size_t(b)] = 1;
+      const double* n = &of.faceNormal[3 * size_t(f)];
+      faces.push_back({complex.faceIds[f],
+                       {complex.cellIds[size_t(a)], complex.cellIds[size_t(b)]},
+                       of.faceArea[f],
+                       {n[0], n[1], n[2]},
+                       uint64_t(of.faceTag[f] == FaceTag::surface)});
+    }
+    for (size_t c = 0; c < of.cellCount(); ++c) {
+      if (isTold[c] == 0) continue;
+      const double* p = &of.cellCentroid[3 * c];
+      const int32_t* corner = &of.cellCorner[3 * c];
+      cells.push_back({complex.cellIds[c], of.cellVolume[c], {p[0], p[1], p[2]}, {corner[0], corner[1], corner[2]}, of.cellRegion[c]});
+    }
+  }
+};
+
+/// Of what all processes have told: as much of a cell complex as decides which cells merge.
+CellComplex complexOf(const std::vector<KnownCell>& cells, const std::vector<KnownFace>& faces, uint64_t wholeCutCells) {
+  CellComplex complex;
+  for (const KnownCell& cell : cells) {
+    complex.cutCells += cell.id < wholeCutCells;
+    complex.cellVolume.push_back(cell.volume);
+    complex.cellCentroid.insert(complex.cellCentroid.end(), cell.centroid.begin(), cell.centroid.end());
+    complex.cellCorner.insert(complex.cellCorner.end(), cell.corner.begin(), cell.corner.end());
+    complex.cellRegion.push_back(cell.region);
+    complex.cellLevel.push_back(0);
+  }
+  for (const KnownFace& face : faces) {
+    for (const uint64_t id : face.cells) {
+      const auto at =
+          std::lower_bound(cells.begin(), cells.end(), id, [](const KnownCell& cell, uint64_t other) { return cell.id < other; });
+      complex.faceCells.push_back(int32_t(at - cells.begin()));
+    }
+    complex.faceTag.push_back(face.isSurface ? FaceTag::surface : FaceTag::inner);
+    complex.faceArea.push_back(face.area);
+    complex.faceNormal.insert(complex.faceNormal.end(), face.normal.begin(), face.normal.end());
+  }
+  operators::gatherHalfFaces(complex, 1);
+  return complex;
+}
+
+/// The items of all in the first process.
+template <class Item>
+std::vector<Item> inFirst(detail::Communicator& comm, std::vector<Item> items) {
+  std::vector<std::vector<Item>> forEach;
+  comm.together(kMerging, [&] {
+    forEach.resize(size_t(comm.size()));
+    forEach[0] = std::move(items);
+  });
+  forEach = comm.exchangeAll(forEach);
+  std::vector<Item> all;
+  comm.together(kMerging, [&] {
+    for (std::vector<Item>& some : forEach) {
+      all.insert(all.end(), some.begin(), some.end());
+      some = {};
+    }
+    sortById(all);
+  });
+  return all;
+}
+
+/// Ascending.
+std::vector<Absorbed> absorbedCells(detail::Communicator& comm, const CutMesh& common, const RankComplex& complex, double fraction) {
+  std::optional<Known> known;
+  comm.together(kMerging, [&] { known.emplace(complex, comm.rank(), fraction); });
+  const std::vector<KnownCell> cells = inFirst(comm, std::move(known->cells));
+  const std::vector<KnownFace> faces = inFirst(comm, std::move(known->faces));
+  std::vector<Absorbed> absorbed;
+  comm.together(kMerging, [&] {
+    if (comm.rank() > 0) return;
+    const std::vector<uint32_t> first = operators::mergedWith(common, complexOf(cells, faces, complex.wholeCutCells), optionsOf(fraction));
+    for (size_t c = 0; c < cells.size(); ++c) {
+      const KnownCell& to = cells[first[c]];
+      if (first[c] != c) absorbed.push_back({cells[c].id, to.id, to.corner[2]});
+    }
+  });
+  comm.broadcast(absorbed, 0);
+  return absorbed;
+}
+
+/// A process's cells as they become.
+class RankMerger {
+ public:
+  RankMerger(const RankComplex& complex, const std::vector<Absorbed>& absorbed, const detail::RankLayers& layers, int rank)
+      : complex_(complex), absorbed_(absorbed), layers_(layers), rank_(rank) {
+    for (const Absorbed& cell : absorbed) clusters_.push_back({cell.first, cell.layer, 1});
+    detail::sortItems(clusters_, [](const Cluster& a, const Cluster& b) { return a.first < b.first; });
+    size_t count = 0;
+    for (size_t i = 0; i < clusters_.size(); ++i) {
+      if (count > 0 && clusters_[count - 1].first == clusters_[i].first)
+        ++clusters_[count - 1].members;
+      else
+        clusters_[count++] = {clusters_[i].first, clusters_[i].layer, 2};
+    }
+    clusters_.resize(count);
+  }
+
+  void merge(double fraction) {
+    std::vector<std::array<uint64_t, 2>> members;  // of those of several: the first, and a cell here
+    for (uint32_t c = 0; c < complex_.cells.cellCount(); ++c) {
+      if (const Cluster* cluster = clusterOf(c)) members.push_back({cluster->first, c});
+    }
+    detail::sortItems(members, std::less<>());
+    std::vector<std::array<uint32_t, 2>> pairs;
+    for (size_t i = 1; i < members.size(); ++i) {
+      if (members[i][0] == members[i - 1][0]) pairs.push_back({uint32_t(members[i - 1][1]), uint32_t(members[i][1])});
+    }
+    merged_ = operators::mergePairs(complex_.cutMesh, complex_.cells, pairs, optionsOf(fraction)).cells;
+    for (uint32_t c = 0; c < merged_.cellCount(); ++c) {
+      const uint32_t member = merged_.membersOfCell(c)[0];
+      const Cluster* cluster = clusterOf(member);
+      ids_.push_back(idOf(cluster ? cluster->first : complex_.cellIds[member]));
+      ranks_.push_back(cluster ? rankOf(cluster->layer) : complex_.cellRanks[member]);
+      isComplete_.push_back(!cluster || merged_.membersOfCell(c).size() == cluster->members);
+    }
+  }
+
+  /// Whether the rings around own cells are there, counted by layers.
+  bool hasEnough() const {
+    std::array<int64_t, 2> range = complex_.layers;
+    if (range[0] == range[1]) return true;
+    if (!addLayersOf([&](uint32_t c) { return ranks_[c] == rank_; }, range)) return false;
+    for (int ring = 0; ring < kFlowGhosts; ++ring) {
+      range = {std::max<int64_t>(range[0] - 1, 0), std::min<int64_t>(range[1] + 1, complex_.cutMesh.grid.cells(2))};
+      if (range[0] < complex_.allLayers[0] || range[1] > complex_.allLayers[1]) return false;
+      const std::array<int64_t, 2> before = range;
+      const auto isIn = [&](uint32_t c) {
+        const std::array<int64_t, 2> layers = layersOf(c);
+        return layers[0] < before[1] && layers[1] > before[0];
+      };
+      if (!addLayersOf(isIn, range)) return false;
+    }
+    return true;
+  }
+
+  RankComplex take(RankComplex complex) {
+    complex.cells = std::move(merged_);
+    complex.cellIds = std::move(ids_);
+    complex.cellRanks = std::move(ranks_);
+    complex.vertexIds = complex.faceIds = {};
+    complex.seams = {};
+    complex.wholeCutCells = idOf(complex.wholeCutCells);
+    complex.wholeCells -= absorbed_.size();
+    return complex;
+  }
+
+ private:
+  struct Cluster {
+    uint64_t first;
+    int64_t layer;
+    size_t members;
+  };
+
+  /// Null for a cell that stays as it is.
+  const Cluster* clusterOf(uint32_t cell) const {
+    const uint64_t id = complex_.cellIds[cell];
+    const auto at =
+        std::lower_bound(absorbed_.begin(), absorbed_.end(), id, [](const Absorbed& a, uint64_t other) { return a.cell < other; });
+    const uint64_t first = at != absorbed_.end() && at->cell == id ? at->first : id;
+    const auto cluster =
+        std::lower_bound(clusters_.begin(), clusters_.end(), first, [](const Cluster& a, uint64_t other) { return a.first < other; });
+    return cluster != clusters_.end() && cluster->first == first ? &*cluster : nullptr;
+  }
+
+  /// How many merged cells come before a cell that is the first of its own: the id of that.
+  uint64_t idOf(uint64_t first) const {
+    const auto at =
+        std::lower_bound(absorbed_.begin(), absorbed_.end(), first, [](const Absorbed& a, uint64_t other) { return a.cell < other; });
+    return first - uint64_t(at - absorbed_.begin());
+  }
+
+  int32_t rankOf(int64_t layer) const {
+    const auto at =
+        std::find_if(layers_.begin(), layers_.end(), [&](const std::array<int64_t, 2>& of) { return of[0] <= layer && layer < of[1]; });
+    return int32_t(at - layers_.begin());
+  }
+
+  std::array<int64_t, 2> layersOf(uint32_t mergedCell) const {
+    std::array<int64_t, 2> layers{complex_.allLayers[1], complex_.allLayers[0]};
+    for (const size_t member : merged_.membersOfCell(mergedCell)) {
+      const int64_t layer = complex_.cells.cellCorner[3 * member + 2];
+      layers = {std::min(layers[0], layer), std::max(layers[1], layer + 1)};
+    }
+    return layers;
+  }
+
+  /// Those of these cells; whether all are complete.
+  template <class IsOne>
+  bool addLayersOf(const IsOne& isOne, std::array<int64_t, 2>& range) const {
+    for (uint32_t c = 0; c < merged_.cellCount(); ++c) {
+      if (!isOne(c)) continue;
+      if (!isComplete_[c]) return false;
+      const std::array<int64_t, 2> layers = layersOf(c);
+      range = {std::min(range[0], layers[0]), std::max(range[1], layers[1])};
+    }
+    return true;
+  }
+
+  const RankComplex& complex_;
+  const std::vector<Absorbed>& absorbed_;
+  const detail::RankLayers& layers_;
+  const int rank_;
+  std::vector<Cluster> clusters_;  // of several cells, by the first
+  CellComplex merged_;
+  std::vector<uint64_t> ids_;
+  std::vector<int32_t> ranks_;
+  std::vector<uint8_t> isComplete_;
+};
+
+}  // namespace
+
+RankComplex mergedComplex(detail::Communicator& comm, const DistributedCut& cut, double fraction) {
+  const RankPiece piece = cut.piece();
+  if (!(fraction > 0)) return cut.cellComplex(piece, kFlowGhosts);
+  constexpr int kUsual = kFlowGhosts + 2;  // few merged cells reach farther
+  const detail::RankLayers layers = detail::layersOfAll(comm, piece.layers);
+  std::optional<std::vector<Absorbed>> absorbed;
+  for (int ghosts = kUsual;; ++ghosts) {
+    RankComplex complex = cut.cellComplex(piece, ghosts);
+    if (!absorbed) absorbed = absorbedCells(comm, cut.common().mesh, complex, fraction);
+    std::optional<RankMerger> merger;
+    bool hasEnough = false;
+    comm.together(kMerging, [&] {
+      merger.emplace(complex, *absorbed, layers, comm.rank());
+      merger->merge(fraction);
+      hasEnough = merger->hasEnough();
+    });
+    if (comm.reduce(int(hasEnough), MPI_MIN) == 0) continue;
+    comm.together(kMerging, [&] { complex = merger->take(std::move(complex)); });
+    return complex;
+  }
+}
+
+}  // namespace mandoline::cli
