@@ -51,9 +51,24 @@ inline Thirds productOf(const Point& a, const Point& b, const Point& c) {
   product[9] = a[0] * (b[1] * c[2] + b[2] * c[1]) + a[1] * (b[0] * c[2] + b[2] * c[0]) + a[2] * (b[0] * c[1] + b[1] * c[0]);
   return product;
 }
-inline double sumOf(const Thirds& thirds, const Thirds& product) {
+
+/// Symmetric: xx, yy, zz, xy, yz, zx.
+using Symmetric = std::array<double, 6>;
+
+/// The sum over k of v_k times the third derivatives ijk.
+inline Symmetric sumOver(const Thirds& thirds, const Point& v) {
+  Symmetric sum;
+  for (size_t d = 0; d < 3; ++d) {
+    const size_t e = (d + 1) % 3, f = (d + 2) % 3;
+    sum[d] = thirds[d] * v[d] + thirds[3 + d] * v[e] + thirds[6 + d] * v[f];
+    sum[3 + d] = thirds[3 + d] * v[d] + thirds[6 + e] * v[e] + thirds[9] * v[f];
+  }
+  return sum;
+}
+/// v . matrix v.
+inline double squareOf(const Symmetric& matrix, const Point& v) {
   double sum = 0;
-  for (size_t i = 0; i < thirds.size(); ++i) sum += thirds[i] * product[i];
+  for (size_t d = 0; d < 3; ++d) sum += v[d] * (matrix[d] * v[d] + 2 * matrix[3 + d] * v[(d + 1) % 3]);
   return sum;
 }
 
@@ -62,6 +77,7 @@ struct CellFits {
   std::vector<double> second;    ///< 6 per cell: the second derivatives xx, yy, zz, xy, yz, xz
 
   struct Known {
+    const CellComplex& cells;
     const FitData& data;
     const std::vector<double>& values;  ///< fitValues()
     const std::vector<double>& source;  ///< per cell; empty for 0
@@ -71,7 +87,8 @@ struct CellFits {
 
   /// From what the equations of a cell of this size have found; `mean`: a third of its Laplacian.
   void set(size_t cell, const FitEquation::Row& unknowns, double size, double mean);
-  void fit(const Known& known, uint32_t cell, const FitFactors& factors, std::span<const FitEquation> equations);
+  /// `ids`: of the equations that the factors are made of.
+  void fit(const Known& known, uint32_t cell, const FitFactors& factors, std::span<const uint32_t> ids);
 
   /// What is known of third derivatives, of some cells.
   std::vector<Thirds> third;
@@ -88,7 +105,6 @@ struct CellFits {
 };
 
 /// Fits the cells in `which`.
-void fitCells(const CellComplex& cells, std::span<const uint32_t> which, const CellFits::Known& known, detail::Monitor& monitor,
-              CellFits& fits);
+void fitCells(std::span<const uint32_t> which, const CellFits::Known& known, detail::Monitor& monitor, CellFits& fits);
 
 }  // namespace mandoline::physics

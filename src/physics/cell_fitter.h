@@ -12,9 +12,13 @@ class CellFitter {
   CellFitter(const FitSource& source, FitData data, std::vector<uint32_t> which, std::vector<uint32_t> cubic, detail::Monitor& monitor);
 
   const FitData& data() const { return data_; }
+  const std::vector<uint32_t>& square() const { return which_; }  ///< the cells whose polynomials are of degree two, ascending
+  const std::vector<uint32_t>& cubic() const { return cubic_.cells(); }
 
   /// Those of other cells are zero. Valid until the next call.
   const CellFits& fit(const std::vector<double>& values, const std::vector<double>& source, detail::Monitor& monitor);
+  /// What the last call has found; no other one may follow.
+  CellFits take() { return std::move(fits_); }
 
  private:
   const CellComplex& cells_;

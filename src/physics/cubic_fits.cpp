@@ -1,7 +1,6 @@
 #include "physics/cubic_fits.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <unordered_map>
 
@@ -16,6 +15,25 @@ namespace {
 constexpr double kThirdsTowardsZero = 3e-6;
 /// Of what sources tell, which is known better than derivatives are.
 constexpr double kSourceWeight = 3;
+
+/// Stands for numbers, but for rounding.
+class Key {
+ public:
+  void mix(uint64_t word) { value_ = detail::mixed(value_, word); }
+  void add(double x) {
+    const double rounded = x + 0x1.8p16;  // to 36 bits after the point, unless it is large
+    uint64_t bits;
+    std::memcpy(&bits, &rounded, sizeof bits);
+    mix(bits);
+  }
+  void addStep(const double* from, const double* to, double size) {
+    for (size_t d = 0; d < 3; ++d) add((to[d] - from[d]) / size);
+  }
+  uint64_t value() const { return value_; }
+
+ private:
+  uint64_t value_ = 0;
+};
 
 void addTo(Thirds& sum, double factor, const Thirds& product) {
   for (size_t i = 0; i < sum.size(); ++i) sum[i] += factor * product[i];
@@ -44,15 +62,16 @@ std::vector<uint32_t> cubicCells(const FitSource& source, const std::vector<uint
 CubicFitter::CubicFitter(const FitSource& source, const FitData& data, std::vector<uint32_t> which, bool isReused, detail::Monitor& monitor)
     : source_(source), which_(std::move(which)) {
   std::erase_if(which_, [&](uint32_t c) { return !(data.cellSize[c] > 0); });
-  std::vector<uint64_t> keys(which_.size());
-  items_ = rowsOf(which_.size(), monitor.threads(), [&](size_t i, std::vector<uint32_t>& items) {
-    gather(data, which_[i], items);
-    if (isReused) keys[i] = sortByEquation(data, which_[i], items);
-  });
-  if (isReused)
-    findPatterns(data, keys, monitor.threads());
-  else
+  const auto gatherAll = [&](const auto& f) { items_ = rowsOf(which_.size(), monitor.threads(), f); };
+  if (!isReused) {
+    gatherAll([&](size_t i, std::vector<uint32_t>& items) { gather(data, which_[i], items); });
     patterns_.assign(which_.size(), kNone);
+    return;
+  }
+  const Shapes shapes = shapesOf(data, monitor.threads());
+  std::vector<uint64_t> keys(which_.size());
+  gatherAll([&](size_t i, std::vector<uint32_t>& items) { keys[i] = gatherByShape(data, shapes, which_[i], items); });
+  findPatterns(data, keys, monitor.threads());
 }
 
 /// The cell's data and those of its neighbours, each once, and these.
@@ -61,32 +80,74 @@ void CubicFitter::gather(const FitData& data, uint32_t cell, std::vector<uint32_
   add(cell);
   for (const uint32_t n : data.cellNeighbors[cell]) {
     add(n);
-    if (source_.problem.mass.empty()) items.push_back(uint32_t(data.data.size()) + n);  // a mass changes sources from size to size
+    if (hasSources()) items.push_back(uint32_t(data.data.size()) + n);
   }
   std::sort(items.begin(), items.end());
   items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
-/// Cells with the same equations, but for rounding, get the same number, and have them in the same order.
-uint64_t CubicFitter::sortByEquation(const FitData& data, uint32_t cell, std::vector<uint32_t>& items) const {
-  const auto add = [](uint64_t& sum, double x) {
-    const double rounded = std::floor(x * 0x1p36 + 0.5) + 0.0;
-    uint64_t bits;
-    std::memcpy(&bits, &rounded, sizeof bits);
-    sum = detail::mixed(sum, bits);
-  };
-  std::vector<std::pair<uint64_t, uint32_t>> numbered;
-  for (const uint32_t item : items) {
-    const Equation equation = equationOf(data, item, cell);
-    uint64_t number = 0;
-    for (const double x : equation.row) add(number, x);
-    add(number, equation.along), add(number, equation.weight);
-    numbered.push_back({number, item});
+/// Those of the cells and their neighbours.
+CubicFitter::Shapes CubicFitter::shapesOf(const FitData& data, unsigned threads) const {
+  std::vector<char> isWanted(source_.cells.cellCount());
+  for (const uint32_t c : which_) {
+    isWanted[c] = 1;
+    for (const uint32_t n : data.cellNeighbors[c]) isWanted[n] = 1;
   }
-  std::sort(numbered.begin(), numbered.end());
-  uint64_t key = 0;
-  for (size_t i = 0; i < items.size(); ++i) key = detail::mixed(key, numbered[i].first), items[i] = numbered[i].second;
-  return key;
+  Shapes shapes;
+  shapes.keys.resize(isWanted.size());
+  shapes.data = rowsOf(isWanted.size(), threads, [&](size_t c, std::vector<uint32_t>& row) {
+    if (!isWanted[c]) return;
+    std::vector<std::pair<uint64_t, uint32_t>> numbered;
+    for (const uint32_t id : data.cellData[c]) numbered.push_back({keyOf(data, id, uint32_t(c)), id});
+    std::sort(numbered.begin(), numbered.end());
+    for (const auto& [key, id] : numbered) shapes.keys[c] = detail::mixed(shapes.keys[c], key), row.push_back(id);
+  });
+  return shapes;
+}
+
+/// Of all that its equation in the cell is made of.
+uint64_t CubicFitter::keyOf(const FitData& data, uint32_t id, uint32_t cell) const {
+  const FitDatum& datum = data.data[id];
+  const double size = data.cellSize[cell];
+  Key key;
+  key.addStep(&source_.cells.cellCentroid[3 * size_t(cell)], datum.point.data(), size);
+  for (const double x : datum.direction) key.add(x);
+  key.add(datum.length / size), key.add(datum.weight / (size * size));
+  const bool isMean = isOfSeveral(data, id), isDifference = isBetweenPoints(data, id);
+  key.mix(isMean ? 2 : isDifference ? 1 : 0);
+  for (size_t i = 0; isMean && i < datum.spread.size(); ++i) key.add(datum.spread[i] / size);
+  if (isDifference) return key.value();
+  for (const double x : spreadOnSide(data, id)) key.add(x / (size * size));
+  return key.value();
+}
+
+/// The same as gather(), in an order that follows from shapes. Returns a key: cells with the same equations, but for rounding, have the
+/// same.
+uint64_t CubicFitter::gatherByShape(const FitData& data, const Shapes& shapes, uint32_t cell, std::vector<uint32_t>& items) const {
+  const std::vector<double>& centroids = source_.cells.cellCentroid;
+  const double size = data.cellSize[cell];
+  std::vector<std::pair<uint64_t, uint32_t>> around;
+  for (const uint32_t n : data.cellNeighbors[cell]) {
+    Key key;
+    key.addStep(&centroids[3 * size_t(cell)], &centroids[3 * size_t(n)], size);
+    key.add(data.cellSize[n] / size), key.mix(shapes.keys[n]);
+    around.push_back({key.value(), n});
+  }
+  std::sort(around.begin(), around.end());
+  Key key;
+  const auto add = [&](uint32_t item) {
+    const bool isNew = std::find(items.begin(), items.end(), item) == items.end();
+    if (isNew) items.push_back(item);
+    key.mix(isNew);
+  };
+  key.mix(shapes.keys[cell]);
+  for (const uint32_t id : shapes.data[cell]) add(id);
+  for (const auto& [keyOfNeighbor, n] : around) {
+    key.mix(keyOfNeighbor);
+    if (hasSources()) add(uint32_t(data.data.size()) + n);
+    for (const uint32_t id : shapes.data[n]) add(id);
+  }
+  return key.value();
 }
 
 void CubicFitter::findPatterns(const FitData& data, const std::vector<uint64_t>& keys, unsigned threads) {
@@ -115,11 +176,21 @@ CubicFitter::Weights CubicFitter::weightsOf(const FitData& data, size_t i) const
   const std::vector<Equation> equations = equationsOf(data, i);
   const Factors factors(equations, kThirdsTowardsZero);
   Weights weights;
-  for (const Equation& equation : equations) {
-    Factors::Row right = equation.row;
-    for (double& x : right) x *= equation.weight;
-    weights.ofValues.push_back(factors.solve(right));
-    for (size_t u = 0; u < kUnknowns; ++u) weights.ofMean[u] -= equation.along * weights.ofValues.back()[u];
+  using Packs = std::array<Pack<kAtOnce>, kUnknowns>;
+  for (size_t begin = 0; begin < equations.size(); begin += kAtOnce) {
+    Packs right{};
+    const size_t count = std::min(kAtOnce, equations.size() - begin);
+    for (size_t k = 0; k < count; ++k) {
+      for (size_t u = 0; u < kUnknowns; ++u) right[u].of[k] = equations[begin + k].weight * equations[begin + k].row[u];
+    }
+    const Packs unknowns = factors.solve(right);
+    weights.ofValues.emplace_back();
+    for (size_t k = 0; k < count; ++k) {
+      for (size_t u = 0; u < kUnknowns; ++u) {
+        weights.ofValues.back()[k][u] = unknowns[u].of[k];
+        weights.ofMean[u] -= equations[begin + k].along * unknowns[u].of[k];
+      }
+    }
   }
   return weights;
 }
@@ -127,6 +198,20 @@ CubicFitter::Weights CubicFitter::weightsOf(const FitData& data, size_t i) const
 CubicFitter::Equation CubicFitter::equationOf(const FitData& data, uint32_t item, uint32_t cell) const {
   const size_t count = data.data.size();
   return item < count ? derivativeEquation(data, item, cell) : sourceEquation(data, uint32_t(item - count), cell);
+}
+
+bool CubicFitter::isOfSeveral(const FitData& data, uint32_t id) const {
+  return data.ids[id] < source_.dual.edges.size() && source_.dual.faces[data.ids[id]].size() > 1;
+}
+
+bool CubicFitter::isBetweenPoints(const FitData& data, uint32_t id) const {
+  const size_t edges = source_.dual.edges.size();
+  return data.ids[id] < edges || source_.problem.boundary.condition[data.ids[id] - edges] == Condition::dirichlet;
+}
+
+Point CubicFitter::spreadOnSide(const FitData& data, uint32_t id) const {
+  const uint32_t h = source_.problem.boundary.halfFaces[data.ids[id] - source_.dual.edges.size()];
+  return size_t(source_.cells.faceCells[h]) < source_.cells.cutCells ? Point{} : spreadOf(source_.cells, h / 2);
 }
 
 /// A difference of phi is the mean derivative between its ends, of which the second derivative is that along the direction. What is given
@@ -140,22 +225,18 @@ CubicFitter::Equation CubicFitter::derivativeEquation(const FitData& data, uint3
   for (size_t d = 0; d < 3; ++d) r[d] = (datum.point[d] - centroid[d]) / size;
   Thirds thirds{};
   addTo(thirds, 0.5, productOf(n, r, r));
-  const size_t edges = source_.dual.edges.size();
-  const bool isEdge = data.ids[id] < edges;
-  const size_t b = isEdge ? 0 : data.ids[id] - edges;
-  const Boundary& boundary = source_.problem.boundary;
-  if (isEdge || boundary.condition[b] == Condition::dirichlet) {
+  if (isBetweenPoints(data, id)) {
     const double half = datum.length / size / 2;
     addTo(thirds, half * half / 6, productOf(n, n, n));
     Point end = r;
     for (size_t d = 0; d < 3; ++d) end[d] += half * n[d];
-    const bool isSpread = isEdge && source_.dual.faces[data.ids[id]].size() > 1;
-    for (size_t d = 0; isSpread && d < 3; ++d) {
+    const bool isMean = isOfSeveral(data, id);
+    for (size_t d = 0; isMean && d < 3; ++d) {
       addTo(thirds, datum.spread[d] / size, productOf(kAxes[d], kAxes[d], end));
       addTo(thirds, datum.spread[3 + d] / size, productOf(kAxes[d], kAxes[(d + 1) % 3], end));
     }
-  } else if (const uint32_t h = boundary.halfFaces[b]; size_t(source_.cells.faceCells[h]) >= source_.cells.cutCells) {
-    const Point spread = spreadOf(source_.cells, h / 2);
+  } else {
+    const Point spread = spreadOnSide(data, id);
     for (size_t d = 0; d < 3; ++d) addTo(thirds, spread[d] / (size * size), productOf(n, kAxes[d], kAxes[d]));
   }
   Equation equation{{}, lower.along, lower.weight / (0.25 + dot(r, r))};
@@ -222,9 +303,11 @@ CubicFitter::Factors::Row CubicFitter::weighted(const CellFits::Known& known, si
   Factors::Row x;
   for (size_t u = 0; u < kUnknowns; ++u) x[u] = bend * weights.ofMean[u];
   const auto items = items_[i];
-  for (size_t k = 0; k < items.size(); ++k) {
-    const double value = valueOf(known, items[k], cell);
-    for (size_t u = 0; u < kUnknowns; ++u) x[u] += weights.ofValues[k][u] * value;
+  for (size_t begin = 0; begin < items.size(); begin += kAtOnce) {
+    double values[kAtOnce] = {};
+    for (size_t k = 0; k < std::min(kAtOnce, items.size() - begin); ++k) values[k] = valueOf(known, items[begin + k], cell);
+    const auto& [a, b, c, d] = weights.ofValues[begin / kAtOnce];
+    for (size_t u = 0; u < kUnknowns; ++u) x[u] += values[0] * a[u] + values[1] * b[u] + values[2] * c[u] + values[3] * d[u];
   }
   return x;
 }

@@ -31,9 +31,10 @@ Said saidOf(const CellComplex& cells, const CellFits& fits, size_t cell, const P
   if (const Thirds* thirds = fits.thirdsOf(cell)) {
     const Point centroid = pointAt(cells.cellCentroid, cell), toMiddle = differenceOf(middle, centroid),
                 toFace = differenceOf(at.centroid, centroid);
-    said.difference += sumOf(*thirds, productOf(step, toMiddle, toMiddle)) / 2 + sumOf(*thirds, productOf(step, step, step)) / 24;
-    said.derivative += sumOf(*thirds, productOf(at.normal, toFace, toFace)) / 2;
-    for (size_t d = 0; d < 3; ++d) said.derivative += at.spread[d] * sumOf(*thirds, productOf(at.normal, kAxes[d], kAxes[d]));
+    const Symmetric along = sumOver(*thirds, step), across = sumOver(*thirds, at.normal);
+    said.difference += squareOf(along, toMiddle) / 2 + squareOf(along, step) / 24;
+    said.derivative += squareOf(across, toFace) / 2;
+    for (size_t d = 0; d < 3; ++d) said.derivative += at.spread[d] * across[d];
   }
   return said;
 }

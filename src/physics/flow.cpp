@@ -48,8 +48,8 @@ void setOnBoundary(const Boundary& boundary, Flow& flow) {
 }
 
 /// What follows from phi and the velocities on faces of a wind of length 1; then all for one of the given length.
-void complete(const physics::FitSource& source, double length, detail::Monitor& monitor, Flow& flow) {
-  physics::fillVelocities(source, monitor, flow);
+void complete(const physics::FitSource& source, physics::CellFitter* fitter, double length, detail::Monitor& monitor, Flow& flow) {
+  physics::fillVelocities(source, fitter, monitor, flow);
   detail::makeLargeOnThreads(flow.cellPressure, source.cells.cellCount(), monitor.threads());
   physics::forBlocks(flow.cellPressure.size(), monitor.threads(), [&](size_t begin, size_t end) {
     for (size_t c = begin; c < end; ++c) {
@@ -73,36 +73,30 @@ class FlowSolver {
     PoissonProblem problem;
     detail::Monitor monitor(options_, kStages);
     problem.boundary = physics::windBoundary(cells_, unitOf(wind), flow.throttled, monitor.threads());
-    const KnownEdges known = solve(problem, monitor, flow);
+    std::optional<physics::FarField> farField;
+    if (options_.farField) farField.emplace(cells_, problem.boundary);
+    monitor.beginStage("levels", 0);
+    physics::PoissonSetup setup(cells_, problem, monitor.threads());
+    const SolveOptions options = solveOptions(monitor);
+    if (farField && farField->hasDipoles())
+      solveFarField(*farField, setup, options, problem.boundary, flow);
+    else
+      solve(setup, options, problem.boundary, flow);
     monitor.beginStage("velocities", kStages - 1);
-    complete({cells_, known.dual, known.ofCells, problem}, length, monitor, flow);
+    complete({cells_, setup.dual, setup.edgesOfCells, problem}, setup.fitter ? &*setup.fitter : nullptr, length, monitor, flow);
     return flow;
   }
 
  private:
   static constexpr int kStages = 3;  // the solver's two and the velocities
 
-  /// What the solver has found and the velocities need again.
-  struct KnownEdges {
-    physics::DualEdges dual;
-    detail::Csr<uint32_t> ofCells;
-  };
-
-  KnownEdges solve(PoissonProblem& problem, detail::Monitor& monitor, Flow& flow) const {
-    std::optional<physics::FarField> farField;
-    if (options_.farField) farField.emplace(cells_, problem.boundary);
-    monitor.beginStage("levels", 0);
-    physics::PoissonSetup setup(cells_, problem, monitor.threads());
+  SolveOptions solveOptions(detail::Monitor& monitor) const {
     auto options = monitor.part<SolveOptions>(1, 1);
     options.tolerance = options_.tolerance;
     options.maxIterations = options_.maxIterations;
     options.corrections = options_.corrections;
     physics::requireOptions(options);
-    if (farField && farField->hasDipoles())
-      solveFarField(*farField, setup, options, problem.boundary, flow);
-    else
-      solve(setup, options, problem.boundary, flow);
-    return {std::move(setup.dual), std::move(setup.edgesOfCells)};
+    return options;
   }
 
   /// What flows through the sides follows from dipoles, and these follow from the flow.
@@ -173,7 +167,7 @@ Flow physics::flowOfPhi(const CellComplex& cells, const std::array<double, 3>& w
     flow.faceVelocity.resize(cells.faceCount());
     setOnBoundary(problem.boundary, flow);
     monitor.beginStage("velocities", 0);
-    complete({cells, dual, edges, problem}, length, monitor, flow);
+    complete({cells, dual, edges, problem}, nullptr, length, monitor, flow);
     return flow;
   });
 }

@@ -6,6 +6,22 @@
 
 namespace mandoline::physics {
 
+/// Several numbers that the same is done to, which takes processors little longer than one.
+template <size_t K>
+struct Pack {
+  std::array<double, K> of{};
+
+  Pack& operator*=(double factor) {
+    for (double& x : of) x *= factor;
+    return *this;
+  }
+  Pack& operator-=(const Pack& other) {
+    for (size_t k = 0; k < K; ++k) of[k] -= other.of[k];
+    return *this;
+  }
+  friend Pack operator*(double factor, Pack pack) { return pack *= factor; }
+};
+
 /// Of N unknowns. Those after the first three that the data leave open, or nearly, are near zero; so are the first three.
 template <size_t N>
 class SquareFactors {
@@ -37,9 +53,11 @@ class SquareFactors {
     }
   }
 
-  Row solve(Row x) const {
-    for (size_t j = 0; j < N; ++j) {
-      for (size_t i = j + 1; i < N; ++i) x[i] -= at(i, j) * x[j];
+  /// Of doubles, or of packs.
+  template <class T>
+  std::array<T, N> solve(std::array<T, N> x) const {
+    for (size_t i = 0; i < N; ++i) {
+      for (size_t j = 0; j < i; ++j) x[i] -= at(i, j) * x[j];
     }
     for (size_t j = N; j-- > 0;) {
       x[j] *= pivot_[j];

@@ -43,7 +43,7 @@ Compared compare(const CellComplex& cells, bool hasSource, unsigned threads) {
   const RunOptions quiet{threads, {}};
   detail::Monitor monitor(quiet, 1);
   physics::CellFits expected(cells.cellCount(), threads);
-  physics::fitCells(cells, all, {data, physics::fitValues(source, data, phi, threads), problem.source}, monitor, expected);
+  physics::fitCells(all, {cells, data, physics::fitValues(source, data, phi, threads), problem.source}, monitor, expected);
   physics::CellFits found = expected;
   uniform.fit(phi, threads, found);
   Compared result{cells.cellCount() - uniform.otherCells().size()};
