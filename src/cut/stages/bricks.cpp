@@ -14,13 +14,21 @@ struct Given {
 
 class Layout {
  public:
-  Layout(const Surface& surface, const SurfaceParts& parts, const BrickGrid& grid)
-      : surface_(surface), parts_(parts), grid_(grid), seamVertices_(parts.clipped.seamVertices) {}
+  Layout(const Surface& surface, const SurfaceParts& parts, const BrickGrid& grid, const std::vector<uint64_t>& unchanged)
+      : surface_(surface),
+        parts_(parts),
+        grid_(grid),
+        firstChanged_(uint32_t(unchanged.size())),
+        seamVertices_(parts.clipped.seamVertices) {
+    for (const uint64_t key : unchanged) found_.add(key);
+  }
 
   Bricks run() {
-    givenParts_.reserve(parts_.clipped.parts.size());
-    givenEdges_.reserve(2 * parts_.clipped.hybridEdges.size());
-    for (uint32_t i = 0; i < parts_.clipped.parts.size(); ++i) givenParts_.push_back({found_.add(parts_.clipped.parts[i].brick), i});
+    if (firstChanged_ == 0) {
+      givenParts_.reserve(parts_.clipped.parts.size());
+      givenEdges_.reserve(2 * parts_.clipped.hybridEdges.size());
+    }
+    for (uint32_t i = 0; i < parts_.clipped.parts.size(); ++i) give(parts_.clipped.parts[i].brick, i, givenParts_);
     for (const FaceId f : parts_.divided.ids()) placeDivided(f);
     placeEdges();
     placeSeamVertices();
@@ -28,9 +36,15 @@ class Layout {
   }
 
  private:
+  template <class Item>
+  void give(uint64_t key, Item item, std::vector<Given<Item>>& given) {
+    const uint32_t brick = found_.add(key);
+    if (brick >= firstChanged_) given.push_back({brick, item});
+  }
+
   void placeDivided(FaceId f) {
     const Slab& element = parts_.divided.elements[f];
-    grid_.forBricks(element, [&](const Slab& cell) { givenFaces_.push_back({found_.add(grid_.keyOf(cell)), f}); });
+    grid_.forBricks(element, [&](const Slab& cell) { give(grid_.keyOf(cell), f, givenFaces_); });
     if (!parts_.divided.touchesLine[f] || !grid_.isBesideSeam(element)) return;
     for (const auto loop : parts_.divided.loopsOf(f)) {
       for (const VertexId v : loop) noteSeamVertex(v);
@@ -41,7 +55,7 @@ class Layout {
     const size_t hybrid = parts_.clipped.hybridEdges.size() + parts_.divided.hybridEdges.size();
     for (uint32_t i = 0; i < hybrid + surface_.edgesInPlane.size(); ++i) {
       const FaceEdge& edge = faceEdge(surface_, parts_, i);
-      grid_.forBricks(edge.element, [&](const Slab& cell) { givenEdges_.push_back({found_.add(grid_.keyOf(cell)), i}); });
+      grid_.forBricks(edge.element, [&](const Slab& cell) { give(grid_.keyOf(cell), i, givenEdges_); });
       if (i < hybrid) continue;
       noteSeamVertex(edge.from);
       noteSeamVertex(edge.to);
@@ -58,7 +72,7 @@ class Layout {
     for (const VertexId v : seamVertices_) {
       grid_.forBricks(surface_.vertices.slab(v), [&](const Slab& cell) {
         const auto brick = found_.find(grid_.keyOf(cell));
-        if (brick) givenVertices_.push_back({*brick, v});
+        if (brick && *brick >= firstChanged_) givenVertices_.push_back({*brick, v});
       });
     }
   }
@@ -89,7 +103,8 @@ class Layout {
   const Surface& surface_;
   const SurfaceParts& parts_;
   const BrickGrid& grid_;
-  KeyNumbers found_;  // bricks, numbered in the order in which they are found
+  KeyNumbers found_;             // bricks, numbered in the order in which they are found
+  const uint32_t firstChanged_;  // those below are unchanged
   std::vector<Given<uint32_t>> givenParts_, givenEdges_;
   std::vector<Given<FaceId>> givenFaces_;
   std::vector<Given<VertexId>> givenVertices_;
@@ -128,6 +143,8 @@ std::optional<BrickId> Bricks::findTouched(const Slab& cell) const {
   return brick;
 }
 
-Bricks layOutBricks(const Surface& surface, const SurfaceParts& parts, const BrickGrid& grid) { return Layout(surface, parts, grid).run(); }
+Bricks layOutBricks(const Surface& surface, const SurfaceParts& parts, const BrickGrid& grid, const std::vector<uint64_t>& unchanged) {
+  return Layout(surface, parts, grid, unchanged).run();
+}
 
 }  // namespace mandoline::detail

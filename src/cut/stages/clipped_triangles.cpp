@@ -248,11 +248,12 @@ ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& r
     Clipper clipper(surface, bricks, run, chunk);
     WholeDicer dicer(surface, run.monitor, chunk);
     constexpr uint32_t kAhead = 16;  // triangles, whose corners are all over memory
-    for (const TriangleId t : Ids<TriangleId>(begin, end)) {
+    const TriangleId past{uint32_t(end)};
+    for (TriangleId t{uint32_t(begin)}; t < past; ++t.number) {
+      if (known && (t = known->pastKnown(t, past)) == past) break;
       if (t.number + kAhead < end) {
         for (const VertexId v : input.verticesOf({t.number + kAhead})) prefetch(&input.slabs[v]);
       }
-      if (known && known->has(t)) continue;
       if (input.kept(t) && surface.here.has(t) && !dicer.dice(t)) clipper.clip(t);
     }
   });

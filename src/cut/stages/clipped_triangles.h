@@ -32,7 +32,8 @@ struct ClippedTriangles {
 /// What is known of some triangles beforehand. An interface: other cuts don't link what finds it.
 class KnownClips {
  public:
-  virtual bool has(TriangleId triangle) const = 0;
+  /// The triangle after those, from `first` on and before `past`, that are known.
+  virtual TriangleId pastKnown(TriangleId first, TriangleId past) const = 0;
   /// Adds them to those of all others, and their vertices.
   virtual void addTo(ClippedTriangles& others, CutVertices& vertices) = 0;
 

@@ -18,6 +18,12 @@ struct CutBefore {
   BrickCuts& cuts;
 };
 
-KeptBricks keepBricks(const CutBefore& before, SurfaceMap now, const Surface& surface, const SurfaceParts& parts, Bricks& bricks);
+/// Keys of all bricks that are to be kept, ascending, where that can be told before bricks are laid out: where SurfaceMap::areEdgesSame().
+std::vector<uint64_t> findUnchanged(const CutBefore& before, const SurfaceMap& now, const Surface& surface, const SurfaceParts& parts,
+                                    const BrickGrid& grid);
+
+/// `unchanged`: as these were found.
+KeptBricks keepBricks(const CutBefore& before, SurfaceMap now, const Surface& surface, const SurfaceParts& parts, Bricks& bricks,
+                      const std::vector<uint64_t>& unchanged);
 
 }  // namespace mandoline::detail

@@ -13,7 +13,9 @@ class ClipsBefore final : public KnownClips {
   ClipsBefore(const Surface& surface, const ClippedTriangles& clipped, SurfaceMap& now)
       : vertices_(surface.vertices), clipped_(clipped), now_(now) {}
 
-  bool has(TriangleId triangle) const override { return now_.areEdgesSame() && now_.isSame(triangle); }
+  TriangleId pastKnown(TriangleId first, TriangleId past) const override {
+    return now_.areEdgesSame() ? now_.pastSame(first, past) : first;
+  }
   void addTo(ClippedTriangles& others, CutVertices& vertices) override;
 
  private:

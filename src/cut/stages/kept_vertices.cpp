@@ -82,19 +82,20 @@ class Finder {
     const IdVector<VertexId, uint8_t> areLost = findLostOfSurface();
     const VertexId *const nows = kept_.vertices.data(), firstInTriangle = cut_.surface.vertices.firstInTriangle;
     const uint32_t *const numbers = numbers_.ofSurface.data(), *const numbersBefore = before_.numbers.ofSurface.data();
-    Run last{0, 0, 0};
-    for (uint32_t was = 0; was < uint32_t(kept_.vertices.size()); ++was) {
-      const VertexId now = nows[was];
-      if (now >= firstInTriangle) continue;  // as kNoVertex is
-      const uint32_t number = numbers[now.number], before = numbersBefore[was];
-      if (number == Numbers::kUnused || areLost[now]) continue;
-      if (number != last.past() || before != last.before + last.count) {
-        add(last.first, last.before, last.count);
-        last = {number, before, 0};
+    for (uint32_t was = 0, past = uint32_t(kept_.vertices.size()); was < past;) {
+      const VertexId first = nows[was];
+      if (first >= firstInTriangle || numbers[first.number] == Numbers::kUnused || areLost[first]) {  // as kNoVertex is
+        ++was;
+        continue;
       }
-      ++last.count;
+      // Most have ids and numbers that follow each other.
+      const Run begin{numbers[first.number], numbersBefore[was], 0};
+      uint32_t count = 1, now = first.number + 1;
+      for (++was; was < past && nows[was].number == now && now < firstInTriangle.number; ++count, ++was, ++now) {
+        if (numbers[now] != begin.first + count || numbersBefore[was] != begin.before + count || areLost[{now}]) break;
+      }
+      add(begin.first, begin.before, count);
     }
-    add(last.first, last.before, last.count);
   }
   /// Per vertex of the mesh and its edges: whether a brick has it that is not kept, or may have.
   IdVector<VertexId, uint8_t> findLostOfSurface() const {

@@ -51,10 +51,14 @@ class Numberer {
 
   void numberSurface(const UsedVertices& used, const SurfaceNumbers* ofAll) {
     uint32_t next = 0;
+    uint32_t* const numbers = out_.ofSurface.data();
     for (uint32_t v = 0; v < used.size(); ++v) {
-      if (!used[v].load(std::memory_order_relaxed)) continue;
-      out_.ofSurface[{v}] = ofAll ? ofAll->ofUsed[next] : next;
-      ++next;
+      const bool isUsed = used[v].load(std::memory_order_relaxed) != 0;
+      numbers[v] = isUsed ? next : Numbers::kUnused;
+      next += isUsed;
+    }
+    for (uint32_t v = 0; v < used.size() && ofAll; ++v) {
+      if (numbers[v] != Numbers::kUnused) numbers[v] = ofAll->ofUsed[numbers[v]];
     }
     out_.surfaceVertices = ofAll ? ofAll->count : next;
   }

@@ -1,6 +1,7 @@
 #include "cut/stages/surface_map.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "base/sort.h"
 
@@ -146,6 +147,18 @@ void SurfaceMap::findSameTriangles() {
     const auto& [a, b, c] = triangles[t];
     same_.data()[t] = uint8_t(!(moved[a] | moved[b] | moved[c]) & (states[t] == TriangleState::kept));
   }
+}
+
+bool SurfaceMap::hasMoved(const CutVertices& vertices, VertexId v) const {
+  if (vertices.isTriVertex(v)) return moved_[v] != 0;
+  const auto& [low, high] = now_.edges->ends[vertices.triEdge(v)];
+  return moved_[low] || moved_[high];
+}
+
+TriangleId SurfaceMap::pastSame(TriangleId first, TriangleId past) const {
+  const uint8_t* const same = same_.data();
+  const void* const found = std::memchr(same + first.number, 0, past.number - first.number);
+  return found ? TriangleId{uint32_t(static_cast<const uint8_t*>(found) - same)} : past;
 }
 
 /// Both lists ascend by triangle.

@@ -62,7 +62,8 @@ class VertexWriter {
     forNew(list, i, [&](List part, size_t at) { writePlaces(vertices, part, at); });
     const auto isOfMesh = [&](VertexId v) { return vertices.isTriVertex(v) && !input_.mesh->isMade(v); };
     const size_t count = size_t(std::partition_point(list.begin(), list.end(), isOfMesh) - list.begin());
-    writeOfMesh(vertices, list.first(count), i);
+    forNew(list.first(count), i, [&](List part, size_t at) { writeOfMesh(vertices, part, at); });
+    if (kept_.areInPlace) writeZeros(vertices, list.first(count), i);
     list = list.subspan(count);
     i += count;
     const bool areBetweenTriVertices = vertices.edges->lines.empty() && (list.empty() || list.front() >= vertices.firstOnEdge);
@@ -130,8 +131,20 @@ class VertexWriter {
     for (const VertexId v : list) {
       *triVertices++ = int32_t(v.number);
       for (int k = 0; k < 2; ++k) *parents++ = int32_t(v.number);
-      writeCoordinates(vertices.slab(v), i++, [&](size_t d) { return mesh_.positions[3 * size_t(v.number) + d]; });
+      writeCoordinatesOfMesh(vertices, v, i++);
     }
+  }
+  /// Coordinates of vertices that are kept: 0 may have become -0, which is the same once it is scaled.
+  void writeZeros(const CutVertices& vertices, List list, size_t i) {
+    kept_.forKept(i, i + list.size(), [&](const KeptRuns::Run& run) {
+      for (size_t at = run.first; at < run.past(); ++at) {
+        const Point& p = input_.mesh->point(list[at - i]);
+        if (p[0] == 0 || p[1] == 0 || p[2] == 0) writeCoordinatesOfMesh(vertices, list[at - i], at);
+      }
+    });
+  }
+  void writeCoordinatesOfMesh(const CutVertices& vertices, VertexId v, size_t i) {
+    writeCoordinates(vertices.slab(v), i, [&](size_t d) { return mesh_.positions[3 * size_t(v.number) + d]; });
   }
   /// Of vertices on tri-edges that run between vertices of the mesh.
   void writeEnds(const CutVertices& vertices, List list, size_t i) {
