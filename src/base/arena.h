@@ -55,12 +55,12 @@ class Arena {
   size_t bytes() const { return bytes_; }
 
  private:
-  static constexpr size_t kAlignment = 16, kFirst = size_t(1) << 16, kSecond = size_t(1) << 21, kLargest = size_t(1) << 22;
+  static constexpr size_t kAlignment = 16, kFirst = size_t(1) << 16, kLargePages = size_t(1) << 21, kLargest = size_t(1) << 22;
 
   struct Free {
     size_t bytes;
     void operator()(void* block) const {
-      if (bytes < kSecond) {
+      if (bytes < kLargePages) {
         ::operator delete (block, std::align_val_t{kAlignment});
       } else {
         giveBackLargePages(block, bytes);
@@ -78,11 +78,11 @@ class Arena {
     return taken;
   }
 
-  /// Small at first, since most cuts are.
+  /// Small at first, since most cuts are, and the system clears all of a large page.
   void addBlock(size_t least) {
-    size_ = std::max(size_ == 0 ? kFirst : std::clamp(2 * size_, kSecond, kLargest), least);
-    if (size_ >= kSecond) size_ = inWholePages(size_);
-    std::unique_ptr<void, Free> block(size_ < kSecond ? ::operator new (size_, std::align_val_t{kAlignment}) : takeLargePages(size_),
+    size_ = std::max(size_ == 0 ? kFirst : std::min(2 * size_, kLargest), least);
+    if (size_ >= kLargePages) size_ = inWholePages(size_);
+    std::unique_ptr<void, Free> block(size_ < kLargePages ? ::operator new (size_, std::align_val_t{kAlignment}) : takeLargePages(size_),
                                       Free{size_});
     blocks_.push_back(std::move(block));
     next_ = static_cast<std::byte*>(blocks_.back().get());

@@ -143,10 +143,6 @@ struct BrickCuts : IdVector<BrickId, BrickCut> {
   size_t bytes() const {
     return std::accumulate(memory.begin(), memory.end(), size_t(0), [](size_t sum, const BrickMemory& of) { return sum + of.bytes(); });
   }
-  /// Frees a part of it, and so the arrays in it.
-  void free(Arena BrickMemory::*part) {
-    for (BrickMemory& of : memory) of.*part = {};
-  }
 };
 
 /// Bricks that need not be cut again: see kept_bricks.h.

@@ -14,7 +14,7 @@ namespace mandoline::detail {
 namespace {
 
 /// The arrays of a result, in the memory that those of another cut-mesh have; `kept`: of that one, or null. Memory for what is written next
-/// is asked for at once; then it is touched, which takes longer, each array on one thread; offsets are ended.
+/// is got at once, that of each array on one thread, from what this one has freed if there is such; offsets are ended.
 class Rooms {
  public:
   Rooms(const Numbers& numbers, CutMesh spare, const KeptArrays* kept, CutMesh& out, Monitor& monitor)
@@ -26,6 +26,10 @@ class Rooms {
         out_(out),
         monitor_(monitor) {}
 
+  /// Runs it beside what comes next.
+  void alongside(std::function<void()> task) { tasks_.push_back(std::move(task)); }
+  void run() { runTasks(std::exchange(tasks_, {}), monitor_); }
+
   void makeForCells() {
     if (kept_) return kept_->placeCells(arrays());
     const size_t cells = total_.cells;
@@ -33,7 +37,7 @@ class Rooms {
     make(&CutMesh::cellGridCell, 3 * cells);
     makeOffsets(&CutMesh::cellHalfFaceOffsets, cells, total_.halfFaces);
     make(&CutMesh::cellRegion, cells);
-    touch();
+    run();
   }
   void makeForFaces() {
     if (kept_) return kept_->placeFaces(arrays());
@@ -47,7 +51,7 @@ class Rooms {
     make(&CutMesh::faceParents, total_.parents);
     makeForTriFaces(&CutMesh::faceAxis, int8_t(-1));
     makeFilled(&CutMesh::faceParentSigns, total_.parents, int8_t(1));
-    touch();
+    run();
   }
   void makeForVertices(size_t surfaceVertices) {
     const size_t vertices = surfaceVertices + total_.vertices;
@@ -57,7 +61,7 @@ class Rooms {
     make(&CutMesh::vertexParents, 2 * vertices);
     makeFilled(&CutMesh::vertexTriVertex, vertices, -1);
     make(&CutMesh::vertexMask, vertices);
-    touch();
+    run();
   }
 
  private:
@@ -67,11 +71,11 @@ class Rooms {
   template <class Item, class Fill>
   void make(std::vector<Item> CutMesh::*array, size_t count, const Fill& fill) {
     std::vector<Item>& items = out_.*array = std::move(spare_.*array);
-    if (items.capacity() < count) {
-      items.clear();
-      reserveUntouched(items, count);
-    }
-    untouched_.push_back([&items, count, fill] {
+    tasks_.push_back([&items, count, fill] {
+      if (items.capacity() < count) {
+        items.clear();
+        reserveUntouched(items, count);
+      }
       resizeInRoom(items, count);
       fill(items);
     });
@@ -99,15 +103,13 @@ class Rooms {
     make(array, count + 1, [end](std::vector<uint32_t>& items) { items.back() = end; });
   }
 
-  void touch() { runTasks(std::exchange(untouched_, {}), monitor_); }
-
   const BrickCounts& total_;
   const size_t faces_, loops_;
   CutMesh spare_;
   const KeptArrays* const kept_;
   CutMesh& out_;
   Monitor& monitor_;
-  std::vector<std::function<void()>> untouched_;
+  std::vector<std::function<void()>> tasks_;
 };
 
 /// Those of the vertices of the mesh and its edges that lie in the layers that are cut here.
@@ -208,36 +210,37 @@ CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& r
   // One kind after the other, so that what the bricks have of it need not last as long as all of the result.
   constexpr size_t kMuch = size_t(1) << 30, kLargePages = size_t(1) << 20;
   const bool isMuch = state.cuts.bytes() > kMuch;
-  const auto drop = [&](const auto& free) {
-    if (state.isNeededAgain) return;
-    free();
-    if (isMuch) giveBackFreed();
-  };
   if (state.cuts.bytes() >= kLargePages) makeRoomInHeap();
   Rooms rooms(numbers, std::exchange(state.spare, {}), keptArrays, out, run.monitor);
-  drop([&] { state.cuts.free(&BrickMemory::seams); });
+  const auto drop = [&](Arena BrickMemory::*part) {
+    if (state.isNeededAgain) return;
+    for (BrickMemory& of : state.cuts.memory) rooms.alongside([&of, part] { of.*part = {}; });
+    if (!isMuch) return;
+    rooms.run();
+    giveBackFreed();
+  };
+  drop(&BrickMemory::seams);
   const auto isKept = [&](uint32_t b) { return keptArrays && state.kept->isInner({b}); };
   rooms.makeForCells();
   runItems(bricks, run.monitor, [&](size_t, uint32_t b) {
     if (!isKept(b)) writeCells(state, {b}, out);
     writeRegions(state, {b}, out);
   });
-  drop([&] { state.cuts.free(&BrickMemory::cells); });
+  drop(&BrickMemory::cells);
   rooms.makeForFaces();
   runItems(bricks, run.monitor, [&](size_t, uint32_t b) {
     if (!isKept(b)) writeFaces(state, {b}, out);
   });
-  drop([&] {
-    state.cuts.free(&BrickMemory::faces);
-    state.numbers.faces = {};
-  });
+  if (!state.isNeededAgain) state.numbers.faces = {};
+  drop(&BrickMemory::faces);
   rooms.makeForVertices(surface.size());
   writeVertices(mesh, state, {surface, kept}, out, run);
   listMade(state, surface, part.firstVertices, out);
-  drop([&] {
+  if (!state.isNeededAgain) {
     state.cuts = {};
     state.numbers.ofBrick = {};
-  });
+    if (isMuch) giveBackFreed();
+  }
 
   const auto isMade = [&](VertexId v) { return state.surface.vertices.isImplicit(v); };
   separate(kept, input.mesh->hasIntersections() && std::any_of(used.begin(), used.end(), isMade), out, run.monitor);
