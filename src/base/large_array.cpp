@@ -87,9 +87,18 @@ void makeRoomInHeap() {
   }
 }
 
+HeapBegin makeRoomInNewHeap() {
+  constexpr size_t kLeast = 16, kHeader = 16;
+  makeRoomInHeap();
+  const HeapBegin first(std::malloc(kLeast));
+  const uintptr_t at = reinterpret_cast<uintptr_t>(first.get()), past = roundedUp(at, kLargePage);
+  return HeapBegin(past - at > kFew ? std::malloc(past - at + kHeader) : nullptr);
+}
+
 #else
 
 void makeRoomInHeap() {}
+HeapBegin makeRoomInNewHeap() { return nullptr; }
 
 #endif
 

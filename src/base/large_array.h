@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <memory>
 #include <new>
 #include <type_traits>
@@ -33,6 +34,14 @@ MANDOLINE_SHARED void getPages(void* begin, size_t bytes, unsigned threads);
 /// Makes room at the end of this thread's heap, in large pages, which are got once they are touched: small and middling arrays that come
 /// next lie there. Nothing happens where the system can't.
 MANDOLINE_SHARED void makeRoomInHeap();
+
+struct FreeHeap {
+  void operator()(void* begin) const { std::free(begin); }
+};
+using HeapBegin = std::unique_ptr<void, FreeHeap>;
+/// The same for a thread that has just begun. Gives the memory before the first large page of its heap, for the thread to keep: it would
+/// be got in small pages, one by one.
+HeapBegin makeRoomInNewHeap();
 
 /// As much, or more, as a multiple of kPageAlignment.
 constexpr size_t inWholePages(size_t bytes) { return (bytes + kPageAlignment - 1) / kPageAlignment * kPageAlignment; }

@@ -49,7 +49,7 @@ struct Team::Crew {
   }
 
   void help() {
-    if (needsRoom) makeRoomInHeap();
+    const HeapBegin begin = needsRoom ? makeRoomInNewHeap() : nullptr;
     for (;;) {
       watch([&] { return wanted > 0 || isOver; });
       const FunctionRef<void()>* mine;
@@ -98,7 +98,9 @@ struct Team::Crew {
 Team::Team(unsigned threads) : size_(threads), crew_(threads > 1 ? std::make_unique<Crew>() : nullptr) {}
 
 void Team::makeRoomInHeaps() const {
-  if (crew_) crew_->needsRoom = true;
+  if (!crew_) return;
+  crew_->needsRoom = true;
+  crew_->start(size_ - 1);
 }
 
 void Team::run(size_t threads, FunctionRef<void()> work) const {

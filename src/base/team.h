@@ -25,7 +25,7 @@ class MANDOLINE_SHARED Team {
   /// nothing left to begin: those which have not begun by then are not waited for. A call during another one has none of the others.
   void run(size_t threads, FunctionRef<void()> work) const;
 
-  /// From now on, its other threads begin by making room in their heaps: see makeRoomInHeap().
+  /// Starts its other threads, which begin by making room in their heaps: see makeRoomInHeap().
   void makeRoomInHeaps() const;
 
  private:
