@@ -64,7 +64,7 @@ struct StagedCut {
   void clip(const BrickGrid& brickGrid) {
     state.parts.clipped = clipTriangles(state.surface, brickGrid, run);
     divideFaces(state.surface, state.parts.clipped.undivided, state.parts.divided, run);
-    state.bricks = layOutBricks(state.surface, state.parts, brickGrid);
+    state.bricks = layOutBricks(state.surface, state.parts, brickGrid, monitor);
   }
   void cutFirstBrick(Stage last) {
     brick.vertices = CutVertices::ofBrick(state.surface.vertices);

@@ -1,6 +1,7 @@
 #include "cut/stages/bricks.h"
 
 #include "base/key_numbers.h"
+#include "base/run_tasks.h"
 #include "base/sort.h"
 
 namespace mandoline::detail {
@@ -8,7 +9,7 @@ namespace {
 
 template <class Item>
 struct Given {
-  uint32_t brick;
+  uint32_t brick;  ///< its number
   Item item;
 };
 
@@ -20,31 +21,44 @@ class Layout {
         grid_(grid),
         firstChanged_(uint32_t(unchanged.size())),
         seamVertices_(parts.clipped.seamVertices) {
-    for (const uint64_t key : unchanged) found_.add(key);
+    for (KeyNumbers* numbers : {&ofParts_, &found_}) {
+      for (const uint64_t key : unchanged) numbers->add(key);
+    }
   }
 
-  Bricks run() {
-    if (firstChanged_ == 0) {
-      givenParts_.reserve(parts_.clipped.parts.size());
-      givenEdges_.reserve(2 * parts_.clipped.hybridEdges.size());
-    }
-    for (uint32_t i = 0; i < parts_.clipped.parts.size(); ++i) give(parts_.clipped.parts[i].brick, i, givenParts_);
-    for (const FaceId f : parts_.divided.ids()) placeDivided(f);
-    placeEdges();
-    placeSeamVertices();
-    return sorted();
+  Bricks run(Monitor& monitor) {
+    const std::function<void()> finding[] = {[&] { placeParts(); },
+                                             [&] {
+                                               for (const FaceId f : parts_.divided.ids()) placeDivided(f);
+                                               placeEdges();
+                                             }};
+    runTasks(finding, monitor);
+    Bricks bricks = sorted();
+    const std::function<void()> grouping[] = {[&] { bricks.parts = grouped(givenParts_, bricks, idsOf(ofParts_, bricks)); },
+                                              [&] {
+                                                placeSeamVertices(bricks);
+                                                groupOthers(bricks);
+                                              }};
+    runTasks(grouping, monitor);
+    return bricks;
   }
 
  private:
   template <class Item>
-  void give(uint64_t key, Item item, std::vector<Given<Item>>& given) {
-    const uint32_t brick = found_.add(key);
+  void give(uint64_t key, Item item, KeyNumbers& numbers, std::vector<Given<Item>>& given) {
+    const uint32_t brick = numbers.add(key);
     if (brick >= firstChanged_) given.push_back({brick, item});
+  }
+
+  void placeParts() {
+    const std::vector<ClippedTriangles::Part>& parts = parts_.clipped.parts;
+    if (firstChanged_ == 0) givenParts_.reserve(parts.size());
+    for (uint32_t i = 0; i < parts.size(); ++i) give(parts[i].brick, i, ofParts_, givenParts_);
   }
 
   void placeDivided(FaceId f) {
     const Slab& element = parts_.divided.elements[f];
-    grid_.forBricks(element, [&](const Slab& cell) { give(grid_.keyOf(cell), f, givenFaces_); });
+    grid_.forBricks(element, [&](const Slab& cell) { give(grid_.keyOf(cell), f, found_, givenFaces_); });
     if (!parts_.divided.touchesLine[f] || !grid_.isBesideSeam(element)) return;
     for (const auto loop : parts_.divided.loopsOf(f)) {
       for (const VertexId v : loop) noteSeamVertex(v);
@@ -52,10 +66,11 @@ class Layout {
   }
 
   void placeEdges() {
+    if (firstChanged_ == 0) givenEdges_.reserve(2 * parts_.clipped.hybridEdges.size());
     const size_t hybrid = parts_.clipped.hybridEdges.size() + parts_.divided.hybridEdges.size();
     for (uint32_t i = 0; i < hybrid + surface_.edgesInPlane.size(); ++i) {
       const FaceEdge& edge = faceEdge(surface_, parts_, i);
-      grid_.forBricks(edge.element, [&](const Slab& cell) { give(grid_.keyOf(cell), i, givenEdges_); });
+      grid_.forBricks(edge.element, [&](const Slab& cell) { give(grid_.keyOf(cell), i, found_, givenEdges_); });
       if (i < hybrid) continue;
       noteSeamVertex(edge.from);
       noteSeamVertex(edge.to);
@@ -67,49 +82,64 @@ class Layout {
     if (planeCount(slab) > 1 && grid_.isOnSeam(slab)) seamVertices_.push_back(v);
   }
 
-  void placeSeamVertices() {
-    sortUnique(seamVertices_);
-    for (const VertexId v : seamVertices_) {
-      grid_.forBricks(surface_.vertices.slab(v), [&](const Slab& cell) {
-        const auto brick = found_.find(grid_.keyOf(cell));
-        if (brick && *brick >= firstChanged_) givenVertices_.push_back({*brick, v});
-      });
-    }
-  }
-
   /// With bricks in their order.
   Bricks sorted() {
-    std::vector<uint32_t> order(found_.keys.size());
-    for (uint32_t b = 0; b < order.size(); ++b) order[b] = b;
-    sortItems(order, [&](uint32_t a, uint32_t b) { return found_.keys[a] < found_.keys[b]; });
-    newIds_.resize(order.size());
+    std::vector<uint64_t> keys = found_.keys;
+    keys.insert(keys.end(), ofParts_.keys.begin(), ofParts_.keys.end());
+    sortUnique(keys);
     Bricks bricks;
     bricks.grid = grid_;
-    for (uint32_t i = 0; i < order.size(); ++i) newIds_[order[i]] = bricks.add(found_.keys[order[i]]);
-    bricks.parts = grouped(givenParts_);
-    bricks.dividedFaces = grouped(givenFaces_);
-    bricks.faceEdges = grouped(givenEdges_);
-    bricks.seamVertices = grouped(givenVertices_);
+    for (const uint64_t key : keys) bricks.add(key);
     bricks.here = {{0}, {uint32_t(bricks.size())}, false};
     return bricks;
   }
 
+  void placeSeamVertices(const Bricks& bricks) {
+    sortUnique(seamVertices_);
+    for (const VertexId v : seamVertices_) {
+      grid_.forBricks(surface_.vertices.slab(v), [&](const Slab& cell) {
+        const auto brick = bricks.find(cell);
+        if (brick && !isUnchanged(bricks.keys[*brick])) givenVertices_.push_back({brick->number, v});
+      });
+    }
+  }
+
+  bool isUnchanged(uint64_t key) const {
+    const auto number = firstChanged_ > 0 ? found_.find(key) : std::nullopt;
+    return number && *number < firstChanged_;
+  }
+
+  void groupOthers(Bricks& bricks) const {
+    const std::vector<BrickId> ids = idsOf(found_, bricks);
+    bricks.dividedFaces = grouped(givenFaces_, bricks, ids);
+    bricks.faceEdges = grouped(givenEdges_, bricks, ids);
+    bricks.seamVertices = groupBy<VertexId, BrickId>(
+        bricks.size(), givenVertices_.size(), [&](size_t i) { return BrickId{givenVertices_[i].brick}; },
+        [&](size_t i) { return givenVertices_[i].item; });
+  }
+
+  static std::vector<BrickId> idsOf(const KeyNumbers& numbers, const Bricks& bricks) {
+    std::vector<BrickId> ids;
+    for (const uint64_t key : numbers.keys)
+      ids.push_back({uint32_t(std::lower_bound(bricks.keys.begin(), bricks.keys.end(), key) - bricks.keys.begin())});
+    return ids;
+  }
+
   template <class Item>
-  Csr<Item, BrickId> grouped(const std::vector<Given<Item>>& given) const {
+  static Csr<Item, BrickId> grouped(const std::vector<Given<Item>>& given, const Bricks& bricks, const std::vector<BrickId>& ids) {
     return groupBy<Item, BrickId>(
-        newIds_.size(), given.size(), [&](size_t i) { return newIds_[given[i].brick]; }, [&](size_t i) { return given[i].item; });
+        bricks.size(), given.size(), [&](size_t i) { return ids[given[i].brick]; }, [&](size_t i) { return given[i].item; });
   }
 
   const Surface& surface_;
   const SurfaceParts& parts_;
   const BrickGrid& grid_;
-  KeyNumbers found_;             // bricks, numbered in the order in which they are found
+  KeyNumbers ofParts_, found_;   // bricks of parts and of all else, numbered in the order in which they are found
   const uint32_t firstChanged_;  // those below are unchanged
   std::vector<Given<uint32_t>> givenParts_, givenEdges_;
   std::vector<Given<FaceId>> givenFaces_;
   std::vector<Given<VertexId>> givenVertices_;
   std::vector<VertexId> seamVertices_;
-  std::vector<BrickId> newIds_;
 };
 
 }  // namespace
@@ -143,8 +173,9 @@ std::optional<BrickId> Bricks::findTouched(const Slab& cell) const {
   return brick;
 }
 
-Bricks layOutBricks(const Surface& surface, const SurfaceParts& parts, const BrickGrid& grid, const std::vector<uint64_t>& unchanged) {
-  return Layout(surface, parts, grid, unchanged).run();
+Bricks layOutBricks(const Surface& surface, const SurfaceParts& parts, const BrickGrid& grid, Monitor& monitor,
+                    const std::vector<uint64_t>& unchanged) {
+  return Layout(surface, parts, grid, unchanged).run(monitor);
 }
 
 }  // namespace mandoline::detail

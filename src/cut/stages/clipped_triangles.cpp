@@ -1,6 +1,7 @@
 #include "cut/stages/clipped_triangles.h"
 
 #include "base/prefetch.h"
+#include "base/run_tasks.h"
 #include "base/sort.h"
 #include "cut/stages/dicer.h"
 
@@ -204,40 +205,72 @@ void reserve(const std::vector<ClippedChunk>& chunks, ClippedTriangles& all) {
   make([](auto& clipped) -> auto& { return clipped.seamTriangles; });
 }
 
-/// Appends what a chunk made, whose own vertices get `shift` added.
-void append(const ClippedTriangles& chunk, VertexId firstInTriangle, uint32_t shift, ClippedTriangles& all) {
-  const auto shifted = [&](VertexId v) { return v < firstInTriangle ? v : VertexId{v.number + shift}; };
-  const auto appendEdges = [&](const std::vector<FaceEdge>& edges, std::vector<FaceEdge>& out) {
-    for (const FaceEdge& e : edges) out.push_back({e.element, shifted(e.from), shifted(e.to)});
-  };
-  const uint32_t pieces = uint32_t(all.pieces.size());
-  for (const auto& [brick, triangle, piece] : chunk.parts) {
-    all.parts.push_back({brick, triangle, piece == ClippedTriangles::kWhole ? piece : piece + pieces});
-  }
-  all.pieces.append(chunk.pieces, [&](const Corner& c) { return Corner{shifted(c.id), c.slab}; });
-  appendEdges(chunk.hybridEdges, all.hybridEdges);
-  appendItems(chunk.hybridTriangles, all.hybridTriangles);
-  for (const VertexId v : chunk.seamVertices) all.seamVertices.push_back(shifted(v));
-  appendItems(chunk.seamTriangles, all.seamTriangles);
+/// Appends what all chunks made, each array on one thread.
+class ChunkJoiner {
+ public:
+  ChunkJoiner(const std::vector<ClippedChunk>& chunks, VertexId firstInTriangle, ClippedTriangles& all)
+      : chunks_(chunks), firstInTriangle_(firstInTriangle), all_(all) {}
 
-  const UndividedFaces& more = chunk.undivided;
-  UndividedFaces& faces = all.undivided;
-  faces.loops.append(more.loops, shifted);
-  faces.triangles.insert(faces.triangles.end(), more.triangles.begin(), more.triangles.end());
-  faces.elements.insert(faces.elements.end(), more.elements.begin(), more.elements.end());
-  appendItems(more.touchesLine, faces.touchesLine);
-  appendEdges(more.hybridEdges, faces.hybridEdges);
-  appendItems(more.hybridTriangles, faces.hybridTriangles);
-}
-
-void appendAll(const std::vector<ClippedChunk>& chunks, VertexId firstInTriangle, ClippedTriangles& all) {
-  reserve(chunks, all);
-  uint32_t shift = 0;
-  for (const ClippedChunk& c : chunks) {
-    append(c.clipped, firstInTriangle, shift, all);
-    shift += uint32_t(c.slabs.size());
+  void run(Monitor& monitor) {
+    reserve(chunks_, all_);
+    const std::function<void()> tasks[] = {[&] { joinParts(); }, [&] { joinPieces(); }, [&] { joinEdges(); }, [&] { joinUndivided(); }};
+    runTasks(tasks, monitor);
   }
-}
+
+ private:
+  /// Calls f(chunk, shifted) for all; shifted(v) is a vertex of a chunk's own, or one of the surface, among those of all.
+  template <class F>
+  void forEach(const F& f) const {
+    uint32_t shift = 0;
+    for (const ClippedChunk& chunk : chunks_) {
+      f(chunk.clipped, [this, shift](VertexId v) { return v < firstInTriangle_ ? v : VertexId{v.number + shift}; });
+      shift += uint32_t(chunk.slabs.size());
+    }
+  }
+
+  void joinParts() {
+    uint32_t pieces = 0;
+    for (const ClippedChunk& of : chunks_) {
+      for (const auto& [brick, triangle, piece] : of.clipped.parts)
+        all_.parts.push_back({brick, triangle, piece == ClippedTriangles::kWhole ? piece : piece + pieces});
+      pieces += uint32_t(of.clipped.pieces.size());
+    }
+  }
+  void joinPieces() {
+    forEach([&](const ClippedTriangles& chunk, const auto& shifted) {
+      all_.pieces.append(chunk.pieces, [&](const Corner& c) { return Corner{shifted(c.id), c.slab}; });
+    });
+  }
+  void joinEdges() {
+    forEach([&](const ClippedTriangles& chunk, const auto& shifted) {
+      appendEdges(chunk.hybridEdges, shifted, all_.hybridEdges);
+      appendItems(chunk.hybridTriangles, all_.hybridTriangles);
+      for (const VertexId v : chunk.seamVertices) all_.seamVertices.push_back(shifted(v));
+      appendItems(chunk.seamTriangles, all_.seamTriangles);
+    });
+  }
+  void joinUndivided() {
+    UndividedFaces& faces = all_.undivided;
+    forEach([&](const ClippedTriangles& chunk, const auto& shifted) {
+      const UndividedFaces& more = chunk.undivided;
+      faces.loops.append(more.loops, shifted);
+      faces.triangles.insert(faces.triangles.end(), more.triangles.begin(), more.triangles.end());
+      faces.elements.insert(faces.elements.end(), more.elements.begin(), more.elements.end());
+      appendItems(more.touchesLine, faces.touchesLine);
+      appendEdges(more.hybridEdges, shifted, faces.hybridEdges);
+      appendItems(more.hybridTriangles, faces.hybridTriangles);
+    });
+  }
+
+  template <class Shifted>
+  static void appendEdges(const std::vector<FaceEdge>& edges, const Shifted& shifted, std::vector<FaceEdge>& all) {
+    for (const FaceEdge& e : edges) all.push_back({e.element, shifted(e.from), shifted(e.to)});
+  }
+
+  const std::vector<ClippedChunk>& chunks_;
+  const VertexId firstInTriangle_;
+  ClippedTriangles& all_;
+};
 
 }  // namespace
 
@@ -268,7 +301,7 @@ ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& r
   if (chunks.size() == 1) {
     all = std::move(chunks[0].clipped);
   } else {
-    appendAll(chunks, vertices.firstInTriangle, all);
+    ChunkJoiner(chunks, vertices.firstInTriangle, all).run(run.monitor);
   }
   for (const ClippedChunk& c : chunks) {
     appendItems(c.slabs, vertices.slabs);
