@@ -1,6 +1,7 @@
 #include "mesh/prepared.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -22,34 +23,26 @@ void checkArrays(const MeshView& mesh) {
   }
 }
 
-/// Marks referenced tri-vertices.
-std::vector<uint8_t> referencedVertices(const MeshView& mesh) {
-  std::vector<uint8_t> referenced(mesh.vertexCount(), 0);
-  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const uint32_t v = mesh.triangles[i];
-    if (v >= referenced.size()) {
-      fail(Status::badIndex, int64_t(i / 3),
-           "Triangle " + std::to_string(i / 3) + " refers to vertex " + std::to_string(v) + ", but there are only " +
-               std::to_string(referenced.size()) + ".");
-    }
-    referenced[v] = 1;
-  }
-  for (size_t v = 0; v < referenced.size(); ++v) {
-    for (int d = 0; d < 3 && referenced[v]; ++d) {
-      if (!std::isfinite(mesh.positions[3 * v + d])) {
-        fail(Status::nonFiniteCoordinate, int64_t(v), "Vertex " + std::to_string(v) + " has a coordinate that is not finite.");
-      }
-    }
-  }
-  return referenced;
-}
+constexpr size_t kBlock = 1 << 14;  // vertices or triangles that are worth a thread: little is done with each
 
-double largestCoordinate(const MeshView& mesh, const std::vector<uint8_t>& referenced) {
-  double largest = 0;
-  for (size_t v = 0; v < referenced.size(); ++v) {
-    for (int d = 0; d < 3 && referenced[v]; ++d) largest = std::max(largest, std::fabs(mesh.positions[3 * v + d]));
-  }
-  return largest;
+using Marks = std::vector<std::atomic<uint8_t>>;  // any thread may set any of them
+
+/// Marks referenced tri-vertices.
+Marks referencedVertices(const MeshView& mesh, Monitor& monitor) {
+  Marks referenced(mesh.vertexCount());
+  const auto mark = [&](size_t, size_t begin, size_t end) {
+    for (size_t i = 3 * begin; i < 3 * end; ++i) {
+      const uint32_t v = mesh.triangles[i];
+      if (v >= referenced.size()) {
+        fail(Status::badIndex, int64_t(i / 3),
+             "Triangle " + std::to_string(i / 3) + " refers to vertex " + std::to_string(v) + ", but there are only " +
+                 std::to_string(referenced.size()) + ".");
+      }
+      referenced[v].store(1, std::memory_order_relaxed);
+    }
+  };
+  runChunks(mesh.triangleCount(), chunkCount(mesh.triangleCount(), monitor, kBlock), monitor, mark, kBlock);
+  return referenced;
 }
 
 /// Fails if any triangles meet: says which first, and how many pairs do.
@@ -102,18 +95,30 @@ void makeRoomFor(size_t triangles, const Monitor& monitor) {
   monitor.team().makeRoomInHeaps();
 }
 
-CheckedMesh checkInput(const MeshView& mesh, double largest) {
+CheckedMesh checkInput(const MeshView& mesh, double largest, Monitor& monitor) {
   checkArrays(mesh);
-  CheckedMesh checked{referencedVertices(mesh), 0};
-  largest = std::max(largest, largestCoordinate(mesh, checked.referenced));
+  const Marks referenced = referencedVertices(mesh, monitor);
+  CheckedMesh checked{std::vector<uint8_t>(referenced.size()), 0};
+  const auto check = [&](double& largestHere, size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) {
+      checked.referenced[v] = referenced[v].load(std::memory_order_relaxed);
+      for (int d = 0; d < 3 && checked.referenced[v]; ++d) {
+        const double x = mesh.positions[3 * v + d];
+        if (!std::isfinite(x)) {
+          fail(Status::nonFiniteCoordinate, int64_t(v), "Vertex " + std::to_string(v) + " has a coordinate that is not finite.");
+        }
+        largestHere = std::max(largestHere, std::fabs(x));
+      }
+    }
+  };
+  for (const double x : forChunks<double>(referenced.size(), monitor, check, kBlock)) largest = std::max(largest, x);
   if (largest > 0) checked.shift = Scale::kLargestExponent - std::ilogb(largest);
   return checked;
 }
 
 std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monitor& monitor, const std::function<void()>& meanwhile) {
-  constexpr size_t kBlock = 1 << 14;  // vertices or triangles that are worth a thread: little is done with each
   makeRoomFor(mesh.triangleCount(), monitor);
-  const CheckedMesh checked = checkInput(mesh, largest);
+  const CheckedMesh checked = checkInput(mesh, largest, monitor);
   const std::vector<uint8_t>& referenced = checked.referenced;
   auto prepared = std::make_unique<Prepared>();
   MeshCounts& counts = prepared->counts;

@@ -84,7 +84,7 @@ struct CheckedMesh {
   int shift;                        ///< see Prepared
 };
 /// `largest` as of a Preparation.
-MANDOLINE_SHARED CheckedMesh checkInput(const MeshView& mesh, double largest);
+MANDOLINE_SHARED CheckedMesh checkInput(const MeshView& mesh, double largest, Monitor& monitor);
 /// The first third: the checked and welded mesh. `largest` and `meanwhile` as of a Preparation.
 std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monitor& monitor, const std::function<void()>& meanwhile = {});
 /// The second: drops triangles without area; `moved` as of dropZeroArea().
