@@ -2,7 +2,10 @@
 // before and after.
 #include "mandoline/merge.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "case_list.h"
@@ -58,6 +61,7 @@ class MergeCheck {
     requireCells();
     requireNotEmpty();
     requireClosedCells(after_);
+    requireOnePiece();
     requireBounds();
     requireNothingLeft();
   }
@@ -125,6 +129,22 @@ class MergeCheck {
     }
   }
 
+  /// The members of a cell hang together through faces that vanish.
+  void requireOnePiece() const {
+    std::vector<uint32_t> next(before_.cellCount()), found(after_.cellCount());
+    const auto root = [&](uint32_t c) {
+      while (next[c] != c) c = next[c] = next[next[c]];
+      return c;
+    };
+    std::iota(next.begin(), next.end(), 0u);
+    for (size_t f = 0; f < before_.faceCount(); ++f) {
+      if (before_.faceTag[f] != FaceTag::surface && cellAfter(2 * f) >= 0 && cellAfter(2 * f) == cellAfter(2 * f + 1))
+        next[root(uint32_t(before_.faceCells[2 * f]))] = root(uint32_t(before_.faceCells[2 * f + 1]));
+    }
+    for (uint32_t c = 0; c < next.size(); ++c) found[merged_.mergedCell[c]] += root(c) == c;
+    REQUIRE(std::count(found.begin(), found.end(), 1u) == std::ptrdiff_t(found.size()));
+  }
+
   double volumeByUnit(size_t c) const { return after_.cellVolume[c] / unitOf(cutMesh_, before_, baseOf(before_, after_.membersOfCell(c))); }
 
   void requireBounds() {
@@ -188,6 +208,23 @@ MergedCells checkedMerge(const Mesh& mesh, const Grid& grid, int maxLevel = 24, 
   const CutResult result = cut(mesh, grid);
   REQUIRE(result);
   return checkedMerge(mesh, result.mesh, complexOf(mesh, result.mesh, maxLevel), fraction);
+}
+
+/// In degrees, between the normals of faces and the lines between the centroids of their cells.
+double largestAngle(const CellComplex& cells) {
+  double largest = 0;
+  for (size_t f = 0; f < cells.faceCount(); ++f) {
+    const int32_t a = cells.faceCells[2 * f], b = cells.faceCells[2 * f + 1];
+    if (cells.faceTag[f] == FaceTag::surface || a < 0 || b < 0) continue;
+    double along = 0, square = 0;
+    for (size_t d = 0; d < 3; ++d) {
+      const double line = cells.cellCentroid[3 * size_t(b) + d] - cells.cellCentroid[3 * size_t(a) + d];
+      along += line * cells.faceNormal[3 * f + d];
+      square += line * line;
+    }
+    largest = std::max(largest, std::acos(along / std::sqrt(square)) * 180 / std::acos(-1.0));
+  }
+  return largest;
 }
 
 /// Of cells in a region.
@@ -294,6 +331,26 @@ TEST_CASE("merge: octree cells take small ones in", "[merge]") {
   const std::map<double, size_t> inside = volumesOf(merged.cells, result.mesh.regionWinding[0] == 1 ? 0 : 1);
   CHECK(inside.at(8) == 8);
   CHECK(std::all_of(inside.begin(), inside.end(), [](const auto& each) { return each.first >= 8; }));
+}
+
+TEST_CASE("merge: in a shell of a tenth of a grid cell no face is too far from perpendicular to the line between centroids", "[merge]") {
+  const shapes::Point centre{8.1, 8.2, 8.3};
+  for (const double radius : {3.3, 5.2}) {
+    CAPTURE(radius);
+    for (const double thickness : {0.1, 0.15}) {
+      CAPTURE(thickness);
+      const Mesh inner = shapes::flipped(shapes::icosphere(centre, radius - thickness, 3));
+      const MergedCells merged = checkedMerge(shapes::merged({shapes::icosphere(centre, radius, 3), inner}), unitGrid(16), 0);
+      CHECK(largestAngle(merged.cells) < 70);
+    }
+  }
+}
+
+TEST_CASE("merge: a gap of next to nothing between two boxes is divided among the cells around it", "[merge]") {
+  const Mesh low = shapes::box({1.5, 1.5, 1.5}, {8.5, 8.5, 4.5}), high = shapes::box({2.5, 2.5, 4.501}, {7.5, 7.5, 7.5});
+  const MergedCells merged = checkedMerge(shapes::merged({low, high}), unitGrid(10), 0);
+  CHECK(merged.pockets.empty());
+  CHECK(largestAngle(merged.cells) < 70);
 }
 
 TEST_CASE("merge: graded grids", "[merge]") {

@@ -33,9 +33,12 @@ struct MergedCells {
 /// pocket closed by triangles, or have no room left.
 ///
 /// Of the neighbours, one is chosen across which the faces that remain stay nearly perpendicular to the lines between centroids, and which
-/// shares a large area. Volumes are sums, centroids are weighted by volume. Faces inside a merged cell vanish. Those between the same two
-/// cells, or on one side of the grid, that lie in one plane become one face where that has one simple loop. Vertices stay as they are; some
-/// are in no face then.
+/// shares a large area. Then, where a face is more than 60 degrees from that, or nearly in one plane with a centroid, cells move from one
+/// merged cell to another as long as faces get better, one by one or two at once; where that is not enough, a merged cell joins a neighbour
+/// though both are large enough. Where triangles leave no other way, such faces remain.
+///
+/// Volumes are sums, centroids are weighted by volume. Faces inside a merged cell vanish. Those between the same two cells, or on one side
+/// of the grid, that lie in one plane become one face where that has one simple loop. Vertices stay as they are; some are in no face then.
 ///
 /// Lines between dual points are slanted where merged cells meet, so operators have an error of first order there. solvePoisson() and
 /// solveFlow() correct it: errors are those of cells that are not merged, or smaller.

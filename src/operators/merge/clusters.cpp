@@ -6,19 +6,20 @@
 
 #include "base/large_array.h"
 #include "operators/measure/vector.h"
+#include "operators/merge/exchanges.h"
 
 namespace mandoline::merging {
 
 namespace {
-
-/// Faces whose normals are at most 60 degrees from the line between centroids are all fine.
-constexpr double kFineCosine = 0.5;
 
 /// Of small clusters joining large ones alone. More make no difference, unless almost all cells are small.
 constexpr int kRounds = 4;
 
 /// How much larger than a grid cell a merged cell may be, in fractions.
 constexpr double kRoom = 2.5;
+
+/// Cells below it are films, in fractions of a grid cell.
+constexpr double kFilm = 0.001;
 
 /// A small cluster that waits for its turn.
 struct Waiting {
@@ -39,15 +40,25 @@ Clusters::Clusters(const CutMesh& cutMesh, const CellComplex& cells, double frac
   std::fill(size_.begin(), size_.end(), 1u);
   std::iota(clusterOf_.begin(), clusterOf_.end(), 0u);
   detail::copyLarge(clusterOf_, next_);
-  for (uint32_t c = 0; c < count; ++c) {
-    Cluster cluster{cells.cellVolume[c], isOctreeCell(c) ? cells.cellVolume[c] : gridCellVolume(c), c, {}, {}, {}};
-    for (size_t d = 0; d < 3; ++d) {
-      cluster.centroid[d] = cells.cellCentroid[3 * size_t(c) + d];
-      cluster.low[d] = cells.cellCorner[3 * size_t(c) + d];
-      cluster.past[d] = endOf(c, d);
-    }
-    clusters_.push_back(cluster);
+  for (uint32_t c = 0; c < count; ++c) clusters_.push_back(singleCell(c));
+}
+
+Cluster Clusters::singleCell(uint32_t cell) const {
+  const double volume = cells_.cellVolume[cell];
+  Cluster cluster{volume, isOctreeCell(cell) ? volume : gridCellVolume(cell), cell, {}, {}, {}};
+  for (size_t d = 0; d < 3; ++d) {
+    cluster.centroid[d] = cells_.cellCentroid[3 * size_t(cell) + d];
+    cluster.low[d] = cells_.cellCorner[3 * size_t(cell) + d];
+    cluster.past[d] = endOf(cell, d);
   }
+  return cluster;
+}
+
+Cluster Clusters::madeOf(std::span<uint32_t> members) const {
+  std::sort(members.begin(), members.end());
+  Cluster cluster = singleCell(members[0]);
+  for (const uint32_t c : members.subspan(1)) cluster = joined(cluster, singleCell(c));
+  return cluster;
 }
 
 double Clusters::gridCellVolume(uint32_t cell) const {
@@ -87,6 +98,9 @@ bool Clusters::isCompact(const Cluster& cluster) const {
 void Clusters::join(detail::Monitor& monitor) {
   for (int round = 0; round < kRounds && joinSmall(true, monitor); ++round) {
   }
+  joinFilms();
+  joinSmall(false, monitor);
+  Exchanges(cells_, *this).run(monitor);
   joinSmall(false, monitor);
 }
 
@@ -119,6 +133,40 @@ bool Clusters::joinSmall(bool onlyLarge, detail::Monitor& monitor) {
   return any;
 }
 
+/// Cells that are next to nothing join large clusters beside them, however far their bases are, round after round: what is between two
+/// of these, as in gaps between triangles that almost meet, is divided in the middle.
+void Clusters::joinFilms() {
+  std::vector<uint32_t> films;
+  for (uint32_t c = 0; c < clusters_.size(); ++c) {
+    if (clusterOf_[c] == c && size_[c] == 1 && isSmall(clusters_[c]) && clusters_[c].volume < kFilm * clusters_[c].unit) films.push_back(c);
+  }
+  std::vector<std::pair<uint32_t, uint32_t>> chosen;
+  do {
+    chosen.clear();
+    for (const uint32_t c : films) {
+      const uint32_t other = chooseLarge(c);
+      if (other != kNone) chosen.push_back({c, other});
+    }
+    for (const auto& [c, other] : chosen) {
+      findWays(c);
+      if (canJoin(c, clusterOf_[other])) unite(c, clusterOf_[other]);
+    }
+    std::erase_if(films, [&](uint32_t c) { return size_[clusterOf_[c]] > 1; });
+  } while (!chosen.empty());
+}
+
+/// Of the large clusters that this one can join, the best.
+uint32_t Clusters::chooseLarge(uint32_t cluster) {
+  findWays(cluster);
+  const Choice* best = nullptr;
+  for (Choice& choice : choices_) {
+    if (choice.isSmall || !canJoin(cluster, choice.cluster)) continue;
+    choice.cosine = cosineAfter(cluster, choice.cluster);
+    if (!best || isBetter(choice, *best)) best = &choice;
+  }
+  return best ? best->cluster : kNone;
+}
+
 /// Fills in the ways from a cluster to others, and the choices, and stamps those that a triangle separates from it.
 void Clusters::findWays(uint32_t cluster) {
   ways_.clear();
@@ -146,8 +194,7 @@ void Clusters::findWays(uint32_t cluster) {
 bool Clusters::canJoin(uint32_t a, uint32_t b) const {
   const Cluster &one = clusters_[a], &other = clusters_[b];
   if (separated_[b] == now_ || cells_.cellRegion[one.base] != cells_.cellRegion[other.base]) return false;
-  const Cluster both = joined(one, other);
-  return both.volume <= most_ * both.unit;
+  return hasRoom(joined(one, other));
 }
 
 /// The cosine of the largest angle between the normal of a face that the cluster would keep and the line between centroids, if it joined
@@ -201,6 +248,20 @@ uint32_t Clusters::unite(uint32_t a, uint32_t b) {
   size_[a] += size_[b];
   clusters_[a] = both;
   return a;
+}
+
+void Clusters::divide(std::span<uint32_t> a, std::span<uint32_t> b) {
+  for (const std::span<uint32_t> members : {a, b}) {
+    if (members.empty()) continue;
+    const Cluster cluster = madeOf(members);
+    const uint32_t id = members[0];
+    for (size_t i = 0; i < members.size(); ++i) {
+      clusterOf_[members[i]] = id;
+      next_[members[i]] = members[(i + 1) % members.size()];
+    }
+    size_[id] = uint32_t(members.size());
+    clusters_[id] = cluster;
+  }
 }
 
 }  // namespace mandoline::merging

@@ -8,6 +8,9 @@ namespace mandoline::merging {
 
 using Vector = std::array<double, 3>;
 
+/// Faces whose normals are at most 60 degrees from the line between centroids are all fine.
+inline constexpr double kFineCosine = 0.5;
+
 /// Cells that become one.
 struct Cluster {
   double volume;
@@ -29,11 +32,26 @@ class Clusters {
   uint32_t clusterOf(uint32_t cell) const { return clusterOf_[cell]; }
   const Cluster& operator[](uint32_t cluster) const { return clusters_[cluster]; }
   bool isSmall(double volume, double unit) const { return volume < fraction_ * unit; }
+  bool isSmall(const Cluster& cluster) const { return isSmall(cluster.volume, cluster.unit); }
+  bool hasRoom(const Cluster& cluster) const { return cluster.volume <= most_ * cluster.unit; }
+  bool isOctreeCell(uint32_t cell) const { return cell >= cells_.cutCells; }
   /// What the cluster of both would be.
   Cluster joined(const Cluster& a, const Cluster& b) const;
+  /// What the cluster of some cells would be. Sorts them.
+  Cluster madeOf(std::span<uint32_t> members) const;
+  /// Makes a cluster of each, of cells that were in two others. Sorts them.
+  void divide(std::span<uint32_t> a, std::span<uint32_t> b);
+
+  template <class Visit>
+  void forEachMember(uint32_t cluster, const Visit& visit) const {
+    for (uint32_t c = cluster;;) {
+      visit(c);
+      c = next_[c];
+      if (c == cluster) return;
+    }
+  }
 
  private:
-  bool isSmall(const Cluster& cluster) const { return isSmall(cluster.volume, cluster.unit); }
   /// A face through which a cluster could join another.
   struct Way {
     uint32_t halfFace, cluster;
@@ -48,10 +66,12 @@ class Clusters {
   };
 
   double gridCellVolume(uint32_t cell) const;
-  bool isOctreeCell(uint32_t cell) const { return cell >= cells_.cutCells; }
+  Cluster singleCell(uint32_t cell) const;
   int32_t endOf(uint32_t cell, size_t axis) const { return cells_.cellCorner[3 * size_t(cell) + axis] + (1 << cells_.cellLevel[cell]); }
   bool isCompact(const Cluster& cluster) const;
   bool isBetterBase(uint32_t a, uint32_t b) const;
+  void joinFilms();
+  uint32_t chooseLarge(uint32_t cluster);
   void findWays(uint32_t cluster);
   bool canJoin(uint32_t a, uint32_t b) const;
   double cosineAfter(uint32_t cluster, uint32_t other) const;
@@ -59,15 +79,6 @@ class Clusters {
   bool joinSmall(bool onlyLarge, detail::Monitor& monitor);
   uint32_t choose(uint32_t cluster, bool onlyLarge);
   uint32_t unite(uint32_t a, uint32_t b);
-
-  template <class Visit>
-  void forEachMember(uint32_t cluster, const Visit& visit) const {
-    for (uint32_t c = cluster;;) {
-      visit(c);
-      c = next_[c];
-      if (c == cluster) return;
-    }
-  }
 
   static constexpr uint32_t kNone = ~0u;
   const CutMesh& cutMesh_;
