@@ -164,16 +164,6 @@ MergedCells mergeSmallCells(const CutMesh& cutMesh, const CellComplex& cells, co
   });
 }
 
-double operators::largestGridCell(const Grid& grid) {
-  double volume = 1;
-  for (const std::vector<double>& planes : grid.planes) {
-    double most = 0;
-    for (size_t i = 1; i < planes.size(); ++i) most = std::max(most, planes[i] - planes[i - 1]);
-    volume *= most;  // in the order in which the volume of one cell is made, so that none is larger by rounding
-  }
-  return volume;
-}
-
 std::vector<uint32_t> operators::mergedWith(const CutMesh& cutMesh, const CellComplex& cells, const MergeOptions& options) {
   detail::Monitor monitor(options, 1);
   Clusters clusters(cutMesh, cells, options.fraction);

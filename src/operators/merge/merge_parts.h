@@ -9,15 +9,8 @@
 
 namespace mandoline::operators {
 
-/// Whether a cell may have a face through which small cells join others: all that mergeSmallCells() looks at are the half-faces of these.
-/// `most`: the volume of the largest grid cell.
-inline bool mayJoin(const CellComplex& cells, size_t cell, double most, double fraction) {
-  return cell < cells.cutCells && cells.cellVolume[cell] < fraction * most;
-}
-MANDOLINE_SHARED double largestGridCell(const Grid& grid);
-
-/// Per cell the first of those that it becomes one with. Of the cells the arrays of vertices and loops are not needed, nor of faces those
-/// of cells that may not join others, their centroids, or of cells their centres. Arguments are not checked.
+/// Per cell the first of those that it becomes one with. Of vertices and loops no arrays are needed, nor the
+/// centres of cells or the faces at the outside. Arguments are not checked.
 MANDOLINE_SHARED std::vector<uint32_t> mergedWith(const CutMesh& cutMesh, const CellComplex& cells, const MergeOptions& options);
 
 /// Merges pairs of cells, whatever they are like. Arguments are not checked; the result has no fingerprints.

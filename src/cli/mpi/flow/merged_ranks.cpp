@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kMerging = "merging of cells";
 
-// What the first process learns of cells that may join others, and of those around them, by the ids of the whole.
+// What the first process learns of all cells, by the ids of the whole.
 
 struct KnownCell {
   uint64_t id;
@@ -26,7 +26,7 @@ struct KnownFace {
   uint64_t id;
   std::array<uint64_t, 2> cells;
   double area;
-  std::array<double, 3> normal;
+  std::array<double, 3> normal, centroid;
   uint64_t isSurface;
 };
 
@@ -43,50 +43,40 @@ MergeOptions optionsOf(double fraction) {
   return options;
 }
 
-template <class Item>
-void sortById(std::vector<Item>& items) {
-  detail::sortItems(items, [](const Item& a, const Item& b) { return a.id < b.id; });
-  items.erase(std::unique(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.id == b.id; }), items.end());
-}
-
-/// Of a process's own cells.
+/// Of a process's own cells; a face belongs to the process of the first of its cells. Those at the outside are not needed.
 struct Known {
   std::vector<KnownCell> cells;
   std::vector<KnownFace> faces;
 
-  Known(const RankComplex& complex, int rank, double fraction) {
+  Known(const RankComplex& complex, int rank) {
     const CellComplex& of = complex.cells;
-    const double most = operators::largestGridCell(complex.cutMesh.grid);
-    std::vector<uint8_t> isTold(of.cellCount(), 0);
-    for (uint32_t f = 0; f < of.faceCount(); ++f) {
-      const int32_t a = of.faceCells[2 * size_t(f)], b = of.faceCells[2 * size_t(f) + 1];
-      if (a < 0 || b < 0 || a == b) continue;
-      const auto mayJoin = [&](int32_t c) {
-        return complex.cellRanks[size_t(c)] == rank && operators::mayJoin(of, size_t(c), most, fraction);
-      };
-      if (!mayJoin(a) && !mayJoin(b)) continue;
-      isTold[size_t(a)] = isTold[size_t(b)] = 1;
-      const double* n = &of.faceNormal[3 * size_t(f)];
+    const auto pointOf = [](const std::vector<double>& points, size_t i) {
+      return std::array{points[3 * i], points[3 * i + 1], points[3 * i + 2]};
+    };
+    for (size_t c = 0; c < of.cellCount(); ++c) {
+      if (complex.cellRanks[c] != rank) continue;
+      const int32_t* corner = &of.cellCorner[3 * c];
+      cells.push_back(
+          {complex.cellIds[c], of.cellVolume[c], pointOf(of.cellCentroid, c), {corner[0], corner[1], corner[2]}, of.cellRegion[c]});
+    }
+    for (size_t f = 0; f < of.faceCount(); ++f) {
+      const int32_t a = of.faceCells[2 * f], b = of.faceCells[2 * f + 1];
+      if (a < 0 || b < 0 || complex.cellRanks[size_t(a)] != rank) continue;
       faces.push_back({complex.faceIds[f],
                        {complex.cellIds[size_t(a)], complex.cellIds[size_t(b)]},
                        of.faceArea[f],
-                       {n[0], n[1], n[2]},
+                       pointOf(of.faceNormal, f),
+                       pointOf(of.faceCentroid, f),
                        uint64_t(of.faceTag[f] == FaceTag::surface)});
-    }
-    for (size_t c = 0; c < of.cellCount(); ++c) {
-      if (isTold[c] == 0) continue;
-      const double* p = &of.cellCentroid[3 * c];
-      const int32_t* corner = &of.cellCorner[3 * c];
-      cells.push_back({complex.cellIds[c], of.cellVolume[c], {p[0], p[1], p[2]}, {corner[0], corner[1], corner[2]}, of.cellRegion[c]});
     }
   }
 };
 
-/// Of what all processes have told: as much of a cell complex as decides which cells merge.
+/// As much of the whole's cell complex as decides which cells merge.
 CellComplex complexOf(const std::vector<KnownCell>& cells, const std::vector<KnownFace>& faces, uint64_t wholeCutCells) {
   CellComplex complex;
+  complex.cutCells = uint32_t(wholeCutCells);
   for (const KnownCell& cell : cells) {
-    complex.cutCells += cell.id < wholeCutCells;
     complex.cellVolume.push_back(cell.volume);
     complex.cellCentroid.insert(complex.cellCentroid.end(), cell.centroid.begin(), cell.centroid.end());
     complex.cellCorner.insert(complex.cellCorner.end(), cell.corner.begin(), cell.corner.end());
@@ -94,20 +84,17 @@ CellComplex complexOf(const std::vector<KnownCell>& cells, const std::vector<Kno
     complex.cellLevel.push_back(0);
   }
   for (const KnownFace& face : faces) {
-    for (const uint64_t id : face.cells) {
-      const auto at =
-          std::lower_bound(cells.begin(), cells.end(), id, [](const KnownCell& cell, uint64_t other) { return cell.id < other; });
-      complex.faceCells.push_back(int32_t(at - cells.begin()));
-    }
+    for (const uint64_t id : face.cells) complex.faceCells.push_back(int32_t(id));
     complex.faceTag.push_back(face.isSurface ? FaceTag::surface : FaceTag::inner);
     complex.faceArea.push_back(face.area);
     complex.faceNormal.insert(complex.faceNormal.end(), face.normal.begin(), face.normal.end());
+    complex.faceCentroid.insert(complex.faceCentroid.end(), face.centroid.begin(), face.centroid.end());
   }
   operators::gatherHalfFaces(complex, 1);
   return complex;
 }
 
-/// The items of all in the first process.
+/// The items of all in the first process, by their ids.
 template <class Item>
 std::vector<Item> inFirst(detail::Communicator& comm, std::vector<Item> items) {
   std::vector<std::vector<Item>> forEach;
@@ -122,7 +109,7 @@ std::vector<Item> inFirst(detail::Communicator& comm, std::vector<Item> items) {
       all.insert(all.end(), some.begin(), some.end());
       some = {};
     }
-    sortById(all);
+    detail::sortItems(all, [](const Item& a, const Item& b) { return a.id < b.id; });
   });
   return all;
 }
@@ -130,7 +117,7 @@ std::vector<Item> inFirst(detail::Communicator& comm, std::vector<Item> items) {
 /// Ascending.
 std::vector<Absorbed> absorbedCells(detail::Communicator& comm, const CutMesh& common, const RankComplex& complex, double fraction) {
   std::optional<Known> known;
-  comm.together(kMerging, [&] { known.emplace(complex, comm.rank(), fraction); });
+  comm.together(kMerging, [&] { known.emplace(complex, comm.rank()); });
   const std::vector<KnownCell> cells = inFirst(comm, std::move(known->cells));
   const std::vector<KnownFace> faces = inFirst(comm, std::move(known->faces));
   std::vector<Absorbed> absorbed;

@@ -12,8 +12,8 @@ constexpr int kFlowGhosts = 2;  ///< rings of cells that velocities of own cells
 /// merged cell belongs to the process of its first member. There are so many layers of ghosts that those which are nearer than that are
 /// complete, with all that is in their faces; others may lack members. All but vertices and faces has the whole's ids. Collective.
 ///
-/// Which cells merge the first process decides, of all that are small and what is around them: of these it is told volumes, centroids and
-/// areas. It tells all which cells are no longer the first of theirs.
+/// Which cells merge the first process decides, which is told volumes, centroids and areas of all. It tells all which cells are no longer
+/// the first of theirs.
 RankComplex mergedComplex(detail::Communicator& comm, const DistributedCut& cut, double fraction);
 
 }  // namespace mandoline::cli
