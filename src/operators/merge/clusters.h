@@ -1,6 +1,8 @@
 // Which cells of a complex become one: the decisions of mergeSmallCells().
 #pragma once
 
+#include <algorithm>
+
 #include "base/parallel.h"
 #include "mandoline/merge.h"
 
@@ -34,6 +36,8 @@ class Clusters {
   bool isSmall(double volume, double unit) const { return volume < fraction_ * unit; }
   bool isSmall(const Cluster& cluster) const { return isSmall(cluster.volume, cluster.unit); }
   bool hasRoom(const Cluster& cluster) const { return cluster.volume <= most_ * cluster.unit; }
+  /// What a cluster may have that has the base of one of two.
+  double mostVolume(const Cluster& a, const Cluster& b) const { return most_ * std::max(a.unit, b.unit); }
   bool isOctreeCell(uint32_t cell) const { return cell >= cells_.cutCells; }
   /// What the cluster of both would be.
   Cluster joined(const Cluster& a, const Cluster& b) const;

@@ -16,7 +16,10 @@ constexpr double kFineShare = 0.1;
 constexpr double kVeryBad = 0.2;
 
 /// More are not tried two at once.
-constexpr size_t kMostFirstMoves = 160;
+constexpr size_t kMostFirstMoves = 64;
+
+/// How much worse the first of two moves may make faces.
+constexpr double kMostWorse = 4;
 
 constexpr int kSweeps = 8, kMovesForFace = 32;
 
@@ -105,7 +108,7 @@ bool Exchanges::improveTwice(uint32_t cell) {
   for (const Move& first : firsts) {
     const uint32_t from = clusters_.clusterOf(first.cell);
     const double gained = gain(first);
-    if (gained == kNotPossible) continue;
+    if (gained < -kMostWorse) continue;
     std::vector<uint32_t> before[2] = {members_[0], {}};
     for (const uint32_t c : members_[1]) before[clusters_.clusterOf(c) == from ? 0 : 1].push_back(c);
     clusters_.divide(members_[0], members_[1]);
@@ -164,6 +167,7 @@ double Exchanges::gain(const Move& move) {
   if (clusters_.isOctreeCell(move.isWhole ? before[0].base : move.cell) ||
       cells_.cellRegion[move.cell] != cells_.cellRegion[before[1].base])
     return kNotPossible;
+  if (from == to || before[1].volume + cells_.cellVolume[move.cell] > clusters_.mostVolume(before[0], before[1])) return kNotPossible;
   divide(move, from);
   const bool isOfMerged = !move.isWhole || members_[1].size() > 2;
   if (members_[0].empty() != move.isWhole || !isOfMerged || isSeparated(from, to)) return kNotPossible;
