@@ -33,9 +33,8 @@ Moved findMoved(const Prepared& before, const Prepared& now) {
 std::vector<uint8_t> sidesBeyond(const Box& box, const std::vector<Point>& points) {
   std::vector<uint8_t> sides(points.size());
   for (size_t i = 0; i < points.size(); ++i) {
-    int beyond = 0;
-    for (size_t d = 0; d < 3; ++d) beyond |= (int(points[i][d] < box.low[d]) | int(points[i][d] > box.high[d]) << 1) << 2 * d;
-    sides[i] = uint8_t(beyond);
+    const auto sideOf = [&](size_t d) { return int(points[i][d] < box.low[d]) | int(points[i][d] > box.high[d]) << 1; };
+    sides[i] = uint8_t(sideOf(0) | sideOf(1) << 2 | sideOf(2) << 4);
   }
   return sides;
 }
@@ -51,7 +50,7 @@ std::vector<TriangleState> nearMoved(const Prepared& mesh, const Moved& moved) {
   for (uint32_t t = 0; t < states.size(); ++t) {
     const auto& v = mesh.triangles[t];
     const bool isBeside = (beyond[v[0]] & beyond[v[1]] & beyond[v[2]]) != 0;  // its box doesn't overlap
-    if (states[t] == TriangleState::kept && isBeside) states[t] = TriangleState::beside;
+    states[t] = states[t] == TriangleState::kept && isBeside ? TriangleState::beside : states[t];
   }
   return states;
 }

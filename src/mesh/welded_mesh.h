@@ -76,7 +76,7 @@ std::vector<uint32_t> weld(const std::vector<uint8_t>& referenced, const std::ve
 using Moved = IdVector<VertexId, uint8_t>;
 
 inline bool hasMoved(const Moved& moved, const std::array<uint32_t, 3>& triangle) {
-  return moved[{triangle[0]}] || moved[{triangle[1]}] || moved[{triangle[2]}];
+  return (moved[{triangle[0]}] | moved[{triangle[1]}] | moved[{triangle[2]}]) != 0;  // one branch
 }
 
 /// Marks the triangles without area, exactly, and returns them. Triangles that have not moved are known to have one; null: all may have.
