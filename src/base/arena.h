@@ -55,7 +55,8 @@ class Arena {
   size_t bytes() const { return bytes_; }
 
  private:
-  static constexpr size_t kAlignment = 16, kFirst = size_t(1) << 16, kLargePages = size_t(1) << 21, kLargest = size_t(1) << 22;
+  static constexpr size_t kAlignment = 16, kFirst = size_t(1) << 16, kLargePages = size_t(1) << 21, kLargest = size_t(1) << 22,
+                          kSecond = kPageAlignment > kAlignment ? 2 * kFirst : kLargePages;
 
   struct Free {
     size_t bytes;
@@ -78,9 +79,9 @@ class Arena {
     return taken;
   }
 
-  /// Small at first, since most cuts are, and the system clears all of a large page.
+  /// Small at first, since most cuts are, and as long as they fill no large page, of which the system clears all.
   void addBlock(size_t least) {
-    size_ = std::max(size_ == 0 ? kFirst : std::min(2 * size_, kLargest), least);
+    size_ = std::max(size_ == 0 ? kFirst : std::clamp(2 * size_, kSecond, kLargest), least);
     if (size_ >= kLargePages) size_ = inWholePages(size_);
     std::unique_ptr<void, Free> block(size_ < kLargePages ? ::operator new (size_, std::align_val_t{kAlignment}) : takeLargePages(size_),
                                       Free{size_});

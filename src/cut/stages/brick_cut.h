@@ -4,6 +4,8 @@
 // in any order, on any number of threads; none needs to know of another. What other processes cut has only what seams and regions need.
 #pragma once
 
+#include <numeric>
+
 #include "base/arena.h"
 #include "cut/stages/cut_cells.h"
 #include "cut/stages/winding_steps.h"

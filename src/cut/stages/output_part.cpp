@@ -190,7 +190,7 @@ std::vector<VertexId> listUsed(const UsedVertices& used) {
 
 CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& run) {
   const Input& input = state.surface.input;
-  const std::vector<uint32_t> bricks = state.bricks.here.numbers();
+  const std::vector<uint32_t> bricks = state.bricks.here.numbers(run.monitor.threads());
   KeptArrays* const keptArrays = state.keeping ? state.keeping->arrays() : nullptr;
   state.numbers = makeNumbers(state.cut(), keptArrays ? keptArrays->bricksToNumber(state) : BricksToNumber{bricks, bricks}, state.used,
                               state.surfaceNumbers ? &*state.surfaceNumbers : nullptr, run);

@@ -1,7 +1,5 @@
 #include "cut/stages/write_vertices.h"
 
-#include <numeric>
-
 #include "base/prefetch.h"
 
 namespace mandoline::detail {
@@ -224,8 +222,8 @@ void writeVertices(const MeshView& mesh, const CutState& state, const VerticesTo
   const std::span<const VertexId> surface = vertices.surface;
   VertexWriter writer(mesh, state.surface.input, vertices.kept, run.onlyGeneral, out);
   copyPositions(vertices.kept, run.monitor, out);
-  std::vector<uint32_t> tasks(here.size() + Block::count(surface.size()));
-  std::iota(tasks.begin(), tasks.end(), here.first.number);
+  std::vector<uint32_t> tasks = here.numbers(run.monitor.threads());
+  for (size_t block = 0; block < Block::count(surface.size()); ++block) tasks.push_back(here.past.number + uint32_t(block));
   const uint32_t before = numbers.surfaceVertices + numbers.before.vertices - uint32_t(surface.size());
   std::vector<Predicates> predicates(run.monitor.threads());
   runItems(tasks, run.monitor, [&](size_t thread, uint32_t task) {
