@@ -39,6 +39,6 @@ detail::Csr<uint32_t> rowsOf(size_t rows, unsigned threads, const F& f) {
 }
 
 /// Per cell its dual edges, ascending.
-detail::Csr<uint32_t> cellEdges(const CellComplex& cells, const DualEdges& dual, unsigned threads);
+MANDOLINE_SHARED detail::Csr<uint32_t> cellEdges(const CellComplex& cells, const DualEdges& dual, unsigned threads);
 
 }  // namespace mandoline::physics

@@ -6,7 +6,7 @@
 namespace mandoline::physics {
 
 /// Fits some cells again and again.
-class CellFitter {
+class MANDOLINE_SHARED CellFitter {
  public:
   /// `data`: those of `which`, at least; `cubic`: those of them whose polynomials are of degree three, ascending.
   CellFitter(const FitSource& source, FitData data, std::vector<uint32_t> which, std::vector<uint32_t> cubic, detail::Monitor& monitor);

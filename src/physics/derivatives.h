@@ -8,7 +8,7 @@ namespace mandoline::physics {
 
 /// Makes the derivatives of a problem's phi: per face along its normal, 0 without a dual edge; then per half-face of the boundary along the
 /// normal that points out of the cell.
-class Differentiator {
+class MANDOLINE_SHARED Differentiator {
  public:
   /// `terms`: boundaryTerms().
   Differentiator(const FitSource& source, const std::vector<BoundaryTerm>& terms, unsigned threads);

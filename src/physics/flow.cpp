@@ -149,7 +149,8 @@ class FlowSolver {
 
 }  // namespace
 
-Flow physics::flowOfPhi(const CellComplex& cells, const std::array<double, 3>& wind, std::vector<double> phi, const RunOptions& options) {
+Flow physics::flowOfPhi(const CellComplex& cells, const std::array<double, 3>& wind, std::vector<double> phi,
+                        std::span<const FaceCorrection> corrections, const RunOptions& options) {
   return detail::runCall("flow", [&] {
     Flow flow;
     flow.madeFrom = cells.fingerprint;
@@ -165,6 +166,8 @@ Flow physics::flowOfPhi(const CellComplex& cells, const std::array<double, 3>& w
     const detail::Csr<uint32_t> edges = cellEdges(cells, dual, monitor.threads());
     flow.faceVelocity = Differentiator({cells, dual, edges, problem}, terms, monitor.threads()).plain(flow.phi, monitor.threads());
     flow.faceVelocity.resize(cells.faceCount());
+    for (const FaceCorrection& correction : corrections)
+      flow.faceVelocity[correction.face] += length > 0 ? correction.velocity / length : 0;
     setOnBoundary(problem.boundary, flow);
     monitor.beginStage("velocities", 0);
     complete({cells, dual, edges, problem}, nullptr, length, monitor, flow);

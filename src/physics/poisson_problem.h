@@ -30,7 +30,7 @@ struct BoundaryTerm {
 };
 
 /// Per half-face of the boundary.
-std::vector<BoundaryTerm> boundaryTerms(const CellComplex& cells, const PoissonProblem& problem);
+MANDOLINE_SHARED std::vector<BoundaryTerm> boundaryTerms(const CellComplex& cells, const PoissonProblem& problem);
 
 /// Per cell: its volume times its mass.
 std::vector<double> massTerms(const CellComplex& cells, const PoissonProblem& problem);

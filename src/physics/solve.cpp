@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/correction_passes.h"
 #include "physics/node_loops.h"
 #include "physics/poisson_setup.h"
 #include "physics/unresolved_cells.h"
@@ -148,38 +149,24 @@ class Solver {
     iterate(options_.tolerance);
   }
 
-  /// Adds what plain derivatives lack to the right side, again and again: the matrix keeps the plain ones. What they lack follows from the
-  /// phi that was found last; a secant through the last two passes (Anderson's acceleration) leaves a tenth of what is still missing.
+  /// Adds what plain derivatives lack to the right side, again and again: the matrix keeps the plain ones.
   void correct() {
     const Vector rhs = rhs_;
     const RunOptions quiet{monitor_.threads(), {}};
     detail::Monitor unheard(quiet, 1);
     const Differentiator& differentiator = setup_.differentiator;
     if (!setup_.fitter) setup_.fitter.emplace(differentiator.fitter(unheard));
-    Vector foundBefore, missingBefore, next(differentiator.corrected().size());
-    double enough = 0x1p10 * options_.tolerance * options_.tolerance * differentiator.squareOfPlain(result_.phi, threads()), before = 0;
-    const int first = isWarm_ ? 1 : 0;  // the first pass after a solution
+    const double enough = 0x1p10 * options_.tolerance * options_.tolerance * differentiator.squareOfPlain(result_.phi, threads());
+    CorrectionPasses passes(differentiator.corrected().size(), enough, isWarm_);
     for (int pass = 0; pass < options_.corrections; ++pass) {
-      Vector found = differentiator.corrections(*setup_.fitter, result_.phi, unheard), missing = found;
+      Vector found = differentiator.corrections(*setup_.fitter, result_.phi, unheard);
       for (size_t i = 0; i < found.size(); ++i) {
         if (found[i] != 0 && isIncompatible(component(differentiator.cellOf(differentiator.corrected()[i])))) found[i] = 0;
-        missing[i] = found[i] - next[i];
       }
-      const double size = differentiator.product(missing, missing);
-      if (!(size > enough && (pass <= first || size < before) && std::isfinite(size))) return;
-      if (pass == first) enough = std::max(enough, kEnough * differentiator.product(found, found));
-      before = size;
-      next = found;
-      if (pass > 0) {
-        Vector change = missing;
-        for (size_t i = 0; i < change.size(); ++i) change[i] -= missingBefore[i];
-        const double share = differentiator.product(missing, change) / differentiator.product(change, change);
-        for (size_t i = 0; i < next.size(); ++i) next[i] -= share * (found[i] - foundBefore[i]);
-      }
-      foundBefore = std::move(found), missingBefore = std::move(missing);
-      corrections_ = next;
+      if (!passes.add(std::move(found), [&](const Vector& a, const Vector& b) { return differentiator.product(a, b); })) return;
+      corrections_ = passes.next();
       rhs_ = rhs;
-      differentiator.addFlows(next, rhs_);
+      differentiator.addFlows(corrections_, rhs_);
       if (isWarm_ && pass + 1 == options_.corrections) return;
       iterate(std::max(options_.tolerance, kLoose * residual()));
       if (result_.status != SolveStatus::converged) return;
@@ -311,8 +298,6 @@ class Solver {
   static constexpr double kRounding = 1e-15;
   /// So loosely is solved what more corrections follow.
   static constexpr double kLoose = 1e-2;
-  /// Corrections of which less is missing, as a square, relative to the first ones, are good enough.
-  static constexpr double kEnough = 1e-9;
 
   PoissonSetup& setup_;
   const CellComplex& cells_;

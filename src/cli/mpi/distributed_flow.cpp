@@ -2,6 +2,8 @@
 
 #include "cli/mpi/distributed_flow.h"
 
+#include <algorithm>
+
 #include "cli/interrupt.h"
 #include "cli/mpi/flow/merged_ranks.h"
 #include "cli/mpi/flow/rank_flow.h"
@@ -11,51 +13,74 @@
 namespace mandoline::cli {
 namespace {
 
-/// Of cells of one process.
+/// Of cells of one process, by the ids of the whole.
 struct Values {
   std::vector<uint64_t> cells;
   std::vector<double> phi;
+  std::vector<uint64_t> correctedCells;     ///< per correction the cell that its face's normal points out of
+  std::vector<uint32_t> correctedFaces;     ///< which of the faces of that
+  std::vector<double> correctedVelocities;  ///< and what is added there
 
   static void fields(auto& self, const auto& f) {
     f("cells", self.cells);
     f("phi", self.phi);
+    f("correctedCells", self.correctedCells);
+    f("correctedFaces", self.correctedFaces);
+    f("correctedVelocities", self.correctedVelocities);
   }
 };
 
-/// phi by the ids of the whole, in the first process.
-std::vector<double> gather(detail::Communicator& comm, const RankComplex& complex, const std::vector<double>& phi) {
+Values valuesOf(const RankComplex& complex, int rank, const RankFlow& found) {
+  Values values;
+  for (size_t c = 0; c < found.flow.phi.size(); ++c) {
+    if (complex.cellRanks[c] != rank) continue;
+    values.cells.push_back(complex.cellIds[c]);
+    values.phi.push_back(found.flow.phi[c]);
+  }
+  for (const auto& [face, velocity] : found.corrections) {
+    const auto cell = size_t(complex.cells.faceCells[2 * size_t(face)]);
+    if (complex.cellRanks[cell] != rank) continue;
+    const auto halfFaces = complex.cells.halfFaces(cell);
+    values.correctedCells.push_back(complex.cellIds[cell]);
+    values.correctedFaces.push_back(uint32_t(std::lower_bound(halfFaces.begin(), halfFaces.end(), 2 * face) - halfFaces.begin()));
+    values.correctedVelocities.push_back(velocity);
+  }
+  return values;
+}
+
+/// Those of all processes, in the first one.
+std::vector<Values> gather(detail::Communicator& comm, const RankComplex& complex, const RankFlow& found) {
   constexpr const char* kNoun = "flow";
-  std::vector<double> whole;
+  std::vector<Values> all;
   detail::Communicator::Bytes own;
-  comm.together(kNoun, [&] {
-    Values values;
-    for (size_t c = 0; c < phi.size(); ++c) {
-      if (complex.cellRanks[c] != comm.rank()) continue;
-      values.cells.push_back(complex.cellIds[c]);
-      values.phi.push_back(phi[c]);
-    }
-    own = detail::packed(values);
-    if (comm.rank() == 0) whole.resize(complex.wholeCells);
-  });
+  comm.together(kNoun, [&] { own = detail::packed(valuesOf(complex, comm.rank(), found)); });
   for (int rank = 0; rank < comm.size(); ++rank) {
     const bool isSent = rank > 0;
     const detail::Communicator::Bytes told =
         comm.exchange(own, isSent && comm.rank() == rank ? 0 : -1, isSent && comm.rank() == 0 ? rank : -1);
     comm.together(kNoun, [&] {
-      if (comm.rank() > 0) return;
-      const Values values = detail::unpacked<Values>(isSent ? told : own);
-      for (size_t i = 0; i < values.cells.size(); ++i) whole.at(values.cells[i]) = values.phi[i];
+      if (comm.rank() == 0) all.push_back(detail::unpacked<Values>(isSent ? told : own));
     });
   }
-  return whole;
+  return all;
+}
+
+/// Of the whole.
+Flow flowOf(const std::vector<Values>& all, const CellComplex& cells, const std::array<double, 3>& wind, const RunOptions& options) {
+  std::vector<double> phi(cells.cellCount());
+  std::vector<physics::FaceCorrection> corrections;
+  for (const Values& values : all) {
+    for (size_t i = 0; i < values.cells.size(); ++i) phi.at(values.cells[i]) = values.phi[i];
+    for (size_t i = 0; i < values.correctedCells.size(); ++i)
+      corrections.push_back({cells.halfFaces(values.correctedCells[i])[values.correctedFaces[i]] / 2, values.correctedVelocities[i]});
+  }
+  return physics::flowOfPhi(cells, wind, std::move(phi), corrections, options);
 }
 
 }  // namespace
 
 void checkDistributedFlow(const Arguments& arguments) {
   checkFlowOutputs(arguments);
-  if (arguments.flow.corrections.value_or(1) > 0)
-    throw UsageError("several processes solve without corrections: --corrections 0 says that this is what is wanted");
   const std::pair<bool, const char*> others[] = {{arguments.coarsen.value_or(0) > 0, "--coarsen"},
                                                  {arguments.refines(), "--refine"},
                                                  {arguments.uniteWalls.has_value(), "--unite-walls"},
@@ -70,10 +95,11 @@ SolveCells solveDistributed(Ranks& ranks, const Arguments& arguments, const Dist
   detail::Communicator& comm = ranks.comm();
   const RankComplex complex = mergedComplex(comm, cut, mergeFraction(arguments));
   const std::array<double, 3> wind = *arguments.flow.wind;
-  const RankFlow found = solveRankFlow(comm, complex, wind, throwIfInterrupted);
-  std::vector<double> phi = gather(comm, complex, found.flow.phi);
+  const RankFlow found =
+      solveRankFlow(comm, complex, wind, arguments.flow.corrections.value_or(FlowOptions().corrections), throwIfInterrupted);
+  std::vector<Values> all = gather(comm, complex, found);
   return [=, status = found.flow.status, residuals = found.flow.residuals](const CellComplex& cells, const RunOptions& options) {
-    Flow flow = physics::flowOfPhi(cells, wind, phi, options);
+    Flow flow = flowOf(all, cells, wind, options);
     if (flow.status == SolveStatus::converged) flow.status = status;
     flow.residuals = residuals;
     return flow;

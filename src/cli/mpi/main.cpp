@@ -21,8 +21,8 @@ constexpr const char* kMpiHelp =
     R"(Cuts a triangle mesh with a grid in several processes, each of which keeps its piece.
 
   mpirun -n P mandoline-mpi cut MESH [options of mandoline cut] [--progress] [-o FILE ...]
-  mpirun -n P mandoline-mpi flow MESH --wind X,Y,Z --corrections 0
-                              [options of mandoline flow] -o FILE ...
+  mpirun -n P mandoline-mpi flow MESH --wind X,Y,Z [options of mandoline flow]
+                              [--progress] -o FILE ...
   mandoline-mpi plan MESH --ranks P[,P...] [options of the grid] [--report FILE]
 
 The result is that of mandoline cut, to the bit, for any P; see mandoline --help for the
@@ -41,10 +41,9 @@ options. Each process reads its share of the mesh and cuts some layers of the gr
   --threads T            of each process (default: the cores of its machine, shared out)
   --progress             show how far the first process has come, on standard error
 
-flow solves the potential flow by PETSc, where the program was built with it, on all grid
-cells, with small ones merged as mandoline flow does, and without corrections, which
---corrections 0 has to say; the first process gathers the whole and writes it. PETSC_OPTIONS
-chooses other solvers. Not with --coarsen, --refine, --unite-walls, --far-field and --steps.
+flow solves the potential flow by PETSc, where the program was built with it, as mandoline
+flow does; the first process gathers the whole and writes it. PETSC_OPTIONS chooses other
+solvers. Not with --coarsen, --refine, --unite-walls, --far-field and --steps.
 
 plan tells what the busiest of P processes, up to 100000, would have of a cut: cut-cells,
 faces and how many of these it shares with others, memory, and what it sends. One process

@@ -6,7 +6,8 @@
 
 namespace mandoline::cli {
 
-constexpr int kFlowGhosts = 2;  ///< rings of cells that velocities of own cells follow from
+/// Rings of cells that velocities and corrections of own cells follow from.
+constexpr int kFlowGhosts = 3;
 
 /// A process's cells for solveRankFlow(): as mergeSmallCells() of the whole makes them, to the bit, for a fraction of 0 all as they are. A
 /// merged cell belongs to the process of its first member. There are so many layers of ghosts that those which are nearer than that are

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "base/parallel.h"
 #include "cli/mpi/flow/petsc_solver.h"
 #include "cli/mpi/flow/rank_wind.h"
 #include "operators/measure/vector.h"
+#include "physics/cell_edges.h"
 #include "physics/cell_velocities.h"
-#include "physics/dual_edges.h"
+#include "physics/correction_passes.h"
+#include "physics/derivatives.h"
 #include "physics/system_matrix.h"
 
 namespace mandoline::cli {
@@ -21,35 +24,47 @@ using Vector = std::vector<double>;
 class RankSolver {
  public:
   RankSolver(detail::Communicator& comm, const RankComplex& complex, const Halo& halo, const RankWind& wind)
-      : comm_(comm), cells_(complex.cells), halo_(halo), components_(wind.components) {
+      : comm_(comm), complex_(complex), cells_(complex.cells), halo_(halo), components_(wind.components) {
     for (uint32_t c = 0; c < cells_.cellCount(); ++c) {
-      if (complex.cellRanks[c] == comm.rank()) own_.push_back(c);
+      if (isOwn(c)) own_.push_back(c);
     }
     comm.together("flow", [&] {
-      PoissonProblem problem;
-      problem.boundary = wind.boundary;
-      system_ = poissonSystem(cells_, problem);
+      problem_.boundary = wind.boundary;
+      system_ = poissonSystem(cells_, problem_);
+      matrix_.emplace(system_.matrix, added_);
     });
     phi_.assign(cells_.cellCount(), 0);
     added_.assign(cells_.cellCount(), 0);
     balance();
   }
 
-  Flow run(const std::function<void()>& onIteration) {
-    Flow flow;
-    const double norm = std::sqrt(sum([&](uint32_t c) { return square(system_.rhs[c]); }));
-    flow.residuals.push_back(norm > 0 ? 1 : 0);
-    if (norm > 0) iterate(norm, onIteration, flow);
+  Flow run(int corrections, const std::function<void()>& onIteration) {
+    norm_ = std::sqrt(sum([&](uint32_t c) { return square(system_.rhs[c]); }));
+    flow_.residuals.push_back(norm_ > 0 ? 1 : 0);
+    if (norm_ > 0) {
+      solver_.emplace(comm_.handle(), rows(), onIteration);
+      iterate(kGoal);
+      if (corrections > 0 && flow_.status == SolveStatus::converged) correct(corrections);
+    }
     setMeans();
-    flow.phi = phi_;
-    return flow;
+    flow_.phi = phi_;
+    return flow_;
   }
 
+  /// Those that phi is solved with.
+  std::vector<physics::FaceCorrection> corrections() const {
+    std::vector<physics::FaceCorrection> result;
+    for (size_t i = 0; i < corrections_.size(); ++i) result.push_back({corrected_[i], corrections_[i]});
+    return result;
+  }
   int iterations() const { return iterations_; }
   const std::vector<uint32_t>& own() const { return own_; }
 
  private:
+  static constexpr double kGoal = 1e-14;
+
   static double square(double x) { return x * x; }
+  bool isOwn(uint32_t cell) const { return complex_.cellRanks[cell] == comm_.rank(); }
 
   template <class Value>
   double sum(const Value& value) {
@@ -113,30 +128,89 @@ class RankSolver {
     return result;
   }
 
+  double residual() {
+    return std::sqrt(sum([&](uint32_t c) { return square(system_.rhs[c] - matrix_->row(phi_, c)); })) / norm_;
+  }
+
   /// Solves for what the residual lacks, again and again: PETSc's own residual drifts away from that of phi, which is computed from
   /// differences.
-  void iterate(double norm, const std::function<void()>& onIteration, Flow& flow) {
-    constexpr double kTolerance = 1e-10, kGoal = 1e-14, kPart = 1e-9;
+  void iterate(double goal) {
+    constexpr double kTolerance = 1e-10, kPart = 1e-9;
     constexpr int kMostPasses = 8, kMostIterations = 500;
-    PetscSolver solver(MPI_COMM_WORLD, rows(), onIteration);
-    const physics::SystemMatrix matrix(system_.matrix, added_);
     Vector r(own_.size()), step, best = phi_;
     for (int pass = 0; pass < kMostPasses; ++pass) {
-      for (size_t i = 0; i < own_.size(); ++i) r[i] = system_.rhs[own_[i]] - matrix.row(phi_, own_[i]);
-      iterations_ += solver.solve(r, kPart, kMostIterations, step);
+      for (size_t i = 0; i < own_.size(); ++i) r[i] = system_.rhs[own_[i]] - matrix_->row(phi_, own_[i]);
+      iterations_ += solver_->solve(r, kPart, kMostIterations, step);
       for (size_t i = 0; i < own_.size(); ++i) phi_[own_[i]] += step[i];
       halo_.update(phi_);
       sweep();
-      const double residual = std::sqrt(sum([&](uint32_t c) { return square(system_.rhs[c] - matrix.row(phi_, c)); })) / norm;
-      const bool isBetter = residual < flow.residuals.back();
+      const double found = residual();
+      const bool isBetter = found < flow_.residuals.back();
       if (!isBetter) break;
       best = phi_;
-      const bool isSlow = !(residual < flow.residuals.back() / 2);
-      flow.residuals.push_back(residual);
-      if (isSlow || residual <= kGoal) break;
+      const bool isSlow = !(found < flow_.residuals.back() / 2);
+      flow_.residuals.push_back(found);
+      if (isSlow || found <= goal) break;
     }
     phi_ = best;
-    flow.status = flow.residuals.back() <= kTolerance ? SolveStatus::converged : SolveStatus::iterationLimit;
+    flow_.status = flow_.residuals.back() <= kTolerance ? SolveStatus::converged : SolveStatus::iterationLimit;
+  }
+
+  /// As a solution by one process does it, but each pass solves as well as the last.
+  void correct(int most) {
+    const Vector rhs = system_.rhs, plain = phi_;
+    const std::vector<double> residuals = flow_.residuals;
+    physics::DualEdges dual;
+    detail::Csr<uint32_t> edges;
+    std::vector<physics::BoundaryTerm> terms;
+    std::optional<physics::Differentiator> differentiator;
+    std::optional<physics::CellFitter> fitter;
+    const RunOptions quiet{1, {}};
+    detail::Monitor unheard(quiet, 1);
+    comm_.together("flow", [&] {
+      dual = physics::dualEdges(cells_, problem_.dualPoints);
+      edges = physics::cellEdges(cells_, dual, 1);
+      terms = physics::boundaryTerms(cells_, problem_);
+      differentiator.emplace(physics::FitSource{cells_, dual, edges, problem_}, terms, 1);
+      fitter.emplace(differentiator->fitter(unheard));
+      corrected_ = differentiator->corrected();
+    });
+    /// Each face counts in one process.
+    const auto product = [&](const Vector& a, const Vector& b) {
+      double sum = 0;
+      for (size_t i = 0; i < a.size(); ++i) {
+        const uint32_t f = corrected_[i];
+        if (isOwn(uint32_t(cells_.faceCells[2 * size_t(f)]))) sum += a[i] * b[i] * cells_.faceArea[f];
+      }
+      return comm_.reduce(sum, MPI_SUM);
+    };
+    physics::CorrectionPasses passes(corrected_.size(), 0x1p10 * kGoal * kGoal * squareOfPlain(*differentiator), false);
+    for (int pass = 0; pass < most; ++pass) {
+      Vector found;
+      comm_.together("flow", [&] { found = differentiator->corrections(*fitter, phi_, unheard); });
+      if (!passes.add(std::move(found), product)) return;
+      corrections_ = passes.next();
+      system_.rhs = rhs;
+      differentiator->addFlows(corrections_, system_.rhs);
+      flow_.residuals.push_back(residual());
+      if (flow_.residuals.back() > kGoal) iterate(kGoal);
+      if (flow_.status != SolveStatus::converged) break;
+    }
+    if (flow_.status == SolveStatus::converged) return;
+    corrections_.clear();  // better a solution of first order than none
+    system_.rhs = rhs, phi_ = plain;
+    flow_.residuals = residuals;
+    flow_.status = SolveStatus::converged;
+  }
+
+  double squareOfPlain(const physics::Differentiator& differentiator) {
+    const Vector plain = differentiator.plain(phi_, 1);
+    double sum = 0;
+    for (size_t f = 0; f < cells_.faceCount(); ++f) {
+      const int32_t cell = cells_.faceCells[2 * f];
+      if (cell >= 0 && isOwn(uint32_t(cell))) sum += plain[f] * plain[f] * cells_.faceArea[f];
+    }
+    return comm_.reduce(sum, MPI_SUM);
   }
 
   /// Gauss-Seidel, forwards and backwards: the smallest cells hardly show in a residual; this adjusts them to their neighbours.
@@ -167,27 +241,36 @@ class RankSolver {
   }
 
   detail::Communicator& comm_;
+  const RankComplex& complex_;
   const CellComplex& cells_;
   const Halo& halo_;
   const CellComponents& components_;
   std::vector<uint32_t> own_;
   PoissonSystem system_;  // also of ghosts, whose rows are not complete
-  Vector phi_, added_;
-  Vector isActive_;  // per component: more than 0 where something flows
+  PoissonProblem problem_;
+  std::optional<physics::SystemMatrix> matrix_;
+  std::optional<PetscSolver> solver_;
+  double norm_ = 0;  // of the right side without corrections
+  Flow flow_;
+  Vector phi_, added_, corrections_;
+  std::vector<uint32_t> corrected_;  // faces
+  Vector isActive_;                  // per component: more than 0 where something flows
   int iterations_ = 0;
 };
 
 /// Of the flow through the faces of cells, of a wind of length 1.
-double imbalanceOf(detail::Communicator& comm, const RankComplex& complex, const RankWind& wind, const Vector& phi) {
+double imbalanceOf(detail::Communicator& comm, const RankComplex& complex, const RankWind& wind, const RankFlow& found) {
   const CellComplex& cells = complex.cells;
   Vector sums(cells.cellCount());
+  Vector added(cells.faceCount());
+  for (const physics::FaceCorrection& correction : found.corrections) added[correction.face] = correction.velocity;
   double largest = 0;
   const auto isOwn = [&](size_t c) { return complex.cellRanks[c] == comm.rank(); };
   const physics::DualEdges dual = physics::dualEdges(cells, DualPoints::centres);
   for (size_t e = 0; e < dual.edges.size(); ++e) {
-    const double derivative = dual.edges[e].sign * physics::differenceAt(cells, dual, e, phi) / dual.edges[e].distance;
+    const double derivative = dual.edges[e].sign * physics::differenceAt(cells, dual, e, found.flow.phi) / dual.edges[e].distance;
     for (const uint32_t f : dual.faces[e]) {
-      const double flux = derivative * cells.faceArea[f];
+      const double flux = (derivative + added[f]) * cells.faceArea[f];
       const auto a = size_t(cells.faceCells[2 * size_t(f)]), b = size_t(cells.faceCells[2 * size_t(f) + 1]);
       if (isOwn(a) || isOwn(b)) largest = std::max(largest, std::fabs(flux));
       sums[a] += flux, sums[b] -= flux;
@@ -207,7 +290,7 @@ double imbalanceOf(detail::Communicator& comm, const RankComplex& complex, const
 
 }  // namespace
 
-RankFlow solveRankFlow(detail::Communicator& comm, const RankComplex& complex, const std::array<double, 3>& wind,
+RankFlow solveRankFlow(detail::Communicator& comm, const RankComplex& complex, const std::array<double, 3>& wind, int corrections,
                        const std::function<void()>& onIteration) {
   RankFlow result;
   const double length = measuring::length(wind);
@@ -216,9 +299,10 @@ RankFlow solveRankFlow(detail::Communicator& comm, const RankComplex& complex, c
   const Halo halo(comm, complex);
   const RankWind through = rankWind(comm, complex, halo, unit);
   RankSolver solver(comm, complex, halo, through);
-  result.flow = solver.run(onIteration);
+  result.flow = solver.run(corrections, onIteration);
+  result.corrections = solver.corrections();
   result.iterations = solver.iterations();
-  result.imbalance = imbalanceOf(comm, complex, through, result.flow.phi);
+  result.imbalance = imbalanceOf(comm, complex, through, result);
   result.flow.wind = wind;
   result.flow.throttled = through.throttled;
   comm.together("flow", [&] {
@@ -232,6 +316,7 @@ RankFlow solveRankFlow(detail::Communicator& comm, const RankComplex& complex, c
   for (Vector* values : {&result.flow.phi, &result.flow.cellVelocity}) {
     for (double& value : *values) value *= length;
   }
+  for (physics::FaceCorrection& correction : result.corrections) correction.velocity *= length;
   return result;
 }
 

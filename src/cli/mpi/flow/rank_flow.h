@@ -4,6 +4,7 @@
 #include "mandoline/distributed.h"
 #include "mandoline/flow.h"
 #include "mpi/communicator.h"
+#include "physics/flow_of_phi.h"
 
 namespace mandoline::cli {
 
@@ -12,13 +13,14 @@ struct RankFlow {
   /// phi and cellVelocity are per cell of the process, ghosts among them, whose velocities are none. The rest but madeFrom, faceVelocity,
   /// cellGradient and cellPressure is that of the whole.
   Flow flow;
-  int iterations = 0;    ///< of conjugate gradients
+  std::vector<physics::FaceCorrection> corrections;  ///< of the process's faces, those of ghosts among them
+  int iterations = 0;                                ///< of conjugate gradients
   double imbalance = 0;  ///< the largest sum of the flow through the faces of a cell, relative to the largest flow through a face
 };
 
-/// As solveFlow() without corrections; phi is that within the tolerance. `complex` is that of mergedComplex(). Collective. Throws
-/// RankError, and as PetscSolver does, whose onIteration is as well.
-RankFlow solveRankFlow(detail::Communicator& comm, const RankComplex& complex, const std::array<double, 3>& wind,
+/// As solveFlow() with at most so many corrections; phi is that within the tolerance without them, and within theirs with them. `complex`
+/// is that of mergedComplex(). Collective. Throws RankError, and as PetscSolver does, whose onIteration is as well.
+RankFlow solveRankFlow(detail::Communicator& comm, const RankComplex& complex, const std::array<double, 3>& wind, int corrections,
                        const std::function<void()>& onIteration = nullptr);
 
 }  // namespace mandoline::cli
