@@ -29,6 +29,15 @@ Moved findMoved(const Prepared& before, const Prepared& now) {
   return moved;
 }
 
+/// The triangles that have, ascending.
+std::vector<uint32_t> listMoved(const Prepared& mesh, const Moved& moved) {
+  std::vector<uint32_t> list;
+  for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (hasMoved(moved, mesh.triangles[t])) list.push_back(t);
+  }
+  return list;
+}
+
 /// Per point a bit for each side of a box that it lies beyond.
 std::vector<uint8_t> sidesBeyond(const Box& box, const std::vector<Point>& points) {
   std::vector<uint8_t> sides(points.size());
@@ -40,11 +49,9 @@ std::vector<uint8_t> sidesBeyond(const Box& box, const std::vector<Point>& point
 }
 
 /// States in which only the triangles are kept that lie near those that have moved, these included. Those that these meet are among them.
-std::vector<TriangleState> nearMoved(const Prepared& mesh, const Moved& moved) {
+std::vector<TriangleState> nearMoved(const Prepared& mesh, const std::vector<uint32_t>& movedTriangles) {
   Box all = Box::empty();
-  for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (hasMoved(moved, mesh.triangles[t])) all.include(boxOf(mesh, t));
-  }
+  for (const uint32_t t : movedTriangles) all.include(boxOf(mesh, t));
   const std::vector<uint8_t> beyond = sidesBeyond(all, mesh.points);
   std::vector<TriangleState> states = mesh.states;
   for (uint32_t t = 0; t < states.size(); ++t) {
@@ -55,32 +62,40 @@ std::vector<TriangleState> nearMoved(const Prepared& mesh, const Moved& moved) {
   return states;
 }
 
-/// The contacts of what has not moved are those before.
-Contacts findContactsAgain(const Prepared& before, const Prepared& now, const Moved& moved, Monitor& monitor, Predicates& predicates) {
-  const auto isNew = [&](const PairContact& pair) {
-    return hasMoved(moved, now.triangles[pair.triangles[0]]) || hasMoved(moved, now.triangles[pair.triangles[1]]);
-  };
-  std::vector<PairContact> pairs = before.contacts;
-  std::erase_if(pairs, isNew);
-  for (const PairContact& pair : findContacts(now, findNear(SortedMesh(now, nearMoved(now, moved)), monitor), monitor, predicates).pairs) {
-    if (isNew(pair)) pairs.push_back(pair);
-  }
-  return contactsOf(now, std::move(pairs));
-}
+/// What has moved.
+struct Changes {
+  Moved vertices;
+  std::vector<uint32_t> triangles;
+};
 
 struct Means {
   Monitor& monitor;
   Predicates& predicates;
 };
 
+/// The contacts of what has not moved are those before.
+Contacts findContactsAgain(const Prepared& before, const Prepared& now, const Changes& changes, const Means& means) {
+  const Moved& moved = changes.vertices;
+  const auto isNew = [&](const PairContact& pair) {
+    return hasMoved(moved, now.triangles[pair.triangles[0]]) || hasMoved(moved, now.triangles[pair.triangles[1]]);
+  };
+  std::vector<PairContact> pairs = before.contacts;
+  std::erase_if(pairs, isNew);
+  SortedMesh near(now, nearMoved(now, changes.triangles));
+  for (const PairContact& pair : findContacts(now, findNear(std::move(near), means.monitor), means.monitor, means.predicates).pairs) {
+    if (isNew(pair)) pairs.push_back(pair);
+  }
+  return contactsOf(now, std::move(pairs));
+}
+
 /// As resolveInput(). False if triangles meet that should not.
-bool resolveAgain(Prepared& before, Prepared& now, const Moved& moved, Intersections intersections, const Means& means) {
+bool resolveAgain(Prepared& before, Prepared& now, const Changes& changes, Intersections intersections, const Means& means) {
   now.states = before.states;
   now.duplicates = before.duplicates;
   now.closed = before.closed;
   now.oriented = before.oriented;
   Contacts contacts;
-  if (intersections != Intersections::assumeNone) contacts = findContactsAgain(before, now, moved, means.monitor, means.predicates);
+  if (intersections != Intersections::assumeNone) contacts = findContactsAgain(before, now, changes, means);
   if (intersections == Intersections::refuse && contacts.counts.total() > 0) return false;
   if (!before.hasIntersections()) {
     if (contacts.pairs.empty() && before.duplicates.empty()) {
@@ -105,11 +120,13 @@ PreparedAgain prepareAgain(const MeshView& mesh, const Preparation& preparation,
   Predicates predicates;
   beginStage("input");
   auto now = weldInput(mesh, preparation.largest, monitor);
-  Moved moved = findMoved(before, *now);
-  dropFlat(*now, moved.empty() ? nullptr : &moved, monitor, predicates);
+  Changes changes{findMoved(before, *now), {}};
+  Moved& moved = changes.vertices;
+  if (!moved.empty()) changes.triangles = listMoved(*now, moved);
+  dropFlat(*now, moved.empty() ? nullptr : &changes.triangles, monitor, predicates);
   if (now->counts.zeroAreaTriangles > 0) moved.clear();
   if (preparation.intersections != Intersections::assumeNone) beginStage("intersections");
-  if (moved.empty() || !resolveAgain(before, *now, moved, preparation.intersections, {monitor, predicates})) {
+  if (moved.empty() || !resolveAgain(before, *now, changes, preparation.intersections, {monitor, predicates})) {
     moved.clear();
     resolveInput(*now, preparation, monitor, predicates);
   }

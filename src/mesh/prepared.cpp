@@ -153,8 +153,8 @@ std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monito
   return prepared;
 }
 
-void dropFlat(Prepared& prepared, const Moved* moved, Monitor& monitor, Predicates& predicates) {
-  const std::vector<uint32_t> zeroArea = dropZeroArea(prepared, moved, monitor, predicates);
+void dropFlat(Prepared& prepared, const std::vector<uint32_t>* some, Monitor& monitor, Predicates& predicates) {
+  const std::vector<uint32_t> zeroArea = dropZeroArea(prepared, some, monitor, predicates);
   prepared.counts.zeroAreaTriangles = uint32_t(zeroArea.size());
   if (!zeroArea.empty()) prepared.stitches = findStitches(prepared, zeroArea);
 }

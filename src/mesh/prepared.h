@@ -87,8 +87,8 @@ struct CheckedMesh {
 MANDOLINE_SHARED CheckedMesh checkInput(const MeshView& mesh, double largest, Monitor& monitor);
 /// The first third: the checked and welded mesh. `largest` and `meanwhile` as of a Preparation.
 std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monitor& monitor, const std::function<void()>& meanwhile = {});
-/// The second: drops triangles without area; `moved` as of dropZeroArea().
-void dropFlat(Prepared& prepared, const Moved* moved, Monitor& monitor, Predicates& predicates);
+/// The second: drops triangles without area; `some` as of dropZeroArea().
+void dropFlat(Prepared& prepared, const std::vector<uint32_t>* some, Monitor& monitor, Predicates& predicates);
 /// The third: its edges and, unless intersections are assumed to be none, where triangles meet.
 void resolveInput(Prepared& prepared, const Preparation& preparation, Monitor& monitor, Predicates& predicates);
 /// The same in two steps, of which several processes share the search: a share's edges and pairs that meet, and what becomes of the pairs

@@ -50,18 +50,18 @@ std::vector<uint32_t> weld(const std::vector<uint8_t>& referenced, const std::ve
       points.size(), [&](uint32_t v) { return points[v].data(); }, [&](uint32_t v) { return referenced[v] != 0; });
 }
 
-std::vector<uint32_t> dropZeroArea(WeldedMesh& mesh, const Moved* moved, Monitor& monitor, Predicates& predicates) {
+std::vector<uint32_t> dropZeroArea(WeldedMesh& mesh, const std::vector<uint32_t>* some, Monitor& monitor, Predicates& predicates) {
   constexpr size_t kBlock = 1 << 13;  // triangles that are worth a thread
   struct Chunk {
     std::vector<uint32_t> dropped;
     Predicates predicates;
   };
   const auto chunks = forChunks<Chunk>(
-      mesh.triangles.size(), monitor,
+      some ? some->size() : mesh.triangles.size(), monitor,
       [&](Chunk& chunk, size_t begin, size_t end) {
         Predicates& exact = chunk.predicates;
-        for (const TriangleId t : Ids<TriangleId>(begin, end)) {
-          if (moved && !hasMoved(*moved, mesh.triangles[t.number])) continue;
+        for (size_t i = begin; i < end; ++i) {
+          const TriangleId t{some ? (*some)[i] : uint32_t(i)};
           if (surelyHasArea(mesh, mesh.triangles[t.number])) continue;
           if (normalSign(mesh, t, 0, exact) || normalSign(mesh, t, 1, exact) || normalSign(mesh, t, 2, exact)) continue;
           mesh.states[t.number] = TriangleState::zeroArea;

@@ -79,8 +79,9 @@ inline bool hasMoved(const Moved& moved, const std::array<uint32_t, 3>& triangle
   return (moved[{triangle[0]}] | moved[{triangle[1]}] | moved[{triangle[2]}]) != 0;  // one branch
 }
 
-/// Marks the triangles without area, exactly, and returns them. Triangles that have not moved are known to have one; null: all may have.
-std::vector<uint32_t> dropZeroArea(WeldedMesh& mesh, const Moved* moved, Monitor& monitor, Predicates& predicates);
+/// Marks the triangles without area, exactly, and returns them. Triangles that are not among `some`, which ascend, are known to have one;
+/// null: none is.
+std::vector<uint32_t> dropZeroArea(WeldedMesh& mesh, const std::vector<uint32_t>* some, Monitor& monitor, Predicates& predicates);
 
 /// The vertices that dropped triangles without area put on edges. Such triangles that share an edge lie on one line; each of their edges
 /// gets all their vertices that lie inside it.
