@@ -205,4 +205,15 @@ TEST_CASE("Arrays lie in large pages of the heap once there is room, on any thre
   CHECK(there.find(" hg ") != there.npos);
 }
 
+TEST_CASE("The first arrays of a new thread lie in large pages, too", "[base]") {
+  std::string flags;
+  std::thread([&] {
+    const HeapBegin begin = makeRoomInNewHeap();
+    const std::vector<char> array(size_t(1) << 18, 'x');
+    flags = mappingFlags(array.data() + array.size() / 2);
+  }).join();
+  if (flags.empty()) return;  // the system doesn't tell
+  CHECK(flags.find(" hg ") != flags.npos);
+}
+
 #endif

@@ -118,3 +118,25 @@ TEST_CASE("found pairs: bad meshes and cancelling", "[findIntersections]") {
   mesh.triangles[2] = 8;
   REQUIRE(statusOf(mesh, {}) == Status::badIndex);
 }
+
+TEST_CASE("prepare: of several bad triangles or vertices the first is named, whichever thread finds one", "[prepare]") {
+  constexpr size_t kMany = 100'000;
+  Mesh mesh;
+  for (size_t i = 0; i < kMany; ++i) {
+    for (const double x : {double(i), double(i % 7), 0.0}) mesh.positions.push_back(x);
+    for (size_t corner = 0; corner < 3; ++corner) mesh.triangles.push_back(uint32_t((i + corner) % kMany));
+  }
+  for (const unsigned threads : {1u, 2u, 3u}) {
+    PrepareOptions options;
+    options.threads = threads;
+    const auto refusal = [&](const Mesh& bad) {
+      const Error error = prepare(bad, options).error;
+      return std::pair(error.status, error.element);
+    };
+    Mesh bad = mesh;
+    for (const size_t v : {99'990, 60'000, 40'001}) bad.positions[3 * v + 1] = INFINITY;
+    CHECK(refusal(bad) == std::pair<Status, int64_t>(Status::nonFiniteCoordinate, 40'001));
+    for (const size_t t : {99'998, 70'000, 30'003}) bad.triangles[3 * t + 2] = kMany;
+    CHECK(refusal(bad) == std::pair<Status, int64_t>(Status::badIndex, 30'003));
+  }
+}

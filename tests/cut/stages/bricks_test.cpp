@@ -56,6 +56,16 @@ Input inputOf(int64_t cells) {
 
 }  // namespace
 
+TEST_CASE("Several threads write each brick once, and none beside those that others write at the same time", "[stages][bricks]") {
+  const auto numbers = [](uint32_t first, uint32_t past, unsigned threads) { return BricksHere{{first}, {past}}.numbers(threads); };
+  using List = std::vector<uint32_t>;
+  CHECK(numbers(2, 6, 1) == List{2, 3, 4, 5});
+  CHECK(numbers(2, 7, 2) == List{2, 5, 3, 6, 4});
+  CHECK(numbers(0, 7, 3) == List{0, 3, 6, 1, 4, 2, 5});
+  CHECK(numbers(1, 3, 8) == List{1, 2});
+  CHECK(numbers(4, 4, 2).empty());
+}
+
 TEST_CASE("Bricks of a small grid are smaller where there are several threads", "[stages][bricks]") {
   const auto shiftFor = [](int64_t cells, unsigned threads) { return BrickGrid::shiftsFor(inputOf(cells), threads); };
   CHECK(shiftFor(10, 1) == BrickGrid::same(5));
