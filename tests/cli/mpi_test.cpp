@@ -576,6 +576,21 @@ TEST_CASE("A flow of several processes is that of one, of cells as they are and 
   }
 }
 
+TEST_CASE("What flows through faces of several processes' corrected flow is that of one", "[mpi]") {
+  const TemporaryFolder folder;
+  const std::string mesh = meshFile(folder, shapes::icosphere({0, 0, 0}, 1, 2));
+  const auto velocities = [&](const std::string& file, int processes) {
+    const Names words = {"flow", mesh, "--wind", "2,1,0", "--cells", "9", "--faces", "-o", folder.path(file)};
+    REQUIRE((processes > 0 ? runRanks(folder, processes, words) : run(folder, words)).exitCode == 0);
+    return vtu_files::Vtu(folder.read(file)).array<double>("normal_velocity");
+  };
+  const auto expected = velocities("one.vtu", 0), some = velocities("some.vtu", 3);
+  REQUIRE(some.size() == expected.size());
+  double off = 0;
+  for (size_t f = 0; f < some.size(); ++f) off = std::max(off, std::fabs(some[f] - expected[f]));
+  CHECK(off <= 1e-5);  // corrections end where so little is missing
+}
+
 TEST_CASE("What a flow of several processes has not is said once", "[mpi]") {
   const TemporaryFolder folder;
   const std::string mesh = meshFile(folder, shapes::cube(0, 2));
