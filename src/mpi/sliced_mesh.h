@@ -42,6 +42,6 @@ double largestCoordinate(Communicator& comm, const SlicedMeshData& mesh);
 /// The box, counts, and what inspect() tells of vertices that no triangle has. `surfaces`, one in each process, have the others.
 void inspectArrays(Communicator& comm, const SlicedMeshData& mesh, const MeshPart& surface, MeshInfo& info);
 /// The whole in each process, or in the first alone.
-std::shared_ptr<const Mesh> gathered(Communicator& comm, const SlicedMeshData& mesh, bool inAll);
+MANDOLINE_SHARED std::shared_ptr<const Mesh> gathered(Communicator& comm, const SlicedMeshData& mesh, bool inAll);
 
 }  // namespace mandoline::detail
