@@ -16,4 +16,14 @@ inline void runTasks(std::span<const std::function<void()>> tasks, Monitor& moni
   runItems(order, monitor, [&](size_t, uint32_t task) { tasks[task](); });
 }
 
+/// Runs both, each on one thread.
+inline void runBoth(FunctionRef<void()> one, FunctionRef<void()> other, Monitor& monitor) {
+  if (monitor.threads() == 1) {
+    one();
+    other();
+    return;
+  }
+  runItems({0, 1}, monitor, [&](size_t, uint32_t task) { task == 0 ? one() : other(); });
+}
+
 }  // namespace mandoline::detail

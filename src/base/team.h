@@ -18,8 +18,11 @@ class MANDOLINE_SHARED Team {
   Team(const Team&) = delete;
   ~Team();
 
-  /// 1 where there are no threads.
+#ifdef MANDOLINE_ONE_THREAD
+  unsigned size() const { return 1; }  // known here, what is for several threads is left out
+#else
   unsigned size() const { return size_; }
+#endif
 
   /// Runs work(), which must not throw, here and on others of at most `threads` of them in all. Once it has returned here there must be
   /// nothing left to begin: those which have not begun by then are not waited for. A call during another one has none of the others.
@@ -30,7 +33,7 @@ class MANDOLINE_SHARED Team {
 
  private:
   struct Crew;
-  unsigned size_;
+  [[maybe_unused]] unsigned size_;
   std::unique_ptr<Crew> crew_;
 };
 

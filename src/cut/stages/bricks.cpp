@@ -27,19 +27,9 @@ class Layout {
   }
 
   Bricks run(Monitor& monitor) {
-    const std::function<void()> finding[] = {[&] { placeParts(); },
-                                             [&] {
-                                               for (const FaceId f : parts_.divided.ids()) placeDivided(f);
-                                               placeEdges();
-                                             }};
-    runTasks(finding, monitor);
+    runBoth([&] { placeParts(); }, [&] { placeOthers(); }, monitor);
     Bricks bricks = sorted();
-    const std::function<void()> grouping[] = {[&] { bricks.parts = grouped(givenParts_, bricks, idsOf(ofParts_, bricks)); },
-                                              [&] {
-                                                placeSeamVertices(bricks);
-                                                groupOthers(bricks);
-                                              }};
-    runTasks(grouping, monitor);
+    runBoth([&] { bricks.parts = grouped(givenParts_, bricks, idsOf(ofParts_, bricks)); }, [&] { groupOthers(bricks); }, monitor);
     return bricks;
   }
 
@@ -54,6 +44,11 @@ class Layout {
     const std::vector<ClippedTriangles::Part>& parts = parts_.clipped.parts;
     if (firstChanged_ == 0) givenParts_.reserve(parts.size());
     for (uint32_t i = 0; i < parts.size(); ++i) give(parts[i].brick, i, ofParts_, givenParts_);
+  }
+
+  void placeOthers() {
+    for (const FaceId f : parts_.divided.ids()) placeDivided(f);
+    placeEdges();
   }
 
   void placeDivided(FaceId f) {
@@ -109,7 +104,8 @@ class Layout {
     return number && *number < firstChanged_;
   }
 
-  void groupOthers(Bricks& bricks) const {
+  void groupOthers(Bricks& bricks) {
+    placeSeamVertices(bricks);
     const std::vector<BrickId> ids = idsOf(found_, bricks);
     bricks.dividedFaces = grouped(givenFaces_, bricks, ids);
     bricks.faceEdges = grouped(givenEdges_, bricks, ids);
@@ -149,6 +145,15 @@ const FaceEdge& faceEdge(const Surface& surface, const SurfaceParts& parts, uint
   if (i < clipped.size()) return clipped[i];
   if (i < clipped.size() + divided.size()) return divided[i - clipped.size()];
   return surface.edgesInPlane[i - clipped.size() - divided.size()];
+}
+
+std::vector<uint32_t> BricksHere::numbers(unsigned threads) const {
+  std::vector<uint32_t> numbers;
+  const size_t step = (size() + threads - 1) / threads;
+  for (size_t i = 0; i < step; ++i) {
+    for (size_t at = i; at < size(); at += step) numbers.push_back(first.number + uint32_t(at));
+  }
+  return numbers;
 }
 
 BrickId Bricks::add(uint64_t key) {

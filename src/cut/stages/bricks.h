@@ -27,14 +27,7 @@ struct BricksHere {
 
   Ids<BrickId> ids() const { return {first, past}; }
   /// Their numbers, for runItems() on so many threads: far from each other, since bricks side by side write to the same cache lines.
-  std::vector<uint32_t> numbers(unsigned threads = 1) const {
-    std::vector<uint32_t> numbers;
-    const size_t step = (size() + threads - 1) / threads;
-    for (size_t i = 0; i < step; ++i) {
-      for (size_t at = i; at < size(); at += step) numbers.push_back(first.number + uint32_t(at));
-    }
-    return numbers;
-  }
+  std::vector<uint32_t> numbers(unsigned threads = 1) const;
   size_t size() const { return past.number - first.number; }
   bool has(BrickId brick) const { return brick >= first && brick < past; }
 };

@@ -298,7 +298,7 @@ ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& r
   }
   if (entries > kMost || made > kMost) failTooLarge(-1);
   ClippedTriangles all;
-  if (chunks.size() == 1) {
+  if (run.monitor.threads() == 1 || chunks.size() == 1) {
     all = std::move(chunks[0].clipped);
   } else {
     ChunkJoiner(chunks, vertices.firstInTriangle, all).run(run.monitor);

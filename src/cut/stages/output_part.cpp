@@ -214,7 +214,13 @@ CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& r
   Rooms rooms(numbers, std::exchange(state.spare, {}), keptArrays, out, run.monitor);
   const auto drop = [&](Arena BrickMemory::*part) {
     if (state.isNeededAgain) return;
-    for (BrickMemory& of : state.cuts.memory) rooms.alongside([&of, part] { of.*part = {}; });
+    for (BrickMemory& of : state.cuts.memory) {
+      if (run.monitor.threads() == 1) {
+        of.*part = {};
+      } else {
+        rooms.alongside([&of, part] { of.*part = {}; });
+      }
+    }
     if (!isMuch) return;
     rooms.run();
     giveBackFreed();
