@@ -176,7 +176,7 @@ TEST_CASE("flow: twice the wind, twice the flow; no wind, no flow; any magnitude
 TEST_CASE("flow: velocities by polynomials that the solver has made are those made anew, also in octree cells and beside them", "[flow]") {
   const CellComplex all = complexOf(shapes::icosphere({0.1, 0.05, -0.02}, 1, 3), Grid::box({-4, -4, -4}, {4, 4, 4}, {32, 32, 32}), 24, 1);
   const CellComplex cells = regionComplex(all, all.cellRegion.back()).cells;
-  const Flow flow = solveFlow(cells, kWind), anew = physics::flowOfPhi(cells, kWind, flow.phi, {});
+  const Flow flow = solveFlow(cells, kWind), anew = physics::flowOfPhi(cells, kWind, flow.phi, {}, {});
   REQUIRE(flow.status == SolveStatus::converged);
   CHECK(*std::max_element(cells.cellLevel.begin(), cells.cellLevel.end()) >= 2);
   CHECK(largest(vectorOf(flow.cellVelocity) - vectorOf(anew.cellVelocity)) <= 1e-11);
