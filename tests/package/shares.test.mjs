@@ -91,6 +91,17 @@ test('a share is cut by each of the threads, none alone', () =>
     }
   }));
 
+test('a prepared mesh does not give way to the large cuts that several threads make of it', () =>
+  withOthers(1, async (module, lead) => {
+    const prepared = module.calls.prepare(box([0.5, 0.5, 0.5], [0.500001, 0.500001, 0.500001]));
+    const grid = { min: [0, 0, 0], max: [1, 1, 1], cells: [1, 2 ** 11, 2 ** 11] }; // whose rows take 64 MB
+    const stages = new Set();
+    const progress = ({ stage }) => Boolean(stages.add(stage));
+    for (let i = 0; i < 3; ++i) await lead.cut(module, [prepared, grid, { gridCellRegion: false, progress }]);
+    assert.ok(stages.has('grid'));
+    assert.ok(!stages.has('input')); // it was not prepared once more
+  }));
+
 test('the first large cut starts the others', async () => {
   const threads = [];
   await withWorker(

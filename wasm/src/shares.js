@@ -20,8 +20,9 @@ const steps = {
   keepPart: { takes: share, options: { progress: readFunction } },
   makePart: { takes: share, options: {} },
   joinParts: {
-    takes: { share: asIs, others: asIs },
+    takes: { mesh: { kind: 'prepared', otherwise: asIs }, share: asIs, others: asIs },
     options: { gridCellRegion: asIs, keep: asIs, reuse: asIs },
+    run: (bindings, _mesh, ...given) => bindings.joinParts(...given), // the twin of which does not give way to the result's
     keeps: 'cutMesh',
   },
   meshOf: { takes: { mesh: { kind: 'prepared' } } },
@@ -150,7 +151,7 @@ export class Lead {
       const summaries = [own.summary, ...(await Promise.all(begun)).map(required)];
       const made = mates.map((mate) => mate.ask({ summaries }));
       keepPart(own.share, summaries, { progress });
-      return joinParts(own.share, (await Promise.all(made)).map(required), { gridCellRegion, keep, reuse });
+      return joinParts(mesh, own.share, (await Promise.all(made)).map(required), { gridCellRegion, keep, reuse });
     } catch (error) {
       for (const mate of mates) mate.tell({ drop: true });
       throw error;
