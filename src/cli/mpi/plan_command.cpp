@@ -21,7 +21,7 @@ constexpr uint32_t kMostRanks = 100000;
 
 /// What MPI takes for messages: as measured with Open MPI on one machine, where it is more for each other process there.
 uint64_t messageBytes(uint32_t ranks) {
-  constexpr uint64_t kAlways = 6 << 20, kEach = 1 << 20;
+  constexpr uint64_t kAlways = 2 << 20, kEach = 3 << 17;
   constexpr uint32_t kMostOthers = 16;
   return ranks == 1 ? 0 : kAlways + kEach * std::min(ranks - 1, kMostOthers);
 }
