@@ -134,8 +134,7 @@ void cutInBricks(CutState& state, Clock& clock, Run& run) {
   divideFaces(surface, state.parts.clipped.undivided, state.parts.divided, run);
 
   clock.begin("bricks");
-  const auto unchanged = state.keeping ? state.keeping->unchangedBricks(brickGrid) : std::vector<uint64_t>();
-  state.bricks = layOutBricks(surface, state.parts, brickGrid, run.monitor, unchanged);
+  state.bricks = layOutBricks(surface, state.parts, brickGrid, run.monitor);
   state.bricks.here.isShare = state.layersHere.has_value();
   if (state.keeping) state.kept = &state.keeping->bricks();
   state.cuts = cutBricks(surface, state.parts, state.bricks, run, state.kept);

@@ -39,11 +39,9 @@ struct Recutter::Data {
       map_.emplace(*crossings_, now_.surface, moved_);
       return clips_.emplace(before_.surface, before_.parts.clipped, *map_);
     }
-    const std::vector<uint64_t>& unchangedBricks(const BrickGrid& grid) override {
-      return unchanged_ = findUnchanged(cutBefore(), *map_, now_.surface, now_.parts, grid);
-    }
     KeptBricks& bricks() override {
-      kept_ = keepBricks(cutBefore(), std::move(*map_), now_.surface, now_.parts, now_.bricks, unchanged_);
+      kept_ = keepBricks({before_.surface, before_.parts, before_.bricks, before_.cuts}, std::move(*map_), now_.surface, now_.parts,
+                         now_.bricks);
       return kept_;
     }
     IdVector<BrickId, BrickSeams> seams() override { return keepSeams(kept_, now_.runs, before_.seams); }
@@ -69,7 +67,6 @@ struct Recutter::Data {
    private:
     /// Then vertices that they make have other parents.
     static bool doTrianglesMeet(const CutState& state) { return state.surface.input.mesh->hasIntersections(); }
-    CutBefore cutBefore() { return {before_.surface, before_.parts, before_.bricks, before_.cuts}; }
 
     CutState& before_;
     std::vector<double>& positions_;
@@ -80,7 +77,6 @@ struct Recutter::Data {
     std::optional<CrossingsBefore> crossings_;
     std::optional<SurfaceMap> map_;
     std::optional<ClipsBefore> clips_;
-    std::vector<uint64_t> unchanged_;
     KeptBricks kept_;
   };
 

@@ -15,35 +15,21 @@ struct Given {
 
 class Layout {
  public:
-  Layout(const Surface& surface, const SurfaceParts& parts, const BrickGrid& grid, const std::vector<uint64_t>& unchanged)
-      : surface_(surface),
-        parts_(parts),
-        grid_(grid),
-        firstChanged_(uint32_t(unchanged.size())),
-        seamVertices_(parts.clipped.seamVertices) {
-    for (KeyNumbers* numbers : {&ofParts_, &found_}) {
-      for (const uint64_t key : unchanged) numbers->add(key);
-    }
-  }
+  Layout(const Surface& surface, const SurfaceParts& parts, const BrickGrid& grid)
+      : surface_(surface), parts_(parts), grid_(grid), seamVertices_(parts.clipped.seamVertices) {}
 
   Bricks run(Monitor& monitor) {
     runBoth([&] { placeParts(); }, [&] { placeOthers(); }, monitor);
     Bricks bricks = sorted();
-    runBoth([&] { bricks.parts = grouped(givenParts_, bricks, idsOf(ofParts_, bricks)); }, [&] { groupOthers(bricks); }, monitor);
+    runBoth([&] { groupParts(bricks); }, [&] { groupOthers(bricks); }, monitor);
     return bricks;
   }
 
  private:
-  template <class Item>
-  void give(uint64_t key, Item item, KeyNumbers& numbers, std::vector<Given<Item>>& given) {
-    const uint32_t brick = numbers.add(key);
-    if (brick >= firstChanged_) given.push_back({brick, item});
-  }
-
   void placeParts() {
     const std::vector<ClippedTriangles::Part>& parts = parts_.clipped.parts;
-    if (firstChanged_ == 0) givenParts_.reserve(parts.size());
-    for (uint32_t i = 0; i < parts.size(); ++i) give(parts[i].brick, i, ofParts_, givenParts_);
+    bricksOfParts_.resize(parts.size());
+    for (size_t i = 0; i < parts.size(); ++i) bricksOfParts_[i] = ofParts_.add(parts[i].brick);
   }
 
   void placeOthers() {
@@ -53,7 +39,7 @@ class Layout {
 
   void placeDivided(FaceId f) {
     const Slab& element = parts_.divided.elements[f];
-    grid_.forBricks(element, [&](const Slab& cell) { give(grid_.keyOf(cell), f, found_, givenFaces_); });
+    grid_.forBricks(element, [&](const Slab& cell) { givenFaces_.push_back({found_.add(grid_.keyOf(cell)), f}); });
     if (!parts_.divided.touchesLine[f] || !grid_.isBesideSeam(element)) return;
     for (const auto loop : parts_.divided.loopsOf(f)) {
       for (const VertexId v : loop) noteSeamVertex(v);
@@ -61,11 +47,11 @@ class Layout {
   }
 
   void placeEdges() {
-    if (firstChanged_ == 0) givenEdges_.reserve(2 * parts_.clipped.hybridEdges.size());
+    givenEdges_.reserve(2 * parts_.clipped.hybridEdges.size());
     const size_t hybrid = parts_.clipped.hybridEdges.size() + parts_.divided.hybridEdges.size();
     for (uint32_t i = 0; i < hybrid + surface_.edgesInPlane.size(); ++i) {
       const FaceEdge& edge = faceEdge(surface_, parts_, i);
-      grid_.forBricks(edge.element, [&](const Slab& cell) { give(grid_.keyOf(cell), i, found_, givenEdges_); });
+      grid_.forBricks(edge.element, [&](const Slab& cell) { givenEdges_.push_back({found_.add(grid_.keyOf(cell)), i}); });
       if (i < hybrid) continue;
       noteSeamVertex(edge.from);
       noteSeamVertex(edge.to);
@@ -89,29 +75,29 @@ class Layout {
     return bricks;
   }
 
+  void groupParts(Bricks& bricks) const {
+    const std::vector<BrickId> ids = idsOf(ofParts_, bricks);
+    bricks.parts = groupBy<uint32_t, BrickId>(
+        bricks.size(), bricksOfParts_.size(), [&](size_t i) { return ids[bricksOfParts_[i]]; }, [](size_t i) { return uint32_t(i); });
+  }
+
   void placeSeamVertices(const Bricks& bricks) {
     sortUnique(seamVertices_);
     for (const VertexId v : seamVertices_) {
       grid_.forBricks(surface_.vertices.slab(v), [&](const Slab& cell) {
         const auto brick = bricks.find(cell);
-        if (brick && !isUnchanged(bricks.keys[*brick])) givenVertices_.push_back({brick->number, v});
+        if (brick) givenVertices_.push_back({brick->number, v});
       });
     }
-  }
-
-  bool isUnchanged(uint64_t key) const {
-    const auto number = firstChanged_ > 0 ? found_.find(key) : std::nullopt;
-    return number && *number < firstChanged_;
   }
 
   void groupOthers(Bricks& bricks) {
     placeSeamVertices(bricks);
     const std::vector<BrickId> ids = idsOf(found_, bricks);
-    bricks.dividedFaces = grouped(givenFaces_, bricks, ids);
-    bricks.faceEdges = grouped(givenEdges_, bricks, ids);
-    bricks.seamVertices = groupBy<VertexId, BrickId>(
-        bricks.size(), givenVertices_.size(), [&](size_t i) { return BrickId{givenVertices_[i].brick}; },
-        [&](size_t i) { return givenVertices_[i].item; });
+    const auto found = [&](uint32_t brick) { return ids[brick]; };
+    bricks.dividedFaces = grouped(givenFaces_, bricks, found);
+    bricks.faceEdges = grouped(givenEdges_, bricks, found);
+    bricks.seamVertices = grouped(givenVertices_, bricks, [](uint32_t brick) { return BrickId{brick}; });
   }
 
   static std::vector<BrickId> idsOf(const KeyNumbers& numbers, const Bricks& bricks) {
@@ -121,18 +107,18 @@ class Layout {
     return ids;
   }
 
-  template <class Item>
-  static Csr<Item, BrickId> grouped(const std::vector<Given<Item>>& given, const Bricks& bricks, const std::vector<BrickId>& ids) {
+  template <class Item, class IdOf>
+  static Csr<Item, BrickId> grouped(const std::vector<Given<Item>>& given, const Bricks& bricks, const IdOf& idOf) {
     return groupBy<Item, BrickId>(
-        bricks.size(), given.size(), [&](size_t i) { return ids[given[i].brick]; }, [&](size_t i) { return given[i].item; });
+        bricks.size(), given.size(), [&](size_t i) { return idOf(given[i].brick); }, [&](size_t i) { return given[i].item; });
   }
 
   const Surface& surface_;
   const SurfaceParts& parts_;
   const BrickGrid& grid_;
-  KeyNumbers ofParts_, found_;   // bricks of parts and of all else, numbered in the order in which they are found
-  const uint32_t firstChanged_;  // those below are unchanged
-  std::vector<Given<uint32_t>> givenParts_, givenEdges_;
+  KeyNumbers ofParts_, found_;  // bricks of parts and of all else, numbered in the order in which they are found
+  std::vector<uint32_t> bricksOfParts_;
+  std::vector<Given<uint32_t>> givenEdges_;
   std::vector<Given<FaceId>> givenFaces_;
   std::vector<Given<VertexId>> givenVertices_;
   std::vector<VertexId> seamVertices_;
@@ -178,9 +164,8 @@ std::optional<BrickId> Bricks::findTouched(const Slab& cell) const {
   return brick;
 }
 
-Bricks layOutBricks(const Surface& surface, const SurfaceParts& parts, const BrickGrid& grid, Monitor& monitor,
-                    const std::vector<uint64_t>& unchanged) {
-  return Layout(surface, parts, grid, unchanged).run(monitor);
+Bricks layOutBricks(const Surface& surface, const SurfaceParts& parts, const BrickGrid& grid, Monitor& monitor) {
+  return Layout(surface, parts, grid).run(monitor);
 }
 
 }  // namespace mandoline::detail

@@ -82,8 +82,6 @@ struct Bricks {
 /// The axis that a grid-face lies across.
 inline int planeAxis(const Slab& gridFace) { return int(onPlane(gridFace[1])) + 2 * int(onPlane(gridFace[2])); }
 
-/// `unchanged`: keys of bricks that are not cut again. Nothing is listed of what they have.
-Bricks layOutBricks(const Surface& surface, const SurfaceParts& parts, const BrickGrid& grid, Monitor& monitor,
-                    const std::vector<uint64_t>& unchanged = {});
+Bricks layOutBricks(const Surface& surface, const SurfaceParts& parts, const BrickGrid& grid, Monitor& monitor);
 
 }  // namespace mandoline::detail

@@ -5,82 +5,37 @@
 namespace mandoline::detail {
 namespace {
 
-/// Finds bricks that have something of what is not the same, or had.
-class ChangeFinder {
- public:
-  ChangeFinder(const Bricks& before, const SurfaceMap& now, const BrickGrid& grid)
-      : before_(before), now_(now), grid_(grid), areChanged_(before.size(), 0) {}
-
-  /// Of one of both surfaces.
-  void note(const Surface& surface, const ClippedTriangles& clipped) {
-    for (const ClippedTriangles::Part& part : clipped.parts) {
-      if (!now_.isSame(part.triangle)) note(part.brick);
-    }
-    for (size_t i = 0; i < clipped.hybridEdges.size(); ++i) {
-      if (!now_.isSame(clipped.hybridTriangles[i])) note(clipped.hybridEdges[i].element);
-    }
-    for (size_t i = 0; i < clipped.seamVertices.size(); ++i) {
-      if (!now_.isSame(clipped.seamTriangles[i])) note(surface.vertices.slab(clipped.seamVertices[i]));
-    }
-    for (const FaceEdge& edge : surface.edgesInPlane) {
-      if (!now_.hasMoved(surface.vertices, edge.from) && !now_.hasMoved(surface.vertices, edge.to)) continue;
-      for (const Slab& element : {edge.element, surface.vertices.slab(edge.from), surface.vertices.slab(edge.to)}) note(element);
-    }
-  }
-  std::vector<uint64_t> unchanged() const {
-    std::vector<uint64_t> keys;
-    for (const BrickId b : before_.ids()) {
-      if (!areChanged_[b]) keys.push_back(before_.keys[b]);
-    }
-    return keys;
-  }
-
- private:
-  void note(const Slab& element) {
-    grid_.forBricks(element, [&](const Slab& cell) { note(grid_.keyOf(cell)); });
-  }
-  void note(uint64_t key) {
-    if (key == last_) return;
-    last_ = key;
-    const auto found = std::lower_bound(before_.keys.begin(), before_.keys.end(), key);
-    if (found != before_.keys.end() && *found == key) areChanged_[{uint32_t(found - before_.keys.begin())}] = 1;
-  }
-
-  const Bricks& before_;
-  const SurfaceMap& now_;
-  const BrickGrid& grid_;
-  IdVector<BrickId, uint8_t> areChanged_;  // of those before
-  uint64_t last_ = ~uint64_t(0);
-};
-
 class Keeper {
  public:
   Keeper(const CutBefore& before, SurfaceMap now, const Surface& surface, const SurfaceParts& parts, Bricks& bricks)
       : before_(before), surface_(surface), parts_(parts), bricks_(bricks), now_(std::move(now)) {}
 
-  KeptBricks run(const std::vector<uint64_t>& unchanged) {
+  KeptBricks run() {
     KeptBricks kept;
     if (!now_.isOrdered()) return kept;
     kept.before.assign(bricks_.size(), KeptBricks::kNone);
     kept.inner.assign(bricks_.size(), 1);
     kept.cuts.resize(bricks_.size());
-    const std::vector<uint64_t> same = now_.areEdgesSame() ? unchanged : findSame();
+    const IdVector<BrickId, uint8_t> haveOthersBefore = findOthers(before_.parts, before_.bricks),
+                                     haveOthersNow = findOthers(parts_, bricks_);
     IdVector<BrickId, uint8_t> isKept(before_.bricks.size(), 0);
-    BrickId was{0}, b{0};
-    for (const uint64_t key : same) {
-      while (before_.bricks.keys[was] < key) ++was.number;
-      while (bricks_.keys[b] < key) ++b.number;
+    BrickId was{0};
+    for (const BrickId b : bricks_.ids()) {
+      while (was.number < before_.bricks.size() && before_.bricks.keys[was] < bricks_.keys[b]) ++was.number;
+      if (was.number == before_.bricks.size()) break;
+      if (before_.bricks.keys[was] != bricks_.keys[b]) continue;
+      if (haveOthersBefore[was] || haveOthersNow[b] || !isSame(was, b)) continue;
       kept.before[b] = was;
       isKept[was] = 1;
       kept.cuts[b] = renumbered(before_.cuts[was]);
       const auto touched = before_.bricks.wordsOf(was);
       std::copy(touched.begin(), touched.end(), bricks_.wordsOf(b).begin());
     }
-    for (const BrickId now : bricks_.ids()) {
-      if (!kept.has(now)) noteAround(bricks_.boxes[now], kept.inner);
+    for (const BrickId b : bricks_.ids()) {
+      if (!kept.has(b)) noteAround(bricks_.boxes[b], kept.inner);
     }
-    for (const BrickId before : isKept.ids()) {
-      if (!isKept[before]) noteAround(before_.bricks.boxes[before], kept.inner);
+    for (const BrickId b : isKept.ids()) {
+      if (!isKept[b]) noteAround(before_.bricks.boxes[b], kept.inner);
     }
     kept.cuts.memory = std::move(before_.cuts.memory);
     dropUnused(kept);
@@ -89,21 +44,6 @@ class Keeper {
   }
 
  private:
-  /// Keys of bricks of both, with the same in them.
-  std::vector<uint64_t> findSame() const {
-    const IdVector<BrickId, uint8_t> haveOthersBefore = findOthers(before_.parts, before_.bricks),
-                                     haveOthersNow = findOthers(parts_, bricks_);
-    std::vector<uint64_t> keys;
-    BrickId was{0};
-    for (const BrickId b : bricks_.ids()) {
-      while (was.number < before_.bricks.size() && before_.bricks.keys[was] < bricks_.keys[b]) ++was.number;
-      if (was.number == before_.bricks.size()) break;
-      if (before_.bricks.keys[was] != bricks_.keys[b]) continue;
-      if (!haveOthersBefore[was] && !haveOthersNow[b] && isSame(was, b)) keys.push_back(bricks_.keys[b]);
-    }
-    return keys;
-  }
-
   /// Per brick: whether it has parts of triangles that are not the same.
   IdVector<BrickId, uint8_t> findOthers(const SurfaceParts& parts, const Bricks& bricks) const {
     IdVector<BrickId, uint8_t> haveOthers(bricks.size(), 0);
@@ -191,18 +131,8 @@ class Keeper {
 
 }  // namespace
 
-std::vector<uint64_t> findUnchanged(const CutBefore& before, const SurfaceMap& now, const Surface& surface, const SurfaceParts& parts,
-                                    const BrickGrid& grid) {
-  if (!now.areEdgesSame()) return {};
-  ChangeFinder finder(before.bricks, now, grid);
-  finder.note(before.surface, before.parts.clipped);
-  finder.note(surface, parts.clipped);
-  return finder.unchanged();
-}
-
-KeptBricks keepBricks(const CutBefore& before, SurfaceMap now, const Surface& surface, const SurfaceParts& parts, Bricks& bricks,
-                      const std::vector<uint64_t>& unchanged) {
-  return Keeper(before, std::move(now), surface, parts, bricks).run(unchanged);
+KeptBricks keepBricks(const CutBefore& before, SurfaceMap now, const Surface& surface, const SurfaceParts& parts, Bricks& bricks) {
+  return Keeper(before, std::move(now), surface, parts, bricks).run();
 }
 
 }  // namespace mandoline::detail

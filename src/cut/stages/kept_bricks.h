@@ -18,12 +18,6 @@ struct CutBefore {
   BrickCuts& cuts;
 };
 
-/// Keys of all bricks that are to be kept, ascending, where that can be told before bricks are laid out: where SurfaceMap::areEdgesSame().
-std::vector<uint64_t> findUnchanged(const CutBefore& before, const SurfaceMap& now, const Surface& surface, const SurfaceParts& parts,
-                                    const BrickGrid& grid);
-
-/// `unchanged`: as these were found.
-KeptBricks keepBricks(const CutBefore& before, SurfaceMap now, const Surface& surface, const SurfaceParts& parts, Bricks& bricks,
-                      const std::vector<uint64_t>& unchanged);
+KeptBricks keepBricks(const CutBefore& before, SurfaceMap now, const Surface& surface, const SurfaceParts& parts, Bricks& bricks);
 
 }  // namespace mandoline::detail

@@ -40,8 +40,6 @@ class Keeping {
   virtual const KnownSlabs* slabs() = 0;
   virtual const KnownCrossings& crossings() = 0;
   virtual KnownClips& clips() = 0;
-  /// Keys of bricks that are kept, as far as these are known before bricks are laid out.
-  virtual const std::vector<uint64_t>& unchangedBricks(const BrickGrid& grid) = 0;
   virtual KeptBricks& bricks() = 0;  ///< of those that are laid out
   virtual IdVector<BrickId, BrickSeams> seams() = 0;
   virtual KeptArrays* arrays() = 0;  ///< null unless the result is written over that of the cut before

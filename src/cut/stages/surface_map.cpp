@@ -149,12 +149,6 @@ void SurfaceMap::findSameTriangles() {
   }
 }
 
-bool SurfaceMap::hasMoved(const CutVertices& vertices, VertexId v) const {
-  if (vertices.isTriVertex(v)) return moved_[v] != 0;
-  const auto& [low, high] = now_.edges->ends[vertices.triEdge(v)];
-  return moved_[low] || moved_[high];
-}
-
 TriangleId SurfaceMap::pastSame(TriangleId first, TriangleId past) const {
   const uint8_t* const same = same_.data();
   const void* const found = std::memchr(same + first.number, 0, past.number - first.number);

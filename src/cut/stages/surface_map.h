@@ -27,9 +27,6 @@ class SurfaceMap {
   IdVector<VertexId, VertexId> takeVertices() { return std::move(vertices_); }
   /// Whether a triangle is where it was, and has the same vertices and edges of others on it.
   bool isSame(TriangleId t) const { return same_[t] != 0; }
-  /// Whether a vertex of one of both surfaces lies on a tri-edge that has moved, or has moved itself. If areEdgesSame(), of the mesh and
-  /// its edges.
-  bool hasMoved(const CutVertices& vertices, VertexId v) const;
   /// The triangle after those, from `first` on and before `past`, of which that is so.
   TriangleId pastSame(TriangleId first, TriangleId past) const;
   /// Of a vertex that a brick sees.
