@@ -26,8 +26,16 @@ class Rooms {
         out_(out),
         monitor_(monitor) {}
 
-  /// Runs it beside what comes next.
-  void alongside(std::function<void()> task) { tasks_.push_back(std::move(task)); }
+  /// Frees one kind of what bricks have, on several threads beside what comes next.
+  void free(std::vector<BrickMemory>& memory, Arena BrickMemory::*kind) {
+    for (BrickMemory& of : memory) {
+      if (monitor_.threads() == 1) {
+        of.*kind = {};
+      } else {
+        tasks_.push_back([&of, kind] { of.*kind = {}; });
+      }
+    }
+  }
   void run() { runTasks(std::exchange(tasks_, {}), monitor_); }
 
   void makeForCells() {
@@ -212,15 +220,9 @@ CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& r
   const bool isMuch = state.cuts.bytes() > kMuch;
   if (state.cuts.bytes() >= kLargePages) makeRoomInHeap();
   Rooms rooms(numbers, std::exchange(state.spare, {}), keptArrays, out, run.monitor);
-  const auto drop = [&](Arena BrickMemory::*part) {
+  const auto drop = [&](Arena BrickMemory::*kind) {
     if (state.isNeededAgain) return;
-    for (BrickMemory& of : state.cuts.memory) {
-      if (run.monitor.threads() == 1) {
-        of.*part = {};
-      } else {
-        rooms.alongside([&of, part] { of.*part = {}; });
-      }
-    }
+    rooms.free(state.cuts.memory, kind);
     if (!isMuch) return;
     rooms.run();
     giveBackFreed();
