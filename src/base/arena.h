@@ -56,7 +56,7 @@ class Arena {
 
  private:
   static constexpr size_t kAlignment = 16, kFirst = size_t(1) << 16, kLargePages = size_t(1) << 21, kLargest = size_t(1) << 22,
-                          kSecond = kPageAlignment > kAlignment ? 2 * kFirst : kLargePages;
+                          kSecond = kHasLargePages ? 2 * kFirst : kLargePages;
 
   struct Free {
     size_t bytes;

@@ -101,11 +101,7 @@ const readers: Record<string, Reader> = {
     settings.explode = { cells: values[0], regions: values[1] };
     return true;
   },
-  color: (settings, text) => {
-    const coloring = colorings.find((name) => name === text);
-    if (coloring) settings.colorBy = coloring;
-    return coloring !== undefined;
-  },
+  color: oneOf(colorings, (settings, coloring) => (settings.colorBy = coloring)),
   show: (settings, text) => {
     const shown = text === '' ? [] : text.split(',');
     if (!shown.every((name) => layers.some((layer) => layer === name))) return false;
@@ -123,11 +119,7 @@ const readers: Record<string, Reader> = {
     settings.volumes = [values[0], values[1]];
     return true;
   },
-  up: (settings, text) => {
-    const up = ups.find((name) => name === text);
-    if (up) settings.up = up;
-    return up !== undefined;
-  },
+  up: oneOf(ups, (settings, up) => (settings.up = up)),
   camera: (settings, text) => {
     const values = numbers(text, 6);
     if (!values || same(values.slice(0, 3), values.slice(3))) return false;
@@ -140,11 +132,7 @@ const readers: Record<string, Reader> = {
     settings.wind.smoke = text === 'on';
     return true;
   },
-  flow: (settings, text) => {
-    const show = windColorings.find((name) => name === text);
-    if (show) settings.wind.show = show;
-    return show !== undefined;
-  },
+  flow: oneOf(windColorings, (settings, show) => (settings.wind.show = show)),
   tunnel: (settings, text) => {
     const cells = count(text, 2);
     if (cells === null || cells > mostWindCells) return false;
@@ -163,6 +151,14 @@ const readers: Record<string, Reader> = {
     return true;
   },
 };
+
+function oneOf<Name extends string>(names: readonly Name[], set: (settings: Settings, name: Name) => void): Reader {
+  return (settings, text) => {
+    const found = names.find((name) => name === text);
+    if (found) set(settings, found);
+    return found !== undefined;
+  };
+}
 
 function readSource(settings: Settings, source: Source, text: string): boolean {
   if (text !== '') settings.source = source;
