@@ -128,7 +128,8 @@ void cutInBricks(CutState& state, Clock& clock, Run& run) {
   cutTriEdges(surface, run, state.keeping ? &state.keeping->crossings() : nullptr);
 
   clock.begin("triFaces");
-  BrickGrid brickGrid(input, state.brickShifts ? *state.brickShifts : BrickGrid::shiftsFor(input, run.monitor.threads()));
+  const std::array<int, 3> shifts = state.brickShifts ? *state.brickShifts : BrickGrid::shiftsFor(input, run.monitor.threads());
+  BrickGrid brickGrid(input, shifts, state.shareBorders);
   if (state.layersHere) brickGrid.here = *state.layersHere;
   state.parts.clipped = clipTriangles(surface, brickGrid, run, state.keeping ? &state.keeping->clips() : nullptr);
   divideFaces(surface, state.parts.clipped.undivided, state.parts.divided, run);

@@ -58,6 +58,7 @@ struct CutShare::Data {
   void takeLayers() {
     state->brickShifts = layers->shifts();
     state->layersHere = layers->of(shareOf.index);
+    state->shareBorders = layers->borders();
   }
 
   void takeShare(TakeExcerpt* takeExcerpt) {

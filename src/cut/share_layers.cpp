@@ -15,19 +15,71 @@ uint64_t areaOf(const Slab& a, const Slab& b, const Slab& c) {
   return area;
 }
 
-/// Where shares begin among layers, of which `before` has the work before each, and in all. Each gets as near as can be to an even part of
-/// what those before it have left.
-std::vector<int32_t> divided(const std::vector<uint64_t>& before, uint32_t count) {
-  std::vector<int32_t> first{0};
-  for (uint32_t share = 0; share + 1 < count; ++share) {
-    const uint64_t done = before[size_t(first.back())], target = done + (before.back() - done) / (count - share);
-    const auto next = std::lower_bound(before.begin() + first.back(), before.end(), target);
-    const bool isNearerBelow = next != before.begin() + first.back() && target - next[-1] < *next - target;
-    first.push_back(int32_t(next - before.begin()) - isNearerBelow);
+/// Divides layers among shares. `before`: the work before each layer, and in all.
+class Division {
+ public:
+  Division(const std::vector<uint64_t>& before, uint32_t count) : before_(before), count_(count), most_(leastMost()) {}
+
+  /// Where shares begin, and the last ends: each border as near as can be to an even part of the work, where no share has more than the
+  /// busiest has to.
+  std::vector<size_t> borders() const {
+    std::vector<size_t> earliest(count_ + 1);
+    earliest[count_] = layers();
+    for (uint32_t share = count_; share-- > 0;) earliest[share] = firstBefore(earliest[share + 1]);
+    std::vector<size_t> borders{0};
+    for (uint32_t share = 1; share < count_; ++share) {
+      const size_t least = std::max(borders.back(), earliest[share]);
+      borders.push_back(std::clamp(nearest(evenPart(share)), least, lastAfter(borders.back(), most_)));
+    }
+    borders.push_back(layers());
+    return borders;
   }
-  first.push_back(int32_t(before.size()) - 1);
-  return first;
-}
+
+ private:
+  size_t layers() const { return before_.size() - 1; }
+
+  /// The least work with which the busiest share can do.
+  uint64_t leastMost() const {
+    uint64_t least = 0, enough = before_.back();
+    while (least < enough) {
+      const uint64_t most = least + (enough - least) / 2;
+      if (isEnough(most))
+        enough = most;
+      else
+        least = most + 1;
+    }
+    return enough;
+  }
+  bool isEnough(uint64_t most) const {
+    size_t at = 0;
+    for (uint32_t share = 0; share < count_ && at < layers(); ++share) {
+      const size_t next = lastAfter(at, most);
+      if (next == at) return false;
+      at = next;
+    }
+    return at == layers();
+  }
+  /// Up to where a share can go that begins at a layer.
+  size_t lastAfter(size_t first, uint64_t most) const {
+    return size_t(std::upper_bound(before_.begin() + ptrdiff_t(first), before_.end(), before_[first] + most) - before_.begin()) - 1;
+  }
+  /// Where one can begin that ends at a layer.
+  size_t firstBefore(size_t past) const {
+    const uint64_t least = before_[past] - std::min(before_[past], most_);
+    return size_t(std::lower_bound(before_.begin(), before_.end(), least) - before_.begin());
+  }
+  /// How much work so many shares have where all have the same.
+  uint64_t evenPart(uint64_t shares) const { return before_.back() / count_ * shares + before_.back() % count_ * shares / count_; }
+  size_t nearest(uint64_t work) const {
+    const auto at = std::lower_bound(before_.begin(), before_.end(), work);
+    const bool isNearerBelow = at != before_.begin() && work - at[-1] < *at - work;
+    return size_t(at - before_.begin()) - size_t(isNearerBelow);
+  }
+
+  const std::vector<uint64_t>& before_;
+  const uint32_t count_;
+  const uint64_t most_;
+};
 
 }  // namespace
 
@@ -72,26 +124,11 @@ std::vector<uint64_t> workOfLayers(const Input& input) {
   return work.perLayer();
 }
 
-/// Thinner bricks make shares more alike in work, but are more work: about so many percent.
-ShareLayers::ShareLayers(const Input& input, const std::vector<uint64_t>& work, uint32_t count) {
-  constexpr uint64_t kPercent[] = {125, 110, 103, 101, 100, 100};
-  const std::array<int, 3> usual = BrickGrid::shiftsFor(input, count);
-  uint64_t least = ~uint64_t(0);
-  for (int shift = usual[2]; shift >= 0; --shift) {
-    std::vector<uint64_t> before{0};
-    for (size_t at = 0; at < work.size(); ++at) {
-      if (at % (size_t(1) << shift) == 0) before.push_back(before.back());
-      before.back() += work[at];
-    }
-    const std::vector<int32_t> first = divided(before, count);
-    uint64_t most = 0;
-    for (uint32_t share = 0; share < count; ++share) most = std::max(most, before[size_t(first[share + 1])] - before[size_t(first[share])]);
-    if (most / 100 * kPercent[shift] >= least) continue;
-    least = most / 100 * kPercent[shift];
-    shifts_ = {usual[0], usual[1], shift};
-    first_.clear();
-    for (const int32_t layer : first) first_.push_back(std::min(layer << shift, input.cells(2)));
-  }
+ShareLayers::ShareLayers(const Input& input, const std::vector<uint64_t>& work, uint32_t count)
+    : shifts_(BrickGrid::shiftsFor(input, count)) {
+  std::vector<uint64_t> before{0};
+  for (const uint64_t ofLayer : work) before.push_back(before.back() + ofLayer);
+  for (const size_t border : Division(before, count).borders()) first_.push_back(int32_t(border));
 }
 
 bool isInLayers(const Input& input, TriangleId t, const CellLayers& layers) {

@@ -28,14 +28,16 @@ class LayerWork {
 /// That of all triangles: the same in all processes.
 std::vector<uint64_t> workOfLayers(const Input& input);
 
-/// The layers of `count` shares, which begin where bricks do.
+/// The layers of `count` shares: as even in work as whole layers can be.
 class ShareLayers {
  public:
   /// `work`: that of workOfLayers(input), of which its planes are enough here.
   ShareLayers(const Input& input, const std::vector<uint64_t>& work, uint32_t count);
 
-  /// Of bricks, as a BrickGrid has them.
+  /// Of bricks, as a BrickGrid has them: small enough for several threads of each process.
   const std::array<int, 3>& shifts() const { return shifts_; }
+  /// The first layers of all shares, and where the last ends: with each of them bricks begin anew.
+  const std::vector<int32_t>& borders() const { return first_; }
   /// The first layer of grid cells of a share, where those of the share before end.
   int32_t first(uint32_t share) const { return first_[share]; }
   CellLayers of(uint32_t share) const { return {first_[share], first_[share + 1]}; }

@@ -1,7 +1,6 @@
 #include "cut/share_plan.h"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <optional>
 
@@ -12,29 +11,17 @@
 
 namespace mandoline::detail {
 
-/// What a layer of bricks adds to the process that cuts it.
-struct LayerLoad {
+/// What a process has of its bricks.
+struct BricksLoad {
   BrickCounts counts;
   uint64_t surfaceVertices = 0, made = 0;       ///< of the mesh and its edges; made ones of these
   uint64_t facesAbove = 0, seamFacesAbove = 0;  ///< in the plane above: those of its cells, and of these those that others have, too
   uint64_t summaryBytes = 0, brickBytes = 0;
   uint64_t toldBytes = 0;  ///< of what summaries tell, once it is arrays again
-
-  void add(const LayerLoad& more) {
-    counts.add(more.counts);
-    surfaceVertices += more.surfaceVertices;
-    made += more.made;
-    summaryBytes += more.summaryBytes;
-    toldBytes += more.toldBytes;
-    brickBytes += more.brickBytes;
-    facesAbove = more.facesAbove;
-    seamFacesAbove = more.seamFacesAbove;
-  }
 };
 
-/// All layers of a size of bricks.
-struct LayerLoads {
-  std::vector<LayerLoad> layers;
+struct BricksLoads {
+  std::vector<BricksLoad> ofRanks;
   uint64_t surfaceBytes = 0;  ///< of all crossings
   uint64_t seamBytes = 0;     ///< which all processes have, with untouched grid cells
   uint64_t regions = 0;
@@ -128,7 +115,7 @@ uint64_t facesOf(const BrickCounts& counts) { return uint64_t(counts.triFaces) +
 struct LayerMemory {
   uint64_t writing, measuring;
 };
-LayerMemory memoryOf(const LayerLoad& load) {
+LayerMemory memoryOf(const BricksLoad& load) {
   const BrickCounts& n = load.counts;
   const uint64_t cells = n.cells, faces = facesOf(n), vertices = n.vertices + load.surfaceVertices;
   const uint64_t loops = uint64_t(n.triLoops) + n.loops, loopVertices = uint64_t(n.triLoopVertices) + n.loopVertices;
@@ -138,36 +125,47 @@ LayerMemory memoryOf(const LayerLoad& load) {
   return {load.brickBytes + numbers + output, output + ids + std::max(output, measures)};
 }
 
-/// Counts what a finished cut has in each layer of bricks.
-LayerLoads loadsOf(CutState& state) {
+/// The process that has each layer of grid cells.
+std::vector<uint32_t> ranksOf(const ShareLayers& shares, uint32_t count) {
+  std::vector<uint32_t> ranks;
+  for (uint32_t rank = 0; rank < count; ++rank) ranks.resize(size_t(shares.of(rank).past), rank);
+  return ranks;
+}
+
+/// Counts what a finished cut has of the bricks of each process.
+BricksLoads loadsOf(CutState& state, const ShareLayers& shares, uint32_t count) {
   const Bricks& bricks = state.bricks;
-  LayerLoads all;
-  all.layers.resize(size_t(bricks.grid.counts[2]));
+  const std::vector<uint32_t> rankOf = ranksOf(shares, count);
+  BricksLoads all;
+  all.ofRanks.resize(count);
   all.surfaceBytes = bytesOfSurface(state);
   all.seamBytes = bytesOfSeams(state);
   all.regions = state.regions.count;
   const uint32_t above = uint32_t(cellFace(2, 1));
   for (const BrickId b : bricks.ids()) {
-    LayerLoad& layer = all.layers[size_t(bricks.boxes[b].first[2] >> bricks.grid.shifts[2])];
-    for (const BrickCounts& row : state.seams[b].rows) layer.counts.add(row);
+    const BrickBox& box = bricks.boxes[b];
+    const uint32_t rank = rankOf[size_t(box.first[2])];
+    BricksLoad& load = all.ofRanks[rank];
+    for (const BrickCounts& row : state.seams[b].rows) load.counts.add(row);
     const BrickCut& cut = state.cuts[b];
-    layer.summaryBytes += summaryBytes(state, b);
-    layer.toldBytes += bytesOf(cut.rows, cut.boundaryFaces, cut.boundaryHalves, cut.boundaryLines, cut.openFaces, cut.steps);
-    layer.brickBytes += bytesOfBrick(state.cuts[b]);
+    load.summaryBytes += summaryBytes(state, b);
+    load.toldBytes += bytesOf(cut.rows, cut.boundaryFaces, cut.boundaryHalves, cut.boundaryLines, cut.openFaces, cut.steps);
+    load.brickBytes += bytesOfBrick(state.cuts[b]);
+    if (box.first[2] + box.count[2] < shares.of(rank).past) continue;
     for (const BoundaryFace& face : state.cuts[b].boundaryFaces) {
-      if (face.index == above) layer.facesAbove += face.triFaces.count + face.pieces.count;
+      if (face.index == above) load.facesAbove += face.triFaces.count + face.pieces.count;
     }
     for (const SeamRanges* seams : {&state.seams[b].triFaces, &state.seams[b].pieces}) {
       for (const SeamRange& own : seams->own) {
-        if (own.key % 32 == above) layer.seamFacesAbove += own.range.count;
+        if (own.key % 32 == above) load.seamFacesAbove += own.range.count;
       }
     }
   }
   for (const VertexId v : listUsed(state.used)) {
     const int32_t z = std::clamp(state.surface.vertices.slab(v)[2] >> 1, 0, bricks.grid.cells[2] - 1);
-    LayerLoad& layer = all.layers[size_t(z >> bricks.grid.shifts[2])];
-    ++layer.surfaceVertices;
-    layer.made += state.surface.vertices.isImplicit(v);
+    BricksLoad& load = all.ofRanks[rankOf[size_t(z)]];
+    ++load.surfaceVertices;
+    load.made += state.surface.vertices.isImplicit(v);
   }
   return all;
 }
@@ -199,10 +197,8 @@ struct SharePlanner::Data {
     isInShares = !mesh.isPreparedAgain() && isPreparedInShares(mesh.prepared());
   }
 
-  /// Of a size of bricks.
-  const LayerLoads& layersFor(const std::array<int, 3>& shifts, const RunOptions& options) {
-    const auto known = bySize.find(shifts);
-    if (known != bySize.end()) return known->second;
+  /// Cuts all bricks of all processes.
+  BricksLoads cutFor(const ShareLayers& shares, uint32_t ranks, const RunOptions& options) {
     CutStats stats;
     Monitor monitor(options, kGridStages);
     Clock clock(stats, monitor);
@@ -210,30 +206,27 @@ struct SharePlanner::Data {
     CutState state;
     state.isNeededAgain = true;
     state.surface.input = input;
-    state.brickShifts = shifts;
+    state.brickShifts = shares.shifts();
+    state.shareBorders = shares.borders();
     cutInBricks(state, clock, run);
     joinBricks(state, clock, run);
-    if (bySize.empty()) {
+    if (used.empty()) {
       for (const VertexId v : listUsed(state.used)) used.push_back({v.number, state.surface.vertices.slab(v)[2]});
     }
-    return bySize.emplace(shifts, loadsOf(state)).first->second;
+    return loadsOf(state, shares, ranks);
   }
 
   std::vector<ShareLoad> loads(uint32_t ranks, const RunOptions& options) {
     const ShareLayers shares(input, work, ranks);
-    const LayerLoads& all = layersFor(shares.shifts(), options);
-    std::vector<LayerLoad> sums(ranks);
+    BricksLoads all = cutFor(shares, ranks, options);
+    std::vector<BricksLoad>& sums = all.ofRanks;
     addUsed(shares, sums);
     uint64_t summaries = 0;
-    for (uint32_t rank = 0; rank < ranks; ++rank) {
-      const auto [first, past] = shares.of(rank);
-      for (int32_t z = first; z < past; z += 1 << shares.shifts()[2]) sums[rank].add(all.layers[size_t(z >> shares.shifts()[2])]);
-      summaries += sums[rank].summaryBytes + sums[rank].toldBytes;
-    }
+    for (const BricksLoad& sum : sums) summaries += sum.summaryBytes + sum.toldBytes;
     std::vector<ShareLoad> loads(ranks);
     uint64_t seamBelow = 0;
     for (uint32_t rank = 0; rank < ranks; ++rank) {
-      const LayerLoad& sum = sums[rank];
+      const BricksLoad& sum = sums[rank];
       const bool hasLayers = shares.first(rank) < shares.first(rank + 1);
       ShareLoad& load = loads[rank];
       load.cutCells = sum.counts.cells;
@@ -259,7 +252,7 @@ struct SharePlanner::Data {
     return known + std::max(slice, uint64_t(reach->prepared(layers) * double(whole + bytesOfView())));
   }
   /// Once the output is written, a process has its part, and what it keeps of the user's mesh.
-  uint64_t memoryOf(uint32_t ranks, const CellLayers& layers, const LayerLoad& sum, const LayerLoads& all, uint64_t summaries) const {
+  uint64_t memoryOf(uint32_t ranks, const CellLayers& layers, const BricksLoad& sum, const BricksLoads& all, uint64_t summaries) const {
     const uint64_t made = bytesOfPrepared(mesh.prepared()) + bytesOf(input.slabs) + all.surfaceBytes;
     const uint64_t excerpt = ranks == 1 ? made : uint64_t(reach->of(layers) * double(made));
     const auto [writing, measuring] = detail::memoryOf(sum);
@@ -269,10 +262,9 @@ struct SharePlanner::Data {
   }
 
   /// Which vertices of the surface loops have, as summaries tell it.
-  void addUsed(const ShareLayers& shares, std::vector<LayerLoad>& sums) const {
+  void addUsed(const ShareLayers& shares, std::vector<BricksLoad>& sums) const {
     constexpr uint64_t kWordBytes = 5;
-    std::vector<uint32_t> rankOf;  // per layer of grid cells
-    for (uint32_t rank = 0; rank < sums.size(); ++rank) rankOf.resize(size_t(shares.of(rank).past), rank);
+    const std::vector<uint32_t> rankOf = ranksOf(shares, uint32_t(sums.size()));
     std::vector<uint32_t> last(sums.size(), ~0u);
     const auto add = [&](uint32_t rank, uint32_t word) {
       if (std::exchange(last[rank], word) != word) sums[rank].summaryBytes += kWordBytes;
@@ -283,7 +275,7 @@ struct SharePlanner::Data {
     }
   }
 
-  uint64_t sentBy(uint32_t rank, uint32_t ranks, const LayerLoad& sum, uint64_t seamBelow, const LayerLoads& all) const {
+  uint64_t sentBy(uint32_t rank, uint32_t ranks, const BricksLoad& sum, uint64_t seamBelow, const BricksLoads& all) const {
     const uint64_t others = ranks - 1, numbers = 11 * sizeof(uint64_t) * ranks, sums = all.regions * sizeof(DoubleDouble);
     uint64_t bytes = others * sum.summaryBytes + numbers + mesh.view().triangleCount() / 8;
     bytes += 2 * sums * (rank + 1 < ranks ? 1 : others);
@@ -326,7 +318,6 @@ struct SharePlanner::Data {
     int32_t z;  // its slab
   };
   std::vector<UsedVertex> used;
-  std::map<std::array<int, 3>, LayerLoads> bySize;
 };
 
 SharePlanner::SharePlanner(PreparedMesh mesh, Grid grid, const RunOptions& options) {

@@ -22,8 +22,7 @@ class MANDOLINE_SHARED SharePlanner {
   /// Throws CallError as cut() has errors.
   SharePlanner(PreparedMesh mesh, Grid grid, const RunOptions& options);
 
-  /// Those of a cut by so many processes, by rank. What they have depends on their number alone, as do the sizes of bricks: the grid is cut
-  /// once for each size. Throws CallError as the constructor.
+  /// Those of a cut by so many processes, by rank: the grid is cut once more, in their bricks. Throws CallError as the constructor.
   std::vector<ShareLoad> loads(uint32_t ranks, const RunOptions& options);
 
  private:

@@ -83,6 +83,27 @@ TEST_CASE("Shares are the same where seams pass through what is hard", "[shares]
   }
 }
 
+TEST_CASE("Shares are the same where their border lies inside what would be a brick", "[shares][seams]") {
+  const Grid grid = unitGrid(12, 12, 40);
+  const auto around = [](double z) {  // what is hard in a plane across z, or through it
+    return shapes::merged({shapes::box({1.5, 1.5, 2.5}, {10.5, 10.5, z}), shapes::octahedron({6, 6, z}, 1.5),
+                           shapes::torus({6.1, 5.9, z + 0.1}, 3, 0.8, 12, 8),
+                           shapes::quad({0.5, 3, z}, {5, 3, z}, {5, 11.5, z}, {0.5, 11.5, z}),
+                           shapes::box({2.5, 2.5, z}, {9.5, 9.5, 38.5})});
+  };
+  for (const double z : {19.0, 20.0, 21.0, 20.5}) {
+    CAPTURE(z);
+    const Mesh mesh = around(z);
+    const PreparedMesh prepared = prepare(mesh).mesh;
+    size_t inside = 0;
+    for (const uint32_t count : {2u, 3u, 4u, 7u}) {
+      for (uint32_t share = 1; share < count; ++share) inside += CutShare(prepared, grid, {share, count}).layers()[0] % 8 != 0;
+      checkShares(mesh, grid, count);
+    }
+    CHECK(inside > 0);
+  }
+}
+
 TEST_CASE("What shares tell each other takes few bytes for each of their cut-cells", "[shares]") {
   const Mesh mesh = shapes::icosphere({0, 0, 0}, 1, 5);
   const PreparedMesh prepared = prepare(mesh).mesh;

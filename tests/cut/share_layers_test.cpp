@@ -1,6 +1,7 @@
 // Which layers several processes get, before anything is cut.
 #include "cut/share_layers.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "catch.h"
@@ -23,6 +24,33 @@ Input inputOf(int64_t cells) {
 
 ShareLayers layersFor(const std::vector<uint64_t>& work, uint32_t shares) { return {inputOf(int64_t(work.size())), work, shares}; }
 
+/// The work of the share that has the most.
+uint64_t busiest(const ShareLayers& layers, const std::vector<uint64_t>& work, uint32_t shares) {
+  uint64_t most = 0;
+  for (uint32_t share = 0; share < shares; ++share) {
+    REQUIRE(layers.first(share) <= layers.first(share + 1));
+    most = std::max(most, std::accumulate(work.begin() + layers.first(share), work.begin() + layers.first(share + 1), uint64_t(0)));
+  }
+  return most;
+}
+
+/// The least that it can have, by all ways to divide the layers.
+uint64_t leastBusiest(const std::vector<uint64_t>& work, uint32_t shares) {
+  const size_t layers = work.size();
+  std::vector<uint64_t> least(layers + 1, ~uint64_t(0));  // of the layers before each, divided among the shares so far
+  least[0] = 0;
+  for (uint32_t share = 0; share < shares; ++share) {
+    for (size_t past = layers; past > 0; --past) {
+      uint64_t sum = 0;
+      for (size_t first = past; first-- > 0;) {
+        sum += work[first];
+        least[past] = std::min(least[past], std::max(least[first], sum));
+      }
+    }
+  }
+  return least[layers];
+}
+
 std::vector<uint64_t> workOf(const Mesh& mesh, const Grid& grid) {
   const PreparedMesh prepared = prepare(mesh).mesh;
   CutStats stats;
@@ -34,14 +62,55 @@ std::vector<uint64_t> workOf(const Mesh& mesh, const Grid& grid) {
 
 }  // namespace
 
-TEST_CASE("Shares get layers that are alike in work, of thinner bricks where these are needed for it", "[stages][bricks]") {
+TEST_CASE("Shares get layers that are alike in work, wherever bricks end", "[stages][bricks]") {
   const ShareLayers two = layersFor(std::vector<uint64_t>(320, 1000), 2);
   CHECK(two.shifts() == BrickGrid::same(5));
-  CHECK(two.first(1) == 160);
-  CHECK(two.first(2) == 320);
+  CHECK(two.borders() == std::vector<int32_t>{0, 160, 320});
   const ShareLayers seven = layersFor(std::vector<uint64_t>(320, 1000), 7);
-  CHECK(seven.shifts()[2] < 5);
-  for (uint32_t share = 0; share < 7; ++share) CHECK(seven.of(share).past - seven.of(share).first <= 1.1 * 320 / 7);
+  CHECK(seven.shifts() == BrickGrid::same(5));
+  for (uint32_t share = 0; share < 7; ++share) {
+    const CellLayers layers = seven.of(share);
+    CHECK(layers.past - layers.first >= 45);
+    CHECK(layers.past - layers.first <= 46);
+  }
+}
+
+TEST_CASE("The busiest share has the least that whole layers allow", "[stages][bricks]") {
+  uint32_t random = 1;
+  for (int round = 0; round < 200; ++round) {
+    std::vector<uint64_t> work(1 + size_t(round) % 12);
+    for (uint64_t& ofLayer : work) {
+      random = random * 1664525 + 1013904223;
+      ofLayer = (random >> 16) % 7 * ((random >> 24) % 3);
+    }
+    for (const uint32_t shares : {1u, 2u, 3u, 5u, 14u}) {
+      CAPTURE(round, shares, work);
+      const ShareLayers layers = layersFor(work, shares);
+      REQUIRE(layers.first(0) == 0);
+      REQUIRE(layers.first(shares) == int32_t(work.size()));
+      CHECK(busiest(layers, work, shares) == leastBusiest(work, shares));
+    }
+  }
+}
+
+TEST_CASE("Shares of meshes are even within 10 % where no layer is a tenth of a share", "[stages][bricks]") {
+  const Mesh meshes[] = {shapes::icosphere({0, 0, 0}, 1, 4), shapes::torus({0, 0, 0}, 2, 0.6, 48, 24),
+                         shapes::noisySphere({0, 0, 0}, 1, 0.2, 4),
+                         shapes::merged({shapes::icosphere({0, 0, 0}, 1, 2), shapes::icosphere({0.3, 0, 3}, 0.4, 5)})};
+  size_t tried = 0;
+  for (const Mesh& mesh : meshes) {
+    for (const int cells : {64, 100, 200}) {
+      const std::vector<uint64_t> work = workOf(mesh, Grid::around(mesh, cells));
+      const uint64_t all = std::accumulate(work.begin(), work.end(), uint64_t(0)), most = *std::max_element(work.begin(), work.end());
+      for (const uint32_t shares : {2u, 3u, 4u, 7u, 8u}) {
+        if (most * shares > all / 10) continue;
+        CAPTURE(mesh.triangleCount(), cells, shares);
+        CHECK(busiest(layersFor(work, shares), work, shares) * shares <= all + all / 10);
+        ++tried;
+      }
+    }
+  }
+  CHECK(tried > 20);
 }
 
 TEST_CASE("Of work in one layer one share has all, and more shares than layers are left without", "[stages][bricks]") {

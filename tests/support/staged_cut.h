@@ -21,6 +21,7 @@ struct Way {
   CutOptions options = {};
   bool onlyGeneral = false;
   int brickShift = 10;
+  std::vector<int32_t> bricksAnew = {};  ///< layers with which they begin anew
 
   Way() = default;
   Way(const CutOptions& options_) : options(options_) {}
@@ -45,7 +46,7 @@ struct StagedCut {
     prepareOne(mesh, grid);
     state.surface.input = prepareInput(*prepared, grid, run);
     if (last >= Stage::triEdges) cutTriEdges(state.surface, run);
-    if (last >= Stage::triFaces) clip({state.surface.input, BrickGrid::same(way.brickShift)});
+    if (last >= Stage::triFaces) clip({state.surface.input, BrickGrid::same(way.brickShift), way.bricksAnew});
     if (last == Stage::regions) {
       findRest();
     } else if (last >= Stage::triFaces) {

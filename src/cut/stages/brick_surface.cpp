@@ -27,7 +27,7 @@ class SurfaceCutter {
         touched_(bricks.wordsOf(brick)),
         out_(out),
         faces_(out.triFaces, aboutAsMany(surface, bricks.parts[brick].size())),
-        dicer_(input_, BrickGrid::same(0), *this) {
+        dicer_(input_, nullptr, *this) {
     dicer_.onlySweep = out.onlySweep;
   }
   SurfaceCutter(const SurfaceCutter&) = delete;

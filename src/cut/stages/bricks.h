@@ -20,7 +20,7 @@ struct SurfaceParts {
 /// A cut-edge in a grid-face: those that clipping made come first, then those of divided triangles, then those of tri-edges.
 const FaceEdge& faceEdge(const Surface& surface, const SurfaceParts& parts, uint32_t i);
 
-/// The bricks that this process cuts: all, or one of several shares of a cut (see mandoline/cut_share.h), which are layers of bricks.
+/// The bricks that this process cuts: all, or one of several shares of a cut (see mandoline/cut_share.h), which are layers of them.
 struct BricksHere {
   BrickId first{0}, past{0};
   bool isShare = false;  ///< whether other processes cut, too

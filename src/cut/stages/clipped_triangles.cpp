@@ -43,7 +43,7 @@ class Clipper {
         bricks_(bricks),
         monitor_(run.monitor),
         chunk_(chunk),
-        dicer_(input_, bricks.shifts, *this) {
+        dicer_(input_, &bricks, *this) {
     dicer_.onlySweep = run.onlyGeneral;
   }
   Clipper(const Clipper&) = delete;
@@ -58,8 +58,8 @@ class Clipper {
     for (size_t d = 0; d < 3; ++d) {
       const int32_t least = extent.least[d], greatest = extent.greatest[d], end = 2 * bricks_.cells[d];
       if (greatest < 0 || least > end) return;
-      isWhole &= least == greatest || (least >= 0 && greatest <= end && isOneBrick(d, least | 1, greatest - 1));
-      isBesideSeam |= (least & bricks_.between(d)) == 0 || (greatest & bricks_.between(d)) == 0;
+      isWhole &= least == greatest || (least >= 0 && greatest <= end && bricks_.isOneBrick(d, least | 1, greatest - 1));
+      isBesideSeam |= bricks_.isBetween(d, least) || bricks_.isBetween(d, greatest);
     }
     if (!isWhole) {
       outlineOf(surface_, triangle, outline_);
@@ -94,10 +94,6 @@ class Clipper {
   void giveBrick(const Slab& cell, uint32_t piece) {
     if (bricks_.hasCell(cell)) chunk_.clipped.parts.push_back({bricks_.keyOf(cell), triangle_, piece});
   }
-  /// Whether cells from one to another, as slabs along an axis, are of one brick along it.
-  bool isOneBrick(size_t axis, int32_t first, int32_t last) const {
-    return first >> 1 >> bricks_.shifts[axis] == last >> 1 >> bricks_.shifts[axis];
-  }
   void noteSeamVertices(Polygon polygon) {
     for (const Corner& c : polygon) {
       if (planeCount(c.slab) < 2 || !bricks_.isOnSeam(c.slab)) continue;
@@ -126,7 +122,7 @@ class WholeDicer {
         vertices_(surface.vertices),
         monitor_(monitor),
         chunk_(chunk),
-        dicer_(input_, BrickGrid::same(0), *this) {
+        dicer_(input_, nullptr, *this) {
     dicer_.onlySweep = true;  // loops begin where it begins
   }
   WholeDicer(const WholeDicer&) = delete;

@@ -4,6 +4,7 @@
 // and what two of them have in common is the same to both.
 #pragma once
 
+#include "cut/stages/brick_grid.h"
 #include "cut/stages/polygon_halves.h"
 #include "cut/stages/sweep.h"
 #include "cut/stages/tri_edges.h"
@@ -91,10 +92,8 @@ struct Extent {
 template <class Out>
 class Dicer {
  public:
-  /// Cuts along each axis by every 2^shift-th plane, and by the last one.
-  Dicer(const Input& input, const std::array<int, 3>& shifts, Out& out) : input_(input), out_(out) {
-    for (size_t d = 0; d < 3; ++d) between_[d] = (1 << shifts[d]) - 1;
-  }
+  /// Cuts by the planes between bricks, and the last ones of the grid; by all where there are no bricks.
+  Dicer(const Input& input, const BrickGrid* bricks, Out& out) : input_(input), bricks_(bricks), out_(out) {}
 
   /// `extent`: the polygon's. `keepOutside`: pieces outside of the grid as well.
   void dice(TriangleId triangle, Polygon polygon, const Extent& extent, bool keepOutside = false) {
@@ -184,10 +183,7 @@ class Dicer {
 
   /// The first of the planes to cut by that is not below `plane`; beyond all planes if there is none.
   int32_t seamFrom(size_t axis, int32_t plane) const {
-    const int32_t between = between_[axis];
-    if (between == 0) return plane;
-    const int32_t end = input_.cells(int(axis));
-    return plane > end ? plane : std::min((plane + between) & ~between, end);
+    return !bricks_ || plane > bricks_->cells[axis] ? plane : bricks_->planeFrom(axis, plane);
   }
 
   /// Goes on with what lies between two planes of the axis, or on one, in one of the slabs there. False if it is left out.
@@ -287,7 +283,7 @@ class Dicer {
   }
 
   const Input& input_;
-  std::array<int32_t, 3> between_;  // bits that numbers of planes to cut by don't have, but for the last one
+  const BrickGrid* bricks_;
   Out& out_;
   TriangleId triangle_{0};
   bool keepOutside_ = false;

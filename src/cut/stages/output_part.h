@@ -74,6 +74,7 @@ struct CutState {
 
   // Of one of several processes:
   std::optional<CellLayers> layersHere;
+  std::vector<int32_t> shareBorders;             ///< the first layers of all, with which bricks begin anew
   std::optional<SurfaceNumbers> surfaceNumbers;  ///< once those of all are known
   std::optional<WholeTriangles> wholeTriangles;  ///< if it has an excerpt of the mesh, with ids of its own
 

@@ -53,10 +53,9 @@ UntouchedRuns findUntouchedRuns(const Input& input, const Bricks& bricks, Monito
     BrickId first{0}, past{0};
     for (int32_t j = 0; j < input.cells(1); ++j) {
       if ((j & ((1 << bricks.grid.shifts[1]) - 1)) == 0) {
-        const uint64_t rowOfBricks =
-            uint64_t(k >> bricks.grid.shifts[2]) * uint64_t(bricks.grid.counts[1]) + uint64_t(j >> bricks.grid.shifts[1]);
-        first = firstFrom(rowOfBricks * uint64_t(bricks.grid.counts[0]));
-        past = firstFrom((rowOfBricks + 1) * uint64_t(bricks.grid.counts[0]));
+        const uint64_t key = bricks.grid.keyOf({1, 2 * j + 1, 2 * k + 1});
+        first = firstFrom(key);
+        past = firstFrom(key + uint64_t(bricks.grid.counts[0]));
       }
       finder.addRow(j, k, first, past);
     }

@@ -36,6 +36,19 @@ TEST_CASE("The result is the same to the bit for all sizes of bricks", "[stages]
   CHECK(cells > 5000);
 }
 
+TEST_CASE("The result is the same to the bit wherever bricks begin anew", "[stages][bricks][seams]") {
+  for (const NamedCase& one : casesAndSoups()) {
+    CAPTURE(one.name, one.mesh.triangleCount());
+    const CutMesh whole = cutMeshOf(one.mesh, one.grid);
+    for (const std::vector<int32_t>& anew : {std::vector<int32_t>{1}, {2, 3}, {0, 3, 3, 5}}) {
+      Way way;
+      way.brickShift = 2;
+      way.bricksAnew = anew;
+      CHECK(differences(cutMeshOf(one.mesh, one.grid, way), whole).empty());
+    }
+  }
+}
+
 TEST_CASE("The result is the same to the bit without short cuts", "[stages][bricks]") {
   Way onlyGeneral;
   onlyGeneral.onlyGeneral = true;
@@ -64,6 +77,34 @@ TEST_CASE("Several threads write each brick once, and none beside those that oth
   CHECK(numbers(0, 7, 3) == List{0, 3, 6, 1, 4, 2, 5});
   CHECK(numbers(1, 3, 8) == List{1, 2});
   CHECK(numbers(4, 4, 2).empty());
+}
+
+TEST_CASE("Where bricks begin anew, none reaches beyond, and planes there are between bricks", "[stages][bricks]") {
+  const std::vector<int32_t> anew = {0, 6, 6, 12, 17};
+  const BrickGrid grid(inputOf(17), BrickGrid::same(2), anew);
+  CHECK(grid.counts == std::array<int32_t, 3>{5, 5, 6});
+  std::vector<std::array<int32_t, 2>> layers;
+  for (int32_t at = 0; at < 6; ++at) {
+    const BrickBox box = grid.boxOf(uint64_t(at) * 25);
+    layers.push_back({box.first[2], box.count[2]});
+    for (int32_t z = 0; z < box.count[2]; ++z) CHECK(grid.keyOf({1, 1, 2 * (box.first[2] + z) + 1}) == uint64_t(at) * 25);
+  }
+  CHECK(layers == std::vector<std::array<int32_t, 2>>{{0, 4}, {4, 2}, {6, 4}, {10, 2}, {12, 4}, {16, 1}});
+  std::vector<int32_t> between, onSeams;
+  for (int32_t slab = -2; slab <= 2 * 17 + 2; ++slab) {
+    if (grid.isBetween(2, slab)) between.push_back(slab / 2);
+    if (grid.isOnSeam({1, 1, slab})) onSeams.push_back(slab / 2);
+  }
+  CHECK(between == std::vector<int32_t>{0, 4, 6, 10, 12, 16, 17});
+  CHECK(onSeams == std::vector<int32_t>{4, 6, 10, 12, 16});
+  CHECK(grid.planeFrom(2, 5) == 6);
+  CHECK(grid.planeFrom(2, 6) == 6);
+  CHECK(grid.planeFrom(2, 17) == 17);
+  CHECK(grid.isInsideOne({1, 1, 13}, {7, 7, 19}));
+  CHECK_FALSE(grid.isInsideOne({1, 1, 11}, {7, 7, 13}));  // through the plane between two
+  CHECK_FALSE(grid.isInsideOne({1, 1, 12}, {7, 7, 19}));  // to that plane
+  CHECK_FALSE(grid.isInsideOne({1, 1, -1}, {7, 7, -1}));  // below the grid
+  CHECK_FALSE(grid.isInsideOne({1, 1, 35}, {7, 7, 35}));  // above it
 }
 
 TEST_CASE("Bricks of a small grid are smaller where there are several threads", "[stages][bricks]") {
