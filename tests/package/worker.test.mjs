@@ -5,6 +5,7 @@ import { promisify } from 'node:util';
 import { Worker as NodeWorker } from 'node:worker_threads';
 import { MandolineError as CoreError, compiledModule, init } from 'mandoline-wasm';
 import { MandolineError, createWorker, describe } from 'mandoline-wasm/worker';
+import { buffersOf } from '../../wasm/dist/buffers.js';
 import { box, torus } from './meshes.mjs';
 import { rejection, withWorker, withoutStats } from './workers.mjs';
 
@@ -86,6 +87,30 @@ test('buffers of arguments are handed over on request, and only then', () =>
     const error = await rejection(worker.cut(mesh, { cells: 4 }));
     assert.equal(error.code, 'badArgument');
   }));
+
+test('all buffers that go to the thread go there uncopied: those of arguments, of former results and of `reuse`', async () => {
+  let copied = 0;
+  const thread = () => {
+    const worker = new NodeWorker(new URL('extra_thread.mjs', import.meta.url));
+    const post = worker.postMessage.bind(worker);
+    worker.postMessage = (message, transfer = []) => {
+      copied += buffersOf(message).filter((buffer) => !transfer.includes(buffer)).length;
+      post(message, transfer);
+    };
+    return worker;
+  };
+  await withWorker(
+    async (worker) => {
+      const cutMesh = await worker.cut(cube, { cells: 4 }, { keep: false });
+      await worker.measure(cube, cutMesh);
+      const used = buffersOf(cutMesh);
+      const again = await worker.cut(cube, { cells: 4 }, { reuse: used, transfer: used });
+      assert.equal(again.regionCount, 2);
+    },
+    { thread },
+  );
+  assert.equal(copied, 0);
+});
 
 test('what no call reads is not sent', () =>
   withWorker(async (worker) => {

@@ -96,7 +96,8 @@ export class Calls {
     for (const [i, subject] of message.subjects.entries()) {
       if (!twins.has(subject.id)) subject.data ??= copied(message.call, lean(values[i]));
     }
-    return { message, transfer: buffersOf([message.args, message.subjects]) }; // of the copies: they go on to the thread
+    const { args, subjects, options } = message;
+    return { message, transfer: buffersOf([args, subjects, options]) }; // of the copies: they go on to the thread
   }
 
   #own(name, call, given) {
