@@ -18,7 +18,7 @@ const steps = {
     run: (bindings, ...given) => callWithMesh(bindings, 'beginShare', ...given),
   },
   keepPart: { takes: share, options: { progress: readFunction } },
-  makePart: { takes: share, options: {} },
+  makePart: { takes: share, options: { reuse: asIs } },
   joinParts: {
     takes: { mesh: { kind: 'prepared', otherwise: asIs }, share: asIs, others: asIs },
     options: { gridCellRegion: asIs, keep: asIs, reuse: asIs },
@@ -56,8 +56,8 @@ class Mate {
     port.onmessage = ({ data }) => this.#waiting.shift()(data);
   }
 
-  tell(message) {
-    this.#port.postMessage(message);
+  tell(message, transfer = []) {
+    this.#port.postMessage(message, transfer);
   }
 
   /** Resolves with its answer; undefined if it has none. */
@@ -151,7 +151,13 @@ export class Lead {
       const summaries = [own.summary, ...(await Promise.all(begun)).map(required)];
       const made = mates.map((mate) => mate.ask({ summaries }));
       keepPart(own.share, summaries, { progress });
-      return joinParts(mesh, own.share, (await Promise.all(made)).map(required), { gridCellRegion, keep, reuse });
+      const parts = (await Promise.all(made)).map(required);
+      const result = joinParts(mesh, own.share, parts, { gridCellRegion, keep, reuse });
+      for (const [i, mate] of mates.entries()) {
+        const spare = buffersOf(parts[i]);
+        mate.tell({ spare }, spare);
+      }
+      return result;
     } catch (error) {
       for (const mate of mates) mate.tell({ drop: true });
       throw error;
@@ -176,6 +182,7 @@ class Follower {
   #steps;
   #share;
   #prepared; // { id, mesh }: the last prepared mesh
+  spare = []; // buffers of its last part, which came back
 
   constructor(host) {
     this.#host = host;
@@ -185,7 +192,7 @@ class Follower {
   /** Its answer. */
   answer({ mesh, prepared, grid, options, summaries }) {
     if (!summaries) return this.#begin(prepared ? this.#find(prepared) : mesh, grid, options);
-    const part = this.#steps.makePart(this.#share, summaries);
+    const part = this.#steps.makePart(this.#share, summaries, { reuse: this.spare.splice(0) });
     this.drop();
     return part;
   }
@@ -215,6 +222,10 @@ export function follow(port, host) {
   const follower = new Follower(host);
   port.onmessage = ({ data }) => {
     if (data.drop) return follower.drop();
+    if (data.spare) {
+      follower.spare = data.spare;
+      return undefined;
+    }
     let answer;
     try {
       answer = follower.answer(data);

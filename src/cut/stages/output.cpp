@@ -44,9 +44,7 @@ class Joiner {
   }
   template <class Item>
   static void appendItems(const std::vector<Item>& from, const IdRange& range, std::vector<Item>& to) {
-    const size_t at = to.size();
-    to.resize(at + range.size());
-    std::copy_n(from.begin() + ptrdiff_t(range.begin), range.size(), to.begin() + ptrdiff_t(at));
+    to.insert(to.end(), from.begin() + ptrdiff_t(range.begin), from.begin() + ptrdiff_t(range.end));
   }
 
   /// Appends the groups of a range. Gives the range of their items.
@@ -57,7 +55,9 @@ class Joiner {
     const IdRange items{offsets[range.begin], offsets[range.end]};
     requireFewIds(uint64_t(all.back()) + items.size());
     const uint32_t shift = all.back() - offsets[range.begin];
-    for (size_t i = range.begin; i < range.end; ++i) all.push_back(offsets[i + 1] + shift);
+    const size_t at = all.size();
+    appendItems(offsets, {range.begin + 1, range.end + 1}, all);
+    for (size_t i = at; i < all.size(); ++i) all[i] += shift;
     return items;
   }
 
