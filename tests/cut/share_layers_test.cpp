@@ -139,6 +139,10 @@ TEST_CASE("Work goes to the layers that triangles touch, and grows with them", "
   const std::vector<uint64_t> upright = workOf({{0.5, 0.5, 1.5, 4.5, 0.5, 1.5, 0.5, 0.5, 5.5}, {0, 1, 2}}, grid);
   CHECK(upright == std::vector<uint64_t>{0, upright[1], upright[1], upright[1], upright[1], upright[1], 0, 0});
   CHECK(upright[1] > 0);
+  const Mesh blade = {{0.5, 2.5, 3.25, 0.5, 2.5, 3.75, 0.5, 0.25, 3.5}, {0, 1, 2}};
+  const Mesh plate = {{0.5, 0.5, 3.5, 4.5, 0.5, 3.5, 0.5, 4.5, 3.5}, {0, 1, 2}}, through = shapes::translated(blade, {0.5, 0, 0});
+  const std::vector<uint64_t> apart = workOf(shapes::merged({plate, shapes::translated(blade, {5.5, 0, 0})}), grid);
+  CHECK(workOf(shapes::merged({plate, through}), grid)[3] > 2 * apart[3]);  // where triangles meet
   const std::vector<uint64_t> outside = workOf({{0.5, 0.5, 9, 4.5, 0.5, 9, 0.5, 4.5, 9}, {0, 1, 2}}, grid);
   CHECK(outside == std::vector<uint64_t>(8, 0));
 }
