@@ -229,6 +229,7 @@ struct SharePlanner::Data {
       const BricksLoad& sum = sums[rank];
       const bool hasLayers = shares.first(rank) < shares.first(rank + 1);
       ShareLoad& load = loads[rank];
+      load.work = std::accumulate(work.begin() + shares.first(rank), work.begin() + shares.first(rank + 1), uint64_t(0));
       load.cutCells = sum.counts.cells;
       load.faces = facesOf(sum.counts);
       load.seamFaces = hasLayers ? seamBelow + sum.seamFacesAbove : 0;

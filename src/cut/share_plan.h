@@ -9,6 +9,7 @@ namespace mandoline::detail {
 
 /// What one process has of a cut, what it sends to others on the way to the volumes of regions, and its memory.
 struct ShareLoad {
+  uint64_t work = 0;  ///< by which layers are given to processes: see share_layers.h
   uint64_t cutCells = 0;
   uint64_t faces = 0;        ///< that belong to it
   uint64_t seamFaces = 0;    ///< that it shares with others

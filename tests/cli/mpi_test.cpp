@@ -261,6 +261,8 @@ TEST_CASE("A plan tells what the processes of a cut then have", "[mpi]") {
     };
     CHECK(plan("ranks", i) == processes);
     CHECK(plan("ranksWithWork", i) == processes);
+    CHECK(plan("workBalance", i) >= 1);
+    CHECK(plan("workBalance", i) <= 1.1);
     CHECK(plan("cutCells", i) == most("cutCells"));
     CHECK(std::fabs(plan("bytesSent", i) - most("bytesSent")) <= 0.15 * most("bytesSent"));
     CHECK(std::fabs(plan("memoryBytes", i) - most("peakMemoryBytes")) <= 0.15 * most("peakMemoryBytes"));

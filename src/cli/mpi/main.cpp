@@ -46,8 +46,9 @@ flow does; the first process gathers the whole and writes it. PETSC_OPTIONS choo
 solvers. Not with --coarsen, --refine, --unite-walls, --far-field and --steps.
 
 plan tells what the busiest of P processes, up to 100000, would have of a cut: cut-cells,
-faces and how many of these it shares with others, memory, and what it sends. One process
-cuts all for that, once for each size of bricks, and keeps no result.
+faces and how many of these it shares with others, memory, what it sends, and how many times
+the average cut-cells and estimated work are. One process cuts all for that, once for each P,
+and keeps no result.
 
 cut does not go with --stream and --snap-tolerance. The report has the cut-cells, time, peak memory
 and bytes sent of each process, in JSON as ranks.

@@ -66,20 +66,22 @@ struct RankPlan {
   uint32_t ranks;
   uint32_t busy = 0;  ///< that have any cut-cells
   detail::ShareLoad most;
-  double balance = 0;  ///< the most cut-cells over their average
+  double balance = 0, workBalance = 0;  ///< the most cut-cells over their average, and the most work
 
   RankPlan(const std::vector<detail::ShareLoad>& loads, uint64_t programBytes) : ranks(uint32_t(loads.size())) {
-    uint64_t cells = 0;
+    uint64_t cells = 0, work = 0;
     for (const detail::ShareLoad& load : loads) {
       busy += load.cutCells > 0;
       cells += load.cutCells;
-      for (const auto member : {&detail::ShareLoad::cutCells, &detail::ShareLoad::faces, &detail::ShareLoad::seamFaces,
-                                &detail::ShareLoad::bytesSent, &detail::ShareLoad::memoryBytes}) {
+      work += load.work;
+      for (const auto member : {&detail::ShareLoad::work, &detail::ShareLoad::cutCells, &detail::ShareLoad::faces,
+                                &detail::ShareLoad::seamFaces, &detail::ShareLoad::bytesSent, &detail::ShareLoad::memoryBytes}) {
         most.*member = std::max(most.*member, load.*member);
       }
     }
     most.memoryBytes += programBytes + messageBytes(ranks);
     balance = cells == 0 ? 1 : double(most.cutCells) * ranks / double(cells);
+    workBalance = work == 0 ? 1 : double(most.work) * ranks / double(work);
   }
 };
 
@@ -94,12 +96,14 @@ struct PlanReport {
     out << headline(mesh) << headline(grid) << "\nThe most that one process has\n"
         << std::setw(8) << "ranks" << std::setw(10) << "with work" << std::setw(12) << "cut-cells" << std::setw(12) << "faces"
         << std::setw(12) << "seam faces" << std::setw(13) << "memory (MB)" << std::setw(12) << "sent (MB)" << std::setw(10) << "balance"
+        << std::setw(10) << "of work"
         << "\n"
         << std::fixed << std::setprecision(2);
     for (const RankPlan& plan : plans) {
       out << std::setw(8) << plan.ranks << std::setw(10) << plan.busy << std::setw(12) << plan.most.cutCells << std::setw(12)
           << plan.most.faces << std::setw(12) << plan.most.seamFaces << std::setw(13) << double(plan.most.memoryBytes) / 1e6
-          << std::setw(12) << double(plan.most.bytesSent) / 1e6 << std::setw(10) << plan.balance << "\n";
+          << std::setw(12) << double(plan.most.bytesSent) / 1e6 << std::setw(10) << plan.balance << std::setw(10) << plan.workBalance
+          << "\n";
     }
     const bool areIdle = std::any_of(plans.begin(), plans.end(), [](const RankPlan& plan) { return plan.busy < plan.ranks; });
     if (areIdle) out << "Processes get whole layers of grid cells along z: those beyond the layers that the mesh touches have no work.\n";
@@ -113,7 +117,7 @@ struct PlanReport {
     for (const RankPlan& plan : plans) {
       json.open('{').member("ranks", plan.ranks).member("ranksWithWork", plan.busy).member("cutCells", plan.most.cutCells);
       json.member("faces", plan.most.faces).member("seamFaces", plan.most.seamFaces).member("memoryBytes", plan.most.memoryBytes);
-      json.member("bytesSent", plan.most.bytesSent).member("balance", plan.balance).close('}');
+      json.member("bytesSent", plan.most.bytesSent).member("balance", plan.balance).member("workBalance", plan.workBalance).close('}');
     }
     return json.close(']').close('}').text();
   }
