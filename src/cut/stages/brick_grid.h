@@ -116,10 +116,9 @@ class BrickGrid {
   }
 
   /// Of the brick that has a cell of the grid.
-  uint64_t keyOf(const Slab& cell) const {
-    const auto at = [&](size_t d) { return uint64_t(placeOf(d, cell[d])); };
-    return (at(2) * uint64_t(counts[1]) + at(1)) * uint64_t(counts[0]) + at(0);
-  }
+  uint64_t keyOf(const Slab& cell) const { return rowOf(cell) * uint64_t(counts[0]) + at(cell, 0); }
+  /// The number of the row along x that this brick lies in.
+  uint64_t rowOf(const Slab& cell) const { return at(cell, 2) * uint64_t(counts[1]) + at(cell, 1); }
   BrickBox boxOf(uint64_t key) const {
     const uint64_t row = key / uint64_t(counts[0]);
     const std::array<uint64_t, 3> at = {key % uint64_t(counts[0]), row % uint64_t(counts[1]), row / uint64_t(counts[1])};
@@ -208,6 +207,8 @@ class BrickGrid {
  private:
   /// What slabs of planes between bricks have no bit of, along x and y.
   int32_t bits(size_t axis) const { return (2 << shifts[axis]) - 1; }
+  /// Of a cell's brick among those along an axis.
+  uint64_t at(const Slab& cell, size_t axis) const { return uint64_t(placeOf(axis, cell[axis])); }
   /// The place among bricks along an axis of the brick that has a cell's slab, or one in its inside.
   int32_t placeOf(size_t axis, int32_t slab) const { return axis < 2 ? slab >> 1 >> shifts[axis] : slabAt(slab | 1) >> 1; }
   /// Where a slab along z lies among the planes between bricks, as slabs do among those of the grid; beyond the grid, on its last plane.

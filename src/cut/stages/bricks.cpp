@@ -144,6 +144,8 @@ std::vector<uint32_t> BricksHere::numbers(unsigned threads) const {
 
 BrickId Bricks::add(uint64_t key) {
   const BrickId brick{uint32_t(size())};
+  const size_t row = size_t(key / uint64_t(grid.counts[0]));
+  if (row >= rows.size()) rows.resize(row + 1, brick.number);
   keys.push_back(key);
   boxes.push_back(grid.boxOf(key));
   firstBit.push_back(64 * touched.size());
@@ -152,9 +154,13 @@ BrickId Bricks::add(uint64_t key) {
 }
 
 std::optional<BrickId> Bricks::find(const Slab& cell) const {
+  const size_t row = size_t(grid.rowOf(cell));
+  if (row >= rows.size()) return {};
+  const auto first = keys.begin() + ptrdiff_t(rows[row]),
+             past = row + 1 < rows.size() ? keys.begin() + ptrdiff_t(rows[row + 1]) : keys.end();
   const uint64_t key = grid.keyOf(cell);
-  const auto found = std::lower_bound(keys.begin(), keys.end(), key);
-  if (found == keys.end() || *found != key) return {};
+  const auto found = std::lower_bound(first, past, key);
+  if (found == past || *found != key) return {};
   return BrickId{uint32_t(found - keys.begin())};
 }
 

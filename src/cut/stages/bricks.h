@@ -36,6 +36,7 @@ struct Bricks {
   BrickGrid grid;
   BricksHere here;
   IdVector<BrickId, uint64_t> keys;  ///< ascending
+  std::vector<uint32_t> rows;  ///< per row of bricks along x, up to the last one with any: which of them comes first in it or after it
   IdVector<BrickId, BrickBox> boxes;
   IdVector<BrickId, size_t> firstBit;  ///< in `touched`
   std::vector<uint64_t> touched;       ///< a bit for each cell of each brick: whether it belongs to the stencil

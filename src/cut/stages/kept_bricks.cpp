@@ -47,28 +47,41 @@ class Keeper {
   /// Per brick: whether it has parts of triangles that are not the same.
   IdVector<BrickId, uint8_t> findOthers(const SurfaceParts& parts, const Bricks& bricks) const {
     IdVector<BrickId, uint8_t> haveOthers(bricks.size(), 0);
-    for (const ClippedTriangles::Part& part : parts.clipped.parts) {
-      if (now_.isSame(part.triangle)) continue;
-      const auto found = std::lower_bound(bricks.keys.begin(), bricks.keys.end(), part.brick);
-      haveOthers[{uint32_t(found - bricks.keys.begin())}] = 1;
+    const TriangleId last = now_.pastLast();
+    auto part = parts.clipped.parts.begin();
+    const auto end = parts.clipped.parts.end();
+    for (TriangleId first = now_.pastSame({0}, last), past; first < last; first = now_.pastSame(past, last)) {
+      past = now_.pastOthers(first, last);
+      part = std::lower_bound(part, end, first, [](const ClippedTriangles::Part& p, TriangleId t) { return p.triangle < t; });
+      for (; part != end && part->triangle < past; ++part) {
+        const auto found = std::lower_bound(bricks.keys.begin(), bricks.keys.end(), part->brick);
+        haveOthers[{uint32_t(found - bricks.keys.begin())}] = 1;
+      }
     }
     return haveOthers;
   }
 
-  /// Of bricks all of whose triangles are the same: if there are as many parts, they are, too.
+  /// Of bricks all of whose triangles are the same: if there are as many parts, they are, too, and so are edges that clipping made of them.
   bool isSame(BrickId was, BrickId is) const {
-    const auto haveSame = [&](const auto& csrs, const auto& same) {
-      const auto a = (before_.bricks.*csrs)[was];
-      const auto b = (bricks_.*csrs)[is];
+    const auto areSame = [](const auto& a, const auto& b, const auto& same) {
       return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
+    };
+    const auto haveSame = [&](const auto& csrs, const auto& same) {
+      return areSame((before_.bricks.*csrs)[was], (bricks_.*csrs)[is], same);
     };
     return before_.bricks.parts[was].size() == bricks_.parts[is].size() &&
            haveSame(&Bricks::dividedFaces, [&](FaceId a, FaceId b) { return isSameFace(a, b); }) &&
-           haveSame(&Bricks::faceEdges,
-                    [&](uint32_t a, uint32_t b) {
-                      return isSameEdge(faceEdge(before_.surface, before_.parts, a), faceEdge(surface_, parts_, b));
-                    }) &&
+           areSame(edgesNotClipped(before_.parts, before_.bricks, was), edgesNotClipped(parts_, bricks_, is),
+                   [&](uint32_t a, uint32_t b) {
+                     return isSameEdge(faceEdge(before_.surface, before_.parts, a), faceEdge(surface_, parts_, b));
+                   }) &&
            haveSame(&Bricks::seamVertices, [&](VertexId a, VertexId b) { return now_[a] == b; });
+  }
+  /// The edges in grid-faces of a brick that clipping did not make.
+  static std::span<const uint32_t> edgesNotClipped(const SurfaceParts& parts, const Bricks& bricks, BrickId brick) {
+    const std::span<const uint32_t> edges = bricks.faceEdges[brick];
+    const auto first = std::lower_bound(edges.begin(), edges.end(), uint32_t(parts.clipped.hybridEdges.size()));
+    return edges.subspan(size_t(first - edges.begin()));
   }
   /// Of a divided triangle.
   bool isSameFace(FaceId was, FaceId is) const {

@@ -61,12 +61,18 @@ class ClipJoiner {
   void join(const std::vector<Item>& before, const std::vector<Item>& others, const TriangleOf& triangleOf, const Before& addBefore,
             const Other& addOther) const {
     size_t i = 0;
+    const auto skipUntil = [&](TriangleId past) {  // most runs are short, or long
+      size_t step = 1;
+      for (; i + step < before.size() && triangleOf(before[i + step]) < past; step *= 2) i += step;
+      const auto from = before.begin() + ptrdiff_t(i), to = before.begin() + ptrdiff_t(std::min(before.size(), i + step));
+      i = size_t(std::partition_point(from, to, [&](const Item& item) { return triangleOf(item) < past; }) - before.begin());
+    };
     const auto addBeforeUntil = [&](TriangleId past) {
       while (i < before.size() && triangleOf(before[i]) < past) {
         const size_t first = i;
-        while (i < before.size() && triangleOf(before[i]) < past && now_.isSame(triangleOf(before[i]))) ++i;
+        skipUntil(now_.pastSame(triangleOf(before[i]), past));
         if (first < i) addBefore(IdRange{first, i});
-        while (i < before.size() && triangleOf(before[i]) < past && !now_.isSame(triangleOf(before[i]))) ++i;
+        if (i < before.size() && triangleOf(before[i]) < past) skipUntil(now_.pastOthers(triangleOf(before[i]), past));
       }
     };
     for (size_t other = 0; other < others.size();) {
@@ -76,7 +82,7 @@ class ClipJoiner {
       while (other < others.size() && triangleOf(others[other]) == triangle) ++other;
       addOther(IdRange{first, other});
     }
-    addBeforeUntil({~0u});
+    addBeforeUntil(now_.pastLast());
   }
 
   VertexId idNow(VertexId other) const { return other < firstOther_ ? other : otherIds_[other.number - firstOther_.number]; }

@@ -81,20 +81,37 @@ class Finder {
   void addOfSurface() {
     const IdVector<VertexId, uint8_t> areLost = findLostOfSurface();
     const VertexId *const nows = kept_.vertices.data(), firstInTriangle = cut_.surface.vertices.firstInTriangle;
-    const uint32_t *const numbers = numbers_.ofSurface.data(), *const numbersBefore = before_.numbers.ofSurface.data();
     for (uint32_t was = 0, past = uint32_t(kept_.vertices.size()); was < past;) {
       const VertexId first = nows[was];
-      if (first >= firstInTriangle || numbers[first.number] == Numbers::kUnused || areLost[first]) {  // as kNoVertex is
+      if (first >= firstInTriangle) {  // as kNoVertex is
         ++was;
         continue;
       }
-      // Most have ids and numbers that follow each other.
-      const Run begin{numbers[first.number], numbersBefore[was], 0};
-      uint32_t count = 1, now = first.number + 1;
-      for (++was; was < past && nows[was].number == now && now < firstInTriangle.number; ++count, ++was, ++now) {
-        if (numbers[now] != begin.first + count || numbersBefore[was] != begin.before + count || areLost[{now}]) break;
+      // Most have ids that follow each other.
+      uint32_t count = 1;
+      while (was + count < past && nows[was + count].number == first.number + count) ++count;
+      const uint8_t* const lost = areLost.data() + first.number;
+      const uint32_t countOnEdges = std::min(count, firstInTriangle.number - first.number);
+      for (uint32_t i = 0; i < countOnEdges;) {
+        const void* const found = std::memchr(lost + i, 1, countOnEdges - i);
+        const uint32_t end = found ? uint32_t(static_cast<const uint8_t*>(found) - lost) : countOnEdges;
+        addUsed(first.number + i, was + i, end - i);
+        for (i = end; i < countOnEdges && lost[i]; ++i) {
+        }
       }
-      add(begin.first, begin.before, count);
+      was += count;
+    }
+  }
+  /// Vertices of the mesh and its edges with ids in a row. Numbers count those that are used.
+  void addUsed(uint32_t first, uint32_t was, uint32_t count) {
+    const uint32_t *const numbers = numbers_.ofSurface.data() + first, *const numbersBefore = before_.numbers.ofSurface.data() + was;
+    const auto areAllUsed = [&](const uint32_t* of) {
+      return of[0] != Numbers::kUnused && of[count - 1] != Numbers::kUnused && of[count - 1] - of[0] == count - 1;
+    };
+    if (count == 0) return;
+    if (areAllUsed(numbers) && areAllUsed(numbersBefore)) return add(numbers[0], numbersBefore[0], count);
+    for (uint32_t i = 0; i < count; ++i) {
+      if (numbers[i] != Numbers::kUnused && numbersBefore[i] != Numbers::kUnused) add(numbers[i], numbersBefore[i], 1);
     }
   }
   /// Per vertex of the mesh and its edges: whether a brick has it that is not kept, or may have.

@@ -149,9 +149,10 @@ void SurfaceMap::findSameTriangles() {
   }
 }
 
-TriangleId SurfaceMap::pastSame(TriangleId first, TriangleId past) const {
+TriangleId SurfaceMap::firstThat(int isSame, TriangleId first, TriangleId past) const {
+  if (first == past) return past;
   const uint8_t* const same = same_.data();
-  const void* const found = std::memchr(same + first.number, 0, past.number - first.number);
+  const void* const found = std::memchr(same + first.number, isSame, past.number - first.number);
   return found ? TriangleId{uint32_t(static_cast<const uint8_t*>(found) - same)} : past;
 }
 

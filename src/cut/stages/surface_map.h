@@ -28,7 +28,11 @@ class SurfaceMap {
   /// Whether a triangle is where it was, and has the same vertices and edges of others on it.
   bool isSame(TriangleId t) const { return same_[t] != 0; }
   /// The triangle after those, from `first` on and before `past`, of which that is so.
-  TriangleId pastSame(TriangleId first, TriangleId past) const;
+  TriangleId pastSame(TriangleId first, TriangleId past) const { return firstThat(0, first, past); }
+  /// The same, of which it is not so.
+  TriangleId pastOthers(TriangleId first, TriangleId past) const { return firstThat(1, first, past); }
+  /// Past all triangles.
+  TriangleId pastLast() const { return {uint32_t(same_.size())}; }
   /// Of a vertex that a brick sees.
   VertexId inBrick(VertexId v) const {
     return v.number < vertices_.size() ? vertices_[v] : VertexId{uint32_t(v.number - vertices_.size() + now_.size())};
@@ -37,6 +41,7 @@ class SurfaceMap {
  private:
   const Prepared& meshBefore() const { return *before_.input->mesh; }
   const Prepared& meshNow() const { return *now_.input->mesh; }
+  TriangleId firstThat(int isSame, TriangleId first, TriangleId past) const;
   bool hasMoved(TriangleId t) const;
   bool hasMoved(const PointKey& key) const;
   bool isSameLine(const Line& a, const Line& b) const;
