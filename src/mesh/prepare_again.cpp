@@ -48,18 +48,21 @@ std::vector<uint8_t> sidesBeyond(const Box& box, const std::vector<Point>& point
   return sides;
 }
 
-/// States in which only the triangles are kept that lie near those that have moved, these included. Those that these meet are among them.
-std::vector<TriangleState> nearMoved(const Prepared& mesh, const std::vector<uint32_t>& movedTriangles) {
+/// The triangles that lie near those that have moved, these included, ascending. Those that these meet are among them.
+std::vector<uint32_t> nearMoved(const Prepared& mesh, const std::vector<uint32_t>& movedTriangles) {
   Box all = Box::empty();
   for (const uint32_t t : movedTriangles) all.include(boxOf(mesh, t));
   const std::vector<uint8_t> beyond = sidesBeyond(all, mesh.points);
-  std::vector<TriangleState> states = mesh.states;
-  for (uint32_t t = 0; t < states.size(); ++t) {
+  std::vector<uint32_t> near(mesh.triangles.size());
+  size_t count = 0;
+  for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& v = mesh.triangles[t];
     const bool isBeside = (beyond[v[0]] & beyond[v[1]] & beyond[v[2]]) != 0;  // its box doesn't overlap
-    states[t] = states[t] == TriangleState::kept && isBeside ? TriangleState::beside : states[t];
+    near[count] = t;
+    count += mesh.states[t] == TriangleState::kept && !isBeside;
   }
-  return states;
+  near.resize(count);
+  return near;
 }
 
 /// What has moved.
@@ -119,7 +122,7 @@ PreparedAgain prepareAgain(const MeshView& mesh, const Preparation& preparation,
                            const std::function<void(const char*)>& beginStage) {
   Predicates predicates;
   beginStage("input");
-  auto now = weldInput(mesh, preparation.largest, monitor);
+  auto now = weldAgain(mesh, preparation.largest, before, monitor);
   Changes changes{findMoved(before, *now), {}};
   Moved& moved = changes.vertices;
   if (!moved.empty()) changes.triangles = listMoved(*now, moved);

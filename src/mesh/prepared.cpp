@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <optional>
 #include <string>
 
+#include "base/box_tree.h"
 #include "base/large_array.h"
 #include "base/run_tasks.h"
 
@@ -86,6 +88,70 @@ NearTriangles findEdgesAndNear(Prepared& prepared, const std::vector<TriangleSta
   return {*std::move(sorted), charts.take(), monitor};
 }
 
+/// Checks the coordinates of vertices that triangles have.
+template <class IsReferenced>
+CheckedMesh checkCoordinates(const MeshView& mesh, double largest, Monitor& monitor, const IsReferenced& isReferenced) {
+  CheckedMesh checked{std::vector<uint8_t>(mesh.vertexCount()), 0};
+  const auto check = [&](double& largestHere, size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) {
+      checked.referenced[v] = isReferenced(v);
+      for (size_t d = 0; d < 3 && checked.referenced[v]; ++d) {
+        const double x = mesh.positions[3 * v + d];
+        if (!std::isfinite(x)) {
+          fail(Status::nonFiniteCoordinate, int64_t(v), "Vertex " + std::to_string(v) + " has a coordinate that is not finite.");
+        }
+        largestHere = std::max(largestHere, std::fabs(x));
+      }
+    }
+  };
+  for (const double x : forChunks<double>(mesh.vertexCount(), monitor, check, kBlock)) largest = std::max(largest, x);
+  if (largest > 0) checked.shift = Scale::kLargestExponent - std::ilogb(largest);
+  return checked;
+}
+
+/// Without triangles.
+std::unique_ptr<Prepared> scaled(const MeshView& mesh, CheckedMesh checked, Monitor& monitor) {
+  auto prepared = std::make_unique<Prepared>();
+  prepared->shift = checked.shift;
+  prepared->referenced = std::move(checked.referenced);
+  const std::vector<uint8_t>& referenced = prepared->referenced;
+  const Scale scale(prepared->shift);
+  prepared->points.resize(referenced.size());
+  const auto flushed = forChunks<uint32_t>(
+      referenced.size(), monitor,
+      [&](uint32_t& count, size_t begin, size_t end) {
+        for (size_t v = begin; v < end; ++v) {
+          for (size_t d = 0; d < 3 && referenced[v]; ++d) prepared->points[v][d] = scale.scaled(mesh.positions[3 * v + d], count);
+        }
+      },
+      kBlock);
+  for (const uint32_t count : flushed) prepared->counts.flushedCoordinates += count;
+  prepared->triVertices = uint32_t(prepared->points.size());
+  return prepared;
+}
+
+/// With triangles, of which vertices at one position are the lowest of these.
+void addTriangles(Prepared& prepared, const MeshView& mesh, const std::vector<uint32_t>& lowest, Monitor& monitor) {
+  const size_t triangles = mesh.triangleCount();
+  for (uint32_t v = 0; v < lowest.size(); ++v) prepared.counts.weldedVertices += lowest[v] != v;
+  prepared.triangles.resize(triangles);
+  prepared.states.assign(triangles, TriangleState::kept);
+  runChunks(
+      triangles, chunkCount(triangles, monitor, kBlock), monitor,
+      [&](size_t, size_t begin, size_t end) {
+        for (size_t t = begin; t < end; ++t) {
+          for (size_t i = 0; i < 3; ++i) prepared.triangles[t][i] = lowest[mesh.triangles[3 * t + i]];
+        }
+      },
+      kBlock);
+}
+
+/// Whether a mesh has the triangles of one before, no vertices of which shared a position.
+bool areSameTriangles(const MeshView& mesh, const Prepared& before) {
+  return before.counts.weldedVertices == 0 && mesh.vertexCount() == before.triVertices && mesh.triangleCount() == before.triangles.size() &&
+         std::memcmp(mesh.triangles.data(), before.triangles.data(), mesh.triangles.size_bytes()) == 0;
+}
+
 }  // namespace
 
 void makeRoomFor(size_t triangles, const Monitor& monitor) {
@@ -98,58 +164,33 @@ void makeRoomFor(size_t triangles, const Monitor& monitor) {
 CheckedMesh checkInput(const MeshView& mesh, double largest, Monitor& monitor) {
   checkArrays(mesh);
   const Marks referenced = referencedVertices(mesh, monitor);
-  CheckedMesh checked{std::vector<uint8_t>(referenced.size()), 0};
-  const auto check = [&](double& largestHere, size_t begin, size_t end) {
-    for (size_t v = begin; v < end; ++v) {
-      checked.referenced[v] = referenced[v].load(std::memory_order_relaxed);
-      for (int d = 0; d < 3 && checked.referenced[v]; ++d) {
-        const double x = mesh.positions[3 * v + d];
-        if (!std::isfinite(x)) {
-          fail(Status::nonFiniteCoordinate, int64_t(v), "Vertex " + std::to_string(v) + " has a coordinate that is not finite.");
-        }
-        largestHere = std::max(largestHere, std::fabs(x));
-      }
-    }
-  };
-  for (const double x : forChunks<double>(referenced.size(), monitor, check, kBlock)) largest = std::max(largest, x);
-  if (largest > 0) checked.shift = Scale::kLargestExponent - std::ilogb(largest);
-  return checked;
+  return checkCoordinates(mesh, largest, monitor, [&](size_t v) { return referenced[v].load(std::memory_order_relaxed); });
 }
 
 std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monitor& monitor, const std::function<void()>& meanwhile) {
   makeRoomFor(mesh.triangleCount(), monitor);
-  const CheckedMesh checked = checkInput(mesh, largest, monitor);
-  const std::vector<uint8_t>& referenced = checked.referenced;
-  auto prepared = std::make_unique<Prepared>();
-  MeshCounts& counts = prepared->counts;
-  prepared->shift = checked.shift;
-  const Scale scale(prepared->shift);
-  prepared->points.resize(referenced.size());
-  const auto flushed = forChunks<uint32_t>(
-      referenced.size(), monitor,
-      [&](uint32_t& count, size_t begin, size_t end) {
-        for (size_t v = begin; v < end; ++v) {
-          for (size_t d = 0; d < 3 && referenced[v]; ++d) prepared->points[v][d] = scale.scaled(mesh.positions[3 * v + d], count);
-        }
-      },
-      kBlock);
-  for (const uint32_t count : flushed) counts.flushedCoordinates += count;
-  prepared->triVertices = uint32_t(prepared->points.size());
+  auto prepared = scaled(mesh, checkInput(mesh, largest, monitor), monitor);
   std::vector<uint32_t> lowest;
-  const std::function<void()> tasks[] = {[&] { lowest = weld(referenced, prepared->points); }, meanwhile};
+  const std::function<void()> tasks[] = {[&] { lowest = weld(prepared->referenced, prepared->points); }, meanwhile};
   runTasks(std::span(tasks).first(meanwhile ? 2 : 1), monitor);
-  for (uint32_t v = 0; v < lowest.size(); ++v) counts.weldedVertices += lowest[v] != v;
-  prepared->triangles.resize(mesh.triangleCount());
-  prepared->states.assign(mesh.triangleCount(), TriangleState::kept);
-  const size_t triangles = mesh.triangleCount();
-  runChunks(
-      triangles, chunkCount(triangles, monitor, kBlock), monitor,
-      [&](size_t, size_t begin, size_t end) {
-        for (size_t t = begin; t < end; ++t) {
-          for (size_t i = 0; i < 3; ++i) prepared->triangles[t][i] = lowest[mesh.triangles[3 * t + i]];
-        }
-      },
-      kBlock);
+  addTriangles(*prepared, mesh, lowest, monitor);
+  return prepared;
+}
+
+/// Only vertices that have moved, and those between them, may share positions now.
+std::unique_ptr<Prepared> weldAgain(const MeshView& mesh, double largest, const Prepared& before, Monitor& monitor) {
+  checkArrays(mesh);
+  if (!areSameTriangles(mesh, before)) return weldInput(mesh, largest, monitor);
+  makeRoomFor(mesh.triangleCount(), monitor);
+  auto prepared = scaled(mesh, checkCoordinates(mesh, largest, monitor, [&](size_t v) { return before.referenced[v]; }), monitor);
+  const std::vector<Point>& points = prepared->points;
+  Box moved = Box::empty();
+  for (size_t v = 0; v < points.size(); ++v) {
+    if (points[v] != before.points[v]) moved.include({points[v], points[v]});
+  }
+  std::vector<uint8_t> mayBeWelded(points.size());
+  for (size_t v = 0; v < points.size(); ++v) mayBeWelded[v] = prepared->referenced[v] && moved.overlaps({points[v], points[v]});
+  addTriangles(*prepared, mesh, weld(mayBeWelded, points), monitor);
   return prepared;
 }
 

@@ -25,8 +25,9 @@ struct MeshCounts {
 };
 
 struct Prepared : WeldedMesh {
-  int shift = 0;             ///< scaled = world * 2^shift
-  uint32_t triVertices = 0;  ///< made vertices follow in `points`, rounded
+  int shift = 0;                    ///< scaled = world * 2^shift
+  uint32_t triVertices = 0;         ///< made vertices follow in `points`, rounded
+  std::vector<uint8_t> referenced;  ///< per tri-vertex: whether an input triangle has it
   MeshEdges edges;
   /// Where triangles meet, or null if they are assumed or required not to.
   std::unique_ptr<const Arrangement> arrangement;
@@ -87,6 +88,8 @@ struct CheckedMesh {
 MANDOLINE_SHARED CheckedMesh checkInput(const MeshView& mesh, double largest, Monitor& monitor);
 /// The first third: the checked and welded mesh. `largest` and `meanwhile` as of a Preparation.
 std::unique_ptr<Prepared> weldInput(const MeshView& mesh, double largest, Monitor& monitor, const std::function<void()>& meanwhile = {});
+/// The same of a mesh that has moved since it was prepared, perhaps with other triangles.
+std::unique_ptr<Prepared> weldAgain(const MeshView& mesh, double largest, const Prepared& before, Monitor& monitor);
 /// The second: drops triangles without area; `some` as of dropZeroArea().
 void dropFlat(Prepared& prepared, const std::vector<uint32_t>* some, Monitor& monitor, Predicates& predicates);
 /// The third: its edges and, unless intersections are assumed to be none, where triangles meet.

@@ -105,11 +105,15 @@ Input prepareInput(const Prepared& mesh, const Grid& grid, Run& run, const Known
   input.mesh = &mesh;
   input.planes = scaledPlanes(grid, Scale(mesh.shift), run.stats.flushedCoordinates);
   const SlabFinder finder(input.planes);
+  if (known) {
+    const auto before = known->input.slabs.begin();
+    input.slabs.assign(before, before + ptrdiff_t(known->moved.size()));
+  }
   input.slabs.resize(mesh.points.size());
   const auto chunks = forChunks<Predicates>(mesh.points.size(), run.monitor, [&](Predicates& predicates, size_t begin, size_t end) {
     for (const VertexId v : Ids<VertexId>(begin, end)) {
       if (!mesh.isMade(v)) {
-        input.slabs[v] = known && !known->moved[v] ? known->input.slabs[v] : finder.find(mesh.point(v));
+        if (!known || known->moved[v]) input.slabs[v] = finder.find(mesh.point(v));
         continue;
       }
       for (int d = 0; d < 3; ++d)

@@ -35,7 +35,7 @@ class Placer {
       });
     });
     keep(&CutMesh::cellGridCell, [&](std::vector<int32_t>& items) { cells.place(items, 3, total.cells); });
-    keep(&CutMesh::cellRegion, [&](std::vector<uint32_t>& items) { cells.place(items, 1, total.cells); });
+    keep(&CutMesh::cellRegion, [&](std::vector<uint32_t>& items) { KeptRuns().place(items, 1, total.cells); });  // all are written
     keepOffsets(&CutMesh::cellHalfFaceOffsets, {cells, halfFaces}, total.cells, total.halfFaces);
     run();
   }
@@ -54,13 +54,15 @@ class Placer {
     keepOffsets(&CutMesh::loopOffsets, {loops, vertices}, loopCount, loopVertices);
     keepOffsets(&CutMesh::faceLoopOffsets, {faces, loops}, faceCount, loopCount);
     keepOffsets(&CutMesh::faceParentOffsets, {ofTri, ofParents}, faceCount, total.parents);
-    keep(&CutMesh::faceTriangle, [&](std::vector<int32_t>& items) { ofTri.place(items, 1, faceCount); });
+    keep(&CutMesh::faceTriangle, [&](std::vector<int32_t>& items) {
+      ofTri.place(items, 1, faceCount);
+      fillPieces(items, kept);
+    });
     keep(&CutMesh::facePlane, [&](std::vector<int32_t>& items) { faces.placeAndFill(items, faceCount, 0); });
     keep(&CutMesh::faceAxis, [&](std::vector<int8_t>& items) { faces.placeAndFill(items, faceCount, int8_t(-1)); });
     keep(&CutMesh::faceParents, [&](std::vector<uint32_t>& items) { ofParents.place(items, 1, total.parents); });
     keep(&CutMesh::faceParentSigns, [&](std::vector<int8_t>& items) { ofParents.placeAndFill(items, total.parents, int8_t(1)); });
     run();
-    std::fill(out_.faceTriangle.begin() + triFaces, out_.faceTriangle.end(), -1);
     std::fill(out_.faceParentOffsets.begin() + triFaces, out_.faceParentOffsets.end(), total.parents);
   }
   void placeVertices(size_t count, const KeptRuns& kept) {
@@ -73,6 +75,16 @@ class Placer {
   }
 
  private:
+  /// Where there were tri-cut-faces, or nothing.
+  static void fillPieces(std::vector<int32_t>& faceTriangle, const KeptRows& kept) {
+    const size_t first = kept.total.triFaces, past = faceTriangle.size(), firstBefore = kept.totalBefore.triFaces,
+                 pastBefore = firstBefore + kept.totalBefore.pieces;
+    const auto fill = [&](size_t begin, size_t end) {
+      if (begin < end) std::fill(faceTriangle.begin() + ptrdiff_t(begin), faceTriangle.begin() + ptrdiff_t(end), -1);
+    };
+    fill(first, std::min(firstBefore, past));
+    fill(std::max(first, pastBefore), past);
+  }
   /// Of an array of the cut before; `place(array)` brings what is kept of it to where it is now.
   template <class Item, class Place>
   void keep(std::vector<Item> CutMesh::*array, const Place& place) {

@@ -3,8 +3,6 @@
 #include <array>
 #include <numeric>
 
-#include "base/sort.h"
-
 namespace mandoline::detail {
 namespace {
 
@@ -21,24 +19,15 @@ class RowFinder {
   }
 
   KeptRows run() {
-    for (const BrickId b : cut_.bricks.ids()) {
-      if (kept_.isInner(b)) listRows(b);
+    for (const auto& [brick, row] : numbers_.order) {
+      if (kept_.isInner(brick))
+        add({numbers_.rows[brick][row], before_.numbers.rows[kept_.before[brick]][row], cut_.seams[brick].rows[row]});
     }
-    sortByKey(order_, numbers_.total.cells);
-    for (const KeyedItem& at : order_) add(all_[at.item]);
     findFacesNow();
     return std::move(out_);
   }
 
  private:
-  void listRows(BrickId brick) {
-    const std::vector<BrickCounts>&before = before_.numbers.rows[kept_.before[brick]], &now = numbers_.rows[brick];
-    for (size_t row = 0; row < now.size(); ++row) {
-      order_.push_back({now[row].cells, uint32_t(all_.size())});
-      all_.push_back({now[row], before[row], cut_.seams[brick].rows[row]});
-    }
-  }
-
   void add(const KeptRows::Run& row) {
     if (out_.runs.empty() || !follows(row, out_.runs.back())) return out_.runs.push_back(row);
     out_.runs.back().count.add(row.count);
@@ -75,8 +64,6 @@ class RowFinder {
   const KeptBricks& kept_;
   const CutBricks& cut_;
   const Numbers& numbers_;
-  std::vector<KeptRows::Run> all_;
-  std::vector<KeyedItem> order_;
   KeptRows out_;
 };
 

@@ -56,12 +56,11 @@ class Finder {
 
   KeptRuns run() {
     addOfSurface();
+    for (const Numbers::RowOfBrick& of : numbers_.order) {
+      if (kept_.isInner(of.brick)) addRow(of);
+    }
     for (const BrickId b : cut_.bricks.ids()) {
-      if (kept_.isInner(b)) {
-        addRows(b);
-      } else if (kept_.has(b)) {
-        addSomeOf(b);
-      }
+      if (kept_.has(b) && !kept_.isInner(b)) addSomeOf(b);
     }
     return {sorted()};
   }
@@ -70,10 +69,14 @@ class Finder {
   using Run = KeptRuns::Run;
 
   void add(uint32_t number, uint32_t before, uint32_t count) {
-    if (!runs_.empty() && runs_.back().past() == number && runs_.back().before + runs_.back().count == before) {
-      runs_.back().count += count;
-    } else if (count > 0) {
-      runs_.push_back({number, before, count});
+    if (count > 0) append(runs_, {number, before, count});
+  }
+  /// Makes one run of two that follow each other.
+  static void append(std::vector<Run>& runs, const Run& run) {
+    if (!runs.empty() && runs.back().past() == run.first && runs.back().before + runs.back().count == run.before) {
+      runs.back().count += run.count;
+    } else {
+      runs.push_back(run);
     }
   }
 
@@ -126,12 +129,11 @@ class Finder {
     return areLost;
   }
 
-  /// All vertices that an inner brick owns, which are in the order in which they were.
-  void addRows(BrickId brick) {
-    const std::vector<BrickCounts>&before = before_.numbers.rows[kept_.before[brick]], &now = numbers_.rows[brick];
-    for (size_t row = 0; row < now.size(); ++row)
-      add(numbers_.surfaceVertices + now[row].vertices, before_.numbers.surfaceVertices + before[row].vertices,
-          cut_.seams[brick].rows[row].vertices);
+  /// All vertices in a row that an inner brick owns, which are in the order in which they were.
+  void addRow(const Numbers::RowOfBrick& of) {
+    const BrickCounts &before = before_.numbers.rows[kept_.before[of.brick]][of.row], &now = numbers_.rows[of.brick][of.row];
+    add(numbers_.surfaceVertices + now.vertices, before_.numbers.surfaceVertices + before.vertices,
+        cut_.seams[of.brick].rows[of.row].vertices);
   }
 
   /// Those that a brick owned and owns, of the others.
@@ -161,8 +163,7 @@ class Finder {
     }
     sortByKey(order, last);
     std::vector<Run> sorted;
-    sorted.reserve(runs_.size());
-    for (const KeyedItem& at : order) sorted.push_back(runs_[at.item]);
+    for (const KeyedItem& at : order) append(sorted, runs_[at.item]);
     return sorted;
   }
 

@@ -18,11 +18,7 @@ class Numberer {
 
   /// Where the ranges of all rows begin: rows in order, and in each the bricks along x.
   void numberRows() {
-    struct Part {
-      BrickId brick;
-      uint32_t row;
-    };
-    std::vector<Part> parts;
+    std::vector<Numbers::RowOfBrick> parts;
     std::vector<KeyedItem> order;
     uint32_t last = 0;
     for (const BrickId b : cuts_.ids()) {
@@ -35,8 +31,9 @@ class Numberer {
       }
     }
     sortByKey(order, last);
+    out_.order.reserve(parts.size());
     for (const KeyedItem& at : order) {
-      const auto& [brick, row] = parts[at.item];
+      const auto& [brick, row] = out_.order.emplace_back(parts[at.item]);
       const BrickCounts& counts = seams_[brick].rows[row];
       out_.rows[brick][row] = out_.total;
       out_.total.add(counts);

@@ -47,11 +47,17 @@ struct SurfaceNumbers {
 struct Numbers {
   static constexpr uint32_t kUnused = ~0u;
 
+  struct RowOfBrick {
+    BrickId brick;
+    uint32_t row;
+  };
+
   IdVector<VertexId, uint32_t> ofSurface;            ///< per vertex of the surface; kUnused if no loop has it
   uint32_t surfaceVertices = 0;                      ///< those of the mesh and its edges, which come first
   IdVector<BrickId, std::vector<uint32_t>> ofBrick;  ///< per vertex of a brick's own
   IdVector<BrickId, std::vector<uint32_t>> faces;    ///< per face of a brick
   IdVector<BrickId, std::vector<BrickCounts>> rows;  ///< per row of a brick: where its ranges begin
+  std::vector<RowOfBrick> order;                     ///< of all rows of bricks, as their ranges follow each other
   BrickCounts total;
   // Bricks that are cut here come one after the other: what is before them, and what is theirs.
   BrickCounts before, here;

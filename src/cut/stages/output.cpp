@@ -135,7 +135,7 @@ void listDropped(const std::vector<uint8_t>& hasFace, const WholeTriangles& tria
 }
 
 /// What is not made in parts.
-void addCommon(UntouchedRuns runs, Regions regions, const WholeTriangles& triangles, CutMesh& out) {
+void addCommon(UntouchedRuns runs, Regions regions, WholeTriangles triangles, CutMesh& out) {
   out.rowRunOffsets = std::move(runs.rowOffsets);
   out.runBegin = std::move(runs.begin);
   out.runEnd = std::move(runs.end);
@@ -145,8 +145,8 @@ void addCommon(UntouchedRuns runs, Regions regions, const WholeTriangles& triang
   out.regionWinding = std::move(regions.winding);
   out.regionPartWinding = std::move(regions.partWinding);
   out.regionParity = std::move(regions.parity);
-  out.parityTriangles = triangles.parity;
-  out.openTriangles = triangles.open;
+  out.parityTriangles = std::move(triangles.parity);
+  out.openTriangles = std::move(triangles.open);
   out.triangleCount = triangles.count;
 }
 
@@ -158,18 +158,18 @@ WholeTriangles trianglesOf(const CutState& state) {
 
 CutMesh makeOutput(std::vector<CutPart> parts, CutState& state, Run& run) {
   CutMesh out = parts.size() == 1 ? std::move(parts.front().cutMesh) : Joiner(parts).run();
-  const WholeTriangles triangles = trianglesOf(state);
-  addCommon(std::move(state.runs), std::move(state.regions), triangles, out);
-  listDropped(trianglesWithFace(out, out.triangleCount), triangles, out, run.stats);
+  WholeTriangles triangles = trianglesOf(state);
+  listDropped(trianglesWithFace(out, triangles.count), triangles, out, run.stats);
+  addCommon(std::move(state.runs), std::move(state.regions), std::move(triangles), out);
   run.stats.madeVertices = uint32_t(out.madeVertices.size());
   return out;
 }
 
 CutMesh makeCommon(const std::vector<uint8_t>& hasFace, const CutState& state, Run& run) {
   CutMesh out;
-  const WholeTriangles triangles = trianglesOf(state);
-  addCommon(state.runs, state.regions, triangles, out);
+  WholeTriangles triangles = trianglesOf(state);
   listDropped(hasFace, triangles, out, run.stats);
+  addCommon(state.runs, state.regions, std::move(triangles), out);
   return out;
 }
 

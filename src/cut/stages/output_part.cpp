@@ -179,6 +179,7 @@ WholeTriangles::WholeTriangles(const Prepared& mesh) : count(uint32_t(mesh.trian
   for (uint32_t t = 0; t < count; ++t) {
     if (!mesh.kept(size_t(t))) dropped.push_back(t);
   }
+  open.reserve(size_t(std::count(mesh.parts.kinds.begin(), mesh.parts.kinds.end(), PartKind::open)));
   for (uint32_t t = 0; t < mesh.parts.kinds.size(); ++t) {
     if (mesh.parts.kinds[t] == PartKind::parity) parity.push_back(t);
     if (mesh.parts.kinds[t] == PartKind::open) open.push_back(t);

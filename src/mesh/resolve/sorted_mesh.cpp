@@ -8,11 +8,21 @@
 namespace mandoline::detail {
 namespace {
 
-/// Marks the corners of kept triangles.
-std::vector<uint8_t> cornersOfKept(const WeldedMesh& mesh, const std::vector<TriangleState>& states) {
+std::vector<uint32_t> listKept(const std::vector<TriangleState>& states) {
+  std::vector<uint32_t> list(states.size());
+  size_t count = 0;
+  for (uint32_t t = 0; t < states.size(); ++t) {
+    list[count] = t;
+    count += states[t] == TriangleState::kept;
+  }
+  list.resize(count);
+  return list;
+}
+
+/// Marks the corners of triangles.
+std::vector<uint8_t> cornersOf(const WeldedMesh& mesh, const std::vector<uint32_t>& some) {
   std::vector<uint8_t> isCorner(mesh.points.size(), 0);
-  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (states[t] != TriangleState::kept) continue;
+  for (const uint32_t t : some) {
     for (const uint32_t v : mesh.triangles[t]) isCorner[v] = 1;
   }
   return isCorner;
@@ -22,17 +32,19 @@ uint32_t lowestOf(const std::array<uint32_t, 3>& corners) { return std::min(std:
 
 }  // namespace
 
-SortedMesh::SortedMesh(const WeldedMesh& mesh, const std::vector<TriangleState>& states) {
-  const std::vector<uint8_t> isCorner = cornersOfKept(mesh, states);
+SortedMesh::SortedMesh(const WeldedMesh& mesh, const std::vector<TriangleState>& states) : SortedMesh(mesh, listKept(states)) {}
+
+SortedMesh::SortedMesh(const WeldedMesh& mesh, const std::vector<uint32_t>& some) {
+  const std::vector<uint8_t> isCorner = cornersOf(mesh, some);
   std::vector<uint32_t> corners;
-  std::vector<Point> some;
+  std::vector<Point> ofCorners;
   const bool isEach = std::find(isCorner.begin(), isCorner.end(), 0) == isCorner.end();  // else those that are, ascending
   for (uint32_t v = 0; v < isCorner.size() && !isEach; ++v) {
     if (!isCorner[v]) continue;
     corners.push_back(v);
-    some.push_back(mesh.points[v]);
+    ofCorners.push_back(mesh.points[v]);
   }
-  const std::span<const Point> unordered = isEach ? mesh.points : some;
+  const std::span<const Point> unordered = isEach ? mesh.points : ofCorners;
   const auto idOf = [&](size_t i) { return isEach ? uint32_t(i) : corners[i]; };
   std::vector<uint32_t> places(mesh.points.size());
   points.reserve(unordered.size());
@@ -40,26 +52,20 @@ SortedMesh::SortedMesh(const WeldedMesh& mesh, const std::vector<TriangleState>&
     places[idOf(corner.item)] = uint32_t(points.size());
     points.push_back(unordered[corner.item]);
   }
-  const auto cornersOf = [&](size_t t) {
+  const auto placesOf = [&](size_t t) {
     const auto& v = mesh.triangles[t];
     return std::array{places[v[0]], places[v[1]], places[v[2]]};
   };
   std::vector<uint32_t> at(points.size() + 1, 0);  // where the next triangle with this lowest corner goes
-  size_t count = 0;
-  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (states[t] != TriangleState::kept) continue;
-    ++at[lowestOf(cornersOf(t)) + 1];
-    ++count;
-  }
+  for (const uint32_t t : some) ++at[lowestOf(placesOf(t)) + 1];
   for (size_t v = 0; v < points.size(); ++v) at[v + 1] += at[v];
-  triangles.resize(count);
-  ids.resize(count);
-  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (states[t] != TriangleState::kept) continue;
-    const auto v = cornersOf(t);
+  triangles.resize(some.size());
+  ids.resize(some.size());
+  for (const uint32_t t : some) {
+    const auto v = placesOf(t);
     const uint32_t place = at[lowestOf(v)]++;
     triangles[place] = v;
-    ids[place] = uint32_t(t);
+    ids[place] = t;
   }
   dropDuplicates(at);
 }

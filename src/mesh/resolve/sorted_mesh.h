@@ -14,6 +14,8 @@ struct SortedMesh {
   explicit SortedMesh(const WeldedMesh& mesh) : SortedMesh(mesh, mesh.states) {}
   /// With other states than the mesh's own. Duplicates need not be known yet.
   SortedMesh(const WeldedMesh& mesh, const std::vector<TriangleState>& states);
+  /// The same of some of its triangles, which ascend.
+  SortedMesh(const WeldedMesh& mesh, const std::vector<uint32_t>& some);
 
  private:
   void dropDuplicates(const std::vector<uint32_t>& ends);
