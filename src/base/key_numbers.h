@@ -20,6 +20,10 @@ class KeyNumbers {
     if (!keys.empty() && keys[last_] == key) return last_;
     std::swap(last_, secondLast_);  // two often take turns
     if (!keys.empty() && keys[last_] == key) return last_;
+    return addAny(key);
+  }
+  /// The same, quicker where it can't be foretold which key comes.
+  uint32_t addAny(uint64_t key) {
     const size_t slot = slotOf(key);
     if (slots_[slot] != kFree) return last_ = slots_[slot];
     slots_[slot] = last_ = uint32_t(keys.size());

@@ -59,4 +59,12 @@ void sortUnique(std::vector<Item>& items, const IsBefore& isBefore = {}) {
   items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
+/// As std::partition_point(), quicker where that is near the beginning.
+template <class Iterator, class IsBefore>
+Iterator partitionPointAhead(Iterator first, Iterator past, const IsBefore& isBefore) {
+  ptrdiff_t step = 1;
+  for (; step < past - first && isBefore(first[step]); step *= 2) first += step;
+  return std::partition_point(first, first + std::min(step, past - first), isBefore);
+}
+
 }  // namespace mandoline::detail

@@ -29,7 +29,7 @@ class Layout {
   void placeParts() {
     const std::vector<ClippedTriangles::Part>& parts = parts_.clipped.parts;
     bricksOfParts_.resize(parts.size());
-    for (size_t i = 0; i < parts.size(); ++i) bricksOfParts_[i] = ofParts_.add(parts[i].brick);
+    for (size_t i = 0; i < parts.size(); ++i) bricksOfParts_[i] = ofParts_.addAny(parts[i].brick);
   }
 
   void placeOthers() {

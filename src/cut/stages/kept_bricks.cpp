@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/sort.h"
+
 namespace mandoline::detail {
 namespace {
 
@@ -52,7 +54,7 @@ class Keeper {
     const auto end = parts.clipped.parts.end();
     for (TriangleId first = now_.pastSame({0}, last), past; first < last; first = now_.pastSame(past, last)) {
       past = now_.pastOthers(first, last);
-      part = std::lower_bound(part, end, first, [](const ClippedTriangles::Part& p, TriangleId t) { return p.triangle < t; });
+      part = partitionPointAhead(part, end, [&](const ClippedTriangles::Part& p) { return p.triangle < first; });
       for (; part != end && part->triangle < past; ++part) {
         const auto found = std::lower_bound(bricks.keys.begin(), bricks.keys.end(), part->brick);
         haveOthers[{uint32_t(found - bricks.keys.begin())}] = 1;

@@ -1,5 +1,7 @@
 #include "cut/stages/kept_clips.h"
 
+#include "base/sort.h"
+
 namespace mandoline::detail {
 namespace {
 
@@ -61,11 +63,9 @@ class ClipJoiner {
   void join(const std::vector<Item>& before, const std::vector<Item>& others, const TriangleOf& triangleOf, const Before& addBefore,
             const Other& addOther) const {
     size_t i = 0;
-    const auto skipUntil = [&](TriangleId past) {  // most runs are short, or long
-      size_t step = 1;
-      for (; i + step < before.size() && triangleOf(before[i + step]) < past; step *= 2) i += step;
-      const auto from = before.begin() + ptrdiff_t(i), to = before.begin() + ptrdiff_t(std::min(before.size(), i + step));
-      i = size_t(std::partition_point(from, to, [&](const Item& item) { return triangleOf(item) < past; }) - before.begin());
+    const auto skipUntil = [&](TriangleId past) {
+      const auto from = before.begin() + ptrdiff_t(i);
+      i += size_t(partitionPointAhead(from, before.end(), [&](const Item& item) { return triangleOf(item) < past; }) - from);
     };
     const auto addBeforeUntil = [&](TriangleId past) {
       while (i < before.size() && triangleOf(before[i]) < past) {

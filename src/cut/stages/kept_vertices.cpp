@@ -1,6 +1,7 @@
 #include "cut/stages/kept_vertices.h"
 
 #include "base/csr.h"
+#include "base/prefetch.h"
 
 namespace mandoline::detail {
 
@@ -68,6 +69,8 @@ class Finder {
  private:
   using Run = KeptRuns::Run;
 
+  static constexpr size_t kAhead = 16;
+
   void add(uint32_t number, uint32_t before, uint32_t count) {
     if (count > 0) append(runs_, {number, before, count});
   }
@@ -123,8 +126,11 @@ class Finder {
     for (const BrickId b : cut_.bricks.ids()) {
       if (kept_.isInner(b)) continue;
       const KeptAround around(before_, kept_, cut_, b);
-      for (const VertexId v : cut_.cuts[b].surfaceVertices)
-        areLost[v] |= uint8_t(!kept_.has(b) || !around.haveKept(cut_.surface.vertices.slab(v)));
+      const std::span<const VertexId> list = cut_.cuts[b].surfaceVertices;
+      for (size_t k = 0; k < list.size(); ++k) {
+        if (k + kAhead < list.size()) prefetch(&cut_.surface.vertices.slab(list[k + kAhead]));
+        areLost[list[k]] |= uint8_t(!kept_.has(b) || !around.haveKept(cut_.surface.vertices.slab(list[k])));
+      }
     }
     return areLost;
   }
