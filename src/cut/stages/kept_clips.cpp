@@ -58,31 +58,32 @@ class ClipJoiner {
     to.insert(to.end(), from.begin() + ptrdiff_t(range.begin), from.begin() + ptrdiff_t(range.end));
   }
 
-  /// Calls addBefore(places) for the entries of `before` whose triangles are the same, and addOther(places) for all of `others`.
+  /// Calls addBefore(places) for the entries of `before` whose triangles are the same, and addOther(places) for all of `others`, whose
+  /// triangles are not: for as many at once as follow each other.
   template <class Item, class TriangleOf, class Before, class Other>
   void join(const std::vector<Item>& before, const std::vector<Item>& others, const TriangleOf& triangleOf, const Before& addBefore,
             const Other& addOther) const {
-    size_t i = 0;
-    const auto skipUntil = [&](TriangleId past) {
-      const auto from = before.begin() + ptrdiff_t(i);
-      i += size_t(partitionPointAhead(from, before.end(), [&](const Item& item) { return triangleOf(item) < past; }) - from);
+    const TriangleId last = now_.pastLast();
+    const auto placeOf = [&](const std::vector<Item>& list, size_t from, TriangleId triangle) {
+      const auto first = list.begin() + ptrdiff_t(from);
+      return size_t(partitionPointAhead(first, list.end(), [&](const Item& item) { return triangleOf(item) < triangle; }) - list.begin());
     };
-    const auto addBeforeUntil = [&](TriangleId past) {
-      while (i < before.size() && triangleOf(before[i]) < past) {
+    size_t i = 0, other = 0;
+    while (i < before.size() || other < others.size()) {
+      const TriangleId next =
+          std::min(i < before.size() ? triangleOf(before[i]) : last, other < others.size() ? triangleOf(others[other]) : last);
+      if (now_.isSame(next)) {
         const size_t first = i;
-        skipUntil(now_.pastSame(triangleOf(before[i]), past));
-        if (first < i) addBefore(IdRange{first, i});
-        if (i < before.size() && triangleOf(before[i]) < past) skipUntil(now_.pastOthers(triangleOf(before[i]), past));
+        i = placeOf(before, i, now_.pastSame(next, last));
+        addBefore(IdRange{first, i});
+        continue;
       }
-    };
-    for (size_t other = 0; other < others.size();) {
+      const TriangleId past = now_.pastOthers(next, last);
       const size_t first = other;
-      const TriangleId triangle = triangleOf(others[first]);
-      addBeforeUntil(triangle);
-      while (other < others.size() && triangleOf(others[other]) == triangle) ++other;
-      addOther(IdRange{first, other});
+      i = placeOf(before, i, past);
+      other = placeOf(others, other, past);
+      if (first < other) addOther(IdRange{first, other});
     }
-    addBeforeUntil(now_.pastLast());
   }
 
   VertexId idNow(VertexId other) const { return other < firstOther_ ? other : otherIds_[other.number - firstOther_.number]; }
