@@ -1,6 +1,7 @@
 #include "io/groups.h"
 #include "io/output_buffer.h"
 #include "io/poly_mesh.h"
+#include "io/seen_polygons.h"
 #include "io/selection.h"
 #include "mesh/run_call.h"
 
@@ -158,7 +159,10 @@ void writePolyMesh(const FolderSink& sink, const CutMesh& cutMesh, const CellCom
     const TriangleGroups* const groups = detail::checkedGroups(options.groups, cutMesh.triangleCount);
     detail::ComplexPolygons polygons(cutMesh, cells);
     const bool isMerged = !cells.cellMemberOffsets.empty();
-    if (isMerged) detail::collapseFlatPolygons(cells, polygons);
+    if (isMerged) {
+      detail::collapseFlatPolygons(cells, polygons);
+      detail::dividePolygonsNotSeen(cells, polygons);
+    }
     detail::PolyMesh mesh = detail::makePolyMesh(cutMesh, cells, groups, options.simpleCells, [&](size_t cell) {
       return selection.has(cells.cellRegion[cell]) && (options.untouched || cell < cells.cutCells) &&
              !(isMerged && detail::isEnclosedByWalls(cells, polygons, cell));

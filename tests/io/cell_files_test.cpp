@@ -293,6 +293,67 @@ TEST_CASE("polyMesh: of merged cells, a flat sheet that ends in the middle of ce
   CHECK(heightsOf(1.375, false) == std::set<double>{1.375});
 }
 
+namespace {
+
+/// How much of a flat face's area an edge and a point make, where that is least; negative where the edge is seen from behind. Edges at the
+/// point don't count, and those between vertices that are one but for rounding.
+double leastSeen(const PolyMesh& mesh, size_t face, const std::array<double, 3>& point) {
+  const auto& polygon = mesh.faces[face];
+  const auto twice = [&](const auto& a, const auto& b, const auto& c, size_t d) {
+    const size_t e = (d + 1) % 3, f = (d + 2) % 3;
+    return (b[e] - a[e]) * (c[f] - a[f]) - (b[f] - a[f]) * (c[e] - a[e]);
+  };
+  double least = 1;
+  for (size_t d = 0; d < 3; ++d) {
+    double area = 0;
+    for (size_t i = 2; i < polygon.size(); ++i)
+      area += twice(mesh.points[polygon[0]], mesh.points[polygon[i - 1]], mesh.points[polygon[i]], d);
+    if (area == 0) continue;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const auto &a = mesh.points[polygon[i]], &b = mesh.points[polygon[(i + 1) % polygon.size()]];
+      const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+      if (a != point && b != point && length > 1e-12) least = std::min(least, twice(point, a, b, d) / area);
+    }
+  }
+  return least;
+}
+
+/// Of the triangles about the mean of the vertices, by their areas.
+std::array<double, 3> centreOf(const PolyMesh& mesh, size_t face) {
+  const auto& polygon = mesh.faces[face];
+  std::array<double, 3> mean{}, centre{};
+  for (const size_t v : polygon)
+    for (size_t d = 0; d < 3; ++d) mean[d] += mesh.points[v][d] / double(polygon.size());
+  double sum = 0;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    PolyMesh triangle;
+    triangle.points = {mean, mesh.points[polygon[i]], mesh.points[polygon[(i + 1) % polygon.size()]]};
+    triangle.faces = {{0, 1, 2}};
+    const double area = areaOf(triangle, 0);
+    for (size_t d = 0; d < 3; ++d)
+      for (const auto& p : triangle.points) centre[d] += area * p[d] / 3;
+    sum += area;
+  }
+  for (double& x : centre) x /= sum;
+  return centre;
+}
+
+}  // namespace
+
+TEST_CASE("polyMesh: of merged cells, faces of the grid that their centre or no vertex sees are divided", "[cellfiles]") {
+  const Mesh cubes = shapes::merged({shapes::cube(1.125, 2.75), shapes::cube(3.375, 4.375)});  // faces that are thin L's
+  for (const Mesh& mesh : {cubes, kShell}) {
+    const Merged cells(mesh, Grid::box({-2, -2, -2}, {6, 6, 6}, {8, 8, 8}), 0);
+    const PolyMesh written = writtenPolyMesh(cells);
+    requireVolumes(written, cells.complex, cells.open);
+    for (size_t f = 0; f < written.patch("surface").start; ++f) {
+      CHECK(leastSeen(written, f, centreOf(written, f)) > 0);
+      const auto& face = written.faces[f];
+      CHECK(std::any_of(face.begin(), face.end(), [&](size_t v) { return leastSeen(written, f, written.points[v]) > 0; }));
+    }
+  }
+}
+
 TEST_CASE("polyMesh: of merged cells, one that is enclosed by walls is left out", "[cellfiles]") {
   const Mesh pocket = shapes::cube(1.25, 1.75);
   const Grid grid = Grid::box({0, 0, 0}, {4, 4, 4}, {4, 4, 4});
