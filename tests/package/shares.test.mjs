@@ -31,14 +31,19 @@ function listed(threads, script = '../../wasm/dist/worker-thread.js') {
   };
 }
 
-/** f(leading module, Lead with that many others in this thread, close) */
-async function withOthers(count, f) {
+/** f(leading module, Lead with that many others in this thread); onAnswer(what one of these is about to send it) */
+async function withOthers(count, f, onAnswer = () => {}) {
   const compiled = await compile(ownWasm.source, 'mandoline.wasm');
   const [first, ...others] = Array.from({ length: count + 1 }, () => startModule(cutModule, compiled));
   const lead = new Lead(() => {});
   const ports = others.map(({ host }, i) => {
     const { port1, port2 } = new MessageChannel();
     lead.add(i, port1);
+    const post = port2.postMessage.bind(port2);
+    port2.postMessage = (answer, transfer) => {
+      onAnswer(answer);
+      post(answer, transfer);
+    };
     follow(port2, host);
     return port1;
   });
@@ -90,6 +95,26 @@ test('a share is cut by each of the threads, none alone', () =>
       assert.deepEqual(withoutStats(cutMesh), withoutStats(here.cut(ring, { cells: 70 })));
     }
   }));
+
+test('parts are written into the memory of those before, and are the same', () => {
+  const sizes = []; // of each part's buffers
+  const note = ({ cutMesh }) => cutMesh && sizes.push(Object.values(cutMesh).map((array) => array?.buffer?.byteLength));
+  return withOthers(
+    1,
+    async (module, lead) => {
+      for (const cells of [90, 80, 70]) {
+        const cutMesh = await lead.cut({ host: module.host, calls: { ...module.calls, cut: never } }, [ring, { cells }]);
+        assert.deepEqual(withoutStats(cutMesh), withoutStats(here.cut(ring, { cells })));
+      }
+      const bytes = (list) => list.reduce((sum, size) => sum + (size ?? 0), 0);
+      for (const later of sizes.slice(1)) {
+        const isNew = later.filter((size) => !sizes[0].includes(size));
+        assert.ok(bytes(isNew) < 0.1 * bytes(later), `${bytes(isNew)} of ${bytes(later)}`);
+      }
+    },
+    note,
+  );
+});
 
 test('a prepared mesh does not give way to the large cuts that several threads make of it', () =>
   withOthers(1, async (module, lead) => {
