@@ -246,6 +246,12 @@ struct DistributedCut::Data {
     return std::move(made.piece);
   }
 
+  RankComplex makeComplex(const RankPiece& piece, int ghostLayers) {
+    std::optional<WholeCut> whole;  // which takes memory
+    comm.together(kNoun, [&] { whole.emplace(WholeCut{named(), common.mesh, counts}); });
+    return makeRankComplex(comm, *whole, piece, ghostLayers);
+  }
+
   /// The processes with the next layers below and above; -1 for none.
   std::pair<int, int> neighbours() {
     const auto [first, past] = share->layers();
@@ -333,9 +339,7 @@ DistributedCut::DistributedCut(MPI_Comm comm, SlicedMesh mesh, Grid grid, const 
 }
 
 RankPiece DistributedCut::piece() const { return data_->makePiece(); }
-RankComplex DistributedCut::cellComplex(const RankPiece& piece, int ghostLayers) const {
-  return makeRankComplex(data_->comm, {data_->named(), data_->common.mesh, data_->counts}, piece, ghostLayers);
-}
+RankComplex DistributedCut::cellComplex(const RankPiece& piece, int ghostLayers) const { return data_->makeComplex(piece, ghostLayers); }
 CutCounts DistributedCut::counts() const { return data_->counts; }
 uint64_t DistributedCut::ownCells() const { return data_->ownCells; }
 Measures DistributedCut::measures(const RankPiece& piece, const RunOptions& options) const { return data_->measures(piece, options); }
