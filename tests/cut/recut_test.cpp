@@ -115,6 +115,19 @@ TEST_CASE("recut: a brick is kept while one beside it becomes touched, and untou
   }
 }
 
+TEST_CASE("recut: vertices that come to lie on others, which rest or move, too, are welded to them, and apart again", "[recut]") {
+  using Position = std::array<double, 3>;
+  const Position rests{2.75, 1.25, 1.5}, low{4.25, 2.5, 2.5}, high{4.25, 2.5, 4.25}, between{4.5, 2.5, 3.25};
+  std::vector<Mesh> times;
+  for (const auto& [p, q] :
+       {std::pair(low, high), {rests, high}, {low, high}, {between, between}, {low, high}, {rests, rests}, {low, high}})
+    times.push_back(
+        shapes::merged({shapes::triangle({1.25, 1.25, 1.25}, rests, {1.5, 2.75, 1.25}),
+                        shapes::triangle(p, {5.5, 1.5, 1.5}, {5.5, 3.5, 1.5}), shapes::triangle(q, {5.5, 1.5, 4.5}, {5.5, 3.5, 4.5})}));
+  CHECK(cut(times[1], Grid::regular({0, 0, 0}, {1, 1, 1}, {8, 8, 8})).stats.weldedVertices == 1);
+  CHECK(brokenRecut(times, Grid::regular({0, 0, 0}, {1, 1, 1}, {8, 8, 8})) == "");
+}
+
 TEST_CASE("recut: coordinates that become -0, or others that scaling flushes, are handed back as they are", "[recut]") {
   std::vector<Mesh> times;
   for (const double y : {1e-70, 1e-71, 0.0, -0.0, 1e-70})
