@@ -6,8 +6,9 @@
 
 namespace mandoline::detail {
 
-/// Divides those of faces of the grid, and those of which no vertex sees all edges: into pieces that all do, as far as coordinates allow,
-/// along diagonals. Both cells of a face have the same pieces, so they fit together as before. Walls stay: pieces of triangles are convex.
+/// Divides those of faces of the grid along diagonals, and those in which no vertex sees all edges either, into pieces without such faults;
+/// where some piece would have one, as between vertices that are nearly on a line, the polygon stays. Both cells of a face have the same
+/// pieces, so they fit together as before. Walls stay: pieces of triangles are convex.
 MANDOLINE_SHARED void dividePolygonsNotSeen(const CellComplex& cells, ComplexPolygons& polygons);
 
 }  // namespace mandoline::detail

@@ -340,7 +340,8 @@ std::array<double, 3> centreOf(const PolyMesh& mesh, size_t face) {
 
 }  // namespace
 
-TEST_CASE("polyMesh: of merged cells, faces of the grid that their centre or no vertex sees are divided", "[cellfiles]") {
+TEST_CASE("polyMesh: of merged cells, faces of the grid are divided if their centre does not see them as a whole, or no vertex does",
+          "[cellfiles]") {
   const Mesh cubes = shapes::merged({shapes::cube(1.125, 2.75), shapes::cube(3.375, 4.375)});  // faces that are thin L's
   for (const Mesh& mesh : {cubes, kShell}) {
     const Merged cells(mesh, Grid::box({-2, -2, -2}, {6, 6, 6}, {8, 8, 8}), 0);

@@ -143,8 +143,8 @@ void writeMesh(const std::string& path, const MeshView& mesh, const RunOptions& 
 ///
 /// Merged cells are for solvers, which divide by areas, heights and what flows. So faces that are only as wide as rounding makes them
 /// (2^-48 of the largest coordinate) are collapsed, with their vertices put into the edges that they lie on; walls in a plane with the
-/// centroid of a cell beside them, as of a flat sheet that ends in the middle of a cell, are moved off it by 2^-44; and cells that have
-/// walls alone around them are left out.
+/// centroid of a cell beside them, as of a flat sheet that ends in the middle of a cell, are moved off it by 2^-44; cells that have walls
+/// alone around them are left out; and faces of the grid that their own centre does not see as a whole, or no vertex does, are divided.
 void writePolyMesh(const std::string& folder, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options = {});
 /// Takes the bytes of the files of a folder, piece after piece and file after file, with the name of the file. What it throws passes
 /// through.
