@@ -11,6 +11,7 @@
 #include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
 #include "mpi/communicator.h"
+#include "mpi/gather_made.h"
 #include "mpi/make_rank_complex.h"
 #include "mpi/pack.h"
 #include "mpi/prepare_shares.h"
@@ -160,42 +161,10 @@ struct DistributedCut::Data {
     comm.together(kNoun, [&] { hasFace = trianglesWithFace(part.cutMesh, triangles); });
     comm.uniteFlags(hasFace);
     comm.together(kNoun, [&] { common = share->common(hasFace); });
-    findMade();
+    gatherMade(comm, part.cutMesh, common);
     common.stats.exactFallbacks = comm.reduce(uint64_t(part.exactFallbacks), MPI_SUM);
     counts.regions = common.mesh.regionCount;
     counts.untouchedCells = UntouchedCells(common.mesh).count();
-  }
-
-  /// The made vertices of all parts.
-  void findMade() {
-    std::vector<uint32_t> words;
-    comm.together(kNoun, [&] {
-      const CutMesh& m = part.cutMesh;
-      for (size_t i = 0; i < m.madeVertices.size(); ++i) {
-        words.insert(words.end(), {m.madeVertices[i], m.madeVertexKinds[i]});
-        for (size_t k = 0; k < 4; ++k) words.push_back(uint32_t(m.madeVertexParents[4 * i + k]));
-      }
-    });
-    const std::vector<std::vector<uint32_t>> all = comm.gatherAll(words);
-    comm.together(kNoun, [&] { joinMadeOf(all); });
-  }
-
-  /// `all`: words of each process, 6 per made vertex.
-  void joinMadeOf(const std::vector<std::vector<uint32_t>>& all) {
-    constexpr size_t kWords = 6;
-    std::vector<CutMesh> made(all.size());
-    std::vector<const CutMesh*> parts;
-    for (size_t rank = 0; rank < all.size(); ++rank) {
-      for (size_t at = 0; at < all[rank].size(); at += kWords) {
-        const uint32_t* from = &all[rank][at];
-        made[rank].madeVertices.push_back(from[0]);
-        made[rank].madeVertexKinds.push_back(uint8_t(from[1]));
-        for (size_t k = 2; k < kWords; ++k) made[rank].madeVertexParents.push_back(int32_t(from[k]));
-      }
-      parts.push_back(&made[rank]);
-    }
-    joinMade(parts, common.mesh);
-    common.stats.madeVertices = uint32_t(common.mesh.madeVertices.size());
   }
 
   NumberedPart numberedPart() const {
