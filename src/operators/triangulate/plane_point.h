@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "base/shared.h"
+
 namespace mandoline::operators {
 
 struct PlanePoint {
@@ -11,7 +13,7 @@ struct PlanePoint {
 };
 
 /// Twice the triangle's area, rounded, but with its exact sign.
-double exactOrientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c);
+MANDOLINE_SHARED double exactOrientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c);
 
 /// Twice the triangle's area with an exact sign; positive when a, b, c turn counter-clockwise.
 inline double orientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/shared.h"
 #include "operators/triangulate/ear_clipper.h"
 #include "operators/triangulate/loop_joiner.h"
 
@@ -19,7 +20,7 @@ namespace mandoline::operators {
 
 /// Takes one polygon at a time, corner by corner: its outer loop counter-clockwise, then its holes clockwise. Corners of one vertex are at
 /// the same place. The buffers are kept from polygon to polygon.
-class PolygonTriangulator {
+class MANDOLINE_SHARED PolygonTriangulator {
  public:
   void startLoop();
   void addCorner(uint32_t vertex, const PlanePoint& at);
