@@ -304,7 +304,8 @@ export const physicsCalls = {
    * The cells as a polyMesh of OpenFOAM: the files of the folder constant/polyMesh by their names. Patches are xMin ... zMax, `surface` (a
    * wall), which has both sides of the input's triangles, or with groups a wall for each of them, and `inner` where only one of two
    * neighbours is written. Of merged cells, faces that are only as wide as rounding makes them are collapsed, walls in a plane with the
-   * centroid of a cell beside them are moved off it by little more than that, and cells that have walls alone around them are left out.
+   * centroid of a cell beside them are moved off it by little more than that, cells that have walls alone around them are left out, and
+   * faces of the grid that their own centre does not see as a whole, or no vertex does, are divided.
    * Errors as in writeCells().
    *
    * writePolyMesh(cutMesh: CutMeshArrays, cells: CellComplex, options?: WritePolyMeshOptions): PolyMeshFiles
