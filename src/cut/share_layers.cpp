@@ -19,9 +19,8 @@ uint64_t areaOf(const Slab& a, const Slab& b, const Slab& c) {
 std::optional<size_t> innerOf(const Prepared& mesh, TriangleId t) {
   if (!mesh.hasIntersections()) return {};
   const Arrangement& arrangement = *mesh.arrangement;
-  const size_t inner = arrangement.innerVertices[t.number].size() + arrangement.innerEdges[t.number].size();
-  if (inner == 0 && arrangement.overlaps[t.number].empty()) return {};
-  return inner;
+  if (!arrangement.isReachedInto(t.number)) return {};
+  return arrangement.innerVertices[t.number].size() + arrangement.innerEdges[t.number].size();
 }
 
 /// Divides layers among shares. `before`: the work before each layer, and in all.

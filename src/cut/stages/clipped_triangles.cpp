@@ -132,9 +132,9 @@ class WholeDicer {
   bool dice(TriangleId triangle) {
     if (!input_.mesh->hasIntersections()) return false;
     const Arrangement& arrangement = *input_.mesh->arrangement;
+    if (!arrangement.isReachedInto(triangle.number)) return false;
     const auto vertices = arrangement.innerVertices[triangle.number];
     const bool overlaps = !arrangement.overlaps[triangle.number].empty();  // its faces are told apart by how they are connected
-    if (vertices.empty() && arrangement.innerEdges[triangle.number].empty() && !overlaps) return false;
     triangle_ = triangle;
     onLines_.clear();
     const auto add = [&](VertexId v) {

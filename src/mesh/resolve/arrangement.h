@@ -42,6 +42,11 @@ struct Arrangement {
   /// Whether the only triangles that meet are duplicates.
   bool empty() const { return pairs.total() == pairs.identical; }
   const MadeEdge* findMade(uint32_t low, uint32_t high) const;
+
+  /// Whether others reach into a triangle or share an area of its plane.
+  bool isReachedInto(uint32_t triangle) const {
+    return !innerVertices[triangle].empty() || !innerEdges[triangle].empty() || !overlaps[triangle].empty();
+  }
 };
 
 /// How many connected curves edges between vertices below `vertices` make.
