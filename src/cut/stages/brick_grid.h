@@ -223,13 +223,14 @@ class BrickGrid {
     slabs_.insert(slabs_.end(), 2, 2 * counts[2]);
   }
 
-  std::vector<int32_t> layers_;  // the first of each brick along z, and where the last ends
-  std::vector<int32_t> slabs_;   // see slabAt()
   /// Of bricks.
   static size_t countFor(const Input& input, const std::array<int, 3>& shifts) {
     const auto along = [&](int axis) { return size_t((input.cells(axis) - 1) >> shifts[size_t(axis)]) + 1; };
     return along(0) * along(1) * along(2);
   }
+
+  std::vector<int32_t> layers_;  // the first of each brick along z, and where the last ends
+  std::vector<int32_t> slabs_;   // see slabAt()
 };
 
 }  // namespace mandoline::detail
