@@ -15,6 +15,9 @@ std::function<bool(const Progress&)> progressOf(const val& options);
 std::function<bool(const Progress&)> progressBetween(const val& options, size_t before, int after);
 RunOptions runOptions(const val& options);
 
+/// `copy`: as in toArray().
+template <class Struct>
+val toObject(const Struct& value, const val& copy);
 template <class Struct>
 val toObject(const Struct& value);
 template <>
@@ -68,6 +71,8 @@ class ObjectWriter {
       setText(key, field);
     } else if constexpr (requires { std::tuple_size<Field>::value; }) {
       set(key, toTriple(field));
+    } else if constexpr (requires { Field::fields(field, *this); }) {
+      set(key, toObject(field, copy_));
     } else {
       set(key, toObject(field));
     }
@@ -139,7 +144,6 @@ class ObjectReader {
   const val& object_;
 };
 
-/// `copy`: as in toArray(), for the arrays of the struct itself.
 template <class Struct>
 val toObject(const Struct& value, const val& copy) {
   val result = val::object();

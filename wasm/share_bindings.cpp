@@ -56,13 +56,7 @@ val keepPart(KeptShare& kept, const val& summaries, const val& options) {
 }
 
 val makePart(KeptShare& kept, const val& summaries, const val& options) {
-  return guarded([&] {
-    const CutPart part = partOf(kept, summaries, options);
-    return success(object({{"cutMesh", toObject(part.cutMesh, options["copy"])},
-                           {"firstVertices", toArray(part.firstVertices, options["copy"])},
-                           {"triFaces", val(part.triFaces)},
-                           {"exactFallbacks", val(part.exactFallbacks)}}));
-  });
+  return guarded([&] { return success(toObject(partOf(kept, summaries, options), options["copy"])); });
 }
 
 /// The whole of the part that was kept and those of the others.
