@@ -2,6 +2,7 @@
 #include "mandoline/inspect.h"
 
 #include "catch.h"
+#include "refusal.h"
 #include "shapes.h"
 
 using namespace mandoline;
@@ -91,4 +92,13 @@ TEST_CASE("Boxes that share a vertex are two components, and triangles without t
   CHECK(info.triangleComponent[24] == -1);
   CHECK(infoOf(Mesh()).components == 0);
   CHECK_FALSE(infoOf(Mesh()).closed);
+}
+
+TEST_CASE("A mesh that can't be inspected is refused", "[inspect]") {
+  using Refusal = std::pair<Status, int64_t>;
+  const auto inspect = [](const Mesh& mesh) { return refusal([&] { mandoline::inspect(mesh); }); };
+  CHECK(inspect({{0, 0, 0}, {0, 0, 0, 0, 1, 0}}) == Refusal{Status::badIndex, 1});
+  CHECK(inspect({{0, 0}, {}}) == Refusal{Status::badArrays, -1});
+  CHECK(inspect({{0, 0, 0}, {0, 0}}) == Refusal{Status::badArrays, -1});
+  CHECK(inspect({{0, 0, 0}, {0, 0, 0}}) == Refusal{Status::ok, -1});
 }

@@ -183,6 +183,8 @@ std::vector<Point> hilbertCurve(int order) {
 
 Mesh quad(const Point& a, const Point& b, const Point& c, const Point& d) { return fromPoints({a, b, c, d}, {0, 1, 2, 0, 2, 3}); }
 
+Mesh horizontalQuad(double lo, double hi, double z) { return quad({lo, lo, z}, {hi, lo, z}, {hi, hi, z}, {lo, hi, z}); }
+
 Mesh triangle(const Point& a, const Point& b, const Point& c) { return fromPoints({a, b, c}, {0, 1, 2}); }
 
 Mesh sheet(int nx, int ny, const std::function<Point(int, int)>& at) {

@@ -36,6 +36,7 @@ std::vector<Point> hilbertCurve(int order);
 
 // Sheets.
 Mesh quad(const Point& a, const Point& b, const Point& c, const Point& d);  ///< triangles abc, acd
+Mesh horizontalQuad(double lo, double hi, double z);                        ///< [lo, hi]^2 at height z
 Mesh triangle(const Point& a, const Point& b, const Point& c);
 /// A rectangular sheet of nx x ny squares whose vertices lie at at(i, j).
 Mesh sheet(int nx, int ny, const std::function<Point(int, int)>& at);
