@@ -9,28 +9,6 @@ using namespace exact_vectors;
 
 namespace {
 
-/// Groups of vertices that may well tie: on one tri-edge, or in one triangle on one plane.
-std::vector<std::vector<VertexId>> alignedVertices(const Cut& cut) {
-  std::vector<std::vector<VertexId>> groups;
-  for (const FaceId f : cut.faces.ids()) groups.push_back({cut.faces.loopsOf(f)[0].begin(), cut.faces.loopsOf(f)[0].end()});
-  for (const TriEdgeId e : cut.edges.ends.ids()) {
-    groups.push_back({cut.edges.ends[e].begin(), cut.edges.ends[e].end()});
-    for (const VertexId v : cut.vertices.crossings(e)) {
-      if (cut.vertices.isUsed(v)) groups.back().push_back(v);
-    }
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const FaceEdge& first : cut.brick.faceEdges) {
-      if (!onPlane(first.element[axis])) continue;
-      groups.emplace_back();
-      for (const FaceEdge& e : cut.brick.faceEdges) {
-        if (e.element == first.element) groups.back().insert(groups.back().end(), {e.from, e.to});
-      }
-    }
-  }
-  return groups;
-}
-
 /// The number beside a plane, toward another: next to 0, what is not taken as 0 when it is read again.
 double beside(double plane, double toward) {
   return plane == 0 ? std::copysign(std::min(0x1p-80, std::fabs(toward) / 2), toward) : std::nextafter(plane, toward);
