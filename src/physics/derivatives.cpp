@@ -95,18 +95,20 @@ bool Differentiator::isBetweenEqual(size_t edge) const {
 }
 
 /// Between grid cells plain derivatives are of second order already, and so they are between larger cells of one size; but of these each
-/// makes a larger error.
+/// makes a larger error. Polynomials of cut-cells that are slivers beside a larger cell may not converge.
 bool Differentiator::isCorrected(size_t edge) const {
+  constexpr double kSliver = 0.01;  // of the larger cell's volume; merged cells have more
   const DualEdge& e = dual_.edges[edge];
-  bool isCut = e.cell < cells_.cutCells, isLarger = false, areOthersCut = false;
+  bool isCut = e.cell < cells_.cutCells, isLarger = false, areOthersCut = false, areSlivers = false;
   if (jumps(e.cell)) return false;
   for (const uint32_t f : dual_.faces[edge]) {
     const uint32_t other = otherCell(cells_, e, f);
     if (jumps(other)) return false;
     isLarger |= cells_.cellLevel[e.cell] > cells_.cellLevel[other];
     areOthersCut |= other < cells_.cutCells;
+    areSlivers |= other < cells_.cutCells && !(cells_.cellVolume[other] >= kSliver * cells_.cellVolume[e.cell]);
   }
-  return isLarger ? !areOthersCut : isCut || areOthersCut || isBetweenEqual(edge);
+  return isLarger ? !areSlivers : isCut || areOthersCut || isBetweenEqual(edge);
 }
 
 bool Differentiator::isCorrectedOnBoundary(size_t b) const {
@@ -204,6 +206,18 @@ double Differentiator::addedByThirds(size_t e, const CellFits& fits) const {
   return sum;
 }
 
+/// What the polynomials leave of a difference of phi is that of a gradient as small as can be, so the normal has the square of their cosine
+/// of it; at least as much as between grid cells that touch at a corner. Between merged cells alone: others may be slivers, which plain
+/// derivatives hold.
+static double shareOfNormal(const CellComplex& cells, size_t a, size_t b, const Places& at) {
+  constexpr double kLeast = 1.0 / 3, kStraight = 0.99, kSliver = 0.1;
+  const auto [smaller, larger] = std::minmax(cells.cellVolume[a], cells.cellVolume[b]);
+  if (cells.cellMemberOffsets.empty() || !(smaller >= kSliver * larger)) return 1;
+  const Point step = differenceOf(at.to, at.from);
+  const double along = dot(step, at.normal), square = dot(step, step), share = square > 0 ? along * along / square : 1;
+  return share < kStraight ? std::max(share, kLeast) : 1;
+}
+
 double Differentiator::correctionOf(size_t e, size_t f, const CellFits& fits, const std::vector<double>& phi) const {
   const std::vector<double>& points = pointsOf(cells_, problem_.dualPoints);
   const DualEdge& edge = dual_.edges[e];
@@ -216,7 +230,8 @@ double Differentiator::correctionOf(size_t e, size_t f, const CellFits& fits, co
   if (areCubic) at.spread = spreadOf(cells_, f);
   const Said a = saidOf(cells_, fits, edge.cell, at), b = saidOf(cells_, fits, other, at);
   const double left = phi[other] - phi[edge.cell] - plain - (a.difference + b.difference) / 2;
-  return edge.sign * ((a.derivative + b.derivative) / 2 + left / edge.distance + added);
+  const double share = dual_.faces[e].size() == 1 ? shareOfNormal(cells_, edge.cell, other, at) : 1;
+  return edge.sign * ((a.derivative + b.derivative) / 2 + (share * left - (1 - share) * plain) / edge.distance + added);
 }
 
 double Differentiator::correctionOnBoundary(size_t b, const CellFits& fits) const {

@@ -19,10 +19,11 @@ class MANDOLINE_SHARED Differentiator {
   double squareOfPlain(const std::vector<double>& phi, unsigned threads) const;
 
   /// What is added to some of those for second order, from polynomials fitted in the cells on both sides: such a derivative is that of the
-  /// polynomials in the mean on the face, and what they leave of the difference of phi, over the distance. In octree cells larger than grid
-  /// cells, and in those beside larger ones but not beside cut-cells, they are of degree three, without coefficients; with them they are of
-  /// degree two everywhere, and between octree cells of one size what third derivatives add is found from how second ones change. Nothing
-  /// is added where a cell meets smaller ones that are cut, since that need not converge; nor beside cells where the coefficient jumps.
+  /// polynomials in the mean on the face, and what they leave of the difference of phi, over the distance; where the line between two
+  /// merged cells is oblique to their face, less of that. In octree cells larger than grid cells, and in those beside larger ones but not
+  /// beside cut-cells, polynomials are of degree three, without coefficients; with them they are of degree two everywhere, and between
+  /// octree cells of one size what third derivatives add is found from how second ones change. Nothing is added where a cell meets smaller
+  /// ones of which some are slivers, since that need not converge; nor beside cells where the coefficient jumps.
   std::vector<double> corrections(CellFitter& fitter, const std::vector<double>& phi, detail::Monitor& monitor) const;
   CellFitter fitter(detail::Monitor& monitor) const;
 

@@ -31,6 +31,18 @@ Solution solved(const CellComplex& cells, const PoissonProblem& problem, int cor
   return solution;
 }
 
+/// The largest error of a derivative between two cells.
+double faceError(const CellComplex& cells, const Solution& solution) {
+  double error = 0;
+  for (size_t f = 0; f < cells.faceCount(); ++f) {
+    const bool isInner = cells.faceTag[f] == FaceTag::inner && std::min(cells.faceCells[2 * f], cells.faceCells[2 * f + 1]) >= 0;
+    if (!isInner || !(cells.faceArea[f] > 0)) continue;
+    const double exact = dot(wavesGradient(&cells.faceCentroid[3 * f]), cells.faceNormal, f);
+    error = std::max(error, std::fabs(solution.faceDerivative[f] - exact));
+  }
+  return error;
+}
+
 }  // namespace
 
 TEST_CASE("corrections: where phi is held on a ball, it and what flows through it are of second order", "[corrections]") {
@@ -52,6 +64,41 @@ TEST_CASE("corrections: where phi is held on a ball, it and what flows through i
       CHECK(std::log2(errors[0][1] / errors[1][1]) >= (way.isCoarsened ? 0.5 : 1));
     }
   }
+}
+
+TEST_CASE("corrections: merged cells beside larger ones are of second order, too", "[corrections]") {
+  const CellComplex cells = ballCells({true, true}, 24);
+  const auto isBesideLarger = [&](size_t f) {
+    const int32_t a = cells.faceCells[2 * f], b = cells.faceCells[2 * f + 1];
+    if (std::min(a, b) < 0 || cells.cellLevel[size_t(a)] == cells.cellLevel[size_t(b)]) return false;
+    return std::min(a, b) < int32_t(cells.cutCells);
+  };
+  size_t count = 0;
+  for (size_t f = 0; f < cells.faceCount(); ++f) count += isBesideLarger(f);
+  REQUIRE(count > 0);
+  const PoissonProblem problem = heldProblem(cells, DualPoints::centroids);
+  const Solution solution = solved(cells, problem);
+  CHECK(wavesErrors(cells, problem, solution)[0] <= 2e-4);
+  CHECK(faceError(cells, solution) <= 5e-3);
+}
+
+TEST_CASE("corrections: of octree cells beside cut-cells as thick as they are, most are of second order, too", "[corrections]") {
+  const Mesh mesh = shapes::icosphere({0.1, 0.05, -0.02}, 0.6, 4);
+  const CellComplex cells = complexOf(mesh, Grid::box({-1, -1, -1}, {1, 1, 1}, {24, 24, 24}), 24);
+  const PoissonProblem problem = heldProblem(cells, DualPoints::centroids);
+  const Solution solution = solved(cells, problem);
+  double error = 0, area = 0;
+  for (size_t f = 0; f < cells.faceCount(); ++f) {
+    if (cells.faceTag[f] != FaceTag::inner || std::min(cells.faceCells[2 * f], cells.faceCells[2 * f + 1]) < 0) continue;
+    const double exact = dot(wavesGradient(&cells.faceCentroid[3 * f]), cells.faceNormal, f);
+    error += cells.faceArea[f] * std::fabs(solution.faceDerivative[f] - exact), area += cells.faceArea[f];
+  }
+  CHECK(error <= 1e-3 * area);
+}
+
+TEST_CASE("corrections: faces at the corners of merged cells, far from the line between them", "[corrections]") {
+  const CellComplex cells = ballCells({false, true}, 16);
+  CHECK(faceError(cells, solved(cells, heldProblem(cells, DualPoints::centroids))) <= 4e-3);
 }
 
 TEST_CASE("corrections: what flows into a cell balances its source", "[corrections]") {
