@@ -1,5 +1,8 @@
 #include "operators/require_cut_mesh.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "mesh/fingerprints.h"
 
 namespace mandoline::operators {
@@ -32,6 +35,14 @@ void requireCellsOf(const CutMesh& cutMesh, const CellComplex& cells) {
   const bool areFaces = cells.faceMemberOffsets.empty() ? cells.cutFaces == cutFaces : cells.cutFaces <= cutFaces;
   const bool areAll = areCells && areFaces && cells.cutVertices == cutMesh.vertexCount();
   if (!areAll || !detail::mayBeSame(cells.madeFrom, cutMesh.fingerprint)) refuseCells();
+}
+
+void requireLengths(const CellComplex& cells) {
+  constexpr double kSmallest = 1e-70, kLargest = 1e70;
+  double size = 0;
+  for (size_t i = 3; i < cells.positions.size(); ++i) size = std::max(size, std::fabs(cells.positions[i] - cells.positions[i % 3]));
+  if (size == 0 || (size >= kSmallest && size <= kLargest)) return;
+  refuse("The cells must be between 1e-70 and 1e70 in size, the range in which doubles can compute on them.");
 }
 
 }  // namespace mandoline::operators

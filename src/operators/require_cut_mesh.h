@@ -31,4 +31,7 @@ MANDOLINE_SHARED [[noreturn]] void refuseCells();
 /// or fewer, if cells or faces have members.
 MANDOLINE_SHARED void requireCellsOf(const CutMesh& cutMesh, const CellComplex& cells);
 
+/// Throws CallError unless products of four lengths, such as a volume times a distance, fit into doubles.
+MANDOLINE_SHARED void requireLengths(const CellComplex& cells);
+
 }  // namespace mandoline::operators

@@ -10,15 +10,6 @@
 namespace mandoline {
 namespace physics {
 
-/// Centroids and normals come from products of four lengths, which have to fit into doubles.
-static void requireLengths(const CellComplex& cells) {
-  constexpr double kSmallest = 1e-70, kLargest = 1e70;
-  double size = 0;
-  for (size_t i = 3; i < cells.positions.size(); ++i) size = std::max(size, std::fabs(cells.positions[i] - cells.positions[i % 3]));
-  if (size == 0 || (size >= kSmallest && size <= kLargest)) return;
-  operators::refuse("The cells must be between 1e-70 and 1e70 in size, the range in which doubles can compute on them.");
-}
-
 /// An empty array is none.
 static void requireCount(size_t count, size_t expected, const char* elements, const char* values) {
   if (count != 0 && count != expected)
@@ -26,7 +17,7 @@ static void requireCount(size_t count, size_t expected, const char* elements, co
 }
 
 void requireProblem(const CellComplex& cells, const PoissonProblem& problem) {
-  requireLengths(cells);
+  operators::requireLengths(cells);
   const Boundary& boundary = problem.boundary;
   requireBoundary(boundary, cells);
   const size_t count = boundary.halfFaces.size(), expected = boundaryOf(cells).halfFaces.size();

@@ -594,3 +594,33 @@ TEST_CASE("merge, unite walls: cancelled at any report", "[merge]") {
     CHECK(isCancelled(WallOptions(), reports, [&](const WallOptions& options) { uniteWalls(result.mesh, before, options); }));
   }
 }
+
+TEST_CASE("Merging: large and tiny cells are merged as others are, and those that doubles can't compute on are refused", "[merge]") {
+  const auto scaled = [](int exponent) {
+    Mesh mesh = shapes::icosphere({0.1, 0.2, 0.3}, 1, 2);
+    for (double& x : mesh.positions) x = std::ldexp(x, exponent);
+    const double end = std::ldexp(1.5, exponent);
+    CutMesh cutMesh = cut(mesh, Grid::box({-end, -end, -end}, {end, end, end}, {6, 6, 6})).mesh;
+    CellComplex cells = complexOf(mesh, cutMesh);
+    return std::pair(std::move(cutMesh), std::move(cells));
+  };
+  const auto merged = [&](int exponent) {
+    const auto cells = scaled(exponent);
+    return mergeSmallCells(cells.first, cells.second);
+  };
+  const MergedCells plain = merged(0);
+  for (const int exponent : {-230, 230}) {
+    CAPTURE(exponent);
+    const MergedCells other = merged(exponent);
+    CHECK(other.mergedCell == plain.mergedCell);
+    std::vector<double> centroids = other.cells.cellCentroid;
+    for (double& x : centroids) x = std::ldexp(x, -exponent);
+    CHECK(centroids == plain.cells.cellCentroid);
+  }
+  for (const int exponent : {-330, 330}) {
+    CAPTURE(exponent);
+    const auto cells = scaled(exponent);
+    CHECK(refusal([&] { mergeSmallCells(cells.first, cells.second); }).first == Status::badArgument);
+    CHECK(refusal([&] { uniteWalls(cells.first, cells.second); }).first == Status::badArgument);
+  }
+}

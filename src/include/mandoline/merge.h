@@ -44,7 +44,8 @@ struct MergedCells {
 /// solveFlow() correct it: errors are those of cells that are not merged, or smaller.
 ///
 /// The result is the same to the bit for any number of threads. Throws CallError if the fraction is out of range (badOption), if the cells
-/// are not all of the cut-mesh's, or are merged already (badArgument), or if cancelled.
+/// are not all of the cut-mesh's, are merged already, or together are smaller than 1e-70 or larger than 1e70 (badArgument), or if
+/// cancelled.
 MergedCells mergeSmallCells(const CutMesh& cutMesh, const CellComplex& cells, const MergeOptions& options = {});
 
 struct WallOptions : RunOptions {
@@ -62,7 +63,8 @@ struct WallOptions : RunOptions {
 /// the loop would change the volume of a cell by more than a tenth, the angle is halved for its pieces, or they stay as they are.
 ///
 /// The result is the same to the bit for any number of threads. Throws CallError if the angle is out of range (badOption), if the cells are
-/// not all of the cut-mesh's or the groups not those of its triangles (badArgument), or if cancelled.
+/// not all of the cut-mesh's, or together are smaller than 1e-70 or larger than 1e70, or the groups not those of its triangles
+/// (badArgument), or if cancelled.
 CellComplex uniteWalls(const CutMesh& cutMesh, const CellComplex& cells, const WallOptions& options = {});
 
 }  // namespace mandoline

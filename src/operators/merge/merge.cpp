@@ -142,6 +142,7 @@ void requireUnmerged(const CutMesh& cutMesh, const CellComplex& cells) {
   operators::requireNotEmpty(cutMesh);
   operators::requireCellsOf(cutMesh, cells);
   if (!cells.cellMemberOffsets.empty()) operators::refuse("The cells are merged already.");
+  operators::requireLengths(cells);
   for (size_t i = 0; i < cells.cellCorner.size(); ++i) {
     if (cells.cellCorner[i] < 0 || cells.cellCorner[i] >= cutMesh.grid.cells(int(i % 3))) operators::refuseCells();
   }

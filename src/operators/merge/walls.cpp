@@ -129,6 +129,7 @@ CellComplex uniteWalls(const CutMesh& cutMesh, const CellComplex& cells, const W
     throw CallError({Status::badOption, -1, -1, "The angle has to be from 0 to 90 degrees."});
   operators::requireNotEmpty(cutMesh);
   operators::requireCellsOf(cutMesh, cells);
+  operators::requireLengths(cells);
   if (!options.triangleGroup.empty() && options.triangleGroup.size() != cutMesh.triangleCount)
     operators::refuse("There must be a group for each of the " + std::to_string(cutMesh.triangleCount) + " triangles.");
   return detail::runCall("uniting of walls", [&] {

@@ -99,7 +99,7 @@ export const physicsCalls = {
    * Small cut-cells merged with neighbours, so that solvers can take long steps: each cell then has at least `options.fraction` (default
    * 0.2) of the volume of a grid cell, and at most 1.5 of it by default, but for the pockets that the result names. Never across a triangle.
    * `cells` are all of the cut-mesh's. Code "badOption" for a fraction below 0 or above 0.5, "badArgument" if the cells are those of
-   * another cut-mesh, or merged already.
+   * another cut-mesh, or merged already, or together smaller than 1e-70 or larger than 1e70.
    *
    * mergeSmallCells(cutMesh: CutMeshArrays, cells: CellComplex, options?: MergeOptions): MergedCells
    */
@@ -108,7 +108,8 @@ export const physicsCalls = {
    * The same cells with fewer faces: pieces of triangles between the same two cells that hang together, and whose normals are at most
    * `options.angle` (default 30) degrees from that of the first, become one face, which need not be flat and has the sum of their area
    * vectors. Groups stay apart. `cells` are all of the cut-mesh's, merged or not; merge them first. Code "badOption" for an angle below 0
-   * or above 90, "badArgument" if the cells are those of another cut-mesh.
+   * or above 90, "badArgument" if the cells are those of another cut-mesh, or together smaller than 1e-70 or
+   * larger than 1e70.
    *
    * uniteWalls(cutMesh: CutMeshArrays, cells: CellComplex, options?: WallOptions): CellComplex
    */
