@@ -1,11 +1,15 @@
 // Members of JSON objects.
 #pragma once
 
+#include <cmath>
+#include <type_traits>
+
 #include "io/output_buffer.h"
 #include "mandoline/io.h"
 
 namespace mandoline::detail {
 
+/// Numbers that JSON can't hold become null: volumes of huge cells are beyond all doubles.
 template <class Array>
 void writeArray(OutputBuffer& out, const Array& array) {
   char separator = '[';
@@ -13,6 +17,8 @@ void writeArray(OutputBuffer& out, const Array& array) {
     out.character(separator);
     if constexpr (sizeof item == 1) {
       out.number(int(item));  // not a character
+    } else if (std::is_floating_point_v<std::decay_t<decltype(item)>> && !std::isfinite(double(item))) {
+      out.text("null");
     } else {
       out.number(item);
     }

@@ -682,3 +682,12 @@ TEST_CASE("Cells as JSON: with the triangles and groups of faces", "[cellfiles]"
   options.untouched = false;
   CHECK(refusal([&] { jsonOf(cells.cutMesh, cells.complex, options); }).first == Status::badArgument);
 }
+
+TEST_CASE("Cells as JSON: what no double can hold is null", "[cellfiles]") {
+  const Cells cells(shapes::cube(0.5e150, 1.5e150), Grid::box({0, 0, 0}, {2e150, 2e150, 2e150}, {2, 2, 2}), 1);
+  std::string text;
+  writeJson([&](std::string_view piece) { text += piece; }, cells.cutMesh, cells.complex, {});
+  CHECK(text.find("\"cellVolume\":[null,") != std::string::npos);
+  CHECK(text.find("nan") == std::string::npos);
+  CHECK(text.find("inf") == std::string::npos);
+}
