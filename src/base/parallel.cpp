@@ -41,9 +41,14 @@ class Failures {
 
 void runChunks(size_t n, size_t chunks, Monitor& monitor, FunctionRef<void(size_t, size_t, size_t)> f, size_t block) {
   Failures failures;
-  std::atomic<size_t> nextChunk{0}, done{0};
+  std::atomic<size_t> next{0}, done{0};
+  // Threads are far from each other: else they would wait for the same new pages and write to the same cache lines, and one's part of
+  // the items would be another's in the next loop.
+  const size_t parts = monitor.threads(), step = (chunks + parts - 1) / parts;
   monitor.team().run(chunks, [&] {
-    for (size_t c; (c = nextChunk++) < chunks && !failures.isBehind(c);) {
+    for (size_t i; (i = next++) < step * parts;) {
+      const size_t c = i % parts * step + i / parts;
+      if (c >= chunks || failures.isBehind(c)) continue;
       try {
         for (size_t begin = n * c / chunks, end = n * (c + 1) / chunks; begin < end;) {
           const size_t stop = std::min(end, begin + block);

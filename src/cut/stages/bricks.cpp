@@ -116,8 +116,10 @@ class Layout {
   const Surface& surface_;
   const SurfaceParts& parts_;
   const BrickGrid& grid_;
-  KeyNumbers ofParts_, found_;  // bricks of parts and of all else, numbered in the order in which they are found
+  // Bricks of parts and of all else, numbered in the order in which they are found. In cache lines apart: two threads find them.
+  alignas(128) KeyNumbers ofParts_;
   std::vector<uint32_t> bricksOfParts_;
+  alignas(128) KeyNumbers found_;
   std::vector<Given<uint32_t>> givenEdges_;
   std::vector<Given<FaceId>> givenFaces_;
   std::vector<Given<VertexId>> givenVertices_;

@@ -185,22 +185,6 @@ void appendItems(const std::vector<Item>& more, std::vector<Item>& all) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-/// Makes room for what all chunks made.
-void reserve(const std::vector<ClippedChunk>& chunks, ClippedTriangles& all) {
-  const auto make = [&](const auto& arrayOf) {
-    size_t count = 0;
-    for (const ClippedChunk& chunk : chunks) count += arrayOf(chunk.clipped).size();
-    arrayOf(all).reserve(count + 1);
-  };
-  make([](auto& clipped) -> auto& { return clipped.parts; });
-  make([](auto& clipped) -> auto& { return clipped.pieces.offsets; });
-  make([](auto& clipped) -> auto& { return clipped.pieces.items; });
-  make([](auto& clipped) -> auto& { return clipped.hybridEdges; });
-  make([](auto& clipped) -> auto& { return clipped.hybridTriangles; });
-  make([](auto& clipped) -> auto& { return clipped.seamVertices; });
-  make([](auto& clipped) -> auto& { return clipped.seamTriangles; });
-}
-
 /// Appends what all chunks made, each array on one thread.
 class ChunkJoiner {
  public:
@@ -208,12 +192,18 @@ class ChunkJoiner {
       : chunks_(chunks), firstInTriangle_(firstInTriangle), all_(all) {}
 
   void run(Monitor& monitor) {
-    reserve(chunks_, all_);
     const std::function<void()> tasks[] = {[&] { joinParts(); }, [&] { joinPieces(); }, [&] { joinEdges(); }, [&] { joinUndivided(); }};
     runTasks(tasks, monitor);
   }
 
  private:
+  /// Makes room in one of the arrays for what all chunks have in it.
+  template <class ArrayOf>
+  void reserve(const ArrayOf& arrayOf) const {
+    size_t count = 0;
+    for (const ClippedChunk& chunk : chunks_) count += arrayOf(chunk.clipped).size();
+    arrayOf(all_).reserve(count + 1);
+  }
   /// Calls f(chunk, shifted) for all; shifted(v) is a vertex of a chunk's own, or one of the surface, among those of all.
   template <class F>
   void forEach(const F& f) const {
@@ -225,6 +215,7 @@ class ChunkJoiner {
   }
 
   void joinParts() {
+    reserve([](auto& clipped) -> auto& { return clipped.parts; });
     uint32_t pieces = 0;
     for (const ClippedChunk& of : chunks_) {
       for (const auto& [brick, triangle, piece] : of.clipped.parts)
@@ -233,11 +224,17 @@ class ChunkJoiner {
     }
   }
   void joinPieces() {
+    reserve([](auto& clipped) -> auto& { return clipped.pieces.offsets; });
+    reserve([](auto& clipped) -> auto& { return clipped.pieces.items; });
     forEach([&](const ClippedTriangles& chunk, const auto& shifted) {
       all_.pieces.append(chunk.pieces, [&](const Corner& c) { return Corner{shifted(c.id), c.slab}; });
     });
   }
   void joinEdges() {
+    reserve([](auto& clipped) -> auto& { return clipped.hybridEdges; });
+    reserve([](auto& clipped) -> auto& { return clipped.hybridTriangles; });
+    reserve([](auto& clipped) -> auto& { return clipped.seamVertices; });
+    reserve([](auto& clipped) -> auto& { return clipped.seamTriangles; });
     forEach([&](const ClippedTriangles& chunk, const auto& shifted) {
       appendEdges(chunk.hybridEdges, shifted, all_.hybridEdges);
       appendItems(chunk.hybridTriangles, all_.hybridTriangles);

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "base/run_tasks.h"
+
 namespace mandoline::detail {
 namespace {
 
@@ -111,23 +113,28 @@ class CrossingLayout {
  public:
   CrossingLayout(Surface& surface, const KnownCrossings* known) : surface_(surface), vertices_(surface.vertices), known_(known) {}
 
-  void run(Monitor& monitor) {
+  /// How many there are; which ids they have is found next.
+  void count(Monitor& monitor) {
     const size_t edges = surface_.edges().ends.size();
     vertices_.crossingOffsets.resize(edges + 1);
-    const auto chunks = forChunks<Chunk>(edges, monitor, [&](Chunk& chunk, size_t begin, size_t end) {
+    chunks_ = forChunks<Chunk>(edges, monitor, [&](Chunk& chunk, size_t begin, size_t end) {
       layOut({uint32_t(begin)}, {uint32_t(end)}, chunk);
       chunk.past = end;
     });
     uint64_t total = surface_.input.slabs.size();
-    VertexId* const offsets = vertices_.crossingOffsets.data();
-    size_t e = 0;
-    for (const Chunk& chunk : chunks) {
-      for (; e < chunk.past; ++e) offsets[e].number += uint32_t(total);
-      total += chunk.crossings;
+    for (const Chunk& chunk : chunks_) total += chunk.crossings;
+    requireFewVertices(total);
+    vertices_.firstInTriangle = {uint32_t(total)};
+  }
+  void number() {
+    uint32_t before = uint32_t(surface_.input.slabs.size());
+    VertexId* offset = vertices_.crossingOffsets.data();
+    for (const Chunk& chunk : chunks_) {
+      for (VertexId* const past = vertices_.crossingOffsets.data() + chunk.past; offset < past; ++offset) offset->number += before;
+      before += uint32_t(chunk.crossings);
       surface_.inPlane.insert(surface_.inPlane.end(), chunk.inPlane.begin(), chunk.inPlane.end());
     }
-    requireFewVertices(total);
-    offsets[edges] = vertices_.firstInTriangle = {uint32_t(total)};
+    *offset = vertices_.firstInTriangle;
   }
 
  private:
@@ -182,6 +189,7 @@ class CrossingLayout {
   Surface& surface_;
   CutVertices& vertices_;
   const KnownCrossings* known_;
+  std::vector<Chunk> chunks_;
 };
 
 void cutEdge(TriEdgeId e, Surface& surface, bool onlyGeneral, Predicates& predicates) {
@@ -307,11 +315,18 @@ void cutTriEdges(Surface& surface, Run& run, const KnownCrossings* known) {
   vertices.input = &input;
   vertices.edges = &surface.edges();
   vertices.firstOnEdge = {uint32_t(input.slabs.size())};
-  CrossingLayout(surface, known).run(run.monitor);
-  vertices.slabs.reserve(vertices.firstInTriangle.number + vertices.firstInTriangle.number / 16);  // and for those on seams
-  vertices.slabs.assign(input.slabs.begin(), input.slabs.end());
-  vertices.slabs.resize(vertices.firstInTriangle.number);
-  vertices.parentEdges.resize(vertices.firstInTriangle.number - input.slabs.size());
+  CrossingLayout layout(surface, known);
+  layout.count(run.monitor);
+  const auto makeSlabs = [&] {
+    vertices.slabs.reserve(vertices.firstInTriangle.number + vertices.firstInTriangle.number / 16);  // and for those on seams
+    vertices.slabs.assign(input.slabs.begin(), input.slabs.end());
+    vertices.slabs.resize(vertices.firstInTriangle.number);
+  };
+  const auto numberRest = [&] {
+    layout.number();
+    vertices.parentEdges.resize(vertices.firstInTriangle.number - input.slabs.size());
+  };
+  runBoth(makeSlabs, numberRest, run.monitor);
   struct Chunk {
     Predicates predicates;
     bool areOnOne = true;

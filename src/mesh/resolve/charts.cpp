@@ -159,31 +159,40 @@ void ChartFinder::begin(const SortedMesh& mesh) {
   constexpr size_t kMost = 1 << 15;  // triangles of a range
   mesh_ = &mesh;
   charts_.chartOf.resize(mesh.triangles.size());
-  counts_.resize((mesh.triangles.size() + kMost - 1) / kMost);
+  charts_.triangles.items.resize(mesh.triangles.size());
+  ends_.resize((mesh.triangles.size() + kMost - 1) / kMost);
   hasBegun_ = true;
 }
 
 void ChartFinder::help() {
-  if (!hasBegun_ || next_ >= counts_.size()) return;
+  if (!hasBegun_ || next_ >= ends_.size()) return;
   ChartGrower grower(*mesh_);
   const std::span<const Corners> triangles(mesh_->triangles);
-  for (size_t r; (r = next_++) < counts_.size();) {
+  for (size_t r; (r = next_++) < ends_.size();) {
     const std::span<uint32_t> charts = rangeOf(r);
-    counts_[r] = grower.run(triangles.subspan(size_t(charts.data() - charts_.chartOf.data()), charts.size()), charts);
+    const uint32_t first = uint32_t(charts.data() - charts_.chartOf.data());
+    const uint32_t count = grower.run(triangles.subspan(first, charts.size()), charts);
+    uint32_t* const byChart = charts_.triangles.items.data() + first;
+    std::vector<uint32_t>& ends = ends_[r] = std::vector<uint32_t>(count, 0);
+    for (const uint32_t chart : charts) ++ends[chart];
+    toOffsets(ends);
+    for (uint32_t t = 0; t < charts.size(); ++t) byChart[ends[charts[t]]++] = first + t;
   }
 }
 
 Charts ChartFinder::take() {
-  for (size_t r = 0; r < counts_.size(); ++r) {
-    for (uint32_t& chart : rangeOf(r)) chart += uint32_t(charts_.count);
-    charts_.count += counts_[r];
+  for (size_t r = 0; r < ends_.size(); ++r) {
+    const std::span<uint32_t> charts = rangeOf(r);
+    for (uint32_t& chart : charts) chart += uint32_t(charts_.count);
+    for (const uint32_t end : ends_[r]) charts_.triangles.offsets.push_back(uint32_t(charts.data() - charts_.chartOf.data()) + end);
+    charts_.count += ends_[r].size();
   }
   return std::move(charts_);
 }
 
 std::span<uint32_t> ChartFinder::rangeOf(size_t r) {
-  const size_t triangles = charts_.chartOf.size(), first = triangles * r / counts_.size();
-  return std::span(charts_.chartOf).subspan(first, triangles * (r + 1) / counts_.size() - first);
+  const size_t triangles = charts_.chartOf.size(), first = triangles * r / ends_.size();
+  return std::span(charts_.chartOf).subspan(first, triangles * (r + 1) / ends_.size() - first);
 }
 
 Charts findCharts(const SortedMesh& mesh, Monitor& monitor) {

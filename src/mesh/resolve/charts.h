@@ -10,6 +10,7 @@
 #include <atomic>
 #include <span>
 
+#include "base/csr.h"
 #include "base/parallel.h"
 #include "mesh/resolve/sorted_mesh.h"
 
@@ -18,6 +19,7 @@ namespace mandoline::detail {
 struct Charts {
   size_t count;
   std::vector<uint32_t> chartOf;  ///< each triangle; numbered in the order of their first ones
+  Csr<uint32_t> triangles;        ///< of each chart, ascending
 };
 
 /// Finds charts on several threads. Two triangles of one have nothing in common but shared vertices and whole shared sides. They end with
@@ -36,8 +38,8 @@ class ChartFinder {
   std::span<uint32_t> rangeOf(size_t r);
 
   const SortedMesh* mesh_ = nullptr;
-  Charts charts_{0, {}};
-  std::vector<uint32_t> counts_;  // of charts, per range
+  Charts charts_{0, {}, {}};
+  std::vector<std::vector<uint32_t>> ends_;  // per range: where the triangles of each chart end
   std::atomic<size_t> next_{0};
   std::atomic<bool> hasBegun_{false};
 };

@@ -175,7 +175,7 @@ bool PairTest::meet(uint32_t s, uint32_t t) {
 }
 
 NearTriangles::NearTriangles(SortedMesh sorted, const Charts& charts, Monitor& monitor)
-    : mesh(std::move(sorted)), tree(mesh, charts.chartOf, charts.count, monitor), leaves(tree.overlappingLeaves(monitor)) {}
+    : mesh(std::move(sorted)), tree(mesh, charts.chartOf, charts.triangles, monitor), leaves(tree.overlappingLeaves(monitor)) {}
 
 NearTriangles findNear(SortedMesh mesh, Monitor& monitor) {
   const Charts charts = findCharts(mesh, monitor);

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "base/csr.h"
-
 namespace mandoline::detail {
 
 namespace {
@@ -24,11 +22,10 @@ LooseBox boxOf(const SortedMesh& mesh, size_t triangle) {
 
 }  // namespace
 
-TriangleTree::TriangleTree(const SortedMesh& mesh, const std::vector<uint32_t>& groupOf, size_t groups, Monitor& monitor) {
+TriangleTree::TriangleTree(const SortedMesh& mesh, const std::vector<uint32_t>& groupOf, const Csr<uint32_t>& byGroup, Monitor& monitor)
+    : starts_(byGroup.offsets) {
   constexpr size_t kBlock = 1 << 13;  // triangles that are worth a thread
   const size_t triangles = mesh.triangles.size();
-  Csr<uint32_t> byGroup = groupBy<uint32_t>(
-      groups, triangles, [&](size_t t) { return groupOf[t]; }, [](size_t t) { return uint32_t(t); });
   items_.resize(triangles);
   runChunks(
       triangles, chunkCount(triangles, monitor, kBlock), monitor,
@@ -39,7 +36,6 @@ TriangleTree::TriangleTree(const SortedMesh& mesh, const std::vector<uint32_t>& 
         }
       },
       kBlock);
-  starts_ = std::move(byGroup.offsets);
   nodes_.reserve(triangles / 4 + 1);
   if (triangles > 0) addNode(0, uint32_t(triangles));
 }

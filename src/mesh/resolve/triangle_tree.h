@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/box_tree.h"
+#include "base/csr.h"
 #include "base/large_array.h"
 #include "base/parallel.h"
 #include "mesh/resolve/sorted_mesh.h"
@@ -22,8 +23,8 @@ inline Box boxOf(const WeldedMesh& mesh, uint32_t triangle) {
 /// order. Pairs within a group are of no interest.
 class TriangleTree {
  public:
-  /// `groupOf` each triangle is from 0 to groups - 1.
-  TriangleTree(const SortedMesh& mesh, const std::vector<uint32_t>& groupOf, size_t groups, Monitor& monitor);
+  /// `groupOf` each triangle, `byGroup` the triangles of each, ascending.
+  TriangleTree(const SortedMesh& mesh, const std::vector<uint32_t>& groupOf, const Csr<uint32_t>& byGroup, Monitor& monitor);
 
   /// Pairs of leaves, or a leaf twice, that hold all pairs of triangles in different groups whose boxes overlap.
   using LeafPair = std::array<uint32_t, 2>;
