@@ -95,10 +95,11 @@ bool Differentiator::isBetweenEqual(size_t edge) const {
 }
 
 /// Between grid cells plain derivatives are of second order already, and so they are between larger cells of one size; but of these each
-/// makes a larger error. Polynomials of cut-cells that are slivers beside a larger cell may not converge.
+/// makes a larger error. Beside a larger cell, corrections of cut-cells that are not merged need not converge, nor those of slivers.
 bool Differentiator::isCorrected(size_t edge) const {
   constexpr double kSliver = 0.01;  // of the larger cell's volume; merged cells have more
   const DualEdge& e = dual_.edges[edge];
+  const bool isMerged = !cells_.cellMemberOffsets.empty();
   bool isCut = e.cell < cells_.cutCells, isLarger = false, areOthersCut = false, areSlivers = false;
   if (jumps(e.cell)) return false;
   for (const uint32_t f : dual_.faces[edge]) {
@@ -106,7 +107,8 @@ bool Differentiator::isCorrected(size_t edge) const {
     if (jumps(other)) return false;
     isLarger |= cells_.cellLevel[e.cell] > cells_.cellLevel[other];
     areOthersCut |= other < cells_.cutCells;
-    areSlivers |= other < cells_.cutCells && !(cells_.cellVolume[other] >= kSliver * cells_.cellVolume[e.cell]);
+    const bool isWide = isMerged && cells_.cellVolume[other] >= kSliver * cells_.cellVolume[e.cell];
+    areSlivers |= other < cells_.cutCells && !isWide;
   }
   return isLarger ? !areSlivers : isCut || areOthersCut || isBetweenEqual(edge);
 }

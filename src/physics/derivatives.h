@@ -23,7 +23,7 @@ class MANDOLINE_SHARED Differentiator {
   /// merged cells is oblique to their face, less of that. In octree cells larger than grid cells, and in those beside larger ones but not
   /// beside cut-cells, polynomials are of degree three, without coefficients; with them they are of degree two everywhere, and between
   /// octree cells of one size what third derivatives add is found from how second ones change. Nothing is added where a cell meets smaller
-  /// ones of which some are slivers, since that need not converge; nor beside cells where the coefficient jumps.
+  /// ones of which some are cut and not merged, or slivers, since that need not converge; nor beside cells where the coefficient jumps.
   std::vector<double> corrections(CellFitter& fitter, const std::vector<double>& phi, detail::Monitor& monitor) const;
   CellFitter fitter(detail::Monitor& monitor) const;
 

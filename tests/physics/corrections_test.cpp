@@ -82,20 +82,6 @@ TEST_CASE("corrections: merged cells beside larger ones are of second order, too
   CHECK(faceError(cells, solution) <= 5e-3);
 }
 
-TEST_CASE("corrections: of octree cells beside cut-cells as thick as they are, most are of second order, too", "[corrections]") {
-  const Mesh mesh = shapes::icosphere({0.1, 0.05, -0.02}, 0.6, 4);
-  const CellComplex cells = complexOf(mesh, Grid::box({-1, -1, -1}, {1, 1, 1}, {24, 24, 24}), 24);
-  const PoissonProblem problem = heldProblem(cells, DualPoints::centroids);
-  const Solution solution = solved(cells, problem);
-  double error = 0, area = 0;
-  for (size_t f = 0; f < cells.faceCount(); ++f) {
-    if (cells.faceTag[f] != FaceTag::inner || std::min(cells.faceCells[2 * f], cells.faceCells[2 * f + 1]) < 0) continue;
-    const double exact = dot(wavesGradient(&cells.faceCentroid[3 * f]), cells.faceNormal, f);
-    error += cells.faceArea[f] * std::fabs(solution.faceDerivative[f] - exact), area += cells.faceArea[f];
-  }
-  CHECK(error <= 1e-3 * area);
-}
-
 TEST_CASE("corrections: faces at the corners of merged cells, far from the line between them", "[corrections]") {
   const CellComplex cells = ballCells({false, true}, 16);
   CHECK(faceError(cells, solved(cells, heldProblem(cells, DualPoints::centroids))) <= 4e-3);
