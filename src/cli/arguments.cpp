@@ -258,6 +258,7 @@ class Parser {
     if (makes && a.shape.empty()) throw UsageError("the shape is missing");
     if (!makes && a.mesh.empty()) throw UsageError("the mesh is missing");
     checkGrid(a.grid);
+    if (given_.count("--axis") + given_.count("--normal") > 1) throw UsageError("only one of --axis and --normal");
     if (a.command == Command::slice) checkSlice(a.slice, a.only);
     if (a.faces && a.simpleCells) throw UsageError("--simple-cells does not go with --faces, which writes no cells");
     if (a.command == Command::boundary && a.only.cut) throw UsageError("--only cut: a boundary is that of whole regions");

@@ -198,8 +198,8 @@ Options of all but make
 
 Exit codes: 0 fine; 1 the mesh can't be cut, nothing is left to write, validation failed,
 there is not enough memory, or the flow was not solved, which is written all the same; 2
-wrong usage, or a file can't be read or written; 130 stopped by Ctrl-C (143 by SIGTERM),
-which leaves no unfinished files.
+wrong usage, such as an --only that selects nothing, or a file can't be read or written; 130
+stopped by Ctrl-C (143 by SIGTERM), which leaves no unfinished files.
 )";
 
 }  // namespace mandoline::cli

@@ -183,7 +183,8 @@ void checkFlow(const FlowArguments& flow) {
 }
 
 void checkSlice(const SliceArguments& slice, const OnlyArguments& only) {
-  if (slice.heights.empty() == (slice.layers == 0)) throw UsageError("slice needs --heights or --layers");
+  if (slice.heights.empty() && slice.layers == 0) throw UsageError("slice needs --heights or --layers");
+  if (!slice.heights.empty() && slice.layers != 0) throw UsageError("only one of --heights and --layers");
   if (only.cut) throw UsageError("--only cut: outlines have no cells");
 }
 
