@@ -173,6 +173,16 @@ describe('what is too large or too small to be drawn', () => {
 describe('alerts', () => {
   const alerts = '[data-test=alert]';
 
+  test('of any length leave half of the page free, and can be dismissed', async (t) => {
+    const page = await site.newPage(t);
+    await page.goto(`${site.url}#mesh=${'a'.repeat(4000)}`);
+    await page.locator(alerts).waitFor();
+    const { height } = await page.locator(alerts).boundingBox();
+    assert.ok(height <= page.viewportSize().height / 2, `${height} pixels`);
+    await page.locator(alerts).getByRole('button', { name: 'Dismiss' }).click();
+    await eventually(async () => assert.equal(await page.locator(alerts).count(), 0));
+  });
+
   test('go when the next mesh is shown', async (t) => {
     const page = await site.open(t, start);
     await pick(page, 'empty.obj', '');
