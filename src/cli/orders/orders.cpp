@@ -5,6 +5,7 @@
 #include <ctime>
 #include <iomanip>
 #include <iostream>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
@@ -30,8 +31,9 @@ Solves Poisson's equation on cells and prints as tables of Markdown:
   a linear field on every mesh of FOLDER: its largest error, relative to the field's range
   unknowns, iterations and processor time of the flow about MESH (default: a torus knot), outside of it
   Strouhal number, drag and lift of a cylinder with each N of --cylinder cells to its diameter (default 8), at Re = 100
-Exit code 1 if an order is lower than it has to be from N = 16 to 32, from 32 to 64 or from 16 to 64, or if the cylinder's numbers are
-not those known.
+Exit code 1 if an order is lower than it has to be from N = 16 to 32, from 32 to 64 or from 16 to 64, if derivatives are far worse than
+those of grid cells, if at N = 128 octree cells err more than half as much again or are too many, or if the cylinder's numbers are not
+those known.
 )";
 
 struct Arguments {
@@ -157,7 +159,25 @@ CellComplex cellsOf(const Ball& ball, const Mesh& mesh, const Discretisation& wa
   return ball.isInside ? inside(all) : outside(all);
 }
 
-void printErrors(const Ball& ball, size_t way, const std::vector<int64_t>& cells, Orders& orders) {
+struct Made {
+  size_t cells;
+  Numbers errors;
+};
+
+/// Others are about as near on faces as grid cells at each N: at some N merged cells lie beside larger ones. `isFew`: whether most octree
+/// cells are large at N = 128; they have to be nearly as near, too.
+void compare(const std::string& row, bool isFew, const Made& made, const std::pair<int64_t, Made>& ofGrid, Orders& orders) {
+  const auto& [n, grid] = ofGrid;
+  const std::string at = ", N = " + std::to_string(n) + ", over that of grid cells";
+  orders.require(row + ", " + kMeasuredNames[3] + at, made.errors[3] / grid.errors[3], 0, 2);
+  if (n != 128 || !isFew) return;
+  for (size_t i = 0; i < 4; ++i) orders.require(row + ", " + kMeasuredNames[i] + at, made.errors[i] / grid.errors[i], 0, 1.5);
+  orders.require(row + ", unknowns" + at, double(made.cells) / double(grid.cells), 0, 0.05);
+}
+
+using MadeOfGrids = std::map<int64_t, Made>;  // per N
+
+void printErrors(const Ball& ball, size_t way, const std::vector<int64_t>& cells, Orders& orders, MadeOfGrids& ofGrids) {
   const Discretisation& d = kDiscretisations[way];
   const Mesh mesh = makeSphere(ball.centre, ball.radius, 7);
   Numbers before{}, at16{};
@@ -186,6 +206,9 @@ void printErrors(const Ball& ball, size_t way, const std::vector<int64_t>& cells
       if (n == 64 && at16[i] > 0) orders.ofHalvings(row, {at16[i], errors[i]}, leastOverHalvings(ball, i));
     }
     std::printf("\n");
+    const Made made{mine.cellCount(), errors};
+    const auto ofGrid = ofGrids.try_emplace(n, made).first;  // grid cells come first
+    compare(std::string(ball.title) + ", " + d.name, d.isCoarsened && ball.exact.surfaceStops, made, *ofGrid, orders);
     before = errors, nBefore = n;
     if (n == 16) at16 = errors;
   }
@@ -233,7 +256,8 @@ void printBalls(const std::vector<int64_t>& cells, Orders& orders) {
                                     {2.2, 2.1, 2.2, 1.6, 2.5, 2.6},
                                     {2.8, 2.3, 2.2, 1.6, 2.8, 2.5}}})};
   for (const Ball& ball : balls) {
-    for (size_t way = 0; way < kWays; ++way) printErrors(ball, way, cells, orders);
+    MadeOfGrids ofGrids;
+    for (size_t way = 0; way < kWays; ++way) printErrors(ball, way, cells, orders, ofGrids);
   }
 }
 
