@@ -7,6 +7,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 
 #include "base/shared.h"
@@ -57,6 +58,8 @@ class Scale {
     return 0.0;
   }
   double world(double x) const { return x * inverse_[0] * inverse_[1]; }
+  /// Whether world() rounds none but numbers below kFlushBelow: what is left of them are normal numbers.
+  bool isWorldExact() const { return kFlushBelow * inverse_[0] * inverse_[1] >= std::numeric_limits<double>::min(); }
 
   /// Scaled coordinates of a mesh are below 2^121 and multiples of 2^-133, or 0: degree 7 stays within 2^860 and 2^-931. Planes may be as
   /// much as 2^kRoom larger.

@@ -1,5 +1,8 @@
 #include "mandoline/cut_share.h"
 
+#include <cmath>
+#include <limits>
+
 #include "case_list.h"
 #include "catch.h"
 #include "checked_cut.h"
@@ -45,6 +48,19 @@ TEST_CASE("Shares give the whole cut, to the bit, for any number of them", "[sha
   for (const NamedCase& one : casesAndSoups()) {
     CAPTURE(one.name, one.mesh.triangleCount());
     for (const uint32_t count : {1u, 2u, 3u, 7u}) checkShares(one.mesh, one.grid, count, 1 + count % 3);
+  }
+}
+
+TEST_CASE("Shares give the whole cut where coordinates are subnormal, so that rounding would put vertices onto planes", "[shares]") {
+  const double least = std::numeric_limits<double>::denorm_min();
+  for (NamedCase one : casesAndSoups()) {
+    CAPTURE(one.name, one.mesh.triangleCount());
+    for (double& x : one.mesh.positions) x = std::round(8 * x) * least;
+    for (auto& planes : one.grid.planes) {
+      for (double& x : planes) x = std::round(8 * x) * least;
+    }
+    if (!cut(one.mesh, Grid::rectilinear(one.grid.planes))) continue;  // planes that are one now
+    for (const uint32_t count : {3u, 5u}) checkShares(one.mesh, Grid::rectilinear(one.grid.planes), count);
   }
 }
 

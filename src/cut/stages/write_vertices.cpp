@@ -1,5 +1,8 @@
 #include "cut/stages/write_vertices.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/prefetch.h"
 
 namespace mandoline::detail {
@@ -53,7 +56,13 @@ class VertexWriter {
   using List = std::span<const VertexId>;
 
   VertexWriter(const MeshView& mesh, const Input& input, const KeptVertices& kept, bool onlyGeneral, CutMesh& out)
-      : mesh_(mesh), input_(input), kept_(kept), onlyGeneral_(onlyGeneral), scale_(input.mesh->shift), out_(out) {}
+      : mesh_(mesh),
+        input_(input),
+        kept_(kept),
+        onlyGeneral_(onlyGeneral),
+        scale_(input.mesh->shift),
+        isExact_(scale_.isWorldExact()),
+        out_(out) {}
 
   /// Vertices of the mesh and its edges, ascending. The first one becomes number i.
   void writeOnEdges(const CutVertices& vertices, List list, size_t i, Predicates& predicates) {
@@ -186,7 +195,13 @@ class VertexWriter {
     const Slab& slab = vertices.slab(v);
     if (planeCount(slab) == 3) return writeCoordinates(slab, i, [](size_t) { return 0; });
     const Point p = vertices.position(v, predicates, onlyGeneral_);
-    writeCoordinates(slab, i, [&](size_t d) { return scale_.world(p[d]); });
+    writeCoordinates(slab, i, [&](size_t d) { return isExact_ ? scale_.world(p[d]) : inSlab(scale_.world(p[d]), slab[d], d); });
+  }
+  /// A coordinate that scaling may have rounded onto one of the planes around it, between them again.
+  double inSlab(double x, int32_t slab, size_t d) const {
+    const double low = out_.grid.planes[d][size_t(slab >> 1)], high = out_.grid.planes[d][size_t(slab >> 1) + 1];
+    if (x <= low) return std::min(std::nextafter(low, high), high);
+    return x >= high ? std::max(std::nextafter(high, low), low) : x;
   }
   /// Coordinates that the input has are handed back as they are, even where scaling flushed them; `coordinate(axis)`: others.
   template <class Coordinate>
@@ -200,6 +215,7 @@ class VertexWriter {
   const KeptVertices& kept_;
   const bool onlyGeneral_;  // without the quick ways to positions
   const Scale scale_;
+  const bool isExact_;  // whether scaling back rounds nothing
   CutMesh& out_;
 };
 
