@@ -1,5 +1,7 @@
 #include "mandoline/cut_share.h"
 
+#include <string>
+
 #include "base/large_array.h"
 #include "cut/driver.h"
 #include "cut/share_summary.h"
@@ -76,7 +78,13 @@ struct CutShare::Data {
     try {
       body();
     } catch (Failure& failure) {
-      if (excerpt) excerpt->nameByWhole(failure.error);
+      Error& error = failure.error;
+      if (excerpt) excerpt->nameByWhole(error);
+      if (error.status == Status::selfIntersection && error.message.empty()) {  // no share has all triangles, to look for two that meet
+        error.message = "Triangles meet other than in shared vertices and edges";
+        if (error.element >= 0) error.message += ", at triangle " + std::to_string(error.element) + " or near it";
+        error.message += "; a cut in one process names two.";
+      }
       throw;
     }
   }

@@ -85,6 +85,8 @@ TEST_CASE("A contradiction that a share finds in an excerpt names triangles of t
       ++named;
       CHECK(failure.error.status == Status::selfIntersection);
       CHECK(failure.error.element >= int64_t(below.triangleCount()));
+      CHECK(failure.error.message == "Triangles meet other than in shared vertices and edges, at triangle " +
+                                         std::to_string(failure.error.element) + " or near it; a cut in one process names two.");
     }
   }
   CHECK(named > 0);
