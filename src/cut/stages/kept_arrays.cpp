@@ -27,15 +27,15 @@ class Placer {
 
   void placeCells(const KeptRows& kept) {
     const BrickCounts& total = kept.total;
-    const KeptRuns cells = kept.of(&BrickCounts::cells), halfFaces = kept.of(&BrickCounts::halfFaces);
+    const KeptRuns cells = kept.of(&BrickCounts::cells), halfFaces = kept.of(&BrickCounts::halfFaces), none;
     keep(&CutMesh::cellHalfFaces, [&](std::vector<uint32_t>& items) {
       const uint32_t* const facesNow = kept.facesNow.get();
       halfFaces.place(items, 1, total.halfFaces, [=](std::span<uint32_t> moved, size_t) {
         change(moved, [=](uint32_t h) { return HalfFace({facesNow[HalfFace(h).face().number]}, HalfFace(h).side()).number; });
       });
     });
-    keep(&CutMesh::cellGridCell, [&](std::vector<int32_t>& items) { cells.place(items, 3, total.cells); });
-    keep(&CutMesh::cellRegion, [&](std::vector<uint32_t>& items) { KeptRuns().place(items, 1, total.cells); });  // all are written
+    keepAs(&CutMesh::cellGridCell, cells, 3, total.cells);
+    keepAs(&CutMesh::cellRegion, none, 1, total.cells);  // all are written
     keepOffsets(&CutMesh::cellHalfFaceOffsets, {cells, halfFaces}, total.cells, total.halfFaces);
     run();
   }
@@ -58,19 +58,19 @@ class Placer {
       ofTri.place(items, 1, faceCount);
       fillPieces(items, kept);
     });
-    keep(&CutMesh::facePlane, [&](std::vector<int32_t>& items) { faces.placeAndFill(items, faceCount, 0); });
-    keep(&CutMesh::faceAxis, [&](std::vector<int8_t>& items) { faces.placeAndFill(items, faceCount, int8_t(-1)); });
-    keep(&CutMesh::faceParents, [&](std::vector<uint32_t>& items) { ofParents.place(items, 1, total.parents); });
-    keep(&CutMesh::faceParentSigns, [&](std::vector<int8_t>& items) { ofParents.placeAndFill(items, total.parents, int8_t(1)); });
+    keepAndFill(&CutMesh::facePlane, faces, faceCount, 0);
+    keepAndFill(&CutMesh::faceAxis, faces, faceCount, int8_t(-1));
+    keepAs(&CutMesh::faceParents, ofParents, 1, total.parents);
+    keepAndFill(&CutMesh::faceParentSigns, ofParents, total.parents, int8_t(1));
     run();
     std::fill(out_.faceParentOffsets.begin() + triFaces, out_.faceParentOffsets.end(), total.parents);
   }
   void placeVertices(size_t count, const KeptRuns& kept) {
-    keep(&CutMesh::positions, [&, count](std::vector<double>& items) { kept.place(items, 3, count); });
-    keep(&CutMesh::vertexCell, [&, count](std::vector<int32_t>& items) { kept.place(items, 3, count); });
-    keep(&CutMesh::vertexParents, [&, count](std::vector<int32_t>& items) { kept.place(items, 2, count); });
-    keep(&CutMesh::vertexMask, [&, count](std::vector<uint8_t>& items) { kept.place(items, 1, count); });
-    keep(&CutMesh::vertexTriVertex, [&, count](std::vector<int32_t>& items) { kept.placeAndFill(items, count, -1); });
+    keepAs(&CutMesh::positions, kept, 3, count);
+    keepAs(&CutMesh::vertexCell, kept, 3, count);
+    keepAs(&CutMesh::vertexParents, kept, 2, count);
+    keepAs(&CutMesh::vertexMask, kept, 1, count);
+    keepAndFill(&CutMesh::vertexTriVertex, kept, count, -1);
     run();
   }
 
@@ -90,6 +90,14 @@ class Placer {
   void keep(std::vector<Item> CutMesh::*array, const Place& place) {
     std::vector<Item>& items = out_.*array = std::move(spare_.*array);
     tasks_.push_back([&items, place] { place(items); });
+  }
+  template <class Item>
+  void keepAs(std::vector<Item> CutMesh::*array, const KeptRuns& kept, size_t each, size_t count) {
+    keep(array, [&kept, each, count](std::vector<Item>& items) { kept.place(items, each, count); });
+  }
+  template <class Item>
+  void keepAndFill(std::vector<Item> CutMesh::*array, const KeptRuns& kept, size_t count, Item fill) {
+    keep(array, [&kept, count, fill](std::vector<Item>& items) { kept.placeAndFill(items, count, fill); });
   }
   struct KeptOffsets {
     const KeptRuns &groups, &items;

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <memory>
-#include <numeric>
 #include <span>
 #include <vector>
 
+#include "base/function_ref.h"
 #include "base/large_array.h"
 
 namespace mandoline::detail {
@@ -45,25 +44,11 @@ struct KeptRuns {
   /// Calls then(items, index of a run) for parts of each run once they are there. Things have to be in the order in which they were.
   template <class Item, class Then>
   void place(std::vector<Item>& items, size_t each, size_t count, const Then& then) const {
-    constexpr size_t kPart = 2048;  // things, which are still in the cache when then() is called
     const size_t length = each * count;
     if (items.capacity() < length) items = longer(items, length + length / 8);
     if (items.size() < length) resizeInRoom(items, length);
-    const auto bring = [&](const Run& run, size_t begin) {
-      const size_t part = each * std::min(kPart, run.count - begin);
-      Item* const to = items.data() + each * (run.first + begin);
-      if (run.first != run.before) std::memmove(to, items.data() + each * (run.before + begin), part * sizeof(Item));
-      then(std::span(to, part), size_t(&run - runs.data()));
-    };
-    // What moves down comes to lie only on what such things before it have left, what moves up on what those after it have.
-    for (auto run = runs.begin(); run != runs.end(); ++run) {
-      if (run->first > run->before) continue;
-      for (size_t begin = 0; begin < run->count; begin += kPart) bring(*run, begin);
-    }
-    for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
-      if (run->first <= run->before) continue;
-      for (size_t part = (run->count + kPart - 1) / kPart; part-- > 0;) bring(*run, part * kPart);
-    }
+    move(items.data(), each * sizeof(Item),
+         [&](const Run& part, size_t run) { then(std::span(items.data() + each * part.first, each * part.count), run); });
     items.resize(length);
   }
   template <class Item>
@@ -77,11 +62,11 @@ struct KeptRuns {
     forOthers(0, count, [&](size_t first, size_t past) { std::fill_n(items.data() + first, past - first, fill); });
   }
   /// Per number before the number now, of what is kept; there is nothing at others.
-  std::unique_ptr<uint32_t[]> numbersNow(size_t countBefore) const {
-    std::unique_ptr<uint32_t[]> now(new uint32_t[countBefore]);
-    for (const Run& run : runs) std::iota(now.get() + run.before, now.get() + run.before + run.count, run.first);
-    return now;
-  }
+  std::unique_ptr<uint32_t[]> numbersNow(size_t countBefore) const;
+
+ private:
+  /// Brings what is kept to where it is now, of things of so many bytes each, and calls then(part, index of its run).
+  void move(void* things, size_t bytes, FunctionRef<void(const Run&, size_t)> then) const;
 };
 
 }  // namespace mandoline::detail
