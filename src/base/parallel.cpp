@@ -37,17 +37,44 @@ class Failures {
   std::exception_ptr exception_;
 };
 
+/// Gives threads the numbers below `count`, each once: to each every so many, and once these are gone, those of others. So the same thread
+/// mostly works on the same part of the data in one loop after the other, which is then in its cache, and threads wait for each other less
+/// for new pages and cache lines.
+class Shares {
+ public:
+  Shares(size_t count, size_t threads) : count_(count), next_(std::min(count, threads)) {
+    for (size_t i = 0; i < next_.size(); ++i) next_[i].number = i;
+  }
+
+  /// The next one for a thread, or one that is not below `count`.
+  size_t next(size_t thread) {
+    for (size_t i = 0; i < next_.size(); ++i) {
+      std::atomic<size_t>& next = next_[(thread + i) % next_.size()].number;
+      if (next >= count_) continue;
+      const size_t number = next.fetch_add(next_.size());
+      if (number < count_) return number;
+    }
+    return count_;
+  }
+
+ private:
+  struct alignas(128) Next {  // in a cache line of its own
+    std::atomic<size_t> number;
+  };
+  const size_t count_;
+  std::vector<Next> next_;
+};
+
 }  // namespace
 
 void runChunks(size_t n, size_t chunks, Monitor& monitor, FunctionRef<void(size_t, size_t, size_t)> f, size_t block) {
   Failures failures;
-  std::atomic<size_t> next{0}, done{0};
-  // Threads are far from each other: else they would wait for the same new pages and write to the same cache lines, and one's part of
-  // the items would be another's in the next loop.
-  const size_t parts = monitor.threads(), step = (chunks + parts - 1) / parts;
-  monitor.team().run(chunks, [&] {
-    for (size_t i; (i = next++) < step * parts;) {
-      const size_t c = i % parts * step + i / parts;
+  std::atomic<size_t> done{0};
+  const size_t threads = monitor.threads(), step = (chunks + threads - 1) / threads;  // chunks beside each other are of one thread
+  Shares shares(step * threads, threads);
+  monitor.team().run(chunks, [&](size_t thread) {
+    for (size_t i; (i = shares.next(thread)) < step * threads;) {
+      const size_t c = i % threads * step + i / threads;
       if (c >= chunks || failures.isBehind(c)) continue;
       try {
         for (size_t begin = n * c / chunks, end = n * (c + 1) / chunks; begin < end;) {
@@ -66,10 +93,10 @@ void runChunks(size_t n, size_t chunks, Monitor& monitor, FunctionRef<void(size_
 
 void runItems(const std::vector<uint32_t>& order, Monitor& monitor, FunctionRef<void(size_t, uint32_t)> f) {
   Failures failures;
-  std::atomic<size_t> next{0}, done{0}, nextThread{0};
-  monitor.team().run(order.size(), [&] {
-    const size_t thread = nextThread++;
-    for (size_t i; (i = next++) < order.size();) {
+  std::atomic<size_t> done{0};
+  Shares shares(order.size(), monitor.threads());
+  monitor.team().run(order.size(), [&](size_t thread) {
+    for (size_t i; (i = shares.next(thread)) < order.size();) {
       const uint32_t item = order[i];
       if (failures.isBehind(item)) continue;  // those before the first that failed have yet to show whether they do
       try {

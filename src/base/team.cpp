@@ -17,14 +17,14 @@ namespace mandoline::detail {
 struct Team::Crew {};
 Team::Team(unsigned) : size_(1) {}
 void Team::makeRoomInHeaps() const {}
-void Team::run(size_t, FunctionRef<void()> work) const { work(); }
+void Team::run(size_t, FunctionRef<void(size_t)> work) const { work(0); }
 #else
 /// The other threads.
 struct Team::Crew {
   std::mutex mutex;
   std::condition_variable called, left;
   std::vector<std::thread> threads;
-  const FunctionRef<void()>* work = nullptr;
+  const FunctionRef<void(size_t)>* work = nullptr;
   std::atomic<size_t> wanted{0};  ///< how many more may begin
   std::atomic<size_t> inside{0};  ///< how many are at work
   std::atomic<bool> isOver{false};
@@ -48,11 +48,11 @@ struct Team::Crew {
     for (int i = 0; i < kLooks && !isSo(); ++i) yieldThread();
   }
 
-  void help() {
+  void help(size_t thread) {
     const HeapBegin begin = needsRoom ? makeRoomInNewHeap() : nullptr;
     for (;;) {
       watch([&] { return wanted > 0 || isOver; });
-      const FunctionRef<void()>* mine;
+      const FunctionRef<void(size_t)>* mine;
       {
         std::unique_lock<std::mutex> lock(mutex);
         called.wait(lock, [&] { return isOver || wanted > 0; });
@@ -60,7 +60,7 @@ struct Team::Crew {
         --wanted, ++inside;
         mine = work;
       }
-      (*mine)();
+      (*mine)(thread);
       const std::lock_guard<std::mutex> lock(mutex);
       if (--inside == 0) left.notify_one();
     }
@@ -68,14 +68,14 @@ struct Team::Crew {
 
   void start(size_t count) {
     try {
-      while (canStart && threads.size() < count) threads.emplace_back([this] { help(); });
+      while (canStart && threads.size() < count) threads.emplace_back([this, thread = threads.size() + 1] { help(thread); });
     } catch (const std::exception&) {  // of the system or memory: the existing ones do the work
       canStart = false;
     }
   }
 
-  void run(size_t others, const FunctionRef<void()>& ofAll) {
-    if (isCalled.exchange(true)) return ofAll();
+  void run(size_t others, const FunctionRef<void(size_t)>& ofAll) {
+    if (isCalled.exchange(true)) return ofAll(0);
     start(others);
     {
       const std::lock_guard<std::mutex> lock(mutex);
@@ -83,7 +83,7 @@ struct Team::Crew {
       wanted = others;
     }
     called.notify_all();
-    ofAll();
+    ofAll(0);
     {
       const std::lock_guard<std::mutex> lock(mutex);
       wanted = 0;
@@ -103,8 +103,8 @@ void Team::makeRoomInHeaps() const {
   crew_->start(size_ - 1);
 }
 
-void Team::run(size_t threads, FunctionRef<void()> work) const {
-  if (std::min<size_t>(threads, size_) <= 1) return work();
+void Team::run(size_t threads, FunctionRef<void(size_t)> work) const {
+  if (std::min<size_t>(threads, size_) <= 1) return work(0);
   crew_->run(std::min<size_t>(threads, size_) - 1, work);
 }
 #endif
@@ -113,7 +113,7 @@ Team::~Team() = default;
 
 void runOnParts(size_t parts, unsigned threads, FunctionRef<void(size_t)> work) {
   std::atomic<size_t> next{0};
-  Team(threads).run(parts, [&] {
+  Team(threads).run(parts, [&](size_t) {
     for (size_t part; (part = next++) < parts;) work(part);
   });
 }

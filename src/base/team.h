@@ -24,9 +24,10 @@ class MANDOLINE_SHARED Team {
   unsigned size() const { return size_; }
 #endif
 
-  /// Runs work(), which must not throw, here and on others of at most `threads` of them in all. Once it has returned here there must be
-  /// nothing left to begin: those which have not begun by then are not waited for. A call during another one has none of the others.
-  void run(size_t threads, FunctionRef<void()> work) const;
+  /// Runs work(thread), which must not throw, here, which is thread 0, and on others of at most `threads` of them in all; each has its
+  /// own number below size(). Once it has returned here there must be nothing left to begin: those which have not begun by then are not
+  /// waited for. A call during another one has none of the others.
+  void run(size_t threads, FunctionRef<void(size_t)> work) const;
 
   /// Starts its other threads, which begin by making room in their heaps: see makeRoomInHeap().
   void makeRoomInHeaps() const;

@@ -15,7 +15,7 @@ unsigned threadsFor(size_t nodes, unsigned threads) {
 void forBlocks(size_t nodes, const detail::Team& team, detail::FunctionRef<void(size_t, size_t)> f) {
   const size_t blocks = blockCount(nodes);
   std::atomic<size_t> next{0};
-  team.run(threadsFor(nodes, team.size()), [&] {
+  team.run(threadsFor(nodes, team.size()), [&](size_t) {
     for (size_t block; (block = next++) < blocks;) f(kBlock * block, std::min(kBlock * (block + 1), nodes));
   });
 }

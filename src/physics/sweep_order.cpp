@@ -49,7 +49,7 @@ void SweepOrder::run(const Sides& sides, const detail::Team& team, detail::Funct
   for (size_t k = 0; k < blocks; ++k) {
     if (sides.before[at(k)].empty()) ready[made++] = at(k);
   }
-  team.run(threads, [&] {
+  team.run(threads, [&](size_t) {
     for (size_t k; (k = taken++) < blocks;) {
       uint32_t b;
       while ((b = ready[k].load(std::memory_order_acquire)) == kNone) detail::yieldThread();

@@ -49,3 +49,20 @@ TEST_CASE("Each item runs once, and no two at once have the same thread's number
   for (const auto& count : runs) CHECK(count == 1);
   CHECK(reports == items.size());
 }
+
+TEST_CASE("Each chunk and each item runs once, on any number of threads", "[parallel]") {
+  for (const unsigned threads : {1u, 2u, 3u, 8u}) {
+    RunOptions options;
+    options.threads = threads;
+    Monitor monitor(options, 1);
+    for (const size_t count : {0u, 1u, 2u, 5u, 16u, 17u}) {
+      std::vector<std::atomic<int>> chunks(count), items(count);
+      runChunks(
+          count, count, monitor, [&](size_t chunk, size_t, size_t) { ++chunks[chunk]; }, 1);
+      std::vector<uint32_t> order(count);
+      std::iota(order.begin(), order.end(), 0u);
+      runItems(order, monitor, [&](size_t, uint32_t item) { ++items[item]; });
+      for (size_t i = 0; i < count; ++i) CHECK((chunks[i] == 1 && items[i] == 1));
+    }
+  }
+}

@@ -59,8 +59,15 @@ BrickCuts cutBricks(const Surface& surface, const SurfaceParts& parts, Bricks& b
   if (kept) cuts = std::move(kept->cuts);
   cuts.resize(bricks.size());
   const auto weightOf = [&](uint32_t b) { return bricks.parts[{b}].size() + bricks.dividedFaces[{b}].size(); };
-  std::vector<uint32_t> order = bricks.here.numbers();
-  sortItems(order, [&](uint32_t a, uint32_t b) { return weightOf(a) > weightOf(b); });  // the heaviest first
+  // The heaviest first; but each thread has those that it is given in later loops, too.
+  const size_t threads = run.monitor.threads();
+  std::vector<uint32_t> order = bricks.here.numbers(unsigned(threads)), ofThread;
+  for (size_t thread = 0; thread < threads; ++thread) {
+    ofThread.clear();
+    for (size_t i = thread; i < order.size(); i += threads) ofThread.push_back(order[i]);
+    sortItems(ofThread, [&](uint32_t a, uint32_t b) { return weightOf(a) > weightOf(b); });
+    for (size_t i = 0; i < ofThread.size(); ++i) order[thread + i * threads] = ofThread[i];
+  }
   std::vector<std::unique_ptr<BrickThread>> cutters(run.monitor.threads());
   std::vector<uint32_t> memory = std::exchange(cuts.freeMemory, {});  // per thread
   while (memory.size() < cutters.size()) {

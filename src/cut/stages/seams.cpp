@@ -1,7 +1,5 @@
 #include "cut/stages/seams.h"
 
-#include <numeric>
-
 namespace mandoline::detail {
 namespace {
 
@@ -159,8 +157,7 @@ void BrickCounts::add(const BrickCounts& more) {
 
 void findSeams(const CutBricks& cut, const KeptBricks* kept, IdVector<BrickId, BrickSeams>& seams, Run& run) {
   seams.resize(cut.cuts.size());
-  std::vector<uint32_t> order(seams.size());
-  std::iota(order.begin(), order.end(), 0u);
+  const std::vector<uint32_t> order = BricksHere{{0}, {uint32_t(seams.size())}}.numbers(run.monitor.threads());
   const auto forFound = [&](const auto& f) {
     runItems(order, run.monitor, [&](size_t, uint32_t b) {
       if (!kept || !kept->isInner({b})) f(BrickId{b});
