@@ -38,9 +38,13 @@ void requireCellsOf(const CutMesh& cutMesh, const CellComplex& cells) {
 }
 
 void requireLengths(const CellComplex& cells) {
-  constexpr double kSmallest = 1e-70, kLargest = 1e70;
   double size = 0;
   for (size_t i = 3; i < cells.positions.size(); ++i) size = std::max(size, std::fabs(cells.positions[i] - cells.positions[i % 3]));
+  requireLength(size);
+}
+
+void requireLength(double size) {
+  constexpr double kSmallest = 1e-70, kLargest = 1e70;
   if (size == 0 || (size >= kSmallest && size <= kLargest)) return;
   refuse("The cells must be between 1e-70 and 1e70 in size, the range in which doubles can compute on them.");
 }

@@ -33,5 +33,7 @@ MANDOLINE_SHARED void requireCellsOf(const CutMesh& cutMesh, const CellComplex& 
 
 /// Throws CallError unless products of four lengths, such as a volume times a distance, fit into doubles.
 MANDOLINE_SHARED void requireLengths(const CellComplex& cells);
+/// The same of all cells' length along an axis.
+MANDOLINE_SHARED void requireLength(double size);
 
 }  // namespace mandoline::operators

@@ -385,3 +385,15 @@ TEST_CASE("refine: meshes of the collection", "[refine][meshes]") {
     checkedRefinement(mesh, grid, in(middleOf(grid, 2)));
   }
 }
+
+TEST_CASE("refine: cells that doubles can't compute on are refused", "[refine]") {
+  for (const double scale : {1e-300, 1e200}) {
+    CAPTURE(scale);
+    Mesh mesh = shapes::cube(0.5, 1.5);
+    for (double& x : mesh.positions) x *= scale;
+    const CutMesh cutMesh = cut(mesh, Grid::box({0, 0, 0}, {2 * scale, 2 * scale, 2 * scale}, {2, 2, 2})).mesh;
+    RefineOptions options;
+    options.levels = 1;
+    CHECK(refusal([&] { refineCells(prepare(mesh).mesh, cutMesh, options); }).first == Status::badArgument);
+  }
+}

@@ -74,8 +74,8 @@ Grid dividedGrid(const Grid& grid, int levels);
 ///
 /// The result is the same to the bit for any number of threads. Throws CallError if an option is out of range, there are more than 2^24
 /// of the smallest cells along an axis (gridTooLarge) or planes between those of the grid are not apart (badGrid), if the cut-mesh is
-/// not one of the mesh, or was snapped, or its regions are divided by estimateInside() (badArgument), if faces have 2^31 corners or more
-/// (meshTooLarge), as cut() has errors, or if cancelled.
+/// not one of the mesh, or was snapped, or its regions are divided by estimateInside(), or its grid is smaller than 1e-70 or larger than
+/// 1e70 (badArgument), if faces have 2^31 corners or more (meshTooLarge), as cut() has errors, or if cancelled.
 RefinedCells refineCells(const PreparedMesh& mesh, const CutMesh& cutMesh, const RefineOptions& options = {});
 
 }  // namespace mandoline

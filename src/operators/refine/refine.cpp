@@ -43,6 +43,9 @@ void requireCut(const PreparedMesh& mesh, const CutMesh& cutMesh) {
   const MeshView view = mesh.mesh();
   if (!mesh.data() || view.triangles.size() != 3 * size_t(cutMesh.triangleCount)) operators::refuse(kOther);
   operators::requireMadeFrom(cutMesh.madeFrom, detail::fingerprintOf(view), kOther);
+  double size = 0;
+  for (const auto& planes : cutMesh.grid.planes) size = std::max(size, planes.back() - planes.front());
+  operators::requireLength(size);
 }
 
 void requireFewCells(const Grid& grid, int levels) {
