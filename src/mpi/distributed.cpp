@@ -215,10 +215,10 @@ struct DistributedCut::Data {
     return std::move(made.piece);
   }
 
-  RankComplex makeComplex(const RankPiece& piece, int ghostLayers) {
+  RankComplex makeComplex(const RankPiece& piece, int ghosts, const CoarsenOptions* coarsening) {
     std::optional<WholeCut> whole;  // which takes memory
     comm.together(kNoun, [&] { whole.emplace(WholeCut{named(), common.mesh, counts}); });
-    return makeRankComplex(comm, *whole, piece, ghostLayers);
+    return makeRankComplex(comm, *whole, piece, ghosts, coarsening);
   }
 
   /// The processes with the next layers below and above; -1 for none.
@@ -308,7 +308,12 @@ DistributedCut::DistributedCut(MPI_Comm comm, SlicedMesh mesh, Grid grid, const 
 }
 
 RankPiece DistributedCut::piece() const { return data_->makePiece(); }
-RankComplex DistributedCut::cellComplex(const RankPiece& piece, int ghostLayers) const { return data_->makeComplex(piece, ghostLayers); }
+RankComplex DistributedCut::cellComplex(const RankPiece& piece, int ghostLayers) const {
+  return data_->makeComplex(piece, ghostLayers, nullptr);
+}
+RankComplex DistributedCut::cellComplex(const RankPiece& piece, int ghostRings, const CoarsenOptions& coarsening) const {
+  return data_->makeComplex(piece, ghostRings, &coarsening);
+}
 CutCounts DistributedCut::counts() const { return data_->counts; }
 uint64_t DistributedCut::ownCells() const { return data_->ownCells; }
 Measures DistributedCut::measures(const RankPiece& piece, const RunOptions& options) const { return data_->measures(piece, options); }

@@ -6,6 +6,7 @@
 #include "mpi/ghost_layers.h"
 #include "mpi/untouched_order.h"
 #include "operators/cell_complex/in_layers.h"
+#include "operators/coarsen/coarsen_runs.h"
 #include "operators/measure/measure_part.h"
 
 namespace mandoline::detail {
@@ -13,13 +14,38 @@ namespace {
 
 constexpr const char* kNoun = "assembly of the cells";
 
+/// The layers that own cells and so many rings of cells around them reach into, at most. A process's own are the cells of these layers, and
+/// octree cells that begin there.
+std::array<int64_t, 2> layersAround(const OctreeCells& octree, std::array<int64_t, 2> own, int rings) {
+  std::array<int64_t, 2> range = own;
+  const auto add = [&](size_t c) {
+    range = {std::min<int64_t>(range[0], octree.corner(c)[2]), std::max<int64_t>(range[1], octree.end(c)[2])};
+  };
+  for (size_t c = 0; c < octree.cellCount(); ++c) {
+    if (octree.corner(c)[2] >= own[0] && octree.corner(c)[2] < own[1]) add(c);
+  }
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::array<int64_t, 2> touched{range[0] - 1, range[1] + 1};
+    range = {std::max<int64_t>(touched[0], 0), std::min<int64_t>(touched[1], octree.gridCells[2])};
+    for (size_t c = 0; c < octree.cellCount(); ++c) {
+      if (octree.corner(c)[2] < touched[1] && octree.end(c)[2] > touched[0]) add(c);
+    }
+  }
+  return range;
+}
+
 class ComplexMaker {
  public:
   ComplexMaker(Communicator& comm, const WholeCut& whole, RankLayers layers) : comm_(comm), whole_(whole), layers_(std::move(layers)) {}
 
-  RankComplex make(const RankPiece& piece, int ghostLayers) {
+  RankComplex make(const RankPiece& piece, int ghosts, const CoarsenOptions* coarsening) {
     PieceToMeasure toGrow;
-    comm_.together(kNoun, [&] { toGrow = {piece, measuring::partMeasuredBy(piece.cutMesh, whole_.surface)}; });
+    int ghostLayers = ghosts;
+    comm_.together(kNoun, [&] {
+      toGrow = {piece, measuring::partMeasuredBy(piece.cutMesh, whole_.surface)};
+      if (coarsening) ghostLayers = coarsen(*coarsening, piece.layers, ghosts);
+    });
+    ghostLayers = comm_.reduce(ghostLayers, MPI_MAX);
     PieceToMeasure toMeasure = withGhostLayers(comm_, layers_, whole_.common, std::move(toGrow), ghostLayers);
     RankPiece& grown = toMeasure.piece;
     result_.layers = piece.layers;
@@ -37,10 +63,19 @@ class ComplexMaker {
   }
 
  private:
+  /// Gives how many layers have so many rings of ghosts.
+  int coarsen(const CoarsenOptions& options, const std::array<int64_t, 2>& own, int rings) {
+    octree_ = operators::coarsenRuns(whole_.common, options);
+    if (own[0] == own[1]) return rings;
+    const std::array<int64_t, 2> all = layersAround(*octree_, own, rings);
+    return std::max(rings, int(std::max(own[0] - all[0], all[1] - own[1])));
+  }
+
   bool isEmpty() const { return result_.layers[0] == result_.layers[1]; }
 
   void makeCells(const MeshPart& surface) {
-    const UntouchedOrder order = untouchedOrder(whole_.common, result_.allLayers);
+    const UntouchedOrder order = octree_ ? octreeOrder(*octree_, result_.allLayers) : untouchedOrder(whole_.common, result_.allLayers);
+    octree_.reset();
     result_.wholeCutCells = whole_.counts.cutCells;
     result_.wholeFaces = whole_.counts.faces + order.all.faces();
     result_.wholeCells = whole_.counts.cutCells + order.all.cells;
@@ -63,15 +98,25 @@ class ComplexMaker {
     size_t last = cells.cellCount();
     uint64_t next = 0;
     for (size_t f = cells.cutFaces; f < cells.faceCount(); ++f) {
-      const int32_t *sides = &cells.faceCells[2 * f], owner = sides[0] < 0 ? sides[1] : sides[0];
+      const size_t owner = ownerOf(f);
+      if (owner != last) next = whole_.counts.faces + order.before[owner - cells.cutCells].faces();
+      last = owner;
+      const int32_t* sides = &cells.faceCells[2 * f];
       if (cells.faceTag[f] == FaceTag::inner && (sides[0] < 0 || sides[1] < 0)) {
         result_.faceIds.push_back(RankComplex::kNoId);
+        if (sides[0] < 0 && !order.hasLower.empty()) next += order.hasLower[owner - cells.cutCells];
         continue;
       }
-      if (size_t(owner) != last) next = whole_.counts.faces + order.before[size_t(owner) - cells.cutCells].faces();
-      last = size_t(owner);
       result_.faceIds.push_back(next++);
     }
+  }
+
+  /// The cell whose side a face is: the smaller one, or the first.
+  size_t ownerOf(size_t face) const {
+    const CellComplex& cells = result_.cells;
+    const int32_t a = cells.faceCells[2 * face], b = cells.faceCells[2 * face + 1];
+    if (a < 0 || b < 0) return size_t(std::max(a, b));
+    return size_t(cells.cellLevel[size_t(b)] < cells.cellLevel[size_t(a)] ? b : a);
   }
 
   /// Which plane of the grid along z a corner of grid cells lies in.
@@ -100,7 +145,7 @@ class ComplexMaker {
     const size_t low = size_t(result_.allLayers[0]), high = size_t(result_.allLayers[1]);
     for (size_t v = cells.cutVertices; v < cells.vertexCount(); ++v) {
       const size_t plane = planeOf(v);
-      const bool isFar = (plane == low && low > 0) || (plane == high && high + 2 < first.size());
+      const bool isFar = (plane <= low && low > 0) || (plane >= high && high + 2 < first.size());
       result_.vertexIds.push_back(isFar ? RankComplex::kNoId : first[plane]++);
     }
   }
@@ -123,16 +168,18 @@ class ComplexMaker {
   Communicator& comm_;
   const WholeCut& whole_;
   const RankLayers layers_;
+  std::optional<OctreeCells> octree_;  // of the whole, until the cells here are found
   RankComplex result_;
 };
 
 }  // namespace
 
-RankComplex makeRankComplex(Communicator& comm, const WholeCut& whole, const RankPiece& piece, int ghostLayers) {
+RankComplex makeRankComplex(Communicator& comm, const WholeCut& whole, const RankPiece& piece, int ghosts,
+                            const CoarsenOptions* coarsening) {
   comm.together(kNoun, [&] {
-    if (ghostLayers < 1) throw CallError({Status::badOption, -1, -1, "A cell complex in pieces needs a layer of ghosts."});
+    if (ghosts < 1) throw CallError({Status::badOption, -1, -1, "A cell complex in pieces needs a layer of ghosts."});
   });
-  return ComplexMaker(comm, whole, layersOfAll(comm, piece.layers)).make(piece, ghostLayers);
+  return ComplexMaker(comm, whole, layersOfAll(comm, piece.layers)).make(piece, ghosts, coarsening);
 }
 
 }  // namespace mandoline::detail

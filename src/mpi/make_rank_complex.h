@@ -15,7 +15,8 @@ struct WholeCut {
   const CutCounts& counts;
 };
 
-/// As DistributedCut::cellComplex().
-RankComplex makeRankComplex(Communicator& comm, const WholeCut& whole, const RankPiece& piece, int ghostLayers);
+/// As DistributedCut::cellComplex(). `coarsening`: null for grid cells as they are.
+RankComplex makeRankComplex(Communicator& comm, const WholeCut& whole, const RankPiece& piece, int ghosts,
+                            const CoarsenOptions* coarsening);
 
 }  // namespace mandoline::detail

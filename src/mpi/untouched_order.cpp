@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "operators/cell_complex/octree_index.h"
+
 namespace mandoline::detail {
 namespace {
 
@@ -73,7 +75,9 @@ class Orderer {
     const auto [i, j, k] = piece.low;
     const int64_t end = piece.end[0], count = end - i;
     counts.cells += uint64_t(count);
-    counts.inner += untouchedIn(i + 1, end + 1, j, k) + untouchedIn(i, end, j + 1, k) + untouchedIn(i, end, j, k + 1);
+    const uint64_t inner = untouchedIn(i + 1, end + 1, j, k) + untouchedIn(i, end, j + 1, k) + untouchedIn(i, end, j, k + 1);
+    counts.inner += inner;
+    counts.made += inner;
     counts.sides[0] += i == 0;
     counts.sides[1] += end == n_[0];
     counts.sides[2] += j == 0 ? uint64_t(count) : 0;
@@ -105,10 +109,71 @@ class Orderer {
   UntouchedOrder result_;
 };
 
+/// Counts the faces of octree cells, each of which is a whole side of a cell.
+class OctreeOrderer {
+ public:
+  explicit OctreeOrderer(const OctreeCells& whole) : whole_(whole), index_(whole), first_(whole.cellCount()) {
+    for (size_t c = 0; c < whole.cellCount(); ++c) {
+      forSides(c, [&](size_t, int64_t neighbour) {
+        if (neighbour >= 0) ++first_[std::min(c, size_t(neighbour))];
+      });
+    }
+  }
+
+  UntouchedOrder run(const std::array<int64_t, 2>& layers) {
+    result_.cells.gridCells = whole_.gridCells;
+    result_.cells.madeFrom = whole_.madeFrom;
+    for (size_t c = 0; c < whole_.cellCount(); ++c) {
+      const bool isHere = whole_.corner(c)[2] < layers[1] && whole_.end(c)[2] > layers[0];
+      if (isHere) take(c);
+      add(c, isHere);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  static constexpr size_t kLower = 4;  // the side along z
+
+  /// Calls f(side, neighbour) for the sides of a cell that are faces, with -1 for a side of the grid.
+  template <class F>
+  void forSides(size_t c, const F& f) const {
+    for (size_t side = 0; side < 6; ++side) {
+      if (const std::optional<int64_t> neighbour = index_.acrossSide(c, side / 2, int(side % 2))) f(side, *neighbour);
+    }
+  }
+
+  void take(size_t c) {
+    const std::array<int32_t, 3> corner = whole_.corner(c);
+    OctreeCells& cells = result_.cells;
+    cells.cellCorner.insert(cells.cellCorner.end(), corner.begin(), corner.end());
+    cells.cellLevel.push_back(whole_.cellLevel[c]);
+    cells.cellRegion.push_back(whole_.cellRegion[c]);
+    result_.before.push_back(result_.all);
+    result_.hasLower.push_back(0);
+  }
+
+  void add(size_t c, bool isHere) {
+    ++result_.all.cells;
+    result_.all.inner += first_[c];
+    forSides(c, [&](size_t side, int64_t neighbour) {
+      if (neighbour < 0)
+        ++result_.all.sides[side];
+      else
+        ++result_.all.made;
+      if (isHere && side == kLower) result_.hasLower.back() = 1;
+    });
+  }
+
+  const OctreeCells& whole_;
+  const operators::OctreeIndex index_;
+  std::vector<uint8_t> first_;  // per cell: faces to cells after it, at most four on each side
+  UntouchedOrder result_;
+};
+
 }  // namespace
 
 uint64_t UntouchedCounts::faces() const {
-  uint64_t sum = inner;
+  uint64_t sum = made;
   for (const uint64_t count : sides) sum += count;
   return sum;
 }
@@ -116,9 +181,12 @@ uint64_t UntouchedCounts::faces() const {
 void UntouchedCounts::add(const UntouchedCounts& other) {
   cells += other.cells;
   inner += other.inner;
+  made += other.made;
   for (size_t s = 0; s < sides.size(); ++s) sides[s] += other.sides[s];
 }
 
 UntouchedOrder untouchedOrder(const CutMesh& cutMesh, const std::array<int64_t, 2>& layers) { return Orderer(cutMesh, layers).run(); }
+
+UntouchedOrder octreeOrder(const OctreeCells& whole, const std::array<int64_t, 2>& layers) { return OctreeOrderer(whole).run(layers); }
 
 }  // namespace mandoline::detail

@@ -31,9 +31,12 @@ bool isMine(const RankComplex& mine, int32_t cell) {
 
 void compareCells(const RankComplex& mine, const CellComplex& whole) {
   const CellComplex& cells = mine.cells;
+  const bool hasLayers = mine.layers[0] < mine.layers[1];
   size_t expected = 0;
-  for (size_t c = 0; c < whole.cellCount(); ++c)
-    expected += whole.cellCorner[3 * c + 2] >= mine.allLayers[0] && whole.cellCorner[3 * c + 2] < mine.allLayers[1];
+  for (size_t c = 0; c < whole.cellCount(); ++c) {
+    const int64_t layer = whole.cellCorner[3 * c + 2];
+    expected += hasLayers && layer + (1 << whole.cellLevel[c]) > mine.allLayers[0] && layer < mine.allLayers[1];
+  }
   require(cells.cellCount() == expected && mine.cellIds.size() == expected && mine.cellRanks.size() == expected, "cells are missing");
   for (size_t c = 0; c < cells.cellCount(); ++c) {
     const size_t id = mine.cellIds[c];
@@ -43,6 +46,7 @@ void compareCells(const RankComplex& mine, const CellComplex& whole) {
     requireSame(cells.cellCentroid, c, whole.cellCentroid, id, 3, "cellCentroid");
     requireSame(cells.cellVolume, c, whole.cellVolume, id, 1, "cellVolume");
     requireSame(cells.cellRegion, c, whole.cellRegion, id, 1, "cellRegion");
+    requireSame(cells.cellLevel, c, whole.cellLevel, id, 1, "cellLevel");
     require((c < cells.cutCells) == (id < whole.cutCells), "a cut-cell differs:", id);
     if (!isMine(mine, int32_t(c))) continue;
     const auto here = cells.halfFaces(c), there = whole.halfFaces(id);
@@ -80,7 +84,11 @@ void compareFaces(const RankComplex& mine, const CellComplex& whole) {
   uint64_t last = 0;
   for (size_t f = 0; f < mine.cells.faceCount(); ++f) {
     if (mine.faceIds[f] != kNoId) require(f == 0 || mine.faceIds[f] > last || last == 0, "face ids do not ascend at", f);
-    if (mine.faceIds[f] != kNoId) last = mine.faceIds[f];
+    if (mine.faceIds[f] != kNoId) {
+      last = mine.faceIds[f];
+      require(last < whole.faceCount(), "the whole has no face", last);
+      requireSame(mine.cells.faceCentroid, f, whole.faceCentroid, last, 3, "faceCentroid");
+    }
     if (isMine(mine, mine.cells.faceCells[2 * f]) || isMine(mine, mine.cells.faceCells[2 * f + 1])) compareFace(mine, whole, f);
   }
   for (size_t v = mine.cells.cutVertices; v < mine.cells.vertexCount(); ++v) {

@@ -332,6 +332,23 @@ bool checkOtherModes(const std::string& name, const Mesh& mesh, const Grid& grid
   return true;
 }
 
+/// Octree cells of few levels and of many, as few as there can be and more, with one ring of ghosts or several.
+bool checkOctree(const std::string& name, const DistributedCut& cut, const RankPiece& piece, const MeshView& mesh, const CutMesh& whole) {
+  std::array<CoarsenOptions, 4> all;
+  all[0].maxLevel = 1;
+  all[1].maxLevel = 2, all[1].balanceEdges = true;
+  all[3].fineLayers = all[3].layersPerLevel = 0;
+  for (size_t i = 0; i < all.size(); ++i) {
+    const int rings = 1 + int((name.size() + i) % 3);
+    RankComplex complex;
+    const bool isSame =
+        inAll(name + ", octree " + std::to_string(i), [&] { complex = cut.cellComplex(piece, rings, all[i]); }) &&
+        inAll(name + ", octree " + std::to_string(i), [&] { compareComplex(complex, cellComplex(mesh, whole, coarsen(whole, all[i]))); });
+    if (!isSame) return false;
+  }
+  return true;
+}
+
 bool check(const std::string& name, const Mesh& wholeMesh, const Grid& grid) {
   const RunOptions oneThread{1, {}};
   const PrepareResult alone = prepare(wholeMesh, {oneThread});
@@ -368,7 +385,7 @@ bool check(const std::string& name, const Mesh& wholeMesh, const Grid& grid) {
   RankComplex complex;
   const bool areCells = inAll(name, [&] { complex = distributed->cellComplex(piece, 1 + int(name.size() % 2)); }) &&
                         inAll(name, [&] { compareComplex(complex, uncoarsened(mesh.mesh(), whole.mesh)); });
-  if (!areCells) return false;
+  if (!areCells || !checkOctree(name, *distributed, piece, mesh.mesh(), whole.mesh)) return false;
   return inAll(name, [&] {
     requireOneOwner(piece.vertexIds, &piece.vertexRanks, whole.mesh.vertexCount(), "vertex");
     requireOneOwner(piece.faceIds, &piece.faceRanks, whole.mesh.faceCount(), "face");

@@ -12,6 +12,7 @@
 
 #include <memory>
 
+#include "mandoline/coarsen.h"
 #include "mandoline/cut_share.h"
 #include "mandoline/inspect.h"
 #include "mandoline/measure.h"
@@ -89,6 +90,10 @@ class DistributedCut {
   /// This process's cells, the untouched grid cells among them, and as many layers of ghosts on each side, as far as the grid goes. `piece`
   /// is that of piece(). Without layers of its own it has no ghosts. Throws CallError for fewer than one layer of ghosts (badOption).
   RankComplex cellComplex(const RankPiece& piece, int ghostLayers = 1) const;
+  /// The same with octree cells in the place of untouched grid cells, and so many rings of ghosts: cells that touch own cells, those that
+  /// touch these, and so on. Each process makes the octree of the whole, from the runs that all have. Throws RankError, as coarsen() has
+  /// errors.
+  RankComplex cellComplex(const RankPiece& piece, int ghostRings, const CoarsenOptions& coarsening) const;
   /// Those of the whole.
   CutCounts counts() const;
   /// How many cut-cells this process has.

@@ -12,8 +12,9 @@ struct ComplexSeam {
 };
 
 /// The cells of some layers of the grid along z: a process's own, and around them ghosts, which belong to others. All arrays of `cells` are
-/// as in the cellComplex() of the whole without octree cells above a grid cell, to the bit, and in its order. What is at the far side of
-/// the ghosts may lack vertices there, and has no ids; faces there have one cell and the tag inner.
+/// as in the cellComplex() of the whole, to the bit, and in its order. What is at the far side of the ghosts may lack vertices there, and
+/// has no ids; faces there have one cell and the tag inner. Of octree cells, those are a process's own whose lowest grid cells lie in its
+/// layers; ghosts that reach out of all layers may lack faces and vertices.
 struct RankComplex {
   CutMesh cutMesh;                     ///< as RankPiece::cutMesh, of all these layers
   CellComplex cells;                   ///< made from it

@@ -27,7 +27,7 @@ constexpr const char* kOther = "The octree cells are not those of this cut-mesh.
 
 class Builder {
  public:
-  /// `layers`: those that there are cells of, along z.
+  /// `layers`: those that there are cells of, along z. Octree cells may reach out of them.
   Builder(const CutMesh& cutMesh, const OctreeCells& octree, const std::array<int64_t, 2>& layers, Measures measures,
           detail::Monitor& monitor)
       : cutMesh_(cutMesh), octree_(octree), layers_(layers), measures_(std::move(measures)), monitor_(monitor) {}
@@ -110,16 +110,12 @@ class Builder {
     corners_->appendPositions(result_.positions);
   }
 
-  /// The cell across a side of an octree cell, or -1 outside the grid or the layers. Nothing if smaller cells, cut-cells, or a cell of its
-  /// size that comes before it, have the faces there.
+  /// The cell across a side of an octree cell, or -1 outside the grid or the layers. Nothing if others have the faces there.
   std::optional<int32_t> acrossSide(size_t c, size_t axis, int side) const {
-    GridIndex across = octree_.corner(c);
-    const int level = octree_.cellLevel[c];
-    across[axis] += side ? 1 << level : -1;
-    if (across[axis] < 0 || across[axis] >= octree_.gridCells[axis] || !isInLayers(across[2])) return -1;
-    const int64_t neighbour = index_->find(across, level);
-    if (neighbour < 0 || (side == 0 && octree_.cellLevel[size_t(neighbour)] == level)) return {};
-    return idOf(neighbour);
+    if (axis == 2 && !isInLayers(side ? octree_.corner(c)[2] + (1 << octree_.cellLevel[c]) : octree_.corner(c)[2] - 1)) return -1;
+    const std::optional<int64_t> neighbour = index_->acrossSide(c, axis, side);
+    if (!neighbour) return {};
+    return *neighbour < 0 ? -1 : idOf(*neighbour);
   }
 
   template <class F>

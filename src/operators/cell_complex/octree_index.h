@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "base/ranked_set.h"
 #include "mandoline/coarsen.h"
@@ -34,6 +35,18 @@ class OctreeIndex {
       if (rank != corners_.kNone && octree_.cellLevel[cells_[rank]] >= level) return cells_[rank];
     }
     return -1;
+  }
+
+  /// The octree cell across a side of another one, or -1 outside the grid. Nothing if smaller cells, cut-cells, or a cell of its size that
+  /// comes before it, have the faces there.
+  std::optional<int64_t> acrossSide(size_t c, size_t axis, int side) const {
+    GridIndex across = octree_.corner(c);
+    const int level = octree_.cellLevel[c];
+    across[axis] += side ? 1 << level : -1;
+    if (across[axis] < 0 || across[axis] >= octree_.gridCells[axis]) return -1;
+    const int64_t neighbour = find(across, level);
+    if (neighbour < 0 || (side == 0 && octree_.cellLevel[size_t(neighbour)] == level)) return {};
+    return neighbour;
   }
 
  private:

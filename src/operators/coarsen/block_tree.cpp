@@ -93,6 +93,24 @@ Blocks cutBlocks(const CutMesh& cutMesh) {
   return blocks;
 }
 
+Blocks cutBlocksByRuns(const CutMesh& cutMesh) {
+  const auto nx = int32_t(cutMesh.grid.cells(0)), ny = int32_t(cutMesh.grid.cells(1)), nz = int32_t(cutMesh.grid.cells(2));
+  Blocks blocks;
+  for (int32_t k = 0; k < nz; ++k) {
+    for (int32_t j = 0; j < ny; ++j) {
+      const size_t row = size_t(k) * size_t(ny) + size_t(j);
+      int32_t next = 0;
+      for (uint32_t r = cutMesh.rowRunOffsets[row]; r < cutMesh.rowRunOffsets[row + 1]; ++r) {
+        for (; next < cutMesh.runBegin[r]; ++next) blocks.push_back({next, j, k});
+        next = cutMesh.runEnd[r];
+      }
+      for (; next < nx; ++next) blocks.push_back({next, j, k});
+    }
+  }
+  detail::sortUnique(blocks, isBefore);
+  return blocks;
+}
+
 CoarsenOptions meantFor(const Grid& grid, CoarsenOptions options) {
   if (options.layersPerLevel == CoarsenOptions::kGraded)
     options.layersPerLevel = std::max(1, int(std::max({grid.cells(0), grid.cells(1), grid.cells(2)}) / 12));

@@ -56,6 +56,8 @@ struct BlockTree {
 
 /// The grid cells that have cut-cells.
 Blocks cutBlocks(const CutMesh& cutMesh);
+/// The same from the runs alone: those that are in none.
+Blocks cutBlocksByRuns(const CutMesh& cutMesh);
 
 /// The options with layersPerLevel as it is meant for a grid. Throws CallError if an option is negative.
 CoarsenOptions meantFor(const Grid& grid, CoarsenOptions options);

@@ -6,6 +6,7 @@
 #include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
 #include "operators/coarsen/block_tree.h"
+#include "operators/coarsen/coarsen_runs.h"
 #include "operators/require_cut_mesh.h"
 
 namespace mandoline {
@@ -18,8 +19,9 @@ constexpr const char* kIncomplete = "The cut-mesh is not valid: it has neither c
 
 class Coarsener {
  public:
-  Coarsener(const CutMesh& cutMesh, const CoarsenOptions& options, detail::Monitor& monitor)
-      : untouched_(cutMesh), options_(options), monitor_(monitor), cut_(operators::cutBlocks(cutMesh)) {
+  /// `cut`: the grid cells that have cut-cells.
+  Coarsener(const CutMesh& cutMesh, operators::Blocks cut, const CoarsenOptions& options, detail::Monitor& monitor)
+      : untouched_(cutMesh), options_(options), monitor_(monitor), cut_(std::move(cut)) {
     for (int d = 0; d < 3; ++d) result_.gridCells[size_t(d)] = int32_t(cutMesh.grid.cells(d));
   }
 
@@ -69,6 +71,20 @@ class Coarsener {
   OctreeCells result_;
 };
 
+OctreeCells coarsenAround(const CutMesh& cutMesh, operators::Blocks (*cutBlocks)(const CutMesh&), const CoarsenOptions& options) {
+  const CoarsenOptions meant = operators::meantFor(cutMesh.grid, options);
+  return detail::runCall("coarsening", [&] {
+    detail::Monitor monitor(options, 2);
+    OctreeCells result = Coarsener(cutMesh, cutBlocks(cutMesh), meant, monitor).run();
+    detail::Fingerprinter fingerprinter("octree", cutMesh.fingerprint);
+    for (const int option : {meant.maxLevel, meant.fineLayers, meant.layersPerLevel, int(meant.balanceEdges)})
+      fingerprinter.add(uint64_t(option));
+    result.madeFrom = cutMesh.fingerprint;
+    result.fingerprint = fingerprinter.get();
+    return result;
+  });
+}
+
 }  // namespace
 
 int64_t OctreeCells::find(int64_t i, int64_t j, int64_t k) const {
@@ -93,17 +109,11 @@ int64_t OctreeCells::find(int64_t i, int64_t j, int64_t k) const {
 
 OctreeCells coarsen(const CutMesh& cutMesh, const CoarsenOptions& options) {
   operators::requireCutMesh(cutMesh);
-  const CoarsenOptions meant = operators::meantFor(cutMesh.grid, options);
-  return detail::runCall("coarsening", [&] {
-    detail::Monitor monitor(options, 2);
-    OctreeCells result = Coarsener(cutMesh, meant, monitor).run();
-    detail::Fingerprinter fingerprinter("octree", cutMesh.fingerprint);
-    for (const int option : {meant.maxLevel, meant.fineLayers, meant.layersPerLevel, int(meant.balanceEdges)})
-      fingerprinter.add(uint64_t(option));
-    result.madeFrom = cutMesh.fingerprint;
-    result.fingerprint = fingerprinter.get();
-    return result;
-  });
+  return coarsenAround(cutMesh, operators::cutBlocks, options);
+}
+
+OctreeCells operators::coarsenRuns(const CutMesh& cutMesh, const CoarsenOptions& options) {
+  return coarsenAround(cutMesh, cutBlocksByRuns, options);
 }
 
 }  // namespace mandoline
