@@ -139,9 +139,7 @@ static RefinedCells refine(const Arguments& arguments, const Input& input, const
 
 MadeCells makeCells(const Arguments& arguments, const Input& input, const CutMesh& whole) {
   return withProgress(arguments.threads, [&](const RunOptions& run) {
-    CoarsenOptions coarsening{run};
-    coarsening.maxLevel = arguments.coarsen.value_or(0);
-    if (arguments.coarsenLayers) coarsening.fineLayers = coarsening.layersPerLevel = *arguments.coarsenLayers;
+    const CoarsenOptions coarsening = coarsenOptions(arguments, run);
     MadeCells made;
     if (arguments.refines()) {
       RefinedCells refined = refine(arguments, input, whole, coarsening);
@@ -156,6 +154,13 @@ MadeCells makeCells(const Arguments& arguments, const Input& input, const CutMes
     if (arguments.uniteWalls) made.cells = uniteWalls(cutMesh, made.cells, {run, *arguments.uniteWalls, input.groups.triangleGroup});
     return made;
   });
+}
+
+CoarsenOptions coarsenOptions(const Arguments& arguments, const RunOptions& run) {
+  CoarsenOptions options{run};
+  options.maxLevel = arguments.coarsen.value_or(0);
+  if (arguments.coarsenLayers) options.fineLayers = options.layersPerLevel = *arguments.coarsenLayers;
+  return options;
 }
 
 double mergeFraction(const Arguments& arguments) {

@@ -71,6 +71,8 @@ MadeCells makeCells(const Arguments& arguments, const Input& input, const CutMes
 
 /// --merge, or what it is by default.
 double mergeFraction(const Arguments& arguments);
+/// What --coarsen says: with maxLevel 0 untouched cells are as they are.
+CoarsenOptions coarsenOptions(const Arguments& arguments, const RunOptions& run);
 
 /// What --only selects. Says on standard error what tells inside from outside, unless the whole input has winding numbers. Throws
 /// UsageError for regions that the cut-mesh does not have, and for --only inside if nothing is known to be inside.

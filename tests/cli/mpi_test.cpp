@@ -322,7 +322,7 @@ TEST_CASE("What several processes can't do is said once", "[mpi]") {
       {{"cut", mesh, "-o", folder.path("a.mcm/"), "--inside-threshold", "0.5"}, "pieces do not go with --inside-threshold", 2},
       {{"cut", mesh, "-o", folder.path("a.mcm/"), "--coarsen", "1"}, "--coarsen: only .vtu and .json files", 2},
       {{"cut", mesh, "-o", mesh + "/a.mcm/"}, mesh + "/a.mcm/: can't be written: Not a directory", 2},
-      {{"cut", mesh, "-o", polyMesh, "--coarsen", "1"}, "polyMeshes of several processes do not go with --coarsen", 2},
+      {{"cut", mesh, "-o", pvtu, "--coarsen", "1"}, ".pvtu files do not go with --coarsen", 2},
       {{"cut", mesh, "-o", polyMesh, "--merge", "0.2"}, "polyMeshes of several processes do not go with --merge", 2},
       {{"cut", mesh, "-o", polyMesh, "--only", "cut"}, "polyMeshes of several processes do not go with --only", 2},
       {{"cut", mesh, "--box", "5,5,5,6,6,6", "--cells", "2", "-o", pvtu, "--only", "cut"}, "--only selects nothing", 2},
@@ -478,11 +478,20 @@ TEST_CASE("Decomposed cases are the polyMesh of one process, by their addressing
   mandoline::Mesh mesh = shapes::merged({shapes::icosphere({0, 0, 0}, 1, 2), shapes::cube(0, 1.5), shapes::cube(-0.5, 0.5)});
   mesh.triangles.resize(mesh.triangles.size() - 3);
   const std::string file = meshFile(folder, mesh);
-  for (const std::string cells : {"2", "5", "8"}) {
-    REQUIRE(run(folder, {"cut", file, "--cells", cells, "--margin", "0", "-o", folder.path(one)}).exitCode == 0);
+  // Octree cells of the margin reach into the layers of several processes.
+  const std::pair<std::string, Names> grids[] = {{"2", {"--margin", "0"}},
+                                                 {"5", {"--margin", "0"}},
+                                                 {"8", {"--margin", "0"}},
+                                                 {"6", {"--margin", "1", "--coarsen", "2"}},
+                                                 {"8", {"--margin", "0.8", "--coarsen", "9,0"}}};
+  for (const auto& [cells, options] : grids) {
+    Names words = {"cut", file, "--cells", cells, "-o", folder.path(one)};
+    words.insert(words.end(), options.begin(), options.end());
+    REQUIRE(run(folder, words).exitCode == 0);
+    words[5] = folder.path(pieces);
     for (const int processes : {1, 2, 3, 4}) {  // of two layers some get nothing
-      CAPTURE(cells, processes);
-      const Outcome outcome = runRanks(folder, processes, {"cut", file, "--cells", cells, "--margin", "0", "-o", folder.path(pieces)});
+      CAPTURE(words, processes);
+      const Outcome outcome = runRanks(folder, processes, words);
       CAPTURE(outcome.err);
       REQUIRE(outcome.exitCode == 0);
       WholeMesh whole;
@@ -534,8 +543,10 @@ TEST_CASE("Without PETSc several processes cut, and say that flows need it", "[m
 
 #ifdef MANDOLINE_MPI_FLOWS
 
-TEST_CASE("A flow of several processes is that of one, of cells as they are and merged, without corrections and with them", "[mpi]") {
-  const std::string fraction = GENERATE(as<std::string>{}, "0", "0.2"), corrections = GENERATE(as<std::string>{}, "0", "8");
+TEST_CASE("A flow of several processes is that of one, of cells as they are, merged, and octree cells, without corrections and with them",
+          "[mpi]") {
+  const std::string levels = GENERATE(as<std::string>{}, "0", "2"), fraction = GENERATE(as<std::string>{}, "0", "0.2"),
+                    corrections = GENERATE(as<std::string>{}, "0", "8");
   const double most = corrections == "0" ? 1 : 1e4;  // corrections end where so little is missing
   const TemporaryFolder folder;
   const std::string mesh = meshFile(folder, shapes::merged({shapes::icosphere({0, 0, 0}, 1, 2), shapes::cube(0.5, 1.5)}));
@@ -552,7 +563,9 @@ TEST_CASE("A flow of several processes is that of one, of cells as they are and 
                  "--report",
                  folder.path("one.json"),
                  "-o",
-                 folder.path("one.vtu")};
+                 folder.path("one.vtu"),
+                 "--coarsen",
+                 levels};
   REQUIRE(run(folder, words).exitCode == 0);
   const vtu_files::Vtu one(folder.read("one.vtu"));
   const auto expected = one.array<double>("phi"), velocity = one.array<double>("velocity");
@@ -598,7 +611,7 @@ TEST_CASE("What a flow of several processes has not is said once", "[mpi]") {
   const std::string mesh = meshFile(folder, shapes::cube(0, 2));
   const Names flow = {"flow", mesh, "--wind", "1,0,0", "--cells", "6", "-o", folder.path("a.vtu")};
   const std::pair<Names, std::string> cases[] = {
-      {{"--coarsen", "2"}, "--coarsen: a flow of several processes has none"},
+      {{"--unite-walls", "30"}, "--unite-walls: a flow of several processes has none"},
       {{"--far-field"}, "--far-field: a flow of several processes has none"},
   };
   for (const auto& [options, message] : cases) {

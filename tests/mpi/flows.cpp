@@ -2,9 +2,9 @@
 //
 //   mandoline-mpi-flows CELLS EVERY
 //
-// as mandoline-mpi-pieces, of cells as they are and merged. Both solve the same system; they differ by what their solvers leave of the
-// residual. Corrections end where little is missing, and what is then missing depends on how well systems are solved before: so these are
-// compared with those of one process that solves as well, and less strictly with solveFlow().
+// as mandoline-mpi-pieces, of cells as they are and merged, and of octree cells. Both solve the same system; they differ by what their
+// solvers leave of the residual. Corrections end where little is missing, and what is then missing depends on how well systems are solved
+// before: so these are compared with those of one process that solves as well, and less strictly with solveFlow().
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -30,6 +30,13 @@ constexpr double kMostMissing = 1e-4;  // as kMostOff, of solutions that are cor
 struct Kind {
   double fraction;  // of cells that are merged
   int corrections;
+  int levels = 0;  // of octree cells
+
+  CoarsenOptions coarsening() const {
+    CoarsenOptions options;
+    options.maxLevel = levels;
+    return options;
+  }
 };
 
 struct Found {
@@ -66,7 +73,7 @@ void requireCells(const RankComplex& mine, int rank, const CellComplex& cells) {
 Flow flowOfOne(const PreparedMesh& prepared, const Grid& grid, const std::array<double, 3>& wind, const Kind& kind) {
   detail::Communicator self(MPI_COMM_SELF, nullptr);
   const DistributedCut alone(MPI_COMM_SELF, prepared, grid, {1, {}});
-  return cli::solveRankFlow(self, cli::mergedComplex(self, alone, kind.fraction), wind, kind.corrections).flow;
+  return cli::solveRankFlow(self, cli::mergedComplex(self, alone, kind.fraction, kind.coarsening()), wind, kind.corrections).flow;
 }
 
 double largestOf(const std::vector<double>& values) {
@@ -79,15 +86,14 @@ Found compare(detail::Communicator& comm, const Mesh& mesh, const Grid& grid, co
   const PreparedMesh prepared = prepare(mesh, {{1, {}}}).mesh;
   const std::array<double, 3> wind{2, 0.5, 0.25};
   const DistributedCut distributed(MPI_COMM_WORLD, prepared, grid, {1, {}});
-  const RankComplex mine = cli::mergedComplex(comm, distributed, kind.fraction);
+  const RankComplex mine = cli::mergedComplex(comm, distributed, kind.fraction, kind.coarsening());
   Found found;
   found.flow = cli::solveRankFlow(comm, mine, wind, kind.corrections);
   const CutResult whole = cut(prepared, grid, {{1, {}}});
-  CoarsenOptions coarsening;
-  coarsening.maxLevel = 0;
   MergeOptions merging;
   merging.fraction = kind.fraction;
-  const CellComplex cells = mergeSmallCells(whole.mesh, cellComplex(mesh, whole.mesh, coarsen(whole.mesh, coarsening)), merging).cells;
+  const CellComplex cells =
+      mergeSmallCells(whole.mesh, cellComplex(mesh, whole.mesh, coarsen(whole.mesh, kind.coarsening())), merging).cells;
   comm.together("comparison", [&] { requireCells(mine, comm.rank(), cells); });
   FlowOptions options;
   options.corrections = kind.corrections;
@@ -119,9 +125,10 @@ bool check(detail::Communicator& comm, const std::string& name, const Mesh& mesh
                         found.missing <= kMostMissing && (found.corrections > 0) == (kind.corrections > 0);
     if (comm.rank() == 0)
       std::printf(
-          "%-28s %s%s %s: phi off by %.1e, of solveFlow() by %.1e, velocities by %.1e, imbalance %.1e, residual %.1e, %d iterations\n",
+          "%-28s %s%s, %d levels, %s: phi off by %.1e, of solveFlow() by %.1e, velocities by %.1e, imbalance %.1e, residual %.1e, %d "
+          "iterations\n",
           std::filesystem::path(name).filename().c_str(), kind.fraction > 0 ? "merged" : "as it is",
-          kind.corrections > 0 ? ", corrected" : "", isGood ? "as one" : "WRONG", found.off, found.missing, found.speedOff,
+          kind.corrections > 0 ? ", corrected" : "", kind.levels, isGood ? "as one" : "WRONG", found.off, found.missing, found.speedOff,
           found.flow.imbalance, flow.residuals.back(), found.flow.iterations);
     if (!isGood) return false;
   } catch (const std::exception& error) {
@@ -136,7 +143,8 @@ int checkAll(int64_t n, size_t every) {
   size_t checked = 0, wrong = 0;
   const auto add = [&](const std::string& name, const Mesh& mesh) {
     ++checked;
-    for (const Kind& kind : {Kind{0, 0}, Kind{0.2, 0}, Kind{0.5, 0}, Kind{0, 8}, Kind{0.2, 8}}) {
+    for (const Kind& kind : {Kind{0, 0}, Kind{0.2, 0}, Kind{0.5, 0}, Kind{0, 8}, Kind{0.2, 8}, Kind{0, 0, 2}, Kind{0, 8, 1},
+                             Kind{0.2, 8, 2}, Kind{0.5, 8, 24}}) {
       if (check(comm, name, mesh, Grid::around(mesh, n, 0.3), kind)) continue;
       ++wrong;
       break;

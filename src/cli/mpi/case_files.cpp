@@ -134,7 +134,9 @@ void CaseFiles::addSeams(const RankComplex& complex, PolyMesh& mesh) const {
   }
 }
 
-void CaseFiles::write(const RankComplex& complex, const CutMesh& common, const WriteOptions& options) {
+void CaseFiles::write(const DistributedCut& cut, const RankComplex& complex, const CoarsenOptions& coarsening,
+                      const WriteOptions& options) {
+  const CutMesh& common = cut.common().mesh;
   std::optional<detail::ComplexPolygons> polygons;
   PolyMesh mesh;
   std::optional<detail::PolyFiles> files;
@@ -145,7 +147,7 @@ void CaseFiles::write(const RankComplex& complex, const CutMesh& common, const W
     files.emplace(detail::PolyFiles{complex.cells, *polygons, mesh});
     detail::countFaces(*files);
   });
-  const std::vector<uint64_t> numbers = faceNumbers(ranks_.comm(), common, {complex, *polygons}, mesh);
+  const std::vector<uint64_t> numbers = faceNumbers(ranks_.comm(), common, {complex, coarsening, *polygons}, mesh);
   ranks_.together([&] {
     files->lists = addressing(complex, *files, numbers);
     detail::writeFolder(folderOf(ranks_.rank()), [&](const FolderSink& sink) { detail::writeFiles(sink, *files, options); });

@@ -19,9 +19,9 @@ class CaseFiles {
   ~CaseFiles();
   CaseFiles(const CaseFiles&) = delete;
 
-  /// Writes this process's. `common` is DistributedCut::common(); regions and untouched of the options are not read. Collective. Throws
-  /// Stopped, and RankError.
-  void write(const RankComplex& complex, const CutMesh& common, const WriteOptions& options);
+  /// Writes the cells of this process, which cut.cellComplex() made with `coarsening`, or for a maxLevel of 0 without; regions and
+  /// untouched of the options are not read. Collective. Throws Stopped, and RankError.
+  void write(const DistributedCut& cut, const RankComplex& complex, const CoarsenOptions& coarsening, const WriteOptions& options);
 
  private:
   std::string folderOf(int rank) const;

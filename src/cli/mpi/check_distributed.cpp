@@ -15,11 +15,11 @@
 namespace mandoline::cli {
 namespace {
 
-/// Refuses what pieces do not go with. A case has all grid cells as they are, which some options may ask for.
+/// Refuses what pieces do not go with. A case has small cells as they are, which an option may ask for.
 void checkPieces(const Arguments& arguments, const std::string& output) {
   const OnlyArguments& only = arguments.only;
   const bool isCase = isPolyMesh(output);
-  const std::pair<bool, const char*> others[] = {{arguments.coarsen.value_or(0) > 0 || (arguments.coarsen && !isCase), "--coarsen"},
+  const std::pair<bool, const char*> others[] = {{arguments.coarsen && !isCase, "--coarsen"},
                                                  {arguments.merge.value_or(0) > 0 || (arguments.merge && !isCase), "--merge"},
                                                  {arguments.refines(), "--refine"},
                                                  {arguments.uniteWalls.has_value(), "--unite-walls"},

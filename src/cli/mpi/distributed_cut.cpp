@@ -197,7 +197,9 @@ class Run {
     static_cast<RunOptions&>(options) = writingOptions();
     options.simpleCells = arguments_.simpleCells;
     options.groups = &input_.groups;
-    CaseFiles(ranks_, output).write(cut_->cellComplex(piece), cut_->common().mesh, options);
+    const CoarsenOptions coarsening = coarsenOptions(arguments_, {arguments_.threads, {}});
+    const RankComplex complex = coarsening.maxLevel == 0 ? cut_->cellComplex(piece) : cut_->cellComplex(piece, 1, coarsening);
+    CaseFiles(ranks_, output).write(*cut_, complex, coarsening, options);
   }
 
   /// The first process sends the groups of triangles to the others.

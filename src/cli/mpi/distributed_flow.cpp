@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cli/cutting.h"
 #include "cli/interrupt.h"
 #include "cli/mpi/flow/merged_ranks.h"
 #include "cli/mpi/flow/rank_flow.h"
@@ -81,8 +82,7 @@ Flow flowOf(const std::vector<Values>& all, const CellComplex& cells, const std:
 
 void checkDistributedFlow(const Arguments& arguments) {
   checkFlowOutputs(arguments);
-  const std::pair<bool, const char*> others[] = {{arguments.coarsen.value_or(0) > 0, "--coarsen"},
-                                                 {arguments.refines(), "--refine"},
+  const std::pair<bool, const char*> others[] = {{arguments.refines(), "--refine"},
                                                  {arguments.uniteWalls.has_value(), "--unite-walls"},
                                                  {arguments.flow.farField, "--far-field"},
                                                  {arguments.flow.steps.has_value(), "--steps"}};
@@ -93,7 +93,7 @@ void checkDistributedFlow(const Arguments& arguments) {
 
 SolveCells solveDistributed(Ranks& ranks, const Arguments& arguments, const DistributedCut& cut) {
   detail::Communicator& comm = ranks.comm();
-  const RankComplex complex = mergedComplex(comm, cut, mergeFraction(arguments));
+  const RankComplex complex = mergedComplex(comm, cut, mergeFraction(arguments), coarsenOptions(arguments, {1, {}}));
   const std::array<double, 3> wind = *arguments.flow.wind;
   const RankFlow found =
       solveRankFlow(comm, complex, wind, arguments.flow.corrections.value_or(FlowOptions().corrections), throwIfInterrupted);

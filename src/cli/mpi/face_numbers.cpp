@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "base/sort.h"
-#include "mpi/pack.h"
 #include "mpi/untouched_order.h"
+#include "operators/coarsen/coarsen_runs.h"
 
 namespace mandoline::cli {
 namespace {
@@ -28,7 +28,7 @@ class Numberer {
 
   std::vector<uint64_t> run(const CutMesh& common) {
     comm_.together("writing", [&] {
-      order_ = detail::untouchedOrder(common, mine_.complex.allLayers);
+      order_ = orderOf(common);
       first_.assign(2 * cells_.faceCount(), 0);
       sortInner();
     });
@@ -39,6 +39,11 @@ class Numberer {
   }
 
  private:
+  detail::UntouchedOrder orderOf(const CutMesh& common) const {
+    if (mine_.coarsening.maxLevel == 0) return detail::untouchedOrder(common, mine_.complex.allLayers);
+    return detail::octreeOrder(operators::coarsenRuns(common, mine_.coarsening), mine_.complex.allLayers);
+  }
+
   static size_t faceOf(const PolySide& side) { return side.halfFace / 2; }
   bool isOwn(int32_t cell) const { return mine_.complex.cellRanks[size_t(cell)] == comm_.rank(); }
   bool isCut(int32_t cell) const { return size_t(cell) < cells_.cutCells; }
@@ -116,35 +121,22 @@ class Numberer {
 
   /// The processes tell each other the numbers of the faces between them. Each knows those that it has given.
   void exchange() {
-    for (const int direction : {-1, 1}) {
-      int to = -1, from = -1;
-      for (const ComplexSeam& seam : mine_.complex.seams)
-        (seam.rank > comm_.rank() ? (direction > 0 ? to : from) : (direction > 0 ? from : to)) = seam.rank;
-      std::vector<uint64_t> numbers;
-      detail::Communicator::Bytes bytes;
-      comm_.together("writing", [&] {
-        for (const uint32_t h : seamHalfFaces(to)) numbers.push_back(first_[h]);
-        bytes = detail::packed(numbers);
-      });
-      bytes = comm_.exchange(bytes, to, from);
-      comm_.together("writing", [&] {
-        if (from < 0) return;
-        numbers = detail::unpacked<std::vector<uint64_t>>(bytes);
-        const std::vector<uint32_t> halfFaces = seamHalfFaces(from);
-        for (size_t i = 0; i < halfFaces.size(); ++i) {
-          if (isOther(halfFaces[i])) first_[halfFaces[i]] = numbers.at(i);
-        }
-      });
-    }
-  }
-
-  std::vector<uint32_t> seamHalfFaces(int rank) const {
-    std::vector<uint32_t> halfFaces;
+    std::vector<std::vector<uint64_t>> numbers;  // per process
+    comm_.together("writing", [&] {
+      numbers.resize(size_t(comm_.size()));
+      for (const ComplexSeam& seam : mine_.complex.seams) {
+        for (const uint32_t f : seam.faces)
+          numbers[size_t(seam.rank)].insert(numbers[size_t(seam.rank)].end(), {first_[2 * size_t(f)], first_[2 * size_t(f) + 1]});
+      }
+    });
+    numbers = comm_.exchangeAll(numbers);
     for (const ComplexSeam& seam : mine_.complex.seams) {
-      if (seam.rank != rank) continue;
-      for (const uint32_t f : seam.faces) halfFaces.insert(halfFaces.end(), {2 * f, 2 * f + 1});
+      const std::vector<uint64_t>& theirs = numbers[size_t(seam.rank)];
+      for (size_t i = 0; i < theirs.size(); ++i) {
+        const uint32_t h = 2 * seam.faces[i / 2] + uint32_t(i % 2);
+        if (isOther(h)) first_[h] = theirs[i];
+      }
     }
-    return halfFaces;
   }
 
   /// Whether the other process has numbered it.

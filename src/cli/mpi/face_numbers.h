@@ -10,6 +10,7 @@ namespace mandoline::cli {
 /// A process's cells, and what is written of them.
 struct RankCells {
   const RankComplex& complex;
+  const CoarsenOptions& coarsening;  ///< that it was made with; with maxLevel 0 without
   const detail::ComplexPolygons& polygons;
 };
 

@@ -32,7 +32,7 @@ options. Each process reads its share of the mesh and cuts some layers of the gr
                          which joins them; with --only also cut and region=K
   -o CASE/constant/polyMesh
                          a decomposed case of OpenFOAM: CASE/processor0/constant/polyMesh
-                         and so on, with all grid cells as they are
+                         and so on, with small cells as they are
   -o FOLDER.mcm/         a .mcm file of each process, FOLDER.mcm/piece_0.mcm and so on;
                          readCutMesh() takes each of them, or the folder for the whole.
                          Other files are written by the first process, which then has to
@@ -43,7 +43,7 @@ options. Each process reads its share of the mesh and cuts some layers of the gr
 
 flow solves the potential flow by PETSc, where the program was built with it, as mandoline
 flow does; the first process gathers the whole and writes it. PETSC_OPTIONS chooses other
-solvers. Not with --coarsen, --refine, --unite-walls, --far-field and --steps.
+solvers. Not with --refine, --unite-walls, --far-field and --steps.
 
 plan tells what the busiest of P processes, up to 100000, would have of a cut: cut-cells,
 faces and how many of these it shares with others, memory, what it sends, and how many times

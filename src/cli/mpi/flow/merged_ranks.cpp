@@ -20,6 +20,7 @@ struct KnownCell {
   std::array<double, 3> centroid;
   std::array<int32_t, 3> corner;
   uint32_t region;
+  uint64_t level;
 };
 
 struct KnownFace {
@@ -56,8 +57,12 @@ struct Known {
     for (size_t c = 0; c < of.cellCount(); ++c) {
       if (complex.cellRanks[c] != rank) continue;
       const int32_t* corner = &of.cellCorner[3 * c];
-      cells.push_back(
-          {complex.cellIds[c], of.cellVolume[c], pointOf(of.cellCentroid, c), {corner[0], corner[1], corner[2]}, of.cellRegion[c]});
+      cells.push_back({complex.cellIds[c],
+                       of.cellVolume[c],
+                       pointOf(of.cellCentroid, c),
+                       {corner[0], corner[1], corner[2]},
+                       of.cellRegion[c],
+                       of.cellLevel[c]});
     }
     for (size_t f = 0; f < of.faceCount(); ++f) {
       const int32_t a = of.faceCells[2 * f], b = of.faceCells[2 * f + 1];
@@ -81,7 +86,7 @@ CellComplex complexOf(const std::vector<KnownCell>& cells, const std::vector<Kno
     complex.cellCentroid.insert(complex.cellCentroid.end(), cell.centroid.begin(), cell.centroid.end());
     complex.cellCorner.insert(complex.cellCorner.end(), cell.corner.begin(), cell.corner.end());
     complex.cellRegion.push_back(cell.region);
-    complex.cellLevel.push_back(0);
+    complex.cellLevel.push_back(uint8_t(cell.level));
   }
   for (const KnownFace& face : faces) {
     for (const uint64_t id : face.cells) complex.faceCells.push_back(int32_t(id));
@@ -177,7 +182,7 @@ class RankMerger {
     if (!addLayersOf([&](uint32_t c) { return ranks_[c] == rank_; }, range)) return false;
     for (int ring = 0; ring < kFlowGhosts; ++ring) {
       range = {std::max<int64_t>(range[0] - 1, 0), std::min<int64_t>(range[1] + 1, complex_.cutMesh.grid.cells(2))};
-      if (range[0] < complex_.allLayers[0] || range[1] > complex_.allLayers[1]) return false;
+      if (!areHere(range)) return false;
       const std::array<int64_t, 2> before = range;
       const auto isIn = [&](uint32_t c) {
         const std::array<int64_t, 2> layers = layersOf(c);
@@ -230,16 +235,21 @@ class RankMerger {
     return int32_t(at - layers_.begin());
   }
 
+  bool areHere(const std::array<int64_t, 2>& layers) const {
+    return layers[0] >= complex_.allLayers[0] && layers[1] <= complex_.allLayers[1];
+  }
+
   std::array<int64_t, 2> layersOf(uint32_t mergedCell) const {
-    std::array<int64_t, 2> layers{complex_.allLayers[1], complex_.allLayers[0]};
+    const int64_t end = complex_.cutMesh.grid.cells(2);
+    std::array<int64_t, 2> layers{end, 0};
     for (const size_t member : merged_.membersOfCell(mergedCell)) {
-      const int64_t layer = complex_.cells.cellCorner[3 * member + 2];
-      layers = {std::min(layers[0], layer), std::max(layers[1], layer + 1)};
+      const int64_t layer = complex_.cells.cellCorner[3 * member + 2], past = layer + (1 << complex_.cells.cellLevel[member]);
+      layers = {std::min(layers[0], layer), std::max(layers[1], std::min(past, end))};
     }
     return layers;
   }
 
-  /// Those of these cells; whether all are complete.
+  /// Those of these cells; whether all are complete, and in the layers that are here.
   template <class IsOne>
   bool addLayersOf(const IsOne& isOne, std::array<int64_t, 2>& range) const {
     for (uint32_t c = 0; c < merged_.cellCount(); ++c) {
@@ -248,7 +258,7 @@ class RankMerger {
       const std::array<int64_t, 2> layers = layersOf(c);
       range = {std::min(range[0], layers[0]), std::max(range[1], layers[1])};
     }
-    return true;
+    return areHere(range);
   }
 
   const RankComplex& complex_;
@@ -264,14 +274,17 @@ class RankMerger {
 
 }  // namespace
 
-RankComplex mergedComplex(detail::Communicator& comm, const DistributedCut& cut, double fraction) {
+RankComplex mergedComplex(detail::Communicator& comm, const DistributedCut& cut, double fraction, const CoarsenOptions& coarsening) {
   const RankPiece piece = cut.piece();
-  if (!(fraction > 0)) return cut.cellComplex(piece, kFlowGhosts);
+  const auto complexWith = [&](int ghosts) {
+    return coarsening.maxLevel == 0 ? cut.cellComplex(piece, ghosts) : cut.cellComplex(piece, ghosts, coarsening);
+  };
+  if (!(fraction > 0)) return complexWith(kFlowGhosts);
   constexpr int kUsual = kFlowGhosts + 2;  // few merged cells reach farther
   const detail::RankLayers layers = detail::layersOfAll(comm, piece.layers);
   std::optional<std::vector<Absorbed>> absorbed;
   for (int ghosts = kUsual;; ++ghosts) {
-    RankComplex complex = cut.cellComplex(piece, ghosts);
+    RankComplex complex = complexWith(ghosts);
     if (!absorbed) absorbed = absorbedCells(comm, cut.common().mesh, complex, fraction);
     std::optional<RankMerger> merger;
     bool hasEnough = false;
