@@ -160,6 +160,7 @@ void cutAll(const Mesh& mesh, const Grid& grid, Given given) {
   const RankPiece piece = cut->piece();
   const std::vector<double> volumes = cut->regionVolumes(piece);
   cut->cellComplex(piece);
+  cut->cellComplex(piece, 1, CoarsenOptions{{1, {}}});
   cut->gather();
 }
 
