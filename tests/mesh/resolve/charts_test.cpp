@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/box_tree.h"
+#include "base/group_numbers.h"
 #include "catch.h"
 #include "mesh/prepared.h"
 #include "mesh/resolve/contacts.h"
@@ -200,7 +201,8 @@ TEST_CASE("triangle tree: gives all pairs of different groups whose boxes overla
       RunOptions options;
       options.threads = threads;
       Monitor monitor(options, 1);
-      const TriangleTree tree(sorted, groupOf, groups, monitor);
+      const Csr<uint32_t> byGroup = groupNumbers(groups, groupOf.size(), monitor, [&](size_t t) { return groupOf[t]; });
+      const TriangleTree tree(sorted, groupOf, byGroup, monitor);
       found.clear();
       for (const TriangleTree::LeafPair& leaves : tree.overlappingLeaves(monitor)) {
         tree.forOverlapping(leaves, [&](uint32_t i, uint32_t j) { CHECK(found.insert(ascending(i, j)).second); });
