@@ -4,20 +4,25 @@
 #include <new>
 
 #include "cli/commands.h"
+#include "cli/files.h"
 #include "cli/interrupt.h"
 #include "cli/limit_memory.h"
 
 namespace mandoline::cli {
 namespace {
 
+void print(std::string_view text) {
+  writeOutput("-", [&](const Sink& sink) { sink(text); });
+}
+
 int run(const std::vector<std::string>& words) {
   const Arguments arguments = parseArguments(words);
   switch (arguments.command) {
     case Command::help:
-      std::cout << kHelp;
+      print(kHelp);
       return kFine;
     case Command::version:
-      std::cout << "mandoline " << MANDOLINE_VERSION << "\n";
+      print("mandoline " MANDOLINE_VERSION "\n");
       return kFine;
     case Command::cut:
       return arguments.stream ? runStream(arguments) : runCut(arguments);

@@ -23,6 +23,16 @@ TEST_CASE("Command line: help and version", "[cli]") {
   REQUIRE(version.out.substr(0, 10) == "mandoline ");
 }
 
+TEST_CASE("Command line: help that can't be written exits with 2", "[cli]") {
+  if (!std::filesystem::exists("/dev/full")) return;
+  const TemporaryFolder folder;
+  for (const std::string word : {"--help", "--version"}) {
+    const Outcome o = runProgram(folder, {"/bin/sh", "-c", std::string(MANDOLINE_CLI) + " " + word + " > /dev/full"});
+    CHECK(o.exitCode == 2);
+    CHECK(contains(o.err, "standard output: can't be written"));
+  }
+}
+
 TEST_CASE("Command line: wrong usage exits with 2", "[cli]") {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("cube.obj", kCube);
