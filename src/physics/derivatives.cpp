@@ -39,6 +39,18 @@ Said saidOf(const CellComplex& cells, const CellFits& fits, size_t cell, const P
   return said;
 }
 
+/// How much of the difference of phi that the polynomials leave counts along the normal. The smallest gradient that makes up for it lies
+/// along the line between the cells, so this is the square of the cosine between line and normal; but no less than where grid cells touch
+/// at a corner. Only between merged cells of similar size: where others are slivers, plain derivatives keep them in place.
+double shareOfNormal(const CellComplex& cells, size_t a, size_t b, const Places& at) {
+  constexpr double kLeast = 1.0 / 3, kStraight = 0.99, kSliver = 0.1;
+  const auto [smaller, larger] = std::minmax(cells.cellVolume[a], cells.cellVolume[b]);
+  if (cells.cellMemberOffsets.empty() || !(smaller >= kSliver * larger)) return 1;
+  const Point step = differenceOf(at.to, at.from);
+  const double along = dot(step, at.normal), square = dot(step, step), share = square > 0 ? along * along / square : 1;
+  return share < kStraight ? std::max(share, kLeast) : 1;
+}
+
 }  // namespace
 
 Differentiator::Differentiator(const FitSource& source, const std::vector<BoundaryTerm>& terms, unsigned threads)
@@ -206,18 +218,6 @@ double Differentiator::addedByThirds(size_t e, const CellFits& fits) const {
     sum += factor * (fits.second[6 * other + d] - fits.second[6 * edge.cell + d]) / edge.distance;
   }
   return sum;
-}
-
-/// What the polynomials leave of a difference of phi is that of a gradient as small as can be, so the normal has the square of their cosine
-/// of it; at least as much as between grid cells that touch at a corner. Between merged cells alone: others may be slivers, which plain
-/// derivatives hold.
-static double shareOfNormal(const CellComplex& cells, size_t a, size_t b, const Places& at) {
-  constexpr double kLeast = 1.0 / 3, kStraight = 0.99, kSliver = 0.1;
-  const auto [smaller, larger] = std::minmax(cells.cellVolume[a], cells.cellVolume[b]);
-  if (cells.cellMemberOffsets.empty() || !(smaller >= kSliver * larger)) return 1;
-  const Point step = differenceOf(at.to, at.from);
-  const double along = dot(step, at.normal), square = dot(step, step), share = square > 0 ? along * along / square : 1;
-  return share < kStraight ? std::max(share, kLeast) : 1;
 }
 
 double Differentiator::correctionOf(size_t e, size_t f, const CellFits& fits, const std::vector<double>& phi) const {
