@@ -6,6 +6,7 @@
 #include "mpi/ghost_layers.h"
 #include "mpi/untouched_order.h"
 #include "operators/cell_complex/in_layers.h"
+#include "operators/coarsen/block_tree.h"
 #include "operators/coarsen/coarsen_runs.h"
 #include "operators/measure/measure_part.h"
 
@@ -63,8 +64,9 @@ class ComplexMaker {
   }
 
  private:
-  /// Gives how many layers have so many rings of ghosts.
+  /// Gives how many layers have so many rings of ghosts. Grid cells as they are need no octree.
   int coarsen(const CoarsenOptions& options, const std::array<int64_t, 2>& own, int rings) {
+    if (operators::meantFor(whole_.common.grid, options).maxLevel == 0) return rings;
     octree_ = operators::coarsenRuns(whole_.common, options);
     if (own[0] == own[1]) return rings;
     const std::array<int64_t, 2> all = layersAround(*octree_, own, rings);

@@ -198,8 +198,7 @@ class Run {
     options.simpleCells = arguments_.simpleCells;
     options.groups = &input_.groups;
     const CoarsenOptions coarsening = coarsenOptions(arguments_, {arguments_.threads, {}});
-    const RankComplex complex = coarsening.maxLevel == 0 ? cut_->cellComplex(piece) : cut_->cellComplex(piece, 1, coarsening);
-    CaseFiles(ranks_, output).write(*cut_, complex, coarsening, options);
+    CaseFiles(ranks_, output).write(*cut_, cut_->cellComplex(piece, 1, coarsening), coarsening, options);
   }
 
   /// The first process sends the groups of triangles to the others.

@@ -6,6 +6,7 @@
 
 #include "base/function_ref.h"
 #include "base/parallel.h"
+#include "base/shared.h"
 #include "mandoline/coarsen.h"
 #include "operators/coarsen/morton_order.h"
 
@@ -60,6 +61,6 @@ Blocks cutBlocks(const CutMesh& cutMesh);
 Blocks cutBlocksByRuns(const CutMesh& cutMesh);
 
 /// The options with layersPerLevel as it is meant for a grid. Throws CallError if an option is negative.
-CoarsenOptions meantFor(const Grid& grid, CoarsenOptions options);
+MANDOLINE_SHARED CoarsenOptions meantFor(const Grid& grid, CoarsenOptions options);
 
 }  // namespace mandoline::operators

@@ -276,15 +276,12 @@ class RankMerger {
 
 RankComplex mergedComplex(detail::Communicator& comm, const DistributedCut& cut, double fraction, const CoarsenOptions& coarsening) {
   const RankPiece piece = cut.piece();
-  const auto complexWith = [&](int ghosts) {
-    return coarsening.maxLevel == 0 ? cut.cellComplex(piece, ghosts) : cut.cellComplex(piece, ghosts, coarsening);
-  };
-  if (!(fraction > 0)) return complexWith(kFlowGhosts);
+  if (!(fraction > 0)) return cut.cellComplex(piece, kFlowGhosts, coarsening);
   constexpr int kUsual = kFlowGhosts + 2;  // few merged cells reach farther
   const detail::RankLayers layers = detail::layersOfAll(comm, piece.layers);
   std::optional<std::vector<Absorbed>> absorbed;
   for (int ghosts = kUsual;; ++ghosts) {
-    RankComplex complex = complexWith(ghosts);
+    RankComplex complex = cut.cellComplex(piece, ghosts, coarsening);
     if (!absorbed) absorbed = absorbedCells(comm, cut.common().mesh, complex, fraction);
     std::optional<RankMerger> merger;
     bool hasEnough = false;
