@@ -17,6 +17,9 @@ serve({
     }
     return { value, nested: [new Float32Array([1, 2])] };
   },
+  tellAfterwards: (_, _args, { progress }) => {
+    setTimeout(() => progress('too late'), 20);
+  },
 });
 serve({
   fail: (_, [kind]) => {

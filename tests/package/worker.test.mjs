@@ -324,6 +324,25 @@ test('calls of its own wait for others, tell progress and give what they promise
     assert.equal(cyclic.itself, cyclic);
   }, extra));
 
+test('what a call of its own tells after its end is no progress, neither of nothing nor of the next call', () =>
+  withWorker(async (worker) => {
+    const told = [];
+    const progress = (value) => {
+      told.push(value);
+    };
+    const pause = () => new Promise((resolve) => setTimeout(resolve, 60));
+    await worker.call('tellAfterwards', [], { progress });
+    await pause();
+    await worker.call('tellAfterwards', [], { progress });
+    await worker.call('later', [0]); // takes no progress
+    await worker.call('tellAfterwards', [], { progress });
+    await worker.call('later', [0], { progress });
+    assert.deepEqual(told, [0, 1, 2]);
+    assert.equal(await worker.call('count'), 1);
+    await worker.call('later', [0]);
+    assert.equal(await worker.call('count'), 2); // by the same thread
+  }, extra));
+
 test('calls of its own are cancelled by their signal or their progress, in a new thread', () =>
   withWorker(async (worker) => {
     assert.equal(await worker.call('count'), 1);

@@ -175,16 +175,21 @@ class Answering {
     return [...this.#started.values()].some(({ host }) => host.hasTwin(object));
   }
 
-  #extra({ call, args, progress }) {
+  async #extra({ call, args, progress }) {
     const run = extraCalls.get(call);
     if (!run) {
       const says = suggestion(call, [...extraCalls.keys()], 'it serves none');
       throw new MandolineError('badArgument', `The worker's script serves no call ${call}${says}`, { stage: call });
     }
-    return run(this.#calls(), args, {
-      progress: (value) => progress && this.#post({ type: 'progress', value }),
-      cut: (...given) => this.#lead.cut(this.#started.get('cut'), given),
-    });
+    let tells = progress;
+    try {
+      return await run(this.#calls(), args, {
+        progress: (value) => tells && this.#post({ type: 'progress', value }),
+        cut: (...given) => this.#lead.cut(this.#started.get('cut'), given),
+      });
+    } finally {
+      tells = false; // what it goes on with after its end is not the progress of the next call
+    }
   }
 
   /** Those of all modules, for the extra calls; of modules that have not been started as promises. */
