@@ -368,6 +368,20 @@ test('what a call of its own throws arrives', () =>
     assert.equal(await worker.call('count'), 1);
   }, extra));
 
+test('all threads of a page that is built with the inline script share one address of it', async (t) => {
+  const { thread } = await import('mandoline-wasm/inline');
+  const started = [];
+  globalThis.Worker = class {
+    constructor(address) {
+      started.push(address);
+    }
+  };
+  t.after(() => delete globalThis.Worker);
+  for (let i = 0; i < 3; ++i) thread();
+  assert.equal(started.length, 3);
+  assert.equal(new Set(started).size, 1);
+});
+
 test('a thread that cannot start is named', async () => {
   for (const [thread, pattern] of [
     [() => new NodeWorker(new URL('no_such_thread.mjs', import.meta.url)), /no_such_thread\.mjs/],
