@@ -97,6 +97,21 @@ test('dropped files', async (t) => {
   await shows(page, '#mesh-line', { name: 'octahedron.stl' });
 });
 
+test('a file that can not be read is dropped while a cut runs: the picture is still what the settings ask for', async (t) => {
+  const page = await site.open(t, 'mesh=bunny&n=8');
+  await page.locator('#cells').evaluate((input) => {
+    input.value = '60';
+    input.dispatchEvent(new Event('input', { bubbles: true }));
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File([], 'empty.obj'));
+    input.dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true }));
+  });
+  await eventually(async () => assert.match(await textOf(page, '#alerts'), /empty\.obj can't be read/));
+  assert.equal(await isReady(page), 'error');
+  await shows(page, '#counts', { grid: '60x59x47' });
+  assert.match(await textOf(page, '#alerts'), /empty\.obj can't be read/);
+});
+
 test('of several dropped files the first mesh is opened, and the page says which are not', async (t) => {
   const page = await site.open(t, start);
   await drop(page, { 'octahedron.mtl': 'newmtl red', ...octahedronFiles, 'letter.txt': 'Dear reader' });

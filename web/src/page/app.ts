@@ -80,11 +80,20 @@ export class App {
   async open(source: Source, bytes?: ArrayBuffer): Promise<void> {
     await this.work.during(async () => {
       if (source.kind === 'file' && bytes) this.meshes.keepFile(source.name, bytes);
-      if ((await this.meshes.load(source)) !== 'loaded') return;
+      const outcome = await this.meshes.load(source);
+      if (outcome === 'failed') await this.cutAfterAll();
+      if (outcome !== 'loaded') return;
       this.fitNext = true;
       this.change({ ...this.settingsToKeep(), source, snapTolerance: 0, pose: null, up: 'auto', camera: null }, false);
       await this.recut(true);
     });
+  }
+
+  /** Loading has ended the cut that was under way, so the picture may not be what the settings ask for. What is said of the mesh stays. */
+  private async cutAfterAll(): Promise<void> {
+    if (!this.mesh || this.isCut() || this.work.isDoing('cutting')) return;
+    await this.recut(false);
+    this.work.fail();
   }
 
   /** Another mesh is seen whole: its regions are others, and planes that sliced the last one are off. It has cubic cells. */
