@@ -153,6 +153,10 @@ describe('links', () => {
     ['box=1,2,3', /box/],
     ['n=3,4,5&box=0,0,0,-1,1,1', /n/],
     [
+      'wind=north&smoke=maybe&flow=up&tunnel=1&compare=prices&divider=2&pose=dance,1&volumes=0,0&up=w',
+      /wind, smoke, flow, tunnel, compare, divider, pose, volumes, up/,
+    ],
+    [
       'snap=0.7&explode=9,9&color=plaid&show=ghosts&camera=1,1,1,1,1,1&region=-2&slice=thick',
       /snap, explode, color, show, camera, region, slice/,
     ],
@@ -167,6 +171,7 @@ describe('links', () => {
       assert.equal(await isReady(page), 'ready');
       await shows(page, '#mesh-line', { name: 'bunny' });
       await shows(page, '#counts', { grid: '16x16x13' });
+      assert.equal(await page.locator('#wind-on').isChecked(), false);
     });
   }
 

@@ -210,10 +210,13 @@ function readFreeSlice(settings: Settings, text: string): boolean {
 }
 
 function readWind(settings: Settings, text: string): boolean {
-  settings.wind.on = text !== 'off';
-  if (text === 'off') return true;
+  if (text === 'off') {
+    settings.wind.on = false;
+    return true;
+  }
   const values = numbers(text, 3);
   if (!values?.some((x) => x !== 0)) return false;
+  settings.wind.on = true;
   settings.wind.direction = direction(values);
   return true;
 }
