@@ -172,3 +172,21 @@ test('where it can not be loaded the page says so', async (t) => {
   await page.locator('#wind-heading').press('ArrowRight');
   await eventually(async () => assert.match((await dataOf(page, '#canvas')).smoke, /^0\.99/));
 });
+
+test('where what keeps its time can not be loaded the page says so', async (t) => {
+  const page = await site.newPage(t, { expectedProblem: /ERR_FAILED/ });
+  const refuse = async (route) => {
+    const response = await route.fetch();
+    if ((await response.text()).includes('.smokeStep(')) await route.abort();
+    else await route.fulfill({ response });
+  };
+  await page.route(/\/smoke-.*\.js/, refuse);
+  await page.goto(`${site.url}#${link}`);
+  await isReady(page);
+  await eventually(async () => assert.match(await textOf(page, '#alerts'), /smoke/));
+  await openPanel(page, 'wind');
+  assert.equal(await page.locator('#wind-numbers').getAttribute('aria-busy'), 'false');
+  await page.unroute(/\/smoke-.*\.js/, refuse);
+  await page.locator('#wind-heading').press('ArrowRight');
+  await eventually(async () => assert.match((await dataOf(page, '#canvas')).smoke, /^0\.99/));
+});

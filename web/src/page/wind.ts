@@ -113,12 +113,11 @@ export class WindTunnel {
 
   private async updateSmoke(request: SmokeRequest, count: number): Promise<void> {
     this.clock?.end(); // its flow ends where another one begins
-    const smoke = await ask(this.state, this.engine.smoke(request));
+    const begun = await ask(this.state, Promise.all([this.engine.smoke(request), import('./smoke')]));
     if (count !== this.count) return;
-    if (!smoke) this.showSmoke(null);
+    if (!begun) this.showSmoke(null);
     else {
-      const { SmokeClock } = await import('./smoke');
-      if (count !== this.count) return;
+      const [smoke, { SmokeClock }] = begun;
       this.showSmoke(
         new SmokeClock(this.engine, smoke, {
           state: (state, rate) => this.tell(smoke, state, rate),
