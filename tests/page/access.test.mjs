@@ -138,7 +138,9 @@ test('what happens is announced', async (t) => {
 
 describe('on a screen 360 pixels wide', () => {
   const phone = { viewport: { width: 360, height: 640 }, hasTouch: true, isMobile: true };
-  const overflow = (page) => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  // innerWidth grows with what runs over the side.
+  const overflow = (page) =>
+    page.evaluate(() => Math.max(document.documentElement.scrollWidth, innerWidth) - document.documentElement.clientWidth);
 
   const phonePage = (t, hash) => site.open(t, hash, { ...phone, panels: [], reducedMotion: 'reduce' });
   /** Whether they share no pixel. */
@@ -156,6 +158,14 @@ describe('on a screen 360 pixels wide', () => {
     for (const selector of ['#bar', '.title', '#tools']) assert.ok(await areApart(page, '#canvas', selector), selector);
     await eventually(async () => assert.ok(covered(await pixelsOf(page)) > 0.08));
   });
+
+  for (const divider of [0, 0.5, 1]) {
+    test(`a picture that is divided at ${100 * divider}% does not run over the side`, async (t) => {
+      const page = await phonePage(t, `mesh=wedge&n=6&explode=0,0&compare=voxels&divider=${divider}`);
+      await page.locator('#divider').waitFor();
+      assert.ok((await overflow(page)) <= 0);
+    });
+  }
 
   test('every control can be reached with a finger', async (t) => {
     const page = await phonePage(t, link);
