@@ -1,6 +1,8 @@
 // What the stages number. Kinds don't mix; the cut-mesh holds bare numbers.
 #pragma once
 
+#include <algorithm>
+
 #include "mesh/ids.h"
 
 namespace mandoline::detail {
@@ -26,5 +28,8 @@ struct HalfFace {
   HalfFace twin() const { return HalfFace(number ^ 1); }
   bool operator==(const HalfFace&) const = default;
 };
+
+/// Of an edge, whichever way it runs.
+inline uint64_t keyOf(VertexId u, VertexId v) { return uint64_t(std::min(u, v).number) << 32 | std::max(u, v).number; }
 
 }  // namespace mandoline::detail

@@ -28,29 +28,16 @@ bool PartedCell::find(const BrickSurface& surface, const Stencil& stencil, const
          (isOneCurve_ || isOneSheet(surface, faces));
 }
 
-/// A tri-cut-face that is not special has six ends of tri-edges at most, so that a quarter of the slots stays free.
-void PartedCell::clearTable(size_t faces) {
-  mask_ = 63;
-  while (mask_ < 8 * faces) mask_ = 2 * mask_ + 1;
-  if (slots_.size() <= mask_ || ++stamp_ == 0) {
-    slots_.assign(mask_ + 1, {0, 0, 0});
-    stamp_ = 1;
-  }
-}
-
 /// Whether two faces meet at each tri-edge, and all are connected so. As none is special, each has one loop, of its own number, that begins
 /// with its lowest vertex or is a whole triangle.
 bool PartedCell::isOneSheet(const BrickSurface& surface, std::span<const FaceId> faces) {
   const VertexId firstOnEdge = surface.vertices.firstOnEdge, firstInTriangle = surface.vertices.firstInTriangle;
-  clearTable(faces.size());
+  const StampedTable::View joints = joints_.clear(8 * faces.size());  // a face has six ends of tri-edges at most
   if (sheets_.size() < faces.size()) sheets_.resize(faces.size());
   const Csr<VertexId>& loops = surface.triFaces.loops;
   for (const FaceId f : faces) prefetch(&loops.offsets[f.number]);
   for (const FaceId f : faces) prefetch(loops[f.number].data());
-  Slot* const slots = slots_.data();
   uint32_t* const sheets = sheets_.data();
-  const uint32_t stamp = stamp_;
-  const size_t mask = mask_;
   size_t apart = faces.size(), open = 0;
   const auto sheetOf = [=](uint32_t face) {
     while (sheets[face] != face) face = sheets[face] = sheets[sheets[face]];
@@ -66,21 +53,19 @@ bool PartedCell::isOneSheet(const BrickSurface& surface, std::span<const FaceId>
       uint64_t key = v.number;
       if (v < firstOnEdge) {
         if (before >= firstOnEdge) continue;
-        key = uint64_t(std::min(before, v).number) << 32 | std::max(before, v).number;
+        key = keyOf(before, v);
       }
-      size_t at = firstPlaceOf(key);
-      while (slots[at & mask].stamp == stamp && slots[at & mask].key != key) ++at;
-      Slot& slot = slots[at & mask];
-      if (slot.stamp != stamp) {
-        slot = {key, stamp, f};
+      StampedTable::Slot& slot = joints.at(key);
+      if (joints.isFree(slot)) {
+        joints.put(slot, key, f);
         ++open;
         continue;
       }
-      if (slot.face == kBoth) return false;
-      const uint32_t a = sheetOf(slot.face), b = sheetOf(f);
+      if (slot.number == kBoth) return false;
+      const uint32_t a = sheetOf(slot.number), b = sheetOf(f);
       sheets[std::max(a, b)] = std::min(a, b);
       apart -= a != b;
-      slot.face = kBoth;
+      slot.number = kBoth;
       --open;
     }
   }

@@ -10,6 +10,7 @@
 #include <array>
 #include <vector>
 
+#include "base/stamped_table.h"
 #include "cut/stages/cut_faces.h"
 
 namespace mandoline::detail {
@@ -38,12 +39,6 @@ class PartedCell {
   std::span<const Place> places() const { return {places_.data(), pieceCount_}; }
 
  private:
-  /// Where two tri-cut-faces are connected: an end of a piece of a tri-edge on a grid-face, or a whole tri-edge inside of the cell. Of a
-  /// hash table that is emptied by counting up a stamp.
-  struct Slot {
-    uint64_t key;
-    uint32_t stamp, face;  ///< the one that has come so far, or kBoth
-  };
   static constexpr uint32_t kBoth = ~0u;
   static constexpr size_t kMostFaces = size_t(1) << 16, kMostPieces = 64;
   /// That have been found so far.
@@ -52,17 +47,15 @@ class PartedCell {
     std::array<uint8_t, 8> atCorners;
   };
 
-  void clearTable(size_t faces);
-  static size_t firstPlaceOf(uint64_t key) { return size_t((key * 0x9e3779b97f4a7c15u) >> 40); }
   bool isOneSheet(const BrickSurface& surface, std::span<const FaceId> faces);
   bool findSides(const Stencil& stencil, const GridFaces& grid, GridCellId cell);
   static bool findSidesOfWhole(std::span<const std::array<uint8_t, 2>> wholeFaces, Sides& found);
 
   bool canTell_ = false;
   IdVector<GridCellId, uint8_t> isSpecial_;
-  std::vector<Slot> slots_;
-  uint32_t stamp_ = 0;
-  size_t mask_ = 0;
+  /// Where two tri-cut-faces are connected: an end of a piece of a tri-edge on a grid-face, or a whole tri-edge inside of the cell. Each
+  /// with the face that has come so far, or kBoth.
+  StampedTable joints_;
   std::vector<uint32_t> sheets_;  // per tri-cut-face of the cell: one before it in its sheet, or itself
   bool isOneCurve_ = false;       // whether it is known that there is one curve
   std::array<uint8_t, kMostPieces> sides_;

@@ -3,8 +3,6 @@
 namespace mandoline::detail {
 namespace {
 
-uint64_t keyOf(VertexId u, VertexId v) { return uint64_t(std::min(u, v).number) << 32 | std::max(u, v).number; }
-
 /// The half-faces of a tri-cut-face towards smaller and larger angles about its edge, from the lower vertex to the higher.
 LocalHalf before(LocalFace face, bool ascending) { return sideOf(face, ascending ? 0 : 1); }
 LocalHalf after(LocalFace face, bool ascending) { return sideOf(face, ascending ? 1 : 0); }
@@ -58,29 +56,13 @@ bool PlainLinks::findHalves(const CellView& cell) {
   return true;
 }
 
-void PlainLinks::clearTable(size_t mostUses) {
-  mask_ = 63;
-  while (mask_ < 2 * mostUses) mask_ = 2 * mask_ + 1;
-  if (slots_.size() <= mask_ || ++stamp_ == 0) {
-    slots_.assign(mask_ + 1, {0, 0});
-    stamp_ = 1;
-  }
-}
-
-/// The slot of an edge, or a free one.
-PlainLinks::Slot& PlainLinks::slotOf(uint64_t key) {
-  size_t at = size_t((key * 0x9e3779b97f4a7c15u) >> 40);
-  while (slots_[at & mask_].stamp == stamp_ && uses_[slots_[at & mask_].use].key != key) ++at;
-  return slots_[at & mask_];
-}
-
 /// Edges inside of the cell have two tri-cut-faces. False if an edge has more, or lies on a grid line, or if a face has holes.
 bool PlainLinks::linkTriEdges(const CellView& cell) {
   const CutVertices& vertices = cell.surface.vertices;
   const TriFaces& tri = cell.faces.tri;
   size_t most = 0;
   for (const FaceId f : cell.halves.triFaces) most += tri.loopsOf(f)[0].size();
-  clearTable(most);
+  const StampedTable::View table = table_.clear(2 * most);
   uses_.clear();
   for (const LocalFace f : cell.halves.localFaces()) {
     const FaceId id = cell.halves.triFace(f);
@@ -89,14 +71,15 @@ bool PlainLinks::linkTriEdges(const CellView& cell) {
     const auto loop = loops[0];
     for (size_t k = 0; k < loop.size(); ++k) {
       const VertexId u = loop[k], v = loop[k + 1 < loop.size() ? k + 1 : 0];
-      Use use = {keyOf(u, v), f, u < v, false};
-      Slot& slot = slotOf(use.key);
-      if (slot.stamp != stamp_) {
-        slot = {stamp_, uint32_t(uses_.size())};
+      const Use use = {f, u < v, false};
+      const uint64_t key = keyOf(u, v);
+      StampedTable::Slot& slot = table.at(key);
+      if (table.isFree(slot)) {
+        table.put(slot, key, uint32_t(uses_.size()));
         uses_.push_back(use);
         continue;
       }
-      Use& other = uses_[slot.use];
+      Use& other = uses_[slot.number];
       if (other.isLinked || other.face == f || (tri.touchesLine[id] && liesInPlane(vertices.slab(u), vertices.slab(v)))) return false;
       other.isLinked = true;
       join(after(other.face, other.ascending), before(f, use.ascending));
@@ -109,6 +92,7 @@ bool PlainLinks::linkTriEdges(const CellView& cell) {
 /// All others lie in grid-faces and have one tri-cut-face in the cell, and a piece on either side. Seen from below the plane, the piece
 /// that runs upwards along the edge is the left one of its direction.
 bool PlainLinks::linkHybridEdges(const CellView& cell) {
+  const StampedTable::View table = table_.view();
   const auto& gridFaces = cell.stencil.cells[cell.halves.gridCell].faces;
   for (size_t i = 0; i < 6; ++i) {
     const GridFaceId g = gridFaces[i];
@@ -117,9 +101,9 @@ bool PlainLinks::linkHybridEdges(const CellView& cell) {
     const auto beside = cell.faces.grid.beside[g];
     const auto sides = beside.subspan(5 + beside[4]);
     for (size_t e = 0; e < edges.size(); ++e) {
-      const Slot& slot = slotOf(keyOf(edges[e].from, edges[e].to));
-      if (slot.stamp != stamp_ || uses_[slot.use].isLinked) return false;
-      Use& use = uses_[slot.use];
+      const StampedTable::Slot& slot = table.at(keyOf(edges[e].from, edges[e].to));
+      if (table.isFree(slot) || uses_[slot.number].isLinked) return false;
+      Use& use = uses_[slot.number];
       use.isLinked = true;
       const bool isBelow = i & 1, isLeft = (edges[e].from < edges[e].to) == isBelow;
       const LocalHalf up{first_[i].number + sides[2 * e + !isLeft]}, down{first_[i].number + sides[2 * e + isLeft]};

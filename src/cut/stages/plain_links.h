@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "base/stamped_table.h"
 #include "cut/stages/cell_view.h"
 
 namespace mandoline::detail {
@@ -18,19 +19,12 @@ class PlainLinks {
  private:
   /// An edge of a tri-cut-face.
   struct Use {
-    uint64_t key;  ///< its vertices, the lower one first
     LocalFace face;
     bool ascending;  ///< runs from the lower vertex to the higher
     bool isLinked;
   };
-  /// Of a hash table that is emptied by counting up a stamp.
-  struct Slot {
-    uint32_t stamp, use;
-  };
 
   bool findHalves(const CellView& cell);
-  void clearTable(size_t mostUses);
-  Slot& slotOf(uint64_t key);
   bool linkTriEdges(const CellView& cell);
   bool linkHybridEdges(const CellView& cell);
   void linkGridEdges(const CellView& cell);
@@ -38,9 +32,7 @@ class PlainLinks {
 
   std::array<LocalHalf, 6> first_;  // per grid-face of the cell: its first half-face
   std::vector<Use> uses_;
-  std::vector<Slot> slots_;
-  uint32_t stamp_ = 0;
-  size_t mask_ = 0;
+  StampedTable table_;  // of numbers of uses
   std::vector<std::array<LocalHalf, 2>> joins_;
 };
 
