@@ -26,11 +26,13 @@ class Monitor {
  public:
   /// `options` are RunOptions, which must outlive the monitor.
   template <class RunOptions>
-  Monitor(const RunOptions& options, int stageCount)
-      : stageCount_(stageCount), team_(std::clamp(options.threads ? options.threads : coreCount(), 1u, 256u)) {
+  Monitor(const RunOptions& options, int stageCount) : Monitor(options.threads) {
+    stageCount_ = stageCount;
     if (!options.progress) return;
     callback_ = [&options, this](size_t done, size_t total) { return options.progress({stage_, index_, stageCount_, done, total}); };
   }
+  /// Of work that tells nobody; 0: as many threads as there are cores.
+  explicit Monitor(unsigned threads) : team_(std::clamp(threads ? threads : coreCount(), 1u, 256u)) {}
   Monitor(const Monitor&) = delete;
 
   void beginStage(const char* name, int index) {
@@ -80,7 +82,7 @@ class Monitor {
   std::function<bool(size_t, size_t)> callback_;
   Mutex mutex_;
   const char* stage_ = "";
-  int index_ = 0, stageCount_;
+  int index_ = 0, stageCount_ = 1;
   const Team team_;
   bool cancelled_ = false;
 };

@@ -4,6 +4,8 @@
 
 #include "base/large_array.h"
 #include "base/sort.h"
+#include "physics/node_loops.h"
+#include "physics/rows_of.h"
 
 namespace mandoline::physics {
 

@@ -5,8 +5,9 @@
 #include <unordered_map>
 
 #include "base/mix.h"
-#include "physics/cell_edges.h"
 #include "physics/face_box.h"
+#include "physics/node_loops.h"
+#include "physics/rows_of.h"
 
 namespace mandoline::physics {
 namespace {

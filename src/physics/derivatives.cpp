@@ -5,7 +5,6 @@
 #include "base/large_array.h"
 #include "base/parallel.h"
 #include "base/sort.h"
-#include "physics/cell_edges.h"
 #include "physics/face_box.h"
 #include "physics/node_loops.h"
 
@@ -64,8 +63,7 @@ Differentiator::Differentiator(const FitSource& source, const std::vector<Bounda
     uint32_t face, edge;
   };
   std::vector<FaceOfEdge> all;
-  const RunOptions quiet{threads, {}};
-  detail::Monitor monitor(quiet, 1);
+  detail::Monitor monitor(threads);
   const auto parts = detail::forChunks<std::vector<uint32_t>>(dual_.edges.size(), monitor, [&](auto& edges, size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {
       if (isCorrected(e)) edges.push_back(uint32_t(e));

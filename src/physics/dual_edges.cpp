@@ -5,7 +5,6 @@
 
 #include "base/large_array.h"
 #include "base/parallel.h"
-#include "mandoline/status.h"
 #include "physics/node_loops.h"
 
 namespace mandoline::physics {
@@ -139,8 +138,7 @@ class Finder {
 }  // namespace
 
 DualEdges dualEdges(const CellComplex& cells, DualPoints dualPoints, std::vector<double> coefficients, unsigned threads) {
-  const RunOptions quiet{threads, {}};
-  detail::Monitor monitor(quiet, 1);
+  detail::Monitor monitor(threads);
   return Finder(cells, dualPoints, std::move(coefficients)).run(monitor);
 }
 

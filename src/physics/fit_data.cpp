@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/large_array.h"
-#include "physics/cell_edges.h"
 #include "physics/node_loops.h"
+#include "physics/rows_of.h"
 
 namespace mandoline::physics {
 namespace {

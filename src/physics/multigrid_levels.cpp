@@ -6,7 +6,6 @@
 #include "base/large_array.h"
 #include "base/parallel.h"
 #include "base/shared_sets.h"
-#include "mandoline/status.h"
 
 namespace mandoline::physics {
 namespace {
@@ -156,8 +155,7 @@ std::vector<CoupledPair> pairsOf(const Level& fine, const Level& level, unsigned
   struct Place {
     uint32_t a = ~0u, pair;  // that of a with b, among those of a
   };
-  const RunOptions quiet{threadsFor(count, threads), {}};
-  detail::Monitor monitor(quiet, 1);
+  detail::Monitor monitor(threadsFor(count, threads));
   std::vector<std::vector<Place>> placesOfThreads(monitor.threads());  // per b
   std::vector<std::vector<CoupledPair>> parts(blockCount(count));
   std::vector<uint32_t> blocks(parts.size());

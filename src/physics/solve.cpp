@@ -152,8 +152,7 @@ class Solver {
   /// Adds what plain derivatives lack to the right side, again and again: the matrix keeps the plain ones.
   void correct() {
     const Vector rhs = rhs_;
-    const RunOptions quiet{monitor_.threads(), {}};
-    detail::Monitor unheard(quiet, 1);
+    detail::Monitor unheard(monitor_.threads());
     const Differentiator& differentiator = setup_.differentiator;
     if (!setup_.fitter) setup_.fitter.emplace(differentiator.fitter(unheard));
     const double enough = 0x1p10 * options_.tolerance * options_.tolerance * differentiator.squareOfPlain(result_.phi, threads());

@@ -4,8 +4,8 @@
 #include <span>
 
 #include "base/large_array.h"
+#include "base/parallel.h"
 #include "base/sort.h"
-#include "physics/cell_edges.h"
 
 namespace mandoline::physics {
 
@@ -96,8 +96,7 @@ CsrMatrix laplacianRows(const CellComplex& cells, const DualEdges& dual, const d
     CsrMatrix rows;
     std::vector<Entry> row;
   };
-  const RunOptions quiet{threads, {}};
-  detail::Monitor monitor(quiet, 1);
+  detail::Monitor monitor(threads);
   std::vector<Part> parts = detail::forChunks<Part>(cells.cellCount(), monitor, [&](Part& part, size_t begin, size_t end) {
     for (size_t c = begin; c < end; ++c) {
       part.row.clear();

@@ -100,8 +100,7 @@ class Joiner {
   uint32_t ground() const { return uint32_t(cells_.cellCount()); }
 
   void findWeak(double all) {
-    const RunOptions quiet{team_.size(), {}};
-    detail::Monitor monitor(quiet, 1);
+    detail::Monitor monitor(team_.size());
     const auto add = [&](const Link& link, std::vector<Link>& weak) {
       if (link.strength * limit_ < all) weak.push_back(link);
     };
