@@ -1,7 +1,5 @@
 #include "base/exact.h"
 
-#include <algorithm>
-
 namespace mandoline::detail {
 
 Expansion Expansion::sum(const Expansion& a, const Expansion& b, double signOfB) {

@@ -1,8 +1,8 @@
 #include "cli/values.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
-#include <iterator>
 
 namespace mandoline::cli {
 namespace {

@@ -1,4 +1,3 @@
-#include "io/complex_polygons.h"
 #include "io/groups.h"
 #include "io/json_members.h"
 #include "io/selection.h"

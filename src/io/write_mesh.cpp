@@ -1,5 +1,4 @@
 // Triangle meshes: OBJ and OFF as text, STL and PLY as binary. The cut surface as STL and PLY is one, too.
-#include <cmath>
 
 #include "io/groups.h"
 #include "io/output_buffer.h"

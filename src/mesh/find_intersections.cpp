@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <stdexcept>
 
 #include "base/keep_lowest.h"
 #include "base/sort.h"

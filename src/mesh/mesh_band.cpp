@@ -1,7 +1,6 @@
 #include "mesh/mesh_band.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/disjoint_sets.h"
 #include "base/sort.h"

@@ -1,7 +1,6 @@
 #include "mesh/parts.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "base/disjoint_sets.h"
 #include "base/sort.h"

@@ -3,7 +3,6 @@
 #include "physics/cell_fits.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "base/large_array.h"

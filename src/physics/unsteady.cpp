@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/run_call.h"
-#include "operators/require_cut_mesh.h"
 #include "physics/advection.h"
 #include "physics/flow_state.h"
 

@@ -1,7 +1,5 @@
 #include "cut/predicates/radial_order.h"
 
-#include <algorithm>
-
 #include "base/sort.h"
 
 namespace mandoline::detail {

@@ -13,8 +13,6 @@ struct CutFaces {
 
   size_t size() const { return tri.size() + grid.size(); }
   bool isTri(FaceId face) const { return face.number < tri.size(); }
-  /// The face that is a piece of a grid-face.
-  FaceId ofPiece(size_t piece) const { return {uint32_t(tri.size() + piece)}; }
   /// The triangle that a face is a piece of, if any.
   std::optional<TriangleId> triangle(FaceId face) const {
     if (isTri(face)) return tri.triangles[face];

@@ -1,9 +1,6 @@
 #include "cut/stages/output.h"
 
-#include <array>
-
 #include "base/large_array.h"
-#include "base/run_tasks.h"
 #include "cut/append.h"
 
 namespace mandoline::detail {

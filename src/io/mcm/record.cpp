@@ -1,7 +1,5 @@
 #include "io/mcm/record.h"
 
-#include <cstring>
-
 #include "base/mix.h"
 #include "base/plain_arithmetic.h"
 #include "mesh/read/scalar.h"

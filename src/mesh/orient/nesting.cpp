@@ -1,7 +1,6 @@
 #include "mesh/orient/nesting.h"
 
 #include <cmath>
-#include <optional>
 
 #include "base/box_tree.h"
 #include "mesh/resolve/contacts.h"

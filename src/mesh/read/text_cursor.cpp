@@ -91,10 +91,6 @@ void TextCursor::requireWordEnd(const char* expected) {
   if (!atWordEnd()) failExpected(expected, position_);
 }
 
-void TextCursor::requireLineEnd() {
-  if (moreOnLine()) failExpected("the end of the line", position_);
-}
-
 std::string_view TextCursor::restOfLine() {
   const char* begin = position_;
   while (position_ != end_ && *position_ != '\n' && *position_ != '\r') ++position_;

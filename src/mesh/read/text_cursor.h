@@ -37,7 +37,6 @@ class TextCursor {
   }
   bool atWordEnd() const { return isWordEnd(position_); }
   void requireWordEnd(const char* expected);
-  void requireLineEnd();
   /// The rest of the line without the blanks around it; '#' is a character of it like others.
   std::string_view restOfLine();
 

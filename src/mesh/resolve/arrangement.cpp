@@ -1,7 +1,6 @@
 #include "mesh/resolve/arrangement.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/sort.h"
 #include "mesh/resolve/contacts.h"

@@ -1,7 +1,6 @@
 // Sorting points whose approximate coordinates are too near each other to tell.
 #pragma once
 
-#include <algorithm>
 #include <numeric>
 #include <optional>
 #include <span>

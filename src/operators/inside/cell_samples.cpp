@@ -1,7 +1,5 @@
 #include "operators/inside/cell_samples.h"
 
-#include <cmath>
-
 namespace mandoline::operators {
 namespace {
 

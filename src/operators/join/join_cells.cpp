@@ -1,7 +1,5 @@
 #include "operators/join/join_cells.h"
 
-#include <algorithm>
-
 #include "base/sort.h"
 #include "cut/append.h"
 

@@ -1,8 +1,6 @@
 // The cuts of the parts of the grid in which there are blocks of one size.
 #pragma once
 
-#include <memory>
-
 #include "base/parallel.h"
 #include "mandoline/measure.h"
 #include "mandoline/refine.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/failure.h"
 #include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
 #include "operators/refine/finish.h"

@@ -1,7 +1,6 @@
 #include "operators/refine/regions.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/disjoint_sets.h"
 #include "mesh/failure.h"

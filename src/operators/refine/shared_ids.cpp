@@ -1,7 +1,5 @@
 #include "operators/refine/shared_ids.h"
 
-#include <algorithm>
-
 #include "base/exact.h"
 #include "base/sort.h"
 #include "mesh/failure.h"

@@ -1,6 +1,5 @@
 #include "operators/slice/loop_tracer.h"
 
-#include <algorithm>
 #include <tuple>
 #include <utility>
 

@@ -1,7 +1,5 @@
 #include "operators/slice/outline_writer.h"
 
-#include <algorithm>
-
 namespace mandoline::operators {
 
 void OutlineWriter::run(const std::vector<RegionArc>& arcs, const Points& points, Outlines& outlines) {

@@ -1,7 +1,6 @@
 #include "operators/triangulate/loop_joiner.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "base/sort.h"
 

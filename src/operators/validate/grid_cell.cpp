@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/sort.h"
-#include "operators/validate/tally.h"
 
 namespace mandoline::validation {
 

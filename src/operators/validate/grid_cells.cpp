@@ -1,5 +1,4 @@
 // The pass that works by grid cell.
-#include <algorithm>
 #include <optional>
 
 #include "base/sort.h"

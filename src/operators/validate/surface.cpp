@@ -1,5 +1,4 @@
 // The surface is all there: area of each triangle's faces, reasons of dropped triangles.
-#include <algorithm>
 
 #include "base/csr.h"
 #include "operators/validate/passes.h"

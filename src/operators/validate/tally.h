@@ -37,7 +37,6 @@ class Tally {
   /// Takes in what the next part of the work has found.
   void merge(const Tally& next);
   void skip(const std::string& reason) { check_.skipped = true, check_.message = reason; }
-  bool violated() const { return check_.worst > 0; }
   /// The result; `leftOut` says what a check that passes has not looked at.
   Check finish(const std::string& leftOut = {}) const;
 
