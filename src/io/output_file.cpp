@@ -51,4 +51,16 @@ void OutputFile::commit() {
   committed_ = true;
 }
 
+OutputFolder::OutputFolder(const fs::path& path) {
+  std::error_code error;
+  for (fs::path folder = path; !folder.empty() && !fs::exists(folder, error); folder = folder.parent_path()) made_.push_back(folder);
+  fs::create_directories(path, error);
+  if (error) throw FileError(path.string() + ": can't be written: " + error.message());
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code ignored;
+  for (const fs::path& folder : made_) fs::remove(folder, ignored);
+}
+
 }  // namespace mandoline::detail

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <vector>
 
 #include "base/shared.h"
 #include "mandoline/io.h"
@@ -28,6 +29,19 @@ class OutputFile {
   std::filesystem::path target_, written_;
   bool inPlace_ = false, committed_ = false;
   std::ofstream stream_;
+};
+
+/// A folder for files, made with those that it lies in. Of these, those that were not there go again if nothing is in them at the end.
+class OutputFolder {
+ public:
+  /// Throws FileError.
+  MANDOLINE_SHARED explicit OutputFolder(const std::filesystem::path& path);
+  MANDOLINE_SHARED ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+ private:
+  std::vector<std::filesystem::path> made_;  // the innermost first
 };
 
 }  // namespace mandoline::detail

@@ -1,4 +1,5 @@
 #include <list>
+#include <optional>
 
 #include "io/output_file.h"
 #include "io/poly_mesh.h"
@@ -39,10 +40,11 @@ void writeMesh(const std::string& path, const MeshView& mesh, const RunOptions& 
 
 void detail::writeFolder(const std::string& folder, FunctionRef<void(const FolderSink&)> write) {
   constexpr const char* kZones = "cellZones";  // not of every mesh
+  std::optional<OutputFolder> made;
   std::list<OutputFile> files;
   std::string last;
   const FolderSink sink = [&](const std::string& file, std::string_view piece) {
-    if (files.empty()) fs::create_directories(folder);
+    if (!made) made.emplace(folder);
     if (file != last) files.emplace_back((fs::path(folder) / file).string());
     last = file;
     files.back().write(piece);

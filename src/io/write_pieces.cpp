@@ -28,9 +28,8 @@ bool isOurs(std::string_view name) {
 class Folder {
  public:
   /// The files of an earlier cut go.
-  explicit Folder(const std::string& path) : path_(path) {
+  explicit Folder(const std::string& path) : path_(path), made_(path_) {
     try {
-      isNew_ = fs::create_directories(path_);
       std::vector<fs::path> earlier;
       for (const fs::directory_entry& file : fs::directory_iterator(path_)) {
         if (isOurs(file.path().filename().string())) earlier.push_back(file.path());
@@ -44,7 +43,6 @@ class Folder {
     if (isComplete_) return;
     std::error_code ignored;
     for (const std::string& file : files_) fs::remove(path_ / file, ignored);
-    if (isNew_) fs::remove(path_, ignored);
   }
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
@@ -61,7 +59,8 @@ class Folder {
 
  private:
   const fs::path path_;
-  bool isNew_ = false, isComplete_ = false;
+  const detail::OutputFolder made_;
+  bool isComplete_ = false;
   std::vector<std::string> files_;
 };
 

@@ -494,8 +494,11 @@ TEST_CASE("polyMesh: written over another one, or not at all", "[cellfiles]") {
   CHECK(refusal([&] { writePolyMesh(folder.path("a"), cells.cutMesh, other.complex); }).first == Status::badArgument);
   WriteOptions cancelled;
   cancelled.progress = [](const Progress& progress) { return progress.stageIndex < 2; };
-  CHECK(refusal([&] { writePolyMesh(folder.path("b"), cells.cutMesh, cells.complex, cancelled); }).first == Status::cancelled);
+  std::filesystem::create_directory(folder.path("b"));
+  for (const char* name : {"b", "b/c/polyMesh/", "case/constant/polyMesh"})
+    CHECK(refusal([&] { writePolyMesh(folder.path(name), cells.cutMesh, cells.complex, cancelled); }).first == Status::cancelled);
   CHECK(std::filesystem::is_empty(folder.path("b")));
+  CHECK(!std::filesystem::exists(folder.path("case")));
 }
 
 TEST_CASE("cells and faces are written as .vtu with fields", "[cellfiles]") {
