@@ -1,6 +1,5 @@
 // The benchmark: times cuts on one thread and two beside their lower bound, and beside those of another build and of WebAssembly.
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
@@ -9,6 +8,7 @@
 #include "cli/bench/measure.h"
 #include "cli/bench/tables.h"
 #include "cli/mesh_paths.h"
+#include "cli/values.h"
 
 namespace mandoline::bench {
 namespace {
@@ -42,9 +42,7 @@ R fresh processes (default 5), which take turns.
 Without MESH N also a few meshes that this program makes. A mesh that can't be cut is left out.
 )";
 
-struct UsageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
+using cli::UsageError;
 
 struct Arguments {
   std::vector<Job> jobs;
@@ -56,19 +54,14 @@ struct Arguments {
 
 int64_t parseCount(const std::string& word, const char* what) {
   int64_t n = 0;
-  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), n);
-  if (problem != std::errc() || end != word.data() + word.size() || n < 1)
-    throw UsageError(std::string(what) + " must be a whole number above 0, not " + word);
+  if (!cli::parseNumber(word, n) || n < 1) throw UsageError(std::string(what) + " must be a whole number above 0, not " + word);
   return n;
 }
 
 std::vector<int64_t> parseCounts(const std::string& word) {
-  std::vector<int64_t> counts;
-  for (size_t begin = 0; begin <= word.size();) {
-    const size_t end = std::min(word.find(',', begin), word.size());
-    counts.push_back(parseCount(word.substr(begin, end - begin), "N"));
-    begin = end + 1;
-  }
+  const std::vector<int64_t> counts = cli::parseList<int64_t>(word);
+  if (counts.empty() || *std::min_element(counts.begin(), counts.end()) < 1)
+    throw UsageError("--cells needs whole numbers above 0, not " + word);
   return counts;
 }
 
