@@ -3,7 +3,7 @@
 //
 // In: Surface, and the whole tri-cut-faces of such triangles. Out: their faces at the end of TriFaces, with holes, and with edges that end
 // inside of them in their loops, in both directions. Where triangles lie on each other, the lowest has the face and the others are its
-// OtherParents. After it: hybrid edges are cut at all vertices on them, and none lies on a tri-edge or in a face that was left out.
+// other parents. After it: hybrid edges are cut at all vertices on them, and none lies on a tri-edge or in a face that was left out.
 #pragma once
 
 #include "cut/stages/tri_faces.h"
