@@ -11,10 +11,10 @@
 #include <filesystem>
 #include <iostream>
 
-#include "cli/mpi/flow/merged_ranks.h"
 #include "cli/mpi/flow/rank_flow.h"
 #include "mandoline/io.h"
 #include "mandoline/merge.h"
+#include "mpi/merged_ranks.h"
 #include "real_meshes.h"
 #include "shapes.h"
 
@@ -69,11 +69,15 @@ void requireCells(const RankComplex& mine, int rank, const CellComplex& cells) {
   }
 }
 
+RankComplex mergedComplex(detail::Communicator& comm, const DistributedCut& cut, const Kind& kind) {
+  return detail::mergedComplex(comm, cut, cut.piece(), {kind.fraction, kind.coarsening(), cli::kFlowGhosts});
+}
+
 /// That of one process, per cell of the whole.
 Flow flowOfOne(const PreparedMesh& prepared, const Grid& grid, const std::array<double, 3>& wind, const Kind& kind) {
   detail::Communicator self(MPI_COMM_SELF, nullptr);
   const DistributedCut alone(MPI_COMM_SELF, prepared, grid, {1, {}});
-  return cli::solveRankFlow(self, cli::mergedComplex(self, alone, kind.fraction, kind.coarsening()), wind, kind.corrections).flow;
+  return cli::solveRankFlow(self, mergedComplex(self, alone, kind), wind, kind.corrections).flow;
 }
 
 double largestOf(const std::vector<double>& values) {
@@ -86,7 +90,7 @@ Found compare(detail::Communicator& comm, const Mesh& mesh, const Grid& grid, co
   const PreparedMesh prepared = prepare(mesh, {{1, {}}}).mesh;
   const std::array<double, 3> wind{2, 0.5, 0.25};
   const DistributedCut distributed(MPI_COMM_WORLD, prepared, grid, {1, {}});
-  const RankComplex mine = cli::mergedComplex(comm, distributed, kind.fraction, kind.coarsening());
+  const RankComplex mine = mergedComplex(comm, distributed, kind);
   Found found;
   found.flow = cli::solveRankFlow(comm, mine, wind, kind.corrections);
   const CutResult whole = cut(prepared, grid, {{1, {}}});

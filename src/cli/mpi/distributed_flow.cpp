@@ -6,8 +6,8 @@
 
 #include "cli/cutting.h"
 #include "cli/interrupt.h"
-#include "cli/mpi/flow/merged_ranks.h"
 #include "cli/mpi/flow/rank_flow.h"
+#include "mpi/merged_ranks.h"
 #include "mpi/pack.h"
 #include "physics/flow_of_phi.h"
 
@@ -93,7 +93,8 @@ void checkDistributedFlow(const Arguments& arguments) {
 
 SolveCells solveDistributed(Ranks& ranks, const Arguments& arguments, const DistributedCut& cut) {
   detail::Communicator& comm = ranks.comm();
-  const RankComplex complex = mergedComplex(comm, cut, mergeFraction(arguments), coarsenOptions(arguments, {1, {}}));
+  const CoarsenOptions coarsening = coarsenOptions(arguments, {1, {}});
+  const RankComplex complex = detail::mergedComplex(comm, cut, cut.piece(), {mergeFraction(arguments), coarsening, kFlowGhosts});
   const std::array<double, 3> wind = *arguments.flow.wind;
   const RankFlow found =
       solveRankFlow(comm, complex, wind, arguments.flow.corrections.value_or(FlowOptions().corrections), throwIfInterrupted);

@@ -8,6 +8,9 @@
 
 namespace mandoline::cli {
 
+/// Rings of ghosts that velocities and corrections of own cells follow from.
+constexpr int kFlowGhosts = 3;
+
 /// A process's part of a flow.
 struct RankFlow {
   /// phi and cellVelocity are per cell of the process, ghosts among them, whose velocities are none. The rest but madeFrom, faceVelocity,
@@ -19,7 +22,7 @@ struct RankFlow {
 };
 
 /// As solveFlow() with at most so many corrections; phi is that within the tolerance without them, and within theirs with them. `complex`
-/// is that of mergedComplex(). Collective. Throws RankError, and as PetscSolver does, whose onIteration is as well.
+/// is that of mergedComplex() with kFlowGhosts. Collective. Throws RankError, and as PetscSolver does, whose onIteration is as well.
 RankFlow solveRankFlow(detail::Communicator& comm, const RankComplex& complex, const std::array<double, 3>& wind, int corrections,
                        const std::function<void()>& onIteration = nullptr);
 

@@ -1,4 +1,4 @@
-#include "cli/mpi/flow/merged_ranks.h"
+#include "mpi/merged_ranks.h"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 #include "operators/cell_complex/half_faces.h"
 #include "operators/merge/merge_parts.h"
 
-namespace mandoline::cli {
+namespace mandoline::detail {
 namespace {
 
 constexpr const char* kMerging = "merging of cells";
@@ -101,7 +101,7 @@ CellComplex complexOf(const std::vector<KnownCell>& cells, const std::vector<Kno
 
 /// The items of all in the first process, by their ids.
 template <class Item>
-std::vector<Item> inFirst(detail::Communicator& comm, std::vector<Item> items) {
+std::vector<Item> inFirst(Communicator& comm, std::vector<Item> items) {
   std::vector<std::vector<Item>> forEach;
   comm.together(kMerging, [&] {
     forEach.resize(size_t(comm.size()));
@@ -114,13 +114,13 @@ std::vector<Item> inFirst(detail::Communicator& comm, std::vector<Item> items) {
       all.insert(all.end(), some.begin(), some.end());
       some = {};
     }
-    detail::sortItems(all, [](const Item& a, const Item& b) { return a.id < b.id; });
+    sortItems(all, [](const Item& a, const Item& b) { return a.id < b.id; });
   });
   return all;
 }
 
 /// Ascending.
-std::vector<Absorbed> absorbedCells(detail::Communicator& comm, const CutMesh& common, const RankComplex& complex, double fraction) {
+std::vector<Absorbed> absorbedCells(Communicator& comm, const CutMesh& common, const RankComplex& complex, double fraction) {
   std::optional<Known> known;
   comm.together(kMerging, [&] { known.emplace(complex, comm.rank()); });
   const std::vector<KnownCell> cells = inFirst(comm, std::move(known->cells));
@@ -141,10 +141,10 @@ std::vector<Absorbed> absorbedCells(detail::Communicator& comm, const CutMesh& c
 /// A process's cells as they become.
 class RankMerger {
  public:
-  RankMerger(const RankComplex& complex, const std::vector<Absorbed>& absorbed, const detail::RankLayers& layers, int rank)
+  RankMerger(const RankComplex& complex, const std::vector<Absorbed>& absorbed, const RankLayers& layers, int rank)
       : complex_(complex), absorbed_(absorbed), layers_(layers), rank_(rank) {
     for (const Absorbed& cell : absorbed) clusters_.push_back({cell.first, cell.layer, 1});
-    detail::sortItems(clusters_, [](const Cluster& a, const Cluster& b) { return a.first < b.first; });
+    sortItems(clusters_, [](const Cluster& a, const Cluster& b) { return a.first < b.first; });
     size_t count = 0;
     for (size_t i = 0; i < clusters_.size(); ++i) {
       if (count > 0 && clusters_[count - 1].first == clusters_[i].first)
@@ -160,7 +160,7 @@ class RankMerger {
     for (uint32_t c = 0; c < complex_.cells.cellCount(); ++c) {
       if (const Cluster* cluster = clusterOf(c)) members.push_back({cluster->first, c});
     }
-    detail::sortItems(members, std::less<>());
+    sortItems(members, std::less<>());
     std::vector<std::array<uint32_t, 2>> pairs;
     for (size_t i = 1; i < members.size(); ++i) {
       if (members[i][0] == members[i - 1][0]) pairs.push_back({uint32_t(members[i - 1][1]), uint32_t(members[i][1])});
@@ -175,12 +175,12 @@ class RankMerger {
     }
   }
 
-  /// Whether the rings around own cells are there, counted by layers.
-  bool hasEnough() const {
+  /// Whether so many rings around own cells are there, counted by layers.
+  bool hasEnough(int rings) const {
     std::array<int64_t, 2> range = complex_.layers;
     if (range[0] == range[1]) return true;
     if (!addLayersOf([&](uint32_t c) { return ranks_[c] == rank_; }, range)) return false;
-    for (int ring = 0; ring < kFlowGhosts; ++ring) {
+    for (int ring = 0; ring < rings; ++ring) {
       range = {std::max<int64_t>(range[0] - 1, 0), std::min<int64_t>(range[1] + 1, complex_.cutMesh.grid.cells(2))};
       if (!areHere(range)) return false;
       const std::array<int64_t, 2> before = range;
@@ -263,7 +263,7 @@ class RankMerger {
 
   const RankComplex& complex_;
   const std::vector<Absorbed>& absorbed_;
-  const detail::RankLayers& layers_;
+  const RankLayers& layers_;
   const int rank_;
   std::vector<Cluster> clusters_;  // of several cells, by the first
   CellComplex merged_;
@@ -274,21 +274,21 @@ class RankMerger {
 
 }  // namespace
 
-RankComplex mergedComplex(detail::Communicator& comm, const DistributedCut& cut, double fraction, const CoarsenOptions& coarsening) {
-  const RankPiece piece = cut.piece();
-  if (!(fraction > 0)) return cut.cellComplex(piece, kFlowGhosts, coarsening);
-  constexpr int kUsual = kFlowGhosts + 2;  // few merged cells reach farther
-  const detail::RankLayers layers = detail::layersOfAll(comm, piece.layers);
+RankComplex mergedComplex(Communicator& comm, const DistributedCut& cut, const RankPiece& piece, const RankMerging& merging) {
+  const CoarsenOptions& coarsening = merging.coarsening;
+  if (!(merging.fraction > 0)) return cut.cellComplex(piece, merging.rings, coarsening);
+  const int usual = merging.rings + 2;  // few merged cells reach farther
+  const RankLayers layers = layersOfAll(comm, piece.layers);
   std::optional<std::vector<Absorbed>> absorbed;
-  for (int ghosts = kUsual;; ++ghosts) {
+  for (int ghosts = usual;; ++ghosts) {
     RankComplex complex = cut.cellComplex(piece, ghosts, coarsening);
-    if (!absorbed) absorbed = absorbedCells(comm, cut.common().mesh, complex, fraction);
+    if (!absorbed) absorbed = absorbedCells(comm, cut.common().mesh, complex, merging.fraction);
     std::optional<RankMerger> merger;
     bool hasEnough = false;
     comm.together(kMerging, [&] {
       merger.emplace(complex, *absorbed, layers, comm.rank());
-      merger->merge(fraction);
-      hasEnough = merger->hasEnough();
+      merger->merge(merging.fraction);
+      hasEnough = merger->hasEnough(merging.rings);
     });
     if (comm.reduce(int(hasEnough), MPI_MIN) == 0) continue;
     comm.together(kMerging, [&] { complex = merger->take(std::move(complex)); });
@@ -296,4 +296,4 @@ RankComplex mergedComplex(detail::Communicator& comm, const DistributedCut& cut,
   }
 }
 
-}  // namespace mandoline::cli
+}  // namespace mandoline::detail

@@ -1,0 +1,25 @@
+// Small cells merged with neighbours, where several processes have a part of them each.
+#pragma once
+
+#include "base/shared.h"
+#include "mandoline/distributed.h"
+#include "mpi/communicator.h"
+
+namespace mandoline::detail {
+
+struct RankMerging {
+  double fraction;                   ///< as of MergeOptions; for 0 all cells stay as they are
+  const CoarsenOptions& coarsening;  ///< for octree cells; with a maxLevel of 0 grid cells stay
+  int rings;                         ///< of ghosts: cells that touch own cells, those that touch these, and so on
+};
+
+/// A process's cells, as mergeSmallCells() of the whole makes them, to the bit. A merged cell belongs to the process of its first member.
+/// There are so many layers of ghosts that the rings asked for are complete, and all that is in the faces of those but the last; others may
+/// lack members. All but vertices and faces has the whole's ids. `piece` is that of cut.piece(). Collective.
+///
+/// Which cells merge the first process decides, which is told volumes, centroids and areas of all. It tells all which cells are no longer
+/// the first of theirs.
+MANDOLINE_SHARED RankComplex mergedComplex(Communicator& comm, const DistributedCut& cut, const RankPiece& piece,
+                                           const RankMerging& merging);
+
+}  // namespace mandoline::detail
